@@ -160,10 +160,10 @@ void measure(const BenchOptions &o, BenchRows &rows)
           ms[steps > 1] = row.timing.median_ms;
           row.what = std::string(m.name) +
                      (steps > 1 ? ", a choice and 21 steps" : ", a choice and a step");
-          row.facts =
-              format("factor=%.2f near=%d contacts=%lld grid_mb=%.1f build_ms=%.4g", factor,
-                     bed.engine().n_near(), static_cast<long long>(bed.engine().totals().contacts),
-                     grid.view().block_bytes / 1e6, build_ms);
+          row.facts = format("factor=%.2f near=%d contacts=%lld grid_mb=%.1f build_ms=%.4g", factor,
+                             bed.engine().n_candidates(),
+                             static_cast<long long>(bed.engine().totals().contacts),
+                             grid.view().block_bytes / 1e6, build_ms);
           if (steps > 1) row.facts += format(" step_ms=%.5f", (ms[1] - ms[0]) / 20);
           rows.add(row);
         }

@@ -35,7 +35,7 @@ void measure(const BenchOptions &o, BenchRows &rows)
           row.facts = format(
               "cell=%.3g near=%d contacts=%lld ns_per_contact=%.2f build_ms=%.4g grid_mb=%.1f "
               "engine_mb=%.1f",
-              bed.cell(), bed.n_near(), static_cast<long long>(bed.contacts()),
+              bed.cell(), bed.n_candidates(), static_cast<long long>(bed.contacts()),
               row.timing.median_ms * 1e6 / std::max<double>(1, bed.contacts()), bed.build_ms,
               bed.grid_mb(), bed.engine_mb());
           rows.add(row);

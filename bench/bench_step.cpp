@@ -50,7 +50,7 @@ struct Style {
 constexpr double kPlaceAndRadius = 4 * sizeof(Real);
 double bytes_of_touching(const Style &style, double contacts)
 {
-  const double spring = style.law().has_history() ? 2 * sizeof(Spring) : 0;
+  const double spring = style.law.has_history() ? 2 * sizeof(Spring) : 0;
   return contacts * ((7 + 2 * 6) * sizeof(Real) + spring);
 }
 
@@ -61,8 +61,8 @@ void fill(BenchRow &row, const std::string &what, const WallEngine &engine, cons
   row.length = grid.length;
   row.spheres = n;
   row.facts = format("near=%d contacts=%lld ns_per_near=%.1f grid_mb=%.1f engine_mb=%.1f",
-                     engine.n_near(), static_cast<long long>(engine.totals().contacts),
-                     row.timing.median_ms * 1e6 / std::max(1, engine.n_near()),
+                     engine.n_candidates(), static_cast<long long>(engine.totals().contacts),
+                     row.timing.median_ms * 1e6 / std::max(1, engine.n_candidates()),
                      grid.block_bytes / 1e6, engine.bytes() / 1e6);
 }
 
@@ -70,7 +70,7 @@ EngineSettings engine_settings(const Style &style, Device device)
 {
   EngineSettings e;
   e.device = device;
-  e.law() = style.law();
+  e.law() = style.law;
   e.law().k_normal = 1e5;
   e.law().k_tangent = 3e4;
   e.law().eta = 50;
@@ -99,8 +99,9 @@ void measure_kept_and_anew(WallEngine &engine, const Spheres &s, const Style &st
       *ms /= n_steps;
     fill(row, std::string(style.name) + where + (anew ? ", chosen anew" : ""), engine, grid, s.n);
     // The near ones are known by their numbers.
-    row.bytes = bytes_of_touching(style, engine.totals().contacts) +
-                (anew ? s.n * kPlaceAndRadius : engine.n_near() * (kPlaceAndRadius + sizeof(int)));
+    row.bytes =
+        bytes_of_touching(style, engine.totals().contacts) +
+        (anew ? s.n * kPlaceAndRadius : engine.n_candidates() * (kPlaceAndRadius + sizeof(int)));
     rows.add(row);
   }
 }

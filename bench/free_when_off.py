@@ -26,7 +26,7 @@ LAWS = ["hooke", "hooke/history", "hertz/history", "granular hertz, linear_histo
 NVCC = shutil.which("nvcc") or "/usr/local/cuda/bin/nvcc"
 FLAGS = ["-std=c++17", "-O3", "-DNDEBUG", "-ffp-contract=off"]
 # Effects' branches in headers of the kernel, and the members that only they read.
-WALL_FORCE = "engine/step/wall_force.h"
+WALL_FORCE = "engine/step/contact_forces.h"
 BRANCHES = {WALL_FORCE: ["Law::kSurface", "Law::kRecords", "Law::kContactTorque", "Law::kHeat",
                          "Law::kExtra > 0"],
             "law/contact_model.h": ["kContactTorque", "kHeat", "kFull"]}

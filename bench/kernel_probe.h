@@ -5,8 +5,8 @@
 // sources as they are and with effects cut out of them.
 #pragma once
 
-#include "engine/step/on_wall.h"
-#include "engine/step/wall_force.h"
+#include "engine/step/compiled_law.h"
+#include "engine/step/contact_forces.h"
 #include "law/contact_model.h"
 
 namespace lsdcd {

@@ -34,29 +34,29 @@ SEARCH_BEFORE = """
     seen_at_choice touch.h:can_touch wall_list.h:can_touch ListStore::make ListStore::gather touch.h:gather
     gather_for gather_within for_each_within CellsInBall::next insert_code > GatherWork::operator() WallLists::put"""
 SEARCH_NOW = """
-    EngineOn::choose NearWall::choose NearWall::start_choice NearList::choose NearList::select {select}
-    NearChoice::centres NearChoice::check NearChoice::coarse_test NearChoice::locate NearChoice::refine
-    seen_at_choice touch.h:can_touch wall_list.h:can_touch ListStore::make ListStore::gather touch.h:gather
-    gather_for gather_within for_each_within CellsInBall::next insert_code > GatherWork::operator() WallLists::put"""
+    BroadPhase::choose CandidateSelector::choose CandidateSelector::select {select}
+    CandidateTest::centres CandidateTest::check CandidateTest::coarse_test CandidateTest::locate CandidateTest::refine
+    query_sphere_at can_touch FeatureListStore::make feature_list.h:gather gather_for gather_within for_each_within
+    CellsInBall::next insert_code > GatherWork::operator() FeatureLists::put"""
 STEP_BEFORE = """
     EngineOn::start EngineOn::collect EngineOn::run EngineMesh::work force_settings job_of EngineOn::start_law
     > joint_step.h:start_law {step} > LawStep::single LawStep::several single_contact several_contacts centre_of
     query_sphere_of WallLists::holds touch touch_with share search search_in find_in_list find_contacts_in add_feature
-    MeshGeometry::closest_point closest_point_on closest_on_face CornerRule::solve apply_law state_at add_motion
+    WallGeometry::closest_point closest_point_on closest_on_face CornerRule::solve apply_law state_at add_motion
     add_contacts begin_memory transfer_of handed_on GranularModel::evaluate HertzNormal::force law_step.h:give
     ResultColumns::put StridedView::add"""
 STEP_NOW = """
-    EngineOn::start EngineOn::collect EngineOn::run EngineOn::mesh_work force_settings job_of EngineOn::start_law
-    > joint_step.h:start_law {step} > LawStep::single LawStep::several single_contact several_contacts centre_of
-    query_sphere_of WallLists::holds touch touch_with share search search_in find_in_list find_contacts_in add_feature
-    MeshGeometry::closest_point closest_point_on closest_on_face CornerRule::solve apply_law state_at add_motion
-    add_contacts begin_memory transfer_of handed_on GranularModel::evaluate TouchingNormal::force law_step.h:give
+    EngineOn::compute EngineOn::mesh_work force_settings job_of EngineOn::run_law > run_compiled_law {step}
+    > MeshStep::fast_path centre_of query_sphere_of FeatureLists::holds find_in_list add_feature
+    MeshGeometry::closest_point closest_point_on closest_on_face > MeshStep::general_path any_contacts narrow_phase
+    narrow_phase_with find_filtered find_filtered_in find_contacts_in share_overlap CornerRule::solve apply_law state_at
+    add_motion add_contacts begin_memory transfer_of handed_on GranularModel::evaluate TouchingNormal::force add_force
     ResultColumns::put StridedView::add"""
 RECORD_BEFORE = """
     > MeshPart::MeshPart > SharedWall::SharedWall SharedWall::read read_stl read_stl_bytes read_binary read_stl_text
     Placement::apply weld weld_points sort_facets build_edges number_flat_edges_last measure_mesh > FixWallLsdcd::rebuild SharedWall::build
     SharedWall::whole with_images SharedWall::build_block build_cpu.cpp:build_grid build_grid_on
-    mesh_features.cpp:make_features make_face make_edge face_record MeshFeatures::view move_flat"""
+    wall_features.cpp:make_features make_face make_edge face_record WallFeatures::view move_flat"""
 
 WALKS = {
     "from x of a sphere to its force": {
@@ -68,11 +68,11 @@ WALKS = {
             + STEP_BEFORE.format(step="CpuBackend::step CpuBackend::step_run CpuBackend::step_several"),
         "now": """
             FixWallLsdcd::pre_force FixWallLsdcd::begin FixWallLsdcd::begin_step FixWallLsdcd::spheres
-            FixWallLsdcd::spheres_in_atom Wall::begin Wall::launch wall.cpp:start Wall::step_settings
-            Wall::choose_if_due ChoiceSchedule::next
-            > FixWallLsdcd::post_force FixWallLsdcd::finish_step Wall::finish """
+            FixWallLsdcd::spheres_in_atom Wall::begin Wall::launch EngineOn::launch Wall::step_settings
+            Wall::choose_if_due ChoiceSchedule::next EngineOn::choose"""
             + SEARCH_NOW.format(select="selection_cpu.h:start selection_cpu.h:refine")
-            + STEP_NOW.format(step="run_step_cpu.h:run_step CpuStep::run CpuStep::step_run CpuStep::step_left"),
+            + " > FixWallLsdcd::post_force FixWallLsdcd::finish_step Wall::finish EngineOn::finish"
+            + STEP_NOW.format(step="step_cpu.h:run_step run_fast_path > run_left"),
     },
     "from -k on to the force of a sphere": {
         "before": """
@@ -92,12 +92,12 @@ WALKS = {
             FixWallLsdcdKokkos::FixWallLsdcdKokkos FixWallLsdcd::FixWallLsdcd > make_engine_on
             engine_cuda.cu:make_cuda_engine_in_place > FixWallLsdcd::pre_force FixWallLsdcd::begin
             FixWallLsdcdKokkos::begin_step FixWallLsdcdKokkos::spheres host_kokkos.h:rows_of Wall::begin
-            EngineOn::ready CudaSideStream::ready > FixWallLsdcdKokkos::pre_reverse Wall::launch
-            EngineOn::begin_beside CudaSideStream::begin wall.cpp:start Wall::step_settings Wall::choose_if_due
-            ChoiceSchedule::next > FixWallLsdcd::post_force FixWallLsdcdKokkos::finish_step
-            FixWallLsdcd::finish_step Wall::finish """
-            + SEARCH_NOW.format(select="selection_gpu.h:start selection_gpu.h:mark > mark_near_gpu.h:operator() > refine_gpu.h:operator()")
-            + STEP_NOW.format(step="run_step_gpu.h:run_step > run_step_gpu.h:operator() do_several"),
+            EngineOn::begin CudaSideStream::ready > FixWallLsdcdKokkos::pre_reverse Wall::launch
+            Wall::step_settings EngineOn::launch EngineOn::launch_beside CudaSideStream::begin Wall::choose_if_due
+            ChoiceSchedule::next EngineOn::choose"""
+            + SEARCH_NOW.format(select="selection_gpu.h:start selection_gpu.h:mark > mark_candidates_gpu.h:operator() > refine_gpu.h:operator()")
+            + STEP_NOW.format(step="step_gpu.h:run_step > step_gpu.h:operator() run_general_path")
+            + " > FixWallLsdcd::post_force FixWallLsdcdKokkos::finish_step FixWallLsdcd::finish_step Wall::finish",
     },
     "from a triangle of a file to its record": {
         "before": RECORD_BEFORE,
@@ -120,7 +120,7 @@ WALKS = {
         "before": """
             lsdcd_query_host at_c_border checked_query arrays_of answer_points answer_on_cpu with_point_work
             NearFirstCpu::run CpuBackend::for_each NearFirstCpu::answer_block PointWork::sphere brick_place_of
-            BrickTable::at PointWork::far PointWork::answer nearest_from nearest_in_cell MeshDistances::feature
+            BrickTable::at PointWork::far PointWork::answer nearest_from nearest_in_cell WallDistances::feature
             closest_point_on PointWork::keep""",
         "now": """
             lsdcd_query_host guard checked_query query_in_parts query_part arrays_of point_sides.cpp:query_with_sides

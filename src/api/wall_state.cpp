@@ -4,7 +4,7 @@
 // lsdcd_wall_pack, unpack, save and restore: what contacts keep.
 #include "api/wall_handle.h"
 #include "base/input_words.h"
-#include "engine/step/law_job.h"
+#include "contact/contact_set.h"
 #include "wall/old_wall_state.h"
 
 #include <algorithm>

@@ -9,6 +9,9 @@
 
 namespace lsdcd {
 
+// Contacts of one sphere, at most: more are an error.
+constexpr int kMaxContacts = 512;
+
 // The contacts of a set of any size, borrowed.
 struct ContactsView {
   int n;

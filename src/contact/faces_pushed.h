@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Where the velocity of a surface would push the mesh, which stays where it is.
+// The faces that a surface velocity would move along their normals, although the mesh stays at rest.
 #pragma once
 
 #include "mesh/welded_mesh.h"

@@ -174,7 +174,7 @@ LSDCD_FN Vec3 outward(const MeshFeaturesView &wall, FeatureCode feature)
 // wall's far face are dropped. Else the nearest contact is reversed: with the overlap
 // radius + distance it pushes the sphere back.
 template <int kPlaces>
-LSDCD_FN void keep_side(const MeshFeaturesView &wall, Real sign, ContactSet<kPlaces> &set)
+LSDCD_FN void filter_side(const MeshFeaturesView &wall, Real sign, ContactSet<kPlaces> &set)
 {
   int nearest = 0;
   for (int i = 1; i < set.n; i++)

@@ -9,8 +9,7 @@
 
 namespace lsdcd {
 
-// Where a point lies over a face: too far from its plane, past a side, within the tolerance
-// of a side, or inside.
+// Position of a point over a face: too far from its plane, past a side, within the tolerance of a side, or inside.
 enum class FaceRegion { far, outside, rim, inside };
 
 class MeshGeometry {

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include "backend/backend_cpu.h"
-#include "engine/choose/selection_cpu.h"
+#include "engine/broad_phase/selection_cpu.h"
 #include "engine/engine_on.h"
 #include "engine/step/compile_law.h"
 

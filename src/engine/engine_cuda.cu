@@ -3,7 +3,7 @@
 
 #include "backend/backend_cuda.h"
 #include "backend/cuda_device.h"
-#include "engine/choose/selection_gpu.h"
+#include "engine/broad_phase/selection_gpu.h"
 #include "engine/host_adapter.h"
 #include "engine/step/compile_law.h"
 

@@ -1,16 +1,17 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The engine on one backend, for particles in its memory: one source for all.
+// The engine on one backend, for spheres in its memory: one source for all backends. In the order of a sphere's way
+// it runs broad_phase/broad_phase.h now and then, and step/mesh_step.h in each step.
 #pragma once
 
 #include "base/input_error.h"
-#include "engine/choose/near_wall.h"
+#include "engine/broad_phase/broad_phase.h"
 #include "engine/resident_springs.h"
 #include "engine/results/sphere_error.h"
 #include "engine/step/compiled_law.h"
-#include "engine/step_list_store.h"
 #include "engine/step_results.h"
+#include "engine/work_list_store.h"
 
 #include <algorithm>
 #include <string>
@@ -26,26 +27,29 @@ class EngineOn : public InPlaceEngine {
 
  public:
   EngineOn(const EngineSettings &settings, const CompiledLaw<B> &law, B backend) :
-      settings_(settings), law_(law), b_(std::move(backend)), wall_(settings), counts_(1),
+      settings_(settings), law_(law), b_(std::move(backend)), broad_phase_(settings), counts_(1),
       springs_(b_, law.traits, counts_.data()), overflow_(kOverflowScratches)
   {
-    if (settings.precision == Precision::single_ && !has_single(settings))
+    if (settings.precision == Precision::single_ && !has_float_forces(settings))
       throw InputError("precision single has neither granular, rolling, cohesion, a moving surface "
                        "or mesh, several meshes, wear nor mesh_fields: use mixed or double");
     clear_diagnostics(StepCounts());
     unlock_scratches();
-    if (wall_.has_several()) put_laws();
+    if (broad_phase_.uses_slots()) put_laws();
   }
 
   std::string backend() const override { return b_.name(); }
 
-  void set_grid(const GridView &grid, int mesh = 0) override { wall_.set_grid(b_, grid, mesh); }
+  void set_grid(const GridView &grid, int mesh = 0) override
+  {
+    broad_phase_.set_grid(b_, grid, mesh);
+  }
 
   void place_wall(const Pose &pose, int mesh = 0) override
   {
-    if (pose.placed && !settings_.moves && !wall_.has_several())
+    if (pose.placed && !settings_.moves && !broad_phase_.uses_slots())
       throw std::logic_error("this engine's wall cannot move");
-    wall_.place(pose, mesh);
+    broad_phase_.place(pose, mesh);
   }
 
   Real largest_radius(const Spheres &spheres) override
@@ -65,22 +69,22 @@ class EngineOn : public InPlaceEngine {
   {
     results_.detach_from_near_list(b_);
     springs_.grow(spheres.n);
-    use(spheres, wall_.choose(b_, spheres, margin, counts_, springs_.count()));
+    use(spheres, broad_phase_.choose(b_, spheres, margin, counts_, springs_.count()));
     forget_far_meshes();
-    if (watch) wall_.keep_centres(b_, spheres, margin);
+    if (watch) broad_phase_.store_positions(b_, spheres, margin);
   }
 
-  // For an adapter that has chosen by cells: which of these spheres are near, as ascending numbers.
-  // Steps are over these alone, one after the other. Springs are still those of other spheres.
+  // For an adapter, which has selected by cells: which of these spheres are candidates, ascending. Steps are
+  // over these alone, one behind the other. Springs are still those of other spheres.
   std::vector<int> choose_among(const Spheres &spheres, Real margin)
   {
-    if (wall_.has_several()) results_.detach_from_near_list(b_);
+    if (broad_phase_.uses_slots()) results_.detach_from_near_list(b_);
     springs_.grow(spheres.n);
-    use(spheres, wall_.choose(b_, spheres, margin, counts_, nullptr, true));
-    return wall_.chosen(b_, spheres.n);
+    use(spheres, broad_phase_.choose(b_, spheres, margin, counts_, nullptr, true));
+    return broad_phase_.chosen(b_, spheres.n);
   }
 
-  bool has_moved(const Spheres &spheres) override { return wall_.has_moved(b_, spheres); }
+  bool has_moved(const Spheres &spheres) override { return broad_phase_.has_moved(b_, spheres); }
 
   void begin() override
   {
@@ -131,7 +135,7 @@ class EngineOn : public InPlaceEngine {
   const WallTotals &totals() const override { return const_cast<EngineOn *>(this)->sum_totals(); }
   WallTotals mesh_totals(int mesh) const override
   {
-    if (!wall_.has_several()) return totals();
+    if (!broad_phase_.uses_slots()) return totals();
     EngineOn *self = const_cast<EngineOn *>(this);
     WallTotals t = self->results_.mesh_totals(self->b_, mesh);
     t.largest_overlap_sphere = -1;
@@ -147,7 +151,7 @@ class EngineOn : public InPlaceEngine {
   }
   int n_records() const override { return static_cast<int>(results_.records().size()); }
   const ContactRecord *records() const override { return results_.records().data(); }
-  int n_near() const override { return static_cast<int>(wall_.n()); }
+  int n_candidates() const override { return static_cast<int>(broad_phase_.n()); }
 
   StepDiagnostics read_diagnostics() override
   {
@@ -163,8 +167,8 @@ class EngineOn : public InPlaceEngine {
 
   std::size_t bytes() const override
   {
-    return wall_.bytes() + springs_.bytes() + results_.bytes() + next_results_.bytes() +
-           overflow_.size() * sizeof(OverflowScratch) + step_lists_.bytes() +
+    return broad_phase_.bytes() + springs_.bytes() + results_.bytes() + next_results_.bytes() +
+           overflow_.size() * sizeof(OverflowScratch) + work_lists_.bytes() +
            works_.size() * sizeof(MeshWork) + laws_.size() * sizeof(LawEntry);
   }
 
@@ -176,8 +180,8 @@ class EngineOn : public InPlaceEngine {
   // A spring on a mesh that its sphere is not near is of no use, and would be read as one on another.
   void forget_far_meshes()
   {
-    if (wall_.has_several())
-      springs_.forget_others(wall_.slots().n_spheres(), wall_.slots().meshes_of());
+    if (broad_phase_.uses_slots())
+      springs_.forget_others(broad_phase_.slots().n_spheres(), broad_phase_.slots().meshes_of());
   }
 
   void unlock_scratches()
@@ -204,20 +208,20 @@ class EngineOn : public InPlaceEngine {
     }
   }
 
-  // What the next step needs of all meshes, without waiting.
+  // Grids and settings of all meshes for the next step. Does not wait.
   const MeshWork *put_works()
   {
-    const std::size_t n = wall_.n_meshes();
+    const std::size_t n = broad_phase_.n_meshes();
     if (works_.size() < n) works_ = Array<MeshWork>(n);
     MeshWork *to = works_.data();
-    for (int m = 0; m < wall_.n_meshes(); m++, to++) {
+    for (int m = 0; m < broad_phase_.n_meshes(); m++, to++) {
       const MeshWork work = mesh_work(m);
       b_.for_each(1, [=] LSDCD_LAMBDA(std::size_t) { *to = work; });
     }
     return works_.data();
   }
 
-  // What has been counted since the host looked.
+  // Clears what was counted since the host last read it.
   void clear_diagnostics(const StepCounts &seen)
   {
     StepCounts *counts = counts_.data();
@@ -226,7 +230,7 @@ class EngineOn : public InPlaceEngine {
       for (int i = 0; i < 2; i++) {
         cleared.shared_used[i] = seen.shared_used[i];
         cleared.n_found[i] = seen.n_found[i];
-        cleared.n_several[i] = seen.n_several[i];
+        cleared.n_multi_contact[i] = seen.n_multi_contact[i];
       }
       *counts = cleared;
     });
@@ -235,7 +239,7 @@ class EngineOn : public InPlaceEngine {
  private:
   MeshWork mesh_work(int m) const
   {
-    const EngineMesh<B> &mesh = wall_.mesh(m);
+    const EngineMesh<B> &mesh = broad_phase_.mesh(m);
     return {mesh.grid.view, force_settings(settings_, step_, mesh.pose, m)};
   }
 
@@ -258,17 +262,17 @@ class EngineOn : public InPlaceEngine {
   // The work of the step, without waiting for it. `adds_later`: forces are left to the results.
   void compute(StepResults<B> &results, bool adds_later)
   {
-    const std::size_t n = wall_.n();
-    const bool several = wall_.has_several();
-    results.begin(law_.traits, step_, spheres_, wall_.near(), n,
-                  may_miss_any(wall_.mesh(0).grid.view), adds_later,
-                  several ? &wall_.slots() : nullptr);
+    const std::size_t n = broad_phase_.n();
+    const bool several = broad_phase_.uses_slots();
+    results.begin(law_.traits, step_, spheres_, broad_phase_.candidates(), n,
+                  may_miss_any(broad_phase_.mesh(0).grid.view), adds_later,
+                  several ? &broad_phase_.slots() : nullptr);
     if (n == 0) return;
     const MeshWork work = mesh_work(0);
-    LawJob job = job_of(work.grid, work.settings, spheres_);
+    StepJob job = job_of(work.grid, work.settings, spheres_);
     results.put_into(job);
-    job.near = wall_.near();
-    job.lists = wall_.lists();
+    job.candidates = broad_phase_.candidates();
+    job.lists = broad_phase_.lists();
     job.springs = springs_.view();
     job.counts = counts_.data();
     job.pool = springs_.next(results.slot());
@@ -287,13 +291,14 @@ class EngineOn : public InPlaceEngine {
   void use(const Spheres &spheres, const StepCounts &seen)
   {
     if (seen.too_large) throw_for(spheres, seen);
-    springs_.make_room(wall_.n(), seen);
-    step_lists_.clear(b_, wall_.n(), !wall_.has_several(), wall_.seem_several(), counts_.data());
+    springs_.make_room(broad_phase_.n(), seen);
+    work_lists_.clear(b_, broad_phase_.n(), !broad_phase_.uses_slots(),
+                      broad_phase_.seem_multi_contact(), counts_.data());
   }
 
-  void run_law(LawJob &job, std::size_t n, const LawBytes &law)
+  void run_law(StepJob &job, std::size_t n, const LawBytes &law)
   {
-    job.step_lists = step_lists_.next(counts_.data());
+    job.work_lists = work_lists_.next(counts_.data());
     law_.run(law, job, n, b_);
   }
 
@@ -302,25 +307,26 @@ class EngineOn : public InPlaceEngine {
     return law_.laws[mesh * settings_.laws.of_mesh() + kind];
   }
 
-  // Those near one mesh only, mesh after mesh and kind after kind, then those near several.
-  void run_slots(const LawJob &job)
+  // Candidates of one mesh only, mesh after mesh and kind after kind, then multi-mesh spheres.
+  void run_slots(const StepJob &job)
   {
-    const NearMeshes<B> &slots = wall_.slots();
-    for (int m = 0; m < wall_.n_meshes(); m++)
-      for (int kind = 0; kind < wall_.n_kinds(); kind++) {
+    const CandidateSlots<B> &slots = broad_phase_.slots();
+    for (int m = 0; m < broad_phase_.n_meshes(); m++)
+      for (int kind = 0; kind < broad_phase_.n_kinds(); kind++) {
         const std::size_t begin = slots.begin(m, kind), n = slots.begin(m, kind + 1) - begin;
         if (n == 0) continue;
-        LawJob of_mesh = from_slot(job, begin);
+        StepJob of_mesh = from_slot(job, begin);
         const MeshWork work = mesh_work(m);
         of_mesh.grid = work.grid;
         of_mesh.settings = work.settings;
         run_law(of_mesh, n, law_of(m, kind));
       }
-    if (slots.n_joint() == 0) return;
-    LawJob joint = job;
-    joint.joint = {put_works(), slots.first(), slots.mesh()};
-    joint.joint.laws = {laws_.data(), settings_.laws.of_mesh(), wall_.kinds_of(b_, spheres_)};
-    run_law(joint, slots.n_joint(), law_of(0, 0));
+    if (slots.n_multi_mesh() == 0) return;
+    StepJob multi_mesh = job;
+    multi_mesh.multi_mesh = {put_works(), slots.first(), slots.mesh()};
+    multi_mesh.multi_mesh.laws = {laws_.data(), settings_.laws.of_mesh(),
+                                  broad_phase_.kinds_of(b_, spheres_)};
+    run_law(multi_mesh, slots.n_multi_mesh(), law_of(0, 0));
   }
 
   const WallTotals &sum_totals() { return results_.totals(b_); }
@@ -332,7 +338,7 @@ class EngineOn : public InPlaceEngine {
     clear_diagnostics(seen);
     if (seen.too_large) {
       const int i = static_cast<int>(kNoSphere - seen.too_large);
-      throw_too_large(i, read_one(b_, spheres.radius + i), wall_.mesh(0).grid.view.cutoff);
+      throw_too_large(i, read_one(b_, spheres.radius + i), broad_phase_.mesh(0).grid.view.cutoff);
     }
     if (seen.grown) throw_has_grown(static_cast<int>(kNoSphere - seen.grown));
     if (seen.no_scratch) throw_too_many_contacts(kMaxContacts);
@@ -344,14 +350,14 @@ class EngineOn : public InPlaceEngine {
   B b_;
   typename B::SideStream beside_;
   LaunchMode mode_ = LaunchMode::in_turn;    // of the step that was launched
-  NearWall<B> wall_;
+  BroadPhase<B> broad_phase_;
   Spheres spheres_;
   StepSettings step_;
   Array<StepCounts> counts_;
   ResidentSprings<B> springs_;
 
   StepResults<B> results_, next_results_;    // of the last step, and of one launched beside
-  StepListStore<B> step_lists_;
+  WorkListStore<B> work_lists_;
   Array<MeshWork> works_;    // of several meshes
   Array<LawEntry> laws_;     // likewise
 

@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The engine of a backend for a host whose arrays are in other memory: near spheres travel packed,
-// forces and torques come back, springs stay until the host asks for them.
+// The engine of a backend for a host whose arrays are in other memory: candidate spheres are copied packed,
+// forces and torques are copied back, springs stay with the engine until the host asks for them.
 #pragma once
 
 #include "backend/backend_cpu.h"
-#include "engine/choose/selection_cpu.h"
+#include "engine/broad_phase/selection_cpu.h"
 #include "engine/engine_on.h"
 
 #include <algorithm>
@@ -15,7 +15,7 @@
 
 namespace lsdcd {
 
-// What changes from step to step, and what comes back.
+// State of a sphere, copied to the engine in each step, and its force, copied back.
 struct SphereMotion {
   Vec3 x, v, omega;
 };
@@ -75,8 +75,8 @@ class HostAdapter : public WallEngine {
     });
   }
 
-  // The host's copy of the grid tells which spheres are near by their cells, as to send all of them
-  // would take longer. The engine tells of these which can touch something.
+  // The broad phase by cells runs on the host's copy of the grid, as copying all spheres would take longer; the
+  // one by features runs on the engine.
   void choose(const Spheres &spheres, Real margin, bool watch = false) override
   {
     flush_diagnostics();
@@ -93,12 +93,12 @@ class HostAdapter : public WallEngine {
     for (std::size_t k = 0; k < which.size(); k++) near_host_[k] = near_host_[which[k]];
     near_host_.resize(which.size());
     if (traits_.history) move_springs(was, spheres.n);
-    if (watch) centres_.keep(cpu_, spheres, meshes_, margin);
+    if (watch) displacement_.store(cpu_, spheres, meshes_, margin);
   }
 
   bool has_moved(const Spheres &spheres) override
   {
-    return centres_.has_moved(cpu_, spheres, meshes_);
+    return displacement_.has_moved(cpu_, spheres, meshes_);
   }
 
   void begin() override { state_ = StepState::begun; }
@@ -123,7 +123,7 @@ class HostAdapter : public WallEngine {
     engine_.compute();
     state_ = StepState::launched;
     if (n == 0) return;
-    if (!has_several()) b.copy_out(engine_.contacts_of_near().data(), n_contacts_.host.data(), n);
+    if (!uses_slots()) b.copy_out(engine_.contacts_of_near().data(), n_contacts_.host.data(), n);
     b.copy_out(response_.device.data(), response_.host.data(), n);
     if (traits_.heat) b.copy_out(heat_.device.data(), heat_.host.data(), 2 * n);
   }
@@ -151,7 +151,7 @@ class HostAdapter : public WallEngine {
   }
   WallTotals mesh_totals(int mesh) const override
   {
-    if (!has_several()) return totals();
+    if (!uses_slots()) return totals();
     return engine_.mesh_totals(mesh);
   }
   int n_touching() const override { return static_cast<int>(touching_.size()); }
@@ -181,30 +181,32 @@ class HostAdapter : public WallEngine {
     are_waiting_ = true;
   }
 
-  int n_near() const override { return static_cast<int>(near_host_.size()); }
+  int n_candidates() const override { return static_cast<int>(near_host_.size()); }
   std::size_t bytes() const override
   {
     return engine_.bytes() + motion_.bytes() + size_.bytes() + response_.bytes() +
-           n_contacts_.bytes() + heat_.bytes() + type_.bytes() + near_.bytes() + waiting_.bytes() +
-           (near_host_.capacity() + touching_.capacity()) * sizeof(int) + centres_.bytes();
+           n_contacts_.bytes() + heat_.bytes() + type_.bytes() + selector_.bytes() +
+           waiting_.bytes() + (near_host_.capacity() + touching_.capacity()) * sizeof(int) +
+           displacement_.bytes();
   }
 
  private:
-  bool has_several() const { return lsdcd::has_several(settings_); }
+  bool uses_slots() const { return lsdcd::uses_slots(settings_); }
 
-  // Of any mesh, ascending.
+  // The candidates of any mesh by cells, ascending.
   std::vector<int> near_by_cells(const Spheres &spheres, Real margin)
   {
     std::vector<int> near;
     for (const EngineMesh<CpuBackend> &mesh : meshes_) {
       StepCounts seen = {};
-      near_.choose(cpu_, mesh, spheres, margin, largest_pull_off(settings_.laws), false, &seen,
-                   nullptr);
+      selector_.choose(cpu_, mesh, spheres, margin, largest_pull_off(settings_.laws), false, &seen,
+                       nullptr);
       if (seen.too_large) {
         const int i = static_cast<int>(kNoSphere - seen.too_large);
         throw_too_large(i, spheres.radius[i], mesh.grid.view.cutoff);
       }
-      const std::vector<int> more = near_.to_host(cpu_, seen.n_near), before = std::move(near);
+      const std::vector<int> more = selector_.to_host(cpu_, seen.n_candidates),
+                             before = std::move(near);
       near.clear();
       std::set_union(before.begin(), before.end(), more.begin(), more.end(),
                      std::back_inserter(near));
@@ -258,7 +260,7 @@ class HostAdapter : public WallEngine {
     engine_.backend_now().copy_in(type_.host.data(), type_.device.data(), n);
   }
 
-  // The near spheres as the engine has them.
+  // The candidates as the engine has them.
   Spheres packed()
   {
     constexpr std::ptrdiff_t row = sizeof(SphereMotion) / sizeof(Real);
@@ -283,19 +285,19 @@ class HostAdapter : public WallEngine {
     return s;
   }
 
-  // Springs that the engine has of the spheres `was`, or that wait, to the near spheres of now.
+  // Springs that the engine has of the spheres `was`, or that wait, to the candidates of now.
   void move_springs(const std::vector<int> &was, int n_spheres)
   {
     if (!are_waiting_) spread(was, n_spheres);
     waiting_.grow(n_spheres);
     ContactHistory near(traits_.n_extra);
-    near.grow(n_near());
-    for (int k = 0; k < n_near(); k++) {
+    near.grow(n_candidates());
+    for (int k = 0; k < n_candidates(); k++) {
       const int i = near_host_[k];
       if (waiting_.count(i) > 0)
         near.set(k, waiting_.of(i), waiting_.extra_of(i), waiting_.count(i));
     }
-    engine_.springs_from(near, n_near());
+    engine_.springs_from(near, n_candidates());
     engine_.forget_far_meshes();
     are_waiting_ = false;
   }
@@ -305,7 +307,7 @@ class HostAdapter : public WallEngine {
     spread(near_host_, 0);
     are_waiting_ = true;
   }
-  // What the engine has, by the indices of the host.
+  // The engine's springs by the indices of the host.
   void spread(const std::vector<int> &near, int n_spheres)
   {
     ContactHistory packed(traits_.n_extra);
@@ -318,14 +320,14 @@ class HostAdapter : public WallEngine {
         waiting_.set(near[k], packed.of(k), packed.extra_of(k), packed.count(k));
   }
 
-  // What the engine has found, to the host.
+  // Adds the engine's forces to those of the host.
   void add_responses()
   {
     const int n = static_cast<int>(near_host_.size());
     const int *near = near_host_.data(), *n_contacts = n_contacts_.host.data();
     const Response *response = response_.host.data();
     const Spheres host = host_;
-    const bool all = has_several();    // contacts are not counted by spheres
+    const bool all = uses_slots();    // contacts are not counted by spheres
 #pragma omp parallel for schedule(static) num_threads(threads()) if (n > 4096)
     for (int k = 0; k < n; k++) {
       if (!all && n_contacts[k] == 0) continue;
@@ -336,7 +338,7 @@ class HostAdapter : public WallEngine {
     }
   }
 
-  // Rows of near spheres are far apart in the host's memory: they are asked for ahead of their turn.
+  // Rows of candidates are far apart in the host's memory: they are asked for ahead of their turn.
   void pack(const Spheres &s)
   {
     constexpr int kAhead = 16;
@@ -368,9 +370,9 @@ class HostAdapter : public WallEngine {
 
   CpuBackend cpu_;
   std::vector<EngineMesh<CpuBackend>> meshes_;
-  NearList<CpuBackend> near_;
+  CandidateSelector<CpuBackend> selector_;
   std::vector<int> near_host_, touching_;
-  KeptCentres<CpuBackend> centres_;
+  DisplacementCheck<CpuBackend> displacement_;
 
   Mirror<SphereMotion> motion_;
   Mirror<Real> size_;    // radii, then masses

@@ -6,7 +6,7 @@
 #pragma once
 
 #include "contact/contact_history.h"
-#include "engine/step/compiled_law.h"
+#include "engine/step/step_job.h"
 
 #include <algorithm>
 #include <cstring>
@@ -73,9 +73,9 @@ class ResidentSprings : public SpringsInPlace {
     count_ = std::move(count);
   }
 
-  // For steps over n near spheres, each of which has a slot of its own for a single contact. Those
-  // with several share what is beside: three for each sphere, as in the corner of a box, or twice
-  // what was shared last, and some for spheres with many contacts.
+  // For steps over n candidate spheres, each of which has a slot of its own for a single contact. Spheres
+  // with more contacts share the slots behind: three for each sphere, as in the corner of a box, or twice
+  // as many as were shared last, and some for spheres with many contacts.
   void make_room(std::size_t n, const StepCounts &last)
   {
     n_near_ = n;
@@ -85,7 +85,7 @@ class ResidentSprings : public SpringsInPlace {
     wanted_ = n + std::max(3 * n, 2 * shared) + kSpareSlots;
   }
 
-  // Leaves of sphere i the springs on meshes of set[i].
+  // Removes the springs of sphere i on meshes outside of set[i].
   void forget_others(std::size_t n, const std::uint32_t *set)
   {
     if (!traits_.history) return;
@@ -111,7 +111,7 @@ class ResidentSprings : public SpringsInPlace {
     });
   }
 
-  // Where the next step writes; `slot`: see ContactPool.
+  // The pool that the next step writes; `slot`: see ContactPool.
   ContactPool next(int *slot)
   {
     Pool &pool = pool_[1 - now_];
@@ -175,7 +175,7 @@ class ResidentSprings : public SpringsInPlace {
     if (pool.size < size) pool = make(size + size / 8);
     b_.copy_in(from.first.at, first_.data(), n);
     b_.copy_in(from.count.at, count_.data(), n);
-    // What was past them lies in a pool that is no more.
+    // Later spheres have no springs in this pool.
     int *past = count_.data() + n;
     b_.for_each(count_.size() - n, [=] LSDCD_LAMBDA(std::size_t i) { past[i] = 0; });
     b_.copy_in(from.pool, pool.springs.data(), size);

@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What a step leaves behind of near spheres, where the engine computes: columns of results, and what
-// is made of them when somebody asks.
+// Results of a step in the memory of the engine's backend: columns by candidate sphere, and the totals and
+// outputs that are made of them on request.
 #pragma once
 
-#include "engine/choose/near_meshes.h"
-#include "engine/results/totals.h"
-#include "engine/step/compiled_law.h"
+#include "engine/broad_phase/candidate_slots.h"
+#include "engine/results/results.h"
+#include "engine/step/step_job.h"
 
 #include <vector>
 
@@ -19,13 +19,13 @@ class StepResults {
   using Array = typename B::template Array<T>;
 
  public:
-  // For a step of n near spheres of these; `near`: their indices, or null for all. `adds_later`:
+  // For a step of n candidates of these; `near`: their indices, or null for all. `adds_later`:
   // will add_forces() be called? `meshes`: which slots are of which mesh, or null where there is one.
   void begin(const LawTraits &traits, const StepSettings &step, const Spheres &spheres,
              const int *near, std::size_t n, bool may_miss, bool adds_later,
-             const NearMeshes<B> *meshes = nullptr)
+             const CandidateSlots<B> *meshes = nullptr)
   {
-    meshes_ = meshes;
+    slots_ = meshes;
     traits_ = traits;
     step_ = step;
     spheres_ = spheres;
@@ -49,7 +49,7 @@ class StepResults {
         ResultColumns::of(numbers_.data(), room, step.per_sphere, adds_later, n_contacts_.data());
   }
 
-  void put_into(LawJob &job)
+  void put_into(StepJob &job)
   {
     job.result = columns_;
     job.heat = heat_.data();
@@ -60,7 +60,7 @@ class StepResults {
   void add_forces(B &b)
   {
     if (n_ == 0) return;
-    const std::size_t n_alone = meshes_ ? meshes_->begin(meshes_->n_meshes()) : n_;
+    const std::size_t n_single = slots_ ? slots_->begin(slots_->n_meshes()) : n_;
     const ResultColumns result = columns_;
     const int *near = near_;
     const StridedView<Real> force = spheres_.force, torque = spheres_.torque;
@@ -70,10 +70,10 @@ class StepResults {
       force.add(i, result.force[k]);
       torque.add(i, result.torque[k]);
     };
-    b.for_each(n_alone, add);
-    if (!meshes_ || meshes_->n_joint() == 0) return;
-    const int *first = meshes_->first();
-    b.for_each(meshes_->n_joint(), [=] LSDCD_LAMBDA(std::size_t g) {
+    b.for_each(n_single, add);
+    if (!slots_ || slots_->n_multi_mesh() == 0) return;
+    const int *first = slots_->first();
+    b.for_each(slots_->n_multi_mesh(), [=] LSDCD_LAMBDA(std::size_t g) {
       for (int k = first[g]; k < first[g + 1]; k++) add(k);
     });
   }
@@ -81,7 +81,7 @@ class StepResults {
   int *slot() { return slot_.data(); }
   const Array<int> &n_contacts() const { return n_contacts_; }
 
-  // What the step's settings ask for, brought to the host; `records`: with gaps.
+  // Copies the outputs that the step's settings ask for to the host; `records`: with gaps.
   void fetch(B &b, const ContactRecord *records)
   {
     touching_.clear();
@@ -98,13 +98,13 @@ class StepResults {
   const std::vector<Real> &sphere_heat() const { return sphere_heat_; }
   const std::vector<ContactRecord> &records() const { return records_; }
 
-  // Of the last step. Summed when they are first asked for.
+  // Totals of the last step, summed on first request.
   const WallTotals &totals(B &b)
   {
     if (!totals_known_) sum_totals(b);
     return totals_;
   }
-  // Of one of several meshes.
+  // Totals of one mesh, where there are slots.
   WallTotals mesh_totals(B &b, int mesh)
   {
     know_mesh_totals(b);
@@ -133,11 +133,10 @@ class StepResults {
 
   void know_mesh_totals(B &b)
   {
-    if (!meshes_) return;
+    if (!slots_) return;
     mesh_totals_.clear();
-    for (int m = 0; m < meshes_->n_meshes(); m++)
-      mesh_totals_.push_back(sum(b, meshes_->mesh(), m));
-    meshes_ = nullptr;
+    for (int m = 0; m < slots_->n_meshes(); m++) mesh_totals_.push_back(sum(b, slots_->mesh(), m));
+    slots_ = nullptr;
   }
 
   // The steps of the above. Public because nvcc takes no device lambda from a private function.
@@ -164,7 +163,7 @@ class StepResults {
       if (has_heat) to_heat[k] = touches ? from_heat[k] : 0;
       to_sphere[k] = static_cast<int>(i);
     });
-    if (meshes_ && meshes_->n_joint() > 0) join_output(b, to, to_heat);
+    if (slots_ && slots_->n_multi_mesh() > 0) join_output(b, to, to_heat);
     const std::vector<SphereOutput> all = to_host(b, out, n);
     const std::vector<Real> heat = to_host(b, heat_out, heat_out.size());
     const std::vector<int> index = to_host(b, sphere, n);
@@ -179,11 +178,11 @@ class StepResults {
   // One output for each joint sphere, at its first slot.
   void join_output(B &b, SphereOutput *to, Real *to_heat)
   {
-    const int *first = meshes_->first(), *near = near_;
+    const int *first = slots_->first(), *near = near_;
     const ResultColumns result = columns_;
     const Spheres spheres = spheres_;
     const bool has_heat = traits_.heat;
-    b.for_each(meshes_->n_joint(), [=] LSDCD_LAMBDA(std::size_t g) {
+    b.for_each(slots_->n_multi_mesh(), [=] LSDCD_LAMBDA(std::size_t g) {
       SphereResult all = {};
       Real heat = 0;
       const int begin = first[g];
@@ -212,7 +211,7 @@ class StepResults {
     const int *slot = slot_.data();
     b.for_each(n, [=] LSDCD_LAMBDA(std::size_t k) { at[k] = n_contacts[k]; });
     const std::size_t total = b.exclusive_scan(at, n);
-    // What lies between them was never written.
+    // The gaps between them were never written.
     Array<ContactRecord> packed(total);
     ContactRecord *to = packed.data();
     b.for_each(n, [=] LSDCD_LAMBDA(std::size_t k) {
@@ -273,7 +272,7 @@ class StepResults {
 
   WallTotals totals_;
   bool totals_known_ = true;
-  const NearMeshes<B> *meshes_ = nullptr;    // until their totals are known
+  const CandidateSlots<B> *slots_ = nullptr;    // until their totals are known
   std::vector<WallTotals> mesh_totals_;
   std::vector<int> touching_;
   std::vector<SphereOutput> output_;

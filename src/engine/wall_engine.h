@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The one door between a host code (the fix, the tool, tests, benches) and the wall.
+// The interface between a host code (the fix, the tool, tests, benches) and the engines.
 #pragma once
 
 #include "backend/cuda_available.h"
@@ -27,7 +27,8 @@
 namespace lsdcd {
 
 enum class Corner { blend, sum };
-enum class Side { both, in, out };
+// On which side of a closed wall spheres stay; the number is the sign of the outward normal there.
+enum class Side { both = 0, out = 1, in = -1 };
 enum class Device { automatic, cpu, cuda };
 
 // double_: everything in double. mixed: contacts are found in float, in the frame of a
@@ -56,8 +57,8 @@ struct EngineSettings {
   const ContactLaw &law() const { return laws.laws.front(); }
 };
 
-// Several meshes, or several kinds of spheres: near spheres are sorted by these.
-inline bool has_several(const EngineSettings &s)
+// Are candidates sorted into slots, by mesh and by kind of sphere?
+inline bool uses_slots(const EngineSettings &s)
 {
   return s.meshes > 1 || s.laws.kinds > 1;
 }
@@ -85,7 +86,7 @@ struct StepSettings {
   bool per_sphere = false;       // fill SphereOutput
   bool records = true;           // bring what settings.records keeps
   Real wall_temperature = 0;     // where the law has heat
-  // Of each mesh, in place of what is above and of the settings'; valid until finish().
+  // For each mesh, in place of wall_temperature and of the settings' surface; valid until finish().
   const Real *mesh_temperature = nullptr;
   const SurfaceMotion *surface = nullptr;
 };
@@ -111,7 +112,7 @@ struct SphereOutput {
   Real radius;      // 0 where nothing touches
 };
 
-// What one contact does to the wall in one step.
+// The effect of one contact on the wall in one step.
 struct ContactRecord {
   FeatureCode feature;
   std::uint32_t mesh;    // of the wall's
@@ -123,21 +124,21 @@ struct ContactRecord {
   Vec3 arm;      // from the closest point to the sphere's centre
 };
 
-// What steps have left behind since the host last looked.
+// Counts of the steps since the host last read them.
 struct StepDiagnostics {
   Real deepest = 0;           // largest overlap / radius
   int deepest_sphere = -1;    // its index in the step that it was in
   std::int64_t uncertified = 0;
   Real uncertain = 0;    // overlap / radius of the deepest contact they may have missed
-  // Lists of the wall that were made, the features in them, and searches of cells for spheres
-  // without a list; all are 0 where lists hold the nearest primitives.
+  // Neighbour lists that were made, the features in them, and searches of cells for spheres without a list; all
+  // are 0 where cells list the nearest primitives.
   std::int64_t lists = 0, listed = 0, by_cells = 0;
 };
 
 // A step is begun, launched and finished.
 enum class StepState { none, begun, launched };
 
-// Where the work of a step runs.
+// Stream and time of a step's work.
 enum class LaunchMode {
   in_turn,    // after what the host has given its stream; on a CPU finish() does it
   // In place on a GPU: at once, on a stream of its own, after what the host had given its stream by
@@ -159,17 +160,16 @@ class WallEngine {
   // The grid of a mesh, to use from now on; borrowed, must outlive its use. Asks for a choice.
   virtual void set_grid(const GridView &grid, int mesh = 0) = 0;
 
-  // Where a mesh is from now on, and how fast it goes; not between launch() and finish(). At
-  // first it is where the grid has it. Only an engine whose settings say that it moves may be asked.
+  // Pose and velocity of a mesh from now on; not between launch() and finish(). At first it is the frame of the
+  // grid. Only for engines whose settings say that the wall moves.
   virtual void place_wall(const Pose &pose, int mesh = 0) = 0;
 
   // Largest radius in the group.
   virtual Real largest_radius(const Spheres &spheres) = 0;
 
-  // Chooses the spheres that steps look at until the next call: those of the group that could be
-  // near the wall after moving by up to `margin` (length) relative to it, and makes their lists of the
-  // wall. Radii must not grow until the next choice: a near sphere that does is an error, a far one is
-  // missed until then.
+  // Broad phase: chooses the candidate spheres of the next steps, those of the group that could touch the wall
+  // after moving by up to `margin` (length) relative to it, and makes their neighbour lists. Radii must not grow
+  // until the next choice: a candidate that does is an error, another sphere is missed until then.
   // `watch`: has_moved() will be asked. Throws InputError if a sphere is larger than the grid's
   // cutoff (index and radius in the message).
   virtual void choose(const Spheres &spheres, Real margin, bool watch = false) = 0;
@@ -207,10 +207,10 @@ class WallEngine {
   }
 
   virtual const WallTotals &totals() const = 0;
-  // What one mesh has of them, without the sphere.
+  // The totals of one mesh, without the sphere.
   virtual WallTotals mesh_totals(int mesh) const = 0;
 
-  // Of the spheres with a contact in the last step: how many, which, and what.
+  // The spheres with a contact in the last step: their number, indices and outputs.
   // Valid after finish() of a step with per_sphere.
   virtual int n_touching() const = 0;
   virtual const int *touching() const = 0;
@@ -218,7 +218,7 @@ class WallEngine {
   // Power into each of them; null where the law has no heat.
   virtual const Real *sphere_heat() const = 0;
 
-  // What the contacts of the last step did to the wall, in the order of the spheres;
+  // Records of the contacts of the last step, in the order of the spheres;
   // valid after finish() where settings.records and step.records are set.
   virtual int n_records() const = 0;
   virtual const ContactRecord *records() const = 0;
@@ -231,8 +231,8 @@ class WallEngine {
   virtual void springs_to(ContactHistory &store, int n) = 0;
   virtual void springs_from(const ContactHistory &store, int n) = 0;
 
-  // Near spheres of the last choice; bytes held by the engine.
-  virtual int n_near() const = 0;
+  // Candidates of the last choice; bytes of the engine.
+  virtual int n_candidates() const = 0;
   virtual std::size_t bytes() const = 0;
 
  protected:
@@ -284,9 +284,9 @@ class InPlaceEngine : public WallEngine {
 void step_once(WallEngine &engine, const Spheres &spheres, const StepSettings &step,
                ContactHistory *springs);
 
-// Are there forces in float? There are for the classic styles with nothing
-// beside them, on walls that only bear.
-bool has_single(const EngineSettings &settings);
+// Can forces be computed in float? Only those of the classic styles without sub-models beside them, on walls that
+// neither move nor have records.
+bool has_float_forces(const EngineSettings &settings);
 
 // For a host whose arrays are in its own memory. Device::cuda without a GPU throws InputError;
 // Device::automatic takes the CPU then.

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What a contact law is given and what it returns.
+// Arguments and results of a contact law.
 #pragma once
 
 #include "base/vec3.h"
@@ -30,7 +30,7 @@ struct ContactForce {
   T energy;                // elastic energy held
 };
 
-// What a contact keeps from step to step: a tangential spring and, with some laws, further
+// Memory of a contact from step to step: a tangential spring and, with some laws, further
 // numbers: first vectors in the tangent plane, then scalars.
 template <class T, int kExtra>
 struct ContactMemory {

@@ -41,7 +41,7 @@ struct ContactModel {
   Tangential<T> tangential;
   bool limit_damping;
 
-  // What the stiffnesses are multiplied by: the contact radius, or 1.
+  // Factor of the stiffnesses: the contact radius, or 1.
   LSDCD_FN T scale(const Contact<T> &c) const
   {
     return Normal<T>::kUsesContactRadius ? elastic.contact_radius(c) : T(1);
@@ -68,7 +68,7 @@ using HookeHistoryLaw = ContactModel<T, HookeNormal, MassVelocityDamping, Linear
 template <class T>
 using HertzHistoryLaw = ContactModel<T, HertzNormal, MassVelocityDamping, LinearHistory>;
 
-// What laws with kContactTorque or kHeat return.
+// Result of laws with kContactTorque or kHeat.
 template <class T>
 struct FullForce : ContactForce<T> {
   Vec3Of<T> contact_torque;    // torque on the sphere beside that of the tangential force

@@ -34,7 +34,7 @@ inline Real largest_pull_off(const LawTable &table)
   return largest;
 }
 
-// Where kernels run: which kind a sphere is of.
+// The kind of each sphere, in kernels.
 struct SphereKinds {
   const int *type = nullptr;            // of each sphere; null: all are of kind 0
   const int *kind_of_type = nullptr;    // see LawTable

@@ -24,7 +24,7 @@ struct Parameter {
   bool is_flag = false;              // 0 or 1
 };
 
-// What a contact keeps from step to step.
+// Numbers that a contact stores from step to step.
 struct Kept {
   // Null: nothing. Equal words mean the same numbers in a restart file.
   const char *what = nullptr;

@@ -41,7 +41,7 @@ class SphereSearch {
   Real weight_[kMost];
 };
 
-constexpr int kFew = 32, kMany = 512;
+constexpr int kFew = 32;
 constexpr std::size_t kChunk = 1024;    // spheres
 
 template <class T>
@@ -80,7 +80,7 @@ class ContactQuery {
   void find_chunk(std::size_t c)
   {
     SphereSearch<kFew> few;
-    std::unique_ptr<SphereSearch<kMany>> many;    // more than a stack may have room for
+    std::unique_ptr<SphereSearch<kMaxContacts>> many;    // more than a stack may have room for
     std::vector<SphereContact> &found = chunks_[c];
     for (std::size_t i = c * kChunk; i < std::min(spheres_.n, (c + 1) * kChunk); i++) {
       const std::size_t before = found.size();
@@ -88,10 +88,10 @@ class ContactQuery {
       const Real radius = radius_of(sphere);
       const Vec3 q = spheres_.centres[sphere];
       if (!few.find(grid_, q, radius, found)) {
-        if (!many) many = std::make_unique<SphereSearch<kMany>>();
+        if (!many) many = std::make_unique<SphereSearch<kMaxContacts>>();
         if (!many->find(grid_, q, radius, found))
           throw InputError("sphere " + std::to_string(sphere) + " touches the wall in more than " +
-                           std::to_string(kMany) +
+                           std::to_string(kMaxContacts) +
                            " separate places: take a smaller radius, or a coarser mesh");
       }
       out_.first[i + 1] = found.size() - before;

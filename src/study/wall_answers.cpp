@@ -4,8 +4,8 @@
 #include "study/wall_answers.h"
 
 #include "backend/threads.h"
-#include "engine/step/force_settings.h"
-#include "engine/step/law_job.h"
+#include "engine/step/narrow_phase.h"
+#include "engine/step/step_job.h"
 
 #include <algorithm>
 #include <cmath>
@@ -48,8 +48,8 @@ template <int kCapacity>
 bool append_contacts(const GridView &grid, const SearchSettings &search, const Vec3 &x, Real radius,
                      std::vector<WallAnswers::Contact> &contacts, bool &certain)
 {
-  Touch<kCapacity> t;
-  touch<false>(grid, search, {x, radius, radius, nullptr, 0}, nullptr, t);
+  WeightedContacts<kCapacity> t;
+  narrow_phase<false>(grid, search, {x, radius, radius, nullptr, 0}, nullptr, t);
   if (t.set.overflow) return false;
   certain = t.exact_within >= radius;
   for (int i = 0; i < t.set.n; i++)
@@ -79,7 +79,7 @@ WallAnswers evaluate_sample(const GridView &grid, const EngineSettings &engine,
                             const SphereSample &sample)
 {
   WallAnswers out;
-  const SearchSettings search = search_settings(engine);
+  const SearchSettings search = {engine.corner, engine.side};
   out.first.push_back(0);
   for (int i = 0; i < sample.n(); i++) {
     bool certain = true;

@@ -3,7 +3,7 @@
 
 #include "wall/history_exchange.h"
 
-#include "engine/step/law_job.h"
+#include "contact/contact_set.h"
 
 #include <algorithm>
 #include <string>

@@ -6,10 +6,10 @@
 #include "example_effect/saturating_damping.h"
 
 #include "backend/backend_cpu.h"
-#include "engine/choose/selection_cpu.h"
+#include "engine/broad_phase/selection_cpu.h"
 #include "engine/engine_on.h"
 #include "engine/step/compile_law.h"
-#include "engine/step/run_step_cpu.h"
+#include "engine/step/step_cpu.h"
 #include "support/laws.h"
 #include "support/meshes.h"
 
@@ -27,7 +27,7 @@ using SaturatingLaw = ContactModel<T, HookeNormal, SaturatingDamping, LinearNoHi
 // Step 3: the law, compiled for a kernel.
 CompiledLaw<CpuBackend> compiled(const SaturatingLaw<Real> &law)
 {
-  return MakeLaw<CpuBackend, WallKernels::plain>{{false, false}}(law);
+  return CompileLaw<CpuBackend, WallKernels::plain>{{false, false}}(law);
 }
 
 // Step 4: a closed form. One sphere on a floor, the force of one step.

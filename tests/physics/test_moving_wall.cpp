@@ -379,7 +379,7 @@ TEST(moving_wall, a_choice_holds_while_nothing_goes_farther_than_its_margin)
     fresh->step(b, step);
     if (moved) break;
     EXPECT_EQ(of[0].force, of[1].force) << "at " << time;
-    near += fresh->n_near();
+    near += fresh->n_candidates();
     steps++;
   }
   EXPECT_GT(steps, 5);

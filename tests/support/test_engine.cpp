@@ -86,7 +86,7 @@ class InPlaceForHost : public WallEngine {
   const Real *sphere_heat() const override { return engine_->sphere_heat(); }
   int n_records() const override { return engine_->n_records(); }
   const ContactRecord *records() const override { return engine_->records(); }
-  int n_near() const override { return engine_->n_near(); }
+  int n_candidates() const override { return engine_->n_candidates(); }
   std::size_t bytes() const override { return engine_->bytes(); }
 
  private:

@@ -5,7 +5,7 @@
 // step.
 #pragma once
 
-#include "engine/lists/touch.h"
+#include "engine/step/narrow_phase.h"
 #include "support/pair_check.h"
 
 namespace lsdcd {
@@ -107,7 +107,7 @@ LSDCD_FN Walker walker_of(const WalkMesh<T> &mesh, std::uint64_t i)
 }
 
 // The point q, or where the list still holds on the way to it: at the very margin.
-LSDCD_FN Vec3 within_margin(const WallLists &lists, const Vec3 &from, const Vec3 &q, Real cutoff)
+LSDCD_FN Vec3 within_margin(const FeatureLists &lists, const Vec3 &from, const Vec3 &q, Real cutoff)
 {
   if (lists.holds(0, q, cutoff)) return q;
   const Vec3 way = q - from;
@@ -137,14 +137,14 @@ LSDCD_FN long not_in(const ContactSet<kPlaces> &a, const ContactSet<kPlaces> &b)
 }
 
 // No more answer than a list has room for.
-using WalkSet = ContactSet<WallList::kMax + 1>;
+using WalkSet = ContactSet<FeatureList::kMax + 1>;
 
 // Against every feature of the wall, in double. Lists of the wall's records: the same contacts to
 // the bit. Those of brick records: those that are contacts whatever float rounds must be there, and
 // no others than those that may be.
 template <class Geometry>
 LSDCD_FN void compare_with_all(const GridView &grid, const FeatureCode *features, int n_features,
-                               const WallLists &lists, const Vec3 &q, Real cutoff,
+                               const FeatureLists &lists, const Vec3 &q, Real cutoff,
                                const WalkSet &set, Walks &out)
 {
   if (!grid.in_floats) {
@@ -181,8 +181,8 @@ LSDCD_FN void compare_with_all(const GridView &grid, const FeatureCode *features
 // alone, on the side where its faces hold it, too. Some cells list such an edge, others do not: what
 // counts is that the list has the same point of the wall.
 template <class Geometry>
-LSDCD_FN long not_listed(const GridView &grid, const WallLists &lists, const Vec3 &q, Real cutoff,
-                         const WalkSet &cells)
+LSDCD_FN long not_listed(const GridView &grid, const FeatureLists &lists, const Vec3 &q,
+                         Real cutoff, const WalkSet &cells)
 {
   const Geometry geometry(grid, q);
   WalkSet listed;
@@ -214,7 +214,7 @@ LSDCD_FN Walks check_walk_in(const WalkMesh<T> &mesh, std::uint64_t i)
   const Vec3 from = w.sphere.x;
   Walks out;
   out.spheres = 1;
-  WallList made;
+  FeatureList made;
   const QuerySphere sphere = {from, w.sphere.radius, w.cutoff, nullptr, 0};
   const Warp<1> alone;
   if (!gather(alone, true, grid, sphere, kAnyDistance, made)) return out;
@@ -224,9 +224,9 @@ LSDCD_FN Walks check_walk_in(const WalkMesh<T> &mesh, std::uint64_t i)
     gather_within<Geometry>(alone, true, grid, from, w.cutoff, mesh.gathered * margin, made);
     made.margin = margin;
   }
-  Real reals[WallLists::kReals];
-  std::int32_t ints[WallLists::kInts];
-  const WallLists lists = {reals, reinterpret_cast<float *>(reals + 3), ints, 1, grid.length};
+  Real reals[FeatureLists::kReals];
+  std::int32_t ints[FeatureLists::kInts];
+  const FeatureLists lists = {reals, reinterpret_cast<float *>(reals + 3), ints, 1, grid.length};
   lists.put(0, made, grid.wall);
 
   Numbers r(mesh.pairs.seed + 0xd1342543de82ull * (i + 1));

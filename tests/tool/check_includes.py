@@ -29,7 +29,7 @@ FOLDERS = {
     "mesh": [".", "io"],
     "grid": [".", "lookup", "plan", "build", "cache"],
     "law": ["contact.h", "submodels", "."],
-    "engine": ["wall_engine.h", "results", "lists", "choose", "step", "."],
+    "engine": ["wall_engine.h", "results", "lists", "broad_phase", "step", "."],
     "lammps": [".", "launcher"],
 }
 STUDY_ROOMS = {"study", "tool"}

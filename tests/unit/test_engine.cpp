@@ -75,13 +75,13 @@ template <class Work>
 void run_step(CountingBackend &, std::size_t n, const Work &work)
 {
   work.begin();
-  const StepLists &lists = work.step_lists();
+  const WorkLists &lists = work.work_lists();
   *lists.n_found_next = 0;
-  if (!work.has_single()) {
-    for (std::size_t k = 0; k < n; k++) work.several(k);
+  if (!work.has_fast_path()) {
+    for (std::size_t k = 0; k < n; k++) work.general_path(k);
     return;
   }
-  const auto do_several = [&](int k, bool leaves_lists) {
+  const auto run_general_path = [&](int k, bool leaves_lists) {
     if (work.needs_list(k)) {
       if (leaves_lists) {
         lists.found[(*lists.n_found)++] = k;
@@ -89,17 +89,17 @@ void run_step(CountingBackend &, std::size_t n, const Work &work)
       }
       work.make_list(Warp<1>(), true, k);
     }
-    if (!work.several(k) || !lists.next) return;
+    if (!work.general_path(k) || !lists.next) return;
     lists.next[(*lists.n_next)++] = k;
     lists.listed_in[k] = lists.step + 1;
   };
   const int n_last = lists.last ? *lists.n_last : 0;
-  for (int s = 0; s < n_last; s++) do_several(lists.last[s], true);
+  for (int s = 0; s < n_last; s++) run_general_path(lists.last[s], true);
   for (std::size_t k = 0; k < n; k++)
-    if (!(lists.listed_in && lists.listed_in[k] >= lists.step) && !work.single(k))
+    if (!(lists.listed_in && lists.listed_in[k] >= lists.step) && !work.fast_path(k))
       lists.found[(*lists.n_found)++] = static_cast<int>(k);
   if (lists.last) *lists.n_last = 0;
-  for (int s = 0; s < *lists.n_found; s++) do_several(lists.found[s], false);
+  for (int s = 0; s < *lists.n_found; s++) run_general_path(lists.found[s], false);
 }
 
 }    // namespace
@@ -349,7 +349,7 @@ TEST(engine, a_list_that_is_kept_gives_the_same_bits)
   }
   EXPECT_EQ(same, n);
   EXPECT_GT(with, 100);
-  EXPECT_GT(kept.engine->n_near(), anew.engine->n_near());
+  EXPECT_GT(kept.engine->n_candidates(), anew.engine->n_candidates());
 }
 
 TEST(engine, a_way_within_the_margin_ends_near_only_where_it_was_seen_before)
@@ -387,7 +387,7 @@ TEST(engine, the_bricks_of_a_choice_with_a_margin_leave_out_none_that_its_cells_
   const FlatGrid flat(build_grid(weld(box_mesh({-10, -10, -10}, {10, 10, 10}), -1), g));
   const GridView grid = flat.view();
   const std::vector<BrickWord> words = brick_words(grid);
-  NearChoice<true> choice = {};
+  CandidateTest<true> choice = {};
   choice.grid = grid;
   choice.table = BrickTable(words, words.data());
   choice.filter = BrickFilter<Real>(grid);

@@ -74,7 +74,7 @@ TEST(contact_set, says_when_it_is_full)
   EXPECT_EQ(set.n, 2);
 }
 
-// ---- keep_side -------------------------------------------------------------------------
+// ---- filter_side -------------------------------------------------------------------------
 
 struct Given {
   FeatureCode feature;
@@ -100,7 +100,7 @@ std::map<FeatureCode, Given> expected_side(const std::vector<FaceRecord> &faces,
   return out;
 }
 
-TEST(keep_side, turns_the_nearest_contact_and_drops_the_others_on_the_wrong_side)
+TEST(filter_side, turns_the_nearest_contact_and_drops_the_others_on_the_wrong_side)
 {
   Random random(1);
   for (int k = 0; k < 20000; k++) {
@@ -119,7 +119,7 @@ TEST(keep_side, turns_the_nearest_contact_and_drops_the_others_on_the_wrong_side
     wall.faces = faces.data();
     const Real sign = random() % 2 ? 1 : -1;
     const auto expected = expected_side(faces, sign, given);
-    keep_side(wall, sign, set);
+    filter_side(wall, sign, set);
     ASSERT_EQ(set.n, static_cast<int>(expected.size()));
     for (int i = 0; i < set.n; i++) {
       const auto e = expected.find(set.feature[i]);
@@ -130,10 +130,10 @@ TEST(keep_side, turns_the_nearest_contact_and_drops_the_others_on_the_wrong_side
   }
 }
 
-TEST(keep_side, leaves_an_empty_set_empty)
+TEST(filter_side, leaves_an_empty_set_empty)
 {
   ContactSet<8> set;
-  keep_side(MeshFeaturesView{}, 1, set);
+  filter_side(MeshFeaturesView{}, 1, set);
   EXPECT_EQ(set.n, 0);
 }
 

@@ -3,8 +3,8 @@
 
 // Lists of the wall: what one holds, how far it holds, and what an engine does with it. Walks inside
 // the margin on random meshes are in test_properties.cpp.
-#include "engine/lists/touch.h"
 #include "engine/results/sphere_error.h"
+#include "engine/step/narrow_phase.h"
 #include "support/brute_force.h"
 #include "support/crowd.h"
 #include "support/laws.h"
@@ -49,13 +49,13 @@ class OneList {
   bool holds(const Vec3 &q, Real cutoff) const { return lists.holds(0, q, cutoff); }
   Real margin() const { return lists.margin(0); }
 
-  WallList made;
+  FeatureList made;
   bool has_list;
 
  private:
-  Real reals_[WallLists::kReals];
-  std::int32_t ints_[WallLists::kInts];
-  WallLists lists = WallLists::of(reals_, ints_, 1, 1);
+  Real reals_[FeatureLists::kReals];
+  std::int32_t ints_[FeatureLists::kInts];
+  FeatureLists lists = FeatureLists::of(reals_, ints_, 1, 1);
 };
 
 template <class Record>
@@ -123,7 +123,7 @@ TEST(wall_list, is_ascending_and_without_doubles)
     Numbers r(1);
     int several = 0;
     for (int k = 0; k < 5000; k++) {
-      const WallList made = OneList(wall.view(), in_grid(r, wall.view()), 0.5).made;
+      const FeatureList made = OneList(wall.view(), in_grid(r, wall.view()), 0.5).made;
       several += made.n > 1;
       for (int i = 1; i < made.n; i++) ASSERT_LT(made.code[i - 1], made.code[i]);
     }
@@ -384,7 +384,7 @@ TEST(wall_list, counts_lists_and_their_features)
     features += OneList(wall.view(), bed.centre(i), 0.5).made.n;
   }
   bed.choose(0.2);
-  ASSERT_EQ(bed.engine->n_near(), 200);
+  ASSERT_EQ(bed.engine->n_candidates(), 200);
   bed.step();
   StepDiagnostics diagnostics = bed.engine->read_diagnostics();
   EXPECT_EQ(diagnostics.lists, 200);
@@ -453,7 +453,7 @@ TEST(wall_list, a_sphere_that_cannot_touch_anything_by_its_own_radius_is_not_nea
   bed.add({0.31, 0.17, 0.4}, 0.3);
   bed.add({0.31, 0.67, 0.4}, 0.5);
   bed.choose(0.05);
-  EXPECT_EQ(bed.engine->n_near(), 1);
+  EXPECT_EQ(bed.engine->n_candidates(), 1);
 }
 
 TEST(wall_list, a_sphere_that_grows_after_the_choice_is_felt_and_then_an_error)
@@ -506,7 +506,7 @@ TEST(wall_list, of_a_sphere_that_comes_in_from_outside_of_the_grid_is_made_in_ti
     anew.add(outside, 0.5);
     EXPECT_FALSE(cell_slot_of(wall.view(), outside).inside);
     kept.choose(12);
-    ASSERT_EQ(kept.engine->n_near(), 1);
+    ASSERT_EQ(kept.engine->n_candidates(), 1);
     // To a place over the floor, a third of a margin a step.
     const Vec3 way = Vec3{-0.5, -0.5, 0.4} - outside;
     const int steps = static_cast<int>(norm(way) / (kSkinFraction * 0.5 / 3));

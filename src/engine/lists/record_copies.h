@@ -12,7 +12,7 @@
 namespace lsdcd {
 
 struct RecordCopies {
-  // Of one list: copies of its first n records, and for how many there is room.
+  // Copies of the first n records of a list, and for how many there is room.
   struct Place {
     std::int32_t first;
     std::int16_t n, room;
@@ -22,7 +22,7 @@ struct RecordCopies {
   Place *places = nullptr;             // of each list
   int *used = nullptr, capacity = 0;
 
-  // Those from list k on.
+  // The copies from list k on.
   RecordCopies from(std::size_t k) const
   {
     RecordCopies c = *this;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What steps count where they run.
+// Counters of the broad phase and of steps, in the memory of kernels.
 #pragma once
 
 #include "backend/atomic.h"
@@ -13,11 +13,11 @@ namespace lsdcd {
 
 constexpr std::uint64_t kNoSphere = std::uint64_t(1) << 32;
 
-// What steps count. The first three are of one choice or step, the others since the host looked.
+// The first three are of one choice or step, the others since the host last read them.
 struct StepCounts {
-  std::uint32_t n_near;
-  int shared_used[2];              // slots, of each pool in the last step that wrote it
-  int n_found[2], n_several[2];    // of StepLists, in turn
+  std::uint32_t n_candidates;
+  int shared_used[2];                    // slots, of each pool in the last step that wrote it
+  int n_found[2], n_multi_contact[2];    // of WorkLists, in turn
   // Spheres left out, a time for each step, as they have more contacts than a scratch memory or as all shared
   // slots were taken: an error.
   int no_scratch, no_slots, unused;    // unused: so that there is no byte that nothing writes
@@ -25,14 +25,14 @@ struct StepCounts {
   std::uint64_t too_large;
   std::uint64_t grown;          // likewise of the first sphere that feels more than at the choice
   std::uint64_t uncertified;    // answers
-  // As ascending bits: the largest overlap / radius, with 1 + the index of its sphere
-  // below it, and the largest that an answer which was not certified may have missed.
+  // deepest: (overlap / radius as ascending bits) << 32 | sphere + 1.
+  // uncertain: the largest overlap / radius that an uncertified answer may have missed, as ascending bits.
   std::uint64_t deepest, uncertain;
   std::uint64_t lists, listed,
       by_cells;    // lists made in steps, their features; searches of cells
 };
 
-// What has been counted, for the host.
+// The counts as the host reads them.
 inline StepDiagnostics diagnostics_of(const StepCounts &seen)
 {
   StepDiagnostics diagnostics;

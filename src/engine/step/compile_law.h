@@ -1,30 +1,103 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// How a law is compiled for a backend.
+// From the settings of an engine to its compiled laws: the smallest ones that have all effects asked for.
 #pragma once
 
-#include "engine/step/joint_step.h"
-#include "engine/step/laws.h"
+#include "engine/step/multi_mesh_step.h"
+
+#include <iterator>
+#include <stdexcept>
+#include <type_traits>
 
 namespace lsdcd {
 
-// The laws that the settings ask for.
-template <class B>
-CompiledLaw<B> law_for(const EngineSettings &settings);
+// The classic styles, in numbers of type T: calls make(law).
+template <class T, class Make>
+auto with_classic_law(const ContactLaw &p, Make make)
+{
+  const T k = static_cast<T>(p.k_normal), mu = static_cast<T>(p.mu);
+  const MassVelocityDamping<T> damping = {static_cast<T>(p.eta)};
+  const T k_tangent = static_cast<T>(p.k_tangent), gamma_tangent = static_cast<T>(p.gamma_tangent);
+  const LinearHistory<T> history = {k_tangent, gamma_tangent, mu};
+  if (p.is(NormalModel::hertz))
+    return make(HertzHistoryLaw<T>{{k}, damping, history, p.limit_damping});
+  if (p.tangential == TangentialModel::linear_history_classic)
+    return make(HookeHistoryLaw<T>{{k}, damping, history, p.limit_damping});
+  return make(HookeLaw<T>{{k}, damping, LinearNoHistory<T>{gamma_tangent, mu}, p.limit_damping});
+}
 
-// Those of `granular`, of the classic styles with effects of LIGGGHTS, and of these styles on walls with
-// effects: a source file each, compiled for each backend.
-template <class B>
-CompiledLaw<B> granular_law(const ContactLaw &law, const WallEffects &effects);
-template <class B>
-CompiledLaw<B> added_law(const ContactLaw &law, const WallEffects &effects);
-template <class B>
-CompiledLaw<B> on_wall_law(const ContactLaw &law, const WallEffects &effects);
+// A rolling model with its numbers, among those of one kernel.
+template <class Family, class Model>
+Family family_of(const Chosen<Model> &chosen)
+{
+  Family family = {chosen.model, {}};
+  for (std::size_t k = 0; k < std::size(family.numbers); k++) family.numbers[k] = chosen.numbers[k];
+  if (chosen.is_on() && !family.is_on())
+    throw std::logic_error("no compiled law has this rolling model: name it in rolling.h");
+  return family;
+}
 
-// For with_..._law() of laws.h.
+// A classic style with effects of LIGGGHTS beside it: calls make(law).
+template <class Make>
+auto with_added_law(const ContactLaw &p, const Make &make)
+{
+  return with_classic_law<Real>(p, [&](const auto &base) {
+    using Base = std::decay_t<decltype(base)>;
+    const auto rolling = family_of<ClassicRolling<Real>>(p.rolling);
+    const SjkrCohesion<Real> cohesion = {p.cohesion.numbers[0]};
+    if constexpr (!Base::kHistory)
+      if (!p.has_history())
+        return make(AddedModel<Base, false>{base, rolling, cohesion, p.k_tangent});
+    return make(AddedModel<Base, true>{base, rolling, cohesion, p.k_tangent});
+  });
+}
+
+// `granular` with one normal sub-model.
+template <bool kHistory, bool kFull, class Normal>
+GranularModel<Real, Normal, kHistory, kFull> granular_model(const ContactLaw &p,
+                                                            const Normal &normal)
+{
+  const TangentialModel t = p.tangential;
+  const bool spring = t != TangentialModel::linear_nohistory,
+             mindlin = t >= TangentialModel::mindlin;
+  const bool of_force =
+      t == TangentialModel::mindlin_force || t == TangentialModel::mindlin_rescale_force;
+  const bool slip = t == TangentialModel::linear_history_slip || t == TangentialModel::mindlin_slip;
+  const bool uses_contact_radius = p.damping == DampingModel::viscoelastic || mindlin ||
+                                   p.twisting.model == TwistingModel::marshall || p.has_heat();
+  const Real *const twisting = p.twisting.numbers;
+  const GranularFriction<Real> friction = {
+      spring ? p.k_tangent : 0, p.xgammat, p.mu, spring, mindlin, of_force, p.rescales(), slip};
+  return {normal,
+          {p.damping, p.eta},
+          friction,
+          family_of<GranularRolling<Real>>(p.rolling),
+          {p.twisting.model, twisting[0], twisting[1], twisting[2]},
+          {p.heat.model, p.heat.numbers[0]},
+          uses_contact_radius,
+          p.limit_damping};
+}
+
+// `granular`: calls make(law) with the smallest law that has all that is asked for.
+template <class Make>
+auto with_granular_law(const ContactLaw &p, const Make &make)
+{
+  if (p.is(NormalModel::jkr))
+    return make(granular_model<true, true>(p, JkrNormal<Real>(p.modulus, p.surface_energy)));
+  const Real pull = p.is(NormalModel::dmt) ? 4 * kPi * p.surface_energy : 0;
+  const TouchingNormal<Real> normal = {p.normal, p.k_normal, pull};
+  const bool full = p.rolling.is_on() || p.twisting.is_on() || p.has_heat() || p.rescales();
+  if (p.has_history())
+    return full ? make(granular_model<true, true>(p, normal))
+                : make(granular_model<true, false>(p, normal));
+  return full ? make(granular_model<false, true>(p, normal))
+              : make(granular_model<false, false>(p, normal));
+}
+
+// For with_..._law(): compiles a law with the effects of the wall.
 template <class B, WallKernels kernels>
-struct MakeLaw {
+struct CompileLaw {
   WallEffects effects;
 
   template <class Law>
@@ -36,5 +109,44 @@ struct MakeLaw {
     });
   }
 };
+
+// The groups of laws that are compiled together, a source file each and for each backend
+// (laws/CMakeLists.txt).
+template <class B>
+CompiledLaw<B> granular_law(const ContactLaw &law, const WallEffects &effects);
+template <class B>
+CompiledLaw<B> added_law(const ContactLaw &law, const WallEffects &effects);
+template <class B>
+CompiledLaw<B> on_wall_law(const ContactLaw &law, const WallEffects &effects);
+template <class B>
+CompiledLaw<B> plain_law(const ContactLaw &law, const WallEffects &effects);
+template <class B>
+CompiledLaw<B> float_law(const ContactLaw &law, const WallEffects &effects);
+
+// One law of the settings.
+template <class B>
+CompiledLaw<B> law_for(const EngineSettings &settings, const ContactLaw &law)
+{
+  const WallEffects effects = wall_effects(settings);
+  if (!law.is_classic()) return granular_law<B>(law, effects);
+  if (law.is_extended()) return added_law<B>(law, effects);
+  if (effects.surface || effects.records) return on_wall_law<B>(law, effects);
+  if (settings.precision == Precision::single_) return float_law<B>(law, effects);
+  return plain_law<B>(law, effects);
+}
+
+// All of them.
+template <class B>
+CompiledLaw<B> law_for(const EngineSettings &settings)
+{
+  CompiledLaw<B> made = law_for<B>(settings, settings.law());
+  made.laws.clear();
+  for (const ContactLaw &law : settings.laws.laws) {
+    const CompiledLaw<B> one = law_for<B>(settings, law);
+    if (one.run != made.run) throw std::logic_error("laws of a wall must have the same sub-models");
+    made.laws.push_back(one.laws.front());
+  }
+  return made;
+}
 
 }    // namespace lsdcd

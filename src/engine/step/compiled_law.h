@@ -1,20 +1,94 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// A compiled contact law behind two pointers, so that engines are compiled once and laws
-// add only the loop over spheres.
+// A compiled contact law: its numbers as bytes, and a function for the loop over spheres. So engines are compiled
+// once, and laws add that loop only.
 #pragma once
 
-#include "engine/step/law_bytes.h"
-#include "engine/step/law_job.h"
-#include "engine/step/on_wall.h"
+#include "engine/wall_engine.h"
+#include "law/contact_model.h"
 
 #include <cstddef>
+#include <cstring>
+#include <new>
+#include <type_traits>
 #include <vector>
 
 namespace lsdcd {
 
-// What engines have to store and move for a law.
+class LawBytes {
+ public:
+  LawBytes() = default;    // of no law
+  template <class Law>
+  explicit LawBytes(const Law &law)
+  {
+    static_assert(std::is_trivially_copyable<Law>::value && sizeof(Law) <= sizeof bytes_,
+                  "laws are plain numbers");
+    ::new (bytes_) Law(law);
+  }
+  template <class Law>
+  const Law &as() const
+  {
+    return *std::launder(reinterpret_cast<const Law *>(bytes_));
+  }
+  // The same in a kernel, which has no launder.
+  template <class Law>
+  LSDCD_FN const Law &in_kernel() const
+  {
+    return *reinterpret_cast<const Law *>(bytes_);
+  }
+
+ private:
+  alignas(std::max_align_t) unsigned char bytes_[256];
+};
+
+// One law of a table.
+struct LawEntry {
+  LawBytes law;
+  Real pull_off;    // see ContactLaw::pull_off()
+};
+
+// The law of each mesh and kind of sphere. Where a wall has one law, all indices are 0.
+struct LawsView {
+  const LawEntry *entries = nullptr;
+  int of_mesh = 0;    // entries of a mesh
+  SphereKinds kind;
+
+  LSDCD_FN const LawEntry &of(int mesh, int of_kind) const
+  {
+    return entries[mesh * of_mesh + of_kind];
+  }
+};
+
+// Which of the two a kernel has.
+struct WallEffects {
+  bool surface, records;
+};
+
+template <class Law, bool kSurface_, bool kRecords_>
+struct OnWall : Law {
+  static constexpr bool kSurface = kSurface_, kRecords = kRecords_;
+};
+
+// The kernels that a law has, by their effects. plain: {none}. moving_or_both: {moving}, {moving + records}.
+// plain_or_both: {none}, {moving + records}. Where a wall has records alone it takes {moving + records}.
+enum class WallKernels { plain, moving_or_both, plain_or_both };
+
+// Calls make(law) with the law that has the effects.
+template <WallKernels kernels, class Law, class Make>
+auto on_wall(const Law &law, const WallEffects &effects, const Make &make)
+{
+  if constexpr (kernels == WallKernels::plain) return make(OnWall<Law, false, false>{law});
+  if constexpr (kernels == WallKernels::moving_or_both)
+    if (!effects.records) return make(OnWall<Law, true, false>{law});
+  if constexpr (kernels == WallKernels::plain_or_both)
+    if (!effects.records && !effects.surface) return make(OnWall<Law, false, false>{law});
+  if constexpr (kernels != WallKernels::plain) return make(OnWall<Law, true, true>{law});
+}
+
+struct StepJob;
+
+// Which numbers engines store and move for a law.
 struct LawTraits {
   bool history, heat, records;
   int n_extra;
@@ -28,18 +102,18 @@ LawTraits traits_of(const Law &law)
   return {Law::kHistory, heat, Law::kRecords, n_extra(law)};
 }
 
-// A law compiled for one backend; run() does the step of n near spheres, see run_compiled_law().
+// A law compiled for one backend; run() does the step of n candidates, see run_compiled_law().
 template <class Backend>
 struct CompiledLaw {
   LawTraits traits;
   std::vector<LawBytes> laws;    // of LawTable::laws
-  void (*run)(const LawBytes &, const LawJob &, std::size_t n, Backend &);
+  void (*run)(const LawBytes &, const StepJob &, std::size_t n, Backend &);
 };
 
 // The wall's effects that the settings ask for.
 inline WallEffects wall_effects(const EngineSettings &s)
 {
-  return {s.surface.moves() || s.moves || has_several(s), s.records};
+  return {s.surface.moves() || s.moves || uses_slots(s), s.records};
 }
 
 }    // namespace lsdcd

@@ -18,7 +18,7 @@ namespace lsdcd {
 
 enum class RollingModel { none, sds, cdt, epsd2 };
 
-// What a model may ask for.
+// Arguments of a rolling model.
 template <class T>
 struct RollingInput {
   const Contact<T> &contact;

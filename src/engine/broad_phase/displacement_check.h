@@ -1,11 +1,12 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Where spheres and meshes were at a choice, to tell when it holds no longer.
+// Positions of spheres and meshes when candidates were chosen. The choice holds until a sphere that could
+// touch a mesh has moved by more than the margin relative to it.
 #pragma once
 
 #include "backend/atomic.h"
-#include "engine/choose/engine_mesh.h"
+#include "engine/broad_phase/candidate_test.h"
 #include "engine/wall_engine.h"
 #include "grid/lookup/brick_words.h"
 
@@ -29,7 +30,7 @@ struct HasMoved {
     if (cells_first && !may_touch(q)) return false;
     return !(norm_sq(q - chosen.to_mesh(was[i])) <= margin_sq) && (cells_first || may_touch(q));
   }
-  // A place that is no number may.
+  // A position that is no number may.
   LSDCD_FN bool may_touch(const Vec3 &q) const
   {
     return occupied_cell(grid, table, q) != kNoCell || !(norm_sq(q) >= 0);
@@ -37,11 +38,11 @@ struct HasMoved {
 };
 
 template <class B>
-class KeptCentres {
+class DisplacementCheck {
  public:
-  // From here on has_moved() tells whether a sphere that could touch a mesh where it is then has gone
-  // farther than `margin` (length) from where it is now, relative to that mesh.
-  void keep(B &b, const Spheres &spheres, std::vector<EngineMesh<B>> &meshes, Real margin)
+  // Stores positions of spheres and poses of meshes. has_moved() later asks: has a sphere that could touch a
+  // mesh at that time moved by more than `margin` (length) relative to that mesh since now?
+  void store(B &b, const Spheres &spheres, std::vector<EngineMesh<B>> &meshes, Real margin)
   {
     const std::size_t n = spheres.n;
     if (x_.size() < 3 * n) x_ = Array(3 * (n + n / 8));
@@ -67,7 +68,7 @@ class KeptCentres {
   // Public because nvcc takes no device lambda from a private function.
   bool holds_for_any(B &b, std::size_t n, const HasMoved &test)
   {
-    int *flag = flag_.data();    // kernels reach it where it is
+    int *flag = flag_.data();    // kernels write this memory of the host
     *flag = 0;
     b.for_each(n, [=] LSDCD_LAMBDA(std::size_t i) {
       if (test(i)) set_flag(flag);

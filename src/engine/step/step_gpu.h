@@ -6,21 +6,21 @@
 #pragma once
 
 #include "backend/block.h"
-#include "engine/step/step_lists.h"
+#include "engine/step/step_job.h"
 
 #include <algorithm>
 
 namespace lsdcd {
 
 constexpr unsigned kStepBlock = 128, kStepWarps = kStepBlock / kWarpSize;
-// Blocks that share what is listed: beside single() few, as each takes a place of others while it
-// waits for memory, until each of their threads has one.
+// How many blocks serve the list. While the fast path runs: few, as they take places from blocks that would hide
+// its memory latency.
 constexpr int kFewBlocks = 66, kMaxBlocks = 528;
 
-// What several() is for: those listed, or with a null list all of [0, n). The first `blocks` of the
-// kernel do it, of which `few` take the first spheres. `leaves_lists`: is one that needs a list left
-// to the next kernel, where more threads share them?
-struct SeveralPart {
+// The items of the general path: those of `list`, or with a null list all of [0, n). The first `blocks` of the
+// kernel take them; while there are few items, only `few` of these do. `leaves_lists`: an item that needs a list
+// is left to the next kernel, where more threads share the work.
+struct GeneralPart {
   const int *list, *n_listed;
   int n, few;
   unsigned blocks;
@@ -38,16 +38,16 @@ LSDCD_GPU_FN void put_listed(bool has_one, int k, int *list, int *n)
 }
 
 template <class Work>
-LSDCD_GPU_FN void do_several(const SeveralPart &part, const Work &work)
+LSDCD_GPU_FN void run_general_path(const GeneralPart &part, const Work &work)
 {
-  const StepLists &lists = work.step_lists();
+  const WorkLists &lists = work.work_lists();
   const int end = part.list ? *part.n_listed : part.n;
   const int enough = max(part.few, (end + int(kStepBlock) - 1) / int(kStepBlock));
   const GpuWarp warp;
   const int warps = min(int(part.blocks), enough) * int(kStepWarps), step = kWarpSize * warps;
   const int number = Block::number() * kStepWarps + Block::warp(), rank = warp.rank();
   if (number >= warps) return;
-  // What is listed is few, and each sphere takes a way of its own through the code: first one a warp.
+  // Listed items are few, and each takes its own branches: at first one item a warp.
   const int first = part.list ? rank * warps + number : kWarpSize * number + rank;
   for (int s = first; warp.any(s < end); s += step) {
     bool has_one = s < end;
@@ -61,7 +61,7 @@ LSDCD_GPU_FN void do_several(const SeveralPart &part, const Work &work)
       if (warp.any(is_due)) work.make_list(warp, is_due, k);
       warp.wait();
     }
-    const bool again = has_one && work.several(k);
+    const bool again = has_one && work.general_path(k);
     warp.wait();
     if (!part.list || !lists.next) continue;
     put_listed(again, k, lists.next, lists.n_next);
@@ -69,12 +69,12 @@ LSDCD_GPU_FN void do_several(const SeveralPart &part, const Work &work)
   }
 }
 
-// several() for a part, and single() for all of [0, n) that are not listed.
+// general_path() for a part, and fast_path() for all of [0, n) that are not listed.
 template <class Work>
 struct StepPart {
   static constexpr unsigned kThreads = kStepBlock, kBlocksAtOnce = Work::kBlocksAtOnce;
 
-  SeveralPart part;
+  GeneralPart part;
   unsigned n;
   int *to_clear;
   Work work;
@@ -86,37 +86,37 @@ struct StepPart {
       if (to_clear) *to_clear = 0;
     }
     if (block.number() < part.blocks) {
-      do_several(part, work);
+      run_general_path(part, work);
       return;
     }
-    if constexpr (Work::kSingle) {
-      const StepLists &lists = work.step_lists();
+    if constexpr (Work::kFastPath) {
+      const WorkLists &lists = work.work_lists();
       const unsigned k = (block.number() - part.blocks) * kStepBlock + block.thread();
-      // Of one that several() is at now it may be the next step already.
+      // The general path may have set listed_in to the next step already.
       const bool mine = k < n && !(lists.listed_in && lists.listed_in[k] >= lists.step);
-      put_listed(mine && !work.single(k), static_cast<int>(k), lists.found, lists.n_found);
+      put_listed(mine && !work.fast_path(k), static_cast<int>(k), lists.found, lists.n_found);
     }
   }
 };
 
-// Of each i in [0, n): work.single(i). Where that says false, or where !work.has_single(): work.several(i).
-// Before that a warp makes the lists of those for which work.needs_list(i). Lists of work.step_lists() have room
-// for n; those to be written are empty.
+// A step over items [0, n) of `work`, a MeshStep or a MultiMeshStep: fast_path(i), and where that returns false
+// or there is none general_path(i), after a warp has made the lists of those for which needs_list(i). Lists of
+// work.work_lists() have room for n; those to be written are empty.
 template <class B, class Work>
 void run_step(B &b, std::size_t n_items, const Work &work)
 {
   if (n_items == 0) return;
   const unsigned n = static_cast<unsigned>(n_items);
   const unsigned blocks = (n + kStepBlock - 1) / kStepBlock,
-                 several_blocks = std::min<unsigned>(blocks, kMaxBlocks);
-  const StepLists &lists = work.step_lists();
-  SeveralPart part = {nullptr, nullptr, static_cast<int>(n), 0, blocks, false};
+                 general_blocks = std::min<unsigned>(blocks, kMaxBlocks);
+  const WorkLists &lists = work.work_lists();
+  GeneralPart part = {nullptr, nullptr, static_cast<int>(n), 0, blocks, false};
   int *to_clear = lists.n_found_next;
-  if (work.has_single()) {
-    part = {lists.last, lists.n_last, 0, kFewBlocks, lists.last ? several_blocks : 0, true};
+  if (work.has_fast_path()) {
+    part = {lists.last, lists.n_last, 0, kFewBlocks, lists.last ? general_blocks : 0, true};
     b.for_each_block({part.blocks + blocks, kStepBlock}, StepPart<Work>{part, n, to_clear, work});
     to_clear = lists.n_last;    // the next step's `next`
-    part = {lists.found, lists.n_found, 0, kMaxBlocks, several_blocks, false};
+    part = {lists.found, lists.n_found, 0, kMaxBlocks, general_blocks, false};
   }
   b.for_each_block({part.blocks, kStepBlock}, StepPart<Work>{part, 0, to_clear, work});
 }

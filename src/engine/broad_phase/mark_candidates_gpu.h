@@ -6,8 +6,8 @@
 #pragma once
 
 #include "base/strided_view.h"
-#include "engine/choose/refine_gpu.h"
-#include "engine/choose/shared_brick_table_gpu.h"
+#include "engine/broad_phase/refine_gpu.h"
+#include "engine/broad_phase/shared_brick_table_gpu.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -54,7 +54,7 @@ LSDCD_GPU_FN void load_rows(const StridedView<const double> &rows, std::size_t f
 // Warps stay, and take one tile after the other. Few spheres pass the coarse test. The rest of the work is
 // for these alone, by full warps.
 template <bool kTableShared, class Work>
-struct MarkNear {
+struct MarkCandidates {
   static constexpr unsigned kThreads = kWarpSize * kMarkWarps, kBlocksAtOnce = kMarkBlocks;
 
   unsigned n;

@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Lists of the wall (Verlet lists): the features that a sphere can touch while its centre stays
+// Neighbour lists (Verlet lists): for each candidate sphere the features that it can touch while its centre stays
 // within a margin of where it was. A step tests these alone and reads no cell.
 #pragma once
 
 #include "contact/find_contacts.h"
-#include "engine/lists/near_search.h"
+#include "engine/lists/feature_search.h"
 #include "engine/lists/record_copies.h"
 
 namespace lsdcd {
@@ -14,7 +14,7 @@ namespace lsdcd {
 // The list of one sphere. There is no room for more than kMax features: where more are close the
 // margin shrinks, and where that does not help the sphere has no list and its cell is searched
 // instead.
-struct WallList {
+struct FeatureList {
   static constexpr int kMax = 7;
 
   Vec3 x;         // the centre when the list was made
@@ -25,8 +25,8 @@ struct WallList {
 };
 
 // The lists of many, a column per number, so that neighbours read neighbouring words.
-struct WallLists {
-  static constexpr std::size_t kReals = 4, kInts = 1 + WallList::kMax;    // of a list
+struct FeatureLists {
+  static constexpr std::size_t kReals = 4, kInts = 1 + FeatureList::kMax;    // of a list
 
   Real *x = nullptr;            // columns x, y, z
   float *lengths = nullptr;     // columns margin, cutoff; in units, as walls may be 1e-60 in size
@@ -36,13 +36,13 @@ struct WallLists {
   RecordCopies copies = {};
 
   // Columns of `room` lists; unit: a length of the size of radii.
-  static WallLists of(Real *reals, std::int32_t *ints, std::size_t room, Real unit)
+  static FeatureLists of(Real *reals, std::int32_t *ints, std::size_t room, Real unit)
   {
     return {reals, reinterpret_cast<float *>(reals + 3 * room), ints, room, unit, {}};
   }
 
-  // Those from number k on.
-  WallLists from(std::size_t k) const
+  // The lists from number k on.
+  FeatureLists from(std::size_t k) const
   {
     return {x + k, lengths + k, n + k, column, unit, copies.from(k)};
   }
@@ -62,7 +62,7 @@ struct WallLists {
     return static_cast<FeatureCode>(n[(i + 1) * column + k]);
   }
   // `keeps_cutoff`: list k already has the list's cutoff, which is not rounded up once more.
-  LSDCD_FN void put(std::size_t k, const WallList &list, const MeshFeaturesView &wall,
+  LSDCD_FN void put(std::size_t k, const FeatureList &list, const MeshFeaturesView &wall,
                     bool keeps_cutoff = false) const
   {
     for (int d = 0; d < 3; d++) x[d * column + k] = list.x[d];
@@ -79,14 +79,14 @@ struct WallLists {
 
 // List k of many.
 struct ListedFeatures {
-  WallLists lists;
+  FeatureLists lists;
   std::size_t k;
 };
 
 // How far a sphere may go before its list is made anew, as a share of its radius. Far enough that
 // lists last hundreds of steps, near enough that most have one or two features.
 constexpr Real kSkinFraction = 0.05;
-// What the margin is divided by where a list is too long, and how often.
+// Where a list is too long its margin is divided by kShrink, up to kMaxShrinks times.
 constexpr Real kShrink = 4;
 constexpr int kMaxShrinks = 3;
 
@@ -108,12 +108,12 @@ LSDCD_FN Real margin_at(const GridView &grid, const Vec3 &q, Real margin)
 }
 
 // Puts a code into a list where it belongs, once. False: there is no room for it.
-LSDCD_FN bool insert_code(WallList &list, FeatureCode code)
+LSDCD_FN bool insert_code(FeatureList &list, FeatureCode code)
 {
   int at = list.n;
   while (at > 0 && list.code[at - 1] > code) at--;
   if (at > 0 && list.code[at - 1] == code) return true;
-  if (list.n == WallList::kMax) return false;
+  if (list.n == FeatureList::kMax) return false;
   for (int i = list.n; i > at; i--) list.code[i] = list.code[i - 1];
   list.code[at] = code;
   list.n++;
@@ -121,7 +121,7 @@ LSDCD_FN bool insert_code(WallList &list, FeatureCode code)
 }
 
 // Begins a list of a sphere at q.
-LSDCD_FN void begin_list(WallList &list, const Vec3 &q, Real cutoff, Real margin)
+LSDCD_FN void begin_list(FeatureList &list, const Vec3 &q, Real cutoff, Real margin)
 {
   list.n = 0;
   list.x = q;
@@ -132,7 +132,7 @@ LSDCD_FN void begin_list(WallList &list, const Vec3 &q, Real cutoff, Real margin
 // The list of a sphere at q for a margin; false: it is too long.
 template <class Geometry, unsigned kSize>
 LSDCD_FN bool gather_within(const Warp<kSize> &warp, bool mine, const GridView &grid, const Vec3 &q,
-                            Real cutoff, Real margin, WallList &list)
+                            Real cutoff, Real margin, FeatureList &list)
 {
   if (mine) begin_list(list, q, cutoff, margin);
   return for_each_within<Geometry>(warp, mine, grid,
@@ -144,7 +144,7 @@ LSDCD_FN bool gather_within(const Warp<kSize> &warp, bool mine, const GridView &
 // how far it feels the wall from its centre.
 template <class Geometry, unsigned kSize>
 LSDCD_FN void gather_for(const Warp<kSize> &warp, bool mine, const GridView &grid, const Vec3 &q,
-                         Real cutoff, Real margin, WallList &list)
+                         Real cutoff, Real margin, FeatureList &list)
 {
   Real m = margin_at(grid, q, margin);
   bool missing = mine && m >= 0;
@@ -154,9 +154,9 @@ LSDCD_FN void gather_for(const Warp<kSize> &warp, bool mine, const GridView &gri
   if (mine && (missing || !has_room)) begin_list(list, q, cutoff, -1);
 }
 
-// Can a sphere at q touch anything after a way of up to the margin? True where that would take too
-// long to find out. What is nearest is in the list of a cell no farther than it has to go until that
-// is within the grid's cutoff. `cell`: see NearSearch.
+// Can a sphere at q touch a feature after moving by up to the margin? True, too, where the answer would take too
+// long. A feature at distance d is in the list of any cell from which it is within the grid's cutoff: cells
+// within d - grid.cutoff of q are enough. `cell`: see FeatureSearch.
 template <class Geometry, unsigned kSize>
 LSDCD_FN bool can_touch(const Warp<kSize> &warp, bool mine, const GridView &grid, const Vec3 &q,
                         Real cutoff, Real margin, std::uint32_t cell)
@@ -167,6 +167,51 @@ LSDCD_FN bool can_touch(const Warp<kSize> &warp, bool mine, const GridView &grid
                                     {q, cutoff, margin, past, cutoff, cell},
                                     [](FeatureCode) { return false; }) ||
          too_long;
+}
+
+// A sphere's cutoff, past which it feels nothing, and the springs it had in the last step.
+template <class Springs>
+struct QuerySphereWith {
+  Vec3 x;
+  Real radius, cutoff;
+  Springs springs;    // read only where cutoff > radius
+  int n_springs;
+};
+using QuerySphere = QuerySphereWith<const Spring *>;
+
+// The same for either kind of records. A thread whose sphere is not `mine` helps the others of its warp.
+template <unsigned kSize>
+LSDCD_NOINLINE bool can_touch(const Warp<kSize> &warp, bool mine, const GridView &grid,
+                              const QuerySphere &s, Real margin, std::uint32_t cell = kNoCell)
+{
+  if (grid.in_floats)
+    return can_touch<BrickGeometry>(warp, mine, grid, s.x, s.cutoff, margin, cell);
+  return can_touch<MeshGeometry>(warp, mine, grid, s.x, s.cutoff, margin, cell);
+}
+
+// Does a sphere seem to touch more than one feature of its list where it is? A hint: no result depends on it.
+LSDCD_FN bool touches_more_than_one(const GridView &grid, const QuerySphere &s,
+                                    const FeatureList &list)
+{
+  if (list.n < 2 || grid.in_floats) return false;
+  const MeshGeometry geometry(grid, s.x);
+  int n = 0;
+  for (int i = 0; i < list.n; i++) n += geometry.may_be_closest(list.code[i], s.cutoff, 0);
+  return n > 1;
+}
+
+// Makes the list of a sphere anew, for a way of up to `margin` at most; false: it has none, its cell
+// has to be searched.
+template <unsigned kSize>
+LSDCD_NOINLINE bool gather(const Warp<kSize> &warp, bool mine, const GridView &grid,
+                           const QuerySphere &s, Real margin, FeatureList &list)
+{
+  const Real most = kSkinFraction * s.radius, m = margin < most ? margin : most;
+  if (grid.in_floats)
+    gather_for<BrickGeometry>(warp, mine, grid, s.x, s.cutoff, m, list);
+  else
+    gather_for<MeshGeometry>(warp, mine, grid, s.x, s.cutoff, m, list);
+  return mine && list.margin >= 0;
 }
 
 // Local minima of the distance from q to the listed features, in the order of their numbers, so

@@ -1,32 +1,81 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The tests that find the spheres which could be near the wall after moving at most a margin: one of all
-// spheres, one of those in a brick of the grid, and one of those that are near by their cells. Selection runs
-// them.
+// The broad phase of one mesh: which spheres are candidates, as they could touch it after moving by at most a
+// margin. One test of all spheres, one of those in a brick of the grid, and one of those that are left by
+// cells. Selection runs them.
 #pragma once
 
 #include "backend/atomic.h"
-#include "engine/choose/spheres_at_choice.h"
+#include "engine/lists/feature_list.h"
 #include "engine/results/step_counts.h"
 #include "grid/lookup/brick_filter.h"
+#include "grid/lookup/grid_on.h"
 #include "grid/lookup/near_within.h"
+#include "law/submodels/normal.h"
+#include "motion/pose.h"
 
 namespace lsdcd {
 
+template <class B>
+struct EngineMesh {
+  GridOn<B> grid;
+  Pose pose, chosen;    // chosen: at the last choice
+};
+
+// The same in kernels that make lists.
+struct PlacedGrid {
+  GridView grid;
+  Pose pose;
+};
+
+// The query for a sphere at x. No spring matters to the broad phase.
+LSDCD_FN QuerySphere query_sphere_at(const Pose &pose, const Vec3 &x, Real radius, Real pull_off)
+{
+  return {pose.to_mesh(x), radius, cutoff_of(radius, pull_off), nullptr, 0};
+}
+
+// On a CPU: what a search of a large wall reads first for a sphere at x, whose turn comes soon.
+LSDCD_FN void prefetch_search([[maybe_unused]] const GridView &grid,
+                              [[maybe_unused]] const Pose &pose, [[maybe_unused]] const Vec3 &x)
+{
+#if !LSDCD_ON_GPU()
+  if (grid.is_large) prefetch_candidates(grid, pose.to_mesh(x));
+#endif
+}
+
+struct CandidateSpheres {
+  StridedView<const Real> x;
+  const Real *radius;
+  Real pull_off;
+  const int *near;    // sphere of candidate k
+  std::size_t n;      // candidates; 0: nothing is prefetched
+
+  LSDCD_FN QuerySphere in_frame_of(const Pose &pose, std::size_t k) const
+  {
+    const int i = near[k];
+    return query_sphere_at(pose, x[i], radius[i], pull_off);
+  }
+  LSDCD_FN void prefetch_ahead(const GridView &grid, const Pose &pose, std::size_t k) const
+  {
+    constexpr std::size_t kPlaces = 4;
+    if (k + kPlaces < n) prefetch_search(grid, pose, x[near[k + kPlaces]]);
+  }
+};
+
 // kPast: do cells past the lists' own margin matter?
 template <bool kPast>
-struct NearChoice {
+struct CandidateTest {
   GridView grid;
   BrickTable table;
   BrickFilter<Real> filter;
   Spheres spheres;
   Pose pose;
-  Real margin, past;     // lengths; past: what is left of it once the lists' own is taken from it
+  Real margin, past;     // lengths; past = margin - margin of the cells' lists, or 0
   Real pull_off;         // of the law, at a radius of 1
   bool by_features;      // test the features that cells list, too
   StepCounts *counts;    // too_large becomes the first sphere that reaches past the grid
-  int *n_springs;        // of each sphere, or null: those of spheres that are far are forgotten
+  int *n_springs;        // of each sphere, or null; becomes 0 for spheres that are no candidates
   std::uint32_t fixed_margin = 0;    // of the filter
 
   struct Item {
@@ -83,7 +132,7 @@ struct NearChoice {
   template <unsigned kSize>
   LSDCD_FN bool refine(const Warp<kSize> &warp, bool mine, std::size_t i, std::uint32_t cell) const
   {
-    const QuerySphere s = seen_at_choice(pose, spheres.x[i], spheres.radius[i], pull_off);
+    const QuerySphere s = query_sphere_at(pose, spheres.x[i], spheres.radius[i], pull_off);
     return can_touch(warp, mine, grid, s, margin, cell);
   }
   // On a CPU: what refine() of a large wall reads first.

@@ -1,54 +1,56 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Memory for the lists that the kernels of a step on a GPU hand on.
+// Memory for the work lists of a step on a GPU.
 #pragma once
 
-#include "engine/step/law_job.h"
+#include "engine/step/step_job.h"
 
 namespace lsdcd {
 
 template <class B>
-class StepListStore {
+class WorkListStore {
   template <class T>
   using Array = typename B::template Array<T>;
 
  public:
-  // After a choice of n near spheres. `keeps`: steps are over all of them, so that those with several
-  // contacts are kept from step to step. `several`: of each, does it seem to have them now? Or null.
-  void clear(B &b, std::size_t n, bool keeps, const char *several, StepCounts *counts)
+  // After a choice of n candidates. `carries_over`: steps are over all of them, so that items with more than
+  // one contact are listed from step to step. `multi_contact`: for each, does it seem to have them now? Or
+  // null.
+  void clear(B &b, std::size_t n, bool carries_over, const char *multi_contact, StepCounts *counts)
   {
     if (B::kOnHost) return;
-    keeps_ = keeps;
+    carries_over_ = carries_over;
     step_ = 0;
     if (room_ < n) {
       room_ = n + n / 8;
       memory_ = Array<int>(4 * room_);
     }
     int *listed_in = column(3), *first = column(0);    // of the first step
-    b.for_each(2,
-               [=] LSDCD_LAMBDA(std::size_t k) { counts->n_found[k] = counts->n_several[k] = 0; });
+    b.for_each(2, [=] LSDCD_LAMBDA(std::size_t k) {
+      counts->n_found[k] = counts->n_multi_contact[k] = 0;
+    });
     b.for_each(n, [=] LSDCD_LAMBDA(std::size_t k) {
-      const bool has_several = several && several[k];
-      listed_in[k] = has_several;
-      if (has_several) first[fetch_add(counts->n_several, 1)] = static_cast<int>(k);
+      const bool is_multi_contact = multi_contact && multi_contact[k];
+      listed_in[k] = is_multi_contact;
+      if (is_multi_contact) first[fetch_add(counts->n_multi_contact, 1)] = static_cast<int>(k);
     });
   }
 
-  // Of the next step.
-  StepLists next(StepCounts *counts)
+  // The work lists of the next step.
+  WorkLists next(StepCounts *counts)
   {
-    StepLists lists;
+    WorkLists lists;
     if (B::kOnHost) return lists;
     const int turn = ++step_ % 2;
     lists.found = column(2);
     lists.n_found = counts->n_found + turn;
     lists.n_found_next = counts->n_found + 1 - turn;
-    if (!keeps_) return lists;
+    if (!carries_over_) return lists;
     lists.last = column(1 - turn);
-    lists.n_last = counts->n_several + 1 - turn;
+    lists.n_last = counts->n_multi_contact + 1 - turn;
     lists.next = column(turn);
-    lists.n_next = counts->n_several + turn;
+    lists.n_next = counts->n_multi_contact + turn;
     lists.listed_in = column(3);
     lists.step = step_;
     return lists;
@@ -59,7 +61,7 @@ class StepListStore {
  private:
   int *column(int which) { return memory_.data() + which * room_; }
 
-  bool keeps_ = false;
+  bool carries_over_ = false;
   int step_ = 0;    // since the choice
   std::size_t room_ = 0;
   Array<int> memory_;

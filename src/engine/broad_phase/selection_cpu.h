@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Selecting the spheres near the wall on a CPU.
+// Selects the candidate spheres on a CPU.
 #pragma once
 
 #include "backend/threads.h"
 #include "backend/warp.h"
 #include "base/vec3.h"
-#include "engine/choose/selection.h"
+#include "engine/broad_phase/selection.h"
 
 #include <algorithm>
 #include <cstddef>

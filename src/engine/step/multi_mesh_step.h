@@ -1,33 +1,33 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// A step over the spheres that are near several meshes of a wall: their contacts with all of these
+// A step over multi-mesh spheres, which are candidates of more than one mesh: their contacts with all of these
 // share their overlap as those with one mesh do.
 #pragma once
 
-#include "engine/step/law_step.h"
+#include "engine/step/mesh_step.h"
 
 namespace lsdcd {
 
-// The springs of a sphere as one mesh sees them: those of other meshes turned to its frame.
-struct SpringsSeen {
+// The springs of a sphere in the frame of one mesh: those of other meshes are turned to it.
+struct SpringsInFrame {
   const Spring *springs;
   const MeshWork *meshes;
   std::uint32_t mesh;
 
   LSDCD_FN Spring operator[](int k) const;
 };
-LSDCD_FN bool is_own(const SpringsSeen &seen, int k)
+LSDCD_FN bool is_own(const SpringsInFrame &seen, int k)
 {
   return seen.springs[k].mesh == seen.mesh;
 }
-LSDCD_FN Vec3 in_own_frame(const SpringsSeen &seen, int k, const Vec3 &h)
+LSDCD_FN Vec3 in_own_frame(const SpringsInFrame &seen, int k, const Vec3 &h)
 {
   if (is_own(seen, k)) return h;
   const Pose &from = seen.meshes[seen.springs[k].mesh].settings.pose;
   return seen.meshes[seen.mesh].settings.pose.turn_to_mesh(from.turn_to_box(h));
 }
-LSDCD_FN Spring SpringsSeen::operator[](int k) const
+LSDCD_FN Spring SpringsInFrame::operator[](int k) const
 {
   Spring s = springs[k];
   s.normal = in_own_frame(*this, k, s.normal);
@@ -35,8 +35,8 @@ LSDCD_FN Spring SpringsSeen::operator[](int k) const
   return s;
 }
 
-// A sphere near several meshes, in the frame of the box: one slot for each mesh.
-struct JointSphere {
+// A multi-mesh sphere in the frame of the box; it has one slot for each mesh.
+struct MultiMeshSphere {
   int begin, end;
   std::size_t i;
   int kind;    // of the wall's laws
@@ -45,49 +45,51 @@ struct JointSphere {
 };
 
 template <class Law>
-LSDCD_FN const Law &law_with(const LawJob &job, const JointSphere &s, int mesh)
+LSDCD_FN const Law &law_with(const StepJob &job, const MultiMeshSphere &s, int mesh)
 {
-  return job.joint.laws.of(mesh, s.kind).law.in_kernel<Law>();
+  return job.multi_mesh.laws.of(mesh, s.kind).law.in_kernel<Law>();
 }
 
 // From how far it feels a mesh.
 template <bool kBeyondContact>
-LSDCD_FN Real cutoff_with(const LawJob &job, const JointSphere &s, int mesh)
+LSDCD_FN Real cutoff_with(const StepJob &job, const MultiMeshSphere &s, int mesh)
 {
   if constexpr (kBeyondContact)
-    return cutoff_of(s.radius, job.joint.laws.of(mesh, s.kind).pull_off);
+    return cutoff_of(s.radius, job.multi_mesh.laws.of(mesh, s.kind).pull_off);
   else
     return s.radius;
 }
 
 template <bool kBeyondContact>
-LSDCD_FN JointSphere joint_sphere(const LawJob &job, std::size_t g)
+LSDCD_FN MultiMeshSphere multi_mesh_sphere(const StepJob &job, std::size_t g)
 {
-  JointSphere s;
-  s.begin = job.joint.first[g];
-  s.end = job.joint.first[g + 1];
+  MultiMeshSphere s;
+  s.begin = job.multi_mesh.first[g];
+  s.end = job.multi_mesh.first[g + 1];
   s.i = sphere_of(job, s.begin);
   s.x = job.x[s.i];
   s.radius = job.radius[s.i];
-  s.kind = job.joint.laws.kind[s.i];
+  s.kind = job.multi_mesh.laws.kind[s.i];
   s.cutoff = s.radius;
   if constexpr (kBeyondContact)
     for (int k = s.begin; k < s.end; k++)
-      s.cutoff = fmax(s.cutoff, cutoff_with<true>(job, s, job.joint.mesh[k]));
+      s.cutoff = fmax(s.cutoff, cutoff_with<true>(job, s, job.multi_mesh.mesh[k]));
   return s;
 }
 
-// It, as the mesh of slot k sees it.
+// The query for it in the frame of the mesh of slot k.
 template <bool kBeyondContact>
-LSDCD_FN QuerySphereWith<SpringsSeen> seen_from(const LawJob &job, const JointSphere &s, int k)
+LSDCD_FN QuerySphereWith<SpringsInFrame> in_frame_of(const StepJob &job, const MultiMeshSphere &s,
+                                                     int k)
 {
-  const int mesh = job.joint.mesh[k];
+  const int mesh = job.multi_mesh.mesh[k];
   const SpringsView &springs = job.springs;
-  QuerySphereWith<SpringsSeen> seen = {job.joint.meshes[mesh].settings.pose.to_mesh(s.x),
-                                       s.radius,
-                                       cutoff_with<kBeyondContact>(job, s, mesh),
-                                       {springs.pool, job.joint.meshes, std::uint32_t(mesh)},
-                                       0};
+  QuerySphereWith<SpringsInFrame> seen = {
+      job.multi_mesh.meshes[mesh].settings.pose.to_mesh(s.x),
+      s.radius,
+      cutoff_with<kBeyondContact>(job, s, mesh),
+      {springs.pool, job.multi_mesh.meshes, std::uint32_t(mesh)},
+      0};
   if (springs.count.at) seen.n_springs = springs.count[s.i];
   if (seen.n_springs > 0) seen.springs.springs += springs.first[s.i];
   return seen;
@@ -95,7 +97,7 @@ LSDCD_FN QuerySphereWith<SpringsSeen> seen_from(const LawJob &job, const JointSp
 
 // Takes contact c out; the others keep their order. `end`: of the contacts of n meshes.
 template <int kCapacity>
-LSDCD_FN void take_out(ContactSet<kCapacity> &all, int c, int *end, int n)
+LSDCD_FN void remove_contact(ContactSet<kCapacity> &all, int c, int *end, int n)
 {
   for (int m = 0; m < n; m++)
     if (end[m] > c) end[m]--;
@@ -107,9 +109,9 @@ LSDCD_FN void take_out(ContactSet<kCapacity> &all, int c, int *end, int n)
   }
 }
 
-// What the n-th mesh adds to the contacts of those before it, whose contacts end at `end`. Where two
-// have the same closest point it is one contact: of the nearer mesh, or of the one with the larger kind
-// of feature there, or of the earlier.
+// Adds the contacts of the n-th mesh to those of the meshes before it, which end at `end`. Two contacts with the
+// same closest point are one. It is the nearer one; if both are equally near, a face before an edge before a
+// vertex; if these are equal, that of the earlier mesh.
 template <int kCapacity>
 LSDCD_FN void add_mesh(const Pose &pose, const ContactSet<kCapacity> &of_mesh, Real tolerance,
                        ContactSet<kCapacity> &all, int *end, int n)
@@ -124,7 +126,7 @@ LSDCD_FN void add_mesh(const Pose &pose, const ContactSet<kCapacity> &of_mesh, R
       if (distance < all.distance[b] ||
           (distance == all.distance[b] &&
            feature_kind(of_mesh.feature[c]) < feature_kind(all.feature[b])))
-        take_out(all, b, end, n);
+        remove_contact(all, b, end, n);
       else
         is_new = false;
     }
@@ -132,22 +134,25 @@ LSDCD_FN void add_mesh(const Pose &pose, const ContactSet<kCapacity> &of_mesh, R
   }
 }
 
-// All that the sphere touches, mesh after mesh, in the frame of the box: what is of slot
-// begin + k ends at end[k]. `of_mesh` and `rule`: memory.
+// The contacts of the sphere with their weights, mesh after mesh, in the frame of the box: those of slot begin + k
+// end at end[k]. `of_mesh` and `rule`: memory.
 template <bool kBeyondContact, int kCapacity>
-LSDCD_FN void touch_meshes(const LawJob &job, const JointSphere &s, Touch<kCapacity> &of_mesh,
-                           CornerRule<kCapacity> &rule, Touch<kCapacity> &all, int *end)
+LSDCD_FN void narrow_phase_of_meshes(const StepJob &job, const MultiMeshSphere &s,
+                                     WeightedContacts<kCapacity> &of_mesh,
+                                     CornerRule<kCapacity> &rule, WeightedContacts<kCapacity> &all,
+                                     int *end)
 {
   Real tolerance = 0;
   all.exact_within = kAnyDistance;
   for (int k = s.begin; k < s.end; k++) {
-    const MeshWork &mesh = job.joint.meshes[job.joint.mesh[k]];
-    const QuerySphereWith<SpringsSeen> seen = seen_from<kBeyondContact>(job, s, k);
+    const MeshWork &mesh = job.multi_mesh.meshes[job.multi_mesh.mesh[k]];
+    const QuerySphereWith<SpringsInFrame> seen = in_frame_of<kBeyondContact>(job, s, k);
     const ListedFeatures list = {job.lists, static_cast<std::size_t>(k)};
     const bool holds = job.lists.n && job.lists.holds(k, seen.x, s.cutoff);
     if (job.lists.n && !holds) count_one(&job.counts->by_cells);
     of_mesh.set.clear();
-    search<kBeyondContact>(mesh.grid, mesh.settings.search, seen, holds ? &list : nullptr, of_mesh);
+    find_filtered<kBeyondContact>(mesh.grid, mesh.settings.search, seen, holds ? &list : nullptr,
+                                  of_mesh);
     tolerance = fmax(tolerance, tolerance_of(mesh.grid));
     if (!of_mesh.set.overflow)
       add_mesh(mesh.settings.pose, of_mesh.set, tolerance, all.set, end, k - s.begin);
@@ -156,29 +161,30 @@ LSDCD_FN void touch_meshes(const LawJob &job, const JointSphere &s, Touch<kCapac
     if (of_mesh.exact_within < all.exact_within) all.exact_within = of_mesh.exact_within;
     end[k - s.begin] = all.set.n;
   }
-  share(job.settings.search, s.cutoff, tolerance, rule, all);
+  share_overlap(job.settings.search, s.cutoff, tolerance, rule, all);
 }
 // A function of its own, so that it is compiled once however many laws there are.
 template <bool kBeyondContact>
-LSDCD_NOINLINE void touch_meshes(const LawJob &job, const JointSphere &s, Touch<kContacts> &all,
-                                 int *end)
+LSDCD_NOINLINE void narrow_phase_of_meshes(const StepJob &job, const MultiMeshSphere &s,
+                                           WeightedContacts<kContacts> &all, int *end)
 {
-  Touch<kContacts> of_mesh;
+  WeightedContacts<kContacts> of_mesh;
   CornerRule<kContacts> rule;
-  touch_meshes<kBeyondContact>(job, s, of_mesh, rule, all, end);
+  narrow_phase_of_meshes<kBeyondContact>(job, s, of_mesh, rule, all, end);
 }
 template <bool kBeyondContact>
-LSDCD_NOINLINE void touch_meshes(const LawJob &job, const JointSphere &s, OverflowScratch &scratch,
-                                 int *end)
+LSDCD_NOINLINE void narrow_phase_of_meshes(const StepJob &job, const MultiMeshSphere &s,
+                                           OverflowScratch &scratch, int *end)
 {
-  scratch.touch.set.clear();
-  touch_meshes<kBeyondContact>(job, s, scratch.of_mesh, scratch.rule, scratch.touch, end);
+  scratch.contacts.set.clear();
+  narrow_phase_of_meshes<kBeyondContact>(job, s, scratch.of_mesh, scratch.rule, scratch.contacts,
+                                         end);
 }
 
 // Applies the law to its contacts, in the frame of the mesh of each.
 template <class Law, int kCapacity>
-LSDCD_FN void apply_joint_law(const LawJob &job, const JointSphere &s, Touch<kCapacity> &all,
-                              const int *end)
+LSDCD_FN void apply_multi_mesh_law(const StepJob &job, const MultiMeshSphere &s,
+                                   WeightedContacts<kCapacity> &all, const int *end)
 {
   for (int k = s.begin; k < s.end; k++) job.result.n_contacts[k] = 0;
   if (all.set.n == 0) {
@@ -188,24 +194,24 @@ LSDCD_FN void apply_joint_law(const LawJob &job, const JointSphere &s, Touch<kCa
   int first = 0, n_done = 0;
   SphereSink sink = {};
   const int n_acting = count_acting(all.set.view(), all.weight);
-  // What is kept of a contact is the same with all laws of a wall.
-  if (!take_slots(law_with<Law>(job, s, job.joint.mesh[s.begin]), job, s.begin, n_acting, first,
-                  sink)) {
+  // All laws of a wall store the same numbers of a contact.
+  if (!reserve_slots(law_with<Law>(job, s, job.multi_mesh.mesh[s.begin]), job, s.begin, n_acting,
+                     first, sink)) {
     does_not_fit(job, s.begin, s.i, job.counts->no_slots);
     return;
   }
   for (int k = s.begin, from = 0; k < s.end; k++) {
     const int to = end[k - s.begin], n = to - from;
     if (n == 0) continue;
-    const MeshWork &mesh = job.joint.meshes[job.joint.mesh[k]];
-    const Law &law = law_with<Law>(job, s, job.joint.mesh[k]);
+    const MeshWork &mesh = job.multi_mesh.meshes[job.multi_mesh.mesh[k]];
+    const Law &law = law_with<Law>(job, s, job.multi_mesh.mesh[k]);
     const Pose &pose = mesh.settings.pose;
     for (int c = from; c < to; c++) all.set.normal[c] = pose.turn_to_mesh(all.set.normal[c]);
     const ContactsView set = {n, all.set.feature.data() + from, all.set.normal.data() + from,
                               all.set.distance.data() + from};
 
-    const QuerySphereWith<SpringsSeen> seen = seen_from<Law::kBeyondContact>(job, s, k);
-    SphereStateWith<SpringsSeen> state = {};
+    const QuerySphereWith<SpringsInFrame> seen = in_frame_of<Law::kBeyondContact>(job, s, k);
+    SphereStateWith<SpringsInFrame> state = {};
     state.x = seen.x;
     state.radius = s.radius;
     state.springs = seen.springs;
@@ -227,14 +233,14 @@ LSDCD_FN void apply_joint_law(const LawJob &job, const JointSphere &s, Touch<kCa
     SphereResult out = {};
     add_contacts(mesh.grid, law, mesh.settings, state, set, all.weight + from, to_mesh, out);
     from = to;
-    note_overlap(job, s.i, out.overlap_ratio);
+    record_overlap(job, s.i, out.overlap_ratio);
     if (out.n_contacts == 0) continue;
     if constexpr (Law::kRecords) job.pool.slot[k] = first + n_done;
     if constexpr (Law::kHeat)
       if (law.has_heat()) job.heat_flow[s.i] += *to_mesh.heat;
     n_done += out.n_contacts;
     if (pose.placed) to_box(pose, out);
-    give(job, k, s.i, s.x, out);
+    add_force(job, k, s.i, s.x, out);
   }
   if constexpr (Law::kHistory)
     if (job.settings.update) {
@@ -244,28 +250,28 @@ LSDCD_FN void apply_joint_law(const LawJob &job, const JointSphere &s, Touch<kCa
 }
 
 template <class Law>
-LSDCD_FN void joint_contacts(const LawJob &job, std::size_t g)
+LSDCD_FN void multi_mesh_contacts(const StepJob &job, std::size_t g)
 {
-  const JointSphere s = joint_sphere<Law::kBeyondContact>(job, g);
-  note_cutoff(job, s.i, s.cutoff);
+  const MultiMeshSphere s = multi_mesh_sphere<Law::kBeyondContact>(job, g);
+  check_cutoff(job, s.i, s.cutoff);
   int end[kMaxMeshes];
-  Touch<kContacts> some;
-  touch_meshes<Law::kBeyondContact>(job, s, some, end);
+  WeightedContacts<kContacts> some;
+  narrow_phase_of_meshes<Law::kBeyondContact>(job, s, some, end);
   if (job.uncertain)
     for (int k = s.begin + 1; k < s.end; k++) job.uncertain[k] = 0;
   if (!some.set.overflow) {
-    keep_uncertain(job, s.begin, may_miss(s.cutoff, some.exact_within), s.radius);
-    apply_joint_law<Law>(job, s, some, end);
+    count_uncertain(job, s.begin, may_miss(s.cutoff, some.exact_within), s.radius);
+    apply_multi_mesh_law<Law>(job, s, some, end);
     return;
   }
-  // As in several_contacts().
+  // As in any_contacts().
   for (bool done = false; !done;) {
     OverflowScratch *scratch = job.overflow + g % kOverflowScratches;
     if (!try_lock(&scratch->locked)) continue;
-    touch_meshes<Law::kBeyondContact>(job, s, *scratch, end);
-    if (!scratch->touch.set.overflow) {
-      keep_uncertain(job, s.begin, may_miss(s.cutoff, scratch->touch.exact_within), s.radius);
-      apply_joint_law<Law>(job, s, scratch->touch, end);
+    narrow_phase_of_meshes<Law::kBeyondContact>(job, s, *scratch, end);
+    if (!scratch->contacts.set.overflow) {
+      count_uncertain(job, s.begin, may_miss(s.cutoff, scratch->contacts.exact_within), s.radius);
+      apply_multi_mesh_law<Law>(job, s, scratch->contacts, end);
     } else {
       for (int k = s.begin; k < s.end; k++) job.result.n_contacts[k] = 0;
       does_not_fit(job, s.begin, s.i, job.counts->no_scratch);
@@ -277,59 +283,59 @@ LSDCD_FN void joint_contacts(const LawJob &job, std::size_t g)
 
 // The work of it for Backend::step(), of sphere g.
 template <class Law>
-struct JointStep {
-  LawJob job;
+struct MultiMeshStep {
+  StepJob job;
 
-  static constexpr bool kSingle = false;
+  static constexpr bool kFastPath = false;
   static constexpr int kBlocksAtOnce = 2;    // its kernel has all registers that there are
-  bool has_single() const { return false; }
+  bool has_fast_path() const { return false; }
   LSDCD_FN void begin() const { clear_next(job); }
-  LSDCD_FN bool single(std::size_t) const { return false; }
+  LSDCD_FN bool fast_path(std::size_t) const { return false; }
   LSDCD_FN bool needs_list(std::size_t g) const
   {
     if (!job.lists.n) return false;
-    const JointSphere s = joint_sphere<Law::kBeyondContact>(job, g);
+    const MultiMeshSphere s = multi_mesh_sphere<Law::kBeyondContact>(job, g);
     for (int k = s.begin; k < s.end; k++)
-      if (!job.lists.holds(k, seen(s, k), s.cutoff)) return true;
+      if (!job.lists.holds(k, centre_in_frame(s, k), s.cutoff)) return true;
     return false;
   }
   template <unsigned kSize>
   LSDCD_FN void make_list(const Warp<kSize> &warp, bool mine, std::size_t g) const
   {
-    const JointSphere s = joint_sphere<Law::kBeyondContact>(job, g);
+    const MultiMeshSphere s = multi_mesh_sphere<Law::kBeyondContact>(job, g);
     for (int k = s.begin; warp.vote(mine && k < s.end); k++) {
       const bool in = mine && k < s.end;
-      const Vec3 x = in ? seen(s, k) : Vec3{0, 0, 0};
+      const Vec3 x = in ? centre_in_frame(s, k) : Vec3{0, 0, 0};
       const bool due = in && !job.lists.holds(k, x, s.cutoff);
-      for_each_distinct(warp, due, due ? job.joint.mesh[k] : 0, [&](bool of_mesh, int m) {
-        put_list(job, warp, of_mesh, job.joint.meshes[m].grid, {x, s.radius, s.cutoff, nullptr, 0},
-                 k);
+      for_each_distinct(warp, due, due ? job.multi_mesh.mesh[k] : 0, [&](bool of_mesh, int m) {
+        put_list(job, warp, of_mesh, job.multi_mesh.meshes[m].grid,
+                 {x, s.radius, s.cutoff, nullptr, 0}, k);
       });
     }
   }
-  LSDCD_FN bool several(std::size_t g) const
+  LSDCD_FN bool general_path(std::size_t g) const
   {
-    joint_contacts<Law>(job, g);
+    multi_mesh_contacts<Law>(job, g);
     return true;
   }
-  // Where the mesh of slot k sees it.
-  LSDCD_FN Vec3 seen(const JointSphere &s, int k) const
+  // Its centre in the frame of the mesh of slot k.
+  LSDCD_FN Vec3 centre_in_frame(const MultiMeshSphere &s, int k) const
   {
-    return seen_from<Law::kBeyondContact>(job, s, k).x;
+    return in_frame_of<Law::kBeyondContact>(job, s, k).x;
   }
-  LSDCD_FN const StepLists &step_lists() const { return job.step_lists; }
+  LSDCD_FN const WorkLists &work_lists() const { return job.work_lists; }
 };
 
-// Near spheres [0, n) of one mesh, or the joint spheres [0, n).
+// Candidates [0, n) of one mesh, or the joint spheres [0, n).
 template <class Law, class Backend>
-void run_compiled_law(const LawBytes &bytes, const LawJob &job, std::size_t n, Backend &backend)
+void run_compiled_law(const LawBytes &bytes, const StepJob &job, std::size_t n, Backend &backend)
 {
   if constexpr (Law::kSurface)
-    if (job.joint.meshes) {
-      run_step(backend, n, JointStep<Law>{job});
+    if (job.multi_mesh.meshes) {
+      run_step(backend, n, MultiMeshStep<Law>{job});
       return;
     }
-  run_step(backend, n, LawStep<Law>{bytes.as<Law>(), job});
+  run_step(backend, n, MeshStep<Law>{bytes.as<Law>(), job});
 }
 
 }    // namespace lsdcd

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The spheres near the meshes of a wall, where it has several, or several kinds of spheres: first those near
-// one mesh only, mesh after mesh and kind after kind, then those near several, with a slot for each
-// (sphere, mesh).
+// Candidate spheres of a wall of more than one mesh, or with laws by atom type, sorted into slots: first
+// candidates of one mesh only, mesh after mesh and kind after kind, then multi-mesh spheres, which are
+// candidates of more than one mesh, with a slot for each (sphere, mesh).
 #pragma once
 
 #include "engine/wall_engine.h"
@@ -21,13 +21,13 @@ LSDCD_FN bool has_mesh(MeshSet set, int mesh)
 {
   return set >> mesh & 1;
 }
-LSDCD_FN bool is_alone(MeshSet set)
+LSDCD_FN bool is_single(MeshSet set)
 {
   return (set & (set - 1)) == 0;
 }
 
 template <class B>
-class NearMeshes {
+class CandidateSlots {
   template <class T>
   using Array = typename B::template Array<T>;
 
@@ -43,7 +43,7 @@ class NearMeshes {
     b.for_each(n, [=] LSDCD_LAMBDA(std::size_t i) { set[i] = 0; });
   }
 
-  // The n spheres that are near the next mesh.
+  // The n candidates of the next mesh.
   void add(B &b, const int *near, std::size_t n)
   {
     const int mesh = static_cast<int>(end_.size());
@@ -63,11 +63,11 @@ class NearMeshes {
   {
     kinds_ = kinds;
     const std::size_t most = n_found_;
-    if (near_.size() < most) {
+    if (sphere_.size() < most) {
       const std::size_t room = most + most / 8;
-      near_ = Array<int>(room);
+      sphere_ = Array<int>(room);
       mesh_ = Array<int>(room);
-      joint_ = Array<int>(room);
+      multi_mesh_ = Array<int>(room);
       first_ = Array<int>(room + 1);
       flags_ = Array<char>(room);
     }
@@ -79,32 +79,35 @@ class NearMeshes {
       const std::size_t at = begin_.back();
       for (int k = 0; k < kinds; k++) {
         const std::size_t to = begin_.back();
-        flag_alone(b, found, n, kind, k);
-        begin_.push_back(to + keep(b, found, n, near_.data() + to));
+        flag_single(b, found, n, kind, k);
+        begin_.push_back(to + compact(b, found, n, sphere_.data() + to));
       }
       fill(b, at, begin_.back() - at, static_cast<int>(m));
-      flag_joint(b, found, n, static_cast<int>(m));
-      n_joint_ += keep(b, found, n, joint_.data() + n_joint_);
+      flag_multi_mesh(b, found, n, static_cast<int>(m));
+      n_joint_ += compact(b, found, n, multi_mesh_.data() + n_joint_);
     }
     n_slots_ = begin_.back();
-    if (n_joint_ > 0) make_joint_slots(b);
+    if (n_joint_ > 0) make_multi_mesh_slots(b);
   }
 
-  // Slots [begin(m), begin(m + 1)) are of spheres near mesh m alone, from begin(m, k) on those of kind k;
-  // those from begin(number of meshes) on are of joint spheres.
+  // Slots [begin(m), begin(m + 1)) are of candidates of mesh m only, from begin(m, k) on those of kind k;
+  // those from begin(number of meshes) on are of multi_mesh spheres.
   std::size_t begin(int mesh, int kind = 0) const { return begin_[mesh * kinds_ + kind]; }
   int n_meshes() const { return static_cast<int>(end_.size()); }
   std::size_t n_slots() const { return n_slots_; }
-  const int *near() const { return near_.data(); }    // sphere of each slot
-  const int *mesh() const { return mesh_.data(); }    // of each slot
-  std::size_t n_joint() const { return n_joint_; }
-  const int *first() const { return first_.data(); }    // slot of each joint sphere, and the end
+  const int *sphere() const { return sphere_.data(); }    // of each slot
+  const int *mesh() const { return mesh_.data(); }        // of each slot
+  std::size_t n_multi_mesh() const { return n_joint_; }
+  const int *first() const
+  {
+    return first_.data();
+  }    // slot of each multi_mesh sphere, and the end
   const MeshSet *meshes_of() const { return set_.data(); }    // of each sphere
   std::size_t n_spheres() const { return n_spheres_; }
 
   std::size_t bytes() const
   {
-    return (found_.size() + near_.size() + mesh_.size() + joint_.size() + first_.size()) *
+    return (found_.size() + sphere_.size() + mesh_.size() + multi_mesh_.size() + first_.size()) *
                sizeof(int) +
            set_.size() * sizeof(MeshSet) + flags_.size();
   }
@@ -122,23 +125,23 @@ class NearMeshes {
     found_ = std::move(wider);
   }
 
-  void flag_alone(B &b, const int *found, std::size_t n, const SphereKinds &kind, int of_kind)
+  void flag_single(B &b, const int *found, std::size_t n, const SphereKinds &kind, int of_kind)
   {
     char *flags = flags_.data();
     const MeshSet *set = set_.data();
     b.for_each(n, [=] LSDCD_LAMBDA(std::size_t k) {
-      flags[k] = is_alone(set[found[k]]) && kind[found[k]] == of_kind;
+      flags[k] = is_single(set[found[k]]) && kind[found[k]] == of_kind;
     });
   }
-  // A joint sphere counts with the first of its meshes.
-  void flag_joint(B &b, const int *found, std::size_t n, int mesh)
+  // A multi-mesh sphere counts with the first of its meshes.
+  void flag_multi_mesh(B &b, const int *found, std::size_t n, int mesh)
   {
     char *flags = flags_.data();
     const MeshSet *set = set_.data();
     const MeshSet before = (MeshSet(1) << mesh) - 1;
     b.for_each(n, [=] LSDCD_LAMBDA(std::size_t k) {
       const MeshSet of = set[found[k]];
-      flags[k] = !is_alone(of) && (of & before) == 0;
+      flags[k] = !is_single(of) && (of & before) == 0;
     });
   }
 
@@ -148,16 +151,16 @@ class NearMeshes {
     b.for_each(n, [=] LSDCD_LAMBDA(std::size_t k) { to[k] = mesh; });
   }
 
-  void make_joint_slots(B &b)
+  void make_multi_mesh_slots(B &b)
   {
     const std::size_t n = n_joint_;
-    const int *joint = joint_.data();
+    const int *multi_mesh = multi_mesh_.data();
     const MeshSet *set = set_.data();
-    int *first = first_.data(), *near = near_.data(), *mesh = mesh_.data();
+    int *first = first_.data(), *near = sphere_.data(), *mesh = mesh_.data();
     const int begin = static_cast<int>(n_slots_);
     b.for_each(n, [=] LSDCD_LAMBDA(std::size_t g) {
       int count = 0;
-      for (MeshSet of = set[joint[g]]; of != 0; of &= of - 1) count++;
+      for (MeshSet of = set[multi_mesh[g]]; of != 0; of &= of - 1) count++;
       first[g] = count;
     });
     const int total = b.exclusive_scan(first, n);
@@ -168,15 +171,15 @@ class NearMeshes {
       if (g == n) return;
       int k = at;
       for (int m = 0; m < kMaxMeshes; m++)
-        if (has_mesh(set[joint[g]], m)) {
-          near[k] = joint[g];
+        if (has_mesh(set[multi_mesh[g]], m)) {
+          near[k] = multi_mesh[g];
           mesh[k++] = m;
         }
     });
   }
 
  private:
-  std::size_t keep(B &b, const int *found, std::size_t n, int *to)
+  std::size_t compact(B &b, const int *found, std::size_t n, int *to)
   {
     if (n == 0) return 0;
     b.compact(n, found, flags_.data(), scratch_, to, count_.data());
@@ -187,8 +190,8 @@ class NearMeshes {
   std::size_t n_spheres_ = 0, n_found_ = 0, n_slots_ = 0, n_joint_ = 0;
   std::vector<std::size_t> end_, begin_ = {0};
   Array<MeshSet> set_;    // the meshes that each sphere is near
-  Array<int> found_;      // near spheres, mesh after mesh
-  Array<int> near_, mesh_, joint_, first_;
+  Array<int> found_;      // candidates, mesh after mesh
+  Array<int> sphere_, mesh_, multi_mesh_, first_;
   Array<char> flags_;
   Array<char> scratch_;
   Array<std::uint32_t> count_ = Array<std::uint32_t>(1);

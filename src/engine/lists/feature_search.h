@@ -82,9 +82,9 @@ inline void prefetch_candidates(const GridView &grid, const Vec3 &q)
   asm volatile("");    // as in prefetch()
 }
 
-// What a search from q will read first, which a CPU's memory is asked for part by part, as each is found
-// in the one before: the brick's number, the brick, the cell, its first candidates, their records. With many
-// searches all of them wait at once.
+// Prefetches on a CPU what a search from q will read first, part by part, as each part is found in the one
+// before: the brick's number, the brick, the cell, its first candidates, their records. Many searches wait
+// for one part at the same time.
 class SearchAhead {
  public:
   static constexpr int kParts = 5;
@@ -132,22 +132,22 @@ class SearchAhead {
   std::uint32_t n_ = 0;
 };
 
-// What a sphere at q could touch after a way of up to `margin`. Lengths.
-struct NearSearch {
+// A search for the features that a sphere at q could touch after moving by up to `margin`. Lengths.
+struct FeatureSearch {
   Vec3 q;
   Real cutoff, margin;
-  Real past;             // how far from q the cells are that are looked at
+  Real past;             // radius around q of the cells that are searched
   Real close;            // the search ends where a candidate may be nearer
   std::uint32_t cell;    // of q, in lists.cells, or kNoCell where it is not known
 };
 
-// Calls found(code) for what is found until that says false; returns whether it did not. A contact
-// on the way is in the complete list of the cell that it is found from, and that cell meets the ball
-// round q; lists of cells hold for a margin of their own. Each thread of a warp has a search, or
-// none where it is not `mine`; they share the candidates, and each is told of its own.
+// Calls found(code) for each feature until that returns false; returns true if it never did. Nothing is missed:
+// a contact on the way is in the complete list of the cell of the sphere at that time, that cell meets the
+// ball around q, and lists of cells hold for a margin of their own. Each thread of a warp has a search, or none
+// where it is not `mine`. The threads share the candidates; found() gets those of the thread's own search.
 template <class Geometry, unsigned kSize, class Found>
 LSDCD_FN bool for_each_within(const Warp<kSize> &warp, bool mine, const GridView &grid,
-                              const NearSearch &search, const Found &found)
+                              const FeatureSearch &search, const Found &found)
 {
   const Candidate *candidates = grid.lists.candidates;
   // Each half-space of a feature's region moves by the margin at most; one tolerance more is for

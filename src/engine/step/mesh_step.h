@@ -1,19 +1,19 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// A step of a contact law over the spheres near the wall: one body for every backend.
+// A step of one sphere: narrow phase, corner rule, contact law, result. One source for all backends.
 #pragma once
 
 #include "engine/step/compiled_law.h"
-#include "engine/step/step_notes.h"
+#include "engine/step/step_job.h"
 
 #include <cstdint>
 
 namespace lsdcd {
 
-// Where sphere i is, as the search sees it: in the frame of the mesh.
+// Centre of sphere i in the frame of the mesh.
 template <class Law>
-LSDCD_FN Vec3 centre_of(const LawJob &job, std::size_t i)
+LSDCD_FN Vec3 centre_of(const StepJob &job, std::size_t i)
 {
   const Vec3 x = job.x[i];
   if constexpr (Law::kSurface) return job.settings.pose.to_mesh(x);
@@ -29,9 +29,9 @@ LSDCD_FN void to_box(const Pose &pose, SphereResult &out)
     out.weighted_point = pose.turn_to_box(out.weighted_point) + out.weight * pose.shift;
 }
 
-// Sphere i at x, without what only a contact needs: most of those near the wall touch nothing.
+// Sphere i at x, without the numbers that only a contact needs: most candidates touch nothing.
 template <class Law>
-LSDCD_FN SphereState state_at(const Law &law, const LawJob &job, std::size_t i, const Vec3 &x,
+LSDCD_FN SphereState state_at(const Law &law, const StepJob &job, std::size_t i, const Vec3 &x,
                               Real radius)
 {
   SphereState s = {};
@@ -47,7 +47,7 @@ LSDCD_FN SphereState state_at(const Law &law, const LawJob &job, std::size_t i, 
 }
 
 template <class Law, class Springs>
-LSDCD_FN void add_motion(const Law &law, const LawJob &job, const Pose &pose, std::size_t i,
+LSDCD_FN void add_motion(const Law &law, const StepJob &job, const Pose &pose, std::size_t i,
                          SphereStateWith<Springs> &s)
 {
   s.v = job.v[i];
@@ -61,10 +61,10 @@ LSDCD_FN void add_motion(const Law &law, const LawJob &job, const Pose &pose, st
     if (law.has_heat()) s.temperature = job.temperature[i];
 }
 
-// Where near sphere k puts what n contacts leave behind, from slot `first` on; false: no memory.
+// Reserves the slots of n contacts of candidate k, from `first` on; false: there is no memory left.
 template <class Law>
-LSDCD_FN bool take_slots(const Law &law, const LawJob &job, std::size_t k, int n, int &first,
-                         SphereSink &sink)
+LSDCD_FN bool reserve_slots(const Law &law, const StepJob &job, std::size_t k, int n, int &first,
+                            SphereSink &sink)
 {
   const ContactPool &pool = job.pool;
   first = static_cast<int>(k);
@@ -91,10 +91,10 @@ LSDCD_FN int count_acting(const ContactsView &set, const Real *weight)
   return n;
 }
 
-// The wall's force and torque on sphere i at x, which stay with k for totals, and until they are
-// added where that is later.
-LSDCD_FN void give(const LawJob &job, std::size_t k, std::size_t i, const Vec3 &x,
-                   const SphereResult &out)
+// Stores the result of candidate k, sphere i at x, and adds force and torque to the sphere's, unless that is
+// done later.
+LSDCD_FN void add_force(const StepJob &job, std::size_t k, std::size_t i, const Vec3 &x,
+                        const SphereResult &out)
 {
   job.result.put(k, out, cross(x, out.force) + out.torque);
   if (job.result.torque.at) return;
@@ -102,11 +102,11 @@ LSDCD_FN void give(const LawJob &job, std::size_t k, std::size_t i, const Vec3 &
   job.torque.add(i, out.torque);
 }
 
-// Applies the law to the contacts of near sphere k, which is sphere i: force, torque, and what is
-// kept of them. The moment about the origin is, so that totals can be made when the spheres are
-// elsewhere. `weight` null: all are 1.
+// Applies the law to the contacts of candidate k, sphere i at x: force, torque, springs and records. The moment
+// about the origin is stored, too, so that totals can be made when spheres are elsewhere. `weight` null: all
+// are 1.
 template <class Law>
-LSDCD_FN void apply_law(const Law &law, const LawJob &job, std::size_t k, std::size_t i,
+LSDCD_FN void apply_law(const Law &law, const StepJob &job, std::size_t k, std::size_t i,
                         const Vec3 &x, Real radius, const ContactsView &set, const Real *weight)
 {
   if (set.n == 0) {
@@ -116,7 +116,7 @@ LSDCD_FN void apply_law(const Law &law, const LawJob &job, std::size_t k, std::s
   SphereState s = state_at(law, job, i, x, radius);
   int first = 0;
   SphereSink sink = {};
-  if (!take_slots(law, job, k, count_acting(set, weight), first, sink)) {
+  if (!reserve_slots(law, job, k, count_acting(set, weight), first, sink)) {
     does_not_fit(job, k, i, job.counts->no_slots);
     return;
   }
@@ -125,7 +125,7 @@ LSDCD_FN void apply_law(const Law &law, const LawJob &job, std::size_t k, std::s
   if constexpr (Law::kHeat)
     if (law.has_heat()) *sink.heat = 0;
   add_contacts(job.grid, law, job.settings, s, set, weight, sink, out);
-  note_overlap(job, i, out.overlap_ratio);
+  record_overlap(job, i, out.overlap_ratio);
   if constexpr (Law::kHistory)
     if (job.settings.update) {
       if (out.n_contacts > 0) job.pool.first[i] = first;
@@ -142,7 +142,7 @@ LSDCD_FN void apply_law(const Law &law, const LawJob &job, std::size_t k, std::s
       to_box(job.settings.pose, out);
       at = job.x[i];
     }
-  give(job, k, i, at, out);
+  add_force(job, k, i, at, out);
 }
 
 template <class Law>
@@ -154,38 +154,18 @@ LSDCD_FN Real pull_off_of(const Law &law)
     return 0;
 }
 
-// Near sphere k, where it has one contact or none, as nearly all have: with room for one nothing is
-// indexed and all is in registers. False, and nothing done, where it has more or no list that
-// holds.
+// The query for candidate k.
 template <class Law>
-LSDCD_FN bool single_contact(const Law &law, const LawJob &job, std::size_t k)
-{
-  const std::size_t i = sphere_of(job, k);
-  const Vec3 x = centre_of<Law>(job, i);
-  const Real radius = job.radius[i];
-  const QuerySphere s = query_sphere_of(job, i, x, radius, Law::kBeyondContact, pull_off_of(law));
-  if (!job.lists.holds(k, x, s.cutoff)) return false;
-  ContactSet<1> set;
-  find_in_list<MeshGeometry>(job.grid, {job.lists, k}, x, s.cutoff, set);
-  keep_acting<Law::kBeyondContact>(job.grid, job.settings.search, s, set);
-  if (set.overflow) return false;
-  note_cutoff(job, i, s.cutoff);
-  apply_law(law, job, k, i, x, radius, set.view(), nullptr);
-  return true;
-}
-
-// Near sphere k, as the search sees it.
-template <class Law>
-LSDCD_FN QuerySphere near_sphere(const Law &law, const LawJob &job, std::size_t k)
+LSDCD_FN QuerySphere near_sphere(const Law &law, const StepJob &job, std::size_t k)
 {
   const std::size_t i = sphere_of(job, k);
   return query_sphere_of(job, i, centre_of<Law>(job, i), job.radius[i], Law::kBeyondContact,
                          pull_off_of(law));
 }
 
-// Is the list of near sphere k used up?
+// Does the list of candidate k hold no longer?
 template <class Law>
-LSDCD_FN bool needs_list(const Law &law, const LawJob &job, std::size_t k)
+LSDCD_FN bool needs_list(const Law &law, const StepJob &job, std::size_t k)
 {
   if (!job.lists.n) return false;
   const QuerySphere s = near_sphere(law, job, k);
@@ -195,10 +175,10 @@ LSDCD_FN bool needs_list(const Law &law, const LawJob &job, std::size_t k)
 // Makes the list of slot k, whose sphere is s, anew: for no less than at the choice, as a sphere that
 // has shrunk may grow to that again.
 template <unsigned kSize>
-LSDCD_FN void put_list(const LawJob &job, const Warp<kSize> &warp, bool mine, const GridView &grid,
+LSDCD_FN void put_list(const StepJob &job, const Warp<kSize> &warp, bool mine, const GridView &grid,
                        QuerySphere s, std::size_t k)
 {
-  WallList made;
+  FeatureList made;
   const Real chosen = mine ? job.lists.cutoff(k) : 0;
   const bool has_grown = s.cutoff > chosen;
   if (!has_grown) s.cutoff = chosen;
@@ -210,16 +190,16 @@ LSDCD_FN void put_list(const LawJob &job, const Warp<kSize> &warp, bool mine, co
   job.lists.put(k, made, grid.wall, !has_grown);
 }
 
-// Near sphere k with any number of contacts. Its cell is searched where it has no list that holds.
-// True: it has several. A function of its own, so that single_contact() beside it has its registers.
+// Candidate k with any number of contacts. Its cell is searched where it has no list that holds. True: it has
+// more than one. A function of its own, so that it takes no registers from the fast path.
 template <class Law>
-LSDCD_NOINLINE bool several_contacts(const Law &law, const LawJob &job, std::size_t k)
+LSDCD_NOINLINE bool any_contacts(const Law &law, const StepJob &job, std::size_t k)
 {
   const std::size_t i = sphere_of(job, k);
   const Vec3 x = centre_of<Law>(job, i);
   const Real radius = job.radius[i];
   const QuerySphere s = query_sphere_of(job, i, x, radius, Law::kBeyondContact, pull_off_of(law));
-  note_cutoff(job, i, s.cutoff);
+  check_cutoff(job, i, s.cutoff);
   const ListedFeatures listed = {job.lists, k};
   const ListedFeatures *list = job.lists.n ? &listed : nullptr;
   if (list && !job.lists.holds(k, x, s.cutoff)) {
@@ -227,8 +207,8 @@ LSDCD_NOINLINE bool several_contacts(const Law &law, const LawJob &job, std::siz
     list = nullptr;
   }
 
-  Touch<kContacts> some;
-  touch<Law::kBeyondContact>(job.grid, job.settings.search, s, list, some);
+  WeightedContacts<kContacts> some;
+  narrow_phase<Law::kBeyondContact>(job.grid, job.settings.search, s, list, some);
   ContactsView set = some.set.view();
   const Real *weight = some.weight;
   Real exact_within = some.exact_within;
@@ -240,16 +220,16 @@ LSDCD_NOINLINE bool several_contacts(const Law &law, const LawJob &job, std::siz
     if (some.set.overflow) {
       scratch = job.overflow + k % kOverflowScratches;
       if (!try_lock(&scratch->locked)) continue;
-      scratch->touch.set.clear();
-      touch_in<Law::kBeyondContact>(scratch->rule, job.grid, job.settings.search, s, list,
-                                    scratch->touch);
-      set = scratch->touch.set.view();
-      weight = scratch->touch.weight;
-      exact_within = scratch->touch.exact_within;
-      fits = !scratch->touch.set.overflow;
+      scratch->contacts.set.clear();
+      narrow_phase_in<Law::kBeyondContact>(scratch->rule, job.grid, job.settings.search, s, list,
+                                           scratch->contacts);
+      set = scratch->contacts.set.view();
+      weight = scratch->contacts.weight;
+      exact_within = scratch->contacts.exact_within;
+      fits = !scratch->contacts.set.overflow;
     }
     if (fits) {
-      keep_uncertain(job, k, may_miss(s.cutoff, exact_within), radius);
+      count_uncertain(job, k, may_miss(s.cutoff, exact_within), radius);
       apply_law(law, job, k, i, x, radius, set, weight);
     } else {
       does_not_fit(job, k, i, job.counts->no_scratch);
@@ -260,14 +240,14 @@ LSDCD_NOINLINE bool several_contacts(const Law &law, const LawJob &job, std::siz
   return some.set.n > 1;
 }
 
-// A step's work for Backend::step(): each near sphere by single(), and by several() where that
-// says false or where there is none.
+// The candidates of one mesh, for run_step(): each takes fast_path(), and general_path() where that returns
+// false or where there is none.
 template <class Law>
-struct LawStep {
+struct MeshStep {
   Law law;
-  LawJob job;
+  StepJob job;
 
-  static constexpr bool kSingle = true;
+  static constexpr bool kFastPath = true;
   // Blocks at once on a GPU's processor: 128 or 168 registers are left to a thread. With fewer
   // the kernels spill, which costs more than more blocks bring.
   static constexpr bool kLarge =
@@ -275,24 +255,40 @@ struct LawStep {
   static constexpr int kBlocksAtOnce = kLarge ? 3 : 4;
 
   // Lists of brick records are left to several().
-  bool has_single() const { return job.lists.n && !job.grid.in_floats; }
+  bool has_fast_path() const { return job.lists.n && !job.grid.in_floats; }
   LSDCD_FN void begin() const { clear_next(job); }
-  LSDCD_FN bool single(std::size_t k) const { return single_contact(law, job, k); }
+  // Sphere k where it has one contact or none, as nearly all have: with room for one nothing is indexed
+  // and all is in registers. False, and nothing done, where it has more or no list that holds.
+  LSDCD_FN bool fast_path(std::size_t k) const
+  {
+    const std::size_t i = sphere_of(job, k);
+    const Vec3 x = centre_of<Law>(job, i);
+    const Real radius = job.radius[i];
+    const QuerySphere s = query_sphere_of(job, i, x, radius, Law::kBeyondContact, pull_off_of(law));
+    if (!job.lists.holds(k, x, s.cutoff)) return false;
+    ContactSet<1> set;
+    find_in_list<MeshGeometry>(job.grid, {job.lists, k}, x, s.cutoff, set);
+    filter_contacts<Law::kBeyondContact>(job.grid, job.settings.search, s, set);
+    if (set.overflow) return false;
+    check_cutoff(job, i, s.cutoff);
+    apply_law(law, job, k, i, x, radius, set.view(), nullptr);
+    return true;
+  }
   LSDCD_FN bool needs_list(std::size_t k) const { return lsdcd::needs_list(law, job, k); }
   template <unsigned kSize>
   LSDCD_FN void make_list(const Warp<kSize> &warp, bool mine, std::size_t k) const
   {
     put_list(job, warp, mine, job.grid, near_sphere(law, job, k), k);
   }
-  // What make_list() will read, part by part of a CPU's memory.
+  // Prefetches for a CPU what make_list() will read, part by part.
   using Ahead = SearchAhead;
   Ahead list_ahead(std::size_t k) const
   {
     return Ahead(job.grid, centre_of<Law>(job, sphere_of(job, k)));
   }
   void prefetch(Ahead &ahead, int part) const { ahead.prefetch(job.grid, part); }
-  LSDCD_FN bool several(std::size_t k) const { return several_contacts(law, job, k); }
-  LSDCD_FN const StepLists &step_lists() const { return job.step_lists; }
+  LSDCD_FN bool general_path(std::size_t k) const { return any_contacts(law, job, k); }
+  LSDCD_FN const WorkLists &work_lists() const { return job.work_lists; }
 };
 
 }    // namespace lsdcd

@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Selecting the spheres near the wall on a GPU.
+// Selects the candidate spheres on a GPU.
 #pragma once
 
 #include "backend/backend.h"
-#include "engine/choose/gather_marked_gpu.h"
-#include "engine/choose/mark_near_gpu.h"
-#include "engine/choose/selection.h"
+#include "engine/broad_phase/gather_marked_gpu.h"
+#include "engine/broad_phase/mark_candidates_gpu.h"
+#include "engine/broad_phase/selection.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -75,9 +75,9 @@ class Selection<B, false> {
         std::min((n + of_block - 1) / of_block, limits_.processors() * kMarkBlocks);
     const LaunchShape launch = {blocks, kWarpSize * shape.warps, shape.shared};
     if (shape.has_table)
-      b.for_each_block(launch, MarkNear<true, Work>{n, work, words, list});
+      b.for_each_block(launch, MarkCandidates<true, Work>{n, work, words, list});
     else
-      b.for_each_block(launch, MarkNear<false, Work>{n, work, words, list});
+      b.for_each_block(launch, MarkCandidates<false, Work>{n, work, words, list});
   }
 
   CandidateLists lists()

@@ -4,7 +4,7 @@
 // The last part of a choice on a GPU: from bits to a list.
 #pragma once
 
-#include "engine/choose/refine_gpu.h"
+#include "engine/broad_phase/refine_gpu.h"
 
 #include <cstdint>
 

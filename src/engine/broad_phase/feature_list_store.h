@@ -1,37 +1,36 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Memory for the lists of the wall of near spheres, where the engine computes.
+// The neighbour lists of candidate spheres: their features, in the memory of the engine's backend.
 #pragma once
 
 #include "backend/atomic.h"
-#include "engine/choose/engine_mesh.h"
-#include "engine/choose/spheres_at_choice.h"
+#include "engine/broad_phase/candidate_test.h"
 #include "engine/results/step_counts.h"
 
 #include <algorithm>
 
 namespace lsdcd {
 
-// Makes the list of near sphere k.
+// Makes the list of candidate k.
 struct GatherWork {
   GridView grid;
   Pose pose;
-  SpheresAtChoice spheres;
+  CandidateSpheres spheres;
   Real margin;
-  WallLists lists;
-  char *several;    // does each seem to touch several features now? Null: not asked for
+  FeatureLists lists;
+  char *multi_contact;    // does each seem to touch more than one feature now? Null: not asked for
   StepCounts *counts;
 
   template <unsigned kSize>
   LSDCD_FN void operator()(const Warp<kSize> &warp, bool mine, std::size_t k) const
   {
     spheres.prefetch_ahead(grid, pose, k);
-    const QuerySphere s = spheres.seen_from(pose, k);
-    WallList made;
+    const QuerySphere s = spheres.in_frame_of(pose, k);
+    FeatureList made;
     gather(warp, mine, grid, s, margin, made);
     if (!mine) return;
-    if (several) several[k] = touches_several(grid, s, made);
+    if (multi_contact) multi_contact[k] = touches_more_than_one(grid, s, made);
     lists.put(k, made, grid.wall);
     count_one(&counts->lists);
     add_to(&counts->listed, made.n);
@@ -42,9 +41,9 @@ struct GatherWork {
 struct GatherSlotWork {
   const PlacedGrid *meshes;
   const int *mesh;    // of each slot
-  SpheresAtChoice spheres;
+  CandidateSpheres spheres;
   Real margin;
-  WallLists lists;
+  FeatureLists lists;
   StepCounts *counts;
 
   template <unsigned kSize>
@@ -59,81 +58,83 @@ struct GatherSlotWork {
 };
 
 template <class B>
-class ListStore {
+class FeatureListStore {
   template <class T>
   using Array = typename B::template Array<T>;
 
  public:
-  // None where lists of cells hold the nearest primitives.
-  const WallLists &view() const { return lists_; }
+  // Empty where lists of cells hold the nearest primitives.
+  const FeatureLists &view() const { return lists_; }
 
-  // Makes the lists of near spheres, which will not go farther than `margin` before the next choice.
-  // Early, on a GPU: of the counts->n_near that there will be, if there is room for them. Returns the room.
+  // Makes the lists of candidates, which will not go farther than `margin` before the next choice. On a GPU
+  // the kernel is started before the host knows counts->n_candidates, for as many as there is memory
+  // for. Returns that number; 0 on a CPU.
   std::size_t make_early(B &b, const GridView &grid, const Pose &pose,
-                         const SpheresAtChoice &spheres, Real margin, StepCounts *counts)
+                         const CandidateSpheres &spheres, Real margin, StepCounts *counts)
   {
     if (B::kOnHost || grid.nearest > 0) return 0;
-    const std::size_t room = std::min(several_.size(), ints_.size() / WallLists::kInts);
+    const std::size_t room = std::min(multi_contact_.size(), ints_.size() / FeatureLists::kInts);
     set_view(grid);
-    b.for_each_in_warps(room, gather(grid, pose, spheres, margin, counts), &counts->n_near);
+    b.for_each_in_warps(room, gather(grid, pose, spheres, margin, counts), &counts->n_candidates);
     return room;
   }
-  // Of spheres.n, unless they are among the `early` that there was room for.
-  void make(B &b, const GridView &grid, const Pose &pose, const SpheresAtChoice &spheres,
+  // Makes the lists of spheres.n candidates, but for the first `early`, which have them.
+  void make(B &b, const GridView &grid, const Pose &pose, const CandidateSpheres &spheres,
             Real margin, StepCounts *counts, std::size_t early)
   {
     const std::size_t n = spheres.n;
     if (!reserve(grid, grid.is_large, n) || n <= early) return;
-    if (!B::kOnHost) several_ = Array<char>(n + n / 8);
+    if (!B::kOnHost) multi_contact_ = Array<char>(n + n / 8);
     b.for_each_in_warps(n, gather(grid, pose, spheres, margin, counts));
   }
   // The same for n slots of several meshes; `large`: is any of them?
   void make(B &b, const GridView &first_grid, bool large, const PlacedGrid *meshes, const int *mesh,
-            const SpheresAtChoice &spheres, Real margin, StepCounts *counts)
+            const CandidateSpheres &spheres, Real margin, StepCounts *counts)
   {
     if (reserve(first_grid, large, spheres.n))
       b.for_each_in_warps(spheres.n, GatherSlotWork{meshes, mesh, spheres, margin, lists_, counts});
   }
 
-  // Of each of the n of one mesh, does it seem to touch several features now? For steps on a GPU, which
-  // begin with those; null: not known.
-  const char *several() const { return lists_.n ? several_.data() : nullptr; }
+  // For each candidate of one mesh: does it seem to touch more than one feature now? Steps on a GPU begin
+  // with these. Null: not known.
+  const char *multi_contact() const { return lists_.n ? multi_contact_.data() : nullptr; }
 
   std::size_t bytes() const
   {
-    return several_.size() + reals_.size() * sizeof(Real) + ints_.size() * sizeof(std::int32_t) +
-           places_.size() * sizeof(RecordCopies::Place) + used_ * sizeof(FeatureRecord);
+    return multi_contact_.size() + reals_.size() * sizeof(Real) +
+           ints_.size() * sizeof(std::int32_t) + places_.size() * sizeof(RecordCopies::Place) +
+           used_ * sizeof(FeatureRecord);
   }
 
  private:
-  GatherWork gather(const GridView &grid, const Pose &pose, const SpheresAtChoice &spheres,
+  GatherWork gather(const GridView &grid, const Pose &pose, const CandidateSpheres &spheres,
                     Real margin, StepCounts *counts)
   {
-    return {grid, pose, spheres, margin, lists_, several_.data(), counts};
+    return {grid, pose, spheres, margin, lists_, multi_contact_.data(), counts};
   }
 
   void set_view(const GridView &grid)
   {
-    lists_ =
-        WallLists::of(reals_.data(), ints_.data(), ints_.size() / WallLists::kInts, grid.length);
+    lists_ = FeatureLists::of(reals_.data(), ints_.data(), ints_.size() / FeatureLists::kInts,
+                              grid.length);
   }
 
   // `large`: a wall whose records are read faster as copies. False: there are no lists to make.
   bool reserve(const GridView &grid, bool large, std::size_t n)
   {
-    lists_ = WallLists();
+    lists_ = FeatureLists();
     if (grid.nearest > 0 || n == 0) return false;
-    if (ints_.size() < n * WallLists::kInts) {
+    if (ints_.size() < n * FeatureLists::kInts) {
       const std::size_t room = n + n / 8;
-      reals_ = Array<Real>(room * WallLists::kReals);
-      ints_ = Array<std::int32_t>(room * WallLists::kInts);
+      reals_ = Array<Real>(room * FeatureLists::kReals);
+      ints_ = Array<std::int32_t>(room * FeatureLists::kInts);
     }
     set_view(grid);
     if (B::kOnHost && large && !grid.in_floats) reserve_copies(n);
     return true;
   }
 
-  // What is not written takes no memory.
+  // Pages that are never written take no memory.
   void reserve_copies(std::size_t n)
   {
     if (places_.size() < n) {
@@ -148,10 +149,10 @@ class ListStore {
 
   static constexpr int kCopies = 4;    // for each list, in the mean; lists have 1 to 4 features
 
-  WallLists lists_;
+  FeatureLists lists_;
   Array<Real> reals_;
   Array<std::int32_t> ints_;
-  Array<char> several_;             // not on a host
+  Array<char> multi_contact_;       // not on a host
   Array<FeatureRecord> records_;    // on a host
   Array<RecordCopies::Place> places_;
   int used_ = 0;

@@ -18,7 +18,7 @@ struct CandidateLists {
   static constexpr unsigned kLists = 32, kStride = 32;    // lengths are 128 bytes apart
   struct Item {
     unsigned sphere;
-    std::uint32_t cell;    // as NearChoice::locate() returns it
+    std::uint32_t cell;    // as CandidateTest::locate() returns it
   };
 
   Item *items = nullptr;         // null: there is no second part

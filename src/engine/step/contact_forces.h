@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// THE kernel: the wall's force and torque on one sphere.
+// Force and torque on one sphere by its contacts.
 #pragma once
 
-#include "engine/lists/touch.h"
-#include "engine/results/sphere_result.h"
+#include "engine/results/results.h"
+#include "engine/step/narrow_phase.h"
 #include "engine/wall_engine.h"
 #include "law/contact.h"
 #include "law/submodels/normal.h"
@@ -24,8 +24,8 @@ struct SphereStateWith {
 };
 using SphereState = SphereStateWith<const Spring *>;
 
-// Where a sphere's springs go, and what few laws return: written only where the law has
-// history, extra numbers beside it, heat, records.
+// Outputs of a sphere that only some laws have: each is written where the law has history, extra numbers beside
+// it, heat, records.
 struct SphereSink {
   Spring *springs;           // one per contact
   Real *extra;               // n_extra(law) per contact
@@ -43,16 +43,43 @@ struct ForceSettings {
   SurfaceMotion surface;    // read only where the surface moves
   bool surface_moves;       // in itself; else `surface` is left out, which changes no bit
   Pose pose;                // likewise
-  // Spheres' velocities are those of half a step ago, as far back as this (time; 0 in a setup): a wall
-  // that turns is seen at the same time. Else what lies still on a turntable would seem to slip outward,
-  // and friction would draw it in.
+  // Velocities of spheres are those of half a step ago: `back` is dt / 2, and 0 in a setup (time). The velocity
+  // of a wall that turns is taken at that time, too. Else a sphere at rest on a turntable would seem to slip
+  // outward, and friction would draw it in.
   Real back;
   Vec3 wall_velocity, wall_angular;    // of the pose then, in the frame of the mesh
   WearModel wear;                      // read only where there are records
 };
 
-// What contact i begins with: its memory of the last step, turned with its normal, and about that with
-// a surface that turns.
+// The settings of one mesh.
+inline ForceSettings force_settings(const EngineSettings &engine, const StepSettings &step,
+                                    const Pose &pose, int mesh)
+{
+  ForceSettings s;
+  s.mesh = static_cast<std::uint32_t>(mesh);
+  s.dt = step.dt;
+  s.update = step.update_history;
+  s.search = {engine.corner, engine.side};
+  s.with_point = step.per_sphere;
+  s.wall_temperature = step.mesh_temperature ? step.mesh_temperature[mesh] : step.wall_temperature;
+  s.surface = step.surface ? step.surface[mesh] : engine.surface;
+  s.surface_moves = s.surface.moves();
+  s.pose = pose;
+  s.back = s.update ? step.dt / 2 : 0;
+  s.wall_velocity = pose.turn_to_mesh(pose.velocity - s.back * pose.acceleration);
+  s.wall_angular = pose.turn_to_mesh(pose.angular - s.back * pose.spin_up);
+  s.wear = engine.wear;
+  return s;
+}
+
+// A mesh in a step.
+struct MeshWork {
+  GridView grid;
+  ForceSettings settings;
+};
+
+// Memory of contact i at the start of the step: that of the last step, turned with the normal, and about the
+// normal with a surface that turns.
 template <class Law, class Springs>
 LSDCD_FN auto begin_memory(const Law &law, const MeshFeaturesView &wall,
                            const ForceSettings &settings, const ContactsView &set, int i,
@@ -89,7 +116,7 @@ LSDCD_FN auto begin_memory(const Law &law, const MeshFeaturesView &wall,
 
 // Writes what the law keeps beside the shear displacement: n_extra(law) numbers, vectors first.
 template <class Law, class Memory>
-LSDCD_FN void keep_extra(const Law &law, const Memory &memory, Real *to)
+LSDCD_FN void store_extra(const Law &law, const Memory &memory, Real *to)
 {
   for (int k = 0; k < Law::kVectors; k++)
     if (law.keeps(k))
@@ -98,8 +125,8 @@ LSDCD_FN void keep_extra(const Law &law, const Memory &memory, Real *to)
     if (law.keeps(Law::kVectors + k)) *to++ = memory.extra[3 * Law::kVectors + k];
 }
 
-// The half of the kernel that each law has of its own. Numbers are of type Law::Number
-// inside the law, Real outside. `weights` null: all are 1.
+// Evaluates the law for each contact and adds its force, torque and energy to `out`. Numbers are of type
+// Law::Number inside the law, Real outside. `weights` null: all are 1.
 template <class Law, class Springs>
 LSDCD_FN void add_contacts(const GridView &grid, const Law &law, const ForceSettings &settings,
                            const SphereStateWith<Springs> &s, const ContactsView &set,
@@ -153,7 +180,7 @@ LSDCD_FN void add_contacts(const GridView &grid, const Law &law, const ForceSett
     if constexpr (Law::kHistory) {
       const int at = out.n_contacts;
       sink.springs[at] = {vec_cast<Real>(memory.shear), n, set.feature[i], mesh};
-      if constexpr (Law::kExtra > 0) keep_extra(law, memory, sink.extra + at * n_extra(law));
+      if constexpr (Law::kExtra > 0) store_extra(law, memory, sink.extra + at * n_extra(law));
     }
     const Vec3 tangential = weight * vec_cast<Real>(f.tangential);
     if constexpr (Law::kRecords) {

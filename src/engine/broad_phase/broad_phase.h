@@ -1,0 +1,229 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// The broad phase: the candidate spheres of all meshes of a wall, and their lists of features.
+#pragma once
+
+#include "backend/backend.h"
+#include "engine/broad_phase/candidate_slots.h"
+#include "engine/broad_phase/candidate_test.h"
+#include "engine/broad_phase/displacement_check.h"
+#include "engine/broad_phase/feature_list_store.h"
+#include "engine/broad_phase/selection.h"
+
+#include <numeric>
+#include <stdexcept>
+#include <vector>
+
+namespace lsdcd {
+
+template <class B>
+class CandidateSelector {
+ public:
+  const int *data() const { return candidates_.data(); }
+
+  // Selects the spheres that could touch the mesh after moving by up to `margin`: by its cells and, with
+  // `refines`, by the features of these where cells list all within the cutoff. Kernels put the number into `counts`; it is valid once
+  // had_room() agrees. `n_springs`: of each sphere, or null; becomes 0 for spheres that are no candidates.
+  void choose(B &b, const EngineMesh<B> &mesh, const Spheres &spheres, Real margin, Real pull_off,
+              bool refines, StepCounts *counts, int *n_springs)
+  {
+    const std::size_t n = spheres.n;
+    const bool by_features = refines && mesh.grid.view.nearest == 0;
+    if (candidates_.size() < n) candidates_ = Array(n + n / 8);
+    if (excess_margin(mesh.grid.view, margin) > 0)
+      select<true>(b, mesh, spheres, margin, pull_off, by_features, counts, n_springs);
+    else
+      select<false>(b, mesh, spheres, margin, pull_off, by_features, counts, n_springs);
+  }
+  // Had choose() memory enough, by its counts? False: choose again.
+  bool had_room(B &b, const StepCounts &seen) { return selection_.had_room(b, seen.n_candidates); }
+
+  std::vector<int> to_host(B &b, std::size_t n) { return lsdcd::to_host(b, candidates_, n); }
+  std::size_t bytes() const { return candidates_.size() * sizeof(int) + selection_.bytes(); }
+
+ private:
+  using Array = typename B::template Array<int>;
+
+  template <bool kPast>
+  void select(B &b, const EngineMesh<B> &mesh, const Spheres &spheres, Real margin, Real pull_off,
+              bool by_features, StepCounts *counts, int *n_springs)
+  {
+    const GridView &grid = mesh.grid.view;
+    const Real past = excess_margin(grid, margin);
+    CandidateTest<kPast> choice = {grid,    mesh.grid.table, BrickFilter<Real>(grid),
+                                   spheres, mesh.pose,       margin,
+                                   past,    pull_off,        by_features,
+                                   counts,  n_springs};
+    choice.fixed_margin = choice.filter.margin(past * grid.inv_length / kBrickSide);
+    selection_.start(b, spheres.n, choice, candidates_.data(), &counts->n_candidates);
+  }
+
+  Array candidates_;
+  Selection<B> selection_;
+};
+
+// `counts`: one StepCounts in the memory of kernels. A StepCounts that is returned is its copy.
+template <class B>
+class BroadPhase {
+  template <class T>
+  using Array = typename B::template Array<T>;
+
+ public:
+  explicit BroadPhase(const EngineSettings &settings) :
+      pull_off_(largest_pull_off(settings.laws)), uses_slots_(lsdcd::uses_slots(settings)),
+      laws_(settings.laws), meshes_(settings.meshes)
+  {
+  }
+
+  void set_grid(B &b, const GridView &grid, int mesh)
+  {
+    meshes_.at(mesh).grid = GridOn<B>(b, grid);
+    n_ = 0;
+  }
+  void place(const Pose &pose, int mesh) { meshes_.at(mesh).pose = pose; }
+
+  bool uses_slots() const { return uses_slots_; }    // meshes, or kinds of spheres
+  int n_meshes() const { return static_cast<int>(meshes_.size()); }
+  const EngineMesh<B> &mesh(int m) const { return meshes_[m]; }
+
+  // Selects candidates among spheres in memory of the backend, and makes their lists. With one mesh
+  // `n_springs` of other spheres becomes 0. Where a sphere is too large, too_large is set in the counts
+  // returned and nothing else is valid. `packed`: in steps the candidates alone will lie one behind the
+  // other, so that candidates() of one mesh is null.
+  StepCounts choose(B &b, const Spheres &spheres, Real margin, Array<StepCounts> &counts,
+                    int *n_springs, bool packed = false)
+  {
+    are_packed_ = packed && !uses_slots();
+    if (uses_slots()) return choose_slots(b, spheres, margin, counts);
+    const GridView &grid = meshes_[0].grid.view;
+    CandidateSpheres at_choice = {spheres.x, spheres.radius, pull_off_, nullptr, 0};
+    StepCounts seen;
+    std::size_t early = 0;
+    do {
+      selector_.choose(b, meshes_[0], spheres, margin, pull_off_, true, counts.data(), n_springs);
+      b.copy_out(counts.data(), seen_.data(), 1);
+      counted_.record(b);
+      // A GPU need not wait until the host knows how many there are.
+      at_choice.near = selector_.data();
+      early = lists_.make_early(b, grid, meshes_[0].pose, at_choice, margin, counts.data());
+      counted_.wait();
+      seen = *seen_.data();
+    } while (!seen.too_large && !selector_.had_room(b, seen));
+    if (seen.too_large) return seen;
+    n_ = at_choice.n = seen.n_candidates;
+    lists_.make(b, grid, meshes_[0].pose, at_choice, margin, counts.data(), early);
+    return seen;
+  }
+  // Which of n_spheres packed spheres are candidates.
+  std::vector<int> chosen(B &b, int n_spheres)
+  {
+    if (!uses_slots()) return selector_.to_host(b, n_);
+    std::vector<int> all(n_spheres);
+    std::iota(all.begin(), all.end(), 0);
+    return all;
+  }
+
+  std::size_t n() const { return n_; }    // candidates, or slots
+  const int *candidates() const
+  {
+    return uses_slots() ? slots_.sphere() : are_packed_ ? nullptr : selector_.data();
+  }
+  // For each candidate: does it seem to touch more than one feature now? Null: not known.
+  const char *seem_multi_contact() const { return uses_slots() ? nullptr : lists_.multi_contact(); }
+  const FeatureLists &lists() const { return lists_.view(); }
+  const CandidateSlots<B> &slots() const { return slots_; }
+
+  // Which law each of these spheres has.
+  SphereKinds kinds_of(B &b, const Spheres &spheres)
+  {
+    if (laws_.kinds == 1) return {};
+    if (!spheres.type && spheres.n > 0)
+      throw std::logic_error("laws by atom type need the types of spheres");
+    return {spheres.type, put_kinds(b), static_cast<int>(laws_.kind_of_type.size()) - 1};
+  }
+  int n_kinds() const { return laws_.kinds; }
+
+  // Public because nvcc takes no device lambda from a private function. These do not wait.
+  const int *put_kinds(B &b)
+  {
+    const std::size_t n = laws_.kind_of_type.size();
+    if (kind_of_type_.size() == n) return kind_of_type_.data();
+    kind_of_type_ = Array<int>(n);
+    int *to = kind_of_type_.data();
+    for (const int kind : laws_.kind_of_type) {
+      b.for_each(1, [=] LSDCD_LAMBDA(std::size_t) { *to = kind; });
+      to++;
+    }
+    return kind_of_type_.data();
+  }
+  const PlacedGrid *put_grids(B &b)
+  {
+    if (placed_.size() < meshes_.size()) placed_ = Array<PlacedGrid>(meshes_.size());
+    PlacedGrid *to = placed_.data();
+    for (int m = 0; m < n_meshes(); m++, to++) {
+      const PlacedGrid placed = {meshes_[m].grid.view, meshes_[m].pose};
+      b.for_each(1, [=] LSDCD_LAMBDA(std::size_t) { *to = placed; });
+    }
+    return placed_.data();
+  }
+
+  // See DisplacementCheck.
+  void store_positions(B &b, const Spheres &spheres, Real margin)
+  {
+    displacement_.store(b, spheres, meshes_, margin);
+  }
+  bool has_moved(B &b, const Spheres &spheres)
+  {
+    return displacement_.has_moved(b, spheres, meshes_);
+  }
+
+  std::size_t bytes() const
+  {
+    std::size_t bytes = selector_.bytes() + slots_.bytes() + lists_.bytes() +
+                        displacement_.bytes() + placed_.size() * sizeof(PlacedGrid) +
+                        kind_of_type_.size() * sizeof(int);
+    for (const EngineMesh<B> &mesh : meshes_) bytes += mesh.grid.bytes();
+    return bytes;
+  }
+
+ private:
+  StepCounts choose_slots(B &b, const Spheres &spheres, Real margin, Array<StepCounts> &counts)
+  {
+    StepCounts seen = {};
+    slots_.clear(b, spheres.n);
+    for (const EngineMesh<B> &mesh : meshes_) {
+      do {
+        selector_.choose(b, mesh, spheres, margin, pull_off_, true, counts.data(), nullptr);
+        seen = read_one(b, counts.data());
+      } while (!seen.too_large && !selector_.had_room(b, seen));
+      if (seen.too_large) return seen;
+      slots_.add(b, selector_.data(), seen.n_candidates);
+    }
+    slots_.finish(b, kinds_of(b, spheres), n_kinds());
+    n_ = slots_.n_slots();
+    const PlacedGrid *grids = put_grids(b);
+    bool large = false;
+    for (const EngineMesh<B> &mesh : meshes_) large |= mesh.grid.view.is_large;
+    lists_.make(b, meshes_[0].grid.view, large, grids, slots_.mesh(),
+                {spheres.x, spheres.radius, pull_off_, slots_.sphere(), n_}, margin, counts.data());
+    return seen;
+  }
+
+  Real pull_off_;
+  bool uses_slots_;
+  LawTable laws_;
+  Array<int> kind_of_type_;
+  std::vector<EngineMesh<B>> meshes_;
+  CandidateSelector<B> selector_;
+  CandidateSlots<B> slots_;
+  FeatureListStore<B> lists_;
+  Array<PlacedGrid> placed_;
+  bool are_packed_ = false;
+  std::size_t n_ = 0;
+  typename B::template HostArray<StepCounts> seen_ = typename B::template HostArray<StepCounts>(1);
+  typename B::Event counted_;    // once they are in seen_
+  DisplacementCheck<B> displacement_;
+};
+
+}    // namespace lsdcd

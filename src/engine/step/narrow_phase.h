@@ -1,0 +1,129 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// The narrow phase: the contacts of a sphere from its list or its cell, filtered, each with its weight by the corner
+// rule. No law changes it.
+#pragma once
+
+#include "contact/corner.h"
+#include "contact/history.h"
+#include "engine/lists/feature_list.h"
+#include "engine/wall_engine.h"
+
+namespace lsdcd {
+
+struct SearchSettings {
+  Corner corner = Corner::blend;
+  Side side = Side::both;
+};
+
+template <int kCapacity>
+struct WeightedContacts {
+  ContactSet<kCapacity> set;
+  Real weight[kCapacity];    // share of each contact, 0 to 1
+  Real exact_within;         // the set is certified for spheres up to this radius
+};
+
+// Removes contacts on the wrong side. With adhesion beyond contact (cutoff > radius) a contact that does not
+// overlap stays as long as it has not let go.
+template <bool kBeyondContact, class Springs, int kCapacity>
+LSDCD_FN void filter_contacts(const GridView &grid, const SearchSettings &settings,
+                              const QuerySphereWith<Springs> &s, ContactSet<kCapacity> &set)
+{
+  if (settings.side != Side::both)
+    filter_side(grid.wall, static_cast<int>(settings.side) * grid.outside, set);
+  if constexpr (kBeyondContact) {
+    for (int i = set.n - 1; i >= 0; i--)
+      if (set.distance[i] >= s.radius &&
+          !is_held(grid.wall, set.view(), i, settings.corner == Corner::blend, s.springs,
+                   s.n_springs))
+        set.remove(i);
+  }
+}
+
+// Finds the contacts within the cutoff, into a set that is empty: from the sphere's list, or from its cell where
+// `list` is null. Sorted by the features' numbers, so that the corner rule and sums give the same bits from
+// both. Where the set overflows nothing else is valid.
+template <bool kBeyondContact, class Geometry, class Springs, int kCapacity>
+LSDCD_FN void find_filtered_in(const GridView &grid, const SearchSettings &settings,
+                               const QuerySphereWith<Springs> &s, const ListedFeatures *list,
+                               WeightedContacts<kCapacity> &out)
+{
+  out.exact_within = kAnyDistance;
+  if (list)
+    find_in_list<Geometry>(grid, *list, s.x, s.cutoff, out.set);
+  else
+    out.exact_within = find_contacts_in<Geometry>(grid, s.x, s.cutoff, out.set);
+  filter_contacts<kBeyondContact>(grid, settings, s, out.set);
+  out.set.sort();
+}
+template <bool kBeyondContact, class Springs, int kCapacity>
+LSDCD_FN void find_filtered(const GridView &grid, const SearchSettings &settings,
+                            const QuerySphereWith<Springs> &s, const ListedFeatures *list,
+                            WeightedContacts<kCapacity> &out)
+{
+  if (grid.in_floats)
+    find_filtered_in<kBeyondContact, BrickGeometry>(grid, settings, s, list, out);
+  else
+    find_filtered_in<kBeyondContact, MeshGeometry>(grid, settings, s, list, out);
+}
+
+// Can a search of this grid miss contacts?
+LSDCD_FN bool may_miss_any(const GridView &grid)
+{
+  return grid.nearest > 0;
+}
+
+// Overlap of the deepest contact that may be missing; 0: certified.
+LSDCD_FN Real may_miss(Real cutoff, Real exact_within)
+{
+  return exact_within < cutoff ? cutoff - exact_within : 0;
+}
+
+// Tolerance of the closest points of a grid; see kSamePoint.
+LSDCD_FN Real tolerance_of(const GridView &grid)
+{
+  return grid.in_floats ? BrickGeometry::tolerance(grid) : MeshGeometry::tolerance(grid);
+}
+
+// Gives every contact its weight: overlaps are shared as those of a sphere of radius `cutoff`, so
+// that they are greater than 0 as long as a contact holds, and 0 where it lets go.
+template <int kCapacity>
+LSDCD_FN void share_overlap(const SearchSettings &settings, Real cutoff, Real tolerance,
+                            CornerRule<kCapacity> &rule, WeightedContacts<kCapacity> &out)
+{
+  if (settings.corner == Corner::blend && out.set.n > 1)
+    rule.solve(out.set, cutoff, out.weight, tolerance);
+  else
+    for (int i = 0; i < out.set.n; i++) out.weight[i] = 1;
+}
+
+// The contacts of a sphere with their weights. `rule`: memory of the corner rule, which a stack may have no room
+// for.
+template <bool kBeyondContact, int kCapacity>
+LSDCD_FN void narrow_phase_with(const GridView &grid, const SearchSettings &settings,
+                                const QuerySphere &s, const ListedFeatures *list,
+                                CornerRule<kCapacity> &rule, WeightedContacts<kCapacity> &out)
+{
+  find_filtered<kBeyondContact>(grid, settings, s, list, out);
+  if (!out.set.overflow) share_overlap(settings, s.cutoff, tolerance_of(grid), rule, out);
+}
+
+// Functions of their own, so that they are compiled once however many laws there are.
+template <bool kBeyondContact, int kCapacity>
+LSDCD_NOINLINE void narrow_phase_in(CornerRule<kCapacity> &rule, const GridView &grid,
+                                    const SearchSettings &settings, const QuerySphere &s,
+                                    const ListedFeatures *list, WeightedContacts<kCapacity> &out)
+{
+  narrow_phase_with<kBeyondContact>(grid, settings, s, list, rule, out);
+}
+template <bool kBeyondContact, int kCapacity>
+LSDCD_NOINLINE void narrow_phase(const GridView &grid, const SearchSettings &settings,
+                                 const QuerySphere &s, const ListedFeatures *list,
+                                 WeightedContacts<kCapacity> &out)
+{
+  CornerRule<kCapacity> rule;
+  narrow_phase_with<kBeyondContact>(grid, settings, s, list, rule, out);
+}
+
+}    // namespace lsdcd
