@@ -6,6 +6,8 @@
 #include "backend/backend_cuda.h"
 #include "query/point_query.h"
 
+#include "lsdcd.h"
+
 #include <algorithm>
 #include <memory>
 #include <stdexcept>

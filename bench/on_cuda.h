@@ -6,13 +6,15 @@
 
 #include "brute_force.h"
 
-#include "lsdcd.h"
 #include "query/sphere.h"
 #include "query/triangle_tree.h"
 
 #include <cstddef>
 #include <string>
 #include <vector>
+
+struct lsdcd_grid;
+struct lsdcd_query;
 
 namespace lsdcd {
 
