@@ -27,8 +27,7 @@
 namespace lsdcd {
 
 enum class Corner { blend, sum };
-// On which side of a closed wall spheres stay; the number is the sign of the outward normal there.
-enum class Side { both = 0, out = 1, in = -1 };
+enum class Side { both, in, out };    // in the order of the keyword's words
 enum class Device { automatic, cpu, cuda };
 
 // double_: everything in double. mixed: contacts are found in float, in the frame of a

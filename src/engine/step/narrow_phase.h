@@ -31,7 +31,7 @@ LSDCD_FN void filter_contacts(const GridView &grid, const SearchSettings &settin
                               const QuerySphereWith<Springs> &s, ContactSet<kCapacity> &set)
 {
   if (settings.side != Side::both)
-    filter_side(grid.wall, static_cast<int>(settings.side) * grid.outside, set);
+    filter_side(grid.wall, (settings.side == Side::out ? 1 : -1) * grid.outside, set);
   if constexpr (kBeyondContact) {
     for (int i = set.n - 1; i >= 0; i--)
       if (set.distance[i] >= s.radius &&
