@@ -29,7 +29,7 @@ LibraryQuery::LibraryQuery(const TriangleSoup &mesh, const LibraryGrid &wanted) 
   options.cell = wanted.cell;
   options.nearest = wanted.nearest;
   options.precision = wanted.in_floats ? LSDCD_FLOAT : LSDCD_DOUBLE;
-  options.memory = 16e9;
+  if (wanted.cutoff > 0) options.memory = 16e9;    // of cells, which only a cutoff has
   options.device = wanted.on_cuda ? LSDCD_CUDA : LSDCD_CPU;
   lsdcd_grid *grid = nullptr;
   const int code = lsdcd_grid_build(read, &options, &grid);
