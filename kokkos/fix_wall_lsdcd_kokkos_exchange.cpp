@@ -134,7 +134,7 @@ void FixWallLsdcdKokkos<DeviceType>::unpack_exchange_kokkos(lsdcd::ExchangeBuffe
 template <class DeviceType>
 void FixWallLsdcdKokkos<DeviceType>::sort_kokkos(Kokkos::BinSort<KeyViewType, BinOp> &sorter)
 {
-  if (settings().contacts) {
+  if (spec().contacts) {
     const auto order = sorter.get_permute_vector();
     const int n = atom->nlocal, size = row_size();
     const auto from = to_host<LMPDeviceType>(order.data(), n);

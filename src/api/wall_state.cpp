@@ -5,7 +5,6 @@
 #include "api/wall_handle.h"
 #include "base/input_words.h"
 #include "contact/contact_set.h"
-#include "wall/old_wall_state.h"
 
 #include <algorithm>
 #include <cmath>
@@ -30,7 +29,7 @@ void check_spheres(const lsdcd_wall &wall, const std::ptrdiff_t *spheres, std::s
 // With which packed numbers begin: what contacts keep, and on how many meshes.
 Real packed_kind(const lsdcd_wall &wall)
 {
-  return static_cast<Real>(wall.in->settings().law.history_kind()) +
+  return static_cast<Real>(wall.in->spec().law().history_kind()) +
          0x1p32 * static_cast<Real>(wall.in->meshes().size());
 }
 
@@ -77,7 +76,7 @@ void read_saved(const Real *numbers, std::size_t n, WallState &state, SphereHist
     in.take_numbers(all.numbers().size());
   } else {
     const std::size_t size = in.take_count();
-    state = read_wall_state(in.take_numbers(size), size);
+    state = old_wall_state(in.take_numbers(size), size);
     in(spheres);
   }
   if (in.left() > 0) in.fail("are too long");

@@ -53,9 +53,8 @@ StepWanted step_wanted(lsdcd_wall &wall, const lsdcd_spheres *spheres, const lsd
   if (!(want.step.reach >= 0))
     throw ApiError(LSDCD_ERROR_ARGUMENT, "reach is " + number_text(want.step.reach) + ", below 0");
   check_count(wall, given.n);
-  const WallSettings &settings = wall.in->settings();
-  const bool has_types = settings.laws.kinds > 1;
-  want.spheres = spheres_of(given, settings.law.has_heat(), has_types);
+  const bool has_types = wall.in->laws().kinds > 1;
+  want.spheres = spheres_of(given, wall.in->spec().law().has_heat(), has_types);
   if (given.n > 0) check_places(given, wall.gpu.get());
   wall.caller.set_spheres(want.spheres);
   const bool came = given.n > wall.caller.tags.size();

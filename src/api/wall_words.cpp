@@ -2,10 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // lsdcd_wall_make and lsdcd_wall_change: the words of a script. No other file of this room knows words.
-#include "input/settings.h"
+#include "input/wall_command.h"
 
 #include "api/wall_handle.h"
-#include "wall/shared_material.h"
+#include "input/old_wall_state.h"
+#include "input/shared_material.h"
+#include "input/wall_change.h"
 
 #include <string>
 #include <vector>
@@ -34,6 +36,15 @@ void need_words(const std::vector<std::string> &words, const char *what)
 
 }    // namespace
 
+namespace lsdcd {
+
+WallState old_wall_state(const Real *numbers, std::size_t n)
+{
+  return read_wall_state(numbers, n);
+}
+
+}    // namespace lsdcd
+
 extern "C" {
 
 int lsdcd_wall_make(const char *const *words, size_t n, const lsdcd_wall_options *options,
@@ -45,7 +56,7 @@ int lsdcd_wall_make(const char *const *words, size_t n, const lsdcd_wall_options
     need_words(all, "a contact style, its numbers and `mesh FILE` make a wall");
     *wall = new_wall(options, [&](lsdcd_wall &made, const lsdcd_wall_options &o) {
       const FilledTokens filled = fill_material(made.caller, all, o.units ? o.units : "si");
-      return std::make_unique<Wall>(made.caller, parse_settings(filled.tokens), WallUnits(),
+      return std::make_unique<Wall>(made.caller, parse_wall(filled.tokens).wall, WallUnits(),
                                     place_of(o, made.gpu.get()), filled.report,
                                     StepClock{o.time, 0, 0, 0});
     });
@@ -57,7 +68,7 @@ int lsdcd_wall_change(lsdcd_wall *wall, const char *const *words, size_t n)
   return guard_wall(wall, [&] {
     const std::vector<std::string> all = words_of(words, n);
     need_words(all, "[mesh K] motion ... or [mesh K] servo ...");
-    const int taken = wall->in->change(all, {wall->number, wall->dt});
+    const int taken = change_wall(*wall->in, all, {wall->number, wall->dt});
     if (static_cast<std::size_t>(taken) != all.size())
       throw ApiError(LSDCD_ERROR_ARGUMENT, "'" + all[taken] +
                                                "' is no word of [mesh K] motion ... or [mesh K] "

@@ -4,7 +4,7 @@
 // Input words of compute lsdcd/collide -> CollideSettings.
 #pragma once
 
-#include "input/settings.h"
+#include "wall/wall_spec.h"
 
 #include <string>
 #include <vector>
@@ -12,8 +12,8 @@
 namespace lsdcd {
 
 struct CollideSettings {
-  std::string wall;     // ID of a fix wall/lsdcd
-  MeshSettings mesh;    // of the body: file, placement and weld
+  std::string wall;    // ID of a fix wall/lsdcd
+  MeshSpec mesh;       // of the body: file, placement and weld
   std::string
       atoms_file;    // file with its atoms in the mesh's frame; empty: as the first body has them
   bool molecules = false;    // a body per molecule, not one of all atoms

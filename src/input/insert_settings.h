@@ -4,8 +4,8 @@
 // Input words of fix insert/lsdcd -> InsertSettings.
 #pragma once
 
-#include "input/settings.h"
 #include "insert/insertion.h"
+#include "wall/wall_spec.h"
 
 #include <string>
 #include <vector>
@@ -13,7 +13,7 @@
 namespace lsdcd {
 
 struct InsertSettings {
-  MeshSettings face;     // without a file: a region
+  MeshSpec face;         // without a file: a region
   std::string region;    // its ID
   InsertionPlan plan;
   int type = 1;                 // of atoms

@@ -17,15 +17,10 @@ namespace lsdcd {
 
 namespace {
 
-void read_mesh(Tokens &w, MeshSettings &s)
+void read_mesh(Tokens &w, MeshSpec &s, InputNames &)
 {
   if (w.done()) w.fail("the file name is missing");
-  s.file = w.take();
-}
-
-void note_placement(MeshSettings &s, const std::string &tokens)
-{
-  s.placement_tokens += (s.placement_tokens.empty() ? "" : ", ") + tokens;
+  s.file = s.name = w.take();
 }
 
 Real nonzero(Tokens &w, const char *what)
@@ -35,7 +30,7 @@ Real nonzero(Tokens &w, const char *what)
   return value;
 }
 
-void read_scale(Tokens &w, MeshSettings &s)
+void read_scale(Tokens &w, MeshSpec &s, InputNames &)
 {
   Vec3 f;
   f.x = f.y = f.z = nonzero(w, "the factor");
@@ -44,12 +39,9 @@ void read_scale(Tokens &w, MeshSettings &s)
     f.z = nonzero(w, "the z factor (give one factor or three)");
   }
   s.placement.scale(f);
-  note_placement(
-      s, "scale " + number_text(f.x) +
-             (f.x == f.y && f.y == f.z ? "" : " " + number_text(f.y) + " " + number_text(f.z)));
 }
 
-void read_rotate(Tokens &w, MeshSettings &s)
+void read_rotate(Tokens &w, MeshSpec &s, InputNames &)
 {
   Vec3 axis;
   axis.x = w.number("the axis (x)");
@@ -58,22 +50,18 @@ void read_rotate(Tokens &w, MeshSettings &s)
   const Real degrees = w.number("the angle");
   if (axis == Vec3{0, 0, 0}) w.fail("the axis must not be 0 0 0");
   s.placement.rotate(axis, degrees);
-  note_placement(s, "rotate " + number_text(axis.x) + " " + number_text(axis.y) + " " +
-                        number_text(axis.z) + " " + number_text(degrees));
 }
 
-void read_move(Tokens &w, MeshSettings &s)
+void read_move(Tokens &w, MeshSpec &s, InputNames &)
 {
   Vec3 shift;
   shift.x = w.number("x");
   shift.y = w.number("y");
   shift.z = w.number("z");
   s.placement.move(shift);
-  note_placement(s, "move " + number_text(shift.x) + " " + number_text(shift.y) + " " +
-                        number_text(shift.z));
 }
 
-void read_cache(Tokens &w, MeshSettings &s)
+void read_cache(Tokens &w, MeshSpec &s, InputNames &)
 {
   if (w.done()) w.fail("the file name is missing");
   const std::string file = w.take();
@@ -96,23 +84,23 @@ struct BesideClassic {
   }
 };
 
-void read_rolling(Tokens &w, WallSettings &s)
+void read_rolling(Tokens &w, WallCommand &s)
 {
-  read_beside_classic(w, s.law, Family::rolling);
+  read_beside_classic(w, s.wall.laws.front().law, Family::rolling);
 }
 
-void read_cohesion(Tokens &w, WallSettings &s)
+void read_cohesion(Tokens &w, WallCommand &s)
 {
-  read_beside_classic(w, s.law, Family::cohesion);
+  read_beside_classic(w, s.wall.laws.front().law, Family::cohesion);
 }
 
 const BesideClassic kRolling(Family::rolling), kCohesion(Family::cohesion);
 
-void read_wear(Tokens &w, WallSettings &s)
+void read_wear(Tokens &w, WallCommand &s)
 {
-  s.wear.model = static_cast<WearModel>(1 + w.choice({"archard", "finnie"}));
-  s.wear.per_work = w.number("K", 0);
-  if (s.wear.model == WearModel::archard) s.wear.per_work /= w.number("H", kAboveZero);
+  s.wall.wear.model = static_cast<WearModel>(1 + w.choice({"archard", "finnie"}));
+  s.wall.wear.per_work = w.number("K", 0);
+  if (s.wall.wear.model == WearModel::archard) s.wall.wear.per_work /= w.number("H", kAboveZero);
 }
 
 FileEvery read_file_every(Tokens &w, const std::string &end)
@@ -133,7 +121,7 @@ FileEvery read_file_every(Tokens &w, const std::string &end)
   return file;
 }
 
-void read_torque_about(Tokens &w, MeshSettings &s)
+void read_torque_about(Tokens &w, MeshSpec &s, InputNames &)
 {
   s.torque_about_mesh = !w.done() && w.peek() == "mesh";
   if (s.torque_about_mesh) w.take();
@@ -143,32 +131,33 @@ void read_torque_about(Tokens &w, MeshSettings &s)
   s.torque_about.z = w.number("z");
 }
 
-void read_temperature(Tokens &w, MeshSettings &s)
+void read_temperature(Tokens &w, MeshSpec &s, InputNames &inputs)
 {
   s.has_temperature = true;
   if (!w.done() && w.peek().rfind("v_", 0) == 0) {
-    s.temperature_variable = w.take().substr(2);
-    if (s.temperature_variable.empty()) w.fail("the variable's name is missing after v_");
+    const std::string name = w.take().substr(2);
+    if (name.empty()) w.fail("the variable's name is missing after v_");
+    s.temperature_input = number_of_input(inputs, name);
   } else {
     s.temperature = w.number("T");
   }
 }
 
-void read_draw(Tokens &w, WallSettings &s)
+void read_draw(Tokens &w, WallCommand &s)
 {
-  s.draw = static_cast<Draw>(w.choice({"edges", "faces", "contours"}));
+  s.picture.draw = static_cast<Draw>(w.choice({"edges", "faces", "contours"}));
   if (!w.number_follows()) return;
-  s.draw_type = static_cast<int>(w.whole("the atom type", 1, 1e6));
+  s.picture.type = static_cast<int>(w.whole("the atom type", 1, 1e6));
 }
 
-void read_cut(Tokens &w, WallSettings &s)
+void read_cut(Tokens &w, WallCommand &s)
 {
-  s.cut = true;
-  s.cut_normal.x = w.number("the normal (x)");
-  s.cut_normal.y = w.number("the normal (y)");
-  s.cut_normal.z = w.number("the normal (z)");
-  if (s.cut_normal == Vec3{0, 0, 0}) w.fail("the normal must not be 0 0 0");
-  s.cut_offset = w.number("the offset");
+  s.picture.cut = true;
+  s.picture.cut_normal.x = w.number("the normal (x)");
+  s.picture.cut_normal.y = w.number("the normal (y)");
+  s.picture.cut_normal.z = w.number("the normal (z)");
+  if (s.picture.cut_normal == Vec3{0, 0, 0}) w.fail("the normal must not be 0 0 0");
+  s.picture.cut_offset = w.number("the offset");
 }
 
 const Keyword kKeywords[] = {
@@ -181,34 +170,36 @@ const Keyword kKeywords[] = {
     {"move", "x y z", "length", "", "0 0 0", "shift", nullptr, read_move},
     {"weld", "tol", "length", ">= 0", "1e-6 of the mesh diagonal",
      "corners closer than this are one vertex; 0: only equal ones", nullptr,
-     [](Tokens &w, MeshSettings &s) { s.weld = w.number("the tolerance", 0); }},
+     [](Tokens &w, MeshSpec &s, InputNames &) { s.weld = w.number("the tolerance", 0); }},
     {"grid", "L | auto", "length", "> 0", "auto", "cell edge of the limit-space grid",
-     [](Tokens &w, WallSettings &s) { s.grid_length = w.number_or("auto", 0, "L", kAboveZero); }},
+     [](Tokens &w, WallCommand &s) {
+       s.wall.grid_length = w.number_or("auto", 0, "L", kAboveZero);
+     }},
     {"rmax", "R | auto", "length", "> 0", "auto: the largest radius in the group",
      "largest particle radius that the grid is built for",
-     [](Tokens &w, WallSettings &s) { s.rmax = w.number_or("auto", 0, "R", kAboveZero); }},
+     [](Tokens &w, WallCommand &s) { s.wall.rmax = w.number_or("auto", 0, "R", kAboveZero); }},
     {"memory", "MB", "MiB", ">= 1", "1024 beside the mesh's own records",
      "budget for the grid of each mesh",
-     [](Tokens &w, WallSettings &s) { s.memory_budget = read_memory(w); }},
+     [](Tokens &w, WallCommand &s) { s.wall.memory_budget = read_memory(w); }},
     {"nearest", "all | N", "", "1 to 32", "all",
      "lists hold all a sphere can touch, or the N triangles nearest to a cell's centre",
-     [](Tokens &w, WallSettings &s) { s.nearest = read_nearest(w); }},
+     [](Tokens &w, WallCommand &s) { s.wall.nearest = read_nearest(w); }},
     {"precision", "double | mixed | single", "", "", "double",
      "mixed: contacts in float, forces in double; single: both in float",
-     [](Tokens &w, WallSettings &s) {
-       s.precision = static_cast<Precision>(w.choice({"double", "mixed", "single"}));
+     [](Tokens &w, WallCommand &s) {
+       s.wall.precision = static_cast<Precision>(w.choice({"double", "mixed", "single"}));
      }},
     {"cache", "FILE | none", "", "", "none",
      "file that keeps the grid, so that the next start need not build it", nullptr, read_cache},
     {"corner", "blend | sum", "", "", "blend",
      "contacts at one place share their overlap, or their forces simply add",
-     [](Tokens &w, WallSettings &s) {
-       s.corner = static_cast<Corner>(w.choice({"blend", "sum"}));
+     [](Tokens &w, WallCommand &s) {
+       s.wall.corner = static_cast<Corner>(w.choice({"blend", "sum"}));
      }},
     {"side", "both | in | out", "", "", "both",
      "where particles belong; in and out need a closed, oriented mesh",
-     [](Tokens &w, WallSettings &s) {
-       s.side = static_cast<Side>(w.choice({"both", "in", "out"}));
+     [](Tokens &w, WallCommand &s) {
+       s.wall.side = static_cast<Side>(w.choice({"both", "in", "out"}));
      }},
     {"motion", kMotionSyntax, "velocity, length, time", "period > 0", "none",
      "the mesh moves, as fix move's words say; repeated, each acts on what the earlier ones placed",
@@ -242,34 +233,34 @@ const Keyword kKeywords[] = {
      "volume that wears off the triangles: K F s/H, or by angle and energy of impacts", read_wear},
     {"wear_factor", "F", "", ">= 0", "1",
      "this mesh wears F times as fast as wear says; 0: it does not", nullptr,
-     [](Tokens &w, MeshSettings &s) { s.wear_factor = w.number("F", 0); }},
+     [](Tokens &w, MeshSpec &s, InputNames &) { s.wear_factor = w.number("F", 0); }},
     {"mesh_fields", "FILE every N", "", "*.vtp, N >= 1", "none",
      "stress, contacts and wear of every triangle every N steps, for ParaView; * is the step, and "
      "a .pvd file lists them all",
-     nullptr, [](Tokens &w, MeshSettings &s) { s.fields = read_file_every(w, ".vtp"); }},
+     nullptr, [](Tokens &w, MeshSpec &s, InputNames &) { s.fields = read_file_every(w, ".vtp"); }},
     {"mesh_stl", "FILE every N", "", "*.stl, N >= 1", "none",
      "the mesh where it is, as a binary STL, every N steps; * is the step", nullptr,
-     [](Tokens &w, MeshSettings &s) { s.stl = read_file_every(w, ".stl"); }},
+     [](Tokens &w, MeshSpec &s, InputNames &) { s.stl = read_file_every(w, ".stl"); }},
     {"torque_about", "x y z | mesh [x y z]", "length", "", "0 0 0",
      "the point that f_ID[4] to f_ID[6] are about; mesh: it moves with the mesh and was at x y z "
      "(0 0 0) before",
      nullptr, read_torque_about},
     {"device", "auto | cpu | cuda", "", "", "auto", "where wall forces are computed",
-     [](Tokens &w, WallSettings &s) {
-       s.device = static_cast<Device>(w.choice({"auto", "cpu", "cuda"}));
+     [](Tokens &w, WallCommand &s) {
+       s.wall.device = static_cast<Device>(w.choice({"auto", "cpu", "cuda"}));
      }},
     {"temperature", "T | v_NAME", "temperature", "", "none",
      "of the wall, for the sub-model heat; v_NAME: an equal-style variable", nullptr,
      read_temperature},
     {"contacts", "", "", "", "off", "per-atom array of 8 columns (9 with heat), as fix wall/gran's",
-     [](Tokens &, WallSettings &s) { s.contacts = true; }},
+     [](Tokens &, WallCommand &s) { s.wall.contacts = true; }},
     {"periodic", "", "", "", "off",
      "the mesh is meant to reach past periodic faces or to continue itself there; it acts "
      "through them in any case",
-     [](Tokens &, WallSettings &s) { s.periodic = true; }},
+     [](Tokens &, WallCommand &s) { s.wall.periodic = true; }},
     {"log", "full | brief", "", "", "full", "brief: one line about the wall in place of all",
-     [](Tokens &w, WallSettings &s) {
-       s.brief = w.choice({"full", "brief"}) == 1;
+     [](Tokens &w, WallCommand &s) {
+       s.wall.brief = w.choice({"full", "brief"}) == 1;
      }},
     {"draw", "edges | faces | contours [type]", "", "", "edges 1",
      "what dump image shows, in the colour of an atom type: fix ID type DIAMETER 0 for lines, "
@@ -311,14 +302,15 @@ std::size_t read_memory(Tokens &w)
   return static_cast<std::size_t>(w.number("the budget", 1, 1e9) * 1024 * 1024);
 }
 
-bool read_mesh_word(const std::string &word, Tokens &w, MeshSettings &mesh)
+bool read_mesh_word(const std::string &word, Tokens &w, MeshSpec &mesh)
 {
   for (const char *const shared : {"mesh", "scale", "rotate", "move", "weld"})
     if (word == shared)
       for (const Keyword &row : keywords())
         if (word == row.name) {
           w.set_context(row.name, syntax_of(row));
-          row.read_of_mesh(w, mesh);
+          InputNames none;    // these have no variables
+          row.read_of_mesh(w, mesh, none);
           return true;
         }
   return false;

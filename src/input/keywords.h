@@ -5,7 +5,7 @@
 #pragma once
 
 #include "base/input_words.h"
-#include "input/settings.h"
+#include "input/wall_command.h"
 
 #include <cstddef>
 #include <string>
@@ -21,8 +21,9 @@ struct Keyword {
   const char *range;
   const char *fallback;
   const char *help;
-  void (*read)(Tokens &, WallSettings &);                      // null: of a mesh
-  void (*read_of_mesh)(Tokens &, MeshSettings &) = nullptr;    // null: of the wall
+  void (*read)(Tokens &, WallCommand &);    // null: of a mesh
+  // Variables become inputs. Null: of the wall.
+  void (*read_of_mesh)(Tokens &, MeshSpec &, InputNames &inputs) = nullptr;
 
   bool repeats() const;    // may it be given more than once?
 };
@@ -32,7 +33,7 @@ std::string syntax_of(const Keyword &row);
 
 // Reads the values of a word that all commands with a mesh share: mesh, scale, rotate, move, weld. False:
 // it is none of these.
-bool read_mesh_word(const std::string &word, Tokens &w, MeshSettings &mesh);
+bool read_mesh_word(const std::string &word, Tokens &w, MeshSpec &mesh);
 // The values of `nearest`, "all" (0) or N, and of `memory`, MiB: in bytes.
 int read_nearest(Tokens &);
 std::size_t read_memory(Tokens &);

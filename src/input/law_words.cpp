@@ -10,7 +10,7 @@
 
 namespace lsdcd {
 
-const char *const kLawOfMeshSyntax =
+const char *const kLawOfTypesSyntax =
     "law [types I] STYLE numbers, of the wall's sub-models, with I as 2, 1*3, 2* or *";
 
 namespace {
@@ -37,9 +37,10 @@ bool is_whole(const std::string &word, int *value)
 }
 
 // As LAMMPS's: 2, 1*3, 2*, *3, *
-void read_types(Tokens &w, LawOfMesh &of)
+void read_types(Tokens &w, LawOfTypes &of)
 {
   if (w.done()) w.fail("the atom types are missing after 'types'");
+  of.first_type = 1;
   const std::string word = w.take();
   const std::size_t star = word.find('*');
   bool good;
@@ -52,11 +53,10 @@ void read_types(Tokens &w, LawOfMesh &of)
            (to.empty() || is_whole(to, &of.last_type)) && of.first_type <= of.last_type;
   }
   if (!good) w.fail("'" + word + "' is no range of atom types");
-  of.types = word;
 }
 
 // The law takes from the wall what it leaves out itself. Beside `granular` only limit_damping may be left out.
-void inherit(const ContactLaw &from, LawOfMesh &of)
+void inherit(const ContactLaw &from, LawOfTypes &of)
 {
   ContactLaw &law = of.law;
   const bool is_limited = from.limit_damping && !law.limit_damping;
@@ -67,62 +67,22 @@ void inherit(const ContactLaw &from, LawOfMesh &of)
   if (!law.cohesion.is_on()) law.cohesion = from.cohesion;
 }
 
+// Calls visit(law) for those of the wall and of its meshes.
+template <class Visit>
+void for_laws(WallSpec &wall, const Visit &visit)
+{
+  for (LawOfTypes &row : wall.laws) visit(row.law);
+  for (MeshSpec &mesh : wall.meshes)
+    for (LawOfTypes &row : mesh.laws) visit(row.law);
+}
+
 // Cohesion of 0 everywhere costs nothing.
-void leave_out_cohesion(WallSettings &s)
+void leave_out_cohesion(WallSpec &wall)
 {
   bool any = false;
-  const auto look = [&](const ContactLaw &law) { any |= law.cohesion.numbers[0] != 0; };
-  look(s.law);
-  for (const MeshSettings &mesh : s.meshes)
-    for (const LawOfMesh &of : mesh.laws) look(of.law);
+  for_laws(wall, [&](const ContactLaw &law) { any |= law.cohesion.numbers[0] != 0; });
   if (any) return;
-  s.law.cohesion = CohesionModel::none;
-  for (MeshSettings &mesh : s.meshes)
-    for (LawOfMesh &of : mesh.laws) of.law.cohesion = CohesionModel::none;
-}
-
-// The last one of the types is that of a type; else the mesh's own, else the wall's.
-const ContactLaw &law_of_type(const WallSettings &s, const MeshSettings &mesh, int type)
-{
-  const ContactLaw *found = &s.law;
-  bool by_type = false;
-  for (const LawOfMesh &of : mesh.laws) {
-    const bool all = of.types.empty();
-    if (all ? by_type : type < of.first_type || type > of.last_type) continue;
-    found = &of.law;
-    by_type = !all;
-  }
-  return *found;
-}
-
-LawTable table_of_laws(const WallSettings &s)
-{
-  LawTable table;
-  bool any = false, by_type = false;
-  int last = 0;    // types beyond have the same laws
-  for (const MeshSettings &mesh : s.meshes)
-    for (const LawOfMesh &of : mesh.laws) {
-      any = true;
-      if (of.types.empty()) continue;
-      by_type = true;
-      last = std::max(last, of.last_type == kAnyType ? of.first_type - 1 : of.last_type);
-    }
-  if (!any) return table;
-  std::vector<std::vector<const ContactLaw *>> kinds;    // of each, the law of each mesh
-  for (int type = 1; type <= last + 1; type++) {
-    std::vector<const ContactLaw *> laws;
-    for (const MeshSettings &mesh : s.meshes) laws.push_back(&law_of_type(s, mesh, type));
-    const auto at = std::find(kinds.begin(), kinds.end(), laws);
-    const int kind = static_cast<int>(at - kinds.begin());
-    if (at == kinds.end()) kinds.push_back(laws);
-    if (type == 1) table.kind_of_type.push_back(kind);    // there is no type 0
-    table.kind_of_type.push_back(kind);
-  }
-  if (!by_type) table.kind_of_type.clear();
-  table.kinds = static_cast<int>(kinds.size());
-  for (std::size_t m = 0; m < s.meshes.size(); m++)
-    for (const auto &laws : kinds) table.laws.push_back(*laws[m]);
-  return table;
+  for_laws(wall, [](ContactLaw &law) { law.cohesion = CohesionModel::none; });
 }
 
 }    // namespace
@@ -172,43 +132,43 @@ void read_beside_classic(Tokens &w, ContactLaw &law, Family family)
   law = draft.law;
 }
 
-void read_law_of_mesh(Tokens &w, MeshSettings &mesh)
+// The law of all types is that of those without a row of their own: it becomes the first row, wherever it stands.
+void read_law_of_mesh(Tokens &w, MeshSpec &mesh, InputNames &)
 {
-  LawOfMesh of;
-  if (!w.done() && w.peek() == "types") {
+  LawOfTypes of;
+  const bool by_type = !w.done() && w.peek() == "types";
+  if (by_type) {
     w.take();
     read_types(w, of);
-  } else if (std::any_of(mesh.laws.begin(), mesh.laws.end(),
-                         [](const LawOfMesh &other) { return other.types.empty(); })) {
+  } else if (!mesh.laws.empty() && mesh.laws.front().first_type == 0) {
     w.fail("the mesh has one for all atom types already");
   }
   if (!w.done() && w.peek() == "material") w.fail(kNoMaterialHere);
-  of.law = read_law(w, of.name, kLawOfMeshSyntax);
+  of.law = read_law(w, of.name, kLawOfTypesSyntax);
   while (of.law.is_classic() && !w.done()) {
     const bool rolls = w.peek() == family_word(Family::rolling);
     if (!rolls && w.peek() != family_word(Family::cohesion)) break;
     const bool twice = rolls ? of.law.rolling.is_on() : of.law.cohesion.is_on();
-    w.set_context("law ... " + w.take(), kLawOfMeshSyntax);
+    w.set_context("law ... " + w.take(), kLawOfTypesSyntax);
     if (twice) w.fail("it is given twice");
     read_beside_classic(w, of.law, rolls ? Family::rolling : Family::cohesion);
   }
-  mesh.laws.push_back(of);
+  mesh.laws.insert(by_type ? mesh.laws.end() : mesh.laws.begin(), of);
 }
 
-void finish_laws(Tokens &w, WallSettings &s)
+void finish_laws(Tokens &w, WallSpec &s)
 {
-  w.set_context("law", kLawOfMeshSyntax);
-  for (MeshSettings &mesh : s.meshes)
-    for (LawOfMesh &of : mesh.laws) inherit(s.law, of);
+  w.set_context("law", kLawOfTypesSyntax);
+  for (MeshSpec &mesh : s.meshes)
+    for (LawOfTypes &of : mesh.laws) inherit(s.law(), of);
   leave_out_cohesion(s);
-  for (const MeshSettings &mesh : s.meshes)
-    for (const LawOfMesh &of : mesh.laws)
-      if (rows_of(of.law) != rows_of(s.law))
+  for (const MeshSpec &mesh : s.meshes)
+    for (const LawOfTypes &of : mesh.laws)
+      if (rows_of(of.law) != rows_of(s.law()))
         w.fail("mesh '" + mesh.file + "' has the sub-models " + sub_models_text(of.law) +
-               ", and the wall has " + sub_models_text(s.law) +
+               ", and the wall has " + sub_models_text(s.law()) +
                ": only the numbers may differ; put the mesh into another fix, or give the wall the "
                "same sub-models");
-  s.laws = table_of_laws(s);
 }
 
 }    // namespace lsdcd

@@ -5,8 +5,8 @@
 #pragma once
 
 #include "base/input_words.h"
-#include "input/settings.h"
 #include "law/sub_models.h"
+#include "wall/wall_spec.h"
 
 #include <string>
 
@@ -21,9 +21,9 @@ void read_beside_classic(Tokens &w, ContactLaw &law, Family family);
 
 // [types I] STYLE NUMBERS, after `law`.
 extern const char *const kLawOfMeshSyntax;
-void read_law_of_mesh(Tokens &w, MeshSettings &mesh);
+void read_law_of_mesh(Tokens &w, MeshSpec &mesh, InputNames &);
 
-// Once all is read: what a mesh's law leaves out is the wall's; refuses other sub-models; makes the table.
-void finish_laws(Tokens &w, WallSettings &settings);
+// Once all is read: what a mesh's law leaves out is the wall's; refuses other sub-models.
+void finish_laws(Tokens &w, WallSpec &settings);
 
 }    // namespace lsdcd

@@ -4,7 +4,7 @@
 // Input words of fix massflow/lsdcd -> MassflowSettings.
 #pragma once
 
-#include "input/settings.h"
+#include "wall/wall_spec.h"
 
 #include <string>
 #include <vector>
@@ -12,7 +12,7 @@
 namespace lsdcd {
 
 struct MassflowSettings {
-  MeshSettings surface;    // file, placement and weld
+  MeshSpec surface;        // file, placement and weld
   bool brief = false;      // one line in the log
   bool once = false;       // a sphere counts the first time only
   bool deletes = false;    // what has passed forward

@@ -45,37 +45,31 @@ Vec3 fixed_vector(Tokens &w, const char *x, const char *y, const char *z)
 void read_axis(Tokens &w, MotionTerm &m)
 {
   m.point = fixed_vector(w, "Px", "Py", "Pz");
-  const Vec3 axis = fixed_vector(w, "Rx", "Ry", "Rz");
-  if (axis == Vec3{0, 0, 0}) w.fail("the axis Rx Ry Rz must not be 0 0 0");
-  m.axis = unit_vector(axis);
+  m.axis = fixed_vector(w, "Rx", "Ry", "Rz");
+  if (m.axis == Vec3{0, 0, 0}) w.fail("the axis Rx Ry Rz must not be 0 0 0");
 }
 
-void read_variables(Tokens &w, MotionTerm &m)
+void read_variables(Tokens &w, MotionTerm &m, InputNames &inputs)
 {
   const char *const names[] = {"v_dx", "v_dy", "v_dz", "v_vx", "v_vy", "v_vz"};
   for (int k = 0; k < 6; k++) {
     if (w.done()) w.fail(std::string("the variable ") + names[k] + " is missing (NULL: none)");
     if (variable_follows(w))
-      m.name[k] = take_variable(w);
+      m.input[k] = number_of_input(inputs, take_variable(w));
     else if (w.take() != "NULL")
       w.fail(std::string("in the place of ") + names[k] + " a variable v_NAME or NULL is expected");
   }
   for (int d = 0; d < 3; d++)
-    if (m.name[d].empty() && !m.name[3 + d].empty())
+    if (m.input[d] == kNoInput && m.input[3 + d] != kNoInput)
       w.fail(std::string("there is a velocity ") + names[3 + d] + " without a displacement " +
              names[d] +
              ": it would have to be integrated. Give both, as with vdisplace() and a "
              "number, or ramp()");
-  if (m.name[0].empty() && m.name[1].empty() && m.name[2].empty())
+  if (m.input[0] == kNoInput && m.input[1] == kNoInput && m.input[2] == kNoInput)
     w.fail("all variables are NULL, and nothing moves");
 }
 
-void note_motion(MeshSettings &s, const std::string &tokens)
-{
-  s.motion_tokens += (s.motion_tokens.empty() ? "" : ", ") + tokens;
-}
-
-MotionTerm read_motion_term(Tokens &w)
+MotionTerm read_motion_term(Tokens &w, InputNames &inputs)
 {
   MotionTerm m;
   const MotionKind kinds[] = {MotionKind::linear, MotionKind::wiggle, MotionKind::rotate,
@@ -87,7 +81,7 @@ MotionTerm read_motion_term(Tokens &w)
   if (m.turns()) read_axis(w, m);
   if (m.turns() || m.kind == MotionKind::wiggle)
     m.period = fixed_number(w, "the period", kAboveZero);
-  if (m.kind == MotionKind::variable) read_variables(w, m);
+  if (m.kind == MotionKind::variable) read_variables(w, m, inputs);
   if (w.number_follows())
     w.fail("the number '" + w.peek() + "' is one too many" +
            (m.turns() ? ": there is one centre P, one axis R and one period; for a second turn "
@@ -106,69 +100,61 @@ MotionTerm read_wiggle_term(Tokens &w)
   return m;
 }
 
-// A number, or v_NAME: its name goes into `variable`, and the number is 0.
-Real number_or_variable(Tokens &w, const char *what, std::string &variable)
+// A number, or v_NAME, which is an input: then the number is 0.
+Real number_or_variable(Tokens &w, const char *what, int &input, InputNames &inputs)
 {
   if (!variable_follows(w)) return w.number(what);
-  variable = take_variable(w);
+  input = number_of_input(inputs, take_variable(w));
   return 0;
 }
 
 }    // namespace
 
-void read_surface_vel(Tokens &w, MeshSettings &s)
+void read_surface_vel(Tokens &w, MeshSpec &s, InputNames &inputs)
 {
   const char *const names[] = {"vx", "vy", "vz"};
   for (int d = 0; d < 3; d++)
-    s.surface.velocity[d] = number_or_variable(w, names[d], s.surface_variable[d]);
+    s.surface.velocity[d] = number_or_variable(w, names[d], s.surface_input[d], inputs);
 }
 
-void read_shear(Tokens &w, MeshSettings &s)
+void read_shear(Tokens &w, MeshSpec &s, InputNames &inputs)
 {
   const int d = w.choice({"x", "y", "z"});
-  s.surface.velocity[d] = number_or_variable(w, "the speed", s.surface_variable[d]);
+  s.surface.velocity[d] = number_or_variable(w, "the speed", s.surface_input[d], inputs);
 }
 
-void read_motion(Tokens &w, MeshSettings &s)
+void read_motion(Tokens &w, MeshSpec &s, InputNames &inputs)
 {
-  const std::size_t first = w.at();
-  s.motion.add(read_motion_term(w));
-  note_motion(s, w.between(first));
+  s.motion.add(read_motion_term(w, inputs));
 }
 
-void read_wiggle(Tokens &w, MeshSettings &s)
+void read_wiggle(Tokens &w, MeshSpec &s, InputNames &)
 {
-  const std::size_t first = w.at();
   s.motion.add(read_wiggle_term(w));
-  note_motion(s, "wiggle " + w.between(first));
 }
 
-void read_surface_angvel(Tokens &w, MeshSettings &s)
+void read_surface_angvel(Tokens &w, MeshSpec &s, InputNames &inputs)
 {
   const char *const names[] = {"wx", "wy", "wz"};
   for (int d = 0; d < 3; d++)
-    s.surface.angular[d] = number_or_variable(w, names[d], s.surface_variable[3 + d]);
+    s.surface.angular[d] = number_or_variable(w, names[d], s.surface_input[3 + d], inputs);
   if (w.number_follows())
     s.surface.centre = fixed_vector(w, "the centre (x)", "the centre (y)", "the centre (z)");
 }
 
-ModifiedMotion read_modified_motion(const std::vector<std::string> &tokens)
+RigidMotion read_modified_motion(Tokens &w, InputNames &inputs)
 {
-  ModifiedMotion read;
-  Tokens w(tokens);
+  RigidMotion read;
   w.set_context("motion", std::string("fix_modify ID motion ") + kMotionSyntax + " | none");
   while (!w.done() && w.peek() == "motion") {
     w.take();
-    const std::size_t first = w.at();
     if (!w.done() && w.peek() == "none") {
       w.take();
-      if (!read.terms.empty() || (!w.done() && w.peek() == "motion"))
+      if (read.moves() || (!w.done() && w.peek() == "motion"))
         w.fail("none stops all motion: it must stand alone");
     } else {
-      read.terms.push_back(read_motion_term(w));
-      read.text += (read.text.empty() ? "" : ", ") + w.between(first);
+      read.add(read_motion_term(w, inputs));
     }
-    read.taken = w.at();
   }
   return read;
 }

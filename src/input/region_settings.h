@@ -4,7 +4,7 @@
 // Input words of region mesh/lsdcd -> RegionSettings.
 #pragma once
 
-#include "input/settings.h"
+#include "wall/wall_spec.h"
 
 #include <string>
 #include <vector>
@@ -12,8 +12,8 @@
 namespace lsdcd {
 
 struct RegionSettings {
-  MeshSettings mesh;    // file, placement and weld
-  Real gap = 0;         // length; how far from the surface points must be
+  MeshSpec mesh;    // file, placement and weld
+  Real gap = 0;     // length; how far from the surface points must be
   // Words that LAMMPS reads for all its regions: side, units, move and rotate by variables.
   std::vector<std::string> host_words = {"units", "box"};
 };

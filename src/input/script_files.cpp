@@ -9,10 +9,10 @@
 
 namespace lsdcd {
 
-std::vector<ScriptFile> files_of(const WallSettings &settings)
+std::vector<ScriptFile> files_of(const WallSpec &settings)
 {
   std::vector<ScriptFile> files;
-  for (const MeshSettings &m : settings.meshes) {
+  for (const MeshSpec &m : settings.meshes) {
     files.push_back({"mesh", m.file});
     if (m.fields.every > 0) files.push_back({"mesh_fields", m.fields.name, m.fields.every, true});
     if (m.stl.every > 0) files.push_back({"mesh_stl", m.stl.name, m.stl.every, true});

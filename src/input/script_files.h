@@ -4,7 +4,7 @@
 // Files that commands of a script read and write, and where one would replace another.
 #pragma once
 
-#include "input/settings.h"
+#include "wall/wall_spec.h"
 
 #include <string>
 #include <vector>
@@ -19,7 +19,7 @@ struct ScriptFile {
 };
 
 // The files of a wall's meshes, by name; none is opened.
-std::vector<ScriptFile> files_of(const WallSettings &settings);
+std::vector<ScriptFile> files_of(const WallSpec &settings);
 
 // Would writing one of these in a step after `now` replace the other? Different spellings of a folder
 // are the same. A link is replaced, not the file that it leads to.

@@ -36,15 +36,16 @@ void read_line(Tokens &w, Servo &s)
   s.point = read_vector(w, "px", "py", "pz");
 }
 
-void read_target(Tokens &w, Servo &s)
+void read_target(Tokens &w, Servo &s, InputNames &inputs)
 {
   const char *const kTarget = "the target (number or v_NAME)";
   if (w.done() || w.peek().rfind("v_", 0) != 0) {
     s.target = w.number(kTarget);
     return;
   }
-  s.target_name = w.take().substr(2);
-  if (s.target_name.empty()) w.fail("the variable's name is missing after v_");
+  const std::string name = w.take().substr(2);
+  if (name.empty()) w.fail("the variable's name is missing after v_");
+  s.target_input = number_of_input(inputs, name);
 }
 
 void read_limits(Tokens &w, Servo &s)
@@ -59,13 +60,13 @@ void read_limits(Tokens &w, Servo &s)
            " do not contain 0, which is where the servo begins");
 }
 
-Servo read_one_servo(Tokens &w)
+Servo read_one_servo(Tokens &w, InputNames &inputs)
 {
   Servo s;
   s.present = true;
   s.turns = w.choice({"force", "torque"}) == 1;
   read_line(w, s);
-  read_target(w, s);
+  read_target(w, s, inputs);
   std::vector<std::string> seen;
   while (!w.done()) {
     const std::string word = w.peek();
@@ -85,27 +86,18 @@ Servo read_one_servo(Tokens &w)
 
 }    // namespace
 
-void read_servo(Tokens &w, MeshSettings &s)
+void read_servo(Tokens &w, MeshSpec &s, InputNames &inputs)
 {
-  const std::size_t first = w.at();
-  s.motion.servo() = read_one_servo(w);
-  s.servo_tokens = w.between(first);
+  s.motion.servo() = read_one_servo(w, inputs);
 }
 
-ModifiedServo read_modified_servo(const std::vector<std::string> &tokens)
+Servo read_modified_servo(Tokens &w, InputNames &inputs)
 {
-  ModifiedServo read;
-  Tokens w(tokens);
   w.set_context("servo", std::string("fix_modify ID servo ") + kServoSyntax + " | none");
   w.take();
-  const std::size_t first = w.at();
-  if (!w.done() && w.peek() == "none")
-    w.take();
-  else
-    read.servo = read_one_servo(w);
-  read.text = w.between(first);
-  read.taken = w.at();
-  return read;
+  if (w.done() || w.peek() != "none") return read_one_servo(w, inputs);
+  w.take();
+  return {};
 }
 
 }    // namespace lsdcd

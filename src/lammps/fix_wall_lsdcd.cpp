@@ -4,12 +4,15 @@
 #include "lammps/fix_wall_lsdcd.h"
 
 #include "base/input_error.h"
+#include "input/old_wall_state.h"
+#include "input/shared_material.h"
+#include "input/wall_change.h"
+#include "input/wall_command.h"
 #include "lammps/host_box.h"
 #include "lammps/other_fixes.h"
 #include "lammps/own_wall_gran.h"
 #include "lammps/restart_data.h"
-#include "wall/old_wall_state.h"
-#include "wall/shared_material.h"
+#include "wall/spec_text.h"
 
 #include "atom.h"
 #if __has_include("atom_masks.h")
@@ -60,28 +63,30 @@ FixWallLsdcd::FixWallLsdcd(LAMMPS *lmp, int narg, char **arg, const lsdcd::WallP
         host, std::vector<std::string>(arg + 3, arg + narg), update->unit_style);
     for (int i = 3; i + 1 < narg && !filled.report.empty() && material_file.empty(); i++)
       if (std::strcmp(arg[i], "material") == 0) material_file = arg[i + 1];
-    const lsdcd::WallSettings settings = lsdcd::parse_settings(filled.tokens);
-    if (settings.draw_type > atom->ntypes)
+    const lsdcd::WallCommand command = lsdcd::parse_wall(filled.tokens);
+    const lsdcd::WallSpec &spec = command.wall;
+    picture.spec = command.picture;
+    if (picture.spec.type > atom->ntypes)
       throw lsdcd::InputError("in 'draw', there is no atom type " +
-                              std::to_string(settings.draw_type));
-    check_types(settings);
+                              std::to_string(picture.spec.type));
+    check_types(spec);
 #if !HOST_HAS_HEAT
-    if (settings.law.has_heat())
+    if (spec.law().has_heat())
       throw lsdcd::InputError(
           "the sub-model heat needs a LAMMPS with fix heat/flow, of 2 Aug 2023 or later: that of "
           "Debian trixie or sid, or one built from source");
 #endif
     const double now = update->atime + (update->ntimestep - update->atimestep) * update->dt;
     wall = std::make_unique<lsdcd::Wall>(
-        host, settings, lsdcd::WallUnits{force->nktv2p, force->ftm2v}, place, filled.report,
+        host, spec, lsdcd::WallUnits{force->nktv2p, force->ftm2v}, place, filled.report,
         lsdcd::StepClock{now, update->ntimestep, update->ntimestep, update->dt});
     const std::string differs =
-        lsdcd::wall_gran_difference(LSDCD_HOST_VERSION, settings.law_name, settings.law);
-    if (!differs.empty() && !settings.brief)
+        lsdcd::wall_gran_difference(LSDCD_HOST_VERSION, spec.laws.front().name, spec.law());
+    if (!differs.empty() && !spec.brief)
       log("fix wall/gran of this LAMMPS gives other forces for this law: " + differs);
   });
 
-  const bool contacts = settings().contacts;
+  const bool contacts = spec().contacts;
   restart_global = 1;
   if (wall->files_every() > 0) nevery = wall->files_every();
   create_attribute = has_history() || contacts;
@@ -106,7 +111,7 @@ FixWallLsdcd::FixWallLsdcd(LAMMPS *lmp, int narg, char **arg, const lsdcd::WallP
   virial_global_flag = 1;
   if (contacts) {
     peratom_flag = 1;
-    size_peratom_cols = settings().contact_columns();
+    size_peratom_cols = spec().contact_columns();
     peratom_freq = 1;
   }
 
@@ -140,22 +145,22 @@ void FixWallLsdcd::check_atoms() const
     fatal("atoms need a radius, omega and torque: use atom_style sphere");
 }
 
-void FixWallLsdcd::check_types(const lsdcd::WallSettings &settings) const
+void FixWallLsdcd::check_types(const lsdcd::WallSpec &spec) const
 {
-  for (const lsdcd::MeshSettings &mesh : settings.meshes)
-    for (const lsdcd::LawOfMesh &of : mesh.laws) {
-      const int last = of.last_type == lsdcd::kAnyType ? of.first_type : of.last_type;
+  for (const lsdcd::MeshSpec &mesh : spec.meshes)
+    for (const lsdcd::LawOfTypes &row : mesh.laws) {
+      const int last = row.last_type == lsdcd::kAnyType ? row.first_type : row.last_type;
       if (last > atom->ntypes)
-        throw lsdcd::InputError("in 'types " + of.types + "', there is no atom type " +
-                                std::to_string(last) + ": there are " +
-                                std::to_string(atom->ntypes));
+        throw lsdcd::InputError("in 'types " + lsdcd::types_text(row) +
+                                "', there is no atom type " + std::to_string(last) +
+                                ": there are " + std::to_string(atom->ntypes));
     }
 }
 
 void FixWallLsdcd::check_heat() const
 {
 #if HOST_HAS_HEAT
-  if (settings().law.has_heat() && (!atom->temperature_flag || !atom->heatflow_flag))
+  if (spec().law().has_heat() && (!atom->temperature_flag || !atom->heatflow_flag))
     fatal("the sub-model heat needs a temperature and a heat flow per atom: fix ID all "
           "property/atom temperature heatflow ghost yes, and fix heat/flow to change them");
 #endif
@@ -163,7 +168,7 @@ void FixWallLsdcd::check_heat() const
 
 std::vector<lsdcd::ScriptFile> FixWallLsdcd::files() const
 {
-  std::vector<lsdcd::ScriptFile> all = lsdcd::files_of(settings());
+  std::vector<lsdcd::ScriptFile> all = lsdcd::files_of(spec());
   if (!material_file.empty()) all.push_back({"material", material_file});
   return all;
 }
@@ -228,7 +233,7 @@ void FixWallLsdcd::min_setup(int /*vflag*/)
   if (callbacks) ask_for_most_room();
   std::fill(virial, virial + 6, 0.0);
   wall->clear_totals();
-  for (int i = 0; settings().contacts && i < atom->nlocal; i++)
+  for (int i = 0; spec().contacts && i < atom->nlocal; i++)
     std::fill(array_atom[i], array_atom[i] + size_peratom_cols, 0.0);
   if (wall_in_minimize_warned) return;
   wall_in_minimize_warned = true;
@@ -347,7 +352,7 @@ void FixWallLsdcd::finish_step()
 {
   run_wall([&] { wall->finish(spheres()); });
   if (vflag_global) wall->add_virial(virial);
-  if (settings().contacts) fill_contacts();
+  if (spec().contacts) fill_contacts();
 }
 
 lsdcd::Spheres FixWallLsdcd::spheres_in_atom()
@@ -406,7 +411,7 @@ void FixWallLsdcd::fill_masses()
 void FixWallLsdcd::grow_arrays(int nmax)
 {
   wall->history().grow(nmax);
-  if (settings().contacts)
+  if (spec().contacts)
     memory->grow(array_atom, nmax, size_peratom_cols, "fix_wall_lsdcd:array_atom");
 }
 
@@ -415,26 +420,26 @@ void FixWallLsdcd::grow_arrays(int nmax)
 void FixWallLsdcd::copy_arrays(int i, int j, int /*delflag*/)
 {
   if (has_history()) history_on_host().copy(i, j);
-  if (settings().contacts) std::copy_n(array_atom[i], size_peratom_cols, array_atom[j]);
+  if (spec().contacts) std::copy_n(array_atom[i], size_peratom_cols, array_atom[j]);
 }
 
 void FixWallLsdcd::set_arrays(int i)
 {
   if (has_history()) history_on_host().clear(i);
-  if (settings().contacts) std::fill(array_atom[i], array_atom[i] + size_peratom_cols, 0.0);
+  if (spec().contacts) std::fill(array_atom[i], array_atom[i] + size_peratom_cols, 0.0);
 }
 
 int FixWallLsdcd::pack_exchange(int i, double *buf)
 {
   const int n = has_history() ? history_on_host().pack(i, buf) : 0;
-  if (settings().contacts) std::copy_n(array_atom[i], size_peratom_cols, buf + n);
+  if (spec().contacts) std::copy_n(array_atom[i], size_peratom_cols, buf + n);
   return n + row_size();
 }
 
 int FixWallLsdcd::unpack_exchange(int i, double *buf)
 {
   const int n = has_history() ? history_on_host().unpack(i, buf) : 0;
-  if (settings().contacts) std::copy_n(buf + n, size_peratom_cols, array_atom[i]);
+  if (spec().contacts) std::copy_n(buf + n, size_peratom_cols, array_atom[i]);
   return n + row_size();
 }
 
@@ -599,7 +604,7 @@ void FixWallLsdcd::fill_contacts()
 double FixWallLsdcd::memory_usage()
 {
   double bytes = wall->bytes() + mass_seen.capacity() * sizeof(double);
-  if (settings().contacts) bytes += (double) atom->nmax * size_peratom_cols * sizeof(double);
+  if (spec().contacts) bytes += (double) atom->nmax * size_peratom_cols * sizeof(double);
   return bytes;
 }
 
@@ -609,7 +614,7 @@ int FixWallLsdcd::image(int *&kinds, double **&rows)
   const bool first = !picture.is_drawn();
   const int n = comm->me == 0 ? picture.draw(*wall, kinds, rows) : 0;
   // LAMMPS does not say which diameter the script gives.
-  if (comm->me == 0 && first && !settings().brief && settings().draw != lsdcd::Draw::faces)
+  if (comm->me == 0 && first && !spec().brief && picture.spec.draw != lsdcd::Draw::faces)
     host.log("dump image draws the mesh as " + std::to_string(n) +
              " lines; where nothing is seen of it, their diameter is 0: write fix " +
              std::string(id) + " type DIAMETER 0");
@@ -619,7 +624,9 @@ int FixWallLsdcd::image(int *&kinds, double **&rows)
 int FixWallLsdcd::modify_param(int narg, char **arg)
 {
   int taken = 0;
-  run_wall([&] { taken = wall->change(std::vector<std::string>(arg, arg + narg), step_now()); });
+  run_wall([&] {
+    taken = lsdcd::change_wall(*wall, std::vector<std::string>(arg, arg + narg), step_now());
+  });
   show_servo();
   return taken;
 }

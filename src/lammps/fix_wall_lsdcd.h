@@ -65,6 +65,7 @@ class FixWallLsdcd : public Fix, protected OwnMessages {
 
   int modify_param(int, char **) override;
 
+  const lsdcd::WallSpec &spec() const { return wall->spec(); }
   const std::deque<lsdcd::MeshPart> &meshes() const { return wall->meshes(); }
   std::vector<lsdcd::ScriptFile> files() const;    // that it reads and writes
 
@@ -101,7 +102,6 @@ class FixWallLsdcd : public Fix, protected OwnMessages {
   virtual tagint tag_of(int);
   virtual void make_exchange_room();
 
-  const lsdcd::WallSettings &settings() const { return wall->settings(); }
   lsdcd::Spheres spheres_in_atom();
   lsdcd::Step step_now() const;
   lsdcd::StepInput step_input(bool look);
@@ -112,7 +112,7 @@ class FixWallLsdcd : public Fix, protected OwnMessages {
 
   bool has_history() { return wall->history().is_kept(); }
   lsdcd::ContactHistory &history_on_host() { return wall->history().on_host(); }
-  int row_size() const { return settings().contacts ? size_peratom_cols : 0; }
+  int row_size() const { return spec().contacts ? size_peratom_cols : 0; }
   void ask_for_room(int);
   void ask_for_most_room();
 
@@ -123,7 +123,7 @@ class FixWallLsdcd : public Fix, protected OwnMessages {
 
   void check_atoms() const;
   void check_heat() const;
-  void check_types(const lsdcd::WallSettings &) const;
+  void check_types(const lsdcd::WallSpec &) const;
 
   // Runs the wall's work, and ends LAMMPS with what it throws.
   template <class Work>

@@ -6,6 +6,7 @@
 #include "lammps/mpi_shared.h"
 #include "mesh/io/read_mesh.h"
 #include "mesh/measure_mesh.h"
+#include "mesh/soup_of.h"
 
 #include <cstdint>
 
@@ -31,7 +32,7 @@ bool is_first(MPI_Comm world)
 
 }    // namespace
 
-WeldedMesh read_together(MPI_Comm world, const MeshSettings &settings)
+WeldedMesh read_together(MPI_Comm world, const MeshSpec &settings)
 {
   TriangleSoup soup;
   soup.source = settings.file;
@@ -51,21 +52,7 @@ WeldedMesh read_together(MPI_Comm world, const MeshSettings &settings)
 WeldedMesh copy_together(MPI_Comm world, const WeldedMesh *mesh)
 {
   TriangleSoup soup;
-  run_collectively(world, is_first(world), [&] {
-    const auto add = [&](int a, int b, int c) {
-      for (const int v : {a, b, c}) soup.corners.push_back(mesh->vertices[v]);
-    };
-    for (const auto &f : mesh->faces) add(f[0], f[1], f[2]);
-    // Edges and points without a face, of triangles without area.
-    for (std::size_t e = 0; e < mesh->edges.size(); e++)
-      if (mesh->edge_first[e] == mesh->edge_first[e + 1])
-        add(mesh->edges[e][0], mesh->edges[e][1], mesh->edges[e][1]);
-    for (std::size_t v = 0; v < mesh->vertices.size(); v++)
-      if (mesh->vertex_first[v] == mesh->vertex_first[v + 1]) {
-        const int point = static_cast<int>(v);
-        add(point, point, point);
-      }
-  });
+  run_collectively(world, is_first(world), [&] { soup = soup_of(*mesh); });
   send_corners(world, soup);
   WeldedMesh copy;
   run_collectively(world, true, [&] { copy = weld(soup, 0); });

@@ -4,8 +4,8 @@
 // Meshes that every process has whole.
 #pragma once
 
-#include "input/settings.h"
 #include "mesh/welded_mesh.h"
+#include "wall/wall_spec.h"
 
 #include <mpi.h>
 
@@ -13,7 +13,7 @@ namespace lsdcd {
 
 // The file is read by the first process alone: it may not be there on other nodes. Collective;
 // throws InputError on all.
-WeldedMesh read_together(MPI_Comm world, const MeshSettings &settings);
+WeldedMesh read_together(MPI_Comm world, const MeshSpec &settings);
 
 // A copy of a mesh that the first process has; others give null. Its faces keep their numbers.
 WeldedMesh copy_together(MPI_Comm world, const WeldedMesh *mesh);

@@ -82,9 +82,9 @@ std::string LAMMPS_NS::doubled_mesh(const FixWallLsdcd &wall, const Modify &modi
     for (const lsdcd::MeshPart &m : wall.meshes()) {
       bool same = false;
       for (const lsdcd::MeshPart &of_other : other->meshes())
-        same |= lsdcd::are_one_mesh(m.settings, of_other.settings);
+        same |= lsdcd::are_one_mesh(wall.spec(), m.spec, other->spec(), of_other.spec);
       if (same && share_atoms(wall, *other, atom, world))
-        return "mesh '" + m.settings.file + "' is at the same place in fix " + other->id +
+        return "mesh '" + m.spec.name + "' is at the same place in fix " + other->id +
                ", whose group shares atoms with this one's: they feel every contact twice; leave "
                "one out, or move it";
     }

@@ -15,20 +15,19 @@ int WallPicture::draw(const lsdcd::Wall &wall, int *&kinds, double **&rows)
   constexpr int kLine = 1, kTriangle = 2;
 #endif
   constexpr int kRow = 10;
-  const lsdcd::WallSettings &settings = wall.settings();
-  const bool faces = settings.draw == lsdcd::Draw::faces, first = !is_drawn();
+  const bool faces = spec.draw == lsdcd::Draw::faces, first = !is_drawn();
   if (first || wall.any_moves()) {
     const int corners = faces ? 3 : 2;
     data.clear();
     row.clear();
     for (const lsdcd::MeshPart &m : wall.meshes()) {
-      if (first) objects.push_back(lsdcd::draw_mesh(*m.grid.mesh(), settings.draw));
+      if (first) objects.push_back(lsdcd::draw_mesh(*m.grid.mesh(), spec.draw));
       for (lsdcd::ImageObject one : objects[m.index]) {
         lsdcd::Vec3 centre = {0, 0, 0};
         for (lsdcd::Vec3 &c : one.corner) c = m.motion.pose().to_box(c);
         for (int k = 0; k < corners; k++) centre += (1.0 / corners) * one.corner[k];
-        if (settings.cut && dot(settings.cut_normal, centre) > settings.cut_offset) continue;
-        data.push_back(settings.draw_type);
+        if (spec.cut && dot(spec.cut_normal, centre) > spec.cut_offset) continue;
+        data.push_back(spec.type);
         for (const lsdcd::Vec3 &c : one.corner) data.insert(data.end(), {c.x, c.y, c.z});
       }
     }

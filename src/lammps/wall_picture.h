@@ -5,7 +5,7 @@
 #ifndef LMP_WALL_PICTURE_H
 #define LMP_WALL_PICTURE_H
 
-#include "output/mesh_image.h"
+#include "input/wall_command.h"
 
 #include <vector>
 
@@ -17,6 +17,8 @@ namespace LAMMPS_NS {
 
 class WallPicture {
  public:
+  lsdcd::PictureSpec spec;
+
   bool is_drawn() const { return !objects.empty(); }
   // Of a process that has the meshes. Each object is its kind and a row {atom type, corners}; both arrays
   // belong to this object. Returns how many there are.

@@ -7,6 +7,7 @@
 #include "law/contact_law.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <vector>
 
 namespace lsdcd {
@@ -32,6 +33,18 @@ inline Real largest_pull_off(const LawTable &table)
   Real largest = 0;
   for (const ContactLaw &law : table.laws) largest = std::max(largest, law.pull_off());
   return largest;
+}
+
+// Of mesh and kind, from 0.
+inline const ContactLaw &law_of(const LawTable &table, int mesh, int kind)
+{
+  return table.laws[static_cast<std::size_t>(mesh * table.of_mesh() + kind)];
+}
+
+// How far from its centre a sphere can feel the wall.
+inline Real cutoff_of(const LawTable &table, Real radius)
+{
+  return cutoff_of(radius, largest_pull_off(table));
 }
 
 // The kind of each sphere, in kernels.

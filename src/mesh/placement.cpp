@@ -64,6 +64,7 @@ void Placement::scale(const Vec3 &factors)
     row_[i] = factors[i] * row_[i];
     shift_[i] *= factors[i];
   }
+  steps_.push_back({PlacementStep::scale, factors});
 }
 
 void Placement::rotate(const Vec3 &axis, Real degrees)
@@ -92,6 +93,7 @@ void Placement::rotate(const Vec3 &axis, Real degrees)
     row[i] = turn[i].x * row_[0] + turn[i].y * row_[1] + turn[i].z * row_[2];
   shift_ = {dot(turn[0], shift_), dot(turn[1], shift_), dot(turn[2], shift_)};
   for (int i = 0; i < 3; ++i) row_[i] = row[i];
+  steps_.push_back({PlacementStep::rotate, axis, degrees});
 }
 
 void Placement::move(const Vec3 &shift)
@@ -99,6 +101,7 @@ void Placement::move(const Vec3 &shift)
   if (!is_finite(shift))
     throw InputError("move " + text(shift) + ": a component is not finite; give three lengths");
   shift_ += shift;
+  steps_.push_back({PlacementStep::move, shift});
 }
 
 bool Placement::is_identity() const

@@ -7,9 +7,19 @@
 #include "base/vec3.h"
 #include "mesh/triangle_soup.h"
 
+#include <vector>
+
 namespace lsdcd {
 
-// An affine map x -> m x + t, built up one word at a time; later words act on
+// A part of a placement.
+struct PlacementStep {
+  enum Kind { scale, rotate, move };
+  Kind kind;
+  Vec3 vector;         // factors, an axis, or a length
+  Real degrees = 0;    // of rotate
+};
+
+// An affine map x -> m x + t, built up one step at a time; later steps act on
 // the result of earlier ones.
 class Placement {
  public:
@@ -20,6 +30,9 @@ class Placement {
   void move(const Vec3 &shift);
 
   bool is_identity() const;
+  // What it was built from, in order, for messages.
+  const std::vector<PlacementStep> &steps() const { return steps_; }
+  // Is it the same map?
   bool operator==(const Placement &other) const;
   Vec3 apply(const Vec3 &x) const;
 
@@ -31,6 +44,7 @@ class Placement {
  private:
   Vec3 row_[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   Vec3 shift_ = {0, 0, 0};
+  std::vector<PlacementStep> steps_;
 };
 
 }    // namespace lsdcd

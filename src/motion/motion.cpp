@@ -127,7 +127,7 @@ Pose RigidMotion::terms_at(Time t) const
     if (m.turns()) {
       Real s, c;
       sine_cosine(t, m.period, s, c);
-      turn(pose, m.point, m.axis, s, c, kTwoPi / m.period);
+      turn(pose, m.point, unit_vector(m.axis), s, c, kTwoPi / m.period);
     }
     pose.shift += shift;
     pose.velocity += velocity;
@@ -170,23 +170,44 @@ bool RigidMotion::keeps(const Vec3 &direction) const
       (servo_.turns ? norm(cross(servo_.axis, direction)) > kRounding : crosses(servo_.axis)))
     return false;
   for (const MotionTerm &m : terms_) {
-    if (m.turns() && norm(cross(m.axis, direction)) > kRounding) return false;
+    if (m.turns() && norm(cross(unit_vector(m.axis), direction)) > kRounding) return false;
     if (crosses(m.velocity) || crosses(m.amplitude)) return false;
     for (int d = 0; m.kind == MotionKind::variable && d < 3; d++)
-      if (!m.name[d].empty() && direction[d] != 0) return false;
+      if (m.input[d] != kNoInput && direction[d] != 0) return false;
   }
   return true;
 }
 
-bool are_same(const std::vector<MotionTerm> &a, const std::vector<MotionTerm> &b)
+namespace {
+
+bool are_same(int a, const InputNames &inputs_of_a, int b, const InputNames &inputs_of_b)
 {
-  const auto same = [](const MotionTerm &one, const MotionTerm &other) {
+  if (a == kNoInput || b == kNoInput) return a == b;
+  return inputs_of_a[static_cast<std::size_t>(a)] == inputs_of_b[static_cast<std::size_t>(b)];
+}
+
+}    // namespace
+
+bool are_same(const std::vector<MotionTerm> &a, const InputNames &inputs_of_a,
+              const std::vector<MotionTerm> &b, const InputNames &inputs_of_b)
+{
+  const auto same = [&](const MotionTerm &one, const MotionTerm &other) {
+    for (int k = 0; k < 6; k++)
+      if (!are_same(one.input[k], inputs_of_a, other.input[k], inputs_of_b)) return false;
     return one.kind == other.kind && one.velocity == other.velocity &&
-           one.amplitude == other.amplitude && one.point == other.point && one.axis == other.axis &&
-           one.period == other.period &&
-           std::equal(std::begin(one.name), std::end(one.name), std::begin(other.name));
+           one.amplitude == other.amplitude && one.point == other.point &&
+           unit_vector(one.axis) == unit_vector(other.axis) && one.period == other.period;
   };
   return std::equal(a.begin(), a.end(), b.begin(), b.end(), same);
+}
+
+bool are_same(const Servo &a, const InputNames &inputs_of_a, const Servo &b,
+              const InputNames &inputs_of_b)
+{
+  if (!a.present || !b.present) return a.present == b.present;
+  return a.has_line_of(b) && are_same(a.target_input, inputs_of_a, b.target_input, inputs_of_b) &&
+         (a.target_input != kNoInput || a.target == b.target) && a.max_gain == b.max_gain &&
+         a.max_speed == b.max_speed && a.lo == b.lo && a.hi == b.hi;
 }
 
 // A rigid motion moves a point by an affine function of it, whose size is largest at a corner.

@@ -6,11 +6,11 @@
 #pragma once
 
 #include "mesh/periodic_box.h"
+#include "motion/inputs.h"
 #include "motion/pose.h"
 #include "motion/servo.h"
 #include "motion/step_clock.h"
 
-#include <string>
 #include <vector>
 
 namespace lsdcd {
@@ -23,11 +23,11 @@ struct MotionTerm {
   Vec3 velocity = {0, 0, 0};     // length/time; of linear and transrot
   Vec3 amplitude = {0, 0, 0};    // length; of wiggle and cosine
   Vec3 point = {0, 0, 0};        // length; the axis passes through it at time 0
-  Vec3 axis = {0, 0, 1};         // right-handed, unit
+  Vec3 axis = {0, 0, 1};         // right-handed; of any length but 0
   Real period = 0;               // time; 0: nothing repeats
-  // Equal-style variables of the displacement (x, y, z) and its velocity; empty: none. Their
-  // values are filled in before a pose is asked for.
-  std::string name[6];
+  // Of kind variable: inputs of the displacement (x, y, z) and its velocity. Their values are filled in
+  // before a pose is asked for.
+  int input[6] = {kNoInput, kNoInput, kNoInput, kNoInput, kNoInput, kNoInput};
   Vec3 displacement = {0, 0, 0}, speed = {0, 0, 0};
 
   bool turns() const { return kind == MotionKind::rotate || kind == MotionKind::transrot; }
@@ -81,8 +81,11 @@ class RigidMotion {
   Servo servo_;
 };
 
-// Are they the same at all times, from the same start?
-bool are_same(const std::vector<MotionTerm> &a, const std::vector<MotionTerm> &b);
+// Are they the same at all times, from the same start? Inputs are the same where their names are.
+bool are_same(const std::vector<MotionTerm> &a, const InputNames &inputs_of_a,
+              const std::vector<MotionTerm> &b, const InputNames &inputs_of_b);
+bool are_same(const Servo &a, const InputNames &inputs_of_a, const Servo &b,
+              const InputNames &inputs_of_b);
 
 // The largest distance between the places of a point of this box (in the mesh's frame) in two poses.
 Real farthest_between(const Pose &a, const Pose &b, const Box &box);

@@ -6,9 +6,9 @@
 #pragma once
 
 #include "base/vec3.h"
+#include "motion/inputs.h"
 
 #include <cmath>
-#include <string>
 
 namespace lsdcd {
 
@@ -17,12 +17,12 @@ struct Servo {
   bool present = false;
   bool holds = false;    // no longer moves, and keeps its position
   bool turns = false;
-  Vec3 axis = {0, 0, 1};       // unit, of the box
-  Vec3 point = {0, 0, 0};      // of the box; the axis passes through it, where it turns
-  Real target = 0;             // push on the spheres along (about) the axis
-  std::string target_name;     // of an equal-style variable, whose value target is; empty: none
-  Real max_gain = HUGE_VAL;    // velocity per push
-  Real max_speed = 0;          // velocity
+  Vec3 axis = {0, 0, 1};                 // unit, of the box
+  Vec3 point = {0, 0, 0};                // of the box; the axis passes through it, where it turns
+  Real target = 0;                       // push on the spheres along (about) the axis
+  int target_input = kNoInput;           // of the host, whose value target is
+  Real max_gain = HUGE_VAL;              // velocity per push
+  Real max_speed = 0;                    // velocity
   Real lo = -HUGE_VAL, hi = HUGE_VAL;    // of the position
 
   // Added up from step to step.

@@ -8,6 +8,7 @@
 #include "mesh/likely_scale.h"
 #include "mesh/outside_box.h"
 #include "wall/mesh_name.h"
+#include "wall/spec_text.h"
 
 #include <algorithm>
 #include <cmath>
@@ -83,12 +84,14 @@ void BoxChecks::check_small(const MeshPart &m, const PeriodicBox &box, Real radi
   Vec3 size = extents(m);
   if (box.dimension == 2) size.z = 0;    // an outline may be of any thickness
   if (norm(size) >= radius) return;
-  const std::string placed = m.settings.placement_tokens;
+  const std::vector<PlacementStep> &steps = m.spec.placement.steps();
+  const bool is_scaled = std::any_of(steps.begin(), steps.end(), [](const PlacementStep &step) {
+    return step.kind == PlacementStep::scale;
+  });
   const std::string units =
-      placed.find("scale") == std::string::npos
-          ? "the file is probably in other units: add a scale"
-          : "the file is probably in the input script's units, and the scale in '" + placed +
-                "' is not needed";
+      !is_scaled ? "the file is probably in other units: add a scale"
+                 : "the file is probably in the input script's units, and the scale in '" +
+                       placement_text(m.spec.placement) + "' is not needed";
   host_.warn(named(m, "the mesh is " + number_text(norm(size)) +
                           " across, and spheres have radius " + number_text(radius) + ": " + units +
                           (radius == kRadiusUnset ? "; or " + diameter_text(radius) : "")));
@@ -176,9 +179,9 @@ void BoxChecks::check_turning_out(const MeshPart &m, const PeriodicBox &box)
   constexpr int kSamples =
       64;    // the farthest point is missed by a thousandth of the mesh's radius
   constexpr Real kTolerance = 1e-3;    // of the box: a drum that fits it turns within it
-  const Real period = m.settings.motion.longest_period();
+  const Real period = m.spec.motion.longest_period();
   bool &warned = seen_[m.index].turning_out_warned;
-  if (warned || period <= 0 || m.motion.has_variables()) return;
+  if (warned || period <= 0 || m.motion.has_inputs()) return;
   for (int k = 0; k < 3; k++) {
     if (box.periodic[k] || box.follows(k) || (k == 2 && box.dimension == 2)) continue;
     bool clear = true;
@@ -212,11 +215,11 @@ void BoxChecks::check_moving(const PeriodicBox &box, Real cutoff, const Step &no
 {
   constexpr int kSamples = 256;
   for (const MeshPart &m : meshes_) {
-    const RigidMotion &motion = m.settings.motion;
+    const RigidMotion &motion = m.spec.motion;
     if (!motion.any()) continue;
     check_pose(m, m.motion.pose(), box, cutoff, " at step " + std::to_string(now.number));
     if (now.kind != Step::step) check_turning_out(m, box);
-    if (now.kind == Step::step || m.motion.has_variables()) continue;
+    if (now.kind == Step::step || m.motion.has_inputs()) continue;
     for (int i = 1; i < kSamples; i++)
       check_pose(m, m.motion.pose_in(motion.longest_period() * i / kSamples), box, cutoff, "");
   }

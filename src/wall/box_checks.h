@@ -17,7 +17,7 @@ namespace lsdcd {
 class BoxChecks {
  public:
   // All must outlive it.
-  BoxChecks(Host &host, const WallSettings &settings, const std::deque<MeshPart> &meshes) :
+  BoxChecks(Host &host, const WallSpec &settings, const std::deque<MeshPart> &meshes) :
       host_(host), settings_(settings), meshes_(meshes), seen_(settings.meshes.size())
   {
   }
@@ -65,7 +65,7 @@ class BoxChecks {
   };
 
   Host &host_;
-  const WallSettings &settings_;
+  const WallSpec &settings_;
   const std::deque<MeshPart> &meshes_;
   std::vector<Seen> seen_;
 };

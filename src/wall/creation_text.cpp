@@ -7,40 +7,42 @@
 #include "base/version.h"
 #include "effects/effects.h"
 #include "law/sub_models.h"
+#include "wall/spec_text.h"
 
 namespace lsdcd {
 
 namespace {
 
-std::string in_a_line(const WallSettings &settings, const std::deque<MeshPart> &meshes,
+std::string in_a_line(const WallSpec &settings, const std::deque<MeshPart> &meshes,
                       const std::string &device)
 {
   std::string t;
   for (const MeshPart &m : meshes)
-    t += "mesh " + m.settings.file + " of " + std::to_string(m.grid.report().facets) + " facets, ";
-  return t + settings.law_name + ", " + device;
+    t += "mesh " + m.spec.name + " of " + std::to_string(m.grid.report().facets) + " facets, ";
+  return t + law_name(settings.laws.front()) + ", " + device;
 }
 
 // In the columns of the mesh report.
-std::string mesh_lines(const MeshPart &m)
+std::string mesh_lines(const WallSpec &wall, const MeshPart &m)
 {
   std::string t = m.grid.mesh_text();
-  const Real wear = m.settings.wear_factor;
+  const Real wear = m.spec.wear_factor;
   const struct {
     const char *label;
     std::string text;
-  } lines[] = {{"placement   ", m.settings.placement_tokens},
+  } lines[] = {{"placement   ", placement_text(m.spec.placement)},
                {"motion      ", m.motion.text(m.bounds(0))},
-               {"servo       ", m.settings.servo_tokens},
+               {"servo       ", servo_text(m.servo(), wall.inputs)},
                {"wear        ", wear == 1 ? "" : number_text(wear) + " times as fast"}};
   for (const auto &line : lines)
     if (!line.text.empty()) t += "\n  " + (line.label + line.text);
   return t;
 }
 
-std::string law_text(const ContactLaw &l, const std::string &name)
+std::string law_text(const LawOfTypes &row)
 {
-  std::string t = name;
+  const ContactLaw &l = row.law;
+  std::string t = law_name(row);
   if (l.is_classic())
     t += ", kn " + number_text(l.k_normal) + ", kt " + number_text(l.k_tangent) + ", gamman " +
          number_text(l.eta) + ", gammat " + number_text(l.gamma_tangent) + ", xmu " +
@@ -56,17 +58,22 @@ std::string law_text(const ContactLaw &l, const std::string &name)
 }
 
 // The wall's, then those of meshes and of atom types with them.
-std::string contact_lines(const WallSettings &settings)
+std::string contact_lines(const WallSpec &settings)
 {
-  std::string t = "\n  contact     " + law_text(settings.law, settings.law_name);
+  std::string t = "\n  contact     " + law_text(settings.laws.front());
+  const auto of_types = [](const LawOfTypes &row) {
+    return row.is_of_all() ? "" : "types " + types_text(row);
+  };
+  for (std::size_t k = 1; k < settings.laws.size(); k++)
+    t += "\n    " + of_types(settings.laws[k]) + ": " + law_text(settings.laws[k]);
   for (std::size_t m = 0; m < settings.meshes.size(); m++)
-    for (const LawOfMesh &of : settings.meshes[m].laws)
-      t += "\n    mesh " + std::to_string(m + 1) + (of.types.empty() ? "" : ", types " + of.types) +
-           ": " + law_text(of.law, of.name);
+    for (const LawOfTypes &row : settings.meshes[m].laws)
+      t += "\n    mesh " + std::to_string(m + 1) + (row.is_of_all() ? "" : ", ") + of_types(row) +
+           ": " + law_text(row);
   return t;
 }
 
-std::string effect_lines(const WallSettings &settings, const EngineSettings &engine)
+std::string effect_lines(const WallSpec &settings, const EngineSettings &engine)
 {
   std::string effects, kept;
   for (const Effect &e : effects_of(engine)) {
@@ -75,7 +82,7 @@ std::string effect_lines(const WallSettings &settings, const EngineSettings &eng
       kept += ", " + std::to_string(e.bytes_per_contact) + " for " + e.name;
   }
   std::string t = "\n  effects     " + effects + "\n  per atom    ";
-  if (settings.law.has_history())
+  if (settings.law().has_history())
     t += "8 bytes, and per contact " + std::to_string(sizeof(Spring)) +
          " for its spring and place" + kept + ", which move and restart with the atom";
   else
@@ -85,7 +92,7 @@ std::string effect_lines(const WallSettings &settings, const EngineSettings &eng
   return t;
 }
 
-std::string search_lines(const WallSettings &settings)
+std::string search_lines(const WallSpec &settings)
 {
   const char *const precisions[] = {"double", "mixed", "single"};
   const char *const sides[] = {"both", "in", "out"};
@@ -99,13 +106,13 @@ std::string search_lines(const WallSettings &settings)
 
 }    // namespace
 
-std::string creation_text(const WallSettings &settings, const std::deque<MeshPart> &meshes,
+std::string creation_text(const WallSpec &settings, const std::deque<MeshPart> &meshes,
                           const EngineSettings &engine, const std::string &material,
                           const std::string &device)
 {
   if (settings.brief) return in_a_line(settings, meshes, device);
   std::string t;
-  for (const MeshPart &m : meshes) t += (t.empty() ? "" : "\n") + mesh_lines(m);
+  for (const MeshPart &m : meshes) t += (t.empty() ? "" : "\n") + mesh_lines(settings, m);
   if (!material.empty()) t += "\n" + material;
   return t + contact_lines(settings) + effect_lines(settings, engine) + search_lines(settings) +
          "\n  device      " + device + "\n  version     " + version();

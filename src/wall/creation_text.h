@@ -13,7 +13,7 @@ namespace lsdcd {
 
 // `material`: what a material file filled in, in lines; else empty. `device`: of the engine, with why it
 // is no other. Of the first process, which has the reports of the meshes.
-std::string creation_text(const WallSettings &settings, const std::deque<MeshPart> &meshes,
+std::string creation_text(const WallSpec &settings, const std::deque<MeshPart> &meshes,
                           const EngineSettings &engine, const std::string &material,
                           const std::string &device);
 

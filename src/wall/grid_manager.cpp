@@ -39,12 +39,12 @@ bool GridManager::fit_spheres(Real radius, std::int64_t step)
 {
   constexpr Real kHeadroom = 1.1;    // once radii are known to grow
   const Real old = cutoff();
-  if (settings_.cutoff(radius) <= old) return fit_box(step);
+  if (cutoff_of(laws_, radius) <= old) return fit_box(step);
   check_rmax(radius);
   if (old == 0) checks_.check_radius(box(), radius);
   const Real largest =
       settings_.rmax > 0 ? settings_.rmax : (old > 0 ? kHeadroom * radius : radius);
-  rebuild(settings_.cutoff(largest), step);
+  rebuild(cutoff_of(laws_, largest), step);
   return true;
 }
 
@@ -110,8 +110,8 @@ void GridManager::warn_of_rounding(const MeshPart &m, Real radius) const
 {
   if (settings_.precision == Precision::double_) return;
   Real slope = 0;
-  for (int kind = 0; kind < settings_.laws.kinds; kind++)
-    slope = std::max(slope, pull_off_slope(settings_.law_of(m.index, kind), radius));
+  for (int kind = 0; kind < laws_.kinds; kind++)
+    slope = std::max(slope, pull_off_slope(law_of(laws_, m.index, kind), radius));
   const Real part_of_pull_off = slope * 1e-6 * (radius + 14 * m.grid.view().length);
   if (part_of_pull_off > 0.1)
     host_.warn("with precision mixed overlaps are rounded so that forces may be wrong by " +

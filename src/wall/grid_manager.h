@@ -19,10 +19,12 @@ namespace lsdcd {
 class GridManager {
  public:
   // All must outlive it.
-  GridManager(Host &host, const WallSettings &settings, std::deque<MeshPart> &meshes,
-              BoxChecks &checks, HistoryExchange &history, TimeReport &times) :
+  GridManager(Host &host, const WallSpec &settings, const LawTable &laws,
+              std::deque<MeshPart> &meshes, BoxChecks &checks, HistoryExchange &history,
+              TimeReport &times) :
       host_(host),
-      settings_(settings), meshes_(meshes), checks_(checks), history_(history), times_(times)
+      settings_(settings), laws_(laws), meshes_(meshes), checks_(checks), history_(history),
+      times_(times)
   {
   }
 
@@ -60,7 +62,8 @@ class GridManager {
   void log_build(const MeshPart &m, Real old_cutoff, std::int64_t step) const;
 
   Host &host_;
-  const WallSettings &settings_;
+  const WallSpec &settings_;
+  const LawTable &laws_;
   std::deque<MeshPart> &meshes_;
   BoxChecks &checks_;
   HistoryExchange &history_;

@@ -6,8 +6,8 @@
 
 #include "contact/contact_history.h"
 #include "engine/wall_engine.h"
-#include "input/settings.h"
 #include "wall/host.h"
+#include "wall/wall_spec.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -19,9 +19,9 @@ namespace lsdcd {
 // packed or asked of the engine.
 class HistoryExchange {
  public:
-  // Both must outlive it. The numbers that a contact keeps are those of wall.law.
-  HistoryExchange(Host &host, const WallSettings &wall) :
-      host_(host), law_(wall.law), springs_(wall.law.n_extra())
+  // Both must outlive it. The numbers that a contact stores are those of wall.law().
+  HistoryExchange(Host &host, const WallSpec &wall) :
+      host_(host), law_(wall.law()), springs_(wall.law().n_extra())
   {
   }
 

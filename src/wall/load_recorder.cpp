@@ -5,7 +5,7 @@
 
 namespace lsdcd {
 
-LoadRecorder::LoadRecorder(Host &host, const WallSettings &settings) :
+LoadRecorder::LoadRecorder(Host &host, const WallSpec &settings) :
     host_(host), settings_(settings), loads_(settings.meshes.size())
 {
 }
@@ -13,7 +13,7 @@ LoadRecorder::LoadRecorder(Host &host, const WallSettings &settings) :
 void LoadRecorder::add(int mesh, const ContactRecord *records, int n, Real dt,
                        const MeshFeaturesView &features)
 {
-  const MeshSettings &of = settings_.meshes[mesh];
+  const MeshSpec &of = settings_.meshes[mesh];
   if (settings_.has_loads(of))
     loads_[mesh].add(records, n, dt, of.wear_factor * settings_.wear.per_work, features, mesh);
 }

@@ -4,9 +4,9 @@
 // Loads and wear of a wall's meshes, added up over the steps on all processes.
 #pragma once
 
-#include "input/settings.h"
 #include "output/mesh_loads.h"
 #include "wall/host.h"
+#include "wall/wall_spec.h"
 
 #include <cstddef>
 #include <vector>
@@ -17,7 +17,7 @@ namespace lsdcd {
 class LoadRecorder {
  public:
   // Both must outlive it. settings.wear.per_work is volume per work in the host's units.
-  LoadRecorder(Host &host, const WallSettings &settings);
+  LoadRecorder(Host &host, const WallSpec &settings);
 
   // A step of duration `dt` (time): what contacts of this process did to all meshes. `features`: of
   // the mesh with its periodic images; empty where there are no records.
@@ -41,7 +41,7 @@ class LoadRecorder {
 
  private:
   Host &host_;
-  const WallSettings &settings_;
+  const WallSpec &settings_;
   std::vector<MeshLoads> loads_;    // of this process; one per mesh
 };
 

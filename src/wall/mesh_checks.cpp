@@ -8,34 +8,33 @@
 #include "contact/faces_pushed.h"
 #include "mesh/plane_cut.h"
 #include "wall/mesh_name.h"
+#include "wall/spec_text.h"
 
 namespace lsdcd {
 
-void check_side(const WallSettings &settings, const MeshPart &m)
+void check_side(const WallSpec &settings, const MeshPart &m)
 {
   const MeshReport &r = m.grid.report();
   if (settings.side == Side::both || r.oriented) return;
   if (r.meeting_pairs > 0)
-    throw InputError("side in and side out need shells that are apart; those of '" +
-                     m.settings.file + "' cut or touch each other at " +
-                     std::to_string(r.meeting_pairs) +
+    throw InputError("side in and side out need shells that are apart; those of '" + m.spec.name +
+                     "' cut or touch each other at " + std::to_string(r.meeting_pairs) +
                      " pairs of facets: make one shell of them (a boolean union), or use "
                      "side both");
   if (r.closed && r.two_sided_faces > 0)
     throw InputError("side in and side out need facets of one winding; " +
-                     std::to_string(r.two_sided_faces) + " of those of '" + m.settings.file +
+                     std::to_string(r.two_sided_faces) + " of those of '" + m.spec.name +
                      "' are there in both, as in a double-sided export: keep one of each two "
                      "(lsdcd repair) or use side both");
-  throw InputError("side in and side out need a closed, oriented mesh; '" + m.settings.file +
-                   "' has " + std::to_string(r.open_edges) + " open, " +
-                   std::to_string(r.nonmanifold_edges) + " non-manifold and " +
-                   std::to_string(r.misoriented_edges) + " misoriented edges, and " +
-                   std::to_string(r.inverted_facets) +
+  throw InputError("side in and side out need a closed, oriented mesh; '" + m.spec.name + "' has " +
+                   std::to_string(r.open_edges) + " open, " + std::to_string(r.nonmanifold_edges) +
+                   " non-manifold and " + std::to_string(r.misoriented_edges) +
+                   " misoriented edges, and " + std::to_string(r.inverted_facets) +
                    " facets of closed shells that are wound against the others: repair the "
                    "mesh (lsdcd repair) or use side both");
 }
 
-void check_plane(Host &host, const WallSettings &settings, const MeshPart &m)
+void check_plane(Host &host, const WallSpec &settings, const MeshPart &m)
 {
   if (host.box().dimension == 3) return;
   const MeshReport &r = m.grid.report();
@@ -64,22 +63,23 @@ void check_plane(Host &host, const WallSettings &settings, const MeshPart &m)
             "out along z"));
 }
 
-void check_motion(const Host &host, const WallSettings &settings, const MeshPart &m)
+void check_motion(const Host &host, const WallSpec &settings, const MeshPart &m)
 {
-  const RigidMotion &motion = m.settings.motion;
+  const RigidMotion &motion = m.spec.motion;
   if (!motion.any() || motion.keeps({0, 0, 1}) || host.box().dimension == 3) return;
-  std::string words = m.settings.motion_tokens;
-  if (m.servo().present) words += (words.empty() ? "servo " : " servo ") + m.settings.servo_tokens;
+  std::string text = motion_text(motion.terms(), settings.inputs);
+  if (m.servo().present)
+    text += (text.empty() ? "servo " : " servo ") + servo_text(m.servo(), settings.inputs);
   throw InputError(with_mesh_name(
       settings, m.index,
-      "in two dimensions a mesh must move in the plane z = 0 and turn about z, not by '" + words +
+      "in two dimensions a mesh must move in the plane z = 0 and turn about z, not by '" + text +
           "'"));
 }
 
-void check_surface(Host &host, const WallSettings &settings, const MeshPart &m)
+void check_surface(Host &host, const WallSpec &settings, const MeshPart &m)
 {
   if (host.rank() != 0) return;    // the first process has the mesh
-  const PushReport push = faces_pushed(*m.grid.mesh(), m.settings.surface);
+  const PushReport push = faces_pushed(*m.grid.mesh(), m.spec.surface);
   if (push.faces == 0) return;
   host.warn(with_mesh_name(
       settings, m.index,

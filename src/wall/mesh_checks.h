@@ -9,16 +9,16 @@
 namespace lsdcd {
 
 // Throws InputError, the same on all processes, where side in or out has no meaning for the mesh.
-void check_side(const WallSettings &settings, const MeshPart &m);
+void check_side(const WallSpec &settings, const MeshPart &m);
 
 // In two dimensions spheres feel the mesh where it cuts the plane z = 0. Throws InputError where it
 // does not cut it; warns of faces that lean there. Collective.
-void check_plane(Host &host, const WallSettings &settings, const MeshPart &m);
+void check_plane(Host &host, const WallSpec &settings, const MeshPart &m);
 
 // Throws InputError where a mesh would leave the plane of a run in two dimensions.
-void check_motion(const Host &host, const WallSettings &settings, const MeshPart &m);
+void check_motion(const Host &host, const WallSpec &settings, const MeshPart &m);
 
 // Warns of a surface motion that pushes faces along their normals.
-void check_surface(Host &host, const WallSettings &settings, const MeshPart &m);
+void check_surface(Host &host, const WallSpec &settings, const MeshPart &m);
 
 }    // namespace lsdcd

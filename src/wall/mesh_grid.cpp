@@ -10,6 +10,7 @@
 #include "mesh/fingerprint.h"
 #include "mesh/io/read_mesh.h"
 #include "mesh/measure_mesh.h"
+#include "mesh/soup_of.h"
 
 #include <algorithm>
 #include <cmath>
@@ -51,21 +52,21 @@ class NodePlace : public GridPlace {
 
 }    // namespace
 
-MeshGrid::MeshGrid(Host &host, const WallSettings &settings, const MeshSettings &of_mesh) :
-    host_(host), settings_(settings), of_mesh_(of_mesh), memory_(host.node_memory())
+MeshGrid::MeshGrid(Host &host, const WallSpec &wall, const MeshSpec &spec) :
+    host_(host), wall_(wall), spec_(spec), memory_(host.node_memory())
 {
   read();
 }
 
-// The file is read by the first process alone: it may not be there on other nodes.
+// The first process alone reads the file, which may not be there on other nodes.
 void MeshGrid::read()
 {
   const bool first = host_.rank() == 0, writes = memory_->writes();
   TriangleSoup soup;
-  soup.source = of_mesh_.file;
+  soup.source = spec_.name;
   run_collectively(host_, first, [&] {
-    soup = read_mesh(of_mesh_.file).soup;
-    of_mesh_.placement.apply(soup);
+    soup = spec_.mesh ? soup_of(*spec_.mesh) : read_mesh(spec_.file).soup;
+    spec_.placement.apply(soup);
   });
 
   // No message goes to a node without room.
@@ -74,7 +75,7 @@ void MeshGrid::read()
   run_collectively(host_, writes, [&] { soup.corners.resize(corners); });
   if (writes) memory_->broadcast_to_writers(soup.corners.data(), corners * sizeof(Vec3));
   run_collectively(host_, writes, [&] {
-    mesh_ = std::make_unique<WeldedMesh>(weld(soup, of_mesh_.weld));
+    mesh_ = std::make_unique<WeldedMesh>(weld(soup, spec_.weld));
     check_has_area(*mesh_);
     report_ = mesh_->report;
     if (first) mesh_fingerprint_ = fingerprint(*mesh_);
@@ -84,7 +85,7 @@ void MeshGrid::read()
   static_assert(std::is_trivially_copyable<MeshReport>::value, "sent as bytes");
   host_.broadcast(&report_, sizeof report_, 0);
   host_.broadcast(&mesh_fingerprint_, sizeof mesh_fingerprint_, 0);
-  if (first) mesh_text_ = describe(report_, of_mesh_.file);
+  if (first) mesh_text_ = describe(report_, spec_.name);
 }
 
 // Where centres of spheres can be, with room for a box that grows, so that not every step of a
@@ -151,19 +152,19 @@ bool MeshGrid::fits(const PeriodicBox &box) const
 
 bool MeshGrid::uses_gpu() const
 {
-  return settings_.device != Device::cpu && cuda_available(nullptr);
+  return wall_.device != Device::cpu && cuda_available(nullptr);
 }
 
 GridSettings MeshGrid::grid_settings(Real cutoff, const PeriodicBox &box) const
 {
   GridSettings want;
-  want.length = settings_.grid_length;
+  want.length = wall_.grid_length;
   want.cutoff = cutoff;
-  want.memory_budget = settings_.memory_budget;
+  want.memory_budget = wall_.memory_budget;
   want.limited = !(want.length > 0);    // a length that is given may take its time
-  want.sides = settings_.side != Side::both;
-  want.nearest = settings_.nearest;
-  want.in_floats = settings_.precision != Precision::double_;
+  want.sides = wall_.side != Side::both;
+  want.nearest = wall_.nearest;
+  want.in_floats = wall_.precision != Precision::double_;
   // Asked for a length that is chosen only, so that devices share the cache of one that is given.
   want.for_gpu = !(want.length > 0) && uses_gpu();
   want.within = within(cutoff, box);
@@ -177,7 +178,7 @@ void MeshGrid::build(Real cutoff, const PeriodicBox &box)
   // A box that changes in many steps would leave a file in each.
   const bool for_box = cutoff == cutoff_;
   cutoffs_ += !for_box;
-  std::string cache_file = for_box ? "" : of_mesh_.cache_file;
+  std::string cache_file = for_box ? "" : spec_.cache_file;
   if (!cache_file.empty() && cutoffs_ > 1) cache_file += "." + std::to_string(cutoffs_);
   ends_warning_.clear();
   cutoff_ = cutoff;
@@ -196,7 +197,7 @@ void MeshGrid::build(Real cutoff, const PeriodicBox &box)
   grid_text_ = describe(loaded.report);
   if (want.sides && view().outside == 0)
     throw InputError("side in and side out need a mesh that does not meet itself; facets of '" +
-                     of_mesh_.file +
+                     spec_.name +
                      "' cut, overlap or touch each other, see lsdcd inspect: make one shell of "
                      "them (a boolean union), or use side both");
   run_collectively(host_, host_.rank() == 0, [&] { note_images(mesh); });
@@ -217,7 +218,7 @@ void MeshGrid::note_images(const WeldedMesh &whole)
   Real least = HUGE_VAL;
   for (int k = 0; k < 3; k++)
     if (box_.periodic[k]) least = std::min(least, box_.width(k));
-  const Real widest = std::max(2 * cutoff_, (settings_.periodic ? 0.25 : 0.05) * least);
+  const Real widest = std::max(2 * cutoff_, (wall_.periodic ? 0.25 : 0.05) * least);
   const LooseEnds loose = loose_ends(whole, view().wall, box_, widest);
   if (loose.edges == 0) return;
   ends_warning_ = "the ends of the mesh do not meet across the periodic boundary in " +

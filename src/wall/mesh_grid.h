@@ -5,10 +5,10 @@
 #pragma once
 
 #include "grid/triangle_grid.h"
-#include "input/settings.h"
 #include "mesh/periodic_images.h"
 #include "mesh/welded_mesh.h"
 #include "wall/host.h"
+#include "wall/wall_spec.h"
 
 #include <cstdint>
 #include <functional>
@@ -21,8 +21,8 @@ namespace lsdcd {
 // Making and building are collective and throw the same InputError on every process.
 class MeshGrid {
  public:
-  // The mesh is read, placed and welded. The host must outlive it.
-  MeshGrid(Host &host, const WallSettings &settings, const MeshSettings &of_mesh);
+  // The mesh is read or taken from its spec, placed and welded. Host and specs must outlive it.
+  MeshGrid(Host &host, const WallSpec &wall, const MeshSpec &spec);
 
   // Makes the grid for particles up to radius `cutoff` with centres in `box`, with the periodic
   // images of the mesh that act there, or reads it from its cache file. The grid of the n-th
@@ -72,8 +72,8 @@ class MeshGrid {
   void note_images(const WeldedMesh &whole);
 
   Host &host_;
-  WallSettings settings_;
-  MeshSettings of_mesh_;
+  const WallSpec &wall_;
+  const MeshSpec &spec_;
   std::unique_ptr<NodeMemory> memory_;
   std::unique_ptr<WeldedMesh> mesh_;    // where memory_->writes()
   MeshReport report_;

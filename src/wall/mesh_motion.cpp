@@ -6,6 +6,7 @@
 #include "base/input_error.h"
 #include "base/input_words.h"
 #include "wall/mesh_name.h"
+#include "wall/spec_text.h"
 
 #include <algorithm>
 
@@ -13,28 +14,28 @@ namespace lsdcd {
 
 namespace {
 
-// Calls `visit` with the name and the value of each variable of a mesh.
+// Calls visit(input, value) for each input of a mesh.
 template <class Visit>
-void for_variables(MeshSettings &mesh, SurfaceMotion &surface, const Visit &visit)
+void for_inputs(MeshSpec &mesh, SurfaceMotion &surface, const Visit &visit)
 {
-  const auto one = [&](const std::string &name, Real &value) {
-    if (!name.empty()) visit(name, value);
+  const auto one = [&](int input, Real &value) {
+    if (input != kNoInput) visit(input, value);
   };
   for (MotionTerm &m : mesh.motion.terms())
     for (int d = 0; d < 3; d++) {
-      one(m.name[d], m.displacement[d]);
-      one(m.name[3 + d], m.speed[d]);
+      one(m.input[d], m.displacement[d]);
+      one(m.input[3 + d], m.speed[d]);
     }
-  one(mesh.motion.servo().target_name, mesh.motion.servo().target);
+  one(mesh.motion.servo().target_input, mesh.motion.servo().target);
   for (int d = 0; d < 3; d++) {
-    one(mesh.surface_variable[d], surface.velocity[d]);
-    one(mesh.surface_variable[3 + d], surface.angular[d]);
+    one(mesh.surface_input[d], surface.velocity[d]);
+    one(mesh.surface_input[3 + d], surface.angular[d]);
   }
 }
 
 }    // namespace
 
-MeshMotion::MeshMotion(Host &host, WallSettings &wall, int mesh, const Step &now) :
+MeshMotion::MeshMotion(Host &host, WallSpec &wall, int mesh, const Step &now) :
     host_(host), wall_(wall), mesh_(mesh)
 {
   begin(now);
@@ -48,34 +49,35 @@ std::string MeshMotion::named(const std::string &text) const
 void MeshMotion::begin(const Step &now)
 {
   clock_ = {0, now.number, now.number, now.dt};
-  surface_ = settings().surface;
+  surface_ = spec().surface;
   place();
 }
 
 bool MeshMotion::moves_or_varies() const
 {
-  return settings().motion.any() || settings().surface_varies();
+  return spec().motion.any() || spec().surface_varies();
 }
 
-std::vector<std::string> MeshMotion::variables() const
+InputNames MeshMotion::inputs() const
 {
-  std::vector<std::string> names;
+  InputNames names;
   SurfaceMotion unused;
-  for_variables(settings(), unused,
-                [&](const std::string &name, Real &) { names.push_back(name); });
+  for_inputs(spec(), unused, [&](int input, Real &) {
+    names.push_back(wall_.inputs[static_cast<std::size_t>(input)]);
+  });
   return names;
 }
 
-bool MeshMotion::has_variables() const
+bool MeshMotion::has_inputs() const
 {
-  return !variables().empty();
+  return !inputs().empty();
 }
 
 bool MeshMotion::takes_differences() const
 {
-  for (const MotionTerm &m : settings().motion.terms())
+  for (const MotionTerm &m : spec().motion.terms())
     for (int d = 0; d < 3; d++)
-      if (!m.name[d].empty() && m.name[3 + d].empty()) return true;
+      if (m.input[d] != kNoInput && m.input[3 + d] == kNoInput) return true;
   return false;
 }
 
@@ -84,74 +86,70 @@ Real MeshMotion::advance(const Step &to)
   const Time before = clock_.now();
   clock_.advance(to);
   const Real passed = static_cast<Real>(clock_.now() - before);
-  std::vector<MotionTerm> &terms = settings().motion.terms();
+  std::vector<MotionTerm> &terms = spec().motion.terms();
   std::vector<Vec3> was;
   for (const MotionTerm &m : terms) was.push_back(m.displacement);
-  const std::vector<Real> values = host_.variables(variables());
+  const std::vector<Real> values = host_.variables(inputs());
   auto next = values.begin();
-  for_variables(settings(), surface_, [&](const std::string &, Real &value) { value = *next++; });
+  for_inputs(spec(), surface_, [&](int, Real &value) { value = *next++; });
   for (std::size_t i = 0; i < terms.size() && passed > 0; i++)
     for (int d = 0; d < 3; d++)
-      if (!terms[i].name[d].empty() && terms[i].name[3 + d].empty())
+      if (terms[i].input[d] != kNoInput && terms[i].input[3 + d] == kNoInput)
         terms[i].speed[d] = (terms[i].displacement[d] - was[i][d]) / passed;
   return passed;
 }
 
 Pose MeshMotion::pose_in(Time later) const
 {
-  return settings().motion.pose_at(clock_.now() + later);
+  return spec().motion.pose_at(clock_.now() + later);
 }
 
 Pose MeshMotion::pose_without_servo() const
 {
-  return settings().motion.terms_at(clock_.now());
+  return spec().motion.terms_at(clock_.now());
 }
 
-// Words without terms are of a motion that was stopped: restart files say so.
-void MeshMotion::change(const ModifiedMotion &to, const Step &now)
+void MeshMotion::set(const RigidMotion &to, const Step &now)
 {
-  RigidMotion &motion = settings().motion;
+  RigidMotion &motion = spec().motion;
   const bool holds = servo().holds;
   const Pose placed = holds ? pose_ : pose_without_servo();
   if (holds) servo().position = 0;
   motion.stop();
   motion.begin_from(placed);
-  for (const MotionTerm &term : to.terms) motion.add(term);
-  if (motion.moves()) settings().motion_tokens = to.text;
+  for (const MotionTerm &term : to.terms()) motion.add(term);
   begin(now);
 }
 
-void MeshMotion::change(const ModifiedServo &to)
+void MeshMotion::set(const Servo &to)
 {
   Servo &s = servo();
-  if (!to.servo.present) {
+  if (!to.present) {
     s.holds = true;
     s.velocity = 0;
-  } else if (s.has_line_of(to.servo)) {
+  } else if (s.has_line_of(to)) {
     const Real position = s.position;
-    s = to.servo;
+    s = to;
     s.position = position;
-    check_limits(position, "fix_modify servo");
+    check_limits(position);
   } else {
-    if (settings().motion.moves())
-      throw InputError("fix_modify servo: a servo along another line cannot begin while '" +
-                       settings().motion_tokens +
-                       "' moves the mesh: stop that first (motion none)");
-    settings().motion.begin_from(pose_);
-    s = to.servo;
+    if (spec().motion.moves())
+      throw InputError(named("a servo along another line cannot begin while the motion '" +
+                             own_text() + "' moves the mesh: stop that motion first"));
+    spec().motion.begin_from(pose_);
+    s = to;
   }
-  settings().servo_tokens = to.text;
   place();
 }
 
-// Of a servo that goes on where it is: the next step would take it inside of them at any speed.
-void MeshMotion::check_limits(Real position, const std::string &command) const
+// One outside of its limits would jump back inside in one step.
+void MeshMotion::check_limits(Real position) const
 {
   const Servo &s = servo();
   if (position < s.lo || position > s.hi)
-    throw InputError(named(command + ": the servo is at " + number_text(position) +
-                           ", outside of the limits " + number_text(s.lo) + " " +
-                           number_text(s.hi) + ", which count from where it began: widen them"));
+    throw InputError(named("the servo is at " + number_text(position) + ", outside of the limits " +
+                           number_text(s.lo) + " " + number_text(s.hi) +
+                           ", which count from where it began: widen them"));
 }
 
 void MeshMotion::check_snapshot(const Step &at) const
@@ -166,7 +164,7 @@ void MeshMotion::check_snapshot(const Step &at) const
               "a difference: give v_vx v_vy v_vz in place of NULL"));
   StepClock there = clock_;
   there.advance(at);
-  if (settings().motion.moves() && there.now() < 0)
+  if (spec().motion.moves() && there.now() < 0)
     throw InputError(
         named("in a rerun the snapshot of step " + std::to_string(at.number) + " is before step " +
               std::to_string(clock_.base_step) +
@@ -176,12 +174,12 @@ void MeshMotion::check_snapshot(const Step &at) const
 
 std::string MeshMotion::text(const Box &bounds) const
 {
-  const RigidMotion &motion = settings().motion;
+  const RigidMotion &motion = spec().motion;
   if (!motion.moves()) return motion.start().placed ? "none; the mesh stays where it is" : "";
   constexpr int kSamples = 64;
-  std::string text = settings().motion_tokens;
+  std::string text = own_text();
   if (takes_differences()) text += "; where v_v is NULL velocities are differences over a step";
-  if (has_variables()) return text;
+  if (has_inputs()) return text;
   Real most = 0;
   for (int i = 0; i < kSamples; i++)
     most =
@@ -189,9 +187,16 @@ std::string MeshMotion::text(const Box &bounds) const
   return text + "; corners of its bounds go at up to " + number_text(most);
 }
 
+// Of the terms that move it or, where none does, that were stopped.
+std::string MeshMotion::own_text() const
+{
+  const RigidMotion &motion = spec().motion;
+  return motion_text(motion.moves() ? motion.terms() : motion.stopped(), wall_.inputs);
+}
+
 MotionState MeshMotion::state() const
 {
-  const RigidMotion &motion = settings().motion;
+  const RigidMotion &motion = spec().motion;
   MotionState state;
   state.clock = clock_;
   state.start = motion.start();
@@ -200,24 +205,27 @@ MotionState MeshMotion::state() const
   state.servo = servo();
   state.terms = motion.moves() ? motion.terms() : motion.stopped();
   state.stopped = !motion.moves() && !state.terms.empty();
-  state.text = settings().motion_tokens;
+  for (MotionTerm &m : state.terms)
+    for (int &input : m.input)
+      if (input != kNoInput)
+        input = number_of_input(state.inputs, wall_.inputs[static_cast<std::size_t>(input)]);
   return state;
 }
 
 void MeshMotion::check(const MotionState &was) const
 {
-  if (!servo().has_line_of(was.servo)) return;
-  check_limits(was.servo.position, "read_restart");
+  if (servo().has_line_of(was.servo)) check_limits(was.servo.position);
 }
 
 // A servo goes on along the same line, whatever its target is now. A motion that was stopped stays so.
 void MeshMotion::restore(const MotionState &was, const Step &now)
 {
   check(was);
-  RigidMotion &motion = settings().motion;
+  RigidMotion &motion = spec().motion;
   const bool same_line = was.servo.position == 0 || servo().has_line_of(was.servo),
-             same = same_line && are_same(motion.terms(), was.terms);
-  const std::string &own = settings().motion_tokens, &its = was.text;
+             same = same_line && are_same(motion.moves() ? motion.terms() : motion.stopped(),
+                                          wall_.inputs, was.terms, was.inputs);
+  const std::string own = own_text(), its = motion_text(was.terms, was.inputs);
   motion.begin_from(same ? was.start : same_line ? was.placed : was.last);
   const std::string so =
       " was stopped when the restart file was written, and stays so: fix_modify ";

@@ -1,14 +1,12 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Where a mesh is in each step: its motion, the clock of that, and the variables it hangs on.
+// Where a mesh is in each step: its motion, the clock of that, and the inputs it hangs on.
 #pragma once
 
-#include "input/motion_words.h"
-#include "input/servo_words.h"
-#include "input/settings.h"
 #include "motion/step_clock.h"
 #include "wall/host.h"
+#include "wall/wall_spec.h"
 
 #include <string>
 #include <vector>
@@ -25,37 +23,39 @@ struct MotionState {
   // That move the mesh or, where `stopped`, that were stopped.
   std::vector<MotionTerm> terms;
   bool stopped = false;
-  std::string text;    // of the terms, for messages
+  InputNames inputs;    // of the terms
 };
 
 // Functions throw InputError, the same on all processes, with a text that names the mesh.
 class MeshMotion {
  public:
-  // Of the mesh with this number, from 0. Motion, servo and their words in `wall` change with those
-  // given later. Host and settings must outlive it. Its time is 0 at `now`.
-  MeshMotion(Host &host, WallSettings &wall, int mesh, const Step &now);
+  // Of the mesh with this number, from 0. Its motion in `wall` changes with those set later. Host and
+  // wall must outlive it. Its time is 0 at `now`.
+  MeshMotion(Host &host, WallSpec &wall, int mesh, const Step &now);
 
   const Pose &pose() const { return pose_; }                   // in this step
   const SurfaceMotion &surface() const { return surface_; }    // likewise
 
   bool moves_or_varies() const;    // does the engine see a motion?
-  bool has_variables() const;
-  bool takes_differences() const;    // for velocities that no variable gives
-  // Names of the variables, in the order in which they are evaluated.
-  std::vector<std::string> variables() const;
+  bool has_inputs() const;
+  bool takes_differences() const;    // for velocities that no input gives
+  // Names of its inputs, in the order in which they are read.
+  InputNames inputs() const;
 
-  // The clock goes on to this step, and variables get their values. Returns the time that has passed.
-  // Collective where it has variables.
+  // The clock goes on to this step, and inputs are read. Returns the time that has passed.
+  // Collective where it has inputs.
   Real advance(const Step &to);
   // Puts the mesh where the motion and the servo have it now.
   void place() { pose_ = pose_in(0); }
   Pose pose_in(Time later) const;    // that much time from now
   Pose pose_without_servo() const;
 
-  // Another motion, from where the mesh is, or none. A servo goes on with what it has added.
-  void change(const ModifiedMotion &to, const Step &now);
-  // Another servo, from where the mesh is, or none. Along the same line its position goes on.
-  void change(const ModifiedServo &to);
+  // The terms of another motion, from where the mesh is; without any it stops. A servo goes on with what it
+  // has added up.
+  void set(const RigidMotion &to, const Step &now);
+  // Another servo, from where the mesh is; one that is not present stops it. Along the same line its
+  // position goes on.
+  void set(const Servo &to);
 
   // Throws where the pose or velocities in a snapshot are not known from its time alone.
   void check_snapshot(const Step &at) const;
@@ -63,22 +63,23 @@ class MeshMotion {
   // A line for the log; empty: nothing moves. `bounds`: of the mesh in its own frame.
   std::string text(const Box &bounds) const;
 
-  // For a restart: the same on all processes. With the same terms the motion goes on where it was. With others it
-  // begins where the mesh was, and the first process warns.
+  // The same on all processes. With the same terms a motion goes on where it was. Others begin where the mesh
+  // was, and the first process warns.
   MotionState state() const;
   // Throws where a servo would be outside of its limits.
   void check(const MotionState &was) const;
   void restore(const MotionState &was, const Step &now);
 
  private:
-  MeshSettings &settings() const { return wall_.meshes[mesh_]; }
-  Servo &servo() const { return settings().motion.servo(); }
+  MeshSpec &spec() const { return wall_.meshes[mesh_]; }
+  Servo &servo() const { return spec().motion.servo(); }
   std::string named(const std::string &text) const;
+  std::string own_text() const;
   void begin(const Step &now);
-  void check_limits(Real position, const std::string &command) const;
+  void check_limits(Real position) const;
 
   Host &host_;
-  WallSettings &wall_;
+  WallSpec &wall_;
   int mesh_;
   StepClock clock_;
   Pose pose_;

@@ -4,17 +4,17 @@
 // How messages name one of a wall's meshes.
 #pragma once
 
-#include "input/settings.h"
+#include "wall/wall_spec.h"
 
 #include <string>
 
 namespace lsdcd {
 
-// What is said of a mesh, counted from 0, with its number and file where the wall has several.
-inline std::string with_mesh_name(const WallSettings &wall, int mesh, const std::string &text)
+// A text about a mesh, counted from 0, with its number and name where the wall has several.
+inline std::string with_mesh_name(const WallSpec &wall, int mesh, const std::string &text)
 {
   if (wall.meshes.size() == 1) return text;
-  return "mesh " + std::to_string(mesh + 1) + " '" + wall.meshes[mesh].file + "': " + text;
+  return "mesh " + std::to_string(mesh + 1) + " '" + wall.meshes[mesh].name + "': " + text;
 }
 
 }    // namespace lsdcd

@@ -33,7 +33,7 @@ bool MeshPart::keeps_edge(const PeriodicBox &box, int k) const
 {
   const Vec3 edge = unit_vector(box.edge[k]),
              across = unit_vector(cross(box.edge[(k + 1) % 3], box.edge[(k + 2) % 3]));
-  return norm(cross(edge, across)) <= 1e-12 && settings.motion.keeps(edge);
+  return norm(cross(edge, across)) <= 1e-12 && spec.motion.keeps(edge);
 }
 
 // Where its motion keeps an edge, that is the edge, and periodic images are what they are for a
@@ -42,7 +42,7 @@ bool MeshPart::keeps_edge(const PeriodicBox &box, int k) const
 PeriodicBox MeshPart::box_seen(const PeriodicBox &real) const
 {
   PeriodicBox box = real;
-  if (!settings.motion.any()) return box;
+  if (!spec.motion.any()) return box;
   for (int k = 0; k < 3; k++) {
     if (keeps_edge(real, k)) continue;
     Real lo = 0, hi = 1;

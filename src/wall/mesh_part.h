@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// One mesh of a wall: its settings and grid, and where it is.
+// One mesh of a wall: its spec and grid, and where it is.
 #pragma once
 
 #include "mesh/point_tree.h"
@@ -14,24 +14,25 @@
 namespace lsdcd {
 
 struct MeshPart {
-  // Of the mesh with this number of the wall, from 0. Reads the file. Host and settings must outlive
+  // Of the mesh with this number of the wall, from 0. Reads its file. Host, wall and laws must outlive
   // it. Throws InputError on all processes. Collective.
-  MeshPart(Host &host, WallSettings &wall, int index, const Step &now) :
-      index(index), settings(wall.meshes[index]), grid(host, wall, settings),
-      motion(host, wall, index, now), servo_controller(host, wall, index, bounds(0)), host_(host)
+  MeshPart(Host &host, WallSpec &wall, const LawTable &laws, int index, const Step &now) :
+      index(index), spec(wall.meshes[index]), grid(host, wall, spec),
+      motion(host, wall, index, now), servo_controller(host, wall, laws, index, bounds(0)),
+      host_(host)
   {
   }
 
   const int index;
-  MeshSettings &settings;    // in those of the wall; its motion may change later
+  MeshSpec &spec;    // in that of the wall; its motion may change later
   MeshGrid grid;
   MeshMotion motion;
   ServoController servo_controller;
 
   bool springs_are_foreign = false;    // those of a restart file are of another mesh
 
-  const Servo &servo() const { return settings.motion.servo(); }
-  bool moves() const { return settings.motion.any(); }    // or was moved
+  const Servo &servo() const { return spec.motion.servo(); }
+  bool moves() const { return spec.motion.any(); }    // or was moved
 
   Box bounds(Real past) const;    // in its own frame, and `past` (length) beyond
   // From where to where its vertices go along edge k of the box at a pose, as parts of the box.

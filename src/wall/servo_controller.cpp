@@ -28,9 +28,9 @@ Real ServoController::stable_gain(const ServoLoad &load, const Pose &placed, Rea
   const Real overlap = load.overlap * load.radius + s.max_speed * arm * dt,
              contacts = std::max<Real>(1, load.contacts);
   ContactSlope one;    // the steepest
-  for (int kind = 0; kind < wall_.laws.kinds; kind++) {
+  for (int kind = 0; kind < laws_.kinds; kind++) {
     const ContactSlope of =
-        contact_slope(wall_.law_of(mesh_, kind), overlap, load.radius, load.mass);
+        contact_slope(law_of(laws_, mesh_, kind), overlap, load.radius, load.mass);
     one = {std::max(one.stiffness, of.stiffness), std::max(one.damping, of.damping)};
   }
   return servo_gain(contacts * arm * arm * one.stiffness, contacts * arm * arm * one.damping, dt);

@@ -4,8 +4,8 @@
 // The velocity of a servo in each step, from the load of the last one.
 #pragma once
 
-#include "input/settings.h"
 #include "wall/host.h"
+#include "wall/wall_spec.h"
 
 #include <cstdint>
 
@@ -25,9 +25,9 @@ struct ServoLoad {
 class ServoController {
  public:
   // Of the mesh with this number, from 0, whose extents in its own frame these are. The servo is
-  // wall.meshes[mesh].motion.servo(). Host and settings must outlive it.
-  ServoController(Host &host, WallSettings &wall, int mesh, const Box &extents) :
-      host_(host), wall_(wall), mesh_(mesh), extents_(extents)
+  // wall.meshes[mesh].motion.servo(). Host, wall and laws must outlive it.
+  ServoController(Host &host, WallSpec &wall, const LawTable &laws, int mesh, const Box &extents) :
+      host_(host), wall_(wall), laws_(laws), mesh_(mesh), extents_(extents)
   {
   }
 
@@ -48,7 +48,8 @@ class ServoController {
   Real stable_gain(const ServoLoad &load, const Pose &placed, Real dt) const;
 
   Host &host_;
-  WallSettings &wall_;
+  WallSpec &wall_;
+  const LawTable &laws_;
   int mesh_;
   Box extents_;
   bool gain_told_ = false, limit_told_ = false;

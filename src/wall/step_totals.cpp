@@ -31,7 +31,7 @@ void StepTotals::reduce(const WallEngine *engine, const std::vector<Pose> &poses
   host_.max(most.data(), n);
   for (int k = 0; k < n; k++) {
     const Real *const s = sum.data() + kSums * k;
-    const MeshSettings &settings = settings_.meshes[k];
+    const MeshSpec &settings = settings_.meshes[k];
     const Pose &pose = poses[k];
     MeshTotals &m = meshes_[k];
     m.force = {s[0], s[1], s[2]};
@@ -54,7 +54,7 @@ bool StepTotals::torques_share_a_point() const
 {
   if (settings_.meshes.size() == 1) return true;
   const Vec3 &first = settings_.meshes.front().torque_about;
-  return std::all_of(settings_.meshes.begin(), settings_.meshes.end(), [&](const MeshSettings &m) {
+  return std::all_of(settings_.meshes.begin(), settings_.meshes.end(), [&](const MeshSpec &m) {
     return !m.torque_about_mesh && m.torque_about == first;
   });
 }

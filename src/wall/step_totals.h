@@ -5,8 +5,8 @@
 #pragma once
 
 #include "engine/wall_engine.h"
-#include "input/settings.h"
 #include "wall/host.h"
+#include "wall/wall_spec.h"
 
 #include <vector>
 
@@ -14,8 +14,8 @@ namespace lsdcd {
 
 // Of one mesh.
 struct MeshTotals {
-  Vec3 force = {0, 0, 0};     // on the mesh
-  Vec3 torque = {0, 0, 0};    // on the mesh, about the point of MeshSettings::torque_about
+  Vec3 force = {0, 0, 0};               // on the mesh
+  Vec3 torque = {0, 0, 0};              // on the mesh, about the point of MeshSpec::torque_about
   Vec3 torque_at_origin = {0, 0, 0};    // on the mesh, about the origin of the box
   Real contacts = 0;                    // how many
   Real overlap = 0;                     // the largest overlap / radius
@@ -28,7 +28,7 @@ struct MeshTotals {
 class StepTotals {
  public:
   // Both must outlive it.
-  StepTotals(Host &host, const WallSettings &settings) :
+  StepTotals(Host &host, const WallSpec &settings) :
       host_(host), settings_(settings), meshes_(settings.meshes.size())
   {
   }
@@ -52,7 +52,7 @@ class StepTotals {
   bool torques_share_a_point() const;
 
   Host &host_;
-  const WallSettings &settings_;
+  const WallSpec &settings_;
   std::vector<MeshTotals> meshes_;
   bool reduced_ = false;
 };

@@ -14,15 +14,12 @@ namespace lsdcd {
 // Of sphere i with any mesh.
 Real TimestepCheck::shortest_of(const Spheres &s, int i) const
 {
-  const LawTable &laws = settings_.laws;
-  const int *kind_of_type = laws.kind_of_type.data();
-  const SphereKinds kinds = {laws.kinds > 1 ? s.type : nullptr, kind_of_type,
-                             static_cast<int>(laws.kind_of_type.size()) - 1};
-  const int kind = kinds[i], n = static_cast<int>(settings_.meshes.size());
+  const SphereKinds kinds = {laws_.kinds > 1 ? s.type : nullptr, laws_.kind_of_type.data(),
+                             static_cast<int>(laws_.kind_of_type.size()) - 1};
   Real shortest = INFINITY;
-  for (int mesh = 0; mesh < (laws.is_empty() ? 1 : n); mesh++)
-    shortest = std::min(shortest,
-                        contact_time(settings_.law_of(mesh, kind), s.mass[i], s.radius[i], ftm2v_));
+  for (std::size_t k = static_cast<std::size_t>(kinds[i]); k < laws_.laws.size();
+       k += static_cast<std::size_t>(laws_.kinds))
+    shortest = std::min(shortest, contact_time(laws_.laws[k], s.mass[i], s.radius[i], ftm2v_));
   return shortest;
 }
 
@@ -38,10 +35,11 @@ void TimestepCheck::check(Real dt)
   const Real ratio = dt / (shortest / kStepsPerContact);
   if (ratio <= worst_) return;
   worst_ = kWorse * ratio;
-  host_.warn("timestep " + number_text(dt) + " is more than a tenth of the shortest contact time " +
-             number_text(shortest) +
-             (is_hertzian(settings_.law) ? " (hertz, at an overlap of 1 % of the radius)" : "") +
-             ": contacts will not be resolved");
+  host_.warn(
+      "timestep " + number_text(dt) + " is more than a tenth of the shortest contact time " +
+      number_text(shortest) +
+      (is_hertzian(laws_.laws.front()) ? " (hertz, at an overlap of 1 % of the radius)" : "") +
+      ": contacts will not be resolved");
 }
 
 }    // namespace lsdcd

@@ -4,7 +4,7 @@
 // Warns of a timestep that does not resolve contacts.
 #pragma once
 
-#include "input/settings.h"
+#include "law/law_table.h"
 #include "wall/host.h"
 
 namespace lsdcd {
@@ -12,8 +12,8 @@ namespace lsdcd {
 class TimestepCheck {
  public:
   // Both must outlive it. `ftm2v`: force times time over mass, in the host's unit of velocity.
-  TimestepCheck(Host &host, const WallSettings &settings, Real ftm2v) :
-      host_(host), settings_(settings), ftm2v_(ftm2v)
+  TimestepCheck(Host &host, const LawTable &laws, Real ftm2v) :
+      host_(host), laws_(laws), ftm2v_(ftm2v)
   {
   }
 
@@ -28,7 +28,7 @@ class TimestepCheck {
   Real shortest_of(const Spheres &s, int i) const;
 
   Host &host_;
-  const WallSettings &settings_;
+  const LawTable &laws_;
   Real ftm2v_;
   static constexpr Real kWorse = 1.1;    // times a timestep that was warned of: warned of again
   Real worst_ = 1;                       // what is warned of next, over what it should be

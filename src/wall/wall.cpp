@@ -9,6 +9,7 @@
 #include "wall/creation_text.h"
 #include "wall/mesh_checks.h"
 #include "wall/mesh_name.h"
+#include "wall/spec_text.h"
 
 #include <algorithm>
 #include <cmath>
@@ -19,7 +20,7 @@ namespace lsdcd {
 namespace {
 
 // Pressures become forces per area.
-WallSettings in_units(WallSettings settings, const WallUnits &units)
+WallSpec in_units(WallSpec spec, const WallUnits &units)
 {
   const auto convert = [&](ContactLaw &law) {
     if (law.is_classic() && law.is(NormalModel::hertz)) {
@@ -28,12 +29,11 @@ WallSettings in_units(WallSettings settings, const WallUnits &units)
     }
     law.cohesion.numbers[0] /= units.pressure;    // sjkr's
   };
-  convert(settings.law);
-  for (ContactLaw &law : settings.laws.laws) convert(law);
-  for (MeshSettings &mesh : settings.meshes)
-    for (LawOfMesh &of : mesh.laws) convert(of.law);
-  settings.wear.per_work *= units.pressure;
-  return settings;
+  for (LawOfTypes &row : spec.laws) convert(row.law);
+  for (MeshSpec &mesh : spec.meshes)
+    for (LawOfTypes &row : mesh.laws) convert(row.law);
+  spec.wear.per_work *= units.pressure;
+  return spec;
 }
 
 // What fits a double, exactly.
@@ -44,21 +44,21 @@ Real number_of(std::uint64_t fingerprint)
 
 }    // namespace
 
-Wall::Wall(Host &host, WallSettings settings, const WallUnits &units, WallPlace place,
+Wall::Wall(Host &host, WallSpec spec, const WallUnits &units, WallPlace place,
            const std::string &material, const StepClock &clock) :
     host_(host),
-    settings_(in_units(std::move(settings), units)), place_(std::move(place)), clock_(clock),
-    history_(host, settings_), totals_(host, settings_), loads_(host, settings_),
-    files_(host, settings_, units.pressure), overlaps_(host), search_(host), times_(host),
-    timestep_(host, settings_, units.velocity), box_checks_(host, settings_, meshes_),
-    grids_(host, settings_, meshes_, box_checks_, history_, times_)
+    spec_(in_units(std::move(spec), units)), laws_(law_table(spec_)), place_(std::move(place)),
+    clock_(clock), history_(host, spec_), totals_(host, spec_), loads_(host, spec_),
+    files_(host, spec_, units.pressure), overlaps_(host), search_(host), times_(host),
+    timestep_(host, laws_, units.velocity), box_checks_(host, spec_, meshes_),
+    grids_(host, spec_, laws_, meshes_, box_checks_, history_, times_)
 {
-  for (std::size_t k = 0; k < settings_.meshes.size(); k++) {
-    const MeshPart &m = meshes_.emplace_back(host_, settings_, static_cast<int>(k),
+  for (std::size_t k = 0; k < spec_.meshes.size(); k++) {
+    const MeshPart &m = meshes_.emplace_back(host_, spec_, laws_, static_cast<int>(k),
                                              Step{clock.last_step, clock.dt});
-    check_side(settings_, m);
-    check_plane(host_, settings_, m);
-    check_motion(host_, settings_, m);
+    check_side(spec_, m);
+    check_plane(host_, spec_, m);
+    check_motion(host_, spec_, m);
   }
   make_engine();
   log_creation(material, place_);
@@ -70,14 +70,14 @@ Wall::Wall(Host &host, WallSettings settings, const WallUnits &units, WallPlace 
   for (int i = 0; i < s.n; i++)
     if (all || is_in_group(s, i)) radius = std::max(radius, s.radius[i]);
   host_.max(&radius, 1);
-  if (settings_.rmax > 0) radius = settings_.rmax;
+  if (spec_.rmax > 0) radius = spec_.rmax;
   for (const MeshPart &m : meshes_) {
     box_checks_.check_scale(m, grids_.box());
     box_checks_.check_periodic(m, grids_.box());
-    if (radius > 0) box_checks_.check_outside(m, grids_.box(), settings_.cutoff(radius));
-    check_surface(host_, settings_, m);
+    if (radius > 0) box_checks_.check_outside(m, grids_.box(), cutoff_of(laws_, radius));
+    check_surface(host_, spec_, m);
   }
-  if (meshes_.size() > 1 && settings_.corner == Corner::sum)
+  if (meshes_.size() > 1 && spec_.corner == Corner::sum)
     host_.warn(
         "with corner sum a sphere over a seam where two meshes meet is pushed by both: use corner "
         "blend, or one mesh of all triangles");
@@ -85,7 +85,7 @@ Wall::Wall(Host &host, WallSettings settings, const WallUnits &units, WallPlace 
 
 std::string Wall::named(const MeshPart &m, const std::string &text) const
 {
-  return with_mesh_name(settings_, m.index, text);
+  return with_mesh_name(spec_, m.index, text);
 }
 
 bool Wall::any_moves() const
@@ -110,19 +110,19 @@ std::size_t Wall::bytes() const
 EngineSettings Wall::engine_settings() const
 {
   EngineSettings want;
-  want.laws = settings_.laws.is_empty() ? LawTable(settings_.law) : settings_.laws;
-  want.corner = settings_.corner;
-  want.side = settings_.side;
-  want.precision = settings_.precision;
+  want.laws = laws_;
+  want.corner = spec_.corner;
+  want.side = spec_.side;
+  want.precision = spec_.precision;
   want.meshes = static_cast<int>(meshes_.size());
   want.moves = meshes_.size() > 1;
   for (const MeshPart &m : meshes_) {
     want.moves |= m.motion.moves_or_varies();
-    if (!want.surface.moves()) want.surface = m.settings.surface;
+    if (!want.surface.moves()) want.surface = m.spec.surface;
   }
-  want.records = settings_.has_loads() || virial_;
-  want.wear = settings_.wear.model;
-  want.device = settings_.device;
+  want.records = spec_.has_loads() || virial_;
+  want.wear = spec_.wear.model;
+  want.device = spec_.device;
   want.device_rank = meshes_.front().grid.memory().node_rank();
   return want;
 }
@@ -150,10 +150,9 @@ void Wall::log_creation(const std::string &material, const WallPlace &place) con
 {
   if (host_.rank() != 0) return;
   std::string device = engine_->backend(), why;
-  if (!settings_.brief && !place.in_place && settings_.device == Device::automatic &&
-      !cuda_available(&why))
+  if (!spec_.brief && !place.in_place && spec_.device == Device::automatic && !cuda_available(&why))
     device += " (no CUDA: " + why + ")";
-  host_.log(creation_text(settings_, meshes_, engine_settings(), material, device));
+  host_.log(creation_text(spec_, meshes_, engine_settings(), material, device));
 }
 
 // An error of a sphere gets the name that the host has for it.
@@ -179,8 +178,9 @@ void Wall::begin_run(std::int64_t step, bool virial)
   if (virial && !engine_records_) make_engine_anew();
   std::vector<std::string> names;
   for (const MeshPart &m : meshes_) {
-    for (const std::string &name : m.motion.variables()) names.push_back(name);
-    if (!m.settings.temperature_variable.empty()) names.push_back(m.settings.temperature_variable);
+    for (const std::string &name : m.motion.inputs()) names.push_back(name);
+    if (m.spec.temperature_input != kNoInput)
+      names.push_back(spec_.inputs[static_cast<std::size_t>(m.spec.temperature_input)]);
   }
   host_.check_variables(names);
   files_.begin_run(step);
@@ -226,7 +226,7 @@ void Wall::begin_snapshot(int n, const Step &step)
     host_.warn(
         "a rerun does not know the springs of contacts, which no dump has: friction, rolling, "
         "twisting and adhesion past touch begin at 0 in each snapshot");
-  if (settings_.has_loads())
+  if (spec_.has_loads())
     host_.warn("a rerun has no steps over which loads and wear add up: no wear is counted and no "
                "mesh_fields are written");
 }
@@ -315,23 +315,24 @@ StepSettings Wall::step_settings()
   StepSettings step;
   step.dt = input_.step.dt;
   step.update_history = input_.step.kind == Step::step;
-  step.per_sphere = settings_.contacts;
-  step.records = settings_.has_loads() || input_.virial;
+  step.per_sphere = spec_.contacts;
+  step.records = spec_.has_loads() || input_.virial;
   const bool several = meshes_.size() > 1;
-  if (several || settings_.meshes.front().surface_varies()) {
+  if (several || spec_.meshes.front().surface_varies()) {
     surfaces_.clear();
     for (const MeshPart &m : meshes_) surfaces_.push_back(m.motion.surface());
     step.surface = surfaces_.data();
   }
-  if (!settings_.law.has_heat()) return step;
+  if (!spec_.law().has_heat()) return step;
   std::vector<std::string> names;
-  for (const MeshSettings &m : settings_.meshes)
-    if (!m.temperature_variable.empty()) names.push_back(m.temperature_variable);
+  for (const MeshSpec &m : spec_.meshes)
+    if (m.temperature_input != kNoInput)
+      names.push_back(spec_.inputs[static_cast<std::size_t>(m.temperature_input)]);
   const std::vector<Real> values = host_.variables(names);
   auto next = values.begin();
   temperatures_.clear();
-  for (const MeshSettings &m : settings_.meshes)
-    temperatures_.push_back(m.temperature_variable.empty() ? m.temperature : *next++);
+  for (const MeshSpec &m : spec_.meshes)
+    temperatures_.push_back(m.temperature_input == kNoInput ? m.temperature : *next++);
   step.wall_temperature = temperatures_.front();
   if (several) step.mesh_temperature = temperatures_.data();
   return step;
@@ -378,7 +379,7 @@ void Wall::finish(const Spheres &spheres)
     search_.count_step(step.kind != Step::step);
   }
   totals_.expire();
-  if (settings_.has_loads() && step.kind == Step::step) {    // what sets a run up has no duration
+  if (spec_.has_loads() && step.kind == Step::step) {    // what sets a run up has no duration
     const bool any = cutoff() > 0;
     for (const MeshPart &m : meshes_)
       loads_.add(m.index, any ? engine_->records() : nullptr, any ? engine_->n_records() : 0,
@@ -421,9 +422,9 @@ void Wall::end_run(std::int64_t step, bool far, const std::string &advice, Real 
   overlaps_.check_sunk(worst, timestep_.worst_ratio());
   if (far) grids_.check_wrapping();
   grids_.end_run();
-  search_.end_run(settings_.brief, advice);
-  if (settings_.nearest > 0) search_.log_uncertified(settings_.nearest, settings_.brief);
-  times_.end_run(settings_.brief, loop);
+  search_.end_run(spec_.brief, advice);
+  if (spec_.nearest > 0) search_.log_uncertified(spec_.nearest, spec_.brief);
+  times_.end_run(spec_.brief, loop);
 }
 
 // ---- outputs -----------------------------------------------------------------------------
@@ -481,60 +482,39 @@ void Wall::write_due_files()
 
 // ---- another motion ----------------------------------------------------------------------
 
-// [mesh K], where K counts from 1. `taken`: how many words that are.
-MeshPart &Wall::mesh_of_words(const std::vector<std::string> &words, std::size_t &taken)
+void Wall::set_inputs(const InputNames &inputs)
 {
-  const std::string n = std::to_string(meshes_.size());
-  taken = 0;
-  if (words[0] != "mesh") {
-    if (meshes_.size() == 1) return meshes_.front();
-    throw InputError("fix_modify " + words[0] + ": which of the " + n +
-                     " meshes? Write fix_modify ID mesh K " + words[0] + " ..., with K from 1");
-  }
-  Real k = 0;
-  if (words.size() < 2 || !is_number(words[1], &k) || k != std::floor(k) || k < 1 ||
-      k > static_cast<Real>(meshes_.size()))
-    throw InputError("fix_modify mesh K motion|servo ...: K is the number of a mesh, from 1 to " +
-                     n + (words.size() > 1 ? ", not '" + words[1] + "'" : ""));
-  taken = 2;
-  if (words.size() < 3 || (words[2] != "motion" && words[2] != "servo"))
-    throw InputError("fix_modify mesh " + words[1] + ": motion ... or servo ... must follow" +
-                     (words.size() < 3 ? "" : ", not '" + words[2] + "'"));
-  return meshes_[static_cast<std::size_t>(k) - 1];
+  spec_.inputs = inputs;
 }
 
-int Wall::change(const std::vector<std::string> &words, const Step &now)
+void Wall::set_motion(int mesh, const RigidMotion &motion, const Step &now)
 {
-  if (words[0] != "mesh" && words[0] != "motion" && words[0] != "servo") return 0;
-  std::size_t taken;
-  MeshPart &m = mesh_of_words(words, taken);
-  const std::vector<std::string> rest(words.begin() + static_cast<std::ptrdiff_t>(taken),
-                                      words.end());
-  std::string told;
-  if (rest[0] == "motion") {
-    const ModifiedMotion read = read_modified_motion(rest);
-    m.motion.change(read, now);
-    motion_has_changed(m);
-    told = "motion " + (read.terms.empty() ? "none" : m.motion.text(m.bounds(0)));
-    taken += read.taken;
-  } else {
-    const ModifiedServo read = read_modified_servo(rest);
-    m.motion.change(read);
-    m.servo_controller.begin_anew();
-    servo_radius_ = 0;    // a run without setup looks then
-    motion_has_changed(m);
-    told = "servo " + read.text;
-    taken += read.taken;
-  }
-  if (!settings_.brief) host_.log(named(m, told));
-  return static_cast<int>(taken);
+  MeshPart &m = meshes_[mesh];
+  m.motion.set(motion, now);
+  motion_has_changed(m);
+  log_change(m, "motion " + (motion.moves() ? m.motion.text(m.bounds(0)) : "none"));
+}
+
+void Wall::set_servo(int mesh, const Servo &servo)
+{
+  MeshPart &m = meshes_[mesh];
+  m.motion.set(servo);
+  m.servo_controller.begin_anew();
+  servo_radius_ = 0;    // a run without setup looks then
+  motion_has_changed(m);
+  log_change(m, "servo " + (servo.present ? servo_text(servo, spec_.inputs) : "none"));
+}
+
+void Wall::log_change(const MeshPart &m, const std::string &text)
+{
+  if (!spec_.brief) host_.log(named(m, text));
 }
 
 // Laws for a wall at rest do not know where it is.
 void Wall::motion_has_changed(const MeshPart &m)
 {
   schedule_.expire();
-  check_motion(host_, settings_, m);
+  check_motion(host_, spec_, m);
   if (any_moves() && !engine_moves_) make_engine_anew();
 }
 
@@ -559,7 +539,7 @@ MeshIdentity Wall::identity_of(const MeshPart &m)
 WallState Wall::save() const
 {
   WallState all;
-  all.history_kind = static_cast<Real>(settings_.law.history_kind());
+  all.history_kind = static_cast<Real>(spec_.law().history_kind());
   all.time = clock_.now();
   for (const MeshPart &m : meshes_) {
     const MeshLoads loads = loads_.gathered(m.index);
@@ -614,7 +594,7 @@ void Wall::restore_mesh(MeshPart &m, const MeshState &was, const Step &now)
 {
   m.motion.restore(was.motion, now);
   motion_has_changed(m);
-  if (!settings_.has_loads(m.settings)) return;
+  if (!spec_.has_loads(m.spec)) return;
   if (m.springs_are_foreign)
     host_.warn("loads and wear begin at zero: the restart file was written with another mesh");
   else

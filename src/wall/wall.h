@@ -55,14 +55,15 @@ struct StepInput {
 // say so. Errors that all processes have alike are InputError, those of one process ProcessError.
 class Wall {
  public:
-  // Reads the meshes, makes the engine, and logs what there is. `settings`: stiffnesses still in the
-  // host's unit of pressure. `material`: what a material file filled in, for the log. `clock`: the time
-  // of the host. The host must outlive the wall.
-  Wall(Host &host, WallSettings settings, const WallUnits &units, WallPlace place,
+  // Reads the meshes, makes the engine, and logs what there is. `material`: what a material file filled in,
+  // for the log. `clock`: the time of the host. The host must outlive the wall. Throws InputError where the
+  // spec makes no sense.
+  Wall(Host &host, WallSpec spec, const WallUnits &units, WallPlace place,
        const std::string &material, const StepClock &clock);
 
   // Not together:
-  const WallSettings &settings() const { return settings_; }
+  const WallSpec &spec() const { return spec_; }    // pressures are forces per area
+  const LawTable &laws() const { return laws_; }
   const std::deque<MeshPart> &meshes() const { return meshes_; }
   bool any_moves() const;                            // or was moved
   Real cutoff() const { return grids_.cutoff(); }    // length; 0: there were no spheres yet
@@ -96,22 +97,29 @@ class Wall {
 
   // Of the last step.
   const StepTotals &totals();
-  Real worn(int mesh) const { return settings_.wears() ? loads_.worn(mesh) : 0; }    // volume
+  Real worn(int mesh) const { return spec_.wears() ? loads_.worn(mesh) : 0; }    // volume
   // Force or torque of the mesh on the spheres, along the servo's axis.
   Real servo_push(int mesh);
   // Adds arm times force, over contacts of this process: xx, yy, zz, xy, xz, yz. Energy. Not together.
   void add_virial(Real *virial) const;
   // Calls row(sphere, numbers) for each sphere of this process with a contact, with the
-  // settings().contact_columns() numbers of the contacts array. Not together.
+  // spec().contact_columns() numbers of the contacts array. Not together.
   void for_contact_rows(const std::function<void(int, const Real *)> &row) const;
 
   // Files that are due in this step.
   void write_due_files();
   int files_every() const { return files_.every(); }    // steps; 0: there are none. Not together.
 
-  // [mesh K] motion|servo ...: another motion for a mesh. Returns how many words it took; 0: the first is
-  // another one.
-  int change(const std::vector<std::string> &words, const Step &now);
+  // Between steps. Throw InputError, and change nothing then.
+
+  // Names of inputs: those of today, and more.
+  void set_inputs(const InputNames &inputs);
+  // Another motion of a mesh, from where it is; one without terms stops it. A servo goes on: that of `motion` is
+  // not looked at.
+  void set_motion(int mesh, const RigidMotion &motion, const Step &now);
+  // Another servo of a mesh, from where the mesh is; one that is not present stops it. Along the same line its
+  // position goes on.
+  void set_servo(int mesh, const Servo &servo);
 
   // For a restart file: the history of a sphere, with the names of features that any run has. Returns the
   // numbers written. Not together.
@@ -145,14 +153,15 @@ class Wall {
   StepDiagnostics read_diagnostics();
   void check_new_spheres();
 
-  MeshPart &mesh_of_words(const std::vector<std::string> &words, std::size_t &taken);
+  void log_change(const MeshPart &m, const std::string &text);
   void motion_has_changed(const MeshPart &m);
   static MeshIdentity identity_of(const MeshPart &m);
   bool is_restored(const MeshPart &m, const MeshState &was, bool one_of_many) const;
   void restore_mesh(MeshPart &m, const MeshState &was, const Step &now);
 
   Host &host_;
-  WallSettings settings_;    // motions change later
+  WallSpec spec_;    // motions change later
+  LawTable laws_;    // of the spec
   WallPlace place_;
   // Of the spheres; that of the host begins anew in some runs from a restart file.
   StepClock clock_;

@@ -13,7 +13,7 @@
 
 namespace lsdcd {
 
-WallFiles::WallFiles(Host &host, const WallSettings &settings, Real pressure_unit) :
+WallFiles::WallFiles(Host &host, const WallSpec &settings, Real pressure_unit) :
     host_(host), settings_(settings), pressure_unit_(pressure_unit), series_(settings.meshes.size())
 {
 }
@@ -21,7 +21,7 @@ WallFiles::WallFiles(Host &host, const WallSettings &settings, Real pressure_uni
 int WallFiles::every() const
 {
   int every = 0;
-  for (const MeshSettings &m : settings_.meshes)
+  for (const MeshSpec &m : settings_.meshes)
     every = std::gcd(every, std::gcd(m.fields.every, m.stl.every));
   return every;
 }
@@ -98,7 +98,7 @@ void WallFiles::write_due(std::int64_t step, double time, const std::vector<Plac
     return file.every > 0 && step % file.every == 0;
   };
   for (std::size_t k = 0; k < meshes.size(); k++) {
-    const MeshSettings &m = settings_.meshes[k];
+    const MeshSpec &m = settings_.meshes[k];
     if (is_due(m.fields) && loads) write_fields(static_cast<int>(k), step, time, meshes[k], *loads);
     if (is_due(m.stl))
       try_to_write("there is no mesh_stl of this step", [&] {

@@ -27,7 +27,7 @@ class WallFiles {
  public:
   // Host and settings must outlive it. `pressure_unit`: a force per area of 1 in the host's unit of
   // pressure.
-  WallFiles(Host &host, const WallSettings &settings, Real pressure_unit);
+  WallFiles(Host &host, const WallSpec &settings, Real pressure_unit);
 
   // Files are due in multiples of this many steps only; 0: there are none.
   int every() const;
@@ -52,7 +52,7 @@ class WallFiles {
                     LoadRecorder &loads);
 
   Host &host_;
-  const WallSettings &settings_;
+  const WallSpec &settings_;
   Real pressure_unit_;
   bool continues_ = false;
   bool warned_ = false;                                // in this run

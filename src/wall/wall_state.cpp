@@ -32,14 +32,14 @@ void each_number(Numbers &numbers, Servo &s)
 template <class Numbers>
 void each_number(Numbers &numbers, MotionTerm &t)
 {
-  numbers(t.kind, t.velocity, t.amplitude, t.point, t.axis, t.period, t.name, t.displacement,
+  numbers(t.kind, t.velocity, t.amplitude, t.point, t.axis, t.period, t.input, t.displacement,
           t.speed);
 }
 
 template <class Numbers>
 void each_number(Numbers &numbers, MotionState &m)
 {
-  numbers(m.clock, m.start, m.placed, m.last, m.servo, m.stopped, m.terms, m.text);
+  numbers(m.clock, m.start, m.placed, m.last, m.servo, m.stopped, m.terms, m.inputs);
 }
 
 template <class Numbers>

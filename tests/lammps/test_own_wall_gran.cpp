@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-2.0-only
 
 // Which versions of LAMMPS have a fix wall/gran that differs, law by law: doc/from-wall-gran.md has what was measured.
-#include "input/settings.h"
+#include "input/wall_command.h"
 #include "lammps/own_wall_gran.h"
 
 #include <gtest/gtest.h>
@@ -18,8 +18,8 @@ std::string difference(int version, const std::string &law)
   std::istringstream in(law + " mesh floor.stl");
   std::vector<std::string> words;
   for (std::string word; in >> word;) words.push_back(word);
-  const WallSettings settings = parse_settings(words);
-  return wall_gran_difference(version, settings.law_name, settings.law);
+  const WallSpec settings = parse_wall(words).wall;
+  return wall_gran_difference(version, settings.laws.front().name, settings.law());
 }
 
 bool says(const std::string &text, const std::string &part)

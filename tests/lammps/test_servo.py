@@ -372,7 +372,7 @@ def refused(checks, folder):
              ("fix_modify without a word", good + "fix_modify wall servo\n", "its value is missing"),
              ("another line beside a motion",
               wall(HOOKE, "motion linear 1 0 0 servo force z 1 vmax 1") +
-              "fix_modify wall servo force x 1 vmax 1\n", "stop that first (motion none)")]
+              "fix_modify wall servo force x 1 vmax 1\n", "stop that motion first")]
     for name, words, says in cases:
         if words is None:
             done = lmp.run(text.replace("boundary        f f f", "boundary f f p")

@@ -71,18 +71,18 @@ NUMBER_OF_A_TRIANGLE = {
 }
 FILE_OF_A_RUN = {
     "output/CMakeLists.txt": [("mesh_stl.cpp", "mesh_off.cpp mesh_stl.cpp")],
-    "input/settings.h": [("  FileEvery stl; ", "  FileEvery off;\n  FileEvery stl; ")],
+    "wall/wall_spec.h": [("  FileEvery stl; ", "  FileEvery off;\n  FileEvery stl; ")],
     "input/keywords.cpp": [
         ('    {"mesh_stl", "FILE every N",',
          '    {"mesh_off", "FILE every N", "", "*.off, N >= 1", "none",\n'
          '     "the mesh where it is, in the format OFF, every N steps; * is the step", nullptr,\n'
-         '     [](Tokens &w, MeshSettings &s) { s.off = read_file_every(w, ".off"); }},\n'
+         '     [](Tokens &w, MeshSpec &s, InputNames &) { s.off = read_file_every(w, ".off"); }},\n'
          '    {"mesh_stl", "FILE every N",')],
     "input/script_files.cpp": [
         ("    if (m.stl.every > 0) ",
          '    if (m.off.every > 0) files.push_back({"mesh_off", m.off.name, m.off.every, true});\n'
          "    if (m.stl.every > 0) ")],
-    "input/settings.cpp": [
+    "input/wall_command.cpp": [
         ('{"mesh_stl", mesh.stl.name, other.stl.name},',
          '{"mesh_stl", mesh.stl.name, other.stl.name}, {"mesh_off", mesh.off.name, other.off.name},')],
     "wall/wall_files.cpp": [

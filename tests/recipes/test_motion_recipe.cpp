@@ -3,7 +3,7 @@
 
 // The motion that motion.py adds: from the words of a script to the pose.
 #include "base/input_error.h"
-#include "input/settings.h"
+#include "input/wall_command.h"
 
 #include <gtest/gtest.h>
 
@@ -15,7 +15,7 @@ RigidMotion of_words(const std::vector<std::string> &motion)
   std::vector<std::string> words = {"hooke", "1e4", "0",    "0",     "0",
                                     "0",     "0",   "mesh", "a.stl", "motion"};
   words.insert(words.end(), motion.begin(), motion.end());
-  return parse_settings(words).meshes[0].motion;
+  return parse_wall(words).wall.meshes[0].motion;
 }
 
 // x = A (t/T - sin(2 pi t/T)/(2 pi)), so that at a quarter x = A (1/4 - 1/(2 pi)). Lengths are of

@@ -4,6 +4,7 @@
 // The outputs that output.py adds.
 #include "base/input_error.h"
 #include "input/script_files.h"
+#include "input/wall_command.h"
 #include "output/mesh_fields.h"
 #include "support/fake_host.h"
 #include "support/meshes.h"
@@ -69,8 +70,7 @@ std::vector<std::string> words(const std::string &files)
 TEST(recipe_output, is_written_in_its_steps_where_the_mesh_is)
 {
   const TempDir dir;
-  const WallSettings settings =
-      parse_settings(words("mesh_off " + dir.path("w*.off") + " every 2"));
+  const WallSpec settings = parse_wall(words("mesh_off " + dir.path("w*.off") + " every 2")).wall;
   const WeldedMesh mesh = weld(floor_mesh(1, 1), -1);
   on_processes(1, [&](FakeHost &host) {
     WallFiles files(host, settings, 1);
@@ -99,8 +99,8 @@ TEST(recipe_output, is_written_in_its_steps_where_the_mesh_is)
 TEST(recipe_output, is_told_before_the_run_where_it_cannot_be_written)
 {
   const TempDir dir;
-  const WallSettings settings =
-      parse_settings(words("mesh_off " + dir.path("missing/w.off") + " every 2"));
+  const WallSpec settings =
+      parse_wall(words("mesh_off " + dir.path("missing/w.off") + " every 2")).wall;
   on_processes(1, [&](FakeHost &host) {
     EXPECT_THROW(WallFiles(host, settings, 1).begin_run(0), InputError);
   });
@@ -108,9 +108,9 @@ TEST(recipe_output, is_told_before_the_run_where_it_cannot_be_written)
 
 TEST(recipe_output, has_a_file_of_its_own_for_each_mesh)
 {
-  EXPECT_EQ(files_of(parse_settings(words("mesh_off w.off every 2"))).back().what, "mesh_off");
+  EXPECT_EQ(files_of(parse_wall(words("mesh_off w.off every 2")).wall).back().what, "mesh_off");
   try {
-    parse_settings(words("mesh_off w.off every 2 mesh b.stl mesh_off w.off every 2"));
+    parse_wall(words("mesh_off w.off every 2 mesh b.stl mesh_off w.off every 2"));
     ADD_FAILURE() << "accepted";
   } catch (const InputError &e) {
     EXPECT_NE(std::string(e.what()).find("same file 'w.off'"), std::string::npos) << e.what();

@@ -3,7 +3,7 @@
 
 // The model that rolling_model.py adds: from the words of a script to the torque.
 #include "effects/effects.h"
-#include "input/settings.h"
+#include "input/wall_command.h"
 #include "support/meshes.h"
 #include "support/test_engine.h"
 
@@ -15,9 +15,9 @@ namespace {
 EngineSettings of_words()
 {
   EngineSettings s;
-  s.law() = parse_settings({"granular", "hooke", "1e4", "0", "tangential", "linear_nohistory", "0",
-                            "0", "rolling", "plastic", "50", "0.1", "mesh", "a.stl"})
-                .law;
+  s.law() = parse_wall({"granular", "hooke", "1e4", "0", "tangential", "linear_nohistory", "0", "0",
+                        "rolling", "plastic", "50", "0.1", "mesh", "a.stl"})
+                .wall.law();
   return s;
 }
 

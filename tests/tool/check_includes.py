@@ -9,6 +9,7 @@ usage: check_includes.py [ROOT]
 * A file includes its own room and rooms on lower floors (FLOORS, from the lowest). Rooms of one
   floor do not include each other.
 * Inside a room a file includes its own folder and lower ones (FOLDERS, from the lowest).
+* The words of scripts (INPUT_ROOM) are for INPUT_USERS: rooms, and one file of the library.
 * The study is for STUDY_ROOMS, bench/ and tests: what it measures is no part of a plugin or the library.
 * Only LAMMPS_ROOMS include headers of LAMMPS, which have no room in their name, and of MPI.
 * A header of ONLY_IN, which is slow to compile, is included by its one file.
@@ -23,7 +24,7 @@ import sys
 
 FLOORS = [["base"], ["backend"], ["geometry"], ["mesh"], ["motion"], ["grid"], ["contact"], ["law"], ["engine"],
           ["bodies", "query", "effects", "output", "material", "flow", "insert"],
-          ["study"], ["input"], ["wall"], ["lammps", "tool", "api"], ["kokkos"]]
+          ["study"], ["wall"], ["input"], ["lammps", "tool", "api"], ["kokkos"]]
 # Of each room with folders. "." stands for the files that lie in none, but for those that are named.
 FOLDERS = {
     "mesh": [".", "io"],
@@ -32,6 +33,8 @@ FOLDERS = {
     "engine": ["wall_engine.h", "results", "lists", "broad_phase", "step", "."],
     "lammps": [".", "launcher"],
 }
+INPUT_ROOM = "input"
+INPUT_USERS = {"input", "lammps", "tool", "src/api/wall_words.cpp"}
 STUDY_ROOMS = {"study", "tool"}
 LAMMPS_ROOMS = {"lammps", "kokkos"}
 GENERATED = {"grid": "lsdcd_grid_sources.h"}
@@ -89,6 +92,13 @@ def wrong_include(room, path, included):
     return f"lies in a room {'beside' if FLOOR[other] == FLOOR[room] else 'above'} {room}"
 
 
+def wrong_input(room, path, included):
+    """Why this file may not include a header of INPUT_ROOM; None: it may, or it is none."""
+    if included.split("/")[0] != INPUT_ROOM or INPUT_USERS & {room, path}:
+        return None
+    return "knows the words of scripts, which are for " + ", ".join(sorted(INPUT_USERS))
+
+
 def circles(root):
     """The includes of src and kokkos that lead back to the file they began in, a list of files each."""
     files = {path: path.split("/", 1)[1] if path.startswith("src/") else path for path in sources(root)}
@@ -128,7 +138,7 @@ def violations(root):
             continue
         for number, line in enumerate(lines, 1):
             include = INCLUDE.match(line)
-            why = include and wrong_include(room, path, include[1])
+            why = include and (wrong_include(room, path, include[1]) or wrong_input(room, path, include[1]))
             if why:
                 yield f"{path}:{number}: {include[1]} {why}"
             system = SYSTEM_INCLUDE.match(line)

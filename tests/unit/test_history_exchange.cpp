@@ -16,11 +16,11 @@ namespace {
 constexpr FeatureCode kFace = 5, kImage = 9;
 
 // One mesh; contacts keep a shear displacement, or nothing.
-WallSettings wall(bool keeps = true)
+WallSpec wall(bool keeps = true)
 {
-  WallSettings settings;
+  WallSpec settings;
   settings.meshes.resize(1);
-  settings.law = classic_law(NormalModel::hooke, keeps);
+  settings.laws[0].law = classic_law(NormalModel::hooke, keeps);
   return settings;
 }
 
@@ -46,10 +46,10 @@ bool is_face(const Spring &s)
 TEST(HistoryExchange, comes_back_from_the_engine_as_it_went)
 {
   FakeHost host;
-  const WallSettings settings = wall();
+  const WallSpec settings = wall();
   HistoryExchange history(host, settings);
   EngineSettings of_engine;
-  of_engine.law() = settings.law;
+  of_engine.law() = settings.law();
   of_engine.device = Device::cpu;
   const std::unique_ptr<WallEngine> engine = make_engine(of_engine);
   history.set_engine(*engine);
@@ -68,7 +68,7 @@ TEST(HistoryExchange, comes_back_from_the_engine_as_it_went)
 TEST(HistoryExchange, of_a_law_that_keeps_nothing_stays_where_it_is)
 {
   FakeHost host;
-  const WallSettings settings = wall(false);
+  const WallSpec settings = wall(false);
   HistoryExchange history(host, settings);
   history.to_engine(2);    // there is no engine
   EXPECT_FALSE(history.is_with_engine());
@@ -78,12 +78,12 @@ TEST(HistoryExchange, of_a_law_that_keeps_nothing_stays_where_it_is)
 TEST(HistoryExchange, of_an_image_is_written_as_of_what_it_is_an_image_of)
 {
   FakeHost host;
-  const WallSettings settings = wall();
+  const WallSpec settings = wall();
   HistoryExchange written(host, settings), read(host, settings);
   give_spring(written, kImage);
   std::vector<double> buffer(written.max_packed_size());
   const int size = written.pack_restart(1, buffer.data(), without_image);
-  read.set_kind_of_file(settings.law.history_kind());
+  read.set_kind_of_file(settings.law().history_kind());
   read.grow(2);
   read.unpack_restart(1, buffer.data(), size);
   ASSERT_EQ(read.on_host().count(1), 1);
@@ -94,12 +94,12 @@ TEST(HistoryExchange, of_an_image_is_written_as_of_what_it_is_an_image_of)
 TEST(HistoryExchange, of_another_law_is_not_taken_and_told_once)
 {
   on_processes(2, [](FakeHost &host) {
-    const WallSettings settings = wall();
+    const WallSpec settings = wall();
     HistoryExchange written(host, settings), read(host, settings);
     give_spring(written, kFace);
     std::vector<double> buffer(written.max_packed_size());
     const int size = written.pack_restart(1, buffer.data(), without_image);
-    read.set_kind_of_file(settings.law.history_kind() + 1);
+    read.set_kind_of_file(settings.law().history_kind() + 1);
     read.grow(2);
     read.unpack_restart(1, buffer.data(), size);
     EXPECT_EQ(read.on_host().count(1), 0);
@@ -113,7 +113,7 @@ TEST(HistoryExchange, of_another_law_is_not_taken_and_told_once)
 TEST(HistoryExchange, of_features_that_are_not_there_is_dropped_and_told)
 {
   on_processes(2, [](FakeHost &host) {
-    const WallSettings settings = wall();
+    const WallSpec settings = wall();
     HistoryExchange history(host, settings);
     give_spring(history, host.rank() == 0 ? kFace : kImage);
     history.check_restored(2, is_face);
@@ -128,7 +128,7 @@ TEST(HistoryExchange, of_features_that_are_not_there_is_dropped_and_told)
 TEST(HistoryExchange, follows_features_that_get_other_names)
 {
   FakeHost host;
-  const WallSettings settings = wall();
+  const WallSpec settings = wall();
   HistoryExchange history(host, settings);
   give_spring(history, kImage);
   history.rename_features(without_image);

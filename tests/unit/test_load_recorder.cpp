@@ -11,9 +11,9 @@ namespace lsdcd {
 namespace {
 
 // A wall of two meshes that wear, by half a volume per work.
-WallSettings wall()
+WallSpec wall()
 {
-  WallSettings settings;
+  WallSpec settings;
   settings.meshes.resize(2);
   settings.wear.model = WearModel::archard;
   settings.wear.per_work = 0.5;
@@ -35,7 +35,7 @@ void add_step(LoadRecorder &loads, int rank)
 TEST(LoadRecorder, adds_up_wear_of_all_processes)
 {
   on_processes(2, [](FakeHost &host) {
-    const WallSettings settings = wall();
+    const WallSpec settings = wall();
     LoadRecorder loads(host, settings);
     add_step(loads, host.rank());
     EXPECT_EQ(loads.worn(0), 2 * 10);    // 0.5 x 10 x 2 on each process
@@ -46,7 +46,7 @@ TEST(LoadRecorder, adds_up_wear_of_all_processes)
 TEST(LoadRecorder, gathers_loads_of_all_processes_on_the_first)
 {
   on_processes(2, [](FakeHost &host) {
-    const WallSettings settings = wall();
+    const WallSpec settings = wall();
     LoadRecorder loads(host, settings);
     add_step(loads, host.rank());
     const std::vector<double> separate = loads.gathered(0).packed(),
@@ -68,7 +68,7 @@ TEST(LoadRecorder, gathers_loads_of_all_processes_on_the_first)
 TEST(LoadRecorder, tells_the_time_of_an_average_on_all_processes)
 {
   on_processes(2, [](FakeHost &host) {
-    const WallSettings settings = wall();
+    const WallSpec settings = wall();
     LoadRecorder loads(host, settings);
     add_step(loads, host.rank());
     add_step(loads, host.rank());
@@ -79,7 +79,7 @@ TEST(LoadRecorder, tells_the_time_of_an_average_on_all_processes)
 TEST(LoadRecorder, wears_a_mesh_by_its_factor)
 {
   on_processes(2, [](FakeHost &host) {
-    WallSettings settings = wall();
+    WallSpec settings = wall();
     settings.meshes[1].wear_factor = 0.25;
     LoadRecorder loads(host, settings);
     add_step(loads, host.rank());
@@ -92,7 +92,7 @@ TEST(LoadRecorder, wears_a_mesh_by_its_factor)
 TEST(LoadRecorder, begins_an_average_of_one_mesh_and_keeps_its_wear)
 {
   on_processes(2, [](FakeHost &host) {
-    const WallSettings settings = wall();
+    const WallSpec settings = wall();
     LoadRecorder loads(host, settings);
     add_step(loads, host.rank());
     loads.begin_average(0);
@@ -105,7 +105,7 @@ TEST(LoadRecorder, begins_an_average_of_one_mesh_and_keeps_its_wear)
 TEST(LoadRecorder, records_nothing_of_a_mesh_without_wear_and_mesh_fields)
 {
   on_processes(2, [](FakeHost &host) {
-    WallSettings settings = wall();
+    WallSpec settings = wall();
     settings.wear.model = WearModel::none;
     settings.meshes[1].fields.every = 10;
     LoadRecorder loads(host, settings);
@@ -120,7 +120,7 @@ TEST(LoadRecorder, records_nothing_of_a_mesh_without_wear_and_mesh_fields)
 TEST(LoadRecorder, goes_on_from_what_a_restart_file_has)
 {
   on_processes(2, [](FakeHost &host) {
-    const WallSettings settings = wall();
+    const WallSpec settings = wall();
     LoadRecorder loads(host, settings);
     loads.restore(0, 5, {0, 1, 2, 3, 70, 0, 0, 0});    // the fifth number is the volume worn off
     add_step(loads, host.rank());

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Where a mesh is in each step: by its clock, by variables, after other words and restarts.
+// Where a mesh is in each step: by its clock, by inputs, after changes and restarts.
 #include "base/input_error.h"
 #include "support/fake_host.h"
 #include "wall/mesh_motion.h"
@@ -13,28 +13,27 @@ namespace {
 
 // A wall of one mesh, of one process, that began at step 100 with a dt of 0.5.
 struct Wall {
-  WallSettings settings;
+  WallSpec settings;
   FakeHost host;
 
   Wall() : settings() { settings.meshes.resize(1); }
-  MeshSettings &mesh() { return settings.meshes[0]; }
+  MeshSpec &mesh() { return settings.meshes[0]; }
   Servo &servo() { return mesh().motion.servo(); }
+  int input(const std::string &name) { return number_of_input(settings.inputs, name); }
   void linear(const Vec3 &velocity)
   {
     MotionTerm term;
     term.velocity = velocity;
     mesh().motion.add(term);
-    mesh().motion_tokens = "linear";
   }
   // Displacement in x by variable `x`; its velocity by `vx`, or by differences.
   void by_variable(bool with_velocity)
   {
     MotionTerm term;
     term.kind = MotionKind::variable;
-    term.name[0] = "x";
-    if (with_velocity) term.name[3] = "vx";
+    term.input[0] = input("x");
+    if (with_velocity) term.input[3] = input("vx");
     mesh().motion.add(term);
-    mesh().motion_tokens = "variable";
   }
   void servo_along_z(Real lo = -10, Real hi = 10)
   {
@@ -50,6 +49,15 @@ constexpr Real kDt = 0.5;
 Step step(int n)
 {
   return {kFirst + n, kDt};
+}
+
+RigidMotion along(const Vec3 &velocity)
+{
+  MotionTerm term;
+  term.velocity = velocity;
+  RigidMotion motion;
+  motion.add(term);
+  return motion;
 }
 
 void run(MeshMotion &motion, int first, int last)
@@ -147,9 +155,9 @@ TEST(MeshMotion, gives_variables_to_the_surface_and_the_servo)
 {
   Wall wall;
   wall.servo_along_z();
-  wall.servo().target_name = "load";
-  wall.mesh().surface_variable[1] = "belt";
-  wall.mesh().surface_variable[5] = "spin";
+  wall.servo().target_input = wall.input("load");
+  wall.mesh().surface_input[1] = wall.input("belt");
+  wall.mesh().surface_input[5] = wall.input("spin");
   wall.host.values = {{"load", 5}, {"belt", 6}, {"spin", 7}};
   MeshMotion motion(wall.host, wall.settings, 0, step(0));
   run(motion, 1, 1);
@@ -158,22 +166,22 @@ TEST(MeshMotion, gives_variables_to_the_surface_and_the_servo)
   EXPECT_EQ(motion.surface().angular, (Vec3{0, 0, 7}));
 }
 
-TEST(MeshMotion, names_its_variables_in_the_order_of_their_evaluation)
+TEST(MeshMotion, names_its_inputs_in_the_order_in_which_they_are_read)
 {
   Wall wall;
   wall.by_variable(true);
-  wall.servo().target_name = "load";
-  wall.mesh().surface_variable[0] = "belt";
+  wall.servo().target_input = wall.input("load");
+  wall.mesh().surface_input[0] = wall.input("belt");
   const MeshMotion motion(wall.host, wall.settings, 0, step(0));
-  EXPECT_EQ(motion.variables(), (std::vector<std::string>{"x", "vx", "load", "belt"}));
+  EXPECT_EQ(motion.inputs(), (InputNames{"x", "vx", "load", "belt"}));
 }
 
-// fix_modify motion
+// Another motion
 
 TEST_F(AlongX, goes_on_with_another_motion_from_where_it_is)
 {
   run(motion, 1, 2);
-  motion.change(read_modified_motion({"motion", "linear", "0", "3", "0"}), step(2));
+  motion.set(along({0, 3, 0}), step(2));
   EXPECT_EQ(where(motion), (Vec3{2, 0, 0}));
   run(motion, 3, 4);
   EXPECT_EQ(where(motion), (Vec3{2, 3, 0}));
@@ -182,7 +190,7 @@ TEST_F(AlongX, goes_on_with_another_motion_from_where_it_is)
 TEST_F(AlongX, stays_where_it_is_without_a_motion)
 {
   run(motion, 1, 2);
-  motion.change(read_modified_motion({"motion", "none"}), step(2));
+  motion.set(RigidMotion(), step(2));
   run(motion, 3, 4);
   EXPECT_EQ(where(motion), (Vec3{2, 0, 0}));
   EXPECT_EQ(motion.text({{0, 0, 0}, {1, 1, 1}}), "none; the mesh stays where it is");
@@ -191,48 +199,48 @@ TEST_F(AlongX, stays_where_it_is_without_a_motion)
 TEST_F(ServoAtFive, keeps_what_a_servo_has_added_to_another_motion)
 {
   run(motion, 1, 1);
-  motion.change(read_modified_motion({"motion", "linear", "0", "3", "0"}), step(1));
+  motion.set(along({0, 3, 0}), step(1));
   EXPECT_EQ(where(motion), (Vec3{0, 0, 5}));
   EXPECT_EQ(wall.servo().position, 5);
 }
 
-// fix_modify servo
+// Another servo
 
 TEST_F(ServoAtFive, stops_a_servo_where_it_is)
 {
   wall.servo().velocity = 1;
-  motion.change(ModifiedServo());
+  motion.set(Servo());
   EXPECT_TRUE(wall.servo().holds);
   EXPECT_EQ(where(motion), (Vec3{0, 0, 5}));
   EXPECT_EQ(motion.pose().velocity, (Vec3{0, 0, 0}));
 }
 
-ModifiedServo servo_along(const Vec3 &axis, Real lo, Real hi)
+Servo servo_along(const Vec3 &axis, Real lo, Real hi)
 {
-  ModifiedServo to;
-  to.servo.present = true;
-  to.servo.axis = axis;
-  to.servo.lo = lo;
-  to.servo.hi = hi;
+  Servo to;
+  to.present = true;
+  to.axis = axis;
+  to.lo = lo;
+  to.hi = hi;
   return to;
 }
 
 TEST_F(ServoAtFive, goes_on_along_the_line_of_a_servo)
 {
-  motion.change(servo_along({0, 0, 1}, 0, 6));
+  motion.set(servo_along({0, 0, 1}, 0, 6));
   EXPECT_EQ(wall.servo().position, 5);
   EXPECT_EQ(wall.servo().hi, 6);
 }
 
 TEST_F(ServoAtFive, refuses_limits_that_a_servo_is_past)
 {
-  EXPECT_THROW(motion.change(servo_along({0, 0, 1}, 0, 4)), InputError);
+  EXPECT_THROW(motion.set(servo_along({0, 0, 1}, 0, 4)), InputError);
 }
 
 TEST_F(ServoAtFive, begins_along_another_line_from_where_it_is)
 {
   run(motion, 1, 1);
-  motion.change(servo_along({1, 0, 0}, -1, 1));
+  motion.set(servo_along({1, 0, 0}, -1, 1));
   EXPECT_EQ(wall.servo().position, 0);
   EXPECT_EQ(where(motion), (Vec3{0, 0, 5}));
 }
@@ -243,7 +251,7 @@ TEST(MeshMotion, refuses_another_line_while_a_motion_moves_it)
   wall.linear({2, 0, 0});
   wall.servo_along_z();
   MeshMotion motion(wall.host, wall.settings, 0, step(0));
-  EXPECT_THROW(motion.change(servo_along({1, 0, 0}, -1, 1)), InputError);
+  EXPECT_THROW(motion.set(servo_along({1, 0, 0}, -1, 1)), InputError);
 }
 
 // rerun
@@ -316,7 +324,6 @@ TEST(MeshMotion, begins_another_motion_after_a_restart_from_where_it_was)
   Wall before, after;
   before.linear({2, 0, 0});
   after.linear({0, 3, 0});
-  after.mesh().motion_tokens = "other";
   EXPECT_EQ(where_it_goes_on(before, after), (Vec3{3, 3, 0}));
   ASSERT_EQ(after.host.warnings.size(), 1);
   EXPECT_NE(after.host.warnings[0].find("the phase is not carried over"), std::string::npos);
@@ -329,7 +336,7 @@ TEST(MeshMotion, that_was_stopped_stays_so_after_a_restart)
   after.linear({2, 0, 0});
   MeshMotion first(before.host, before.settings, 0, step(0));
   run(first, 1, 3);
-  first.change(ModifiedMotion(), step(3));
+  first.set(RigidMotion(), step(3));
   MeshMotion second(after.host, after.settings, 0, step(3));
   second.restore(first.state(), step(3));
   run(second, 4, 5);
@@ -389,7 +396,8 @@ TEST(MeshMotion, tells_how_fast_its_corners_go)
   Wall wall;
   wall.linear({3, 4, 0});
   const MeshMotion motion(wall.host, wall.settings, 0, step(0));
-  EXPECT_EQ(motion.text({{0, 0, 0}, {1, 1, 1}}), "linear; corners of its bounds go at up to 5");
+  EXPECT_EQ(motion.text({{0, 0, 0}, {1, 1, 1}}),
+            "linear 3 4 0; corners of its bounds go at up to 5");
 }
 
 }    // namespace

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // What versions before 0.10.0 wrote of a wall, where a motion is known by its words.
-#include "wall/old_wall_state.h"
+#include "input/old_wall_state.h"
 #include "wall/wall_state.h"
 
 #include <gtest/gtest.h>

@@ -13,11 +13,11 @@ namespace {
 constexpr Real kDt = 0.01;
 
 // A servo along z that shall push with 100 upwards, of a wall with springs of 1e4 and no damping.
-WallSettings wall()
+WallSpec wall()
 {
-  WallSettings settings;
+  WallSpec settings;
   settings.meshes.resize(1);
-  settings.law.k_normal = 1e4;
+  settings.laws[0].law.k_normal = 1e4;
   Servo &s = settings.meshes[0].motion.servo();
   s.present = true;
   s.target = 100;
@@ -42,10 +42,11 @@ struct Moved {
 };
 
 // After `steps` steps with the same load. Extents of the mesh are a cube of 2 about the origin.
-Moved after(WallSettings settings, const ServoLoad &load, int steps = 1)
+Moved after(WallSpec settings, const ServoLoad &load, int steps = 1)
 {
   FakeHost host;
-  ServoController controller(host, settings, 0, {{-1, -1, -1}, {1, 1, 1}});
+  const LawTable laws = law_table(settings);
+  ServoController controller(host, settings, laws, 0, {{-1, -1, -1}, {1, 1, 1}});
   for (int i = 0; i < steps; i++) controller.advance(load, Pose(), kDt, 7);
   const Servo &s = settings.meshes[0].motion.servo();
   return {s.velocity, s.position, host.lines, host.warnings};
@@ -73,7 +74,7 @@ TEST(ServoController, takes_no_contact_for_one)
 // 1.5 sqrt(2) from the axis.
 TEST(ServoController, counts_the_arm_of_contacts_where_it_turns)
 {
-  WallSettings settings = wall();
+  WallSpec settings = wall();
   settings.meshes[0].motion.servo().turns = true;
   ServoLoad load = pressed(0, 1);
   load.torque = {0, 0, -60};
@@ -82,16 +83,17 @@ TEST(ServoController, counts_the_arm_of_contacts_where_it_turns)
 
 TEST(ServoController, pushes_against_what_spheres_exert)
 {
-  WallSettings settings = wall();
+  WallSpec settings = wall();
   FakeHost host;
-  EXPECT_EQ(ServoController(host, settings, 0, {}).push(pressed(60, 1)), 60);
+  EXPECT_EQ(ServoController(host, settings, law_table(settings), 0, {}).push(pressed(60, 1)), 60);
 }
 
 TEST(ServoController, does_not_act_where_it_holds)
 {
-  WallSettings settings = wall();
+  WallSpec settings = wall();
   FakeHost host;
-  const ServoController controller(host, settings, 0, {});
+  const LawTable laws = law_table(settings);
+  const ServoController controller(host, settings, laws, 0, {});
   EXPECT_TRUE(controller.acts());
   settings.meshes[0].motion.servo().holds = true;
   EXPECT_FALSE(controller.acts());
@@ -99,7 +101,7 @@ TEST(ServoController, does_not_act_where_it_holds)
 
 TEST(ServoController, warns_once_of_a_gain_that_would_not_be_stable)
 {
-  WallSettings settings = wall();
+  WallSpec settings = wall();
   settings.meshes[0].motion.servo().max_gain = 1;
   const Moved moved = after(settings, pressed(60, 1), 2);
   ASSERT_EQ(moved.warnings.size(), 1);
@@ -110,14 +112,14 @@ TEST(ServoController, warns_once_of_a_gain_that_would_not_be_stable)
 
 TEST(ServoController, does_not_warn_of_a_gain_before_there_are_contacts)
 {
-  WallSettings settings = wall();
+  WallSpec settings = wall();
   settings.meshes[0].motion.servo().max_gain = 1;
   EXPECT_TRUE(after(settings, pressed(0, 0)).warnings.empty());
 }
 
 TEST(ServoController, logs_once_that_a_limit_stops_it)
 {
-  WallSettings settings = wall();
+  WallSpec settings = wall();
   settings.meshes[0].motion.servo().hi = 1e-4;
   const Moved moved = after(settings, pressed(60, 1), 3);
   EXPECT_EQ(moved.position, 1e-4);
@@ -129,10 +131,11 @@ TEST(ServoController, logs_once_that_a_limit_stops_it)
 
 TEST(ServoController, tells_of_another_servo_again)
 {
-  WallSettings settings = wall();
+  WallSpec settings = wall();
   settings.meshes[0].motion.servo().hi = 1e-4;
   FakeHost host;
-  ServoController controller(host, settings, 0, {});
+  const LawTable laws = law_table(settings);
+  ServoController controller(host, settings, laws, 0, {});
   controller.advance(pressed(60, 1), Pose(), kDt, 7);
   controller.begin_anew();
   controller.advance(pressed(60, 1), Pose(), kDt, 8);

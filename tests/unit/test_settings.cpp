@@ -7,7 +7,8 @@
 #include "input/granular_words.h"
 #include "input/motion_words.h"
 #include "input/script_files.h"
-#include "input/settings.h"
+#include "input/wall_command.h"
+#include "wall/spec_text.h"
 
 #include <gtest/gtest.h>
 
@@ -26,15 +27,20 @@ std::vector<std::string> tokens(const std::string &line)
   return list;
 }
 
-WallSettings parse(const std::string &line)
+WallSpec parse(const std::string &line)
 {
-  return parse_settings(tokens(line));
+  return parse_wall(tokens(line)).wall;
 }
 
 // A valid command with more words at its end.
-WallSettings with(const std::string &more)
+WallSpec with(const std::string &more)
 {
   return parse("hooke 1e5 NULL 50 NULL 0.5 1 mesh a.stl " + more);
+}
+
+PictureSpec picture(const std::string &more)
+{
+  return parse_wall(tokens("hooke 1e5 NULL 50 NULL 0.5 1 mesh a.stl " + more)).picture;
 }
 
 std::string error_of(const std::string &line)
@@ -60,34 +66,34 @@ std::string error_with(const std::string &more)
 
 TEST(settings, kt_null_is_two_sevenths_of_kn)
 {
-  EXPECT_EQ(parse("hooke 7e4 NULL 50 NULL 0.5 1 mesh a.stl").law.k_tangent, 2e4);
+  EXPECT_EQ(parse("hooke 7e4 NULL 50 NULL 0.5 1 mesh a.stl").law().k_tangent, 2e4);
 }
 
 TEST(settings, gammat_null_is_half_of_gamman)
 {
-  EXPECT_EQ(parse("hooke 1e5 NULL 50 NULL 0.5 1 mesh a.stl").law.gamma_tangent, 25);
+  EXPECT_EQ(parse("hooke 1e5 NULL 50 NULL 0.5 1 mesh a.stl").law().gamma_tangent, 25);
 }
 
 TEST(settings, dampflag_zero_switches_tangential_damping_off)
 {
-  EXPECT_EQ(parse("hooke 1e5 NULL 50 20 0.5 0 mesh a.stl").law.gamma_tangent, 0);
+  EXPECT_EQ(parse("hooke 1e5 NULL 50 20 0.5 0 mesh a.stl").law().gamma_tangent, 0);
 }
 
 TEST(settings, limit_damping_follows_the_numbers)
 {
-  EXPECT_TRUE(parse("hooke 1 1 1 1 0.5 1 limit_damping mesh a.stl").law.limit_damping);
+  EXPECT_TRUE(parse("hooke 1 1 1 1 0.5 1 limit_damping mesh a.stl").law().limit_damping);
 }
 
 TEST(settings, styles_keep_history_but_hooke)
 {
-  EXPECT_FALSE(parse("hooke 1 1 1 1 0.5 1 mesh a.stl").law.has_history());
-  EXPECT_TRUE(parse("hooke/history 1 1 1 1 0.5 1 mesh a.stl").law.has_history());
-  EXPECT_TRUE(parse("hertz/history 1 1 1 1 0.5 1 mesh a.stl").law.has_history());
+  EXPECT_FALSE(parse("hooke 1 1 1 1 0.5 1 mesh a.stl").law().has_history());
+  EXPECT_TRUE(parse("hooke/history 1 1 1 1 0.5 1 mesh a.stl").law().has_history());
+  EXPECT_TRUE(parse("hertz/history 1 1 1 1 0.5 1 mesh a.stl").law().has_history());
 }
 
 TEST(settings, defaults_hold_where_nothing_is_said)
 {
-  const WallSettings s = with("");
+  const WallSpec s = with("");
   EXPECT_LT(s.meshes[0].weld, 0);
   EXPECT_EQ(s.grid_length, 0);
   EXPECT_EQ(s.rmax, 0);
@@ -97,7 +103,7 @@ TEST(settings, defaults_hold_where_nothing_is_said)
   EXPECT_EQ(s.device, Device::automatic);
   EXPECT_FALSE(s.contacts);
   EXPECT_FALSE(s.periodic);
-  EXPECT_FALSE(s.cut);
+  EXPECT_FALSE(picture("").cut);
 }
 
 TEST(settings, scale_takes_one_factor)
@@ -131,9 +137,10 @@ TEST(settings, placement_words_may_repeat)
   EXPECT_EQ(with("move 1 0 0 move 1 0 0").meshes[0].placement.apply({0, 0, 0}).x, 2);
 }
 
-TEST(settings, the_placement_is_told_in_words)
+TEST(settings, the_placement_is_shown_step_by_step)
 {
-  EXPECT_EQ(with("scale 0.001 move 0 0 1").meshes[0].placement_tokens, "scale 0.001, move 0 0 1");
+  EXPECT_EQ(placement_text(with("scale 0.001 move 0 0 1 rotate 0 0 2 90").meshes[0].placement),
+            "scale 0.001, move 0 0 1, rotate 0 0 2 90");
 }
 
 TEST(settings, rotate_turns_right_handed)
@@ -150,7 +157,7 @@ TEST(settings, rotate_refuses_a_zero_axis)
 
 TEST(settings, auto_means_chosen_by_the_grid)
 {
-  const WallSettings s = with("grid auto rmax auto");
+  const WallSpec s = with("grid auto rmax auto");
   EXPECT_EQ(s.grid_length, 0);
   EXPECT_EQ(s.rmax, 0);
 }
@@ -167,18 +174,18 @@ TEST(settings, every_choice_is_read)
   EXPECT_EQ(with("side out").side, Side::out);
   EXPECT_EQ(with("device cpu").device, Device::cpu);
   EXPECT_EQ(with("device cuda").device, Device::cuda);
-  EXPECT_EQ(with("draw faces").draw, Draw::faces);
-  EXPECT_EQ(with("draw contours").draw, Draw::contours);
+  EXPECT_EQ(picture("draw faces").draw, Draw::faces);
+  EXPECT_EQ(picture("draw contours").draw, Draw::contours);
 }
 
 TEST(settings, draw_takes_the_colour_of_an_atom_type)
 {
-  EXPECT_EQ(with("draw edges 2 contacts").draw_type, 2);
+  EXPECT_EQ(picture("draw edges 2 contacts").type, 2);
 }
 
 TEST(settings, cut_takes_a_plane)
 {
-  const WallSettings s = with("cut 0 1 0 0.5");
+  const PictureSpec s = picture("cut 0 1 0 0.5");
   EXPECT_TRUE(s.cut);
   EXPECT_EQ(s.cut_normal.y, 1);
   EXPECT_EQ(s.cut_offset, 0.5);
@@ -298,9 +305,8 @@ TEST(settings, a_cache_is_taken_where_it_is_built)
 
 TEST(settings, keywords_of_a_mesh_are_of_the_one_before_them)
 {
-  const WallSettings s =
-      with("move 1 0 0 weld 0 corner sum mesh b.stl motion linear 1 2 3 contacts "
-           "mesh c.stl surface_vel 1 0 0 weld 1e-3");
+  const WallSpec s = with("move 1 0 0 weld 0 corner sum mesh b.stl motion linear 1 2 3 contacts "
+                          "mesh c.stl surface_vel 1 0 0 weld 1e-3");
   ASSERT_EQ(s.meshes.size(), 3u);
   EXPECT_EQ(s.meshes[1].file, "b.stl");
   EXPECT_EQ(s.meshes[0].placement.apply({0, 0, 0}).x, 1);
@@ -315,7 +321,7 @@ TEST(settings, keywords_of_a_mesh_are_of_the_one_before_them)
 
 TEST(settings, before_the_only_mesh_its_keywords_may_stand)
 {
-  const WallSettings s = parse("hooke 1e5 NULL 50 NULL 0.5 1 move 1 0 0 contacts mesh a.stl");
+  const WallSpec s = parse("hooke 1e5 NULL 50 NULL 0.5 1 move 1 0 0 contacts mesh a.stl");
   EXPECT_EQ(s.meshes[0].placement.apply({0, 0, 0}).x, 1);
 }
 
@@ -339,28 +345,29 @@ TEST(settings, of_several_meshes_errors_name_the_one)
 
 TEST(settings, laws_are_of_a_mesh_and_of_types_with_it)
 {
-  const WallSettings s =
+  const WallSpec s =
       with("law types 2* hooke 3e5 NULL 50 NULL 0.5 1 law hooke 2e5 NULL 50 NULL 0.5 1 "
            "mesh b.stl law types 3 hooke 4e5 NULL 50 NULL 0.5 1 limit_damping corner sum");
-  ASSERT_EQ(s.laws.kinds, 3);
-  EXPECT_EQ(s.laws.kind_of_type, (std::vector<int>{0, 0, 1, 2, 1}));    // 0 is no type
+  const LawTable laws = law_table(s);
+  ASSERT_EQ(laws.kinds, 3);
+  EXPECT_EQ(laws.kind_of_type, (std::vector<int>{0, 0, 1, 2, 1}));    // 0 is no type
   const Real stiffness[2][3] = {{2e5, 3e5, 3e5}, {1e5, 1e5, 4e5}};
   for (int mesh = 0; mesh < 2; mesh++)
     for (int kind = 0; kind < 3; kind++)
-      EXPECT_EQ(s.law_of(mesh, kind).k_normal, stiffness[mesh][kind]);
-  EXPECT_TRUE(s.law_of(1, 2).limit_damping);
+      EXPECT_EQ(law_of(laws, mesh, kind).k_normal, stiffness[mesh][kind]);
+  EXPECT_TRUE(law_of(laws, 1, 2).limit_damping);
   EXPECT_EQ(s.corner, Corner::sum);
-  EXPECT_TRUE(with("").laws.is_empty());
+  EXPECT_EQ(law_table(with("")).laws.size(), 1u);
 }
 
 TEST(settings, of_laws_of_the_same_types_the_last_counts)
 {
-  const WallSettings s = with("law types 1*3 hooke 2e5 NULL 50 NULL 0.5 1 "
-                              "law types *2 hooke 3e5 NULL 50 NULL 0.5 1");
-  const int kinds[] = {s.laws.kind_of_type.at(1), s.laws.kind_of_type.at(3),
-                       s.laws.kind_of_type.at(4)};
+  const WallSpec s = with("law types 1*3 hooke 2e5 NULL 50 NULL 0.5 1 "
+                          "law types *2 hooke 3e5 NULL 50 NULL 0.5 1");
+  const LawTable laws = law_table(s);
+  const int kinds[] = {laws.kind_of_type.at(1), laws.kind_of_type.at(3), laws.kind_of_type.at(4)};
   const Real stiffness[] = {3e5, 2e5, 1e5};
-  for (int k = 0; k < 3; k++) EXPECT_EQ(s.law_of(0, kinds[k]).k_normal, stiffness[k]);
+  for (int k = 0; k < 3; k++) EXPECT_EQ(law_of(laws, 0, kinds[k]).k_normal, stiffness[k]);
 }
 
 TEST(settings, laws_take_limit_damping_of_the_wall)
@@ -371,31 +378,31 @@ TEST(settings, laws_take_limit_damping_of_the_wall)
   for (const std::string law : numbers)
     for (const bool of_wall : {true, false}) {
       const std::string limit = of_wall ? "limit_damping " : "";
-      const WallSettings s = parse(law + limit + "mesh a.stl mesh b.stl law " + law +
-                                   "mesh c.stl law " + law + "limit_damping law types 2 " + law);
-      EXPECT_EQ(s.law_of(0, 0).limit_damping, of_wall) << law;
-      EXPECT_EQ(s.law_of(1, 0).limit_damping, of_wall) << law;
-      EXPECT_TRUE(s.law_of(2, 0).limit_damping) << law;
-      EXPECT_EQ(s.law_of(2, 1).limit_damping, of_wall) << law;
+      const WallSpec s = parse(law + limit + "mesh a.stl mesh b.stl law " + law +
+                               "mesh c.stl law " + law + "limit_damping law types 2 " + law);
+      EXPECT_EQ(law_of(law_table(s), 0, 0).limit_damping, of_wall) << law;
+      EXPECT_EQ(law_of(law_table(s), 1, 0).limit_damping, of_wall) << law;
+      EXPECT_TRUE(law_of(law_table(s), 2, 0).limit_damping) << law;
+      EXPECT_EQ(law_of(law_table(s), 2, 1).limit_damping, of_wall) << law;
     }
 }
 
 TEST(settings, the_log_names_limit_damping_that_a_granular_law_takes_of_the_wall)
 {
   const std::string law = "granular hooke 2e5 50 tangential linear_nohistory 1 0.5 ";
-  const WallSettings s = parse(law + "limit_damping mesh a.stl law " + law);
-  EXPECT_EQ(s.meshes[0].laws[0].name, s.law_name);
+  const WallSpec s = parse(law + "limit_damping mesh a.stl law " + law);
+  EXPECT_EQ(s.meshes[0].laws[0].name, s.laws[0].name);
 }
 
 TEST(settings, laws_take_rolling_and_cohesion_of_the_wall)
 {
-  const WallSettings s = with("law hooke 2e5 NULL 50 NULL 0.5 1 cohesion sjkr 5 mesh b.stl rolling "
-                              "cdt 0.1 cohesion sjkr 0");
-  EXPECT_EQ(s.law_of(0, 0).rolling.numbers[0], 0.1);
-  EXPECT_EQ(s.law_of(0, 0).cohesion.numbers[0], 5);
-  EXPECT_EQ(s.law_of(1, 0).cohesion.numbers[0], 0);
-  EXPECT_TRUE(s.law_of(1, 0).cohesion.is_on());
-  EXPECT_FALSE(with("cohesion sjkr 0").law.cohesion.is_on());
+  const WallSpec s = with("law hooke 2e5 NULL 50 NULL 0.5 1 cohesion sjkr 5 mesh b.stl rolling "
+                          "cdt 0.1 cohesion sjkr 0");
+  EXPECT_EQ(law_of(law_table(s), 0, 0).rolling.numbers[0], 0.1);
+  EXPECT_EQ(law_of(law_table(s), 0, 0).cohesion.numbers[0], 5);
+  EXPECT_EQ(law_of(law_table(s), 1, 0).cohesion.numbers[0], 0);
+  EXPECT_TRUE(law_of(law_table(s), 1, 0).cohesion.is_on());
+  EXPECT_FALSE(with("cohesion sjkr 0").law().cohesion.is_on());
 }
 
 TEST(settings, laws_of_other_sub_models_are_refused)
@@ -418,12 +425,12 @@ TEST(settings, help_lists_every_keyword)
   for (const char *name :
        {"mesh", "scale", "rotate", "move", "weld", "grid", "rmax", "memory", "cache", "corner",
         "side", "device", "contacts", "periodic", "draw", "cut"})
-    EXPECT_TRUE(names(settings_help(), std::string("\n  ") + name));
+    EXPECT_TRUE(names(wall_help(), std::string("\n  ") + name));
 }
 
 TEST(settings, surfaces_move_and_turn)
 {
-  const WallSettings s = with("surface_vel 1 -2 0.5 surface_angvel 0 0 3 1 2 4");
+  const WallSpec s = with("surface_vel 1 -2 0.5 surface_angvel 0 0 3 1 2 4");
   EXPECT_EQ(s.meshes[0].surface.velocity, (Vec3{1, -2, 0.5}));
   EXPECT_EQ(s.meshes[0].surface.angular, (Vec3{0, 0, 3}));
   EXPECT_EQ(s.meshes[0].surface.centre, (Vec3{1, 2, 4}));
@@ -433,9 +440,8 @@ TEST(settings, surfaces_move_and_turn)
 
 TEST(settings, motions_are_kept_in_the_order_given)
 {
-  const WallSettings s =
-      with("motion wiggle 1 2 3 0.5 wiggle z 0.1 2 scale 2 motion transrot 4 5 6 "
-           "7 8 9 0 0 -2 0.25 motion rotate 1 1 1 3 0 0 4 motion linear 1 0 -1");
+  const WallSpec s = with("motion wiggle 1 2 3 0.5 wiggle z 0.1 2 scale 2 motion transrot 4 5 6 "
+                          "7 8 9 0 0 -2 0.25 motion rotate 1 1 1 3 0 0 4 motion linear 1 0 -1");
   const std::vector<MotionTerm> &m = s.meshes[0].motion.terms();
   ASSERT_EQ(m.size(), 5u);
   EXPECT_EQ(m[0].kind, MotionKind::wiggle);
@@ -445,12 +451,12 @@ TEST(settings, motions_are_kept_in_the_order_given)
   EXPECT_EQ(m[1].amplitude, (Vec3{0, 0, 0.1}));
   EXPECT_EQ(m[2].velocity, (Vec3{4, 5, 6}));
   EXPECT_EQ(m[2].point, (Vec3{7, 8, 9}));
-  EXPECT_EQ(m[2].axis, (Vec3{0, 0, -1}));
+  EXPECT_EQ(m[2].axis, (Vec3{0, 0, -2}));
   EXPECT_EQ(m[2].period, 0.25);
   EXPECT_EQ(m[3].kind, MotionKind::rotate);
   EXPECT_EQ(m[3].velocity, (Vec3{0, 0, 0}));
   EXPECT_EQ(m[4].velocity, (Vec3{1, 0, -1}));
-  EXPECT_EQ(s.meshes[0].motion_tokens,
+  EXPECT_EQ(motion_text(m, s.inputs),
             "wiggle 1 2 3 0.5, wiggle z 0.1 2, transrot 4 5 6 7 8 9 0 0 -2 0.25, "
             "rotate 1 1 1 3 0 0 4, linear 1 0 -1");
   EXPECT_FALSE(with("").meshes[0].motion.any());
@@ -458,19 +464,20 @@ TEST(settings, motions_are_kept_in_the_order_given)
 
 TEST(settings, motions_of_variables)
 {
-  const WallSettings s = with("motion variable v_a NULL v_b NULL NULL v_c");
+  const WallSpec s = with("motion variable v_a NULL v_b NULL NULL v_c");
   const MotionTerm &m = s.meshes[0].motion.terms()[0];
-  EXPECT_EQ(m.name[0], "a");
-  EXPECT_EQ(m.name[1], "");
-  EXPECT_EQ(m.name[2], "b");
-  EXPECT_EQ(m.name[5], "c");
+  EXPECT_EQ(s.inputs, (InputNames{"a", "b", "c"}));
+  const int inputs[] = {0, kNoInput, 1, kNoInput, kNoInput, 2};
+  for (int k = 0; k < 6; k++) EXPECT_EQ(m.input[k], inputs[k]);
+  EXPECT_EQ(motion_text({m}, s.inputs), "variable v_a NULL v_b NULL NULL v_c");
   EXPECT_FALSE(s.meshes[0].surface_varies());
-  const WallSettings belt = with("surface_vel v_u 1 2 surface_angvel 0 0 v_w");
-  EXPECT_EQ(belt.meshes[0].surface_variable[0], "u");
-  EXPECT_EQ(belt.meshes[0].surface_variable[5], "w");
+  const WallSpec belt = with("surface_vel v_u 1 2 surface_angvel 0 0 v_w");
+  EXPECT_EQ(belt.inputs, (InputNames{"u", "w"}));
+  EXPECT_EQ(belt.meshes[0].surface_input[0], 0);
+  EXPECT_EQ(belt.meshes[0].surface_input[5], 1);
   EXPECT_EQ(belt.meshes[0].surface.velocity, (Vec3{0, 1, 2}));
   EXPECT_TRUE(belt.meshes[0].surface_varies());
-  EXPECT_EQ(with("shear y v_u").meshes[0].surface_variable[1], "u");
+  EXPECT_EQ(with("shear y v_u").meshes[0].surface_input[1], 0);
   EXPECT_EQ(with("shear y 3").meshes[0].surface.velocity, (Vec3{0, 3, 0}));
 }
 
@@ -503,25 +510,30 @@ TEST(settings, wrong_motions_are_refused)
 
 TEST(settings, fix_modify_reads_motions_or_none)
 {
-  const ModifiedMotion two = read_modified_motion(
-      {"motion", "linear", "1", "0", "0", "motion", "wiggle", "0", "0", "1", "2", "energy", "yes"});
-  EXPECT_EQ(two.terms.size(), 2u);
-  EXPECT_EQ(two.taken, 11u);
-  EXPECT_EQ(two.text, "linear 1 0 0, wiggle 0 0 1 2");
-  const ModifiedMotion none = read_modified_motion({"motion", "none", "energy", "yes"});
-  EXPECT_TRUE(none.terms.empty());
-  EXPECT_EQ(none.taken, 2u);
-  EXPECT_THROW(read_modified_motion({"motion", "none", "motion", "linear", "1", "0", "0"}),
-               InputError);
-  EXPECT_THROW(read_modified_motion({"motion", "linear", "1", "0"}), InputError);
+  InputNames inputs;
+  const std::vector<std::string> of_two =
+      tokens("motion linear 1 0 0 motion wiggle 0 0 1 2 energy yes");
+  Tokens two(of_two);
+  EXPECT_EQ(motion_text(read_modified_motion(two, inputs).terms(), inputs),
+            "linear 1 0 0, wiggle 0 0 1 2");
+  EXPECT_EQ(two.at(), 11u);
+  const std::vector<std::string> of_none = tokens("motion none energy yes");
+  Tokens none(of_none);
+  EXPECT_FALSE(read_modified_motion(none, inputs).moves());
+  EXPECT_EQ(none.at(), 2u);
+  for (const char *const wrong : {"motion none motion linear 1 0 0", "motion linear 1 0"}) {
+    const std::vector<std::string> words = tokens(wrong);
+    Tokens w(words);
+    EXPECT_THROW(read_modified_motion(w, inputs), InputError) << wrong;
+  }
 }
 
 TEST(settings, wear_is_volume_per_work)
 {
-  const WallSettings archard = with("wear archard 0.003 1.5e9");
+  const WallSpec archard = with("wear archard 0.003 1.5e9");
   EXPECT_EQ(archard.wear.model, WearModel::archard);
   EXPECT_DOUBLE_EQ(archard.wear.per_work, 2e-12);
-  const WallSettings finnie = with("wear finnie 4e-11");
+  const WallSpec finnie = with("wear finnie 4e-11");
   EXPECT_EQ(finnie.wear.model, WearModel::finnie);
   EXPECT_EQ(finnie.wear.per_work, 4e-11);
   EXPECT_FALSE(with("").has_loads());
@@ -534,7 +546,7 @@ TEST(settings, wear_is_volume_per_work)
 
 TEST(settings, a_mesh_wears_by_a_factor_of_its_own)
 {
-  const WallSettings s = with("wear_factor 0.25 mesh b.stl wear_factor 0 mesh c.stl wear finnie 1");
+  const WallSpec s = with("wear_factor 0.25 mesh b.stl wear_factor 0 mesh c.stl wear finnie 1");
   EXPECT_EQ(s.meshes[0].wear_factor, 0.25);
   EXPECT_EQ(s.meshes[1].wear_factor, 0);
   EXPECT_EQ(s.meshes[2].wear_factor, 1);
@@ -544,7 +556,7 @@ TEST(settings, a_mesh_wears_by_a_factor_of_its_own)
 
 TEST(settings, mesh_fields_need_a_vtp_file_and_a_number_of_steps)
 {
-  const WallSettings s = with("mesh_fields wall_*.vtp every 500");
+  const WallSpec s = with("mesh_fields wall_*.vtp every 500");
   EXPECT_EQ(s.meshes[0].fields.name, "wall_*.vtp");
   EXPECT_EQ(s.meshes[0].fields.every, 500);
   EXPECT_TRUE(s.has_loads());
@@ -578,7 +590,7 @@ TEST(script_files, a_series_is_a_file_that_it_will_write)
 
 TEST(settings, mesh_stl_needs_an_stl_file_and_a_number_of_steps)
 {
-  const WallSettings s = with("mesh_stl wall_*.stl every 500");
+  const WallSpec s = with("mesh_stl wall_*.stl every 500");
   EXPECT_EQ(s.meshes[0].stl.name, "wall_*.stl");
   EXPECT_EQ(s.meshes[0].stl.every, 500);
   EXPECT_FALSE(s.has_loads());
@@ -589,10 +601,10 @@ TEST(settings, mesh_stl_needs_an_stl_file_and_a_number_of_steps)
 TEST(settings, torque_is_about_a_point_of_the_box_or_of_the_mesh)
 {
   EXPECT_EQ(with("").meshes[0].torque_about, (Vec3{0, 0, 0}));
-  const WallSettings box = with("torque_about 1 2 3");
+  const WallSpec box = with("torque_about 1 2 3");
   EXPECT_FALSE(box.meshes[0].torque_about_mesh);
   EXPECT_EQ(box.meshes[0].torque_about, (Vec3{1, 2, 3}));
-  const WallSettings mesh = with("torque_about mesh contacts");
+  const WallSpec mesh = with("torque_about mesh contacts");
   EXPECT_TRUE(mesh.meshes[0].torque_about_mesh && mesh.contacts);
   EXPECT_EQ(mesh.meshes[0].torque_about, (Vec3{0, 0, 0}));
   EXPECT_EQ(with("torque_about mesh 4 5 6").meshes[0].torque_about, (Vec3{4, 5, 6}));
@@ -603,13 +615,13 @@ TEST(settings, torque_is_about_a_point_of_the_box_or_of_the_mesh)
 
 TEST(settings, rolling_and_cohesion_of_liggghts_go_with_classic_styles)
 {
-  const WallSettings s = with("rolling epsd2 0.05 cohesion sjkr 3e5");
-  EXPECT_EQ(s.law.rolling.model, RollingModel::epsd2);
-  EXPECT_EQ(s.law.rolling.numbers[0], 0.05);
-  EXPECT_EQ(s.law.cohesion.numbers[0], 3e5);
-  EXPECT_EQ(with("rolling cdt 0.1").law.rolling.model, RollingModel::cdt);
-  EXPECT_FALSE(with("").law.is_extended());
-  EXPECT_FALSE(with("cohesion sjkr 0").law.is_extended());
+  const WallSpec s = with("rolling epsd2 0.05 cohesion sjkr 3e5");
+  EXPECT_EQ(s.law().rolling.model, RollingModel::epsd2);
+  EXPECT_EQ(s.law().rolling.numbers[0], 0.05);
+  EXPECT_EQ(s.law().cohesion.numbers[0], 3e5);
+  EXPECT_EQ(with("rolling cdt 0.1").law().rolling.model, RollingModel::cdt);
+  EXPECT_FALSE(with("").law().is_extended());
+  EXPECT_FALSE(with("cohesion sjkr 0").law().is_extended());
   EXPECT_TRUE(names(error_with("rolling sds 1 1 1"), "epsd2"));
   EXPECT_TRUE(names(error_with("rolling cdt"), "MU"));
   EXPECT_TRUE(names(error_with("rolling cdt -0.1"), "MU"));
@@ -627,7 +639,7 @@ Real sum(const Chosen<Model> &chosen)
 
 ContactLaw law_of(const std::string &tokens)
 {
-  return parse("granular " + tokens + " mesh a.stl").law;
+  return parse("granular " + tokens + " mesh a.stl").law();
 }
 
 std::string granular_error(const std::string &tokens)
@@ -683,29 +695,29 @@ TEST(settings, granular_takes_a_restitution_for_tsuji_and_coeff_restitution)
 
 TEST(settings, granular_words_come_in_any_order_and_end_at_the_first_keyword)
 {
-  const WallSettings s =
+  const WallSpec s =
       parse("granular hertz 1e5 3 limit_damping twisting sds 1 2 3 rolling sds 4 5 6 heat area 7 "
             "tangential mindlin_rescale/force 8 9 10 damping velocity temperature 300 mesh a.stl");
-  const ContactLaw &g = s.law;
-  EXPECT_TRUE(s.law.limit_damping);
+  const ContactLaw &g = s.law();
+  EXPECT_TRUE(s.law().limit_damping);
   EXPECT_EQ(sum(g.twisting), 6);
   EXPECT_EQ(sum(g.rolling), 15);
   EXPECT_EQ(sum(g.heat), 7);
   EXPECT_EQ(g.k_tangent + g.xgammat + g.mu, 27);
   EXPECT_EQ(s.meshes[0].temperature, 300);
-  EXPECT_EQ(s.law.n_extra(), 5);
-  EXPECT_TRUE(names(s.law_name, "granular hertz 1e5 3 limit_damping twisting"));
-  EXPECT_FALSE(names(s.law_name, "temperature"));
+  EXPECT_EQ(s.law().n_extra(), 5);
+  EXPECT_TRUE(names(s.laws[0].name, "granular hertz 1e5 3 limit_damping twisting"));
+  EXPECT_FALSE(names(s.laws[0].name, "temperature"));
 }
 
 TEST(settings, granular_none_turns_nothing_on)
 {
-  const WallSettings s = parse(
+  const WallSpec s = parse(
       "granular hooke 1e5 3 tangential linear_nohistory 0 0 rolling none twisting none heat none "
       "damping none mesh a.stl");
-  EXPECT_FALSE(s.law.has_history());
-  EXPECT_FALSE(s.law.has_heat());
-  EXPECT_EQ(s.law.damping, DampingModel::none);
+  EXPECT_FALSE(s.law().has_history());
+  EXPECT_FALSE(s.law().has_heat());
+  EXPECT_EQ(s.law().damping, DampingModel::none);
 }
 
 TEST(settings, granular_errors_name_the_word_and_show_the_syntax)
@@ -747,18 +759,18 @@ TEST(settings, granular_errors_name_the_word_and_show_the_syntax)
 
 TEST(settings, effects_name_what_a_law_turns_on_and_what_that_keeps)
 {
-  const WallSettings s =
+  const WallSpec s =
       parse("granular jkr 1e5 3 0.3 2 tangential mindlin_rescale NULL 1 0.5 rolling sds 1 2 3 "
             "twisting marshall heat area 1 temperature 300 mesh a.stl");
   int bytes = 0;
   std::string all;
   EngineSettings engine;
-  engine.law() = s.law;
+  engine.law() = s.law();
   for (const Effect &e : effects_of(engine)) {
     bytes += e.bytes_per_contact;
     all += e.name + ", ";
   }
-  EXPECT_EQ(bytes, static_cast<int>(s.law.n_extra() * sizeof(Real)));
+  EXPECT_EQ(bytes, static_cast<int>(s.law().n_extra() * sizeof(Real)));
   for (const char *name : {"jkr adhesion", "normal damping", "tangential spring", "rescaling",
                            "sliding limit", "rolling", "twisting", "heat"})
     EXPECT_TRUE(names(all, name));
@@ -768,7 +780,7 @@ TEST(settings, help_lists_every_granular_sub_model)
 {
   for (const char *tokens : {"hertz/material E eta|e nu", "tangential mindlin/force kt|NULL",
                              "rolling sds k gamma mu", "twisting marshall", "heat area h"})
-    EXPECT_TRUE(names(settings_help(), tokens));
+    EXPECT_TRUE(names(wall_help(), tokens));
 }
 
 }    // namespace

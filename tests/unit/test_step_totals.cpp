@@ -28,7 +28,7 @@ void expect_near(const Vec3 &found, const Vec3 &expected)
 // computed with spheres at rest that press straight down.
 class Floors {
  public:
-  Floors(FakeHost &host, const WallSettings &settings) : totals(host, settings)
+  Floors(FakeHost &host, const WallSpec &settings) : totals(host, settings)
   {
     EngineSettings of_engine;
     of_engine.law() = classic_law(NormalModel::hooke, false);
@@ -76,9 +76,9 @@ class Floors {
   FlatGrid grid_;
 };
 
-WallSettings wall(int n_meshes)
+WallSpec wall(int n_meshes)
 {
-  WallSettings settings;
+  WallSpec settings;
   settings.meshes.resize(n_meshes);
   return settings;
 }
@@ -87,7 +87,7 @@ WallSettings wall(int n_meshes)
 TEST(StepTotals, are_sums_over_the_processes)
 {
   on_processes(2, [](FakeHost &host) {
-    const WallSettings settings = wall(1);
+    const WallSpec settings = wall(1);
     Floors f(host, settings);
     f.step(1 + host.rank(), 0.1 * (1 + host.rank()));
     const MeshTotals &t = f.of(0);
@@ -101,7 +101,7 @@ TEST(StepTotals, are_sums_over_the_processes)
 TEST(StepTotals, have_the_largest_overlap_of_all_processes)
 {
   on_processes(2, [](FakeHost &host) {
-    const WallSettings settings = wall(1);
+    const WallSpec settings = wall(1);
     Floors f(host, settings);
     f.step(0, 0.1 * (1 + host.rank()));
     EXPECT_NEAR(f.of(0).overlap, 0.2 / kRadius, kRounding);
@@ -111,7 +111,7 @@ TEST(StepTotals, have_the_largest_overlap_of_all_processes)
 TEST(StepTotals, have_the_torque_about_a_point_of_the_box)
 {
   FakeHost host;
-  WallSettings settings = wall(1);
+  WallSpec settings = wall(1);
   settings.meshes[0].torque_about = {1, 1, 7};
   Floors f(host, settings);
   f.step(3, 0.1);    // 10 down, 2 to the right of the point
@@ -121,7 +121,7 @@ TEST(StepTotals, have_the_torque_about_a_point_of_the_box)
 TEST(StepTotals, have_the_torque_about_a_point_that_moves_with_the_mesh)
 {
   FakeHost host;
-  WallSettings settings = wall(1);
+  WallSpec settings = wall(1);
   settings.meshes[0].torque_about_mesh = true;
   settings.meshes[0].torque_about = {1, 1, 7};
   Floors f(host, settings);
@@ -133,7 +133,7 @@ TEST(StepTotals, have_the_torque_about_a_point_that_moves_with_the_mesh)
 TEST(StepTotals, have_the_power_of_a_mesh_that_lifts_and_tilts)
 {
   FakeHost host;
-  const WallSettings settings = wall(1);
+  const WallSpec settings = wall(1);
   Floors f(host, settings);
   f.step(3, 0.1);
   f.poses[0].velocity = {0, 0, 2};
@@ -144,7 +144,7 @@ TEST(StepTotals, have_the_power_of_a_mesh_that_lifts_and_tilts)
 TEST(StepTotals, are_those_of_the_last_step_until_a_step_has_been_computed)
 {
   FakeHost host;
-  const WallSettings settings = wall(1);
+  const WallSpec settings = wall(1);
   Floors f(host, settings);
   f.step(0, 0.1);
   expect_near(f.of(0).force, {0, 0, -10});
@@ -158,7 +158,7 @@ TEST(StepTotals, are_those_of_the_last_step_until_a_step_has_been_computed)
 TEST(StepTotals, of_all_meshes_are_sums_and_the_largest_overlap)
 {
   on_processes(2, [](FakeHost &host) {
-    const WallSettings settings = wall(2);
+    const WallSpec settings = wall(2);
     Floors f(host, settings);
     f.step(1 + 50 * host.rank(), 0.1 * (1 + host.rank()));
     expect_near(f.of(0).force, {0, 0, -10});
@@ -174,7 +174,7 @@ TEST(StepTotals, of_all_meshes_are_sums_and_the_largest_overlap)
 TEST(StepTotals, of_meshes_with_torques_about_different_points_are_about_the_origin)
 {
   FakeHost host;
-  WallSettings settings = wall(2);
+  WallSpec settings = wall(2);
   settings.meshes[1].torque_about = {51, 1, 0};
   Floors f(host, settings);
   f.step(51, 0.1);

@@ -4,6 +4,9 @@
 // A wall stepped by a program that is not LAMMPS: forces, grids, motion, restarts and totals of its
 // processes, against closed forms.
 #include "base/input_error.h"
+#include "input/wall_change.h"
+#include "input/wall_command.h"
+#include "mesh/io/read_mesh.h"
 #include "support/fake_host.h"
 #include "wall/wall.h"
 
@@ -44,12 +47,12 @@ struct Floor {
   ~Floor() { std::remove(name.c_str()); }
 
   // A Hooke wall with friction of this mesh, and more words.
-  WallSettings wall(const std::vector<std::string> &more = {}) const
+  WallSpec wall(const std::vector<std::string> &more = {}) const
   {
     std::vector<std::string> words = {"hooke/history", "1000", "300",    "0",  "0", "0.5", "0",
                                       "mesh",          name,   "device", "cpu"};
     words.insert(words.end(), more.begin(), more.end());
-    return parse_settings(words);
+    return parse_wall(words).wall;
   }
 };
 
@@ -88,7 +91,7 @@ struct Scene {
   std::unique_ptr<Wall> wall;
   std::int64_t now = 0;
 
-  Scene(FakeHost &host, const WallSettings &settings) : host(host)
+  Scene(FakeHost &host, const WallSpec &settings) : host(host)
   {
     host.simulation.corner = {-50, -50, -50};
     for (int k = 0; k < 3; k++) host.simulation.edge[k] = {0, 0, 0};
@@ -142,6 +145,32 @@ TEST(Wall, pushes_a_sphere_by_its_overlap)
   scene.set_up();
   EXPECT_NEAR(scene.grains.force[0].z, kN * 0.01, kN * kRounding);
   EXPECT_EQ(scene.grains.force[0].x, 0);
+}
+
+// Placed askew, so that every coordinate of the mesh is rounded.
+TEST(Wall, has_the_same_bits_from_a_mesh_as_from_its_file)
+{
+  const Floor floor;
+  const WallSpec from_file =
+      floor.wall({"scale", "0.7", "rotate", "1", "2", "3", "11", "move", "0", "0", "0.1"});
+  WallSpec from_mesh = from_file;
+  from_mesh.meshes[0].file.clear();
+  from_mesh.meshes[0].mesh =
+      std::make_shared<const WeldedMesh>(weld(read_mesh(floor.name).soup, -1));
+  Vec3 force[2];
+  std::uint64_t fingerprint[2];
+  for (const bool by_mesh : {false, true}) {
+    FakeHost host;
+    host.tags = {1};
+    Scene scene(host, by_mesh ? from_mesh : from_file);
+    scene.grains.add(from_file.meshes[0].placement.apply({0.3, 0.2, 0.7}));    // 0.49 above it
+    scene.set_up();
+    force[by_mesh] = scene.grains.force[0];
+    fingerprint[by_mesh] = scene.wall->meshes()[0].grid.mesh_fingerprint();
+  }
+  EXPECT_GT(norm(force[0]), 0);
+  EXPECT_EQ(force[0], force[1]);
+  EXPECT_EQ(fingerprint[0], fingerprint[1]);
 }
 
 TEST(Wall, keeps_the_spring_of_a_contact_that_slides)
@@ -249,7 +278,7 @@ TEST(Wall, moves_its_mesh_by_words_given_later)
   Scene scene(host, floor.wall());
   scene.grains.add({0, 0, 0.49});
   scene.set_up();
-  EXPECT_EQ(scene.wall->change({"motion", "linear", "0", "0", "1"}, {0, kDt}), 5);
+  EXPECT_EQ(change_wall(*scene.wall, {"motion", "linear", "0", "0", "1"}, {0, kDt}), 5);
   scene.run(10);
   // The floor has risen by 10 dt; the position is rounded where it is about 1.
   EXPECT_NEAR(scene.grains.force[0].z, kN * (0.01 + 10 * kDt), kN * 1e-13);
@@ -260,7 +289,7 @@ TEST(Wall, takes_no_words_but_its_own)
   const Floor floor;
   FakeHost host;
   Scene scene(host, floor.wall());
-  EXPECT_EQ(scene.wall->change({"energy", "yes"}, {0, kDt}), 0);
+  EXPECT_EQ(change_wall(*scene.wall, {"energy", "yes"}, {0, kDt}), 0);
 }
 
 TEST(Wall, refuses_words_for_a_mesh_that_it_has_not)
@@ -269,7 +298,7 @@ TEST(Wall, refuses_words_for_a_mesh_that_it_has_not)
   FakeHost host;
   Scene scene(host, floor.wall());
   try {
-    scene.wall->change({"mesh", "2", "motion", "none"}, {0, kDt});
+    change_wall(*scene.wall, {"mesh", "2", "motion", "none"}, {0, kDt});
     ADD_FAILURE() << "no error";
   } catch (const InputError &e) {
     EXPECT_STREQ(
@@ -422,7 +451,7 @@ TEST(Wall, has_a_mesh_from_the_first_process_on_all)
 TEST(Wall, that_cannot_be_read_fails_on_all_processes)
 {
   Floor floor;
-  WallSettings settings = floor.wall();
+  WallSpec settings = floor.wall();
   settings.meshes[0].file += ".missing";
   int failed[2] = {0, 0};
   on_processes(2, [&](FakeHost &host) {

@@ -19,11 +19,11 @@ namespace {
 
 // A wall of one mesh, a square of two faces.
 struct Wall {
-  WallSettings settings;
+  WallSpec settings;
   WeldedMesh mesh = weld(floor_mesh(1, 1), -1);
 
   Wall() : settings() { settings.meshes.resize(1); }
-  MeshSettings &files() { return settings.meshes[0]; }
+  MeshSpec &files() { return settings.meshes[0]; }
 };
 
 // One process of it, with loads of steps of 1.
@@ -132,7 +132,7 @@ TEST(WallFiles, that_cannot_be_written_are_warned_of_once_a_run)
   });
 }
 
-void expect_refused(const WallSettings &settings, const std::string &begin)
+void expect_refused(const WallSpec &settings, const std::string &begin)
 {
   on_processes(2, [&](FakeHost &host) {
     try {
@@ -158,7 +158,7 @@ TEST(WallFiles, of_several_meshes_name_the_mesh_in_errors)
   TempDir dir;
   Wall wall;
   wall.settings.meshes.resize(2);
-  wall.settings.meshes[1].file = "lid.stl";
+  wall.settings.meshes[1].name = "lid.stl";
   wall.settings.meshes[1].stl = {dir.path("missing/lid.stl"), 1};
   expect_refused(wall.settings, "mesh 2 'lid.stl': in 'mesh_stl', ");
 }

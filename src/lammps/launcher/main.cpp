@@ -9,7 +9,7 @@
 #include "input/insert_settings.h"
 #include "input/massflow_settings.h"
 #include "input/region_settings.h"
-#include "input/settings.h"
+#include "input/wall_command.h"
 #include "lammps/launcher/plugins.h"
 
 #include "input.h"
@@ -74,7 +74,7 @@ static void show_help(int argc, char **argv)
           "too\n\n"
           "plugin load FILES | unload STYLE NAME | list | clear\n"
           "  LAMMPS_PLUGIN_PATH lists folders of plugins to load at the start\n",
-          lsdcd::version(), LSDCD_HOST_VERSION, lsdcd::settings_help().c_str(),
+          lsdcd::version(), LSDCD_HOST_VERSION, lsdcd::wall_help().c_str(),
           syntax_of(lsdcd::parse_massflow).c_str(), syntax_of(lsdcd::parse_insert).c_str(),
           syntax_of(lsdcd::parse_collide).c_str(), syntax_of(lsdcd::parse_region).c_str());
       std::fflush(stdout);

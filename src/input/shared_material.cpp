@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "wall/shared_material.h"
+#include "input/shared_material.h"
 
 namespace lsdcd {
 

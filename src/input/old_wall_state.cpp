@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "wall/old_wall_state.h"
+#include "input/old_wall_state.h"
 
 #include "input/motion_words.h"
 #include "output/mesh_loads.h"
@@ -26,9 +26,9 @@ Pose take_pose(StateReader &in)
 
 // "rotate 0 0 0 0 0 1 2, wiggle z 0.1 1": terms with commas between them; the wiggle of a direction is that of
 // fix wall/gran.
-std::vector<MotionTerm> terms_of(const std::string &text)
+std::vector<MotionTerm> terms_of(const std::string &text, InputNames &inputs)
 {
-  MeshSettings mesh;
+  MeshSpec mesh;
   for (std::size_t at = 0; at < text.size();) {
     const std::size_t comma = std::min(text.find(", ", at), text.size());
     std::istringstream part(text.substr(at, comma - at));
@@ -41,9 +41,9 @@ std::vector<MotionTerm> terms_of(const std::string &text)
     Tokens w(words);
     w.set_context("motion", kMotionSyntax);
     if (is_of_wall_gran)
-      read_wiggle(w, mesh);
+      read_wiggle(w, mesh, inputs);
     else
-      read_motion(w, mesh);
+      read_motion(w, mesh, inputs);
   }
   return mesh.motion.terms();
 }
@@ -63,8 +63,9 @@ MotionState take_motion(StateReader &in)
   in(m.servo.turns, m.servo.axis, m.servo.point, m.servo.position, m.servo.velocity);
   std::vector<MotionTerm> values(in.take_count());
   for (MotionTerm &value : values) in(value.displacement, value.speed);
-  while (in.left() > 0) m.text += static_cast<char>(in.next<int>());
-  m.terms = terms_of(m.text);
+  std::string text;
+  while (in.left() > 0) text += static_cast<char>(in.next<int>());
+  m.terms = terms_of(text, m.inputs);
   m.stopped = values.empty() && !m.terms.empty();
   if (!m.stopped && values.size() != m.terms.size()) in.fail("has other terms than words");
   for (std::size_t i = 0; i < values.size(); i++) {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "input/settings.h"
+#include "input/wall_command.h"
 
 #include "base/input_words.h"
 #include "input/granular_words.h"
@@ -109,24 +109,25 @@ std::string answer_to(const std::string &word, bool granular)
 
 // A keyword of a mesh belongs to the last mesh before it. If there is one mesh, it may also stand before
 // that.
-void read_keywords(Tokens &w, WallSettings &settings, bool granular)
+void read_keywords(Tokens &w, WallCommand &command, bool granular)
 {
   std::vector<std::string> seen, seen_of_mesh, names;
   std::string early;    // the first keyword of a mesh before any
   for (const Keyword &row : keywords()) names.push_back(row.name);
-  settings.meshes.resize(1);
+  std::vector<MeshSpec> &meshes = command.wall.meshes;
+  meshes.resize(1);
   while (!w.done()) {
     const std::string word = w.take();
     const auto found = std::find(names.begin(), names.end(), word);
     if (found == names.end()) refuse_keyword(word, names, granular);
     const Keyword &row = keywords()[found - names.begin()];
     w.set_context(row.name, syntax_of(row));
-    const bool next = word == "mesh" && !settings.meshes.back().file.empty();
+    const bool next = word == "mesh" && !meshes.back().file.empty();
     if (next && !early.empty())
       w.fail("there are several, and '" + early +
              "' comes before the first: keywords of a mesh stand after its mesh FILE");
     if (next) {
-      settings.meshes.emplace_back();
+      meshes.emplace_back();
       seen_of_mesh.clear();
     }
     std::vector<std::string> &given = row.read ? seen : seen_of_mesh;
@@ -134,11 +135,11 @@ void read_keywords(Tokens &w, WallSettings &settings, bool granular)
       w.fail("the keyword is given twice");
     given.push_back(word);
     if (row.read) {
-      row.read(w, settings);
+      row.read(w, command);
       continue;
     }
-    if (word != "mesh" && early.empty() && settings.meshes[0].file.empty()) early = word;
-    row.read_of_mesh(w, settings.meshes.back());
+    if (word != "mesh" && early.empty() && meshes[0].file.empty()) early = word;
+    row.read_of_mesh(w, meshes.back(), command.wall.inputs);
     if (word == "surface_vel" || word == "shear")
       if (std::count(given.begin(), given.end(), "shear") &&
           std::count(given.begin(), given.end(), "surface_vel")) {
@@ -149,19 +150,19 @@ void read_keywords(Tokens &w, WallSettings &settings, bool granular)
 }
 
 // "mesh 2 'lid.stl'", of a wall with several.
-std::string name_of_mesh(const WallSettings &s, std::size_t k)
+std::string name_of_mesh(const WallSpec &s, std::size_t k)
 {
   return "mesh " + std::to_string(k + 1) + " '" + s.meshes[k].file + "'";
 }
 
 // Refuses what mesh k has in common with an earlier one and would be lost or felt twice.
-void check_apart(Tokens &w, const WallSettings &s, std::size_t k)
+void check_apart(Tokens &w, const WallSpec &s, std::size_t k)
 {
-  const MeshSettings &mesh = s.meshes[k];
+  const MeshSpec &mesh = s.meshes[k];
   for (std::size_t i = 0; i < k; i++) {
-    const MeshSettings &other = s.meshes[i];
+    const MeshSpec &other = s.meshes[i];
     const std::string both = name_of_mesh(s, i) + " and " + name_of_mesh(s, k);
-    if (are_one_mesh(mesh, other)) {
+    if (are_one_mesh(s, mesh, s, other)) {
       w.set_context("mesh", "mesh FILE");
       w.fail(
           both +
@@ -183,7 +184,7 @@ void check_apart(Tokens &w, const WallSettings &s, std::size_t k)
   }
 }
 
-void check_meshes(Tokens &w, const WallSettings &s)
+void check_meshes(Tokens &w, const WallSpec &s)
 {
   const bool several = s.meshes.size() > 1;
   if (s.meshes.size() > kMaxMeshes)
@@ -196,10 +197,10 @@ void check_meshes(Tokens &w, const WallSettings &s)
     const std::string of = several ? " of " + name_of_mesh(s, k) : "";
     w.set_context("temperature",
                   "granular ... heat radius|area ... mesh FILE temperature T|v_NAME");
-    if (s.law.has_heat() && !has)
+    if (s.law().has_heat() && !has)
       w.fail((several ? "the temperature" + of : "the wall's temperature") +
              " is missing, which the sub-model heat needs");
-    if (has && !s.law.has_heat())
+    if (has && !s.law().has_heat())
       w.fail("a temperature" + of + " is given, but no sub-model heat uses it");
     w.set_context("wear_factor", "wear MODEL numbers mesh FILE wear_factor F");
     if (s.meshes[k].wear_factor != 1 && !s.wears())
@@ -210,28 +211,24 @@ void check_meshes(Tokens &w, const WallSettings &s)
 
 }    // namespace
 
-bool are_one_mesh(const MeshSettings &a, const MeshSettings &b)
+WallCommand parse_wall(const std::vector<std::string> &arguments)
 {
-  return a.file == b.file && a.placement == b.placement && a.motion_tokens == b.motion_tokens &&
-         a.servo_tokens == b.servo_tokens;
-}
-
-WallSettings parse_settings(const std::vector<std::string> &tokens)
-{
-  WallSettings settings;
-  Tokens w(tokens);
+  WallCommand command;
+  WallSpec &wall = command.wall;
+  Tokens w(arguments);
   w.set_context("fix wall/lsdcd", law_syntax());
-  settings.law = read_law(w, settings.law_name, law_syntax());
-  const bool granular = !settings.law.is_classic();
-  read_keywords(w, settings, granular);
+  LawOfTypes &law = wall.laws.front();
+  law.law = read_law(w, law.name, law_syntax());
+  const bool granular = !law.law.is_classic();
+  read_keywords(w, command, granular);
   w.set_context("fix wall/lsdcd", granular ? granular_syntax() : law_syntax());
-  if (settings.meshes[0].file.empty()) w.fail("mesh FILE is missing");
-  finish_laws(w, settings);
-  check_meshes(w, settings);
-  return settings;
+  if (wall.meshes[0].file.empty()) w.fail("mesh FILE is missing");
+  finish_laws(w, wall);
+  check_meshes(w, wall);
+  return command;
 }
 
-std::string settings_help()
+std::string wall_help()
 {
   std::string help = std::string("fix ID group wall/lsdcd ") + law_syntax() + "\n  " +
                      granular_syntax() + ", of\n" + granular_help() +

@@ -1,0 +1,19 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// The arguments of fix_modify -> changes of a wall.
+#pragma once
+
+#include "wall/wall.h"
+
+#include <string>
+#include <vector>
+
+namespace lsdcd {
+
+// [mesh K] motion ... [motion ...] | motion none, or [mesh K] servo ... | servo none: another motion or servo for
+// a mesh. Returns how many arguments it took; 0: the first is no argument of a wall. Throws InputError that names
+// the argument, and changes nothing then. Collective.
+int change_wall(Wall &wall, const std::vector<std::string> &arguments, const Step &now);
+
+}    // namespace lsdcd

@@ -1,0 +1,36 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// The arguments of fix wall/lsdcd -> WallSpec. One row per keyword in keywords.cpp.
+#pragma once
+
+#include "output/mesh_image.h"
+#include "wall/wall_spec.h"
+
+#include <string>
+#include <vector>
+
+namespace lsdcd {
+
+// What dump image shows of a wall.
+struct PictureSpec {
+  Draw draw = Draw::edges;
+  int type = 1;        // atom type whose colour the mesh takes
+  bool cut = false;    // leaves out centres with dot(cut_normal, x) > cut_offset
+  Vec3 cut_normal = {0, 0, 0};
+  Real cut_offset = 0;
+};
+
+struct WallCommand {
+  WallSpec wall;
+  PictureSpec picture;
+};
+
+// `arguments` begin with FSTYLE. Laws have their names, NULLs resolved, and stiffnesses still in pressure units.
+// Throws InputError that names the argument, what was expected and the syntax.
+WallCommand parse_wall(const std::vector<std::string> &arguments);
+
+// The command with every keyword, its unit, range and default; several lines.
+std::string wall_help();
+
+}    // namespace lsdcd

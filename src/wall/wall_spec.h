@@ -1,0 +1,103 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// What a wall is made of, as data: its meshes, contact laws, search and outputs.
+#pragma once
+
+#include "engine/wall_engine.h"
+#include "mesh/placement.h"
+#include "motion/motion.h"
+
+#include <cstddef>
+#include <limits>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace lsdcd {
+
+// A file that is written every so many steps; with '*' in its name, one for each of them.
+struct FileEvery {
+  std::string name;
+  int every = 0;    // steps; 0: no file
+};
+
+constexpr int kAnyType = std::numeric_limits<int>::max();
+
+// The contact law of a range of atom types.
+struct LawOfTypes {
+  int first_type = 0, last_type = kAnyType;    // both are in the range; there is no type 0
+  ContactLaw law;
+  std::string name;    // what the log calls it; empty: its sub-models
+
+  bool is_of_all() const { return first_type <= 1 && last_type == kAnyType; }
+  bool has(int type) const { return first_type <= type && type <= last_type; }
+};
+
+// One mesh of a wall.
+struct MeshSpec {
+  std::string name;    // what messages call it
+  // A file, which one process reads, or a mesh in its own frame. Of the first process: others may have none.
+  std::string file;
+  std::shared_ptr<const WeldedMesh> mesh;    // null: that of the file
+  Placement placement;    // from the frame of the file, or of the mesh, to the box
+  Real weld = -1;         // length; < 0: kDefaultWeld of the diagonal
+
+  // In place of the wall's: of the rows with a type the last one. Empty: the wall's.
+  std::vector<LawOfTypes> laws;
+  RigidMotion motion;
+  SurfaceMotion surface;
+  int surface_input[6] = {kNoInput, kNoInput, kNoInput,
+                          kNoInput, kNoInput, kNoInput};    // of its velocity and angular velocity
+  bool has_temperature = false;
+  Real temperature = 0;    // where the law has heat
+  int temperature_input = kNoInput;
+  Real wear_factor = 1;    // how many times what Wear says comes off
+
+  bool torque_about_mesh = false;
+  Vec3 torque_about = {0, 0, 0};    // length; a point of the box, or of the mesh
+  FileEvery stl;                    // of the mesh where it is
+  FileEvery fields;                 // of numbers per triangle
+  std::string cache_file;           // of its grid; empty: none
+
+  bool surface_varies() const;
+};
+
+// Lengths, times, masses and forces are in the units of the host; pressures in its unit of pressure.
+struct WallSpec {
+  // At least one row, whose first is of all types. All laws have the same sub-models.
+  std::vector<LawOfTypes> laws = std::vector<LawOfTypes>(1);
+  std::vector<MeshSpec> meshes;    // 1 to kMaxMeshes
+  // Numbers that the host gives in each step, by name. Members of meshes and motions called `input` count
+  // from 0 in this list; kNoInput: the number is fixed.
+  InputNames inputs;
+  Corner corner = Corner::blend;
+  Side side = Side::both;
+  Precision precision = Precision::double_;
+  Device device = Device::automatic;
+  Real grid_length = 0;    // length; 0: chosen
+  Real rmax = 0;           // length; 0: the largest radius that there is
+  int nearest = 0;         // primitives of wall per cell; 0: all
+  std::size_t memory_budget = GridSettings().memory_budget;    // bytes, for each mesh
+  Wear wear;                                                   // K and H in pressure units
+  bool contacts = false;                                       // for_contact_rows() will be called
+  bool periodic = false;    // meshes are meant to reach past periodic faces
+  bool brief = false;       // one line in the log
+
+  // Of all laws: their sub-models.
+  const ContactLaw &law() const { return laws.front().law; }
+  // Numbers of a sphere in the contacts array; 0 without it.
+  int contact_columns() const { return contacts ? 8 + law().has_heat() : 0; }
+  bool wears() const { return wear.model != WearModel::none; }
+  bool has_loads(const MeshSpec &mesh) const { return wears() || mesh.fields.every > 0; }
+  bool has_loads() const;
+};
+
+// The law of each mesh and atom type.
+LawTable law_table(const WallSpec &wall);
+
+// Are these the same triangles, which are always at the same place?
+bool are_one_mesh(const WallSpec &wall, const MeshSpec &mesh, const WallSpec &other_wall,
+                  const MeshSpec &other);
+
+}    // namespace lsdcd
