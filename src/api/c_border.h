@@ -94,18 +94,36 @@ inline void check_threads(int n)
                    "`threads` is " + std::to_string(n) + "; it is 0 to " + std::to_string(kMax));
 }
 
-// Copies a caller's struct of this or an earlier version. `least`: bytes of the first version.
+// Copies a caller's struct of this or an earlier version. `least`: bytes of the first version. `field`: where it is,
+// for errors; empty: it is an argument.
 template <class T>
-T checked(const T *given, const char *name, std::size_t least = sizeof(T))
+T checked(const T *given, const char *name, std::size_t least = sizeof(T),
+          const std::string &field = "")
 {
-  need(given, name);
+  const std::string where = field.empty() ? name : field;
+  need(given, where.c_str());
   if (given->size < least || given->size > sizeof(T))
-    throw ApiError(LSDCD_ERROR_ARGUMENT,
-                   std::string("`") + name + "`: size is " + std::to_string(given->size) +
-                       ", and should be sizeof(" + name + "), " + std::to_string(sizeof(T)));
+    throw ApiError(LSDCD_ERROR_ARGUMENT, "`" + where + "`: size is " + std::to_string(given->size) +
+                                             ", and should be sizeof(" + name + "), " +
+                                             std::to_string(sizeof(T)));
   T whole = {};
   std::memcpy(&whole, given, given->size);
   return whole;
+}
+
+// Element k of an array of such structs, which all have the size of the first.
+template <class T>
+T checked_element(const T *array, std::size_t k, const char *name, std::size_t least,
+                  const std::string &field)
+{
+  const auto *const at = reinterpret_cast<const char *>(array) + k * array->size;
+  const T element = checked(reinterpret_cast<const T *>(at), name, least, field);
+  if (element.size != array->size)
+    throw ApiError(LSDCD_ERROR_ARGUMENT,
+                   "`" + field + "`: size is " + std::to_string(element.size) +
+                       ", and that of the first element is " + std::to_string(array->size) +
+                       ": all elements of an array have the same");
+  return element;
 }
 
 // The same the other way round.

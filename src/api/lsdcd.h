@@ -6,7 +6,7 @@
  *
  *   mesh -> grid, for distances at any range or up to a cutoff -> queries of points in arrays of the caller
  *   two meshes -> body -> its collisions with the wall, pose by pose
- *   words of fix wall/lsdcd -> wall -> forces and torques on the caller's spheres, step by step
+ *   meshes, contact laws -> wall -> forces and torques on the caller's spheres, step by step
  *
  * A function returns LSDCD_OK, 0, or the code of an error, whose text lsdcd_last_error() has. It
  * then has changed nothing but, where a query failed, the arrays of its answers, which hold
@@ -365,16 +365,69 @@ LSDCD_API int lsdcd_collide(lsdcd_body *body, lsdcd_collision *collision);
 /* Null is fine. Own. */
 LSDCD_API void lsdcd_body_free(lsdcd_body *body);
 
+/* ---- contact laws --------------------------------------------------------------------------- */
+
+/* A number that is derived from others: kt of the classic styles from kn, gammat from gamman, kt of mindlin from E and
+ * nu. lsdcd_sub_model_facts says of which numbers. */
+#define LSDCD_DERIVED (-1.0)
+
+/* A formula by its name, with its numbers in the order of its lsdcd_sub_model_facts; numbers that it does not have
+ * are 0. `name` null: the default of its field. */
+typedef struct lsdcd_sub_model {
+  const char *name;
+  double numbers[8];
+} lsdcd_sub_model;
+
+/* The force between a sphere and a wall: a classic style, or a normal sub-model and what goes with it.
+ *
+ *   lsdcd_law law = {.size = sizeof law, .style = {"hooke/history", {1e5, 3e4, 50, LSDCD_DERIVED, 0.5, 1}}};
+ *
+ *   lsdcd_law law = {.size = sizeof law, .normal = {"hertz/material", {5e6, 0.5, 0.3}}, .damping = {"tsuji"},
+ *                    .tangential = {"mindlin", {LSDCD_DERIVED, 1, 0.5}}, .rolling = {"sds", {1e4, 1, 0.1}}};
+ *
+ * Names, numbers and formulas are those of fix wall/lsdcd: kn kt gamman gammat xmu dampflag of a style, and so on.
+ * They are in the caller's units: force/length, 1/time, ...; a pressure is a force/length^2. */
+typedef struct lsdcd_law {
+  size_t size; /* of this struct */
+  /* A classic style, "hooke/history"; null: there are a normal and a tangential sub-model. */
+  lsdcd_sub_model style;
+  lsdcd_sub_model normal, tangential; /* "hertz/material", "mindlin"; null: there is a style */
+  lsdcd_sub_model damping;            /* beside normal: "tsuji"; null: viscoelastic */
+  lsdcd_sub_model rolling;            /* "sds" beside normal, "cdt" beside a style; null: none */
+  lsdcd_sub_model twisting;           /* beside normal: "marshall"; null: none */
+  lsdcd_sub_model heat; /* beside normal: "radius", and spheres have a temperature; null: none */
+  lsdcd_sub_model cohesion; /* beside a style: "sjkr"; null: none */
+  /* 1: damping never pulls at a sphere that leaves. That of the law of a wall holds for all of its meshes. */
+  int limit_damping;
+} lsdcd_law;
+
+/* What there is to know of a sub-model. Texts live as long as the library. */
+typedef struct lsdcd_sub_model_facts {
+  size_t size;           /* of this struct; set by the caller */
+  const char *field;     /* of lsdcd_law: "style", "normal", ... */
+  const char *name;      /* "mindlin" */
+  const char *source;    /* one line: what it is, and where its formula comes from */
+  int beside_style;      /* 1: it goes with a classic style or is one; 0: with a normal sub-model */
+  int n;                 /* how many numbers it has; of number k, from 0: */
+  const char *number[8]; /* its name: "kt" */
+  const char *unit[8];   /* "force/length^2"; "1": none */
+  double least[8], most[8]; /* its range */
+  int may_be_derived[8];    /* 1: it may be LSDCD_DERIVED */
+} lsdcd_sub_model_facts;
+/* Of sub-model number k, from 0, of all that this library has; LSDCD_ERROR_ARGUMENT: there are not so many. Any. */
+LSDCD_API int lsdcd_sub_model_get_facts(size_t k, lsdcd_sub_model_facts *facts);
+
 /* ---- walls ---------------------------------------------------------------------------------- */
 
 /* The wall of fix wall/lsdcd, for any program that moves spheres: every contact law, meshes that move,
- * servos, wear, files. Units are any that are consistent. Spheres are counted from 0, meshes too. */
+ * servos, wear, files. Units are any that are consistent. Spheres are counted from 0, meshes too.
+ * lsdcd_wall_from_spec() makes one of meshes and laws, lsdcd_wall_make() of the words of a script. */
 typedef struct lsdcd_wall lsdcd_wall;
 
 /* What a wall has to say: a line for the log, or with `warning` 1 what is probably not meant. */
 typedef void lsdcd_message(void *data, int warning, const char *text);
 
-/* For a program of several processes, as with MPI. Each has a wall of the same words, for spheres of its own,
+/* For a program of several processes, as with MPI. Each has a wall of the same spec or words, for spheres of its own,
  * and all call the functions of the wall together, in the same order, but for those that say "alone". All
  * processes then fail together, too, but for out of memory and errors of CUDA: end all of them there.
  * A callback is called by all processes in the calls of their walls; it changes the array in place and
@@ -410,7 +463,117 @@ typedef struct lsdcd_wall_options {
   void *stream;
   int device;
 } lsdcd_wall_options;
-/* `words`: n words that follow "wall/lsdcd" in a script: a contact style with its numbers, `mesh FILE`,
+
+/* Laws of atom types with a mesh. In an array all elements have the same size. */
+typedef struct lsdcd_type_law {
+  size_t size;               /* of this struct */
+  int first_type, last_type; /* of lsdcd_spheres, from 1; last_type 0: all from first_type on */
+  const lsdcd_law *law;
+} lsdcd_type_law;
+
+/* Motions in closed form, of the time since the wall was made or lsdcd_wall_set_motion() was called. */
+enum {
+  LSDCD_LINEAR = 0,  /* x + V t */
+  LSDCD_WIGGLE = 1,  /* x + A sin(2 pi t/period) */
+  LSDCD_COSINE = 2,  /* x + A (1 - cos(2 pi t/period)), which begins at rest */
+  LSDCD_ROTATE = 3,  /* about an axis, right-handed, once in a period */
+  LSDCD_TRANSROT = 4 /* LSDCD_ROTATE, and then x + V t */
+};
+/* What a kind does not use is 0. In an array all elements have the same size. */
+typedef struct lsdcd_motion {
+  size_t size; /* of this struct */
+  int kind;
+  double velocity[3];  /* V, length/time: LSDCD_LINEAR, LSDCD_TRANSROT */
+  double amplitude[3]; /* A, length: LSDCD_WIGGLE, LSDCD_COSINE */
+  double point[3];     /* length; the axis passes through it: LSDCD_ROTATE, LSDCD_TRANSROT */
+  double axis[3];      /* of any length above 0: likewise */
+  double period;       /* time > 0: all but LSDCD_LINEAR */
+} lsdcd_motion;
+
+/* Moves a mesh along an axis, or turns it about one, so that it pushes the spheres with a force, or a torque. */
+typedef struct lsdcd_servo {
+  size_t size;      /* of this struct */
+  int turns;        /* 0: force, length and velocity; 1: torque, angle and angular velocity */
+  double axis[3];   /* of any length above 0 */
+  double point[3];  /* length; the axis passes through it, where it turns */
+  double target;    /* on the spheres, along or about the axis */
+  double max_speed; /* > 0 */
+  double max_gain;  /* speed per push > 0; 0: the largest that is stable */
+  double lo, hi;    /* limits of the position, lo <= 0 <= hi; both 0: none */
+} lsdcd_servo;
+
+/* A mesh of a wall. In an array all elements have the same size. */
+typedef struct lsdcd_wall_mesh {
+  size_t size;            /* of this struct */
+  const lsdcd_mesh *mesh; /* shared: it may be in other walls, and be freed before them */
+  const char *name;       /* what messages call it; null: "mesh K", K from 1 */
+  /* Rows of M, each with its t, a length, behind it: a corner x of the mesh is at M x + t. M may scale and mirror; all
+   * 0: as the mesh is. lsdcd_place_scale() and its neighbours make it. */
+  double placement[12];
+  const lsdcd_law *law; /* the wall's sub-models with other numbers; null: the wall's law */
+  const lsdcd_type_law *type_laws; /* of two with a type the last one is its law; null: none */
+  size_t n_type_laws;
+  int posed_by_caller;         /* 1: lsdcd_wall_set_pose() moves it, and nothing else */
+  const lsdcd_motion *motions; /* each acts on what the earlier ones placed; null: it rests */
+  size_t n_motions;
+  const lsdcd_servo *servo; /* null: none */
+  /* length/time, 1/time and a point of the axis: the surface moves along itself while the mesh rests, as that of a belt
+   * or a roll. */
+  double surface_velocity[3], surface_angular_velocity[3], surface_centre[3];
+  double temperature;     /* where the law has heat */
+  double torque_about[3]; /* length: what the torque of lsdcd_wall_totals is about */
+  int torque_about_moves; /* 1: that point moves with the mesh */
+  double wear_factor;     /* it wears so many times as fast; 0: once, -1: not at all */
+  const char *cache;      /* file that keeps its grid; null: none */
+  /* Files that are written every so many steps, with a '*' for the step in each one's name; null: none. `fields`,
+   * .vtp: stress, contacts and wear of each triangle, for ParaView. `stl`: the mesh where it is. */
+  const char *fields, *stl;
+  int fields_every, stl_every;
+} lsdcd_wall_mesh;
+
+/* scale: factors, none 0; rotate: degrees about an axis through the origin, right-handed; move: lengths. Each acts on
+ * the result of those before it; a placement of zeros is that of a mesh as it is. LSDCD_ERROR_INPUT: an infinite number,
+ * or a 0 where none may be. Any. */
+LSDCD_API int lsdcd_place_scale(double *placement, double x, double y, double z);
+LSDCD_API int lsdcd_place_rotate(double *placement, const double *axis, double degrees);
+LSDCD_API int lsdcd_place_move(double *placement, double x, double y, double z);
+
+/* Contacts of one sphere at a corner share their overlap, or their forces add. */
+enum { LSDCD_BLEND = 0, LSDCD_SUM = 1 };
+/* Where spheres belong; one side needs closed meshes whose triangles are wound alike. */
+enum { LSDCD_BOTH_SIDES = 0, LSDCD_INSIDE = 1, LSDCD_OUTSIDE = 2 };
+/* Beside LSDCD_DOUBLE and LSDCD_FLOAT: contacts in float, forces in double. */
+enum { LSDCD_MIXED = 2 };
+/* Volume that comes off: K F s / H, or by angle and energy of impacts. */
+enum { LSDCD_NO_WEAR = 0, LSDCD_ARCHARD = 1, LSDCD_FINNIE = 2 };
+
+typedef struct lsdcd_wall_spec {
+  size_t size;                   /* of this struct */
+  const lsdcd_law *law;          /* of all meshes that have none */
+  const lsdcd_wall_mesh *meshes; /* n_meshes of them, 1 at least */
+  size_t n_meshes;
+  int corner, side, precision; /* see above */
+  int nearest;                 /* as in lsdcd_grid_options, 0: exact */
+  double cell;                 /* likewise, length; 0: chosen */
+  double memory;               /* likewise, bytes, of each mesh; 0: chosen */
+  double rmax;                 /* the largest radius that there will be; 0: that of the spheres */
+  /* Where forces are computed for spheres in arrays of the host: LSDCD_CPU, or LSDCD_CUDA, with copies in each step. Of
+   * arrays on a device it is LSDCD_CPU: they are computed there. */
+  int device;
+  int wear;                /* LSDCD_NO_WEAR, LSDCD_ARCHARD or LSDCD_FINNIE */
+  double wear_coefficient; /* K; of LSDCD_FINNIE 1/pressure */
+  double hardness;         /* H > 0 of LSDCD_ARCHARD, pressure */
+  int periodic_ends;       /* 1: meshes are meant to end at periodic faces, where they continue */
+  int brief;               /* 1: the log has one line */
+} lsdcd_wall_spec;
+/* `options` may be null: all defaults. All that the structs point to is copied or shared. LSDCD_ERROR_ARGUMENT names
+ * the field that makes no sense, its value and what to give. Any. */
+LSDCD_API int lsdcd_wall_from_spec(const lsdcd_wall_spec *spec, const lsdcd_wall_options *options,
+                                   lsdcd_wall **wall);
+
+/* Deprecated since 0.10.0, for lsdcd_wall_from_spec(); it stays in all of 0.x.
+ *
+ * `words`: n words that follow "wall/lsdcd" in a script: a contact style with its numbers, `mesh FILE`,
  * keywords. Variables, v_name, are not there. `options` may be null: all defaults. Files are read and written,
  * and the log is shown, by the first process. Any. */
 LSDCD_API int lsdcd_wall_make(const char *const *words, size_t n, const lsdcd_wall_options *options,
@@ -464,7 +627,7 @@ LSDCD_API int lsdcd_wall_renumber(lsdcd_wall *wall, const ptrdiff_t *from, size_
 /* A sphere goes to another process: before lsdcd_wall_renumber() lsdcd_wall_pack() writes what the contacts
  * of the n spheres which[i] keep, and their names, *count doubles. Those that fit in `room` are written; with
  * `room` 0 the array may be null. There lsdcd_wall_unpack() reads them, after lsdcd_wall_renumber() has made room:
- * sphere to[i] has them from then on. Numbers that no wall of these words packed are refused. Alone. Own. */
+ * sphere to[i] has them from then on. Numbers that no wall of this kind packed are refused. Alone. Own. */
 LSDCD_API int lsdcd_wall_pack(lsdcd_wall *wall, const ptrdiff_t *which, size_t n, double *numbers,
                               size_t room, size_t *count);
 LSDCD_API int lsdcd_wall_unpack(lsdcd_wall *wall, const ptrdiff_t *to, size_t n,
@@ -486,12 +649,35 @@ LSDCD_API int lsdcd_wall_get_totals(lsdcd_wall *wall, int mesh, lsdcd_wall_total
 /* Where a mesh is after the last step: what was at x when the wall was made is at R x + t. 12 numbers, rows of R, each
  * with its t, a length, behind it. LSDCD_ERROR_ARGUMENT: no such mesh. Alone. Own. */
 LSDCD_API int lsdcd_wall_get_pose(lsdcd_wall *wall, int mesh, double *matrix);
-/* The words of fix_modify: [mesh K] motion ..., [mesh K] servo ..., K from 1. Own. */
+/* Where a mesh with `posed_by_caller` is in the next step and those after it: what was at x when the wall was made is at
+ * R x + position, and moves with velocity + angular_velocity x (R x). Velocities count in damping and friction, and
+ * in the power of lsdcd_wall_totals. Until the first call the mesh is as its placement has it, at rest.
+ *
+ * position: length; null: 0. quaternion: w x y z of R, of length 1 to 1e-3; null: no rotation. velocity: length/time, of
+ * the point at `position`; null: 0. angular_velocity: 1/time, along the axes of the box, right-handed; null: 0. Both are
+ * of the time of the spheres' velocities: with velocity Verlet half a step before the pose. All are the same on all
+ * processes. LSDCD_ERROR_ARGUMENT: no such mesh, one that is not posed by the caller, a number that is not finite or
+ * a quaternion of another length. Alone. Own. */
+LSDCD_API int lsdcd_wall_set_pose(lsdcd_wall *wall, int mesh, const double *position,
+                                  const double *quaternion, const double *velocity,
+                                  const double *angular_velocity);
+/* Force and torque of the spheres on a mesh in the last step, 3 numbers each, over all processes; -1: on all meshes.
+ * The torque is about the point `about`, of the box, null: the origin. Own. */
+LSDCD_API int lsdcd_wall_get_wrench(lsdcd_wall *wall, int mesh, const double *about, double *force,
+                                    double *torque);
+/* Other motions for a mesh, from where it is; n 0: it stops there. Not of one with `posed_by_caller`. Own. */
+LSDCD_API int lsdcd_wall_set_motion(lsdcd_wall *wall, int mesh, const lsdcd_motion *motions,
+                                    size_t n);
+/* Another servo, from where the mesh is; null: none. Along the same line its position goes on. Own. */
+LSDCD_API int lsdcd_wall_set_servo(lsdcd_wall *wall, int mesh, const lsdcd_servo *servo);
+
+/* Deprecated since 0.10.0, for lsdcd_wall_set_motion() and lsdcd_wall_set_servo(); it stays in all of 0.x.
+ * The words of fix_modify: [mesh K] motion ..., [mesh K] servo ..., K from 1. Own. */
 LSDCD_API int lsdcd_wall_change(lsdcd_wall *wall, const char *const *words, size_t n);
 /* All that the wall and the contacts of its spheres keep, to go on from: *count doubles, of this process. Those
  * that fit in `room` are written; with `room` 0 the array may be null. Own. */
 LSDCD_API int lsdcd_wall_save(lsdcd_wall *wall, double *numbers, size_t room, size_t *count);
-/* Into a wall of the same words, before its first step, whose spheres then have the same order; process by
+/* Into a wall of the same spec or words, before its first step, whose spheres then have the same order; process by
  * process. Own. */
 LSDCD_API int lsdcd_wall_restore(lsdcd_wall *wall, const double *numbers, size_t count);
 /* Null is fine. Alone. Own. */

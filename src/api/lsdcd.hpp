@@ -8,12 +8,15 @@
 
 #include "lsdcd.h"
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <deque>
 #include <exception>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <type_traits>
@@ -494,14 +497,301 @@ class Body {
   std::size_t room_ = 1024;    // pairs
 };
 
+// ---- walls -----------------------------------------------------------------------------------
+
+// A number that is derived from others, see LSDCD_DERIVED.
+constexpr double kDerived = LSDCD_DERIVED;
+
+// A formula by its name, with its numbers in the order of its lsdcd_sub_model_facts.
+struct SubModel {
+  std::string name;    // empty: the default of its field
+  std::vector<double> numbers;
+
+  SubModel() = default;
+  SubModel(std::string name, std::vector<double> numbers = {}) :
+      name(std::move(name)), numbers(std::move(numbers))
+  {
+  }
+};
+
+// The force between a sphere and a wall; fields as in lsdcd_law.
+struct Law {
+  SubModel style, normal, tangential, damping, rolling, twisting, heat, cohesion;
+  bool limit_damping = false;
+
+  // hooke, hooke/history or hertz/history, by kn kt gamman gammat xmu dampflag.
+  static Law classic(SubModel style)
+  {
+    Law law;
+    law.style = std::move(style);
+    return law;
+  }
+  // A normal and a tangential sub-model; the others may be set after it.
+  static Law granular(SubModel normal, SubModel tangential)
+  {
+    Law law;
+    law.normal = std::move(normal);
+    law.tangential = std::move(tangential);
+    return law;
+  }
+};
+
+// Where a mesh is and how it moves, as lsdcd_wall_set_pose() takes it.
+struct Pose {
+  std::array<double, 3> position = {0, 0, 0};            // length
+  std::array<double, 4> quaternion = {1, 0, 0, 0};       // w x y z, of length 1 to 1e-3
+  std::array<double, 3> velocity = {0, 0, 0};            // of the point at `position`, length/time
+  std::array<double, 3> angular_velocity = {0, 0, 0};    // along the axes of the box, 1/time
+};
+
+// Force and torque on a mesh.
+struct Wrench {
+  std::array<double, 3> force = {0, 0, 0}, torque = {0, 0, 0};
+};
+
+// x -> M x + t, in the order of the calls: Placement().scale(0.001).rotate({0, 0, 1}, 90).move(0, 0, 1)
+class Placement {
+ public:
+  Placement &scale(double factor) { return scale(factor, factor, factor); }
+  Placement &scale(double x, double y, double z)
+  {
+    c::check(lsdcd_place_scale(numbers_.data(), x, y, z));
+    return *this;
+  }
+  // Degrees about an axis through the origin, right-handed.
+  Placement &rotate(const std::array<double, 3> &axis, double degrees)
+  {
+    c::check(lsdcd_place_rotate(numbers_.data(), axis.data(), degrees));
+    return *this;
+  }
+  Placement &move(double x, double y, double z)
+  {
+    c::check(lsdcd_place_move(numbers_.data(), x, y, z));
+    return *this;
+  }
+  // Rows of M, each with its t behind it; all 0: as the mesh is.
+  const std::array<double, 12> &numbers() const { return numbers_; }
+
+ private:
+  std::array<double, 12> numbers_ = {};
+};
+
+// A motion in closed form.
+struct Motion : lsdcd_motion {
+  Motion() : lsdcd_motion() { size = sizeof(lsdcd_motion); }
+
+  static Motion linear(const std::array<double, 3> &velocity)
+  {
+    return made(LSDCD_LINEAR, velocity, {}, {}, {}, 0);
+  }
+  static Motion wiggle(const std::array<double, 3> &amplitude, double period)
+  {
+    return made(LSDCD_WIGGLE, {}, amplitude, {}, {}, period);
+  }
+  static Motion cosine(const std::array<double, 3> &amplitude, double period)
+  {
+    return made(LSDCD_COSINE, {}, amplitude, {}, {}, period);
+  }
+  static Motion rotate(const std::array<double, 3> &point, const std::array<double, 3> &axis,
+                       double period)
+  {
+    return made(LSDCD_ROTATE, {}, {}, point, axis, period);
+  }
+  static Motion transrot(const std::array<double, 3> &velocity, const std::array<double, 3> &point,
+                         const std::array<double, 3> &axis, double period)
+  {
+    return made(LSDCD_TRANSROT, velocity, {}, point, axis, period);
+  }
+
+ private:
+  using Three = std::array<double, 3>;
+  static Motion made(int kind, const Three &v, const Three &a, const Three &p, const Three &axis,
+                     double period)
+  {
+    Motion m;
+    m.kind = kind;
+    for (int k = 0; k < 3; k++) {
+      m.velocity[k] = v[k];
+      m.amplitude[k] = a[k];
+      m.point[k] = p[k];
+      m.axis[k] = axis[k];
+    }
+    m.period = period;
+    return m;
+  }
+};
+
+// All that is 0 has its default.
+struct Servo : lsdcd_servo {
+  Servo() : lsdcd_servo() { size = sizeof(lsdcd_servo); }
+};
+
+// Atom types from first to last, which 0: all from the first on.
+struct TypeLaw {
+  int first_type = 1, last_type = 0;
+  Law law;
+};
+
+// A mesh of a wall; fields as in lsdcd_wall_mesh.
+struct WallMesh {
+  // The mesh lives until the wall is made.
+  explicit WallMesh(const Mesh &mesh, std::string name = "") :
+      mesh(mesh.get()), name(std::move(name))
+  {
+  }
+
+  const lsdcd_mesh *mesh;
+  std::string name;
+  Placement placement;
+  std::optional<Law> law;    // none: the wall's
+  std::vector<TypeLaw> type_laws;
+  bool posed_by_caller = false;
+  std::vector<Motion> motions;
+  std::optional<Servo> servo;
+  std::array<double, 3> surface_velocity = {}, surface_angular_velocity = {}, surface_centre = {};
+  double temperature = 0;
+  std::array<double, 3> torque_about = {};
+  bool torque_about_moves = false;
+  double wear_factor = 1;
+  std::string cache;
+  std::string fields, stl;    // files, .vtp and .stl
+  int fields_every = 0, stl_every = 0;
+};
+
+// A wall; fields as in lsdcd_wall_spec.
+struct WallSpec {
+  Law law;
+  std::vector<WallMesh> meshes;
+  int corner = LSDCD_BLEND, side = LSDCD_BOTH_SIDES, precision = LSDCD_DOUBLE;
+  int nearest = 0;
+  double cell = 0, memory = 0, rmax = 0;
+  int device = LSDCD_CPU;
+  int wear = LSDCD_NO_WEAR;
+  double wear_coefficient = 0, hardness = 0;
+  bool periodic_ends = false, brief = false;
+};
+
+namespace c {
+inline lsdcd_sub_model struct_of(const SubModel &model)
+{
+  lsdcd_sub_model out = {};
+  constexpr std::size_t kRoom = sizeof out.numbers / sizeof out.numbers[0];
+  if (model.numbers.size() > kRoom)
+    throw Error(LSDCD_ERROR_ARGUMENT, "lsdcd::SubModel: '" + model.name + "' is given " +
+                                          std::to_string(model.numbers.size()) +
+                                          " numbers; no sub-model has more than " +
+                                          std::to_string(kRoom));
+  if (!model.name.empty()) out.name = model.name.c_str();
+  std::copy(model.numbers.begin(), model.numbers.end(), out.numbers);
+  return out;
+}
+inline lsdcd_law struct_of(const Law &law)
+{
+  lsdcd_law out = {};
+  out.size = sizeof out;
+  out.style = struct_of(law.style);
+  out.normal = struct_of(law.normal);
+  out.tangential = struct_of(law.tangential);
+  out.damping = struct_of(law.damping);
+  out.rolling = struct_of(law.rolling);
+  out.twisting = struct_of(law.twisting);
+  out.heat = struct_of(law.heat);
+  out.cohesion = struct_of(law.cohesion);
+  out.limit_damping = law.limit_damping;
+  return out;
+}
+
+// A WallSpec as structs of C, which point into it.
+class Spec {
+ public:
+  explicit Spec(const WallSpec &from)
+  {
+    for (const WallMesh &mesh : from.meshes) meshes_.push_back(struct_of(mesh));
+    spec_.size = sizeof spec_;
+    spec_.law = add(from.law);
+    spec_.meshes = meshes_.data();
+    spec_.n_meshes = meshes_.size();
+    spec_.corner = from.corner;
+    spec_.side = from.side;
+    spec_.precision = from.precision;
+    spec_.nearest = from.nearest;
+    spec_.cell = from.cell;
+    spec_.memory = from.memory;
+    spec_.rmax = from.rmax;
+    spec_.device = from.device;
+    spec_.wear = from.wear;
+    spec_.wear_coefficient = from.wear_coefficient;
+    spec_.hardness = from.hardness;
+    spec_.periodic_ends = from.periodic_ends;
+    spec_.brief = from.brief;
+  }
+  Spec(const Spec &) = delete;
+  Spec &operator=(const Spec &) = delete;
+  const lsdcd_wall_spec *get() const { return &spec_; }
+
+ private:
+  const lsdcd_law *add(const Law &law)
+  {
+    laws_.push_back(c::struct_of(law));
+    return &laws_.back();
+  }
+  lsdcd_wall_mesh struct_of(const WallMesh &from)
+  {
+    static_assert(sizeof(Motion) == sizeof(lsdcd_motion), "an array of one is one of the other");
+    lsdcd_wall_mesh mesh = {};
+    mesh.size = sizeof mesh;
+    mesh.mesh = from.mesh;
+    if (!from.name.empty()) mesh.name = from.name.c_str();
+    std::copy(from.placement.numbers().begin(), from.placement.numbers().end(), mesh.placement);
+    if (from.law) mesh.law = add(*from.law);
+    types_.emplace_back();
+    for (const TypeLaw &of : from.type_laws)
+      types_.back().push_back({sizeof(lsdcd_type_law), of.first_type, of.last_type, add(of.law)});
+    mesh.type_laws = types_.back().data();
+    mesh.n_type_laws = types_.back().size();
+    mesh.posed_by_caller = from.posed_by_caller;
+    mesh.motions = from.motions.data();
+    mesh.n_motions = from.motions.size();
+    if (from.servo) mesh.servo = &*from.servo;
+    for (int k = 0; k < 3; k++) {
+      mesh.surface_velocity[k] = from.surface_velocity[k];
+      mesh.surface_angular_velocity[k] = from.surface_angular_velocity[k];
+      mesh.surface_centre[k] = from.surface_centre[k];
+      mesh.torque_about[k] = from.torque_about[k];
+    }
+    mesh.temperature = from.temperature;
+    mesh.torque_about_moves = from.torque_about_moves;
+    mesh.wear_factor = from.wear_factor == 0 ? -1 : from.wear_factor;
+    if (!from.cache.empty()) mesh.cache = from.cache.c_str();
+    if (!from.fields.empty()) mesh.fields = from.fields.c_str();
+    if (!from.stl.empty()) mesh.stl = from.stl.c_str();
+    mesh.fields_every = from.fields_every;
+    mesh.stl_every = from.stl_every;
+    return mesh;
+  }
+
+  std::deque<lsdcd_law> laws_;                       // where each stays, as pointers go there
+  std::deque<std::vector<lsdcd_type_law>> types_;    // likewise
+  std::vector<lsdcd_wall_mesh> meshes_;
+  lsdcd_wall_spec spec_ = {};
+};
+}    // namespace c
+
 // All that is 0 has its default.
 struct WallOptions : lsdcd_wall_options {
   WallOptions() : lsdcd_wall_options() { size = sizeof(lsdcd_wall_options); }
 };
 
-// Words of fix wall/lsdcd; spheres in arrays of the caller, of the host or a GPU (lsdcd_wall_options), step by step.
+// Meshes and laws that push the spheres in arrays of the caller, of the host or a GPU (lsdcd_wall_options), step by step.
 class Wall {
  public:
+  explicit Wall(const WallSpec &spec, const lsdcd_wall_options *options = nullptr)
+  {
+    lsdcd_wall *made = nullptr;
+    c::check(lsdcd_wall_from_spec(c::Spec(spec).get(), options, &made));
+    handle_.reset(made);
+  }
+  // Deprecated since 0.10.0, for the one before it: the words of fix wall/lsdcd.
   explicit Wall(const std::vector<std::string> &words, const lsdcd_wall_options *options = nullptr)
   {
     lsdcd_wall *made = nullptr;
@@ -545,6 +835,30 @@ class Wall {
     c::check(lsdcd_wall_get_pose(get(), mesh, matrix.data()));
     return matrix;
   }
+  // Where mesh number `mesh`, which has posed_by_caller, is in the next step and those after it.
+  void set_pose(int mesh, const Pose &pose)
+  {
+    c::check(lsdcd_wall_set_pose(get(), mesh, pose.position.data(), pose.quaternion.data(),
+                                 pose.velocity.data(), pose.angular_velocity.data()));
+  }
+  // Force and torque of the spheres on a mesh in the last step; -1: on all. The torque is about a point of the box.
+  Wrench wrench(int mesh, const std::array<double, 3> &about = {0, 0, 0})
+  {
+    Wrench w;
+    c::check(lsdcd_wall_get_wrench(get(), mesh, about.data(), w.force.data(), w.torque.data()));
+    return w;
+  }
+  // Other motions, from where the mesh is; none: it stops there.
+  void set_motion(int mesh, const std::vector<Motion> &motions)
+  {
+    c::check(lsdcd_wall_set_motion(get(), mesh, motions.data(), motions.size()));
+  }
+  // Another servo, from where the mesh is; none: it stops there.
+  void set_servo(int mesh, const std::optional<Servo> &servo)
+  {
+    c::check(lsdcd_wall_set_servo(get(), mesh, servo ? &*servo : nullptr));
+  }
+  // Deprecated since 0.10.0, for set_motion() and set_servo(): the words of fix_modify.
   void change(const std::vector<std::string> &words)
   {
     const std::vector<const char *> all = pointers(words);

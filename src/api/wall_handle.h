@@ -21,6 +21,32 @@ namespace lsdcd {
 // Of each sphere, as HistoryExchange::pack_restart() writes them.
 using SphereHistories = std::vector<std::vector<Real>>;
 
+// A number for all poses that a program has given, which tells whether those of another process are the same.
+class PosesGiven {
+ public:
+  void add(int mesh, const Pose &pose)
+  {
+    add_bytes(&mesh, sizeof mesh);
+    for (const Vec3 &v :
+         {pose.row[0], pose.row[1], pose.row[2], pose.shift, pose.velocity, pose.angular})
+      for (int k = 0; k < 3; k++) {
+        const Real number = v[k] + 0;    // not -0
+        add_bytes(&number, sizeof number);
+      }
+  }
+  // What fits a double, exactly.
+  Real number() const { return static_cast<Real>(hash_ >> 11); }
+
+ private:
+  // FNV-1a
+  void add_bytes(const void *data, std::size_t n)
+  {
+    const auto *bytes = static_cast<const unsigned char *>(data);
+    for (std::size_t i = 0; i < n; i++) hash_ = (hash_ ^ bytes[i]) * 0x100000001b3;
+  }
+  std::uint64_t hash_ = 0xcbf29ce484222325;
+};
+
 }    // namespace lsdcd
 
 struct lsdcd_wall {
@@ -34,6 +60,7 @@ struct lsdcd_wall {
   lsdcd::Failure late;               // of this process, which all are told in the next call
   lsdcd::SphereHistories kept;       // restored, until the first step
   bool outside_told = false;
+  lsdcd::PosesGiven poses;
   std::unique_ptr<lsdcd::Wall> in;
 
   explicit lsdcd_wall(const lsdcd_wall_options &o) : caller(o), threads(o.threads) {}

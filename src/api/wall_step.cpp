@@ -106,13 +106,19 @@ StepWanted agreed(lsdcd_wall &wall, const Failure &failure, StepWanted want)
                             want.look ? 1. : 0.,
                             reach,
                             static_cast<Real>(wall.caller.highest_tag()),
-                            want.outside.n > 0 ? 1. : 0.};
+                            want.outside.n > 0 ? 1. : 0.,
+                            wall.poses.number(),
+                            -wall.poses.number()};
   wall.caller.agree(failure, most);
   if (most[0] != -most[1] || most[2] == most[3])
     throw ApiError(LSDCD_ERROR_ARGUMENT, "dt goes from " + number_text(-most[1]) + " to " +
                                              number_text(most[0]) + " over the processes" +
                                              (most[2] == most[3] ? ", and some set up" : "") +
                                              ": dt and setup are the same on all");
+  if (most[8] != -most[9])
+    throw ApiError(LSDCD_ERROR_ARGUMENT,
+                   "poses given by lsdcd_wall_set_pose() differ between the processes: call it on "
+                   "all, in the same order, with the same numbers");
   want.look = most[4] > 0;
   step.reach = most[5];
   std::vector<std::int64_t> &tags = wall.caller.tags;

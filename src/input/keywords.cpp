@@ -9,6 +9,7 @@
 #include "input/servo_words.h"
 
 #include "grid/cache/grid_cache.h"
+#include "output/file_series.h"
 
 #include <algorithm>
 #include <cmath>
@@ -108,14 +109,8 @@ FileEvery read_file_every(Tokens &w, const std::string &end)
   FileEvery file;
   if (w.done()) w.fail("the file name is missing");
   file.name = w.take();
-  const std::string &name = file.name;
-  if (!ends_in(name, end))
-    w.fail("the file name '" + name + "' must end in " + end + ", by which other programs know it");
-  const std::size_t star = name.find('*');
-  if (star != std::string::npos && name.find('/', star) != std::string::npos)
-    w.fail("'" + name + "' has its * in the name of a folder; put it into the file's own name");
-  if (star != std::string::npos && name.find('*', star + 1) != std::string::npos)
-    w.fail("'" + name + "' has more than one *; only one is the step: leave the others out");
+  const std::string wrong = wrong_series_name(file.name, end);
+  if (!wrong.empty()) w.fail(wrong);
   if (w.done() || w.take() != "every") w.fail("'every N' is missing");
   file.every = static_cast<int>(w.whole("N", 1, 2147483647));
   return file;

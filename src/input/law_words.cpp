@@ -15,17 +15,6 @@ const char *const kLawOfTypesSyntax =
 
 namespace {
 
-// "hooke/history, rolling cdt"
-std::string sub_models_text(const ContactLaw &law)
-{
-  std::string text;
-  for (const SubModel *row : rows_of(law)) {
-    const std::string family = family_word(row->family);
-    text += (text.empty() ? "" : ", ") + (family.empty() ? "" : family + " ") + row->name;
-  }
-  return text;
-}
-
 bool is_whole(const std::string &word, int *value)
 {
   Real number = 0;
@@ -65,24 +54,6 @@ void inherit(const ContactLaw &from, LawOfTypes &of)
   if (!law.is_classic()) return;
   if (!law.rolling.is_on()) law.rolling = from.rolling;
   if (!law.cohesion.is_on()) law.cohesion = from.cohesion;
-}
-
-// Calls visit(law) for those of the wall and of its meshes.
-template <class Visit>
-void for_laws(WallSpec &wall, const Visit &visit)
-{
-  for (LawOfTypes &row : wall.laws) visit(row.law);
-  for (MeshSpec &mesh : wall.meshes)
-    for (LawOfTypes &row : mesh.laws) visit(row.law);
-}
-
-// Cohesion of 0 everywhere costs nothing.
-void leave_out_cohesion(WallSpec &wall)
-{
-  bool any = false;
-  for_laws(wall, [&](const ContactLaw &law) { any |= law.cohesion.numbers[0] != 0; });
-  if (any) return;
-  for_laws(wall, [](ContactLaw &law) { law.cohesion = CohesionModel::none; });
 }
 
 }    // namespace
@@ -161,7 +132,7 @@ void finish_laws(Tokens &w, WallSpec &s)
   w.set_context("law", kLawOfTypesSyntax);
   for (MeshSpec &mesh : s.meshes)
     for (LawOfTypes &of : mesh.laws) inherit(s.law(), of);
-  leave_out_cohesion(s);
+  leave_out_zero_cohesion(s);
   for (const MeshSpec &mesh : s.meshes)
     for (const LawOfTypes &of : mesh.laws)
       if (rows_of(of.law) != rows_of(s.law()))

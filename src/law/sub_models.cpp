@@ -266,6 +266,16 @@ std::vector<const SubModel *> rows_of(const ContactLaw &law)
   return rows;
 }
 
+std::string sub_models_text(const ContactLaw &law)
+{
+  std::string text;
+  for (const SubModel *row : rows_of(law)) {
+    const std::string family = family_word(row->family);
+    text += (text.empty() ? "" : ", ") + (family.empty() ? "" : family + " ") + row->name;
+  }
+  return text;
+}
+
 std::string parameters_text(const SubModel &row)
 {
   std::string text;

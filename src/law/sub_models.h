@@ -70,6 +70,9 @@ const char *family_word(Family family);
 // The rows of a law, in the order of families. Of two rows with the same formula it has the first.
 std::vector<const SubModel *> rows_of(const ContactLaw &law);
 
+// "hooke/history, rolling cdt"
+std::string sub_models_text(const ContactLaw &law);
+
 // "k gamma mu", and "sds k gamma mu"
 std::string parameters_text(const SubModel &row);
 std::string syntax_of(const SubModel &row);

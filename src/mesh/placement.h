@@ -29,6 +29,11 @@ class Placement {
   void rotate(const Vec3 &axis, Real degrees);
   void move(const Vec3 &shift);
 
+  // The map of these rows and this shift, which has no steps.
+  void set(const Vec3 (&row)[3], const Vec3 &shift);
+
+  const Vec3 &row(int k) const { return row_[k]; }
+  const Vec3 &shift() const { return shift_; }
   bool is_identity() const;
   // What it was built from, in order, for messages.
   const std::vector<PlacementStep> &steps() const { return steps_; }

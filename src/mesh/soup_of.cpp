@@ -13,6 +13,7 @@ TriangleSoup soup_of(const WeldedMesh &mesh)
     for (const int v : {a, b, c}) soup.corners.push_back(mesh.vertices[v]);
   };
   for (const auto &f : mesh.faces) add(f[0], f[1], f[2]);
+  for (const auto &f : mesh.dropped) add(f[0], f[1], f[2]);
   for (std::size_t e = 0; e < mesh.edges.size(); e++)
     if (mesh.edge_first[e] == mesh.edge_first[e + 1])
       add(mesh.edges[e][0], mesh.edges[e][1], mesh.edges[e][1]);

@@ -8,7 +8,7 @@
 
 namespace lsdcd {
 
-// Faces in their order; then edges and vertices without a face, as triangles without area.
+// Faces in their order, then facets that are none; then edges and vertices without a face, as triangles without area.
 TriangleSoup soup_of(const WeldedMesh &mesh);
 
 }    // namespace lsdcd

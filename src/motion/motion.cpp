@@ -119,6 +119,7 @@ void RigidMotion::stop()
 // Each term maps x to R (x - point) + point + shift; R is 1 where it does not turn.
 Pose RigidMotion::terms_at(Time t) const
 {
+  if (is_posed_) return posed_;
   Pose pose = start_;
   if (moves()) pose.placed = true;
   for (const MotionTerm &m : terms_) {
@@ -159,6 +160,7 @@ Real RigidMotion::longest_period() const
 
 bool RigidMotion::keeps(const Vec3 &direction) const
 {
+  if (is_posed_) return false;    // nobody knows where it goes
   // Axes are unit vectors: parallel and perpendicular hold to this rounding.
   constexpr Real kRounding = 1e-12;
   const auto crosses = [&](const Vec3 &v) {

@@ -58,9 +58,14 @@ class RigidMotion {
   Servo &servo() { return servo_; }
   const Servo &servo() const { return servo_; }
 
+  // In place of terms and servo: the pose that the program gives, until it gives the next one.
+  void begin_posed() { is_posed_ = true; }
+  void set_pose(const Pose &pose) { posed_ = pose; }
+  bool is_posed() const { return is_posed_; }
+
   bool moves() const { return !terms_.empty(); }
   // false: the mesh is as its file has it
-  bool any() const { return moves() || servo_.present || start_.placed; }
+  bool any() const { return moves() || servo_.present || start_.placed || is_posed_; }
 
   // The pose at time t since the terms began. It depends only on t and the values of variables, so that it
   // is as exact after 1e9 steps as after one. After a whole number of periods a term gives the bits that
@@ -79,6 +84,8 @@ class RigidMotion {
   Pose start_;
   std::vector<MotionTerm> terms_, stopped_;
   Servo servo_;
+  bool is_posed_ = false;
+  Pose posed_;
 };
 
 // Are they the same at all times, from the same start? Inputs are the same where their names are.

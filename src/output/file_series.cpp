@@ -35,6 +35,19 @@ std::string as_xml(const std::string &text)
 
 }    // namespace
 
+std::string wrong_series_name(const std::string &name, const std::string &end)
+{
+  if (!ends_in(name, end))
+    return "the file name '" + name + "' must end in " + end + ", by which other programs know it";
+  const std::size_t star = name.find('*');
+  if (star == std::string::npos) return "";
+  if (name.find('/', star) != std::string::npos)
+    return "'" + name + "' has its * in the name of a folder; put it into the file's own name";
+  if (name.find('*', star + 1) != std::string::npos)
+    return "'" + name + "' has more than one *; only one is the step: leave the others out";
+  return "";
+}
+
 std::string file_of_step(const std::string &path, long long step)
 {
   return with_star_as(path, std::to_string(step));

@@ -9,6 +9,10 @@
 
 namespace lsdcd {
 
+// Is this no name of a file that is written every so many steps, with one '*' for the step or none? `end`: ".vtp".
+// Empty: it is one; else what to write.
+std::string wrong_series_name(const std::string &name, const std::string &end);
+
 // The name with the step in place of its first '*'.
 std::string file_of_step(const std::string &path, long long step);
 

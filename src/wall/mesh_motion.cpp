@@ -175,6 +175,7 @@ void MeshMotion::check_snapshot(const Step &at) const
 std::string MeshMotion::text(const Box &bounds) const
 {
   const RigidMotion &motion = spec().motion;
+  if (motion.is_posed()) return "by poses of the caller";
   if (!motion.moves()) return motion.start().placed ? "none; the mesh stays where it is" : "";
   constexpr int kSamples = 64;
   std::string text = own_text();
@@ -222,6 +223,13 @@ void MeshMotion::restore(const MotionState &was, const Step &now)
 {
   check(was);
   RigidMotion &motion = spec().motion;
+  if (motion.is_posed()) {    // it rests there until the caller poses it
+    Pose last = was.last.still();
+    last.placed = true;
+    motion.set_pose(last);
+    begin(now);
+    return;
+  }
   const bool same_line = was.servo.position == 0 || servo().has_line_of(was.servo),
              same = same_line && are_same(motion.moves() ? motion.terms() : motion.stopped(),
                                           wall_.inputs, was.terms, was.inputs);

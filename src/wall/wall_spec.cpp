@@ -38,6 +38,15 @@ int last_type_named(const WallSpec &wall)
   return last;
 }
 
+// Calls visit(law) for those of the wall and of its meshes.
+template <class Visit>
+void for_laws(WallSpec &wall, const Visit &visit)
+{
+  for (LawOfTypes &row : wall.laws) visit(row.law);
+  for (MeshSpec &mesh : wall.meshes)
+    for (LawOfTypes &row : mesh.laws) visit(row.law);
+}
+
 }    // namespace
 
 bool MeshSpec::surface_varies() const
@@ -50,6 +59,14 @@ bool WallSpec::has_loads() const
 {
   return std::any_of(meshes.begin(), meshes.end(),
                      [this](const MeshSpec &mesh) { return has_loads(mesh); });
+}
+
+void leave_out_zero_cohesion(WallSpec &wall)
+{
+  bool any = false;
+  for_laws(wall, [&](const ContactLaw &law) { any |= law.cohesion.numbers[0] != 0; });
+  if (any) return;
+  for_laws(wall, [](ContactLaw &law) { law.cohesion = CohesionModel::none; });
 }
 
 LawTable law_table(const WallSpec &wall)

@@ -93,6 +93,9 @@ struct WallSpec {
   bool has_loads() const;
 };
 
+// Cohesion of 0 everywhere costs nothing: no law has it then.
+void leave_out_zero_cohesion(WallSpec &wall);
+
 // The law of each mesh and atom type.
 LawTable law_table(const WallSpec &wall);
 

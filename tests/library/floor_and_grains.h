@@ -4,7 +4,7 @@
 // What the tests of the library's wall share: a floor, and grains in arrays of the caller.
 #pragma once
 
-#include "lsdcd.hpp"
+#include "lsdcd_behind_core.h"
 
 #include <gtest/gtest.h>
 

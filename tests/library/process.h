@@ -4,7 +4,7 @@
 // What tests of the library's wall in several processes share.
 #pragma once
 
-#include "lsdcd.hpp"
+#include "lsdcd_behind_core.h"
 #include "support/fake_host.h"
 
 #include <cstddef>

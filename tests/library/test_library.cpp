@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // The library through its headers, against brute force over the bare triangles.
-#include "lsdcd.hpp"
+#include "lsdcd_behind_core.h"
 #include "support/brute_force_long.h"
 #include "support/comma_locale.h"
 #include "support/meshes.h"

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // Barycentric coordinates and signed distances of the library, in quad precision and closed forms.
-#include "lsdcd.hpp"
+#include "lsdcd_behind_core.h"
 #include "support/meshes.h"
 
 #include <gtest/gtest.h>

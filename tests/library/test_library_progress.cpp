@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // Long calls of the library tell how far they are, and end where that is asked for.
-#include "lsdcd.hpp"
+#include "lsdcd_behind_core.h"
 #include "support/meshes.h"
 #include "support/temp_dir.h"
 

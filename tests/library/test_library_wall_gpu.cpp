@@ -199,6 +199,48 @@ TEST_F(wall_gpu, gives_arrays_on_a_device_the_forces_of_arrays_of_the_host)
   }
 }
 
+// A plate that the caller's poses lift and turn, beside waves at rest: as above no tolerance for forces.
+TEST_F(wall_gpu, takes_poses_of_the_caller_on_a_device_as_on_the_host)
+{
+  const lsdcd::Mesh waves(waves_), plate(file_);
+  api::WallSpec spec;
+  spec.law = api::Law::classic({"hertz/history", {1e5, 5e4, 100, 50, 0.5, 1}});
+  spec.meshes.emplace_back(waves, "waves");
+  spec.meshes.emplace_back(plate, "plate");
+  spec.meshes[1].posed_by_caller = true;
+  const lsdcd::WallOptions options = on_device();
+  lsdcd::Wall host(spec), device(spec, &options);
+  constexpr int kSpheres = 300, kSteps = 60;
+  Rain there(kSpheres), here(kSpheres);
+  Copies on_gpu(true), on_cpu(false);
+  double pushed = 0;
+  for (int k = 0; k <= kSteps; k++) {
+    const double half = 0.1 * kDt * k;
+    api::Pose pose;
+    pose.position = {0, 0, 0.3 + 5 * kDt * k};
+    pose.quaternion = {std::cos(half), std::sin(half), 0, 0};
+    pose.velocity = {0, 0, 5};
+    pose.angular_velocity = {0.2, 0, 0};
+    host.set_pose(1, pose);
+    device.set_pose(1, pose);
+    on_cpu.step(host, here, step_of(k == 0));
+    on_gpu.step(device, there, step_of(k == 0));
+    ASSERT_TRUE(same_bytes(there.force, here.force)) << "step " << k;
+    ASSERT_TRUE(same_bytes(there.torque, here.torque)) << "step " << k;
+    const api::Wrench a = device.wrench(1, {1, 2, 3}), b = host.wrench(1, {1, 2, 3});
+    double size = 0;
+    for (const double f : here.force) size += std::abs(f);
+    for (int c = 0; c < 3; c++) {    // sums in another order; arms of up to 6
+      EXPECT_NEAR(a.force[c], b.force[c], kSpheres * 1e-15 * size);
+      EXPECT_NEAR(a.torque[c], b.torque[c], 6 * kSpheres * 1e-15 * size);
+    }
+    pushed = std::max(pushed, -b.force[2]);
+    here.move();
+    there.move();
+  }
+  EXPECT_GT(pushed, 0);
+}
+
 TEST_F(wall_gpu, gives_each_of_two_processes_the_forces_of_arrays_of_the_host)
 {
   // Both threads use the GPU at once. No tolerance, as above: no sum is over the processes but that of contacts.

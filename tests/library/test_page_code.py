@@ -2,7 +2,8 @@
 # SPDX-FileCopyrightText: 2026 LSDCD contributors
 # SPDX-License-Identifier: BSD-3-Clause
 
-"""Every C, C++ and Python code block of the pages compiles; tests/tool/pages.py says what a block is.
+"""Every C, C++ and Python code block of the pages compiles, and programs that say so print what the page has;
+tests/tool/pages.py says what a block is.
 
 Statements become the body of a function. Definitions stand as they are: what a comment before them opens is closed.
 """
@@ -47,6 +48,27 @@ def problem_of(block, folder):
     return done.stdout[-1500:] if done.returncode or done.stdout else ""
 
 
+def output_of(block, folder):
+    """Of a program, linked to the library of LSDCD_LIBRARY."""
+    library = os.environ["LSDCD_LIBRARY"]
+    source, program = pathlib.Path(folder) / f"run.{block.language}", pathlib.Path(folder) / "run"
+    source.write_text(block.text)
+    words = [sys.executable, source]
+    if block.language != "python":
+        subprocess.run([*COMPILERS[block.language], "-I", ROOT / "src" / "api", source, "-o", program, library,
+                        f"-Wl,-rpath,{os.path.dirname(library)}"], check=True)
+        words = [program]
+    done = subprocess.run(words, cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
+                          env={**os.environ, "PYTHONPATH": str(ROOT / "src" / "api")})
+    return done.stdout
+
+
+def wanted_of(block):
+    """What the page says that it prints."""
+    blocks = block.page.blocks
+    return next(other.text for other in blocks[blocks.index(block):] if other.language == "text")
+
+
 def main():
     failed = count = 0
     with tempfile.TemporaryDirectory() as folder:
@@ -58,6 +80,12 @@ def main():
                 problem = problem_of(block, folder)
                 print(f"{'FAIL' if problem else 'PASS'} {block}: {block.language} compiles{': ' + problem if problem else ''}")
                 failed += bool(problem)
+                if not block.run:
+                    continue
+                printed, wanted = output_of(block, folder), wanted_of(block)
+                print(f"{'PASS' if printed == wanted else 'FAIL'} {block}: prints what the page has"
+                      f"{'' if printed == wanted else ': ' + printed}")
+                failed += printed != wanted
     print(f"{count} blocks")
     sys.exit(1 if failed or not count else 0)
 

@@ -318,6 +318,99 @@ def check_processes():
                 lambda: lsdcd.Wall(words.format(floor), host=Breaks(0, None, None)), KeyError)
 
 
+def check_wall_specs():
+    """A wall of meshes and laws against that of words, a pose and a wrench in closed form, and what is refused."""
+    square = np.array([[-5, -5, 0], [5, -5, 0], [5, 5, 0], [-5, 5, 0]], float)
+    mesh = lsdcd.Mesh(square, [[0, 1, 2], [0, 2, 3]])
+    x, radius, mass = np.array([[0.3, 0.2, 0.49], [1.5, -1, 0.48]]), np.full(2, 0.5), np.ones(2)
+    v, omega = np.full((2, 3), 0.25), np.full((2, 3), 0.5)
+
+    def forces(wall, steps=5, **more):
+        force, torque = np.zeros((2, 3)), np.zeros((2, 3))
+        for _ in range(steps):
+            wall.step(x, v, omega, radius, mass, force, torque, dt=1e-3, **more)
+        return np.concatenate([force, torque])
+
+    hooke = lsdcd.Law("hooke/history", kn=1000, kt=300, gamman=20, xmu=0.5, dampflag=1)
+    sub = lsdcd.SubModel
+    granular = lsdcd.Law.granular(sub("hertz/material", E=2000, e=0.5, nu=0.3), sub("mindlin", kt=None, xgammat=1, mu=0.5),
+                                  "tsuji", rolling=sub("sds", k=100, gamma=1, mu=0.1), limit_damping=True)
+    cohesive = lsdcd.Law("hooke", kn=1000, kt=300, gamman=20, gammat=10, xmu=0.5, dampflag=1, rolling=sub("cdt", MU=0.1),
+                         cohesion=sub("sjkr", K=50))
+    with tempfile.TemporaryDirectory() as folder:
+        floor = os.path.join(folder, "floor.stl")
+        faces = [[0, 1, 2], [0, 2, 3]]
+        with open(floor, "w", encoding="ascii") as f:
+            f.write("solid floor\n")
+            for face in faces:
+                f.write("facet normal 0 0 0\nouter loop\n" + "".join("vertex %g %g %g\n" % tuple(square[k]) for k in face) +
+                        "endloop\nendfacet\n")
+            f.write("endsolid floor\n")
+        placed = lsdcd.Placement().scale(2).rotate((0, 0.1, 1), 30).move(0, 0, 0.01)
+        for name, law, words, part, more in (
+                ("a style", hooke, "hooke/history 1000 300 20 NULL 0.5 1 mesh {}", {}, ""),
+                ("granular", granular, "granular hertz/material 2000 0.5 0.3 tangential mindlin NULL 1 0.5 damping tsuji "
+                 "rolling sds 100 1 0.1 limit_damping mesh {}", {}, ""),
+                ("rolling and cohesion", cohesive, "hooke 1000 300 20 10 0.5 1 mesh {}", {}, "rolling cdt 0.1 cohesion sjkr 50"),
+                ("a placement", hooke, "hooke/history 1000 300 20 NULL 0.5 1 mesh {}", {"placement": placed},
+                 "scale 2 rotate 0 0.1 1 30 move 0 0 0.01"),
+                ("a matrix", hooke, "hooke/history 1000 300 20 NULL 0.5 1 mesh {}", {"placement": placed.matrix},
+                 "scale 2 rotate 0 0.1 1 30 move 0 0 0.01"),
+                ("motions", hooke, "hooke/history 1000 300 20 NULL 0.5 1 mesh {}",
+                 {"motions": [lsdcd.Motion.rotate((0, 0, 0), (0, 1, 0), 3), lsdcd.Motion.linear((0, 0, 1))]},
+                 "motion rotate 0 0 0 0 1 0 3 motion linear 0 0 1"),
+                ("a belt", hooke, "hooke/history 1000 300 20 NULL 0.5 1 mesh {}", {"surface_velocity": (1, 0, 0)},
+                 "surface_vel 1 0 0")):
+            by_words = forces(lsdcd.Wall(f"{words.format(floor)} {more} device cpu"))
+            by_spec = forces(lsdcd.Wall(lsdcd.WallSpec(law, [lsdcd.WallMesh(mesh, **part)])))
+            fact(f"a wall of {name} has the bits of its words", by_words.any() and by_words.tobytes() == by_spec.tobytes(),
+                 by_words - by_spec)
+        fact("words may have their name", lsdcd.Wall(words=f"hooke 1 0 0 0 0 0 mesh {floor} device cpu").totals())
+    soft = lsdcd.Law("hooke/history", kn=500, kt=300, gamman=20, xmu=0.5, dampflag=1)
+    both = lsdcd.Wall(lsdcd.WallSpec(hooke, [lsdcd.WallMesh(mesh, type_laws=[(2, None, soft)])]))
+    ratio = forces(both, 1, type=np.array([1, 2], np.int32))
+    fact("a law of types", abs(ratio[0, 2] - (10 - 20 * 0.25)) < 1e-10 and abs(ratio[1, 2] - (10 - 20 * 0.25)) < 1e-10, ratio)
+
+    posed = lsdcd.Wall(lsdcd.WallSpec(hooke, [lsdcd.WallMesh(mesh, "lid", posed_by_caller=True)]))
+    posed.set_pose(0, position=(0, 0, 0.01), velocity=(0, 0, 0.5))
+    force = forces(posed, 1)
+    wanted = np.array([1000 * 0.02 + 20 * 0.25, 1000 * 0.03 + 20 * 0.25])    # kn overlap + gamman m v
+    fact("a plate that is posed has the force in closed form", np.allclose(force[:2, 2], wanted, rtol=0, atol=1e-10), force)
+    fact("and the pose", posed.pose(0)[2, 3] == 0.01, posed.pose(0))
+    about = np.array([3, -2, 1])
+    wrench, torque = posed.wrench(0, about=about), (np.cross(x - about, force[:2]) + force[2:]).sum(axis=0)
+    fact("its wrench is that of the spheres reversed", np.allclose(wrench.force, -force[:2].sum(axis=0), rtol=0, atol=1e-10) and
+         np.allclose(wrench.torque, -torque, rtol=0, atol=1e-9), (wrench, torque))
+
+    law = {"kn": 1, "kt": 1, "gamman": 0, "xmu": 0, "dampflag": 0}
+    for says, call, kind in (
+            ("style is 'hook'", lambda: lsdcd.Law("hook", **law), ValueError),
+            ("hooke needs the number kn; it has kn, kt", lambda: lsdcd.Law("hooke"), ValueError),
+            ("hooke has no number mu", lambda: lsdcd.Law("hooke", **law, mu=1), ValueError),
+            ("kn of hooke is 'a', not a real number", lambda: lsdcd.Law("hooke", **{**law, "kn": "a"}), TypeError),
+            ("rolling is 'cdt', not a SubModel", lambda: lsdcd.Law("hooke", **law, rolling="cdt"), TypeError),
+            ("rolling is 'sds'; a style goes with 'cdt'", lambda: lsdcd.Law("hooke", **law, rolling=sub("sds")), ValueError),
+            ("mesh is 'floor.stl', not a Mesh", lambda: lsdcd.WallMesh("floor.stl"), TypeError),
+            ("axis has the shape", lambda: lsdcd.Motion.rotate((0, 0, 0), (0, 1), 2), ValueError),
+            ("is zero or not finite", lambda: lsdcd.Placement().scale(0), lsdcd.Error),
+            ("scale takes one factor or three", lambda: lsdcd.Placement().scale(1, 2), ValueError),
+            ("wear is ('archard', 1)", lambda: lsdcd.WallSpec(hooke, [], wear=("archard", 1)), ValueError),
+            ("corner is 'round'; it is 'blend' or 'sum'", lambda: lsdcd.WallSpec(hooke, [], corner="round"), ValueError),
+            ("a mesh of the wall is", lambda: lsdcd.WallSpec(hooke, [mesh]), TypeError),
+            ("`n_meshes` is 0", lambda: lsdcd.Wall(lsdcd.WallSpec(hooke, [])), lsdcd.Error),
+            ("`meshes[0].motions[0].period` is -1",
+             lambda: lsdcd.Wall(lsdcd.WallSpec(hooke, [lsdcd.WallMesh(mesh, motions=[lsdcd.Motion.wiggle((0, 0, 1), -1)])])),
+             lsdcd.Error),
+            ("quaternion has the length 2", lambda: posed.set_pose(0, quaternion=(2, 0, 0, 0)), lsdcd.Error),
+            ("position has the shape (2,), not (3,)", lambda: posed.set_pose(0, position=(0, 0)), ValueError),
+            ("mesh is 1; this wall has 1", lambda: posed.set_pose(1), lsdcd.Error),
+            ("is not posed by the caller", lambda: both.set_pose(0), lsdcd.Error),
+            ("a wall is made of a WallSpec, or of `words`", lsdcd.Wall, TypeError)):
+        refused(f"refused: {says}", says, call, kind)
+    names = {(row.field, row.name) for row in lsdcd.sub_models()}
+    fact("sub-models are listed", {("style", "hooke/history"), ("tangential", "mindlin"), ("rolling", "cdt")} <= names, names)
+
+
 def check_wall_arrays():
     """Arrays of spheres of other libraries, and what a wall refuses of them."""
     with tempfile.TemporaryDirectory() as folder:
@@ -474,11 +567,14 @@ def check_nonsense():
         words = f"hooke 1000 0 0 0 0 0 mesh {floor} device cpu"
         vectors, numbers = ("x", "v", "omega", "force", "torque"), ("radius", "mass")
         spheres = {**{k: np.zeros((1, 3)) for k in vectors}, **{k: np.ones(1) for k in numbers}, "dt": 1e-3}
-        wall = lsdcd.Wall(words)
+        wall, law = lsdcd.Wall(words), lsdcd.Law("hooke", kn=1, kt=0, gamman=0, xmu=0, dampflag=0)
         calls = {"Mesh()": lsdcd.Mesh, "faces": lambda b: lsdcd.Mesh(corners[0], b), "vertices": lambda b: lsdcd.Mesh(b, [[0, 1, 2]]),
                  "weld": lambda b: lsdcd.Mesh(corners, weld=b), "query()": grid.query, "contacts()": lambda b: grid.contacts(b, 0.1),
                  "radius of contacts()": lambda b: grid.contacts(points, b), "Body()": lambda b: lsdcd.Body(b, mesh),
                  "mesh of Body()": lambda b: lsdcd.Body(mesh, b), "Wall()": lsdcd.Wall,
+                 "Law()": lsdcd.Law, "WallMesh()": lsdcd.WallMesh, "WallSpec()": lambda b: lsdcd.WallSpec(b, []),
+                 "meshes of WallSpec()": lambda b: lsdcd.WallSpec(law, b), "Motion()": lsdcd.Motion.linear,
+                 "placement": lambda b: lsdcd.WallMesh(mesh, placement=b), "about": lambda b: wall.wrench(0, b),
                  "out of query()": lambda b: grid.query(points, out={"distance": b}), "a word": lambda b: grid.query(points, [b]),
                  "out of contacts()": lambda b: grid.contacts(points, 0.1, out={"point": b}),
                  "to": lambda b: wall.unpack(b, [1.0]), "numbers": lambda b: wall.unpack([0], b)}
@@ -556,6 +652,7 @@ if __name__ == "__main__":
     check_queries()
     check_device_path()
     check_processes()
+    check_wall_specs()
     check_wall_arrays()
     check_given_values()
     check_box()

@@ -4,7 +4,8 @@
 """Reads the pages, Markdown and reStructuredText: their links, images, headings and code blocks.
 
 A code block has a language: ```lammps in Markdown, `.. code-block:: LAMMPS` in reStructuredText. Tests run or parse
-it, unless the second word behind ``` is `form`: a form of syntax, or what another machine needs. In
+it, unless the second word behind ``` is `form`: a form of syntax, or what another machine needs. A program with the
+second word `run` prints the lines of the first ```text block after it. In
 reStructuredText a form is a parsed-literal, a block with `:class: form`, or one under the heading Syntax. A comment before a block gives
 lines that a test puts before it: `<!-- before: variable e equal 0.9 -->`, `.. before: variable e equal 0.9`.
 """
@@ -18,9 +19,9 @@ GLOBS = ("*.md", "doc/*.md", "doc/*.rst", "doc/notes/*.md", "doc/data/*.md", "ex
 
 
 class Block:
-    def __init__(self, page, line, language, text, form=False, before=()):
+    def __init__(self, page, line, language, text, form=False, before=(), run=False):
         self.page, self.line, self.language, self.form = page, line, language.lower(), form
-        self.text, self.before = textwrap.dedent(text), list(before)
+        self.text, self.before, self.run = textwrap.dedent(text), list(before), run
 
     def __str__(self):
         return f"{self.page.path}:{self.line}"
@@ -59,7 +60,7 @@ class Page:
                     end += 1
                 words = fence[2].split() or [""]
                 self.blocks.append(Block(self, at + 1, words[0], "\n".join(lines[at + 1:end]) + "\n", "form" in words[1:],
-                                         before))
+                                         before, "run" in words[1:]))
                 prose += [""] * (end - at + 1)
                 at, before = end + 1, []
                 continue

@@ -13,7 +13,10 @@ rigid bodies against a wall; and a wall that pushes spheres, step by step.
     found = body.collide(position=(0, 0, 1), quaternion=(1, 0, 0, 0))
     found.collides, found.wall, found.body                    # triangles, pair by pair
 
-    wall = lsdcd.Wall("hooke/history 1e5 3e4 50 0 0.5 1 mesh drum.stl motion rotate 0 0 0 0 1 0 2")
+    steel = lsdcd.Law("hooke/history", kn=1e5, kt=3e4, gamman=50, xmu=0.5, dampflag=1)
+    drum = lsdcd.WallMesh(lsdcd.Mesh("drum.stl"), "drum", posed_by_caller=True)
+    wall = lsdcd.Wall(lsdcd.WallSpec(steel, [drum]))
+    wall.set_pose(0, angular_velocity=(0, 1, 0))            # before each step
     wall.step(x, v, omega, radius, mass, force, torque, dt=1e-5)    # adds to force and torque, (n, 3)
 
 Lengths are in the unit of the mesh; a wall's units are any that are consistent. A query lets other Python threads run,
@@ -23,9 +26,7 @@ with a `code`. LSDCD_LIBRARY may name the shared library. How answers are found:
 from __future__ import annotations
 
 import ctypes
-import glob
 import math
-import operator
 import os
 import re
 import threading
@@ -35,11 +36,16 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _arrays
+from ._c import DEVICES as DEVICES, ERRORS as ERRORS, Error as Error, Progress as Progress
+from ._c import (_BodyFacts, _BodyOptions, _Broadcast, _Collision, _Contacts, _GridFacts, _GridOptions, _Host, _MeshArrays,
+                 _MeshFacts, _Owner, _Query, _Record, _Reduce, _Show, _Spheres, _WallOptions, _WallStep,
+                 _WallTotals, _as_floats, _c_double, _c_int, _c_text, _check, _chosen, _facts, _int, _lib,
+                 _listened, _numbers, _real, _size, _sized)
+from ._spec import (Law as Law, Motion as Motion, Placement as Placement, Servo as Servo, SubModel as SubModel,
+                    SubModelFacts as SubModelFacts, WallMesh as WallMesh, WallSpec as WallSpec, sub_models as sub_models)
+from ._spec import _instance, _motion_array
 
-_size, _step, _int, _real, _at = (ctypes.c_size_t, ctypes.c_ssize_t, ctypes.c_int, ctypes.c_double,
-                                  ctypes.c_void_p)
-ERRORS = ("ok", "argument", "input", "cutoff", "side", "device", "memory", "internal", "cancelled")
-DEVICES = ("cpu", "cuda")
+__version__: str = _lib.lsdcd_version().decode()
 FOUND, CERTIFIED, SIDE_ESTIMATED = 1, 2, 4
 NONE = 0xffffffff
 # What a query answers: how many dimensions beyond the points', and the type, None: that of the points.
@@ -50,244 +56,6 @@ ANSWERS: dict[str, tuple[int, Any]] = {
 OF_CONTACTS: dict[str, tuple[int, Any]] = {
     "point": (1, None), "normal": (1, None), "distance": (0, None), "overlap": (0, None), "weight": (0, None),
     "triangle": (0, np.uint32), "feature": (0, np.uint32)}
-
-
-# A listener of a long call: what is done now, and how much of that, from 0 to 1. What it raises ends the call and is
-# raised by it, as KeyboardInterrupt is; a true result ends it with an Error, "cancelled".
-Progress = Callable[[str, float], object]
-_Progress = ctypes.CFUNCTYPE(_int, _at, ctypes.c_char_p, _real)
-
-
-def _struct(name: str, *fields: tuple[str, Any]) -> Any:
-    return type(name, (ctypes.Structure,), {"_fields_": [("size", _size), *fields]})
-
-
-_MeshFacts = _struct(
-    "_MeshFacts", ("triangles", _size), ("faces", _size), ("edges", _size), ("vertices", _size),
-    ("open_edges", _size), ("closed", _int), ("oriented", _int),
-    ("area", _real), ("volume", _real), ("lo", _real * 3), ("hi", _real * 3), ("meeting_pairs", _size),
-    ("given_vertices", _size))
-_MeshArrays = _struct(
-    "_MeshArrays", ("vertices", _at), ("faces", _at), ("face_edges", _at), ("triangle", _at), ("edges", _at),
-    ("edge_first", _at), ("edge_faces", _at), ("welded_vertex", _at), ("welded_face", _at))
-_GridOptions = _struct(
-    "_GridOptions", ("cutoff", _real), ("cell", _real), ("nearest", _int), ("precision", _int),
-    ("memory", _real), ("cache", ctypes.c_char_p), ("threads", _int), ("device", _int), ("progress", _Progress),
-    ("data", _at))
-_GridFacts = _struct(
-    "_GridFacts", ("cutoff", _real), ("cell", _real), ("bytes", _size), ("nearest", _int),
-    ("has_sides", _int), ("from_cache", _int))
-_Query = _struct(
-    "_Query", ("n", _size), ("type", _int), ("threads", _int), ("points", _at),
-    ("points_row", _step), ("points_column", _step), ("radii", _at), ("radii_step", _step),
-    ("radius", _real), ("distance", _at), ("distance_step", _step), ("closest", _at),
-    ("closest_row", _step), ("closest_column", _step), ("normal", _at), ("normal_row", _step),
-    ("normal_column", _step), ("triangle", _at), ("feature", _at), ("side", _at), ("status", _at),
-    ("winding", _at), ("winding_step", _step), ("estimate_sides", _int), ("progress", _Progress), ("data", _at),
-    ("signed_distance", _at), ("signed_distance_step", _step), ("barycentric", _at), ("barycentric_row", _step),
-    ("barycentric_column", _step))
-_Contacts = _struct(
-    "_Contacts", ("n", _size), ("type", _int), ("threads", _int), ("points", _at), ("points_row", _step),
-    ("points_column", _step), ("radii", _at), ("radii_step", _step), ("radius", _real), ("first", _at), ("room", _size),
-    ("point", _at), ("distance", _at), ("overlap", _at), ("normal", _at), ("weight", _at), ("triangle", _at),
-    ("feature", _at), ("contacts", _size), ("progress", _Progress), ("data", _at))
-_BodyOptions = _struct(
-    "_BodyOptions", ("cell", _real), ("nearest", _int), ("memory", _real), ("threads", _int),
-    ("device", _int), ("same_wall", _at), ("progress", _Progress), ("data", _at))
-_BodyFacts = _struct(
-    "_BodyFacts", ("triangles", _size), ("pieces", _size), ("cell", _real), ("grid_bytes", _size),
-    ("nearest", _int), ("device", _int))
-_Collision = _struct(
-    "_Collision", ("threads", _int), ("collides", _int), ("matrix", _at), ("position", _at),
-    ("quaternion", _at), ("room", _size), ("wall_triangle", _at), ("body_triangle", _at),
-    ("segment", _at), ("pairs", _size), ("uncertain", _size))
-
-_Show = ctypes.CFUNCTYPE(None, _at, _int, ctypes.c_char_p)
-_Reduce = ctypes.CFUNCTYPE(_int, _at, ctypes.POINTER(_real), _int)
-_Broadcast = ctypes.CFUNCTYPE(_int, _at, ctypes.POINTER(ctypes.c_uint8), _size, _int)
-_Host = _struct("_Host", ("rank", _int), ("processes", _int), ("node_rank", _int), ("data", _at), ("sum", _Reduce),
-                ("max", _Reduce), ("broadcast", _Broadcast))
-_WallOptions = _struct(
-    "_WallOptions", ("lo", _real * 3), ("hi", _real * 3), ("periodic", _int * 3), ("margin", _real),
-    ("time", _real), ("units", ctypes.c_char_p), ("show", _Show), ("data", _at), ("threads", _int),
-    ("host", _at), ("stream", _at), ("device", _int))
-_Spheres = _struct(
-    "_Spheres", ("n", _size), ("row", _step), ("x", _at), ("v", _at), ("omega", _at), ("radius", _at),
-    ("mass", _at), ("force", _at), ("torque", _at), ("temperature", _at), ("heat", _at), ("type", _at))
-_WallStep = _struct("_WallStep", ("dt", _real), ("setup", _int), ("changed", _int), ("reach", _real))
-_WallTotals = _struct(
-    "_WallTotals", ("force", _real * 3), ("torque", _real * 3), ("contacts", _real), ("overlap", _real),
-    ("uncertified", _real), ("power", _real), ("energy", _real), ("worn", _real), ("servo", _real * 3))
-
-
-class Error(ValueError):
-    """What the library refuses, and what to do; `code`: one of ERRORS."""
-
-    def __init__(self, code: int) -> None:
-        super().__init__(_lib.lsdcd_last_error().decode())
-        self.code = ERRORS[code]
-
-
-def _load() -> Any:
-    name = os.environ.get("LSDCD_LIBRARY")
-    if not name:    # beside this file, in a lib/ above the package, or where the system looks
-        here = os.path.dirname(os.path.abspath(__file__))
-        near = [found for up in ("", "../../..", "../../../*")
-                for found in sorted(glob.glob(os.path.join(here, up, "liblsdcd.so.0")))]
-        name = near[0] if near else "liblsdcd.so.0"
-    lib = ctypes.CDLL(name)
-    for text in ("version", "last_error", "mesh_report", "grid_report"):
-        getattr(lib, "lsdcd_" + text).restype = ctypes.c_char_p
-    lib.lsdcd_mesh_report.argtypes = lib.lsdcd_grid_report.argtypes = [_at]
-    for kind in ("mesh", "grid", "stream", "body", "wall"):
-        free = getattr(lib, f"lsdcd_{kind}_free")
-        free.argtypes, free.restype = [_at], None
-    lib.lsdcd_mesh_read.argtypes = [ctypes.c_char_p, _real, _at]
-    lib.lsdcd_mesh_from_corners.argtypes = [_at, _size, _real, _at]
-    lib.lsdcd_mesh_from_faces.argtypes = [_at, _int, _size, _at, _size, _real, _at]
-    for call in ("mesh_get_facts", "mesh_get_arrays", "grid_get_facts", "query_host", "contacts_host", "body_get_facts", "collide"):
-        getattr(lib, "lsdcd_" + call).argtypes = [_at, _at]
-    lib.lsdcd_query_stream.argtypes = [_at, _at]
-    lib.lsdcd_grid_build.argtypes = lib.lsdcd_stream_open.argtypes = [_at, _at, _at]
-    lib.lsdcd_body_make.argtypes = [_at, _at, _at, _at]
-    lib.lsdcd_wall_make.argtypes = [_at, _size, _at, _at]
-    lib.lsdcd_wall_step_spheres.argtypes = [_at, _at, _at]
-    for call in ("renumber", "change"):
-        getattr(lib, "lsdcd_wall_" + call).argtypes = [_at, _at, _size]
-    for call in ("get_totals", "get_pose"):
-        getattr(lib, "lsdcd_wall_" + call).argtypes = [_at, _int, _at]
-    lib.lsdcd_wall_save.argtypes = [_at, _at, _size, _at]
-    lib.lsdcd_wall_restore.argtypes = [_at, _at, _size]
-    lib.lsdcd_wall_pack.argtypes = [_at, _at, _size, _at, _size, _at]
-    lib.lsdcd_wall_unpack.argtypes = [_at, _at, _size, _at, _size]
-    return lib
-
-
-_lib = _load()
-__version__: str = _lib.lsdcd_version().decode()
-
-
-def _check(code: int) -> None:
-    if code != 0:
-        raise Error(code)
-
-
-def _listened(call: Callable[[], Any], options: Any, listener: Progress | None) -> None:
-    """Makes a call with these options that tells the listener how far it is."""
-    if listener is None:
-        return _check(call())
-    progress: Progress = listener
-    raised: list[BaseException] = []
-
-    def tell(_: Any, what: bytes, done: float) -> int:
-        try:
-            return int(bool(progress(what.decode(), done)))
-        except BaseException as error:    # KeyboardInterrupt, too: none may pass through C
-            raised.append(error)
-            return 1
-
-    options.progress = _Progress(tell)
-    code = call()
-    if raised:
-        raise raised[0]
-    _check(code)
-
-
-def _sized(struct: Any, **values: Any) -> Any:
-    """A struct with these values. ctypes would cut off what does not fit a field."""
-    fits = {_int: _c_int, _real: _c_double, ctypes.c_char_p: _c_text}
-    kinds = dict(struct._fields_)
-    made = struct(size=ctypes.sizeof(struct))
-    for name, value in values.items():
-        setattr(made, name, fits[kinds[name]](value, name) if kinds[name] in fits else value)
-    return made
-
-
-def _c_int(value: Any, name: str) -> int:
-    try:
-        number = operator.index(value)
-    except TypeError:
-        raise TypeError(f"{name} is {value!r}, not a whole number") from None
-    if not -2**31 <= number < 2**31:
-        raise ValueError(f"{name} is {number}, and goes from {-2**31} to {2**31 - 1} at most")
-    return number
-
-
-def _c_double(value: Any, name: str) -> float:
-    if isinstance(value, (str, bytes)) or np.iscomplexobj(value):
-        raise TypeError(f"{name} is {value!r}, not a real number")
-    try:
-        return float(value)
-    except TypeError:
-        raise TypeError(f"{name} is {value!r}, not a real number") from None
-    except OverflowError:
-        raise ValueError(f"{name} is beyond the range of float64") from None
-
-
-def _c_text(text: str | bytes | os.PathLike[str] | None, name: str) -> bytes | None:
-    if text is None:
-        return None
-    encoded = os.fsencode(text)
-    if b"\0" in encoded:    # C would read what is before it
-        raise ValueError(f"{name} has a NUL in it: {encoded!r}")
-    return encoded
-
-
-def _facts(struct: Any, call: Any, handle: Any) -> dict[str, Any]:
-    facts = _sized(struct)
-    _check(call(handle, ctypes.byref(facts)))
-    values = {name: getattr(facts, name) for name, _ in struct._fields_[1:]}
-    return {k: tuple(v) if isinstance(v, ctypes.Array) else v for k, v in values.items()}
-
-
-def _chosen(name: str, word: str, words: Sequence[str]) -> int:
-    """The index of a word among those that there are."""
-    if not isinstance(word, str) or word not in words:
-        raise ValueError(f"{name} is {word!r}; it is {' or '.join(map(repr, words))}")
-    return words.index(word)
-
-
-class _Owner:
-    """Owns `_handle`, memory of the library, which `_free` frees: once, so that it has one owner."""
-
-    _free: Any
-
-    def __init__(self) -> None:
-        self._handle = _at()
-
-    def __del__(self) -> None:
-        if getattr(self, "_handle", None):
-            self._free(self._handle)
-
-    def __reduce_ex__(self, protocol: Any) -> Any:    # what copy, deepcopy and pickle ask for
-        raise TypeError(f"a {type(self).__name__} holds memory of the library and is neither copied nor pickled; "
-                        "share it, or make another one")
-
-
-class _Record:
-    """Named values. types.SimpleNamespace would let a type checker pass any name."""
-
-    def __init__(self, **values: Any) -> None:
-        self.__dict__.update(values)
-
-    def __repr__(self) -> str:
-        return f"{type(self).__name__}({', '.join(f'{name}={value!r}' for name, value in vars(self).items())})"
-
-    def __eq__(self, other: object) -> bool:
-        """Are all values the same, those of arrays one by one? What is no number is the same as another such."""
-        if not isinstance(other, _Record):
-            return NotImplemented
-        mine, others = vars(self), vars(other)
-        return mine.keys() == others.keys() and all(_are_same(mine[name], others[name]) for name in mine)
-
-
-def _are_same(a: Any, b: Any) -> bool:
-    if not (hasattr(a, "shape") and hasattr(b, "shape")) or a is b:
-        return a is b or bool(a == b)
-    if tuple(a.shape) != tuple(b.shape):
-        return False
-    equal = a == b
-    return equal if isinstance(equal, bool) else bool((equal | ((a != a) & (b != b))).all())
 
 
 class MeshFacts(_Record):
@@ -629,21 +397,6 @@ def _remedy(shape: tuple[int, ...]) -> str:
     return ""
 
 
-def _as_floats(given: ArrayLike, name: str) -> NDArray[Any]:
-    """float32 or float64, as what can be converted to it."""
-    values = _arrays.plain(given, name)
-    if values.dtype in (np.float32, np.float64):
-        return values
-    # An object may be a fraction. float() would make a number of a text.
-    if values.size and values.dtype.kind not in "fiuO" or \
-            values.dtype.kind == "O" and any(isinstance(value, (str, bytes, bool)) for value in values.flat):
-        raise TypeError(f"{name}: {values.dtype}, not real numbers")
-    try:
-        return values.astype(np.float64)
-    except OverflowError:
-        raise ValueError(f"{name}: a number beyond the range of float64") from None
-
-
 def _whole_numbers(given: ArrayLike, name: str) -> NDArray[Any]:
     """Integers of any size; an empty list has none that are not."""
     values = _arrays.plain(given, name)
@@ -831,8 +584,14 @@ class Host(Protocol):
     def broadcast(self, data: NDArray[np.uint8], source: int) -> None: ...
 
 
+class Wrench(_Record):
+    """Force and torque of the spheres on a mesh, in the wall's units."""
+    force: NDArray[np.float64]     # (3,)
+    torque: NDArray[np.float64]    # (3,), about the point asked for
+
+
 class Wall(_Owner):
-    """The wall of fix wall/lsdcd. `words`: what follows its style in a script, a text or a list. `lo`, `hi`: the
+    """A wall of meshes that pushes spheres, by a WallSpec. `lo`, `hi`: the
     box of the spheres' centres, None: wherever they go; `periodic`: along x, y, z, with `margin`, how far past a
     face a sphere may go before the caller puts it back. `show(text, warning)` gets each line of the log. One
     thread at a time.
@@ -841,16 +600,23 @@ class Wall(_Owner):
     wall is made, in the order of `stream`: one of PyTorch or CuPy, or a cudaStream_t as a number; None: the default
     one.
 
-    With a `host` there are several processes: each makes a Wall of the same words, for spheres of its own, and
-    all call its methods together, but for renumber(), pack(), unpack() and pose(). The errors of one are raised
-    on all."""
+    With a `host` there are several processes: each makes a Wall of the same spec, for spheres of its own, and
+    all call its methods together, but for renumber(), pack(), unpack(), pose() and set_pose(). The errors of one are raised
+    on all.
+
+    Deprecated since 0.10.0: in place of the spec the words that follow fix wall/lsdcd in a script, a text or a list, by
+    place or as `words`. Raises Error for a spec or words that make no wall, with the field or word, its value and what to
+    give; TypeError and ValueError for other arguments."""
     _free = _lib.lsdcd_wall_free
 
-    def __init__(self, words: str | Iterable[str], lo: ArrayLike | None = None, hi: ArrayLike | None = None,
+    def __init__(self, spec: WallSpec | str | Iterable[str] | None = None, lo: ArrayLike | None = None,
+                 hi: ArrayLike | None = None,
                  periodic: Sequence[bool] = (False, False, False), margin: float = 0.0, time: float = 0.0, units: str = "si",
                  show: Callable[[str, bool], object] | None = None, threads: int = 0, host: Host | None = None,
-                 device: str = "cpu", stream: Any = None) -> None:
+                 device: str = "cpu", stream: Any = None, *, words: str | Iterable[str] | None = None) -> None:
         super().__init__()
+        if (spec is None) == (words is None):
+            raise TypeError("a wall is made of a WallSpec, or of `words`: give one of them")
         self._on_device = bool(_chosen("device", device, DEVICES))
         self._stream = stream    # which must live as long as the wall
         self._told: BaseException | None = None    # what a callback raised, which C cannot pass on
@@ -886,7 +652,11 @@ class Wall(_Owner):
         for name, place in (("lo", least), ("hi", most)):
             if place is not None:
                 setattr(options, name, (_real * 3)(*place))
-        self._do(_lib.lsdcd_wall_make, *_words(words), ctypes.byref(options), ctypes.byref(self._handle))
+        made = (ctypes.byref(options), ctypes.byref(self._handle))
+        if isinstance(spec, WallSpec):
+            self._do(_lib.lsdcd_wall_from_spec, ctypes.byref(spec._struct), *made)
+        else:
+            self._do(_lib.lsdcd_wall_make, *_words(spec or words or ()), *made)
 
     def _do(self, call: Any, *arguments: Any) -> None:
         code = call(*arguments)
@@ -970,8 +740,42 @@ class Wall(_Owner):
         self._do(_lib.lsdcd_wall_get_pose, self._handle, _c_int(mesh, "mesh"), matrix.ctypes.data)
         return matrix
 
+    def set_pose(self, mesh: int = 0, position: ArrayLike | None = None, quaternion: ArrayLike | None = None,
+                 velocity: ArrayLike | None = None, angular_velocity: ArrayLike | None = None) -> None:
+        """Where mesh number `mesh`, from 0, which has posed_by_caller, is in the next step and those after it: what was at
+        x when the wall was made is at R x + position, and moves with velocity + angular_velocity x (R x).
+
+        position: (3,), length. quaternion: (4,), w x y z of R, of length 1 to 1e-3. velocity: (3,), length/time, of the
+        point at `position`. angular_velocity: (3,), 1/time, right-handed, along the axes of the box. Both are of the time
+        of the spheres' velocities: with velocity Verlet half a step before the pose. What is None is 0, or no rotation.
+        The same on all processes. Raises Error for a mesh that there is not or that is not posed by the caller, a number
+        that is not finite and a quaternion of another length; ValueError for other shapes."""
+        given = [_numbers(position, (3,), "position"), _numbers(quaternion, (4,), "quaternion"),
+                 _numbers(velocity, (3,), "velocity"), _numbers(angular_velocity, (3,), "angular_velocity")]
+        self._do(_lib.lsdcd_wall_set_pose, self._handle, _c_int(mesh, "mesh"),
+                 *(None if numbers is None else numbers.ctypes.data for numbers in given))
+
+    def wrench(self, mesh: int | None = None, about: ArrayLike = (0, 0, 0)) -> Wrench:
+        """Force and torque of the spheres on a mesh, from 0, in the last step, over all processes; None: on all meshes.
+        The torque is about the point `about`, (3,), of the box."""
+        force, torque, point = np.empty(3), np.empty(3), _numbers(about, (3,), "about")
+        self._do(_lib.lsdcd_wall_get_wrench, self._handle, -1 if mesh is None else _c_int(mesh, "mesh"),
+                 None if point is None else point.ctypes.data, force.ctypes.data, torque.ctypes.data)
+        return Wrench(force=force, torque=torque)
+
+    def set_motion(self, mesh: int, motions: Sequence[Motion]) -> None:
+        """Other motions for a mesh, from where it is; none: it stops there."""
+        array = _motion_array(motions)
+        self._do(_lib.lsdcd_wall_set_motion, self._handle, _c_int(mesh, "mesh"), ctypes.addressof(array), len(array))
+
+    def set_servo(self, mesh: int, servo: Servo | None) -> None:
+        """Another servo for a mesh, from where it is; None: it stops there. Along the same line its position goes on."""
+        given = None if servo is None else ctypes.addressof(_instance(servo, Servo, "servo")._struct)
+        self._do(_lib.lsdcd_wall_set_servo, self._handle, _c_int(mesh, "mesh"), given)
+
     def change(self, words: str | Iterable[str]) -> None:
-        """[mesh K] motion ... or [mesh K] servo ..., as fix_modify takes them, with K from 1."""
+        """Deprecated since 0.10.0, for set_motion() and set_servo(): [mesh K] motion ... or [mesh K] servo ..., as fix_modify
+        takes them, with K from 1."""
         self._do(_lib.lsdcd_wall_change, self._handle, *_words(words))
 
     def save(self) -> NDArray[np.float64]:
@@ -987,7 +791,7 @@ class Wall(_Owner):
         return numbers
 
     def restore(self, numbers: ArrayLike) -> None:
-        """Before the first step of a wall of the same words."""
+        """Before the first step of a wall of the same spec or words."""
         saved = _in_a_row(_as_floats(numbers, "numbers"), "numbers", np.float64)
         self._do(_lib.lsdcd_wall_restore, self._handle, saved.ctypes.data, saved.size)
 
@@ -1030,10 +834,3 @@ def _vertex_numbers(faces: ArrayLike, n: int) -> NDArray[np.uint32]:
     return np.ascontiguousarray(numbers, dtype=np.uint32)
 
 
-def _numbers(values: ArrayLike | None, shape: tuple[int, ...], name: str) -> NDArray[np.float64] | None:
-    if values is None:
-        return None
-    numbers = np.ascontiguousarray(_as_floats(values, name), dtype=np.float64)
-    if numbers.shape != shape:
-        raise ValueError(f"{name} has the shape {numbers.shape}, not {shape}")
-    return numbers

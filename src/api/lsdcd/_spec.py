@@ -1,0 +1,294 @@
+# SPDX-FileCopyrightText: 2026 LSDCD contributors
+# SPDX-License-Identifier: BSD-3-Clause
+
+"""What a wall is made of: contact laws, meshes with their motions, and the wall's own settings."""
+from __future__ import annotations
+
+import ctypes
+import os
+from typing import TYPE_CHECKING, Any, Sequence
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ._c import (DEVICES, _c_double, _c_text, _check, _chosen, _Law, _lib, _Motion, _numbers, _Record, _Servo,
+                 _sized, _SubModel, _SubModelFacts, _TypeLaw, _WallMesh, _WallSpec)
+
+if TYPE_CHECKING:
+    from . import Mesh
+
+_DERIVED = -1.0
+
+
+class SubModelFacts(_Record):
+    """What lsdcd_sub_model_facts says of a formula of contact laws."""
+    field: str            # of lsdcd_law: "style", "normal", "tangential", ...
+    name: str
+    source: str           # what it is, and where its formula comes from
+    beside_style: bool    # does it go with a classic style, or is it one? Else it goes with Law.granular()
+    numbers: tuple[str, ...]              # their names
+    units: tuple[str, ...]                # "1": none
+    ranges: tuple[tuple[float, float], ...]
+    may_be_derived: tuple[bool, ...]      # where None is a number
+
+
+def sub_models() -> list[SubModelFacts]:
+    """All formulas that this library has."""
+    found: list[SubModelFacts] = []
+    facts = _sized(_SubModelFacts)
+    while _lib.lsdcd_sub_model_get_facts(len(found), ctypes.byref(facts)) == 0:
+        each = range(facts.n)
+        found.append(SubModelFacts(
+            field=facts.field.decode(), name=facts.name.decode(), source=facts.source.decode(),
+            beside_style=bool(facts.beside_style), numbers=tuple(facts.number[k].decode() for k in each),
+            units=tuple(facts.unit[k].decode() for k in each), ranges=tuple((facts.least[k], facts.most[k]) for k in each),
+            may_be_derived=tuple(bool(facts.may_be_derived[k]) for k in each)))
+    return found
+
+
+class SubModel:
+    """A formula of a contact law by its name, with its numbers by theirs: SubModel("mindlin", kt=None, xgammat=1, mu=0.5).
+    None, or a number that is left out where that is possible, is derived from others. sub_models() lists names and units."""
+
+    def __init__(self, name: str, **numbers: float | None) -> None:
+        if not isinstance(name, str):
+            raise TypeError(f"the name of a sub-model is {name!r}, not a text")
+        self.name = name
+        self.numbers = numbers
+
+    def __repr__(self) -> str:
+        return f"SubModel({', '.join([repr(self.name), *(f'{name}={value!r}' for name, value in self.numbers.items())])})"
+
+
+class Law:
+    """The force between a sphere and a wall. One of the classic styles, with what may stand beside it,
+
+        Law("hooke/history", kn=1e5, kt=3e4, gamman=50, gammat=None, xmu=0.5, dampflag=1, rolling=SubModel("cdt", MU=0.1))
+
+    or Law.granular(). Numbers are in the caller's units: kn a force/length, gamman 1/time, and so on; None is derived.
+    Raises ValueError for names of sub-models and numbers that there are not, TypeError for what is no number. What does
+    not go together, or is out of its range, Wall() refuses."""
+
+    def __init__(self, style: str, *, rolling: SubModel | None = None, cohesion: SubModel | None = None,
+                 limit_damping: bool = False, **numbers: float | None) -> None:
+        self._struct = _law_struct({"style": SubModel(style, **numbers), "rolling": rolling, "cohesion": cohesion},
+                                   True, limit_damping)
+
+    @classmethod
+    def granular(cls, normal: SubModel, tangential: SubModel, damping: str | None = None, rolling: SubModel | None = None,
+                 twisting: SubModel | None = None, heat: SubModel | None = None, limit_damping: bool = False) -> Law:
+        """A law of sub-models, as LAMMPS's pair style granular has them; `damping` None: viscoelastic.
+
+            Law.granular(SubModel("hertz/material", E=5e6, e=0.5, nu=0.3), SubModel("mindlin", xgammat=1, mu=0.5), "tsuji")"""
+        law = cls.__new__(cls)
+        law._struct = _law_struct({"normal": normal, "tangential": tangential,
+                                   "damping": SubModel(damping) if damping is not None else None, "rolling": rolling,
+                                   "twisting": twisting, "heat": heat}, False, limit_damping)
+        return law
+
+
+def _law_struct(given: dict[str, SubModel | None], beside_style: bool, limit_damping: bool) -> Any:
+    """An lsdcd_law, whose numbers lie in the order of their names."""
+    law = _sized(_Law, limit_damping=bool(limit_damping))
+    for field, model in given.items():
+        if model is None:
+            continue
+        if not isinstance(model, SubModel):
+            raise TypeError(f"{field} is {model!r}, not a SubModel")
+        setattr(law, field, _sub_model_struct(field, model, beside_style))
+    return law
+
+
+def _sub_model_struct(field: str, model: SubModel, beside_style: bool) -> Any:
+    rows = [row for row in sub_models() if row.field == field and row.beside_style == beside_style]
+    row = next((row for row in rows if row.name == model.name), None)
+    if row is None:
+        raise ValueError(f"{field} is {model.name!r}; {'a style' if beside_style else 'a normal sub-model'} goes with "
+                         f"{', '.join(repr(row.name) for row in rows) or 'none'}")
+    left, numbers = dict(model.numbers), []
+    for name, may_be_derived in zip(row.numbers, row.may_be_derived):
+        given = [word for word in name.split("|") if word in left]    # "eta|e": either name
+        value = left.pop(given[0]) if given else None
+        if value is None and not may_be_derived:
+            raise ValueError(f"{model.name} needs the number {name}; it has {', '.join(row.numbers)}")
+        numbers.append(_DERIVED if value is None else _c_double(value, f"{name} of {model.name}"))
+    if left:
+        raise ValueError(f"{model.name} has no number {next(iter(left))}; it has {', '.join(row.numbers) or 'none'}")
+    return _SubModel(_c_text(model.name, field), (ctypes.c_double * 8)(*numbers))
+
+
+class Placement:
+    """x -> M x + t, in the order of the calls: Placement().scale(0.001).rotate((0, 0, 1), 90).move(0, 0, 1). Each method
+    changes it and returns it, and raises Error for a factor of 0, an axis 0 0 0 and what is not finite."""
+
+    def __init__(self) -> None:
+        self._numbers = (ctypes.c_double * 12)()
+
+    def scale(self, x: float, y: float | None = None, z: float | None = None) -> Placement:
+        """By one factor, or by three."""
+        if (y is None) != (z is None):
+            raise ValueError("scale takes one factor or three")
+        factors = [_c_double(f, "a factor") for f in (x, x if y is None else y, x if z is None else z)]
+        _check(_lib.lsdcd_place_scale(self._numbers, *factors))
+        return self
+
+    def rotate(self, axis: ArrayLike, degrees: float) -> Placement:
+        """About an axis, (3,), through the origin, right-handed."""
+        _check(_lib.lsdcd_place_rotate(self._numbers, _three(axis, "axis"), _c_double(degrees, "degrees")))
+        return self
+
+    def move(self, x: float, y: float, z: float) -> Placement:
+        """By a length along each axis."""
+        _check(_lib.lsdcd_place_move(self._numbers, *(_c_double(v, "a length") for v in (x, y, z))))
+        return self
+
+    @property
+    def matrix(self) -> NDArray[np.float64]:
+        """(3, 4), rows of M, each with its t, a length, behind it; all 0: as the mesh is."""
+        return np.array(self._numbers).reshape(3, 4)
+
+
+class Motion:
+    """A motion in closed form, of the time since the wall was made or set_motion() was called. Vectors are (3,)."""
+    _struct: Any
+
+    @classmethod
+    def _made(cls, kind: int, **fields: ArrayLike) -> Motion:
+        motion = cls.__new__(cls)
+        motion._struct = _sized(_Motion, kind=kind)
+        for name, value in fields.items():
+            setattr(motion._struct, name, _c_double(value, name) if name == "period" else _three(value, name))
+        return motion
+
+    @classmethod
+    def linear(cls, velocity: ArrayLike) -> Motion:
+        """At a velocity, length/time."""
+        return cls._made(0, velocity=velocity)
+
+    @classmethod
+    def wiggle(cls, amplitude: ArrayLike, period: float) -> Motion:
+        """By amplitude, a length, times sin(2 pi t / period)."""
+        return cls._made(1, amplitude=amplitude, period=period)
+
+    @classmethod
+    def cosine(cls, amplitude: ArrayLike, period: float) -> Motion:
+        """By amplitude, a length, times 1 - cos(2 pi t / period), which begins at rest."""
+        return cls._made(2, amplitude=amplitude, period=period)
+
+    @classmethod
+    def rotate(cls, point: ArrayLike, axis: ArrayLike, period: float) -> Motion:
+        """Right-handed about an axis through a point, once in a period."""
+        return cls._made(3, point=point, axis=axis, period=period)
+
+    @classmethod
+    def transrot(cls, velocity: ArrayLike, point: ArrayLike, axis: ArrayLike, period: float) -> Motion:
+        """Turns as rotate(), and goes at a velocity, length/time."""
+        return cls._made(4, velocity=velocity, point=point, axis=axis, period=period)
+
+
+class Servo:
+    """Moves a mesh along `axis`, (3,), so that it pushes the spheres along it with the force `target`; with `turns` it
+    turns it about the axis through `point`, (3,), with a torque. `max_speed`, > 0: length/time or 1/time. `max_gain`:
+    speed per push, None: the largest that is stable. `limits`: of its position, lo <= 0 <= hi, None: none."""
+
+    def __init__(self, axis: ArrayLike, target: float, max_speed: float, turns: bool = False, point: ArrayLike = (0, 0, 0),
+                 max_gain: float | None = None, limits: tuple[float, float] | None = None) -> None:
+        lo, hi = (0.0, 0.0) if limits is None else limits
+        self._struct = _sized(_Servo, turns=bool(turns), axis=_three(axis, "axis"), point=_three(point, "point"), target=target,
+                              max_speed=max_speed, max_gain=0.0 if max_gain is None else max_gain, lo=lo, hi=hi)
+
+
+class WallMesh:
+    """A mesh of a wall, which may be in others, too. `name`: what messages call it. `placement`: a Placement, or (3, 4),
+    rows of M, each with its t behind it; None: as the mesh is. `law`: the wall's sub-models with other numbers, None: the
+    wall's. `type_laws`: (first, last, Law) of atom types from first to last, None: all from first on; of two with a type
+    the last one counts. `posed_by_caller`: Wall.set_pose() moves it; else `motions` do, each acting on what the earlier
+    ones placed, and `servo`. `surface_velocity`, length/time, `surface_angular_velocity`, 1/time, `surface_centre`: the
+    surface moves along itself while the mesh rests, as that of a belt or a roll. `temperature`: where the law has heat.
+    `torque_about`: what the torque of Wall.totals() is about; with `torque_about_moves` that point moves with the mesh.
+    `wear_factor`: it wears so many times as fast. `cache`: a file that keeps its grid. `fields`, (name, steps): a .vtp file
+    of stress, contacts and wear of each triangle, written every so many steps, with a * for the step in its name; `stl`
+    likewise: the mesh where it is.
+
+    Raises TypeError and ValueError for what is no such value; Wall() refuses what makes no sense."""
+
+    def __init__(self, mesh: Mesh, name: str = "", placement: Placement | ArrayLike | None = None, law: Law | None = None,
+                 type_laws: Sequence[tuple[int, int | None, Law]] = (), posed_by_caller: bool = False,
+                 motions: Sequence[Motion] = (), servo: Servo | None = None, surface_velocity: ArrayLike = (0, 0, 0),
+                 surface_angular_velocity: ArrayLike = (0, 0, 0), surface_centre: ArrayLike = (0, 0, 0),
+                 temperature: float = 0.0, torque_about: ArrayLike = (0, 0, 0), torque_about_moves: bool = False,
+                 wear_factor: float = 1.0, cache: str | os.PathLike[str] | None = None,
+                 fields: tuple[str | os.PathLike[str], int] | None = None,
+                 stl: tuple[str | os.PathLike[str], int] | None = None) -> None:
+        from . import Mesh    # which is made of this module, too
+        matrix = placement.matrix if isinstance(placement, Placement) else _numbers(placement, (3, 4), "placement")
+        flat = np.zeros(12) if matrix is None else matrix.ravel()
+        laws = [_instance(row, Law, "a law of type_laws") for _, _, row in type_laws]
+        rows = [_sized(_TypeLaw, first_type=first, last_type=0 if last is None else last, law=ctypes.addressof(row._struct))
+                for (first, last, _), row in zip(type_laws, laws)]
+        types, moved = (_TypeLaw * len(rows))(*rows), _motion_array(motions)
+        factor = _c_double(wear_factor, "wear_factor")
+        self._struct = _sized(
+            _WallMesh, mesh=_instance(mesh, Mesh, "mesh")._handle, name=name or None, placement=(ctypes.c_double * 12)(*flat),
+            law=_address(law, Law, "law"), type_laws=ctypes.addressof(types), n_type_laws=len(rows),
+            posed_by_caller=bool(posed_by_caller), motions=ctypes.addressof(moved), n_motions=len(moved),
+            servo=_address(servo, Servo, "servo"), surface_velocity=_three(surface_velocity, "surface_velocity"),
+            surface_angular_velocity=_three(surface_angular_velocity, "surface_angular_velocity"),
+            surface_centre=_three(surface_centre, "surface_centre"), temperature=temperature,
+            torque_about=_three(torque_about, "torque_about"), torque_about_moves=bool(torque_about_moves),
+            # C has 0 for once and -1 for never.
+            wear_factor={0.0: -1.0, 1.0: 0.0}.get(factor, factor), cache=cache or None,
+            fields=fields[0] if fields else None, fields_every=fields[1] if fields else 0, stl=stl[0] if stl else None,
+            stl_every=stl[1] if stl else 0)
+        self._kept = (mesh, law, laws, types, moved, servo)    # what the struct points to
+
+
+class WallSpec:
+    """What a wall is made of: the `law` of its spheres, and its `meshes`, 1 at least.
+
+    `corner`: "blend", contacts of a sphere at a corner share their overlap, or "sum", their forces add. `side`: "both",
+    "in" or "out", where spheres belong; one side needs closed meshes whose triangles are wound alike. `precision`:
+    "double", "float" or "mixed", contacts in float and forces in double. `nearest` 0: exact; N: only the N triangles
+    nearest to a cell. `cell`, length, and `memory`, bytes of each mesh: of its grid, 0: chosen. `rmax`: the largest radius
+    that there will be, 0: that of the spheres. `compute`: "cpu" or "cuda", for spheres in arrays of the host. `wear`:
+    None, ("archard", K, H) with the hardness H, a pressure, or ("finnie", K), 1/pressure. `periodic_ends`: meshes are meant
+    to end at periodic faces. `brief`: one line in the log."""
+
+    def __init__(self, law: Law, meshes: Sequence[WallMesh], corner: str = "blend", side: str = "both",
+                 precision: str = "double", nearest: int = 0, cell: float = 0.0, memory: float = 0.0, rmax: float = 0.0,
+                 compute: str = "cpu", wear: tuple[str, float] | tuple[str, float, float] | None = None,
+                 periodic_ends: bool = False, brief: bool = False) -> None:
+        parts = [_instance(m, WallMesh, "a mesh of the wall") for m in meshes]
+        array = (_WallMesh * len(parts))(*(part._struct for part in parts))
+        numbers = [_c_double(n, "a number of wear") for n in wear[1:]] if wear else []
+        model = 1 + _chosen("wear", wear[0], ("archard", "finnie")) if wear else 0
+        if wear and len(numbers) != 3 - model:
+            raise ValueError(f"wear is {wear!r}; it is (\"archard\", K, H) or (\"finnie\", K)")
+        self._struct = _sized(
+            _WallSpec, law=_address(_instance(law, Law, "law"), Law, "law"), meshes=ctypes.addressof(array),
+            n_meshes=len(parts), corner=_chosen("corner", corner, ("blend", "sum")),
+            side=_chosen("side", side, ("both", "in", "out")),
+            precision=_chosen("precision", precision, ("double", "float", "mixed")), nearest=nearest, cell=cell, memory=memory,
+            rmax=rmax, device=_chosen("compute", compute, DEVICES), wear=model, wear_coefficient=numbers[0] if wear else 0.0,
+            hardness=numbers[1] if model == 1 else 0.0, periodic_ends=bool(periodic_ends), brief=bool(brief))
+        self._kept = (law, parts, array)    # what the struct points to
+
+
+def _motion_array(motions: Sequence[Motion]) -> Any:
+    each = [_instance(m, Motion, "a motion")._struct for m in motions]
+    return (_Motion * len(each))(*each)
+
+
+def _three(values: ArrayLike, name: str) -> Any:
+    numbers = _numbers(values, (3,), name)
+    return (ctypes.c_double * 3)(*([] if numbers is None else numbers.tolist()))
+
+
+def _instance(value: Any, kind: Any, name: str) -> Any:
+    if not isinstance(value, kind):
+        raise TypeError(f"{name} is {value!r}, not a {kind.__name__}")
+    return value
+
+
+def _address(value: Any, kind: Any, name: str) -> int | None:
+    return None if value is None else ctypes.addressof(_instance(value, kind, name)._struct)

@@ -1,0 +1,352 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "api/wall_given.h"
+
+#include "api/law_given.h"
+#include "api/objects.h"
+#include "api/refusals.h"
+#include "bodies/read_pose.h"
+#include "grid/cache/grid_cache.h"
+#include "law/sub_models.h"
+#include "output/file_series.h"
+
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <string>
+
+namespace lsdcd {
+
+namespace {
+
+Vec3 checked_axis(const double *axis, const std::string &field)
+{
+  const Vec3 v = checked_vector(axis, field);
+  if (v == Vec3{0, 0, 0}) refuse_field(field, "0 0 0", "give a direction, as 0 0 1");
+  return unit_vector(v);
+}
+
+void check_zero(const double *values, int n, const std::string &field, const char *kind)
+{
+  for (int k = 0; k < n; k++)
+    if (values[k] != 0)
+      refuse_field(n == 1 ? field : element(field, static_cast<std::size_t>(k)), values[k],
+                   std::string(kind) + " does not use it: leave it 0");
+}
+
+MotionTerm motion_of(const lsdcd_motion &given, const std::string &field)
+{
+  const struct {
+    MotionKind kind;
+    const char *name;
+    bool velocity, amplitude, axis;
+  } kinds[] = {{MotionKind::linear, "LSDCD_LINEAR", true, false, false},
+               {MotionKind::wiggle, "LSDCD_WIGGLE", false, true, false},
+               {MotionKind::cosine, "LSDCD_COSINE", false, true, false},
+               {MotionKind::rotate, "LSDCD_ROTATE", false, false, true},
+               {MotionKind::transrot, "LSDCD_TRANSROT", true, false, true}};
+  const auto &kind = kinds[checked_choice(
+      given.kind, field + ".kind", 5,
+      "LSDCD_LINEAR, LSDCD_WIGGLE, LSDCD_COSINE, LSDCD_ROTATE or LSDCD_TRANSROT")];
+  MotionTerm term;
+  term.kind = kind.kind;
+  if (kind.velocity)
+    term.velocity = checked_vector(given.velocity, field + ".velocity");
+  else
+    check_zero(given.velocity, 3, field + ".velocity", kind.name);
+  if (kind.amplitude)
+    term.amplitude = checked_vector(given.amplitude, field + ".amplitude");
+  else
+    check_zero(given.amplitude, 3, field + ".amplitude", kind.name);
+  if (kind.axis) {
+    term.point = checked_vector(given.point, field + ".point");
+    term.axis = checked_axis(given.axis, field + ".axis");
+  } else {
+    check_zero(given.point, 3, field + ".point", kind.name);
+    check_zero(given.axis, 3, field + ".axis", kind.name);
+  }
+  if (kind.kind == MotionKind::linear)
+    check_zero(&given.period, 1, field + ".period", kind.name);
+  else
+    term.period = checked_number(given.period, field + ".period", kAboveZero);
+  return term;
+}
+
+template <class T>
+void need_elements(const T *array, std::size_t n, const std::string &field)
+{
+  if (n > 0 && !array)
+    refuse_field(field, "null",
+                 "give an array of " + std::to_string(n) + ", or say that there are 0");
+}
+
+void add_laws(const lsdcd_wall_mesh &given, const std::string &field, MeshSpec &mesh)
+{
+  const auto add = [&](const lsdcd_law *law, const std::string &of, int first, int last) {
+    const NamedLaw made = law_of(law, of);
+    mesh.laws.push_back({first, last, made.law, made.name});
+  };
+  if (given.law) add(given.law, field + ".law", LawOfTypes().first_type, kAnyType);
+  need_elements(given.type_laws, given.n_type_laws, field + ".type_laws");
+  for (std::size_t k = 0; k < given.n_type_laws; k++) {
+    const std::string of = element(field + ".type_laws", k);
+    const lsdcd_type_law row =
+        checked_element(given.type_laws, k, "lsdcd_type_law", sizeof(lsdcd_type_law), of);
+    if (row.first_type < 1)
+      refuse_field(of + ".first_type", std::to_string(row.first_type), "types count from 1");
+    if (row.last_type != 0 && row.last_type < row.first_type)
+      refuse_field(of + ".last_type", std::to_string(row.last_type),
+                   "it is at least first_type, " + std::to_string(row.first_type) +
+                       ", or 0 for all types from there on");
+    add(row.law, of + ".law", row.first_type, row.last_type ? row.last_type : kAnyType);
+  }
+}
+
+// Only numbers differ between the laws of a wall.
+void check_sub_models(const WallSpec &wall)
+{
+  for (std::size_t m = 0; m < wall.meshes.size(); m++)
+    for (const LawOfTypes &row : wall.meshes[m].laws)
+      if (rows_of(row.law) != rows_of(wall.law()))
+        refuse_field(element("meshes", m) + (row.is_of_all() ? ".law" : ".type_laws"),
+                     sub_models_text(row.law),
+                     "the wall's law has " + sub_models_text(wall.law()) +
+                         ", and only numbers may differ; put the mesh into a wall of its own, or "
+                         "give both the same sub-models");
+}
+
+void read_surface(const lsdcd_wall_mesh &given, const std::string &field, MeshSpec &mesh)
+{
+  mesh.surface.velocity = checked_vector(given.surface_velocity, field + ".surface_velocity");
+  mesh.surface.angular =
+      checked_vector(given.surface_angular_velocity, field + ".surface_angular_velocity");
+  mesh.surface.centre = checked_vector(given.surface_centre, field + ".surface_centre");
+}
+
+void read_motion(const lsdcd_wall_mesh &given, const std::string &field, MeshSpec &mesh)
+{
+  const bool is_posed = checked_flag(given.posed_by_caller, field + ".posed_by_caller");
+  if (is_posed) mesh.motion.begin_posed();
+  if (is_posed && (given.n_motions > 0 || given.servo))
+    refuse_field(field + ".posed_by_caller", "1",
+                 "lsdcd_wall_set_pose() alone moves such a mesh: leave motions and servo out");
+  for (const MotionTerm &term : motions_of(given.motions, given.n_motions, field + ".motions"))
+    mesh.motion.add(term);
+  if (given.servo) mesh.motion.servo() = servo_of(given.servo, field + ".servo");
+}
+
+FileEvery file_of(const char *name, int every, const std::string &field, const char *end)
+{
+  if (!name || !*name) {
+    if (every != 0)
+      refuse_field(field + "_every", std::to_string(every),
+                   "`" + field + "` has no file: give its name, or leave this 0");
+    return {};
+  }
+  const std::string wrong = wrong_series_name(name, end);
+  if (!wrong.empty()) refuse_field(field, in_quotes(name), wrong);
+  if (every < 1)
+    refuse_field(field + "_every", std::to_string(every), "it is a number of steps, 1 or more");
+  return {name, every};
+}
+
+MeshSpec mesh_spec_of(const lsdcd_wall_mesh &given, std::size_t k, const WallSpec &wall)
+{
+  const std::string field = element("meshes", k);
+  MeshSpec mesh;
+  if (!given.mesh) refuse_field(field + ".mesh", "null", "give a mesh");
+  mesh.mesh = {given.mesh->in, &given.mesh->in->mesh};
+  mesh.weld = 0;    // it is welded
+  mesh.name = given.name && *given.name ? given.name : "mesh " + std::to_string(k + 1);
+  mesh.placement = placement_of(given.placement, field + ".placement");
+  add_laws(given, field, mesh);
+  read_motion(given, field, mesh);
+  read_surface(given, field, mesh);
+  mesh.temperature = checked_number(given.temperature, field + ".temperature");
+  mesh.has_temperature = wall.law().has_heat();
+  if (mesh.temperature != 0 && !mesh.has_temperature)
+    refuse_field(field + ".temperature", mesh.temperature,
+                 "the wall's law has no sub-model `heat` that uses it: leave it 0");
+  mesh.torque_about = checked_vector(given.torque_about, field + ".torque_about");
+  mesh.torque_about_mesh = checked_flag(given.torque_about_moves, field + ".torque_about_moves");
+  const double factor = given.wear_factor;
+  if (factor != -1 && factor != 0)
+    mesh.wear_factor = checked_number(factor, field + ".wear_factor", 0);
+  if (factor == -1) mesh.wear_factor = 0;
+  if (factor != 0 && factor != 1 && !wall.wears())
+    refuse_field(field + ".wear_factor", factor,
+                 "nothing wears, as `wear` is LSDCD_NO_WEAR: leave it 0");
+  mesh.fields = file_of(given.fields, given.fields_every, field + ".fields", ".vtp");
+  mesh.stl = file_of(given.stl, given.stl_every, field + ".stl", ".stl");
+  if (given.cache && *given.cache) {
+    std::string why;
+    if (!cache_available(&why)) refuse_field(field + ".cache", in_quotes(given.cache), why);
+    mesh.cache_file = given.cache;
+  }
+  return mesh;
+}
+
+// What would be felt twice, or lost.
+void check_apart(const WallSpec &wall)
+{
+  for (std::size_t k = 0; k < wall.meshes.size(); k++)
+    for (std::size_t i = 0; i < k; i++) {
+      const MeshSpec &one = wall.meshes[i], &other = wall.meshes[k];
+      const std::string first = element("meshes", i), second = element("meshes", k);
+      if (are_one_mesh(wall, one, wall, other))
+        refuse_field(second + ".mesh", "that of " + first + " at the same place",
+                     "every contact would be felt twice; leave one out, or move it");
+      const struct {
+        const char *field;
+        const std::string &name, &of_other;
+      } files[] = {{".cache", one.cache_file, other.cache_file},
+                   {".fields", one.fields.name, other.fields.name},
+                   {".stl", one.stl.name, other.stl.name}};
+      for (const auto &file : files)
+        if (!file.name.empty() && file.name == file.of_other)
+          refuse_field(second + file.field, in_quotes(file.name),
+                       first + " has the same file; give each one of its own");
+    }
+}
+
+void read_wear(const lsdcd_wall_spec &given, WallSpec &wall)
+{
+  const int model =
+      checked_choice(given.wear, "wear", 3, "LSDCD_NO_WEAR, LSDCD_ARCHARD or LSDCD_FINNIE");
+  const WearModel models[] = {WearModel::none, WearModel::archard, WearModel::finnie};
+  wall.wear.model = models[model];
+  wall.wear.per_work = checked_number(given.wear_coefficient, "wear_coefficient", 0);
+  if (model == LSDCD_NO_WEAR)
+    check_zero(&given.wear_coefficient, 1, "wear_coefficient", "LSDCD_NO_WEAR");
+  if (model == LSDCD_ARCHARD)
+    wall.wear.per_work /= checked_number(given.hardness, "hardness", kAboveZero);
+  else
+    check_zero(&given.hardness, 1, "hardness",
+               model == LSDCD_FINNIE ? "LSDCD_FINNIE" : "LSDCD_NO_WEAR");
+}
+
+void read_search(const lsdcd_wall_spec &given, bool on_device, WallSpec &wall)
+{
+  const Corner corners[] = {Corner::blend, Corner::sum};
+  wall.corner = corners[checked_choice(given.corner, "corner", 2, "LSDCD_BLEND or LSDCD_SUM")];
+  const Side sides[] = {Side::both, Side::in, Side::out};
+  wall.side = sides[checked_choice(given.side, "side", 3,
+                                   "LSDCD_BOTH_SIDES, LSDCD_INSIDE or LSDCD_OUTSIDE")];
+  const Precision precisions[] = {Precision::double_, Precision::single_, Precision::mixed};
+  wall.precision = precisions[checked_choice(given.precision, "precision", 3,
+                                             "LSDCD_DOUBLE, LSDCD_FLOAT or LSDCD_MIXED")];
+  wall.nearest = checked_choice(given.nearest, "nearest", kMaxNearest + 1,
+                                "0 for all, or 1 to " + std::to_string(kMaxNearest));
+  wall.grid_length = checked_number(given.cell, "cell", 0);
+  wall.rmax = checked_number(given.rmax, "rmax", 0);
+  const double bytes = checked_number(given.memory, "memory", 0, 1e15);
+  if (bytes > 0) wall.memory_budget = static_cast<std::size_t>(bytes);
+  const int device = checked_choice(given.device, "device", 2, "LSDCD_CPU or LSDCD_CUDA");
+  if (on_device && device != LSDCD_CPU)
+    refuse_field(
+        "device", "LSDCD_CUDA",
+        "it is for arrays of the host; leave it 0, as the wall computes where the arrays of "
+        "its spheres are");
+  wall.device = on_device ? Device::automatic : device == LSDCD_CUDA ? Device::cuda : Device::cpu;
+  wall.periodic = checked_flag(given.periodic_ends, "periodic_ends");
+  wall.brief = checked_flag(given.brief, "brief");
+}
+
+}    // namespace
+
+WallSpec wall_spec_of(const lsdcd_wall_spec *pointer, bool on_device)
+{
+  const lsdcd_wall_spec given = checked(pointer, "lsdcd_wall_spec");
+  WallSpec wall;
+  const NamedLaw law = law_of(given.law, "law");
+  wall.laws.front().law = law.law;
+  wall.laws.front().name = law.name;
+  read_search(given, on_device, wall);
+  read_wear(given, wall);
+  need_elements(given.meshes, given.n_meshes, "meshes");
+  if (given.n_meshes < 1 || given.n_meshes > kMaxMeshes)
+    refuse_field("n_meshes", std::to_string(given.n_meshes),
+                 "a wall has 1 to " + std::to_string(kMaxMeshes) + " meshes");
+  for (std::size_t k = 0; k < given.n_meshes; k++)
+    wall.meshes.push_back(
+        mesh_spec_of(checked_element(given.meshes, k, "lsdcd_wall_mesh", sizeof(lsdcd_wall_mesh),
+                                     element("meshes", k)),
+                     k, wall));
+  leave_out_zero_cohesion(wall);
+  check_sub_models(wall);
+  check_apart(wall);
+  return wall;
+}
+
+Placement placement_of(const double *numbers, const std::string &field)
+{
+  Placement placement;
+  bool any = false;
+  for (std::size_t k = 0; k < 12; k++) any |= checked_number(numbers[k], element(field, k)) != 0;
+  if (!any) return placement;
+  const Vec3 row[3] = {{numbers[0], numbers[1], numbers[2]},
+                       {numbers[4], numbers[5], numbers[6]},
+                       {numbers[8], numbers[9], numbers[10]}};
+  if (dot(row[0], cross(row[1], row[2])) == 0)
+    refuse_field(field, "a matrix with the determinant 0",
+                 "a placement must keep the mesh three-dimensional; lsdcd_place_scale() and its "
+                 "neighbours make one");
+  placement.set(row, {numbers[3], numbers[7], numbers[11]});
+  return placement;
+}
+
+std::vector<MotionTerm> motions_of(const lsdcd_motion *given, std::size_t n,
+                                   const std::string &field)
+{
+  need_elements(given, n, field);
+  std::vector<MotionTerm> terms;
+  for (std::size_t k = 0; k < n; k++) {
+    const std::string of = element(field, k);
+    terms.push_back(
+        motion_of(checked_element(given, k, "lsdcd_motion", sizeof(lsdcd_motion), of), of));
+  }
+  return terms;
+}
+
+Servo servo_of(const lsdcd_servo *pointer, const std::string &field)
+{
+  const lsdcd_servo given = checked(pointer, "lsdcd_servo", sizeof(lsdcd_servo), field);
+  Servo servo;
+  servo.present = true;
+  servo.turns = checked_flag(given.turns, field + ".turns");
+  servo.axis = checked_axis(given.axis, field + ".axis");
+  if (servo.turns)
+    servo.point = checked_vector(given.point, field + ".point");
+  else
+    check_zero(given.point, 3, field + ".point", "a servo that does not turn");
+  servo.target = checked_number(given.target, field + ".target");
+  servo.max_speed = checked_number(given.max_speed, field + ".max_speed", kAboveZero);
+  if (given.max_gain != 0)
+    servo.max_gain = checked_number(given.max_gain, field + ".max_gain", kAboveZero);
+  if (given.lo == 0 && given.hi == 0) return servo;
+  servo.lo = checked_number(given.lo, field + ".lo", -Tokens::kHuge, 0);
+  servo.hi = checked_number(given.hi, field + ".hi", 0);
+  return servo;
+}
+
+Pose pose_of(const double *position, const double *quaternion, const double *velocity,
+             const double *angular_velocity)
+{
+  Pose pose;
+  pose.placed = true;
+  if (position) pose.shift = checked_vector(position, "position");
+  if (velocity) pose.velocity = checked_vector(velocity, "velocity");
+  if (angular_velocity) pose.angular = checked_vector(angular_velocity, "angular_velocity");
+  if (!quaternion) return pose;
+  for (std::size_t k = 0; k < 4; k++) checked_number(quaternion[k], element("quaternion", k));
+  try {
+    const BodyPose turned = pose_of_quaternion(pose.shift, quaternion);
+    for (int k = 0; k < 3; k++) pose.row[k] = turned.row[k];
+  } catch (const InputError &e) {
+    throw ApiError(LSDCD_ERROR_ARGUMENT, e.what());
+  }
+  return pose;
+}
+
+}    // namespace lsdcd

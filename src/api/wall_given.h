@@ -1,0 +1,28 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// A caller's structs of a wall as a WallSpec and its parts. Functions throw ApiError, which names the field.
+#pragma once
+
+#include "api/lsdcd.h"
+#include "motion/motion.h"
+#include "wall/wall_spec.h"
+
+#include <cstddef>
+#include <vector>
+
+namespace lsdcd {
+
+// `on_device`: arrays of spheres are on a device.
+WallSpec wall_spec_of(const lsdcd_wall_spec *given, bool on_device);
+// `field`: their name in errors.
+std::vector<MotionTerm> motions_of(const lsdcd_motion *given, std::size_t n,
+                                   const std::string &field);
+Servo servo_of(const lsdcd_servo *given, const std::string &field);
+// `field`: of the twelve numbers.
+Placement placement_of(const double *numbers, const std::string &field);
+// Null: the default of each.
+Pose pose_of(const double *position, const double *quaternion, const double *velocity,
+             const double *angular_velocity);
+
+}    // namespace lsdcd

@@ -1,0 +1,128 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// A wall of meshes and laws: lsdcd_wall_from_spec, lsdcd_place_*, and how its meshes move.
+#include "api/refusals.h"
+#include "api/wall_given.h"
+#include "api/wall_handle.h"
+#include "mesh/placement.h"
+
+#include <cstddef>
+#include <functional>
+#include <string>
+
+using namespace lsdcd;
+
+namespace {
+
+// A placement in a caller's twelve numbers.
+void change_placement(double *numbers, const std::function<void(Placement &)> &change)
+{
+  need(numbers, "placement");
+  Placement placement = placement_of(numbers, "placement");
+  change(placement);
+  for (int k = 0; k < 3; k++) {
+    for (int d = 0; d < 3; d++) numbers[4 * k + d] = placement.row(k)[d];
+    numbers[4 * k + 3] = placement.shift()[k];
+  }
+}
+
+void check_posed(const lsdcd_wall &wall, int mesh, bool wanted)
+{
+  check_mesh(wall, mesh, 0);
+  const MeshSpec &spec = wall.in->spec().meshes[static_cast<std::size_t>(mesh)];
+  if (spec.motion.is_posed() == wanted) return;
+  throw ApiError(LSDCD_ERROR_ARGUMENT,
+                 "mesh " + std::to_string(mesh) + ", '" + spec.name + "', is " +
+                     (wanted ? "not posed by the caller: set posed_by_caller in its "
+                               "lsdcd_wall_mesh when the wall is made"
+                             : "posed by the caller: lsdcd_wall_set_pose() moves it"));
+}
+
+}    // namespace
+
+extern "C" {
+
+int lsdcd_place_scale(double *placement, double x, double y, double z)
+{
+  return guard([&] { change_placement(placement, [&](Placement &p) { p.scale({x, y, z}); }); });
+}
+
+int lsdcd_place_rotate(double *placement, const double *axis, double degrees)
+{
+  return guard([&] {
+    need(axis, "axis");
+    change_placement(placement, [&](Placement &p) {
+      p.rotate({axis[0], axis[1], axis[2]}, degrees);
+    });
+  });
+}
+
+int lsdcd_place_move(double *placement, double x, double y, double z)
+{
+  return guard([&] { change_placement(placement, [&](Placement &p) { p.move({x, y, z}); }); });
+}
+
+int lsdcd_wall_from_spec(const lsdcd_wall_spec *spec, const lsdcd_wall_options *options,
+                         lsdcd_wall **wall)
+{
+  return guard([&] {
+    need(wall, "wall");
+    *wall = new_wall(options, [&](lsdcd_wall &made, const lsdcd_wall_options &o) {
+      return std::make_unique<Wall>(made.caller, wall_spec_of(spec, made.gpu != nullptr),
+                                    WallUnits(), place_of(o, made.gpu.get()), "",
+                                    StepClock{o.time, 0, 0, 0});
+    });
+  });
+}
+
+int lsdcd_wall_set_pose(lsdcd_wall *wall, int mesh, const double *position,
+                        const double *quaternion, const double *velocity,
+                        const double *angular_velocity)
+{
+  return guard_wall(wall, [&] {
+    check_posed(*wall, mesh, true);
+    const Pose pose = pose_of(position, quaternion, velocity, angular_velocity);
+    wall->in->set_pose(mesh, pose);
+    wall->poses.add(mesh, pose);
+  });
+}
+
+int lsdcd_wall_get_wrench(lsdcd_wall *wall, int mesh, const double *about, double *force,
+                          double *torque)
+{
+  return guard_wall(wall, [&] {
+    need(force, "force");
+    need(torque, "torque");
+    check_mesh(*wall, mesh, -1);
+    const Vec3 point = about ? checked_vector(about, "about") : Vec3{0, 0, 0};
+    tell_late(*wall);
+    const StepTotals &all = wall->in->totals();
+    const MeshTotals t = mesh < 0 ? all.of_all() : all.mesh(mesh);
+    const Vec3 turning = t.torque_at_origin - cross(point, t.force);
+    for (int k = 0; k < 3; k++) {
+      force[k] = t.force[k];
+      torque[k] = turning[k];
+    }
+  });
+}
+
+int lsdcd_wall_set_motion(lsdcd_wall *wall, int mesh, const lsdcd_motion *motions, size_t n)
+{
+  return guard_wall(wall, [&] {
+    check_posed(*wall, mesh, false);
+    RigidMotion motion;
+    for (const MotionTerm &term : motions_of(motions, n, "motions")) motion.add(term);
+    wall->in->set_motion(mesh, motion, {wall->number, wall->dt});
+  });
+}
+
+int lsdcd_wall_set_servo(lsdcd_wall *wall, int mesh, const lsdcd_servo *servo)
+{
+  return guard_wall(wall, [&] {
+    check_posed(*wall, mesh, false);
+    wall->in->set_servo(mesh, servo ? servo_of(servo, "servo") : Servo());
+  });
+}
+
+}    // extern "C"

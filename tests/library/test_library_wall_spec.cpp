@@ -1,0 +1,900 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// A wall of meshes and laws: against the wall of the same words, bit for bit, and in closed form; poses, wrenches and
+// wrong fields.
+#include "floor_and_grains.h"
+#include "process.h"
+#include "support/fake_host.h"
+
+#include <cmath>
+#include <cstring>
+#include <fstream>
+#include <iterator>
+#include <limits>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace {
+
+using Vector = std::array<double, 3>;
+
+// A power of two, so that times and places are sums without rounding.
+constexpr double kStep = 0x1p-10;
+
+std::string text_of_number(double x)
+{
+  char buffer[32];
+  std::snprintf(buffer, sizeof buffer, "%.17g", x);
+  return buffer;
+}
+
+api::Law hooke_history(double kn = kN)
+{
+  return api::Law::classic({"hooke/history", {kn, kT, 0, 0, 0.5, 0}});
+}
+
+class wall_spec : public FloorTest {
+ protected:
+  api::WallSpec floor_of(const api::Law &law, const api::Mesh &mesh) const
+  {
+    api::WallSpec spec;
+    spec.law = law;
+    spec.meshes.emplace_back(mesh, "floor");
+    return spec;
+  }
+};
+
+// Spheres of two types that press, slide and turn on the floor, over its inner edge, too.
+struct Pile : Grains {
+  std::vector<int> type;
+  std::vector<double> temperature, heat;
+
+  Pile()
+  {
+    for (int i = 0; i < 6; i++) {
+      add(0.7 * i - 2, 0.6 * i - 2.1, 0.46 + 0.01 * i, 0.3 - 0.1 * i);
+      v[3 * i + 1] = 0.05 * i;
+      v[3 * i + 2] = -0.2;
+      omega[3 * i] = 0.4 * i;
+      omega[3 * i + 2] = 1 - 0.3 * i;
+      type.push_back(1 + i % 3);
+      temperature.push_back(300 + i);
+    }
+  }
+  // What the wall gave in n steps, in which the spheres fall by their velocities.
+  std::vector<double> go(lsdcd::Wall &wall, int n = 12)
+  {
+    std::vector<double> all;
+    for (int k = 0; k < n; k++) {
+      force.assign(x.size(), 0);
+      torque.assign(x.size(), 0);
+      heat.assign(radius.size(), 0);
+      lsdcd_spheres s = spheres();
+      s.type = type.data();
+      s.temperature = temperature.data();
+      s.heat = heat.data();
+      lsdcd_wall_step step = {};
+      step.size = sizeof step;
+      step.dt = kStep;
+      step.setup = k == 0;
+      wall.step(s, step);
+      for (const auto *numbers : {&force, &torque, &heat})
+        all.insert(all.end(), numbers->begin(), numbers->end());
+      for (std::size_t i = 0; i < x.size(); i++) x[i] += kStep * v[i];
+    }
+    return all;
+  }
+};
+
+bool any_nonzero(const std::vector<double> &numbers)
+{
+  for (const double x : numbers)
+    if (x != 0) return true;
+  return false;
+}
+
+// ---- laws against words ----------------------------------------------------------------------
+
+std::vector<lsdcd_sub_model_facts> all_sub_models()
+{
+  std::vector<lsdcd_sub_model_facts> all;
+  lsdcd_sub_model_facts facts = {};
+  facts.size = sizeof facts;
+  while (lsdcd_sub_model_get_facts(all.size(), &facts) == LSDCD_OK) all.push_back(facts);
+  return all;
+}
+
+// A number that a law can have, by its unit and range.
+double some_number(const lsdcd_sub_model_facts &row, int k)
+{
+  const std::string unit = row.unit[k];
+  if (unit == "0 or 1") return 1;
+  if (unit == "1" || unit == "of the damping") return std::min(0.3, row.most[k]);
+  return std::min(900 + 10. * k, row.most[k]);
+}
+
+api::SubModel with_numbers(const lsdcd_sub_model_facts &row)
+{
+  api::SubModel model(row.name);
+  for (int k = 0; k < row.n; k++) model.numbers.push_back(some_number(row, k));
+  return model;
+}
+
+void add_words(std::vector<std::string> &words, const std::string &family,
+               const api::SubModel &model)
+{
+  if (model.name.empty()) return;
+  if (!family.empty()) words.push_back(family);
+  words.push_back(model.name);
+  for (const double x : model.numbers)
+    words.push_back(x == api::kDerived ? "NULL" : text_of_number(x));
+}
+
+// The words of a law as scripts have them, but for rolling and cohesion beside a style, which are keywords.
+std::vector<std::string> words_of(const api::Law &law)
+{
+  std::vector<std::string> words;
+  if (law.style.name.empty()) words.push_back("granular");
+  add_words(words, "", law.style);
+  add_words(words, "", law.normal);
+  add_words(words, "tangential", law.tangential);
+  add_words(words, "damping", law.damping);
+  if (law.style.name.empty()) add_words(words, "rolling", law.rolling);
+  add_words(words, "twisting", law.twisting);
+  add_words(words, "heat", law.heat);
+  if (law.limit_damping) words.push_back("limit_damping");
+  return words;
+}
+
+std::vector<std::string> keywords_of(const api::Law &law)
+{
+  std::vector<std::string> words;
+  if (law.style.name.empty()) return words;
+  add_words(words, "rolling", law.rolling);
+  add_words(words, "cohesion", law.cohesion);
+  return words;
+}
+
+// A law with this sub-model, and what it needs beside it.
+api::Law law_with(const lsdcd_sub_model_facts &row)
+{
+  const std::string field = row.field;
+  api::Law law;
+  if (row.beside_style)
+    law.style = {"hooke/history", {1000, 300, 20, api::kDerived, 0.5, 1}};
+  else {
+    law.normal = {"hertz/material", {2000, 0.4, 0.3}};
+    law.tangential = {"mindlin", {api::kDerived, 0.5, 0.4}};
+  }
+  const std::map<std::string, api::SubModel *> fields = {
+      {"style", &law.style},     {"normal", &law.normal},    {"tangential", &law.tangential},
+      {"damping", &law.damping}, {"rolling", &law.rolling},  {"twisting", &law.twisting},
+      {"heat", &law.heat},       {"cohesion", &law.cohesion}};
+  *fields.at(field) = with_numbers(row);
+  if (field == "normal") law.tangential = {"linear_history", {300, 0.5, 0.4}};
+  return law;
+}
+
+TEST_F(wall_spec, has_the_bits_of_words_for_each_sub_model)
+{
+  const api::Mesh mesh(file_);
+  std::set<std::string> fields;
+  for (const lsdcd_sub_model_facts &row : all_sub_models()) {
+    const api::Law law = law_with(row);
+    std::vector<std::string> words = words_of(law);
+    words.insert(words.end(), {"mesh", file_, "device", "cpu"});
+    for (const std::string &word : keywords_of(law)) words.push_back(word);
+    if (!law.heat.name.empty() && law.heat.name != "none")
+      words.insert(words.end(), {"temperature", "350"});
+    api::WallSpec spec = floor_of(law, mesh);
+    if (!law.heat.name.empty() && law.heat.name != "none") spec.meshes[0].temperature = 350;
+    api::Wall by_words(words), by_spec(spec);
+    const std::vector<double> wanted = Pile().go(by_words);
+    EXPECT_TRUE(any_nonzero(wanted)) << row.field << " " << row.name;
+    EXPECT_EQ(Pile().go(by_spec), wanted) << row.field << " " << row.name;
+    fields.insert(row.field);
+  }
+  EXPECT_EQ(fields.size(), 8u);
+}
+
+TEST_F(wall_spec, has_the_bits_of_words_for_laws_of_meshes_and_types)
+{
+  const std::string law = "law", types = "types";
+  api::Wall by_words(
+      words({"move", "0",   "0",   "0.01",  "law",   "hooke/history", "2000",          "600", "10",
+             "NULL", "0.3", "1",   "law",   "types", "2*3",           "hooke/history", "500", "100",
+             "0",    "0",   "0.2", "0",     "mesh",  file_,           "rotate",        "1",   "0",
+             "0",    "40",  "law", "types", "1",     "hooke/history", "700",           "100", "0",
+             "0",    "0.2", "0"}));
+  const api::Mesh mesh(file_);
+  api::WallSpec spec = floor_of(hooke_history(), mesh);
+  spec.meshes[0].placement.move(0, 0, 0.01);
+  spec.meshes[0].law = api::Law::classic({"hooke/history", {2000, 600, 10, api::kDerived, 0.3, 1}});
+  spec.meshes[0].type_laws = {
+      {2, 3, api::Law::classic({"hooke/history", {500, 100, 0, 0, 0.2, 0}})}};
+  spec.meshes.emplace_back(mesh, "slope");
+  spec.meshes[1].placement.rotate({1, 0, 0}, 40);
+  spec.meshes[1].type_laws = {
+      {1, 1, api::Law::classic({"hooke/history", {700, 100, 0, 0, 0.2, 0}})}};
+  api::Wall by_spec(spec);
+  const std::vector<double> wanted = Pile().go(by_words);
+  EXPECT_TRUE(any_nonzero(wanted));
+  EXPECT_EQ(Pile().go(by_spec), wanted);
+}
+
+TEST_F(wall_spec, has_the_bits_of_words_for_placements_and_surfaces)
+{
+  api::Wall by_words(
+      words({"scale", "0.7",    "-1.3",        "2",   "rotate", "0.1", "0.02",           "1",
+             "33",    "rotate", "1",           "0",   "0",      "7",   "move",           "0.1",
+             "0.2",   "0.03",   "surface_vel", "0.3", "0.1",    "0",   "surface_angvel", "0",
+             "0",     "0.5",    "1",           "2",   "0"}));
+  const api::Mesh mesh(file_);
+  api::WallSpec spec = floor_of(hooke_history(), mesh);
+  api::WallMesh &floor = spec.meshes[0];
+  floor.placement.scale(0.7, -1.3, 2)
+      .rotate({0.1, 0.02, 1}, 33)
+      .rotate({1, 0, 0}, 7)
+      .move(0.1, 0.2, 0.03);
+  floor.surface_velocity = {0.3, 0.1, 0};
+  floor.surface_angular_velocity = {0, 0, 0.5};
+  floor.surface_centre = {1, 2, 0};
+  api::Wall by_spec(spec);
+  const std::vector<double> wanted = Pile().go(by_words);
+  EXPECT_TRUE(any_nonzero(wanted));
+  EXPECT_EQ(Pile().go(by_spec), wanted);
+}
+
+TEST_F(wall_spec, has_the_bits_of_words_for_motions_and_servos)
+{
+  const api::Mesh mesh(file_);
+  const struct {
+    std::vector<std::string> words;
+    std::vector<api::Motion> motions;
+  } rows[] = {
+      {{"motion", "linear", "0.1", "0", "0.2"}, {api::Motion::linear({0.1, 0, 0.2})}},
+      {{"motion", "wiggle", "0", "0", "0.01", "0.3"}, {api::Motion::wiggle({0, 0, 0.01}, 0.3)}},
+      {{"wiggle", "z", "0.01", "0.3"}, {api::Motion::cosine({0, 0, 0.01}, 0.3)}},
+      {{"motion", "rotate", "1", "2", "0", "0", "0.1", "1", "3", "motion", "linear", "0", "0",
+        "0.1"},
+       {api::Motion::rotate({1, 2, 0}, {0, 0.1, 1}, 3), api::Motion::linear({0, 0, 0.1})}},
+      {{"motion", "transrot", "0", "0", "0.1", "1", "2", "0", "0", "0", "2", "3"},
+       {api::Motion::transrot({0, 0, 0.1}, {1, 2, 0}, {0, 0, 2}, 3)}}};
+  for (const auto &row : rows) {
+    api::WallSpec spec = floor_of(hooke_history(), mesh);
+    spec.meshes[0].motions = row.motions;
+    api::Wall by_words(words(row.words)), by_spec(spec);
+    EXPECT_EQ(Pile().go(by_spec), Pile().go(by_words)) << row.words[1];
+  }
+  api::Servo servo;
+  servo.axis[2] = 1;
+  servo.target = 25;
+  servo.max_speed = 0.5;
+  servo.lo = -0.1;
+  servo.hi = 0.2;
+  api::WallSpec spec = floor_of(hooke_history(), mesh);
+  spec.meshes[0].servo = servo;
+  api::Wall by_words(words({"servo", "force", "z", "25", "vmax", "0.5", "limits", "-0.1", "0.2"})),
+      by_spec(spec);
+  EXPECT_EQ(Pile().go(by_spec), Pile().go(by_words));
+  EXPECT_NE(by_spec.totals(0).servo[0], 0);
+}
+
+TEST_F(wall_spec, has_the_bits_of_words_for_changes_of_motion)
+{
+  const api::Mesh mesh(file_);
+  api::Wall by_words(words()), by_spec(floor_of(hooke_history(), mesh));
+  Pile one, other;
+  one.go(by_words);
+  other.go(by_spec);
+  by_words.change({"motion", "linear", "0", "0", "0.1"});
+  by_spec.set_motion(0, {api::Motion::linear({0, 0, 0.1})});
+  EXPECT_EQ(other.go(by_spec), one.go(by_words));
+  by_words.change({"motion", "none"});
+  by_spec.set_motion(0, {});
+  EXPECT_EQ(other.go(by_spec), one.go(by_words));
+  EXPECT_NE(by_spec.pose(0)[11], 0);
+}
+
+// A tetrahedron, whose slopes spheres touch from outside and from inside.
+TEST_F(wall_spec, has_the_bits_of_words_for_each_setting_of_the_search)
+{
+  const std::string file = file_ + ".closed.stl";
+  const double corner[4][3] = {{-3, -3, 0}, {3, -3, 0}, {0, 4, 0}, {0, 0, -4}};
+  const int faces[4][3] = {{0, 1, 2}, {0, 3, 1}, {1, 3, 2}, {2, 3, 0}};
+  std::ofstream out(file);
+  out << "solid t\n";
+  for (const auto &face : faces) {
+    out << "facet normal 0 0 0\nouter loop\n";
+    for (const int v : face)
+      out << "vertex " << corner[v][0] << " " << corner[v][1] << " " << corner[v][2] << "\n";
+    out << "endloop\nendfacet\n";
+  }
+  out << "endsolid t\n";
+  out.close();
+  const api::Mesh mesh(file);
+  const struct {
+    std::vector<std::string> words;
+    std::function<void(api::WallSpec &)> set;
+  } rows[] = {{{"corner", "sum"}, [](api::WallSpec &s) { s.corner = LSDCD_SUM; }},
+              {{"side", "in"}, [](api::WallSpec &s) { s.side = LSDCD_INSIDE; }},
+              {{"side", "out"}, [](api::WallSpec &s) { s.side = LSDCD_OUTSIDE; }},
+              {{"precision", "single"}, [](api::WallSpec &s) { s.precision = LSDCD_FLOAT; }},
+              {{"precision", "mixed"}, [](api::WallSpec &s) { s.precision = LSDCD_MIXED; }},
+              {{"nearest", "1"}, [](api::WallSpec &s) { s.nearest = 1; }},
+              {{"grid", "0.2", "rmax", "0.7", "memory", "64"}, [](api::WallSpec &s) {
+                 s.cell = 0.2;
+                 s.rmax = 0.7;
+                 s.memory = 64 * 1024. * 1024;
+               }}};
+  std::set<std::vector<double>> all;
+  for (const auto &row : rows) {
+    std::vector<std::string> words = {"hooke/history", "1000", "300",    "0",  "0", "0.5", "0",
+                                      "mesh",          file,   "device", "cpu"};
+    words.insert(words.end(), row.words.begin(), row.words.end());
+    api::WallSpec spec = floor_of(hooke_history(), mesh);
+    row.set(spec);
+    api::Wall by_words(words), by_spec(spec);
+    const std::vector<double> wanted = Pile().go(by_words);
+    EXPECT_EQ(Pile().go(by_spec), wanted) << row.words[1];
+    all.insert(wanted);
+  }
+  std::remove(file.c_str());
+  EXPECT_GE(all.size(), 4u);    // the sum, each side and floats differ from the rest
+}
+
+std::string bytes_of(const std::string &name)
+{
+  std::ifstream file(name, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+TEST_F(wall_spec, writes_the_files_of_words)
+{
+  const std::string fields[] = {file_ + ".words.vtp", file_ + ".spec.vtp"},
+                    stl[] = {file_ + ".words.stl", file_ + ".spec.stl"};
+  const api::Mesh mesh(file_);
+  api::WallSpec spec = floor_of(hooke_history(), mesh);
+  api::WallMesh &floor = spec.meshes[0];
+  floor.fields = fields[1];
+  floor.stl = stl[1];
+  floor.fields_every = 4;
+  floor.stl_every = 3;
+  floor.motions = {api::Motion::linear({0, 0, 0.1})};
+  floor.wear_factor = 2;
+  spec.wear = LSDCD_ARCHARD;
+  spec.wear_coefficient = 1e-3;
+  spec.hardness = 1e6;
+  api::Wall by_words(
+      words({"mesh_fields", fields[0], "every", "4", "mesh_stl", stl[0], "every", "3", "motion",
+             "linear", "0", "0", "0.1", "wear_factor", "2", "wear", "archard", "1e-3", "1e6"})),
+      by_spec(spec);
+  Pile().go(by_words);
+  Pile().go(by_spec);
+  for (const auto *names : {fields, stl}) {
+    EXPECT_FALSE(bytes_of(names[0]).empty()) << names[0];
+    EXPECT_EQ(bytes_of(names[1]), bytes_of(names[0])) << names[0];
+    for (int k = 0; k < 2; k++) std::remove(names[k].c_str());
+  }
+  EXPECT_GT(by_spec.totals(0).worn, 0);
+  EXPECT_EQ(by_spec.totals(0).worn, by_words.totals(0).worn);
+}
+
+// The mesh is shared: the handle may go first.
+TEST_F(wall_spec, shares_meshes_that_are_freed_before_it)
+{
+  auto mesh = std::make_unique<api::Mesh>(file_);
+  api::Wall one(floor_of(hooke_history(), *mesh)), other(floor_of(hooke_history(2 * kN), *mesh));
+  mesh.reset();
+  Grains grains;
+  grains.add(0.3, 0.2, 0.49);
+  grains.step(one);
+  EXPECT_NEAR(grains.force[2], kN * 0.01, kN * kRounding);
+  grains.step(other);
+  EXPECT_NEAR(grains.force[2], 2 * kN * 0.01, 2 * kN * kRounding);
+}
+
+// ---- poses -----------------------------------------------------------------------------------
+
+// Steps of kStep in which the caller poses mesh 0 before each; all that spheres got.
+std::vector<double> go_posed(lsdcd::Wall &wall, int n,
+                             const std::function<std::optional<api::Pose>(int)> &pose_in)
+{
+  Pile pile;
+  std::vector<double> all;
+  for (int k = 1; k <= n; k++) {
+    if (const auto pose = pose_in(k)) wall.set_pose(0, *pose);
+    pile.force.assign(pile.x.size(), 0);
+    pile.torque.assign(pile.x.size(), 0);
+    lsdcd_wall_step step = {};
+    step.size = sizeof step;
+    step.dt = kStep;
+    wall.step(pile.spheres(), step);
+    all.insert(all.end(), pile.force.begin(), pile.force.end());
+    all.insert(all.end(), pile.torque.begin(), pile.torque.end());
+  }
+  return all;
+}
+
+api::Law with_damping()
+{
+  return api::Law::classic({"hooke/history", {kN, kT, 20, 10, 0.5, 1}});
+}
+
+TEST_F(wall_spec, set_pose_has_the_bits_of_a_linear_motion)
+{
+  const api::Mesh mesh(file_);
+  api::WallSpec moved = floor_of(with_damping(), mesh), posed = moved;
+  const Vector v = {0.25, -0.5, 1};
+  moved.meshes[0].motions = {api::Motion::linear(v)};
+  posed.meshes[0].posed_by_caller = true;
+  api::Wall by_motion(moved), by_pose(posed);
+  const auto wanted = go_posed(by_motion, 50, [](int) { return std::nullopt; });
+  EXPECT_TRUE(any_nonzero(wanted));
+  EXPECT_EQ(go_posed(by_pose, 50,
+                     [&](int k) {
+                       api::Pose pose;
+                       for (int d = 0; d < 3; d++) pose.position[d] = v[d] * (k * kStep);
+                       pose.velocity = v;
+                       return pose;
+                     }),
+            wanted);
+  EXPECT_EQ(by_pose.pose(0), by_motion.pose(0));
+  EXPECT_EQ(by_pose.totals(0).power, by_motion.totals(0).power);
+}
+
+// A turn about an axis through the mesh's origin. Matrices of the two differ by the rounding of sines and of a
+// quaternion, 1e-15 with lengths up to 4; forces by that times stiffness, velocities times 4 damping.
+TEST_F(wall_spec, set_pose_turns_a_mesh_as_a_rotation_does)
+{
+  const api::Mesh mesh(file_);
+  api::WallSpec moved = floor_of(with_damping(), mesh), posed = moved;
+  const double period = 2, omega = 2 * std::acos(-1.) / period;
+  moved.meshes[0].motions = {api::Motion::rotate({0, 0, 0}, {0, 1, 0}, period)};
+  posed.meshes[0].posed_by_caller = true;
+  api::Wall by_motion(moved), by_pose(posed);
+  const auto wanted = go_posed(by_motion, 50, [](int) { return std::nullopt; });
+  const auto found = go_posed(by_pose, 50, [&](int k) {
+    const double half = omega * k * kStep / 2;
+    api::Pose pose;
+    pose.quaternion = {std::cos(half), 0, std::sin(half), 0};
+    pose.angular_velocity = {0, omega, 0};
+    return pose;
+  });
+  ASSERT_EQ(found.size(), wanted.size());
+  EXPECT_TRUE(any_nonzero(wanted));
+  for (std::size_t i = 0; i < found.size(); i++)
+    EXPECT_NEAR(found[i], wanted[i], 20 * 4 * 1e-15 * kN) << i;
+}
+
+// hooke: kn overlap, and 20 times the mass times how fast they come together; half of it against a sliding plate.
+TEST_F(wall_spec, set_pose_lifts_a_plate_with_the_force_of_its_overlap_and_velocity)
+{
+  const api::Mesh mesh(file_);
+  api::WallSpec spec = floor_of(api::Law::classic({"hooke", {kN, 0, 20, 10, 100, 1}}), mesh);
+  spec.meshes[0].posed_by_caller = true;
+  lsdcd::Wall wall(spec);
+  Grains grains;
+  grains.add(0.3, 0.2, 0.5);
+  grains.v[2] = -0.25;
+  api::Pose pose;
+  pose.position = {0, 0, 0.01};
+  pose.velocity = {0.125, 0, 0.5};
+  wall.set_pose(0, pose);
+  grains.step(wall);
+  EXPECT_NEAR(grains.force[2], kN * 0.01 + 20 * (0.5 + 0.25), kN * kRounding);
+  EXPECT_NEAR(grains.force[0], 10 * 0.125, kN * kRounding);
+  EXPECT_NEAR(wall.totals(0).power, 0.5 * (kN * 0.01 + 20 * 0.75) + 0.125 * 10 * 0.125,
+              kN * kRounding);
+  // It stays where it was posed, with its velocities.
+  const double force = grains.force[2];
+  grains.step(wall);
+  EXPECT_EQ(grains.force[2], force);
+}
+
+TEST_F(wall_spec, rests_where_it_was_placed_until_it_is_posed)
+{
+  const api::Mesh mesh(file_);
+  api::WallSpec spec = floor_of(hooke_history(), mesh), resting = spec;
+  spec.meshes[0].posed_by_caller = true;
+  lsdcd::Wall posed(spec), still(resting);
+  const auto nothing = [](int) { return std::nullopt; };
+  EXPECT_EQ(go_posed(posed, 5, nothing), go_posed(still, 5, nothing));
+  EXPECT_EQ(posed.pose(0), still.pose(0));
+}
+
+TEST_F(wall_spec, goes_on_from_where_it_was_posed)
+{
+  const api::Mesh mesh(file_);
+  api::WallSpec spec = floor_of(hooke_history(), mesh);
+  spec.meshes[0].posed_by_caller = true;
+  lsdcd::Wall first(spec), second(spec);
+  api::Pose pose;
+  pose.position = {0.01, 0, 0.02};
+  pose.quaternion = {std::cos(0.01), std::sin(0.01), 0, 0};
+  Pile pile;
+  first.set_pose(0, pose);
+  pile.go(first, 5);
+  Pile same = pile;
+  second.restore(first.save());
+  EXPECT_EQ(same.go(second, 5), pile.go(first, 5));
+  EXPECT_EQ(second.pose(0), first.pose(0));
+}
+
+// Action = reaction. A contact's force acts on a sphere at its point, so that the sphere's torque about any point is
+// that about its centre and the one of the force there.
+TEST_F(wall_spec, wrenches_about_any_point_are_those_of_the_spheres_reversed)
+{
+  const api::Mesh mesh(file_);
+  api::WallSpec spec = floor_of(with_damping(), mesh);
+  spec.meshes.emplace_back(mesh, "slope");
+  spec.meshes[1].placement.rotate({0, 1, 0}, 80);
+  spec.meshes[1].posed_by_caller = true;
+  lsdcd::Wall wall(spec);
+  Pile pile;
+  api::Pose pose;
+  pose.position = {0.05, 0, 0};
+  pose.velocity = {0.1, 0, 0};
+  wall.set_pose(1, pose);
+  pile.go(wall, 5);
+  for (std::size_t i = 0; i < pile.x.size(); i++)
+    pile.x[i] -= kStep * pile.v[i];    // as the wall saw them
+  const Vector about = {3, -2, 7};
+  Vector force = {0, 0, 0}, torque = {0, 0, 0};
+  double size = 0;
+  for (std::size_t i = 0; i < pile.radius.size(); i++) {
+    const double *x = &pile.x[3 * i], *f = &pile.force[3 * i], *t = &pile.torque[3 * i];
+    for (int k = 0; k < 3; k++) {
+      const int a = (k + 1) % 3, b = (k + 2) % 3;
+      force[k] += f[k];
+      torque[k] += t[k] + (x[a] - about[a]) * f[b] - (x[b] - about[b]) * f[a];
+      size += std::fabs(f[k]);
+    }
+  }
+  ASSERT_GT(size, 10);
+  const api::Wrench all = wall.wrench(-1, about), one = wall.wrench(0, about),
+                    other = wall.wrench(1, about);
+  for (int k = 0; k < 3; k++) {
+    // Sums of some 20 numbers, whose arms are up to 10.
+    EXPECT_NEAR(all.force[k], -force[k], size * kRounding);
+    EXPECT_NEAR(all.torque[k], -torque[k], 10 * size * kRounding);
+    EXPECT_NEAR(one.force[k] + other.force[k], all.force[k], size * kRounding);
+    EXPECT_NEAR(one.torque[k] + other.torque[k], all.torque[k], 10 * size * kRounding);
+  }
+  EXPECT_NE(other.force[0], 0);
+}
+
+// ---- several processes -----------------------------------------------------------------------
+
+TEST_F(wall_spec, is_posed_alike_on_two_processes)
+{
+  const api::Mesh mesh(file_);
+  api::WallSpec spec = floor_of(with_damping(), mesh);
+  spec.meshes[0].posed_by_caller = true;
+  api::Pose pose;
+  pose.position = {0, 0, 0.02};
+  pose.velocity = {0, 0, 0.5};
+  lsdcd::Wall alone(spec);
+  Grains both;
+  both.add(3, -3, 0.49);
+  both.add(-3, 3, 0.495);
+  alone.set_pose(0, pose);
+  both.step(alone);
+  const api::Wrench wanted = alone.wrench(0, {1, 2, 3});
+  lsdcd::on_processes(2, [&](lsdcd::FakeHost &host) {
+    const Process process(host);
+    lsdcd::Wall wall(spec, &process.options);
+    Grains mine;
+    const int i = host.rank();
+    mine.add(both.x[3 * i], both.x[3 * i + 1], both.x[3 * i + 2]);
+    wall.set_pose(0, pose);
+    mine.step(wall);
+    EXPECT_EQ(mine.force[2], both.force[3 * i + 2]);
+    // A sum of two numbers, in either order: the same bits.
+    const api::Wrench wrench = wall.wrench(0, {1, 2, 3});
+    EXPECT_EQ(wrench.force, wanted.force);
+    EXPECT_EQ(wrench.torque, wanted.torque);
+  });
+}
+
+TEST_F(wall_spec, refuses_poses_that_differ_between_processes)
+{
+  const api::Mesh mesh(file_);
+  api::WallSpec spec = floor_of(hooke_history(), mesh);
+  spec.meshes[0].posed_by_caller = true;
+  lsdcd::on_processes(2, [&](lsdcd::FakeHost &host) {
+    const Process process(host);
+    lsdcd::Wall wall(spec, &process.options);
+    Grains mine;
+    mine.add(0, 0, 0.49);
+    api::Pose pose;
+    pose.position = {host.rank() == 0 ? 0. : -0., 0, 0.01};    // which are equal
+    wall.set_pose(0, pose);
+    mine.step(wall);
+    pose.position = {0, 0, host.rank() == 0 ? 0.01 : 0.02};
+    wall.set_pose(0, pose);
+    EXPECT_EQ(text_of([&] {
+                mine.step(wall);
+              }).rfind("poses given by lsdcd_wall_set_pose() differ between the processes", 0),
+              0u);
+  });
+}
+
+// ---- wrong fields ----------------------------------------------------------------------------
+
+// What is said of a spec after `spoil`.
+class Wrong {
+ public:
+  explicit Wrong(const api::Mesh &mesh)
+  {
+    law = {};
+    law.size = sizeof law;
+    law.style = {"hooke/history", {1000, 300, 0, 0, 0.5, 0}};
+    granular = {};
+    granular.size = sizeof granular;
+    granular.normal = {"hertz", {1000, 0.5}};
+    granular.tangential = {"linear_history", {300, 1, 0.5}};
+    types = {sizeof types, 1, 2, &law};
+    motion = {};
+    motion.size = sizeof motion;
+    servo = {};
+    servo.size = sizeof servo;
+    servo.axis[2] = 1;
+    servo.max_speed = 1;
+    for (lsdcd_wall_mesh &m : meshes) {
+      m = {};
+      m.size = sizeof m;
+      m.mesh = mesh.get();
+    }
+    meshes[1].placement[0] = meshes[1].placement[5] = meshes[1].placement[10] = 1;
+    meshes[1].placement[11] = -3;
+    spec = {};
+    spec.size = sizeof spec;
+    spec.law = &law;
+    spec.meshes = meshes;
+    spec.n_meshes = 2;
+  }
+  std::string text() const
+  {
+    lsdcd_wall *wall = nullptr;
+    const int code = lsdcd_wall_from_spec(&spec, nullptr, &wall);
+    if (code == LSDCD_OK) {
+      lsdcd_wall_free(wall);
+      return "";
+    }
+    EXPECT_EQ(code, LSDCD_ERROR_ARGUMENT) << lsdcd_last_error();
+    return lsdcd_last_error();
+  }
+
+  lsdcd_law law, granular;
+  lsdcd_type_law types;
+  lsdcd_motion motion;
+  lsdcd_servo servo;
+  lsdcd_wall_mesh meshes[2];
+  lsdcd_wall_spec spec;
+};
+
+TEST_F(wall_spec, names_the_field_its_value_and_the_remedy)
+{
+  const api::Mesh mesh(file_);
+  const double nan = std::nan("");
+  const auto with_granular = [](Wrong &w) -> lsdcd_law & {
+    w.spec.law = &w.granular;
+    return w.granular;
+  };
+  const auto with_motion = [](Wrong &w) -> lsdcd_motion & {
+    w.meshes[0].motions = &w.motion;
+    w.meshes[0].n_motions = 1;
+    return w.motion;
+  };
+  const auto with_servo = [](Wrong &w) -> lsdcd_servo & {
+    w.meshes[0].servo = &w.servo;
+    return w.servo;
+  };
+  const auto with_types = [](Wrong &w) -> lsdcd_type_law & {
+    w.meshes[1].type_laws = &w.types;
+    w.meshes[1].n_type_laws = 1;
+    return w.types;
+  };
+  const struct {
+    std::function<void(Wrong &)> spoil;
+    const char *text;
+  } rows[] = {
+      {[&](Wrong &w) { w.spec.size = 8; }, "`lsdcd_wall_spec`: size is 8, and should be sizeof("},
+      {[&](Wrong &w) { w.spec.law = nullptr; }, "`law` is null"},
+      {[&](Wrong &w) { w.law.size = 4; }, "`law`: size is 4, and should be sizeof(lsdcd_law)"},
+      {[&](Wrong &w) { w.law.style.name = nullptr; },
+       "`law.style.name` is null: give a style, hooke|"},
+      {[&](Wrong &w) { w.law.style.name = "hooke/histroy"; },
+       "`law.style.name` is \"hooke/histroy\": the nearest is 'hooke/history'"},
+      {[&](Wrong &w) { w.law.normal.name = "hertz"; },
+       "`law.normal.name` is \"hertz\": there is the style \"hooke/history\", too; give one"},
+      {[&](Wrong &w) { w.law.style.numbers[1] = nan; },
+       "`law.style.numbers[1]` is nan: kt of \"hooke/history\" is a finite number"},
+      {[&](Wrong &w) { w.law.style.numbers[0] = LSDCD_DERIVED; },
+       "`law.style.numbers[0]` is -1: kn of \"hooke/history\" is "},
+      {[&](Wrong &w) { w.law.style.numbers[5] = 0.5; },
+       "`law.style.numbers[5]` is 0.5: dampflag of \"hooke/history\" is 0 or 1"},
+      {[&](Wrong &w) { w.law.style.numbers[6] = 7; },
+       "`law.style.numbers[6]` is 7: \"hooke/history\" has 6 numbers, and the others stay 0"},
+      {[&](Wrong &w) { w.law.rolling.name = "sds"; },
+       "`law.rolling.name` is \"sds\": it goes with a normal sub-model, and `style` is given"},
+      {[&](Wrong &w) { w.law.rolling.numbers[0] = 1; },
+       "`law.rolling.numbers[0]` is 1: a sub-model without a name has no numbers"},
+      {[&](Wrong &w) { w.law.limit_damping = 2; }, "`law.limit_damping` is 2: it is 0 or 1"},
+      {[&](Wrong &w) { with_granular(w).tangential.name = nullptr; },
+       "`law.tangential.name` is null: beside a normal sub-model give one of linear_nohistory|"},
+      {[&](Wrong &w) {
+         with_granular(w).tangential = {"mindlin", {LSDCD_DERIVED, 1, 0.5}};
+       },
+       "`law.tangential.numbers[0]` is LSDCD_DERIVED: kt of \"mindlin\" is derived from E and nu"},
+      {[&](Wrong &w) {
+         with_granular(w).damping.name = "tsuji";
+         w.granular.normal.numbers[1] = 2;
+       },
+       "`law.damping.name` is \"tsuji\": e = 2 is out of range"},
+      {[&](Wrong &w) {
+         with_granular(w).normal = {"jkr", {1000, 0.5, 0.3, 1}};
+         w.granular.limit_damping = 1;
+       },
+       "`law.limit_damping` is 1: an adhesive sub-model, 'jkr', has to pull"},
+      {[&](Wrong &w) { w.meshes[1].law = &w.granular; },
+       "`meshes[1].law` is hertz, damping viscoelastic, tangential linear_history: the "
+       "wall's law has hooke/history, and only numbers may differ"},
+      {[&](Wrong &w) { w.spec.n_meshes = 0; }, "`n_meshes` is 0: a wall has 1 to "},
+      {[&](Wrong &w) { w.spec.meshes = nullptr; }, "`meshes` is null: give an array of 2"},
+      {[&](Wrong &w) { w.meshes[0].size = 16; }, "`meshes[0]`: size is 16, and should be sizeof("},
+      {[&](Wrong &w) { w.meshes[1].size = 16; }, "`meshes[1]`: size is 16, and should be sizeof("},
+      {[&](Wrong &w) { w.meshes[1].mesh = nullptr; }, "`meshes[1].mesh` is null: give a mesh"},
+      {[&](Wrong &w) { w.meshes[1].placement[11] = 0; },
+       "`meshes[1].mesh` is that of meshes[0] at the same place: every contact would be felt "
+       "twice"},
+      {[&](Wrong &w) { w.meshes[1].placement[3] = HUGE_VAL; },
+       "`meshes[1].placement[3]` is inf: give a finite number"},
+      {[&](Wrong &w) { w.meshes[1].placement[0] = 0; },
+       "`meshes[1].placement` is a matrix with the determinant 0"},
+      {[&](Wrong &w) { with_types(w).first_type = 0; },
+       "`meshes[1].type_laws[0].first_type` is 0: types count from 1"},
+      {[&](Wrong &w) { with_types(w).first_type = 3; },
+       "`meshes[1].type_laws[0].last_type` is 2: it is at least first_type, 3"},
+      {[&](Wrong &w) { with_types(w).law = nullptr; }, "`meshes[1].type_laws[0].law` is null"},
+      {[&](Wrong &w) { w.meshes[0].posed_by_caller = 3; },
+       "`meshes[0].posed_by_caller` is 3: it is 0 or 1"},
+      {[&](Wrong &w) {
+         with_motion(w).velocity[0] = 1;
+         w.meshes[0].posed_by_caller = 1;
+       },
+       "`meshes[0].posed_by_caller` is 1: lsdcd_wall_set_pose() alone moves such a mesh"},
+      {[&](Wrong &w) { with_motion(w).kind = 5; },
+       "`meshes[0].motions[0].kind` is 5: it is LSDCD_LINEAR"},
+      {[&](Wrong &w) { with_motion(w).period = 1; },
+       "`meshes[0].motions[0].period` is 1: LSDCD_LINEAR does not use it"},
+      {[&](Wrong &w) { with_motion(w).kind = LSDCD_ROTATE; },
+       "`meshes[0].motions[0].axis` is 0 0 0: give a direction"},
+      {[&](Wrong &w) { with_motion(w).kind = LSDCD_WIGGLE; },
+       "`meshes[0].motions[0].period` is 0: it is above 0"},
+      {[&](Wrong &w) { with_motion(w).velocity[2] = nan; },
+       "`meshes[0].motions[0].velocity[2]` is nan: give a finite number"},
+      {[&](Wrong &w) { with_servo(w).max_speed = 0; },
+       "`meshes[0].servo.max_speed` is 0: it is above 0"},
+      {[&](Wrong &w) { with_servo(w).lo = 0.5; }, "`meshes[0].servo.lo` is 0.5: it is "},
+      {[&](Wrong &w) { with_servo(w).point[1] = 1; },
+       "`meshes[0].servo.point[1]` is 1: a servo that does not turn does not use it"},
+      {[&](Wrong &w) { w.meshes[0].temperature = 300; },
+       "`meshes[0].temperature` is 300: the wall's law has no sub-model `heat`"},
+      {[&](Wrong &w) { w.meshes[0].wear_factor = 2; },
+       "`meshes[0].wear_factor` is 2: nothing wears"},
+      {[&](Wrong &w) { w.meshes[0].fields = "a.vtk"; },
+       "`meshes[0].fields` is \"a.vtk\": the file name 'a.vtk' must end in .vtp"},
+      {[&](Wrong &w) { w.meshes[0].fields = "a.vtp"; },
+       "`meshes[0].fields_every` is 0: it is a number of steps, 1 or more"},
+      {[&](Wrong &w) { w.meshes[1].stl_every = 3; },
+       "`meshes[1].stl_every` is 3: `meshes[1].stl` has no file"},
+      {[&](Wrong &w) {
+         for (lsdcd_wall_mesh &m : w.meshes) {
+           m.stl = "same.stl";
+           m.stl_every = 1;
+         }
+       },
+       "`meshes[1].stl` is \"same.stl\": meshes[0] has the same file"},
+      {[&](Wrong &w) { w.meshes[1].surface_velocity[1] = nan; },
+       "`meshes[1].surface_velocity[1]` is nan"},
+      {[&](Wrong &w) { w.spec.corner = 2; }, "`corner` is 2: it is LSDCD_BLEND or LSDCD_SUM"},
+      {[&](Wrong &w) { w.spec.side = -1; }, "`side` is -1: it is LSDCD_BOTH_SIDES"},
+      {[&](Wrong &w) { w.spec.precision = 3; }, "`precision` is 3: it is LSDCD_DOUBLE"},
+      {[&](Wrong &w) { w.spec.nearest = 33; }, "`nearest` is 33: it is 0 for all, or 1 to 32"},
+      {[&](Wrong &w) { w.spec.cell = -1; }, "`cell` is -1: it is "},
+      {[&](Wrong &w) { w.spec.rmax = nan; }, "`rmax` is nan: give a finite number"},
+      {[&](Wrong &w) { w.spec.device = 2; }, "`device` is 2: it is LSDCD_CPU or LSDCD_CUDA"},
+      {[&](Wrong &w) { w.spec.wear = LSDCD_ARCHARD; }, "`hardness` is 0: it is above 0"},
+      {[&](Wrong &w) { w.spec.wear_coefficient = 1; },
+       "`wear_coefficient` is 1: LSDCD_NO_WEAR does not use it"},
+  };
+  EXPECT_EQ(Wrong(mesh).text(), "");
+  for (const auto &row : rows) {
+    Wrong wrong(mesh);
+    row.spoil(wrong);
+    const std::string said = wrong.text();
+    EXPECT_EQ(said.substr(0, std::strlen(row.text)), row.text);
+  }
+}
+
+TEST_F(wall_spec, refuses_poses_that_are_none)
+{
+  const api::Mesh mesh(file_);
+  api::WallSpec spec = floor_of(hooke_history(), mesh);
+  spec.meshes.emplace_back(mesh, "other");
+  spec.meshes[1].placement.move(0, 0, -3);
+  spec.meshes[0].posed_by_caller = true;
+  lsdcd::Wall wall(spec);
+  const auto says = [&](int k, const std::function<void(api::Pose &)> &spoil) {
+    api::Pose pose;
+    spoil(pose);
+    EXPECT_EQ(code_of([&] { wall.set_pose(k, pose); }), LSDCD_ERROR_ARGUMENT);
+    return text_of([&] { wall.set_pose(k, pose); });
+  };
+  const auto none = [](api::Pose &) {};
+  EXPECT_EQ(says(2, none), "mesh is 2; this wall has 2, counted from 0");
+  EXPECT_EQ(says(-1, none), "mesh is -1; this wall has 2, counted from 0");
+  EXPECT_EQ(says(1, none).rfind("mesh 1, 'other', is not posed by the caller", 0), 0u);
+  EXPECT_EQ(says(0, [](api::Pose &p) { p.position[1] = std::nan(""); }),
+            "`position[1]` is nan: give a finite number");
+  EXPECT_EQ(says(0, [](api::Pose &p) { p.velocity[2] = HUGE_VAL; }),
+            "`velocity[2]` is inf: give a finite number");
+  EXPECT_EQ(says(0, [](api::Pose &p) { p.angular_velocity[0] = -HUGE_VAL; }),
+            "`angular_velocity[0]` is -inf: give a finite number");
+  EXPECT_EQ(says(0, [](api::Pose &p) { p.quaternion[3] = std::nan(""); }),
+            "`quaternion[3]` is nan: give a finite number");
+  EXPECT_EQ(says(0, [](api::Pose &p) { p.quaternion[0] = 1.01; }),
+            "the pose's quaternion has the length 1.01: give a unit one, w x y z");
+  EXPECT_EQ(
+      text_of([&] { wall.set_motion(0, {}); }).rfind("mesh 0, 'floor', is posed by the caller", 0),
+      0u);
+}
+
+// In C: pointers that are null, and the facts of sub-models.
+TEST_F(wall_spec, takes_null_for_what_is_not_given)
+{
+  const api::Mesh mesh(file_);
+  api::WallSpec spec = floor_of(hooke_history(), mesh);
+  spec.meshes[0].posed_by_caller = true;
+  lsdcd::Wall wall(spec);
+  const double up[3] = {0, 0, 0.02};
+  ASSERT_EQ(lsdcd_wall_set_pose(wall.get(), 0, up, nullptr, nullptr, nullptr), LSDCD_OK);
+  Grains grains;
+  grains.add(1, 0, 0.5);
+  grains.step(wall);
+  double force[3], torque[3];
+  ASSERT_EQ(lsdcd_wall_get_wrench(wall.get(), 0, nullptr, force, torque), LSDCD_OK);
+  EXPECT_NEAR(force[2], -kN * 0.02, kN * kRounding);
+  EXPECT_NEAR(torque[1], kN * 0.02, kN * kRounding);    // about the origin
+  EXPECT_EQ(lsdcd_wall_get_wrench(wall.get(), 0, nullptr, nullptr, torque), LSDCD_ERROR_ARGUMENT);
+  ASSERT_EQ(lsdcd_wall_set_pose(wall.get(), 0, nullptr, nullptr, nullptr, nullptr), LSDCD_OK);
+  grains.step(wall);
+  EXPECT_EQ(grains.force[2], 0);
+  lsdcd_sub_model_facts facts = {};
+  EXPECT_EQ(lsdcd_sub_model_get_facts(0, &facts), LSDCD_ERROR_ARGUMENT);
+  facts.size = sizeof facts;
+  EXPECT_EQ(lsdcd_sub_model_get_facts(100000, &facts), LSDCD_ERROR_ARGUMENT);
+}
+
+TEST_F(wall_spec, has_the_names_of_meshes_in_its_log)
+{
+  std::string shown;
+  lsdcd::WallOptions options;
+  options.data = &shown;
+  options.show = [](void *data, int, const char *text) {
+    *static_cast<std::string *>(data) += text;
+  };
+  const api::Mesh mesh(file_);
+  api::WallSpec spec = floor_of(hooke_history(), mesh);
+  lsdcd::Wall wall(spec, &options);
+  EXPECT_NE(shown.find("floor"), std::string::npos) << shown;
+  EXPECT_NE(shown.find("contact     hooke/history, kn 1000, kt 300"), std::string::npos) << shown;
+}
+
+}    // namespace
