@@ -84,7 +84,7 @@ generator=()
 if command -v ninja >/dev/null; then generator=(-G Ninja); fi
 part "configure" configure.log cmake -S . -B "$build" "${generator[@]}" -D CMAKE_BUILD_TYPE=Release "${words[@]}" || exit 1
 
-# CUDA tests by their names in CTest, each of a program of its own.
+# CUDA tests by their names in CTest; a target of the same name builds the program.
 mapfile -t tests < <(ctest --test-dir "$build" -N -L cuda 2>/dev/null |
   sed -n 's/^ *Test *#[0-9]*: \(test_[a-z0-9_]*\)\..*/\1/p' | sort -u)
 targets=("${tests[@]}" bench_step)
@@ -97,7 +97,7 @@ part "build" build.log cmake --build "$build" -j "$jobs" --target "${targets[@]}
 
 # Small samples; LSDCD_PAIRS asks for more.
 [ ${#tests[@]} -gt 0 ] || { line FAILED 0 "CUDA tests" "none in this build: was CUDA left out? $out/configure.log"; failed=1; }
-[ ${#tests[@]} -eq 0 ] || part "CUDA tests, ${#tests[@]} programs" tests.log env LSDCD_QUICK=1 LSDCD_PAIRS="${LSDCD_PAIRS:-1e6}" \
+[ ${#tests[@]} -eq 0 ] || part "CUDA tests, ${#tests[@]} files" tests.log env LSDCD_QUICK=1 LSDCD_PAIRS="${LSDCD_PAIRS:-1e6}" \
   ctest --test-dir "$build" -L cuda -R '^test_' -j 4 --timeout 200 --output-on-failure
 
 # ---- the harness -------------------------------------------------------------------------
