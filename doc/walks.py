@@ -2,15 +2,18 @@
 # SPDX-FileCopyrightText: 2026 LSDCD contributors
 # SPDX-License-Identifier: BSD-3-Clause
 
-"""Counts the files that one opens to follow something through the program, and those that an addition touches.
+"""Counts functions and files that one reads to follow something through the program, and the files that an addition
+touches.
 
 usage: walks.py [--files] [--before]
 
 --files: names the files, too
 --before: at commit 9162326, with the names of that time, instead of the working tree
 
-A walk is a list of functions, in the order in which something goes through them. Its files are those that define
-one of these functions, or a type that stands in the head of one. A function is written `name`, or `Class::name` or
+A walk is a list of functions, in the order in which something goes through them. Counted are its functions; the files
+that define them; the changes of file from one function to the next; those of them that return to a file left before;
+the functions whose body has at most 2 lines; and the files read, which are also those that define a type that stands
+in the head of a function. --files names the files read. A function is written `name`, or `Class::name` or
 `file.h:name` where several files define that name. It has to be named in the body of one before it on the walk,
 unless it stands behind ">": LAMMPS calls it, or it is called by a pointer, an operator or a constructor.
 
@@ -195,6 +198,15 @@ class Sources:
             raise SystemExit(f"{named} is defined in {len(files)} files: {' '.join(sorted(files))}")
         return files.pop(), [f[2:] for f in found]
 
+    def count(self, names):
+        """A walk's functions, files, changes of file, returns to a file left before, functions of at most 2 lines."""
+        found = [self.find(named) for named in names.split() if named != ">"]
+        files = [path for path, _ in found]
+        changes = [k for k in range(1, len(files)) if files[k] != files[k - 1]]
+        returns = [k for k in changes if files[k] in files[:k]]
+        short = [1 for _, overloads in found if max(lines_of(body) for _, body in overloads) <= 2]
+        return len(files), len(set(files)), len(changes), len(returns), len(short)
+
     def walk(self, names):
         """The files on a walk."""
         files, seen, by_itself = set(), "", True
@@ -213,6 +225,11 @@ class Sources:
                 for word in set(re.findall(r"[A-Za-z_]\w*", head)):
                     files |= self.types.get(word, set()) if len(self.types.get(word, ())) == 1 else set()
         return files
+
+
+def lines_of(body):
+    """Lines of a function's body with something on them."""
+    return sum(1 for line in body.split("\n") if line.strip(" }"))
 
 
 def is_source(path):
@@ -271,13 +288,18 @@ def main():
     before = "--before" in sys.argv
     files = commit_sources(ROOT, BEFORE) if before else tree_sources(ROOT)
     sources = Sources(files)
-    rows = [(walk, sources.walk(names["before" if before else "now"])) for walk, names in WALKS.items()]
-    rows += [(f"touched by {what}", naming(files, pattern) if before else written_by(recipe))
-             for what, (recipe, pattern) in ADDITIONS.items()]
-    for what, found in rows:
-        print(f"{len(found):4} files: {what}")
-        if "--files" in sys.argv:
-            print("".join(f"       {path}\n" for path in sorted(found)), end="")
+    when = "before" if before else "now"
+    print("functions  files  changes  returns  short  files read")
+    for what, names in WALKS.items():
+        show("{:9} {:6} {:8} {:8} {:6}".format(*sources.count(names[when])), sources.walk(names[when]), what)
+    for what, (recipe, pattern) in ADDITIONS.items():
+        show(" " * 41, naming(files, pattern) if before else written_by(recipe), f"touched by {what}")
+
+
+def show(counts, files, what):
+    print(f"{counts} {len(files):11}  {what}")
+    if "--files" in sys.argv:
+        print("".join(f"       {path}\n" for path in sorted(files)), end="")
 
 
 if __name__ == "__main__":

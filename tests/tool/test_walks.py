@@ -51,6 +51,9 @@ def has_commit():
 def main():
     check("a walk has the files of its functions and of the types in their heads", walk_of("first second"),
           ["src/a/first.cpp", "src/a/types.h", "src/b/second.cpp"])
+    check("functions, files, changes of file, returns and functions of at most 2 lines are counted",
+          walks.Sources(FILES).count("first second > B::twice > third A::twice"), (5, 3, 4, 2, 5))
+    check("a line without anything but a bracket is none", walks.lines_of("\n  a;\n\n  if (b) {\n    c;\n  }\n"), 3)
     check("a function that none before it names is an error", error_of("first third"),
           "third is not called on the walk before it")
     check("but not behind >", walk_of("first > third"), ["src/a/first.cpp", "src/a/types.h", "src/b/second.cpp"])
