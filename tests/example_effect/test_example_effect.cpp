@@ -17,7 +17,7 @@
 
 #include <cmath>
 
-namespace lsdcd {
+namespace lsdcd::test_example_effect {
 namespace {
 
 // Step 2: a law that has it.
@@ -57,4 +57,4 @@ TEST(example_effect, keeps_nothing_that_it_does_not_need)
 }
 
 }    // namespace
-}    // namespace lsdcd
+}    // namespace lsdcd::test_example_effect

@@ -28,6 +28,7 @@ extern "C" __attribute__((visibility("default"))) void *dlopen(const char *file,
   return reinterpret_cast<void *(*) (const char *, int)>(dlsym(RTLD_NEXT, "dlopen"))(file, mode);
 }
 
+namespace test_library {
 namespace {
 
 using lsdcd::TriangleSoup;
@@ -1539,3 +1540,4 @@ TEST_F(Wrong, a_gpu_that_is_not_there)
 }
 
 }    // namespace
+}    // namespace test_library

@@ -11,6 +11,7 @@
 #include <limits>
 #include <thread>
 
+namespace test_library_bodies {
 namespace {
 
 using Numbers = std::vector<double>;
@@ -394,3 +395,4 @@ TEST_F(WrongBody, arrays_without_room)
 }
 
 }    // namespace
+}    // namespace test_library_bodies

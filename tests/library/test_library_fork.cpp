@@ -12,6 +12,7 @@
 #include <random>
 #include <thread>
 
+namespace test_library_fork {
 namespace {
 
 constexpr int kThreads = 3;
@@ -165,3 +166,4 @@ TEST_F(fork_of_a_wall, leaves_a_child_its_steps)
 }
 
 }    // namespace
+}    // namespace test_library_fork

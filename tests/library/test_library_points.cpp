@@ -15,6 +15,7 @@
 #include <string>
 #include <vector>
 
+namespace test_library_points {
 namespace {
 
 using lsdcd::TriangleSoup;
@@ -412,3 +413,4 @@ TEST(signed_distance, is_not_written_for_an_older_program)
 }
 
 }    // namespace
+}    // namespace test_library_points

@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+namespace test_library_processes {
 namespace {
 
 class processes : public FloorTest {};
@@ -290,3 +291,4 @@ TEST_F(processes, refuse_numbers_that_were_not_packed)
 }
 
 }    // namespace
+}    // namespace test_library_processes

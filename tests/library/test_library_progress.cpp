@@ -18,6 +18,7 @@
 #include <string>
 #include <thread>
 
+namespace test_library_progress {
 namespace {
 
 std::vector<double> numbers(const lsdcd::TriangleSoup &soup)
@@ -290,3 +291,4 @@ TEST(progress, options_of_an_older_program_have_no_listener)
 }
 
 }    // namespace
+}    // namespace test_library_progress

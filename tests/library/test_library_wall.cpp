@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+namespace test_library_wall {
 namespace {
 
 class wall : public FloorTest {};
@@ -411,3 +412,4 @@ TEST_F(wall, names_a_sphere_that_outgrew_its_grid)
 }
 
 }    // namespace
+}    // namespace test_library_wall

@@ -9,7 +9,7 @@
 
 #include <cmath>
 
-namespace lsdcd {
+namespace lsdcd::test_added {
 namespace {
 
 constexpr Real kStiffness = 1e5, kTangent = 3e4, kRadius = 0.5, kMass = 2, kG = 10;
@@ -203,4 +203,4 @@ TEST(rolling_and_cohesion, act_together_as_each_alone)
 }
 
 }    // namespace
-}    // namespace lsdcd
+}    // namespace lsdcd::test_added

@@ -12,7 +12,7 @@
 #include <cstdio>
 #include <random>
 
-namespace lsdcd {
+namespace lsdcd::test_bed {
 namespace {
 
 #if defined(__SANITIZE_ADDRESS__)
@@ -94,4 +94,4 @@ TEST(bed, comes_to_rest_and_stays_and_the_mesh_bears_its_weight)
 }
 
 }    // namespace
-}    // namespace lsdcd
+}    // namespace lsdcd::test_bed

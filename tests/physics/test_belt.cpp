@@ -10,7 +10,7 @@
 
 #include <cmath>
 
-namespace lsdcd {
+namespace lsdcd::test_belt {
 namespace {
 
 constexpr Real kStiffness = 1e5, kRadius = 0.5, kMass = 2, kMu = 0.3, kG = 10;
@@ -175,4 +175,4 @@ TEST(belt, is_refused_in_single_precision)
 }
 
 }    // namespace
-}    // namespace lsdcd
+}    // namespace lsdcd::test_belt

@@ -11,7 +11,7 @@
 #include <cmath>
 #include <vector>
 
-namespace lsdcd {
+namespace lsdcd::test_bounce {
 namespace {
 
 constexpr Real kStiffness = 1e5, kRadius = 0.5, kMass = 2, kGravity = 10;
@@ -216,4 +216,4 @@ TEST(oblique, stick_with_two_sevenths_of_the_stiffness_turns_the_slip_round)
 }
 
 }    // namespace
-}    // namespace lsdcd
+}    // namespace lsdcd::test_bounce

@@ -14,7 +14,7 @@
 #include <cmath>
 #include <random>
 
-namespace lsdcd {
+namespace lsdcd::test_convex {
 namespace {
 
 constexpr Real kStiffness = 1e5, kRadius = 0.5, kMass = 2;
@@ -225,4 +225,4 @@ TEST(drop, beside_an_edge_or_a_corner_leaves_in_the_mirrored_direction)
 }
 
 }    // namespace
-}    // namespace lsdcd
+}    // namespace lsdcd::test_convex

@@ -14,7 +14,7 @@
 #include <cstdio>
 #include <random>
 
-namespace lsdcd {
+namespace lsdcd::test_corners {
 namespace {
 
 constexpr Real kStiffness = 1e5, kRadius = 0.5;
@@ -411,4 +411,4 @@ TEST(drum, noise_of_the_plain_sum_does_not_fall)
 }
 
 }    // namespace
-}    // namespace lsdcd
+}    // namespace lsdcd::test_corners

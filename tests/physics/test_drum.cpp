@@ -12,7 +12,7 @@
 #include <cmath>
 #include <vector>
 
-namespace lsdcd {
+namespace lsdcd::test_drum {
 namespace {
 
 constexpr Real kDrum = 5, kRadius = 0.5, kMass = 1, kGravity = 9.81;
@@ -374,4 +374,4 @@ TEST(drum, rolling_under_the_plain_sum_loses_more)
 }
 
 }    // namespace
-}    // namespace lsdcd
+}    // namespace lsdcd::test_drum

@@ -10,7 +10,7 @@
 #include <cstdio>
 #include <vector>
 
-namespace lsdcd {
+namespace lsdcd::test_energy {
 namespace {
 
 constexpr Real kStiffness = 1e5, kRadius = 0.5, kMass = 2;
@@ -147,4 +147,4 @@ TEST(time_step, under_the_plain_sum_is_smaller_at_a_fold)
 }
 
 }    // namespace
-}    // namespace lsdcd
+}    // namespace lsdcd::test_energy

@@ -11,7 +11,7 @@
 #include <random>
 #include <vector>
 
-namespace lsdcd {
+namespace lsdcd::test_fast {
 namespace {
 
 constexpr Real kStiffness = 1e5, kRadius = 0.5, kMass = 2;
@@ -190,4 +190,4 @@ TEST(thin_plate, of_a_thousandth_of_a_radius_is_one_contact)
 }
 
 }    // namespace
-}    // namespace lsdcd
+}    // namespace lsdcd::test_fast

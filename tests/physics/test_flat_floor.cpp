@@ -12,7 +12,7 @@
 #include <cmath>
 #include <random>
 
-namespace lsdcd {
+namespace lsdcd::test_flat_floor {
 namespace {
 
 constexpr Real kStiffness = 1e5, kRadius = 0.5, kHalf = 4;
@@ -230,4 +230,4 @@ TEST(flat_floor, takes_the_opposite_of_the_forces_it_exerts)
 }
 
 }    // namespace
-}    // namespace lsdcd
+}    // namespace lsdcd::test_flat_floor

@@ -16,7 +16,7 @@
 #include <string>
 #include <vector>
 
-namespace lsdcd {
+namespace lsdcd::test_funnels {
 namespace {
 
 constexpr Real kStiffness = 1e5, kRadius = 0.5, kMass = 2, kDepth = 0.02 * kRadius;
@@ -240,4 +240,4 @@ TEST(funnel, keeps_the_energy_of_a_sphere_that_bounces)
 }
 
 }    // namespace
-}    // namespace lsdcd
+}    // namespace lsdcd::test_funnels

@@ -14,7 +14,7 @@
 #include <utility>
 #include <vector>
 
-namespace lsdcd {
+namespace lsdcd::test_granular {
 namespace {
 
 constexpr Real kRadius = 0.5, kMass = 2, kK = 1e5, kModulus = 0.75 * kK;
@@ -552,7 +552,7 @@ TEST(heat, flows_by_the_radius_or_the_area_of_the_contact)
 
 // ---- all of them, over seams ----------------------------------------------------------------------
 
-EngineSettings everything(NormalModel normal)
+EngineSettings all_of_granular(NormalModel normal)
 {
   EngineSettings law = granular(normal, kK, 2);
   ContactLaw &p = law.law();
@@ -574,7 +574,7 @@ TEST(granular, forces_couples_and_heat_do_not_know_of_the_triangles)
   // two: what a contact keeps goes along over every seam. Rounding of 1e-16 per step and
   // operation, 2000 steps.
   for (NormalModel normal : {NormalModel::hooke, NormalModel::dmt, NormalModel::jkr}) {
-    const EngineSettings law = everything(normal);
+    const EngineSettings law = all_of_granular(normal);
     OneSphere fine(law, 16, 9), coarse(law, 1);
     const Real dt = 1e-4;
     for (OneSphere *s : {&fine, &coarse}) {
@@ -612,7 +612,7 @@ TEST(granular, a_shallow_fold_bears_heat_and_couples_as_the_flat_wall_does)
   // Over the seam of two half-planes 2 degrees apart a sphere has two contacts that share
   // it: contact torques and heat of both, each whole, would be twice the flat wall's. They are its
   // to the fold's angle.
-  EngineSettings law = everything(NormalModel::jkr);
+  EngineSettings law = all_of_granular(NormalModel::jkr);
   law.law().mu = 0;    // all torque is contact torques then
   law.law().twisting = {TwistingModel::sds, {0, 0.4, 0.1}};
   Scene fold(hinge_mesh(2, 2), cutoff_of(law.law(), kRadius), law);
@@ -633,7 +633,7 @@ TEST(granular, a_shallow_fold_bears_heat_and_couples_as_the_flat_wall_does)
 
 TEST(granular, two_sheets_at_one_place_bear_heat_and_couples_once)
 {
-  const EngineSettings law = everything(NormalModel::jkr);
+  const EngineSettings law = all_of_granular(NormalModel::jkr);
   TriangleSoup sheets = floor_mesh(3, 2);
   append(sheets, floor_mesh(5, 2));
   Scene twice(sheets, cutoff_of(law.law(), kRadius), law, 0, 0);
@@ -690,7 +690,7 @@ TEST(granular, parameters_and_compiled_laws_agree_on_what_is_kept)
 TEST(granular, setup_moves_nothing)
 {
   // LAMMPS computes forces anew before every run; what is kept must not change by that.
-  const EngineSettings law = everything(NormalModel::jkr);
+  const EngineSettings law = all_of_granular(NormalModel::jkr);
   OneSphere s(law);
   s.scene.set_v(0, {6, 4, 0});
   s.scene.set_omega(0, {-3, 9, 2});
@@ -711,4 +711,4 @@ TEST(cube_root, is_right_to_a_rounding_or_two_at_all_sizes)
 }
 
 }    // namespace
-}    // namespace lsdcd
+}    // namespace lsdcd::test_granular

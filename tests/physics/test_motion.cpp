@@ -14,7 +14,7 @@
 #include <cstdio>
 #include <random>
 
-namespace lsdcd {
+namespace lsdcd::test_motion {
 namespace {
 
 constexpr Real kStiffness = 1e5, kRadius = 0.5, kMass = 2;
@@ -324,4 +324,4 @@ TEST(billiard, in_a_drum_of_flat_facets_keeps_its_energy)
 }
 
 }    // namespace
-}    // namespace lsdcd
+}    // namespace lsdcd::test_motion

@@ -14,7 +14,7 @@
 #include <cmath>
 #include <random>
 
-namespace lsdcd {
+namespace lsdcd::test_moving_wall {
 namespace {
 
 constexpr Real kStiffness = 1e5, kRadius = 0.5, kMass = 2, kStep = 1e-4;
@@ -401,4 +401,4 @@ TEST(moving_wall, must_be_announced)
 }
 
 }    // namespace
-}    // namespace lsdcd
+}    // namespace lsdcd::test_moving_wall

@@ -15,7 +15,7 @@
 #include <cmath>
 #include <random>
 
-namespace lsdcd {
+namespace lsdcd::test_nearly_flat {
 namespace {
 
 constexpr Real kStiffness = 1e5, kRadius = 0.5;
@@ -272,4 +272,4 @@ TEST(fold, with_t_junctions_along_it_is_the_same_fold)
 }
 
 }    // namespace
-}    // namespace lsdcd
+}    // namespace lsdcd::test_nearly_flat

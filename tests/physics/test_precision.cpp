@@ -13,7 +13,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace lsdcd {
+namespace lsdcd::test_precision {
 namespace {
 
 constexpr Real kFloatRoundoff = 0x1p-24;
@@ -210,4 +210,4 @@ TEST(single, is_not_double)
 }
 
 }    // namespace
-}    // namespace lsdcd
+}    // namespace lsdcd::test_precision

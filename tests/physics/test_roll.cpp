@@ -10,7 +10,7 @@
 #include <array>
 #include <cmath>
 
-namespace lsdcd {
+namespace lsdcd::test_roll {
 namespace {
 
 constexpr Real kStiffness = 1e5, kRadius = 0.5, kMass = 2, kGravity = 10, kDt = 5e-5;
@@ -244,4 +244,4 @@ TEST(cone_tip, is_slid_over_with_one_contact_and_no_loss)
 }
 
 }    // namespace
-}    // namespace lsdcd
+}    // namespace lsdcd::test_roll

@@ -15,7 +15,7 @@
 #include <cmath>
 #include <random>
 
-namespace lsdcd {
+namespace lsdcd::test_seams {
 namespace {
 
 constexpr Real kStiffness = 1e5, kRadius = 0.5, kHalf = 4;
@@ -264,4 +264,4 @@ TEST(seams, of_sheets_that_cross_at_1e_7_shift_the_force_by_their_distance)
 }
 
 }    // namespace
-}    // namespace lsdcd
+}    // namespace lsdcd::test_seams

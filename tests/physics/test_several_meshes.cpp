@@ -16,7 +16,7 @@
 #include <cmath>
 #include <random>
 
-namespace lsdcd {
+namespace lsdcd::test_several_meshes {
 namespace {
 
 constexpr Real kStiffness = 1e5, kRadius = 0.5, kMass = 2, kStep = 1e-4;
@@ -444,4 +444,4 @@ TEST(several_meshes, with_laws_of_other_sub_models_are_refused)
 }
 
 }    // namespace
-}    // namespace lsdcd
+}    // namespace lsdcd::test_several_meshes

@@ -11,7 +11,7 @@
 #include <functional>
 #include <vector>
 
-namespace lsdcd {
+namespace lsdcd::test_slide {
 namespace {
 
 constexpr Real kStiffness = 1e5, kTangent = 3e4, kRadius = 0.5, kMass = 2, kOverlap = 0.01;
@@ -310,4 +310,4 @@ TEST(slide, broken_off_and_taken_up_again_is_the_same_to_the_last_bit)
 }
 
 }    // namespace
-}    // namespace lsdcd
+}    // namespace lsdcd::test_slide

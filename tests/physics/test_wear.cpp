@@ -10,7 +10,7 @@
 
 #include <cmath>
 
-namespace lsdcd {
+namespace lsdcd::test_wear {
 namespace {
 
 constexpr Real kStiffness = 1e5, kRadius = 0.5, kMass = 2, kOverlap = 0.01;
@@ -241,4 +241,4 @@ TEST(records, of_crowded_spheres_are_all_there)
 }
 
 }    // namespace
-}    // namespace lsdcd
+}    // namespace lsdcd::test_wear

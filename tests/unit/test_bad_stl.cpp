@@ -9,7 +9,7 @@
 
 #include <filesystem>
 
-namespace lsdcd {
+namespace lsdcd::test_bad_stl {
 namespace {
 
 const std::string kFolder = LSDCD_TEST_DIR "/bad_stl";
@@ -65,4 +65,4 @@ TEST(bad_stl_folder, has_a_row_for_every_file)
 }
 
 }    // namespace
-}    // namespace lsdcd
+}    // namespace lsdcd::test_bad_stl

@@ -15,7 +15,7 @@
 #include <cmath>
 #include <cstdlib>
 
-namespace lsdcd {
+namespace lsdcd::test_bodies {
 namespace {
 
 BodyPose random_pose(Numbers &r, const Vec3 &from, const Vec3 &to)
@@ -304,4 +304,4 @@ TEST(bodies, wrong_use_is_an_error)
 }
 
 }    // namespace
-}    // namespace lsdcd
+}    // namespace lsdcd::test_bodies

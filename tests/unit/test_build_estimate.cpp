@@ -14,8 +14,7 @@
 #include <string>
 #include <vector>
 
-using namespace lsdcd;
-
+namespace lsdcd::test_build_estimate {
 namespace {
 
 // Of long slivers: each has a part in very many bricks.
@@ -177,3 +176,4 @@ TEST(BuildEstimate, progress_names_each_part_of_a_build)
     EXPECT_TRUE(found) << part;
   }
 }
+}    // namespace lsdcd::test_build_estimate

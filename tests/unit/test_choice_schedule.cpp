@@ -8,7 +8,7 @@
 
 #include <cmath>
 
-namespace lsdcd {
+namespace lsdcd::test_choice_schedule {
 namespace {
 
 constexpr Real kDistance = 0.25;
@@ -144,4 +144,4 @@ TEST(ChoiceSchedule, is_due_in_each_step_where_spheres_come_and_go)
 }
 
 }    // namespace
-}    // namespace lsdcd
+}    // namespace lsdcd::test_choice_schedule

@@ -16,7 +16,7 @@
 #include <random>
 #include <utility>
 
-namespace lsdcd {
+namespace lsdcd::test_closest_point {
 namespace {
 
 // The records of a soup, with the view that a query takes.
@@ -503,4 +503,4 @@ TEST(wall_features, sides_point_out_of_a_box)
 }
 
 }    // namespace
-}    // namespace lsdcd
+}    // namespace lsdcd::test_closest_point

@@ -11,7 +11,7 @@
 #include <set>
 #include <vector>
 
-namespace lsdcd {
+namespace lsdcd::test_contact_history {
 namespace {
 
 Spring spring(Real seed, FeatureCode feature)
@@ -217,4 +217,4 @@ TEST(history_kind, is_the_same_for_displacements_of_all_laws)
 }
 
 }    // namespace
-}    // namespace lsdcd
+}    // namespace lsdcd::test_contact_history

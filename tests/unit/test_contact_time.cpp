@@ -9,8 +9,7 @@
 #include <algorithm>
 #include <cmath>
 
-using namespace lsdcd;
-
+namespace lsdcd::test_contact_time {
 namespace {
 
 struct Motion {
@@ -90,3 +89,4 @@ TEST(ContactTime, of_a_rayleigh_wave_solves_its_equation)
 }
 
 }    // namespace
+}    // namespace lsdcd::test_contact_time

@@ -14,7 +14,7 @@
 #include <random>
 #include <vector>
 
-namespace lsdcd {
+namespace lsdcd::test_corner {
 namespace {
 
 using Quad = __float128;
@@ -584,4 +584,4 @@ TEST(corner, order_of_contacts_changes_no_force)
 }
 
 }    // namespace
-}    // namespace lsdcd
+}    // namespace lsdcd::test_corner

@@ -15,7 +15,7 @@
 #include <cstdlib>
 #include <map>
 
-namespace lsdcd {
+namespace lsdcd::test_cut_polygon {
 namespace {
 
 bool is_quick()
@@ -585,4 +585,4 @@ TEST(cut_polygon, a_hundred_thousand_corners_are_cut)
 }
 
 }    // namespace
-}    // namespace lsdcd
+}    // namespace lsdcd::test_cut_polygon

@@ -15,7 +15,7 @@
 #include <iterator>
 #include <optional>
 
-namespace lsdcd {
+namespace lsdcd::test_damaged_meshes {
 namespace {
 
 constexpr int kTimes = 100;
@@ -143,4 +143,4 @@ INSTANTIATE_TEST_SUITE_P(files, damaged, testing::ValuesIn(whole_files()), [](co
 });
 
 }    // namespace
-}    // namespace lsdcd
+}    // namespace lsdcd::test_damaged_meshes

@@ -10,7 +10,7 @@
 
 #include <set>
 
-namespace lsdcd {
+namespace lsdcd::test_effects {
 namespace {
 
 TEST(effects, have_a_name_each_and_stand_over_a_case_before_them)
@@ -104,4 +104,4 @@ TEST(effects, that_are_off_take_no_memory_of_the_engine)
 }
 
 }    // namespace
-}    // namespace lsdcd
+}    // namespace lsdcd::test_effects

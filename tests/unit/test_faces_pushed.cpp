@@ -12,7 +12,7 @@
 #include <functional>
 #include <random>
 
-namespace lsdcd {
+namespace lsdcd::test_faces_pushed {
 namespace {
 
 
@@ -163,4 +163,4 @@ TEST(faces_pushed, a_turning_box_is_no_roll)
 }
 
 }    // namespace
-}    // namespace lsdcd
+}    // namespace lsdcd::test_faces_pushed

@@ -9,7 +9,7 @@
 
 #include <stdexcept>
 
-namespace lsdcd {
+namespace lsdcd::test_fake_host {
 namespace {
 
 TEST(FakeHost, sums_the_numbers_of_all_processes)
@@ -108,4 +108,4 @@ TEST(FakeHost, a_process_that_asks_for_no_variables_is_found)
 }
 
 }    // namespace
-}    // namespace lsdcd
+}    // namespace lsdcd::test_fake_host

@@ -11,7 +11,7 @@
 #include <algorithm>
 #include <sstream>
 
-namespace lsdcd {
+namespace lsdcd::test_fill_material {
 namespace {
 
 const char *const kFile = "units si\n"
@@ -445,4 +445,4 @@ TEST_F(fill_material_words, are_reported_with_unit_source_and_line)
 }
 
 }    // namespace
-}    // namespace lsdcd
+}    // namespace lsdcd::test_fill_material

@@ -12,7 +12,7 @@
 #include <random>
 #include <vector>
 
-namespace lsdcd {
+namespace lsdcd::test_find_contacts {
 namespace {
 
 // ---- add_once --------------------------------------------------------------------------
@@ -138,4 +138,4 @@ TEST(filter_side, leaves_an_empty_set_empty)
 }
 
 }    // namespace
-}    // namespace lsdcd
+}    // namespace lsdcd::test_find_contacts

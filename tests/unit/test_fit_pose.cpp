@@ -11,7 +11,7 @@
 
 #include <cmath>
 
-namespace lsdcd {
+namespace lsdcd::test_fit_pose {
 namespace {
 
 std::vector<Vec3> some_points(Numbers &r, int n)
@@ -96,4 +96,4 @@ TEST(fit_pose, points_that_do_not_tell_the_turn_are_refused)
 }
 
 }    // namespace
-}    // namespace lsdcd
+}    // namespace lsdcd::test_fit_pose

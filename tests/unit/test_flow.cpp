@@ -13,7 +13,7 @@
 #include <cmath>
 #include <random>
 
-namespace lsdcd {
+namespace lsdcd::test_flow {
 namespace {
 
 FlowSurface surface_of(const TriangleSoup &soup)
@@ -305,4 +305,4 @@ TEST(flow_settings, errors_name_the_word)
 }
 
 }    // namespace
-}    // namespace lsdcd
+}    // namespace lsdcd::test_flow

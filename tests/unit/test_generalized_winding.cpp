@@ -14,7 +14,7 @@
 #include <random>
 #include <set>
 
-namespace lsdcd {
+namespace lsdcd::test_generalized_winding {
 namespace {
 
 using Wide = long double;
@@ -328,4 +328,4 @@ TEST(generalized_winding, is_0_far_away_and_where_a_point_is_no_number)
 }
 
 }    // namespace
-}    // namespace lsdcd
+}    // namespace lsdcd::test_generalized_winding

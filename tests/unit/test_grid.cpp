@@ -28,7 +28,7 @@
 #include <omp.h>
 #endif
 
-namespace lsdcd {
+namespace lsdcd::test_grid {
 namespace {
 
 constexpr int kPlaces = 256;
@@ -694,4 +694,4 @@ TEST(grid_length, that_may_coarsen_does_where_the_budget_asks_for_it)
 }
 
 }    // namespace
-}    // namespace lsdcd
+}    // namespace lsdcd::test_grid

@@ -23,7 +23,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-namespace lsdcd {
+namespace lsdcd::test_grid_cache {
 namespace {
 
 namespace fs = std::filesystem;
@@ -496,4 +496,4 @@ TEST(grid_cache, writers_at_once_leave_one_good_file)
 }
 
 }    // namespace
-}    // namespace lsdcd
+}    // namespace lsdcd::test_grid_cache

@@ -11,7 +11,7 @@
 #include <cmath>
 #include <random>
 
-namespace lsdcd {
+namespace lsdcd::test_history {
 namespace {
 
 Vec3 tangent_to(const Vec3 &n, Random &random)
@@ -255,4 +255,4 @@ TEST(transfer_of, takes_the_best_aligned_spring)
 }
 
 }    // namespace
-}    // namespace lsdcd
+}    // namespace lsdcd::test_history

@@ -10,7 +10,7 @@
 #include <memory>
 #include <vector>
 
-namespace lsdcd {
+namespace lsdcd::test_history_exchange {
 namespace {
 
 constexpr FeatureCode kFace = 5, kImage = 9;
@@ -136,4 +136,4 @@ TEST(HistoryExchange, follows_features_that_get_other_names)
 }
 
 }    // namespace
-}    // namespace lsdcd
+}    // namespace lsdcd::test_history_exchange

@@ -10,7 +10,7 @@
 
 #include <gtest/gtest.h>
 
-namespace lsdcd {
+namespace lsdcd::test_host_adapter {
 namespace {
 
 // A floor at z = 0 with spheres on it, and the engine of the CPU beside the adapter: each fact is
@@ -246,4 +246,4 @@ TEST(host_adapter, notes_name_the_sphere_of_the_deepest_overlap_after_another_ch
 }
 
 }    // namespace
-}    // namespace lsdcd
+}    // namespace lsdcd::test_host_adapter

@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-namespace lsdcd {
+namespace lsdcd::test_input_words {
 namespace {
 
 TEST(input_words, are_numbers_with_a_point_in_any_locale)
@@ -40,4 +40,4 @@ TEST(input_words, repeat_as_the_keywords_do)
 }
 
 }    // namespace
-}    // namespace lsdcd
+}    // namespace lsdcd::test_input_words

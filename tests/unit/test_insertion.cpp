@@ -15,7 +15,7 @@
 #include <random>
 #include <vector>
 
-namespace lsdcd {
+namespace lsdcd::test_insertion {
 namespace {
 
 InsertionPlan plan_of(FeedSettings::Kind kind, Real rate)
@@ -600,4 +600,4 @@ TEST(insert_settings, fractions_that_do_not_add_up_are_refused_with_their_sum)
 }
 
 }    // namespace
-}    // namespace lsdcd
+}    // namespace lsdcd::test_insertion

@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-namespace lsdcd {
+namespace lsdcd::test_load_recorder {
 namespace {
 
 // A wall of two meshes that wear, by half a volume per work.
@@ -130,4 +130,4 @@ TEST(LoadRecorder, goes_on_from_what_a_restart_file_has)
 }
 
 }    // namespace
-}    // namespace lsdcd
+}    // namespace lsdcd::test_load_recorder

@@ -12,7 +12,7 @@
 
 #include <cstdlib>
 
-namespace lsdcd {
+namespace lsdcd::test_material {
 namespace {
 
 const char *const kGood = "# beads\n"
@@ -338,4 +338,4 @@ TEST(contact_moduli, of_equal_materials_are_their_own)
 }
 
 }    // namespace
-}    // namespace lsdcd
+}    // namespace lsdcd::test_material

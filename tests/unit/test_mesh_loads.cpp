@@ -16,7 +16,7 @@
 #include <fstream>
 #include <sstream>
 
-namespace lsdcd {
+namespace lsdcd::test_mesh_loads {
 namespace {
 
 ContactRecord on(FeatureKind kind, std::uint32_t index, Real normal, Real shear, Real wear)
@@ -217,4 +217,4 @@ TEST(file_series, lists_files_with_times_and_reads_its_own_list)
 }
 
 }    // namespace
-}    // namespace lsdcd
+}    // namespace lsdcd::test_mesh_loads

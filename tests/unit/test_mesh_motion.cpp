@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-namespace lsdcd {
+namespace lsdcd::test_mesh_motion {
 namespace {
 
 // A wall of one mesh, of one process, that began at step 100 with a dt of 0.5.
@@ -401,4 +401,4 @@ TEST(MeshMotion, tells_how_fast_its_corners_go)
 }
 
 }    // namespace
-}    // namespace lsdcd
+}    // namespace lsdcd::test_mesh_motion

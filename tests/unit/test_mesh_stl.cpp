@@ -14,7 +14,7 @@
 #include <string>
 #include <sys/stat.h>
 
-namespace lsdcd {
+namespace lsdcd::test_mesh_stl {
 namespace {
 
 TEST(mesh_stl, of_a_mesh_at_rest_has_the_bits_that_were_read)
@@ -69,4 +69,4 @@ TEST(whole_file, a_pipe_is_refused_and_stays)
 }
 
 }    // namespace
-}    // namespace lsdcd
+}    // namespace lsdcd::test_mesh_stl

@@ -14,7 +14,7 @@
 #include <algorithm>
 #include <vector>
 
-namespace lsdcd {
+namespace lsdcd::test_nearest {
 namespace {
 
 constexpr int kPlaces = 512;
@@ -223,4 +223,4 @@ TEST(nearest_in_the_engine, complete_lists_are_certain)
 }
 
 }    // namespace
-}    // namespace lsdcd
+}    // namespace lsdcd::test_nearest

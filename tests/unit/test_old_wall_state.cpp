@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-namespace lsdcd {
+namespace lsdcd::test_old_wall_state {
 namespace {
 
 // Format, kind of the history, time, meshes; of the mesh: how many numbers its motion has, its clock, three poses, a
@@ -79,4 +79,4 @@ TEST(OldWallState, that_is_cut_anywhere_is_refused)
 }
 
 }    // namespace
-}    // namespace lsdcd
+}    // namespace lsdcd::test_old_wall_state

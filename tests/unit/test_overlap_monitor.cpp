@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-namespace lsdcd {
+namespace lsdcd::test_overlap_monitor {
 namespace {
 
 StepDiagnostics deepest(Real overlap, int sphere)
@@ -171,4 +171,4 @@ TEST(OverlapMonitor, takes_the_first_spheres_of_a_run_that_goes_on_for_old_ones)
 }
 
 }    // namespace
-}    // namespace lsdcd
+}    // namespace lsdcd::test_overlap_monitor

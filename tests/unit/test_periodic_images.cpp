@@ -19,8 +19,7 @@
 
 #include <random>
 
-using namespace lsdcd;
-
+namespace lsdcd::test_periodic_images {
 namespace {
 
 PeriodicBox box_of(const Vec3 &size, Real margin = 0)
@@ -341,3 +340,4 @@ TEST(likely_scale, a_floor_wider_than_the_box_is_none)
 {
   EXPECT_EQ(likely_scale({2000, 2000, 0}, {10, 10, 10}), 1);
 }
+}    // namespace lsdcd::test_periodic_images

@@ -8,7 +8,7 @@
 
 #include <cmath>
 
-namespace lsdcd {
+namespace lsdcd::test_placement {
 namespace {
 
 // Distance of two points, for the cases that round.
@@ -202,4 +202,4 @@ TEST(placement, overflow_names_the_file_and_the_facet)
 }
 
 }    // namespace
-}    // namespace lsdcd
+}    // namespace lsdcd::test_placement

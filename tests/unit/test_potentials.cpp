@@ -12,7 +12,7 @@
 #include <filesystem>
 #include <set>
 
-namespace lsdcd {
+namespace lsdcd::test_potentials {
 namespace {
 
 namespace fs = std::filesystem;
@@ -86,4 +86,4 @@ TEST(potentials, fill_the_styles_that_the_manual_shows)
 }
 
 }    // namespace
-}    // namespace lsdcd
+}    // namespace lsdcd::test_potentials

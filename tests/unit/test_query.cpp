@@ -27,7 +27,7 @@
 #include <limits>
 #include <thread>
 
-namespace lsdcd {
+namespace lsdcd::test_query {
 namespace {
 
 // A wall, the grids that are asked for, spheres near it and where the wall truly is.
@@ -957,4 +957,4 @@ TEST(query, a_sphere_that_only_reaches_the_wall_does_not_touch_it)
 }
 
 }    // namespace
-}    // namespace lsdcd
+}    // namespace lsdcd::test_query

@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-namespace lsdcd {
+namespace lsdcd::test_read_mesh {
 namespace {
 
 const char *const kStl = "solid s\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\n"
@@ -68,4 +68,4 @@ TEST(read_mesh, points_and_lines_are_left_out_and_counted)
 }
 
 }    // namespace
-}    // namespace lsdcd
+}    // namespace lsdcd::test_read_mesh

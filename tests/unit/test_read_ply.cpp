@@ -14,7 +14,7 @@
 #include <cstring>
 #include <filesystem>
 
-namespace lsdcd {
+namespace lsdcd::test_read_ply {
 namespace {
 
 ReadMesh read(const std::string &bytes)
@@ -601,4 +601,4 @@ TEST(read_ply, a_plane_whose_first_number_begins_with_a_line_end_is_read_back)
 }
 
 }    // namespace
-}    // namespace lsdcd
+}    // namespace lsdcd::test_read_ply

@@ -17,7 +17,7 @@
 #include <filesystem>
 #include <thread>
 
-namespace lsdcd {
+namespace lsdcd::test_read_stl {
 namespace {
 
 TriangleSoup read(const std::string &bytes)
@@ -404,4 +404,4 @@ TEST(read_stl, empty_file_is_named)
 }
 
 }    // namespace
-}    // namespace lsdcd
+}    // namespace lsdcd::test_read_stl

@@ -12,7 +12,7 @@
 #include <functional>
 #include <vector>
 
-namespace lsdcd {
+namespace lsdcd::test_rigid_motion {
 namespace {
 
 using Wide = long double;
@@ -237,4 +237,4 @@ TEST(PointTree, finds_the_farthest_of_all_points)
 }
 
 }    // namespace
-}    // namespace lsdcd
+}    // namespace lsdcd::test_rigid_motion

@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-namespace lsdcd {
+namespace lsdcd::test_search_report {
 namespace {
 
 StepDiagnostics lists(std::int64_t made, std::int64_t features, std::int64_t by_cells)
@@ -138,4 +138,4 @@ TEST(SearchReport, tells_again_when_missed_contacts_may_be_twice_as_deep)
 }
 
 }    // namespace
-}    // namespace lsdcd
+}    // namespace lsdcd::test_search_report

@@ -11,7 +11,7 @@
 #include <cmath>
 #include <vector>
 
-namespace lsdcd {
+namespace lsdcd::test_servo {
 namespace {
 
 Servo servo(Real target, Real max_speed)
@@ -234,4 +234,4 @@ TEST(ContactSlope, is_the_derivative_of_the_force)
 }
 
 }    // namespace
-}    // namespace lsdcd
+}    // namespace lsdcd::test_servo

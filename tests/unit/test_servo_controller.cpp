@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-namespace lsdcd {
+namespace lsdcd::test_servo_controller {
 namespace {
 
 constexpr Real kDt = 0.01;
@@ -143,4 +143,4 @@ TEST(ServoController, tells_of_another_servo_again)
 }
 
 }    // namespace
-}    // namespace lsdcd
+}    // namespace lsdcd::test_servo_controller

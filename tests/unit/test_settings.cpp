@@ -16,7 +16,7 @@
 #include <numeric>
 #include <sstream>
 
-namespace lsdcd {
+namespace lsdcd::test_settings {
 namespace {
 
 std::vector<std::string> tokens(const std::string &line)
@@ -784,4 +784,4 @@ TEST(settings, help_lists_every_granular_sub_model)
 }
 
 }    // namespace
-}    // namespace lsdcd
+}    // namespace lsdcd::test_settings

@@ -16,7 +16,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace lsdcd {
+namespace lsdcd::test_sphere_query {
 namespace {
 
 struct Wall {
@@ -316,4 +316,4 @@ TEST(formula_five, is_refused_where_lists_hold_no_triangles)
 }
 
 }    // namespace
-}    // namespace lsdcd
+}    // namespace lsdcd::test_sphere_query

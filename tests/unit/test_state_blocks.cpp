@@ -8,7 +8,7 @@
 
 #include <cmath>
 
-namespace lsdcd {
+namespace lsdcd::test_state_blocks {
 namespace {
 
 enum class Kind { none, some };
@@ -178,4 +178,4 @@ TEST(State, passes_over_blocks_that_nobody_asks_for_and_names_them)
 }
 
 }    // namespace
-}    // namespace lsdcd
+}    // namespace lsdcd::test_state_blocks

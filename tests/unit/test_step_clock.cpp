@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-namespace lsdcd {
+namespace lsdcd::test_step_clock {
 namespace {
 
 // 0 at step 10.
@@ -57,4 +57,4 @@ TEST(StepClock, does_not_add_up_rounding)
 }
 
 }    // namespace
-}    // namespace lsdcd
+}    // namespace lsdcd::test_step_clock

@@ -12,7 +12,7 @@
 #include <memory>
 #include <vector>
 
-namespace lsdcd {
+namespace lsdcd::test_step_totals {
 namespace {
 
 constexpr Real kStiffness = 100, kRadius = 0.5;
@@ -184,4 +184,4 @@ TEST(StepTotals, of_meshes_with_torques_about_different_points_are_about_the_ori
 }
 
 }    // namespace
-}    // namespace lsdcd
+}    // namespace lsdcd::test_step_totals

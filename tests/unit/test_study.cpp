@@ -18,7 +18,7 @@
 #include <cmath>
 #include <cstdlib>
 
-namespace lsdcd {
+namespace lsdcd::test_study {
 namespace {
 
 // ---- spheres ------------------------------------------------------------------------
@@ -390,4 +390,4 @@ TEST(study, force_error_of_a_missed_contact_is_all_of_it)
 }
 
 }    // namespace
-}    // namespace lsdcd
+}    // namespace lsdcd::test_study

@@ -13,7 +13,7 @@
 #include <set>
 #include <sstream>
 
-namespace lsdcd {
+namespace lsdcd::test_sub_models {
 namespace {
 
 std::string name_of(const SubModel &row)
@@ -103,4 +103,4 @@ TEST(sub_models, are_listed_in_the_page_of_the_fix)
 }
 
 }    // namespace
-}    // namespace lsdcd
+}    // namespace lsdcd::test_sub_models

@@ -9,7 +9,7 @@
 
 #include <sstream>
 
-namespace lsdcd {
+namespace lsdcd::test_time_report {
 namespace {
 
 using Section = TimeReport::Section;
@@ -139,4 +139,4 @@ TEST(TimeReport, logs_nothing_where_brief)
 }
 
 }    // namespace
-}    // namespace lsdcd
+}    // namespace lsdcd::test_time_report

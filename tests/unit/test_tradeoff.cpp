@@ -13,7 +13,7 @@
 #include <algorithm>
 #include <set>
 
-namespace lsdcd {
+namespace lsdcd::test_tradeoff {
 namespace {
 
 TradeoffRow row_of(Real mean, double ns, bool on_cuda = false)
@@ -349,4 +349,4 @@ TEST(tradeoff, leaves_out_what_is_over_the_budget_and_says_so)
 }
 
 }    // namespace
-}    // namespace lsdcd
+}    // namespace lsdcd::test_tradeoff

@@ -16,7 +16,7 @@
 #include <cstdlib>
 #include <memory>
 
-namespace lsdcd {
+namespace lsdcd::test_triangle_tree {
 namespace {
 
 constexpr std::uint32_t kNoHint = kNoPrimitive;
@@ -201,4 +201,4 @@ TEST(triangle_tree, many_points_get_what_each_alone_gets)
 }
 
 }    // namespace
-}    // namespace lsdcd
+}    // namespace lsdcd::test_triangle_tree

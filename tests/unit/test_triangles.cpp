@@ -9,7 +9,7 @@
 
 #include <cmath>
 
-namespace lsdcd {
+namespace lsdcd::test_triangles {
 namespace {
 
 const Triangle kFlat = {{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}}};
@@ -103,4 +103,4 @@ TEST(triangles, point_meets_what_it_is_on)
 }
 
 }    // namespace
-}    // namespace lsdcd
+}    // namespace lsdcd::test_triangles

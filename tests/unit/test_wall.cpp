@@ -18,7 +18,7 @@
 #include <string>
 #include <vector>
 
-namespace lsdcd {
+namespace lsdcd::test_wall {
 namespace {
 
 constexpr Real kN = 1000, kT = 300, kDt = 1e-3, kRadius = 0.5;
@@ -465,4 +465,4 @@ TEST(Wall, that_cannot_be_read_fails_on_all_processes)
 }
 
 }    // namespace
-}    // namespace lsdcd
+}    // namespace lsdcd::test_wall

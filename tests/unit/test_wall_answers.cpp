@@ -9,7 +9,7 @@
 
 #include <gtest/gtest.h>
 
-namespace lsdcd {
+namespace lsdcd::test_wall_answers {
 namespace {
 
 // A vessel in small: a wall of the finest facets, a funnel below and a flat lid of slivers.
@@ -96,4 +96,4 @@ TEST(band_spheres, are_all_within_reach_and_none_is_deep)
 }
 
 }    // namespace
-}    // namespace lsdcd
+}    // namespace lsdcd::test_wall_answers

@@ -14,7 +14,7 @@
 #include <filesystem>
 #include <utility>
 
-namespace lsdcd {
+namespace lsdcd::test_wall_files {
 namespace {
 
 // A wall of one mesh, a square of two faces.
@@ -214,4 +214,4 @@ TEST(WallFiles, go_on_with_the_list_of_an_earlier_run_where_that_is_asked_for)
 }
 
 }    // namespace
-}    // namespace lsdcd
+}    // namespace lsdcd::test_wall_files

@@ -18,7 +18,7 @@
 #include <cstdio>
 #include <cstring>
 
-namespace lsdcd {
+namespace lsdcd::test_wall_list {
 namespace {
 
 struct Wall {
@@ -574,4 +574,4 @@ TEST(wall_list, that_is_kept_on_a_long_walk_gives_the_bits_of_choosing_in_each_s
 }
 
 }    // namespace
-}    // namespace lsdcd
+}    // namespace lsdcd::test_wall_list

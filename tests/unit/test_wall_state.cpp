@@ -8,7 +8,7 @@
 
 #include <vector>
 
-namespace lsdcd {
+namespace lsdcd::test_wall_state {
 namespace {
 
 WallState from(const State &state)
@@ -77,4 +77,4 @@ TEST(WallState, refuses_loads_that_are_no_rows)
 }
 
 }    // namespace
-}    // namespace lsdcd
+}    // namespace lsdcd::test_wall_state

@@ -13,7 +13,7 @@
 #include <cmath>
 #include <random>
 
-namespace lsdcd {
+namespace lsdcd::test_weld {
 namespace {
 
 using Triangles = std::vector<std::array<Vec3, 3>>;
@@ -619,4 +619,4 @@ TEST(fingerprint, sees_the_order_and_the_winding_of_faces)
 }
 
 }    // namespace
-}    // namespace lsdcd
+}    // namespace lsdcd::test_weld

@@ -15,7 +15,7 @@
 #include <random>
 #include <string>
 
-namespace lsdcd {
+namespace lsdcd::test_winding_number {
 namespace {
 
 // In long double; near the surface it is no whole number.
@@ -426,4 +426,4 @@ TEST(winding_number, is_refused_where_facets_in_both_windings_enclose_a_space)
 }
 
 }    // namespace
-}    // namespace lsdcd
+}    // namespace lsdcd::test_winding_number
