@@ -18,6 +18,7 @@
 #include <string>
 #include <vector>
 
+namespace test_library_wall_spec {
 namespace {
 
 using Vector = std::array<double, 3>;
@@ -898,3 +899,4 @@ TEST_F(wall_spec, has_the_names_of_meshes_in_its_log)
 }
 
 }    // namespace
+}    // namespace test_library_wall_spec
