@@ -38,7 +38,7 @@ inline Real largest_pull_off(const LawTable &table)
 // Of mesh and kind, from 0.
 inline const ContactLaw &law_of(const LawTable &table, int mesh, int kind)
 {
-  return table.laws[static_cast<std::size_t>(mesh * table.of_mesh() + kind)];
+  return table.laws[static_cast<std::size_t>(mesh) * table.of_mesh() + kind];
 }
 
 // How far from its centre a sphere can feel the wall.
