@@ -104,7 +104,9 @@ def check_cmake(words):
             for target in words[at + 1:]:
                 if target.startswith("-"):
                     break
-                if not re.search(rf"\b{re.escape(target)}\b", BUILD_FILES):
+                room = re.fullmatch(r"(\w+)_tests", target)    # lsdcd_unit_test(ROOM NAME) makes ROOM_tests
+                if not re.search(rf"\b{re.escape(target)}\b", BUILD_FILES) and \
+                        not (room and re.search(rf"lsdcd_\w+\({room[1]} ", BUILD_FILES)):
                     return f"there is no target {target}"
     return ""
 
