@@ -1,0 +1,26 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// How easily a point of a rigid body gives way to a push.
+#pragma once
+
+#include "rigid/symmetric_matrix.h"
+
+namespace lsdcd {
+
+// An impulse J n at a point of the body changes the velocity of that point along n by J n.K n. In the frame of the
+// mesh, where these numbers stay as they are while the body moves as its joint allows.
+struct Mobility {
+  Vec3 point = {0, 0, 0};    // the centre of mass, or a point that a joint holds
+  SymmetricMatrix shifts;    // 1/mass: velocity of `point` by a force
+  SymmetricMatrix turns;     // 1/(mass length^2): angular velocity by a torque
+
+  // n.K n at the place x, for a unit vector n; 1/mass.
+  LSDCD_FN Real along(const Vec3 &x, const Vec3 &n) const
+  {
+    const Vec3 arm = cross(x - point, n);
+    return dot(n, shifts * n) + dot(arm, turns * arm);
+  }
+};
+
+}    // namespace lsdcd

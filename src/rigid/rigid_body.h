@@ -1,0 +1,99 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// A rigid body, free or held by a joint, and how it goes on in time.
+//
+// A body moves by the coordinates that its joint leaves it, so that it cannot leave the joint. In a step of leapfrog
+// it takes kick(dt / 2) by what acts in the step before, drift(dt), and, once what acts is known where it is now,
+// kick(dt / 2): velocities are those of half a step while contacts see them, as those of spheres in LAMMPS.
+#pragma once
+
+#include "motion/pose.h"
+#include "rigid/joint.h"
+#include "rigid/mass_properties.h"
+#include "rigid/mobility.h"
+#include "rigid/quaternion.h"
+
+namespace lsdcd {
+
+// A force, and a torque about the origin of the box.
+struct Wrench {
+  Vec3 force = {0, 0, 0}, torque = {0, 0, 0};
+
+  Vec3 torque_about(const Vec3 &point) const { return torque - cross(point, force); }
+};
+
+// All that a step changes.
+struct RigidState {
+  Vec3 home = {0, 0, 0};    // the centre where coordinates are 0, in the box
+  Quaternion home_turn;     // likewise; from the frame of the mesh to the box
+  Vec3 centre = {0, 0, 0};
+  Quaternion turn;
+  // free: velocity of the centre, and angular momentum about it, in the box. ball: the latter, about the joint's point.
+  Vec3 velocity = {0, 0, 0}, momentum = {0, 0, 0};
+  // hinge and slider: the first. planar: two lengths in the plane, and an angle. With their derivatives.
+  Real coordinate[3] = {0, 0, 0}, rate[3] = {0, 0, 0};
+};
+
+class RigidBody {
+ public:
+  RigidBody() = default;
+  // At rest where the mesh is in its own frame, which is that of the box then. Units of force and mass go together
+  // (force = mass length / time^2).
+  RigidBody(const MassProperties &mass, const Joint &joint);
+
+  JointDrive drive;    // may change between steps
+
+  // Velocity of the centre and angular velocity. Throws InputError where the joint does not allow them.
+  void set_velocity(const Vec3 &velocity, const Vec3 &omega);
+  // Holds the body by another joint from where it is. What that does not allow of its velocity is lost.
+  void set_joint(const Joint &joint);
+
+  // Half a step's change of velocity, over the time h, by what acts beside the drive. The damper's part is exact.
+  void kick(Real h, const Wrench &load);
+  // Moves it over the time h. At a limit its velocity is what takes it there in this time.
+  void drift(Real h);
+
+  const MassProperties &mass() const { return mass_; }
+  const Joint &joint() const { return joint_; }
+  Vec3 centre() const { return state_.centre; }
+  const Quaternion &turn() const { return state_.turn; }
+  Vec3 velocity() const;    // of the centre
+  Vec3 omega() const;
+  Vec3 angular_momentum() const;    // about the centre
+  Real coordinate() const { return state_.coordinate[0]; }
+  Real rate() const { return state_.rate[0]; }
+  Real kinetic_energy() const;
+  Real spring_energy() const;
+
+  // Where the mesh is, with velocities for contacts.
+  Pose pose() const;
+  Mobility mobility() const;
+  // What the joint does to the body to hold it, with the velocity that it has now: not spring, damper, motor and limits.
+  // The torque is about pivot().
+  Wrench reaction(const Wrench &load) const;
+  Vec3 pivot() const;    // the joint's point, or the centre of mass
+
+  const RigidState &state() const { return state_; }
+  void set_state(const RigidState &state) { state_ = state; }
+
+ private:
+  void make_constants();
+  void place();
+  Vec3 apply(const SymmetricMatrix &in_mesh, const Vec3 &a) const;
+  Vec3 velocity_of_pivot() const;
+  Vec3 spin_up() const;
+  void turn_freely(Real h);
+
+  MassProperties mass_;    // in the frame of the mesh
+  Joint joint_;
+  RigidState state_;
+
+  // About the joint's point (hinge, ball) or the centre, in the frame of the mesh.
+  SymmetricMatrix inertia_, inverse_;
+  PrincipalAxes principal_ = {};
+  Real inertia_of_axis_ = 0;    // of the first rate: a moment, or the mass
+  Vec3 in_plane_[2] = {};       // of planar
+};
+
+}    // namespace lsdcd

@@ -1,0 +1,439 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Rigid bodies, free and in joints, against closed forms.
+#include "motion/motion.h"
+#include "rigid/rigid_body.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <random>
+#include <vector>
+
+namespace lsdcd::test_rigid_body {
+namespace {
+
+constexpr Real kG = 9.81;
+
+using Load = std::function<Wrench(const RigidBody &)>;
+
+void step(RigidBody &body, Real dt, const Load &load)
+{
+  body.kick(dt / 2, load(body));
+  body.drift(dt);
+  body.kick(dt / 2, load(body));
+}
+
+Wrench nothing(const RigidBody &)
+{
+  return {};
+}
+
+Wrench weight(const RigidBody &body)
+{
+  const Vec3 f = {0, 0, -kG * body.mass().mass};
+  return {f, cross(body.centre(), f)};
+}
+
+// I = diag(a, b, c) about the centre.
+MassProperties block(Real mass, const Vec3 &moments, const Vec3 &centre = {0, 0, 0})
+{
+  MassProperties p;
+  p.mass = mass;
+  p.centre = centre;
+  p.inertia = {moments.x, moments.y, moments.z, 0, 0, 0};
+  return p;
+}
+
+// A square plate of mass 1, its hinge along y through the origin at its edge; it hangs at 0.
+constexpr Real kSide = 0.2, kThick = 0.002;
+RigidBody flap()
+{
+  const Real about_edge = kSide * kSide / 12;
+  const MassProperties plate =
+      block(1, {about_edge + kSide * kSide / 12, about_edge + kThick * kThick / 12, about_edge},
+            {0, 0, -kSide / 2});
+  return RigidBody(plate, {JointKind::hinge, {0, 0, 0}, {0, 1, 0}});
+}
+// Of the same plate: I about the hinge.
+const Real kFlapInertia = kSide * kSide / 3 + kThick * kThick / 12;
+
+RigidBody released_at(Real angle)
+{
+  RigidBody body = flap();
+  RigidState state = body.state();
+  state.coordinate[0] = angle;
+  body.set_state(state);
+  body.drift(0);
+  return body;
+}
+
+// The time between the first and the last upward crossing of zero, over their number less 1.
+Real period_of(const std::function<Real()> &next, Real dt, int cycles)
+{
+  Real before = next(), first = 0;
+  int seen = 0;
+  for (int n = 1;; n++) {
+    const Real now = next();
+    if (before < 0 && now >= 0) {
+      const Real at = (n - 1 + before / (before - now)) * dt;
+      if (seen++ == 0) first = at;
+      if (seen == cycles + 1) return (at - first) / cycles;
+    }
+    before = now;
+  }
+}
+
+Vec3 in_mesh(const RigidBody &body, const Vec3 &a)
+{
+  return rotate(inverse(body.turn()), a);
+}
+
+RigidBody lamina()
+{
+  RigidBody body(block(1, {1, 2, 3}), Joint());
+  body.set_velocity({0, 0, 0}, {0.01, 1, 0.01});
+  return body;
+}
+
+const Joint kJoints[] = {{JointKind::free, {}, {0, 0, 1}},
+                         {JointKind::hinge, {0.3, -0.2, 0.1}, {0.6, 0, 0.8}},
+                         {JointKind::slider, {}, {0.6, 0, 0.8}},
+                         {JointKind::planar, {}, {0, 0.6, 0.8}},
+                         {JointKind::ball, {0.3, -0.2, 0.1}, {0, 0, 1}}};
+
+// A body in the middle of its motion.
+RigidBody moving(const Joint &joint)
+{
+  MassProperties p = block(2, {0.5, 0.7, 0.9}, {0.1, 0.2, 0.3});
+  p.inertia.xy = 0.1;
+  p.inertia.xz = -0.05;
+  p.inertia.yz = 0.08;
+  RigidBody body(p, joint);
+  const Wrench push = {{1, -2, 3}, {0.4, 0.5, -0.6}};
+  body.kick(1, push);
+  for (int n = 0; n < 100; n++) body.drift(0.01);
+  return body;
+}
+
+}    // namespace
+
+// The closed form is 4 K(k) / rate for Euler's equations (Landau and Lifshitz, Mechanics, section 37).
+TEST(rigid_body, tumbles_with_the_period_of_the_closed_form)
+{
+  RigidBody body = lamina();
+  const Real dt = 0.005, period = period_of(
+                             [&] {
+                               step(body, dt, nothing);
+                               return in_mesh(body, body.omega()).y;
+                             },
+                             dt, 5);
+  EXPECT_NEAR(period, 39.1057,
+              1e-4);    // its last digit, and as much for the scheme, whose error is 4e-5
+}
+
+TEST(rigid_body, keeps_energy_torque_free_and_its_error_falls_as_dt_squared)
+{
+  Real error[2] = {};
+  for (int k = 0; k < 2; k++) {
+    RigidBody body = lamina();
+    const Real dt = k == 0 ? 0.005 : 0.0025, energy = body.kinetic_energy();
+    const int steps = 1000000;
+    Real early = 0;
+    for (int n = 0; n < steps; n++) {
+      step(body, dt, nothing);
+      error[k] = std::max(error[k], std::fabs(body.kinetic_energy() / energy - 1));
+      if (n == steps / 10) early = error[k];
+    }
+    // 128 (64) periods: the first tenth has seen all of one.
+    EXPECT_LT(error[k], 1.001 * early + 1e-12);
+    EXPECT_LT(error[k], 1e-4);
+  }
+  EXPECT_NEAR(error[0] / error[1], 4, 0.01);
+}
+
+// From what the pose says: R I R' omega, which the scheme does not keep by itself.
+TEST(rigid_body, keeps_angular_momentum_in_space_torque_free)
+{
+  RigidBody body = lamina();
+  const Vec3 before = body.angular_momentum();
+  Real worst = 0;
+  for (int n = 0; n < 200000; n++) {
+    body.drift(0.005);
+    if (n % 100) continue;
+    const Pose pose = body.pose();
+    const Vec3 w = pose.turn_to_mesh(pose.angular), l = {1 * w.x, 2 * w.y, 3 * w.z};
+    worst = std::max(worst, norm(pose.turn_to_box(l) - before) / norm(before));
+  }
+  EXPECT_LT(worst, 1e-12);
+}
+
+TEST(hinge, swings_with_the_period_of_a_small_swing)
+{
+  RigidBody body = released_at(1e-3);
+  const Real dt = 1e-4, period = period_of(
+                            [&] {
+                              step(body, dt, weight);
+                              return body.coordinate();
+                            },
+                            dt, 10);
+  EXPECT_NEAR(period, 2 * kPi * std::sqrt(kFlapInertia / (kG * kSide / 2)), 1e-6);
+  EXPECT_NEAR(period, 0.73251, 2e-5);
+}
+
+// 2/pi K(sin 45 degrees) = 1.180341 times that.
+TEST(hinge, swings_with_the_period_of_a_swing_from_90_degrees)
+{
+  RigidBody body = released_at(kPi / 2);
+  const Real dt = 1e-4, period = period_of(
+                            [&] {
+                              step(body, dt, weight);
+                              return body.coordinate();
+                            },
+                            dt, 10);
+  EXPECT_NEAR(period, 0.86461, 2e-5);
+}
+
+TEST(hinge, bears_two_and_a_half_weights_at_the_bottom)
+{
+  RigidBody body = released_at(kPi / 2);
+  Real most = 0;
+  for (int n = 0; n < 10000; n++) {
+    step(body, 1e-4, weight);
+    most = std::max(most, body.reaction(weight(body)).force.z);
+  }
+  const Real arm = kSide / 2;
+  EXPECT_NEAR(most / kG, 1 + 2 * arm * arm / kFlapInertia, 1e-6);
+  EXPECT_NEAR(most / kG, 2.5, 1e-4);
+}
+
+// Free of its hinge it would fall as the reaction says: F + reaction = M a, from differences of velocities.
+TEST(reaction, is_what_keeps_each_joint)
+{
+  for (const Joint &joint : kJoints) {
+    RigidBody body = moving(joint);
+    const Wrench load = {{0.3, 0.2, -5}, {0.1, -0.7, 0.2}};
+    const Real h = 1e-5;
+    const Wrench r = body.reaction(load);
+    RigidBody before = body, after = body;
+    after.kick(h / 2, load);
+    after.drift(h);
+    after.kick(h / 2, load);
+    before.kick(-h / 2, load);
+    before.drift(-h);
+    before.kick(-h / 2, load);
+    const Vec3 a = 1 / (2 * h) * (after.velocity() - before.velocity()),
+               spin = 1 / (2 * h) * (after.angular_momentum() - before.angular_momentum());
+    const Vec3 arm = body.centre() - body.pivot();
+    // A central difference has an error of h^2, 1e-10, and a rounding of 1e-16 / h.
+    EXPECT_LT(norm(load.force + r.force - body.mass().mass * a), 1e-8);
+    EXPECT_LT(norm(load.torque_about(body.centre()) + r.torque - cross(arm, r.force) - spin), 1e-8);
+  }
+}
+
+TEST(hinge, holds_an_unbalanced_rotor)
+{
+  MassProperties p = block(1.5, {0.3, 0.4, 0.2}, {0.05, 0, 0.1});
+  p.inertia.xz = 0.07;
+  const Vec3 point = {0, 0, 0.02};
+  RigidBody body(p, {JointKind::hinge, point, {0, 0, 1}});
+  const Real w = 20;
+  body.set_velocity({0, 0, 0}, {0, 0, w});
+  Real tilt = 0, most = 0;
+  const Real about_point = p.inertia.xz - p.mass * 0.05 * (0.1 - point.z);
+  for (int n = 0; n < 100000; n++) {
+    step(body, 1e-4, nothing);
+    const Pose pose = body.pose();
+    tilt = std::max({tilt, std::fabs(pose.row[2].x), std::fabs(pose.row[2].y)});
+    const Vec3 couple = pose.turn_to_mesh(body.reaction({}).torque);
+    most = std::max(most, norm(couple - Vec3{0, about_point * w * w, 0}));
+  }
+  EXPECT_LT(tilt, 1e-12);
+  EXPECT_LT(most, 1e-10);
+}
+
+TEST(hinge, with_motor_and_damper_comes_to_its_speed)
+{
+  const Real inertia = 0.3, torque = 2, damping = 0.5, dt = 0.01;
+  RigidBody body(block(1, {0.2, 0.4, inertia}), {JointKind::hinge, {0, 0, 0}, {0, 0, 1}});
+  body.drive.motor = torque;
+  body.drive.damping = damping;
+  for (int n = 1; n <= 1000; n++) {
+    step(body, dt, nothing);
+    const Real closed = torque / damping * (1 - std::exp(-damping * n * dt / inertia));
+    ASSERT_NEAR(body.omega().z, closed, 1e-12);
+  }
+}
+
+TEST(slider, with_spring_and_dashpot_is_the_damped_oscillator)
+{
+  const Real mass = 2, stiffness = 50, damping = 3, rest = 0.1;
+  Real error[2] = {};
+  for (int k = 0; k < 2; k++) {
+    RigidBody body(block(mass, {1, 1, 1}), {JointKind::slider, {}, {0, 0.6, 0.8}});
+    body.drive.stiffness = stiffness;
+    body.drive.damping = damping;
+    body.drive.rest = rest;
+    const Real dt = k == 0 ? 0.002 : 0.001, decay = damping / (2 * mass),
+               w = std::sqrt(stiffness / mass - decay * decay);
+    for (int n = 1; n * dt < 4.0001; n++) {
+      step(body, dt, nothing);
+      const Real t = n * dt, x = rest - rest * std::exp(-decay * t) *
+                                            (std::cos(w * t) + decay / w * std::sin(w * t));
+      error[k] = std::max(error[k], std::fabs(body.coordinate() - x));
+      EXPECT_LT(norm(body.centre() - body.coordinate() * Vec3{0, 0.6, 0.8}), 1e-15);
+    }
+  }
+  EXPECT_LT(error[0], 1e-5);
+  EXPECT_NEAR(error[0] / error[1], 4, 0.05);    // second order with the damper, too
+}
+
+TEST(slider, stops_at_a_limit_and_leaves_it)
+{
+  RigidBody body(block(1, {1, 1, 1}), {JointKind::slider, {}, {0, 0, 1}});
+  body.drive.lo = -0.5;
+  for (int n = 0; n < 1000; n++) step(body, 1e-3, weight);
+  EXPECT_EQ(body.coordinate(), -0.5);
+  EXPECT_NEAR(body.rate(), 0, kG * 1e-3);    // half a step of what presses it on
+  body.drive.motor = 2 * kG;
+  const int n = 100;
+  for (int k = 0; k < n; k++) step(body, 1e-3, weight);
+  EXPECT_NEAR(body.coordinate(), -0.5 + 0.5 * kG * 0.1 * 0.1, 2 * kG * 1e-3 * 0.1);
+}
+
+TEST(ball, keeps_its_point_and_the_momentum_about_the_vertical)
+{
+  MassProperties p = block(2, {0.5, 0.7, 0.9}, {0.1, 0.2, 0.3});
+  p.inertia.xy = 0.1;
+  const Vec3 point = {0.3, -0.2, 0.1};
+  RigidBody body(p, {JointKind::ball, point, {0, 0, 1}});
+  body.set_velocity({0, 0, 0}, {0.5, -0.3, 2});
+  const Real about_z = body.state().momentum.z;
+  Real off = 0, lost = 0;
+  for (int n = 0; n < 100000; n++) {
+    step(body, 1e-3, weight);
+    off = std::max(off, norm(body.pose().to_box(point) - point));
+    const Vec3 arm = body.centre() - point;
+    const Vec3 momentum = body.angular_momentum() + p.mass * cross(arm, body.velocity());
+    lost = std::max(lost, std::fabs(momentum.z - about_z));
+  }
+  EXPECT_LT(off, 1e-14);
+  EXPECT_LT(lost, 1e-11);    // 1e5 steps of rounding
+}
+
+// A ball joint that swings in a plane is a hinge.
+TEST(ball, swings_as_a_hinge_does)
+{
+  const RigidBody hinged = released_at(1);
+  RigidBody body(hinged.mass(), {JointKind::ball, {0, 0, 0}, {0, 0, 1}});
+  RigidState state = body.state();
+  state.turn = hinged.turn();
+  body.set_state(state);
+  body.drift(0);
+  RigidBody same = hinged;
+  for (int n = 0; n < 20000; n++) {
+    step(body, 1e-4, weight);
+    step(same, 1e-4, weight);
+  }
+  EXPECT_LT(norm(body.centre() - same.centre()), 1e-11);
+}
+
+TEST(planar, stays_in_its_plane)
+{
+  const Vec3 normal = {0, 0.6, 0.8};
+  RigidBody body = moving({JointKind::planar, {}, normal});
+  const Vec3 from = body.centre();
+  const Wrench push = {{3, -1, 2}, {0.1, 0.3, -0.2}};
+  Real off = 0, tilt = 0;
+  for (int n = 0; n < 100000; n++) {
+    step(body, 1e-3, [&](const RigidBody &) { return push; });
+    off = std::max(off, std::fabs(dot(normal, body.centre() - from)) / norm(body.centre() - from));
+    tilt = std::max(tilt, norm(body.pose().turn_to_box(normal) - normal));
+  }
+  EXPECT_LT(off, 1e-13);
+  EXPECT_LT(tilt, 1e-13);
+}
+
+// An impulse n at x changes the velocity there along n by n.K n.
+TEST(mobility, is_what_an_impulse_does)
+{
+  std::mt19937 random(5);
+  std::uniform_real_distribution<Real> any(-1, 1);
+  for (const Joint &joint : kJoints) {
+    RigidBody body = moving(joint);
+    for (int k = 0; k < 20; k++) {
+      const Vec3 x = {any(random), any(random), any(random)},
+                 n = unit_vector({any(random), any(random), any(random)});
+      const Pose pose = body.pose();
+      const Vec3 at = pose.to_box(x), along = pose.turn_to_box(n);
+      RigidBody pushed = body;
+      pushed.kick(1, {along, cross(at, along)});
+      const auto speed = [&](const RigidBody &b) {
+        return dot(along, b.velocity() + cross(b.omega(), at - b.centre()));
+      };
+      EXPECT_NEAR(body.mobility().along(x, n), speed(pushed) - speed(body), 1e-13);
+    }
+  }
+}
+
+// Velocities of the pose are the derivatives of places, and its accelerations those of velocities.
+TEST(pose_of_a_body, has_the_derivatives_of_its_places)
+{
+  for (const Joint &joint : kJoints) {
+    const RigidBody body = moving(joint);
+    const Real h = 1e-4;
+    RigidBody before = body, after = body;
+    before.drift(-h);
+    after.drift(h);
+    const Pose now = body.pose(), a = before.pose(), b = after.pose();
+    for (const Vec3 &x : {Vec3{0, 0, 0}, Vec3{1, -2, 0.5}}) {
+      const Vec3 v = 1 / (2 * h) * (b.to_box(x) - a.to_box(x));
+      EXPECT_LT(norm(v - now.turn_to_box(now.velocity_in_mesh(x))), 1e-6);    // h^2 and more
+    }
+    EXPECT_LT(norm(1 / (2 * h) * (b.velocity - a.velocity) - now.acceleration), 1e-6);
+    EXPECT_LT(norm(1 / (2 * h) * (b.angular - a.angular) - now.spin_up), 1e-6);
+  }
+}
+
+TEST(rigid_body, is_at_first_where_its_mesh_is)
+{
+  for (const Joint &joint : kJoints) {
+    const Pose pose = RigidBody(moving(joint).mass(), joint).pose();
+    EXPECT_EQ(norm(pose.shift), 0);
+    for (int k = 0; k < 3; k++) EXPECT_EQ(pose.row[k][k], 1);
+  }
+}
+
+// All joints of a body that turns about an axis through its centre and moves along that: nothing is lost.
+TEST(rigid_body, goes_on_in_another_joint_without_a_jump)
+{
+  RigidBody body(block(2, {0.5, 0.7, 0.9}, {0.1, 0.2, 0.3}), Joint());
+  body.set_velocity({0, 0, 0}, {0, 0, 3});
+  for (int n = 0; n < 100; n++) body.drift(0.01);
+  for (const Joint &joint :
+       {Joint{JointKind::hinge, {0.1, 0.2, 0}, {0, 0, 1}}, Joint{JointKind::planar, {}, {0, 0, 1}},
+        Joint{JointKind::ball, {0.1, 0.2, 0}, {0, 0, 1}}, Joint()}) {
+    const Pose was = body.pose();
+    body.set_joint(joint);
+    body.drift(0);    // where its coordinates say
+    const Pose is = body.pose();
+    EXPECT_LT(norm(is.shift - was.shift), 1e-15);
+    EXPECT_LT(norm(is.row[0] - was.row[0]), 1e-15);
+    EXPECT_LT(norm(body.omega() - Vec3{0, 0, 3}), 1e-14);
+    for (int n = 0; n < 10; n++) body.drift(0.01);
+  }
+}
+
+TEST(rigid_body, refuses_a_velocity_that_its_joint_does_not_allow)
+{
+  RigidBody body(block(1, {1, 1, 1}), {JointKind::slider, {}, {1, 0, 0}});
+  EXPECT_NO_THROW(body.set_velocity({2, 0, 0}, {0, 0, 0}));
+  EXPECT_EQ(body.velocity().x, 2);
+  EXPECT_ANY_THROW(body.set_velocity({2, 0.1, 0}, {0, 0, 0}));
+  EXPECT_ANY_THROW(body.set_velocity({2, 0, 0}, {0, 0, 0.1}));
+}
+
+}    // namespace lsdcd::test_rigid_body
