@@ -41,7 +41,7 @@ FixWallLsdcdKokkos<DeviceType>::FixWallLsdcdKokkos(LAMMPS *lmp, int narg, char *
   kokkosable = 1;
   atomKK = kokkos_atoms(atom);
   execution_space = ExecutionSpaceFromDevice<DeviceType>::space;
-  // What is read and changed is named where it is.
+  // Each place names what it reads and changes.
   datamask_read = EMPTY_MASK;
   datamask_modify = EMPTY_MASK;
 #if LSDCD_DEVICE_EXCHANGE
@@ -161,7 +161,7 @@ void FixWallLsdcdKokkos<DeviceType>::fill_masses()
   Kokkos::deep_copy(Kokkos::subview(d_mass_seen, std::make_pair(std::size_t(0), n)), host);
 }
 
-// Of one atom, unless all are on the host: to bring them there takes a third of a millisecond for a million.
+// The law of one atom, unless all are on the host: to bring them there takes a third of a millisecond for a million.
 template <class DeviceType>
 tagint FixWallLsdcdKokkos<DeviceType>::tag_of(int i)
 {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What every function of lsdcd.h does: no exception leaves it, the text of its error is kept, and numbers
+// Every function of lsdcd.h is wrapped by this: no exception leaves it, the text of its error is stored, and numbers
 // in texts have a point in every locale.
 #pragma once
 
@@ -79,7 +79,7 @@ inline void check_type(int type)
     throw ApiError(LSDCD_ERROR_ARGUMENT, "`type` is neither LSDCD_DOUBLE nor LSDCD_FLOAT");
 }
 
-// What a struct of options has makes no sense.
+// Throws that a value in a struct of options makes no sense.
 [[noreturn]] inline void refuse_option(const std::string &options, const std::string &text)
 {
   throw ApiError(LSDCD_ERROR_ARGUMENT, "`" + options + "`: " + text);

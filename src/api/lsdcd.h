@@ -15,7 +15,7 @@
  *
  * Threads: each function says "any" where any number of threads may call it at once, with the same
  * objects; "own" where no other thread may use the object that it takes at the same time.
- * What a grid, stream or body is made from may be freed before it. A child of fork() may use what its parent has
+ * The objects that a grid, stream or body is made from may be freed before it. A child of fork() may use what its parent has
  * made, with any number of threads, but for what is on a CUDA device: CUDA does not work in a child whose parent has
  * used it.
  */
@@ -59,7 +59,7 @@ enum {
 LSDCD_API const char *lsdcd_version(void);
 /* "cutoff" for LSDCD_ERROR_CUTOFF. Any. */
 LSDCD_API const char *lsdcd_error_name(int code);
-/* What the last call of this thread that failed has to say, and what to do; until its next call. Any. */
+/* The error of the last call of this thread that failed, and what to do; until its next call. Any. */
 LSDCD_API const char *lsdcd_last_error(void);
 
 /* Hears of a long call: what it does now, a text that lives as long as this call, and how much of that is done, from
@@ -101,7 +101,7 @@ typedef struct lsdcd_mesh_facts {
   double lo[3], hi[3];
   size_t meeting_pairs; /* of triangles of different closed shells, which cut, overlap or
                                     touch each other there */
-  /* Those of lsdcd_mesh_from_faces(), or of a file of a format other than STL; else three corners a triangle. */
+  /* The vertices of lsdcd_mesh_from_faces(), or of a file of a format other than STL; else three corners a triangle. */
   size_t given_vertices;
 } lsdcd_mesh_facts;
 /* Any. */
@@ -118,10 +118,10 @@ typedef struct lsdcd_mesh_arrays {
   uint32_t *face_edges;
   uint32_t *triangle; /* of each face its number as given, from 0 */
   uint32_t *edges;    /* 2 vertices each, the lower number first */
-  /* Of edge e: edge_faces[edge_first[e]] up to before edge_faces[edge_first[e + 1]]. */
+  /* The faces at edge e: edge_faces[edge_first[e]] up to before edge_faces[edge_first[e + 1]]. */
   uint32_t *edge_first; /* edges + 1 numbers */
   uint32_t *edge_faces; /* 3 * faces numbers */
-  /* `given_vertices` numbers: of each vertex as given the one here that it was welded to, at most `weld` away. Those of an
+  /* `given_vertices` numbers: of each vertex as given the one here that it was welded to, at most `weld` away. The vertices of an
    * STL file or of corners are the corners, three a triangle, in their order. LSDCD_NONE: a vertex of no triangle; of a
    * file one at whose place no triangle has a corner. */
   uint32_t *welded_vertex;
@@ -131,7 +131,7 @@ typedef struct lsdcd_mesh_arrays {
 } lsdcd_mesh_arrays;
 /* Any. */
 LSDCD_API int lsdcd_mesh_get_arrays(const lsdcd_mesh *mesh, const lsdcd_mesh_arrays *arrays);
-/* What `lsdcd inspect` says, until the mesh is freed. Any. */
+/* The text of `lsdcd inspect`, until the mesh is freed. Any. */
 LSDCD_API const char *lsdcd_mesh_report(const lsdcd_mesh *mesh);
 /* Null is fine. Own. */
 LSDCD_API void lsdcd_mesh_free(lsdcd_mesh *mesh);
@@ -178,7 +178,7 @@ typedef struct lsdcd_grid_facts {
 } lsdcd_grid_facts;
 /* Any. */
 LSDCD_API int lsdcd_grid_get_facts(const lsdcd_grid *grid, lsdcd_grid_facts *facts);
-/* What there is to know, and what became of the cache; until the grid is freed. Any. */
+/* A text on the grid, and on its cache file; until the grid is freed. Any. */
 LSDCD_API const char *lsdcd_grid_report(const lsdcd_grid *grid);
 /* Null is fine. Own. */
 LSDCD_API void lsdcd_grid_free(lsdcd_grid *grid);
@@ -265,7 +265,7 @@ typedef struct lsdcd_contacts {
   int threads;        /* 0: OMP_NUM_THREADS, or one */
   const void *points; /* centres */
   ptrdiff_t points_row, points_column;
-  /* Of each sphere, >= 0 and at most the cutoff; null: `radius` is that of all. */
+  /* The radius of each sphere, >= 0 and at most the cutoff; null: `radius` is that of all. */
   const void *radii;
   ptrdiff_t radii_step;
   double radius; /* >= 0; 0: the cutoff */
@@ -397,11 +397,11 @@ typedef struct lsdcd_law {
   lsdcd_sub_model twisting;           /* beside normal: "marshall"; null: none */
   lsdcd_sub_model heat; /* beside normal: "radius", and spheres have a temperature; null: none */
   lsdcd_sub_model cohesion; /* beside a style: "sjkr"; null: none */
-  /* 1: damping never pulls at a sphere that leaves. That of the law of a wall holds for all of its meshes. */
+  /* 1: damping never pulls at a sphere that leaves. The value in the law of a wall holds for all of its meshes. */
   int limit_damping;
 } lsdcd_law;
 
-/* What there is to know of a sub-model. Texts live as long as the library. */
+/* The facts of a sub-model. Texts live as long as the library. */
 typedef struct lsdcd_sub_model_facts {
   size_t size;           /* of this struct; set by the caller */
   const char *field;     /* of lsdcd_law: "style", "normal", ... */
@@ -414,7 +414,7 @@ typedef struct lsdcd_sub_model_facts {
   double least[8], most[8]; /* its range */
   int may_be_derived[8];    /* 1: it may be LSDCD_DERIVED */
 } lsdcd_sub_model_facts;
-/* Of sub-model number k, from 0, of all that this library has; LSDCD_ERROR_ARGUMENT: there are not so many. Any. */
+/* The facts of sub-model number k, from 0, of all that this library has; LSDCD_ERROR_ARGUMENT: there are not so many. Any. */
 LSDCD_API int lsdcd_sub_model_get_facts(size_t k, lsdcd_sub_model_facts *facts);
 
 /* ---- walls ---------------------------------------------------------------------------------- */
@@ -424,7 +424,7 @@ LSDCD_API int lsdcd_sub_model_get_facts(size_t k, lsdcd_sub_model_facts *facts);
  * lsdcd_wall_from_spec() makes one of meshes and laws, lsdcd_wall_make() of the words of a script. */
 typedef struct lsdcd_wall lsdcd_wall;
 
-/* What a wall has to say: a line for the log, or with `warning` 1 what is probably not meant. */
+/* A message of a wall: a line for the log, or with `warning` 1 what is probably not meant. */
 typedef void lsdcd_message(void *data, int warning, const char *text);
 
 /* For a program of several processes, as with MPI. Each has a wall of the same spec or words, for spheres of its own,
@@ -479,7 +479,7 @@ enum {
   LSDCD_ROTATE = 3,  /* about an axis, right-handed, once in a period */
   LSDCD_TRANSROT = 4 /* LSDCD_ROTATE, and then x + V t */
 };
-/* What a kind does not use is 0. In an array all elements have the same size. */
+/* A member that a kind does not use is 0. In an array all elements have the same size. */
 typedef struct lsdcd_motion {
   size_t size; /* of this struct */
   int kind;
@@ -616,16 +616,16 @@ typedef struct lsdcd_wall_step {
  *
  * With a `host`, and on a device, a step does not wait to know of each sphere: their errors come with the next
  * call that is not "alone", and the arrays of a step stay until then. On a device forces are there once the
- * stream has done what it was given. Of the arrays only steps that look, see `changed`, copy some to the host, and
+ * stream has done all its work. Only steps that look, see `changed`, copy some of the arrays to the host, and
  * only these check types, radii, masses and, on a device, places. Own. */
 LSDCD_API int lsdcd_wall_step_spheres(lsdcd_wall *wall, const lsdcd_spheres *spheres,
                                       const lsdcd_wall_step *step);
-/* Before the next step: sphere i of n is the one that was from[i], or with -1 a new one. What its
- * contacts keep follows it. Alone. Own. */
+/* Before the next step: sphere i of n is the one that was from[i], or with -1 a new one. The history of its
+ * contacts follows it. Alone. Own. */
 LSDCD_API int lsdcd_wall_renumber(lsdcd_wall *wall, const ptrdiff_t *from, size_t n);
 
 /* A sphere goes to another process: before lsdcd_wall_renumber() lsdcd_wall_pack() writes what the contacts
- * of the n spheres which[i] keep, and their names, *count doubles. Those that fit in `room` are written; with
+ * of the n spheres which[i] keep, and their names, *count doubles. As many as fit in `room` are written; with
  * `room` 0 the array may be null. There lsdcd_wall_unpack() reads them, after lsdcd_wall_renumber() has made room:
  * sphere to[i] has them from then on. Numbers that no wall of this kind packed are refused. Alone. Own. */
 LSDCD_API int lsdcd_wall_pack(lsdcd_wall *wall, const ptrdiff_t *which, size_t n, double *numbers,
@@ -644,7 +644,7 @@ typedef struct lsdcd_wall_totals {
   double worn;        /* volume worn off so far */
   double servo[3];    /* position, velocity, push; 0 without a servo */
 } lsdcd_wall_totals;
-/* Of a mesh in the last step, over all processes; -1: of all, without servos. Own. */
+/* The totals of a mesh in the last step, over all processes; -1: of all, without servos. Own. */
 LSDCD_API int lsdcd_wall_get_totals(lsdcd_wall *wall, int mesh, lsdcd_wall_totals *totals);
 /* Where a mesh is after the last step: what was at x when the wall was made is at R x + t. 12 numbers, rows of R, each
  * with its t, a length, behind it. LSDCD_ERROR_ARGUMENT: no such mesh. Alone. Own. */

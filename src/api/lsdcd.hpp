@@ -36,7 +36,7 @@ class Error : public std::runtime_error {
   int code_;
 };
 
-// What a long call does now, and how much of that is done, from 0 to 1; see lsdcd_progress. True cancels the call,
+// `what` a long call does now, and the share of it that is done, from 0 to 1; see lsdcd_progress. True cancels the call,
 // which throws LSDCD_ERROR_CANCELLED; what this throws, the call throws.
 using Progress = std::function<bool(const char *what, double done)>;
 
@@ -239,7 +239,7 @@ struct Query {
   }
 };
 
-// Of sphere i: first[i] up to before first[i + 1]; see lsdcd_contacts.
+// The contacts of sphere i are first[i] up to before first[i + 1]; see lsdcd_contacts.
 template <class T>
 struct Contacts {
   std::vector<std::size_t> first;
@@ -284,7 +284,7 @@ class Grid {
                   [&](const lsdcd_query &asked) { return lsdcd_query_host(get(), &asked); });
   }
 
-  // Of points x y z x y z; infinite beyond the radius, 0: the cutoff, or none.
+  // The distances of points x y z x y z; infinite beyond the radius, 0: the cutoff, or none.
   template <class T>
   std::vector<T> distances(const std::vector<T> &points, double radius = 0) const
   {
@@ -808,7 +808,7 @@ class Wall {
   {
     c::check(lsdcd_wall_renumber(get(), from.data(), from.size()));
   }
-  // What the contacts of these spheres keep, for unpack() by another process.
+  // The history of the contacts of these spheres, for unpack() by another process.
   std::vector<double> pack(const std::vector<std::ptrdiff_t> &which)
   {
     return numbers([&](double *to, std::size_t room, std::size_t *count) {
@@ -877,7 +877,7 @@ class Wall {
   lsdcd_wall *get() { return handle_.get(); }
 
  private:
-  // What a function writes where there is room: once for how many, once for the numbers.
+  // The numbers that a function writes where there is room: it is called once for their count, once for them.
   template <class Write>
   static std::vector<double> numbers(const Write &write)
   {

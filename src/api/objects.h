@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What the handles of lsdcd.h hold. Objects share what they are made from, so that a caller may free
+// The objects behind the handles of lsdcd.h. Objects share what they are made from, so that a caller may free
 // them in any order.
 #pragma once
 
@@ -52,7 +52,7 @@ class ApiGrid {
   bool uses_tree() const { return settings_.nearest == 0 && !settings_.in_floats; }
 
   const TriangleTree &tree(const ProgressListener &progress = {}) const;
-  // Of the tree; null without a cutoff.
+  // The boxes near the tree's mesh; null without a cutoff.
   const NearBoxes *near(const ProgressListener &progress = {}) const;
   const ApiCells &cells(bool on_cuda = false, const ProgressListener &progress = {}) const;
   const ApiCells *cells_made() const { return cells_.made(); }

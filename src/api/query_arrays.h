@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What calls of the library ask about points: the checks of lsdcd_query, and its arrays.
+// Queries of points by the library: the checks of lsdcd_query, and its arrays.
 #pragma once
 
 #include "api/points_given.h"

@@ -80,7 +80,7 @@ lsdcd_query part_of(lsdcd_query q, std::size_t from, std::size_t n)
   return q;
 }
 
-// Of all points before any is answered, so that an error of a part has the number of its point.
+// Checks all points before any is answered, so that an error of a part has the number of its point.
 template <class T>
 void check_radii(const ApiGrid &grid, const lsdcd_query &q)
 {

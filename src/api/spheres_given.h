@@ -19,7 +19,7 @@ void check_places(const lsdcd_spheres &spheres, const GpuArrays *gpu);
 // `has_heat`, `has_types`: of the law, which then needs these arrays.
 Spheres spheres_of(const lsdcd_spheres &spheres, bool has_heat, bool has_types);
 
-// Of arrays of the host:
+// Checks of arrays of the host:
 void check_types(const Spheres &spheres);
 void check_sizes(const Spheres &spheres);
 // The box around the centres.

@@ -70,7 +70,7 @@ class WallCaller : public Host {
   // Numbers for spheres without one, 0, in the order of the array. `highest`: of all processes so far.
   void name_new_spheres(std::int64_t highest);
 
-  // Of the step that is under way.
+  // The spheres of the step that is under way.
   void set_spheres(const Spheres &spheres);
   std::vector<std::int64_t> tags;    // of its spheres; 0: it has none yet
 
@@ -86,7 +86,7 @@ class WallCaller : public Host {
   lsdcd_host host_ = {};
   std::int64_t highest_tag_ = 0;
   Spheres spheres_;
-  // Of spheres on a GPU, where somebody has asked for them in this step.
+  // Are spheres on a GPU copied, as somebody has asked for them in this step?
   bool are_copied_ = false;
   std::vector<Real> x_, radius_, mass_;
   std::vector<int> type_;

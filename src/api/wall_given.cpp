@@ -187,7 +187,7 @@ MeshSpec mesh_spec_of(const lsdcd_wall_mesh &given, std::size_t k, const WallSpe
   return mesh;
 }
 
-// What would be felt twice, or lost.
+// Refuses meshes that would be felt twice, and outputs that would be lost.
 void check_apart(const WallSpec &wall)
 {
   for (std::size_t k = 0; k < wall.meshes.size(); k++)

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What a handle lsdcd_wall holds, and what every function of one does.
+// The object behind a handle lsdcd_wall, and the wrapper of every function of one.
 #pragma once
 
 #include "wall/wall.h"
@@ -18,7 +18,7 @@
 
 namespace lsdcd {
 
-// Of each sphere, as HistoryExchange::pack_restart() writes them.
+// The history of each sphere, as HistoryExchange::pack_restart() writes it.
 using SphereHistories = std::vector<std::vector<Real>>;
 
 // A number for all poses that a program has given, which tells whether those of another process are the same.
@@ -34,7 +34,7 @@ class PosesGiven {
         add_bytes(&number, sizeof number);
       }
   }
-  // What fits a double, exactly.
+  // The part that fits a double, exactly.
   Real number() const { return static_cast<Real>(hash_ >> 11); }
 
  private:
@@ -71,7 +71,7 @@ struct lsdcd_wall {
 
 namespace lsdcd {
 
-// What every function of a wall does: its GPU is current.
+// Wraps every function of a wall: its GPU is current.
 template <class Body>
 int guard_wall(lsdcd_wall *wall, const Body &body) noexcept
 {

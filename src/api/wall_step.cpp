@@ -35,7 +35,7 @@ void check_count(const lsdcd_wall &wall, std::size_t n)
                                              " spheres, and this step has " + std::to_string(n));
 }
 
-// What this process wants of a step.
+// The wishes of this process for a step.
 struct StepWanted {
   Spheres spheres;
   lsdcd_wall_step step = {};

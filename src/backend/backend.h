@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What a backend has: memory, and loops over many things, on a CPU or on a GPU. All else is made of these verbs.
+// A backend has memory, and loops over many things, on a CPU or on a GPU. All else is made of these verbs.
 //
 //   Array, Scratch, HostArray    memory where it computes; the same for a while; memory of the host that copies
 //                                quickly, and without a wait

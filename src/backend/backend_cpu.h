@@ -86,7 +86,7 @@ struct CpuBackend {
     return 1e3 * std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   }
 
-  // Of from[0, n) those whose flag is set, into `to`; *total becomes how many.
+  // Copies those of from[0, n) whose flag is set to `to`; *total becomes their number.
   void compact(std::size_t n, const int *from, const char *flags, Array<char> & /*scratch*/,
                int *to, std::uint32_t *total)
   {

@@ -198,7 +198,7 @@ struct CudaBackend {
            n_at, f);
   }
 
-  // Of the kernels that f() starts.
+  // Milliseconds of the kernels that f() starts.
   template <class F>
   double milliseconds(const F &f)
   {
@@ -216,8 +216,8 @@ struct CudaBackend {
     return ms;
   }
 
-  // Of from[0, n) those whose flag is set, into `to`; *total, on the device, becomes how many. Does not wait:
-  // `scratch` must not be freed before it has ended.
+  // Copies those of from[0, n) whose flag is set to `to`; *total, on the device, becomes their number. Does not
+  // wait: `scratch` must not be freed before it has ended.
   template <class = void>
   void compact(std::size_t n, const int *from, const char *flags, Array<char> &scratch, int *to,
                std::uint32_t *total)

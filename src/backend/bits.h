@@ -34,7 +34,7 @@ LSDCD_FN int count_bits(std::uint32_t word)
 #endif
 }
 
-// Of a word that is not 0.
+// The number of the lowest bit that is set, in a word that is not 0.
 LSDCD_FN unsigned lowest_bit(unsigned word)
 {
 #if LSDCD_ON_GPU()

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What code that is written for a GPU's blocks of threads reads and calls. A block's work is a struct F with
+// Code that is written for a GPU's blocks of threads reads and calls this. A block's work is a struct F with
 //   kThreads, kBlocksAtOnce    threads of a block at most, and blocks at once on a processor at least
 //   operator()(block) const    what each thread does
 // for the backend's for_each_block(). Its members lie where all threads read them at once.
@@ -76,9 +76,9 @@ class BlockSums {
   };
   LSDCD_GPU_FN explicit BlockSums(Memory &memory) : memory_(memory) {}
 
-  // Of all n; known to thread 0.
+  // The sum of all threads' n; known to thread 0.
   LSDCD_GPU_FN unsigned sum(unsigned n) { return Sum(memory_.sum).Sum(n); }
-  // Of those of lower threads, and of all.
+  // `before`: the sum of n of lower threads; `all`: the sum of n of all threads.
   LSDCD_GPU_FN void scan(unsigned n, unsigned &before, unsigned &all)
   {
     Scan(memory_.scan).ExclusiveSum(n, before, all);

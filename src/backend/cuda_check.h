@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What CUDA says of its calls, as errors that say what to do.
+// Errors of CUDA's calls, as exceptions that say what to do.
 #pragma once
 
 #include "base/input_error.h"

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Which GPU a process uses, and streams on it.
+// The GPU that a process uses, and streams on it.
 #pragma once
 
 #include "backend/cuda_check.h"

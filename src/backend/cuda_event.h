@@ -26,7 +26,7 @@ class CudaEvent {
       cuda_check(cudaEventCreateWithFlags(&event_, cudaEventDisableTiming), "creating an event");
     cuda_check(cudaEventRecord(event_, stream), "recording an event");
   }
-  // What `stream` is given from now on runs once this is reached.
+  // Work that `stream` gets from now on runs once this event is reached.
   void hold(cudaStream_t stream) const
   {
     cuda_check(cudaStreamWaitEvent(stream, event_, 0), "ordering two streams");

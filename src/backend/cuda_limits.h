@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What a kernel whose blocks stay needs to know of the device.
+// Limits of the device, for kernels whose blocks stay as long as there is work.
 #pragma once
 
 #include "backend/cuda_check.h"
@@ -20,9 +20,9 @@ class CudaLimits {
     ask();
     return processors_;
   }
-  // For blocks of up to `most_warps`, `blocks` at once on a processor, whose warps need
-  // `of_warp` bytes of shared memory each, and which go faster with `table` bytes more, 0 where
-  // that is not possible: with these if half of the warps or more still fit.
+  // The warps of a block, up to `most_warps`, and its shared memory, where `blocks` blocks are on a processor at
+  // once. A warp needs `of_warp` bytes. A block is faster with a table of `table` bytes (0: there is none): it
+  // has one if at least half of the warps still fit.
   struct Shape {
     unsigned warps;
     std::size_t shared;

@@ -22,7 +22,7 @@ class CudaSideStream {
   CudaSideStream(const CudaSideStream &) = delete;
   CudaSideStream &operator=(const CudaSideStream &) = delete;
 
-  // What the first stream has been given so far is what the next work beside it waits for.
+  // The next work beside the first stream waits for all that this stream has got so far.
   void ready(cudaStream_t first)
   {
     if (!second_) make();

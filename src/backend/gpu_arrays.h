@@ -25,7 +25,7 @@ class GpuArrays {
   virtual void wait() const = 0;
 };
 
-// Of the device that is current, in the order of `stream`, a cudaStream_t of it. Throws InputError in a build
+// Arrays of the current device, in the order of `stream`, a cudaStream_t of it. Throws InputError in a build
 // without CUDA.
 std::unique_ptr<GpuArrays> make_gpu_arrays(void *stream);
 

@@ -101,7 +101,7 @@ struct Warp {
     if constexpr (kSize > 1) return static_cast<unsigned>(count_bits(votes));
     return votes;
   }
-  // Of votes, those of lower ranks than this thread's.
+  // The number of votes of threads with lower ranks than this one's.
   LSDCD_FN static unsigned count_below(unsigned votes)
   {
     return count(votes & ((1u << rank()) - 1));

@@ -19,7 +19,8 @@ LSDCD_FN std::uint32_t spread_bits(std::uint32_t i)
   return (i | i << 2) & 0x09249249u;
 }
 
-// Of a point whose coordinates are shares of the box's sides, 0 to 1; those outside count as on the faces. The
+// The number, along the curve, of a point whose coordinates are shares of the box's sides, 0 to 1; points outside
+// count as on the faces. The
 // curve has 2^`bits` steps a side, `bits` up to 10.
 LSDCD_FN std::uint32_t place_on_curve(const Vec3 &share, int bits)
 {

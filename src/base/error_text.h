@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What an exception says.
+// The text of an exception.
 #pragma once
 
 #include <exception>

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What the core throws when something the user gave cannot be used.
+// The core throws this where input of the user cannot be used.
 #pragma once
 
 #include <stdexcept>

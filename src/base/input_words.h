@@ -44,7 +44,7 @@ class Tokens {
   std::size_t at() const { return at_; }
   std::string between(std::size_t first) const;
 
-  // What is being read, for the errors of what follows.
+  // `name` is being read, with this syntax: errors of the next words say so.
   void set_context(const std::string &name, const std::string &syntax);
 
   // A number in [low, high]; `what` is its name in messages.

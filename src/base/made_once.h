@@ -13,7 +13,7 @@ namespace lsdcd {
 template <class T>
 class MadeOnce {
  public:
-  // make() returns a std::unique_ptr<T>. What it throws goes to the caller, and the next one makes it.
+  // make() returns a std::unique_ptr<T>. An exception goes to the caller, and the next caller makes it.
   template <class Make>
   const T &get(const Make &make) const
   {

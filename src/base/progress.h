@@ -10,8 +10,8 @@
 
 namespace lsdcd {
 
-// What is done now, and how much of that, from 0 to 1. It is called by the thread that asked for the work, and
-// what it throws ends the work. Empty: nobody listens.
+// `what` is done now, `share` of it is done, from 0 to 1. It is called by the thread that asked for the work, and
+// an exception ends the work. Empty: nobody listens.
 using ProgressListener = std::function<void(const std::string &what, double share)>;
 
 inline std::string progress_text(const std::string &what, double share)

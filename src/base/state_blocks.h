@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What a restart file has to bring back: numbers in blocks that have a name and a version.
+// The data of a restart file: numbers in blocks that have a name and a version.
 //
 // As numbers a state is kMark, the format of the list, how many numbers there are in all, the kind of the state, and
 // its blocks. A block is its name, its version, how many numbers follow, and these; they may be blocks again. A text

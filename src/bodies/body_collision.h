@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Which triangles of a rigid body meet triangles of the wall, pose by pose, on the CPU or a GPU.
+// The triangles of a rigid body that meet triangles of the wall, pose by pose, on the CPU or a GPU.
 #pragma once
 
 #include "bodies/meeting_segment.h"

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Which primitives of the wall may meet a piece of the body.
+// The primitives of the wall that may meet a piece of the body.
 //
 // Why no pair is missed. A pair meets at a point x, which is in a piece of the body's triangle, so
 // within the piece's radius of its centre c. The list of c's cell holds every triangle of the wall

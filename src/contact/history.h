@@ -85,7 +85,7 @@ LSDCD_FN bool is_left(const ContactsView &set, int i, const Springs &old, int k)
   return true;
 }
 
-// Which spring of the last step a contact begins with, and what part of it.
+// The spring of the last step that a contact begins with, and the share of it.
 struct Transfer {
   int from;     // index of the old spring; -1: a new one
   Real part;    // 0 to 1
@@ -128,10 +128,10 @@ LSDCD_FN Vec3 handed_on(const Vec3 &h, const Transfer &in, const Springs &old, c
   return in.part * transport(h, old[in.from].normal, normal);
 }
 
-// Does contact i hold the sphere by adhesion although they do not touch? Adhesion begins by touching.
-// It goes on if this contact held in the last step, or a nearly aligned one next to it or on another
-// mesh: adhesion crosses seams. `shares`: contacts share their overlap, so that the next contact may
-// begin beside the last one; else it begins where the last one was left.
+// Does adhesion hold the sphere at contact i, which does not overlap? Adhesion begins where they overlap. It goes
+// on if in the last step the same contact held the sphere, or one with nearly the same normal on an adjacent feature
+// or on another mesh: adhesion crosses seams. `shares`: contacts share their overlap, so that a contact may begin
+// while the last one lasts; else it begins where the last one has ended.
 template <class Springs>
 LSDCD_FN bool is_held(const MeshFeaturesView &wall, const ContactsView &set, int i, bool shares,
                       const Springs &old, int n_old)

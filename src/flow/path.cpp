@@ -91,7 +91,7 @@ Box Path::bounds() const
 }
 
 // In front of the triangle's plane (1) or behind it (-1). The determinant is a sum of 6 products
-// of a component each of u, v and w. Those of u and v are off by kEpsilon of their sizes, those
+// of a component each of u, v and w. Components of u and v are off by kEpsilon of their sizes, those
 // of w by 16 kEpsilon largest_ and kEpsilon of its size; products and sums add 5 kEpsilon of
 // each product. All that is less than 6 |u| |v| (16 largest_ + 8 |w|) kEpsilon.
 int Path::side(int end, const Vec3 &a, const Vec3 &b, const Vec3 &c) const

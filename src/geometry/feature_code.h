@@ -11,7 +11,7 @@
 
 namespace lsdcd {
 
-// Which part of the wall a contact is on: kind in the two top bits, index below.
+// The feature of the wall that a contact is on: its kind in the two top bits, its index below.
 using FeatureCode = std::uint32_t;
 enum class FeatureKind : std::uint32_t { face = 0, edge = 1, vertex = 2 };
 

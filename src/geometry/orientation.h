@@ -22,8 +22,8 @@ namespace lsdcd {
 //
 // Exact signs are of coordinates times a power of two that takes the largest to 2^330: of four
 // points, products of three differences are then below 2^1000, and their last bits are at 2^-1056
-// or above, within the range of Real, if no coordinate is below 2^-300. What is below, that is
-// less than 2^-630 (1e-190) of the largest, counts as 0.
+// or above, within the range of Real, if no coordinate is below 2^-300. Smaller ones, less
+// than 2^-630 (1e-190) of the largest, count as 0.
 
 namespace orientation_detail {
 

@@ -59,10 +59,10 @@ struct SidesBy {
 };
 using Sides = SidesBy<ExactSign>;
 
-// Devillers and Guigue (2002), for triangles whose planes cut each other and which both reach both
-// sides of, or touch, the other's plane. Each is turned so that corner 0 is on its own, and the
-// other's winding so that it is on the positive side. On the line of both planes each has an
-// interval, and two signs, each of which must not be 1, tell whether they overlap: the larger.
+// Devillers and Guigue (2002). Precondition: the planes cut each other, and each triangle reaches both sides of the
+// other's plane, or touches it. Corners are permuted so that corner 0 is alone on its side, and the other's winding
+// so that this is the positive side. On the common line of the planes each triangle has an interval. The intervals
+// overlap if neither of two orientation signs is 1; the larger sign is returned.
 template <class Sign>
 LSDCD_FN int crossing(const Triangle &a, const Triangle &b, const SidesBy<Sign> &of_a,
                       const SidesBy<Sign> &of_b)

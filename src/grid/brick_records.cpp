@@ -45,7 +45,7 @@ BrickEdge edge_at(const EdgeRecord &e, const Vec3 &origin)
   return out;
 }
 
-// Which features this brick has listed so far: the cells of a brick list the same ones
+// The features that this brick has listed so far: the cells of a brick list the same ones
 // many times.
 class Named {
  public:

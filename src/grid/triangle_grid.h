@@ -96,8 +96,8 @@ struct GridView {
   }
 };
 
-// What reads the lists: a step, which keeps what it finds for many steps, or queries of points, which
-// read a list for each.
+// Who reads the lists: a step, which stores what it finds for many steps, or queries of points, which
+// read a list for each point.
 enum class GridPurpose { step, points };
 
 struct GridSettings {
@@ -190,7 +190,7 @@ std::string describe(const GridReport &report);
 std::size_t flat_bytes(const TriangleGrid &grid);
 // The part that any grid of this wall has, with room for the padding of the rest.
 std::size_t flat_wall_bytes(const TriangleGrid &grid);
-// Of all of a grid, by the settings.
+// The bytes that all of a grid may take, by the settings.
 std::size_t budget_of(const GridSettings &settings, const TriangleGrid &grid);
 void flatten(const TriangleGrid &grid, char *block);
 // The same, but frees each array of the grid when it is copied.

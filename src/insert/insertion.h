@@ -66,7 +66,7 @@ class Insertion {
   Real inserted_mass() const { return inserted_mass_; }
   // Drawn, without a place.
   const std::vector<Grain> &owed() const { return owed_; }
-  // Due, without a place. Those not yet drawn count with the mean mass.
+  // Due, without a place. Grains that are not yet drawn count with the mean mass.
   GrainTotals late() const;
   const Refused &refused() const { return refused_; }
   // Is more in than the total that is asked for?

@@ -43,7 +43,7 @@ constexpr const char *kKind = "insertion";
 // The first number of development versions after 0.9.0. 0.9.0 has a count, then the second one.
 constexpr Real kNamedLists = -2, kFormatOf090 = 19790401;
 
-// Of development versions: the number of bytes that follow, then for each list the length of its name, the name, the
+// Reads what development versions wrote: the number of bytes that follow, then for each list the length of its name, the name, the
 // number of its numbers, and these.
 std::map<std::string, std::vector<Real>> named_lists(const Real *numbers, std::size_t n)
 {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What a restart file keeps of an insertion.
+// The data of an insertion in a restart file.
 #pragma once
 
 #include "base/state_blocks.h"
@@ -24,7 +24,7 @@ struct Refused {
 // Steps are told from the step of the file.
 struct InsertionState {
   struct Plan {
-    // Of amounts and grains, beginning with the kind of the feed; of a file of 0.9.0 the first two only.
+    // Numbers of amounts and grains, beginning with the kind of the feed; a file of 0.9.0 has the first two only.
     std::vector<Real> numbers;
     Real given = 0;    // mass or number
   };

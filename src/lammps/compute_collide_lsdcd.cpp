@@ -240,7 +240,7 @@ void ComputeCollideLsdcd::compute_vector()
   vector[2] = found.back();
 }
 
-// Of each body: its molecule, 0 where there is one body; its pairs.
+// A row for each body: its molecule, 0 where there is one body; its pairs.
 void ComputeCollideLsdcd::compute_array()
 {
   invoked_array = update->ntimestep;

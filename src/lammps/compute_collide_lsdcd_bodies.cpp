@@ -37,7 +37,7 @@ std::string ComputeCollideLsdcd::name_of(int body) const
                             : std::string("the body of all atoms of the group");
 }
 
-// Those of the group, on every process, by molecule and tag.
+// The atoms of the group, on every process, by molecule and tag.
 std::vector<ComputeCollideLsdcd::Member> ComputeCollideLsdcd::gather_members() const
 {
   std::vector<Member> mine;
@@ -148,7 +148,7 @@ void ComputeCollideLsdcd::find_bodies()
   for (std::size_t b = 0; b < bodies.size(); b++) pose_of(static_cast<int>(b), sums);
 }
 
-// Of all bodies, on every process.
+// The sums of all bodies, on every process.
 std::vector<double> ComputeCollideLsdcd::gather_sums() const
 {
   std::vector<double> sums(PosePoints::kSums * bodies.size(), 0.0);

@@ -52,7 +52,7 @@ class FixMassflowLsdcd : public Fix, private OwnMessages {
 
  private:
   enum : unsigned { kCounted = 1, kToDelete = 2 };
-  // Of the totals: columns of a type, and what follows those of all types.
+  // Columns of the totals: those of a type, and what follows those of all types.
   enum { kForward, kForwardMass, kBackward, kBackwardMass, kColumns };
   enum { kDeleted, kDeletedMass, kAfterTypes };
   // The surface is farther than `clear` from `last`: until a centre has moved that far, it has
@@ -78,7 +78,7 @@ class FixMassflowLsdcd : public Fix, private OwnMessages {
   // On this process.
   std::vector<double> mine, totals;    // totals: of all processes, where `reduced`
   bool reduced = false;
-  // Of the window over which the rate is an average, on all processes.
+  // The window over which the rate is an average, on all processes.
   struct Window {
     double time = 0;
     int steps = 0;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: GPL-2.0-only
 
-// What fix massflow/lsdcd keeps of each atom, and deletion.
+// The data of each atom in fix massflow/lsdcd, and deletion.
 
 #include "lammps/fix_massflow_lsdcd.h"
 

@@ -388,7 +388,7 @@ tagint FixWallLsdcd::tag_of(int i)
   return atom->tag_enable ? atom->tag[i] : 0;
 }
 
-// What damping sees of an atom in a rigid body is the mass of the body.
+// Damping of an atom in a rigid body reads the mass of the body.
 void FixWallLsdcd::fill_masses()
 {
   need_on_host();
@@ -485,7 +485,7 @@ int FixWallLsdcd::size_restart(int i)
   return 1 + history_on_host().packed_size(i);
 }
 
-// Of all processes: LAMMPS writes what the first one says, and makes rows that wide. Collective.
+// The largest size of all processes: LAMMPS takes the first one's, and makes rows that wide. Collective.
 int FixWallLsdcd::maxsize_restart()
 {
   int largest = 1 + history_on_host().largest_packed_size();
@@ -539,7 +539,7 @@ static double column(const lsdcd::MeshTotals &t, int i)
   return i < 3 ? t.force[i] : i < 6 ? t.torque[i - 3] : after_torque[i - 6];
 }
 
-// Of one mesh. Collective.
+// Output i of one mesh. Collective.
 double FixWallLsdcd::mesh_output(int mesh, int i)
 {
   if (i == kWorn) return wall->worn(mesh);
@@ -561,7 +561,7 @@ double FixWallLsdcd::compute_array(int mesh, int i)
   return mesh_output(mesh, i);
 }
 
-// Of all meshes; and of the one servo, if there is one.
+// Outputs of all meshes together; and of the one servo, if there is one.
 double FixWallLsdcd::compute_vector(int i)
 {
   if (i >= kVector) return only_servo() < 0 ? 0 : mesh_output(only_servo(), i);
@@ -585,7 +585,7 @@ int FixWallLsdcd::only_servo() const
   return only;
 }
 
-// What has a servo has its outputs, after those of the rest.
+// A wall with a servo has its outputs, after the others.
 void FixWallLsdcd::show_servo()
 {
   for (const lsdcd::MeshPart &m : meshes())

@@ -88,12 +88,12 @@ class FixWallLsdcd : public Fix, protected OwnMessages {
   bool wall_in_minimize_warned = false, doubled_warned = false;
   WallPicture picture;
 
-  // Of the vector: force, torque, contacts, largest overlap, uncertified; volume worn off, power; and
+  // Parts of the vector: force, torque, contacts, largest overlap, uncertified; volume worn off, power; and
   // with a servo three more.
   static constexpr int kTotals = 9, kWorn = kTotals, kPower = kTotals + 1, kVector = kTotals + 2,
                        kServo = 3;
 
-  // What wall/lsdcd/kk does in its own way.
+  // wall/lsdcd/kk does these in its own way.
   virtual void begin_step(const lsdcd::StepInput &);
   virtual void finish_step();
   virtual lsdcd::Spheres spheres();

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: GPL-2.0-only
 
-// What our fixes ask of LAMMPS's box and neighbour lists.
+// LAMMPS's box and neighbour lists, as our fixes need them.
 #ifndef LSDCD_HOST_BOX_H
 #define LSDCD_HOST_BOX_H
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: GPL-2.0-only
 
-// What a wall must not share with another fix of the script.
+// Things that a wall must not share with another fix of the script.
 #ifndef LMP_OTHER_FIXES_H
 #define LMP_OTHER_FIXES_H
 
@@ -21,8 +21,8 @@ namespace LAMMPS_NS {
 void check_files_apart(const class FixWallLsdcd &, const class Modify &, lsdcd::Host &,
                        bigint step);
 
-// What is said where an earlier fix has a mesh of this one, at the same place and for some of its atoms;
-// empty: none has. The fix that comes later tells. Collective.
+// A text where an earlier fix has a mesh of this one, at the same place and for some of its atoms;
+// empty: none has. The later fix warns. Collective.
 std::string doubled_mesh(const class FixWallLsdcd &, const class Modify &, const class Atom &,
                          MPI_Comm);
 

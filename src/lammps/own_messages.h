@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: GPL-2.0-only
 
-// What a fix, compute or region of ours says: its kind, ID and style stand before each message.
+// Messages of our fixes, computes and regions: kind, ID and style stand before each.
 #ifndef LMP_OWN_MESSAGES_H
 #define LMP_OWN_MESSAGES_H
 

@@ -140,7 +140,7 @@ constexpr char kLayout[] = "legacy";
 constexpr char kLayout[] = "";
 #endif
 
-// Which Kokkos runs is asked by the styles: only they can call it.
+// The styles ask which Kokkos runs: only they can call it.
 bool kokkos_matches(void *lmp)
 {
   auto *has =

@@ -10,7 +10,7 @@
 
 namespace lsdcd {
 
-// Of a kind, "fix", "compute" or "region".
+// Adds a style of a kind, "fix", "compute" or "region".
 void add_style(const char *kind, void *lmp, void *handle, void *regfunc, const char *name,
                const char *info, lammpsplugin_factory2 *create);
 

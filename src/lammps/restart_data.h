@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: GPL-2.0-only
 
-// What our fixes keep in LAMMPS's restart files.
+// The data of our fixes in LAMMPS's restart files.
 #ifndef LMP_LSDCD_RESTART_DATA_H
 #define LMP_LSDCD_RESTART_DATA_H
 
@@ -17,7 +17,7 @@ namespace LAMMPS_NS {
 // LAMMPS hands the same numbers to every process, and does not say how many.
 constexpr std::size_t kAllNumbers = std::size_t(1) << 40;
 
-// Of the first process.
+// The first process calls it.
 inline void write_state(FILE *file, const lsdcd::State &state)
 {
   const std::vector<double> numbers = state.numbers();
@@ -34,7 +34,7 @@ inline std::string unusable_state(const lsdcd::StateError &e, const std::string 
          without;
 }
 
-// What the log warns of where a later version has written more; empty: this version has read all.
+// The log's warning where a later version has written more; empty: this version has read all.
 inline std::string unread_state(const lsdcd::State &state)
 {
   const std::string names = state.unread();

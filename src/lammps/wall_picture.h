@@ -20,7 +20,7 @@ class WallPicture {
   lsdcd::PictureSpec spec;
 
   bool is_drawn() const { return !objects.empty(); }
-  // Of a process that has the meshes. Each object is its kind and a row {atom type, corners}; both arrays
+  // For a process that has the meshes. Each object is its kind and a row {atom type, corners}; both arrays
   // belong to this object. Returns how many there are.
   int draw(const lsdcd::Wall &, int *&kinds, double **&rows);
 

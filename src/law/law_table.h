@@ -35,7 +35,7 @@ inline Real largest_pull_off(const LawTable &table)
   return largest;
 }
 
-// Of mesh and kind, from 0.
+// The law of this mesh and kind, both from 0.
 inline const ContactLaw &law_of(const LawTable &table, int mesh, int kind)
 {
   return table.laws[static_cast<std::size_t>(mesh) * table.of_mesh() + kind];

@@ -36,7 +36,7 @@ struct Kept {
 struct LawDraft {
   ContactLaw law;
   const char *normal_name = "", *damping_name = "viscoelastic";
-  // Of normal sub-models with material constants; young 0: not given.
+  // For normal sub-models with material constants; young 0: there are none.
   Real young = 0, poisson = 0;
   Real second = 0;    // eta or e, the second number of the normal sub-model
 };
@@ -67,7 +67,7 @@ std::string names_text(Family family, GoesWith with);
 // The words of a family in scripts: "tangential"; empty for style and normal.
 const char *family_word(Family family);
 
-// The rows of a law, in the order of families. Of two rows with the same formula it has the first.
+// The rows of a law, in the order of families. Where two rows have the same formula it has the first.
 std::vector<const SubModel *> rows_of(const ContactLaw &law);
 
 // "hooke/history, rolling cdt"

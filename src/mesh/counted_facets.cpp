@@ -107,7 +107,7 @@ bool is_known_closed(const WeldedMesh &mesh)
   return mesh.dropped.empty() && mesh.report.closed && mesh.report.misoriented_edges == 0;
 }
 
-// Faces with an edge that no other has are taken away until there are none. What is left encloses a space.
+// Faces with an edge that no other has are taken away until there are none. The faces that are left enclose a space.
 bool enclose(const WeldedMesh &mesh, const std::vector<int> &faces)
 {
   std::vector<char> is_left(mesh.faces.size(), 0);

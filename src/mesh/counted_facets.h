@@ -18,8 +18,8 @@ struct LooseEdge {
   int facets;    // that have it
 };
 
-// Of two facets with the same corners and opposite windings neither counts; of several that are wound
-// alike, one. Those without area do where they close the surface.
+// Where two facets have the same corners and opposite windings neither counts; where they are wound
+// alike, one does. Facets without area count where they close the surface.
 struct CountedFacets {
   std::vector<std::array<int, 3>> facets;    // vertices, as they are wound
   std::vector<int> sheets;                   // faces of which neither winding counts

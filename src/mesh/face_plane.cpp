@@ -45,9 +45,9 @@ FacePlane face_plane(const Vec3 &a, const Vec3 &b, const Vec3 &c)
 
   // Three points meant to be on a line miss it by the rounding of their coordinates
   // and of the placement that moved them, a few units in the last place. Below that
-  // a facet's plane is noise. The second bound serves facets that are exact, as far
-  // from the origin as they are large: what it drops, the edges cover to 1e-14 of
-  // their length. The error of `height` here is 1e-18 of the longest edge or less.
+  // a facet's plane is noise. The second bound is for facets with exact coordinates, as far
+  // from the origin as they are large: it drops those thinner than 1e-14 of their longest edge, which
+  // moves the surface by no more. The error of `height` here is 1e-18 of the longest edge or less.
   const Real magnitude =
       std::max({largest_coordinate(a), largest_coordinate(b), largest_coordinate(c)});
   const bool degenerate =

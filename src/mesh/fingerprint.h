@@ -10,7 +10,7 @@
 
 namespace lsdcd {
 
-// Of vertices, edges and faces, in their order, bit for bit.
+// A number made of the bits of vertices, edges and faces, in their order.
 std::uint64_t fingerprint(const WeldedMesh &mesh);
 
 }    // namespace lsdcd

@@ -21,7 +21,7 @@ std::string counted(std::size_t n, const char *one, const char *many)
   return std::to_string(n) + " " + (n == 1 ? one : many);
 }
 
-// Which facets are there in both windings; empty where none is.
+// A line on facets that the file has in both windings; empty where there is none.
 std::string two_sided(const MeshReport &report)
 {
   if (report.two_sided_faces == 0) return "";

@@ -13,7 +13,7 @@
 namespace lsdcd {
 
 // Fills the edge counts, sizes, folds, area and volume of mesh.report; `plane`
-// holds one entry per face. What was dropped on the way is the welder's to count.
+// holds one entry per face. The welder counts what it drops.
 void measure_mesh(WeldedMesh &mesh, const std::vector<FacePlane> &plane);
 
 // Does the face run along the edge from its lower to its higher vertex?

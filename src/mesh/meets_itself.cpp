@@ -49,7 +49,7 @@ bool meet_beyond(int shared, const Triangle &a, const Triangle &b)
 {
   if (shared == 0) return triangles_meet(a, b);
   if (shared == 1 ? are_parted(a, b) : are_unfolded(a, b)) return false;
-  // What else they share reaches from the common corner to the opposite side of one of them.
+  // If they share more than a corner, that reaches from the corner to the opposite side of one of them.
   if (shared == 1) return segment_meets(a, b[1], b[2]) || segment_meets(b, a[1], a[2]);
   // On both sides of a common edge, unless one is folded upon the other.
   if (orientation(a[0], a[1], a[2], b[2]) != 0) return false;

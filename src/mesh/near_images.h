@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Which images of the facets of a mesh come near a periodic box.
+// The images of the facets of a mesh that come near a periodic box.
 #pragma once
 
 #include "mesh/periodic_box.h"

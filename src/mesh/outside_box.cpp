@@ -18,7 +18,7 @@ std::string extents_text(const Box &box)
 
 std::string outside_box(const Box &mesh, const PeriodicBox &box, Real near)
 {
-  // What is past a periodic face acts in the box by its image.
+  // A part past a periodic face acts in the box by its image.
   Vec3 past = {near, near, near};
   for (int k = 0; k < 3; k++)
     if (box.periodic[k]) past[k] += box.width(k);

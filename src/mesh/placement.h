@@ -35,7 +35,7 @@ class Placement {
   const Vec3 &row(int k) const { return row_[k]; }
   const Vec3 &shift() const { return shift_; }
   bool is_identity() const;
-  // What it was built from, in order, for messages.
+  // The steps it was built from, in order, for messages.
   const std::vector<PlacementStep> &steps() const { return steps_; }
   // Is it the same map?
   bool operator==(const Placement &other) const;

@@ -41,10 +41,10 @@ bool has_face_with(const WeldedMesh &mesh, int a, int b)
   return false;
 }
 
-// How far the dropped degenerate facets are from the mesh that is left. A point of such a facet is no
-// farther from its longest side than the facet is high, and other edges may follow that side. If none
-// follows a piece of it, a point of the piece is within half its length of an end of the piece, and
-// that end is as far from the mesh as from the nearest corner.
+// Bounds the distance of dropped degenerate facets from the mesh that is left. A point of a facet of height h is
+// within h of its longest side. Edges of the mesh may follow that side. If no edge follows a piece of it of length
+// l, each point of the piece is within l / 2 of one of its ends, and the end is as far from the mesh as from the
+// nearest corner of it.
 void measure_dropped(const WeldedMesh &mesh, const std::vector<int> &old_corners, Real tolerance,
                      RepairReport &report)
 {

@@ -16,7 +16,7 @@ namespace lsdcd {
 
 constexpr char kOpenEdges[] = "open edges";
 
-// What is left that repair() cannot mend.
+// The faults that repair() cannot mend.
 struct Unmended {
   std::string what;          // kOpenEdges and so on
   std::size_t count = 0;     // at least 1

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Which of n things are the same (Tarjan 1975).
+// Sets of equal things among n (Tarjan 1975).
 #pragma once
 
 #include <algorithm>

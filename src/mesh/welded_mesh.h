@@ -14,7 +14,7 @@
 
 namespace lsdcd {
 
-// What welding found and did. The fix and `lsdcd inspect` print it.
+// The findings and deeds of welding. The fix and `lsdcd inspect` print it.
 struct MeshReport {
   std::size_t facets = 0;               // triangles in the file
   std::size_t corners = 0;              // 3 * facets
@@ -44,7 +44,7 @@ struct MeshReport {
   std::size_t feature_edges = 0;    // folds above 30 degrees
 };
 
-// Which parts of a mesh are periodic images (mesh/periodic_images.h): those with numbers from
+// The parts of a mesh that are periodic images (mesh/periodic_images.h): those with numbers from
 // n_faces, n_edges and n_vertices on. Empty if there are none.
 struct PeriodicImages {
   std::size_t n_faces = 0, n_edges = 0, n_vertices = 0;    // of the mesh itself

@@ -56,8 +56,8 @@ int sign_of(Real a)
   return (a > 0) - (a < 0);
 }
 
-// The side of the line from a to b on which the projection of q along an axis is, where it is on the
-// line and is moved by e along u and e^2 along v. 0: the line is a point.
+// The projection of a point along an axis lies on the line from a to b. The side of the line on which it lies when
+// it is moved by an infinitesimal e along u and e^2 along v. 0: the line is a point.
 int side_when_moved(int u, int v, const Vec3 &a, const Vec3 &b)
 {
   const int along_u = sign_of(a[v] - b[v]);
@@ -301,7 +301,7 @@ void WindingNumber::number_empty_cells(const ProgressListener &progress)
   }
 }
 
-// What a facet adds to the number of a ray's origin. A facet whose projection along the ray has no
+// The number that a facet adds to that of a ray's origin. A facet whose projection along the ray has no
 // area is never crossed.
 int WindingNumber::crossing(const Triangle &facet, const Ray &ray, bool &on_surface)
 {

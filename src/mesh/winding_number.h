@@ -20,8 +20,8 @@
 namespace lsdcd {
 
 // Along every edge as many facets run one way as the other. Shells may cut, touch and contain each
-// other. Of two facets with the same corners and opposite windings neither counts, as of a sheet; of several
-// that are wound alike, one. Sheets may not enclose a space, as those of a double-sided export do, and
+// other. Where two facets have the same corners and opposite windings neither counts, as in a sheet; where
+// they are wound alike, one does. Sheets may not enclose a space, as those of a double-sided export do, and
 // there must be more than sheets.
 bool has_inside(const WeldedMesh &mesh);
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What contacts do to a wall over time: forces on its parts, and the volume worn off.
+// The loads of contacts on a mesh over time: forces on its parts, and the volume worn off.
 #pragma once
 
 #include "engine/wall_engine.h"
@@ -47,8 +47,8 @@ class MeshLoads {
   std::vector<double> packed() const;
   void add_packed(const double *rows, std::size_t n_rows);
 
-  // The load of every face. That of an edge or a vertex is shared evenly by the faces that
-  // meet there; one without a face, which only a dropped triangle leaves behind, is not in.
+  // The load of every face. The faces that meet at an edge or a vertex share its load evenly; the load of an edge or vertex without
+  // a face, which only a dropped triangle leaves behind, is not in.
   std::vector<Load> of_faces(const WeldedMesh &mesh) const;
 
  private:

@@ -22,9 +22,9 @@ namespace lsdcd {
 // more.
 constexpr unsigned kAnswerBlock = 256, kSinglesBlocks = 4, kSeveralBlocks = 3;
 
-// How a block walks the lists: kAnswerBlock spheres of one list, then of the next. Lists grow in
-// parallel, so that neighbours in memory are answered in the same turn.
-// `n`: the length of the list whose number is this thread's rank.
+// The order in which a block walks the lists: kAnswerBlock spheres of one list, then of the next. Lists grow in
+// parallel, so that neighbours in memory are searched in the same turn. `n`: the length of the list whose number is
+// this thread's rank.
 class NearTurns {
  public:
   LSDCD_GPU_FN explicit NearTurns(unsigned n) : n_(n), longest_(GpuWarp::largest(n)) {}

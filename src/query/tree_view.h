@@ -69,8 +69,8 @@ struct TreeAnswer {
   LSDCD_FN bool found() const { return feature != kNoFeature; }
 };
 
-// How a point is searched for: with bounds in float, with bounds in double because it is far away, or not at all,
-// as what are no numbers are far from everything.
+// The bounds that a point's search uses: in float, or in double where the point is far away. A point that is not a
+// number is not searched for: it is far from everything.
 enum class TreeSearch { in_float, in_double, none };
 
 struct TreeView {

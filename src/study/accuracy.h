@@ -25,7 +25,7 @@ struct StudySettings {
   std::size_t memory_budget = std::size_t(16) << 30;    // of the grid, bytes
 };
 
-// Which lists a measurement reads.
+// The lists that a measurement reads.
 struct StudyLists {
   int nearest = 0;            // N triangles; 0: complete lists
   bool every_face = false;    // no lists: the paper's N = all

@@ -20,7 +20,7 @@ namespace lsdcd {
 
 struct WeldedMesh;
 
-// Which test says that a point lies over a triangle.
+// The test that says that a point lies over a triangle.
 enum class InsideTest {
   exact,
   formula_five    // the paper's

@@ -70,10 +70,9 @@ std::string nearest_word(const GridChoice &choice);
 const char *precision_word(const GridChoice &choice);
 std::string words_of(const GridChoice &choice);
 
-// The fastest row of one device with corner blend whose missed contacts / contacts and largest
-// error of a force are below `bound`, and whose answers are all certified: otherwise the
-// next sphere may miss a contact. Rows within a tenth of the fastest differ by noise: the one with the
-// smallest error is taken. Null: there is none.
+// The fastest row of one device with corner blend, with missed contacts / contacts and the largest error of a
+// force below `bound`, and with all answers certified: otherwise the next sphere may miss a contact. Rows within a
+// tenth of the fastest differ by noise, so the one of these with the smallest error is returned. Null: there is none.
 const TradeoffRow *fastest_below(const std::vector<TradeoffRow> &rows, Real bound, bool on_cuda);
 
 }    // namespace lsdcd

@@ -79,8 +79,8 @@ class Tables {
   }
   void title(const std::string &what) { rows_.begin(what + " (" + context_.shape + ")"); }
 
-  // Which cylinder and which cube give the paper's best accuracy, and what never finding
-  // a contact scores there.
+  // The cylinder and the cube that give the paper's best accuracy, and the score there of never finding
+  // a contact.
   void tessellation()
   {
     rows_.begin("Accuracy of the exact wall, by tessellation and cube; the paper's best beside");

@@ -56,7 +56,7 @@ class CsvWriter : public AnswerWriter {
   void commit() override { file_.commit(); }
 
  private:
-  // Of nothing: -1.
+  // -1 where there is none.
   void add_index(std::uint32_t index, bool any, char after)
   {
     file_.add(any ? static_cast<std::int64_t>(index) : -1, after);

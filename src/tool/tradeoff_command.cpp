@@ -53,7 +53,8 @@ const char *const kHelp =
     "                  error and as good in the other\n"
     "  default         1 for what the fix does by itself\n"
     "--below E takes nearest N only where all its answers are certified, and of settings within a\n"
-    "tenth of the fastest the one with the smallest error. Of a million spheres the largest error\n"
+    "tenth of the fastest the one with the smallest error. Among a million spheres the largest "
+    "error\n"
     "in float can be twenty times that of some thousand: ask for less than you need.";
 
 std::string formatted(const char *format, double value)

@@ -58,7 +58,7 @@ class BoxChecks {
                   const std::string &when) const;
   void check_turning_out(const MeshPart &m, const PeriodicBox &box);
 
-  // Of a mesh.
+  // Checks that were made of a mesh.
   struct Seen {
     bool out_of_reach_warned = false, ends_warned = false;
     bool was_in_box = false, gone_warned = false, turning_out_warned = false;

@@ -33,7 +33,7 @@ struct MovingMesh {
   Box bounds;    // length, in the mesh's own frame; around all places where a sphere touches it
 };
 
-// What WallEngine::choose() is called with.
+// The arguments of WallEngine::choose().
 struct Choice {
   bool is_due = false;
   Real margin = 0;       // length

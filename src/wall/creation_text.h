@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What a wall says of itself in the log when it is made.
+// The lines of the log on a wall that is made.
 #pragma once
 
 #include "wall/mesh_part.h"
@@ -12,7 +12,7 @@
 namespace lsdcd {
 
 // `material`: what a material file filled in, in lines; else empty. `device`: of the engine, with why it
-// is no other. Of the first process, which has the reports of the meshes.
+// is no other. Called by the first process, which has the reports of the meshes.
 std::string creation_text(const WallSpec &settings, const std::deque<MeshPart> &meshes,
                           const EngineSettings &engine, const std::string &material,
                           const std::string &device);

@@ -105,7 +105,7 @@ void GridManager::rebuild(Real wanted, std::int64_t step)
   }
 }
 
-// Of overlaps rounded to floats, where a law holds spheres to the wall.
+// Warns that overlaps are rounded to floats, where a law holds spheres to the wall.
 void GridManager::warn_of_rounding(const MeshPart &m, Real radius) const
 {
   if (settings_.precision == Precision::double_) return;

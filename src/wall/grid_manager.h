@@ -32,7 +32,7 @@ class GridManager {
   {
     return meshes_.front().grid.cutoff();
   }    // length; 0: there were no spheres yet
-  // That of the simulation. Its margin is as wide as spheres were seen to go past a periodic face.
+  // The box of the simulation. Its margin is the farthest that spheres have gone past a periodic face.
   PeriodicBox box() const;
 
   // The engine of the steps from now on; it gets the grids that there are.

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What contacts keep from step to step: with the engine in steps, on the host where spheres move.
+// The history of contacts: it is with the engine in steps, on the host where spheres move.
 #pragma once
 
 #include "contact/contact_history.h"
@@ -27,13 +27,13 @@ class HistoryExchange {
 
   bool is_kept() const { return law_.has_history(); }
 
-  // The engine of the steps from now on. What another had must be on the host.
+  // The engine of the steps from now on. History of another engine must be on the host.
   void set_engine(WallEngine &engine) { engine_ = &engine; }
 
   // Room for `room` spheres from now on, wherever the history is.
   void grow(int room);
   int room() const { return room_; }
-  // Of the spheres of this process, on the host from now on.
+  // The history of this process's spheres, on the host from now on.
   ContactHistory &on_host();
   // The history of the n spheres of this process goes to the engine, if it is not there.
   void to_engine(int n);
@@ -56,10 +56,10 @@ class HistoryExchange {
   int pack_restart(int i, double *buffer, const FeatureName &name) const;
   // Before the first sphere is unpacked.
   void set_kind_of_file(double kind) { kind_is_ours_ = kind == law_.history_kind(); }
-  // `size` numbers of one sphere. What another law wrote is not taken, but counted.
+  // `size` numbers of one sphere. Numbers that another law wrote are not read, but counted.
   void unpack_restart(int i, const double *buffer, int size);
   // Drops the history of spheres that name a feature which is not there, and warns of these and of those
-  // of another law. Of the first n spheres; looks once. Collective.
+  // of another law. Checks the first n spheres, once. Collective.
   void check_restored(int n, const std::function<bool(const Spring &)> &is_there);
   bool is_checked() const { return checked_; }
 

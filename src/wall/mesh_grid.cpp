@@ -129,7 +129,7 @@ bool MeshGrid::fits(const PeriodicBox &box) const
     if (box.periodic[k] != box_.periodic[k]) return false;
     if (!box.periodic[k]) continue;
     const Real depth = cutoff_ + std::max(box.margin, box_.margin);
-    // Of the mesh along this axis, in units of the box.
+    // The extent of the mesh along this axis, in units of the box.
     Real lo = HUGE_VAL, hi = -HUGE_VAL;
     for (int i = 0; i < 8; i++) {
       const Vec3 corner = {i & 1 ? report_.hi.x : report_.lo.x, i & 2 ? report_.hi.y : report_.lo.y,
@@ -206,7 +206,7 @@ void MeshGrid::build(Real cutoff, const PeriodicBox &box)
   host_.broadcast(&cells_, sizeof cells_, 0);
 }
 
-// What images are there, and where they do not fit the mesh.
+// Writes how many images there are, and where they do not fit the mesh.
 void MeshGrid::note_images(const WeldedMesh &whole)
 {
   const PeriodicImages &images = whole.images;

@@ -42,7 +42,7 @@ class MeshGrid {
   std::uint64_t mesh_fingerprint() const { return mesh_fingerprint_; }    // as the script places it
   const std::string &mesh_text() const { return mesh_text_; }    // of the process that read it
   const std::string &grid_text() const { return grid_text_; }    // on every process
-  // What the last build had to do with its cache file, and what was wrong with it;
+  // Text on the last build's cache file, and on what was wrong with it;
   // empty on all processes but the first, and where there is nothing to say.
   const std::string &cache_text() const { return cache_text_; }
   const std::string &cache_warning() const { return cache_warning_; }

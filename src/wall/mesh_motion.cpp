@@ -188,7 +188,7 @@ std::string MeshMotion::text(const Box &bounds) const
   return text + "; corners of its bounds go at up to " + number_text(most);
 }
 
-// Of the terms that move it or, where none does, that were stopped.
+// The text of the terms that move it or, where none does, of those that were stopped.
 std::string MeshMotion::own_text() const
 {
   const RigidMotion &motion = spec().motion;

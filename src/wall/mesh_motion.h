@@ -13,7 +13,7 @@
 
 namespace lsdcd {
 
-// What a motion has added up, for a restart.
+// The sums of a motion, for a restart.
 struct MotionState {
   StepClock clock;
   Pose start;     // that the terms act on
@@ -29,7 +29,7 @@ struct MotionState {
 // Functions throw InputError, the same on all processes, with a text that names the mesh.
 class MeshMotion {
  public:
-  // Of the mesh with this number, from 0. Its motion in `wall` changes with those set later. Host and
+  // The motion of the mesh with this number, from 0. Its motion in `wall` changes with those set later. Host and
   // wall must outlive it. Its time is 0 at `now`.
   MeshMotion(Host &host, WallSpec &wall, int mesh, const Step &now);
 

@@ -14,7 +14,7 @@
 namespace lsdcd {
 
 struct MeshPart {
-  // Of the mesh with this number of the wall, from 0. Reads its file. Host, wall and laws must outlive
+  // The mesh with this number of the wall, from 0. Reads its file. Host, wall and laws must outlive
   // it. Throws InputError on all processes. Collective.
   MeshPart(Host &host, WallSpec &wall, const LawTable &laws, int index, const Step &now) :
       index(index), spec(wall.meshes[index]), grid(host, wall, spec),

@@ -63,7 +63,7 @@ void OverlapMonitor::check_sunk(Real worst, Real timestep_ratio)
              "; shown once");
 }
 
-// What inserts spheres numbers them on from the highest tag that there is.
+// New spheres have tags above the highest tag that there was.
 void OverlapMonitor::check_new(const StepDiagnostics &seen, std::int64_t step, bool goes_on)
 {
   // Exact below 2^53. Larger IDs, which only a BIGBIG build has, could take a new sphere for an old one.

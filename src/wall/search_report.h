@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What the search for contacts had to do, in lines for the log.
+// The work of the search for contacts, in lines for the log.
 #pragma once
 
 #include "engine/wall_engine.h"
@@ -18,17 +18,16 @@ class SearchReport {
 
   void count_step(bool is_setup) { (is_setup ? setups_ : steps_)++; }
   void count_choice() { choices_++; }
-  // What the engine has noted since the last call.
+  // Adds what the engine has counted since the last call.
   void add(const StepDiagnostics &seen);
 
-  // Logs the counts of a run, unless `brief` or where there was neither a step nor a
-  // setup, and counts anew. `advice`
-  // follows the number of choices. Collective.
+  // Logs the counts of a run, and counts anew. Logs nothing if `brief`, or after a run without a step and a setup.
+  // `advice` follows the number of choices. Collective.
   void end_run(bool brief, const std::string &advice);
 
-  // Logs how many answers of nearest lists were not certified since this object was made: at the first
-  // call, and when they are ten times as many or may have missed contacts twice as deep. With `brief`
-  // only where there are any. Collective.
+  // Logs the number of uncertified answers of nearest lists since this object was made: at the first call, and
+  // again when there are ten times as many, or when the contacts that they may have missed are twice as deep.
+  // With `brief` logs only if there are any. Collective.
   void log_uncertified(int nearest, bool brief);
 
  private:

@@ -12,7 +12,7 @@
 
 namespace lsdcd {
 
-// Of as many contacts as there were in the last step, each as steep as any of them can be.
+// The gain is stable if all contacts of the last step had the largest possible stiffness.
 Real ServoController::stable_gain(const ServoLoad &load, const Pose &placed, Real dt) const
 {
   const Servo &s = servo();

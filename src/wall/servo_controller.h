@@ -11,7 +11,7 @@
 
 namespace lsdcd {
 
-// What spheres did to a mesh in the last step: of all processes, and the same on all.
+// The load of spheres on a mesh in the last step: summed over all processes, and the same on all.
 struct ServoLoad {
   Vec3 force = {0, 0, 0};     // on the mesh
   Vec3 torque = {0, 0, 0};    // about the origin of the box
@@ -24,7 +24,7 @@ struct ServoLoad {
 
 class ServoController {
  public:
-  // Of the mesh with this number, from 0, whose extents in its own frame these are. The servo is
+  // The servo of the mesh with this number, from 0, whose extents in its own frame these are. The servo is
   // wall.meshes[mesh].motion.servo(). Host, wall and laws must outlive it.
   ServoController(Host &host, WallSpec &wall, const LawTable &laws, int mesh, const Box &extents) :
       host_(host), wall_(wall), laws_(laws), mesh_(mesh), extents_(extents)
@@ -32,7 +32,7 @@ class ServoController {
   }
 
   bool acts() const { return servo().present && !servo().holds; }
-  // What the mesh pushes the spheres with along the servo's axis: a force, or a torque about it.
+  // The force or torque with which the mesh pushes the spheres along the servo's axis, or about it.
   Real push(const ServoLoad &load) const { return servo().push(load.force, load.torque); }
 
   // Moves a servo that acts over the time `dt` > 0 up to this step. Without the servo the mesh is where
@@ -40,7 +40,7 @@ class ServoController {
   // limit stops it.
   void advance(const ServoLoad &load, const Pose &placed, Real dt, std::int64_t step);
 
-  // Of another servo all is told again.
+  // The log has all lines again of another servo.
   void begin_anew() { gain_told_ = limit_told_ = false; }
 
  private:

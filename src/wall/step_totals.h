@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What spheres did to the meshes of a wall in the last step: sums over all processes.
+// The loads of spheres on the meshes of a wall in the last step: sums over all processes.
 #pragma once
 
 #include "engine/wall_engine.h"
@@ -12,7 +12,7 @@
 
 namespace lsdcd {
 
-// Of one mesh.
+// The sums of one mesh.
 struct MeshTotals {
   Vec3 force = {0, 0, 0};               // on the mesh
   Vec3 torque = {0, 0, 0};              // on the mesh, about the point of MeshSpec::torque_about
@@ -42,7 +42,7 @@ class StepTotals {
   // this step. Collective.
   void reduce(const WallEngine *engine, const std::vector<Pose> &poses);
 
-  // Of the last reduce().
+  // The sums of the last reduce().
   const MeshTotals &mesh(int k) const { return meshes_[k]; }
   // Over all meshes: sums, and the largest overlap. Torques are about the origin of the box if the
   // meshes have their torques about different points.

@@ -11,7 +11,7 @@
 
 namespace lsdcd {
 
-// Of sphere i with any mesh.
+// The shortest contact of sphere i with any mesh.
 Real TimestepCheck::shortest_of(const Spheres &s, int i) const
 {
   const SphereKinds kinds = {laws_.kinds > 1 ? s.type : nullptr, laws_.kind_of_type.data(),

@@ -36,7 +36,7 @@ WallSpec in_units(WallSpec spec, const WallUnits &units)
   return spec;
 }
 
-// What fits a double, exactly.
+// The part that fits a double, exactly.
 Real number_of(std::uint64_t fingerprint)
 {
   return static_cast<Real>(fingerprint >> 11);
@@ -214,8 +214,8 @@ void Wall::begin(const Spheres &spheres, const StepInput &input)
   engine_->begin();
 }
 
-// What follows from the time alone is right in a snapshot; what is added up from step to step is
-// not known there.
+// In a snapshot, quantities that follow from the time alone are right; those that are added up from step to
+// step are not known.
 void Wall::begin_snapshot(int n, const Step &step)
 {
   for (const MeshPart &m : meshes_) m.motion.check_snapshot(step);
@@ -231,8 +231,7 @@ void Wall::begin_snapshot(int n, const Step &step)
                "mesh_fields are written");
 }
 
-// That of a restart file names features of the mesh it was written with, and holds what the law that
-// it was written with keeps.
+// A restored history names features of the old mesh and has numbers of the old law: drops what does not fit.
 void Wall::check_history(int n)
 {
   if (history_.is_checked()) return;
@@ -389,7 +388,7 @@ void Wall::finish(const Spheres &spheres)
   if (step.kind == Step::setup) times_.begin_run();    // as the host's loop time
 }
 
-// What steps have noted since the last look, for the log.
+// The counts of the steps since the last call, for the log.
 StepDiagnostics Wall::read_diagnostics()
 {
   StepDiagnostics seen;

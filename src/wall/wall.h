@@ -38,7 +38,7 @@ struct WallUnits {
   Real velocity = 1;    // a force times time over a mass, in the unit of velocity (LAMMPS: ftm2v)
 };
 
-// What a step tells the wall.
+// The input of a step.
 struct StepInput {
   Step step;
   bool look = false;           // spheres may be others, or have other radii, since the last step
@@ -95,7 +95,7 @@ class Wall {
   // `advice` follows the number of choices in the log; `loop`: seconds of the run, 0 where not known.
   void end_run(std::int64_t step, bool far, const std::string &advice, Real loop);
 
-  // Of the last step.
+  // The totals of the last step.
   const StepTotals &totals();
   Real worn(int mesh) const { return spec_.wears() ? loads_.worn(mesh) : 0; }    // volume
   // Force or torque of the mesh on the spheres, along the servo's axis.
@@ -129,7 +129,7 @@ class Wall {
   // For a restart file: what the wall keeps beside the histories of spheres. Only the first process has
   // the loads of all.
   WallState save() const;
-  // What this or another wall has saved, the same on all processes. Throws InputError, and nothing has changed then,
+  // Restores what this or another wall has saved, the same on all processes. Throws InputError, and nothing has changed then,
   // where a servo would be outside of its limits.
   void restore(const WallState &was, const Step &now);
 
@@ -165,7 +165,7 @@ class Wall {
   WallSpec spec_;    // motions change later
   LawTable laws_;    // of the spec
   WallPlace place_;
-  // Of the spheres; that of the host begins anew in some runs from a restart file.
+  // The time of the spheres; the host's time begins anew in some runs from a restart file.
   StepClock clock_;
   std::deque<MeshPart> meshes_;    // where each stays; there is one at least
   std::unique_ptr<WallEngine> engine_;
@@ -188,7 +188,7 @@ class Wall {
   bool continued_ = false;    // from a restart file
   bool points_warned_ = false, snapshot_told_ = false;
   Real servo_radius_ = 0, servo_mass_ = 0;    // the largest, for gains of servos
-  // Of each mesh, for the engine in this step.
+  // The surface motion of each mesh, for the engine in this step.
   std::vector<SurfaceMotion> surfaces_;
   std::vector<Real> temperatures_;
 };

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What a wall is made of, as data: its meshes, contact laws, search and outputs.
+// A wall as data: its meshes, contact laws, search and outputs.
 #pragma once
 
 #include "engine/wall_engine.h"
@@ -37,7 +37,7 @@ struct LawOfTypes {
 // One mesh of a wall.
 struct MeshSpec {
   std::string name;    // what messages call it
-  // A file, which one process reads, or a mesh in its own frame. Of the first process: others may have none.
+  // A file, which one process reads, or a mesh in its own frame. Only the first process needs it.
   std::string file;
   std::shared_ptr<const WeldedMesh> mesh;    // null: that of the file
   Placement placement;    // from the frame of the file, or of the mesh, to the box
@@ -84,7 +84,7 @@ struct WallSpec {
   bool periodic = false;    // meshes are meant to reach past periodic faces
   bool brief = false;       // one line in the log
 
-  // Of all laws: their sub-models.
+  // The sub-models, which all laws have.
   const ContactLaw &law() const { return laws.front().law; }
   // Numbers of a sphere in the contacts array; 0 without it.
   int contact_columns() const { return contacts ? 8 + law().has_heat() : 0; }

@@ -115,7 +115,7 @@ class BroadPhase {
     lists_.make(b, grid, meshes_[0].pose, at_choice, margin, counts.data(), early);
     return seen;
   }
-  // Which of n_spheres packed spheres are candidates.
+  // The numbers of those of n_spheres packed spheres that are candidates.
   std::vector<int> chosen(B &b, int n_spheres)
   {
     if (!uses_slots()) return selector_.to_host(b, n_);
@@ -134,7 +134,7 @@ class BroadPhase {
   const FeatureLists &lists() const { return lists_.view(); }
   const CandidateSlots<B> &slots() const { return slots_; }
 
-  // Which law each of these spheres has.
+  // The law of each of these spheres.
   SphereKinds kinds_of(B &b, const Spheres &spheres)
   {
     if (laws_.kinds == 1) return {};

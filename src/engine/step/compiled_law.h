@@ -60,7 +60,7 @@ struct LawsView {
   }
 };
 
-// Which of the two a kernel has.
+// The effects that a kernel has.
 struct WallEffects {
   bool surface, records;
 };
@@ -88,7 +88,7 @@ auto on_wall(const Law &law, const WallEffects &effects, const Make &make)
 
 struct StepJob;
 
-// Which numbers engines store and move for a law.
+// The numbers that engines store and move for a law.
 struct LawTraits {
   bool history, heat, records;
   int n_extra;

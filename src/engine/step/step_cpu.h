@@ -56,8 +56,8 @@ void prefetch_lists([[maybe_unused]] const Work &work, [[maybe_unused]] const st
   }
 }
 
-// What the fast path has left, which is rare and long: items that need lists get them and go through the fast
-// path once more; the others take the general path.
+// Takes the items that the fast path has left, which are few and take long: those that need lists get them and
+// go through the fast path once more; the others take the general path.
 template <class Work>
 [[gnu::noinline]] void run_left(const Work &work, const StepItems &left)
 {

@@ -16,7 +16,7 @@ class BuildProgress {
  public:
   explicit BuildProgress(const ProgressListener &tell) : tell_(tell) {}
 
-  // Of cells of this length from now on.
+  // Cells have this length from now on.
   void of(double length) { length_ = length; }
 
   // Calls part(from, n) for [0, n): at once, or on the host with a listener in a hundred parts

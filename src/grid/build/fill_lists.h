@@ -37,7 +37,7 @@ void find_cells_of(B &b, const BuildView &view, const std::uint32_t *octants,
       n, [=] LSDCD_LAMBDA(std::size_t p) { met[p] = cells_met(view, features[p], octants[p]); });
 }
 
-// Which cells of its octant each pair's feature meets.
+// The cells of its octant that each pair's feature meets.
 template <class B>
 void find_cells_met(B &b, const BuildView &view, const OctantPairs<B> &pairs,
                     const BuildProgress &progress, std::uint64_t *met)

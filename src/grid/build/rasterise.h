@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Which octants of bricks a feature meets.
+// The octants of bricks that a feature meets.
 #pragma once
 
 #include "backend/bits.h"
@@ -109,7 +109,7 @@ LSDCD_FN std::uint32_t brick_slot(const GridPlan &plan, const BrickBox &box, std
   return static_cast<std::uint32_t>((z * plan.n_bricks[1] + y) * plan.n_bricks[0] + x);
 }
 
-// Which octants of a brick the feature meets, a bit each.
+// The octants of a brick that the feature meets, a bit each.
 LSDCD_FN unsigned octants_met(const BuildView &b, FeatureCode feature, std::uint32_t slot)
 {
   const GridPlan &plan = b.plan;
@@ -204,7 +204,7 @@ inline std::uint64_t face_cells(const GridPlan &plan, std::uint32_t octant_key,
   return met;
 }
 
-// Which cells of an octant the feature meets. The record is read once for all of them.
+// The cells of an octant that the feature meets. The record is read once for all of them.
 LSDCD_FN std::uint64_t cells_met(const BuildView &b, FeatureCode feature, std::uint32_t octant_key)
 {
   const Real cutoff = b.plan.cutoff, widened = b.plan.widened();

@@ -36,7 +36,7 @@ bool cache_available(std::string *why);
 
 GridKey grid_key(const WeldedMesh &mesh, const GridSettings &settings);
 
-// What the file with a cache's name is.
+// The state of the file with a cache's name.
 enum class CacheState {
   usable,
   missing,

@@ -78,7 +78,7 @@ Hash mesh_hash(const WeldedMesh &mesh)
 {
   const auto &[vertices, faces, face_edges, face_facet, edges, edge_first, edge_face, vertex_first,
                vertex_edge, dropped, report, source, images] = mesh;
-  // Of the report, what planning and building read.
+  // From the report: the numbers that planning and building read.
   (void) source;
   (void) dropped;
   return Hasher().of(vertices, faces, face_edges, face_facet, edges, edge_first, edge_face,

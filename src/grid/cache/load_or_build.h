@@ -24,7 +24,7 @@ class GridPlace {
 
   // All processes call these together.
 
-  // Runs `work` where `here`. What it throws is thrown on all processes.
+  // Runs `work` where `here`. An exception is thrown on all processes.
   virtual void run(bool here, const std::function<void()> &work)
   {
     if (here) work();

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Which points may lie in a brick, with as little arithmetic as possible: a GPU tests every
+// A test whether a point may lie in a brick, with as little arithmetic as possible: a GPU tests every
 // sphere.
 #pragma once
 
@@ -63,20 +63,24 @@ struct FixedPoint<double> {
   }
 };
 
-// For points whose coordinates are of type T. Counts bricks from the grid's corner in fixed
-// point: a number between B and 2 B has s bits behind the point, where B is 2^s times less than
-// 2 to its mantissa's bits, and B and the corner are part of one number `from` that is added to a
-// coordinate times `scale`, rounded once. The result is off by less than `doubt` / 2 of the last
-// bit, which `from` has more; so a fraction from `doubt` on has the brick's number before it, and
-// where a fraction is below, the point is next to a brick's side, or so far away that no fraction
-// is left. Bits past the largest brick's, and of numbers below B, are too large.
+// For points whose coordinates are of type T. The number of a brick, from the grid's corner, in fixed point:
 //
-// How far off, for a point inside of the grid, in bricks: `scale` is the nearest T, so
-// |x| |scale - exact|, with |x| up to the grid's far side; `from`, the nearest T to a number
-// below |first| + 2 B, a unit of rounding of that; the result, below 4 B, as far as a unit of
-// 4 B; and what cell_slot_of() rounds in double, three times in numbers up to n and once in `first`.
-// The result grows with the coordinate: a point outside comes out past the grid's side, or as
-// near to it.
+//   y = x * scale + from,  B <= y < 2 B,  B = 2^(mantissa bits - s)
+//
+// is rounded once. Its last s bits are the fraction of a brick, those before them the brick's number; `from` holds
+// B and the corner. |y - exact| < doubt / 2 units of the last bit, and `from` has doubt / 2 units more. So
+//
+//   fraction >= doubt: the brick's number is right;
+//   fraction < doubt: the point is next to a brick's side, or so far away that no fraction is left.
+//
+// Bits past the largest brick's, and bits of y < B, give numbers that are too large.
+//
+// The error of y for a point inside of the grid, in bricks, is at most the sum of
+//   |x| |scale - exact|, as `scale` is the nearest T, with |x| up to the grid's far side;
+//   the rounding of `from`, which is below |first| + 2 B;
+//   the rounding of y, which is below 4 B;
+//   the roundings of cell_slot_of() in double, three of numbers up to n and one of `first`.
+// y grows with x: for a point outside it is past the grid's side, or as near to it.
 template <class T>
 struct BrickFilter {
   using Fixed = FixedPoint<T>;

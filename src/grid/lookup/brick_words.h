@@ -12,13 +12,13 @@
 
 namespace lsdcd {
 
-// Of 32 slots of the table: which have a brick, and how many bricks come before them.
+// For 32 slots of the table: a bit for each that has a brick, and how many bricks come before them.
 // Bricks are numbered in the order of their slots, so that these two give its number.
 struct alignas(8) BrickWord {
   std::uint32_t bits, below;
 };
 
-// Of the word that has a slot of the table.
+// Has this slot of the table a brick? `word` is the slot's word.
 LSDCD_FN bool has_brick(const BrickWord &word, std::size_t slot)
 {
   return word.bits >> (slot % 32) & 1u;
@@ -29,7 +29,7 @@ LSDCD_FN std::uint32_t brick_number(const BrickWord &word, std::size_t slot)
   return word.below + static_cast<std::uint32_t>(count_bits(before));
 }
 
-// Of a view on the host.
+// All words of a grid; the view is on the host.
 inline std::vector<BrickWord> brick_words(const GridView &grid)
 {
   const std::size_t n = std::size_t(grid.n_bricks[0]) * grid.n_bricks[1] * grid.n_bricks[2];
@@ -71,7 +71,7 @@ struct BrickSlot {
   std::int32_t cell;
 };
 
-// What cell_slot_of() says, to the bit, without a branch: a thread has several points at once, and
+// The same as cell_slot_of(), to the bit, without a branch: a thread has several points at once, and
 // would wait for the words of one after the other. Tables have less than 2^32 slots.
 LSDCD_FN BrickSlot brick_place_of(const GridView &grid, const Vec3 &q)
 {

@@ -35,7 +35,7 @@ struct CoarseTable {
     while (count() > std::size_t(kWords) * 32) shift++;
   }
 
-  // Of the cube with these numbers, z first.
+  // The slot of the cube with these numbers, z first.
   LSDCD_FN std::uint32_t slot(std::uint32_t k, std::uint32_t j, std::uint32_t i) const
   {
     return (k * n[1] + j) * n[0] + i;

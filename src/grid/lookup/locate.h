@@ -61,7 +61,7 @@ LSDCD_FN CellSlot cell_slot_of(const GridView &grid, const Vec3 &q)
   return p;
 }
 
-// Of its brick, in the table.
+// The slot of the cell's brick in the table.
 LSDCD_FN std::size_t brick_slot(const GridView &grid, int i, int j, int k)
 {
   return (static_cast<std::size_t>(k >> 3) * grid.n_bricks[1] + (j >> 3)) * grid.n_bricks[0] +

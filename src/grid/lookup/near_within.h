@@ -8,8 +8,8 @@
 
 namespace lsdcd {
 
-// Of the cells [lo, hi) along one side of the grid that a point at `u` (in cells) may be
-// in after a way of up to `margin` cells.
+// The cells [lo, hi) along one side of the grid in which a point at `u` (in cells) may be
+// after a way of up to `margin` cells.
 LSDCD_FN void cells_within(Real u, Real margin, std::int32_t n_cells, int &lo, int &hi)
 {
   const Real from = floor(u - margin), to = floor(u + margin) + 1;
@@ -32,7 +32,7 @@ LSDCD_FN bool cells_in_ball(const GridView &grid, const Vec3 &q, Real margin, in
   return true;
 }
 
-// What is left of a margin once the lists' own is taken from it.
+// The part of a margin that is beyond the lists' own margin.
 LSDCD_FN Real excess_margin(const GridView &grid, Real margin)
 {
   return margin > grid.margin ? margin - grid.margin : Real(0);

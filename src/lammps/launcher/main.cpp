@@ -43,7 +43,7 @@ void LAMMPS::post_create()
   original(this);
 }
 
-// Of a command that is given no words: what its error names as its syntax.
+// The syntax of a command, as its error names it where the command has no arguments.
 template <class Parse>
 static std::string syntax_of(Parse parse)
 {

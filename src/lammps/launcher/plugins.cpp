@@ -157,7 +157,7 @@ std::vector<fs::path> plugin_folders()
   return folders;
 }
 
-// Of the fix's plugin: in a build, or installed.
+// The folder of the fix's plugin: in a build, or installed.
 fs::path own_folder()
 {
   std::error_code none;

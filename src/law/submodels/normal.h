@@ -85,7 +85,7 @@ struct TouchingNormal {
 
 // `jkr` (Johnson, Kendall and Roberts 1971). The contact radius solves
 //   overlap = a^2/R - 2 sqrt(pi gamma a/E),
-// and the force is 4 E a^3/(3 R) - 4 sqrt(pi gamma E a^3). What has touched holds until
+// and the force is 4 E a^3/(3 R) - 4 sqrt(pi gamma E a^3). A contact that has touched holds until
 // the pull is greatest, 3 pi gamma R, at an overlap of -(3 pi^2 gamma^2 R/(16 E^2))^(1/3).
 template <class T>
 struct JkrNormal {

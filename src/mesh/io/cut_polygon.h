@@ -16,8 +16,8 @@ namespace lsdcd {
 // Appends the triangles, three corners each, of a polygon with three or more corners, in its winding.
 // Together they are the polygon: it may be concave, have collinear or repeated corners, and holes that
 // bridges join to its rim (keyholes). Every corner is one of a triangle, so that a neighbour that has it too
-// still fits. Of n corners there are n - 2 triangles, less those that would have two equal corners; those
-// of collinear corners have no area.
+// still fits. There are n - 2 triangles for n corners, less those that would have two equal corners;
+// triangles of collinear corners have no area.
 //
 // A polygon that is not flat is cut as it looks along an axis, the one along which its area is largest. A
 // quadrilateral is cut from its first corner to its third, or across if only that is inside.

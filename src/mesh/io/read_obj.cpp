@@ -18,7 +18,7 @@ namespace {
 
 const char *const kElements[] = {"v", "f", "fo", "l", "p", "curv", "cdc"};
 const char *const kPatches[] = {"surf", "bzp", "bsp", "cdp"};    // surfaces that are no polygons
-// What a wall does not need: normals, textures, looks, and what belongs to curves and patches.
+// Words that a wall does not need: normals, textures, looks, and what belongs to curves and patches.
 const char *const kNumbers[] = {"vn",    "vt",       "vp",       "s",     "mg",     "lod",
                                 "bevel", "deg",      "step",     "bmat",  "parm",   "trim",
                                 "hole",  "scrv",     "sp",       "curv2", "cstype", "ctech",
@@ -103,7 +103,7 @@ class ObjReader {
                                   : "correct it, or write # before it if it is a comment");
   }
 
-  // What is wrong in a line, unless the file is cut off there.
+  // Throws that `what` is wrong in a line, unless the file is cut off there.
   [[noreturn]] void fail_line(std::string_view last, const std::string &what, const char *remedy,
                               const std::string &place) const
   {
