@@ -71,32 +71,18 @@ GridSettings settings_of(const lsdcd_grid_options &o, bool with_sides)
   return s;
 }
 
-// Memory of this process.
-class OwnPlace : public GridPlace {
- public:
-  explicit OwnPlace(FlatGrid &grid) : grid_(grid) {}
-
-  char *allocate(std::size_t bytes) override
-  {
-    grid_ = FlatGrid(bytes);
-    return grid_.block();
-  }
-
- private:
-  FlatGrid &grid_;
-};
-
 std::unique_ptr<ApiCells> make_cells(const std::string &cache, const ApiMesh &from,
                                      const GridSettings &settings, bool on_cuda)
 {
   auto made = std::make_unique<ApiCells>();
-  OwnPlace place(made->flat);
-  const LoadedGrid loaded = load_or_build_grid(cache, from.mesh, settings, on_cuda, place);
+  Host alone;
+  const LoadedGrid loaded =
+      load_or_build_grid(cache, from.mesh, settings, on_cuda, alone, made->memory);
   made->from_cache = loaded.from_cache;
   made->report = describe(loaded.report);
   for (const std::string &line : {loaded.cache_warning, loaded.cache_text})
     if (!line.empty()) made->report += "\n  " + line;
-  made->grid = HostGrid(made->flat.view());
+  made->grid = HostGrid(flat_view(made->memory.block.get()));
   made->sides_by_normals = settings.sides && made->grid.view.outside != 0;
   if (!made->sides_by_normals && has_inside(from.mesh))
     made->report +=
@@ -175,7 +161,7 @@ bool ApiGrid::sides_by_normals() const
 std::size_t ApiGrid::bytes() const
 {
   const ApiCells *cells = cells_.made();
-  return bytes_of(tree_.made(), near_.made()) + (cells ? cells->flat.bytes() : 0);
+  return bytes_of(tree_.made(), near_.made()) + (cells ? cells->memory.bytes : 0);
 }
 
 }    // namespace lsdcd

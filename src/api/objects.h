@@ -7,7 +7,8 @@
 
 #include "api/lsdcd.h"
 #include "base/made_once.h"
-#include "grid/flat_grid.h"
+#include "grid/triangle_grid.h"
+#include "host/host.h"
 #include "mesh/welded_mesh.h"
 #include "query/point_sides.h"
 
@@ -32,7 +33,7 @@ struct ApiMesh {
 
 // Cells with lists, for a GPU, for floats, for `nearest` and for contacts.
 struct ApiCells {
-  FlatGrid flat;
+  NodeMemory memory;    // of the flat grid
   HostGrid grid;
   bool from_cache = false;
   bool sides_by_normals = false;    // also on a device

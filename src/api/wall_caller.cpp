@@ -4,7 +4,6 @@
 #include "api/wall_caller.h"
 
 #include "base/input_words.h"
-#include "wall/own_memory.h"
 
 #include <algorithm>
 #include <cmath>
@@ -73,13 +72,16 @@ lsdcd_host host_of(const lsdcd_wall_options &o)
 }    // namespace
 
 WallCaller::WallCaller(const lsdcd_wall_options &options) :
-    box_(box_of(options)), show_(options.show), data_(options.data), host_(host_of(options))
+    box_(box_of(options)), message_(options.show), data_(options.data), host_(host_of(options))
 {
+  ranks_.rank = host_.rank;
+  ranks_.processes = host_.processes;
+  ranks_.node_rank = host_.node_rank;
 }
 
-void WallCaller::show(int warning, const std::string &text)
+void WallCaller::show(const std::string &text, bool is_warning)
 {
-  if (show_ && host_.rank == 0) show_(data_, warning, text.c_str());
+  if (message_ && is_first()) message_(data_, is_warning, text.c_str());
 }
 
 void WallCaller::sum(Real *numbers, int n)
@@ -92,54 +94,23 @@ void WallCaller::max(Real *numbers, int n)
   if (!is_alone()) check_call(host_.max(host_.data, numbers, n), "max");
 }
 
-void WallCaller::broadcast(void *data, std::size_t bytes, int from)
+void WallCaller::broadcast(void *data, std::size_t bytes, int from, Receivers /*to*/)
 {
   if (!is_alone() && bytes > 0)
     check_call(host_.broadcast(host_.data, data, bytes, from), "broadcast");
 }
 
-int WallCaller::max_rank(Real &number)
-{
-  const Real mine = number;
-  max(&number, 1);
-  Real first = mine == number ? host_.processes - host_.rank : 0;
-  max(&first, 1);
-  return host_.processes - static_cast<int>(first);
-}
-
-// Sizes first, then the numbers of one process after the other.
-std::vector<Real> WallCaller::gather(const std::vector<Real> &mine)
-{
-  if (is_alone()) return mine;
-  std::vector<Real> sizes(host_.processes, 0), all, of_one;
-  sizes[host_.rank] = static_cast<Real>(mine.size());
-  sum(sizes.data(), host_.processes);
-  for (int from = 0; from < host_.processes; from++) {
-    of_one = mine;
-    of_one.resize(static_cast<std::size_t>(sizes[from]));
-    broadcast(of_one.data(), of_one.size() * sizeof(Real), from);
-    if (host_.rank == 0) all.insert(all.end(), of_one.begin(), of_one.end());
-  }
-  return all;
-}
-
 void WallCaller::agree(const Failure &mine, std::vector<Real> &numbers)
 {
-  numbers.push_back(mine.code == LSDCD_OK ? 0 : host_.processes - host_.rank);
+  numbers.push_back(mine.code == LSDCD_OK ? 0 : processes() - rank());
   max(numbers.data(), static_cast<int>(numbers.size()));
-  const int from = host_.processes - static_cast<int>(numbers.back());
+  const int from = processes() - static_cast<int>(numbers.back());
   numbers.pop_back();
-  if (from == host_.processes) return;
+  if (from == processes()) return;
   Failure first = mine;
   broadcast(&first.code, sizeof first.code, from);
   broadcast_text(*this, first.text, from);
   throw ApiError(first.code, first.text);
-}
-
-void WallCaller::fail_together(const std::string &error)
-{
-  std::vector<Real> none;
-  agree({error.empty() ? LSDCD_OK : LSDCD_ERROR_INPUT, error}, none);
 }
 
 std::vector<Real> WallCaller::variables(const std::vector<std::string> &names)
@@ -153,11 +124,6 @@ void WallCaller::check_variables(const std::vector<std::string> &names)
   if (!names.empty())
     throw InputError("v_" + names.front() +
                      ": there are no variables here; give numbers, and change them between steps");
-}
-
-std::unique_ptr<NodeMemory> WallCaller::node_memory()
-{
-  return std::make_unique<OwnMemory>(*this, host_.node_rank);
 }
 
 void WallCaller::set_spheres(const Spheres &spheres)
@@ -194,7 +160,7 @@ Spheres WallCaller::spheres_on_cpu()
 Real WallCaller::farthest_past(const PeriodicBox &box)
 {
   return gpu ? wall->in_place().farthest_past(spheres_, periodic_faces(box))
-             : Host::farthest_past(box);
+             : WallHost::farthest_past(box);
 }
 
 Real WallCaller::radius_of_tag(std::int64_t tag)
@@ -206,12 +172,12 @@ Real WallCaller::radius_of_tag(std::int64_t tag)
 // Above those of all processes, and another one on each.
 void WallCaller::name_new_spheres(std::int64_t highest)
 {
-  std::int64_t next = highest + 1 + host_.rank;
+  std::int64_t next = highest + 1 + rank();
   highest_tag_ = highest;
   for (std::int64_t &tag : tags) {
     if (tag == 0) {
       tag = next;
-      next += host_.processes;
+      next += processes();
     }
     highest_tag_ = std::max(highest_tag_, tag);
   }

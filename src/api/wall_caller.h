@@ -37,26 +37,21 @@ Failure failure_of(const Work &work)
   return failure;
 }
 
-class WallCaller : public Host {
+class WallCaller : public WallHost {
  public:
   // Throws ApiError where the options make no sense.
   explicit WallCaller(const lsdcd_wall_options &options);
 
-  bool is_alone() const { return host_.processes == 1; }
+  bool is_alone() const { return processes() == 1; }
   // Each number becomes the largest of all processes. Where a process has failed all throw ApiError, with the
   // failure of the lowest rank. Collective, a single message where nothing has failed.
   void agree(const Failure &mine, std::vector<Real> &numbers);
 
   void sum(Real *numbers, int n) override;
   void max(Real *numbers, int n) override;
-  int max_rank(Real &number) override;
-  void broadcast(void *data, std::size_t bytes, int from) override;
-  std::vector<Real> gather(const std::vector<Real> &mine) override;
-  void fail_together(const std::string &error) override;
+  void broadcast(void *data, std::size_t bytes, int from, Receivers to = Receivers::all) override;
   std::vector<Real> variables(const std::vector<std::string> &names) override;
   void check_variables(const std::vector<std::string> &names) override;
-  std::unique_ptr<NodeMemory> node_memory() override;
-  int rank() const override { return host_.rank; }
   PeriodicBox box() const override { return box_; }
   SphereGroup group() const override { return {"all", false}; }
   Spheres spheres_on_cpu() override;
@@ -64,8 +59,6 @@ class WallCaller : public Host {
   std::int64_t tag(int sphere) override { return tags[sphere]; }
   std::int64_t highest_tag() override { return highest_tag_; }
   Real radius_of_tag(std::int64_t tag) override;
-  void log(const std::string &text) override { show(0, text); }
-  void warn(const std::string &text) override { show(1, text); }
 
   // Numbers for spheres without one, 0, in the order of the array. `highest`: of all processes so far.
   void name_new_spheres(std::int64_t highest);
@@ -78,10 +71,10 @@ class WallCaller : public Host {
   Wall *wall = nullptr;              // of this host
 
  private:
-  void show(int warning, const std::string &text);
+  void show(const std::string &text, bool is_warning) override;
 
   PeriodicBox box_;
-  lsdcd_message *show_;
+  lsdcd_message *message_;
   void *data_;
   lsdcd_host host_ = {};
   std::int64_t highest_tag_ = 0;

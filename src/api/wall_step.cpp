@@ -76,9 +76,9 @@ void warn_of_outside(lsdcd_wall &wall, const StepWanted &want)
 {
   wall.outside_told = true;
   WallCaller &host = wall.caller;
-  Real n = static_cast<Real>(want.outside.n), some = n > 0;
+  Real n = static_cast<Real>(want.outside.n);
+  const int from = lowest_rank(host, n > 0);
   host.sum(&n, 1);
-  const int from = host.max_rank(some);
   std::string text;
   if (host.rank() == from) {
     const int i = want.outside.first;

@@ -9,7 +9,7 @@ FilledTokens fill_material(Host &host, const std::vector<std::string> &tokens,
                            const std::string &units)
 {
   FilledTokens filled;
-  run_collectively(host, host.rank() == 0, [&] { filled = fill_material(tokens, units); });
+  run_collectively(host, host.is_first(), [&] { filled = fill_material(tokens, units); });
 
   std::string text;    // each word with a NUL, which none can contain
   for (const std::string &word : filled.tokens) text.append(word.c_str(), word.size() + 1);

@@ -4,8 +4,8 @@
 // `material` in the words of a wall, on all processes.
 #pragma once
 
+#include "host/host.h"
 #include "input/fill_material.h"
-#include "wall/host.h"
 
 #include <string>
 #include <vector>

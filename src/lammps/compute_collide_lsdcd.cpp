@@ -7,8 +7,8 @@
 
 #include "lammps/fix_wall_lsdcd.h"
 #include "lammps/host_box.h"
+#include "lammps/mpi_host.h"
 #include "lammps/mpi_mesh.h"
-#include "lammps/mpi_shared.h"
 
 #include "atom.h"
 #include "comm.h"
@@ -52,9 +52,10 @@ BodyPose in_frame_of(const lsdcd::Pose &wall, const BodyPose &pose)
 ComputeCollideLsdcd::ComputeCollideLsdcd(LAMMPS *lmp, int narg, char **arg) :
     Compute(lmp, narg, arg), OwnMessages(lmp, "Compute", id, "lsdcd/collide")
 {
-  try {
+  run_core([&] {
     settings = lsdcd::parse_collide(std::vector<std::string>(arg + 3, arg + narg));
-    const lsdcd::WeldedMesh mesh = lsdcd::read_together(world, settings.mesh);
+    lsdcd::MpiHost mpi(world);
+    const lsdcd::WeldedMesh mesh = lsdcd::read_together(mpi, settings.mesh);
     if (mesh.faces.empty())
       throw lsdcd::InputError(settings.mesh.file +
                               ": all triangles have no area; check the file, or make weld smaller");
@@ -63,9 +64,7 @@ ComputeCollideLsdcd::ComputeCollideLsdcd(LAMMPS *lmp, int narg, char **arg) :
     find_bodies();
     make_collisions(mesh);
     log_mesh(mesh);
-  } catch (const lsdcd::InputError &e) {
-    fatal(e.what());
-  }
+  });
   found.assign(bodies.size() + 1, 0.0);
 
   scalar_flag = vector_flag = array_flag = 1;
@@ -113,12 +112,13 @@ void ComputeCollideLsdcd::make_collisions(const lsdcd::WeldedMesh &body)
   how.nearest = settings.nearest;
   how.memory = settings.memory;
   how.device = settings.device;
+  lsdcd::MpiHost mpi(world);
   for (const lsdcd::MeshPart &part : wall().meshes()) {
-    const lsdcd::WeldedMesh mesh = lsdcd::copy_together(world, part.grid.mesh());
+    const lsdcd::WeldedMesh mesh = lsdcd::copy_together(mpi, part.grid.mesh());
     Against one;
     one.fingerprint = part.grid.mesh_fingerprint();
     one.bounds = part.bounds(0);
-    lsdcd::run_collectively(world, has_any(), [&] {
+    lsdcd::run_collectively(mpi, has_any(), [&] {
       one.collision = std::make_unique<lsdcd::MeshCollision>(mesh, body, how);
     });
     meshes.push_back(std::move(one));
@@ -150,14 +150,14 @@ void ComputeCollideLsdcd::evaluate()
   const std::vector<double> sums = gather_sums();
   found.assign(bodies.size() + 1, 0.0);
   const int n = static_cast<int>(bodies.size());
-  try {
-    lsdcd::run_collectively(world, true, [&] {
+  lsdcd::MpiHost mpi(world);
+  const std::string error = lsdcd::error_of([&] {
+    lsdcd::run_collectively(mpi, true, [&] {
       for (int body = 0; body < n; body++)
         if (is_mine(body)) collide(body, pose_of(body, sums), fix, box);
     });
-  } catch (const lsdcd::InputError &e) {
-    fatal("at step " + std::to_string(update->ntimestep) + ": " + e.what());
-  }
+  });
+  if (!error.empty()) fatal("at step " + std::to_string(update->ntimestep) + ": " + error);
   MPI_Allreduce(MPI_IN_PLACE, found.data(), n + 1, MPI_DOUBLE, MPI_SUM, world);
   evaluated_at = update->ntimestep;
   constexpr int kX = 2;    // of the sums

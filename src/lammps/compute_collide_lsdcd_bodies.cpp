@@ -8,7 +8,7 @@
 #include "base/input_error.h"
 #include "base/input_words.h"
 
-#include "lammps/mpi_shared.h"
+#include "lammps/mpi_host.h"
 
 #include "atom.h"
 #include "comm.h"
@@ -77,7 +77,8 @@ std::vector<Vec3> ComputeCollideLsdcd::read_points() const
 {
   const std::string &name = settings.atoms_file;
   std::vector<Vec3> all;
-  lsdcd::run_collectively(world, comm->me == 0, [&] {
+  lsdcd::MpiHost mpi(world);
+  lsdcd::run_collectively(mpi, mpi.is_first(), [&] {
     std::ifstream file(name);
     if (!file) throw InputError("cannot read file " + name + ": give x y z of an atom a line");
     std::string line;
@@ -97,9 +98,9 @@ std::vector<Vec3> ComputeCollideLsdcd::read_points() const
     }
   });
   int n = static_cast<int>(all.size());
-  MPI_Bcast(&n, 1, MPI_INT, 0, world);
+  mpi.broadcast(&n, sizeof n, 0);
   all.resize(n);
-  lsdcd::broadcast_bytes(all.data(), n * sizeof(Vec3), 0, world);
+  mpi.broadcast(all.data(), n * sizeof(Vec3), 0);
   return all;
 }
 

@@ -7,8 +7,8 @@
 #include "lammps/fix_wall_lsdcd.h"
 #include "lammps/host_atom_vec.h"
 #include "lammps/host_box.h"
+#include "lammps/mpi_host.h"
 #include "lammps/mpi_mesh.h"
-#include "lammps/mpi_shared.h"
 #include "lammps/restart_data.h"
 #include "mesh/outside_box.h"
 
@@ -89,7 +89,7 @@ FixInsertLsdcd::FixInsertLsdcd(LAMMPS *lmp, int narg, char **arg) :
     fatal("atoms need a radius and a mass each: use atom_style sphere");
   if (domain->dimension == 2)
     fatal("the simulation has two dimensions: there is no insertion there");
-  try {
+  run_core([&] {
     settings = lsdcd::parse_insert(std::vector<std::string>(arg + 3, arg + narg));
     if (settings.type > atom->ntypes)
       throw lsdcd::InputError("in 'type', there is no atom type " + std::to_string(settings.type) +
@@ -100,9 +100,7 @@ FixInsertLsdcd::FixInsertLsdcd(LAMMPS *lmp, int narg, char **arg) :
       read_face();
     else
       find_region();
-  } catch (const lsdcd::InputError &e) {
-    fatal(e.what());
-  }
+  });
   const double mean = settings.plan.grains.mean_mass();
   const lsdcd::FeedSettings &feed = settings.plan.feed;
   if (feed.kind != lsdcd::FeedSettings::at_once)
@@ -140,7 +138,8 @@ void FixInsertLsdcd::post_constructor()
 
 void FixInsertLsdcd::read_face()
 {
-  const lsdcd::WeldedMesh mesh = lsdcd::read_together(world, settings.face);
+  lsdcd::MpiHost mpi(world);
+  const lsdcd::WeldedMesh mesh = lsdcd::read_together(mpi, settings.face);
   face = std::make_unique<lsdcd::InletFace>(mesh, settings.depth);
   const std::string outside =
       lsdcd::outside_box({mesh.report.lo, mesh.report.hi}, lsdcd::host_box(*domain), 0);
@@ -220,12 +219,11 @@ void FixInsertLsdcd::init()
   }
   if (!missing.empty())
     fatal("in 'wall', there is no fix '" + missing[0] + "': give the ID of a fix wall/lsdcd");
-  try {
+  run_core([&] {
     if (!settings.region.empty()) find_region();
-    lsdcd::run_collectively(world, true, [&] { walls->follow(found, comm->me == 0); });
-  } catch (const lsdcd::InputError &e) {
-    fatal(e.what());
-  }
+    lsdcd::MpiHost mpi(world);
+    lsdcd::run_collectively(mpi, true, [&] { walls->follow(found, mpi.is_first()); });
+  });
 }
 
 void FixInsertLsdcd::setup(int /*vflag*/)
@@ -266,7 +264,7 @@ std::vector<double> FixInsertLsdcd::gather_spheres(const lsdcd::Box &zone) const
          lsdcd::images_near({{x[0], x[1], x[2]}, atom->radius[i]}, zone, largest, box))
       mine.insert(mine.end(), {s.at.x, s.at.y, s.at.z, s.radius});
   }
-  return lsdcd::gather_numbers(mine, world);
+  return lsdcd::MpiHost(world).gather(mine);
 }
 
 // The first process chooses, as it has the walls, and tells all.
@@ -276,7 +274,8 @@ std::vector<Insertion::Placed> FixInsertLsdcd::choose(lsdcd::Refused &refused)
   const lsdcd::Box around = zone();
   const std::vector<double> near = gather_spheres(around);
   std::vector<double> message;
-  lsdcd::run_collectively(world, comm->me == 0, [&] {
+  lsdcd::MpiHost mpi(world);
+  lsdcd::run_collectively(mpi, mpi.is_first(), [&] {
     std::vector<PackedSphere> there;
     for (std::size_t i = 0; i < near.size(); i += 4)
       there.push_back({{near[i], near[i + 1], near[i + 2]}, near[i + 3]});
@@ -290,9 +289,9 @@ std::vector<Insertion::Placed> FixInsertLsdcd::choose(lsdcd::Refused &refused)
       message.push_back(static_cast<double>(count));
   });
   std::uint64_t n = message.size();
-  MPI_Bcast(&n, 1, MPI_UINT64_T, 0, world);
+  mpi.broadcast(&n, sizeof n, 0);
   message.resize(n);
-  lsdcd::broadcast_bytes(message.data(), n * sizeof(double), 0, world);
+  mpi.broadcast(message.data(), n * sizeof(double), 0);
   std::vector<Insertion::Placed> placed;
   for (std::size_t i = 0; i + 4 < n; i += 4)
     placed.push_back(
@@ -313,7 +312,7 @@ void FixInsertLsdcd::pre_exchange()
     refused = {};
     std::vector<Insertion::Placed> placed;
     if (!insertion->owed().empty()) {
-      placed = choose(refused);
+      run_core([&] { placed = choose(refused); });
       create(placed);
     }
     insertion->accept(step, placed, refused);

@@ -5,6 +5,7 @@
 
 #include "base/input_words.h"
 #include "lammps/host_box.h"
+#include "lammps/mpi_host.h"
 #include "lammps/mpi_mesh.h"
 #include "mesh/outside_box.h"
 
@@ -28,7 +29,7 @@ using lsdcd::Vec3;
 FixMassflowLsdcd::FixMassflowLsdcd(LAMMPS *lmp, int narg, char **arg) :
     Fix(lmp, narg, arg), OwnMessages(lmp, "Fix", id, "massflow/lsdcd")
 {
-  try {
+  run_core([&] {
     settings = lsdcd::parse_massflow(std::vector<std::string>(arg + 3, arg + narg));
     const lsdcd::WeldedMesh mesh = read_mesh();
     surface = std::make_unique<lsdcd::FlowSurface>(mesh);
@@ -48,9 +49,7 @@ FixMassflowLsdcd::FixMassflowLsdcd(LAMMPS *lmp, int narg, char **arg) :
                                                    lsdcd::host_box(*domain), neighbor->skin);
     if (!outside.empty()) throw lsdcd::InputError(outside);
     check_length(mesh);
-  } catch (const lsdcd::InputError &e) {
-    fatal(e.what());
-  }
+  });
   if (settings.deletes && atom->molecular)
     fatal("delete yes leaves bonds without their atoms: use an atom style without bonds");
 
@@ -94,7 +93,8 @@ FixMassflowLsdcd::~FixMassflowLsdcd()
 // Every process keeps the whole surface.
 lsdcd::WeldedMesh FixMassflowLsdcd::read_mesh()
 {
-  lsdcd::WeldedMesh mesh = lsdcd::read_together(world, settings.surface);
+  lsdcd::MpiHost mpi(world);
+  lsdcd::WeldedMesh mesh = lsdcd::read_together(mpi, settings.surface);
   if (mesh.faces.empty())
     throw lsdcd::InputError(settings.surface.file +
                             ": all triangles have no area, and nothing passes such a surface; "

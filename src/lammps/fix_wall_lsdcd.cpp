@@ -58,7 +58,7 @@ FixWallLsdcd::FixWallLsdcd(LAMMPS *lmp, int narg, char **arg, const lsdcd::WallP
 #endif
   check_atoms();
 
-  run_wall([&] {
+  run_core([&] {
     const lsdcd::FilledTokens filled = lsdcd::fill_material(
         host, std::vector<std::string>(arg + 3, arg + narg), update->unit_style);
     for (int i = 3; i + 1 < narg && !filled.report.empty() && material_file.empty(); i++)
@@ -193,7 +193,7 @@ void FixWallLsdcd::init()
   }
   if (!rigid) std::vector<double>().swap(mass_seen);
   check_heat();
-  run_wall([&] {
+  run_core([&] {
     wall->begin_run(update->ntimestep, thermo_virial);
     check_files_apart(*this, *modify, host, update->ntimestep);
   });
@@ -242,7 +242,7 @@ void FixWallLsdcd::min_setup(int /*vflag*/)
 
 void FixWallLsdcd::pre_exchange()
 {
-  run_wall([&] {
+  run_core([&] {
     wall->poll_diagnostics(update->ntimestep);
     if (spheres_go_far()) wall->check_wrapping();
   });
@@ -276,7 +276,7 @@ void FixWallLsdcd::post_force_respa(int vflag, int ilevel, int /*iloop*/)
 
 void FixWallLsdcd::end_of_step()
 {
-  run_wall([&] { wall->write_due_files(); });
+  run_core([&] { wall->write_due_files(); });
 }
 
 void FixWallLsdcd::post_run()
@@ -285,7 +285,7 @@ void FixWallLsdcd::post_run()
       sphere_drift().kind == lsdcd::SphereDrift::bounded
           ? ""
           : " (neigh_modify delay 0 every 1 check yes saves looking at all atoms)";
-  run_wall([&] {
+  run_core([&] {
     wall->end_run(update->ntimestep, spheres_go_far(), advice, timer->get_wall(Timer::TOTAL));
   });
 }
@@ -337,7 +337,7 @@ void FixWallLsdcd::begin(bool look)
 {
   if (rigid) fill_masses();
   const lsdcd::StepInput input = step_input(look);
-  run_wall([&] { begin_step(input); });
+  run_core([&] { begin_step(input); });
   if (input.new_spheres && wall->cutoff() > 0) counted_atoms = atom->natoms;
 }
 
@@ -350,7 +350,7 @@ void FixWallLsdcd::begin_step(const lsdcd::StepInput &input)
 
 void FixWallLsdcd::finish_step()
 {
-  run_wall([&] { wall->finish(spheres()); });
+  run_core([&] { wall->finish(spheres()); });
   if (vflag_global) wall->add_virial(virial);
   if (spec().contacts) fill_contacts();
 }
@@ -515,7 +515,7 @@ void FixWallLsdcd::write_restart(FILE *file)
 
 void FixWallLsdcd::restart(char *buffer)
 {
-  run_wall([&] {
+  run_core([&] {
     try {
       wall->restore(lsdcd::read_wall_state(reinterpret_cast<const double *>(buffer), kAllNumbers),
                     step_now());
@@ -624,7 +624,7 @@ int FixWallLsdcd::image(int *&kinds, double **&rows)
 int FixWallLsdcd::modify_param(int narg, char **arg)
 {
   int taken = 0;
-  run_wall([&] {
+  run_core([&] {
     taken = lsdcd::change_wall(*wall, std::vector<std::string>(arg, arg + narg), step_now());
   });
   show_servo();

@@ -71,7 +71,7 @@ class FixWallLsdcd : public Fix, protected OwnMessages {
 
  protected:
   friend class LammpsHost;
-  LammpsHost host = LammpsHost(*this);
+  LammpsHost host{*this};
   std::unique_ptr<lsdcd::Wall> wall;
   std::string material_file;    // as the script names it; empty: none
 
@@ -124,23 +124,7 @@ class FixWallLsdcd : public Fix, protected OwnMessages {
   void check_atoms() const;
   void check_heat() const;
   void check_types(const lsdcd::WallSpec &) const;
-
-  // Runs the wall's work, and ends LAMMPS with what it throws.
-  template <class Work>
-  void run_wall(Work &&work) const;
 };
-
-template <class Work>
-void FixWallLsdcd::run_wall(Work &&work) const
-{
-  try {
-    work();
-  } catch (const lsdcd::ProcessError &e) {
-    fatal_here(e.what());
-  } catch (const lsdcd::InputError &e) {
-    fatal(e.what());
-  }
-}
 
 }    // namespace LAMMPS_NS
 

@@ -7,10 +7,8 @@
 #include "base/input_words.h"
 #include "lammps/fix_wall_lsdcd.h"
 #include "lammps/host_box.h"
-#include "lammps/mpi_shared.h"
 
 #include "atom.h"
-#include "comm.h"
 #include "domain.h"
 #include "group.h"
 #include "input.h"
@@ -24,41 +22,7 @@
 
 using namespace LAMMPS_NS;
 
-void LammpsHost::sum(double *numbers, int n)
-{
-  MPI_Allreduce(MPI_IN_PLACE, numbers, n, MPI_DOUBLE, MPI_SUM, fix.world);
-}
-
-void LammpsHost::max(double *numbers, int n)
-{
-  MPI_Allreduce(MPI_IN_PLACE, numbers, n, MPI_DOUBLE, MPI_MAX, fix.world);
-}
-
-int LammpsHost::max_rank(double &number)
-{
-  struct {
-    double value;
-    int rank;
-  } most = {number, rank()};
-  MPI_Allreduce(MPI_IN_PLACE, &most, 1, MPI_DOUBLE_INT, MPI_MAXLOC, fix.world);
-  number = most.value;
-  return most.rank;
-}
-
-void LammpsHost::broadcast(void *data, std::size_t bytes, int from)
-{
-  lsdcd::broadcast_bytes(data, bytes, from, fix.world);
-}
-
-std::vector<double> LammpsHost::gather(const std::vector<double> &mine)
-{
-  return lsdcd::gather_numbers(mine, fix.world);
-}
-
-void LammpsHost::fail_together(const std::string &error)
-{
-  lsdcd::throw_together(fix.world, error);
-}
+LammpsHost::LammpsHost(FixWallLsdcd &fix) : MpiNodeHost(fix.world), fix(fix) {}
 
 int LammpsHost::find_variable(const std::string &name) const
 {
@@ -95,11 +59,6 @@ void LammpsHost::check_variables(const std::vector<std::string> &names)
   for (const std::string &name : names) find_variable(name);
 }
 
-std::unique_ptr<lsdcd::NodeMemory> LammpsHost::node_memory()
-{
-  return std::make_unique<lsdcd::MpiShared>(fix.world);
-}
-
 lsdcd::PeriodicBox LammpsHost::box() const
 {
   lsdcd::PeriodicBox box = lsdcd::host_box(*fix.domain);
@@ -116,11 +75,6 @@ lsdcd::Spheres LammpsHost::spheres_on_cpu()
 {
   fix.need_on_host();
   return fix.spheres_in_atom();
-}
-
-int LammpsHost::rank() const
-{
-  return fix.comm->me;
 }
 
 std::int64_t LammpsHost::tag(int sphere)
@@ -147,12 +101,10 @@ double LammpsHost::radius_of_tag(std::int64_t tag)
   return radius;
 }
 
-void LammpsHost::log(const std::string &text)
+void LammpsHost::show(const std::string &text, bool is_warning)
 {
-  fix.log(text);
-}
-
-void LammpsHost::warn(const std::string &text)
-{
-  fix.warn(text);
+  if (is_warning)
+    fix.warn(text);
+  else
+    fix.log(text);
 }

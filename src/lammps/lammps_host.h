@@ -5,34 +5,26 @@
 #ifndef LMP_LAMMPS_HOST_H
 #define LMP_LAMMPS_HOST_H
 
+#include "lammps/mpi_host.h"
 #include "wall/host.h"
 
 namespace LAMMPS_NS {
 
-class LammpsHost : public lsdcd::Host {
+class LammpsHost : public lsdcd::WallHost, public lsdcd::MpiNodeHost {
  public:
-  explicit LammpsHost(class FixWallLsdcd &fix) : fix(fix) {}
+  explicit LammpsHost(class FixWallLsdcd &);
 
-  void sum(double *, int) override;
-  void max(double *, int) override;
-  int max_rank(double &) override;
-  void broadcast(void *, std::size_t, int) override;
-  std::vector<double> gather(const std::vector<double> &) override;
-  void fail_together(const std::string &) override;
   std::vector<double> variables(const std::vector<std::string> &) override;
   void check_variables(const std::vector<std::string> &) override;
-  std::unique_ptr<lsdcd::NodeMemory> node_memory() override;
-  int rank() const override;
   lsdcd::PeriodicBox box() const override;
   lsdcd::SphereGroup group() const override;
   lsdcd::Spheres spheres_on_cpu() override;
   std::int64_t tag(int) override;
   std::int64_t highest_tag() override;
   double radius_of_tag(std::int64_t) override;
-  void log(const std::string &) override;
-  void warn(const std::string &) override;
 
  private:
+  void show(const std::string &, bool) override;
   int find_variable(const std::string &) const;
 
   FixWallLsdcd &fix;

@@ -3,7 +3,6 @@
 
 #include "lammps/mpi_mesh.h"
 
-#include "lammps/mpi_shared.h"
 #include "mesh/io/read_mesh.h"
 #include "mesh/measure_mesh.h"
 #include "mesh/soup_of.h"
@@ -15,47 +14,40 @@ namespace lsdcd {
 namespace {
 
 // From the first process to all.
-void send_corners(MPI_Comm world, TriangleSoup &soup)
+void send_corners(Host &host, TriangleSoup &soup)
 {
   std::uint64_t corners = soup.corners.size();
-  MPI_Bcast(&corners, 1, MPI_UINT64_T, 0, world);
-  run_collectively(world, true, [&] { soup.corners.resize(corners); });
-  broadcast_bytes(soup.corners.data(), corners * sizeof(Vec3), 0, world);
-}
-
-bool is_first(MPI_Comm world)
-{
-  int rank = 0;
-  MPI_Comm_rank(world, &rank);
-  return rank == 0;
+  host.broadcast(&corners, sizeof corners, 0);
+  run_collectively(host, true, [&] { soup.corners.resize(corners); });
+  host.broadcast(soup.corners.data(), corners * sizeof(Vec3), 0);
 }
 
 }    // namespace
 
-WeldedMesh read_together(MPI_Comm world, const MeshSpec &settings)
+WeldedMesh read_together(Host &host, const MeshSpec &settings)
 {
   TriangleSoup soup;
   soup.source = settings.file;
-  run_collectively(world, is_first(world), [&] {
+  run_collectively(host, host.is_first(), [&] {
     soup = read_mesh(settings.file).soup;
     settings.placement.apply(soup);
   });
-  send_corners(world, soup);
+  send_corners(host, soup);
   WeldedMesh mesh;
-  run_collectively(world, true, [&] {
+  run_collectively(host, true, [&] {
     mesh = weld(soup, settings.weld);
     check_has_area(mesh);
   });
   return mesh;
 }
 
-WeldedMesh copy_together(MPI_Comm world, const WeldedMesh *mesh)
+WeldedMesh copy_together(Host &host, const WeldedMesh *mesh)
 {
   TriangleSoup soup;
-  run_collectively(world, is_first(world), [&] { soup = soup_of(*mesh); });
-  send_corners(world, soup);
+  run_collectively(host, host.is_first(), [&] { soup = soup_of(*mesh); });
+  send_corners(host, soup);
   WeldedMesh copy;
-  run_collectively(world, true, [&] { copy = weld(soup, 0); });
+  run_collectively(host, true, [&] { copy = weld(soup, 0); });
   return copy;
 }
 

@@ -4,18 +4,17 @@
 // Meshes that every process has whole.
 #pragma once
 
+#include "host/host.h"
 #include "mesh/welded_mesh.h"
 #include "wall/wall_spec.h"
-
-#include <mpi.h>
 
 namespace lsdcd {
 
 // The file is read by the first process alone: it may not be there on other nodes. Collective;
 // throws InputError on all.
-WeldedMesh read_together(MPI_Comm world, const MeshSpec &settings);
+WeldedMesh read_together(Host &host, const MeshSpec &settings);
 
 // A copy of a mesh that the first process has; others give null. Its faces keep their numbers.
-WeldedMesh copy_together(MPI_Comm world, const WeldedMesh *mesh);
+WeldedMesh copy_together(Host &host, const WeldedMesh *mesh);
 
 }    // namespace lsdcd

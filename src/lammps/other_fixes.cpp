@@ -58,7 +58,7 @@ bool share_atoms(const Fix &a, const Fix &b, const Atom &atom, MPI_Comm world)
 void LAMMPS_NS::check_files_apart(const FixWallLsdcd &wall, const Modify &modify, lsdcd::Host &host,
                                   bigint step)
 {
-  lsdcd::run_collectively(host, host.rank() == 0, [&] {
+  lsdcd::run_collectively(host, host.is_first(), [&] {
     const std::vector<ScriptFile> mine = wall.files();
     for (std::size_t i = 0; i < mine.size(); i++)
       for (std::size_t k = 0; k < mine.size(); k++)

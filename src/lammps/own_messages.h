@@ -5,6 +5,10 @@
 #ifndef LMP_OWN_MESSAGES_H
 #define LMP_OWN_MESSAGES_H
 
+#include "host/host.h"
+
+#include <new>
+#include <stdexcept>
 #include <string>
 
 namespace LAMMPS_NS {
@@ -26,10 +30,30 @@ class OwnMessages {
   [[noreturn]] void fatal(const std::string &) const;
   [[noreturn]] void fatal_here(const std::string &) const;
 
+  // Runs work of the core, and ends LAMMPS with what that throws. Exceptions of LAMMPS pass: they are none of these.
+  template <class Work>
+  void run_core(Work &&work) const;
+
  private:
   class LAMMPS *lammps;
   std::string begin;
 };
+
+template <class Work>
+void OwnMessages::run_core(Work &&work) const
+{
+  try {
+    work();
+  } catch (const lsdcd::ProcessError &e) {
+    fatal_here(e.what());
+  } catch (const std::bad_alloc &) {
+    fatal("out of memory");
+  } catch (const std::runtime_error &e) {
+    fatal(e.what());
+  } catch (const std::logic_error &e) {
+    fatal(e.what());
+  }
+}
 
 }    // namespace LAMMPS_NS
 

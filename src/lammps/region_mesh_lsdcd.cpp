@@ -5,8 +5,8 @@
 
 #include "base/input_error.h"
 #include "lammps/host_box.h"
+#include "lammps/mpi_host.h"
 #include "lammps/mpi_mesh.h"
-#include "lammps/mpi_shared.h"
 #include "mesh/likely_scale.h"
 
 #include "comm.h"
@@ -23,20 +23,19 @@ RegionMeshLsdcd::RegionMeshLsdcd(LAMMPS *lmp, int narg, char **arg) :
 {
   cmax = tmax = 0;
   contact = nullptr;
-  try {
+  run_core([&] {
     settings = lsdcd::parse_region(std::vector<std::string>(arg + 2, arg + narg));
     read_host_words();
-    const lsdcd::WeldedMesh mesh = lsdcd::read_together(world, settings.mesh);
-    lsdcd::run_collectively(world, true, [&] {
+    lsdcd::MpiHost mpi(world);
+    const lsdcd::WeldedMesh mesh = lsdcd::read_together(mpi, settings.mesh);
+    lsdcd::run_collectively(mpi, true, [&] {
       winding = std::make_unique<lsdcd::WindingNumber>(mesh);
       if (settings.gap > 0) distances = std::make_unique<Distances>(mesh);
     });
     mesh_bounds = {mesh.report.lo, mesh.report.hi};
     set_bounds(mesh.report);
     log_mesh(mesh);
-  } catch (const lsdcd::InputError &e) {
-    fatal(e.what());
-  }
+  });
 }
 
 // The mesh is in lengths of the box, as that of the fix, unless the script says lattice.

@@ -47,7 +47,7 @@ void BoxChecks::check_scale(const MeshPart &m, const PeriodicBox &box) const
 // Where its motion allows no images check_moving() refuses it.
 void BoxChecks::check_periodic(const MeshPart &m, const PeriodicBox &box) const
 {
-  if (settings_.periodic || host_.rank() != 0) return;    // the first process has the mesh
+  if (settings_.periodic || !host_.is_first()) return;    // the first process has the mesh
   const Real tolerance = m.grid.report().weld_tolerance;
   std::string axes;
   for (int k = 0; k < 3; k++) {

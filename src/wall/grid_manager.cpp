@@ -146,8 +146,8 @@ void GridManager::log_build(const MeshPart &m, Real old_cutoff, std::int64_t ste
   else
     t += "the box has changed, grid rebuilt at step " + std::to_string(step) +
          " (more of these in this run are counted at its end)";
-  if (!again && grid.memory().node_size() > 1)
-    t += grid.memory().is_shared() ? "\n  one copy per node" : "\n  one copy per process";
+  if (!again && host_.ranks().node_size > 1)
+    t += grid.is_shared() ? "\n  one copy per node" : "\n  one copy per process";
   if (!grid.cache_text().empty()) t += "\n  " + grid.cache_text();
   const bool one_of_many = again && grid.cutoff() == old_cutoff && box_rebuilds_ > 1;
   if (!one_of_many) host_.log(t);

@@ -19,7 +19,7 @@ namespace lsdcd {
 class GridManager {
  public:
   // All must outlive it.
-  GridManager(Host &host, const WallSpec &settings, const LawTable &laws,
+  GridManager(WallHost &host, const WallSpec &settings, const LawTable &laws,
               std::deque<MeshPart> &meshes, BoxChecks &checks, HistoryExchange &history,
               TimeReport &times) :
       host_(host),
@@ -61,7 +61,7 @@ class GridManager {
   ProgressListener progress(const MeshPart &m) const;
   void log_build(const MeshPart &m, Real old_cutoff, std::int64_t step) const;
 
-  Host &host_;
+  WallHost &host_;
   const WallSpec &settings_;
   const LawTable &laws_;
   std::deque<MeshPart> &meshes_;

@@ -6,7 +6,7 @@
 
 #include "contact/contact_history.h"
 #include "engine/wall_engine.h"
-#include "wall/host.h"
+#include "host/host.h"
 #include "wall/wall_spec.h"
 
 #include <cstddef>

@@ -37,7 +37,7 @@ MeshLoads LoadRecorder::gathered(int mesh) const
 void LoadRecorder::restore(int mesh, Real time, const std::vector<double> &rows)
 {
   loads_[mesh].set_time(time);
-  if (host_.rank() == 0) loads_[mesh].add_packed(rows.data(), rows.size() / MeshLoads::kPackedLoad);
+  if (host_.is_first()) loads_[mesh].add_packed(rows.data(), rows.size() / MeshLoads::kPackedLoad);
 }
 
 std::size_t LoadRecorder::bytes() const

@@ -4,8 +4,8 @@
 // Loads and wear of a wall's meshes, added up over the steps on all processes.
 #pragma once
 
+#include "host/host.h"
 #include "output/mesh_loads.h"
-#include "wall/host.h"
 #include "wall/wall_spec.h"
 
 #include <cstddef>

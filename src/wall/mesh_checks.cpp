@@ -78,7 +78,7 @@ void check_motion(const Host &host, const WallSpec &settings, const MeshPart &m)
 
 void check_surface(Host &host, const WallSpec &settings, const MeshPart &m)
 {
-  if (host.rank() != 0) return;    // the first process has the mesh
+  if (!host.is_first()) return;    // the first process has the mesh
   const PushReport push = faces_pushed(*m.grid.mesh(), m.spec.surface);
   if (push.faces == 0) return;
   host.warn(with_mesh_name(

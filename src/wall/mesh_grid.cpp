@@ -19,41 +19,8 @@
 
 namespace lsdcd {
 
-namespace {
-
-// Memory of each node. The first process has the cache file, which other nodes may not see.
-class NodePlace : public GridPlace {
- public:
-  NodePlace(Host &host, NodeMemory &memory) : host_(host), memory_(memory) {}
-
-  bool is_first() const override { return host_.rank() == 0; }
-  bool builds() const override { return memory_.writes(); }
-  void run(bool here, const std::function<void()> &work) override
-  {
-    run_collectively(host_, here, work);
-  }
-  std::uint64_t of_first(std::uint64_t number) override
-  {
-    host_.broadcast(&number, sizeof number, 0);
-    return number;
-  }
-  char *allocate(std::size_t bytes) override { return block_ = memory_.allocate(bytes); }
-  void publish(bool from_file) override
-  {
-    if (from_file && memory_.writes()) memory_.broadcast_to_writers(block_, memory_.bytes());
-    memory_.publish();
-  }
-
- private:
-  Host &host_;
-  NodeMemory &memory_;
-  char *block_ = nullptr;
-};
-
-}    // namespace
-
 MeshGrid::MeshGrid(Host &host, const WallSpec &wall, const MeshSpec &spec) :
-    host_(host), wall_(wall), spec_(spec), memory_(host.node_memory())
+    host_(host), wall_(wall), spec_(spec)
 {
   read();
 }
@@ -61,7 +28,7 @@ MeshGrid::MeshGrid(Host &host, const WallSpec &wall, const MeshSpec &spec) :
 // The first process alone reads the file, which may not be there on other nodes.
 void MeshGrid::read()
 {
-  const bool first = host_.rank() == 0, writes = memory_->writes();
+  const bool first = host_.is_first(), fills = host_.ranks().fills_memory;
   TriangleSoup soup;
   soup.source = spec_.name;
   run_collectively(host_, first, [&] {
@@ -72,9 +39,9 @@ void MeshGrid::read()
   // No message goes to a node without room.
   std::uint64_t corners = soup.corners.size();
   host_.broadcast(&corners, sizeof corners, 0);
-  run_collectively(host_, writes, [&] { soup.corners.resize(corners); });
-  if (writes) memory_->broadcast_to_writers(soup.corners.data(), corners * sizeof(Vec3));
-  run_collectively(host_, writes, [&] {
+  run_collectively(host_, fills, [&] { soup.corners.resize(corners); });
+  host_.broadcast(soup.corners.data(), corners * sizeof(Vec3), 0, Receivers::that_fill_memory);
+  run_collectively(host_, fills, [&] {
     mesh_ = std::make_unique<WeldedMesh>(weld(soup, spec_.weld));
     check_has_area(*mesh_);
     report_ = mesh_->report;
@@ -186,11 +153,10 @@ void MeshGrid::build(Real cutoff, const PeriodicBox &box)
   within_ = want.within;
 
   WeldedMesh with_images;    // the mesh itself is not copied for a box without them
-  run_collectively(host_, memory_->writes() && box.any_periodic(),
+  run_collectively(host_, host_.ranks().fills_memory && box.any_periodic(),
                    [&] { with_images = whole(cutoff, box); });
   const WeldedMesh &mesh = mesh_ && !box.any_periodic() ? *mesh_ : with_images;
-  NodePlace place(host_, *memory_);
-  const LoadedGrid loaded = load_or_build_grid(cache_file, mesh, want, uses_gpu(), place);
+  const LoadedGrid loaded = load_or_build_grid(cache_file, mesh, want, uses_gpu(), host_, memory_);
   cache_text_ = loaded.cache_text;
   cache_warning_ = loaded.cache_warning;
   cells_ = loaded.report.lists.cells;
@@ -200,7 +166,7 @@ void MeshGrid::build(Real cutoff, const PeriodicBox &box)
                      spec_.name +
                      "' cut, overlap or touch each other, see lsdcd inspect: make one shell of "
                      "them (a boolean union), or use side both");
-  run_collectively(host_, host_.rank() == 0, [&] { note_images(mesh); });
+  run_collectively(host_, host_.is_first(), [&] { note_images(mesh); });
   broadcast_text(host_, grid_text_);
   broadcast_text(host_, ends_warning_);
   host_.broadcast(&cells_, sizeof cells_, 0);
@@ -248,7 +214,7 @@ std::size_t MeshGrid::bytes() const
   if (mesh_)
     mesh = mesh_->vertices.size() * sizeof(Vec3) + mesh_->faces.size() * 7 * sizeof(int) +
            mesh_->edges.size() * 5 * sizeof(int);
-  return mesh + (memory_->writes() || !memory_->is_shared() ? memory_->bytes() : 0);
+  return mesh + (host_.ranks().fills_memory || !memory_.is_shared ? memory_.bytes : 0);
 }
 
 }    // namespace lsdcd

@@ -5,9 +5,9 @@
 #pragma once
 
 #include "grid/triangle_grid.h"
+#include "host/host.h"
 #include "mesh/periodic_images.h"
 #include "mesh/welded_mesh.h"
-#include "wall/host.h"
 #include "wall/wall_spec.h"
 
 #include <cstdint>
@@ -49,9 +49,9 @@ class MeshGrid {
   // Ends of the mesh that do not meet across a periodic face, after the last build; on every
   // process.
   const std::string &ends_warning() const { return ends_warning_; }
-  GridView view() const { return flat_view(memory_->block()); }
-  Real cutoff() const { return cutoff_; }    // 0 before the first build
-  const NodeMemory &memory() const { return *memory_; }
+  GridView view() const { return flat_view(memory_.block.get()); }
+  Real cutoff() const { return cutoff_; }                 // 0 before the first build
+  bool is_shared() const { return memory_.is_shared; }    // with the processes of the node
 
   // False where a spring names a feature that this mesh does not have.
   bool has(FeatureCode feature) const;
@@ -74,8 +74,8 @@ class MeshGrid {
   Host &host_;
   const WallSpec &wall_;
   const MeshSpec &spec_;
-  std::unique_ptr<NodeMemory> memory_;
-  std::unique_ptr<WeldedMesh> mesh_;    // where memory_->writes()
+  NodeMemory memory_;                   // after the first build
+  std::unique_ptr<WeldedMesh> mesh_;    // on processes that fill memory
   MeshReport report_;
   std::uint64_t mesh_fingerprint_ = 0;
   std::string mesh_text_, grid_text_;

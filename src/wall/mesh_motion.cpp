@@ -35,7 +35,7 @@ void for_inputs(MeshSpec &mesh, SurfaceMotion &surface, const Visit &visit)
 
 }    // namespace
 
-MeshMotion::MeshMotion(Host &host, WallSpec &wall, int mesh, const Step &now) :
+MeshMotion::MeshMotion(WallHost &host, WallSpec &wall, int mesh, const Step &now) :
     host_(host), wall_(wall), mesh_(mesh)
 {
   begin(now);

@@ -31,7 +31,7 @@ class MeshMotion {
  public:
   // The motion of the mesh with this number, from 0. Its motion in `wall` changes with those set later. Host and
   // wall must outlive it. Its time is 0 at `now`.
-  MeshMotion(Host &host, WallSpec &wall, int mesh, const Step &now);
+  MeshMotion(WallHost &host, WallSpec &wall, int mesh, const Step &now);
 
   const Pose &pose() const { return pose_; }                   // in this step
   const SurfaceMotion &surface() const { return surface_; }    // likewise
@@ -78,7 +78,7 @@ class MeshMotion {
   void begin(const Step &now);
   void check_limits(Real position) const;
 
-  Host &host_;
+  WallHost &host_;
   WallSpec &wall_;
   int mesh_;
   StepClock clock_;

@@ -54,7 +54,8 @@ void OverlapMonitor::check_sunk(Real worst, Real timestep_ratio)
   if (sunk_warned_ || worst <= kLarge) return;
   sunk_warned_ = true;
   Real most = worst_;
-  const int rank = host_.max_rank(most);
+  host_.max(&most, 1);
+  const int rank = lowest_rank(host_, worst_ == most);
   std::int64_t which[2] = {worst_tag_, worst_step_};
   host_.broadcast(which, sizeof which, rank);
   const std::string overlap = overlap_text(most, which[0]);
@@ -66,13 +67,13 @@ void OverlapMonitor::check_sunk(Real worst, Real timestep_ratio)
 // New spheres have tags above the highest tag that there was.
 void OverlapMonitor::check_new(const StepDiagnostics &seen, std::int64_t step, bool goes_on)
 {
-  // Exact below 2^53. Larger IDs, which only a BIGBIG build has, could take a new sphere for an old one.
-  Real highest = static_cast<Real>(host_.highest_tag());
   std::int64_t tag = seen.deepest > kLarge ? host_.tag(seen.deepest_sphere) : 0;
   const bool is_new = tag > highest_tag_ && !(highest_tag_ < 0 && goes_on);
-  Real most = is_new ? seen.deepest : 0;
-  const int rank = host_.max_rank(most);
-  host_.max(&highest, 1);
+  const Real mine = is_new ? seen.deepest : 0;
+  // Tags are exact below 2^53. Larger ones could take a new sphere for an old one.
+  Real numbers[2] = {mine, static_cast<Real>(host_.highest_tag())};
+  host_.max(numbers, 2);
+  const Real most = numbers[0], highest = numbers[1];
   if (!is_new) note(seen, step);
   if (most > kLarge) {
     if (placed_overlap_ == 0) placed_after_ = highest_tag_;
@@ -82,7 +83,7 @@ void OverlapMonitor::check_new(const StepDiagnostics &seen, std::int64_t step, b
   highest_tag_ = std::max(highest_tag_, static_cast<std::int64_t>(highest));
   if (most <= worst_new_) return;
   worst_new_ = kWorse * most;
-  host_.broadcast(&tag, sizeof tag, rank);
+  host_.broadcast(&tag, sizeof tag, lowest_rank(host_, mine == most));
   const std::string overlap = overlap_text(most, tag);
   host_.warn("atom " + std::to_string(tag) + " comes to be in the wall, which it overlaps by " +
              overlap + " in step " + std::to_string(step) + ": " +

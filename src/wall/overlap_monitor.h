@@ -13,7 +13,7 @@ namespace lsdcd {
 // whose centre is past the wall overlaps by more than 1, with side in or out.
 class OverlapMonitor {
  public:
-  explicit OverlapMonitor(Host &host) : host_(host) {}
+  explicit OverlapMonitor(WallHost &host) : host_(host) {}
 
   // Notes the deepest sphere of the steps up to `step`. A sphere that was put into the wall has not
   // sunk, until no sphere is deep in the wall or it is deeper than it was put.
@@ -39,7 +39,7 @@ class OverlapMonitor {
   static constexpr Real kLarge = 0.1;
   static constexpr Real kWorse = 1.1;    // times an overlap that was warned of: warned of again
 
-  Host &host_;
+  WallHost &host_;
   bool sunk_warned_ = false;
   // On this process.
   Real worst_ = 0;

@@ -4,7 +4,7 @@
 // The velocity of a servo in each step, from the load of the last one.
 #pragma once
 
-#include "wall/host.h"
+#include "host/host.h"
 #include "wall/wall_spec.h"
 
 #include <cstdint>

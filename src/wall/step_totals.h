@@ -5,7 +5,7 @@
 #pragma once
 
 #include "engine/wall_engine.h"
-#include "wall/host.h"
+#include "host/host.h"
 #include "wall/wall_spec.h"
 
 #include <vector>

@@ -4,7 +4,7 @@
 // Where the time of a run goes, in a table for the log.
 #pragma once
 
-#include "wall/host.h"
+#include "host/host.h"
 
 #include <functional>
 #include <utility>

@@ -12,7 +12,7 @@ namespace lsdcd {
 class TimestepCheck {
  public:
   // Both must outlive it. `ftm2v`: force times time over mass, in the host's unit of velocity.
-  TimestepCheck(Host &host, const LawTable &laws, Real ftm2v) :
+  TimestepCheck(WallHost &host, const LawTable &laws, Real ftm2v) :
       host_(host), laws_(laws), ftm2v_(ftm2v)
   {
   }
@@ -27,7 +27,7 @@ class TimestepCheck {
  private:
   Real shortest_of(const Spheres &s, int i) const;
 
-  Host &host_;
+  WallHost &host_;
   const LawTable &laws_;
   Real ftm2v_;
   static constexpr Real kWorse = 1.1;    // times a timestep that was warned of: warned of again

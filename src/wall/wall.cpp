@@ -44,7 +44,7 @@ Real number_of(std::uint64_t fingerprint)
 
 }    // namespace
 
-Wall::Wall(Host &host, WallSpec spec, const WallUnits &units, WallPlace place,
+Wall::Wall(WallHost &host, WallSpec spec, const WallUnits &units, WallPlace place,
            const std::string &material, const StepClock &clock) :
     host_(host),
     spec_(in_units(std::move(spec), units)), laws_(law_table(spec_)), place_(std::move(place)),
@@ -123,7 +123,7 @@ EngineSettings Wall::engine_settings() const
   want.records = spec_.has_loads() || virial_;
   want.wear = spec_.wear.model;
   want.device = spec_.device;
-  want.device_rank = meshes_.front().grid.memory().node_rank();
+  want.device_rank = host_.ranks().node_rank;
   return want;
 }
 
@@ -148,7 +148,7 @@ void Wall::make_engine_anew()
 
 void Wall::log_creation(const std::string &material, const WallPlace &place) const
 {
-  if (host_.rank() != 0) return;
+  if (!host_.is_first()) return;
   std::string device = engine_->backend(), why;
   if (!spec_.brief && !place.in_place && spec_.device == Device::automatic && !cuda_available(&why))
     device += " (no CUDA: " + why + ")";

@@ -58,7 +58,7 @@ class Wall {
   // Reads the meshes, makes the engine, and logs what there is. `material`: what a material file filled in,
   // for the log. `clock`: the time of the host. The host must outlive the wall. Throws InputError where the
   // spec makes no sense.
-  Wall(Host &host, WallSpec spec, const WallUnits &units, WallPlace place,
+  Wall(WallHost &host, WallSpec spec, const WallUnits &units, WallPlace place,
        const std::string &material, const StepClock &clock);
 
   // Not together:
@@ -161,7 +161,7 @@ class Wall {
   bool is_restored(const MeshPart &m, const MeshState &was, bool one_of_many) const;
   void restore_mesh(MeshPart &m, const MeshState &was, const Step &now);
 
-  Host &host_;
+  WallHost &host_;
   WallSpec spec_;    // motions change later
   LawTable laws_;    // of the spec
   WallPlace place_;

@@ -30,7 +30,7 @@ void WallFiles::check(int mesh, const char *keyword, const FileEvery &file, std:
 {
   if (file.every == 0) return;
   try {
-    run_collectively(host_, host_.rank() == 0, [&] { AtomicFile(file_of_step(file.name, step)); });
+    run_collectively(host_, host_.is_first(), [&] { AtomicFile(file_of_step(file.name, step)); });
   } catch (const InputError &e) {
     throw InputError(with_mesh_name(settings_, mesh,
                                     "in '" + std::string(keyword) + "', " + e.what() +
@@ -51,7 +51,7 @@ void WallFiles::begin_run(std::int64_t step)
 bool WallFiles::try_to_write(const std::string &lost, const std::function<void()> &write)
 {
   try {
-    run_collectively(host_, host_.rank() == 0, write);
+    run_collectively(host_, host_.is_first(), write);
     return true;
   } catch (const InputError &e) {
     if (!warned_)

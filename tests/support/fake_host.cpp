@@ -4,7 +4,6 @@
 #include "support/fake_host.h"
 
 #include "base/input_error.h"
-#include "wall/own_memory.h"
 
 #include <algorithm>
 #include <condition_variable>
@@ -34,7 +33,8 @@ void on_processes(int n, const std::function<void(FakeHost &)> &work)
   std::vector<std::exception_ptr> error(n);
   std::vector<std::thread> threads;
   for (int p = 0; p < n; p++) {
-    hosts[p].rank_ = p;
+    hosts[p].ranks_.rank = p;
+    hosts[p].ranks_.processes = n;
     hosts[p].meeting_ = &meeting;
     threads.emplace_back([&, p] {
       try {
@@ -61,7 +61,7 @@ std::vector<FakeHost::Bytes> FakeHost::meet(const std::string &call, const void 
   std::unique_lock<std::mutex> lock(m.mutex);
   if (m.here == 0) m.call = call;
   if (m.call != call) throw std::logic_error("one process calls " + call + ", another " + m.call);
-  m.now[rank_].assign(first, first + bytes);
+  m.now[rank()].assign(first, first + bytes);
   const int mine = m.held;
   if (++m.here == static_cast<int>(m.now.size())) {
     m.last = m.now;
@@ -101,33 +101,11 @@ void FakeHost::max(Real *numbers, int n)
     for (int i = 0; i < n; i++) numbers[i] = std::max(numbers[i], of_one[i]);
 }
 
-int FakeHost::max_rank(Real &number)
-{
-  const std::vector<std::vector<Real>> all = meet("max_rank", std::vector<Real>{number});
-  const auto most = std::max_element(all.begin(), all.end());    // the first of equals
-  number = most->front();
-  return static_cast<int>(most - all.begin());
-}
-
-void FakeHost::broadcast(void *data, std::size_t bytes, int from)
+void FakeHost::broadcast(void *data, std::size_t bytes, int from, Receivers /*to*/)
 {
   const std::vector<Bytes> all =
       meet("broadcast of " + std::to_string(bytes) + " from " + std::to_string(from), data, bytes);
   if (bytes > 0) std::memcpy(data, all[from].data(), bytes);
-}
-
-std::vector<Real> FakeHost::gather(const std::vector<Real> &mine)
-{
-  std::vector<Real> all;
-  for (const std::vector<Real> &of_one : meet("gather", mine))
-    if (rank_ == 0) all.insert(all.end(), of_one.begin(), of_one.end());
-  return all;
-}
-
-void FakeHost::fail_together(const std::string &error)
-{
-  for (const Bytes &text : meet("fail_together", error.data(), error.size()))
-    if (!text.empty()) throw InputError(std::string(text.begin(), text.end()));
 }
 
 std::vector<Real> FakeHost::variables(const std::vector<std::string> &names)
@@ -144,11 +122,6 @@ void FakeHost::check_variables(const std::vector<std::string> &names)
 {
   for (const std::string &name : names)
     if (!values.count(name)) throw InputError("there is no variable '" + name + "'");
-}
-
-std::unique_ptr<NodeMemory> FakeHost::node_memory()
-{
-  return std::make_unique<OwnMemory>(*this);
 }
 
 std::int64_t FakeHost::highest_tag()

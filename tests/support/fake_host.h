@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// A host of several processes, each a thread, for tests of the wall without LAMMPS and MPI.
+// A host of several processes, each a thread and a node of its own, for tests of the wall without LAMMPS and MPI.
 #pragma once
 
 #include "wall/host.h"
@@ -19,7 +19,7 @@ class FakeHost;
 // and std::logic_error where the processes do not make the same collective calls in the same order.
 void on_processes(int n, const std::function<void(FakeHost &)> &work);
 
-class FakeHost : public Host {
+class FakeHost : public WallHost {
  public:
   // What a test gives, and finds.
   std::vector<std::int64_t> tags;        // of the spheres of this process
@@ -32,23 +32,15 @@ class FakeHost : public Host {
 
   void sum(Real *numbers, int n) override;
   void max(Real *numbers, int n) override;
-  int max_rank(Real &number) override;
-  void broadcast(void *data, std::size_t bytes, int from) override;
-  std::vector<Real> gather(const std::vector<Real> &mine) override;
-  void fail_together(const std::string &error) override;
+  void broadcast(void *data, std::size_t bytes, int from, Receivers to = Receivers::all) override;
   std::vector<Real> variables(const std::vector<std::string> &names) override;
   void check_variables(const std::vector<std::string> &names) override;
-  // Each process is a node of its own.
-  std::unique_ptr<NodeMemory> node_memory() override;
-  int rank() const override { return rank_; }
   PeriodicBox box() const override { return simulation; }
   SphereGroup group() const override { return wall_group; }
   Spheres spheres_on_cpu() override { return spheres; }
   std::int64_t tag(int sphere) override { return tags.at(sphere); }
   std::int64_t highest_tag() override;
   Real radius_of_tag(std::int64_t tag) override;
-  void log(const std::string &text) override { lines.push_back(text); }
-  void warn(const std::string &text) override { warnings.push_back(text); }
 
  private:
   friend void on_processes(int, const std::function<void(FakeHost &)> &);
@@ -58,7 +50,11 @@ class FakeHost : public Host {
   std::vector<Bytes> meet(const std::string &call, const void *data, std::size_t bytes);
   std::vector<std::vector<Real>> meet(const std::string &call, const std::vector<Real> &numbers);
 
-  int rank_ = 0;
+  void show(const std::string &text, bool is_warning) override
+  {
+    (is_warning ? warnings : lines).push_back(text);
+  }
+
   Meeting *meeting_ = nullptr;
 };
 

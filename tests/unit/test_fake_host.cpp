@@ -32,12 +32,11 @@ TEST(FakeHost, finds_the_largest_numbers_of_all_processes)
   });
 }
 
-TEST(FakeHost, names_the_lowest_rank_that_has_the_largest_number)
+TEST(FakeHost, names_the_lowest_rank_of_those_that_have_something)
 {
   on_processes(3, [](FakeHost &host) {
-    Real number = host.rank() == 0 ? 1 : 2;
-    EXPECT_EQ(host.max_rank(number), 1);
-    EXPECT_EQ(number, 2);
+    EXPECT_EQ(lowest_rank(host, host.rank() > 0), 1);
+    EXPECT_EQ(lowest_rank(host, false), 3);
   });
 }
 
@@ -91,7 +90,7 @@ TEST(FakeHost, refuses_calls_in_another_order)
   const auto other_order = [](FakeHost &host) {
     Real number = 0;
     if (host.rank() == 0) host.max(&number, 1);
-    host.max_rank(number);
+    host.sum(&number, 1);
     if (host.rank() == 1) host.max(&number, 1);
   };
   EXPECT_THROW(on_processes(2, other_order), std::logic_error);

@@ -6,6 +6,7 @@
 #include "grid/cache/grid_cache.h"
 
 #include <chrono>
+#include <cstdint>
 #include <cstdio>
 #include <exception>
 #include <memory>
@@ -29,19 +30,34 @@ class StopWatch {
   Clock::time_point start_ = Clock::now();
 };
 
+std::uint64_t of_first(Host &host, std::uint64_t number)
+{
+  host.broadcast(&number, sizeof number, 0);
+  return number;
+}
+
+// Gives up the last block first.
+void allocate(Host &host, NodeMemory &memory, std::size_t bytes)
+{
+  memory = NodeMemory();
+  memory = host.node_memory(bytes);
+}
+
 // `cached`: null but on the first process.
-bool read(const std::string &file, CachedGrid *cached, GridPlace &place, LoadedGrid &out)
+bool read(const std::string &file, CachedGrid *cached, Host &host, NodeMemory &memory,
+          LoadedGrid &out)
 {
   const StopWatch watch;
   const bool usable = cached && cached->state() == CacheState::usable;
-  const std::uint64_t bytes = place.of_first(usable ? cached->block_bytes() : 0);
+  const std::uint64_t bytes = of_first(host, usable ? cached->block_bytes() : 0);
   if (bytes == 0) return false;
-  char *block = place.allocate(bytes);
+  allocate(host, memory, bytes);
   bool good = false;
-  place.run(cached, [&] { good = cached->read(block); });
-  out.from_cache = place.of_first(good);
+  run_collectively(host, cached, [&] { good = cached->read(memory.block.get()); });
+  out.from_cache = of_first(host, good);
   if (!out.from_cache) return false;
-  place.publish(true);
+  host.broadcast(memory.block.get(), memory.bytes, 0, Receivers::that_fill_memory);
+  host.publish(memory);
   if (cached) {
     out.report = cached->report();
     out.cache_text = "not built now, read from cache '" + file + "' in " + watch.text();
@@ -49,21 +65,19 @@ bool read(const std::string &file, CachedGrid *cached, GridPlace &place, LoadedG
   return true;
 }
 
-// Returns the block.
-char *build(const WeldedMesh &mesh, const GridSettings &settings, bool on_cuda, GridPlace &place,
-            LoadedGrid &out)
+void build(const WeldedMesh &mesh, const GridSettings &settings, bool on_cuda, Host &host,
+           NodeMemory &memory, LoadedGrid &out)
 {
   std::unique_ptr<TriangleGrid> grid;
   std::size_t bytes = 0;
-  place.run(place.builds(), [&] {
+  run_collectively(host, host.ranks().fills_memory, [&] {
     grid = std::make_unique<TriangleGrid>(build_grid(mesh, settings, on_cuda));
     bytes = flat_bytes(*grid);
     out.report = grid->report;
   });
-  char *block = place.allocate(bytes);
-  if (grid) move_flat(*grid, block);
-  place.publish(false);
-  return block;
+  allocate(host, memory, bytes);
+  if (grid) move_flat(*grid, memory.block.get());
+  host.publish(memory);
 }
 
 void write(const std::string &file, const GridKey &key, const CachedGrid &cached, const char *block,
@@ -93,18 +107,19 @@ void write(const std::string &file, const GridKey &key, const CachedGrid &cached
 }    // namespace
 
 LoadedGrid load_or_build_grid(const std::string &cache_file, const WeldedMesh &mesh,
-                              const GridSettings &settings, bool on_cuda, GridPlace &place)
+                              const GridSettings &settings, bool on_cuda, Host &host,
+                              NodeMemory &memory)
 {
   LoadedGrid out;
   GridKey key = {};
   std::unique_ptr<CachedGrid> cached;
-  place.run(place.is_first() && !cache_file.empty(), [&] {
+  run_collectively(host, host.is_first() && !cache_file.empty(), [&] {
     key = grid_key(mesh, settings);
     cached = std::make_unique<CachedGrid>(cache_file, key);
   });
-  if (!cache_file.empty() && read(cache_file, cached.get(), place, out)) return out;
-  const char *block = build(mesh, settings, on_cuda, place, out);
-  if (cached) write(cache_file, key, *cached, block, out);
+  if (!cache_file.empty() && read(cache_file, cached.get(), host, memory, out)) return out;
+  build(mesh, settings, on_cuda, host, memory, out);
+  if (cached) write(cache_file, key, *cached, memory.block.get(), out);
   return out;
 }
 

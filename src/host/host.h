@@ -1,0 +1,109 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// The program that LSDCD is part of: its processes, its box and its log.
+#pragma once
+
+#include "base/error_text.h"
+#include "base/real.h"
+#include "mesh/periodic_box.h"
+
+#include <cstddef>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace lsdcd {
+
+// One process among all of a program.
+struct Ranks {
+  int rank = 0, processes = 1;         // rank 0 is the first process
+  int node_rank = 0, node_size = 1;    // likewise among the processes of its node
+  bool fills_memory =
+      true;    // it fills the memory of its node; the first process is one that does
+};
+
+// Memory that one process of each node fills, and that all processes of the node read.
+struct NodeMemory {
+  std::shared_ptr<char>
+      block;    // aligned to 64 bytes; all processes of the node give it up together
+  std::size_t bytes = 0;
+  bool is_shared = false;    // false: each process has a copy of the block
+};
+
+// The processes that get what another one sends.
+enum class Receivers { all, that_fill_memory };
+
+// There is one object per process. This one is a process on its own in an unbounded box, whose log nobody reads;
+// programs override what they have.
+class Host {
+ public:
+  virtual ~Host() = default;
+
+  const Ranks &ranks() const { return ranks_; }
+  int rank() const { return ranks_.rank; }
+  int processes() const { return ranks_.processes; }
+  bool is_first() const { return ranks_.rank == 0; }
+
+  // All processes call these together, in the same order.
+
+  // Each of the n numbers becomes the sum over all processes.
+  virtual void sum(Real * /*numbers*/, int /*n*/) {}
+  // Each of the n numbers becomes the largest of all processes.
+  virtual void max(Real * /*numbers*/, int /*n*/) {}
+  // `bytes` bytes of the process `from` replace those of the receivers; other processes may pass null. To those
+  // that fill memory only the first process sends.
+  virtual void broadcast(void * /*data*/, std::size_t /*bytes*/, int /*from*/,
+                         Receivers /*to*/ = Receivers::all)
+  {
+  }
+  // Returns the numbers of all processes, by rank, on the first process, and none on the others.
+  virtual std::vector<Real> gather(const std::vector<Real> &mine);
+  // The number of bytes counts on processes that fill memory. Only they may write to the block, before publish().
+  // Throws on all processes where one has no room.
+  virtual NodeMemory node_memory(std::size_t bytes);
+  virtual void publish(const NodeMemory & /*memory*/) {}
+
+  // A process may call these on its own.
+
+  virtual PeriodicBox box() const { return PeriodicBox(); }    // the same on all processes
+  void log(const std::string &text) { show(text, false); }
+  void warn(const std::string &text) { show(text, true); }
+
+ protected:
+  // Shows a text once, by the first process.
+  virtual void show(const std::string & /*text*/, bool /*is_warning*/) {}
+
+  Ranks ranks_;
+};
+
+// The functions below are collective: all processes call them together.
+
+// The lowest rank where `here`; the number of processes where there is none.
+int lowest_rank(Host &host, bool here);
+
+// A text of the process `from` replaces those of the others.
+void broadcast_text(Host &host, std::string &text, int from = 0);
+
+// Throws InputError on all processes if a text is not empty: that of the lowest such rank.
+void fail_together(Host &host, const std::string &error);
+
+// Runs `work` where `here`. What it throws is thrown on all processes, as InputError; a process on its own throws it
+// as it is.
+template <class Work>
+void run_collectively(Host &host, bool here, Work &&work)
+{
+  if (host.processes() > 1)
+    fail_together(host, here ? error_of(std::forward<Work>(work)) : "");
+  else if (here)
+    work();
+}
+
+// An error of this process alone; the others may go on until the program ends them.
+struct ProcessError : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+}    // namespace lsdcd

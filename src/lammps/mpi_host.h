@@ -1,0 +1,46 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: GPL-2.0-only
+
+// The processes of an MPI communicator as a host.
+#pragma once
+
+#include "host/host.h"
+
+#include <mpi.h>
+
+#include <cstddef>
+#include <vector>
+
+namespace lsdcd {
+
+class MpiHost : public virtual Host {
+ public:
+  explicit MpiHost(MPI_Comm world);
+
+  void sum(double *numbers, int n) override;
+  void max(double *numbers, int n) override;
+  void broadcast(void *data, std::size_t bytes, int from, Receivers to = Receivers::all) override;
+  std::vector<double> gather(const std::vector<double> &mine) override;
+
+ protected:
+  MPI_Comm world_;
+};
+
+// One whose processes share memory where they are on one node. To make and end it is collective.
+class MpiNodeHost : public MpiHost {
+ public:
+  explicit MpiNodeHost(MPI_Comm world);
+  ~MpiNodeHost() override;
+  MpiNodeHost(const MpiNodeHost &) = delete;
+  MpiNodeHost &operator=(const MpiNodeHost &) = delete;
+
+  void broadcast(void *data, std::size_t bytes, int from, Receivers to = Receivers::all) override;
+  NodeMemory node_memory(std::size_t bytes) override;
+  void publish(const NodeMemory &memory) override;
+
+ private:
+  MPI_Comm node_;
+  MPI_Comm fillers_;    // processes that fill memory, by their rank in the world; null on others
+};
+
+}    // namespace lsdcd
