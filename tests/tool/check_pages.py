@@ -90,9 +90,9 @@ def check_messages(pages):
 
 
 def check_words(pages):
-    """As `wc -w` counts them, tables and all. Other pages are as long as they need."""
+    """As `wc -w` counts them, tables, script and citation and all. Other pages are as long as they need."""
     words = len(pages["README.md"].text.split())
-    fact("README has at most 900 words", [] if words <= 900 else [words])
+    fact("README has at most 1000 words", [] if words <= 1000 else [words])
 
 
 class Anchors(html.parser.HTMLParser):

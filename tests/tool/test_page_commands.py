@@ -20,8 +20,8 @@ from tool_test import TOOL, end, fact, run, write_ascii_stl
 from triangles import cube
 
 # Programs of the system, which are not ours to check.
-OTHERS = {"apt", "c++", "cd", "clang-format", "cp", "ctest", "echo", "export", "git", "grep", "mkdir", "nvidia-smi", "paraview", "pip",
-          "pkg-config", "printf", "source", "sudo", "tail", "[", "reuse", "tar", "unzip", "nproc"}
+OTHERS = {"apt", "c++", "cd", "clang-format", "cp", "ctest", "echo", "export", "git", "grep", "head", "mkdir", "module", "mpicxx", "nvidia-smi",
+          "paraview", "pip", "pkg-config", "printf", "source", "sudo", "tail", "[", "reuse", "tar", "unzip", "nproc"}
 LAMMPS_OPTIONS = {"-in", "-i", "-var", "-v", "-k", "-kokkos", "-sf", "-suffix", "-pk", "-log", "-h", "-nocite", "-screen"}
 BUILD_FILES = "\n".join(path.read_text() for path in [
     ROOT / "CMakeLists.txt", ROOT / "CMakePresets.json", *ROOT.glob("cmake/*.cmake"),
@@ -41,7 +41,7 @@ def options_of(words):
 
 
 def check_lsdcd(words):
-    if not words or words[0] == "--help" or words[0] in ("COMMAND", "..."):
+    if not words or words[0] in ("--help", "--version", "COMMAND", "..."):
         return ""
     command = words[:1]
     if words[0] == "generate" and len(words) > 1 and re.fullmatch(r"[a-z]+", words[1]):
