@@ -19,6 +19,7 @@ with a plain value (or --var NAME VALUE), loops and ifs stay as they are.
 
 The radius and the density of the grains, which the model hooke needs, come from particletemplate/sphere, from set, from
 the file of read_data, or from --radius and --density. Files are looked for beside the script.
+A script that goes on from the restart file of another converted one is converted with --converted-restart.
 doc/from-liggghts.md has a table of all commands.
 """
 import argparse
@@ -52,10 +53,12 @@ PLAIN_COMMANDS = set("""delete_atoms echo jump log next print quit reset_timeste
 write_data write_dump write_restart""".split())    # the same in both, where they stand in if and run
 COLUMNS = set("""angmomx angmomy angmomz diameter element fx fy fz id ix iy iz mass mol mu mux muy muz omegax omegay omegaz proc q
 radius tqx tqy tqz type vx vy vz x xs xsu xu y ys ysu yu z zs zsu zu""".split())    # of dump custom in both
+SPINS = ("omegax", "omegay", "omegaz")
 ATOM_VECTORS = set("fx fy fz id mass mol q type vx vy vz x y z".split())    # of variables in both
 GONE_THERMO = {"cu", "erotate", "numbond", "dragtotal"}
 SET_WORDS = {**dict.fromkeys("charge density diameter mass mol type vx vy vz x y z".split(), 1), "image": 3, "omega": 3,
-             "type/fraction": 3}
+             "type/fraction": 3,
+             "omegax": 1, "omegay": 1, "omegaz": 1}
 GONE_MESH_WORDS = {"heal": 1, "curvature": 1, "curvature_tolerant": 1, "verbose": 1, "precision": 1,
                    "min_feature_length": 1, "element_exclusion_list": 2, "stress": 1}
 FORCE, TORQUE = (1, 2, 3), (4, 5, 6)
@@ -357,6 +360,8 @@ class Contact:
 
     def __init__(self, script, line, i, j):
         self.i, self.j, self.get = i, j, functools.partial(script.property, line)
+        radii = [s[0] for s in script.sizes if s]
+        self.radius = min(radii) if radii else None
 
     def elastic(self):
         e, n = [self.get("youngsModulus", k) for k in (self.i, self.j)], \
@@ -442,7 +447,9 @@ class Model:
     def extras(self, c, classic):
         """Rolling and cohesion of the wall, which go with classic styles."""
         words = ""
-        if self.rolling in ("cdt", "epsd2") and classic:
+        if not self.rolls(c):
+            pass
+        elif self.rolling in ("cdt", "epsd2") and classic:
             words += f" rolling {self.rolling} {short(c.get('coefficientRollingFriction', c.i, c.j))}"
         elif self.rolling:
             raise self.left_rolling(c)
@@ -452,13 +459,25 @@ class Model:
             raise Left(f"cohesion {self.cohesion} with model {self.normal}", "granular jkr or dmt, or model hooke with sjkr")
         return words
 
+    def rolls(self, c):
+        """False where the coefficient is 0: such a contact has no torque."""
+        return self.rolling in ("cdt", "epsd2") and c.get("coefficientRollingFriction", c.i, c.j) != 0 or \
+            self.rolling not in ("cdt", "epsd2", None)
+
     def left_rolling(self, c):
-        do = "model hooke with cdt or epsd2"
+        why = f"rolling_friction {self.rolling} with model {self.normal}"
+        do = "pair_style granular with hooke and rolling sds k 0 mu, k the tangential stiffness for epsd2"
         if self.normal == "hertz" and self.rolling in ("cdt", "epsd2"):
             # epsd2 has the tangential spring times R^2, and both the limit mu R F.
+            why += {"cdt": ", which is a torque without a spring: LAMMPS has rolling with a spring only",
+                    "epsd2": ", whose spring grows with the overlap: that of LAMMPS does not"}[self.rolling]
+            k = 8 * c.elastic()[1]
             do = (f"granular with rolling sds k 0 {short(c.get('coefficientRollingFriction', c.i, c.j))}, k = "
-                  f"{short(8 * c.elastic()[1])} sqrt(R overlap) at the overlap of most contacts; or " + do)
-        return Left(f"rolling_friction {self.rolling} with model {self.normal}", do)
+                  f"{short(k)} sqrt(R overlap) at the overlap of most contacts")
+            if c.radius:
+                do += f", which is {k * c.radius * math.sqrt(1e-3):.3g} at an overlap of 0.1 % of R = {short(c.radius)}"
+            do += "; or model hooke with cdt or epsd2 on the wall"
+        return Left(why, do)
 
     def classic(self, c, r, m):
         """Words of a classic style for a contact whose effective radius and mass are r and m."""
@@ -560,7 +579,7 @@ class Script:
         self.moves, self.dumps, self.regions, self.box, self.faces = {}, [], {}, {}, ["f"] * 6
         self.out, self.left, self.ran, self.pair, self.plain = [], [], 0, None, set()
         self.mirrored, self.texts, self.dumped, self.lattice = {}, set(), {}, False
-        self.left_variables = set()
+        self.left_variables, self.parts, self.computed, self.spun = set(), {}, set(), False
         self.names = {"c_thermo_temp", "c_thermo_press", "c_thermo_pe"} | {
             f"{line.words[0][0]}_{line.words[1]}" for line in self.lines if line.words[:1] in (["fix"], ["compute"]) and line.words[1:]}
         self.noted, self.all_types, self.step, self.sources = False, False, 0, []    # the step here, None where it is not known; what has made grains
@@ -618,7 +637,10 @@ class Script:
             if w[:1] == ["variable"] and w[2:3] in (["index"], ["string"]):
                 values.setdefault(w[1], set()).update(x.strip("\"'") for x in w[3:])
         values.update({name: {value} for name, value in self.variables.items()})
-        words = {name: v.pop() for name, v in values.items() if len(v) == 1 and not re.match(r"[-+.\d]", min(v))}
+        single = {name: min(v) for name, v in values.items() if len(v) == 1}
+        for _ in single:    # a variable may stand for another one
+            single = {name: re.sub(r"\$\{(\w+)\}", lambda m: single.get(m[1], m[0]), v) for name, v in single.items()}
+        words = {name: v for name, v in single.items() if not re.match(r"[-+.\d$]", v)}
         for line in self.lines:
             text = re.sub(r"\$\{(\w+)\}", lambda m: words.get(m[1], m[0]), line.text)
             if text != line.text and line.words[:1] != ["variable"]:
@@ -802,6 +824,11 @@ class Script:
             self.dump(line)
         elif w[0] == "jump" and w[1] not in ("SELF", self.path.name):
             raise Left("a jump to another file", "convert that file by itself, and name it here")
+        elif w[0] == "if" and self.nested(w) and all(self.only_balances(words_of(x.strip("\"'"))) for x in self.nested(w)):
+            text = line.text
+            for x in self.nested(w):
+                text = text.replace(x, f'"{" ".join(self.balance(words_of(x.strip(chr(34) + chr(39)))).split())}"')
+            self.put(text)
         elif w[0] in ("if", "run") and any(x.strip("\"'").split()[0] not in PLAIN_COMMANDS for x in self.nested(w)):
             raise Left(f"commands in {w[0]} that are to be converted", "convert them as lines of their own, and put them here")
         elif w[0] == "compute" and (w[3] not in SAME_COMPUTES or (w[3] == "contact/atom" and len(w) > 4)):
@@ -818,8 +845,11 @@ class Script:
         elif w[0] == "unfix" and w[1] in self.meshes:
             mesh = self.meshes[w[1]]
             self.put(f"# unfix {w[1]}: " + (f"it is part of the fix {mesh.wall}" if mesh.wall else "no fix of its own"))
-        elif w[0] == "unfix" and w[1] in self.plain:
-            self.put(f"# unfix {w[1]}")
+        elif w[0] == "unfix" and w[1] in self.parts:
+            for name in self.parts.pop(w[1]):
+                self.put(f"unfix {name}")
+        elif w[0] in ("unfix", "undump", "dump_modify") and w[1] in self.plain:
+            self.put(f"# {' '.join(w)}")
         elif w[0] == "fix_modify":
             self.fix_modify(line)
         elif w[0] == "region" and w[2] not in ("block", "cylinder", "sphere", "cone", "prism", "plane", "union", "intersect"):
@@ -827,13 +857,19 @@ class Script:
         elif w[0] == "read_restart":
             self.step = None
             self.sources.append((None, self.ran))
-            raise Left("a restart file, which LIGGGHTS writes in another format", "write_data there and read_data here; a file "
-                       "that a converted script has written is read by this very line")
+            if not self.options.converted_restart:
+                raise Left("a restart file, which LIGGGHTS writes in another format", "write_data there and read_data here; where "
+                           "a converted script has written the file, convert with --converted-restart")
+            self.put(line.text)
         elif w[0] not in SAME_COMMANDS | {"compute"}:
             raise Left(f"the command {w[0]}", "see the manual of LAMMPS, or convert the file that it names by itself")
         else:
             self.count_steps(line)
             self.pass_on(line)
+
+    @staticmethod
+    def only_balances(w):
+        return w[:1] == ["fix"] and w[3:4] == ["balance"] and len(w) == 8
 
     @staticmethod
     def nested(w):
@@ -858,6 +894,9 @@ class Script:
                 self.step = None
         elif w[0] in ("jump", "if", "label", "next", "minimize", "read_dump"):
             self.step = None
+        if w[0] == "clear":
+            self.sources, self.spun, self.step = [], False, 0
+            self.computed.clear()
         if w[0] in ("read_data", "read_dump", "replicate"):
             self.sources.append((None, self.ran))
         elif w[0] == "create_atoms":
@@ -882,7 +921,13 @@ class Script:
                 text = re.sub(rf"\s{re.escape(word)}(?=\s|$)", "", text)
                 self.note(line, f"without {word}, which is not here")
         elif w[0] == "set":
-            options(w[3:], SET_WORDS)
+            values = options(w[3:], SET_WORDS)
+            if values.keys() & SPINS:
+                if any(ran != self.ran for _, ran in self.sources) or self.spun:
+                    raise Left("set omegax of grains that may turn already", "set ... omega with all three numbers")
+                text = " ".join(w[:3] + [x for key, v in values.items() if key not in SPINS for x in (key, *v)] +
+                                ["omega"] + [values.get(key, ["0"])[0] for key in SPINS])
+            self.spun = self.spun or bool(values.keys() & {*SPINS, "omega"})
         self.put(self.renamed(line, text))
 
     def is_here(self, word):
@@ -907,7 +952,8 @@ class Script:
             if name in self.mirrored:
                 flow = self.mirrored[name].get(k)
                 if flow is None:
-                    raise Left(f"element {k} of f_{name}", "fix_massflow_lsdcd.rst lists what there is")
+                    page = "fix_insert_lsdcd.rst" if name in self.parts else "fix_massflow_lsdcd.rst"
+                    raise Left(f"element {k} of f_{name}", f"{page} lists what there is")
                 if k == 3:
                     self.note(line, f"{flow} is the mean rate over the last 1000 steps, or N by every N of fix {name}")
                 return flow if line.words[0] == "variable" or flow.startswith("f_") else helper(name, k, flow)
@@ -927,9 +973,15 @@ class Script:
                 raise Left(f"{name}, which is not here", "take another output")
         if line.words[0] == "variable":
             self.left_variables.discard(f"v_{line.words[1]}")
+            for name in sorted(COLUMNS - ATOM_VECTORS - {"element"}):
+                if re.search(rf"(?<![\w$}}]){name}\[", text):
+                    if name not in self.computed:
+                        self.put(f"compute         lsdcd_{name} all property/atom {name}")
+                    self.computed.add(name)
+                    text = re.sub(rf"(?<![\w$}}]){name}\[", f"c_lsdcd_{name}[", text)
             for name in re.findall(r"(?<![\w$}])([a-z]\w*)\[", text):
                 if name[:2] not in ("f_", "c_", "v_") and name not in ATOM_VECTORS:
-                    raise Left(f"{name}[...] in a variable", "compute property/atom has it")
+                    raise Left(f"{name}[...] in a variable", "an atom-style variable, from what compute property/atom has")
         return text
 
     def pair_style(self, line):
@@ -940,8 +992,9 @@ class Script:
         model.settings(model.rest, "pair_style")
         model.check()
         self.note_friction(line, model)
-        if model.rolling and not model.cohesion:
-            raise model.left_rolling(Contact(self, line, kinds[0], kinds[0]))
+        rolling = [c for c in (Contact(self, line, i, j) for i in kinds for j in kinds) if model.rolls(c)]
+        if rolling and not model.cohesion:
+            raise model.left_rolling(rolling[0])
         if model.cohesion:
             raise Left("cohesion between grains", "pair_style granular with jkr or dmt; this comes before pair_coeff")
         if model.normal == "hertz":
@@ -1001,6 +1054,8 @@ class Script:
             self.put(f"# {name}: see the fixes that insert grains")
         elif style.startswith(("particletemplate", "particledistribution")):
             raise Left(style, "radii and densities go to fix insert/lsdcd (diam, dens), or to set after create_atoms")
+        elif style == "balance" and len(w) == 8:
+            self.put(self.balance(w))
         elif style in SAME_FIXES:
             if style == "nve/limit" and w[4] in ("radius_ratio", "absolute"):
                 raise Left(f"nve/limit {w[4]}", "nve/limit of LAMMPS has the largest distance alone")
@@ -1011,6 +1066,12 @@ class Script:
                 self.pass_on(Line(line.number, text))
         else:
             raise Left(f"fix {style}", "LAMMPS has no fix of that name with these words")
+
+    @staticmethod
+    def balance(w):
+        """fix ID group balance N dimensions iterations threshold, which moves no grain."""
+        n, dims, iterations, threshold = w[4:8]
+        return f"fix             {w[1]} {w[2]} balance {n} {threshold} shift {dims} {iterations} {threshold}"
 
     # -- insertion
 
@@ -1091,20 +1152,27 @@ class Script:
         return whole
 
     def inserted_grains(self, name, line):
-        """Words of fix insert/lsdcd for a distribution, and its radii."""
+        """Of each type and density of a distribution: words of fix insert/lsdcd, shares of the number and of the mass, radii."""
         law, parts = self.distributions.get(name, ("", []))
         found = [(self.templates.get(k), self.number(f, line)) for k, f in zip(parts[::2], parts[1::2])]
         if not found or not all(t for t, _ in found):
             raise Left("insertion of grains that are no spheres of constant radius and density",
                        "fix insert/lsdcd, with diam one, range, poly or mass")
-        if len({(t[0], t[2]) for t, _ in found}) > 1:
-            raise Left("insertion of several types or densities", "a fix insert/lsdcd for each, with its share of the rate")
-        grain_type, _, density = found[0][0]
-        total = sum(f for _, f in found)
-        sizes = f"{law} {len(found)} " + " ".join(f"{2 * t[1]:.10g} {f / total:.10g}" for t, f in found)
-        if len(found) == 1:
-            sizes = f"one {2 * found[0][0][1]:.10g}"
-        return f"type {grain_type} diam {sizes} dens {density:.10g}", [t[1] for t, _ in found]
+        masses = [radius ** 3 * density for (_, radius, density), _ in found]
+        by_number = [f if law == "poly" else f / m for (_, f), m in zip(found, masses)]
+        by_mass = [f * m for f, m in zip(by_number, masses)]
+        grains = []
+        for kind in dict.fromkeys((t[0], t[2]) for t, _ in found):
+            own = [k for k, (t, _) in enumerate(found) if (t[0], t[2]) == kind]
+            total = sum(found[k][1] for k in own)
+            sizes = f"{law} {len(own)} " + " ".join(f"{2 * found[k][0][1]:.10g} {found[k][1] / total:.10g}" for k in own)
+            if len(own) == 1:
+                sizes = f"one {2 * found[own[0]][0][1]:.10g}"
+            shares = [sum(weights[k] for k in own) / sum(weights) for weights in (by_number, by_mass)]
+            grains.append((f"type {kind[0]} diam {sizes} dens {kind[1]:.10g}", *shares, [found[k][0][1] for k in own]))
+        # The density of the whole is mass over volume.
+        volume = sum(n * t[1] ** 3 for n, (t, _) in zip(by_number, found))
+        return grains, sum(by_mass) / volume
 
     # The number of values of each word.
     INSERT = {"seed": 1, "distributiontemplate": 1, "maxattempt": 1, "insert_every": 1, "every": 1, "insert_every_time": 1,
@@ -1126,6 +1194,9 @@ class Script:
         apart, whole, in_box = (is_yes(v, *default) for default in (
             ("overlapcheck", "yes"), ("all_in", "no"), ("check_dist_from_subdomain_border", "yes")))
         v = {k: x[0] if len(x) == 1 else x for k, x in v.items()}
+        if "duration_time" in v or v.get("duration", v.get("insert_every")) != v.get("insert_every"):
+            raise Left("insert/stream with a duration shorter than insert_every, which comes in pulses",
+                       "a fix insert/lsdcd and unfix for each pulse")
         if form == "pack" and v.get("insert_every", v.get("every", v.get("insert_every_time", "once"))) != "once":
             raise Left("insert/pack that fills up again and again", "fix insert/lsdcd with massrate or numberrate")
         amounts = [f"{ours} {v[theirs]}" for theirs, ours in (
@@ -1133,9 +1204,10 @@ class Script:
             ("particles_in_region", "number"), ("mass_in_region", "mass")) if v.get(theirs, "INF") != "INF"]
         if not amounts and "volumefraction_region" not in v:
             raise Left(f"{w[3]} without its number or mass", "fix insert/lsdcd with number, mass, numberrate or massrate")
-        grains, radii = self.inserted_grains(v.get("distributiontemplate"), line)
+        kinds, density = self.inserted_grains(v.get("distributiontemplate"), line)
+        radii = sum((kind[3] for kind in kinds), [])
         if "volumefraction_region" in v:
-            mass = self.number(v["volumefraction_region"], line) * self.volume(v.get("region")) * float(grains.split()[-1])
+            mass = self.number(v["volumefraction_region"], line) * self.volume(v.get("region")) * density
             amounts.append(f"mass {short(mass)}")
         if not apart:
             raise Left("overlapcheck no", "fix insert/lsdcd puts no grain into another: a lower number")
@@ -1160,8 +1232,9 @@ class Script:
             place = f"region {self.whole_region(line, v['region'], max(radii), whole, in_box)}"
             if form == "pack":
                 self.only_grains(bounds)
-        text = (f"fix             {w[1]} {w[2]} insert/lsdcd {place} {grains} {' '.join(amounts)}{velocity}" +
-                (f" seed {v['seed']}" if "seed" in v else ""))
+        text = "\n".join(f"fix             {name} {w[2]} insert/lsdcd {place} {grains} {' '.join(parts)}{velocity}" +
+                         (f" seed {v['seed']}" if "seed" in v else "")
+                         for name, grains, parts in self.one_fix_each(line, w[1], kinds, amounts))
         if "start" in v and (self.step is None or self.known(v["start"]) != self.step + 1):
             raise Left(f"start {v['start']}", f"end a run one step before that, and put after it: {text}")
         self.sources.append((bounds, self.ran))
@@ -1171,8 +1244,28 @@ class Script:
         if form != "stream" and whole and max(radii) > min(radii):
             self.note(line, "all grains stay the largest radius off the region's edge; in LIGGGHTS each its own")
         if form == "stream":
-            self.note(line, "grains are put on the face itself, whole within its edges; depth D puts them up to D in front of "
-                      "it, along its normal")
+            self.note(line, "grains are put on the face itself, where LIGGGHTS lets them go after their way through extrude_length, and "
+                      "are whole within its edges" + ("" if whole else "; without all_in yes their centres go up to the edges there"))
+
+    def one_fix_each(self, line, name, kinds, amounts):
+        """IDs, grains and amounts of a fix for each type and density."""
+        if len(kinds) == 1:
+            return [(name, kinds[0][0], amounts)]
+        names = [name] + [f"{name}_{k}" for k in range(2, len(kinds) + 1)]
+        self.parts[name] = names
+        self.names.update(f"f_{n}" for n in names)
+        self.mirrored[name] = {k: "(" + "+".join(f"f_{n}[{k}]" for n in names) + ")" for k in (1, 2)}
+        shared, before = [], [0.0] * len(amounts)
+        values = [(word, self.number(value, line)) for word, value in (a.split() for a in amounts)]
+        for fix, (grains, number, mass, _) in zip(names, kinds):
+            parts = []
+            for k, (word, value) in enumerate(values):
+                part = value * (mass if word.startswith("mass") else number)
+                # Whole numbers add up to the whole.
+                parts.append(f"{word} " + (str(round(before[k] + part) - round(before[k])) if word == "number" else short(part)))
+                before[k] += part
+            shared.append((fix, grains, parts))
+        return shared
 
     def only_grains(self, bounds):
         """A pack of LIGGGHTS fills up to its number: grains that are in the region already count."""
@@ -1288,10 +1381,11 @@ class Script:
         self.note_stored(line, wall)
         if model.normal == "hertz":
             laws = {"granular " + model.granular(Contact(self, line, kind, i)) for i in grains}
-            model.extras(Contact(self, line, kind, grains[0]), False)
+            for i in grains:
+                model.extras(Contact(self, line, kind, i), False)
         else:
             laws = set(self.law_of(line, model, kind).values())
-            if model.rolling or model.cohesion:
+            if any(model.rolls(Contact(self, line, kind, i)) for i in grains) or model.cohesion:
                 raise Left("rolling friction or cohesion of a plane", "a mesh of the plane: lsdcd generate plane")
         self.note_friction(line, model)
         if len(laws) > 1:
@@ -1318,9 +1412,9 @@ class Script:
             return "linear " + " ".join(rest)
         if style == "wiggle" and len(rest) == 6 and rest[::4] == ["amplitude", "period"]:
             return f"wiggle {' '.join(rest[1:4])} {rest[5]}"
-        if style == "rotate" and len(rest) == 10 and rest[::4] == ["origin", "axis", "period"]:
+        if style in ("rotate", "rotate/superposable") and len(rest) == 10 and rest[::4] == ["origin", "axis", "period"]:
             return f"rotate {' '.join(rest[1:4])} {' '.join(rest[5:8])} {rest[9]}"
-        if style in ("linear", "wiggle", "rotate"):
+        if style in ("linear", "wiggle", "rotate", "rotate/superposable"):
             raise ValueError(style)
         if style == "viblin":
             raise Left("move/mesh viblin", "motion variable: a displacement C (cos(omega t + phase) - cos(phase)) along "
@@ -1342,7 +1436,9 @@ class Script:
         if words.split()[0] != "rotate" and any(m[1].startswith("rotate") for m in active):
             raise Left("a linear motion after a rotation", "not there: LIGGGHTS adds their velocities and turns about the "
                        "axis where it was; write the linear one first to have the axis move along")
-        self.moves[w[1]] = [mesh, words, self.ran]
+        if words.startswith("rotate"):
+            self.check_axes(line, w, words, [m for m in active if m[1].startswith("rotate")])
+        self.moves[w[1]] = [mesh, words, self.ran, w[6]]
         mesh.moves.append(words)
         if mesh.wall is None:
             if mesh.wall_line is None:
@@ -1357,12 +1453,21 @@ class Script:
         if len(mesh.moves) > 1:
             self.note(line, "the first motion of LIGGGHTS is the outer one; here it is the last")
 
+    def check_axes(self, line, w, words, others):
+        """Two turns of one mesh. The axis of LIGGGHTS's rotate stays in space; here the first turn turns the axis of the second,
+        as rotate/superposable of LIGGGHTS-PFM does. Both are the same where the axes are parallel."""
+        axes = [unit([self.number(x, line) for x in text.split()[4:7]]) for text in [words] + [m[1] for m in others]]
+        parallel = all(math.hypot(*cross(axes[0], a)) < 1e-9 for a in axes)
+        if len({w[6]} | {m[3] for m in others}) > 1 or (w[6] == "rotate" and not parallel):
+            raise Left("a rotation after another about an axis that is not parallel to it, which stays in space in LIGGGHTS",
+                       "not there: here the first rotation turns the axis of the second; rotate/superposable of LIGGGHTS-PFM, too")
+
     def modify(self, mesh):
         which = f" mesh {mesh.index}" if mesh.several else ""
         return f"fix_modify      {mesh.wall}{which} " + (" ".join(f"motion {m}" for m in reversed(mesh.moves)) or "motion none")
 
     def stop(self, line):
-        mesh, words, _ = self.moves.pop(line.words[1])
+        mesh, words, *_ = self.moves.pop(line.words[1])
         mesh.moves.remove(words)
         if mesh.moves:
             raise Left(f"one of several motions of {mesh.id} ends", "fix_modify motion with the others: they begin anew")
@@ -1438,9 +1543,12 @@ class Script:
             self.put(self.renamed(line, " ".join(w[:6] + self.columns(line, w[6:]))))
         elif w[3] in SAME_DUMPS:
             self.put(self.renamed(line, line.text))
+        elif w[3] == "decomposition/vtk":
+            self.plain.add(w[1])
+            self.put(f"# {' '.join(w)}")
+            self.note(line, "no picture of the processes' parts of the box")
         else:
             raise Left(f"dump {w[3]}", "dump custom, or mesh_fields of the wall")
-
 
     def columns(self, line, words):
         kept = [x for x in words if x in COLUMNS or "$" in x or (x[:2] in ("f_", "c_", "v_") and self.is_here(x))]
@@ -1474,6 +1582,7 @@ def main():
     p.add_argument("-o", "--out", type=Path, help="file to write (default: standard output)")
     p.add_argument("--radius", type=float, help="of a grain, where the script does not tell (model hooke)")
     p.add_argument("--density", type=float, help="of a grain")
+    p.add_argument("--converted-restart", action="store_true", help="read_restart reads a file that a converted script has written")
     p.add_argument("--var", nargs=2, action="append", metavar=("NAME", "VALUE"), help="value of a variable")
     a = p.parse_args()
     try:

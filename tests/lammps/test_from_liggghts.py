@@ -95,6 +95,31 @@ WRITTEN = {
     "a variable that stands for a word": (
         "variable m index hertz\nvariable o index limitForce\nvariable s string on\n" + MESH.format("").replace("a.stl", "${f}.stl") +
         WALL.replace("hertz", "${m}").replace("\n", " ${o} ${s}\n"), " 0.4 limit_damping &\n                mesh ${f}.stl"),
+    "two rotations about axes that are parallel": (
+        MESH.format("") + WALL + "fix t all move/mesh mesh cad rotate origin 0 0 0 axis 0 0 1 period 4\n"
+        "fix u all move/mesh mesh cad rotate origin 1 0 0 axis 0 0 -2 period 5\n",
+        "fix_modify      w motion rotate 1 0 0 0 0 -2 5 motion rotate 0 0 0 0 0 1 4"),
+    "rotations whose axes move along, of LIGGGHTS-PFM": (
+        MESH.format("") + WALL + "fix t all move/mesh mesh cad rotate/superposable origin 0 0 0 axis 0 0 1 period 4\n"
+        "fix u all move/mesh mesh cad rotate/superposable origin 1 0 0 axis 0 1 0 period 5\n",
+        "fix_modify      w motion rotate 1 0 0 0 1 0 5 motion rotate 0 0 0 0 0 1 4"),
+    "a variable of a variable that stands for a word": (
+        "variable m index hertz\nvariable n string ${m}\n" + MESH.format("") + WALL.replace("hertz", "${n}"), "granular hertz/material"),
+    "no rolling with a coefficient of 0": (
+        "fix m5 all property/global coefficientRollingFriction peratomtypepair 1 0\npair_style gran model hertz tangential history "
+        "rolling_friction epsd2\npair_coeff * *\n" + MESH.format("") + WALL.replace("history", "history rolling_friction cdt"),
+        "tangential mindlin_slip NULL 0.907485213 0.4 &\n"),
+    "load balancing moves no grain": ("fix lb all balance 9 xy 20 1.1\n", "fix             lb all balance 9 1.1 shift xy 20 1.1\n"),
+    "load balancing in an if": ('if "${n} == 1" then "fix lb all balance 0 ${d} 20 1.1"\n',
+                                'if "${n} == 1" then "fix lb all balance 0 1.1 shift ${d} 20 1.1"\n'),
+    "a picture of the processes goes": ("dump d all decomposition/vtk 9 d*.vtk\ndump_modify d first yes\nundump d\n",
+                                        "# dump d all decomposition/vtk 9 d*.vtk\n# NOTE in.there:5: no picture of the processes"),
+    "atom vectors of variables that LAMMPS has as outputs": (
+        "variable f equal omegax[1]+omegax[2]*radius[1]\n",
+        "compute         lsdcd_omegax all property/atom omegax\ncompute         lsdcd_radius all property/atom radius\n"
+        "variable f equal c_lsdcd_omegax[1]+c_lsdcd_omegax[2]*c_lsdcd_radius[1]\n"),
+    "set of one spin of a grain at rest": ("create_atoms 1 single 0 0 0\nset atom 1 diameter 0.2 omegay 3 vz -1\n",
+                                           "set atom 1 diameter 0.2 vz -1 omega 0 3 0\n"),
     "a jump to itself": ("label l\njump in.there l\n", "\njump SELF l\n"),
     "an if whose commands are the same": ('if "${n} > 1" then "print 1" "jump SELF l" else "variable a delete"\n',
                                           'then "print 1" "jump SELF l" else'),
@@ -127,7 +152,14 @@ LEFT = {
         "set group b diameter 0.03 density 2500\npair_style gran model hooke\n", "model hooke has a stiffness for each mass"),
     "words of set that LAMMPS does not have": ("set group all property/atom Temp 300\n", "the word property/atom"),
     "a variable of what is not there": (MESH.format("") + "variable f equal c_a[1]\n", "c_a, which is not here"),
-    "atom vectors that LAMMPS does not have": ("variable f equal 2*omegax[1]\n", "omegax[...] in a variable"),
+    "atom vectors that LAMMPS does not have": ("variable f equal 2*density[1]\n", "density[...] in a variable"),
+    "a grain that may turn already": ("create_atoms 1 single 0 0 0\nrun 1\nset group all omegax 5\n", "set omegax of grains that may turn"),
+    "a rotation after one about another axis": (
+        MESH.format("") + WALL + "fix t all move/mesh mesh cad rotate origin 0 0 0 axis 0 0 1 period 4\n"
+        "fix u all move/mesh mesh cad rotate origin 0.5 0 0 axis 0 1 0 period 4\n", "a rotation after another about an axis"),
+    "rotate and rotate/superposable": (
+        MESH.format("") + WALL + "fix t all move/mesh mesh cad rotate origin 0 0 0 axis 0 0 1 period 4\n"
+        "fix u all move/mesh mesh cad rotate/superposable origin 0.5 0 0 axis 0 0 1 period 4\n", "a rotation after another about an axis"),
     "a jump to another file": ("jump in.other\n", "a jump to another file"),
     "commands in an if": ('if "${n} > 1" then "unfix w"\n', "commands in if"),
     "commands in a run": ('run 9 every 3 "print 1" "dump d all mesh/stl 1 a*.stl"\n', "commands in run"),
@@ -144,6 +176,19 @@ WRITTEN.update({
     "a pack of one size": (ONE + "fix i all insert/pack seed 7 distributiontemplate d vel constant 0 0 -2 "
                            "particles_in_region 90 region r\n",
                            "fix             i all insert/lsdcd region r type 1 diam one 0.004 dens 2500 number 90 vel 0 0 -2 seed 7\n"),
+    "two types by mass, and all their numbers": (
+        # A grain of type 2 has 8 times the mass: 40 and 60 % of the mass are 16 and 3 grains of 19.
+        GRAINS.replace("2 atom_type 1", "2 atom_type 2") + "fix d all particledistribution/discrete 3 2 p1 0.4 p2 0.6\nfix i all "
+        "insert/rate/region seed 7 distributiontemplate d nparticles 190 massrate 0.1 insert_every 1000 region r\n"
+        "variable n equal f_i[1]\nunfix i\n",
+        "fix             i all insert/lsdcd region r type 1 diam one 0.004 dens 2500 massrate 0.04 number 160 seed 7\n"
+        "fix             i_2 all insert/lsdcd region r type 2 diam one 0.008 dens 2500 massrate 0.06 number 30 seed 7\n"
+        "variable n equal (f_i[1]+f_i_2[1])\nunfix i\nunfix i_2\n"),
+    "two densities by number fill a part of the volume": (
+        # 2500 and 5000 kg/m3 in equal numbers of equal spheres: 3750.
+        GRAINS.replace("2500 radius constant 0.004", "5000 radius constant 0.002") + "fix d all particledistribution/discrete/numberbased 3 "
+        "2 p1 0.5 p2 0.5\nregion r block 0 1 0 1 0 1\nfix i all insert/pack seed 7 distributiontemplate d volumefraction_region 0.3 region r\n",
+        "diam one 0.004 dens 2500 mass 375 seed 7\nfix             i_2 all insert/lsdcd region r type 1 diam one 0.004 dens 5000 mass 750 seed"),
     "a rate of two sizes by mass": (
         GRAINS + "fix d all particledistribution/discrete/massbased 3 2 p1 0.5 p2 0.5\nfix i all insert/rate/region seed 7 "
         "distributiontemplate d nparticles 90 massrate 0.1 insert_every 1000 region r\n",
@@ -188,6 +233,9 @@ WRITTEN.update({
 })
 PACK = ONE + "region r block 0 1 0 1 0 1\n{}fix i all insert/pack seed 7 distributiontemplate d particles_in_region 9 {} region r\n"
 LEFT.update({
+    "a stream that comes in pulses": (
+        ONE + MESH.format("") + "fix i all insert/stream seed 7 distributiontemplate d nparticles 90 particlerate 20 insert_every 1000 "
+        "duration 600 vel constant 0 0 -2 insertion_face cad\n", "insert/stream with a duration"),
     "a start that is later": (PACK.format("", "start 8000"), "start 8000"),
     "a start after steps that are not known": (PACK.format("run ${n}\n", "start 91"), "start 91"),
     "grains that may overlap": (PACK.format("", "overlapcheck no"), "overlapcheck no"),
@@ -378,7 +426,7 @@ def whole_scripts(checks, folder):
     done, out = convert(folder, MATERIAL.replace("1e7", "${young}") + "variable young equal 1e7\n" + MESH.format("") + WALL +
                         "variable young equal 2e7\n")
     checks.fact("a variable with two values is no number", out is None and "'${young}' is no number" in done.stderr, done.stderr)
-    _, out = convert(folder, "variable f equal omegax[1]\nvariable g equal v_f+1\nprint \"${g}\"\nthermo_style custom step v_g\n")
+    _, out = convert(folder, "variable f equal density[1]\nvariable g equal v_f+1\nprint \"${g}\"\nthermo_style custom step v_g\n")
     checks.fact("what hangs on a variable that was left is left, or goes from thermo", out.count("\n# LEFT") == 3 and
                 out.endswith("thermo_style custom step\n"), out)
     done, _ = convert(folder, MATERIAL + "fix m5 all property/global coefficientRollingFriction peratomtypepair 1 0.1\n" + MESH.format("") +
