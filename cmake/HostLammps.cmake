@@ -68,8 +68,8 @@ elseif(NOT MPI_CXX_FOUND)
   return()
 endif()
 
-# A target to compile against a host: its headers, version and integer sizes, and shims
-# only for what its own headers lack.
+# A target to compile against a host: its headers and its MPI's, version and integer sizes, and shims
+# only for what its own headers lack. It links nothing: LAMMPS and MPI are in the program that opens a plugin.
 function(lsdcd_host_target name include version sizes)
   add_library(${name} INTERFACE)
   foreach(shim fmt/format.h command.h safe_pointers.h)
@@ -81,7 +81,7 @@ function(lsdcd_host_target name include version sizes)
   target_include_directories(${name} SYSTEM INTERFACE ${include})
   target_compile_definitions(${name} INTERFACE
     ${sizes} LSDCD_HOST_VERSION=${version} OMPI_SKIP_MPICXX MPICH_SKIP_MPICXX)
-  target_link_libraries(${name} INTERFACE MPI::MPI_CXX)
+  target_include_directories(${name} SYSTEM INTERFACE $<TARGET_PROPERTY:MPI::MPI_CXX,INTERFACE_INCLUDE_DIRECTORIES>)
 endfunction()
 lsdcd_host_target(lsdcd_host ${LSDCD_HOST_INCLUDE} ${LSDCD_HOST_VERSION} ${LSDCD_HOST_SIZES})
 

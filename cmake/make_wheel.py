@@ -86,16 +86,22 @@ def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
              if path.suffix == ".py" or path.name == "py.typed"}
     with tempfile.TemporaryDirectory() as folder:
         files["lsdcd/liblsdcd.so.0"] = library(folder).read_bytes()
-    files[f"{info}/METADATA"] = metadata().encode()
     files[f"{info}/LICENSE"] = (ROOT / "LICENSES" / "BSD-3-Clause.txt").read_bytes()
-    files[f"{info}/WHEEL"] = f"Wheel-Version: 1.0\nGenerator: lsdcd\nRoot-Is-Purelib: false\nTag: {tag}\n".encode()
-    record = [f"{name},sha256={base64.urlsafe_b64encode(hashlib.sha256(data).digest()).rstrip(b'=').decode()},{len(data)}"
-              for name, data in files.items()]
+    return write_wheel(wheel_directory, "lsdcd", version, tag, files, metadata())
+
+
+def write_wheel(wheel_directory, name, version, tag, files, metadata_text):
+    """Writes a wheel of `files` (contents by their paths in it) and returns the name of its file."""
+    info = f"{name}-{version}.dist-info"
+    files = files | {f"{info}/METADATA": metadata_text.encode(),
+                     f"{info}/WHEEL": f"Wheel-Version: 1.0\nGenerator: lsdcd\nRoot-Is-Purelib: false\nTag: {tag}\n".encode()}
+    record = [f"{path},sha256={base64.urlsafe_b64encode(hashlib.sha256(data).digest()).rstrip(b'=').decode()},{len(data)}"
+              for path, data in files.items()]
     files[f"{info}/RECORD"] = "\n".join([*record, f"{info}/RECORD,,", ""]).encode()
-    wheel = f"lsdcd-{version}-{tag}.whl"
+    wheel = f"{name}-{version}-{tag}.whl"
     with zipfile.ZipFile(os.path.join(wheel_directory, wheel), "w", zipfile.ZIP_DEFLATED) as archive:
-        for name, data in files.items():
-            archive.writestr(zipfile.ZipInfo(name, (2026, 1, 1, 0, 0, 0)), data, zipfile.ZIP_DEFLATED)
+        for path, data in files.items():
+            archive.writestr(zipfile.ZipInfo(path, (2026, 1, 1, 0, 0, 0)), data, zipfile.ZIP_DEFLATED)
     return wheel
 
 

@@ -18,7 +18,7 @@ LIB = pathlib.Path(LMP).resolve().parent.parent / "lib"
 
 # The LAMMPS of hosts/build_host.sh and the plugin for it; empty where it was not built.
 TEST_HOST = os.environ.get("LSDCD_TEST_HOST", "") and os.environ["LSDCD_TEST_HOST"] + "/lmp"
-TEST_HOST_PLUGIN = LIB / "lsdcdplugin-20260704.so"
+TEST_HOST_PLUGIN = LIB / "lsdcd-20260704-plugin.so"
 
 # A LAMMPS with Kokkos and the plugin for it. Where LSDCD_KOKKOS is set, scripts run there as
 # they are, with -sf kk.
