@@ -5,7 +5,8 @@
 """Every command of the pages: that its program, words, options and files are there.
 
 Commands of `lsdcd` in a block are run, in a folder with the files that they read; those of doc/tutorial.md are run
-by tests/lammps/test_tutorial.py. In a form, or between words, only words are checked.
+by tests/lammps/test_tutorial.py, and those of pages with whole scripts by tests/lammps/test_recipes.py. In a form, or between
+words, only words are checked.
 """
 import os
 import pathlib
@@ -70,7 +71,7 @@ def check_script(page, program, words):
     """A script of ours: it is there, and has the options."""
     folder = (ROOT / page.path).parent
     name = re.sub(r"^(\.\./)+", "", program)
-    there = [path for path in (folder / program, ROOT / name) if path.is_file()]
+    there = [path for path in (folder / program, ROOT / name, ROOT / "examples" / "tutorial" / name) if path.is_file()]
     if not there:
         return f"{program}: there is no such file"
     text = "".join(path.read_text() for path in there[0].parent.glob("*.py")) + there[0].read_text() + \
@@ -86,7 +87,7 @@ def check_lammps(page, words):
     if "-in" in words:
         name = words[words.index("-in") + 1]
         folders = [(ROOT / page.path).parent, ROOT, *(ROOT / "examples").iterdir()]
-        in_page = any(block.language == "lammps" and block.text.startswith("units") for block in page.blocks)
+        in_page = any(block.language == "lammps" and re.match(rf"units|# {re.escape(name)}\n", block.text) for block in page.blocks)
         if not in_page and not any((folder / name).is_file() for folder in folders) and not name.isupper() and name != "in.script":
             return f"{name}: there is no such script"
     return ""
@@ -113,9 +114,9 @@ def check_cmake(words):
 
 def check(page, words):
     """What is wrong with one command; nothing where all is well."""
-    while words and re.match(r"[A-Z_]+=", words[0]):    # VARIABLE=value
+    while words and (re.match(r"[A-Z_]+=", words[0]) or words[0] == "do"):    # VARIABLE=value
         words = words[1:]
-    if not words:
+    if not words or words[0] in ("for", "done"):
         return ""
     if words[0] in ("mpirun", "time", "nice"):
         ours = [at for at, word in enumerate(words) if word.endswith("lmp-lsdcd") or word.endswith("/lmp") or word == "lmp"]
@@ -196,7 +197,7 @@ def main():
             found = list(commands_of(block.text))
             wrong = [why for words in found for why in [check(page, words)] if why]
             fact(f"{block}: {len(found)} commands have their words", not wrong, "; ".join(wrong))
-            if block.form or page.path == "doc/tutorial.md":
+            if block.form or page.path in ("doc/tutorial.md", "doc/recipes.md", "doc/choosing.md"):
                 continue
             ours = [words[1:] for words in found if os.path.basename(words[0]) == "lsdcd"]
             with tempfile.TemporaryDirectory() as folder:

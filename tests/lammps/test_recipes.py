@@ -1,0 +1,92 @@
+#!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 LSDCD contributors
+# SPDX-License-Identifier: GPL-2.0-only
+
+"""The scripts of doc/recipes.md and doc/choosing.md run as they stand, and print what the pages have; and the log of README's script has
+the lines that doc/log.md explains.
+
+A block of LAMMPS whose first line is `# in.NAME` is that file. The commands of the shell run in their order; what they print has the
+lines of the texts behind them. Beds of some hundred grains are chaotic: another compiler gives another bed, whose flow or torque may
+differ by a tenth and the largest stress of a facet by more, so that numbers of them are compared to a half, and shares to ten
+per cent of the whole; numbers of one grain to a hundredth.
+"""
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+
+import lmp
+
+sys.path.insert(0, str(lmp.HERE.parent / "tool"))
+from pages import ROOT, Page    # noqa: E402
+
+NUMBER = re.compile(r"(?<![\w.])-?\d+(?:\.\d+)?(?:e[-+]?\d+)?(?![\w])")
+
+
+def words_of(line):
+    return NUMBER.sub("#", line)
+
+
+def compare(checks, page, wanted, printed, within):
+    """Lines with the same words, whose numbers are nearly the same."""
+    lines = printed.split("\n")
+    checks.fact(f"{page.path} prints {len(wanted)} lines", [words_of(a) for a in wanted] ==
+                [words_of(line) for line in lines if words_of(line) in {words_of(a) for a in wanted}], "" if set(map(words_of, wanted)) <= set(map(words_of, lines)) else printed[-1500:])
+    rest = lines
+    for line in wanted:
+        found = next((other for other in rest if words_of(other) == words_of(line)), None)
+        if found is None:
+            continue
+        rest = rest[rest.index(found) + 1:]
+        near = [abs(float(a[0]) - float(b[0])) <= (10 if line[a.end():].startswith(" %") else within * abs(float(a[0])))
+                for a, b in zip(NUMBER.finditer(line), NUMBER.finditer(found))]
+        checks.fact(f"{page.path}: {line}", all(near), found)
+
+
+def run_page(checks, path, within):
+    page, folder = Page(path), lmp.scratch()
+    for block in page.blocks:
+        name = re.match(r"# (in\.\w+)\n", block.text)
+        if block.language == "lammps" and name:
+            (folder / name[1]).write_text(block.text)
+    shutil.copy(ROOT / "examples" / "tutorial" / "stress.py", folder)
+    shell = "".join(block.text for block in page.blocks if block.language == "sh" and not block.form)
+    environment = lmp.environment()
+    environment["PATH"] = f"{pathlib.Path(lmp.LMP).parent}:{environment['PATH']}"
+    done = subprocess.run(["bash", "-ec", shell], cwd=folder, env=environment, text=True, stdin=subprocess.DEVNULL,
+                          stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+    checks.fact(f"every command of {path} ends well", done.returncode == 0, done.stdout[-1500:] if done.returncode else "")
+    wanted = [line for block in page.blocks if block.language == "text" and NUMBER.search(block.text) and ":" in block.text
+              for line in block.text.strip().split("\n")]
+    compare(checks, page, wanted, done.stdout, within)
+    if checks.failed:
+        print("files are in", folder)
+    else:
+        shutil.rmtree(folder)
+
+
+def explain_log(checks):
+    """The script of README in fewer steps: each line of the page is in its log, with other numbers."""
+    folder = lmp.scratch()
+    readme, page = Page("README.md"), Page("doc/log.md")
+    script = next(block.text for block in readme.blocks if block.language == "lammps" and block.text.startswith("units"))
+    tool = re.search(r"`\S*(lsdcd generate [^`]*)`", readme.text)[1].split()
+    subprocess.run([pathlib.Path(lmp.LMP).parent / tool[0], *tool[1:]], cwd=folder, check=True, stdout=subprocess.DEVNULL)
+    done = lmp.run(re.sub(r"^run .*", "run 8000", script, flags=re.M), folder, ranks=2)
+    printed = {" ".join(words_of(line).split()) for line in done.stdout.split("\n")}
+    for block in page.blocks:
+        missing = [line for line in block.text.strip().split("\n") if " ".join(words_of(line).split()) not in printed]
+        checks.fact(f"{block}: the log has these lines", block.language == "text" and not missing, "; ".join(missing))
+
+
+def main():
+    checks = lmp.Checks()
+    explain_log(checks)
+    run_page(checks, "doc/recipes.md", 0.5)
+    run_page(checks, "doc/choosing.md", 0.01)
+    checks.done()
+
+
+if __name__ == "__main__":
+    main()
