@@ -579,7 +579,7 @@ class Script:
         self.moves, self.dumps, self.regions, self.box, self.faces = {}, [], {}, {}, ["f"] * 6
         self.out, self.left, self.ran, self.pair, self.plain = [], [], 0, None, set()
         self.mirrored, self.texts, self.dumped, self.lattice = {}, set(), {}, False
-        self.left_variables, self.parts, self.computed, self.spun = set(), {}, set(), False
+        self.left_variables, self.parts, self.feeds, self.computed, self.spun = set(), {}, {}, set(), False
         self.names = {"c_thermo_temp", "c_thermo_press", "c_thermo_pe"} | {
             f"{line.words[0][0]}_{line.words[1]}" for line in self.lines if line.words[:1] in (["fix"], ["compute"]) and line.words[1:]}
         self.noted, self.all_types, self.step, self.sources = False, False, 0, []    # the step here, None where it is not known; what has made grains
@@ -845,8 +845,10 @@ class Script:
         elif w[0] == "unfix" and w[1] in self.meshes:
             mesh = self.meshes[w[1]]
             self.put(f"# unfix {w[1]}: " + (f"it is part of the fix {mesh.wall}" if mesh.wall else "no fix of its own"))
-        elif w[0] == "unfix" and w[1] in self.parts:
-            for name in self.parts.pop(w[1]):
+        elif w[0] == "unfix" and w[1] in self.feeds:
+            k = self.feeds.pop(w[1])
+            self.sources[k] = (*self.sources[k][:2], "")
+            for name in self.parts.pop(w[1], [w[1]]):
                 self.put(f"unfix {name}")
         elif w[0] in ("unfix", "undump", "dump_modify") and w[1] in self.plain:
             self.put(f"# {' '.join(w)}")
@@ -856,7 +858,7 @@ class Script:
             raise Left(f"region {w[2]}", "LAMMPS has no region of that name; region mesh/lsdcd is the inside of a closed mesh")
         elif w[0] == "read_restart":
             self.step = None
-            self.sources.append((None, self.ran))
+            self.make(None)
             if not self.options.converted_restart:
                 raise Left("a restart file, which LIGGGHTS writes in another format", "write_data there and read_data here; where "
                            "a converted script has written the file, convert with --converted-restart")
@@ -895,14 +897,14 @@ class Script:
         elif w[0] in ("jump", "if", "label", "next", "minimize", "read_dump"):
             self.step = None
         if w[0] == "clear":
-            self.sources, self.spun, self.step = [], False, 0
+            self.sources, self.feeds, self.spun, self.step = [], {}, False, 0
             self.computed.clear()
         if w[0] in ("read_data", "read_dump", "replicate"):
-            self.sources.append((None, self.ran))
+            self.make(None)
         elif w[0] == "create_atoms":
             bounds = [(self.known(x),) * 2 for x in w[3:6]] if w[2] == "single" else \
                 (self.region(w[3]) or [None])[-1] if w[2] == "region" else None
-            self.sources.append((bounds, self.ran))
+            self.make(bounds)
 
     def pass_on(self, line):
         w, text = line.words, line.text
@@ -923,7 +925,7 @@ class Script:
         elif w[0] == "set":
             values = options(w[3:], SET_WORDS)
             if values.keys() & SPINS:
-                if any(ran != self.ran for _, ran in self.sources) or self.spun:
+                if any(ran != self.ran for _, ran, _ in self.sources) or self.spun:
                     raise Left("set omegax of grains that may turn already", "set ... omega with all three numbers")
                 text = " ".join(w[:3] + [x for key, v in values.items() if key not in SPINS for x in (key, *v)] +
                                 ["omega"] + [values.get(key, ["0"])[0] for key in SPINS])
@@ -1219,7 +1221,7 @@ class Script:
             if v["vel"][0] not in ("constant", "uniform") or len(set(spread)) > 1:
                 raise Left(f"velocities of {v['vel'][0]}", "vel and jitter of fix insert/lsdcd")
             velocity = " vel " + " ".join(v["vel"][1:4]) + "".join(f" jitter {x}" for x in spread[:1])
-        bounds = None
+        bounds, there = None, False
         if form == "stream":
             mesh = self.meshes.get(v.get("insertion_face"))
             if mesh is None:
@@ -1230,14 +1232,16 @@ class Script:
         else:
             bounds = (self.region(v["region"]) or [None])[-1]
             place = f"region {self.whole_region(line, v['region'], max(radii), whole, in_box)}"
-            if form == "pack":
-                self.only_grains(bounds)
+            there = form == "pack" and self.may_have_grains(bounds)
         text = "\n".join(f"fix             {name} {w[2]} insert/lsdcd {place} {grains} {' '.join(parts)}{velocity}" +
                          (f" seed {v['seed']}" if "seed" in v else "")
                          for name, grains, parts in self.one_fix_each(line, w[1], kinds, amounts))
         if "start" in v and (self.step is None or self.known(v["start"]) != self.step + 1):
             raise Left(f"start {v['start']}", f"end a run one step before that, and put after it: {text}")
-        self.sources.append((bounds, self.ran))
+        if there:
+            text = self.less_what_is_there(w[1], v, len(kinds), amounts, text)
+        self.sources.append((bounds, self.ran, "once" if form == "pack" else "on"))
+        self.feeds[w[1]] = len(self.sources) - 1
         if not any("thermo_temp" in other.words for other in self.lines):
             self.put("compute_modify  thermo_temp dynamic/dof yes")    # else ke is 0 while grains come
         self.put(text)
@@ -1246,6 +1250,15 @@ class Script:
         if form == "stream":
             self.note(line, "grains are put on the face itself, where LIGGGHTS lets them go after their way through extrude_length, and "
                       "are whole within its edges" + ("" if whole else "; without all_in yes their centres go up to the edges there"))
+
+    def less_what_is_there(self, name, v, kinds, amounts, text):
+        """A pack with its number less the grains that are in its region."""
+        used = any(re.search(rf"\bf_{name}\b", line.text) or line.words[:2] == ["unfix", name] for line in self.lines)
+        if used or kinds > 1 or "particles_in_region" not in v:
+            raise Left("insert/pack into a region that may have grains, which count in LIGGGHTS",
+                       "fix insert/lsdcd with the number less these: variable n equal N-count(all,REGION), number ${n}")
+        return (f"variable        lsdcd_{name} equal {v['particles_in_region']}-count(all,{v['region']})\n"
+                f'if "${{lsdcd_{name}}} > 0" then "{" ".join(text.replace(amounts[0], f"number ${{lsdcd_{name}}}").split())}"')
 
     def one_fix_each(self, line, name, kinds, amounts):
         """IDs, grains and amounts of a fix for each type and density."""
@@ -1267,14 +1280,23 @@ class Script:
             shared.append((fix, grains, parts))
         return shared
 
-    def only_grains(self, bounds):
-        """A pack of LIGGGHTS fills up to its number: grains that are in the region already count."""
-        for other, ran in self.sources:
-            known = other and bounds and None not in sum(other, ())
-            apart = known and any(a[1] < b[0] or b[1] < a[0] for a, b in zip(other, bounds))
-            if not apart or ran != self.ran:
-                raise Left("insert/pack into a region that may have grains, which count in LIGGGHTS",
-                           "fix insert/lsdcd with the number less these: variable n equal N-count(all,REGION), number ${n}")
+    @staticmethod
+    def apart(one, other):
+        """Whether two regions are known and do not meet."""
+        return one and other and None not in sum(one, ()) and any(a[1] < b[0] or b[1] < a[0] for a, b in zip(one, other))
+
+    def may_have_grains(self, bounds):
+        """Whether the region of a pack may have grains now. LIGGGHTS counts them in the step of the insertion, up to its number."""
+        if any(not self.apart(other, bounds) for other, ran, feeds in self.sources if feeds == "on" or (feeds and ran == self.ran)):
+            raise Left("insert/pack into a region that another insertion fills in the same step, which counts in LIGGGHTS",
+                       "fix insert/lsdcd with the number less these grains")
+        return any(ran != self.ran or not self.apart(other, bounds) for other, ran, _ in self.sources)    # after a run they are anywhere
+
+    def make(self, bounds):
+        """Grains that are made at once. A pack that stands before them and inserts after them counts them."""
+        if any(feeds == "once" and ran == self.ran and not self.apart(other, bounds) for other, ran, feeds in self.sources):
+            raise Left("grains that are made where an insert/pack before this line will count them", "this line before it")
+        self.sources.append((bounds, self.ran, ""))
 
     def law_of(self, line, model, wall_type):
         """Words of the wall for each grain type."""

@@ -231,6 +231,18 @@ WRITTEN.update({
         "".join(f"fix i{r} all insert/pack seed 7 distributiontemplate d particles_in_region 9 region {r}\n" for r in "rs"),
         "fix             is all insert/lsdcd region s "),
 })
+BEFORE = "region r block 0 1 0 1 0 1\n"
+COUNTED = ('variable        lsdcd_i equal 9-count(all,r)\nif "${lsdcd_i} > 0" then "fix i all insert/lsdcd region r type 1 diam one 0.004 '
+           'dens 2500 number ${lsdcd_i} seed 7"\n')
+WRITTEN.update({
+    f"a pack where grains are already: {what}": (
+        ONE + BEFORE + before + "fix i all insert/pack seed 7 distributiontemplate d particles_in_region 9 region r\n", COUNTED)
+    for what, before in (
+        ("created", "create_atoms 1 single 0.5 0.5 0.5\n"),
+        ("of another pack and a run", "region s block 2 3 0 1 0 1\nfix j all insert/pack seed 7 distributiontemplate d particles_in_region 9 "
+                                      "region s\nrun 9\n"),
+        ("of a rate that ended", "fix j all insert/rate/region seed 7 distributiontemplate d particlerate 9 nparticles 9 region r\nrun 1\n"
+                                 "unfix j\n"))})
 PACK = ONE + "region r block 0 1 0 1 0 1\n{}fix i all insert/pack seed 7 distributiontemplate d particles_in_region 9 {} region r\n"
 LEFT.update({
     "a stream that comes in pulses": (
@@ -244,10 +256,18 @@ LEFT.update({
     "a word of an insertion that is not known": (PACK.format("", "set_property T 300"), "the word set_property"),
     "all_in of a region that cannot be made smaller": (
         PACK.format("", "all_in yes").replace("block 0 1 0 1 0 1", "cone z 0 0 1 2 0 1"), "all_in yes with region r"),
-    "a pack where grains are already": (PACK.format("create_atoms 1 single 0.5 0.5 0.5\n", ""), "insert/pack into a region that may"),
-    "a pack after another and a run": (
-        PACK.format("region s block 2 3 0 1 0 1\nfix j all insert/pack seed 7 distributiontemplate d particles_in_region 9 region s\n"
-                    "run 9\n", ""), "insert/pack into a region that may"),
+    "a pack of a mass where grains are already": (
+        PACK.format("create_atoms 1 single 0.5 0.5 0.5\n", "").replace("particles_in_region", "mass_in_region"),
+        "insert/pack into a region that may"),
+    "a pack where grains are already, with outputs": (
+        "variable n equal f_i[1]\n" + PACK.format("create_atoms 1 single 0.5 0.5 0.5\n", ""), "insert/pack into a region that may"),
+    "two packs into a region in one step": (
+        PACK.format("fix j all insert/pack seed 7 distributiontemplate d particles_in_region 9 region r\n", ""),
+        "insert/pack into a region that another"),
+    "a pack where a rate goes on": (
+        PACK.format("fix j all insert/rate/region seed 7 distributiontemplate d particlerate 9 nparticles 9 region r\nrun 1\n", ""),
+        "insert/pack into a region that another"),
+    "grains that a pack before them counts": (PACK.format("", "") + "create_atoms 1 single 0.5 0.5 0.5\n", "grains that are made where"),
     "a pack without a number": (PACK.format("", "").replace(" particles_in_region 9", ""), "insert/pack without its number or mass"),
     "a fraction of a volume that is not known": (
         PACK.format("", "").replace("particles_in_region 9", "volumefraction_region 0.3").replace("region r block", "region s block"),
@@ -507,6 +527,11 @@ PHYSICS = {
     "fraction": (HERTZ, POUR + "variable n equal atoms\nregion box1 cylinder z 0.1 0.1 0.05 0 0.2 units box\nfix ins all insert/pack seed "
                  "32452843 distributiontemplate d1 insert_every once all_in yes volumefraction_region 0.1 region box1\nrun 1\n", "${n}",
                  [(TENTH - 1, TENTH + 1)]),
+    # 300 with those that are there: a stack of 4 in the region, and one outside.
+    "filled_up": (HERTZ, POUR + "".join(f"create_atoms 1 single 0.05 0.05 {z} units box\n" for z in (0.01, 0.02, 0.03, 0.04, 0.2)) +
+                  "set group all diameter 0.008 density 2500\nvariable n equal count(all,box1)\nvariable m equal atoms\n"
+                  "region box1 block 0 0.1 0 0.1 0 0.1 units box\nfix ins all insert/pack seed 32452843 distributiontemplate d1 insert_every "
+                  "once all_in yes particles_in_region 300 region box1\nrun 1\n", "${n} ${m}", [(300, 300), (301, 301)]),
     # Whole grains in the region, and in the box.
     "all_in": (HERTZ, POUR + EDGES + "region box1 block 0 0.1 0 0.1 0 0.1 units box\nfix ins all insert/pack seed 32452843 "
                "distributiontemplate d1 insert_every once all_in yes particles_in_region 300 region box1\nrun 1\n", ALL_EDGES, IN_0_1),
