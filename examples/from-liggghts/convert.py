@@ -224,6 +224,9 @@ class Mesh:
                 raise Left(f"the word {key} of a mesh", "fix_wall_lsdcd.rst")
         if self.file is None or not self.file.lower().endswith((".stl", ".obj", ".ply", ".off")):
             raise Left(f"the file {self.file}", "write it as STL")
+        path = script.folder / self.file
+        if path.is_file() and path.open("rb").read(1) == b"#":
+            raise Left(f"the file {self.file}, which begins with a comment", "the file without its lines before 'solid'")
         if self.style.endswith("/stress/servo"):
             self.add_servo(script, values)
             self.reference = self.reference or list(self.com)
@@ -582,7 +585,8 @@ class Script:
         self.left_variables, self.parts, self.feeds, self.computed, self.spun = set(), {}, {}, set(), False
         self.names = {"c_thermo_temp", "c_thermo_press", "c_thermo_pe"} | {
             f"{line.words[0][0]}_{line.words[1]}" for line in self.lines if line.words[:1] in (["fix"], ["compute"]) and line.words[1:]}
-        self.noted, self.all_types, self.step, self.sources = False, False, 0, []    # the step here, None where it is not known; what has made grains
+        self.noted, self.noted_dashpot = False, False
+        self.all_types, self.step, self.sources = False, 0, []    # the step here, None where it is not known; what has made grains
         self.substitute_words()
         for line in self.lines:
             try:
@@ -993,7 +997,7 @@ class Script:
         model, kinds = Model(w[2:]), self.grains()
         model.settings(model.rest, "pair_style")
         model.check()
-        self.note_friction(line, model)
+        self.note_friction(line, model, [Contact(self, line, i, j) for i in kinds for j in kinds])
         rolling = [c for c in (Contact(self, line, i, j) for i in kinds for j in kinds) if model.rolls(c)]
         if rolling and not model.cohesion:
             raise model.left_rolling(rolling[0])
@@ -1016,7 +1020,12 @@ class Script:
         self.put(f"pair_style      gran/{style} {numbers}" + " limit_damping" * model.limit)
         self.pair = ["pair_coeff      * *"]
 
-    def note_friction(self, line, model):
+    def note_friction(self, line, model, contacts=()):
+        dashpot = model.tangential == "history" and model.damped and "stiffness" not in (model.normal or "")
+        if dashpot and not self.noted_dashpot and any(c.friction() > 0 and c.beta() > 0 for c in contacts):
+            self.noted_dashpot = True
+            self.note(line, "until the spring has reached mu F, LIGGGHTS adds the dashpot to it, here the sum ends at mu F: doc/from-liggghts.md, "
+                      "Traps")
         if not model.tangential and "tangential" not in line.words and not self.noted:
             self.noted = True
             self.note(line, "without the word tangential LIGGGHTS 3.8 has no friction; LIGGGHTS-PFM has no_history, so write that")
@@ -1314,7 +1323,7 @@ class Script:
         if not meshes:
             raise Left(f"the mesh {wall.ids[0]}, which is not converted", "the wall with mesh FILE; see the mesh for why")
         model.check()
-        self.note_friction(line, model)
+        self.note_friction(line, model, [Contact(self, line, mesh.type, i) for mesh in meshes for i in self.grains()])
         self.note_stored(line, wall)
         # One fix, so that a grain where meshes meet is pushed once; each mesh has its law.
         laws = [self.law_of(line, model, mesh.type) for mesh in meshes]

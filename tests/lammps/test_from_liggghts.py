@@ -433,6 +433,14 @@ def whole_scripts(checks, folder):
     done, out = convert(folder, MATERIAL + MESH.format("").replace("a.stl", "a.vtk") + WALL + "timestep 1e-5\n")
     checks.fact("a wall whose only mesh is left is left, and the rest is there", done.returncode == 0 and out.count("\n# LEFT") == 2 and
                 "LEFT in.there:6: the mesh cad, which is not converted" in out and "\ntimestep 1e-5\n" in out, done.stderr)
+    (folder / "a.stl").write_text("# a box\nsolid a\nendsolid a\n")
+    _, out = convert(folder, MATERIAL + MESH.format("") + WALL)
+    checks.fact("an STL file that begins with a comment", "LEFT in.there:5: the file a.stl, which begins with a comment" in out)
+    (folder / "a.stl").unlink()
+    for what, text, noted in (("with friction and damping", MATERIAL, True), ("that is elastic", MATERIAL.replace("pair 1 0.5", "pair 1 1"), False),
+                              ("without friction", MATERIAL.replace("pair 1 0.4", "pair 1 0"), False)):
+        _, out = convert(folder, text + MESH.format("") + WALL)
+        checks.fact(f"the dashpot of the friction is noted of a contact {what}", ("# NOTE in.there:6: until the spring" in out) == noted, out)
     latin = b"# caf\xe9\nprint \"\xe9\"\n# caf\xc3\xa9\x85\n"
     done, _ = convert(folder, latin)
     checks.fact("bytes that are no UTF-8 stay", (folder / "in.here").read_bytes().endswith(latin), done.stderr)
