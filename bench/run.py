@@ -8,7 +8,7 @@ usage: run.py [--build DIR] [--only cpu|cuda] [--quick] [--write-only] [--rows-t
               [--commit NAME] [NAME ...] [words for the programs ...]
 
 NAME: query, build, step, cache (default: these four) make doc/performance.md; three make
-documents of their own from runs of other programs: accuracy doc/accuracy.md (tradeoff.py,
+documents of their own from runs of other programs: accuracy doc/accuracy.md, doc/paper.md (tradeoff.py,
 accuracy.py), effects doc/effects.md (effects.py), hard-cases doc/hard_cases.md
 (hard_cases.py). Four compare, also into doc/performance.md: kokkos times steps of a LAMMPS with
 Kokkos (kokkos.py), liggghts our wall against LIGGGHTS's (liggghts.py), floor a mesh against a flat
@@ -46,7 +46,7 @@ COMPARISONS = {"kokkos": kokkos.main, "liggghts": liggghts.main, "floor": floor.
                "mesh-size": mesh_size.main}
 
 PRINTED = ["turning", "cells", "sides"]
-# Its rows are kept, and printed for doc/from-region.md.
+# Its rows are kept, and printed for doc/other-walls.md.
 PEERS = {"region": region.main}
 
 

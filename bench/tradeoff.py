@@ -2,8 +2,7 @@
 # SPDX-FileCopyrightText: 2026 LSDCD contributors
 # SPDX-License-Identifier: BSD-3-Clause
 
-"""Measures what settings buy and cost, and writes the first part of doc/accuracy.md
-and of doc/notes/accuracy.md.
+"""Measures what settings buy and cost, and writes doc/accuracy.md and a part of doc/notes/accuracy.md.
 
 usage: tradeoff.py [--build DIR] [--device cpu|cuda|auto] [--write-only] [--rows-to DIR] [--commit NAME]
 
@@ -19,9 +18,7 @@ import os
 import subprocess
 import sys
 
-from accuracy import TABLES, gpu_is_there, of_table, step_row
-from accuracy import kept as accuracy_rows
-from accuracy import read_rows
+from accuracy import TABLES, gpu_is_there
 from hard_cases import ROOT, put_between
 
 sys.path.insert(0, os.path.join(ROOT, "src", "tool"))
@@ -158,49 +155,47 @@ def machines(rows):
 
 
 TEXT = """{begin}
-
-**Leave the settings alone.** The default misses no contact, its forces are exact, and no other setting is faster on a CPU by
-more than noise. `nearest N`, the paper's method, is for studies: it misses contacts and takes longer.
-
-![Missed contacts and error against the time of a query](img/paper_question.png)
-
-A number at a point is N, the triangles that a cell lists; *all* is the default, complete lists. Left is the paper's cylinder, right are
-finer ones. The time is that of a query: which of 10 000 000 spheres touch the wall? N and *all* search cells. With 1 000 000 triangles N = 1 is {faster} times as fast, and misses {missed} % of the contacts. But a step of the simulation
-searches no cells: it reads each sphere's own list of the wall, and is faster than every query (black line). The GPU is an H200; queries of
-commit {query_commit}, step of {step_commit}; the paper's points are of its Table 2, a Tesla K40.
+**Keep the default settings.** They miss no contact, their forces are exact, and on a CPU no other setting is faster by more than noise.
+You need the rest of this page only if you want to save memory, if you have a GPU that computes slowly in double precision, or if you want to
+know what you would lose with the method of the paper, `nearest N`.
 
 ## What the other settings do
 
-The vessel of `examples/vessel`, {triangles} triangles, grains with radii of {least} to {largest} m:
+The table compares the settings in the vessel of `examples/vessel`, which has {triangles} triangles, with grains of radii from {least} to
+{largest} m:
 
 {first}
-- **`grid`** changes memory and the time of the set-up, never an answer.
-- **`precision mixed`** and **`single`** miss nothing. Forces are good to six digits on the mean, and to three at worst. They
-  gain nothing here; they are for GPUs whose doubles are slow, of which none was measured.
-- **`corner sum`** counts shallow folds twice: see the rolling sphere. Use it to compare with walls that do so.
-- **`nearest N`** misses contacts, more of them with a smaller N and with larger spheres. Such spheres sink in and are thrown out.
-  `f_ID[9]` counts the spheres for which a contact may be missing. Each step searches cells, so it is slower than the default.
+- **`grid`** sets the length of the cells. It changes the memory and the time for building the grid, but never a result.
+- **`precision mixed`** and **`precision single`** miss no contact. Their forces are right to six digits on average, and to three in the worst
+  case. They are meant for GPUs that compute slowly in double precision, of which none was measured. On the machines of this table they gain
+  nothing.
+- **`corner sum`** adds the forces of both sides of a shallow fold in full, so that the fold is twice as stiff. You see it in the energy of
+  the rolling sphere. Use it only to compare with a wall that does so.
+- **`nearest N`** misses contacts. It misses more of them with a smaller N and with larger spheres. A sphere whose contact is missed sinks
+  into the wall and is thrown out later. `f_ID[9]` counts the spheres for which a contact may be missing. The setting is also slower than the
+  default, because it searches the cells in each step.
 
-For your own mesh `lsdcd tradeoff wall.stl --radius R --below 1e-3` measures all this, draws the picture below and prints the words for
-the input script: the fastest setting with errors below 1e-3.
+To measure all this for your own mesh, run `lsdcd tradeoff wall.stl --radius R --below 1e-3`. It draws the picture below, and prints the
+keywords for your input script: the fastest setting with errors below 1e-3.
 
 ![Error of forces against time, vessel](img/tradeoff_vessel.png)
 
 How it is measured:
 
-- *Missed*: contacts deeper than 1e-4 of a radius which only the default finds.
-- *Force error*, of spheres at rest, against the default. *Mean*: all errors over all forces. *Largest*: of one sphere, over its force, or
-  over that of an overlap of 1 % of its radius if that is more.
-- *Energy drift*: of a sphere that bounces ten times, or rolls five radii, without losses; the median of {moving} spheres. About
-  2e-4 of the bouncing drift comes from the integrator. A sphere that goes through the wall counts 1.
-- *ns*: for each sphere near the wall; *query*: does it touch? A CPU's caches hold other data before a step. A GPU's step copies
-  from and to the host. `grid` differs by device, *MB* is the CPU's.
+- *Missed* are contacts deeper than 1e-4 of a radius that the default finds and the other setting does not.
+- *Force error* compares the forces on spheres at rest with those of the default. *Mean* is the sum of all errors over the sum of all forces.
+  *Largest* is the error of one sphere over its force, or over the force at an overlap of 1 % of its radius if that is more.
+- *Energy drift* is that of a sphere without losses that bounces ten times, or rolls five radii; the table has the median of {moving} spheres.
+  About 2e-4 of the bouncing drift comes from the integrator. A sphere that goes through the wall counts 1.
+- *ns* is the time per sphere near the wall. A *query* only asks whether a sphere touches. On the CPU, the caches are filled with other
+  data before each step is timed, as in a real run. A step on the GPU includes copies from and to the host. `grid` differs by
+  device; *MB* is the memory on the CPU.
 
 Measured on:
 
 {runs}
 
-A cylinder with smooth sides gives the same picture: [its table](notes/accuracy.md#settings-on-a-cylinder). All rows are in
+A cylinder with smooth sides gives the same picture ([its table](notes/accuracy.md#settings-on-a-cylinder)). All rows are in
 `doc/data/tradeoff_*.csv`; `./run bench accuracy` makes them.
 {end}"""
 
@@ -218,11 +213,7 @@ Radius 50, length 100, {triangles} triangles, spheres with radii of {least} to {
 
 def write_documents(vessel, cylinder):
     v, c = vessel[0], cylinder[0]
-    queries = of_table(read_rows(accuracy_rows("cuda")), "mesh")
-    one, every = (next(r for r in queries if r["triangles"] == "1000000" and r["lists"] == n) for n in ("1", "complete"))
     put_between(DOCUMENT, BEGIN, END, TEXT.format(
-        faster=f"{float(every['query_ms']) / float(one['query_ms']):.1f}", query_commit=one["commit"],
-        missed=f"{100 * float(one['missed']) / float(one['touching']):.1f}", step_commit=step_row()["commit"],
         begin=BEGIN, end=END, triangles=v["triangles"], least=v["least_radius"], largest=v["largest_radius"],
         moving=v["moving"], first=first_screen(vessel), runs=machines(vessel)))
     put_between(TABLES, BEGIN, END, CYLINDER.format(
