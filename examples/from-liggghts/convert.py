@@ -1445,14 +1445,22 @@ class Script:
             return f"wiggle {' '.join(rest[1:4])} {rest[5]}"
         if style in ("rotate", "rotate/superposable") and len(rest) == 10 and rest[::4] == ["origin", "axis", "period"]:
             return f"rotate {' '.join(rest[1:4])} {' '.join(rest[5:8])} {rest[9]}"
-        if style in ("linear", "wiggle", "rotate", "rotate/superposable"):
+        if style == "riggle" and len(rest) == 12 and rest[::4] == ["origin", "axis", "period"] and rest[10] == "amplitude":
+            return f"riggle {' '.join(rest[1:4])} {' '.join(rest[5:8])} {rest[11]} {rest[9]}"
+        if style == "linear/variable" and len(rest) == 3 and all(x.startswith("v_") for x in rest):
+            self.note(line, "LIGGGHTS goes on by the speed at the end of a step, here it is the mean of both ends")
+            return "variable NULL NULL NULL " + " ".join(rest)
+        if style == "rotate/variable" and len(rest) == 10 and rest[::4] == ["origin", "axis", "omega"] and rest[9].startswith("v_"):
+            self.note(line, "LIGGGHTS turns by the speed at the end of a step, here it is the mean of both ends")
+            return f"rotate {' '.join(rest[1:4])} {' '.join(rest[5:8])} variable NULL {rest[9]}"
+        if style in ("linear", "wiggle", "rotate", "rotate/superposable", "riggle", "linear/variable", "rotate/variable"):
             raise ValueError(style)
+        formula = "C (cos(omega t + phase) - cos(phase)) for each term, and its derivative"
         if style == "viblin":
-            raise Left("move/mesh viblin", "motion variable: a displacement C (cos(omega t + phase) - cos(phase)) along "
-                       "the axis for each term, and its derivative")
-        if style == "linear/variable":
-            raise Left("move/mesh linear/variable", "motion variable, which needs the displacement beside the velocity")
-        raise Left(f"move/mesh {style}", "not there: a mesh turns at a constant rate, or by a servo")
+            raise Left("move/mesh viblin", f"motion variable: a displacement {formula}")
+        if style == "vibrot":
+            raise Left("move/mesh vibrot", f"motion rotate ... variable: an angle {formula}")
+        raise Left(f"move/mesh {style}", "motion table for places at times, or motion variable")
 
     def move(self, line):
         w = line.words
@@ -1464,6 +1472,9 @@ class Script:
         if any(m[2] != self.ran for m in active):
             raise Left(f"a second motion of {mesh.id} that begins later",
                        "fix_modify motion begins all anew; write both from the start, the outer one last")
+        if active and any(x.startswith("riggle") for x in [words, *(m[1] for m in active)]):
+            raise Left(f"riggle beside another motion of {mesh.id}", "LIGGGHTS turns about the axis where it was; here it "
+                       "moves along with an outer motion: motion riggle and the others, in the order that is meant")
         if words.split()[0] != "rotate" and any(m[1].startswith("rotate") for m in active):
             raise Left("a linear motion after a rotation", "not there: LIGGGHTS adds their velocities and turns about the "
                        "axis where it was; write the linear one first to have the axis move along")
@@ -1489,7 +1500,7 @@ class Script:
         as rotate/superposable of LIGGGHTS-PFM does. Both are the same where the axes are parallel."""
         axes = [unit([self.number(x, line) for x in text.split()[4:7]]) for text in [words] + [m[1] for m in others]]
         parallel = all(math.hypot(*cross(axes[0], a)) < 1e-9 for a in axes)
-        if len({w[6]} | {m[3] for m in others}) > 1 or (w[6] == "rotate" and not parallel):
+        if len({w[6]} | {m[3] for m in others}) > 1 or (w[6] != "rotate/superposable" and not parallel):
             raise Left("a rotation after another about an axis that is not parallel to it, which stays in space in LIGGGHTS",
                        "not there: here the first rotation turns the axis of the second; rotate/superposable of LIGGGHTS-PFM, too")
 

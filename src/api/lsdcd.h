@@ -471,13 +471,15 @@ typedef struct lsdcd_type_law {
   const lsdcd_law *law;
 } lsdcd_type_law;
 
-/* Motions in closed form, of the time since the wall was made or lsdcd_wall_set_motion() was called. */
+/* Motions of the time since the wall was made or lsdcd_wall_set_motion() was called. */
 enum {
-  LSDCD_LINEAR = 0,  /* x + V t */
-  LSDCD_WIGGLE = 1,  /* x + A sin(2 pi t/period) */
-  LSDCD_COSINE = 2,  /* x + A (1 - cos(2 pi t/period)), which begins at rest */
-  LSDCD_ROTATE = 3,  /* about an axis, right-handed, once in a period */
-  LSDCD_TRANSROT = 4 /* LSDCD_ROTATE, and then x + V t */
+  LSDCD_LINEAR = 0,   /* x + V t */
+  LSDCD_WIGGLE = 1,   /* x + A sin(2 pi t/period) */
+  LSDCD_COSINE = 2,   /* x + A (1 - cos(2 pi t/period)), which begins at rest */
+  LSDCD_ROTATE = 3,   /* about an axis, right-handed, once in a period */
+  LSDCD_TRANSROT = 4, /* LSDCD_ROTATE, and then x + V t */
+  LSDCD_RIGGLE = 5,   /* about an axis, by the angle `angle` sin(2 pi t/period) */
+  LSDCD_TABLE = 6     /* a curve through rows of places at times */
 };
 /* A member that a kind does not use is 0. In an array all elements have the same size. */
 typedef struct lsdcd_motion {
@@ -485,9 +487,19 @@ typedef struct lsdcd_motion {
   int kind;
   double velocity[3];  /* V, length/time: LSDCD_LINEAR, LSDCD_TRANSROT */
   double amplitude[3]; /* A, length: LSDCD_WIGGLE, LSDCD_COSINE */
-  double point[3];     /* length; the axis passes through it: LSDCD_ROTATE, LSDCD_TRANSROT */
-  double axis[3];      /* of any length above 0: likewise */
-  double period;       /* time > 0: all but LSDCD_LINEAR */
+  double point[3];     /* length; the axis passes through it. LSDCD_TABLE turns about it */
+  double axis[3];      /* of any length above 0: all that turn; LSDCD_TABLE with an angle */
+  double period;       /* time > 0: all but LSDCD_LINEAR and LSDCD_TABLE */
+  double angle;        /* radians: LSDCD_RIGGLE */
+  /* Of LSDCD_TABLE. n_rows rows, of `columns` numbers each, one behind the other: a time, and then with 2 columns an
+   * angle about the axis, with 4 a displacement x y z, with 5 both, with 7 a displacement and a rotation vector, with 8
+   * a displacement and a quaternion w x y z. Times ascend, angles are radians. x goes to R (x - point) + point +
+   * displacement; before the first row and from the last one on it rests there. Copied. */
+  const double *rows;
+  size_t n_rows;
+  int columns;
+  int straight; /* 1: straight between rows, at constant velocities; 0: a cubic spline */
+  int repeats;  /* 1: the last row, the first one but for whole turns, begins the next period */
 } lsdcd_motion;
 
 /* Moves a mesh along an axis, or turns it about one, so that it pushes the spheres with a force, or a torque. */

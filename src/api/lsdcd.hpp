@@ -576,7 +576,7 @@ class Placement {
   std::array<double, 12> numbers_ = {};
 };
 
-// A motion in closed form.
+// A motion of the time since the wall was made or Wall::set_motion() was called.
 struct Motion : lsdcd_motion {
   Motion() : lsdcd_motion() { size = sizeof(lsdcd_motion); }
 
@@ -602,6 +602,31 @@ struct Motion : lsdcd_motion {
   {
     return made(LSDCD_TRANSROT, velocity, {}, point, axis, period);
   }
+  // To and fro, by `angle` sin(2 pi t/period), radians.
+  static Motion riggle(const std::array<double, 3> &point, const std::array<double, 3> &axis,
+                       double angle, double period)
+  {
+    Motion m = made(LSDCD_RIGGLE, {}, {}, point, axis, period);
+    m.angle = angle;
+    return m;
+  }
+  // A curve through rows of a time, a displacement and a rotation: see lsdcd_motion, of which `straight` and `repeats`
+  // may be set. `rows` must live until the wall is made or set_motion() was called. Rows with an angle need an axis.
+  static Motion table(const std::vector<double> &rows, int columns,
+                      const std::array<double, 3> &point = {0, 0, 0},
+                      const std::array<double, 3> &axis = {0, 0, 0})
+  {
+    Motion m = made(LSDCD_TABLE, {}, {}, point, axis, 0);
+    if (columns < 1 || rows.size() % static_cast<std::size_t>(columns) != 0)
+      throw Error(LSDCD_ERROR_ARGUMENT, "Motion::table: " + std::to_string(rows.size()) +
+                                            " numbers are no rows of " + std::to_string(columns));
+    m.rows = rows.data();
+    m.n_rows = rows.size() / static_cast<std::size_t>(columns);
+    m.columns = columns;
+    return m;
+  }
+  static Motion table(std::vector<double> &&, int, const std::array<double, 3> & = {0, 0, 0},
+                      const std::array<double, 3> & = {0, 0, 0}) = delete;
 
  private:
   using Three = std::array<double, 3>;

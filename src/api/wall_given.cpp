@@ -35,6 +35,63 @@ void check_zero(const double *values, int n, const std::string &field, const cha
                    std::string(kind) + " does not use it: leave it 0");
 }
 
+template <class T>
+void need_elements(const T *array, std::size_t n, const std::string &field)
+{
+  if (n > 0 && !array)
+    refuse_field(field, "null",
+                 "give an array of " + std::to_string(n) + ", or say that there are 0");
+}
+
+// What a table does not use is 0 in other kinds.
+void check_no_table(const lsdcd_motion &given, const std::string &field, const char *kind)
+{
+  if (given.rows)
+    refuse_field(field + ".rows", "an array",
+                 std::string(kind) + " does not use it: leave it null");
+  const struct {
+    const char *name;
+    double value;
+  } unused[] = {{".n_rows", static_cast<double>(given.n_rows)},
+                {".columns", static_cast<double>(given.columns)},
+                {".straight", static_cast<double>(given.straight)},
+                {".repeats", static_cast<double>(given.repeats)}};
+  for (const auto &u : unused) check_zero(&u.value, 1, field + u.name, kind);
+}
+
+MotionTerm table_of(const lsdcd_motion &given, const std::string &field)
+{
+  const char *const kind = "LSDCD_TABLE";
+  check_zero(given.velocity, 3, field + ".velocity", kind);
+  check_zero(given.amplitude, 3, field + ".amplitude", kind);
+  check_zero(&given.period, 1, field + ".period", kind);
+  check_zero(&given.angle, 1, field + ".angle", kind);
+  MotionTerm term;
+  term.kind = MotionKind::table;
+  term.point = checked_vector(given.point, field + ".point");
+  TableRows rows;
+  rows.columns = checked_choice(given.columns, field + ".columns", 9, "2, 4, 5, 7 or 8");
+  if (given.n_rows == 0) refuse_field(field + ".n_rows", "0", "give two rows or more");
+  need_elements(given.rows, given.n_rows, field + ".rows");
+  rows.options.has_axis = rows.columns == 2 || rows.columns == 5;
+  if (rows.options.has_axis)
+    term.axis = checked_axis(given.axis, field + ".axis");
+  else
+    check_zero(given.axis, 3, field + ".axis", "a table without angles about an axis");
+  rows.options.linear = checked_flag(given.straight, field + ".straight");
+  rows.options.repeats = checked_flag(given.repeats, field + ".repeats");
+  rows.numbers.assign(given.rows,
+                      given.rows + given.n_rows * static_cast<std::size_t>(rows.columns));
+  term.table_options = rows.options;
+  try {
+    term.table = std::make_shared<const MotionTable>(
+        rows, [&](std::size_t row) { return "`" + field + ".rows`, row " + std::to_string(row); });
+  } catch (const InputError &e) {
+    throw ApiError(LSDCD_ERROR_ARGUMENT, e.what());
+  }
+  return term;
+}
+
 MotionTerm motion_of(const lsdcd_motion &given, const std::string &field)
 {
   const struct {
@@ -45,10 +102,15 @@ MotionTerm motion_of(const lsdcd_motion &given, const std::string &field)
                {MotionKind::wiggle, "LSDCD_WIGGLE", false, true, false},
                {MotionKind::cosine, "LSDCD_COSINE", false, true, false},
                {MotionKind::rotate, "LSDCD_ROTATE", false, false, true},
-               {MotionKind::transrot, "LSDCD_TRANSROT", true, false, true}};
+               {MotionKind::transrot, "LSDCD_TRANSROT", true, false, true},
+               {MotionKind::riggle, "LSDCD_RIGGLE", false, false, true},
+               {MotionKind::table, "LSDCD_TABLE", false, false, false}};
   const auto &kind = kinds[checked_choice(
-      given.kind, field + ".kind", 5,
-      "LSDCD_LINEAR, LSDCD_WIGGLE, LSDCD_COSINE, LSDCD_ROTATE or LSDCD_TRANSROT")];
+      given.kind, field + ".kind", 7,
+      "LSDCD_LINEAR, LSDCD_WIGGLE, LSDCD_COSINE, LSDCD_ROTATE, LSDCD_TRANSROT, LSDCD_RIGGLE or "
+      "LSDCD_TABLE")];
+  if (kind.kind == MotionKind::table) return table_of(given, field);
+  check_no_table(given, field, kind.name);
   MotionTerm term;
   term.kind = kind.kind;
   if (kind.velocity)
@@ -66,19 +128,15 @@ MotionTerm motion_of(const lsdcd_motion &given, const std::string &field)
     check_zero(given.point, 3, field + ".point", kind.name);
     check_zero(given.axis, 3, field + ".axis", kind.name);
   }
+  if (kind.kind == MotionKind::riggle)
+    term.angle = checked_number(given.angle, field + ".angle");
+  else
+    check_zero(&given.angle, 1, field + ".angle", kind.name);
   if (kind.kind == MotionKind::linear)
     check_zero(&given.period, 1, field + ".period", kind.name);
   else
     term.period = checked_number(given.period, field + ".period", kAboveZero);
   return term;
-}
-
-template <class T>
-void need_elements(const T *array, std::size_t n, const std::string &field)
-{
-  if (n > 0 && !array)
-    refuse_field(field, "null",
-                 "give an array of " + std::to_string(n) + ", or say that there are 0");
 }
 
 void add_laws(const lsdcd_wall_mesh &given, const std::string &field, MeshSpec &mesh)

@@ -3,12 +3,16 @@
 
 #include "input/motion_words.h"
 
+#include <algorithm>
+
 namespace lsdcd {
 
 const char *const kMotionSyntax =
     "linear Vx Vy Vz | wiggle Ax Ay Az period | rotate Px Py Pz Rx Ry Rz period | transrot Vx Vy "
     "Vz "
-    "Px Py Pz Rx Ry Rz period | variable v_dx v_dy v_dz v_vx v_vy v_vz";
+    "Px Py Pz Rx Ry Rz period | variable v_dx v_dy v_dz v_vx v_vy v_vz | rotate Px Py Pz Rx Ry Rz "
+    "variable v_angle v_speed | riggle Px Py Pz Rx Ry Rz degrees period | table FILE [axis Px Py "
+    "Pz Rx Ry Rz | about Px Py Pz] [cubic | linear] [repeat] [degrees]";
 
 namespace {
 
@@ -28,8 +32,10 @@ Real fixed_number(Tokens &w, const char *what, Real low = -Tokens::kHuge)
 {
   if (variable_follows(w))
     w.fail(std::string(what) + " must be a number, not the variable '" + w.peek() +
-           "': where the mesh is would have to be integrated. Use motion variable, whose variables "
-           "give the displacement and its velocity at every time");
+           "': a period or an amplitude that changes would jump. Use motion variable, whose "
+           "variables are "
+           "the displacement and its velocity in each step, or motion rotate Px Py Pz Rx Ry Rz "
+           "variable v_angle v_speed");
   return w.number(what, low);
 }
 
@@ -49,44 +55,84 @@ void read_axis(Tokens &w, MotionTerm &m)
   if (m.axis == Vec3{0, 0, 0}) w.fail("the axis Rx Ry Rz must not be 0 0 0");
 }
 
+void read_variable(Tokens &w, const char *name, int &input, InputNames &inputs)
+{
+  if (w.done()) w.fail(std::string("the variable ") + name + " is missing (NULL: none)");
+  if (variable_follows(w))
+    input = number_of_input(inputs, take_variable(w));
+  else if (w.take() != "NULL")
+    w.fail(std::string("in the place of ") + name + " a variable v_NAME or NULL is expected");
+}
+
 void read_variables(Tokens &w, MotionTerm &m, InputNames &inputs)
 {
   const char *const names[] = {"v_dx", "v_dy", "v_dz", "v_vx", "v_vy", "v_vz"};
-  for (int k = 0; k < 6; k++) {
-    if (w.done()) w.fail(std::string("the variable ") + names[k] + " is missing (NULL: none)");
-    if (variable_follows(w))
-      m.input[k] = number_of_input(inputs, take_variable(w));
-    else if (w.take() != "NULL")
-      w.fail(std::string("in the place of ") + names[k] + " a variable v_NAME or NULL is expected");
+  for (int k = 0; k < 6; k++) read_variable(w, names[k], m.input[k], inputs);
+}
+
+void read_turn_variables(Tokens &w, MotionTerm &m, InputNames &inputs)
+{
+  w.take();
+  m.kind = MotionKind::variable_turn;
+  read_variable(w, "v_angle", m.input[0], inputs);
+  read_variable(w, "v_speed", m.input[3], inputs);
+}
+
+// The file is read when the wall is made.
+void read_table(Tokens &w, MotionTerm &m)
+{
+  if (w.done()) w.fail("the file name is missing after table");
+  m.table_file = w.take();
+  TableOptions &o = m.table_options;
+  std::vector<std::string> given;
+  while (!w.done()) {
+    const std::string word = w.peek();
+    const std::string kind = word == "about" ? "axis" : word == "cubic" ? "linear" : word;
+    if (kind != "axis" && kind != "linear" && kind != "repeat" && kind != "degrees") return;
+    w.take();
+    if (std::find(given.begin(), given.end(), kind) != given.end())
+      w.fail("the word '" + word + "' is given twice, or beside one that says otherwise");
+    given.push_back(kind);
+    if (word == "axis") {
+      read_axis(w, m);
+      o.has_axis = true;
+    } else if (word == "about") {
+      m.point = fixed_vector(w, "Px", "Py", "Pz");
+    }
+    o.linear |= word == "linear";
+    o.repeats |= word == "repeat";
+    o.degrees |= word == "degrees";
   }
-  for (int d = 0; d < 3; d++)
-    if (m.input[d] == kNoInput && m.input[3 + d] != kNoInput)
-      w.fail(std::string("there is a velocity ") + names[3 + d] + " without a displacement " +
-             names[d] +
-             ": it would have to be integrated. Give both, as with vdisplace() and a "
-             "number, or ramp()");
-  if (m.input[0] == kNoInput && m.input[1] == kNoInput && m.input[2] == kNoInput)
-    w.fail("all variables are NULL, and nothing moves");
 }
 
 MotionTerm read_motion_term(Tokens &w, InputNames &inputs)
 {
   MotionTerm m;
-  const MotionKind kinds[] = {MotionKind::linear, MotionKind::wiggle, MotionKind::rotate,
-                              MotionKind::transrot, MotionKind::variable};
-  m.kind = kinds[w.choice({"linear", "wiggle", "rotate", "transrot", "variable"})];
+  const MotionKind kinds[] = {MotionKind::linear,   MotionKind::wiggle,   MotionKind::rotate,
+                              MotionKind::transrot, MotionKind::variable, MotionKind::riggle,
+                              MotionKind::table};
+  m.kind =
+      kinds[w.choice({"linear", "wiggle", "rotate", "transrot", "variable", "riggle", "table"})];
   if (m.kind == MotionKind::linear || m.kind == MotionKind::transrot)
     m.velocity = fixed_vector(w, "Vx", "Vy", "Vz");
   if (m.kind == MotionKind::wiggle) m.amplitude = fixed_vector(w, "Ax", "Ay", "Az");
   if (m.turns()) read_axis(w, m);
-  if (m.turns() || m.kind == MotionKind::wiggle)
+  if (m.kind == MotionKind::rotate && !w.done() && w.peek() == "variable")
+    read_turn_variables(w, m, inputs);
+  else if (m.kind == MotionKind::riggle)
+    m.angle = fixed_number(w, "the amplitude in degrees") * (kPi / 180);
+  const bool has_period = m.turns() && m.kind != MotionKind::variable_turn;
+  if (has_period || m.kind == MotionKind::wiggle)
     m.period = fixed_number(w, "the period", kAboveZero);
   if (m.kind == MotionKind::variable) read_variables(w, m, inputs);
+  if (m.kind == MotionKind::table) read_table(w, m);
+  if (m.is_by_inputs() && std::all_of(m.input, m.input + 6, [](int i) { return i == kNoInput; }))
+    w.fail("all variables are NULL, and nothing moves");
   if (w.number_follows())
     w.fail("the number '" + w.peek() + "' is one too many" +
-           (m.turns() ? ": there is one centre P, one axis R and one period; for a second turn "
-                        "write motion once more"
-                      : ""));
+           (has_period ? ": there is one centre P, one axis R and one period; for a second turn "
+                         "write motion once more"
+                       : ""));
   return m;
 }
 

@@ -14,6 +14,8 @@ std::vector<ScriptFile> files_of(const WallSpec &settings)
   std::vector<ScriptFile> files;
   for (const MeshSpec &m : settings.meshes) {
     files.push_back({"mesh", m.file});
+    for (const MotionTerm &term : m.motion.terms())
+      if (!term.table_file.empty()) files.push_back({"motion table", term.table_file});
     if (m.fields.every > 0) files.push_back({"mesh_fields", m.fields.name, m.fields.every, true});
     if (m.stl.every > 0) files.push_back({"mesh_stl", m.stl.name, m.stl.every, true});
     if (!m.cache_file.empty()) files.push_back({"cache", m.cache_file, 0, true});

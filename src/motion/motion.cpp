@@ -46,11 +46,9 @@ Rotation rotation(const Vec3 &k, Real s, Real c)
   return r;
 }
 
-// Turns the pose about an axis by an angle with sine s and cosine c and angular velocity `omega`.
-void turn(Pose &pose, const Vec3 &point, const Vec3 &axis, Real s, Real c, Real omega)
+// Turns the pose about a point, with an angular velocity.
+void turn(Pose &pose, const Vec3 &point, const Rotation &turned, const Vec3 &angular)
 {
-  const Rotation turned = rotation(axis, s, c);
-  const Vec3 angular = omega * axis;
   Vec3 row[3] = {};
   for (int j = 0; j < 3; j++) {    // columns of the product
     const Vec3 column = turned({pose.row[0][j], pose.row[1][j], pose.row[2][j]});
@@ -64,6 +62,48 @@ void turn(Pose &pose, const Vec3 &point, const Vec3 &axis, Real s, Real c, Real 
   pose.spin_up = turned(pose.spin_up) + cross(angular, w);
   pose.velocity = v + to_arm;
   pose.angular = w + angular;
+}
+
+// Turns it about an axis by an angle with sine s and cosine c and angular velocity `omega`.
+void turn(Pose &pose, const Vec3 &point, const Vec3 &axis, Real s, Real c, Real omega)
+{
+  turn(pose, point, rotation(axis, s, c), omega * axis);
+}
+
+void turn(Pose &pose, const Vec3 &point, const Vec3 &axis, Real angle, Real omega)
+{
+  turn(pose, point, axis, std::sin(angle), std::cos(angle), omega);
+}
+
+void turn(Pose &pose, const MotionTerm &m, Time t)
+{
+  const Vec3 axis = unit_vector(m.axis);
+  if (m.kind == MotionKind::variable_turn) {
+    turn(pose, m.point, axis, m.displacement.x, m.speed.x);
+    return;
+  }
+  Real s, c;
+  sine_cosine(t, m.period, s, c);
+  const Real omega = kTwoPi / m.period;
+  if (m.kind == MotionKind::riggle)
+    turn(pose, m.point, axis, m.angle * s, m.angle * omega * c);
+  else
+    turn(pose, m.point, axis, s, c, omega);
+}
+
+// As all terms do: it turns about the point, and then goes on.
+void follow_table(Pose &pose, const MotionTerm &m, Time t)
+{
+  const TablePlace place = m.table->at(t);
+  if (m.table->turns_about_axis()) {
+    turn(pose, m.point, unit_vector(m.axis), place.angle, place.speed);
+  } else if (m.table->turns()) {
+    Rotation turned;
+    rows_of(place.turn, turned.row);
+    turn(pose, m.point, turned, place.angular);
+  }
+  pose.shift += place.shift;
+  pose.velocity += place.velocity;
 }
 
 // The displacement of a term and its derivative.
@@ -123,13 +163,13 @@ Pose RigidMotion::terms_at(Time t) const
   Pose pose = start_;
   if (moves()) pose.placed = true;
   for (const MotionTerm &m : terms_) {
+    if (m.kind == MotionKind::table) {
+      follow_table(pose, m, t);
+      continue;
+    }
     Vec3 shift, velocity;
     shift_of(m, t, shift, velocity);
-    if (m.turns()) {
-      Real s, c;
-      sine_cosine(t, m.period, s, c);
-      turn(pose, m.point, unit_vector(m.axis), s, c, kTwoPi / m.period);
-    }
+    if (m.turns()) turn(pose, m, t);
     pose.shift += shift;
     pose.velocity += velocity;
   }
@@ -143,7 +183,7 @@ Pose RigidMotion::pose_at(Time t) const
   if (!s.present) return pose;
   pose.placed = true;
   if (s.turns) {
-    turn(pose, s.point, s.axis, std::sin(s.position), std::cos(s.position), s.velocity);
+    turn(pose, s.point, s.axis, s.position, s.velocity);
   } else {
     pose.shift += s.position * s.axis;
     pose.velocity += s.velocity * s.axis;
@@ -154,7 +194,10 @@ Pose RigidMotion::pose_at(Time t) const
 Real RigidMotion::longest_period() const
 {
   Real longest = 0;
-  for (const MotionTerm &m : terms_) longest = std::max(longest, m.period);
+  for (const MotionTerm &m : terms_) {
+    longest = std::max(longest, m.period);
+    if (m.table) longest = std::max(longest, m.table->end());
+  }
   return longest;
 }
 
@@ -175,7 +218,11 @@ bool RigidMotion::keeps(const Vec3 &direction) const
     if (m.turns() && norm(cross(unit_vector(m.axis), direction)) > kRounding) return false;
     if (crosses(m.velocity) || crosses(m.amplitude)) return false;
     for (int d = 0; m.kind == MotionKind::variable && d < 3; d++)
-      if (m.input[d] != kNoInput && direction[d] != 0) return false;
+      if ((m.input[d] != kNoInput || m.input[3 + d] != kNoInput) && direction[d] != 0) return false;
+    if (!m.table) continue;
+    if (!m.table->keeps(direction, kRounding)) return false;
+    if (m.table->turns_about_axis() && norm(cross(unit_vector(m.axis), direction)) > kRounding)
+      return false;
   }
   return true;
 }
@@ -188,6 +235,13 @@ bool are_same(int a, const InputNames &inputs_of_a, int b, const InputNames &inp
   return inputs_of_a[static_cast<std::size_t>(a)] == inputs_of_b[static_cast<std::size_t>(b)];
 }
 
+// By their rows where both were read.
+bool have_same_table(const MotionTerm &a, const MotionTerm &b)
+{
+  if (a.table && b.table) return a.table->rows() == b.table->rows();
+  return !a.table == !b.table && a.table_file == b.table_file && a.table_options == b.table_options;
+}
+
 }    // namespace
 
 bool are_same(const std::vector<MotionTerm> &a, const InputNames &inputs_of_a,
@@ -198,7 +252,8 @@ bool are_same(const std::vector<MotionTerm> &a, const InputNames &inputs_of_a,
       if (!are_same(one.input[k], inputs_of_a, other.input[k], inputs_of_b)) return false;
     return one.kind == other.kind && one.velocity == other.velocity &&
            one.amplitude == other.amplitude && one.point == other.point &&
-           unit_vector(one.axis) == unit_vector(other.axis) && one.period == other.period;
+           unit_vector(one.axis) == unit_vector(other.axis) && one.period == other.period &&
+           one.angle == other.angle && have_same_table(one, other);
   };
   return std::equal(a.begin(), a.end(), b.begin(), b.end(), same);
 }

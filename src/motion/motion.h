@@ -7,16 +7,30 @@
 
 #include "mesh/periodic_box.h"
 #include "motion/inputs.h"
+#include "motion/motion_table.h"
 #include "motion/pose.h"
 #include "motion/servo.h"
 #include "motion/step_clock.h"
 
+#include <memory>
+#include <string>
 #include <vector>
 
 namespace lsdcd {
 
-// cosine: `wiggle` of fix wall/gran, which begins at rest: x + A (1 - cos(2 pi t/period)).
-enum class MotionKind { linear, wiggle, cosine, rotate, transrot, variable };
+// cosine: `wiggle` of fix wall/gran, which begins at rest: x + A (1 - cos(2 pi t/period)). riggle: a turn to and fro, by
+// the angle A sin(2 pi t/period). variable and variable_turn: what inputs say. table: rows.
+enum class MotionKind {
+  linear,
+  wiggle,
+  cosine,
+  rotate,
+  transrot,
+  variable,
+  riggle,
+  variable_turn,
+  table
+};
 
 struct MotionTerm {
   MotionKind kind = MotionKind::linear;
@@ -25,12 +39,29 @@ struct MotionTerm {
   Vec3 point = {0, 0, 0};        // length; the axis passes through it at time 0
   Vec3 axis = {0, 0, 1};         // right-handed; of any length but 0
   Real period = 0;               // time; 0: nothing repeats
-  // Of kind variable: inputs of the displacement (x, y, z) and its velocity. Their values are filled in
-  // before a pose is asked for.
+  Real angle = 0;                // radians; the amplitude of riggle
+  // Of kind variable: inputs of the displacement (x, y, z) and its velocity; of kind variable_turn of the angle,
+  // radians, and its speed, in the places of x. Their values are filled in before a pose is asked for. Without an input
+  // a velocity is the difference of displacements, and a displacement the sum of velocities.
   int input[6] = {kNoInput, kNoInput, kNoInput, kNoInput, kNoInput, kNoInput};
   Vec3 displacement = {0, 0, 0}, speed = {0, 0, 0};
+  // Of kind table: null until its file is read.
+  std::string table_file;
+  TableOptions table_options;
+  std::shared_ptr<const MotionTable> table;
 
-  bool turns() const { return kind == MotionKind::rotate || kind == MotionKind::transrot; }
+  // About the axis, if at all?
+  bool turns() const
+  {
+    return kind == MotionKind::rotate || kind == MotionKind::transrot ||
+           kind == MotionKind::riggle || kind == MotionKind::variable_turn;
+  }
+  bool is_by_inputs() const
+  {
+    return kind == MotionKind::variable || kind == MotionKind::variable_turn;
+  }
+  bool takes_difference(int d) const { return input[d] != kNoInput && input[3 + d] == kNoInput; }
+  bool adds_up(int d) const { return input[d] == kNoInput && input[3 + d] != kNoInput; }
 };
 
 // A direction that is not zero, as a unit vector; (0, 0, a) becomes exactly (0, 0, 1).
@@ -75,7 +106,8 @@ class RigidMotion {
   // The same with the servo where it is now.
   Pose pose_at(Time t) const;
 
-  Real longest_period() const;    // 0: no term has one
+  // With those of tables from time 0 to their last row. 0: no term has one.
+  Real longest_period() const;
 
   // Does it leave places along this unit vector as they are, and turn about nothing but it?
   bool keeps(const Vec3 &direction) const;

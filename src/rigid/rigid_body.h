@@ -8,11 +8,11 @@
 // kick(dt / 2): velocities are those of half a step while contacts see them, as those of spheres in LAMMPS.
 #pragma once
 
+#include "base/quaternion.h"
 #include "motion/pose.h"
 #include "rigid/joint.h"
 #include "rigid/mass_properties.h"
 #include "rigid/mobility.h"
-#include "rigid/quaternion.h"
 
 namespace lsdcd {
 

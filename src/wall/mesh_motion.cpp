@@ -38,12 +38,39 @@ void for_inputs(MeshSpec &mesh, SurfaceMotion &surface, const Visit &visit)
 MeshMotion::MeshMotion(WallHost &host, WallSpec &wall, int mesh, const Step &now) :
     host_(host), wall_(wall), mesh_(mesh)
 {
+  read_tables(spec().motion.terms());
   begin(now);
 }
 
 std::string MeshMotion::named(const std::string &text) const
 {
   return with_mesh_name(wall_, mesh_, text);
+}
+
+void MeshMotion::read_tables(std::vector<MotionTerm> &terms) const
+{
+  for (MotionTerm &m : terms) {
+    if (m.kind != MotionKind::table || m.table) continue;
+    TableRows rows;
+    run_collectively(host_, host_.rank() == 0, [&] {
+      try {
+        m.table =
+            std::make_shared<const MotionTable>(read_motion_table(m.table_file, m.table_options));
+      } catch (const InputError &e) {
+        throw InputError(named(e.what()));
+      }
+      rows = m.table->rows();
+    });
+    std::uint64_t counts[] = {static_cast<std::uint64_t>(rows.columns), rows.numbers.size()};
+    host_.broadcast(counts, sizeof counts, 0);
+    rows.options = m.table_options;
+    rows.columns = static_cast<int>(counts[0]);
+    rows.numbers.resize(counts[1]);
+    host_.broadcast(rows.numbers.data(), rows.numbers.size() * sizeof(Real), 0);
+    if (!m.table)
+      m.table = std::make_shared<const MotionTable>(
+          rows, [](std::size_t row) { return "row " + std::to_string(row + 1); });
+  }
 }
 
 void MeshMotion::begin(const Step &now)
@@ -77,7 +104,15 @@ bool MeshMotion::takes_differences() const
 {
   for (const MotionTerm &m : spec().motion.terms())
     for (int d = 0; d < 3; d++)
-      if (m.input[d] != kNoInput && m.input[3 + d] == kNoInput) return true;
+      if (m.takes_difference(d)) return true;
+  return false;
+}
+
+bool MeshMotion::adds_up() const
+{
+  for (const MotionTerm &m : spec().motion.terms())
+    for (int d = 0; d < 3; d++)
+      if (m.adds_up(d)) return true;
   return false;
 }
 
@@ -87,15 +122,17 @@ Real MeshMotion::advance(const Step &to)
   clock_.advance(to);
   const Real passed = static_cast<Real>(clock_.now() - before);
   std::vector<MotionTerm> &terms = spec().motion.terms();
-  std::vector<Vec3> was;
-  for (const MotionTerm &m : terms) was.push_back(m.displacement);
+  const std::vector<MotionTerm> was = terms;
   const std::vector<Real> values = host_.variables(inputs());
   auto next = values.begin();
   for_inputs(spec(), surface_, [&](int, Real &value) { value = *next++; });
   for (std::size_t i = 0; i < terms.size() && passed > 0; i++)
-    for (int d = 0; d < 3; d++)
-      if (terms[i].input[d] != kNoInput && terms[i].input[3 + d] == kNoInput)
-        terms[i].speed[d] = (terms[i].displacement[d] - was[i][d]) / passed;
+    for (int d = 0; d < 3; d++) {
+      if (terms[i].takes_difference(d))
+        terms[i].speed[d] = (terms[i].displacement[d] - was[i].displacement[d]) / passed;
+      if (terms[i].adds_up(d))
+        terms[i].displacement[d] += passed * (was[i].speed[d] + terms[i].speed[d]) / 2;
+    }
   return passed;
 }
 
@@ -111,13 +148,15 @@ Pose MeshMotion::pose_without_servo() const
 
 void MeshMotion::set(const RigidMotion &to, const Step &now)
 {
+  std::vector<MotionTerm> terms = to.terms();
+  read_tables(terms);
   RigidMotion &motion = spec().motion;
   const bool holds = servo().holds;
   const Pose placed = holds ? pose_ : pose_without_servo();
   if (holds) servo().position = 0;
   motion.stop();
   motion.begin_from(placed);
-  for (const MotionTerm &term : to.terms()) motion.add(term);
+  for (const MotionTerm &term : terms) motion.add(term);
   begin(now);
 }
 
@@ -162,6 +201,10 @@ void MeshMotion::check_snapshot(const Step &at) const
     throw InputError(
         named("in a rerun there is no step over which the velocity of motion variable could be "
               "a difference: give v_vx v_vy v_vz in place of NULL"));
+  if (adds_up())
+    throw InputError(
+        named("in a rerun the displacement or angle that velocities of variables add up to in all "
+              "steps before is not known: give its variable in place of NULL"));
   StepClock there = clock_;
   there.advance(at);
   if (spec().motion.moves() && there.now() < 0)
@@ -180,11 +223,21 @@ std::string MeshMotion::text(const Box &bounds) const
   constexpr int kSamples = 64;
   std::string text = own_text();
   if (takes_differences()) text += "; where v_v is NULL velocities are differences over a step";
+  if (adds_up())
+    text +=
+        "; where v_d or v_angle is NULL velocities are added up, with the mean of those before and "
+        "after a step";
+  std::vector<Real> times;
+  for (int i = 0; i < kSamples; i++) times.push_back(motion.longest_period() * i / kSamples);
+  for (const MotionTerm &m : motion.terms()) {
+    if (!m.table) continue;
+    text += "; " + std::to_string(m.table->rows().count()) + " rows from " +
+            number_text(m.table->begin()) + " to " + number_text(m.table->end());
+    for (const Real t : m.table->typical_times()) times.push_back(t);
+  }
   if (has_inputs()) return text;
   Real most = 0;
-  for (int i = 0; i < kSamples; i++)
-    most =
-        std::max(most, fastest_in(motion.pose_at(motion.longest_period() * i / kSamples), bounds));
+  for (const Real t : times) most = std::max(most, fastest_in(motion.pose_at(t), bounds));
   return text + "; corners of its bounds go at up to " + number_text(most);
 }
 

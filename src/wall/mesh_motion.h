@@ -39,6 +39,7 @@ class MeshMotion {
   bool moves_or_varies() const;    // does the engine see a motion?
   bool has_inputs() const;
   bool takes_differences() const;    // for velocities that no input gives
+  bool adds_up() const;              // velocities to displacements that no input gives
   // Names of its inputs, in the order in which they are read.
   InputNames inputs() const;
 
@@ -75,6 +76,8 @@ class MeshMotion {
   Servo &servo() const { return spec().motion.servo(); }
   std::string named(const std::string &text) const;
   std::string own_text() const;
+  // On the first process; all have the rows then. Collective where there is one that is not read yet.
+  void read_tables(std::vector<MotionTerm> &terms) const;
   void begin(const Step &now);
   void check_limits(Real position) const;
 

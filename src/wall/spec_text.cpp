@@ -12,6 +12,8 @@ namespace lsdcd {
 
 namespace {
 
+constexpr Real kDegrees = 180 / kPi;    // in a radian
+
 std::string vector_text(const Vec3 &a)
 {
   return number_text(a.x) + " " + number_text(a.y) + " " + number_text(a.z);
@@ -56,6 +58,24 @@ std::string cosine_text(const MotionTerm &m)
          number_text(m.period);
 }
 
+std::string input_or_null(int input, const InputNames &inputs)
+{
+  return " " + (input == kNoInput ? "NULL" : input_text(input, inputs));
+}
+
+std::string table_text(const MotionTerm &m)
+{
+  const TableOptions &o = m.table_options;
+  std::string text = "table " + (m.table_file.empty() ? "of rows" : m.table_file);
+  if (o.has_axis)
+    text += " axis " + vector_text(m.point) + " " + vector_text(m.axis);
+  else if (!(m.point == Vec3{0, 0, 0}))
+    text += " about " + vector_text(m.point);
+  if (o.linear) text += " linear";
+  if (o.repeats) text += " repeat";
+  return text + (o.degrees ? " degrees" : "");
+}
+
 std::string term_text(const MotionTerm &m, const InputNames &inputs)
 {
   const std::string axis = vector_text(m.point) + " " + vector_text(m.axis),
@@ -73,8 +93,15 @@ std::string term_text(const MotionTerm &m, const InputNames &inputs)
     case MotionKind::transrot:
       return "transrot " + vector_text(m.velocity) + " " + axis + period;
     case MotionKind::variable:
-      for (const int input : m.input)
-        text += " " + (input == kNoInput ? "NULL" : input_text(input, inputs));
+      for (const int input : m.input) text += input_or_null(input, inputs);
+      return text;
+    case MotionKind::riggle:
+      return "riggle " + axis + " " + number_text(m.angle * kDegrees) + period;
+    case MotionKind::variable_turn:
+      return "rotate " + axis + " variable" + input_or_null(m.input[0], inputs) +
+             input_or_null(m.input[3], inputs);
+    case MotionKind::table:
+      return table_text(m);
   }
   return text;
 }

@@ -32,8 +32,27 @@ void each_number(Numbers &numbers, Servo &s)
 template <class Numbers>
 void each_number(Numbers &numbers, MotionTerm &t)
 {
-  numbers(t.kind, t.velocity, t.amplitude, t.point, t.axis, t.period, t.input, t.displacement,
-          t.speed);
+  numbers(t.kind, t.velocity, t.amplitude, t.point, t.axis, t.period, t.angle, t.input,
+          t.displacement, t.speed);
+}
+
+template <class Numbers>
+void each_number(Numbers &numbers, TableRows &r)
+{
+  numbers(r.options.has_axis, r.options.linear, r.options.repeats, r.options.degrees, r.columns,
+          r.numbers);
+}
+
+// The table of a motion. There is one for each term of that kind, in their order.
+struct TableState {
+  std::string file;
+  TableRows rows;
+};
+
+template <class Numbers>
+void each_number(Numbers &numbers, TableState &t)
+{
+  numbers(t.file, t.rows);
 }
 
 template <class Numbers>
@@ -54,6 +73,40 @@ void each_number(Numbers &numbers, LoadState &l)
   numbers(l.time, l.rows);
 }
 
+namespace {
+
+std::vector<TableState> tables_of(const MotionState &motion)
+{
+  std::vector<TableState> tables;
+  for (const MotionTerm &m : motion.terms)
+    if (m.table) tables.push_back({m.table_file, m.table->rows()});
+  return tables;
+}
+
+void put_tables(const std::vector<TableState> &tables, MotionState &motion)
+{
+  auto next = tables.begin();
+  try {
+    for (MotionTerm &m : motion.terms) {
+      if (m.kind != MotionKind::table) continue;
+      if (next == tables.end()) throw StateError("a motion in the data of the wall has no table");
+      m.table_file = next->file;
+      m.table_options = next->rows.options;
+      m.table = std::make_shared<const MotionTable>(
+          next->rows, [](std::size_t row) { return "row " + std::to_string(row + 1); });
+      ++next;
+    }
+  } catch (const StateError &) {
+    throw;
+  } catch (const InputError &e) {
+    throw StateError("the table of a motion in the data of the wall: " + std::string(e.what()));
+  }
+  if (next != tables.end())
+    throw StateError("the data of the wall have a table that no motion uses");
+}
+
+}    // namespace
+
 State WallState::blocks() const
 {
   State all(kKind);
@@ -63,6 +116,8 @@ State WallState::blocks() const
     State mesh(kKind);
     mesh.add("identity", 1, m.mesh);
     mesh.add("motion", 1, m.motion);
+    const std::vector<TableState> tables = tables_of(m.motion);
+    if (!tables.empty()) mesh.add("tables", 1, tables);
     if (m.loads.time > 0 || !m.loads.rows.empty()) mesh.add("loads", 1, m.loads);
     all.add("mesh", 1, mesh);
   }
@@ -78,6 +133,9 @@ WallState WallState::from(const State &state)
     MeshState &m = all.meshes.emplace_back();
     mesh.read("identity", 1, m.mesh);
     mesh.read("motion", 1, m.motion);
+    std::vector<TableState> tables;
+    mesh.find("tables", 1, tables);
+    put_tables(tables, m.motion);
     mesh.find("loads", 1, m.loads);
     if (m.loads.rows.size() % MeshLoads::kPackedLoad != 0)
       throw StateError("the loads in the data of the wall are no whole rows");

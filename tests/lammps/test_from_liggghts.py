@@ -87,6 +87,16 @@ WRITTEN = {
     "the torque of a moving mesh is about what was the origin": (
         MESH.format("") + "fix t all move/mesh mesh cad linear 1 0 0\n" + WALL + "thermo_style custom step f_cad[5]\n",
         "motion linear 1 0 0 torque_about mesh 0 0 0\n"),
+    "a turn to and fro": (
+        MESH.format("") + "fix t all move/mesh mesh cad riggle origin 1 2 3 axis 0 0 1 period 0.5 amplitude 5\n" + WALL,
+        "motion riggle 1 2 3 0 0 1 5 0.5"),
+    "a turn at the speed of a variable": (
+        MESH.format("") + "variable w equal 3.5\nfix t all move/mesh mesh cad rotate/variable origin 1 2 3 axis 0 0 1 omega v_w\n" +
+        WALL, "motion rotate 1 2 3 0 0 1 variable NULL v_w"),
+    "a way at the speeds of variables": (
+        MESH.format("") + WALL + "variable a equal 0\nvariable w equal step*dt\n"
+        "fix t all move/mesh mesh cad linear/variable v_a v_a v_w\n",
+        "fix_modify      w motion variable NULL NULL NULL v_a v_a v_w"),
     "regions are in units of the box": ("lattice sc 0.1\nregion r block 0 1 0 1 0 1 # a box\n",
                                              "region r block 0 1 0 1 0 1 units box # a box\n"),
     "stress/atom has its word": ("compute s all stress/atom\n", "compute s all stress/atom NULL"),
@@ -136,8 +146,14 @@ WRITTEN = {
 # Commands that stay, and the reason.
 LEFT = {
     "insertion": ("fix i all insert/pack seed 1 distributiontemplate d\n", "insert/pack"),
-    "a motion that speeds up": (MESH.format("") + WALL + "fix t all move/mesh mesh cad riggle origin 0 0 0 axis 0 0 1 "
-                                "period 1 amplitude 5\n", "move/mesh riggle"),
+    "a motion of several waves": (MESH.format("") + WALL + "fix t all move/mesh mesh cad vibrot origin 0 0 0 axis 0 0 1 "
+                                  "order 1 amplitude 1 phase 0 period 1\n", "move/mesh vibrot"),
+    "turns at speeds of variables about axes that are not parallel": (
+        MESH.format("") + WALL + "variable w equal 1\nfix t all move/mesh mesh cad rotate/variable origin 0 0 0 axis 0 0 1 omega v_w\n"
+        "fix u all move/mesh mesh cad rotate/variable origin 0 0 0 axis 0 1 0 omega v_w\n", "a rotation after another about an axis that is not parallel"),
+    "riggle and a motion around it": (
+        MESH.format("") + WALL + "fix t all move/mesh mesh cad linear 1 0 0\n"
+        "fix u all move/mesh mesh cad riggle origin 0 0 0 axis 0 0 1 period 1 amplitude 5\n", "riggle beside another motion"),
     "rotate, then linear": (MESH.format("") + WALL + "fix t all move/mesh mesh cad rotate origin 0 0 0 axis 0 0 1 period 1\n"
                             "fix u all move/mesh mesh cad linear 1 0 0\n", "a linear motion after a rotation"),
     "a mesh that is generated": ("fix cad all mesh/surface generate cube 0.1 63 type 1\n", "a mesh by generate"),

@@ -84,6 +84,17 @@ def compare_words(checks, folder):
          f"motion rotate 0.1 0.2 -7 0 0 1 {period!r}", "surface_angvel 0 0 3 0.1 0.2 0", 1e-12)
     same("transrot is rotate, then linear", "motion transrot 1 2 0.1 0.1 0.2 -7 0 1 1 0.8",
          "motion rotate 0.1 0.2 -7 0 1 1 0.8 motion linear 1 2 0.1", 1e-12)
+    # By rows: what is straight between two of them is a motion at a constant speed.
+    (folder / "slide.txt").write_text("# t x y z\n0 0 0 0\n0.04 0.08 0.04 0.004\n1 2 1 0.1\n")
+    same("a table of places", "motion table slide.txt linear", "motion linear 2 1 0.1", 1e-12)
+    (folder / "turns.txt").write_text("0, 0\n1.6, 720\n")
+    same("a table of angles", "motion table turns.txt degrees linear axis 0.1 0.2 -7 0 1 1",
+         "motion rotate 0.1 0.2 -7 0 1 1 0.8", 1e-12)
+    # A wiggle by 500 rows a period, which the spline meets to 4e-3 (2 pi/500)^4/384 = 3e-13, times k = 1e4 in a force.
+    rows = "".join(f"{0.02 * i / 500!r} 0 0 {0.004 * (1 - math.cos(2 * math.pi * i / 500))!r}\n" for i in range(501))
+    (folder / "wave.txt").write_text(rows)
+    same("a table of a wave, again and again", "motion table wave.txt repeat", "wiggle z 0.004 0.02", 1e-7)
+
     wave = "variable z equal 0.004*(1-cos(2*PI*elapsed*dt/0.02))\n"
     speed = "variable v equal 0.004*2*PI/0.02*sin(2*PI*elapsed*dt/0.02)\n"
     text = (lmp.HERE / "scripts" / "in.one_sphere").read_text()
@@ -110,6 +121,25 @@ def compare_words(checks, folder):
     varied = with_variables("motion variable NULL NULL v_z NULL NULL NULL", law)[0]
     apart = lmp.largest_difference(plain, varied)
     checks.fact("with damping it is near", 1e-9 < apart < 0.05, f"{apart:.3g}")
+    # Speeds alone: the sum of 2 pi/0.8 dt has 1e3 roundings.
+    def turned(words, variables):
+        out = text.replace("fix             wall", variables + "fix             wall")
+        log = lmp.run_well(out, folder, wall=lsdcd(law, words), out="v", unit="lj", kick=1, dt=1e-4,
+                           steps=1000, style="verlet")
+        return lmp.read_dump(folder / "v"), log
+
+    axis = "0.1 0.2 -7 0 1 1"
+    plain = one_sphere(folder, "a", lsdcd(law, f"motion rotate {axis} 0.8"))[0]
+    varied, log = turned(f"motion rotate {axis} variable NULL v_w", "variable w equal 2*PI/0.8\n")
+    checks.at_most("a turn by a variable of its speed", lmp.largest_difference(plain, varied), 1e-10)
+    checks.fact("the log says that speeds are added up", "velocities are added up" in log)
+    plain = one_sphere(folder, "a", lsdcd(law, f"motion riggle {axis} 3 0.05"))[0]
+    checks.fact("a turn to and fro touches", touching(plain) > 20)
+    phase = "2*PI*elapsed*dt/0.05"
+    varied = turned(f"motion rotate {axis} variable v_a v_w",
+                    f"variable a equal 3*PI/180*sin({phase})\nvariable w equal 3*PI/180*2*PI/0.05*cos({phase})\n")[0]
+    checks.at_most("variables of angle and speed are a riggle", lmp.largest_difference(plain, varied), 1e-11)
+
     out = text.replace("fix             wall", "variable u equal 2.0\nfix             wall")
     lmp.run_well(out, folder, wall=lsdcd(law, "shear y v_u"), out="v", unit="lj", kick=1, dt=1e-4,
                  steps=1000, style="verlet")
@@ -244,8 +274,8 @@ def ranks_and_restart(checks, folder):
                             scene.dump(name, 50) + f"run {second}\n", folder, ranks)
         return lmp.read_dump(folder / name), text
 
-    def proceed(name, ranks=1, moves=MOVES, between="", law=LAW):
-        text = lmp.run_well(scene.SETTINGS + "read_restart two.restart\n" +
+    def proceed(name, ranks=1, moves=MOVES, between="", law=LAW, before=""):
+        text = lmp.run_well(before + scene.SETTINGS + "read_restart two.restart\n" +
                             forces(moves=moves, law=law) + between + scene.dump(name, 50) +
                             f"run {second}\n", folder, ranks)
         return lmp.read_dump(folder / name), text
@@ -266,7 +296,27 @@ def ranks_and_restart(checks, folder):
     text = proceed("c", moves="")[1]
     checks.fact("none at all is told", "has none: the mesh stays where the mesh was" in text)
 
+    # Rows of a table, in the middle of one of them, and an angle that is added up.
+    (folder / "arm.txt").write_text("0 0 0 0 0 0 0\n0.11 0.05 0 0.1 0.02 0.01 0\n0.31 0 0 0 0 0 0\n")
+    rows = "motion table arm.txt repeat motion rotate 0.5 0.2 0 0 0.1 1 variable NULL v_w"
+    speed = "variable w equal 1+step*0.001\n"
+    two = go("rows", between="write_restart two.restart\n", begin=speed + start, moves=rows)[0]
+    near = sum(row[9] > 0 for rows in two.values() for row in rows.values())
+    checks.fact("spheres touch a floor that follows a table", near > 30, str(near))
+    checks.at_most("a table on 2 ranks as on one",
+                   lmp.largest_difference(two, go("r", 2, begin=speed + start, moves=rows)[0]), 0)
+    (folder / "arm.txt").rename(folder / "renamed.txt")
+    for ranks in (1, 2):
+        continued, text = proceed("c", ranks, moves=rows.replace("arm", "renamed"), before=speed)
+        checks.at_most(f"continued in a table on {ranks}", lmp.largest_difference(two, continued), 0)
+        checks.fact("without a warning of the table", "was written with the motion" not in text)
+    (folder / "arm.txt").write_text("0 0 0 0 0 0 0\n0.11 0.05 0 0.1 0.02 0.02 0\n0.31 0 0 0 0 0 0\n")
+    text = proceed("c", moves=rows, before=speed)[1]
+    checks.fact("other rows are told", "was written with the motion 'table arm.txt repeat, rotate 0.5 0.2 0 0 0.1 1 "
+                "variable NULL v_w' and this fix has 'table arm.txt repeat, " in text)
+
     # The number of a step does not matter.
+    two = lmp.read_dump(folder / "two")
     reset = go("reset", between="reset_timestep 10000\n")[0]
     renamed = {step - 10000 + first: rows for step, rows in reset.items()}
     checks.at_most("reset_timestep moves nothing", lmp.largest_difference(two, renamed), 0)

@@ -119,6 +119,8 @@ def whole_script(page, block, folder):
 def main():
     checks, folder, known = lmp.Checks(), lmp.scratch(), keywords()
     (folder / "grain_atoms.txt").write_text("".join("%g %g %g\n" % place for place in PLACES))
+    (folder / "arm.txt").write_text("0 0 0 0 0 0 0\n0.25 0.1 0 0.05 0 0.3 0\n")
+    (folder / "cam.csv").write_text("0, 0\n0.1, 12.5\n0.2, 0\n")
     count = 0
     for page in all_pages().values():
         for block in page.blocks:

@@ -6,6 +6,8 @@
 #include "floor_and_grains.h"
 #include "process.h"
 #include "support/fake_host.h"
+#include "support/random.h"
+#include "support/temp_dir.h"
 
 #include <cmath>
 #include <cstring>
@@ -22,6 +24,7 @@ namespace test_library_wall_spec {
 namespace {
 
 using Vector = std::array<double, 3>;
+using lsdcd::uniform;
 
 // A power of two, so that times and places are sums without rounding.
 constexpr double kStep = 0x1p-10;
@@ -252,6 +255,13 @@ TEST_F(wall_spec, has_the_bits_of_words_for_placements_and_surfaces)
 
 TEST_F(wall_spec, has_the_bits_of_words_for_motions_and_servos)
 {
+  const std::vector<double> places = {0,   0, 0,    0,    0, 0, 0, 0.005, 0, 0.1, 0.02,
+                                      0.1, 0, 0.05, 0.02, 0, 0, 0, 0,     0, 0};
+  const lsdcd::TempDir dir;
+  const std::string arm =
+      dir.write("arm.txt", "0 0 0 0 0 0 0\n.005 0 .1 .02 .1 0 .05\n.02 0 0 0 0 0 0\n");
+  api::Motion table = api::Motion::table(places, 7, {1, 2, 0});
+  table.straight = table.repeats = 1;
   const api::Mesh mesh(file_);
   const struct {
     std::vector<std::string> words;
@@ -264,7 +274,10 @@ TEST_F(wall_spec, has_the_bits_of_words_for_motions_and_servos)
         "0.1"},
        {api::Motion::rotate({1, 2, 0}, {0, 0.1, 1}, 3), api::Motion::linear({0, 0, 0.1})}},
       {{"motion", "transrot", "0", "0", "0.1", "1", "2", "0", "0", "0", "2", "3"},
-       {api::Motion::transrot({0, 0, 0.1}, {1, 2, 0}, {0, 0, 2}, 3)}}};
+       {api::Motion::transrot({0, 0, 0.1}, {1, 2, 0}, {0, 0, 2}, 3)}},
+      {{"motion", "riggle", "1", "2", "0", "0", "0", "2", "90", "3"},
+       {api::Motion::riggle({1, 2, 0}, {0, 0, 2}, 90 * (3.14159265358979323846 / 180), 3)}},
+      {{"motion", "table", arm, "about", "1", "2", "0", "linear", "repeat"}, {table}}};
   for (const auto &row : rows) {
     api::WallSpec spec = floor_of(hooke_history(), mesh);
     spec.meshes[0].motions = row.motions;
@@ -526,6 +539,79 @@ TEST_F(wall_spec, goes_on_from_where_it_was_posed)
   EXPECT_EQ(second.pose(0), first.pose(0));
 }
 
+// Hills of 128 triangles, by a side of 8.
+api::Mesh hills()
+{
+  std::vector<double> vertices;
+  std::vector<std::uint32_t> faces;
+  for (std::uint32_t i = 0; i <= 8; i++)
+    for (std::uint32_t j = 0; j <= 8; j++) {
+      for (const double x : {i - 4., j - 4., 0.8 * std::sin(2. * i + 3 * j)}) vertices.push_back(x);
+      const std::uint32_t k = 9 * i + j;
+      if (i < 8 && j < 8)
+        for (const std::uint32_t corner : {k, k + 9, k + 10, k, k + 10, k + 1})
+          faces.push_back(corner);
+    }
+  return api::Mesh(vertices, faces);
+}
+
+Grains cloud()
+{
+  Grains grains;
+  lsdcd::Random random(5);
+  for (int i = 0; i < 300; i++) {
+    grains.add(uniform(random, -4, 4), uniform(random, -4, 4), uniform(random, -4, 4));
+    grains.radius.back() = uniform(random, 0.2, 0.4);
+    for (int k = 0; k < 3; k++) grains.v[3 * i + k] = uniform(random, -1, 1);
+  }
+  return grains;
+}
+
+// Steps of all sizes between 1e-5 and 10 radii, in any order: within the margins of lists and of candidates, past one of
+// them, and past both, with spheres far from the mesh that it meets at once. No springs, which a jump would keep. Of one
+// mesh bits are equal. Of two a sphere is computed by another sum where it is a candidate of both, which hangs on where
+// candidates were chosen: places of size 10 have 20 roundings, times the stiffness.
+TEST_F(wall_spec, finds_all_contacts_where_a_pose_jumps)
+{
+  const api::Mesh mesh = hills();
+  lsdcd::Random random(11);
+  for (const std::size_t n : {1u, 2u}) {
+    api::WallSpec spec = floor_of(api::Law::classic({"hooke", {kN, kT, 20, 10, 0.5, 1}}), mesh);
+    if (n > 1) spec.meshes.emplace_back(mesh, "other").placement.move(1, 0, 0.5);
+    for (api::WallMesh &m : spec.meshes) m.posed_by_caller = true;
+    lsdcd::Wall wall(spec);
+    Grains grains = cloud();
+    std::vector<api::Pose> poses(n);
+    const double limit = n == 1 ? 0 : 20 * 10 * 2.3e-16 * kN;
+    double contacts = 0;
+    for (int k = 0; k < 60; k++) {
+      const double size = 0.4 * std::pow(10., uniform(random, -5, 1));
+      lsdcd::Wall fresh(spec);
+      for (std::size_t m = 0; m < n; m++) {
+        api::Pose &pose = poses[m];
+        double length = 0;
+        for (double &x : pose.position) x = std::fmod(x + uniform(random, -size, size), 4.);
+        for (double &q : pose.quaternion) q += uniform(random, -size, size);
+        for (const double q : pose.quaternion) length += q * q;
+        for (double &q : pose.quaternion) q /= std::sqrt(length);
+        for (double &v : pose.velocity) v = uniform(random, -1, 1);
+        for (double &w : pose.angular_velocity) w = uniform(random, -1, 1);
+        wall.set_pose(static_cast<int>(m), pose);
+        fresh.set_pose(static_cast<int>(m), pose);
+      }
+      Grains same = grains;
+      grains.step(wall);
+      same.step(fresh);
+      for (std::size_t i = 0; i < grains.force.size(); i++) {
+        ASSERT_LE(std::fabs(grains.force[i] - same.force[i]), limit) << k << ", by " << size;
+        ASSERT_LE(std::fabs(grains.torque[i] - same.torque[i]), limit) << k << ", by " << size;
+      }
+      contacts += wall.totals(-1).contacts;
+    }
+    EXPECT_GT(contacts, 60 * 20);
+  }
+}
+
 // Action = reaction. A contact's force acts on a sphere at its point, so that the sphere's torque about any point is
 // that about its centre and the one of the force there.
 TEST_F(wall_spec, wrenches_about_any_point_are_those_of_the_spheres_reversed)
@@ -692,6 +778,16 @@ TEST_F(wall_spec, names_the_field_its_value_and_the_remedy)
     w.meshes[0].n_motions = 1;
     return w.motion;
   };
+  const double late[] = {0, 0, 0, 0, 1, 0,
+                         0, 1, 1, 0, 0, 2};    // the last two rows are of one time
+  const auto with_table = [&](Wrong &w) -> lsdcd_motion & {
+    lsdcd_motion &m = with_motion(w);
+    m.kind = LSDCD_TABLE;
+    m.rows = late;
+    m.n_rows = 3;
+    m.columns = 4;
+    return m;
+  };
   const auto with_servo = [](Wrong &w) -> lsdcd_servo & {
     w.meshes[0].servo = &w.servo;
     return w.servo;
@@ -770,8 +866,29 @@ TEST_F(wall_spec, names_the_field_its_value_and_the_remedy)
          w.meshes[0].posed_by_caller = 1;
        },
        "`meshes[0].posed_by_caller` is 1: lsdcd_wall_set_pose() alone moves such a mesh"},
-      {[&](Wrong &w) { with_motion(w).kind = 5; },
-       "`meshes[0].motions[0].kind` is 5: it is LSDCD_LINEAR"},
+      {[&](Wrong &w) { with_motion(w).kind = 7; },
+       "`meshes[0].motions[0].kind` is 7: it is LSDCD_LINEAR"},
+      {[&](Wrong &w) { with_motion(w).angle = 1; },
+       "`meshes[0].motions[0].angle` is 1: LSDCD_LINEAR does not use it"},
+      {[&](Wrong &w) { with_motion(w).rows = &nan; },
+       "`meshes[0].motions[0].rows` is an array: LSDCD_LINEAR does not use it"},
+      {[&](Wrong &w) { with_motion(w).repeats = 1; },
+       "`meshes[0].motions[0].repeats` is 1: LSDCD_LINEAR does not use it"},
+      {[&](Wrong &w) { with_table(w).n_rows = 0; }, "`meshes[0].motions[0].n_rows` is 0: give two"},
+      {[&](Wrong &w) { with_table(w).rows = nullptr; },
+       "`meshes[0].motions[0].rows` is null: give an array of 3"},
+      {[&](Wrong &w) { with_table(w).columns = 9; },
+       "`meshes[0].motions[0].columns` is 9: it is 2, 4, 5, 7 or 8"},
+      {[&](Wrong &w) { with_table(w).columns = 3; },
+       "`meshes[0].motions[0].rows`, row 0: there are 3 numbers in a row"},
+      {[&](Wrong &w) { with_table(w).columns = 2; },
+       "`meshes[0].motions[0].axis` is 0 0 0: give a direction"},
+      {[&](Wrong &w) { with_table(w).axis[0] = 1; },
+       "`meshes[0].motions[0].axis[0]` is 1: a table without angles"},
+      {[&](Wrong &w) { with_table(w).period = 1; },
+       "`meshes[0].motions[0].period` is 1: LSDCD_TABLE does not use it"},
+      {[&](Wrong &w) { with_table(w); },
+       "`meshes[0].motions[0].rows`, row 2: the time 1 is not after that of the row before, 1"},
       {[&](Wrong &w) { with_motion(w).period = 1; },
        "`meshes[0].motions[0].period` is 1: LSDCD_LINEAR does not use it"},
       {[&](Wrong &w) { with_motion(w).kind = LSDCD_ROTATE; },

@@ -10,6 +10,7 @@ followed (test_python_gpu.py follows them).
 import contextlib
 import gc
 import importlib.util
+import math
 import multiprocessing
 import os
 import pathlib
@@ -346,6 +347,9 @@ def check_wall_specs():
                 f.write("facet normal 0 0 0\nouter loop\n" + "".join("vertex %g %g %g\n" % tuple(square[k]) for k in face) +
                         "endloop\nendfacet\n")
             f.write("endsolid floor\n")
+        table = os.path.join(folder, "lever.txt")
+        with open(table, "w", encoding="ascii") as f:
+            f.write("0 0\n0.5 0.3\n1 0\n")
         placed = lsdcd.Placement().scale(2).rotate((0, 0.1, 1), 30).move(0, 0, 0.01)
         for name, law, words, part, more in (
                 ("a style", hooke, "hooke/history 1000 300 20 NULL 0.5 1 mesh {}", {}, ""),
@@ -359,6 +363,10 @@ def check_wall_specs():
                 ("motions", hooke, "hooke/history 1000 300 20 NULL 0.5 1 mesh {}",
                  {"motions": [lsdcd.Motion.rotate((0, 0, 0), (0, 1, 0), 3), lsdcd.Motion.linear((0, 0, 1))]},
                  "motion rotate 0 0 0 0 1 0 3 motion linear 0 0 1"),
+                ("a table", hooke, "hooke/history 1000 300 20 NULL 0.5 1 mesh {}",
+                 {"motions": [lsdcd.Motion.table([[0, 0], [0.5, 0.3], [1, 0]], (1, 0, 0), (0, 1, 0), repeats=True),
+                              lsdcd.Motion.riggle((0, 0, 0), (0, 0, 1), math.radians(5), 2)]},
+                 f"motion table {table} axis 1 0 0 0 1 0 repeat motion riggle 0 0 0 0 0 1 5 2"),
                 ("a belt", hooke, "hooke/history 1000 300 20 NULL 0.5 1 mesh {}", {"surface_velocity": (1, 0, 0)},
                  "surface_vel 1 0 0")):
             by_words = forces(lsdcd.Wall(f"{words.format(floor)} {more} device cpu"))
@@ -398,6 +406,9 @@ def check_wall_specs():
             ("corner is 'round'; it is 'blend' or 'sum'", lambda: lsdcd.WallSpec(hooke, [], corner="round"), ValueError),
             ("a mesh of the wall is", lambda: lsdcd.WallSpec(hooke, [mesh]), TypeError),
             ("`n_meshes` is 0", lambda: lsdcd.Wall(lsdcd.WallSpec(hooke, [])), lsdcd.Error),
+            ("rows has the shape", lambda: lsdcd.Motion.table([0, 1, 2]), ValueError),
+            ("`meshes[0].motions[0].rows`, row 1: the time 0 is not after", lambda: lsdcd.Wall(lsdcd.WallSpec(
+                hooke, [lsdcd.WallMesh(mesh, motions=[lsdcd.Motion.table([[0, 0, 0, 0], [0, 0, 0, 1]])])])), lsdcd.Error),
             ("`meshes[0].motions[0].period` is -1",
              lambda: lsdcd.Wall(lsdcd.WallSpec(hooke, [lsdcd.WallMesh(mesh, motions=[lsdcd.Motion.wiggle((0, 0, 1), -1)])])),
              lsdcd.Error),

@@ -14,7 +14,7 @@ from edit_copy import edit_copy
 
 EDITS = {
     "motion/motion.h": [
-        ("enum class MotionKind { linear, wiggle,", "enum class MotionKind { linear, cycloid, wiggle,"),
+        ("enum class MotionKind {\n  linear,\n", "enum class MotionKind {\n  linear,\n  cycloid,\n"),
         ("// length; of wiggle and cosine", "// length; of wiggle, cosine and cycloid")],
     "motion/motion.cpp": [
         ("    case MotionKind::variable:\n",
@@ -27,12 +27,12 @@ EDITS = {
          "    case MotionKind::variable:\n")],
     "input/motion_words.cpp": [
         ('"linear Vx Vy Vz | wiggle', '"linear Vx Vy Vz | cycloid Ax Ay Az period | wiggle'),
-        ("{MotionKind::linear, MotionKind::wiggle,", "{MotionKind::linear, MotionKind::cycloid, MotionKind::wiggle,"),
+        ("{MotionKind::linear,   MotionKind::wiggle,", "{MotionKind::linear, MotionKind::cycloid, MotionKind::wiggle,"),
         ('w.choice({"linear", "wiggle",', 'w.choice({"linear", "cycloid", "wiggle",'),
         ("  if (m.kind == MotionKind::wiggle) m.amplitude",
          "  const bool has_amplitude = m.kind == MotionKind::wiggle || m.kind == MotionKind::cycloid;\n"
          "  if (has_amplitude) m.amplitude"),
-        ("  if (m.turns() || m.kind == MotionKind::wiggle)\n", "  if (m.turns() || has_amplitude)\n")],
+        ("  if (has_period || m.kind == MotionKind::wiggle)\n", "  if (has_period || has_amplitude)\n")],
 }
 
 

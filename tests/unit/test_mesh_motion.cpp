@@ -4,9 +4,12 @@
 // Where a mesh is in each step: by its clock, by inputs, after changes and restarts.
 #include "base/input_error.h"
 #include "support/fake_host.h"
+#include "support/temp_dir.h"
 #include "wall/mesh_motion.h"
 
 #include <gtest/gtest.h>
+
+#include <cmath>
 
 namespace lsdcd::test_mesh_motion {
 namespace {
@@ -149,6 +152,144 @@ TEST(MeshMotion, keeps_the_velocity_where_no_time_passes)
   motion.advance({kFirst + 1, kDt, Step::setup});
   motion.place();
   EXPECT_EQ(motion.pose().velocity, (Vec3{7 / kDt, 0, 0}));
+}
+
+// A turn about z by variable `w`, in radians per time; its angle is added up.
+struct WallThatTurns : Wall {
+  WallThatTurns()
+  {
+    MotionTerm term;
+    term.kind = MotionKind::variable_turn;
+    term.input[3] = input("w");
+    mesh().motion.add(term);
+  }
+  Real angle() { return mesh().motion.terms()[0].displacement.x; }
+};
+
+// Speeds 2 t from a setup at t = 0 on: the angle t^2 by the mean of speeds, to the last bit.
+void speed_up(WallThatTurns &wall, MeshMotion &motion, int first, int last)
+{
+  for (int n = first; n <= last; n++) {
+    wall.host.values = {{"w", 2 * kDt * n}};
+    run(motion, n, n);
+  }
+}
+
+TEST(MeshMotion, adds_up_velocities_to_a_place_that_no_variable_gives)
+{
+  WallThatTurns wall;
+  MeshMotion motion(wall.host, wall.settings, 0, step(0));
+  speed_up(wall, motion, 1, 6);
+  EXPECT_EQ(wall.angle(), 9);
+  EXPECT_EQ(motion.pose().angular, (Vec3{0, 0, 6}));
+  EXPECT_EQ(motion.pose().row[1].x, std::sin(9.0));
+}
+
+TEST(MeshMotion, adds_up_displacements_likewise)
+{
+  Wall wall;
+  MotionTerm term;
+  term.kind = MotionKind::variable;
+  term.input[4] = wall.input("v");
+  wall.mesh().motion.add(term);
+  wall.host.values = {{"v", 3}};
+  MeshMotion motion(wall.host, wall.settings, 0, step(0));
+  motion.advance({kFirst, kDt, Step::setup});
+  run(motion, 1, 4);
+  EXPECT_EQ(where(motion), (Vec3{0, 6, 0}));
+  EXPECT_EQ(motion.pose().velocity, (Vec3{0, 3, 0}));
+}
+
+TEST(MeshMotion, adds_nothing_up_where_no_time_passes)
+{
+  WallThatTurns wall;
+  MeshMotion motion(wall.host, wall.settings, 0, step(0));
+  speed_up(wall, motion, 1, 2);
+  motion.advance({kFirst + 2, kDt, Step::setup});
+  EXPECT_EQ(wall.angle(), 1);
+}
+
+TEST(MeshMotion, goes_on_adding_up_after_a_restart)
+{
+  WallThatTurns before, after;
+  MeshMotion first(before.host, before.settings, 0, step(0));
+  speed_up(before, first, 1, 3);
+  MeshMotion second(after.host, after.settings, 0, step(3));
+  second.restore(first.state(), step(3));
+  speed_up(after, second, 4, 6);
+  EXPECT_EQ(after.angle(), 9);
+}
+
+// Tables
+
+void follow(Wall &wall, const std::string &file)
+{
+  MotionTerm term;
+  term.kind = MotionKind::table;
+  term.table_file = file;
+  wall.mesh().motion.add(term);
+}
+
+TEST(MeshMotion, reads_a_table_on_the_first_process_alone)
+{
+  const TempDir folder;
+  const std::string file = folder.write("arm.txt", "0 0 0 0\n2 8 0 0\n4 16 0 0\n");
+  on_processes(3, [&](FakeHost &host) {
+    Wall wall;
+    follow(wall, host.rank() == 0 ? file : "not/there");
+    MeshMotion motion(host, wall.settings, 0, step(0));
+    run(motion, 1, 3);
+    EXPECT_EQ(where(motion), (Vec3{6, 0, 0}));
+    EXPECT_EQ(motion.pose().velocity, (Vec3{4, 0, 0}));
+  });
+}
+
+TEST(MeshMotion, refuses_a_wrong_table_on_all_processes)
+{
+  const TempDir folder;
+  const std::string file = folder.write("arm.txt", "0 0 0 0\n0 8 0 0\n");
+  on_processes(3, [&](FakeHost &host) {
+    Wall wall;
+    follow(wall, file);
+    try {
+      const MeshMotion motion(host, wall.settings, 0, step(0));
+      ADD_FAILURE();
+    } catch (const InputError &e) {
+      EXPECT_NE(std::string(e.what()).find("arm.txt' line 2"), std::string::npos) << e.what();
+    }
+  });
+}
+
+TEST(MeshMotion, keeps_its_motion_where_the_table_of_another_is_wrong)
+{
+  WallAlongX wall;
+  MeshMotion motion(wall.host, wall.settings, 0, step(0));
+  Wall other;
+  follow(other, "not/there");
+  EXPECT_THROW(motion.set(other.mesh().motion, step(0)), InputError);
+  run(motion, 1, 1);
+  EXPECT_EQ(where(motion), (Vec3{1, 0, 0}));
+}
+
+TEST(MeshMotion, follows_a_table_on_after_a_restart)
+{
+  const TempDir folder;
+  const std::string rows = "0 0 0 0 0 0 0\n1 2 0 1 0.3 0 1\n2 1 0 3 0.1 1 2\n3 2 2 0 0 1 1\n";
+  for (const bool same : {true, false}) {
+    Wall before, after;
+    follow(before, folder.write("arm.txt", rows));
+    MeshMotion first(before.host, before.settings, 0, step(0));
+    run(first, 1, 3);
+    follow(after, folder.write("arm.txt", same ? rows : rows + "4 0 0 0 0 0 0\n"));
+    MeshMotion second(after.host, after.settings, 0, step(3));
+    second.restore(first.state(), step(3));
+    EXPECT_EQ(second.pose().shift, first.pose().shift);
+    run(first, 4, 5);
+    run(second, 4, 5);
+    EXPECT_EQ(second.pose().shift == first.pose().shift, same);
+    EXPECT_EQ(second.pose().row[0] == first.pose().row[0], same);
+    EXPECT_EQ(after.host.warnings.size(), same ? 0U : 1U);
+  }
 }
 
 TEST(MeshMotion, gives_variables_to_the_surface_and_the_servo)
@@ -297,6 +438,12 @@ TEST(MeshMotion, has_no_differences_in_a_snapshot)
   expect_refused(wall, {kFirst + 1, kDt, Step::snapshot}, "give v_vx v_vy v_vz in place of NULL");
 }
 
+TEST(MeshMotion, has_added_up_nothing_in_a_snapshot)
+{
+  WallThatTurns wall;
+  expect_refused(wall, {kFirst + 1, kDt, Step::snapshot}, "give its variable in place of NULL");
+}
+
 // restart files
 
 // Where a wall is at step 5 that has read what `before` wrote at step 3.
@@ -390,6 +537,19 @@ TEST(MeshMotion, has_the_values_of_variables_after_a_restart)
 }
 
 // A line of the log
+
+// The bounds' corners go at 8 in the steep part, which is short.
+TEST(MeshMotion, tells_the_rows_of_a_table_and_its_speed)
+{
+  const TempDir folder;
+  Wall wall;
+  follow(wall, folder.write("arm.txt", "0 0 0 0\n1 1 0 0\n1.001 1.008 0 0\n9 2 0 0\n"));
+  wall.mesh().motion.terms()[0].table_options.linear = true;
+  const MeshMotion motion(wall.host, wall.settings, 0, step(0));
+  EXPECT_EQ(motion.text({{0, 0, 0}, {1, 1, 1}}),
+            "table " + folder.path("arm.txt") +
+                " linear; 4 rows from 0 to 9; corners of its bounds go at up to 8");
+}
 
 TEST(MeshMotion, tells_how_fast_its_corners_go)
 {

@@ -43,6 +43,13 @@ MotionTerm turning(const Vec3 &point, const Vec3 &axis, Real period, const Vec3 
   m.velocity = v;
   return m;
 }
+MotionTerm swinging(const Vec3 &point, const Vec3 &axis, Real angle, Real period)
+{
+  MotionTerm m = turning(point, axis, period);
+  m.kind = MotionKind::riggle;
+  m.angle = angle;
+  return m;
+}
 RigidMotion motion_of(const std::vector<MotionTerm> &terms)
 {
   RigidMotion motion;
@@ -55,7 +62,8 @@ WideVec where(const std::vector<MotionTerm> &terms, const Vec3 &point, Wide t)
 {
   WideVec x = vec_cast<Wide>(point);
   for (const MotionTerm &m : terms) {
-    const Wide angle = m.period > 0 ? 2 * kWidePi * t / m.period : 0;
+    Wide angle = m.period > 0 ? 2 * kWidePi * t / m.period : 0;
+    if (m.kind == MotionKind::riggle) angle = m.angle * std::sin(angle);
     if (m.kind == MotionKind::wiggle) x += std::sin(angle) * vec_cast<Wide>(m.amplitude);
     if (m.kind == MotionKind::cosine) x += (1 - std::cos(angle)) * vec_cast<Wide>(m.amplitude);
     if (m.turns()) {
@@ -84,6 +92,7 @@ const std::vector<std::vector<MotionTerm>> kMotions = {
     {wave(MotionKind::cosine, {0.2, 0, -0.1}, 0.7)},
     {turning({1, 2, 3}, {1, -1, 0.5}, 1.3)},
     {turning({1, 2, 3}, {1, -1, 0.5}, 1.3, {0.1, 0.2, -0.3})},
+    {swinging({1, 2, 3}, {1, -1, 0.5}, 0.8, 1.3), linear({1, -2, 0.5})},
     // A screen that wiggles on a rotating frame, on a truck.
     {wave(MotionKind::wiggle, {0.2, 0, -0.1}, 0.7), turning({1, 2, 3}, {0, 1, 0}, 1.3),
      linear({1, -2, 0.5})},

@@ -481,6 +481,40 @@ TEST(settings, motions_of_variables)
   EXPECT_EQ(with("shear y 3").meshes[0].surface.velocity, (Vec3{0, 3, 0}));
 }
 
+TEST(settings, turns_by_variables_and_to_and_fro)
+{
+  const WallSpec s = with("motion rotate 1 2 3 0 0 2 variable v_a v_w motion rotate 0 0 0 1 0 0 "
+                          "variable NULL v_w motion riggle 1 2 3 0 1 0 90 0.5");
+  const std::vector<MotionTerm> &m = s.meshes[0].motion.terms();
+  ASSERT_EQ(m.size(), 3u);
+  EXPECT_EQ(m[0].kind, MotionKind::variable_turn);
+  EXPECT_EQ(m[0].input[0], 0);
+  EXPECT_EQ(m[0].input[3], 1);
+  EXPECT_EQ(m[1].input[0], kNoInput);
+  EXPECT_TRUE(m[1].adds_up(0));
+  EXPECT_EQ(m[2].angle, kPi / 2);
+  EXPECT_EQ(motion_text(m, s.inputs),
+            "rotate 1 2 3 0 0 2 variable v_a v_w, rotate 0 0 0 1 0 0 variable NULL v_w, "
+            "riggle 1 2 3 0 1 0 90 0.5");
+}
+
+TEST(settings, tables_of_motions_with_their_words_in_any_order)
+{
+  const WallSpec s = with("motion table a.txt linear axis 1 2 3 0 0 2 degrees repeat motion table "
+                          "b.txt about 1 0 0 periodic");
+  const std::vector<MotionTerm> &m = s.meshes[0].motion.terms();
+  ASSERT_EQ(m.size(), 2u);
+  EXPECT_EQ(m[0].table_file, "a.txt");
+  EXPECT_EQ(m[0].axis, (Vec3{0, 0, 2}));
+  const TableOptions &o = m[0].table_options;
+  EXPECT_TRUE(o.has_axis && o.linear && o.degrees && o.repeats);
+  EXPECT_EQ(m[1].point, (Vec3{1, 0, 0}));
+  EXPECT_TRUE(m[1].table_options == TableOptions());
+  EXPECT_TRUE(s.periodic);
+  EXPECT_EQ(motion_text(m, s.inputs),
+            "table a.txt axis 1 2 3 0 0 2 linear repeat degrees, table b.txt about 1 0 0");
+}
+
 TEST(settings, wrong_motions_are_refused)
 {
   const std::vector<std::pair<std::string, std::string>> cases = {
@@ -497,7 +531,12 @@ TEST(settings, wrong_motions_are_refused)
       {"motion variable v_a v_b v_c NULL NULL", "the variable v_vz is missing"},
       {"motion variable v_a 1 NULL NULL NULL NULL", "in the place of v_dy a variable"},
       {"motion variable NULL NULL NULL NULL NULL NULL", "nothing moves"},
-      {"motion variable v_a NULL NULL NULL v_b NULL", "v_vy without a displacement v_dy"},
+      {"motion rotate 0 0 0 0 0 1 variable v_a", "the variable v_speed is missing"},
+      {"motion rotate 0 0 0 0 0 1 variable NULL NULL", "nothing moves"},
+      {"motion riggle 0 0 0 0 0 1 5", "the value of the period is missing"},
+      {"motion table", "the file name is missing after table"},
+      {"motion table a.txt linear cubic", "'cubic' is given twice, or beside one"},
+      {"motion table a.txt axis 0 0 0 0 0 0", "the axis Rx Ry Rz must not be 0 0 0"},
       {"motion variable v_ NULL NULL NULL NULL NULL", "name is missing after v_"},
       {"wiggle w 1 1", "'w' is not one of its values"},
       {"wiggle z 1 -1", "the period = -1 is out of range"},

@@ -62,6 +62,40 @@ TEST(WallState, comes_back_from_its_blocks)
   EXPECT_TRUE(is.unread.empty());
 }
 
+WallState wall_with_table()
+{
+  WallState wall = some_wall();
+  MotionTerm term;
+  term.kind = MotionKind::table;
+  term.table_file = "arm.txt";
+  TableRows rows;
+  rows.options.repeats = true;
+  rows.columns = 4;
+  rows.numbers = {0, 0, 0, 0, 0.3, 1, 2, 3, 1, 0, 0, 0};
+  term.table_options = rows.options;
+  term.table = std::make_shared<const MotionTable>(rows, [](std::size_t) { return std::string(); });
+  wall.meshes[1].motion.terms.push_back(term);
+  return wall;
+}
+
+TEST(WallState, has_the_tables_of_motions)
+{
+  const WallState was = wall_with_table(), is = from(was.blocks());
+  ASSERT_EQ(is.meshes[1].motion.terms.size(), 2U);
+  const MotionTerm &term = is.meshes[1].motion.terms[1];
+  EXPECT_EQ(term.table_file, "arm.txt");
+  EXPECT_TRUE(term.table_options.repeats);
+  ASSERT_TRUE(term.table);
+  EXPECT_TRUE(term.table->rows() == was.meshes[1].motion.terms[1].table->rows());
+}
+
+TEST(WallState, refuses_a_motion_whose_table_is_missing)
+{
+  WallState wall = wall_with_table();
+  wall.meshes[1].motion.terms[1].table = nullptr;
+  EXPECT_THROW(from(wall.blocks()), StateError);
+}
+
 TEST(WallState, names_blocks_of_a_later_version_and_reads_the_rest)
 {
   State state = some_wall().blocks();

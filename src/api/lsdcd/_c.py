@@ -82,7 +82,8 @@ _SubModelFacts = _struct(
 _TypeLaw = _struct("_TypeLaw", ("first_type", _int), ("last_type", _int), ("law", _at))
 _Motion = _struct(
     "_Motion", ("kind", _int), ("velocity", _real * 3), ("amplitude", _real * 3), ("point", _real * 3), ("axis", _real * 3),
-    ("period", _real))
+    ("period", _real), ("angle", _real), ("rows", _at), ("n_rows", _size), ("columns", _int), ("straight", _int),
+    ("repeats", _int))
 _Servo = _struct(
     "_Servo", ("turns", _int), ("axis", _real * 3), ("point", _real * 3), ("target", _real), ("max_speed", _real),
     ("max_gain", _real), ("lo", _real), ("hi", _real))

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, Sequence
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ._c import (DEVICES, _c_double, _c_text, _check, _chosen, _Law, _lib, _Motion, _numbers, _Record, _Servo,
+from ._c import (DEVICES, _as_floats, _c_double, _c_text, _check, _chosen, _Law, _lib, _Motion, _numbers, _Record, _Servo,
                  _sized, _SubModel, _SubModelFacts, _TypeLaw, _WallMesh, _WallSpec)
 
 if TYPE_CHECKING:
@@ -149,15 +149,16 @@ class Placement:
 
 
 class Motion:
-    """A motion in closed form, of the time since the wall was made or set_motion() was called. Vectors are (3,)."""
+    """A motion of the time since the wall was made or set_motion() was called. Vectors are (3,)."""
     _struct: Any
+    _kept: Any = None    # what the struct points to
 
     @classmethod
     def _made(cls, kind: int, **fields: ArrayLike) -> Motion:
         motion = cls.__new__(cls)
         motion._struct = _sized(_Motion, kind=kind)
         for name, value in fields.items():
-            setattr(motion._struct, name, _c_double(value, name) if name == "period" else _three(value, name))
+            setattr(motion._struct, name, _c_double(value, name) if name in ("period", "angle") else _three(value, name))
         return motion
 
     @classmethod
@@ -184,6 +185,29 @@ class Motion:
     def transrot(cls, velocity: ArrayLike, point: ArrayLike, axis: ArrayLike, period: float) -> Motion:
         """Turns as rotate(), and goes at a velocity, length/time."""
         return cls._made(4, velocity=velocity, point=point, axis=axis, period=period)
+
+    @classmethod
+    def riggle(cls, point: ArrayLike, axis: ArrayLike, angle: float, period: float) -> Motion:
+        """To and fro about an axis through a point, by angle, in radians, times sin(2 pi t / period)."""
+        return cls._made(5, point=point, axis=axis, angle=angle, period=period)
+
+    @classmethod
+    def table(cls, rows: ArrayLike, point: ArrayLike = (0, 0, 0), axis: ArrayLike | None = None, straight: bool = False,
+              repeats: bool = False) -> Motion:
+        """A curve through `rows`, (n, k): times, which ascend, and then with k = 2 an angle about `axis`, with 4 a displacement
+        x y z, with 5 both, with 7 a displacement and a rotation vector, with 8 a displacement and a quaternion w x y z.
+        Angles are in radians. x goes to R (x - point) + point + displacement; before the first row and from the last one on it
+        rests there. A cubic spline, or with `straight` straight between rows, at constant velocities. With `repeats` the last
+        row, equal to the first but for whole turns, begins the next period."""
+        numbers = np.ascontiguousarray(_as_floats(rows, "rows"), dtype=np.float64)
+        if numbers.ndim != 2:
+            raise ValueError(f"rows has the shape {numbers.shape}, not (n, 2), (n, 4), (n, 5), (n, 7) or (n, 8)")
+        motion = cls._made(6, point=point, axis=(0, 0, 0) if axis is None else axis)
+        for name, value in (("rows", numbers.ctypes.data), ("n_rows", len(numbers)), ("columns", numbers.shape[1]),
+                            ("straight", bool(straight)), ("repeats", bool(repeats))):
+            setattr(motion._struct, name, value)
+        motion._kept = numbers
+        return motion
 
 
 class Servo:
@@ -240,7 +264,7 @@ class WallMesh:
             wear_factor={0.0: -1.0, 1.0: 0.0}.get(factor, factor), cache=cache or None,
             fields=fields[0] if fields else None, fields_every=fields[1] if fields else 0, stl=stl[0] if stl else None,
             stl_every=stl[1] if stl else 0)
-        self._kept = (mesh, law, laws, types, moved, servo)    # what the struct points to
+        self._kept = (mesh, law, laws, types, tuple(motions), moved, servo)    # what the struct points to
 
 
 class WallSpec:
