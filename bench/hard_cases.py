@@ -208,7 +208,7 @@ def sections(rows):
             continue
         title, picture, wrong, here, test = CASES[theme]
         text.append(f"## {title}\n\n![{title}: wrong and right](img/hard_cases/{picture}.png)\n\n"
-                    f"- **Wrong:** {wrong}\n- **Here:** {here.format(**known)}\n- **Test:** {test}\n")
+                    f"- **Wrong:** {wrong}\n- **LSDCD:** {here.format(**known)}\n- **Test:** {test}\n")
     return "\n".join(text)
 
 
@@ -216,93 +216,95 @@ def sections(rows):
 CASES = {
     "Seams of a plane": (
         "Seams of a plane", "seams",
-        "A wall that adds up the forces of its triangles pushes twice on a seam. Its answer depends on how it was cut.",
+        "A wall that adds up the forces of its triangles pushes twice on a seam. Its result depends on how the plane was cut.",
         "A plane of 2 to 199 712 triangles has the force of one plane, in any order and winding, with T-junctions and\n"
-        "  duplicates. A gap or a step of 1e-7 that was not welded changes the force by as much as it must.",
-        "[test_seams](../tests/physics/test_seams.cpp); beside LIGGGHTS the example\n"
-        "  [retriangulated](../examples/retriangulated)."),
+        "  duplicates. A gap or step of 1e-7 that was not welded changes the force only by the amount that geometry requires.",
+        "[test_seams](../tests/physics/test_seams.cpp). The example [retriangulated](../examples/retriangulated) compares with\n"
+        "  LIGGGHTS."),
     "Convex edges, corners and tips": (
         "Convex edges, corners and tips", "convex",
-        "A corner where n triangles meet counts up to n times.",
-        "It is one contact, whether 3 or 2000 triangles meet, in any order. A sphere that drops beside an edge or a corner\n"
-        "  leaves in the mirrored direction.",
+        "If n triangles meet at a corner, the corner pushes up to n times.",
+        "A corner makes one contact, whether 3 or 2000 triangles meet there, in any order. A sphere that drops beside an edge or a\n"
+        "  corner leaves in the mirrored direction.",
         "[test_convex](../tests/physics/test_convex.cpp)."),
     "Nearly flat": (
         "Shallow folds", "folds",
         "If the forces of both walls are added, a shallow fold is twice as stiff as one wall. If one of them is left out\n"
         "  instead, the force jumps at some angle.",
-        "At folds of 1e-6 degrees and more the force changes as smoothly as that of one wall, with the position and with the\n"
-        "  angle. In right-angled and sharper corners the forces add up.",
+        "At folds of 1e-6 degrees and more the force changes with the position and with the angle as smoothly as that of one\n"
+        "  wall. In corners of 90 degrees and less the forces add up, because there each side really pushes in another direction.",
         "[test_nearly_flat](../tests/physics/test_nearly_flat.cpp)."),
     "Funnels and cones": (
         "Funnels and cones", "funnels",
-        "Where many walls bear a sphere, which of them do changes at once as it moves, and the force jumps.",
+        "A sphere that lies in a funnel touches many sides. As it moves, some contacts appear and others vanish at once, and the\n"
+        "  force jumps.",
         "In cones of 3 to 12 planes, equal or random and up to 85 degrees steep, the force of Hooke and of Hertz springs\n"
-        "  follows the position without a jump. A sphere that bounces in a funnel keeps its energy, to some 0.2 % a bounce at random where 7 planes\n"
-        "  and more bear it.",
+        "  follows the position without a jump. A sphere that bounces in a funnel keeps its energy. If 7 planes or more carry it,\n"
+        "  the energy varies at random by about 0.2 % in each bounce.",
         "[test_funnels](../tests/physics/test_funnels.cpp)."),
     "Drum": (
         "A drum of flat segments", "drum",
-        "A drum of flat segments is rough: a sphere hops at each fold and loses energy.",
-        "It loses what an exact polygon takes, and no more. In 4 s of rolling a drum of 1024 segments takes {rolled} of its\n"
-        "  energy, a smooth drum {smooth}. With `corner sum` it loses {summed} more than in the smooth drum.",
+        "A drum of flat segments is rough, so that a sphere hops at each fold and loses energy.",
+        "The sphere loses exactly what the polygon takes, and no more. For example, in 4 s of rolling a drum of 1024 segments\n"
+        "  takes {rolled} of its energy, and a smooth drum {smooth}. With `corner sum` the sphere loses {summed} more than in the\n"
+        "  smooth drum.",
         "[test_drum](../tests/physics/test_drum.cpp)."),
     "History": (
         "Springs across seams", "springs",
-        "The tangential spring is lost at a seam, so that a sphere creeps down a slope on which it should lie.",
-        "The spring is carried over seams, edges and corners without a jump. In a corner each wall has its own. A run that is\n"
-        "  broken off in mid-slide and taken up again has the same bits.",
-        "[test_slide](../tests/physics/test_slide.cpp); restart files:\n"
-        "  [test_restart](../tests/lammps/test_restart.py); several processes: [test_ranks](../tests/lammps/test_ranks.py)."),
+        "The tangential spring is lost at a seam, so that a sphere creeps down a slope on which it should lie still.",
+        "The spring is carried over seams, edges and corners without a jump. In a corner each side has a spring of its own. If you\n"
+        "  stop a run in the middle of a slide and continue it from a restart file, you get the same bits.",
+        "[test_slide](../tests/physics/test_slide.cpp), with restart files [test_restart](../tests/lammps/test_restart.py), and with\n"
+        "  several processes [test_ranks](../tests/lammps/test_ranks.py)."),
     "Rolling": (
         "Rolling", "rolling",
         "A sphere lifts off at seams or drifts to the side.",
-        "It does neither. Its accelerations down a slope and along a groove are those of the closed forms, and so is the time\n"
-        "  when slip becomes rolling. Over a cone's tip it has one contact and loses nothing.",
+        "The sphere stays on the wall and rolls straight. Its accelerations down a slope and along a groove are those of the\n"
+        "  closed forms, and so is the time at which slip becomes rolling. Over the tip of a cone it has one contact and loses no energy.",
         "[test_roll](../tests/physics/test_roll.cpp)."),
     "Bouncing": (
         "Bouncing", "bouncing",
-        "A seam damps twice, so that the restitution depends on where a sphere hits.",
-        "It is the same on faces, edges, vertices, a cube's corner, a thin plate and a cone's tip. Oblique hits slip or stick as the\n"
-        "  closed forms say.",
+        "A seam damps twice, so that the restitution coefficient depends on where a sphere hits.",
+        "The restitution coefficient is the same on faces, edges, vertices, the corner of a cube, a thin plate and the tip of a cone.\n"
+        "  In an oblique impact the sphere slips or sticks as the closed forms say.",
         "[test_bounce](../tests/physics/test_bounce.cpp)."),
     "Belt": (
         "A moving belt", "belt",
         "A seam drags twice, so that a moving surface carries grains at a wrong speed.",
-        "A free sphere ends at 2/7 of the belt's speed and rolls; one that cannot turn ends at the belt's speed. Times and\n"
-        "  distances are those of the closed forms.",
+        "A free sphere ends at 2/7 of the speed of the belt and rolls. A sphere that cannot turn ends at the speed of the belt.\n"
+        "  Times and distances are those of the closed forms.",
         "[test_belt](../tests/physics/test_belt.cpp)."),
     "Energy": (
         "Energy", "energy",
-        "A force that jumps at folds and corners adds energy: a bed never comes to rest.",
+        "A force that jumps at folds and corners adds energy, so that a bed never comes to rest.",
         "A sphere in a box of triangles keeps its energy to {billiard} in 1e6 steps. 30 spheres in an upright\n"
-        "  drum come to rest and stay, and the mesh bears their weight and its moment.",
+        "  drum come to rest and stay at rest, and the mesh carries their weight and its moment.",
         "[test_energy](../tests/physics/test_energy.cpp), [test_bed](../tests/physics/test_bed.cpp)."),
     "Time step": (
         "Time step", "timestep",
-        "Where two walls are added, the wall is stiffer, and a time step that is stable on a plane is not stable there.",
-        "The limit is 2 / sqrt(k/m) on faces, vertices and folds. Just above it a swing grows {grows} times a step, as it\n"
-        "  must. With `corner sum` it grows {growth} times a step just below it.",
+        "If the forces of two sides are added, the wall is stiffer there, and a timestep that is stable on a plane is not stable.",
+        "The limit of the timestep is 2 / sqrt(k/m) on faces, vertices and folds alike. Just above this limit an oscillation grows\n"
+        "  {grows} times a step, as it must. With `corner sum` it grows {growth} times a step already just below the limit.",
         "[test_energy](../tests/physics/test_energy.cpp)."),
     "Fast and thin": (
         "Fast spheres, thin walls", "fast",
         "The centre of a fast sphere crosses the wall, and the wall pushes it out on the other side.",
-        "With `side both` this happens here too, from a speed of R sqrt(k/m) on; with `side in` or `side out` from twice that\n"
-        "  speed. A sphere that moves 2 R in one step can jump over a wall. Of 500 fast spheres in a box `side in` loses none,\n"
-        "  `side both` {lost}.",
+        "With `side both` this happens in LSDCD as well, from a speed of R sqrt(k/m) on. With `side in` or `side out` it happens\n"
+        "  from twice that speed on. A sphere that moves by 2 R in one step can jump over a wall. For example, of 500 fast spheres\n"
+        "  in a box `side in` loses none and `side both` loses {lost}.",
         "[test_fast](../tests/physics/test_fast.cpp)."),
     "Bad meshes, against exact arithmetic": (
         "Bad meshes", "bad_meshes",
         "Contacts are missed, or a force is not a number, at slivers, at triangles without an area or of 1e-6 to 1e6 radii, on\n"
-        "  Moebius strips, where walls cut each other.",
-        "No contact is missed. Distances are those of exact arithmetic but for round-off. Normals have length 1, even if a centre\n"
+        "  Moebius strips, and where walls cut each other.",
+        "No contact is missed. Distances agree with exact arithmetic to round-off. Normals have length 1, even if a centre\n"
         "  lies on the wall.",
         "[test_bad_meshes](../tests/unit/test_bad_meshes.cpp)."),
     "Random meshes and spheres": (
         "Random meshes and spheres", "random",
-        "A case that nobody thought of.",
-        "Random meshes, spheres and grids are compared with trying every triangle: no contact is missed, and none is counted twice.\n"
-        "  The same holds for lists of the wall, over {steps} random steps.",
+        "The wall fails in a case that nobody thought of.",
+        "The test makes random meshes, spheres and grids, and compares the result with trying every triangle. No contact is missed,\n"
+        "  and none is counted twice. The same is true for the lists that each sphere near the wall keeps, over {steps} random steps.",
         "[test_properties](../tests/unit/test_properties.cpp)."),
 }
 
@@ -339,16 +341,18 @@ PAGE = """<!-- SPDX-FileCopyrightText: 2026 LSDCD contributors -->
 
 # Hard cases
 
-Walls of triangles go wrong at seams, folds and corners, and with bad meshes. **Here are {themes} such cases. Each is tested, with
-{count} numbers in all, and {verdict}.** The answers are closed forms, or references of their own in higher precision. *Wrong* is
-what a wall does that treats each triangle alone. [The table](#all-numbers) has the deviations.
+A wall of triangles is easy to write, and easy to get wrong: at seams, folds and corners, and with bad meshes. **This page shows {themes} such
+cases. Each is tested, with {count} numbers in all, and {verdict}.** The expected numbers come from closed forms, or from references that
+share no code with LSDCD and compute in higher precision. *Wrong* says what a wall does that treats each triangle by itself. *LSDCD* says
+what you get here, and *Test* where it is checked. [The table](#all-numbers) has the deviations.
 
 {sections}
 ## All numbers
 
-A line stands for several numbers of the same kind (*of them*) and shows the one that is nearest to its limit (*allowed*): its distance
-from the answer, or the number itself if it should be small. *Result* is that of CPU and CUDA, or of both in turn if they differ; (CPU)
-was not run with CUDA. All numbers, with the answer, the limit and its reason, are in `doc/data/hard_cases_cpu.tsv` and `doc/data/hard_cases_cuda.tsv`.
+Each line of the table stands for several numbers of the same kind (*of them*), and shows the one that is nearest to its limit (*allowed*). The
+*result* is its distance from the expected number, or the number itself if it should be small. It is the same on the CPU and with CUDA; if not,
+both are given in this order. (CPU) means that the case was not run with CUDA. All numbers, with what was expected, the limit and its reason, are in
+`doc/data/hard_cases_cpu.tsv` and `doc/data/hard_cases_cuda.tsv`.
 
 {table}
 
