@@ -894,6 +894,10 @@ class Script:
             except CannotConvert:
                 self.step = None
         elif w[0] == "reset_timestep":
+            if self.feeds:
+                self.step = None
+                raise Left(f"reset_timestep beside fix {', '.join(self.feeds)}, which LAMMPS refuses",
+                           "unfix before it, and the insertion again with what is still to come")
             try:
                 self.step = int(self.number(w[1], line))
             except CannotConvert:
@@ -1254,11 +1258,22 @@ class Script:
         if not any("thermo_temp" in other.words for other in self.lines):
             self.put("compute_modify  thermo_temp dynamic/dof yes")    # else ke is 0 while grains come
         self.put(text)
+        if form == "pack" and self.is_dense(v, kinds, bounds):
+            self.note(line, "LIGGGHTS gives up on grains without a place after maxattempt, here they come later: count the grains of both")
         if form != "stream" and whole and max(radii) > min(radii):
             self.note(line, "all grains stay the largest radius off the region's edge; in LIGGGHTS each its own")
         if form == "stream":
             self.note(line, "grains are put on the face itself, where LIGGGHTS lets them go after their way through extrude_length, and "
                       "are whole within its edges" + ("" if whole else "; without all_in yes their centres go up to the edges there"))
+
+    def is_dense(self, v, kinds, bounds):
+        """Whether a pack fills so much of its region, or how much is not known, that grains may find no place."""
+        if "volumefraction_region" in v:
+            return not (self.known(v["volumefraction_region"]) or 1) <= 0.15
+        n, radius = self.known(v.get("particles_in_region", "")), max(kinds[0][3])
+        if n is None or not bounds or any(math.isinf(x) for side in bounds for x in side):
+            return True
+        return n * 4 / 3 * math.pi * radius ** 3 > 0.15 * self.volume(v["region"])
 
     def less_what_is_there(self, name, v, kinds, amounts, text):
         """A pack with its number less the grains that are in its region."""
@@ -1468,6 +1483,8 @@ class Script:
         if mesh is None:
             raise Left(f"the mesh {w[5]}, which is not converted", "motion, after its file")
         words = self.motion(line, w)
+        for name in (x for x in words.split() if x.startswith("v_") and not self.is_here(x)):
+            raise Left(f"{name}, which is not here", "another variable")
         active = [m for m in self.moves.values() if m[0] is mesh]
         if any(m[2] != self.ran for m in active):
             raise Left(f"a second motion of {mesh.id} that begins later",

@@ -154,6 +154,8 @@ LEFT = {
     "riggle and a motion around it": (
         MESH.format("") + WALL + "fix t all move/mesh mesh cad linear 1 0 0\n"
         "fix u all move/mesh mesh cad riggle origin 0 0 0 axis 0 0 1 period 1 amplitude 5\n", "riggle beside another motion"),
+    "a speed by a variable that was left": (
+        MESH.format("") + WALL + "variable v equal f_none[1]\nfix t all move/mesh mesh cad linear/variable v_v v_v v_v\n", "v_v, which is not here"),
     "rotate, then linear": (MESH.format("") + WALL + "fix t all move/mesh mesh cad rotate origin 0 0 0 axis 0 0 1 period 1\n"
                             "fix u all move/mesh mesh cad linear 1 0 0\n", "a linear motion after a rotation"),
     "a mesh that is generated": ("fix cad all mesh/surface generate cube 0.1 63 type 1\n", "a mesh by generate"),
@@ -261,6 +263,7 @@ WRITTEN.update({
                                  "unfix j\n"))})
 PACK = ONE + "region r block 0 1 0 1 0 1\n{}fix i all insert/pack seed 7 distributiontemplate d particles_in_region 9 {} region r\n"
 LEFT.update({
+    "reset_timestep beside an insertion": (PACK.format("", "") + "reset_timestep 0\n", "reset_timestep beside fix i"),
     "a stream that comes in pulses": (
         ONE + MESH.format("") + "fix i all insert/stream seed 7 distributiontemplate d nparticles 90 particlerate 20 insert_every 1000 "
         "duration 600 vel constant 0 0 -2 insertion_face cad\n", "insert/stream with a duration"),
@@ -444,6 +447,23 @@ def surfaces(checks, folder):
     (folder / "a.stl").unlink()
 
 
+def sweeping(checks, folder):
+    """sweep.py counts commands and what is left."""
+    (folder / "a").mkdir()
+    (folder / "a" / "in.one").write_text(MATERIAL + MESH.format("") + WALL + "# fix c all mesh/surface file c.stl\n")
+    (folder / "a" / "in.two").write_text(MATERIAL + MESH.format("").replace("a.stl", "a.vtk") + WALL + "read_restart r\n")
+    (folder / "a" / "in.bad").write_text(MESH.format("") + WALL)
+    (folder / "a" / "in.none").write_text(MATERIAL)
+    (folder / "a" / "log.txt").write_text(MESH.format(""))
+    for more, left, sums in (([], 3, "3 scripts: 2 written, 1 with nothing left; 13 commands, 3 left"),
+                             (["--converted-restart"], 2, "3 scripts: 2 written, 1 with nothing left; 13 commands, 2 left")):
+        said = subprocess.run([sys.executable, EXAMPLE / "sweep.py", folder / "a", *more], text=True, capture_output=True).stdout
+        checks.fact(f"sweep {' '.join(more)}", f"in.one: 0 of 6 left\n" in said and f"in.two: {left} of 7 left\n" in said and
+                    "in.bad: in.bad:2: needs fix property/global" in said and "1 in 1: the file a.vtk\n" in said and
+                    said.endswith(f"\n{sums}\n"), said)
+    shutil.rmtree(folder / "a")
+
+
 def whole_scripts(checks, folder):
     """A line that is left does not stop the rest; bytes stay."""
     done, out = convert(folder, MATERIAL + MESH.format("").replace("a.stl", "a.vtk") + WALL + "timestep 1e-5\n")
@@ -457,6 +477,9 @@ def whole_scripts(checks, folder):
                               ("without friction", MATERIAL.replace("pair 1 0.4", "pair 1 0"), False)):
         _, out = convert(folder, text + MESH.format("") + WALL)
         checks.fact(f"the dashpot of the friction is noted of a contact {what}", ("# NOTE in.there:6: until the spring" in out) == noted, out)
+    for fraction, noted in ((0.1, False), (0.3, True)):
+        _, out = convert(folder, MATERIAL + PACK.format("", "").replace("particles_in_region 9", f"volumefraction_region {fraction}"))
+        checks.fact(f"grains that may find no place at {fraction} are noted", ("gives up on grains" in out) == noted, out)
     latin = b"# caf\xe9\nprint \"\xe9\"\n# caf\xc3\xa9\x85\n"
     done, _ = convert(folder, latin)
     checks.fact("bytes that are no UTF-8 stay", (folder / "in.here").read_bytes().endswith(latin), done.stderr)
@@ -632,6 +655,6 @@ if __name__ == "__main__":
         words(facts, place)
         two_materials(facts, place)
         several_materials(facts, place)
-        for part in (ids, grain_types, winding, surfaces, whole_scripts, physics):
+        for part in (ids, grain_types, winding, surfaces, whole_scripts, sweeping, physics):
             part(facts, place)
     facts.done(place)
