@@ -175,6 +175,7 @@ class Mesh:
         self.file, self.type, self.place, self.words, self.wear = None, 1, [], [], False
         self.servo, self.moves, self.com, self.axis, self.target = None, [], (0.0, 0.0, 0.0), None, None
         self.wall, self.wall_line, self.index, self.several, self.reference = None, None, None, False, None
+        self.written = set()    # mesh_stl, mesh_fields
         self.parse(script, w[4:])
 
     def parse(self, script, w):
@@ -691,7 +692,7 @@ class Script:
                         mesh.wall_line = line
             elif style == "move/mesh":
                 self.used.add(w[5])
-        elif w[0] == "dump" and len(w) > 5 and w[3] in MESH_DUMPS:
+        elif w[0] == "dump" and len(w) > 5 and w[3] in MESH_DUMPS and "ghost" not in w[6:]:
             self.dumps.append(line)
             self.dumped[line] = set()
         elif w[0] == "read_data":
@@ -1398,9 +1399,12 @@ class Script:
         named = self.dumped_meshes(line)
         if named and mesh.id not in named:
             return ""
+        keyword, end = ("mesh_stl", ".stl") if w[3] in ("mesh/stl", "stl") else ("mesh_fields", ".vtp")
+        if keyword in mesh.written:
+            return ""    # one file of a kind for each mesh: the other dump is left
+        mesh.written.add(keyword)
         self.dumped[line].add(mesh.id)
         path = w[5].replace("*", f"_{mesh.id}_*") if "*" in w[5] else str(Path(w[5]).with_suffix("")) + f"_{mesh.id}"
-        keyword, end = ("mesh_stl", ".stl") if w[3] in ("mesh/stl", "stl") else ("mesh_fields", ".vtp")
         return f" {keyword} {re.sub('[.](stl|vtk|vtp|vtm)$', '', path)}{end} every {w[4]}"
 
     @staticmethod
@@ -1415,8 +1419,11 @@ class Script:
         w, names, written = line.words, self.dumped_meshes(line), self.dumped[line]
         missing = [i for i in names if i not in written]
         if missing or not written:
-            why = f"the dump of {', '.join(missing) or 'meshes'} that no converted wall has"
-            self.left.append(f"{self.at(line)}: {why}; do: mesh_stl or mesh_fields of the wall with that mesh")
+            why, do = f"the dump of {', '.join(missing) or 'meshes'} that no converted wall has", "mesh_stl or mesh_fields of the wall with that mesh"
+            keyword = "mesh_stl" if "stl" in w[3] else "mesh_fields"
+            if any(keyword in m.written for m in self.meshes.values() if m.id in missing or not names):
+                why, do = "a second dump of a mesh", f"one of both: a mesh has one {keyword}"
+            self.left.append(f"{self.at(line)}: {why}; do: {do}")
             return f"# LEFT {self.left[-1]}\n" + "\n".join("# " + t for t in line.text.splitlines())
         return f"# dump {w[1]}: see {'mesh_stl' if 'stl' in w[3] else 'mesh_fields'} of the wall"
 
@@ -1602,10 +1609,10 @@ class Script:
             self.put(self.renamed(line, " ".join(w[:6] + self.columns(line, w[6:]))))
         elif w[3] in SAME_DUMPS:
             self.put(self.renamed(line, line.text))
-        elif w[3] == "decomposition/vtk":
+        elif w[3] == "decomposition/vtk" or w[3] in MESH_DUMPS:
             self.plain.add(w[1])
             self.put(f"# {' '.join(w)}")
-            self.note(line, "no picture of the processes' parts of the box")
+            self.note(line, "no picture of what each process has")
         else:
             raise Left(f"dump {w[3]}", "dump custom, or mesh_fields of the wall")
 

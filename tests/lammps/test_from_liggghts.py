@@ -123,7 +123,9 @@ WRITTEN = {
     "load balancing in an if": ('if "${n} == 1" then "fix lb all balance 0 ${d} 20 1.1"\n',
                                 'if "${n} == 1" then "fix lb all balance 0 1.1 shift ${d} 20 1.1"\n'),
     "a picture of the processes goes": ("dump d all decomposition/vtk 9 d*.vtk\ndump_modify d first yes\nundump d\n",
-                                        "# dump d all decomposition/vtk 9 d*.vtk\n# NOTE in.there:5: no picture of the processes"),
+                                        "# dump d all decomposition/vtk 9 d*.vtk\n# NOTE in.there:5: no picture of what each process has"),
+    "the copies of meshes that processes have": ("dump d all mesh/stl 9 d*.stl ghost\n",
+                                                 "# dump d all mesh/stl 9 d*.stl ghost\n# NOTE in.there:5: no picture of what each process has"),
     "atom vectors of variables that LAMMPS has as outputs": (
         "variable f equal omegax[1]+omegax[2]*radius[1]\n",
         "compute         lsdcd_omegax all property/atom omegax\ncompute         lsdcd_radius all property/atom radius\n"
@@ -164,6 +166,8 @@ LEFT = {
         MESH.format("") + WALL.replace("hertz tangential history", "hertz cohesion sjkr tangential history"),
         "the word tangential of wall/gran"),
     "a setting that is not known": (MESH.format("") + WALL.replace("\n", " torsionTorque on\n"), "the word torsionTorque"),
+    "a second dump of a mesh": (MESH.format("") + WALL + "dump c all mesh/stl 30 c*.stl\ndump d all mesh/stl 300 dump*.stl cad\n",
+                                "a second dump of a mesh"),
     "a dump of a mesh that is in no wall": (MESH.format("") + "dump d all mesh/stl 300 dump*.stl cad\n", "the dump of cad"),
     "hooke of grains that differ": (
         "fix m5 all property/global characteristicVelocity scalar 2\nset group a diameter 0.02 density 2500\n"
