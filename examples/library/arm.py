@@ -6,8 +6,8 @@
 usage: arm.py [FOLDER [SECONDS [TIMESTEP]]]
 
 The arm has hinges about y at its shoulder and its elbow, where motors hold the angles on a path, and masses at the ends of
-its links. Grains are those of the DEM in drum.py. Both programs go by the same steps: half a kick, a way, the wall's
-forces, half a kick. So what the paddle gives the grains it takes from the arm in the same step, and the angular momentum of
+its links. Grains are those of the DEM in drum.py. Both programs make the same steps: half a kick, a drift, the forces,
+half a kick. So what the paddle gives the grains it takes from the arm in the same step, and the angular momentum of
 grains and arm about the shoulder is what the motor, gravity and the tray gave, to rounding. The energy of the arm is what
 motors and grains gave, but for the error of its steps, which is a quarter where the step is halved. Prints both books, and
 writes FOLDER/arm.png. Units are SI.

@@ -4,8 +4,8 @@
 // A wheel with a motor drives over a bed of grains: Simbody moves the wheel, the library has the forces between it and
 // the grains. simbody_wheel [SECONDS [elastic]]
 //
-// Both programs go by the same steps: half a kick, a way, the wall's forces, half a kick. So what the wheel gives the grains
-// it takes from them in the same step. The program prints two books over both, and ends with 1 where one is not closed:
+// Both programs make the same steps: half a kick, a drift, the forces, half a kick. So what the wheel gives the grains it
+// takes from them in the same step. The program prints two books over both, and ends with 1 where one is not closed:
 // linear and angular momentum against what gravity, motor and tray gave, and energy against what the motor gave. With
 // `elastic` nothing is lost in contacts. Writes wheel.svg. Units are SI; y is up, the wheel turns about z.
 #undef NDEBUG    // Debian's Simbody is built without it, and classes of its headers differ by it
