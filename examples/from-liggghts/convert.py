@@ -10,8 +10,8 @@ Materials (property/global) and models become the numbers of the pair style and 
 move/mesh, massflow/mesh, insert/* and dump mesh/* become words of fix wall/lsdcd, fix massflow/lsdcd and fix
 insert/lsdcd; what both programs know stays as it is, but for names such as atom_style granular.
 
-A line is converted with the defaults of LIGGGHTS 3.8, or it is left: "commands left: 0" means the same physics.
-A line that is left stays as a comment below a line
+A line is converted with the defaults of LIGGGHTS 3.8, or with --pfm of LIGGGHTS-PFM, or it is left: "commands left: 0"
+means the same physics. A line that is left stays as a comment below a line
   # LEFT in.chute:34: why; do: what to do
 and the same list is printed. A line with NOTE is converted, and says what to look at. The script is written
 whole or, after an error, not at all. It reads the script once from top to bottom: numbers of materials may be variables
@@ -400,7 +400,7 @@ class Contact:
 
 class Model:
     """The words after model, in pair_style gran and fix wall/gran. Their order is fixed, and a model without its word is
-    off, as in contact_models.cpp of LIGGGHTS 3.8."""
+    off, as in contact_models.cpp of LIGGGHTS 3.8; LIGGGHTS-PFM has no_history."""
     ORDER = {"model": "normal", "tangential": "tangential", "cohesion": "cohesion", "rolling_friction": "rolling",
              "surface": "surface"}
     # Settings that are off without their word, but for tangential_damping. Those that are not handled may be off.
@@ -409,8 +409,9 @@ class Model:
               "disableTangentialWhenBonded", "heating_normal_hooke", "heating_normal_hertz", "heating_tangential_history",
               "heating_tracking", "tangential_reduce", "torsionTorque", "torsion")
 
-    def __init__(self, words):
-        self.normal = self.tangential = self.cohesion = self.rolling = None
+    def __init__(self, words, pfm):
+        self.normal = self.cohesion = self.rolling = None
+        self.tangential = "no_history" if pfm else None
         self.surface, self.on, self.rest = "default", {"tangential_damping"}, list(words)
         for word, name in self.ORDER.items():
             if self.rest[:1] == [word]:
@@ -534,7 +535,7 @@ class Wall:
     """The words of a fix wall/gran: the model, then words of the wall, then settings of the model."""
 
     def __init__(self, script, line):
-        self.line, self.model, self.ids, self.stored = line, Model(line.words[4:]), [], False
+        self.line, self.model, self.ids, self.stored = line, Model(line.words[4:], script.options.pfm), [], False
         self.shape, self.place, self.type, self.shear = None, [], None, []
         w, n, mesh = self.model.rest, 0, False
         while w:
@@ -586,7 +587,7 @@ class Script:
         self.left_variables, self.parts, self.feeds, self.computed, self.spun = set(), {}, {}, set(), False
         self.names = {"c_thermo_temp", "c_thermo_press", "c_thermo_pe"} | {
             f"{line.words[0][0]}_{line.words[1]}" for line in self.lines if line.words[:1] in (["fix"], ["compute"]) and line.words[1:]}
-        self.noted, self.noted_dashpot = False, False
+        self.noted, self.noted_dashpot, self.units = False, False, "lattice" if options.pfm else "box"
         self.all_types, self.step, self.sources = False, 0, []    # the step here, None where it is not known; what has made grains
         self.substitute_words()
         for line in self.lines:
@@ -911,16 +912,16 @@ class Script:
         if w[0] in ("read_data", "read_dump", "replicate"):
             self.make(None)
         elif w[0] == "create_atoms":
-            bounds = [(self.known(x),) * 2 for x in w[3:6]] if w[2] == "single" else \
+            bounds = [(self.known(x),) * 2 for x in w[3:6]] if w[2] == "single" and self.units == "box" else \
                 (self.region(w[3]) or [None])[-1] if w[2] == "region" else None
             self.make(bounds)
 
     def pass_on(self, line):
         w, text = line.words, line.text
-        if self.lattice and "units" not in w and (
+        if self.lattice and not self.options.pfm and "units" not in w and (
                 w[0] in ("region", "create_atoms", "displace_atoms", "change_box", "velocity") or w[3:4] == ["move"]):
             text = re.sub(r"\s*(#.*)?$", r" units box \1", text, count=1).rstrip()
-            self.note(line, "units box is the default of LIGGGHTS 3.8; of LIGGGHTS-PFM and LAMMPS it is units lattice")
+            self.note(line, "units box is the default of LIGGGHTS 3.8; of LIGGGHTS-PFM (--pfm) and LAMMPS it is units lattice")
         if w[0] == "jump":
             text = " ".join(["jump SELF", *w[2:]])
         if w[0] == "compute" and w[3] == "coord/atom" and w[4] != "cutoff":
@@ -999,7 +1000,7 @@ class Script:
         w = line.words
         if w[1] not in ("gran", "gran/omp"):
             raise Left(f"pair_style {' '.join(w[1:])}", "pair_style gran or granular of LAMMPS")
-        model, kinds = Model(w[2:]), self.grains()
+        model, kinds = Model(w[2:], self.options.pfm), self.grains()
         model.settings(model.rest, "pair_style")
         model.check()
         self.note_friction(line, model, [Contact(self, line, i, j) for i in kinds for j in kinds])
@@ -1033,7 +1034,7 @@ class Script:
                       "Traps")
         if not model.tangential and "tangential" not in line.words and not self.noted:
             self.noted = True
-            self.note(line, "without the word tangential LIGGGHTS 3.8 has no friction; LIGGGHTS-PFM has no_history, so write that")
+            self.note(line, "without the word tangential LIGGGHTS 3.8 has no friction; LIGGGHTS-PFM has no_history: --pfm")
 
     def fix(self, line):
         w = line.words
@@ -1111,7 +1112,7 @@ class Script:
             rest = options(w[3 + n:], {"units": 1, "side": 1, "seed": 1, "volume_limit": 1})
         except Left:
             return None
-        if None in v or rest.get("side", ["in"]) != ["in"] or (rest.get("units", ["box"]) != ["box"] and self.lattice):
+        if None in v or rest.get("side", ["in"]) != ["in"] or (rest.get("units", [self.units]) != ["box"] and self.lattice):
             return None
         if w[2] == "block":
             sides = list(zip(v[::2], v[1::2]))
@@ -1648,6 +1649,7 @@ def main():
     p.add_argument("-o", "--out", type=Path, help="file to write (default: standard output)")
     p.add_argument("--radius", type=float, help="of a grain, where the script does not tell (model hooke)")
     p.add_argument("--density", type=float, help="of a grain")
+    p.add_argument("--pfm", action="store_true", help="with the defaults of LIGGGHTS-PFM: tangential no_history, units lattice")
     p.add_argument("--converted-restart", action="store_true", help="read_restart reads a file that a converted script has written")
     p.add_argument("--var", nargs=2, action="append", metavar=("NAME", "VALUE"), help="value of a variable")
     a = p.parse_args()

@@ -27,9 +27,9 @@ def scripts(folder):
             yield path
 
 
-def swept(path, converted_restart=False):
+def swept(path, converted_restart=False, pfm=False):
     """Commands of a script, and the reasons of those that are left; the error in place of them where nothing can be written."""
-    options = types.SimpleNamespace(radius=None, density=None, var=None, converted_restart=converted_restart)
+    options = types.SimpleNamespace(radius=None, density=None, var=None, converted_restart=converted_restart, pfm=pfm)
     try:
         script = convert.Script(path, options)
         script.convert()
@@ -42,8 +42,9 @@ def main():
     p = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     p.add_argument("folder", type=Path, nargs="+", help="folder with input scripts of LIGGGHTS")
     p.add_argument("--converted-restart", action="store_true", help="as of convert.py")
+    p.add_argument("--pfm", action="store_true", help="as of convert.py")
     a = p.parse_args()
-    found = {path: swept(path, a.converted_restart) for folder in a.folder for path in scripts(folder)}
+    found = {path: swept(path, a.converted_restart, a.pfm) for folder in a.folder for path in scripts(folder)}
     reasons, of = collections.Counter(), collections.defaultdict(set)
     for path, (commands, left) in found.items():
         print(f"{path}: " + (f"{len(left)} of {commands} left" if isinstance(left, list) else left))

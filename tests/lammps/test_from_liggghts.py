@@ -484,6 +484,10 @@ def whole_scripts(checks, folder):
     for fraction, noted in ((0.1, False), (0.3, True)):
         _, out = convert(folder, MATERIAL + PACK.format("", "").replace("particles_in_region 9", f"volumefraction_region {fraction}"))
         checks.fact(f"grains that may find no place at {fraction} are noted", ("gives up on grains" in out) == noted, out)
+    bare = "pair_style gran model hertz\npair_coeff * *\n" + MESH.format("") + WALL.replace(" tangential history", "")
+    _, out = convert(folder, MATERIAL + "lattice sc 0.1\nregion r block 0 1 0 1 0 1\n" + bare, more=("--pfm",))
+    checks.fact("--pfm: no_history and units lattice without their words", out.count("tangential linear_nohistory 0.907485213 0.4") == 2 and
+                "\nregion r block 0 1 0 1 0 1\n" in out and "NOTE in.there:7: units" not in out and "has no friction" not in out, out)
     latin = b"# caf\xe9\nprint \"\xe9\"\n# caf\xc3\xa9\x85\n"
     done, _ = convert(folder, latin)
     checks.fact("bytes that are no UTF-8 stay", (folder / "in.here").read_bytes().endswith(latin), done.stderr)
@@ -600,6 +604,11 @@ PHYSICS = {
     # Whole grains in the region, and in the box.
     "all_in": (HERTZ, POUR + EDGES + "region box1 block 0 0.1 0 0.1 0 0.1 units box\nfix ins all insert/pack seed 32452843 "
                "distributiontemplate d1 insert_every once all_in yes particles_in_region 300 region box1\nrun 1\n", ALL_EDGES, IN_0_1),
+    # Planes at the edges of the region touch no grain, so nothing moves.
+    "planes": (HERTZ, POUR + "".join(f"fix p{k} all wall/gran model {HERTZ} primitive type 1 {p}\n" for k, p in enumerate(
+        ("xplane 0", "xplane 0.1", "yplane 0", "yplane 0.1", "zplane 0"), 3)) + "compute k all ke\nvariable k equal c_k\nvariable n equal atoms\n"
+        "thermo_style custom step c_k\nregion box1 block 0 0.1 0 0.1 0 0.1 units box\nfix ins all insert/pack seed 86028121 "
+        "distributiontemplate d1 insert_every once all_in yes particles_in_region 400 region box1\nrun 300\n", "${k} ${n}", [(0, 0), (400, 400)]),
     "in_box": (HERTZ, POUR.replace("-0.09", "0") + EDGES + "region box1 block -0.1 0.3 -0.1 0.3 0 0.3 units box\nfix ins all insert/pack seed "
                "32452843 distributiontemplate d1 insert_every once particles_in_region 3000 region box1\nrun 1\n", ALL_EDGES,
                [(-0.096, 0.296)] * 4 + [(0, 0.296)] * 2),
