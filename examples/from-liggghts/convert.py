@@ -892,7 +892,9 @@ class Script:
         if w[0] == "run":
             self.ran += 1
             try:
-                self.step = None if self.step is None or len(w) > 2 else self.step + int(self.number(w[1], line))
+                steps = int(self.number(w[1], line))
+                upto = w[2:] == ["upto"]
+                self.step = steps if upto else None if self.step is None or len(w) > 2 else self.step + steps
             except CannotConvert:
                 self.step = None
         elif w[0] == "reset_timestep":

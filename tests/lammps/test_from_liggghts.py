@@ -229,6 +229,9 @@ WRITTEN.update({
         "compute_modify  thermo_temp dynamic/dof yes\n"),
     "start in the next step is the default": (
         ONE + "run 90\nfix i all insert/pack seed 7 distributiontemplate d start 91 particles_in_region 90 region r\n", "number 90 seed 7\n"),
+    "start after a run up to a step": (
+        ONE + "run 7\nrun 90 upto\nfix i all insert/pack seed 7 distributiontemplate d start 91 particles_in_region 90 region r\n",
+        "number 90 seed 7\n"),
     "all_in: a cylinder becomes smaller": (
         ONE + "region r cylinder x 1 2 0.1 0 1\nfix i all insert/pack seed 7 distributiontemplate d all_in yes particles_in_region 9 "
         "region r\n", "region          i_whole cylinder x 1 2 0.098 0.002 0.998\n"),
