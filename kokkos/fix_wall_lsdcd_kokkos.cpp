@@ -36,7 +36,10 @@ static LAMMPS *with_atoms_on_host(LAMMPS *lmp, const char *id)
 template <class DeviceType>
 FixWallLsdcdKokkos<DeviceType>::FixWallLsdcdKokkos(LAMMPS *lmp, int narg, char **arg) :
     FixWallLsdcd(with_atoms_on_host(lmp, arg[0]), narg, arg,
-                 lsdcd::WallPlace{lsdcd::make_engine_on<DeviceType>, true})
+                 lsdcd::WallPlace{lsdcd::make_engine_on<DeviceType>, true,
+                                  [this](const lsdcd::HostSpheres &, lsdcd::CpuArrays arrays) {
+                                    return to_cpu(arrays);
+                                  }})
 {
   kokkosable = 1;
   atomKK = kokkos_atoms(atom);
@@ -53,6 +56,23 @@ template <class DeviceType>
 void FixWallLsdcdKokkos<DeviceType>::need_on_host()
 {
   atomKK->sync(Host, X_MASK | RADIUS_MASK | RMASS_MASK | MASK_MASK | TAG_MASK | TYPE_MASK);
+}
+
+template <class DeviceType>
+void FixWallLsdcdKokkos<DeviceType>::need_positions()
+{
+  atomKK->sync(execution_space, X_MASK | MASK_MASK);
+}
+
+// To bring the tags of a million atoms takes a third of a millisecond, and the rest ten times as long.
+template <class DeviceType>
+lsdcd::HostSpheres FixWallLsdcdKokkos<DeviceType>::to_cpu(lsdcd::CpuArrays arrays)
+{
+  if (arrays == lsdcd::CpuArrays::tags)
+    atomKK->sync(Host, TAG_MASK);
+  else
+    need_on_host();
+  return spheres_in_atom();
 }
 
 template <class DeviceType>
@@ -76,9 +96,9 @@ void FixWallLsdcdKokkos<DeviceType>::make_exchange_room()
 }
 
 template <class DeviceType>
-lsdcd::Spheres FixWallLsdcdKokkos<DeviceType>::spheres()
+lsdcd::HostSpheres FixWallLsdcdKokkos<DeviceType>::spheres()
 {
-  lsdcd::Spheres s = spheres_in_atom();    // temperatures stay there
+  lsdcd::HostSpheres s = spheres_in_atom();    // temperatures stay there
   s.x = lsdcd::rows_of(atomKK->k_x.template view<DeviceType>());
   s.v = lsdcd::rows_of(atomKK->k_v.template view<DeviceType>());
   s.omega = lsdcd::rows_of(atomKK->k_omega.template view<DeviceType>());
@@ -159,18 +179,6 @@ void FixWallLsdcdKokkos<DeviceType>::fill_masses()
   const Kokkos::View<double *, LMPHostType, Kokkos::MemoryTraits<Kokkos::Unmanaged>> host(
       mass_seen.data(), n);
   Kokkos::deep_copy(Kokkos::subview(d_mass_seen, std::make_pair(std::size_t(0), n)), host);
-}
-
-// The law of one atom, unless all are on the host: to bring them there takes a third of a millisecond for a million.
-template <class DeviceType>
-tagint FixWallLsdcdKokkos<DeviceType>::tag_of(int i)
-{
-  if (!atom->tag_enable) return 0;
-  if (!atomKK->k_tag.need_sync_host()) return atom->tag[i];
-  atomKK->sync(execution_space, TAG_MASK);
-  tagint tag = 0;
-  Kokkos::deep_copy(tag, Kokkos::subview(atomKK->k_tag.template view<DeviceType>(), i));
-  return tag;
 }
 
 template class LAMMPS_NS::FixWallLsdcdKokkos<LMPDeviceType>;

@@ -38,11 +38,12 @@ class FixWallLsdcdKokkos : public FixWallLsdcd, public KokkosBase {
   void finish_step() override;
   void fill_masses() override;
   void need_on_host() override;
-  lsdcd::Spheres spheres() override;
+  void need_positions() override;
+  lsdcd::HostSpheres spheres() override;
   void make_exchange_room() override;
-  tagint tag_of(int) override;
 
  private:
+  lsdcd::HostSpheres to_cpu(lsdcd::CpuArrays);
   bool others_only_add() const;
   void history_to_device();
   static bool sends_from_host(ExecutionSpace);

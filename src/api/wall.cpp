@@ -31,16 +31,28 @@ std::unique_ptr<GpuArrays> gpu_of(const lsdcd_wall_options &o)
 namespace lsdcd {
 
 // Where the arrays of spheres are.
-WallPlace place_of(const lsdcd_wall_options &o, const GpuArrays *gpu)
+WallPlace place_of(const lsdcd_wall_options &o, lsdcd_wall &made)
 {
-  if (!gpu) return {};
-  const auto make = [stream = o.stream, device = gpu->device()](const EngineSettings &settings) {
+  if (!made.gpu) return {};
+  const auto make = [stream = o.stream,
+                     device = made.gpu->device()](const EngineSettings &settings) {
     if (settings.device != Device::automatic)
       throw InputError("the keyword device is for arrays of the host: leave it out, as the wall "
                        "computes where the arrays of its spheres are");
     return make_cuda_engine_in_place(settings, device, stream);
   };
-  return {make, true};
+  const auto to_cpu = [&caller = made.caller](const HostSpheres &spheres, CpuArrays arrays) {
+    return arrays == CpuArrays::tags ? spheres : caller.tagged(caller.spheres_on_cpu());
+  };
+  return {make, true, to_cpu};
+}
+
+void check_no_inputs(const Wall &wall)
+{
+  const std::vector<int> inputs = wall.inputs_read();
+  if (!inputs.empty())
+    throw InputError("v_" + wall.spec().inputs[static_cast<std::size_t>(inputs.front())] +
+                     ": there are no variables here; give numbers, and change them between steps");
 }
 
 lsdcd_wall *
@@ -55,7 +67,7 @@ new_wall(const lsdcd_wall_options *options,
   made->gpu = gpu_of(o);
   made->caller.gpu = made->gpu.get();
   made->in = make(*made, o);
-  made->caller.wall = made->in.get();
+  check_no_inputs(*made->in);
   made->in->begin_run(0, false);
   return made.release();
 }
@@ -77,7 +89,7 @@ void check_order_is_free(const lsdcd_wall &wall)
 void note_late(lsdcd_wall &wall)
 {
   if (!wall.tells_late() || wall.late.code != LSDCD_OK) return;
-  wall.late = failure_of([&] { wall.in->poll_diagnostics(wall.number); });
+  wall.late = failure_of([&] { wall.in->poll_diagnostics(wall.caller.tagged({}), wall.number); });
 }
 
 void tell_late(lsdcd_wall &wall)

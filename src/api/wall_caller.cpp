@@ -113,19 +113,6 @@ void WallCaller::agree(const Failure &mine, std::vector<Real> &numbers)
   throw ApiError(first.code, first.text);
 }
 
-std::vector<Real> WallCaller::variables(const std::vector<std::string> &names)
-{
-  check_variables(names);
-  return {};
-}
-
-void WallCaller::check_variables(const std::vector<std::string> &names)
-{
-  if (!names.empty())
-    throw InputError("v_" + names.front() +
-                     ": there are no variables here; give numbers, and change them between steps");
-}
-
 void WallCaller::set_spheres(const Spheres &spheres)
 {
   spheres_ = spheres;
@@ -157,16 +144,11 @@ Spheres WallCaller::spheres_on_cpu()
   return s;
 }
 
-Real WallCaller::farthest_past(const PeriodicBox &box)
+HostSpheres WallCaller::tagged(const Spheres &spheres) const
 {
-  return gpu ? wall->in_place().farthest_past(spheres_, periodic_faces(box))
-             : WallHost::farthest_past(box);
-}
-
-Real WallCaller::radius_of_tag(std::int64_t tag)
-{
-  const auto at = std::find(tags.begin(), tags.end(), tag);
-  return at == tags.end() ? 0 : spheres_on_cpu().radius[at - tags.begin()];
+  HostSpheres s = spheres;
+  s.tag = tags.data();
+  return s;
 }
 
 // Above those of all processes, and another one on each.

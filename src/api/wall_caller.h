@@ -37,7 +37,7 @@ Failure failure_of(const Work &work)
   return failure;
 }
 
-class WallCaller : public WallHost {
+class WallCaller : public Host {
  public:
   // Throws ApiError where the options make no sense.
   explicit WallCaller(const lsdcd_wall_options &options);
@@ -50,25 +50,19 @@ class WallCaller : public WallHost {
   void sum(Real *numbers, int n) override;
   void max(Real *numbers, int n) override;
   void broadcast(void *data, std::size_t bytes, int from, Receivers to = Receivers::all) override;
-  std::vector<Real> variables(const std::vector<std::string> &names) override;
-  void check_variables(const std::vector<std::string> &names) override;
   PeriodicBox box() const override { return box_; }
-  SphereGroup group() const override { return {"all", false}; }
-  Spheres spheres_on_cpu() override;
-  Real farthest_past(const PeriodicBox &box) override;
-  std::int64_t tag(int sphere) override { return tags[sphere]; }
-  std::int64_t highest_tag() override { return highest_tag_; }
-  Real radius_of_tag(std::int64_t tag) override;
 
+  std::int64_t highest_tag() const { return highest_tag_; }
   // Numbers for spheres without one, 0, in the order of the array. `highest`: of all processes so far.
   void name_new_spheres(std::int64_t highest);
 
   // The spheres of the step that is under way.
   void set_spheres(const Spheres &spheres);
-  std::vector<std::int64_t> tags;    // of its spheres; 0: it has none yet
+  Spheres spheres_on_cpu();                            // the same, in memory of the CPU
+  std::vector<std::int64_t> tags;                      // of its spheres; 0: it has none yet
+  HostSpheres tagged(const Spheres &spheres) const;    // with these
 
   const GpuArrays *gpu = nullptr;    // that has the arrays of spheres; null: the host has
-  Wall *wall = nullptr;              // of this host
 
  private:
   void show(const std::string &text, bool is_warning) override;

@@ -89,7 +89,9 @@ lsdcd_wall *new_wall(
     const lsdcd_wall_options *options,
     const std::function<std::unique_ptr<Wall>(lsdcd_wall &, const lsdcd_wall_options &)> &make);
 // Where it computes.
-WallPlace place_of(const lsdcd_wall_options &options, const GpuArrays *gpu);
+WallPlace place_of(const lsdcd_wall_options &options, lsdcd_wall &made);
+// Throws where a step would need numbers that only a script has.
+void check_no_inputs(const Wall &wall);
 
 // Throws where there is no such mesh; `least`: -1 where that is all of them.
 void check_mesh(const lsdcd_wall &wall, int mesh, int least);

@@ -70,8 +70,7 @@ int lsdcd_wall_from_spec(const lsdcd_wall_spec *spec, const lsdcd_wall_options *
     need(wall, "wall");
     *wall = new_wall(options, [&](lsdcd_wall &made, const lsdcd_wall_options &o) {
       return std::make_unique<Wall>(made.caller, wall_spec_of(spec, made.gpu != nullptr),
-                                    WallUnits(), place_of(o, made.gpu.get()), "",
-                                    StepClock{o.time, 0, 0, 0});
+                                    WallUnits(), place_of(o, made), "", StepClock{o.time, 0, 0, 0});
     });
   });
 }
@@ -113,6 +112,7 @@ int lsdcd_wall_set_motion(lsdcd_wall *wall, int mesh, const lsdcd_motion *motion
     check_posed(*wall, mesh, false);
     RigidMotion motion;
     for (const MotionTerm &term : motions_of(motions, n, "motions")) motion.add(term);
+    note_late(*wall);
     wall->in->set_motion(mesh, motion, {wall->number, wall->dt});
   });
 }
@@ -121,6 +121,7 @@ int lsdcd_wall_set_servo(lsdcd_wall *wall, int mesh, const lsdcd_servo *servo)
 {
   return guard_wall(wall, [&] {
     check_posed(*wall, mesh, false);
+    note_late(*wall);
     wall->in->set_servo(mesh, servo ? servo_of(servo, "servo") : Servo());
   });
 }

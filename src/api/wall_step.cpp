@@ -130,7 +130,8 @@ StepWanted agreed(lsdcd_wall &wall, const Failure &failure, StepWanted want)
 
 void take_step(lsdcd_wall &wall, const StepWanted &want)
 {
-  const Spheres &s = want.spheres;
+  check_no_inputs(*wall.in);
+  const HostSpheres s = wall.caller.tagged(want.spheres);
   wall.in->history().grow(s.n);
   if (!wall.kept.empty()) unpack_kept(wall);
   wall.dt = want.step.dt;
@@ -144,10 +145,10 @@ void take_step(lsdcd_wall &wall, const StepWanted &want)
   wall.begun = true;
   wall.in->begin(s, input);
   // Each step, as what is left out: it must not be known many steps later only.
-  if (wall.caller.box().any_periodic()) wall.in->check_wrapping();
+  if (wall.caller.box().any_periodic()) wall.in->check_wrapping(s);
   try {
     wall.in->finish(s);
-    if (!wall.tells_late()) wall.in->poll_diagnostics(wall.number);
+    if (!wall.tells_late()) wall.in->poll_diagnostics(s, wall.number);
   } catch (const ProcessError &e) {
     if (wall.caller.is_alone()) throw InputError(e.what());
     wall.late = {LSDCD_ERROR_INPUT, e.what()};

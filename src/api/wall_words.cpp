@@ -57,8 +57,7 @@ int lsdcd_wall_make(const char *const *words, size_t n, const lsdcd_wall_options
     *wall = new_wall(options, [&](lsdcd_wall &made, const lsdcd_wall_options &o) {
       const FilledTokens filled = fill_material(made.caller, all, o.units ? o.units : "si");
       return std::make_unique<Wall>(made.caller, parse_wall(filled.tokens).wall, WallUnits(),
-                                    place_of(o, made.gpu.get()), filled.report,
-                                    StepClock{o.time, 0, 0, 0});
+                                    place_of(o, made), filled.report, StepClock{o.time, 0, 0, 0});
     });
   });
 }
@@ -68,6 +67,7 @@ int lsdcd_wall_change(lsdcd_wall *wall, const char *const *words, size_t n)
   return guard_wall(wall, [&] {
     const std::vector<std::string> all = words_of(words, n);
     need_words(all, "[mesh K] motion ... or [mesh K] servo ...");
+    note_late(*wall);    // of an engine that another motion may replace
     const int taken = change_wall(*wall->in, all, {wall->number, wall->dt});
     if (static_cast<std::size_t>(taken) != all.size())
       throw ApiError(LSDCD_ERROR_ARGUMENT, "'" + all[taken] +

@@ -61,8 +61,10 @@ class EngineOn : public InPlaceEngine {
 
   Real farthest_past(const Spheres &spheres, const PeriodicFaces &faces) override
   {
-    return b_.template largest<Real>(
-        spheres.n, [=] LSDCD_LAMBDA(std::size_t i) -> Real { return faces.past(spheres.x[i]); });
+    return b_.template largest<Real>(spheres.n, [=] LSDCD_LAMBDA(std::size_t i) -> Real {
+      const bool is_in_group = !spheres.mask || (spheres.mask[i] & spheres.group_bit);
+      return is_in_group ? faces.past(spheres.x[i]) : 0;
+    });
   }
 
   void choose(const Spheres &spheres, Real margin, bool watch = false) override

@@ -75,6 +75,13 @@ class HostAdapter : public WallEngine {
     });
   }
 
+  Real farthest_past(const Spheres &s, const PeriodicFaces &faces) override
+  {
+    return cpu_.largest<Real>(s.n, [&](std::size_t i) -> Real {
+      return !s.mask || (s.mask[i] & s.group_bit) ? faces.past(s.x[i]) : 0;
+    });
+  }
+
   // The broad phase by cells runs on the host's copy of the grid, as copying all spheres would take longer; the
   // one by features runs on the engine.
   void choose(const Spheres &spheres, Real margin, bool watch = false) override

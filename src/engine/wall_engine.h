@@ -165,6 +165,8 @@ class WallEngine {
 
   // Largest radius in the group.
   virtual Real largest_radius(const Spheres &spheres) = 0;
+  // How far a sphere of the group is past a periodic face, at most; length.
+  virtual Real farthest_past(const Spheres &spheres, const PeriodicFaces &faces) = 0;
 
   // Broad phase: chooses the candidate spheres of the next steps, those of the group that could touch the wall
   // after moving by up to `margin` (length) relative to it, and makes their neighbour lists. Radii must not grow
@@ -273,9 +275,6 @@ class SpringsInPlace {
 class InPlaceEngine : public WallEngine {
  public:
   virtual SpringsInPlace &springs() = 0;
-
-  // How far a sphere is past a periodic face, at most; length. Waits.
-  virtual Real farthest_past(const Spheres &spheres, const PeriodicFaces &faces) = 0;
 };
 
 // One step of a host that keeps the springs itself, from a choice of its own; `springs` may be null

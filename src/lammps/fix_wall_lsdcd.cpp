@@ -4,6 +4,7 @@
 #include "lammps/fix_wall_lsdcd.h"
 
 #include "base/input_error.h"
+#include "base/input_words.h"
 #include "input/old_wall_state.h"
 #include "input/shared_material.h"
 #include "input/wall_change.h"
@@ -22,13 +23,16 @@
 #include "domain.h"
 #include "force.h"
 #include "group.h"
+#include "input.h"
 #include "memory.h"
 #include "modify.h"
 #include "neighbor.h"
 #include "timer.h"
 #include "update.h"
+#include "variable.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 
 using namespace LAMMPS_NS;
@@ -79,7 +83,7 @@ FixWallLsdcd::FixWallLsdcd(LAMMPS *lmp, int narg, char **arg, const lsdcd::WallP
     const double now = update->atime + (update->ntimestep - update->atimestep) * update->dt;
     wall = std::make_unique<lsdcd::Wall>(
         host, spec, lsdcd::WallUnits{force->nktv2p, force->ftm2v}, place, filled.report,
-        lsdcd::StepClock{now, update->ntimestep, update->ntimestep, update->dt});
+        lsdcd::StepClock{now, update->ntimestep, update->ntimestep, update->dt}, spheres_in_atom());
     const std::string differs =
         lsdcd::wall_gran_difference(LSDCD_HOST_VERSION, spec.laws.front().name, spec.law());
     if (!differs.empty() && !spec.brief)
@@ -194,6 +198,7 @@ void FixWallLsdcd::init()
   if (!rigid) std::vector<double>().swap(mass_seen);
   check_heat();
   run_core([&] {
+    for (const int k : wall->inputs_read()) find_variable(spec().inputs[k]);
     wall->begin_run(update->ntimestep, thermo_virial);
     check_files_apart(*this, *modify, host, update->ntimestep);
   });
@@ -242,9 +247,11 @@ void FixWallLsdcd::min_setup(int /*vflag*/)
 
 void FixWallLsdcd::pre_exchange()
 {
+  if (spheres_go_far()) need_positions();
   run_core([&] {
-    wall->poll_diagnostics(update->ntimestep);
-    if (spheres_go_far()) wall->check_wrapping();
+    const lsdcd::HostSpheres s = spheres();
+    wall->poll_diagnostics(s, update->ntimestep);
+    if (spheres_go_far()) wall->check_wrapping(s);
   });
   if (has_history()) make_exchange_room();
 }
@@ -285,8 +292,10 @@ void FixWallLsdcd::post_run()
       sphere_drift().kind == lsdcd::SphereDrift::bounded
           ? ""
           : " (neigh_modify delay 0 every 1 check yes saves looking at all atoms)";
+  if (spheres_go_far()) need_positions();
   run_core([&] {
-    wall->end_run(update->ntimestep, spheres_go_far(), advice, timer->get_wall(Timer::TOTAL));
+    wall->end_run(spheres(), update->ntimestep, spheres_go_far(), advice,
+                  timer->get_wall(Timer::TOTAL));
   });
 }
 
@@ -336,14 +345,50 @@ lsdcd::StepInput FixWallLsdcd::step_input(bool look)
 void FixWallLsdcd::begin(bool look)
 {
   if (rigid) fill_masses();
-  const lsdcd::StepInput input = step_input(look);
-  run_core([&] { begin_step(input); });
+  lsdcd::StepInput input = step_input(look);
+  run_core([&] {
+    input.inputs = read_inputs();
+    begin_step(input);
+  });
   if (input.new_spheres && wall->cutoff() > 0) counted_atoms = atom->natoms;
+}
+
+int FixWallLsdcd::find_variable(const std::string &name) const
+{
+  Variable &all = *input->variable;
+  const int variable = all.find(name.c_str());
+  if (variable < 0)
+    throw lsdcd::InputError("there is no variable '" + name + "', which the wall reads");
+  if (!all.equalstyle(variable))
+    throw lsdcd::InputError("variable '" + name + "', which the wall reads, is not of style equal");
+  return variable;
+}
+
+// The variables that the wall reads in this step. Those of style equal are the same on all processes. A variable's
+// computes keep their values until they are cleared. Where one is no number nothing would touch the wall, or a
+// servo would run away.
+std::vector<double> FixWallLsdcd::read_inputs()
+{
+  const std::vector<int> read = wall->inputs_read();
+  std::vector<double> values(spec().inputs.size(), 0);
+  if (read.empty()) return values;
+  modify->clearstep_compute();
+  for (const int k : read) {
+    const std::string &name = spec().inputs[k];
+    values[k] = input->variable->compute_equal(find_variable(name));
+    if (!std::isfinite(values[k]))
+      throw lsdcd::InputError("variable '" + name + "', which the wall reads, is " +
+                              lsdcd::number_text(values[k]) + " in step " +
+                              std::to_string(update->ntimestep) +
+                              ": it must be a finite number in every step");
+  }
+  modify->addstep_compute(update->ntimestep + 1);
+  return values;
 }
 
 void FixWallLsdcd::begin_step(const lsdcd::StepInput &input)
 {
-  const lsdcd::Spheres s = spheres();
+  const lsdcd::HostSpheres s = spheres();
   wall->begin(s, input);
   wall->launch(s);
 }
@@ -355,9 +400,9 @@ void FixWallLsdcd::finish_step()
   if (spec().contacts) fill_contacts();
 }
 
-lsdcd::Spheres FixWallLsdcd::spheres_in_atom()
+lsdcd::HostSpheres FixWallLsdcd::spheres_in_atom()
 {
-  lsdcd::Spheres s;
+  lsdcd::HostSpheres s;
   s.n = atom->nlocal;
   if (s.n) {
     s.x = atom->x[0];
@@ -371,6 +416,9 @@ lsdcd::Spheres FixWallLsdcd::spheres_in_atom()
   s.mask = igroup ? atom->mask : nullptr;
   s.type = atom->type;
   s.group_bit = groupbit;
+  s.group = group->names[igroup];
+  s.group_changes = group->dynamic[igroup] != 0;
+  if (atom->tag_enable) s.tag = atom->tag;
 #if HOST_HAS_HEAT
   s.temperature = atom->temperature;
   s.heat_flow = atom->heatflow;
@@ -378,14 +426,9 @@ lsdcd::Spheres FixWallLsdcd::spheres_in_atom()
   return s;
 }
 
-lsdcd::Spheres FixWallLsdcd::spheres()
+lsdcd::HostSpheres FixWallLsdcd::spheres()
 {
   return spheres_in_atom();
-}
-
-tagint FixWallLsdcd::tag_of(int i)
-{
-  return atom->tag_enable ? atom->tag[i] : 0;
 }
 
 // Damping of an atom in a rigid body reads the mass of the body.

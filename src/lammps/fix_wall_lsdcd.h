@@ -96,18 +96,20 @@ class FixWallLsdcd : public Fix, protected OwnMessages {
   // wall/lsdcd/kk does these in its own way.
   virtual void begin_step(const lsdcd::StepInput &);
   virtual void finish_step();
-  virtual lsdcd::Spheres spheres();
+  virtual lsdcd::HostSpheres spheres();
   virtual void fill_masses();
-  virtual void need_on_host() {}    // before atom data are read outside of a step
-  virtual tagint tag_of(int);
+  virtual void need_on_host() {}      // before atom data are read outside of a step
+  virtual void need_positions() {}    // before check_wrapping()
   virtual void make_exchange_room();
 
-  lsdcd::Spheres spheres_in_atom();
+  lsdcd::HostSpheres spheres_in_atom();
   lsdcd::Step step_now() const;
   lsdcd::StepInput step_input(bool look);
   lsdcd::SphereDrift sphere_drift() const;
   bool spheres_go_far() const;
   void begin(bool look);
+  int find_variable(const std::string &) const;
+  std::vector<double> read_inputs();
   void fill_contacts();
 
   bool has_history() { return wall->history().is_kept(); }

@@ -13,7 +13,7 @@
 
 namespace lsdcd {
 
-class MpiHost : public virtual Host {
+class MpiHost : public Host {
  public:
   explicit MpiHost(MPI_Comm world);
 

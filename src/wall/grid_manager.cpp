@@ -35,12 +35,12 @@ void GridManager::set_engine(WallEngine &engine)
       run_collectively(host_, true, [&] { engine_->set_grid(m.grid.view(), m.index); });
 }
 
-bool GridManager::fit_spheres(Real radius, std::int64_t step)
+bool GridManager::fit_spheres(Real radius, const SpheresOnCpu &spheres, std::int64_t step)
 {
   constexpr Real kHeadroom = 1.1;    // once radii are known to grow
   const Real old = cutoff();
   if (cutoff_of(laws_, radius) <= old) return fit_box(step);
-  check_rmax(radius);
+  check_rmax(radius, spheres);
   if (old == 0) checks_.check_radius(box(), radius);
   const Real largest =
       settings_.rmax > 0 ? settings_.rmax : (old > 0 ? kHeadroom * radius : radius);
@@ -48,15 +48,14 @@ bool GridManager::fit_spheres(Real radius, std::int64_t step)
   return true;
 }
 
-void GridManager::check_rmax(Real radius) const
+void GridManager::check_rmax(Real radius, const SpheresOnCpu &spheres) const
 {
   if (settings_.rmax == 0 || radius <= settings_.rmax) return;
-  const Spheres s = host_.spheres_on_cpu();
-  const bool all = host_.group().changes;
+  const HostSpheres s = spheres.all();
   Real first = -INFINITY;    // the negative of a tag: the lowest of all processes is named
   for (int i = 0; i < s.n; i++)
-    if (s.radius[i] == radius && (all || is_in_group(s, i)))
-      first = std::max(first, -static_cast<Real>(host_.tag(i)));
+    if (s.radius[i] == radius && s.may_be_in_group(i))
+      first = std::max(first, -static_cast<Real>(s.tag[i]));
   host_.max(&first, 1);
   throw InputError("atom " + std::to_string(static_cast<std::int64_t>(-first)) + " has radius " +
                    number_text(radius) + ", more than rmax " + number_text(settings_.rmax) +
@@ -153,11 +152,11 @@ void GridManager::log_build(const MeshPart &m, Real old_cutoff, std::int64_t ste
   if (!one_of_many) host_.log(t);
 }
 
-void GridManager::check_wrapping()
+void GridManager::check_wrapping(const Spheres &spheres)
 {
   const PeriodicBox now = box();
   if (cutoff() == 0 || !now.any_periodic()) return;
-  Real out = host_.farthest_past(now);
+  Real out = engine_->farthest_past(spheres, periodic_faces(now));
   host_.max(&out, 1);
   if (out <= now.margin) return;
   farthest_out_ = std::min({1.5 * out, now.width(0), now.width(1), now.width(2)});

@@ -6,6 +6,7 @@
 
 #include "wall/box_checks.h"
 #include "wall/history_exchange.h"
+#include "wall/host_spheres.h"
 #include "wall/time_report.h"
 
 #include <cstdint>
@@ -19,7 +20,7 @@ namespace lsdcd {
 class GridManager {
  public:
   // All must outlive it.
-  GridManager(WallHost &host, const WallSpec &settings, const LawTable &laws,
+  GridManager(Host &host, const WallSpec &settings, const LawTable &laws,
               std::deque<MeshPart> &meshes, BoxChecks &checks, HistoryExchange &history,
               TimeReport &times) :
       host_(host),
@@ -39,13 +40,13 @@ class GridManager {
   void set_engine(WallEngine &engine);
 
   // For spheres of up to this radius (length, > 0) in today's box. Returns whether grids were built.
-  bool fit_spheres(Real radius, std::int64_t step);
+  bool fit_spheres(Real radius, const SpheresOnCpu &spheres, std::int64_t step);
   // For today's box. Does nothing before there are spheres.
   bool fit_box(std::int64_t step);
 
   // Looks how far spheres are past periodic faces, before they are wrapped. Where they went farther than
   // the grid was made for, contacts may have been missed: warns, and the grid reaches that far from then on.
-  void check_wrapping();
+  void check_wrapping(const Spheres &spheres);
 
   // Logs how many grids were built for other boxes in this run, and counts anew.
   void end_run();
@@ -55,13 +56,13 @@ class GridManager {
 
  private:
   void rebuild(Real cutoff, std::int64_t step);
-  void check_rmax(Real radius) const;
+  void check_rmax(Real radius, const SpheresOnCpu &spheres) const;
   bool fits(const MeshPart &m) const { return m.grid.fits(m.box_seen(box())); }
   void warn_of_rounding(const MeshPart &m, Real radius) const;
   ProgressListener progress(const MeshPart &m) const;
   void log_build(const MeshPart &m, Real old_cutoff, std::int64_t step) const;
 
-  WallHost &host_;
+  Host &host_;
   const WallSpec &settings_;
   const LawTable &laws_;
   std::deque<MeshPart> &meshes_;

@@ -35,7 +35,7 @@ void for_inputs(MeshSpec &mesh, SurfaceMotion &surface, const Visit &visit)
 
 }    // namespace
 
-MeshMotion::MeshMotion(WallHost &host, WallSpec &wall, int mesh, const Step &now) :
+MeshMotion::MeshMotion(Host &host, WallSpec &wall, int mesh, const Step &now) :
     host_(host), wall_(wall), mesh_(mesh)
 {
   read_tables(spec().motion.terms());
@@ -85,14 +85,12 @@ bool MeshMotion::moves_or_varies() const
   return spec().motion.any() || spec().surface_varies();
 }
 
-InputNames MeshMotion::inputs() const
+std::vector<int> MeshMotion::inputs() const
 {
-  InputNames names;
+  std::vector<int> numbers;
   SurfaceMotion unused;
-  for_inputs(spec(), unused, [&](int input, Real &) {
-    names.push_back(wall_.inputs[static_cast<std::size_t>(input)]);
-  });
-  return names;
+  for_inputs(spec(), unused, [&](int input, Real &) { numbers.push_back(input); });
+  return numbers;
 }
 
 bool MeshMotion::has_inputs() const
@@ -116,16 +114,15 @@ bool MeshMotion::adds_up() const
   return false;
 }
 
-Real MeshMotion::advance(const Step &to)
+Real MeshMotion::advance(const Step &to, const std::vector<Real> &inputs)
 {
   const Time before = clock_.now();
   clock_.advance(to);
   const Real passed = static_cast<Real>(clock_.now() - before);
   std::vector<MotionTerm> &terms = spec().motion.terms();
   const std::vector<MotionTerm> was = terms;
-  const std::vector<Real> values = host_.variables(inputs());
-  auto next = values.begin();
-  for_inputs(spec(), surface_, [&](int, Real &value) { value = *next++; });
+  for_inputs(spec(), surface_,
+             [&](int input, Real &value) { value = inputs.at(static_cast<std::size_t>(input)); });
   for (std::size_t i = 0; i < terms.size() && passed > 0; i++)
     for (int d = 0; d < 3; d++) {
       if (terms[i].takes_difference(d))

@@ -4,8 +4,8 @@
 // Where a mesh is in each step: its motion, the clock of that, and the inputs it hangs on.
 #pragma once
 
+#include "host/host.h"
 #include "motion/step_clock.h"
-#include "wall/host.h"
 #include "wall/wall_spec.h"
 
 #include <string>
@@ -31,7 +31,7 @@ class MeshMotion {
  public:
   // The motion of the mesh with this number, from 0. Its motion in `wall` changes with those set later. Host and
   // wall must outlive it. Its time is 0 at `now`.
-  MeshMotion(WallHost &host, WallSpec &wall, int mesh, const Step &now);
+  MeshMotion(Host &host, WallSpec &wall, int mesh, const Step &now);
 
   const Pose &pose() const { return pose_; }                   // in this step
   const SurfaceMotion &surface() const { return surface_; }    // likewise
@@ -40,12 +40,12 @@ class MeshMotion {
   bool has_inputs() const;
   bool takes_differences() const;    // for velocities that no input gives
   bool adds_up() const;              // velocities to displacements that no input gives
-  // Names of its inputs, in the order in which they are read.
-  InputNames inputs() const;
+  // Those of the wall's inputs that it reads, by their numbers.
+  std::vector<int> inputs() const;
 
-  // The clock goes on to this step, and inputs are read. Returns the time that has passed.
-  // Collective where it has inputs.
-  Real advance(const Step &to);
+  // The clock goes on to this step, whose inputs have these values, one for each input of the wall. Returns the
+  // time that has passed.
+  Real advance(const Step &to, const std::vector<Real> &inputs);
   // Puts the mesh where the motion and the servo have it now.
   void place() { pose_ = pose_in(0); }
   Pose pose_in(Time later) const;    // that much time from now
@@ -81,7 +81,7 @@ class MeshMotion {
   void begin(const Step &now);
   void check_limits(Real position) const;
 
-  WallHost &host_;
+  Host &host_;
   WallSpec &wall_;
   int mesh_;
   StepClock clock_;

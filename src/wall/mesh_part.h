@@ -16,7 +16,7 @@ namespace lsdcd {
 struct MeshPart {
   // The mesh with this number of the wall, from 0. Reads its file. Host, wall and laws must outlive
   // it. Throws InputError on all processes. Collective.
-  MeshPart(WallHost &host, WallSpec &wall, const LawTable &laws, int index, const Step &now) :
+  MeshPart(Host &host, WallSpec &wall, const LawTable &laws, int index, const Step &now) :
       index(index), spec(wall.meshes[index]), grid(host, wall, spec),
       motion(host, wall, index, now), servo_controller(host, wall, laws, index, bounds(0)),
       host_(host)
@@ -43,7 +43,7 @@ struct MeshPart {
   PeriodicBox box_seen(const PeriodicBox &box) const;    // from its own frame
 
  private:
-  WallHost &host_;
+  Host &host_;
   mutable std::unique_ptr<PointTree> vertices_;    // of a process that has the mesh; once asked for
 };
 

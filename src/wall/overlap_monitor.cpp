@@ -26,11 +26,12 @@ std::string sunk_remedy(Real overlap, Real timestep_ratio)
 
 }    // namespace
 
-void OverlapMonitor::note(const StepDiagnostics &seen, std::int64_t step)
+void OverlapMonitor::note(const StepDiagnostics &seen, const SpheresOnCpu &spheres,
+                          std::int64_t step)
 {
   if (seen.deepest <= kLarge) placed_overlap_ = 0;
   if (sunk_warned_ || seen.deepest <= std::max(worst_, kLarge)) return;
-  const std::int64_t tag = host_.tag(seen.deepest_sphere);
+  const std::int64_t tag = spheres.tag(seen.deepest_sphere);
   if (tag > placed_after_ && tag <= placed_until_ && seen.deepest <= kWorse * placed_overlap_) {
     placed_overlap_ = std::min(placed_overlap_, seen.deepest);
     return;
@@ -41,15 +42,16 @@ void OverlapMonitor::note(const StepDiagnostics &seen, std::int64_t step)
 }
 
 // Collective: the sphere is on one process, and its radius is needed by the first.
-std::string OverlapMonitor::overlap_text(Real overlap, std::int64_t tag)
+std::string OverlapMonitor::overlap_text(Real overlap, std::int64_t tag,
+                                         const SpheresOnCpu &spheres)
 {
-  Real radius = host_.radius_of_tag(tag);
+  Real radius = spheres.all().radius_of(tag);
   host_.max(&radius, 1);
   return number_text(100 * overlap) + " % of its radius" +
          (radius > 0 ? " " + number_text(radius) : "");
 }
 
-void OverlapMonitor::check_sunk(Real worst, Real timestep_ratio)
+void OverlapMonitor::check_sunk(Real worst, Real timestep_ratio, const SpheresOnCpu &spheres)
 {
   if (sunk_warned_ || worst <= kLarge) return;
   sunk_warned_ = true;
@@ -58,23 +60,24 @@ void OverlapMonitor::check_sunk(Real worst, Real timestep_ratio)
   const int rank = lowest_rank(host_, worst_ == most);
   std::int64_t which[2] = {worst_tag_, worst_step_};
   host_.broadcast(which, sizeof which, rank);
-  const std::string overlap = overlap_text(most, which[0]);
+  const std::string overlap = overlap_text(most, which[0], spheres);
   host_.warn("atom " + std::to_string(which[0]) + " sank into the wall by " + overlap +
              " by step " + std::to_string(which[1]) + ": " + sunk_remedy(most, timestep_ratio) +
              "; shown once");
 }
 
 // New spheres have tags above the highest tag that there was.
-void OverlapMonitor::check_new(const StepDiagnostics &seen, std::int64_t step, bool goes_on)
+void OverlapMonitor::check_new(const StepDiagnostics &seen, const SpheresOnCpu &spheres,
+                               std::int64_t step, bool goes_on)
 {
-  std::int64_t tag = seen.deepest > kLarge ? host_.tag(seen.deepest_sphere) : 0;
+  std::int64_t tag = seen.deepest > kLarge ? spheres.tag(seen.deepest_sphere) : 0;
   const bool is_new = tag > highest_tag_ && !(highest_tag_ < 0 && goes_on);
   const Real mine = is_new ? seen.deepest : 0;
   // Tags are exact below 2^53. Larger ones could take a new sphere for an old one.
-  Real numbers[2] = {mine, static_cast<Real>(host_.highest_tag())};
+  Real numbers[2] = {mine, static_cast<Real>(spheres.highest_tag())};
   host_.max(numbers, 2);
   const Real most = numbers[0], highest = numbers[1];
-  if (!is_new) note(seen, step);
+  if (!is_new) note(seen, spheres, step);
   if (most > kLarge) {
     if (placed_overlap_ == 0) placed_after_ = highest_tag_;
     placed_until_ = static_cast<std::int64_t>(highest);
@@ -84,7 +87,7 @@ void OverlapMonitor::check_new(const StepDiagnostics &seen, std::int64_t step, b
   if (most <= worst_new_) return;
   worst_new_ = kWorse * most;
   host_.broadcast(&tag, sizeof tag, lowest_rank(host_, mine == most));
-  const std::string overlap = overlap_text(most, tag);
+  const std::string overlap = overlap_text(most, tag, spheres);
   host_.warn("atom " + std::to_string(tag) + " comes to be in the wall, which it overlaps by " +
              overlap + " in step " + std::to_string(step) + ": " +
              (most > 1 ? kWrongSide

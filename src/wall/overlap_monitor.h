@@ -5,7 +5,8 @@
 #pragma once
 
 #include "engine/wall_engine.h"
-#include "wall/host.h"
+#include "host/host.h"
+#include "wall/host_spheres.h"
 
 namespace lsdcd {
 
@@ -13,11 +14,11 @@ namespace lsdcd {
 // whose centre is past the wall overlaps by more than 1, with side in or out.
 class OverlapMonitor {
  public:
-  explicit OverlapMonitor(WallHost &host) : host_(host) {}
+  explicit OverlapMonitor(Host &host) : host_(host) {}
 
   // Notes the deepest sphere of the steps up to `step`. A sphere that was put into the wall has not
   // sunk, until no sphere is deep in the wall or it is deeper than it was put.
-  void note(const StepDiagnostics &seen, std::int64_t step);
+  void note(const StepDiagnostics &seen, const SpheresOnCpu &spheres, std::int64_t step);
 
   // The largest overlap noted on this process; 0: no large one.
   Real worst() const { return worst_; }
@@ -25,21 +26,22 @@ class OverlapMonitor {
   // Warns of the deepest sphere that sank, once. `worst`: the largest worst() of all processes.
   // `timestep_ratio`: the timestep over the longest that resolves a contact; above 1 it is blamed first,
   // since a stiffer contact would ask for a shorter one still. Collective.
-  void check_sunk(Real worst, Real timestep_ratio);
+  void check_sunk(Real worst, Real timestep_ratio, const SpheresOnCpu &spheres);
 
   // Warns of the deepest new sphere: one with a higher tag than all spheres had at the last call.
   // Warns again of an overlap that is more than a tenth larger. `seen`: of the step in which spheres
   // may have come. `goes_on`: spheres of the first call are not new but have been simulated before.
   // Collective.
-  void check_new(const StepDiagnostics &seen, std::int64_t step, bool goes_on);
+  void check_new(const StepDiagnostics &seen, const SpheresOnCpu &spheres, std::int64_t step,
+                 bool goes_on);
 
  private:
-  std::string overlap_text(Real overlap, std::int64_t tag);
+  std::string overlap_text(Real overlap, std::int64_t tag, const SpheresOnCpu &spheres);
 
   static constexpr Real kLarge = 0.1;
   static constexpr Real kWorse = 1.1;    // times an overlap that was warned of: warned of again
 
-  WallHost &host_;
+  Host &host_;
   bool sunk_warned_ = false;
   // On this process.
   Real worst_ = 0;

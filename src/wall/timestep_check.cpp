@@ -23,12 +23,11 @@ Real TimestepCheck::shortest_of(const Spheres &s, int i) const
   return shortest;
 }
 
-void TimestepCheck::check(Real dt)
+void TimestepCheck::check(Real dt, const HostSpheres &s)
 {
-  const Spheres s = host_.spheres_on_cpu();
   Real shortest = INFINITY;
   for (int i = 0; i < s.n; i++)
-    if (is_in_group(s, i)) shortest = std::min(shortest, shortest_of(s, i));
+    if (s.is_in_group(i)) shortest = std::min(shortest, shortest_of(s, i));
   shortest = -shortest;
   host_.max(&shortest, 1);
   shortest = -shortest;

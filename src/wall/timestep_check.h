@@ -4,22 +4,23 @@
 // Warns of a timestep that does not resolve contacts.
 #pragma once
 
+#include "host/host.h"
 #include "law/law_table.h"
-#include "wall/host.h"
+#include "wall/host_spheres.h"
 
 namespace lsdcd {
 
 class TimestepCheck {
  public:
   // Both must outlive it. `ftm2v`: force times time over mass, in the host's unit of velocity.
-  TimestepCheck(WallHost &host, const LawTable &laws, Real ftm2v) :
+  TimestepCheck(Host &host, const LawTable &laws, Real ftm2v) :
       host_(host), laws_(laws), ftm2v_(ftm2v)
   {
   }
 
-  // Warns where `dt` (time) is more than a tenth of the shortest contact time of the spheres, and again
+  // `s` is in memory of the CPU. Warns where `dt` (time) is more than a tenth of the shortest contact time of the spheres, and again
   // where it is a tenth worse than what was warned of. Collective.
-  void check(Real dt);
+  void check(Real dt, const HostSpheres &s);
 
   // The largest timestep warned of, over the longest that resolves a contact; 1: none.
   Real worst_ratio() const { return worst_ > 1 ? worst_ / kWorse : 1; }
@@ -27,7 +28,7 @@ class TimestepCheck {
  private:
   Real shortest_of(const Spheres &s, int i) const;
 
-  WallHost &host_;
+  Host &host_;
   const LawTable &laws_;
   Real ftm2v_;
   static constexpr Real kWorse = 1.1;    // times a timestep that was warned of: warned of again

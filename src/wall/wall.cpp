@@ -44,8 +44,8 @@ Real number_of(std::uint64_t fingerprint)
 
 }    // namespace
 
-Wall::Wall(WallHost &host, WallSpec spec, const WallUnits &units, WallPlace place,
-           const std::string &material, const StepClock &clock) :
+Wall::Wall(Host &host, WallSpec spec, const WallUnits &units, WallPlace place,
+           const std::string &material, const StepClock &clock, const HostSpheres &there) :
     host_(host),
     spec_(in_units(std::move(spec), units)), laws_(law_table(spec_)), place_(std::move(place)),
     clock_(clock), history_(host, spec_), totals_(host, spec_), loads_(host, spec_),
@@ -64,11 +64,9 @@ Wall::Wall(WallHost &host, WallSpec spec, const WallUnits &units, WallPlace plac
   log_creation(material, place_);
 
   // Without spheres there is no telling how far outside is too far.
-  const Spheres s = host_.spheres_on_cpu();
-  const bool all = host_.group().changes;
   Real radius = 0;
-  for (int i = 0; i < s.n; i++)
-    if (all || is_in_group(s, i)) radius = std::max(radius, s.radius[i]);
+  for (int i = 0; i < there.n; i++)
+    if (there.may_be_in_group(i)) radius = std::max(radius, there.radius[i]);
   host_.max(&radius, 1);
   if (spec_.rmax > 0) radius = spec_.rmax;
   for (const MeshPart &m : meshes_) {
@@ -91,6 +89,16 @@ std::string Wall::named(const MeshPart &m, const std::string &text) const
 bool Wall::any_moves() const
 {
   return std::any_of(meshes_.begin(), meshes_.end(), [](const MeshPart &m) { return m.moves(); });
+}
+
+std::vector<int> Wall::inputs_read() const
+{
+  std::vector<int> all;
+  for (const MeshPart &m : meshes_)
+    for (const int input : m.motion.inputs()) all.push_back(input);
+  for (const MeshPart &m : meshes_)
+    if (m.spec.temperature_input != kNoInput) all.push_back(m.spec.temperature_input);
+  return all;
 }
 
 InPlaceEngine &Wall::in_place()
@@ -140,7 +148,6 @@ void Wall::make_engine()
 // For other settings, with the history that there is.
 void Wall::make_engine_anew()
 {
-  if (cutoff() > 0) poll_diagnostics(input_.step.number);
   history_.on_host();
   make_engine();
   schedule_.expire();
@@ -157,12 +164,12 @@ void Wall::log_creation(const std::string &material, const WallPlace &place) con
 
 // An error of a sphere gets the name that the host has for it.
 template <class Work>
-void Wall::on_this_process(Work &&work)
+void Wall::on_this_process(const HostSpheres &spheres, Work &&work)
 {
   try {
     work();
   } catch (const SphereError &e) {
-    throw ProcessError("atom " + std::to_string(host_.tag(e.sphere)) + " " + e.problem);
+    throw ProcessError("atom " + std::to_string(on_cpu(spheres).tag(e.sphere)) + " " + e.problem);
   } catch (const std::exception &e) {
     throw ProcessError(e.what());
   }
@@ -176,17 +183,10 @@ void Wall::begin_run(std::int64_t step, bool virial)
     if (cutoff() > 0) box_checks_.check_outside(m, grids_.box(), cutoff());
   virial_ = virial;
   if (virial && !engine_records_) make_engine_anew();
-  std::vector<std::string> names;
-  for (const MeshPart &m : meshes_) {
-    for (const std::string &name : m.motion.inputs()) names.push_back(name);
-    if (m.spec.temperature_input != kNoInput)
-      names.push_back(spec_.inputs[static_cast<std::size_t>(m.spec.temperature_input)]);
-  }
-  host_.check_variables(names);
   files_.begin_run(step);
 }
 
-void Wall::begin(const Spheres &spheres, const StepInput &input)
+void Wall::begin(const HostSpheres &spheres, const StepInput &input)
 {
   input_ = input;
   const Step &step = input.step;
@@ -196,7 +196,7 @@ void Wall::begin(const Spheres &spheres, const StepInput &input)
     check_history(spheres.n);
   }
   clock_.advance(step);
-  move(step);
+  move(spheres, step);
   if (input.look)
     look_at_spheres(spheres, step.number);
   else if (input.box_changes && grids_.fit_box(step.number))
@@ -206,8 +206,8 @@ void Wall::begin(const Spheres &spheres, const StepInput &input)
   for (const MeshPart &m : meshes_)
     if (engine_moves_) engine_->place_wall(m.motion.pose(), m.index);
   if (input.new_spheres) {
-    if (cutoff() > 0) timestep_.check(step.dt);
-    look_at_servo_spheres();
+    if (cutoff() > 0) timestep_.check(step.dt, on_cpu(spheres).all());
+    look_at_servo_spheres(spheres);
   }
   if (cutoff() == 0) return;
   if (place_.in_place && history_.is_kept()) in_place().springs().grow(history_.room());
@@ -242,14 +242,14 @@ void Wall::check_history(int n)
   });
 }
 
-// Poses last: what servos ask for and variables may read is of where meshes were.
-void Wall::move(const Step &step)
+// Poses last: what servos ask for is of where meshes were.
+void Wall::move(const HostSpheres &spheres, const Step &step)
 {
   for (MeshPart &m : meshes_) {
     if (!m.motion.moves_or_varies()) continue;
-    const Real passed = m.motion.advance(step);
+    const Real passed = m.motion.advance(step, input_.inputs);
     if (step.kind != Step::step || passed == 0 || !m.servo_controller.acts()) continue;
-    if (servo_radius_ == 0) look_at_servo_spheres();
+    if (servo_radius_ == 0) look_at_servo_spheres(spheres);
     m.servo_controller.advance(servo_load(m.index), m.motion.pose_without_servo(), passed,
                                step.number);
   }
@@ -257,44 +257,44 @@ void Wall::move(const Step &step)
     if (m.motion.moves_or_varies()) m.motion.place();
 }
 
-void Wall::look_at_spheres(const Spheres &spheres, std::int64_t step)
+void Wall::look_at_spheres(const HostSpheres &spheres, std::int64_t step)
 {
   Spheres s = spheres;
-  if (host_.group().changes) s.mask = nullptr;    // others may join between two looks
+  if (spheres.group_changes) s.mask = nullptr;    // others may join between two looks
   Real most[2] = {engine_->largest_radius(s), overlaps_.worst()};
   host_.max(most, 2);
-  overlaps_.check_sunk(most[1], timestep_.worst_ratio());
+  overlaps_.check_sunk(most[1], timestep_.worst_ratio(), on_cpu(spheres));
   if (most[0] == 0)
-    check_points();
-  else if (grids_.fit_spheres(most[0], step))
+    check_points(spheres);
+  else if (grids_.fit_spheres(most[0], on_cpu(spheres), step))
     schedule_.expire();
 }
 
 // A group of points feels no wall.
-void Wall::check_points()
+void Wall::check_points(const HostSpheres &spheres)
 {
   if (points_warned_) return;
-  const Spheres s = host_.spheres_on_cpu();
+  const HostSpheres s = on_cpu(spheres).all();
   Real count = 0;
-  for (int i = 0; i < s.n; i++) count += is_in_group(s, i);
+  for (int i = 0; i < s.n; i++) count += s.is_in_group(i);
   host_.sum(&count, 1);
   if (count == 0) return;
   points_warned_ = true;
-  host_.warn("all " + std::to_string(static_cast<std::int64_t>(count)) + " atoms of group " +
-             host_.group().name + " have radius 0: the wall acts on none; set diameter");
+  host_.warn("all " + std::to_string(static_cast<std::int64_t>(count)) + " atoms" +
+             (s.group ? std::string(" of group ") + s.group : "") +
+             " have radius 0: the wall acts on none; set diameter");
 }
 
 // The largest radius and mass that a contact can have.
-void Wall::look_at_servo_spheres()
+void Wall::look_at_servo_spheres(const HostSpheres &spheres)
 {
   if (std::none_of(meshes_.begin(), meshes_.end(),
                    [](const MeshPart &m) { return m.servo().present; }))
     return;
-  const Spheres s = host_.spheres_on_cpu();
-  const bool all = host_.group().changes;
+  const HostSpheres s = on_cpu(spheres).all();
   Real most[2] = {0, 0};
   for (int i = 0; i < s.n; i++) {
-    if (!all && !is_in_group(s, i)) continue;
+    if (!s.may_be_in_group(i)) continue;
     most[0] = std::max(most[0], s.radius[i]);
     most[1] = std::max(most[1], s.mass[i]);
   }
@@ -323,15 +323,11 @@ StepSettings Wall::step_settings()
     step.surface = surfaces_.data();
   }
   if (!spec_.law().has_heat()) return step;
-  std::vector<std::string> names;
-  for (const MeshSpec &m : spec_.meshes)
-    if (m.temperature_input != kNoInput)
-      names.push_back(spec_.inputs[static_cast<std::size_t>(m.temperature_input)]);
-  const std::vector<Real> values = host_.variables(names);
-  auto next = values.begin();
   temperatures_.clear();
   for (const MeshSpec &m : spec_.meshes)
-    temperatures_.push_back(m.temperature_input == kNoInput ? m.temperature : *next++);
+    temperatures_.push_back(m.temperature_input == kNoInput
+                                ? m.temperature
+                                : input_.inputs.at(static_cast<std::size_t>(m.temperature_input)));
   step.wall_temperature = temperatures_.front();
   if (several) step.mesh_temperature = temperatures_.data();
   return step;
@@ -351,11 +347,11 @@ void Wall::choose_if_due(const Spheres &spheres)
   search_.count_choice();
 }
 
-void Wall::launch(const Spheres &spheres, LaunchMode mode)
+void Wall::launch(const HostSpheres &spheres, LaunchMode mode)
 {
   if (step_state() != StepState::begun) return;
   const StepSettings step = step_settings();
-  on_this_process([&] {
+  on_this_process(spheres, [&] {
     times_.begin();
     engine_->launch(spheres, step, mode, [&] {
       choose_if_due(spheres);
@@ -365,14 +361,14 @@ void Wall::launch(const Spheres &spheres, LaunchMode mode)
   });
 }
 
-void Wall::finish(const Spheres &spheres)
+void Wall::finish(const HostSpheres &spheres)
 {
   const Step &step = input_.step;
   launch(spheres);
   if (step_state() == StepState::launched) {
     const bool waits = engine_->is_under_way();
     times_.begin();
-    on_this_process([&] { engine_->finish(); });
+    on_this_process(spheres, [&] { engine_->finish(); });
     times_.end(waits ? TimeReport::waiting : TimeReport::forces);
     history_.set_spheres_of_engine(spheres.n);
     search_.count_step(step.kind != Step::step);
@@ -384,42 +380,43 @@ void Wall::finish(const Spheres &spheres)
       loads_.add(m.index, any ? engine_->records() : nullptr, any ? engine_->n_records() : 0,
                  step.dt, any ? m.grid.view().wall : MeshFeaturesView());
   }
-  if (input_.new_spheres) check_new_spheres();
+  if (input_.new_spheres) check_new_spheres(spheres);
   if (step.kind == Step::setup) times_.begin_run();    // as the host's loop time
 }
 
 // The counts of the steps since the last call, for the log.
-StepDiagnostics Wall::read_diagnostics()
+StepDiagnostics Wall::read_diagnostics(const HostSpheres &spheres)
 {
   StepDiagnostics seen;
   if (cutoff() == 0) return seen;
-  on_this_process([&] { seen = engine_->read_diagnostics(); });
+  on_this_process(spheres, [&] { seen = engine_->read_diagnostics(); });
   search_.add(seen);
   return seen;
 }
 
-void Wall::poll_diagnostics(std::int64_t step)
+void Wall::poll_diagnostics(const HostSpheres &spheres, std::int64_t step)
 {
-  overlaps_.note(read_diagnostics(), step);
+  overlaps_.note(read_diagnostics(spheres), on_cpu(spheres), step);
 }
 
 // An error of this process alone must not keep the others waiting.
-void Wall::check_new_spheres()
+void Wall::check_new_spheres(const HostSpheres &spheres)
 {
   const std::int64_t step = input_.step.number;
   StepDiagnostics seen;
-  const std::string error = error_of([&] { seen = read_diagnostics(); });
-  overlaps_.check_new(seen, step, continued_ || step > 0);
+  const std::string error = error_of([&] { seen = read_diagnostics(spheres); });
+  overlaps_.check_new(seen, on_cpu(spheres), step, continued_ || step > 0);
   if (!error.empty()) throw ProcessError(error);
 }
 
-void Wall::end_run(std::int64_t step, bool far, const std::string &advice, Real loop)
+void Wall::end_run(const HostSpheres &spheres, std::int64_t step, bool far,
+                   const std::string &advice, Real loop)
 {
-  poll_diagnostics(step);
+  poll_diagnostics(spheres, step);
   Real worst = overlaps_.worst();
   host_.max(&worst, 1);
-  overlaps_.check_sunk(worst, timestep_.worst_ratio());
-  if (far) grids_.check_wrapping();
+  overlaps_.check_sunk(worst, timestep_.worst_ratio(), on_cpu(spheres));
+  if (far) grids_.check_wrapping(spheres);
   grids_.end_run();
   search_.end_run(spec_.brief, advice);
   if (spec_.nearest > 0) search_.log_uncertified(spec_.nearest, spec_.brief);

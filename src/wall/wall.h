@@ -7,6 +7,7 @@
 
 #include "wall/choice_schedule.h"
 #include "wall/grid_manager.h"
+#include "wall/host_spheres.h"
 #include "wall/load_recorder.h"
 #include "wall/overlap_monitor.h"
 #include "wall/search_report.h"
@@ -30,6 +31,7 @@ struct WallPlace {
   std::function<std::unique_ptr<WallEngine>(const EngineSettings &)> make_engine =
       lsdcd::make_engine;
   bool in_place = false;    // it makes an InPlaceEngine: spheres are in the memory of its backend
+  ToCpu to_cpu;             // where that is a GPU's
 };
 
 // The host's units.
@@ -46,6 +48,9 @@ struct StepInput {
   bool box_changes = false;    // the box may have changed since the last step
   SphereDrift drift;
   bool virial = false;    // add_virial() will be called
+  // The values of spec().inputs in this step, the same on all processes; of those that inputs_read() leaves out
+  // any number.
+  std::vector<Real> inputs;
 };
 
 // In each step: begin(), launch(), finish(). Places, velocities and radii must not change between begin()
@@ -56,16 +61,18 @@ struct StepInput {
 class Wall {
  public:
   // Reads the meshes, makes the engine, and logs what there is. `material`: what a material file filled in,
-  // for the log. `clock`: the time of the host. The host must outlive the wall. Throws InputError where the
-  // spec makes no sense.
-  Wall(WallHost &host, WallSpec spec, const WallUnits &units, WallPlace place,
-       const std::string &material, const StepClock &clock);
+  // for the log. `clock`: the time of the host. `there`: the spheres that there are, in memory of the CPU. The host
+  // must outlive the wall. Throws InputError where the spec makes no sense.
+  Wall(Host &host, WallSpec spec, const WallUnits &units, WallPlace place,
+       const std::string &material, const StepClock &clock, const HostSpheres &there = {});
 
   // Not together:
   const WallSpec &spec() const { return spec_; }    // pressures are forces per area
   const LawTable &laws() const { return laws_; }
   const std::deque<MeshPart> &meshes() const { return meshes_; }
-  bool any_moves() const;                            // or was moved
+  bool any_moves() const;    // or was moved
+  // Those of spec().inputs whose values a step reads, by their numbers: of motions first, then temperatures.
+  std::vector<int> inputs_read() const;
   Real cutoff() const { return grids_.cutoff(); }    // length; 0: there were no spheres yet
   HistoryExchange &history() { return history_; }
   InPlaceEngine &in_place();    // where the place is one
@@ -76,24 +83,27 @@ class Wall {
 
   // The clock goes on, meshes move, grids are built where they have to be. In place: what steps read of
   // spheres is there once the host's stream has done what it has been given.
-  void begin(const Spheres &spheres, const StepInput &input);
+  void begin(const HostSpheres &spheres, const StepInput &input);
   // Chooses the spheres near the wall where that is due, and starts the step where the engine can work
   // beside the host. Not together.
-  void launch(const Spheres &spheres, LaunchMode mode = LaunchMode::in_turn);
+  void launch(const HostSpheres &spheres, LaunchMode mode = LaunchMode::in_turn);
   // Not together. none: no step was begun, or one that has no spheres.
   StepState step_state() const { return engine_->state(); }
   // Adds forces and torques. Launches the step where it was not launched.
-  void finish(const Spheres &spheres);
+  void finish(const HostSpheres &spheres);
 
   // The wall acts on nothing until the next step: its totals are 0. Not together.
   void clear_totals() { totals_.clear(); }
-  // Before spheres change processes: what steps have noted since the last time. Throws where one had to
-  // leave out a sphere, which is read where it was then. Not together.
-  void poll_diagnostics(std::int64_t step);
-  // Warns where spheres went too far past a periodic face, for hosts that do not know how far they go.
-  void check_wrapping() { grids_.check_wrapping(); }
+  // Before spheres change their order or processes, and before set_motion() and set_servo(): what steps have noted
+  // since the last time, of these spheres, whose tags are read. Throws where one had to leave out a sphere. Not
+  // together.
+  void poll_diagnostics(const HostSpheres &spheres, std::int64_t step);
+  // Warns where spheres went too far past a periodic face, for hosts that do not know how far they go: before they
+  // are wrapped. Reads positions and groups, where the engine does.
+  void check_wrapping(const Spheres &spheres) { grids_.check_wrapping(spheres); }
   // `advice` follows the number of choices in the log; `loop`: seconds of the run, 0 where not known.
-  void end_run(std::int64_t step, bool far, const std::string &advice, Real loop);
+  void end_run(const HostSpheres &spheres, std::int64_t step, bool far, const std::string &advice,
+               Real loop);
 
   // The totals of the last step.
   const StepTotals &totals();
@@ -139,21 +149,25 @@ class Wall {
   void make_engine_anew();
   void log_creation(const std::string &material, const WallPlace &place) const;
   std::string named(const MeshPart &m, const std::string &text) const;
+  SpheresOnCpu on_cpu(const HostSpheres &spheres) const
+  {
+    return SpheresOnCpu(spheres, place_.to_cpu);
+  }
   template <class Work>
-  void on_this_process(Work &&work);
+  void on_this_process(const HostSpheres &spheres, Work &&work);
 
   void begin_snapshot(int n, const Step &step);
   void check_history(int n);
-  void move(const Step &step);
-  void look_at_spheres(const Spheres &spheres, std::int64_t step);
-  void check_points();
-  void look_at_servo_spheres();
+  void move(const HostSpheres &spheres, const Step &step);
+  void look_at_spheres(const HostSpheres &spheres, std::int64_t step);
+  void check_points(const HostSpheres &s);
+  void look_at_servo_spheres(const HostSpheres &spheres);
   ServoLoad servo_load(int mesh);
 
   StepSettings step_settings();
   void choose_if_due(const Spheres &spheres);
-  StepDiagnostics read_diagnostics();
-  void check_new_spheres();
+  StepDiagnostics read_diagnostics(const HostSpheres &spheres);
+  void check_new_spheres(const HostSpheres &spheres);
 
   void log_change(const MeshPart &m, const std::string &text);
   void motion_has_changed(const MeshPart &m);
@@ -161,7 +175,7 @@ class Wall {
   bool is_restored(const MeshPart &m, const MeshState &was, bool one_of_many) const;
   void restore_mesh(MeshPart &m, const MeshState &was, const Step &now);
 
-  WallHost &host_;
+  Host &host_;
   WallSpec spec_;    // motions change later
   LawTable laws_;    // of the spec
   WallPlace place_;

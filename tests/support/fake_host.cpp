@@ -108,31 +108,4 @@ void FakeHost::broadcast(void *data, std::size_t bytes, int from, Receivers /*to
   if (bytes > 0) std::memcpy(data, all[from].data(), bytes);
 }
 
-std::vector<Real> FakeHost::variables(const std::vector<std::string> &names)
-{
-  std::string call = "variables";
-  for (const std::string &name : names) call += " " + name;
-  if (!names.empty()) meet(call, nullptr, 0);
-  std::vector<Real> all;
-  for (const std::string &name : names) all.push_back(values.at(name));
-  return all;
-}
-
-void FakeHost::check_variables(const std::vector<std::string> &names)
-{
-  for (const std::string &name : names)
-    if (!values.count(name)) throw InputError("there is no variable '" + name + "'");
-}
-
-std::int64_t FakeHost::highest_tag()
-{
-  return tags.empty() ? 0 : *std::max_element(tags.begin(), tags.end());
-}
-
-Real FakeHost::radius_of_tag(std::int64_t tag)
-{
-  const auto at = std::find(tags.begin(), tags.end(), tag);
-  return at == tags.end() ? 0 : radii.at(at - tags.begin());
-}
-
 }    // namespace lsdcd

@@ -25,6 +25,10 @@ class InPlaceForHost : public WallEngine {
   void set_grid(const GridView &grid, int mesh) override { engine_->set_grid(grid, mesh); }
   void place_wall(const Pose &pose, int mesh) override { engine_->place_wall(pose, mesh); }
   Real largest_radius(const Spheres &s) override { return engine_->largest_radius(places(s)); }
+  Real farthest_past(const Spheres &s, const PeriodicFaces &faces) override
+  {
+    return engine_->farthest_past(places(s), faces);
+  }
   void choose(const Spheres &s, Real margin, bool watch) override
   {
     engine_->choose(places(s), margin, watch);

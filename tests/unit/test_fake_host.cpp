@@ -96,15 +96,5 @@ TEST(FakeHost, refuses_calls_in_another_order)
   EXPECT_THROW(on_processes(2, other_order), std::logic_error);
 }
 
-TEST(FakeHost, a_process_that_asks_for_no_variables_is_found)
-{
-  EXPECT_THROW(on_processes(2,
-                            [](FakeHost &host) {
-                              host.values["x"] = 1;
-                              if (host.rank() == 0) host.variables({"x"});
-                            }),
-               std::logic_error);
-}
-
 }    // namespace
 }    // namespace lsdcd::test_fake_host

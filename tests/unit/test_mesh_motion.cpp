@@ -10,6 +10,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <map>
+#include <string>
+#include <vector>
 
 namespace lsdcd::test_mesh_motion {
 namespace {
@@ -18,11 +21,18 @@ namespace {
 struct Wall {
   WallSpec settings;
   FakeHost host;
+  std::map<std::string, Real> values;    // of inputs
 
   Wall() : settings() { settings.meshes.resize(1); }
   MeshSpec &mesh() { return settings.meshes[0]; }
   Servo &servo() { return mesh().motion.servo(); }
   int input(const std::string &name) { return number_of_input(settings.inputs, name); }
+  std::vector<Real> inputs() const
+  {
+    std::vector<Real> all;
+    for (const std::string &name : settings.inputs) all.push_back(values.at(name));
+    return all;
+  }
   void linear(const Vec3 &velocity)
   {
     MotionTerm term;
@@ -63,10 +73,10 @@ RigidMotion along(const Vec3 &velocity)
   return motion;
 }
 
-void run(MeshMotion &motion, int first, int last)
+void run(MeshMotion &motion, const Wall &wall, int first, int last)
 {
   for (int n = first; n <= last; n++) {
-    motion.advance(step(n));
+    motion.advance(step(n), wall.inputs());
     motion.place();
   }
 }
@@ -100,7 +110,7 @@ class ServoAtFive : public testing::Test {
 
 TEST_F(AlongX, moves_with_time)
 {
-  run(motion, 1, 3);
+  run(motion, wall, 1, 3);
   EXPECT_EQ(where(motion), (Vec3{3, 0, 0}));
 }
 
@@ -108,13 +118,13 @@ TEST(MeshMotion, tells_how_much_time_has_passed)
 {
   Wall wall;
   MeshMotion motion(wall.host, wall.settings, 0, step(0));
-  EXPECT_EQ(motion.advance(step(1)), kDt);
-  EXPECT_EQ(motion.advance({kFirst + 1, kDt, Step::setup}), 0);
+  EXPECT_EQ(motion.advance(step(1), {}), kDt);
+  EXPECT_EQ(motion.advance({kFirst + 1, kDt, Step::setup}, {}), 0);
 }
 
 TEST_F(AlongX, knows_where_it_will_be)
 {
-  run(motion, 1, 1);
+  run(motion, wall, 1, 1);
   EXPECT_EQ(motion.pose_in(4).shift, (Vec3{1 + 8, 0, 0}));
 }
 
@@ -122,9 +132,9 @@ TEST(MeshMotion, follows_variables)
 {
   Wall wall;
   wall.by_variable(true);
-  wall.host.values = {{"x", 7}, {"vx", 3}};
+  wall.values = {{"x", 7}, {"vx", 3}};
   MeshMotion motion(wall.host, wall.settings, 0, step(0));
-  run(motion, 1, 1);
+  run(motion, wall, 1, 1);
   EXPECT_EQ(where(motion), (Vec3{7, 0, 0}));
   EXPECT_EQ(motion.pose().velocity, (Vec3{3, 0, 0}));
 }
@@ -134,10 +144,10 @@ TEST(MeshMotion, takes_differences_for_velocities_that_no_variable_gives)
   Wall wall;
   wall.by_variable(false);
   MeshMotion motion(wall.host, wall.settings, 0, step(0));
-  wall.host.values = {{"x", 7}};
-  run(motion, 1, 1);
-  wall.host.values = {{"x", 8}};
-  run(motion, 2, 2);
+  wall.values = {{"x", 7}};
+  run(motion, wall, 1, 1);
+  wall.values = {{"x", 8}};
+  run(motion, wall, 2, 2);
   EXPECT_EQ(motion.pose().velocity, (Vec3{1 / kDt, 0, 0}));
 }
 
@@ -147,9 +157,9 @@ TEST(MeshMotion, keeps_the_velocity_where_no_time_passes)
   Wall wall;
   wall.by_variable(false);
   MeshMotion motion(wall.host, wall.settings, 0, step(0));
-  wall.host.values = {{"x", 7}};
-  run(motion, 1, 1);
-  motion.advance({kFirst + 1, kDt, Step::setup});
+  wall.values = {{"x", 7}};
+  run(motion, wall, 1, 1);
+  motion.advance({kFirst + 1, kDt, Step::setup}, wall.inputs());
   motion.place();
   EXPECT_EQ(motion.pose().velocity, (Vec3{7 / kDt, 0, 0}));
 }
@@ -170,8 +180,8 @@ struct WallThatTurns : Wall {
 void speed_up(WallThatTurns &wall, MeshMotion &motion, int first, int last)
 {
   for (int n = first; n <= last; n++) {
-    wall.host.values = {{"w", 2 * kDt * n}};
-    run(motion, n, n);
+    wall.values = {{"w", 2 * kDt * n}};
+    run(motion, wall, n, n);
   }
 }
 
@@ -192,10 +202,10 @@ TEST(MeshMotion, adds_up_displacements_likewise)
   term.kind = MotionKind::variable;
   term.input[4] = wall.input("v");
   wall.mesh().motion.add(term);
-  wall.host.values = {{"v", 3}};
+  wall.values = {{"v", 3}};
   MeshMotion motion(wall.host, wall.settings, 0, step(0));
-  motion.advance({kFirst, kDt, Step::setup});
-  run(motion, 1, 4);
+  motion.advance({kFirst, kDt, Step::setup}, wall.inputs());
+  run(motion, wall, 1, 4);
   EXPECT_EQ(where(motion), (Vec3{0, 6, 0}));
   EXPECT_EQ(motion.pose().velocity, (Vec3{0, 3, 0}));
 }
@@ -205,7 +215,7 @@ TEST(MeshMotion, adds_nothing_up_where_no_time_passes)
   WallThatTurns wall;
   MeshMotion motion(wall.host, wall.settings, 0, step(0));
   speed_up(wall, motion, 1, 2);
-  motion.advance({kFirst + 2, kDt, Step::setup});
+  motion.advance({kFirst + 2, kDt, Step::setup}, wall.inputs());
   EXPECT_EQ(wall.angle(), 1);
 }
 
@@ -238,7 +248,7 @@ TEST(MeshMotion, reads_a_table_on_the_first_process_alone)
     Wall wall;
     follow(wall, host.rank() == 0 ? file : "not/there");
     MeshMotion motion(host, wall.settings, 0, step(0));
-    run(motion, 1, 3);
+    run(motion, wall, 1, 3);
     EXPECT_EQ(where(motion), (Vec3{6, 0, 0}));
     EXPECT_EQ(motion.pose().velocity, (Vec3{4, 0, 0}));
   });
@@ -267,7 +277,7 @@ TEST(MeshMotion, keeps_its_motion_where_the_table_of_another_is_wrong)
   Wall other;
   follow(other, "not/there");
   EXPECT_THROW(motion.set(other.mesh().motion, step(0)), InputError);
-  run(motion, 1, 1);
+  run(motion, wall, 1, 1);
   EXPECT_EQ(where(motion), (Vec3{1, 0, 0}));
 }
 
@@ -279,13 +289,13 @@ TEST(MeshMotion, follows_a_table_on_after_a_restart)
     Wall before, after;
     follow(before, folder.write("arm.txt", rows));
     MeshMotion first(before.host, before.settings, 0, step(0));
-    run(first, 1, 3);
+    run(first, before, 1, 3);
     follow(after, folder.write("arm.txt", same ? rows : rows + "4 0 0 0 0 0 0\n"));
     MeshMotion second(after.host, after.settings, 0, step(3));
     second.restore(first.state(), step(3));
     EXPECT_EQ(second.pose().shift, first.pose().shift);
-    run(first, 4, 5);
-    run(second, 4, 5);
+    run(first, before, 4, 5);
+    run(second, after, 4, 5);
     EXPECT_EQ(second.pose().shift == first.pose().shift, same);
     EXPECT_EQ(second.pose().row[0] == first.pose().row[0], same);
     EXPECT_EQ(after.host.warnings.size(), same ? 0U : 1U);
@@ -299,9 +309,9 @@ TEST(MeshMotion, gives_variables_to_the_surface_and_the_servo)
   wall.servo().target_input = wall.input("load");
   wall.mesh().surface_input[1] = wall.input("belt");
   wall.mesh().surface_input[5] = wall.input("spin");
-  wall.host.values = {{"load", 5}, {"belt", 6}, {"spin", 7}};
+  wall.values = {{"load", 5}, {"belt", 6}, {"spin", 7}};
   MeshMotion motion(wall.host, wall.settings, 0, step(0));
-  run(motion, 1, 1);
+  run(motion, wall, 1, 1);
   EXPECT_EQ(wall.servo().target, 5);
   EXPECT_EQ(motion.surface().velocity, (Vec3{0, 6, 0}));
   EXPECT_EQ(motion.surface().angular, (Vec3{0, 0, 7}));
@@ -314,32 +324,35 @@ TEST(MeshMotion, names_its_inputs_in_the_order_in_which_they_are_read)
   wall.servo().target_input = wall.input("load");
   wall.mesh().surface_input[0] = wall.input("belt");
   const MeshMotion motion(wall.host, wall.settings, 0, step(0));
-  EXPECT_EQ(motion.inputs(), (InputNames{"x", "vx", "load", "belt"}));
+  InputNames names;
+  for (const int input : motion.inputs())
+    names.push_back(wall.settings.inputs[static_cast<std::size_t>(input)]);
+  EXPECT_EQ(names, (InputNames{"x", "vx", "load", "belt"}));
 }
 
 // Another motion
 
 TEST_F(AlongX, goes_on_with_another_motion_from_where_it_is)
 {
-  run(motion, 1, 2);
+  run(motion, wall, 1, 2);
   motion.set(along({0, 3, 0}), step(2));
   EXPECT_EQ(where(motion), (Vec3{2, 0, 0}));
-  run(motion, 3, 4);
+  run(motion, wall, 3, 4);
   EXPECT_EQ(where(motion), (Vec3{2, 3, 0}));
 }
 
 TEST_F(AlongX, stays_where_it_is_without_a_motion)
 {
-  run(motion, 1, 2);
+  run(motion, wall, 1, 2);
   motion.set(RigidMotion(), step(2));
-  run(motion, 3, 4);
+  run(motion, wall, 3, 4);
   EXPECT_EQ(where(motion), (Vec3{2, 0, 0}));
   EXPECT_EQ(motion.text({{0, 0, 0}, {1, 1, 1}}), "none; the mesh stays where it is");
 }
 
 TEST_F(ServoAtFive, keeps_what_a_servo_has_added_to_another_motion)
 {
-  run(motion, 1, 1);
+  run(motion, wall, 1, 1);
   motion.set(along({0, 3, 0}), step(1));
   EXPECT_EQ(where(motion), (Vec3{0, 0, 5}));
   EXPECT_EQ(wall.servo().position, 5);
@@ -380,7 +393,7 @@ TEST_F(ServoAtFive, refuses_limits_that_a_servo_is_past)
 
 TEST_F(ServoAtFive, begins_along_another_line_from_where_it_is)
 {
-  run(motion, 1, 1);
+  run(motion, wall, 1, 1);
   motion.set(servo_along({1, 0, 0}, -1, 1));
   EXPECT_EQ(wall.servo().position, 0);
   EXPECT_EQ(where(motion), (Vec3{0, 0, 5}));
@@ -412,7 +425,7 @@ TEST_F(AlongX, is_known_in_a_snapshot_from_its_time)
 {
   const Step at = {kFirst + 6, kDt, Step::snapshot};
   motion.check_snapshot(at);
-  motion.advance(at);
+  motion.advance(at, {});
   motion.place();
   EXPECT_EQ(where(motion), (Vec3{6, 0, 0}));
 }
@@ -450,10 +463,10 @@ TEST(MeshMotion, has_added_up_nothing_in_a_snapshot)
 Vec3 where_it_goes_on(Wall &before, Wall &after)
 {
   MeshMotion first(before.host, before.settings, 0, step(0));
-  run(first, 1, 3);
+  run(first, before, 1, 3);
   MeshMotion second(after.host, after.settings, 0, step(3));
   second.restore(first.state(), step(3));
-  run(second, 4, 5);
+  run(second, after, 4, 5);
   return where(second);
 }
 
@@ -482,11 +495,11 @@ TEST(MeshMotion, that_was_stopped_stays_so_after_a_restart)
   before.linear({2, 0, 0});
   after.linear({2, 0, 0});
   MeshMotion first(before.host, before.settings, 0, step(0));
-  run(first, 1, 3);
+  run(first, before, 1, 3);
   first.set(RigidMotion(), step(3));
   MeshMotion second(after.host, after.settings, 0, step(3));
   second.restore(first.state(), step(3));
-  run(second, 4, 5);
+  run(second, after, 4, 5);
   EXPECT_EQ(where(second), (Vec3{3, 0, 0}));
   ASSERT_EQ(after.host.warnings.size(), 1);
   EXPECT_NE(after.host.warnings[0].find("was stopped when the restart file was written"),
@@ -527,9 +540,9 @@ TEST(MeshMotion, has_the_values_of_variables_after_a_restart)
   Wall before, after;
   before.by_variable(false);
   after.by_variable(false);
-  before.host.values = {{"x", 7}};
+  before.values = {{"x", 7}};
   MeshMotion first(before.host, before.settings, 0, step(0));
-  run(first, 1, 1);
+  run(first, before, 1, 1);
   MeshMotion second(after.host, after.settings, 0, step(1));
   second.restore(first.state(), step(1));
   EXPECT_EQ(where(second), (Vec3{7, 0, 0}));

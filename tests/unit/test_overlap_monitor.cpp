@@ -18,18 +18,35 @@ StepDiagnostics deepest(Real overlap, int sphere)
   return seen;
 }
 
+// The spheres of a process.
+struct Named {
+  std::vector<std::int64_t> tags;
+  std::vector<Real> radii;
+  HostSpheres spheres;
+
+  SpheresOnCpu get()
+  {
+    spheres.n = static_cast<int>(tags.size());
+    spheres.tag = tags.data();
+    spheres.radius = radii.data();
+    return SpheresOnCpu(spheres);
+  }
+};
+
 // Process 0 has spheres 1 and 2, process 1 has 3 and 4; their radii are their tags.
-void give_spheres(FakeHost &host)
+Named spheres_of(const FakeHost &host)
 {
-  host.tags = host.rank() == 0 ? std::vector<std::int64_t>{1, 2} : std::vector<std::int64_t>{3, 4};
-  host.radii.assign(host.tags.begin(), host.tags.end());
+  Named all;
+  all.tags = host.rank() == 0 ? std::vector<std::int64_t>{1, 2} : std::vector<std::int64_t>{3, 4};
+  all.radii.assign(all.tags.begin(), all.tags.end());
+  return all;
 }
 
-void check_sunk(FakeHost &host, OverlapMonitor &monitor, Real timestep_ratio = 1)
+void check_sunk(FakeHost &host, OverlapMonitor &monitor, Named &named, Real timestep_ratio = 1)
 {
   Real worst = monitor.worst();
   host.max(&worst, 1);
-  monitor.check_sunk(worst, timestep_ratio);
+  monitor.check_sunk(worst, timestep_ratio, named.get());
 }
 
 // What the first process warns of where the spheres 1 to 4 overlap so, in step 7.
@@ -37,11 +54,11 @@ std::vector<std::string> warned_of_sunk(const std::vector<Real> &overlaps, Real 
 {
   std::vector<std::string> warnings;
   on_processes(2, [&](FakeHost &host) {
-    give_spheres(host);
+    Named named = spheres_of(host);
     OverlapMonitor monitor(host);
-    for (int i : {0, 1}) monitor.note(deepest(overlaps[2 * host.rank() + i], i), 7);
-    check_sunk(host, monitor, timestep_ratio);
-    check_sunk(host, monitor, timestep_ratio);
+    for (int i : {0, 1}) monitor.note(deepest(overlaps[2 * host.rank() + i], i), named.get(), 7);
+    check_sunk(host, monitor, named, timestep_ratio);
+    check_sunk(host, monitor, named, timestep_ratio);
     if (host.rank() == 0) warnings = host.warnings;
   });
   return warnings;
@@ -54,20 +71,20 @@ std::vector<std::string> warned_of_new(std::int64_t tag, const std::vector<Real>
 {
   std::vector<std::string> warnings;
   on_processes(2, [&](FakeHost &host) {
-    give_spheres(host);
+    Named named = spheres_of(host);
     OverlapMonitor monitor(host);
-    monitor.check_new({}, 0, goes_on);
-    if (host.rank() == 1) host.tags[1] = tag;
+    monitor.check_new({}, named.get(), 0, goes_on);
+    if (host.rank() == 1) named.tags[1] = tag;
     std::int64_t step = 100;
     for (Real overlap : overlaps) {
       const StepDiagnostics seen = host.rank() == 1 ? deepest(overlap, 1) : StepDiagnostics();
       if (step == 100)
-        monitor.check_new(seen, step, true);
+        monitor.check_new(seen, named.get(), step, true);
       else
-        monitor.note(seen, step);
+        monitor.note(seen, named.get(), step);
       step++;
     }
-    check_sunk(host, monitor);
+    check_sunk(host, monitor, named);
     if (host.rank() == 0) warnings = host.warnings;
   });
   return warnings;
@@ -146,11 +163,13 @@ std::vector<std::string> warned_of_coming(const std::vector<Real> &overlaps, boo
   std::vector<std::string> warnings;
   on_processes(2, [&](FakeHost &host) {
     OverlapMonitor monitor(host);
+    Named named;
     for (Real overlap : overlaps) {
-      const int n = static_cast<int>(host.tags.size());
-      host.tags.push_back(2 * n + host.rank() + 1);
-      host.radii.push_back(1);
-      monitor.check_new(host.rank() == 1 ? deepest(overlap, n) : StepDiagnostics(), n, goes_on);
+      const int n = static_cast<int>(named.tags.size());
+      named.tags.push_back(2 * n + host.rank() + 1);
+      named.radii.push_back(1);
+      monitor.check_new(host.rank() == 1 ? deepest(overlap, n) : StepDiagnostics(), named.get(), n,
+                        goes_on);
     }
     if (host.rank() == 0) warnings = host.warnings;
   });

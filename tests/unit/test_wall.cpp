@@ -60,6 +60,7 @@ struct Floor {
 struct Grains {
   std::vector<Vec3> x, v, omega, force, torque;
   std::vector<Real> radius, mass;
+  std::vector<std::int64_t> tags;
 
   void add(const Vec3 &at, Real r = kRadius)
   {
@@ -67,10 +68,11 @@ struct Grains {
     for (std::vector<Vec3> *rest : {&v, &omega, &force, &torque}) rest->push_back({0, 0, 0});
     radius.push_back(r);
     mass.push_back(1);
+    tags.push_back(static_cast<std::int64_t>(x.size()));
   }
-  Spheres spheres()
+  HostSpheres spheres()
   {
-    Spheres s;
+    HostSpheres s;
     s.n = static_cast<int>(x.size());
     if (s.n == 0) return s;
     s.x = &x[0].x;
@@ -80,6 +82,7 @@ struct Grains {
     s.torque = &torque[0].x;
     s.radius = radius.data();
     s.mass = mass.data();
+    s.tag = tags.data();
     return s;
   }
 };
@@ -90,6 +93,7 @@ struct Scene {
   Grains grains;
   std::unique_ptr<Wall> wall;
   std::int64_t now = 0;
+  std::vector<Real> inputs;
 
   Scene(FakeHost &host, const WallSpec &settings) : host(host)
   {
@@ -106,12 +110,12 @@ struct Scene {
     for (std::size_t i = 0; i < grains.x.size(); i++)
       grains.force[i] = grains.torque[i] = {0, 0, 0};
     wall->history().grow(static_cast<int>(grains.x.size()));
-    host.spheres = grains.spheres();
     StepInput input;
     input.step = {now, kDt, kind};
     input.look = look;
     input.new_spheres = look;
     input.box_changes = true;
+    input.inputs = inputs;
     input.drift.kind = SphereDrift::watched;
     input.drift.distance = 0.05;
     wall->begin(grains.spheres(), input);
@@ -139,7 +143,6 @@ TEST(Wall, pushes_a_sphere_by_its_overlap)
 {
   const Floor floor;
   FakeHost host;
-  host.tags = {1};
   Scene scene(host, floor.wall());
   scene.grains.add({0.3, 0.2, 0.49});
   scene.set_up();
@@ -161,7 +164,6 @@ TEST(Wall, has_the_same_bits_from_a_mesh_as_from_its_file)
   std::uint64_t fingerprint[2];
   for (const bool by_mesh : {false, true}) {
     FakeHost host;
-    host.tags = {1};
     Scene scene(host, by_mesh ? from_mesh : from_file);
     scene.grains.add(from_file.meshes[0].placement.apply({0.3, 0.2, 0.7}));    // 0.49 above it
     scene.set_up();
@@ -177,7 +179,6 @@ TEST(Wall, keeps_the_spring_of_a_contact_that_slides)
 {
   const Floor floor;
   FakeHost host;
-  host.tags = {1};
   Scene scene(host, floor.wall());
   scene.grains.add({0.3, 0.2, 0.49});
   scene.grains.v[0] = {0.1, 0, 0};
@@ -194,7 +195,6 @@ TEST(Wall, has_no_grid_before_there_are_spheres)
   scene.set_up();
   EXPECT_EQ(scene.wall->cutoff(), 0);
   scene.grains.add({0, 0, 0.49});
-  host.tags = {1};
   scene.now++;
   scene.step(Step::step, true);
   EXPECT_EQ(scene.wall->cutoff(), kRadius);
@@ -205,7 +205,6 @@ TEST(Wall, builds_its_grid_anew_with_room_for_spheres_that_grow)
 {
   const Floor floor;
   FakeHost host;
-  host.tags = {1};
   Scene scene(host, floor.wall());
   scene.grains.add({0, 0, 0.49});
   scene.set_up();
@@ -223,7 +222,7 @@ TEST(Wall, names_the_lowest_tag_of_spheres_larger_than_rmax)
     Scene scene(host, floor.wall({"rmax", "0.5"}));
     scene.grains.add({0, 0, 2}, 0.75);
     scene.grains.add({0, 0, 4}, 0.75);
-    host.tags = {host.rank() == 0 ? 7 : 5, 9};
+    scene.grains.tags = {host.rank() == 0 ? 7 : 5, 9};
     try {
       scene.set_up();
       ADD_FAILURE() << "no error";
@@ -240,7 +239,7 @@ TEST(Wall, adds_up_the_forces_of_all_processes)
   on_processes(2, [&](FakeHost &host) {
     Scene scene(host, floor.wall());
     scene.grains.add({host.rank() == 0 ? 3.0 : -3.0, 0, host.rank() == 0 ? 0.49 : 0.48});
-    host.tags = {1 + host.rank()};
+    scene.grains.tags = {1 + host.rank()};
     scene.set_up();
     const MeshTotals &all = scene.wall->totals().mesh(0);
     EXPECT_NEAR(all.force.z, -kN * 0.03, kN * kRounding);
@@ -253,7 +252,6 @@ TEST(Wall, has_the_virial_of_its_contacts)
 {
   const Floor floor;
   FakeHost host;
-  host.tags = {1};
   Scene scene(host, floor.wall());
   scene.grains.add({0, 0, 0.49});
   scene.wall->begin_run(0, true);
@@ -261,7 +259,6 @@ TEST(Wall, has_the_virial_of_its_contacts)
   input.step = {0, kDt, Step::setup};
   input.look = input.virial = true;
   scene.wall->history().grow(1);
-  host.spheres = scene.grains.spheres();
   scene.wall->begin(scene.grains.spheres(), input);
   scene.wall->finish(scene.grains.spheres());
   Real virial[6] = {0, 0, 0, 0, 0, 0};
@@ -274,7 +271,6 @@ TEST(Wall, moves_its_mesh_by_words_given_later)
 {
   const Floor floor;
   FakeHost host;
-  host.tags = {1};
   Scene scene(host, floor.wall());
   scene.grains.add({0, 0, 0.49});
   scene.set_up();
@@ -282,6 +278,22 @@ TEST(Wall, moves_its_mesh_by_words_given_later)
   scene.run(10);
   // The floor has risen by 10 dt; the position is rounded where it is about 1.
   EXPECT_NEAR(scene.grains.force[0].z, kN * (0.01 + 10 * kDt), kN * 1e-13);
+}
+
+// Inputs 0 and 1 are the height of the mesh and its speed; input 2 is of no mesh.
+TEST(Wall, moves_its_mesh_by_the_inputs_of_a_step)
+{
+  const Floor floor;
+  FakeHost host;
+  WallSpec spec = floor.wall({"motion", "variable", "NULL", "NULL", "v_z", "NULL", "NULL", "v_vz"});
+  spec.inputs.push_back("other");
+  Scene scene(host, spec);
+  EXPECT_EQ(scene.wall->inputs_read(), (std::vector<int>{0, 1}));
+  scene.grains.add({0, 0, 0.49});
+  scene.inputs = {0.02, 0.5, 7};
+  scene.set_up();
+  EXPECT_NEAR(scene.grains.force[0].z, kN * 0.03, kN * kRounding);
+  EXPECT_EQ(scene.wall->meshes()[0].motion.pose().velocity.z, 0.5);
 }
 
 TEST(Wall, takes_no_words_but_its_own)
@@ -311,7 +323,6 @@ TEST(Wall, goes_on_from_its_state_and_the_histories_of_its_spheres)
 {
   const Floor floor;
   FakeHost host;
-  host.tags = {1};
   Scene first(host, floor.wall());
   first.grains.add({0.3, 0.2, 0.49});
   first.grains.v[0] = {0.1, 0, 0};
@@ -322,7 +333,6 @@ TEST(Wall, goes_on_from_its_state_and_the_histories_of_its_spheres)
   const int size = first.wall->pack_restart(0, packed.data());
 
   FakeHost other_host;
-  other_host.tags = {1};
   Scene second(other_host, floor.wall());
   second.grains = first.grains;
   second.wall->history().grow(1);
@@ -340,7 +350,6 @@ TEST(Wall, drops_histories_where_the_mesh_is_another)
 {
   const Floor floor;
   FakeHost host;
-  host.tags = {1};
   Scene first(host, floor.wall());
   first.grains.add({0.3, 0.2, 0.49});
   first.grains.v[0] = {0.1, 0, 0};
@@ -351,7 +360,6 @@ TEST(Wall, drops_histories_where_the_mesh_is_another)
   const int size = first.wall->pack_restart(0, packed.data());
 
   FakeHost other_host;
-  other_host.tags = {1};
   Scene second(other_host, floor.wall({"scale", "2"}));
   second.grains = first.grains;
   second.wall->history().grow(1);
@@ -369,7 +377,6 @@ TEST(Wall, reaches_through_a_periodic_face_that_comes_nearer)
 {
   const Floor floor;
   FakeHost host;
-  host.tags = {1};
   Scene scene(host, floor.wall({"rotate", "0", "1", "0", "90", "move", "-49.6", "0", "0"}));
   // An upright wall at x = -49.6; the box ends at x = 50, where its image is at x = 50.4.
   host.simulation.periodic[0] = true;
@@ -386,20 +393,38 @@ TEST(Wall, warns_once_where_spheres_went_past_a_periodic_face_farther_than_its_g
 {
   const Floor floor;
   FakeHost host;
-  host.tags = {1};
   Scene scene(host, floor.wall({"rotate", "0", "1", "0", "90", "move", "-49.6", "0", "0"}));
   host.simulation.periodic[0] = true;
   scene.grains.add({49, 0, 0});
   scene.set_up();
   scene.grains.x[0].x = 50.5;    // by 0.5, where the margin is 0.1
-  host.spheres = scene.grains.spheres();
-  scene.wall->check_wrapping();
+  scene.wall->check_wrapping(scene.grains.spheres());
   ASSERT_EQ(host.warnings.size(), 1u);
   EXPECT_EQ(host.warnings[0].rfind("a particle was 0.5 past a periodic face", 0), 0u)
       << host.warnings[0];
   scene.grains.x[0].x = 51.5;    // farther than the grid reaches now
-  host.spheres = scene.grains.spheres();
-  scene.wall->check_wrapping();
+  scene.wall->check_wrapping(scene.grains.spheres());
+  EXPECT_EQ(host.warnings.size(), 1u);
+}
+
+TEST(Wall, does_not_look_how_far_spheres_of_other_groups_went)
+{
+  const Floor floor;
+  FakeHost host;
+  Scene scene(host, floor.wall({"rotate", "0", "1", "0", "90", "move", "-49.6", "0", "0"}));
+  host.simulation.periodic[0] = true;
+  scene.grains.add({49, 0, 0});
+  scene.grains.add({49, 2, 0});
+  scene.set_up();
+  scene.grains.x[1].x = 50.5;
+  HostSpheres s = scene.grains.spheres();
+  const int mask[] = {2, 1};
+  s.mask = mask;
+  s.group_bit = 2;
+  scene.wall->check_wrapping(s);
+  EXPECT_TRUE(host.warnings.empty());
+  s.group_bit = 1;
+  scene.wall->check_wrapping(s);
   EXPECT_EQ(host.warnings.size(), 1u);
 }
 
@@ -407,14 +432,14 @@ TEST(Wall, of_one_process_that_fails_names_its_sphere)
 {
   const Floor floor;
   FakeHost host;
-  host.tags = {42};
   Scene scene(host, floor.wall());
   scene.grains.add({0, 0, 0.49});
   scene.set_up();
+  scene.grains.tags = {42};
   scene.grains.radius[0] = 0.51;    // without a word to the wall
   scene.run(1);
   try {
-    scene.wall->poll_diagnostics(1);
+    scene.wall->poll_diagnostics(scene.grains.spheres(), 1);
     ADD_FAILURE() << "no error";
   } catch (const ProcessError &e) {
     EXPECT_EQ(std::string(e.what()).rfind("atom 42 ", 0), 0u) << e.what();
@@ -425,7 +450,6 @@ TEST(Wall, does_not_move_springs_in_a_snapshot)
 {
   const Floor floor;
   FakeHost host;
-  host.tags = {1};
   Scene scene(host, floor.wall());
   scene.grains.add({0.3, 0.2, 0.49});
   scene.grains.v[0] = {0.1, 0, 0};
