@@ -105,17 +105,17 @@ std::size_t count(const Pairs &pairs)
   return n;
 }
 
-Pairs ours(const Words &words, const WeldedMesh &wall, const Case &c, int nearest,
+Pairs ours(const Words &words, const WeldedMesh &wall, const Case &c, ListKind list_kind,
            const Pairs &expected)
 {
-  GridSettings settings = collision_grid(c.body, words.cell, nearest);
+  GridSettings settings = collision_grid(c.body, words.cell, list_kind);
   settings.memory_budget = std::size_t(8) << 30;
   const TriangleGrid grid = build_grid(wall, settings);
   const auto collision = make_body_collision(words.device);
   collision->set_wall(grid);
   const bool on_cpu = words.device == Device::cpu;
   const double cut_ms = milliseconds([&] { collision->set_body(c.body); }, on_cpu);
-  const bool all = nearest == kEveryTriangle;
+  const bool all = list_kind.is_every();
   if (all)
     std::printf(
         "\nlion %s, %zu triangles in %zu pieces (cut in %.0f ms), wall of %zu triangles, cells "
@@ -139,7 +139,7 @@ Pairs ours(const Words &words, const WeldedMesh &wall, const Case &c, int neares
     row("lists of every triangle", ms, count(pairs));
     row("the same with segments", ms_segments, count(pairs));
   } else {
-    row(format("the %d nearest: misses %zu, %zu pieces uncertain", nearest,
+    row(format("the %u nearest: misses %zu, %zu pieces uncertain", list_kind.most(),
                count(expected) - count(pairs), std::size_t(uncertain)),
         ms, count(pairs));
   }
@@ -161,8 +161,8 @@ Pairs theirs(const char *name, Other &other, const Words &words)
 
 bool measure(const Words &words, const WeldedMesh &wall, const Case &c)
 {
-  const Pairs found = ours(words, wall, c, kEveryTriangle, {});
-  for (const int n : {1, 2, 3}) ours(words, wall, c, n, found);
+  const Pairs found = ours(words, wall, c, ListKind::every(), {});
+  for (const int n : {1, 2, 3}) ours(words, wall, c, ListKind::nearest(n), found);
   bool right = true;
 #if defined(LSDCD_WITH_CGAL)
   const CgalCollision tree(wall);

@@ -139,7 +139,7 @@ void measure(const BenchOptions &o, BenchRows &rows)
       Bed bed(Anywhere(mesh.report, m.radius, n), device);
       GridSettings settings;
       settings.cutoff = m.radius;
-      const Real usual = default_length(mesh, m.radius, 0, false);
+      const Real usual = default_length(mesh, m.radius, ListKind::complete(), false);
       for (Real factor : {0.25, 0.35, 0.5, 0.7, 1.0, 1.4, 2.0, 4.0}) {
         if (o.quick && factor < 0.7) continue;
         settings.length = factor * usual;

@@ -65,7 +65,7 @@ GridSettings settings_of(const lsdcd_grid_options &o, bool with_sides)
   s.memory_budget = static_cast<std::size_t>(o.memory);
   s.limited = true;
   s.sides = with_sides;
-  s.nearest = o.nearest;
+  s.list_kind = ListKind::of_option(o.nearest);
   s.in_floats = o.precision == LSDCD_FLOAT;
   s.purpose = GridPurpose::points;
   return s;

@@ -56,7 +56,7 @@ class BodyCollision {
  public:
   virtual ~BodyCollision() = default;
 
-  // The lists of this grid must hold whole triangles: with kEveryTriangle answers are exact, with the N
+  // The lists of this grid must hold whole triangles: with ListKind::every() answers are exact, with the N
   // nearest they are those of the paper's method. Else throws InputError.
   virtual void set_wall(const TriangleGrid &grid) = 0;
   // Cuts the triangles into pieces; call it after set_wall(). Throws InputError, also if there are too
@@ -81,6 +81,6 @@ std::unique_ptr<BodyCollision> make_body_collision(Device device);
 // Settings of a wall's grid for bodies. `length` 0: cells are as long as the median edge of the body, or
 // longer until the memory budget holds.
 GridSettings collision_grid(const TriangleSoup &body, Real length = 0,
-                            int nearest = kEveryTriangle);
+                            ListKind list_kind = ListKind::every());
 
 }    // namespace lsdcd

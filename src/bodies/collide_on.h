@@ -35,7 +35,7 @@ class BodyCollisionOn : public BodyCollision {
 
   void set_wall(const TriangleGrid &grid) override
   {
-    if (grid.nearest == 0 || grid.in_floats || grid.wall.images.any())
+    if (grid.list_kind.is_complete() || grid.in_floats || grid.wall.images.any())
       throw InputError("a body needs a wall's grid with lists of triangles in double, without "
                        "periodic images: build it with collision_grid()");
     shared_ = std::make_shared<GridOn<B>>(b_, FlatGrid(grid));

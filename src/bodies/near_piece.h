@@ -60,7 +60,7 @@ LSDCD_FN bool for_each_near(const GridView &grid, const Vec3 &centre, Real radiu
   CellAddress at;
   Cell cell;
   if (!find_cell(grid, centre, at, cell)) return false;
-  const std::uint32_t most = static_cast<std::uint32_t>(grid.nearest);
+  const std::uint32_t most = grid.list_kind.most();
   const std::uint32_t n = cell.count < most ? cell.count : most;
   for (std::uint32_t k = 0; k < n; k++) {
     const FeatureCode code =
@@ -81,7 +81,7 @@ LSDCD_FN bool for_each_near(const GridView &grid, const Vec3 &centre, Real radiu
 LSDCD_FN bool is_of_piece_before(const GridView &grid, const Piece *pieces, std::size_t i,
                                  const BodyPose &pose, Real unit, FeatureCode primitive)
 {
-  if (i == 0 || grid.nearest != kEveryTriangle) return false;
+  if (i == 0 || !grid.list_kind.is_every()) return false;
   const Piece before = pieces[i - 1];
   return before.triangle == pieces[i].triangle &&
          primitive_distance(grid.wall, primitive, pose.corner_at(before.centre)) <=

@@ -125,8 +125,7 @@ LSDCD_FN Real find_in_nearest(const GridView &grid, const Vec3 &q, Real radius,
     const Candidate candidate = grid.lists.candidates[cell.first + k];
     if (candidate.bound > radius + off_centre) break;
     // The tolerance covers the rounding of distances.
-    if (k == static_cast<std::uint32_t>(grid.nearest))
-      return candidate.bound - off_centre - grid.tolerance;
+    if (k == grid.list_kind.most()) return candidate.bound - off_centre - grid.tolerance;
     add_primitive(geometry, candidate.feature, radius, set);
     if (set.overflow) break;
   }
@@ -141,7 +140,7 @@ template <class Geometry, int kPlaces>
 LSDCD_FN Real find_contacts_in(const GridView &grid, const Vec3 &q, Real radius,
                                ContactSet<kPlaces> &set)
 {
-  if (grid.nearest > 0) return find_in_nearest<Geometry>(grid, q, radius, set);
+  if (grid.list_kind.has_primitives()) return find_in_nearest<Geometry>(grid, q, radius, set);
   find_in_complete<Geometry>(grid, q, radius, set);
   return kAnyDistance;
 }

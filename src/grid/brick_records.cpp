@@ -88,7 +88,7 @@ void codes_of(const TriangleGrid &grid, const Brick &brick, std::size_t n_cells,
       for (std::uint32_t i = cell.first; i < cell.first + cell.count; i++)
         add(lists.candidates[i].feature);
   }
-  const std::size_t n = grid.nearest > 0 ? codes.size() : 0;
+  const std::size_t n = grid.list_kind.has_primitives() ? codes.size() : 0;
   for (std::size_t i = 0; i < n; i++)
     if (feature_kind(codes[i]) == FeatureKind::face)
       for (FeatureCode part : grid.wall.face_parts[feature_index(codes[i])].part)
@@ -126,7 +126,7 @@ void add_records(TriangleGrid &grid, BrickRecords &out)
     for (int k = 0; k < 3; k++)
       at[k] += std::exchange(first[b][k], static_cast<std::uint32_t>(at[k]));
   for (const std::uint64_t n : at) check_record_number(n);
-  const bool with_parts = grid.nearest > 0;
+  const bool with_parts = grid.list_kind.has_primitives();
   out.faces.resize(first[n_bricks][0]);
   out.face_of.resize(first[n_bricks][0]);
   if (with_parts) out.face_parts.resize(first[n_bricks][0]);

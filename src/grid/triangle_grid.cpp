@@ -64,7 +64,7 @@ GridView TriangleGrid::view() const
   v.tolerance = tolerance;
   v.margin = margin;
   v.outside = outside;
-  v.nearest = nearest;
+  v.list_kind = list_kind;
   v.in_floats = in_floats;
   v.is_large =
       array_bytes(wall.faces) + array_bytes(wall.edges) + array_bytes(wall.vertices) > kNearMemory;
@@ -169,10 +169,11 @@ std::string describe(const GridReport &r)
     n += std::snprintf(text + n, sizeof text - n, "; %.6g takes too much time or memory",
                        r.too_fine);
   n += std::snprintf(text + n, sizeof text - n, "), cutoff %.6g: ", r.cutoff);
-  if (r.nearest == kEveryTriangle)
+  if (r.list_kind.is_every())
     n += std::snprintf(text + n, sizeof text - n, "every triangle, ");
-  else if (r.nearest > 0)
-    n += std::snprintf(text + n, sizeof text - n, "the nearest %d and a bound, ", r.nearest);
+  else if (r.list_kind.has_primitives())
+    n += std::snprintf(text + n, sizeof text - n, "the nearest %u and a bound, ",
+                       r.list_kind.most());
   const ListReport &l = r.lists;
   n += std::snprintf(text + n, sizeof text - n,
                      "%zu bricks, %zu cells, %zu candidates, lists %.2f on average, %zu at most",

@@ -48,6 +48,36 @@ struct Brick {
   BrickLayer layer[kLayers];    // z upwards
 };
 
+constexpr int kMaxNearest = 32;
+
+// What the list of a cell has: all that a sphere can touch (complete), the N primitives nearest to the cell's
+// centre, or every primitive within the cutoff, as collisions of bodies ask for. It is one number in cache files
+// and in what kernels compare, so that it has no initial value.
+class ListKind {
+ public:
+  ListKind() = default;
+  static constexpr ListKind complete() { return ListKind(0); }
+  // n: 1 to kMaxNearest
+  static constexpr ListKind nearest(int n) { return ListKind(n); }
+  static constexpr ListKind every() { return ListKind(kEvery); }
+  // The values of `nearest` of scripts and of the library: 0 is complete.
+  static constexpr ListKind of_option(int n) { return n == 0 ? complete() : nearest(n); }
+
+  LSDCD_FN bool is_complete() const { return n_ == 0; }
+  LSDCD_FN bool has_primitives() const { return n_ > 0; }
+  LSDCD_FN bool is_every() const { return n_ == kEvery; }
+  // How many primitives of a list are read. The next one is a bound of all that was left out.
+  LSDCD_FN std::uint32_t most() const { return static_cast<std::uint32_t>(n_); }
+
+  friend bool operator==(ListKind a, ListKind b) { return a.n_ == b.n_; }
+
+ private:
+  static constexpr std::int32_t kEvery = 0x7ffffffe;
+  constexpr explicit ListKind(std::int32_t n) : n_(n) {}
+
+  std::int32_t n_;
+};
+
 // Lists of one kind for all cells.
 struct CellListsView {
   const std::int32_t *brick_of;    // x fastest; -1 where no brick is near the wall
@@ -76,9 +106,7 @@ struct GridView {
   Real margin;                // a list holds for centres up to this far from its cell, too; length
   Real outside;    // +1 where normals point out of a closed wall, -1 where in; 0: unknown
   std::int32_t n_bricks[3];
-  // 0: `lists` are complete. N: `lists` hold the N nearest primitives and, where there are
-  // more within the cutoff, the next one as a bound of all that was left out.
-  std::int32_t nearest;
+  ListKind list_kind;
   std::int32_t in_floats;    // codes in lists are of brick records
   std::int32_t is_large;     // do the wall's records exceed a processor's cache?
   CellListsView lists;
@@ -106,7 +134,7 @@ struct GridSettings {
   std::size_t memory_budget = 0;    // bytes, of all of it; 0: kListBudget for lists
   bool limited = false;             // keep the build within BuildLimit where no budget is given
   bool sides = false;               // keep what `side in|out` needs
-  int nearest = 0;           // 0: complete lists; N, at most kMaxNearest: the N nearest primitives
+  ListKind list_kind = ListKind::complete();
   bool in_floats = false;    // brick records, for queries in float
   GridPurpose purpose = GridPurpose::step;
   bool for_gpu = false;        // spheres are on a GPU: the chosen length is shorter
@@ -117,9 +145,6 @@ struct GridSettings {
   // Called between the parts of a build and on a CPU within them.
   ProgressListener progress;
 };
-constexpr int kMaxNearest = 32;
-// In place of N: every primitive within the cutoff, for collisions of bodies with the wall.
-constexpr int kEveryTriangle = 0x7ffffffe;
 constexpr std::size_t kListBudget = 1ull << 30;    // bytes, beside the records of the wall
 
 // A limit of what a build takes. A chosen length grows until it is kept, a given one is refused.
@@ -146,7 +171,7 @@ struct GridReport {
   Real length = 0, cutoff = 0;
   bool length_chosen = false;
   Real too_fine = 0;    // the length chosen first, if that took too much; else 0
-  int nearest = 0;
+  ListKind list_kind = ListKind::complete();
   ListReport lists;
   std::size_t records = 0, record_bytes = 0;
   std::size_t bytes = 0;
@@ -168,7 +193,7 @@ struct TriangleGrid {
   Vec3 origin = {0, 0, 0};
   Real length = 0, cutoff = 0, tolerance = 0, margin = 0, outside = 1;
   std::int32_t n_bricks[3] = {0, 0, 0};
-  int nearest = 0;
+  ListKind list_kind = ListKind::complete();
   bool in_floats = false;
   CellLists lists;
   BrickRecords records;

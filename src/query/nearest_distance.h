@@ -71,7 +71,7 @@ class BrickDistances {
   BrickGeometry geometry_;
 };
 
-// How a grid is searched: by which distances, and whether its lists are complete (grid.nearest is 0).
+// How a grid is searched: by which distances, and whether its lists are complete.
 template <class D, bool kAll>
 struct ListSearch {
   using Distances = D;
@@ -82,7 +82,7 @@ struct ListSearch {
 template <class Run>
 void with_list_search(const GridView &grid, const Run &run)
 {
-  const bool complete = grid.nearest == 0;
+  const bool complete = grid.list_kind.is_complete();
   if (grid.in_floats && complete)
     run(ListSearch<BrickDistances, true>());
   else if (grid.in_floats)
@@ -223,8 +223,7 @@ LSDCD_FN Answer nearest_from(const GridView &grid, const Vec3 &q, Real radius,
   using Distances = typename Search::Distances;
   if (Search::kComplete)
     return nearest_in_cell<false, Distances>(grid, q, radius, kWholeList, at, cell, before);
-  return nearest_in_cell<true, Distances>(grid, q, radius, static_cast<std::uint32_t>(grid.nearest),
-                                          at, cell, before);
+  return nearest_in_cell<true, Distances>(grid, q, radius, grid.list_kind.most(), at, cell, before);
 }
 
 // The same for any q.

@@ -85,7 +85,7 @@ void AccuracyStudy::set_grid(const StudyLists &lists)
   GridSettings grid;
   grid.length = lists.length;
   grid.cutoff = box_.largest;
-  grid.nearest = lists.nearest;
+  grid.list_kind = ListKind::of_option(lists.nearest);
   grid.memory_budget = settings_.memory_budget;
   const bool on_cuda = settings_.device != Device::cpu && cuda_available(nullptr);
   grid_ = TriangleGrid();

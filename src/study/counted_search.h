@@ -86,7 +86,7 @@ LSDCD_FN CountedAnswer search_counted(const GridView &grid, const Vec3 &q, Real 
     attempt(cell.first);
     return answer(true, 1);
   }
-  const std::uint32_t most = kComplete ? kWholeList : static_cast<std::uint32_t>(grid.nearest);
+  const std::uint32_t most = kComplete ? kWholeList : grid.list_kind.most();
   const Real off_centre = norm(at.from_centre);
   for (std::uint32_t k = 0; k < cell.count; k++) {
     const Candidate candidate = grid.lists.candidates[cell.first + k];

@@ -33,9 +33,10 @@ std::vector<Real> lengths_to_try(const WeldedMesh &mesh, const GridSettings &set
   const Real standard = plan_grid(mesh, settings).length;
   const double budget = double(settings.memory_budget > 0 ? settings.memory_budget : kListBudget);
   std::vector<Real> lengths;
-  const Real of_nearest = default_length(mesh, settings.cutoff, 1, false);
+  const Real of_nearest = default_length(mesh, settings.cutoff, ListKind::nearest(1), false);
   std::vector<Real> all = {0.5 * of_nearest, of_nearest, 2 * of_nearest, 4 * of_nearest, standard};
-  if (settings.for_gpu) all.push_back(default_length(mesh, settings.cutoff, 0, false));
+  if (settings.for_gpu)
+    all.push_back(default_length(mesh, settings.cutoff, ListKind::complete(), false));
   std::sort(all.begin(), all.end());
   for (Real length : all) {
     length = rounded(std::min(length, settings.cutoff));

@@ -114,7 +114,7 @@ class SphereQueryOn : public SphereQuery {
       const Vec3 q = spheres[i].centre();
       const Real radius = spheres[i].r;
       const CountedAnswer a = every_face ? search_every_face<Distances>(grid, n_faces, q, radius)
-                              : grid.nearest == 0
+                              : grid.list_kind.is_complete()
                                   ? search_counted<true, Distances>(grid, q, radius)
                                   : search_counted<false, Distances>(grid, q, radius);
       if (status) status[i] = a.status();
@@ -128,7 +128,7 @@ class SphereQueryOn : public SphereQuery {
   {
     const bool paper = settings.inside == InsideTest::formula_five;
     const GridView grid = flat_.view();
-    if (paper && !settings.every_face && (grid.nearest == 0 || grid.in_floats))
+    if (paper && !settings.every_face && (grid.list_kind.is_complete() || grid.in_floats))
       throw InputError("the paper's inside test needs lists of triangles in double: give a "
                        "grid of `nearest N`, or try every face");
     if (settings.every_face && grid.in_floats)

@@ -109,7 +109,7 @@ class Measuring {
   std::unique_ptr<TriangleGrid> build(Real &length, int nearest)
   {
     grid_settings_.length = length;
-    grid_settings_.nearest = nearest;
+    grid_settings_.list_kind = ListKind::of_option(nearest);
     grid_settings_.may_coarsen = sample_.n() == 0;
     try {
       auto grid = std::make_unique<TriangleGrid>(build_grid(mesh_, grid_settings_, settings_.cuda));

@@ -121,7 +121,7 @@ const Wall &wall_of(const Case &c, const GridSettings &g)
 {
   static Wall last;
   const GridSettings &had = last.settings;
-  if (last.name == c.name && had.cutoff == g.cutoff && had.nearest == g.nearest &&
+  if (last.name == c.name && had.cutoff == g.cutoff && had.list_kind == g.list_kind &&
       had.in_floats == g.in_floats)
     return last;
   const WeldedMesh mesh = mesh_of(c);
@@ -151,7 +151,7 @@ Outcome run_steps(const Case &c, const ContactLaw &law, const EngineMaker &make,
   GridSettings g;
   g.cutoff = cutoff_of(law, c.cutoff);
   g.length = c.length;
-  g.nearest = search.nearest;
+  g.list_kind = ListKind::of_option(search.nearest);
   g.in_floats = search.precision != Precision::double_;
   g.within = within(c);
   const Wall &built = wall_of(c, g);

@@ -181,7 +181,7 @@ Scene::Scene(const TriangleSoup &soup, Real cutoff, EngineSettings settings, Rea
   g.length = grid_length;
   g.cutoff = cutoff;
   g.sides = settings.side != Side::both;
-  g.nearest = nearest;
+  g.list_kind = ListKind::of_option(nearest);
   g.in_floats = settings.precision != Precision::double_;
   grid = build_grid(mesh, g, test_on_cuda());
   flat_ = FlatGrid(grid);

@@ -139,7 +139,7 @@ TEST(bodies, face_behind_its_neighbours_fold_is_found)
   ASSERT_EQ(found.pairs.size(), 1u);
   EXPECT_EQ(found.pairs[0].wall, feature_code(FeatureKind::face, 1));
 
-  settings.nearest = 0;
+  settings.list_kind = ListKind::complete();
   const TriangleGrid of_features = build_grid(mesh, settings);
   const GridView view = of_features.view();
   CellAddress at;
@@ -242,7 +242,7 @@ TEST(bodies, nearest_lists_find_no_pair_too_many_and_say_where_they_were_cut_sho
   const Collision expected = collision_of(all, body)->collide(pose);
   std::size_t before = 0;
   for (const int n : {1, 2, 4, 32}) {
-    const TriangleGrid grid = build_grid(mesh, collision_grid(body, 0.3, n));
+    const TriangleGrid grid = build_grid(mesh, collision_grid(body, 0.3, ListKind::nearest(n)));
     const Collision found = collision_of(grid, body)->collide(pose);
     EXPECT_TRUE(std::includes(expected.pairs.begin(), expected.pairs.end(), found.pairs.begin(),
                               found.pairs.end()));
@@ -268,7 +268,7 @@ TEST(bodies, nearest_lists_find_the_same_whichever_way_a_triangle_goes_round)
   BodyPose pose;
   pose.shift = {0.4, 0.3, 1.3};
   for (const int n : {1, 2, 4}) {
-    const TriangleGrid grid = build_grid(mesh, collision_grid(body, 0.1, n));
+    const TriangleGrid grid = build_grid(mesh, collision_grid(body, 0.1, ListKind::nearest(n)));
     const Collision found = collision_of(grid, body)->collide(pose);
     EXPECT_GT(found.pairs.size(), 10u) << n;
     EXPECT_TRUE(found.pairs == collision_of(grid, turned)->collide(pose).pairs) << n;

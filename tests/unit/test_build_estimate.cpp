@@ -23,11 +23,11 @@ WeldedMesh slivers(int n)
   return weld(cylinder_mesh(n, 1, 50, 100), -1);
 }
 
-GridSettings settings_of(Real cutoff, int nearest)
+GridSettings settings_of(Real cutoff, ListKind list_kind)
 {
   GridSettings settings;
   settings.cutoff = settings.length = cutoff;
-  settings.nearest = nearest;
+  settings.list_kind = list_kind;
   settings.memory_budget = std::size_t(4) << 30;
   return settings;
 }
@@ -38,7 +38,7 @@ void compare(const WeldedMesh &mesh, const GridSettings &settings)
   const TriangleGrid grid = build_grid(mesh, settings);
   const double entries = double(grid.report.lists.candidates);
   const GridPlan plan = plan_grid(mesh, settings);
-  const ListEstimate about = estimate_lists(grid.wall, plan, settings.nearest > 0);
+  const ListEstimate about = estimate_lists(grid.wall, plan, settings.list_kind.has_primitives());
   ASSERT_GT(about.least_entries, 0);
   // Four standard errors on each side; the numbers are the same in every run.
   EXPECT_LE(about.least_entries, entries);
@@ -51,10 +51,10 @@ void compare(const WeldedMesh &mesh, const GridSettings &settings)
             double(flat_bytes(grid) - flat_wall_bytes(grid)));
 }
 
-BuildEstimate estimate_of_slivers(int nearest)
+BuildEstimate estimate_of_slivers(ListKind list_kind)
 {
   const WeldedMesh mesh = slivers(500);
-  const GridSettings settings = settings_of(0.5, nearest);
+  const GridSettings settings = settings_of(0.5, list_kind);
   return estimate_build(make_features(mesh, false, true), plan_grid(mesh, settings), settings);
 }
 
@@ -62,32 +62,32 @@ BuildEstimate estimate_of_slivers(int nearest)
 
 TEST(BuildEstimate, entries_of_slivers_are_as_estimated)
 {
-  compare(slivers(500), settings_of(0.5, 0));
+  compare(slivers(500), settings_of(0.5, ListKind::complete()));
 }
 
 TEST(BuildEstimate, entries_of_a_fine_mesh_are_as_estimated)
 {
-  compare(weld(cylinder_mesh(200, 99, 50, 100), -1), settings_of(1, 0));
+  compare(weld(cylinder_mesh(200, 99, 50, 100), -1), settings_of(1, ListKind::complete()));
 }
 
 TEST(BuildEstimate, entries_of_lists_of_every_triangle_are_as_estimated)
 {
-  compare(weld(cylinder_mesh(200, 99, 50, 100), -1), settings_of(1, kEveryTriangle));
+  compare(weld(cylinder_mesh(200, 99, 50, 100), -1), settings_of(1, ListKind::every()));
 }
 
 TEST(BuildEstimate, lists_that_are_cut_short_may_have_any_size)
 {
-  EXPECT_EQ(estimate_of_slivers(8).least_bytes, 0);
+  EXPECT_EQ(estimate_of_slivers(ListKind::nearest(8)).least_bytes, 0);
 }
 
 TEST(BuildEstimate, complete_lists_count)
 {
-  EXPECT_GT(estimate_of_slivers(0).least_bytes, 0);
+  EXPECT_GT(estimate_of_slivers(ListKind::complete()).least_bytes, 0);
 }
 
 TEST(BuildEstimate, lists_of_every_triangle_count)
 {
-  EXPECT_GT(estimate_of_slivers(kEveryTriangle).least_bytes, 0);
+  EXPECT_GT(estimate_of_slivers(ListKind::every()).least_bytes, 0);
 }
 
 TEST(BuildEstimate, a_given_cell_that_cannot_fit_is_refused_before_anything_is_built)

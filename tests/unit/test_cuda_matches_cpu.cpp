@@ -52,7 +52,7 @@ TEST(cuda_grid, has_the_same_nearest_lists_and_float_records_as_the_cpu_grid)
   for (const Case &c : cases()) {
     const WeldedMesh mesh = mesh_of(c);
     GridSettings g = grid_settings(c);
-    g.nearest = 3;
+    g.list_kind = ListKind::of_option(3);
     g.in_floats = true;
     const TriangleGrid cpu = build_grid(mesh, g, false), cuda = build_grid(mesh, g, true);
     std::vector<char> a(flat_bytes(cpu)), b(flat_bytes(cuda));

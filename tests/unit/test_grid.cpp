@@ -192,7 +192,7 @@ Real chosen_for_gpu(int n, Real cutoff, int nearest, Real given)
 {
   GridSettings settings;
   settings.cutoff = cutoff;
-  settings.nearest = nearest;
+  settings.list_kind = ListKind::of_option(nearest);
   settings.length = given;
   settings.for_gpu = true;
   return plan_grid(weld(floor_mesh(n, 1), -1), settings).length / cutoff;
@@ -582,7 +582,7 @@ TEST(grid, cells_are_of_the_reach_by_default_and_smaller_for_nearest_lists)
   GridSettings settings;
   settings.cutoff = 0.04;
   EXPECT_EQ(build_grid(mesh, settings, test_on_cuda()).length, settings.cutoff);
-  settings.nearest = 2;
+  settings.list_kind = ListKind::of_option(2);
   const Real third = 0.3 * mesh.report.median_edge;
   ASSERT_LT(third, 0.5 * settings.cutoff);
   ASSERT_GT(third, 0.2 * settings.cutoff);

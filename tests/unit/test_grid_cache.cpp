@@ -129,7 +129,7 @@ TEST(grid_cache, lists_of_the_nearest_and_records_in_floats_come_back_too)
   TempDir dir;
   for (const bool in_floats : {false, true}) {
     GridSettings settings = some_settings();
-    settings.nearest = 2;
+    settings.list_kind = ListKind::of_option(2);
     settings.in_floats = in_floats;
     const Made made(cylinder_mesh(20, 3, 1, 2), settings);
     made.write(dir.path("grid"));
@@ -327,7 +327,8 @@ TEST(grid_cache, every_setting_is_told)
             CacheState::other_settings);
   EXPECT_EQ(with([](GridSettings &s) { s.memory_budget++; }), CacheState::other_settings);
   EXPECT_EQ(with([](GridSettings &s) { s.sides = true; }), CacheState::other_settings);
-  EXPECT_EQ(with([](GridSettings &s) { s.nearest = 1; }), CacheState::other_settings);
+  EXPECT_EQ(with([](GridSettings &s) { s.list_kind = ListKind::of_option(1); }),
+            CacheState::other_settings);
   EXPECT_EQ(with([](GridSettings &s) { s.in_floats = true; }), CacheState::other_settings);
 }
 

@@ -24,7 +24,7 @@ TriangleGrid grid_of(const WeldedMesh &mesh, Real cutoff, Real length, int neare
   GridSettings settings;
   settings.cutoff = cutoff;
   settings.length = length;
-  settings.nearest = nearest;
+  settings.list_kind = ListKind::of_option(nearest);
   return build_grid(mesh, settings, test_on_cuda());
 }
 

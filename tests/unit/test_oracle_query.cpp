@@ -140,7 +140,7 @@ class query_oracle : public testing::TestWithParam<Mesh> {
     GridSettings g;
     g.cutoff = kCutoff;
     g.length = setting("LSDCD_LENGTH", 0);
-    g.nearest = nearest;
+    g.list_kind = ListKind::of_option(nearest);
     g.memory_budget = std::size_t(32) << 30;
     const TriangleGrid grid = build_grid(wall_->mesh, g, test_on_cuda());
     const QueryCounts c = wall_->checks->check(grid, *wall_->names);

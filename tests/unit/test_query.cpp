@@ -57,7 +57,7 @@ struct Case {
     GridSettings settings;
     settings.cutoff = cutoff;
     settings.length = length;
-    settings.nearest = nearest;
+    settings.list_kind = ListKind::of_option(nearest);
     settings.in_floats = in_floats;
     settings.memory_budget = 256 << 20;
     try {
@@ -253,7 +253,7 @@ TEST(query, longer_lists_of_one_grid_are_those_of_another)
   const Case &c = all_cases()[1];
   TriangleGrid eight = c.grid(8);
   for (int n = 1; n < 8; n++) {
-    eight.nearest = n;
+    eight.list_kind = ListKind::of_option(n);
     const Answers a = ask(c, eight, c.spheres), b = ask(c, c.grid(n), c.spheres);
     EXPECT_EQ(a.status, b.status) << n;
     EXPECT_EQ(a.distance, b.distance) << n;

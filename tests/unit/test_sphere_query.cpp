@@ -34,7 +34,7 @@ struct Wall {
     GridSettings settings;
     settings.cutoff = cutoff;
     settings.length = cutoff / 2;
-    settings.nearest = nearest;
+    settings.list_kind = ListKind::of_option(nearest);
     settings.in_floats = in_floats;
     return build_grid(mesh, settings, test_on_cuda());
   }

@@ -122,7 +122,7 @@ struct Wall {
   {
     GridSettings settings;
     settings.cutoff = cutoff;
-    settings.nearest = nearest;
+    settings.list_kind = ListKind::of_option(nearest);
     grid = build_grid(mesh, settings);
   }
   DriftStarts starts(Real radius, int n) const

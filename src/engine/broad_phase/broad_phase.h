@@ -29,7 +29,7 @@ class CandidateSelector {
               bool refines, StepCounts *counts, int *n_springs)
   {
     const std::size_t n = spheres.n;
-    const bool by_features = refines && mesh.grid.view.nearest == 0;
+    const bool by_features = refines && mesh.grid.view.list_kind.is_complete();
     if (candidates_.size() < n) candidates_ = Array(n + n / 8);
     if (excess_margin(mesh.grid.view, margin) > 0)
       select<true>(b, mesh, spheres, margin, pull_off, by_features, counts, n_springs);

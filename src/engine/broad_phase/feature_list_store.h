@@ -72,7 +72,7 @@ class FeatureListStore {
   std::size_t make_early(B &b, const GridView &grid, const Pose &pose,
                          const CandidateSpheres &spheres, Real margin, StepCounts *counts)
   {
-    if (B::kOnHost || grid.nearest > 0) return 0;
+    if (B::kOnHost || grid.list_kind.has_primitives()) return 0;
     const std::size_t room = std::min(multi_contact_.size(), ints_.size() / FeatureLists::kInts);
     set_view(grid);
     b.for_each_in_warps(room, gather(grid, pose, spheres, margin, counts), &counts->n_candidates);
@@ -123,7 +123,7 @@ class FeatureListStore {
   bool reserve(const GridView &grid, bool large, std::size_t n)
   {
     lists_ = FeatureLists();
-    if (grid.nearest > 0 || n == 0) return false;
+    if (grid.list_kind.has_primitives() || n == 0) return false;
     if (ints_.size() < n * FeatureLists::kInts) {
       const std::size_t room = n + n / 8;
       reals_ = Array<Real>(room * FeatureLists::kReals);

@@ -71,7 +71,7 @@ LSDCD_FN void find_filtered(const GridView &grid, const SearchSettings &settings
 // Can a search of this grid miss contacts?
 LSDCD_FN bool may_miss_any(const GridView &grid)
 {
-  return grid.nearest > 0;
+  return grid.list_kind.has_primitives();
 }
 
 // Overlap of the deepest contact that may be missing; 0: certified.

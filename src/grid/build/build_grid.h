@@ -42,25 +42,26 @@ class GridBuilder {
     n_primitives_ = wall.primitives.size();
   }
 
-  // Lists of the contact features (nearest 0) or of the nearest primitives. Returns false,
+  // Lists of the contact features or of primitives. Returns false,
   // with `lists` untouched, if they would not fit `budget` bytes.
-  bool build(const GridPlan &plan, int nearest, std::size_t budget, CellLists &lists,
+  bool build(const GridPlan &plan, ListKind list_kind, std::size_t budget, CellLists &lists,
              ListReport &report)
   {
     const auto start = std::chrono::steady_clock::now();
     view_.plan = plan;
     progress_.of(plan.length);
-    view_.primitives = nearest > 0;
-    view_.features = nearest > 0 ? of_primitives_ : of_contact_;
+    view_.primitives = list_kind.has_primitives();
+    view_.features = list_kind.has_primitives() ? of_primitives_ : of_contact_;
     OctantPairs<B> pairs;
     needed_ = HUGE_VAL;
-    if (!sort_into_octants(b_, view_, nearest > 0 ? n_primitives_ : n_contact_, progress_, pairs))
+    if (!sort_into_octants(b_, view_, list_kind.has_primitives() ? n_primitives_ : n_contact_,
+                           progress_, pairs))
       return false;
     give_back_memory();    // what sorting took
     needed_ = double(brick_bytes(plan, pairs.n_bricks));
     if (needed_ > double(budget)) return false;
-    // Of nearest primitives one more is kept, as a bound of what is left out.
-    const std::uint32_t most = nearest > 0 ? nearest + 1 : 0xffffffffu;
+    // One primitive more than are read is stored, as a bound of what is left out.
+    const std::uint32_t most = list_kind.has_primitives() ? list_kind.most() + 1 : 0xffffffffu;
     BuiltLists<B> built;
     const bool fits = fill_lists(b_, view_, pairs, most, budget, progress_, built, report);
     needed_ = std::max(needed_,
@@ -121,17 +122,17 @@ bool fill_grid(GridBuilder<B> &builder, const GridPlan &plan, const GridSettings
   const double for_lists = budget - double(of_wall);
   needed = of_wall + plan.least_bytes();
   if (needed > budget) return false;
-  const bool lists_fit = builder.build(plan, settings.nearest, static_cast<std::size_t>(for_lists),
-                                       grid.lists, grid.report.lists);
+  const bool lists_fit = builder.build(
+      plan, settings.list_kind, static_cast<std::size_t>(for_lists), grid.lists, grid.report.lists);
   needed = std::max(needed, of_wall + builder.needed());
   if (!lists_fit) return false;
   grid.origin = plan.origin;
   grid.length = plan.length;
   grid.cutoff = plan.cutoff;
   grid.tolerance = plan.tolerance;
-  grid.margin = settings.nearest == 0 ? plan.margin : 0;
+  grid.margin = settings.list_kind.is_complete() ? plan.margin : 0;
   for (int k = 0; k < 3; k++) grid.n_bricks[k] = plan.n_bricks[k];
-  grid.nearest = settings.nearest;
+  grid.list_kind = settings.list_kind;
   if (settings.in_floats) add_brick_records(grid);
   needed = std::max(needed, double(flat_bytes(grid)));
   return needed <= budget;
@@ -151,7 +152,7 @@ TriangleGrid build_grid_on(B backend, const WeldedMesh &mesh, const GridSettings
 {
   const auto start = std::chrono::steady_clock::now();
   TriangleGrid grid;
-  grid.wall = make_features(mesh, settings.sides, settings.nearest > 0);
+  grid.wall = make_features(mesh, settings.sides, settings.list_kind.has_primitives());
   GridBuilder<B> builder(std::move(backend), grid.wall, settings.progress);
   GridPlan plan = plan_grid(mesh, settings);
   const double budget = double(budget_of(settings, grid));
@@ -201,7 +202,7 @@ TriangleGrid build_grid_on(B backend, const WeldedMesh &mesh, const GridSettings
 
   grid.outside = mesh.report.volume < 0 ? -1 : 1;
   if (settings.sides && meets_itself(mesh).pairs > 0) grid.outside = 0;
-  grid.report.nearest = settings.nearest;
+  grid.report.list_kind = settings.list_kind;
   grid.report.records =
       grid.records.faces.size() + grid.records.edges.size() + grid.records.vertices.size();
   BrickRecordsView::each_array(grid.records,

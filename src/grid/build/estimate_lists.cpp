@@ -87,11 +87,11 @@ BuildEstimate estimate_build(const MeshFeatures &wall, const GridPlan &plan,
 {
   BuildEstimate out;
   if (!std::isfinite(plan.least_bytes())) return out;
-  const ListEstimate lists = estimate_lists(wall, plan, settings.nearest > 0);
+  const ListEstimate lists = estimate_lists(wall, plan, settings.list_kind.has_primitives());
   constexpr double kMaxNumbers = 0xffffffff;
   if (lists.least_pairs > kMaxNumbers) out.least_bytes = out.enough_bytes = HUGE_VAL;
   out.work = lists.work;
-  const bool cut_short = settings.nearest > 0 && settings.nearest != kEveryTriangle;
+  const bool cut_short = settings.list_kind.has_primitives() && !settings.list_kind.is_every();
   if (!cut_short && lists.least_entries > kMaxNumbers)
     out.least_bytes = out.enough_bytes = HUGE_VAL;
   // An entry is a candidate, or a cell that holds a single one.

@@ -93,10 +93,10 @@ class Unpacker {
 template <class Report, class Visit>
 void each_field(Report &r, Visit &visit)
 {
-  auto &[length, cutoff, length_chosen, too_fine, nearest, lists, records, record_bytes, bytes,
+  auto &[length, cutoff, length_chosen, too_fine, list_kind, lists, records, record_bytes, bytes,
          seconds, device] = r;
   const auto all = [&](auto &...field) { (visit(field), ...); };
-  all(length, cutoff, length_chosen, too_fine, nearest, lists, records, record_bytes, bytes,
+  all(length, cutoff, length_chosen, too_fine, list_kind, lists, records, record_bytes, bytes,
       seconds, device);
 }
 

@@ -121,20 +121,20 @@ std::size_t brick_bytes(const GridPlan &plan, std::size_t bricks)
   return plan.table_size() * sizeof(std::int32_t) + bricks * kBrickBytes;
 }
 
-Real default_length(const WeldedMesh &mesh, Real cutoff, int nearest, bool for_gpu,
+Real default_length(const WeldedMesh &mesh, Real cutoff, ListKind list_kind, bool for_gpu,
                     GridPurpose purpose)
 {
   // Each point reads a list. Two edges keep it at a few features; below a tenth of the cutoff memory grows
   // and little is gained.
-  if (nearest == 0 && purpose == GridPurpose::points)
+  if (list_kind.is_complete() && purpose == GridPurpose::points)
     return std::clamp(2 * mesh.report.median_edge, Real(0.1) * cutoff, cutoff);
   // Complete lists are read when a sphere's list of the wall is gathered, not in every step. With
   // cells of the radius that takes no longer than with smaller ones, and the lists take less
   // memory than the mesh's records. Larger cells name too many spheres that touch nothing.
-  if (nearest == 0 && !for_gpu) return cutoff;
+  if (list_kind.is_complete() && !for_gpu) return cutoff;
   // On a GPU a sphere waits for each candidate of its cell in turn. Half of that length, and less where
   // triangles are small, makes choices 1.4 to 3 times as fast; below that memory grows and little is gained.
-  if (nearest == 0)
+  if (list_kind.is_complete())
     return std::clamp(2 * mesh.report.median_edge, Real(0.25) * cutoff, Real(0.5) * cutoff);
   // Nearest lists are searched in every step. A third of an edge keeps them at one or two entries;
   // past the radius a longer cell saves nothing, below a fifth of it memory grows without gain.
@@ -150,7 +150,7 @@ GridPlan plan_grid(const WeldedMesh &mesh, const GridSettings &settings)
   const Real least = Real(0x1p-30) * norm(mesh.report.hi - mesh.report.lo);
   const Real length = settings.length > 0
                           ? settings.length
-                          : std::max(default_length(mesh, settings.cutoff, settings.nearest,
+                          : std::max(default_length(mesh, settings.cutoff, settings.list_kind,
                                                     settings.for_gpu, settings.purpose),
                                      least);
   return plan_with_length(mesh, settings, length,

@@ -66,7 +66,7 @@ struct CellCentres {
 
 // The default length of a cell, for complete lists or nearest primitives, for steps or points, and for
 // spheres on a CPU or a GPU.
-Real default_length(const WeldedMesh &mesh, Real cutoff, int nearest, bool for_gpu,
+Real default_length(const WeldedMesh &mesh, Real cutoff, ListKind list_kind, bool for_gpu,
                     GridPurpose purpose = GridPurpose::step);
 
 // From the settings; if these have no length, it follows from the mesh and the cutoff.
