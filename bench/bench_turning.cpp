@@ -102,7 +102,7 @@ class Drum {
   // Near spheres, anew.
   void choose()
   {
-    if (case_.turns) engine_->place_wall(turned(0, kDt));
+    if (case_.turns) engine_->set_pose(turned(0, kDt));
     spheres_.x = x_;
     engine_->choose(spheres_, kMargin);
     engine_->read_diagnostics();
@@ -112,7 +112,7 @@ class Drum {
     StepSettings step;
     step.dt = kDt;
     for (int k = 0; k < kSteps; k++) {
-      if (case_.turns) engine_->place_wall(turned(k, kDt));
+      if (case_.turns) engine_->set_pose(turned(k, kDt));
       spheres_.x = x_ + k * 3 * static_cast<std::size_t>(spheres_.n);
       engine_->step(spheres_, step);
     }

@@ -73,7 +73,7 @@ std::vector<Sphere> near_points(const TriangleSoup &mesh, Real radius, std::size
 void sort(std::vector<Sphere> &points, const SphereBox &box)
 {
   std::vector<std::pair<std::uint32_t, Sphere>> placed;
-  for (const Sphere &s : points) placed.push_back({place_on_curve(box, s.centre()), s});
+  for (const Sphere &s : points) placed.push_back({number_on_curve(box, s.centre()), s});
   std::stable_sort(placed.begin(), placed.end(),
                    [](const auto &a, const auto &b) { return a.first < b.first; });
   for (std::size_t i = 0; i < points.size(); i++) points[i] = placed[i].second;

@@ -122,14 +122,14 @@ WALKS = {
     "from a call of the library to a distance": {
         "before": """
             lsdcd_query_host at_c_border checked_query arrays_of answer_points answer_on_cpu with_point_work
-            NearFirstCpu::run CpuBackend::for_each NearFirstCpu::answer_block PointWork::sphere brick_place_of
+            CellQueryCpu::run CpuBackend::for_each CellQueryCpu::answer_block PointWork::sphere brick_slot_of
             BrickTable::at PointWork::far PointWork::answer nearest_from nearest_in_cell WallDistances::feature
             closest_point_on PointWork::keep""",
         "now": """
             lsdcd_query_host guard checked_query query_in_parts query_part arrays_of point_sides.cpp:query_with_sides
             query_then_fill tree_query.cpp:query_tree TreeQuery::run TreeQuery::search_along_curve TreeQuery::is_far
-            NearBoxes::may_be_near TreeQuery::find_nearest TriangleTree::nearest TriangleTree::search_near_plain
-            TriangleTree::search_near TriangleTree::search_leaf TreeView::attempt TreeView::exact TreeView::segment
+            CutoffBoxes::may_be_within TreeQuery::find_nearest TriangleTree::nearest TriangleTree::search_in_float_plain
+            TriangleTree::search_in_float TriangleTree::search_leaf TreeView::attempt TreeView::exact TreeView::segment
             TreeAnswers::store""",
     },
 }

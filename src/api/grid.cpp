@@ -134,11 +134,11 @@ const TriangleTree &ApiGrid::tree(const ProgressListener &progress) const
   return tree_.get([&] { return std::make_unique<TriangleTree>(mesh->mesh, names, progress); });
 }
 
-const NearBoxes *ApiGrid::near(const ProgressListener &progress) const
+const CutoffBoxes *ApiGrid::near(const ProgressListener &progress) const
 {
   if (!is_limited()) return nullptr;
-  return &near_.get(
-      [&] { return std::make_unique<NearBoxes>(tree(), mesh->mesh, cutoff_, progress); });
+  return &boxes_.get(
+      [&] { return std::make_unique<CutoffBoxes>(tree(), mesh->mesh, cutoff_, progress); });
 }
 
 const ApiCells &ApiGrid::cells(bool on_cuda, const ProgressListener &progress) const
@@ -161,7 +161,7 @@ bool ApiGrid::sides_by_normals() const
 std::size_t ApiGrid::bytes() const
 {
   const ApiCells *cells = cells_.made();
-  return bytes_of(tree_.made(), near_.made()) + (cells ? cells->memory.bytes : 0);
+  return bytes_of(tree_.made(), boxes_.made()) + (cells ? cells->memory.bytes : 0);
 }
 
 }    // namespace lsdcd

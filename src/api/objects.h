@@ -54,7 +54,7 @@ class ApiGrid {
 
   const TriangleTree &tree(const ProgressListener &progress = {}) const;
   // The boxes near the tree's mesh; null without a cutoff.
-  const NearBoxes *near(const ProgressListener &progress = {}) const;
+  const CutoffBoxes *near(const ProgressListener &progress = {}) const;
   const ApiCells &cells(bool on_cuda = false, const ProgressListener &progress = {}) const;
   const ApiCells *cells_made() const { return cells_.made(); }
   // May a device tell sides?
@@ -76,7 +76,7 @@ class ApiGrid {
   std::string cache_;
   bool on_cuda_;
   MadeOnce<TriangleTree> tree_;
-  MadeOnce<NearBoxes> near_;
+  MadeOnce<CutoffBoxes> boxes_;
   MadeOnce<ApiCells> cells_;
   MadeOnce<bool> meets_itself_;
 };

@@ -22,7 +22,7 @@ LSDCD_FN std::uint32_t spread_bits(std::uint32_t i)
 // The number, along the curve, of a point whose coordinates are shares of the box's sides, 0 to 1; points outside
 // count as on the faces. The
 // curve has 2^`bits` steps a side, `bits` up to 10.
-LSDCD_FN std::uint32_t place_on_curve(const Vec3 &share, int bits)
+LSDCD_FN std::uint32_t number_on_curve(const Vec3 &share, int bits)
 {
   std::uint32_t place = 0;
   const Real n = static_cast<Real>(1 << bits);

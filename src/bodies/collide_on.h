@@ -9,7 +9,7 @@
 #include "base/input_words.h"
 #include "bodies/check_body.h"
 #include "bodies/exact_pairs.h"
-#include "bodies/near_piece.h"
+#include "bodies/piece_candidates.h"
 #include "bodies/piece_group.h"
 #include "bodies/sort_pairs.h"
 #include "bodies/subdivide.h"
@@ -132,7 +132,7 @@ class BodyCollisionOn : public BodyCollision {
       });
     });
     groups_ = Array<PieceGroup>((n + kPiecesOfGroup - 1) / kPiecesOfGroup);
-    group_near_ = Array<char>(groups_.size());
+    group_has_candidates_ = Array<char>(groups_.size());
     PieceGroup *groups = groups_.data();
     b_.for_each(groups_.size(), [=] LSDCD_LAMBDA(std::size_t g) {
       const std::size_t begin = g * kPiecesOfGroup, end = begin + kPiecesOfGroup;
@@ -147,12 +147,12 @@ class BodyCollisionOn : public BodyCollision {
   void find(const BodyPose &pose)
   {
     for (;;) {
-      find_near(pose);
-      test_near(pose);
+      find_candidates(pose);
+      test_candidates(pose);
       b_.copy_out(counts_.data(), tally_.data(), kCounts);
       b_.wait();
-      const std::uint64_t n = tally_.data()[kNear];
-      if (n <= near_.size()) return;
+      const std::uint64_t n = tally_.data()[kCandidates];
+      if (n <= candidates_.size()) return;
       if (n > kMaxPairs)
         throw InputError("the body is near the wall in " + std::to_string(n) +
                          " pairs, more than fit: use shorter cells");
@@ -160,62 +160,63 @@ class BodyCollisionOn : public BodyCollision {
     }
   }
 
-  // Puts the primitives of the wall near each piece into near_, as many as fit.
-  void find_near(const BodyPose &pose)
+  // Puts the primitives of the wall that each piece may meet into candidates_, as many as fit.
+  void find_candidates(const BodyPose &pose)
   {
     const GridView grid = grid_;
     const Piece *pieces = pieces_.data();
     const PieceGroup *groups = groups_.data();
-    char *group_near = group_near_.data();
+    char *group_has_candidates = group_has_candidates_.data();
     const Real unit = unit_, more = slack(pose) + grid_.tolerance;
     std::uint64_t *counts = counts_.data();
-    BodyPair *near = near_.data();
-    const std::uint64_t room = near_.size();
+    BodyPair *candidates = candidates_.data();
+    const std::uint64_t room = candidates_.size();
     b_.for_each(groups_.size(), [=] LSDCD_LAMBDA(std::size_t g) {
       if (g == 0)
         for (int k = 0; k < kCounts; k++) counts[k] = 0;
       const PieceGroup group = groups[g];
-      group_near[g] = any_brick_near(grid, pose.corner_at(group.centre), group.radius + more);
+      group_has_candidates[g] =
+          any_brick_within(grid, pose.corner_at(group.centre), group.radius + more);
     });
     const auto search = [=] LSDCD_LAMBDA(std::size_t i) {
       const Piece piece = pieces[i];
-      const bool cut_short = for_each_near(
+      const bool cut_short = for_each_candidate(
           grid, pose.corner_at(piece.centre), unit * piece.radius + more, [&](FeatureCode code) {
             if (is_of_piece_before(grid, pieces, i, pose, unit, code)) return;
-            const std::uint64_t to = fetch_add_one(counts + kNear);
-            if (to < room) near[to] = {piece.triangle, code};
+            const std::uint64_t to = fetch_add_one(counts + kCandidates);
+            if (to < room) candidates[to] = {piece.triangle, code};
           });
       if (cut_short) count_one(counts + kCutShort);
     };
     const std::size_t n = pieces_.size();
     if constexpr (B::kOnHost)
       b_.for_each(groups_.size(), [=](std::size_t g) {
-        if (!group_near[g]) return;
+        if (!group_has_candidates[g]) return;
         const std::size_t end = (g + 1) * kPiecesOfGroup;
         for (std::size_t i = g * kPiecesOfGroup; i < n && i < end; i++) search(i);
       });
     else
       b_.for_each(n, [=] LSDCD_LAMBDA(std::size_t i) {
-        if (group_near[i / kPiecesOfGroup]) search(i);
+        if (group_has_candidates[i / kPiecesOfGroup]) search(i);
       });
   }
 
   // Tests each by rounded signs: those that meet go into met_, those for which rounded signs do not
   // decide into unsure_.
-  void test_near(const BodyPose &pose)
+  void test_candidates(const BodyPose &pose)
   {
     const MeshFeaturesView wall = grid_.wall;
     const Vec3 *corners = corners_.data();
     std::uint64_t *counts = counts_.data();
-    const BodyPair *near = near_.data();
+    const BodyPair *candidates = candidates_.data();
     BodyPair *met = met_.data(), *unsure = unsure_.data();
-    std::size_t most = near_.size();    // how many there are is known where kernels run
-    if constexpr (B::kOnHost) most = std::min<std::size_t>(most, counts[kNear]);
+    std::size_t most = candidates_.size();    // how many there are is known where kernels run
+    if constexpr (B::kOnHost) most = std::min<std::size_t>(most, counts[kCandidates]);
     b_.for_each(
         most,
         [=] LSDCD_LAMBDA(std::size_t i) {
-          if (i >= counts[kNear]) return;
-          const BodyPair pair = near[i];
+          if (i >= counts[kCandidates]) return;
+          const BodyPair pair = candidates[i];
           const int meet = triangles_meet_rounded(body_triangle(corners, pair.triangle, pose),
                                                   wall_triangle(wall, pair.wall));
           if (meet > 0) met[fetch_add_one(counts + kMet)] = pair;
@@ -258,7 +259,7 @@ class BodyCollisionOn : public BodyCollision {
 
   void grow_pairs(std::size_t n)
   {
-    for (Array<BodyPair> *pairs : {&near_, &met_, &unsure_}) grow(*pairs, n);
+    for (Array<BodyPair> *pairs : {&candidates_, &met_, &unsure_}) grow(*pairs, n);
   }
   // Grows to n and a quarter more; the contents are lost.
   template <class A>
@@ -270,9 +271,9 @@ class BodyCollisionOn : public BodyCollision {
   }
 
  private:
-  static constexpr std::uint64_t kMaxPairs = std::uint64_t(1) << 28;    // near ones, of a pose
+  static constexpr std::uint64_t kMaxPairs = std::uint64_t(1) << 28;    // candidates of a pose
   static constexpr std::size_t kFirstRoom = 1 << 16;
-  enum { kNear, kMet, kUnsure, kCutShort, kCounts };    // of a pose: pairs, and last pieces
+  enum { kCandidates, kMet, kUnsure, kCutShort, kCounts };    // of a pose: pairs, and last pieces
 
   // 2 / 3 of the longest edge (subdivide.h), and what piece_of() adds to it.
   static constexpr Real kMaxRadius = (2. / 3) * (1 + 2e-6);
@@ -306,14 +307,14 @@ class BodyCollisionOn : public BodyCollision {
   std::size_t n_triangles_ = 0;
   Array<Piece> pieces_;
   Array<PieceGroup> groups_;
-  Array<char> group_near_;
+  Array<char> group_has_candidates_;
   Real size_ = 0, unit_ = 0;    // of the body about its origin; a piece's longest edge
   std::uint32_t largest_code_ = 0;
 
   // Counts of the last pose; `tally_` is a copy of `counts_`.
   Array<std::uint64_t> counts_ = Array<std::uint64_t>(kCounts);
   HostArray<std::uint64_t> tally_ = HostArray<std::uint64_t>(kCounts);
-  Array<BodyPair> near_, met_, unsure_;
+  Array<BodyPair> candidates_, met_, unsure_;
   HostArray<BodyPair> pairs_, unsure_pairs_;
   Array<MeetingSegment> found_;
   HostArray<MeetingSegment> segments_;

@@ -6,7 +6,7 @@
 #pragma once
 
 #include "backend/backend_cpu.h"
-#include "bodies/near_piece.h"
+#include "bodies/piece_candidates.h"
 
 #include <algorithm>
 #include <vector>

@@ -30,7 +30,7 @@ LSDCD_FN PieceGroup group_of(const Piece *pieces, std::size_t begin, std::size_t
 }
 
 // Is any brick that overlaps a ball's box in the grid? True without a test if these are many.
-LSDCD_FN bool any_brick_near(const GridView &grid, const Vec3 &centre, Real radius)
+LSDCD_FN bool any_brick_within(const GridView &grid, const Vec3 &centre, Real radius)
 {
   constexpr Real kManyBricks = 4;    // along an axis
   const Real inv = grid.inv_length / kBrickSide, rim = Real(1e-6);

@@ -21,16 +21,16 @@ struct ContactsView {
 };
 
 // The places of a set. A set of one needs no index, so that it can stay in registers.
-template <class T, int kPlaces>
-struct Places {
-  T at[kPlaces];
+template <class T, int kMost>
+struct ContactArray {
+  T at[kMost];
 
   LSDCD_FN T &operator[](int i) { return at[i]; }
   LSDCD_FN const T &operator[](int i) const { return at[i]; }
   LSDCD_FN const T *data() const { return at; }
 };
 template <class T>
-struct Places<T, 1> {
+struct ContactArray<T, 1> {
   T only = {};
 
   LSDCD_FN T &operator[](int) { return only; }
@@ -41,20 +41,20 @@ struct Places<T, 1> {
 // It has a fixed number of places, so that it can stay in registers and local memory.
 // `overflow` is set when there are more contacts than places. The caller then
 // repeats the search with a larger set, so that no contact is dropped.
-template <int kPlaces>
+template <int kMost>
 struct ContactSet {
   int n = 0;
   bool overflow = false;
-  Places<FeatureCode, kPlaces> feature;
-  Places<Vec3, kPlaces> normal;    // unit, wall -> centre
-  Places<Real, kPlaces>
+  ContactArray<FeatureCode, kMost> feature;
+  ContactArray<Vec3, kMost> normal;    // unit, wall -> centre
+  ContactArray<Real, kMost>
       distance;    // centre to closest point, length; < 0 where the centre has crossed
 
   LSDCD_FN ContactsView view() const { return {n, feature.data(), normal.data(), distance.data()}; }
 
   LSDCD_FN void add(FeatureCode f, const Vec3 &n_unit, Real d)
   {
-    if (n == kPlaces) {
+    if (n == kMost) {
       overflow = true;
       return;
     }

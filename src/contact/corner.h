@@ -34,10 +34,10 @@ LSDCD_FN Real one_minus_cos(const Vec3 &a, const Vec3 &b)
 // rounding hides the sign of s - h. So edges that lie in the plane of a face, and vertices in that of an
 // edge or face, to `tolerance` (length), are left out first. Else the rim of a T-junction would turn the
 // force by the square root of a rounding error.
-template <int kPlaces>
+template <int kMost>
 class CornerRule {
  public:
-  LSDCD_FN void solve(const ContactSet<kPlaces> &set, Real radius, Real *weight, Real tolerance = 0)
+  LSDCD_FN void solve(const ContactSet<kMost> &set, Real radius, Real *weight, Real tolerance = 0)
   {
     for (int i = 0; i < set.n; i++) weight[i] = 1;
     if (set.n < 2) return;
@@ -57,7 +57,7 @@ class CornerRule {
 
  private:
   // Does closest point i lie in the tangent plane of a contact on a larger kind of feature?
-  LSDCD_FN static bool lies_in_tangent_plane(const ContactSet<kPlaces> &set, Real radius, int i,
+  LSDCD_FN static bool lies_in_tangent_plane(const ContactSet<kMost> &set, Real radius, int i,
                                              Real tolerance)
   {
     const FeatureKind kind = feature_kind(set.feature[i]);
@@ -71,7 +71,7 @@ class CornerRule {
   }
 
   // Contacts that share with no other one keep the weight 1.
-  LSDCD_FN void leave_out_apart(const ContactSet<kPlaces> &set)
+  LSDCD_FN void leave_out_apart(const ContactSet<kMost> &set)
   {
     int n_sharing = 0;
     for (int k = 0; k < n_; k++) {
@@ -98,7 +98,7 @@ class CornerRule {
 
   // Without the last term: with it the force would differ by sqrt(2 kLeast) of the overlap at most, and that
   // only where normals are that close.
-  LSDCD_FN static void solve_two(const ContactSet<kPlaces> &set, Real radius, Real *weight, int a,
+  LSDCD_FN static void solve_two(const ContactSet<kMost> &set, Real radius, Real *weight, int a,
                                  int b)
   {
     const Real d0 = radius - set.distance[a], d1 = radius - set.distance[b];
@@ -120,7 +120,7 @@ class CornerRule {
 
   // The active contacts' rows of the matrix are kept as a Cholesky factor, so that adding
   // one costs a forward substitution; leaving is rare and factors those behind it afresh.
-  LSDCD_FN void solve_many(const ContactSet<kPlaces> &set, Real radius, Real *weight)
+  LSDCD_FN void solve_many(const ContactSet<kMost> &set, Real radius, Real *weight)
   {
     const int n = n_;
     make_convex(set, radius);
@@ -150,7 +150,7 @@ class CornerRule {
   }
 
   // Chooses s. The matrix scaled to m_i = 1 has the row sums d_i^2, so that s = max d_i^2 is always enough.
-  LSDCD_FN void make_convex(const ContactSet<kPlaces> &set, Real radius)
+  LSDCD_FN void make_convex(const ContactSet<kMost> &set, Real radius)
   {
     Real deepest = 0;
     for (int k = 0; k < n_; k++) {
@@ -173,7 +173,7 @@ class CornerRule {
     add_ridge(set, radius, 2 * high);
   }
 
-  LSDCD_FN void add_ridge(const ContactSet<kPlaces> &set, Real radius, Real s)
+  LSDCD_FN void add_ridge(const ContactSet<kMost> &set, Real radius, Real s)
   {
     for (int k = 0; k < n_; k++) {
       const int i = used_[k];
@@ -183,7 +183,7 @@ class CornerRule {
     }
   }
 
-  LSDCD_FN bool is_convex(const ContactSet<kPlaces> &set, Real radius, Real s)
+  LSDCD_FN bool is_convex(const ContactSet<kMost> &set, Real radius, Real s)
   {
     add_ridge(set, radius, s);
     n_active_ = 0;
@@ -201,14 +201,14 @@ class CornerRule {
     return false;
   }
 
-  LSDCD_FN static Real cover(const ContactSet<kPlaces> &set, int i, int j)
+  LSDCD_FN static Real cover(const ContactSet<kMost> &set, int i, int j)
   {
     if (i == j) return 1;
     if (dot(set.normal[i], set.normal[j]) <= 0) return 0;
     return 1 - uncovered(set.normal[i], set.normal[j]);
   }
 
-  LSDCD_FN Real gradient(const ContactSet<kPlaces> &set, int i) const
+  LSDCD_FN Real gradient(const ContactSet<kMost> &set, int i) const
   {
     Real slope = pull_[i];
     for (int k = 0; k < n_active_; k++) slope -= cover(set, i, active_[k]) * l_[active_[k]];
@@ -216,7 +216,7 @@ class CornerRule {
   }
 
   // Appends a row to the factor; false if the matrix is not positive definite.
-  LSDCD_NOINLINE bool push(const ContactSet<kPlaces> &set, int i)
+  LSDCD_NOINLINE bool push(const ContactSet<kMost> &set, int i)
   {
     const int m = n_active_;
     Real pivot = stiff_[i];
@@ -234,7 +234,7 @@ class CornerRule {
   }
 
   // Removes the k-th active contact and factors those behind it again.
-  LSDCD_NOINLINE void leave(const ContactSet<kPlaces> &set, int leaving)
+  LSDCD_NOINLINE void leave(const ContactSet<kMost> &set, int leaving)
   {
     const int m = n_active_;
     l_[active_[leaving]] = 0;
@@ -244,7 +244,7 @@ class CornerRule {
 
   // Moves l towards the solution on the active set. If l >= 0 stops it on the way, it drops the
   // contact whose l became 0 and returns false. True: l is the solution.
-  LSDCD_FN bool step(const ContactSet<kPlaces> &set)
+  LSDCD_FN bool step(const ContactSet<kMost> &set)
   {
     const int m = n_active_;
     for (int k = 0; k < m; k++) {
@@ -288,14 +288,14 @@ class CornerRule {
   static constexpr int kHalvings = 40;
 
   int n_ = 0;    // contacts that share with others
-  int used_[kPlaces];
+  int used_[kMost];
   int n_active_ = 0;
-  int active_[kPlaces];
-  bool shares_[kPlaces];
-  Real times_[kPlaces], stiff_[kPlaces],
-      pull_[kPlaces];    // m; diagonal and right side of the problem
-  Real l_[kPlaces], target_[kPlaces];
-  Real factor_[kPlaces * (kPlaces + 1) / 2];    // lower triangle, row by row
+  int active_[kMost];
+  bool shares_[kMost];
+  Real times_[kMost], stiff_[kMost],
+      pull_[kMost];    // m; diagonal and right side of the problem
+  Real l_[kMost], target_[kMost];
+  Real factor_[kMost * (kMost + 1) / 2];    // lower triangle, row by row
 };
 
 }    // namespace lsdcd

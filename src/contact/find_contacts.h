@@ -17,8 +17,8 @@ constexpr Real kSamePoint = 4;
 // Adds a contact unless the set already has one at the same point of the wall. Then the
 // nearer one stays, or the lower feature, whatever the order. A closest point between two
 // others merges all three.
-template <int kPlaces>
-LSDCD_FN void add_once(ContactSet<kPlaces> &set, FeatureCode feature, const ClosestPoint &closest,
+template <int kMost>
+LSDCD_FN void add_once(ContactSet<kMost> &set, FeatureCode feature, const ClosestPoint &closest,
                        Real tolerance)
 {
   int at = -1;
@@ -49,9 +49,9 @@ LSDCD_FN void add_once(ContactSet<kPlaces> &set, FeatureCode feature, const Clos
 
 // Adds the contact of a feature, if it has one. The geometry knows where the closest point is and what
 // codes stand for: MeshGeometry in double, BrickGeometry in float. `copy`: a copy of its record, or null.
-template <class Geometry, int kPlaces>
+template <class Geometry, int kMost>
 LSDCD_FN void add_feature(const Geometry &geometry, FeatureCode code, Real radius,
-                          ContactSet<kPlaces> &set, const FeatureRecord *copy = nullptr)
+                          ContactSet<kMost> &set, const FeatureRecord *copy = nullptr)
 {
   const ClosestPoint closest = geometry.closest_point(code, radius, copy);
   if (closest.found && closest.distance < radius)
@@ -60,18 +60,18 @@ LSDCD_FN void add_feature(const Geometry &geometry, FeatureCode code, Real radiu
 
 // The same as a function of its own, for searches that few spheres need: the tests of features are
 // long, and would be compiled into each law's kernels many times.
-template <class Geometry, int kPlaces>
+template <class Geometry, int kMost>
 LSDCD_NOINLINE void add_feature_noinline(const Geometry &geometry, FeatureCode code, Real radius,
-                                         ContactSet<kPlaces> &set,
+                                         ContactSet<kMost> &set,
                                          const FeatureRecord *copy = nullptr)
 {
   add_feature(geometry, code, radius, set, copy);
 }
 
 // The contacts of a face and its edges and vertices. Over the inside of a face only the face is near.
-template <class Geometry, int kPlaces>
+template <class Geometry, int kMost>
 LSDCD_NOINLINE void add_primitive(const Geometry &geometry, FeatureCode primitive, Real radius,
-                                  ContactSet<kPlaces> &set)
+                                  ContactSet<kMost> &set)
 {
   if (feature_kind(primitive) == FeatureKind::face) {
     const FaceRegion over = geometry.over(primitive, radius);
@@ -84,9 +84,9 @@ LSDCD_NOINLINE void add_primitive(const Geometry &geometry, FeatureCode primitiv
   add_feature_noinline(geometry, primitive, radius, set);
 }
 
-template <class Geometry, int kPlaces>
+template <class Geometry, int kMost>
 LSDCD_FN void find_in_complete(const GridView &grid, const Vec3 &q, Real radius,
-                               ContactSet<kPlaces> &set)
+                               ContactSet<kMost> &set)
 {
   CellAddress at;
   Cell cell;
@@ -108,9 +108,9 @@ LSDCD_FN void find_in_complete(const GridView &grid, const Vec3 &q, Real radius,
 }
 
 // Returns the radius up to which the set is known to be complete.
-template <class Geometry, int kPlaces>
+template <class Geometry, int kMost>
 LSDCD_FN Real find_in_nearest(const GridView &grid, const Vec3 &q, Real radius,
-                              ContactSet<kPlaces> &set)
+                              ContactSet<kMost> &set)
 {
   CellAddress at;
   Cell cell;
@@ -136,18 +136,18 @@ LSDCD_FN Real find_in_nearest(const GridView &grid, const Vec3 &q, Real radius,
 // most grid.cutoff). With complete lists it finds all, with nearest lists those on the listed
 // primitives. Returns the radius up to which none can be missing.
 // The geometry must be the one that the grid was made for.
-template <class Geometry, int kPlaces>
+template <class Geometry, int kMost>
 LSDCD_FN Real find_contacts_in(const GridView &grid, const Vec3 &q, Real radius,
-                               ContactSet<kPlaces> &set)
+                               ContactSet<kMost> &set)
 {
   if (grid.list_kind.has_primitives()) return find_in_nearest<Geometry>(grid, q, radius, set);
   find_in_complete<Geometry>(grid, q, radius, set);
   return kAnyDistance;
 }
 
-template <int kPlaces>
+template <int kMost>
 LSDCD_FN Real find_contacts(const GridView &grid, const Vec3 &q, Real radius,
-                            ContactSet<kPlaces> &set)
+                            ContactSet<kMost> &set)
 {
   if (grid.in_floats) return find_contacts_in<BrickGeometry>(grid, q, radius, set);
   return find_contacts_in<MeshGeometry>(grid, q, radius, set);
@@ -172,8 +172,8 @@ LSDCD_FN Vec3 outward(const MeshFeaturesView &wall, FeatureCode feature)
 // point tells on which side the centre is. If that is the right side, contacts with the
 // wall's far face are dropped. Else the nearest contact is reversed: with the overlap
 // radius + distance it pushes the sphere back.
-template <int kPlaces>
-LSDCD_FN void filter_side(const MeshFeaturesView &wall, Real sign, ContactSet<kPlaces> &set)
+template <int kMost>
+LSDCD_FN void filter_side(const MeshFeaturesView &wall, Real sign, ContactSet<kMost> &set)
 {
   int nearest = 0;
   for (int i = 1; i < set.n; i++)

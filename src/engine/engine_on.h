@@ -45,7 +45,7 @@ class EngineOn : public InPlaceEngine {
     broad_phase_.set_grid(b_, grid, mesh);
   }
 
-  void place_wall(const Pose &pose, int mesh = 0) override
+  void set_pose(const Pose &pose, int mesh = 0) override
   {
     if (pose.placed && !settings_.moves && !broad_phase_.uses_slots())
       throw std::logic_error("this engine's wall cannot move");
@@ -69,7 +69,7 @@ class EngineOn : public InPlaceEngine {
 
   void choose(const Spheres &spheres, Real margin, bool watch = false) override
   {
-    results_.detach_from_near_list(b_);
+    results_.detach_from_candidates(b_);
     springs_.grow(spheres.n);
     use(spheres, broad_phase_.choose(b_, spheres, margin, counts_, springs_.count()));
     forget_far_meshes();
@@ -80,7 +80,7 @@ class EngineOn : public InPlaceEngine {
   // over these alone, one behind the other. Springs are still those of other spheres.
   std::vector<int> choose_among(const Spheres &spheres, Real margin)
   {
-    if (broad_phase_.uses_slots()) results_.detach_from_near_list(b_);
+    if (broad_phase_.uses_slots()) results_.detach_from_candidates(b_);
     springs_.grow(spheres.n);
     use(spheres, broad_phase_.choose(b_, spheres, margin, counts_, nullptr, true));
     return broad_phase_.chosen(b_, spheres.n);
@@ -175,7 +175,7 @@ class EngineOn : public InPlaceEngine {
   }
 
   B &backend_now() { return b_; }
-  const Array<int> &contacts_of_near() const { return results_.n_contacts(); }
+  const Array<int> &contacts_of_candidates() const { return results_.n_contacts(); }
 
   // The steps of the above. Public because nvcc takes no device lambda from a private function.
 

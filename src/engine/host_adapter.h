@@ -59,13 +59,13 @@ class HostAdapter : public WallEngine {
     springs_to_waiting();
     engine_.set_grid(grid, mesh);
     meshes_.at(mesh).grid = GridOn<CpuBackend>(cpu_, grid);
-    near_host_.clear();
+    candidates_.clear();
   }
 
-  void place_wall(const Pose &pose, int mesh = 0) override
+  void set_pose(const Pose &pose, int mesh = 0) override
   {
     meshes_.at(mesh).pose = pose;
-    engine_.place_wall(pose, mesh);
+    engine_.set_pose(pose, mesh);
   }
 
   Real largest_radius(const Spheres &s) override
@@ -87,8 +87,8 @@ class HostAdapter : public WallEngine {
   void choose(const Spheres &spheres, Real margin, bool watch = false) override
   {
     flush_diagnostics();
-    const std::vector<int> was = std::exchange(near_host_, near_by_cells(spheres, margin));
-    const std::size_t n = near_host_.size();
+    const std::vector<int> was = std::exchange(candidates_, candidates_by_cells(spheres, margin));
+    const std::size_t n = candidates_.size();
     motion_.reserve(n);
     size_.reserve(2 * n);
     response_.reserve(n);
@@ -97,8 +97,8 @@ class HostAdapter : public WallEngine {
     if (settings_.laws.kinds > 1) send_types(spheres);
     pack(spheres);
     const std::vector<int> which = engine_.choose_among(packed(), margin);
-    for (std::size_t k = 0; k < which.size(); k++) near_host_[k] = near_host_[which[k]];
-    near_host_.resize(which.size());
+    for (std::size_t k = 0; k < which.size(); k++) candidates_[k] = candidates_[which[k]];
+    candidates_.resize(which.size());
     if (traits_.history) move_springs(was, spheres.n);
     if (watch) displacement_.store(cpu_, spheres, meshes_, margin);
   }
@@ -117,9 +117,9 @@ class HostAdapter : public WallEngine {
     require(StepState::begun);
     if (prepare) prepare();
     host_ = spheres;
-    const std::size_t n = near_host_.size();
+    const std::size_t n = candidates_.size();
     B &b = engine_.backend_now();
-    if (traits_.history && are_waiting_) move_springs(near_host_, spheres.n);
+    if (traits_.history && are_waiting_) move_springs(candidates_, spheres.n);
     if (n > 0) {
       pack(spheres);
       Response *response = response_.device.data();
@@ -130,7 +130,8 @@ class HostAdapter : public WallEngine {
     engine_.compute();
     state_ = StepState::launched;
     if (n == 0) return;
-    if (!uses_slots()) b.copy_out(engine_.contacts_of_near().data(), n_contacts_.host.data(), n);
+    if (!uses_slots())
+      b.copy_out(engine_.contacts_of_candidates().data(), n_contacts_.host.data(), n);
     b.copy_out(response_.device.data(), response_.host.data(), n);
     if (traits_.heat) b.copy_out(heat_.device.data(), heat_.host.data(), 2 * n);
   }
@@ -143,7 +144,7 @@ class HostAdapter : public WallEngine {
     add_responses();
     engine_.fetch();
     touching_.assign(engine_.touching(), engine_.touching() + engine_.n_touching());
-    for (int &i : touching_) i = near_host_[i];
+    for (int &i : touching_) i = candidates_[i];
     totals_known_ = false;
     state_ = StepState::none;
   }
@@ -152,7 +153,7 @@ class HostAdapter : public WallEngine {
   {
     if (!totals_known_) totals_ = engine_.totals();
     if (!totals_known_ && totals_.largest_overlap_sphere >= 0)
-      totals_.largest_overlap_sphere = near_host_[totals_.largest_overlap_sphere];
+      totals_.largest_overlap_sphere = candidates_[totals_.largest_overlap_sphere];
     totals_known_ = true;
     return totals_;
   }
@@ -188,12 +189,12 @@ class HostAdapter : public WallEngine {
     are_waiting_ = true;
   }
 
-  int n_candidates() const override { return static_cast<int>(near_host_.size()); }
+  int n_candidates() const override { return static_cast<int>(candidates_.size()); }
   std::size_t bytes() const override
   {
     return engine_.bytes() + motion_.bytes() + size_.bytes() + response_.bytes() +
            n_contacts_.bytes() + heat_.bytes() + type_.bytes() + selector_.bytes() +
-           waiting_.bytes() + (near_host_.capacity() + touching_.capacity()) * sizeof(int) +
+           waiting_.bytes() + (candidates_.capacity() + touching_.capacity()) * sizeof(int) +
            displacement_.bytes();
   }
 
@@ -201,9 +202,9 @@ class HostAdapter : public WallEngine {
   bool uses_slots() const { return lsdcd::uses_slots(settings_); }
 
   // The candidates of any mesh by cells, ascending.
-  std::vector<int> near_by_cells(const Spheres &spheres, Real margin)
+  std::vector<int> candidates_by_cells(const Spheres &spheres, Real margin)
   {
-    std::vector<int> near;
+    std::vector<int> candidates;
     for (const EngineMesh<CpuBackend> &mesh : meshes_) {
       StepCounts seen = {};
       selector_.choose(cpu_, mesh, spheres, margin, largest_pull_off(settings_.laws), false, &seen,
@@ -213,12 +214,12 @@ class HostAdapter : public WallEngine {
         throw_too_large(i, spheres.radius[i], mesh.grid.view.cutoff);
       }
       const std::vector<int> more = selector_.to_host(cpu_, seen.n_candidates),
-                             before = std::move(near);
-      near.clear();
+                             before = std::move(candidates);
+      candidates.clear();
       std::set_union(before.begin(), before.end(), more.begin(), more.end(),
-                     std::back_inserter(near));
+                     std::back_inserter(candidates));
     }
-    return near;
+    return candidates;
   }
 
   StepDiagnostics read_engine()
@@ -226,18 +227,18 @@ class HostAdapter : public WallEngine {
     try {
       return engine_.read_diagnostics();
     } catch (const SphereError &e) {
-      throw SphereError(near_host_[e.sphere], e.problem);
+      throw SphereError(candidates_[e.sphere], e.problem);
     }
   }
 
-  // Gives what steps left behind the host's indices, before other spheres are near.
+  // Gives what steps left behind the host's indices, before other spheres are candidates.
   void flush_diagnostics()
   {
     totals();
     const StepDiagnostics seen = read_engine();
     if (seen.deepest > diagnostics_.deepest) {
       diagnostics_.deepest = seen.deepest;
-      diagnostics_.deepest_sphere = near_host_[seen.deepest_sphere];
+      diagnostics_.deepest_sphere = candidates_[seen.deepest_sphere];
     }
     diagnostics_.uncertified += seen.uncertified;
     diagnostics_.uncertain = std::max(diagnostics_.uncertain, seen.uncertain);
@@ -249,10 +250,10 @@ class HostAdapter : public WallEngine {
   // Temperatures there, heat flows back.
   void send_heat(const Spheres &s)
   {
-    const std::size_t n = near_host_.size();
+    const std::size_t n = candidates_.size();
     Real *to = heat_.host.data();
     for (std::size_t k = 0; k < n; k++) {
-      to[k] = s.temperature[near_host_[k]];
+      to[k] = s.temperature[candidates_[k]];
       to[n + k] = 0;
     }
     engine_.backend_now().copy_in(heat_.host.data(), heat_.device.data(), 2 * n);
@@ -260,10 +261,10 @@ class HostAdapter : public WallEngine {
 
   void send_types(const Spheres &s)
   {
-    const std::size_t n = near_host_.size();
+    const std::size_t n = candidates_.size();
     type_.reserve(n);
     int *to = type_.host.data();
-    for (std::size_t k = 0; k < n; k++) to[k] = s.type[near_host_[k]];
+    for (std::size_t k = 0; k < n; k++) to[k] = s.type[candidates_[k]];
     engine_.backend_now().copy_in(type_.host.data(), type_.device.data(), n);
   }
 
@@ -271,7 +272,7 @@ class HostAdapter : public WallEngine {
   Spheres packed()
   {
     constexpr std::ptrdiff_t row = sizeof(SphereMotion) / sizeof(Real);
-    const std::size_t n = near_host_.size();
+    const std::size_t n = candidates_.size();
     Spheres s;
     s.n = static_cast<int>(n);
     if (n == 0) return s;
@@ -297,48 +298,48 @@ class HostAdapter : public WallEngine {
   {
     if (!are_waiting_) spread(was, n_spheres);
     waiting_.grow(n_spheres);
-    ContactHistory near(traits_.n_extra);
-    near.grow(n_candidates());
+    ContactHistory candidates(traits_.n_extra);
+    candidates.grow(n_candidates());
     for (int k = 0; k < n_candidates(); k++) {
-      const int i = near_host_[k];
+      const int i = candidates_[k];
       if (waiting_.count(i) > 0)
-        near.set(k, waiting_.of(i), waiting_.extra_of(i), waiting_.count(i));
+        candidates.set(k, waiting_.of(i), waiting_.extra_of(i), waiting_.count(i));
     }
-    engine_.springs_from(near, n_candidates());
+    engine_.springs_from(candidates, n_candidates());
     engine_.forget_far_meshes();
     are_waiting_ = false;
   }
   void springs_to_waiting()
   {
     if (!traits_.history || are_waiting_) return;
-    spread(near_host_, 0);
+    spread(candidates_, 0);
     are_waiting_ = true;
   }
   // The engine's springs by the indices of the host.
-  void spread(const std::vector<int> &near, int n_spheres)
+  void spread(const std::vector<int> &candidates, int n_spheres)
   {
     ContactHistory packed(traits_.n_extra);
-    engine_.springs_to(packed, static_cast<int>(near.size()));
+    engine_.springs_to(packed, static_cast<int>(candidates.size()));
     waiting_ = ContactHistory(traits_.n_extra);
-    if (!near.empty()) waiting_.grow(near.back() + 1);
+    if (!candidates.empty()) waiting_.grow(candidates.back() + 1);
     waiting_.grow(n_spheres);
-    for (std::size_t k = 0; k < near.size(); k++)
+    for (std::size_t k = 0; k < candidates.size(); k++)
       if (packed.count(k) > 0)
-        waiting_.set(near[k], packed.of(k), packed.extra_of(k), packed.count(k));
+        waiting_.set(candidates[k], packed.of(k), packed.extra_of(k), packed.count(k));
   }
 
   // Adds the engine's forces to those of the host.
   void add_responses()
   {
-    const int n = static_cast<int>(near_host_.size());
-    const int *near = near_host_.data(), *n_contacts = n_contacts_.host.data();
+    const int n = static_cast<int>(candidates_.size());
+    const int *candidates = candidates_.data(), *n_contacts = n_contacts_.host.data();
     const Response *response = response_.host.data();
     const Spheres host = host_;
     const bool all = uses_slots();    // contacts are not counted by spheres
 #pragma omp parallel for schedule(static) num_threads(threads()) if (n > 4096)
     for (int k = 0; k < n; k++) {
       if (!all && n_contacts[k] == 0) continue;
-      const int i = near[k];
+      const int i = candidates[k];
       host.force.add(i, response[k].force);
       host.torque.add(i, response[k].torque);
       if (traits_.heat) host.heat_flow[i] += heat_.host.data()[n + k];
@@ -349,19 +350,19 @@ class HostAdapter : public WallEngine {
   void pack(const Spheres &s)
   {
     constexpr int kAhead = 16;
-    const int n = static_cast<int>(near_host_.size());
-    const int *near = near_host_.data();
+    const int n = static_cast<int>(candidates_.size());
+    const int *candidates = candidates_.data();
     SphereMotion *to = motion_.host.data();
     Real *radius = size_.host.data(), *mass = radius + n;
 #pragma omp parallel for schedule(static) num_threads(threads()) if (n > 4096)
     for (int k = 0; k < n; k++) {
       if (k + kAhead < n) {
-        const int next = near[k + kAhead];
+        const int next = candidates[k + kAhead];
         __builtin_prefetch(s.x.of(next));
         __builtin_prefetch(s.v.of(next));
         __builtin_prefetch(s.omega.of(next));
       }
-      const int i = near[k];
+      const int i = candidates[k];
       to[k] = {s.x[i], s.v[i], s.omega[i]};
       radius[k] = s.radius[i];
       mass[k] = s.mass[i];
@@ -378,7 +379,7 @@ class HostAdapter : public WallEngine {
   CpuBackend cpu_;
   std::vector<EngineMesh<CpuBackend>> meshes_;
   CandidateSelector<CpuBackend> selector_;
-  std::vector<int> near_host_, touching_;
+  std::vector<int> candidates_, touching_;
   DisplacementCheck<CpuBackend> displacement_;
 
   Mirror<SphereMotion> motion_;

@@ -78,7 +78,7 @@ class ResidentSprings : public SpringsInPlace {
   // as many as were shared last, and some for spheres with many contacts.
   void make_room(std::size_t n, const StepCounts &last)
   {
-    n_near_ = n;
+    n_candidates_ = n;
     wanted_ = 0;
     if (!traits_.history && !traits_.records) return;
     const std::size_t shared = std::max(last.shared_used[0], last.shared_used[1]);
@@ -116,7 +116,7 @@ class ResidentSprings : public SpringsInPlace {
   {
     Pool &pool = pool_[1 - now_];
     if (pool.size < wanted_) pool = make(wanted_ + wanted_ / 8);
-    pool.shared = n_near_;
+    pool.shared = n_candidates_;
     return {static_cast<int>(pool.shared),
             static_cast<int>(pool.size),
             1 - now_,
@@ -326,7 +326,7 @@ class ResidentSprings : public SpringsInPlace {
   Array<int> first_, count_;
   Pool pool_[2];
   int now_ = 0;
-  std::size_t n_near_ = 0, wanted_ = 0;
+  std::size_t n_candidates_ = 0, wanted_ = 0;
   std::size_t end_ = 0;    // of what is used of the pool that is read
 };
 

@@ -19,17 +19,17 @@ class StepResults {
   using Array = typename B::template Array<T>;
 
  public:
-  // For a step of n candidates of these; `near`: their indices, or null for all. `adds_later`:
+  // For a step of n candidates of these; `candidates`: their indices, or null for all. `adds_later`:
   // will add_forces() be called? `meshes`: which slots are of which mesh, or null where there is one.
   void begin(const LawTraits &traits, const StepSettings &step, const Spheres &spheres,
-             const int *near, std::size_t n, bool may_miss, bool adds_later,
+             const int *candidates, std::size_t n, bool may_miss, bool adds_later,
              const CandidateSlots<B> *meshes = nullptr)
   {
     slots_ = meshes;
     traits_ = traits;
     step_ = step;
     spheres_ = spheres;
-    near_ = near;
+    candidates_ = candidates;
     n_ = n;
     totals_known_ = false;
     if (n_contacts_.size() < n) {
@@ -62,11 +62,11 @@ class StepResults {
     if (n_ == 0) return;
     const std::size_t n_single = slots_ ? slots_->begin(slots_->n_meshes()) : n_;
     const ResultColumns result = columns_;
-    const int *near = near_;
+    const int *candidates = candidates_;
     const StridedView<Real> force = spheres_.force, torque = spheres_.torque;
     const auto add = [=] LSDCD_LAMBDA(std::size_t k) {
       if (result.n_contacts[k] == 0) return;
-      const std::size_t i = near ? near[k] : k;
+      const std::size_t i = candidates ? candidates[k] : k;
       force.add(i, result.force[k]);
       torque.add(i, result.torque[k]);
     };
@@ -114,21 +114,21 @@ class StepResults {
   std::size_t bytes() const
   {
     return (numbers_.size() + heat_.size() + uncertain_.size()) * sizeof(Real) +
-           (n_contacts_.size() + slot_.size() + kept_near_.size()) * sizeof(int) +
+           (n_contacts_.size() + slot_.size() + stored_candidates_.size()) * sizeof(int) +
            touching_.capacity() * sizeof(int) + output_.capacity() * sizeof(SphereOutput) +
            sphere_heat_.capacity() * sizeof(Real) + records_.capacity() * sizeof(ContactRecord);
   }
 
-  // Before other spheres are near: totals stay those of the last step.
-  void detach_from_near_list(B &b)
+  // Before other spheres are candidates: totals stay those of the last step.
+  void detach_from_candidates(B &b)
   {
     know_mesh_totals(b);
-    if (totals_known_ || !near_ || n_ == 0) return;
-    if (kept_near_.size() < n_) kept_near_ = Array<int>(n_ + n_ / 8);
-    const int *from = near_;
-    int *to = kept_near_.data();
+    if (totals_known_ || !candidates_ || n_ == 0) return;
+    if (stored_candidates_.size() < n_) stored_candidates_ = Array<int>(n_ + n_ / 8);
+    const int *from = candidates_;
+    int *to = stored_candidates_.data();
     b.for_each(n_, [=] LSDCD_LAMBDA(std::size_t k) { to[k] = from[k]; });
-    near_ = to;
+    candidates_ = to;
   }
 
   void know_mesh_totals(B &b)
@@ -153,10 +153,10 @@ class StepResults {
     int *to_sphere = sphere.data();
     const Real *from_heat = heat_.data();
     const ResultColumns result = columns_;
-    const int *near = near_;
+    const int *candidates = candidates_;
     const Spheres spheres = spheres_;
     b.for_each(n, [=] LSDCD_LAMBDA(std::size_t k) {
-      const std::size_t i = near ? near[k] : k;
+      const std::size_t i = candidates ? candidates[k] : k;
       const bool touches = result.n_contacts[k] > 0;    // nothing is written of others
       to[k] = SphereOutput();
       if (touches) to[k] = output_of(result.get(k), spheres.x[i], spheres.radius[i]);
@@ -175,10 +175,10 @@ class StepResults {
     }
   }
 
-  // One output for each joint sphere, at its first slot.
+  // One output for each multi-mesh sphere, at its first slot.
   void join_output(B &b, SphereOutput *to, Real *to_heat)
   {
-    const int *first = slots_->first(), *near = near_;
+    const int *first = slots_->first(), *candidates = candidates_;
     const ResultColumns result = columns_;
     const Spheres spheres = spheres_;
     const bool has_heat = traits_.heat;
@@ -197,7 +197,7 @@ class StepResults {
         if (has_heat) heat += to_heat[k];
       }
       if (all.n_contacts == 0) return;
-      to[begin] = output_of(all, spheres.x[near[begin]], spheres.radius[near[begin]]);
+      to[begin] = output_of(all, spheres.x[candidates[begin]], spheres.radius[candidates[begin]]);
       if (has_heat) to_heat[begin] = heat;
     });
   }
@@ -236,7 +236,7 @@ class StepResults {
     Array<WallTotals> blocks(n_blocks), sums(n_sums);
     WallTotals *block = blocks.data(), *sum = sums.data();
     const ResultColumns result = columns_;
-    const int *near = near_;
+    const int *candidates = candidates_;
     const Real *uncertain = uncertain_.data();
     b.for_each(n_blocks, [=] LSDCD_LAMBDA(std::size_t at) {
       WallTotals t;
@@ -245,7 +245,7 @@ class StepResults {
         if (uncertain && uncertain[k] > 0) add_uncertain(t, uncertain[k]);
         if (result.n_contacts[k] == 0) continue;
         const SphereResult r = result.get(k);
-        add_result(t, r, r.torque, near ? near[k] : static_cast<int>(k));
+        add_result(t, r, r.torque, candidates ? candidates[k] : static_cast<int>(k));
       }
       block[at] = t;
     });
@@ -263,12 +263,12 @@ class StepResults {
   LawTraits traits_ = {};
   StepSettings step_;
   Spheres spheres_;
-  const int *near_ = nullptr;
+  const int *candidates_ = nullptr;
   std::size_t n_ = 0;
 
   ResultColumns columns_;
   Array<Real> numbers_, heat_, uncertain_;
-  Array<int> n_contacts_, slot_, kept_near_;
+  Array<int> n_contacts_, slot_, stored_candidates_;
 
   WallTotals totals_;
   bool totals_known_ = true;

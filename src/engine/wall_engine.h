@@ -45,7 +45,7 @@ struct EngineSettings {
   Precision precision = Precision::double_;
   int meshes = 1;           // that move apart; with more than one `moves` is taken as true
   SurfaceMotion surface;    // of each mesh, in the plane of each contact
-  bool moves = false;       // place_wall() or StepSettings::surface will be used
+  bool moves = false;       // set_pose() or StepSettings::surface will be used
   bool records = false;     // keep what every contact does to the wall
   WearModel wear = WearModel::none;    // where records are kept
   Device device = Device::automatic;
@@ -161,7 +161,7 @@ class WallEngine {
 
   // Pose and velocity of a mesh from now on; not between launch() and finish(). At first it is the frame of the
   // grid. Only for engines whose settings say that the wall moves.
-  virtual void place_wall(const Pose &pose, int mesh = 0) = 0;
+  virtual void set_pose(const Pose &pose, int mesh = 0) = 0;
 
   // Largest radius in the group.
   virtual Real largest_radius(const Spheres &spheres) = 0;

@@ -94,7 +94,7 @@ void FlowSurface::for_images(const Box &near, const PeriodicBox &box, F &&f) con
 }
 
 // The path is moved, not the surface.
-Passes FlowSurface::passes(const Place &from, const Vec3 &to, const PeriodicBox &box) const
+Passes FlowSurface::passes(const WrappedPoint &from, const Vec3 &to, const PeriodicBox &box) const
 {
   Passes passes;
   for_images(Path(from, {to}, box).bounds(), box, [&](const Vec3 &cells) {

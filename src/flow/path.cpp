@@ -23,7 +23,7 @@ ExactVec exact(const Vec3 &a)
   return {{Expansion(a.x), Expansion(a.y), Expansion(a.z)}};
 }
 
-ExactVec exact(const Place &p, const PeriodicBox &box)
+ExactVec exact(const WrappedPoint &p, const PeriodicBox &box)
 {
   ExactVec out = exact(p.at);
   for (int k = 0; k < 3; k++)
@@ -63,16 +63,16 @@ Real size(const Vec3 &a)
 
 }    // namespace
 
-Path::Path(const Place &from, const Place &to, const PeriodicBox &box) :
+Path::Path(const WrappedPoint &from, const WrappedPoint &to, const PeriodicBox &box) :
     end_{from, to}, box_(box), largest_(0)
 {
   for (int i = 0; i < 2; i++) {
-    near_[i] = end_[i].at;
-    largest_ = std::max(largest_, size(near_[i]));
+    unwrapped_[i] = end_[i].at;
+    largest_ = std::max(largest_, size(unwrapped_[i]));
     for (int k = 0; k < 3; k++) {
       if (end_[i].cells[k] == 0) continue;
       const Vec3 shift = end_[i].cells[k] * box.edge[k];
-      near_[i] += shift;
+      unwrapped_[i] += shift;
       largest_ = std::max(largest_, size(shift));
     }
   }
@@ -84,8 +84,8 @@ Box Path::bounds() const
   const Real room = 16 * kEpsilon * largest_;
   Box box;
   for (int d = 0; d < 3; d++) {
-    box.lo[d] = std::min(near_[0][d], near_[1][d]) - room;
-    box.hi[d] = std::max(near_[0][d], near_[1][d]) + room;
+    box.lo[d] = std::min(unwrapped_[0][d], unwrapped_[1][d]) - room;
+    box.hi[d] = std::max(unwrapped_[0][d], unwrapped_[1][d]) + room;
   }
   return box;
 }
@@ -96,7 +96,7 @@ Box Path::bounds() const
 // each product. All that is less than 6 |u| |v| (16 largest_ + 8 |w|) kEpsilon.
 int Path::side(int end, const Vec3 &a, const Vec3 &b, const Vec3 &c) const
 {
-  const Vec3 u = b - a, v = c - a, w = near_[end] - a;
+  const Vec3 u = b - a, v = c - a, w = unwrapped_[end] - a;
   const Real volume = dot(cross(u, v), w);
   const Real off = 100 * kEpsilon * size(u) * size(v) * (largest_ + size(w));
   return std::fabs(volume) > off ? (volume > 0 ? 1 : -1) : exact_side(end, a, b, c);
@@ -115,7 +115,7 @@ int Path::exact_side(int end, const Vec3 &a, const Vec3 &b, const Vec3 &c) const
 // largest_ + |v|), and 5 kEpsilon of each of 6 products.
 int Path::turn(const Vec3 &a, const Vec3 &b) const
 {
-  const Vec3 d = near_[1] - near_[0], u = a - near_[0], v = b - near_[0];
+  const Vec3 d = unwrapped_[1] - unwrapped_[0], u = a - unwrapped_[0], v = b - unwrapped_[0];
   const Real volume = dot(d, cross(u, v));
   const Real uv = size(u) * size(v), du = size(d) * size(u), dv = size(d) * size(v);
   const Real off = 200 * kEpsilon * (uv * (largest_ + size(d)) + (du + dv) * largest_);

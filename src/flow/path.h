@@ -10,7 +10,7 @@
 namespace lsdcd {
 
 // `at`, moved by whole numbers of edges of the box. Not added up: that would round.
-struct Place {
+struct WrappedPoint {
   Vec3 at;
   Vec3 cells = {0, 0, 0};
 };
@@ -22,7 +22,7 @@ struct Place {
 // adjacent triangles.
 class Path {
  public:
-  Path(const Place &from, const Place &to, const PeriodicBox &box);
+  Path(const WrappedPoint &from, const WrappedPoint &to, const PeriodicBox &box);
 
   // Through the triangle: 1 along its normal, -1 against it, else 0.
   int crosses(const Vec3 &a, const Vec3 &b, const Vec3 &c) const;
@@ -36,10 +36,10 @@ class Path {
   int turn(const Vec3 &a, const Vec3 &b) const;
   int exact_turn(const Vec3 &a, const Vec3 &b) const;
 
-  Place end_[2];
+  WrappedPoint end_[2];
   const PeriodicBox &box_;
-  Vec3 near_[2];    // the ends, rounded
-  Real largest_;    // of all numbers that they were added up of
+  Vec3 unwrapped_[2];    // the ends, rounded
+  Real largest_;         // of all numbers that they were added up of
 };
 
 }    // namespace lsdcd

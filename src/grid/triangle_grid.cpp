@@ -31,7 +31,7 @@ struct FlatHeader {
 };
 
 // So many bytes of records fit the cache of one core beside the spheres of a step.
-constexpr std::size_t kNearMemory = std::size_t(1) << 20;
+constexpr std::size_t kCacheBytes = std::size_t(1) << 20;
 
 std::string amount(double bytes)
 {
@@ -67,7 +67,7 @@ GridView TriangleGrid::view() const
   v.list_kind = list_kind;
   v.in_floats = in_floats;
   v.is_large =
-      array_bytes(wall.faces) + array_bytes(wall.edges) + array_bytes(wall.vertices) > kNearMemory;
+      array_bytes(wall.faces) + array_bytes(wall.edges) + array_bytes(wall.vertices) > kCacheBytes;
   for (int k = 0; k < 3; k++) v.n_bricks[k] = n_bricks[k];
   point_to(v, *this);
   return v;

@@ -22,8 +22,8 @@ Real distance_sq(const Box &box, const Vec3 &x)
 
 }    // namespace
 
-std::vector<PackedSphere> images_near(const PackedSphere &sphere, const Box &zone, Real largest,
-                                      const PeriodicBox &box)
+std::vector<PackedSphere> images_in(const PackedSphere &sphere, const Box &zone, Real largest,
+                                    const PeriodicBox &box)
 {
   constexpr Real kRoom = 1e-9;    // for rounding
   const Real past = sphere.radius + largest;
@@ -85,7 +85,7 @@ void Packing::list(const PackedSphere &sphere)
 
 void Packing::add(const PackedSphere &grain)
 {
-  for (const PackedSphere &image : images_near(grain, zone_, largest_, box_)) list(image);
+  for (const PackedSphere &image : images_in(grain, zone_, largest_, box_)) list(image);
 }
 
 bool Packing::overlaps(const PackedSphere &grain) const

@@ -19,13 +19,13 @@ struct PackedSphere {
 
 // The images of a sphere that may touch a grain, up to `largest` in radius, whose centre is in `zone`. Without a
 // periodic box that is the sphere itself, if anything.
-std::vector<PackedSphere> images_near(const PackedSphere &sphere, const Box &zone, Real largest,
-                                      const PeriodicBox &box);
+std::vector<PackedSphere> images_in(const PackedSphere &sphere, const Box &zone, Real largest,
+                                    const PeriodicBox &box);
 
 // Grains come one by one, each up to `largest` in radius, and count with their images.
 class Packing {
  public:
-  // `there`: images_near() of the spheres that are there already.
+  // `there`: images_in() of the spheres that are there already.
   Packing(const std::vector<PackedSphere> &there, const Box &zone, Real largest,
           const PeriodicBox &box);
 

@@ -253,7 +253,8 @@ void ComputeCollideLsdcd::compute_array()
 
 double ComputeCollideLsdcd::memory_usage()
 {
-  double bytes = static_cast<double>(place_of.size()) * (sizeof(Place) + 4 * sizeof(void *));
+  double bytes =
+      static_cast<double>(body_point_of.size()) * (sizeof(BodyPoint) + 4 * sizeof(void *));
   for (const Against &one : meshes)
     if (one.collision) bytes += static_cast<double>(one.collision->grid().bytes);
   return bytes;

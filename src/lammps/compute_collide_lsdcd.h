@@ -46,7 +46,7 @@ class ComputeCollideLsdcd : public Compute, private OwnMessages {
     tagint molecule;
     lsdcd::Vec3 near;    // its atoms are about here
   };
-  struct Place {
+  struct BodyPoint {
     int body, point;
   };
   // A mesh of the wall, against which this process tries bodies; none where it has none.
@@ -58,9 +58,9 @@ class ComputeCollideLsdcd : public Compute, private OwnMessages {
 
   lsdcd::CollideSettings settings;
   std::vector<Body> bodies;
-  std::unordered_map<tagint, Place> place_of;    // by an atom's tag
-  std::unique_ptr<lsdcd::PosePoints> points;     // that all bodies have, where their mesh is
-  lsdcd::Vec3 middle = {0, 0, 0};                // of the mesh, and how far it reaches from there
+  std::unordered_map<tagint, BodyPoint> body_point_of;    // by an atom's tag
+  std::unique_ptr<lsdcd::PosePoints> points;    // that all bodies have, where their mesh is
+  lsdcd::Vec3 middle = {0, 0, 0};               // of the mesh, and how far it reaches from there
   double reach = 0;
   std::vector<Against> meshes;
   bigint evaluated_at = -1;

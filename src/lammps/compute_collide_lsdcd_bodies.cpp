@@ -123,7 +123,7 @@ void ComputeCollideLsdcd::find_bodies()
       bodies.push_back({m.molecule, m.x});
       sizes.push_back(0);
     }
-    place_of[m.tag] = {static_cast<int>(bodies.size()) - 1, sizes.back()++};
+    body_point_of[m.tag] = {static_cast<int>(bodies.size()) - 1, sizes.back()++};
   }
   std::vector<Vec3> first;
   if (settings.atoms_file.empty())
@@ -154,8 +154,8 @@ std::vector<double> ComputeCollideLsdcd::gather_sums() const
 {
   std::vector<double> sums(PosePoints::kSums * bodies.size(), 0.0);
   for (int i = 0; i < atom->nlocal; i++) {
-    const auto place = place_of.find(atom->tag[i]);
-    if (place == place_of.end()) continue;
+    const auto place = body_point_of.find(atom->tag[i]);
+    if (place == body_point_of.end()) continue;
     const auto [body, point] = place->second;
     points->add(point, unwrapped(*atom, *domain, i), bodies[body].near,
                 &sums[PosePoints::kSums * body]);

@@ -261,7 +261,7 @@ std::vector<double> FixInsertLsdcd::gather_spheres(const lsdcd::Box &zone) const
   for (int i = 0; i < atom->nlocal; i++) {
     const double *x = atom->x[i];
     for (const PackedSphere &s :
-         lsdcd::images_near({{x[0], x[1], x[2]}, atom->radius[i]}, zone, largest, box))
+         lsdcd::images_in({{x[0], x[1], x[2]}, atom->radius[i]}, zone, largest, box))
       mine.insert(mine.end(), {s.at.x, s.at.y, s.at.z, s.radius});
   }
   return lsdcd::MpiHost(world).gather(mine);

@@ -196,7 +196,7 @@ void FixMassflowLsdcd::look(int i)
   const Vec3 x = {atom->x[i][0], atom->x[i][1], atom->x[i][2]};
   const bool was_near = t.clear < near_within;
   double moved = norm(x - t.last);
-  lsdcd::Place from = {t.last};
+  lsdcd::WrappedPoint from = {t.last};
   if (moved >= t.clear && box.any_periodic()) {
     from.cells = lsdcd::FlowSurface::cells_between(t.last, x, box);
     Vec3 way = x - t.last;

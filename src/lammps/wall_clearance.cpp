@@ -43,7 +43,7 @@ void WallClearance::place(Real dt)
 bool WallClearance::is_clear(Surface &surface, const PackedSphere &sphere, const PeriodicBox &box)
 {
   // Images of the wall about the sphere are those of the sphere about the wall.
-  for (const PackedSphere &image : images_near(sphere, surface.bounds, 0, box))
+  for (const PackedSphere &image : images_in(sphere, surface.bounds, 0, box))
     if (surface.tree.is_within(surface.pose.to_mesh(image.at), image.radius, surface.hint))
       return false;
   return true;

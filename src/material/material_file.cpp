@@ -43,15 +43,17 @@ class Reader {
   // Each file once, however often it is included.
   void read(const std::string &path, int depth)
   {
-    if (std::find(seen_.begin(), seen_.end(), path) != seen_.end()) return;
-    seen_.push_back(path);
+    if (std::find(files_being_read_.begin(), files_being_read_.end(), path) !=
+        files_being_read_.end())
+      return;
+    files_being_read_.push_back(path);
     std::ifstream file(path);
     if (!file) throw InputError("cannot read the material file '" + path + "'");
     MaterialSection *section = nullptr;
     bool units = false;
     std::string text;
     for (int line = 1; std::getline(file, text); line++) {
-      place_ = path + " line " + std::to_string(line);
+      location_ = path + " line " + std::to_string(line);
       const std::size_t hash = text.find('#');
       const std::string source = hash == std::string::npos ? "" : trim(text.substr(hash + 1));
       std::istringstream stream(text.substr(0, hash));
@@ -84,7 +86,7 @@ class Reader {
         section->stated.push_back(value(*section, tokens, source));
       }
     }
-    place_ = path;
+    location_ = path;
     if (!units) fail("there is no 'units si'; " + std::string(kSyntax));
   }
 
@@ -92,7 +94,7 @@ class Reader {
   {
     for (const MaterialSection &pair : into_.pairs)
       for (const std::string &name : {pair.first, pair.second}) {
-        place_ = pair.place;
+        location_ = pair.place;
         if (std::none_of(into_.materials.begin(), into_.materials.end(),
                          [&](const MaterialSection &m) { return m.first == name; }))
           fail("the pair names '" + name + "', which is no material of this file: add 'material " +
@@ -108,7 +110,7 @@ class Reader {
       if ((old.first == a && old.second == b) || (old.first == b && old.second == a))
         fail("'" + a + (b.empty() ? "" : " " + b) + "' is there already, at " + old.place +
              ": keep one");
-    sections.push_back({a, b, place_, {}});
+    sections.push_back({a, b, location_, {}});
     return &sections.back();
   }
 
@@ -138,7 +140,7 @@ class Reader {
     if (!(number > p->above) || number > p->most)
       fail(tokens[0] + " = " + tokens[1] + " is out of range: it must be greater than " +
            number_text(p->above) + (p->most < kAny ? " and at most " + number_text(p->most) : ""));
-    return {p, number, source, place_};
+    return {p, number, source, location_};
   }
 
   void count(const std::vector<std::string> &tokens, std::size_t n, const char *syntax)
@@ -148,12 +150,12 @@ class Reader {
 
   [[noreturn]] void fail(const std::string &problem) const
   {
-    throw InputError(place_ + ": " + problem);
+    throw InputError(location_ + ": " + problem);
   }
 
   MaterialFile &into_;
-  std::vector<std::string> seen_;
-  std::string place_;
+  std::vector<std::string> files_being_read_;
+  std::string location_;
 };
 
 }    // namespace

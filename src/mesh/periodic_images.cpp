@@ -4,7 +4,7 @@
 #include "mesh/periodic_images.h"
 
 #include "mesh/assemble.h"
-#include "mesh/near_images.h"
+#include "mesh/images_in_reach.h"
 #include "mesh/union_find.h"
 #include "mesh/weld_points.h"
 
@@ -52,7 +52,7 @@ Copies copies_of(const WeldedMesh &mesh, const PeriodicBox &box, Real depth)
   std::size_t first_of_shift = n_vertices;    // of the points
   std::array<int, 3> by = {0, 0, 0};
   Vec3 shift = {0, 0, 0};
-  for (const PartImage &image : near_images(mesh, parts, box, depth)) {
+  for (const PartImage &image : images_in_reach(mesh, parts, box, depth)) {
     if (image.by != by) {
       by = image.by;
       shift = Real(by[0]) * box.edge[0] + Real(by[1]) * box.edge[1] + Real(by[2]) * box.edge[2];

@@ -34,7 +34,7 @@ std::vector<int> faces_at(const WeldedMesh &mesh, FeatureCode feature)
 
 Load &MeshLoads::load(FeatureCode feature)
 {
-  const auto [at, is_new] = place_.try_emplace(feature, load_.size());
+  const auto [at, is_new] = row_of_.try_emplace(feature, load_.size());
   if (is_new) {
     feature_.push_back(feature);
     load_.emplace_back();
@@ -77,8 +77,8 @@ Real MeshLoads::worn() const
 std::size_t MeshLoads::bytes() const
 {
   return feature_.capacity() * sizeof(FeatureCode) + load_.capacity() * sizeof(Load) +
-         place_.size() * (sizeof(*place_.begin()) + sizeof(void *)) +
-         place_.bucket_count() * sizeof(void *);
+         row_of_.size() * (sizeof(*row_of_.begin()) + sizeof(void *)) +
+         row_of_.bucket_count() * sizeof(void *);
 }
 
 std::vector<double> MeshLoads::packed() const

@@ -55,7 +55,7 @@ class MeshLoads {
   Load &load(FeatureCode feature);
 
   Real time_ = 0;
-  std::unordered_map<FeatureCode, std::size_t> place_;
+  std::unordered_map<FeatureCode, std::size_t> row_of_;
   std::vector<FeatureCode> feature_;
   std::vector<Load> load_;
 };

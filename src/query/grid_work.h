@@ -14,7 +14,7 @@ namespace lsdcd {
 
 // Arrays of one query; without `distance` it is not asked for. Distances are infinite if no wall is within the radius.
 template <class T>
-struct AnswerArrays {
+struct DistanceArrays {
   std::uint8_t *status;
   T *distance;
 
@@ -33,7 +33,7 @@ struct AnswerArrays {
     if (distance) four_at(distance, i) = {{kFar, kFar, kFar, kFar}};
   }
   // For the spheres from the n-th on, a multiple of 4.
-  AnswerArrays after(std::size_t n) const
+  DistanceArrays after(std::size_t n) const
   {
     return {status + n, distance ? distance + n : nullptr};
   }
@@ -77,7 +77,7 @@ struct GridWork {
   GridView grid;
   BrickTable table;
   const S *spheres;
-  AnswerArrays<decltype(S::x)> out;
+  DistanceArrays<decltype(S::x)> out;
   Filter filter;
   CoarseTable coarse;
   TooLarge<S> too_large;

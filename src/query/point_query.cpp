@@ -5,7 +5,7 @@
 
 #include "backend/backend_cpu.h"
 #include "mesh/welded_mesh.h"
-#include "query/near_first_cpu.h"
+#include "query/cell_query_cpu.h"
 #include "query/radius_error.h"
 
 #include <algorithm>
@@ -30,7 +30,7 @@ void query_grid(const HostGrid &grid, const TriangleTable &names, const PointArr
   std::uint64_t too_large = 0;
   CpuBackend b;
   with_point_work(grid.view, grid.table, io, names.view(), &too_large,
-                  [&](const auto &work) { NearFirstCpu().run(b, io.n, work); });
+                  [&](const auto &work) { CellQueryCpu().run(b, io.n, work); });
   if (too_large != 0) throw_bad_radius("point", ~too_large, io.radii[~too_large], grid.view.cutoff);
 }
 template void query_grid(const HostGrid &, const TriangleTable &, const PointArrays<float> &);

@@ -3,7 +3,7 @@
 
 #include "backend/backend_cuda.h"
 #include "backend/cuda_device.h"
-#include "query/near_first_gpu.h"
+#include "query/cell_query_gpu.h"
 #include "query/point_query.h"
 #include "query/radius_check.h"
 
@@ -93,7 +93,7 @@ class CudaStreamQuery : public StreamQuery {
     using S = SphereOf<T>;
     const S *spheres = packed(io);
     way_.template reserve<S>(io.n);
-    const AnswerArrays<T> out = answers(io);
+    const DistanceArrays<T> out = answers(io);
     const DeviceGrid &g = *grid_;
     with_list_search(g.view, [&](auto search) {
       using Work = GridWork<decltype(search), S>;
@@ -125,9 +125,9 @@ class CudaStreamQuery : public StreamQuery {
 
   // The arrays that kernels write: the caller's if they are packed and aligned.
   template <class T>
-  AnswerArrays<T> answers(const PointArrays<T> &io)
+  DistanceArrays<T> answers(const PointArrays<T> &io)
   {
-    AnswerArrays<T> out = {io.status, io.distance.at};
+    DistanceArrays<T> out = {io.status, io.distance.at};
     if (!out.status || !aligned(out.status, 4))
       out.status = static_cast<std::uint8_t *>(room(status_, io.n));
     if (out.distance && (io.distance.step != 1 || !aligned(out.distance, 16)))
@@ -135,7 +135,7 @@ class CudaStreamQuery : public StreamQuery {
     return out;
   }
   template <class T>
-  void copy_back(const PointArrays<T> &io, const AnswerArrays<T> &out)
+  void copy_back(const PointArrays<T> &io, const DistanceArrays<T> &out)
   {
     const Column<T> distance = out.distance != io.distance.at ? io.distance : Column<T>();
     std::uint8_t *status = out.status != io.status ? io.status : nullptr;
@@ -163,7 +163,7 @@ class CudaStreamQuery : public StreamQuery {
   }
   std::shared_ptr<const DeviceGrid> grid_;
   CudaBackend b_;
-  NearFirst<CudaBackend> way_;
+  CellQuery<CudaBackend> way_;
   RadiusCheck<CudaBackend> radii_;
   CudaBackend::Array<char> spheres_, status_, distance_;
 };

@@ -37,11 +37,11 @@ void query_with_sides(const HostGrid &grid, const TriangleTable &names, const Po
                   [&](const PointArrays<T> &asked) { query_grid(grid, names, asked); });
 }
 template <class T>
-void query_with_sides(const TriangleTree &tree, const NearBoxes *near, const PointSides &sides,
+void query_with_sides(const TriangleTree &tree, const CutoffBoxes *boxes, const PointSides &sides,
                       Real cutoff, const PointArrays<T> &io)
 {
   query_then_fill(sides, false, io,
-                  [&](const PointArrays<T> &asked) { query_tree(tree, near, cutoff, asked); });
+                  [&](const PointArrays<T> &asked) { query_tree(tree, boxes, cutoff, asked); });
 }
 
 template <class T>
@@ -76,13 +76,13 @@ void fill_sides(const PointSides &sides, std::size_t n, const StridedView<const 
 
 template void query_with_sides(const HostGrid &, const TriangleTable &, const PointSides &, bool,
                                const PointArrays<float> &);
-template void query_with_sides(const TriangleTree &, const NearBoxes *, const PointSides &, Real,
+template void query_with_sides(const TriangleTree &, const CutoffBoxes *, const PointSides &, Real,
                                const PointArrays<float> &);
 template void estimate_sides(const PointSides &, std::size_t, const StridedView<const float> &,
                              const Column<float> &, std::int8_t *, std::uint8_t *);
 template void query_with_sides(const HostGrid &, const TriangleTable &, const PointSides &, bool,
                                const PointArrays<double> &);
-template void query_with_sides(const TriangleTree &, const NearBoxes *, const PointSides &, Real,
+template void query_with_sides(const TriangleTree &, const CutoffBoxes *, const PointSides &, Real,
                                const PointArrays<double> &);
 template void estimate_sides(const PointSides &, std::size_t, const StridedView<const double> &,
                              const Column<double> &, std::int8_t *, std::uint8_t *);

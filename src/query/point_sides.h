@@ -45,7 +45,7 @@ void query_with_sides(const HostGrid &grid, const TriangleTable &names, const Po
 
 // The same by query_tree(). All sides are those of winding numbers.
 template <class T>
-void query_with_sides(const TriangleTree &tree, const NearBoxes *near, const PointSides &sides,
+void query_with_sides(const TriangleTree &tree, const CutoffBoxes *boxes, const PointSides &sides,
                       Real cutoff, const PointArrays<T> &io);
 
 // Generalised winding numbers of any mesh, and the sides that are probable by them, which are not certified:

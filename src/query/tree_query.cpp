@@ -16,8 +16,8 @@ namespace lsdcd {
 
 // ---- far points ---------------------------------------------------------------------------------
 
-NearBoxes::NearBoxes(const TriangleTree &tree, const WeldedMesh &mesh, Real cutoff,
-                     const ProgressListener &progress)
+CutoffBoxes::CutoffBoxes(const TriangleTree &tree, const WeldedMesh &mesh, Real cutoff,
+                         const ProgressListener &progress)
 {
   // As many boxes as are made in a part of the time of the tree.
   n_ = 32;
@@ -32,10 +32,10 @@ NearBoxes::NearBoxes(const TriangleTree &tree, const WeldedMesh &mesh, Real cuto
   mark(tree, pad, {0, 0, 0}, n_, kNoPrimitive, progress);
 }
 
-// Marks the boxes of a larger box, `size` along each axis, that may be near. It halves the box along each axis, and
+// Marks the boxes of a larger box, `size` along each axis, that may be within the cutoff. It halves the box along each axis, and
 // leaves out parts that are far.
-void NearBoxes::mark(const TriangleTree &tree, Real cutoff, const std::array<int, 3> &at, int size,
-                     std::uint32_t hint, const ProgressListener &progress)
+void CutoffBoxes::mark(const TriangleTree &tree, Real cutoff, const std::array<int, 3> &at,
+                       int size, std::uint32_t hint, const ProgressListener &progress)
 {
   const Real half = Real(0.5) * size * length_;
   const Vec3 centre =
@@ -108,10 +108,10 @@ class CurveOrder {
 template <class T>
 class TreeQuery {
  public:
-  TreeQuery(const TriangleTree &tree, const NearBoxes *near, Real cutoff,
+  TreeQuery(const TriangleTree &tree, const CutoffBoxes *boxes, Real cutoff,
             const PointArrays<T> &io) :
       tree_(tree),
-      near_(near),
+      boxes_(boxes),
       io_(io), answers_{tree.view(), io, {static_cast<T>(cutoff), &too_large_}, io.only_distance()}
   {
   }
@@ -139,9 +139,9 @@ class TreeQuery {
  private:
   std::uint32_t curve_key(std::size_t i) const
   {
-    return place_on_curve(tree_.view().share_of_box(io_.points[i]), kCurveBits);
+    return number_on_curve(tree_.view().share_of_box(io_.points[i]), kCurveBits);
   }
-  // Do most points follow one that is near? Some are looked at.
+  // Do most points follow a near one? Some are looked at.
   bool are_in_order(std::size_t from, std::size_t to) const
   {
     constexpr int kSteepBits = 12;    // so many bits of a curve are a box of an eighth
@@ -186,13 +186,13 @@ class TreeQuery {
     }
   }
 
-  // Writes the answer if nothing can be near.
+  // Writes the answer if nothing can be within the cutoff.
   bool is_far(std::size_t i) const
   {
     answers_.check(i);
-    if (!near_) return false;
+    if (!boxes_) return false;
     const Vec3 q = io_.points[i];
-    if (near_->may_be_near(q)) return false;
+    if (boxes_->may_be_within(q)) return false;
     answers_.store(i, q, {kAnyDistance, kNoFeature, kNoPrimitive}, 1);
     return true;
   }
@@ -206,7 +206,7 @@ class TreeQuery {
   }
 
   const TriangleTree &tree_;
-  const NearBoxes *near_;
+  const CutoffBoxes *boxes_;
   std::uint64_t too_large_ = 0;
   const PointArrays<T> &io_;
   const TreeAnswers<T> answers_;
@@ -215,13 +215,14 @@ class TreeQuery {
 }    // namespace
 
 template <class T>
-void query_tree(const TriangleTree &tree, const NearBoxes *near, Real cutoff,
+void query_tree(const TriangleTree &tree, const CutoffBoxes *boxes, Real cutoff,
                 const PointArrays<T> &io)
 {
-  TreeQuery<T>(tree, near, cutoff, io).run();
+  TreeQuery<T>(tree, boxes, cutoff, io).run();
 }
-template void query_tree(const TriangleTree &, const NearBoxes *, Real, const PointArrays<float> &);
-template void query_tree(const TriangleTree &, const NearBoxes *, Real,
+template void query_tree(const TriangleTree &, const CutoffBoxes *, Real,
+                         const PointArrays<float> &);
+template void query_tree(const TriangleTree &, const CutoffBoxes *, Real,
                          const PointArrays<double> &);
 
 }    // namespace lsdcd

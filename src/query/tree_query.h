@@ -14,12 +14,12 @@ namespace lsdcd {
 
 // A bit for each of some boxes: may anything be within a cutoff of a point in there? Points in the other boxes
 // need no search.
-class NearBoxes {
+class CutoffBoxes {
  public:
-  NearBoxes(const TriangleTree &tree, const WeldedMesh &mesh, Real cutoff,
-            const ProgressListener &progress = {});
+  CutoffBoxes(const TriangleTree &tree, const WeldedMesh &mesh, Real cutoff,
+              const ProgressListener &progress = {});
 
-  bool may_be_near(const Vec3 &q) const
+  bool may_be_within(const Vec3 &q) const
   {
     const Vec3 at = per_length_ * (q - lo_);
     // Also where a coordinate is no number.
@@ -43,17 +43,17 @@ class NearBoxes {
 };
 
 // The bytes of both; each may be null.
-inline std::size_t bytes_of(const TriangleTree *tree, const NearBoxes *near)
+inline std::size_t bytes_of(const TriangleTree *tree, const CutoffBoxes *boxes)
 {
-  return (tree ? tree->bytes() : 0) + (near ? near->bytes() : 0);
+  return (tree ? tree->bytes() : 0) + (boxes ? boxes->bytes() : 0);
 }
 
 // It uses threads() threads. It has no state, so that any number of threads may call it at once. Nothing as
-// far as a point's radius is found; `cutoff` is the largest radius, of `near`, too, which may be null. All but
+// far as a point's radius is found; `cutoff` is the largest radius, of `boxes`, too, which may be null. All but
 // the side, which must not be asked for. Throws InputError if a radius in `radii` exceeds the cutoff; the
 // answers are then undefined. T: float or double.
 template <class T>
-void query_tree(const TriangleTree &tree, const NearBoxes *near, Real cutoff,
+void query_tree(const TriangleTree &tree, const CutoffBoxes *boxes, Real cutoff,
                 const PointArrays<T> &io);
 
 }    // namespace lsdcd

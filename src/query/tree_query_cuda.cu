@@ -131,7 +131,7 @@ class CudaTreeQuery : public StreamQuery {
     const StridedView<const T> points = io.points;
     std::uint32_t *key = pairs_.keys[0].data(), *number = pairs_.values[0].data();
     b_.for_each(n, [=] LSDCD_LAMBDA(std::size_t i) {
-      key[i] = place_on_curve(tree.share_of_box(points[from + i]), kCurveBits);
+      key[i] = number_on_curve(tree.share_of_box(points[from + i]), kCurveBits);
       number[i] = static_cast<std::uint32_t>(i);
     });
     return b_.sort_in(n, 3 * kCurveBits, pairs_);

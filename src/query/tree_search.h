@@ -23,8 +23,8 @@ class TreeBoundsFloat {
   using Type = float;
 
   LSDCD_FN explicit TreeBoundsFloat(const Vec3 &at) :
-      at_(at), near_(vec_cast<float>(at)),
-      rounding_(kBoxRounding * fmax(fabs(near_.x), fmax(fabs(near_.y), fabs(near_.z))))
+      at_(at), at_float_(vec_cast<float>(at)),
+      rounding_(kBoxRounding * fmax(fabs(at_float_.x), fmax(fabs(at_float_.y), fabs(at_float_.z))))
   {
   }
   // The distance of what has been found.
@@ -37,24 +37,25 @@ class TreeBoundsFloat {
   {
     float sum = 0;
     for (int a = 0; a < 3; a++) {
-      const float out = fmax(0.0f, fmax(node.lo[a][k] - near_[a], near_[a] - node.hi[a][k]));
+      const float out =
+          fmax(0.0f, fmax(node.lo[a][k] - at_float_[a], at_float_[a] - node.hi[a][k]));
       sum += out * out;
     }
     return sum;
   }
-  LSDCD_FN bool is_near(float far) const { return far <= most_sq_; }
+  LSDCD_FN bool is_within(float far) const { return far <= most_sq_; }
   LSDCD_FN static float rounded_down(float far) { return far; }
 
   // A bit for each triangle of a leaf that may be nearest.
   template <unsigned kSize>
-  LSDCD_FN unsigned near_in(const TreeLeaf &leaf, const TreeSides &sides,
-                            const Warp<kSize> &warp) const
+  LSDCD_FN unsigned candidates_in(const TreeLeaf &leaf, const TreeSides &sides,
+                                  const Warp<kSize> &warp) const
   {
     const Vec3Of<float> d =
         vec_cast<float>(at_ - Vec3{leaf.origin[0], leaf.origin[1], leaf.origin[2]});
     const float rounding = kPlaneRounding * (fabs(d.x) + fabs(d.y) + fabs(d.z) + leaf.size),
                 limit = (most_ + rounding) * (most_ + rounding) * kWiden;
-    unsigned near = 0, beside = 0;
+    unsigned candidates = 0, beside = 0;
     for (unsigned k = warp.rank(), at = 0; k < kTreeWidth; k += kSize, at += kSize) {
       float past = 0;
       for (int s = 0; s < 3; s++)
@@ -62,12 +63,12 @@ class TreeBoundsFloat {
                             leaf.side[s][2][k] * d.z + leaf.side_offset[s][k]));
       const float height = leaf.normal[0][k] * d.x + leaf.normal[1][k] * d.y +
                            leaf.normal[2][k] * d.z + leaf.offset[k];
-      near |= warp.vote(height * height + past * past <= limit) << at;
+      candidates |= warp.vote(height * height + past * past <= limit) << at;
       beside |= warp.vote(past > rounding) << at;
     }
     // Past a corner the planes give less than the distance. Beside a triangle its sides are nearest.
-    beside &= near;
-    if ((near & (near - 1)) == 0 || beside == 0) return near;
+    beside &= candidates;
+    if ((candidates & (candidates - 1)) == 0 || beside == 0) return candidates;
     for (unsigned k = warp.rank(), at = 0; k < kTreeWidth; k += kSize, at += kSize) {
       float least = kTreeHuge * kTreeHuge;
       for (int s = 0; s < 3; s++) {
@@ -77,14 +78,14 @@ class TreeBoundsFloat {
         const float t = fmin(1.0f, fmax(0.0f, dot(p, along) * sides.over_square[s][k]));
         least = fmin(least, norm_sq(p - t * along));
       }
-      near &= ~(beside & warp.vote(!(least <= limit)) << at);
+      candidates &= ~(beside & warp.vote(!(least <= limit)) << at);
     }
-    return near;
+    return candidates;
   }
 
  private:
   Vec3 at_;
-  Vec3Of<float> near_;
+  Vec3Of<float> at_float_;
   float rounding_, most_ = 0, most_sq_ = 0;
 };
 
@@ -106,13 +107,13 @@ class TreeBoundsDouble {
       out[a] = fmax(Real(0), fmax(node.lo[a][k] - at_[a], at_[a] - node.hi[a][k]));
     return node.lo[0][k] == kNoBox ? HUGE_VAL : norm(out);
   }
-  LSDCD_FN bool is_near(Real far) const { return far <= most_; }
+  LSDCD_FN bool is_within(Real far) const { return far <= most_; }
   LSDCD_FN static float rounded_down(Real far)
   {
     return static_cast<float>(fmin(far, Real(kNoBox))) * (1 - 2.4e-7f);
   }
   template <unsigned kSize>
-  LSDCD_FN unsigned near_in(const TreeLeaf &, const TreeSides &, const Warp<kSize> &) const
+  LSDCD_FN unsigned candidates_in(const TreeLeaf &, const TreeSides &, const Warp<kSize> &) const
   {
     return (1u << kTreeWidth) - 1;
   }
@@ -139,11 +140,12 @@ LSDCD_FN void search_tree(const TreeView &tree, const Warp<kSize> &warp, const V
   for (;;) {
     if (child & kTreeLeaf) {
       const std::uint32_t leaf = child & ~kTreeLeaf, slot = leaf * kTreeWidth;
-      unsigned near = bounds.near_in(tree.leaves[leaf], tree.sides[leaf], warp);
-      if (slot + kTreeWidth > tree.n_primitives) near &= (1u << (tree.n_primitives - slot)) - 1;
-      if (near != 0) {
+      unsigned candidates = bounds.candidates_in(tree.leaves[leaf], tree.sides[leaf], warp);
+      if (slot + kTreeWidth > tree.n_primitives)
+        candidates &= (1u << (tree.n_primitives - slot)) - 1;
+      if (candidates != 0) {
         for (unsigned k = rank; k < kTreeWidth; k += kSize)
-          if (near >> k & 1u && slot + k != best.primitive) tree.attempt(slot + k, q, best);
+          if (candidates >> k & 1u && slot + k != best.primitive) tree.attempt(slot + k, q, best);
         for (unsigned apart = 1; apart < kSize; apart *= 2) {
           const TreeAnswer other = {warp.of_other(best.distance, apart),
                                     warp.of_other(best.feature, apart),
@@ -155,19 +157,19 @@ LSDCD_FN void search_tree(const TreeView &tree, const Warp<kSize> &warp, const V
     } else {
       const TreeNode &node = tree.nodes[child];
       T far[kEach], least = HUGE_VAL;
-      unsigned near = 0;
+      unsigned candidates = 0;
       for (unsigned j = 0; j < kEach; j++) {
         far[j] = bounds.box(node, j * kSize + rank);
-        near |= warp.vote(bounds.is_near(far[j])) << j * kSize;
+        candidates |= warp.vote(bounds.is_within(far[j])) << j * kSize;
         least = fmin(least, far[j]);
       }
-      if (near != 0) {
+      if (candidates != 0) {
         // The nearest is searched first.
         least = warp.least(least);
         unsigned first = 0;
         for (unsigned j = 0; j < kEach; j++) first |= warp.vote(far[j] == least) << j * kSize;
         first = lowest_bit(first);
-        const unsigned others = near & ~(1u << first);
+        const unsigned others = candidates & ~(1u << first);
         for (unsigned j = 0; j < kEach; j++) {
           const unsigned k = j * kSize + rank;
           if (others >> k & 1u)
@@ -183,7 +185,7 @@ LSDCD_FN void search_tree(const TreeView &tree, const Warp<kSize> &warp, const V
     do {
       if (n == 0) return;
       n--;
-    } while (!bounds.is_near(stack[n].far));
+    } while (!bounds.is_within(stack[n].far));
     child = stack[n].child;
     warp.wait();    // until all have read it
   }

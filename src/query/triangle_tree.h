@@ -69,10 +69,10 @@ class TriangleTree {
 
   void search_leaf(std::uint32_t number, const Vec3 &q, const Vec3 &at, FloatBound &bound,
                    TreeAnswer &best) const;
-  void search_near(const Vec3 &q, const Vec3 &at, TreeAnswer &best) const;
-  void search_far(const Vec3 &q, TreeAnswer &best) const;
-  void search_near_plain(const Vec3 &q, const Vec3 &at, TreeAnswer &best) const;
-  void search_near_avx2(const Vec3 &q, const Vec3 &at, TreeAnswer &best) const;
+  void search_in_float(const Vec3 &q, const Vec3 &at, TreeAnswer &best) const;
+  void search_in_double(const Vec3 &q, TreeAnswer &best) const;
+  void search_in_float_plain(const Vec3 &q, const Vec3 &at, TreeAnswer &best) const;
+  void search_in_float_avx2(const Vec3 &q, const Vec3 &at, TreeAnswer &best) const;
 
   const WeldedMesh &mesh_;
   std::vector<std::uint32_t> bare_edges_, bare_vertices_;

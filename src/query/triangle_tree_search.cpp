@@ -151,8 +151,8 @@ struct FloatBound {
 }
 
 // Searches the nearest box first, and the others later from the stack.
-[[gnu::always_inline]] inline void TriangleTree::search_near(const Vec3 &q, const Vec3 &at,
-                                                             TreeAnswer &best) const
+[[gnu::always_inline]] inline void TriangleTree::search_in_float(const Vec3 &q, const Vec3 &at,
+                                                                 TreeAnswer &best) const
 {
   const float point[3] = {static_cast<float>(at.x), static_cast<float>(at.y),
                           static_cast<float>(at.z)};
@@ -196,19 +196,19 @@ struct FloatBound {
   }
 }
 
-void TriangleTree::search_near_plain(const Vec3 &q, const Vec3 &at, TreeAnswer &best) const
+void TriangleTree::search_in_float_plain(const Vec3 &q, const Vec3 &at, TreeAnswer &best) const
 {
-  search_near(q, at, best);
+  search_in_float(q, at, best);
 }
 #if defined(__x86_64__)
-[[gnu::target("avx2")]] void TriangleTree::search_near_avx2(const Vec3 &q, const Vec3 &at,
-                                                            TreeAnswer &best) const
+[[gnu::target("avx2")]] void TriangleTree::search_in_float_avx2(const Vec3 &q, const Vec3 &at,
+                                                                TreeAnswer &best) const
 {
-  search_near(q, at, best);
+  search_in_float(q, at, best);
 }
 #endif
 
-void TriangleTree::search_far(const Vec3 &q, TreeAnswer &best) const
+void TriangleTree::search_in_double(const Vec3 &q, TreeAnswer &best) const
 {
   TreeWaiting stack[kTreeStack];
   search_tree<TreeBoundsDouble>(view_, Warp<1>(), q, stack, best);
@@ -231,13 +231,13 @@ TreeAnswer TriangleTree::nearest(const Vec3 &q, Real radius, std::uint32_t hint)
   const TreeSearch search = view_.search_for(at);
   if (search != TreeSearch::none) {
     if (hint != kNoPrimitive) view_.attempt(hint, q, best);
-    if (search == TreeSearch::in_double) search_far(q, best);
+    if (search == TreeSearch::in_double) search_in_double(q, best);
 #if defined(__x86_64__)
     else if (wide())
-      search_near_avx2(q, at, best);
+      search_in_float_avx2(q, at, best);
 #endif
     else
-      search_near_plain(q, at, best);
+      search_in_float_plain(q, at, best);
   }
   if (!best.found()) best.distance = kAnyDistance;
   return best;

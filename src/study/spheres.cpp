@@ -14,11 +14,11 @@ constexpr int kCurveBits = 10;
 
 }    // namespace
 
-std::uint32_t place_on_curve(const SphereBox &box, const Vec3 &at)
+std::uint32_t number_on_curve(const SphereBox &box, const Vec3 &at)
 {
   Vec3 share;
   for (int k = 0; k < 3; k++) share[k] = (at[k] - box.lo[k]) / (box.hi[k] - box.lo[k]);
-  return place_on_curve(share, kCurveBits);
+  return number_on_curve(share, kCurveBits);
 }
 
 std::vector<Sphere> make_spheres(const SphereBox &box, std::size_t n, Order order)
@@ -31,7 +31,7 @@ std::vector<Sphere> make_spheres(const SphereBox &box, std::size_t n, Order orde
   }
   CpuBackend::Array<std::uint32_t> key(n), from(n);
   cpu.for_each(n, [&](std::size_t i) {
-    key.data()[i] = place_on_curve(box, box.sphere(i).centre());
+    key.data()[i] = number_on_curve(box, box.sphere(i).centre());
     from.data()[i] = static_cast<std::uint32_t>(i);
   });
   cpu.sort_pairs(key, from, (1u << 3 * kCurveBits) - 1);

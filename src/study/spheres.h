@@ -35,7 +35,7 @@ struct SphereBox {
 };
 
 // The position of a point of the box along a Z-curve with 1024 steps per side.
-std::uint32_t place_on_curve(const SphereBox &box, const Vec3 &at);
+std::uint32_t number_on_curve(const SphereBox &box, const Vec3 &at);
 
 enum class Order { random, sorted };
 

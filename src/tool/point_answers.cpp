@@ -43,8 +43,8 @@ class CpuAnswers : public PointAnswers {
   CpuAnswers(const WeldedMesh &mesh, Real cutoff, const ProgressListener &progress) :
       cutoff_(cutoff), names_(mesh), tree_(mesh, names_, progress), sides_(mesh)
   {
-    if (cutoff > 0) near_.emplace(tree_, mesh, cutoff, progress);
-    report.bytes = bytes_of(&tree_, near_ ? &*near_ : nullptr);
+    if (cutoff > 0) boxes_.emplace(tree_, mesh, cutoff, progress);
+    report.bytes = bytes_of(&tree_, boxes_ ? &*boxes_ : nullptr);
     report.device = CpuBackend().name();
   }
   void answer(const PointBlock &points, AnswerBlock &a) override
@@ -59,7 +59,7 @@ class CpuAnswers : public PointAnswers {
     io.triangle = a.triangle.data();
     io.feature = a.feature.data();
     if (sides == SideKind::exact) io.side = a.side.data();
-    query_with_sides(tree_, near_ ? &*near_ : nullptr, sides_, io.radius, io);
+    query_with_sides(tree_, boxes_ ? &*boxes_ : nullptr, sides_, io.radius, io);
     if (sides == SideKind::estimated) estimate(sides_, points, a);
   }
 
@@ -67,7 +67,7 @@ class CpuAnswers : public PointAnswers {
   Real cutoff_;
   TriangleTable names_;
   TriangleTree tree_;
-  std::optional<NearBoxes> near_;
+  std::optional<CutoffBoxes> boxes_;
   PointSides sides_;
 };
 

@@ -204,7 +204,7 @@ void Wall::begin(const HostSpheres &spheres, const StepInput &input)
   box_checks_.check_moving(grids_.box(), cutoff(), step);
   box_checks_.check_gone(grids_.box(), cutoff(), step.number);
   for (const MeshPart &m : meshes_)
-    if (engine_moves_) engine_->place_wall(m.motion.pose(), m.index);
+    if (engine_moves_) engine_->set_pose(m.motion.pose(), m.index);
   if (input.new_spheres) {
     if (cutoff() > 0) timestep_.check(step.dt, on_cpu(spheres).all());
     look_at_servo_spheres(spheres);

@@ -40,7 +40,7 @@ def code_sections(data):
 
 
 def case_of(demangled):
-    """ListNear GridWork, of void lsdcd::cuda_for_each_block<lsdcd::ListNear<lsdcd::GridWork<...> > >(...)."""
+    """FindCellSpheres GridWork, of void lsdcd::cuda_for_each_block<lsdcd::FindCellSpheres<lsdcd::GridWork<...> > >(...)."""
     words = [w for w in re.findall(r"lsdcd::(?:\(anonymous namespace\)::)?(\w+)", demangled)
              if w not in ("CudaBackend", "cuda_for_each_block", "lsdcd")]
     member = re.search(r">::(\w+)\(", demangled)

@@ -220,16 +220,16 @@ constexpr Real kOverlap = 0.02, kStiffness = 1e5;
 
 Roughness roughness(int n, bool inside)
 {
-  constexpr int kPlaces = 4000;
+  constexpr int kMost = 4000;
   Scene scene(drum_mesh(n), kRadius, hooke(kStiffness));
   const Real rho = inside ? kDrum - kRadius + kOverlap : kDrum + kRadius - kOverlap;
-  for (int i = 0; i < kPlaces; i++) {
+  for (int i = 0; i < kMost; i++) {
     const Real turns = i * 0.6180339887498949, a = 2 * kPi * (turns - std::floor(turns));
     scene.add_sphere({rho * std::cos(a), 1, rho * std::sin(a)}, kRadius, kMass);
   }
   scene.compute(1e-4);
   Roughness r = {0, 0};
-  for (int i = 0; i < kPlaces; i++) {
+  for (int i = 0; i < kMost; i++) {
     const Vec3 x = scene.x(i), f = scene.force(i);
     Wide fx = 0, fz = 0;
     for (const Touch &c : touches(n, inside, x.x, x.z)) {
@@ -239,7 +239,7 @@ Roughness roughness(int n, bool inside)
     const Real off = Real(std::hypot(f.x - fx, f.z - fz));
     r.off_exact = std::fmax(r.off_exact, std::hypot(off, f.y) / (kStiffness * kOverlap));
     const Real normal = (f.x * x.x + f.z * x.z) / rho * (inside ? -1 : 1);
-    r.rms += std::pow(normal / (kStiffness * kOverlap) - 1, 2) / kPlaces;
+    r.rms += std::pow(normal / (kStiffness * kOverlap) - 1, 2) / kMost;
   }
   r.rms = std::sqrt(r.rms);
   return r;

@@ -69,7 +69,7 @@ struct Twins {
       rest->set_x(i, rest->x(i) + kStep * rest->v(i));
       driven->set_x(i, pose.to_box(rest->x(i)));
     }
-    driven->engine->place_wall(pose);
+    driven->engine->set_pose(pose);
     rest->compute(kStep, true, true);
     driven->compute(kStep, true, true);
     pose.shift += kStep * pose.velocity;
@@ -160,7 +160,7 @@ TEST(moving_wall, a_turning_drum_drags_and_pushes_with_the_velocity_at_the_conta
     const Pose pose = motion.pose_at(time);
     const Vec3 normal = pose.turn_to_box(n), at = pose.to_box(closest);
     drum.set_x(0, at + (kRadius - overlap) * normal);
-    drum.engine->place_wall(pose);
+    drum.engine->set_pose(pose);
     drum.compute(kStep);
     const Vec3 turning = cross({0, 0, w}, at);
     const Vec3 slip = v - (turning - kStep / 2 * cross({0, 0, w}, turning));
@@ -183,7 +183,7 @@ TEST(moving_wall, without_friction_a_turning_drum_only_pushes)
   for (int k = 0; k < 200; k++) {
     const Real a = 0.03 * k;
     drum.set_x(0, {1.52 * std::cos(a), 1.52 * std::sin(a), 2});
-    drum.engine->place_wall(motion.pose_at(1e-3 * k));
+    drum.engine->set_pose(motion.pose_at(1e-3 * k));
     drum.compute(1e-3);
     EXPECT_GT(norm(drum.force(0)), 0);
     EXPECT_EQ(norm(drum.torque(0)), 0);
@@ -196,13 +196,13 @@ TEST(moving_wall, springs_turn_with_it)
   const RigidMotion motion = rotating({0, 0, 0}, {0, 0, 1}, 4);
   Scene scene(floor_mesh(4, 2), kRadius, moving(hooke_history(kStiffness, 3e4, 0, 0, 1e6)));
   scene.add_sphere({0, 0, kRadius - 0.01}, kRadius, kMass, {2, 0, 0});
-  scene.engine->place_wall(Pose());
+  scene.engine->set_pose(Pose());
   scene.compute(kStep);
   const Vec3 before = scene.force(0);
   EXPECT_NEAR(before.x, -3e4 * 2 * kStep, 1e-12);
   // It stays at the axis, where the wall does not move, and a quarter turn passes at once.
   scene.set_v(0, {0, 0, 0});
-  scene.engine->place_wall(motion.pose_at(1));
+  scene.engine->set_pose(motion.pose_at(1));
   scene.compute(kStep);
   EXPECT_LE(norm(scene.force(0) - Vec3{0, before.x, before.z}), 1e-9);
 }
@@ -218,7 +218,7 @@ TEST(moving_wall, rolling_and_twisting_are_relative_to_it)
   turntable.add_sphere({0, 0, kRadius - 0.01}, kRadius, kMass);
   at_rest.add_sphere({0, 0, kRadius - 0.01}, kRadius, kMass, {0, 0, 0}, {0, 0, -w});
   Pose pose = rotating({0, 0, 0}, {0, 0, 1}, 2 * kPi / w).pose_at(0);
-  turntable.engine->place_wall(pose);
+  turntable.engine->set_pose(pose);
   turntable.compute(kStep);
   at_rest.compute(kStep);
   EXPECT_GT(norm(at_rest.torque(0)), 0);
@@ -254,7 +254,7 @@ struct Turntable {
   }
   void place()
   {
-    if (mesh_turns) scene.engine->place_wall(motion.pose_at(Time(n) / kSteps));
+    if (mesh_turns) scene.engine->set_pose(motion.pose_at(Time(n) / kSteps));
   }
   void turns(int many)
   {
@@ -323,7 +323,7 @@ TEST(moving_wall, a_moving_surface_moves_with_it)
   Pose pose = rotating({0, 0, 0}, {0, 0, 1}, 4).pose_at(1).still();
   pose.velocity = {0.25, 0, 0};
   scene.add_sphere({0, 0, kRadius - 0.01}, kRadius, kMass);
-  scene.engine->place_wall(pose);
+  scene.engine->set_pose(pose);
   scene.compute(kStep);
   EXPECT_LE(norm(scene.force(0) - Vec3{kMass * 3 * 0.25, kMass * 3 * 1.5, kStiffness * 0.01}),
             1e-9);
@@ -360,7 +360,7 @@ TEST(moving_wall, a_choice_holds_while_nothing_goes_farther_than_its_margin)
     return of[which].spheres();
   };
   const Pose first = motion.pose_at(0.2);
-  kept->place_wall(first);
+  kept->set_pose(first);
   kept->choose(spheres(0), margin, true);
   StepSettings step;
   step.dt = kStep;
@@ -368,8 +368,8 @@ TEST(moving_wall, a_choice_holds_while_nothing_goes_farther_than_its_margin)
   for (Real time = 0.2; !moved; time += 1e-4) {
     const Pose pose = motion.pose_at(time);
     if (farthest_between(first, pose, bounds) > margin) break;
-    kept->place_wall(pose);
-    fresh->place_wall(pose);
+    kept->set_pose(pose);
+    fresh->set_pose(pose);
     const Spheres a = spheres(0), b = spheres(1);
     // No sphere goes farther, in the frame of the mesh, than a point of its bounds.
     moved = kept->has_moved(a);
@@ -385,16 +385,16 @@ TEST(moving_wall, a_choice_holds_while_nothing_goes_farther_than_its_margin)
   EXPECT_GT(steps, 5);
   EXPECT_GT(near, 100 * steps);
   // Spheres at rest have moved once the wall has.
-  kept->place_wall(motion.pose_at(0.7));
+  kept->set_pose(motion.pose_at(0.7));
   EXPECT_TRUE(kept->has_moved(spheres(0)));
-  kept->place_wall(first);
+  kept->set_pose(first);
   EXPECT_FALSE(kept->has_moved(spheres(0)));
 }
 
 TEST(moving_wall, must_be_announced)
 {
   const auto engine = make_test_engine(hooke(kStiffness));
-  EXPECT_THROW(engine->place_wall(some_pose()), std::logic_error);
+  EXPECT_THROW(engine->set_pose(some_pose()), std::logic_error);
   EngineSettings s = moving(hooke(kStiffness));
   s.precision = Precision::single_;
   EXPECT_THROW(make_engine(s), InputError);

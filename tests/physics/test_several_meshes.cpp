@@ -70,7 +70,7 @@ class Wall {
   {
     for (int m = 0; m < static_cast<int>(grids_.size()); m++) {
       engine.set_grid(grids_[m].view(), m);
-      engine.place_wall(pose_of(m, turned_), m);
+      engine.set_pose(pose_of(m, turned_), m);
     }
   }
 

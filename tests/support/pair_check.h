@@ -46,11 +46,11 @@ LSDCD_FN Sphere sphere_of(const PairMesh<T> &mesh, std::uint64_t i)
 // No contact missed, none that is not there, the nearest at the right distance; unit
 // normals, weights in [0, 1], a finite force. `kSolved`: the corner rule is tried
 // where there are no more contacts.
-template <int kPlaces, int kSolved, class T>
+template <int kMost, int kSolved, class T>
 LSDCD_FN PairResult check_pair(const PairMesh<T> &mesh, std::uint64_t i)
 {
   const Sphere s = sphere_of(mesh, i);
-  ContactSet<kPlaces> set;
+  ContactSet<kMost> set;
   find_contacts(mesh.grid, s.x, s.radius, set);
   const Real d = long_distance(mesh.triangle, mesh.n_triangles, s.x);
 

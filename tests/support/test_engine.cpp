@@ -23,7 +23,7 @@ class InPlaceForHost : public WallEngine {
 
   std::string backend() const override { return engine_->backend(); }
   void set_grid(const GridView &grid, int mesh) override { engine_->set_grid(grid, mesh); }
-  void place_wall(const Pose &pose, int mesh) override { engine_->place_wall(pose, mesh); }
+  void set_pose(const Pose &pose, int mesh) override { engine_->set_pose(pose, mesh); }
   Real largest_radius(const Spheres &s) override { return engine_->largest_radius(places(s)); }
   Real farthest_past(const Spheres &s, const PeriodicFaces &faces) override
   {

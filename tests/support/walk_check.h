@@ -118,8 +118,8 @@ LSDCD_FN Vec3 within_margin(const FeatureLists &lists, const Vec3 &from, const V
   return from;
 }
 
-template <int kPlaces>
-LSDCD_FN bool has_contact(const ContactSet<kPlaces> &set, FeatureCode feature, const Vec3 &normal,
+template <int kMost>
+LSDCD_FN bool has_contact(const ContactSet<kMost> &set, FeatureCode feature, const Vec3 &normal,
                           Real distance)
 {
   for (int k = 0; k < set.n; k++)
@@ -128,8 +128,8 @@ LSDCD_FN bool has_contact(const ContactSet<kPlaces> &set, FeatureCode feature, c
   return false;
 }
 
-template <int kPlaces>
-LSDCD_FN long not_in(const ContactSet<kPlaces> &a, const ContactSet<kPlaces> &b)
+template <int kMost>
+LSDCD_FN long not_in(const ContactSet<kMost> &a, const ContactSet<kMost> &b)
 {
   long n = a.overflow;
   for (int k = 0; k < a.n; k++) n += !has_contact(b, a.feature[k], a.normal[k], a.distance[k]);

@@ -25,7 +25,7 @@ namespace lsdcd {
 namespace {
 
 constexpr const char *kTheme = "Bad meshes, against exact arithmetic";
-constexpr int kPlaces = 512;
+constexpr int kMost = 512;
 using Exact = CGAL::Gmpq;
 using Kernel = CGAL::Simple_cartesian<Exact>;
 
@@ -160,7 +160,7 @@ void expect_exact(const char *id, const std::string &what, const TriangleSoup &s
     const Vec3 q = centre(soup, random, radius);
     scene.add_sphere(q, radius, 1);
     const Real d = oracle.distance(q);
-    ContactSet<kPlaces> set;
+    ContactSet<kMost> set;
     find_contacts(view, q, radius, set);
     Real nearest = HUGE_VAL;
     for (int k = 0; k < set.n; k++) {
@@ -251,7 +251,7 @@ TEST(sliver, tips_end_where_they_do)
     const Real room = tolerance(soup, scene.grid, scene.mesh.report);
     for (int k = 0; k < 10; k++) {
       const Vec3 q = tip + log_uniform(random, 0.1, 1e4) * scene.grid.tolerance * axis;
-      ContactSet<kPlaces> set;
+      ContactSet<kMost> set;
       find_contacts(scene.grid.view(), q, 0.3, set);
       Real nearest = HUGE_VAL;
       for (int c = 0; c < set.n; c++) nearest = std::fmin(nearest, set.distance[c]);
@@ -442,7 +442,7 @@ TEST(centre_on_the_wall, has_a_unit_normal_and_a_finite_force)
       }
   Real largest = 0;
   for (const Vec3 &q : at) {
-    ContactSet<kPlaces> set;
+    ContactSet<kMost> set;
     find_contacts(view, q, 0.3, set);
     for (int k = 0; k < set.n; k++) {
       const Real off = std::fabs(norm(set.normal[k]) - 1);
@@ -469,7 +469,7 @@ TEST(centre_on_the_wall, has_a_unit_normal_at_any_distance_from_a_bare_edge_and_
     for (Real z : {-0.5, 0., 1.})
       for (Real digits : {1., 1.5, 7.}) {
         const Real off = 0.01 * digits * std::pow(10., e);
-        ContactSet<kPlaces> set;
+        ContactSet<kMost> set;
         find_contacts(scene.grid.view(), {off, -off, z * off}, 0.3, set);
         ASSERT_GE(set.n, 1) << off;
         for (int k = 0; k < set.n; k++) {

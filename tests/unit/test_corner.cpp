@@ -31,14 +31,14 @@ struct Solved {
   Vec3 force;    // sum of l_i n_i
 };
 
-template <int kPlaces = 8>
+template <int kMost = 8>
 Solved solve(const Contacts &c)
 {
-  ContactSet<kPlaces> set;
+  ContactSet<kMost> set;
   for (int i = 0; i < c.n(); i++) set.add(i, c.normal[i], kRadius - c.overlap[i]);
   Solved out;
   out.weight.resize(c.n());
-  CornerRule<kPlaces> rule;
+  CornerRule<kMost> rule;
   rule.solve(set, kRadius, out.weight.data());
   out.force = {0, 0, 0};
   for (int i = 0; i < c.n(); i++)

@@ -9,7 +9,7 @@
 #include "effects/effects.h"
 #include "engine/host_adapter.h"
 #include "engine/step/compile_law.h"
-#include "grid/lookup/near_within.h"
+#include "grid/lookup/occupied_within.h"
 #include "support/crowd.h"
 #include "support/device.h"
 #include "support/sphere_arrays.h"
@@ -370,9 +370,9 @@ TEST(engine, a_way_within_the_margin_ends_near_only_where_it_was_seen_before)
     way = (margin * std::fabs(unit(random)) / norm(way)) * way;
     if (find_cell(grid, q + way, at, cell)) {
       near++;
-      missed += !near_within(grid, table, q, margin);
+      missed += !occupied_within(grid, table, q, margin);
     } else
-      far += !near_within(grid, table, q, margin);
+      far += !occupied_within(grid, table, q, margin);
   }
   EXPECT_EQ(missed, 0);
   EXPECT_GT(near, 1000);

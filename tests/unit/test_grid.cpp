@@ -31,7 +31,7 @@
 namespace lsdcd::test_grid {
 namespace {
 
-constexpr int kPlaces = 256;
+constexpr int kMost = 256;
 
 // Triangles between random points: edges with one, two and more faces, faces
 // that cross, all angles.
@@ -105,7 +105,7 @@ void expect_complete(const TriangleSoup &soup, Real cutoff, Real length, int n, 
     const Real r = random() % 4 ? uniform(random, 0, cutoff) : cutoff;
     const auto expected =
         brute_contacts(view.wall, grid.wall.contact_features, q, r, grid.tolerance, same);
-    ContactSet<kPlaces> set;
+    ContactSet<kMost> set;
     find_contacts(view, q, r, set);
     ASSERT_FALSE(set.overflow);
     ASSERT_EQ(set.n, static_cast<int>(expected.size()))
@@ -393,7 +393,7 @@ TEST(grid, flat_view_gives_the_contacts_of_view)
   Random random(1);
   for (int i = 0; i < 10000; i++) {
     const Vec3 q = query_point(random, soup, {-1, -1, -1}, {1, 1, 1}, 0.3);
-    ContactSet<kPlaces> s, t;
+    ContactSet<kMost> s, t;
     find_contacts(a, q, 0.3, s);
     find_contacts(b, q, 0.3, t);
     ASSERT_EQ(s.n, t.n);
@@ -411,7 +411,7 @@ TEST(grid, flat_block_can_be_moved)
   FlatGrid first(grid), second(flat_bytes(grid));
   std::memcpy(second.block(), first.block(), flat_bytes(grid));
   std::memset(first.block(), 0xff, flat_bytes(grid));
-  ContactSet<kPlaces> set;
+  ContactSet<kMost> set;
   find_contacts(second.view(), {0.5, 0.5, 1.2}, 0.3, set);
   ASSERT_EQ(set.n, 1);
   EXPECT_NEAR(set.distance[0], 0.2, 1e-15);
@@ -635,7 +635,7 @@ TEST(grid, pieces_very_far_apart_are_both_covered_or_refused)
   try {
     const TriangleGrid grid = build_grid(weld(soup, 0), settings, test_on_cuda());
     for (Real x : {0.5, 4e9 + 0.5}) {
-      ContactSet<kPlaces> set;
+      ContactSet<kMost> set;
       find_contacts(grid.view(), {x, 0.5, 1.125}, 0.25, set);
       EXPECT_EQ(set.n, 1);
     }
@@ -662,7 +662,7 @@ TEST(grid, points_outside_its_box_touch_nothing)
     for (int k = 0; k < 6; k++) {
       Vec3 q = {0.5, 0.5, 0.5};
       q[k / 2] = k % 2 ? far : 1 - far;
-      ContactSet<kPlaces> set;
+      ContactSet<kMost> set;
       find_contacts(grid.view(), q, 0.3, set);
       EXPECT_EQ(set.n, 0);
     }
@@ -674,7 +674,7 @@ TEST(grid, position_that_is_not_a_number_touches_nothing)
   for (int k = 0; k < 3; k++) {
     Vec3 q = {0.5, 0.5, 1.1};
     q[k] = std::nan("");
-    ContactSet<kPlaces> set;
+    ContactSet<kMost> set;
     find_contacts(grid.view(), q, 0.3, set);
     EXPECT_EQ(set.n, 0);
     EXPECT_FALSE(locate(grid.view(), q).brick);

@@ -500,7 +500,7 @@ TEST(packing, knows_what_brute_force_over_images_finds)
   std::vector<PackedSphere> all, there;
   for (int i = 0; i < 60; i++) all.push_back({anywhere(), 0.05 + 0.3 * part(random)});
   for (const PackedSphere &s : all)
-    for (const PackedSphere &image : images_near(s, zone, kLargest, box)) there.push_back(image);
+    for (const PackedSphere &image : images_in(s, zone, kLargest, box)) there.push_back(image);
   Packing packing(there, zone, kLargest, box);
   int in = 0;
   for (int i = 0; i < 20000; i++) {

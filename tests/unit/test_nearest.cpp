@@ -17,7 +17,7 @@
 namespace lsdcd::test_nearest {
 namespace {
 
-constexpr int kPlaces = 512;
+constexpr int kMost = 512;
 
 TriangleGrid grid_of(const WeldedMesh &mesh, Real cutoff, Real length, int nearest)
 {
@@ -95,7 +95,7 @@ using Contacts = std::vector<std::pair<FeatureCode, Real>>;
 
 Contacts contacts(const GridView &view, const Vec3 &q, Real radius, Real *exact_within = nullptr)
 {
-  ContactSet<kPlaces> set;
+  ContactSet<kMost> set;
   const Real exact = find_contacts(view, q, radius, set);
   if (exact_within) *exact_within = exact;
   Contacts out;
@@ -163,7 +163,7 @@ TEST(nearest_lists, hold_edges_and_points_that_have_no_face)
   soup.source = "needle";
   soup.corners = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}};
   const TriangleGrid grid = grid_of(weld(soup, 0), 0.3, 0.1, 4);
-  ContactSet<kPlaces> set;
+  ContactSet<kMost> set;
   EXPECT_EQ(find_contacts(grid.view(), {1.5, 0, 0.2}, 0.25, set), kAnyDistance);
   ASSERT_EQ(set.n, 1);
   EXPECT_DOUBLE_EQ(set.distance[0], 0.2);

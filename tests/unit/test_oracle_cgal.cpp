@@ -28,7 +28,7 @@
 namespace lsdcd {
 namespace {
 
-constexpr int kPlaces = 512;
+constexpr int kMost = 512;
 using Wide = long double;
 using Kernel = CGAL::Simple_cartesian<Wide>;
 using Triangles = std::vector<Kernel::Triangle_3>;
@@ -110,7 +110,7 @@ void expect_same_distance(const Case &c)
     const Vec3 q = c.query(random);
     const Wide d_sq = c.tree->squared_distance(Kernel::Point_3(q.x, q.y, q.z));
     const Wide d = std::sqrt(d_sq);
-    ContactSet<kPlaces> set;
+    ContactSet<kMost> set;
     find_contacts(view, q, c.cutoff, set);
     Real nearest = HUGE_VAL;
     for (int k = 0; k < set.n; k++) nearest = std::fmin(nearest, set.distance[k]);
@@ -300,7 +300,7 @@ void expect_same_minima(const Case &c)
   for_points(n_points(30000), 2, [&](Random &random) {
     const Vec3 q = c.query(random);
     const Minima::Map expected = minima.around(q, c.cutoff);
-    ContactSet<kPlaces> set;
+    ContactSet<kMost> set;
     find_contacts(view, q, c.cutoff, set);
     long not_there = 0, not_one = 0, twice = 0, n_sure = 0;
     const auto closest = [&](int k) { return wide(q - set.distance[k] * set.normal[k]); };

@@ -305,7 +305,7 @@ Answers ask_cells_first(const TriangleGrid &grid, const std::vector<Sphere> &sph
   const GridOn<CpuBackend> g(CpuBackend(), FlatGrid(grid), true);
   const std::size_t n = spheres.size();
   Answers found = {std::vector<std::uint8_t>(n), std::vector<Real>(n)};
-  const AnswerArrays<Real> out = {found.status.data(), found.distance.data()};
+  const DistanceArrays<Real> out = {found.status.data(), found.distance.data()};
   std::uint64_t too_large = 0;
   with_list_search(g.view, [&](auto search) {
     const GridWork<decltype(search), Sphere> work = {g.view,
@@ -481,7 +481,7 @@ TEST(query, places_found_without_a_branch_are_those_found_with_them)
     std::size_t inside = 0;
     const auto expect_same = [&](const Vec3 &q) {
       const CellSlot p = cell_slot_of(view, q);
-      const BrickSlot at = brick_place_of(view, q);
+      const BrickSlot at = brick_slot_of(view, q);
       ASSERT_EQ(at.slot != kNoBrick, p.inside) << q.x << " " << q.y << " " << q.z;
       if (!p.inside) return;
       inside++;
@@ -539,7 +539,7 @@ void expect_filter_is_right(const GridView &view, const Vec3Of<T> &q, Sureness &
 {
   const BrickFilter<T> filter(view);
   const BrickGuess guess = filter.guess(q);
-  const std::uint32_t place = brick_place_of(view, vec_cast<Real>(q)).slot;
+  const std::uint32_t place = brick_slot_of(view, vec_cast<Real>(q)).slot;
   count.points++;
   count.inside += place != kNoBrick;
   if (guess.unsure) return;

@@ -45,7 +45,7 @@ class Floors {
       engine->set_grid(grid_.view(), k);
       poses[k].placed = true;
       poses[k].shift = {50. * k, 0, 0};
-      engine->place_wall(poses[k], k);
+      engine->set_pose(poses[k], k);
     }
   }
 

@@ -186,8 +186,8 @@ TEST(triangle_tree, many_points_get_what_each_alone_gets)
     io.distance = {distance.data(), 1};
     io.closest = {closest.data(), 3, 1};
     io.feature = feature.data();
-    std::unique_ptr<NearBoxes> near;
-    if (cutoff > 0) near = std::make_unique<NearBoxes>(c.tree, c.mesh, cutoff);
+    std::unique_ptr<CutoffBoxes> near;
+    if (cutoff > 0) near = std::make_unique<CutoffBoxes>(c.tree, c.mesh, cutoff);
     query_tree(c.tree, near.get(), io.radius, io);
     std::size_t found = 0;
     for (std::size_t i = 0; i < points.size(); i++) {

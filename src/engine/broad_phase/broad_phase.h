@@ -97,22 +97,22 @@ class BroadPhase {
     are_packed_ = packed && !uses_slots();
     if (uses_slots()) return choose_slots(b, spheres, margin, counts);
     const GridView &grid = meshes_[0].grid.view;
-    CandidateSpheres at_choice = {spheres.x, spheres.radius, pull_off_, nullptr, 0};
+    CandidateSpheres candidates = {spheres.x, spheres.radius, pull_off_, nullptr, 0};
     StepCounts seen;
     std::size_t early = 0;
     do {
       selector_.choose(b, meshes_[0], spheres, margin, pull_off_, true, counts.data(), n_springs);
-      b.copy_out(counts.data(), seen_.data(), 1);
+      b.copy_out(counts.data(), counts_on_host_.data(), 1);
       counted_.record(b);
       // A GPU need not wait until the host knows how many there are.
-      at_choice.near = selector_.data();
-      early = lists_.make_early(b, grid, meshes_[0].pose, at_choice, margin, counts.data());
+      candidates.index = selector_.data();
+      early = lists_.make_early(b, grid, meshes_[0].pose, candidates, margin, counts.data());
       counted_.wait();
-      seen = *seen_.data();
+      seen = *counts_on_host_.data();
     } while (!seen.too_large && !selector_.had_room(b, seen));
     if (seen.too_large) return seen;
-    n_ = at_choice.n = seen.n_candidates;
-    lists_.make(b, grid, meshes_[0].pose, at_choice, margin, counts.data(), early);
+    n_ = candidates.n = seen.n_candidates;
+    lists_.make(b, grid, meshes_[0].pose, candidates, margin, counts.data(), early);
     return seen;
   }
   // The numbers of those of n_spheres packed spheres that are candidates.
@@ -157,15 +157,15 @@ class BroadPhase {
     }
     return kind_of_type_.data();
   }
-  const PlacedGrid *put_grids(B &b)
+  const PosedGrid *put_grids(B &b)
   {
-    if (placed_.size() < meshes_.size()) placed_ = Array<PlacedGrid>(meshes_.size());
-    PlacedGrid *to = placed_.data();
+    if (posed_.size() < meshes_.size()) posed_ = Array<PosedGrid>(meshes_.size());
+    PosedGrid *to = posed_.data();
     for (int m = 0; m < n_meshes(); m++, to++) {
-      const PlacedGrid placed = {meshes_[m].grid.view, meshes_[m].pose};
+      const PosedGrid placed = {meshes_[m].grid.view, meshes_[m].pose};
       b.for_each(1, [=] LSDCD_LAMBDA(std::size_t) { *to = placed; });
     }
-    return placed_.data();
+    return posed_.data();
   }
 
   // See DisplacementCheck.
@@ -181,7 +181,7 @@ class BroadPhase {
   std::size_t bytes() const
   {
     std::size_t bytes = selector_.bytes() + slots_.bytes() + lists_.bytes() +
-                        displacement_.bytes() + placed_.size() * sizeof(PlacedGrid) +
+                        displacement_.bytes() + posed_.size() * sizeof(PosedGrid) +
                         kind_of_type_.size() * sizeof(int);
     for (const EngineMesh<B> &mesh : meshes_) bytes += mesh.grid.bytes();
     return bytes;
@@ -202,7 +202,7 @@ class BroadPhase {
     }
     slots_.finish(b, kinds_of(b, spheres), n_kinds());
     n_ = slots_.n_slots();
-    const PlacedGrid *grids = put_grids(b);
+    const PosedGrid *grids = put_grids(b);
     bool large = false;
     for (const EngineMesh<B> &mesh : meshes_) large |= mesh.grid.view.is_large;
     lists_.make(b, meshes_[0].grid.view, large, grids, slots_.mesh(),
@@ -218,11 +218,12 @@ class BroadPhase {
   CandidateSelector<B> selector_;
   CandidateSlots<B> slots_;
   FeatureListStore<B> lists_;
-  Array<PlacedGrid> placed_;
+  Array<PosedGrid> posed_;
   bool are_packed_ = false;
   std::size_t n_ = 0;
-  typename B::template HostArray<StepCounts> seen_ = typename B::template HostArray<StepCounts>(1);
-  typename B::Event counted_;    // once they are in seen_
+  typename B::template HostArray<StepCounts> counts_on_host_ =
+      typename B::template HostArray<StepCounts>(1);
+  typename B::Event counted_;    // once they are in counts_on_host_
   DisplacementCheck<B> displacement_;
 };
 

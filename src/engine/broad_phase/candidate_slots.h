@@ -44,15 +44,15 @@ class CandidateSlots {
   }
 
   // The n candidates of the next mesh.
-  void add(B &b, const int *near, std::size_t n)
+  void add(B &b, const int *candidates, std::size_t n)
   {
     const int mesh = static_cast<int>(end_.size());
     reserve(b, n_found_ + n);
     MeshSet *set = set_.data();
     int *to = found_.data() + n_found_;
     b.for_each(n, [=] LSDCD_LAMBDA(std::size_t k) {
-      to[k] = near[k];
-      set[near[k]] |= MeshSet(1) << mesh;
+      to[k] = candidates[k];
+      set[candidates[k]] |= MeshSet(1) << mesh;
     });
     n_found_ += n;
     end_.push_back(n_found_);
@@ -72,7 +72,7 @@ class CandidateSlots {
       flags_ = Array<char>(room);
     }
     begin_.assign(1, 0);
-    n_joint_ = 0;
+    n_multi_mesh_ = 0;
     for (std::size_t m = 0; m < end_.size(); m++) {
       const std::size_t from = m == 0 ? 0 : end_[m - 1], n = end_[m] - from;
       const int *found = found_.data() + from;
@@ -84,10 +84,10 @@ class CandidateSlots {
       }
       fill(b, at, begin_.back() - at, static_cast<int>(m));
       flag_multi_mesh(b, found, n, static_cast<int>(m));
-      n_joint_ += compact(b, found, n, multi_mesh_.data() + n_joint_);
+      n_multi_mesh_ += compact(b, found, n, multi_mesh_.data() + n_multi_mesh_);
     }
     n_slots_ = begin_.back();
-    if (n_joint_ > 0) make_multi_mesh_slots(b);
+    if (n_multi_mesh_ > 0) make_multi_mesh_slots(b);
   }
 
   // Slots [begin(m), begin(m + 1)) are of candidates of mesh m only, from begin(m, k) on those of kind k;
@@ -97,7 +97,7 @@ class CandidateSlots {
   std::size_t n_slots() const { return n_slots_; }
   const int *sphere() const { return sphere_.data(); }    // of each slot
   const int *mesh() const { return mesh_.data(); }        // of each slot
-  std::size_t n_multi_mesh() const { return n_joint_; }
+  std::size_t n_multi_mesh() const { return n_multi_mesh_; }
   const int *first() const
   {
     return first_.data();
@@ -153,10 +153,10 @@ class CandidateSlots {
 
   void make_multi_mesh_slots(B &b)
   {
-    const std::size_t n = n_joint_;
+    const std::size_t n = n_multi_mesh_;
     const int *multi_mesh = multi_mesh_.data();
     const MeshSet *set = set_.data();
-    int *first = first_.data(), *near = sphere_.data(), *mesh = mesh_.data();
+    int *first = first_.data(), *sphere = sphere_.data(), *mesh = mesh_.data();
     const int begin = static_cast<int>(n_slots_);
     b.for_each(n, [=] LSDCD_LAMBDA(std::size_t g) {
       int count = 0;
@@ -172,7 +172,7 @@ class CandidateSlots {
       int k = at;
       for (int m = 0; m < kMaxMeshes; m++)
         if (has_mesh(set[multi_mesh[g]], m)) {
-          near[k] = multi_mesh[g];
+          sphere[k] = multi_mesh[g];
           mesh[k++] = m;
         }
     });
@@ -187,7 +187,7 @@ class CandidateSlots {
   }
 
   int kinds_ = 1;
-  std::size_t n_spheres_ = 0, n_found_ = 0, n_slots_ = 0, n_joint_ = 0;
+  std::size_t n_spheres_ = 0, n_found_ = 0, n_slots_ = 0, n_multi_mesh_ = 0;
   std::vector<std::size_t> end_, begin_ = {0};
   Array<MeshSet> set_;    // the meshes that each sphere is near
   Array<int> found_;      // candidates, mesh after mesh

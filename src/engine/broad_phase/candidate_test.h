@@ -11,7 +11,7 @@
 #include "engine/results/step_counts.h"
 #include "grid/lookup/brick_filter.h"
 #include "grid/lookup/grid_on.h"
-#include "grid/lookup/near_within.h"
+#include "grid/lookup/occupied_within.h"
 #include "law/submodels/normal.h"
 #include "motion/pose.h"
 
@@ -24,7 +24,7 @@ struct EngineMesh {
 };
 
 // The same in kernels that make lists.
-struct PlacedGrid {
+struct PosedGrid {
   GridView grid;
   Pose pose;
 };
@@ -48,18 +48,18 @@ struct CandidateSpheres {
   StridedView<const Real> x;
   const Real *radius;
   Real pull_off;
-  const int *near;    // sphere of candidate k
-  std::size_t n;      // candidates; 0: nothing is prefetched
+  const int *index;    // the sphere that candidate k is
+  std::size_t n;       // candidates; 0: nothing is prefetched
 
   LSDCD_FN QuerySphere in_frame_of(const Pose &pose, std::size_t k) const
   {
-    const int i = near[k];
+    const int i = index[k];
     return query_sphere_at(pose, x[i], radius[i], pull_off);
   }
   LSDCD_FN void prefetch_ahead(const GridView &grid, const Pose &pose, std::size_t k) const
   {
-    constexpr std::size_t kPlaces = 4;
-    if (k + kPlaces < n) prefetch_search(grid, pose, x[near[k + kPlaces]]);
+    constexpr std::size_t kAhead = 4;
+    if (k + kAhead < n) prefetch_search(grid, pose, x[index[k + kAhead]]);
   }
 };
 
@@ -104,26 +104,26 @@ struct CandidateTest {
       raise_to(&counts->too_large, kNoSphere - i);
   }
 
-  // `near_table`: the table, as a backend has it.
+  // `table`: the table, as a backend has it.
   template <class Table>
-  LSDCD_FN bool coarse_test(const Item &item, const Vec3 &x, const Table &near_table) const
+  LSDCD_FN bool coarse_test(const Item &item, const Vec3 &x, const Table &table) const
   {
     const BrickGuess guess = filter.guess(pose.to_mesh(x));
     // With a margin it is enough to look at one brick where no other is within the margin.
     const bool sure = !guess.unsure & (!kPast || (guess.inside && fixed_margin > 0 &&
                                                   filter.is_clear(guess, fixed_margin)));
     bool may = !sure;
-    if (guess.inside & sure) may = near_table.at(filter.slot(grid, guess));
+    if (guess.inside & sure) may = table.at(filter.slot(grid, guess));
     return may & in_group(item);
   }
   // The cell that holds x, kNotKnown where several may matter, or kNotFound where no candidate is near.
   static constexpr std::uint32_t kNotKnown = kNoCell, kNotFound = kNoCell - 1;
   template <class Table>
-  LSDCD_FN std::uint32_t locate(const Vec3 &x, const Table &near_table) const
+  LSDCD_FN std::uint32_t locate(const Vec3 &x, const Table &table) const
   {
     const Vec3 q = pose.to_mesh(x);
-    if constexpr (kPast) return near_within(grid, near_table, q, past) ? kNotKnown : kNotFound;
-    const std::uint32_t cell = occupied_cell(grid, near_table, q);
+    if constexpr (kPast) return occupied_within(grid, table, q, past) ? kNotKnown : kNotFound;
+    const std::uint32_t cell = occupied_cell(grid, table, q);
     return cell != kNoCell ? cell : kNotFound;
   }
 
@@ -139,9 +139,9 @@ struct CandidateTest {
   LSDCD_FN void prefetch(const Vec3 &x) const { prefetch_search(grid, pose, x); }
 
   LSDCD_FN bool has_notes() const { return n_springs; }
-  LSDCD_FN void note(std::size_t i, bool near) const
+  LSDCD_FN void note(std::size_t i, bool is_candidate) const
   {
-    if (!near) n_springs[i] = 0;
+    if (!is_candidate) n_springs[i] = 0;
   }
 };
 

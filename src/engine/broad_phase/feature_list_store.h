@@ -39,7 +39,7 @@ struct GatherWork {
 
 // The same for slots of several meshes.
 struct GatherSlotWork {
-  const PlacedGrid *meshes;
+  const PosedGrid *meshes;
   const int *mesh;    // of each slot
   CandidateSpheres spheres;
   Real margin;
@@ -50,7 +50,7 @@ struct GatherSlotWork {
   LSDCD_FN void operator()(const Warp<kSize> &warp, bool mine, std::size_t k) const
   {
     for_each_distinct(warp, mine, mesh[k], [&](bool of_mesh, int m) {
-      const PlacedGrid &of = meshes[m];
+      const PosedGrid &of = meshes[m];
       const GatherWork work = {of.grid, of.pose, spheres, margin, lists, nullptr, counts};
       work(warp, of_mesh, k);
     });
@@ -88,7 +88,7 @@ class FeatureListStore {
     b.for_each_in_warps(n, gather(grid, pose, spheres, margin, counts));
   }
   // The same for n slots of several meshes; `large`: is any of them?
-  void make(B &b, const GridView &first_grid, bool large, const PlacedGrid *meshes, const int *mesh,
+  void make(B &b, const GridView &first_grid, bool large, const PosedGrid *meshes, const int *mesh,
             const CandidateSpheres &spheres, Real margin, StepCounts *counts)
   {
     if (reserve(first_grid, large, spheres.n))
@@ -102,7 +102,7 @@ class FeatureListStore {
   std::size_t bytes() const
   {
     return multi_contact_.size() + reals_.size() * sizeof(Real) +
-           ints_.size() * sizeof(std::int32_t) + places_.size() * sizeof(RecordCopies::Place) +
+           ints_.size() * sizeof(std::int32_t) + copy_slots_.size() * sizeof(RecordCopies::Slot) +
            used_ * sizeof(FeatureRecord);
   }
 
@@ -137,14 +137,14 @@ class FeatureListStore {
   // Pages that are never written take no memory.
   void reserve_copies(std::size_t n)
   {
-    if (places_.size() < n) {
-      places_ = Array<RecordCopies::Place>(n + n / 8);
-      records_ = Array<FeatureRecord>(kCopies * places_.size());
+    if (copy_slots_.size() < n) {
+      copy_slots_ = Array<RecordCopies::Slot>(n + n / 8);
+      records_ = Array<FeatureRecord>(kCopies * copy_slots_.size());
     }
-    std::fill_n(places_.data(), n, RecordCopies::Place());
+    std::fill_n(copy_slots_.data(), n, RecordCopies::Slot());
     used_ = 0;
     const std::size_t room = std::min<std::size_t>(records_.size(), 1u << 30);
-    lists_.copies = {records_.data(), places_.data(), &used_, static_cast<int>(room)};
+    lists_.copies = {records_.data(), copy_slots_.data(), &used_, static_cast<int>(room)};
   }
 
   static constexpr int kCopies = 4;    // for each list, in the mean; lists have 1 to 4 features
@@ -154,7 +154,7 @@ class FeatureListStore {
   Array<std::int32_t> ints_;
   Array<char> multi_contact_;       // not on a host
   Array<FeatureRecord> records_;    // on a host
-  Array<RecordCopies::Place> places_;
+  Array<RecordCopies::Slot> copy_slots_;
   int used_ = 0;
 };
 

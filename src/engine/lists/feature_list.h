@@ -61,14 +61,14 @@ struct FeatureLists {
   {
     return static_cast<FeatureCode>(n[(i + 1) * column + k]);
   }
-  // `keeps_cutoff`: list k already has the list's cutoff, which is not rounded up once more.
+  // `has_cutoff`: list k already has the list's cutoff, which is not rounded up once more.
   LSDCD_FN void put(std::size_t k, const FeatureList &list, const MeshFeaturesView &wall,
-                    bool keeps_cutoff = false) const
+                    bool has_cutoff = false) const
   {
     for (int d = 0; d < 3; d++) x[d * column + k] = list.x[d];
     // Rounded down, and up.
     lengths[k] = static_cast<float>((1 - Real(1e-6)) * (list.margin / unit));
-    if (!keeps_cutoff)
+    if (!has_cutoff)
       lengths[column + k] = static_cast<float>((1 + Real(1e-6)) * (list.cutoff / unit));
     n[k] = list.n;
     for (int i = 0; i < list.n; i++)

@@ -6,7 +6,7 @@
 
 #include "backend/warp.h"
 #include "geometry/wall_records.h"
-#include "grid/lookup/near_within.h"
+#include "grid/lookup/occupied_within.h"
 
 namespace lsdcd {
 

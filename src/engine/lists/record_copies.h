@@ -13,20 +13,20 @@ namespace lsdcd {
 
 struct RecordCopies {
   // Copies of the first n records of a list, and for how many there is room.
-  struct Place {
+  struct Slot {
     std::int32_t first;
     std::int16_t n, room;
   };
 
   FeatureRecord *records = nullptr;    // null: there are none
-  Place *places = nullptr;             // of each list
+  Slot *slots = nullptr;               // of each list
   int *used = nullptr, capacity = 0;
 
   // The copies from list k on.
   RecordCopies from(std::size_t k) const
   {
     RecordCopies c = *this;
-    if (records) c.places += k;
+    if (records) c.slots += k;
     return c;
   }
 
@@ -34,7 +34,7 @@ struct RecordCopies {
   LSDCD_FN const FeatureRecord *of([[maybe_unused]] std::size_t k, [[maybe_unused]] int i) const
   {
 #if !LSDCD_ON_GPU()
-    if (records && i < places[k].n) return records + places[k].first + i;
+    if (records && i < slots[k].n) return records + slots[k].first + i;
 #endif
     return nullptr;
   }
@@ -46,16 +46,16 @@ struct RecordCopies {
   {
 #if !LSDCD_ON_GPU()
     if (!records) return;
-    Place &place = places[k];
-    place.n = 0;
-    if (n > place.room) {
+    Slot &slot = slots[k];
+    slot.n = 0;
+    if (n > slot.room) {
       if (__atomic_load_n(used, __ATOMIC_RELAXED) > capacity - n) return;
       const int first = fetch_add(used, n);
       if (first > capacity - n) return;
-      place = {first, 0, static_cast<std::int16_t>(n)};
+      slot = {first, 0, static_cast<std::int16_t>(n)};
     }
-    for (int i = 0; i < n; i++) records[place.first + i] = record_of(wall, code[i]);
-    place.n = static_cast<std::int16_t>(n);
+    for (int i = 0; i < n; i++) records[slot.first + i] = record_of(wall, code[i]);
+    slot.n = static_cast<std::int16_t>(n);
 #endif
   }
 };

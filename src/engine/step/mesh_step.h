@@ -110,7 +110,7 @@ LSDCD_FN void apply_law(const Law &law, const StepJob &job, std::size_t k, std::
                         const Vec3 &x, Real radius, const ContactsView &set, const Real *weight)
 {
   if (set.n == 0) {
-    touches_nothing(job, k, i);
+    put_no_contact(job, k, i);
     return;
   }
   SphereState s = state_at(law, job, i, x, radius);
@@ -156,7 +156,7 @@ LSDCD_FN Real pull_off_of(const Law &law)
 
 // The query for candidate k.
 template <class Law>
-LSDCD_FN QuerySphere near_sphere(const Law &law, const StepJob &job, std::size_t k)
+LSDCD_FN QuerySphere query_sphere_of_candidate(const Law &law, const StepJob &job, std::size_t k)
 {
   const std::size_t i = sphere_of(job, k);
   return query_sphere_of(job, i, centre_of<Law>(job, i), job.radius[i], Law::kBeyondContact,
@@ -168,7 +168,7 @@ template <class Law>
 LSDCD_FN bool needs_list(const Law &law, const StepJob &job, std::size_t k)
 {
   if (!job.lists.n) return false;
-  const QuerySphere s = near_sphere(law, job, k);
+  const QuerySphere s = query_sphere_of_candidate(law, job, k);
   return !job.lists.holds(k, s.x, s.cutoff);
 }
 
@@ -278,7 +278,7 @@ struct MeshStep {
   template <unsigned kSize>
   LSDCD_FN void make_list(const Warp<kSize> &warp, bool mine, std::size_t k) const
   {
-    put_list(job, warp, mine, job.grid, near_sphere(law, job, k), k);
+    put_list(job, warp, mine, job.grid, query_sphere_of_candidate(law, job, k), k);
   }
   // Prefetches for a CPU what make_list() will read, part by part.
   using Ahead = SearchAhead;

@@ -188,7 +188,7 @@ LSDCD_FN void apply_multi_mesh_law(const StepJob &job, const MultiMeshSphere &s,
 {
   for (int k = s.begin; k < s.end; k++) job.result.n_contacts[k] = 0;
   if (all.set.n == 0) {
-    touches_nothing(job, s.begin, s.i);
+    put_no_contact(job, s.begin, s.i);
     return;
   }
   int first = 0, n_done = 0;
@@ -326,7 +326,7 @@ struct MultiMeshStep {
   LSDCD_FN const WorkLists &work_lists() const { return job.work_lists; }
 };
 
-// Candidates [0, n) of one mesh, or the joint spheres [0, n).
+// Candidates [0, n) of one mesh, or the multi-mesh spheres [0, n).
 template <class Law, class Backend>
 void run_compiled_law(const LawBytes &bytes, const StepJob &job, std::size_t n, Backend &backend)
 {

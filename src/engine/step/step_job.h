@@ -159,7 +159,7 @@ LSDCD_FN void count_uncertain(const StepJob &job, std::size_t k, Real uncertain,
 }
 
 // Candidate k, sphere i, touches nothing. Counts of springs that are 0 already are not written.
-LSDCD_FN void touches_nothing(const StepJob &job, std::size_t k, std::size_t i)
+LSDCD_FN void put_no_contact(const StepJob &job, std::size_t k, std::size_t i)
 {
   job.result.n_contacts[k] = 0;
   int *n_springs = job.pool.count;
@@ -172,7 +172,7 @@ LSDCD_FN void touches_nothing(const StepJob &job, std::size_t k, std::size_t i)
 LSDCD_FN void does_not_fit(const StepJob &job, std::size_t k, std::size_t i, int &counter)
 {
   fetch_add(&counter, 1);
-  touches_nothing(job, k, i);
+  put_no_contact(job, k, i);
 }
 
 // Clears the slot counter of the other pool: the next step writes there, if this step moves springs.

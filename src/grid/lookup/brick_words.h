@@ -73,7 +73,7 @@ struct BrickSlot {
 
 // The same as cell_slot_of(), to the bit, without a branch: a thread has several points at once, and
 // would wait for the words of one after the other. Tables have less than 2^32 slots.
-LSDCD_FN BrickSlot brick_place_of(const GridView &grid, const Vec3 &q)
+LSDCD_FN BrickSlot brick_slot_of(const GridView &grid, const Vec3 &q)
 {
   const WholeNumber i = whole_below((q.x - grid.origin.x) * grid.inv_length),
                     j = whole_below((q.y - grid.origin.y) * grid.inv_length),
@@ -104,7 +104,7 @@ constexpr std::uint32_t kNoCell = 0xffffffffu;
 template <class Table>
 LSDCD_FN std::uint32_t occupied_cell(const GridView &grid, const Table &table, const Vec3 &q)
 {
-  const BrickSlot at = brick_place_of(grid, q);
+  const BrickSlot at = brick_slot_of(grid, q);
   const BrickWord word = at.slot != kNoBrick ? table.word(at.slot) : BrickWord{0, 0};
   BrickLayer layer = {0, 0, 0};
   if (has_brick(word, at.slot))

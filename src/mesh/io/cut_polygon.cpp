@@ -349,7 +349,7 @@ std::string PolygonCutter::cut(const std::vector<Vec3> &corners, std::vector<Vec
     way = is_same_polygon(a, b, n, 1) ? 1 : is_same_polygon(a, b, n, -1) ? -1 : 0;
     return way != 0;
   };
-  if (const int i = seen_.find(hash, is_same); i != HashIndex::kNone) {
+  if (const int i = known_cuts_.find(hash, is_same); i != HashIndex::kNone) {
     for (std::size_t k = cuts_[i].triangle; k < cuts_[i].behind; k += 3)
       for (const std::size_t corner : {k, way > 0 ? k + 1 : k + 2, way > 0 ? k + 2 : k + 1})
         triangles.push_back(Vec3(triangles[corner]));
@@ -358,7 +358,7 @@ std::string PolygonCutter::cut(const std::vector<Vec3> &corners, std::vector<Vec
   const std::size_t before = triangles.size();
   std::string problem = cut_polygon(corners, triangles);
   if (!problem.empty()) return problem;
-  seen_.find_or_insert(hash, static_cast<int>(cuts_.size()), [](int) { return false; });
+  known_cuts_.find_or_insert(hash, static_cast<int>(cuts_.size()), [](int) { return false; });
   cuts_.push_back({corners_.size(), n, before, triangles.size()});
   corners_.insert(corners_.end(), corners.begin(), corners.end());
   return "";

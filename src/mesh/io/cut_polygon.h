@@ -42,7 +42,7 @@ class PolygonCutter {
 
   std::vector<Cut> cuts_;
   std::vector<Vec3> corners_;
-  HashIndex seen_;
+  HashIndex known_cuts_;
 };
 
 // For the message of a face that cannot be cut.

@@ -38,7 +38,7 @@ struct PartImage {
 
 // The images within `depth` (length) of the box, ascending. Throws InputError if there are more than
 // vertex numbers can count.
-std::vector<PartImage> near_images(const WeldedMesh &mesh, const std::vector<FacetPart> &parts,
-                                   const PeriodicBox &box, Real depth);
+std::vector<PartImage> images_in_reach(const WeldedMesh &mesh, const std::vector<FacetPart> &parts,
+                                       const PeriodicBox &box, Real depth);
 
 }    // namespace lsdcd

@@ -2,14 +2,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // A query whose kernels have one kind of work each. The first is light, with many threads and more than one
-// sphere in flight in each: it answers every sphere as if the wall were far, and lists those near
+// sphere in flight in each: it answers every sphere as if the wall were far, and lists those that are near
 // to it with what a search reads first. A kernel searches cells of one candidate, and another one cells of
 // more, both with full warps whatever the order of the spheres in memory. The last kernel searches long
 // lists, each by a warp.
 #pragma once
 
 #include "backend/backend.h"
-#include "query/list_near_gpu.h"
+#include "query/find_cell_spheres_gpu.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -20,23 +20,23 @@ namespace lsdcd {
 
 // Blocks at once on a processor: 64 registers a thread for one candidate, 80 for
 // more.
-constexpr unsigned kAnswerBlock = 256, kSinglesBlocks = 4, kSeveralBlocks = 3;
+constexpr unsigned kSearchBlock = 256, kSinglesBlocks = 4, kListsBlocks = 3;
 
-// The order in which a block walks the lists: kAnswerBlock spheres of one list, then of the next. Lists grow in
+// The order in which a block walks the lists: kSearchBlock spheres of one list, then of the next. Lists grow in
 // parallel, so that neighbours in memory are searched in the same turn. `n`: the length of the list whose number is
 // this thread's rank.
-class NearTurns {
+class ListTurns {
  public:
-  LSDCD_GPU_FN explicit NearTurns(unsigned n) : n_(n), longest_(GpuWarp::largest(n)) {}
+  LSDCD_GPU_FN explicit ListTurns(unsigned n) : n_(n), longest_(GpuWarp::largest(n)) {}
 
   // Calls search(list, k) for the spheres of this thread.
   template <class Search>
   LSDCD_GPU_FN void take(Search search) const
   {
-    for (unsigned turn = Block::number(); turn / kNearLists * kAnswerBlock < longest_;
+    for (unsigned turn = Block::number(); turn / kSphereLists * kSearchBlock < longest_;
          turn += Block::n_blocks()) {
-      const unsigned list = turn % kNearLists,
-                     k = turn / kNearLists * kAnswerBlock + Block::thread();
+      const unsigned list = turn % kSphereLists,
+                     k = turn / kSphereLists * kSearchBlock + Block::thread();
       if (k < GpuWarp::of(n_, list)) search(list, k);
     }
   }
@@ -47,24 +47,24 @@ class NearTurns {
  private:
   unsigned n_, longest_;
 };
-static_assert(kNearLists == kWarpSize, "a thread for each");
+static_assert(kSphereLists == kWarpSize, "a thread for each");
 
 // Answers the listed spheres whose cell has one candidate.
 template <class Work>
-struct AnswerSingles {
-  static constexpr unsigned kThreads = kAnswerBlock, kBlocksAtOnce = kSinglesBlocks;
+struct SearchSingles {
+  static constexpr unsigned kThreads = kSearchBlock, kBlocksAtOnce = kSinglesBlocks;
 
   Work work;
-  NearLists<typename Work::Item> lists;
+  CellSphereLists<typename Work::Item> lists;
 
   LSDCD_GPU_FN void operator()(const Block &block) const
   {
     block.wait_for_last();
     block.let_next_begin();
-    NearTurns(static_cast<unsigned>(lists.counts->list[GpuWarp::rank()].n))
+    ListTurns(static_cast<unsigned>(lists.counts->list[GpuWarp::rank()].n))
         .take([&](unsigned list, unsigned k) {
-          const NearSphere<typename Work::Item> near = read_once(lists.list(list)[k]);
-          work.search_list(near.sphere, near.s, Cell{near.cell.first, 1});
+          const CellSphere<typename Work::Item> in_cell = read_once(lists.list(list)[k]);
+          work.search_list(in_cell.sphere, in_cell.s, Cell{in_cell.cell.first, 1});
         });
   }
 };
@@ -73,33 +73,33 @@ struct AnswerSingles {
 // also clears the counts of the next run. It can run beside the kernel before it, which has waited for
 // the lists.
 template <class Work>
-struct AnswerSeveral {
-  static constexpr unsigned kThreads = kAnswerBlock, kBlocksAtOnce = kSeveralBlocks;
+struct SearchLists {
+  static constexpr unsigned kThreads = kSearchBlock, kBlocksAtOnce = kListsBlocks;
 
   Work work;
-  NearLists<typename Work::Item> lists;
-  NearCounts *next_counts;
-  NearSphere<typename Work::Item> *long_list;
+  CellSphereLists<typename Work::Item> lists;
+  CellSphereCounts *next_counts;
+  CellSphere<typename Work::Item> *long_list;
   unsigned max_long;
 
   LSDCD_GPU_FN void operator()(const Block &block) const
   {
     if (block.number() == 0) {
-      if (block.thread() < kNearLists) next_counts->list[block.thread()].n = 0;
+      if (block.thread() < kSphereLists) next_counts->list[block.thread()].n = 0;
       if (block.thread() == 0) next_counts->with_long = 0;
     }
-    NearTurns(static_cast<unsigned>(lists.counts->list[GpuWarp::rank()].n >> 32))
+    ListTurns(static_cast<unsigned>(lists.counts->list[GpuWarp::rank()].n >> 32))
         .take([&](unsigned list, unsigned k) {
-          const NearSphere<typename Work::Item> near =
+          const CellSphere<typename Work::Item> in_cell =
               read_once(lists.list(list)[lists.room - 1 - k]);
-          if (work.is_long(near.cell)) {
+          if (work.is_long(in_cell.cell)) {
             const unsigned at = fetch_add(&lists.counts->with_long, 1u);
             if (at < max_long) {
-              long_list[at] = near;
+              long_list[at] = in_cell;
               return;
             }
           }
-          work.search_list(near.sphere, near.s, near.cell);
+          work.search_list(in_cell.sphere, in_cell.s, in_cell.cell);
         });
     // A kernel that waits for this one thus waits for that one, too.
     block.wait_for_last();
@@ -108,41 +108,41 @@ struct AnswerSeveral {
 
 // A warp for each sphere with a long list.
 template <class Work>
-struct AnswerLong {
-  static constexpr unsigned kThreads = kAnswerBlock, kBlocksAtOnce = 1;
+struct SearchLongLists {
+  static constexpr unsigned kThreads = kSearchBlock, kBlocksAtOnce = 1;
 
   Work work;
-  const NearSphere<typename Work::Item> *long_list;
-  const NearCounts *counts;
+  const CellSphere<typename Work::Item> *long_list;
+  const CellSphereCounts *counts;
   unsigned max_long;
 
   LSDCD_GPU_FN void operator()(const Block &block) const
   {
     const unsigned n = min(counts->with_long, max_long);
-    for (unsigned k = block.number() * (kAnswerBlock / kWarpSize) + block.warp(); k < n;
-         k += block.n_blocks() * (kAnswerBlock / kWarpSize)) {
-      const NearSphere<typename Work::Item> one = long_list[k];
+    for (unsigned k = block.number() * (kSearchBlock / kWarpSize) + block.warp(); k < n;
+         k += block.n_blocks() * (kSearchBlock / kWarpSize)) {
+      const CellSphere<typename Work::Item> one = long_list[k];
       work.search_in_warp(one.sphere, one.s, one.cell, GpuWarp());
     }
   }
 };
 
 template <class B>
-class NearFirst {
+class CellQuery {
   template <class T>
   using Array = typename B::template Array<T>;
 
  public:
-  // Room for the worst case, all spheres of a run near: 32 bytes for each in float, 48 in double.
+  // Room for the worst case, all spheres of a run are in occupied cells: 32 bytes for each in float, 48 in double.
   template <class S>
   void reserve(std::size_t n)
   {
     if (counts_.size() == 0) {
-      long_list_ = Array<char>(kMaxLong * sizeof(NearSphere<Sphere>));
+      long_list_ = Array<char>(kMaxLong * sizeof(CellSphere<Sphere>));
       B b;
-      counts_ = from_host(b, std::vector<NearCounts>(2));
+      counts_ = from_host(b, std::vector<CellSphereCounts>(2));
     }
-    const std::size_t most = room<S>(std::min(n, kRun)) * kNearLists * sizeof(NearSphere<S>);
+    const std::size_t most = room<S>(std::min(n, kRun)) * kSphereLists * sizeof(CellSphere<S>);
     if (list_.size() < most) list_ = Array<char>(most);
   }
 
@@ -150,23 +150,23 @@ class NearFirst {
   void run(B &b, std::size_t n, const Work &work)
   {
     using S = typename Work::Item;
-    using Near = NearSphere<S>;
-    Near *long_list = reinterpret_cast<Near *>(long_list_.data());
+    using InCell = CellSphere<S>;
+    InCell *long_list = reinterpret_cast<InCell *>(long_list_.data());
     for (std::size_t from = 0; from < n; from += kRun) {
       const Work mine = work.after(from);
       const unsigned m = static_cast<unsigned>(std::min(n - from, kRun));
-      NearCounts *counts = counts_.data() + turn_, *next = counts_.data() + (1 - turn_);
+      CellSphereCounts *counts = counts_.data() + turn_, *next = counts_.data() + (1 - turn_);
       turn_ = 1 - turn_;
-      const NearLists<S> lists = {reinterpret_cast<Near *>(list_.data()),
-                                  static_cast<unsigned>(room<S>(m)), counts};
-      b.for_each_block({n_tiles<S>(m), kNearBlock}, ListNear<Work>{m, mine, lists});
-      b.for_each_block({blocks(kSinglesBlocks), kAnswerBlock, 0, true},
-                       AnswerSingles<Work>{mine, lists});
-      b.for_each_block({blocks(kSeveralBlocks), kAnswerBlock, 0, true},
-                       AnswerSeveral<Work>{mine, lists, next, long_list, kMaxLong});
+      const CellSphereLists<S> lists = {reinterpret_cast<InCell *>(list_.data()),
+                                        static_cast<unsigned>(room<S>(m)), counts};
+      b.for_each_block({n_tiles<S>(m), kFindBlock}, FindCellSpheres<Work>{m, mine, lists});
+      b.for_each_block({blocks(kSinglesBlocks), kSearchBlock, 0, true},
+                       SearchSingles<Work>{mine, lists});
+      b.for_each_block({blocks(kListsBlocks), kSearchBlock, 0, true},
+                       SearchLists<Work>{mine, lists, next, long_list, kMaxLong});
       if constexpr (Work::kHasLong)
-        b.for_each_block({limits_.processors(), kAnswerBlock},
-                         AnswerLong<Work>{mine, long_list, counts, kMaxLong});
+        b.for_each_block({limits_.processors(), kSearchBlock},
+                         SearchLongLists<Work>{mine, long_list, counts, kMaxLong});
     }
   }
 
@@ -179,22 +179,22 @@ class NearFirst {
   template <class S>
   static unsigned n_tiles(std::size_t n)
   {
-    return static_cast<unsigned>((n + kNearTile<S> - 1) / kNearTile<S>);
+    return static_cast<unsigned>((n + kFindTile<S> - 1) / kFindTile<S>);
   }
   // For all of its blocks' spheres in a list.
   template <class S>
   static std::size_t room(std::size_t n)
   {
-    return std::size_t((n_tiles<S>(n) + kNearLists - 1) / kNearLists) * kNearTile<S>;
+    return std::size_t((n_tiles<S>(n) + kSphereLists - 1) / kSphereLists) * kFindTile<S>;
   }
   unsigned blocks(unsigned of_processor)
   {
-    return NearTurns::blocks(limits_.processors() * of_processor);
+    return ListTurns::blocks(limits_.processors() * of_processor);
   }
 
   typename B::Limits limits_;
-  Array<char> list_, long_list_;    // of NearSphere
-  Array<NearCounts> counts_;        // of this run and of the next
+  Array<char> list_, long_list_;      // of CellSphere
+  Array<CellSphereCounts> counts_;    // of this run and of the next
   int turn_ = 0;
 };
 

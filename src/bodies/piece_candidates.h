@@ -54,8 +54,8 @@ LSDCD_FN Triangle body_triangle(const Vec3 *corners, std::uint32_t triangle, con
 // Calls visit(primitive) for the primitives of the wall that overlap a ball, from the list of its
 // centre's cell. Returns whether that list is shortened.
 template <class Visit>
-LSDCD_FN bool for_each_near(const GridView &grid, const Vec3 &centre, Real radius,
-                            const Visit &visit)
+LSDCD_FN bool for_each_candidate(const GridView &grid, const Vec3 &centre, Real radius,
+                                 const Visit &visit)
 {
   CellAddress at;
   Cell cell;

@@ -42,7 +42,7 @@ LSDCD_FN Real excess_margin(const GridView &grid, Real margin)
 // With margin 0 that is the cell of q. False if q is not finite. `table`: with the functions
 // of BrickTable.
 template <class Table>
-LSDCD_FN bool near_within(const GridView &grid, const Table &table, const Vec3 &q, Real margin)
+LSDCD_FN bool occupied_within(const GridView &grid, const Table &table, const Vec3 &q, Real margin)
 {
   if (!(margin > 0)) return occupied_cell(grid, table, q) != kNoCell;
   int lo[3], hi[3];

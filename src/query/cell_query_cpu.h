@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// A query on the CPU in blocks of spheres: first it finds those that may be near the wall, then their
+// A query on the CPU in blocks of spheres: first it finds those that may be in a brick, then their
 // cells, then their lists, and last the answers. Each loop prefetches what the next one reads, so that
 // no sphere waits for the memory of another.
 #pragma once
@@ -14,7 +14,7 @@
 
 namespace lsdcd {
 
-struct NearFirstCpu {
+struct CellQueryCpu {
   template <class B, class Work>
   void run(B &b, std::size_t n, const Work &work)
   {
@@ -28,7 +28,7 @@ struct NearFirstCpu {
   static constexpr std::size_t kBlock = 128;
 
   template <class S>
-  struct Near {
+  struct InCell {
     S s;
     std::size_t sphere;
     std::uint32_t slot, cell;    // the cell's number in its brick, then in lists.cells
@@ -39,35 +39,35 @@ struct NearFirstCpu {
   {
     using S = typename Work::Item;
     const GridView &grid = work.grid;
-    Near<S> near[kBlock];
+    InCell<S> in_cell[kBlock];
     std::size_t n = 0;
-    // Written whether it is near or not: a branch would often be mispredicted.
+    // Written whether it is in a brick or not: a branch would often be mispredicted.
     for (std::size_t i = from; i < to; i++) {
       const S s = work.sphere(i);
       work.check(i, s);
-      const BrickSlot at = brick_place_of(grid, s.centre());
-      near[n] = {s, i, at.slot, static_cast<std::uint32_t>(at.cell)};
+      const BrickSlot at = brick_slot_of(grid, s.centre());
+      in_cell[n] = {s, i, at.slot, static_cast<std::uint32_t>(at.cell)};
       n += at.slot != kNoBrick && work.table.at(at.slot);
       work.far(i, s);
     }
-    for (std::size_t k = 0; k < n; k++) __builtin_prefetch(grid.lists.brick_of + near[k].slot);
-    for (std::size_t k = 0; k < n; k++) __builtin_prefetch(layer_of(grid, near[k]));
-    std::size_t n_near = 0;
+    for (std::size_t k = 0; k < n; k++) __builtin_prefetch(grid.lists.brick_of + in_cell[k].slot);
+    for (std::size_t k = 0; k < n; k++) __builtin_prefetch(layer_of(grid, in_cell[k]));
+    std::size_t n_occupied = 0;
     for (std::size_t k = 0; k < n; k++) {
-      const BrickLayer &layer = *layer_of(grid, near[k]);
-      const int cell = static_cast<int>(near[k].cell);
+      const BrickLayer &layer = *layer_of(grid, in_cell[k]);
+      const int cell = static_cast<int>(in_cell[k].cell);
       if (!has_candidates(layer, cell)) continue;
-      near[n_near] = near[k];
-      near[n_near].cell = cell_index(layer, cell);
-      __builtin_prefetch(grid.lists.cells + near[n_near++].cell);
+      in_cell[n_occupied] = in_cell[k];
+      in_cell[n_occupied].cell = cell_index(layer, cell);
+      __builtin_prefetch(grid.lists.cells + in_cell[n_occupied++].cell);
     }
-    for (std::size_t k = 0; k < n_near; k++) prefetch_list(grid, *work.list(near[k].cell));
-    for (std::size_t k = 0; k < n_near; k++)
-      work.search_list(near[k].sphere, near[k].s, *work.list(near[k].cell));
+    for (std::size_t k = 0; k < n_occupied; k++) prefetch_list(grid, *work.list(in_cell[k].cell));
+    for (std::size_t k = 0; k < n_occupied; k++)
+      work.search_list(in_cell[k].sphere, in_cell[k].s, *work.list(in_cell[k].cell));
   }
 
   template <class S>
-  static const BrickLayer *layer_of(const GridView &grid, const Near<S> &at)
+  static const BrickLayer *layer_of(const GridView &grid, const InCell<S> &at)
   {
     return grid.lists.bricks[grid.lists.brick_of[at.slot]].layer + (at.cell >> 6);
   }

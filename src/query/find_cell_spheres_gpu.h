@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // The first kernel of a query on a GPU: it answers every sphere as if the wall were far,
-// and lists those near to it.
+// and lists those in occupied cells.
 #pragma once
 
 #include "backend/atomic.h"
@@ -15,9 +15,9 @@
 
 namespace lsdcd {
 
-// A sphere near the wall with the list of its cell, so that the kernel that answers waits for neither.
+// A sphere in an occupied cell, with the list of that cell, so that the kernel that answers waits for neither.
 template <class S>
-struct alignas(16) NearSphere {
+struct alignas(16) CellSphere {
   S s;
   Cell cell;
   std::uint32_t sphere, pad;
@@ -25,63 +25,63 @@ struct alignas(16) NearSphere {
 
 // For the first kernel: threads in a block, blocks at once on a processor (32 registers a thread),
 // and bytes of spheres that each thread loads at once.
-constexpr unsigned kNearBlock = 256, kNearBlocks = 8, kNearBytes = 64;
+constexpr unsigned kFindBlock = 256, kFindBlocks = 8, kFindBytes = 64;
 template <class S>
-constexpr unsigned kNearEach = kNearBytes / sizeof(S);
+constexpr unsigned kFindEach = kFindBytes / sizeof(S);
 template <class S>
-constexpr unsigned kNearTile = kNearBlock *kNearEach<S>;
+constexpr unsigned kFindTile = kFindBlock *kFindEach<S>;
 
 // Spheres are in as many lists as a warp has threads: a list has every so many-th block's, and they
 // count in as many slots. A list grows from its front by those whose cell has one candidate, and
 // from its back by those with more.
-constexpr unsigned kNearLists = kWarpSize;
-struct NearCounts {
+constexpr unsigned kSphereLists = kWarpSize;
+struct CellSphereCounts {
   struct alignas(128) OfList {
     unsigned long long n;    // one candidate: low word; more: high word
-  } list[kNearLists];
+  } list[kSphereLists];
   unsigned with_long;    // of those with more, how many have long lists
 };
 template <class S>
-struct NearLists {
-  NearSphere<S> *first;
+struct CellSphereLists {
+  CellSphere<S> *first;
   unsigned room;    // of a list
-  NearCounts *counts;
+  CellSphereCounts *counts;
 
-  LSDCD_GPU_FN NearSphere<S> *list(unsigned l) const { return first + std::size_t(l) * room; }
+  LSDCD_GPU_FN CellSphere<S> *list(unsigned l) const { return first + std::size_t(l) * room; }
 };
 
 // Answers n spheres as if all were far, and lists those that are not.
 template <class Work>
-struct ListNear {
-  static constexpr unsigned kThreads = kNearBlock, kBlocksAtOnce = kNearBlocks;
+struct FindCellSpheres {
+  static constexpr unsigned kThreads = kFindBlock, kBlocksAtOnce = kFindBlocks;
   using S = typename Work::Item;
 
   unsigned n;
   Work work;
-  NearLists<S> lists;
+  CellSphereLists<S> lists;
 
   LSDCD_GPU_FN void operator()(const Block &block) const
   {
-    constexpr unsigned kEach = kNearEach<S>;
+    constexpr unsigned kEach = kFindEach<S>;
     const GpuWarp warp;
     block.let_next_begin();
-    LSDCD_SHARED Chunk room[kNearTile<S> * sizeof(S) / sizeof(Chunk)];
-    LSDCD_SHARED std::uint16_t maybe_at[kNearTile<S>];
+    LSDCD_SHARED Chunk room[kFindTile<S> * sizeof(S) / sizeof(Chunk)];
+    LSDCD_SHARED std::uint16_t maybe_at[kFindTile<S>];
     LSDCD_SHARED std::uint32_t coarse[CoarseTable::kWords];
     LSDCD_SHARED unsigned n_maybe;
     S *const sphere = reinterpret_cast<S *>(room);
 
-    const unsigned tile = block.number() * kNearTile<S>, n_tile = min(n - tile, kNearTile<S>);
+    const unsigned tile = block.number() * kFindTile<S>, n_tile = min(n - tile, kFindTile<S>);
 #pragma unroll
     for (unsigned k = 0; k < kEach; k++) {
-      const unsigned i = block.thread() + k * kNearBlock;
+      const unsigned i = block.thread() + k * kFindBlock;
       const Chunk *from = reinterpret_cast<const Chunk *>(work.spheres + tile + min(i, n_tile - 1));
 #pragma unroll
       for (unsigned chunk = 0; chunk < sizeof(S) / sizeof(Chunk); chunk++)
         begin_copy(reinterpret_cast<Chunk *>(sphere + i) + chunk, from + chunk);
     }
     commit_copies();
-    for (unsigned w = block.thread(); w < CoarseTable::kWords; w += kNearBlock)
+    for (unsigned w = block.thread(); w < CoarseTable::kWords; w += kFindBlock)
       coarse[w] = work.coarse.words[w];
     if (block.thread() == 0) n_maybe = 0;
     block.wait();
@@ -93,7 +93,7 @@ struct ListNear {
     std::uint32_t bit = 0, word[kEach];
 #pragma unroll
     for (unsigned k = 0; k < kEach; k++) {
-      const BrickGuess guess = work.guess(sphere[block.thread() + k * kNearBlock]);
+      const BrickGuess guess = work.guess(sphere[block.thread() + k * kFindBlock]);
       word[k] = guess.unsure ? ~0u : 0;
       if (guess.inside & !guess.unsure &&
           CoarseTable::at(coarse, work.filter.slot(work.coarse, guess))) {
@@ -105,7 +105,7 @@ struct ListNear {
     unsigned votes[kEach], all = 0;
 #pragma unroll
     for (unsigned k = 0; k < kEach; k++) {
-      const bool there = block.thread() + k * kNearBlock < n_tile;
+      const bool there = block.thread() + k * kFindBlock < n_tile;
       votes[k] = warp.vote(there && (word[k] >> (bit >> 5 * k) % 32 & 1u));
       all += warp.count(votes[k]);
     }
@@ -114,11 +114,11 @@ struct ListNear {
     for (unsigned k = 0; k < kEach; k++) {
       if (votes[k] >> warp.rank() & 1u) {
         const unsigned at = to + warp.count_below(votes[k]);
-        maybe_at[at] = static_cast<std::uint16_t>(block.thread() + k * kNearBlock);
+        maybe_at[at] = static_cast<std::uint16_t>(block.thread() + k * kFindBlock);
       }
       to += warp.count(votes[k]);
     }
-    for (unsigned four = 4 * block.thread(); four < n_tile; four += 4 * kNearBlock)
+    for (unsigned four = 4 * block.thread(); four < n_tile; four += 4 * kFindBlock)
       if (four + 4 <= n_tile)
         work.four_far(tile + four);
       else
@@ -126,21 +126,21 @@ struct ListNear {
     block.wait();
 
     // Few may be in a brick. They are tested in full warps, nearly always in one turn.
-    const unsigned mine = block.number() % kNearLists, n_turns = n_maybe;
-    for (unsigned first = block.warp() * kWarpSize; first < n_turns; first += kNearBlock) {
+    const unsigned mine = block.number() % kSphereLists, n_turns = n_maybe;
+    for (unsigned first = block.warp() * kWarpSize; first < n_turns; first += kFindBlock) {
       const unsigned m = first + warp.rank();
-      NearSphere<S> near;
-      near.pad = 0;
+      CellSphere<S> in_cell;
+      in_cell.pad = 0;
       std::uint32_t cell = kNoCell;
       if (m < n_turns) {
-        near.sphere = tile + maybe_at[m];
-        near.s = sphere[maybe_at[m]];
-        work.check(near.sphere, near.s);
-        cell = work.cell(near.s);
-        if (cell != kNoCell) near.cell = *work.list(cell);
+        in_cell.sphere = tile + maybe_at[m];
+        in_cell.s = sphere[maybe_at[m]];
+        work.check(in_cell.sphere, in_cell.s);
+        cell = work.cell(in_cell.s);
+        if (cell != kNoCell) in_cell.cell = *work.list(cell);
       }
-      const bool is_near = cell != kNoCell, is_one = is_near && near.cell.count == 1;
-      const unsigned one = warp.vote(is_one), more = warp.vote(is_near && !is_one);
+      const bool is_occupied = cell != kNoCell, is_one = is_occupied && in_cell.cell.count == 1;
+      const unsigned one = warp.vote(is_one), more = warp.vote(is_occupied && !is_one);
       unsigned long long at = 0;
       if (warp.rank() == 0 && (one | more) != 0)
         at = fetch_add(&lists.counts->list[mine].n,
@@ -149,7 +149,7 @@ struct ListNear {
       const unsigned to =
           is_one ? static_cast<unsigned>(at) + warp.count_below(one)
                  : lists.room - 1 - static_cast<unsigned>(at >> 32) - warp.count_below(more);
-      if (is_near) lists.list(mine)[to] = near;
+      if (is_occupied) lists.list(mine)[to] = in_cell;
     }
   }
 };

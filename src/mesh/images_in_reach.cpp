@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "mesh/near_images.h"
+#include "mesh/images_in_reach.h"
 
 #include "base/input_error.h"
 #include "base/input_words.h"
@@ -38,10 +38,10 @@ void include(Vec3 &least, Vec3 &most, const Vec3 &x)
 }
 
 // Tests each part by itself: a mesh may be far from the box, and many boxes long.
-class NearImages {
+class ImagesInReach {
  public:
-  NearImages(const WeldedMesh &mesh, const std::vector<FacetPart> &parts, const PeriodicBox &box,
-             Real depth) :
+  ImagesInReach(const WeldedMesh &mesh, const std::vector<FacetPart> &parts, const PeriodicBox &box,
+                Real depth) :
       mesh_(mesh),
       box_(box), n_parts_(parts.size())
   {
@@ -147,10 +147,10 @@ std::vector<FacetPart> parts_of(const WeldedMesh &mesh)
   return parts;
 }
 
-std::vector<PartImage> near_images(const WeldedMesh &mesh, const std::vector<FacetPart> &parts,
-                                   const PeriodicBox &box, Real depth)
+std::vector<PartImage> images_in_reach(const WeldedMesh &mesh, const std::vector<FacetPart> &parts,
+                                       const PeriodicBox &box, Real depth)
 {
-  return NearImages(mesh, parts, box, depth).take();
+  return ImagesInReach(mesh, parts, box, depth).take();
 }
 
 }    // namespace lsdcd
