@@ -19,9 +19,10 @@ namespace lsdcd {
 
 namespace {
 
-// Pressures become forces per area.
+// A spec that has been checked, with forces per area in place of pressures.
 WallSpec in_units(WallSpec spec, const WallUnits &units)
 {
+  check_spec(spec);
   const auto convert = [&](ContactLaw &law) {
     if (law.is_classic() && law.is(NormalModel::hertz)) {
       law.k_normal /= units.pressure;

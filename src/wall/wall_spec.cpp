@@ -3,8 +3,11 @@
 
 #include "wall/wall_spec.h"
 
+#include "base/input_error.h"
+
 #include <algorithm>
 #include <cstddef>
+#include <iterator>
 
 namespace lsdcd {
 
@@ -38,6 +41,24 @@ int last_type_named(const WallSpec &wall)
   return last;
 }
 
+// A mesh in a message: its name, or its number from 1.
+std::string mesh_text(const WallSpec &wall, std::size_t k)
+{
+  const MeshSpec &mesh = wall.meshes[k];
+  return "mesh " + (mesh.name.empty() ? std::to_string(k + 1) : "'" + mesh.name + "'");
+}
+
+void check_inputs(const WallSpec &wall, std::size_t mesh, const std::string &member,
+                  const int *input, std::size_t n)
+{
+  const int n_inputs = static_cast<int>(wall.inputs.size());
+  for (std::size_t k = 0; k < n; k++)
+    if (input[k] != kNoInput && (input[k] < 0 || input[k] >= n_inputs))
+      throw InputError(mesh_text(wall, mesh) + ": " + member + " has input " +
+                       std::to_string(input[k]) + ", but the wall has " + std::to_string(n_inputs) +
+                       " inputs, which count from 0; add its name to them, or use kNoInput");
+}
+
 // Calls visit(law) for those of the wall and of its meshes.
 template <class Visit>
 void for_laws(WallSpec &wall, const Visit &visit)
@@ -59,6 +80,36 @@ bool WallSpec::has_loads() const
 {
   return std::any_of(meshes.begin(), meshes.end(),
                      [this](const MeshSpec &mesh) { return has_loads(mesh); });
+}
+
+void check_spec(const WallSpec &wall)
+{
+  if (wall.laws.empty() || !wall.laws.front().is_of_all())
+    throw InputError(
+        "the wall's first law is not of all atom types; give a law of all types first");
+  if (wall.meshes.empty())
+    throw InputError("the wall has no mesh; give it 1 to " + std::to_string(kMaxMeshes) +
+                     " meshes");
+  if (wall.meshes.size() > kMaxMeshes)
+    throw InputError("the wall has " + std::to_string(wall.meshes.size()) +
+                     " meshes; it can have 1 to " + std::to_string(kMaxMeshes) +
+                     ", so join some of them, or make a second wall");
+  for (std::size_t k = 0; k < wall.meshes.size(); k++) {
+    const MeshSpec &mesh = wall.meshes[k];
+    for (const MotionTerm &term : mesh.motion.terms())
+      check_inputs(wall, k, "its motion", term.input, std::size(term.input));
+    check_inputs(wall, k, "its servo", &mesh.motion.servo().target_input, 1);
+    check_inputs(wall, k, "its surface", mesh.surface_input, std::size(mesh.surface_input));
+    check_inputs(wall, k, "its temperature", &mesh.temperature_input, 1);
+    if (wall.law().has_heat() && !mesh.has_temperature)
+      throw InputError(mesh_text(wall, k) +
+                       " has no temperature, which the sub-model heat needs; give it one");
+    if (!wall.law().has_heat() && mesh.has_temperature)
+      throw InputError(
+          mesh_text(wall, k) +
+          " has a temperature, but the law has no sub-model heat that uses it; give the "
+          "law one, or the mesh no temperature");
+  }
 }
 
 void leave_out_zero_cohesion(WallSpec &wall)

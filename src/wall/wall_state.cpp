@@ -136,6 +136,10 @@ WallState WallState::from(const State &state)
     std::vector<TableState> tables;
     mesh.find("tables", 1, tables);
     put_tables(tables, m.motion);
+    for (const MotionTerm &term : m.motion.terms)
+      for (const int input : term.input)
+        if (input != kNoInput && (input < 0 || input >= static_cast<int>(m.motion.inputs.size())))
+          throw StateError("a motion in the data of the wall has an input that is not there");
     mesh.find("loads", 1, m.loads);
     if (m.loads.rows.size() % MeshLoads::kPackedLoad != 0)
       throw StateError("the loads in the data of the wall are no whole rows");

@@ -103,6 +103,19 @@ TEST(WallState, names_blocks_of_a_later_version_and_reads_the_rest)
   EXPECT_EQ(from(state).unread, "'bodies'");
 }
 
+TEST(WallState, refuses_a_motion_whose_input_is_not_there)
+{
+  WallState wall = some_wall();
+  MotionState &motion = wall.meshes[1].motion;
+  motion.inputs = {"height"};
+  motion.terms[0].input[2] = 0;
+  EXPECT_EQ(from(wall.blocks()).meshes[1].motion.terms[0].input[2], 0);
+  for (const int input : {1, -2}) {
+    motion.terms[0].input[2] = input;
+    EXPECT_THROW(from(wall.blocks()), StateError) << input;
+  }
+}
+
 TEST(WallState, refuses_loads_that_are_no_rows)
 {
   WallState wall = some_wall();
