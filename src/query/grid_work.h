@@ -28,8 +28,7 @@ struct DistanceArrays {
   // The same for four neighbours from i on, a multiple of 4, that are far from the wall.
   LSDCD_FN void store_four_far(std::size_t i) const
   {
-    const std::uint8_t s = kCertified;
-    four_at(status, i) = {{s, s, s, s}};
+    four_at(status, i) = {{kCertified, kCertified, kCertified, kCertified}};
     if (distance) four_at(distance, i) = {{kFar, kFar, kFar, kFar}};
   }
   // For the spheres from the n-th on, a multiple of 4.

@@ -179,7 +179,8 @@ class QueryChecksOn : public QueryChecks {
       const bool found = status[i] & kFound, certified = status[i] & kCertified;
       CellAddress at;
       Cell cell;
-      std::uint32_t f = find_cell(grid, s.centre(), at, cell) ? near_bit : 0;
+      std::uint32_t f = 0;
+      if (find_cell(grid, s.centre(), at, cell)) f |= near_bit;
       if (truth[i] < r) f |= touching_bit;
       if (!found && truth[i] < r - tolerance) f |= missed_bit;
       if (found && !(truth[i] < r + tolerance)) f |= false_bit;

@@ -72,9 +72,9 @@ TEST(wall_list, keeps_copies_of_the_records_that_it_names_while_there_is_room)
   for (FeatureKind kind : {FeatureKind::face, FeatureKind::edge, FeatureKind::vertex})
     for (std::uint32_t i = 0; i < 2; i++) codes.push_back(feature_code(kind, i));
   FeatureRecord records[8];
-  RecordCopies::Place places[3] = {};
+  RecordCopies::Slot slots[3] = {};
   int used = 0;
-  const RecordCopies copies = {records, places, &used, 8};
+  const RecordCopies copies = {records, slots, &used, 8};
   const auto has = [&](std::size_t k, int i, FeatureCode code) {
     const FeatureRecord *copy = copies.of(k, i);
     if (!copy) return false;
