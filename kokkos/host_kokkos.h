@@ -20,7 +20,7 @@
 
 namespace lsdcd {
 
-// LAMMPS packs and sorts what fixes keep on the device since 2 Aug 2023.
+// LAMMPS packs and sorts data of fixes on the device since 2 Aug 2023.
 #define LSDCD_DEVICE_EXCHANGE (LSDCD_HOST_VERSION >= 20230802)
 
 #if LSDCD_DEVICE_EXCHANGE

@@ -23,7 +23,7 @@ struct ApiError : InputError {
   int code;
 };
 
-// Keeps the text for this thread; returns the code.
+// Stores the text for this thread; returns the code.
 int keep_error(int code, const char *text) noexcept;
 
 // While it lives, this thread has the locale "C".

@@ -18,7 +18,7 @@ class CallProgress {
  public:
   CallProgress(lsdcd_progress *call, void *data) : call_(call), data_(data) {}
 
-  // Throws LSDCD_ERROR_CANCELLED. Something new is told at once, else at most ten times a second.
+  // Throws LSDCD_ERROR_CANCELLED. Something new is reported at once, else at most ten times a second.
   void tell(const std::string &what, double share)
   {
     const Clock::time_point now = Clock::now();

@@ -11,7 +11,7 @@
 namespace lsdcd {
 
 #if defined(_OPENMP)
-// OpenMP keeps a thread's helpers from one call to the next. A child of fork() has none of them, and libgomp would
+// OpenMP reuses a thread's helpers from one call to the next. A child of fork() has none of them, and libgomp would
 // wait for them for ever. So they end before a fork, and both processes start new ones when they need some.
 inline void end_threads_before_forks()
 {

@@ -156,7 +156,7 @@ typedef struct lsdcd_grid_options {
   int nearest;       /* 0: complete lists, always exact; N: the N triangles nearest to a cell */
   int precision;     /* of the search: LSDCD_DOUBLE, or LSDCD_FLOAT, quicker on a GPU */
   double memory;     /* most bytes; 0: 1 GiB beside the mesh's own records */
-  const char *cache; /* file that keeps the cells; one that does not fit is replaced; null: none */
+  const char *cache; /* file that stores the cells; one that does not fit is replaced; null: none */
   int threads;       /* that build it; 0: OMP_NUM_THREADS, or one */
   int device;        /* that builds cells: LSDCD_CPU or LSDCD_CUDA; they are the same */
   lsdcd_progress *progress; /* of this call; null: none */
@@ -536,7 +536,7 @@ typedef struct lsdcd_wall_mesh {
   double torque_about[3]; /* length: what the torque of lsdcd_wall_totals is about */
   int torque_about_moves; /* 1: that point moves with the mesh */
   double wear_factor;     /* it wears so many times as fast; 0: once, -1: not at all */
-  const char *cache;      /* file that keeps its grid; null: none */
+  const char *cache;      /* file that stores its grid; null: none */
   /* Files that are written every so many steps, with a '*' for the step in each one's name; null: none. `fields`,
    * .vtp: stress, contacts and wear of each triangle, for ParaView. `stl`: the mesh where it is. */
   const char *fields, *stl;

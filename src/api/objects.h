@@ -22,12 +22,12 @@ namespace lsdcd {
 struct ApiMesh {
   WeldedMesh mesh;
   std::string report;
-  // The vertex and face of the mesh that each vertex and triangle as given became; -1: none.
+  // The vertex and face of the mesh that each vertex and triangle of the caller became; -1: none.
   std::vector<int> welded_vertex, welded_face;
 
   PointSides sides{mesh};
 
-  // May the normals of nearest features tell sides?
+  // Do the normals of nearest features give sides?
   bool normals_agree() const { return mesh.report.closed && mesh.report.oriented; }
 };
 
@@ -57,7 +57,7 @@ class ApiGrid {
   const CutoffBoxes *near(const ProgressListener &progress = {}) const;
   const ApiCells &cells(bool on_cuda = false, const ProgressListener &progress = {}) const;
   const ApiCells *cells_made() const { return cells_.made(); }
-  // May a device tell sides?
+  // Can a device give sides?
   bool sides_by_normals() const;
   std::size_t bytes() const;    // of what is made
 

@@ -21,7 +21,7 @@ namespace lsdcd {
 // The history of each sphere, as HistoryExchange::pack_restart() writes it.
 using SphereHistories = std::vector<std::vector<Real>>;
 
-// A number for all poses that a program has given, which tells whether those of another process are the same.
+// A number made of all poses that a program has set: it is equal on processes that have set the same ones.
 class PosesGiven {
  public:
   void add(int mesh, const Pose &pose)
@@ -57,7 +57,7 @@ struct lsdcd_wall {
   lsdcd::Real dt = 0;
   bool begun = false;                // since spheres were numbered anew, too
   lsdcd::Real largest_radius = 0;    // of this process, in the last step that looked
-  lsdcd::Failure late;               // of this process, which all are told in the next call
+  lsdcd::Failure late;               // of this process, which the next call reports to all
   lsdcd::SphereHistories kept;       // restored, until the first step
   bool outside_told = false;
   lsdcd::PosesGiven poses;
@@ -98,7 +98,7 @@ void check_mesh(const lsdcd_wall &wall, int mesh, int least);
 // Throws where spheres cannot change their order.
 void check_order_is_free(const lsdcd_wall &wall);
 
-// Notes what the last step has noted of spheres, where it was not told at once.
+// Stores errors of the last step's spheres that were not thrown at once.
 void note_late(lsdcd_wall &wall);
 // Throws it on all processes. Collective.
 void tell_late(lsdcd_wall &wall);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// lsdcd_wall_pack, unpack, save and restore: what contacts keep.
+// lsdcd_wall_pack, unpack, save and restore: the history of contacts.
 #include "api/wall_handle.h"
 #include "base/input_words.h"
 #include "contact/contact_set.h"
@@ -26,7 +26,7 @@ void check_spheres(const lsdcd_wall &wall, const std::ptrdiff_t *spheres, std::s
                                                std::to_string(there) + " spheres, from 0");
 }
 
-// With which packed numbers begin: what contacts keep, and on how many meshes.
+// Packed numbers begin with these: the kind of the history, and the number of meshes.
 Real packed_kind(const lsdcd_wall &wall)
 {
   return static_cast<Real>(wall.in->spec().law().history_kind()) +

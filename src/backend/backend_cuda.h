@@ -257,7 +257,7 @@ struct CudaBackend {
     return last + read_one(*this, values + n - 1);
   }
 
-  // Pairs of a key and a value, before a sort and after it, in memory that is kept.
+  // Pairs of a key and a value, before a sort and after it, in memory that is used again.
   struct PairMemory {
     Array<std::uint32_t> keys[2], values[2];
     Array<char> scratch;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// A point in what a stream of an NVIDIA GPU has been given.
+// A point in the work of a stream of an NVIDIA GPU.
 #pragma once
 
 #include "backend/cuda_check.h"

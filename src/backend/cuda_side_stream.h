@@ -36,7 +36,7 @@ class CudaSideStream {
     ready_.hold(second_);
   }
 
-  // `stream` becomes the first one again, which waits for what the second was given.
+  // `stream` becomes the first one again, which waits for the work of the second.
   void end(cudaStream_t &stream)
   {
     done_.record(second_);

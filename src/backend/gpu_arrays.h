@@ -20,7 +20,7 @@ class GpuArrays {
   // Throws InputError where an array is neither in the device's memory nor managed. `user`: what takes the array,
   // for the text.
   virtual void check(const void *array, const char *name, const char *user) const = 0;
-  // `bytes` bytes, once the stream has done what it has been given. Waits.
+  // `bytes` bytes, once the stream has done its work so far. Waits.
   virtual void copy_out(const void *from, void *to, std::size_t bytes) const = 0;
   virtual void wait() const = 0;
 };

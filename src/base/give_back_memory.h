@@ -20,7 +20,7 @@
 
 namespace lsdcd {
 
-// glibc keeps freed arrays of up to 32 MB for itself; a wall's set-up frees most of what it takes.
+// glibc keeps freed arrays of up to 32 MB for itself; a wall's set-up frees most of what it has allocated.
 inline void give_back_memory()
 {
 #if defined(__GLIBC__)

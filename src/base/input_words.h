@@ -40,7 +40,7 @@ class Tokens {
   std::string take() { return tokens_[at_++]; }
   bool number_follows() const;
 
-  // The place in the words, and what was read since a place, as it was written.
+  // The position in the words, and the words read since a position, as they were written.
   std::size_t at() const { return at_; }
   std::string between(std::size_t first) const;
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// How long work tells how far it is, and is ended by who listens.
+// Long work reports how much of it is done, and a listener can end it.
 #pragma once
 
 #include <cmath>

@@ -17,7 +17,7 @@ fs::path own_folder()
   Dl_info info;
   std::error_code failed;
   fs::path own;
-  // A program's own name may be what the shell was given, without a folder.
+  // A program's own name may be the word of the command line, without a folder.
   if (dladdr(reinterpret_cast<const void *>(&shared_folder), &info) && info.dli_fname)
     own = info.dli_fname;
   if (!own.has_parent_path()) own = "/proc/self/exe";

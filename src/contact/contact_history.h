@@ -59,7 +59,7 @@ class ContactHistory {
   // Exchange and restart: a count, then doubles_per_spring() numbers for each.
   int packed_size(int i) const { return 1 + doubles_per_spring() * count_[i]; }
   int pack(int i, double *buffer) const;      // returns packed_size(i)
-  int unpack(int i, const double *buffer);    // returns the numbers taken
+  int unpack(int i, const double *buffer);    // returns how many numbers were read
   int largest_packed_size() const;            // over all spheres
 
   std::size_t pool_size() const { return pool_.size(); }

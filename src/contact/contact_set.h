@@ -20,7 +20,7 @@ struct ContactsView {
   const Real *distance;
 };
 
-// The places of a set. A set of one needs no index, so that it can stay in registers.
+// An array of a set. A set of one needs no index, so that it can stay in registers.
 template <class T, int kMost>
 struct ContactArray {
   T at[kMost];
@@ -38,8 +38,8 @@ struct ContactArray<T, 1> {
   LSDCD_FN const T *data() const { return &only; }
 };
 
-// It has a fixed number of places, so that it can stay in registers and local memory.
-// `overflow` is set when there are more contacts than places. The caller then
+// It has a fixed capacity, so that it can stay in registers and local memory.
+// `overflow` is set when there are more contacts than that. The caller then
 // repeats the search with a larger set, so that no contact is dropped.
 template <int kMost>
 struct ContactSet {
@@ -62,7 +62,7 @@ struct ContactSet {
     normal[n] = n_unit;
     distance[n++] = d;
   }
-  // Assigning an empty set would take 18 kB of a GPU thread's stack where there are 512 places.
+  // Assigning an empty set would take 18 kB of a GPU thread's stack where the capacity is 512.
   LSDCD_FN void clear()
   {
     n = 0;

@@ -19,10 +19,10 @@ struct EffectCase {
   EngineSettings settings;
 };
 
-// Parameters are nominal: what a contact keeps and costs does not depend on them.
+// Parameters are nominal: the bytes and the cost of a contact do not depend on them.
 std::vector<EffectCase> effect_cases();
 
-// The effects of a wall, for its log, with what each keeps per contact beside the Spring of a
+// The effects of a wall, for its log, with what each stores per contact beside the Spring of a
 // law with history.
 struct Effect {
   std::string name;
@@ -30,7 +30,7 @@ struct Effect {
 };
 std::vector<Effect> effects_of(const EngineSettings &settings);
 
-// Bytes that are kept from step to step, exchanged and written to restart files.
+// Bytes that are stored from step to step, exchanged and written to restart files.
 int bytes_per_atom(const EngineSettings &settings);
 int bytes_per_contact(const EngineSettings &settings);    // beside the atom's own
 

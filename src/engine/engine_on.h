@@ -179,7 +179,7 @@ class EngineOn : public InPlaceEngine {
 
   // The steps of the above. Public because nvcc takes no device lambda from a private function.
 
-  // A spring on a mesh that its sphere is not near is of no use, and would be read as one on another.
+  // A spring on a mesh of which its sphere is no candidate is of no use, and would be read as one on another.
   void forget_far_meshes()
   {
     if (broad_phase_.uses_slots())
@@ -198,7 +198,7 @@ class EngineOn : public InPlaceEngine {
     b_.for_each(1, [=] LSDCD_LAMBDA(std::size_t) { counts->shared_used[pool] = 0; });
   }
 
-  // For spheres near several meshes.
+  // The laws for multi-mesh spheres.
   void put_laws()
   {
     const std::vector<ContactLaw> &laws = settings_.laws.laws;
@@ -360,7 +360,7 @@ class EngineOn : public InPlaceEngine {
 
   StepResults<B> results_, next_results_;    // of the last step, and of one launched beside
   WorkListStore<B> work_lists_;
-  Array<MeshWork> works_;    // of several meshes
+  Array<MeshWork> works_;    // of all meshes
   Array<LawEntry> laws_;     // likewise
 
   int pool_written_ = -1;

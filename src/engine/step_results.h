@@ -226,7 +226,7 @@ class StepResults {
     totals_ = sum(b, nullptr, 0);
   }
 
-  // Over all slots, or those of one mesh where `mesh` tells of each slot.
+  // Over all slots, or over those of one mesh; `mesh` has the mesh of each slot.
   WallTotals sum(B &b, const int *mesh, int only)
   {
     WallTotals total;

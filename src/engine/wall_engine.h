@@ -43,11 +43,11 @@ struct EngineSettings {
   Corner corner = Corner::blend;
   Side side = Side::both;
   Precision precision = Precision::double_;
-  int meshes = 1;           // that move apart; with more than one `moves` is taken as true
-  SurfaceMotion surface;    // of each mesh, in the plane of each contact
-  bool moves = false;       // set_pose() or StepSettings::surface will be used
-  bool records = false;     // keep what every contact does to the wall
-  WearModel wear = WearModel::none;    // where records are kept
+  int meshes = 1;                      // that move apart; with more than one `moves` counts as true
+  SurfaceMotion surface;               // of each mesh, in the plane of each contact
+  bool moves = false;                  // set_pose() or StepSettings::surface will be used
+  bool records = false;                // record what every contact does to the wall
+  WearModel wear = WearModel::none;    // where there are records
   Device device = Device::automatic;
   int device_rank = 0;    // which of the GPUs this process takes (node-local rank, wrapped)
 
@@ -83,7 +83,7 @@ struct StepSettings {
   Real dt = 0;                   // time
   bool update_history = true;    // false in setup: springs act but do not move
   bool per_sphere = false;       // fill SphereOutput
-  bool records = true;           // bring what settings.records keeps
+  bool records = true;           // bring the records of settings.records
   Real wall_temperature = 0;     // where the law has heat
   // For each mesh, in place of wall_temperature and of the settings' surface; valid until finish().
   const Real *mesh_temperature = nullptr;
@@ -139,11 +139,11 @@ enum class StepState { none, begun, launched };
 
 // Stream and time of a step's work.
 enum class LaunchMode {
-  in_turn,    // after what the host has given its stream; on a CPU finish() does it
-  // In place on a GPU: at once, on a stream of its own, after what the host had given its stream by
+  in_turn,    // after the host's work on its stream; on a CPU finish() does it
+  // In place on a GPU: at once, on a stream of its own, after the host's work on its stream by
   // begin(). finish() adds forces and torques.
   beside,
-  beside_adding_early,    // likewise, but they are added after what the host has given by launch()
+  beside_adding_early,    // likewise, but they are added after the host's work by launch()
 };
 
 // Computes wall forces for the spheres of one process: choose() now and then, begin(), launch() and
@@ -179,9 +179,9 @@ class WallEngine {
   // the margin of the last choice? Others may go as far as they like.
   virtual bool has_moved(const Spheres &spheres) = 0;
 
-  // Begins a step: what it reads of spheres is final, in place once the host's stream has done what it
-  // has been given. Until finish() the host must not change x, v, omega or radii, and may change
-  // force and torque. A step that was begun before and not finished is given up.
+  // Begins a step: what it reads of spheres is final, in place once the host's stream has done its
+  // work. Until finish() the host must not change x, v, omega or radii, and may change
+  // force and torque. A step that was begun before and not finished is dropped.
   virtual void begin() = 0;
 
   // Gives the step its spheres and settings. `prepare` is called first, where the step runs: it may

@@ -28,7 +28,7 @@ class FlowSurface {
   // Whole numbers of box edges that bring `from` next to `to`.
   static Vec3 cells_between(const Vec3 &from, const Vec3 &to, const PeriodicBox &box);
 
-  // Triangles that the straight path from one place to the other passes.
+  // Triangles that the straight path from one point to the other passes.
   Passes passes(const WrappedPoint &from, const Vec3 &to, const PeriodicBox &box) const;
 
   // A lower bound of the distance to the surface. It is at most `most` and at most half the smallest

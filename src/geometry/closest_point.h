@@ -13,7 +13,7 @@ namespace lsdcd {
 struct ClosestPoint {
   bool found;       // false: the rest is not set
   Real distance;    // length, >= 0
-  Vec3 normal;      // unit, wall -> q; a fixed choice where q lies on the wall
+  Vec3 normal;      // unit, wall -> q; a fixed one where q lies on the wall
 };
 
 // Each of the three tests has a tolerance `tolerance` (length) that widens the

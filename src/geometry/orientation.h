@@ -18,7 +18,7 @@ namespace lsdcd {
 // itself rounded; in the plane (3 + 16 u) u. The bounds here are 8 u and 4 u. Products below
 // 2^-1022 lose up to 2^-1075 each: six minors' products by differences below 2^340, and three
 // more, 2^-730 in all. Where a number overflows, the permanent is infinite or not a number, and
-// the exact sign is taken.
+// the exact sign is computed.
 //
 // Exact signs are of coordinates times a power of two that takes the largest to 2^330: of four
 // points, products of three differences are then below 2^1000, and their last bits are at 2^-1056

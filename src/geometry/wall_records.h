@@ -47,7 +47,7 @@ struct EdgeVertices {
 };
 
 // The edges and vertices of a face that can hold a contact of their own, and kNoFeature in
-// the places of the others.
+// the positions of the others.
 struct FaceParts {
   FeatureCode part[6];
 };

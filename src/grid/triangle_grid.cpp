@@ -92,7 +92,7 @@ std::size_t budget_of(const GridSettings &settings, const TriangleGrid &grid)
   return settings.memory_budget > 0 ? settings.memory_budget : kListBudget + flat_wall_bytes(grid);
 }
 
-// Puts each array where it belongs in the block by copy(array, place).
+// Puts each array where it belongs in the block by copy(array, address).
 template <class Grid, class Copy>
 void flatten_arrays(Grid &grid, char *block, const Copy &copy)
 {

@@ -132,8 +132,8 @@ struct GridSettings {
   Real length = 0;                  // 0: chosen from the mesh, the cutoff and the budget
   Real cutoff = 0;                  // > 0
   std::size_t memory_budget = 0;    // bytes, of all of it; 0: kListBudget for lists
-  bool limited = false;             // keep the build within BuildLimit where no budget is given
-  bool sides = false;               // keep what `side in|out` needs
+  bool limited = false;             // hold the build within BuildLimit where there is no budget
+  bool sides = false;               // store what `side in|out` needs
   ListKind list_kind = ListKind::complete();
   bool in_floats = false;    // brick records, for queries in float
   GridPurpose purpose = GridPurpose::step;
@@ -147,7 +147,7 @@ struct GridSettings {
 };
 constexpr std::size_t kListBudget = 1ull << 30;    // bytes, beside the records of the wall
 
-// A limit of what a build takes. A chosen length grows until it is kept, a given one is refused.
+// A limit of what a build takes. A chosen length grows until the limit holds; a length of the caller is refused.
 // Work is in units of a distance test, 10 to 20 ns of one core; bytes are those beside the
 // records of the wall.
 struct BuildLimit {

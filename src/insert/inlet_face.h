@@ -21,9 +21,9 @@ class InletFace {
 
   const Vec3 &normal() const { return normal_; }    // unit
   Real area() const { return areas_.back(); }
-  Box zone() const;    // around all places
+  Box zone() const;    // around all positions
 
-  // A place, uniformly among those at which a grain of this radius crosses no edge of the face. False: none
+  // A position, uniformly among those at which a grain of this radius crosses no edge of the face. False: none
   // was found.
   bool draw(RandomStream &random, Real radius, Vec3 &at) const;
   bool has_room(Real radius) const;

@@ -30,8 +30,8 @@ class InsertionSite {
   virtual bool is_clear_of_walls(const PackedSphere &grain) = 0;
 };
 
-// All processes keep the same state. In a step each calls draw_due(); one calls place(), and all are told
-// the result by accept(); and again while has_more() says so.
+// All processes have the same state. In a step each calls draw_due(); one calls place(), and all pass its result to
+// accept(); this is repeated while has_more().
 class Insertion {
  public:
   struct Placed {

@@ -13,7 +13,7 @@
 
 namespace lsdcd {
 
-// How many places were no good, by what was there.
+// How many positions were refused, by the reason.
 struct Refused {
   std::int64_t no_place = 0, grains = 0, walls = 0;
 
@@ -21,7 +21,7 @@ struct Refused {
   void add(const Refused &more);
 };
 
-// Steps are told from the step of the file.
+// Steps are counted from the step of the file.
 struct InsertionState {
   struct Plan {
     // Numbers of amounts and grains, beginning with the kind of the feed; a file of 0.9.0 has the first two only.

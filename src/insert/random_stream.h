@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Random numbers that depend on a key alone: nothing has to be kept between steps or in restart files.
+// Random numbers that depend on a key alone: nothing has to be stored between steps or in restart files.
 #pragma once
 
 #include "base/split_mix.h"

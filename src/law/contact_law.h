@@ -62,11 +62,11 @@ struct ContactLaw {
   // Has it a sub-model of LIGGGHTS beside a classic style?
   bool is_extended() const { return is_classic() && (rolling.is_on() || cohesion.is_on()); }
 
-  // Does a contact keep anything? With adhesion beyond contact it does: only what touched is held.
+  // Does a contact have a history? With adhesion beyond contact it does: only what touched is held.
   bool has_history() const;
-  // Numbers kept beside a contact's shear displacement.
+  // Numbers of a contact's history beside its shear displacement.
   int n_extra() const;
-  // A number for restart files. It is equal for laws whose kept numbers mean the same.
+  // A number for restart files. It is equal for laws whose histories mean the same.
   int history_kind() const;
 
   // The distance beyond contact at which adhesion lets go of a sphere of radius 1. It grows with

@@ -3,17 +3,17 @@
 
 // A contact law put together from sub-models at compile time. Every law has
 //   Number             the type that it computes in
-//   kHistory           does it keep a ContactMemory<Number, kExtra> per contact?
+//   kHistory           does it store a ContactMemory<Number, kExtra> per contact?
 //   kVectors, kScalars how many vectors and scalars that has beside the shear displacement
 //   kBeyondContact, pull_off  does it act beyond contact, and up to what distance at radius 1?
 //   kContactTorque, kHeat     does evaluate() also return a contact torque, a heat flow?
 //   evaluate(contact, memory)
 // and, with kVectors or kScalars, and with kHeat
-//   keeps(k)           is the k-th of these vectors and scalars kept from step to step?
+//   keeps(k)           is the k-th of these vectors and scalars stored from step to step?
 //   has_heat()         is there a heat flow?
 // The classic laws, and the most frequent ones of `granular`, have no instruction and no memory for an
 // effect that is off. Effects that few scenes use are together in one law, with a branch for each. It
-// keeps and exchanges only what is on.
+// stores and exchanges only what is on.
 #pragma once
 
 #include "law/contact.h"
@@ -75,7 +75,7 @@ struct FullForce : ContactForce<T> {
   T heat;                      // power into the sphere
 };
 
-// A classic style with sub-models of LIGGGHTS. kHistory_: does a contact keep anything?
+// A classic style with sub-models of LIGGGHTS. kHistory_: does a contact have a history?
 template <class Base, bool kHistory_>
 struct AddedModel {
   using Number = typename Base::Number;
@@ -187,7 +187,7 @@ struct GranularModel {
   }
 };
 
-// How many numbers a law keeps of a contact beside its shear displacement.
+// How many numbers of a contact's history a law has beside its shear displacement.
 template <class Law>
 LSDCD_FN int n_extra(const Law &law)
 {

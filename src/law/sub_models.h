@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // The table of sub-models. A row is all that the program knows of one beside its formula: what a script
-// writes, what a contact keeps, which number a material has, how the log calls it.
+// writes, what a contact stores, which number a material has, how the log calls it.
 #pragma once
 
 #include "law/contact_law.h"

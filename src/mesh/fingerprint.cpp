@@ -9,7 +9,7 @@ namespace lsdcd {
 
 namespace {
 
-// Each step is one-to-one in the old hash and in the word, so that a change of one word is always seen.
+// Each step is one-to-one in the old hash and in the word, so that a change of one word always changes the hash.
 class Mixer {
  public:
   void add(std::uint64_t word)

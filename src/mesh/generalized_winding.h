@@ -16,7 +16,7 @@
 
 namespace lsdcd {
 
-// It keeps what it needs of the mesh, and any number of threads may ask it at once.
+// It copies what it needs of the mesh, and any number of threads may ask it at once.
 //
 // Loose edges form loops. Caps of triangles over these close the surface; its winding number, exact, less
 // the solid angles of the caps, is that of the mesh (Jacobson, Kavan and Sorkine-Hornung 2013, section 4).

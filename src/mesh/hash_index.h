@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// An open-addressing hash table from keys that the caller keeps to their indices.
+// An open-addressing hash table from keys that the caller stores to their indices.
 #pragma once
 
 #include <cstddef>

@@ -12,7 +12,7 @@
 namespace lsdcd {
 
 // A floor may be far larger than a box along two axes, but no useful wall is along all three. For a
-// mesh that is flat along an axis the other two have to tell millimetres from metres.
+// mesh that is flat along an axis the other two have to distinguish millimetres from metres.
 Real likely_scale(const Vec3 &mesh, const Vec3 &box)
 {
   constexpr Real kTooLarge = 20, kFlatTooLarge = 300, kFlat = 1e-6;

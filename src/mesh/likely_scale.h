@@ -16,7 +16,7 @@ namespace lsdcd {
 Real likely_scale(const Vec3 &mesh, const Vec3 &box);
 
 // The end of a message, "; the file is probably in other units: add scale 0.001". Empty where the scale
-// is likely right, and where a box that follows its spheres tells nothing of it. `mesh`: extents.
+// is likely right, and where a box that follows its spheres says nothing of it. `mesh`: extents.
 std::string likely_scale_text(const Vec3 &mesh, const PeriodicBox &box);
 
 // A message about a mesh that is far larger than the box and probably in other units; empty for others.

@@ -35,7 +35,7 @@ struct MeshFeatures {
 // The record of one face, of three corners that are not in a line.
 FaceRecord make_face_record(const Vec3 &a, const Vec3 &b, const Vec3 &c);
 
-// `with_sides` adds the pseudonormals that tell inside from outside, `with_primitives` the
+// `with_sides` adds the pseudonormals that distinguish inside from outside, `with_primitives` the
 // primitives and the parts of faces.
 MeshFeatures make_features(const WeldedMesh &mesh, bool with_sides, bool with_primitives = false);
 

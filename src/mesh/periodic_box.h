@@ -63,7 +63,7 @@ struct PeriodicBox {
   // Distance between the two faces that edge k joins. Length.
   Real width(int k) const;
 
-  // The box around all places where spheres can be: the box, and `past` (length) beyond its
+  // The box around all positions where spheres can be: the box, and `past` (length) beyond its
   // faces.
   Box bounds(const Vec3 &past) const;
   bool any_periodic() const { return periodic[0] || periodic[1] || periodic[2]; }
@@ -71,7 +71,7 @@ struct PeriodicBox {
   bool any_follows() const { return follows(0) || follows(1) || follows(2); }
 };
 
-// How far places are past periodic faces, also on a device.
+// How far positions are past periodic faces, also on a device.
 struct PeriodicFaces {
   Vec3 corner;
   Vec3 gradient[3];    // of the fractions

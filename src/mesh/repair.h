@@ -20,11 +20,11 @@ constexpr char kOpenEdges[] = "open edges";
 struct Unmended {
   std::string what;          // kOpenEdges and so on
   std::size_t count = 0;     // at least 1
-  Vec3 place = {0, 0, 0};    // place of the first one, length
+  Vec3 place = {0, 0, 0};    // position of the first one, length
 };
 
 struct RepairReport {
-  std::size_t welded_corners = 0;       // corners that were moved to another's place
+  std::size_t welded_corners = 0;       // corners that were moved to another's position
   std::size_t degenerate_facets = 0;    // dropped
   std::size_t lost_facets = 0;          // of these, lines that no remaining edge follows
   std::size_t duplicate_facets = 0;     // dropped

@@ -22,7 +22,7 @@ struct TriangleSoup {
   std::size_t n_triangles() const { return corners.size() / 3; }
 };
 
-// Reads an STL file, ASCII or binary, told apart by structure (a binary header
+// Reads an STL file, ASCII or binary, distinguished by structure (a binary header
 // may begin with "solid"). ASCII: several solids, any case, CR LF accepted.
 // Throws InputError naming the file, the line or facet, the value and the remedy.
 TriangleSoup read_stl(const std::string &path);

@@ -104,7 +104,7 @@ void sort_facets(const std::vector<int> &corner_point, WeldedMesh &mesh,
   count_two_sided(std::move(copies), mesh.report);
 }
 
-// Turns counts per row, each stored one place further on, into first indices.
+// Turns counts per row, each stored one entry further on, into first indices.
 void accumulate(std::vector<int> &first)
 {
   for (std::size_t i = 1; i < first.size(); ++i) first[i] += first[i - 1];

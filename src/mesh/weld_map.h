@@ -20,7 +20,7 @@ constexpr int kNoFace = -1, kNoVertex = -1;
 // kNoFace.
 std::vector<int> faces_of_facets(const WeldedMesh &mesh, const std::vector<int> &corner_vertex);
 
-// The vertex of the corners that are exactly at each of these places; kNoVertex where none is.
+// The vertex of the corners that are exactly at each of these positions; kNoVertex where none is.
 std::vector<int> vertices_at(const std::vector<Vec3> &places, const std::vector<Vec3> &corners,
                              const std::vector<int> &corner_vertex);
 

@@ -28,7 +28,7 @@ bool has_inside(const WeldedMesh &mesh);
 // Why it has none: facets or edges, where the first is, and the remedy. Empty where it has.
 std::string why_no_inside(const WeldedMesh &mesh);
 
-// It keeps what it needs of the mesh, and any number of threads may ask it at once.
+// It copies what it needs of the mesh, and any number of threads may ask it at once.
 //
 // A point's number is that of another point plus the facets that their connection crosses. Cells
 // without facets know theirs. From another cell a ray goes along an axis to such a cell; where that

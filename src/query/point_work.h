@@ -58,7 +58,7 @@ struct PointArrays {
 // found in float.
 struct Nearest {
   FeatureCode feature;
-  Vec3 point, normal;    // the second unit, point -> q; a fixed choice where q is on the wall
+  Vec3 point, normal;    // the second unit, point -> q; a fixed one where q is on the wall
 };
 
 LSDCD_FN Nearest at_closest(FeatureCode feature, const Vec3 &q, const ClosestPoint &closest)

@@ -141,7 +141,7 @@ class TreeQuery {
   {
     return number_on_curve(tree_.view().share_of_box(io_.points[i]), kCurveBits);
   }
-  // Do most points follow a near one? Some are looked at.
+  // Do most points follow a near one? Checks a few.
   bool are_in_order(std::size_t from, std::size_t to) const
   {
     constexpr int kSteepBits = 12;    // so many bits of a curve are a box of an eighth

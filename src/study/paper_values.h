@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // Numbers of the paper (its Table 2 and the text to its figures 9 to 12), to stand beside
-// ours. Tesla K40; 1e7 spheres where nothing else is said.
+// ours. Tesla K40; 1e7 spheres unless another number is given.
 #pragma once
 
 #include "base/real.h"

@@ -74,7 +74,7 @@ class Program : public Command {
 
   // Runs the command that the words name, or prints the help or the version. Returns whether the words are
   // right; if not, it has printed what is wrong. Throws what a command throws, and InputError where the
-  // standard output has not taken all that was printed.
+  // standard output has not accepted all that was printed.
   bool run(int argc, char **argv);
 
  private:

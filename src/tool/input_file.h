@@ -99,7 +99,7 @@ class InputFile {
     void operator()(std::FILE *file) const { std::fclose(file); }
   };
 
-  // Reads more of the file after what is not yet taken; false: there is no more.
+  // Reads more of the file after what is not yet read; false: there is no more.
   bool fill()
   {
     std::memmove(buffer_.data(), buffer_.data() + at_, end_ - at_);

@@ -37,7 +37,7 @@ struct GatherWork {
   }
 };
 
-// The same for slots of several meshes.
+// The same for slots of more than one mesh.
 struct GatherSlotWork {
   const PosedGrid *meshes;
   const int *mesh;    // of each slot
@@ -87,7 +87,7 @@ class FeatureListStore {
     if (!B::kOnHost) multi_contact_ = Array<char>(n + n / 8);
     b.for_each_in_warps(n, gather(grid, pose, spheres, margin, counts));
   }
-  // The same for n slots of several meshes; `large`: is any of them?
+  // The same for n slots of more than one mesh; `large`: is any of them?
   void make(B &b, const GridView &first_grid, bool large, const PosedGrid *meshes, const int *mesh,
             const CandidateSpheres &spheres, Real margin, StepCounts *counts)
   {

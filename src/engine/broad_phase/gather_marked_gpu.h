@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The last part of a choice on a GPU: from bits to a list.
+// The last part of the broad phase on a GPU: from bits to a list.
 #pragma once
 
 #include "engine/broad_phase/refine_gpu.h"

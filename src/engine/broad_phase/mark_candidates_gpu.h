@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The first part of a choice on a GPU: a test of each sphere by cells, which sets a bit or lists the sphere for
+// The first part of the broad phase on a GPU: a test of each sphere by cells, which sets a bit or lists the sphere for
 // the exact test.
 #pragma once
 

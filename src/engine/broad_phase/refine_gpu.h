@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The second part of a choice on a GPU: the exact test of spheres that the test by cells leaves.
+// The second part of the broad phase on a GPU: the exact test of spheres that the test by cells leaves.
 #pragma once
 
 #include "backend/atomic.h"
@@ -35,7 +35,7 @@ struct CandidateLists {
         warp.take_room(length + list * kStride, warp.count(votes)) + warp.count_below(votes);
     if (has_one && at < room) items[list * room + at] = item;
   }
-  // Is there an item in place k? Places are counted over the room of all lists.
+  // Has entry k an item? Entries are counted over the room of all lists.
   LSDCD_GPU_FN bool has(unsigned k) const
   {
     return k < kLists * room && k % room < length[k / room * kStride];
@@ -56,7 +56,7 @@ struct CandidateLists {
   }
 };
 
-// Sets the bits in `words` of the spheres that `work` keeps.
+// Sets the bits in `words` of the spheres that pass the tests of `work`.
 template <class Work>
 struct Refine {
   Work work;

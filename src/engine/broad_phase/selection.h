@@ -7,7 +7,7 @@
 namespace lsdcd {
 
 // selection_cpu.h and selection_gpu.h specialise it. Each has, with a `work` like CandidateTest:
-//   start(b, n, work, to, total)    puts those of [0, n) that `work` keeps, ascending, into `to`, which has
+//   start(b, n, work, to, total)    puts those of [0, n) that pass the tests of `work`, ascending, into `to`, which has
 //                                   room for n. *total, where kernels run, becomes how many. Does not wait.
 //   had_room(b, total)              false: there was too little memory, now there is enough; start again
 //   bytes()                         that it holds

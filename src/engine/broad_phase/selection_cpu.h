@@ -55,7 +55,7 @@ class Selection<B, true> {
   }
 
  private:
-  // Leaves of n spheres those that `work` keeps, and returns how many. Memory that the test reads first is
+  // Leaves those of n spheres that pass the last test of `work`, and returns how many. Memory that the test reads first is
   // prefetched a few spheres ahead.
   template <class Work>
   static int refine(const Work &work, int *spheres, int n)

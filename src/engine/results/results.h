@@ -139,7 +139,7 @@ LSDCD_FN void add_block(WallTotals &sum, const WallTotals &t)
   }
 }
 
-// The columns of `contacts`. Contacts that exert no force still have a place: that of the
+// The columns of `contacts`. Contacts that exert no force still have a row: that of the
 // sphere.
 LSDCD_FN SphereOutput output_of(const SphereResult &r, const Vec3 &x, Real radius)
 {

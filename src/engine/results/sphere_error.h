@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// An error of one sphere, which an engine knows by its place in the arrays only.
+// An error of one sphere, which an engine knows by its index in the arrays only.
 #pragma once
 
 #include "base/input_error.h"

@@ -212,7 +212,7 @@ LSDCD_NOINLINE bool any_contacts(const Law &law, const StepJob &job, std::size_t
   ContactsView set = some.set.view();
   const Real *weight = some.weight;
   Real exact_within = some.exact_within;
-  // A scratch memory is taken, used and given back in one turn: on a GPU threads that wait for it must not
+  // A scratch memory is locked, used and unlocked in one turn: on a GPU threads that wait for it must not
   // hold up the one that has it.
   for (bool done = false; !done;) {
     OverflowScratch *scratch = nullptr;
@@ -254,7 +254,7 @@ struct MeshStep {
       Law::kExtra > 0 || Law::kContactTorque || Law::kHeat || Law::kBeyondContact;
   static constexpr int kBlocksAtOnce = kLarge ? 3 : 4;
 
-  // Lists of brick records are left to several().
+  // Lists of brick records are left to general_path().
   bool has_fast_path() const { return job.lists.n && !job.grid.in_floats; }
   LSDCD_FN void begin() const { clear_next(job); }
   // Sphere k where it has one contact or none, as nearly all have: with room for one nothing is indexed

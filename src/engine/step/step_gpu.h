@@ -13,7 +13,7 @@
 namespace lsdcd {
 
 constexpr unsigned kStepBlock = 128, kStepWarps = kStepBlock / kWarpSize;
-// How many blocks serve the list. While the fast path runs: few, as they take places from blocks that would hide
+// How many blocks serve the list. While the fast path runs: few, as they take room from blocks that would hide
 // its memory latency.
 constexpr int kFewBlocks = 66, kMaxBlocks = 528;
 

@@ -70,7 +70,7 @@ class GridBuilder {
     if (!fits) return false;
     b_.wait();
     report.seconds = seconds_since(start);
-    pairs = OctantPairs<B>();    // before the copies: this is where most memory is taken
+    pairs = OctantPairs<B>();    // before the copies: here most memory is in use
     give_back_memory();
     lists.brick_of = to_host(b_, built.brick_of, built.brick_of.size());
     lists.bricks = to_host(b_, built.bricks, built.n_bricks);

@@ -30,8 +30,8 @@ LSDCD_FN void insert_sorted(Candidate *list, std::uint32_t n, const Candidate &c
   list[n] = candidate;
 }
 
-// Keeps the `room` smallest of all that are offered, one after another. list[0 .. n) has
-// those kept so far.
+// Stores the `room` smallest of all that are offered, one after another. list[0 .. n) has
+// those stored so far.
 LSDCD_FN void insert_nearest(Candidate *list, std::uint32_t n, std::uint32_t room,
                              const Candidate &candidate)
 {

@@ -101,7 +101,7 @@ LSDCD_FN BrickBox brick_box(const BuildView &b, FeatureCode feature)
   return box;
 }
 
-// The place in the table of the i-th brick of a box.
+// The slot in the table of the i-th brick of a box.
 LSDCD_FN std::uint32_t brick_slot(const GridPlan &plan, const BrickBox &box, std::uint64_t i)
 {
   const std::uint64_t x = box.first[0] + i % box.n[0], y = box.first[1] + i / box.n[0] % box.n[1],

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// A grid from its cache file, or a new one that is kept there for the next start.
+// A grid from its cache file, or a new one that is stored there for the next start.
 #pragma once
 
 #include "grid/triangle_grid.h"

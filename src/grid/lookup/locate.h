@@ -9,7 +9,7 @@
 
 namespace lsdcd {
 
-// The place of a point in the grid. `cell` is the number of the cell in its brick.
+// The location of a point in the grid. `cell` is the number of the cell in its brick.
 struct CellAddress {
   const Brick *brick;    // null: no wall within the cutoff
   std::int32_t cell;
@@ -37,7 +37,7 @@ LSDCD_FN std::uint32_t cell_index(const Brick &brick, int cell)
   return cell_index(brick.layer[cell >> 6], cell);
 }
 
-// The place of a point before any table is read: its cell of the whole grid, and its
+// The location of a point before any table is read: its cell of the whole grid, and its
 // coordinates in cells.
 struct CellSlot {
   bool inside;    // false: outside the grid, or not a number; the rest is not set

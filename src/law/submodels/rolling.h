@@ -4,12 +4,12 @@
 // Rolling resistance: a contact torque against the turning of a sphere along the wall.
 //
 // A model is a struct with
-//   kModel                           its place in RollingModel
-//   kKeepsVector                     does a contact keep a vector of the tangent plane for it?
+//   kModel                           its value of RollingModel
+//   kKeepsVector                     does a contact store a vector of the tangent plane for it?
 //   contact_torque(n, in, m, at)     torque on the sphere
 //   energy(n, in, m, at)             what is held
 // where n are its numbers in the order of its row (sub_models.cpp), m is the contact's memory, and `at` the
-// place of its vector there. GranularRolling or ClassicRolling, below, lists it.
+// index of its vector there. GranularRolling or ClassicRolling, below, lists it.
 #pragma once
 
 #include "law/contact.h"
@@ -155,7 +155,7 @@ struct Rolling {
   LSDCD_FN void act_as(const RollingInput<T> &in, Memory &m, int at, Vec3Of<T> &torque,
                        T &energy) const
   {
-    // A kernel without memory is for models that keep nothing.
+    // A kernel without memory is for models without history.
     if constexpr (Memory::kSize > 0 || !Model::kKeepsVector)
       if (model == Model::kModel) {
         torque += Model::contact_torque(numbers, in, m, at);

@@ -81,7 +81,7 @@ struct LinearHistory {
 // `linear_nohistory` without a spring, else `linear_history`, or with `by_radius` `mindlin`, whose
 // stiffness is proportional to the contact radius. `shear` is the displacement or, with `of_force`, the
 // spring's force. With `rescale` it shrinks as the contact unloads (Thornton et al.
-// 2013), for which the radius of the last step is kept. With `slip` it is cut alone.
+// 2013), for which the radius of the last step is stored. With `slip` it is cut alone.
 template <class T>
 struct GranularFriction {
   T k, xgammat, mu;    // k: 0 where there is no spring

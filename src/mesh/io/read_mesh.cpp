@@ -10,7 +10,7 @@
 namespace lsdcd {
 
 // The readers beside read_stl(), each in the file of its name. They throw InputError that names the
-// file, the place in it, the value and the remedy.
+// file, the location in it, the value and the remedy.
 ReadMesh read_obj(const std::string &path);
 ReadMesh read_off(const std::string &path);
 ReadMesh read_ply(const std::string &path);

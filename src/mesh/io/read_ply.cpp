@@ -35,7 +35,7 @@ std::string shortest(double x)
 }
 
 // The values of an element, one after another. Each has to be on a line of its own, as the programs
-// that defined PLY read it: so a value too few or too many is seen where it is.
+// that defined PLY read it: so a value too few or too many is found where it is.
 class TextValues {
  public:
   TextValues(const TextWords &behind_header) : file_(behind_header) {}
@@ -264,7 +264,7 @@ class PlyReader {
     return static_cast<std::uint64_t>(size);
   }
 
-  // The place of the one property with one of these names.
+  // The index of the one property with one of these names.
   std::size_t find(const PlyElement &element, std::initializer_list<std::string_view> names,
                    bool is_list, const std::string &what)
   {

@@ -38,7 +38,7 @@ struct PlyHeader {
 };
 
 // `file` is all of the file; behind its last word that was read come the data. Lines end with LF, CR LF
-// or CR; the first line tells which, so that data may begin with any byte.
+// or CR; the first line says which, so that data may begin with any byte.
 // Throws InputError naming the file, the line, the value and the remedy.
 PlyHeader read_ply_header(TextWords &file);
 

@@ -57,7 +57,7 @@ class TextWords {
   bool next_line();
 
   bool done() const { return at_ == end_; }
-  // The place of the next byte.
+  // The offset of the next byte.
   std::string_view here() const { return {at_, 0}; }    // NOLINT(bugprone-string-constructor)
   const char *end() const { return end_; }
 
@@ -75,7 +75,7 @@ class TextWords {
   void refuse_utf16() const;
 
   // Throws InputError: "source, line 7 (place): what; remedy". `word` is one of this file, or has its
-  // place. Lines are counted here only, so that reading is quick.
+  // address. Lines are counted here only, so that reading is quick.
   [[noreturn]] void fail(std::string_view word, const std::string &what, const std::string &remedy,
                          const std::string &place = "") const;
 
