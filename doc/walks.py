@@ -72,7 +72,7 @@ WALKS = {
         "now": """
             FixWallLsdcd::pre_force FixWallLsdcd::begin FixWallLsdcd::begin_step FixWallLsdcd::spheres
             FixWallLsdcd::spheres_in_atom Wall::begin Wall::launch EngineOn::launch Wall::step_settings
-            Wall::choose_if_due ChoiceSchedule::next EngineOn::choose"""
+            Wall::choose_if_due CandidateSchedule::next EngineOn::choose"""
             + SEARCH_NOW.format(select="selection_cpu.h:start selection_cpu.h:refine")
             + " > FixWallLsdcd::post_force FixWallLsdcd::finish_step Wall::finish EngineOn::finish"
             + STEP_NOW.format(step="step_cpu.h:run_step run_fast_path > run_left"),
@@ -97,7 +97,7 @@ WALKS = {
             FixWallLsdcdKokkos::begin_step FixWallLsdcdKokkos::spheres host_kokkos.h:rows_of Wall::begin
             EngineOn::begin CudaSideStream::ready > FixWallLsdcdKokkos::pre_reverse Wall::launch
             Wall::step_settings EngineOn::launch EngineOn::launch_beside CudaSideStream::begin Wall::choose_if_due
-            ChoiceSchedule::next EngineOn::choose"""
+            CandidateSchedule::next EngineOn::choose"""
             + SEARCH_NOW.format(select="selection_gpu.h:start selection_gpu.h:mark > mark_candidates_gpu.h:operator() > refine_gpu.h:operator()")
             + STEP_NOW.format(step="step_gpu.h:run_step > step_gpu.h:operator() run_general_path")
             + " > FixWallLsdcd::post_force FixWallLsdcdKokkos::finish_step FixWallLsdcd::finish_step Wall::finish",
@@ -122,7 +122,7 @@ WALKS = {
     "from a call of the library to a distance": {
         "before": """
             lsdcd_query_host at_c_border checked_query arrays_of answer_points answer_on_cpu with_point_work
-            CellQueryCpu::run CpuBackend::for_each CellQueryCpu::answer_block PointWork::sphere brick_slot_of
+            NearFirstCpu::run CpuBackend::for_each NearFirstCpu::answer_block PointWork::sphere brick_place_of
             BrickTable::at PointWork::far PointWork::answer nearest_from nearest_in_cell WallDistances::feature
             closest_point_on PointWork::keep""",
         "now": """

@@ -36,10 +36,10 @@ static LAMMPS *with_atoms_on_host(LAMMPS *lmp, const char *id)
 template <class DeviceType>
 FixWallLsdcdKokkos<DeviceType>::FixWallLsdcdKokkos(LAMMPS *lmp, int narg, char **arg) :
     FixWallLsdcd(with_atoms_on_host(lmp, arg[0]), narg, arg,
-                 lsdcd::WallPlace{lsdcd::make_engine_on<DeviceType>, true,
-                                  [this](const lsdcd::HostSpheres &, lsdcd::CpuArrays arrays) {
-                                    return to_cpu(arrays);
-                                  }})
+                 lsdcd::WallBackend{lsdcd::make_engine_on<DeviceType>, true,
+                                    [this](const lsdcd::HostSpheres &, lsdcd::CpuArrays arrays) {
+                                      return to_cpu(arrays);
+                                    }})
 {
   kokkosable = 1;
   atomKK = kokkos_atoms(atom);
@@ -105,8 +105,8 @@ lsdcd::HostSpheres FixWallLsdcdKokkos<DeviceType>::spheres()
   s.force = lsdcd::rows_of(atomKK->k_f.template view<DeviceType>());
   s.torque = lsdcd::rows_of(atomKK->k_torque.template view<DeviceType>());
   s.radius = lsdcd::numbers_of(atomKK->k_radius.template view<DeviceType>());
-  s.mass =
-      rigid ? d_mass_seen.data() : lsdcd::numbers_of(atomKK->k_rmass.template view<DeviceType>());
+  s.mass = rigid ? d_damping_mass.data()
+                 : lsdcd::numbers_of(atomKK->k_rmass.template view<DeviceType>());
   s.mask = igroup ? atomKK->k_mask.template view<DeviceType>().data() : nullptr;
   s.type = atomKK->k_type.template view<DeviceType>().data();
   return s;
@@ -174,11 +174,12 @@ template <class DeviceType>
 void FixWallLsdcdKokkos<DeviceType>::fill_masses()
 {
   FixWallLsdcd::fill_masses();
-  const std::size_t n = mass_seen.size();
-  if (d_mass_seen.extent(0) < n) d_mass_seen = decltype(d_mass_seen)("lsdcd:mass_seen", n + n / 8);
+  const std::size_t n = damping_mass.size();
+  if (d_damping_mass.extent(0) < n)
+    d_damping_mass = decltype(d_damping_mass)("lsdcd:damping_mass", n + n / 8);
   const Kokkos::View<double *, LMPHostType, Kokkos::MemoryTraits<Kokkos::Unmanaged>> host(
-      mass_seen.data(), n);
-  Kokkos::deep_copy(Kokkos::subview(d_mass_seen, std::make_pair(std::size_t(0), n)), host);
+      damping_mass.data(), n);
+  Kokkos::deep_copy(Kokkos::subview(d_damping_mass, std::make_pair(std::size_t(0), n)), host);
 }
 
 template class LAMMPS_NS::FixWallLsdcdKokkos<LMPDeviceType>;

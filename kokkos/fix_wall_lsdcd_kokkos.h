@@ -50,7 +50,7 @@ class FixWallLsdcdKokkos : public FixWallLsdcd, public KokkosBase {
   int pack_rows(int, const int *, const int *, double *);
   void unpack_rows(int, const int *, const double *);
 
-  Kokkos::View<double *, DeviceType> d_mass_seen;
+  Kokkos::View<double *, DeviceType> d_damping_mass;
   // Where fixes before this one only add forces, they are added right behind those between atoms.
   lsdcd::LaunchMode launch_mode = lsdcd::LaunchMode::beside;
 };

@@ -15,7 +15,7 @@ std::string &last_error() noexcept
 
 namespace lsdcd {
 
-int keep_error(int code, const char *text) noexcept
+int store_error(int code, const char *text) noexcept
 {
   try {
     last_error() = text;

@@ -24,7 +24,7 @@ struct ApiError : InputError {
 };
 
 // Stores the text for this thread; returns the code.
-int keep_error(int code, const char *text) noexcept;
+int store_error(int code, const char *text) noexcept;
 
 // While it lives, this thread has the locale "C".
 class CLocale {
@@ -51,20 +51,20 @@ int guard(const Body &body) noexcept
     body();
     return LSDCD_OK;
   } catch (const ApiError &e) {
-    return keep_error(e.code, e.what());
+    return store_error(e.code, e.what());
   } catch (const NegativeRadiusError &e) {
-    return keep_error(LSDCD_ERROR_ARGUMENT, e.what());
+    return store_error(LSDCD_ERROR_ARGUMENT, e.what());
   } catch (const RadiusError &e) {
-    return keep_error(LSDCD_ERROR_CUTOFF, e.what());
+    return store_error(LSDCD_ERROR_CUTOFF, e.what());
   } catch (const InputError &e) {
-    return keep_error(LSDCD_ERROR_INPUT, e.what());
+    return store_error(LSDCD_ERROR_INPUT, e.what());
   } catch (const std::bad_alloc &) {
-    return keep_error(LSDCD_ERROR_MEMORY,
-                      "no memory left: free some; a grid takes less with a larger `cell`");
+    return store_error(LSDCD_ERROR_MEMORY,
+                       "no memory left: free some; a grid takes less with a larger `cell`");
   } catch (const std::exception &e) {
-    return keep_error(LSDCD_ERROR_INTERNAL, e.what());
+    return store_error(LSDCD_ERROR_INTERNAL, e.what());
   } catch (...) {
-    return keep_error(LSDCD_ERROR_INTERNAL, "an unknown error");
+    return store_error(LSDCD_ERROR_INTERNAL, "an unknown error");
   }
 }
 

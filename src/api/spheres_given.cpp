@@ -72,7 +72,7 @@ void check_apart(const lsdcd_spheres &s, std::ptrdiff_t row)
 }    // namespace
 
 // Before anything is read or written there.
-void check_places(const lsdcd_spheres &s, const GpuArrays *gpu)
+void check_positions(const lsdcd_spheres &s, const GpuArrays *gpu)
 {
   const struct {
     const void *pointer;
@@ -97,7 +97,7 @@ void check_places(const lsdcd_spheres &s, const GpuArrays *gpu)
   }
 }
 
-std::string place_text(const Vec3 &x)
+std::string position_text(const Vec3 &x)
 {
   return number_text(x.x) + " " + number_text(x.y) + " " + number_text(x.z);
 }
@@ -171,7 +171,7 @@ Box checked_extents(const Spheres &s)
   for (int i = 0; i < s.n && !(norm_sq(zero) == 0); i++)
     if (!(norm_sq(0 * s.x[i]) == 0))
       refuse_sphere("x", i,
-                    place_text(s.x[i]) +
+                    position_text(s.x[i]) +
                         ", which is no place: a shorter dt, or softer contacts, may help");
   return around;
 }

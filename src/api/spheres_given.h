@@ -15,7 +15,7 @@
 namespace lsdcd {
 
 // Are the arrays where the wall computes? Before anything is read or written there. `gpu`: null, on the host.
-void check_places(const lsdcd_spheres &spheres, const GpuArrays *gpu);
+void check_positions(const lsdcd_spheres &spheres, const GpuArrays *gpu);
 // `has_heat`, `has_types`: of the law, which then needs these arrays.
 Spheres spheres_of(const lsdcd_spheres &spheres, bool has_heat, bool has_types);
 
@@ -34,6 +34,6 @@ struct Outside {
 Outside outside(const PeriodicBox &box, const Spheres &spheres, const Box &extents);
 
 // "1 2 3"
-std::string place_text(const Vec3 &x);
+std::string position_text(const Vec3 &x);
 
 }    // namespace lsdcd

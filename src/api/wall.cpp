@@ -31,7 +31,7 @@ std::unique_ptr<GpuArrays> gpu_of(const lsdcd_wall_options &o)
 namespace lsdcd {
 
 // Where the arrays of spheres are.
-WallPlace place_of(const lsdcd_wall_options &o, lsdcd_wall &made)
+WallBackend backend_of(const lsdcd_wall_options &o, lsdcd_wall &made)
 {
   if (!made.gpu) return {};
   const auto make = [stream = o.stream,
@@ -82,7 +82,7 @@ void check_mesh(const lsdcd_wall &wall, int mesh, int least)
 
 void check_order_is_free(const lsdcd_wall &wall)
 {
-  if (!wall.kept.empty())
+  if (!wall.restored.empty())
     throw ApiError(LSDCD_ERROR_ARGUMENT, "spheres keep their order until the step after a restore");
 }
 

@@ -55,11 +55,11 @@ struct lsdcd_wall {
   int threads;
   std::int64_t number = 0;    // of the last step
   lsdcd::Real dt = 0;
-  bool begun = false;                // since spheres were numbered anew, too
-  lsdcd::Real largest_radius = 0;    // of this process, in the last step that looked
-  lsdcd::Failure late;               // of this process, which the next call reports to all
-  lsdcd::SphereHistories kept;       // restored, until the first step
-  bool outside_told = false;
+  bool begun = false;                 // since spheres were numbered anew, too
+  lsdcd::Real largest_radius = 0;     // of this process, in the last step that looked
+  lsdcd::Failure late;                // of this process, which the next call reports to all
+  lsdcd::SphereHistories restored;    // restored, until the first step
+  bool outside_warned = false;
   lsdcd::PosesGiven poses;
   std::unique_ptr<lsdcd::Wall> in;
 
@@ -89,7 +89,7 @@ lsdcd_wall *new_wall(
     const lsdcd_wall_options *options,
     const std::function<std::unique_ptr<Wall>(lsdcd_wall &, const lsdcd_wall_options &)> &make);
 // Where it computes.
-WallPlace place_of(const lsdcd_wall_options &options, lsdcd_wall &made);
+WallBackend backend_of(const lsdcd_wall_options &options, lsdcd_wall &made);
 // Throws where a step would need numbers that only a script has.
 void check_no_inputs(const Wall &wall);
 
@@ -106,6 +106,6 @@ void tell_late(lsdcd_wall &wall);
 // Restart data of a wall of versions before 0.10.0, which have words. Throws StateError or InputError.
 WallState old_wall_state(const Real *numbers, std::size_t n);
 // Contacts of spheres get what was restored, in the first step.
-void unpack_kept(lsdcd_wall &wall);
+void unpack_restored(lsdcd_wall &wall);
 
 }    // namespace lsdcd

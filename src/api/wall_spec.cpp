@@ -70,7 +70,8 @@ int lsdcd_wall_from_spec(const lsdcd_wall_spec *spec, const lsdcd_wall_options *
     need(wall, "wall");
     *wall = new_wall(options, [&](lsdcd_wall &made, const lsdcd_wall_options &o) {
       return std::make_unique<Wall>(made.caller, wall_spec_of(spec, made.gpu != nullptr),
-                                    WallUnits(), place_of(o, made), "", StepClock{o.time, 0, 0, 0});
+                                    WallUnits(), backend_of(o, made), "",
+                                    StepClock{o.time, 0, 0, 0});
     });
   });
 }

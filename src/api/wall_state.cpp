@@ -38,7 +38,7 @@ std::vector<const double *> packed_spheres(const lsdcd_wall &wall, std::size_t n
                                            const double *numbers, std::size_t count)
 {
   const HistoryExchange &history = wall.in->history();
-  const std::size_t per_contact = history.is_kept() ? history.numbers_per_contact() : 0;
+  const std::size_t per_contact = history.is_on() ? history.numbers_per_contact() : 0;
   const double meshes = static_cast<double>(wall.in->meshes().size());
   std::vector<const double *> spheres;
   bool good = count > 0 && numbers[0] == packed_kind(wall);
@@ -88,14 +88,14 @@ void read_saved(const Real *numbers, std::size_t n, WallState &state, SphereHist
 
 namespace lsdcd {
 
-void unpack_kept(lsdcd_wall &wall)
+void unpack_restored(lsdcd_wall &wall)
 {
   HistoryExchange &history = wall.in->history();
   history.on_host();
-  for (std::size_t i = 0; i < wall.kept.size(); i++)
-    history.unpack_restart(static_cast<int>(i), wall.kept[i].data(),
-                           static_cast<int>(wall.kept[i].size()));
-  wall.kept.clear();
+  for (std::size_t i = 0; i < wall.restored.size(); i++)
+    history.unpack_restart(static_cast<int>(i), wall.restored[i].data(),
+                           static_cast<int>(wall.restored[i].size()));
+  wall.restored.clear();
 }
 
 }    // namespace lsdcd
@@ -111,7 +111,7 @@ int lsdcd_wall_pack(lsdcd_wall *wall, const ptrdiff_t *which, size_t n, double *
     if (room > 0) need(numbers, "numbers");
     check_order_is_free(*wall);
     check_spheres(*wall, which, n, "which");
-    const bool keeps = wall->in->history().is_kept();
+    const bool keeps = wall->in->history().is_on();
     const ContactHistory &history = wall->in->history().on_host();
     std::vector<Real> all = {packed_kind(*wall)}, packed(1);
     for (std::size_t i = 0; i < n; i++) {
@@ -135,7 +135,7 @@ int lsdcd_wall_unpack(lsdcd_wall *wall, const ptrdiff_t *to, size_t n, const dou
     check_order_is_free(*wall);
     check_spheres(*wall, to, n, "to");
     const std::vector<const double *> spheres = packed_spheres(*wall, n, numbers, count);
-    const bool keeps = wall->in->history().is_kept();
+    const bool keeps = wall->in->history().is_on();
     ContactHistory &history = wall->in->history().on_host();
     for (std::size_t i = 0; i < n; i++) {
       wall->caller.tags[to[i]] = static_cast<std::int64_t>(spheres[i][0]);
@@ -150,7 +150,7 @@ int lsdcd_wall_save(lsdcd_wall *wall, double *numbers, size_t room, size_t *coun
     need(count, "count");
     if (room > 0) need(numbers, "numbers");
     tell_late(*wall);
-    SphereHistories spheres(wall->in->history().is_kept() ? wall->caller.tags.size() : 0);
+    SphereHistories spheres(wall->in->history().is_on() ? wall->caller.tags.size() : 0);
     std::vector<Real> packed(1 + wall->in->history().max_packed_size());
     for (std::size_t i = 0; i < spheres.size(); i++) {
       const int size = wall->in->pack_restart(static_cast<int>(i), packed.data());
@@ -181,8 +181,8 @@ int lsdcd_wall_restore(lsdcd_wall *wall, const double *numbers, size_t count)
                          e.what());
     }
     wall->in->restore(state, {wall->number, wall->dt});
-    wall->kept = std::move(spheres);
-    if (!wall->in->history().is_kept()) wall->kept.clear();
+    wall->restored = std::move(spheres);
+    if (!wall->in->history().is_on()) wall->restored.clear();
   });
 }
 }

@@ -29,9 +29,9 @@ void check_count(const lsdcd_wall &wall, std::size_t n)
     throw ApiError(LSDCD_ERROR_ARGUMENT, "there are " + std::to_string(n) +
                                              " spheres and there were " + std::to_string(before) +
                                              ": say by lsdcd_wall_renumber() which are left");
-  if (!wall.kept.empty() && wall.kept.size() != n)
+  if (!wall.restored.empty() && wall.restored.size() != n)
     throw ApiError(LSDCD_ERROR_ARGUMENT, "what was restored has " +
-                                             std::to_string(wall.kept.size()) +
+                                             std::to_string(wall.restored.size()) +
                                              " spheres, and this step has " + std::to_string(n));
 }
 
@@ -55,14 +55,14 @@ StepWanted step_wanted(lsdcd_wall &wall, const lsdcd_spheres *spheres, const lsd
   check_count(wall, given.n);
   const bool has_types = wall.in->laws().kinds > 1;
   want.spheres = spheres_of(given, wall.in->spec().law().has_heat(), has_types);
-  if (given.n > 0) check_places(given, wall.gpu.get());
+  if (given.n > 0) check_positions(given, wall.gpu.get());
   wall.caller.set_spheres(want.spheres);
   const bool came = given.n > wall.caller.tags.size();
   want.look = !wall.begun || came || want.step.setup || want.step.changed;
   if (!want.look && wall.gpu) return want;
   const Spheres s = wall.caller.spheres_on_cpu();
   const Box extents = checked_extents(s);
-  if (!wall.outside_told) want.outside = outside(wall.caller.box(), s, extents);
+  if (!wall.outside_warned) want.outside = outside(wall.caller.box(), s, extents);
   if (!want.look) return want;
   check_sizes(s);
   if (has_types) check_types(s);
@@ -74,7 +74,7 @@ StepWanted step_wanted(lsdcd_wall &wall, const lsdcd_spheres *spheres, const lsd
 // Once. Collective.
 void warn_of_outside(lsdcd_wall &wall, const StepWanted &want)
 {
-  wall.outside_told = true;
+  wall.outside_warned = true;
   WallCaller &host = wall.caller;
   Real n = static_cast<Real>(want.outside.n);
   const int from = lowest_rank(host, n > 0);
@@ -84,7 +84,7 @@ void warn_of_outside(lsdcd_wall &wall, const StepWanted &want)
     const int i = want.outside.first;
     text = "x[" + std::to_string(i) + "]" +
            (host.is_alone() ? "" : " of process " + std::to_string(from)) + ", is at " +
-           place_text(host.spheres_on_cpu().x[i]);
+           position_text(host.spheres_on_cpu().x[i]);
   }
   broadcast_text(host, text, from);
   const Box box = host.box().bounds({0, 0, 0});
@@ -133,7 +133,7 @@ void take_step(lsdcd_wall &wall, const StepWanted &want)
   check_no_inputs(*wall.in);
   const HostSpheres s = wall.caller.tagged(want.spheres);
   wall.in->history().grow(s.n);
-  if (!wall.kept.empty()) unpack_kept(wall);
+  if (!wall.restored.empty()) unpack_restored(wall);
   wall.dt = want.step.dt;
   if (!want.step.setup) wall.number++;
   StepInput input;
@@ -191,7 +191,7 @@ int lsdcd_wall_renumber(lsdcd_wall *wall, const ptrdiff_t *from, size_t n)
     check_order_is_free(*wall);
     HistoryExchange &history = wall->in->history();
     std::vector<std::vector<Real>> packed(n);
-    if (history.is_kept()) {
+    if (history.is_on()) {
       ContactHistory &all = history.on_host();
       for (std::size_t i = 0; i < n; i++) {
         if (from[i] < 0) continue;

@@ -57,7 +57,7 @@ int lsdcd_wall_make(const char *const *words, size_t n, const lsdcd_wall_options
     *wall = new_wall(options, [&](lsdcd_wall &made, const lsdcd_wall_options &o) {
       const FilledTokens filled = fill_material(made.caller, all, o.units ? o.units : "si");
       return std::make_unique<Wall>(made.caller, parse_wall(filled.tokens).wall, WallUnits(),
-                                    place_of(o, made), filled.report, StepClock{o.time, 0, 0, 0});
+                                    backend_of(o, made), filled.report, StepClock{o.time, 0, 0, 0});
     });
   });
 }

@@ -76,11 +76,11 @@ class CudaStream {
 };
 
 // Where an array lies.
-struct ArrayPlace {
+struct ArrayMemory {
   bool is_managed, is_on_gpu;
   int device;
 };
-inline ArrayPlace place_of_array(const void *array)
+inline ArrayMemory memory_of_array(const void *array)
 {
   cudaPointerAttributes about = {};
   cuda_check(cudaPointerGetAttributes(&about, array), "asking where an array is");
@@ -92,7 +92,7 @@ inline ArrayPlace place_of_array(const void *array)
 inline void check_array(const void *array, const std::string &name, int device,
                         const std::string &taker, const std::string &on_device)
 {
-  const ArrayPlace place = place_of_array(array);
+  const ArrayMemory place = memory_of_array(array);
   if (place.is_managed) return;
   if (!place.is_on_gpu)
     throw InputError("the array `" + name + "` is in the host's memory; " + taker +

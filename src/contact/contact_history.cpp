@@ -37,7 +37,7 @@ int ContactHistory::pack(int i, double *buffer) const
   buffer[at++] = count_[i];
   for (int k = 0; k < count_[i]; k++) {
     const Spring &s = pool_[first_[i] + k];
-    buffer[at++] = packed_place(s);
+    buffer[at++] = packed_location(s);
     for (int c = 0; c < 3; c++) buffer[at++] = s.normal[c];
     for (int c = 0; c < 3; c++) buffer[at++] = s.shear[c];
     for (int c = 0; c < n_extra_; c++) buffer[at++] = extra_of(i)[k * n_extra_ + c];
@@ -52,7 +52,7 @@ int ContactHistory::unpack(int i, const double *buffer)
   arrived_extra_.clear();
   for (Spring &s : arrived_) {
     s = {};
-    unpack_place(buffer[at++], s);
+    unpack_location(buffer[at++], s);
     for (int c = 0; c < 3; c++) s.normal[c] = buffer[at++];
     for (int c = 0; c < 3; c++) s.shear[c] = buffer[at++];
     for (int c = 0; c < n_extra_; c++) arrived_extra_.push_back(buffer[at++]);

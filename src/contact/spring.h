@@ -20,11 +20,11 @@ struct Spring {
 };
 
 // Mesh and feature as one double, for exchange and restart files: 53 bits are exact.
-LSDCD_FN double packed_place(const Spring &s)
+LSDCD_FN double packed_location(const Spring &s)
 {
   return 4294967296. * s.mesh + s.feature;
 }
-LSDCD_FN void unpack_place(double packed, Spring &s)
+LSDCD_FN void unpack_location(double packed, Spring &s)
 {
   const std::uint64_t place = static_cast<std::uint64_t>(packed);
   s.feature = static_cast<FeatureCode>(place);

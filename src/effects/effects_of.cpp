@@ -25,7 +25,7 @@ void add_law(const ContactLaw &law, std::vector<Effect> &effects)
     if (*name) effects.push_back({name, bytes});
   };
   for (const SubModel *row : rows_of(law)) {
-    const int bytes = row->kept.beside_shear * static_cast<int>(sizeof(Real));
+    const int bytes = row->stored.beside_shear * static_cast<int>(sizeof(Real));
     switch (row->family) {
       case Family::style:
         add("normal spring", 0);
@@ -38,7 +38,7 @@ void add_law(const ContactLaw &law, std::vector<Effect> &effects)
         break;
       case Family::tangential:
         add(row->effect, 0);
-        if (row->kept.effect) add(row->kept.effect, bytes);
+        if (row->stored.effect) add(row->stored.effect, bytes);
         add_friction(law, damps, effects);
         break;
       default:

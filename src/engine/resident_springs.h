@@ -97,17 +97,17 @@ class ResidentSprings : public SpringsInPlace {
     const int n_extra = traits_.n_extra;
     b_.for_each(n, [=] LSDCD_LAMBDA(std::size_t i) {
       const std::size_t begin = first[i];
-      int kept = 0;
+      int n_left = 0;
       for (int c = 0; c < count[i]; c++) {
         if (!(set[i] >> springs[begin + c].mesh & 1)) continue;
-        if (kept < c) {
-          springs[begin + kept] = springs[begin + c];
+        if (n_left < c) {
+          springs[begin + n_left] = springs[begin + c];
           for (int e = 0; e < n_extra; e++)
-            extra[(begin + kept) * n_extra + e] = extra[(begin + c) * n_extra + e];
+            extra[(begin + n_left) * n_extra + e] = extra[(begin + c) * n_extra + e];
         }
-        kept++;
+        n_left++;
       }
-      if (kept != count[i]) count[i] = kept;
+      if (n_left != count[i]) count[i] = n_left;
     });
   }
 
@@ -209,7 +209,7 @@ class ResidentSprings : public SpringsInPlace {
       for (int c = 0; c < count[i]; c++) {
         const std::size_t source = std::size_t(springs.first[i]) + c;
         const Spring &s = springs.pool[source];
-        buffer[m++] = packed_place(s);
+        buffer[m++] = packed_location(s);
         for (int d = 0; d < 3; d++) buffer[m++] = s.normal[d];
         for (int d = 0; d < 3; d++) buffer[m++] = s.shear[d];
         for (int e = 0; e < n_extra; e++) buffer[m++] = springs.extra[source * n_extra + e];
@@ -247,7 +247,7 @@ class ResidentSprings : public SpringsInPlace {
       for (int c = 0; c < count[i]; c++) {
         const std::size_t target = std::size_t(first[i]) + c;
         Spring s = {};
-        unpack_place(buffer[m++], s);
+        unpack_location(buffer[m++], s);
         for (int d = 0; d < 3; d++) s.normal[d] = buffer[m++];
         for (int d = 0; d < 3; d++) s.shear[d] = buffer[m++];
         springs[target] = s;

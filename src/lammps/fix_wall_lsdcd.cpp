@@ -51,7 +51,7 @@ class Respa {
 // The first stable LAMMPS with fix heat/flow and what it integrates.
 #define HOST_HAS_HEAT (LSDCD_HOST_VERSION >= 20230802)
 
-FixWallLsdcd::FixWallLsdcd(LAMMPS *lmp, int narg, char **arg, const lsdcd::WallPlace &place) :
+FixWallLsdcd::FixWallLsdcd(LAMMPS *lmp, int narg, char **arg, const lsdcd::WallBackend &place) :
     Fix(lmp, narg, arg), OwnMessages(lmp, "Fix", id, "wall/lsdcd")
 {
 #if __has_include("atom_masks.h")
@@ -195,7 +195,7 @@ void FixWallLsdcd::init()
     if (modify->fix[i]->rigid_flag) rigid = true;
     if (std::strncmp(modify->fix[i]->style, "adapt", 5) == 0) adapts = true;
   }
-  if (!rigid) std::vector<double>().swap(mass_seen);
+  if (!rigid) std::vector<double>().swap(damping_mass);
   check_heat();
   run_core([&] {
     for (const int k : wall->inputs_read()) find_variable(spec().inputs[k]);
@@ -412,7 +412,7 @@ lsdcd::HostSpheres FixWallLsdcd::spheres_in_atom()
     s.torque = atom->torque[0];
   }
   s.radius = atom->radius;
-  s.mass = rigid ? mass_seen.data() : atom->rmass;
+  s.mass = rigid ? damping_mass.data() : atom->rmass;
   s.mask = igroup ? atom->mask : nullptr;
   s.type = atom->type;
   s.group_bit = groupbit;
@@ -436,7 +436,7 @@ void FixWallLsdcd::fill_masses()
 {
   need_on_host();
   const int nlocal = atom->nlocal;
-  mass_seen.assign(atom->rmass, atom->rmass + nlocal);
+  damping_mass.assign(atom->rmass, atom->rmass + nlocal);
   for (int k = 0; k < modify->nfix; k++) {
     Fix *fix = modify->fix[k];
     if (!fix->rigid_flag) continue;
@@ -445,7 +445,7 @@ void FixWallLsdcd::fill_masses()
     const double *mass = (const double *) fix->extract("masstotal", dim);
     if (!body || !mass) continue;
     for (int i = 0; i < nlocal; i++)
-      if (body[i] >= 0 && mass[body[i]] > 0.0) mass_seen[i] = mass[body[i]];
+      if (body[i] >= 0 && mass[body[i]] > 0.0) damping_mass[i] = mass[body[i]];
   }
 }
 
@@ -646,7 +646,7 @@ void FixWallLsdcd::fill_contacts()
 
 double FixWallLsdcd::memory_usage()
 {
-  double bytes = wall->bytes() + mass_seen.capacity() * sizeof(double);
+  double bytes = wall->bytes() + damping_mass.capacity() * sizeof(double);
   if (spec().contacts) bytes += (double) atom->nmax * size_peratom_cols * sizeof(double);
   return bytes;
 }

@@ -23,7 +23,7 @@ namespace LAMMPS_NS {
 
 class FixWallLsdcd : public Fix, protected OwnMessages {
  public:
-  FixWallLsdcd(class LAMMPS *, int, char **, const lsdcd::WallPlace & = lsdcd::WallPlace());
+  FixWallLsdcd(class LAMMPS *, int, char **, const lsdcd::WallBackend & = lsdcd::WallBackend());
   ~FixWallLsdcd() override;
 
   // schedule
@@ -81,8 +81,8 @@ class FixWallLsdcd : public Fix, protected OwnMessages {
   int nlevels_respa = 0;        // 0 under verlet
   bigint counted_atoms = -1;    // how many there were when the wall was told of new spheres
   bool adapts = false;          // some fix changes radii: a step begins in post_force
-  bool rigid = false;           // some rigid fix holds atoms: mass_seen replaces rmass
-  std::vector<double> mass_seen;
+  bool rigid = false;           // some rigid fix holds atoms: damping_mass replaces rmass
+  std::vector<double> damping_mass;
   bool callbacks = false;    // registered with Atom
   int room = 0;              // this wall's part of maxexchange
   bool wall_in_minimize_warned = false, doubled_warned = false;
@@ -112,7 +112,7 @@ class FixWallLsdcd : public Fix, protected OwnMessages {
   std::vector<double> read_inputs();
   void fill_contacts();
 
-  bool has_history() { return wall->history().is_kept(); }
+  bool has_history() { return wall->history().is_on(); }
   lsdcd::ContactHistory &history_on_host() { return wall->history().on_host(); }
   int row_size() const { return spec().contacts ? size_peratom_cols : 0; }
   void ask_for_room(int);

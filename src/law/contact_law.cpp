@@ -15,14 +15,14 @@ bool ContactLaw::has_history() const
 {
   if (is(NormalModel::jkr)) return true;
   for (const SubModel *row : rows_of(*this))
-    if (row->kept.what) return true;
+    if (row->stored.what) return true;
   return false;
 }
 
 int ContactLaw::n_extra() const
 {
   int n = 0;
-  for (const SubModel *row : rows_of(*this)) n += row->kept.beside_shear;
+  for (const SubModel *row : rows_of(*this)) n += row->stored.beside_shear;
   return n;
 }
 
@@ -31,8 +31,8 @@ int ContactLaw::history_kind() const
 {
   std::uint32_t hash = 2166136261u;
   for (const SubModel *row : rows_of(*this)) {
-    if (!row->kept.what) continue;
-    for (const char c : row->kept.what + std::string(";"))
+    if (!row->stored.what) continue;
+    for (const char c : row->stored.what + std::string(";"))
       hash = (hash ^ static_cast<unsigned char>(c)) * 16777619u;
   }
   return static_cast<int>(hash >> 1);

@@ -9,7 +9,7 @@
 //   kContactTorque, kHeat     does evaluate() also return a contact torque, a heat flow?
 //   evaluate(contact, memory)
 // and, with kVectors or kScalars, and with kHeat
-//   keeps(k)           is the k-th of these vectors and scalars stored from step to step?
+//   stores(k)           is the k-th of these vectors and scalars stored from step to step?
 //   has_heat()         is there a heat flow?
 // The classic laws, and the most frequent ones of `granular`, have no instruction and no memory for an
 // effect that is off. Effects that few scenes use are together in one law, with a branch for each. It
@@ -89,7 +89,7 @@ struct AddedModel {
   SjkrCohesion<T> cohesion;
   T k_tangent;    // per unit of Base::scale()
 
-  LSDCD_FN bool keeps(int) const { return rolling.keeps_vector(); }
+  LSDCD_FN bool stores(int) const { return rolling.stores_vector(); }
 
   LSDCD_FN FullForce<T> evaluate(const Contact<T> &c, ContactMemory<T, kExtra> &memory) const
   {
@@ -120,7 +120,7 @@ struct GranularModel {
   static constexpr int kExtra = 3 * kVectors + kScalars;
   static constexpr bool kBeyondContact = Normal::kBeyondContact;
   static constexpr bool kContactTorque = kHistory && kFull, kHeat = kFull;
-  static_assert(GranularRolling<T>::kAllKeep, "a law without memory has no contact torque");
+  static_assert(GranularRolling<T>::kAllStore, "a law without memory has no contact torque");
 
   // Places in ContactMemory::extra.
   static constexpr int kRolled = 0, kRadius = 3, kTwist = 4;
@@ -134,9 +134,9 @@ struct GranularModel {
   bool uses_contact_radius;    // does anything, though the normal force may not?
   bool limit_damping;
 
-  LSDCD_FN bool keeps(int k) const
+  LSDCD_FN bool stores(int k) const
   {
-    return k == 0 ? rolling.keeps_vector() : k == 1 ? tangential.rescale : twisting.is_on();
+    return k == 0 ? rolling.stores_vector() : k == 1 ? tangential.rescale : twisting.is_on();
   }
   LSDCD_FN bool has_heat() const { return conduction.is_on(); }
 
@@ -194,7 +194,7 @@ LSDCD_FN int n_extra(const Law &law)
   int n = 0;
   if constexpr (Law::kExtra > 0)
     for (int k = 0; k < Law::kVectors + Law::kScalars; k++)
-      if (law.keeps(k)) n += k < Law::kVectors ? 3 : 1;
+      if (law.stores(k)) n += k < Law::kVectors ? 3 : 1;
   return n;
 }
 

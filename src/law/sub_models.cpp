@@ -99,8 +99,8 @@ constexpr int at(Enum model)
 }
 
 constexpr GoesWith kClassic = GoesWith::classic, kGranular = GoesWith::granular;
-constexpr Kept kNothing = {};
-constexpr Kept kShear = {"shear displacement"}, kShearForce = {"shear force"};
+constexpr Stored kNothing = {};
+constexpr Stored kShear = {"shear displacement"}, kShearForce = {"shear force"};
 
 enum Style { hooke, hooke_history, hertz_history };
 

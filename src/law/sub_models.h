@@ -25,7 +25,7 @@ struct Parameter {
 };
 
 // Numbers that a contact stores from step to step.
-struct Kept {
+struct Stored {
   // Null: nothing. Equal words mean the same numbers in a restart file.
   const char *what = nullptr;
   int beside_shear = 0;            // numbers beside the shear displacement
@@ -53,7 +53,7 @@ struct SubModel {
   // `given`: a number for each parameter, NaN for NULL. Null: the numbers are copied to the Chosen of
   // the family.
   void (*set)(const Real *given, LawDraft &draft);
-  Kept kept;
+  Stored stored;
   const char *effect;    // name in the log; empty: none
   const char *help;      // one line, with the source of the formula
 };

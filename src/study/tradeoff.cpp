@@ -87,7 +87,7 @@ class Measuring {
         if (sample_.n() == 0) make_sample(grid);
         for (Precision precision : {Precision::double_, Precision::mixed, Precision::single_}) {
           if (precision == Precision::mixed) add_brick_records(grid);    // single reads them, too
-          try_choice(grid, {length, nearest, precision});
+          try_options(grid, {length, nearest, precision});
         }
       }
     }
@@ -144,7 +144,7 @@ class Measuring {
       for (int k = 0; k < kGpuFactor; k++) gpu_sample_.add(sample_.x[i], sample_.radius[i]);
   }
 
-  void try_choice(const TriangleGrid &grid, const GridChoice &choice)
+  void try_options(const TriangleGrid &grid, const GridOptions &choice)
   {
     if (is_late()) {
       late_++;
@@ -230,18 +230,18 @@ class Measuring {
 
 }    // namespace
 
-std::string nearest_word(const GridChoice &choice)
+std::string nearest_word(const GridOptions &choice)
 {
   return choice.nearest == 0 ? "all" : std::to_string(choice.nearest);
 }
 
-const char *precision_word(const GridChoice &choice)
+const char *precision_word(const GridOptions &choice)
 {
   const char *const words[] = {"double", "mixed", "single"};
   return words[static_cast<int>(choice.precision)];
 }
 
-std::string words_of(const GridChoice &choice)
+std::string words_of(const GridOptions &choice)
 {
   char length[32];
   std::snprintf(length, sizeof length, "%.4g", choice.length);

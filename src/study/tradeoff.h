@@ -26,14 +26,14 @@ struct TradeoffSettings {
 };
 
 // Values of the keywords `grid`, `nearest` and `precision`.
-struct GridChoice {
+struct GridOptions {
   Real length;    // of a cell
   int nearest;    // 0: complete lists
   Precision precision;
 };
 
 struct TradeoffRow {
-  GridChoice choice;
+  GridOptions choice;
   Corner corner;
   bool on_cuda;
   std::string device;
@@ -66,9 +66,9 @@ Tradeoff measure_tradeoff(const WeldedMesh &mesh, const TradeoffSettings &settin
 void mark_front(std::vector<TradeoffRow> &rows);
 
 // "all" or N; "double", "mixed" or "single"; "grid 0.4 nearest all precision double".
-std::string nearest_word(const GridChoice &choice);
-const char *precision_word(const GridChoice &choice);
-std::string words_of(const GridChoice &choice);
+std::string nearest_word(const GridOptions &choice);
+const char *precision_word(const GridOptions &choice);
+std::string words_of(const GridOptions &choice);
 
 // The fastest row of one device with corner blend, with missed contacts / contacts and the largest error of a
 // force below `bound`, and with all answers certified: otherwise the next sphere may miss a contact. Rows within a

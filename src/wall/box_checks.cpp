@@ -112,7 +112,7 @@ void BoxChecks::check_within_cutoff(const MeshPart &m, const PeriodicBox &box)
                    ", the box " + extents_text(box.bounds({0, 0, 0})) +
                    likely_scale_text(extents(m), box));
   if (!box.any_follows()) throw InputError(what + "; check scale and move");
-  bool &warned = seen_[m.index].out_of_reach_warned;
+  bool &warned = warned_[m.index].out_of_reach_warned;
   if (!warned) host_.warn(what);
   warned = true;
 }
@@ -120,7 +120,7 @@ void BoxChecks::check_within_cutoff(const MeshPart &m, const PeriodicBox &box)
 void BoxChecks::check_ends(const MeshPart &m, bool box_changed)
 {
   const std::string &wrong = m.grid.ends_warning();
-  bool &warned = seen_[m.index].ends_warned;
+  bool &warned = warned_[m.index].ends_warned;
   if (wrong.empty() || warned) return;
   if (settings_.periodic && box_changed)
     throw InputError(named(m, "the box has changed, and " + wrong));
@@ -132,13 +132,13 @@ void BoxChecks::check_ends(const MeshPart &m, bool box_changed)
 void BoxChecks::check_gone(const PeriodicBox &box, Real cutoff, std::int64_t step)
 {
   for (const MeshPart &m : meshes_) {
-    Seen &seen = seen_[m.index];
-    if (!m.moves() || seen.gone_warned) continue;
-    const Box now = placed_bounds(m.motion.pose(), m.bounds(0));
+    Warned &warned_of_mesh = warned_[m.index];
+    if (!m.moves() || warned_of_mesh.gone_warned) continue;
+    const Box now = posed_bounds(m.motion.pose(), m.bounds(0));
     const bool in_box = outside_box(now, box, cutoff).empty();
-    seen.was_in_box |= in_box;
-    if (in_box || !seen.was_in_box) continue;
-    seen.gone_warned = true;
+    warned_of_mesh.was_in_box |= in_box;
+    if (in_box || !warned_of_mesh.was_in_box) continue;
+    warned_of_mesh.gone_warned = true;
     host_.warn(named(m, "the mesh has moved out of the box, where it acts on no atom: in step " +
                             std::to_string(step) + " it spans " + extents_text(now) + ", the box " +
                             extents_text(box.bounds({0, 0, 0})) +
@@ -180,7 +180,7 @@ void BoxChecks::check_turning_out(const MeshPart &m, const PeriodicBox &box)
       64;    // the farthest point is missed by a thousandth of the mesh's radius
   constexpr Real kTolerance = 1e-3;    // of the box: a drum that fits it turns within it
   const Real period = m.spec.motion.longest_period();
-  bool &warned = seen_[m.index].turning_out_warned;
+  bool &warned = warned_[m.index].turning_out_warned;
   if (warned || period <= 0 || m.motion.has_inputs()) return;
   for (int k = 0; k < 3; k++) {
     if (box.periodic[k] || box.follows(k) || (k == 2 && box.dimension == 2)) continue;

@@ -18,7 +18,7 @@ class BoxChecks {
  public:
   // All must outlive it.
   BoxChecks(Host &host, const WallSpec &settings, const std::deque<MeshPart> &meshes) :
-      host_(host), settings_(settings), meshes_(meshes), seen_(settings.meshes.size())
+      host_(host), settings_(settings), meshes_(meshes), warned_(settings.meshes.size())
   {
   }
 
@@ -59,7 +59,7 @@ class BoxChecks {
   void check_turning_out(const MeshPart &m, const PeriodicBox &box);
 
   // Checks that were made of a mesh.
-  struct Seen {
+  struct Warned {
     bool out_of_reach_warned = false, ends_warned = false;
     bool was_in_box = false, gone_warned = false, turning_out_warned = false;
   };
@@ -67,7 +67,7 @@ class BoxChecks {
   Host &host_;
   const WallSpec &settings_;
   const std::deque<MeshPart> &meshes_;
-  std::vector<Seen> seen_;
+  std::vector<Warned> warned_;
 };
 
 }    // namespace lsdcd

@@ -91,7 +91,7 @@ void GridManager::rebuild(Real wanted, std::int64_t step)
   for (const MeshPart *m : anew) checks_.check_outside(*m, box(), wanted);
   for (MeshPart *m : anew) {
     m->grid.progress = progress(*m);
-    m->grid.build(wanted, m->box_seen(box()));
+    m->grid.build(wanted, m->effective_box(box()));
     run_collectively(host_, true, [&] { engine_->set_grid(m->grid.view(), m->index); });
   }
   times_.end(TimeReport::grids);

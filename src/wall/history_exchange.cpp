@@ -13,7 +13,7 @@ namespace lsdcd {
 void HistoryExchange::grow(int room)
 {
   room_ = room;
-  if (is_kept() && !with_engine_) springs_.grow(room);
+  if (is_on() && !with_engine_) springs_.grow(room);
 }
 
 ContactHistory &HistoryExchange::on_host()
@@ -28,7 +28,7 @@ ContactHistory &HistoryExchange::on_host()
 
 void HistoryExchange::to_engine(int n)
 {
-  if (with_engine_ || !is_kept()) return;
+  if (with_engine_ || !is_on()) return;
   engine_->springs_from(springs_, n);
   n_with_engine_ = n;
   with_engine_ = true;
@@ -36,7 +36,7 @@ void HistoryExchange::to_engine(int n)
 
 int HistoryExchange::max_packed_size() const
 {
-  return is_kept() ? 1 + springs_.doubles_per_spring() * kMaxContacts : 0;
+  return is_on() ? 1 + springs_.doubles_per_spring() * kMaxContacts : 0;
 }
 
 int HistoryExchange::pack_restart(int i, double *buffer, const FeatureName &name) const
@@ -45,7 +45,7 @@ int HistoryExchange::pack_restart(int i, double *buffer, const FeatureName &name
   for (int k = 0; k < springs_.count(i); k++) {
     Spring s = springs_.of(i)[k];
     s.feature = name(static_cast<int>(s.mesh), s.feature);
-    buffer[1 + k * springs_.doubles_per_spring()] = packed_place(s);
+    buffer[1 + k * springs_.doubles_per_spring()] = packed_location(s);
   }
   return size;
 }
@@ -55,7 +55,7 @@ void HistoryExchange::unpack_restart(int i, const double *buffer, int size)
 {
   const int count = static_cast<int>(buffer[0]);
   if (count == 0) return;
-  if (!is_kept() || !kind_is_ours_ || size != 1 + count * springs_.doubles_per_spring())
+  if (!is_on() || !kind_is_ours_ || size != 1 + count * springs_.doubles_per_spring())
     other_law_++;
   else
     springs_.unpack(i, buffer);
@@ -65,7 +65,7 @@ void HistoryExchange::check_restored(int n, const std::function<bool(const Sprin
 {
   checked_ = true;
   Real lost[2] = {0, static_cast<Real>(other_law_)};
-  for (int i = 0; is_kept() && i < n; i++)
+  for (int i = 0; is_on() && i < n; i++)
     for (int k = 0; k < springs_.count(i); k++)
       if (!is_there(springs_.of(i)[k])) {
         lost[0]++;
@@ -83,7 +83,7 @@ void HistoryExchange::check_restored(int n, const std::function<bool(const Sprin
 
 void HistoryExchange::rename_features(const FeatureName &name)
 {
-  if (is_kept()) springs_.rename_features(name);
+  if (is_on()) springs_.rename_features(name);
 }
 
 }    // namespace lsdcd

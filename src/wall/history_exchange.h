@@ -25,7 +25,7 @@ class HistoryExchange {
   {
   }
 
-  bool is_kept() const { return law_.has_history(); }
+  bool is_on() const { return law_.has_history(); }
 
   // The engine of the steps from now on. History of another engine must be on the host.
   void set_engine(WallEngine &engine) { engine_ = &engine; }
@@ -63,7 +63,7 @@ class HistoryExchange {
   void check_restored(int n, const std::function<bool(const Spring &)> &is_there);
   bool is_checked() const { return checked_; }
 
-  std::size_t bytes() const { return is_kept() ? springs_.bytes() : 0; }
+  std::size_t bytes() const { return is_on() ? springs_.bytes() : 0; }
 
  private:
   Host &host_;

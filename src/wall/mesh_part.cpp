@@ -39,7 +39,7 @@ bool MeshPart::keeps_edge(const PeriodicBox &box, int k) const
 // Where its motion keeps an edge, that is the edge, and periodic images are what they are for a
 // mesh at rest. Along the others spheres can be anywhere, and nothing repeats: BoxChecks::check_moving()
 // sees to it that nothing acts through them.
-PeriodicBox MeshPart::box_seen(const PeriodicBox &real) const
+PeriodicBox MeshPart::effective_box(const PeriodicBox &real) const
 {
   PeriodicBox box = real;
   if (!spec.motion.any()) return box;

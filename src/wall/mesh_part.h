@@ -40,7 +40,7 @@ struct MeshPart {
   void find_range(const PeriodicBox &box, int k, const Pose &at, Real &lo, Real &hi) const;
   // Does it look the same from each of its images across the faces that edge k joins?
   bool keeps_edge(const PeriodicBox &box, int k) const;
-  PeriodicBox box_seen(const PeriodicBox &box) const;    // from its own frame
+  PeriodicBox effective_box(const PeriodicBox &box) const;    // from its own frame
 
  private:
   Host &host_;

@@ -37,7 +37,7 @@ void SearchReport::end_run(bool brief, const std::string &advice)
   host_.sum(sum, 3);
   if (steps_ + setups_ > 0 && !brief) {
     std::string t = counted(steps_, "step") + (setups_ > 0 ? " and the setup" : "") +
-                    ": atoms near the wall chosen " + counted(choices_, "time") + advice;
+                    ": atoms near the wall chosen " + counted(updates_, "time") + advice;
     if (sum[0] > 0) {
       char features[32];
       std::snprintf(features, sizeof features, "%.2f", sum[1] / sum[0]);
@@ -48,7 +48,7 @@ void SearchReport::end_run(bool brief, const std::string &advice)
       t += ", a grid cell searched instead " + counted(static_cast<std::int64_t>(sum[2]), "time");
     host_.log(t);
   }
-  steps_ = setups_ = choices_ = lists_ = listed_ = cell_searches_ = 0;
+  steps_ = setups_ = updates_ = lists_ = listed_ = cell_searches_ = 0;
 }
 
 void SearchReport::log_uncertified(int nearest, bool brief)

@@ -17,7 +17,7 @@ class SearchReport {
   explicit SearchReport(Host &host) : host_(host) {}
 
   void count_step(bool is_setup) { (is_setup ? setups_ : steps_)++; }
-  void count_choice() { choices_++; }
+  void count_update() { updates_++; }
   // Adds what the engine has counted since the last call.
   void add(const StepDiagnostics &seen);
 
@@ -32,7 +32,7 @@ class SearchReport {
 
  private:
   Host &host_;
-  std::int64_t steps_ = 0, setups_ = 0, choices_ = 0;          // of this run, on all processes
+  std::int64_t steps_ = 0, setups_ = 0, updates_ = 0;          // of this run, on all processes
   std::int64_t lists_ = 0, listed_ = 0, cell_searches_ = 0;    // of this run, on this process
   // On this process: answers that were not certified, and overlap / radius of the deepest contact that
   // they may have missed.

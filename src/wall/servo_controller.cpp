@@ -19,7 +19,7 @@ Real ServoController::stable_gain(const ServoLoad &load, const Pose &placed, Rea
   Real arm = 1;
   if (s.turns) {
     const Vec3 past = {load.radius, load.radius, load.radius};
-    const Box bounds = placed_bounds(placed, {extents_.lo - past, extents_.hi + past});
+    const Box bounds = posed_bounds(placed, {extents_.lo - past, extents_.hi + past});
     arm = 0;
     for_corners(bounds, [&](const Vec3 &corner) {
       arm = std::max(arm, norm(cross(s.axis, corner - s.point)));
@@ -40,16 +40,16 @@ void ServoController::advance(const ServoLoad &load, const Pose &placed, Real dt
 {
   Servo &s = servo();
   const Real pushes = push(load), gain = stable_gain(load, placed, dt);
-  if (gain < s.max_gain && std::isfinite(s.max_gain) && load.contacts > 0 && !gain_told_) {
-    gain_told_ = true;
+  if (gain < s.max_gain && std::isfinite(s.max_gain) && load.contacts > 0 && !gain_logged_) {
+    gain_logged_ = true;
     host_.warn(with_mesh_name(
         wall_, mesh_,
         "a servo's gain of " + number_text(s.max_gain) + " would not be stable with " +
             number_text(load.contacts) + " contacts at the timestep " + number_text(dt) + ": " +
             number_text(gain) + " is used in its place, and less with more of them; shown once"));
   }
-  if (!s.advance(pushes, gain, dt) || limit_told_) return;
-  limit_told_ = true;
+  if (!s.advance(pushes, gain, dt) || limit_warned_) return;
+  limit_warned_ = true;
   host_.log(with_mesh_name(wall_, mesh_,
                            "the servo is at its limit " + number_text(s.position) + " at step " +
                                std::to_string(step) + ", where it pushes with " +

@@ -41,7 +41,7 @@ class ServoController {
   void advance(const ServoLoad &load, const Pose &placed, Real dt, std::int64_t step);
 
   // The log has all lines again of another servo.
-  void begin_anew() { gain_told_ = limit_told_ = false; }
+  void begin_anew() { gain_logged_ = limit_warned_ = false; }
 
  private:
   Servo &servo() const { return wall_.meshes[mesh_].motion.servo(); }
@@ -52,7 +52,7 @@ class ServoController {
   const LawTable &laws_;
   int mesh_;
   Box extents_;
-  bool gain_told_ = false, limit_told_ = false;
+  bool gain_logged_ = false, limit_warned_ = false;
 };
 
 }    // namespace lsdcd

@@ -45,10 +45,10 @@ Real number_of(std::uint64_t fingerprint)
 
 }    // namespace
 
-Wall::Wall(Host &host, WallSpec spec, const WallUnits &units, WallPlace place,
+Wall::Wall(Host &host, WallSpec spec, const WallUnits &units, WallBackend backend,
            const std::string &material, const StepClock &clock, const HostSpheres &there) :
     host_(host),
-    spec_(in_units(std::move(spec), units)), laws_(law_table(spec_)), place_(std::move(place)),
+    spec_(in_units(std::move(spec), units)), laws_(law_table(spec_)), backend_(std::move(backend)),
     clock_(clock), history_(host, spec_), totals_(host, spec_), loads_(host, spec_),
     files_(host, spec_, units.pressure), overlaps_(host), search_(host), times_(host),
     timestep_(host, laws_, units.velocity), box_checks_(host, spec_, meshes_),
@@ -62,7 +62,7 @@ Wall::Wall(Host &host, WallSpec spec, const WallUnits &units, WallPlace place,
     check_motion(host_, spec_, m);
   }
   make_engine();
-  log_creation(material, place_);
+  log_creation(material, backend_);
 
   // Without spheres there is no telling how far outside is too far.
   Real radius = 0;
@@ -141,7 +141,7 @@ void Wall::make_engine()
   const EngineSettings want = engine_settings();
   engine_moves_ = want.moves;
   engine_records_ = want.records;
-  run_collectively(host_, true, [&] { engine_ = place_.make_engine(want); });
+  run_collectively(host_, true, [&] { engine_ = backend_.make_engine(want); });
   history_.set_engine(*engine_);
   grids_.set_engine(*engine_);
 }
@@ -154,11 +154,12 @@ void Wall::make_engine_anew()
   schedule_.expire();
 }
 
-void Wall::log_creation(const std::string &material, const WallPlace &place) const
+void Wall::log_creation(const std::string &material, const WallBackend &backend) const
 {
   if (!host_.is_first()) return;
   std::string device = engine_->backend(), why;
-  if (!spec_.brief && !place.in_place && spec_.device == Device::automatic && !cuda_available(&why))
+  if (!spec_.brief && !backend.in_place && spec_.device == Device::automatic &&
+      !cuda_available(&why))
     device += " (no CUDA: " + why + ")";
   host_.log(creation_text(spec_, meshes_, engine_settings(), material, device));
 }
@@ -211,7 +212,7 @@ void Wall::begin(const HostSpheres &spheres, const StepInput &input)
     look_at_servo_spheres(spheres);
   }
   if (cutoff() == 0) return;
-  if (place_.in_place && history_.is_kept()) in_place().springs().grow(history_.room());
+  if (backend_.in_place && history_.is_on()) in_place().springs().grow(history_.room());
   engine_->begin();
 }
 
@@ -220,10 +221,10 @@ void Wall::begin(const HostSpheres &spheres, const StepInput &input)
 void Wall::begin_snapshot(int n, const Step &step)
 {
   for (const MeshPart &m : meshes_) m.motion.check_snapshot(step);
-  for (int i = 0; history_.is_kept() && i < n; i++) history_.on_host().clear(i);
-  if (snapshot_told_) return;
-  snapshot_told_ = true;
-  if (history_.is_kept())
+  for (int i = 0; history_.is_on() && i < n; i++) history_.on_host().clear(i);
+  if (snapshot_warned_) return;
+  snapshot_warned_ = true;
+  if (history_.is_on())
     host_.warn(
         "a rerun does not know the springs of contacts, which no dump has: friction, rolling, "
         "twisting and adhesion past touch begin at 0 in each snapshot");
@@ -340,12 +341,12 @@ void Wall::choose_if_due(const Spheres &spheres)
   std::vector<MovingMesh> moving;
   for (const MeshPart &m : meshes_)
     if (m.moves()) moving.push_back({m.motion.pose(), m.bounds(cutoff())});
-  const Choice choice =
+  const CandidateUpdate choice =
       schedule_.next(input_.drift, moving, [&] { return engine_->has_moved(spheres); });
   if (!choice.is_due) return;
   engine_->choose(spheres, choice.margin, choice.watch);
-  schedule_.note_choice(moving);
-  search_.count_choice();
+  schedule_.note_update(moving);
+  search_.count_update();
 }
 
 void Wall::launch(const HostSpheres &spheres, LaunchMode mode)
@@ -469,7 +470,7 @@ void Wall::for_contact_rows(const std::function<void(int, const Real *)> &row) c
 void Wall::write_due_files()
 {
   times_.begin();
-  std::vector<PlacedMesh> meshes;
+  std::vector<PosedMesh> meshes;
   for (const MeshPart &m : meshes_) meshes.push_back({m.grid.mesh(), m.motion.pose()});
   const bool has_loads = input_.step.kind != Step::snapshot;
   files_.write_due(input_.step.number, static_cast<double>(clock_.now()), meshes,

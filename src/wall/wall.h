@@ -5,7 +5,7 @@
 // its force and torque.
 #pragma once
 
-#include "wall/choice_schedule.h"
+#include "wall/candidate_schedule.h"
 #include "wall/grid_manager.h"
 #include "wall/host_spheres.h"
 #include "wall/load_recorder.h"
@@ -26,7 +26,7 @@
 namespace lsdcd {
 
 // Where a wall computes.
-struct WallPlace {
+struct WallBackend {
   // Makes its engine. Throws InputError where there is none for these settings.
   std::function<std::unique_ptr<WallEngine>(const EngineSettings &)> make_engine =
       lsdcd::make_engine;
@@ -63,7 +63,7 @@ class Wall {
   // Reads the meshes, makes the engine, and logs what there is. `material`: what a material file filled in,
   // for the log. `clock`: the time of the host. `there`: the spheres that there are, in memory of the CPU. The host
   // must outlive the wall. Throws InputError where the spec makes no sense.
-  Wall(Host &host, WallSpec spec, const WallUnits &units, WallPlace place,
+  Wall(Host &host, WallSpec spec, const WallUnits &units, WallBackend backend,
        const std::string &material, const StepClock &clock, const HostSpheres &there = {});
 
   // Not together:
@@ -75,7 +75,7 @@ class Wall {
   std::vector<int> inputs_read() const;
   Real cutoff() const { return grids_.cutoff(); }    // length; 0: there were no spheres yet
   HistoryExchange &history() { return history_; }
-  InPlaceEngine &in_place();    // where the place is one
+  InPlaceEngine &in_place();    // where the backend makes one
   std::size_t bytes() const;    // of this process
 
   // Before each run. `virial`: add_virial() may be called in it.
@@ -147,11 +147,11 @@ class Wall {
   EngineSettings engine_settings() const;
   void make_engine();
   void make_engine_anew();
-  void log_creation(const std::string &material, const WallPlace &place) const;
+  void log_creation(const std::string &material, const WallBackend &backend) const;
   std::string named(const MeshPart &m, const std::string &text) const;
   SpheresOnCpu on_cpu(const HostSpheres &spheres) const
   {
-    return SpheresOnCpu(spheres, place_.to_cpu);
+    return SpheresOnCpu(spheres, backend_.to_cpu);
   }
   template <class Work>
   void on_this_process(const HostSpheres &spheres, Work &&work);
@@ -178,7 +178,7 @@ class Wall {
   Host &host_;
   WallSpec spec_;    // motions change later
   LawTable laws_;    // of the spec
-  WallPlace place_;
+  WallBackend backend_;
   // The time of the spheres; the host's time begins anew in some runs from a restart file.
   StepClock clock_;
   std::deque<MeshPart> meshes_;    // where each stays; there is one at least
@@ -196,11 +196,11 @@ class Wall {
   TimestepCheck timestep_;
   BoxChecks box_checks_;
   GridManager grids_;
-  ChoiceSchedule schedule_;
+  CandidateSchedule schedule_;
 
   StepInput input_;           // of the last begin()
   bool continued_ = false;    // from a restart file
-  bool points_warned_ = false, snapshot_told_ = false;
+  bool points_warned_ = false, snapshot_warned_ = false;
   Real servo_radius_ = 0, servo_mass_ = 0;    // the largest, for gains of servos
   // The surface motion of each mesh, for the engine in this step.
   std::vector<SurfaceMotion> surfaces_;

@@ -63,7 +63,7 @@ bool WallFiles::try_to_write(const std::string &lost, const std::function<void()
   }
 }
 
-void WallFiles::write_fields(int mesh, std::int64_t step, double time, const PlacedMesh &now,
+void WallFiles::write_fields(int mesh, std::int64_t step, double time, const PosedMesh &now,
                              LoadRecorder &loads)
 {
   const std::string name = settings_.meshes[mesh].fields.name, file = file_of_step(name, step);
@@ -91,7 +91,7 @@ void WallFiles::write_fields(int mesh, std::int64_t step, double time, const Pla
   try_to_write("the list of mesh_fields lacks this step until it can be written", list);
 }
 
-void WallFiles::write_due(std::int64_t step, double time, const std::vector<PlacedMesh> &meshes,
+void WallFiles::write_due(std::int64_t step, double time, const std::vector<PosedMesh> &meshes,
                           LoadRecorder *loads)
 {
   const auto is_due = [step](const FileEvery &file) {

@@ -16,7 +16,7 @@
 namespace lsdcd {
 
 // A mesh where it is in this step.
-struct PlacedMesh {
+struct PosedMesh {
   const WeldedMesh *mesh;    // of the first process; elsewhere it may be null
   Pose pose;
 };
@@ -42,13 +42,13 @@ class WallFiles {
   // Writes what is due in this step, at `time`. `loads`: null where they are not known, and there are
   // no mesh_fields then. An average that is written begins anew; one that could not be written goes on
   // to the next file. Collective.
-  void write_due(std::int64_t step, double time, const std::vector<PlacedMesh> &meshes,
+  void write_due(std::int64_t step, double time, const std::vector<PosedMesh> &meshes,
                  LoadRecorder *loads);
 
  private:
   void check(int mesh, const char *keyword, const FileEvery &file, std::int64_t step);
   bool try_to_write(const std::string &lost, const std::function<void()> &write);
-  void write_fields(int mesh, std::int64_t step, double time, const PlacedMesh &now,
+  void write_fields(int mesh, std::int64_t step, double time, const PosedMesh &now,
                     LoadRecorder &loads);
 
   Host &host_;

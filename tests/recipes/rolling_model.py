@@ -17,7 +17,7 @@ FORMULA = """\
 template <class T>
 struct PlasticRolling {
   static constexpr RollingModel kModel = RollingModel::plastic;
-  static constexpr bool kKeepsVector = true;
+  static constexpr bool kStoresVector = true;
 
   template <class Memory>
   LSDCD_FN static Vec3Of<T> contact_torque(const T *n, const RollingInput<T> &in, Memory &m, int at)

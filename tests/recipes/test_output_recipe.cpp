@@ -75,7 +75,7 @@ TEST(recipe_output, is_written_in_its_steps_where_the_mesh_is)
   on_processes(1, [&](FakeHost &host) {
     WallFiles files(host, settings, 1);
     EXPECT_EQ(files.every(), 2);
-    PlacedMesh placed = {&mesh, {}};
+    PosedMesh placed = {&mesh, {}};
     placed.pose.placed = true;
     placed.pose.shift = {0, 0, 8};
     for (int step = 1; step <= 3; step++) files.write_due(step, step, {placed}, nullptr);

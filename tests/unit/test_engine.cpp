@@ -249,11 +249,11 @@ class Particles {
 
   // One step of all spheres along their velocities, then the wall's forces on those near
   // it, or on those of an older choice.
-  enum class Choice { older, now };
-  void step(Real dt, Choice choice = Choice::older)
+  enum class Candidates { older, now };
+  void step(Real dt, Candidates choice = Candidates::older)
   {
     host.move(dt);
-    if (choice == Choice::now) engine->choose(spheres(), 0);
+    if (choice == Candidates::now) engine->choose(spheres(), 0);
     StepSettings step;
     step.dt = dt;
     engine->step(spheres(), step);
@@ -337,7 +337,7 @@ TEST(engine, a_list_that_is_kept_gives_the_same_bits)
   bool differs = false;
   for (int k = 0; k < 20; k++) {
     kept.step(0.01);
-    anew.step(0.01, Particles::Choice::now);
+    anew.step(0.01, Particles::Candidates::now);
     differs = differs || !same_bytes(kept.force(), anew.force());
   }
   EXPECT_FALSE(differs);
@@ -430,7 +430,7 @@ TEST(engine, a_choice_holds_until_a_sphere_that_has_gone_far_is_at_the_wall)
     if (moved) kept.engine->choose(kept.spheres(), 0.05, true);
     (moved ? chosen : held)++;
     kept.step(0);
-    anew.step(0, Particles::Choice::now);
+    anew.step(0, Particles::Candidates::now);
     same += same_bytes(kept.force(), anew.force());
   }
   EXPECT_EQ(same, n_steps);
@@ -442,7 +442,7 @@ TEST(engine, springs_follow_through_pack_and_unpack)
   const int n = 2000, stay = 1500;
   Particles from(with_history(), n, 0.5), to(with_history(), n, 0.5);
   for (int k = 0; k < 5; k++) {
-    from.step(0.01, Particles::Choice::now);
+    from.step(0.01, Particles::Candidates::now);
   }
   const ContactHistory before = from.springs();
   // The last 500 fill the places of every third of the first 1500, which leave.
@@ -480,7 +480,7 @@ TEST(engine, springs_follow_through_pack_and_unpack)
   both.insert(both.end(), behind.begin(), behind.end());
   DeviceArray<double> d_both(cuda);
   d_both.put(both);
-  to.step(0.01, Particles::Choice::now);
+  to.step(0.01, Particles::Candidates::now);
   const ContactHistory own = to.springs();
   to.engine->springs().unpack(2 * moved, d_back.put(places), d_both.data(), moved, size);
   const ContactHistory after = to.springs();
@@ -551,7 +551,7 @@ TEST(engine, springs_that_are_taken_over_are_all_that_there_are)
 {
   const int n = 2000, few = 10;
   Particles p(with_history(), n, 0.5);
-  for (int k = 0; k < 5; k++) p.step(0.01, Particles::Choice::now);
+  for (int k = 0; k < 5; k++) p.step(0.01, Particles::Candidates::now);
   const ContactHistory before = p.springs();
   ContactHistory store;
   store.grow(few);
@@ -572,13 +572,13 @@ TEST(engine, a_sphere_that_was_far_has_no_spring_of_before)
   p.host.x = {0.3, 0.1, 0.45};
   p.host.v = {1, 0, 0};
   p.host.radius = {0.5};
-  for (int k = 0; k < 3; k++) p.step(0.01, Particles::Choice::now);
+  for (int k = 0; k < 3; k++) p.step(0.01, Particles::Candidates::now);
   const Real three = p.springs().of(0)->shear.x;
   p.host.x[2] += 10;
-  p.step(0.01, Particles::Choice::now);
+  p.step(0.01, Particles::Candidates::now);
   EXPECT_EQ(p.springs().count(0), 0);
   p.host.x[2] -= 10;
-  p.step(0.01, Particles::Choice::now);
+  p.step(0.01, Particles::Candidates::now);
   ASSERT_EQ(p.springs().count(0), 1);
   EXPECT_NEAR(p.springs().of(0)->shear.x, three / 3, 1e-15);
 }

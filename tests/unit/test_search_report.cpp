@@ -30,7 +30,7 @@ std::vector<std::string> logged_runs(const std::vector<int> &steps, const StepDi
     for (int n : steps) {
       report.count_step(true);
       for (int i = 0; i < n; i++) report.count_step(false);
-      report.count_choice();
+      report.count_update();
       for (int i = 0; i <= host.rank(); i++) report.add(seen);
       report.end_run(brief, " (advice)");
     }

@@ -101,7 +101,7 @@ struct Scene {
     for (int k = 0; k < 3; k++) host.simulation.edge[k] = {0, 0, 0};
     for (int k = 0; k < 3; k++) host.simulation.edge[k][k] = 100;
     host.simulation.margin = 0.1;
-    wall = std::make_unique<Wall>(host, settings, WallUnits(), WallPlace(), "",
+    wall = std::make_unique<Wall>(host, settings, WallUnits(), WallBackend(), "",
                                   StepClock{0, 0, 0, kDt});
   }
 

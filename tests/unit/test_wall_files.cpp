@@ -31,7 +31,7 @@ struct Process {
   FakeHost &host;
   LoadRecorder loads;
   WallFiles files;
-  std::vector<PlacedMesh> placed;
+  std::vector<PosedMesh> placed;
   bool rerun = false;
 
   Process(FakeHost &host_, const Wall &wall) :

@@ -107,7 +107,7 @@ TEST(wall_spec, a_wall_is_not_made_of_what_is_refused)
 {
   on_processes(1, [](FakeHost &host) {
     const WallSpec none;
-    EXPECT_THROW(Wall(host, none, WallUnits(), WallPlace(), "", StepClock()), InputError);
+    EXPECT_THROW(Wall(host, none, WallUnits(), WallBackend(), "", StepClock()), InputError);
   });
 }
 

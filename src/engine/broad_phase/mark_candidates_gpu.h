@@ -23,7 +23,7 @@ constexpr unsigned kMarkWarps = 20, kMarkBlocks = 2;
 // A warp's tile.
 struct alignas(16) MarkTile {
   double centre[kMarkTile][3];
-  unsigned kept[kMarkWords];          // a bit for each sphere
+  unsigned passes[kMarkWords];        // a bit for each sphere
   std::uint8_t waiting[kMarkTile];    // spheres that pass the coarse test
 };
 
@@ -92,7 +92,7 @@ struct MarkCandidates {
 #pragma unroll
       for (unsigned k = 0; k < kEach; k++)
         item[k] = work.read(first + min(rank + k * kWarpSize, last));
-      if (rank < kMarkWords) mine.kept[rank] = 0;
+      if (rank < kMarkWords) mine.passes[rank] = 0;
       turn = warp.take_room(&turns, 1);
 #pragma unroll
       for (unsigned k = 0; k < kEach; k++) odd = odd || work.may_be_large(item[k]);
@@ -116,15 +116,15 @@ struct MarkCandidates {
       for (unsigned turn_first = 0; turn_first < waiting; turn_first += kWarpSize) {
         const unsigned w = turn_first + rank, i = mine.waiting[min(w, waiting - 1)];
         const std::uint32_t cell = w < waiting ? work.locate(centre_of(i), table) : Work::kNotFound;
-        const bool kept = cell != Work::kNotFound;
-        if (kept) set_bits(&mine.kept[i / 32], 1u << i % 32);
-        if (list.items) list.put(kept, {first + i, cell});
+        const bool passes = cell != Work::kNotFound;
+        if (passes) set_bits(&mine.passes[i / 32], 1u << i % 32);
+        if (list.items) list.put(passes, {first + i, cell});
       }
       warp.wait();
       if (work.has_notes())
         for (unsigned i = rank; i <= last; i += kWarpSize)
-          work.note(first + i, mine.kept[i / 32] >> rank & 1u);
-      if (rank < kMarkWords) words[tile * kMarkWords + rank] = list.items ? 0 : mine.kept[rank];
+          work.note(first + i, mine.passes[i / 32] >> rank & 1u);
+      if (rank < kMarkWords) words[tile * kMarkWords + rank] = list.items ? 0 : mine.passes[rank];
       warp.wait();
     }
   }

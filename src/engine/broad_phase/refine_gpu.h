@@ -70,9 +70,9 @@ struct Refine {
     const bool mine = list.has(k);
     if (!warp.vote(mine)) return;
     const CandidateLists::Item item = mine ? list.items[k] : CandidateLists::Item();
-    const bool kept = work.refine(warp, mine, item.sphere, item.cell);
+    const bool passes = work.refine(warp, mine, item.sphere, item.cell);
     if (!mine) return;
-    if (kept)
+    if (passes)
       set_bits(words + item.sphere / 32, 1u << item.sphere % 32);
     else if (work.has_notes())
       work.note(item.sphere, false);

@@ -39,19 +39,19 @@ class Selection<B, true> {
         const Vec3 x = work.centres()[i];
         const auto item = work.read(i);
         work.check(i, item);
-        const bool kept =
+        const bool passes =
             work.coarse_test(item, x, work.table) && work.locate(x, work.table) != Work::kNotFound;
-        if (work.has_notes()) work.note(i, kept);
-        if (kept) to[lo + count++] = static_cast<int>(i);
+        if (work.has_notes()) work.note(i, passes);
+        if (passes) to[lo + count++] = static_cast<int>(i);
       }
       found[b] = work.has_refine() ? refine(work, to + lo, count) : count;
     }
-    std::uint32_t n_kept = 0;
+    std::uint32_t n_passed = 0;
     for (std::int64_t b = 0; b < n_blocks; b++) {
-      std::copy(to + b * kBlock, to + b * kBlock + found[b], to + n_kept);
-      n_kept += found[b];
+      std::copy(to + b * kBlock, to + b * kBlock + found[b], to + n_passed);
+      n_passed += found[b];
     }
-    *total = n_kept;
+    *total = n_passed;
   }
 
  private:
@@ -61,16 +61,16 @@ class Selection<B, true> {
   static int refine(const Work &work, int *spheres, int n)
   {
     constexpr int kAhead = 4;
-    int n_kept = 0;
+    int n_passed = 0;
     for (int k = 0; k < n; k++) {
       if (k + kAhead < n) work.prefetch(work.centres()[spheres[k + kAhead]]);
       const int i = spheres[k];
       if (work.refine(Warp<1>(), true, i, Work::kNotKnown))
-        spheres[n_kept++] = i;
+        spheres[n_passed++] = i;
       else if (work.has_notes())
         work.note(i, false);
     }
-    return n_kept;
+    return n_passed;
   }
 };
 

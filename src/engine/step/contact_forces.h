@@ -102,12 +102,12 @@ LSDCD_FN auto begin_memory(const Law &law, const MeshFeaturesView &wall,
     if constexpr (Law::kExtra > 0) {
       const Real *old = s.extra + in.from * n_extra(law);
       for (int k = 0; k < Law::kVectors; k++)
-        if (law.keeps(k)) {
+        if (law.stores(k)) {
           memory.put(3 * k, turned(in_own_frame(s.springs, in.from, {old[0], old[1], old[2]})));
           old += 3;
         }
       for (int k = 0; k < Law::kScalars; k++)
-        if (law.keeps(Law::kVectors + k))
+        if (law.stores(Law::kVectors + k))
           memory.extra[3 * Law::kVectors + k] = static_cast<T>(in.part * *old++);
     }
   }
@@ -119,10 +119,10 @@ template <class Law, class Memory>
 LSDCD_FN void store_extra(const Law &law, const Memory &memory, Real *to)
 {
   for (int k = 0; k < Law::kVectors; k++)
-    if (law.keeps(k))
+    if (law.stores(k))
       for (int j = 0; j < 3; j++) *to++ = memory.extra[3 * k + j];
   for (int k = 0; k < Law::kScalars; k++)
-    if (law.keeps(Law::kVectors + k)) *to++ = memory.extra[3 * Law::kVectors + k];
+    if (law.stores(Law::kVectors + k)) *to++ = memory.extra[3 * Law::kVectors + k];
 }
 
 // Evaluates the law for each contact and adds its force, torque and energy to `out`. Numbers are of type

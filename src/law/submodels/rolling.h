@@ -5,7 +5,7 @@
 //
 // A model is a struct with
 //   kModel                           its value of RollingModel
-//   kKeepsVector                     does a contact store a vector of the tangent plane for it?
+//   kStoresVector                     does a contact store a vector of the tangent plane for it?
 //   contact_torque(n, in, m, at)     torque on the sphere
 //   energy(n, in, m, at)             what is held
 // where n are its numbers in the order of its row (sub_models.cpp), m is the contact's memory, and `at` the
@@ -34,7 +34,7 @@ struct RollingInput {
 template <class T>
 struct SdsRolling {
   static constexpr RollingModel kModel = RollingModel::sds;
-  static constexpr bool kKeepsVector = true;
+  static constexpr bool kStoresVector = true;
 
   template <class Memory>
   LSDCD_FN static Vec3Of<T> contact_torque(const T *n, const RollingInput<T> &in, Memory &m, int at)
@@ -79,7 +79,7 @@ LSDCD_FN Vec3Of<T> rolling_part(const Vec3Of<T> &omega, const Vec3Of<T> &normal)
 template <class T>
 struct CdtRolling {
   static constexpr RollingModel kModel = RollingModel::cdt;
-  static constexpr bool kKeepsVector = false;
+  static constexpr bool kStoresVector = false;
 
   template <class Memory>
   LSDCD_FN static Vec3Of<T> contact_torque(const T *n, const RollingInput<T> &in, Memory &, int)
@@ -103,7 +103,7 @@ struct CdtRolling {
 template <class T>
 struct Epsd2Rolling {
   static constexpr RollingModel kModel = RollingModel::epsd2;
-  static constexpr bool kKeepsVector = true;
+  static constexpr bool kStoresVector = true;
 
   template <class Memory>
   LSDCD_FN static Vec3Of<T> contact_torque(const T *n, const RollingInput<T> &in, Memory &m, int at)
@@ -133,14 +133,14 @@ struct Epsd2Rolling {
 // The models of one kernel. All contacts of a wall have the same one.
 template <class T, template <class> class... Models>
 struct Rolling {
-  static constexpr bool kAllKeep = (Models<T>::kKeepsVector && ...);
+  static constexpr bool kAllStore = (Models<T>::kStoresVector && ...);
   RollingModel model;
   T numbers[3];
 
   LSDCD_FN bool is_on() const { return ((model == Models<T>::kModel) || ...); }
-  LSDCD_FN bool keeps_vector() const
+  LSDCD_FN bool stores_vector() const
   {
-    return ((model == Models<T>::kModel && Models<T>::kKeepsVector) || ...);
+    return ((model == Models<T>::kModel && Models<T>::kStoresVector) || ...);
   }
   // Adds to the contact torque and to the energy; nothing if no model is on.
   template <class Memory>
@@ -156,7 +156,7 @@ struct Rolling {
                        T &energy) const
   {
     // A kernel without memory is for models without history.
-    if constexpr (Memory::kSize > 0 || !Model::kKeepsVector)
+    if constexpr (Memory::kSize > 0 || !Model::kStoresVector)
       if (model == Model::kModel) {
         torque += Model::contact_torque(numbers, in, m, at);
         energy += Model::energy(numbers, in, m, at);

@@ -2,13 +2,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // When near spheres are chosen anew: whatever moves, none comes to the wall unseen.
-#include "wall/choice_schedule.h"
+#include "wall/candidate_schedule.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-namespace lsdcd::test_choice_schedule {
+namespace lsdcd::test_candidate_schedule {
 namespace {
 
 constexpr Real kDistance = 0.25;
@@ -41,10 +41,10 @@ MovingMesh turned_by(Real angle)
 }
 
 // The next step after a choice with these meshes.
-ChoiceSchedule after_choice(const std::vector<MovingMesh> &moving = {})
+CandidateSchedule after_choice(const std::vector<MovingMesh> &moving = {})
 {
-  ChoiceSchedule schedule;
-  schedule.note_choice(moving);
+  CandidateSchedule schedule;
+  schedule.note_update(moving);
   return schedule;
 }
 
@@ -54,94 +54,95 @@ bool never_asked()
   return false;
 }
 
-TEST(ChoiceSchedule, first_step_is_due)
+TEST(CandidateSchedule, first_step_is_due)
 {
-  EXPECT_TRUE(ChoiceSchedule().next(drift(SphereDrift::bounded), {}, never_asked).is_due);
+  EXPECT_TRUE(CandidateSchedule().next(drift(SphereDrift::bounded), {}, never_asked).is_due);
 }
 
-TEST(ChoiceSchedule, choice_holds_until_it_expires)
+TEST(CandidateSchedule, choice_holds_until_it_expires)
 {
-  ChoiceSchedule schedule = after_choice();
+  CandidateSchedule schedule = after_choice();
   EXPECT_FALSE(schedule.next(drift(SphereDrift::bounded), {}, never_asked).is_due);
   schedule.expire();
   EXPECT_TRUE(schedule.next(drift(SphereDrift::bounded), {}, never_asked).is_due);
 }
 
-TEST(ChoiceSchedule, margin_is_how_far_spheres_go)
+TEST(CandidateSchedule, margin_is_how_far_spheres_go)
 {
-  const Choice choice = ChoiceSchedule().next(drift(SphereDrift::bounded), {}, never_asked);
+  const CandidateUpdate choice =
+      CandidateSchedule().next(drift(SphereDrift::bounded), {}, never_asked);
   EXPECT_EQ(choice.margin, kDistance);
   EXPECT_FALSE(choice.watch);
 }
 
-TEST(ChoiceSchedule, margin_is_twice_as_much_once_spheres_have_moved)
+TEST(CandidateSchedule, margin_is_twice_as_much_once_spheres_have_moved)
 {
-  EXPECT_EQ(ChoiceSchedule().next(drift(SphereDrift::bounded, true), {}, never_asked).margin,
+  EXPECT_EQ(CandidateSchedule().next(drift(SphereDrift::bounded, true), {}, never_asked).margin,
             2 * kDistance);
 }
 
-TEST(ChoiceSchedule, wall_that_moves_has_a_margin_of_its_own)
+TEST(CandidateSchedule, wall_that_moves_has_a_margin_of_its_own)
 {
   const std::vector<MovingMesh> wall = {moved_by({0, 0, 0})};
-  EXPECT_EQ(ChoiceSchedule().next(drift(SphereDrift::bounded, true), wall, never_asked).margin,
+  EXPECT_EQ(CandidateSchedule().next(drift(SphereDrift::bounded, true), wall, never_asked).margin,
             3 * kDistance);
 }
 
-TEST(ChoiceSchedule, is_due_once_the_wall_has_gone_its_margin)
+TEST(CandidateSchedule, is_due_once_the_wall_has_gone_its_margin)
 {
-  const ChoiceSchedule schedule = after_choice({moved_by({5, 0, 0})});
+  const CandidateSchedule schedule = after_choice({moved_by({5, 0, 0})});
   const SphereDrift bounded = drift(SphereDrift::bounded);
   EXPECT_FALSE(schedule.next(bounded, {moved_by({5, 0, 0.249})}, never_asked).is_due);
   EXPECT_TRUE(schedule.next(bounded, {moved_by({5, 0, 0.251})}, never_asked).is_due);
 }
 
-TEST(ChoiceSchedule, is_due_once_any_of_several_meshes_has_gone)
+TEST(CandidateSchedule, is_due_once_any_of_several_meshes_has_gone)
 {
-  const ChoiceSchedule schedule = after_choice({moved_by({0, 0, 0}), moved_by({5, 0, 0})});
+  const CandidateSchedule schedule = after_choice({moved_by({0, 0, 0}), moved_by({5, 0, 0})});
   const std::vector<MovingMesh> now = {moved_by({0, 0, 0}), moved_by({5.3, 0, 0})};
   EXPECT_TRUE(schedule.next(drift(SphereDrift::bounded), now, never_asked).is_due);
 }
 
 // A corner is sqrt(2) from the axis, and goes along a chord of 2 sqrt(2) sin(angle/2).
-TEST(ChoiceSchedule, counts_how_far_the_corners_of_a_turning_wall_go)
+TEST(CandidateSchedule, counts_how_far_the_corners_of_a_turning_wall_go)
 {
-  const ChoiceSchedule schedule = after_choice({turned_by(0)});
+  const CandidateSchedule schedule = after_choice({turned_by(0)});
   const SphereDrift bounded = drift(SphereDrift::bounded);
   const Real angle = 2 * std::asin(kDistance / (2 * std::sqrt(2.0)));
   EXPECT_FALSE(schedule.next(bounded, {turned_by(0.99 * angle)}, never_asked).is_due);
   EXPECT_TRUE(schedule.next(bounded, {turned_by(1.01 * angle)}, never_asked).is_due);
 }
 
-TEST(ChoiceSchedule, is_due_where_another_mesh_begins_to_move)
+TEST(CandidateSchedule, is_due_where_another_mesh_begins_to_move)
 {
   EXPECT_TRUE(
       after_choice().next(drift(SphereDrift::bounded), {moved_by({0, 0, 0})}, never_asked).is_due);
 }
 
-TEST(ChoiceSchedule, asks_the_engine_where_spheres_go_any_distance)
+TEST(CandidateSchedule, asks_the_engine_where_spheres_go_any_distance)
 {
-  const ChoiceSchedule schedule = after_choice();
+  const CandidateSchedule schedule = after_choice();
   const SphereDrift watched = drift(SphereDrift::watched);
   EXPECT_FALSE(schedule.next(watched, {}, [] { return false; }).is_due);
-  const Choice choice = schedule.next(watched, {}, [] { return true; });
+  const CandidateUpdate choice = schedule.next(watched, {}, [] { return true; });
   EXPECT_TRUE(choice.is_due);
   EXPECT_TRUE(choice.watch);
   EXPECT_EQ(choice.margin, kDistance);
 }
 
-TEST(ChoiceSchedule, watched_margin_does_not_grow_with_what_spheres_have_gone)
+TEST(CandidateSchedule, watched_margin_does_not_grow_with_what_spheres_have_gone)
 {
-  EXPECT_EQ(ChoiceSchedule().next(drift(SphereDrift::watched, true), {}, never_asked).margin,
+  EXPECT_EQ(CandidateSchedule().next(drift(SphereDrift::watched, true), {}, never_asked).margin,
             kDistance);
 }
 
-TEST(ChoiceSchedule, is_due_in_each_step_where_spheres_come_and_go)
+TEST(CandidateSchedule, is_due_in_each_step_where_spheres_come_and_go)
 {
-  const Choice choice = after_choice().next(drift(SphereDrift::unknown), {}, never_asked);
+  const CandidateUpdate choice = after_choice().next(drift(SphereDrift::unknown), {}, never_asked);
   EXPECT_TRUE(choice.is_due);
   EXPECT_FALSE(choice.watch);
   EXPECT_EQ(choice.margin, 0);
 }
 
 }    // namespace
-}    // namespace lsdcd::test_choice_schedule
+}    // namespace lsdcd::test_candidate_schedule

@@ -34,24 +34,24 @@ struct MovingMesh {
 };
 
 // The arguments of WallEngine::choose().
-struct Choice {
+struct CandidateUpdate {
   bool is_due = false;
   Real margin = 0;       // length
   bool watch = false;    // has_moved() will be asked
 };
 
-class ChoiceSchedule {
+class CandidateSchedule {
  public:
   // The next step is due, whatever has moved.
   void expire() { expired_ = true; }
 
   // Whether spheres are chosen in this step. `moving`: the meshes that move, always in the same order.
   // `has_moved`: has a sphere gone farther than the last margin? It is asked only where that decides.
-  Choice next(const SphereDrift &drift, const std::vector<MovingMesh> &moving,
-              const std::function<bool()> &has_moved) const;
+  CandidateUpdate next(const SphereDrift &drift, const std::vector<MovingMesh> &moving,
+                       const std::function<bool()> &has_moved) const;
 
   // Spheres were chosen in this step.
-  void note_choice(const std::vector<MovingMesh> &moving);
+  void note_update(const std::vector<MovingMesh> &moving);
 
  private:
   bool any_has_gone(Real farther_than, const std::vector<MovingMesh> &moving) const;

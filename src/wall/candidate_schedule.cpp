@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "wall/choice_schedule.h"
+#include "wall/candidate_schedule.h"
 
 #include "motion/motion.h"
 
 namespace lsdcd {
 
-bool ChoiceSchedule::any_has_gone(Real farther_than, const std::vector<MovingMesh> &moving) const
+bool CandidateSchedule::any_has_gone(Real farther_than, const std::vector<MovingMesh> &moving) const
 {
   if (moving.size() != chosen_.size()) return true;
   for (std::size_t k = 0; k < moving.size(); k++)
@@ -15,15 +15,16 @@ bool ChoiceSchedule::any_has_gone(Real farther_than, const std::vector<MovingMes
   return false;
 }
 
-Choice ChoiceSchedule::next(const SphereDrift &drift, const std::vector<MovingMesh> &moving,
-                            const std::function<bool()> &has_moved) const
+CandidateUpdate CandidateSchedule::next(const SphereDrift &drift,
+                                        const std::vector<MovingMesh> &moving,
+                                        const std::function<bool()> &has_moved) const
 {
   const bool bounded = drift.kind == SphereDrift::bounded,
              watched = drift.kind == SphereDrift::watched;
   // A wall that moves may go as far as spheres do.
   const Real of_spheres = bounded && drift.has_begun ? 2 * drift.distance : drift.distance,
              of_wall = moving.empty() ? 0 : drift.distance;
-  Choice choice;
+  CandidateUpdate choice;
   choice.is_due = expired_ || (bounded   ? any_has_gone(of_wall, moving)
                                : watched ? has_moved()
                                          : true);
@@ -32,7 +33,7 @@ Choice ChoiceSchedule::next(const SphereDrift &drift, const std::vector<MovingMe
   return choice;
 }
 
-void ChoiceSchedule::note_choice(const std::vector<MovingMesh> &moving)
+void CandidateSchedule::note_update(const std::vector<MovingMesh> &moving)
 {
   expired_ = false;
   chosen_.clear();
