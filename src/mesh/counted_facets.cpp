@@ -3,6 +3,8 @@
 
 #include "mesh/counted_facets.h"
 
+#include "mesh/soup_of.h"
+
 #include <algorithm>
 #include <utility>
 
@@ -148,14 +150,7 @@ std::vector<Triangle> whole_surface(const WeldedMesh &mesh, const CountedFacets 
     add(c[0], c[1], c[2]);
     add(c[0], c[2], c[1]);
   }
-  for (std::size_t e = 0; e < mesh.edges.size(); e++)
-    if (mesh.edge_first[e] == mesh.edge_first[e + 1])
-      add(mesh.edges[e][0], mesh.edges[e][1], mesh.edges[e][1]);
-  for (std::size_t v = 0; v < mesh.vertices.size(); v++)
-    if (mesh.vertex_first[v] == mesh.vertex_first[v + 1]) {
-      const int point = static_cast<int>(v);
-      add(point, point, point);
-    }
+  for_bare_parts(mesh, add);
   return triangles;
 }
 

@@ -14,14 +14,7 @@ TriangleSoup soup_of(const WeldedMesh &mesh)
   };
   for (const auto &f : mesh.faces) add(f[0], f[1], f[2]);
   for (const auto &f : mesh.dropped) add(f[0], f[1], f[2]);
-  for (std::size_t e = 0; e < mesh.edges.size(); e++)
-    if (mesh.edge_first[e] == mesh.edge_first[e + 1])
-      add(mesh.edges[e][0], mesh.edges[e][1], mesh.edges[e][1]);
-  for (std::size_t v = 0; v < mesh.vertices.size(); v++)
-    if (mesh.vertex_first[v] == mesh.vertex_first[v + 1]) {
-      const int point = static_cast<int>(v);
-      add(point, point, point);
-    }
+  for_bare_parts(mesh, add);
   return soup;
 }
 
