@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What the benchmark programs share: their words, timing, the copy that a floor is taken
+// Shared by the benchmark programs: their words, timing, the copy that a floor is taken
 // from, the paper's cylinder in four sizes, and rows of one format.
 #pragma once
 
@@ -32,7 +32,7 @@ struct Timing {
   int repeats;
 };
 
-// Of times in milliseconds, at least one.
+// The statistics of times in milliseconds, at least one.
 Timing timing_of(std::vector<double> ms);
 
 // Milliseconds; with rows of one CPU thread those that it works, so that others on the machine do

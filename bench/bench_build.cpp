@@ -27,7 +27,7 @@ double brute_ms(const TriangleGrid &grid, Device device, std::size_t n, std::siz
   return brute_force_ms(cpu, grid, n, stride);
 }
 
-// Of all cells where the limit allows it; otherwise a tenth of its tests, in cells spread
+// Brute force over all cells where the limit allows it; otherwise a tenth of its tests, in cells spread
 // evenly, and scaled.
 void brute_row(const BenchOptions &o, BenchRows &rows, BenchRow row, const TriangleGrid &grid,
                Device device)

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What a grid costs to build, to write to a cache file and to read from one.
+// The cost of building a grid, of writing it to a cache file and of reading it from one.
 #include "bench.h"
 
 #include "base/input_error.h"

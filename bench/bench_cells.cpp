@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What the length of cells does to the time of a step and to memory: three meshes, spheres anywhere
+// The effect of the length of cells on the time of a step and on memory: three meshes, spheres anywhere
 // in their boxes, cells of a quarter to four times the default.
 #include "bench.h"
 

@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What the library takes to answer many spheres against a wall: the paper's question, does a sphere
+// The time of the library for many spheres against a wall: the paper's question, does a sphere
 // touch, and the exact distance within the cutoff. No copies: spheres and answers stay on the
 // device. Distances on one core stand beside Embree and CGAL where they are
-// (near_and_far.h), and so does what calls of the library cost.
+// (near_and_far.h), and so does the cost of calls of the library.
 #include "bench.h"
 #include "call_cost.h"
 #include "library_query.h"

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What a step of the wall costs: contacts, forces, springs; with the arrays of a CPU LAMMPS, and
-// with particles that lie where the engine computes. Near spheres and their lists of the wall are
-// kept, or made anew in each step.
+// The cost of a step of the wall: contacts, forces, springs; with the arrays of a CPU LAMMPS, and
+// with particles that lie where the engine computes. Candidate spheres and their neighbour lists
+// are used again, or made anew in each step.
 #include "bench.h"
 
 #include "engine/wall_engine.h"
@@ -44,8 +44,8 @@ struct Style {
   const char *name;
 };
 
-// What a step must move, bytes: every sphere's place and radius, all of them or of the near
-// ones; of one that touches v, omega and mass, and force and torque both ways; of a contact
+// Bytes that a step must move: position and radius of every sphere, or of every
+// candidate; of one that touches v, omega and mass, and force and torque both ways; of a contact
 // its spring both ways.
 constexpr double kPlaceAndRadius = 4 * sizeof(Real);
 double bytes_of_touching(const Style &style, double contacts)

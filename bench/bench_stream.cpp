@@ -112,7 +112,7 @@ struct Answer {
   double distance = NAN, closest[3] = {};
 };
 
-// Those of every step-th point, in order.
+// The answers of every step-th point, in order.
 std::vector<Answer> read_answers(const Case &c, std::size_t n, std::size_t step)
 {
   std::vector<Answer> found;
@@ -139,8 +139,8 @@ std::vector<Answer> read_answers(const Case &c, std::size_t n, std::size_t step)
   return found;
 }
 
-// Largest difference from CGAL over the diagonal; infinite where one alone finds something. Of a
-// closest point, which need not be the only one: it is as far from the point as CGAL's is, and on
+// Largest difference from CGAL over the diagonal; infinite where one alone finds something. A
+// closest point need not be the only one: it must be as far from the point as CGAL's is, and on
 // the mesh.
 double compare(const Case &c, const Tree &tree, const std::vector<Answer> &found, std::size_t step)
 {

@@ -22,7 +22,7 @@ namespace {
 
 constexpr int kSteps = 100;
 constexpr Real kRadius = 50, kWay = 1e-3;    // of the wall at its radius, in a step
-// Of half the skin, which is 0.1 here: after 100 steps a turning wall makes the fix choose anew.
+// Half the skin is 0.1 here: after 100 steps a turning wall makes the fix choose anew.
 constexpr Real kMargin = Real(0.1) + kSteps * kWay;
 
 Pose turned(int step, Real dt)
@@ -45,7 +45,7 @@ constexpr Case kCases[] = {{"hertz/history, at rest", false, false},
                            {"hertz/history, turning, staying behind", true, false}};
 constexpr Real kDt = 1e-6;
 
-// What spheres have in each step: where the wall takes them, or where they are.
+// Positions of spheres in each step: where the wall takes them, or where they are.
 std::vector<Real> places(const BedSpheres &b, bool carries)
 {
   std::vector<Real> all;

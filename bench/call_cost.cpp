@@ -21,7 +21,7 @@ Mesh mesh_of(const TriangleSoup &soup)
   return Mesh(corners);
 }
 
-// Of one call, from the time of so many that a clock can tell.
+// The time of one call, from that of so many that a clock can measure it.
 template <class F>
 Timing time_call(int repeats, std::size_t calls, const F &call)
 {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What a call of liblsdcd costs by itself, on one core: of few points, and of a body's pose.
+// The cost of a call of liblsdcd by itself, on one core: of few points, and of a body's pose.
 #pragma once
 
 #include "bench.h"

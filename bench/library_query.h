@@ -33,7 +33,7 @@ class LibraryQuery {
   // Status of spheres, each of its own radius, and their distance where it is wanted.
   Timing time_spheres(const Sphere *spheres, std::size_t n, bool distance, int repeats);
   Timing time_spheres(const FloatSphere *spheres, std::size_t n, bool distance, int repeats);
-  // Of the last run.
+  // The distances of the last run.
   const std::vector<double> &distances() const { return distance_; }
   const std::vector<std::uint8_t> &status() const { return status_; }
   double cell() const { return cell_; }

@@ -79,7 +79,7 @@ void sort(std::vector<Sphere> &points, const SphereBox &box)
   for (std::size_t i = 0; i < points.size(); i++) points[i] = placed[i].second;
 }
 
-// What a slow way is asked: runs of neighbours in the order, spread over all of it.
+// The points for a slow method: runs of neighbours in the order, spread over all of it.
 std::vector<std::size_t> sample(std::size_t n, double most)
 {
   constexpr std::size_t kRun = 1000;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What the benchmarks do on a GPU themselves.
+// Work of the benchmarks themselves on a GPU.
 #pragma once
 
 #include "brute_force.h"
@@ -19,10 +19,10 @@ struct lsdcd_query;
 namespace lsdcd {
 
 double cuda_copy_gb_s();
-// Of each run of a tree's query for the distances of points: milliseconds. Points come and distances go once.
+// Milliseconds of each run of a tree's query for the distances of points. Points come and distances go once.
 std::vector<double> cuda_tree_ms(const TriangleTree &tree, const std::vector<Sphere> &points,
                                  int repeats, std::vector<double> &distance);
-// Of each run of a query of the library on a stream: milliseconds. Its arrays are copies on the GPU of those of the host
+// Milliseconds of each run of a query of the library on a stream. Its arrays are copies on the GPU of those of the host
 // that `q` has: x y z r of each point and, where `q` has them, their radii among these; `bytes` is the size of a number.
 std::vector<double> cuda_query_ms(const lsdcd_grid *grid, lsdcd_query q, std::size_t bytes,
                                   int repeats);

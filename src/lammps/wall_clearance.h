@@ -56,7 +56,7 @@ class WallClearance {
     void place(const Pose &at)
     {
       pose = at;
-      bounds = posed_bounds(at, {mesh.report.lo, mesh.report.hi});
+      bounds = placed_bounds(at, {mesh.report.lo, mesh.report.hi});
     }
   };
   bool has_all(bool has_meshes) const;

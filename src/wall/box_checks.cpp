@@ -134,7 +134,7 @@ void BoxChecks::check_gone(const PeriodicBox &box, Real cutoff, std::int64_t ste
   for (const MeshPart &m : meshes_) {
     Warned &warned_of_mesh = warned_[m.index];
     if (!m.moves() || warned_of_mesh.gone_warned) continue;
-    const Box now = posed_bounds(m.motion.pose(), m.bounds(0));
+    const Box now = placed_bounds(m.motion.pose(), m.bounds(0));
     const bool in_box = outside_box(now, box, cutoff).empty();
     warned_of_mesh.was_in_box |= in_box;
     if (in_box || !warned_of_mesh.was_in_box) continue;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: GPL-2.0-only
 
-// Which versions of LAMMPS have a fix wall/gran that differs, law by law: doc/from-wall-gran.md has what was measured.
+// The versions of LAMMPS that have a fix wall/gran that differs, law by law: doc/from-wall-gran.md has the measurements.
 #include "input/wall_command.h"
 #include "lammps/own_wall_gran.h"
 
@@ -12,7 +12,7 @@
 namespace lsdcd {
 namespace {
 
-// Of the words of a law.
+// The difference for the words of a law.
 std::string difference(int version, const std::string &law)
 {
   std::istringstream in(law + " mesh floor.stl");

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What the tests of the library's wall share: a floor, and grains in arrays of the caller.
+// Shared by the tests of the library's wall: a floor, and grains in arrays of the caller.
 #pragma once
 
 #include "lsdcd_behind_core.h"

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What tests of the library's wall in several processes share.
+// Shared by the tests of the library's wall in several processes.
 #pragma once
 
 #include "lsdcd_behind_core.h"

@@ -562,7 +562,7 @@ TEST(library, radii_bound_what_is_found)
   EXPECT_EQ(All<double>(grid, points, false, 0.19).status[0], LSDCD_CERTIFIED);
 }
 
-// Of a box whose triangles come in any order; points on a lattice are as near to two, three or more of them.
+// A box whose triangles come in any order; points on a lattice are as near to two, three or more of them.
 // Coordinates and most distances are exact there, and those that differ do so by more than 0.01.
 class Ties : public ::testing::Test {
  protected:
@@ -629,7 +629,7 @@ TEST_F(Ties, give_the_same_closest_point_whatever_the_cutoff)
   }
 }
 
-// What users of other libraries report as wrong: a sound tetrahedron, and points in the planes of its faces.
+// Users of other libraries report this as wrong: a sound tetrahedron, and points in the planes of its faces.
 // On halves of whole numbers its inside is known without rounding.
 TEST(library, a_tetrahedron_is_right_in_the_planes_of_its_faces)
 {
@@ -1009,7 +1009,7 @@ TEST(library, a_cache_is_read_the_second_time)
   EXPECT_NE(beside.report().find("left as it is"), std::string::npos) << beside.report();
 }
 
-// What numbers have in every locale: the reports begin with these.
+// Numbers have points in every locale: the reports begin with these.
 TEST(library, reports_have_points_in_numbers_whatever_the_locale)
 {
   const lsdcd::CommaLocale commas;

@@ -19,7 +19,7 @@ using Numbers = std::vector<double>;
 // At z = 0 from -2 to 2: triangle 0 where x > y, 1 where x < y.
 const Numbers kFloor = {-2, -2, 0, 2, -2, 0, 2, 2, 0, -2, -2, 0, 2, 2, 0, -2, 2, 0};
 
-// Of side 1 about the origin; triangles 2 k and 2 k + 1 are one side: 0, 1 in x, then y, then z.
+// A cube of side 1 about the origin; triangles 2 k and 2 k + 1 are one side: 0, 1 in x, then y, then z.
 Numbers cube()
 {
   const int faces[12][3] = {{0, 4, 6}, {0, 6, 2}, {1, 7, 5}, {1, 3, 7}, {0, 5, 4}, {0, 1, 5},

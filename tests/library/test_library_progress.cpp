@@ -47,7 +47,7 @@ std::vector<T> random_points(std::size_t n)
   return points;
 }
 
-// What calls tell when nobody ends them, of shares from 0 to 1.
+// The reports of calls that nobody ends, as shares from 0 to 1.
 class Told {
  public:
   lsdcd::Progress listener()
@@ -82,7 +82,7 @@ void expect_cancelled(const Call &call, std::size_t fewest)
       EXPECT_NE(std::string(e.what()).find("cancelled the call, at: " + at), std::string::npos)
           << e.what();
     }
-    // What it throws comes out.
+    // An exception of it comes out.
     EXPECT_THROW(call([&](const char *what, double) -> bool {
                    if (what == at) throw std::out_of_range("mine");
                    return false;
@@ -130,7 +130,7 @@ TEST(progress, a_body_is_cancelled)
       [&](const lsdcd::Progress &p) { lsdcd::Body(wall, mesh, lsdcd::BodyOptions(), p); }, 3);
 }
 
-// Of a cells' grid the first call makes the cells.
+// The first call on a grid of cells makes the cells.
 TEST(progress, contacts_are_cancelled_and_then_made)
 {
   const lsdcd::Mesh mesh = cylinder();

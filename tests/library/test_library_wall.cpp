@@ -199,7 +199,7 @@ TEST_F(wall, refuses_numbers_that_it_did_not_save)
   EXPECT_EQ(code_of([&] { other.restore({4, -6, 1e6, 0, 1e9, 0}); }), LSDCD_ERROR_ARGUMENT);
 }
 
-// How many numbers of the wall, these, how many spheres, and of each how many numbers and these. Of the wall the
+// How many numbers of the wall, these, how many spheres, and of each how many numbers and these. Numbers of the wall are the
 // format, the kind of the history, time, meshes; of each how many numbers its motion has, these, and what is known of it
 // and of its loads.
 std::vector<double> as_saved_before_0_10_0(const std::vector<double> &saved)

@@ -69,7 +69,7 @@ struct Pile : Grains {
       temperature.push_back(300 + i);
     }
   }
-  // What the wall gave in n steps, in which the spheres fall by their velocities.
+  // The forces of the wall in n steps, in which the spheres fall by their velocities.
   std::vector<double> go(lsdcd::Wall &wall, int n = 12)
   {
     std::vector<double> all;
@@ -713,7 +713,7 @@ TEST_F(wall_spec, refuses_poses_that_differ_between_processes)
 
 // ---- wrong fields ----------------------------------------------------------------------------
 
-// What is said of a spec after `spoil`.
+// The error of a spec after `spoil`.
 class Wrong {
  public:
   explicit Wrong(const api::Mesh &mesh)

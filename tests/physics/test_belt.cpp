@@ -73,7 +73,7 @@ TEST(belt, gives_a_free_sphere_two_sevenths_of_its_speed)
   EXPECT_NEAR(ride.scene.x(0).z, kLevel, 1e-12);
 }
 
-// What cannot turn, as a block, is taken to the belt's speed: after u/(mu g).
+// A body that cannot turn, as a block, is carried to the belt's speed: after u/(mu g).
 TEST(belt, carries_a_sphere_that_cannot_turn_to_its_own_speed)
 {
   Ride ride(on_belt({kSpeed, 0, 0}));

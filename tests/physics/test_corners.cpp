@@ -406,7 +406,7 @@ TEST(drum, noise_falls_with_refinement)
 
 TEST(drum, noise_of_the_plain_sum_does_not_fall)
 {
-  // What the corner rule is for; and proof that this test sees the noise.
+  // Without the corner rule there is noise, which proves that this test measures it.
   EXPECT_GT(drum_noise(1024, Corner::sum)[0], 0.1);
 }
 

@@ -364,7 +364,7 @@ TEST(drum, rolling_of_a_hardly_sunk_sphere_needs_finer_segments)
 
 TEST(drum, rolling_under_the_plain_sum_loses_more)
 {
-  // What the corner rule is for; and proof that this test sees the loss.
+  // Without the corner rule there is a loss, which proves that this test measures it.
   const Real k = 1e3, smooth = rolling_losses(0, k).exact;
   expect_at_least(
       {"Drum", "06f",

@@ -138,7 +138,7 @@ TEST(jkr, loses_the_work_between_touch_and_pull_off_in_a_cycle)
 
   OneSphere s(jkr.law());
   s.at(1e-5);
-  // What the engine calls energy, at both ends, and again by summing its force.
+  // The energy of the engine at both ends, and again by summing its force.
   s.at(0);
   const Real at_touch = s.scene.engine->totals().energy;
   const int steps = 20000;
@@ -229,7 +229,7 @@ Real restitution(const EngineSettings &law, Real speed, int steps_per_contact)
 {
   Scene scene(floor_mesh(4, 2), kRadius, law);
   scene.add_sphere(kSpot + Vec3{0, 0, kRadius + 1e-12}, kRadius, kMass, {0, 0, -speed});
-  // Of a linear spring; a Hertz contact of this speed lasts about 2.5 times as long.
+  // The time of a linear spring; a Hertz contact of this speed lasts about 2.5 times as long.
   const Real dt = kPi * std::sqrt(kMass / kK) / steps_per_contact;
   for (int i = 0; i < 40 * steps_per_contact; i++) {
     scene.step(dt, {0, 0, 0});

@@ -173,7 +173,7 @@ TEST(moving_wall, a_turning_drum_drags_and_pushes_with_the_velocity_at_the_conta
   }
 }
 
-// What turns with the wall slips by w x n times the overlap, as the law takes the whole radius for
+// A sphere that turns with the wall slips by w x n times the overlap, as the law takes the whole radius for
 // the arm of a spin: without friction there is not even that.
 TEST(moving_wall, without_friction_a_turning_drum_only_pushes)
 {
@@ -272,7 +272,7 @@ struct Turntable {
   int n = 0;
 };
 
-// Velocities of half a step apart would draw it in by pi omega dt = 1e-2 a turn. What is left is of
+// Velocities of half a step apart would draw it in by pi omega dt = 1e-2 a turn. The rest is of
 // the order of (omega dt)^2 = 1e-5, of which a turn can make 2 pi times as much.
 TEST(moving_wall, what_it_carries_keeps_its_radius)
 {

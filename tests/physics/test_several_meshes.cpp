@@ -34,7 +34,7 @@ std::vector<TriangleSoup> dealt(const TriangleSoup &soup, int n)
   return parts;
 }
 
-// Of the m-th mesh; with `turned` each has another, else all are at rest.
+// The pose of the m-th mesh; with `turned` each has another, else all are at rest.
 Pose pose_of(int m, bool turned)
 {
   if (!turned) return {};

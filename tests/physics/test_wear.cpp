@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What spheres do to a wall: forces on its triangles and wear, against hand integration.
+// The loads of spheres on a wall: forces on its triangles and wear, against hand integration.
 #include "output/mesh_loads.h"
 #include "support/laws.h"
 #include "support/meshes.h"

@@ -49,7 +49,7 @@ TEST(recipe_output, of_a_triangle_is_the_root_mean_square)
   EXPECT_EQ(normal_rms(mesh, pressed(), true), rms);
 }
 
-// Of two such processes: sqrt(2 * 9/4).
+// Two such processes give sqrt(2 * 9/4).
 TEST(recipe_output, of_a_triangle_adds_up_over_processes)
 {
   const WeldedMesh mesh = weld(floor_mesh(1, 1), -1);

@@ -17,7 +17,7 @@
 
 namespace lsdcd {
 
-// Of triangles with an area.
+// Collisions of triangles with an area.
 class CgalCollision {
   using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
   using Triangles = std::vector<Kernel::Triangle_3>;

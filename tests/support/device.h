@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Which backend this run of a test program is for.
+// The backend that this run of a test program is for.
 #pragma once
 
 #include "engine/wall_engine.h"

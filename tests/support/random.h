@@ -23,7 +23,7 @@ inline Vec3 uniform(Random &random, const Vec3 &lo, const Vec3 &hi)
   return {uniform(random, lo.x, hi.x), uniform(random, lo.y, hi.y), uniform(random, lo.z, hi.z)};
 }
 
-// Of all sizes between two that are above 0.
+// A number of any size between two that are above 0.
 inline Real log_uniform(Random &random, Real lo, Real hi)
 {
   return std::exp(uniform(random, std::log(lo), std::log(hi)));

@@ -21,7 +21,7 @@ inline bool has_real_meshes()
   return std::filesystem::exists(kRealMeshes);
 }
 
-// Of triangles alone; `folder` is where it is unpacked.
+// Reads a mesh of triangles alone; `folder` is where it is unpacked.
 inline TriangleSoup read_real_mesh(const std::string &name, const std::string &folder)
 {
   const std::string in_archive = "data/meshes/" + name + ".off", path = folder + "/" + in_archive;

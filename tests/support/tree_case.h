@@ -44,7 +44,7 @@ struct TreeCase {
   }
 };
 
-// Of the soups given, and of n random ones: with facets without area, doubled ones, and many that meet.
+// Cases of the soups given, and of n random ones: with facets without area, doubled ones, and many that meet.
 template <class Case>
 std::vector<std::unique_ptr<Case>> cases_of(const std::vector<TriangleSoup> &soups, int n)
 {

@@ -46,7 +46,7 @@ struct Walks {
   LSDCD_FN bool failed() const { return missed + extra + pruned + by_cells + wrong > 0; }
 };
 
-// What rounds in float moves a height or a distance by this much (length): BrickGeometry widens its
+// Rounding in float moves a height or a distance by this much (length): BrickGeometry widens its
 // tests by it.
 LSDCD_FN Real float_error(const GridView &grid)
 {
@@ -140,7 +140,7 @@ LSDCD_FN long not_in(const ContactSet<kMost> &a, const ContactSet<kMost> &b)
 using WalkSet = ContactSet<FeatureList::kMax + 1>;
 
 // Against every feature of the wall, in double. Lists of the wall's records: the same contacts to
-// the bit. Those of brick records: those that are contacts whatever float rounds must be there, and
+// the bit. Lists of brick records: all must be there that are contacts however float rounds, and
 // no others than those that may be.
 template <class Geometry>
 LSDCD_FN void compare_with_all(const GridView &grid, const FeatureCode *features, int n_features,

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What a grid's lists will hold is known before they are made.
+// The entries of a grid's lists are known before they are made.
 #include "base/input_error.h"
 #include "engine/wall_engine.h"
 #include "grid/build/estimate_lists.h"
@@ -17,7 +17,7 @@
 namespace lsdcd::test_build_estimate {
 namespace {
 
-// Of long slivers: each has a part in very many bricks.
+// A mesh of long slivers: each has a part in very many bricks.
 WeldedMesh slivers(int n)
 {
   return weld(cylinder_mesh(n, 1, 50, 100), -1);
@@ -46,7 +46,7 @@ void compare(const WeldedMesh &mesh, const GridSettings &settings)
   // Worth having: some 400 parts and more are sampled, whose numbers of cells differ by no more
   // than twice their mean; 4 * 2 / sqrt(400).
   EXPECT_NEAR(about.entries, entries, 0.4 * entries);
-  // What a message names as enough.
+  // The bytes that a message names as enough.
   EXPECT_GE(estimate_build(grid.wall, plan, settings).enough_bytes,
             double(flat_bytes(grid) - flat_wall_bytes(grid)));
 }

@@ -283,7 +283,7 @@ void expect_exact_slivers(Real aspect, Real tolerance)
   EXPECT_LE(largest, tolerance);
 }
 
-// What the grid takes for the rounding of dot products, 16 roundings of a size of
+// The grid's bound for the rounding of dot products, 16 roundings of a size of
 // 1 to 2, times four.
 constexpr Real kSliverTolerance = 4 * 32 * kRoundoff;
 

@@ -413,7 +413,7 @@ TEST(corner, concave_edge_has_the_weights_of_the_closed_form)
                rounding = 8 * kRoundoff / (a * a) + 8 * kRoundoff;
     EXPECT_NEAR(s.weight[0] + s.weight[1], 2 * each, 16 * kRoundoff);
     EXPECT_NEAR(s.weight[0], each, rounding);
-    // What versions before 0.10.0 gave.
+    // Versions before 0.10.0 gave this.
     EXPECT_NEAR(each, 1 / (1 + std::cos(a)), kLessCovered);
   }
 }
@@ -521,7 +521,7 @@ Contacts cone(int n, Real degrees, const std::vector<Real> &overlap)
   return c;
 }
 
-// Of Hertz contacts, for the stiffness 1.
+// The force of Hertz contacts, for the stiffness 1.
 Vec3 hertz_force(const Contacts &c)
 {
   const Solved s = solve<16>(c);

@@ -42,7 +42,7 @@ std::string bytes_of(const std::string &path)
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-// What we write, of floats and of other numbers, and polygons and strips as others write them.
+// Files that we write, with floats and other numbers, and polygons and strips as others write them.
 std::vector<Whole> whole_files()
 {
   const TempDir dir;

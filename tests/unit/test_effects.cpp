@@ -23,7 +23,7 @@ TEST(effects, have_a_name_each_and_stand_over_a_case_before_them)
   }
 }
 
-// What a step leaves behind is what the table says: the memory report of each effect.
+// A step leaves behind what the table says: the memory report of each effect.
 TEST(effects, keep_the_bytes_of_the_table_and_no_others)
 {
   constexpr int kSpheres = 300;

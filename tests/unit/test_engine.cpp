@@ -127,7 +127,7 @@ namespace {
 
 using CountingLaw = CompiledLaw<CountingBackend>;
 
-// Of granular laws only JKR's is compiled.
+// JKR's is the only granular law that is compiled.
 struct MakeCountingLaw {
   WallEffects effects;
 

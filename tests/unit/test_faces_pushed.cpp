@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Which faces a moving surface pushes along their normals: none of a belt, a roll or a
+// The faces that a moving surface pushes along their normals: none of a belt, a roll or a
 // turntable; lifters, screws and boxes by their closed forms.
 #include "contact/faces_pushed.h"
 #include "support/meshes.h"

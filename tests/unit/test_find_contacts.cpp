@@ -82,7 +82,7 @@ struct Given {
   Real distance;
 };
 
-// What the rule says, contact by contact.
+// The contacts by the rule, one by one.
 std::map<FeatureCode, Given> expected_side(const std::vector<FaceRecord> &faces, Real sign,
                                            const std::vector<Given> &given)
 {

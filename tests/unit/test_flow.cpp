@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What passes a surface: each fact has a closed form, or follows from the surface being closed.
+// Passages through a surface: each fact has a closed form, or follows from the surface being closed.
 #include "base/input_error.h"
 #include "flow/flow_surface.h"
 #include "geometry/expansion.h"
@@ -118,7 +118,7 @@ TEST(flow, past_the_rim_nothing_passes)
   EXPECT_EQ(std::abs(passes(floor, {before, 0.1, 1}, {before, 0.1, -1}).net()), 1);
 }
 
-// Of integer points most lie on planes, edges or vertices of this mesh. A way that comes back to
+// Most integer points lie on planes, edges or vertices of this mesh. A way that comes back to
 // where it began has passed out as often as in.
 TEST(flow, a_closed_way_passes_a_closed_surface_net_zero_times)
 {

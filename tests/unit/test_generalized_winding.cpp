@@ -54,7 +54,7 @@ Wide quarter(Wide x, Wide y, Wide z)
 {
   return std::atan2(x * y, z * std::sqrt(x * x + y * y + z * z));
 }
-// Of the rectangle lo to hi in a plane across `axis`, whose normal points along it; on it, the mean of both
+// The number of the rectangle lo to hi in a plane across `axis`, whose normal points along it; on it, the mean of both
 // sides.
 Wide by_rectangle(int axis, const Vec3 &lo, const Vec3 &hi, const Vec3 &q)
 {

@@ -176,7 +176,7 @@ TEST(grid, is_complete_on_needles)
   for (Real length : {0., 0.02, 0.3}) expect_complete(needles(), 0.3, length, 10000, 14);
 }
 
-// Of a cube: its twelve edges alone, of its six diagonals the vertices alone.
+// A cube has records of its twelve edges, and none of its six diagonals.
 TEST(grid, flat_edges_have_no_records)
 {
   const MeshFeatures cube = make_features(weld(box_mesh({0, 0, 0}, {1, 1, 1}), -1), true);
@@ -245,7 +245,7 @@ TEST(grid, coarser_cells_for_a_gpu_come_to_those_of_a_cpu)
   EXPECT_EQ(of_gpu.length, of_cpu.length);
 }
 
-// What a GPU does cell by cell a CPU does for all cells of an octant at once, to the bit: grids are the
+// A CPU does for all cells of an octant at once what a GPU does cell by cell, to the bit: grids are the
 // same on both.
 TEST(grid, cells_of_a_face_at_once_are_those_found_one_by_one)
 {

@@ -58,7 +58,7 @@ struct Made {
   {
     return write_grid_cache(path, as, grid.report, block.data(), block.size());
   }
-  // What a start finds: the state, and `usable` only if every bit is right.
+  // The result of a start: the state, and `usable` only if every bit is right.
   CacheState state(const std::string &path, std::string *problem = nullptr) const
   {
     CachedGrid cached(path, key);
@@ -363,7 +363,7 @@ int files_in(const std::string &folder)
   return n;
 }
 
-// What write() throws, or "".
+// The error of write(), or "".
 std::string error_of_writing(const Made &made, const std::string &path)
 {
   try {

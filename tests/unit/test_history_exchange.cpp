@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What contacts keep: moved to an engine and back, written to restart files and read from them.
+// The history of contacts: moved to an engine and back, written to restart files and read from them.
 #include "support/fake_host.h"
 #include "wall/history_exchange.h"
 

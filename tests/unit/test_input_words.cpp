@@ -30,7 +30,7 @@ TEST(input_words, are_numbers_with_a_plus_before_them)
     EXPECT_FALSE(is_number(word, &value)) << word;
 }
 
-// What may be given twice is said in one place.
+// One table says what may be given twice.
 TEST(input_words, repeat_as_the_keywords_do)
 {
   for (const Keyword &row : keywords()) {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Which grains are due when, how large they are, and where they fit: closed forms and brute force.
+// When grains are due, how large they are, and where they fit: closed forms and brute force.
 #include "base/input_error.h"
 #include "input/insert_settings.h"
 #include "insert/inlet_face.h"
@@ -296,7 +296,7 @@ TEST(insertion, steps_that_are_counted_anew_change_nothing)
   }
 }
 
-// What goes on by the new plan where 20 grains of mass 1 are in since step 20, and it is step 50.
+// An insertion that goes on by the new plan where 20 grains of mass 1 are in since step 20, and it is step 50.
 Insertion continued(const InsertionPlan &former, const InsertionPlan &plan)
 {
   Insertion first(former, 0, 1);
@@ -380,7 +380,7 @@ TEST(insertion, with_a_total_below_what_is_in_nothing_comes_and_it_says_so)
   EXPECT_EQ(second.next_step(), FeedSchedule::kNever);
 }
 
-// What versions before 0.10.0 wrote.
+// Data that versions before 0.10.0 wrote.
 
 void put(std::string &bytes, const void *what, std::size_t size)
 {

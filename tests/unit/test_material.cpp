@@ -287,7 +287,7 @@ TEST(material_units, without_a_scale_are_refused)
   }
 }
 
-// What fix wall/gran granular makes of one E and nu for a wall.
+// The modulus of fix wall/gran granular for one E and nu of a wall.
 Real wall_youngs(const Elastic &m)
 {
   return m.youngs_modulus / (2 * (1 - m.poissons_ratio * m.poissons_ratio));

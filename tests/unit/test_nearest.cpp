@@ -90,7 +90,7 @@ TEST(nearest_lists, hold_the_nearest_triangles_in_order_and_the_next_as_a_bound)
     }
 }
 
-// What two answers have in common: features and distances, in any order.
+// The common part of two answers: features and distances, in any order.
 using Contacts = std::vector<std::pair<FeatureCode, Real>>;
 
 Contacts contacts(const GridView &view, const Vec3 &q, Real radius, Real *exact_within = nullptr)
@@ -199,7 +199,7 @@ TEST(nearest_in_the_engine, counts_uncertified_spheres_and_bounds_what_they_miss
   EXPECT_LE(t.largest_uncertain, (0.5 - 0.4 + std::sqrt(3.) * 0.25) / 0.5);
 }
 
-// Those that touch nothing that is listed count as well.
+// Spheres that touch nothing that is listed count as well.
 TEST(nearest_in_the_engine, counts_every_sphere_that_is_not_certified)
 {
   Box box(1);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What versions before 0.10.0 wrote of a wall, where a motion is known by its words.
+// The state of a wall as versions before 0.10.0 wrote it, where a motion is known by its words.
 #include "input/old_wall_state.h"
 #include "wall/wall_state.h"
 

@@ -39,7 +39,7 @@ double setting(const char *name, double otherwise)
   return text && *text ? std::atof(text) : otherwise;
 }
 
-// What was built, where git did not know.
+// The commit that was built, where git did not know it.
 const char *commit()
 {
   const char *named = std::getenv("LSDCD_COMMIT_NAME");
@@ -83,7 +83,7 @@ TriangleSoup bumpy_sphere(int n, std::uint64_t seed)
   return soup;
 }
 
-// Of about so many triangles.
+// A mesh of about so many triangles.
 struct Mesh {
   const char *name;
   double triangles;
@@ -111,7 +111,7 @@ struct Wall {
     names = std::make_unique<TriangleTable>(mesh);
     const Vec3 lo = mesh.report.lo, hi = mesh.report.hi, r = kCutoff * Vec3{1, 1, 1};
     settings.cutoff = kCutoff;
-    // Of the mesh's size, as the distance is asked to be.
+    // Relative to the mesh's size, as is the distance.
     settings.tolerance = 1e-12 * norm(hi - lo);
     settings.box = {lo - r, hi + r, kCutoff, 20};
     settings.n_spheres = static_cast<std::size_t>(setting("LSDCD_SPHERES", quick() ? 1e4 : 1e5));

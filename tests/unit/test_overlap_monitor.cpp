@@ -49,7 +49,7 @@ void check_sunk(FakeHost &host, OverlapMonitor &monitor, Named &named, Real time
   monitor.check_sunk(worst, timestep_ratio, named.get());
 }
 
-// What the first process warns of where the spheres 1 to 4 overlap so, in step 7.
+// The warnings of the first process where the spheres 1 to 4 overlap so, in step 7.
 std::vector<std::string> warned_of_sunk(const std::vector<Real> &overlaps, Real timestep_ratio = 1)
 {
   std::vector<std::string> warnings;
@@ -157,7 +157,7 @@ TEST(OverlapMonitor, tells_of_a_new_sphere_that_was_out_and_sank_again)
   EXPECT_EQ(told[1].find("atom 5 sank into the wall by 20 %"), 0);
 }
 
-// What the first process warns of where spheres come one after the other and overlap so.
+// The warnings of the first process where spheres come one after the other and overlap so.
 std::vector<std::string> warned_of_coming(const std::vector<Real> &overlaps, bool goes_on)
 {
   std::vector<std::string> warnings;

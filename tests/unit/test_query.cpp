@@ -214,7 +214,7 @@ TEST(query, certified_answers_of_nearest_lists_are_right)
       for (std::size_t i = 0; i < c.spheres.size(); i++)
         (a.certified(i) ? certified : uncertified)++;
     }
-  // Of both there are many, or the test says nothing.
+  // There are many of both, or the test says nothing.
   EXPECT_GT(certified, 100000u);
   EXPECT_GT(uncertified, 10000u);
 }
@@ -899,7 +899,7 @@ TEST(query, spheres_away_from_the_wall_certainly_touch_nothing)
   }
 }
 
-// What a query says of the 700 spheres when those at `large` have radius r.
+// The answer of a query for the 700 spheres when those at `large` have radius r.
 template <class S>
 std::string refusal(const std::vector<std::size_t> &large, Real r)
 {

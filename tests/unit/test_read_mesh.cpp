@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Which format a file is read as.
+// The format that a file is read as.
 #include "base/input_error.h"
 #include "mesh/io/read_mesh.h"
 #include "support/temp_dir.h"

@@ -220,7 +220,7 @@ TEST(wall_motion, bounds_the_way_and_speed_of_points_of_a_box)
   EXPECT_NEAR(farthest_between(motion.pose_at(0), motion.pose_at(1), box), 10 * std::sin(kPi / 8),
               1e-14);
   EXPECT_NEAR(fastest_in(motion.pose_at(0.3), box), 5 * 2 * kPi / 8, 1e-14);
-  const Box turned = posed_bounds(motion.pose_at(2), box);
+  const Box turned = placed_bounds(motion.pose_at(2), box);
   EXPECT_EQ(turned.lo, (Vec3{-2, -3, -1}));
   EXPECT_EQ(turned.hi, (Vec3{4, 1, 1}));
 }

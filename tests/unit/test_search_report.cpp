@@ -19,7 +19,7 @@ StepDiagnostics lists(std::int64_t made, std::int64_t features, std::int64_t by_
   return seen;
 }
 
-// What the first process logs at the end of each run of `steps` steps with a setup, in which the
+// The log of the first process at the end of each run of `steps` steps with a setup, in which the
 // processes note 1 and 2 times `seen`.
 std::vector<std::string> logged_runs(const std::vector<int> &steps, const StepDiagnostics &seen,
                                      bool brief = false)
@@ -80,7 +80,7 @@ TEST(SearchReport, logs_nothing_without_a_step)
   });
 }
 
-// What nearest lists left uncertified in one run, on process 1.
+// The uncertified answers of nearest lists in one run, on process 1.
 struct Uncertified {
   std::int64_t answers;
   Real overlap;

@@ -91,7 +91,7 @@ TEST(Servo, loop_is_stable_up_to_a_tenth_of_the_contact_time)
   EXPECT_GT(tried, 50);
 }
 
-// What the manual says of LAMMPS's steps without a servo, for the steepest mode of n spheres between
+// The manual's limit for LAMMPS's steps without a servo, for the steepest mode of n spheres between
 // walls: 4 sin^2(n pi/(2 (n + 1))) times one contact, and 4 where n is large.
 TEST(Servo, chains_alone_are_stable_while_their_damping_is_resolved)
 {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What only the study asks of a wall: the paper's formula (5), every face, and the entries of lists that are read.
+// Queries that only the study makes: the paper's formula (5), every face, and the entries of lists that are read.
 #include "support/brute_force_long.h"
 #include "support/device.h"
 #include "support/meshes.h"

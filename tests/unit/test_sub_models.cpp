@@ -61,7 +61,7 @@ TEST(sub_models, have_a_case_in_the_table_of_effects)
   for (const EffectCase &c : effect_cases())
     for (const SubModel *row : rows_of(c.settings.law())) seen.insert(row);
   for (const SubModel &row : sub_models()) {
-    // Of two rows with one formula, the first stands for both.
+    // Where two rows have one formula, the first stands for both.
     const auto first =
         std::find_if(sub_models().begin(), sub_models().end(), [&](const SubModel &r) {
           return r.family == row.family && r.model == row.model;

@@ -27,7 +27,7 @@ void spend(TimeReport &report, Real &now, Real seconds, Section section)
   report.end(section);
 }
 
-// What the first process logs at the end of `runs` runs, in each of which `all` is spent.
+// The log of the first process at the end of `runs` runs, in each of which `all` is spent.
 std::vector<std::string> logged(const std::vector<Spent> &all, Real loop, bool brief = false,
                                 int runs = 1)
 {

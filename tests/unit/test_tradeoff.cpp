@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What settings buy and cost: the front, the moving spheres, the rows.
+// The gain and cost of settings: the front, the moving spheres, the rows.
 #include "study/tradeoff.h"
 
 #include "study/drift.h"
@@ -134,7 +134,7 @@ struct Wall {
   }
 };
 
-// Those starts of which keep(point, normal) says so.
+// The starts for which keep(point, normal) is true.
 template <class Keep>
 DriftStarts those(DriftStarts all, const Keep &keep)
 {

@@ -162,7 +162,7 @@ TEST(triangle_tree, normals_tell_the_sides_that_winding_numbers_tell)
       Vec3 point, normal;
       c->tree.closest(a, q, point, normal);
       const int side = c->tree.view().side(a, q, point, normal);
-      // Of facets without area, which have no side.
+      // Facets without area have no side.
       const bool has_face = c->names.view().of(a.feature) != kNoTriangle;
       ASSERT_EQ(side, has_face ? winding.side(q) : 0) << c->soup.source;
       inside += side < 0;

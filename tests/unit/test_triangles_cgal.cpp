@@ -66,7 +66,7 @@ Vec3 anywhere(Random &random)
 {
   return {uniform(random), uniform(random), uniform(random)};
 }
-// Of few numbers, so that much coincides, lies in one plane or on one line.
+// A point of few numbers, so that much coincides, lies in one plane or on one line.
 Vec3 whole(Random &random, int n)
 {
   return {Real(random() % n), Real(random() % n), Real(random() % n)};

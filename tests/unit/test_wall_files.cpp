@@ -95,7 +95,7 @@ TEST(WallFiles, show_the_mesh_where_it_is)
   for (const Vec3 &corner : read_stl(dir.path("wall.stl")).corners) EXPECT_EQ(corner.z, 8);
 }
 
-// Of four steps, where a file is due in the third.
+// A run of four steps, where a file is due in the third.
 TEST(WallFiles, begin_a_new_average_with_each_file_that_is_written)
 {
   TempDir dir;

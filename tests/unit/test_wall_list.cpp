@@ -415,7 +415,7 @@ TEST(wall_list, is_made_anew_for_the_sphere_that_left_its_margin_alone)
   EXPECT_EQ(diagnostics.listed, OneList(wall.view(), bed.centre(3), 0.5).made.n);
 }
 
-// Of a point outside of a box of the origin.
+// The distance of a point outside of a box about the origin.
 Real distance_from_box(const Vec3 &q, Real half)
 {
   Vec3 past;

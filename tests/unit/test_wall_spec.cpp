@@ -23,7 +23,7 @@ WallSpec good()
 }
 
 // The text of the error; empty: there is none.
-std::string error_of(const WallSpec &wall)
+std::string refusal_of(const WallSpec &wall)
 {
   try {
     check_spec(wall);
@@ -35,13 +35,13 @@ std::string error_of(const WallSpec &wall)
 
 void expect_error(const WallSpec &wall, const std::string &text)
 {
-  const std::string error = error_of(wall);
+  const std::string error = refusal_of(wall);
   EXPECT_NE(error.find(text), std::string::npos) << error;
 }
 
 TEST(wall_spec, a_wall_of_two_meshes_is_taken)
 {
-  EXPECT_EQ(error_of(good()), "");
+  EXPECT_EQ(refusal_of(good()), "");
 }
 
 TEST(wall_spec, a_wall_without_a_mesh_is_refused)
@@ -53,7 +53,7 @@ TEST(wall_spec, more_meshes_than_a_wall_can_have_are_refused)
 {
   WallSpec wall = good();
   wall.meshes.resize(kMaxMeshes);
-  EXPECT_EQ(error_of(wall), "");
+  EXPECT_EQ(refusal_of(wall), "");
   wall.meshes.resize(kMaxMeshes + 1);
   expect_error(wall, "the wall has 33 meshes; it can have 1 to 32");
 }
@@ -89,7 +89,7 @@ TEST(wall_spec, an_input_that_is_not_there_is_refused)
   }
   WallSpec wall = good();
   wall.meshes[0].surface_input[0] = 0;
-  EXPECT_EQ(error_of(wall), "");
+  EXPECT_EQ(refusal_of(wall), "");
 }
 
 TEST(wall_spec, heat_and_temperatures_need_each_other)
@@ -100,7 +100,7 @@ TEST(wall_spec, heat_and_temperatures_need_each_other)
   wall.laws[0].law.heat = HeatModel::radius;
   expect_error(wall, "mesh 'blade' has no temperature, which the sub-model heat needs");
   wall.meshes[1].has_temperature = true;
-  EXPECT_EQ(error_of(wall), "");
+  EXPECT_EQ(refusal_of(wall), "");
 }
 
 TEST(wall_spec, a_wall_is_not_made_of_what_is_refused)

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What a restart file keeps of a wall: blocks that come back.
+// The state of a wall in a restart file: blocks that come back.
 #include "wall/wall_state.h"
 
 #include <gtest/gtest.h>

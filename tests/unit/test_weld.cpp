@@ -461,7 +461,7 @@ TEST(weld, no_edge_is_listed_twice)
   EXPECT_EQ(std::adjacent_find(edges.begin(), edges.end()), edges.end());
 }
 
-// Of a cube: the diagonals of its sides, whichever way their facets are wound.
+// The diagonals of a cube's sides, whichever way their facets are wound.
 TEST(weld, edges_that_look_flat_have_the_last_numbers)
 {
   auto cube = kCube;

@@ -171,7 +171,7 @@ TEST(winding_number, is_the_sum_of_solid_angles_where_rays_meet_edges_and_vertic
   EXPECT_GT(on, 1000);
 }
 
-// Of points on a lattice, which are in the planes of faces, in line with edges, and on all of these.
+// The numbers of points on a lattice, which are in the planes of faces, in line with edges, and on all of these.
 template <class Number>
 void expect_on_lattice(const TriangleSoup &soup, int lo, int hi, const Number &number)
 {
@@ -259,7 +259,7 @@ TEST(winding_number, counts_a_surface_that_a_file_has_twice_once)
   EXPECT_EQ(WindingNumber(weld(joined(box, box), 0)).at({0.5, 0.5, 0.5}).number, 1);
 }
 
-// Of a file's copies of a facet, as many as one winding has more decide, whichever comes first.
+// Where a file has copies of a facet, the winding that has more of them decides, whichever comes first.
 TEST(winding_number, counts_three_copies_of_a_surface_by_the_winding_of_two)
 {
   const TriangleSoup out = box_mesh({0, 0, 0}, {1, 1, 1}), in = inverted(out);
