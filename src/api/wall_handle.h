@@ -18,7 +18,7 @@
 
 namespace lsdcd {
 
-// The history of each sphere, as HistoryExchange::pack_restart() writes it.
+// The history of each sphere, as HistoryExchange::pack_saved() writes it.
 using SphereHistories = std::vector<std::vector<Real>>;
 
 // A number made of all poses that a program has set: it is equal on processes that have set the same ones.

@@ -93,8 +93,8 @@ void unpack_restored(lsdcd_wall &wall)
   HistoryExchange &history = wall.in->history();
   history.on_host();
   for (std::size_t i = 0; i < wall.restored.size(); i++)
-    history.unpack_restart(static_cast<int>(i), wall.restored[i].data(),
-                           static_cast<int>(wall.restored[i].size()));
+    history.unpack_saved(static_cast<int>(i), wall.restored[i].data(),
+                         static_cast<int>(wall.restored[i].size()));
   wall.restored.clear();
 }
 
@@ -153,7 +153,7 @@ int lsdcd_wall_save(lsdcd_wall *wall, double *numbers, size_t room, size_t *coun
     SphereHistories spheres(wall->in->history().is_on() ? wall->caller.tags.size() : 0);
     std::vector<Real> packed(1 + wall->in->history().max_packed_size());
     for (std::size_t i = 0; i < spheres.size(); i++) {
-      const int size = wall->in->pack_restart(static_cast<int>(i), packed.data());
+      const int size = wall->in->pack_saved(static_cast<int>(i), packed.data());
       spheres[i].assign(packed.begin(), packed.begin() + size);
     }
     State state = wall->in->save().blocks();

@@ -227,7 +227,7 @@ class HostAdapter : public WallEngine {
     try {
       return engine_.read_diagnostics();
     } catch (const SphereError &e) {
-      throw SphereError(candidates_[e.sphere], e.problem);
+      throw SphereError(candidates_[e.sphere], e.problem, e.remedy);
     }
   }
 

@@ -14,7 +14,7 @@
 
 namespace lsdcd {
 
-// An integer in the place of a double, as LAMMPS's Kokkos communication has it.
+// An integer in the place of a double, as messages of a host on a GPU have it.
 LSDCD_FN double as_double(std::int64_t value)
 {
   double bits;

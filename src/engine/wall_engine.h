@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The interface between a host code (the fix, the tool, tests, benches) and the engines.
+// The interface between a host (the wall, the tool, tests, benches) and the engines.
 #pragma once
 
 #include "backend/cuda_available.h"
@@ -72,7 +72,7 @@ struct Spheres {
   const Real *mass = nullptr;       // mass that damping sees (a rigid member's body mass)
   const int *mask = nullptr;        // group bits, or null: all spheres
   int group_bit = 0;
-  const int *type = nullptr;            // atom type, from 1; read where laws differ by it
+  const int *type = nullptr;            // from 1; read where laws differ by it
   StridedView<Real> force;              // added to
   StridedView<Real> torque;             // added to
   const Real *temperature = nullptr;    // where the law has heat
@@ -103,7 +103,7 @@ struct WallTotals {
   int pad = 0;                        // keeps the record free of indeterminate bytes
 };
 
-// One sphere's contacts in the columns of `fix wall/gran ... contacts`.
+// One sphere's contacts in columns.
 struct SphereOutput {
   Real contacts;    // number of contacts
   Vec3 force;       // sum over them, on the sphere
@@ -257,7 +257,7 @@ class SpringsInPlace {
   virtual int *first() = 0;
   virtual int *count() = 0;
 
-  // Exchange, as LAMMPS's Kokkos communication lays it out: first the offset of each
+  // Exchange, as a host on a GPU lays it out: first the offset of each
   // sphere's numbers, as an integer in a double; then for each its count of springs and
   // these. Sphere which[k] leaves and sphere from[k], if that is not -1, takes its place.
   // Returns the numbers written.

@@ -6,6 +6,7 @@
 
 #include "base/error_text.h"
 #include "base/real.h"
+#include "host/remedy.h"
 #include "mesh/periodic_box.h"
 
 #include <cstddef>
@@ -71,12 +72,16 @@ class Host {
   virtual PeriodicBox box() const { return PeriodicBox(); }    // the same on all processes
   void log(const std::string &text) { show(text, false); }
   void warn(const std::string &text) { show(text, true); }
+  const HostNames &names() const { return names_; }
+  // Half a sentence, which says what to do about a problem.
+  virtual std::string remedy(Remedy problem) const { return library_remedy(problem); }
 
  protected:
   // Shows a text once, by the first process.
   virtual void show(const std::string & /*text*/, bool /*is_warning*/) {}
 
   Ranks ranks_;
+  HostNames names_;
 };
 
 // The functions below are collective: all processes call them together.

@@ -538,7 +538,7 @@ int FixWallLsdcd::maxsize_restart()
 
 int FixWallLsdcd::pack_restart(int i, double *buf)
 {
-  buf[0] = 1 + wall->pack_restart(i, buf + 1);
+  buf[0] = 1 + wall->pack_saved(i, buf + 1);
   return static_cast<int>(buf[0]);
 }
 
@@ -547,7 +547,7 @@ void FixWallLsdcd::unpack_restart(int i, int nth)
   const double *extra = atom->extra[i];
   for (int n = 0; n < nth; n++) extra += static_cast<int>(extra[0]);
   history_on_host();
-  wall->history().unpack_restart(i, extra + 1, static_cast<int>(extra[0]) - 1);
+  wall->history().unpack_saved(i, extra + 1, static_cast<int>(extra[0]) - 1);
 }
 
 void FixWallLsdcd::write_restart(FILE *file)

@@ -11,6 +11,7 @@
 #include "wall/spec_text.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 
 namespace lsdcd {
@@ -22,13 +23,17 @@ Vec3 extents(const MeshPart &m)
   return m.grid.report().hi - m.grid.report().lo;
 }
 
-// Atoms have it from when they are created until a diameter is set.
-constexpr Real kRadiusUnset = 0.5;
-
-std::string diameter_text(Real radius)
+std::string capital(std::string text)
 {
-  return std::string("write 'set group all diameter D'") +
-         (radius == kRadiusUnset ? ": atoms have radius 0.5 until a diameter is set" : "");
+  text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
+  return text;
+}
+
+// In place of a radius that does not fit the box or a mesh.
+std::string radius_remedy(const Host &host, Real radius)
+{
+  return host.remedy(radius == host.names().unset_radius ? Remedy::set_radii
+                                                         : Remedy::give_other_radii);
 }
 
 }    // namespace
@@ -74,7 +79,8 @@ void BoxChecks::check_radius(const PeriodicBox &box, Real radius) const
     widest = std::max(widest, box.follows(k) ? INFINITY : bounds.hi[k] - bounds.lo[k]);
   if (2 * radius > widest)
     host_.warn("spheres have radius " + number_text(radius) + ", and the box spans " +
-               extents_text(bounds) + ": no such sphere fits in it; " + diameter_text(radius));
+               extents_text(bounds) + ": no such sphere fits in it; " +
+               radius_remedy(host_, radius));
   else
     for (const MeshPart &m : meshes_) check_small(m, box, radius);
 }
@@ -88,13 +94,14 @@ void BoxChecks::check_small(const MeshPart &m, const PeriodicBox &box, Real radi
   const bool is_scaled = std::any_of(steps.begin(), steps.end(), [](const PlacementStep &step) {
     return step.kind == PlacementStep::scale;
   });
-  const std::string units =
-      !is_scaled ? "the file is probably in other units: add a scale"
-                 : "the file is probably in the input script's units, and the scale in '" +
-                       placement_text(m.spec.placement) + "' is not needed";
-  host_.warn(named(m, "the mesh is " + number_text(norm(size)) +
-                          " across, and spheres have radius " + number_text(radius) + ": " + units +
-                          (radius == kRadiusUnset ? "; or " + diameter_text(radius) : "")));
+  const std::string units = !is_scaled ? "the file is probably in other units: add a scale"
+                                       : std::string("the file is probably in ") +
+                                             host_.names().units + ", and the scale in '" +
+                                             placement_text(m.spec.placement) + "' is not needed";
+  host_.warn(named(
+      m, "the mesh is " + number_text(norm(size)) + " across, and spheres have radius " +
+             number_text(radius) + ": " + units +
+             (radius == host_.names().unset_radius ? "; or " + radius_remedy(host_, radius) : "")));
 }
 
 void BoxChecks::check_outside(const MeshPart &m, const PeriodicBox &box, Real cutoff) const
@@ -139,8 +146,9 @@ void BoxChecks::check_gone(const PeriodicBox &box, Real cutoff, std::int64_t ste
     warned_of_mesh.was_in_box |= in_box;
     if (in_box || !warned_of_mesh.was_in_box) continue;
     warned_of_mesh.gone_warned = true;
-    host_.warn(named(m, "the mesh has moved out of the box, where it acts on no atom: in step " +
-                            std::to_string(step) + " it spans " + extents_text(now) + ", the box " +
+    host_.warn(named(m, std::string("the mesh has moved out of the box, where it acts on no ") +
+                            host_.names().sphere + ": in step " + std::to_string(step) +
+                            " it spans " + extents_text(now) + ", the box " +
                             extents_text(box.bounds({0, 0, 0})) +
                             "; check the motion and its units. Shown once"));
   }
@@ -203,10 +211,10 @@ void BoxChecks::check_turning_out(const MeshPart &m, const PeriodicBox &box)
     warned = true;
     const std::string axis(1, "xyz"[k]);
     host_.warn(named(m, "the mesh will turn out of the box: in " + axis + " it will reach from " +
-                            number_text(least) + " to " + number_text(most) +
-                            " of the box. Atoms that it takes along are lost there: make the box "
-                            "larger in " +
-                            axis + ", or its boundary shrink-wrapped. Shown once"));
+                            number_text(least) + " to " + number_text(most) + " of the box. " +
+                            capital(host_.names().sphere) +
+                            "s that it takes along are lost there: make the box larger in " + axis +
+                            ", or " + host_.remedy(Remedy::follow_spheres) + ". Shown once"));
     return;
   }
 }

@@ -57,7 +57,7 @@ std::string law_text(const LawOfTypes &row)
   return t;
 }
 
-// The wall's, then those of meshes and of atom types with them.
+// The wall's, then those of meshes and of types with them.
 std::string contact_lines(const WallSpec &settings)
 {
   std::string t = "\n  contact     " + law_text(settings.laws.front());
@@ -73,7 +73,8 @@ std::string contact_lines(const WallSpec &settings)
   return t;
 }
 
-std::string effect_lines(const WallSpec &settings, const EngineSettings &engine)
+std::string effect_lines(const HostNames &names, const WallSpec &settings,
+                         const EngineSettings &engine)
 {
   std::string effects, kept;
   for (const Effect &e : effects_of(engine)) {
@@ -81,10 +82,12 @@ std::string effect_lines(const WallSpec &settings, const EngineSettings &engine)
     if (e.bytes_per_contact > 0)
       kept += ", " + std::to_string(e.bytes_per_contact) + " for " + e.name;
   }
-  std::string t = "\n  effects     " + effects + "\n  per atom    ";
+  std::string per = std::string("per ") + names.sphere;
+  per.resize(12, ' ');    // as the other lines
+  std::string t = "\n  effects     " + effects + "\n  " + per;
   if (settings.law().has_history())
     t += "8 bytes, and per contact " + std::to_string(sizeof(Spring)) +
-         " for its spring and place" + kept + ", which move and restart with the atom";
+         " for its spring and place" + kept + ", which move and restart with the " + names.sphere;
   else
     t += "nothing stored, exchanged or restarted";
   if (settings.contacts)
@@ -106,16 +109,16 @@ std::string search_lines(const WallSpec &settings)
 
 }    // namespace
 
-std::string creation_text(const WallSpec &settings, const std::deque<MeshPart> &meshes,
-                          const EngineSettings &engine, const std::string &material,
-                          const std::string &device)
+std::string creation_text(const HostNames &names, const WallSpec &settings,
+                          const std::deque<MeshPart> &meshes, const EngineSettings &engine,
+                          const std::string &material, const std::string &device)
 {
   if (settings.brief) return in_a_line(settings, meshes, device);
   std::string t;
   for (const MeshPart &m : meshes) t += (t.empty() ? "" : "\n") + mesh_lines(settings, m);
   if (!material.empty()) t += "\n" + material;
-  return t + contact_lines(settings) + effect_lines(settings, engine) + search_lines(settings) +
-         "\n  device      " + device + "\n  version     " + version();
+  return t + contact_lines(settings) + effect_lines(names, settings, engine) +
+         search_lines(settings) + "\n  device      " + device + "\n  version     " + version();
 }
 
 }    // namespace lsdcd

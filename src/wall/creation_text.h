@@ -13,8 +13,8 @@ namespace lsdcd {
 
 // `material`: what a material file filled in, in lines; else empty. `device`: of the engine, with why it
 // is no other. Called by the first process, which has the reports of the meshes.
-std::string creation_text(const WallSpec &settings, const std::deque<MeshPart> &meshes,
-                          const EngineSettings &engine, const std::string &material,
-                          const std::string &device);
+std::string creation_text(const HostNames &names, const WallSpec &settings,
+                          const std::deque<MeshPart> &meshes, const EngineSettings &engine,
+                          const std::string &material, const std::string &device);
 
 }    // namespace lsdcd

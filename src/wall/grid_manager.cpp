@@ -57,7 +57,8 @@ void GridManager::check_rmax(Real radius, const SpheresOnCpu &spheres) const
     if (s.radius[i] == radius && s.may_be_in_group(i))
       first = std::max(first, -static_cast<Real>(s.tag[i]));
   host_.max(&first, 1);
-  throw InputError("atom " + std::to_string(static_cast<std::int64_t>(-first)) + " has radius " +
+  throw InputError(host_.names().sphere +
+                   (" " + std::to_string(static_cast<std::int64_t>(-first))) + " has radius " +
                    number_text(radius) + ", more than rmax " + number_text(settings_.rmax) +
                    ": raise rmax or use rmax auto");
 }
@@ -164,11 +165,10 @@ void GridManager::check_wrapping(const Spheres &spheres)
       std::all_of(meshes_.begin(), meshes_.end(), [this](const MeshPart &m) { return fits(m); });
   if (out_warned_ || all_fit) return;    // nothing of the wall is there
   out_warned_ = true;
-  host_.warn(
-      "a particle was " + number_text(out) +
-      " past a periodic face before it was wrapped, more than the skin " + number_text(now.margin) +
-      ": contacts there may have been missed; use neigh_modify delay 0 every 1 check yes. The grid "
-      "now reaches further; shown once");
+  host_.warn("a particle was " + number_text(out) +
+             " past a periodic face before it was wrapped, more than the " + host_.names().margin +
+             " " + number_text(now.margin) + ": contacts there may have been missed; " +
+             host_.remedy(Remedy::wrap_sooner) + ". The grid now reaches further; shown once");
 }
 
 void GridManager::end_run()

@@ -39,7 +39,7 @@ int HistoryExchange::max_packed_size() const
   return is_on() ? 1 + springs_.doubles_per_spring() * kMaxContacts : 0;
 }
 
-int HistoryExchange::pack_restart(int i, double *buffer, const FeatureName &name) const
+int HistoryExchange::pack_saved(int i, double *buffer, const FeatureName &name) const
 {
   const int size = springs_.pack(i, buffer);
   for (int k = 0; k < springs_.count(i); k++) {
@@ -51,7 +51,7 @@ int HistoryExchange::pack_restart(int i, double *buffer, const FeatureName &name
 }
 
 // Another law may have kept other numbers for each contact, and this one none.
-void HistoryExchange::unpack_restart(int i, const double *buffer, int size)
+void HistoryExchange::unpack_saved(int i, const double *buffer, int size)
 {
   const int count = static_cast<int>(buffer[0]);
   if (count == 0) return;
@@ -77,8 +77,8 @@ void HistoryExchange::check_restored(int n, const std::function<bool(const Sprin
                               "was written with another contact law"};
   for (int k = 0; k < 2; k++)
     if (lost[k] > 0)
-      host_.warn(std::to_string(static_cast<std::int64_t>(lost[k])) +
-                 " atoms lose their springs: the restart file " + file[k]);
+      host_.warn(std::to_string(static_cast<std::int64_t>(lost[k])) + " " + host_.names().sphere +
+                 "s lose their springs: the " + host_.names().saved + " " + file[k]);
 }
 
 void HistoryExchange::rename_features(const FeatureName &name)

@@ -50,14 +50,14 @@ class HistoryExchange {
   using FeatureName = std::function<FeatureCode(int mesh, FeatureCode feature)>;
   void rename_features(const FeatureName &name);    // on the host
 
-  // Restart files; with the history on the host. They tell the kind of history that they have
+  // Saved states; with the history on the host. They tell the kind of history that they have
   // (ContactLaw::history_kind()).
   // Features are written with the names that `name` gives them. Returns the numbers written.
-  int pack_restart(int i, double *buffer, const FeatureName &name) const;
+  int pack_saved(int i, double *buffer, const FeatureName &name) const;
   // Before the first sphere is unpacked.
   void set_kind_of_file(double kind) { kind_is_ours_ = kind == law_.history_kind(); }
   // `size` numbers of one sphere. Numbers that another law wrote are not read, but counted.
-  void unpack_restart(int i, const double *buffer, int size);
+  void unpack_saved(int i, const double *buffer, int size);
   // Drops the history of spheres that name a feature which is not there, and warns of these and of those
   // of another law. Checks the first n spheres, once. Collective.
   void check_restored(int n, const std::function<bool(const Spring &)> &is_there);
@@ -75,7 +75,7 @@ class HistoryExchange {
   int n_with_engine_ = 0;
   bool checked_ = false;
   bool kind_is_ours_ = false;
-  std::int64_t other_law_ = 0;    // spheres of the restart file with springs of another law
+  std::int64_t other_law_ = 0;    // spheres of the saved state with springs of another law
 };
 
 }    // namespace lsdcd

@@ -33,7 +33,7 @@ class LoadRecorder {
   // The average begins anew; what has worn off stays.
   void begin_average(int mesh) { loads_[mesh].begin_average(); }
 
-  // Restores data of a restart file, before the first step: the time of the average and rows as of
+  // Restores data of a saved state, before the first step: the time of the average and rows as of
   // MeshLoads::packed(), the same on all processes. The first one keeps the rows.
   void restore(int mesh, Real time, const std::vector<double> &rows);
 

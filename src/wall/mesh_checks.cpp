@@ -58,9 +58,8 @@ void check_plane(Host &host, const WallSpec &settings, const MeshPart &m)
     host.warn(with_mesh_name(
         settings, m.index,
         number_text(cut[0]) + " faces lean where the mesh cuts the plane z = 0, by up to " +
-            number_text(cut[1]) +
-            " degrees: fix enforce2d throws away what they push along z; draw the outline "
-            "out along z"));
+            number_text(cut[1]) + " degrees: " + host.remedy(Remedy::stay_in_plane) +
+            "; draw the outline out along z"));
 }
 
 void check_motion(const Host &host, const WallSpec &settings, const MeshPart &m)

@@ -179,7 +179,7 @@ void MeshGrid::note_images(const WeldedMesh &whole)
   if (!images.any()) return;
   grid_text_ += "\n  periodic images of " + std::to_string(images.face_of.size()) +
                 " triangles act through the faces of the box";
-  // A gap that is wide beside the box is an opening; not so where the script says that the mesh
+  // A gap that is wide beside the box is an opening; not so where the spec says that the mesh
   // continues itself.
   Real least = HUGE_VAL;
   for (int k = 0; k < 3; k++)

@@ -39,7 +39,7 @@ class MeshGrid {
   bool out_of_reach() const { return cells_ == 0; }
 
   const MeshReport &report() const { return report_; }
-  std::uint64_t mesh_fingerprint() const { return mesh_fingerprint_; }    // as the script places it
+  std::uint64_t mesh_fingerprint() const { return mesh_fingerprint_; }    // as its placement has it
   const std::string &mesh_text() const { return mesh_text_; }    // of the process that read it
   const std::string &grid_text() const { return grid_text_; }    // on every process
   // Text on the last build's cache file, and on what was wrong with it;

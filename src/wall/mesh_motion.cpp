@@ -190,26 +190,29 @@ void MeshMotion::check_limits(Real position) const
 
 void MeshMotion::check_snapshot(const Step &at) const
 {
+  const std::string in_replay = std::string("in a ") + host_.names().replay + " ";
   if (servo().present && !servo().holds)
     throw InputError(
-        named("in a rerun a servo is not where it was, as it follows from the loads of all "
-              "steps before: leave servo out, and give its places by motion variable"));
+        named(in_replay + "a servo is not where it was, as it follows from the loads of all "
+                          "steps before: leave servo out, and give its places by motion variable"));
   if (takes_differences())
-    throw InputError(
-        named("in a rerun there is no step over which the velocity of motion variable could be "
-              "a difference: give v_vx v_vy v_vz in place of NULL"));
+    throw InputError(named(in_replay +
+                           "there is no step over which the velocity of motion variable could be a "
+                           "difference: " +
+                           host_.remedy(Remedy::give_velocities)));
   if (adds_up())
     throw InputError(
-        named("in a rerun the displacement or angle that velocities of variables add up to in all "
-              "steps before is not known: give its variable in place of NULL"));
+        named(in_replay +
+              "the displacement or angle that velocities of variables add up to in all "
+              "steps before is not known: " +
+              host_.remedy(Remedy::give_displacements)));
   StepClock there = clock_;
   there.advance(at);
   if (spec().motion.moves() && there.now() < 0)
     throw InputError(
-        named("in a rerun the snapshot of step " + std::to_string(at.number) + " is before step " +
+        named(in_replay + "the snapshot of step " + std::to_string(at.number) + " is before step " +
               std::to_string(clock_.base_step) +
-              ", in which the motion of the mesh begins: before the fix is defined, reset_timestep "
-              "to the step in which the run that was dumped defined it"));
+              ", in which the motion of the mesh begins: " + host_.remedy(Remedy::begin_replay)));
 }
 
 std::string MeshMotion::text(const Box &bounds) const
@@ -285,18 +288,17 @@ void MeshMotion::restore(const MotionState &was, const Step &now)
                                           wall_.inputs, was.terms, was.inputs);
   const std::string own = own_text(), its = motion_text(was.terms, was.inputs);
   motion.begin_from(same ? was.start : same_line ? was.placed : was.last);
-  const std::string so =
-      " was stopped when the restart file was written, and stays so: fix_modify ";
+  const std::string saved = host_.names().saved;
+  const std::string so = " was stopped when the " + saved + " was written, and stays so: ";
   if (same && was.stopped) {
     motion.stop();
-    host_.warn(
-        named("the motion '" + its + "'" + so + "motion starts another from where the mesh is"));
+    host_.warn(named("the motion '" + its + "'" + so + host_.remedy(Remedy::begin_motion)));
   }
   if (servo().has_line_of(was.servo)) {
     servo().position = was.servo.position;
     servo().velocity = was.servo.velocity;
     servo().holds = was.servo.holds;
-    if (servo().holds) host_.warn(named("the servo" + so + "servo lets it go on"));
+    if (servo().holds) host_.warn(named("the servo" + so + host_.remedy(Remedy::begin_servo)));
   }
   begin(now);
   if (same) {
@@ -307,14 +309,14 @@ void MeshMotion::restore(const MotionState &was, const Step &now)
     }
     place();
   } else if (motion.moves() ? !was.terms.empty() : !was.terms.empty() && !was.stopped) {
-    host_.warn(named("the restart file was written with the motion '" + its +
-                     "' and this fix has " +
+    host_.warn(named("the " + saved + " was written with the motion '" + its + "' and " +
+                     host_.names().wall + " has " +
                      (motion.moves() ? "'" + own + "', which begins" : "none: the mesh stays") +
                      " where the mesh was; the phase is not carried over"));
   }
   if (!same_line)
-    host_.warn(named("the restart file was written with a servo along another line, or this fix "
-                     "has none: the mesh is where that had it, at " +
+    host_.warn(named("the " + saved + " was written with a servo along another line, or " +
+                     host_.names().wall + " has none: the mesh is where that had it, at " +
                      number_text(was.servo.position) + ", and its state is not carried over"));
 }
 

@@ -13,7 +13,7 @@
 
 namespace lsdcd {
 
-// The sums of a motion, for a restart.
+// The sums of a motion, for a saved state.
 struct MotionState {
   StepClock clock;
   Pose start;     // that the terms act on

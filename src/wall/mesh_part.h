@@ -29,7 +29,7 @@ struct MeshPart {
   MeshMotion motion;
   ServoController servo_controller;
 
-  bool springs_are_foreign = false;    // those of a restart file are of another mesh
+  bool springs_are_foreign = false;    // those of a saved state are of another mesh
 
   const Servo &servo() const { return spec.motion.servo(); }
   bool moves() const { return spec.motion.any(); }    // or was moved

@@ -61,9 +61,9 @@ void OverlapMonitor::check_sunk(Real worst, Real timestep_ratio, const SpheresOn
   std::int64_t which[2] = {worst_tag_, worst_step_};
   host_.broadcast(which, sizeof which, rank);
   const std::string overlap = overlap_text(most, which[0], spheres);
-  host_.warn("atom " + std::to_string(which[0]) + " sank into the wall by " + overlap +
-             " by step " + std::to_string(which[1]) + ": " + sunk_remedy(most, timestep_ratio) +
-             "; shown once");
+  host_.warn(host_.names().sphere + (" " + std::to_string(which[0])) + " sank into the wall by " +
+             overlap + " by step " + std::to_string(which[1]) + ": " +
+             sunk_remedy(most, timestep_ratio) + "; shown once");
 }
 
 // New spheres have tags above the highest tag that there was.
@@ -88,11 +88,10 @@ void OverlapMonitor::check_new(const StepDiagnostics &seen, const SpheresOnCpu &
   worst_new_ = kWorse * most;
   host_.broadcast(&tag, sizeof tag, lowest_rank(host_, mine == most));
   const std::string overlap = overlap_text(most, tag, spheres);
-  host_.warn("atom " + std::to_string(tag) + " comes to be in the wall, which it overlaps by " +
-             overlap + " in step " + std::to_string(step) + ": " +
-             (most > 1 ? kWrongSide
-                       : "it will be thrown out; keep what inserts or creates atoms a radius away "
-                         "from the mesh") +
+  host_.warn(host_.names().sphere + (" " + std::to_string(tag)) +
+             " comes to be in the wall, which it overlaps by " + overlap + " in step " +
+             std::to_string(step) + ": " +
+             (most > 1 ? kWrongSide : "it will be thrown out; " + host_.remedy(Remedy::put_clear)) +
              ". A deeper one is reported again");
 }
 

@@ -36,8 +36,9 @@ void SearchReport::end_run(bool brief, const std::string &advice)
                  static_cast<Real>(cell_searches_)};
   host_.sum(sum, 3);
   if (steps_ + setups_ > 0 && !brief) {
-    std::string t = counted(steps_, "step") + (setups_ > 0 ? " and the setup" : "") +
-                    ": atoms near the wall chosen " + counted(updates_, "time") + advice;
+    std::string t = counted(steps_, "step") + (setups_ > 0 ? " and the setup" : "") + ": " +
+                    host_.names().sphere + "s near the wall chosen " + counted(updates_, "time") +
+                    advice;
     if (sum[0] > 0) {
       char features[32];
       std::snprintf(features, sizeof features, "%.2f", sum[1] / sum[0]);

@@ -35,7 +35,7 @@ class TimeReport {
   // Counts anew.
   void begin_run();
 
-  // Logs the times of a run, as LAMMPS logs its own, and counts anew. `loop`: seconds of the whole
+  // Logs the times of a run, and counts anew. `loop`: seconds of the whole
   // run; 0: not known. Sections without time are left out. Nothing is logged with `brief`, or if no
   // section has time. Collective.
   void end_run(bool brief, Real loop);

@@ -19,7 +19,8 @@ Real TimestepCheck::shortest_of(const Spheres &s, int i) const
   Real shortest = INFINITY;
   for (std::size_t k = static_cast<std::size_t>(kinds[i]); k < laws_.laws.size();
        k += static_cast<std::size_t>(laws_.kinds))
-    shortest = std::min(shortest, contact_time(laws_.laws[k], s.mass[i], s.radius[i], ftm2v_));
+    shortest =
+        std::min(shortest, contact_time(laws_.laws[k], s.mass[i], s.radius[i], velocity_unit_));
   return shortest;
 }
 

@@ -12,9 +12,9 @@ namespace lsdcd {
 
 class TimestepCheck {
  public:
-  // Both must outlive it. `ftm2v`: force times time over mass, in the host's unit of velocity.
-  TimestepCheck(Host &host, const LawTable &laws, Real ftm2v) :
-      host_(host), laws_(laws), ftm2v_(ftm2v)
+  // Both must outlive it. `velocity_unit`: force times time over mass, in the host's unit of velocity.
+  TimestepCheck(Host &host, const LawTable &laws, Real velocity_unit) :
+      host_(host), laws_(laws), velocity_unit_(velocity_unit)
   {
   }
 
@@ -30,7 +30,7 @@ class TimestepCheck {
 
   Host &host_;
   const LawTable &laws_;
-  Real ftm2v_;
+  Real velocity_unit_;
   static constexpr Real kWorse = 1.1;    // times a timestep that was warned of: warned of again
   Real worst_ = 1;                       // what is warned of next, over what it should be
 };

@@ -161,7 +161,7 @@ void Wall::log_creation(const std::string &material, const WallBackend &backend)
   if (!spec_.brief && !backend.in_place && spec_.device == Device::automatic &&
       !cuda_available(&why))
     device += " (no CUDA: " + why + ")";
-  host_.log(creation_text(spec_, meshes_, engine_settings(), material, device));
+  host_.log(creation_text(host_.names(), spec_, meshes_, engine_settings(), material, device));
 }
 
 // An error of a sphere gets the name that the host has for it.
@@ -171,7 +171,11 @@ void Wall::on_this_process(const HostSpheres &spheres, Work &&work)
   try {
     work();
   } catch (const SphereError &e) {
-    throw ProcessError("atom " + std::to_string(on_cpu(spheres).tag(e.sphere)) + " " + e.problem);
+    throw ProcessError(host_.names().sphere +
+                       (" " + std::to_string(on_cpu(spheres).tag(e.sphere))) + " " + e.problem +
+                       (e.remedy ? "; " + host_.remedy(*e.remedy) : ""));
+  } catch (const RemedyError &e) {
+    throw ProcessError(e.problem + "; " + host_.remedy(e.remedy));
   } catch (const std::exception &e) {
     throw ProcessError(e.what());
   }
@@ -224,12 +228,15 @@ void Wall::begin_snapshot(int n, const Step &step)
   for (int i = 0; history_.is_on() && i < n; i++) history_.on_host().clear(i);
   if (snapshot_warned_) return;
   snapshot_warned_ = true;
+  const std::string a_replay = std::string("a ") + host_.names().replay;
   if (history_.is_on())
-    host_.warn(
-        "a rerun does not know the springs of contacts, which no dump has: friction, rolling, "
-        "twisting and adhesion past touch begin at 0 in each snapshot");
+    host_.warn(a_replay + " does not know the springs of contacts, which no " +
+               host_.names().record +
+               " has: friction, rolling, twisting and adhesion past touch begin at 0 in each "
+               "snapshot");
   if (spec_.has_loads())
-    host_.warn("a rerun has no steps over which loads and wear add up: no wear is counted and no "
+    host_.warn(a_replay +
+               " has no steps over which loads and wear add up: no wear is counted and no "
                "mesh_fields are written");
 }
 
@@ -282,9 +289,9 @@ void Wall::check_points(const HostSpheres &spheres)
   host_.sum(&count, 1);
   if (count == 0) return;
   points_warned_ = true;
-  host_.warn("all " + std::to_string(static_cast<std::int64_t>(count)) + " atoms" +
-             (s.group ? std::string(" of group ") + s.group : "") +
-             " have radius 0: the wall acts on none; set diameter");
+  host_.warn("all " + std::to_string(static_cast<std::int64_t>(count)) + " " +
+             host_.names().sphere + "s" + (s.group ? std::string(" of group ") + s.group : "") +
+             " have radius 0: the wall acts on none; " + host_.remedy(Remedy::give_radii));
 }
 
 // The largest radius and mass that a contact can have.
@@ -440,7 +447,7 @@ Real Wall::servo_push(int mesh)
   return meshes_[mesh].servo_controller.push(servo_load(mesh));
 }
 
-// As LAMMPS's flat walls have it: the arm goes from the wall's closest point to the sphere's centre.
+// The arm goes from the wall's closest point to the sphere's centre.
 void Wall::add_virial(Real *virial) const
 {
   if (cutoff() == 0) return;
@@ -516,13 +523,13 @@ void Wall::motion_has_changed(const MeshPart &m)
   if (any_moves() && !engine_moves_) make_engine_anew();
 }
 
-// ---- restart files -----------------------------------------------------------------------
+// ---- saved states ------------------------------------------------------------------------
 
 // The images of another run may have other numbers.
-int Wall::pack_restart(int sphere, Real *buffer)
+int Wall::pack_saved(int sphere, Real *buffer)
 {
   history_.on_host();
-  return history_.pack_restart(sphere, buffer, [this](int mesh, FeatureCode feature) {
+  return history_.pack_saved(sphere, buffer, [this](int mesh, FeatureCode feature) {
     return grids_.without_image(mesh, feature);
   });
 }
@@ -550,6 +557,7 @@ void Wall::restore(const WallState &was, const Step &now)
 {
   const std::size_t here = meshes_.size(), there = was.meshes.size();
   const bool one_of_many = here > 1 || there > 1;
+  const std::string saved = host_.names().saved;
   for (std::size_t k = 0; k < std::min(there, here); k++)
     if (is_restored(meshes_[k], was.meshes[k], one_of_many))
       meshes_[k].motion.check(was.meshes[k].motion);
@@ -563,19 +571,18 @@ void Wall::restore(const WallState &was, const Step &now)
     if (is_restored(m, was.meshes[k], one_of_many))
       restore_mesh(m, was.meshes[k], now);
     else
-      host_.warn(named(m,
-                       "springs, motion, loads and wear begin anew: the restart file was written "
-                       "with another mesh in this place"));
+      host_.warn(named(m, "springs, motion, loads and wear begin anew: the " + saved +
+                              " was written with another mesh in this place"));
   }
   if (!was.unread.empty())
-    host_.warn("the restart file has " + was.unread +
+    host_.warn("the " + saved + " has " + was.unread +
                ", which this version does not know: it is not carried over");
   if (there == here) return;
   const auto meshes = [](std::size_t n) {
     return std::to_string(n) + (n == 1 ? " mesh" : " meshes");
   };
-  host_.warn("the restart file was written with " + meshes(there) + " and this fix has " +
-             std::to_string(here) + ": " +
+  host_.warn("the " + saved + " was written with " + meshes(there) + " and " + host_.names().wall +
+             " has " + std::to_string(here) + ": " +
              (there > here ? "springs, motion, loads and wear of those after mesh " +
                                  std::to_string(here) + " are not carried over"
                            : "those after mesh " + std::to_string(there) +
@@ -594,7 +601,8 @@ void Wall::restore_mesh(MeshPart &m, const MeshState &was, const Step &now)
   motion_has_changed(m);
   if (!spec_.has_loads(m.spec)) return;
   if (m.springs_are_foreign)
-    host_.warn("loads and wear begin at zero: the restart file was written with another mesh");
+    host_.warn("loads and wear begin at zero: the " + std::string(host_.names().saved) +
+               " was written with another mesh");
   else
     loads_.restore(m.index, was.loads.time, was.loads.rows);
 }

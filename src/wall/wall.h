@@ -36,8 +36,8 @@ struct WallBackend {
 
 // The host's units.
 struct WallUnits {
-  Real pressure = 1;    // a force per area of 1, in the unit of pressure (LAMMPS: nktv2p)
-  Real velocity = 1;    // a force times time over a mass, in the unit of velocity (LAMMPS: ftm2v)
+  Real pressure = 1;    // a force per area of 1, in the unit of pressure
+  Real velocity = 1;    // a force times time over a mass, in the unit of velocity
 };
 
 // The input of a step.
@@ -133,10 +133,10 @@ class Wall {
   // The pose of a mesh whose motion is_posed(), for the next step and those after it. Not together.
   void set_pose(int mesh, const Pose &pose) { spec_.meshes[mesh].motion.set_pose(pose); }
 
-  // For a restart file: the history of a sphere, with the names of features that any run has. Returns the
+  // For a saved state: the history of a sphere, with the names of features that any run has. Returns the
   // numbers written. Not together.
-  int pack_restart(int sphere, Real *buffer);
-  // For a restart file: what the wall keeps beside the histories of spheres. Only the first process has
+  int pack_saved(int sphere, Real *buffer);
+  // For a saved state: what the wall keeps beside the histories of spheres. Only the first process has
   // the loads of all.
   WallState save() const;
   // Restores what this or another wall has saved, the same on all processes. Throws InputError, and nothing has changed then,
@@ -179,7 +179,7 @@ class Wall {
   WallSpec spec_;    // motions change later
   LawTable laws_;    // of the spec
   WallBackend backend_;
-  // The time of the spheres; the host's time begins anew in some runs from a restart file.
+  // The time of the spheres; the host's time begins anew in some runs from a saved state.
   StepClock clock_;
   std::deque<MeshPart> meshes_;    // where each stays; there is one at least
   std::unique_ptr<WallEngine> engine_;
@@ -199,7 +199,7 @@ class Wall {
   CandidateSchedule schedule_;
 
   StepInput input_;           // of the last begin()
-  bool continued_ = false;    // from a restart file
+  bool continued_ = false;    // from a saved state
   bool points_warned_ = false, snapshot_warned_ = false;
   Real servo_radius_ = 0, servo_mass_ = 0;    // the largest, for gains of servos
   // The surface motion of each mesh, for the engine in this step.

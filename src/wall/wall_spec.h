@@ -24,7 +24,7 @@ struct FileEvery {
 
 constexpr int kAnyType = std::numeric_limits<int>::max();
 
-// The contact law of a range of atom types.
+// The contact law of a range of types of spheres.
 struct LawOfTypes {
   int first_type = 0, last_type = kAnyType;    // both are in the range; there is no type 0
   ContactLaw law;
@@ -100,7 +100,7 @@ void check_spec(const WallSpec &wall);
 // Cohesion of 0 everywhere costs nothing: no law has it then.
 void leave_out_zero_cohesion(WallSpec &wall);
 
-// The law of each mesh and atom type.
+// The law of each mesh and type of sphere.
 LawTable law_table(const WallSpec &wall);
 
 // Are these the same triangles, which are always at the same place?

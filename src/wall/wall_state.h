@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The data of a wall for a restart, beside the springs of spheres.
+// The data of a wall for a saved state, beside the springs of spheres.
 #pragma once
 
 #include "base/state_blocks.h"

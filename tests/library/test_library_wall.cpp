@@ -407,7 +407,7 @@ TEST_F(wall, names_a_sphere_that_outgrew_its_grid)
     ADD_FAILURE() << "no error";
   } catch (const lsdcd::Error &e) {
     EXPECT_EQ(e.code(), LSDCD_ERROR_INPUT);
-    EXPECT_EQ(std::string(e.what()).rfind("atom 2 ", 0), 0u) << e.what();
+    EXPECT_EQ(std::string(e.what()).rfind("sphere 2 ", 0), 0u) << e.what();
   }
 }
 

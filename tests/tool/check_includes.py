@@ -2,7 +2,7 @@
 # SPDX-FileCopyrightText: 2026 LSDCD contributors
 # SPDX-License-Identifier: BSD-3-Clause
 
-"""Checks the house of src and kokkos: who includes whom, where files lie.
+"""Checks the house of src and kokkos: who includes whom, where files lie, and who knows the host.
 
 usage: check_includes.py [ROOT]
 
@@ -13,6 +13,8 @@ usage: check_includes.py [ROOT]
 * The study is for STUDY_ROOMS, bench/ and tests: what it measures is no part of a plugin or the library.
 * Only LAMMPS_ROOMS include headers of LAMMPS, which have no room in their name, and of MPI.
 * A header of ONLY_IN, which is slow to compile, is included by its one file.
+* HOST_FREE_ROOMS name no host: neither LAMMPS nor its commands (HOST_WORDS), in code and in comments. A host has
+  its words and remedies in messages by Host::names() and Host::remedy().
 * No file includes itself by way of others.
 * src itself has no source file: each lies in a room, and each room has a floor.
 
@@ -36,6 +38,10 @@ FOLDERS = {
 INPUT_ROOM = "input"
 INPUT_USERS = {"input", "lammps", "tool", "src/api/wall_words.cpp"}
 STUDY_ROOMS = {"study", "tool"}
+HOST_FREE_ROOMS = {"host", "wall", "engine"}
+HOST_WORDS = re.compile(
+    r"\b(lammps\w*|kokkos\w*|atoms?|fix(es)?|scripts?|skin|reruns?|dump(s|ed)?|thermo\w*|restart files?"
+    r"|fix_\w+|\w+_modify|\w+_restart|reset_timestep|create_atoms|enforce2d|set group|nktv2p|ftm2v)\b", re.IGNORECASE)
 LAMMPS_ROOMS = {"lammps", "kokkos"}
 GENERATED = {"grid": "lsdcd_grid_sources.h"}
 ONLY_IN = {"CLI/CLI.hpp": "src/tool/command.cpp"}
@@ -141,6 +147,9 @@ def violations(root):
             why = include and (wrong_include(room, path, include[1]) or wrong_input(room, path, include[1]))
             if why:
                 yield f"{path}:{number}: {include[1]} {why}"
+            word = room in HOST_FREE_ROOMS and HOST_WORDS.search(line)
+            if word:
+                yield f"{path}:{number}: '{word[0]}' is of a host, which {room} does not know"
             system = SYSTEM_INCLUDE.match(line)
             if system and system[1] == "mpi.h" and room not in LAMMPS_ROOMS:
                 yield f"{path}:{number}: mpi.h is for {', '.join(sorted(LAMMPS_ROOMS))} only"

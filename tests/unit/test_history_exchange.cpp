@@ -82,10 +82,10 @@ TEST(HistoryExchange, of_an_image_is_written_as_of_what_it_is_an_image_of)
   HistoryExchange written(host, settings), read(host, settings);
   give_spring(written, kImage);
   std::vector<double> buffer(written.max_packed_size());
-  const int size = written.pack_restart(1, buffer.data(), without_image);
+  const int size = written.pack_saved(1, buffer.data(), without_image);
   read.set_kind_of_file(settings.law().history_kind());
   read.grow(2);
-  read.unpack_restart(1, buffer.data(), size);
+  read.unpack_saved(1, buffer.data(), size);
   ASSERT_EQ(read.on_host().count(1), 1);
   EXPECT_EQ(read.on_host().of(1)->feature, kFace);
   EXPECT_EQ(written.on_host().of(1)->feature, kImage);    // is as it was
@@ -98,15 +98,15 @@ TEST(HistoryExchange, of_another_law_is_not_taken_and_told_once)
     HistoryExchange written(host, settings), read(host, settings);
     give_spring(written, kFace);
     std::vector<double> buffer(written.max_packed_size());
-    const int size = written.pack_restart(1, buffer.data(), without_image);
+    const int size = written.pack_saved(1, buffer.data(), without_image);
     read.set_kind_of_file(settings.law().history_kind() + 1);
     read.grow(2);
-    read.unpack_restart(1, buffer.data(), size);
+    read.unpack_saved(1, buffer.data(), size);
     EXPECT_EQ(read.on_host().count(1), 0);
     read.check_restored(2, is_face);
     ASSERT_EQ(host.warnings.size(), 1u);
     EXPECT_EQ(host.warnings[0],
-              "2 atoms lose their springs: the restart file was written with another contact law");
+              "2 spheres lose their springs: the saved state was written with another contact law");
   });
 }
 
@@ -121,7 +121,7 @@ TEST(HistoryExchange, of_features_that_are_not_there_is_dropped_and_told)
     EXPECT_EQ(history.on_host().count(1), host.rank() == 0 ? 1 : 0);
     ASSERT_EQ(host.warnings.size(), 1u);
     EXPECT_EQ(host.warnings[0],
-              "1 atoms lose their springs: the restart file was written with another mesh");
+              "1 spheres lose their springs: the saved state was written with another mesh");
   });
 }
 

@@ -441,20 +441,21 @@ TEST(MeshMotion, is_not_known_in_a_snapshot_with_a_servo)
 {
   Wall wall;
   wall.servo_along_z();
-  expect_refused(wall, {kFirst + 1, kDt, Step::snapshot}, "in a rerun a servo is not where it was");
+  expect_refused(wall, {kFirst + 1, kDt, Step::snapshot},
+                 "in a replay a servo is not where it was");
 }
 
 TEST(MeshMotion, has_no_differences_in_a_snapshot)
 {
   Wall wall;
   wall.by_variable(false);
-  expect_refused(wall, {kFirst + 1, kDt, Step::snapshot}, "give v_vx v_vy v_vz in place of NULL");
+  expect_refused(wall, {kFirst + 1, kDt, Step::snapshot}, "give velocities as well");
 }
 
 TEST(MeshMotion, has_added_up_nothing_in_a_snapshot)
 {
   WallThatTurns wall;
-  expect_refused(wall, {kFirst + 1, kDt, Step::snapshot}, "give its variable in place of NULL");
+  expect_refused(wall, {kFirst + 1, kDt, Step::snapshot}, "give displacements as well");
 }
 
 // restart files
@@ -502,7 +503,7 @@ TEST(MeshMotion, that_was_stopped_stays_so_after_a_restart)
   run(second, after, 4, 5);
   EXPECT_EQ(where(second), (Vec3{3, 0, 0}));
   ASSERT_EQ(after.host.warnings.size(), 1);
-  EXPECT_NE(after.host.warnings[0].find("was stopped when the restart file was written"),
+  EXPECT_NE(after.host.warnings[0].find("was stopped when the saved state was written"),
             std::string::npos);
 }
 

@@ -94,9 +94,10 @@ TEST(OverlapMonitor, tells_once_of_the_sphere_that_sank_deepest_on_all_processes
 {
   const std::vector<std::string> told = warned_of_sunk({0.2, 0.15, 0.25, 0.12});
   ASSERT_EQ(told.size(), 1);
-  EXPECT_EQ(told[0],
-            "atom 3 sank into the wall by 25 % of its radius 3 by step 7: stiffen the contact (kn) "
-            "or lower speeds; shown once");
+  EXPECT_EQ(
+      told[0],
+      "sphere 3 sank into the wall by 25 % of its radius 3 by step 7: stiffen the contact (kn) "
+      "or lower speeds; shown once");
 }
 
 TEST(OverlapMonitor, blames_a_timestep_that_is_too_long_before_the_stiffness)
@@ -105,7 +106,7 @@ TEST(OverlapMonitor, blames_a_timestep_that_is_too_long_before_the_stiffness)
   ASSERT_EQ(told.size(), 1);
   EXPECT_EQ(
       told[0],
-      "atom 3 sank into the wall by 25 % of its radius 3 by step 7: the timestep is 12.5 times "
+      "sphere 3 sank into the wall by 25 % of its radius 3 by step 7: the timestep is 12.5 times "
       "the longest that resolves a contact: shorten it first. A stiffer contact needs a shorter "
       "one still; shown once");
 }
@@ -126,16 +127,17 @@ TEST(OverlapMonitor, tells_of_a_new_sphere_that_was_put_into_the_wall)
 {
   const std::vector<std::string> told = warned_of_new(5, {0.5});
   ASSERT_EQ(told.size(), 1);
-  EXPECT_EQ(told[0].find("atom 5 comes to be in the wall, which it overlaps by 50 % of its radius "
-                         "4 in step 100: it will be thrown out"),
-            0);
+  EXPECT_EQ(
+      told[0].find("sphere 5 comes to be in the wall, which it overlaps by 50 % of its radius "
+                   "4 in step 100: it will be thrown out"),
+      0);
 }
 
 TEST(OverlapMonitor, takes_a_sphere_that_was_there_before_for_one_that_sank)
 {
   const std::vector<std::string> told = warned_of_new(4, {0.5});
   ASSERT_EQ(told.size(), 1);
-  EXPECT_EQ(told[0].find("atom 4 sank"), 0);
+  EXPECT_EQ(told[0].find("sphere 4 sank"), 0);
 }
 
 TEST(OverlapMonitor, does_not_tell_again_of_a_new_sphere_that_is_on_its_way_out)
@@ -147,14 +149,14 @@ TEST(OverlapMonitor, tells_of_a_new_sphere_that_sinks_deeper)
 {
   const std::vector<std::string> told = warned_of_new(5, {0.5, 0.56});
   ASSERT_EQ(told.size(), 2);
-  EXPECT_EQ(told[1].find("atom 5 sank into the wall by 56 %"), 0);
+  EXPECT_EQ(told[1].find("sphere 5 sank into the wall by 56 %"), 0);
 }
 
 TEST(OverlapMonitor, tells_of_a_new_sphere_that_was_out_and_sank_again)
 {
   const std::vector<std::string> told = warned_of_new(5, {0.5, 0.1, 0.2});
   ASSERT_EQ(told.size(), 2);
-  EXPECT_EQ(told[1].find("atom 5 sank into the wall by 20 %"), 0);
+  EXPECT_EQ(told[1].find("sphere 5 sank into the wall by 20 %"), 0);
 }
 
 // The warnings of the first process where spheres come one after the other and overlap so.
@@ -180,7 +182,7 @@ TEST(OverlapMonitor, tells_again_of_new_spheres_that_are_a_tenth_deeper)
 {
   const std::vector<std::string> told = warned_of_coming({0.5, 0.54, 0.56}, false);
   ASSERT_EQ(told.size(), 2);
-  EXPECT_EQ(told[1].find("atom 6 comes to be in the wall, which it overlaps by 56 %"), 0);
+  EXPECT_EQ(told[1].find("sphere 6 comes to be in the wall, which it overlaps by 56 %"), 0);
 }
 
 TEST(OverlapMonitor, takes_the_first_spheres_of_a_run_that_goes_on_for_old_ones)

@@ -45,7 +45,7 @@ TEST(SearchReport, adds_up_what_all_processes_have_listed)
   ASSERT_EQ(lines.size(), 1);
   EXPECT_EQ(
       lines[0],
-      "5 steps and the setup: atoms near the wall chosen 1 time (advice), wall neighbor lists "
+      "5 steps and the setup: spheres near the wall chosen 1 time (advice), wall neighbor lists "
       "made 6 times, 1.50 mesh features each");
 }
 
@@ -55,7 +55,7 @@ TEST(SearchReport, adds_up_searches_of_cells)
   ASSERT_EQ(lines.size(), 1);
   EXPECT_EQ(
       lines[0],
-      "1 step and the setup: atoms near the wall chosen 1 time (advice), a grid cell searched "
+      "1 step and the setup: spheres near the wall chosen 1 time (advice), a grid cell searched "
       "instead 12 times");
 }
 

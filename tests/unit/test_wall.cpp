@@ -228,7 +228,7 @@ TEST(Wall, names_the_lowest_tag_of_spheres_larger_than_rmax)
       ADD_FAILURE() << "no error";
     } catch (const InputError &e) {
       EXPECT_STREQ(e.what(),
-                   "atom 5 has radius 0.75, more than rmax 0.5: raise rmax or use rmax auto");
+                   "sphere 5 has radius 0.75, more than rmax 0.5: raise rmax or use rmax auto");
     }
   });
 }
@@ -330,14 +330,14 @@ TEST(Wall, goes_on_from_its_state_and_the_histories_of_its_spheres)
   first.run(10);
   const WallState state = first.wall->save();
   std::vector<Real> packed(first.wall->history().max_packed_size());
-  const int size = first.wall->pack_restart(0, packed.data());
+  const int size = first.wall->pack_saved(0, packed.data());
 
   FakeHost other_host;
   Scene second(other_host, floor.wall());
   second.grains = first.grains;
   second.wall->history().grow(1);
   second.wall->restore(state, {10, kDt});
-  second.wall->history().unpack_restart(0, packed.data(), size);
+  second.wall->history().unpack_saved(0, packed.data(), size);
   second.now = 10;
   second.set_up();
   first.run(1);
@@ -357,20 +357,20 @@ TEST(Wall, drops_histories_where_the_mesh_is_another)
   first.run(10);
   const WallState state = first.wall->save();
   std::vector<Real> packed(first.wall->history().max_packed_size());
-  const int size = first.wall->pack_restart(0, packed.data());
+  const int size = first.wall->pack_saved(0, packed.data());
 
   FakeHost other_host;
   Scene second(other_host, floor.wall({"scale", "2"}));
   second.grains = first.grains;
   second.wall->history().grow(1);
   second.wall->restore(state, {10, kDt});
-  second.wall->history().unpack_restart(0, packed.data(), size);
+  second.wall->history().unpack_saved(0, packed.data(), size);
   second.now = 10;
   second.set_up();
   EXPECT_EQ(second.grains.force[0].x, 0);
   ASSERT_EQ(other_host.warnings.size(), 1u);
   EXPECT_EQ(other_host.warnings[0],
-            "1 atoms lose their springs: the restart file was written with another mesh");
+            "1 spheres lose their springs: the saved state was written with another mesh");
 }
 
 TEST(Wall, reaches_through_a_periodic_face_that_comes_nearer)
@@ -442,7 +442,30 @@ TEST(Wall, of_one_process_that_fails_names_its_sphere)
     scene.wall->poll_diagnostics(scene.grains.spheres(), 1);
     ADD_FAILURE() << "no error";
   } catch (const ProcessError &e) {
-    EXPECT_EQ(std::string(e.what()).rfind("atom 42 ", 0), 0u) << e.what();
+    EXPECT_EQ(std::string(e.what()).rfind("sphere 42 ", 0), 0u) << e.what();
+  }
+}
+
+TEST(Wall, has_the_ways_out_of_its_host_in_errors_of_the_engine)
+{
+  const Floor floor;
+  struct Told : FakeHost {
+    std::string remedy(Remedy problem) const override
+    {
+      return problem == Remedy::announce_growth ? "tell of it" : "";
+    }
+  } host;
+  Scene scene(host, floor.wall({"rmax", "0.6"}));
+  scene.grains.add({0, 0, 0.49});
+  scene.set_up();
+  scene.grains.radius[0] = 0.51;
+  scene.run(1);
+  try {
+    scene.wall->poll_diagnostics(scene.grains.spheres(), 1);
+    ADD_FAILURE() << "no error";
+  } catch (const ProcessError &e) {
+    EXPECT_STREQ(e.what(), "sphere 1 has grown since near spheres were chosen, so that others may "
+                           "have been missed; tell of it");
   }
 }
 
@@ -458,7 +481,7 @@ TEST(Wall, does_not_move_springs_in_a_snapshot)
   scene.step(Step::snapshot, true);
   EXPECT_EQ(scene.grains.force[0].x, 0);
   ASSERT_EQ(host.warnings.size(), 1u);
-  EXPECT_EQ(host.warnings[0].rfind("a rerun does not know the springs", 0), 0u);
+  EXPECT_EQ(host.warnings[0].rfind("a replay does not know the springs", 0), 0u);
 }
 
 TEST(Wall, has_a_mesh_from_the_first_process_on_all)

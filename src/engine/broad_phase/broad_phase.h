@@ -139,7 +139,7 @@ class BroadPhase {
   {
     if (laws_.kinds == 1) return {};
     if (!spheres.type && spheres.n > 0)
-      throw std::logic_error("laws by atom type need the types of spheres");
+      throw std::logic_error("laws by type need the types of spheres");
     return {spheres.type, put_kinds(b), static_cast<int>(laws_.kind_of_type.size()) - 1};
   }
   int n_kinds() const { return laws_.kinds; }

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Candidate spheres of a wall of more than one mesh, or with laws by atom type, sorted into slots: first
+// Candidate spheres of a wall of more than one mesh, or with laws by type, sorted into slots: first
 // candidates of one mesh only, mesh after mesh and kind after kind, then multi-mesh spheres, which are
 // candidates of more than one mesh, with a slot for each (sphere, mesh).
 #pragma once

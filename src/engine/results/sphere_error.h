@@ -6,20 +6,25 @@
 
 #include "base/input_error.h"
 #include "base/real.h"
+#include "host/remedy.h"
 
 #include <cstdio>
+#include <optional>
 #include <string>
 
 namespace lsdcd {
 
 // A host that knows the sphere by a name puts that before the problem.
 struct SphereError : InputError {
-  SphereError(int i, const std::string &what_of_it) :
-      InputError("sphere " + std::to_string(i) + " " + what_of_it), sphere(i), problem(what_of_it)
+  SphereError(int i, const std::string &what_of_it, std::optional<Remedy> way_out = {}) :
+      InputError("sphere " + std::to_string(i) + " " + what_of_it +
+                 (way_out ? "; " + library_remedy(*way_out) : "")),
+      sphere(i), problem(what_of_it), remedy(way_out)
   {
   }
   int sphere;
   std::string problem;
+  std::optional<Remedy> remedy;    // where the host names the way out
 };
 
 [[noreturn]] inline void throw_too_large(int i, Real radius, Real cutoff)
@@ -41,18 +46,17 @@ struct SphereError : InputError {
 
 [[noreturn]] inline void throw_no_slots()
 {
-  throw InputError(
+  throw RemedyError(
       "spheres that touch the wall in several places became so many since near spheres "
-      "were chosen that the memory for their springs ran out; choose more often, with a "
-      "smaller skin, or continue from a restart file, which makes room for them");
+      "were chosen that the memory for their springs ran out",
+      Remedy::make_room);
 }
 
 [[noreturn]] inline void throw_has_grown(int i)
 {
-  throw SphereError(
-      i, "has grown since near spheres were chosen, so that others may have been missed; "
-         "radii that something else than fix adapt changes in a run need "
-         "'neigh_modify delay 0 every 1 check no'");
+  throw SphereError(i,
+                    "has grown since near spheres were chosen, so that others may have been missed",
+                    Remedy::announce_growth);
 }
 
 }    // namespace lsdcd
