@@ -83,6 +83,9 @@ def check_messages(pages):
                 text += path.read_text(encoding="utf-8")
     # Literals that a compiler joins.
     text = re.sub(r'"\s*\n\s*"', "", text)
+    # A host's names in messages: those of LAMMPS.
+    names = dict(re.findall(r'names_\.(\w+) = "([^"]+)"', text))
+    text = re.sub(r'"\)?\s*\+\s*host_\.names\(\)\.(\w+)\s*\+\s*"', lambda name: names[name[1]], text)
     rows = re.findall(r"^- `([^`]+)`:", pages["doc/troubleshooting.md"].text, re.M)
     fact("twenty messages and more are explained", [] if len(rows) >= 20 else [len(rows)])
     fact("every message is in the sources", [row for row in rows for part in row.split("...") if part.strip()
