@@ -85,8 +85,7 @@ bool WallSpec::has_loads() const
 void check_spec(const WallSpec &wall)
 {
   if (wall.laws.empty() || !wall.laws.front().is_of_all())
-    throw InputError(
-        "the wall's first law is not of all atom types; give a law of all types first");
+    throw InputError("the wall's first law is not of all types; give a law of all types first");
   if (wall.meshes.empty())
     throw InputError("the wall has no mesh; give it 1 to " + std::to_string(kMaxMeshes) +
                      " meshes");

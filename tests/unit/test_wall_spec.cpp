@@ -62,9 +62,9 @@ TEST(wall_spec, a_wall_without_a_law_of_all_types_is_refused)
 {
   WallSpec wall = good();
   wall.laws[0].first_type = 2;
-  expect_error(wall, "the wall's first law is not of all atom types");
+  expect_error(wall, "the wall's first law is not of all types");
   wall.laws.clear();
-  expect_error(wall, "the wall's first law is not of all atom types");
+  expect_error(wall, "the wall's first law is not of all types");
 }
 
 TEST(wall_spec, an_input_that_is_not_there_is_refused)
