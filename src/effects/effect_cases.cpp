@@ -71,6 +71,7 @@ std::vector<EffectCase> effect_cases()
     s.surface = {{1, 0, 0}, {0, 0, 0.1}, {0, 0, 0}};
   });
   add("loads of triangles", "mesh_fields", "hooke", [](EngineSettings &s) { s.records = true; });
+  add("rigid body", "body", "hooke", [](EngineSettings &s) { s.moves = s.bodies = true; });
   add("wear archard", "wear archard", "loads of triangles",
       [](EngineSettings &s) { s.wear = WearModel::archard; });
   add("wear finnie", "wear finnie", "loads of triangles",

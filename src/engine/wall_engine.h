@@ -16,6 +16,7 @@
 #include "mesh/welded_mesh.h"
 #include "motion/pose.h"
 #include "motion/surface_motion.h"
+#include "rigid/mobility.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -43,10 +44,11 @@ struct EngineSettings {
   Corner corner = Corner::blend;
   Side side = Side::both;
   Precision precision = Precision::double_;
-  int meshes = 1;                      // that move apart; with more than one `moves` counts as true
-  SurfaceMotion surface;               // of each mesh, in the plane of each contact
-  bool moves = false;                  // set_pose() or StepSettings::surface will be used
-  bool records = false;                // record what every contact does to the wall
+  int meshes = 1;           // that move apart; with more than one `moves` counts as true
+  SurfaceMotion surface;    // of each mesh, in the plane of each contact
+  bool moves = false;       // set_pose() or StepSettings::surface will be used
+  bool records = false;     // record what every contact does to the wall
+  bool bodies = false;      // StepSettings::mobility will be used; contacts are recorded, too
   WearModel wear = WearModel::none;    // where there are records
   Device device = Device::automatic;
   int device_rank = 0;    // which of the GPUs this process takes (node-local rank, wrapped)
@@ -88,6 +90,8 @@ struct StepSettings {
   // For each mesh, in place of wall_temperature and of the settings' surface; valid until finish().
   const Real *mesh_temperature = nullptr;
   const SurfaceMotion *surface = nullptr;
+  // Likewise, where a mesh is a rigid body: how it gives way, which is 0 of others.
+  const Mobility *mobility = nullptr;
 };
 
 // Sums over the spheres of the last step on this process.

@@ -4,6 +4,7 @@
 #include "input/keywords.h"
 
 #include "base/atomic_file.h"
+#include "input/body_words.h"
 #include "input/law_words.h"
 #include "input/motion_words.h"
 #include "input/servo_words.h"
@@ -206,6 +207,14 @@ const Keyword kKeywords[] = {
      "the mesh moves along or turns about an axis so that it pushes the spheres with TARGET, a "
      "number or v_NAME",
      nullptr, read_servo},
+    {"body", kBodySyntax,
+     "mass/volume; mass, length, mass length^2; force/length and force time/length, or torque and "
+     "torque time",
+     "D > 0, M > 0, K >= 0, C >= 0, lo <= 0 <= hi", "none",
+     "the mesh is a rigid body that the spheres push, free or held by a joint; the values of "
+     "motor, "
+     "load and moment: each a number or v_NAME",
+     nullptr, read_body},
     {"shear", "x|y|z v", "velocity", "", "none",
      "the surface moves while the mesh stays, as fix wall/gran's: surface_vel in one direction; v: "
      "a number or v_NAME",

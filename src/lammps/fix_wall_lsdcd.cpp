@@ -107,10 +107,10 @@ FixWallLsdcd::FixWallLsdcd(LAMMPS *lmp, int narg, char **arg, const lsdcd::WallB
   extscalar = 1;
   extvector = -1;
   extarray = 0;
-  extlist = new int[kVector + kServo];
-  std::fill(extlist, extlist + kVector + kServo, 1);
+  extlist = new int[kBody + kOfBody];
+  std::fill(extlist, extlist + kBody + kOfBody, 1);
   extlist[7] = 0;    // the largest overlap is not a sum
-  show_servo();
+  size_outputs();
   energy_global_flag = 1;
   virial_global_flag = 1;
   if (contacts) {
@@ -170,6 +170,31 @@ void FixWallLsdcd::check_heat() const
 #endif
 }
 
+// Bodies take half steps in verlet's schedule, and the acceleration that fix gravity gives to atoms.
+void FixWallLsdcd::init_bodies()
+{
+  if (update->whichflag == 2)
+    fatal("a body does not move in a minimization: unfix the wall before, or leave out body");
+  if (std::strncmp(update->integrate_style, "respa", 5) == 0)
+    fatal("a body moves in the steps of run_style verlet only, not in those of respa");
+  gravity = nullptr;
+  const bool all_have = std::all_of(meshes().begin(), meshes().end(), [](const lsdcd::MeshPart &m) {
+    return !m.spec.body.present || m.spec.body.has_gravity;
+  });
+  for (int i = 0; i < modify->nfix && !all_have; i++) {
+    Fix *fix = modify->fix[i];
+    int dim;
+    if (std::strncmp(fix->style, "gravity", 7) != 0) continue;
+    if (gravity)
+      fatal("there are several fixes gravity: say which acceleration a body has, by gravity gx gy "
+            "gz");
+    gravity = static_cast<const double *>(fix->extract("gvec", dim));
+    if (!gravity)
+      fatal("this LAMMPS does not tell the acceleration of fix gravity: give that of a body by "
+            "gravity gx gy gz");
+  }
+}
+
 std::vector<lsdcd::ScriptFile> FixWallLsdcd::files() const
 {
   std::vector<lsdcd::ScriptFile> all = lsdcd::files_of(spec());
@@ -197,6 +222,7 @@ void FixWallLsdcd::init()
   }
   if (!rigid) std::vector<double>().swap(damping_mass);
   check_heat();
+  if (spec().has_bodies()) init_bodies();
   run_core([&] {
     for (const int k : wall->inputs_read()) find_variable(spec().inputs[k]);
     wall->begin_run(update->ntimestep, thermo_virial);
@@ -338,6 +364,7 @@ lsdcd::StepInput FixWallLsdcd::step_input(bool look)
   input.box_changes = domain->box_change;
   input.drift = sphere_drift();
   input.virial = vflag_global;
+  input.gravity = gravity;
   return input;
 }
 
@@ -589,6 +616,7 @@ double FixWallLsdcd::mesh_output(int mesh, int i)
   const lsdcd::MeshTotals &t = wall->totals().mesh(mesh);
   if (i < kTotals) return column(t, i);
   if (i == kPower) return t.power;
+  if (i >= kBody) return body_output(mesh, i - kBody);
   return meshes()[mesh].servo().present ? servo_output(mesh, i - kVector) : 0;
 }
 
@@ -599,15 +627,44 @@ double FixWallLsdcd::servo_output(int mesh, int i)
   return i == 0 ? s.position : i == 1 ? s.velocity : wall->servo_push(mesh);
 }
 
+// Centre, velocity, quaternion, angular velocity; force and torque of the joint; coordinate, energy.
+double FixWallLsdcd::body_output(int mesh, int i)
+{
+  const lsdcd::MeshBody *of = wall->body(mesh);
+  if (!of) return 0;
+  const lsdcd::RigidBody &b = of->body();
+  const lsdcd::Quaternion &q = b.turn();
+  if (i < 3) return b.centre()[i];
+  if (i < 6) return b.velocity()[i - 3];
+  if (i < 10) return i == 6 ? q.w : q.v[i - 7];
+  if (i < 13) return b.omega()[i - 10];
+  if (i < 16) return of->reaction().force[i - 13];
+  if (i < 19) return of->reaction().torque[i - 16];
+  return i == 19 ? b.coordinate() : of->spring_and_kinetic_energy();
+}
+
 double FixWallLsdcd::compute_array(int mesh, int i)
 {
   return mesh_output(mesh, i);
 }
 
-// Outputs of all meshes together; and of the one servo, if there is one.
+static bool has_servo(const lsdcd::MeshPart &m)
+{
+  return m.servo().present;
+}
+
+static bool is_body(const lsdcd::MeshPart &m)
+{
+  return m.spec.body.present;
+}
+
+// Outputs of all meshes together; and of the one servo and the one body, if there is one.
 double FixWallLsdcd::compute_vector(int i)
 {
-  if (i >= kVector) return only_servo() < 0 ? 0 : mesh_output(only_servo(), i);
+  if (i >= kVector) {
+    const int mesh = only_mesh_with(i < kBody ? has_servo : is_body);
+    return mesh < 0 ? 0 : mesh_output(mesh, i);
+  }
   if (i == kWorn) {
     double worn = 0;
     for (const lsdcd::MeshPart &m : meshes()) worn += wall->worn(m.index);
@@ -617,23 +674,29 @@ double FixWallLsdcd::compute_vector(int i)
   return i == kPower ? all.power : column(all, i);
 }
 
-// The mesh with a servo; -1 where several have one, or none.
-int FixWallLsdcd::only_servo() const
+// The mesh that has it; -1 where several have it, or none.
+int FixWallLsdcd::only_mesh_with(bool (*has)(const lsdcd::MeshPart &)) const
 {
   int only = -1;
   for (const lsdcd::MeshPart &m : meshes()) {
-    if (m.servo().present && only >= 0) return -1;
-    if (m.servo().present) only = m.index;
+    if (!has(m)) continue;
+    if (only >= 0) return -1;
+    only = m.index;
   }
   return only;
 }
 
-// A wall with a servo has its outputs, after the others.
-void FixWallLsdcd::show_servo()
+// A wall with a servo has its outputs after the others, and one with a body has its behind these.
+void FixWallLsdcd::size_outputs()
 {
-  for (const lsdcd::MeshPart &m : meshes())
-    if (m.servo().present) size_vector = size_array_cols = kVector + kServo;
-  extlist[kVector] = extlist[kVector + 1] = 0;    // position and speed are no sums
+  const auto any = [this](bool (*has)(const lsdcd::MeshPart &)) {
+    return std::any_of(meshes().begin(), meshes().end(), has);
+  };
+  if (any(has_servo)) size_vector = size_array_cols = kBody;
+  if (any(is_body)) size_vector = size_array_cols = kBody + kOfBody;
+  // Places and speeds are no sums.
+  extlist[kVector] = extlist[kVector + 1] = extlist[kBody + 19] = 0;
+  std::fill(extlist + kBody, extlist + kBody + 13, 0);
 }
 
 void FixWallLsdcd::fill_contacts()
@@ -670,6 +733,6 @@ int FixWallLsdcd::modify_param(int narg, char **arg)
   run_core([&] {
     taken = lsdcd::change_wall(*wall, std::vector<std::string>(arg, arg + narg), step_now());
   });
-  show_servo();
+  size_outputs();
   return taken;
 }

@@ -83,15 +83,16 @@ class FixWallLsdcd : public Fix, protected OwnMessages {
   bool adapts = false;          // some fix changes radii: a step begins in post_force
   bool rigid = false;           // some rigid fix holds atoms: damping_mass replaces rmass
   std::vector<double> damping_mass;
-  bool callbacks = false;    // registered with Atom
-  int room = 0;              // this wall's part of maxexchange
+  const double *gravity = nullptr;    // of the script's fix gravity, where there are bodies
+  bool callbacks = false;             // registered with Atom
+  int room = 0;                       // this wall's part of maxexchange
   bool wall_in_minimize_warned = false, doubled_warned = false;
   WallPicture picture;
 
-  // Parts of the vector: force, torque, contacts, largest overlap, uncertified; volume worn off, power; and
-  // with a servo three more.
+  // Parts of the vector: force, torque, contacts, largest overlap, uncertified; volume worn off, power; with a
+  // servo three more, and with a body those and what body_output() has.
   static constexpr int kTotals = 9, kWorn = kTotals, kPower = kTotals + 1, kVector = kTotals + 2,
-                       kServo = 3;
+                       kServo = 3, kBody = kVector + kServo, kOfBody = 21;
 
   // wall/lsdcd/kk does these in its own way.
   virtual void begin_step(const lsdcd::StepInput &);
@@ -120,11 +121,13 @@ class FixWallLsdcd : public Fix, protected OwnMessages {
 
   double mesh_output(int, int);
   double servo_output(int, int);
-  int only_servo() const;
-  void show_servo();
+  double body_output(int, int);
+  int only_mesh_with(bool (*has)(const lsdcd::MeshPart &)) const;
+  void size_outputs();
 
   void check_atoms() const;
   void check_heat() const;
+  void init_bodies();
   void check_types(const lsdcd::WallSpec &) const;
 };
 

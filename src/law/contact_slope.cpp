@@ -29,15 +29,14 @@ Real tangential_stiffness(const ContactLaw &law, Real a)
   }
 }
 
-}    // namespace
-
-ContactSlope contact_slope(const ContactLaw &law, Real overlap, Real radius, Real mass)
+// With the tangential ones of a law without friction, too.
+ContactSlopes slopes_of(const ContactLaw &law, Real overlap, Real radius, Real mass)
 {
   if (law.is_classic()) {
     const bool hertz = law.is(NormalModel::hertz);
     const Real scale = hertz ? std::sqrt(radius * overlap) : 1;
-    return {scale * std::max((hertz ? kHertzSlope : 1) * law.k_normal, law.k_tangent),
-            scale * mass * std::max(law.eta, law.gamma_tangent)};
+    return {{scale * ((hertz ? kHertzSlope : 1) * law.k_normal), scale * mass * law.eta},
+            {scale * law.k_tangent, scale * mass * law.gamma_tangent}};
   }
   Contact<Real> c = {};
   c.overlap = overlap;
@@ -48,7 +47,23 @@ ContactSlope contact_slope(const ContactLaw &law, Real overlap, Real radius, Rea
                      : std::sqrt(overlap * radius);
   const Real k = law.is(NormalModel::hooke) ? law.k_normal : kHertzSlope * law.k_normal * a;
   const Real damping = GranularDamping<Real>{law.damping, law.eta}.coefficient(c, a, k * overlap);
-  return {std::max(k, tangential_stiffness(law, a)), damping * std::max(Real(1), law.xgammat)};
+  return {{k, damping}, {tangential_stiffness(law, a), damping * law.xgammat}};
+}
+
+}    // namespace
+
+ContactSlope contact_slope(const ContactLaw &law, Real overlap, Real radius, Real mass)
+{
+  const ContactSlopes s = slopes_of(law, overlap, radius, mass);
+  return {std::max(s.normal.stiffness, s.tangential.stiffness),
+          std::max(s.normal.damping, s.tangential.damping)};
+}
+
+ContactSlopes contact_slopes(const ContactLaw &law, Real overlap, Real radius, Real mass)
+{
+  ContactSlopes s = slopes_of(law, overlap, radius, mass);
+  if (law.mu == 0) s.tangential = {};
+  return s;
 }
 
 Real pull_off_slope(const ContactLaw &law, Real radius)

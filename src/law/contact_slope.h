@@ -15,6 +15,12 @@ struct ContactSlope {
 };
 ContactSlope contact_slope(const ContactLaw &law, Real overlap, Real radius, Real mass);
 
+// Likewise along the normal, and in the plane; the latter is 0 without friction.
+struct ContactSlopes {
+  ContactSlope normal, tangential;
+};
+ContactSlopes contact_slopes(const ContactLaw &law, Real overlap, Real radius, Real mass);
+
 // For dmt and jkr: the change of the force per change of the overlap (1/length), as a share of the
 // pull-off force, where that balances the elastic force. 0 for laws without adhesion.
 Real pull_off_slope(const ContactLaw &law, Real radius);

@@ -21,6 +21,15 @@ struct Joint {
 
   // Is its motion one number: a right-handed angle (hinge) or a length (slider), 0 where the body began?
   bool has_coordinate() const { return kind == JointKind::hinge || kind == JointKind::slider; }
+
+  // Does it leave places along this unit vector as they are, and turn about nothing but it?
+  bool keeps(const Vec3 &direction) const
+  {
+    constexpr Real kRounding = 1e-12;    // of unit vectors
+    if (kind == JointKind::slider) return fabs(dot(axis, direction)) <= kRounding;
+    return (kind == JointKind::hinge || kind == JointKind::planar) &&
+           norm(cross(axis, direction)) <= kRounding;
+  }
 };
 
 // What acts along such a coordinate: forces for a slider, torques for a hinge.

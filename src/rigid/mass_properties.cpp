@@ -76,12 +76,13 @@ MassProperties mass_properties(const WeldedMesh &mesh, Real density)
     return static_cast<Real>(scale * (second[k] - first[i] * first[j] / volume));
   };
   const Real x2 = about_centre(0, 0, 0), y2 = about_centre(1, 1, 1), z2 = about_centre(2, 2, 2);
+  // From 0, so that it is not -0.
   p.inertia = {y2 + z2,
                x2 + z2,
                x2 + y2,
-               -about_centre(3, 0, 1),
-               -about_centre(4, 0, 2),
-               -about_centre(5, 1, 2)};
+               0 - about_centre(3, 0, 1),
+               0 - about_centre(4, 0, 2),
+               0 - about_centre(5, 1, 2)};
   check_mass_properties(p, mesh.source);
   return p;
 }

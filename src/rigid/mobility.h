@@ -15,6 +15,8 @@ struct Mobility {
   SymmetricMatrix shifts;    // 1/mass: velocity of `point` by a force
   SymmetricMatrix turns;     // 1/(mass length^2): angular velocity by a torque
 
+  bool any() const { return shifts.trace() > 0 || turns.trace() > 0; }
+
   // n.K n at the place x, for a unit vector n; 1/mass.
   LSDCD_FN Real along(const Vec3 &x, const Vec3 &n) const
   {

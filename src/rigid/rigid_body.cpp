@@ -42,7 +42,7 @@ void RigidBody::make_constants()
                 inertia_of_point(rotate(inverse(state_.home_turn), state_.home - joint_.point));
   inverse_ = function_of(inertia_, [](Real moment) { return 1 / moment; });
   principal_ = principal_axes(inertia_);
-  const Vec3 axis = rotate(inverse(state_.home_turn), joint_.axis);
+  const Vec3 axis = axis_in_mesh();
   inertia_of_axis_ = joint_.kind == JointKind::slider ? mass_.mass : dot(axis, inertia_ * axis);
   in_plane_[0] = any_perpendicular(joint_.axis);
   in_plane_[1] = cross(joint_.axis, in_plane_[0]);
@@ -81,22 +81,21 @@ void RigidBody::set_velocity(const Vec3 &velocity, const Vec3 &omega)
                      " of the centre with the angular velocity " + vector_text(omega));
 }
 
-void RigidBody::set_joint(const Joint &joint)
+void RigidBody::begin_from(const RigidBody &was)
 {
-  const Vec3 v = velocity(), w = omega();
-  joint_ = joint;
   RigidState now;
-  now.home = now.centre = state_.centre;
-  now.home_turn = now.turn = state_.turn;
+  now.home = now.centre = was.pose().to_box(mass_.centre);
+  now.home_turn = now.turn = was.turn();
   state_ = now;
   make_constants();
-  const Vec3 &a = joint.axis;
-  const bool slides = joint.kind == JointKind::slider;
-  if (joint.kind == JointKind::free || joint.kind == JointKind::ball)
+  const Vec3 w = was.omega(), v = was.velocity() + cross(w, now.centre - was.centre()),
+             &a = joint_.axis;
+  const bool slides = joint_.kind == JointKind::slider;
+  if (joint_.kind == JointKind::free || joint_.kind == JointKind::ball)
     state_.momentum = apply(inertia_, w);
-  if (joint.kind == JointKind::free) state_.velocity = v;
-  if (joint.has_coordinate()) state_.rate[0] = dot(a, slides ? v : w);
-  if (joint.kind == JointKind::planar) {
+  if (joint_.kind == JointKind::free) state_.velocity = v;
+  if (joint_.has_coordinate()) state_.rate[0] = dot(a, slides ? v : w);
+  if (joint_.kind == JointKind::planar) {
     for (int k = 0; k < 2; k++) state_.rate[k] = dot(in_plane_[k], v);
     state_.rate[2] = dot(a, w);
   }
@@ -296,7 +295,7 @@ Pose RigidBody::pose() const
 
 Mobility RigidBody::mobility() const
 {
-  const Vec3 axis = rotate(inverse(state_.home_turn), joint_.axis);
+  const Vec3 axis = axis_in_mesh();
   const Real per_mass = 1 / mass_.mass;
   Mobility m;
   m.point = mass_.centre;

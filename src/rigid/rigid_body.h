@@ -46,8 +46,8 @@ class RigidBody {
 
   // Velocity of the centre and angular velocity. Throws InputError where the joint does not allow them.
   void set_velocity(const Vec3 &velocity, const Vec3 &omega);
-  // Holds the body by another joint from where it is. What that does not allow of its velocity is lost.
-  void set_joint(const Joint &joint);
+  // From where another body of the same mesh is, whose velocities go on as far as the joint allows them.
+  void begin_from(const RigidBody &was);
 
   // Half a step's change of velocity, over the time h, by what acts beside the drive. The damper's part is exact.
   void kick(Real h, const Wrench &load);
@@ -73,6 +73,7 @@ class RigidBody {
   // The torque is about pivot().
   Wrench reaction(const Wrench &load) const;
   Vec3 pivot() const;    // the joint's point, or the centre of mass
+  Vec3 axis_in_mesh() const { return rotate(inverse(state_.home_turn), joint_.axis); }
 
   const RigidState &state() const { return state_; }
   void set_state(const RigidState &state) { state_ = state; }

@@ -14,6 +14,7 @@ namespace lsdcd {
 struct SymmetricMatrix {
   Real xx = 0, yy = 0, zz = 0, xy = 0, xz = 0, yz = 0;
 
+  Real trace() const { return xx + yy + zz; }
   LSDCD_FN Vec3 operator*(const Vec3 &a) const
   {
     return {xx * a.x + xy * a.y + xz * a.z, xy * a.x + yy * a.y + yz * a.z,

@@ -33,6 +33,7 @@ std::string mesh_lines(const WallSpec &wall, const MeshPart &m)
   } lines[] = {{"placement   ", placement_text(m.spec.placement)},
                {"motion      ", m.motion.text(m.bounds(0))},
                {"servo       ", servo_text(m.servo(), wall.inputs)},
+               {"body        ", m.body ? m.body->text() : ""},
                {"wear        ", wear == 1 ? "" : number_text(wear) + " times as fast"}};
   for (const auto &line : lines)
     if (!line.text.empty()) t += "\n  " + (line.label + line.text);

@@ -65,7 +65,14 @@ void check_plane(Host &host, const WallSpec &settings, const MeshPart &m)
 void check_motion(const Host &host, const WallSpec &settings, const MeshPart &m)
 {
   const RigidMotion &motion = m.spec.motion;
-  if (!motion.any() || motion.keeps({0, 0, 1}) || host.box().dimension == 3) return;
+  if (host.box().dimension == 3) return;
+  const BodySpec &body = m.spec.body;
+  if (body.present && !body.joint.keeps({0, 0, 1}))
+    throw InputError(
+        with_mesh_name(settings, m.index,
+                       "in two dimensions a body needs a joint that keeps it in the "
+                       "plane z = 0: hinge or planar along z, or slider in the plane"));
+  if (body.present || !motion.any() || motion.keeps({0, 0, 1})) return;
   std::string text = motion_text(motion.terms(), settings.inputs);
   if (m.servo().present)
     text += (text.empty() ? "servo " : " servo ") + servo_text(m.servo(), settings.inputs);

@@ -27,7 +27,10 @@ void for_inputs(MeshSpec &mesh, SurfaceMotion &surface, const Visit &visit)
       one(m.input[3 + d], m.speed[d]);
     }
   one(mesh.motion.servo().target_input, mesh.motion.servo().target);
+  one(mesh.body.motor_input, mesh.body.drive.motor);
   for (int d = 0; d < 3; d++) {
+    one(mesh.body.load_input[d], mesh.body.load[d]);
+    one(mesh.body.moment_input[d], mesh.body.moment[d]);
     one(mesh.surface_input[d], surface.velocity[d]);
     one(mesh.surface_input[3 + d], surface.angular[d]);
   }
@@ -191,6 +194,10 @@ void MeshMotion::check_limits(Real position) const
 void MeshMotion::check_snapshot(const Step &at) const
 {
   const std::string in_replay = std::string("in a ") + host_.names().replay + " ";
+  if (spec().body.present)
+    throw InputError(named(in_replay +
+                           "a body is not where it was, as it follows from the loads of all steps "
+                           "before: leave body out, and give its places by motion variable"));
   if (servo().present && !servo().holds)
     throw InputError(
         named(in_replay + "a servo is not where it was, as it follows from the loads of all "
@@ -218,6 +225,7 @@ void MeshMotion::check_snapshot(const Step &at) const
 std::string MeshMotion::text(const Box &bounds) const
 {
   const RigidMotion &motion = spec().motion;
+  if (spec().body.present) return "";
   if (motion.is_posed()) return "by poses of the caller";
   if (!motion.moves()) return motion.start().placed ? "none; the mesh stays where it is" : "";
   constexpr int kSamples = 64;

@@ -5,6 +5,7 @@
 #pragma once
 
 #include "mesh/point_tree.h"
+#include "wall/mesh_body.h"
 #include "wall/mesh_grid.h"
 #include "wall/mesh_motion.h"
 #include "wall/servo_controller.h"
@@ -28,6 +29,7 @@ struct MeshPart {
   MeshGrid grid;
   MeshMotion motion;
   ServoController servo_controller;
+  std::unique_ptr<MeshBody> body;    // null: it is none
 
   bool springs_are_foreign = false;    // those of a saved state are of another mesh
 

@@ -11,6 +11,24 @@
 
 namespace lsdcd {
 
+void TimestepCheck::add_body(int mesh, Real mobility)
+{
+  mobility_.resize(std::max(mobility_.size(), static_cast<std::size_t>(mesh) + 1));
+  mobility_[mesh] = mobility;
+}
+
+// The mass that damping sees of a sphere and what it touches with a law of the table.
+Real TimestepCheck::mass_of(Real sphere, std::size_t law) const
+{
+  if (mobility_.empty()) return sphere;
+  const std::size_t mesh = law / static_cast<std::size_t>(laws_.kinds);
+  const Real mobility = laws_.laws.size() == 1
+                            ? *std::max_element(mobility_.begin(), mobility_.end())
+                        : mesh < mobility_.size() ? mobility_[mesh]
+                                                  : 0;
+  return 1 / (1 / sphere + mobility);
+}
+
 // The shortest contact of sphere i with any mesh.
 Real TimestepCheck::shortest_of(const Spheres &s, int i) const
 {
@@ -19,8 +37,8 @@ Real TimestepCheck::shortest_of(const Spheres &s, int i) const
   Real shortest = INFINITY;
   for (std::size_t k = static_cast<std::size_t>(kinds[i]); k < laws_.laws.size();
        k += static_cast<std::size_t>(laws_.kinds))
-    shortest =
-        std::min(shortest, contact_time(laws_.laws[k], s.mass[i], s.radius[i], velocity_unit_));
+    shortest = std::min(
+        shortest, contact_time(laws_.laws[k], mass_of(s.mass[i], k), s.radius[i], velocity_unit_));
   return shortest;
 }
 

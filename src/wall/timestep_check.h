@@ -8,6 +8,9 @@
 #include "law/law_table.h"
 #include "wall/host_spheres.h"
 
+#include <cstddef>
+#include <vector>
+
 namespace lsdcd {
 
 class TimestepCheck {
@@ -18,6 +21,9 @@ class TimestepCheck {
   {
   }
 
+  // The mesh with this number, from 0, is a rigid body, with the largest n.K n of Mobility.
+  void add_body(int mesh, Real mobility);
+
   // `s` is in memory of the CPU. Warns where `dt` (time) is more than a tenth of the shortest contact time of the spheres, and again
   // where it is a tenth worse than what was warned of. Collective.
   void check(Real dt, const HostSpheres &s);
@@ -27,10 +33,12 @@ class TimestepCheck {
 
  private:
   Real shortest_of(const Spheres &s, int i) const;
+  Real mass_of(Real sphere, std::size_t law) const;
 
   Host &host_;
   const LawTable &laws_;
   Real velocity_unit_;
+  std::vector<Real> mobility_;           // of meshes up to the last body
   static constexpr Real kWorse = 1.1;    // times a timestep that was warned of: warned of again
   Real worst_ = 1;                       // what is warned of next, over what it should be
 };

@@ -55,8 +55,9 @@ Wall::Wall(Host &host, WallSpec spec, const WallUnits &units, WallBackend backen
     grids_(host, spec_, laws_, meshes_, box_checks_, history_, times_)
 {
   for (std::size_t k = 0; k < spec_.meshes.size(); k++) {
-    const MeshPart &m = meshes_.emplace_back(host_, spec_, laws_, static_cast<int>(k),
-                                             Step{clock.last_step, clock.dt});
+    MeshPart &m = meshes_.emplace_back(host_, spec_, laws_, static_cast<int>(k),
+                                       Step{clock.last_step, clock.dt});
+    if (m.spec.body.present) make_body(m, units.velocity);
     check_side(spec_, m);
     check_plane(host_, spec_, m);
     check_motion(host_, spec_, m);
@@ -80,6 +81,16 @@ Wall::Wall(Host &host, WallSpec spec, const WallUnits &units, WallBackend backen
     host_.warn(
         "with corner sum a sphere over a seam where two meshes meet is pushed by both: use corner "
         "blend, or one mesh of all triangles");
+}
+
+void Wall::make_body(MeshPart &m, Real force)
+{
+  has_bodies_ = true;
+  m.body = std::make_unique<MeshBody>(host_, spec_, laws_, m.index, m.grid, force);
+  m.spec.motion.begin_posed();
+  m.spec.motion.set_pose(m.body->body().pose());
+  m.motion.place();
+  timestep_.add_body(m.index, m.body->most_mobility());
 }
 
 std::string Wall::named(const MeshPart &m, const std::string &text) const
@@ -130,6 +141,7 @@ EngineSettings Wall::engine_settings() const
     if (!want.surface.moves()) want.surface = m.spec.surface;
   }
   want.records = spec_.has_loads() || virial_;
+  want.bodies = has_bodies_;
   want.wear = spec_.wear.model;
   want.device = spec_.device;
   want.device_rank = host_.ranks().node_rank;
@@ -140,7 +152,7 @@ void Wall::make_engine()
 {
   const EngineSettings want = engine_settings();
   engine_moves_ = want.moves;
-  engine_records_ = want.records;
+  engine_records_ = want.records || want.bodies;
   run_collectively(host_, true, [&] { engine_ = backend_.make_engine(want); });
   history_.set_engine(*engine_);
   grids_.set_engine(*engine_);
@@ -213,7 +225,7 @@ void Wall::begin(const HostSpheres &spheres, const StepInput &input)
     if (engine_moves_) engine_->set_pose(m.motion.pose(), m.index);
   if (input.new_spheres) {
     if (cutoff() > 0) timestep_.check(step.dt, on_cpu(spheres).all());
-    look_at_servo_spheres(spheres);
+    look_at_range(spheres);
   }
   if (cutoff() == 0) return;
   if (backend_.in_place && history_.is_on()) in_place().springs().grow(history_.room());
@@ -254,16 +266,64 @@ void Wall::check_history(int n)
 // Poses last: what servos ask for is of where meshes were.
 void Wall::move(const HostSpheres &spheres, const Step &step)
 {
+  if (has_bodies_) {
+    if (range_.radius == 0) look_at_range(spheres);
+    complete_bodies();
+  }
   for (MeshPart &m : meshes_) {
     if (!m.motion.moves_or_varies()) continue;
     const Real passed = m.motion.advance(step, input_.inputs);
     if (step.kind != Step::step || passed == 0 || !m.servo_controller.acts()) continue;
-    if (servo_radius_ == 0) look_at_servo_spheres(spheres);
+    if (range_.radius == 0) look_at_range(spheres);
     m.servo_controller.advance(servo_load(m.index), m.motion.pose_without_servo(), passed,
                                step.number);
   }
+  if (has_bodies_) advance_bodies(step);
   for (MeshPart &m : meshes_)
     if (m.motion.moves_or_varies()) m.motion.place();
+}
+
+// Inputs still have the values of the step before.
+void Wall::complete_bodies()
+{
+  const auto pending = [](const MeshPart &m) { return m.body && !m.body->is_complete(); };
+  if (std::none_of(meshes_.begin(), meshes_.end(), pending)) return;
+  const Real *g = input_.gravity;
+  const Vec3 gravity = g ? Vec3{g[0], g[1], g[2]} : Vec3{0, 0, 0};
+  for (MeshPart &m : meshes_)
+    if (pending(m)) m.body->complete(totals().mesh(m.index), gravity, range_);
+}
+
+void Wall::advance_bodies(const Step &step)
+{
+  for (MeshPart &m : meshes_) {
+    if (!m.body) continue;
+    if (step.kind == Step::step) m.body->advance(step.dt);
+    m.spec.motion.set_pose(m.body->body().pose());
+  }
+}
+
+// Of this process: sums over all are made when they are asked for.
+void Wall::note_step_of_bodies(const HostSpheres &spheres, const Step &step)
+{
+  for (MeshPart &m : meshes_) {
+    if (!m.body) continue;
+    m.body->note_step(step.kind == Step::step ? step.dt : 0);
+    if (cutoff() > 0 && m.body->asks_for_contacts())
+      m.body->sum_contacts(*engine_, on_cpu(spheres).all());
+  }
+}
+
+bool Wall::any_body_asks_for_contacts() const
+{
+  return std::any_of(meshes_.begin(), meshes_.end(),
+                     [](const MeshPart &m) { return m.body && m.body->asks_for_contacts(); });
+}
+
+const MeshBody *Wall::body(int mesh)
+{
+  if (has_bodies_) complete_bodies();
+  return meshes_[mesh].body.get();
 }
 
 void Wall::look_at_spheres(const HostSpheres &spheres, std::int64_t step)
@@ -294,28 +354,28 @@ void Wall::check_points(const HostSpheres &spheres)
              " have radius 0: the wall acts on none; " + host_.remedy(Remedy::give_radii));
 }
 
-// The largest radius and mass that a contact can have.
-void Wall::look_at_servo_spheres(const HostSpheres &spheres)
+// The range of spheres that can touch.
+void Wall::look_at_range(const HostSpheres &spheres)
 {
-  if (std::none_of(meshes_.begin(), meshes_.end(),
-                   [](const MeshPart &m) { return m.servo().present; }))
+  if (!has_bodies_ && std::none_of(meshes_.begin(), meshes_.end(),
+                                   [](const MeshPart &m) { return m.servo().present; }))
     return;
   const HostSpheres s = on_cpu(spheres).all();
-  Real most[2] = {0, 0};
+  Real most[3] = {0, 0, -INFINITY};
   for (int i = 0; i < s.n; i++) {
     if (!s.may_be_in_group(i)) continue;
     most[0] = std::max(most[0], s.radius[i]);
     most[1] = std::max(most[1], s.mass[i]);
+    most[2] = std::max(most[2], -s.mass[i]);
   }
-  host_.max(most, 2);
-  servo_radius_ = most[0];
-  servo_mass_ = most[1];
+  host_.max(most, 3);
+  range_ = {most[0], most[1], most[1] > 0 ? -most[2] : 0};
 }
 
 ServoLoad Wall::servo_load(int mesh)
 {
   const MeshTotals &t = totals().mesh(mesh);
-  return {t.force, t.torque_at_origin, t.contacts, t.overlap, servo_radius_, servo_mass_};
+  return {t.force, t.torque_at_origin, t.contacts, t.overlap, range_.radius, range_.mass};
 }
 
 StepSettings Wall::step_settings()
@@ -323,13 +383,20 @@ StepSettings Wall::step_settings()
   StepSettings step;
   step.dt = input_.step.dt;
   step.update_history = input_.step.kind == Step::step;
-  step.per_sphere = spec_.contacts;
-  step.records = spec_.has_loads() || input_.virial;
+  const bool asked = has_bodies_ && any_body_asks_for_contacts();
+  step.per_sphere = spec_.contacts || asked;
+  step.records = spec_.has_loads() || input_.virial || asked;
   const bool several = meshes_.size() > 1;
   if (several || spec_.meshes.front().surface_varies()) {
     surfaces_.clear();
     for (const MeshPart &m : meshes_) surfaces_.push_back(m.motion.surface());
     step.surface = surfaces_.data();
+  }
+  if (has_bodies_) {
+    mobilities_.clear();
+    for (const MeshPart &m : meshes_)
+      mobilities_.push_back(m.body ? m.body->mobility() : Mobility());
+    step.mobility = mobilities_.data();
   }
   if (!spec_.law().has_heat()) return step;
   temperatures_.clear();
@@ -383,6 +450,7 @@ void Wall::finish(const HostSpheres &spheres)
     search_.count_step(step.kind != Step::step);
   }
   totals_.expire();
+  if (has_bodies_) note_step_of_bodies(spheres, step);
   if (spec_.has_loads() && step.kind == Step::step) {    // what sets a run up has no duration
     const bool any = cutoff() > 0;
     for (const MeshPart &m : meshes_)
@@ -421,6 +489,7 @@ void Wall::check_new_spheres(const HostSpheres &spheres)
 void Wall::end_run(const HostSpheres &spheres, std::int64_t step, bool far,
                    const std::string &advice, Real loop)
 {
+  if (has_bodies_) complete_bodies();
   poll_diagnostics(spheres, step);
   Real worst = overlaps_.worst();
   host_.max(&worst, 1);
@@ -495,17 +564,26 @@ void Wall::set_inputs(const InputNames &inputs)
 void Wall::set_motion(int mesh, const RigidMotion &motion, const Step &now)
 {
   MeshPart &m = meshes_[mesh];
+  check_is_no_body(m);
   m.motion.set(motion, now);
   motion_has_changed(m);
   log_change(m, "motion " + (motion.moves() ? m.motion.text(m.bounds(0)) : "none"));
 }
 
+// Throws InputError where the mesh moves by what acts on it.
+void Wall::check_is_no_body(const MeshPart &m) const
+{
+  if (m.body)
+    throw InputError(named(m, "a body moves by what acts on it, and takes no motion or servo"));
+}
+
 void Wall::set_servo(int mesh, const Servo &servo)
 {
   MeshPart &m = meshes_[mesh];
+  check_is_no_body(m);
   m.motion.set(servo);
   m.servo_controller.begin_anew();
-  servo_radius_ = 0;    // a run without setup looks then
+  range_ = {};    // a run without setup looks then
   motion_has_changed(m);
   log_change(m, "servo " + (servo.present ? servo_text(servo, spec_.inputs) : "none"));
 }
@@ -541,14 +619,18 @@ MeshIdentity Wall::identity_of(const MeshPart &m)
           static_cast<std::int64_t>(r.vertices), number_of(m.grid.mesh_fingerprint())};
 }
 
-WallState Wall::save() const
+WallState Wall::save()
 {
+  if (has_bodies_) complete_bodies();
   WallState all;
   all.history_kind = static_cast<Real>(spec_.law().history_kind());
   all.time = clock_.now();
   for (const MeshPart &m : meshes_) {
     const MeshLoads loads = loads_.gathered(m.index);
-    all.meshes.push_back({identity_of(m), m.motion.state(), {loads.time(), loads.packed()}});
+    all.meshes.push_back({identity_of(m),
+                          m.motion.state(),
+                          {loads.time(), loads.packed()},
+                          m.body ? m.body->state() : BodyState()});
   }
   return all;
 }
@@ -598,6 +680,15 @@ bool Wall::is_restored(const MeshPart &m, const MeshState &was, bool one_of_many
 void Wall::restore_mesh(MeshPart &m, const MeshState &was, const Step &now)
 {
   m.motion.restore(was.motion, now);
+  if (m.body) {
+    m.body->restore(was.body);
+    m.spec.motion.set_pose(m.body->body().pose());
+    m.motion.place();
+  } else if (was.body.present) {
+    host_.warn(
+        named(m, "the restart file has a body in this place, and this fix has none: the mesh is "
+                 "where that was, and stays there"));
+  }
   motion_has_changed(m);
   if (!spec_.has_loads(m.spec)) return;
   if (m.springs_are_foreign)

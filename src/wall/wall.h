@@ -51,6 +51,8 @@ struct StepInput {
   // The values of spec().inputs in this step, the same on all processes; of those that inputs_read() leaves out
   // any number.
   std::vector<Real> inputs;
+  // Acceleration of spheres by the host, three numbers (force/mass) that may change until the next step; null: none.
+  const Real *gravity = nullptr;
 };
 
 // In each step: begin(), launch(), finish(). Places, velocities and radii must not change between begin()
@@ -110,6 +112,8 @@ class Wall {
   Real worn(int mesh) const { return spec_.wears() ? loads_.worn(mesh) : 0; }    // volume
   // Force or torque of the mesh on the spheres, along the servo's axis.
   Real servo_push(int mesh);
+  // The mesh's body, with velocities of the whole step; null: it is none.
+  const MeshBody *body(int mesh);
   // Adds arm times force, over contacts of this process: xx, yy, zz, xy, xz, yz. Energy. Not together.
   void add_virial(Real *virial) const;
   // Calls row(sphere, numbers) for each sphere of this process with a contact, with the
@@ -138,7 +142,7 @@ class Wall {
   int pack_saved(int sphere, Real *buffer);
   // For a saved state: what the wall keeps beside the histories of spheres. Only the first process has
   // the loads of all.
-  WallState save() const;
+  WallState save();
   // Restores what this or another wall has saved, the same on all processes. Throws InputError, and nothing has changed then,
   // where a servo would be outside of its limits.
   void restore(const WallState &was, const Step &now);
@@ -146,6 +150,7 @@ class Wall {
  private:
   EngineSettings engine_settings() const;
   void make_engine();
+  void make_body(MeshPart &m, Real force);
   void make_engine_anew();
   void log_creation(const std::string &material, const WallBackend &backend) const;
   std::string named(const MeshPart &m, const std::string &text) const;
@@ -161,14 +166,19 @@ class Wall {
   void move(const HostSpheres &spheres, const Step &step);
   void look_at_spheres(const HostSpheres &spheres, std::int64_t step);
   void check_points(const HostSpheres &s);
-  void look_at_servo_spheres(const HostSpheres &spheres);
+  void look_at_range(const HostSpheres &spheres);
   ServoLoad servo_load(int mesh);
+  bool any_body_asks_for_contacts() const;
+  void complete_bodies();
+  void advance_bodies(const Step &step);
+  void note_step_of_bodies(const HostSpheres &spheres, const Step &step);
 
   StepSettings step_settings();
   void choose_if_due(const Spheres &spheres);
   StepDiagnostics read_diagnostics(const HostSpheres &spheres);
   void check_new_spheres(const HostSpheres &spheres);
 
+  void check_is_no_body(const MeshPart &m) const;
   void log_change(const MeshPart &m, const std::string &text);
   void motion_has_changed(const MeshPart &m);
   static MeshIdentity identity_of(const MeshPart &m);
@@ -182,6 +192,7 @@ class Wall {
   // The time of the spheres; the host's time begins anew in some runs from a saved state.
   StepClock clock_;
   std::deque<MeshPart> meshes_;    // where each stays; there is one at least
+  bool has_bodies_ = false;
   std::unique_ptr<WallEngine> engine_;
   bool engine_moves_ = false, engine_records_ = false;    // what its laws are compiled for
   bool virial_ = false;                                   // may be asked for in this run
@@ -201,10 +212,11 @@ class Wall {
   StepInput input_;           // of the last begin()
   bool continued_ = false;    // from a saved state
   bool points_warned_ = false, snapshot_warned_ = false;
-  Real servo_radius_ = 0, servo_mass_ = 0;    // the largest, for gains of servos
+  SphereRange range_;    // for gains of servos and the timestep of bodies
   // The surface motion of each mesh, for the engine in this step.
   std::vector<SurfaceMotion> surfaces_;
   std::vector<Real> temperatures_;
+  std::vector<Mobility> mobilities_;
 };
 
 }    // namespace lsdcd

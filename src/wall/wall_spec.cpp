@@ -76,6 +76,12 @@ bool MeshSpec::surface_varies() const
                      [](int input) { return input != kNoInput; });
 }
 
+bool WallSpec::has_bodies() const
+{
+  return std::any_of(meshes.begin(), meshes.end(),
+                     [](const MeshSpec &m) { return m.body.present; });
+}
+
 bool WallSpec::has_loads() const
 {
   return std::any_of(meshes.begin(), meshes.end(),
@@ -149,6 +155,7 @@ bool are_one_mesh(const WallSpec &wall, const MeshSpec &mesh, const WallSpec &ot
                   const MeshSpec &other)
 {
   return mesh.file == other.file && mesh.mesh == other.mesh && mesh.placement == other.placement &&
+         mesh.body.present == other.body.present &&
          are_same(mesh.motion.terms(), wall.inputs, other.motion.terms(), other_wall.inputs) &&
          are_same(mesh.motion.servo(), wall.inputs, other.motion.servo(), other_wall.inputs);
 }

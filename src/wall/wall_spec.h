@@ -7,6 +7,7 @@
 #include "engine/wall_engine.h"
 #include "mesh/placement.h"
 #include "motion/motion.h"
+#include "rigid/body_spec.h"
 
 #include <cstddef>
 #include <limits>
@@ -46,6 +47,7 @@ struct MeshSpec {
   // In place of the wall's: of the rows with a type the last one. Empty: the wall's.
   std::vector<LawOfTypes> laws;
   RigidMotion motion;
+  BodySpec body;    // in place of terms and servo of the motion
   SurfaceMotion surface;
   int surface_input[6] = {kNoInput, kNoInput, kNoInput,
                           kNoInput, kNoInput, kNoInput};    // of its velocity and angular velocity
@@ -91,6 +93,7 @@ struct WallSpec {
   bool wears() const { return wear.model != WearModel::none; }
   bool has_loads(const MeshSpec &mesh) const { return wears() || mesh.fields.every > 0; }
   bool has_loads() const;
+  bool has_bodies() const;
 };
 
 // Throws InputError, which names the mesh and the member, where a wall cannot be made of this: for callers whose

@@ -73,6 +73,31 @@ void each_number(Numbers &numbers, LoadState &l)
   numbers(l.time, l.rows);
 }
 
+template <class Numbers>
+void each_number(Numbers &numbers, SymmetricMatrix &m)
+{
+  numbers(m.xx, m.yy, m.zz, m.xy, m.xz, m.yz);
+}
+
+template <class Numbers>
+void each_number(Numbers &numbers, Quaternion &q)
+{
+  numbers(q.w, q.v);
+}
+
+template <class Numbers>
+void each_number(Numbers &numbers, RigidState &s)
+{
+  numbers(s.home, s.home_turn, s.centre, s.turn, s.velocity, s.momentum, s.coordinate, s.rate);
+}
+
+template <class Numbers>
+void each_number(Numbers &numbers, BodyState &b)
+{
+  numbers(b.present, b.mass.mass, b.mass.centre, b.mass.inertia, b.joint.kind, b.joint.point,
+          b.joint.axis, b.state);
+}
+
 namespace {
 
 std::vector<TableState> tables_of(const MotionState &motion)
@@ -119,6 +144,7 @@ State WallState::blocks() const
     const std::vector<TableState> tables = tables_of(m.motion);
     if (!tables.empty()) mesh.add("tables", 1, tables);
     if (m.loads.time > 0 || !m.loads.rows.empty()) mesh.add("loads", 1, m.loads);
+    if (m.body.present) mesh.add("body", 1, m.body);
     all.add("mesh", 1, mesh);
   }
   return all;
@@ -141,6 +167,7 @@ WallState WallState::from(const State &state)
         if (input != kNoInput && (input < 0 || input >= static_cast<int>(m.motion.inputs.size())))
           throw StateError("a motion in the data of the wall has an input that is not there");
     mesh.find("loads", 1, m.loads);
+    mesh.find("body", 1, m.body);
     if (m.loads.rows.size() % MeshLoads::kPackedLoad != 0)
       throw StateError("the loads in the data of the wall are no whole rows");
     const std::string unread = mesh.unread();

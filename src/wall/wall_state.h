@@ -5,6 +5,7 @@
 #pragma once
 
 #include "base/state_blocks.h"
+#include "wall/mesh_body.h"
 #include "wall/mesh_motion.h"
 
 #include <cstddef>
@@ -35,6 +36,7 @@ struct MeshState {
   MeshIdentity mesh;
   MotionState motion;
   LoadState loads;
+  BodyState body;
 };
 
 struct WallState {

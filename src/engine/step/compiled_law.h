@@ -113,7 +113,7 @@ struct CompiledLaw {
 // The wall's effects that the settings ask for.
 inline WallEffects wall_effects(const EngineSettings &s)
 {
-  return {s.surface.moves() || s.moves || uses_slots(s), s.records};
+  return {s.surface.moves() || s.moves || uses_slots(s), s.records || s.bodies};
 }
 
 }    // namespace lsdcd

@@ -49,6 +49,8 @@ struct ForceSettings {
   Real back;
   Vec3 wall_velocity, wall_angular;    // of the pose then, in the frame of the mesh
   WearModel wear;                      // read only where there are records
+  bool gives_way;       // the mesh is a rigid body; read only where there are records
+  Mobility mobility;    // of it
 };
 
 // The settings of one mesh.
@@ -69,6 +71,8 @@ inline ForceSettings force_settings(const EngineSettings &engine, const StepSett
   s.wall_velocity = pose.turn_to_mesh(pose.velocity - s.back * pose.acceleration);
   s.wall_angular = pose.turn_to_mesh(pose.angular - s.back * pose.spin_up);
   s.wear = engine.wear;
+  s.mobility = step.mobility ? step.mobility[mesh] : Mobility();
+  s.gives_way = s.mobility.any();
   return s;
 }
 
@@ -158,6 +162,9 @@ LSDCD_FN void add_contacts(const GridView &grid, const Law &law, const ForceSett
     c.overlap = static_cast<T>(overlap);
     c.radius = static_cast<T>(s.radius);
     c.mass = static_cast<T>(s.mass);
+    if constexpr (Law::kRecords)
+      if (settings.gives_way)
+        c.mass = static_cast<T>(1 / (1 / s.mass + settings.mobility.along(closest, n)));
     c.v_normal = static_cast<T>(v_normal);
     Vec3 along = v - v_normal * n;
     if constexpr (Law::kSurface)

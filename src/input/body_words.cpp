@@ -1,0 +1,160 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "input/body_words.h"
+
+#include "motion/motion.h"
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+namespace lsdcd {
+
+const char *const kBodySyntax =
+    "density D | mass M com x y z inertia Ixx Iyy Izz Ixy Ixz Iyz  [joint free | hinge px py pz ax "
+    "ay az | slider ax ay az | planar nx ny nz | ball px py pz] [spring K C [rest]] [limits lo hi] "
+    "[motor T] [load fx fy fz] [moment tx ty tz] [velocity vx vy vz] [omega wx wy wz] [gravity gx "
+    "gy gz]";
+
+namespace {
+
+Vec3 read_vector(Tokens &w, const char *x, const char *y, const char *z)
+{
+  Vec3 a;
+  a.x = w.number(x);
+  a.y = w.number(y);
+  a.z = w.number(z);
+  return a;
+}
+
+Vec3 read_direction(Tokens &w, const char *x, const char *y, const char *z)
+{
+  const Vec3 a = read_vector(w, x, y, z);
+  if (a == Vec3{0, 0, 0}) w.fail("a direction must not be 0 0 0");
+  return unit_vector(a);
+}
+
+// A number, or a variable, which becomes an input.
+void read_value(Tokens &w, const std::string &name, Real &value, int &input, InputNames &inputs)
+{
+  if (w.done() || w.peek().rfind("v_", 0) != 0) {
+    value = w.number((name + " (number or v_NAME)").c_str());
+    return;
+  }
+  const std::string variable = w.take().substr(2);
+  if (variable.empty()) w.fail("the variable's name is missing after v_");
+  input = number_of_input(inputs, variable);
+}
+
+void read_values(Tokens &w, const char *const (&names)[3], Vec3 &values, int (&input)[3],
+                 InputNames &inputs)
+{
+  for (int d = 0; d < 3; d++) read_value(w, names[d], values[d], input[d], inputs);
+}
+
+void expect(Tokens &w, const char *word)
+{
+  if (w.done() || w.peek() != word) w.fail(std::string(word) + " must follow");
+  w.take();
+}
+
+void read_mass(Tokens &w, BodySpec &body)
+{
+  if (w.choice({"density", "mass"}) == 0) {
+    body.density = w.number("the density", kAboveZero);
+    return;
+  }
+  body.mass.mass = w.number("the mass", kAboveZero);
+  expect(w, "com");
+  body.mass.centre = read_vector(w, "x", "y", "z");
+  expect(w, "inertia");
+  SymmetricMatrix &inertia = body.mass.inertia;
+  inertia.xx = w.number("Ixx", kAboveZero);
+  inertia.yy = w.number("Iyy", kAboveZero);
+  inertia.zz = w.number("Izz", kAboveZero);
+  inertia.xy = w.number("Ixy");
+  inertia.xz = w.number("Ixz");
+  inertia.yz = w.number("Iyz");
+  try {
+    check_mass_properties(body.mass, "inertia");
+  } catch (const InputError &e) {
+    w.fail(e.what());
+  }
+}
+
+void read_joint(Tokens &w, BodySpec &body)
+{
+  Joint &j = body.joint;
+  j.kind = static_cast<JointKind>(w.choice({"free", "hinge", "slider", "planar", "ball"}));
+  if (j.kind == JointKind::hinge || j.kind == JointKind::ball)
+    j.point = read_vector(w, "px", "py", "pz");
+  if (j.has_coordinate()) j.axis = read_direction(w, "ax", "ay", "az");
+  if (j.kind == JointKind::planar) j.axis = read_direction(w, "nx", "ny", "nz");
+}
+
+void read_limits(Tokens &w, JointDrive &drive)
+{
+  drive.lo = w.number("lo");
+  drive.hi = w.number("hi");
+  const std::string limits = "the limits " + number_text(drive.lo) + " " + number_text(drive.hi);
+  if (drive.lo > drive.hi) w.fail(limits + " are reversed: the lower one comes first");
+  if (drive.lo > 0 || drive.hi < 0)
+    w.fail(limits + " do not contain 0, which is where the body begins");
+}
+
+void read_spring(Tokens &w, JointDrive &drive)
+{
+  drive.stiffness = w.number("the stiffness", 0);
+  drive.damping = w.number("the damping", 0);
+  if (w.number_follows()) drive.rest = w.number("rest");
+}
+
+void read_word(const std::string &word, Tokens &w, BodySpec &body, InputNames &inputs)
+{
+  if (word == "joint")
+    read_joint(w, body);
+  else if (word == "spring")
+    read_spring(w, body.drive);
+  else if (word == "limits")
+    read_limits(w, body.drive);
+  else if (word == "motor")
+    read_value(w, "the motor's force or torque", body.drive.motor, body.motor_input, inputs);
+  else if (word == "load")
+    read_values(w, {"fx", "fy", "fz"}, body.load, body.load_input, inputs);
+  else if (word == "moment")
+    read_values(w, {"tx", "ty", "tz"}, body.moment, body.moment_input, inputs);
+  else if (word == "velocity")
+    body.velocity = read_vector(w, "vx", "vy", "vz");
+  else if (word == "omega")
+    body.omega = read_vector(w, "wx", "wy", "wz");
+  else
+    body.gravity = read_vector(w, "gx", "gy", "gz");
+  body.has_gravity |= word == "gravity";
+}
+
+}    // namespace
+
+void read_body(Tokens &w, MeshSpec &s, InputNames &inputs)
+{
+  BodySpec &body = s.body;
+  body.present = true;
+  read_mass(w, body);
+  const std::vector<std::string> words = {"joint",  "spring",   "limits", "motor",  "load",
+                                          "moment", "velocity", "omega",  "gravity"};
+  std::vector<std::string> seen;
+  while (!w.done()) {
+    const std::string word = w.peek();
+    if (!std::count(words.begin(), words.end(), word)) break;
+    if (std::count(seen.begin(), seen.end(), word)) w.fail(word + " is given twice");
+    seen.push_back(w.take());
+    read_word(word, w, body, inputs);
+  }
+  if (w.number_follows()) w.fail("the number '" + w.peek() + "' is one too many");
+  for (const char *word : {"spring", "limits", "motor"})
+    if (std::count(seen.begin(), seen.end(), word) && !body.joint.has_coordinate())
+      w.fail(std::string(word) +
+             " is of the coordinate of a joint hinge or slider, and this body has none");
+}
+
+}    // namespace lsdcd

@@ -1,0 +1,17 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Arguments of a command about a rigid body.
+#pragma once
+
+#include "base/input_words.h"
+#include "wall/wall_spec.h"
+
+namespace lsdcd {
+
+extern const char *const kBodySyntax;    // what may follow the word body
+
+// Reads the arguments of the keyword. Variables become inputs. Throws InputError.
+void read_body(Tokens &w, MeshSpec &s, InputNames &inputs);
+
+}    // namespace lsdcd

@@ -1,0 +1,265 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "wall/mesh_body.h"
+
+#include "base/input_error.h"
+#include "base/input_words.h"
+#include "law/contact_slope.h"
+#include "wall/mesh_name.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace lsdcd {
+
+namespace {
+
+std::string vector_text(const Vec3 &a)
+{
+  return number_text(a.x) + " " + number_text(a.y) + " " + number_text(a.z);
+}
+
+MassProperties in_units(MassProperties p, Real force)
+{
+  p.mass /= force;
+  p.inertia = 1 / force * p.inertia;
+  return p;
+}
+
+bool are_same(const SymmetricMatrix &a, const SymmetricMatrix &b)
+{
+  return a.xx == b.xx && a.yy == b.yy && a.zz == b.zz && a.xy == b.xy && a.xz == b.xz &&
+         a.yz == b.yz;
+}
+
+bool are_same(const MassProperties &a, const MassProperties &b)
+{
+  return a.mass == b.mass && a.centre == b.centre && are_same(a.inertia, b.inertia);
+}
+
+bool are_same(const Joint &a, const Joint &b)
+{
+  return a.kind == b.kind && a.point == b.point && a.axis == b.axis;
+}
+
+// n.K n is convex in the place, so that on a face it is largest at a corner.
+Real largest_on_faces(const Mobility &m, const WeldedMesh &mesh)
+{
+  Real most = 0;
+  for (const auto &face : mesh.faces) {
+    const Vec3 &a = mesh.vertices[face[0]], &b = mesh.vertices[face[1]],
+               &c = mesh.vertices[face[2]];
+    const Vec3 normal = unit_vector(cross(b - a, c - a));
+    for (const Vec3 &x : {a, b, c}) most = std::max(most, m.along(x, normal));
+  }
+  return most;
+}
+
+// Of any direction at any point of the box.
+Real largest_in(const Mobility &m, const Box &box)
+{
+  const PrincipalAxes shifts = principal_axes(m.shifts), turns = principal_axes(m.turns);
+  Real arm = 0;
+  for_corners(box, [&](const Vec3 &x) { arm = std::max(arm, norm_sq(x - m.point)); });
+  return *std::max_element(shifts.value, shifts.value + 3) +
+         arm * *std::max_element(turns.value, turns.value + 3);
+}
+
+}    // namespace
+
+MeshBody::MeshBody(Host &host, WallSpec &wall, const LawTable &laws, int mesh, const MeshGrid &grid,
+                   Real force) :
+    host_(host),
+    wall_(wall), laws_(laws), mesh_(mesh), force_(force)
+{
+  const RigidMotion &motion = wall.meshes[mesh].motion;
+  if (motion.moves() || motion.servo().present)
+    throw InputError(
+        named("a body moves by what acts on it: leave out its motion, wiggle or servo"));
+  BodySpec &s = wall_.meshes[mesh].body;
+  if (s.density > 0) {
+    run_collectively(host, host.rank() == 0,
+                     [&] { s.mass = mass_properties(*grid.mesh(), s.density); });
+    host.broadcast(&s.mass, sizeof s.mass, 0);
+  } else {
+    check_mass_properties(s.mass, named("body"));
+  }
+  body_ = RigidBody(in_units(s.mass, force), s.joint);
+  body_.drive = s.drive;
+  try {
+    body_.set_velocity(s.velocity, s.omega);
+  } catch (const InputError &e) {
+    throw InputError(named(e.what()));
+  }
+  mobility_ = body_.mobility();
+  const MeshReport &r = grid.report();
+  bound_of_mobility_ = largest_in(mobility_, {r.lo, r.hi});
+  if (grid.mesh()) most_mobility_ = largest_on_faces(mobility_, *grid.mesh());
+  host.max(&most_mobility_, 1);
+}
+
+std::string MeshBody::named(const std::string &text) const
+{
+  return with_mesh_name(wall_, mesh_, text);
+}
+
+Real MeshBody::spring_and_kinetic_energy() const
+{
+  return body_.kinetic_energy() + body_.spring_energy();
+}
+
+// ---- a step ------------------------------------------------------------------------------
+
+void MeshBody::advance(Real dt)
+{
+  body_.kick(dt / 2, load_);
+  body_.drift(dt);
+}
+
+void MeshBody::note_step(Real dt)
+{
+  dt_ = dt;
+  pending_ = true;
+}
+
+void MeshBody::complete(const MeshTotals &contacts, const Vec3 &gravity, const SphereRange &spheres)
+{
+  if (!pending_) return;
+  pending_ = false;
+  const BodySpec &s = spec();
+  body_.drive.motor = s.drive.motor;
+  const Vec3 at_centre = s.load + s.mass.mass * (s.has_gravity ? s.gravity : gravity);
+  load_.force = contacts.force + at_centre;
+  load_.torque = contacts.torque_at_origin + cross(body_.centre(), at_centre) + s.moment;
+  body_.kick(dt_ / 2, load_);
+  check_step(contacts, spheres);
+}
+
+// ---- the timestep ------------------------------------------------------------------------
+
+// Bounds first, which cost nothing: all contacts as stiff as any can be, where the body gives way most.
+void MeshBody::check_step(const MeshTotals &contacts, const SphereRange &spheres)
+{
+  const bool has_contacts = has_contacts_;
+  has_contacts_ = asks_for_contacts_ = false;
+  if (dt_ == 0) return;
+  const Joint &joint = body_.joint();
+  ContactSum spring;
+  if (joint.has_coordinate()) {
+    const bool turns = joint.kind == JointKind::hinge;
+    const Vec3 none = {0, 0, 0}, axis = body_.axis_in_mesh();
+    spring.add(turns ? none : axis, turns ? axis : none, body_.drive.stiffness);
+  }
+  const Real by_spring = spring.largest(mobility_);
+  ContactSlope one;
+  for (int kind = 0; kind < laws_.kinds && contacts.contacts > 0; kind++) {
+    const ContactSlope of =
+        contact_slope(law_of(laws_, mesh_, kind), contacts.overlap * spheres.radius, spheres.radius,
+                      spheres.mass);
+    one = {std::max(one.stiffness, of.stiffness), std::max(one.damping, of.damping)};
+  }
+  const Real of_all = contacts.contacts * bound_of_mobility_ +
+                      (spheres.lightest > 0 ? 1 / (spheres.lightest / force_) : 0);
+  if (dt_ < longest_step(by_spring + of_all * one.stiffness, of_all * one.damping)) return;
+  asks_for_contacts_ = contacts.contacts > 0;
+  if (contacts.contacts > 0 && !has_contacts) return;    // the next step brings them
+
+  ContactSum sums[2] = {stiffness_, damping_};
+  host_.sum(sums[0].number, ContactSum::kNumbers);
+  host_.sum(sums[1].number, ContactSum::kNumbers);
+  host_.max(most_of_sphere_, 2);
+  for (int k = 0; k < ContactSum::kNumbers; k++) sums[0].number[k] += spring.number[k];
+  const Real longest = longest_step(sums[0].largest(mobility_) + most_of_sphere_[0],
+                                    sums[1].largest(mobility_) + most_of_sphere_[1]);
+  if (dt_ >= longest) fail_step(longest, contacts);
+}
+
+void MeshBody::sum_contacts(const WallEngine &engine, const Spheres &spheres)
+{
+  has_contacts_ = true;
+  stiffness_ = damping_ = ContactSum();
+  most_of_sphere_[0] = most_of_sphere_[1] = 0;
+  const SphereKinds kinds = {laws_.kinds > 1 ? spheres.type : nullptr, laws_.kind_of_type.data(),
+                             static_cast<int>(laws_.kind_of_type.size()) - 1};
+  const ContactRecord *record = engine.records();
+  const Pose pose = body_.pose();
+  for (int k = 0; k < engine.n_touching(); k++) {
+    const int i = engine.touching()[k];
+    const ContactLaw &law = law_of(laws_, mesh_, kinds[i]);
+    const Vec3 centre = pose.to_mesh(spheres.x[i]);
+    const Real radius = spheres.radius[i], mass = spheres.mass[i] / force_;
+    for (int n = 0; n < static_cast<int>(engine.sphere_output()[k].contacts); n++, record++) {
+      if (record->mesh != static_cast<std::uint32_t>(mesh_)) continue;
+      const Real distance = norm(record->arm);
+      if (!(distance > 0)) continue;    // the centre lies on the wall
+      const Vec3 normal = 1 / distance * record->arm, at = centre - record->arm,
+                 along = any_perpendicular(normal);
+      const Real together = 1 / (1 / mass + mobility_.along(at, normal));
+      const ContactSlopes slope =
+          contact_slopes(law, std::max<Real>(0, radius - distance), radius, together * force_);
+      const auto add = [&](const Vec3 &direction, const ContactSlope &of) {
+        stiffness_.add(mobility_, at, direction, of.stiffness);
+        damping_.add(mobility_, at, direction, of.damping);
+        most_of_sphere_[0] = std::max(most_of_sphere_[0], of.stiffness / mass);
+        most_of_sphere_[1] = std::max(most_of_sphere_[1], of.damping / mass);
+      };
+      add(normal, slope.normal);
+      add(along, slope.tangential);
+      add(cross(normal, along), slope.tangential);
+    }
+  }
+}
+
+void MeshBody::fail_step(Real longest, const MeshTotals &contacts) const
+{
+  throw InputError(named("the timestep " + number_text(dt_) + " is not below " +
+                         number_text(longest) + ", with which the body of mass " +
+                         number_text(spec().mass.mass) + " on " + number_text(contacts.contacts) +
+                         " contacts would be stable: make the timestep shorter, the body heavier, "
+                         "or contacts and spring softer"));
+}
+
+// ---- the log and restarts ----------------------------------------------------------------
+
+std::string MeshBody::text() const
+{
+  const char *const joints[] = {"free", "hinge", "slider", "planar", "ball"};
+  const MassProperties &p = spec().mass;
+  const SymmetricMatrix &i = p.inertia;
+  const Joint &j = spec().joint;
+  std::string t = "mass " + number_text(p.mass) + " com " + vector_text(p.centre) + " inertia " +
+                  vector_text({i.xx, i.yy, i.zz}) + " " + vector_text({i.xy, i.xz, i.yz}) +
+                  ", joint " + joints[static_cast<int>(j.kind)];
+  if (j.kind == JointKind::hinge || j.kind == JointKind::ball) t += " " + vector_text(j.point);
+  if (j.kind != JointKind::free && j.kind != JointKind::ball) t += " " + vector_text(j.axis);
+  return t;
+}
+
+BodyState MeshBody::state() const
+{
+  return {true, spec().mass, spec().joint, body_.state()};
+}
+
+void MeshBody::restore(const BodyState &was)
+{
+  pending_ = false;
+  if (!was.present) {
+    host_.warn(named("the " + std::string(host_.names().saved) +
+                     " has no body in this place: it begins anew"));
+    return;
+  }
+  if (are_same(was.mass, spec().mass) && are_same(was.joint, spec().joint)) {
+    body_.set_state(was.state);
+    return;
+  }
+  RigidBody before(in_units(was.mass, force_), was.joint);
+  before.set_state(was.state);
+  body_.begin_from(before);
+  host_.warn(named("the " + std::string(host_.names().saved) +
+                   " has another mass or joint of the body: it goes on "
+                   "from where it was, with what its joint allows of its velocity, and its "
+                   "coordinate begins at 0 there"));
+}
+
+}    // namespace lsdcd

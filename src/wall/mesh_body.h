@@ -1,0 +1,93 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// A mesh as a rigid body: what acts on it, its steps, and what they ask of the timestep.
+#pragma once
+
+#include "host/host.h"
+#include "rigid/rigid_body.h"
+#include "rigid/step_limit.h"
+#include "wall/mesh_grid.h"
+#include "wall/step_totals.h"
+#include "wall/wall_spec.h"
+
+#include <string>
+
+namespace lsdcd {
+
+// Of the spheres that can touch it, now or later.
+struct SphereRange {
+  Real radius = 0;                // the largest
+  Real mass = 0, lightest = 0;    // the largest and smallest; 0: there is none
+};
+
+// For a restart.
+struct BodyState {
+  bool present = false;
+  MassProperties mass;
+  Joint joint;
+  RigidState state;
+};
+
+// In the order of a step: advance() takes it to where contacts are computed, note_step() tells that they are, and
+// complete() gives it their load, whenever somebody asks for its velocities or the next step begins. Velocities are
+// those of half a step before complete(), and of the whole step after it.
+class MeshBody {
+ public:
+  // Of the mesh with this number of the wall, from 0, with its body there. `force`: of the wall's units, in mass length /
+  // time^2. Host, wall and laws must outlive it. Throws InputError on all processes. Collective.
+  MeshBody(Host &host, WallSpec &wall, const LawTable &laws, int mesh, const MeshGrid &grid,
+           Real force);
+
+  const RigidBody &body() const { return body_; }
+  const Mobility &mobility() const { return mobility_; }
+  // The largest n.K n where a sphere can touch a face; 1/mass.
+  Real most_mobility() const { return most_mobility_; }
+  Wrench reaction() const { return body_.reaction(load_); }
+  Real spring_and_kinetic_energy() const;
+
+  // Half a step by the load of the last one, and the way. Inputs may change before.
+  void advance(Real dt);
+  // The step that follows it: 0 where no time has passed, in the set-up of a run.
+  void note_step(Real dt);
+  bool is_complete() const { return !pending_; }
+  // Half a step by the load of this one: the spheres', and the rest with the values of inputs in this step. Throws
+  // InputError where the timestep is too long for what touches it. Collective.
+  void complete(const MeshTotals &contacts, const Vec3 &gravity, const SphereRange &spheres);
+
+  // Does complete() need the contacts themselves, as their number allows no judgement?
+  bool asks_for_contacts() const { return asks_for_contacts_; }
+  // Those of this process in the step that was computed, with outputs per sphere and records.
+  void sum_contacts(const WallEngine &engine, const Spheres &spheres);
+
+  // Line of the log.
+  std::string text() const;
+
+  BodyState state() const;
+  // Goes on as it was; with another mass or joint from where it was. The first process warns.
+  void restore(const BodyState &was);
+
+ private:
+  const BodySpec &spec() const { return wall_.meshes[mesh_].body; }
+  std::string named(const std::string &text) const;
+  void check_step(const MeshTotals &contacts, const SphereRange &spheres);
+  [[noreturn]] void fail_step(Real longest, const MeshTotals &contacts) const;
+
+  Host &host_;
+  WallSpec &wall_;
+  const LawTable &laws_;
+  int mesh_;
+  Real force_;
+  RigidBody body_;    // its mass over force_, so that forces are in the wall's units
+  Mobility mobility_;
+  Real most_mobility_ = 0, bound_of_mobility_ = 0;    // of faces; of any point
+  Wrench load_;
+  bool pending_ = false;
+  Real dt_ = 0;    // of the step that is pending
+
+  bool asks_for_contacts_ = false, has_contacts_ = false;
+  ContactSum stiffness_, damping_;
+  Real most_of_sphere_[2] = {0, 0};    // stiffness and damping over the mass of a sphere
+};
+
+}    // namespace lsdcd

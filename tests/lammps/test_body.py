@@ -1,0 +1,348 @@
+#!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 LSDCD contributors
+# SPDX-License-Identifier: GPL-2.0-only
+
+"""Meshes as rigid bodies: impacts, springs, hinges, momentum, restart, ranks; closed forms."""
+
+import math
+import sys
+
+import lmp
+import stl
+
+BEGIN = """\
+units           lj
+atom_style      sphere
+atom_modify     map array sort 0 0
+boundary        f f f
+newton          off
+comm_modify     vel yes
+region          box block {box}
+create_box      1 box
+{create}
+pair_style      {pair}
+pair_coeff      * *
+neighbor        {skin} bin
+neigh_modify    delay 0 every 1 check yes
+timestep        {dt}
+{move}
+"""
+# Columns of the fix's vector, from 1.
+FORCE, CENTRE, SPEED, TURN, OMEGA, REACTION, COUPLE, COORDINATE, ENERGY = 1, 15, 18, 21, 25, 28, 31, 34, 35
+
+
+def box(path, lo, hi, cells=1):
+    """A closed box, normals out; each face is cut into 2 cells^2 triangles."""
+    triangles = []
+    for axis in range(3):
+        u, v = (axis + 1) % 3, (axis + 2) % 3
+        for side in (0, 1):
+            def point(i, j):
+                p = [0, 0, 0]
+                p[axis] = (lo, hi)[side][axis]
+                p[u] = lo[u] + (hi[u] - lo[u]) * i / cells
+                p[v] = lo[v] + (hi[v] - lo[v]) * j / cells
+                return tuple(p)
+            triangles += stl.sheet(cells, point if side else lambda i, j: point(j, i))
+    stl.write(path, triangles)
+
+
+def script(fix, create, dt, box="-2 2 -2 2 -2 2", pair="zero 1.0", skin=0.1, move="fix move all nve/sphere", more="",
+           every=1, columns=range(1, 36), also=""):
+    shown = " ".join(f"$(f_w[{k}]:%.17g)" for k in columns)
+    return (BEGIN.format(box=box, create=create, pair=pair, skin=skin, dt=dt, move=move) +
+            f"fix w all wall/lsdcd {fix}\n{more}"
+            f"fix out all print {every} \"$(step) {shown} {also}\" file out.txt screen no\n")
+
+
+def rows_of(path):
+    return [[float(w) for w in line.split()] for line in path.read_text().split("\n") if line and line[0] != "#"]
+
+
+def go(folder, text, ranks=1):
+    log = lmp.run_well(text, folder, ranks)
+    return rows_of(folder / "out.txt"), log
+
+
+def sphere(x, y, z, radius, mass, velocity):
+    density = mass / (4 / 3 * math.pi * radius**3)
+    return (f"create_atoms 1 single {x} {y} {z} units box\n"
+            f"set group all diameter {2 * radius} density {density:.17g}\n"
+            f"velocity all set {velocity[0]} {velocity[1]} {velocity[2]}\n")
+
+
+ATOM = "$(vx[1]:%.17g) $(vy[1]:%.17g) $(vz[1]:%.17g)"
+
+
+def impacts(checks, folder):
+    """A sphere on the middle of a cube's face: v' = (m - e M) v / (m + M), V' = (1 + e) m v / (m + M)."""
+    radius, mass, speed, stiffness, e = 0.1, 1.0, 1.0, 1e6, 0.6
+    box(folder / "cube.stl", (-0.1, -0.1, -0.1), (0.1, 0.1, 0.1))
+    for ratio in (1e-3, 1, 1e3):
+        body = ratio * mass
+        reduced = 1 / (1 / mass + 1 / body)
+        dt = 0.01 * math.sqrt(reduced / stiffness)
+        moment = body * 0.2**2 / 6
+        text = script(f"granular hooke {stiffness} {e} damping coeff_restitution tangential linear_nohistory 0 0 "
+                      f"mesh cube.stl body mass {body} com 0 0 0 inertia {moment} {moment} {moment} 0 0 0 gravity 0 0 0",
+                      sphere(0, 0, 0.2 + 2 * speed * dt, radius, mass, (0, 0, -speed)), dt, every=1000, also=ATOM)
+        rows, _ = go(folder, text + "run 1000\n")
+        v, big = rows[-1][-1], rows[-1][SPEED + 2]
+        # The contact lasts pi sqrt(m/k) at most: 314 steps of it have an error of 1e-4. The force is cut
+        # off where it would attract, which loses as little.
+        checks.at_most(f"M/m = {ratio:g}: restitution", abs((v - big) / speed - e), 0.02)
+        checks.at_most(f"M/m = {ratio:g}: velocity of the body",
+                       abs(big / (-(1 + e) * mass * speed / (mass + body)) - 1), 0.02)
+        checks.at_most(f"M/m = {ratio:g}: momentum", abs(mass * v + body * big + mass * speed), 1e-12)
+        checks.at_most(f"M/m = {ratio:g}: no spin", max(abs(w) for w in rows[-1][OMEGA:OMEGA + 3]), 1e-9 * speed)
+
+
+def off_centre(checks, folder):
+    """Elastic, without friction, 0.05 beside the middle of the cube of side 0.2, M = m: 0.842105 m v."""
+    box(folder / "cube.stl", (-0.1, -0.1, -0.1), (0.1, 0.1, 0.1))
+    errors = []
+    for stiffness in (1e6, 1e8):
+        dt = 0.01 * math.sqrt(0.4 / stiffness)
+        text = script(f"hooke {stiffness} NULL 0 NULL 0 0 mesh cube.stl body density 125 gravity 0 0 0",
+                      sphere(0.05, 0, 0.2 + 2 * dt, 0.1, 1, (0, 0, -1)), dt, every=1000, also=ATOM)
+        rows, _ = go(folder, text + "run 1000\n")
+        row = rows[-1]
+        errors.append(abs(-row[SPEED + 2] / 0.842105 - 1))
+        overlap = math.sqrt(0.4 / stiffness)
+        checks.at_most(f"off centre, k = {stiffness:g}: impulse", errors[-1], 5 * overlap / 0.2)
+        spin = 0.05 * -row[SPEED + 2] / (0.2**2 / 6)    # J 0.05 / I, with M = 1
+        checks.at_most(f"off centre, k = {stiffness:g}: spin", abs(row[OMEGA + 1] / spin - 1), 5 * overlap / 0.2)
+        energy = row[ENERGY] + 0.5 * row[-1]**2
+        checks.at_most(f"off centre, k = {stiffness:g}: energy", abs(energy / 0.5 - 1), 1e-3)
+
+
+def plate(checks, folder):
+    """A plate of mass 1 on 100 spheres that stay, as 100 springs."""
+    side, mass, stiffness, row = 0.2, 1.0, 1e5, 10
+    box(folder / "plate.stl", (-side / 2, -side / 2, 0), (side / 2, side / 2, 0.002))
+    radius = 0.005
+    create, n = "", 0
+    for i in range(row):
+        for j in range(row):
+            n += 1
+            # Along the edges a hair inside: on an edge itself the contact is the edge's.
+            x, y = (0.999999 * side * (k / (row - 1) - 0.5) for k in (i, j))
+            create += f"create_atoms 1 single {x:.17g} {y:.17g} {-radius} units box\n"
+    # As heavy as to be no part of the fastest mode.
+    create += f"set group all diameter {2 * radius} density {1e4 / (4 / 3 * math.pi * radius**3):.17g}\n"
+    law = f"hooke {stiffness} NULL 0 NULL 0 0 mesh plate.stl body mass {mass} com 0 0 0 inertia " \
+          f"{mass * side**2 / 12} {mass * side**2 / 12} {mass * side**2 / 6} 0 0 0 gravity 0 0 -9.81 "
+    place = dict(box="-1 1 -1 1 -1 1", skin=0.01, move="")
+    limits = {"slider 0 0 1": 2 * math.sqrt(mass / (n * stiffness)),
+              "free": 2 * math.sqrt(mass / (n * stiffness * 11 / 9))}
+    sinks = mass * 9.81 / (n * stiffness)
+    dt = 2e-5
+    text = script(law + "joint slider 0 0 1", create, dt, **place)
+    rows, _ = go(folder, text + "run 1000\n")
+    period = 2 * math.pi * math.sqrt(mass / (n * stiffness))
+    z = [r[COORDINATE] for r in rows]
+    checks.at_most("plate: sinks about its depth", abs(min(z) / (-2 * sinks) - 1), 1e-3)
+    # Cosine of the first two periods.
+    off = max(abs(r[COORDINATE] + sinks * (1 - math.cos(2 * math.pi * r[0] * dt / period))) for r in rows)
+    checks.at_most("plate: swings by the closed form", off / sinks, 2e-2)
+    for joint, limit in limits.items():
+        text = script(law + f"joint {joint}", create, 0.95 * limit, columns=(COORDINATE, CENTRE + 2), **place)
+        rows, _ = go(folder, text + "run 2000\n")
+        checks.at_most(f"plate {joint}: stable at 0.95 of the limit", max(abs(r[2]) for r in rows), 3 * sinks)
+        done = lmp.run(script(law + f"joint {joint}", create, 1.02 * limit, **place) + "run 2000\n", folder)
+        checks.fact(f"plate {joint}: refused above it", done.returncode != 0 and "is not below" in done.stdout,
+                    " ".join(w for w in done.stdout.split("\n") if "ERROR" in w)[:300])
+
+
+def hinge(checks, folder):
+    """A flap under fix gravity: its period, and the weights that the hinge bears."""
+    side, thick, g = 0.2, 0.002, 9.81
+    box(folder / "flap.stl", (-thick / 2, -side / 2, -side), (thick / 2, side / 2, 0))
+    inertia = side**2 / 3 + thick**2 / 12    # over the mass
+    far = "create_atoms 1 single 1 1 1 units box\nset group all diameter 0.01 density 1\n"
+    law = "hooke 1e3 NULL 0 NULL 0 0 mesh flap.stl body density 1000 joint hinge 0 0 0 0 1 0 "
+    more = f"fix g all gravity {g} vector 0 0 -1\n"
+    dt = 5e-4
+    start = 0.02
+    rows, _ = go(folder, script(law + f"omega 0 {start} 0", far, dt, move="", more=more) + "run 3000\n")
+    period = 2 * math.pi * math.sqrt(inertia / (g * side / 2))
+    swing = start * period / (2 * math.pi)
+    off = max(abs(r[COORDINATE] - swing * math.sin(2 * math.pi * r[0] * dt / period)) for r in rows)
+    checks.at_most("hinge: swings by the closed form", off / swing, 1e-3)
+    # From the bottom with the speed of a release at 90 degrees.
+    fast = math.sqrt(g * side / inertia)
+    rows, _ = go(folder, script(law + f"omega 0 {fast:.17g} 0", far, dt, move="", more=more) + "run 500\n")
+    mass = side * side * thick * 1000
+    checks.at_most("hinge: 2.5 weights at the bottom", abs(rows[0][REACTION + 2] / (mass * g) - 2.5), 1e-4)
+    checks.at_most("hinge: comes to 90 degrees", abs(max(r[COORDINATE] for r in rows) / (math.pi / 2) - 1), 1e-4)
+    potential = [r[ENERGY] + mass * g * r[CENTRE + 2] for r in rows]
+    checks.at_most("hinge: energy", (max(potential) - min(potential)) / (mass * g * side), 1e-4)
+
+
+def motor(checks, folder):
+    """A motor with a variable, and a damper: I w' = T - c w, exactly for a constant T."""
+    box(folder / "rotor.stl", (-0.3, -0.1, -0.1), (0.3, 0.1, 0.1))
+    far = "create_atoms 1 single 1 1 1 units box\nset group all diameter 0.01 density 1\n"
+    inertia, torque, damping, dt = 2.0, 0.7, 0.4, 0.01
+    law = f"hooke 1e3 NULL 0 NULL 0 0 mesh rotor.stl body mass 3 com 0 0 0 inertia 1 1.5 {inertia} 0 0 0 " \
+          f"joint hinge 0 0 0 0 0 2 spring 0 {damping} motor v_torque"
+    torque_is = f"variable torque equal {torque}\nfix w"
+    rows, _ = go(folder, script(law, far, dt, move="").replace("fix w", torque_is, 1) + "run 500\n")
+    off = max(abs(r[OMEGA + 2] - torque / damping * (1 - math.exp(-damping * r[0] * dt / inertia))) for r in rows)
+    checks.at_most("motor and damper", off, 1e-12)
+    # Another timestep later, between two runs and in one.
+    rows, _ = go(folder, script(law, far, dt, move="", also="$(time:%.17g)").replace("fix w", torque_is, 1) +
+                 "run 100\ntimestep 0.002\nrun 100\nfix less all dt/reset 50 0.001 0.0011 1 units box\nrun 200\n")
+    off = max(abs(r[OMEGA + 2] - torque / damping * (1 - math.exp(-damping * r[-1] / inertia))) for r in rows)
+    checks.at_most("motor and damper with another timestep", off, 1e-12)
+    checks.fact("the timestep changed in a run", abs(rows[-1][-1] - (1 + 0.2 + 0.1 + 0.165)) < 0.06,
+                f"time {rows[-1][-1]:.6g}")
+
+
+def crowd(cells=3, apart=0.5):
+    """Spheres of diameter 0.3 on a grid about the origin, with any velocities, whose sum is 0."""
+    at = [apart * (k - (cells - 1) / 2) for k in range(cells)]
+    create = "".join(f"create_atoms 1 single {x + 0.02 * z} {y} {z + 0.03 * x} units box\n" for x in at for y in at for z in at)
+    return create + "set group all diameter 0.3 density 4\nvelocity all create 0.05 4711 loop geom\n"
+
+
+COLLIDE = "hooke/history 1e4 3e3 0 0 0.3 0"
+BOOKS = """\
+compute p all property/atom radius omegax omegay omegaz
+variable px equal "vcm(all,x) * mass(all)"
+variable py equal "vcm(all,y) * mass(all)"
+variable pz equal "vcm(all,z) * mass(all)"
+variable lx atom "mass * (y*vz - z*vy) + 0.4 * mass * c_p[1]^2 * c_p[2]"
+variable ly atom "mass * (z*vx - x*vz) + 0.4 * mass * c_p[1]^2 * c_p[3]"
+variable lz atom "mass * (x*vy - y*vx) + 0.4 * mass * c_p[1]^2 * c_p[4]"
+compute l all reduce sum v_lx v_ly v_lz
+"""
+BOOK = "$(v_px:%.17g) $(v_py:%.17g) $(v_pz:%.17g) $(c_l[1]:%.17g) $(c_l[2]:%.17g) $(c_l[3]:%.17g)"
+
+
+def momentum(checks, folder, steps=20000):
+    """A free box, and spheres that hit it from inside and each other: momentum and angular momentum of all together."""
+    side, mass, moment = 2.0, 5.0, (4.0, 5.0, 6.0)
+    box(folder / "cut2.stl", (-side / 2,) * 3, (side / 2,) * 3, 2)
+    box(folder / "cut5.stl", (-side / 2,) * 3, (side / 2,) * 3, 5)
+
+    def turned(q, a):
+        w, u = q[0], q[1:]
+        t = [2 * (u[(k + 1) % 3] * a[(k + 2) % 3] - u[(k + 2) % 3] * a[(k + 1) % 3]) for k in range(3)]
+        return [a[k] + w * t[k] + u[(k + 1) % 3] * t[(k + 2) % 3] - u[(k + 2) % 3] * t[(k + 1) % 3] for k in range(3)]
+
+    def books(row):
+        """The sums, and sizes of what they are made of."""
+        p, angular = row[36:39], row[39:42]
+        x, v, w, q = row[CENTRE:CENTRE + 3], row[SPEED:SPEED + 3], row[OMEGA:OMEGA + 3], row[TURN:TURN + 4]
+        spin = turned(q, [moment[k] * a for k, a in enumerate(turned([q[0], -q[1], -q[2], -q[3]], w))])
+        return ([p[k] + mass * v[k] for k in range(3)],
+                [angular[k] + spin[k] + mass * (x[(k + 1) % 3] * v[(k + 2) % 3] - x[(k + 2) % 3] * v[(k + 1) % 3])
+                 for k in range(3)], mass * max(map(abs, v)), max(map(abs, spin)))
+
+    # With friction LAMMPS's pairs of spheres do not keep angular momentum: their torques take whole radii. The wall's keep it.
+    early = {}
+    for mesh, ranks in (("cut2", 1), ("cut2", 2), ("cut2", 4), ("cut5", 1)):
+        text = script(f"{COLLIDE} mesh {mesh}.stl body mass {mass} com 0 0 0 inertia {moment[0]} {moment[1]} {moment[2]} "
+                      "0 0 0 omega 0.1 0.2 -0.1", crowd(), 5e-4, box="-3 3 -3 3 -3 3", pair="gran/hooke 1e4 0 0 0 0 0", more=BOOKS,
+                      every=1000, also=BOOK)
+        rows, _ = go(folder, text + f"run {steps}\n", ranks)
+        all_books = [books(row) for row in rows]
+        for k, what in enumerate(("momentum", "angular momentum")):
+            size = max(b[2 + k] for b in all_books)
+            off = max(abs(u - v) for b in all_books for u, v in zip(b[k], all_books[0][k]))
+            checks.at_most(f"{mesh}, {ranks} processes: {what} in {steps} steps", off / size, 1e-12)
+        early[mesh, ranks] = rows[2][CENTRE:ENERGY + 1]
+        checks.fact(f"{mesh}, {ranks} processes: spheres hit the body", abs(rows[-1][OMEGA] - 0.1) > 0.01)
+    for key in (("cut2", 2), ("cut2", 4), ("cut5", 1)):
+        checks.at_most(f"{key[0]}, {key[1]} processes: the same motion for 3000 steps",
+                       max(abs(a - b) for a, b in zip(early[key], early["cut2", 1])), 1e-10)
+
+
+def two_bodies(checks, folder, steps=5000):
+    """A free cube in a free box, with spheres between that touch both at a time: the momentum of all."""
+    box(folder / "outer.stl", (-1.0,) * 3, (1.0,) * 3, 2)
+    box(folder / "inner.stl", (-0.6,) * 3, (0.6,) * 3, 2)
+    masses = (5.0, 1.5)
+    words = [f"mesh {name}.stl body mass {m} com 0 0 0 inertia 1 1 1 0 0 0" for name, m in zip(("outer", "inner"), masses)]
+    # In the gap of 0.4: the first sphere is squeezed from the start, and touches both.
+    create = "".join(f"create_atoms 1 single {x} {y} 0.8 units box\n" for x in (-0.3, 0.3) for y in (-0.3, 0.3))
+    create += ("set group all diameter 0.3 density 4\nset atom 1 diameter 0.402\nvelocity all create 0.05 4711 loop geom\n")
+    shown = " ".join(f"$(f_w[{k}][{c}]:%.17g)" for k in (1, 2) for c in range(SPEED, SPEED + 3))
+    for ranks in (1, 2):
+        text = script(f"{COLLIDE} {' '.join(words)}", create, 5e-4, box="-3 3 -3 3 -3 3",
+                      pair="gran/hooke 1e4 0 0 0 0 0", more=BOOKS, every=100, columns=(FORCE,), also=f"{BOOK} {shown}")
+        rows, _ = go(folder, text + f"run {steps}\n", ranks)
+        sums = [[r[2 + k] + sum(m * r[8 + 3 * b + k] for b, m in enumerate(masses)) for k in range(3)] for r in rows]
+        size = max(m * abs(r[8 + 3 * b + k]) for r in rows for b, m in enumerate(masses) for k in range(3))
+        off = max(abs(a - b) for s in sums for a, b in zip(s, sums[0]))
+        checks.at_most(f"two bodies, {ranks} processes: momentum in {steps} steps", off / size, 1e-12)
+        checks.fact(f"two bodies, {ranks} processes: both are hit", all(
+            max(abs(r[8 + 3 * b + 2]) for r in rows) > 1e-3 for b in (0, 1)))
+
+
+def restart(checks, folder):
+    """Runs that are cut in two, and go on from a restart file, in mid-swing: the same bits."""
+    box(folder / "cube.stl", (-0.75,) * 3, (0.75,) * 3, 2)
+    for joint in ("free", "hinge 0.1 0.2 -0.3 1 2 3", "slider 1 2 2", "planar 1 1 0", "ball 0.1 -0.2 0.5"):
+        words = f"{COLLIDE} mesh cube.stl body density 2 joint {joint} load 0.1 0.2 0.3 moment 0 0.1 0.2"
+        if joint.split()[0] in ("hinge", "slider"):
+            words += " spring 20 0.5 0.1 limits -1 1 motor 0.2"
+        # Without damping the set-up of a run computes the forces that the last step had.
+        text = script(words, crowd(4, 0.35).replace("0.05 4711", "1 4711"), 5e-4, box="-5 5 -5 5 -5 5")
+        dump = "dump d all custom 300 {} id x y z vx vy vz\ndump_modify d format float %.17g sort id\n"
+        whole, _ = go(folder, text + dump.format("whole.txt") + "run 300\n")
+        cut, _ = go(folder, text + dump.format("cut.txt") + "run 150\nwrite_restart half.bin\nrun 150\n")
+        same = [r for r in whole if r[0] == 300] == [r for r in cut if r[0] == 300][-1:]
+        checks.fact(f"{joint}: run 150 and run 150 are run 300", same)
+        lines = text.split("\n")
+        begin = lines.index("pair_style      zero 1.0")
+        go_on = "atom_style sphere\nnewton off\ncomm_modify vel yes\nread_restart half.bin\n" + "\n".join(lines[begin:])
+        after, _ = go(folder, go_on + "run 150\n")
+        checks.fact(f"{joint}: it goes on from a restart file", after[-1] == whole[-1],
+                    str([k for k, (a, b) in enumerate(zip(after[-1], whole[-1])) if a != b]))
+
+
+def changes(checks, folder):
+    """What a body does not go with ends with a sentence."""
+    box(folder / "cube.stl", (-0.4,) * 3, (0.4,) * 3)
+    stl.write(folder / "open.stl", stl.quad((0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)))
+    far = "create_atoms 1 single 1 1 1 units box\nset group all diameter 0.01 density 1\n"
+    fix = "hooke 1e3 NULL 0 NULL 0 0 mesh cube.stl body density 1 "
+
+    def refused(name, text, *parts):
+        done = lmp.run(text, folder)
+        checks.fact(f"refused: {name}", done.returncode != 0 and all(p in done.stdout.replace("\n", " ") for p in parts),
+                    " ".join(line for line in done.stdout.split("\n") if "ERROR" in line)[:200])
+
+    plain = script(fix, far, 1e-3)
+    refused("minimise", plain + "minimize 0 0 10 10\n", "does not move in a minimization")
+    refused("respa", plain + "run_style respa 2 2 pair 1\nrun 1\n", "run_style verlet only")
+    refused("open mesh", script(fix.replace("cube", "open"), far, 1e-3), "4 open edges")
+    refused("motion", script(fix + "motion linear 1 0 0", far, 1e-3), "leave out its motion")
+    refused("servo", script(fix + "servo force z 1 vmax 1", far, 1e-3), "leave out its motion")
+    refused("fix_modify motion", plain + "fix_modify w motion linear 1 0 0\n", "takes no motion")
+    refused("two fixes gravity", plain + "fix g1 all gravity 1 vector 0 0 1\nfix g2 all gravity 1 vector 0 1 0\nrun 0\n",
+            "several fixes gravity")
+    refused("a spring without a coordinate", script(fix + "joint ball 0 0 0 spring 1 1", far, 1e-3), "hinge or slider")
+    refused("a velocity beside the joint", script(fix + "joint slider 1 0 0 velocity 0 1 0", far, 1e-3), "does not allow")
+    refused("moments that no body has", script(
+        "hooke 1e3 NULL 0 NULL 0 0 mesh cube.stl body mass 1 com 0 0 0 inertia 1 1 3 0 0 0", far, 1e-3), "no body has")
+    refused("rerun", plain + "dump d all custom 1 d.txt id x y z vx vy vz\nrun 1\nrerun d.txt dump x y z\n", "in a rerun")
+    refused("two dimensions", plain.replace("boundary        f f f", "dimension 2\nboundary        f f p").replace(
+        "-2 2 -2 2 -2 2", "-2 2 -2 2 -0.1 0.1").replace("single 1 1 1", "single 1 1 0"), "plane z = 0")
+    refused("a periodic face", plain.replace("boundary        f f f", "boundary        p f f").replace(
+        "density 1 \n", "density 1 velocity 1 0 0\n") + "run 3000\n", "the periodic face in x")
+
+
+def main():
+    checks = lmp.Checks()
+    folder = lmp.scratch()
+    tests = {f.__name__: f for f in (impacts, off_centre, plate, hinge, motor, momentum, two_bodies, restart, changes)}
+    for name in sys.argv[1:] or tests:
+        tests[name](checks, folder)
+    checks.done(folder)
+
+
+if __name__ == "__main__":
+    main()
