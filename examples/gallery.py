@@ -13,7 +13,8 @@ from PIL import Image, ImageChops
 
 import runs
 
-NAMES = ("drum", "hopper", "screw", "screen", "mixer", "piston", "insertion", "belt", "clumps")
+NAMES = ("drum", "hopper", "screw", "screen", "mixer", "piston", "insertion", "belt", "clumps", "flap",
+         "paddle")
 TUTORIALS = ("meshGran", "movingMeshGran", "servoWall", "conveyor")    # of from-liggghts
 MARGIN = 12    # pixels
 
