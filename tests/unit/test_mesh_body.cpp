@@ -55,7 +55,7 @@ struct Scene {
       host.simulation.edge[k][k] = 100;
     }
     host.simulation.margin = 0.1;
-    wall = std::make_unique<Wall>(host, spec, units, WallPlace(), "", StepClock{0, 0, 0, kDt});
+    wall = std::make_unique<Wall>(host, spec, units, WallBackend(), "", StepClock{0, 0, 0, kDt});
   }
 
   void add(const Vec3 &at)
