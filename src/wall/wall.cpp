@@ -685,9 +685,10 @@ void Wall::restore_mesh(MeshPart &m, const MeshState &was, const Step &now)
     m.spec.motion.set_pose(m.body->body().pose());
     m.motion.place();
   } else if (was.body.present) {
-    host_.warn(
-        named(m, "the restart file has a body in this place, and this fix has none: the mesh is "
-                 "where that was, and stays there"));
+    host_.warn(named(
+        m, "the " + std::string(host_.names().saved) +
+               " has a body in this place, and the wall has none: the mesh is where that was, "
+               "and stays there"));
   }
   motion_has_changed(m);
   if (!spec_.has_loads(m.spec)) return;
