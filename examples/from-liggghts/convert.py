@@ -175,7 +175,7 @@ class Mesh:
         self.file, self.type, self.place, self.words, self.wear = None, 1, [], [], False
         self.servo, self.moves, self.com, self.axis, self.target = None, [], (0.0, 0.0, 0.0), None, None
         self.wall, self.wall_line, self.index, self.several, self.reference = None, None, None, False, None
-        self.written = set()    # mesh_stl, mesh_fields
+        self.written, self.body = set(), ""    # mesh_stl, mesh_fields; words of 6dof
         self.parse(script, w[4:])
 
     def parse(self, script, w):
@@ -213,8 +213,14 @@ class Mesh:
                 if value not in ("finnie", "off"):
                     raise Left(f"wear {value}", "wear finnie or archard")
                 self.wear = value == "finnie"
-            elif key in ("com", "axis"):
+            elif key in ("com", "axis") or (key in ("vel", "angmom", "forceflags", "torqueflags") and self.style.endswith("/6dof")):
                 values[key] = take(3)
+            elif key == "moi" and self.style.endswith("/6dof"):
+                values[key] = take(6)
+            elif key == "mass" and self.style.endswith("/6dof"):
+                values[key] = take(1)[0]
+            elif key in ("suspension", "rot_flip"):
+                raise Left(f"{key} of a mesh with 6dof", "spring of a body on a hinge or slider; a flip is not there")
             elif key in ("ctrlPV", "target_val", "vel_max", "kp", "ki", "kd", "mode", "ratio"):
                 values[key] = take(1)[0]
             elif key in ("temperature", "mass_temperature"):
@@ -231,6 +237,8 @@ class Mesh:
         if self.style.endswith("/stress/servo"):
             self.add_servo(script, values)
             self.reference = self.reference or list(self.com)
+        elif self.style.endswith("/stress/6dof"):
+            self.add_body(script, values)
         elif self.style not in ("mesh/surface", "mesh/surface/planar", "mesh/surface/stress"):
             raise Left(f"the module of {self.style}", "mesh/surface/stress; others are not there")
         if surface:
@@ -286,6 +294,25 @@ class Mesh:
         spin = [script.number(omega, self.line) * a for a in axis]
         self.words.append("surface_angvel " + " ".join(map(short, spin)) + f" {ox} {oy} {oz}")
 
+    def add_body(self, script, v):
+        missing = [k for k in ("com", "mass", "moi") if k not in v]
+        if missing:
+            raise CannotConvert(f"{script.at(self.line)}: 6dof without {missing[0]}")
+        self.body = f"body mass {v['mass']} com {' '.join(v['com'])} inertia {' '.join(v['moi'])}"
+        if any(script.number(x, self.line) == 0 for key in ("forceflags", "torqueflags") for x in v.get(key, [])):
+            raise Left("forceflags or torqueflags of a mesh with 6dof, which hold the body to axes that a turn does not follow",
+                       f"joint slider, planar, hinge or ball after {self.body}")
+        if "vel" in v:
+            self.body += f" velocity {' '.join(v['vel'])}"
+        if any(script.number(x, self.line) for x in v.get("angmom", [])):
+            xx, yy, zz, xy, xz, yz = (script.number(x, self.line) for x in v["moi"])
+            rows = [(xx, xy, xz), (xy, yy, yz), (xz, yz, zz)]
+            # omega is the inverse of the tensor times the momentum, by Cramer's rule.
+            momentum = [script.number(x, self.line) for x in v["angmom"]]
+            size = dot(rows[0], cross(rows[1], rows[2]))
+            omega = [dot(momentum, cross(rows[(k + 1) % 3], rows[(k + 2) % 3])) / size for k in range(3)]
+            self.body += " omega " + " ".join(map(short, omega))
+
     def add_servo(self, script, v):
         missing = [k for k in ("com", "ctrlPV", "axis", "target_val", "vel_max") if k not in v]
         if missing:
@@ -331,7 +358,9 @@ class Mesh:
         return triangles
 
     def output(self, k):
-        """What stands for element k of this fix in LAMMPS."""
+        """What stands for element k of this fix in LAMMPS. Forces of 6dof have the weight in them there."""
+        if self.body:
+            return f"f_{self.wall}[{k + 8}]" if k in (7, 8, 9) else None
         if k in FORCE + TORQUE:
             return f"f_{self.wall}[{self.index}][{k}]" if self.several else f"f_{self.wall}[{k}]"
         if k in (7, 8, 9) and self.servo:
@@ -1344,6 +1373,7 @@ class Script:
         model.check()
         self.note_friction(line, model, [Contact(self, line, mesh.type, i) for mesh in meshes for i in self.grains()])
         self.note_stored(line, wall)
+        self.check_bodies(line, meshes)
         # One fix, so that a grain where meshes meet is pushed once; each mesh has its law.
         laws = [self.law_of(line, model, mesh.type) for mesh in meshes]
         first = laws[0][self.grains()[0]]
@@ -1358,6 +1388,15 @@ class Script:
             self.leave(line, f"the mesh {i}, which is not converted", "add it as mesh FILE")
             self.out.pop()
         self.put(" &\n                ".join(words))
+
+    def check_bodies(self, line, meshes):
+        bodies = [mesh for mesh in meshes if mesh.body]
+        if len(bodies) > 1:
+            raise Left("several meshes with 6dof in a wall", "a fix wall/lsdcd for each: outputs of bodies are of one")
+        for mesh in bodies:
+            if any(Contact(self, line, mesh.type, i).beta() > 0 for i in self.grains()):
+                raise Left(f"contacts of {mesh.id} that are damped: LIGGGHTS damps with the mass of the grain, here with that of grain and body",
+                           f"mesh {mesh.file}{mesh.placement()} {mesh.body}, where the body is far heavier than a grain, or where this is meant")
 
     def note_stored(self, line, wall):
         if wall.shear and wall.ids:
@@ -1390,8 +1429,8 @@ class Script:
         if mesh.reference or (moving and torque):
             # The point of the torque moves with the mesh in LIGGGHTS.
             words += " torque_about " + "mesh " * bool(moving) + " ".join(mesh.reference or "000")
-        if mesh.servo:
-            words += f" {mesh.servo}"
+        if mesh.servo or mesh.body:
+            words += f" {mesh.servo or mesh.body}"
         for line in self.dumps:
             words += self.dump_words(line, mesh)
         return words

@@ -25,6 +25,7 @@ fix m4 all property/global coefficientFriction peratomtypepair 1 0.4
 """
 MESH = "fix cad all mesh/surface/stress file a.stl type 1 {}\n"
 WALL = "fix w all wall/gran model hertz tangential history mesh n_meshes 1 meshes cad\n"
+BODY = "fix cad all mesh/surface/stress/6dof file a.stl type 1 move 1 2 3 com 1 2 3 mass 40 moi 3 4 5 1 1 0.5 {}\n"
 # What is written, whole or in part, for what.
 WRITTEN = {
     "placement keeps its order": (MESH.format("move 1 0 0 scale 2 rotate axis 0 0 1 angle 90 heal auto_remove_duplicates "
@@ -132,6 +133,11 @@ WRITTEN = {
         "variable f equal c_lsdcd_omegax[1]+c_lsdcd_omegax[2]*c_lsdcd_radius[1]\n"),
     "set of one spin of a grain at rest": ("create_atoms 1 single 0 0 0\nset atom 1 diameter 0.2 omegay 3 vz -1\n",
                                            "set atom 1 diameter 0.2 vz -1 omega 0 3 0\n"),
+    "a body that is elastic": (
+        # The tensor with rows (3, 1, 1), (1, 4, 0.5), (1, 0.5, 5) times (1, -1, 2).
+        "fix m3 all property/global coefficientRestitution peratomtypepair 1 1\n" +
+        BODY.format("vel 0 0 -0.5 angmom 4 -2 10.5") + WALL + "thermo_style custom step f_cad[9]\n",
+        "mesh a.stl move 1 2 3 body mass 40 com 1 2 3 inertia 3 4 5 1 1 0.5 velocity 0 0 -0.5 omega 1 -1 2\n"),
     "a jump to itself": ("label l\njump in.there l\n", "\njump SELF l\n"),
     "an if whose commands are the same": ('if "${n} > 1" then "print 1" "jump SELF l" else "variable a delete"\n',
                                           'then "print 1" "jump SELF l" else'),
@@ -156,6 +162,12 @@ LEFT = {
     "riggle and a motion around it": (
         MESH.format("") + WALL + "fix t all move/mesh mesh cad linear 1 0 0\n"
         "fix u all move/mesh mesh cad riggle origin 0 0 0 axis 0 0 1 period 1 amplitude 5\n", "riggle beside another motion"),
+    "a body whose contacts are damped": (BODY.format("") + WALL, "contacts of cad that are damped"),
+    "a body that is held": (BODY.format("torqueflags 0 1 1"), "forceflags or torqueflags"),
+    "a body with a suspension": (BODY.format("suspension k_t 1 c_t 1 k_r 1 c_r 1"), "suspension of a mesh"),
+    "force on a body, which has its weight": (
+        "fix m3 all property/global coefficientRestitution peratomtypepair 1 1\n" + BODY.format("") + WALL + "variable f equal f_cad[3]\n",
+        "element 3 of f_cad"),
     "a speed by a variable that was left": (
         MESH.format("") + WALL + "variable v equal f_none[1]\nfix t all move/mesh mesh cad linear/variable v_v v_v v_v\n", "v_v, which is not here"),
     "rotate, then linear": (MESH.format("") + WALL + "fix t all move/mesh mesh cad rotate origin 0 0 0 axis 0 0 1 period 1\n"
@@ -562,6 +574,7 @@ EDGES = "".join(f"variable {a}{end} equal bound(all,{a}{end})\n" for a in "xyz" 
 ALL_EDGES = " ".join(f"${{{a}{end}}}" for a in "xyz" for end in ("min", "max"))
 HERTZ = "hertz tangential history"
 TENTH = 0.1 * math.pi * 0.05**2 * 0.2 / (4 / 3 * math.pi * 0.004**3)
+MASS = 2500 * 4 / 3 * math.pi * 0.01**3
 IN_0_1 = [(0.004, 0.096)] * 6
 # name: model, script after BOX, what is printed as "NAME numbers", bounds of each number.
 PHYSICS = {
@@ -607,6 +620,13 @@ PHYSICS = {
     # Whole grains in the region, and in the box.
     "all_in": (HERTZ, POUR + EDGES + "region box1 block 0 0.1 0 0.1 0 0.1 units box\nfix ins all insert/pack seed 32452843 "
                "distributiontemplate d1 insert_every once all_in yes particles_in_region 300 region box1\nrun 1\n", ALL_EDGES, IN_0_1),
+    # A sphere of mass m meets a body at rest of mass 1 in its centre, elastically: (1 - m)/(1 + m) of its speed. The contact lasts for 100
+    # steps, for which leapfrog's energy is kept to 1e-4. LIGGGHTS-PUBLIC has no 6dof.
+    "body": (HERTZ, "create_atoms 1 single 0.1 0.1 0.0105 units box\n"
+             "set group all diameter 0.02 density 2500\nvelocity all set 0 0 -1 units box\n"
+             "fix cad all mesh/surface/stress/6dof file flat.stl type 1 com 0.1 0.1 0 mass 1 moi 0.01 0.01 0.02 0 0 0\n"
+             "fix w all wall/gran model MODEL mesh n_meshes 1 meshes cad\nvariable v equal vz[1]\nrun 1000\n", "${v}",
+             [((1 - MASS) / (1 + MASS) - 1e-4, (1 - MASS) / (1 + MASS) + 1e-4)]),
     # Planes at the edges of the region touch no grain, so nothing moves.
     "planes": (HERTZ, POUR + "".join(f"fix p{k} all wall/gran model {HERTZ} primitive type 1 {p}\n" for k, p in enumerate(
         ("xplane 0", "xplane 0.1", "yplane 0", "yplane 0.1", "zplane 0"), 3)) + "compute k all ke\nvariable k equal c_k\nvariable n equal atoms\n"
@@ -627,7 +647,10 @@ def physics(checks, folder, there=False):
     write_stl(folder / "flat.stl", FLAT)
     write_stl(folder / "slope.stl", [[(x, y, x) for x, y, _ in t] for t in FLAT])
     for name, (model, text, shown, bounds) in PHYSICS.items():
-        script = (BOX + text).replace("MODEL", model) + f'print "{name} is {shown}"\n'
+        if there and "6dof" in text:
+            continue
+        box = BOX.replace("peratomtypepair 1 0.3", "peratomtypepair 1 1") if name == "body" else BOX
+        script = (box + text).replace("MODEL", model) + f'print "{name} is {shown}"\n'
         if there:
             (folder / "in.there").write_text(script)
             output = subprocess.run(["liggghts", "-in", "in.there"], cwd=folder, text=True, errors="replace", stdout=subprocess.PIPE,
