@@ -493,6 +493,12 @@ class Model:
             raise Left(f"cohesion {self.cohesion} with model {self.normal}", "granular jkr or dmt, or model hooke with sjkr")
         return words
 
+    def dissipates(self, c):
+        """Whether a contact has a dashpot."""
+        if "stiffness" in self.normal:
+            return any(c.get(name, c.i, c.j) != 0 for name in ("gamman", "gammat"))
+        return c.beta() > 0
+
     def rolls(self, c):
         """False where the coefficient is 0: such a contact has no torque."""
         return self.rolling in ("cdt", "epsd2") and c.get("coefficientRollingFriction", c.i, c.j) != 0 or \
@@ -1373,7 +1379,7 @@ class Script:
         model.check()
         self.note_friction(line, model, [Contact(self, line, mesh.type, i) for mesh in meshes for i in self.grains()])
         self.note_stored(line, wall)
-        self.check_bodies(line, meshes)
+        self.check_bodies(line, model, meshes)
         # One fix, so that a grain where meshes meet is pushed once; each mesh has its law.
         laws = [self.law_of(line, model, mesh.type) for mesh in meshes]
         first = laws[0][self.grains()[0]]
@@ -1389,12 +1395,12 @@ class Script:
             self.out.pop()
         self.put(" &\n                ".join(words))
 
-    def check_bodies(self, line, meshes):
+    def check_bodies(self, line, model, meshes):
         bodies = [mesh for mesh in meshes if mesh.body]
         if len(bodies) > 1:
             raise Left("several meshes with 6dof in a wall", "a fix wall/lsdcd for each: outputs of bodies are of one")
         for mesh in bodies:
-            if any(Contact(self, line, mesh.type, i).beta() > 0 for i in self.grains()):
+            if any(model.dissipates(Contact(self, line, mesh.type, i)) for i in self.grains()):
                 raise Left(f"contacts of {mesh.id} that are damped: LIGGGHTS damps with the mass of the grain, here with that of grain and body",
                            f"mesh {mesh.file}{mesh.placement()} {mesh.body}, where the body is far heavier than a grain, or where this is meant")
 

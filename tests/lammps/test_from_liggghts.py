@@ -163,6 +163,10 @@ LEFT = {
         MESH.format("") + WALL + "fix t all move/mesh mesh cad linear 1 0 0\n"
         "fix u all move/mesh mesh cad riggle origin 0 0 0 axis 0 0 1 period 1 amplitude 5\n", "riggle beside another motion"),
     "a body whose contacts are damped": (BODY.format("") + WALL, "contacts of cad that are damped"),
+    "a body whose contacts are damped by numbers": (
+        "".join(f"fix n{k} all property/global {name} peratomtypepair 1 {v}\n" for k, (name, v) in enumerate(
+            (("kn", 1e5), ("kt", 1e5), ("gamman", 5), ("gammat", 0)))) + BODY.format("") + WALL.replace("hertz", "hooke/stiffness"),
+        "contacts of cad that are damped"),
     "a body that is held": (BODY.format("torqueflags 0 1 1"), "forceflags or torqueflags"),
     "a body with a suspension": (BODY.format("suspension k_t 1 c_t 1 k_r 1 c_r 1"), "suspension of a mesh"),
     "force on a body, which has its weight": (
