@@ -7,6 +7,7 @@
 
 #include "support/fake_host.h"
 #include "wall/mesh_motion.h"
+#include "wall/wall_state.h"
 
 #include "lsdcd.hpp"
 

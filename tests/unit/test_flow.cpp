@@ -176,7 +176,7 @@ TEST(flow, a_sheet_across_a_periodic_box_has_no_seam)
     for (int j = -4; j <= 8; j++)
       for (int wrapped = -1; wrapped <= 1; wrapped++) {
         const Vec3 from = {i / 4., j / 4., 0.5}, to = {i / 4. + wrapped, j / 4., -0.5};
-        const Place begin = {from, FlowSurface::cells_between(from, to, box)};
+        const WrappedPoint begin = {from, FlowSurface::cells_between(from, to, box)};
         const Passes p = sheet.passes(begin, to, box);
         EXPECT_EQ(p.backward, 1) << from.x << " " << from.y << " wrapped " << wrapped;
         EXPECT_EQ(p.forward, 0);

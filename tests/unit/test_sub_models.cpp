@@ -42,14 +42,14 @@ TEST(sub_models, have_names_and_numbers_of_their_own)
 TEST(sub_models, say_what_they_keep)
 {
   for (const SubModel &row : sub_models()) {
-    if (row.kept.beside_shear > 0) {
-      EXPECT_TRUE(row.kept.what) << name_of(row);
+    if (row.stored.beside_shear > 0) {
+      EXPECT_TRUE(row.stored.what) << name_of(row);
     }
     const bool shear = row.family == Family::style || row.family == Family::tangential;
     for (const SubModel &other : sub_models())
-      if (&row != &other && row.kept.what && other.kept.what &&
-          row.kept.what == std::string(other.kept.what)) {
-        EXPECT_TRUE(shear && row.kept.beside_shear == other.kept.beside_shear) << name_of(row);
+      if (&row != &other && row.stored.what && other.stored.what &&
+          row.stored.what == std::string(other.stored.what)) {
+        EXPECT_TRUE(shear && row.stored.beside_shear == other.stored.beside_shear) << name_of(row);
       }
   }
 }
@@ -80,7 +80,7 @@ std::string csv_row(const SubModel &row)
     numbers += (numbers.empty() ? "" : ", ") + std::string(p.name) + ": " + p.unit;
   const std::string word = row.family == Family::normal ? "granular" : family_word(row.family);
   return "   \"" + word + (word.empty() ? "" : " ") + syntax_of(row) + "\", \"" + numbers +
-         "\", \"" + (row.kept.what ? row.kept.what : "") + "\", \"" + row.help + "\"\n";
+         "\", \"" + (row.stored.what ? row.stored.what : "") + "\", \"" + row.help + "\"\n";
 }
 
 std::string page_table()
