@@ -20,7 +20,6 @@ ContactLaw read_law(Tokens &w, std::string &name, const std::string &syntax);
 void read_beside_classic(Tokens &w, ContactLaw &law, Family family);
 
 // [types I] STYLE NUMBERS, after `law`.
-extern const char *const kLawOfMeshSyntax;
 void read_law_of_mesh(Tokens &w, MeshSpec &mesh, InputNames &);
 
 // Once all is read: what a mesh's law leaves out is the wall's; refuses other sub-models.
