@@ -279,7 +279,8 @@ void ComputeCollideLsdcd::log_mesh(const lsdcd::WeldedMesh &mesh) const
     if (settings.atoms_file.empty())
       text += "\n  the mesh is taken to be where " + name_of(0) + " is now, in step " +
               std::to_string(update->ntimestep) + "; the keyword atoms tells it in any step";
-    text += "\n" + describe(mesh.report, settings.mesh.file);
+    text += '\n';
+    text += describe(mesh.report, settings.mesh.file);
   }
   log(text);
 }
