@@ -5,6 +5,7 @@
 
 #include "base/array_list.h"
 #include "base/input_error.h"
+#include "base/quad.h"
 
 #include <cmath>
 #include <limits>
@@ -157,7 +158,7 @@ FaceRecord make_face_record(const Vec3 &a, const Vec3 &b, const Vec3 &c)
   const Real longest =
       std::sqrt(std::fmax(norm_sq(b - a), std::fmax(norm_sq(c - b), norm_sq(a - c))));
   const Real shortest_height = f.height * norm(c - b) / longest;
-  if (shortest_height < kSliver * longest) return face_record<__float128>(a, b, c);
+  if (shortest_height < kSliver * longest) return face_record<Quad>(a, b, c);
   return f;
 }
 

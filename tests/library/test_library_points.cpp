@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // Barycentric coordinates and signed distances of the library, in quad precision and closed forms.
+#include "base/quad.h"
 #include "lsdcd_behind_core.h"
 #include "support/meshes.h"
 
@@ -18,9 +19,9 @@
 namespace test_library_points {
 namespace {
 
+using lsdcd::Quad;
 using lsdcd::TriangleSoup;
 using lsdcd::Vec3;
-using Quad = __float128;
 
 constexpr double kUnit = 2.220446049250313e-16;    // twice the rounding of numbers of order 1
 

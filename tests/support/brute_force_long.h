@@ -5,6 +5,7 @@
 // and by another way: barycentric coordinates from a dual basis, and segments.
 #pragma once
 
+#include "base/quad.h"
 #include "base/vec3.h"
 #include "mesh/triangle_soup.h"
 
@@ -82,7 +83,6 @@ struct LongTriangle {
 namespace long_detail {
 
 // Made in quad precision: a needle of 1e8 : 1 loses 16 digits in its duals.
-using Quad = __float128;
 inline void put(long double &to, Quad a)
 {
   to = static_cast<long double>(a);

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // Closest points on faces, edges and vertices against closed forms and quad precision.
+#include "base/quad.h"
 #include "geometry/closest_point.h"
 #include "mesh/mesh_features.h"
 #include "support/meshes.h"
@@ -202,7 +203,6 @@ TEST(face, point_in_an_obtuse_triangle_is_inside)
 
 // ---- slivers against quad precision ----------------------------------------------------
 
-using Quad = __float128;
 struct QuadVec {
   Quad x, y, z;
 };

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // The corner rule against every subset of active contacts, tried in quad precision.
+#include "base/quad.h"
 #include "contact/corner.h"
 #include "support/cover.h"
 #include "support/random.h"
@@ -17,7 +18,6 @@
 namespace lsdcd::test_corner {
 namespace {
 
-using Quad = __float128;
 constexpr Real kRadius = 1;
 
 struct Contacts {
