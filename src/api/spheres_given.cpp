@@ -6,6 +6,7 @@
 #include "api/c_border.h"
 #include "api/device_memory.h"
 #include "base/input_words.h"
+#include "base/vector_text.h"
 
 #include <algorithm>
 #include <cmath>
@@ -97,11 +98,6 @@ void check_positions(const lsdcd_spheres &s, const GpuArrays *gpu)
   }
 }
 
-std::string position_text(const Vec3 &x)
-{
-  return number_text(x.x) + " " + number_text(x.y) + " " + number_text(x.z);
-}
-
 Spheres spheres_of(const lsdcd_spheres &s, bool has_heat, bool has_types)
 {
   Spheres out;
@@ -171,7 +167,7 @@ Box checked_extents(const Spheres &s)
   for (int i = 0; i < s.n && !(norm_sq(zero) == 0); i++)
     if (!(norm_sq(0 * s.x[i]) == 0))
       refuse_sphere("x", i,
-                    position_text(s.x[i]) +
+                    vector_text(s.x[i]) +
                         ", which is no place: a shorter dt, or softer contacts, may help");
   return around;
 }

@@ -33,7 +33,4 @@ struct Outside {
 
 Outside outside(const PeriodicBox &box, const Spheres &spheres, const Box &extents);
 
-// "1 2 3"
-std::string position_text(const Vec3 &x);
-
 }    // namespace lsdcd

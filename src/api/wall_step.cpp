@@ -6,6 +6,7 @@
 #include "api/spheres_given.h"
 #include "api/wall_handle.h"
 #include "base/input_words.h"
+#include "base/vector_text.h"
 #include "mesh/outside_box.h"
 
 #include <algorithm>
@@ -84,7 +85,7 @@ void warn_of_outside(lsdcd_wall &wall, const StepWanted &want)
     const int i = want.outside.first;
     text = "x[" + std::to_string(i) + "]" +
            (host.is_alone() ? "" : " of process " + std::to_string(from)) + ", is at " +
-           position_text(host.spheres_on_cpu().x[i]);
+           vector_text(host.spheres_on_cpu().x[i]);
   }
   broadcast_text(host, text, from);
   const Box box = host.box().bounds({0, 0, 0});

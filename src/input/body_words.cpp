@@ -3,9 +3,11 @@
 
 #include "input/body_words.h"
 
+#include "input/value_words.h"
 #include "motion/motion.h"
 
 #include <algorithm>
+#include <iterator>
 #include <string>
 #include <vector>
 
@@ -19,38 +21,11 @@ const char *const kBodySyntax =
 
 namespace {
 
-Vec3 read_vector(Tokens &w, const char *x, const char *y, const char *z)
-{
-  Vec3 a;
-  a.x = w.number(x);
-  a.y = w.number(y);
-  a.z = w.number(z);
-  return a;
-}
-
 Vec3 read_direction(Tokens &w, const char *x, const char *y, const char *z)
 {
   const Vec3 a = read_vector(w, x, y, z);
   if (a == Vec3{0, 0, 0}) w.fail("a direction must not be 0 0 0");
   return unit_vector(a);
-}
-
-// A number, or a variable, which becomes an input.
-void read_value(Tokens &w, const std::string &name, Real &value, int &input, InputNames &inputs)
-{
-  if (w.done() || w.peek().rfind("v_", 0) != 0) {
-    value = w.number((name + " (number or v_NAME)").c_str());
-    return;
-  }
-  const std::string variable = w.take().substr(2);
-  if (variable.empty()) w.fail("the variable's name is missing after v_");
-  input = number_of_input(inputs, variable);
-}
-
-void read_values(Tokens &w, const char *const (&names)[3], Vec3 &values, int (&input)[3],
-                 InputNames &inputs)
-{
-  for (int d = 0; d < 3; d++) read_value(w, names[d], values[d], input[d], inputs);
 }
 
 void expect(Tokens &w, const char *word)
@@ -86,9 +61,8 @@ void read_mass(Tokens &w, BodySpec &body)
 void read_joint(Tokens &w, BodySpec &body)
 {
   Joint &j = body.joint;
-  j.kind = static_cast<JointKind>(w.choice({"free", "hinge", "slider", "planar", "ball"}));
-  if (j.kind == JointKind::hinge || j.kind == JointKind::ball)
-    j.point = read_vector(w, "px", "py", "pz");
+  j.kind = static_cast<JointKind>(w.choice({std::begin(kJointNames), std::end(kJointNames)}));
+  if (j.has_point()) j.point = read_vector(w, "px", "py", "pz");
   if (j.has_coordinate()) j.axis = read_direction(w, "ax", "ay", "az");
   if (j.kind == JointKind::planar) j.axis = read_direction(w, "nx", "ny", "nz");
 }
@@ -119,11 +93,14 @@ void read_word(const std::string &word, Tokens &w, BodySpec &body, InputNames &i
   else if (word == "limits")
     read_limits(w, body.drive);
   else if (word == "motor")
-    read_value(w, "the motor's force or torque", body.drive.motor, body.motor_input, inputs);
+    read_value(w, "the motor's force or torque (number or v_NAME)", body.drive.motor,
+               body.motor_input, inputs);
   else if (word == "load")
-    read_values(w, {"fx", "fy", "fz"}, body.load, body.load_input, inputs);
+    read_values(w, {"fx (number or v_NAME)", "fy (number or v_NAME)", "fz (number or v_NAME)"},
+                body.load, body.load_input, inputs);
   else if (word == "moment")
-    read_values(w, {"tx", "ty", "tz"}, body.moment, body.moment_input, inputs);
+    read_values(w, {"tx (number or v_NAME)", "ty (number or v_NAME)", "tz (number or v_NAME)"},
+                body.moment, body.moment_input, inputs);
   else if (word == "velocity")
     body.velocity = read_vector(w, "vx", "vy", "vz");
   else if (word == "omega")

@@ -4,12 +4,12 @@
 #include "input/keywords.h"
 
 #include "base/atomic_file.h"
+#include "grid/cache/grid_cache.h"
 #include "input/body_words.h"
 #include "input/law_words.h"
 #include "input/motion_words.h"
 #include "input/servo_words.h"
-
-#include "grid/cache/grid_cache.h"
+#include "input/value_words.h"
 #include "output/file_series.h"
 
 #include <algorithm>
@@ -122,21 +122,13 @@ void read_torque_about(Tokens &w, MeshSpec &s, InputNames &)
   s.torque_about_mesh = !w.done() && w.peek() == "mesh";
   if (s.torque_about_mesh) w.take();
   if (s.torque_about_mesh && !w.number_follows()) return;
-  s.torque_about.x = w.number("x");
-  s.torque_about.y = w.number("y");
-  s.torque_about.z = w.number("z");
+  s.torque_about = read_vector(w, "x", "y", "z");
 }
 
 void read_temperature(Tokens &w, MeshSpec &s, InputNames &inputs)
 {
   s.has_temperature = true;
-  if (!w.done() && w.peek().rfind("v_", 0) == 0) {
-    const std::string name = w.take().substr(2);
-    if (name.empty()) w.fail("the variable's name is missing after v_");
-    s.temperature_input = number_of_input(inputs, name);
-  } else {
-    s.temperature = w.number("T");
-  }
+  read_value(w, "T", s.temperature, s.temperature_input, inputs);
 }
 
 void read_draw(Tokens &w, WallCommand &s)

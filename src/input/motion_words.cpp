@@ -3,6 +3,8 @@
 
 #include "input/motion_words.h"
 
+#include "input/value_words.h"
+
 #include <algorithm>
 
 namespace lsdcd {
@@ -15,18 +17,6 @@ const char *const kMotionSyntax =
     "Pz Rx Ry Rz | about Px Py Pz] [cubic | linear] [repeat] [degrees]";
 
 namespace {
-
-bool variable_follows(const Tokens &w)
-{
-  return !w.done() && w.peek().rfind("v_", 0) == 0;
-}
-
-std::string take_variable(Tokens &w)
-{
-  const std::string name = w.take().substr(2);
-  if (name.empty()) w.fail("the variable's name is missing after v_");
-  return name;
-}
 
 Real fixed_number(Tokens &w, const char *what, Real low = -Tokens::kHuge)
 {
@@ -146,27 +136,19 @@ MotionTerm read_wiggle_term(Tokens &w)
   return m;
 }
 
-// A number, or v_NAME, which is an input: then the number is 0.
-Real number_or_variable(Tokens &w, const char *what, int &input, InputNames &inputs)
-{
-  if (!variable_follows(w)) return w.number(what);
-  input = number_of_input(inputs, take_variable(w));
-  return 0;
-}
-
 }    // namespace
 
 void read_surface_vel(Tokens &w, MeshSpec &s, InputNames &inputs)
 {
   const char *const names[] = {"vx", "vy", "vz"};
   for (int d = 0; d < 3; d++)
-    s.surface.velocity[d] = number_or_variable(w, names[d], s.surface_input[d], inputs);
+    read_value(w, names[d], s.surface.velocity[d], s.surface_input[d], inputs);
 }
 
 void read_shear(Tokens &w, MeshSpec &s, InputNames &inputs)
 {
   const int d = w.choice({"x", "y", "z"});
-  s.surface.velocity[d] = number_or_variable(w, "the speed", s.surface_input[d], inputs);
+  read_value(w, "the speed", s.surface.velocity[d], s.surface_input[d], inputs);
 }
 
 void read_motion(Tokens &w, MeshSpec &s, InputNames &inputs)
@@ -183,7 +165,7 @@ void read_surface_angvel(Tokens &w, MeshSpec &s, InputNames &inputs)
 {
   const char *const names[] = {"wx", "wy", "wz"};
   for (int d = 0; d < 3; d++)
-    s.surface.angular[d] = number_or_variable(w, names[d], s.surface_input[3 + d], inputs);
+    read_value(w, names[d], s.surface.angular[d], s.surface_input[3 + d], inputs);
   if (w.number_follows())
     s.surface.centre = fixed_vector(w, "the centre (x)", "the centre (y)", "the centre (z)");
 }

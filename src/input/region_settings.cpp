@@ -5,6 +5,7 @@
 
 #include "base/input_words.h"
 #include "input/keywords.h"
+#include "input/value_words.h"
 
 namespace lsdcd {
 
@@ -29,7 +30,7 @@ void keep_for_host(const std::string &word, int n, Tokens &w, RegionSettings &s)
 // `move` and `rotate` of the mesh have numbers first, those of LAMMPS a variable or NULL.
 bool is_by_variable(const Tokens &w)
 {
-  return !w.done() && (w.peek() == "NULL" || w.peek().rfind("v_", 0) == 0);
+  return !w.done() && (w.peek() == "NULL" || variable_follows(w));
 }
 
 void keep_choice(const std::string &word, const std::vector<std::string> &choices, Tokens &w,

@@ -3,6 +3,8 @@
 
 #include "input/servo_words.h"
 
+#include "input/value_words.h"
+
 #include <algorithm>
 #include <string>
 
@@ -13,15 +15,6 @@ const char *const kServoSyntax =
     "[through px py pz] TARGET vmax W [gain G] [limits lo hi]";
 
 namespace {
-
-Vec3 read_vector(Tokens &w, const char *x, const char *y, const char *z)
-{
-  Vec3 a;
-  a.x = w.number(x);
-  a.y = w.number(y);
-  a.z = w.number(z);
-  return a;
-}
 
 void read_line(Tokens &w, Servo &s)
 {
@@ -34,18 +27,6 @@ void read_line(Tokens &w, Servo &s)
   if (!s.turns) w.fail("through is of torque: a force has no place");
   w.take();
   s.point = read_vector(w, "px", "py", "pz");
-}
-
-void read_target(Tokens &w, Servo &s, InputNames &inputs)
-{
-  const char *const kTarget = "the target (number or v_NAME)";
-  if (w.done() || w.peek().rfind("v_", 0) != 0) {
-    s.target = w.number(kTarget);
-    return;
-  }
-  const std::string name = w.take().substr(2);
-  if (name.empty()) w.fail("the variable's name is missing after v_");
-  s.target_input = number_of_input(inputs, name);
 }
 
 void read_limits(Tokens &w, Servo &s)
@@ -66,7 +47,7 @@ Servo read_one_servo(Tokens &w, InputNames &inputs)
   s.present = true;
   s.turns = w.choice({"force", "torque"}) == 1;
   read_line(w, s);
-  read_target(w, s, inputs);
+  read_value(w, "the target (number or v_NAME)", s.target, s.target_input, inputs);
   std::vector<std::string> seen;
   while (!w.done()) {
     const std::string word = w.peek();

@@ -4,6 +4,7 @@
 #include "lammps/fix_insert_lsdcd.h"
 
 #include "base/input_words.h"
+#include "base/vector_text.h"
 #include "lammps/fix_wall_lsdcd.h"
 #include "lammps/host_atom_vec.h"
 #include "lammps/host_box.h"
@@ -150,9 +151,8 @@ void FixInsertLsdcd::read_face()
         settings.face.file + ": the face has no place that is " + number_text(radius) +
         ", the largest radius, from its edges: make it wider, or its scale larger");
   velocity = settings.along_normal ? settings.speed * face->normal() : settings.velocity;
-  const Vec3 n = face->normal();
   log(std::to_string(mesh.faces.size()) + " triangles, area " + number_text(face->area()) +
-      ", normal " + number_text(n.x) + " " + number_text(n.y) + " " + number_text(n.z));
+      ", normal " + lsdcd::vector_text(face->normal()));
 }
 
 void FixInsertLsdcd::find_region()

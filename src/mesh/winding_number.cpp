@@ -4,7 +4,7 @@
 #include "mesh/winding_number.h"
 
 #include "base/input_error.h"
-#include "base/input_words.h"
+#include "base/vector_text.h"
 #include "geometry/orientation.h"
 #include "mesh/counted_facets.h"
 
@@ -16,11 +16,6 @@
 namespace lsdcd {
 
 namespace {
-
-std::string text(const Vec3 &a)
-{
-  return number_text(a.x) + " " + number_text(a.y) + " " + number_text(a.z);
-}
 
 std::vector<Triangle> closed_facets(const WeldedMesh &mesh)
 {
@@ -106,8 +101,8 @@ std::string why_no_inside(const WeldedMesh &mesh)
   return some + std::to_string(open) + " edges are open, and along " +
          std::to_string(counted.loose.size() - open) +
          " more facets are wound against each other; the first goes from " +
-         text(mesh.vertices[std::min(first.from, first.to)]) + " to " +
-         text(mesh.vertices[std::max(first.from, first.to)]) +
+         vector_text(mesh.vertices[std::min(first.from, first.to)]) + " to " +
+         vector_text(mesh.vertices[std::max(first.from, first.to)]) +
          ": close the mesh, or try lsdcd repair";
 }
 

@@ -13,12 +13,15 @@ namespace lsdcd {
 // hinge: it turns about an axis. slider: it moves along one and does not turn. planar: its centre stays in a plane, and
 // it turns about the normal. ball: it turns about a point.
 enum class JointKind { free, hinge, slider, planar, ball };
+constexpr const char *kJointNames[] = {"free", "hinge", "slider", "planar", "ball"};
 
 struct Joint {
   JointKind kind = JointKind::free;
   Vec3 point = {0, 0, 0};    // of the box, length; of hinge and ball
   Vec3 axis = {0, 0, 1};     // of the box, a unit vector; of hinge and slider; the normal of planar
 
+  // Does a point of the body stay where it is?
+  bool has_point() const { return kind == JointKind::hinge || kind == JointKind::ball; }
   // Is its motion one number: a right-handed angle (hinge) or a length (slider), 0 where the body began?
   bool has_coordinate() const { return kind == JointKind::hinge || kind == JointKind::slider; }
 

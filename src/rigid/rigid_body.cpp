@@ -4,7 +4,7 @@
 #include "rigid/rigid_body.h"
 
 #include "base/input_error.h"
-#include "base/input_words.h"
+#include "base/vector_text.h"
 
 #include <algorithm>
 #include <cmath>
@@ -21,11 +21,6 @@ Real kicked(Real rate, Real force, Real mass, Real damping, Real h)
   return rate * std::exp(decay) - force / damping * std::expm1(decay);
 }
 
-std::string vector_text(const Vec3 &a)
-{
-  return number_text(a.x) + " " + number_text(a.y) + " " + number_text(a.z);
-}
-
 }    // namespace
 
 RigidBody::RigidBody(const MassProperties &mass, const Joint &joint) : mass_(mass), joint_(joint)
@@ -37,9 +32,7 @@ RigidBody::RigidBody(const MassProperties &mass, const Joint &joint) : mass_(mas
 void RigidBody::make_constants()
 {
   inertia_ = mass_.inertia;
-  if (joint_.kind == JointKind::hinge || joint_.kind == JointKind::ball)
-    inertia_ += mass_.mass *
-                inertia_of_point(rotate(inverse(state_.home_turn), state_.home - joint_.point));
+  if (joint_.has_point()) inertia_ += mass_.mass * inertia_of_point(arm_of_point());
   inverse_ = function_of(inertia_, [](Real moment) { return 1 / moment; });
   principal_ = principal_axes(inertia_);
   const Vec3 axis = axis_in_mesh();
@@ -48,7 +41,8 @@ void RigidBody::make_constants()
   in_plane_[1] = cross(joint_.axis, in_plane_[0]);
 }
 
-void RigidBody::set_velocity(const Vec3 &velocity, const Vec3 &omega)
+// The part of these velocities that the joint allows.
+void RigidBody::take_velocity(const Vec3 &velocity, const Vec3 &omega)
 {
   const Vec3 &a = joint_.axis;
   RigidState &s = state_;
@@ -56,24 +50,28 @@ void RigidBody::set_velocity(const Vec3 &velocity, const Vec3 &omega)
     case JointKind::free:
       s.velocity = velocity;
       s.momentum = apply(inertia_, omega);
-      break;
+      return;
     case JointKind::ball:
       s.momentum = apply(inertia_, omega);
-      break;
+      return;
     case JointKind::hinge:
       s.rate[0] = dot(a, omega);
-      break;
+      return;
     case JointKind::slider:
       s.rate[0] = dot(a, velocity);
-      break;
+      return;
     case JointKind::planar:
       for (int k = 0; k < 2; k++) s.rate[k] = dot(in_plane_[k], velocity);
       s.rate[2] = dot(a, omega);
   }
+}
+
+void RigidBody::set_velocity(const Vec3 &velocity, const Vec3 &omega)
+{
+  take_velocity(velocity, omega);
   // A turn about a point moves the centre, which need not be said.
-  const bool about_point = joint_.kind == JointKind::hinge || joint_.kind == JointKind::ball;
-  const Vec3 v = about_point && norm_sq(velocity) == 0 ? Vec3{0, 0, 0}
-                                                       : this->velocity() - velocity,
+  const Vec3 v = joint_.has_point() && norm_sq(velocity) == 0 ? Vec3{0, 0, 0}
+                                                              : this->velocity() - velocity,
              w = this->omega() - omega;
   constexpr Real kRounding = 1e-9;    // of axes with ten digits
   if (norm(v) > kRounding * norm(velocity) || norm(w) > kRounding * norm(omega))
@@ -88,17 +86,8 @@ void RigidBody::begin_from(const RigidBody &was)
   now.home_turn = now.turn = was.turn();
   state_ = now;
   make_constants();
-  const Vec3 w = was.omega(), v = was.velocity() + cross(w, now.centre - was.centre()),
-             &a = joint_.axis;
-  const bool slides = joint_.kind == JointKind::slider;
-  if (joint_.kind == JointKind::free || joint_.kind == JointKind::ball)
-    state_.momentum = apply(inertia_, w);
-  if (joint_.kind == JointKind::free) state_.velocity = v;
-  if (joint_.has_coordinate()) state_.rate[0] = dot(a, slides ? v : w);
-  if (joint_.kind == JointKind::planar) {
-    for (int k = 0; k < 2; k++) state_.rate[k] = dot(in_plane_[k], v);
-    state_.rate[2] = dot(a, w);
-  }
+  const Vec3 w = was.omega();
+  take_velocity(was.velocity() + cross(w, now.centre - was.centre()), w);
 }
 
 // ---- a step ------------------------------------------------------------------------------
@@ -164,7 +153,7 @@ void RigidBody::place()
     case JointKind::free:
       return;
     case JointKind::ball:
-      s.centre = p + rotate(s.turn, rotate(inverse(s.home_turn), s.home - p));
+      s.centre = p - rotate(s.turn, arm_of_point());
       return;
     case JointKind::hinge: {
       const Quaternion turn = rotation_about(a, s.coordinate[0]);
@@ -214,10 +203,15 @@ Vec3 RigidBody::apply(const SymmetricMatrix &in_mesh, const Vec3 &a) const
   return rotate(state_.turn, in_mesh * rotate(inverse(state_.turn), a));
 }
 
+// From the centre to the joint's point, in the frame of the mesh.
+Vec3 RigidBody::arm_of_point() const
+{
+  return rotate(inverse(state_.home_turn), joint_.point - state_.home);
+}
+
 Vec3 RigidBody::pivot() const
 {
-  const bool is_held = joint_.kind == JointKind::hinge || joint_.kind == JointKind::ball;
-  return is_held ? joint_.point : state_.centre;
+  return joint_.has_point() ? joint_.point : state_.centre;
 }
 
 Vec3 RigidBody::velocity_of_pivot() const
@@ -305,11 +299,11 @@ Mobility RigidBody::mobility() const
       m.turns = inverse_;
       return m;
     case JointKind::ball:
-      m.point += rotate(inverse(state_.home_turn), joint_.point - state_.home);
+      m.point += arm_of_point();
       m.turns = inverse_;
       return m;
     case JointKind::hinge:
-      m.point += rotate(inverse(state_.home_turn), joint_.point - state_.home);
+      m.point += arm_of_point();
       m.turns = 1 / inertia_of_axis_ * outer_square(axis);
       return m;
     case JointKind::slider:

@@ -80,8 +80,10 @@ class RigidBody {
 
  private:
   void make_constants();
+  void take_velocity(const Vec3 &velocity, const Vec3 &omega);
   void place();
   Vec3 apply(const SymmetricMatrix &in_mesh, const Vec3 &a) const;
+  Vec3 arm_of_point() const;
   Vec3 velocity_of_pivot() const;
   Vec3 spin_up() const;
   void turn_freely(Real h);

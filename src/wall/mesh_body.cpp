@@ -5,6 +5,7 @@
 
 #include "base/input_error.h"
 #include "base/input_words.h"
+#include "base/vector_text.h"
 #include "law/contact_slope.h"
 #include "wall/mesh_name.h"
 
@@ -14,11 +15,6 @@
 namespace lsdcd {
 
 namespace {
-
-std::string vector_text(const Vec3 &a)
-{
-  return number_text(a.x) + " " + number_text(a.y) + " " + number_text(a.z);
-}
 
 MassProperties in_units(MassProperties p, Real force)
 {
@@ -224,14 +220,13 @@ void MeshBody::fail_step(Real longest, const MeshTotals &contacts) const
 
 std::string MeshBody::text() const
 {
-  const char *const joints[] = {"free", "hinge", "slider", "planar", "ball"};
   const MassProperties &p = spec().mass;
   const SymmetricMatrix &i = p.inertia;
   const Joint &j = spec().joint;
   std::string t = "mass " + number_text(p.mass) + " com " + vector_text(p.centre) + " inertia " +
                   vector_text({i.xx, i.yy, i.zz}) + " " + vector_text({i.xy, i.xz, i.yz}) +
-                  ", joint " + joints[static_cast<int>(j.kind)];
-  if (j.kind == JointKind::hinge || j.kind == JointKind::ball) t += " " + vector_text(j.point);
+                  ", joint " + kJointNames[static_cast<int>(j.kind)];
+  if (j.has_point()) t += " " + vector_text(j.point);
   if (j.kind != JointKind::free && j.kind != JointKind::ball) t += " " + vector_text(j.axis);
   return t;
 }

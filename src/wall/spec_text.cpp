@@ -4,6 +4,7 @@
 #include "wall/spec_text.h"
 
 #include "base/input_words.h"
+#include "base/vector_text.h"
 #include "law/sub_models.h"
 
 #include <cmath>
@@ -13,11 +14,6 @@ namespace lsdcd {
 namespace {
 
 constexpr Real kDegrees = 180 / kPi;    // in a radian
-
-std::string vector_text(const Vec3 &a)
-{
-  return number_text(a.x) + " " + number_text(a.y) + " " + number_text(a.z);
-}
 
 std::string with_comma(const std::string &list, const std::string &next)
 {

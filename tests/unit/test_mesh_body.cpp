@@ -4,6 +4,7 @@
 // Rigid bodies of a wall whose program is not LAMMPS: gravity, sums over processes, saved states.
 #include "base/input_error.h"
 #include "support/fake_host.h"
+#include "support/grains.h"
 #include "support/meshes.h"
 #include "wall/wall.h"
 
@@ -38,49 +39,16 @@ WallSpec cube(const Joint &joint = Joint())
   return wall;
 }
 
-struct Scene {
+struct Scene : Grains {
   FakeHost &host;
-  std::vector<Vec3> x, v, omega, force, torque;
-  std::vector<Real> radius, mass;
-  std::vector<std::int64_t> tags;
   std::unique_ptr<Wall> wall;
   Real gravity[3] = {0, 0, 0};
   std::int64_t now = 0;
 
   Scene(FakeHost &host, const WallSpec &spec, const WallUnits &units = WallUnits()) : host(host)
   {
-    host.simulation.corner = {-50, -50, -50};
-    for (int k = 0; k < 3; k++) {
-      host.simulation.edge[k] = {0, 0, 0};
-      host.simulation.edge[k][k] = 100;
-    }
-    host.simulation.margin = 0.1;
+    host.simulation = wide_box();
     wall = std::make_unique<Wall>(host, spec, units, WallBackend(), "", StepClock{0, 0, 0, kDt});
-  }
-
-  void add(const Vec3 &at)
-  {
-    x.push_back(at);
-    for (std::vector<Vec3> *rest : {&v, &omega, &force, &torque}) rest->push_back({0, 0, 0});
-    radius.push_back(kRadius);
-    mass.push_back(1);
-    tags.push_back(static_cast<std::int64_t>(x.size()));
-  }
-
-  HostSpheres spheres()
-  {
-    HostSpheres s;
-    s.n = static_cast<int>(x.size());
-    if (s.n == 0) return s;
-    s.x = &x[0].x;
-    s.v = &v[0].x;
-    s.omega = &omega[0].x;
-    s.force = &force[0].x;
-    s.torque = &torque[0].x;
-    s.radius = radius.data();
-    s.mass = mass.data();
-    s.tag = tags.data();
-    return s;
   }
 
   void step(Step::Kind kind, Real dt = kDt)

@@ -8,6 +8,7 @@
 #include "input/wall_command.h"
 #include "mesh/io/read_mesh.h"
 #include "support/fake_host.h"
+#include "support/grains.h"
 #include "wall/wall.h"
 
 #include <gtest/gtest.h>
@@ -56,37 +57,6 @@ struct Floor {
   }
 };
 
-// Spheres of a process, where the host has them.
-struct Grains {
-  std::vector<Vec3> x, v, omega, force, torque;
-  std::vector<Real> radius, mass;
-  std::vector<std::int64_t> tags;
-
-  void add(const Vec3 &at, Real r = kRadius)
-  {
-    x.push_back(at);
-    for (std::vector<Vec3> *rest : {&v, &omega, &force, &torque}) rest->push_back({0, 0, 0});
-    radius.push_back(r);
-    mass.push_back(1);
-    tags.push_back(static_cast<std::int64_t>(x.size()));
-  }
-  HostSpheres spheres()
-  {
-    HostSpheres s;
-    s.n = static_cast<int>(x.size());
-    if (s.n == 0) return s;
-    s.x = &x[0].x;
-    s.v = &v[0].x;
-    s.omega = &omega[0].x;
-    s.force = &force[0].x;
-    s.torque = &torque[0].x;
-    s.radius = radius.data();
-    s.mass = mass.data();
-    s.tag = tags.data();
-    return s;
-  }
-};
-
 // A wall with its host and grains, stepped as LAMMPS would.
 struct Scene {
   FakeHost &host;
@@ -97,10 +67,7 @@ struct Scene {
 
   Scene(FakeHost &host, const WallSpec &settings) : host(host)
   {
-    host.simulation.corner = {-50, -50, -50};
-    for (int k = 0; k < 3; k++) host.simulation.edge[k] = {0, 0, 0};
-    for (int k = 0; k < 3; k++) host.simulation.edge[k][k] = 100;
-    host.simulation.margin = 0.1;
+    host.simulation = wide_box();
     wall = std::make_unique<Wall>(host, settings, WallUnits(), WallBackend(), "",
                                   StepClock{0, 0, 0, kDt});
   }
