@@ -1011,7 +1011,7 @@ class Script:
             mesh = self.meshes[name]
             value = mesh.output(k) if mesh.wall else None
             if value is None:
-                raise Left(f"element {k} of f_{name}", "fix_wall_lsdcd.rst lists what there is")
+                raise Left(f"element {k} of f_{name}", "wall_output.rst lists what there is")
             if line.words[0] == "variable" or re.fullmatch(r"f_\w+(\[\d+\])" + "{1,2}" * direct, value):
                 return value
             return helper(name, k, value)

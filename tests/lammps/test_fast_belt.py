@@ -2,7 +2,7 @@
 # SPDX-FileCopyrightText: 2026 LSDCD contributors
 # SPDX-License-Identifier: GPL-2.0-only
 
-"""What a grain gains on a fast belt: the figures of doc/fix_wall_lsdcd.rst, beside an integration of the law in Python."""
+"""What a grain gains on a fast belt: the figures of doc/contact_laws.rst, beside an integration of the law in Python."""
 import math
 import re
 
@@ -83,7 +83,7 @@ def gained(model, xgammat):
 
 def main():
     checks, folder = lmp.Checks(), lmp.scratch()
-    page = (lmp.HERE.parent.parent / "doc" / "fix_wall_lsdcd.rst").read_text()
+    page = (lmp.HERE.parent.parent / "doc" / "contact_laws.rst").read_text()
     said = re.findall(r"\b(0\.\d\d)\s+m/s", page)
     checks.fact("the page has three figures", len(said) == 3, str(said))
     cases = (("mindlin", 1, 0), ("mindlin/force", 1, 1), ("mindlin_slip", 1, 2), ("mindlin", 0, 2))

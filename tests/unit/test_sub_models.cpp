@@ -93,12 +93,12 @@ std::string page_table()
 
 TEST(sub_models, are_listed_in_the_page_of_the_fix)
 {
-  std::ifstream file(std::string(LSDCD_TEST_DIR) + "/../doc/fix_wall_lsdcd.rst");
+  std::ifstream file(std::string(LSDCD_TEST_DIR) + "/../doc/contact_laws.rst");
   std::stringstream page;
   page << file.rdbuf();
   ASSERT_FALSE(page.str().empty());
   EXPECT_NE(page.str().find(page_table()), std::string::npos)
-      << "the table of sub-models in doc/fix_wall_lsdcd.rst should be\n"
+      << "the table of sub-models in doc/contact_laws.rst should be\n"
       << page_table();
 }
 
