@@ -668,8 +668,8 @@ LSDCD_API int lsdcd_wall_get_pose(lsdcd_wall *wall, int mesh, double *matrix);
  * position: length; null: 0. quaternion: w x y z of R, of length 1 to 1e-3; null: no rotation. velocity: length/time, of
  * the point at `position`; null: 0. angular_velocity: 1/time, along the axes of the box, right-handed; null: 0. Both are
  * of the time of the spheres' velocities: with velocity Verlet half a step before the pose. All are the same on all
- * processes. LSDCD_ERROR_ARGUMENT: no such mesh, one that is not posed by the caller, a number that is not finite or
- * a quaternion of another length. Alone. Own. */
+ * processes. LSDCD_ERROR_ARGUMENT: no such mesh, one that is a body or not posed by the caller, a number that is not
+ * finite or a quaternion of another length. Alone. Own. */
 LSDCD_API int lsdcd_wall_set_pose(lsdcd_wall *wall, int mesh, const double *position,
                                   const double *quaternion, const double *velocity,
                                   const double *angular_velocity);

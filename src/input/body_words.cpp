@@ -24,8 +24,7 @@ namespace {
 Vec3 read_direction(Tokens &w, const char *x, const char *y, const char *z)
 {
   const Vec3 a = read_vector(w, x, y, z);
-  if (a == Vec3{0, 0, 0}) w.fail("a direction must not be 0 0 0");
-  return unit_vector(a);
+  return a == Vec3{0, 0, 0} ? a : unit_vector(a);
 }
 
 void expect(Tokens &w, const char *word)
@@ -51,11 +50,6 @@ void read_mass(Tokens &w, BodySpec &body)
   inertia.xy = w.number("Ixy");
   inertia.xz = w.number("Ixz");
   inertia.yz = w.number("Iyz");
-  try {
-    check_mass_properties(body.mass, "inertia");
-  } catch (const InputError &e) {
-    w.fail(e.what());
-  }
 }
 
 void read_joint(Tokens &w, BodySpec &body)
@@ -71,10 +65,6 @@ void read_limits(Tokens &w, JointDrive &drive)
 {
   drive.lo = w.number("lo");
   drive.hi = w.number("hi");
-  const std::string limits = "the limits " + number_text(drive.lo) + " " + number_text(drive.hi);
-  if (drive.lo > drive.hi) w.fail(limits + " are reversed: the lower one comes first");
-  if (drive.lo > 0 || drive.hi < 0)
-    w.fail(limits + " do not contain 0, which is where the body begins");
 }
 
 void read_spring(Tokens &w, JointDrive &drive)
@@ -128,10 +118,11 @@ void read_body(Tokens &w, MeshSpec &s, InputNames &inputs)
     read_word(word, w, body, inputs);
   }
   if (w.number_follows()) w.fail("the number '" + w.peek() + "' is one too many");
-  for (const char *word : {"spring", "limits", "motor"})
-    if (std::count(seen.begin(), seen.end(), word) && !body.joint.has_coordinate())
-      w.fail(std::string(word) +
-             " is of the coordinate of a joint hinge or slider, and this body has none");
+  try {
+    check_body(body);
+  } catch (const InputError &e) {
+    w.fail(e.what());
+  }
 }
 
 }    // namespace lsdcd

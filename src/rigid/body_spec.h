@@ -26,4 +26,8 @@ struct BodySpec {
   Vec3 gravity = {0, 0, 0};                        // force/mass
 };
 
+// Throws InputError where no body is so: a moment of inertia, a direction, a range or a word that its joint does not
+// have. Parsers and callers without one get the same sentences. Density 0: `mass` is checked.
+void check_body(const BodySpec &body);
+
 }    // namespace lsdcd

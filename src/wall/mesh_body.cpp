@@ -78,8 +78,6 @@ MeshBody::MeshBody(Host &host, WallSpec &wall, const LawTable &laws, int mesh, c
     run_collectively(host, host.rank() == 0,
                      [&] { s.mass = mass_properties(*grid.mesh(), s.density); });
     host.broadcast(&s.mass, sizeof s.mass, 0);
-  } else {
-    check_mass_properties(s.mass, named("body"));
   }
   body_ = RigidBody(in_units(s.mass, force), s.joint);
   body_.drive = s.drive;

@@ -574,7 +574,15 @@ void Wall::set_motion(int mesh, const RigidMotion &motion, const Step &now)
 void Wall::check_is_no_body(const MeshPart &m) const
 {
   if (m.body)
-    throw InputError(named(m, "a body moves by what acts on it, and takes no motion or servo"));
+    throw InputError(
+        named(m, "a body moves by what acts on it, and takes no motion, servo or pose"));
+}
+
+void Wall::set_pose(int mesh, const Pose &pose)
+{
+  MeshPart &m = meshes_[mesh];
+  check_is_no_body(m);
+  m.spec.motion.set_pose(pose);
 }
 
 void Wall::set_servo(int mesh, const Servo &servo)

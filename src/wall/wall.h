@@ -134,8 +134,9 @@ class Wall {
   // Another servo of a mesh, from where the mesh is; one that is not present stops it. Along the same line its
   // position goes on.
   void set_servo(int mesh, const Servo &servo);
-  // The pose of a mesh whose motion is_posed(), for the next step and those after it. Not together.
-  void set_pose(int mesh, const Pose &pose) { spec_.meshes[mesh].motion.set_pose(pose); }
+  // The pose of a mesh whose motion is_posed(), and that is no body, for the next step and those after it. Not
+  // together.
+  void set_pose(int mesh, const Pose &pose);
 
   // For a saved state: the history of a sphere, with the names of features that any run has. Returns the
   // numbers written. Not together.

@@ -59,6 +59,19 @@ void check_inputs(const WallSpec &wall, std::size_t mesh, const std::string &mem
                        " inputs, which count from 0; add its name to them, or use kNoInput");
 }
 
+void check_body(const WallSpec &wall, std::size_t k)
+{
+  const BodySpec &body = wall.meshes[k].body;
+  check_inputs(wall, k, "the motor of its body", &body.motor_input, 1);
+  check_inputs(wall, k, "the load of its body", body.load_input, std::size(body.load_input));
+  check_inputs(wall, k, "the moment of its body", body.moment_input, std::size(body.moment_input));
+  try {
+    check_body(body);
+  } catch (const InputError &e) {
+    throw InputError(mesh_text(wall, k) + ": in its body, " + e.what());
+  }
+}
+
 // Calls visit(law) for those of the wall and of its meshes.
 template <class Visit>
 void for_laws(WallSpec &wall, const Visit &visit)
@@ -106,6 +119,7 @@ void check_spec(const WallSpec &wall)
     check_inputs(wall, k, "its servo", &mesh.motion.servo().target_input, 1);
     check_inputs(wall, k, "its surface", mesh.surface_input, std::size(mesh.surface_input));
     check_inputs(wall, k, "its temperature", &mesh.temperature_input, 1);
+    check_body(wall, k);
     if (wall.law().has_heat() && !mesh.has_temperature)
       throw InputError(mesh_text(wall, k) +
                        " has no temperature, which the sub-model heat needs; give it one");

@@ -941,6 +941,18 @@ TEST_F(wall_spec, names_the_field_its_value_and_the_remedy)
   }
 }
 
+TEST_F(wall_spec, takes_no_pose_for_a_body)
+{
+  lsdcd::Wall wall({"hooke",   "1e3", "0",    "0",    "0", "0",   "0", "device", "cpu",
+                    "mesh",    file_, "body", "mass", "1", "com", "0", "0",      "0",
+                    "inertia", "1",   "1",    "1",    "0", "0",   "0"});
+  EXPECT_EQ(code_of([&] { wall.set_pose(0, api::Pose()); }), LSDCD_ERROR_ARGUMENT);
+  EXPECT_NE(text_of([&] {
+              wall.set_pose(0, api::Pose());
+            }).find("is a body, which moves by what acts on it: it takes no motion, servo or pose"),
+            std::string::npos);
+}
+
 TEST_F(wall_spec, refuses_poses_that_are_none)
 {
   const api::Mesh mesh(file_);

@@ -201,6 +201,7 @@ TEST(mesh_body, takes_no_motion_beside_it)
   Scene scene(host, cube());
   EXPECT_THROW(scene.wall->set_motion(0, RigidMotion(), {0, kDt}), InputError);
   EXPECT_THROW(scene.wall->set_servo(0, Servo()), InputError);
+  EXPECT_THROW(scene.wall->set_pose(0, Pose()), InputError);
 }
 
 }    // namespace lsdcd::test_mesh_body

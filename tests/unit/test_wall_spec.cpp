@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <string>
 
 namespace lsdcd::test_wall_spec {
@@ -86,6 +87,15 @@ TEST(wall_spec, an_input_that_is_not_there_is_refused)
     wall = good();
     wall.meshes[0].temperature_input = input;
     expect_error(wall, "mesh 1: its temperature" + number + text);
+    wall = good();
+    wall.meshes[0].body.motor_input = input;
+    expect_error(wall, "mesh 1: the motor of its body" + number + text);
+    wall = good();
+    wall.meshes[0].body.load_input[2] = input;
+    expect_error(wall, "mesh 1: the load of its body" + number + text);
+    wall = good();
+    wall.meshes[0].body.moment_input[1] = input;
+    expect_error(wall, "mesh 1: the moment of its body" + number + text);
   }
   WallSpec wall = good();
   wall.meshes[0].surface_input[0] = 0;
@@ -101,6 +111,53 @@ TEST(wall_spec, heat_and_temperatures_need_each_other)
   expect_error(wall, "mesh 'blade' has no temperature, which the sub-model heat needs");
   wall.meshes[1].has_temperature = true;
   EXPECT_EQ(refusal_of(wall), "");
+}
+
+// The sentences of the words of a script (test_body_words).
+TEST(wall_spec, a_body_that_there_cannot_be_is_refused)
+{
+  const struct {
+    void (*spoil)(BodySpec &);
+    const char *text;
+  } cases[] = {
+      {[](BodySpec &b) { b.density = -1; }, "the density is -1, not a number from 0 on"},
+      {[](BodySpec &b) { b.density = 0; }, "a mass of 0 is not above 0"},
+      {[](BodySpec &b) {
+         b.density = 0, b.mass = {1, {0, 0, 0}, {1, 1, 3, 0, 0, 0}};
+       },
+       "no body has the principal moments of inertia"},
+      {[](BodySpec &b) { b.joint.kind = static_cast<JointKind>(9); }, "no joint of kind 9"},
+      {[](BodySpec &b) {
+         b.joint.axis = {0, 0, 0};
+       },
+       "a direction must not be 0 0 0"},
+      {[](BodySpec &b) {
+         b.joint.axis = {0, 0, 2};
+       },
+       "direction 0 0 2 is not of length 1"},
+      {[](BodySpec &b) { b.joint.kind = JointKind::ball, b.drive.stiffness = 1; },
+       "spring is of the coordinate of a joint hinge or slider"},
+      {[](BodySpec &b) { b.joint.kind = JointKind::free, b.drive.lo = -1; },
+       "limits is of the coordinate"},
+      {[](BodySpec &b) { b.joint.kind = JointKind::planar, b.motor_input = 0; },
+       "motor is of the coordinate"},
+      {[](BodySpec &b) { b.drive.damping = -1; }, "the damping is -1, not a number from 0 on"},
+      {[](BodySpec &b) { b.drive.lo = 1, b.drive.hi = 0; }, "the limits 1 0 are reversed"},
+      {[](BodySpec &b) { b.drive.lo = 1, b.drive.hi = 2; }, "the limits 1 2 do not contain 0"},
+      {[](BodySpec &b) { b.load.y = NAN; }, "the load is 0 nan 0, which is not finite"},
+  };
+  WallSpec wall = good();
+  BodySpec &body = wall.meshes[1].body;
+  body.present = true;
+  body.density = 1;
+  body.joint.kind = JointKind::hinge;
+  EXPECT_EQ(refusal_of(wall), "");
+  for (const auto &c : cases) {
+    WallSpec spoilt = wall;
+    c.spoil(spoilt.meshes[1].body);
+    expect_error(spoilt, c.text);
+    expect_error(spoilt, "mesh 'blade': in its body, ");
+  }
 }
 
 TEST(wall_spec, a_wall_is_not_made_of_what_is_refused)

@@ -748,8 +748,8 @@ class Wall(_Owner):
         position: (3,), length. quaternion: (4,), w x y z of R, of length 1 to 1e-3. velocity: (3,), length/time, of the
         point at `position`. angular_velocity: (3,), 1/time, right-handed, along the axes of the box. Both are of the time
         of the spheres' velocities: with velocity Verlet half a step before the pose. What is None is 0, or no rotation.
-        The same on all processes. Raises Error for a mesh that there is not or that is not posed by the caller, a number
-        that is not finite and a quaternion of another length; ValueError for other shapes."""
+        The same on all processes. Raises Error for a mesh that there is not, that is a body or that is not posed by the
+        caller, a number that is not finite and a quaternion of another length; ValueError for other shapes."""
         given = [_numbers(position, (3,), "position"), _numbers(quaternion, (4,), "quaternion"),
                  _numbers(velocity, (3,), "velocity"), _numbers(angular_velocity, (3,), "angular_velocity")]
         self._do(_lib.lsdcd_wall_set_pose, self._handle, _c_int(mesh, "mesh"),

@@ -1,0 +1,105 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "rigid/body_spec.h"
+
+#include "base/input_error.h"
+#include "base/input_words.h"
+#include "base/vector_text.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <string>
+
+namespace lsdcd {
+
+namespace {
+
+void check_finite(const char *what, const Vec3 &a)
+{
+  if (!std::isfinite(a.x) || !std::isfinite(a.y) || !std::isfinite(a.z))
+    throw InputError(std::string(what) + " is " + vector_text(a) + ", which is not finite");
+}
+
+void check_not_below_0(const char *what, Real value)
+{
+  if (!(value >= 0) || !std::isfinite(value))
+    throw InputError(std::string(what) + " is " + number_text(value) + ", not a number from 0 on");
+}
+
+void check_axis(const Joint &j)
+{
+  if (!j.has_coordinate() && j.kind != JointKind::planar) return;
+  check_finite("the joint's direction", j.axis);
+  constexpr Real kRounding = 1e-9;
+  if (j.axis == Vec3{0, 0, 0}) throw InputError("a direction must not be 0 0 0");
+  if (std::fabs(norm(j.axis) - 1) > kRounding)
+    throw InputError("the joint's direction " + vector_text(j.axis) + " is not of length 1");
+}
+
+// What only a joint with a coordinate has.
+void check_has_coordinate(const BodySpec &body)
+{
+  const JointDrive &d = body.drive, none = JointDrive();
+  const struct {
+    const char *word;
+    bool given;
+  } words[] = {{"spring", d.stiffness != 0 || d.damping != 0 || d.rest != 0},
+               {"limits", d.lo != none.lo || d.hi != none.hi},
+               {"motor", d.motor != 0 || body.motor_input != kNoInput}};
+  for (const auto &w : words)
+    if (w.given && !body.joint.has_coordinate())
+      throw InputError(std::string(w.word) +
+                       " is of the coordinate of a joint hinge or slider, and this body has none");
+}
+
+void check_limits(const JointDrive &d)
+{
+  const std::string limits = "the limits " + number_text(d.lo) + " " + number_text(d.hi);
+  if (std::isnan(d.lo) || std::isnan(d.hi)) throw InputError(limits + " are no numbers");
+  if (d.lo > d.hi) throw InputError(limits + " are reversed: the lower one comes first");
+  if (d.lo > 0 || d.hi < 0)
+    throw InputError(limits + " do not contain 0, which is where the body begins");
+}
+
+void check_drive(const JointDrive &d)
+{
+  check_not_below_0("the stiffness", d.stiffness);
+  check_not_below_0("the damping", d.damping);
+  check_finite("rest of the spring and the motor", {d.rest, d.motor, 0});
+  check_limits(d);
+}
+
+void check_mass(const BodySpec &body)
+{
+  check_not_below_0("the density", body.density);
+  if (body.density > 0) return;
+  const SymmetricMatrix &i = body.mass.inertia;
+  check_finite("the centre of mass", body.mass.centre);
+  check_finite("the inertia", {i.xx, i.yy, i.zz});
+  check_finite("the inertia", {i.xy, i.xz, i.yz});
+  check_mass_properties(body.mass, "inertia");
+}
+
+}    // namespace
+
+void check_body(const BodySpec &body)
+{
+  if (!body.present) return;
+  const int kind = static_cast<int>(body.joint.kind);
+  if (kind < 0 || kind >= static_cast<int>(std::size(kJointNames)))
+    throw InputError("there is no joint of kind " + std::to_string(kind));
+  check_mass(body);
+  if (body.joint.has_point()) check_finite("the joint's point", body.joint.point);
+  check_axis(body.joint);
+  check_has_coordinate(body);
+  check_drive(body.drive);
+  check_finite("the load", body.load);
+  check_finite("the moment", body.moment);
+  check_finite("the velocity", body.velocity);
+  check_finite("omega", body.omega);
+  check_finite("gravity", body.gravity);
+}
+
+}    // namespace lsdcd
