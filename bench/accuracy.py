@@ -236,8 +236,9 @@ this page only if you use `nearest N`, or read the paper.
 
 ![Missed contacts and error against the time of a query](img/paper_question.png)
 
-The number beside each point is N, the number of triangles listed in a cell; *all* is the default. Left: the cylinder of the paper. Right:
-finer cylinders. The time is that of a query, which asks for 10 000 000 spheres whether they touch the wall. With 1 000 000 triangles N = 1
+The number beside each point is N, the number of triangles listed in a cell; *all* is the default. Left: the cylinder of the paper, on
+which LSDCD makes no error with N = 2, N = 3 and *all*. Right: finer cylinders. Points below the break of the axis have no error. The
+time is that of a query, which asks for 10 000 000 spheres whether they touch the wall. With 1 000 000 triangles N = 1
 is {faster} times as fast as *all*, and misses {missed_finer} % of the contacts. The black line is the step of a simulation. It is faster than
 every query, because it does not search the cells: each sphere near the wall keeps a list of its own. The GPU is an H200; queries are of commit
 {query_commit}, the step of {step_commit}. The paper's points are from its Table 2, a Tesla K40.
@@ -502,9 +503,7 @@ def draw(rows_of):
     time.set_ylim(top=3e5)    # room for the legend
     for a, at in ((time, "upper left"), (by_count, "upper right"), (by_length, "upper right"), (build, "upper right")):
         a.legend(fontsize=11, loc=at)
-    commits = ", ".join(sorted({r["commit"] for d in DEVICES for r in rows_of[d]}))
-    figure.suptitle(f"The paper's cylinder: {nine[0]['triangles']} triangles, radii up to 1; "
-                    f"commit {commits}", fontsize=13)
+    figure.suptitle(f"The paper's cylinder: {nine[0]['triangles']} triangles, radii up to 1", fontsize=14)
     figure.tight_layout()
     os.makedirs(os.path.dirname(PLOT), exist_ok=True)
     figure.savefig(PLOT + ".part", dpi=110, format="png")
@@ -512,54 +511,71 @@ def draw(rows_of):
 
 
 def draw_question(rows, steps):
-    """Missed contacts against the time of a query, on a GPU; with the paper's points and a step's time."""
+    """Errors against the time of a query: those of the paper and ours, and what shorter lists miss. Below the break of an
+    axis are the measurements without any error."""
     import matplotlib
     matplotlib.use("Agg")
     import matplotlib.pyplot as plt
-    figure, (paper, axis) = plt.subplots(1, 2, figsize=(11, 6))
-    two = [r for r in of_table(rows, "table2") if r["length"] == "0.2"]
-    for r in two:
+    figure, axes = plt.subplots(2, 2, figsize=(12, 6.4), sharex="col", height_ratios=(5, 1), gridspec_kw={"hspace": 0.06})
+    blue, red, green, black = "#0072B2", "#D55E00", "#009E73", "black"
+
+    def point(column, x, y, look, words="", away=(8, 6), **more):
+        at = axes[0 if y > 0 else 1][column]
+        at.plot(x, y if y > 0 else 0, look, markersize=9, **more)
+        if words:
+            at.annotate(words, (x, y if y > 0 else 0), away, textcoords="offset points", fontsize=14, color=more["color"])
+
+    for r in of_table(rows, "table2"):
+        if r["length"] != "0.2":
+            continue
         every = r["lists"] == "every triangle"
-        name = "every triangle" if every else r["lists"]
-        if name != "complete":
-            paper.plot(float(r["paper_query_ms"]), float(r["paper_error_percent"]), "ks", fillstyle="none")
-            paper.annotate(name, (float(r["paper_query_ms"]), float(r["paper_error_percent"])), (-95, 8) if every else (6, 5),
-                           textcoords="offset points", fontsize=13)
-        paper.plot(float(r["query_ms"]), max(0.0, float(r["error_percent"])), "o", color="#0072B2")
-        if name in ("1", "every triangle"):
-            paper.annotate(name, (float(r["query_ms"]), max(0.0, float(r["error_percent"]))), (-40, -20) if every else (5, 6),
-                           textcoords="offset points", fontsize=13)
-    paper.plot([], [], "ks", fillstyle="none", label="the paper, K40")
-    paper.plot([], [], "o", color="#0072B2", label="ours, H200; N = 2, 3 and all lie at 0")
-    paper.set_title("The paper's cylinder, cells of 0.2", fontsize=14)
-    paper.set_yscale("symlog", linthresh=1e-4)
-    paper.set_ylim(-8e-5, 30)
-    paper.set_ylabel("error, % (formula 7)", fontsize=14)
-    meshes = [("10000", "o-", "#0072B2"), ("100000", "s--", "#D55E00"), ("1000000", "^:", "#009E73")]
-    for triangles, style, colour in meshes:
-        points = [(r["lists"], float(r["query_ms"]), 100 * float(r["missed"]) / float(r["touching"]))
-                  for r in of_table(rows, "mesh") if r["triangles"] == triangles]
-        names, x, y = zip(*points)
-        axis.plot(x, y, style, color=colour, label=f"{int(triangles):,} triangles".replace(",", " "))
-        for name, at in zip(names, zip(x, y)):
-            below = name == "complete" or triangles == "10000" and name == "8"
-            axis.annotate("all" if name == "complete" else name, at, (-14 if name == "complete" else 4, -18 if below else 5),
-                          textcoords="offset points", fontsize=13)
-    axis.axvline(float(steps["median_ms"]), color="black", linewidth=1,
-                 label="a step with lists of the wall, 10 000 triangles")
-    axis.set_title("Finer cylinders, cells of 0.4, H200", fontsize=14)
-    axis.set_yscale("symlog", linthresh=1e-3)
-    axis.set_ylim(-8e-4, 10)
-    axis.set_ylabel("missed contacts, %", fontsize=14)
-    for a in (paper, axis):
-        a.set_xscale("log")
-        a.set_xlabel("time for 10 000 000 spheres, ms", fontsize=14)
-        a.grid(True, alpha=0.3)
-        a.tick_params(labelsize=12)
-        a.legend(loc="upper center", bbox_to_anchor=(0.5, -0.16), fontsize=13)
-    axis.set_xticks([0.2, 0.5, 1, 2], ["0.2", "0.5", "1", "2"])
-    figure.tight_layout()
-    figure.savefig(QUESTION + ".part", dpi=110, format="png")
+        words = {"every triangle": "every triangle", "complete": "all", "1": "N = 1"}.get(r["lists"], r["lists"])
+        if r["lists"] != "complete":
+            point(0, float(r["paper_query_ms"]), float(r["paper_error_percent"]), "s", words, (-106, 8) if every else (8, 6),
+                  color=black, fillstyle="none")
+        if r["lists"] in ("1", "complete"):
+            point(0, float(r["query_ms"]), max(0.0, float(r["error_percent"])), "o", words, color=blue)
+    axes[0][0].text(5e2, 12, "the paper, on a K40", fontsize=14, ha="center")
+    axes[0][0].text(0.17, 8e-4, "LSDCD, on an H200", fontsize=14, color=blue)
+    for triangles, look, colour in (("10000", "o", blue), ("100000", "s", red), ("1000000", "^", green)):
+        its = [(r["lists"], float(r["query_ms"]), 100 * float(r["missed"]) / float(r["touching"]))
+               for r in of_table(rows, "mesh") if r["triangles"] == triangles]
+        above = [(x, y) for _, x, y in its if y > 0]
+        axes[0][1].plot(*zip(*above), color=colour, linewidth=1)
+        axes[0][1].plot([], [], look + "-", color=colour, label=f"{int(triangles):,} triangles".replace(",", " "))
+        for lists, x, y in its:
+            point(1, x, y, look, "all" if lists == "complete" else "" if y <= 0 else "N = 1" if lists == "1" and triangles == "10000"
+                  else lists, (-9, 9) if y <= 0 else (8, 2), color=colour)
+    for column, least, title, error in ((0, 3e-5, "The paper's cylinder of 156 triangles, cells of 0.2", "error, % (formula 7)"),
+                                        (1, 1e-4, "Finer cylinders, cells of 0.4, on an H200", "missed contacts, %")):
+        high, low = axes[0][column], axes[1][column]
+        high.set(xscale="log", yscale="log", ylim=(least, 50))
+        high.set_title(title, fontsize=14)
+        high.set_ylabel(error, fontsize=14)
+        low.set(ylim=(-0.5, 1.2), xscale="log")
+        low.set_yticks([0], ["0"])
+        low.set_xlabel("time for 10 000 000 spheres, ms", fontsize=14)
+        high.spines.bottom.set_visible(False)
+        low.spines.top.set_visible(False)
+        high.tick_params(bottom=False, which="both")
+        broken = dict(marker=[(-1, -0.6), (1, 0.6)], markersize=11, linestyle="none", color="k", mec="k", clip_on=False)
+        high.plot([0, 1], [0, 0], transform=high.transAxes, **broken)
+        low.plot([0, 1], [1, 1], transform=low.transAxes, **broken)
+        for a in (high, low):
+            a.grid(True, alpha=0.3)
+            a.tick_params(labelsize=13)
+    axes[0][0].set_xlim(0.1, 2e5)
+    axes[0][1].set_xlim(0.1, 2.6)
+    axes[0][1].legend(loc="upper right", fontsize=14)
+    axes[1][1].set_xticks([0.1, 0.2, 0.5, 1, 2], ["0.1", "0.2", "0.5", "1", "2"])
+    axes[1][1].minorticks_off()
+    own = float(steps["median_ms"])
+    for a in (axes[0][1], axes[1][1]):
+        a.axvline(own, color=black, linewidth=1)
+    axes[0][1].annotate("a step of the wall,\n10 000 triangles", (own, 2e-4), (-4, 0), textcoords="offset points", fontsize=13, ha="right",
+                        rotation=90, va="bottom")
+    figure.subplots_adjust(left=0.08, right=0.99, top=0.94, bottom=0.1, wspace=0.2)
+    figure.savefig(QUESTION + ".part", dpi=90, format="png")
     os.replace(QUESTION + ".part", QUESTION)
 
 

@@ -60,22 +60,21 @@ def plot(rows_of):
     matplotlib.use("Agg")
     import matplotlib.pyplot as plt
 
-    panels = [("time per contact in a step, ns", lambda r: facts(r)["ns_per_contact"], ("random", "sorted")),
-              ("set-up: weld and build, s", lambda r: float(facts(r)["build_ms"]) / 1e3, ("random",)),
-              ("memory of the grid, MB", lambda r: facts(r)["grid_mb"], ("random",))]
-    figure, all_axes = plt.subplots(1, 3, figsize=(13, 4.8))
-    for axis, (name, value, orders) in zip(all_axes, panels):
+    panels = [("time per contact in a step, ns", lambda r: facts(r)["ns_per_contact"]),
+              ("set-up: weld and build, s", lambda r: float(facts(r)["build_ms"]) / 1e3),
+              ("memory of the grid, MB", lambda r: facts(r)["grid_mb"])]
+    figure, all_axes = plt.subplots(1, 3, figsize=(14, 4.8))
+    for axis, (name, value) in zip(all_axes, panels):
         for device, rows in rows_of.items():
-            for order, style in (("random", "-"), ("sorted", "--")):
-                points = sorted((float(r["triangles"]), float(value(r))) for r in rows
-                                if r["case"] == KEPT and r["order"] == order)
-                if points and order in orders:
-                    axis.plot(*zip(*points), linestyle=style, label=f"{label(rows)}, {order} order", **STYLES[device])
+            points = sorted((float(r["triangles"]), float(value(r))) for r in rows if r["case"] == KEPT and r["order"] == "sorted")
+            if points:
+                axis.plot(*zip(*points), **STYLES[device])
+                if axis is all_axes[0]:
+                    axis.annotate(label(rows).split(",")[0], points[0], (4, 10), textcoords="offset points",
+                                  color=STYLES[device]["color"], fontsize=FONT + 2)
         axis.set(xscale="log", yscale="log", xlabel="number of triangles", ylabel=name)
         legible(axis)
-    handles, names = all_axes[0].get_legend_handles_labels()
-    figure.legend(handles, names, loc="lower center", ncol=2, fontsize=FONT)
-    figure.tight_layout(rect=(0, 0.15, 1, 1))
+    figure.tight_layout()
     write_image(figure, "performance_mesh_size.png")
 
 

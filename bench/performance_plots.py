@@ -2,7 +2,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 
 """The plots of doc/performance.md."""
-import math
 import os
 
 from hard_cases import ROOT
@@ -10,7 +9,7 @@ from hard_cases import ROOT
 IMAGES = os.path.join(ROOT, "doc", "img")
 # By colour and by marker, so that a print in grey or a colour-blind reader tells them apart.
 STYLES = {"cpu": dict(color="#0072B2", marker="o"), "cuda": dict(color="#D55E00", marker="^")}
-FONT = 13
+FONT = 14
 
 
 def axes():
@@ -33,14 +32,6 @@ def legible(axis):
         item.set_fontsize(FONT)
 
 
-def save(figure, axis, name):
-    # Below the axes: inside, it would cover a curve.
-    legible(axis)
-    figure.legend(*axis.get_legend_handles_labels(), loc="lower center", ncol=2, fontsize=FONT - 1)
-    figure.tight_layout(rect=(0, 0.045 * math.ceil(len(axis.get_lines()) / 2) + 0.02, 1, 1))
-    write_image(figure, name)
-
-
 def write_image(figure, name):
     path = os.path.join(IMAGES, name)
     part = path + ".part.png"
@@ -57,37 +48,29 @@ def curve(rows, program, case, order=""):
                   if r["program"] == program and r["case"] == case and r["order"] == order)
 
 
-def plot_query(cpu, cuda):
-    """Time of a distance by the size of the mesh: a panel for each processor."""
-    import matplotlib
-    matplotlib.use("Agg")
-    import matplotlib.pyplot as plt
-    from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
+def at_end(axis, points, words, colour, above=0):
+    """The name of a curve, at its last point."""
+    axis.annotate(words, points[-1], (-4, 8 + above), textcoords="offset points", ha="right", color=colour, fontsize=FONT)
 
+
+def plot_query(cpu, cuda):
+    """Time of a distance by the size of the mesh, on a CPU core and on a GPU."""
     case = "distance, complete, float"
-    machines = [[r for r in rows if r["device"] == name] for rows in (cpu, cuda)
-                for name in dict.fromkeys(r["device"] for r in rows if r["case"] == case)]
-    # One mesh is a point and no curve: such a machine has no panel.
-    machines = [its for its in machines if len(curve(its, "query", case, "random")) > 1]
-    figure, panels = plt.subplots(1, len(machines), figsize=(5.2 * len(machines), 4.8), squeeze=False)
-    for axis, its in zip(panels[0], machines):
-        for order, style, colour in (("random", "o-", "#0072B2"), ("sorted", "s--", "#D55E00")):
-            points = [(x, float(r["median_ms"]) * 1e6 / float(r["spheres"]),
-                       float(r["floor_ms"]) * 1e6 / float(r["spheres"]))
-                      for x, r in curve(its, "query", case, order)]
-            x, y, floor = zip(*points)
-            axis.plot(x, y, style, color=colour, label=f"{order} order")
-        axis.plot(x, floor, ":", color="black", label="bytes at copy speed")
-        axis.set(xscale="log", yscale="log", xlabel="number of triangles", ylabel="time per sphere, ns")
-        axis.set_title(label(its))
-        axis.yaxis.set_major_locator(LogLocator(subs=(1, 2, 5)))
-        axis.yaxis.set_major_formatter(FuncFormatter(lambda y, _: f"{y:g}"))
-        axis.yaxis.set_minor_formatter(NullFormatter())
-        legible(axis)
-    figure.suptitle("Distance to the wall up to 1 radius, in float; 7 % of the spheres are that near", fontsize=FONT)
-    figure.legend(*panels[0][0].get_legend_handles_labels(), loc="lower center", ncol=3, fontsize=FONT)
-    figure.tight_layout(rect=(0, 0.09, 1, 1))
-    write_image(figure, "performance_query.png")
+    figure, axis = axes()
+    for device, rows in (("cpu", cpu), ("cuda", cuda)):
+        for name in dict.fromkeys(r["device"] for r in rows if r["case"] == case):
+            its = [r for r in rows if r["device"] == name]
+            for order, style in (("random", "-"), ("sorted", "--")):
+                points = [(x, float(r["median_ms"]) * 1e6 / float(r["spheres"])) for x, r in curve(its, "query", case, order)]
+                if len(points) < 2:    # one mesh is a point and no curve
+                    continue
+                axis.plot(*zip(*points), linestyle=style, **STYLES[device])
+                below = 0 if order == "random" else -34 if device == "cpu" else -62    # clear of the curves
+                at_end(axis, points, f"{label(its).split(',')[0]}, {order} order", STYLES[device]["color"], below)
+    axis.set_ylim(3e-3, 200)
+    axis.set_ylabel("time per sphere, ns")
+    axis.set_title("Distance to the wall up to 1 radius, in float")
+    finish(figure, axis, "performance_query.png")
 
 
 def plot_build(cpu, cuda):
@@ -98,8 +81,16 @@ def plot_build(cpu, cuda):
             points = [(x, float(r["median_ms"]) / 1e3) for x, r in curve(rows, "build", case)]
             if points:
                 guessed = ["estimated" in r["facts"] for _, r in curve(rows, "build", case)]
-                guess = ", estimated" if all(guessed) else ", partly estimated" if any(guessed) else ""
-                axis.plot(*zip(*points), linestyle=style, label=f"{name}{guess}, {label(rows).split(',')[0]}", **STYLES[device])
+                guess = " (estimated)" if all(guessed) else " (partly)" if any(guessed) else ""
+                axis.plot(*zip(*points), linestyle=style, **STYLES[device])
+                at_end(axis, points, f"{name}, {label(rows).split(',')[0]}{guess}", STYLES[device]["color"])
+    axis.set_ylim(1e-3, 1e8)
     axis.set_ylabel("build time, s")
     axis.set_title("Building a grid of cells of 0.2 for spheres of radius 1")
-    save(figure, axis, "performance_build.png")
+    finish(figure, axis, "performance_build.png")
+
+
+def finish(figure, axis, name):
+    legible(axis)
+    figure.tight_layout()
+    write_image(figure, name)

@@ -175,8 +175,8 @@ The table compares the settings in the vessel of `examples/vessel`, which has {t
   into the wall and is thrown out later. `f_ID[9]` counts the spheres for which a contact may be missing. The setting is also slower than the
   default, because it searches the cells in each step.
 
-To measure all this for your own mesh, run `lsdcd tradeoff wall.stl --radius R --below 1e-3`. It draws the picture below, and prints the
-keywords for your input script: the fastest setting with errors below 1e-3.
+To measure all this for your own mesh, run `lsdcd tradeoff wall.stl --radius R --below 1e-3`. It draws a picture like the one
+below, with all settings that it has tried, and prints the keywords of the fastest setting with errors below 1e-3.
 
 ![Error of forces against time, vessel](img/tradeoff_vessel.png)
 
@@ -250,7 +250,7 @@ def main(arguments=None):
         print("rows are missing in doc/data; run without --write-only", file=sys.stderr)
         return 1
     for mesh in MESHES:
-        plot_tradeoff.draw(rows[mesh], PLOT.format(mesh))
+        plot_tradeoff.draw(rows[mesh], PLOT.format(mesh), others=False)
         print(PLOT.format(mesh))
     write_documents(rows["vessel"], rows["cylinder"])
     print(DOCUMENT)

@@ -24,13 +24,14 @@ def shown(error):
     return max(error, ZERO)
 
 
-def panel(axes, rows, key, scale, label):
-    """Errors against one column. Rows are of one device."""
+def panel(axes, rows, key, scale, label, others):
+    """Errors against one column. Rows are of one device; `others` says whether settings without a name are shown."""
     from matplotlib.ticker import FixedLocator, FuncFormatter, LogLocator, NullFormatter
     default = next((r for r in rows if r["default"] == "1"), None)
     named = [{**{k: default[k] for k in SETTING}, **other} for _, other, _, _ in NAMED] if default else []
-    axes.plot([r[key] * scale for r in rows], [shown(r["force_mean"]) for r in rows], "o", color="#999999",
-              markersize=4, linestyle="none", zorder=1)
+    if others:
+        axes.plot([r[key] * scale for r in rows], [shown(r["force_mean"]) for r in rows], "o", color="#999999",
+                  markersize=4, linestyle="none", zorder=1)
     for (name, _, marker, colour), wanted in zip(NAMED, named):
         row = next((r for r in rows if all(r[k] == v for k, v in wanted.items())), None)
         if row:
@@ -42,24 +43,15 @@ def panel(axes, rows, key, scale, label):
     axes.yaxis.set_major_locator(FixedLocator([ZERO, 1e-6, 1e-4, 1e-2, 1]))
     axes.yaxis.set_major_formatter(FuncFormatter(lambda y, _: "0" if y <= ZERO else f"{y:g}"))
     axes.yaxis.set_minor_formatter(NullFormatter())
-    axes.xaxis.set_major_locator(LogLocator(subs=(1, 2, 5)))
+    axes.xaxis.set_major_locator(LogLocator(subs=(1, 1.5, 2, 3, 5, 7)))
     axes.xaxis.set_major_formatter(FuncFormatter(lambda x, _: f"{x:g}"))
     axes.xaxis.set_minor_formatter(NullFormatter())
-    axes.set_xlabel(label, fontsize=13)
+    axes.set_xlabel(label, fontsize=14)
     axes.tick_params(labelsize=12)
     axes.grid(alpha=0.3)
 
 
-def front(axes, rows):
-    """No setting of the device is faster than this line with as small an error."""
-    steps = sorted((r["ns_per_sphere"], shown(r["force_mean"])) for r in rows if r["front"] == "1")
-    if steps:
-        x, y = [s[0] for s in steps], [s[1] for s in steps]
-        axes.step([x[0], *x, axes.get_xlim()[1]], [axes.get_ylim()[1], *y, y[-1]], where="post", color="black",
-                  linewidth=1, zorder=0, label="front", scalex=False, scaley=False)
-
-
-def draw(rows, picture):
+def draw(rows, picture, others=True):
     """Error against time on the CPU and on a GPU; where one of them was measured, against time and memory."""
     try:
         import matplotlib
@@ -71,18 +63,18 @@ def draw(rows, picture):
     figure, axes = plt.subplots(1, 2, figsize=(11, 5.6), sharey=True)
     for at, kind in zip(axes, kinds):
         its = [r for r in rows if r["kind"] == kind]
-        panel(at, its, "ns_per_sphere", 1, "time of a step per sphere near the wall, ns")
-        front(at, its)
+        panel(at, its, "ns_per_sphere", 1, "time of a step per sphere near the wall, ns", others)
         at.set_title({"cpu": "one core of the CPU", "cuda": its[0]["device"].replace("CUDA, ", "")}[kind], fontsize=13)
     if len(kinds) == 1:
-        panel(axes[1], [r for r in rows if r["kind"] == kinds[0]], "bytes", 1e-6, "memory of the grid, MB")
+        panel(axes[1], [r for r in rows if r["kind"] == kinds[0]], "bytes", 1e-6, "memory of the grid, MB", others)
         axes[1].set_title("memory", fontsize=13)
-    axes[0].set_ylabel("mean error of forces / mean force", fontsize=13)
-    axes[0].plot([], [], "o", color="#999999", markersize=4, linestyle="none", label="other settings")
+    axes[0].set_ylabel("mean error of a force / mean force", fontsize=14)
+    if others:
+        axes[0].plot([], [], "o", color="#999999", markersize=4, linestyle="none", label="other settings")
     first = rows[0]
     figure.suptitle(f"{first['mesh']}, {first['triangles']} triangles, radii "
                     f"{first['least_radius']} to {first['largest_radius']}", fontsize=13)
-    figure.legend(*axes[0].get_legend_handles_labels(), loc="lower center", ncol=4, fontsize=12)
+    figure.legend(*axes[0].get_legend_handles_labels(), loc="lower center", ncol=4, fontsize=14)
     figure.tight_layout(rect=(0, 0.12, 1, 1))
     figure.savefig(picture + ".part", dpi=100, format="png")
     os.replace(picture + ".part", picture)
