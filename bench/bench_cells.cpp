@@ -120,7 +120,7 @@ class Bed {
   EngineSettings settings_;
   DeviceArray<Real> x_, r_, zero_;
   Spheres spheres_;
-  std::unique_ptr<InPlaceEngine> engine_;
+  std::unique_ptr<WallEngine> engine_;
 };
 
 void measure(const BenchOptions &o, BenchRows &rows)

@@ -125,7 +125,7 @@ class Drum {
  private:
   const Real *x_;
   Case case_;
-  std::unique_ptr<InPlaceEngine> engine_;
+  std::unique_ptr<WallEngine> engine_;
   DeviceArray<Real> rest_;
   Spheres spheres_;
   double lists_ = 0;

@@ -54,7 +54,7 @@ class CylinderBed {
 
  private:
   FlatGrid grid_;
-  std::unique_ptr<InPlaceEngine> engine_;
+  std::unique_ptr<WallEngine> engine_;
   DeviceArray<Real> x_, v_, omega_, radius_, mass_, force_, torque_;
   Spheres spheres_;
 };

@@ -79,14 +79,13 @@ template <class DeviceType>
 void FixWallLsdcdKokkos<DeviceType>::make_exchange_room()
 {
 #if LSDCD_DEVICE_EXCHANGE
-  const lsdcd::HistoryExchange &history = wall->history();
-  if (history.is_with_engine()) {
+  if (wall->history().is_with_engine()) {
     // One more for the offset of an atom's numbers in the message. A process on its own packs
     // hardly any atom, those that leave a fixed box, and need not look at all of them.
+    const int n = wall->history().spheres_of_engine();
+    lsdcd::SpringsInPlace &springs = wall->history().in_engine(n);
     int largest =
-        1 + (comm->nprocs > 1
-                 ? wall->in_place().springs().largest_packed_size(history.spheres_of_engine())
-                 : wall->in_place().springs().most_packed_size());
+        1 + (comm->nprocs > 1 ? springs.largest_packed_size(n) : springs.most_packed_size());
     MPI_Allreduce(MPI_IN_PLACE, &largest, 1, MPI_INT, MPI_MAX, world);
     ask_for_room(largest);
     return;

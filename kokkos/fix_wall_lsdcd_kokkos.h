@@ -22,7 +22,6 @@ class FixWallLsdcdKokkos : public FixWallLsdcd, public KokkosBase {
   void setup_pre_exchange() override { pre_exchange(); }
   void pre_reverse(int, int) override;
 
-  void grow_arrays(int) override;
 
 #if LSDCD_DEVICE_EXCHANGE
   // springs on the device
@@ -45,7 +44,6 @@ class FixWallLsdcdKokkos : public FixWallLsdcd, public KokkosBase {
  private:
   lsdcd::HostSpheres to_cpu(lsdcd::CpuArrays);
   bool others_only_add() const;
-  void history_to_device();
   static bool sends_from_host(ExecutionSpace);
   int pack_rows(int, const int *, const int *, double *);
   void unpack_rows(int, const int *, const double *);

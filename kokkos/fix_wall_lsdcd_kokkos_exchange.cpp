@@ -9,21 +9,7 @@
 
 using namespace LAMMPS_NS;
 
-template <class DeviceType>
-void FixWallLsdcdKokkos<DeviceType>::grow_arrays(int nmax)
-{
-  FixWallLsdcd::grow_arrays(nmax);
-  if (wall->history().is_with_engine()) wall->in_place().springs().grow(nmax);
-}
-
 #if LSDCD_DEVICE_EXCHANGE
-
-template <class DeviceType>
-void FixWallLsdcdKokkos<DeviceType>::history_to_device()
-{
-  wall->in_place().springs().grow(atom->nmax);
-  wall->history().to_engine(atom->nlocal);
-}
 
 // Atoms on a GPU whose messages leave from the host.
 template <class DeviceType>
@@ -97,10 +83,8 @@ int FixWallLsdcdKokkos<DeviceType>::pack_exchange_kokkos(const int &n,
   const int *comes = from.template view<DeviceType>().data();
   double *at = buffer.template view<DeviceType>().data();
   int size = pack_rows(n, leaves, comes, at);
-  if (has_history()) {
-    history_to_device();
-    size += wall->in_place().springs().pack(n, leaves, comes, at + size);
-  }
+  if (has_history())
+    size += wall->history().in_engine(atom->nlocal).pack(n, leaves, comes, at + size);
   if (sends_from_host(space)) {
     buffer.template modify<DeviceType>();
     buffer.template sync<LMPHostType>();
@@ -124,10 +108,9 @@ void FixWallLsdcdKokkos<DeviceType>::unpack_exchange_kokkos(lsdcd::ExchangeBuffe
   unpack_rows(n_first, places, at);
   if (n_second > 0) unpack_rows(n_second, places + n_first, at + second);
   if (!has_history()) return;
-  history_to_device();
-  wall->in_place().springs().unpack(n, places, at + rows, n_first,
-                                    second + n_second * row_size() - rows);
   lsdcd::HistoryExchange &history = wall->history();
+  history.in_engine(atom->nlocal)
+      .unpack(n, places, at + rows, n_first, second + n_second * row_size() - rows);
   history.set_spheres_of_engine(std::max(history.spheres_of_engine(), atom->nlocal));
 }
 
@@ -143,10 +126,10 @@ void FixWallLsdcdKokkos<DeviceType>::sort_kokkos(Kokkos::BinSort<KeyViewType, Bi
       std::copy_n(rows.data() + std::size_t(from[i]) * size, size, array_atom[i]);
   }
   if (!has_history()) return;
-  history_to_device();
+  lsdcd::SpringsInPlace &springs = wall->history().in_engine(atom->nlocal);
   using Ints = Kokkos::View<int *, LMPDeviceType, Kokkos::MemoryTraits<Kokkos::Unmanaged>>;
-  sorter.sort(LMPDeviceType(), Ints(wall->in_place().springs().first(), atom->nlocal));
-  sorter.sort(LMPDeviceType(), Ints(wall->in_place().springs().count(), atom->nlocal));
+  sorter.sort(LMPDeviceType(), Ints(springs.first(), atom->nlocal));
+  sorter.sort(LMPDeviceType(), Ints(springs.count(), atom->nlocal));
 }
 
 #endif

@@ -8,7 +8,7 @@
 
 namespace lsdcd {
 
-std::unique_ptr<InPlaceEngine> make_cpu_engine(const EngineSettings &settings)
+std::unique_ptr<WallEngine> make_cpu_engine(const EngineSettings &settings)
 {
   return std::make_unique<EngineOn<CpuBackend>>(settings, law_for<CpuBackend>(settings),
                                                 CpuBackend());

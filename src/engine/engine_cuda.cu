@@ -28,8 +28,8 @@ std::unique_ptr<WallEngine> make_cuda_engine(const EngineSettings &settings)
   return std::make_unique<CudaEngine>(settings);
 }
 
-std::unique_ptr<InPlaceEngine> make_cuda_engine_in_place(const EngineSettings &settings, int device,
-                                                         void *stream)
+std::unique_ptr<WallEngine> make_cuda_engine_in_place(const EngineSettings &settings, int device,
+                                                      void *stream)
 {
   // The host code has chosen its device with a CUDA runtime of its own.
   use_gpu(device);

@@ -21,7 +21,7 @@
 namespace lsdcd {
 
 template <class B>
-class EngineOn : public InPlaceEngine {
+class EngineOn : public WallEngine {
   template <class T>
   using Array = typename B::template Array<T>;
 
@@ -163,7 +163,7 @@ class EngineOn : public InPlaceEngine {
     return diagnostics_of(seen);
   }
 
-  SpringsInPlace &springs() override { return springs_; }
+  SpringsInPlace *springs_in_place() override { return &springs_; }
   void springs_to(ContactHistory &store, int n) override { springs_.to_store(store, n); }
   void springs_from(const ContactHistory &store, int n) override { springs_.from_store(store, n); }
 

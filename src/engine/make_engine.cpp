@@ -9,7 +9,7 @@ namespace lsdcd {
 #if defined(LSDCD_HAVE_CUDA)
 std::unique_ptr<WallEngine> make_cuda_engine(const EngineSettings &settings);
 #else
-std::unique_ptr<InPlaceEngine> make_cuda_engine_in_place(const EngineSettings &, int, void *)
+std::unique_ptr<WallEngine> make_cuda_engine_in_place(const EngineSettings &, int, void *)
 {
   throw InputError("built without the CUDA engine: the particles are on a GPU, the wall "
                    "cannot be; build it where nvcc is found, or use wall/lsdcd/kk/host");

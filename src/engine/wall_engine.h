@@ -150,6 +150,29 @@ enum class LaunchMode {
   beside_adding_early,    // likewise, but they are added after the host's work by launch()
 };
 
+// Springs of a process's spheres in the memory of an engine's backend; so are all pointers. Per sphere
+// there are a first spring and a count, which follow it through sorting.
+class SpringsInPlace {
+ public:
+  virtual ~SpringsInPlace() = default;
+
+  // Room for n spheres; new ones have no springs.
+  virtual void grow(int n) = 0;
+  virtual int *first() = 0;
+  virtual int *count() = 0;
+
+  // Exchange, as a host on a GPU lays it out: first the offset of each
+  // sphere's numbers, as an integer in a double; then for each its count of springs and
+  // these. Sphere which[k] leaves and sphere from[k], if that is not -1, takes its place.
+  // Returns the numbers written.
+  virtual int largest_packed_size(int n) = 0;    // numbers of one of n spheres; waits
+  virtual int most_packed_size() const = 0;      // that one can have
+  virtual int pack(int n, const int *which, const int *from, double *buffer) = 0;
+  // Sphere to[k], if that is not -1, gets the k-th of what came. From n_first on the offsets
+  // are those of a second message, which begins at `second`.
+  virtual void unpack(int n, const int *to, const double *buffer, int n_first, int second) = 0;
+};
+
 // Computes wall forces for the spheres of one process: choose() now and then, begin(), launch() and
 // finish() in every step. Springs stay with the engine between steps and follow the spheres'
 // indices; a host that moves spheres takes them out before (springs_to) and gives them back.
@@ -235,6 +258,8 @@ class WallEngine {
   // Springs of the spheres [0, n).
   virtual void springs_to(ContactHistory &store, int n) = 0;
   virtual void springs_from(const ContactHistory &store, int n) = 0;
+  // Where spheres live in the memory of the engine's backend; null where a host hands them over.
+  virtual SpringsInPlace *springs_in_place() { return nullptr; }
 
   // Candidates of the last choice; bytes of the engine.
   virtual int n_candidates() const = 0;
@@ -250,37 +275,6 @@ class WallEngine {
   StepState state_ = StepState::none;
 };
 
-// Springs of a process's spheres in the memory of an engine's backend; so are all pointers. Per sphere
-// there are a first spring and a count, which follow it through sorting.
-class SpringsInPlace {
- public:
-  virtual ~SpringsInPlace() = default;
-
-  // Room for n spheres; new ones have no springs.
-  virtual void grow(int n) = 0;
-  virtual int *first() = 0;
-  virtual int *count() = 0;
-
-  // Exchange, as a host on a GPU lays it out: first the offset of each
-  // sphere's numbers, as an integer in a double; then for each its count of springs and
-  // these. Sphere which[k] leaves and sphere from[k], if that is not -1, takes its place.
-  // Returns the numbers written.
-  virtual int largest_packed_size(int n) = 0;    // numbers of one of n spheres; waits
-  virtual int most_packed_size() const = 0;      // that one can have
-  virtual int pack(int n, const int *which, const int *from, double *buffer) = 0;
-  // Sphere to[k], if that is not -1, gets the k-th of what came. From n_first on the offsets
-  // are those of a second message, which begins at `second`.
-  virtual void unpack(int n, const int *to, const double *buffer, int n_first, int second) = 0;
-};
-
-// An engine for particles that live where it computes: pointers in Spheres are to memory of its
-// backend, so that a step copies nothing and waits for nothing. finish() fetches what the step's
-// settings ask for.
-class InPlaceEngine : public WallEngine {
- public:
-  virtual SpringsInPlace &springs() = 0;
-};
-
 // One step of a host that keeps the springs itself, from a choice of its own; `springs` may be null
 // where the law has no history.
 void step_once(WallEngine &engine, const Spheres &spheres, const StepSettings &step,
@@ -294,10 +288,12 @@ bool has_float_forces(const EngineSettings &settings);
 // Device::automatic takes the CPU then.
 std::unique_ptr<WallEngine> make_engine(const EngineSettings &settings);
 
-// For particles in the memory of the CPU, or of a GPU: `device` holds them, `stream` is a
-// cudaStream_t of it. The latter throws InputError in a build without CUDA.
-std::unique_ptr<InPlaceEngine> make_cpu_engine(const EngineSettings &settings);
-std::unique_ptr<InPlaceEngine> make_cuda_engine_in_place(const EngineSettings &settings, int device,
-                                                         void *stream);
+// For particles that live where the engine computes, in the memory of the CPU, or of a GPU: `device` holds them,
+// `stream` is a cudaStream_t of it. Pointers in Spheres are to that memory, so that a step copies nothing and waits
+// for nothing, and finish() fetches what the step's settings ask for. The latter throws InputError in a build
+// without CUDA.
+std::unique_ptr<WallEngine> make_cpu_engine(const EngineSettings &settings);
+std::unique_ptr<WallEngine> make_cuda_engine_in_place(const EngineSettings &settings, int device,
+                                                      void *stream);
 
 }    // namespace lsdcd

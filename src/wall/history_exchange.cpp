@@ -13,7 +13,11 @@ namespace lsdcd {
 void HistoryExchange::grow(int room)
 {
   room_ = room;
-  if (is_on() && !with_engine_) springs_.grow(room);
+  if (!is_on()) return;
+  if (!with_engine_)
+    springs_.grow(room);
+  else if (SpringsInPlace *springs = engine_->springs_in_place())
+    springs->grow(room);
 }
 
 ContactHistory &HistoryExchange::on_host()
@@ -32,6 +36,13 @@ void HistoryExchange::to_engine(int n)
   engine_->springs_from(springs_, n);
   n_with_engine_ = n;
   with_engine_ = true;
+  grow(room_);
+}
+
+SpringsInPlace &HistoryExchange::in_engine(int n)
+{
+  to_engine(n);
+  return *engine_->springs_in_place();
 }
 
 int HistoryExchange::max_packed_size() const

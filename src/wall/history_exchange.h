@@ -37,6 +37,8 @@ class HistoryExchange {
   ContactHistory &on_host();
   // The history of the n spheres of this process goes to the engine, if it is not there.
   void to_engine(int n);
+  // Likewise, for a host that moves spheres where the engine computes: it packs, unpacks and sorts the history there.
+  SpringsInPlace &in_engine(int n);
   bool is_with_engine() const { return with_engine_; }
   // The engine has the history of the first n spheres of the host.
   void set_spheres_of_engine(int n) { n_with_engine_ = n; }

@@ -113,11 +113,6 @@ std::vector<int> Wall::inputs_read() const
   return all;
 }
 
-InPlaceEngine &Wall::in_place()
-{
-  return static_cast<InPlaceEngine &>(*engine_);
-}
-
 std::size_t Wall::bytes() const
 {
   std::size_t bytes = engine_->bytes() + loads_.bytes() + history_.bytes();
@@ -228,7 +223,6 @@ void Wall::begin(const HostSpheres &spheres, const StepInput &input)
     look_at_range(spheres);
   }
   if (cutoff() == 0) return;
-  if (backend_.in_place && history_.is_on()) in_place().springs().grow(history_.room());
   engine_->begin();
 }
 

@@ -30,7 +30,7 @@ struct WallBackend {
   // Makes its engine. Throws InputError where there is none for these settings.
   std::function<std::unique_ptr<WallEngine>(const EngineSettings &)> make_engine =
       lsdcd::make_engine;
-  bool in_place = false;    // it makes an InPlaceEngine: spheres are in the memory of its backend
+  bool in_place = false;    // spheres are in the memory of its backend
   ToCpu to_cpu;             // where that is a GPU's
 };
 
@@ -77,7 +77,6 @@ class Wall {
   std::vector<int> inputs_read() const;
   Real cutoff() const { return grids_.cutoff(); }    // length; 0: there were no spheres yet
   HistoryExchange &history() { return history_; }
-  InPlaceEngine &in_place();    // where the backend makes one
   std::size_t bytes() const;    // of this process
 
   // Before each run. `virial`: add_virial() may be called in it.

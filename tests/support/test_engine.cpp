@@ -15,7 +15,7 @@ namespace {
 // adds forces at once.
 class InPlaceForHost : public WallEngine {
  public:
-  InPlaceForHost(std::unique_ptr<InPlaceEngine> engine, bool cuda) :
+  InPlaceForHost(std::unique_ptr<WallEngine> engine, bool cuda) :
       engine_(std::move(engine)), x_(cuda), v_(cuda), omega_(cuda), force_(cuda), torque_(cuda),
       radius_(cuda), mass_(cuda), temperature_(cuda), heat_(cuda), mask_(cuda)
   {
@@ -129,7 +129,7 @@ class InPlaceForHost : public WallEngine {
     for (std::size_t i = 0; i < n; i++) to.add(i, rows[i]);
   }
 
-  std::unique_ptr<InPlaceEngine> engine_;
+  std::unique_ptr<WallEngine> engine_;
   int turn_ = 0;
   Spheres host_;
   DeviceArray<Real> x_, v_, omega_, force_, torque_, radius_, mass_, temperature_, heat_;

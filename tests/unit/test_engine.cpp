@@ -236,7 +236,7 @@ class Particles {
     grid = build_grid(mesh, g);
     flat = FlatGrid(grid);
     engine->set_grid(flat.view());
-    engine->springs().grow(n);
+    engine->springs_in_place()->grow(n);
     std::mt19937_64 random(5);
     std::uniform_real_distribution<Real> at(-9, 9), up(0, 4 * cutoff), speed(-1, 1), unit(0.3, 1);
     for (int i = 0; i < n; i++) {
@@ -271,7 +271,7 @@ class Particles {
     return store;
   }
 
-  std::unique_ptr<InPlaceEngine> engine;
+  std::unique_ptr<WallEngine> engine;
   TriangleGrid grid;
   FlatGrid flat;
   SphereArrays host;
@@ -456,10 +456,10 @@ TEST(engine, springs_follow_through_pack_and_unpack)
   const bool cuda = test_on_cuda();
   DeviceArray<int> d_which(cuda), d_copies(cuda), d_back(cuda);
   DeviceArray<double> buffer(cuda);
-  buffer.resize(moved * (1 + from.engine->springs().largest_packed_size(n)));
-  const int size =
-      from.engine->springs().pack(moved, d_which.put(which), d_copies.put(copies), buffer.data());
-  EXPECT_LE(size, moved * (1 + from.engine->springs().largest_packed_size(n)));
+  buffer.resize(moved * (1 + from.engine->springs_in_place()->largest_packed_size(n)));
+  const int size = from.engine->springs_in_place()->pack(moved, d_which.put(which),
+                                                         d_copies.put(copies), buffer.data());
+  EXPECT_LE(size, moved * (1 + from.engine->springs_in_place()->largest_packed_size(n)));
 
   const ContactHistory left = from.springs();
   int same = 0, carried = 0;
@@ -474,15 +474,15 @@ TEST(engine, springs_follow_through_pack_and_unpack)
     places.push_back(back[k] < 0 ? -1 : back[k] + 1);
   }
   std::vector<double> both = buffer.get(size);
-  const int second =
-      from.engine->springs().pack(moved, d_which.put(others), d_copies.put(stays), buffer.data());
+  const int second = from.engine->springs_in_place()->pack(moved, d_which.put(others),
+                                                           d_copies.put(stays), buffer.data());
   const std::vector<double> behind = buffer.get(second);
   both.insert(both.end(), behind.begin(), behind.end());
   DeviceArray<double> d_both(cuda);
   d_both.put(both);
   to.step(0.01, Particles::Candidates::now);
   const ContactHistory own = to.springs();
-  to.engine->springs().unpack(2 * moved, d_back.put(places), d_both.data(), moved, size);
+  to.engine->springs_in_place()->unpack(2 * moved, d_back.put(places), d_both.data(), moved, size);
   const ContactHistory after = to.springs();
   int arrived = 0;
   for (int k = 0; k < moved; k++) {
@@ -509,7 +509,7 @@ TEST(engine, a_step_without_outputs_neither_copies_nor_waits)
           traits_of(law), {LawBytes(law)}, run_compiled_law<Law, CountingBackend>},
       CountingBackend());
   particles.engine->set_grid(particles.flat.view());
-  particles.engine->springs().grow(2000);
+  particles.engine->springs_in_place()->grow(2000);
   particles.engine->choose(particles.spheres(), 0.5);
   EXPECT_GT(CountingBackend::crossings(), 0);
   const auto crossings_of = [&](bool per_sphere) {
@@ -854,7 +854,7 @@ struct AllTouching {
     spheres = there.put(host);
     step.dt = 1e-3;
     engine->set_grid(grid.view());
-    engine->springs().grow(n);
+    engine->springs_in_place()->grow(n);
     choose();
   }
 
@@ -872,7 +872,7 @@ struct AllTouching {
   }
 
   FlatGrid grid;
-  std::unique_ptr<InPlaceEngine> engine;
+  std::unique_ptr<WallEngine> engine;
   SphereArrays host;
   SphereArraysOn there;
   Spheres spheres;
@@ -951,9 +951,9 @@ TEST(engine, packs_a_sphere_into_no_more_than_any_sphere_can_have)
 {
   AllTouching all;
   all.engine->step(all.spheres, all.step);
-  const int largest = all.engine->springs().largest_packed_size(all.n);
+  const int largest = all.engine->springs_in_place()->largest_packed_size(all.n);
   EXPECT_EQ(largest, 1 + kAllRound * ContactHistory().doubles_per_spring());
-  EXPECT_LE(largest, all.engine->springs().most_packed_size());
+  EXPECT_LE(largest, all.engine->springs_in_place()->most_packed_size());
 }
 
 }    // namespace
