@@ -230,10 +230,11 @@ std::string MeshMotion::text(const Box &bounds) const
   if (!motion.moves()) return motion.start().placed ? "none; the mesh stays where it is" : "";
   constexpr int kSamples = 64;
   std::string text = own_text();
-  if (takes_differences()) text += "; where v_v is NULL velocities are differences over a step";
+  if (takes_differences())
+    text += "; where no speed is given velocities are differences over a step";
   if (adds_up())
     text +=
-        "; where v_d or v_angle is NULL velocities are added up, with the mean of those before and "
+        "; where a speed alone is given velocities are added up, with the mean of those before and "
         "after a step";
   std::vector<Real> times;
   for (int i = 0; i < kSamples; i++) times.push_back(motion.longest_period() * i / kSamples);
