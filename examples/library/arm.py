@@ -97,7 +97,8 @@ def angular_momentum(grains):
 
 
 def draw(grains, arm, name):
-    figure, axes = drum.plt.subplots(figsize=(6, 4.5))
+    drum.plt.rcParams["font.size"] = 14
+    figure, axes = drum.plt.subplots(figsize=(6.6, 4.5))
     tip, along = arm.hinges()[2], (arm.hinges()[2] - arm.hinges()[1]) / L[1]
     axes.plot(*1e3 * np.array([[0, SIZE[2]], [0, 0], [SIZE[0], 0], [SIZE[0], SIZE[2]]]).T, "k-", lw=2)
     axes.plot(*1e3 * np.array(arm.hinges())[:, ::2].T, "o-", color="tab:orange", lw=4, ms=8)
@@ -106,8 +107,8 @@ def draw(grains, arm, name):
         axes.add_patch(drum.plt.Circle(1e3 * grains.x[i, ::2], 1e3 * drum.GRAIN, lw=0.3, ec="k",
                                        fc=drum.plt.cm.viridis(np.linalg.norm(grains.v[i]) / 0.2)))
     scale = drum.plt.Normalize(0, 0.2)
-    figure.colorbar(drum.plt.cm.ScalarMappable(scale, "viridis"), ax=axes, label="speed [m/s]", shrink=0.8)
-    axes.set(xlabel="x [mm]", ylabel="z [mm]", aspect="equal")
+    figure.colorbar(drum.plt.cm.ScalarMappable(scale, "viridis"), ax=axes, label="speed, m/s", shrink=0.8)
+    axes.set(xlabel="x, mm", ylabel="z, mm", aspect="equal")
     figure.savefig(name, dpi=100, bbox_inches="tight")
 
 

@@ -106,6 +106,7 @@ def slope(x):
 
 
 def draw(grains, wall, name, time):
+    plt.rcParams["font.size"] = 14
     figure, axes = plt.subplots(figsize=(5, 5))
     a = 2 * np.pi * np.arange(SIDES + 1) / SIDES
     pose = wall.pose()
@@ -117,8 +118,12 @@ def draw(grains, wall, name, time):
         axes.add_patch(plt.Circle(1e3 * grains.x[i, ::2], 1e3 * GRAIN, lw=0.3, ec="k",
                                   fc=plt.cm.viridis(speed[i] / (2 * np.pi * RADIUS / PERIOD))))
     scale = plt.Normalize(0, 2 * np.pi * RADIUS / PERIOD)
-    figure.colorbar(plt.cm.ScalarMappable(scale, "viridis"), ax=axes, label="speed [m/s]", shrink=0.8)
-    axes.set(xlabel="x [mm]", ylabel="z [mm]", aspect="equal", title=f"after {time:.2f} s")
+    figure.colorbar(plt.cm.ScalarMappable(scale, "viridis"), ax=axes, label="speed, m/s", shrink=0.8)
+    turn = np.radians(np.linspace(120, 60, 20))    # about +y, which points away: clockwise
+    arc = 1e3 * 1.08 * RADIUS * np.stack([np.cos(turn), np.sin(turn)])
+    axes.plot(*arc, "k-", lw=2)
+    axes.annotate("", arc[:, -1], arc[:, -2], arrowprops=dict(arrowstyle="-|>", lw=2, fc="k", mutation_scale=20))
+    axes.set(xlabel="x, mm", ylabel="z, mm", aspect="equal", title=f"after {time:.2f} s")
     figure.savefig(name, dpi=120, bbox_inches="tight")
 
 
