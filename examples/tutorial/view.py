@@ -20,21 +20,24 @@ view = CreateView("RenderView")
 view.ViewSize = [700, 700]
 view.Background = [1, 1, 1]
 view.UseColorPaletteForBackground = 0
-view.OrientationAxesLabelColor = [0, 0, 0]
+view.OrientationAxesVisibility = 0
 wall = XMLPolyDataReader(FileName=[last("hopper_*.vtp")])
 shown = Show(wall, view)
 shown.SetRepresentationType("Surface With Edges")
 ColorBy(shown, ("CELLS", "normal_stress"))
 shown.Ambient, shown.Diffuse = 0.5, 0.5
 shown.EdgeColor = [0.6, 0.6, 0.6]
+shown.LineWidth = 0.5
 colours = GetColorTransferFunction("normal_stress")
 colours.ApplyPreset("Viridis (matplotlib)", True)
 shown.RescaleTransferFunctionToDataRange(False)
 shown.SetScalarBarVisibility(view, True)
 bar = GetScalarBar(colours, view)
-bar.Title, bar.ComponentTitle = "normal stress, Pa", ""
+bar.Title, bar.ComponentTitle = "normal stress, Pa", ""    # the hopper is 100 mm across
+bar.AutomaticLabelFormat, bar.LabelFormat, bar.RangeLabelFormat = 0, "%.0f", "%.0f"
+bar.ScalarBarLength, bar.ScalarBarThickness, bar.WindowLocation = 0.5, 24, "Lower Right Corner"
 bar.TitleColor = bar.LabelColor = [0, 0, 0]
-bar.TitleFontSize = bar.LabelFontSize = 20
+bar.TitleFontSize = bar.LabelFontSize = 26
 view.CameraPosition, view.CameraFocalPoint, view.CameraViewUp = [0.25, -0.35, -0.1], [0, 0, 0.06], [0, 0, 1]
 ResetCamera(view)
 Render(view)
