@@ -67,7 +67,7 @@ def scenes():
         "screen": Scene((115, -65), (-7, 7, -7, 7, -5, 9), (5, "5 apertures a"),
                         [(ORANGE, "0.6 a"), (SKY, "0.8 a"), (BLUE, "0.95 a"), (VERMILION, "1.1 a: too large")],
                         [glass, solid], time="t = {:.0f} √(a/g)"),
-        "mixer": Scene((50, -90), (-11.5, 11.5, 0, 6, -6.5, 7), five, [(ORANGE, "left and"), (BLUE, "right at the start")],
+        "mixer": Scene((50, -90), (-11.5, 11.5, 0, 6, -6.5, 7), five, [(ORANGE, "left and"), (BLUE, "right after the first turn")],
                        [glass, solid, solid], arrows=[circle((-5, 0), 5.2, -35, 35), circle((5, 0), 5.2, 35, -35)]),
         "piston": Scene((60, -90), (-7.5, 7.5, -7.5, 7.5, -0.5, 14), five, ("d, size", 0.8, 1.1), [glass, solid],
                         quantity="diameter"),
