@@ -92,7 +92,7 @@ def funnels(p):
             p.arrow((0.55 * side, -0.2), (0.12 * side, 0.06))
         if p.right or side > 0:
             p.arrow((0.3 * side, -0.42), (0.08 * side, -0.05))
-    p.text(-1.4, -0.45, "all bear" if p.right else "these,\nthen the\nothers")
+    p.text(-1.4, -0.45, "all sides\ncarry it" if p.right else "these,\nthen the\nothers")
 
 
 def polygon(n, radius, centre, begin=195, end=345):
@@ -191,7 +191,9 @@ def bad_meshes(p):
                     ((0.5, 0.2), (0.55, 0.9), (0.6, 0.2)), ((0.7, 0.2), (0.72, 0.9), (0.76, 0.2)),
                     ((0.9, 0.2), (0.9, 0.9), (0.92, 0.2))):
         triangle(p, corners)
-    p.text(0, -0.85, "distances to round-off" if p.right else "misses, not a number")
+    p.sphere(-0.55, 0.55, 0.2)
+    p.arrow((-0.55, 0.55), (-0.2, 0.95) if p.right else (-0.55, -0.62))
+    p.text(0.1, -0.85, "found, exact to round-off" if p.right else "missed: it falls through")
 
 
 def random_meshes(p):
@@ -200,7 +202,10 @@ def random_meshes(p):
         x, y = r.uniform(-1.7, 1.7), r.uniform(-0.35, 0.75)
         triangle(p, [(x + r.uniform(-0.4, 0.4), y + r.uniform(-0.25, 0.25)) for _ in range(3)])
     for k in range(6):
-        p.sphere(r.uniform(-1.6, 1.6), r.uniform(-0.35, 0.7), r.uniform(0.1, 0.3), colour=WRONG if k == 1 and not p.right else None)
+        x, y, radius = r.uniform(-1.6, 1.6), r.uniform(-0.35, 0.7), r.uniform(0.1, 0.3)
+        p.sphere(x, y, radius, colour=WRONG if k == 1 and not p.right else None)
+        if k == 1 and not p.right:
+            p.arrow((x - 0.9, y + 0.55), (x - radius, y + radius / 2))
     p.text(0, -0.85, "each contact is found" if p.right else "one is missed")
 
 
@@ -217,7 +222,7 @@ def draw(name):
     figure, axes = plt.subplots(1, 2, figsize=(6.4, 1.9))
     for axis, right in zip(axes, (False, True)):
         SKETCHES[name](Panel(axis, right))
-        axis.set_title("here" if right else "what goes wrong", fontsize=12, color=RIGHT if right else WRONG)
+        axis.set_title("LSDCD" if right else "what goes wrong", fontsize=12, color=RIGHT if right else WRONG)
     figure.add_artist(plt.Line2D([0.5, 0.5], [0.05, 0.95], color="#bbbbbb", linewidth=1))
     figure.subplots_adjust(left=0.01, right=0.99, bottom=0.02, top=0.86, wspace=0.06)
     path = os.path.join(FOLDER, name + ".png")
