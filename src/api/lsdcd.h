@@ -541,6 +541,11 @@ typedef struct lsdcd_wall_mesh {
    * .vtp: stress, contacts and wear of each triangle, for ParaView. `stl`: the mesh where it is. */
   const char *fields, *stl;
   int fields_every, stl_every;
+  int nodes_by_caller; /* 1: lsdcd_wall_set_nodes() moves each of its vertices, and nothing else moves it. On the CPU,
+                          exact, in double precision */
+  double
+      pressure; /* force/area, with nodes_by_caller: pushes to where normals point by the winding, out of a closed
+                          mesh; see lsdcd_wall_get_node_forces() */
 } lsdcd_wall_mesh;
 
 /* scale: factors, none 0; rotate: degrees about an axis through the origin, right-handed; move: lengths. Each acts on
@@ -673,6 +678,27 @@ LSDCD_API int lsdcd_wall_get_pose(lsdcd_wall *wall, int mesh, double *matrix);
 LSDCD_API int lsdcd_wall_set_pose(lsdcd_wall *wall, int mesh, const double *position,
                                   const double *quaternion, const double *velocity,
                                   const double *angular_velocity);
+/* Where the vertices of a mesh with `nodes_by_caller` are in the next step and those after it, and how fast they go, in
+ * the box: 3 numbers each, in the order of lsdcd_mesh_get_arrays(), whose `welded_vertex` leads to them from the vertices of a
+ * file. Between the three nodes of a triangle places and velocities are linear. Until the first call they are as the
+ * placement has them, at rest. Triangles stay the same.
+ *
+ * positions: length. velocities: length/time, of the time of the spheres' velocities: with velocity Verlet half a step
+ * before the positions; null: all are 0. Both are copied from memory of the host (LSDCD_ERROR_DEVICE: of a GPU), and
+ * are the same on all processes. LSDCD_ERROR_ARGUMENT: no such mesh, one without nodes_by_caller, a number that is not
+ * finite. All contacts are found however far nodes go from the last step's, but for one that passes through a sphere: the
+ * next step refuses (LSDCD_ERROR_INPUT) a node that goes farther than the largest radius, and a triangle without area. Alone. Own. */
+LSDCD_API int lsdcd_wall_set_nodes(lsdcd_wall *wall, int mesh, const double *positions,
+                                   const double *velocities);
+/* How many there are. LSDCD_ERROR_ARGUMENT: no such mesh, one without nodes_by_caller. Alone. Own. */
+LSDCD_API int lsdcd_wall_get_node_count(lsdcd_wall *wall, int mesh, size_t *count);
+/* Where they are after the last step, 3 numbers a vertex (length). Alone. Own. */
+LSDCD_API int lsdcd_wall_get_nodes(lsdcd_wall *wall, int mesh, double *positions);
+/* Forces on them in the last step, 3 numbers a vertex, over all processes: of each contact its force, shared among the
+ * nodes of its triangle or edge so that their sum and moment are those of the force at the closest point, and of
+ * `pressure`. What no node gets is a couple: that of rolling and twisting resistance, and that of a tangential force on
+ * the arm of the overlap. Own. */
+LSDCD_API int lsdcd_wall_get_node_forces(lsdcd_wall *wall, int mesh, double *forces);
 /* Force and torque of the spheres on a mesh in the last step, 3 numbers each, over all processes; -1: on all meshes.
  * The torque is about the point `about`, of the box, null: the origin. Own. */
 LSDCD_API int lsdcd_wall_get_wrench(lsdcd_wall *wall, int mesh, const double *about, double *force,

@@ -681,6 +681,8 @@ struct WallMesh {
   std::string cache;
   std::string fields, stl;    // files, .vtp and .stl
   int fields_every = 0, stl_every = 0;
+  bool nodes_by_caller = false;    // Wall::set_nodes() moves each of its vertices
+  double pressure = 0;             // force/area, on nodes
 };
 
 // A wall; fields as in lsdcd_wall_spec.
@@ -792,6 +794,8 @@ class Spec {
     if (!from.stl.empty()) mesh.stl = from.stl.c_str();
     mesh.fields_every = from.fields_every;
     mesh.stl_every = from.stl_every;
+    mesh.nodes_by_caller = from.nodes_by_caller;
+    mesh.pressure = from.pressure;
     return mesh;
   }
 
@@ -866,6 +870,30 @@ class Wall {
     c::check(lsdcd_wall_set_pose(get(), mesh, pose.position.data(), pose.quaternion.data(),
                                  pose.velocity.data(), pose.angular_velocity.data()));
   }
+  // Where the vertices of mesh number `mesh`, which has nodes_by_caller, are in the next step and those after it: 3
+  // numbers a vertex, in the order of MeshArrays::vertices. `velocities` may be empty: all are 0 then. Throws
+  // LSDCD_ERROR_ARGUMENT for another number of them.
+  void set_nodes(int mesh, const std::vector<double> &positions,
+                 const std::vector<double> &velocities = {})
+  {
+    check_nodes(mesh, positions.size());
+    if (!velocities.empty()) check_nodes(mesh, velocities.size());
+    c::check(lsdcd_wall_set_nodes(get(), mesh, positions.data(),
+                                  velocities.empty() ? nullptr : velocities.data()));
+  }
+  // Where they are after the last step, and the forces on them then.
+  std::vector<double> nodes(int mesh)
+  {
+    std::vector<double> positions(node_numbers(mesh));
+    c::check(lsdcd_wall_get_nodes(get(), mesh, positions.data()));
+    return positions;
+  }
+  std::vector<double> node_forces(int mesh)
+  {
+    std::vector<double> forces(node_numbers(mesh));
+    c::check(lsdcd_wall_get_node_forces(get(), mesh, forces.data()));
+    return forces;
+  }
   // Force and torque of the spheres on a mesh in the last step; -1: on all. The torque is about a point of the box.
   Wrench wrench(int mesh, const std::array<double, 3> &about = {0, 0, 0})
   {
@@ -902,6 +930,22 @@ class Wall {
   lsdcd_wall *get() { return handle_.get(); }
 
  private:
+  // Three for each node.
+  std::size_t node_numbers(int mesh)
+  {
+    std::size_t count = 0;
+    c::check(lsdcd_wall_get_node_count(get(), mesh, &count));
+    return 3 * count;
+  }
+  void check_nodes(int mesh, std::size_t n)
+  {
+    const std::size_t wanted = node_numbers(mesh);
+    if (n != wanted)
+      throw Error(LSDCD_ERROR_ARGUMENT, "lsdcd::Wall::set_nodes: there are " + std::to_string(n) +
+                                            " numbers, and the mesh has " +
+                                            std::to_string(wanted / 3) +
+                                            " vertices: give three for each");
+  }
   // The numbers that a function writes where there is room: it is called once for their count, once for them.
   template <class Write>
   static std::vector<double> numbers(const Write &write)

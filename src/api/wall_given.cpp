@@ -184,6 +184,16 @@ void read_surface(const lsdcd_wall_mesh &given, const std::string &field, MeshSp
 
 void read_motion(const lsdcd_wall_mesh &given, const std::string &field, MeshSpec &mesh)
 {
+  mesh.has_nodes = checked_flag(given.nodes_by_caller, field + ".nodes_by_caller");
+  mesh.pressure = checked_number(given.pressure, field + ".pressure");
+  if (mesh.has_nodes && (given.posed_by_caller || given.n_motions > 0 || given.servo))
+    refuse_field(
+        field + ".nodes_by_caller", "1",
+        "lsdcd_wall_set_nodes() alone moves such a mesh: leave posed_by_caller, motions and "
+        "servo out");
+  if (!mesh.has_nodes && mesh.pressure != 0)
+    refuse_field(field + ".pressure", mesh.pressure,
+                 "it acts on nodes: set nodes_by_caller, or leave it 0");
   const bool is_posed = checked_flag(given.posed_by_caller, field + ".posed_by_caller");
   if (is_posed) mesh.motion.begin_posed();
   if (is_posed && (given.n_motions > 0 || given.servo))

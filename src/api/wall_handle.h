@@ -12,6 +12,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <functional>
 #include <memory>
 #include <vector>
@@ -21,7 +22,7 @@ namespace lsdcd {
 // The history of each sphere, as HistoryExchange::pack_saved() writes it.
 using SphereHistories = std::vector<std::vector<Real>>;
 
-// A number made of all poses that a program has set: it is equal on processes that have set the same ones.
+// A number made of all poses and nodes that a program has set: it is equal on processes that have set the same ones.
 class PosesGiven {
  public:
   void add(int mesh, const Pose &pose)
@@ -33,6 +34,16 @@ class PosesGiven {
         const Real number = v[k] + 0;    // not -0
         add_bytes(&number, sizeof number);
       }
+  }
+  void add(int mesh, const std::vector<Real> &numbers)
+  {
+    add_bytes(&mesh, sizeof mesh);
+    for (const Real given : numbers) {
+      const Real number = given + 0;
+      std::uint64_t bits;
+      std::memcpy(&bits, &number, sizeof bits);
+      hash_ = (hash_ ^ bits ^ bits >> 32) * 0x100000001b3;
+    }
   }
   // The part that fits a double, exactly.
   Real number() const { return static_cast<Real>(hash_ >> 11); }
@@ -61,6 +72,7 @@ struct lsdcd_wall {
   lsdcd::SphereHistories restored;    // restored, until the first step
   bool outside_warned = false;
   lsdcd::PosesGiven poses;
+  std::vector<std::vector<int>> node_of_vertex;    // of each mesh, once asked for
   std::unique_ptr<lsdcd::Wall> in;
 
   explicit lsdcd_wall(const lsdcd_wall_options &o) : caller(o), threads(o.threads) {}

@@ -117,9 +117,11 @@ StepWanted agreed(lsdcd_wall &wall, const Failure &failure, StepWanted want)
                                              (most[2] == most[3] ? ", and some set up" : "") +
                                              ": dt and setup are the same on all");
   if (most[8] != -most[9])
-    throw ApiError(LSDCD_ERROR_ARGUMENT,
-                   "poses given by lsdcd_wall_set_pose() differ between the processes: call it on "
-                   "all, in the same order, with the same numbers");
+    throw ApiError(
+        LSDCD_ERROR_ARGUMENT,
+        "poses given by lsdcd_wall_set_pose() differ between the processes, or nodes given by "
+        "lsdcd_wall_set_nodes() do: call it on all, in the same order, with the same "
+        "numbers");
   want.look = most[4] > 0;
   step.reach = most[5];
   std::vector<std::int64_t> &tags = wall.caller.tags;

@@ -34,6 +34,18 @@ void need_words(const std::vector<std::string> &words, const char *what)
     throw ApiError(LSDCD_ERROR_ARGUMENT, std::string("there are no words: ") + what);
 }
 
+// Groups of atoms are LAMMPS's.
+WallSpec without_groups(WallSpec wall)
+{
+  for (const MeshSpec &mesh : wall.meshes)
+    if (mesh.has_nodes)
+      throw InputError("nodes " + mesh.node_group +
+                       ": a program has no groups of atoms; make the "
+                       "wall by lsdcd_wall_from_spec(), set nodes_by_caller, and call "
+                       "lsdcd_wall_set_nodes()");
+  return wall;
+}
+
 }    // namespace
 
 namespace lsdcd {
@@ -56,8 +68,9 @@ int lsdcd_wall_make(const char *const *words, size_t n, const lsdcd_wall_options
     need_words(all, "a contact style, its numbers and `mesh FILE` make a wall");
     *wall = new_wall(options, [&](lsdcd_wall &made, const lsdcd_wall_options &o) {
       const FilledTokens filled = fill_material(made.caller, all, o.units ? o.units : "si");
-      return std::make_unique<Wall>(made.caller, parse_wall(filled.tokens).wall, WallUnits(),
-                                    backend_of(o, made), filled.report, StepClock{o.time, 0, 0, 0});
+      return std::make_unique<Wall>(made.caller, without_groups(parse_wall(filled.tokens).wall),
+                                    WallUnits(), backend_of(o, made), filled.report,
+                                    StepClock{o.time, 0, 0, 0});
     });
   });
 }

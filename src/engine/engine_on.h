@@ -33,6 +33,8 @@ class EngineOn : public WallEngine {
     if (settings.precision == Precision::single_ && !has_float_forces(settings))
       throw InputError("precision single has neither granular, rolling, cohesion, a moving surface "
                        "or mesh, several meshes, wear nor mesh_fields: use mixed or double");
+    if (settings.nodes && !B::kOnHost)
+      throw InputError("meshes whose nodes move are computed on the CPU: use device cpu or auto");
     clear_diagnostics(StepCounts());
     unlock_scratches();
     if (broad_phase_.uses_slots()) put_laws();
@@ -163,6 +165,12 @@ class EngineOn : public WallEngine {
     return diagnostics_of(seen);
   }
 
+  void turn_springs(int n, int mesh, const TurnSpring &turn) override
+  {
+    if constexpr (!B::kOnHost) return WallEngine::turn_springs(n, mesh, turn);
+    springs_.grow(n);
+    springs_.turn(n, static_cast<std::uint32_t>(mesh), law_.traits.n_vectors, turn);
+  }
   SpringsInPlace *springs_in_place() override { return &springs_; }
   void springs_to(ContactHistory &store, int n) override { springs_.to_store(store, n); }
   void springs_from(const ContactHistory &store, int n) override { springs_.from_store(store, n); }
@@ -321,10 +329,13 @@ class EngineOn : public WallEngine {
         const MeshWork work = mesh_work(m);
         of_mesh.grid = work.grid;
         of_mesh.settings = work.settings;
+        if (work.settings.nodes.velocity) of_mesh.lists = FeatureLists();
         run_law(of_mesh, n, law_of(m, kind));
       }
     if (slots.n_multi_mesh() == 0) return;
     StepJob multi_mesh = job;
+    // Lists of features do not hold while nodes move.
+    if (step_.nodes) multi_mesh.lists = FeatureLists();
     multi_mesh.multi_mesh = {put_works(), slots.first(), slots.mesh()};
     multi_mesh.multi_mesh.laws = {laws_.data(), settings_.laws.of_mesh(),
                                   broad_phase_.kinds_of(b_, spheres_)};

@@ -111,6 +111,28 @@ class ResidentSprings : public SpringsInPlace {
     });
   }
 
+  // Where springs are in memory of the CPU: calls turn() with each spring of the spheres [0, n) on this mesh, and its first n_vectors * 3 further
+  // numbers.
+  template <class Turn>
+  void turn(std::size_t n, std::uint32_t mesh, int n_vectors, const Turn &turn)
+  {
+    if (!traits_.history) return;
+    Pool &pool = pool_[now_];
+    Vec3 vectors[kMostVectors];
+    for (std::size_t i = 0; i < n; i++)
+      for (int c = 0; c < count_.data()[i]; c++) {
+        const std::size_t at = std::size_t(first_.data()[i]) + c;
+        Spring &spring = pool.springs.data()[at];
+        if (spring.mesh != mesh) continue;
+        Real *extra = pool.extra.data() + at * traits_.n_extra;
+        for (int k = 0; k < n_vectors; k++)
+          vectors[k] = {extra[3 * k], extra[3 * k + 1], extra[3 * k + 2]};
+        turn(spring, vectors, n_vectors);
+        for (int k = 0; k < n_vectors; k++)
+          for (int d = 0; d < 3; d++) extra[3 * k + d] = vectors[k][d];
+      }
+  }
+
   // The pool that the next step writes; `slot`: see ContactPool.
   ContactPool next(int *slot)
   {

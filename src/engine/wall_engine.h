@@ -8,6 +8,7 @@
 #include "base/strided_view.h"
 #include "base/vec3.h"
 #include "contact/contact_history.h"
+#include "contact/node_field.h"
 #include "grid/triangle_grid.h"
 #include "law/contact_law.h"
 #include "law/law_table.h"
@@ -49,6 +50,7 @@ struct EngineSettings {
   bool moves = false;       // set_pose() or StepSettings::surface will be used
   bool records = false;     // record what every contact does to the wall
   bool bodies = false;      // StepSettings::mobility will be used; contacts are recorded, too
+  bool nodes = false;       // StepSettings::nodes will be used; likewise. On a CPU only
   WearModel wear = WearModel::none;    // where there are records
   Device device = Device::automatic;
   int device_rank = 0;    // which of the GPUs this process takes (node-local rank, wrapped)
@@ -92,6 +94,8 @@ struct StepSettings {
   const SurfaceMotion *surface = nullptr;
   // Likewise, where a mesh is a rigid body: how it gives way, which is 0 of others.
   const Mobility *mobility = nullptr;
+  // Likewise, where the nodes of a mesh move: their velocities, which are null of others.
+  const NodeField *nodes = nullptr;
 };
 
 // Sums over the spheres of the last step on this process.
@@ -254,6 +258,15 @@ class WallEngine {
   // Throws InputError if a sphere had to be left out of a step, too large or with more contacts than
   // there is memory for, or if one grew after the choice. Begins anew.
   virtual StepDiagnostics read_diagnostics() = 0;
+
+  // Turns the springs of the spheres [0, n) on a mesh, before a step, in the frame of the mesh: calls turn() with
+  // each spring and the vectors beside it, of which there are `n_vectors`. Only for engines whose settings have
+  // nodes.
+  using TurnSpring = std::function<void(Spring &, Vec3 *vectors, int n_vectors)>;
+  virtual void turn_springs(int /*n*/, int /*mesh*/, const TurnSpring &)
+  {
+    throw std::logic_error("nodes move on a CPU only");
+  }
 
   // Springs of the spheres [0, n).
   virtual void springs_to(ContactHistory &store, int n) = 0;

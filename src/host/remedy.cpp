@@ -37,6 +37,8 @@ std::string library_remedy(Remedy remedy)
       return "give displacements as well";
     case Remedy::begin_replay:
       return "make the wall with the step in which the motion began";
+    case Remedy::compute_on_host:
+      return "make the wall with `device` cpu";
   }
   return "";
 }

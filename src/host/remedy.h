@@ -38,7 +38,8 @@ enum class Remedy {
   begin_servo,           // a servo was stopped
   give_velocities,       // a motion by inputs has differences for velocities
   give_displacements,    // a motion by inputs adds up velocities
-  begin_replay           // a mesh begins to move after the snapshot
+  begin_replay,          // a mesh begins to move after the snapshot
+  compute_on_host        // there is no engine for it in the memory that spheres are in
 };
 
 // Half a sentence for a program that calls the library.

@@ -63,6 +63,8 @@ std::string LammpsHost::remedy(lsdcd::Remedy problem) const
       return "give v_vx v_vy v_vz in place of NULL";
     case Remedy::give_displacements:
       return "give its variable in place of NULL";
+    case Remedy::compute_on_host:
+      return "use fix wall/lsdcd without the suffix /kk (suffix off), which computes on the CPU";
     case Remedy::begin_replay:
       return "before the fix is defined, reset_timestep to the step in which the run that was "
              "dumped defined it";

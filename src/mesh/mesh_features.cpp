@@ -3,12 +3,17 @@
 
 #include "mesh/mesh_features.h"
 
+#include "backend/threads.h"
 #include "base/array_list.h"
 #include "base/input_error.h"
 #include "base/quad.h"
 
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
+#include <string>
+#include <vector>
 
 namespace lsdcd {
 
@@ -106,7 +111,8 @@ bool is_straight(const Vec3 *direction, int n)
   if (n > kTooMany) return false;
   for (int i = 0; i < n; i++)
     for (int j = i + 1; j < n; j++)
-      if (norm(direction[i] + direction[j]) <= kFlat) return true;
+      if (dot(direction[i], direction[j]) < 0 && norm(direction[i] + direction[j]) <= kFlat)
+        return true;
   return false;
 }
 
@@ -115,10 +121,99 @@ bool is_straight(const Vec3 *direction, int n)
 constexpr Real kNoNumber = std::numeric_limits<Real>::quiet_NaN();
 constexpr Vec3 kNoDirection = {kNoNumber, kNoNumber, kNoNumber};
 
+// How many faces an edge has past the second.
+std::size_t n_past_second(const WeldedMesh &mesh, std::size_t edge)
+{
+  const int n = mesh.edge_first[edge + 1] - mesh.edge_first[edge];
+  return n > 2 ? static_cast<std::size_t>(n - 2) : 0;
+}
+
+// `others` gets the inward normals of the faces past the second; `more` of the record is left to the caller.
+EdgeRecord edge_record(const WeldedMesh &mesh, const std::vector<FaceRecord> &faces, std::size_t i,
+                       Vec3 *others)
+{
+  const auto &ends = mesh.edges[i];
+  EdgeRecord e = make_edge(mesh.vertices[ends[0]], mesh.vertices[ends[1]]);
+  for (int k = mesh.edge_first[i]; k < mesh.edge_first[i + 1]; k++) {
+    const int face = mesh.edge_face[k];
+    int side = 0;
+    while (mesh.face_edges[face][side] != static_cast<int>(i)) side++;
+    const Vec3 inward = faces[face].inward[side];
+    if (e.n_faces < 2)
+      e.inward[e.n_faces] = inward;
+    else
+      *others++ = inward;
+    e.n_faces++;
+  }
+  return e;
+}
+
+Vec3 outward_of_edge(const WeldedMesh &mesh, const std::vector<FaceRecord> &faces, std::size_t i)
+{
+  Vec3 outward = {0, 0, 0};
+  for (int k = mesh.edge_first[i]; k < mesh.edge_first[i + 1]; k++)
+    outward += faces[mesh.edge_face[k]].normal;
+  return outward;
+}
+
+std::uint32_t n_edges_at(const WeldedMesh &mesh, std::size_t vertex)
+{
+  return static_cast<std::uint32_t>(mesh.vertex_first[vertex + 1] - mesh.vertex_first[vertex]);
+}
+
+// The unit directions of the edges at vertex i, away from it.
+void put_directions(const WeldedMesh &mesh, const std::vector<EdgeRecord> &edges, std::size_t i,
+                    Vec3 *to)
+{
+  for (int k = mesh.vertex_first[i]; k < mesh.vertex_first[i + 1]; k++) {
+    const int edge = mesh.vertex_edge[k];
+    const Vec3 along = edges[edge].direction;
+    *to++ = mesh.edges[edge][0] == static_cast<int>(i) ? along : -along;
+  }
+}
+
+// Do other features cover vertex i? A vertex inside a plane is covered by its faces.
+bool is_covered(const WeldedMesh &mesh, const std::vector<EdgeRecord> &edges, std::size_t i,
+                const Vec3 *direction)
+{
+  const std::uint32_t n = n_edges_at(mesh, i);
+  bool inside_plane = n > 0;
+  for (int k = mesh.vertex_first[i]; k < mesh.vertex_first[i + 1] && inside_plane; k++)
+    inside_plane = is_flat(edges[mesh.vertex_edge[k]]);
+  return inside_plane || is_straight(direction, static_cast<int>(n));
+}
+
 // Angle between two edges of a face at their common corner, in (0, pi).
 Real corner_angle(const Vec3 &at, const Vec3 &b, const Vec3 &c)
 {
   return std::atan2(norm(cross(b - at, c - at)), dot(b - at, c - at));
+}
+
+void put_outward_of_vertices(const WeldedMesh &mesh, MeshFeatures &out)
+{
+  out.vertex_out.assign(mesh.vertices.size(), Vec3{0, 0, 0});
+  for (std::size_t f = 0; f < mesh.faces.size(); f++)
+    for (int k = 0; k < 3; k++) {
+      const auto &c = mesh.faces[f];
+      const Real angle = corner_angle(mesh.vertices[c[k]], mesh.vertices[c[(k + 1) % 3]],
+                                      mesh.vertices[c[(k + 2) % 3]]);
+      out.vertex_out[c[k]] += angle * out.faces[f].normal;
+    }
+}
+
+// The edges and vertices of a face that can hold a contact, by a flag for each edge and vertex.
+template <class Flags>
+FaceParts parts_of(const WeldedMesh &mesh, std::size_t face, const Flags &edge_acts,
+                   const Flags &vertex_acts)
+{
+  FaceParts parts;
+  for (int k = 0; k < 3; k++) {
+    const std::uint32_t edge = mesh.face_edges[face][k], vertex = mesh.faces[face][k];
+    parts.part[k] = edge_acts[edge] ? feature_code(FeatureKind::edge, edge) : kNoFeature;
+    parts.part[3 + k] =
+        vertex_acts[vertex] ? feature_code(FeatureKind::vertex, vertex) : kNoFeature;
+  }
+  return parts;
 }
 
 void add_primitives(const WeldedMesh &mesh, MeshFeatures &out)
@@ -131,15 +226,8 @@ void add_primitives(const WeldedMesh &mesh, MeshFeatures &out)
   }
   out.face_parts.reserve(mesh.faces.size());
   for (std::size_t f = 0; f < mesh.faces.size(); f++) {
-    FaceParts parts;
-    for (int k = 0; k < 3; k++) {
-      const std::uint32_t edge = mesh.face_edges[f][k], vertex = mesh.faces[f][k];
-      parts.part[k] = edge_acts[edge] ? feature_code(FeatureKind::edge, edge) : kNoFeature;
-      parts.part[3 + k] =
-          vertex_acts[vertex] ? feature_code(FeatureKind::vertex, vertex) : kNoFeature;
-      has_face[vertex] = true;
-    }
-    out.face_parts.push_back(parts);
+    out.face_parts.push_back(parts_of(mesh, f, edge_acts, vertex_acts));
+    for (const int vertex : mesh.faces[f]) has_face[vertex] = true;
   }
   for (FeatureCode code : out.contact_features) {
     const std::uint32_t i = feature_index(code);
@@ -148,6 +236,36 @@ void add_primitives(const WeldedMesh &mesh, MeshFeatures &out)
         (kind == FeatureKind::vertex && !has_face[i]))
       out.primitives.push_back(code);
   }
+}
+
+void check_numbers(const WeldedMesh &mesh)
+{
+  if (mesh.faces.size() > kMaxFeatures || mesh.edges.size() > kMaxFeatures ||
+      mesh.vertices.size() > kMaxFeatures)
+    throw InputError(mesh.source + ": " + std::to_string(mesh.edges.size()) + " edges, at most " +
+                     std::to_string(kMaxFeatures) + " can be used; coarsen the mesh");
+}
+
+// The same test as that of welding: thinner than the rounding of its corners a face has no normal.
+bool has_area(const Vec3 &a, const Vec3 &b, const Vec3 &c)
+{
+  Real most = 0;
+  for (const Vec3 *x : {&a, &b, &c})
+    for (int d = 0; d < 3; d++) most = std::fmax(most, std::fabs((*x)[d]));
+  const Real longest =
+      std::sqrt(std::fmax(norm_sq(b - a), std::fmax(norm_sq(c - b), norm_sq(a - c))));
+  return norm(cross(b - a, c - a)) > std::fmax(8 * kRoundoff * most, 1e-14 * longest) * longest;
+}
+
+[[noreturn]] void throw_without_area(const WeldedMesh &mesh, std::size_t face)
+{
+  const auto &c = mesh.faces[face];
+  throw InputError(
+      "face " + std::to_string(face) + " of '" + mesh.source + "', with the nodes " +
+      std::to_string(c[0]) + ", " + std::to_string(c[1]) + " and " + std::to_string(c[2]) +
+      " (all from 0), has no area any more: its nodes lie in a line or are no numbers, "
+      "and it has no normal; give the nodes more stiffness or damping, or a shorter "
+      "timestep");
 }
 
 }    // namespace
@@ -176,9 +294,7 @@ MeshFeatures make_features(const WeldedMesh &mesh, bool with_sides, bool with_pr
 {
   const std::size_t n_faces = mesh.faces.size(), n_edges = mesh.edges.size(),
                     n_vertices = mesh.vertices.size();
-  if (n_faces > kMaxFeatures || n_edges > kMaxFeatures || n_vertices > kMaxFeatures)
-    throw InputError(mesh.source + ": " + std::to_string(n_edges) + " edges, at most " +
-                     std::to_string(kMaxFeatures) + " can be used; coarsen the mesh");
+  check_numbers(mesh);
 
   MeshFeatures out;
   out.images = mesh.images;
@@ -197,25 +313,13 @@ MeshFeatures make_features(const WeldedMesh &mesh, bool with_sides, bool with_pr
   if (with_sides) out.edge_out.reserve(n_edges);
   std::size_t n_used = 0;    // up to the last edge that can hold a contact
   for (std::size_t i = 0; i < n_edges; i++) {
-    const auto &ends = mesh.edges[i];
-    EdgeRecord e = make_edge(mesh.vertices[ends[0]], mesh.vertices[ends[1]]);
-    e.more = static_cast<std::uint32_t>(out.edge_inward.size());
-    Vec3 outward = {0, 0, 0};
-    for (int k = mesh.edge_first[i]; k < mesh.edge_first[i + 1]; k++) {
-      const int face = mesh.edge_face[k];
-      int side = 0;
-      while (mesh.face_edges[face][side] != static_cast<int>(i)) side++;
-      const Vec3 inward = out.faces[face].inward[side];
-      if (e.n_faces < 2)
-        e.inward[e.n_faces] = inward;
-      else
-        out.edge_inward.push_back(inward);
-      e.n_faces++;
-      outward += out.faces[face].normal;
-    }
+    const std::size_t more = out.edge_inward.size();
+    out.edge_inward.resize(more + n_past_second(mesh, i));
+    EdgeRecord e = edge_record(mesh, out.faces, i, out.edge_inward.data() + more);
+    e.more = static_cast<std::uint32_t>(more);
     out.edges.push_back(e);
-    out.edge_vertex.push_back({{ends[0], ends[1]}});
-    if (with_sides) out.edge_out.push_back(outward);
+    out.edge_vertex.push_back({{mesh.edges[i][0], mesh.edges[i][1]}});
+    if (with_sides) out.edge_out.push_back(outward_of_edge(mesh, out.faces, i));
     if (is_flat(e)) continue;
     out.contact_features.push_back(feature_code(FeatureKind::edge, static_cast<std::uint32_t>(i)));
     n_used = i + 1;
@@ -224,19 +328,11 @@ MeshFeatures make_features(const WeldedMesh &mesh, bool with_sides, bool with_pr
   out.vertices.reserve(n_vertices);
   out.vertex_direction.push_back(kNoDirection);
   for (std::size_t i = 0; i < n_vertices; i++) {
-    VertexRecord v = {mesh.vertices[i], static_cast<std::uint32_t>(out.vertex_direction.size()), 0};
-    for (int k = mesh.vertex_first[i]; k < mesh.vertex_first[i + 1]; k++) {
-      const int edge = mesh.vertex_edge[k];
-      const Vec3 along = out.edges[edge].direction;
-      out.vertex_direction.push_back(mesh.edges[edge][0] == static_cast<int>(i) ? along : -along);
-      v.count++;
-    }
-    // A vertex inside a plane is covered by its faces.
-    bool inside_plane = v.count > 0;
-    for (int k = mesh.vertex_first[i]; k < mesh.vertex_first[i + 1] && inside_plane; k++)
-      inside_plane = is_flat(out.edges[mesh.vertex_edge[k]]);
-    if (inside_plane ||
-        is_straight(out.vertex_direction.data() + v.first, static_cast<int>(v.count))) {
+    VertexRecord v = {mesh.vertices[i], static_cast<std::uint32_t>(out.vertex_direction.size()),
+                      n_edges_at(mesh, i)};
+    out.vertex_direction.resize(v.first + v.count);
+    put_directions(mesh, out.edges, i, out.vertex_direction.data() + v.first);
+    if (is_covered(mesh, out.edges, i, out.vertex_direction.data() + v.first)) {
       out.vertex_direction.resize(v.first);
       v.first = 0;
       v.count = 1;
@@ -250,17 +346,86 @@ MeshFeatures make_features(const WeldedMesh &mesh, bool with_sides, bool with_pr
   out.edges.shrink_to_fit();
   if (with_sides) {
     out.edge_out.resize(n_used);
-    out.vertex_out.assign(n_vertices, Vec3{0, 0, 0});
-    for (std::size_t f = 0; f < n_faces; f++)
-      for (int k = 0; k < 3; k++) {
-        const auto &c = mesh.faces[f];
-        const Real angle = corner_angle(mesh.vertices[c[k]], mesh.vertices[c[(k + 1) % 3]],
-                                        mesh.vertices[c[(k + 2) % 3]]);
-        out.vertex_out[c[k]] += angle * out.faces[f].normal;
-      }
+    put_outward_of_vertices(mesh, out);
   }
   if (with_primitives) add_primitives(mesh, out);
   return out;
+}
+
+MeshFeatures make_moving_features(const WeldedMesh &mesh, bool with_sides)
+{
+  MeshFeatures out;
+  const std::size_t n_faces = mesh.faces.size(), n_edges = mesh.edges.size(),
+                    n_vertices = mesh.vertices.size();
+  check_numbers(mesh);
+  out.faces.resize(n_faces);
+  out.edges.resize(n_edges);
+  std::uint32_t more = 0;
+  for (std::size_t i = 0; i < n_edges; i++) {
+    out.edge_vertex.push_back({{mesh.edges[i][0], mesh.edges[i][1]}});
+    out.edges[i].more = more;
+    more += static_cast<std::uint32_t>(n_past_second(mesh, i));
+  }
+  out.edge_inward.resize(more);
+  out.vertices.resize(n_vertices);
+  out.vertex_direction.resize(mesh.vertex_edge.size());
+  std::vector<bool> has_face(n_vertices, false);
+  for (std::size_t f = 0; f < n_faces; f++) {
+    const auto &c = mesh.faces[f];
+    out.face_vertex.push_back({{c[0], c[1], c[2]}});
+    out.primitives.push_back(feature_code(FeatureKind::face, static_cast<std::uint32_t>(f)));
+    for (const int v : c) has_face[v] = true;
+  }
+  out.face_parts.resize(n_faces);
+  if (with_sides) out.edge_out.resize(n_edges);
+  for (std::size_t i = 0; i < n_edges; i++)
+    if (mesh.edge_first[i] == mesh.edge_first[i + 1])
+      out.primitives.push_back(feature_code(FeatureKind::edge, static_cast<std::uint32_t>(i)));
+  for (std::size_t i = 0; i < n_vertices; i++)
+    if (!has_face[i])
+      out.primitives.push_back(feature_code(FeatureKind::vertex, static_cast<std::uint32_t>(i)));
+  update_features(mesh, with_sides, out);
+  return out;
+}
+
+void update_features(const WeldedMesh &mesh, bool with_sides, MeshFeatures &out)
+{
+  const auto n_faces = static_cast<std::int64_t>(mesh.faces.size()),
+             n_edges = static_cast<std::int64_t>(mesh.edges.size()),
+             n_vertices = static_cast<std::int64_t>(mesh.vertices.size());
+  std::int64_t thin = n_faces;    // the first face without area
+  std::vector<char> edge_acts(n_edges), vertex_acts(n_vertices);
+#pragma omp parallel num_threads(threads()) if (n_faces > 1024)
+  {
+#pragma omp for schedule(static) reduction(min : thin)
+    for (std::int64_t f = 0; f < n_faces; f++) {
+      const auto &c = mesh.faces[f];
+      const Vec3 &a = mesh.vertices[c[0]], &b = mesh.vertices[c[1]], &d = mesh.vertices[c[2]];
+      out.faces[f] = make_face_record(a, b, d);
+      if (!has_area(a, b, d)) thin = std::min(thin, f);
+    }
+#pragma omp for schedule(static)
+    for (std::int64_t i = 0; i < n_edges; i++) {
+      const std::uint32_t more = out.edges[i].more;
+      out.edges[i] = edge_record(mesh, out.faces, i, out.edge_inward.data() + more);
+      out.edges[i].more = more;
+      if (with_sides) out.edge_out[i] = outward_of_edge(mesh, out.faces, i);
+      edge_acts[i] = !is_flat(out.edges[i]);
+    }
+#pragma omp for schedule(static)
+    for (std::int64_t i = 0; i < n_vertices; i++) {
+      const auto first = static_cast<std::uint32_t>(mesh.vertex_first[i]);
+      Vec3 *direction = out.vertex_direction.data() + first;
+      put_directions(mesh, out.edges, i, direction);
+      out.vertices[i] = {mesh.vertices[i], first, n_edges_at(mesh, i)};
+      vertex_acts[i] = !is_covered(mesh, out.edges, i, direction);
+    }
+#pragma omp for schedule(static)
+    for (std::int64_t f = 0; f < n_faces; f++)
+      out.face_parts[f] = parts_of(mesh, f, edge_acts, vertex_acts);
+  }
+  if (thin < n_faces) throw_without_area(mesh, thin);
+  if (with_sides) put_outward_of_vertices(mesh, out);
 }
 
 }    // namespace lsdcd

@@ -39,4 +39,12 @@ FaceRecord make_face_record(const Vec3 &a, const Vec3 &b, const Vec3 &c);
 // primitives and the parts of faces.
 MeshFeatures make_features(const WeldedMesh &mesh, bool with_sides, bool with_primitives = false);
 
+// The records of a mesh whose vertices move: those of every edge and vertex, as any of them may hold a contact later.
+// Which do now, face_parts says, and grids sort `primitives`.
+MeshFeatures make_moving_features(const WeldedMesh &mesh, bool with_sides);
+
+// The same for other places of the vertices, by the formulas of make_features(). Throws InputError where a face
+// has no area.
+void update_features(const WeldedMesh &mesh, bool with_sides, MeshFeatures &features);
+
 }    // namespace lsdcd

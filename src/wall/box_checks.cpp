@@ -174,9 +174,10 @@ void BoxChecks::check_pose(const MeshPart &m, const Pose &at, const PeriodicBox 
         named(m, "the moving mesh " + std::string(when.empty() ? "will reach" : "reaches") +
                      " the periodic face in " + axis + when + ": it goes from " + number_text(lo) +
                      " to " + number_text(hi) + " of the box and must stay " + number_text(depth) +
-                     " away from 0 and 1. A mesh acts through a periodic face only where it moves "
-                     "across " +
-                     axis + " and turns about nothing but " + axis +
+                     " away from 0 and 1. " +
+                     (m.nodes ? "A mesh whose nodes move acts through no periodic face"
+                              : "A mesh acts through a periodic face only where it moves across " +
+                                    axis + " and turns about nothing but " + axis) +
                      ": make the boundary fixed, or the box larger"));
   }
 }
@@ -224,8 +225,9 @@ void BoxChecks::check_moving(const PeriodicBox &box, Real cutoff, const Step &no
   constexpr int kSamples = 256;
   for (const MeshPart &m : meshes_) {
     const RigidMotion &motion = m.spec.motion;
-    if (!motion.any()) continue;
+    if (!m.moves()) continue;
     check_pose(m, m.motion.pose(), box, cutoff, " at step " + std::to_string(now.number));
+    if (m.nodes) continue;
     if (now.kind != Step::step) check_turning_out(m, box);
     if (now.kind == Step::step || m.motion.has_inputs()) continue;
     for (int i = 1; i < kSamples; i++)

@@ -34,6 +34,7 @@ std::string mesh_lines(const WallSpec &wall, const MeshPart &m)
                {"motion      ", m.motion.text(m.bounds(0))},
                {"servo       ", servo_text(m.servo(), wall.inputs)},
                {"body        ", m.body ? m.body->text() : ""},
+               {"nodes       ", m.nodes ? std::to_string(m.nodes->count()) + ", which move" : ""},
                {"wear        ", wear == 1 ? "" : number_text(wear) + " times as fast"}};
   for (const auto &line : lines)
     if (!line.text.empty()) t += "\n  " + (line.label + line.text);

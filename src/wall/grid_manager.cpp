@@ -31,8 +31,8 @@ void GridManager::set_engine(WallEngine &engine)
 {
   engine_ = &engine;
   for (const MeshPart &m : meshes_)
-    if (cutoff() > 0)
-      run_collectively(host_, true, [&] { engine_->set_grid(m.grid.view(), m.index); });
+    if (cutoff() > 0 && (!m.nodes || m.nodes->has_grid()))
+      run_collectively(host_, true, [&] { engine_->set_grid(m.view(), m.index); });
 }
 
 bool GridManager::fit_spheres(Real radius, const SpheresOnCpu &spheres, std::int64_t step)
@@ -93,7 +93,7 @@ void GridManager::rebuild(Real wanted, std::int64_t step)
   for (MeshPart *m : anew) {
     m->grid.progress = progress(*m);
     m->grid.build(wanted, m->effective_box(box()));
-    run_collectively(host_, true, [&] { engine_->set_grid(m->grid.view(), m->index); });
+    if (!m->nodes) run_collectively(host_, true, [&] { engine_->set_grid(m->view(), m->index); });
   }
   times_.end(TimeReport::grids);
   if (wanted == old) box_rebuilds_++;
@@ -140,13 +140,14 @@ void GridManager::log_build(const MeshPart &m, Real old_cutoff, std::int64_t ste
   const bool again = old_cutoff > 0;
   std::string t = with_mesh_name(settings_, m.index, "");
   if (!again)
-    t += "grid for radius " + number_text(grid.cutoff()) + "\n" + grid.grid_text();
+    t += "grid for radius " + number_text(grid.cutoff()) +
+         (m.nodes ? ", made anew as nodes move" : "\n" + grid.grid_text());
   else if (grid.cutoff() > old_cutoff)
     t += "larger particles, grid rebuilt for radius " + number_text(grid.cutoff());
   else
     t += "the box has changed, grid rebuilt at step " + std::to_string(step) +
          " (more of these in this run are counted at its end)";
-  if (!again && host_.ranks().node_size > 1)
+  if (!again && host_.ranks().node_size > 1 && !m.nodes)
     t += grid.is_shared() ? "\n  one copy per node" : "\n  one copy per process";
   if (!grid.cache_text().empty()) t += "\n  " + grid.cache_text();
   const bool one_of_many = again && grid.cutoff() == old_cutoff && box_rebuilds_ > 1;

@@ -28,7 +28,8 @@ MeshGrid::MeshGrid(Host &host, const WallSpec &wall, const MeshSpec &spec) :
 // The first process alone reads the file, which may not be there on other nodes.
 void MeshGrid::read()
 {
-  const bool first = host_.is_first(), fills = host_.ranks().fills_memory;
+  // Where its nodes move each process has the mesh.
+  const bool first = host_.is_first(), fills = host_.ranks().fills_memory || spec_.has_nodes;
   TriangleSoup soup;
   soup.source = spec_.name;
   run_collectively(host_, first, [&] {
@@ -40,7 +41,8 @@ void MeshGrid::read()
   std::uint64_t corners = soup.corners.size();
   host_.broadcast(&corners, sizeof corners, 0);
   run_collectively(host_, fills, [&] { soup.corners.resize(corners); });
-  host_.broadcast(soup.corners.data(), corners * sizeof(Vec3), 0, Receivers::that_fill_memory);
+  host_.broadcast(soup.corners.data(), corners * sizeof(Vec3), 0,
+                  spec_.has_nodes ? Receivers::all : Receivers::that_fill_memory);
   run_collectively(host_, fills, [&] {
     mesh_ = std::make_unique<WeldedMesh>(weld(soup, spec_.weld));
     check_has_area(*mesh_);
@@ -82,6 +84,7 @@ WeldedMesh MeshGrid::whole(Real cutoff, const PeriodicBox &box) const
 
 bool MeshGrid::fits(const PeriodicBox &box) const
 {
+  if (spec_.has_nodes) return true;
   const Real tolerance = kBoxTolerance * cutoff_;
   const Vec3 margin = {box.margin, box.margin, box.margin};
   const Box need = box.bounds(margin);
@@ -141,6 +144,10 @@ GridSettings MeshGrid::grid_settings(Real cutoff, const PeriodicBox &box) const
 
 void MeshGrid::build(Real cutoff, const PeriodicBox &box)
 {
+  if (spec_.has_nodes) {    // MeshNodes has its grid
+    cutoff_ = cutoff;
+    return;
+  }
   const GridSettings want = grid_settings(cutoff, box);
   // A box that changes in many steps would leave a file in each.
   const bool for_box = cutoff == cutoff_;

@@ -34,9 +34,9 @@ class MeshGrid {
   bool fits(const PeriodicBox &box) const;
   static constexpr Real kBoxTolerance = 1e-4;
 
-  bool has_images() const { return view().wall.images.same_vertex; }
+  bool has_images() const { return !spec_.has_nodes && view().wall.images.same_vertex; }
   // No sphere in the box can touch the wall.
-  bool out_of_reach() const { return cells_ == 0; }
+  bool out_of_reach() const { return !spec_.has_nodes && cells_ == 0; }
 
   const MeshReport &report() const { return report_; }
   std::uint64_t mesh_fingerprint() const { return mesh_fingerprint_; }    // as its placement has it

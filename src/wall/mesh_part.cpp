@@ -4,20 +4,30 @@
 #include "wall/mesh_part.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace lsdcd {
 
 Box MeshPart::bounds(Real past) const
 {
   const MeshReport &r = grid.report();
+  const Box box = nodes ? nodes->bounds() : Box{r.lo, r.hi};
   const Vec3 more = {past, past, past};
-  return {r.lo - more, r.hi + more};
+  return {box.lo - more, box.hi + more};
 }
 
 void MeshPart::find_range(const PeriodicBox &box, int k, const Pose &at, Real &lo, Real &hi) const
 {
   Real range[2];
-  if (grid.mesh()) {
+  if (nodes) {
+    range[0] = HUGE_VAL;
+    range[1] = -HUGE_VAL;
+    for (const Vec3 &x : nodes->mesh().vertices) {
+      const Real part = box.fraction(x)[k];
+      range[0] = std::min(range[0], part);
+      range[1] = std::max(range[1], part);
+    }
+  } else if (grid.mesh()) {
     if (!vertices_) vertices_ = std::make_unique<PointTree>(grid.mesh()->vertices);
     const Vec3 along = at.turn_to_mesh(cross(box.edge[(k + 1) % 3], box.edge[(k + 2) % 3]));
     range[0] = box.fraction(at.to_box(vertices_->farthest_along(-1 * along)))[k];
@@ -33,6 +43,7 @@ bool MeshPart::keeps_edge(const PeriodicBox &box, int k) const
 {
   const Vec3 edge = unit_vector(box.edge[k]),
              across = unit_vector(cross(box.edge[(k + 1) % 3], box.edge[(k + 2) % 3]));
+  if (nodes) return false;
   const bool keeps = body ? spec.body.joint.keeps(edge) : spec.motion.keeps(edge);
   return norm(cross(edge, across)) <= 1e-12 && keeps;
 }
@@ -43,7 +54,7 @@ bool MeshPart::keeps_edge(const PeriodicBox &box, int k) const
 PeriodicBox MeshPart::effective_box(const PeriodicBox &real) const
 {
   PeriodicBox box = real;
-  if (!spec.motion.any()) return box;
+  if (!moves()) return box;
   for (int k = 0; k < 3; k++) {
     if (keeps_edge(real, k)) continue;
     Real lo = 0, hi = 1;

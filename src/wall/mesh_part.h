@@ -8,6 +8,7 @@
 #include "wall/mesh_body.h"
 #include "wall/mesh_grid.h"
 #include "wall/mesh_motion.h"
+#include "wall/mesh_nodes.h"
 #include "wall/servo_controller.h"
 
 #include <memory>
@@ -25,7 +26,8 @@ struct MeshPart {
   }
 
   const int index;
-  MeshSpec &spec;    // in that of the wall; its motion may change later
+  MeshSpec &spec;                      // in that of the wall; its motion may change later
+  std::unique_ptr<MeshNodes> nodes;    // null: they do not move. First, as bounds() asks for it
   MeshGrid grid;
   MeshMotion motion;
   ServoController servo_controller;
@@ -34,7 +36,11 @@ struct MeshPart {
   bool springs_are_foreign = false;    // those of a saved state are of another mesh
 
   const Servo &servo() const { return spec.motion.servo(); }
-  bool moves() const { return spec.motion.any(); }    // or was moved
+  bool moves() const { return nodes || spec.motion.any(); }    // or was moved
+
+  // In its own frame, in this step; null but on one process per node, where its nodes do not move.
+  const WeldedMesh *mesh() const { return nodes ? &nodes->mesh() : grid.mesh(); }
+  GridView view() const { return nodes ? nodes->view() : grid.view(); }
 
   Box bounds(Real past) const;    // in its own frame, and `past` (length) beyond
   // From where to where its vertices go along edge k of the box at a pose, as parts of the box.

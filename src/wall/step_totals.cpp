@@ -13,7 +13,8 @@ void StepTotals::clear()
   reduced_ = true;
 }
 
-void StepTotals::reduce(const WallEngine *engine, const std::vector<Pose> &poses)
+void StepTotals::reduce(const WallEngine *engine, const std::vector<Pose> &poses,
+                        const std::vector<Real> &node_powers)
 {
   if (reduced_) return;
   constexpr int kSums = 9;
@@ -27,7 +28,8 @@ void StepTotals::reduce(const WallEngine *engine, const std::vector<Pose> &poses
                 static_cast<Real>(t.contacts), static_cast<Real>(t.uncertified), t.energy});
     most.push_back(t.largest_overlap_ratio);
   }
-  host_.sum(sum.data(), kSums * n);
+  sum.insert(sum.end(), node_powers.begin(), node_powers.end());
+  host_.sum(sum.data(), static_cast<int>(sum.size()));
   host_.max(most.data(), n);
   for (int k = 0; k < n; k++) {
     const Real *const s = sum.data() + kSums * k;
@@ -46,6 +48,7 @@ void StepTotals::reduce(const WallEngine *engine, const std::vector<Pose> &poses
     // From 0, so that it is not -0 at rest.
     m.power = 0 - dot(m.force, pose.velocity) -
               dot(m.torque_at_origin - cross(pose.shift, m.force), pose.angular);
+    if (!node_powers.empty()) m.power += sum[kSums * n + k];
   }
   reduced_ = true;
 }

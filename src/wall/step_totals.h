@@ -39,8 +39,9 @@ class StepTotals {
   void clear();
 
   // Makes the sums, once a step. `engine`: null while there are no spheres. `poses`: of the meshes in
-  // this step. Collective.
-  void reduce(const WallEngine *engine, const std::vector<Pose> &poses);
+  // this step. `node_powers`: power of each mesh by its nodes, of this process; empty: none have nodes. Collective.
+  void reduce(const WallEngine *engine, const std::vector<Pose> &poses,
+              const std::vector<Real> &node_powers = {});
 
   // The sums of the last reduce().
   const MeshTotals &mesh(int k) const { return meshes_[k]; }

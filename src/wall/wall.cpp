@@ -31,8 +31,10 @@ WallSpec in_units(WallSpec spec, const WallUnits &units)
     law.cohesion.numbers[0] /= units.pressure;    // sjkr's
   };
   for (LawOfTypes &row : spec.laws) convert(row.law);
-  for (MeshSpec &mesh : spec.meshes)
+  for (MeshSpec &mesh : spec.meshes) {
     for (LawOfTypes &row : mesh.laws) convert(row.law);
+    mesh.pressure /= units.pressure;
+  }
   spec.wear.per_work *= units.pressure;
   return spec;
 }
@@ -49,19 +51,29 @@ Wall::Wall(Host &host, WallSpec spec, const WallUnits &units, WallBackend backen
            const std::string &material, const StepClock &clock, const HostSpheres &there) :
     host_(host),
     spec_(in_units(std::move(spec), units)), laws_(law_table(spec_)), backend_(std::move(backend)),
-    clock_(clock), history_(host, spec_), totals_(host, spec_), loads_(host, spec_),
-    files_(host, spec_, units.pressure), overlaps_(host), search_(host), times_(host),
-    timestep_(host, laws_, units.velocity), box_checks_(host, spec_, meshes_),
+    clock_(clock), pressure_unit_(units.pressure), history_(host, spec_), totals_(host, spec_),
+    loads_(host, spec_), files_(host, spec_, units.pressure), overlaps_(host), search_(host),
+    times_(host), timestep_(host, laws_, units.velocity), box_checks_(host, spec_, meshes_),
     grids_(host, spec_, laws_, meshes_, box_checks_, history_, times_)
 {
   for (std::size_t k = 0; k < spec_.meshes.size(); k++) {
     MeshPart &m = meshes_.emplace_back(host_, spec_, laws_, static_cast<int>(k),
                                        Step{clock.last_step, clock.dt});
     if (m.spec.body.present) make_body(m, units.velocity);
+    if (m.spec.has_nodes) {
+      has_nodes_ = true;
+      run_collectively(host_, true, [&] {
+        m.nodes = std::make_unique<MeshNodes>(host_, spec_, m.index, *m.grid.mesh());
+      });
+    }
     check_side(spec_, m);
     check_plane(host_, spec_, m);
     check_motion(host_, spec_, m);
   }
+  if (has_nodes_ && backend_.in_place)
+    throw InputError(std::string("this wall reads its ") + host_.names().sphere +
+                     "s in place, as on a GPU, where nodes do not move so far: " +
+                     host_.remedy(Remedy::compute_on_host));
   make_engine();
   log_creation(material, backend_);
 
@@ -110,13 +122,15 @@ std::vector<int> Wall::inputs_read() const
     for (const int input : m.motion.inputs()) all.push_back(input);
   for (const MeshPart &m : meshes_)
     if (m.spec.temperature_input != kNoInput) all.push_back(m.spec.temperature_input);
+  for (const MeshPart &m : meshes_)
+    if (m.spec.pressure_input != kNoInput) all.push_back(m.spec.pressure_input);
   return all;
 }
 
 std::size_t Wall::bytes() const
 {
   std::size_t bytes = engine_->bytes() + loads_.bytes() + history_.bytes();
-  for (const MeshPart &m : meshes_) bytes += m.grid.bytes();
+  for (const MeshPart &m : meshes_) bytes += m.grid.bytes() + (m.nodes ? m.nodes->bytes() : 0);
   return bytes;
 }
 
@@ -132,13 +146,14 @@ EngineSettings Wall::engine_settings() const
   want.meshes = static_cast<int>(meshes_.size());
   want.moves = meshes_.size() > 1;
   for (const MeshPart &m : meshes_) {
-    want.moves |= m.motion.moves_or_varies();
+    want.moves |= m.nodes || m.motion.moves_or_varies();
     if (!want.surface.moves()) want.surface = m.spec.surface;
   }
   want.records = spec_.has_loads() || virial_;
   want.bodies = has_bodies_;
+  want.nodes = has_nodes_;
   want.wear = spec_.wear.model;
-  want.device = spec_.device;
+  want.device = has_nodes_ ? Device::cpu : spec_.device;
   want.device_rank = host_.ranks().node_rank;
   return want;
 }
@@ -147,7 +162,7 @@ void Wall::make_engine()
 {
   const EngineSettings want = engine_settings();
   engine_moves_ = want.moves;
-  engine_records_ = want.records || want.bodies;
+  engine_records_ = want.records || want.bodies || want.nodes;
   run_collectively(host_, true, [&] { engine_ = backend_.make_engine(want); });
   history_.set_engine(*engine_);
   grids_.set_engine(*engine_);
@@ -165,7 +180,7 @@ void Wall::log_creation(const std::string &material, const WallBackend &backend)
 {
   if (!host_.is_first()) return;
   std::string device = engine_->backend(), why;
-  if (!spec_.brief && !backend.in_place && spec_.device == Device::automatic &&
+  if (!spec_.brief && !backend.in_place && spec_.device == Device::automatic && !has_nodes_ &&
       !cuda_available(&why))
     device += " (no CUDA: " + why + ")";
   host_.log(creation_text(host_.names(), spec_, meshes_, engine_settings(), material, device));
@@ -275,6 +290,8 @@ void Wall::move(const HostSpheres &spheres, const Step &step)
   if (has_bodies_) advance_bodies(step);
   for (MeshPart &m : meshes_)
     if (m.motion.moves_or_varies()) m.motion.place();
+  for (MeshPart &m : meshes_)
+    if (m.nodes) m.nodes->begin_step(step, cutoff());
 }
 
 // Inputs still have the values of the step before.
@@ -377,7 +394,7 @@ StepSettings Wall::step_settings()
   StepSettings step;
   step.dt = input_.step.dt;
   step.update_history = input_.step.kind == Step::step;
-  const bool asked = has_bodies_ && any_body_asks_for_contacts();
+  const bool asked = has_nodes_ || (has_bodies_ && any_body_asks_for_contacts());
   step.per_sphere = spec_.contacts || asked;
   step.records = spec_.has_loads() || input_.virial || asked;
   const bool several = meshes_.size() > 1;
@@ -391,6 +408,12 @@ StepSettings Wall::step_settings()
     for (const MeshPart &m : meshes_)
       mobilities_.push_back(m.body ? m.body->mobility() : Mobility());
     step.mobility = mobilities_.data();
+  }
+  if (has_nodes_) {
+    node_fields_.clear();
+    for (const MeshPart &m : meshes_)
+      node_fields_.push_back(m.nodes ? m.nodes->field() : NodeField());
+    step.nodes = node_fields_.data();
   }
   if (!spec_.law().has_heat()) return step;
   temperatures_.clear();
@@ -406,15 +429,65 @@ StepSettings Wall::step_settings()
 void Wall::choose_if_due(const Spheres &spheres)
 {
   history_.to_engine(spheres.n);
+  if (has_nodes_) {
+    build_node_grids();
+    turn_springs(spheres.n);
+  }
   std::vector<MovingMesh> moving;
   for (const MeshPart &m : meshes_)
-    if (m.moves()) moving.push_back({m.motion.pose(), m.bounds(cutoff())});
+    if (m.moves() && !m.nodes) moving.push_back({m.motion.pose(), m.bounds(cutoff())});
   const CandidateUpdate choice =
       schedule_.next(input_.drift, moving, [&] { return engine_->has_moved(spheres); });
   if (!choice.is_due) return;
   engine_->choose(spheres, choice.margin, choice.watch);
   schedule_.note_update(moving);
   search_.count_update();
+}
+
+// Each process has all nodes, and comes to the same grids.
+void Wall::build_node_grids()
+{
+  for (MeshPart &m : meshes_) {
+    if (!m.nodes || !m.nodes->needs_grid(cutoff())) continue;
+    m.nodes->build_grid(cutoff());
+    engine_->set_grid(m.view(), m.index);
+    schedule_.expire();
+  }
+}
+
+void Wall::turn_springs(int n)
+{
+  for (MeshPart &m : meshes_)
+    if (m.nodes) m.nodes->turn_springs(*engine_, n);
+}
+
+// Of this process, as for bodies.
+void Wall::sum_node_forces(const HostSpheres &spheres)
+{
+  for (MeshPart &m : meshes_) {
+    if (!m.nodes) continue;
+    if (cutoff() > 0)
+      m.nodes->sum_forces(*engine_, on_cpu(spheres).all());
+    else
+      m.nodes->clear_forces();
+  }
+}
+
+const std::vector<Real> &Wall::node_forces(int mesh)
+{
+  const MeshSpec &spec = spec_.meshes[mesh];
+  const Real pressure =
+      spec.pressure_input == kNoInput
+          ? spec.pressure
+          : input_.inputs.at(static_cast<std::size_t>(spec.pressure_input)) / pressure_unit_;
+  return meshes_[mesh].nodes->forces(pressure);
+}
+
+void Wall::clear_totals()
+{
+  totals_.clear();
+  for (MeshPart &m : meshes_)
+    if (m.nodes) m.nodes->clear_forces();
 }
 
 void Wall::launch(const HostSpheres &spheres, LaunchMode mode)
@@ -445,11 +518,12 @@ void Wall::finish(const HostSpheres &spheres)
   }
   totals_.expire();
   if (has_bodies_) note_step_of_bodies(spheres, step);
+  if (has_nodes_) sum_node_forces(spheres);
   if (spec_.has_loads() && step.kind == Step::step) {    // what sets a run up has no duration
     const bool any = cutoff() > 0;
     for (const MeshPart &m : meshes_)
       loads_.add(m.index, any ? engine_->records() : nullptr, any ? engine_->n_records() : 0,
-                 step.dt, any ? m.grid.view().wall : MeshFeaturesView());
+                 step.dt, any ? m.view().wall : MeshFeaturesView());
   }
   if (input_.new_spheres) check_new_spheres(spheres);
   if (step.kind == Step::setup) times_.begin_run();    // as the host's loop time
@@ -501,7 +575,10 @@ const StepTotals &Wall::totals()
 {
   std::vector<Pose> poses;
   for (const MeshPart &m : meshes_) poses.push_back(m.motion.pose());
-  totals_.reduce(cutoff() > 0 ? engine_.get() : nullptr, poses);
+  std::vector<Real> node_powers;
+  for (const MeshPart &m : meshes_)
+    if (has_nodes_) node_powers.push_back(m.nodes ? m.nodes->power() : 0);
+  totals_.reduce(cutoff() > 0 ? engine_.get() : nullptr, poses, node_powers);
   return totals_;
 }
 
@@ -541,7 +618,7 @@ void Wall::write_due_files()
 {
   times_.begin();
   std::vector<PosedMesh> meshes;
-  for (const MeshPart &m : meshes_) meshes.push_back({m.grid.mesh(), m.motion.pose()});
+  for (const MeshPart &m : meshes_) meshes.push_back({m.mesh(), m.motion.pose()});
   const bool has_loads = input_.step.kind != Step::snapshot;
   files_.write_due(input_.step.number, static_cast<double>(clock_.now()), meshes,
                    has_loads ? &loads_ : nullptr);
@@ -558,31 +635,34 @@ void Wall::set_inputs(const InputNames &inputs)
 void Wall::set_motion(int mesh, const RigidMotion &motion, const Step &now)
 {
   MeshPart &m = meshes_[mesh];
-  check_is_no_body(m);
+  check_may_move(m);
   m.motion.set(motion, now);
   motion_has_changed(m);
   log_change(m, "motion " + (motion.moves() ? m.motion.text(m.bounds(0)) : "none"));
 }
 
-// Throws InputError where the mesh moves by what acts on it.
-void Wall::check_is_no_body(const MeshPart &m) const
+// Throws InputError where the mesh moves by what acts on it, or by its nodes.
+void Wall::check_may_move(const MeshPart &m) const
 {
   if (m.body)
     throw InputError(
         named(m, "a body moves by what acts on it, and takes no motion, servo or pose"));
+  if (m.nodes)
+    throw InputError(
+        named(m, "its nodes alone move this mesh, and it takes no motion, servo or pose"));
 }
 
 void Wall::set_pose(int mesh, const Pose &pose)
 {
   MeshPart &m = meshes_[mesh];
-  check_is_no_body(m);
+  check_may_move(m);
   m.spec.motion.set_pose(pose);
 }
 
 void Wall::set_servo(int mesh, const Servo &servo)
 {
   MeshPart &m = meshes_[mesh];
-  check_is_no_body(m);
+  check_may_move(m);
   m.motion.set(servo);
   m.servo_controller.begin_anew();
   range_ = {};    // a run without setup looks then
@@ -632,7 +712,8 @@ WallState Wall::save()
     all.meshes.push_back({identity_of(m),
                           m.motion.state(),
                           {loads.time(), loads.packed()},
-                          m.body ? m.body->state() : BodyState()});
+                          m.body ? m.body->state() : BodyState(),
+                          {m.nodes ? m.nodes->names : std::vector<Real>()}});
   }
   return all;
 }
@@ -682,6 +763,10 @@ bool Wall::is_restored(const MeshPart &m, const MeshState &was, bool one_of_many
 void Wall::restore_mesh(MeshPart &m, const MeshState &was, const Step &now)
 {
   m.motion.restore(was.motion, now);
+  if (m.nodes) {
+    m.nodes->forget_turns();
+    m.nodes->names = was.nodes.names;
+  }
   if (m.body) {
     m.body->restore(was.body);
     m.spec.motion.set_pose(m.body->body().pose());

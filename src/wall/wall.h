@@ -94,7 +94,7 @@ class Wall {
   void finish(const HostSpheres &spheres);
 
   // The wall acts on nothing until the next step: its totals are 0. Not together.
-  void clear_totals() { totals_.clear(); }
+  void clear_totals();
   // Before spheres change their order or processes, and before set_motion() and set_servo(): what steps have noted
   // since the last time, of these spheres, whose tags are read. Throws where one had to leave out a sphere. Not
   // together.
@@ -113,6 +113,10 @@ class Wall {
   Real servo_push(int mesh);
   // The mesh's body, with velocities of the whole step; null: it is none.
   const MeshBody *body(int mesh);
+  MeshNodes &nodes(int mesh) { return *meshes_[mesh].nodes; }    // of a mesh that has_nodes
+  // Forces on the nodes of a mesh that has_nodes, of the last step, x y z, node after node: of contacts and of its
+  // pressure, the sums over all processes.
+  const std::vector<Real> &node_forces(int mesh);
   // Adds arm times force, over contacts of this process: xx, yy, zz, xy, xz, yz. Energy. Not together.
   void add_virial(Real *virial) const;
   // Calls row(sphere, numbers) for each sphere of this process with a contact, with the
@@ -133,9 +137,13 @@ class Wall {
   // Another servo of a mesh, from where the mesh is; one that is not present stops it. Along the same line its
   // position goes on.
   void set_servo(int mesh, const Servo &servo);
-  // The pose of a mesh whose motion is_posed(), and that is no body, for the next step and those after it. Not
+  // The pose of a mesh whose motion is_posed(), and that is no body and has no nodes, for the next step and those after it. Not
   // together.
   void set_pose(int mesh, const Pose &pose);
+  // Places (length) and velocities (length/time) of the nodes of a mesh that has_nodes, x y z, node after node, for the
+  // next step and those after it. Velocities are of the same time as those of spheres; null: all are 0. The same on
+  // all processes. Not together.
+  void set_nodes(int mesh, const Real *x, const Real *v) { meshes_[mesh].nodes->set(x, v); }
 
   // For a saved state: the history of a sphere, with the names of features that any run has. Returns the
   // numbers written. Not together.
@@ -171,6 +179,9 @@ class Wall {
   bool any_body_asks_for_contacts() const;
   void complete_bodies();
   void advance_bodies(const Step &step);
+  void build_node_grids();
+  void turn_springs(int n);
+  void sum_node_forces(const HostSpheres &spheres);
   void note_step_of_bodies(const HostSpheres &spheres, const Step &step);
 
   StepSettings step_settings();
@@ -178,7 +189,7 @@ class Wall {
   StepDiagnostics read_diagnostics(const HostSpheres &spheres);
   void check_new_spheres(const HostSpheres &spheres);
 
-  void check_is_no_body(const MeshPart &m) const;
+  void check_may_move(const MeshPart &m) const;
   void log_change(const MeshPart &m, const std::string &text);
   void motion_has_changed(const MeshPart &m);
   static MeshIdentity identity_of(const MeshPart &m);
@@ -191,8 +202,9 @@ class Wall {
   WallBackend backend_;
   // The time of the spheres; the host's time begins anew in some runs from a saved state.
   StepClock clock_;
+  Real pressure_unit_;             // of inputs
   std::deque<MeshPart> meshes_;    // where each stays; there is one at least
-  bool has_bodies_ = false;
+  bool has_bodies_ = false, has_nodes_ = false;
   std::unique_ptr<WallEngine> engine_;
   bool engine_moves_ = false, engine_records_ = false;    // what its laws are compiled for
   bool virial_ = false;                                   // may be asked for in this run
@@ -217,6 +229,7 @@ class Wall {
   std::vector<SurfaceMotion> surfaces_;
   std::vector<Real> temperatures_;
   std::vector<Mobility> mobilities_;
+  std::vector<NodeField> node_fields_;
 };
 
 }    // namespace lsdcd

@@ -72,6 +72,32 @@ void check_body(const WallSpec &wall, std::size_t k)
   }
 }
 
+// A mesh whose nodes move takes nothing that counts on its shape.
+void check_nodes(const WallSpec &wall, std::size_t k)
+{
+  const MeshSpec &mesh = wall.meshes[k];
+  const auto refuse = [&](const std::string &what, const std::string &remedy) {
+    throw InputError(mesh_text(wall, k) + " has nodes that move, and " + what + ": " + remedy);
+  };
+  if (!mesh.has_nodes) {
+    if (mesh.pressure != 0 || mesh.pressure_input != kNoInput)
+      throw InputError(
+          mesh_text(wall, k) +
+          " has a pressure, which acts on nodes, and no nodes: give it nodes, or leave "
+          "the pressure out");
+    return;
+  }
+  if (mesh.motion.any() || mesh.body.present)
+    refuse("a motion, servo, pose or body", "its nodes alone move it, leave the other out");
+  if (!mesh.cache_file.empty())
+    refuse("a cache file", "its grid is made anew as they move, leave the file out");
+  if (wall.precision != Precision::double_)
+    refuse("precision mixed or single", "use precision double");
+  if (wall.nearest > 0) refuse("lists of the nearest primitives", "leave nearest out");
+  if (wall.device == Device::cuda)
+    refuse("device cuda", "such walls are computed on the CPU so far, use device cpu or auto");
+}
+
 // Calls visit(law) for those of the wall and of its meshes.
 template <class Visit>
 void for_laws(WallSpec &wall, const Visit &visit)
@@ -93,6 +119,11 @@ bool WallSpec::has_bodies() const
 {
   return std::any_of(meshes.begin(), meshes.end(),
                      [](const MeshSpec &m) { return m.body.present; });
+}
+
+bool WallSpec::has_nodes() const
+{
+  return std::any_of(meshes.begin(), meshes.end(), [](const MeshSpec &m) { return m.has_nodes; });
 }
 
 bool WallSpec::has_loads() const
@@ -120,6 +151,8 @@ void check_spec(const WallSpec &wall)
     check_inputs(wall, k, "its surface", mesh.surface_input, std::size(mesh.surface_input));
     check_inputs(wall, k, "its temperature", &mesh.temperature_input, 1);
     check_body(wall, k);
+    check_inputs(wall, k, "its pressure", &mesh.pressure_input, 1);
+    check_nodes(wall, k);
     if (wall.law().has_heat() && !mesh.has_temperature)
       throw InputError(mesh_text(wall, k) +
                        " has no temperature, which the sub-model heat needs; give it one");
@@ -169,7 +202,7 @@ bool are_one_mesh(const WallSpec &wall, const MeshSpec &mesh, const WallSpec &ot
                   const MeshSpec &other)
 {
   return mesh.file == other.file && mesh.mesh == other.mesh && mesh.placement == other.placement &&
-         mesh.body.present == other.body.present &&
+         mesh.body.present == other.body.present && mesh.has_nodes == other.has_nodes &&
          are_same(mesh.motion.terms(), wall.inputs, other.motion.terms(), other_wall.inputs) &&
          are_same(mesh.motion.servo(), wall.inputs, other.motion.servo(), other_wall.inputs);
 }

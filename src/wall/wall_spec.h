@@ -48,6 +48,12 @@ struct MeshSpec {
   std::vector<LawOfTypes> laws;
   RigidMotion motion;
   BodySpec body;    // in place of terms and servo of the motion
+  // Likewise: its welded vertices are nodes, each where the program puts it.
+  bool has_nodes = false;
+  std::string
+      node_group;    // of the host's particles that are its nodes; empty: set_nodes() has them from elsewhere
+  Real pressure = 0;    // force/area; on its nodes, along the normals of faces
+  int pressure_input = kNoInput;
   SurfaceMotion surface;
   int surface_input[6] = {kNoInput, kNoInput, kNoInput,
                           kNoInput, kNoInput, kNoInput};    // of its velocity and angular velocity
@@ -94,6 +100,7 @@ struct WallSpec {
   bool has_loads(const MeshSpec &mesh) const { return wears() || mesh.fields.every > 0; }
   bool has_loads() const;
   bool has_bodies() const;
+  bool has_nodes() const;
 };
 
 // Throws InputError, which names the mesh and the member, where a wall cannot be made of this: for callers whose

@@ -74,6 +74,12 @@ void each_number(Numbers &numbers, LoadState &l)
 }
 
 template <class Numbers>
+void each_number(Numbers &numbers, NodeState &n)
+{
+  numbers(n.names);
+}
+
+template <class Numbers>
 void each_number(Numbers &numbers, SymmetricMatrix &m)
 {
   numbers(m.xx, m.yy, m.zz, m.xy, m.xz, m.yz);
@@ -145,6 +151,7 @@ State WallState::blocks() const
     if (!tables.empty()) mesh.add("tables", 1, tables);
     if (m.loads.time > 0 || !m.loads.rows.empty()) mesh.add("loads", 1, m.loads);
     if (m.body.present) mesh.add("body", 1, m.body);
+    if (!m.nodes.names.empty()) mesh.add("nodes", 1, m.nodes);
     all.add("mesh", 1, mesh);
   }
   return all;
@@ -168,6 +175,7 @@ WallState WallState::from(const State &state)
           throw StateError("a motion in the data of the wall has an input that is not there");
     mesh.find("loads", 1, m.loads);
     mesh.find("body", 1, m.body);
+    mesh.find("nodes", 1, m.nodes);
     if (m.loads.rows.size() % MeshLoads::kPackedLoad != 0)
       throw StateError("the loads in the data of the wall are no whole rows");
     const std::string unread = mesh.unread();

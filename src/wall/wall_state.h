@@ -32,11 +32,17 @@ struct LoadState {
   std::vector<Real> rows;    // of all processes, as of MeshLoads::packed()
 };
 
+// The particles of the host that are nodes of a mesh.
+struct NodeState {
+  std::vector<Real> names;    // in the order of its vertices; empty: the host has none
+};
+
 struct MeshState {
   MeshIdentity mesh;
   MotionState motion;
   LoadState loads;
   BodyState body;
+  NodeState nodes;
 };
 
 struct WallState {

@@ -539,6 +539,82 @@ TEST_F(wall_spec, goes_on_from_where_it_was_posed)
   EXPECT_EQ(second.pose(0), first.pose(0));
 }
 
+// ---- nodes -----------------------------------------------------------------------------------
+
+// A plate of four vertices, the first two of which are given in another order than triangles have them, mirrored and
+// shifted by its placement: the k-th node is the k-th vertex.
+TEST_F(wall_spec, set_nodes_lifts_a_plate_vertex_by_vertex)
+{
+  const api::Mesh mesh(std::vector<double>{1, 1, 0, -1, -1, 0, 1, -1, 0, -1, 1, 0},
+                       std::vector<std::uint32_t>{1, 2, 0, 1, 0, 3});
+  api::WallSpec spec = floor_of(api::Law::classic({"hooke", {kN, 0, 20, 0, 0, 1}}), mesh);
+  spec.meshes[0].placement.scale(-1, 1, 1).move(0.25, 0, 1);
+  spec.meshes[0].nodes_by_caller = true;
+  lsdcd::Wall wall(spec);
+  const std::vector<double> vertices = mesh.arrays().vertices, placed = wall.nodes(0);
+  ASSERT_EQ(placed.size(), vertices.size());
+  for (std::size_t k = 0; k < placed.size(); k += 3) {
+    EXPECT_EQ(placed[k], 0.25 - vertices[k]);
+    EXPECT_EQ(placed[k + 1], vertices[k + 1]);
+    EXPECT_EQ(placed[k + 2], 1);
+  }
+
+  // Lifted by 0.01, with a speed of 0.5 towards a sphere of radius 0.5 and mass 2 over the middle of a triangle.
+  std::vector<double> at = placed, velocities(at.size(), 0);
+  for (std::size_t k = 2; k < at.size(); k += 3) {
+    at[k] += 0.0625;
+    velocities[k] = 0.5;
+  }
+  wall.set_nodes(0, at, velocities);
+  Grains grains;
+  const auto face = mesh.arrays().faces;
+  double middle[2] = {0, 0};
+  for (int k = 0; k < 3; k++)
+    for (int d = 0; d < 2; d++) middle[d] += at[3 * face[k] + d] / 3;
+  grains.add(middle[0], middle[1], 1.5);
+  grains.step(wall);
+  const double wanted = kN * 0.0625 + 20 * grains.mass[0] * 0.5;
+  EXPECT_NEAR(grains.force[2], wanted, kN * kRounding);
+  EXPECT_NEAR(wall.totals(0).power, 0.5 * wanted, kN * kRounding);
+  const std::vector<double> forces = wall.node_forces(0);
+  for (std::uint32_t k = 0; k < 4; k++) {
+    const bool is_corner = k == face[0] || k == face[1] || k == face[2];
+    EXPECT_NEAR(forces[3 * k + 2], is_corner ? -wanted / 3 : 0, kN * kRounding) << k;
+  }
+  EXPECT_EQ(wall.nodes(0), at);
+}
+
+TEST_F(wall_spec, refuses_nodes_that_make_no_sense)
+{
+  const api::Mesh mesh(file_);
+  api::WallSpec spec = floor_of(hooke_history(), mesh);
+  lsdcd::Wall still(spec);
+  const auto error = [](const std::function<void()> &call) {
+    try {
+      call();
+    } catch (const api::Error &e) {
+      return std::string(e.what());
+    }
+    return std::string();
+  };
+  const auto has = [](const std::string &text, const char *part) {
+    return text.find(part) != std::string::npos;
+  };
+  EXPECT_TRUE(has(error([&] { still.nodes(0); }), "has no nodes that move: set nodes_by_caller"));
+  spec.meshes[0].nodes_by_caller = true;
+  lsdcd::Wall wall(spec);
+  std::vector<double> at = wall.nodes(0);
+  at[4] = NAN;
+  EXPECT_TRUE(has(error([&] { wall.set_nodes(0, at); }), "`positions[4]` is"));
+  EXPECT_TRUE(has(error([&] { wall.set_nodes(0, {1, 2, 3}); }), "there are 3 numbers"));
+  EXPECT_TRUE(has(error([&] { wall.set_motion(0, {}); }), "its nodes alone move this mesh"));
+  spec.meshes[0].posed_by_caller = true;
+  EXPECT_TRUE(has(error([&] { api::Wall made(spec); }), "`meshes[0].nodes_by_caller` is 1"));
+  spec.meshes[0].posed_by_caller = spec.meshes[0].nodes_by_caller = false;
+  spec.meshes[0].pressure = 2;
+  EXPECT_TRUE(has(error([&] { api::Wall made(spec); }), "it acts on nodes"));
+}
+
 // Hills of 128 triangles, by a side of 8.
 api::Mesh hills()
 {

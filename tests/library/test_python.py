@@ -392,6 +392,17 @@ def check_wall_specs():
     fact("its wrench is that of the spheres reversed", np.allclose(wrench.force, -force[:2].sum(axis=0), rtol=0, atol=1e-10) and
          np.allclose(wrench.torque, -torque, rtol=0, atol=1e-9), (wrench, torque))
 
+    lifted = lsdcd.Wall(lsdcd.WallSpec(hooke, [lsdcd.WallMesh(mesh, "sheet", nodes_by_caller=True)]))
+    nodes = lifted.nodes(0)
+    speed = np.zeros_like(nodes)
+    speed[:, 2] = 0.5
+    lifted.set_nodes(0, nodes + (0, 0, 0.01), speed)
+    force = forces(lifted, 1)
+    fact("a plate whose nodes are lifted has the force of one that is posed", np.allclose(force[:2, 2], wanted, rtol=0, atol=1e-10),
+         force)
+    fact("its nodes have the forces of the spheres", np.allclose(lifted.node_forces(0).sum(axis=0), -force[:2].sum(axis=0), rtol=0,
+                                                                 atol=1e-10), lifted.node_forces(0))
+
     law = {"kn": 1, "kt": 1, "gamman": 0, "xmu": 0, "dampflag": 0}
     for says, call, kind in (
             ("style is 'hook'", lambda: lsdcd.Law("hook", **law), ValueError),
@@ -418,6 +429,8 @@ def check_wall_specs():
             ("position has the shape (2,), not (3,)", lambda: posed.set_pose(0, position=(0, 0)), ValueError),
             ("mesh is 1; this wall has 1", lambda: posed.set_pose(1), lsdcd.Error),
             ("is not posed by the caller", lambda: both.set_pose(0), lsdcd.Error),
+            ("positions has the shape (1, 3)", lambda: lifted.set_nodes(0, [[0, 0, 0]]), ValueError),
+            ("has no nodes that move", lambda: both.nodes(0), lsdcd.Error),
             ("a wall is made of a WallSpec, or of `words`", lsdcd.Wall, TypeError)):
         refused(f"refused: {says}", says, call, kind)
     names = {(row.field, row.name) for row in lsdcd.sub_models()}

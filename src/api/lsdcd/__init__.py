@@ -601,7 +601,7 @@ class Wall(_Owner):
     one.
 
     With a `host` there are several processes: each makes a Wall of the same spec, for spheres of its own, and
-    all call its methods together, but for renumber(), pack(), unpack(), pose() and set_pose(). The errors of one are raised
+    all call its methods together, but for renumber(), pack(), unpack(), pose(), set_pose(), nodes() and set_nodes(). The errors of one are raised
     on all.
 
     Deprecated since 0.10.0: in place of the spec the words that follow fix wall/lsdcd in a script, a text or a list, by
@@ -754,6 +754,40 @@ class Wall(_Owner):
                  _numbers(velocity, (3,), "velocity"), _numbers(angular_velocity, (3,), "angular_velocity")]
         self._do(_lib.lsdcd_wall_set_pose, self._handle, _c_int(mesh, "mesh"),
                  *(None if numbers is None else numbers.ctypes.data for numbers in given))
+
+    def set_nodes(self, mesh: int, positions: ArrayLike, velocities: ArrayLike | None = None) -> None:
+        """Where the vertices of mesh number `mesh`, from 0, which has nodes_by_caller, are in the next step and those
+        after it, and how fast they go. Between the nodes of a triangle both are linear.
+
+        positions: (vertices, 3), length, in the order of Mesh.vertices. velocities: (vertices, 3), length/time, of the
+        time of the spheres' velocities: with velocity Verlet half a step before the positions; None: all are 0. The same on
+        all processes. Raises Error for a mesh that there is not or that has no such nodes and for a number that is not
+        finite, ValueError for another shape; the next step for a node that goes farther than the largest radius, or a
+        triangle without area."""
+        shape = (self._n_nodes(mesh), 3)
+        given = [_numbers(positions, shape, "positions"), _numbers(velocities, shape, "velocities")]
+        self._do(_lib.lsdcd_wall_set_nodes, self._handle, _c_int(mesh, "mesh"),
+                 *(None if numbers is None else numbers.ctypes.data for numbers in given))
+
+    def nodes(self, mesh: int = 0) -> NDArray[np.float64]:
+        """Where the vertices of a mesh with nodes_by_caller are after the last step, (vertices, 3), length."""
+        return self._of_nodes(_lib.lsdcd_wall_get_nodes, mesh)
+
+    def node_forces(self, mesh: int = 0) -> NDArray[np.float64]:
+        """Forces on these vertices in the last step, (vertices, 3), over all processes: those of contacts, each shared among
+        the nodes of its triangle or edge so that their sum and moment are those of the force at the closest point, and
+        those of `pressure`."""
+        return self._of_nodes(_lib.lsdcd_wall_get_node_forces, mesh)
+
+    def _n_nodes(self, mesh: int) -> int:
+        count = _size()
+        self._do(_lib.lsdcd_wall_get_node_count, self._handle, _c_int(mesh, "mesh"), ctypes.byref(count))
+        return count.value
+
+    def _of_nodes(self, call: Any, mesh: int) -> NDArray[np.float64]:
+        numbers = np.empty((self._n_nodes(mesh), 3))
+        self._do(call, self._handle, _c_int(mesh, "mesh"), numbers.ctypes.data)
+        return numbers
 
     def wrench(self, mesh: int | None = None, about: ArrayLike = (0, 0, 0)) -> Wrench:
         """Force and torque of the spheres on a mesh, from 0, in the last step, over all processes; None: on all meshes.

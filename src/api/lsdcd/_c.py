@@ -93,7 +93,7 @@ _WallMesh = _struct(
     ("surface_velocity", _real * 3), ("surface_angular_velocity", _real * 3), ("surface_centre", _real * 3),
     ("temperature", _real), ("torque_about", _real * 3), ("torque_about_moves", _int), ("wear_factor", _real),
     ("cache", ctypes.c_char_p), ("fields", ctypes.c_char_p), ("stl", ctypes.c_char_p), ("fields_every", _int),
-    ("stl_every", _int))
+    ("stl_every", _int), ("nodes_by_caller", _int), ("pressure", _real))
 _WallSpec = _struct(
     "_WallSpec", ("law", _at), ("meshes", _at), ("n_meshes", _size), ("corner", _int), ("side", _int), ("precision", _int),
     ("nearest", _int), ("cell", _real), ("memory", _real), ("rmax", _real), ("device", _int), ("wear", _int),
@@ -152,13 +152,14 @@ def _load() -> Any:
     lib.lsdcd_wall_step_spheres.argtypes = [_at, _at, _at]
     for call in ("renumber", "change"):
         getattr(lib, "lsdcd_wall_" + call).argtypes = [_at, _at, _size]
-    for call in ("get_totals", "get_pose", "set_servo"):
+    for call in ("get_totals", "get_pose", "set_servo", "get_node_count", "get_nodes", "get_node_forces"):
         getattr(lib, "lsdcd_wall_" + call).argtypes = [_at, _int, _at]
     lib.lsdcd_sub_model_get_facts.argtypes = [_size, _at]
     lib.lsdcd_place_scale.argtypes = lib.lsdcd_place_move.argtypes = [_at, _real, _real, _real]
     lib.lsdcd_place_rotate.argtypes = [_at, _at, _real]
     lib.lsdcd_wall_from_spec.argtypes = [_at, _at, _at]
     lib.lsdcd_wall_set_pose.argtypes = [_at, _int, _at, _at, _at, _at]
+    lib.lsdcd_wall_set_nodes.argtypes = [_at, _int, _at, _at]
     lib.lsdcd_wall_get_wrench.argtypes = [_at, _int, _at, _at, _at]
     lib.lsdcd_wall_set_motion.argtypes = [_at, _int, _at, _size]
     lib.lsdcd_wall_save.argtypes = [_at, _at, _size, _at]

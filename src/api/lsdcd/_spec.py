@@ -232,7 +232,8 @@ class WallMesh:
     `torque_about`: what the torque of Wall.totals() is about; with `torque_about_moves` that point moves with the mesh.
     `wear_factor`: it wears so many times as fast. `cache`: a file that keeps its grid. `fields`, (name, steps): a .vtp file
     of stress, contacts and wear of each triangle, written every so many steps, with a * for the step in its name; `stl`
-    likewise: the mesh where it is.
+    likewise: the mesh where it is. `nodes_by_caller`: Wall.set_nodes() moves each vertex, and nothing else moves the mesh;
+    `pressure`, force/area, then pushes them to where normals point by the winding, out of a closed mesh.
 
     Raises TypeError and ValueError for what is no such value; Wall() refuses what makes no sense."""
 
@@ -243,7 +244,8 @@ class WallMesh:
                  temperature: float = 0.0, torque_about: ArrayLike = (0, 0, 0), torque_about_moves: bool = False,
                  wear_factor: float = 1.0, cache: str | os.PathLike[str] | None = None,
                  fields: tuple[str | os.PathLike[str], int] | None = None,
-                 stl: tuple[str | os.PathLike[str], int] | None = None) -> None:
+                 stl: tuple[str | os.PathLike[str], int] | None = None, nodes_by_caller: bool = False,
+                 pressure: float = 0.0) -> None:
         from . import Mesh    # which is made of this module, too
         matrix = placement.matrix if isinstance(placement, Placement) else _numbers(placement, (3, 4), "placement")
         flat = np.zeros(12) if matrix is None else matrix.ravel()
@@ -263,7 +265,7 @@ class WallMesh:
             # C has 0 for once and -1 for never.
             wear_factor={0.0: -1.0, 1.0: 0.0}.get(factor, factor), cache=cache or None,
             fields=fields[0] if fields else None, fields_every=fields[1] if fields else 0, stl=stl[0] if stl else None,
-            stl_every=stl[1] if stl else 0)
+            stl_every=stl[1] if stl else 0, nodes_by_caller=bool(nodes_by_caller), pressure=pressure)
         self._kept = (mesh, law, laws, types, tuple(motions), moved, servo)    # what the struct points to
 
 

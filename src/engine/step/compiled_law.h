@@ -65,25 +65,28 @@ struct WallEffects {
   bool surface, records;
 };
 
-template <class Law, bool kSurface_, bool kRecords_>
+template <class Law, bool kSurface_, bool kRecords_, bool kNodes_ = false>
 struct OnWall : Law {
-  static constexpr bool kSurface = kSurface_, kRecords = kRecords_;
+  static constexpr bool kSurface = kSurface_, kRecords = kRecords_, kNodes = kNodes_;
 };
 
 // The kernels that a law has, by their effects. plain: {none}. moving_or_both: {moving}, {moving + records}.
 // plain_or_both: {none}, {moving + records}. Where a wall has records alone it takes {moving + records}.
-enum class WallKernels { plain, moving_or_both, plain_or_both };
+// nodes: {moving + records + nodes}, of walls with a mesh whose nodes move.
+enum class WallKernels { plain, moving_or_both, plain_or_both, nodes };
 
 // Calls make(law) with the law that has the effects.
 template <WallKernels kernels, class Law, class Make>
 auto on_wall(const Law &law, const WallEffects &effects, const Make &make)
 {
+  if constexpr (kernels == WallKernels::nodes) return make(OnWall<Law, true, true, true>{law});
   if constexpr (kernels == WallKernels::plain) return make(OnWall<Law, false, false>{law});
   if constexpr (kernels == WallKernels::moving_or_both)
     if (!effects.records) return make(OnWall<Law, true, false>{law});
   if constexpr (kernels == WallKernels::plain_or_both)
     if (!effects.records && !effects.surface) return make(OnWall<Law, false, false>{law});
-  if constexpr (kernels != WallKernels::plain) return make(OnWall<Law, true, true>{law});
+  if constexpr (kernels == WallKernels::moving_or_both || kernels == WallKernels::plain_or_both)
+    return make(OnWall<Law, true, true>{law});
 }
 
 struct StepJob;
@@ -91,15 +94,20 @@ struct StepJob;
 // The numbers that engines store and move for a law.
 struct LawTraits {
   bool history, heat, records;
-  int n_extra;
+  int n_extra, n_vectors;    // n_vectors: of the extra numbers those that come first, three each
 };
+constexpr int kMostVectors = 2;
 
 template <class Law>
 LawTraits traits_of(const Law &law)
 {
   bool heat = false;
   if constexpr (Law::kHeat) heat = law.has_heat();
-  return {Law::kHistory, heat, Law::kRecords, n_extra(law)};
+  static_assert(Law::kVectors <= kMostVectors, "springs are turned with all of them");
+  int n_vectors = 0;
+  if constexpr (Law::kVectors > 0)
+    for (int k = 0; k < Law::kVectors; k++) n_vectors += law.stores(k);
+  return {Law::kHistory, heat, Law::kRecords, n_extra(law), n_vectors};
 }
 
 // A law compiled for one backend; run() does the step of n candidates, see run_compiled_law().
@@ -113,7 +121,7 @@ struct CompiledLaw {
 // The wall's effects that the settings ask for.
 inline WallEffects wall_effects(const EngineSettings &s)
 {
-  return {s.surface.moves() || s.moves || uses_slots(s), s.records || s.bodies};
+  return {s.surface.moves() || s.moves || uses_slots(s), s.records || s.bodies || s.nodes};
 }
 
 }    // namespace lsdcd

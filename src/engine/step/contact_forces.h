@@ -4,6 +4,7 @@
 // Force and torque on one sphere by its contacts.
 #pragma once
 
+#include "contact/node_field.h"
 #include "engine/results/results.h"
 #include "engine/step/narrow_phase.h"
 #include "engine/wall_engine.h"
@@ -51,6 +52,7 @@ struct ForceSettings {
   WearModel wear;                      // read only where there are records
   bool gives_way;       // the mesh is a rigid body; read only where there are records
   Mobility mobility;    // of it
+  NodeField nodes;      // where its nodes move; read only by laws for these
 };
 
 // The settings of one mesh.
@@ -73,6 +75,7 @@ inline ForceSettings force_settings(const EngineSettings &engine, const StepSett
   s.wear = engine.wear;
   s.mobility = step.mobility ? step.mobility[mesh] : Mobility();
   s.gives_way = s.mobility.any();
+  s.nodes = step.nodes ? step.nodes[mesh] : NodeField();
   return s;
 }
 
@@ -156,6 +159,12 @@ LSDCD_FN void add_contacts(const GridView &grid, const Law &law, const ForceSett
         v -= settings.wall_velocity + turning -
              settings.back * cross(settings.wall_angular, turning);
       }
+    [[maybe_unused]] NodeShares nodes = {};
+    if constexpr (Law::kNodes)
+      if (settings.nodes.velocity) {
+        nodes = node_shares(grid.wall, set.feature[i], closest);
+        v -= field_at(nodes, settings.nodes.velocity);
+      }
     const Real v_normal = dot(v, n);
     Contact<T> c;
     c.normal = vec_cast<T>(n);
@@ -176,6 +185,8 @@ LSDCD_FN void add_contacts(const GridView &grid, const Law &law, const ForceSett
       // Rolling and twisting are relative to a wall that turns.
       Vec3 omega = s.omega;
       if constexpr (Law::kSurface) omega -= settings.wall_angular + settings.surface.angular;
+      if constexpr (Law::kNodes)
+        if (settings.nodes.velocity) omega -= field_at(nodes, settings.nodes.spin);
       c.omega = vec_cast<T>(omega);
     }
     if constexpr (Law::kHeat)

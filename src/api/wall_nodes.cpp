@@ -1,0 +1,136 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// A mesh of a wall whose nodes the caller moves: lsdcd_wall_set_nodes, lsdcd_wall_get_nodes,
+// lsdcd_wall_get_node_forces, lsdcd_wall_get_node_count.
+#include "api/device_memory.h"
+#include "api/refusals.h"
+#include "api/wall_handle.h"
+#include "mesh/weld_map.h"
+
+#include <cmath>
+#include <cstddef>
+#include <numeric>
+#include <string>
+#include <utility>
+#include <vector>
+
+using namespace lsdcd;
+
+namespace {
+
+const MeshPart &part_with_nodes(const lsdcd_wall &wall, int mesh)
+{
+  check_mesh(wall, mesh, 0);
+  const MeshPart &part = wall.in->meshes()[static_cast<std::size_t>(mesh)];
+  if (part.nodes) return part;
+  throw ApiError(
+      LSDCD_ERROR_ARGUMENT,
+      "mesh " + std::to_string(mesh) + ", '" + part.spec.name +
+          "', has no nodes that move: set nodes_by_caller in its lsdcd_wall_mesh when the "
+          "wall is made");
+}
+
+// Of each vertex of the caller's mesh the node of the wall's, which was welded once more.
+const std::vector<int> &node_of_vertex(lsdcd_wall &wall, int mesh)
+{
+  std::vector<std::vector<int>> &all = wall.node_of_vertex;
+  if (all.empty()) all.resize(wall.in->meshes().size());
+  std::vector<int> &nodes = all[static_cast<std::size_t>(mesh)];
+  if (!nodes.empty()) return nodes;
+  const MeshPart &part = part_with_nodes(wall, mesh);
+  std::vector<Vec3> places;
+  for (const Vec3 &x : part.spec.mesh->vertices) places.push_back(part.spec.placement.apply(x));
+  const std::vector<Vec3> &at = part.grid.mesh()->vertices;
+  std::vector<int> numbers(at.size());
+  std::iota(numbers.begin(), numbers.end(), 0);
+  std::vector<int> found = vertices_at(places, at, numbers);
+  std::vector<char> taken(at.size(), 0);
+  for (std::size_t k = 0; k < found.size(); k++)
+    if (found[k] == kNoVertex || taken[found[k]]++)
+      throw ApiError(LSDCD_ERROR_INPUT, "vertex " + std::to_string(k) + " of mesh '" +
+                                            part.spec.name +
+                                            "' is placed where another is: its placement shrinks "
+                                            "them to one");
+  nodes = std::move(found);
+  return nodes;
+}
+
+// An array of three numbers a vertex, in the memory of the host.
+void check_host_array(const double *array, const char *name)
+{
+  need(array, name);
+  if (DeviceMemory().only_there(array))
+    throw ApiError(LSDCD_ERROR_DEVICE, std::string("the array `") + name +
+                                           "` is in the memory of a GPU, and nodes are read and "
+                                           "written in that of the host so far: copy it there");
+}
+
+std::vector<Real> in_order_of_nodes(const double *given, const std::vector<int> &nodes,
+                                    const char *name)
+{
+  check_host_array(given, name);
+  std::vector<Real> out(3 * nodes.size());
+  for (std::size_t k = 0; k < nodes.size(); k++)
+    for (int d = 0; d < 3; d++)
+      out[3 * static_cast<std::size_t>(nodes[k]) + d] =
+          checked_number(given[3 * k + d], element(name, 3 * k + d));
+  return out;
+}
+
+void in_order_of_vertices(const Real *of_nodes, const std::vector<int> &nodes, double *to)
+{
+  for (std::size_t k = 0; k < nodes.size(); k++)
+    for (int d = 0; d < 3; d++)
+      to[3 * k + d] = of_nodes[3 * static_cast<std::size_t>(nodes[k]) + d];
+}
+
+}    // namespace
+
+extern "C" {
+
+int lsdcd_wall_set_nodes(lsdcd_wall *wall, int mesh, const double *positions,
+                         const double *velocities)
+{
+  return guard_wall(wall, [&] {
+    part_with_nodes(*wall, mesh);
+    const std::vector<int> &nodes = node_of_vertex(*wall, mesh);
+    const std::vector<Real> x = in_order_of_nodes(positions, nodes, "positions");
+    std::vector<Real> v;
+    if (velocities) v = in_order_of_nodes(velocities, nodes, "velocities");
+    wall->in->set_nodes(mesh, x.data(), velocities ? v.data() : nullptr);
+    if (wall->caller.is_alone()) return;
+    wall->poses.add(mesh, x);
+    wall->poses.add(mesh, v);
+  });
+}
+
+int lsdcd_wall_get_node_count(lsdcd_wall *wall, int mesh, size_t *count)
+{
+  return guard_wall(wall, [&] {
+    need(count, "count");
+    part_with_nodes(*wall, mesh);
+    *count = node_of_vertex(*wall, mesh).size();
+  });
+}
+
+int lsdcd_wall_get_nodes(lsdcd_wall *wall, int mesh, double *positions)
+{
+  return guard_wall(wall, [&] {
+    const MeshPart &part = part_with_nodes(*wall, mesh);
+    check_host_array(positions, "positions");
+    in_order_of_vertices(&part.mesh()->vertices[0].x, node_of_vertex(*wall, mesh), positions);
+  });
+}
+
+int lsdcd_wall_get_node_forces(lsdcd_wall *wall, int mesh, double *forces)
+{
+  return guard_wall(wall, [&] {
+    part_with_nodes(*wall, mesh);
+    check_host_array(forces, "forces");
+    tell_late(*wall);
+    in_order_of_vertices(wall->in->node_forces(mesh).data(), node_of_vertex(*wall, mesh), forces);
+  });
+}
+
+}    // extern "C"

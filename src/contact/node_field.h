@@ -1,0 +1,60 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// A mesh whose nodes move: the shares of the nodes of a feature in one of its points, and the velocity there.
+#pragma once
+
+#include "geometry/wall_records.h"
+
+namespace lsdcd {
+
+// Of each vertex of a mesh, or null. The spin is the mean angular velocity of the faces around a vertex.
+struct NodeField {
+  const Vec3 *velocity = nullptr;    // length/time; null: the nodes of this mesh do not move
+  const Vec3 *spin = nullptr;        // 1/time; null: no law asks for it
+};
+
+// The nodes of a feature and their shares in a point of it. The shares add up to 1, and the nodes' places with
+// these shares to the point: they are its barycentric coordinates.
+struct NodeShares {
+  int n;
+  std::int32_t node[3];
+  Real share[3];
+};
+
+LSDCD_FN NodeShares node_shares(const MeshFeaturesView &wall, FeatureCode feature, const Vec3 &at)
+{
+  const std::uint32_t i = feature_index(feature);
+  switch (feature_kind(feature)) {
+    case FeatureKind::face: {
+      // The distance from an edge over that of the corner across from it.
+      const FaceRecord &face = wall.faces[i];
+      const FaceVertices &corner = wall.face_vertex[i];
+      const Vec3 d = at - face.anchor;
+      const Real one = dot(face.inward[2], d) /
+                       dot(face.inward[2], wall.vertices[corner.v[1]].position - face.anchor),
+                 two = dot(face.inward[0], d) /
+                       dot(face.inward[0], wall.vertices[corner.v[2]].position - face.anchor);
+      return {3, {corner.v[0], corner.v[1], corner.v[2]}, {1 - one - two, one, two}};
+    }
+    case FeatureKind::edge: {
+      const EdgeRecord &edge = wall.edges[i];
+      const EdgeVertices &end = wall.edge_vertex[i];
+      const Real one = dot(edge.direction, at - edge.anchor) / edge.length;
+      return {2, {end.v[0], end.v[1], 0}, {1 - one, one, 0}};
+    }
+    default:
+      return {1, {static_cast<std::int32_t>(i), 0, 0}, {1, 0, 0}};
+  }
+}
+
+// The value of a field there. Where all nodes have the same it is exactly that.
+LSDCD_FN Vec3 field_at(const NodeShares &at, const Vec3 *field)
+{
+  const Vec3 first = field[at.node[0]];
+  Vec3 value = first;
+  for (int k = 1; k < at.n; k++) value += at.share[k] * (field[at.node[k]] - first);
+  return value;
+}
+
+}    // namespace lsdcd

@@ -1,0 +1,288 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "wall/mesh_nodes.h"
+
+#include "base/input_error.h"
+#include "base/input_words.h"
+#include "contact/history.h"
+#include "wall/mesh_name.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+namespace lsdcd {
+
+namespace {
+
+// How far nodes may go before the grid is built anew, as a share of the cutoff. More makes lists of cells longer,
+// less makes builds more frequent.
+constexpr Real kAllowance = 0.2;
+
+Real farthest(const std::vector<Vec3> &from, const std::vector<Vec3> &to, std::size_t &node)
+{
+  Real most = -1;
+  for (std::size_t i = 0; i < from.size(); i++) {
+    const Real way = norm_sq(to[i] - from[i]);
+    if (way <= most) continue;    // one that is no number is the farthest
+    most = way;
+    node = i;
+    if (!(way >= 0)) return HUGE_VAL;
+  }
+  return std::sqrt(std::max(most, Real(0)));
+}
+
+// The rotation of a face: its normal by the smallest turn of its plane, and in the plane the turn that fits best
+// (the polar decomposition of the plane map).
+struct FaceTurn {
+  Vec3 from[3], to[3];    // orthonormal frames
+  bool is_none;
+
+  FaceTurn(const Vec3 &a0, const Vec3 &b0, const Vec3 &c0, const Vec3 &a1, const Vec3 &b1,
+           const Vec3 &c1)
+  {
+    const Vec3 e0 = b0 - a0, f0 = c0 - a0, e1 = b1 - a1, f1 = c1 - a1;
+    is_none = e0 == e1 && f0 == f1;
+    if (is_none) return;
+    const auto frame = [](const Vec3 &e, const Vec3 &f, Vec3 *axis) {
+      const Vec3 n = cross(e, f);
+      axis[0] = (1 / norm(e)) * e;
+      axis[2] = (1 / norm(n)) * n;
+      axis[1] = cross(axis[2], axis[0]);
+    };
+    frame(e0, f0, from);
+    frame(e1, f1, to);
+    // The plane map in these frames is upper triangular: (p q; 0 r).
+    const Real p = norm(e1) / norm(e0), y = dot(f0, from[1]),
+               q = (dot(f1, to[0]) - p * dot(f0, from[0])) / y, r = dot(f1, to[1]) / y;
+    const Real length = std::sqrt((p + r) * (p + r) + q * q), cosine = (p + r) / length,
+               sine = -q / length;
+    const Vec3 first = to[0], second = to[1];
+    to[0] = cosine * first + sine * second;
+    to[1] = cosine * second - sine * first;
+  }
+  Vec3 of(const Vec3 &a) const
+  {
+    return dot(from[0], a) * to[0] + dot(from[1], a) * to[1] + dot(from[2], a) * to[2];
+  }
+};
+
+}    // namespace
+
+MeshNodes::MeshNodes(Host &host, const WallSpec &wall, int mesh, const WeldedMesh &welded) :
+    host_(host), wall_(wall), index_(mesh), with_sides_(wall.side != Side::both),
+    with_spins_(wall.law().rolling.is_on() || wall.law().twisting.is_on()), mesh_(welded),
+    features_(make_moving_features(mesh_, with_sides_)), bounds_{mesh_.report.lo, mesh_.report.hi},
+    velocity_(mesh_.vertices.size(), Vec3{0, 0, 0}), spin_(velocity_),
+    of_contacts_(3 * velocity_.size(), 0)
+{
+}
+
+std::string MeshNodes::named(const std::string &text) const
+{
+  return with_mesh_name(wall_, index_, text);
+}
+
+// ---- where they are ----------------------------------------------------------------------
+
+void MeshNodes::set(const Real *x, const Real *v)
+{
+  const std::size_t n = mesh_.vertices.size();
+  next_.resize(n);
+  next_velocity_.assign(n, Vec3{0, 0, 0});
+  for (std::size_t i = 0; i < n; i++) {
+    next_[i] = {x[3 * i], x[3 * i + 1], x[3 * i + 2]};
+    if (v) next_velocity_[i] = {v[3 * i], v[3 * i + 1], v[3 * i + 2]};
+  }
+}
+
+void MeshNodes::begin_step(const Step &step, Real cutoff)
+{
+  if (next_.empty()) return;
+  std::size_t node = 0;
+  const Real most = farthest(mesh_.vertices, next_, node);
+  if (!std::isfinite(most) && !std::isfinite(norm(next_[node])))
+    throw InputError(
+        named("node " + std::to_string(node) +
+              " (from 0) is at no finite place: the motion of the nodes is unstable, or "
+              "one is lost"));
+  if (step.kind == Step::step && cutoff > 0 && most > cutoff)
+    throw InputError(named("node " + std::to_string(node) + " (from 0) has gone " +
+                           number_text(most) + " in step " + std::to_string(step.number) +
+                           ", more than the largest radius " + number_text(cutoff) +
+                           ": it may have gone through a sphere; make the timestep shorter"));
+  mesh_.vertices.swap(next_);
+  velocity_.swap(next_velocity_);
+  next_.clear();
+  update_features(mesh_, with_sides_, features_);
+  bounds_ = {mesh_.vertices.front(), mesh_.vertices.front()};
+  for (const Vec3 &x : mesh_.vertices)
+    for (int d = 0; d < 3; d++) {
+      bounds_.lo[d] = std::min(bounds_.lo[d], x[d]);
+      bounds_.hi[d] = std::max(bounds_.hi[d], x[d]);
+    }
+  if (with_spins_) find_spins(step.kind == Step::step ? step.dt / 2 : 0);
+}
+
+// The spin of a face is that of its plane, n x dn/dt, and about its normal half the curl of the velocities. With
+// the edges e, f from one corner, the velocities d, g of their ends relative to it, and N = e x f,
+//
+//   dN/dt = d x f + e x g,   n . curl = n . ((f x n) x d + (n x e) x g)/|N|.
+//
+// Of a rigid motion that is the angular velocity. The edges are those of `back` ago (time), when the velocities are of;
+// a turn by an angle a in a step has the spin to a^2/12. A node has the mean of its faces, weighted by area.
+void MeshNodes::find_spins(Real back)
+{
+  std::fill(spin_.begin(), spin_.end(), Vec3{0, 0, 0});
+  std::vector<Real> weight(spin_.size(), 0);
+  for (const auto &face : mesh_.faces) {
+    const Vec3 &a = mesh_.vertices[face[0]], &va = velocity_[face[0]];
+    const Vec3 d = velocity_[face[1]] - va, g = velocity_[face[2]] - va,
+               e = mesh_.vertices[face[1]] - a - back * d,
+               f = mesh_.vertices[face[2]] - a - back * g;
+    const Vec3 area = cross(e, f);
+    const Real size = norm(area);
+    const Vec3 n = (1 / size) * area, changes = (1 / size) * (cross(d, f) + cross(e, g));
+    const Real curl = dot(n, cross(cross(f, n), d) + cross(cross(n, e), g)) / size;
+    const Vec3 spin = cross(n, changes) + (Real(0.5) * curl) * n;
+    for (const int v : face) {
+      spin_[v] += size * spin;
+      weight[v] += size;
+    }
+  }
+  for (std::size_t i = 0; i < spin_.size(); i++)
+    if (weight[i] > 0) spin_[i] = (1 / weight[i]) * spin_[i];
+}
+
+// ---- the grid ----------------------------------------------------------------------------
+
+bool MeshNodes::needs_grid(Real cutoff) const
+{
+  if (!grid_.is_built() || cutoff != grid_.cutoff()) return true;
+  std::size_t node = 0;
+  return !(farthest(built_at_, mesh_.vertices, node) <= grid_.allowance());
+}
+
+void MeshNodes::build_grid(Real cutoff)
+{
+  grid_.build(mesh_, features_, cutoff, kAllowance * cutoff);
+  built_at_ = mesh_.vertices;
+}
+
+// ---- springs -----------------------------------------------------------------------------
+
+// A vector turned with these faces: by the mean of their rotations, and as long as before.
+Vec3 MeshNodes::turned(const std::vector<int> &faces, const Vec3 &a) const
+{
+  Vec3 sum = {0, 0, 0};
+  bool any = false;
+  for (const int face : faces) {
+    const auto &c = mesh_.faces[face];
+    const FaceTurn turn(turned_from_[c[0]], turned_from_[c[1]], turned_from_[c[2]],
+                        mesh_.vertices[c[0]], mesh_.vertices[c[1]], mesh_.vertices[c[2]]);
+    any |= !turn.is_none;
+    sum += turn.is_none ? a : turn.of(a);
+  }
+  const Real length = norm(sum);
+  return any && length > 0 ? (norm(a) / length) * sum : a;
+}
+
+void MeshNodes::turn_springs(WallEngine &engine, int n)
+{
+  std::vector<int> faces;
+  const auto turn = [&](Spring &spring, Vec3 *vectors, int n_vectors) {
+    const std::uint32_t i = feature_index(spring.feature);
+    const FeatureKind kind = feature_kind(spring.feature);
+    faces.clear();
+    const auto add_faces_of = [&](int edge) {
+      for (int k = mesh_.edge_first[edge]; k < mesh_.edge_first[edge + 1]; k++)
+        faces.push_back(mesh_.edge_face[k]);
+    };
+    if (kind == FeatureKind::face)
+      faces.push_back(static_cast<int>(i));
+    else if (kind == FeatureKind::edge)
+      add_faces_of(static_cast<int>(i));
+    else
+      for (int k = mesh_.vertex_first[i]; k < mesh_.vertex_first[i + 1]; k++)
+        add_faces_of(mesh_.vertex_edge[k]);
+    // An edge without a face turns by the smallest turn of its direction.
+    const bool is_bare = faces.empty() && kind == FeatureKind::edge;
+    const auto direction = [&](const std::vector<Vec3> &at) {
+      const auto &end = mesh_.edges[i];
+      const Vec3 along = at[end[1]] - at[end[0]];
+      return (1 / norm(along)) * along;
+    };
+    const auto turn_one = [&](Vec3 &a) {
+      a = is_bare ? transport(a, direction(turned_from_), direction(mesh_.vertices))
+                  : turned(faces, a);
+    };
+    turn_one(spring.normal);
+    turn_one(spring.shear);
+    for (int k = 0; k < n_vectors; k++) turn_one(vectors[k]);
+  };
+  if (!turned_from_.empty()) engine.turn_springs(n, index_, turn);
+  turned_from_ = mesh_.vertices;
+}
+
+// ---- forces ------------------------------------------------------------------------------
+
+void MeshNodes::clear_forces()
+{
+  std::fill(of_contacts_.begin(), of_contacts_.end(), 0);
+  power_ = 0;
+  are_summed_ = true;
+}
+
+// Records are in the order of the spheres that touch, so that the sum is the same in each run.
+void MeshNodes::sum_forces(const WallEngine &engine, const Spheres &spheres)
+{
+  clear_forces();
+  are_summed_ = false;
+  const MeshFeaturesView wall = features_.view();
+  const ContactRecord *record = engine.records();
+  for (int k = 0; k < engine.n_touching(); k++) {
+    const Vec3 x = spheres.x[engine.touching()[k]];
+    for (int n = 0; n < static_cast<int>(engine.sphere_output()[k].contacts); n++, record++) {
+      if (record->mesh != static_cast<std::uint32_t>(index_)) continue;
+      const NodeShares at = node_shares(wall, record->feature, x - record->arm);
+      for (int j = 0; j < at.n; j++)
+        for (int d = 0; d < 3; d++)
+          of_contacts_[3 * at.node[j] + d] += at.share[j] * record->force[d];
+      power_ -= dot(record->force, field_at(at, velocity_.data()));
+    }
+  }
+}
+
+// A pressure on a flat face is a third of p times its area on each corner: the moment of that is the pressure's own,
+// and on a closed mesh both sums are 0.
+const std::vector<Real> &MeshNodes::forces(Real pressure)
+{
+  if (!are_summed_) host_.sum(of_contacts_.data(), static_cast<int>(of_contacts_.size()));
+  are_summed_ = true;
+  if (pressure == 0) return of_contacts_;
+  forces_ = of_contacts_;
+  const bool is_inverted = mesh_.report.closed && mesh_.report.volume < 0;
+  const Real part = (is_inverted ? -pressure : pressure) / 6;
+  for (const auto &face : mesh_.faces) {
+    const Vec3 &a = mesh_.vertices[face[0]];
+    const Vec3 share = part * cross(mesh_.vertices[face[1]] - a, mesh_.vertices[face[2]] - a);
+    for (const int v : face)
+      for (int d = 0; d < 3; d++) forces_[3 * v + d] += share[d];
+  }
+  return forces_;
+}
+
+std::size_t MeshNodes::bytes() const
+{
+  std::size_t total = grid_.bytes() + (of_contacts_.size() + forces_.size()) * sizeof(Real);
+  MeshFeaturesView::each_array(features_, [&](const auto &a) {
+    total += a.size() * sizeof(typename std::decay_t<decltype(a)>::value_type);
+  });
+  for (const std::vector<Vec3> *a :
+       {&mesh_.vertices, &velocity_, &spin_, &next_, &next_velocity_, &built_at_, &turned_from_})
+    total += a->size() * sizeof(Vec3);
+  return total;
+}
+
+}    // namespace lsdcd

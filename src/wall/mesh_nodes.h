@@ -1,0 +1,89 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// A mesh whose nodes, its welded vertices, are where the caller puts them in each step: its records, its grid, and
+// the forces of contacts on its nodes. Every process has all nodes.
+//
+// Rigid meshes have lists of features for many steps. Here each sphere searches its cell in each step, whose list
+// goes by distance alone (grid/node_grid.h), as a region that a list left out may turn towards the sphere.
+#pragma once
+
+#include "engine/wall_engine.h"
+#include "grid/node_grid.h"
+#include "host/host.h"
+#include "wall/wall_spec.h"
+
+#include <memory>
+#include <vector>
+
+namespace lsdcd {
+
+class MeshNodes {
+ public:
+  // The mesh with this number, from 0, as it was welded: its nodes are there, at rest, until they are set. Host and
+  // wall must outlive it.
+  MeshNodes(Host &host, const WallSpec &wall, int mesh, const WeldedMesh &welded);
+
+  int count() const { return static_cast<int>(mesh_.vertices.size()); }
+  // Places (length) and velocities (length/time) of the nodes from the next step on: x y z, node after node. Velocities
+  // are of the same time as those of spheres. `v` null: all are 0.
+  void set(const Real *x, const Real *v);
+
+  // Begins a step: nodes go to where they were set. `cutoff`: 0 while there are no spheres. Throws InputError, which
+  // names the node or face, where one is at no finite place, has no area, or has gone farther than the cutoff in one
+  // step, as it may have gone through a sphere.
+  void begin_step(const Step &step, Real cutoff);
+
+  const WeldedMesh &mesh() const { return mesh_; }    // where the nodes are in this step
+  const Box &bounds() const { return bounds_; }       // of them
+  NodeField field() const { return {velocity_.data(), spin_.data()}; }
+
+  // Does the grid hold no longer, as it is for another cutoff or a node has gone too far?
+  bool needs_grid(Real cutoff) const;
+  bool has_grid() const { return grid_.is_built(); }
+  void build_grid(Real cutoff);
+  GridView view() const { return grid_.view(); }
+
+  // Turns the springs of spheres [0, n) with their features since the last step.
+  void turn_springs(WallEngine &engine, int n);
+  // Springs from elsewhere are of the step that comes.
+  void forget_turns() { turned_from_.clear(); }
+
+  // After a step: what its contacts with these spheres do to the nodes, on this process.
+  void sum_forces(const WallEngine &engine, const Spheres &spheres);
+  void clear_forces();
+  // Sums over all processes, x y z, node after node (force): of contacts, and of `pressure` (force/area), which pushes
+  // to where the normals of faces point by their winding, and outward on a closed mesh. Collective, once a step.
+  const std::vector<Real> &forces(Real pressure);
+  // Of the mesh on the spheres, by the motion of its nodes; of this process.
+  Real power() const { return power_; }
+
+  std::size_t bytes() const;
+
+  // What the host calls them, for saved states; empty: nothing.
+  std::vector<Real> names;
+
+ private:
+  std::string named(const std::string &text) const;
+  void find_spins(Real back);
+  Vec3 turned(const std::vector<int> &faces, const Vec3 &a) const;
+
+  Host &host_;
+  const WallSpec &wall_;
+  int index_;
+  bool with_sides_, with_spins_;
+  WeldedMesh mesh_;
+  MeshFeatures features_;
+  Box bounds_;
+  std::vector<Vec3> velocity_, spin_;
+  std::vector<Vec3> next_, next_velocity_;    // set for the next step; empty: as they are
+  NodeGrid grid_;
+  std::vector<Vec3> built_at_;    // where nodes were when the grid was built
+  std::vector<Vec3>
+      turned_from_;    // where nodes were when springs were turned last; empty: no springs yet
+  std::vector<Real> of_contacts_, forces_;
+  Real power_ = 0;
+  bool are_summed_ = true;
+};
+
+}    // namespace lsdcd

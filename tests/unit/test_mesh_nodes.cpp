@@ -1,0 +1,728 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Walls whose nodes move, against rigid walls, brute force and laws of conservation.
+//   LSDCD_PAIRS  steps of spheres over nodes that move at random, a tenth of it; 1e7 unless given
+#include "base/input_error.h"
+#include "mesh/mesh_features.h"
+#include "support/brute_force.h"
+#include "support/fake_host.h"
+#include "support/grains.h"
+#include "support/laws.h"
+#include "support/meshes.h"
+#include "support/query_oracle.h"
+#include "support/random.h"
+#include "wall/wall.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace lsdcd::test_mesh_nodes {
+namespace {
+
+constexpr Real kDt = 1e-3, kRadius = 0.5;
+
+WallSpec wall_of(const ContactLaw &law, const std::shared_ptr<const WeldedMesh> &mesh)
+{
+  WallSpec wall;
+  wall.laws.front().law = law;
+  wall.device = Device::cpu;
+  wall.meshes.resize(1);
+  wall.meshes.front().name = "sheet";
+  wall.meshes.front().mesh = mesh;
+  return wall;
+}
+WallSpec nodes_of(const ContactLaw &law, const std::shared_ptr<const WeldedMesh> &mesh)
+{
+  WallSpec wall = wall_of(law, mesh);
+  wall.meshes.front().has_nodes = true;
+  return wall;
+}
+std::shared_ptr<const WeldedMesh> welded(const TriangleSoup &soup)
+{
+  return std::make_shared<WeldedMesh>(weld(soup, -1));
+}
+
+// Frictional, with springs, rolling and twisting: all that a contact reads of a wall's motion.
+ContactLaw all_motions()
+{
+  ContactLaw law = granular_law(NormalModel::hertz);
+  law.k_normal = 1e4;
+  law.modulus = 7.5e3;
+  law.damping = DampingModel::velocity;
+  law.eta = 5;
+  law.tangential = TangentialModel::linear_history;
+  law.k_tangent = 3e3;
+  law.xgammat = 0.5;
+  law.mu = 0.3;
+  law.rolling = RollingModel::sds;
+  law.rolling.numbers[0] = 500;
+  law.rolling.numbers[1] = 10;
+  law.rolling.numbers[2] = 0.1;
+  law.twisting = TwistingModel::sds;
+  law.twisting.numbers[0] = 500;
+  law.twisting.numbers[1] = 10;
+  law.twisting.numbers[2] = 0.1;
+  return law;
+}
+
+struct Scene : Grains {
+  FakeHost &host;
+  std::unique_ptr<Wall> wall;
+  std::int64_t now = 0;
+  Real dt;
+
+  Scene(FakeHost &host, const WallSpec &spec, Real dt = kDt) : host(host), dt(dt)
+  {
+    host.simulation = wide_box();
+    wall =
+        std::make_unique<Wall>(host, spec, WallUnits(), WallBackend(), "", StepClock{0, 0, 0, dt});
+  }
+  void step(Step::Kind kind)
+  {
+    for (Vec3 &f : force) f = {0, 0, 0};
+    for (Vec3 &t : torque) t = {0, 0, 0};
+    wall->history().grow(static_cast<int>(x.size()));
+    StepInput input;
+    input.step = {now, dt, kind};
+    input.look = input.new_spheres = kind == Step::setup;
+    input.drift.kind = SphereDrift::watched;
+    input.drift.distance = 0.05;
+    wall->begin(spheres(), input);
+    wall->launch(spheres());
+    wall->finish(spheres());
+  }
+  void set_up()
+  {
+    wall->begin_run(now, false);
+    step(Step::setup);
+  }
+  void next()
+  {
+    now++;
+    step(Step::step);
+  }
+  void set_nodes(const std::vector<Vec3> &at, const std::vector<Vec3> &velocity)
+  {
+    wall->set_nodes(0, &at[0].x, velocity.empty() ? nullptr : &velocity[0].x);
+  }
+  const std::vector<Vec3> &nodes() const { return wall->meshes()[0].mesh()->vertices; }
+  Vec3 node_force(std::size_t i)
+  {
+    const std::vector<Real> &f = wall->node_forces(0);
+    return {f[3 * i], f[3 * i + 1], f[3 * i + 2]};
+  }
+  Vec3 sum_of_nodes()
+  {
+    Vec3 sum = {0, 0, 0};
+    for (std::size_t i = 0; i < nodes().size(); i++) sum += node_force(i);
+    return sum;
+  }
+};
+
+// Nodes as a pose has them, with the velocities of half a step ago where spheres have these.
+struct PosedNodes {
+  std::vector<Vec3> at, velocity;
+
+  PosedNodes(const WeldedMesh &mesh, const Pose &pose, Real back)
+  {
+    const Vec3 v = pose.velocity - back * pose.acceleration, w = pose.angular - back * pose.spin_up;
+    for (const Vec3 &x : mesh.vertices) {
+      at.push_back(pose.to_box(x));
+      const Vec3 turning = cross(w, at.back() - pose.shift);
+      velocity.push_back(v + turning - back * cross(w, turning));
+    }
+  }
+};
+
+// Steps a wall with this motion and one whose nodes go the same way, with the same spheres, and returns the largest
+// difference of forces and torques, over the largest of these.
+Real worst_difference(const ContactLaw &law, const std::shared_ptr<const WeldedMesh> &mesh,
+                      const MotionTerm &term, const std::vector<Vec3> &places, int n_steps,
+                      Real &largest)
+{
+  WallSpec moving = wall_of(law, mesh);
+  moving.meshes.front().motion.add(term);
+  RigidMotion motion;
+  motion.add(term);
+  FakeHost host, other_host;
+  Scene rigid(host, moving), nodes(other_host, nodes_of(law, mesh));
+  Random random(7);
+  for (const Vec3 &x : places) {
+    rigid.add(x);
+    rigid.v.back() = 0.3 * random_unit(random);
+    rigid.omega.back() = 2 * random_unit(random);
+  }
+  static_cast<Grains &>(nodes) = rigid;
+  Real worst = 0;
+  largest = 0;
+  for (int i = 0; i <= n_steps; i++) {
+    const PosedNodes at(*mesh, motion.pose_at(i * kDt), i > 0 ? kDt / 2 : 0);
+    nodes.set_nodes(at.at, at.velocity);
+    if (i == 0) {
+      rigid.set_up();
+      nodes.set_up();
+    } else {
+      for (std::size_t k = 0; k < places.size(); k++) {
+        rigid.x[k] += kDt * rigid.v[k];
+        nodes.x[k] = rigid.x[k];
+      }
+      rigid.next();
+      nodes.next();
+    }
+    for (std::size_t k = 0; k < places.size(); k++) {
+      largest = std::max({largest, norm(rigid.force[k]), norm(rigid.torque[k])});
+      worst = std::max(
+          {worst, norm(rigid.force[k] - nodes.force[k]), norm(rigid.torque[k] - nodes.torque[k])});
+    }
+  }
+  return worst / largest;
+}
+
+// A sheet of n x n squares over [-1, 1]^2, curved so that each of its edges is a fold.
+TriangleSoup curved_sheet(int n)
+{
+  TriangleSoup soup = floor_mesh(n, 1);
+  for (Vec3 &x : soup.corners) x.z = 0.2 * std::sin(2 * x.x) + 0.15 * std::cos(3 * x.y + x.x);
+  return soup;
+}
+
+std::vector<Vec3> places_over(const WeldedMesh &mesh, int n, Real depth)
+{
+  std::vector<Vec3> places;
+  Random random(3);
+  for (int i = 0; i < n; i++) {
+    const auto &face = mesh.faces[i * mesh.faces.size() / n];
+    const Vec3 &a = mesh.vertices[face[0]], &b = mesh.vertices[face[1]],
+               &c = mesh.vertices[face[2]];
+    const Real u = uniform(random, 0, 1), w = uniform(random, 0, 1 - u);
+    const Vec3 normal = unit(cross(b - a, c - a));
+    places.push_back(a + u * (b - a) + w * (c - a) + (i % 2 ? 1 : -1) * (kRadius - depth) * normal);
+  }
+  return places;
+}
+
+double pairs()
+{
+  const char *text = std::getenv("LSDCD_PAIRS");
+  return text ? std::atof(text) : 1e7;
+}
+
+}    // namespace
+
+// ---- rigid motions -----------------------------------------------------------------------
+
+// Damping, slip and springs are those of the motion: the records are turned in one case and the spheres in the other,
+// so that they differ by the rounding of places, 1e-16 of 2 over an overlap of 0.01. Rolling and twisting see the spin
+// of the nodes, right to a^2/12 of a turn by a, which is 3e-3 in a step here.
+TEST(mesh_nodes, that_turn_as_one_give_the_forces_of_a_motion)
+{
+  const auto mesh = welded(curved_sheet(6));
+  MotionTerm term;
+  term.kind = MotionKind::transrot;
+  term.velocity = {0.05, -0.1, 0.02};
+  term.point = {0.2, 0.1, 0};
+  term.axis = {1, 2, 3};
+  term.period = 2;
+  const auto places = places_over(*mesh, 40, 0.01);
+  ContactLaw slip = all_motions();
+  slip.rolling = RollingModel::none;
+  slip.twisting = TwistingModel::none;
+  Real largest = 0;
+  EXPECT_LT(worst_difference(slip, mesh, term, places, 200, largest), 1e-12);
+  EXPECT_GT(largest, 1);
+  EXPECT_LT(worst_difference(all_motions(), mesh, term, places, 200, largest), 1e-6);
+}
+
+// Powers of two are exact: the same bits.
+TEST(mesh_nodes, that_do_not_turn_give_the_bits_of_a_motion)
+{
+  TriangleSoup soup = floor_mesh(4, 1);
+  for (Vec3 &x : soup.corners) x.z = 0.125 * (x.x * x.x) - 0.25 * std::fabs(x.y);
+  const auto mesh = welded(soup);
+  MotionTerm term;
+  term.velocity = {0.5, -0.25, 0.125};
+  WallSpec moving = wall_of(all_motions(), mesh);
+  moving.meshes.front().motion.add(term);
+  const Real dt = 1. / 1024;
+  FakeHost host, other_host;
+  Scene rigid(host, moving, dt), nodes(other_host, nodes_of(all_motions(), mesh), dt);
+  Random random(5);
+  for (Vec3 x : places_over(*mesh, 30, 0.02)) {
+    for (int d = 0; d < 3; d++) x[d] = std::round(x[d] * 1048576) / 1048576;
+    rigid.add(x);
+    rigid.omega.back() = random_unit(random);
+  }
+  static_cast<Grains &>(nodes) = rigid;
+  Real largest = 0;
+  for (int i = 0; i <= 100; i++) {
+    std::vector<Vec3> at = mesh->vertices, velocity(at.size(), term.velocity);
+    for (Vec3 &x : at) x += i * dt * term.velocity;
+    nodes.set_nodes(at, velocity);
+    rigid.now = nodes.now = i;
+    for (Scene *scene : {&rigid, &nodes}) {
+      if (i == 0) scene->wall->begin_run(0, false);
+      scene->step(i == 0 ? Step::setup : Step::step);
+    }
+    for (std::size_t k = 0; k < rigid.x.size(); k++) {
+      EXPECT_EQ(norm(rigid.force[k] - nodes.force[k]), 0) << "step " << i << " sphere " << k;
+      EXPECT_EQ(norm(rigid.torque[k] - nodes.torque[k]), 0) << "step " << i << " sphere " << k;
+      largest = std::max(largest, norm(rigid.torque[k]));
+    }
+  }
+  EXPECT_GT(largest, 0.1);
+}
+
+// A plate that is bent by its nodes, and the bent plate as a rigid mesh: only the order of contacts may differ.
+TEST(mesh_nodes, that_bend_a_plate_make_it_the_bent_plate)
+{
+  const auto flat = welded(floor_mesh(8, 1));
+  const ContactLaw law = hooke(1000, 20, 30, 0.4).law();
+  FakeHost host;
+  Scene nodes(host, nodes_of(law, flat));
+  Random random(11);
+  for (int k = 0; k < 60; k++) {
+    nodes.add({uniform(random, -1.2, 1.2), uniform(random, -1.2, 1.2), uniform(random, -0.8, 0.8)});
+    nodes.v.back() = random_unit(random);
+    nodes.omega.back() = random_unit(random);
+  }
+  int touching = 0;
+  for (int i = 0; i <= 20; i++) {
+    std::vector<Vec3> at = flat->vertices;
+    for (Vec3 &x : at) x.z = 0.02 * i * std::sin(2 * x.x + x.y) + 0.01 * i * x.y * x.y;
+    nodes.set_nodes(at, {});
+    nodes.now = i;
+    if (i == 0) nodes.wall->begin_run(0, false);
+    nodes.step(i == 0 ? Step::setup : Step::step);
+
+    TriangleSoup bent;
+    for (const auto &face : flat->faces)
+      for (const int v : face) bent.corners.push_back(at[v]);
+    FakeHost other_host;
+    Scene rigid(other_host, wall_of(law, welded(bent)));
+    static_cast<Grains &>(rigid) = nodes;
+    rigid.wall->begin_run(0, false);
+    rigid.step(Step::setup);
+    for (std::size_t k = 0; k < nodes.x.size(); k++) {
+      EXPECT_LE(norm(nodes.force[k] - rigid.force[k]), 1e-13 * 1000 * kRadius) << i << " " << k;
+      EXPECT_LE(norm(nodes.torque[k] - rigid.torque[k]), 1e-13 * 1000 * kRadius) << i << " " << k;
+      touching += norm(rigid.force[k]) > 0;
+    }
+  }
+  EXPECT_GT(touching, 200);
+}
+
+// A sheet of nodes beside a rigid mesh, in either order: spheres that touch both share their overlap as between two
+// rigid meshes. Where contacts of one sphere are in another order, sums are rounded otherwise.
+TEST(mesh_nodes, share_contacts_with_rigid_meshes_of_their_wall)
+{
+  const auto sheet = welded(curved_sheet(5)),
+             box = welded(box_mesh({-0.3, -0.4, -0.5}, {0.5, 0.4, 0.3}));
+  for (const bool nodes_first : {true, false}) {
+    WallSpec rigid = wall_of(all_motions(), nodes_first ? sheet : box);
+    rigid.meshes.push_back(rigid.meshes.front());
+    rigid.meshes.back().mesh = nodes_first ? box : sheet;
+    rigid.meshes.back().name = "other";
+    WallSpec with_nodes = rigid;
+    with_nodes.meshes[nodes_first ? 0 : 1].has_nodes = true;
+    FakeHost host, other_host;
+    Scene one(host, rigid), other(other_host, with_nodes);
+    Random random(9);
+    for (int k = 0; k < 60; k++) {
+      one.add({uniform(random, -0.9, 0.9), uniform(random, -0.9, 0.9), uniform(random, -0.6, 0.8)},
+              0.2);
+      one.v.back() = 0.1 * random_unit(random);
+    }
+    static_cast<Grains &>(other) = one;
+    Real largest = 0;
+    int both = 0;
+    for (int i = 0; i < 20; i++) {
+      for (Scene *scene : {&one, &other}) {
+        for (std::size_t k = 0; k < scene->x.size(); k++) scene->x[k] += kDt * scene->v[k];
+        if (i == 0)
+          scene->set_up();
+        else
+          scene->next();
+      }
+      for (std::size_t k = 0; k < one.x.size(); k++) {
+        largest = std::max(largest, norm(one.force[k]));
+        EXPECT_LE(norm(one.force[k] - other.force[k]), 1e-12 * 1e3) << i << " " << k;
+        EXPECT_LE(norm(one.torque[k] - other.torque[k]), 1e-12 * 1e3) << i << " " << k;
+      }
+    }
+    both = static_cast<int>(
+        std::min(one.wall->totals().mesh(0).contacts, one.wall->totals().mesh(1).contacts));
+    EXPECT_GT(both, 5);
+    EXPECT_GT(largest, 1);
+    for (int m = 0; m < 2; m++)
+      EXPECT_EQ(one.wall->totals().mesh(m).contacts, other.wall->totals().mesh(m).contacts);
+  }
+}
+
+// ---- nothing is missed -------------------------------------------------------------------
+
+// Spheres and nodes go at random, in small steps and in jumps. With stiffness 1 and every overlap in full a force is
+// the sum of overlaps: it shows each contact that is missed. Brute force has the nearest by a formula of its own, and
+// all by trying each feature.
+TEST(mesh_nodes, miss_no_contact_while_they_move_at_random)
+{
+  const double wanted = pairs() / 10;
+  double n_done = 0, n_touching = 0;
+  for (std::uint64_t seed = 1; n_done < wanted; seed++) {
+    Random random(seed);
+    TriangleSoup soup =
+        seed % 4 == 0 ? box_mesh({-1, -1, -1}, {1, 1, 1}) : floor_mesh(4, 1.5, seed);
+    const auto mesh = welded(soup);
+    WallSpec spec = nodes_of(hooke(1).law(), mesh);
+    spec.corner = Corner::sum;
+    FakeHost host;
+    Scene scene(host, spec);
+    constexpr int kSpheres = 60, kSteps = 100;
+    for (int k = 0; k < kSpheres; k++)
+      scene.add(uniform(random, {-2, -2, -1.5}, {2, 2, 1.5}), log_uniform(random, 0.05, kRadius));
+    std::vector<Vec3> at = mesh->vertices;
+    std::vector<Vec3> drift(at.size(), Vec3{0, 0, 0});
+    for (int i = 0; i < kSteps; i++) {
+      const Real way = i % 37 == 36 ? 0.3 : log_uniform(random, 1e-4, 0.03);
+      for (std::size_t k = 0; k < at.size(); k++) {
+        drift[k] = 0.9 * drift[k] + 0.3 * way * random_unit(random);
+        const Real far = norm(drift[k]);
+        at[k] += std::min(Real(1), way / std::max(far, Real(1e-300))) * drift[k];
+        at[k] += 0.02 * (mesh->vertices[k] - at[k]);
+      }
+      for (Vec3 &x : scene.x) x += log_uniform(random, 1e-5, 0.05) * random_unit(random);
+      scene.set_nodes(at, {});
+      if (i == 0)
+        scene.set_up();
+      else
+        scene.next();
+
+      WeldedMesh now = *mesh;
+      now.vertices = at;
+      const MeshFeatures features = make_features(now, false);
+      const Real tolerance = 1e-12;
+      for (int k = 0; k < kSpheres; k++) {
+        const Vec3 &x = scene.x[k];
+        Vec3 force = {0, 0, 0};
+        for (const BruteContact &c : brute_contacts(features.view(), features.contact_features, x,
+                                                    scene.radius[k], tolerance, 4 * tolerance))
+          force += (scene.radius[k] / c.distance - 1) * (x - c.closest);
+        Real least = HUGE_VAL;
+        for (const auto &f : mesh->faces)
+          least = std::min(least, region_distance_sq(at[f[0]], at[f[1]], at[f[2]], x));
+        const bool touches = std::sqrt(least) < scene.radius[k];
+        ASSERT_EQ(touches, norm(scene.force[k]) > 0)
+            << "seed " << seed << " step " << i << " " << k;
+        ASSERT_NEAR(norm(scene.force[k] - force), 0, 1e-9)
+            << "seed " << seed << " step " << i << " sphere " << k;
+        n_touching += touches;
+      }
+      n_done += kSpheres;
+    }
+  }
+  std::printf("  %.3g steps of spheres, %.0f %% touch\n", n_done, 100 * n_touching / n_done);
+  EXPECT_GT(n_touching, 0.1 * n_done);
+}
+
+// ---- forces on nodes ---------------------------------------------------------------------
+
+// For any number of contacts, on faces, edges and vertices: the nodes get the force that the spheres give, and its
+// moment. A sphere's force acts where the normal force does, at its closest point.
+TEST(mesh_nodes, get_the_force_and_its_moment_at_the_contact)
+{
+  const auto mesh = welded(curved_sheet(5));
+  FakeHost host;
+  Scene scene(host, nodes_of(hooke(1000, 20, 30, 0.4).law(), mesh));
+  Random random(2);
+  for (int k = 0; k < 80; k++) {
+    scene.add({uniform(random, -1.4, 1.4), uniform(random, -1.4, 1.4), uniform(random, -0.8, 0.8)},
+              0.3);
+    scene.v.back() = random_unit(random);
+  }
+  std::vector<Vec3> velocity;
+  for (std::size_t i = 0; i < mesh->vertices.size(); i++) velocity.push_back(random_unit(random));
+  scene.set_nodes(mesh->vertices, velocity);
+  scene.set_up();
+  scene.next();
+
+  // The torque on a sphere is its tangential force on the arm of its radius; at the closest point the arm is shorter
+  // by the overlap. So its moment there, the sum of the contacts' force on the arm, is found sphere by sphere.
+  Vec3 force = {0, 0, 0}, moment = {0, 0, 0};
+  Real size = 0;
+  int single = 0;
+  const MeshFeatures features = make_features(*mesh, false);
+  for (std::size_t k = 0; k < scene.x.size(); k++) {
+    const auto contacts = brute_contacts(features.view(), features.contact_features, scene.x[k],
+                                         scene.radius[k], 1e-12, 4e-12);
+    force += scene.force[k];
+    size += norm(scene.force[k]);
+    single += contacts.size() == 1;
+  }
+  EXPECT_LE(norm(force + scene.sum_of_nodes()), 1e-13 * size);
+  EXPECT_GT(single, 10);
+
+  // One sphere alone at a time has its moment at its only contact.
+  for (std::size_t k = 0; k < scene.x.size(); k++) {
+    const auto contacts = brute_contacts(features.view(), features.contact_features, scene.x[k],
+                                         scene.radius[k], 1e-12, 4e-12);
+    if (contacts.size() != 1) continue;
+    FakeHost one_host;
+    Scene one(one_host, nodes_of(hooke(1000, 20, 30, 0.4).law(), mesh));
+    one.add(scene.x[k], scene.radius[k]);
+    one.v[0] = scene.v[k];
+    one.set_nodes(mesh->vertices, velocity);
+    one.set_up();
+    one.next();
+    Vec3 of_nodes = {0, 0, 0};
+    for (std::size_t i = 0; i < mesh->vertices.size(); i++)
+      of_nodes += cross(mesh->vertices[i], one.node_force(i));
+    moment = cross(contacts[0].closest, one.force[0]);
+    EXPECT_LE(norm(of_nodes + moment), 1e-13 * norm(one.force[0])) << k;
+  }
+}
+
+// A sphere falls on a free plate whose nodes have masses: velocity Verlet of both. Each step gives both the same
+// impulse, so that momentum is kept to rounding, 1e-16 a step of the impulse.
+TEST(mesh_nodes, of_a_free_plate_take_the_momentum_that_a_sphere_loses)
+{
+  const auto mesh = welded(floor_mesh(4, 1));
+  FakeHost host;
+  Scene scene(host, nodes_of(hooke(2000, 5, 20, 0.3).law(), mesh));
+  scene.add({0.13, 0.21, kRadius + 0.01});
+  scene.v[0] = {0.3, 0.1, -1};
+  std::vector<Vec3> at = mesh->vertices, v(at.size(), Vec3{0, 0, 0});
+  const Real node_mass = 0.5;
+  const Vec3 before = scene.v[0];
+  scene.set_nodes(at, v);
+  scene.set_up();
+  Real most = 0;
+  for (int i = 0; i < 300; i++) {
+    scene.v[0] += kDt / 2 * scene.force[0];
+    scene.x[0] += kDt * scene.v[0];
+    for (std::size_t k = 0; k < at.size(); k++) {
+      v[k] += kDt / 2 / node_mass * scene.node_force(k);
+      at[k] += kDt * v[k];
+    }
+    scene.set_nodes(at, v);
+    scene.next();
+    scene.v[0] += kDt / 2 * scene.force[0];
+    for (std::size_t k = 0; k < at.size(); k++) v[k] += kDt / 2 / node_mass * scene.node_force(k);
+    most = std::max(most, norm(scene.force[0]));
+    Vec3 after = scene.v[0];
+    for (const Vec3 &u : v) after += node_mass * u;
+    ASSERT_LE(norm(after - before), 1e-12) << i;
+  }
+  EXPECT_GT(most, 20);                        // it did hit
+  EXPECT_GT(scene.v[0].z, before.z + 0.9);    // and stopped
+}
+
+// A sphere rocks on a triangle whose corners hang on springs: with one contact the forces on sphere and nodes are the
+// gradient of the elastic energy, so that velocity Verlet, which is symplectic, lets the total oscillate by the square of
+// the step and not drift.
+TEST(mesh_nodes, keep_the_energy_of_an_elastic_contact)
+{
+  const auto mesh = welded(TriangleSoup{{{-1, -1, 0}, {2, -1, 0}, {-1, 2, 0}}, ""});
+  const Real stiffness = 1000, spring = 300, node_mass = 0.7, weight = 5;
+  FakeHost host;
+  Scene scene(host, nodes_of(hooke(stiffness).law(), mesh));
+  // At rest each node has sunk by its share of the weight, and the sphere by that and its overlap.
+  std::vector<Vec3> at = mesh->vertices, v(at.size(), Vec3{0, 0, 0});
+  Real sunk = 0;
+  for (std::size_t k = 0; k < at.size(); k++) {
+    const Real share = mesh->vertices[k].x > 0 ? 0.4 : 0.3;
+    at[k].z -= share * weight / spring;
+    sunk += share * share * weight / spring;
+  }
+  const Vec3 home = {0.2, -0.1, kRadius - weight / stiffness - sunk};
+  scene.add(home);
+  scene.v[0] = {0.01, -0.02, 0.03};
+  const auto side = [&] { return Vec3{scene.x[0].x - home.x, scene.x[0].y - home.y, 0}; };
+  std::vector<Vec3> force(at.size());
+  const auto forces = [&] {
+    scene.force[0] -= Vec3{0, 0, weight} + spring * side();
+    for (std::size_t k = 0; k < at.size(); k++)
+      force[k] = scene.node_force(k) - spring * (at[k] - mesh->vertices[k]);
+  };
+  scene.set_nodes(at, v);
+  scene.set_up();
+  forces();
+  const int n_steps = std::getenv("LSDCD_QUICK") ? 20000 : 1000000, part = n_steps / 10;
+  Real mean[10] = {}, least = HUGE_VAL;
+  for (int i = 0; i < n_steps; i++) {
+    const auto kick = [&] {
+      scene.v[0] += kDt / 2 * scene.force[0];
+      for (std::size_t k = 0; k < at.size(); k++) v[k] += kDt / 2 / node_mass * force[k];
+    };
+    kick();
+    scene.x[0] += kDt * scene.v[0];
+    for (std::size_t k = 0; k < at.size(); k++) at[k] += kDt * v[k];
+    scene.set_nodes(at, v);
+    scene.next();
+    forces();
+    kick();
+    const MeshTotals all = scene.wall->totals().of_all();
+    Real energy = all.energy + norm_sq(scene.v[0]) / 2 + spring / 2 * norm_sq(side()) +
+                  weight * (scene.x[0].z - home.z);
+    for (std::size_t k = 0; k < at.size(); k++)
+      energy += node_mass / 2 * norm_sq(v[k]) + spring / 2 * norm_sq(at[k] - mesh->vertices[k]);
+    mean[i / part] += energy / part;
+    least = std::min(least, all.contacts);
+  }
+  EXPECT_EQ(least, 1);
+  EXPECT_LE(std::fabs(mean[9] - mean[0]), 1e-6 * std::fabs(mean[0]));
+}
+
+// A floor that nodes move along itself takes a grain at rest along: once it rolls, its velocity is 2/7 of the floor's, by
+// the torque balance of a solid sphere, m dv = F, 2/5 m r dw = -F, dv - r dw = du.
+TEST(mesh_nodes, of_a_floor_that_moves_along_itself_roll_a_grain)
+{
+  const auto mesh = welded(floor_mesh(4, 3));
+  ContactLaw law = hooke_history(1e4, 1e4, 0, 200, 0.5).law();
+  FakeHost host;
+  Scene scene(host, nodes_of(law, mesh), 1e-4);
+  const Real weight = 10, inertia = 0.4 * kRadius * kRadius, floor_speed = 0.5;
+  scene.add({0.1, 0.2, kRadius - weight / 1e4});
+  std::vector<Vec3> at = mesh->vertices, v(at.size(), Vec3{floor_speed, 0, 0});
+  scene.set_nodes(at, v);
+  scene.set_up();
+  for (int i = 0; i < 10000; i++) {
+    const auto kick = [&] {
+      scene.v[0] += scene.dt / 2 * (scene.force[0] - Vec3{0, 0, weight});
+      scene.omega[0] += scene.dt / 2 / inertia * scene.torque[0];
+    };
+    kick();
+    scene.x[0] += scene.dt * scene.v[0];
+    for (Vec3 &x : at) x.x += scene.dt * floor_speed;
+    scene.set_nodes(at, v);
+    scene.next();
+    kick();
+  }
+  EXPECT_NEAR(scene.v[0].x, 2. / 7 * floor_speed, 1e-6 * floor_speed);
+}
+
+TEST(mesh_nodes, get_what_spheres_of_all_processes_do)
+{
+  on_processes(2, [](FakeHost &host) {
+    const auto mesh = welded(floor_mesh(2, 1));
+    Scene scene(host, nodes_of(hooke(1000).law(), mesh));
+    scene.add({host.rank() == 0 ? -0.4 : 0.3, 0.1, kRadius - 0.01 * (1 + host.rank())});
+    scene.set_up();
+    scene.next();
+    EXPECT_NEAR(scene.sum_of_nodes().z, -1000 * (0.01 + 0.02), 1e-10);
+  });
+}
+
+// ---- pressure ----------------------------------------------------------------------------
+
+TEST(mesh_nodes, of_a_closed_mesh_have_a_pressure_without_force_and_moment)
+{
+  TriangleSoup soup = box_mesh({-1, -0.5, -2}, {1, 2, 1});
+  for (Vec3 &x : soup.corners)
+    x += 0.3 * Vec3{std::sin(x.y), std::cos(2 * x.z), std::sin(x.x * x.z)};
+  for (const bool inverted : {false, true}) {
+    if (inverted)
+      for (std::size_t i = 0; i < soup.corners.size(); i += 3)
+        std::swap(soup.corners[i + 1], soup.corners[i + 2]);
+    const auto mesh = welded(soup);
+    WallSpec spec = nodes_of(hooke(1000).law(), mesh);
+    spec.meshes.front().pressure = 7;
+    FakeHost host;
+    Scene scene(host, spec);
+    scene.set_up();
+    Vec3 force = {0, 0, 0}, moment = {0, 0, 0};
+    Real outward = 0;
+    for (std::size_t i = 0; i < mesh->vertices.size(); i++) {
+      force += scene.node_force(i);
+      moment += cross(mesh->vertices[i], scene.node_force(i));
+      outward += dot(mesh->vertices[i], scene.node_force(i));
+    }
+    EXPECT_LE(norm(force), 1e-13 * 7 * mesh->report.area);
+    EXPECT_LE(norm(moment), 1e-13 * 7 * mesh->report.area);
+    // The virial of a pressure is 3 p V: outward.
+    EXPECT_NEAR(outward, 3 * 7 * std::fabs(mesh->report.volume), 1e-12 * outward);
+  }
+}
+
+TEST(mesh_nodes, of_an_open_mesh_have_the_pressure_times_its_vector_area)
+{
+  const auto mesh = welded(curved_sheet(6));
+  WallSpec spec = nodes_of(hooke(1000).law(), mesh);
+  spec.meshes.front().pressure = 3;
+  FakeHost host;
+  Scene scene(host, spec);
+  scene.set_up();
+  // By the rim: half the sum of x cross dx along the open edges.
+  Vec3 area = {0, 0, 0};
+  for (std::size_t e = 0; e < mesh->edges.size(); e++) {
+    if (mesh->edge_first[e + 1] - mesh->edge_first[e] != 1) continue;
+    const int face = mesh->edge_face[mesh->edge_first[e]];
+    for (int k = 0; k < 3; k++)
+      if (mesh->face_edges[face][k] == static_cast<int>(e))
+        area += 0.5 * cross(mesh->vertices[mesh->faces[face][k]],
+                            mesh->vertices[mesh->faces[face][(k + 1) % 3]]);
+  }
+  EXPECT_LE(norm(scene.sum_of_nodes() - 3 * area), 1e-13 * 3 * mesh->report.area);
+}
+
+// ---- what is refused ---------------------------------------------------------------------
+
+TEST(mesh_nodes, that_jump_past_a_sphere_are_an_error)
+{
+  const auto mesh = welded(floor_mesh(2, 1));
+  FakeHost host;
+  Scene scene(host, nodes_of(hooke(1000).law(), mesh));
+  scene.add({0, 0, 0.6});
+  scene.set_up();
+  std::vector<Vec3> at = mesh->vertices;
+  for (Vec3 &x : at) x.z = 1;
+  scene.set_nodes(at, {});
+  try {
+    scene.next();
+    ADD_FAILURE() << "no error";
+  } catch (const InputError &e) {
+    EXPECT_NE(std::string(e.what()).find("has gone 1 in step 1, more than the largest radius 0.5"),
+              std::string::npos)
+        << e.what();
+  }
+}
+
+TEST(mesh_nodes, in_a_line_are_an_error)
+{
+  const auto mesh = welded(floor_mesh(1, 0.2));
+  FakeHost host;
+  Scene scene(host, nodes_of(hooke(1000).law(), mesh));
+  scene.add({0, 0, 0.6});
+  scene.set_up();
+  std::vector<Vec3> at = mesh->vertices;
+  for (Vec3 &x : at) x.y = 0;
+  scene.set_nodes(at, {});
+  try {
+    scene.next();
+    ADD_FAILURE() << "no error";
+  } catch (const InputError &e) {
+    EXPECT_NE(std::string(e.what()).find("has no area any more"), std::string::npos) << e.what();
+  }
+}
+
+TEST(mesh_nodes, go_with_nothing_else_that_moves_a_mesh)
+{
+  const auto mesh = welded(floor_mesh(1, 1));
+  WallSpec spec = nodes_of(hooke(1000).law(), mesh);
+  spec.meshes.front().motion.add(MotionTerm());
+  EXPECT_THROW(check_spec(spec), InputError);
+  spec = nodes_of(hooke(1000).law(), mesh);
+  spec.meshes.front().body.present = true;
+  EXPECT_THROW(check_spec(spec), InputError);
+  spec = nodes_of(hooke(1000).law(), mesh);
+  spec.device = Device::cuda;
+  EXPECT_THROW(check_spec(spec), InputError);
+}
+
+}    // namespace lsdcd::test_mesh_nodes
