@@ -131,6 +131,18 @@ void read_temperature(Tokens &w, MeshSpec &s, InputNames &inputs)
   read_value(w, "T", s.temperature, s.temperature_input, inputs);
 }
 
+void read_nodes(Tokens &w, MeshSpec &s, InputNames &)
+{
+  if (w.done()) w.fail("the group of the nodes is missing");
+  s.has_nodes = true;
+  s.node_group = w.take();
+}
+
+void read_pressure(Tokens &w, MeshSpec &s, InputNames &inputs)
+{
+  read_value(w, "P", s.pressure, s.pressure_input, inputs);
+}
+
 void read_draw(Tokens &w, WallCommand &s)
 {
   s.picture.draw = static_cast<Draw>(w.choice({"edges", "faces", "contours"}));
@@ -207,6 +219,13 @@ const Keyword kKeywords[] = {
      "motor, "
      "load and moment: each a number or v_NAME",
      nullptr, read_body},
+    {"nodes", "GROUP", "", "", "none",
+     "the vertices of the mesh are atoms of this group, which LAMMPS moves and the spheres push",
+     nullptr, read_nodes},
+    {"pressure", "P | v_NAME", "pressure", "", "0",
+     "pushes the nodes to where normals point by the winding, out of a closed mesh; a number or "
+     "v_NAME",
+     nullptr, read_pressure},
     {"shear", "x|y|z v", "velocity", "", "none",
      "the surface moves while the mesh stays, as fix wall/gran's: surface_vel in one direction; v: "
      "a number or v_NAME",

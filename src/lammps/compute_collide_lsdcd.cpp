@@ -114,6 +114,9 @@ void ComputeCollideLsdcd::make_collisions(const lsdcd::WeldedMesh &body)
   how.device = settings.device;
   lsdcd::MpiHost mpi(world);
   for (const lsdcd::MeshPart &part : wall().meshes()) {
+    if (part.nodes)
+      fatal("fix " + settings.wall +
+            " has a mesh whose nodes move, and bodies collide with rigid meshes only");
     const lsdcd::WeldedMesh mesh = lsdcd::copy_together(mpi, part.grid.mesh());
     Against one;
     one.fingerprint = part.grid.mesh_fingerprint();

@@ -195,6 +195,19 @@ void FixWallLsdcd::init_bodies()
   }
 }
 
+// Atoms of a group are the nodes of a mesh.
+void FixWallLsdcd::init_nodes()
+{
+  if (node_atoms.empty())
+    for (const lsdcd::MeshPart &m : meshes())
+      if (m.nodes) node_atoms.emplace_back(lmp, m.index);
+  if (!node_atoms.empty() && update->whichflag == 2)
+    throw lsdcd::InputError(
+        "the wall has no effect in a minimization, and its nodes would move without it: unfix the "
+        "wall before");
+  for (NodeAtoms &nodes : node_atoms) nodes.init(*wall, groupbit);
+}
+
 std::vector<lsdcd::ScriptFile> FixWallLsdcd::files() const
 {
   std::vector<lsdcd::ScriptFile> all = lsdcd::files_of(spec());
@@ -227,6 +240,7 @@ void FixWallLsdcd::init()
     for (const int k : wall->inputs_read()) find_variable(spec().inputs[k]);
     wall->begin_run(update->ntimestep, thermo_virial);
     check_files_apart(*this, *modify, host, update->ntimestep);
+    init_nodes();
   });
   if (doubled_warned) return;
   need_on_host();
@@ -375,6 +389,7 @@ void FixWallLsdcd::begin(bool look)
   lsdcd::StepInput input = step_input(look);
   run_core([&] {
     input.inputs = read_inputs();
+    for (NodeAtoms &nodes : node_atoms) nodes.send(*wall, look);
     begin_step(input);
   });
   if (input.new_spheres && wall->cutoff() > 0) counted_atoms = atom->natoms;
@@ -422,7 +437,10 @@ void FixWallLsdcd::begin_step(const lsdcd::StepInput &input)
 
 void FixWallLsdcd::finish_step()
 {
-  run_core([&] { wall->finish(spheres()); });
+  run_core([&] {
+    wall->finish(spheres());
+    for (NodeAtoms &nodes : node_atoms) nodes.add_forces(*wall);
+  });
   if (vflag_global) wall->add_virial(virial);
   if (spec().contacts) fill_contacts();
 }

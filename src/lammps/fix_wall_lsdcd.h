@@ -9,6 +9,7 @@
 
 #include "input/script_files.h"
 #include "lammps/lammps_host.h"
+#include "lammps/node_atoms.h"
 #include "lammps/own_messages.h"
 #include "lammps/rerun_watch.h"
 #include "lammps/wall_picture.h"
@@ -83,9 +84,10 @@ class FixWallLsdcd : public Fix, protected OwnMessages {
   bool adapts = false;          // some fix changes radii: a step begins in post_force
   bool rigid = false;           // some rigid fix holds atoms: damping_mass replaces rmass
   std::vector<double> damping_mass;
-  const double *gravity = nullptr;    // of the script's fix gravity, where there are bodies
-  bool callbacks = false;             // registered with Atom
-  int room = 0;                       // this wall's part of maxexchange
+  std::deque<NodeAtoms> node_atoms;    // of each mesh that has nodes
+  const double *gravity = nullptr;     // of the script's fix gravity, where there are bodies
+  bool callbacks = false;              // registered with Atom
+  int room = 0;                        // this wall's part of maxexchange
   bool wall_in_minimize_warned = false, doubled_warned = false;
   WallPicture picture;
 
@@ -128,6 +130,7 @@ class FixWallLsdcd : public Fix, protected OwnMessages {
   void check_atoms() const;
   void check_heat() const;
   void init_bodies();
+  void init_nodes();
   void check_types(const lsdcd::WallSpec &) const;
 };
 

@@ -14,7 +14,8 @@ bool WallClearance::has_all(bool has_meshes) const
   for (const LAMMPS_NS::FixWallLsdcd *wall : walls_)
     for (std::size_t m = 0; m < wall->meshes().size(); m++, n++)
       if (n >= surfaces_.size() || surfaces_[n].fix != wall->id || surfaces_[n].index != m ||
-          surfaces_[n].fingerprint != wall->meshes()[m].grid.mesh_fingerprint())
+          surfaces_[n].fingerprint != wall->meshes()[m].grid.mesh_fingerprint() ||
+          wall->meshes()[m].nodes)    // whose shape is another one each time
         return false;
   return n == surfaces_.size();
 }
@@ -27,8 +28,8 @@ void WallClearance::follow(const std::vector<const LAMMPS_NS::FixWallLsdcd *> &w
   surfaces_.clear();
   for (const LAMMPS_NS::FixWallLsdcd *wall : walls_)
     for (std::size_t m = 0; m < wall->meshes().size(); m++) {
-      const MeshGrid &grid = wall->meshes()[m].grid;
-      surfaces_.emplace_back(wall->id, m, grid.mesh_fingerprint(), *grid.mesh());
+      const MeshPart &part = wall->meshes()[m];
+      surfaces_.emplace_back(wall->id, m, part.grid.mesh_fingerprint(), *part.mesh());
     }
 }
 

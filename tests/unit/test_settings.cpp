@@ -438,6 +438,17 @@ TEST(settings, surfaces_move_and_turn)
   EXPECT_FALSE(with("").meshes[0].surface.moves());
 }
 
+TEST(settings, nodes_are_atoms_of_a_group_that_a_pressure_pushes)
+{
+  const WallSpec s = with("nodes rubber pressure -2.5");
+  EXPECT_TRUE(s.meshes[0].has_nodes);
+  EXPECT_EQ(s.meshes[0].node_group, "rubber");
+  EXPECT_EQ(s.meshes[0].pressure, -2.5);
+  EXPECT_EQ(with("nodes rubber pressure v_p").inputs, (InputNames{"p"}));
+  EXPECT_FALSE(with("").meshes[0].has_nodes);
+  EXPECT_TRUE(names(error_with("nodes"), "the group of the nodes is missing"));
+}
+
 TEST(settings, motions_are_kept_in_the_order_given)
 {
   const WallSpec s = with("motion wiggle 1 2 3 0.5 wiggle z 0.1 2 scale 2 motion transrot 4 5 6 "

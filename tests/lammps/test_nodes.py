@@ -1,0 +1,256 @@
+#!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 LSDCD contributors
+# SPDX-License-Identifier: GPL-2.0-only
+
+"""Meshes whose nodes are atoms: strings and membranes in closed form, momentum, ranks, restart, errors."""
+
+import math
+import sys
+
+import lmp
+import stl
+
+BEGIN = """\
+units           lj
+atom_style      hybrid sphere bond
+atom_modify     map array sort {sort} 0.5
+boundary        f f f
+newton          on
+comm_modify     vel yes cutoff {reach}
+read_data       in.data
+group           nodes type 2 3
+group           grains type 1
+group           held type 3
+group           loose type 2
+pair_style      zero {reach}
+pair_coeff      * *
+neighbor        0.1 bin
+neigh_modify    delay 0 every 1 check yes
+bond_style      {bonds}
+special_bonds   lj 1 1 1
+timestep        {dt}
+"""
+
+
+class Net:
+    """A mesh with an atom at each vertex, bonds, and spheres: in.data and sheet.stl."""
+
+    def __init__(self, lo, hi):
+        self.lo, self.hi = lo, hi
+        self.nodes, self.grains, self.bonds, self.faces = [], [], [], []
+
+    def node(self, x, y, z, held, mass):
+        self.nodes.append((x, y, z, 3 if held else 2, mass))
+        return len(self.nodes) - 1
+
+    def write(self, folder, coefficients, skip=(), twice=()):
+        """`skip`: nodes without an atom; `twice`: with two."""
+        stl.write(folder / "sheet.stl", [[self.nodes[v][:3] for v in face] for face in self.faces])
+        atoms = []    # of a node the diameter and density give its mass
+        for k, (x, y, z, kind, mass) in enumerate(self.nodes):
+            for _ in range(0 if k in skip else 2 if k in twice else 1):
+                atoms.append((kind, x, y, z, 0.01, mass / (math.pi / 6 * 0.01**3)))
+        for x, y, z, radius, mass in self.grains:
+            atoms.append((1, x, y, z, 2 * radius, mass / (4 / 3 * math.pi * radius**3)))
+        text = f"nodes and grains\n\n{len(atoms)} atoms\n3 atom types\n{len(self.bonds)} bonds\n"
+        text += f"{max(1, len(coefficients))} bond types\n"
+        text += "".join(f"{self.lo[d]} {self.hi[d]} {'xyz'[d]}lo {'xyz'[d]}hi\n" for d in range(3))
+        text += "\nAtoms\n\n" + "".join(f"{i + 1} {kind} {x:.17g} {y:.17g} {z:.17g} {diameter:.17g} {density:.17g} 1\n"
+                                        for i, (kind, x, y, z, diameter, density) in enumerate(atoms))
+        if self.bonds:
+            text += "\nBonds\n\n" + "".join(f"{i + 1} {kind} {a + 1} {b + 1}\n" for i, (kind, a, b) in enumerate(self.bonds))
+        (folder / "in.data").write_text(text)
+
+
+def begin(dt, reach, coefficients, sort=0):
+    bonds = "harmonic" + "".join(f"\nbond_coeff {k + 1} {c / 2:.17g} 0" for k, c in enumerate(coefficients))
+    return BEGIN.format(dt=dt, reach=reach, bonds=bonds if coefficients else "zero\nbond_coeff *", sort=sort)
+
+
+def rows_of(path):
+    return [[float(w) for w in line.split()] for line in path.read_text().split("\n") if line and line[0] != "#"]
+
+
+# ---- a string under a weight -------------------------------------------------------------
+
+TENSION, SPAN, WEIGHT = 50.0, 2.0, 1.0
+
+
+def string(folder, n):
+    """A strip of 2 n squares along x between held ends; bonds of length 0 when slack have T/2 each in all shapes."""
+    net = Net((-1.5, -0.5, -0.5), (1.5, 0.5, 0.5))
+    half = 0.1
+    rows = [[net.node(SPAN * i / (2 * n) - SPAN / 2, y, 0, i in (0, 2 * n), 0.02) for i in range(2 * n + 1)] for y in (-half, half)]
+    for i in range(2 * n):
+        a, b, c, d = rows[0][i], rows[0][i + 1], rows[1][i + 1], rows[1][i]
+        net.faces += [(a, b, c), (a, c, d)]
+        net.bonds += [(1, a, b), (1, d, c)]
+    net.grains.append((0, 0, 0.06, 0.06, 1.0))
+    coefficients = [TENSION / 2 / (SPAN / (2 * n))]
+    net.write(folder, coefficients)
+    return net, rows, coefficients
+
+
+FALL = f"""\
+fix             w grains wall/lsdcd hooke 2e4 0 0 0 0 0 mesh sheet.stl nodes nodes
+fix             down grains gravity {WEIGHT} vector 0 0 -1
+fix             slow all viscous 4
+fix             hold held setforce 0 0 0
+fix             turn grains nve/sphere
+fix             go loose nve
+"""
+
+
+def sags(checks, folder):
+    """A weight in the middle of a string sags by W L/(4 T)."""
+    wanted, found = WEIGHT * SPAN / (4 * TENSION), []
+    for n in (5, 10):
+        _, rows, coefficients = string(folder, n)
+        middle = rows[0][n] + 1
+        lmp.run_well(begin(1e-3, 0.5, coefficients) + FALL + "run 4000\nrun 1000\n"
+                     f"print \"$(z[{middle}]:%.17g) $(f_w[3]:%.17g)\" file out.txt screen no\n", folder)
+        found.append(rows_of(folder / "out.txt")[0])
+    checks.at_most("a string sags by W L/(4 T)", abs(-found[1][0] - wanted), 0.01 * wanted)
+    checks.at_most("it carries the weight", abs(-found[1][1] - WEIGHT), 1e-4)
+    checks.at_most("with half as many nodes, too", abs(-found[0][0] - wanted), 0.01 * wanted)
+
+
+def on_processes(checks, folder):
+    """Places of all after 400 steps: on 1, 2 and 4 processes, with sorted atoms, and with a restart in the middle."""
+    _, _, coefficients = string(folder, 5)
+    dump = "dump out all custom 400 {0} id x y z vx vy vz\ndump_modify out sort id format float %.17g first no\n"
+    def places(name):
+        text = (folder / name).read_text().split("ITEM: ATOMS")[-1].split("\n")[1:]
+        return [float(w) for line in text for w in line.split()[1:]]
+    found = {}
+    for name, ranks, sort in (("one", 1, 0), ("two", 2, 0), ("four", 4, 0), ("sorted", 2, 7)):
+        lmp.run_well(begin(1e-3, 0.5, coefficients, sort) + FALL + dump.format(name) + "run 400\n", folder, ranks)
+        found[name] = places(name)
+    for name in ("two", "four", "sorted"):
+        worst = max(abs(a - b) for a, b in zip(found["one"], found[name]))
+        checks.at_most(f"places and velocities, {name}", worst, 1e-11)
+    # The set-up of a run gives fix viscous the velocities of the whole step.
+    head = begin(1e-3, 0.5, coefficients)
+    lmp.run_well(head + FALL + dump.format("halves") + "run 200\nrun 200\n", folder, 2)
+    lmp.run_well(head + FALL + "run 200\nwrite_restart half.restart\n", folder, 2)
+    again = head.replace("read_data       in.data", "read_restart half.restart")
+    lmp.run_well(again + FALL + dump.format("again") + "run 200\n", folder, 2)
+    worst = max(abs(a - b) for a, b in zip(places("halves"), places("again")))
+    checks.at_most("restarted in the middle", worst, 1e-11)
+
+
+# ---- a membrane under a pressure -----------------------------------------------------------
+
+def membrane(folder, n, tension):
+    """A disc of n rings. Bonds along the edges with T (cot a + cot b)/2 are the membrane of linear triangles (Pinkall and
+    Polthier 1993)."""
+    net = Net((-1.2, -1.2, -0.5), (1.2, 1.2, 0.5))
+    ring = [[net.node(0, 0, 0, False, 0.02)]]
+    for k in range(1, n + 1):
+        ring.append([net.node(k / n * math.cos(math.pi * j / (3 * k)), k / n * math.sin(math.pi * j / (3 * k)), 0, k == n, 0.02)
+                     for j in range(6 * k)])
+    for k in range(1, n + 1):
+        inner, outer = ring[k - 1], ring[k]
+        for side in range(6):
+            for j in range(k):
+                a, b = outer[side * k + j], outer[(side * k + j + 1) % (6 * k)]
+                c = inner[(side * (k - 1) + j) % len(inner)]
+                net.faces.append((a, b, c))
+                if j < k - 1:
+                    net.faces.append((c, b, inner[(side * (k - 1) + j + 1) % len(inner)]))
+    weight = {}
+    for face in net.faces:
+        for k in range(3):
+            a, b, c = (face[(k + i) % 3] for i in range(3))
+            p, q = ([net.nodes[v][d] - net.nodes[c][d] for d in range(2)] for v in (a, b))
+            cot = (p[0] * q[0] + p[1] * q[1]) / abs(p[0] * q[1] - p[1] * q[0])
+            edge = (min(a, b), max(a, b))
+            weight[edge] = weight.get(edge, 0) + tension * cot / 2
+    coefficients = list(weight.values())
+    net.bonds = [(k + 1, a, b) for k, (a, b) in enumerate(weight)]
+    net.grains.append((0, 0, 0.4, 0.05, 1.0))
+    net.write(folder, coefficients)
+    return coefficients
+
+
+def bulges(checks, folder):
+    """A circular membrane of tension T and radius a bulges by p a^2/(4 T), to the square of the mesh."""
+    pressure, tension, off = 0.4, 10.0, []
+    wanted = pressure / (4 * tension)
+    for n in (3, 6):
+        coefficients = membrane(folder, n, tension)
+        lmp.run_well(begin(2e-3, 0.6, coefficients) +
+                     f"fix w grains wall/lsdcd hooke 2e4 0 0 0 0 0 mesh sheet.stl nodes nodes pressure v_p\n"
+                     f"variable p equal {pressure}\n"
+                     "fix slow all viscous 0.3\nfix hold held setforce 0 0 0\nfix go loose nve\nrun 4000\n"
+                     "print \"$(z[1]:%.17g)\" file out.txt screen no\n", folder)
+        off.append(rows_of(folder / "out.txt")[0][0] / wanted - 1)
+    checks.at_most("a membrane of 6 rings bulges by p a^2/(4 T)", abs(off[1]), 0.01)
+    checks.at_most("and of 3 rings", abs(off[0]), 0.03)
+
+
+# ---- momentum --------------------------------------------------------------------------------
+
+def impact(checks, folder):
+    """A sphere on a free plate of nodes: all momentum is kept."""
+    net = Net((-2, -2, -2), (2, 2, 2))
+    rows = [[net.node(i - 1, j - 1, 0, False, 0.3) for i in range(3)] for j in range(3)]
+    for i in range(2):
+        for j in range(2):
+            a, b, c, d = rows[j][i], rows[j][i + 1], rows[j + 1][i + 1], rows[j + 1][i]
+            net.faces += [(a, b, c), (a, c, d)]
+            net.bonds += [(1, a, b), (1, b, c), (1, c, d), (1, d, a), (1, a, c)]
+    net.grains.append((0.2, 0.1, 0.21, 0.2, 1.0))
+    net.write(folder, [30.0])
+    lmp.run_well(begin(1e-3, 1.5, [30.0]) +
+                 "fix w grains wall/lsdcd hooke/history 2e3 5e2 3 2 0.4 1 mesh sheet.stl nodes nodes\n"
+                 "velocity grains set 0.2 0.1 -1\nfix turn grains nve/sphere\nfix go nodes nve\n"
+                 "variable px equal vcm(all,x)*mass(all)\nvariable pz equal vcm(all,z)*mass(all)\n"
+                 "fix out all print 1 \"$(v_px:%.17g) $(v_pz:%.17g) $(f_w[3]:%.17g)\" file out.txt screen no\n"
+                 "run 300\n", folder)
+    rows = rows_of(folder / "out.txt")
+    worst = max(max(abs(row[0] - 0.2), abs(row[1] + 1)) for row in rows)
+    checks.at_most("an impact keeps momentum", worst, 1e-12)
+    checks.fact("and it was one", max(-row[2] for row in rows) > 10)
+
+
+# ---- errors ----------------------------------------------------------------------------------
+
+def refused(checks, folder):
+    net, _, coefficients = string(folder, 3)
+    head = begin(1e-3, 0.8, coefficients)
+    def fails(name, text, says):
+        done = lmp.run(head + text + "run 1\n", folder)
+        checks.fact(name, done.returncode != 0 and says in " ".join(done.stdout.split()))
+    wall = "fix w {group} wall/lsdcd hooke 2e4 0 0 0 0 0 mesh sheet.stl nodes {nodes} {more}\n"
+    fails("nodes in the group of the fix", wall.format(group="all", nodes="nodes", more=""), "and in the group of the fix, too")
+    fails("a group that is not there", wall.format(group="grains", nodes="noes", more=""), "there is no group 'noes'")
+    fails("a motion beside nodes", wall.format(group="grains", nodes="nodes", more="motion linear 0 0 1"), "its nodes alone move it")
+    fails("pressure without nodes", wall.format(group="grains", nodes="nodes", more="").replace("nodes nodes", "pressure 1"),
+          "give it nodes")
+    fails("device cuda", wall.format(group="grains", nodes="nodes", more="device cuda"), "computed on the CPU so far")
+    bonds, net.bonds = net.bonds, []
+    net.write(folder, coefficients, skip=(3, 5))
+    fails("vertices without an atom", wall.format(group="grains", nodes="nodes", more=""),
+          "2 of the 14 vertices of mesh 'sheet.stl' have no atom of group 'nodes'")
+    net.write(folder, coefficients, twice=(2,))
+    fails("two atoms at a vertex", wall.format(group="grains", nodes="nodes", more=""), "2 atoms of group 'nodes' are at the vertex")
+    net.bonds = bonds
+    net.write(folder, coefficients)
+    lost = head + wall.format(group="grains", nodes="nodes", more="") + "thermo_modify lost ignore\nrun 1\n" \
+        "group one id 3\ndelete_atoms group one bond yes\nrun 1\n"
+    done = lmp.run(lost, folder)
+    checks.fact("a lost node", done.returncode != 0 and "atom 3, a node of mesh 'sheet.stl', is lost" in " ".join(done.stdout.split()))
+
+
+def main():
+    checks = lmp.Checks()
+    folder = lmp.scratch()
+    tests = {f.__name__: f for f in (sags, on_processes, bulges, impact, refused)}
+    for name in sys.argv[1:] or tests:
+        tests[name](checks, folder)
+    checks.done(folder)
+
+
+if __name__ == "__main__":
+    main()
