@@ -3,13 +3,16 @@
 # SPDX-License-Identifier: GPL-2.0-only
 
 # Builds a LAMMPS to test against, from Debian's parts and outside the tree.
-#   build_host.sh [VERSION]  builds it unless it is there; the last line is its folder
+#   build_host.sh [VERSION [MPI]]  builds it unless it is there; the last line is its folder
 #   VERSION 20260704         (default) 4Jul2026 of Debian's sid, whose granular walls ours are
 #                            checked against, with a Kokkos of its own
 #   VERSION 20210929         29Sep2021 of bookworm on bookworm's Kokkos 3.4
+#   MPI mpich                with MPICH instead of the machine's own MPI, and without KOKKOS
+#   MPI serial               without MPI and without KOKKOS
 #   LSDCD_HOSTS              where (default ${XDG_CACHE_HOME:-~/.cache}/lsdcd/hosts)
 #   LSDCD_HOST_JOBS          compilers at once (default: one per core)
-# Both have the packages GRANULAR, KOKKOS (Serial, double) and PLUGIN, and fix rigid/small. The folder then holds
+# All have the packages GRANULAR and PLUGIN, and fix rigid/small; without the word MPI also KOKKOS (Serial, double). The
+# folder, VERSION or VERSION-MPI, then holds
 #   lmp, liblammps.so.0      the program; both resolve their libraries from the folder itself
 #   src/                     headers of LAMMPS, those of its package KOKKOS in src/KOKKOS
 #   kokkos/                  include/ and lib/ of Kokkos, where Debian has none to install
@@ -52,11 +55,19 @@ case $version in
     ;;
   *) die "no such version: $version (20260704 or 20210929)" ;;
 esac
+mpi=${2:-} build_mpi=on mpicxx=mpicxx mpi_options=()
+case $mpi in
+  "") ;;
+  mpich) mpicxx=mpicxx.mpich mpi_options=(-D MPI_C_COMPILER=mpicc.mpich -D MPI_CXX_COMPILER=mpicxx.mpich) ;;
+  serial) build_mpi=off mpicxx=c++ ;;
+  *) die "no such MPI: $mpi (mpich or serial)" ;;
+esac
+if [ -n "$mpi" ]; then kokkos= kokkos_source=; fi
 
 # -O1 compiles in two thirds of the time of -O2, and the scripts are small. No contraction:
 # our own build has none, and the two are compared to the last bits.
 flags="-O1 -ffp-contract=off"
-options=(-D BUILD_SHARED_LIBS=on -D BUILD_MPI=on -D BUILD_OMP=off
+options=(-D BUILD_SHARED_LIBS=on -D BUILD_MPI=$build_mpi -D BUILD_OMP=off
          -D PKG_GRANULAR=on -D PKG_PLUGIN=on -D PKG_GRAPHICS=on -D PKG_RIGID=on
          -D WITH_JPEG=off -D WITH_PNG=off -D WITH_FFMPEG=off -D WITH_GZIP=off -D WITH_CURL=off
          -D CMAKE_BUILD_TYPE=None)
@@ -66,14 +77,14 @@ kokkos_options=(-D BUILD_SHARED_LIBS=on -D Kokkos_ENABLE_SERIAL=on -D Kokkos_ENA
                 -D CMAKE_CXX_EXTENSIONS=off -D CMAKE_INSTALL_LIBDIR=lib -D CMAKE_BUILD_TYPE=None)
 
 hosts=${LSDCD_HOSTS:-${XDG_CACHE_HOME:-$HOME/.cache}/lsdcd/hosts}
-folder=$hosts/$version
+folder=$hosts/$version${mpi:+-$mpi}
 work=$folder/work
 jobs=${LSDCD_HOST_JOBS:-$(nproc)}
 
-for tool in cmake c++ mpicxx flock sha256sum tar; do
+for tool in cmake c++ $mpicxx flock sha256sum tar; do
   command -v $tool >/dev/null || skip "no $tool on this machine"
 done
-if [ -z "$kokkos_source" ] && ! grep -qs 'KOKKOS_VERSION 30401' $kokkos_include/KokkosCore_config.h; then
+if [ -n "$kokkos" ] && [ -z "$kokkos_source" ] && ! grep -qs 'KOKKOS_VERSION 30401' $kokkos_include/KokkosCore_config.h; then
   skip "no Kokkos $kokkos on this machine (bookworm's libtrilinos-kokkos-dev)"
 fi
 mkdir -p "$folder"
@@ -117,6 +128,7 @@ compile() {
 }
 
 tools="$(c++ -dumpfullversion) $(mpicxx --showme:link 2>/dev/null || true)"
+if [ -n "$mpi" ]; then tools="$(c++ -dumpfullversion) $mpi"; fi
 rm -rf "$work"
 mkdir "$work"
 trap 'rm -rf "$work"' EXIT
@@ -195,7 +207,7 @@ fi
 } >"$work/parsed_once.h"
 echo "target_precompile_headers(lammps PRIVATE $work/parsed_once.h)" >>"$work/cmake/CMakeLists.txt"
 export CCACHE_SLOPPINESS=pch_defines,time_macros
-compile "LAMMPS $version" lmp "$work/cmake" "$work/build" "${options[@]}"
+compile "LAMMPS $version" lmp "$work/cmake" "$work/build" "${options[@]}" "${mpi_options[@]}"
 
 # What is kept: the program, its library beside it, the headers, and how they were compiled.
 cp -P "$work"/build/liblammps.so* "$work/build/lmp" "$folder"
@@ -204,6 +216,7 @@ mkdir "$folder/src"
   { [ ! -d nlohmann ] || cp -r nlohmann "$folder/src"; })
 {
   echo "set(LSDCD_HOST_VERSION $version)"
+  echo "set(LSDCD_HOST_MPI $build_mpi)"
   echo "set(LSDCD_HOST_KOKKOS \"$kokkos\")"
   if [ -n "$kokkos" ]; then
     echo "set(LSDCD_HOST_KOKKOS_INCLUDES \"\${CMAKE_CURRENT_LIST_DIR}/src/KOKKOS\" \"$kokkos_include\")"
