@@ -46,8 +46,9 @@ TriangleSoup sheet(int n, int m, Real jitter, const std::function<Vec3(Real, Rea
   for (int i = 0; i <= n; i++)
     for (int j = 0; j <= m; j++) {
       const bool inner = i > 0 && i < n && j > 0 && j < m;
-      const Vec3 p =
-          at((i + (inner ? shift(random) : 0)) / n, (j + (inner ? shift(random) : 0)) / m);
+      // One after the other: compilers differ in the order of arguments.
+      const Real dt = inner ? shift(random) : 0, ds = inner ? shift(random) : 0;
+      const Vec3 p = at((i + ds) / n, (j + dt) / m);
       node.push_back({float(p.x), float(p.y), float(p.z)});
     }
   TriangleSoup soup;
