@@ -8,7 +8,7 @@ if(LSDCD_COMMIT MATCHES "^[0-9a-f]+$")
   string(SUBSTRING ${LSDCD_COMMIT} 0 10 LSDCD_COMMIT)
   return()
 endif()
-execute_process(COMMAND git -C ${CMAKE_SOURCE_DIR} describe --always --dirty
+execute_process(COMMAND git -C ${PROJECT_SOURCE_DIR} describe --always --dirty
   OUTPUT_VARIABLE LSDCD_COMMIT OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET)
 if(NOT LSDCD_COMMIT)
   set(LSDCD_COMMIT "unknown")

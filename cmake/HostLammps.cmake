@@ -6,6 +6,9 @@
 #   LSDCD_HOST_LIBRARY   its shared library, for the launcher only
 #   LSDCD_HOST_VERSION   its version as a number, 20210929 for 29 Sep 2021
 #   LSDCD_HOST_SIZES     LAMMPS_SMALLBIG, LAMMPS_BIGBIG or LAMMPS_SMALLSMALL
+#   LSDCD_HOST_MPI       OFF for one that was built without MPI (BUILD_MPI=off); its headers then are a source
+#                        tree's src, whose folder STUBS has LAMMPS's stand-in for mpi.h
+#   MPI_CXX_COMPILER     the mpicxx of its MPI, if it is not the one in PATH: mpicxx.mpich
 # What is not given is found; LSDCD_HAVE_HOST tells whether the plugin can be built.
 set(LSDCD_HAVE_HOST OFF)
 if(NOT LSDCD_LAMMPS)
@@ -15,25 +18,17 @@ endif()
 
 find_path(LSDCD_HOST_INCLUDE lammps.h PATH_SUFFIXES lammps DOC "LAMMPS headers")
 find_library(LSDCD_HOST_LIBRARY lammps DOC "LAMMPS shared library")
-find_package(MPI QUIET COMPONENTS CXX)
+option(LSDCD_HOST_MPI "The LAMMPS was built with MPI" ON)
+if(LSDCD_HOST_MPI)
+  find_package(MPI QUIET COMPONENTS CXX)
+endif()
 
-# 20210929 for a line with "29 Sep 2021"; empty for none.
-function(lsdcd_version_number line result)
-  set(${result} "" PARENT_SCOPE)
-  if(line MATCHES "\"([0-9]+) ([A-Z][a-z][a-z])[a-z]* ([0-9]+)")
-    set(day ${CMAKE_MATCH_1})
-    set(year ${CMAKE_MATCH_3})
-    string(FIND "JanFebMarAprMayJunJulAugSepOctNovDec" ${CMAKE_MATCH_2} month)
-    math(EXPR version "${year} * 10000 + (${month} / 3 + 1) * 100 + ${day}")
-    set(${result} ${version} PARENT_SCOPE)
-  endif()
-endfunction()
+include(LammpsStyles)
 
 # An installed package has its version and integer sizes in its CMake files, a
 # source tree has its version in version.h. They hold against what a build folder keeps of another host.
 if(LSDCD_HOST_INCLUDE AND EXISTS ${LSDCD_HOST_INCLUDE}/version.h)
-  file(STRINGS ${LSDCD_HOST_INCLUDE}/version.h version REGEX "LAMMPS_VERSION")
-  lsdcd_version_number("${version}" version)
+  lsdcd_version_of(${LSDCD_HOST_INCLUDE}/version.h version)
   if(version)
     set(LSDCD_HOST_VERSION ${version} CACHE STRING "LAMMPS version as a number" FORCE)
   endif()
@@ -63,15 +58,26 @@ if(NOT LSDCD_HOST_INCLUDE)
 elseif(NOT LSDCD_HOST_VERSION)
   message(STATUS "LAMMPS plugin: no (version of ${LSDCD_HOST_INCLUDE} unknown; set LSDCD_HOST_VERSION)")
   return()
-elseif(NOT MPI_CXX_FOUND)
+elseif(NOT LSDCD_HOST_MPI AND NOT EXISTS ${LSDCD_HOST_INCLUDE}/STUBS/mpi.h)
+  message(STATUS "LAMMPS plugin: no (LSDCD_HOST_MPI is OFF and ${LSDCD_HOST_INCLUDE}/STUBS has no mpi.h: "
+    "set LSDCD_HOST_INCLUDE to src of LAMMPS's sources)")
+  return()
+elseif(LSDCD_HOST_MPI AND NOT MPI_CXX_FOUND)
   message(STATUS "LAMMPS plugin: no (MPI not found; Debian: libopenmpi-dev)")
   return()
 endif()
 
-# A target to compile against a host: its headers and its MPI's, version and integer sizes, and shims
+# A target to compile against a host: its headers and those of MPI, the version and integer sizes, and shims
 # only for what its own headers lack. It links nothing: LAMMPS and MPI are in the program that opens a plugin.
+# What follows are the folders of mpi.h, where it is not that of LSDCD_HOST_MPI.
 function(lsdcd_host_target name include version sizes)
   add_library(${name} INTERFACE)
+  set(mpi ${ARGN})
+  if(NOT mpi AND LSDCD_HOST_MPI)
+    set(mpi $<TARGET_PROPERTY:MPI::MPI_CXX,INTERFACE_INCLUDE_DIRECTORIES>)
+  elseif(NOT mpi)
+    set(mpi ${include}/STUBS)
+  endif()
   foreach(shim fmt/format.h command.h safe_pointers.h)
     if(NOT EXISTS ${include}/${shim})
       string(REGEX REPLACE "[/.].*" "" folder ${shim})
@@ -81,7 +87,7 @@ function(lsdcd_host_target name include version sizes)
   target_include_directories(${name} SYSTEM INTERFACE ${include})
   target_compile_definitions(${name} INTERFACE
     ${sizes} LSDCD_HOST_VERSION=${version} OMPI_SKIP_MPICXX MPICH_SKIP_MPICXX)
-  target_include_directories(${name} SYSTEM INTERFACE $<TARGET_PROPERTY:MPI::MPI_CXX,INTERFACE_INCLUDE_DIRECTORIES>)
+  target_include_directories(${name} SYSTEM INTERFACE ${mpi})
 endfunction()
 lsdcd_host_target(lsdcd_host ${LSDCD_HOST_INCLUDE} ${LSDCD_HOST_VERSION} ${LSDCD_HOST_SIZES})
 

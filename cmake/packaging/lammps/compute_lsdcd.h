@@ -1,0 +1,11 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: GPL-2.0-only
+
+// For LAMMPS's list of styles: LSDCD.cmake.
+#ifdef COMPUTE_CLASS
+// clang-format off
+ComputeStyle(lsdcd/collide,ComputeCollideLsdcd);
+// clang-format on
+#else
+#include "lammps/compute_collide_lsdcd.h"
+#endif

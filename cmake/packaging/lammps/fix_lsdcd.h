@@ -1,0 +1,15 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: GPL-2.0-only
+
+// For LAMMPS's list of styles: LSDCD.cmake.
+#ifdef FIX_CLASS
+// clang-format off
+FixStyle(insert/lsdcd,FixInsertLsdcd);
+FixStyle(massflow/lsdcd,FixMassflowLsdcd);
+FixStyle(wall/lsdcd,FixWallLsdcd);
+// clang-format on
+#else
+#include "lammps/fix_insert_lsdcd.h"
+#include "lammps/fix_massflow_lsdcd.h"
+#include "lammps/fix_wall_lsdcd.h"
+#endif
