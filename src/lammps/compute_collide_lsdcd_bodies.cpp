@@ -45,9 +45,8 @@ std::vector<ComputeCollideLsdcd::Member> ComputeCollideLsdcd::gather_members() c
     if (atom->mask[i] & groupbit)
       mine.push_back(
           {settings.molecules ? atom->molecule[i] : 0, atom->tag[i], unwrapped(*atom, *domain, i)});
-  const double n_mine = static_cast<double>(mine.size());
-  double n_all = 0;
-  MPI_Allreduce(&n_mine, &n_all, 1, MPI_DOUBLE, MPI_SUM, world);
+  double n_all = static_cast<double>(mine.size());
+  MPI_Allreduce(MPI_IN_PLACE, &n_all, 1, MPI_DOUBLE, MPI_SUM, world);
   constexpr double kMax = 2e9 / sizeof(Member);
   if (n_all == 0) throw InputError("the group has no atoms: create them before the compute");
   if (n_all > kMax)

@@ -3,6 +3,8 @@
 
 #include "lammps/mpi_host.h"
 
+#ifndef MPI_STUBS    // a host without MPI needs none of this
+
 #include "base/large_memory.h"
 
 #include <algorithm>
@@ -164,3 +166,5 @@ void MpiNodeHost::publish(const NodeMemory &memory)
 }
 
 }    // namespace lsdcd
+
+#endif

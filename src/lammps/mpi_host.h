@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: GPL-2.0-only
 
-// The processes of an MPI communicator as a host.
+// The processes of an MPI communicator as a host. In a plugin for a LAMMPS without MPI (LSDCD_HOST_MPI is OFF) it is
+// compiled with LAMMPS's stand-in for mpi.h, and there is one process.
 #pragma once
 
 #include "host/host.h"
@@ -12,6 +13,17 @@
 #include <vector>
 
 namespace lsdcd {
+
+#ifdef MPI_STUBS
+
+struct MpiHost : Host {    // a host is a process on its own
+  explicit MpiHost(MPI_Comm /*world*/) {}
+};
+struct MpiNodeHost : MpiHost {
+  using MpiHost::MpiHost;
+};
+
+#else
 
 class MpiHost : public Host {
  public:
@@ -42,5 +54,7 @@ class MpiNodeHost : public MpiHost {
   MPI_Comm node_;
   MPI_Comm fillers_;    // processes that fill memory, by their rank in the world; null on others
 };
+
+#endif
 
 }    // namespace lsdcd

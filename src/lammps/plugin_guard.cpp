@@ -17,7 +17,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <dlfcn.h>
-#include <mpi.h>    // for what it defines; nothing that it declares is called
+#include <mpi.h>    // for what it defines; nothing that it declares is called. MPI_STUBS: LAMMPS's stand-in
 
 namespace {
 
@@ -27,8 +27,15 @@ namespace {
 constexpr char kMpi[] = "Open MPI", kMpiMark[] = "ompi_mpi_comm_world";
 #elif defined(MPICH_NAME)
 constexpr char kMpi[] = "MPICH", kMpiMark[] = "MPIR_Dup_fn";
+#elif defined(MPI_STUBS)
+constexpr char kMpi[] = "no MPI", kMpiMark[] = "";
 #else
 constexpr char kMpi[] = "another MPI library", kMpiMark[] = "MPI_Init";
+#endif
+#ifdef MPI_STUBS
+constexpr bool kSerial = true;
+#else
+constexpr bool kSerial = false;
 #endif
 
 #ifdef LSDCD_KOKKOS_BACKEND
@@ -111,23 +118,20 @@ bool host_matches(void *lmp)
   auto *has_mpi = host_function<int()>("lammps_config_has_mpi_support");
   const bool serial = has_mpi && !has_mpi();
   char mpi[64] = "no MPI";
-  const bool same_mpi = !serial && ask_mpi(mpi, sizeof mpi);
+  const bool same_mpi = serial ? kSerial : ask_mpi(mpi, sizeof mpi) && !kSerial;
 
   if (host == LSDCD_HOST_VERSION && same_sizes && same_mpi) return true;
-  char remedy[256];
-  if (serial)
-    std::snprintf(remedy, sizeof remedy,
-                  "Take a LAMMPS that is built with MPI (cmake -D BUILD_MPI=on); it also runs on "
-                  "one process without mpirun");
-  else
-    std::snprintf(remedy, sizeof remedy, "%s %s%s%s%s", kRebuild, kFolder,
-                  same_sizes ? "" : " -D LSDCD_HOST_SIZES=", same_sizes ? "" : sizes,
-                  same_mpi ? "" : " -D MPI_CXX_COMPILER=<the mpicxx of its MPI>");
+  const char *its_mpi = same_mpi ? ""
+                        : serial ? " -D LSDCD_HOST_MPI=OFF"
+                        : kSerial
+                            ? " -D LSDCD_HOST_MPI=ON -D MPI_CXX_COMPILER=<the mpicxx of its MPI>"
+                            : " -D MPI_CXX_COMPILER=<the mpicxx of its MPI>";
   return refuse(
       lmp,
       "it was built for LAMMPS version %d with %s and integers %s, this is %s with %s and "
-      "integers %s. %s",
-      LSDCD_HOST_VERSION, kMpi, own_sizes, version, mpi, sizes, remedy);
+      "integers %s. %s %s%s%s%s",
+      LSDCD_HOST_VERSION, kMpi, own_sizes, version, mpi, sizes, kRebuild, kFolder,
+      same_sizes ? "" : " -D LSDCD_HOST_SIZES=", same_sizes ? "" : sizes, its_mpi);
 }
 
 #ifdef LSDCD_KOKKOS_BACKEND

@@ -79,10 +79,13 @@ def for_host(text, flags):
 
 # With LSDCD_KOKKOS_MOVES=device atoms are sorted and exchanged by Kokkos's kernels, as on a GPU; on
 # a host without one Kokkos leaves that to LAMMPS.
-# LSDCD_KOKKOS_FLAGS: of a host on a GPU, "-k on g 1 -sf kk -pk kokkos newton off neigh half".
+# LSDCD_KOKKOS_FLAGS: of a host on a GPU, "-k on g 1 -sf kk -pk kokkos newton off neigh half"; empty for a LAMMPS without
+# Kokkos, which LSDCD_KOKKOS_HOST and LSDCD_KOKKOS_PLUGIN may be as well.
 KOKKOS = tuple(os.environ.get("LSDCD_KOKKOS_FLAGS", "-k on -sf kk").split())
 # A column of a fix's per-atom array, in an atom-style variable.
 COLUMN = "f" if ON_KOKKOS and "20260704" in KOKKOS_HOST else "F"
+# What starts several processes of it.
+MPIRUN = os.environ.get("LSDCD_MPIRUN", "mpirun --oversubscribe").split()
 DEVICE_MOVES = os.environ.get("LSDCD_KOKKOS_MOVES") == "device"
 if DEVICE_MOVES:
     KOKKOS += ("-pk", "kokkos", "comm", "device", "sort", "device")
@@ -102,7 +105,7 @@ def run(script, folder, ranks=1, timeout=300, env=None, host=ON_KOKKOS, flags=KO
     for name, value in variables.items():
         command += ["-var", name, str(value)]
     if ranks > 1:
-        command = ["mpirun", "-np", str(ranks), "--oversubscribe", *command]
+        command = [*MPIRUN, "-np", str(ranks), *command]
     return subprocess.run(command, cwd=folder, env={**environment(), **(env or {})}, text=True,
                           stdout=subprocess.PIPE, stderr=subprocess.STDOUT, timeout=timeout)
 

@@ -63,6 +63,17 @@ def compile_c(source, output, *flags):
     return output
 
 
+def compile_guard(folder, mpi_header):
+    """The file that is loaded, with what a LAMMPS 4Jul2026 and its mpi.h define."""
+    folder.mkdir()
+    (folder / "mpi.h").write_text(mpi_header + "\n")
+    (folder / "lmptype.h").write_text("namespace LAMMPS_NS { typedef int tagint; typedef long bigint; }\n")
+    subprocess.run([lmp.CXX, "-std=c++17", "-shared", "-fPIC", "-I", folder, "-DLSDCD_HOST_VERSION=20260704",
+                    '-DLSDCD_STYLES="lsdcdplugin-styles.so"', lmp.HERE.parent.parent / "src" / "lammps" / "plugin_guard.cpp",
+                    "-o", folder / "lsdcdplugin.so", "-ldl"], check=True)
+    return folder / "lsdcdplugin.so"
+
+
 def load(host, libraries, version, sizes, mpi=1, rank=0, plugin=PLUGIN):
     """The host's exit status, and what it and the plugin wrote."""
     done = subprocess.run([host, plugin, str(version), str(mpi), *map(str, SIZES[sizes]), str(rank)], text=True,
@@ -96,7 +107,7 @@ def main():
     same = {"libraries": [libraries[mpi]], "version": version, "sizes": sizes}
 
     refused("a host without a version is refused", "this is an unknown version", **{**same, "version": 0})
-    refused("a LAMMPS without MPI is refused", "with no MPI and", "BUILD_MPI=on",
+    refused("a LAMMPS without MPI is refused", "with no MPI and", "-D LSDCD_HOST_MPI=OFF",
             **{**same, "libraries": [], "mpi": 0})
     for other in SIZES.keys() - {sizes}:
         refused(f"{other} is refused", f"and integers {other}.", f"-D LSDCD_HOST_SIZES={other}",
@@ -119,6 +130,14 @@ def main():
     shutil.copy(PLUGIN, alone)
     refused("a plugin without its other file is refused", f"{alone.parent}/lsdcdplugin-styles.so",
             "Keep both files in one folder", **same, plugin=alone)
+
+    # Of a plugin that is built for a LAMMPS without MPI, the first file only: it lets that LAMMPS in where it
+    # looks for its second.
+    serial = {"plugin": compile_guard(folder / "serial", "#define MPI_STUBS"), "version": 20260704, "sizes": "LAMMPS_SMALLBIG"}
+    refused("a plugin without MPI takes a LAMMPS without MPI", "its other file does not open", libraries=[], mpi=0, **serial)
+    for name, library in libraries.items():
+        refused(f"a plugin without MPI refuses a LAMMPS with {name}", "with no MPI and integers", f"with {name} ",
+                "-D LSDCD_HOST_MPI=ON -D MPI_CXX_COMPILER=", libraries=[library], **serial)
     checks.done(folder)
 
 

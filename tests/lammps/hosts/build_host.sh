@@ -7,17 +7,18 @@
 #   VERSION 20260704         (default) 4Jul2026 of Debian's sid, whose granular walls ours are
 #                            checked against, with a Kokkos of its own
 #   VERSION 20210929         29Sep2021 of bookworm on bookworm's Kokkos 3.4
-#   MPI mpich                with MPICH instead of the machine's own MPI, and without KOKKOS
-#   MPI serial               without MPI and without KOKKOS
+#   MPI mpich                with MPICH instead of the machine's own MPI
+#   MPI serial               without MPI
 #   LSDCD_HOSTS              where (default ${XDG_CACHE_HOME:-~/.cache}/lsdcd/hosts)
 #   LSDCD_HOST_JOBS          compilers at once (default: one per core)
-# All have the packages GRANULAR and PLUGIN, and fix rigid/small; without the word MPI also KOKKOS (Serial, double). The
-# folder, VERSION or VERSION-MPI, then holds
+# All have the packages GRANULAR and PLUGIN; without the word MPI also KOKKOS (Serial, double), GRAPHICS and fix
+# rigid/small. The folder, VERSION or VERSION-MPI, then holds
 #   lmp, liblammps.so.0      the program; both resolve their libraries from the folder itself
 #   src/                     headers of LAMMPS, those of its package KOKKOS in src/KOKKOS
 #   kokkos/                  include/ and lib/ of Kokkos, where Debian has none to install
 #   host.cmake               what a plugin for it is compiled with, as CMake variables: its
-#                            Kokkos ("" without), includes, definitions, least C++ standard
+#                            Kokkos ("" without), includes, definitions, least C++ standard; with the word MPI
+#                            the folders of mpi.h
 # 80 to 215 MB come from the mirror that this machine's apt uses; the build takes some minutes.
 # Exits 77 with a line "skipped: ..." where source or tools cannot be had. Without the source
 # of Kokkos 4Jul2026 is built without it, which a line says: host.cmake then names none.
@@ -62,7 +63,6 @@ case $mpi in
   serial) build_mpi=off mpicxx=c++ ;;
   *) die "no such MPI: $mpi (mpich or serial)" ;;
 esac
-if [ -n "$mpi" ]; then kokkos= kokkos_source=; fi
 
 # -O1 compiles in two thirds of the time of -O2, and the scripts are small. No contraction:
 # our own build has none, and the two are compared to the last bits.
@@ -71,6 +71,11 @@ options=(-D BUILD_SHARED_LIBS=on -D BUILD_MPI=$build_mpi -D BUILD_OMP=off
          -D PKG_GRANULAR=on -D PKG_PLUGIN=on -D PKG_GRAPHICS=on -D PKG_RIGID=on
          -D WITH_JPEG=off -D WITH_PNG=off -D WITH_FFMPEG=off -D WITH_GZIP=off -D WITH_CURL=off
          -D CMAKE_BUILD_TYPE=None)
+if [ -n "$mpi" ]; then    # what a plugin is tried with, and no more
+  kokkos= kokkos_source= flags="-O0 -ffp-contract=off"
+  options=("${options[@]/PKG_GRAPHICS=on/PKG_GRAPHICS=off}")
+  options=("${options[@]/PKG_RIGID=on/PKG_RIGID=off}")
+fi
 # As LAMMPS asks of the Kokkos that it builds itself.
 kokkos_options=(-D BUILD_SHARED_LIBS=on -D Kokkos_ENABLE_SERIAL=on -D Kokkos_ENABLE_IMPL_VIEW_LEGACY=on
                 -D Kokkos_ENABLE_ATOMICS_BYPASS=on -D CMAKE_CXX_STANDARD="$standard"
@@ -175,6 +180,15 @@ rm -f "$work"/src/KOKKOS/{angle,bond,dihedral,improper}_* \
   "$work"/src/{.,KOKKOS}/compute_temp_{com,deform,partial,profile,ramp}[._]* \
   "$work"/src/compute_{angle,bond,dihedral,improper,inertia,dipole,torque,omega,angmom,vcm,displace}[._]* \
   "$work"/src/compute_{cluster,aggregate,heat_flux}[._]* "$work"/src/KOKKOS/atom_vec_charge_*
+if [ -n "$mpi" ]; then
+  rm -f "$work"/src/pair_{born,buck,coul,lj,morse,soft,table,yukawa,zbl,write}[._]* "$work"/src/min_{fire,hftn,quickmin,sd}.* \
+    "$work"/src/compute_{centroid,com,count,fragment,global,group,slice,property_chunk,property_grid,property_local}[._]* \
+    "$work"/src/compute_{reduce_chunk,reduce_region,temp_chunk,temp_region,chunk_spread_atom,pair_local}[._]* \
+    "$work"/src/{angle,bond,dihedral,improper}_{zero,write}.* "$work"/src/dump_{cfg,grid,local,xyz}[._]* \
+    "$work"/src/fix_{ave_grid,ave_histo,aveforce,efield,evaporate,nve_limit,nve_noforce,wall_region,wall_table}[._]* \
+    "$work"/src/GRANULAR/{compute_fabric,fix_add_heat,fix_addtorque_atom,fix_damping_cundall,fix_settorque_atom}.* \
+    "$work"/src/GRANULAR/fix_viscous_nonlinear.* "$work"/src/reset_atoms_*
+fi
 find "$work/src/RIGID" -type f ! -name 'fix_rigid_small.*' ! -name rigid_const.h -delete
 
 # The package files of Kokkos: Debian's names a folder that is not there, and LAMMPS asks for
@@ -216,7 +230,10 @@ mkdir "$folder/src"
   { [ ! -d nlohmann ] || cp -r nlohmann "$folder/src"; })
 {
   echo "set(LSDCD_HOST_VERSION $version)"
-  echo "set(LSDCD_HOST_MPI $build_mpi)"
+  case $mpi in
+    mpich) echo "set(LSDCD_HOST_MPI_INCLUDES $($mpicxx -show | grep -o -- '-I[^ ]*' | sed 's/^-I//' | paste -s -d' '))" ;;
+    serial) echo 'set(LSDCD_HOST_MPI_INCLUDES "${CMAKE_CURRENT_LIST_DIR}/src/STUBS")' ;;
+  esac
   echo "set(LSDCD_HOST_KOKKOS \"$kokkos\")"
   if [ -n "$kokkos" ]; then
     echo "set(LSDCD_HOST_KOKKOS_INCLUDES \"\${CMAKE_CURRENT_LIST_DIR}/src/KOKKOS\" \"$kokkos_include\")"
