@@ -67,6 +67,8 @@ function(lsdcd_kokkos_plugin name folder)
   elseif(LSDCD_HOST_KOKKOS_STANDARD LESS 17)
     set(LSDCD_HOST_KOKKOS_STANDARD 17)
   endif()
+  # Each takes long by itself, and they compile side by side.
+  set_source_files_properties(${sources} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
   set(language CXX)
   set(backend serial)    # in LAMMPS's words
   if(facts MATCHES "OPENMP(;|$)")

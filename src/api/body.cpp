@@ -5,6 +5,7 @@
 #include "api/c_border.h"
 #include "api/call_progress.h"
 #include "api/call_threads.h"
+#include "api/cell_options.h"
 #include "api/device_memory.h"
 #include "api/objects.h"
 #include "base/input_words.h"
@@ -35,22 +36,9 @@ int current_gpu(int device)
   return -1;
 }
 
-[[noreturn]] void refuse(const std::string &text)
-{
-  refuse_option("lsdcd_body_options", text);
-}
-
 MeshCollisionSettings settings_of(const lsdcd_body_options &o)
 {
-  if (!(o.cell >= 0) || !std::isfinite(o.cell))
-    refuse("cell is " + number_text(o.cell) + "; give a length, or 0 to have it chosen");
-  if (o.nearest < 0 || o.nearest > kMaxNearest)
-    refuse("nearest is " + std::to_string(o.nearest) + "; it is 0, for all, or up to " +
-           std::to_string(kMaxNearest));
-  if (!(o.memory >= 0) || !(o.memory < 1e18))
-    refuse("memory is " + number_text(o.memory) + "; give bytes, or 0 for the default");
-  if (o.device != LSDCD_CPU && o.device != LSDCD_CUDA)
-    refuse("device is neither LSDCD_CPU nor LSDCD_CUDA");
+  check_cell_options("lsdcd_body_options", o);
   std::string why;
   if (o.device == LSDCD_CUDA && !cuda_available(&why))
     throw ApiError(LSDCD_ERROR_DEVICE, "CUDA: " + why + "; use LSDCD_CPU");
@@ -74,8 +62,10 @@ lsdcd_body *with_same_wall(const lsdcd_mesh *wall, const lsdcd_mesh &mesh,
                            const lsdcd_body_options &o)
 {
   if (wall || o.cell != 0 || o.nearest != 0 || o.memory != 0 || o.device != 0)
-    refuse("same_wall is given, so that wall, cell, nearest, memory and device are that body's: "
-           "leave them out");
+    refuse_option(
+        "lsdcd_body_options",
+        "same_wall is given, so that wall, cell, nearest, memory and device are that body's: "
+        "leave them out");
   check_gpu(*o.same_wall);
   return new lsdcd_body{MeshCollision(o.same_wall->in, mesh.in->mesh), o.same_wall->nearest,
                         o.same_wall->device, o.same_wall->gpu};

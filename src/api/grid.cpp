@@ -5,6 +5,7 @@
 #include "api/c_border.h"
 #include "api/call_progress.h"
 #include "api/call_threads.h"
+#include "api/cell_options.h"
 #include "api/objects.h"
 #include "base/input_words.h"
 #include "engine/wall_engine.h"
@@ -42,18 +43,10 @@ GridSettings settings_of(const lsdcd_grid_options &o, bool with_sides)
   if (o.cutoff > kLargestLength)
     refuse("cutoff is " + number_text(o.cutoff) +
            ", beyond 1e100, which no coordinate of a mesh exceeds: leave it 0 for any distance");
-  if (!(o.cell >= 0) || !std::isfinite(o.cell))
-    refuse("cell is " + number_text(o.cell) + "; give a length, or 0 to have it chosen");
-  if (o.nearest < 0 || o.nearest > kMaxNearest)
-    refuse("nearest is " + std::to_string(o.nearest) + "; it is 0, for all, or up to " +
-           std::to_string(kMaxNearest));
+  check_cell_options("lsdcd_grid_options", o);
   if (o.precision != LSDCD_DOUBLE && o.precision != LSDCD_FLOAT)
     refuse("precision is neither LSDCD_DOUBLE nor LSDCD_FLOAT");
-  if (!(o.memory >= 0) || !(o.memory < 1e18))
-    refuse("memory is " + number_text(o.memory) + "; give bytes, or 0 for the default");
   check_threads(o.threads);
-  if (o.device != LSDCD_CPU && o.device != LSDCD_CUDA)
-    refuse("device is neither LSDCD_CPU nor LSDCD_CUDA");
   if (o.cutoff == 0 && names_cells(o))
     refuse("cell, nearest, precision, memory, cache and device are of the cells of a grid, which "
            "need a "

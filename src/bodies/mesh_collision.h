@@ -24,7 +24,7 @@ struct MeshCollisionSettings {
 };
 
 // Instead of a triangle of the wall without area, of which welding left no face.
-constexpr std::uint32_t kNoFace = 0xffffffff;
+constexpr std::uint32_t kNoWallTriangle = 0xffffffff;
 
 class MeshCollision {
  public:
@@ -42,7 +42,7 @@ class MeshCollision {
   std::uint32_t wall_triangle(const BodyPair &pair) const
   {
     return feature_kind(pair.wall) == FeatureKind::face ? (*wall_facet_)[feature_index(pair.wall)]
-                                                        : kNoFace;
+                                                        : kNoWallTriangle;
   }
   std::uint32_t body_triangle(const BodyPair &pair) const { return body_facet_[pair.triangle]; }
 

@@ -10,7 +10,7 @@ namespace lsdcd {
 
 namespace {
 
-const char *const kSyntax =
+const char *const kCollideSyntax =
     "compute ID group lsdcd/collide FIX_ID mesh FILE [scale s | sx sy sz] [rotate ax ay az "
     "degrees] "
     "[move x y z] [weld tol] [bodies one | molecule] [atoms FILE] [grid L | auto] [nearest N | "
@@ -55,19 +55,19 @@ CollideSettings parse_collide(const std::vector<std::string> &tokens)
 {
   CollideSettings settings;
   Tokens w(tokens);
-  w.set_context("compute lsdcd/collide", kSyntax);
+  w.set_context("compute lsdcd/collide", kCollideSyntax);
   if (w.done()) w.fail("FIX_ID is missing");
   settings.wall = w.take();
   std::vector<std::string> seen;
   while (!w.done()) {
     const std::string word = w.take();
     const bool twice = is_twice(word, seen);
-    w.set_context("compute lsdcd/collide", kSyntax);
+    w.set_context("compute lsdcd/collide", kCollideSyntax);
     if (twice) w.fail("the keyword '" + word + "' is given twice");
     if (!read_mesh_word(word, w, settings.mesh) && !read_word(word, w, settings))
       w.fail("'" + word + "' is not a keyword");
   }
-  w.set_context("compute lsdcd/collide", kSyntax);
+  w.set_context("compute lsdcd/collide", kCollideSyntax);
   if (settings.mesh.file.empty()) w.fail("mesh FILE is missing");
   return settings;
 }

@@ -13,7 +13,7 @@ namespace lsdcd {
 
 namespace {
 
-const char *const kSyntax =
+const char *const kInsertSyntax =
     "fix ID group insert/lsdcd mesh FILE [scale s | sx sy sz] [rotate ax ay az degrees] [move x y "
     "z] [weld tol] [depth D] | region ID, with diam one D | range LO HI | poly N D1 F1 ... | mass "
     "N D1 F1 ..., dens RHO | LO HI, [massrate R | numberrate R] [mass M | number N] [type T] [vel "
@@ -138,7 +138,7 @@ bool read_word(const std::string &word, Tokens &w, InsertSettings &s)
 
 void check(Tokens &w, const InsertSettings &s)
 {
-  w.set_context("fix insert/lsdcd", kSyntax);
+  w.set_context("fix insert/lsdcd", kInsertSyntax);
   const FeedSettings &feed = s.plan.feed;
   if (s.face.file.empty() == s.region.empty())
     w.fail(s.region.empty() ? "mesh FILE or region ID is missing"
@@ -168,7 +168,7 @@ InsertSettings parse_insert(const std::vector<std::string> &tokens)
   std::vector<std::string> seen;
   while (!w.done()) {
     const std::string word = w.take();
-    w.set_context("fix insert/lsdcd", kSyntax);
+    w.set_context("fix insert/lsdcd", kInsertSyntax);
     if (word != "wall" && is_twice(word, seen)) w.fail("the keyword '" + word + "' is given twice");
     if (!read_mesh_word(word, w, settings.face) && !read_word(word, w, settings))
       w.fail("'" + word + "' is not a keyword");

@@ -10,7 +10,7 @@ namespace lsdcd {
 
 namespace {
 
-const char *const kSyntax =
+const char *const kMassflowSyntax =
     "fix ID group massflow/lsdcd mesh FILE [scale s | sx sy sz] [rotate ax ay az degrees] [move x "
     "y "
     "z] [weld tol] [count each | once] [delete no | yes] [every N] [log full | brief]";
@@ -25,7 +25,7 @@ MassflowSettings parse_massflow(const std::vector<std::string> &tokens)
   while (!w.done()) {
     const std::string word = w.take();
     const bool twice = is_twice(word, seen);
-    w.set_context("fix massflow/lsdcd", kSyntax);
+    w.set_context("fix massflow/lsdcd", kMassflowSyntax);
     if (twice) w.fail("the keyword '" + word + "' is given twice");
     if (read_mesh_word(word, w, settings.surface)) continue;
     if (word == "count") {
@@ -44,7 +44,7 @@ MassflowSettings parse_massflow(const std::vector<std::string> &tokens)
       w.fail("'" + word + "' is not a keyword");
     }
   }
-  w.set_context("fix massflow/lsdcd", kSyntax);
+  w.set_context("fix massflow/lsdcd", kMassflowSyntax);
   if (settings.surface.file.empty()) w.fail("mesh FILE is missing");
   return settings;
 }

@@ -11,11 +11,12 @@ namespace lsdcd {
 
 namespace {
 
-const char *const kSyntax = "region ID mesh/lsdcd FILE [scale s | sx sy sz] [rotate ax ay az "
-                            "degrees] [move x y z] [weld tol] "
-                            "[gap D] [side in | out] [units box | lattice] [move v_x v_y v_z] "
-                            "[rotate v_theta Px Py Pz Rx Ry "
-                            "Rz]";
+const char *const kRegionSyntax =
+    "region ID mesh/lsdcd FILE [scale s | sx sy sz] [rotate ax ay az "
+    "degrees] [move x y z] [weld tol] "
+    "[gap D] [side in | out] [units box | lattice] [move v_x v_y v_z] "
+    "[rotate v_theta Px Py Pz Rx Ry "
+    "Rz]";
 
 // A word that LAMMPS reads, with its n values.
 void keep_for_host(const std::string &word, int n, Tokens &w, RegionSettings &s)
@@ -48,13 +49,13 @@ RegionSettings parse_region(const std::vector<std::string> &tokens)
 {
   RegionSettings settings;
   Tokens w(tokens);
-  w.set_context("region mesh/lsdcd", kSyntax);
+  w.set_context("region mesh/lsdcd", kRegionSyntax);
   if (w.done()) w.fail("FILE is missing");
   settings.mesh.file = w.take();
   std::vector<std::string> seen;
   while (!w.done()) {
     const std::string word = w.take();
-    w.set_context("region mesh/lsdcd", kSyntax);
+    w.set_context("region mesh/lsdcd", kRegionSyntax);
     if ((word == "move" || word == "rotate") && is_by_variable(w)) {
       if (is_twice(word + " v_", seen)) w.fail("'" + word + "' by a variable is given twice");
       keep_for_host(word, word == "move" ? 3 : 7, w, settings);

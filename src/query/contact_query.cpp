@@ -42,7 +42,7 @@ class SphereSearch {
 };
 
 constexpr int kFew = 32;
-constexpr std::size_t kChunk = 1024;    // spheres
+constexpr std::size_t kSpheresAtATime = 1024;    // spheres
 
 template <class T>
 class ContactQuery {
@@ -53,7 +53,7 @@ class ContactQuery {
 
   SphereContacts run()
   {
-    const std::size_t n = spheres_.n, n_chunks = (n + kChunk - 1) / kChunk;
+    const std::size_t n = spheres_.n, n_chunks = (n + kSpheresAtATime - 1) / kSpheresAtATime;
     out_.first.resize(n + 1);
     chunks_.resize(n_chunks);
     std::exception_ptr error;
@@ -82,7 +82,8 @@ class ContactQuery {
     SphereSearch<kFew> few;
     std::unique_ptr<SphereSearch<kMaxContacts>> many;    // more than a stack may have room for
     std::vector<SphereContact> &found = chunks_[c];
-    for (std::size_t i = c * kChunk; i < std::min(spheres_.n, (c + 1) * kChunk); i++) {
+    for (std::size_t i = c * kSpheresAtATime; i < std::min(spheres_.n, (c + 1) * kSpheresAtATime);
+         i++) {
       const std::size_t before = found.size();
       const std::size_t sphere = spheres_.from + i;
       const Real radius = radius_of(sphere);

@@ -16,7 +16,7 @@ namespace {
 
 std::int64_t number_of(std::uint32_t triangle)
 {
-  return triangle == kNoFace ? -1 : static_cast<std::int64_t>(triangle);
+  return triangle == kNoWallTriangle ? -1 : static_cast<std::int64_t>(triangle);
 }
 
 class CsvPairs : public PairWriter {
