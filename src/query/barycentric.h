@@ -52,7 +52,7 @@ LSDCD_FN Vec3 shares_in_triangle(const Vec3 *corner, const Vec3 &p)
     share[a] = 1 - (of_b + of_c);
     return share;
   }
-  const int from = (of_c > 0) & (of_b > 0) ? b : a, to = of_c > 0 ? c : b;
+  const int from = ((of_c > 0) & (of_b > 0)) ? b : a, to = of_c > 0 ? c : b;
   share[to] = share_of_end(corner[from], corner[to], p);
   share[from] = 1 - share[to];
   return share;
