@@ -72,9 +72,11 @@ std::vector<Real> in_order_of_nodes(const double *given, const std::vector<int> 
   check_host_array(given, name);
   std::vector<Real> out(3 * nodes.size());
   for (std::size_t k = 0; k < nodes.size(); k++)
-    for (int d = 0; d < 3; d++)
-      out[3 * static_cast<std::size_t>(nodes[k]) + d] =
-          checked_number(given[3 * k + d], element(name, 3 * k + d));
+    for (int d = 0; d < 3; d++) {
+      const double number = given[3 * k + d];
+      if (!std::isfinite(number)) checked_number(number, element(name, 3 * k + d));    // throws
+      out[3 * static_cast<std::size_t>(nodes[k]) + d] = number;
+    }
   return out;
 }
 

@@ -11,7 +11,8 @@ namespace lsdcd {
 // Of each vertex of a mesh, or null. The spin is the mean angular velocity of the faces around a vertex.
 struct NodeField {
   const Vec3 *velocity = nullptr;    // length/time; null: the nodes of this mesh do not move
-  const Vec3 *spin = nullptr;        // 1/time; null: no law asks for it
+  const Vec3 *spin = nullptr;        // 1/time
+  Real going = 0;    // length; how far the nodes go before candidates are chosen anew
 };
 
 // The nodes of a feature and their shares in a point of it. The shares add up to 1, and the nodes' places with

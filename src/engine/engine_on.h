@@ -329,12 +329,12 @@ class EngineOn : public WallEngine {
         const MeshWork work = mesh_work(m);
         of_mesh.grid = work.grid;
         of_mesh.settings = work.settings;
-        if (work.settings.nodes.velocity) of_mesh.lists = FeatureLists();
+        if (work.settings.nodes.velocity) of_mesh.lists.copies = RecordCopies();
         run_law(of_mesh, n, law_of(m, kind));
       }
     if (slots.n_multi_mesh() == 0) return;
     StepJob multi_mesh = job;
-    // Lists of features do not hold while nodes move.
+    // Of more than one mesh lists name features, which do not hold while nodes move.
     if (step_.nodes) multi_mesh.lists = FeatureLists();
     multi_mesh.multi_mesh = {put_works(), slots.first(), slots.mesh()};
     multi_mesh.multi_mesh.laws = {laws_.data(), settings_.laws.of_mesh(),

@@ -208,6 +208,18 @@ void FixWallLsdcd::init_nodes()
   for (NodeAtoms &nodes : node_atoms) nodes.init(*wall, groupbit);
 }
 
+// LAMMPS knows which pairs are left out once it has set up its lists.
+void FixWallLsdcd::warn_of_pairs()
+{
+  const bool pairs =
+      force->pair && force->pair_style && std::strcmp(force->pair_style, "zero") != 0;
+  if (node_atoms.empty() || !pairs || neighbor->exclude || pairs_warned) return;
+  pairs_warned = true;
+  warn("pair_style " + std::string(force->pair_style) +
+       " acts between the atoms that are nodes of the wall and the spheres, too, beside the wall: "
+       "leave that out by neigh_modify exclude group");
+}
+
 std::vector<lsdcd::ScriptFile> FixWallLsdcd::files() const
 {
   std::vector<lsdcd::ScriptFile> all = lsdcd::files_of(spec());
@@ -266,6 +278,7 @@ void FixWallLsdcd::setup(int vflag)
   Respa *respa = reinterpret_cast<Respa *>(update->integrate);
   const int outer = nlevels_respa - 1;
   if (nlevels_respa) respa->copy_flevel_f(outer);
+  warn_of_pairs();
   begin(true);
   finish_step();
   if (nlevels_respa) respa->copy_f_flevel(outer);

@@ -88,7 +88,7 @@ class FixWallLsdcd : public Fix, protected OwnMessages {
   const double *gravity = nullptr;     // of the script's fix gravity, where there are bodies
   bool callbacks = false;              // registered with Atom
   int room = 0;                        // this wall's part of maxexchange
-  bool wall_in_minimize_warned = false, doubled_warned = false;
+  bool wall_in_minimize_warned = false, doubled_warned = false, pairs_warned = false;
   WallPicture picture;
 
   // Parts of the vector: force, torque, contacts, largest overlap, uncertified; volume worn off, power; with a
@@ -131,6 +131,7 @@ class FixWallLsdcd : public Fix, protected OwnMessages {
   void check_heat() const;
   void init_bodies();
   void init_nodes();
+  void warn_of_pairs();
   void check_types(const lsdcd::WallSpec &) const;
 };
 

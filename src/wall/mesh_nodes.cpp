@@ -6,6 +6,7 @@
 #include "base/input_error.h"
 #include "base/input_words.h"
 #include "contact/history.h"
+#include "engine/lists/feature_list.h"
 #include "wall/mesh_name.h"
 
 #include <algorithm>
@@ -16,9 +17,11 @@ namespace lsdcd {
 
 namespace {
 
-// How far nodes may go before the grid is built anew, as a share of the cutoff. More makes lists of cells longer,
-// less makes builds more frequent.
-constexpr Real kAllowance = 0.2;
+// As shares of the cutoff: how far nodes may go before the grid is built anew, and before lists of spheres are made
+// anew. More makes lists longer, less makes them more frequent. A cell has all that a list of a sphere in it
+// may name, which are farther by the way of nodes and by that of the sphere, and by rounding.
+constexpr Real kOfGrid = 0.15, kOfLists = 0.05,
+               kAllowance = kOfGrid + kOfLists + kSkinFraction + 1e-3;
 
 Real farthest(const std::vector<Vec3> &from, const std::vector<Vec3> &to, std::size_t &node)
 {
@@ -112,6 +115,7 @@ void MeshNodes::begin_step(const Step &step, Real cutoff)
                            number_text(most) + " in step " + std::to_string(step.number) +
                            ", more than the largest radius " + number_text(cutoff) +
                            ": it may have gone through a sphere; make the timestep shorter"));
+  way_ += most;
   mesh_.vertices.swap(next_);
   velocity_.swap(next_velocity_);
   next_.clear();
@@ -161,7 +165,17 @@ bool MeshNodes::needs_grid(Real cutoff) const
 {
   if (!grid_.is_built() || cutoff != grid_.cutoff()) return true;
   std::size_t node = 0;
-  return !(farthest(built_at_, mesh_.vertices, node) <= grid_.allowance());
+  return !(farthest(built_at_, mesh_.vertices, node) <= kOfGrid * cutoff);
+}
+
+bool MeshNodes::needs_choice(Real cutoff) const
+{
+  return !(way_ <= kOfLists * cutoff);
+}
+
+NodeField MeshNodes::field(Real cutoff) const
+{
+  return {velocity_.data(), spin_.data(), kOfLists * cutoff};
 }
 
 void MeshNodes::build_grid(Real cutoff)

@@ -4,8 +4,8 @@
 // A mesh whose nodes, its welded vertices, are where the caller puts them in each step: its records, its grid, and
 // the forces of contacts on its nodes. Every process has all nodes.
 //
-// Rigid meshes have lists of features for many steps. Here each sphere searches its cell in each step, whose list
-// goes by distance alone (grid/node_grid.h), as a region that a list left out may turn towards the sphere.
+// Lists, of cells (grid/node_grid.h) and of spheres (engine/lists/node_list.h), go by distance alone, as a region
+// that a list left out may turn towards the sphere.
 #pragma once
 
 #include "engine/wall_engine.h"
@@ -36,11 +36,14 @@ class MeshNodes {
 
   const WeldedMesh &mesh() const { return mesh_; }    // where the nodes are in this step
   const Box &bounds() const { return bounds_; }       // of them
-  NodeField field() const { return {velocity_.data(), spin_.data()}; }
+  NodeField field(Real cutoff) const;
 
   // Does the grid hold no longer, as it is for another cutoff or a node has gone too far?
   bool needs_grid(Real cutoff) const;
   bool has_grid() const { return grid_.is_built(); }
+  // Have nodes gone so far since candidates were chosen that the lists of spheres are no longer complete?
+  bool needs_choice(Real cutoff) const;
+  void note_choice() { way_ = 0; }
   void build_grid(Real cutoff);
   GridView view() const { return grid_.view(); }
 
@@ -78,6 +81,7 @@ class MeshNodes {
   std::vector<Vec3> velocity_, spin_;
   std::vector<Vec3> next_, next_velocity_;    // set for the next step; empty: as they are
   NodeGrid grid_;
+  Real way_ = 0;                  // of the fastest node in each step since the choice
   std::vector<Vec3> built_at_;    // where nodes were when the grid was built
   std::vector<Vec3>
       turned_from_;    // where nodes were when springs were turned last; empty: no springs yet

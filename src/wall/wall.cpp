@@ -412,7 +412,7 @@ StepSettings Wall::step_settings()
   if (has_nodes_) {
     node_fields_.clear();
     for (const MeshPart &m : meshes_)
-      node_fields_.push_back(m.nodes ? m.nodes->field() : NodeField());
+      node_fields_.push_back(m.nodes ? m.nodes->field(cutoff()) : NodeField());
     step.nodes = node_fields_.data();
   }
   if (!spec_.law().has_heat()) return step;
@@ -440,6 +440,8 @@ void Wall::choose_if_due(const Spheres &spheres)
       schedule_.next(input_.drift, moving, [&] { return engine_->has_moved(spheres); });
   if (!choice.is_due) return;
   engine_->choose(spheres, choice.margin, choice.watch);
+  for (MeshPart &m : meshes_)
+    if (m.nodes) m.nodes->note_choice();
   schedule_.note_update(moving);
   search_.count_update();
 }
@@ -448,7 +450,9 @@ void Wall::choose_if_due(const Spheres &spheres)
 void Wall::build_node_grids()
 {
   for (MeshPart &m : meshes_) {
-    if (!m.nodes || !m.nodes->needs_grid(cutoff())) continue;
+    if (!m.nodes) continue;
+    if (m.nodes->needs_choice(cutoff())) schedule_.expire();
+    if (!m.nodes->needs_grid(cutoff())) continue;
     m.nodes->build_grid(cutoff());
     engine_->set_grid(m.view(), m.index);
     schedule_.expire();

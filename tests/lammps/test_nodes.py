@@ -229,6 +229,11 @@ def refused(checks, folder):
     fails("pressure without nodes", wall.format(group="grains", nodes="nodes", more="").replace("nodes nodes", "pressure 1"),
           "give it nodes")
     fails("device cuda", wall.format(group="grains", nodes="nodes", more="device cuda"), "computed on the CPU so far")
+    soft = head.replace("pair_style      zero 0.8\npair_coeff      * *", "pair_style soft 0.8\npair_coeff * * 0")
+    for name, line, warns in (("warned of", "", True), ("excluded", "neigh_modify exclude group nodes grains\n", False)):
+        done = lmp.run(soft + line + wall.format(group="grains", nodes="nodes", more="") + "run 1\n", folder)
+        checks.fact(f"a pair style between nodes and grains, {name}",
+                    done.returncode == 0 and ("pair_style soft acts between" in " ".join(done.stdout.split())) == warns)
     bonds, net.bonds = net.bonds, []
     net.write(folder, coefficients, skip=(3, 5))
     fails("vertices without an atom", wall.format(group="grains", nodes="nodes", more=""),

@@ -84,6 +84,7 @@ class FeatureListStore {
   {
     const std::size_t n = spheres.n;
     if (!reserve(grid, grid.is_large, n) || n <= early) return;
+    if (grid.list_kind.is_every()) return leave_out(n, [](std::size_t) { return true; });
     if (!B::kOnHost) multi_contact_ = Array<char>(n + n / 8);
     b.for_each_in_warps(n, gather(grid, pose, spheres, margin, counts));
   }
@@ -91,8 +92,11 @@ class FeatureListStore {
   void make(B &b, const GridView &first_grid, bool large, const PosedGrid *meshes, const int *mesh,
             const CandidateSpheres &spheres, Real margin, StepCounts *counts)
   {
-    if (reserve(first_grid, large, spheres.n))
-      b.for_each_in_warps(spheres.n, GatherSlotWork{meshes, mesh, spheres, margin, lists_, counts});
+    if (!reserve(first_grid, large, spheres.n)) return;
+    b.for_each_in_warps(spheres.n, GatherSlotWork{meshes, mesh, spheres, margin, lists_, counts});
+    if constexpr (B::kOnHost)
+      leave_out(spheres.n,
+                [&](std::size_t k) { return meshes[mesh[k]].grid.list_kind.is_every(); });
   }
 
   // For each candidate of one mesh: does it seem to touch more than one feature now? Steps on a GPU begin
@@ -119,11 +123,20 @@ class FeatureListStore {
                               grid.length);
   }
 
+  // Lists of meshes whose nodes move are made in steps (lists/node_list.h): there are none yet.
+  template <class IsLeftOut>
+  void leave_out(std::size_t n, const IsLeftOut &is_left_out)
+  {
+    for (std::size_t k = 0; k < n; k++)
+      if (is_left_out(k)) lists_.lengths[k] = -1;
+  }
+
   // `large`: a wall whose records are read faster as copies. False: there are no lists to make.
   bool reserve(const GridView &grid, bool large, std::size_t n)
   {
     lists_ = FeatureLists();
-    if (grid.list_kind.has_primitives() || n == 0) return false;
+    // Those of `every` are of meshes whose nodes move.
+    if ((grid.list_kind.has_primitives() && !grid.list_kind.is_every()) || n == 0) return false;
     if (ints_.size() < n * FeatureLists::kInts) {
       const std::size_t room = n + n / 8;
       reals_ = Array<Real>(room * FeatureLists::kReals);

@@ -190,6 +190,16 @@ LSDCD_FN void put_list(const StepJob &job, const Warp<kSize> &warp, bool mine, c
   job.lists.put(k, made, grid.wall, !has_grown);
 }
 
+// The same where the nodes of the mesh move. Candidates have no list yet when they are chosen.
+inline void put_node_list(const StepJob &job, const QuerySphere &s, std::size_t k)
+{
+  FeatureList made;
+  gather_nodes(job.grid, s, job.settings.nodes.going, made);
+  count_one(&job.counts->lists);
+  add_to(&job.counts->listed, made.n);
+  job.lists.put(k, made, job.grid.wall);
+}
+
 // Candidate k with any number of contacts. Its cell is searched where it has no list that holds. True: it has
 // more than one. A function of its own, so that it takes no registers from the fast path.
 template <class Law>
@@ -208,7 +218,14 @@ LSDCD_NOINLINE bool any_contacts(const Law &law, const StepJob &job, std::size_t
   }
 
   WeightedContacts<kContacts> some;
-  narrow_phase<Law::kBeyondContact>(job.grid, job.settings.search, s, list, some);
+  bool is_found = false;
+  if constexpr (Law::kNodes)
+    if (list && job.settings.nodes.velocity) {
+      narrow_phase_at_nodes<Law::kBeyondContact>(job.grid, job.settings.search, s, *list, some);
+      is_found = true;
+      list = nullptr;    // what overflows is found in the cell
+    }
+  if (!is_found) narrow_phase<Law::kBeyondContact>(job.grid, job.settings.search, s, list, some);
   ContactsView set = some.set.view();
   const Real *weight = some.weight;
   Real exact_within = some.exact_within;
@@ -267,7 +284,13 @@ struct MeshStep {
     const QuerySphere s = query_sphere_of(job, i, x, radius, Law::kBeyondContact, pull_off_of(law));
     if (!job.lists.holds(k, x, s.cutoff)) return false;
     ContactSet<1> set;
-    find_in_list<MeshGeometry>(job.grid, {job.lists, k}, x, s.cutoff, set);
+    bool is_found = false;
+    if constexpr (Law::kNodes)
+      if (job.settings.nodes.velocity) {
+        find_in_node_list(job.grid, {job.lists, k}, x, s.cutoff, set);
+        is_found = true;
+      }
+    if (!is_found) find_in_list<MeshGeometry>(job.grid, {job.lists, k}, x, s.cutoff, set);
     filter_contacts<Law::kBeyondContact>(job.grid, job.settings.search, s, set);
     if (set.overflow) return false;
     check_cutoff(job, i, s.cutoff);
@@ -278,6 +301,9 @@ struct MeshStep {
   template <unsigned kSize>
   LSDCD_FN void make_list(const Warp<kSize> &warp, bool mine, std::size_t k) const
   {
+    if constexpr (Law::kNodes)
+      if (job.settings.nodes.velocity)
+        return put_node_list(job, query_sphere_of_candidate(law, job, k), k);
     put_list(job, warp, mine, job.grid, query_sphere_of_candidate(law, job, k), k);
   }
   // Prefetches for a CPU what make_list() will read, part by part.

@@ -8,6 +8,7 @@
 #include "contact/corner.h"
 #include "contact/history.h"
 #include "engine/lists/feature_list.h"
+#include "engine/lists/node_list.h"
 #include "engine/wall_engine.h"
 
 namespace lsdcd {
@@ -124,6 +125,20 @@ LSDCD_NOINLINE void narrow_phase(const GridView &grid, const SearchSettings &set
 {
   CornerRule<kCapacity> rule;
   narrow_phase_with<kBeyondContact>(grid, settings, s, list, rule, out);
+}
+
+// The same where the nodes of the mesh move, from the sphere's list of primitives.
+template <bool kBeyondContact, int kCapacity>
+LSDCD_NOINLINE void narrow_phase_at_nodes(const GridView &grid, const SearchSettings &settings,
+                                          const QuerySphere &s, const ListedFeatures &list,
+                                          WeightedContacts<kCapacity> &out)
+{
+  CornerRule<kCapacity> rule;
+  out.exact_within = kAnyDistance;
+  find_in_node_list(grid, list, s.x, s.cutoff, out.set);
+  filter_contacts<kBeyondContact>(grid, settings, s, out.set);
+  out.set.sort();
+  if (!out.set.overflow) share_overlap(settings, s.cutoff, tolerance_of(grid), rule, out);
 }
 
 }    // namespace lsdcd
