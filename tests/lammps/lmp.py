@@ -84,8 +84,9 @@ def for_host(text, flags):
 KOKKOS = tuple(os.environ.get("LSDCD_KOKKOS_FLAGS", "-k on -sf kk").split())
 # A column of a fix's per-atom array, in an atom-style variable.
 COLUMN = "f" if ON_KOKKOS and "20260704" in KOKKOS_HOST else "F"
-# What starts several processes of it.
+# What starts several processes of it, and how many at most: those of MPICH never give up a core while they wait.
 MPIRUN = os.environ.get("LSDCD_MPIRUN", "mpirun --oversubscribe").split()
+MOST_RANKS = int(os.environ.get("LSDCD_MOST_RANKS", "1000"))
 DEVICE_MOVES = os.environ.get("LSDCD_KOKKOS_MOVES") == "device"
 if DEVICE_MOVES:
     KOKKOS += ("-pk", "kokkos", "comm", "device", "sort", "device")
@@ -105,7 +106,7 @@ def run(script, folder, ranks=1, timeout=300, env=None, host=ON_KOKKOS, flags=KO
     for name, value in variables.items():
         command += ["-var", name, str(value)]
     if ranks > 1:
-        command = [*MPIRUN, "-np", str(ranks), *command]
+        command = [*MPIRUN, "-np", str(min(ranks, MOST_RANKS)), *command]
     return subprocess.run(command, cwd=folder, env={**environment(), **(env or {})}, text=True,
                           stdout=subprocess.PIPE, stderr=subprocess.STDOUT, timeout=timeout)
 
