@@ -79,13 +79,13 @@ int lsdcd_wall_change(lsdcd_wall *wall, const char *const *words, size_t n)
 {
   return guard_wall(wall, [&] {
     const std::vector<std::string> all = words_of(words, n);
-    need_words(all, "[mesh K] motion ... or [mesh K] servo ...");
+    need_words(all, "[mesh K] motion ..., [mesh K] servo ... or [mesh K] body ...");
     note_late(*wall);    // of an engine that another motion may replace
     const int taken = change_wall(*wall->in, all, {wall->number, wall->dt});
     if (static_cast<std::size_t>(taken) != all.size())
       throw ApiError(LSDCD_ERROR_ARGUMENT, "'" + all[taken] +
-                                               "' is no word of [mesh K] motion ... or [mesh K] "
-                                               "servo ...");
+                                               "' is no word of [mesh K] motion ..., [mesh K] "
+                                               "servo ... or [mesh K] body ...");
   });
 }
 }

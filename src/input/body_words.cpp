@@ -17,7 +17,7 @@ const char *const kBodySyntax =
     "density D | mass M com x y z inertia Ixx Iyy Izz Ixy Ixz Iyz  [joint free | hinge px py pz ax "
     "ay az | slider ax ay az | planar nx ny nz | ball px py pz] [spring K C [rest]] [limits lo hi] "
     "[motor T] [load fx fy fz] [moment tx ty tz] [velocity vx vy vz] [omega wx wy wz] [gravity gx "
-    "gy gz]";
+    "gy gz] [coat auto | no | SPACING RADIUS]";
 
 namespace {
 
@@ -71,7 +71,19 @@ void read_spring(Tokens &w, JointDrive &drive)
 {
   drive.stiffness = w.number("the stiffness", 0);
   drive.damping = w.number("the damping", 0);
-  if (w.number_follows()) drive.rest = w.number("rest");
+  drive.rest = w.number_follows() ? w.number("rest") : 0;
+}
+
+void read_coat(Tokens &w, CoatSpec &coat)
+{
+  coat = CoatSpec();
+  if (!w.number_follows()) {
+    coat.present = w.choice({"no", "auto"}) == 1;
+    return;
+  }
+  coat.present = true;
+  coat.spacing = w.number("the spacing of the coat", kAboveZero);
+  coat.radius = w.number("the radius of the coat", kAboveZero);
 }
 
 void read_word(const std::string &word, Tokens &w, BodySpec &body, InputNames &inputs)
@@ -95,20 +107,17 @@ void read_word(const std::string &word, Tokens &w, BodySpec &body, InputNames &i
     body.velocity = read_vector(w, "vx", "vy", "vz");
   else if (word == "omega")
     body.omega = read_vector(w, "wx", "wy", "wz");
+  else if (word == "coat")
+    read_coat(w, body.coat);
   else
     body.gravity = read_vector(w, "gx", "gy", "gz");
   body.has_gravity |= word == "gravity";
 }
 
-}    // namespace
-
-void read_body(Tokens &w, MeshSpec &s, InputNames &inputs)
+// The words that follow, each once. Returns them.
+std::vector<std::string> read_words(Tokens &w, const std::vector<std::string> &words,
+                                    BodySpec &body, InputNames &inputs)
 {
-  BodySpec &body = s.body;
-  body.present = true;
-  read_mass(w, body);
-  const std::vector<std::string> words = {"joint",  "spring",   "limits", "motor",  "load",
-                                          "moment", "velocity", "omega",  "gravity"};
   std::vector<std::string> seen;
   while (!w.done()) {
     const std::string word = w.peek();
@@ -118,11 +127,55 @@ void read_body(Tokens &w, MeshSpec &s, InputNames &inputs)
     read_word(word, w, body, inputs);
   }
   if (w.number_follows()) w.fail("the number '" + w.peek() + "' is one too many");
+  return seen;
+}
+
+}    // namespace
+
+void read_body(Tokens &w, MeshSpec &s, InputNames &inputs)
+{
+  BodySpec &body = s.body;
+  body.present = true;
+  read_mass(w, body);
+  read_words(w,
+             {"joint", "spring", "limits", "motor", "load", "moment", "velocity", "omega",
+              "gravity", "coat"},
+             body, inputs);
   try {
     check_body(body);
   } catch (const InputError &e) {
     w.fail(e.what());
   }
+}
+
+BodySpec read_modified_body(Tokens &w, const BodySpec &body, InputNames &inputs)
+{
+  w.set_context("body",
+                "fix_modify ID body [joint ...] [spring K C [rest]] [limits lo hi] [motor T] [load "
+                "fx fy fz] [moment tx ty tz] [gravity gx gy gz]");
+  w.take();
+  BodySpec to = body;
+  const std::vector<std::string> seen = read_words(
+      w, {"joint", "spring", "limits", "motor", "load", "moment", "gravity"}, to, inputs);
+  const auto has = [&](const char *word) { return std::count(seen.begin(), seen.end(), word) > 0; };
+  if (seen.empty())
+    w.fail(w.done() ? "what is to change is missing"
+                    : "'" + w.peek() + "' is no word of a body that can change");
+  if (!has("joint")) return to;
+  const JointDrive none, all = to.drive;
+  to.drive = none;
+  if (has("spring")) {
+    to.drive.stiffness = all.stiffness;
+    to.drive.damping = all.damping;
+    to.drive.rest = all.rest;
+  }
+  if (has("limits")) {
+    to.drive.lo = all.lo;
+    to.drive.hi = all.hi;
+  }
+  to.drive.motor = has("motor") ? all.motor : 0;
+  if (!has("motor")) to.motor_input = kNoInput;
+  return to;
 }
 
 }    // namespace lsdcd

@@ -29,6 +29,7 @@ std::string take_variable(Tokens &w)
 void read_value(Tokens &w, const std::string &what, Real &value, int &input, InputNames &inputs)
 {
   value = 0;
+  input = kNoInput;
   if (variable_follows(w))
     input = number_of_input(inputs, take_variable(w));
   else

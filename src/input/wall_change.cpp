@@ -4,6 +4,7 @@
 #include "input/wall_change.h"
 
 #include "base/input_words.h"
+#include "input/body_words.h"
 #include "input/motion_words.h"
 #include "input/servo_words.h"
 
@@ -15,7 +16,7 @@ namespace {
 
 bool changes(const std::string &word)
 {
-  return word == "motion" || word == "servo";
+  return word == "motion" || word == "servo" || word == "body";
 }
 
 // [mesh K], where K counts from 1. Returns the mesh, from 0. `taken`: how many arguments that is.
@@ -31,11 +32,13 @@ int mesh_of(const std::vector<std::string> &arguments, std::size_t meshes, std::
   Real k = 0;
   if (arguments.size() < 2 || !is_number(arguments[1], &k) || k != std::floor(k) || k < 1 ||
       k > static_cast<Real>(meshes))
-    throw InputError("fix_modify mesh K motion|servo ...: K is the number of a mesh, from 1 to " +
-                     n + (arguments.size() > 1 ? ", not '" + arguments[1] + "'" : ""));
+    throw InputError(
+        "fix_modify mesh K motion|servo|body ...: K is the number of a mesh, from 1 to " + n +
+        (arguments.size() > 1 ? ", not '" + arguments[1] + "'" : ""));
   taken = 2;
   if (arguments.size() < 3 || !changes(arguments[2]))
-    throw InputError("fix_modify mesh " + arguments[1] + ": motion ... or servo ... must follow" +
+    throw InputError("fix_modify mesh " + arguments[1] +
+                     ": motion ..., servo ... or body ... must follow" +
                      (arguments.size() < 3 ? "" : ", not '" + arguments[2] + "'"));
   return static_cast<int>(k) - 1;
 }
@@ -54,6 +57,12 @@ int change_wall(Wall &wall, const std::vector<std::string> &arguments, const Ste
     const RigidMotion motion = read_modified_motion(w, inputs);
     wall.set_inputs(inputs);
     wall.set_motion(mesh, motion, now);
+  } else if (w.peek() == "body") {
+    wall.check_is_body(mesh);
+    const BodySpec body =
+        read_modified_body(w, wall.spec().meshes[static_cast<std::size_t>(mesh)].body, inputs);
+    wall.set_inputs(inputs);
+    wall.set_body(mesh, body);
   } else {
     const Servo servo = read_modified_servo(w, inputs);
     wall.set_inputs(inputs);

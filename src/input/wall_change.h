@@ -12,7 +12,7 @@
 namespace lsdcd {
 
 // [mesh K] motion ... [motion ...] | motion none, or [mesh K] servo ... | servo none: another motion or servo for
-// a mesh. Returns how many arguments it took; 0: the first is no argument of a wall. Throws InputError that names
+// a mesh; [mesh K] body ...: what holds and drives a body. Returns how many arguments it took; 0: the first is no argument of a wall. Throws InputError that names
 // the argument, and changes nothing then. Collective.
 int change_wall(Wall &wall, const std::vector<std::string> &arguments, const Step &now);
 

@@ -54,21 +54,22 @@ void check_has_coordinate(const BodySpec &body)
                        " is of the coordinate of a joint hinge or slider, and this body has none");
 }
 
-void check_limits(const JointDrive &d)
+void check_limits(const JointDrive &d, Real coordinate)
 {
   const std::string limits = "the limits " + number_text(d.lo) + " " + number_text(d.hi);
   if (std::isnan(d.lo) || std::isnan(d.hi)) throw InputError(limits + " are no numbers");
   if (d.lo > d.hi) throw InputError(limits + " are reversed: the lower one comes first");
-  if (d.lo > 0 || d.hi < 0)
-    throw InputError(limits + " do not contain 0, which is where the body begins");
+  if (d.lo > coordinate || d.hi < coordinate)
+    throw InputError(limits + " do not contain " + number_text(coordinate) +
+                     ", which is where the body " + (coordinate == 0 ? "begins" : "is"));
 }
 
-void check_drive(const JointDrive &d)
+void check_drive(const JointDrive &d, Real coordinate)
 {
   check_not_below_0("the stiffness", d.stiffness);
   check_not_below_0("the damping", d.damping);
   check_finite("rest of the spring and the motor", {d.rest, d.motor, 0});
-  check_limits(d);
+  check_limits(d, coordinate);
 }
 
 void check_mass(const BodySpec &body)
@@ -84,7 +85,7 @@ void check_mass(const BodySpec &body)
 
 }    // namespace
 
-void check_body(const BodySpec &body)
+void check_body(const BodySpec &body, Real coordinate)
 {
   if (!body.present) return;
   const int kind = static_cast<int>(body.joint.kind);
@@ -94,12 +95,14 @@ void check_body(const BodySpec &body)
   if (body.joint.has_point()) check_finite("the joint's point", body.joint.point);
   check_axis(body.joint);
   check_has_coordinate(body);
-  check_drive(body.drive);
+  check_drive(body.drive, coordinate);
   check_finite("the load", body.load);
   check_finite("the moment", body.moment);
   check_finite("the velocity", body.velocity);
   check_finite("omega", body.omega);
   check_finite("gravity", body.gravity);
+  check_not_below_0("the spacing of the coat", body.coat.spacing);
+  check_not_below_0("the radius of the coat", body.coat.radius);
 }
 
 }    // namespace lsdcd

@@ -10,6 +10,13 @@
 
 namespace lsdcd {
 
+// Points of a body's surface that feel other meshes.
+struct CoatSpec {
+  bool present = false;
+  Real spacing = 0;    // length; how far points are apart at most; 0: chosen
+  Real radius = 0;     // length, of the points; 0: chosen
+};
+
 struct BodySpec {
   bool present = false;
   Real density = 0;       // mass/volume, of a closed mesh; 0: the next says what it has
@@ -24,10 +31,12 @@ struct BodySpec {
   Vec3 velocity = {0, 0, 0}, omega = {0, 0, 0};    // at the start; of the centre
   bool has_gravity = false;                        // false: the host's
   Vec3 gravity = {0, 0, 0};                        // force/mass
+  CoatSpec coat;
 };
 
 // Throws InputError where no body is so: a moment of inertia, a direction, a range or a word that its joint does not
-// have. Parsers and callers without one get the same sentences. Density 0: `mass` is checked.
-void check_body(const BodySpec &body);
+// have. Parsers and callers without one get the same sentences. Density 0: `mass` is checked. `coordinate`: of the
+// joint, now.
+void check_body(const BodySpec &body, Real coordinate = 0);
 
 }    // namespace lsdcd

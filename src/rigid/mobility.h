@@ -25,4 +25,9 @@ struct Mobility {
   }
 };
 
+inline Mobility operator*(Real s, const Mobility &m)
+{
+  return {m.point, s * m.shifts, s * m.turns};
+}
+
 }    // namespace lsdcd

@@ -8,6 +8,19 @@
 
 namespace lsdcd {
 
+// Rates of a mode.
+struct ModeRates {
+  Real stiffness = 0;    // of a spring per mass: 1/time^2
+  Real damping = 0;      // of a damper per mass: 1/time
+
+  ModeRates &operator+=(const ModeRates &more)
+  {
+    stiffness += more.stiffness;
+    damping += more.damping;
+    return *this;
+  }
+};
+
 // The sum of k J J' over the contacts of a body: J = (n, r x n), the change of a contact's overlap by its coordinates.
 // Sums of several processes add up, number by number.
 struct ContactSum {
@@ -18,6 +31,11 @@ struct ContactSum {
   void add(const Mobility &body, const Vec3 &x, const Vec3 &n, Real k);
   // A spring along (about) a coordinate of the joint: `shift` and `turn` are the velocities at a rate of 1.
   void add(const Vec3 &shift, const Vec3 &turn, Real k);
+  ContactSum &operator+=(const ContactSum &more)
+  {
+    for (int i = 0; i < kNumbers; i++) number[i] += more.number[i];
+    return *this;
+  }
 
   // Largest eigenvalue of M^-1 (sum k J J'): the square of the fastest mode's angular frequency, or, of dampers, the
   // fastest rate of decay.
@@ -28,5 +46,9 @@ struct ContactSum {
 // and c = 2 z sqrt(k) the step is stable while x^2 + 4 z x < 4. `stiffness` and `damping` are per mass: 1/time^2 and
 // 1/time.
 Real longest_step(Real stiffness, Real damping);
+inline Real longest_step(const ModeRates &rates)
+{
+  return longest_step(rates.stiffness, rates.damping);
+}
 
 }    // namespace lsdcd

@@ -159,7 +159,7 @@ void BoxChecks::check_pose(const MeshPart &m, const Pose &at, const PeriodicBox 
 {
   if (!box.any_periodic()) return;
   for (int k = 0; k < 3; k++) {
-    if (!box.periodic[k] || m.keeps_edge(box, k)) continue;
+    if (!box.periodic[k] || (m.keeps_edge(box, k) && !m.has_coat())) continue;
     const Real depth = (cutoff + box.margin) / box.width(k);
     const auto is_clear = [depth](Real f) { return f > depth && f < 1 - depth; };    // a NaN is not
     bool clear = true;
@@ -170,6 +170,10 @@ void BoxChecks::check_pose(const MeshPart &m, const Pose &at, const PeriodicBox 
     m.find_range(box, k, at, lo, hi);
     if (is_clear(lo) && is_clear(hi)) continue;
     const std::string axis(1, "xyz"[k]);
+    if (m.keeps_edge(box, k))
+      throw InputError(named(m, "the coat of the body comes to the periodic face in " + axis +
+                                    ", through which coats do not act: leave the coat out, make "
+                                    "the boundary fixed, or the box larger"));
     throw InputError(
         named(m, "the moving mesh " + std::string(when.empty() ? "will reach" : "reaches") +
                      " the periodic face in " + axis + when + ": it goes from " + number_text(lo) +

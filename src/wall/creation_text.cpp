@@ -23,8 +23,11 @@ std::string in_a_line(const WallSpec &settings, const std::deque<MeshPart> &mesh
 }
 
 // In the columns of the mesh report.
-std::string mesh_lines(const WallSpec &wall, const MeshPart &m)
+std::string mesh_lines(const WallSpec &wall, const MeshPart &m, const std::deque<BodyCoat> &coats)
 {
+  std::string coat;
+  for (const BodyCoat &one : coats)
+    if (one.mesh() == m.index) coat = one.text();
   std::string t = m.grid.mesh_text();
   const Real wear = m.spec.wear_factor;
   const struct {
@@ -34,6 +37,7 @@ std::string mesh_lines(const WallSpec &wall, const MeshPart &m)
                {"motion      ", m.motion.text(m.bounds(0))},
                {"servo       ", servo_text(m.servo(), wall.inputs)},
                {"body        ", m.body ? m.body->text() : ""},
+               {"coat        ", coat},
                {"nodes       ", m.nodes ? std::to_string(m.nodes->count()) + ", which move" : ""},
                {"wear        ", wear == 1 ? "" : number_text(wear) + " times as fast"}};
   for (const auto &line : lines)
@@ -112,12 +116,13 @@ std::string search_lines(const WallSpec &settings)
 }    // namespace
 
 std::string creation_text(const HostNames &names, const WallSpec &settings,
-                          const std::deque<MeshPart> &meshes, const EngineSettings &engine,
-                          const std::string &material, const std::string &device)
+                          const std::deque<MeshPart> &meshes, const std::deque<BodyCoat> &coats,
+                          const EngineSettings &engine, const std::string &material,
+                          const std::string &device)
 {
   if (settings.brief) return in_a_line(settings, meshes, device);
   std::string t;
-  for (const MeshPart &m : meshes) t += (t.empty() ? "" : "\n") + mesh_lines(settings, m);
+  for (const MeshPart &m : meshes) t += (t.empty() ? "" : "\n") + mesh_lines(settings, m, coats);
   if (!material.empty()) t += "\n" + material;
   return t + contact_lines(settings) + effect_lines(names, settings, engine) +
          search_lines(settings) + "\n  device      " + device + "\n  version     " + version();

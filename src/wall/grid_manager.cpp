@@ -38,14 +38,22 @@ void GridManager::set_engine(WallEngine &engine)
 bool GridManager::fit_spheres(Real radius, const SpheresOnCpu &spheres, std::int64_t step)
 {
   constexpr Real kHeadroom = 1.1;    // once radii are known to grow
-  const Real old = cutoff();
-  if (cutoff_of(laws_, radius) <= old) return fit_box(step);
+  const Real old = cutoff(), of_coats = cutoff_of_coats();
+  if (std::max(cutoff_of(laws_, radius), of_coats) <= old) return fit_box(step);
   check_rmax(radius, spheres);
-  if (old == 0) checks_.check_radius(box(), radius);
+  if (old == 0 && radius > 0) checks_.check_radius(box(), radius);
   const Real largest =
       settings_.rmax > 0 ? settings_.rmax : (old > 0 ? kHeadroom * radius : radius);
-  rebuild(cutoff_of(laws_, largest), step);
+  rebuild(std::max(cutoff_of(laws_, largest), of_coats), step);
   return true;
+}
+
+Real GridManager::cutoff_of_coats() const
+{
+  Real most = 0;
+  if (coats_)
+    for (const BodyCoat &coat : *coats_) most = std::max(most, cutoff_of(laws_, coat.radius()));
+  return most;
 }
 
 void GridManager::check_rmax(Real radius, const SpheresOnCpu &spheres) const
@@ -94,6 +102,8 @@ void GridManager::rebuild(Real wanted, std::int64_t step)
     m->grid.progress = progress(*m);
     m->grid.build(wanted, m->effective_box(box()));
     if (!m->nodes) run_collectively(host_, true, [&] { engine_->set_grid(m->view(), m->index); });
+    if (coats_)
+      for (BodyCoat &coat : *coats_) coat.set_grid(*m);
   }
   times_.end(TimeReport::grids);
   if (wanted == old) box_rebuilds_++;

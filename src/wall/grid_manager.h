@@ -4,6 +4,7 @@
 // When the grids of a wall's meshes are built: for the first spheres, for larger ones, for another box.
 #pragma once
 
+#include "wall/body_coat.h"
 #include "wall/box_checks.h"
 #include "wall/history_exchange.h"
 #include "wall/host_spheres.h"
@@ -38,8 +39,10 @@ class GridManager {
 
   // The engine of the steps from now on; it gets the grids that there are.
   void set_engine(WallEngine &engine);
+  // The coats of bodies, before there are grids; they must outlive it.
+  void set_coats(std::deque<BodyCoat> &coats) { coats_ = &coats; }
 
-  // For spheres of up to this radius (length, > 0) in today's box. Returns whether grids were built.
+  // For spheres of up to this radius (length, 0: there are none) and for coats in today's box. Returns whether grids were built.
   bool fit_spheres(Real radius, const SpheresOnCpu &spheres, std::int64_t step);
   // For today's box. Does nothing before there are spheres.
   bool fit_box(std::int64_t step);
@@ -55,6 +58,7 @@ class GridManager {
   FeatureCode without_image(int mesh, FeatureCode feature) const;
 
  private:
+  Real cutoff_of_coats() const;
   void rebuild(Real cutoff, std::int64_t step);
   void check_rmax(Real radius, const SpheresOnCpu &spheres) const;
   bool fits(const MeshPart &m) const { return m.grid.fits(m.effective_box(box())); }
@@ -70,6 +74,7 @@ class GridManager {
   HistoryExchange &history_;
   TimeReport &times_;
   WallEngine *engine_ = nullptr;
+  std::deque<BodyCoat> *coats_ = nullptr;
   Real farthest_out_ = 0;    // length; past a periodic face that spheres were seen to go, and more
   bool out_warned_ = false;
   std::int64_t box_rebuilds_ = 0;    // in this run

@@ -67,7 +67,7 @@ Real largest_in(const Mobility &m, const Box &box)
 MeshBody::MeshBody(Host &host, WallSpec &wall, const LawTable &laws, int mesh, const MeshGrid &grid,
                    Real force) :
     host_(host),
-    wall_(wall), laws_(laws), mesh_(mesh), force_(force)
+    wall_(wall), laws_(laws), mesh_(mesh), grid_(grid), force_(force)
 {
   const RigidMotion &motion = wall.meshes[mesh].motion;
   if (motion.moves() || motion.servo().present)
@@ -86,11 +86,44 @@ MeshBody::MeshBody(Host &host, WallSpec &wall, const LawTable &laws, int mesh, c
   } catch (const InputError &e) {
     throw InputError(named(e.what()));
   }
+  measure();
+}
+
+void MeshBody::measure()
+{
   mobility_ = body_.mobility();
-  const MeshReport &r = grid.report();
+  const MeshReport &r = grid_.report();
   bound_of_mobility_ = largest_in(mobility_, {r.lo, r.hi});
-  if (grid.mesh()) most_mobility_ = largest_on_faces(mobility_, *grid.mesh());
-  host.max(&most_mobility_, 1);
+  most_mobility_ = grid_.mesh() ? largest_on_faces(mobility_, *grid_.mesh()) : 0;
+  host_.max(&most_mobility_, 1);
+}
+
+void MeshBody::set(const BodySpec &to)
+{
+  BodySpec now = spec();
+  const bool same_joint = are_same(to.joint, now.joint);
+  now.joint = to.joint;
+  now.drive = to.drive;
+  now.load = to.load;
+  now.moment = to.moment;
+  now.motor_input = to.motor_input;
+  std::copy_n(to.load_input, 3, now.load_input);
+  std::copy_n(to.moment_input, 3, now.moment_input);
+  now.has_gravity = to.has_gravity;
+  now.gravity = to.gravity;
+  try {
+    check_body(now, same_joint ? body_.coordinate() : 0);
+  } catch (const InputError &e) {
+    throw InputError(named(e.what()));
+  }
+  wall_.meshes[mesh_].body = now;
+  if (!same_joint) {
+    RigidBody other(body_.mass(), now.joint);
+    other.begin_from(body_);
+    body_ = other;
+    measure();
+  }
+  body_.drive = now.drive;
 }
 
 std::string MeshBody::named(const std::string &text) const
@@ -117,7 +150,7 @@ void MeshBody::note_step(Real dt)
   pending_ = true;
 }
 
-void MeshBody::complete(const MeshTotals &contacts, const Vec3 &gravity, const SphereRange &spheres)
+void MeshBody::complete(const MeshTotals &contacts, const Vec3 &gravity)
 {
   if (!pending_) return;
   pending_ = false;
@@ -127,25 +160,23 @@ void MeshBody::complete(const MeshTotals &contacts, const Vec3 &gravity, const S
   load_.force = contacts.force + at_centre;
   load_.torque = contacts.torque_at_origin + cross(body_.centre(), at_centre) + s.moment;
   body_.kick(dt_ / 2, load_);
-  check_step(contacts, spheres);
 }
 
 // ---- the timestep ------------------------------------------------------------------------
 
-// Bounds first, which cost nothing: all contacts as stiff as any can be, where the body gives way most.
-void MeshBody::check_step(const MeshTotals &contacts, const SphereRange &spheres)
+ContactSum MeshBody::spring() const
 {
-  const bool has_contacts = has_contacts_;
-  has_contacts_ = asks_for_contacts_ = false;
-  if (dt_ == 0) return;
-  const Joint &joint = body_.joint();
-  ContactSum spring;
-  if (joint.has_coordinate()) {
-    const bool turns = joint.kind == JointKind::hinge;
-    const Vec3 none = {0, 0, 0}, axis = body_.axis_in_mesh();
-    spring.add(turns ? none : axis, turns ? axis : none, body_.drive.stiffness);
-  }
-  const Real by_spring = spring.largest(mobility_);
+  ContactSum sum;
+  if (!body_.joint().has_coordinate()) return sum;
+  const bool turns = body_.joint().kind == JointKind::hinge;
+  const Vec3 none = {0, 0, 0}, axis = body_.axis_in_mesh();
+  sum.add(turns ? none : axis, turns ? axis : none, body_.drive.stiffness);
+  return sum;
+}
+
+// A bound: all contacts as stiff as any can be, where the body gives way most.
+ModeRates MeshBody::of_spheres(const MeshTotals &contacts, const SphereRange &spheres) const
+{
   ContactSlope one;
   for (int kind = 0; kind < laws_.kinds && contacts.contacts > 0; kind++) {
     const ContactSlope of =
@@ -155,18 +186,59 @@ void MeshBody::check_step(const MeshTotals &contacts, const SphereRange &spheres
   }
   const Real of_all = contacts.contacts * bound_of_mobility_ +
                       (spheres.lightest > 0 ? 1 / (spheres.lightest / force_) : 0);
-  if (dt_ < longest_step(by_spring + of_all * one.stiffness, of_all * one.damping)) return;
+  return {of_all * one.stiffness, of_all * one.damping};
+}
+
+ModeRates MeshBody::rates(const MeshTotals &contacts, const SphereRange &spheres,
+                          const CoatLoad &coat, bool of_coat) const
+{
+  ModeRates all = of_spheres(contacts, spheres);
+  ContactSum stiffness = spring();
+  if (!of_coat) {
+    all.stiffness += stiffness.largest(mobility_);
+    all += coat.most;
+    return all;
+  }
+  stiffness += coat.stiffness;
+  all += {stiffness.largest(mobility_), coat.damping.largest(mobility_)};
+  return all;
+}
+
+// Bounds first. A contact of two bodies, the squared rates of whose modes are a and b on their own, makes none faster
+// than a + b: k (p + q)^2 <= k (1 + b/a) p^2 + k (1 + a/b) q^2 for the parts p and q of its overlap.
+void MeshBody::check_step(const MeshTotals &contacts, const SphereRange &spheres,
+                          const CoatLoad &coat,
+                          const std::function<ModeRates(bool of_coat)> &of_others)
+{
+  const bool has_contacts = has_contacts_;
+  has_contacts_ = asks_for_contacts_ = false;
+  if (dt_ == 0) return;
+  for (const bool of_coat : {false, true}) {
+    ModeRates bound = rates(contacts, spheres, coat, of_coat);
+    bound += of_others(of_coat);
+    if (dt_ < longest_step(bound)) return;
+  }
   asks_for_contacts_ = contacts.contacts > 0;
   if (contacts.contacts > 0 && !has_contacts) return;    // the next step brings them
 
-  ContactSum sums[2] = {stiffness_, damping_};
-  host_.sum(sums[0].number, ContactSum::kNumbers);
-  host_.sum(sums[1].number, ContactSum::kNumbers);
-  host_.max(most_of_sphere_, 2);
-  for (int k = 0; k < ContactSum::kNumbers; k++) sums[0].number[k] += spring.number[k];
-  const Real longest = longest_step(sums[0].largest(mobility_) + most_of_sphere_[0],
-                                    sums[1].largest(mobility_) + most_of_sphere_[1]);
-  if (dt_ >= longest) fail_step(longest, contacts);
+  ContactSum sums[2];
+  Real most_of_sphere[2] = {0, 0};
+  if (contacts.contacts > 0) {
+    sums[0] = stiffness_;
+    sums[1] = damping_;
+    std::copy_n(most_of_sphere_, 2, most_of_sphere);
+    host_.sum(sums[0].number, ContactSum::kNumbers);
+    host_.sum(sums[1].number, ContactSum::kNumbers);
+    host_.max(most_of_sphere, 2);
+  }
+  sums[0] += spring();
+  sums[0] += coat.stiffness;
+  sums[1] += coat.damping;
+  const ModeRates others = of_others(true);
+  const Real longest =
+      longest_step(sums[0].largest(mobility_) + std::max(most_of_sphere[0], others.stiffness),
+                   sums[1].largest(mobility_) + std::max(most_of_sphere[1], others.damping));
+  if (dt_ >= longest) fail_step(longest, contacts.contacts + coat.contacts);
 }
 
 void MeshBody::sum_contacts(const WallEngine &engine, const Spheres &spheres)
@@ -205,11 +277,11 @@ void MeshBody::sum_contacts(const WallEngine &engine, const Spheres &spheres)
   }
 }
 
-void MeshBody::fail_step(Real longest, const MeshTotals &contacts) const
+void MeshBody::fail_step(Real longest, Real contacts) const
 {
   throw InputError(named("the timestep " + number_text(dt_) + " is not below " +
                          number_text(longest) + ", with which the body of mass " +
-                         number_text(spec().mass.mass) + " on " + number_text(contacts.contacts) +
+                         number_text(spec().mass.mass) + " on " + number_text(contacts) +
                          " contacts would be stable: make the timestep shorter, the body heavier, "
                          "or contacts and spring softer"));
 }

@@ -7,10 +7,12 @@
 #include "host/host.h"
 #include "rigid/rigid_body.h"
 #include "rigid/step_limit.h"
+#include "wall/coat_load.h"
 #include "wall/mesh_grid.h"
 #include "wall/step_totals.h"
 #include "wall/wall_spec.h"
 
+#include <functional>
 #include <string>
 
 namespace lsdcd {
@@ -40,9 +42,11 @@ class MeshBody {
            Real force);
 
   const RigidBody &body() const { return body_; }
-  const Mobility &mobility() const { return mobility_; }
+  Mobility mobility() const { return 1 / force_ * mobility_; }
+  // The same of forces in the wall's units.
+  const Mobility &mobility_to_forces() const { return mobility_; }
   // The largest n.K n where a sphere can touch a face; 1/mass.
-  Real most_mobility() const { return most_mobility_; }
+  Real most_mobility() const { return most_mobility_ / force_; }
   Wrench reaction() const { return body_.reaction(load_); }
   Real spring_and_kinetic_energy() const;
 
@@ -51,14 +55,25 @@ class MeshBody {
   // The step that follows it: 0 where no time has passed, in the set-up of a run.
   void note_step(Real dt);
   bool is_complete() const { return !pending_; }
-  // Half a step by the load of this one: the spheres', and the rest with the values of inputs in this step. Throws
-  // InputError where the timestep is too long for what touches it. Collective.
-  void complete(const MeshTotals &contacts, const Vec3 &gravity, const SphereRange &spheres);
+  // Half a step by the load of this one: the contacts', and the rest with the values of inputs in this step.
+  void complete(const MeshTotals &contacts, const Vec3 &gravity);
+
+  // The step that was completed: fast modes of the body on its spring and on all that touches it. `of_coat`: exactly
+  // on its spring and coats, and by a bound on spheres; else by bounds, which cost nothing.
+  ModeRates rates(const MeshTotals &contacts, const SphereRange &spheres, const CoatLoad &coat,
+                  bool of_coat) const;
+  // Throws InputError where the timestep is too long for what touches it. `of_others`: the largest rates() of the
+  // bodies that it touches. Collective.
+  void check_step(const MeshTotals &contacts, const SphereRange &spheres, const CoatLoad &coat,
+                  const std::function<ModeRates(bool of_coat)> &of_others);
 
   // Does complete() need the contacts themselves, as their number allows no judgement?
   bool asks_for_contacts() const { return asks_for_contacts_; }
   // Those of this process in the step that was computed, with outputs per sphere and records.
   void sum_contacts(const WallEngine &engine, const Spheres &spheres);
+
+  // Joint, drive, loads and gravity of `to`, from where it is; see Wall::set_body(). Collective.
+  void set(const BodySpec &to);
 
   // Line of the log.
   std::string text() const;
@@ -70,13 +85,16 @@ class MeshBody {
  private:
   const BodySpec &spec() const { return wall_.meshes[mesh_].body; }
   std::string named(const std::string &text) const;
-  void check_step(const MeshTotals &contacts, const SphereRange &spheres);
-  [[noreturn]] void fail_step(Real longest, const MeshTotals &contacts) const;
+  void measure();
+  ContactSum spring() const;
+  ModeRates of_spheres(const MeshTotals &contacts, const SphereRange &spheres) const;
+  [[noreturn]] void fail_step(Real longest, Real contacts) const;
 
   Host &host_;
   WallSpec &wall_;
   const LawTable &laws_;
   int mesh_;
+  const MeshGrid &grid_;
   Real force_;
   RigidBody body_;    // its mass over force_, so that forces are in the wall's units
   Mobility mobility_;

@@ -37,6 +37,7 @@ struct MeshPart {
 
   const Servo &servo() const { return spec.motion.servo(); }
   bool moves() const { return nodes || spec.motion.any(); }    // or was moved
+  bool has_coat() const { return body && spec.body.coat.present; }
 
   // In its own frame, in this step; null but on one process per node, where its nodes do not move.
   const WeldedMesh *mesh() const { return nodes ? &nodes->mesh() : grid.mesh(); }

@@ -14,7 +14,7 @@ void StepTotals::clear()
 }
 
 void StepTotals::reduce(const WallEngine *engine, const std::vector<Pose> &poses,
-                        const std::vector<Real> &node_powers)
+                        const std::vector<Real> &node_powers, const std::vector<CoatLoad> *coats)
 {
   if (reduced_) return;
   constexpr int kSums = 9;
@@ -42,6 +42,12 @@ void StepTotals::reduce(const WallEngine *engine, const std::vector<Pose> &poses
     m.overlap = most[k];
     m.uncertified = s[7];
     m.energy = s[8];
+    if (coats) {
+      const CoatLoad &coat = (*coats)[k];
+      m.force += coat.force;
+      m.torque_at_origin += coat.torque_at_origin;
+      m.energy += coat.energy;
+    }
     const Vec3 about =
         settings.torque_about_mesh ? pose.to_box(settings.torque_about) : settings.torque_about;
     m.torque = m.torque_at_origin - cross(about, m.force);

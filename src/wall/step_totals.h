@@ -1,11 +1,12 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The loads of spheres on the meshes of a wall in the last step: sums over all processes.
+// The loads of spheres and coats on the meshes of a wall in the last step: sums over all processes.
 #pragma once
 
 #include "engine/wall_engine.h"
 #include "host/host.h"
+#include "wall/coat_load.h"
 #include "wall/wall_spec.h"
 
 #include <vector>
@@ -17,10 +18,10 @@ struct MeshTotals {
   Vec3 force = {0, 0, 0};               // on the mesh
   Vec3 torque = {0, 0, 0};              // on the mesh, about the point of MeshSpec::torque_about
   Vec3 torque_at_origin = {0, 0, 0};    // on the mesh, about the origin of the box
-  Real contacts = 0;                    // how many
-  Real overlap = 0;                     // the largest overlap / radius
+  Real contacts = 0;                    // how many, of spheres
+  Real overlap = 0;                     // the largest overlap / radius, of spheres
   Real uncertified = 0;                 // spheres whose answer was not certified exact
-  Real power = 0;                       // of the mesh on the spheres, by its motion
+  Real power = 0;                       // of the mesh on what touches it, by its motion
   Real energy = 0;                      // elastic, in overlaps and springs
 };
 
@@ -39,9 +40,11 @@ class StepTotals {
   void clear();
 
   // Makes the sums, once a step. `engine`: null while there are no spheres. `poses`: of the meshes in
-  // this step. `node_powers`: power of each mesh by its nodes, of this process; empty: none have nodes. Collective.
+  // this step. `node_powers`: power of each mesh by its nodes, of this process; empty: none have nodes. `coats`: of each
+  // mesh, the same on all processes; null: there are none. Collective.
   void reduce(const WallEngine *engine, const std::vector<Pose> &poses,
-              const std::vector<Real> &node_powers = {});
+              const std::vector<Real> &node_powers = {},
+              const std::vector<CoatLoad> *coats = nullptr);
 
   // The sums of the last reduce().
   const MeshTotals &mesh(int k) const { return meshes_[k]; }

@@ -74,6 +74,8 @@ Wall::Wall(Host &host, WallSpec spec, const WallUnits &units, WallBackend backen
     throw InputError(std::string("this wall reads its ") + host_.names().sphere +
                      "s in place, as on a GPU, where nodes do not move so far: " +
                      host_.remedy(Remedy::compute_on_host));
+  coat_loads_.resize(meshes_.size());
+  make_coats(units.velocity);
   make_engine();
   log_creation(material, backend_);
 
@@ -105,6 +107,13 @@ void Wall::make_body(MeshPart &m, Real force)
   timestep_.add_body(m.index, m.body->most_mobility());
 }
 
+void Wall::make_coats(Real force)
+{
+  for (const MeshPart &m : meshes_)
+    if (m.has_coat()) coats_.emplace_back(host_, spec_, m.index, m.grid, engine_settings(), force);
+  grids_.set_coats(coats_);
+}
+
 std::string Wall::named(const MeshPart &m, const std::string &text) const
 {
   return with_mesh_name(spec_, m.index, text);
@@ -131,6 +140,7 @@ std::size_t Wall::bytes() const
 {
   std::size_t bytes = engine_->bytes() + loads_.bytes() + history_.bytes();
   for (const MeshPart &m : meshes_) bytes += m.grid.bytes() + (m.nodes ? m.nodes->bytes() : 0);
+  for (const BodyCoat &coat : coats_) bytes += coat.bytes();
   return bytes;
 }
 
@@ -183,7 +193,8 @@ void Wall::log_creation(const std::string &material, const WallBackend &backend)
   if (!spec_.brief && !backend.in_place && spec_.device == Device::automatic && !has_nodes_ &&
       !cuda_available(&why))
     device += " (no CUDA: " + why + ")";
-  host_.log(creation_text(host_.names(), spec_, meshes_, engine_settings(), material, device));
+  host_.log(
+      creation_text(host_.names(), spec_, meshes_, coats_, engine_settings(), material, device));
 }
 
 // An error of a sphere gets the name that the host has for it.
@@ -302,7 +313,32 @@ void Wall::complete_bodies()
   const Real *g = input_.gravity;
   const Vec3 gravity = g ? Vec3{g[0], g[1], g[2]} : Vec3{0, 0, 0};
   for (MeshPart &m : meshes_)
-    if (pending(m)) m.body->complete(totals().mesh(m.index), gravity, range_);
+    if (m.body) m.body->complete(totals().mesh(m.index), gravity);
+  for (MeshPart &m : meshes_)
+    if (m.body)
+      m.body->check_step(totals().mesh(m.index), range_, coat_load(m.index),
+                         [&](bool of_coat) { return rates_of_touched(m, of_coat); });
+}
+
+// The largest of the bodies that the mesh's coat touches, or whose coats touch it.
+ModeRates Wall::rates_of_touched(const MeshPart &m, bool of_coat)
+{
+  ModeRates most;
+  for (const MeshPart &other : meshes_) {
+    if (!(coat_load(m.index).bodies >> other.index & 1)) continue;
+    const ModeRates of =
+        other.body->rates(totals().mesh(other.index), range_, coat_load(other.index), of_coat);
+    most = {std::max(most.stiffness, of.stiffness), std::max(most.damping, of.damping)};
+  }
+  return most;
+}
+
+void Wall::step_coats(const Step &step)
+{
+  coat_loads_.assign(meshes_.size(), CoatLoad());
+  times_.begin();
+  for (BodyCoat &coat : coats_) coat.step(meshes_, step, coat_loads_);
+  times_.end(TimeReport::forces);
 }
 
 void Wall::advance_bodies(const Step &step)
@@ -344,9 +380,8 @@ void Wall::look_at_spheres(const HostSpheres &spheres, std::int64_t step)
   Real most[2] = {engine_->largest_radius(s), overlaps_.worst()};
   host_.max(most, 2);
   overlaps_.check_sunk(most[1], timestep_.worst_ratio(), on_cpu(spheres));
-  if (most[0] == 0)
-    check_points(spheres);
-  else if (grids_.fit_spheres(most[0], on_cpu(spheres), step))
+  if (most[0] == 0) check_points(spheres);
+  if ((most[0] > 0 || !coats_.empty()) && grids_.fit_spheres(most[0], on_cpu(spheres), step))
     schedule_.expire();
 }
 
@@ -386,7 +421,13 @@ void Wall::look_at_range(const HostSpheres &spheres)
 ServoLoad Wall::servo_load(int mesh)
 {
   const MeshTotals &t = totals().mesh(mesh);
-  return {t.force, t.torque_at_origin, t.contacts, t.overlap, range_.radius, range_.mass};
+  const CoatLoad &coat = coat_load(mesh);
+  return {t.force,
+          t.torque_at_origin,
+          t.contacts + coat.contacts,
+          std::max(t.overlap, coat.overlap),
+          std::max(range_.radius, coat.radius),
+          std::max(range_.mass, coat.mass)};
 }
 
 StepSettings Wall::step_settings()
@@ -512,6 +553,7 @@ void Wall::finish(const HostSpheres &spheres)
 {
   const Step &step = input_.step;
   launch(spheres);
+  if (!coats_.empty()) step_coats(step);
   if (step_state() == StepState::launched) {
     const bool waits = engine_->is_under_way();
     times_.begin();
@@ -582,7 +624,8 @@ const StepTotals &Wall::totals()
   std::vector<Real> node_powers;
   for (const MeshPart &m : meshes_)
     if (has_nodes_) node_powers.push_back(m.nodes ? m.nodes->power() : 0);
-  totals_.reduce(cutoff() > 0 ? engine_.get() : nullptr, poses, node_powers);
+  totals_.reduce(cutoff() > 0 ? engine_.get() : nullptr, poses, node_powers,
+                 coats_.empty() ? nullptr : &coat_loads_);
   return totals_;
 }
 
@@ -656,6 +699,25 @@ void Wall::check_may_move(const MeshPart &m) const
         named(m, "its nodes alone move this mesh, and it takes no motion, servo or pose"));
 }
 
+void Wall::check_is_body(int mesh) const
+{
+  const MeshPart &m = meshes_[mesh];
+  if (!m.body) throw InputError(named(m, "the mesh is no body, and cannot become one later"));
+}
+
+void Wall::set_body(int mesh, const BodySpec &to)
+{
+  check_is_body(mesh);
+  MeshPart &m = meshes_[mesh];
+  complete_bodies();
+  m.body->set(to);
+  timestep_.add_body(m.index, m.body->most_mobility());
+  m.spec.motion.set_pose(m.body->body().pose());
+  m.motion.place();
+  motion_has_changed(m);
+  log_change(m, "body " + m.body->text());
+}
+
 void Wall::set_pose(int mesh, const Pose &pose)
 {
   MeshPart &m = meshes_[mesh];
@@ -717,8 +779,12 @@ WallState Wall::save()
                           m.motion.state(),
                           {loads.time(), loads.packed()},
                           m.body ? m.body->state() : BodyState(),
-                          {m.nodes ? m.nodes->names : std::vector<Real>()}});
+                          {m.nodes ? m.nodes->names : std::vector<Real>()},
+                          {}});
   }
+  for (BodyCoat &coat : coats_)
+    all.meshes[coat.mesh()].coat = coat.save(
+        [this](int mesh, FeatureCode feature) { return grids_.without_image(mesh, feature); });
   return all;
 }
 
@@ -781,6 +847,8 @@ void Wall::restore_mesh(MeshPart &m, const MeshState &was, const Step &now)
                " has a body in this place, and the wall has none: the mesh is where that was, "
                "and stays there"));
   }
+  for (BodyCoat &coat : coats_)
+    if (coat.mesh() == m.index) coat.restore(was.coat);
   motion_has_changed(m);
   if (!spec_.has_loads(m.spec)) return;
   if (m.springs_are_foreign)

@@ -5,6 +5,7 @@
 // its force and torque.
 #pragma once
 
+#include "wall/body_coat.h"
 #include "wall/candidate_schedule.h"
 #include "wall/grid_manager.h"
 #include "wall/host_spheres.h"
@@ -137,6 +138,11 @@ class Wall {
   // Another servo of a mesh, from where the mesh is; one that is not present stops it. Along the same line its
   // position goes on.
   void set_servo(int mesh, const Servo &servo);
+  // What holds and drives a mesh that is a body: joint, spring, limits, motor, load, moment and gravity of `to`, from
+  // where the body is, without a jump. With another joint its coordinate begins at 0 there, and what the joint allows
+  // of its velocity goes on. The rest of `to` is not looked at.
+  void set_body(int mesh, const BodySpec &to);
+  void check_is_body(int mesh) const;    // throws InputError. Not together.
   // The pose of a mesh whose motion is_posed(), and that is no body and has no nodes, for the next step and those after it. Not
   // together.
   void set_pose(int mesh, const Pose &pose);
@@ -159,6 +165,7 @@ class Wall {
   EngineSettings engine_settings() const;
   void make_engine();
   void make_body(MeshPart &m, Real force);
+  void make_coats(Real force);
   void make_engine_anew();
   void log_creation(const std::string &material, const WallBackend &backend) const;
   std::string named(const MeshPart &m, const std::string &text) const;
@@ -183,6 +190,10 @@ class Wall {
   void turn_springs(int n);
   void sum_node_forces(const HostSpheres &spheres);
   void note_step_of_bodies(const HostSpheres &spheres, const Step &step);
+  void step_coats(const Step &step);
+  // On this mesh in the last step.
+  const CoatLoad &coat_load(int mesh) const { return coat_loads_[mesh]; }
+  ModeRates rates_of_touched(const MeshPart &m, bool of_coat);
 
   StepSettings step_settings();
   void choose_if_due(const Spheres &spheres);
@@ -205,6 +216,8 @@ class Wall {
   Real pressure_unit_;             // of inputs
   std::deque<MeshPart> meshes_;    // where each stays; there is one at least
   bool has_bodies_ = false, has_nodes_ = false;
+  std::deque<BodyCoat> coats_;          // of bodies that have one
+  std::vector<CoatLoad> coat_loads_;    // of each mesh, in the last step; all 0 without coats
   std::unique_ptr<WallEngine> engine_;
   bool engine_moves_ = false, engine_records_ = false;    // what its laws are compiled for
   bool virial_ = false;                                   // may be asked for in this run

@@ -65,6 +65,16 @@ void check_body(const WallSpec &wall, std::size_t k)
   check_inputs(wall, k, "the motor of its body", &body.motor_input, 1);
   check_inputs(wall, k, "the load of its body", body.load_input, std::size(body.load_input));
   check_inputs(wall, k, "the moment of its body", body.moment_input, std::size(body.moment_input));
+  if (body.present && body.coat.present && wall.meshes.size() == 1)
+    throw InputError(mesh_text(wall, k) +
+                     ": its body has a coat, which feels other meshes, and the wall has none: "
+                     "leave the coat out");
+  if (body.present && body.coat.present &&
+      std::any_of(wall.meshes.begin(), wall.meshes.end(),
+                  [](const MeshSpec &m) { return m.has_nodes; }))
+    throw InputError(mesh_text(wall, k) +
+                     ": its body has a coat, which does not feel meshes whose nodes move so far: "
+                     "leave the coat out, or the nodes");
   try {
     check_body(body);
   } catch (const InputError &e) {
@@ -196,6 +206,14 @@ LawTable law_table(const WallSpec &wall)
   for (std::size_t m = 0; m < wall.meshes.size(); m++)
     for (const auto &laws : kinds) table.laws.push_back(*laws[m]);
   return table;
+}
+
+const ContactLaw &law_of_all_types(const WallSpec &wall, int mesh)
+{
+  const std::vector<LawOfTypes> &own = wall.meshes[static_cast<std::size_t>(mesh)].laws;
+  const auto last =
+      std::find_if(own.rbegin(), own.rend(), [](const LawOfTypes &row) { return row.is_of_all(); });
+  return last == own.rend() ? wall.law() : last->law;
 }
 
 bool are_one_mesh(const WallSpec &wall, const MeshSpec &mesh, const WallSpec &other_wall,

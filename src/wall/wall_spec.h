@@ -113,6 +113,9 @@ void leave_out_zero_cohesion(WallSpec &wall);
 // The law of each mesh and type of sphere.
 LawTable law_table(const WallSpec &wall);
 
+// The law of a mesh with what has no type: its own of all types, or the wall's.
+const ContactLaw &law_of_all_types(const WallSpec &wall, int mesh);
+
 // Are these the same triangles, which are always at the same place?
 bool are_one_mesh(const WallSpec &wall, const MeshSpec &mesh, const WallSpec &other_wall,
                   const MeshSpec &other);

@@ -152,6 +152,7 @@ State WallState::blocks() const
     if (m.loads.time > 0 || !m.loads.rows.empty()) mesh.add("loads", 1, m.loads);
     if (m.body.present) mesh.add("body", 1, m.body);
     if (!m.nodes.names.empty()) mesh.add("nodes", 1, m.nodes);
+    if (!m.coat.empty()) mesh.add("coat", 1, m.coat);
     all.add("mesh", 1, mesh);
   }
   return all;
@@ -176,6 +177,7 @@ WallState WallState::from(const State &state)
     mesh.find("loads", 1, m.loads);
     mesh.find("body", 1, m.body);
     mesh.find("nodes", 1, m.nodes);
+    mesh.find("coat", 1, m.coat);
     if (m.loads.rows.size() % MeshLoads::kPackedLoad != 0)
       throw StateError("the loads in the data of the wall are no whole rows");
     const std::string unread = mesh.unread();

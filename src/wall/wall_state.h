@@ -43,6 +43,7 @@ struct MeshState {
   LoadState loads;
   BodyState body;
   NodeState nodes;
+  std::vector<Real> coat;    // of BodyCoat::save()
 };
 
 struct WallState {

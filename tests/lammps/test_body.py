@@ -281,6 +281,54 @@ def two_bodies(checks, folder, steps=5000):
             max(abs(r[8 + 3 * b + 2]) for r in rows) > 1e-3 for b in (0, 1)))
 
 
+def coats(checks, folder):
+    """A cube with a coat on a floor: its height at rest, any number of processes, restart, and changes between runs."""
+    stl.write(folder / "floor.stl", stl.quad((-1, -1, 0), (1, -1, 0), (1, 1, 0), (-1, 1, 0)))
+    box(folder / "cube.stl", (-0.2,) * 3, (0.2,) * 3)
+    far = "create_atoms 1 single 1 1 1 units box\nset group all diameter 0.01 density 1\n"
+    stiffness, radius, mass, g, points = 1e3, 0.05, 0.64, 9.81, 13    # points of a face: see test_body_coat.cpp
+
+    def fix(law, more, height=0.2 + radius + 1e-3):
+        return (f"{law} mesh floor.stl mesh cube.stl move 0.1 0.2 {height} body density 10 coat 0.2 {radius} "
+                f"gravity 0 0 -{g} {more}")
+
+    text = script(fix(f"hooke {stiffness} NULL 50 NULL 0 0", ""), far, 1e-3, move="")
+    rows, log = go(folder, text + "run 1000\n")
+    sinks = mass * g / (points * stiffness)
+    checks.at_most("coat: height at rest", abs(rows[-1][CENTRE + 2] - (0.2 + radius - sinks)), 1e-8)
+    checks.at_most("coat: level", max(abs(q) for q in rows[-1][TURN + 1:TURN + 4]), 1e-12)
+    checks.at_most("coat: forces on floor and cube cancel", abs(rows[-1][FORCE + 2]), 1e-12)
+    checks.fact("coat: the log tells points and errors", "points at most 0.2 apart, of radius 0.05" in log)
+    law = f"hooke/history {stiffness} 300 0 0 0.5 0"
+    text = script(fix(law, "velocity 0.6 0.1 0 omega 0.2 0.1 0.3"), far, 5e-4, move="")
+    whole, _ = go(folder, text + "run 400\n")
+    for ranks in (2, 4):
+        rows, _ = go(folder, text + "run 400\n", ranks)
+        checks.fact(f"coat: the same bits on {ranks} processes", rows == whole)
+    go(folder, text + "run 200\nwrite_restart half.bin\n")
+    lines = text.split("\n")
+    begin = lines.index("pair_style      zero 1.0")
+    go_on = "atom_style sphere\nnewton off\ncomm_modify vel yes\nread_restart half.bin\n" + "\n".join(lines[begin:])
+    after, _ = go(folder, go_on + "run 200\n")
+    checks.fact("coat: it goes on from a restart file", after[-1] == whole[-1],
+                str([k for k, (a, b) in enumerate(zip(after[-1], whole[-1])) if a != b]))
+
+    text = script(fix(law, "", 0.9), far, 1e-3, move="")
+    rows, _ = go(folder, text + "run 100\nfix_modify w mesh 2 body joint slider 0 0 2 load 0 0 12.5568 motor 0.64\nrun 100\n")
+    before, after = [r for r in rows if r[0] == 100]
+    checks.fact("fix_modify body: it does not jump", before[CENTRE:SPEED + 3] == after[CENTRE:SPEED + 3])
+    # The load bears its weight of 6.2784 twice; the motor adds 1: acceleration g + 1.
+    speed = -g * 0.1 + (g + 1) * 0.1
+    checks.at_most("fix_modify body: the new load and motor act", abs(rows[-1][SPEED + 2] - speed), 1e-4)
+    for words, says in (("density 3", "no word of a body that can change"), ("spring 1 1", "hinge or slider"),
+                        ("", "what is to change is missing")):
+        done = lmp.run(text + f"fix_modify w mesh 2 body {words}\n", folder)
+        checks.fact(f"refused: fix_modify body {words}", done.returncode != 0 and says in done.stdout.replace("\n", " "),
+                    " ".join(line for line in done.stdout.split("\n") if "ERROR" in line)[:200])
+    done = lmp.run(text + "fix_modify w mesh 1 body load 0 0 1\n", folder)
+    checks.fact("refused: fix_modify body of a mesh that is none", done.returncode != 0 and "is no body" in done.stdout)
+
+
 def restart(checks, folder):
     """Runs that are cut in two, and go on from a restart file, in mid-swing: the same bits."""
     box(folder / "cube.stl", (-0.75,) * 3, (0.75,) * 3, 2)
@@ -338,7 +386,7 @@ def changes(checks, folder):
 def main():
     checks = lmp.Checks()
     folder = lmp.scratch()
-    tests = {f.__name__: f for f in (impacts, off_centre, plate, hinge, motor, momentum, two_bodies, restart, changes)}
+    tests = {f.__name__: f for f in (impacts, off_centre, plate, hinge, motor, momentum, two_bodies, coats, restart, changes)}
     for name in sys.argv[1:] or tests:
         tests[name](checks, folder)
     checks.done(folder)

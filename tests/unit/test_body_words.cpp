@@ -97,6 +97,50 @@ TEST(body_words, hold_and_drive_it)
   EXPECT_EQ(r.rest, "wear_factor");
 }
 
+TEST(body_words, say_what_its_coat_is)
+{
+  EXPECT_FALSE(read("density 1").mesh.body.coat.present);
+  EXPECT_FALSE(read("density 1 coat no").mesh.body.coat.present);
+  const CoatSpec chosen = read("density 1 coat auto").mesh.body.coat,
+                 given = read("density 1 coat 0.1 0.07 load 1 2 3").mesh.body.coat;
+  EXPECT_TRUE(chosen.present && chosen.spacing == 0 && chosen.radius == 0);
+  EXPECT_TRUE(given.present && given.spacing == 0.1 && given.radius == 0.07);
+}
+
+TEST(body_words, change_what_they_name_and_nothing_else)
+{
+  const Read before =
+      read("density 2 joint hinge 0 0 0 0 0 1 spring 10 0.5 0.1 limits -1 2 motor v_t load 1 2 3");
+  const auto changed = [&](const std::string &line, InputNames &inputs) {
+    std::istringstream in("body " + line);
+    std::vector<std::string> words;
+    for (std::string word; in >> word;) words.push_back(word);
+    Tokens tokens(words);
+    return read_modified_body(tokens, before.mesh.body, inputs);
+  };
+  InputNames inputs = before.inputs;
+  BodySpec to = changed("load v_f 0 0 spring 3 0", inputs);
+  EXPECT_EQ(inputs, (InputNames{"t", "f"}));
+  EXPECT_EQ(to.load_input[0], 1);
+  EXPECT_EQ(to.drive.stiffness, 3);
+  EXPECT_EQ(to.drive.rest, 0);
+  EXPECT_EQ(to.drive.hi, 2);
+  EXPECT_EQ(to.motor_input, 0);
+  EXPECT_EQ(to.density, 2);
+  to = changed("motor 4", inputs);
+  EXPECT_EQ(to.drive.motor, 4);
+  EXPECT_EQ(to.motor_input, kNoInput);
+  EXPECT_EQ(to.load.y, 2);
+  // What another joint's coordinate had goes with it.
+  to = changed("limits -3 3 joint slider 0 0 2", inputs);
+  EXPECT_EQ(to.joint.kind, JointKind::slider);
+  EXPECT_EQ(to.drive.lo, -3);
+  EXPECT_EQ(to.drive.stiffness, 0);
+  EXPECT_EQ(to.motor_input, kNoInput);
+  for (const char *wrong : {"", "density 3", "velocity 1 0 0", "load 1 2"})
+    EXPECT_THROW(changed(wrong, inputs), InputError) << wrong;
+}
+
 TEST(body_words, have_a_spring_that_is_slack_at_0_where_nothing_else_is_said)
 {
   EXPECT_EQ(read("density 1 joint slider 1 0 0 spring 2 3 limits 0 1").mesh.body.drive.rest, 0);

@@ -282,7 +282,7 @@ TEST(Wall, refuses_words_for_a_mesh_that_it_has_not)
   } catch (const InputError &e) {
     EXPECT_STREQ(
         e.what(),
-        "fix_modify mesh K motion|servo ...: K is the number of a mesh, from 1 to 1, not '2'");
+        "fix_modify mesh K motion|servo|body ...: K is the number of a mesh, from 1 to 1, not '2'");
   }
 }
 

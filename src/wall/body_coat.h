@@ -1,0 +1,82 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// The coat of a body: points of its surface, as spheres that feel the other meshes of the wall by the wall's own law.
+#pragma once
+
+#include "contact/contact_history.h"
+#include "engine/wall_engine.h"
+#include "host/host.h"
+#include "wall/coat_load.h"
+#include "wall/mesh_part.h"
+
+#include <deque>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace lsdcd {
+
+// Every process computes all of its points, so that no message is needed, and the bits do not depend on how many
+// processes there are.
+class BodyCoat {
+ public:
+  // Of the body with this mesh; `engine`: the settings of the wall's engine; `force`: as of MeshBody. Host and wall must outlive it. Throws
+  // InputError on all processes. Collective.
+  BodyCoat(Host &host, const WallSpec &wall, int mesh, const MeshGrid &grid, EngineSettings engine,
+           Real force);
+
+  int mesh() const { return mesh_; }
+  Real radius() const { return radius_; }
+  std::string text() const;    // line of the log
+
+  // The grid of a mesh from now on.
+  void set_grid(const MeshPart &m);
+
+  // The contacts of a step, in which all meshes are where they are now: they are added to `loads`, of each mesh. Throws InputError,
+  // the same on all processes.
+  void step(const std::deque<MeshPart> &meshes, const Step &step, std::vector<CoatLoad> &loads);
+
+  // What its contacts keep, with the names that `name` gives to features; restore() takes it again, before a step. The
+  // first process warns where it is of another law or another coat.
+  using FeatureName = std::function<FeatureCode(int mesh, FeatureCode feature)>;
+  std::vector<Real> save(const FeatureName &name);
+  void restore(const std::vector<Real> &saved);
+
+  std::size_t bytes() const;
+
+ private:
+  const CoatSpec &spec() const { return wall_.meshes[mesh_].body.coat; }
+  std::string named(const std::string &text) const;
+  void place(const Pose &pose, Real back);
+  Spheres spheres();
+  StepSettings settings(const std::deque<MeshPart> &meshes, const Step &step);
+  void take_masses(const std::deque<MeshPart> &meshes, const Spheres &s, const StepSettings &want);
+  void take_restored(const std::deque<MeshPart> &meshes);
+  void add_loads(const std::deque<MeshPart> &meshes, std::vector<CoatLoad> &loads) const;
+  void add_stiffness(const std::deque<MeshPart> &meshes, std::vector<CoatLoad> &loads) const;
+  void check_depth();
+
+  Host &host_;
+  const WallSpec &wall_;
+  int mesh_;
+  Real force_;
+  Real apart_ = 0, radius_ = 0;     // length
+  std::vector<int> others_;         // the meshes of its engine
+  std::vector<ContactLaw> laws_;    // of each
+  std::vector<Vec3> points_;        // in the frame of the mesh
+  std::vector<Vec3> x_, v_, omega_, force_on_, torque_on_;
+  std::vector<Real> radii_, masses_;
+  Real heavy_ = 0;              // the mass of points that touch no other body
+  std::vector<int> lighter_;    // the others, in the last step
+  std::unique_ptr<WallEngine> engine_;
+  bool is_stale_ = true;    // grids are new
+  bool deep_warned_ = false;
+  std::vector<Real> restored_;    // until the first step
+  // Of each mesh of the engine, in a step.
+  std::vector<SurfaceMotion> surfaces_;
+  std::vector<Mobility> mobilities_;    // of this body, in their frames
+};
+
+}    // namespace lsdcd

@@ -1,0 +1,430 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Bodies that touch bodies and walls by their coats: closed forms, momentum, energy, processes, saved states.
+#include "base/input_error.h"
+#include "support/fake_host.h"
+#include "support/grains.h"
+#include "support/meshes.h"
+#include "wall/wall.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <vector>
+
+namespace lsdcd::test_body_coat {
+namespace {
+
+constexpr Real kStiffness = 1000, kSide = 2, kRadius = 0.1, kGravity = 10;
+
+std::shared_ptr<const WeldedMesh> welded(const TriangleSoup &soup)
+{
+  return std::make_shared<WeldedMesh>(weld(soup, -1));
+}
+
+TriangleSoup cube_soup()
+{
+  const Real half = kSide / 2;
+  return box_mesh({-half, -half, -half}, {half, half, half});
+}
+
+// A point of its own at each of 6 corners, 1 from the middle.
+TriangleSoup octahedron()
+{
+  TriangleSoup soup;
+  soup.source = "octahedron";
+  for (const Real z : {1., -1.})
+    for (int k = 0; k < 4; k++) {
+      const Vec3 a = {k % 2 ? 0 : 1. - k, k % 2 ? 2. - k : 0, 0}, b = {-a.y, a.x, 0};
+      for (const Vec3 &x : {z > 0 ? a : b, z > 0 ? b : a, Vec3{0, 0, z}}) soup.corners.push_back(x);
+    }
+  return soup;
+}
+
+// A cube of density 1 whose points are 1 apart: 13 on a face, which are its corners, the middles of its edges and of
+// itself, and of the four squares between.
+MeshSpec cube(const Vec3 &at, const Vec3 &velocity = {0, 0, 0})
+{
+  MeshSpec mesh;
+  mesh.name = "cube";
+  mesh.mesh = welded(cube_soup());
+  mesh.placement.move(at);
+  mesh.body.present = true;
+  mesh.body.density = 1;
+  mesh.body.velocity = velocity;
+  mesh.body.coat = {true, 1, kRadius};
+  return mesh;
+}
+constexpr int kPointsOfFace = 13;
+constexpr Real kMass = kSide * kSide * kSide;
+
+MeshSpec floor_at_0(Real half = 10)
+{
+  MeshSpec mesh;
+  mesh.name = "floor";
+  mesh.mesh = welded(floor_mesh(4, half));
+  return mesh;
+}
+
+WallSpec wall_of(std::vector<MeshSpec> meshes)
+{
+  WallSpec wall;
+  wall.laws.front().law.k_normal = kStiffness;
+  wall.device = Device::cpu;
+  wall.meshes = std::move(meshes);
+  return wall;
+}
+
+struct Scene : Grains {
+  FakeHost &host;
+  std::unique_ptr<Wall> wall;
+  Real gravity[3] = {0, 0, 0}, dt = 1e-3;
+  std::int64_t now = 0;
+
+  Scene(FakeHost &host, const WallSpec &spec, const WallUnits &units = WallUnits()) : host(host)
+  {
+    host.simulation = wide_box();
+    wall = std::make_unique<Wall>(host, spec, units, WallBackend(), "", StepClock{0, 0, 0, dt});
+  }
+
+  void step(Step::Kind kind)
+  {
+    for (Vec3 &f : force) f = {0, 0, 0};
+    wall->history().grow(static_cast<int>(x.size()));
+    StepInput input;
+    input.step = {now, dt, kind};
+    input.look = input.new_spheres = kind == Step::setup;
+    input.drift.kind = SphereDrift::watched;
+    input.drift.distance = 0.05;
+    input.gravity = gravity;
+    wall->begin(spheres(), input);
+    wall->launch(spheres());
+    wall->finish(spheres());
+  }
+  void set_up()
+  {
+    wall->begin_run(now, false);
+    step(Step::setup);
+  }
+  void run(int n)
+  {
+    for (int i = 0; i < n; i++) {
+      now++;
+      step(Step::step);
+    }
+  }
+  const RigidBody &body(int mesh) { return wall->body(mesh)->body(); }
+  // Kinetic, of the height and of contacts.
+  Real energy(int mesh)
+  {
+    const RigidBody &b = body(mesh);
+    return b.kinetic_energy() -
+           b.mass().mass * dot(Vec3{gravity[0], gravity[1], gravity[2]}, b.centre()) +
+           wall->totals().of_all().energy;
+  }
+};
+
+std::string error_of_run(Scene &scene, int n)
+{
+  try {
+    scene.run(n);
+  } catch (const InputError &e) {
+    return e.what();
+  }
+  return "";
+}
+
+Vec3 momentum_of(Scene &scene, const std::vector<int> &meshes)
+{
+  Vec3 sum = {0, 0, 0};
+  for (const int m : meshes) sum += scene.body(m).mass().mass * scene.body(m).velocity();
+  return sum;
+}
+
+Vec3 angular_momentum_of(Scene &scene, const std::vector<int> &meshes)
+{
+  Vec3 sum = {0, 0, 0};
+  for (const int m : meshes) {
+    const RigidBody &b = scene.body(m);
+    sum += b.angular_momentum() + b.mass().mass * cross(b.centre(), b.velocity());
+  }
+  return sum;
+}
+
+ContactLaw frictional()
+{
+  ContactLaw law = classic_law(NormalModel::hooke, true);
+  law.k_normal = kStiffness;
+  law.k_tangent = 0.3 * kStiffness;
+  law.eta = 2;
+  law.mu = 0.4;
+  return law;
+}
+
+}    // namespace
+
+// N springs of stiffness k bear M g: the centre is half a side and a radius above the floor, less M g / (N k).
+TEST(body_coat, a_cube_comes_to_rest_level_at_the_height_that_its_weight_asks_for)
+{
+  FakeHost host;
+  WallSpec spec = wall_of({floor_at_0(), cube({0.3, 0.2, kSide / 2 + kRadius + 0.01})});
+  spec.laws.front().law.eta = 10;
+  Scene scene(host, spec);
+  scene.gravity[2] = -kGravity;
+  scene.set_up();
+  scene.run(6000);
+  const RigidBody &b = scene.body(1);
+  const Real sinks = kMass * kGravity / (kPointsOfFace * kStiffness);
+  EXPECT_NEAR(b.centre().z, kSide / 2 + kRadius - sinks, 1e-9);
+  EXPECT_LT(norm(rotate(b.turn(), {0, 0, 1}) - Vec3{0, 0, 1}), 1e-12);
+  EXPECT_LT(norm(b.velocity()), 1e-8);
+  EXPECT_NEAR(scene.wall->totals().mesh(0).force.z, -kMass * kGravity, 1e-5);
+  EXPECT_NEAR(scene.wall->totals().mesh(1).force.z, kMass * kGravity, 1e-5);
+}
+
+// Its points are closer to its own faces than their radius.
+TEST(body_coat, does_not_feel_the_mesh_that_it_is_of)
+{
+  FakeHost host;
+  WallSpec spec = wall_of({floor_at_0(), cube({0, 0, 20})});
+  spec.meshes[1].body.omega = {0, 0, 1};
+  Scene scene(host, spec);
+  scene.set_up();
+  scene.run(100);
+  EXPECT_EQ(norm(scene.body(1).velocity()), 0);
+  EXPECT_NEAR(scene.body(1).omega().z, 1, 1e-14);
+}
+
+TEST(body_coat, two_free_cubes_collide_and_keep_their_momentum)
+{
+  FakeHost host;
+  WallSpec spec = wall_of({cube({0, 0, 0}), cube({0.6, 0.4, 2.4}, {0.2, 0, -2})});
+  spec.laws.front().law = frictional();
+  spec.meshes[0].body.density = 3;
+  spec.meshes[1].body.omega = {0.3, 0.2, 0.1};
+  Scene scene(host, spec);
+  scene.set_up();
+  const std::vector<int> both = {0, 1};
+  const Vec3 momentum = momentum_of(scene, both), angular = angular_momentum_of(scene, both);
+  scene.run(1000);
+  EXPECT_GT(scene.body(0).velocity().z, -10);
+  EXPECT_LT(scene.body(0).velocity().z, -0.1);    // it was hit
+  const Real size = kMass * 2, turning = size * 2.4;
+  EXPECT_LT(norm(momentum_of(scene, both) - momentum), 1e-12 * size);
+  EXPECT_LT(norm(angular_momentum_of(scene, both) - angular), 1e-12 * turning);
+}
+
+// Frictionless and elastic. In leapfrog a spring of angular frequency w keeps an energy that differs by a part (w dt)^2 / 8
+// of what it swings with, and each opening of a contact leaves a part of that order behind.
+TEST(body_coat, a_cube_dropped_on_an_edge_keeps_its_energy)
+{
+  Real worst[2];
+  for (int k = 0; k < 2; k++) {
+    FakeHost host;
+    WallSpec spec = wall_of({floor_at_0(30), cube({0, 0, 0})});
+    Placement placement;
+    placement.rotate({0, 1, 0}, 40);
+    placement.move({0, 0, std::sqrt(2.) + 0.3});
+    spec.meshes[1].placement = placement;
+    const Real stiffness = 100 * kStiffness;
+    spec.laws.front().law.k_normal = stiffness;
+    Scene scene(host, spec);
+    scene.dt = k == 0 ? 2e-4 : 1e-4;
+    scene.gravity[2] = -kGravity;
+    scene.set_up();
+    const Real begins = scene.energy(1);
+    Real off = 0;
+    for (int i = 0; i < (k == 0 ? 200 : 400); i++) {
+      scene.run(50);
+      off = std::max(off, std::fabs(scene.energy(1) - begins));
+    }
+    EXPECT_GT(std::fabs(scene.body(1).omega().y), 0.1);    // it was tipped over
+    worst[k] = off / begins;
+  }
+  const Real w_dt_sq = kPointsOfFace * 100 * kStiffness / kMass * 4e-8;
+  EXPECT_LT(worst[0], w_dt_sq / 8);
+  EXPECT_LT(worst[1], worst[0]);
+}
+
+// A corner of one body on the middle of a face of the other: the mass that damping sees is 1 / (1/M + 1/m). A
+// contact lasts 314 steps at least; the force is cut off where it would attract, which loses as little.
+TEST(body_coat, two_bodies_have_the_restitution_that_is_set_whatever_their_masses)
+{
+  const Real e = 0.6;
+  for (const Real mass : {1e-3, 1., 1e3}) {
+    FakeHost host;
+    WallSpec spec = wall_of({cube({0, 0, -kSide / 2}), cube({0, 0, 1 + kRadius + 0.001})});
+    ContactLaw &law = spec.laws.front().law;
+    law = granular_law(NormalModel::hooke);
+    law.k_normal = kStiffness;
+    law.damping = DampingModel::stiffness;
+    law.eta = restitution_damping(NormalModel::hooke, e);
+    BodySpec &big = spec.meshes[0].body, &small = spec.meshes[1].body;
+    big.coat = CoatSpec();
+    spec.meshes[1].mesh = welded(octahedron());
+    small.coat = {true, 5, kRadius};
+    small.density = 0;
+    small.mass = {mass, {0, 0, 1 + kRadius + 0.001}, {mass, mass, mass, 0, 0, 0}};
+    small.velocity = {0, 0, -1};
+    Scene scene(host, spec);
+    const Real reduced = 1 / (1 / mass + 1 / kMass);
+    scene.dt = 0.01 * std::sqrt(reduced / kStiffness);
+    scene.set_up();
+    scene.run(static_cast<int>(0.002 / scene.dt) + 1000);
+    const Real v = scene.body(1).velocity().z, big_v = scene.body(0).velocity().z;
+    EXPECT_NEAR(big_v - v, -e, 0.02) << mass;
+    EXPECT_NEAR(big_v, -(1 + e) * mass / (mass + kMass), 0.02 * mass / (mass + kMass)) << mass;
+  }
+}
+
+// One spring k between masses M and m, or M and a wall.
+TEST(body_coat, a_timestep_at_which_its_contacts_would_be_unstable_is_refused)
+{
+  for (const bool free : {true, false})
+    for (const Real share : {0.99, 1.01}) {
+      FakeHost host;
+      MeshSpec under = cube({0, 0, -kSide / 2});
+      under.body.coat = CoatSpec();
+      under.body.present = free;
+      WallSpec spec = wall_of({under, cube({0, 0, 1 + kRadius - 1e-6})});
+      spec.meshes[1].mesh = welded(octahedron());
+      BodySpec &body = spec.meshes[1].body;
+      body.coat = {true, 5, kRadius};
+      body.density = 0;
+      body.mass = {1, {0, 0, 1 + kRadius}, {1, 1, 1, 0, 0, 0}};
+      body.load = {0, 0, -1};    // it stays in contact
+      body.joint = {JointKind::slider, {0, 0, 0}, {0, 0, 1}};
+      spec.meshes[0].body.joint = body.joint;
+      Scene scene(host, spec);
+      scene.dt = share * 2 / std::sqrt(kStiffness * (1 + (free ? 1 / kMass : 0)));
+      scene.set_up();
+      const std::string error = error_of_run(scene, 2);
+      EXPECT_EQ(error.empty(), share < 1) << error;
+      if (share > 1) {
+        EXPECT_NE(error.find("is not below"), std::string::npos) << error;
+      }
+    }
+}
+
+TEST(body_coat, is_refused_where_it_is_pressed_through_a_mesh)
+{
+  FakeHost host;
+  Scene scene(host, wall_of({floor_at_0(), cube({0, 0, kSide / 2 + kRadius + 0.01}, {0, 0, -20})}));
+  scene.set_up();
+  const std::string error = error_of_run(scene, 100);
+  EXPECT_NE(error.find("goes through the other mesh"), std::string::npos) << error;
+}
+
+TEST(body_coat, slides_and_sticks_with_the_same_bits_after_a_saved_state)
+{
+  WallSpec spec = wall_of({floor_at_0(), cube({0, 0, kSide / 2 + kRadius - 0.005}, {1, 0.3, 0})});
+  // Without damping the set-up of a run computes the load that the last step had.
+  spec.laws.front().law = frictional();
+  spec.laws.front().law.eta = 0;
+  FakeHost host, other;
+  Scene whole(host, spec), second(other, spec);
+  whole.gravity[2] = second.gravity[2] = -kGravity;
+  whole.set_up();
+  whole.run(300);
+  const WallState saved = WallState::from(whole.wall->save().blocks());
+  EXPECT_GT(saved.meshes[1].coat.size(), 20u);
+  whole.run(300);
+  EXPECT_LT(norm(whole.body(1).velocity()), 0.9);    // friction acts
+  second.now = 300;
+  second.wall->restore(saved, {300, second.dt});
+  second.set_up();
+  second.run(300);
+  const Pose a = whole.body(1).pose(), b = second.body(1).pose();
+  EXPECT_TRUE(a.shift == b.shift && a.velocity == b.velocity && a.angular == b.angular);
+  EXPECT_TRUE(other.warnings.empty());
+}
+
+TEST(body_coat, begins_without_springs_where_the_saved_ones_are_of_another_coat)
+{
+  WallSpec spec = wall_of({floor_at_0(), cube({0, 0, kSide / 2 + kRadius - 0.005})});
+  spec.laws.front().law = frictional();
+  FakeHost host, other;
+  Scene first(host, spec);
+  first.set_up();
+  first.run(2);
+  spec.meshes[1].body.coat.spacing = 0.5;
+  Scene second(other, spec);
+  second.wall->restore(first.wall->save(), {2, second.dt});
+  ASSERT_EQ(other.warnings.size(), 1u);
+  EXPECT_NE(other.warnings[0].find("springs of its coat begin anew"), std::string::npos);
+}
+
+TEST(body_coat, has_the_same_bits_on_any_number_of_processes)
+{
+  std::vector<Pose> poses;
+  std::mutex lock;
+  WallSpec spec = wall_of({floor_at_0(), cube({0, 0, kSide / 2 + kRadius + 0.02}, {1, 0, 0}),
+                           cube({0.3, 0.5, 1.5 * kSide + 3 * kRadius}, {0, 0, -1})});
+  spec.laws.front().law = frictional();
+  for (const int n : {1, 2, 4})
+    on_processes(n, [&](FakeHost &host) {
+      Scene scene(host, spec);
+      scene.gravity[2] = -kGravity;
+      scene.set_up();
+      scene.run(400);
+      const Pose lower = scene.body(1).pose(), upper = scene.body(2).pose();
+      const std::lock_guard<std::mutex> hold(lock);
+      poses.push_back(lower);
+      poses.push_back(upper);
+    });
+  ASSERT_EQ(poses.size(), 14u);
+  for (std::size_t i = 2; i < poses.size(); i++) {
+    const Pose &a = poses[i % 2], &b = poses[i];
+    EXPECT_TRUE(a.shift == b.shift && a.velocity == b.velocity && a.angular == b.angular &&
+                a.row[0] == b.row[0])
+        << i;
+  }
+}
+
+// A servo's plate, or a motion's, pushes a body as it pushes spheres; the load on the floor is that of all.
+TEST(body_coat, takes_the_velocity_of_a_mesh_that_moves)
+{
+  FakeHost host;
+  WallSpec spec = wall_of({floor_at_0(), cube({0, 0, kSide / 2 + kRadius - 0.01})});
+  spec.laws.front().law = frictional();
+  spec.laws.front().law.gamma_tangent = 20;
+  MotionTerm term;
+  term.kind = MotionKind::linear;
+  term.velocity = {0.5, 0, 0};
+  spec.meshes[0].motion.add(term);
+  Scene scene(host, spec);
+  scene.gravity[2] = -kGravity;
+  scene.set_up();
+  scene.run(3000);
+  EXPECT_NEAR(scene.body(1).velocity().x, 0.5, 0.05);
+}
+
+TEST(body_coat, needs_another_mesh)
+{
+  FakeHost host;
+  EXPECT_THROW(Scene(host, wall_of({cube({0, 0, 0})})), InputError);
+}
+
+TEST(body_coat, tells_its_points_and_its_errors_in_the_log)
+{
+  FakeHost host;
+  WallSpec spec = wall_of({floor_at_0(), cube({0, 0, 5})});
+  spec.meshes[1].body.coat = {true, 0, 0};
+  Scene scene(host, spec);
+  std::string all;
+  for (const std::string &line : host.lines) all += line;
+  // A diagonal of 2 sqrt(3) over 30, and 0.75 of that; 0.75 - sqrt(0.75^2 - 1/3) of it.
+  EXPECT_NE(all.find("points at most 0.11547 apart, of radius 0.0866025: other meshes feel the "
+                     "body 0.0866025 outside of "
+                     "its surface; their edges and corners sink up to 0.0313"),
+            std::string::npos)
+      << all;
+}
+
+}    // namespace lsdcd::test_body_coat
