@@ -32,10 +32,9 @@ void check_posed(const lsdcd_wall &wall, int mesh, bool wanted)
   check_mesh(wall, mesh, 0);
   const MeshSpec &spec = wall.in->spec().meshes[static_cast<std::size_t>(mesh)];
   if (spec.body.present)
-    throw ApiError(LSDCD_ERROR_ARGUMENT,
-                   "mesh " + std::to_string(mesh) + ", '" + spec.name +
-                       "', is a body, which moves by what acts on it: it takes no motion, servo or "
-                       "pose");
+    throw ApiError(LSDCD_ERROR_ARGUMENT, "mesh " + std::to_string(mesh) + ", '" + spec.name +
+                                             "', is a body, which moves by what acts on it, so it "
+                                             "cannot have a motion, a servo or a pose");
   if (spec.motion.is_posed() == wanted) return;
   throw ApiError(LSDCD_ERROR_ARGUMENT,
                  "mesh " + std::to_string(mesh) + ", '" + spec.name + "', is " +

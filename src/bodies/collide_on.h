@@ -292,9 +292,9 @@ class BodyCollisionOn : public BodyCollision {
     if (pieces_.size() == 0) throw InputError("there is no body: call set_body()");
     check_rotation(pose);
     if (!(kMaxRadius * unit_ + slack(pose) + grid_.tolerance <= grid_.cutoff))
-      throw InputError("the body is so far from the origin, or so large, that cells of " +
-                       number_text(grid_.length) +
-                       " have too few digits there: move wall and body nearer to the origin");
+      throw InputError("the body is so far from the origin, or so large, that rounding errors of "
+                       "its corners are too large for cells of " +
+                       number_text(grid_.length) + ": move wall and body nearer to the origin");
   }
 
   B b_;

@@ -31,8 +31,9 @@ class EngineOn : public WallEngine {
       springs_(b_, law.traits, counts_.data()), overflow_(kOverflowScratches)
   {
     if (settings.precision == Precision::single_ && !has_float_forces(settings))
-      throw InputError("precision single has neither granular, rolling, cohesion, a moving surface "
-                       "or mesh, several meshes, wear nor mesh_fields: use mixed or double");
+      throw InputError(
+          "precision single does not support granular, rolling, cohesion, a moving surface "
+          "or mesh, several meshes, wear or mesh_fields: use mixed or double");
     if (settings.nodes && !B::kOnHost)
       throw InputError("meshes whose nodes move are computed on the CPU: use device cpu or auto");
     clear_diagnostics(StepCounts());

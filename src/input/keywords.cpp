@@ -182,7 +182,7 @@ const Keyword kKeywords[] = {
      "budget for the grid of each mesh",
      [](Tokens &w, WallCommand &s) { s.wall.memory_budget = read_memory(w); }},
     {"nearest", "all | N", "", "1 to 32", "all",
-     "lists hold all a sphere can touch, or the N triangles nearest to a cell's centre",
+     "a cell lists everything that a sphere can touch, or the N triangles nearest to its centre",
      [](Tokens &w, WallCommand &s) { s.wall.nearest = read_nearest(w); }},
     {"precision", "double | mixed | single", "", "", "double",
      "mixed: contacts in float, forces in double; single: both in float",
@@ -202,7 +202,7 @@ const Keyword kKeywords[] = {
        s.wall.side = static_cast<Side>(w.choice({"both", "in", "out"}));
      }},
     {"motion", kMotionSyntax, "velocity, length, time", "period > 0", "none",
-     "the mesh moves, as fix move's words say; repeated, each acts on what the earlier ones placed",
+     "moves the mesh, with the syntax of fix move and more; later motions carry earlier ones",
      nullptr, read_motion},
     {"wiggle", "x|y|z amplitude period", "length, time", "period > 0", "none",
      "the mesh moves as fix wall/gran's: by A - A cos(2 pi t/period)", nullptr, read_wiggle},
@@ -235,8 +235,8 @@ const Keyword kKeywords[] = {
      "v_NAME",
      nullptr, read_surface_vel},
     {"surface_angvel", "wx wy wz [cx cy cz]", "1/time, length", "", "0 0 0",
-     "it turns along itself about an axis through c (the origin), as a roll's; each w a number or "
-     "v_NAME",
+     "the surface turns about an axis through c (the origin) while the mesh stays, like a roll; "
+     "each w a number or v_NAME",
      nullptr, read_surface_angvel},
     {"law", "[types I] STYLE numbers", "", "the wall's sub-models", "the wall's numbers",
      "numbers of contacts with this mesh, or of atom types I (2, 1*3, 2*) with it", nullptr,
@@ -270,10 +270,10 @@ const Keyword kKeywords[] = {
     {"contacts", "", "", "", "off", "per-atom array of 8 columns (9 with heat), as fix wall/gran's",
      [](Tokens &, WallCommand &s) { s.wall.contacts = true; }},
     {"periodic", "", "", "", "off",
-     "the mesh is meant to reach past periodic faces or to continue itself there; it acts "
-     "through them in any case",
+     "says that the mesh is intended to reach through periodic faces or to continue itself there; "
+     "it acts through them in any case",
      [](Tokens &, WallCommand &s) { s.wall.periodic = true; }},
-    {"log", "full | brief", "", "", "full", "brief: one line about the wall in place of all",
+    {"log", "full | brief", "", "", "full", "brief: one line instead of the full report",
      [](Tokens &w, WallCommand &s) {
        s.wall.brief = w.choice({"full", "brief"}) == 1;
      }},

@@ -112,7 +112,7 @@ void read_law_of_mesh(Tokens &w, MeshSpec &mesh, InputNames &)
     w.take();
     read_types(w, of);
   } else if (!mesh.laws.empty() && mesh.laws.front().first_type == 0) {
-    w.fail("the mesh has one for all atom types already");
+    w.fail("the mesh already has a law for all atom types");
   }
   if (!w.done() && w.peek() == "material") w.fail(kNoMaterialHere);
   of.law = read_law(w, of.name, kLawOfTypesSyntax);

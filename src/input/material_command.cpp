@@ -163,7 +163,7 @@ void read_meshes(Tokens &w, MaterialCommand &c, const std::vector<std::string> &
   for (const MeshMaterial &mesh : c.meshes)
     if (mesh.has_law && !mesh.name.empty())
       w.fail("mesh '" + c.rest[mesh.at - 1] + "' has 'material " + mesh.name +
-             "' and 'law', which both give it numbers: leave one out");
+             "' and 'law', which both set its contact numbers: leave one out");
 }
 
 }    // namespace
@@ -215,7 +215,7 @@ MaterialCommand read_material_command(const std::vector<std::string> &tokens,
   for (const char *const word : {"types", "on", "with"})
     if (!w.done() && w.peek() == word)
       w.fail("'" + w.peek() +
-             "' comes too late: the order is PARTICLE, types, on, with, sub-models, mesh");
+             "' must stand earlier: the order is PARTICLE, types, on, with, sub-models, mesh");
   read_meshes(w, c, names, words);
   // The wall's own is then that of no contact, and the file need not have it.
   if (!has_wall && !c.meshes.empty() &&

@@ -24,7 +24,7 @@ void read_line(Tokens &w, Servo &s)
   if (axis == Vec3{0, 0, 0}) w.fail("the axis ax ay az must not be 0 0 0");
   s.axis = unit_vector(axis);
   if (w.done() || w.peek() != "through") return;
-  if (!s.turns) w.fail("through is of torque: a force has no place");
+  if (!s.turns) w.fail("through is for servo torque only");
   w.take();
   s.point = read_vector(w, "px", "py", "pz");
 }

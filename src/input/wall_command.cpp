@@ -144,7 +144,7 @@ void read_keywords(Tokens &w, WallCommand &command, bool granular)
       if (std::count(given.begin(), given.end(), "shear") &&
           std::count(given.begin(), given.end(), "surface_vel")) {
         w.set_context("shear", "shear x|y|z v");
-        w.fail("there is a surface_vel, too, which says the same: give one of them");
+        w.fail("surface_vel and shear set the same velocity: give one of them");
       }
   }
 }

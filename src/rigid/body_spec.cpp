@@ -51,7 +51,7 @@ void check_has_coordinate(const BodySpec &body)
   for (const auto &w : words)
     if (w.given && !body.joint.has_coordinate())
       throw InputError(std::string(w.word) +
-                       " is of the coordinate of a joint hinge or slider, and this body has none");
+                       " works only with a joint hinge or slider, and this body has neither");
 }
 
 void check_limits(const JointDrive &d, Real coordinate)

@@ -79,7 +79,8 @@ const char *kAbout =
 void add_accuracy_command(Command &program)
 {
   static AccuracyOptions o;
-  Command c = program.command("accuracy", "the paper's study, its numbers beside ours");
+  Command c =
+      program.command("accuracy", "repeats the study of the 2017 paper and prints both results");
   std::vector<std::string> names = kAccuracyTables;
   names.push_back("all");
   c.option("table", o.tables, "tables to make (default: table2)").one_of(names);

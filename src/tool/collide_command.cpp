@@ -198,12 +198,13 @@ void add_options(Command &command, Options &o)
       .range(1, kMaxNearest);
   command.option("--memory", o.memory, "of the grid, in MB (default: 1024 beside the mesh)")
       .check(above_zero);
-  command.option("--device", o.device, "that answers")
+  command.option("--device", o.device, "device that computes")
       .one_of({"auto", "cpu", "cuda"})
       .shows_default();
   command.option("--threads", o.threads, "on the CPU (default: OMP_NUM_THREADS, or all)")
       .range(1, 4096);
-  command.flag("--progress", o.progress, "tell how far it is, even where no terminal is");
+  command.flag("--progress", o.progress,
+               "tell how far it is, even if standard error is not a terminal");
   command.flag("--json", o.json, "print JSON");
 }
 
@@ -219,7 +220,8 @@ void add_collide_command(Command &program)
       "A pose turns the body about the origin of its file by a unit quaternion, w first, and then\n"
       "moves it by x y z; or it is three rows of a rotation matrix, each with its number of the\n"
       "shift. In a file empty lines and those from # are left out, and a first line of names.\n"
-      "Touching is meeting. Surfaces count: a body whole inside a closed wall meets nothing.\n"
+      "Triangles that only touch count as a pair. Surfaces count: a body completely inside a\n"
+      "closed wall meets nothing.\n"
       "Columns of pairs: pose (from 0), wall_triangle and body_triangle (of the files, from 0; "
       "-1:\n"
       "one without area); of segments also from_x to to_z, nan where both lie in one plane.\n"

@@ -183,11 +183,11 @@ void add_distance_command(Command &program)
       .required();
   command
       .option("--radius,--cutoff", o->radius,
-              "nothing as far as this is found (default: any distance)")
+              "points at this distance or farther count as infinitely far (default: no limit)")
       .check(above_zero);
   add_scale_option(command, o->scale);
   add_weld_option(command, o->weld);
-  command.option("--device", o->device, "that answers")
+  command.option("--device", o->device, "device that computes")
       .one_of({"auto", "cpu", "cuda"})
       .shows_default();
   command.option("--threads", o->threads, "on the CPU (default: OMP_NUM_THREADS, or all)")
@@ -197,11 +197,13 @@ void add_distance_command(Command &program)
       .shows_default();
   command.flag("--estimate-sides", o->estimate_sides,
                "of a mesh that is not closed, by winding numbers, not certified");
-  command.flag("--progress", o->progress, "tell how far it is, even where no terminal is");
+  command.flag("--progress", o->progress,
+               "tell how far it is, even if standard error is not a terminal");
   command.flag("--json", o->json, "print JSON");
   command.footer(
-      "A point per line or record, in the order of the points; a dump's have timestep and id "
-      "first.\n"
+      "One line or record per point, in the order of the points; rows of a dump begin with "
+      "timestep\n"
+      "and id.\n"
       "Columns: distance (inf: nothing found), closest point (then the point itself), triangle (of "
       "the\n"
       "file, from 0), feature (face, edge, vertex, none; in .npy 0, 1, 2, -1) and its index in "

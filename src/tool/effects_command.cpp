@@ -13,8 +13,8 @@ namespace lsdcd {
 
 void add_effects_command(Command &program)
 {
-  Command command =
-      program.command("effects", "every effect of a wall: its words, bytes per atom and contact");
+  Command command = program.command(
+      "effects", "lists all effects of a wall with their keywords and bytes per atom and contact");
   command.footer("What each costs in time is in doc/effects.md.\n\nExample:\n  lsdcd effects");
   const auto json = std::make_shared<bool>(false);
   command.flag("--json", *json, "print JSON");

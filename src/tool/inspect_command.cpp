@@ -102,7 +102,8 @@ void add_grid_command(Command &program)
   command
       .option("--memory", o->memory, "budget in MB (default: 1024 beside the mesh's own records)")
       .check(above_zero);
-  command.flag("--progress", o->progress, "tell how far it is, even where no terminal is");
+  command.flag("--progress", o->progress,
+               "tell how far it is, even if standard error is not a terminal");
   command.runs([o] { grid(*o); });
 }
 

@@ -99,8 +99,7 @@ void add_material_command(Command &program)
 {
   const auto o = std::make_shared<Options>();
   Command command = program.command(
-      "material",
-      "what a material file says; with a name, the words that an input script would get");
+      "material", "what a material file says; with a name, the keywords for an input script");
   command.footer("Example:\n  lsdcd material glass.lsdcd glass --on aluminium");
   command.option("file", o->file, "material file, looked for as in an input script").required();
   command.option("name", o->name, "material of the grains");

@@ -161,8 +161,10 @@ void add_repair_command(Command &program, int &exit_code)
               "corners closer than this to each other, or to an open edge, are on it\n"
               "(default: 1e-6 of the box diagonal)")
       .check(not_below_zero);
-  command.flag("--open", o->open, "the mesh is meant to be open: ends with 0 all the same");
-  command.flag("--progress", o->progress, "tell how far it is, even where no terminal is");
+  command.flag("--open", o->open,
+               "open edges are not an error: ends with 0 if nothing else is left");
+  command.flag("--progress", o->progress,
+               "tell how far it is, even if standard error is not a terminal");
   command.flag("--json", o->json, "print JSON");
   command.runs([o, &exit_code] {
     if (!run(*o)) exit_code = kUnmended;

@@ -166,7 +166,7 @@ void add_timestep_command(Command &program)
 {
   const auto o = std::make_shared<Options>();
   Command command =
-      program.command("timestep", "the timestep that material, radius and speed ask for");
+      program.command("timestep", "computes a timestep from material, radius and speed");
   command.footer(
       "The timestep is the smallest of\n"
       "  0.2 of the Rayleigh time: a wave along the surface of the smallest grain,\n"

@@ -220,12 +220,12 @@ void tradeoff(Options &o)
 void add_tradeoff_command(Command &program)
 {
   const auto o = std::make_shared<Options>();
-  Command command =
-      program.command("tradeoff", "what each setting buys and costs on a mesh: a CSV and a plot");
+  Command command = program.command(
+      "tradeoff", "measures error, time and memory of each setting on a mesh: a CSV and a plot");
   command.footer(std::string(kHelp) +
                  "\nExample:\n  lsdcd tradeoff wall.stl --radius 0.004 0.005 --below 1e-3");
   command.option("file", o->file, "mesh: .stl, .obj, .ply or .off").required();
-  command.option("--radius", o->settings.radii, "sphere radii, one or several, each as likely")
+  command.option("--radius", o->settings.radii, "sphere radii, one or several, all equally likely")
       .required()
       .words(1, -1)
       .check(above_zero);
@@ -250,9 +250,10 @@ void add_tradeoff_command(Command &program)
       .shows_default()
       .one_of({"auto", "cpu", "cuda"});
   command
-      .option("--seconds", o->settings.seconds,
-              "after these nothing more is built or tried; the default comes first, however long "
-              "it takes")
+      .option(
+          "--seconds", o->settings.seconds,
+          "stop building and trying settings after so many seconds; the default is tried first, "
+          "however long it takes")
       .shows_default()
       .check(above_zero);
   command

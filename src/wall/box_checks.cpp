@@ -218,8 +218,9 @@ void BoxChecks::check_turning_out(const MeshPart &m, const PeriodicBox &box)
     host_.warn(named(m, "the mesh will turn out of the box: in " + axis + " it will reach from " +
                             number_text(least) + " to " + number_text(most) + " of the box. " +
                             capital(host_.names().sphere) +
-                            "s that it takes along are lost there: make the box larger in " + axis +
-                            ", or " + host_.remedy(Remedy::follow_spheres) + ". Shown once"));
+                            "s that it carries out of the box are lost: make the box larger in " +
+                            axis + ", or " + host_.remedy(Remedy::follow_spheres) +
+                            ". Shown once"));
     return;
   }
 }

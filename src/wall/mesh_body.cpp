@@ -311,7 +311,8 @@ void MeshBody::restore(const BodyState &was)
   pending_ = false;
   if (!was.present) {
     host_.warn(named("the " + std::string(host_.names().saved) +
-                     " has no body in this place: it begins anew"));
+                     " has no body for this mesh: the body starts at its initial position with its "
+                     "initial velocity"));
     return;
   }
   if (are_same(was.mass, spec().mass) && are_same(was.joint, spec().joint)) {
@@ -321,10 +322,11 @@ void MeshBody::restore(const BodyState &was)
   RigidBody before(in_units(was.mass, force_), was.joint);
   before.set_state(was.state);
   body_.begin_from(before);
-  host_.warn(named("the " + std::string(host_.names().saved) +
-                   " has another mass or joint of the body: it goes on "
-                   "from where it was, with what its joint allows of its velocity, and its "
-                   "coordinate begins at 0 there"));
+  host_.warn(
+      named("the " + std::string(host_.names().saved) +
+            " was written with another mass or joint of this body: the body continues "
+            "from where it was, with the part of its velocity that its joint allows, and its "
+            "coordinate starts at 0 there"));
 }
 
 }    // namespace lsdcd

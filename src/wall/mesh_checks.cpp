@@ -93,7 +93,7 @@ void check_surface(Host &host, const WallSpec &settings, const MeshPart &m)
           std::to_string(m.grid.report().facets) + " faces along their normals, by up to " +
           number_text(push.component) + " (" + number_text(100 * push.share) +
           " % of the speed there). That part is left out: the mesh itself stays where it "
-          "is, and lifters, blades and screws convey nothing. Where the mesh itself moves, "
+          "is, and lifters, blades and screws convey nothing. To move the mesh itself, "
           "use the keyword motion"));
 }
 

@@ -325,8 +325,10 @@ void MeshMotion::restore(const MotionState &was, const Step &now)
   }
   if (!same_line)
     host_.warn(named("the " + saved + " was written with a servo along another line, or " +
-                     host_.names().wall + " has none: the mesh is where that had it, at " +
-                     number_text(was.servo.position) + ", and its state is not carried over"));
+                     host_.names().wall +
+                     " has none: the mesh stays where that servo moved it, at position " +
+                     number_text(was.servo.position) +
+                     ", and no other servo takes over its position and speed"));
 }
 
 }    // namespace lsdcd

@@ -21,7 +21,9 @@ std::string sunk_remedy(Real overlap, Real timestep_ratio)
     return "the timestep is " + number_text(timestep_ratio) +
            " times the longest that resolves a contact: shorten it first. "
            "A stiffer contact needs a shorter one still";
-  return overlap > 1 ? kWrongSide : "stiffen the contact (kn) or lower speeds";
+  return overlap > 1 ? kWrongSide
+                     : "the contact is too soft for this load or speed: use a stiffer contact (a "
+                       "larger kn), which needs a shorter timestep, or lower the speeds";
 }
 
 }    // namespace

@@ -693,10 +693,10 @@ void Wall::check_may_move(const MeshPart &m) const
 {
   if (m.body)
     throw InputError(
-        named(m, "a body moves by what acts on it, and takes no motion, servo or pose"));
+        named(m, "a body moves by what acts on it, so it cannot have a motion, a servo or a pose"));
   if (m.nodes)
     throw InputError(
-        named(m, "its nodes alone move this mesh, and it takes no motion, servo or pose"));
+        named(m, "its nodes alone move this mesh, so it cannot have a motion, a servo or a pose"));
 }
 
 void Wall::check_is_body(int mesh) const
@@ -842,10 +842,9 @@ void Wall::restore_mesh(MeshPart &m, const MeshState &was, const Step &now)
     m.spec.motion.set_pose(m.body->body().pose());
     m.motion.place();
   } else if (was.body.present) {
-    host_.warn(named(
-        m, "the " + std::string(host_.names().saved) +
-               " has a body in this place, and the wall has none: the mesh is where that was, "
-               "and stays there"));
+    host_.warn(named(m, "the " + std::string(host_.names().saved) +
+                            " has a body for this mesh, and the wall has none: the mesh stays "
+                            "where that body was"));
   }
   for (BodyCoat &coat : coats_)
     if (coat.mesh() == m.index) coat.restore(was.coat);

@@ -250,7 +250,7 @@ TABLES = [
         ("material_classic_style", "hertz/history material glass.lsdcd glass",
          "hertz/history cannot be filled", "kn 485693", "granular material"),
         ("material_and_law", "granular material glass.lsdcd glass mesh floor.stl material steel law granular hertz/material 1e9 0.9 0.3 "
-         "tangential mindlin NULL 1 0.5", "mesh 'floor.stl' has 'material steel' and 'law', which both give it numbers: leave one out"),
+         "tangential mindlin NULL 1 0.5", "mesh 'floor.stl' has 'material steel' and 'law', which both set its contact numbers: leave one out"),
         ("material_in_law", "granular material glass.lsdcd glass mesh floor.stl law types 2 granular material glass.lsdcd steel",
          "in 'law' of mesh 'floor.stl', numbers stand here, not a material", "'types I NAME'"),
         ("material_missing_file", "granular material glas.lsdcd glass",
@@ -258,7 +258,7 @@ TABLES = [
         ("material_not_measured", "granular material steel.lsdcd steel",
          "no restitution of steel on steel", "with restitution VALUE"),
         ("material_on_before_types", "granular material glass.lsdcd glass on steel types 1 steel",
-         "'types' comes too late: the order is PARTICLE, types, on, with, sub-models, mesh"),
+         "'types' must stand earlier: the order is PARTICLE, types, on, with, sub-models, mesh"),
         ("material_types_of_no_type", "granular material glass.lsdcd glass types 5 glass",
          "in 'types 5', there is no atom type 5: there are 1"),
         ("material_types_without_name", "granular material glass.lsdcd glass types 2",

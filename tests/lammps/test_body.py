@@ -369,7 +369,7 @@ def changes(checks, folder):
     refused("open mesh", script(fix.replace("cube", "open"), far, 1e-3), "4 open edges")
     refused("motion", script(fix + "motion linear 1 0 0", far, 1e-3), "leave out its motion")
     refused("servo", script(fix + "servo force z 1 vmax 1", far, 1e-3), "leave out its motion")
-    refused("fix_modify motion", plain + "fix_modify w motion linear 1 0 0\n", "takes no motion")
+    refused("fix_modify motion", plain + "fix_modify w motion linear 1 0 0\n", "cannot have a motion")
     refused("two fixes gravity", plain + "fix g1 all gravity 1 vector 0 0 1\nfix g2 all gravity 1 vector 0 1 0\nrun 0\n",
             "several fixes gravity")
     refused("a spring without a coordinate", script(fix + "joint ball 0 0 0 spring 1 1", far, 1e-3), "hinge or slider")

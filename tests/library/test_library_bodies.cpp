@@ -374,7 +374,7 @@ TEST_F(WrongBody, poses_that_are_no_rigid_motion)
   c.position = far;
   refused(LSDCD_ERROR_INPUT, "number 2 is inf");
   c.position = too_far;
-  refused(LSDCD_ERROR_INPUT, "too few digits");
+  refused(LSDCD_ERROR_INPUT, "rounding errors of its corners are too large");
   c.position = nullptr;
   const double stretched[12] = {2, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0},
                mirrored[12] = {-1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};

@@ -143,7 +143,7 @@ def check_refused(folder):
     words = ("collide", "floor.stl", "cube.stl")
     refused(folder, [*words, "--pose", 1, 2, 3, 4], "has 4 numbers", "x y z qw qx qy qz", code=2)
     refused(folder, [*words, "--pose", 0, 0, 0, 1, 1, 0, 0], "length 1.41", "unit", code=2)
-    refused(folder, [*words, "--pose", 0, 0, "1e20"], "pose 0", "too few digits")
+    refused(folder, [*words, "--pose", 0, 0, "1e20"], "pose 0", "rounding errors")
     refused(folder, [*words, "--pose", *[2, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0]], "no rotation", code=2)
     refused(folder, [*words, "--pose", 0, 0, "here"], "--pose", "here", code=2)
     refused(folder, [*words, "--pose", 0, 0, 0, "--poses", "path.txt"], "excludes", code=2)
@@ -161,7 +161,7 @@ def check_refused(folder):
     bad = folder / "bad.txt"
     for text, says in (("0 0 0\n0 0\n", ("line 2", "has 2 numbers")), ("x y z\n1 2 oops\n", ("line 2", "'oops'")),
                        ("", ("no pose",)), ("# none\n", ("no pose",)), ("0 0 nan\n", ("line 1", "not finite")),
-                       ("0 0 0\n0 0 1e20\n", ("pose 1", "too few digits")),
+                       ("0 0 0\n0 0 1e20\n", ("pose 1", "rounding errors")),
                        ("0,,0,0\n", ("line 1", "nothing in column 2")), ("0,1;0,2;0,3\n", ("line 1", "decimal commas")),
                        ("x y z\n0 0 0 1 0 0 0\n", ("line 2", "has 7 columns", "line 1 names 3"))):
         bad.write_text(text)

@@ -362,7 +362,7 @@ TEST_F(fill_material_words, in_another_order_are_told_the_right_one)
                              : words.find("on steel") != words.npos ? "on"
                                                                     : "with";
     EXPECT_TRUE(says(error_of("granular material FILE glass " + words + " mesh a.stl"),
-                     {"'" + late + "' comes too late: the order is PARTICLE, types, on, with"}))
+                     {"'" + late + "' must stand earlier: the order is PARTICLE, types, on, with"}))
         << words;
   }
 }

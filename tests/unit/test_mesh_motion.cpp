@@ -533,7 +533,8 @@ TEST(MeshMotion, is_where_a_servo_had_it_that_is_not_there_after_a_restart)
   before.servo().position = 5;
   EXPECT_EQ(where_it_goes_on(before, after), (Vec3{0, 0, 5}));
   ASSERT_EQ(after.host.warnings.size(), 1);
-  EXPECT_NE(after.host.warnings[0].find("its state is not carried over"), std::string::npos);
+  EXPECT_NE(after.host.warnings[0].find("no other servo takes over its position and speed"),
+            std::string::npos);
 }
 
 TEST(MeshMotion, has_the_values_of_variables_after_a_restart)

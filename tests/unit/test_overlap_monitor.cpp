@@ -94,10 +94,9 @@ TEST(OverlapMonitor, tells_once_of_the_sphere_that_sank_deepest_on_all_processes
 {
   const std::vector<std::string> told = warned_of_sunk({0.2, 0.15, 0.25, 0.12});
   ASSERT_EQ(told.size(), 1);
-  EXPECT_EQ(
-      told[0],
-      "sphere 3 sank into the wall by 25 % of its radius 3 by step 7: stiffen the contact (kn) "
-      "or lower speeds; shown once");
+  EXPECT_EQ(told[0], "sphere 3 sank into the wall by 25 % of its radius 3 by step 7: the contact "
+                     "is too soft for this load or speed: use a stiffer contact (a larger kn), "
+                     "which needs a shorter timestep, or lower the speeds; shown once");
 }
 
 TEST(OverlapMonitor, blames_a_timestep_that_is_too_long_before_the_stiffness)

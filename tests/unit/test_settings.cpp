@@ -413,7 +413,7 @@ TEST(settings, laws_of_other_sub_models_are_refused)
             "sub-models hooke/history, and the wall has hooke: only the numbers may differ"));
   EXPECT_TRUE(
       names(error_with(law + "rolling cdt 0.1"), "hooke, rolling cdt, and the wall has hooke"));
-  EXPECT_TRUE(names(error_with(law + law), "one for all atom types already"));
+  EXPECT_TRUE(names(error_with(law + law), "the mesh already has a law for all atom types"));
   for (const char *types : {"0", "3*2", "a", "1.5", "2-3"})
     EXPECT_TRUE(names(error_with("law types " + std::string(types) + " hooke 1 NULL 1 NULL 1 1"),
                       "no range of atom types"));

@@ -40,22 +40,23 @@ struct SphereError : InputError {
 [[noreturn]] inline void throw_too_many_contacts(int most)
 {
   throw InputError("a sphere touches the wall in more than " + std::to_string(most) +
-                   " separate places: the mesh is far finer than its overlap; stiffen the contact "
-                   "or coarsen the mesh");
+                   " separate places: the mesh is far finer than its overlap; use a stiffer "
+                   "contact, which needs a shorter timestep, or a coarser mesh");
 }
 
 [[noreturn]] inline void throw_no_slots()
 {
   throw RemedyError(
-      "spheres that touch the wall in several places became so many since near spheres "
-      "were chosen that the memory for their springs ran out",
+      "spheres that touch the wall in several places became so many since the spheres "
+      "near the wall were selected that the memory for their springs ran out",
       Remedy::make_room);
 }
 
 [[noreturn]] inline void throw_has_grown(int i)
 {
   throw SphereError(i,
-                    "has grown since near spheres were chosen, so that others may have been missed",
+                    "has grown since the spheres near the wall were selected, so that others may "
+                    "have been missed",
                     Remedy::announce_growth);
 }
 
