@@ -16,8 +16,8 @@ void HistoryExchange::grow(int room)
   if (!is_on()) return;
   if (!with_engine_)
     springs_.grow(room);
-  else if (SpringsInPlace *springs = engine_->springs_in_place())
-    springs->grow(room);
+  else if (in_place_)
+    engine_->springs_in_place()->grow(room);
 }
 
 ContactHistory &HistoryExchange::on_host()

@@ -27,8 +27,13 @@ class HistoryExchange {
 
   bool is_on() const { return law_.has_history(); }
 
-  // The engine of the steps from now on. History of another engine must be on the host.
-  void set_engine(WallEngine &engine) { engine_ = &engine; }
+  // The engine of the steps from now on. History of another engine must be on the host. `in_place`: will in_engine()
+  // be asked for?
+  void set_engine(WallEngine &engine, bool in_place = false)
+  {
+    engine_ = &engine;
+    in_place_ = in_place;
+  }
 
   // Room for `room` spheres from now on, wherever the history is.
   void grow(int room);
@@ -71,6 +76,7 @@ class HistoryExchange {
   Host &host_;
   const ContactLaw &law_;
   WallEngine *engine_ = nullptr;
+  bool in_place_ = false;
   ContactHistory springs_;
   int room_ = 0;
   bool with_engine_ = false;

@@ -174,7 +174,7 @@ void Wall::make_engine()
   engine_moves_ = want.moves;
   engine_records_ = want.records || want.bodies || want.nodes;
   run_collectively(host_, true, [&] { engine_ = backend_.make_engine(want); });
-  history_.set_engine(*engine_);
+  history_.set_engine(*engine_, backend_.in_place);
   grids_.set_engine(*engine_);
 }
 
