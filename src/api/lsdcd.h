@@ -514,6 +514,40 @@ typedef struct lsdcd_servo {
   double lo, hi;    /* limits of the position, lo <= 0 <= hi; both 0: none */
 } lsdcd_servo;
 
+/* How a rigid body is held. */
+enum {
+  LSDCD_FREE = 0,   /* it moves and turns */
+  LSDCD_HINGE = 1,  /* it turns about an axis; its coordinate is an angle, right-handed */
+  LSDCD_SLIDER = 2, /* it moves along an axis and does not turn; its coordinate is a length */
+  LSDCD_PLANAR = 3, /* its centre stays in a plane, and it turns about the normal */
+  LSDCD_BALL = 4    /* it turns about a point */
+};
+/* A mesh as a rigid body, which moves by what acts on it: spheres, gravity, and what is given here. It begins where the
+ * placement has the mesh, and its coordinate is 0 there. Vectors are along the axes of the box. */
+typedef struct lsdcd_rigid_body {
+  size_t size;      /* of this struct */
+  double density;   /* mass/length^3 > 0 of a closed mesh; 0: the next three say what it has */
+  double mass;      /* > 0 */
+  double centre[3]; /* of mass, length */
+  double inertia
+      [6]; /* about the centre, mass length^2: xx yy zz xy xz yz; xy is minus the integral of x y */
+  int joint;       /* LSDCD_FREE to LSDCD_BALL */
+  double point[3]; /* length: of LSDCD_HINGE and LSDCD_BALL */
+  double axis
+      [3]; /* of any length above 0: of LSDCD_HINGE and LSDCD_SLIDER; the normal of LSDCD_PLANAR */
+  /* Of LSDCD_HINGE and LSDCD_SLIDER. stiffness: torque (per radian), or force/length, >= 0; damping: torque time, or
+   * force/velocity, >= 0; rest: coordinate where the spring is slack; lo <= 0 <= hi: stops, both 0: none; motor: torque
+   * about, or force along, the axis. */
+  double stiffness, damping, rest, lo, hi, motor;
+  double load[3], moment[3];               /* force at the centre of mass; torque */
+  double velocity[3], angular_velocity[3]; /* at the start, of the centre: length/time, 1/time */
+  double gravity[3];                       /* length/time^2 */
+  /* 1: points of its surface feel the other meshes of the wall. How far they are apart at most, and their radius:
+   * lengths > 0; 0: chosen. */
+  int coat;
+  double coat_spacing, coat_radius;
+} lsdcd_rigid_body;
+
 /* A mesh of a wall. In an array all elements have the same size. */
 typedef struct lsdcd_wall_mesh {
   size_t size;            /* of this struct */
@@ -546,6 +580,8 @@ typedef struct lsdcd_wall_mesh {
   double
       pressure; /* force/area, with nodes_by_caller: pushes to where normals point by the winding, out of a closed
                           mesh; see lsdcd_wall_get_node_forces() */
+  const lsdcd_rigid_body
+      *body; /* null: it is none. Else without motions, servo and posed_by_caller */
 } lsdcd_wall_mesh;
 
 /* scale: factors, none 0; rotate: degrees about an axis through the origin, right-handed; move: lengths. Each acts on
@@ -709,8 +745,28 @@ LSDCD_API int lsdcd_wall_set_motion(lsdcd_wall *wall, int mesh, const lsdcd_moti
 /* Another servo, from where the mesh is; null: none. Along the same line its position goes on. Own. */
 LSDCD_API int lsdcd_wall_set_servo(lsdcd_wall *wall, int mesh, const lsdcd_servo *servo);
 
+/* A rigid body after the last step, with velocities of the whole step. Vectors are along the axes of the box. */
+typedef struct lsdcd_body_state {
+  size_t size;                             /* of this struct */
+  double centre[3];                        /* of mass, length */
+  double quaternion[4];                    /* w x y z: from where the placement has the mesh */
+  double velocity[3], angular_velocity[3]; /* of the centre, length/time; 1/time */
+  /* What the joint does to the body to hold it, without spring, damping, motor and stops; the torque is about its point,
+   * or the centre of mass where it has none. */
+  double reaction_force[3], reaction_torque[3];
+  double coordinate; /* of LSDCD_HINGE (radians) and LSDCD_SLIDER (length); else 0 */
+  double energy;     /* kinetic, and of its spring */
+} lsdcd_body_state;
+/* LSDCD_ERROR_ARGUMENT: no such mesh, or one that is no body. Own. */
+LSDCD_API int lsdcd_wall_get_body(lsdcd_wall *wall, int mesh, lsdcd_body_state *state);
+/* Joint, point, axis, spring, stops, motor, load, moment and gravity of a body from now on, from where it is and without
+ * a jump. With another joint its coordinate begins at 0 there, and what the joint allows of its velocity goes on. Mass,
+ * velocities and coat of `body` are not looked at. lo and hi hold the coordinate. LSDCD_ERROR_ARGUMENT: as above.
+ * Own. */
+LSDCD_API int lsdcd_wall_set_body(lsdcd_wall *wall, int mesh, const lsdcd_rigid_body *body);
+
 /* Deprecated since 0.10.0, for lsdcd_wall_set_motion() and lsdcd_wall_set_servo(); it stays in all of 0.x.
- * The words of fix_modify: [mesh K] motion ..., [mesh K] servo ..., K from 1. Own. */
+ * The words of fix_modify: [mesh K] motion ..., [mesh K] servo ..., [mesh K] body ..., K from 1. Own. */
 LSDCD_API int lsdcd_wall_change(lsdcd_wall *wall, const char *const *words, size_t n);
 /* All that the wall and the contacts of its spheres keep, to go on from: *count doubles, of this process. Those
  * that fit in `room` are written; with `room` 0 the array may be null. Own. */

@@ -651,6 +651,42 @@ struct Servo : lsdcd_servo {
   Servo() : lsdcd_servo() { size = sizeof(lsdcd_servo); }
 };
 
+// A mesh as a rigid body. All that is 0 has its default: free, at rest, without gravity and coat.
+struct RigidBody : lsdcd_rigid_body {
+  // Of a closed mesh.
+  explicit RigidBody(double density) : lsdcd_rigid_body()
+  {
+    size = sizeof(lsdcd_rigid_body);
+    this->density = density;
+  }
+  // `inertia`: about the centre, xx yy zz xy xz yz.
+  RigidBody(double mass, const std::array<double, 3> &centre,
+            const std::array<double, 6> &inertia) :
+      RigidBody(0)
+  {
+    this->mass = mass;
+    std::copy(centre.begin(), centre.end(), this->centre);
+    std::copy(inertia.begin(), inertia.end(), this->inertia);
+  }
+  RigidBody &hinge(const std::array<double, 3> &point, const std::array<double, 3> &axis)
+  {
+    return held(LSDCD_HINGE, point, axis);
+  }
+  RigidBody &slider(const std::array<double, 3> &axis) { return held(LSDCD_SLIDER, {}, axis); }
+  RigidBody &planar(const std::array<double, 3> &normal) { return held(LSDCD_PLANAR, {}, normal); }
+  RigidBody &ball(const std::array<double, 3> &point) { return held(LSDCD_BALL, point, {}); }
+
+ private:
+  RigidBody &held(int kind, const std::array<double, 3> &p, const std::array<double, 3> &a)
+  {
+    joint = kind;
+    std::copy(p.begin(), p.end(), point);
+    std::copy(a.begin(), a.end(), axis);
+    return *this;
+  }
+};
+using BodyState = lsdcd_body_state;
+
 // Atom types from first to last, which 0: all from the first on.
 struct TypeLaw {
   int first_type = 1, last_type = 0;
@@ -673,6 +709,7 @@ struct WallMesh {
   bool posed_by_caller = false;
   std::vector<Motion> motions;
   std::optional<Servo> servo;
+  std::optional<RigidBody> body;
   std::array<double, 3> surface_velocity = {}, surface_angular_velocity = {}, surface_centre = {};
   double temperature = 0;
   std::array<double, 3> torque_about = {};
@@ -780,6 +817,7 @@ class Spec {
     mesh.motions = from.motions.data();
     mesh.n_motions = from.motions.size();
     if (from.servo) mesh.servo = &*from.servo;
+    if (from.body) mesh.body = &*from.body;
     for (int k = 0; k < 3; k++) {
       mesh.surface_velocity[k] = from.surface_velocity[k];
       mesh.surface_angular_velocity[k] = from.surface_angular_velocity[k];
@@ -910,6 +948,20 @@ class Wall {
   void set_servo(int mesh, const std::optional<Servo> &servo)
   {
     c::check(lsdcd_wall_set_servo(get(), mesh, servo ? &*servo : nullptr));
+  }
+  // The rigid body that mesh number `mesh` is, after the last step, with velocities of the whole step; fields as in
+  // lsdcd_body_state. Throws LSDCD_ERROR_ARGUMENT for a mesh that is none.
+  BodyState body(int mesh)
+  {
+    BodyState state = {};
+    state.size = sizeof state;
+    c::check(lsdcd_wall_get_body(get(), mesh, &state));
+    return state;
+  }
+  // Another joint, spring, motor, load, moment and gravity, from where the body is.
+  void set_body(int mesh, const RigidBody &body)
+  {
+    c::check(lsdcd_wall_set_body(get(), mesh, &body));
   }
   // Deprecated since 0.10.0, for set_motion() and set_servo(): the words of fix_modify.
   void change(const std::vector<std::string> &words)

@@ -202,6 +202,13 @@ void read_motion(const lsdcd_wall_mesh &given, const std::string &field, MeshSpe
   for (const MotionTerm &term : motions_of(given.motions, given.n_motions, field + ".motions"))
     mesh.motion.add(term);
   if (given.servo) mesh.motion.servo() = servo_of(given.servo, field + ".servo");
+  if (!given.body) return;
+  if (is_posed || given.n_motions > 0 || given.servo)
+    refuse_field(
+        field + ".body", "given",
+        "what acts on it alone moves such a mesh: leave posed_by_caller, motions and servo "
+        "out");
+  mesh.body = body_of(given.body, field + ".body", true);
 }
 
 FileEvery file_of(const char *name, int every, const std::string &field, const char *end)
@@ -396,6 +403,51 @@ Servo servo_of(const lsdcd_servo *pointer, const std::string &field)
   servo.lo = checked_number(given.lo, field + ".lo", -Tokens::kHuge, 0);
   servo.hi = checked_number(given.hi, field + ".hi", 0);
   return servo;
+}
+
+BodySpec body_of(const lsdcd_rigid_body *pointer, const std::string &field, bool begins)
+{
+  const lsdcd_rigid_body given =
+      checked(pointer, "lsdcd_rigid_body", sizeof(lsdcd_rigid_body), field);
+  const auto vector = [&](const double *values, const char *name) {
+    return checked_vector(values, field + "." + name);
+  };
+  BodySpec body;
+  body.present = true;
+  if (begins) {
+    body.density = given.density;
+    const double *i = given.inertia;
+    body.mass = {given.mass, vector(given.centre, "centre"), {i[0], i[1], i[2], i[3], i[4], i[5]}};
+    body.velocity = vector(given.velocity, "velocity");
+    body.omega = vector(given.angular_velocity, "angular_velocity");
+    body.coat = {checked_flag(given.coat, field + ".coat"), given.coat_spacing, given.coat_radius};
+  }
+  Joint &j = body.joint;
+  j.kind = static_cast<JointKind>(
+      checked_choice(given.joint, field + ".joint", 5,
+                     "LSDCD_FREE, LSDCD_HINGE, LSDCD_SLIDER, LSDCD_PLANAR or LSDCD_BALL"));
+  if (j.has_point()) j.point = vector(given.point, "point");
+  if (j.has_coordinate() || j.kind == JointKind::planar)
+    j.axis = checked_axis(given.axis, field + ".axis");
+  body.drive.stiffness = given.stiffness;
+  body.drive.damping = given.damping;
+  body.drive.rest = given.rest;
+  body.drive.motor = given.motor;
+  if (given.lo != 0 || given.hi != 0) {
+    body.drive.lo = given.lo;
+    body.drive.hi = given.hi;
+  }
+  body.load = vector(given.load, "load");
+  body.moment = vector(given.moment, "moment");
+  body.has_gravity = true;
+  body.gravity = vector(given.gravity, "gravity");
+  if (!begins) return body;
+  try {
+    check_body(body);
+  } catch (const InputError &e) {
+    throw ApiError(LSDCD_ERROR_ARGUMENT, "`" + field + "`: " + e.what());
+  }
+  return body;
 }
 
 Pose pose_of(const double *position, const double *quaternion, const double *velocity,

@@ -19,6 +19,8 @@ WallSpec wall_spec_of(const lsdcd_wall_spec *given, bool on_device);
 std::vector<MotionTerm> motions_of(const lsdcd_motion *given, std::size_t n,
                                    const std::string &field);
 Servo servo_of(const lsdcd_servo *given, const std::string &field);
+// `begins`: with its mass, velocities and coat.
+BodySpec body_of(const lsdcd_rigid_body *given, const std::string &field, bool begins);
 // `field`: of the twelve numbers.
 Placement placement_of(const double *numbers, const std::string &field);
 // Null: the default of each.

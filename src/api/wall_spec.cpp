@@ -43,6 +43,16 @@ void check_posed(const lsdcd_wall &wall, int mesh, bool wanted)
                              : "posed by the caller: lsdcd_wall_set_pose() moves it"));
 }
 
+void check_is_body(const lsdcd_wall &wall, int mesh)
+{
+  check_mesh(wall, mesh, 0);
+  const MeshSpec &spec = wall.in->spec().meshes[static_cast<std::size_t>(mesh)];
+  if (!spec.body.present)
+    throw ApiError(LSDCD_ERROR_ARGUMENT, "mesh " + std::to_string(mesh) + ", '" + spec.name +
+                                             "', is no body: give its lsdcd_wall_mesh a body when "
+                                             "the wall is made");
+}
+
 }    // namespace
 
 extern "C" {
@@ -128,6 +138,46 @@ int lsdcd_wall_set_servo(lsdcd_wall *wall, int mesh, const lsdcd_servo *servo)
     check_posed(*wall, mesh, false);
     note_late(*wall);
     wall->in->set_servo(mesh, servo ? servo_of(servo, "servo") : Servo());
+  });
+}
+
+int lsdcd_wall_get_body(lsdcd_wall *wall, int mesh, lsdcd_body_state *state)
+{
+  return guard_wall(wall, [&] {
+    lsdcd_body_state out = checked(state, "lsdcd_body_state");
+    check_is_body(*wall, mesh);
+    tell_late(*wall);
+    const MeshBody &of = *wall->in->body(mesh);
+    const RigidBody &body = of.body();
+    const Wrench reaction = of.reaction();
+    const auto put = [](const Vec3 &v, double *to) {
+      for (int k = 0; k < 3; k++) to[k] = v[k];
+    };
+    put(body.centre(), out.centre);
+    out.quaternion[0] = body.turn().w;
+    put(body.turn().v, out.quaternion + 1);
+    put(body.velocity(), out.velocity);
+    put(body.omega(), out.angular_velocity);
+    put(reaction.force, out.reaction_force);
+    put(reaction.torque, out.reaction_torque);
+    out.coordinate = body.joint().has_coordinate() ? body.coordinate() : 0;
+    out.energy = of.spring_and_kinetic_energy();
+    copy_out(out, state);
+  });
+}
+
+int lsdcd_wall_set_body(lsdcd_wall *wall, int mesh, const lsdcd_rigid_body *body)
+{
+  return guard_wall(wall, [&] {
+    check_is_body(*wall, mesh);
+    need(body, "body");
+    const BodySpec to = body_of(body, "body", false);
+    note_late(*wall);
+    try {
+      wall->in->set_body(mesh, to);
+    } catch (const InputError &e) {
+      throw ApiError(LSDCD_ERROR_ARGUMENT, e.what());
+    }
   });
 }
 

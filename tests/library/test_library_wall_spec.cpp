@@ -1017,6 +1017,108 @@ TEST_F(wall_spec, names_the_field_its_value_and_the_remedy)
   }
 }
 
+// ---- bodies ----------------------------------------------------------------------------------
+
+// A sphere at rest pushes a plate of mass 2 down: by a spec and by words.
+TEST_F(wall_spec, a_body_has_the_bits_of_its_words)
+{
+  const api::Mesh mesh(file_);
+  api::WallSpec spec = floor_of(hooke_history(), mesh);
+  api::RigidBody body(2, {0, 0, 0}, {1, 1, 2, 0, 0, 0});
+  body.slider({0, 0, 2});
+  body.stiffness = 30;
+  body.damping = 0.5;
+  body.rest = 0.1;
+  body.lo = -1;
+  body.hi = 0.5;
+  body.motor = 0.3;
+  body.load[2] = -0.7;
+  body.gravity[2] = -9.81;
+  body.velocity[2] = 0.2;
+  spec.meshes[0].body = body;
+  std::vector<std::string> all = words();
+  for (const char *word :
+       {"body",    "mass", "2",     "com",    "0",        "0",   "0",     "inertia",
+        "1",       "1",    "2",     "0",      "0",        "0",   "joint", "slider",
+        "0",       "0",    "1",     "spring", "30",       "0.5", "0.1",   "limits",
+        "-1",      "0.5",  "motor", "0.3",    "load",     "0",   "0",     "-0.7",
+        "gravity", "0",    "0",     "-9.81",  "velocity", "0",   "0",     "0.2"})
+    all.push_back(word);
+  api::Wall by_spec(spec), by_words(all);
+  Grains grains;
+  grains.add(0.3, 0.2, 0.49);
+  for (int k = 0; k < 20; k++) {
+    grains.step(by_spec);
+    grains.step(by_words);
+  }
+  const api::BodyState a = by_spec.body(0), b = by_words.body(0);
+  EXPECT_EQ(std::memcmp(&a, &b, sizeof a), 0);
+  EXPECT_LT(a.velocity[2], 0.2);
+  EXPECT_NEAR(a.coordinate, a.centre[2], 1e-15);
+  EXPECT_EQ(a.quaternion[0], 1);
+  EXPECT_NEAR(a.energy,
+              0.5 * 2 * a.velocity[2] * a.velocity[2] + 0.5 * 30 * std::pow(a.coordinate - 0.1, 2),
+              1e-12);
+}
+
+TEST_F(wall_spec, a_body_takes_another_joint_and_load_from_where_it_is)
+{
+  const api::Mesh mesh(file_);
+  api::WallSpec spec = floor_of(hooke_history(), mesh);
+  api::RigidBody body(2, {0, 0, 0}, {1, 1, 2, 0, 0, 0});
+  body.velocity[0] = 3;
+  body.velocity[2] = 1;
+  spec.meshes[0].body = body;
+  api::Wall wall(spec);
+  Grains grains;
+  grains.add(0.3, 0.2, 5);
+  for (int k = 0; k < 10; k++) grains.step(wall);
+  const api::BodyState was = wall.body(0);
+  api::RigidBody held(1);
+  held.slider({0, 0, 1});
+  held.load[2] = 4;
+  wall.set_body(0, held);
+  const api::BodyState is = wall.body(0);
+  EXPECT_EQ(is.centre[0], was.centre[0]);
+  EXPECT_EQ(is.velocity[0], 0);
+  EXPECT_EQ(is.velocity[2], 1);
+  EXPECT_EQ(is.coordinate, 0);
+  grains.step(wall);
+  EXPECT_GT(wall.body(0).velocity[2], 1);
+}
+
+TEST_F(wall_spec, refuses_bodies_that_there_cannot_be)
+{
+  const api::Mesh mesh(file_);
+  const auto says = [&](const std::function<void(api::WallMesh &)> &spoil) {
+    api::WallSpec spec = floor_of(hooke_history(), mesh);
+    spec.meshes[0].body = api::RigidBody(2, {0, 0, 0}, {1, 1, 2, 0, 0, 0});
+    spoil(spec.meshes[0]);
+    return text_of([&] { lsdcd::Wall wall(spec); });
+  };
+  const struct {
+    std::function<void(api::WallMesh &)> spoil;
+    const char *text;
+  } rows[] = {
+      {[](api::WallMesh &m) { m.body->joint = 5; },
+       "`meshes[0].body.joint` is 5: it is LSDCD_FREE"},
+      {[](api::WallMesh &m) { m.body->joint = LSDCD_HINGE; }, "`meshes[0].body.axis` is 0 0 0"},
+      {[](api::WallMesh &m) { m.body->mass = 0; },
+       "`meshes[0].body`: inertia: a mass of 0 is not above 0"},
+      {[](api::WallMesh &m) { m.body->stiffness = 1; },
+       "`meshes[0].body`: spring is of the coordinate"},
+      {[](api::WallMesh &m) { m.body->load[1] = NAN; },
+       "`meshes[0].body.load[1]` is nan: give a finite number"},
+      {[](api::WallMesh &m) { m.body->coat = 1; }, "its body has a coat"},
+      {[](api::WallMesh &m) { m.posed_by_caller = true; },
+       "`meshes[0].body` is given: what acts on it alone"}};
+  for (const auto &row : rows)
+    EXPECT_NE(says(row.spoil).find(row.text), std::string::npos) << says(row.spoil);
+  lsdcd::Wall none(floor_of(hooke_history(), mesh));
+  EXPECT_EQ(code_of([&] { none.body(0); }), LSDCD_ERROR_ARGUMENT);
+  EXPECT_EQ(code_of([&] { none.set_body(0, api::RigidBody(1)); }), LSDCD_ERROR_ARGUMENT);
+}
+
 TEST_F(wall_spec, takes_no_pose_for_a_body)
 {
   lsdcd::Wall wall({"hooke",   "1e3", "0",    "0",    "0", "0",   "0", "device", "cpu",

@@ -381,6 +381,18 @@ def check_wall_specs():
     ratio = forces(both, 1, type=np.array([1, 2], np.int32))
     fact("a law of types", abs(ratio[0, 2] - (10 - 20 * 0.25)) < 1e-10 and abs(ratio[1, 2] - (10 - 20 * 0.25)) < 1e-10, ratio)
 
+    plate = lsdcd.RigidBody(mass=2, inertia=(1, 1, 2, 0, 0, 0), joint="slider", axis=(0, 0, 1), load=(0, 0, -3),
+                            limits=(-1, 1), velocity=(0, 0, 0.5))
+    falls = lsdcd.Wall(lsdcd.WallSpec(hooke, [lsdcd.WallMesh(mesh, "plate", body=plate)]))
+    forces(falls, 10)
+    state = falls.body(0)
+    fact("a body is asked for", state.centre.shape == (3,) and state.quaternion.tolist() == [1, 0, 0, 0] and
+         state.velocity[2] < 0.5 and state.coordinate == state.centre[2] and state.energy > 0, state)
+    falls.set_body(0, lsdcd.RigidBody(joint="ball", point=(0, 0, 0)))
+    fact("a body takes another joint", falls.body(0).velocity.tolist() == [0, 0, 0] and falls.body(0).coordinate == 0)
+    refused("a joint has a name", "joint", lambda: lsdcd.RigidBody(1, joint="screw"), ValueError)
+    refused("a coat needs another mesh", "has a coat", lambda: lsdcd.Wall(lsdcd.WallSpec(hooke, [
+        lsdcd.WallMesh(mesh, body=lsdcd.RigidBody(mass=1, inertia=(1, 1, 2, 0, 0, 0), coat=True))])), lsdcd.Error)
     posed = lsdcd.Wall(lsdcd.WallSpec(hooke, [lsdcd.WallMesh(mesh, "lid", posed_by_caller=True)]))
     posed.set_pose(0, position=(0, 0, 0.01), velocity=(0, 0, 0.5))
     force = forces(posed, 1)

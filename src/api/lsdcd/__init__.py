@@ -37,12 +37,13 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _arrays
 from ._c import DEVICES as DEVICES, ERRORS as ERRORS, Error as Error, Progress as Progress
-from ._c import (_BodyFacts, _BodyOptions, _Broadcast, _Collision, _Contacts, _GridFacts, _GridOptions, _Host, _MeshArrays,
-                 _MeshFacts, _Owner, _Query, _Record, _Reduce, _Show, _Spheres, _WallOptions, _WallStep,
+from ._c import (_BodyFacts, _BodyOptions, _BodyState, _Broadcast, _Collision, _Contacts, _GridFacts, _GridOptions, _Host,
+                 _MeshArrays, _MeshFacts, _Owner, _Query, _Record, _Reduce, _Show, _Spheres, _WallOptions, _WallStep,
                  _WallTotals, _as_floats, _c_double, _c_int, _c_text, _check, _chosen, _facts, _int, _lib,
                  _listened, _numbers, _real, _size, _sized)
-from ._spec import (Law as Law, Motion as Motion, Placement as Placement, Servo as Servo, SubModel as SubModel,
-                    SubModelFacts as SubModelFacts, WallMesh as WallMesh, WallSpec as WallSpec, sub_models as sub_models)
+from ._spec import (Law as Law, Motion as Motion, Placement as Placement, RigidBody as RigidBody, Servo as Servo,
+                    SubModel as SubModel, SubModelFacts as SubModelFacts, WallMesh as WallMesh, WallSpec as WallSpec,
+                    sub_models as sub_models)
 from ._spec import _instance, _motion_array
 
 __version__: str = _lib.lsdcd_version().decode()
@@ -590,6 +591,18 @@ class Wrench(_Record):
     torque: NDArray[np.float64]    # (3,), about the point asked for
 
 
+class BodyState(_Record):
+    """A rigid body after a step, with velocities of the whole step. Vectors are along the axes of the box."""
+    centre: NDArray[np.float64]              # (3,), of mass, length
+    quaternion: NDArray[np.float64]          # (4,), w x y z: from where the mesh was placed
+    velocity: NDArray[np.float64]            # (3,), of the centre, length/time
+    angular_velocity: NDArray[np.float64]    # (3,), 1/time
+    reaction_force: NDArray[np.float64]      # (3,), of the joint on the body, without spring, motor and limits
+    reaction_torque: NDArray[np.float64]     # (3,), about the joint's point, or the centre of mass
+    coordinate: float                        # of a hinge (radians) or slider (length); else 0
+    energy: float                            # kinetic, and of its spring
+
+
 class Wall(_Owner):
     """A wall of meshes that pushes spheres, by a WallSpec. `lo`, `hi`: the
     box of the spheres' centres, None: wherever they go; `periodic`: along x, y, z, with `margin`, how far past a
@@ -806,6 +819,22 @@ class Wall(_Owner):
         """Another servo for a mesh, from where it is; None: it stops there. Along the same line its position goes on."""
         given = None if servo is None else ctypes.addressof(_instance(servo, Servo, "servo")._struct)
         self._do(_lib.lsdcd_wall_set_servo, self._handle, _c_int(mesh, "mesh"), given)
+
+    def body(self, mesh: int) -> BodyState:
+        """The rigid body that mesh number `mesh`, from 0, is after the last step, with velocities of the whole step. Raises
+        Error for a mesh that there is not or that is no body."""
+        state = _sized(_BodyState)
+        self._do(_lib.lsdcd_wall_get_body, self._handle, _c_int(mesh, "mesh"), ctypes.byref(state))
+        values = {name: getattr(state, name) for name, _ in _BodyState._fields_[1:]}
+        return BodyState(**{k: np.array(v) if isinstance(v, ctypes.Array) else v for k, v in values.items()})
+
+    def set_body(self, mesh: int, body: RigidBody) -> None:
+        """Another joint, spring, limits, motor, load, moment and gravity of a body, from where it is and without a jump. With
+        another joint its coordinate begins at 0 there, and what the joint allows of its velocity goes on. Mass, velocities and
+        coat of `body` are not looked at. Raises Error for a mesh that is no body, and for limits that do not hold the
+        coordinate."""
+        self._do(_lib.lsdcd_wall_set_body, self._handle, _c_int(mesh, "mesh"),
+                 ctypes.addressof(_instance(body, RigidBody, "body")._struct))
 
     def change(self, words: str | Iterable[str]) -> None:
         """Deprecated since 0.10.0, for set_motion() and set_servo(): [mesh K] motion ... or [mesh K] servo ..., as fix_modify

@@ -87,13 +87,21 @@ _Motion = _struct(
 _Servo = _struct(
     "_Servo", ("turns", _int), ("axis", _real * 3), ("point", _real * 3), ("target", _real), ("max_speed", _real),
     ("max_gain", _real), ("lo", _real), ("hi", _real))
+_RigidBody = _struct(
+    "_RigidBody", ("density", _real), ("mass", _real), ("centre", _real * 3), ("inertia", _real * 6), ("joint", _int),
+    ("point", _real * 3), ("axis", _real * 3), ("stiffness", _real), ("damping", _real), ("rest", _real), ("lo", _real),
+    ("hi", _real), ("motor", _real), ("load", _real * 3), ("moment", _real * 3), ("velocity", _real * 3),
+    ("angular_velocity", _real * 3), ("gravity", _real * 3), ("coat", _int), ("coat_spacing", _real), ("coat_radius", _real))
+_BodyState = _struct(
+    "_BodyState", ("centre", _real * 3), ("quaternion", _real * 4), ("velocity", _real * 3), ("angular_velocity", _real * 3),
+    ("reaction_force", _real * 3), ("reaction_torque", _real * 3), ("coordinate", _real), ("energy", _real))
 _WallMesh = _struct(
     "_WallMesh", ("mesh", _at), ("name", ctypes.c_char_p), ("placement", _real * 12), ("law", _at), ("type_laws", _at),
     ("n_type_laws", _size), ("posed_by_caller", _int), ("motions", _at), ("n_motions", _size), ("servo", _at),
     ("surface_velocity", _real * 3), ("surface_angular_velocity", _real * 3), ("surface_centre", _real * 3),
     ("temperature", _real), ("torque_about", _real * 3), ("torque_about_moves", _int), ("wear_factor", _real),
     ("cache", ctypes.c_char_p), ("fields", ctypes.c_char_p), ("stl", ctypes.c_char_p), ("fields_every", _int),
-    ("stl_every", _int), ("nodes_by_caller", _int), ("pressure", _real))
+    ("stl_every", _int), ("nodes_by_caller", _int), ("pressure", _real), ("body", _at))
 _WallSpec = _struct(
     "_WallSpec", ("law", _at), ("meshes", _at), ("n_meshes", _size), ("corner", _int), ("side", _int), ("precision", _int),
     ("nearest", _int), ("cell", _real), ("memory", _real), ("rmax", _real), ("device", _int), ("wear", _int),
@@ -152,7 +160,8 @@ def _load() -> Any:
     lib.lsdcd_wall_step_spheres.argtypes = [_at, _at, _at]
     for call in ("renumber", "change"):
         getattr(lib, "lsdcd_wall_" + call).argtypes = [_at, _at, _size]
-    for call in ("get_totals", "get_pose", "set_servo", "get_node_count", "get_nodes", "get_node_forces"):
+    for call in ("get_totals", "get_pose", "set_servo", "get_node_count", "get_nodes", "get_node_forces",
+                 "get_body", "set_body"):
         getattr(lib, "lsdcd_wall_" + call).argtypes = [_at, _int, _at]
     lib.lsdcd_sub_model_get_facts.argtypes = [_size, _at]
     lib.lsdcd_place_scale.argtypes = lib.lsdcd_place_move.argtypes = [_at, _real, _real, _real]

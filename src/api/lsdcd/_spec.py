@@ -11,8 +11,8 @@ from typing import TYPE_CHECKING, Any, Sequence
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ._c import (DEVICES, _as_floats, _c_double, _c_text, _check, _chosen, _Law, _lib, _Motion, _numbers, _Record, _Servo,
-                 _sized, _SubModel, _SubModelFacts, _TypeLaw, _WallMesh, _WallSpec)
+from ._c import (DEVICES, _as_floats, _c_double, _c_text, _check, _chosen, _Law, _lib, _Motion, _numbers, _Record, _RigidBody,
+                 _Servo, _sized, _SubModel, _SubModelFacts, _TypeLaw, _WallMesh, _WallSpec)
 
 if TYPE_CHECKING:
     from . import Mesh
@@ -222,13 +222,47 @@ class Servo:
                               max_speed=max_speed, max_gain=0.0 if max_gain is None else max_gain, lo=lo, hi=hi)
 
 
+class RigidBody:
+    """A mesh as a rigid body, which moves by what acts on it. It begins where the mesh is placed. Vectors are (3,), along
+    the axes of the box.
+
+    Either `density`, > 0, of a closed mesh, or `mass`, > 0, `centre`, a length, and `inertia`, (6,), about the centre: xx yy
+    zz xy xz yz, mass length^2, where xy is minus the integral of x y. `joint`: "free", "hinge" about `axis` through `point`,
+    "slider" along `axis`, "planar" with the normal `axis`, or "ball" about `point`. Of the coordinate of a hinge, an angle,
+    right-handed, and of a slider, a length: `spring`, (stiffness, damping, rest), `limits`, lo <= 0 <= hi, and `motor`, a
+    torque or force. `load`: force at the centre; `moment`: torque; `gravity`: length/time^2. `velocity` of the centre and
+    `angular_velocity` at the start. `coat`: points of its surface feel the other meshes of the wall; True, or (spacing,
+    radius), lengths > 0.
+
+    Raises TypeError and ValueError for what is no such value; Wall() and Wall.set_body() refuse what makes no sense."""
+
+    def __init__(self, density: float = 0.0, *, mass: float = 0.0, centre: ArrayLike = (0, 0, 0),
+                 inertia: ArrayLike = (0, 0, 0, 0, 0, 0), joint: str = "free", point: ArrayLike = (0, 0, 0),
+                 axis: ArrayLike = (0, 0, 0), spring: tuple[float, float, float] = (0.0, 0.0, 0.0),
+                 limits: tuple[float, float] | None = None, motor: float = 0.0, load: ArrayLike = (0, 0, 0),
+                 moment: ArrayLike = (0, 0, 0), velocity: ArrayLike = (0, 0, 0), angular_velocity: ArrayLike = (0, 0, 0),
+                 gravity: ArrayLike = (0, 0, 0), coat: bool | tuple[float, float] = False) -> None:
+        lo, hi = (0.0, 0.0) if limits is None else limits
+        spacing, radius = (0.0, 0.0) if isinstance(coat, bool) else coat
+        moments = _numbers(inertia, (6,), "inertia")
+        stiffness, damping, rest = spring
+        self._struct = _sized(
+            _RigidBody, density=density, mass=mass, centre=_three(centre, "centre"),
+            inertia=(ctypes.c_double * 6)(*([] if moments is None else moments.tolist())),
+            joint=_chosen("joint", joint, ("free", "hinge", "slider", "planar", "ball")), point=_three(point, "point"),
+            axis=_three(axis, "axis"), stiffness=stiffness, damping=damping, rest=rest, lo=lo, hi=hi, motor=motor,
+            load=_three(load, "load"), moment=_three(moment, "moment"), velocity=_three(velocity, "velocity"),
+            angular_velocity=_three(angular_velocity, "angular_velocity"), gravity=_three(gravity, "gravity"),
+            coat=bool(coat), coat_spacing=spacing, coat_radius=radius)
+
+
 class WallMesh:
     """A mesh of a wall, which may be in others, too. `name`: what messages call it. `placement`: a Placement, or (3, 4),
     rows of M, each with its t behind it; None: as the mesh is. `law`: the wall's sub-models with other numbers, None: the
     wall's. `type_laws`: (first, last, Law) of atom types from first to last, None: all from first on; of two with a type
     the last one counts. `posed_by_caller`: Wall.set_pose() moves it; else `motions` do, each acting on what the earlier
-    ones placed, and `servo`. `surface_velocity`, length/time, `surface_angular_velocity`, 1/time, `surface_centre`: the
-    surface moves along itself while the mesh rests, as that of a belt or a roll. `temperature`: where the law has heat.
+    ones placed, and `servo`, or the mesh is a rigid `body`. `surface_velocity`, length/time, `surface_angular_velocity`,
+    1/time, `surface_centre`: the surface moves along itself while the mesh rests, as that of a belt or a roll. `temperature`: where the law has heat.
     `torque_about`: what the torque of Wall.totals() is about; with `torque_about_moves` that point moves with the mesh.
     `wear_factor`: it wears so many times as fast. `cache`: a file that keeps its grid. `fields`, (name, steps): a .vtp file
     of stress, contacts and wear of each triangle, written every so many steps, with a * for the step in its name; `stl`
@@ -245,7 +279,7 @@ class WallMesh:
                  wear_factor: float = 1.0, cache: str | os.PathLike[str] | None = None,
                  fields: tuple[str | os.PathLike[str], int] | None = None,
                  stl: tuple[str | os.PathLike[str], int] | None = None, nodes_by_caller: bool = False,
-                 pressure: float = 0.0) -> None:
+                 pressure: float = 0.0, body: RigidBody | None = None) -> None:
         from . import Mesh    # which is made of this module, too
         matrix = placement.matrix if isinstance(placement, Placement) else _numbers(placement, (3, 4), "placement")
         flat = np.zeros(12) if matrix is None else matrix.ravel()
@@ -265,8 +299,9 @@ class WallMesh:
             # C has 0 for once and -1 for never.
             wear_factor={0.0: -1.0, 1.0: 0.0}.get(factor, factor), cache=cache or None,
             fields=fields[0] if fields else None, fields_every=fields[1] if fields else 0, stl=stl[0] if stl else None,
-            stl_every=stl[1] if stl else 0, nodes_by_caller=bool(nodes_by_caller), pressure=pressure)
-        self._kept = (mesh, law, laws, types, tuple(motions), moved, servo)    # what the struct points to
+            stl_every=stl[1] if stl else 0, nodes_by_caller=bool(nodes_by_caller), pressure=pressure,
+            body=_address(body, RigidBody, "body"))
+        self._kept = (mesh, law, laws, types, tuple(motions), moved, servo, body)    # what the struct points to
 
 
 class WallSpec:
