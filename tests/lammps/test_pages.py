@@ -75,7 +75,8 @@ def with_meshes(line, folder):
     def replace(match):
         scale = re.match(r"(?:(?!\bmesh\b).)*?\bscale (\S+)", line[match.end():])
         name = f"{match[2]}_{scale[1] if scale else 1}.stl"
-        cube(folder / name, 1.2 / float(scale[1] if scale else 1), flat="insert/lsdcd mesh" in line)
+        half = 0.3 if match[2] == "box" else 1.2    # a box is inside of the others
+        cube(folder / name, half / float(scale[1] if scale else 1), flat="insert/lsdcd mesh" in line)
         return f"mesh{match[1]} {name}"
     return re.sub(r"\bmesh(/lsdcd|) ([\w-]+)\.(?:stl|obj|ply|off)\b", replace, line)
 
@@ -94,7 +95,8 @@ def script_of(block, folder, known):
             words = line.split()
         uses = "w" not in fixes and (words[:2] == ["fix_modify", "w"] or re.search(r"\b[fF]_w\b", line))
         if uses or words[:2] == ["fix_modify", "w"]:    # each with as many meshes as it names
-            lines += ["unfix w"] * ("w" in fixes) + [with_meshes(FIX + " mesh lid.stl scale 0.9" * ("mesh 2" in line), folder)]
+            second = " mesh lid.stl scale 0.9" + " body density 1000 joint slider 0 0 1" * (" body " in line)
+            lines += ["unfix w"] * ("w" in fixes) + [with_meshes(FIX + second * ("mesh 2" in line), folder)]
             fixes.add("w")
         if words[0] == "fix":
             lines += [f"unfix {words[1]}"] * (words[1] in fixes)

@@ -1106,7 +1106,7 @@ TEST_F(wall_spec, refuses_bodies_that_there_cannot_be)
       {[](api::WallMesh &m) { m.body->mass = 0; },
        "`meshes[0].body`: inertia: a mass of 0 is not above 0"},
       {[](api::WallMesh &m) { m.body->stiffness = 1; },
-       "`meshes[0].body`: spring is of the coordinate"},
+       "`meshes[0].body`: spring works only with a joint"},
       {[](api::WallMesh &m) { m.body->load[1] = NAN; },
        "`meshes[0].body.load[1]` is nan: give a finite number"},
       {[](api::WallMesh &m) { m.body->coat = 1; }, "its body has a coat"},

@@ -21,8 +21,9 @@ from tool_test import TOOL, end, fact, run, write_ascii_stl
 from triangles import cube
 
 # Programs of the system, which are not ours to check.
-OTHERS = {"apt", "c++", "cd", "clang-format", "cp", "ctest", "echo", "export", "git", "grep", "head", "mkdir", "module", "mpicxx", "nvidia-smi",
-          "paraview", "pip", "pkg-config", "printf", "source", "sudo", "tail", "[", "reuse", "tar", "unzip", "nproc"}
+OTHERS = {"apt", "c++", "cd", "clang-format", "cp", "ctest", "docker", "echo", "export", "git", "grep", "head",
+          "mkdir", "module", "mpicxx", "nvidia-smi", "paraview", "pip", "pkg-config", "printf", "source", "sudo",
+          "tail", "[", "reuse", "tar", "unzip", "nproc"}
 LAMMPS_OPTIONS = {"-in", "-i", "-var", "-v", "-k", "-kokkos", "-sf", "-suffix", "-pk", "-log", "-h", "-nocite", "-screen"}
 BUILD_FILES = "\n".join(path.read_text() for path in [
     ROOT / "CMakeLists.txt", ROOT / "CMakePresets.json", *ROOT.glob("cmake/*.cmake"),
