@@ -270,9 +270,9 @@ TABLES = [
     ]),
     (WALL + HOOKE + "mesh floor.stl mesh floor.stl move 0 0 3\nfix_modify wall {}\n", [
         ("modify_mesh_alone", "mesh 2",
-         "Fix wall wall/lsdcd", "fix_modify mesh 2: motion ... or servo ... must follow ("),
+         "Fix wall wall/lsdcd", "fix_modify mesh 2: motion ..., servo ... or body ... must follow ("),
         ("modify_mesh_other_word", "mesh 2 energy yes",
-         "Fix wall wall/lsdcd", "fix_modify mesh 2: motion ... or servo ... must follow, not 'energy'"),
+         "Fix wall wall/lsdcd", "fix_modify mesh 2: motion ..., servo ... or body ... must follow, not 'energy'"),
         ("modify_no_mesh", "mesh 3 motion linear 0 0 1",
          "Fix wall wall/lsdcd", "K is the number of a mesh, from 1 to 2, not '3'"),
         ("modify_which_mesh", "motion linear 0 0 1",
