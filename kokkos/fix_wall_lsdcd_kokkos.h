@@ -22,7 +22,6 @@ class FixWallLsdcdKokkos : public FixWallLsdcd, public KokkosBase {
   void setup_pre_exchange() override { pre_exchange(); }
   void pre_reverse(int, int) override;
 
-
 #if LSDCD_DEVICE_EXCHANGE
   // springs on the device
   int pack_exchange_kokkos(const int &, lsdcd::ExchangeBuffer &, DAT::tdual_int_1d,

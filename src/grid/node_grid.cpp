@@ -40,11 +40,7 @@ Corners corners_of(const WeldedMesh &mesh, FeatureCode code)
 Box bounds_of(const Corners &c)
 {
   Box box = {c.at[0], c.at[0]};
-  for (int k = 1; k < c.n; k++)
-    for (int d = 0; d < 3; d++) {
-      box.lo[d] = std::min(box.lo[d], c.at[k][d]);
-      box.hi[d] = std::max(box.hi[d], c.at[k][d]);
-    }
+  for (int k = 1; k < c.n; k++) extend(box, c.at[k]);
   return box;
 }
 
@@ -70,11 +66,7 @@ constexpr Real kRounding = 1e-9;
 void NodeGrid::plan(const WeldedMesh &mesh, const MeshFeatures &features)
 {
   Box box = {mesh.vertices.front(), mesh.vertices.front()};
-  for (const Vec3 &x : mesh.vertices)
-    for (int d = 0; d < 3; d++) {
-      box.lo[d] = std::min(box.lo[d], x[d]);
-      box.hi[d] = std::max(box.hi[d], x[d]);
-    }
+  for (const Vec3 &x : mesh.vertices) extend(box, x);
   const Real diagonal = norm(box.hi - box.lo);
   if (!std::isfinite(diagonal))
     throw InputError("nodes of '" + mesh.source + "' are not at finite places");

@@ -5,6 +5,7 @@
 
 #include "base/input_error.h"
 #include "base/input_words.h"
+#include "base/vector_text.h"
 #include "wall/mesh_name.h"
 
 #include "atom.h"
@@ -26,11 +27,6 @@ namespace {
 // An atom is a vertex's if it is so near, as a share of the shortest edge of the mesh: more than the rounding of a
 // mesh file in float, less than confuses two vertices.
 constexpr double kTolerance = 1e-3;
-
-std::string vertex_text(const Vec3 &x)
-{
-  return lsdcd::number_text(x.x) + " " + lsdcd::number_text(x.y) + " " + lsdcd::number_text(x.z);
-}
 
 }    // namespace
 
@@ -108,7 +104,7 @@ void NodeAtoms::find(const lsdcd::Wall &wall)
   for (int k = n - 1; k >= 0; k--) {
     if (sums[2 * k] > 1)
       throw InputError(lsdcd::number_text(sums[2 * k]) + " atoms of group '" + spec.node_group +
-                       "' are at the vertex " + vertex_text(vertices[k]) + " of mesh '" +
+                       "' are at the vertex " + lsdcd::vector_text(vertices[k]) + " of mesh '" +
                        spec.name + "': one of them is its node, remove the others");
     if (sums[2 * k] > 0) continue;
     without++;
@@ -119,7 +115,7 @@ void NodeAtoms::find(const lsdcd::Wall &wall)
                      " vertices of mesh '" + spec.name + "' have no atom of group '" +
                      spec.node_group + "' within " + lsdcd::number_text(tolerance) +
                      " (a thousandth of the shortest edge): the first is at " +
-                     vertex_text(vertices[first]) + "; put an atom at each welded vertex");
+                     lsdcd::vector_text(vertices[first]) + "; put an atom at each welded vertex");
   std::vector<double> tags;
   for (int k = 0; k < n; k++) tags.push_back(sums[2 * k + 1]);
   set_tags(tags);

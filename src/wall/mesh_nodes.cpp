@@ -121,11 +121,7 @@ void MeshNodes::begin_step(const Step &step, Real cutoff)
   next_.clear();
   update_features(mesh_, with_sides_, features_);
   bounds_ = {mesh_.vertices.front(), mesh_.vertices.front()};
-  for (const Vec3 &x : mesh_.vertices)
-    for (int d = 0; d < 3; d++) {
-      bounds_.lo[d] = std::min(bounds_.lo[d], x[d]);
-      bounds_.hi[d] = std::max(bounds_.hi[d], x[d]);
-    }
+  for (const Vec3 &x : mesh_.vertices) extend(bounds_, x);
   if (with_spins_) find_spins(step.kind == Step::step ? step.dt / 2 : 0);
 }
 
