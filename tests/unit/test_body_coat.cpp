@@ -3,10 +3,8 @@
 
 // Bodies that touch bodies and walls by their coats: closed forms, momentum, energy, processes, saved states.
 #include "base/input_error.h"
-#include "support/fake_host.h"
-#include "support/grains.h"
 #include "support/meshes.h"
-#include "wall/wall.h"
+#include "support/wall_scene.h"
 
 #include <gtest/gtest.h>
 
@@ -81,44 +79,9 @@ WallSpec wall_of(std::vector<MeshSpec> meshes)
   return wall;
 }
 
-struct Scene : Grains {
-  FakeHost &host;
-  std::unique_ptr<Wall> wall;
-  Real gravity[3] = {0, 0, 0}, dt = 1e-3;
-  std::int64_t now = 0;
+struct Scene : WallScene {
+  using WallScene::WallScene;
 
-  Scene(FakeHost &host, const WallSpec &spec, const WallUnits &units = WallUnits()) : host(host)
-  {
-    host.simulation = wide_box();
-    wall = std::make_unique<Wall>(host, spec, units, WallBackend(), "", StepClock{0, 0, 0, dt});
-  }
-
-  void step(Step::Kind kind)
-  {
-    for (Vec3 &f : force) f = {0, 0, 0};
-    wall->history().grow(static_cast<int>(x.size()));
-    StepInput input;
-    input.step = {now, dt, kind};
-    input.look = input.new_spheres = kind == Step::setup;
-    input.drift.kind = SphereDrift::watched;
-    input.drift.distance = 0.05;
-    input.gravity = gravity;
-    wall->begin(spheres(), input);
-    wall->launch(spheres());
-    wall->finish(spheres());
-  }
-  void set_up()
-  {
-    wall->begin_run(now, false);
-    step(Step::setup);
-  }
-  void run(int n)
-  {
-    for (int i = 0; i < n; i++) {
-      now++;
-      step(Step::step);
-    }
-  }
   const RigidBody &body(int mesh) { return wall->body(mesh)->body(); }
   // Kinetic, of the height and of contacts.
   Real energy(int mesh)

@@ -3,10 +3,8 @@
 
 // Rigid bodies of a wall whose program is not LAMMPS: gravity, sums over processes, saved states.
 #include "base/input_error.h"
-#include "support/fake_host.h"
-#include "support/grains.h"
 #include "support/meshes.h"
-#include "wall/wall.h"
+#include "support/wall_scene.h"
 
 #include <gtest/gtest.h>
 
@@ -41,51 +39,17 @@ WallSpec cube(const Joint &joint = Joint())
   return wall;
 }
 
-struct Scene : Grains {
-  FakeHost &host;
-  std::unique_ptr<Wall> wall;
-  Real gravity[3] = {0, 0, 0};
-  std::int64_t now = 0;
+struct Scene : WallScene {
+  using WallScene::WallScene;
 
-  Scene(FakeHost &host, const WallSpec &spec, const WallUnits &units = WallUnits()) : host(host)
-  {
-    host.simulation = wide_box();
-    wall = std::make_unique<Wall>(host, spec, units, WallBackend(), "", StepClock{0, 0, 0, kDt});
-  }
-
-  void step(Step::Kind kind, Real dt = kDt)
-  {
-    for (Vec3 &f : force) f = {0, 0, 0};
-    wall->history().grow(static_cast<int>(x.size()));
-    StepInput input;
-    input.step = {now, dt, kind};
-    input.look = input.new_spheres = kind == Step::setup;
-    input.drift.kind = SphereDrift::watched;
-    input.drift.distance = 0.05;
-    input.gravity = gravity;
-    wall->begin(spheres(), input);
-    wall->launch(spheres());
-    wall->finish(spheres());
-  }
-  void set_up()
-  {
-    wall->begin_run(now, false);
-    step(Step::setup);
-  }
-  void run(int n, Real dt = kDt)
-  {
-    for (int i = 0; i < n; i++) {
-      now++;
-      step(Step::step, dt);
-    }
-  }
   const RigidBody &body() { return wall->body(0)->body(); }
 };
 
 std::string error_of_run(Scene &scene, Real dt)
 {
   try {
-    scene.run(4, dt);
+    scene.dt = dt;
+    scene.run(4);
   } catch (const InputError &e) {
     return e.what();
   }
@@ -344,7 +308,6 @@ TEST(mesh_body, keeps_the_momentum_of_spheres_and_body_together)
       for (int i = 0; i < steps; i++) {
         kick();
         for (std::size_t k = 0; k < scene.x.size(); k++) scene.x[k] += kDt * scene.v[k];
-        for (Vec3 &t : scene.torque) t = {0, 0, 0};
         scene.run(1);
         kick();
       }

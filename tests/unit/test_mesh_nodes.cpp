@@ -6,13 +6,11 @@
 #include "base/input_error.h"
 #include "mesh/mesh_features.h"
 #include "support/brute_force.h"
-#include "support/fake_host.h"
-#include "support/grains.h"
 #include "support/laws.h"
 #include "support/meshes.h"
 #include "support/query_oracle.h"
 #include "support/random.h"
-#include "wall/wall.h"
+#include "support/wall_scene.h"
 
 #include <gtest/gtest.h>
 
@@ -73,42 +71,13 @@ ContactLaw all_motions()
   return law;
 }
 
-struct Scene : Grains {
-  FakeHost &host;
-  std::unique_ptr<Wall> wall;
-  std::int64_t now = 0;
-  Real dt;
+struct Scene : WallScene {
+  Scene(FakeHost &host, const WallSpec &spec, Real dt = kDt) :
+      WallScene(host, spec, WallUnits(), dt)
+  {
+  }
 
-  Scene(FakeHost &host, const WallSpec &spec, Real dt = kDt) : host(host), dt(dt)
-  {
-    host.simulation = wide_box();
-    wall =
-        std::make_unique<Wall>(host, spec, WallUnits(), WallBackend(), "", StepClock{0, 0, 0, dt});
-  }
-  void step(Step::Kind kind)
-  {
-    for (Vec3 &f : force) f = {0, 0, 0};
-    for (Vec3 &t : torque) t = {0, 0, 0};
-    wall->history().grow(static_cast<int>(x.size()));
-    StepInput input;
-    input.step = {now, dt, kind};
-    input.look = input.new_spheres = kind == Step::setup;
-    input.drift.kind = SphereDrift::watched;
-    input.drift.distance = 0.05;
-    wall->begin(spheres(), input);
-    wall->launch(spheres());
-    wall->finish(spheres());
-  }
-  void set_up()
-  {
-    wall->begin_run(now, false);
-    step(Step::setup);
-  }
-  void next()
-  {
-    now++;
-    step(Step::step);
-  }
+  void next() { run(1); }
   void set_nodes(const std::vector<Vec3> &at, const std::vector<Vec3> &velocity)
   {
     wall->set_nodes(0, &at[0].x, velocity.empty() ? nullptr : &velocity[0].x);
