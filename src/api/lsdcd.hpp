@@ -653,7 +653,7 @@ struct Servo : lsdcd_servo {
 
 // A mesh as a rigid body. All that is 0 has its default: free, at rest, without gravity and coat.
 struct RigidBody : lsdcd_rigid_body {
-  // Of a closed mesh.
+  // For a closed mesh.
   explicit RigidBody(double density) : lsdcd_rigid_body()
   {
     size = sizeof(lsdcd_rigid_body);

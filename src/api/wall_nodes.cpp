@@ -31,7 +31,7 @@ const MeshPart &part_with_nodes(const lsdcd_wall &wall, int mesh)
           "wall is made");
 }
 
-// Of each vertex of the caller's mesh the node of the wall's, which was welded once more.
+// For each vertex of the caller's mesh, the node of the wall's mesh, which was welded once more.
 const std::vector<int> &node_of_vertex(lsdcd_wall &wall, int mesh)
 {
   std::vector<std::vector<int>> &all = wall.node_of_vertex;

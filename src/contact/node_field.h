@@ -8,7 +8,7 @@
 
 namespace lsdcd {
 
-// Of each vertex of a mesh, or null. The spin is the mean angular velocity of the faces around a vertex.
+// A value for each vertex of a mesh, or null. The spin is the mean angular velocity of the faces around a vertex.
 struct NodeField {
   const Vec3 *velocity = nullptr;    // length/time; null: the nodes of this mesh do not move
   const Vec3 *spin = nullptr;        // 1/time

@@ -335,7 +335,7 @@ class EngineOn : public WallEngine {
       }
     if (slots.n_multi_mesh() == 0) return;
     StepJob multi_mesh = job;
-    // Of more than one mesh lists name features, which do not hold while nodes move.
+    // Lists for more than one mesh name features, and these do not hold while nodes move.
     if (step_.nodes) multi_mesh.lists = FeatureLists();
     multi_mesh.multi_mesh = {put_works(), slots.first(), slots.mesh()};
     multi_mesh.multi_mesh.laws = {laws_.data(), settings_.laws.of_mesh(),

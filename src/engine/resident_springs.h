@@ -111,8 +111,8 @@ class ResidentSprings : public SpringsInPlace {
     });
   }
 
-  // Where springs are in memory of the CPU: calls turn() with each spring of the spheres [0, n) on this mesh, and its first n_vectors * 3 further
-  // numbers.
+  // Where springs are in memory of the CPU: calls turn() with each spring of the spheres [0, n) on this mesh, and its
+  // first n_vectors * 3 further numbers.
   template <class Turn>
   void turn(std::size_t n, std::uint32_t mesh, int n_vectors, const Turn &turn)
   {

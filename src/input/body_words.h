@@ -14,8 +14,8 @@ extern const char *const kBodySyntax;    // what may follow the word body
 // Reads the arguments of the keyword. Variables become inputs. Throws InputError.
 void read_body(Tokens &w, MeshSpec &s, InputNames &inputs);
 
-// Those of fix_modify, from the word body on: what is not named stays as `body` has it. Spring, limits and motor of a
-// joint that is replaced go with it. Wall::set_body() checks the numbers.
+// Reads the words of fix_modify, from the word body on: what is not named stays as `body` has it. Spring, limits and
+// motor of a joint that is replaced go with it. Wall::set_body() checks the numbers.
 BodySpec read_modified_body(Tokens &w, const BodySpec &body, InputNames &inputs);
 
 }    // namespace lsdcd

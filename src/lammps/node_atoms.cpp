@@ -51,7 +51,7 @@ void NodeAtoms::init(lsdcd::Wall &wall, int wall_bit)
   const Atom &atom = *lmp->atom;
   if (!atom.tag_enable)
     throw InputError("nodes are known by their IDs: leave out atom_modify id no");
-  // Those of a restart file are known already.
+  // Nodes from a restart file are known already.
   if (tag_of.empty() && !wall.nodes(mesh).names.empty()) set_tags(wall.nodes(mesh).names);
   if (tag_of.empty()) find(wall);
   wall.nodes(mesh).names.assign(tag_of.begin(), tag_of.end());

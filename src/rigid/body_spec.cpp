@@ -38,7 +38,7 @@ void check_axis(const Joint &j)
     throw InputError("the joint's direction " + vector_text(j.axis) + " is not of length 1");
 }
 
-// What only a joint with a coordinate has.
+// Spring, limits and motor act on the coordinate of a joint.
 void check_has_coordinate(const BodySpec &body)
 {
   const JointDrive &d = body.drive, none = JointDrive();

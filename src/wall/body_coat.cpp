@@ -71,7 +71,7 @@ BodyCoat::BodyCoat(Host &host, const WallSpec &wall, int mesh, const MeshGrid &g
   for (std::vector<Vec3> *all : {&x_, &v_, &omega_, &force_on_, &torque_on_})
     all->assign(n, {0, 0, 0});
   radii_.assign(n, radius_);
-  // What a point has on a mesh that is no body: damping takes the mobility of this one.
+  // On a mesh that is no body a point is so heavy that damping sees the mobility of this body alone.
   constexpr Real kHeavy = 1e9;
   heavy_ = kHeavy * wall.meshes[mesh].body.mass.mass;
   masses_.assign(n, heavy_);

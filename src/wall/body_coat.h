@@ -22,8 +22,8 @@ namespace lsdcd {
 // processes there are.
 class BodyCoat {
  public:
-  // Of the body with this mesh; `engine`: the settings of the wall's engine; `force`: as of MeshBody. Host and wall must outlive it. Throws
-  // InputError on all processes. Collective.
+  // `mesh`: the body's; `engine`: the settings of the wall's engine; `force`: as in MeshBody. Host and wall must outlive
+  // it. Throws InputError on all processes. Collective.
   BodyCoat(Host &host, const WallSpec &wall, int mesh, const MeshGrid &grid, EngineSettings engine,
            Real force);
 
@@ -34,12 +34,12 @@ class BodyCoat {
   // The grid of a mesh from now on.
   void set_grid(const MeshPart &m);
 
-  // The contacts of a step, in which all meshes are where they are now: they are added to `loads`, of each mesh. Throws InputError,
-  // the same on all processes.
+  // Computes the contacts of a step, in which all meshes are where they are now, and adds them to the loads of each
+  // mesh. Throws InputError, the same on all processes.
   void step(const std::deque<MeshPart> &meshes, const Step &step, std::vector<CoatLoad> &loads);
 
-  // What its contacts keep, with the names that `name` gives to features; restore() takes it again, before a step. The
-  // first process warns where it is of another law or another coat.
+  // Returns what its contacts keep, with the names that `name` gives to features. restore() takes it again, before a
+  // step. The first process warns where it is of another law or another coat.
   using FeatureName = std::function<FeatureCode(int mesh, FeatureCode feature)>;
   std::vector<Real> save(const FeatureName &name);
   void restore(const std::vector<Real> &saved);
@@ -74,7 +74,7 @@ class BodyCoat {
   bool is_stale_ = true;    // grids are new
   bool deep_warned_ = false;
   std::vector<Real> restored_;    // until the first step
-  // Of each mesh of the engine, in a step.
+  // These are of each mesh of the engine, in a step.
   std::vector<SurfaceMotion> surfaces_;
   std::vector<Mobility> mobilities_;    // of this body, in their frames
 };

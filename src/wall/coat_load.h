@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What the coats of bodies do to a mesh.
+// The loads of the coats of bodies on a mesh.
 #pragma once
 
 #include "rigid/step_limit.h"

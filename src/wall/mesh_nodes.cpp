@@ -130,7 +130,7 @@ void MeshNodes::begin_step(const Step &step, Real cutoff)
 //
 //   dN/dt = d x f + e x g,   n . curl = n . ((f x n) x d + (n x e) x g)/|N|.
 //
-// Of a rigid motion that is the angular velocity. The edges are those of `back` ago (time), when the velocities are of;
+// For a rigid motion that is the angular velocity. The edges are those of `back` ago (time), when the velocities are of;
 // a turn by an angle a in a step has the spin to a^2/12. A node has the mean of its faces, weighted by area.
 void MeshNodes::find_spins(Real back)
 {

@@ -58,12 +58,12 @@ class MeshNodes {
   // Sums over all processes, x y z, node after node (force): of contacts, and of `pressure` (force/area), which pushes
   // to where the normals of faces point by their winding, and outward on a closed mesh. Collective, once a step.
   const std::vector<Real> &forces(Real pressure);
-  // Of the mesh on the spheres, by the motion of its nodes; of this process.
+  // The power of the mesh on the spheres of this process, by the motion of its nodes.
   Real power() const { return power_; }
 
   std::size_t bytes() const;
 
-  // What the host calls them, for saved states; empty: nothing.
+  // The names that the host has for nodes, for saved states; empty: none.
   std::vector<Real> names;
 
  private:

@@ -506,7 +506,7 @@ void Wall::turn_springs(int n)
     if (m.nodes) m.nodes->turn_springs(*engine_, n);
 }
 
-// Of this process, as for bodies.
+// Sums over the spheres of this process, as for bodies.
 void Wall::sum_node_forces(const HostSpheres &spheres)
 {
   for (MeshPart &m : meshes_) {

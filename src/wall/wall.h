@@ -138,7 +138,7 @@ class Wall {
   // Another servo of a mesh, from where the mesh is; one that is not present stops it. Along the same line its
   // position goes on.
   void set_servo(int mesh, const Servo &servo);
-  // What holds and drives a mesh that is a body: joint, spring, limits, motor, load, moment and gravity of `to`, from
+  // Sets what holds and drives a mesh that is a body: joint, spring, limits, motor, load, moment and gravity of `to`, from
   // where the body is, without a jump. With another joint its coordinate begins at 0 there, and what the joint allows
   // of its velocity goes on. The rest of `to` is not looked at.
   void set_body(int mesh, const BodySpec &to);

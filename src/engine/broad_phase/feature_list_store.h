@@ -135,7 +135,7 @@ class FeatureListStore {
   bool reserve(const GridView &grid, bool large, std::size_t n)
   {
     lists_ = FeatureLists();
-    // Those of `every` are of meshes whose nodes move.
+    // Meshes whose nodes move have lists of the kind `every`.
     if ((grid.list_kind.has_primitives() && !grid.list_kind.is_every()) || n == 0) return false;
     if (ints_.size() < n * FeatureLists::kInts) {
       const std::size_t room = n + n / 8;

@@ -122,7 +122,7 @@ template <class B>
 CompiledLaw<B> plain_law(const ContactLaw &law, const WallEffects &effects);
 template <class B>
 CompiledLaw<B> float_law(const ContactLaw &law, const WallEffects &effects);
-// Of walls with a mesh whose nodes move; on a CPU only.
+// These are for walls with a mesh whose nodes move, on a CPU only.
 template <class B>
 CompiledLaw<B> granular_nodes_law(const ContactLaw &law, const WallEffects &effects);
 template <class B>
