@@ -174,6 +174,7 @@ class Mesh:
         self.id, self.group, self.style, self.line = w[1], w[2], script.style(w), line
         self.file, self.type, self.place, self.words, self.wear = None, 1, [], [], False
         self.servo, self.moves, self.com, self.axis, self.target = None, [], (0.0, 0.0, 0.0), None, None
+        self.mass, self.moments, self.suspended = None, None, False    # of 6dof
         self.wall, self.wall_line, self.index, self.several, self.reference = None, None, None, False, None
         self.written, self.body = set(), ""    # mesh_stl, mesh_fields; words of 6dof
         self.parse(script, w[4:])
@@ -219,8 +220,10 @@ class Mesh:
                 values[key] = take(6)
             elif key == "mass" and self.style.endswith("/6dof"):
                 values[key] = take(1)[0]
-            elif key in ("suspension", "rot_flip"):
-                raise Left(f"{key} of a mesh with 6dof", "spring of a body on a hinge or slider; a flip is not there")
+            elif key == "suspension" and self.style.endswith("/6dof"):
+                values[key] = take(8)
+            elif key == "rot_flip":
+                raise Left(f"{key} of a mesh with 6dof", "limits of a body on a hinge, which stop it without a rebound")
             elif key in ("ctrlPV", "target_val", "vel_max", "kp", "ki", "kd", "mode", "ratio"):
                 values[key] = take(1)[0]
             elif key in ("temperature", "mass_temperature"):
@@ -298,10 +301,9 @@ class Mesh:
         missing = [k for k in ("com", "mass", "moi") if k not in v]
         if missing:
             raise CannotConvert(f"{script.at(self.line)}: 6dof without {missing[0]}")
-        self.body = f"body mass {v['mass']} com {' '.join(v['com'])} inertia {' '.join(v['moi'])}"
-        if any(script.number(x, self.line) == 0 for key in ("forceflags", "torqueflags") for x in v.get(key, [])):
-            raise Left("forceflags or torqueflags of a mesh with 6dof, which hold the body to axes that a turn does not follow",
-                       f"joint slider, planar, hinge or ball after {self.body}")
+        self.com, self.mass, self.moments = v["com"], v["mass"], [script.number(x, self.line) for x in v["moi"]]
+        self.body = f"body mass {self.mass} com {' '.join(self.com)} inertia {' '.join(v['moi'])}"
+        self.body += self.joint(script, v)
         if "vel" in v:
             self.body += f" velocity {' '.join(v['vel'])}"
         if any(script.number(x, self.line) for x in v.get("angmom", [])):
@@ -312,6 +314,55 @@ class Mesh:
             size = dot(rows[0], cross(rows[1], rows[2]))
             omega = [dot(momentum, cross(rows[(k + 1) % 3], rows[(k + 2) % 3])) / size for k in range(3)]
             self.body += " omega " + " ".join(map(short, omega))
+
+    def joint(self, script, v):
+        """The joint that has the flags of LIGGGHTS, which drop components of force and torque along x, y and z. They hold a turning
+        body to an axis only where that axis is a principal one."""
+        moves, turns = ([script.number(x, self.line) != 0 for x in v.get(key, "111")] for key in ("forceflags", "torqueflags"))
+        speed, spin = ([script.number(x, self.line) for x in v.get(key, "000")] for key in ("vel", "angmom"))
+        xy, xz, yz = self.moments[3:]
+        principal = (xy == xz == 0, xy == yz == 0, xz == yz == 0)
+        held = not any(x and not free for x, free in zip(speed + spin, moves + turns))
+        axes = ["1 0 0", "0 1 0", "0 0 1"]
+        if all(moves + turns):
+            words, axis = "", None
+        elif held and sum(moves) == 1 and not any(turns):
+            axis = moves.index(True)
+            words = f" joint slider {axes[axis]}"
+        elif held and not any(moves) and sum(turns) == 1 and principal[turns.index(True)]:
+            axis = turns.index(True)
+            words = f" joint hinge {' '.join(self.com)} {axes[axis]}"
+        elif held and sum(moves) == 2 and sum(turns) == 1 and turns.index(True) == moves.index(False) and principal[turns.index(True)]:
+            axis, words = None, f" joint planar {axes[turns.index(True)]}"
+        elif held and not any(moves) and all(turns):
+            axis, words = None, f" joint ball {' '.join(self.com)}"
+        else:
+            raise Left("forceflags or torqueflags of a mesh with 6dof, which hold the body to axes that a turn does not follow",
+                       f"joint slider, planar, hinge or ball after {self.body}")
+        if "suspension" in v:
+            if axis is None:
+                raise Left("suspension of a mesh with 6dof that has more than one way to move", "spring of a body on a hinge or slider")
+            if sum(line.words[:1] == ["run"] for line in script.lines) > 1:
+                raise Left("suspension of a mesh with 6dof, whose zero begins anew with each run in LIGGGHTS",
+                           f"{words.strip()} spring with its stiffness, damping and rest; its zero stays where it was")
+            if v["suspension"][::2] != ["k_t", "c_t", "k_r", "c_r"]:
+                raise ValueError("suspension")
+            words += " spring " + " ".join(v["suspension"][1:4:2] if any(moves) else v["suspension"][5::2])
+            self.suspended = True
+        return words
+
+    def mobility(self, script):
+        """The most that a unit impulse changes the velocity of a point of the body along the impulse. None where the file is not there."""
+        faces = self.faces(script)
+        if faces is None:
+            return None
+        com, (xx, yy, zz, xy, xz, yz) = [script.number(x, self.line) for x in self.com], self.moments
+        arm = max(math.dist(p, com) for t, _ in faces for p in t)
+        least = min(xx, yy, zz)
+        if xy or xz or yz:
+            # The product of the larger two moments is at most the square of half the trace.
+            least = dot((xx, xy, xz), cross((xy, yy, yz), (xz, yz, zz))) / ((xx + yy + zz) / 2) ** 2
+        return 1 / script.number(self.mass, self.line) + arm * arm / least
 
     def add_servo(self, script, v):
         missing = [k for k in ("com", "ctrlPV", "axis", "target_val", "vel_max") if k not in v]
@@ -357,15 +408,24 @@ class Mesh:
             raise Left(f"{self.file}, in which no triangle was found", "write it as STL")
         return triangles
 
-    def output(self, k):
-        """What stands for element k of this fix in LAMMPS. Forces of 6dof have the weight in them there."""
-        if self.body:
-            return f"f_{self.wall}[{k + 8}]" if k in (7, 8, 9) else None
+    def output(self, k, script):
+        """What stands for element k of this fix in LAMMPS. Forces of 6dof have the weight and the suspension in them there."""
+        wall, index, several = (self.wall, self.index, self.several) if self.wall else script.later[self.id]
+        each = f"f_{wall}" + f"[{index}]" * several
+        if self.body and k > 6:
+            # The quaternion of LIGGGHTS begins with the principal axes.
+            return f"f_{wall}[{k + 8 if k < 10 else k + 11}]" if k < 10 or (k < 14 and not any(self.moments[3:])) else None
+        if self.suspended:
+            return None
+        if self.body and k in FORCE and script.gravities:
+            g = script.gravities[0]
+            if g is None or len(script.gravities) > 1:
+                return None
+            return f"({each}[{k}]+{self.mass}*({short(g[k - 1])}))" if g[k - 1] else f"{each}[{k}]"
         if k in FORCE + TORQUE:
-            return f"f_{self.wall}[{self.index}][{k}]" if self.several else f"f_{self.wall}[{k}]"
+            return f"{each}[{k}]"
         if k in (7, 8, 9) and self.servo:
-            way = f"f_{self.wall}[{self.index}][12]" if self.several else f"f_{self.wall}[12]"
-            return self.com[k - 7] if self.axis[k - 7] == 0 else f"({self.com[k - 7]}+({short(self.axis[k - 7])})*{way})"
+            return self.com[k - 7] if self.axis[k - 7] == 0 else f"({self.com[k - 7]}+({short(self.axis[k - 7])})*{each}[12])"
         return None
 
 
@@ -623,6 +683,8 @@ class Script:
         self.names = {"c_thermo_temp", "c_thermo_press", "c_thermo_pe"} | {
             f"{line.words[0][0]}_{line.words[1]}" for line in self.lines if line.words[:1] in (["fix"], ["compute"]) and line.words[1:]}
         self.noted, self.noted_dashpot, self.units = False, False, "lattice" if options.pfm else "box"
+        self.early, self.later = set(), {}    # meshes that variables name before their wall, and its ID and place
+        self.gravity_names, self.gravities = set(), []    # the acceleration of each fix gravity, None where it is not known
         self.all_types, self.step, self.sources = False, 0, []    # the step here, None where it is not known; what has made grains
         self.substitute_words()
         for line in self.lines:
@@ -704,7 +766,11 @@ class Script:
                 self.variables[w[1]] = value
         elif w[0] == "fix" and len(w) > 3:
             style = self.style(w)
-            if style == "property/global":
+            if style == "gravity":
+                g = [self.known(x) for x in [w[4], *w[6:9]]]
+                self.gravity_names.add(w[1])
+                self.gravities.append([g[0] * x for x in unit(g[1:])] if w[5] == "vector" and None not in g and len(g) == 4 else None)
+            elif style == "property/global":
                 self.properties.setdefault(w[4], []).append((line, w[5:]))
             elif style.startswith("mesh/surface"):
                 try:
@@ -739,6 +805,8 @@ class Script:
             self.grain_types.add(int(self.number(w[w.index("type", 3) + 1], line)))
         elif w[0] == "read_restart":
             self.all_types = True
+        elif w[0] == "unfix" and w[1] in self.gravity_names:
+            self.gravities.append(None)
         if w[0] == "set" and "diameter" in w[3:] and "density" in w[3:]:
             self.sizes.append((self.number(w[w.index("diameter", 3) + 1], line) / 2,
                                self.number(w[w.index("density", 3) + 1], line)))
@@ -822,6 +890,18 @@ class Script:
         self.put("\n".join("# " + t for t in line.text.splitlines()))
 
     def convert(self):
+        text = self.written()
+        walls = [i for wall in self.walls.values() if isinstance(wall, Wall) for i in wall.ids]
+        later = {name: (mesh.wall, mesh.index, mesh.several) for name, mesh in self.meshes.items()
+                 if name in self.early and mesh.wall and walls.count(name) == 1}
+        if later:
+            # Variables name a mesh before its wall, whose ID and place is known now.
+            self.__init__(self.path, self.options)
+            self.later = later
+            text = self.written()
+        return text
+
+    def written(self):
         self.put(f"# Converted from {self.path.name} by convert.py of LSDCD. Read the lines with LEFT and NOTE.")
         for line in self.lines:
             if not line.words:
@@ -1008,11 +1088,13 @@ class Script:
                 return flow if line.words[0] == "variable" or flow.startswith("f_") else helper(name, k, flow)
             if name not in self.meshes:
                 return m[0]
-            mesh = self.meshes[name]
-            value = mesh.output(k) if mesh.wall else None
+            mesh, variable = self.meshes[name], line.words[0] == "variable"
+            if variable and not mesh.wall:
+                self.early.add(name)
+            value = mesh.output(k, self) if mesh.wall or (variable and name in self.later) else None
             if value is None:
                 raise Left(f"element {k} of f_{name}", "wall_output.rst lists what there is")
-            if line.words[0] == "variable" or re.fullmatch(r"f_\w+(\[\d+\])" + "{1,2}" * direct, value):
+            if variable or re.fullmatch(r"f_\w+(\[\d+\])" + "{1,2}" * direct, value):
                 return value
             return helper(name, k, value)
 
@@ -1400,9 +1482,15 @@ class Script:
         if len(bodies) > 1:
             raise Left("several meshes with 6dof in a wall", "a fix wall/lsdcd for each: outputs of bodies are of one")
         for mesh in bodies:
-            if any(model.dissipates(Contact(self, line, mesh.type, i)) for i in self.grains()):
+            if not any(model.dissipates(Contact(self, line, mesh.type, i)) for i in self.grains()):
+                continue
+            mobility = mesh.mobility(self) if self.sizes and all(self.sizes) else None
+            weaker = mobility * max(4 / 3 * math.pi * r ** 3 * density for r, density in self.sizes) if mobility else math.inf
+            if weaker > 0.05:    # below, a restitution differs by less than 0.02
                 raise Left(f"contacts of {mesh.id} that are damped: LIGGGHTS damps with the mass of the grain, here with that of grain and body",
                            f"mesh {mesh.file}{mesh.placement()} {mesh.body}, where the body is far heavier than a grain, or where this is meant")
+            self.note(line, f"LIGGGHTS damps the contacts of {mesh.id} with the mass of the grain, here with that of grain and body: the "
+                      f"dashpot is weaker by at most {100 * weaker:.2g} %")
 
     def note_stored(self, line, wall):
         if wall.shear and wall.ids:
@@ -1430,11 +1518,11 @@ class Script:
     def mesh_words(self, mesh):
         moves = "".join(f" motion {m}" for m in reversed(mesh.moves))
         words = f"mesh {mesh.file}{mesh.placement()}{moves}" + "".join(f" {x}" for x in mesh.words)
-        moving = mesh.id in self.used or mesh.servo
+        moving = mesh.id in self.used or mesh.servo or mesh.body
         torque = any(re.search(rf"f_{mesh.id}\[[456]\]", line.text) for line in self.lines)
         if mesh.reference or (moving and torque):
             # The point of the torque moves with the mesh in LIGGGHTS.
-            words += " torque_about " + "mesh " * bool(moving) + " ".join(mesh.reference or "000")
+            words += " torque_about " + "mesh " * bool(moving) + " ".join(mesh.reference or (mesh.com if mesh.body else "000"))
         if mesh.servo or mesh.body:
             words += f" {mesh.servo or mesh.body}"
         for line in self.dumps:
@@ -1523,14 +1611,41 @@ class Script:
         if style == "rotate/variable" and len(rest) == 10 and rest[::4] == ["origin", "axis", "omega"] and rest[9].startswith("v_"):
             self.note(line, "LIGGGHTS turns by the speed at the end of a step, here it is the mean of both ends")
             return f"rotate {' '.join(rest[1:4])} {' '.join(rest[5:8])} variable NULL {rest[9]}"
-        if style in ("linear", "wiggle", "rotate", "rotate/superposable", "riggle", "linear/variable", "rotate/variable"):
+        if style == "viblin" and rest[::4][:2] == ["axis", "order"]:
+            place, speed = self.waves(line, w[1], rest[4:])
+            axis = unit([self.number(x, line) for x in rest[1:4]])
+            for name, of in (("x", place), ("v", speed)):
+                for k in range(3):
+                    self.put(f"variable        {of}{'xyz'[k]} equal {short(axis[k])}*v_{of}")
+            return "variable " + " ".join(f"v_{of}{a}" for of in (place, speed) for a in "xyz")
+        if style == "vibrot" and rest[::4][:3] == ["origin", "axis", "order"]:
+            return f"rotate {' '.join(rest[1:4])} {' '.join(rest[5:8])} variable " + " ".join(
+                f"v_{name}" for name in self.waves(line, w[1], rest[8:]))
+        if style in ("linear", "wiggle", "rotate", "rotate/superposable", "riggle", "linear/variable", "rotate/variable", "viblin", "vibrot"):
             raise ValueError(style)
-        formula = "C (cos(omega t + phase) - cos(phase)) for each term, and its derivative"
-        if style == "viblin":
-            raise Left("move/mesh viblin", f"motion variable: a displacement {formula}")
-        if style == "vibrot":
-            raise Left("move/mesh vibrot", f"motion rotate ... variable: an angle {formula}")
         raise Left(f"move/mesh {style}", "motion table for places at times, or motion variable")
+
+    def waves(self, line, name, w):
+        """Writes variables of the sum of n waves from their words: order n amplitude C1 ... phase p1 ... period T1 ...; with one period,
+        as in LIGGGHTS-PFM, wave k has T/k. The sum is 0 where it begins. Returns the names of the sum and of its derivative."""
+        n = int(w[1])
+        amplitudes, phases, periods = w[3:3 + n], w[4 + n:4 + 2 * n], w[5 + 2 * n:]
+        if [w[0], w[2], w[3 + n], w[4 + 2 * n]] != ["order", "amplitude", "phase", "period"] or len(periods) not in (1, n):
+            raise ValueError("waves")
+        run = min([other.number for other in self.lines if other.words[:1] == ["run"]], default=0)
+        if any(other.words[:1] == ["timestep"] and other.number > max(line.number, run) or other.words[3:4] == ["dt/reset"]
+               for other in self.lines):
+            raise Left("a motion by waves where the timestep changes", "motion table, or variables of the time")
+        begin = "$(step)" if self.step is None else self.step
+        place, speed = f"lsdcd_{name}_s", f"lsdcd_{name}_v"
+        self.put(f"variable        lsdcd_{name}_t equal 2*PI*(step-{begin})*dt")
+        speeds = [f"{k}/({periods[0]})" if len(periods) < n else f"1/({periods[k - 1]})" for k in range(1, n + 1)]
+        turns = [(f"({c})", v, f"v_lsdcd_{name}_t*{v}+({p})", f"({p})") for c, v, p in zip(amplitudes, speeds, phases)]
+        self.put(f"variable        {place} equal " + "+".join(f"{c}*(cos({at})-cos{p})" for c, _, at, p in turns))
+        self.put(f"variable        {speed} equal -2*PI*(" + "+".join(f"{c}*{v}*sin({at})" for c, v, at, _ in turns) + ")")
+        if not self.options.pfm:
+            self.note(line, "LIGGGHTS goes on by the speed at the end of a step, here the place is that of the formula")
+        return place, speed
 
     def move(self, line):
         w = line.words
@@ -1594,7 +1709,7 @@ class Script:
             self.put(line.text)
             return
         if not mesh.servo or mesh.wall is None:
-            raise Left(f"fix_modify {w[2]}", "fix_modify of the wall with that mesh: motion or servo")
+            raise Left(f"fix_modify {w[2]}", "fix_modify of the wall with that mesh: motion, servo or body")
         which = f" mesh {mesh.index}" if mesh.several else ""
         word = w[2].removeprefix("servo/")
         if [word, *w[3:]] == ["integrate", "stop"]:

@@ -26,6 +26,8 @@ fix m4 all property/global coefficientFriction peratomtypepair 1 0.4
 MESH = "fix cad all mesh/surface/stress file a.stl type 1 {}\n"
 WALL = "fix w all wall/gran model hertz tangential history mesh n_meshes 1 meshes cad\n"
 BODY = "fix cad all mesh/surface/stress/6dof file a.stl type 1 move 1 2 3 com 1 2 3 mass 40 moi 3 4 5 1 1 0.5 {}\n"
+BALANCED = BODY.replace("1 1 0.5 ", "0 0 0 ")
+ELASTIC = "fix m3 all property/global coefficientRestitution peratomtypepair 1 1\n"
 # What is written, whole or in part, for what.
 WRITTEN = {
     "placement keeps its order": (MESH.format("move 1 0 0 scale 2 rotate axis 0 0 1 angle 90 heal auto_remove_duplicates "
@@ -135,9 +137,30 @@ WRITTEN = {
                                            "set atom 1 diameter 0.2 vz -1 omega 0 3 0\n"),
     "a body that is elastic": (
         # The tensor with rows (3, 1, 1), (1, 4, 0.5), (1, 0.5, 5) times (1, -1, 2).
-        "fix m3 all property/global coefficientRestitution peratomtypepair 1 1\n" +
-        BODY.format("vel 0 0 -0.5 angmom 4 -2 10.5") + WALL + "thermo_style custom step f_cad[9]\n",
+        ELASTIC + BODY.format("vel 0 0 -0.5 angmom 4 -2 10.5") + WALL + "thermo_style custom step f_cad[9]\n",
         "mesh a.stl move 1 2 3 body mass 40 com 1 2 3 inertia 3 4 5 1 1 0.5 velocity 0 0 -0.5 omega 1 -1 2\n"),
+    "a body that moves along an axis, with a spring": (
+        ELASTIC + BODY.format("vel 0 0 -1 forceflags 0 0 1 torqueflags 0 0 0 suspension k_t 1 c_t 2 k_r 3 c_r 4") + WALL,
+        "inertia 3 4 5 1 1 0.5 joint slider 0 0 1 spring 1 2 velocity 0 0 -1\n"),
+    "a body that turns about an axis, with a spring": (
+        ELASTIC + BALANCED.format("angmom 0 8 0 forceflags 0 0 0 torqueflags 0 1 0 suspension k_t 1 c_t 2 k_r 3 c_r 4") + WALL,
+        "inertia 3 4 5 0 0 0 joint hinge 1 2 3 0 1 0 spring 3 4 omega 0 2 0\n"),
+    "a body in a plane": (ELASTIC + BALANCED.format("forceflags 1 0 1 torqueflags 0 1 0") + WALL, "0 0 0 joint planar 0 1 0\n"),
+    "a body that turns about its centre": (ELASTIC + BODY.format("forceflags 0 0 0") + WALL, "1 1 0.5 joint ball 1 2 3\n"),
+    "forces on a body with its weight, and its torque about its centre": (
+        ELASTIC + "fix g all gravity 9.81 vector 0 0 -2\n" + BODY.format("") + WALL +
+        "thermo_style custom step f_cad[2] f_cad[3] f_cad[5]\n",
+        "torque_about mesh 1 2 3 body mass 40 com 1 2 3 inertia 3 4 5 1 1 0.5\nvariable        cad_3 equal (f_w[3]+40*(-9.81))\n"
+        "thermo_style custom step f_w[2] v_cad_3 f_w[5]\n"),
+    "the quaternion of a body": (ELASTIC + BALANCED.format("") + WALL + "variable q equal f_cad[10]*f_cad[13]\n",
+                                 "variable q equal f_w[21]*f_w[24]\n"),
+    "a way by waves after a run": (
+        MESH.format("") + WALL + "run 90\nfix t all move/mesh mesh cad viblin axis 0 0 2 order 2 amplitude 0.1 0.2 phase 0 -1 period 0.5\n",
+        "variable        lsdcd_t_t equal 2*PI*(step-90)*dt\n"
+        "variable        lsdcd_t_s equal (0.1)*(cos(v_lsdcd_t_t*1/(0.5)+(0))-cos(0))+(0.2)*(cos(v_lsdcd_t_t*2/(0.5)+(-1))-cos(-1))\n"
+        "variable        lsdcd_t_v equal -2*PI*((0.1)*1/(0.5)*sin(v_lsdcd_t_t*1/(0.5)+(0))+(0.2)*2/(0.5)*sin(v_lsdcd_t_t*2/(0.5)+(-1)))\n"),
+    "a variable of a mesh that gets its wall later": (
+        MESH.format("") + "variable f equal f_cad[3]\n" + WALL.replace("fix w", "fix late"), "variable f equal f_late[3]\n"),
     "a jump to itself": ("label l\njump in.there l\n", "\njump SELF l\n"),
     "an if whose commands are the same": ('if "${n} > 1" then "print 1" "jump SELF l" else "variable a delete"\n',
                                           'then "print 1" "jump SELF l" else'),
@@ -154,8 +177,6 @@ WRITTEN = {
 # Commands that stay, and the reason.
 LEFT = {
     "insertion": ("fix i all insert/pack seed 1 distributiontemplate d\n", "insert/pack"),
-    "a motion of several waves": (MESH.format("") + WALL + "fix t all move/mesh mesh cad vibrot origin 0 0 0 axis 0 0 1 "
-                                  "order 1 amplitude 1 phase 0 period 1\n", "move/mesh vibrot"),
     "turns at speeds of variables about axes that are not parallel": (
         MESH.format("") + WALL + "variable w equal 1\nfix t all move/mesh mesh cad rotate/variable origin 0 0 0 axis 0 0 1 omega v_w\n"
         "fix u all move/mesh mesh cad rotate/variable origin 0 0 0 axis 0 1 0 omega v_w\n", "a rotation after another about an axis that is not parallel"),
@@ -169,9 +190,18 @@ LEFT = {
         "contacts of cad that are damped"),
     "a body that is held": (BODY.format("torqueflags 0 1 1"), "forceflags or torqueflags"),
     "a body with a suspension": (BODY.format("suspension k_t 1 c_t 1 k_r 1 c_r 1"), "suspension of a mesh"),
-    "force on a body, which has its weight": (
-        "fix m3 all property/global coefficientRestitution peratomtypepair 1 1\n" + BODY.format("") + WALL + "variable f equal f_cad[3]\n",
+    "force on a body, which has its suspension": (
+        ELASTIC + BODY.format("forceflags 0 0 1 torqueflags 0 0 0 suspension k_t 1 c_t 2 k_r 3 c_r 4") + WALL + "variable f equal f_cad[3]\n",
         "element 3 of f_cad"),
+    "force on a body with a weight that changes": (
+        ELASTIC + "fix g all gravity 9.81 vector 0 0 -1\nunfix g\n" + BODY.format("") + WALL + "variable f equal f_cad[3]\n", "element 3 of f_cad"),
+    "a quaternion that begins with principal axes": (ELASTIC + BODY.format("") + WALL + "variable f equal f_cad[11]\n", "element 11 of f_cad"),
+    "a hinge about an axis that is no principal one": (ELASTIC + BODY.format("forceflags 0 0 0 torqueflags 0 0 1"), "forceflags or torque"),
+    "a hinge that turns about another axis, too": (
+        ELASTIC + BALANCED.format("forceflags 0 0 0 torqueflags 0 0 1 angmom 1 0 1"), "forceflags or torqueflags"),
+    "a suspension over two runs": (
+        "run 1\nrun 1\n" + BODY.format("forceflags 0 0 1 torqueflags 0 0 0 suspension k_t 1 c_t 2 k_r 3 c_r 4"),
+        "suspension of a mesh with 6dof, whose zero begins anew"),
     "a speed by a variable that was left": (
         MESH.format("") + WALL + "variable v equal f_none[1]\nfix t all move/mesh mesh cad linear/variable v_v v_v v_v\n", "v_v, which is not here"),
     "rotate, then linear": (MESH.format("") + WALL + "fix t all move/mesh mesh cad rotate origin 0 0 0 axis 0 0 1 period 1\n"
@@ -520,6 +550,20 @@ def whole_scripts(checks, folder):
     done, out = convert(folder, MATERIAL.replace("1e7", "${young}") + "variable young equal 1e7\n" + MESH.format("") + WALL +
                         "variable young equal 2e7\n")
     checks.fact("a variable with two values is no number", out is None and "'${young}' is no number" in done.stderr, done.stderr)
+    _, out = convert(folder, MATERIAL + MESH.format("") + "variable f equal f_cad[3]\n" + WALL + WALL.replace("fix w", "fix v"))
+    checks.fact("which of two later walls a variable is of is not known", "LEFT in.there:6: element 3 of f_cad" in out, out)
+    waves = "fix t all move/mesh mesh cad vibrot origin 0 0 0 axis 0 0 1 order 1 amplitude 1 phase 0 period 1\n"
+    for more, left in (("", False), ("timestep 1e-4\nrun 1\n", False), ("run 1\ntimestep 1e-4\nrun 1\n", True)):
+        _, out = convert(folder, MATERIAL + MESH.format("") + WALL + waves + more)
+        checks.fact(f"waves before {' '.join(more.split())}", ("LEFT in.there:7: a motion by waves where the timestep changes" in out) == left, out)
+    write_stl(folder / "a.stl", [[(0, 2, 3), (2, 2, 3), (1, 3, 3)]])
+    for radius, noted in ((0.01, True), (1, False)):
+        _, out = convert(folder, MATERIAL + f"set group all diameter {2 * radius} density 2500\n" + BALANCED.replace("move 1 2 3 ", "").format("") + WALL)
+        # The corners are a distance of 1 from the centre, and the least moment is 3.
+        weaker = 100 * 2500 * 4 / 3 * math.pi * radius**3 * (1 / 40 + 1 / 3)
+        checks.fact(f"damped contacts of a body with grains of radius {radius}", (f"the dashpot is weaker by at most {weaker:.2g} %" in out) == noted and
+                    ("LEFT in.there:7: contacts of cad that are damped" in out) != noted, out)
+    (folder / "a.stl").unlink()
     _, out = convert(folder, "variable f equal density[1]\nvariable g equal v_f+1\nprint \"${g}\"\nthermo_style custom step v_g\n")
     checks.fact("what hangs on a variable that was left is left, or goes from thermo", out.count("\n# LEFT") == 3 and
                 out.endswith("thermo_style custom step\n"), out)
@@ -579,6 +623,8 @@ ALL_EDGES = " ".join(f"${{{a}{end}}}" for a in "xyz" for end in ("min", "max"))
 HERTZ = "hertz tangential history"
 TENTH = 0.1 * math.pi * 0.05**2 * 0.2 / (4 / 3 * math.pi * 0.004**3)
 MASS = 2500 * 4 / 3 * math.pi * 0.01**3
+# Waves of 1 and 0.5, after a quarter of the period: cos 0 - cos(-pi/2), and half of cos(pi + 1) - cos 1.
+WAVES = 1 - math.cos(1)
 IN_0_1 = [(0.004, 0.096)] * 6
 # name: model, script after BOX, what is printed as "NAME numbers", bounds of each number.
 PHYSICS = {
@@ -602,12 +648,17 @@ PHYSICS = {
                            [(0.999 * math.tan(angle), 1.001 * math.tan(angle))])
        for name, motion, angle in (
            ("riggle", "riggle origin 0 0 0 axis 0 1 0 period 0.08 amplitude 5", math.radians(5)),
-           ("rotate_variable", "rotate/variable origin 0 0 0 axis 0 1 0 omega v_w", 200 * 0.02**2))},
+           ("rotate_variable", "rotate/variable origin 0 0 0 axis 0 1 0 omega v_w", 200 * 0.02**2),
+           ("vibrot", "vibrot origin 0 0 0 axis 0 1 0 order 2 amplitude 0.1 0.05 phase -1.5707963268 1 period 0.08 0.04", 0.1 * WAVES))},
     # As torque, at a speed of 10 t.
     "way": ("hertz", SLIDE.replace("SPEED", "0").replace("FILE", "flat.stl").replace("WORDS", "") +
             "variable v equal 10*step*dt\nvariable o equal 0\nfix t all move/mesh mesh cad linear/variable v_v v_o v_o\n"
             "variable arm equal f_cad[5]/f_cad[3]\nthermo_style custom step f_cad[3] f_cad[5]\nrun 2000\n", "${arm}",
             [(0.002 - 2e-6, 0.002 + 2e-6)]),
+    "waves": ("hertz", SLIDE.replace("SPEED", "0").replace("FILE", "flat.stl").replace("WORDS", "") +
+              "fix t all move/mesh mesh cad viblin axis 1 0 0 order 2 amplitude 0.001 0.0005 phase -1.5707963268 1 period 0.08 0.04\n"
+              "variable arm equal f_cad[5]/f_cad[3]\nthermo_style custom step f_cad[3] f_cad[5]\nrun 2000\n", "${arm}",
+              [(0.001 * WAVES - 1e-6, 0.001 * WAVES + 1e-6)]),
     # 50000 a second for 400 steps.
     "unfix": (HERTZ, POUR + EDGES + "variable n equal atoms\nregion box1 block 0 0.2 0 0.2 0 0.2 units box\nfix ins all insert/rate/region "
               "seed 32452843 distributiontemplate d1 nparticles 100000 particlerate 50000 insert_every 100 region box1\nrun 400\n"
