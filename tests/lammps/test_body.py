@@ -78,7 +78,7 @@ def impacts(checks, folder):
     """A sphere on the middle of a cube's face: v' = (m - e M) v / (m + M), V' = (1 + e) m v / (m + M)."""
     radius, mass, speed, stiffness, e = 0.1, 1.0, 1.0, 1e6, 0.6
     box(folder / "cube.stl", (-0.1, -0.1, -0.1), (0.1, 0.1, 0.1))
-    for ratio in (1e-3, 1, 1e3):
+    for ratio in (1e-3, 0.1, 1, 1e3):
         body = ratio * mass
         reduced = 1 / (1 / mass + 1 / body)
         dt = 0.01 * math.sqrt(reduced / stiffness)
@@ -329,6 +329,70 @@ def coats(checks, folder):
     checks.fact("refused: fix_modify body of a mesh that is none", done.returncode != 0 and "is no body" in done.stdout)
 
 
+def weak_points(checks, folder):
+    """Where bodies of LIGGGHTS-PFM go wrong, by doc/from-liggghts.md; impacts() has the restitution of light bodies."""
+    box(folder / "block.stl", (-0.1,) * 3, (0.1,) * 3)
+    far = "create_atoms 1 single 1 1 1 units box\nset group all diameter 0.01 density 1\n"
+    # A spring keeps its rest over runs: the second begins where the block turns round, and the third where it is midway.
+    dt, rate, speed = 1e-3, 2 * math.pi, 0.5
+    law = "hooke 1e3 NULL 0 NULL 0 0 mesh block.stl body mass 1 com 0 0 0 inertia 1 1 1 0 0 0 gravity 0 0 0 "
+    text = script(law + f"joint slider 1 0 0 spring {rate**2:.17g} 0 velocity {speed} 0 0", far, dt, move="")
+    rows, _ = go(folder, text + "run 250\nrun 125\nrun 625\n")
+    # Leapfrog's phase is off by (rate dt)^2 / 24 of it, 1e-5 in the whole period.
+    off = max(abs(r[COORDINATE] - speed / rate * math.sin(rate * r[0] * dt)) for r in rows)
+    checks.at_most("weak points: a spring keeps its rest over runs", off / (speed / rate), 1e-4)
+
+    # A body that is not balanced, whose centre is on the hinge: it stays there, and the hinge bears I_xz omega^2.
+    spin, product = 20, 0.3
+    law = f"hooke 1e3 NULL 0 NULL 0 0 mesh block.stl body mass 1 com 0 0 0 inertia 1 1.5 2 0 {product} 0 gravity 0 0 0 "
+    rows, _ = go(folder, script(law + f"joint hinge 0 0 0 0 0 1 omega 0 0 {spin}", far, dt, move="") + "run 1000\n")
+    checks.at_most("weak points: an unbalanced body stays on its hinge",
+                   max(abs(r[TURN + k]) for r in rows for k in (1, 2)), 1e-12)
+    checks.at_most("weak points: the hinge bears its couple",
+                   max(abs(math.hypot(*r[COUPLE:COUPLE + 3]) / (product * spin**2) - 1) for r in rows), 1e-10)
+    checks.at_most("weak points: it keeps its speed", max(abs(r[OMEGA + 2] / spin - 1) for r in rows), 1e-12)
+
+    # Beside a mesh that moves by itself, which the body feels: pushed by a plate, it has the plate's speed twice at last.
+    stl.write(folder / "plate.stl", stl.quad((0, -1, -1), (0, 1, -1), (0, 1, 1), (0, -1, 1)))
+    law = ("hooke 1e4 NULL 0 NULL 0 0 mesh plate.stl "
+           f"motion linear {speed} 0 0 "
+           "mesh block.stl move 0.13 0 0 body mass 1 com 0.13 0 0 inertia 1 1 1 0 0 0 gravity 0 0 0 joint slider 1 0 0 coat 0.2 0.02 ")
+    rows, _ = go(folder, script(law, far, 1e-4, move="") + "run 1000\n")
+    checks.at_most("weak points: a mesh that moves throws the body", abs(rows[-1][SPEED] / (2 * speed) - 1), 1e-3)
+
+
+def damped(checks, folder):
+    """Where damping acts, the set-up of a run computes forces by the velocities of the whole step, the run by those of half a
+    step: in LAMMPS's own walls and pairs, too. So a run that is cut is not the same to the last bit, but by how much is known."""
+    box(folder / "cube.stl", (-0.75,) * 3, (0.75,) * 3, 2)
+    words = "hooke/history 1e4 3e3 50 25 0.3 1 mesh cube.stl body density 2 load 0.1 0.2 0.3 moment 0 0.1 0.2"
+    text = script(words, crowd(4, 0.35).replace("0.05 4711", "1 4711"), 5e-4, box="-5 5 -5 5 -5 5")
+    whole, _ = go(folder, text + "run 300\n")
+    cut, _ = go(folder, text + "run 150\nrun 150 pre no\n")
+    checks.fact("damped: run 150 and run 150 without a set-up are run 300", whole[-1] == cut[-1])
+
+    # A body on a sphere that stays: the force of the set-up is off by c a dt / 2, and half a step of it acts, which
+    # changes the velocity by (c / M) a dt^2 / 4.
+    mass, stiffness, gamma, g, radius = 1.0, 1e3, 4.0, 9.81, 0.1
+    box(folder / "block.stl", (-0.1,) * 3, (0.1,) * 3)
+    held = sphere(0, 0, -0.1 - radius, radius, 1e9, (0, 0, 0))
+    law = (f"hooke {stiffness} NULL {gamma} NULL 0 0 mesh block.stl body mass {mass} com 0 0 0 inertia 1 1 1 0 0 0 "
+           f"gravity 0 0 -{g} joint slider 0 0 1")
+    for dt, steps in ((2e-3, 20), (1e-3, 40)):
+        text = script(law, held, dt, move="")
+        whole, _ = go(folder, text + f"run {steps + 1}\n")
+        go(folder, text + f"run {steps}\nwrite_restart half.bin\n")
+        lines = text.split("\n")
+        begin = lines.index("pair_style      zero 1.0")
+        go_on = "atom_style sphere\nnewton off\ncomm_modify vel yes\nread_restart half.bin\n" + "\n".join(lines[begin:])
+        after, _ = go(folder, go_on + "run 1\n")
+        v = [r[SPEED + 2] for r in whole]
+        acceleration = (v[-1] - v[-3]) / (2 * dt)
+        # The next order has dt gamma / 2 of it, and as much from the change of the acceleration.
+        checks.at_most(f"damped: a restart changes the velocity as the page says, dt = {dt:g}",
+                       abs((v[-1] - after[-1][SPEED + 2]) / (gamma * acceleration * dt**2 / 4) - 1), 0.05)
+
+
 def restart(checks, folder):
     """Runs that are cut in two, and go on from a restart file, in mid-swing: the same bits."""
     box(folder / "cube.stl", (-0.75,) * 3, (0.75,) * 3, 2)
@@ -381,12 +445,23 @@ def changes(checks, folder):
         "-2 2 -2 2 -2 2", "-2 2 -2 2 -0.1 0.1").replace("single 1 1 1", "single 1 1 0"), "plane z = 0")
     refused("a periodic face", plain.replace("boundary        f f f", "boundary        p f f").replace(
         "density 1 \n", "density 1 velocity 1 0 0\n") + "run 3000\n", "the periodic face in x")
+    # Without its coat this body would be the same across the face.
+    stl.write(folder / "floor.stl", stl.quad((-1, -0.41, -1), (1, -0.41, -1), (1, 0.41, -1), (-1, 0.41, -1)))
+    coat = script(fix + "joint slider 0 0 1 mesh floor.stl", far.replace("1 1 1", "1 0 1"), 1e-3, box="-2 2 -0.41 0.41 -2 2").replace(
+        "boundary        f f f", "boundary        f p f") + "run 1\n"
+    lmp.run_well(coat, folder)
+    refused("a coat at a periodic face", coat.replace("slider 0 0 1", "slider 0 0 1 coat 0.1 0.075"),
+            "the coat of the body comes to the periodic face in y", "leave the coat out, make the boundary fixed")
+    corners = "".join(f"create_atoms 1 single {x} {y} -1 units box\n" for x in (-1, 1) for y in (-0.41, 0.41))
+    coat = script(fix + "coat 0.1 0.075 mesh floor.stl nodes all", corners + "set group all diameter 0.01 density 1\n", 1e-3)
+    refused("a coat beside nodes", coat, "its body has a coat, which does not feel meshes whose nodes move")
 
 
 def main():
     checks = lmp.Checks()
     folder = lmp.scratch()
-    tests = {f.__name__: f for f in (impacts, off_centre, plate, hinge, motor, momentum, two_bodies, coats, restart, changes)}
+    tests = {f.__name__: f for f in (impacts, off_centre, plate, hinge, motor, momentum, two_bodies, coats, weak_points, damped, restart,
+                                         changes)}
     for name in sys.argv[1:] or tests:
         tests[name](checks, folder)
     checks.done(folder)
