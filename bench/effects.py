@@ -71,13 +71,13 @@ def table(rows, heads, cells):
 
 def tables(cpu, cuda):
     first = next(iter(cpu.values()))
-    facts = (f"CPU: one core, commit {first['commit']}, {first['compiler']}, "
-             f"{first['contacts']} contacts, least of {first['repeats']} rounds.")
+    facts = (f"The CPU's times are the least of {first['repeats']} rounds with {first['contacts']} contacts on one core "
+             f"(commit {first['commit']}, {first['compiler']}).")
     if cuda:
         g = next(iter(cuda.values()))
-        facts += (f" GPU: {g['device'].replace('CUDA, ', '')}, commit {g['commit']}, "
-                  f"{g['contacts']} contacts, least of {g['repeats']}; copies to and from it and "
-                  "the host's part of a step are in.")
+        facts += (f" The GPU's are the least of {g['repeats']} rounds with {g['contacts']} contacts on an "
+                  f"{g['device'].replace('CUDA, ', '')} (commit {g['commit']}). They include the copies to and from it and "
+                  "the host's part of a step.")
     else:
         facts += " No rows of a GPU are kept yet."
     alone = [r for r in cpu.values() if r["over"] or r["name"] == "hooke"]
@@ -91,7 +91,7 @@ def tables(cpu, cuda):
     heads = ["effect", "turned on by", "CPU, ns", "more than without", "GPU, ns",
              "more than without", "without is", "B/atom", "B/contact"]
     kept = [k for k, head in enumerate(heads) if "without" not in head]    # a combination is over none
-    return "\n\n".join([facts, "Each alone:", table(alone, heads, cells), "In common combinations:",
+    return "\n\n".join([facts, "This table has each effect alone:", table(alone, heads, cells), "This one has common combinations:",
                         table(several, [heads[k] for k in kept], lambda r: [cells(r)[k] for k in kept])])
 
 
@@ -115,6 +115,7 @@ def plot(cpu, cuda):
     axis.tick_params(axis="x", labelsize=13)
     axis.set_xlabel("added for each contact and step, ns", fontsize=14)
     axis.set_title("On a CPU core", fontsize=14)
+    axis.set_xlim(right=1.08 * max(values))    # room for the number of the longest bar
     axis.grid(True, axis="x", alpha=0.3)
     seen = [f"{name} {float(row['over_ns']):.0f} ns" for name, row in cuda.items()
             if row["over"] and float(row["over_ns"]) > NOISE]

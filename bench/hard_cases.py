@@ -342,9 +342,9 @@ PAGE = """<!-- SPDX-FileCopyrightText: 2026 LSDCD contributors -->
 # Hard cases
 
 A wall of triangles is easy to write, and easy to get wrong: at seams, folds and corners, and with bad meshes. **This page shows {themes} such
-cases. Each is tested, with {count} numbers in all, and {verdict}.** The expected numbers come from closed forms, or from references that
+cases. The tests compare {count} numbers, and {verdict}.** The expected numbers come from closed forms, or from references that
 share no code with LSDCD and compute in higher precision. *Wrong* says what a wall does that treats each triangle by itself. *LSDCD* says
-what you get here, and *Test* where it is checked. [The table](#all-numbers) has the deviations.
+what you get here, and *Test* names the file that checks it. [The table](#all-numbers) has the deviations.
 
 {sections}
 ## All numbers
@@ -356,7 +356,7 @@ both are given in this order. (CPU) means that the case was not run with CUDA. A
 
 {table}
 
-`./run bench hard-cases` runs the tests and writes this page. CPU: {cpu}. CUDA: {cuda}.
+`./run bench hard-cases` runs the tests and writes this page. These numbers are from {cpu}, for the CPU, and {cuda}, for CUDA.
 """
 
 
@@ -367,7 +367,7 @@ def write_page(rows, cpu_note, cuda_note):
     bad = sum(r["holds"] != "holds" for r in rows)
     themes = dict.fromkeys(r["theme"] for r in rows)
     write_whole(PAGE_FILE, PAGE.format(
-        themes=len(themes), count=len(known), verdict="all hold" if not bad else f"{bad} fail", sections=sections(rows),
+        themes=len(themes), count=len(known), verdict="all of them hold" if not bad else f"{bad} fail", sections=sections(rows),
         table=table(rows), cpu=cpu_note, cuda=cuda_note))
     print(f"{PAGE_FILE}: {len(known)} numbers, {bad} fail")
     return bad
