@@ -12,12 +12,14 @@
 #include <Simbody.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
 #include <lsdcd.hpp>
+#include <string>
 #include <vector>
 
 namespace {
@@ -290,26 +292,35 @@ SpatialVec wrench(lsdcd::Wall &wall, int mesh, const Vec3 &about)
                     Vec3(w.force[0], w.force[1], w.force[2]));
 }
 
-void draw(const Grains &grains, const Vehicle &vehicle)
+void draw(const Grains &grains, const Vehicle &vehicle, double seconds)
 {
+  constexpr double kFastest = 0.1;    // the end of the colours, m/s
   std::ofstream svg("wheel.svg");
   const auto x = [](double number) { return 10 + 2500 * number; };
-  const auto y = [](double number) { return 2500 * (2 * kHeight - number) + 5; };
-  svg << "<svg xmlns='http://www.w3.org/2000/svg' width='620' height='310'>\n"
-         "<rect width='620' height='310' fill='white' stroke='none'/>\n";
-  const auto bar = [&](double left, double top, double width, double height) {
+  const auto y = [](double number) { return 2500 * (2 * kHeight - number) + 65; };
+  svg << "<svg xmlns='http://www.w3.org/2000/svg' width='620' height='370' font-family='DejaVu "
+         "Sans, sans-serif' "
+         "font-size='18'>\n<rect width='620' height='370' fill='white' stroke='none'/>\n";
+  const auto bar = [&](double left, double top, double width, double height,
+                       const std::string &fill = "black") {
     svg << "<rect x='" << left << "' y='" << top << "' width='" << width << "' height='" << height
-        << "' fill='black' stroke='none'/>\n";
+        << "' fill='" << fill << "' stroke='none'/>\n";
+  };
+  const auto text = [&](double at, double base, const std::string &what, const char *anchor) {
+    svg << "<text stroke='none' x='" << at << "' y='" << base << "' text-anchor='" << anchor << "'>"
+        << what << "</text>\n";
+  };
+  const auto colour = [](double speed) {
+    const int blue = static_cast<int>(255 - 200 * std::min(1., speed / kFastest));
+    return "rgb(230," + std::to_string(blue / 2 + 90) + "," + std::to_string(blue) + ")";
   };
   bar(x(0) - 4, y(kHeight), 4, y(0) - y(kHeight));
   bar(x(kLength), y(kHeight), 4, y(0) - y(kHeight));
   bar(x(0) - 4, y(0), x(kLength) - x(0) + 8, 4);
-  for (std::size_t i = 0; i < grains.x.size(); i++) {
-    const int blue = static_cast<int>(255 - 200 * std::min(1., grains.v[i].norm() / 0.1));
+  for (std::size_t i = 0; i < grains.x.size(); i++)
     svg << "<circle cx='" << x(grains.x[i][0]) << "' cy='" << y(grains.x[i][1]) << "' r='"
-        << 2500 * kGrain << "' stroke='black' stroke-width='0.4' fill='rgb(230," << blue / 2 + 90
-        << ',' << blue << ")'/>\n";
-  }
+        << 2500 * kGrain << "' stroke='black' stroke-width='0.4' fill='"
+        << colour(grains.v[i].norm()) << "'/>\n";
   const lsdcd::Pose pose = vehicle.pose();
   const double a = 2 * std::atan2(pose.quaternion[3], pose.quaternion[0]);
   svg << "<polygon fill='silver' fill-opacity='0.8' stroke='black' stroke-width='2' points='";
@@ -318,7 +329,31 @@ void draw(const Grains &grains, const Vehicle &vehicle)
     svg << x(pose.position[0] + std::cos(a) * p[0] - std::sin(a) * p[1]) << ','
         << y(pose.position[1] + std::sin(a) * p[0] + std::cos(a) * p[1]) << ' ';
   }
-  svg << "'/>\n</svg>\n";
+  svg << "'/>\n";
+  // An arrow for the way that the motor turns the wheel: a quarter of a circle from above the hub to its right, in short
+  // lines, since some programs fill a path that is only to be stroked.
+  const double cx = x(pose.position[0]), cy = y(pose.position[1]), r = 1250 * kRadius;
+  constexpr int kLines = 30;
+  for (int k = 0; k < kLines; k++) {
+    const double from = kPi / 2 * k / kLines, to = kPi / 2 * (k + 1) / kLines;
+    svg << "<line x1='" << cx + r * std::sin(from) << "' y1='" << cy - r * std::cos(from)
+        << "' x2='" << cx + r * std::sin(to) << "' y2='" << cy - r * std::cos(to)
+        << "' stroke='black' stroke-width='3'/>\n";
+  }
+  svg << "<polygon stroke='none' points='" << cx + r - 8 << ',' << cy - 2 << ' ' << cx + r + 8
+      << ',' << cy - 2 << ' ' << cx + r << ',' << cy + 14 << "'/>\n";
+  std::array<char, 40> time;
+  std::snprintf(time.data(), time.size(), "t = %.2f s", seconds);
+  text(10, 24, time.data(), "start");
+  bar(10, 40, 2500 * 0.02, 4);
+  text(20 + 2500 * 0.02, 48, "20 mm", "start");
+  text(610, 24, "speed of a grain, m/s", "end");
+  constexpr int kSteps = 40, kStep = 5;
+  for (int k = 0; k < kSteps; k++)
+    bar(410 + k * kStep, 32, kStep + 0.5, 14, colour((k + 0.5) / kSteps * kFastest));
+  text(410, 64, "0", "middle");
+  text(610, 64, "0.1 or more", "end");
+  svg << "</svg>\n";
 }
 
 int drive(double seconds, bool is_elastic)
@@ -373,7 +408,7 @@ int drive(double seconds, bool is_elastic)
   }
   book.add(grains.momentum() + vehicle.momentum(), -1);
   const double lost = first + by_motor - energy();
-  draw(grains, vehicle);
+  draw(grains, vehicle, seconds);
   std::printf("the wheel went %.3g mm and turned %.3g degrees\n",
               1e3 * (vehicle.centre()[0] - 0.06),
               -std::atan2(vehicle.pose().quaternion[3], vehicle.pose().quaternion[0]) * 360 / kPi);
