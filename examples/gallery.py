@@ -42,6 +42,7 @@ class Scene:
     script: str = ""      # from examples/, if it is not NAME/in.NAME
     stop: str = ".*write_dump"    # the line of the script that is the moment of the picture; "": its end
     edits: list = ()      # of the script: what, with what
+    group: str = "all"    # of the atoms that are drawn
     make: tuple = ()      # a script in its folder that writes what it needs into --work, and its words
 
 
@@ -79,6 +80,10 @@ def scenes():
         "clumps": Scene((75, 20), (-15, 15, -15, 15, -1, 14), five, "clumps of 3 spheres; 4 colours", [solid, glass]),
         "belt": Scene((75, -75), (-1, 46, -6, 6, -16, 8), (10, "10 diameters d"), ("√(g d), speed", 0, 5),
                       [{"colour": DARK}, glass], arrows=[[(10, -5.5, -1.5), (20, -5.5, -1.5)]]),
+        "sagging-belt": Scene((60, -75), (-21, 25, -5, 5, -6, 7), five, ("√(g d), speed", 0, 3), [{"colour": DARK}, solid],
+                              group="grains", arrows=[[(-4, -6, -4), (6, -6, -4)]]),
+        "triaxial": Scene((80, -70), (-8, 8, -8, 8, -0.5, 16.5), five, [(ORANGE, ""), (BLUE, "layers of 3 d at the start")],
+                          [{"opacity": 0.35}, solid, solid], group="grains", stop='print +"triaxial', quantity="type", time="t = {:.0f} d √(ρ/p)"),
         "feed": Scene((75, -75), (-5, 5, -5, 5, -1, 9), (2, "2 diameters d"), [(BLUE, "0.7 d"), (ORANGE, "d")], [glass],
                       quantity="diameter", stop='print +"feed'),
         "filling": Scene((70, -60), (-6, 6, -1, 9, -6, 6), (2, "2 diameters d"), ("√(g d), speed", 0, 4), [glass],
@@ -120,7 +125,7 @@ def state_script(text, name, scene):
     for line in re.sub(r"&\s*\n\s*", " ", text).split("\n") + [""]:
         if re.match(scene.stop or "$", line) and (scene.stop or "run             ${steps}" in lines):
             return "\n".join(lines + [f"run $({EVERY}-step%{EVERY})",
-                                      f"write_dump all custom {name}.atoms id type x y z radius vx vy vz",
+                                      f"write_dump {scene.group} custom {name}.atoms id type x y z radius vx vy vz",
                                       f'print "$(time)" file {name}.time', "quit", ""])
         if re.match(r"[^#]*\bwall/lsdcd\b", line):
             line = re.sub(r"\bmesh \S+\.stl", written, line)
