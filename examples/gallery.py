@@ -100,7 +100,7 @@ def scenes():
         "feeder": Scene((70, -30), (-2, 2, -0.5, 16.5, -2, 2), (2, "2 lengths"), [(ORANGE, "49 grains of 0.3 to 0.5 lengths")], [glass, solid],
                         script="from-gransurf/in.feeder", stop='print +"feeder', make=("make_feeder.py", "--out", "."),
                         time="{:.1f} turns of the screw", unit=1000),
-        "flat": Scene((75, -75), (-0.016, 0.016, -0.016, 0.016, -0.001, 0.024), (0.01, "10 mm"), ("mm, height", 0, 22),
+        "flat": Scene((75, -75), (-0.0185, 0.0185, -0.0185, 0.0185, -0.001, 0.026), (0.01, "10 mm"), ("mm, height", 0, 22),
                       [glass], script="flat/in.bed", stop="", quantity="z", edits=BED, time="t = {:.2f} s",
                       make=("make_floor.py", "wall.stl", "--side", "0.034", "--cells", "100")),
         "cylinder": Scene((70, -75), (-0.021, 0.021, -0.021, 0.021, -0.001, 0.04), (0.01, "10 mm"), ("mm, height", 0, 21),

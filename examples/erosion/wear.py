@@ -46,10 +46,10 @@ def draw(fields, path):
         drawn.set_clim(0, np.quantile(value, 0.99))
         axes.autoscale_view()
         axes.set_aspect("equal")
+        axes.set_title(title, fontsize=14)    # a label of the bar would stand between both panels
         axes.set_xlabel("along the chute, mm", fontsize=14)
         axes.tick_params(labelsize=13)
         bar = figure.colorbar(drawn, ax=axes, extend="max", shrink=0.8)
-        bar.set_label(title, fontsize=14)
         bar.ax.tick_params(labelsize=13)
     panels[0].set_ylabel("height, mm", fontsize=14)
     figure.savefig(path, dpi=100)

@@ -1540,7 +1540,7 @@ class Script:
             return ""    # one file of a kind for each mesh: the other dump is left
         mesh.written.add(keyword)
         self.dumped[line].add(mesh.id)
-        path = w[5].replace("*", f"_{mesh.id}_*") if "*" in w[5] else str(Path(w[5]).with_suffix("")) + f"_{mesh.id}"
+        path = re.sub(r"_?\*", f"_{mesh.id}_*", w[5]) if "*" in w[5] else str(Path(w[5]).with_suffix("")) + f"_{mesh.id}"
         return f" {keyword} {re.sub('[.](stl|vtk|vtp|vtm)$', '', path)}{end} every {w[4]}"
 
     @staticmethod

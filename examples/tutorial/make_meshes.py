@@ -15,10 +15,11 @@ sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
 from stl import circle, disc, options, quad, side, strip, write_stl    # noqa: E402
 
 RADIUS, OUTLET, CONE, HEIGHT, SEGMENTS = 50, 12, 50, 120, 48
+SIDES, RINGS = 24, 5    # of the hopper: facets of three grain diameters and less, for the picture of its stress
 
 
 def ring(radius, z):
-    points = circle(radius, SEGMENTS)
+    points = circle(radius, SIDES)
     return [(*p, z) for p in points + points[:1]]
 
 
@@ -26,12 +27,13 @@ def main():
     p = options(__doc__)
     a = p.parse_args()
     out = Path(a.out)
-    low, knee, top = ring(OUTLET, 0), ring(RADIUS, CONE), ring(RADIUS, HEIGHT)
+    cone = [ring(OUTLET + (RADIUS - OUTLET) * k / RINGS, CONE * k / RINGS) for k in range(RINGS + 1)]
+    cylinder = [ring(RADIUS, CONE + (HEIGHT - CONE) * k / RINGS) for k in range(RINGS + 1)]
     # Inwards, where the grains are.
-    facets = [t[::-1] for t in strip(low, knee) + strip(knee, top)]
-    for k in (10, 40, 70):
+    facets = [t[::-1] for rings in (cone, cylinder) for a, b in zip(rings, rings[1:]) for t in strip(a, b)]
+    for k in (10, 90, 170):
         facets[k] = facets[k][::-1]
-    for k in (20, 120):
+    for k in (20, len(facets) - 20):
         facets[k] = tuple((x, y, z + 0.02) for x, y, z in facets[k])
     facets += [facets[5], facets[150]]
     write_stl(out / "part.stl", facets, "hopper, millimetres")

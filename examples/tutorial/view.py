@@ -1,28 +1,34 @@
 # SPDX-FileCopyrightText: 2026 LSDCD contributors
 # SPDX-License-Identifier: BSD-3-Clause
 
-"""The hopper's wall stress in ParaView, of the last step: paraview --script=view.py
+"""The wall stress of the hopper's cone in ParaView, of the last step: paraview --script=view.py
 
 In the folder of the run. With pvpython it writes wall_stress.png and ends.
 """
 import glob
 import re
 
-from paraview.simple import (CreateView, ColorBy, GetColorTransferFunction, GetScalarBar, Render, ResetCamera,
-                             SaveScreenshot, Show, XMLPolyDataReader)
+from paraview.simple import (Clip, CreateView, ColorBy, GetColorTransferFunction, GetScalarBar, Render, ResetCamera,
+                             SaveScreenshot, Show, Text, XMLPolyDataReader)
+
+TIMESTEP = 1e-5
 
 
-def last(pattern):
-    return max(glob.glob(pattern), key=lambda name: int(re.findall(r"\d+", name)[-1]))
+def step(name):
+    return int(re.findall(r"\d+", name)[-1])
 
 
 view = CreateView("RenderView")
-view.ViewSize = [700, 700]
+view.ViewSize = [760, 480]
 view.Background = [1, 1, 1]
 view.UseColorPaletteForBackground = 0
 view.OrientationAxesVisibility = 0
-wall = XMLPolyDataReader(FileName=[last("hopper_*.vtp")])
-shown = Show(wall, view)
+last = max(glob.glob("hopper_*.vtp"), key=step)
+wall = XMLPolyDataReader(FileName=[last])
+# The grains lie in the cone. The facets above it have no load.
+cone = Clip(Input=wall, ClipType="Plane", Invert=1, Crinkleclip=1)
+cone.ClipType.Origin, cone.ClipType.Normal = [0, 0, 0.059], [0, 0, 1]
+shown = Show(cone, view)
 shown.SetRepresentationType("Surface With Edges")
 ColorBy(shown, ("CELLS", "normal_stress"))
 shown.Ambient, shown.Diffuse = 0.5, 0.5
@@ -33,12 +39,15 @@ colours.ApplyPreset("Viridis (matplotlib)", True)
 shown.RescaleTransferFunctionToDataRange(False)
 shown.SetScalarBarVisibility(view, True)
 bar = GetScalarBar(colours, view)
-bar.Title, bar.ComponentTitle = "normal stress, Pa", ""    # the hopper is 100 mm across
+bar.Title, bar.ComponentTitle = "normal stress, Pa", ""
 bar.AutomaticLabelFormat, bar.LabelFormat, bar.RangeLabelFormat = 0, "%.0f", "%.0f"
-bar.ScalarBarLength, bar.ScalarBarThickness, bar.WindowLocation = 0.5, 24, "Lower Right Corner"
+bar.ScalarBarLength, bar.ScalarBarThickness, bar.WindowLocation = 0.8, 24, "Lower Right Corner"
 bar.TitleColor = bar.LabelColor = [0, 0, 0]
-bar.TitleFontSize = bar.LabelFontSize = 26
-view.CameraPosition, view.CameraFocalPoint, view.CameraViewUp = [0.25, -0.35, -0.1], [0, 0, 0.06], [0, 0, 1]
+bar.TitleFontSize = bar.LabelFontSize = 24
+text = Show(Text(Text=f"100 mm across at the top\nt = {step(last) * TIMESTEP:.2f} s"), view)
+text.Color, text.FontSize, text.WindowLocation, text.Justification = [0, 0, 0], 24, "Upper Left Corner", "Left"
+view.CameraPosition, view.CameraFocalPoint, view.CameraViewUp = [0.16, -0.24, 0.05], [0, 0, 0.03], [0, 0, 1]
 ResetCamera(view)
+view.CameraViewAngle = 24    # nearer than ResetCamera
 Render(view)
 SaveScreenshot("wall_stress.png", view)

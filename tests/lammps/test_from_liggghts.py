@@ -62,6 +62,8 @@ WRITTEN = {
         "wear finnie 8e-09 &\n                mesh a.stl &\n                mesh b.stl wear_factor 0.25\n"),
     "meshes are written by the wall": (MESH.format("") + WALL + "dump d all mesh/stl 300 post/dump*.stl\n",
                                        "mesh_stl post/dump_cad_*.stl every 300"),
+    "the files of a mesh have one line between words": (
+        MESH.format("") + WALL + "dump d all mesh/vtk 300 post/mesh_*.vtk stress\n", "mesh_fields post/mesh_cad_*.vtp every 300"),
     "a plane has the side of the box": (
         "region b block 0 1 0 1 0 1\ncreate_box 1 b\n"
         "fix p all wall/gran model hertz tangential history primitive type 1 zplane 1\n", "zplane NULL 1"),
