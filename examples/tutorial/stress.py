@@ -31,12 +31,20 @@ def main():
     parser.add_argument("--below", type=float, default=float("inf"), metavar="Z")
     given = parser.parse_args()
     for path in given.files:
+        if not path.is_file():
+            there = sorted(other.name for other in path.parent.glob("*.vtp"))
+            parser.error(f"{path} is not there" + (f"; {path.parent} has {', '.join(there)}" if there else ""))
         fields = read_vtp(path)
+        if "normal_stress" not in fields:
+            parser.error(f"{path} has no normal_stress: it is no file of mesh_fields")
         heights = fields["points"][2::3]
         corners = fields["connectivity"]
         low = [max(heights[corner] for corner in corners[3 * k:3 * k + 3]) < given.below for k in range(len(corners) // 3)]
         stress = [value for value, counts in zip(fields["normal_stress"], low) if counts]
         touched = [value for value in stress if value > 0]
+        if not touched:
+            print(f"{path.name}: " + (f"{len(stress)} facets, all untouched" if stress else f"no facet below {given.below}"))
+            continue
         print(f"{path.name}: {len(stress)} facets, {100 * (1 - len(touched) / len(stress)):.0f} % untouched, "
               f"median {statistics.median(touched):.0f} Pa, largest {max(touched):.0f} Pa")
 

@@ -8,6 +8,7 @@
 #include "input/keywords.h"
 #include "input/law_words.h"
 #include "input/material_command.h"
+#include "mesh/io/read_mesh.h"
 
 #include <algorithm>
 
@@ -21,6 +22,8 @@ std::string answer_to(const std::string &word, bool granular)
   const char *const kMoves =
       "the words are motion wiggle Ax Ay Az period, and wiggle x|y|z amplitude period";
   const char *const kServo = "the words are servo force|torque x|y|z|axis ax ay az TARGET vmax V";
+  const char *const kJoint =
+      "it goes with body: body density D joint hinge px py pz ax ay az, and so on";
   const char *const kFlat =
       "the wall is a mesh: write mesh FILE in its place, or use fix wall/gran";
   const char *const kBelt =
@@ -46,6 +49,11 @@ std::string answer_to(const std::string &word, bool granular)
       {"ctrlPV", kServo},
       {"vibrate", kMoves},
       {"move/mesh", "the words are motion linear, rotate, wiggle, transrot and variable"},
+      {"hinge", kJoint},
+      {"slider", kJoint},
+      {"planar", kJoint},
+      {"ball", kJoint},
+      {"joint", kJoint},
       {"zplane", kFlat},
       {"yplane", kFlat},
       {"xplane", kFlat},
@@ -79,6 +87,8 @@ std::string answer_to(const std::string &word, bool granular)
   };
   for (const auto &row : foreign)
     if (word == row.word) return row.answer;
+  for (const char *ending : {".stl", ".obj", ".ply", ".off"})
+    if (name_ending(word) == ending) return "write mesh before the file";
   for (const std::string &family : granular_families())
     if (word == family)
       return granular || word == "limit_damping" ? "it comes before mesh and other keywords"

@@ -11,6 +11,7 @@
 #include "lammps/mpi_host.h"
 #include "lammps/mpi_mesh.h"
 #include "lammps/restart_data.h"
+#include "mesh/likely_scale.h"
 #include "mesh/outside_box.h"
 
 #include "atom.h"
@@ -142,8 +143,11 @@ void FixInsertLsdcd::read_face()
   lsdcd::MpiHost mpi(world);
   const lsdcd::WeldedMesh mesh = lsdcd::read_together(mpi, settings.face);
   face = std::make_unique<lsdcd::InletFace>(mesh, settings.depth);
-  const std::string outside =
-      lsdcd::outside_box({mesh.report.lo, mesh.report.hi}, lsdcd::host_box(*domain), 0);
+  const lsdcd::PeriodicBox box = lsdcd::host_box(*domain);
+  const lsdcd::Box spans = {mesh.report.lo, mesh.report.hi};
+  const std::string wrong = lsdcd::too_large_text(spans.hi - spans.lo, spans, box);
+  if (!wrong.empty()) warn(wrong);
+  const std::string outside = lsdcd::outside_box(spans, box, 0);
   if (!outside.empty()) throw lsdcd::InputError(outside);
   const double radius = insertion->source().largest_radius();
   if (!face->has_room(radius))

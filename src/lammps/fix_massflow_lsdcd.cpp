@@ -7,6 +7,7 @@
 #include "lammps/host_box.h"
 #include "lammps/mpi_host.h"
 #include "lammps/mpi_mesh.h"
+#include "mesh/likely_scale.h"
 #include "mesh/outside_box.h"
 
 #include "atom.h"
@@ -48,7 +49,7 @@ FixMassflowLsdcd::FixMassflowLsdcd(LAMMPS *lmp, int narg, char **arg) :
     const std::string outside = lsdcd::outside_box({mesh.report.lo, mesh.report.hi},
                                                    lsdcd::host_box(*domain), neighbor->skin);
     if (!outside.empty()) throw lsdcd::InputError(outside);
-    check_length(mesh);
+    check_size(mesh);
   });
   if (settings.deletes && atom->molecular)
     fatal("delete yes leaves bonds without their atoms: use an atom style without bonds");
@@ -102,10 +103,13 @@ lsdcd::WeldedMesh FixMassflowLsdcd::read_mesh()
   return mesh;
 }
 
-void FixMassflowLsdcd::check_length(const lsdcd::WeldedMesh &mesh) const
+void FixMassflowLsdcd::check_size(const lsdcd::WeldedMesh &mesh) const
 {
   const lsdcd::PeriodicBox now = lsdcd::host_box(*domain);
-  const lsdcd::Box size = in_fractions({mesh.report.lo, mesh.report.hi}, now);
+  const lsdcd::Box spans = {mesh.report.lo, mesh.report.hi};
+  const std::string wrong = lsdcd::too_large_text(spans.hi - spans.lo, spans, now);
+  if (!wrong.empty()) warn(wrong);
+  const lsdcd::Box size = in_fractions(spans, now);
   for (int k = 0; k < 3; k++) {
     const double more = (size.hi[k] - size.lo[k] - 1) * now.width(k);
     if (now.periodic[k] && more > mesh.report.weld_tolerance)

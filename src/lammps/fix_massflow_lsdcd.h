@@ -92,7 +92,7 @@ class FixMassflowLsdcd : public Fix, private OwnMessages {
   double time_seen = 0;    // LAMMPS's, at the end of the last step
 
   lsdcd::WeldedMesh read_mesh();
-  void check_length(const lsdcd::WeldedMesh &) const;
+  void check_size(const lsdcd::WeldedMesh &) const;
   void follow_box();
   void look(int);
   void count(int, lsdcd::Passes);

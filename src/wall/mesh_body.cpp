@@ -86,6 +86,10 @@ MeshBody::MeshBody(Host &host, WallSpec &wall, const LawTable &laws, int mesh, c
   } catch (const InputError &e) {
     throw InputError(named(e.what()));
   }
+  if (s.joint.kind == JointKind::hinge && std::isfinite(s.drive.hi - s.drive.lo) &&
+      s.drive.hi - s.drive.lo > 2 * kPi)
+    host_.warn(named("the limits " + number_text(s.drive.lo) + " " + number_text(s.drive.hi) +
+                     " of its hinge are more than a turn apart: they are in radians"));
   measure();
 }
 

@@ -190,6 +190,8 @@ TABLES = [
          "shells that are apart", "'cut.stl' cut or touch each other at", "pairs of facets", "side both"),
         ("too_few_words", "floor.stl move 0 0", "the value of z is missing", "move x y z"),
         ("truncated_mesh", "truncated.stl", "truncated.stl"),
+        ("file_without_mesh", "floor.stl two.STL", "'two.STL' is not a keyword here: write mesh before the file"),
+        ("joint_without_body", "floor.stl hinge 0 0 0 0 1 0", "'hinge' is not a keyword here: it goes with body"),
         ("unknown_keyword", "floor.stl sclae 2", "'sclae' is not a keyword", "'scale s | sx sy sz'"),
         ("wiggle_period", "floor.stl wiggle z 0.1 0",
          "Fix wall wall/lsdcd", "'wiggle'", "the period = 0 is out of range"),

@@ -118,6 +118,17 @@ def main():
                 len(lines(text, "WARNING: Fix w", "spheres have radius 0.5", "'scale 0.001' is not needed")) == 1)
     text = lmp.run_well(BOX + fix() + "run 0\n", folder)
     checks.fact("a floor of the script's units is not", not lines(text, "probably in"))
+    for name, command in (("Fix in insert/lsdcd", "fix in all insert/lsdcd mesh floor.stl scale {} massrate 1 diam one 0.3 dens 2\n"),
+                          ("Fix o massflow/lsdcd", "fix o all massflow/lsdcd mesh floor.stl scale {}\n")):
+        for scale, told in ((1000, 1), (1, 0)):
+            text = lmp.run_well(BOX + command.format(scale) + "run 0\nrun 0\n", folder)
+            checks.fact(f"{name} tells {told} times of a mesh with scale {scale}", told == len(lines(
+                text, f"WARNING: {name}", "far larger than the box", "add scale 0.001")), text[-600:])
+
+    # A turn is 6.28 radians.
+    for limits, told in (("0 90", 1), ("-3 3", 0)):
+        text = lmp.run_well(BOX + fix("body mass 1 com 0 0 0 inertia 1 1 1 0 0 0 joint hinge 0 0 0 0 1 0 limits " + limits) + "run 0\n", folder)
+        checks.fact(f"limits {limits} of a hinge are told {told} times", told == len(lines(text, "WARNING: Fix w", "of its hinge", "in radians")), text[-600:])
 
     # Atoms without a diameter have radius 0.5: the box and the mesh are small beside them.
     small = BOX.replace("block -3 3 -3 3 -1 5", "block -.06 .06 -.06 .06 -.02 .1").replace("2 2 4", "0 0 .02")

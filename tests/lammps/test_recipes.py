@@ -10,9 +10,11 @@ lines of the texts behind them. Beds of some hundred grains are chaotic: another
 differ by a tenth and the largest stress of a facet by more, so that numbers of them are compared to a half, and shares to ten
 per cent of the whole; numbers of one grain to a hundredth.
 """
+import base64
 import pathlib
 import re
 import shutil
+import struct
 import subprocess
 import sys
 
@@ -80,8 +82,28 @@ def explain_log(checks):
         checks.fact(f"{block}: the log has these lines", block.language == "text" and not missing, "; ".join(missing))
 
 
+def stress(checks):
+    """stress.py tells of files that it cannot use, and of facets that no grain has touched."""
+    folder = lmp.scratch()
+
+    def write(name, fields):
+        (folder / name).write_text("".join(
+            f'<DataArray type="{kind}" Name="{field}">{base64.b64encode(struct.pack(form, 0, *values)).decode()}</DataArray>\n'
+            for field, kind, form, values in fields))
+
+    places = [("points", "Float64", "<q9d", [0, 0, 1, 1, 0, 1, 0, 1, 1]), ("connectivity", "Int64", "<q3q", [0, 1, 2])]
+    write("a_10.vtp", [*places, ("normal_stress", "Float64", "<qd", [0])])
+    write("bare.vtp", places)
+    for words, code, told in ((["a_10.vtp"], 0, "a_10.vtp: 1 facets, all untouched\n"), (["a_10.vtp", "--below", "0.5"], 0, "a_10.vtp: no facet below 0.5\n"),
+                              (["a_20.vtp"], 2, "a_20.vtp is not there; . has a_10.vtp, bare.vtp\n"), (["bare.vtp"], 2, "no file of mesh_fields\n")):
+        done = subprocess.run([sys.executable, ROOT / "examples" / "tutorial" / "stress.py", *words], cwd=folder, text=True, capture_output=True)
+        checks.fact(f"stress.py {' '.join(words)}", done.returncode == code and (done.stdout + done.stderr).endswith(told), done.stdout + done.stderr)
+    shutil.rmtree(folder)
+
+
 def main():
     checks = lmp.Checks()
+    stress(checks)
     explain_log(checks)
     run_page(checks, "doc/recipes.md", 0.5)
     run_page(checks, "doc/choosing.md", 0.01)
