@@ -246,33 +246,62 @@ TEST(body_coat, two_bodies_have_the_restitution_that_is_set_whatever_their_masse
   }
 }
 
-// One spring k between masses M and m, or M and a wall.
+// One spring k and damper c = eta m' between masses M and m, whose reduced mass is m', or M and a wall: the rates k / m' and
+// c / m' = eta, and a step below 4 / (eta + sqrt(eta^2 + 4 k / m')).
 TEST(body_coat, a_timestep_at_which_its_contacts_would_be_unstable_is_refused)
 {
+  struct Row {
+    bool free;
+    Real eta, share;
+  };
+  std::vector<Row> rows;
   for (const bool free : {true, false})
-    for (const Real share : {0.99, 1.01}) {
-      FakeHost host;
-      MeshSpec under = cube({0, 0, -kSide / 2});
-      under.body.coat = CoatSpec();
-      under.body.present = free;
-      WallSpec spec = wall_of({under, cube({0, 0, 1 + kRadius - 1e-6})});
-      spec.meshes[1].mesh = welded(octahedron());
-      BodySpec &body = spec.meshes[1].body;
-      body.coat = {true, 5, kRadius};
-      body.density = 0;
-      body.mass = {1, {0, 0, 1 + kRadius}, {1, 1, 1, 0, 0, 0}};
-      body.load = {0, 0, -1};    // it stays in contact
-      body.joint = {JointKind::slider, {0, 0, 0}, {0, 0, 1}};
-      spec.meshes[0].body.joint = body.joint;
-      Scene scene(host, spec);
-      scene.dt = share * 2 / std::sqrt(kStiffness * (1 + (free ? 1 / kMass : 0)));
-      scene.set_up();
-      const std::string error = error_of_run(scene, 2);
-      EXPECT_EQ(error.empty(), share < 1) << error;
-      if (share > 1) {
-        EXPECT_NE(error.find("is not below"), std::string::npos) << error;
-      }
+    for (const Real eta : {0., 20.})
+      for (const Real share : {0.99, 1.01}) rows.push_back({free, eta, share});
+  for (const auto &[free, eta, share] : rows) {
+    FakeHost host;
+    MeshSpec under = cube({0, 0, -kSide / 2});
+    under.body.coat = CoatSpec();
+    under.body.present = free;
+    WallSpec spec = wall_of({under, cube({0, 0, 1 + kRadius - 1e-6})});
+    spec.laws.front().law.eta = eta;
+    spec.meshes[1].mesh = welded(octahedron());
+    BodySpec &body = spec.meshes[1].body;
+    body.coat = {true, 5, kRadius};
+    body.density = 0;
+    body.mass = {1, {0, 0, 1 + kRadius}, {1, 1, 1, 0, 0, 0}};
+    body.load = {0, 0, -1};    // it stays in contact
+    body.joint = {JointKind::slider, {0, 0, 0}, {0, 0, 1}};
+    spec.meshes[0].body.joint = body.joint;
+    Scene scene(host, spec);
+    const Real rate = kStiffness * (1 + (free ? 1 / kMass : 0));
+    scene.dt = share * 4 / (eta + std::sqrt(eta * eta + 4 * rate));
+    scene.set_up();
+    const std::string error = error_of_run(scene, 2);
+    EXPECT_EQ(error.empty(), share < 1) << error;
+    if (share > 1) {
+      EXPECT_NE(error.find("is not below"), std::string::npos) << error;
     }
+  }
+}
+
+// A cube on N points that stick: only their springs of friction, k each, act along its slider.
+TEST(body_coat, a_timestep_at_which_its_sliding_would_be_unstable_is_refused)
+{
+  for (const Real share : {0.99, 1.01}) {
+    FakeHost host;
+    WallSpec spec = wall_of({floor_at_0(), cube({0.3, 0.2, kSide / 2 + kRadius - 1e-6})});
+    ContactLaw &law = spec.laws.front().law;
+    law = classic_law(NormalModel::hooke, true);
+    law.k_normal = law.k_tangent = kStiffness;
+    law.mu = 0.5;
+    spec.meshes[1].body.joint = {JointKind::slider, {0, 0, 0}, {1, 0, 0}};
+    Scene scene(host, spec);
+    scene.dt = share * 2 * std::sqrt(kMass / (kPointsOfFace * kStiffness));
+    scene.set_up();
+    const std::string error = error_of_run(scene, 2);
+    EXPECT_EQ(error.empty(), share < 1) << error;
+  }
 }
 
 TEST(body_coat, is_refused_where_it_is_pressed_through_a_mesh)
@@ -282,6 +311,105 @@ TEST(body_coat, is_refused_where_it_is_pressed_through_a_mesh)
   scene.set_up();
   const std::string error = error_of_run(scene, 100);
   EXPECT_NE(error.find("goes through the other mesh"), std::string::npos) << error;
+}
+
+TEST(body_coat, warns_once_where_it_is_pressed_in_deep)
+{
+  FakeHost host;
+  Scene scene(host, wall_of({floor_at_0(), cube({0, 0, kSide / 2 + kRadius - 0.06})}));
+  scene.set_up();
+  scene.run(5);
+  EXPECT_EQ(std::count_if(host.warnings.begin(), host.warnings.end(),
+                          [](const std::string &w) {
+                            return w.find("is pressed in by") != std::string::npos;
+                          }),
+            1);
+}
+
+TEST(body_coat, feels_each_mesh_by_the_law_of_that_mesh)
+{
+  FakeHost host;
+  MeshSpec below = floor_at_0(), soft = floor_at_0();
+  below.placement.move({0, 0, -3});
+  soft.laws.resize(1);
+  soft.laws[0].law.k_normal = kStiffness / 2;
+  soft.laws[0].law.eta = 10;
+  WallSpec spec = wall_of({below, soft, cube({0.3, 0.2, kSide / 2 + kRadius + 0.01})});
+  spec.laws.front().law.eta = 10;
+  Scene scene(host, spec);
+  scene.gravity[2] = -kGravity;
+  scene.set_up();
+  scene.run(6000);
+  const Real sinks = kMass * kGravity / (kPointsOfFace * kStiffness / 2);
+  EXPECT_NEAR(scene.body(2).centre().z, kSide / 2 + kRadius - sinks, 1e-9);
+}
+
+// A floor that has gone as far as its coat's arm is long: the mobility is that at the point where the contact is now.
+TEST(body_coat, has_the_restitution_that_is_set_on_a_mesh_that_has_moved)
+{
+  const Real e = 0.6, drop = 0.3;
+  FakeHost host;
+  WallSpec spec = wall_of({floor_at_0(), cube({0, 0, 1 + kRadius + drop})});
+  ContactLaw &law = spec.laws.front().law;
+  law = granular_law(NormalModel::hooke);
+  law.k_normal = kStiffness;
+  law.damping = DampingModel::stiffness;
+  law.eta = restitution_damping(NormalModel::hooke, e);
+  MotionTerm term;
+  term.velocity = {10, 0, 0};
+  spec.meshes[0].motion.add(term);
+  spec.meshes[1].mesh = welded(octahedron());
+  BodySpec &body = spec.meshes[1].body;
+  body.coat = {true, 5, kRadius};
+  body.density = 0;
+  body.mass = {1, {0, 0, 1 + kRadius + drop}, {1, 1, 1, 0, 0, 0}};
+  body.velocity = {0, 0, -1};
+  Scene scene(host, spec);
+  scene.dt = 0.01 / std::sqrt(kStiffness);
+  scene.set_up();
+  scene.run(static_cast<int>(drop / scene.dt) + 1000);
+  EXPECT_NEAR(scene.body(1).velocity().z, e, 0.02);
+}
+
+// Both turn about one axis: no point moves along the floor, at the same time. Velocities of two times half a step apart
+// differ by dt/2 w^2 r, which the springs of friction would add up.
+TEST(body_coat, feels_no_friction_on_a_mesh_that_turns_as_it_does)
+{
+  const Real speed = 3;
+  FakeHost host;
+  WallSpec spec = wall_of({floor_at_0(), cube({1.5, 0.5, kSide / 2 + kRadius - 0.005})});
+  ContactLaw &law = spec.laws.front().law;
+  law = classic_law(NormalModel::hooke, true);
+  law.k_normal = law.k_tangent = kStiffness;
+  law.mu = 0.5;
+  MotionTerm term;
+  term.kind = MotionKind::rotate;
+  term.period = 2 * kPi / speed;
+  spec.meshes[0].motion.add(term);
+  BodySpec &body = spec.meshes[1].body;
+  body.joint = {JointKind::hinge, {0, 0, 0}, {0, 0, 1}};
+  body.omega = {0, 0, speed};
+  Scene scene(host, spec);
+  scene.set_up();
+  scene.run(100);
+  const Vec3 force = scene.wall->totals().mesh(0).force;
+  const Real pressed = kPointsOfFace * kStiffness * 0.005;
+  EXPECT_NEAR(force.z, -pressed, 1e-9);
+  EXPECT_LT(std::hypot(force.x, force.y), 1e-9 * pressed);
+}
+
+TEST(body_coat, is_carried_along_by_a_belt)
+{
+  FakeHost host;
+  WallSpec spec = wall_of({floor_at_0(), cube({0, 0, kSide / 2 + kRadius - 0.01})});
+  spec.laws.front().law = frictional();
+  spec.laws.front().law.gamma_tangent = 20;
+  spec.meshes[0].surface.velocity = {0.5, 0, 0};
+  Scene scene(host, spec);
+  scene.gravity[2] = -kGravity;
+  scene.set_up();
+  scene.run(3000);
+  EXPECT_NEAR(scene.body(1).velocity().x, 0.5, 0.05);
 }
 
 TEST(body_coat, slides_and_sticks_with_the_same_bits_after_a_saved_state)
@@ -321,6 +449,27 @@ TEST(body_coat, begins_without_springs_where_the_saved_ones_are_of_another_coat)
   second.wall->restore(first.wall->save(), {2, second.dt});
   ASSERT_EQ(other.warnings.size(), 1u);
   EXPECT_NE(other.warnings[0].find("springs of its coat begin anew"), std::string::npos);
+}
+
+TEST(body_coat, loses_springs_on_a_mesh_that_is_another_one)
+{
+  WallSpec spec = wall_of({floor_at_0(), cube({0, 0, kSide / 2 + kRadius - 0.005})});
+  spec.laws.front().law = frictional();
+  FakeHost host, other;
+  Scene first(host, spec);
+  first.set_up();
+  first.run(2);
+  spec.meshes[0] = floor_at_0(12);
+  Scene second(other, spec);
+  second.now = 2;
+  second.wall->restore(first.wall->save(), {2, second.dt});
+  second.set_up();
+  EXPECT_EQ(std::count_if(other.warnings.begin(), other.warnings.end(),
+                          [](const std::string &w) {
+                            return w.find("points of its coat lose their springs") !=
+                                   std::string::npos;
+                          }),
+            1);
 }
 
 TEST(body_coat, has_the_same_bits_on_any_number_of_processes)

@@ -71,6 +71,32 @@ TEST(mesh_body, falls_by_the_acceleration_of_the_host)
   EXPECT_NEAR(scene.body().centre().z, -0.5 * 9.81 * std::pow(100 * kDt, 2), 1e-14);
 }
 
+TEST(mesh_body, falls_by_its_own_acceleration_where_it_has_one)
+{
+  FakeHost host;
+  WallSpec spec = cube();
+  spec.meshes[0].body.has_gravity = true;
+  spec.meshes[0].body.gravity = {0, 0, -2};
+  Scene scene(host, spec);
+  scene.gravity[2] = -9.81;
+  scene.set_up();
+  scene.run(100);
+  EXPECT_NEAR(scene.body().velocity().z, -2 * 100 * kDt, 1e-13);
+}
+
+// About a principal axis: omega = T t / I.
+TEST(mesh_body, is_turned_by_its_moment)
+{
+  FakeHost host;
+  WallSpec spec = cube();
+  spec.meshes[0].body.moment = {0, 3, 0};
+  Scene scene(host, spec);
+  scene.set_up();
+  scene.run(100);
+  const Real inertia = std::pow(kSide, 3) * kSide * kSide / 6;
+  EXPECT_NEAR(scene.body().omega().y, 3 * 100 * kDt / inertia, 1e-13);
+}
+
 // A unit of force of 1/ftm2v mass length / time^2.
 TEST(mesh_body, takes_the_units_of_the_host)
 {
@@ -154,6 +180,38 @@ TEST(mesh_body, refuses_a_timestep_at_which_sphere_and_body_would_be_unstable)
     scene.add({0, 0, kSide / 2 + kRadius - 1e-6});    // it stays: the test does not move it
     scene.set_up();
     const std::string error = error_of_run(scene, share * longest);
+    EXPECT_EQ(error.empty(), share < 1) << error;
+  }
+}
+
+// Leapfrog on a spring K of mass M is stable below 2 sqrt(M / K).
+TEST(mesh_body, refuses_a_timestep_at_which_its_spring_would_be_unstable)
+{
+  WallSpec spec = cube({JointKind::slider, {0, 0, 0}, {0, 0, 1}});
+  spec.meshes[0].body.drive.stiffness = 1e4;
+  for (const Real share : {0.99, 1.01}) {
+    FakeHost host;
+    Scene scene(host, spec);
+    scene.set_up();
+    const std::string error = error_of_run(scene, share * 2 * std::sqrt(8 / 1e4));
+    EXPECT_EQ(error.empty(), share < 1) << error;
+  }
+}
+
+// A heavy sphere that sticks to a body which slides: only the spring of friction, k, acts along the slider.
+TEST(mesh_body, refuses_a_timestep_at_which_its_sliding_would_be_unstable)
+{
+  WallSpec spec = cube({JointKind::slider, {0, 0, 0}, {1, 0, 0}});
+  spec.laws.front().law = classic_law(NormalModel::hooke, true);
+  spec.laws.front().law.k_normal = spec.laws.front().law.k_tangent = kStiffness;
+  spec.laws.front().law.mu = 0.5;
+  for (const Real share : {0.99, 1.01}) {
+    FakeHost host;
+    Scene scene(host, spec);
+    scene.add({0, 0, kSide / 2 + kRadius - 1e-6});
+    scene.mass[0] = 1e9;
+    scene.set_up();
+    const std::string error = error_of_run(scene, share * 2 * std::sqrt(8 / kStiffness));
     EXPECT_EQ(error.empty(), share < 1) << error;
   }
 }

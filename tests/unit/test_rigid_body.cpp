@@ -210,11 +210,21 @@ TEST(hinge, bears_two_and_a_half_weights_at_the_bottom)
   EXPECT_NEAR(most / kG, 2.5, 1e-4);
 }
 
-// Free of its hinge it would fall as the reaction says: F + reaction = M a, from differences of velocities.
+// Free of its hinge it would fall as the reaction says: F + reaction = M a, from differences of velocities. Spring, damper
+// and motor of the joint act beside it.
 TEST(reaction, is_what_keeps_each_joint)
 {
   for (const Joint &joint : kJoints) {
     RigidBody body = moving(joint);
+    Vec3 push = {0, 0, 0}, turn = {0, 0, 0};
+    if (joint.has_coordinate()) {
+      body.drive.stiffness = 2;
+      body.drive.rest = 0.3;
+      body.drive.damping = 0.7;
+      body.drive.motor = 0.4;
+      const Real driven = 0.4 - 2 * (body.coordinate() - 0.3) - 0.7 * body.rate();
+      (joint.kind == JointKind::hinge ? turn : push) = driven * joint.axis;
+    }
     const Wrench load = {{0.3, 0.2, -5}, {0.1, -0.7, 0.2}};
     const Real h = 1e-5;
     const Wrench r = body.reaction(load);
@@ -229,8 +239,9 @@ TEST(reaction, is_what_keeps_each_joint)
                spin = 1 / (2 * h) * (after.angular_momentum() - before.angular_momentum());
     const Vec3 arm = body.centre() - body.pivot();
     // A central difference has an error of h^2, 1e-10, and a rounding of 1e-16 / h.
-    EXPECT_LT(norm(load.force + r.force - body.mass().mass * a), 1e-8);
-    EXPECT_LT(norm(load.torque_about(body.centre()) + r.torque - cross(arm, r.force) - spin), 1e-8);
+    EXPECT_LT(norm(load.force + push + r.force - body.mass().mass * a), 1e-8);
+    EXPECT_LT(norm(load.torque_about(body.centre()) + turn + r.torque - cross(arm, r.force) - spin),
+              1e-8);
   }
 }
 
@@ -427,6 +438,21 @@ TEST(rigid_body, goes_on_in_another_joint_without_a_jump)
     EXPECT_LT(norm(body.omega() - Vec3{0, 0, 3}), 1e-14);
     for (int n = 0; n < 10; n++) body.drift(0.01);
   }
+}
+
+// As after a restart with another mass: each place of the mesh is where it was and has the velocity that it had.
+TEST(rigid_body, goes_on_with_another_centre_of_mass_without_a_jump)
+{
+  RigidBody body(block(2, {0.5, 0.7, 0.9}, {0.1, 0.2, 0.3}), Joint());
+  body.set_velocity({1, -2, 0.5}, {0.3, -0.4, 3});
+  for (int n = 0; n < 100; n++) body.drift(0.01);
+  RigidBody next(block(3, {1, 1.2, 0.8}, {-0.4, 0.1, 0.2}), Joint());
+  next.begin_from(body);
+  const Pose was = body.pose(), is = next.pose();
+  EXPECT_LT(norm(is.shift - was.shift), 1e-14);
+  EXPECT_LT(norm(is.row[0] - was.row[0]), 1e-14);
+  EXPECT_LT(norm(is.velocity - was.velocity), 1e-14);
+  EXPECT_LT(norm(is.angular - was.angular), 1e-14);
 }
 
 TEST(rigid_body, refuses_a_velocity_that_its_joint_does_not_allow)
