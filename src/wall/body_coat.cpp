@@ -73,7 +73,7 @@ BodyCoat::BodyCoat(Host &host, const WallSpec &wall, int mesh, const MeshGrid &g
   radii_.assign(n, radius_);
   // On a mesh that is no body a point is so heavy that damping sees the mobility of this body alone.
   constexpr Real kHeavy = 1e9;
-  heavy_ = kHeavy * wall.meshes[mesh].body.mass.mass;
+  heavy_ = kHeavy * body_mass();
   masses_.assign(n, heavy_);
 
   for (int k = 0; k < static_cast<int>(wall.meshes.size()); k++)
@@ -191,16 +191,26 @@ void BodyCoat::step(const std::deque<MeshPart> &meshes, const Step &step,
   check_depth();
 }
 
+// Do joints hold what touches along the normal? A free body gives way by 1/mass at least.
+bool BodyCoat::is_held(Real gives_way) const
+{
+  constexpr Real kHeld = 0.1;
+  return gives_way < kHeld / body_mass();
+}
+
 // Damping takes 1/mass + n.K n, with K of this body. The mass of a point on another body is its 1/(n.K n), for the normal
-// that a first look at the contacts gives: that of the strongest, where a point has several.
+// that a first look at the contacts gives: that of the strongest, where a point has several. Where joints hold both along
+// the normal, damping takes the mass of this body: it is for what moves along the surface.
 void BodyCoat::take_masses(const std::deque<MeshPart> &meshes, const Spheres &s,
                            const StepSettings &want)
 {
   for (const int i : lighter_) masses_[i] = heavy_;
   lighter_.clear();
-  const bool any_body =
-      std::any_of(others_.begin(), others_.end(), [&](int k) { return meshes[k].body != nullptr; });
-  if (!any_body || engine_->n_candidates() == 0) return;
+  const MeshPart &own = meshes[mesh_];
+  const bool has_joint = own.body->body().joint().kind != JointKind::free,
+             any_body = std::any_of(others_.begin(), others_.end(),
+                                    [&](int k) { return meshes[k].body != nullptr; });
+  if ((!any_body && !has_joint) || engine_->n_candidates() == 0) return;
   StepSettings look = want;
   look.update_history = false;
   engine_->step(s, look);
@@ -211,11 +221,18 @@ void BodyCoat::take_masses(const std::deque<MeshPart> &meshes, const Spheres &s,
     for (int n = 0; n < static_cast<int>(engine_->sphere_output()[k].contacts); n++, record++) {
       const MeshPart &other = meshes[others_[record->mesh]];
       const Real distance = norm(record->arm);
-      if (!other.body || !(distance > 0) || !(record->normal > strongest)) continue;
+      if (!(other.body || has_joint) || !(distance > 0) || !(record->normal > strongest)) continue;
       strongest = record->normal;
       const Vec3 at = other.motion.pose().to_mesh(x_[i]) - record->arm;
-      const Real gives_way = other.body->mobility().along(at, 1 / distance * record->arm);
-      masses_[i] = 1 / (1 / heavy_ + gives_way);
+      const Real gives_way =
+          other.body ? other.body->mobility().along(at, 1 / distance * record->arm) : 0;
+      masses_[i] = other.body ? 1 / (1 / heavy_ + gives_way) : heavy_;
+      if (!has_joint) continue;
+      const Pose &there = other.motion.pose(), &here = own.motion.pose();
+      const Real gives = own.body->mobility().along(
+          here.to_mesh(there.to_box(at)),
+          here.turn_to_mesh(there.turn_to_box(1 / distance * record->arm)));
+      if (is_held(gives + gives_way)) masses_[i] = 1 / (1 / body_mass() - gives);
     }
     if (masses_[i] != heavy_) lighter_.push_back(i);
   }
@@ -265,7 +282,7 @@ void BodyCoat::add_stiffness(const std::deque<MeshPart> &meshes, std::vector<Coa
       };
       Real yields = gives(own, own_gives, normal);
       if (other.body) yields += gives(other, other.body->mobility_to_forces(), normal);
-      const Real mass = 1 / (1 / heavy_ + yields / force_);
+      const Real mass = is_held(yields / force_) ? body_mass() : 1 / (1 / heavy_ + yields / force_);
       const ContactSlopes slope =
           contact_slopes(laws_[record->mesh], std::max<Real>(0, radius_ - distance), radius_, mass);
       const auto add = [&](const MeshPart &m, const Vec3 &direction, const ContactSlope &of) {

@@ -48,6 +48,8 @@ class BodyCoat {
 
  private:
   const CoatSpec &spec() const { return wall_.meshes[mesh_].body.coat; }
+  Real body_mass() const { return wall_.meshes[mesh_].body.mass.mass; }
+  bool is_held(Real gives_way) const;
   std::string named(const std::string &text) const;
   void place(const Pose &pose, Real back);
   Spheres spheres();

@@ -398,6 +398,26 @@ TEST(body_coat, feels_no_friction_on_a_mesh_that_turns_as_it_does)
   EXPECT_LT(std::hypot(force.x, force.y), 1e-9 * pressed);
 }
 
+// The joint holds it along the normal, where n.K n is 0. Dampers of N points, gamma M each, stop its slide.
+TEST(body_coat, slides_on_its_joint_against_dampers_that_take_its_mass)
+{
+  FakeHost host;
+  WallSpec spec = wall_of({floor_at_0(), cube({0, 0, kSide / 2 + kRadius - 0.005}, {0.1, 0, 0})});
+  ContactLaw &law = spec.laws.front().law;
+  law = classic_law(NormalModel::hooke, false);
+  law.k_normal = kStiffness;
+  law.eta = 20;
+  law.gamma_tangent = 0.05;
+  law.mu = 10;
+  spec.meshes[1].body.joint = {JointKind::slider, {0, 0, 0}, {1, 0, 0}};
+  Scene scene(host, spec);
+  scene.set_up();
+  scene.run(1000);
+  // Leapfrog with a damper that lags is off by half a step of its rate, 3e-4, times the time.
+  const Real rate = kPointsOfFace * 0.05;
+  EXPECT_NEAR(scene.body(1).velocity().x / 0.1, std::exp(-rate * 1000 * scene.dt), 1e-3);
+}
+
 TEST(body_coat, is_carried_along_by_a_belt)
 {
   FakeHost host;
