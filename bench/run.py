@@ -13,9 +13,9 @@ accuracy.py), effects doc/effects.md (effects.py), hard-cases doc/hard_cases.md
 (hard_cases.py). Four compare, also into doc/performance.md: kokkos times steps of a LAMMPS with
 Kokkos (kokkos.py), liggghts our wall against LIGGGHTS's (liggghts.py), floor a mesh against a flat
 plane (floor.py), mesh-size the same contacts with 1e2 to 1e7 triangles (mesh_size.py). run.py
-NAME --words lists the words of the first three. Three print their rows and write no document: turning times
+NAME --words lists the words of the first three. Four print their rows and write no document: turning times
 spheres that a turning wall carries along or leaves behind, cells steps by the length of cells, sides on which side of
-a closed mesh points are. region times a mesh against fix
+a closed mesh points are, nodes a rigid sheet and one whose nodes move, on one core. region times a mesh against fix
 wall/gran/region (region.py) and prints its table.
 
 Rows of the four are kept in doc/data/performance_DEVICE.csv (performance.py). Further words
@@ -45,7 +45,7 @@ DOCUMENTS = {"accuracy": [tradeoff.main, accuracy.main], "effects": [effects.mai
 COMPARISONS = {"kokkos": kokkos.main, "liggghts": liggghts.main, "floor": floor.main,
                "mesh-size": mesh_size.main}
 
-PRINTED = ["turning", "cells", "sides"]
+PRINTED = ["turning", "cells", "sides", "nodes"]
 # Its rows are kept, and printed for doc/other-walls.md.
 PEERS = {"region": region.main}
 
@@ -54,7 +54,8 @@ def print_rows(name, args, rest):
     """Runs one of PRINTED with its own words; returns its exit status."""
     words = ["--device", args.only] if args.only else []
     words += ["--quick"] if args.quick else []
-    return subprocess.run([os.path.join(args.build, "bin", "bench_" + name), *words, *rest]).returncode
+    env = {**os.environ, "OMP_NUM_THREADS": "1"} if name == "nodes" else None
+    return subprocess.run([os.path.join(args.build, "bin", "bench_" + name), *words, *rest], env=env).returncode
 
 
 def main():

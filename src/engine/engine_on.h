@@ -156,6 +156,11 @@ class EngineOn : public WallEngine {
   }
   int n_records() const override { return static_cast<int>(results_.records().size()); }
   const ContactRecord *records() const override { return results_.records().data(); }
+  void visit_contacts(const VisitContact &visit) const override
+  {
+    if constexpr (!B::kOnHost) return WallEngine::visit_contacts(visit);
+    results_.visit_contacts(springs_.records(step_.update_history), visit);
+  }
   int n_candidates() const override { return static_cast<int>(broad_phase_.n()); }
 
   StepDiagnostics read_diagnostics() override

@@ -98,6 +98,15 @@ class StepResults {
   const std::vector<Real> &sphere_heat() const { return sphere_heat_; }
   const std::vector<ContactRecord> &records() const { return records_; }
 
+  // Where a host can read them: the same records in their pool.
+  template <class Visit>
+  void visit_contacts(const ContactRecord *records, const Visit &visit) const
+  {
+    for (std::size_t k = 0; k < n_; k++)
+      for (int c = 0; c < n_contacts_.data()[k]; c++)
+        visit(candidates_ ? candidates_[k] : static_cast<int>(k), records[slot_.data()[k] + c]);
+  }
+
   // Totals of the last step, summed on first request.
   const WallTotals &totals(B &b)
   {

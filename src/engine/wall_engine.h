@@ -255,6 +255,14 @@ class WallEngine {
   virtual int n_records() const = 0;
   virtual const ContactRecord *records() const = 0;
 
+  // Visits the same records where they are, without a copy: visit(sphere, record). Only for engines whose settings have
+  // nodes; step.records need not be set.
+  using VisitContact = std::function<void(int, const ContactRecord &)>;
+  virtual void visit_contacts(const VisitContact &) const
+  {
+    throw std::logic_error("nodes move on a CPU only");
+  }
+
   // Throws InputError if a sphere had to be left out of a step, too large or with more contacts than
   // there is memory for, or if one grew after the choice. Begins anew.
   virtual StepDiagnostics read_diagnostics() = 0;

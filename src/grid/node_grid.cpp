@@ -61,8 +61,8 @@ constexpr Real kRounding = 1e-9;
 
 }    // namespace
 
-// Cells are as long as a sphere is wide, or longer where the mesh has large triangles or is large: lists and
-// tables stay of the size of the mesh.
+// Cells are twice as long as they reach, which keeps builds short and lists too, or longer where the mesh has large
+// triangles or is large: lists and tables stay of the size of the mesh.
 void NodeGrid::plan(const WeldedMesh &mesh, const MeshFeatures &features)
 {
   Box box = {mesh.vertices.front(), mesh.vertices.front()};
@@ -74,7 +74,7 @@ void NodeGrid::plan(const WeldedMesh &mesh, const MeshFeatures &features)
   const Real reach = cutoff_ + allowance_ + tolerance_;
   constexpr double kMostCells = 48;    // that a primitive reaches, in the mean
   const auto n = static_cast<double>(features.primitives.size());
-  for (length_ = cutoff_ + allowance_;; length_ *= 2) {
+  for (length_ = 2 * (cutoff_ + allowance_);; length_ *= 2) {
     const Real pad = reach * (1 + kRounding) + Real(0.01) * length_;
     origin_ = box.lo - Vec3{pad, pad, pad};
     double table = 1;
@@ -106,10 +106,7 @@ void NodeGrid::build(const WeldedMesh &mesh, const MeshFeatures &features, Real 
   const Real reach = (cutoff_ + allowance_ + tolerance_) * (1 + kRounding) + kRounding * length_,
              half = Real(0.5) * length_;
 
-  // Visits the cells that a primitive may reach: visit(slot of the brick, cell in the brick, bound).
-  const auto for_cells = [&](FeatureCode code, const auto &visit) {
-    const Corners c = corners_of(mesh, code);
-    const Box box = bounds_of(c);
+  const auto range_of = [&](const Box &box) {
     CellRange cells;
     for (int d = 0; d < 3; d++) {
       const Real n = Real(n_bricks_[d]) * kBrickSide;
@@ -118,6 +115,17 @@ void NodeGrid::build(const WeldedMesh &mesh, const MeshFeatures &features, Real 
       cells.hi[d] = static_cast<std::int32_t>(
           std::clamp(std::floor((box.hi[d] + reach - origin_[d]) / length_) + 1, Real(0), n));
     }
+    return cells;
+  };
+  const auto slot_of = [&](std::int32_t i, std::int32_t j, std::int32_t k) {
+    return (static_cast<std::size_t>(k) * n_bricks_[1] + j) * n_bricks_[0] + i;
+  };
+  // Visits the cells that a primitive may reach: visit(slot of the brick, cell in the brick, off, box, centre), where the
+  // centre of the cell is `off` the plane of a face.
+  const auto for_cells = [&](FeatureCode code, const auto &visit) {
+    const Corners c = corners_of(mesh, code);
+    const Box box = bounds_of(c);
+    const CellRange cells = range_of(box);
     const bool is_face = c.n == 3;
     const FaceRecord *face = is_face ? &features.faces[feature_index(code)] : nullptr;
     const Vec3 normal = is_face ? face->normal : Vec3{0, 0, 0};
@@ -127,27 +135,29 @@ void NodeGrid::build(const WeldedMesh &mesh, const MeshFeatures &features, Real 
       for (std::int32_t j = cells.lo[1]; j < cells.hi[1]; j++)
         for (std::int32_t i = cells.lo[0]; i < cells.hi[0]; i++) {
           const Vec3 centre = origin_ + length_ * Vec3{i + Real(0.5), j + Real(0.5), k + Real(0.5)};
-          const Real off_plane = is_face ? std::fabs(dot(normal, centre - face->anchor)) : 0;
-          if (off_plane > reach + half_across) continue;
-          const std::size_t slot =
-              (static_cast<std::size_t>(k >> 3) * n_bricks_[1] + (j >> 3)) * n_bricks_[0] +
-              (i >> 3);
-          const int cell = (k & 7) << 6 | (j & 7) << 3 | (i & 7);
-          visit(slot, cell, std::max(off_plane, distance_to(box, centre)));
+          const Real off = is_face ? std::fabs(dot(normal, centre - face->anchor)) : 0;
+          if (off > reach + half_across) continue;
+          visit(slot_of(i >> 3, j >> 3, k >> 3), (k & 7) << 6 | (j & 7) << 3 | (i & 7), off, box,
+                centre);
         }
   };
 
-  // Bricks in the order of their slots.
+  // Bricks in the order of their slots; some that bounds alone reach have no cells.
   lists_.brick_of.assign(std::size_t(n_bricks_[0]) * n_bricks_[1] * n_bricks_[2], -1);
-  for (const FeatureCode code : features.primitives)
-    for_cells(code, [&](std::size_t slot, int, Real) { lists_.brick_of[slot] = 0; });
+  for (const FeatureCode code : features.primitives) {
+    const CellRange cells = range_of(bounds_of(corners_of(mesh, code)));
+    for (std::int32_t k = cells.lo[2] >> 3; k << 3 < cells.hi[2]; k++)
+      for (std::int32_t j = cells.lo[1] >> 3; j << 3 < cells.hi[1]; j++)
+        for (std::int32_t i = cells.lo[0] >> 3; i << 3 < cells.hi[0]; i++)
+          lists_.brick_of[slot_of(i, j, k)] = 0;
+  }
   std::int32_t n_bricks = 0;
   for (std::int32_t &brick : lists_.brick_of)
     if (brick == 0) brick = n_bricks++;
 
   count_.assign(std::size_t(n_bricks) * kBrickCells, 0);
   for (const FeatureCode code : features.primitives)
-    for_cells(code, [&](std::size_t slot, int cell, Real) {
+    for_cells(code, [&](std::size_t slot, int cell, Real, const Box &, const Vec3 &) {
       count_[std::size_t(lists_.brick_of[slot]) * kBrickCells + cell]++;
     });
 
@@ -176,7 +186,7 @@ void NodeGrid::build(const WeldedMesh &mesh, const MeshFeatures &features, Real 
   // From here on a cell's count is that of its candidates that are there.
   std::fill(count_.begin(), count_.end(), 0);
   for (const FeatureCode code : features.primitives)
-    for_cells(code, [&](std::size_t slot, int cell, Real bound) {
+    for_cells(code, [&](std::size_t slot, int cell, Real off, const Box &box, const Vec3 &centre) {
       const std::int32_t b = lists_.brick_of[slot];
       const BrickLayer &layer = lists_.bricks[b].layer[cell >> 6];
       const std::uint64_t before = layer.mask & ((std::uint64_t(1) << (cell & 63)) - 1);
@@ -187,6 +197,7 @@ void NodeGrid::build(const WeldedMesh &mesh, const MeshFeatures &features, Real 
         return;
       }
       const std::uint32_t at = to.first + count_[std::size_t(b) * kBrickCells + cell]++;
+      const Real bound = std::max(off, distance_to(box, centre));
       // Rounded down, and less by what the nodes may go.
       const Real least = bound - allowance_ - kRounding * (bound + length_);
       lists_.candidates[at] = {code, static_cast<float>(least - Real(1e-6) * std::fabs(least))};

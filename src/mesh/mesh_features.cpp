@@ -111,7 +111,8 @@ bool is_straight(const Vec3 *direction, int n)
   if (n > kTooMany) return false;
   for (int i = 0; i < n; i++)
     for (int j = i + 1; j < n; j++)
-      if (dot(direction[i], direction[j]) < 0 && norm(direction[i] + direction[j]) <= kFlat)
+      if (dot(direction[i], direction[j]) < Real(-0.5) &&
+          norm(direction[i] + direction[j]) <= kFlat)
         return true;
   return false;
 }
@@ -128,12 +129,11 @@ std::size_t n_past_second(const WeldedMesh &mesh, std::size_t edge)
   return n > 2 ? static_cast<std::size_t>(n - 2) : 0;
 }
 
-// `others` gets the inward normals of the faces past the second; `more` of the record is left to the caller.
-EdgeRecord edge_record(const WeldedMesh &mesh, const std::vector<FaceRecord> &faces, std::size_t i,
-                       Vec3 *others)
+// The inward normals of the faces of edge i; `others` gets those of the faces past the second.
+void put_inward(const WeldedMesh &mesh, const std::vector<FaceRecord> &faces, std::size_t i,
+                EdgeRecord &e, Vec3 *others)
 {
-  const auto &ends = mesh.edges[i];
-  EdgeRecord e = make_edge(mesh.vertices[ends[0]], mesh.vertices[ends[1]]);
+  e.n_faces = 0;
   for (int k = mesh.edge_first[i]; k < mesh.edge_first[i + 1]; k++) {
     const int face = mesh.edge_face[k];
     int side = 0;
@@ -145,7 +145,33 @@ EdgeRecord edge_record(const WeldedMesh &mesh, const std::vector<FaceRecord> &fa
       *others++ = inward;
     e.n_faces++;
   }
+}
+
+// `others`: as above; `more` of the record is left to the caller.
+EdgeRecord edge_record(const WeldedMesh &mesh, const std::vector<FaceRecord> &faces, std::size_t i,
+                       Vec3 *others)
+{
+  const auto &ends = mesh.edges[i];
+  EdgeRecord e = make_edge(mesh.vertices[ends[0]], mesh.vertices[ends[1]]);
+  put_inward(mesh, faces, i, e, others);
   return e;
+}
+
+// The segment of an edge that moves; `keeps` its direction and length.
+void put_moving_edge(const Vec3 &a, const Vec3 &b, bool keeps, EdgeRecord &e)
+{
+  e.anchor = a;
+  if (keeps) return;
+  const Vec3 d = b - a;
+  const Real sq = norm_sq(d);
+  if (!(sq > 1e-200 && sq < 1e200)) {    // squares leave the range
+    const EdgeRecord made = make_edge(a, b);
+    e.direction = made.direction;
+    e.length = made.length;
+    return;
+  }
+  e.length = std::sqrt(sq);
+  e.direction = (1 / e.length) * d;
 }
 
 Vec3 outward_of_edge(const WeldedMesh &mesh, const std::vector<FaceRecord> &faces, std::size_t i)
@@ -244,6 +270,30 @@ void check_numbers(const WeldedMesh &mesh)
       mesh.vertices.size() > kMaxFeatures)
     throw InputError(mesh.source + ": " + std::to_string(mesh.edges.size()) + " edges, at most " +
                      std::to_string(kMaxFeatures) + " can be used; coarsen the mesh");
+}
+
+// A face that is far from thin keeps its digits in Real. Its sides are at most longest, and twice its area at least
+// kThick longest^2: the rounding of the normal is below 4 kRoundoff/kThick, 2e-14, which is a fifth of kFlat.
+constexpr Real kThick = 0.05;
+
+// The record of a face that moves, by the formulas of face_record() in Real. False: it is too thin, or its squares may
+// leave the range. `far`: no coordinate is larger.
+bool put_thick_face(const Vec3 &a, const Vec3 &b, const Vec3 &c, Real far, FaceRecord &f)
+{
+  const Vec3 edge[3] = {b - a, c - b, a - c}, area = cross(edge[0], edge[1]);
+  const Real sq[3] = {norm_sq(edge[0]), norm_sq(edge[1]), norm_sq(edge[2])},
+             longest_sq = std::max(sq[0], std::max(sq[1], sq[2])), area_sq = norm_sq(area);
+  constexpr Real kTiny = 1e-200, kHuge = 1e200;
+  // It has an area, too, as has_area() asks for: the second test is that its height is above 8 kRoundoff far.
+  if (!(area_sq >= kThick * kThick * (longest_sq * longest_sq) &&
+        area_sq >= 64 * kRoundoff * kRoundoff * (far * far) * longest_sq && area_sq > kTiny &&
+        area_sq < kHuge))
+    return false;
+  f.anchor = a;
+  f.normal = (1 / std::sqrt(area_sq)) * area;
+  for (int k = 0; k < 3; k++) f.inward[k] = (1 / std::sqrt(sq[k])) * cross(f.normal, edge[k]);
+  f.height = -dot(f.inward[1], edge[0]);
+  return true;
 }
 
 // The same test as that of welding: thinner than the rounding of its corners a face has no normal.
@@ -362,7 +412,9 @@ MeshFeatures make_moving_features(const WeldedMesh &mesh, bool with_sides)
   out.edges.resize(n_edges);
   std::uint32_t more = 0;
   for (std::size_t i = 0; i < n_edges; i++) {
-    out.edge_vertex.push_back({{mesh.edges[i][0], mesh.edges[i][1]}});
+    const auto &ends = mesh.edges[i];
+    out.edge_vertex.push_back({{ends[0], ends[1]}});
+    out.edges[i] = make_edge(mesh.vertices[ends[0]], mesh.vertices[ends[1]]);
     out.edges[i].more = more;
     more += static_cast<std::uint32_t>(n_past_second(mesh, i));
   }
@@ -372,6 +424,7 @@ MeshFeatures make_moving_features(const WeldedMesh &mesh, bool with_sides)
   std::vector<bool> has_face(n_vertices, false);
   for (std::size_t f = 0; f < n_faces; f++) {
     const auto &c = mesh.faces[f];
+    out.faces[f] = make_face_record(mesh.vertices[c[0]], mesh.vertices[c[1]], mesh.vertices[c[2]]);
     out.face_vertex.push_back({{c[0], c[1], c[2]}});
     out.primitives.push_back(feature_code(FeatureKind::face, static_cast<std::uint32_t>(f)));
     for (const int v : c) has_face[v] = true;
@@ -384,33 +437,46 @@ MeshFeatures make_moving_features(const WeldedMesh &mesh, bool with_sides)
   for (std::size_t i = 0; i < n_vertices; i++)
     if (!has_face[i])
       out.primitives.push_back(feature_code(FeatureKind::vertex, static_cast<std::uint32_t>(i)));
-  update_features(mesh, with_sides, out);
+  update_features(mesh, mesh.vertices, with_sides, out);
   return out;
 }
 
-void update_features(const WeldedMesh &mesh, bool with_sides, MeshFeatures &out)
+void update_features(const WeldedMesh &mesh, const std::vector<Vec3> &before, bool with_sides,
+                     MeshFeatures &out)
 {
   const auto n_faces = static_cast<std::int64_t>(mesh.faces.size()),
              n_edges = static_cast<std::int64_t>(mesh.edges.size()),
              n_vertices = static_cast<std::int64_t>(mesh.vertices.size());
   std::int64_t thin = n_faces;    // the first face without area
   std::vector<char> edge_acts(n_edges), vertex_acts(n_vertices);
+  Real far = 0;    // the largest coordinate
+  for (const Vec3 &x : mesh.vertices)
+    far = std::max({far, std::fabs(x.x), std::fabs(x.y), std::fabs(x.z)});
+  const auto keeps = [&](int from, int to) {
+    return mesh.vertices[to] - mesh.vertices[from] == before[to] - before[from];
+  };
 #pragma omp parallel num_threads(threads()) if (n_faces > 1024)
   {
 #pragma omp for schedule(static) reduction(min : thin)
     for (std::int64_t f = 0; f < n_faces; f++) {
       const auto &c = mesh.faces[f];
       const Vec3 &a = mesh.vertices[c[0]], &b = mesh.vertices[c[1]], &d = mesh.vertices[c[2]];
+      if (keeps(c[0], c[1]) && keeps(c[0], c[2])) {
+        out.faces[f].anchor = a;
+        continue;
+      }
+      if (put_thick_face(a, b, d, far, out.faces[f])) continue;
       out.faces[f] = make_face_record(a, b, d);
       if (!has_area(a, b, d)) thin = std::min(thin, f);
     }
 #pragma omp for schedule(static)
     for (std::int64_t i = 0; i < n_edges; i++) {
-      const std::uint32_t more = out.edges[i].more;
-      out.edges[i] = edge_record(mesh, out.faces, i, out.edge_inward.data() + more);
-      out.edges[i].more = more;
+      EdgeRecord &e = out.edges[i];
+      const auto &ends = mesh.edges[i];
+      put_moving_edge(mesh.vertices[ends[0]], mesh.vertices[ends[1]], keeps(ends[0], ends[1]), e);
+      put_inward(mesh, out.faces, i, e, out.edge_inward.data() + e.more);
       if (with_sides) out.edge_out[i] = outward_of_edge(mesh, out.faces, i);
-      edge_acts[i] = !is_flat(out.edges[i]);
+      edge_acts[i] = !is_flat(e);
     }
 #pragma omp for schedule(static)
     for (std::int64_t i = 0; i < n_vertices; i++) {

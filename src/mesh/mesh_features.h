@@ -43,8 +43,10 @@ MeshFeatures make_features(const WeldedMesh &mesh, bool with_sides, bool with_pr
 // Which do now, face_parts says, and grids sort `primitives`.
 MeshFeatures make_moving_features(const WeldedMesh &mesh, bool with_sides);
 
-// The same for other places of the vertices, by the formulas of make_features(). Throws InputError where a face
-// has no area.
-void update_features(const WeldedMesh &mesh, bool with_sides, MeshFeatures &features);
+// The same for other places of the vertices, which were at `before` at the last call. A face or edge that has only
+// been shifted keeps its record to the last bit; the others get theirs by the formulas of make_features() in Real,
+// where that keeps the digits of a normal. Throws InputError where a face has no area.
+void update_features(const WeldedMesh &mesh, const std::vector<Vec3> &before, bool with_sides,
+                     MeshFeatures &features);
 
 }    // namespace lsdcd

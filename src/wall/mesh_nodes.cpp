@@ -48,26 +48,48 @@ struct FaceTurn {
     const Vec3 e0 = b0 - a0, f0 = c0 - a0, e1 = b1 - a1, f1 = c1 - a1;
     is_none = e0 == e1 && f0 == f1;
     if (is_none) return;
-    const auto frame = [](const Vec3 &e, const Vec3 &f, Vec3 *axis) {
-      const Vec3 n = cross(e, f);
-      axis[0] = (1 / norm(e)) * e;
-      axis[2] = (1 / norm(n)) * n;
-      axis[1] = cross(axis[2], axis[0]);
-    };
-    frame(e0, f0, from);
-    frame(e1, f1, to);
-    // The plane map in these frames is upper triangular: (p q; 0 r).
-    const Real p = norm(e1) / norm(e0), y = dot(f0, from[1]),
-               q = (dot(f1, to[0]) - p * dot(f0, from[0])) / y, r = dot(f1, to[1]) / y;
-    const Real length = std::sqrt((p + r) * (p + r) + q * q), cosine = (p + r) / length,
-               sine = -q / length;
-    const Vec3 first = to[0], second = to[1];
+    const Vec3 n0 = cross(e0, f0), n1 = cross(e1, f1);
+    const Real length0 = norm(e0), length1 = norm(e1), area0 = norm(n0), area1 = norm(n1),
+               of_length0 = 1 / length0, of_area0 = 1 / area0;
+    from[0] = of_length0 * e0;
+    from[2] = of_area0 * n0;
+    from[1] = cross(from[2], from[0]);
+    const Vec3 first = (1 / length1) * e1;
+    to[2] = (1 / area1) * n1;
+    const Vec3 second = cross(to[2], first);
+    // The plane map in these frames is upper triangular, (p q; 0 r), with p = |e1|/|e0| and p r the ratio of areas. It
+    // turns by the angle of (p + r, -q), here times p.
+    const Real p = length1 * of_length0, c = p * p + area1 * of_area0,
+               s = p * (p * dot(f0, from[0]) - dot(f1, first)) * (length0 * of_area0),
+               over = 1 / std::sqrt(c * c + s * s), cosine = over * c, sine = over * s;
     to[0] = cosine * first + sine * second;
     to[1] = cosine * second - sine * first;
   }
   Vec3 of(const Vec3 &a) const
   {
+    if (is_none) return a;
     return dot(from[0], a) * to[0] + dot(from[1], a) * to[1] + dot(from[2], a) * to[2];
+  }
+};
+
+// How a feature turns: by the mean of the rotations of its faces, keeping lengths.
+struct FeatureTurn {
+  std::vector<FaceTurn> faces;
+
+  void apply(Vec3 &a) const
+  {
+    if (faces.size() == 1) {
+      a = faces.front().of(a);
+      return;
+    }
+    Vec3 sum = {0, 0, 0};
+    bool any = false;
+    for (const FaceTurn &face : faces) {
+      any |= !face.is_none;
+      sum += face.of(a);
+    }
+    const Real length = norm(sum);
+    if (any && length > 0) a = (norm(a) / length) * sum;
   }
 };
 
@@ -118,8 +140,8 @@ void MeshNodes::begin_step(const Step &step, Real cutoff)
   way_ += most;
   mesh_.vertices.swap(next_);
   velocity_.swap(next_velocity_);
+  update_features(mesh_, next_, with_sides_, features_);
   next_.clear();
-  update_features(mesh_, with_sides_, features_);
   bounds_ = {mesh_.vertices.front(), mesh_.vertices.front()};
   for (const Vec3 &x : mesh_.vertices) extend(bounds_, x);
   if (with_spins_) find_spins(step.kind == Step::step ? step.dt / 2 : 0);
@@ -182,52 +204,48 @@ void MeshNodes::build_grid(Real cutoff)
 
 // ---- springs -----------------------------------------------------------------------------
 
-// A vector turned with these faces: by the mean of their rotations, and as long as before.
-Vec3 MeshNodes::turned(const std::vector<int> &faces, const Vec3 &a) const
-{
-  Vec3 sum = {0, 0, 0};
-  bool any = false;
-  for (const int face : faces) {
-    const auto &c = mesh_.faces[face];
-    const FaceTurn turn(turned_from_[c[0]], turned_from_[c[1]], turned_from_[c[2]],
-                        mesh_.vertices[c[0]], mesh_.vertices[c[1]], mesh_.vertices[c[2]]);
-    any |= !turn.is_none;
-    sum += turn.is_none ? a : turn.of(a);
-  }
-  const Real length = norm(sum);
-  return any && length > 0 ? (norm(a) / length) * sum : a;
-}
-
 void MeshNodes::turn_springs(WallEngine &engine, int n)
 {
-  std::vector<int> faces;
+  FeatureTurn turn_of;
+  const auto add_face = [&](int face) {
+    const auto &c = mesh_.faces[face];
+    turn_of.faces.emplace_back(turned_from_[c[0]], turned_from_[c[1]], turned_from_[c[2]],
+                               mesh_.vertices[c[0]], mesh_.vertices[c[1]], mesh_.vertices[c[2]]);
+  };
+  const auto add_faces_of = [&](int edge) {
+    for (int k = mesh_.edge_first[edge]; k < mesh_.edge_first[edge + 1]; k++)
+      add_face(mesh_.edge_face[k]);
+  };
   const auto turn = [&](Spring &spring, Vec3 *vectors, int n_vectors) {
     const std::uint32_t i = feature_index(spring.feature);
     const FeatureKind kind = feature_kind(spring.feature);
-    faces.clear();
-    const auto add_faces_of = [&](int edge) {
-      for (int k = mesh_.edge_first[edge]; k < mesh_.edge_first[edge + 1]; k++)
-        faces.push_back(mesh_.edge_face[k]);
-    };
+    turn_of.faces.clear();
     if (kind == FeatureKind::face)
-      faces.push_back(static_cast<int>(i));
+      add_face(static_cast<int>(i));
     else if (kind == FeatureKind::edge)
       add_faces_of(static_cast<int>(i));
     else
       for (int k = mesh_.vertex_first[i]; k < mesh_.vertex_first[i + 1]; k++)
         add_faces_of(mesh_.vertex_edge[k]);
     // An edge without a face turns by the smallest turn of its direction.
-    const bool is_bare = faces.empty() && kind == FeatureKind::edge;
+    const bool is_bare = turn_of.faces.empty() && kind == FeatureKind::edge;
     const auto direction = [&](const std::vector<Vec3> &at) {
       const auto &end = mesh_.edges[i];
       const Vec3 along = at[end[1]] - at[end[0]];
       return (1 / norm(along)) * along;
     };
     const auto turn_one = [&](Vec3 &a) {
-      a = is_bare ? transport(a, direction(turned_from_), direction(mesh_.vertices))
-                  : turned(faces, a);
+      if (is_bare)
+        a = transport(a, direction(turned_from_), direction(mesh_.vertices));
+      else
+        turn_of.apply(a);
     };
-    turn_one(spring.normal);
+    if (kind == FeatureKind::face) {    // that of the face, to the last bit
+      const Vec3 &now = features_.faces[i].normal;
+      spring.normal = dot(turn_of.faces.front().of(spring.normal), now) < 0 ? -now : now;
+    } else {
+      turn_one(spring.normal);
+    }
     turn_one(spring.shear);
     for (int k = 0; k < n_vectors; k++) turn_one(vectors[k]);
   };
@@ -250,18 +268,13 @@ void MeshNodes::sum_forces(const WallEngine &engine, const Spheres &spheres)
   clear_forces();
   are_summed_ = false;
   const MeshFeaturesView wall = features_.view();
-  const ContactRecord *record = engine.records();
-  for (int k = 0; k < engine.n_touching(); k++) {
-    const Vec3 x = spheres.x[engine.touching()[k]];
-    for (int n = 0; n < static_cast<int>(engine.sphere_output()[k].contacts); n++, record++) {
-      if (record->mesh != static_cast<std::uint32_t>(index_)) continue;
-      const NodeShares at = node_shares(wall, record->feature, x - record->arm);
-      for (int j = 0; j < at.n; j++)
-        for (int d = 0; d < 3; d++)
-          of_contacts_[3 * at.node[j] + d] += at.share[j] * record->force[d];
-      power_ -= dot(record->force, field_at(at, velocity_.data()));
-    }
-  }
+  engine.visit_contacts([&](int sphere, const ContactRecord &record) {
+    if (record.mesh != static_cast<std::uint32_t>(index_)) return;
+    const NodeShares at = node_shares(wall, record.feature, spheres.x[sphere] - record.arm);
+    for (int j = 0; j < at.n; j++)
+      for (int d = 0; d < 3; d++) of_contacts_[3 * at.node[j] + d] += at.share[j] * record.force[d];
+    power_ -= dot(record.force, field_at(at, velocity_.data()));
+  });
 }
 
 // A pressure on a flat face is a third of p times its area on each corner: the moment of that is the pressure's own,

@@ -69,7 +69,6 @@ class MeshNodes {
  private:
   std::string named(const std::string &text) const;
   void find_spins(Real back);
-  Vec3 turned(const std::vector<int> &faces, const Vec3 &a) const;
 
   Host &host_;
   const WallSpec &wall_;

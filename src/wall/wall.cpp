@@ -435,7 +435,7 @@ StepSettings Wall::step_settings()
   StepSettings step;
   step.dt = input_.step.dt;
   step.update_history = input_.step.kind == Step::step;
-  const bool asked = has_nodes_ || (has_bodies_ && any_body_asks_for_contacts());
+  const bool asked = has_bodies_ && any_body_asks_for_contacts();
   step.per_sphere = spec_.contacts || asked;
   step.records = spec_.has_loads() || input_.virial || asked;
   const bool several = meshes_.size() > 1;

@@ -17,6 +17,30 @@
 
 namespace lsdcd {
 
+// A point over a face that moves.
+struct OverFace {
+  Real height, side[3],
+      least;    // signed distances from its plane and its sides, and the least of these
+
+  LSDCD_FN OverFace(const FaceRecord &f, const Vec3 &q)
+  {
+    const Vec3 d = q - f.anchor;
+    height = dot(f.normal, d);
+    side[0] = dot(f.inward[0], d);
+    side[1] = dot(f.inward[1], d) + f.height;
+    side[2] = dot(f.inward[2], d);
+    least = side[0] < side[1] ? side[0] : side[1];
+    if (side[2] < least) least = side[2];
+  }
+  // Is the face surely farther than this? Past a side its distance is at least that in the plane of height and side. The
+  // factor covers rounding.
+  LSDCD_FN bool is_past(Real within) const
+  {
+    const Real past = least < 0 ? least : 0;
+    return height * height + past * past > (1 + Real(1e-9)) * (within * within);
+  }
+};
+
 // The list of a sphere for a margin, from its cell, which lists what is so near; false: it is too long.
 inline bool gather_primitives(const GridView &grid, const QuerySphere &s, Real margin, Real going,
                               FeatureList &list)
@@ -28,6 +52,9 @@ inline bool gather_primitives(const GridView &grid, const QuerySphere &s, Real m
   // As long as lists hold; see FeatureLists::put().
   const Real within = (1 + Real(2e-6)) * s.cutoff + margin + going + grid.tolerance;
   const auto add = [&](FeatureCode code) {
+    if (feature_kind(code) == FeatureKind::face &&
+        OverFace(grid.wall.faces[feature_index(code)], s.x).is_past(within))
+      return true;
     return !(primitive_distance(grid.wall, code, s.x) <= within) || insert_code(list, code);
   };
   if (cell.count == 1) return add(cell.first);
@@ -49,6 +76,43 @@ inline void gather_nodes(const GridView &grid, const QuerySphere &s, Real going,
   begin_list(list, s.x, s.cutoff, -1);
 }
 
+// The contacts of a face at whose rim or past which q is, with its edges and vertices. An edge has one only where q is
+// past that side of the face, which closest_on_edge() asks, too; twice the tolerance covers the rounding between the two.
+template <int kMost>
+LSDCD_NOINLINE void add_rim(const MeshGeometry &geometry, const GridView &grid, FeatureCode face,
+                            const OverFace &over, const Vec3 &q, Real cutoff,
+                            ContactSet<kMost> &set)
+{
+  const FaceParts &parts = geometry.parts(face);
+  const Real within_sq = (1 + Real(1e-9)) * (cutoff * cutoff);
+  for (int k = 0; k < 3; k++) {
+    const FeatureCode edge = parts.part[k], vertex = parts.part[3 + k];
+    if (edge != kNoFeature && over.side[k] <= 2 * grid.tolerance)
+      add_feature_noinline(geometry, edge, cutoff, set);
+    if (vertex != kNoFeature &&
+        norm_sq(q - grid.wall.vertices[feature_index(vertex)].position) <= within_sq)
+      add_feature_noinline(geometry, vertex, cutoff, set);
+  }
+  if (over.least >= -grid.tolerance) add_feature_noinline(geometry, face, cutoff, set);
+}
+
+// The contacts of a primitive, as add_primitive() finds them. The record of a face alone tells for most that they are too
+// far, or that q is over the inside, where only the face is near.
+template <int kMost>
+LSDCD_FN void add_moving(const MeshGeometry &geometry, const GridView &grid, FeatureCode code,
+                         const Vec3 &q, Real cutoff, ContactSet<kMost> &set)
+{
+  if (feature_kind(code) != FeatureKind::face)
+    return add_feature_noinline(geometry, code, cutoff, set);
+  const FaceRecord &face = grid.wall.faces[feature_index(code)];
+  const OverFace over(face, q);
+  const Real distance = fabs(over.height);
+  if (!(distance < cutoff) || over.is_past(cutoff)) return;
+  if (!(over.least >= grid.tolerance)) return add_rim(geometry, grid, code, over, q, cutoff, set);
+  add_once(set, code, {true, distance, over.height < 0 ? -face.normal : face.normal},
+           grid.tolerance);
+}
+
 // Local minima of the distance from q to the listed primitives.
 template <int kCapacity>
 LSDCD_FN void find_in_node_list(const GridView &grid, const ListedFeatures &list, const Vec3 &q,
@@ -57,7 +121,7 @@ LSDCD_FN void find_in_node_list(const GridView &grid, const ListedFeatures &list
   const int n = list.lists.size(list.k);
   const MeshGeometry geometry(grid, q);
   for (int i = 0; i < n && !set.overflow; i++)
-    add_primitive(geometry, list.lists.code(list.k, i), cutoff, set);
+    add_moving(geometry, grid, list.lists.code(list.k, i), q, cutoff, set);
 }
 
 }    // namespace lsdcd
