@@ -4,10 +4,10 @@
 
 """Measures what every effect of a wall costs and writes the tables of doc/effects.md.
 
-usage: effects.py [--build DIR] [--write-only] [--only cpu|cuda]
+usage: effects.py [--build DIR] [--write-only] [--only cpu|cuda|bodies]
 
-Runs bench_effects on one core and, where there is a GPU, with CUDA. Rows are kept in
-doc/data/effects_DEVICE.csv, so that the document has those of a device on a machine without
+Runs bench_effects on one core and, where there is a GPU, with CUDA, and bench_rigid on one core. Rows are kept in
+doc/data/effects_DEVICE.csv and effects_bodies_cpu.csv, so that the document has those of a device on a machine without
 it too.
 --write-only makes the tables and the plot from what is kept.
 """
@@ -23,8 +23,10 @@ from hard_cases import ROOT, commit, write_whole
 DOCUMENT = os.path.join(ROOT, "doc", "effects.md")
 PLOT = os.path.join(ROOT, "doc", "img", "effects.png")
 DEVICES = {"cpu": ["5000", "401"], "cuda": ["200000", "31"]}    # spheres, repeats
+OF_RIGID = ["5000", "61"]    # spheres, rounds of 100 steps
 NOISE = 3    # ns; doc/effects.md says so
 BEGIN, END = "<!-- costs:begin -->", "<!-- costs:end -->"
+OF_BODIES = "<!-- bodies:begin -->", "<!-- bodies:end -->"
 
 
 def kept(device):
@@ -53,6 +55,15 @@ def measure(build, device):
     done = subprocess.run(command, env=dict(os.environ, OMP_NUM_THREADS=threads), stdout=subprocess.PIPE, text=True)
     if done.returncode == 0:
         write_whole(kept(device), done.stdout)
+    return done.returncode == 0
+
+
+def measure_bodies(build):
+    command = [os.path.join(build, "bin", "bench_rigid"), *OF_RIGID, commit()]
+    print(" ".join(command), flush=True)
+    done = subprocess.run(command, env=dict(os.environ, OMP_NUM_THREADS="1"), stdout=subprocess.PIPE, text=True)
+    if done.returncode == 0:
+        write_whole(kept("bodies_cpu"), done.stdout)
     return done.returncode == 0
 
 
@@ -95,6 +106,23 @@ def tables(cpu, cuda):
                         table(several, [heads[k] for k in kept], lambda r: [cells(r)[k] for k in kept])])
 
 
+def table_of_bodies(rows):
+    first = next(iter(rows.values()))
+    facts = f"One core, commit {first['commit']}, {first['compiler']}, least of {first['repeats']} rounds."
+
+    def whole(number):
+        return f"{number:.0f}" if number >= 100 else f"{number:.3g}"
+
+    def cells(r):    # bytes are for each body, and for each contact of a coat
+        least, stored = float(r["min_ns"]), int(r["saved_bytes"])
+        return [r["name"], f"`{r['words']}`", whole(least) if least else "",
+                "+" + whole(float(r["over_ns"])) if r["over"] else "", r["over"],
+                str(stored) if stored and (r["each"] == "1" or not least) else ""]
+
+    return facts + "\n\n" + table(list(rows.values()), ["what", "words", "ns", "more than without", "without is",
+                                                        "B in restart files"], cells)
+
+
 def plot(cpu, cuda):
     """What each effect adds on the CPU, the largest first; what it adds on the GPU is noise but for those that are named."""
     import matplotlib
@@ -132,8 +160,9 @@ def write_document():
     cpu, cuda = rows_of("cpu"), rows_of("cuda")
     with open(DOCUMENT) as f:
         text = f.read()
-    block = f"{BEGIN}\n{tables(cpu, cuda)}\n{END}"
-    write_whole(DOCUMENT, re.sub(f"{BEGIN}.*{END}", lambda _: block, text, flags=re.S))
+    for begin, end, made in ((BEGIN, END, tables(cpu, cuda)), (*OF_BODIES, table_of_bodies(rows_of("bodies_cpu")))):
+        text = re.sub(f"{begin}.*{end}", lambda _: f"{begin}\n{made}\n{end}", text, flags=re.S)
+    write_whole(DOCUMENT, text)
     plot(cpu, cuda)
     print("wrote", os.path.relpath(DOCUMENT, ROOT), "and", os.path.relpath(PLOT, ROOT))
 
@@ -143,7 +172,7 @@ def main(arguments=None):
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--build", default="build", metavar="DIR")
     parser.add_argument("--write-only", action="store_true")
-    parser.add_argument("--only", choices=list(DEVICES))
+    parser.add_argument("--only", choices=[*DEVICES, "bodies"])
     args = parser.parse_args(arguments)
     if not args.write_only:
         for device in DEVICES:
@@ -151,6 +180,8 @@ def main(arguments=None):
                 continue
             if not measure(args.build, device):
                 return 1
+        if args.only in (None, "bodies") and not measure_bodies(args.build):
+            return 1
     write_document()
     return 0
 
