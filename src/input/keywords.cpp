@@ -103,6 +103,13 @@ void read_wear(Tokens &w, WallCommand &s)
   s.wall.wear.model = static_cast<WearModel>(1 + w.choice({"archard", "finnie"}));
   s.wall.wear.per_work = w.number("K", 0);
   if (s.wall.wear.model == WearModel::archard) s.wall.wear.per_work /= w.number("H", kAboveZero);
+  if (w.done() || w.peek() != "deform") return;
+  w.take();
+  if (w.done() || w.take() != "every") w.fail("'every N' is missing");
+  s.wall.wear_shape.every = static_cast<int>(w.whole("N", 1, 2147483647));
+  if (w.done() || w.peek() != "factor") return;
+  w.take();
+  s.wall.wear_shape.factor = w.number("F", kAboveZero);
 }
 
 FileEvery read_file_every(Tokens &w, const std::string &end)
@@ -244,8 +251,12 @@ const Keyword kKeywords[] = {
     {"rolling", kRolling.syntax.c_str(), "", ">= 0", "none", kRolling.help.c_str(), read_rolling},
     {"cohesion", kCohesion.syntax.c_str(), "energy/volume", ">= 0", "none", kCohesion.help.c_str(),
      read_cohesion},
-    {"wear", "archard K H | finnie K", "K H: none, pressure; K: 1/pressure", ">= 0, H > 0", "none",
-     "volume that wears off the triangles: K F s/H, or by angle and energy of impacts", read_wear},
+    {"wear", "archard K H | finnie K [deform every N [factor F]]",
+     "K H: none, pressure; K: 1/pressure", ">= 0, H > 0, N >= 1, F > 0", "none",
+     "volume that wears off the triangles: K F s/H, or by angle and energy of impacts; deform: "
+     "every "
+     "N steps F (1) times that is removed from the mesh",
+     read_wear},
     {"wear_factor", "F", "", ">= 0", "1",
      "this mesh wears F times as fast as wear says; 0: it does not", nullptr,
      [](Tokens &w, MeshSpec &s, InputNames &) { s.wear_factor = w.number("F", 0); }},

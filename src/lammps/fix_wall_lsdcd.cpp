@@ -107,8 +107,8 @@ FixWallLsdcd::FixWallLsdcd(LAMMPS *lmp, int narg, char **arg, const lsdcd::WallB
   extscalar = 1;
   extvector = -1;
   extarray = 0;
-  extlist = new int[kBody + kOfBody];
-  std::fill(extlist, extlist + kBody + kOfBody, 1);
+  extlist = new int[kShape + kOfShape];
+  std::fill(extlist, extlist + kShape + kOfShape, 1);
   extlist[7] = 0;    // the largest overlap is not a sum
   size_outputs();
   energy_global_flag = 1;
@@ -647,6 +647,7 @@ double FixWallLsdcd::mesh_output(int mesh, int i)
   const lsdcd::MeshTotals &t = wall->totals().mesh(mesh);
   if (i < kTotals) return column(t, i);
   if (i == kPower) return t.power;
+  if (i >= kShape) return i == kShape ? wall->removed(mesh) : wall->held_back(mesh);
   if (i >= kBody) return body_output(mesh, i - kBody);
   return meshes()[mesh].servo().present ? servo_output(mesh, i - kVector) : 0;
 }
@@ -692,6 +693,11 @@ static bool is_body(const lsdcd::MeshPart &m)
 // Outputs of all meshes together; and of the one servo and the one body, if there is one.
 double FixWallLsdcd::compute_vector(int i)
 {
+  if (i >= kShape) {
+    double sum = 0;
+    for (const lsdcd::MeshPart &m : meshes()) sum += mesh_output(m.index, i);
+    return sum;
+  }
   if (i >= kVector) {
     const int mesh = only_mesh_with(i < kBody ? has_servo : is_body);
     return mesh < 0 ? 0 : mesh_output(mesh, i);
@@ -725,6 +731,7 @@ void FixWallLsdcd::size_outputs()
   };
   if (any(has_servo)) size_vector = size_array_cols = kBody;
   if (any(is_body)) size_vector = size_array_cols = kBody + kOfBody;
+  if (spec().wear_shape.every > 0) size_vector = size_array_cols = kShape + kOfShape;
   // Places and speeds are no sums.
   extlist[kVector] = extlist[kVector + 1] = extlist[kBody + 19] = 0;
   std::fill(extlist + kBody, extlist + kBody + 13, 0);

@@ -15,6 +15,7 @@ bool WallClearance::has_all(bool has_meshes) const
     for (std::size_t m = 0; m < wall->meshes().size(); m++, n++)
       if (n >= surfaces_.size() || surfaces_[n].fix != wall->id || surfaces_[n].index != m ||
           surfaces_[n].fingerprint != wall->meshes()[m].grid.mesh_fingerprint() ||
+          surfaces_[n].shape != wall->meshes()[m].grid.shape() ||
           wall->meshes()[m].nodes)    // whose shape is another one each time
         return false;
   return n == surfaces_.size();
@@ -29,7 +30,8 @@ void WallClearance::follow(const std::vector<const LAMMPS_NS::FixWallLsdcd *> &w
   for (const LAMMPS_NS::FixWallLsdcd *wall : walls_)
     for (std::size_t m = 0; m < wall->meshes().size(); m++) {
       const MeshPart &part = wall->meshes()[m];
-      surfaces_.emplace_back(wall->id, m, part.grid.mesh_fingerprint(), *part.mesh());
+      surfaces_.emplace_back(wall->id, m, part.grid.mesh_fingerprint(), part.grid.shape(),
+                             *part.mesh());
     }
 }
 

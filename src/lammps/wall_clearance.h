@@ -39,6 +39,7 @@ class WallClearance {
     std::string fix;    // its ID
     std::size_t index;
     std::uint64_t fingerprint;
+    int shape;    // MeshGrid::shape()
     WeldedMesh mesh;
     TriangleTable names;
     TriangleTree tree;
@@ -46,10 +47,11 @@ class WallClearance {
     Box bounds;    // in that pose
     std::uint32_t hint = kNoPrimitive;
 
-    Surface(const std::string &fix, std::size_t index, std::uint64_t fingerprint,
+    Surface(const std::string &fix, std::size_t index, std::uint64_t fingerprint, int shape,
             const WeldedMesh &from) :
         fix(fix),
-        index(index), fingerprint(fingerprint), mesh(from), names(mesh), tree(mesh, names)
+        index(index), fingerprint(fingerprint), shape(shape), mesh(from), names(mesh),
+        tree(mesh, names)
     {
     }
 

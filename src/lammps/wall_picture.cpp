@@ -22,7 +22,7 @@ int WallPicture::draw(const lsdcd::Wall &wall, int *&kinds, double **&rows)
     row.clear();
     for (const lsdcd::MeshPart &m : wall.meshes()) {
       if (first) objects.push_back(lsdcd::draw_mesh(*m.mesh(), spec.draw));
-      if (!first && m.nodes) objects[m.index] = lsdcd::draw_mesh(*m.mesh(), spec.draw);
+      if (!first && (m.nodes || m.wear)) objects[m.index] = lsdcd::draw_mesh(*m.mesh(), spec.draw);
       for (lsdcd::ImageObject one : objects[m.index]) {
         lsdcd::Vec3 centre = {0, 0, 0};
         for (lsdcd::Vec3 &c : one.corner) c = m.motion.pose().to_box(c);

@@ -121,6 +121,21 @@ void measure_mesh(WeldedMesh &mesh, const std::vector<FacePlane> &plane)
   measure_adjacency(mesh, plane);
 }
 
+void measure_again(WeldedMesh &mesh)
+{
+  MeshReport &report = mesh.report;
+  report.open_edges = report.nonmanifold_edges = report.misoriented_edges = report.feature_edges =
+      0;
+  report.inverted_facets = report.meeting_pairs = 0;
+  report.largest_fold = 0;
+  report.oriented = false;
+  std::vector<FacePlane> plane;
+  plane.reserve(mesh.faces.size());
+  for (const auto &f : mesh.faces)
+    plane.push_back(face_plane(mesh.vertices[f[0]], mesh.vertices[f[1]], mesh.vertices[f[2]]));
+  measure_mesh(mesh, plane);
+}
+
 Real checked_diagonal(const TriangleSoup &soup)
 {
   if (soup.corners.empty())

@@ -16,6 +16,9 @@ namespace lsdcd {
 // holds one entry per face. The welder counts what it drops.
 void measure_mesh(WeldedMesh &mesh, const std::vector<FacePlane> &plane);
 
+// The same for vertices that have moved, with the faces and edges that there were.
+void measure_again(WeldedMesh &mesh);
+
 // Does the face run along the edge from its lower to its higher vertex?
 bool runs_along(const WeldedMesh &mesh, int face, int edge);
 

@@ -78,7 +78,11 @@ int line_up(const WeldedMesh &mesh, int f, int g, Triangle &a, Triangle &b)
 // Pairs of faces, collected and tested many at once.
 class FacePairs {
  public:
-  explicit FacePairs(const WeldedMesh &mesh) : mesh_(mesh) {}
+  // `list`: gets the pairs that meet; null: they are counted only.
+  explicit FacePairs(const WeldedMesh &mesh, std::vector<std::array<int, 2>> *list = nullptr) :
+      mesh_(mesh), list_(list)
+  {
+  }
 
   void add(int f, int g)
   {
@@ -106,12 +110,14 @@ class FacePairs {
     }
     for (std::int64_t i = 0; i < n; i++) {
       if (!meet[i]) continue;
+      if (list_) list_->push_back(pairs_[i]);
       if (found_.pairs++ == 0 || pairs_[i] < found_.first) found_.first = pairs_[i];
     }
     pairs_.clear();
   }
 
   const WeldedMesh &mesh_;
+  std::vector<std::array<int, 2>> *list_;
   std::vector<std::array<int, 2>> pairs_;
   SelfMeetings found_;
 };
@@ -130,15 +136,31 @@ BoxTree tree_of(const WeldedMesh &mesh, const std::vector<int> &faces)
   return BoxTree(boxes);
 }
 
+// All pairs of faces whose boxes overlap.
+void add_near(const WeldedMesh &mesh, FacePairs &pairs)
+{
+  std::vector<int> all(mesh.images.any() ? mesh.images.n_faces : mesh.faces.size());
+  std::iota(all.begin(), all.end(), 0);
+  tree_of(mesh, all).visit_pairs([&](int f, int g) { pairs.add(f, g); });
+}
+
 }    // namespace
 
 SelfMeetings meets_itself(const WeldedMesh &mesh)
 {
-  std::vector<int> all(mesh.images.any() ? mesh.images.n_faces : mesh.faces.size());
-  std::iota(all.begin(), all.end(), 0);
   FacePairs pairs(mesh);
-  tree_of(mesh, all).visit_pairs([&](int f, int g) { pairs.add(f, g); });
+  add_near(mesh, pairs);
   return pairs.found();
+}
+
+std::vector<std::array<int, 2>> meeting_faces(const WeldedMesh &mesh)
+{
+  std::vector<std::array<int, 2>> list;
+  FacePairs pairs(mesh, &list);
+  add_near(mesh, pairs);
+  pairs.found();
+  std::sort(list.begin(), list.end());
+  return list;
 }
 
 SelfMeetings shells_meet(const WeldedMesh &mesh, const std::vector<std::vector<int>> &shells)

@@ -21,6 +21,9 @@ struct SelfMeetings {
 // touch each other. It is exact for the corners as they are. Periodic images are left out.
 SelfMeetings meets_itself(const WeldedMesh &mesh);
 
+// The same pairs themselves, each with its lower number first, in ascending order.
+std::vector<std::array<int, 2>> meeting_faces(const WeldedMesh &mesh);
+
 // The same between faces of different shells; each has the numbers of its faces. Shells with boxes
 // that do not overlap cost nothing.
 SelfMeetings shells_meet(const WeldedMesh &mesh, const std::vector<std::vector<int>> &shells);

@@ -30,6 +30,10 @@ std::string mesh_lines(const WallSpec &wall, const MeshPart &m, const std::deque
     if (one.mesh() == m.index) coat = one.text();
   std::string t = m.grid.mesh_text();
   const Real wear = m.spec.wear_factor;
+  std::string recedes;
+  if (m.wear)
+    recedes = "every " + std::to_string(wall.wear_shape.every) + " steps by " +
+              number_text(wall.wear_shape.factor) + " times what has worn";
   const struct {
     const char *label;
     std::string text;
@@ -39,7 +43,8 @@ std::string mesh_lines(const WallSpec &wall, const MeshPart &m, const std::deque
                {"body        ", m.body ? m.body->text() : ""},
                {"coat        ", coat},
                {"nodes       ", m.nodes ? std::to_string(m.nodes->count()) + ", which move" : ""},
-               {"wear        ", wear == 1 ? "" : number_text(wear) + " times as fast"}};
+               {"wear        ", wear == 1 ? "" : number_text(wear) + " times as fast"},
+               {"recedes     ", recedes}};
   for (const auto &line : lines)
     if (!line.text.empty()) t += "\n  " + (line.label + line.text);
   return t;

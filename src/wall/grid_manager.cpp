@@ -115,6 +115,20 @@ void GridManager::rebuild(Real wanted, std::int64_t step)
   }
 }
 
+// Features keep their names, and springs theirs: a contact sees another place of the surface, as one does whose sphere
+// has moved.
+void GridManager::follow_shape(MeshPart &m)
+{
+  if (cutoff() == 0) return;
+  times_.begin();
+  m.grid.progress = progress(m);
+  m.grid.build(cutoff(), m.effective_box(box()));
+  run_collectively(host_, true, [&] { engine_->set_grid(m.view(), m.index); });
+  if (coats_)
+    for (BodyCoat &coat : *coats_) coat.set_grid(m);
+  times_.end(TimeReport::grids);
+}
+
 // Warns that overlaps are rounded to floats, where a law holds spheres to the wall.
 void GridManager::warn_of_rounding(const MeshPart &m, Real radius) const
 {

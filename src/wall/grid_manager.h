@@ -47,6 +47,9 @@ class GridManager {
   // For today's box. Does nothing before there are spheres.
   bool fit_box(std::int64_t step);
 
+  // The grid of a mesh whose vertices have moved. Does nothing before there are spheres.
+  void follow_shape(MeshPart &m);
+
   // Looks how far spheres are past periodic faces, before they are wrapped. Where they went farther than
   // the grid was made for, contacts may have been missed: warns, and the grid reaches that far from then on.
   void check_wrapping(const Spheres &spheres);

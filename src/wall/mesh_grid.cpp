@@ -57,6 +57,17 @@ void MeshGrid::read()
   if (first) mesh_text_ = describe(report_, spec_.name);
 }
 
+void MeshGrid::move_vertices(const std::vector<Vec3> &at)
+{
+  run_collectively(host_, mesh_ != nullptr, [&] {
+    mesh_->vertices = at;
+    measure_again(*mesh_);
+    report_ = mesh_->report;
+  });
+  host_.broadcast(&report_, sizeof report_, 0);
+  shape_++;
+}
+
 // Where centres of spheres can be, with room for a box that grows, so that not every step of a
 // face makes a grid. The walls far outside of a box that follows its spheres wait to be met: only
 // a mesh much larger than the box is cut off there.

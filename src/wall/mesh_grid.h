@@ -56,6 +56,11 @@ class MeshGrid {
   // False where a spring names a feature that this mesh does not have.
   bool has(FeatureCode feature) const;
 
+  // The vertices go to other places, in its frame (length), given on processes that fill memory; the grid is not
+  // built anew by that. Collective.
+  void move_vertices(const std::vector<Vec3> &at);
+  int shape() const { return shape_; }    // how often that was
+
   const WeldedMesh *mesh() const { return mesh_.get(); }    // null but on one process per node
 
   std::size_t bytes() const;    // held by this process
@@ -83,6 +88,7 @@ class MeshGrid {
   PeriodicBox box_;                                          // likewise
   Box within_ = kNoLimit;
   std::uint64_t cells_ = 0;
+  int shape_ = 0;
   int cutoffs_ = 0;    // that there were builds for
   Real cutoff_ = 0;
 };

@@ -9,6 +9,7 @@
 #include "wall/mesh_grid.h"
 #include "wall/mesh_motion.h"
 #include "wall/mesh_nodes.h"
+#include "wall/mesh_wear.h"
 #include "wall/servo_controller.h"
 
 #include <memory>
@@ -32,6 +33,7 @@ struct MeshPart {
   MeshMotion motion;
   ServoController servo_controller;
   std::unique_ptr<MeshBody> body;    // null: it is none
+  std::unique_ptr<MeshWear> wear;    // null: it does not recede
 
   bool springs_are_foreign = false;    // those of a saved state are of another mesh
 
@@ -42,6 +44,13 @@ struct MeshPart {
   // In its own frame, in this step; null but on one process per node, where its nodes do not move.
   const WeldedMesh *mesh() const { return nodes ? &nodes->mesh() : grid.mesh(); }
   GridView view() const { return nodes ? nodes->view() : grid.view(); }
+
+  // Its vertices go elsewhere, as of MeshGrid. Collective.
+  void move_vertices(const std::vector<Vec3> &at)
+  {
+    grid.move_vertices(at);
+    vertices_.reset();
+  }
 
   Box bounds(Real past) const;    // in its own frame, and `past` (length) beyond
   // From where to where its vertices go along edge k of the box at a pose, as parts of the box.

@@ -66,6 +66,8 @@ Wall::Wall(Host &host, WallSpec spec, const WallUnits &units, WallBackend backen
         m.nodes = std::make_unique<MeshNodes>(host_, spec_, m.index, *m.grid.mesh());
       });
     }
+    if (spec_.recedes(m.spec))
+      m.wear = std::make_unique<MeshWear>(host_, spec_, m.index, m.grid.report(), m.grid.mesh());
     check_side(spec_, m);
     check_plane(host_, spec_, m);
     check_motion(host_, spec_, m);
@@ -139,7 +141,8 @@ std::vector<int> Wall::inputs_read() const
 std::size_t Wall::bytes() const
 {
   std::size_t bytes = engine_->bytes() + loads_.bytes() + history_.bytes();
-  for (const MeshPart &m : meshes_) bytes += m.grid.bytes() + (m.nodes ? m.nodes->bytes() : 0);
+  for (const MeshPart &m : meshes_)
+    bytes += m.grid.bytes() + (m.nodes ? m.nodes->bytes() : 0) + (m.wear ? m.wear->bytes() : 0);
   for (const BodyCoat &coat : coats_) bytes += coat.bytes();
   return bytes;
 }
@@ -235,6 +238,7 @@ void Wall::begin(const HostSpheres &spheres, const StepInput &input)
     check_history(spheres.n);
   }
   clock_.advance(step);
+  recede(step);
   move(spheres, step);
   if (input.look)
     look_at_spheres(spheres, step.number);
@@ -487,6 +491,23 @@ void Wall::choose_if_due(const Spheres &spheres)
   search_.count_update();
 }
 
+// Before the meshes move, so that the step is all of the new shape.
+void Wall::recede(const Step &step)
+{
+  for (MeshPart &m : meshes_) {
+    if (!m.wear || !m.wear->is_due(step)) continue;
+    if (cutoff() > 0 && m.grid.has_images())
+      throw InputError(
+          named(m, "wear cannot move a mesh that has periodic images, whose ends would come "
+                   "apart: keep it off periodic faces by the largest radius"));
+    std::vector<Vec3> at;
+    if (!m.wear->recede(m.grid.mesh(), step.number, at)) continue;
+    m.move_vertices(at);
+    grids_.follow_shape(m);
+    schedule_.expire();
+  }
+}
+
 // Each process has all nodes, and comes to the same grids.
 void Wall::build_node_grids()
 {
@@ -571,6 +592,9 @@ void Wall::finish(const HostSpheres &spheres)
       loads_.add(m.index, any ? engine_->records() : nullptr, any ? engine_->n_records() : 0,
                  step.dt, any ? m.view().wall : MeshFeaturesView());
   }
+  if (step.kind == Step::step && cutoff() > 0)
+    for (const MeshPart &m : meshes_)
+      if (m.wear) m.wear->add(engine_->records(), engine_->n_records(), step.dt, m.view().wall);
   if (input_.new_spheres) check_new_spheres(spheres);
   if (step.kind == Step::setup) times_.begin_run();    // as the host's loop time
 }
@@ -780,7 +804,8 @@ WallState Wall::save()
                           {loads.time(), loads.packed()},
                           m.body ? m.body->state() : BodyState(),
                           {m.nodes ? m.nodes->names : std::vector<Real>()},
-                          {}});
+                          {},
+                          m.wear ? m.wear->save(m.grid.mesh()) : ShapeState()});
   }
   for (BodyCoat &coat : coats_)
     all.meshes[coat.mesh()].coat = coat.save(
@@ -848,6 +873,7 @@ void Wall::restore_mesh(MeshPart &m, const MeshState &was, const Step &now)
   }
   for (BodyCoat &coat : coats_)
     if (coat.mesh() == m.index) coat.restore(was.coat);
+  restore_shape(m, was.shape);
   motion_has_changed(m);
   if (!spec_.has_loads(m.spec)) return;
   if (m.springs_are_foreign)
@@ -855,6 +881,24 @@ void Wall::restore_mesh(MeshPart &m, const MeshState &was, const Step &now)
                " was written with another mesh");
   else
     loads_.restore(m.index, was.loads.time, was.loads.rows);
+}
+
+void Wall::restore_shape(MeshPart &m, const ShapeState &was)
+{
+  if (was.vertices.empty() || m.springs_are_foreign) return;
+  if (!m.wear) {
+    host_.warn(
+        named(m, "the " + std::string(host_.names().saved) +
+                     " has a shape of this mesh that wear has moved, and this wall's wear moves "
+                     "nothing (deform): the mesh is that of its file"));
+    return;
+  }
+  std::vector<Vec3> at;
+  for (std::size_t k = 0; k < was.vertices.size(); k += 3)
+    at.push_back({was.vertices[k], was.vertices[k + 1], was.vertices[k + 2]});
+  m.wear->restore(was);
+  m.move_vertices(at);
+  grids_.follow_shape(m);
 }
 
 }    // namespace lsdcd

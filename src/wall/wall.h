@@ -109,6 +109,12 @@ class Wall {
 
   // The totals of the last step.
   const StepTotals &totals();
+  // Volumes by which a mesh that recedes has lost, and what was worn by the factor and stays: see MeshWear.
+  Real removed(int mesh) const { return meshes_[mesh].wear ? meshes_[mesh].wear->removed() : 0; }
+  Real held_back(int mesh) const
+  {
+    return meshes_[mesh].wear ? meshes_[mesh].wear->held_back() : 0;
+  }
   Real worn(int mesh) const { return spec_.wears() ? loads_.worn(mesh) : 0; }    // volume
   // Force or torque of the mesh on the spheres, along the servo's axis.
   Real servo_push(int mesh);
@@ -186,6 +192,7 @@ class Wall {
   bool any_body_asks_for_contacts() const;
   void complete_bodies();
   void advance_bodies(const Step &step);
+  void recede(const Step &step);
   void build_node_grids();
   void turn_springs(int n);
   void sum_node_forces(const HostSpheres &spheres);
@@ -206,6 +213,7 @@ class Wall {
   static MeshIdentity identity_of(const MeshPart &m);
   bool is_restored(const MeshPart &m, const MeshState &was, bool one_of_many) const;
   void restore_mesh(MeshPart &m, const MeshState &was, const Step &now);
+  void restore_shape(MeshPart &m, const ShapeState &was);
 
   Host &host_;
   WallSpec spec_;    // motions change later

@@ -108,6 +108,22 @@ void check_nodes(const WallSpec &wall, std::size_t k)
     refuse("device cuda", "such walls are computed on the CPU so far, use device cpu or auto");
 }
 
+// A mesh that recedes by its wear keeps no number that counts on its shape.
+void check_wear_shape(const WallSpec &wall, std::size_t k)
+{
+  const MeshSpec &mesh = wall.meshes[k];
+  const auto refuse = [&](const std::string &what) {
+    throw InputError(
+        "wear moves " + mesh_text(wall, k) + ", and " + what +
+        ": leave that or deform out, or give the mesh wear_factor 0, by which it does not wear");
+  };
+  if (wall.wear_shape.every > 0 && !wall.wears())
+    throw InputError("wear shall move the meshes, but nothing wears: give a wear model");
+  if (!wall.recedes(mesh)) return;
+  if (mesh.has_nodes) refuse("its nodes are moved by others");
+  if (mesh.body.present) refuse("it is a rigid body, whose mass and centre are those of its shape");
+}
+
 // Calls visit(law) for those of the wall and of its meshes.
 template <class Visit>
 void for_laws(WallSpec &wall, const Visit &visit)
@@ -163,6 +179,7 @@ void check_spec(const WallSpec &wall)
     check_body(wall, k);
     check_inputs(wall, k, "its pressure", &mesh.pressure_input, 1);
     check_nodes(wall, k);
+    check_wear_shape(wall, k);
     if (wall.law().has_heat() && !mesh.has_temperature)
       throw InputError(mesh_text(wall, k) +
                        " has no temperature, which the sub-model heat needs; give it one");

@@ -71,6 +71,12 @@ struct MeshSpec {
   bool surface_varies() const;
 };
 
+// How wear moves the vertices of meshes.
+struct WearShape {
+  int every = 0;      // steps; 0: they stay
+  Real factor = 1;    // so many times the worn volume is removed
+};
+
 // Lengths, times, masses and forces are in the units of the host; pressures in its unit of pressure.
 struct WallSpec {
   // At least one row, whose first is of all types. All laws have the same sub-models.
@@ -88,6 +94,7 @@ struct WallSpec {
   int nearest = 0;         // primitives of wall per cell; 0: all
   std::size_t memory_budget = GridSettings().memory_budget;    // bytes, for each mesh
   Wear wear;                                                   // K and H in pressure units
+  WearShape wear_shape;                                        // of meshes that recede
   bool contacts = false;                                       // for_contact_rows() will be called
   bool periodic = false;    // meshes are meant to reach past periodic faces
   bool brief = false;       // one line in the log
@@ -97,6 +104,11 @@ struct WallSpec {
   // Numbers of a sphere in the contacts array; 0 without it.
   int contact_columns() const { return contacts ? 8 + law().has_heat() : 0; }
   bool wears() const { return wear.model != WearModel::none; }
+  // Does wear move its vertices?
+  bool recedes(const MeshSpec &mesh) const
+  {
+    return wears() && wear_shape.every > 0 && mesh.wear_factor > 0;
+  }
   bool has_loads(const MeshSpec &mesh) const { return wears() || mesh.fields.every > 0; }
   bool has_loads() const;
   bool has_bodies() const;

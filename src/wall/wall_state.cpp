@@ -5,6 +5,8 @@
 
 #include "output/mesh_loads.h"
 
+#include <algorithm>
+
 namespace lsdcd {
 
 const char *const WallState::kKind = "wall";
@@ -77,6 +79,12 @@ template <class Numbers>
 void each_number(Numbers &numbers, NodeState &n)
 {
   numbers(n.names);
+}
+
+template <class Numbers>
+void each_number(Numbers &numbers, ShapeState &s)
+{
+  numbers(s.vertices, s.pending, s.held, s.removed, s.held_back, s.carried);
 }
 
 template <class Numbers>
@@ -153,6 +161,7 @@ State WallState::blocks() const
     if (m.body.present) mesh.add("body", 1, m.body);
     if (!m.nodes.names.empty()) mesh.add("nodes", 1, m.nodes);
     if (!m.coat.empty()) mesh.add("coat", 1, m.coat);
+    if (!m.shape.vertices.empty()) mesh.add("shape", 1, m.shape);
     all.add("mesh", 1, mesh);
   }
   return all;
@@ -178,6 +187,12 @@ WallState WallState::from(const State &state)
     mesh.find("body", 1, m.body);
     mesh.find("nodes", 1, m.nodes);
     mesh.find("coat", 1, m.coat);
+    mesh.find("shape", 1, m.shape);
+    const std::size_t n = static_cast<std::size_t>(std::max<std::int64_t>(0, m.mesh.vertices));
+    const ShapeState &s = m.shape;
+    if (!s.vertices.empty() &&
+        (s.vertices.size() != 3 * n || s.pending.size() != 4 * n || s.held.size() != n))
+      throw StateError("the worn shape in the data of the wall is not that of the mesh's vertices");
     if (m.loads.rows.size() % MeshLoads::kPackedLoad != 0)
       throw StateError("the loads in the data of the wall are no whole rows");
     const std::string unread = mesh.unread();

@@ -7,6 +7,7 @@
 #include "base/state_blocks.h"
 #include "wall/mesh_body.h"
 #include "wall/mesh_motion.h"
+#include "wall/mesh_wear.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -44,6 +45,7 @@ struct MeshState {
   BodyState body;
   NodeState nodes;
   std::vector<Real> coat;    // of BodyCoat::save()
+  ShapeState shape;          // of a mesh that recedes by its wear
 };
 
 struct WallState {

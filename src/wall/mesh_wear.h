@@ -1,0 +1,91 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// A mesh that recedes by its wear: now and then its vertices go away from the side on which spheres wear it, so that the
+// volume between the old and the new surface is the worn one.
+#pragma once
+
+#include "engine/wall_engine.h"
+#include "host/host.h"
+#include "mesh/welded_mesh.h"
+#include "wall/wall_spec.h"
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+namespace lsdcd {
+
+// Of a mesh for a saved state.
+struct ShapeState {
+  std::vector<Real> vertices;    // x y z of each; empty: the mesh has no such wear
+  std::vector<Real> pending;     // four numbers of each: see MeshWear
+  std::vector<Real> held;        // of each: 1 where it stays
+  Real removed = 0, held_back = 0, carried = 0;    // length^3
+};
+
+class MeshWear {
+ public:
+  // The mesh with this number, from 0, before any of it has worn; `mesh` is null but on processes that have it, of which
+  // the first is one. Throws InputError on all processes where its triangles are not wound alike. Collective.
+  MeshWear(Host &host, const WallSpec &wall, int index, const MeshReport &report,
+           const WeldedMesh *mesh);
+
+  // Is this a step that begins with moved vertices?
+  bool is_due(const Step &step) const
+  {
+    return step.kind == Step::step && step.number % wall_.wear_shape.every == 0;
+  }
+
+  // A step of duration dt (time): what contacts of this process have worn off. `features`: of the mesh.
+  void add(const ContactRecord *records, int n, Real dt, const MeshFeaturesView &features);
+
+  // Removes what has worn since the last time. Returns whether vertices move; then `at` has their new places on all
+  // processes that fill memory. `mesh`: as above, where it is now. Logs once where nodes stay from now on. Throws
+  // InputError where too much has worn for one move. Collective.
+  bool recede(const WeldedMesh *mesh, std::int64_t step, std::vector<Vec3> &at);
+
+  // Volumes (length^3), the same on all processes. Removed: between the first surface and that of today. Held back: worn by
+  // factor, and not removed as vertices stay.
+  Real removed() const { return removed_; }
+  Real held_back() const { return held_back_; }
+
+  // `mesh` as above. The state is whole on the first process only. Collective.
+  ShapeState save(const WeldedMesh *mesh) const;
+  // The same on all processes.
+  void restore(const ShapeState &was);
+
+  std::size_t bytes() const;
+
+ private:
+  struct Move {
+    std::vector<Vec3> direction;    // unit, to where a vertex goes; 0: it stays
+    std::vector<Real> way, sign;    // length; -1 against the normals by the winding, 1 along them
+  };
+
+  std::string named(const std::string &text) const;
+  void add_at(int vertex, Real volume, const Vec3 &away);
+  void hold(int vertex, int face, const WeldedMesh &mesh, std::int64_t step);
+  Move plan(const WeldedMesh &mesh, Real factor, std::int64_t step);
+  int parts(const WeldedMesh &mesh, std::int64_t step);
+  bool move(WeldedMesh &mesh, int n, std::int64_t step);
+  bool hold_folding(const WeldedMesh &mesh, const WeldedMesh &moved, std::int64_t step);
+  bool hold_meeting(const WeldedMesh &mesh, const WeldedMesh &moved, std::int64_t step);
+
+  Host &host_;
+  const WallSpec &wall_;
+  int index_;
+  // Of each vertex since the last move, on this process: the volume that came off there, and its sum times the unit
+  // vectors from spheres to the wall.
+  std::vector<Real> pending_;
+  // On the first process:
+  std::vector<char> held_;
+  std::vector<Real> first_size_;            // of each face, twice its area at the beginning
+  std::vector<std::array<int, 2>> meet_;    // pairs of faces that met then
+  Real removed_ = 0, held_back_ = 0;        // on all
+  Real carried_ = 0;      // volume that the rounding of places has left for the next move
+  std::string report_;    // on what stays; of the first time
+  bool is_reported_ = false;
+};
+
+}    // namespace lsdcd
