@@ -83,7 +83,7 @@ def scenes():
         "sagging-belt": Scene((60, -75), (-21, 25, -5, 5, -6, 7), five, ("√(g d), speed", 0, 3), [{"colour": DARK}, solid],
                               group="grains", arrows=[[(-4, -6, -4), (6, -6, -4)]]),
         "triaxial": Scene((80, -70), (-8, 8, -8, 8, -0.5, 16.5), five, [(ORANGE, ""), (BLUE, "layers of 3 d at the start")],
-                          [{"opacity": 0.35}, solid, solid], group="grains", stop='print +"triaxial', quantity="type", time="t = {:.0f} d √(ρ/p)"),
+                          [{"opacity": 0.35}, {"shift": (0, 0, -0.1)}, {"shift": (0, 0, 0.1)}], group="grains", stop='print +"triaxial', quantity="type", time="t = {:.0f} d √(ρ/p)"),
         "feed": Scene((75, -75), (-5, 5, -5, 5, -1, 9), (2, "2 diameters d"), [(BLUE, "0.7 d"), (ORANGE, "d")], [glass],
                       quantity="diameter", stop='print +"feed'),
         "filling": Scene((70, -60), (-6, 6, -1, 9, -6, 6), (2, "2 diameters d"), ("√(g d), speed", 0, 4), [glass],

@@ -683,6 +683,7 @@ class Script:
         self.names = {"c_thermo_temp", "c_thermo_press", "c_thermo_pe"} | {
             f"{line.words[0][0]}_{line.words[1]}" for line in self.lines if line.words[:1] in (["fix"], ["compute"]) and line.words[1:]}
         self.noted, self.noted_dashpot, self.units = False, False, "lattice" if options.pfm else "box"
+        self.densities = {}    # of set and insertions: of the groups or regions, the last one at the end
         self.early, self.later = set(), {}    # meshes that variables name before their wall, and its ID and place
         self.gravity_names, self.gravities = set(), []    # the acceleration of each fix gravity, None where it is not known
         self.all_types, self.step, self.sources = False, 0, []    # the step here, None where it is not known; what has made grains
@@ -1051,6 +1052,7 @@ class Script:
                 self.note(line, f"without {word}, which is not here")
         elif w[0] == "set":
             values = options(w[3:], SET_WORDS)
+            text = self.with_density(line, values, text)
             if values.keys() & SPINS:
                 if any(ran != self.ran for _, ran, _ in self.sources) or self.spun:
                     raise Left("set omegax of grains that may turn already", "set ... omega with all three numbers")
@@ -1058,6 +1060,40 @@ class Script:
                                 ["omega"] + [values.get(key, ["0"])[0] for key in SPINS])
             self.spun = self.spun or bool(values.keys() & {*SPINS, "omega"})
         self.put(self.renamed(line, text))
+
+    def with_density(self, line, values, text):
+        """LIGGGHTS keeps the density of a grain, and a diameter changes its mass; LAMMPS keeps the mass. So the density goes behind the
+        diameter, that of an earlier line, too."""
+        w, words = line.words, list(values)
+        chosen = " ".join(w[1:3])
+        if "density" in values:
+            if chosen == "group all":
+                self.densities.clear()
+            self.densities.pop(chosen, None)    # the last one is that of the last command
+            self.densities[chosen] = values["density"][0]
+        if "diameter" not in values:
+            return text
+        if "mass" in values and words.index("mass") < words.index("diameter"):
+            raise Left("set mass before diameter, which gives the mass of the density in LIGGGHTS", "diameter before mass, or the density")
+        if "density" in values and words.index("density") > words.index("diameter"):
+            return text
+        density = values.pop("density", [None])[0]
+        if density is None and "mass" not in values:
+            found = set(self.densities.values())
+            if list(self.densities)[-1:] == [chosen] or len(found) == 1:
+                density = self.densities.get(chosen) or found.pop()
+            elif not found and not self.all_types and all(other.words[:1] != ["read_data"] for other in self.lines):
+                density = "1"    # of create_atoms in both
+            else:
+                raise Left("set diameter of grains whose density is not known here: LIGGGHTS keeps it, LAMMPS the mass",
+                           "set ... diameter D density RHO")
+        kept = dict(values)
+        values.clear()
+        for key, v in kept.items():
+            values[key] = v
+            if key == "diameter" and density is not None:
+                values["density"] = [density]
+        return " ".join(w[:3] + [x for key, v in values.items() for x in (key, *v)])
 
     def is_here(self, word):
         """False of an output of a fix, compute or variable that is not in the converted script."""
@@ -1376,6 +1412,7 @@ class Script:
             text = self.less_what_is_there(w[1], v, len(kinds), amounts, text)
         self.sources.append((bounds, self.ran, "once" if form == "pack" else "on"))
         self.feeds[w[1]] = len(self.sources) - 1
+        self.densities.update({f"fix {w[1]} {k}": kind[0].split()[-1] for k, kind in enumerate(kinds)})
         if not any("thermo_temp" in other.words for other in self.lines):
             self.put("compute_modify  thermo_temp dynamic/dof yes")    # else ke is 0 while grains come
         self.put(text)
@@ -1465,7 +1502,7 @@ class Script:
         # One fix, so that a grain where meshes meet is pushed once; each mesh has its law.
         laws = [self.law_of(line, model, mesh.type) for mesh in meshes]
         first = laws[0][self.grains()[0]]
-        words = [f"fix             {w[1]} {w[2]} wall/lsdcd {first}" + self.wear(line, meshes)]
+        words = [f"fix             {w[1]} {self.group_of(line, meshes)} wall/lsdcd {first}" + self.wear(line, meshes)]
         for index, (mesh, by_type) in enumerate(zip(meshes, laws), 1):
             mesh.wall, mesh.index, mesh.several = w[1], index, len(meshes) > 1
             words.append(self.mesh_words(mesh))
@@ -1476,6 +1513,19 @@ class Script:
             self.leave(line, f"the mesh {i}, which is not converted", "add it as mesh FILE")
             self.out.pop()
         self.put(" &\n                ".join(words))
+
+    def group_of(self, line, meshes):
+        """The group that a wall of meshes pushes is that of its meshes in LIGGGHTS. A group of the wall other than all adds atoms that
+        depend on the order of the groups."""
+        own, groups = line.words[2], {mesh.group for mesh in meshes}
+        if own != "all" and groups == {"all"}:
+            self.note(line, f"LIGGGHTS pushes the group of the mesh, which is all, not {own}")
+        elif own != "all":
+            raise Left(f"the groups {own} of a wall and {', '.join(sorted(groups))} of its meshes: LIGGGHTS pushes atoms of both, and of "
+                       "others by the order of the groups", "a fix with the group that you mean")
+        elif len(groups) > 1:
+            raise Left("a wall whose meshes have several groups", "a fix for each group")
+        return groups.pop()
 
     def check_bodies(self, line, model, meshes):
         bodies = [mesh for mesh in meshes if mesh.body]

@@ -136,7 +136,22 @@ WRITTEN = {
         "compute         lsdcd_omegax all property/atom omegax\ncompute         lsdcd_radius all property/atom radius\n"
         "variable f equal c_lsdcd_omegax[1]+c_lsdcd_omegax[2]*c_lsdcd_radius[1]\n"),
     "set of one spin of a grain at rest": ("create_atoms 1 single 0 0 0\nset atom 1 diameter 0.2 omegay 3 vz -1\n",
-                                           "set atom 1 diameter 0.2 vz -1 omega 0 3 0\n"),
+                                           "set atom 1 diameter 0.2 density 1 vz -1 omega 0 3 0\n"),
+    "a density before the diameter": ("create_atoms 1 single 0 0 0\nset group all density 2500 diameter 0.02 vx 1\n",
+                                      "set group all diameter 0.02 density 2500 vx 1\n"),
+    "a diameter after the density": ("create_atoms 1 single 0 0 0\nset group all density 2500\nset group all diameter 0.02\n",
+                                     "set group all diameter 0.02 density 2500\n"),
+    "a diameter of a group after its density": (
+        "create_atoms 1 single 0 0 0\nset group all density 2500\nset group a density 1000\nset group a diameter 0.02\n",
+        "set group a diameter 0.02 density 1000\n"),
+    "a diameter of grains that have the density of create_atoms": ("create_atoms 1 single 0 0 0\nset group all diameter 0.02\n",
+                                                                   "set group all diameter 0.02 density 1\n"),
+    "a diameter, then a mass": ("create_atoms 1 single 0 0 0\nset group all diameter 0.02 mass 0.1\n", "set group all diameter 0.02 mass 0.1\n"),
+    "the group of a mesh is that of the wall": (
+        MESH.format("").replace("cad all", "cad some") + WALL, "fix             w some wall/lsdcd granular"),
+    "the group of a wall has no effect": (
+        MESH.format("") + WALL.replace("w all", "w some"), "# NOTE in.there:6: LIGGGHTS pushes the group of the mesh, which is all, not some\n"
+        "fix             w all wall/lsdcd granular"),
     "a body that is elastic": (
         # The tensor with rows (3, 1, 1), (1, 4, 0.5), (1, 0.5, 5) times (1, -1, 2).
         ELASTIC + BODY.format("vel 0 0 -0.5 angmom 4 -2 10.5") + WALL + "thermo_style custom step f_cad[9]\n",
@@ -223,6 +238,14 @@ LEFT = {
     "words of set that LAMMPS does not have": ("set group all property/atom Temp 300\n", "the word property/atom"),
     "a variable of what is not there": (MESH.format("") + "variable f equal c_a[1]\n", "c_a, which is not here"),
     "atom vectors that LAMMPS does not have": ("variable f equal 2*density[1]\n", "density[...] in a variable"),
+    "a mass before the diameter": ("create_atoms 1 single 0 0 0\nset group all mass 0.1 diameter 0.02\n", "set mass before diameter"),
+    "a diameter of grains of several densities": (
+        "create_atoms 1 single 0 0 0\nset group a density 2500\nset group b density 1000\nset group a diameter 0.02\n", "set diameter of grains"),
+    "a diameter of grains of a file": ("read_data a\nset group all diameter 0.02\n", "set diameter of grains"),
+    "groups of a wall and of its mesh": (MESH.format("").replace("cad all", "cad some") + WALL.replace("w all", "w some"), "the groups some of a wall"),
+    "meshes of several groups": (
+        MESH.format("") + MESH.replace("cad all", "lid some").replace("a.stl", "b.stl").format("") +
+        WALL.replace("n_meshes 1 meshes cad", "n_meshes 2 meshes cad lid"), "a wall whose meshes have several groups"),
     "a grain that may turn already": ("create_atoms 1 single 0 0 0\nrun 1\nset group all omegax 5\n", "set omegax of grains that may turn"),
     "a rotation after one about another axis": (
         MESH.format("") + WALL + "fix t all move/mesh mesh cad rotate origin 0 0 0 axis 0 0 1 period 4\n"
@@ -633,6 +656,11 @@ PHYSICS = {
     # Nothing acts along the floor.
     **{f"slide_{model}": (model, SLIDE.replace("SPEED", "0.5").replace("FILE", "flat.stl").replace("WORDS", "") + "run 2000\n", "${vx}",
                           [(0.5, 0.5)]) for model in ("hooke", "hertz")},
+    # A contact of the grains of the mesh's group only, and of all where the wall alone has a group.
+    "groups": (HERTZ, "".join(f"create_atoms 1 single {x} 0 0.0105 units box\n" for x in (0, 0.1, 0.2)) + "set group all density 2500\n"
+               "set group all diameter 0.02\ngroup a id 1\ngroup b id 2\nvelocity all set 0 0 -1 units box\n"
+               "fix cad b mesh/surface file flat.stl type 1\nfix w all wall/gran model MODEL mesh n_meshes 1 meshes cad\nvariable m equal mass(all)\n"
+               "variable p equal vz[1]\nvariable q equal vz[2]\nrun 1000\n", "${p} ${q} ${m}", [(-1, -1), (0.29, 0.31), (3 * MASS - 1e-8, 3 * MASS + 1e-8)]),
     # Sliding, then rolling: 2/7 of the belt's speed, which is 0.2 on the slope. The lever is shorter by the overlap, at
     # most 1 % of the radius, which changes 2/7 by less than 2 %.
     "belt": (HERTZ, SLIDE.replace("SPEED", "0").replace("FILE", "slope.stl").replace("vector 0 0 -1", "vector 1 0 -1").replace(
