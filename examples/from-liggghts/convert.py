@@ -890,6 +890,11 @@ class Script:
         self.put(f"# LEFT {self.left[-1]}")
         self.put("\n".join("# " + t for t in line.text.splitlines()))
 
+    @staticmethod
+    def grows(w):
+        """Whether a fix changes diameters, which only an atom style with dynamic radii lets it do."""
+        return w[:1] == ["fix"] and w[3:4] == ["adapt"] and w[5:7] == ["atom", "diameter"]
+
     def convert(self):
         text = self.written()
         walls = [i for wall in self.walls.values() if isinstance(wall, Wall) for i in wall.ids]
@@ -927,7 +932,7 @@ class Script:
         if w[0] == "atom_style":
             if w[1] not in ("granular", "sphere", "granular/omp", "sphere/omp") or len(w) > 2:
                 raise Left(f"atom_style {' '.join(w[1:])}", "spheres only")
-            self.put("atom_style      sphere")
+            self.put("atom_style      sphere" + " 1" * any(self.grows(other.words) for other in self.lines))
         elif w[0] == "communicate":
             self.put("comm_modify     mode " + " ".join(w[1:]))
         elif w[0] in ("hard_particles", "soft_particles", "modify_timing", "partitioner_style", "package"):
@@ -1231,6 +1236,9 @@ class Script:
         elif style in SAME_FIXES:
             if style == "nve/limit" and w[4] in ("radius_ratio", "absolute"):
                 raise Left(f"nve/limit {w[4]}", "nve/limit of LAMMPS has the largest distance alone")
+            if self.grows(w):
+                self.pass_on(Line(line.number, " ".join(w + ["mass yes"])))    # LIGGGHTS keeps the density
+                return
             text = line.text if style == w[3] else re.sub(rf"(\s{style})/omp\b", r"\1", line.text)
             if style == "ave/time" and "f_" in line.text:
                 self.pass_on(line)

@@ -661,6 +661,9 @@ PHYSICS = {
                "set group all diameter 0.02\ngroup a id 1\ngroup b id 2\nvelocity all set 0 0 -1 units box\n"
                "fix cad b mesh/surface file flat.stl type 1\nfix w all wall/gran model MODEL mesh n_meshes 1 meshes cad\nvariable m equal mass(all)\n"
                "variable p equal vz[1]\nvariable q equal vz[2]\nrun 1000\n", "${p} ${q} ${m}", [(-1, -1), (0.29, 0.31), (3 * MASS - 1e-8, 3 * MASS + 1e-8)]),
+    # Grains that grow to 1.5 times their diameter keep their density.
+    "growth": (HERTZ, "create_atoms 1 single 0 0 0.1 units box\nset group all diameter 0.02 density 2500\nvariable d equal 0.02+0.0001*step\n"
+               "fix a all adapt 1 atom diameter v_d\nvariable m equal mass(all)\nrun 100\n", "${m}", [(3.375 * MASS - 1e-8, 3.375 * MASS + 1e-8)]),
     # Sliding, then rolling: 2/7 of the belt's speed, which is 0.2 on the slope. The lever is shorter by the overlap, at
     # most 1 % of the radius, which changes 2/7 by less than 2 %.
     "belt": (HERTZ, SLIDE.replace("SPEED", "0").replace("FILE", "slope.stl").replace("vector 0 0 -1", "vector 1 0 -1").replace(
