@@ -175,8 +175,10 @@ def built_hosts(build):
                          "(tests/lammps/hosts/build_host.sh)")
     for folder in found.group(1).split(";"):
         text = pathlib.Path(folder, "host.cmake").read_text()
-        version = re.search(r"LSDCD_HOST_VERSION \"?(\d+)", text).group(1)
-        plugin = pathlib.Path(build, "lib", f"lsdcdkkplugin-{version}.so").resolve()
+        name = re.search(r"LSDCD_HOST_VERSION \"?(\d+)", text).group(1)
+        kind = re.search(r"LSDCD_HOST_KIND \"(\w+)\"", text)
+        name += f"-{kind.group(1)}" if kind else ""
+        plugin = pathlib.Path(build, "lib", f"lsdcdkkplugin-{name}.so").resolve()
         yield os.path.join(folder, "lmp"), str(plugin)
 
 

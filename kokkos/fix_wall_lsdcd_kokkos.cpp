@@ -3,7 +3,12 @@
 
 #include "fix_wall_lsdcd_kokkos.h"
 
+#include "float_atoms_engine.h"
+
+#include "base/input_words.h"
+
 #include "comm.h"
+#include "domain.h"
 #include "error.h"
 #include "group.h"
 #include "lammps.h"
@@ -12,6 +17,7 @@
 #include "update.h"
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 
 using namespace LAMMPS_NS;
@@ -35,11 +41,11 @@ static LAMMPS *with_atoms_on_host(LAMMPS *lmp, const char *id)
 
 template <class DeviceType>
 FixWallLsdcdKokkos<DeviceType>::FixWallLsdcdKokkos(LAMMPS *lmp, int narg, char **arg) :
-    FixWallLsdcd(with_atoms_on_host(lmp, arg[0]), narg, arg,
-                 lsdcd::WallBackend{lsdcd::make_engine_on<DeviceType>, true,
-                                    [this](const lsdcd::HostSpheres &, lsdcd::CpuArrays arrays) {
-                                      return to_cpu(arrays);
-                                    }})
+    FixWallLsdcd(
+        with_atoms_on_host(lmp, arg[0]), narg, arg,
+        lsdcd::WallBackend{
+            [this](const lsdcd::EngineSettings &settings) { return make_engine(settings); }, true,
+            [this](const lsdcd::HostSpheres &, lsdcd::CpuArrays arrays) { return to_cpu(arrays); }})
 {
   kokkosable = 1;
   atomKK = kokkos_atoms(atom);
@@ -50,6 +56,18 @@ FixWallLsdcdKokkos<DeviceType>::FixWallLsdcdKokkos(LAMMPS *lmp, int narg, char *
 #if LSDCD_DEVICE_EXCHANGE
   exchange_comm_device = sort_device = std::is_same<DeviceType, LMPDeviceType>::value;
 #endif
+}
+
+// Called by the constructor of the plain fix, too, before members of this one are there.
+template <class DeviceType>
+std::unique_ptr<lsdcd::WallEngine>
+FixWallLsdcdKokkos<DeviceType>::make_engine(const lsdcd::EngineSettings &settings)
+{
+  std::unique_ptr<lsdcd::WallEngine> engine = lsdcd::make_engine_on<DeviceType>(settings);
+  if constexpr (lsdcd::kFloatAtoms)
+    return std::make_unique<lsdcd::FloatAtomsEngine<DeviceType, AtomKokkos>>(
+        std::move(engine), kokkos_atoms(atom), &deepest_overlap);
+  return engine;
 }
 
 template <class DeviceType>
@@ -98,14 +116,20 @@ template <class DeviceType>
 lsdcd::HostSpheres FixWallLsdcdKokkos<DeviceType>::spheres()
 {
   lsdcd::HostSpheres s = spheres_in_atom();    // temperatures stay there
-  s.x = lsdcd::rows_of(atomKK->k_x.template view<DeviceType>());
-  s.v = lsdcd::rows_of(atomKK->k_v.template view<DeviceType>());
-  s.omega = lsdcd::rows_of(atomKK->k_omega.template view<DeviceType>());
-  s.force = lsdcd::rows_of(atomKK->k_f.template view<DeviceType>());
-  s.torque = lsdcd::rows_of(atomKK->k_torque.template view<DeviceType>());
-  s.radius = lsdcd::numbers_of(atomKK->k_radius.template view<DeviceType>());
-  s.mass = rigid ? d_damping_mass.data()
-                 : lsdcd::numbers_of(atomKK->k_rmass.template view<DeviceType>());
+  if constexpr (lsdcd::kFloatAtoms) {          // the engine has those in double
+    s.x = s.v = s.omega = nullptr;
+    s.force = s.torque = nullptr;
+    s.radius = s.mass = nullptr;
+  } else {
+    s.x = lsdcd::rows_of(atomKK->k_x.template view<DeviceType>());
+    s.v = lsdcd::rows_of(atomKK->k_v.template view<DeviceType>());
+    s.omega = lsdcd::rows_of(atomKK->k_omega.template view<DeviceType>());
+    s.force = lsdcd::rows_of(atomKK->k_f.template view<DeviceType>());
+    s.torque = lsdcd::rows_of(atomKK->k_torque.template view<DeviceType>());
+    s.radius = atomKK->k_radius.template view<DeviceType>().data();
+    s.mass = atomKK->k_rmass.template view<DeviceType>().data();
+  }
+  if (rigid) s.mass = d_damping_mass.data();
   s.mask = igroup ? atomKK->k_mask.template view<DeviceType>().data() : nullptr;
   s.type = atomKK->k_type.template view<DeviceType>().data();
   return s;
@@ -125,6 +149,58 @@ void FixWallLsdcdKokkos<DeviceType>::init()
   FixWallLsdcd::init();
   launch_mode =
       others_only_add() ? lsdcd::LaunchMode::beside_adding_early : lsdcd::LaunchMode::beside;
+  deepest_overlap = 0;
+  if (lsdcd::kFloatAtoms) log_rounding();
+}
+
+template <class DeviceType>
+void FixWallLsdcdKokkos<DeviceType>::post_run()
+{
+  FixWallLsdcd::post_run();
+  if (lsdcd::kFloatAtoms) warn_of_rounding();
+}
+
+// Half a unit in the last of 24 places: what a number loses in float, as a share of it.
+static constexpr double kFloatRounds = 1.0 / (1 << 24);
+
+// The coordinate of the box that is farthest from 0.
+static double farthest_coordinate(const Domain &domain)
+{
+  double most = 0;
+  for (int d = 0; d < 3; d++)
+    most = std::max({most, std::abs(domain.boxlo[d]), std::abs(domain.boxhi[d])});
+  return most;
+}
+
+// A step that is shorter than what a position loses does not change it.
+template <class DeviceType>
+void FixWallLsdcdKokkos<DeviceType>::log_rounding()
+{
+  if (rounding_logged || spec().brief) return;
+  rounding_logged = true;
+  const double most = farthest_coordinate(*domain), lost = kFloatRounds * most;
+  log("atoms are in float (KOKKOS_PREC of this LAMMPS): positions up to " +
+      lsdcd::number_text(most) + " from 0 are rounded by up to " + lsdcd::number_text(lost) +
+      ", which is 1 % of an overlap of " + lsdcd::number_text(100 * lost) +
+      ", and an atom there that is slower than " + lsdcd::number_text(lost / update->dt) +
+      " stands still; contacts and forces are exact for the rounded positions");
+}
+
+// After a run its deepest overlap is known. That of most contacts is smaller.
+template <class DeviceType>
+void FixWallLsdcdKokkos<DeviceType>::warn_of_rounding()
+{
+  double deepest = deepest_overlap;
+  MPI_Allreduce(MPI_IN_PLACE, &deepest, 1, MPI_DOUBLE, MPI_MAX, world);
+  const double most = farthest_coordinate(*domain), lost = kFloatRounds * most;
+  if (rounding_warned || deepest == 0 || lost <= 0.01 * deepest) return;
+  rounding_warned = true;
+  warn("atoms are in float (KOKKOS_PREC of this LAMMPS), which rounds positions up to " +
+       lsdcd::number_text(most) + " from 0 by up to " + lsdcd::number_text(lost) + ": " +
+       lsdcd::number_text(100 * lost / deepest) + " % of the deepest overlap of this run, " +
+       lsdcd::number_text(deepest) +
+       ", and more of others. Use a LAMMPS with KOKKOS_PREC double, a softer contact (a smaller "
+       "kn), or a box around 0; shown once");
 }
 
 // Do fixes before this one in the script only add forces, so that their order does not matter?
@@ -161,12 +237,30 @@ void FixWallLsdcdKokkos<DeviceType>::pre_reverse(int /*eflag*/, int /*vflag*/)
 template <class DeviceType>
 void FixWallLsdcdKokkos<DeviceType>::finish_step()
 {
-  const bool runs = wall->step_state() != lsdcd::StepState::none;
+  const bool runs = wall->step_state() != lsdcd::StepState::none || !node_atoms.empty();
   if (runs)
     atomKK->sync(execution_space, X_MASK | V_MASK | OMEGA_MASK | RADIUS_MASK | RMASS_MASK |
                                       MASK_MASK | TYPE_MASK | F_MASK | TORQUE_MASK);
   FixWallLsdcd::finish_step();
   if (runs) atomKK->modified(execution_space, F_MASK | TORQUE_MASK);
+}
+
+// Nodes are read, and pushed, where LAMMPS's other styles have atoms.
+template <class DeviceType>
+void FixWallLsdcdKokkos<DeviceType>::need_nodes()
+{
+  atomKK->sync(Host, X_MASK | V_MASK | MASK_MASK | TAG_MASK | IMAGE_MASK);
+}
+
+template <class DeviceType>
+void FixWallLsdcdKokkos<DeviceType>::add_node_forces()
+{
+  if (node_atoms.empty()) return;
+  atomKK->modified(execution_space, F_MASK);
+  atomKK->sync(Host, F_MASK);
+  FixWallLsdcd::add_node_forces();
+  atomKK->modified(Host, F_MASK);
+  atomKK->sync(execution_space, F_MASK);
 }
 
 template <class DeviceType>

@@ -21,6 +21,7 @@ class FixWallLsdcdKokkos : public FixWallLsdcd, public KokkosBase {
   void init() override;
   void setup_pre_exchange() override { pre_exchange(); }
   void pre_reverse(int, int) override;
+  void post_run() override;
 
 #if LSDCD_DEVICE_EXCHANGE
   // springs on the device
@@ -37,11 +38,16 @@ class FixWallLsdcdKokkos : public FixWallLsdcd, public KokkosBase {
   void fill_masses() override;
   void need_on_host() override;
   void need_positions() override;
+  void need_nodes() override;
+  void add_node_forces() override;
   lsdcd::HostSpheres spheres() override;
   void make_exchange_room() override;
 
  private:
+  std::unique_ptr<lsdcd::WallEngine> make_engine(const lsdcd::EngineSettings &);
   lsdcd::HostSpheres to_cpu(lsdcd::CpuArrays);
+  void log_rounding();
+  void warn_of_rounding();
   bool others_only_add() const;
   static bool sends_from_host(ExecutionSpace);
   int pack_rows(int, const int *, const int *, double *);
@@ -50,6 +56,9 @@ class FixWallLsdcdKokkos : public FixWallLsdcd, public KokkosBase {
   Kokkos::View<double *, DeviceType> d_damping_mass;
   // Where fixes before this one only add forces, they are added right behind those between atoms.
   lsdcd::LaunchMode launch_mode = lsdcd::LaunchMode::beside;
+  // Where atoms are in float:
+  double deepest_overlap = 0;    // of this process in this run; length
+  bool rounding_logged = false, rounding_warned = false;
 };
 
 }    // namespace LAMMPS_NS

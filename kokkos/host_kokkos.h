@@ -40,22 +40,16 @@ template <class View>
 auto rows_of(const View &view)
 {
   using Number = std::remove_pointer_t<decltype(view.data())>;
-  static_assert(std::is_same<std::remove_const_t<Number>, Real>::value,
-                "this LAMMPS keeps its atoms in single precision (KOKKOS_PREC): build it with "
-                "double");
   return StridedView<Number>(view.data(), static_cast<std::ptrdiff_t>(view.stride(0)),
                              static_cast<std::ptrdiff_t>(view.stride(1)));
 }
 
-template <class View>
-const Real *numbers_of(const View &view)
-{
-  static_assert(
-      std::is_same<std::remove_const_t<std::remove_pointer_t<decltype(view.data())>>, Real>::value,
-      "this LAMMPS keeps its atoms in single precision (KOKKOS_PREC): build it with "
-      "double");
-  return view.data();
-}
+// Are atoms in float (KOKKOS_PREC mixed or single, which LAMMPS has had since 2026)?
+#if defined(LMP_KOKKOS_SINGLE_SINGLE) || defined(LMP_KOKKOS_SINGLE_DOUBLE)
+constexpr bool kFloatAtoms = true;
+#else
+constexpr bool kFloatAtoms = false;
+#endif
 
 template <class DeviceType>
 constexpr bool kOnHost =

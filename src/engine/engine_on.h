@@ -7,6 +7,7 @@
 
 #include "base/input_error.h"
 #include "engine/broad_phase/broad_phase.h"
+#include "engine/candidates_in_place.h"
 #include "engine/resident_springs.h"
 #include "engine/results/sphere_error.h"
 #include "engine/step/compiled_law.h"
@@ -21,7 +22,7 @@
 namespace lsdcd {
 
 template <class B>
-class EngineOn : public WallEngine {
+class EngineOn : public WallEngine, public CandidatesInPlace {
   template <class T>
   using Array = typename B::template Array<T>;
 
@@ -162,6 +163,7 @@ class EngineOn : public WallEngine {
     results_.visit_contacts(springs_.records(step_.update_history), visit);
   }
   int n_candidates() const override { return static_cast<int>(broad_phase_.n()); }
+  const int *candidates() const override { return broad_phase_.candidates(); }
 
   StepDiagnostics read_diagnostics() override
   {

@@ -205,6 +205,7 @@ void FixWallLsdcd::init_nodes()
     throw lsdcd::InputError(
         "the wall has no effect in a minimization, and its nodes would move without it: unfix the "
         "wall before");
+  if (!node_atoms.empty()) need_nodes();
   for (NodeAtoms &nodes : node_atoms) nodes.init(*wall, groupbit);
 }
 
@@ -402,6 +403,7 @@ void FixWallLsdcd::begin(bool look)
   lsdcd::StepInput input = step_input(look);
   run_core([&] {
     input.inputs = read_inputs();
+    if (!node_atoms.empty()) need_nodes();
     for (NodeAtoms &nodes : node_atoms) nodes.send(*wall, look);
     begin_step(input);
   });
@@ -452,10 +454,15 @@ void FixWallLsdcd::finish_step()
 {
   run_core([&] {
     wall->finish(spheres());
-    for (NodeAtoms &nodes : node_atoms) nodes.add_forces(*wall);
+    add_node_forces();
   });
   if (vflag_global) wall->add_virial(virial);
   if (spec().contacts) fill_contacts();
+}
+
+void FixWallLsdcd::add_node_forces()
+{
+  for (NodeAtoms &nodes : node_atoms) nodes.add_forces(*wall);
 }
 
 lsdcd::HostSpheres FixWallLsdcd::spheres_in_atom()

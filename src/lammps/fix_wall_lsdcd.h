@@ -105,6 +105,8 @@ class FixWallLsdcd : public Fix, protected OwnMessages {
   virtual void fill_masses();
   virtual void need_on_host() {}      // before atom data are read outside of a step
   virtual void need_positions() {}    // before check_wrapping()
+  virtual void need_nodes() {}        // before atoms that are nodes are read
+  virtual void add_node_forces();
   virtual void make_exchange_room();
 
   lsdcd::HostSpheres spheres_in_atom();

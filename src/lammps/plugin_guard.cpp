@@ -144,23 +144,42 @@ constexpr char kLayout[] = "legacy";
 constexpr char kLayout[] = "";
 #endif
 
+// The precision of atoms, and of sums over them, in LAMMPS's words; older ones have double only.
+#if defined(LMP_KOKKOS_SINGLE_SINGLE)
+constexpr char kPrecision[] = "single";
+#elif defined(LMP_KOKKOS_SINGLE_DOUBLE)
+constexpr char kPrecision[] = "mixed";
+#else
+constexpr char kPrecision[] = "double";
+#endif
+
+// The backend that has the atoms: the first of these, for a LAMMPS may have others beside it.
+constexpr const char *kBackends[] = {"cuda", "hip", "sycl", "openmp", "pthreads", "serial"};
+
+const char *backend_with_atoms(int has(const char *, const char *, const char *))
+{
+  for (const char *name : kBackends)
+    if (has("KOKKOS", "api", name)) return name;
+  return "";
+}
+
 // The styles ask which Kokkos runs: only they can call it.
 bool kokkos_matches(void *lmp)
 {
   auto *has =
       host_function<int(const char *, const char *, const char *)>("lammps_config_accelerator");
   const char *lacks = nullptr, *name = "";
-  if (!has || !has("KOKKOS", "precision", "double"))
-    lacks = "KOKKOS package in double precision";
-  else if (!has("KOKKOS", "api", LSDCD_KOKKOS_BACKEND))
-    lacks = "Kokkos backend ", name = LSDCD_KOKKOS_BACKEND;
+  if (!has || !has("KOKKOS", "precision", kPrecision))
+    lacks = "KOKKOS package in precision ", name = kPrecision;
+  else if (std::strcmp(backend_with_atoms(has), LSDCD_KOKKOS_BACKEND) != 0)
+    lacks = "atoms on the Kokkos backend ", name = LSDCD_KOKKOS_BACKEND;
   else if (*kLayout && !has("KOKKOS", "layout", kLayout))
     lacks = "view layout ", name = kLayout;
   return !lacks ||
          refuse(lmp,
-                "it was built for Kokkos with the backend %s in double precision, this LAMMPS has "
+                "it was built for Kokkos with the backend %s in precision %s, this LAMMPS has "
                 "no %s%s. %s %s, or load lsdcdplugin.so for the fix without /kk",
-                LSDCD_KOKKOS_BACKEND, lacks, name, kRebuild, kFolder);
+                LSDCD_KOKKOS_BACKEND, kPrecision, lacks, name, kRebuild, kFolder);
 }
 #else
 bool kokkos_matches(void *)

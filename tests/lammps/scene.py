@@ -10,14 +10,18 @@ import stl
 BOX = "block -6 6 -6 6 -1.5 8"
 
 
+def floor_height(x, y):
+    """Of the nodes; between them the floor is a little lower or higher."""
+    return 0.15 * math.sin(x) * math.cos(y)
+
+
 def write_floor(path, side=6.5, cells=26):
-    """A bumpy sheet of 2 x cells^2 triangles: height 0.15 sin x cos y, so that spheres roll
-    over edges both ways."""
+    """A bumpy sheet of 2 x cells^2 triangles, so that spheres roll over edges both ways."""
     step = 2 * side / cells
 
     def point(i, j):
         x, y = -side + i * step, -side + j * step
-        return x, y, 0.15 * math.sin(x) * math.cos(y)
+        return x, y, floor_height(x, y)
 
     stl.write(path, stl.sheet(cells, point))
 

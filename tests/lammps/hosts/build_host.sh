@@ -3,21 +3,24 @@
 # SPDX-License-Identifier: GPL-2.0-only
 
 # Builds a LAMMPS to test against, from Debian's parts and outside the tree.
-#   build_host.sh [VERSION [MPI]]  builds it unless it is there; the last line is its folder
+#   build_host.sh [VERSION [KIND]]  builds it unless it is there; the last line is its folder
 #   VERSION 20260704         (default) 4Jul2026 of Debian's sid, whose granular walls ours are
 #                            checked against, with a Kokkos of its own
 #   VERSION 20210929         29Sep2021 of bookworm on bookworm's Kokkos 3.4
-#   MPI mpich                with MPICH instead of the machine's own MPI
-#   MPI serial               without MPI
+#   KIND mpich               with MPICH instead of the machine's own MPI
+#   KIND serial              without MPI
+#   KIND mixed, single       with a Kokkos that has atoms in float, and adds forces in double or in float
+#   KIND openmp              with a Kokkos for threads (-k on t N)
 #   LSDCD_HOSTS              where (default ${XDG_CACHE_HOME:-~/.cache}/lsdcd/hosts)
 #   LSDCD_HOST_JOBS          compilers at once (default: one per core)
-# All have the packages GRANULAR and PLUGIN; without the word MPI also KOKKOS (Serial, double), GRAPHICS and fix
-# rigid/small. The folder, VERSION or VERSION-MPI, then holds
+# All have the packages GRANULAR and PLUGIN; those whose KIND is not one of MPI also KOKKOS (Serial and double where
+# KIND does not say otherwise), GRAPHICS and fix rigid/small, these two not in float. The folder, VERSION or
+# VERSION-KIND, then holds
 #   lmp, liblammps.so.0      the program; both resolve their libraries from the folder itself
 #   src/                     headers of LAMMPS, those of its package KOKKOS in src/KOKKOS
 #   kokkos/                  include/ and lib/ of Kokkos, where Debian has none to install
-#   host.cmake               what a plugin for it is compiled with, as CMake variables: its
-#                            Kokkos ("" without), includes, definitions, least C++ standard; with the word MPI
+#   host.cmake               what a plugin for it is compiled with, as CMake variables: its KIND, its
+#                            Kokkos ("" without), includes, definitions, least C++ standard; with another MPI
 #                            the folders of mpi.h
 # 80 to 215 MB come from the mirror that this machine's apt uses; the build takes some minutes.
 # Exits 77 with a line "skipped: ..." where source or tools cannot be had. Without the source
@@ -42,7 +45,7 @@ case $version in
     kokkos_sha256=188817bb452ca805ee8701f1c5adbbb4fb83dc8d1c50624566a18a719ba0fa5e
     kokkos_include='${CMAKE_CURRENT_LIST_DIR}/kokkos/include'
     standard=20
-    defines="LMP_KOKKOS LMP_KOKKOS_DOUBLE_DOUBLE LMP_KOKKOS_LAYOUT_LEGACY"
+    defines="LMP_KOKKOS LMP_KOKKOS_LAYOUT_LEGACY"
     ;;
   20210929)
     source=lammps/lammps_20220106.git7586adbb6a+ds1.orig.tar.xz
@@ -56,13 +59,18 @@ case $version in
     ;;
   *) die "no such version: $version (20260704 or 20210929)" ;;
 esac
-mpi=${2:-} build_mpi=on mpicxx=mpicxx mpi_options=()
-case $mpi in
+kind=${2:-} mpi="" backend=SERIAL precision=double build_mpi=on mpicxx=mpicxx mpi_options=()
+case $kind in
   "") ;;
-  mpich) mpicxx=mpicxx.mpich mpi_options=(-D MPI_C_COMPILER=mpicc.mpich -D MPI_CXX_COMPILER=mpicxx.mpich) ;;
-  serial) build_mpi=off mpicxx=c++ ;;
-  *) die "no such MPI: $mpi (mpich or serial)" ;;
+  mpich) mpi=mpich mpicxx=mpicxx.mpich mpi_options=(-D MPI_C_COMPILER=mpicc.mpich -D MPI_CXX_COMPILER=mpicxx.mpich) ;;
+  serial) mpi=serial build_mpi=off mpicxx=c++ ;;
+  mixed | single) precision=$kind ;;
+  openmp) backend=OPENMP ;;
+  *) die "no such kind: $kind (mpich, serial, mixed, single or openmp)" ;;
 esac
+if [ "$version" = 20210929 ] && [ $precision$backend != doubleSERIAL ]; then
+  die "29Sep2021 is built with Kokkos's backend Serial in double precision only"
+fi
 
 # -O1 compiles in two thirds of the time of -O2, and the scripts are small. No contraction:
 # our own build has none, and the two are compared to the last bits.
@@ -71,18 +79,28 @@ options=(-D BUILD_SHARED_LIBS=on -D BUILD_MPI=$build_mpi -D BUILD_OMP=off
          -D PKG_GRANULAR=on -D PKG_PLUGIN=on -D PKG_GRAPHICS=on -D PKG_RIGID=on
          -D WITH_JPEG=off -D WITH_PNG=off -D WITH_FFMPEG=off -D WITH_GZIP=off -D WITH_CURL=off
          -D CMAKE_BUILD_TYPE=None)
-if [ -n "$mpi" ]; then    # what a plugin is tried with, and no more
-  kokkos= kokkos_source= flags="-O0 -ffp-contract=off"
+small=
+if [ -n "$mpi" ] || [ $precision != double ]; then    # what a plugin is tried with, and no more
+  small=yes flags="-O0 -ffp-contract=off"
   options=("${options[@]/PKG_GRAPHICS=on/PKG_GRAPHICS=off}")
   options=("${options[@]/PKG_RIGID=on/PKG_RIGID=off}")
 fi
+if [ -n "$mpi" ]; then kokkos= kokkos_source=; fi
+if [ $backend = OPENMP ]; then options=("${options[@]/BUILD_OMP=off/BUILD_OMP=on}"); fi
+# LAMMPS's name for the precision of atoms, and of sums.
+case $precision in
+  double) defines+=" LMP_KOKKOS_DOUBLE_DOUBLE" ;;
+  mixed) defines+=" LMP_KOKKOS_SINGLE_DOUBLE" options+=(-D KOKKOS_PREC=mixed) ;;
+  single) defines+=" LMP_KOKKOS_SINGLE_SINGLE" options+=(-D KOKKOS_PREC=single) ;;
+esac
 # As LAMMPS asks of the Kokkos that it builds itself.
 kokkos_options=(-D BUILD_SHARED_LIBS=on -D Kokkos_ENABLE_SERIAL=on -D Kokkos_ENABLE_IMPL_VIEW_LEGACY=on
                 -D Kokkos_ENABLE_ATOMICS_BYPASS=on -D CMAKE_CXX_STANDARD="$standard"
                 -D CMAKE_CXX_EXTENSIONS=off -D CMAKE_INSTALL_LIBDIR=lib -D CMAKE_BUILD_TYPE=None)
+if [ $backend != SERIAL ]; then kokkos_options+=(-D Kokkos_ENABLE_$backend=on); fi
 
 hosts=${LSDCD_HOSTS:-${XDG_CACHE_HOME:-$HOME/.cache}/lsdcd/hosts}
-folder=$hosts/$version${mpi:+-$mpi}
+folder=$hosts/$version${kind:+-$kind}
 work=$folder/work
 jobs=${LSDCD_HOST_JOBS:-$(nproc)}
 
@@ -180,7 +198,13 @@ rm -f "$work"/src/KOKKOS/{angle,bond,dihedral,improper}_* \
   "$work"/src/{.,KOKKOS}/compute_temp_{com,deform,partial,profile,ramp}[._]* \
   "$work"/src/compute_{angle,bond,dihedral,improper,inertia,dipole,torque,omega,angmom,vcm,displace}[._]* \
   "$work"/src/compute_{cluster,aggregate,heat_flux}[._]* "$work"/src/KOKKOS/atom_vec_charge_*
-if [ -n "$mpi" ]; then
+if [ $precision != double ]; then
+  # Of its package KOKKOS the styles that the scripts use, and what LAMMPS names in its list of sources.
+  find "$work/src/KOKKOS" -regextype egrep -regex '.*/(atom_vec|compute|dynamical|fix|min|pair|third)_.*' ! -regex \
+    ".*/(atom_vec(_sphere|_atomic)?|compute_(temp|erotate_sphere)|min(_linesearch)?|pair(_gran_hooke_history)?)_kokkos[.].*" ! -regex \
+    ".*/fix_(enforce2d|freeze|gravity|neigh_history|nh|nh_sphere|nve|nve_sphere|property_atom|setforce|wall_gran)_(kokkos|old)[.].*" -delete
+fi
+if [ -n "$small" ]; then
   rm -f "$work"/src/pair_{born,buck,coul,lj,morse,soft,table,yukawa,zbl,write}[._]* "$work"/src/min_{fire,hftn,quickmin,sd}.* \
     "$work"/src/compute_{centroid,com,count,fragment,global,group,slice,property_chunk,property_grid,property_local}[._]* \
     "$work"/src/compute_{reduce_chunk,reduce_region,temp_chunk,temp_region,chunk_spread_atom,pair_local}[._]* \
@@ -230,6 +254,7 @@ mkdir "$folder/src"
   { [ ! -d nlohmann ] || cp -r nlohmann "$folder/src"; })
 {
   echo "set(LSDCD_HOST_VERSION $version)"
+  echo "set(LSDCD_HOST_KIND \"$kind\")"
   case $mpi in
     mpich) echo "set(LSDCD_HOST_MPI_INCLUDES $($mpicxx -show | grep -o -- '-I[^ ]*' | sed 's/^-I//' | paste -s -d' '))" ;;
     serial) echo 'set(LSDCD_HOST_MPI_INCLUDES "${CMAKE_CURRENT_LIST_DIR}/src/STUBS")' ;;
