@@ -34,7 +34,7 @@ SMALLEST, LARGEST = 0.35, 1.0
 # Segments round the cylinder and along it: 2 round along + round^2 / 4 triangles.
 MESHES = {2560: (64, 12), 19968: (192, 28), 202752: (576, 104)}
 CASES = {"at the wall": "all at the wall, fixed", "turning": "all at the wall, fixed; the cylinder turns",
-         "in bulk": "in bulk, moving"}
+         "in bulk": "in bulk, moving", "in bulk late": "in bulk, moving; `neigh_modify delay 10`"}
 ORDERS = ("random", "sorted")
 YOUNG, POISSON, RESTITUTION, FRICTION, DENSITY = 1e8, 0.3, 0.5, 0.5, 2500.0
 DT, SPEED, SKIN = 1e-3, 2.5, 0.2    # in bulk, neighbour lists are built every 20 to 30 steps
@@ -122,7 +122,7 @@ def in_bulk(dice, r, n_round):
 def write_spheres(folder, case, order, n, n_round):
     """spheres.data, and still.data with the same spheres at rest."""
     dice = random.Random(7)
-    place = in_bulk if case == "in bulk" else at_the_wall
+    place = in_bulk if case.startswith("in bulk") else at_the_wall
     spheres = []
     for _ in range(n):
         r = dice.uniform(SMALLEST, LARGEST)
@@ -192,7 +192,9 @@ def timed_script(program, case, steps, chunks):
     start, wall, no_wall = PROGRAMS[program]
     if case == "turning":
         wall, no_wall = turning(program)
-    move = "fix move all nve/sphere\n" if case == "in bulk" else ""
+    move = "fix move all nve/sphere\n" if case.startswith("in bulk") else ""
+    if case == "in bulk late":
+        start = start.replace("delay 0 every 1", "delay 10 every 1")
     runs = f"run {max(5, steps // 4)}\n" + f"run {steps}\n" * chunks
     return start + wall + move + QUIET + runs + no_wall + runs
 
@@ -263,7 +265,7 @@ def compare(options, executables, folder, named):
                     start = {p: start_costs(e, p, folder, 5)
                              for p, e in executables.items()}
                 check = same_work(executables, folder)
-                steps = options.steps * (10 if case == "in bulk" else 1)
+                steps = options.steps * (10 if case.startswith("in bulk") else 1)
                 parts = {p: [] for p in executables}
                 plain = {p: [] for p in executables}
                 builds = {p: 0 for p in executables}

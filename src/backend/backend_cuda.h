@@ -90,7 +90,7 @@ struct CudaBackend {
   template <class T>
   using HostArray = OwnedArray<T, HostMemory>;
 
-  // For a while, and for the default stream only: freed memory stays with the process,
+  // For a while, and for the default stream only: freed memory stays with the process until give_back(),
   // so that the next one is quick to get.
   struct PooledMemory {
     static void *allocate(std::size_t bytes)
@@ -106,6 +106,17 @@ struct CudaBackend {
         Memory::free(at);
       else
         cudaFreeAsync(at, nullptr);
+    }
+    // Gives what is free back to the device, after work that took much.
+    static void give_back()
+    {
+      int device = 0;
+      cudaMemPool_t pool;
+      if (!pooled() || cudaStreamSynchronize(nullptr) != cudaSuccess ||
+          cudaGetDevice(&device) != cudaSuccess ||
+          cudaDeviceGetDefaultMemPool(&pool, device) != cudaSuccess)
+        return;
+      cudaMemPoolTrimTo(pool, 0);
     }
 
    private:

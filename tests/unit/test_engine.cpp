@@ -437,6 +437,39 @@ TEST(engine, a_choice_holds_until_a_sphere_that_has_gone_far_is_at_the_wall)
   EXPECT_EQ(held, 4 * chosen);
 }
 
+// Spheres walk from far away to the wall, each step shorter than the margin, so that a look that compares them with a
+// place too near to the wall lets one through. The margin is more than a cell, and spheres are few, so that no other
+// one is at the wall before.
+TEST(engine, a_choice_holds_while_spheres_walk_to_the_wall)
+{
+  const int n = 20, n_steps = 1000;
+  const Real margin = 0.9;
+  Particles kept(with_history(), n, 0.5), anew(with_history(), n, 0.5);
+  std::mt19937_64 random(11);
+  std::uniform_real_distribution<Real> start(1, 8), way(-0.05, 0.03);
+  for (int i = 0; i < n; i++) kept.host.x[3 * i + 2] = anew.host.x[3 * i + 2] = start(random);
+  kept.engine->choose(kept.spheres(), margin, true);
+  int held = 0, same = 0, touching = 0;
+  for (int k = 0; k < n_steps; k++) {
+    for (int i = 0; i < n; i++) {
+      Real &z = kept.host.x[3 * i + 2];
+      z = std::max(Real(0.3), z + way(random));
+      anew.host.x[3 * i + 2] = z;
+    }
+    const bool moved = kept.engine->has_moved(kept.spheres());
+    if (moved) kept.engine->choose(kept.spheres(), margin, true);
+    held += !moved;
+    kept.step(0);
+    anew.step(0, Particles::Candidates::now);
+    const std::vector<Real> force = kept.force();
+    same += same_bytes(force, anew.force());
+    for (int i = 0; i < n; i++) touching += force[3 * i + 2] != 0;
+  }
+  EXPECT_EQ(same, n_steps);
+  EXPECT_GT(held, n_steps / 2);
+  EXPECT_GT(touching, n_steps);
+}
+
 TEST(engine, springs_follow_through_pack_and_unpack)
 {
   const int n = 2000, stay = 1500;

@@ -9,7 +9,12 @@
 #include "engine/broad_phase/candidate_test.h"
 #include "engine/wall_engine.h"
 #include "grid/lookup/brick_words.h"
+#include "grid/lookup/occupied_within.h"
 
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
 #include <vector>
 
 namespace lsdcd {
@@ -37,6 +42,22 @@ struct HasMoved {
   }
 };
 
+// Does a number of a[0, n) differ from the one in the same place of b by `most` or more? Yes where one of them is no
+// number. It is written without a branch, so that compilers take several at once: the sign of |a - b| - most says it,
+// and that of a result that is no number is clear, as fabs() leaves it.
+inline bool any_differs(const Real *a, const Real *b, std::size_t n, Real most)
+{
+  std::uint64_t all = ~std::uint64_t(0);
+  for (std::size_t k = 0; k < n; k++) {
+    const Real past = std::fabs(a[k] - b[k]) - most;
+    std::uint64_t bits;
+    static_assert(sizeof past == sizeof bits, "a double has the sign in bit 63");
+    std::memcpy(&bits, &past, sizeof bits);
+    all &= bits;
+  }
+  return !(all >> 63);
+}
+
 template <class B>
 class DisplacementCheck {
  public:
@@ -55,13 +76,19 @@ class DisplacementCheck {
 
   bool has_moved(B &b, const Spheres &spheres, const std::vector<EngineMesh<B>> &meshes)
   {
-    const StridedView<const Real> was(x_.data());
+    const StridedView<Real> was(x_.data());
+    std::vector<HasMoved> tests;
+    bool stay = true;
     for (const EngineMesh<B> &mesh : meshes) {
-      const HasMoved test = {mesh.grid.view,    mesh.grid.table, mesh.pose,
-                             mesh.chosen,       spheres.x,       was,
-                             margin_ * margin_, !B::kOnHost};
-      if (holds_for_any(b, spheres.n, test)) return true;
+      tests.push_back({mesh.grid.view, mesh.grid.table, mesh.pose, mesh.chosen, spheres.x, was,
+                       margin_ * margin_, !B::kOnHost});
+      stay = stay && !mesh.pose.placed && !mesh.chosen.placed;
     }
+    if constexpr (B::kOnHost) {
+      if (stay) return any_at_meshes_that_stay(b, spheres, tests);
+    }
+    for (const HasMoved &test : tests)
+      if (holds_for_any(b, spheres.n, test)) return true;
     return false;
   }
 
@@ -74,6 +101,39 @@ class DisplacementCheck {
       if (test(i)) set_flag(flag);
     });
     b.wait();
+    return *flag;
+  }
+
+  // The same on a CPU for meshes that stay where they are. It looks at every sphere in every step, so that it has to
+  // be cheap for nearly all of them: blocks in which no coordinate has changed by margin / sqrt(3) are done with one
+  // comparison of each. A sphere that has gone farther, and from which no mesh can be touched within the margin, is
+  // from now on compared with where it is: until it has gone the margin from there, it cannot touch one.
+  bool any_at_meshes_that_stay(B &b, const Spheres &spheres, const std::vector<HasMoved> &tests)
+  {
+    constexpr std::size_t kBlock = 128;
+    constexpr Real kEach = 0.577;    // below 1 / sqrt(3) = 0.57735
+    const Real near = kEach * margin_;
+    const StridedView<const Real> x = spheres.x;
+    const StridedView<Real> was(x_.data());
+    const bool is_packed = x.row == 3 && x.column == 1;
+    int *flag = flag_.data();
+    *flag = 0;
+    const std::size_t n = spheres.n;
+    b.for_each((n + kBlock - 1) / kBlock, [&](std::size_t block) {
+      const std::size_t first = block * kBlock, end = std::min(first + kBlock, n);
+      if (is_packed && !any_differs(x.of(first), was.of(first), 3 * (end - first), near)) return;
+      for (std::size_t i = first; i < end; i++) {
+        const Vec3 at = x[i];
+        if (norm_sq(at - was[i]) <= near * near) continue;
+        const auto within_reach = [&](const HasMoved &t) {
+          return t.may_touch(at) || occupied_within(t.grid, t.table, at, margin_);
+        };
+        if (std::none_of(tests.begin(), tests.end(), within_reach))
+          was.put(i, at);
+        else if (std::any_of(tests.begin(), tests.end(), [&](const HasMoved &t) { return t(i); }))
+          set_flag(flag);
+      }
+    });
     return *flag;
   }
 

@@ -8,6 +8,10 @@ namespace lsdcd {
 
 TriangleGrid build_grid_cuda(const WeldedMesh &mesh, const GridSettings &settings)
 {
+  // A build takes more for a while than its grid has. The host may need that memory for its own spheres.
+  struct GiveBack {
+    ~GiveBack() { CudaBackend::PooledMemory::give_back(); }
+  } after_the_build;
   return build_grid_on(CudaBackend(), mesh, settings);
 }
 
