@@ -109,6 +109,9 @@ def grains(checks, folder):
     checks.at_most("and volume", abs(again[0][-1][2] / rows_of(folder / "a.txt")[-1][2] - 1), 0)
     on_two = go("c", ranks=2, begin=scene.SETTINGS + "read_restart half.restart\n", steps=197)
     checks.at_most("and on 2 ranks", apart(half, on_two[1], "points"), 1e-9)
+    go("d", ranks=2, steps=203, last="write_restart two.restart\nrun 197\n")
+    again = go("e", ranks=2, begin=scene.SETTINGS + "read_restart two.restart\n", steps=197)
+    checks.at_most("the same from a file of 2 ranks", apart(read_vtp(folder / "d.vtp"), again[1], "points"), 1e-9)
     text = lmp.run_well(scene.SETTINGS + "read_restart half.restart\n" +
                         scene.forces("hooke/history 1e4 NULL 120 NULL 0.4 1", mesh="mesh floor.stl wear archard 2e-3 50") +
                         "run 1\n", folder)
