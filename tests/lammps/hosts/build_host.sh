@@ -202,7 +202,7 @@ if [ $precision != double ]; then
   # Of its package KOKKOS the styles that the scripts use, and what LAMMPS names in its list of sources.
   find "$work/src/KOKKOS" -regextype egrep -regex '.*/(atom_vec|compute|dynamical|fix|min|pair|third)_.*' ! -regex \
     ".*/(atom_vec(_sphere|_atomic)?|compute_(temp|erotate_sphere)|min(_linesearch)?|pair(_gran_hooke_history)?)_kokkos[.].*" ! -regex \
-    ".*/fix_(enforce2d|freeze|gravity|neigh_history|nh|nh_sphere|nve|nve_sphere|property_atom|setforce|wall_gran)_(kokkos|old)[.].*" -delete
+    ".*/fix_(enforce2d|freeze|gravity|minimize|neigh_history|nh|nh_sphere|nve|nve_sphere|property_atom|setforce|wall_gran)_(kokkos|old)[.].*" -delete
 fi
 if [ -n "$small" ]; then
   rm -f "$work"/src/pair_{born,buck,coul,lj,morse,soft,table,yukawa,zbl,write}[._]* "$work"/src/min_{fire,hftn,quickmin,sd}.* \
