@@ -111,8 +111,9 @@ bool is_straight(const Vec3 *direction, int n)
   if (n > kTooMany) return false;
   for (int i = 0; i < n; i++)
     for (int j = i + 1; j < n; j++)
-      if (dot(direction[i], direction[j]) < Real(-0.5) &&
-          norm(direction[i] + direction[j]) <= kFlat)
+      // Most pairs differ by their x alone; the factor covers rounding.
+      if (std::fabs(direction[i].x + direction[j].x) <= 2 * kFlat &&
+          dot(direction[i], direction[j]) < 0 && norm(direction[i] + direction[j]) <= kFlat)
         return true;
   return false;
 }

@@ -77,17 +77,23 @@ inline void gather_nodes(const GridView &grid, const QuerySphere &s, Real going,
 }
 
 // The contacts of a face at whose rim or past which q is, with its edges and vertices. An edge has one only where q is
-// past that side of the face, which closest_on_edge() asks, too; twice the tolerance covers the rounding between the two.
+// past the sides of all its faces, which closest_on_edge() asks, too: not where q is over the inside of one of them,
+// `inside`, or kNoFeature. Twice the tolerance covers the rounding between the two.
 template <int kMost>
 LSDCD_NOINLINE void add_rim(const MeshGeometry &geometry, const GridView &grid, FeatureCode face,
-                            const OverFace &over, const Vec3 &q, Real cutoff,
-                            ContactSet<kMost> &set)
+                            FeatureCode inside, const Vec3 &q, Real cutoff, ContactSet<kMost> &set)
 {
+  const OverFace over(grid.wall.faces[feature_index(face)], q);
   const FaceParts &parts = geometry.parts(face);
   const Real within_sq = (1 + Real(1e-9)) * (cutoff * cutoff);
+  const auto is_of_inside = [&](FeatureCode edge) {
+    if (inside == kNoFeature) return false;
+    const FaceParts &of = geometry.parts(inside);
+    return edge == of.part[0] || edge == of.part[1] || edge == of.part[2];
+  };
   for (int k = 0; k < 3; k++) {
     const FeatureCode edge = parts.part[k], vertex = parts.part[3 + k];
-    if (edge != kNoFeature && over.side[k] <= 2 * grid.tolerance)
+    if (edge != kNoFeature && over.side[k] <= 2 * grid.tolerance && !is_of_inside(edge))
       add_feature_noinline(geometry, edge, cutoff, set);
     if (vertex != kNoFeature &&
         norm_sq(q - grid.wall.vertices[feature_index(vertex)].position) <= within_sq)
@@ -96,32 +102,50 @@ LSDCD_NOINLINE void add_rim(const MeshGeometry &geometry, const GridView &grid, 
   if (over.least >= -grid.tolerance) add_feature_noinline(geometry, face, cutoff, set);
 }
 
-// The contacts of a primitive, as add_primitive() finds them. The record of a face alone tells for most that they are too
-// far, or that q is over the inside, where only the face is near.
-template <int kMost>
-LSDCD_FN void add_moving(const MeshGeometry &geometry, const GridView &grid, FeatureCode code,
-                         const Vec3 &q, Real cutoff, ContactSet<kMost> &set)
+// On a CPU: prefetches the records of the first faces of a list whose turn comes soon.
+LSDCD_FN void prefetch_node_list([[maybe_unused]] const GridView &grid,
+                                 [[maybe_unused]] const FeatureLists &lists,
+                                 [[maybe_unused]] std::size_t k)
 {
-  if (feature_kind(code) != FeatureKind::face)
-    return add_feature_noinline(geometry, code, cutoff, set);
-  const FaceRecord &face = grid.wall.faces[feature_index(code)];
-  const OverFace over(face, q);
-  const Real distance = fabs(over.height);
-  if (!(distance < cutoff) || over.is_past(cutoff)) return;
-  if (!(over.least >= grid.tolerance)) return add_rim(geometry, grid, code, over, q, cutoff, set);
-  add_once(set, code, {true, distance, over.height < 0 ? -face.normal : face.normal},
-           grid.tolerance);
+#if !LSDCD_ON_GPU()
+  if (k >= lists.column) return;
+  for (int i = 0; i < 3; i++)
+    prefetch(grid.wall, feature_code(FeatureKind::face, feature_index(lists.code(k, i))));
+#endif
 }
 
-// Local minima of the distance from q to the listed primitives.
+// Local minima of the distance from q to the listed primitives, as add_primitive() finds them. The record of a face
+// alone tells for most that they are too far, or that q is over the inside, where only the face is near.
 template <int kCapacity>
 LSDCD_FN void find_in_node_list(const GridView &grid, const ListedFeatures &list, const Vec3 &q,
                                 Real cutoff, ContactSet<kCapacity> &set)
 {
-  const int n = list.lists.size(list.k);
+  constexpr std::size_t kAhead = 6;
+  prefetch_node_list(grid, list.lists, list.k + kAhead);
   const MeshGeometry geometry(grid, q);
-  for (int i = 0; i < n && !set.overflow; i++)
-    add_moving(geometry, grid, list.lists.code(list.k, i), q, cutoff, set);
+  FeatureCode rim[FeatureList::kMax], inside = kNoFeature;
+  int n_rim = 0;
+  const int n = list.lists.size(list.k);
+  for (int i = 0; i < n; i++) {
+    const FeatureCode code = list.lists.code(list.k, i);
+    if (feature_kind(code) != FeatureKind::face) {
+      add_feature_noinline(geometry, code, cutoff, set);
+      continue;
+    }
+    const FaceRecord &face = grid.wall.faces[feature_index(code)];
+    const OverFace over(face, q);
+    const Real distance = fabs(over.height);
+    if (!(distance < cutoff) || over.is_past(cutoff)) continue;
+    if (!(over.least >= grid.tolerance)) {
+      rim[n_rim++] = code;
+      continue;
+    }
+    if (over.least >= 2 * grid.tolerance) inside = code;
+    add_once(set, code, {true, distance, over.height < 0 ? -face.normal : face.normal},
+             grid.tolerance);
+  }
+  for (int i = 0; i < n_rim && !set.overflow; i++)
+    add_rim(geometry, grid, rim[i], inside, q, cutoff, set);
 }
 
 }    // namespace lsdcd
