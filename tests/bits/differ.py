@@ -20,6 +20,7 @@ import struct
 # of the output of LAMMPS, line by line. Of files that scripts write only a grid cache
 # has the like (mask_file).
 MASKS = [(name, re.compile(pattern), instead, reason) for name, pattern, instead, reason in (
+    ("memory", r"^Per MPI rank memory allocation .*", "Per MPI rank memory allocation", "bytes of the program, not an answer"),
     ("loop time", r"^Loop time of \S+ on", "Loop time of TIME on", "a duration"),
     ("performance", r"^(Performance:|[\d.]+% CPU use with ).*", "RATE", "a rate of the clock"),
     ("breakdown", r"^(Pair|Bond|Kspace|Neigh|Comm|Output|Modify|Rest|Other|Fix|Move|Rigid) *\|.*", r"\1 | TIME",
