@@ -3,7 +3,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
 
 """The benchmark driver keeps rows by program, case, sizes and order, the pages hold what
-the rows that are kept say, and every program prints rows of the one format."""
+the rows that are kept say, and every program prints rows of the one format.
+
+usage: test_performance.py [comparisons]
+  comparisons: only that those with other walls and with LIGGGHTS run, which takes minutes
+"""
 
 import os
 import pathlib
@@ -133,8 +137,10 @@ def test_comparisons():
                  all(abs(r - 1) < 0.01 for r in ratios), str(sorted(set(ratios))))
 
 
-test_rows()
-test_document()
-test_programs()
-test_comparisons()
+if sys.argv[1:] == ["comparisons"]:
+    test_comparisons()
+else:
+    test_rows()
+    test_document()
+    test_programs()
 sys.exit(1 if failed else 0)
