@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What an engine has chosen, for a host that brings each step what its candidates need, and no more.
+// The choice of an engine, for a host that brings each step the numbers of its candidates alone.
 #pragma once
 
 namespace lsdcd {

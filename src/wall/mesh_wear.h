@@ -16,7 +16,7 @@
 
 namespace lsdcd {
 
-// Of a mesh for a saved state.
+// The shape of a mesh in a saved state.
 struct ShapeState {
   std::vector<Real> vertices;    // x y z of each; empty: the mesh has no such wear
   std::vector<Real> pending;     // four numbers of each: see MeshWear
@@ -75,7 +75,7 @@ class MeshWear {
   Host &host_;
   const WallSpec &wall_;
   int index_;
-  // Of each vertex since the last move, on this process: the volume that came off there, and its sum times the unit
+  // For each vertex since the last move, on this process: the volume that came off there, and its sum times the unit
   // vectors from spheres to the wall.
   std::vector<Real> pending_;
   // On the first process:

@@ -26,8 +26,8 @@ KOKKOS_HOST = os.environ.get("LSDCD_KOKKOS_HOST", "") and os.environ["LSDCD_KOKK
 KOKKOS_PLUGIN = os.environ.get("LSDCD_KOKKOS_PLUGIN", "")
 ON_KOKKOS = bool(os.environ.get("LSDCD_KOKKOS"))
 
-# Spheres of diameter 1 in a box of side 6.
-SMALL_BOX = """\
+# Spheres of diameter 1 in a box of side 6: with nothing that moves them, and with it.
+SMALL_BOX_AT_REST = """\
 units           lj
 atom_style      sphere
 atom_modify     map array
@@ -40,8 +40,8 @@ create_box      1 box
 set             group all diameter 1.0 density 2.0
 pair_style      zero 1.2
 pair_coeff      * *
-fix             move all nve/sphere
 """
+SMALL_BOX = SMALL_BOX_AT_REST + "fix             move all nve/sphere\n"
 
 MPI_FOLDER = tempfile.TemporaryDirectory(prefix="mpi")
 

@@ -52,7 +52,7 @@ struct Atoms {
   }
 };
 
-// What the other engine gets.
+// The arrays that the other engine gets.
 struct Doubles {
   std::vector<Real> x, v, omega, radius, mass, force, torque;
 

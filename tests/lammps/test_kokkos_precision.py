@@ -30,7 +30,7 @@ DOUBLE = (os.environ.get("LSDCD_DOUBLE_HOST", "") and os.environ["LSDCD_DOUBLE_H
           os.environ.get("LSDCD_DOUBLE_PLUGIN", ""))
 FLOAT = (lmp.KOKKOS_HOST, lmp.KOKKOS_PLUGIN)
 HISTORY = "hooke/history 1e4 NULL 120 NULL 0.4 1"
-# Of the largest value of each column. The plain fix has radii and masses in double, 6e-8 of them apart, and contacts make
+# A share of the largest value of each column. The plain fix has radii and masses in double, 6e-8 of them apart, and contacts make
 # such differences larger: up to 4e-5 was seen.
 LIMIT = 1e-3
 LAWS = {"hooke": "hooke 1e4 NULL 5 NULL 0.5 1", "hooke/history": HISTORY,
@@ -58,7 +58,7 @@ def as_float(number):
 
 
 def facet_height(x, y):
-    """Of the sheet of scene.write_floor(), of squares with a side of 0.5 from -6.5 on."""
+    """The height of the sheet of scene.write_floor(), of squares with a side of 0.5 from -6.5 on."""
     (i, u), (j, v) = (divmod((a + 6.5) / 0.5, 1) for a in (x, y))
     a, b, c, d = (scene.floor_height(-6.5 + 0.5 * (i + k), -6.5 + 0.5 * (j + m)) for k, m in ((0, 0), (1, 0), (1, 1), (0, 1)))
     return a + u * (b - a) + v * (c - b) if v <= u else a + v * (d - a) + u * (c - d)
@@ -179,7 +179,7 @@ def words(checks, folder):
                     str(line and line.groups()))
         warned = re.findall(r"WARNING.*atoms are in float.* by up to \S+: (\S+) % of the deepest overlap of this run, (\S+), ", said)
         checks.fact(f"{name}: {'one warning' if deepest < 1e-3 else 'no warning'}", len(warned) == (deepest < 1e-3), str(warned))
-        # Of some thirty steps of a contact one is nearest to the deepest point, by half a step: 0.5 (pi / 60)^2 short of it.
+        # Among some thirty steps of a contact one is nearest to the deepest point, by half a step: 0.5 (pi / 60)^2 short of it.
         for share, overlap in warned:
             checks.at_most("its overlap is that of the run", abs(float(overlap) / deepest - 1), 0.01)
             checks.at_most("its share is that of the overlap", abs(float(share) / 100 * float(overlap) / 2**-21 - 1), 1e-4)

@@ -11,21 +11,7 @@ import scene
 import stl
 from test_loads import apart, read_vtp
 
-BEGIN = """\
-units           lj
-atom_style      sphere
-atom_modify     map array
-boundary        f f f
-newton          off
-comm_modify     vel yes
-region          box block -3 3 -3 3 -1 5
-create_box      1 box
-create_atoms    1 single {x} units box
-set             group all diameter 1.0 density 2.0
-pair_style      zero 1.2
-pair_coeff      * *
-timestep        0.001
-"""
+BEGIN = lmp.SMALL_BOX_AT_REST.format(atoms="create_atoms    1 single {x} units box") + "timestep        0.001\n"
 EACH = 'fix out all print 1 "$(step) $(f_w[10]:%.17g) $(f_w[36]:%.17g) $(f_w[37]:%.17g)" file {} screen no\n'
 
 
@@ -39,7 +25,7 @@ def corners(fields):
 
 
 def volume(fields):
-    """Of a closed mesh."""
+    """The volume inside a closed mesh."""
     p, c = corners(fields), fields["connectivity"]
     def six(a, b, d):
         return (a[0] * (b[1] * d[2] - b[2] * d[1]) + a[1] * (b[2] * d[0] - b[0] * d[2]) + a[2] * (b[0] * d[1] - b[1] * d[0]))
@@ -47,7 +33,7 @@ def volume(fields):
 
 
 def worst_balance(rows, every, factor):
-    """Of removed and held back against what was worn one step before, where they have just been moved."""
+    """Compares removed and held back with what was worn one step before, where they have just been moved."""
     most = 0
     for before, row in zip(rows, rows[1:]):
         if row[0] % every == 0:

@@ -35,7 +35,7 @@ WeldedMesh can()
   return weld(cylinder_mesh(24, 6, 1, 2), -1);
 }
 
-// Of the tetrahedra from the origin.
+// The sum over the tetrahedra from the origin.
 long double volume(const WeldedMesh &mesh)
 {
   long double six = 0;
