@@ -13,6 +13,7 @@ import sys
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
+import nodes    # noqa: E402
 from stl import options, strip, write_stl    # noqa: E402
 
 
@@ -27,24 +28,16 @@ def section(a):
 
 
 def data(a, rows):
-    """Text of a data file: the mass of a node is a.mass, whatever its diameter."""
-    diameter = 0.01
-    density = a.mass / (math.pi / 6 * diameter ** 3)
     atoms, bonds, last = [], [], len(rows) - 1
     number = {(i, j): i * (a.across + 1) + j + 1 for i in range(len(rows)) for j in range(a.across + 1)}
     for (i, j), n in number.items():
-        kind = 4 if i in (0, last) else 3 if j in (0, a.across) else 2
-        x, y, z = rows[i][j]
-        atoms.append(f"{n} {kind} {x:.9g} {y:.9g} {z:.9g} {diameter} {density:.9g} 0")
+        atoms.append((n, 4 if i in (0, last) else 3 if j in (0, a.across) else 2, rows[i][j]))
         if i < last:
             bonds.append((2 if j in (0, a.across) else 1, n, number[i + 1, j]))
         if j < a.across:
             bonds.append((3, n, number[i, j + 1]))
-    bonds = [f"{k} {kind} {one} {other}" for k, (kind, one, other) in enumerate(bonds, 1)]
     half = a.span / 2
-    head = ["A belt whose vertices are atoms", "", f"{len(atoms)} atoms", "4 atom types", f"{len(bonds)} bonds", "3 bond types", "",
-            f"{-half - 2:g} {half + 8:g} xlo xhi", "-8 8 ylo yhi", "-12 14 zlo zhi"]
-    return "\n".join([*head, "", "Atoms", "", *atoms, "", "Bonds", "", *bonds, ""])
+    return nodes.data("A belt whose vertices are atoms", atoms, bonds, 4, 3, a.mass, ((-half - 2, half + 8), (-8, 8), (-12, 14)))
 
 
 def roller(x, radius, length, n=24):

@@ -13,35 +13,31 @@ import sys
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
+import nodes    # noqa: E402
 from stl import circle, disc, options, write_stl    # noqa: E402
 
 
 def tube(a):
     """Nodes by ring, and triangles of (ring, number), wound outwards: each ring is turned by half a node against the last."""
     n, rings = a.around, a.rings
-    nodes = [[(a.radius * math.cos(2 * math.pi * (k + i / 2) / n), a.radius * math.sin(2 * math.pi * (k + i / 2) / n),
-               a.height * i / rings) for k in range(n)] for i in range(rings + 1)]
+    places = [[(a.radius * math.cos(2 * math.pi * (k + i / 2) / n), a.radius * math.sin(2 * math.pi * (k + i / 2) / n),
+                a.height * i / rings) for k in range(n)] for i in range(rings + 1)]
     faces = []
     for i in range(rings):
         for k in range(n):
             following = (k + 1) % n
             faces += [((i, k), (i, following), (i + 1, k)), ((i, following), (i + 1, following), (i + 1, k))]
-    return nodes, faces
+    return places, faces
 
 
-def data(a, nodes, faces):
-    """Text of a data file: the mass of a node is a.mass, whatever its diameter."""
-    diameter = 0.01
-    density = a.mass / (math.pi / 6 * diameter ** 3)
+def data(a, places, faces):
     number = {(i, k): i * a.around + k + 1 for i in range(a.rings + 1) for k in range(a.around)}
-    atoms = [f"{n} {4 if i == 0 else 5 if i == a.rings else 3} {' '.join(f'{c:.9g}' for c in nodes[i][k])} {diameter} {density:.9g} 0"
-             for (i, k), n in number.items()]
+    atoms = [(n, 4 if i == 0 else 5 if i == a.rings else 3, places[i][k]) for (i, k), n in number.items()]
     edges = sorted({tuple(sorted((f[k], f[(k + 1) % 3]))) for f in faces for k in range(3)})
-    bonds = [f"{b} {1 if one[0] == other[0] else 2} {number[one]} {number[other]}" for b, (one, other) in enumerate(edges, 1)]
-    half, (lo, hi) = a.radius + 3, (-1, a.height + 1)
-    head = ["A membrane whose vertices are atoms", "", f"{len(atoms)} atoms", "5 atom types", f"{len(bonds)} bonds", "2 bond types",
-            "", f"{-half:g} {half:g} xlo xhi", f"{-half:g} {half:g} ylo yhi", f"{lo:g} {hi:g} zlo zhi"]
-    return "\n".join([*head, "", "Atoms", "", *atoms, "", "Bonds", "", *bonds, ""])
+    bonds = [(1 if one[0] == other[0] else 2, number[one], number[other]) for one, other in edges]
+    half = a.radius + 3
+    return nodes.data("A membrane whose vertices are atoms", atoms, bonds, 5, 2, a.mass,
+                      ((-half, half), (-half, half), (-1, a.height + 1)))
 
 
 def main():
@@ -53,10 +49,10 @@ def main():
     p.add_argument("--mass", type=float, default=0.3, help="of a node")
     p.add_argument("--beyond", type=float, default=1.5, help="how far the plates reach beyond the membrane")
     a = p.parse_args()
-    nodes, faces = tube(a)
+    places, faces = tube(a)
     out = Path(a.out)
-    write_stl(out / "membrane.stl", [tuple(nodes[i][k] for i, k in face) for face in faces], "membrane")
-    (out / "membrane.data").write_text(data(a, nodes, faces))
+    write_stl(out / "membrane.stl", [tuple(places[i][k] for i, k in face) for face in faces], "membrane")
+    (out / "membrane.data").write_text(data(a, places, faces))
     plate = circle(a.radius + a.beyond, 48)
     write_stl(out / "bottom.stl", disc(plate, 0.0), "bottom")
     write_stl(out / "top.stl", disc(plate, a.height), "top")
