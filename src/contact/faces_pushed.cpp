@@ -28,6 +28,30 @@ struct Push {
   Real component = 0, speed = 0;    // at the centre; 0 where nothing is pushed
 };
 
+// How far a circle rises above its chord at the share x of the chord, if it turns by an angle over it:
+// a - b, where a^2 - b^2 = x (1 - x) chord^2. The quotient keeps its digits for small angles.
+Real rise_of_arc(Real chord, Real angle, Real x)
+{
+  const Real radius = chord / (2 * std::sin(angle / 2)), from_middle = chord * (x - Real(0.5));
+  const Real a = std::sqrt(radius * radius - from_middle * from_middle);
+  const Real b = radius * std::cos(angle / 2);
+  return x * (1 - x) * chord * chord / (a + b);
+}
+
+// The sine of the angle by which the plane of three corners on a roll leans, because the corner
+// between the two others lies above the chord of their arc: its rise over its distance to their edge.
+// It is 0 if the corner in the middle has the place of another one along the path, as in a box.
+Real lean_of_middle(const Vec3 corner[3], const Real along[3], Real angle, Real area)
+{
+  int order[3] = {0, 1, 2};
+  std::sort(order, order + 3, [&](int i, int j) { return along[i] < along[j]; });
+  const Real chord = along[order[2]] - along[order[0]];
+  if (!(angle > 0) || !(chord > 0)) return 0;
+  const Real x = (along[order[1]] - along[order[0]]) / chord;
+  const Real distance = 2 * area / norm(corner[order[2]] - corner[order[0]]);
+  return rise_of_arc(chord, angle, x) / distance;
+}
+
 // A flat face can be part of a smooth surface that moves along itself if the velocity lies in its
 // plane at some point of it, as along the middle of a roll's facet. For a sliver more is allowed: what
 // the path bends away from its chord over the sliver's height.
@@ -39,13 +63,11 @@ Push push_on(const Vec3 corner[3], const SurfaceMotion &motion, Real fastest, Re
   const Real speed = norm(u), component = std::fabs(dot(u, plane.normal));
   if (component <= kRoundedWords * fastest) return {};
 
-  Real lowest = 1, highest = -1, turned = 0, first = 0, last = 0;
+  Real lowest = 1, highest = -1, turned = 0, along[3];
   Vec3 direction[3];
   int n = 0;
   for (int k = 0; k < 3; k++) {
-    const Real along = dot(u, corner[k] - centre) / speed;
-    first = std::min(first, along);
-    last = std::max(last, along);
+    along[k] = dot(u, corner[k] - centre) / speed;
     const Vec3 v = velocity_at(motion, corner[k]);
     if (!(norm(v) > Real(1e-9) * speed)) continue;    // on the axis it has no direction
     direction[n] = (1 / norm(v)) * v;
@@ -57,10 +79,13 @@ Push push_on(const Vec3 corner[3], const SurfaceMotion &motion, Real fastest, Re
     n++;
   }
   // An arc that turns by an angle rises over its chord by a quarter of the tangent of a quarter.
-  const Real bend = Real(0.5) * (last - first) * std::tan(turned / 4);
+  const Real length = *std::max_element(along, along + 3) - *std::min_element(along, along + 3);
+  const Real bend = Real(0.5) * length * std::tan(turned / 4);
   const Real lean = rounding / plane.height;
   const Real one_way = std::max(lowest, -highest), most = std::max(highest, -lowest);
-  if (one_way > lean + bend / plane.height || most > kCoarsestRoll + kRoundedWords + lean)
+  if (one_way > lean + bend / plane.height ||
+      most >
+          kCoarsestRoll + kRoundedWords + lean + lean_of_middle(corner, along, turned, plane.area))
     return {component, speed};
   return {};
 }

@@ -17,8 +17,9 @@ struct PushReport {
   Real share = 0;           // of the speed there
 };
 
-// A belt, a turntable or a roll has no such face, however coarse its triangles are (six around a roll
-// are enough). Lifters, blades, screws and tilted belts have some.
+// A belt, a turntable, a roll or a cone has no such face, however coarse its triangles are (six around a
+// roll are enough) and however thin. Lifters, blades, screws and tilted belts have some, and so may have
+// slivers of a surface that also bends along its axis, as a sphere does.
 PushReport faces_pushed(const WeldedMesh &mesh, const SurfaceMotion &motion);
 
 }    // namespace lsdcd
