@@ -174,7 +174,7 @@ class Mesh:
         self.id, self.group, self.style, self.line = w[1], w[2], script.style(w), line
         self.file, self.type, self.place, self.words, self.wear = None, 1, [], [], False
         self.servo, self.moves, self.com, self.axis, self.target = None, [], (0.0, 0.0, 0.0), None, None
-        self.mass, self.moments, self.suspended = None, None, False    # of 6dof
+        self.mass, self.moments, self.suspended, self.held = None, None, False, False    # of 6dof
         self.wall, self.wall_line, self.index, self.several, self.reference = None, None, None, False, None
         self.written, self.body = set(), ""    # mesh_stl, mesh_fields; words of 6dof
         self.parse(script, w[4:])
@@ -304,6 +304,7 @@ class Mesh:
         self.com, self.mass, self.moments = v["com"], v["mass"], [script.number(x, self.line) for x in v["moi"]]
         self.body = f"body mass {self.mass} com {' '.join(self.com)} inertia {' '.join(v['moi'])}"
         self.body += self.joint(script, v)
+        self.held = "joint" in self.body
         if "vel" in v:
             self.body += f" velocity {' '.join(v['vel'])}"
         if any(script.number(x, self.line) for x in v.get("angmom", [])):
@@ -1766,8 +1767,11 @@ class Script:
         if mesh is None:
             self.put(line.text)
             return
-        if not mesh.servo or mesh.wall is None:
+        if (not mesh.servo and not mesh.body) or mesh.wall is None:
             raise Left(f"fix_modify {w[2]}", "fix_modify of the wall with that mesh: motion, servo or body")
+        if mesh.body:
+            self.modify_body(line, mesh)
+            return
         which = f" mesh {mesh.index}" if mesh.several else ""
         word = w[2].removeprefix("servo/")
         if [word, *w[3:]] == ["integrate", "stop"]:
@@ -1779,6 +1783,20 @@ class Script:
             self.put(f"fix_modify      {mesh.wall}{which} {mesh.servo}")
         else:
             raise Left(f"fix_modify {w[2]}", "fix_modify servo with all its words; it needs no gains")
+
+    def modify_body(self, line, mesh):
+        """A free body whose centre stops: LIGGGHTS drops forces and sets the velocity, which is a ball joint where the centre is."""
+        w, new = [x.removeprefix("6dof/") for x in line.words[2:]], {}
+        while len(w) >= 4 and w[0] in ("forceflags", "vel"):
+            new[w[0]], w = [self.number(x, line) for x in w[1:4]], w[4:]
+        # Without vel the body would keep its velocity, and a body that is held already has a joint.
+        if w or new != {"forceflags": [0, 0, 0], "vel": [0, 0, 0]} or mesh.held:
+            raise Left(f"fix_modify {line.words[2]} of a mesh with 6dof", "fix_modify of the wall: body joint, load, moment, spring or limits")
+        # LAMMPS knows the place after a run.
+        place = [f"$({mesh.output(k, self)}:%.17g)" for k in (7, 8, 9)] if self.ran else mesh.com
+        which = f" mesh {mesh.index}" if mesh.several else ""
+        mesh.held = True
+        self.put(f"fix_modify      {mesh.wall}{which} body joint ball {' '.join(place)}")
 
     def massflow(self, line):
         w = line.words

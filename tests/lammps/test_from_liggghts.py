@@ -163,6 +163,11 @@ WRITTEN = {
         ELASTIC + BALANCED.format("angmom 0 8 0 forceflags 0 0 0 torqueflags 0 1 0 suspension k_t 1 c_t 2 k_r 3 c_r 4") + WALL,
         "inertia 3 4 5 0 0 0 joint hinge 1 2 3 0 1 0 spring 3 4 omega 0 2 0\n"),
     "a body in a plane": (ELASTIC + BALANCED.format("forceflags 1 0 1 torqueflags 0 1 0") + WALL, "0 0 0 joint planar 0 1 0\n"),
+    "a body that is stopped before a run turns about its centre": (
+        ELASTIC + BODY.format("") + WALL + "fix_modify cad forceflags 0 0 0 vel 0 0 0\n", "fix_modify      w body joint ball 1 2 3\n"),
+    "a body that is stopped after a run turns about where its centre is": (
+        ELASTIC + BODY.format("") + WALL + "run 1\nfix_modify cad 6dof/forceflags 0 0 0 6dof/vel 0 0 0\n",
+        "fix_modify      w body joint ball $(f_w[15]:%.17g) $(f_w[16]:%.17g) $(f_w[17]:%.17g)\n"),
     "a body that turns about its centre": (ELASTIC + BODY.format("forceflags 0 0 0") + WALL, "1 1 0.5 joint ball 1 2 3\n"),
     "forces on a body with its weight, and its torque about its centre": (
         ELASTIC + "fix g all gravity 9.81 vector 0 0 -2\n" + BODY.format("") + WALL +
@@ -205,6 +210,9 @@ LEFT = {
         "".join(f"fix n{k} all property/global {name} peratomtypepair 1 {v}\n" for k, (name, v) in enumerate(
             (("kn", 1e5), ("kt", 1e5), ("gamman", 5), ("gammat", 0)))) + BODY.format("") + WALL.replace("hertz", "hooke/stiffness"),
         "contacts of cad that are damped"),
+    "a body that is held, and goes on with its speed": (
+        ELASTIC + BODY.format("") + WALL + "fix_modify cad forceflags 0 0 0\n", "fix_modify forceflags of a mesh with 6dof"),
+    "a body that is given a speed": (ELASTIC + BODY.format("") + WALL + "fix_modify cad vel 0 0 0\n", "fix_modify vel of a mesh with 6dof"),
     "a body that is held": (BODY.format("torqueflags 0 1 1"), "forceflags or torqueflags"),
     "a body with a suspension": (BODY.format("suspension k_t 1 c_t 1 k_r 1 c_r 1"), "suspension of a mesh"),
     "force on a body, which has its suspension": (
@@ -715,6 +723,13 @@ PHYSICS = {
              "fix cad all mesh/surface/stress/6dof file flat.stl type 1 com 0.1 0.1 0 mass 1 moi 0.01 0.01 0.02 0 0 0\n"
              "fix w all wall/gran model MODEL mesh n_meshes 1 meshes cad\nvariable v equal vz[1]\nrun 1000\n", "${v}",
              [((1 - MASS) / (1 + MASS) - 1e-4, (1 - MASS) / (1 + MASS) + 1e-4)]),
+    # A free body flies at 0.5 and turns at 20 about z for 500 steps; then its centre stays, and it turns on.
+    "stopped": (HERTZ, "create_atoms 1 single 0.1 0.1 0.2 units box\nset group all diameter 0.02 density 2500\n"
+                "fix cad all mesh/surface/stress/6dof file flat.stl type 1 com 0.1 0.1 0 mass 1 moi 0.01 0.01 0.02 0 0 0 "
+                "vel 0 0 -0.5 angmom 0 0 0.4\nfix w all wall/gran model MODEL mesh n_meshes 1 meshes cad\nvariable z equal f_cad[9]\n"
+                "variable q equal f_cad[10]\nthermo_style custom step f_cad[9] f_cad[10]\nrun 500\n"
+                "fix_modify cad forceflags 0 0 0 vel 0 0 0\nrun 500\n", "${z} ${q}",
+                [(-250 * 1e-5 - 1e-9, -250 * 1e-5 + 1e-9), (math.cos(0.1) - 1e-6, math.cos(0.1) + 1e-6)]),
     # Planes at the edges of the region touch no grain, so nothing moves.
     "planes": (HERTZ, POUR + "".join(f"fix p{k} all wall/gran model {HERTZ} primitive type 1 {p}\n" for k, p in enumerate(
         ("xplane 0", "xplane 0.1", "yplane 0", "yplane 0.1", "zplane 0"), 3)) + "compute k all ke\nvariable k equal c_k\nvariable n equal atoms\n"
@@ -737,7 +752,7 @@ def physics(checks, folder, there=False):
     for name, (model, text, shown, bounds) in PHYSICS.items():
         if there and "6dof" in text:
             continue
-        box = BOX.replace("peratomtypepair 1 0.3", "peratomtypepair 1 1") if name == "body" else BOX
+        box = BOX.replace("peratomtypepair 1 0.3", "peratomtypepair 1 1") if "6dof" in text else BOX
         script = (box + text).replace("MODEL", model) + f'print "{name} is {shown}"\n'
         if there:
             (folder / "in.there").write_text(script)
