@@ -38,9 +38,9 @@ def commands(checks):
     allowed = float(re.search(r"^timestep +(\S+)", text, re.M)[1])
     used = float(re.search(r"^timestep +(\S+)", (TUTORIAL / "in.hopper").read_text(), re.M)[1])
     checks.fact("the script takes less than the timestep that is told", 0.5 * allowed < used <= allowed, f"{allowed}")
-    weight, borne = map(float, re.search(r"weight (\S+) N, .* bear (\S+) N", text).groups())
+    weight, borne = map(float, re.search(r"weight (\S+) N, .* carry (\S+) N", text).groups())
     # What still moves of 3000 grains that fell: their mean acceleration is below a hundredth of gravity.
-    checks.at_most("wall and plate bear the weight", abs(borne / weight - 1), 0.01)
+    checks.at_most("wall and plate carry the weight", abs(borne / weight - 1), 0.01)
     # Beverloo: 0.58 bulk_density sqrt(g) (D - 1.4 d)^2.5, bulk density 0.6 x 2500, D = 24 mm, d = 4 mm. For
     # outlets of 6 diameters his constants vary by a third from one material to another.
     beverloo = 0.58 * 1500 * 9.81**0.5 * (0.024 - 1.4 * 0.004) ** 2.5
