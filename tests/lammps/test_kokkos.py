@@ -161,23 +161,30 @@ def refusals(checks, folder):
         print("SKIPPED: hosts that say their Kokkos is another (this one has no liblammps.so)")
         return
     has_layouts = "using view layout" in done.stdout
+
+    def not_loaded(name, code, words):
+        source, other = folder / f"{name}.cpp", folder / f"{name}.so"
+        source.write_text(code)
+        subprocess.run([lmp.CXX, "-shared", "-fPIC", "-o", other, source], check=True)
+        said = lmp.run(short, folder, host=True, env={"LD_PRELOAD": str(other)})
+        checks.fact(f"another {name} of Kokkos: not loaded, and says why", said.returncode and words in said.stdout,
+                    "" if words in said.stdout else said.stdout[:400])
+        return said.stdout
+
     backend = "serial"    # of the plugin, which it says first
     for name, answers, words in (("precision", "", "this LAMMPS has no KOKKOS package in precision "),
                                  ("backend", "p", "this LAMMPS has no atoms on the Kokkos backend "),
                                  ("layout", "pa", "this LAMMPS has no view layout ")):
         if name == "layout" and not has_layouts:
             continue    # older LAMMPS have one only
-        source, other = folder / f"{name}.cpp", folder / f"{name}.so"
-        source.write_text('#include <cstring>\nextern "C" int lammps_config_accelerator(const char *, '
-                          f'const char *c, const char *s) {{ return std::strchr("{answers}", *c) && '
-                          f'(*c != \'a\' || !std::strcmp(s, "{backend}")); }}\n')
-        subprocess.run([lmp.CXX, "-shared", "-fPIC", "-o", other, source], check=True)
-        done = lmp.run(short, folder, host=True, env={"LD_PRELOAD": str(other)})
-        checks.fact(f"another {name} of Kokkos: not loaded, and says why",
-                    done.returncode and words in done.stdout,
-                    "" if words in done.stdout else done.stdout[:400])
-        said = re.search(r"built for Kokkos with the backend (\w+)", done.stdout)
+        text = not_loaded(name, '#include <cstring>\nextern "C" int lammps_config_accelerator(const char *, const char *c, '
+                          f'const char *s) {{ return std::strchr("{answers}", *c) && '
+                          f'(*c != \'a\' || !std::strcmp(s, "{backend}")); }}\n', words)
+        said = re.search(r"built for Kokkos with the backend (\w+)", text)
         backend = said.group(1) if said else backend
+    if has_layouts:    # Kokkos says its version from 3.6 on
+        not_loaded("version", '#include <ostream>\nnamespace Kokkos { void print_configuration(std::ostream &out, bool) '
+                   '{ out << "  Kokkos Version: 4.3.2\\n"; } }\n', ", this LAMMPS has Kokkos 4.3.2. Rebuild it against this LAMMPS: ")
 
 
 def main():

@@ -86,7 +86,8 @@ if [ -n "$mpi" ] || [ $precision != double ]; then    # what a plugin is tried w
   options=("${options[@]/PKG_RIGID=on/PKG_RIGID=off}")
 fi
 if [ -n "$mpi" ]; then kokkos= kokkos_source=; fi
-if [ $backend = OPENMP ]; then options=("${options[@]/BUILD_OMP=off/BUILD_OMP=on}"); fi
+atomics_bypass=on    # with one thread only
+if [ $backend = OPENMP ]; then options=("${options[@]/BUILD_OMP=off/BUILD_OMP=on}") atomics_bypass=off; fi
 # LAMMPS's name for the precision of atoms, and of sums.
 case $precision in
   double) defines+=" LMP_KOKKOS_DOUBLE_DOUBLE" ;;
@@ -95,7 +96,7 @@ case $precision in
 esac
 # As LAMMPS asks of the Kokkos that it builds itself.
 kokkos_options=(-D BUILD_SHARED_LIBS=on -D Kokkos_ENABLE_SERIAL=on -D Kokkos_ENABLE_IMPL_VIEW_LEGACY=on
-                -D Kokkos_ENABLE_ATOMICS_BYPASS=on -D CMAKE_CXX_STANDARD="$standard"
+                -D Kokkos_ENABLE_ATOMICS_BYPASS=$atomics_bypass -D CMAKE_CXX_STANDARD="$standard"
                 -D CMAKE_CXX_EXTENSIONS=off -D CMAKE_INSTALL_LIBDIR=lib -D CMAKE_BUILD_TYPE=None)
 if [ $backend != SERIAL ]; then kokkos_options+=(-D Kokkos_ENABLE_$backend=on); fi
 
