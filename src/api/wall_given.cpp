@@ -43,7 +43,7 @@ void need_elements(const T *array, std::size_t n, const std::string &field)
                  "give an array of " + std::to_string(n) + ", or say that there are 0");
 }
 
-// What a table does not use is 0 in other kinds.
+// Other kinds of motion leave at 0 what a table alone uses.
 void check_no_table(const lsdcd_motion &given, const std::string &field, const char *kind)
 {
   if (given.rows)

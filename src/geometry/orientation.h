@@ -13,7 +13,7 @@ namespace lsdcd {
 // then exactly where that does not decide.
 //
 // With u = 2^-53, a difference is right to a factor 1 + u, and so is each product and sum after
-// it. Of |a d| |b e - c f| a term goes through 3 differences, 2 products, the difference of the
+// it. In |a d| |b e - c f| a term goes through 3 differences, 2 products, the difference of the
 // minor and 2 sums, of which Shewchuk (1997, section 4.3) counts (7 + 56 u) u of the permanent,
 // itself rounded; in the plane (3 + 16 u) u. The bounds here are 8 u and 4 u. Products below
 // 2^-1022 lose up to 2^-1075 each: six minors' products by differences below 2^340, and three

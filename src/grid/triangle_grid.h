@@ -50,7 +50,7 @@ struct Brick {
 
 constexpr int kMaxNearest = 32;
 
-// What the list of a cell has: all that a sphere can touch (complete), the N primitives nearest to the cell's
+// The features in the list of a cell: all that a sphere can touch (complete), the N primitives nearest to the cell's
 // centre, or every primitive within the cutoff, as collisions of bodies ask for. It is one number in cache files
 // and in what kernels compare, so that it has no initial value.
 class ListKind {

@@ -48,7 +48,7 @@ class Host {
   int processes() const { return ranks_.processes; }
   bool is_first() const { return ranks_.rank == 0; }
 
-  // All processes call these together, in the same order.
+  // Collective: all processes call these in the same order.
 
   // Each of the n numbers becomes the sum over all processes.
   virtual void sum(Real * /*numbers*/, int /*n*/) {}

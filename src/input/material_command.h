@@ -26,12 +26,12 @@ struct Override {
   Real value;
 };
 
-// What particles of some atom types are made of.
+// The material of particles of some atom types.
 struct TypesMaterial {
   std::string types, name;    // types: as law takes them
 };
 
-// What a mesh is made of.
+// The material of a mesh.
 struct MeshMaterial {
   std::size_t at;      // in MaterialCommand::rest, behind its file's name
   std::string name;    // empty: the wall's

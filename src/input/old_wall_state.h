@@ -10,7 +10,7 @@
 
 namespace lsdcd {
 
-// What Wall::save() gave, as numbers of State or as versions before 0.10.0 wrote it: at most n numbers. Throws
+// Reads at most n numbers that Wall::save() gave, those of State or those of versions before 0.10.0. Throws
 // StateError, or InputError of the words of a motion.
 WallState read_wall_state(const Real *numbers, std::size_t n);
 

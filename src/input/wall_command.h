@@ -12,7 +12,7 @@
 
 namespace lsdcd {
 
-// What dump image shows of a wall.
+// How dump image shows a wall.
 struct PictureSpec {
   Draw draw = Draw::edges;
   int type = 1;        // atom type whose colour the mesh takes

@@ -40,12 +40,12 @@ struct MotionTerm {
   Vec3 axis = {0, 0, 1};         // right-handed; of any length but 0
   Real period = 0;               // time; 0: nothing repeats
   Real angle = 0;                // radians; the amplitude of riggle
-  // Of kind variable: inputs of the displacement (x, y, z) and its velocity; of kind variable_turn of the angle,
+  // kind variable: inputs of the displacement (x, y, z) and its velocity; of kind variable_turn of the angle,
   // radians, and its speed, in the places of x. Their values are filled in before a pose is asked for. Without an input
   // a velocity is the difference of displacements, and a displacement the sum of velocities.
   int input[6] = {kNoInput, kNoInput, kNoInput, kNoInput, kNoInput, kNoInput};
   Vec3 displacement = {0, 0, 0}, speed = {0, 0, 0};
-  // Of kind table: null until its file is read.
+  // kind table: null until its file is read.
   std::string table_file;
   TableOptions table_options;
   std::shared_ptr<const MotionTable> table;

@@ -46,7 +46,7 @@ struct TableRows {
   }
 };
 
-// What a table says at a time.
+// A row of a table, or between two rows, at one time.
 struct TablePlace {
   Vec3 shift = {0, 0, 0}, velocity = {0, 0, 0};
   Real angle = 0, speed = 0;    // about the axis; radians, radians/time

@@ -35,7 +35,7 @@ struct Joint {
   }
 };
 
-// What acts along such a coordinate: forces for a slider, torques for a hinge.
+// The spring, damper, stops and motor of such a coordinate: forces for a slider, torques for a hinge.
 struct JointDrive {
   Real stiffness = 0;                    // force/length or torque
   Real damping = 0;                      // force/velocity or torque time

@@ -69,7 +69,7 @@ class RigidBody {
   // Where the mesh is, with velocities for contacts.
   Pose pose() const;
   Mobility mobility() const;
-  // What the joint does to the body to hold it, with the velocity that it has now: not spring, damper, motor and limits.
+  // Force and torque of the joint that hold the body, with the velocity that it has now: not spring, damper, motor and limits.
   // The torque is about pivot().
   Wrench reaction(const Wrench &load) const;
   Vec3 pivot() const;    // the joint's point, or the centre of mass

@@ -52,7 +52,7 @@ Real largest_on_faces(const Mobility &m, const WeldedMesh &mesh)
   return most;
 }
 
-// Of any direction at any point of the box.
+// An upper bound for any direction at any point of the box.
 Real largest_in(const Mobility &m, const Box &box)
 {
   const PrincipalAxes shifts = principal_axes(m.shifts), turns = principal_axes(m.turns);

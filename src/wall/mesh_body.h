@@ -17,7 +17,7 @@
 
 namespace lsdcd {
 
-// Of the spheres that can touch it, now or later.
+// The spheres that can touch it, now or later.
 struct SphereRange {
   Real radius = 0;                // the largest
   Real mass = 0, lightest = 0;    // the largest and smallest; 0: there is none
@@ -36,7 +36,7 @@ struct BodyState {
 // those of half a step before complete(), and of the whole step after it.
 class MeshBody {
  public:
-  // Of the mesh with this number of the wall, from 0, with its body there. `force`: of the wall's units, in mass length /
+  // Makes the body of the mesh with this number of the wall, from 0, with its `body` there. `force`: of the wall's units, in mass length /
   // time^2. Host, wall and laws must outlive it. Throws InputError on all processes. Collective.
   MeshBody(Host &host, WallSpec &wall, const LawTable &laws, int mesh, const MeshGrid &grid,
            Real force);

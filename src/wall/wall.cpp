@@ -354,7 +354,7 @@ void Wall::advance_bodies(const Step &step)
   }
 }
 
-// Of this process: sums over all are made when they are asked for.
+// Notes the loads of this process: sums over all are made when they are asked for.
 void Wall::note_step_of_bodies(const HostSpheres &spheres, const Step &step)
 {
   for (MeshPart &m : meshes_) {

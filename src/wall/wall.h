@@ -59,8 +59,8 @@ struct StepInput {
 // In each step: begin(), launch(), finish(). Places, velocities and radii must not change between begin()
 // and finish(); forces and torques may.
 //
-// Spheres are counted from 0, meshes too. All processes call the functions together, but for those that
-// say so. Errors that all processes have alike are InputError, those of one process ProcessError.
+// Spheres are counted from 0, meshes too. Functions are collective, so that all processes call them, but for those
+// that say that they are local. Errors that all processes have alike are InputError, those of one process ProcessError.
 class Wall {
  public:
   // Reads the meshes, makes the engine, and logs what there is. `material`: what a material file filled in,
@@ -69,7 +69,7 @@ class Wall {
   Wall(Host &host, WallSpec spec, const WallUnits &units, WallBackend backend,
        const std::string &material, const StepClock &clock, const HostSpheres &there = {});
 
-  // Not together:
+  // Local:
   const WallSpec &spec() const { return spec_; }    // pressures are forces per area
   const LawTable &laws() const { return laws_; }
   const std::deque<MeshPart> &meshes() const { return meshes_; }
@@ -87,18 +87,17 @@ class Wall {
   // spheres is there once the host's stream has done what it has been given.
   void begin(const HostSpheres &spheres, const StepInput &input);
   // Chooses the spheres near the wall where that is due, and starts the step where the engine can work
-  // beside the host. Not together.
+  // beside the host. Local.
   void launch(const HostSpheres &spheres, LaunchMode mode = LaunchMode::in_turn);
-  // Not together. none: no step was begun, or one that has no spheres.
+  // Local. none: no step was begun, or one that has no spheres.
   StepState step_state() const { return engine_->state(); }
   // Adds forces and torques. Launches the step where it was not launched.
   void finish(const HostSpheres &spheres);
 
-  // The wall acts on nothing until the next step: its totals are 0. Not together.
+  // The wall acts on nothing until the next step: its totals are 0. Local.
   void clear_totals();
   // Before spheres change their order or processes, and before set_motion() and set_servo(): what steps have noted
-  // since the last time, of these spheres, whose tags are read. Throws where one had to leave out a sphere. Not
-  // together.
+  // since the last time, of these spheres, whose tags are read. Throws where one had to leave out a sphere. Local.
   void poll_diagnostics(const HostSpheres &spheres, std::int64_t step);
   // Warns where spheres went too far past a periodic face, for hosts that do not know how far they go: before they
   // are wrapped. Reads positions and groups, where the engine does.
@@ -124,15 +123,15 @@ class Wall {
   // Forces on the nodes of a mesh that has_nodes, of the last step, x y z, node after node: of contacts and of its
   // pressure, the sums over all processes.
   const std::vector<Real> &node_forces(int mesh);
-  // Adds arm times force, over contacts of this process: xx, yy, zz, xy, xz, yz. Energy. Not together.
+  // Adds arm times force, over contacts of this process: xx, yy, zz, xy, xz, yz. Energy. Local.
   void add_virial(Real *virial) const;
   // Calls row(sphere, numbers) for each sphere of this process with a contact, with the
-  // spec().contact_columns() numbers of the contacts array. Not together.
+  // spec().contact_columns() numbers of the contacts array. Local.
   void for_contact_rows(const std::function<void(int, const Real *)> &row) const;
 
   // Files that are due in this step.
   void write_due_files();
-  int files_every() const { return files_.every(); }    // steps; 0: there are none. Not together.
+  int files_every() const { return files_.every(); }    // steps; 0: there are none. Local.
 
   // Between steps. Throw InputError, and change nothing then.
 
@@ -148,17 +147,16 @@ class Wall {
   // where the body is, without a jump. With another joint its coordinate begins at 0 there, and what the joint allows
   // of its velocity goes on. The rest of `to` is not looked at.
   void set_body(int mesh, const BodySpec &to);
-  void check_is_body(int mesh) const;    // throws InputError. Not together.
-  // The pose of a mesh whose motion is_posed(), and that is no body and has no nodes, for the next step and those after it. Not
-  // together.
+  void check_is_body(int mesh) const;    // throws InputError. Local.
+  // The pose of a mesh whose motion is_posed(), and that is no body and has no nodes, for the next step and those after it. Local.
   void set_pose(int mesh, const Pose &pose);
   // Places (length) and velocities (length/time) of the nodes of a mesh that has_nodes, x y z, node after node, for the
   // next step and those after it. Velocities are of the same time as those of spheres; null: all are 0. The same on
-  // all processes. Not together.
+  // all processes. Local.
   void set_nodes(int mesh, const Real *x, const Real *v) { meshes_[mesh].nodes->set(x, v); }
 
   // For a saved state: the history of a sphere, with the names of features that any run has. Returns the
-  // numbers written. Not together.
+  // numbers written. Local.
   int pack_saved(int sphere, Real *buffer);
   // For a saved state: what the wall keeps beside the histories of spheres. Only the first process has
   // the loads of all.
