@@ -164,9 +164,18 @@ class FloatAtomsEngine : public WallEngine {
     return seen;
   }
 
-  void turn_springs(int n, int mesh, const TurnSpring &turn) override
+  bool copies_records() const override { return engine_->copies_records(); }
+  void start_nodes(int mesh, const NodesNow &now) override { engine_->start_nodes(mesh, now); }
+  void move_nodes(int mesh, const NodesNow &now) override { engine_->move_nodes(mesh, now); }
+  void fetch_records(int mesh, MeshFeatures &to) override { engine_->fetch_records(mesh, to); }
+  void turn_springs(int n, int mesh, const TurningMesh &turning) override
   {
-    engine_->turn_springs(n, mesh, turn);
+    engine_->turn_springs(n, mesh, turning);
+  }
+  Real add_node_forces(int mesh, const NodesNow &now, const MeshFeaturesView &wall,
+                       Real *forces) override
+  {
+    return engine_->add_node_forces(mesh, now, wall, forces);
   }
   void springs_to(ContactHistory &store, int n) override { engine_->springs_to(store, n); }
   void springs_from(const ContactHistory &store, int n) override

@@ -8,6 +8,8 @@
 #include "base/input_error.h"
 #include "engine/broad_phase/broad_phase.h"
 #include "engine/candidates_in_place.h"
+#include "engine/moving_nodes.h"
+#include "engine/node_forces.h"
 #include "engine/resident_springs.h"
 #include "engine/results/sphere_error.h"
 #include "engine/step/compiled_law.h"
@@ -37,6 +39,7 @@ class EngineOn : public WallEngine, public CandidatesInPlace {
           "or mesh, several meshes, wear or mesh_fields: use mixed or double");
     if (settings.nodes && !B::kOnHost)
       throw InputError("meshes whose nodes move are computed on the CPU: use device cpu or auto");
+    if (has_copies()) nodes_ = std::vector<MovingNodes<B>>(settings.meshes);
     clear_diagnostics(StepCounts());
     unlock_scratches();
     if (broad_phase_.uses_slots()) put_laws();
@@ -157,11 +160,6 @@ class EngineOn : public WallEngine, public CandidatesInPlace {
   }
   int n_records() const override { return static_cast<int>(results_.records().size()); }
   const ContactRecord *records() const override { return results_.records().data(); }
-  void visit_contacts(const VisitContact &visit) const override
-  {
-    if constexpr (!B::kOnHost) return WallEngine::visit_contacts(visit);
-    results_.visit_contacts(springs_.records(step_.update_history), visit);
-  }
   int n_candidates() const override { return static_cast<int>(broad_phase_.n()); }
   const int *candidates() const override { return broad_phase_.candidates(); }
 
@@ -173,11 +171,48 @@ class EngineOn : public WallEngine, public CandidatesInPlace {
     return diagnostics_of(seen);
   }
 
-  void turn_springs(int n, int mesh, const TurnSpring &turn) override
+  bool copies_records() const override { return has_copies(); }
+  void start_nodes(int mesh, const NodesNow &now) override
   {
-    if constexpr (!B::kOnHost) return WallEngine::turn_springs(n, mesh, turn);
+    if (has_copies()) nodes_[mesh].start(b_, now);
+  }
+  void move_nodes(int mesh, const NodesNow &now) override
+  {
+    nodes_.at(mesh).move(b_, records_of(mesh), now);
+  }
+  void fetch_records(int mesh, MeshFeatures &to) override
+  {
+    const MeshFeaturesView &from = records_of(mesh);
+    const auto fetch = [&](const auto *records, auto &rows) {
+      b_.copy_out(records, rows.data(), rows.size());
+    };
+    fetch(from.faces, to.faces);
+    fetch(from.edges, to.edges);
+    fetch(from.vertices, to.vertices);
+    fetch(from.edge_inward, to.edge_inward);
+    fetch(from.vertex_direction, to.vertex_direction);
+    fetch(from.face_parts, to.face_parts);
+    fetch(from.edge_out, to.edge_out);
+    fetch(from.vertex_out, to.vertex_out);
+    b_.wait();
+  }
+  void turn_springs(int n, int mesh, const TurningMesh &turning) override
+  {
     springs_.grow(n);
-    springs_.turn(n, static_cast<std::uint32_t>(mesh), law_.traits.n_vectors, turn);
+    springs_.turn(n, static_cast<std::uint32_t>(mesh),
+                  has_copies() ? nodes_[mesh].turning(records_of(mesh)) : turning);
+  }
+  Real add_node_forces(int mesh, const NodesNow &now, const MeshFeaturesView &wall,
+                       Real *forces) override
+  {
+    const ContactRecord *records = springs_.records(step_.update_history);
+    const std::size_t n_nodes = now.mesh->vertices.size();
+    if (!has_copies())
+      return node_forces_.add_on_host(results_.node_contacts(records, mesh, wall, now.velocity),
+                                      n_nodes, forces);
+    return node_forces_.add(
+        b_, results_.node_contacts(records, mesh, records_of(mesh), nodes_[mesh].field(0).velocity),
+        n_nodes, forces);
   }
   SpringsInPlace *springs_in_place() override { return &springs_; }
   void springs_to(ContactHistory &store, int n) override { springs_.to_store(store, n); }
@@ -187,7 +222,7 @@ class EngineOn : public WallEngine, public CandidatesInPlace {
   {
     return broad_phase_.bytes() + springs_.bytes() + results_.bytes() + next_results_.bytes() +
            overflow_.size() * sizeof(OverflowScratch) + work_lists_.bytes() +
-           works_.size() * sizeof(MeshWork) + laws_.size() * sizeof(LawEntry);
+           works_.size() * sizeof(MeshWork) + laws_.size() * sizeof(LawEntry) + bytes_of_nodes();
   }
 
   B &backend_now() { return b_; }
@@ -255,10 +290,24 @@ class EngineOn : public WallEngine, public CandidatesInPlace {
   }
 
  private:
+  bool has_copies() const { return settings_.nodes && (!B::kOnHost || settings_.copies_records); }
   MeshWork mesh_work(int m) const
   {
     const EngineMesh<B> &mesh = broad_phase_.mesh(m);
-    return {mesh.grid.view, force_settings(settings_, step_, mesh.pose, m)};
+    MeshWork work = {mesh.grid.view, force_settings(settings_, step_, mesh.pose, m)};
+    NodeField &nodes = work.settings.nodes;
+    if (nodes.velocity && has_copies()) nodes = nodes_[m].field(nodes.going);
+    return work;
+  }
+  std::size_t bytes_of_nodes() const
+  {
+    std::size_t bytes = node_forces_.bytes();
+    for (const MovingNodes<B> &nodes : nodes_) bytes += nodes.bytes();
+    return bytes;
+  }
+  const MeshFeaturesView &records_of(int mesh) const
+  {
+    return broad_phase_.mesh(mesh).grid.view.wall;
   }
 
   void launch_beside(const Spheres &spheres, const StepSettings &step,
@@ -379,6 +428,8 @@ class EngineOn : public WallEngine, public CandidatesInPlace {
 
   StepResults<B> results_, next_results_;    // of the last step, and of one launched beside
   WorkListStore<B> work_lists_;
+  std::vector<MovingNodes<B>> nodes_;    // of each mesh, where it has copies of records
+  NodeForces<B> node_forces_;
   Array<MeshWork> works_;    // of all meshes
   Array<LawEntry> laws_;     // likewise
 

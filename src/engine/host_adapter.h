@@ -177,6 +177,25 @@ class HostAdapter : public WallEngine {
     return diagnostics;
   }
 
+  bool copies_records() const override { return engine_.copies_records(); }
+  void start_nodes(int mesh, const NodesNow &now) override { engine_.start_nodes(mesh, now); }
+  void move_nodes(int mesh, const NodesNow &now) override { engine_.move_nodes(mesh, now); }
+  void fetch_records(int mesh, MeshFeatures &to) override { engine_.fetch_records(mesh, to); }
+  // Springs that wait are turned once the engine has them, in the step that comes.
+  void turn_springs(int /*n*/, int mesh, const TurningMesh &turning) override
+  {
+    if (!traits_.history) return;
+    if (are_waiting_)
+      to_turn_.push_back({mesh, turning});
+    else
+      engine_.turn_springs(n_candidates(), mesh, turning);
+  }
+  Real add_node_forces(int mesh, const NodesNow &now, const MeshFeaturesView &wall,
+                       Real *forces) override
+  {
+    return engine_.add_node_forces(mesh, now, wall, forces);
+  }
+
   void springs_to(ContactHistory &store, int n) override
   {
     springs_to_waiting();
@@ -187,6 +206,7 @@ class HostAdapter : public WallEngine {
   {
     waiting_ = store;
     are_waiting_ = true;
+    to_turn_.clear();
   }
 
   int n_candidates() const override { return static_cast<int>(candidates_.size()); }
@@ -307,6 +327,9 @@ class HostAdapter : public WallEngine {
     }
     engine_.springs_from(candidates, n_candidates());
     engine_.forget_far_meshes();
+    for (const auto &[mesh, turning] : to_turn_)
+      engine_.turn_springs(n_candidates(), mesh, turning);
+    to_turn_.clear();
     are_waiting_ = false;
   }
   void springs_to_waiting()
@@ -392,6 +415,7 @@ class HostAdapter : public WallEngine {
 
   ContactHistory waiting_;    // springs by the host's indices, while they are not with the engine
   bool are_waiting_ = true;
+  std::vector<std::pair<int, TurningMesh>> to_turn_;    // meshes with which they have to turn
 
   StepDiagnostics diagnostics_;    // since the host looked
   mutable WallTotals totals_;

@@ -6,6 +6,7 @@
 #pragma once
 
 #include "contact/contact_history.h"
+#include "contact/feature_turn.h"
 #include "engine/step/step_job.h"
 
 #include <algorithm>
@@ -111,26 +112,28 @@ class ResidentSprings : public SpringsInPlace {
     });
   }
 
-  // Where springs are in memory of the CPU: calls turn() with each spring of the spheres [0, n) on this mesh, and its
-  // first n_vectors * 3 further numbers.
-  template <class Turn>
-  void turn(std::size_t n, std::uint32_t mesh, int n_vectors, const Turn &turn)
+  // Turns the springs of the spheres [0, n) on this mesh with their features.
+  void turn(std::size_t n, std::uint32_t mesh, const TurningMesh &with)
   {
     if (!traits_.history) return;
     Pool &pool = pool_[now_];
-    Vec3 vectors[kMostVectors];
-    for (std::size_t i = 0; i < n; i++)
-      for (int c = 0; c < count_.data()[i]; c++) {
-        const std::size_t at = std::size_t(first_.data()[i]) + c;
-        Spring &spring = pool.springs.data()[at];
-        if (spring.mesh != mesh) continue;
-        Real *extra = pool.extra.data() + at * traits_.n_extra;
+    const int *first = first_.data(), *count = count_.data();
+    Spring *springs = pool.springs.data();
+    Real *all_extra = pool.extra.data();
+    const int n_extra = traits_.n_extra, n_vectors = traits_.n_vectors;
+    b_.for_each(n, [=] LSDCD_LAMBDA(std::size_t i) {
+      for (int c = 0; c < count[i]; c++) {
+        const std::size_t at = std::size_t(first[i]) + c;
+        if (springs[at].mesh != mesh) continue;
+        Real *extra = all_extra + at * n_extra;
+        Vec3 vectors[kMostVectors];
         for (int k = 0; k < n_vectors; k++)
           vectors[k] = {extra[3 * k], extra[3 * k + 1], extra[3 * k + 2]};
-        turn(spring, vectors, n_vectors);
+        turn_with_feature(with, springs[at], vectors, n_vectors);
         for (int k = 0; k < n_vectors; k++)
           for (int d = 0; d < 3; d++) extra[3 * k + d] = vectors[k][d];
       }
+    });
   }
 
   // The pool that the next step writes; `slot`: see ContactPool.

@@ -6,6 +6,7 @@
 #pragma once
 
 #include "engine/broad_phase/candidate_slots.h"
+#include "engine/node_forces.h"
 #include "engine/results/results.h"
 #include "engine/step/step_job.h"
 
@@ -98,13 +99,19 @@ class StepResults {
   const std::vector<Real> &sphere_heat() const { return sphere_heat_; }
   const std::vector<ContactRecord> &records() const { return records_; }
 
-  // Where a host can read them: the same records in their pool.
-  template <class Visit>
-  void visit_contacts(const ContactRecord *records, const Visit &visit) const
+  // The contacts of the last step, where the backend has them; `records`: with gaps.
+  NodeContacts node_contacts(const ContactRecord *records, int mesh, const MeshFeaturesView &wall,
+                             const Vec3 *velocity) const
   {
-    for (std::size_t k = 0; k < n_; k++)
-      for (int c = 0; c < n_contacts_.data()[k]; c++)
-        visit(candidates_ ? candidates_[k] : static_cast<int>(k), records[slot_.data()[k] + c]);
+    return {candidates_,
+            n_,
+            n_contacts_.data(),
+            slot_.data(),
+            records,
+            spheres_.x,
+            static_cast<std::uint32_t>(mesh),
+            wall,
+            velocity};
   }
 
   // Totals of the last step, summed on first request.

@@ -8,6 +8,7 @@
 #include "base/strided_view.h"
 #include "base/vec3.h"
 #include "contact/contact_history.h"
+#include "contact/feature_turn.h"
 #include "contact/node_field.h"
 #include "grid/triangle_grid.h"
 #include "law/contact_law.h"
@@ -51,6 +52,8 @@ struct EngineSettings {
   bool records = false;     // record what every contact does to the wall
   bool bodies = false;      // StepSettings::mobility will be used; contacts are recorded, too
   bool nodes = false;       // StepSettings::nodes will be used; likewise. On a CPU only
+  // The engine has copies of the records of meshes whose nodes move, as on a GPU, where this is so in any case.
+  bool copies_records = false;
   WearModel wear = WearModel::none;    // where there are records
   Device device = Device::automatic;
   int device_rank = 0;    // which of the GPUs this process takes (node-local rank, wrapped)
@@ -96,6 +99,13 @@ struct StepSettings {
   const Mobility *mobility = nullptr;
   // Likewise, where the nodes of a mesh move: their velocities, which are null of others.
   const NodeField *nodes = nullptr;
+};
+
+// A mesh whose nodes move, as its host has it in this step.
+struct NodesNow {
+  const WeldedMesh *mesh;         // its vertices are where the nodes are
+  const Vec3 *velocity, *spin;    // as in NodeField; spin null: all are 0
+  Real far;                       // the largest coordinate of the nodes, without its sign
 };
 
 // Sums over the spheres of the last step on this process.
@@ -255,26 +265,28 @@ class WallEngine {
   virtual int n_records() const = 0;
   virtual const ContactRecord *records() const = 0;
 
-  // Visits the same records where they are, without a copy: visit(sphere, record). Only for engines whose settings have
-  // nodes; step.records need not be set.
-  using VisitContact = std::function<void(int, const ContactRecord &)>;
-  virtual void visit_contacts(const VisitContact &) const
-  {
-    throw std::logic_error("nodes move on a CPU only");
-  }
-
   // Throws InputError if a sphere had to be left out of a step, too large or with more contacts than
   // there is memory for, or if one grew after the choice. Begins anew.
   virtual StepDiagnostics read_diagnostics() = 0;
 
-  // Turns the springs of the spheres [0, n) on a mesh, before a step, in the frame of the mesh: calls turn() with
-  // each spring and the vectors beside it, of which there are `n_vectors`. Only for engines whose settings have
-  // nodes.
-  using TurnSpring = std::function<void(Spring &, Vec3 *vectors, int n_vectors)>;
-  virtual void turn_springs(int /*n*/, int /*mesh*/, const TurnSpring &)
-  {
-    throw std::logic_error("nodes move on a CPU only");
-  }
+  // For meshes whose nodes move, where the settings have nodes.
+
+  // Has the engine copies of their records? Then it takes views of flat blocks only, and the records of a mesh change
+  // by move_nodes() alone from start_nodes() on, which comes after each set_grid().
+  virtual bool copies_records() const { return false; }
+  virtual void start_nodes(int /*mesh*/, const NodesNow &) {}
+  // The nodes have gone to where they are now: makes the records anew (mesh/moving_records.h). Before begin(). Throws
+  // InputError where a face has no area.
+  virtual void move_nodes(int /*mesh*/, const NodesNow &) {}
+  // Copies the records to the host. Waits.
+  virtual void fetch_records(int /*mesh*/, MeshFeatures &) {}
+  // Turns the springs of the spheres [0, n) on a mesh with their features, before a step, in the frame of the mesh.
+  // An engine with copies has the places before and after its last move_nodes(), and reads nothing of `turning`.
+  virtual void turn_springs(int n, int mesh, const TurningMesh &turning) = 0;
+  // Adds the forces of the contacts of the last step to those of the nodes of a mesh, x y z, node after node (force), in
+  // the order of the spheres. Returns the power of the nodes on the spheres. step.records need not be set.
+  virtual Real add_node_forces(int mesh, const NodesNow &now, const MeshFeaturesView &wall,
+                               Real *forces) = 0;
 
   // Springs of the spheres [0, n).
   virtual void springs_to(ContactHistory &store, int n) = 0;

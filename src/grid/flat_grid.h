@@ -18,6 +18,7 @@ class FlatGrid {
   {
     flatten(grid, block());
   }
+  explicit FlatGrid(const GridParts &grid) : FlatGrid(flat_bytes(grid)) { flatten(grid, block()); }
   // For a block that the caller fills.
   explicit FlatGrid(std::size_t bytes) : memory_(bytes) {}
 

@@ -99,6 +99,7 @@ void NodeGrid::build(const WeldedMesh &mesh, const MeshFeatures &features, Real 
                      Real allowance)
 {
   features_ = &features;
+  flat_ = FlatGrid();
   cutoff_ = cutoff;
   allowance_ = allowance;
   outside_ = mesh.report.volume < 0 ? -1 : 1;
@@ -211,8 +212,16 @@ void NodeGrid::build(const WeldedMesh &mesh, const MeshFeatures &features, Real 
                 });
 }
 
+void NodeGrid::make_flat()
+{
+  flat_ = FlatGrid();
+  const BrickRecords none;
+  flat_ = FlatGrid(GridParts{*features_, lists_, none, view()});
+}
+
 GridView NodeGrid::view() const
 {
+  if (flat_.bytes() > 0) return flat_.view();
   GridView v = {};
   v.wall = features_->view();
   v.origin = origin_;
@@ -232,7 +241,7 @@ GridView NodeGrid::view() const
 
 std::size_t NodeGrid::bytes() const
 {
-  std::size_t total = count_.size() * sizeof(std::uint32_t);
+  std::size_t total = count_.size() * sizeof(std::uint32_t) + flat_.bytes();
   CellListsView::each_array(lists_, [&](const auto &a) { total += array_bytes(a); });
   return total;
 }

@@ -13,6 +13,7 @@
 // as a point of a primitive goes no farther than the farthest of its nodes.
 #pragma once
 
+#include "grid/flat_grid.h"
 #include "grid/triangle_grid.h"
 #include "mesh/mesh_features.h"
 
@@ -34,6 +35,8 @@ class NodeGrid {
   Real allowance() const { return allowance_; }
   // Its records are those of `features` that it was built from, which must outlive it.
   GridView view() const;
+  // Copies grid and records into a flat block, which view() is of until the next build().
+  void make_flat();
 
   std::size_t n_candidates() const { return lists_.candidates.size(); }
   std::size_t bytes() const;
@@ -46,6 +49,7 @@ class NodeGrid {
   Vec3 origin_ = {0, 0, 0};
   std::int32_t n_bricks_[3] = {1, 1, 1};
   CellLists lists_;
+  FlatGrid flat_;
   // Memory of a build.
   std::vector<std::uint32_t> count_;    // of each cell of each brick
 };

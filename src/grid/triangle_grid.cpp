@@ -73,11 +73,20 @@ GridView TriangleGrid::view() const
   return v;
 }
 
-std::size_t flat_bytes(const TriangleGrid &grid)
+template <class Grid>
+std::size_t bytes_of_arrays(const Grid &grid)
 {
   std::size_t total = rounded(sizeof(FlatHeader));
   GridView::each_array(grid, [&](const auto &a) { total += rounded(array_bytes(a)); });
   return total;
+}
+std::size_t flat_bytes(const TriangleGrid &grid)
+{
+  return bytes_of_arrays(grid);
+}
+std::size_t flat_bytes(const GridParts &grid)
+{
+  return bytes_of_arrays(grid);
 }
 
 std::size_t flat_wall_bytes(const TriangleGrid &grid)
@@ -116,10 +125,19 @@ void flatten_arrays(Grid &grid, char *block, const Copy &copy)
   std::memcpy(block, &header, sizeof header);
 }
 
-void flatten(const TriangleGrid &grid, char *block)
+template <class Grid>
+void copy_arrays(const Grid &grid, char *block)
 {
   flatten_arrays(grid, block,
                  [](const auto &a, char *to) { std::memcpy(to, a.data(), array_bytes(a)); });
+}
+void flatten(const TriangleGrid &grid, char *block)
+{
+  copy_arrays(grid, block);
+}
+void flatten(const GridParts &grid, char *block)
+{
+  copy_arrays(grid, block);
 }
 
 void move_flat(TriangleGrid &grid, char *block)

@@ -213,6 +213,17 @@ std::string describe(const GridReport &report);
 // a node can share one: pack into memory of flat_bytes(), view it anywhere.
 // The block must be 64-byte aligned. A CUDA engine takes views of flat blocks only.
 std::size_t flat_bytes(const TriangleGrid &grid);
+// The same of a grid whose parts lie apart.
+struct GridParts {
+  const MeshFeatures &wall;
+  const CellLists &lists;
+  const BrickRecords &records;
+  GridView all;    // all but arrays
+
+  GridView view() const { return all; }
+};
+std::size_t flat_bytes(const GridParts &grid);
+void flatten(const GridParts &grid, char *block);
 // The part that any grid of this wall has, with room for the padding of the rest.
 std::size_t flat_wall_bytes(const TriangleGrid &grid);
 // The bytes that all of a grid may take, by the settings.

@@ -7,12 +7,14 @@
 #include "base/array_list.h"
 #include "base/input_error.h"
 #include "base/quad.h"
+#include "mesh/moving_records.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <limits>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 namespace lsdcd {
@@ -85,39 +87,6 @@ FaceRecord face_record(const Vec3 &a, const Vec3 &b, const Vec3 &c)
 // Thinner than this, long double's spare bits no longer cover the loss.
 constexpr Real kSliver = 1e-3;
 
-EdgeRecord make_edge(const Vec3 &a, const Vec3 &b)
-{
-  const Wide<long double> d = difference<long double>(b, a);
-  EdgeRecord e = {};
-  e.anchor = a;
-  e.direction = narrow(unit(d));
-  e.length = static_cast<Real>(root<long double>(dot(d, d)));
-  return e;
-}
-
-// If two faces lie in one plane, the region of the edge between them is no wider than this
-// angle. The grid's tolerance is four times wider.
-constexpr Real kFlat = 1e-13;
-
-bool is_flat(const EdgeRecord &e)
-{
-  return e.n_faces == 2 && norm(e.inward[0] + e.inward[1]) <= kFlat;
-}
-
-// A vertex inside a straight fold is covered by the two edges along it.
-bool is_straight(const Vec3 *direction, int n)
-{
-  constexpr int kTooMany = 32;    // keeping a vertex is always right, only slower
-  if (n > kTooMany) return false;
-  for (int i = 0; i < n; i++)
-    for (int j = i + 1; j < n; j++)
-      // Most pairs differ by their x alone; the factor covers rounding.
-      if (std::fabs(direction[i].x + direction[j].x) <= 2 * kFlat &&
-          dot(direction[i], direction[j]) < 0 && norm(direction[i] + direction[j]) <= kFlat)
-        return true;
-  return false;
-}
-
 // Vertices that hold no contact share this direction: no point is on the right side of it. Most
 // vertices of a smooth mesh are such, and directions are most of the memory of a vertex.
 constexpr Real kNoNumber = std::numeric_limits<Real>::quiet_NaN();
@@ -130,90 +99,24 @@ std::size_t n_past_second(const WeldedMesh &mesh, std::size_t edge)
   return n > 2 ? static_cast<std::size_t>(n - 2) : 0;
 }
 
-// The inward normals of the faces of edge i; `others` gets those of the faces past the second.
-void put_inward(const WeldedMesh &mesh, const std::vector<FaceRecord> &faces, std::size_t i,
-                EdgeRecord &e, Vec3 *others)
+EdgeRecord make_segment(const Vec3 &a, const Vec3 &b)
 {
-  e.n_faces = 0;
-  for (int k = mesh.edge_first[i]; k < mesh.edge_first[i + 1]; k++) {
-    const int face = mesh.edge_face[k];
-    int side = 0;
-    while (mesh.face_edges[face][side] != static_cast<int>(i)) side++;
-    const Vec3 inward = faces[face].inward[side];
-    if (e.n_faces < 2)
-      e.inward[e.n_faces] = inward;
-    else
-      *others++ = inward;
-    e.n_faces++;
-  }
+  const Wide<long double> d = difference<long double>(b, a);
+  EdgeRecord e = {};
+  e.anchor = a;
+  e.direction = narrow(unit(d));
+  e.length = static_cast<Real>(root<long double>(dot(d, d)));
+  return e;
 }
 
-// `others`: as above; `more` of the record is left to the caller.
+// `others` gets the inward normals of faces past the second; `more` of the record is left to the caller.
 EdgeRecord edge_record(const WeldedMesh &mesh, const std::vector<FaceRecord> &faces, std::size_t i,
                        Vec3 *others)
 {
   const auto &ends = mesh.edges[i];
-  EdgeRecord e = make_edge(mesh.vertices[ends[0]], mesh.vertices[ends[1]]);
-  put_inward(mesh, faces, i, e, others);
+  EdgeRecord e = make_segment(mesh.vertices[ends[0]], mesh.vertices[ends[1]]);
+  put_inward(topology_of(mesh), faces.data(), static_cast<std::uint32_t>(i), e, others);
   return e;
-}
-
-// The segment of an edge that moves; `keeps` its direction and length.
-void put_moving_edge(const Vec3 &a, const Vec3 &b, bool keeps, EdgeRecord &e)
-{
-  e.anchor = a;
-  if (keeps) return;
-  const Vec3 d = b - a;
-  const Real sq = norm_sq(d);
-  if (!(sq > 1e-200 && sq < 1e200)) {    // squares leave the range
-    const EdgeRecord made = make_edge(a, b);
-    e.direction = made.direction;
-    e.length = made.length;
-    return;
-  }
-  e.length = std::sqrt(sq);
-  e.direction = (1 / e.length) * d;
-}
-
-Vec3 outward_of_edge(const WeldedMesh &mesh, const std::vector<FaceRecord> &faces, std::size_t i)
-{
-  Vec3 outward = {0, 0, 0};
-  for (int k = mesh.edge_first[i]; k < mesh.edge_first[i + 1]; k++)
-    outward += faces[mesh.edge_face[k]].normal;
-  return outward;
-}
-
-std::uint32_t n_edges_at(const WeldedMesh &mesh, std::size_t vertex)
-{
-  return static_cast<std::uint32_t>(mesh.vertex_first[vertex + 1] - mesh.vertex_first[vertex]);
-}
-
-// The unit directions of the edges at vertex i, away from it.
-void put_directions(const WeldedMesh &mesh, const std::vector<EdgeRecord> &edges, std::size_t i,
-                    Vec3 *to)
-{
-  for (int k = mesh.vertex_first[i]; k < mesh.vertex_first[i + 1]; k++) {
-    const int edge = mesh.vertex_edge[k];
-    const Vec3 along = edges[edge].direction;
-    *to++ = mesh.edges[edge][0] == static_cast<int>(i) ? along : -along;
-  }
-}
-
-// Do other features cover vertex i? A vertex inside a plane is covered by its faces.
-bool is_covered(const WeldedMesh &mesh, const std::vector<EdgeRecord> &edges, std::size_t i,
-                const Vec3 *direction)
-{
-  const std::uint32_t n = n_edges_at(mesh, i);
-  bool inside_plane = n > 0;
-  for (int k = mesh.vertex_first[i]; k < mesh.vertex_first[i + 1] && inside_plane; k++)
-    inside_plane = is_flat(edges[mesh.vertex_edge[k]]);
-  return inside_plane || is_straight(direction, static_cast<int>(n));
-}
-
-// Angle between two edges of a face at their common corner, in (0, pi).
-Real corner_angle(const Vec3 &at, const Vec3 &b, const Vec3 &c)
-{
-  return std::atan2(norm(cross(b - at, c - at)), dot(b - at, c - at));
 }
 
 void put_outward_of_vertices(const WeldedMesh &mesh, MeshFeatures &out)
@@ -228,21 +131,6 @@ void put_outward_of_vertices(const WeldedMesh &mesh, MeshFeatures &out)
     }
 }
 
-// The edges and vertices of a face that can hold a contact, by a flag for each edge and vertex.
-template <class Flags>
-FaceParts parts_of(const WeldedMesh &mesh, std::size_t face, const Flags &edge_acts,
-                   const Flags &vertex_acts)
-{
-  FaceParts parts;
-  for (int k = 0; k < 3; k++) {
-    const std::uint32_t edge = mesh.face_edges[face][k], vertex = mesh.faces[face][k];
-    parts.part[k] = edge_acts[edge] ? feature_code(FeatureKind::edge, edge) : kNoFeature;
-    parts.part[3 + k] =
-        vertex_acts[vertex] ? feature_code(FeatureKind::vertex, vertex) : kNoFeature;
-  }
-  return parts;
-}
-
 void add_primitives(const WeldedMesh &mesh, MeshFeatures &out)
 {
   std::vector<bool> edge_acts(mesh.edges.size(), false), vertex_acts(mesh.vertices.size(), false),
@@ -253,7 +141,8 @@ void add_primitives(const WeldedMesh &mesh, MeshFeatures &out)
   }
   out.face_parts.reserve(mesh.faces.size());
   for (std::size_t f = 0; f < mesh.faces.size(); f++) {
-    out.face_parts.push_back(parts_of(mesh, f, edge_acts, vertex_acts));
+    out.face_parts.push_back(
+        parts_of(topology_of(mesh), static_cast<std::uint32_t>(f), edge_acts, vertex_acts));
     for (const int vertex : mesh.faces[f]) has_face[vertex] = true;
   }
   for (FeatureCode code : out.contact_features) {
@@ -271,30 +160,6 @@ void check_numbers(const WeldedMesh &mesh)
       mesh.vertices.size() > kMaxFeatures)
     throw InputError(mesh.source + ": " + std::to_string(mesh.edges.size()) + " edges, at most " +
                      std::to_string(kMaxFeatures) + " can be used; coarsen the mesh");
-}
-
-// A face that is far from thin keeps its digits in Real. Its sides are at most longest, and twice its area at least
-// kThick longest^2: the rounding of the normal is below 4 kRoundoff/kThick, 2e-14, which is a fifth of kFlat.
-constexpr Real kThick = 0.05;
-
-// The record of a face that moves, by the formulas of face_record() in Real. False: it is too thin, or its squares may
-// leave the range. `far`: no coordinate is larger.
-bool put_thick_face(const Vec3 &a, const Vec3 &b, const Vec3 &c, Real far, FaceRecord &f)
-{
-  const Vec3 edge[3] = {b - a, c - b, a - c}, area = cross(edge[0], edge[1]);
-  const Real sq[3] = {norm_sq(edge[0]), norm_sq(edge[1]), norm_sq(edge[2])},
-             longest_sq = std::max(sq[0], std::max(sq[1], sq[2])), area_sq = norm_sq(area);
-  constexpr Real kTiny = 1e-200, kHuge = 1e200;
-  // It has an area, too, as has_area() asks for: the second test is that its height is above 8 kRoundoff far.
-  if (!(area_sq >= kThick * kThick * (longest_sq * longest_sq) &&
-        area_sq >= 64 * kRoundoff * kRoundoff * (far * far) * longest_sq && area_sq > kTiny &&
-        area_sq < kHuge))
-    return false;
-  f.anchor = a;
-  f.normal = (1 / std::sqrt(area_sq)) * area;
-  for (int k = 0; k < 3; k++) f.inward[k] = (1 / std::sqrt(sq[k])) * cross(f.normal, edge[k]);
-  f.height = -dot(f.inward[1], edge[0]);
-  return true;
 }
 
 // The same test as that of welding: thinner than the rounding of its corners a face has no normal.
@@ -321,6 +186,30 @@ bool has_area(const Vec3 &a, const Vec3 &b, const Vec3 &c)
 
 }    // namespace
 
+MeshTopologyView topology_of(const WeldedMesh &mesh)
+{
+  const auto first = [](const auto &rows) { return rows.empty() ? nullptr : rows[0].data(); };
+  return {first(mesh.faces),
+          first(mesh.face_edges),
+          first(mesh.edges),
+          mesh.edge_first.data(),
+          mesh.edge_face.data(),
+          mesh.vertex_first.data(),
+          mesh.vertex_edge.data(),
+          static_cast<std::uint32_t>(mesh.faces.size()),
+          static_cast<std::uint32_t>(mesh.edges.size()),
+          static_cast<std::uint32_t>(mesh.vertices.size())};
+}
+
+void put_far_segment(const WeldedMesh &mesh, std::size_t edge, EdgeRecord &e)
+{
+  const auto &ends = mesh.edges[edge];
+  const EdgeRecord made = make_segment(mesh.vertices[ends[0]], mesh.vertices[ends[1]]);
+  e.anchor = made.anchor;
+  e.direction = made.direction;
+  e.length = made.length;
+}
+
 FaceRecord make_face_record(const Vec3 &a, const Vec3 &b, const Vec3 &c)
 {
   const FaceRecord f = face_record<long double>(a, b, c);
@@ -346,6 +235,7 @@ MeshFeatures make_features(const WeldedMesh &mesh, bool with_sides, bool with_pr
   const std::size_t n_faces = mesh.faces.size(), n_edges = mesh.edges.size(),
                     n_vertices = mesh.vertices.size();
   check_numbers(mesh);
+  const MeshTopologyView topology = topology_of(mesh);
 
   MeshFeatures out;
   out.images = mesh.images;
@@ -364,13 +254,14 @@ MeshFeatures make_features(const WeldedMesh &mesh, bool with_sides, bool with_pr
   if (with_sides) out.edge_out.reserve(n_edges);
   std::size_t n_used = 0;    // up to the last edge that can hold a contact
   for (std::size_t i = 0; i < n_edges; i++) {
+    const auto k = static_cast<std::uint32_t>(i);
     const std::size_t more = out.edge_inward.size();
     out.edge_inward.resize(more + n_past_second(mesh, i));
     EdgeRecord e = edge_record(mesh, out.faces, i, out.edge_inward.data() + more);
     e.more = static_cast<std::uint32_t>(more);
     out.edges.push_back(e);
     out.edge_vertex.push_back({{mesh.edges[i][0], mesh.edges[i][1]}});
-    if (with_sides) out.edge_out.push_back(outward_of_edge(mesh, out.faces, i));
+    if (with_sides) out.edge_out.push_back(outward_of_edge(topology, out.faces.data(), k));
     if (is_flat(e)) continue;
     out.contact_features.push_back(feature_code(FeatureKind::edge, static_cast<std::uint32_t>(i)));
     n_used = i + 1;
@@ -379,11 +270,12 @@ MeshFeatures make_features(const WeldedMesh &mesh, bool with_sides, bool with_pr
   out.vertices.reserve(n_vertices);
   out.vertex_direction.push_back(kNoDirection);
   for (std::size_t i = 0; i < n_vertices; i++) {
+    const auto k = static_cast<std::uint32_t>(i);
     VertexRecord v = {mesh.vertices[i], static_cast<std::uint32_t>(out.vertex_direction.size()),
-                      n_edges_at(mesh, i)};
+                      n_edges_at(topology, k)};
     out.vertex_direction.resize(v.first + v.count);
-    put_directions(mesh, out.edges, i, out.vertex_direction.data() + v.first);
-    if (is_covered(mesh, out.edges, i, out.vertex_direction.data() + v.first)) {
+    put_directions(topology, out.edges.data(), k, out.vertex_direction.data() + v.first);
+    if (is_covered(topology, out.edges.data(), k, out.vertex_direction.data() + v.first)) {
       out.vertex_direction.resize(v.first);
       v.first = 0;
       v.count = 1;
@@ -415,7 +307,7 @@ MeshFeatures make_moving_features(const WeldedMesh &mesh, bool with_sides)
   for (std::size_t i = 0; i < n_edges; i++) {
     const auto &ends = mesh.edges[i];
     out.edge_vertex.push_back({{ends[0], ends[1]}});
-    out.edges[i] = make_edge(mesh.vertices[ends[0]], mesh.vertices[ends[1]]);
+    out.edges[i] = make_segment(mesh.vertices[ends[0]], mesh.vertices[ends[1]]);
     out.edges[i].more = more;
     more += static_cast<std::uint32_t>(n_past_second(mesh, i));
   }
@@ -431,7 +323,10 @@ MeshFeatures make_moving_features(const WeldedMesh &mesh, bool with_sides)
     for (const int v : c) has_face[v] = true;
   }
   out.face_parts.resize(n_faces);
-  if (with_sides) out.edge_out.resize(n_edges);
+  if (with_sides) {
+    out.edge_out.resize(n_edges);
+    out.vertex_out.resize(n_vertices);
+  }
   for (std::size_t i = 0; i < n_edges; i++)
     if (mesh.edge_first[i] == mesh.edge_first[i + 1])
       out.primitives.push_back(feature_code(FeatureKind::edge, static_cast<std::uint32_t>(i)));
@@ -440,6 +335,31 @@ MeshFeatures make_moving_features(const WeldedMesh &mesh, bool with_sides)
       out.primitives.push_back(feature_code(FeatureKind::vertex, static_cast<std::uint32_t>(i)));
   update_features(mesh, mesh.vertices, with_sides, out);
   return out;
+}
+
+MovingRecords moving_records(const MeshFeaturesView &of, char *edge_acts, char *vertex_acts)
+{
+  const auto own = [](const auto *records) {
+    return const_cast<std::decay_t<decltype(*records)> *>(records);
+  };
+  return {own(of.faces),
+          own(of.edges),
+          own(of.vertices),
+          own(of.edge_inward),
+          own(of.vertex_direction),
+          own(of.face_parts),
+          own(of.edge_out),
+          own(of.vertex_out),
+          edge_acts,
+          vertex_acts};
+}
+
+FaceRecord make_thin_face_record(const WeldedMesh &mesh, std::size_t face)
+{
+  const auto &c = mesh.faces[face];
+  const Vec3 &a = mesh.vertices[c[0]], &b = mesh.vertices[c[1]], &d = mesh.vertices[c[2]];
+  if (!has_area(a, b, d)) throw_without_area(mesh, face);
+  return make_face_record(a, b, d);
 }
 
 void update_features(const WeldedMesh &mesh, const std::vector<Vec3> &before, bool with_sides,
@@ -453,46 +373,32 @@ void update_features(const WeldedMesh &mesh, const std::vector<Vec3> &before, bo
   Real far = 0;    // the largest coordinate
   for (const Vec3 &x : mesh.vertices)
     far = std::max({far, std::fabs(x.x), std::fabs(x.y), std::fabs(x.z)});
-  const auto keeps = [&](int from, int to) {
-    return mesh.vertices[to] - mesh.vertices[from] == before[to] - before[from];
-  };
+  MovedMesh moved = {topology_of(mesh),
+                     moving_records(out.view(), edge_acts.data(), vertex_acts.data()),
+                     mesh.vertices.data(), before.data(), far};
+  if (!with_sides) moved.to.edge_out = moved.to.vertex_out = nullptr;
 #pragma omp parallel num_threads(threads()) if (n_faces > 1024)
   {
 #pragma omp for schedule(static) reduction(min : thin)
     for (std::int64_t f = 0; f < n_faces; f++) {
+      if (move_face(moved, static_cast<std::uint32_t>(f))) continue;
       const auto &c = mesh.faces[f];
       const Vec3 &a = mesh.vertices[c[0]], &b = mesh.vertices[c[1]], &d = mesh.vertices[c[2]];
-      if (keeps(c[0], c[1]) && keeps(c[0], c[2])) {
-        out.faces[f].anchor = a;
-        continue;
-      }
-      if (put_thick_face(a, b, d, far, out.faces[f])) continue;
       out.faces[f] = make_face_record(a, b, d);
       if (!has_area(a, b, d)) thin = std::min(thin, f);
     }
 #pragma omp for schedule(static)
     for (std::int64_t i = 0; i < n_edges; i++) {
-      EdgeRecord &e = out.edges[i];
-      const auto &ends = mesh.edges[i];
-      put_moving_edge(mesh.vertices[ends[0]], mesh.vertices[ends[1]], keeps(ends[0], ends[1]), e);
-      put_inward(mesh, out.faces, i, e, out.edge_inward.data() + e.more);
-      if (with_sides) out.edge_out[i] = outward_of_edge(mesh, out.faces, i);
-      edge_acts[i] = !is_flat(e);
+      if (!move_segment(moved, static_cast<std::uint32_t>(i)))
+        put_far_segment(mesh, i, out.edges[i]);
+      put_faces_of_edge(moved, static_cast<std::uint32_t>(i));
     }
 #pragma omp for schedule(static)
-    for (std::int64_t i = 0; i < n_vertices; i++) {
-      const auto first = static_cast<std::uint32_t>(mesh.vertex_first[i]);
-      Vec3 *direction = out.vertex_direction.data() + first;
-      put_directions(mesh, out.edges, i, direction);
-      out.vertices[i] = {mesh.vertices[i], first, n_edges_at(mesh, i)};
-      vertex_acts[i] = !is_covered(mesh, out.edges, i, direction);
-    }
+    for (std::int64_t i = 0; i < n_vertices; i++) move_vertex(moved, static_cast<std::uint32_t>(i));
 #pragma omp for schedule(static)
-    for (std::int64_t f = 0; f < n_faces; f++)
-      out.face_parts[f] = parts_of(mesh, f, edge_acts, vertex_acts);
+    for (std::int64_t f = 0; f < n_faces; f++) put_parts(moved, static_cast<std::uint32_t>(f));
   }
   if (thin < n_faces) throw_without_area(mesh, thin);
-  if (with_sides) put_outward_of_vertices(mesh, out);
 }
 
 }    // namespace lsdcd

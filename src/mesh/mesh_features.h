@@ -5,6 +5,7 @@
 #pragma once
 
 #include "geometry/wall_records.h"
+#include "mesh/moving_records.h"
 #include "mesh/welded_mesh.h"
 
 #include <vector>
@@ -48,5 +49,14 @@ MeshFeatures make_moving_features(const WeldedMesh &mesh, bool with_sides);
 // where that keeps the digits of a normal. Throws InputError where a face has no area.
 void update_features(const WeldedMesh &mesh, const std::vector<Vec3> &before, bool with_sides,
                      MeshFeatures &features);
+
+// The parts of it, for an engine that has records of its own (mesh/moving_records.h).
+
+// The records of a view to be written, and flags of its edges and vertices.
+MovingRecords moving_records(const MeshFeaturesView &of, char *edge_acts, char *vertex_acts);
+// The record of a face that is too thin for Real. Throws InputError where it has no area.
+FaceRecord make_thin_face_record(const WeldedMesh &mesh, std::size_t face);
+// Place, direction and length of an edge whose squares leave the range of Real.
+void put_far_segment(const WeldedMesh &mesh, std::size_t edge, EdgeRecord &e);
 
 }    // namespace lsdcd

@@ -30,9 +30,15 @@ FeatureCode GridManager::without_image(int mesh, FeatureCode feature) const
 void GridManager::set_engine(WallEngine &engine)
 {
   engine_ = &engine;
-  for (const MeshPart &m : meshes_)
-    if (cutoff() > 0 && (!m.nodes || m.nodes->has_grid()))
-      run_collectively(host_, true, [&] { engine_->set_grid(m.view(), m.index); });
+  for (const MeshPart &m : meshes_) {
+    if (cutoff() == 0 || (m.nodes && !m.nodes->has_grid())) continue;
+    run_collectively(host_, true, [&] {
+      if (m.nodes)
+        m.nodes->give_grid(*engine_);
+      else
+        engine_->set_grid(m.view(), m.index);
+    });
+  }
 }
 
 bool GridManager::fit_spheres(Real radius, const SpheresOnCpu &spheres, std::int64_t step)

@@ -5,7 +5,6 @@
 
 #include "base/input_error.h"
 #include "base/input_words.h"
-#include "contact/history.h"
 #include "engine/lists/feature_list.h"
 #include "wall/mesh_name.h"
 
@@ -36,63 +35,6 @@ Real farthest(const std::vector<Vec3> &from, const std::vector<Vec3> &to, std::s
   return std::sqrt(std::max(most, Real(0)));
 }
 
-// The rotation of a face: its normal by the smallest turn of its plane, and in the plane the turn that fits best
-// (the polar decomposition of the plane map).
-struct FaceTurn {
-  Vec3 from[3], to[3];    // orthonormal frames
-  bool is_none;
-
-  FaceTurn(const Vec3 &a0, const Vec3 &b0, const Vec3 &c0, const Vec3 &a1, const Vec3 &b1,
-           const Vec3 &c1)
-  {
-    const Vec3 e0 = b0 - a0, f0 = c0 - a0, e1 = b1 - a1, f1 = c1 - a1;
-    is_none = e0 == e1 && f0 == f1;
-    if (is_none) return;
-    const Vec3 n0 = cross(e0, f0), n1 = cross(e1, f1);
-    const Real length0 = norm(e0), length1 = norm(e1), area0 = norm(n0), area1 = norm(n1),
-               of_length0 = 1 / length0, of_area0 = 1 / area0;
-    from[0] = of_length0 * e0;
-    from[2] = of_area0 * n0;
-    from[1] = cross(from[2], from[0]);
-    const Vec3 first = (1 / length1) * e1;
-    to[2] = (1 / area1) * n1;
-    const Vec3 second = cross(to[2], first);
-    // The plane map in these frames is upper triangular, (p q; 0 r), with p = |e1|/|e0| and p r the ratio of areas. It
-    // turns by the angle of (p + r, -q), here times p.
-    const Real p = length1 * of_length0, c = p * p + area1 * of_area0,
-               s = p * (p * dot(f0, from[0]) - dot(f1, first)) * (length0 * of_area0),
-               over = 1 / std::sqrt(c * c + s * s), cosine = over * c, sine = over * s;
-    to[0] = cosine * first + sine * second;
-    to[1] = cosine * second - sine * first;
-  }
-  Vec3 of(const Vec3 &a) const
-  {
-    if (is_none) return a;
-    return dot(from[0], a) * to[0] + dot(from[1], a) * to[1] + dot(from[2], a) * to[2];
-  }
-};
-
-// How a feature turns: by the mean of the rotations of its faces, keeping lengths.
-struct FeatureTurn {
-  std::vector<FaceTurn> faces;
-
-  void apply(Vec3 &a) const
-  {
-    if (faces.size() == 1) {
-      a = faces.front().of(a);
-      return;
-    }
-    Vec3 sum = {0, 0, 0};
-    bool any = false;
-    for (const FaceTurn &face : faces) {
-      any |= !face.is_none;
-      sum += face.of(a);
-    }
-    const Real length = norm(sum);
-    if (any && length > 0) a = (norm(a) / length) * sum;
-  }
-};
-
 }    // namespace
 
 MeshNodes::MeshNodes(Host &host, const WallSpec &wall, int mesh, const WeldedMesh &welded) :
@@ -122,7 +64,7 @@ void MeshNodes::set(const Real *x, const Real *v)
   }
 }
 
-void MeshNodes::begin_step(const Step &step, Real cutoff)
+void MeshNodes::begin_step(const Step &step, Real cutoff, WallEngine &engine)
 {
   if (next_.empty()) return;
   std::size_t node = 0;
@@ -140,11 +82,32 @@ void MeshNodes::begin_step(const Step &step, Real cutoff)
   way_ += most;
   mesh_.vertices.swap(next_);
   velocity_.swap(next_velocity_);
-  update_features(mesh_, next_, with_sides_, features_);
-  next_.clear();
   bounds_ = {mesh_.vertices.front(), mesh_.vertices.front()};
   for (const Vec3 &x : mesh_.vertices) extend(bounds_, x);
   if (with_spins_) find_spins(step.kind == Step::step ? step.dt / 2 : 0);
+  if (engine.copies_records() && grid_.is_built()) {
+    engine.move_nodes(index_, now());
+    are_records_old_ = true;
+  } else {
+    update_features(mesh_, next_, with_sides_, features_);
+  }
+  if (!have_moved_) turned_from_.swap(next_);
+  have_moved_ = true;
+  next_.clear();
+}
+
+NodesNow MeshNodes::now() const
+{
+  Real far = 0;
+  for (const Vec3 *x : {&bounds_.lo, &bounds_.hi})
+    for (int d = 0; d < 3; d++) far = std::max(far, std::fabs((*x)[d]));
+  return {&mesh_, velocity_.data(), with_spins_ ? spin_.data() : nullptr, far};
+}
+
+void MeshNodes::fetch_records(WallEngine &engine)
+{
+  if (are_records_old_) engine.fetch_records(index_, features_);
+  are_records_old_ = false;
 }
 
 // The spin of a face is that of its plane, n x dn/dt, and about its normal half the curl of the velocities. With
@@ -196,61 +159,30 @@ NodeField MeshNodes::field(Real cutoff) const
   return {velocity_.data(), spin_.data(), kOfLists * cutoff};
 }
 
-void MeshNodes::build_grid(Real cutoff)
+void MeshNodes::build_grid(Real cutoff, WallEngine &engine)
 {
+  fetch_records(engine);
   grid_.build(mesh_, features_, cutoff, kAllowance * cutoff);
   built_at_ = mesh_.vertices;
+  give_grid(engine);
+}
+
+void MeshNodes::give_grid(WallEngine &engine)
+{
+  if (engine.copies_records()) grid_.make_flat();
+  engine.set_grid(grid_.view(), index_);
+  engine.start_nodes(index_, now());
 }
 
 // ---- springs -----------------------------------------------------------------------------
 
 void MeshNodes::turn_springs(WallEngine &engine, int n)
 {
-  FeatureTurn turn_of;
-  const auto add_face = [&](int face) {
-    const auto &c = mesh_.faces[face];
-    turn_of.faces.emplace_back(turned_from_[c[0]], turned_from_[c[1]], turned_from_[c[2]],
-                               mesh_.vertices[c[0]], mesh_.vertices[c[1]], mesh_.vertices[c[2]]);
-  };
-  const auto add_faces_of = [&](int edge) {
-    for (int k = mesh_.edge_first[edge]; k < mesh_.edge_first[edge + 1]; k++)
-      add_face(mesh_.edge_face[k]);
-  };
-  const auto turn = [&](Spring &spring, Vec3 *vectors, int n_vectors) {
-    const std::uint32_t i = feature_index(spring.feature);
-    const FeatureKind kind = feature_kind(spring.feature);
-    turn_of.faces.clear();
-    if (kind == FeatureKind::face)
-      add_face(static_cast<int>(i));
-    else if (kind == FeatureKind::edge)
-      add_faces_of(static_cast<int>(i));
-    else
-      for (int k = mesh_.vertex_first[i]; k < mesh_.vertex_first[i + 1]; k++)
-        add_faces_of(mesh_.vertex_edge[k]);
-    // An edge without a face turns by the smallest turn of its direction.
-    const bool is_bare = turn_of.faces.empty() && kind == FeatureKind::edge;
-    const auto direction = [&](const std::vector<Vec3> &at) {
-      const auto &end = mesh_.edges[i];
-      const Vec3 along = at[end[1]] - at[end[0]];
-      return (1 / norm(along)) * along;
-    };
-    const auto turn_one = [&](Vec3 &a) {
-      if (is_bare)
-        a = transport(a, direction(turned_from_), direction(mesh_.vertices));
-      else
-        turn_of.apply(a);
-    };
-    if (kind == FeatureKind::face) {    // that of the face, to the last bit
-      const Vec3 &now = features_.faces[i].normal;
-      spring.normal = dot(turn_of.faces.front().of(spring.normal), now) < 0 ? -now : now;
-    } else {
-      turn_one(spring.normal);
-    }
-    turn_one(spring.shear);
-    for (int k = 0; k < n_vectors; k++) turn_one(vectors[k]);
-  };
-  if (!turned_from_.empty()) engine.turn_springs(n, index_, turn);
-  turned_from_ = mesh_.vertices;
+  if (have_moved_ && !springs_are_new_)
+    engine.turn_springs(
+        n, index_,
+        {topology_of(mesh_), features_.faces.data(), turned_from_.data(), mesh_.vertices.data()});
+  have_moved_ = springs_are_new_ = false;
 }
 
 // ---- forces ------------------------------------------------------------------------------
@@ -262,19 +194,11 @@ void MeshNodes::clear_forces()
   are_summed_ = true;
 }
 
-// Records are in the order of the spheres that touch, so that the sum is the same in each run.
-void MeshNodes::sum_forces(const WallEngine &engine, const Spheres &spheres)
+void MeshNodes::sum_forces(WallEngine &engine)
 {
   clear_forces();
   are_summed_ = false;
-  const MeshFeaturesView wall = features_.view();
-  engine.visit_contacts([&](int sphere, const ContactRecord &record) {
-    if (record.mesh != static_cast<std::uint32_t>(index_)) return;
-    const NodeShares at = node_shares(wall, record.feature, spheres.x[sphere] - record.arm);
-    for (int j = 0; j < at.n; j++)
-      for (int d = 0; d < 3; d++) of_contacts_[3 * at.node[j] + d] += at.share[j] * record.force[d];
-    power_ -= dot(record.force, field_at(at, velocity_.data()));
-  });
+  power_ = engine.add_node_forces(index_, now(), features_.view(), of_contacts_.data());
 }
 
 // A pressure on a flat face is a third of p times its area on each corner: the moment of that is the pressure's own,

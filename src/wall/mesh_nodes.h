@@ -32,7 +32,7 @@ class MeshNodes {
   // Begins a step: nodes go to where they were set. `cutoff`: 0 while there are no spheres. Throws InputError, which
   // names the node or face, where one is at no finite place, has no area, or has gone farther than the cutoff in one
   // step, as it may have gone through a sphere.
-  void begin_step(const Step &step, Real cutoff);
+  void begin_step(const Step &step, Real cutoff, WallEngine &engine);
 
   const WeldedMesh &mesh() const { return mesh_; }    // where the nodes are in this step
   const Box &bounds() const { return bounds_; }       // of them
@@ -44,16 +44,21 @@ class MeshNodes {
   // Have nodes gone so far since candidates were chosen that the lists of spheres are no longer complete?
   bool needs_choice(Real cutoff) const;
   void note_choice() { way_ = 0; }
-  void build_grid(Real cutoff);
+  // Builds it and gives it to the engine.
+  void build_grid(Real cutoff, WallEngine &engine);
+  void give_grid(WallEngine &engine);
+  // Before the engine is another one: gets the records that it has copies of.
+  void fetch_records(WallEngine &engine);
+  // Its records may be those of an earlier step where the engine has copies of them.
   GridView view() const { return grid_.view(); }
 
   // Turns the springs of spheres [0, n) with their features since the last step.
   void turn_springs(WallEngine &engine, int n);
   // Springs from elsewhere are of the step that comes.
-  void forget_turns() { turned_from_.clear(); }
+  void forget_turns() { springs_are_new_ = true; }
 
-  // After a step: what its contacts with these spheres do to the nodes, on this process.
-  void sum_forces(const WallEngine &engine, const Spheres &spheres);
+  // After a step: what its contacts do to the nodes, on this process.
+  void sum_forces(WallEngine &engine);
   void clear_forces();
   // Sums over all processes, x y z, node after node (force): of contacts, and of `pressure` (force/area), which pushes
   // to where the normals of faces point by their winding, and outward on a closed mesh. Collective, once a step.
@@ -69,6 +74,7 @@ class MeshNodes {
  private:
   std::string named(const std::string &text) const;
   void find_spins(Real back);
+  NodesNow now() const;
 
   Host &host_;
   const WallSpec &wall_;
@@ -80,10 +86,11 @@ class MeshNodes {
   std::vector<Vec3> velocity_, spin_;
   std::vector<Vec3> next_, next_velocity_;    // set for the next step; empty: as they are
   NodeGrid grid_;
-  Real way_ = 0;                  // of the fastest node in each step since the choice
-  std::vector<Vec3> built_at_;    // where nodes were when the grid was built
-  std::vector<Vec3>
-      turned_from_;    // where nodes were when springs were turned last; empty: no springs yet
+  Real way_ = 0;                     // of the fastest node in each step since the choice
+  std::vector<Vec3> built_at_;       // where nodes were when the grid was built
+  std::vector<Vec3> turned_from_;    // where nodes were when springs were turned last
+  bool have_moved_ = false, springs_are_new_ = true;    // since then
+  bool are_records_old_ = false;                        // the engine has those of this step
   std::vector<Real> of_contacts_, forces_;
   Real power_ = 0;
   bool are_summed_ = true;

@@ -176,6 +176,8 @@ void Wall::make_engine()
   const EngineSettings want = engine_settings();
   engine_moves_ = want.moves;
   engine_records_ = want.records || want.bodies || want.nodes;
+  for (MeshPart &m : meshes_)
+    if (m.nodes && engine_) m.nodes->fetch_records(*engine_);
   run_collectively(host_, true, [&] { engine_ = backend_.make_engine(want); });
   history_.set_engine(*engine_, backend_.in_place);
   grids_.set_engine(*engine_);
@@ -306,7 +308,7 @@ void Wall::move(const HostSpheres &spheres, const Step &step)
   for (MeshPart &m : meshes_)
     if (m.motion.moves_or_varies()) m.motion.place();
   for (MeshPart &m : meshes_)
-    if (m.nodes) m.nodes->begin_step(step, cutoff());
+    if (m.nodes) m.nodes->begin_step(step, cutoff(), *engine_);
 }
 
 // Inputs still have the values of the step before.
@@ -515,8 +517,7 @@ void Wall::build_node_grids()
     if (!m.nodes) continue;
     if (m.nodes->needs_choice(cutoff())) schedule_.expire();
     if (!m.nodes->needs_grid(cutoff())) continue;
-    m.nodes->build_grid(cutoff());
-    engine_->set_grid(m.view(), m.index);
+    m.nodes->build_grid(cutoff(), *engine_);
     schedule_.expire();
   }
 }
@@ -528,12 +529,12 @@ void Wall::turn_springs(int n)
 }
 
 // Sums over the spheres of this process, as for bodies.
-void Wall::sum_node_forces(const HostSpheres &spheres)
+void Wall::sum_node_forces()
 {
   for (MeshPart &m : meshes_) {
     if (!m.nodes) continue;
     if (cutoff() > 0)
-      m.nodes->sum_forces(*engine_, on_cpu(spheres).all());
+      m.nodes->sum_forces(*engine_);
     else
       m.nodes->clear_forces();
   }
@@ -585,7 +586,7 @@ void Wall::finish(const HostSpheres &spheres)
   }
   totals_.expire();
   if (has_bodies_) note_step_of_bodies(spheres, step);
-  if (has_nodes_) sum_node_forces(spheres);
+  if (has_nodes_) sum_node_forces();
   if (spec_.has_loads() && step.kind == Step::step) {    // what sets a run up has no duration
     const bool any = cutoff() > 0;
     for (const MeshPart &m : meshes_)

@@ -193,7 +193,7 @@ class Wall {
   void recede(const Step &step);
   void build_node_grids();
   void turn_springs(int n);
-  void sum_node_forces(const HostSpheres &spheres);
+  void sum_node_forces();
   void note_step_of_bodies(const HostSpheres &spheres, const Step &step);
   void step_coats(const Step &step);
   // On this mesh in the last step.

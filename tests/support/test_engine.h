@@ -10,8 +10,8 @@
 
 namespace lsdcd {
 
-// By LSDCD_TEST_DEVICE: cpu; cuda, which takes a host's particles; cuda_in_place, for particles in
-// the GPU's memory, where this brings those of the test.
+// By LSDCD_TEST_DEVICE: cpu; cpu_copies, which has copies of records as a GPU has; cuda, which takes a host's particles;
+// cuda_in_place, for particles in the GPU's memory, where this brings those of the test.
 std::unique_ptr<WallEngine> make_test_engine(EngineSettings settings);
 
 // Engines to compare with: that of the CPU, and one for particles in the memory of the tested device, with

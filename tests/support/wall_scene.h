@@ -21,12 +21,12 @@ struct WallScene : Grains {
   std::unique_ptr<Wall> wall;
 
   WallScene(FakeHost &host, const WallSpec &spec, const WallUnits &units = WallUnits(),
-            Real dt = 1e-3) :
+            Real dt = 1e-3, const WallBackend &backend = WallBackend()) :
       host(host),
       dt(dt)
   {
     host.simulation = wide_box();
-    wall = std::make_unique<Wall>(host, spec, units, WallBackend(), "", StepClock{0, 0, 0, dt});
+    wall = std::make_unique<Wall>(host, spec, units, backend, "", StepClock{0, 0, 0, dt});
   }
 
   // Forces and torques are those of this step.

@@ -6,10 +6,12 @@
 #include "base/input_error.h"
 #include "mesh/mesh_features.h"
 #include "support/brute_force.h"
+#include "support/device.h"
 #include "support/laws.h"
 #include "support/meshes.h"
 #include "support/query_oracle.h"
 #include "support/random.h"
+#include "support/test_engine.h"
 #include "support/wall_scene.h"
 
 #include <gtest/gtest.h>
@@ -71,9 +73,28 @@ ContactLaw all_motions()
   return law;
 }
 
+// The engine that LSDCD_TEST_DEVICE names.
+WallBackend tested()
+{
+  WallBackend backend;
+  backend.make_engine = make_test_engine;
+  return backend;
+}
+// That of the CPU, and with copies of records.
+WallBackend cpu(bool copies)
+{
+  WallBackend backend;
+  backend.make_engine = [=](EngineSettings settings) {
+    settings.device = Device::cpu;
+    settings.copies_records = copies;
+    return make_engine(settings);
+  };
+  return backend;
+}
+
 struct Scene : WallScene {
-  Scene(FakeHost &host, const WallSpec &spec, Real dt = kDt) :
-      WallScene(host, spec, WallUnits(), dt)
+  Scene(FakeHost &host, const WallSpec &spec, Real dt = kDt, const WallBackend &on = tested()) :
+      WallScene(host, spec, WallUnits(), dt, on)
   {
   }
 
@@ -176,6 +197,15 @@ std::vector<Vec3> places_over(const WeldedMesh &mesh, int n, Real depth)
     places.push_back(a + u * (b - a) + w * (c - a) + (i % 2 ? 1 : -1) * (kRadius - depth) * normal);
   }
   return places;
+}
+
+bool tests_the_cpu()
+{
+  return !test_on_cuda();
+}
+int steps_on_devices()
+{
+  return std::getenv("LSDCD_QUICK") ? 300 : 2000;
 }
 
 double pairs()
@@ -333,6 +363,130 @@ TEST(mesh_nodes, share_contacts_with_rigid_meshes_of_their_wall)
     for (int m = 0; m < 2; m++)
       EXPECT_EQ(one.wall->totals().mesh(m).contacts, other.wall->totals().mesh(m).contacts);
   }
+}
+
+// ---- on another device -------------------------------------------------------------------
+
+// The engine that has copies of the records, as a GPU has, gives the bits of the one that reads those of the host: forces
+// on spheres and nodes, springs, the power. The sheet has narrow columns, whose faces are too thin for Real, waves run
+// over it and it is shaken, a rigid box moves beside it; spheres touch faces, edges, vertices and both meshes.
+void expect_the_same_bits(const ContactLaw &law, Side side, bool has_box, int n_steps)
+{
+  TriangleSoup soup = side == Side::both ? floor_mesh(6, 1) : box_mesh({-1, -1, -1}, {1, 1, 1});
+  if (side == Side::both)
+    for (Vec3 &x : soup.corners) x.x = std::copysign(x.x * x.x * x.x * x.x, x.x);
+  WallSpec spec = nodes_of(law, welded(soup));
+  spec.side = side;
+  if (has_box) {
+    spec.meshes.push_back(spec.meshes.front());
+    MeshSpec &box = spec.meshes.back();
+    box.has_nodes = false;
+    box.name = "box";
+    box.mesh = welded(box_mesh({-0.3, -0.4, -0.9}, {0.5, 0.4, -0.1}));
+    MotionTerm term;
+    term.velocity = {0, 0.02, 0.05};
+    box.motion.add(term);
+  }
+  FakeHost host, other_host;
+  Scene one(host, spec, kDt, cpu(false)),
+      other(other_host, spec, kDt, tests_the_cpu() ? cpu(true) : tested());
+  Random random(13);
+  for (int k = 0; k < 40; k++) {
+    const Vec3 at = {uniform(random, -1.1, 1.1), uniform(random, -1.1, 1.1),
+                     side == Side::both ? uniform(random, -0.35, 0.35) : uniform(random, 1, 1.3)};
+    one.add(at, uniform(random, 0.2, 0.3));
+    one.v.back() = 0.2 * random_unit(random);
+    one.omega.back() = 2 * random_unit(random);
+  }
+  static_cast<Grains &>(other) = one;
+  const std::vector<Vec3> flat = one.nodes();
+  std::vector<Vec3> at = flat, v(at.size(), Vec3{0, 0, 0});
+  Real largest = 0, power = 0;
+  for (int i = 0; i <= n_steps; i++) {
+    for (std::size_t k = 0; k < at.size(); k++) {
+      const Real angle = 3 * flat[k].x + 2 * flat[k].y + 4 * kDt * i;
+      const Vec3 to = flat[k] + Vec3{0.02 * std::cos(angle), 0, 0.1 * std::sin(angle)} +
+                      1e-4 * random_unit(random);
+      v[k] = i == 0 ? Vec3{0, 0, 0} : (1 / kDt) * (to - at[k]);
+      at[k] = to;
+    }
+    // Some steps leave the nodes where they are, some shift them all.
+    const bool rests = i % 50 == 49;
+    if (i % 50 == 48)
+      for (Vec3 &x : at) x += Vec3{0.25, 0, 0.125} - Vec3{0.25, 0, 0.125 - 1. / 1024};
+    for (Scene *scene : {&one, &other}) {
+      if (!rests) scene->set_nodes(at, v);
+      if (i == 0) {
+        scene->set_up();
+        continue;
+      }
+      for (std::size_t k = 0; k < scene->x.size(); k++) {
+        if (std::fabs(scene->x[k].z) > 1.5) scene->v[k].z = -scene->v[k].z;
+        scene->x[k] += kDt * scene->v[k];
+      }
+      scene->next();
+    }
+    for (std::size_t k = 0; k < one.x.size(); k++) {
+      ASSERT_TRUE(one.force[k] == other.force[k]) << "step " << i << " sphere " << k;
+      ASSERT_TRUE(one.torque[k] == other.torque[k]) << "step " << i << " sphere " << k;
+      largest = std::max(largest, norm(one.torque[k]));
+    }
+    ASSERT_EQ(one.wall->node_forces(0), other.wall->node_forces(0)) << "step " << i;
+    if (i % 100 != 0) continue;
+    ASSERT_EQ(one.wall->nodes(0).power(), other.wall->nodes(0).power()) << "step " << i;
+    power = std::max(power, std::fabs(one.wall->nodes(0).power()));
+    for (int m = 0; m < static_cast<int>(spec.meshes.size()); m++)
+      ASSERT_EQ(one.wall->totals().mesh(m).contacts, other.wall->totals().mesh(m).contacts);
+  }
+  EXPECT_GT(largest, 0.01);
+  EXPECT_GT(power, 0);
+}
+
+TEST(mesh_nodes, on_another_device_give_the_same_bits)
+{
+  expect_the_same_bits(all_motions(), Side::both, false, steps_on_devices());
+}
+TEST(mesh_nodes, on_another_device_beside_a_rigid_mesh_give_the_same_bits)
+{
+  expect_the_same_bits(hertz_history(1e4, 3e3, 5, 3, 0.4).law(), Side::both, true,
+                       steps_on_devices());
+  expect_the_same_bits(all_motions(), Side::both, true, steps_on_devices() / 2);
+}
+TEST(mesh_nodes, on_another_device_give_the_same_bits_with_rolling_beside_a_classic_style)
+{
+  ContactLaw law = hertz_history(1e4, 3e3, 5, 3, 0.4).law();
+  law.rolling = RollingModel::cdt;
+  law.rolling.numbers[0] = 0.1;
+  expect_the_same_bits(law, Side::both, false, steps_on_devices() / 2);
+}
+TEST(mesh_nodes, on_another_device_give_the_same_bits_on_one_side_of_a_closed_mesh)
+{
+  expect_the_same_bits(all_motions(), Side::out, false, steps_on_devices() / 2);
+}
+
+// A node of a plate that bears hundreds of contacts has a sum of three levels.
+TEST(mesh_nodes, that_bear_many_spheres_have_the_sum_of_all)
+{
+  WallSpec spec = nodes_of(hooke(1000, 20, 30, 0.4).law(), welded(floor_mesh(1, 20)));
+  FakeHost host, other_host;
+  Scene one(host, spec, kDt, cpu(false)),
+      other(other_host, spec, kDt, tests_the_cpu() ? cpu(true) : tested());
+  Random random(17);
+  for (int k = 0; k < 3000; k++) {
+    one.add({uniform(random, -19, 19), uniform(random, -19, 19), 0.49}, 0.5);
+    one.v.back() = random_unit(random);
+  }
+  static_cast<Grains &>(other) = one;
+  for (Scene *scene : {&one, &other}) {
+    scene->set_nodes(one.nodes(), {});
+    scene->set_up();
+  }
+  Vec3 force = {0, 0, 0};
+  for (const Vec3 &f : one.force) force += f;
+  EXPECT_GT(norm(force), 3000);
+  EXPECT_LE(norm(force + one.sum_of_nodes()), 1e-13 * 3000 * 30);
+  EXPECT_EQ(one.wall->node_forces(0), other.wall->node_forces(0));
+  EXPECT_EQ(one.wall->nodes(0).power(), other.wall->nodes(0).power());
 }
 
 // ---- nothing is missed -------------------------------------------------------------------

@@ -84,7 +84,7 @@ class FeatureListStore {
   {
     const std::size_t n = spheres.n;
     if (!reserve(grid, grid.is_large, n) || n <= early) return;
-    if (grid.list_kind.is_every()) return leave_out(n, [](std::size_t) { return true; });
+    if (grid.list_kind.is_every()) return leave_out(b, n, nullptr, nullptr);
     if (!B::kOnHost) multi_contact_ = Array<char>(n + n / 8);
     b.for_each_in_warps(n, gather(grid, pose, spheres, margin, counts));
   }
@@ -94,14 +94,22 @@ class FeatureListStore {
   {
     if (!reserve(first_grid, large, spheres.n)) return;
     b.for_each_in_warps(spheres.n, GatherSlotWork{meshes, mesh, spheres, margin, lists_, counts});
-    if constexpr (B::kOnHost)
-      leave_out(spheres.n,
-                [&](std::size_t k) { return meshes[mesh[k]].grid.list_kind.is_every(); });
+    leave_out(b, spheres.n, meshes, mesh);
   }
 
   // For each candidate of one mesh: does it seem to touch more than one feature now? Steps on a GPU begin
   // with these. Null: not known.
   const char *multi_contact() const { return lists_.n ? multi_contact_.data() : nullptr; }
+
+  // Lists of meshes whose nodes move are made in steps (lists/node_list.h): there are none yet. `meshes` null: all
+  // slots are of one. Public because nvcc takes no device lambda from a private function.
+  void leave_out(B &b, std::size_t n, const PosedGrid *meshes, const int *mesh)
+  {
+    float *lengths = lists_.lengths;
+    b.for_each(n, [=] LSDCD_LAMBDA(std::size_t k) {
+      if (!meshes || meshes[mesh[k]].grid.list_kind.is_every()) lengths[k] = -1;
+    });
+  }
 
   std::size_t bytes() const
   {
@@ -121,14 +129,6 @@ class FeatureListStore {
   {
     lists_ = FeatureLists::of(reals_.data(), ints_.data(), ints_.size() / FeatureLists::kInts,
                               grid.length);
-  }
-
-  // Lists of meshes whose nodes move are made in steps (lists/node_list.h): there are none yet.
-  template <class IsLeftOut>
-  void leave_out(std::size_t n, const IsLeftOut &is_left_out)
-  {
-    for (std::size_t k = 0; k < n; k++)
-      if (is_left_out(k)) lists_.lengths[k] = -1;
   }
 
   // `large`: a wall whose records are read faster as copies. False: there are no lists to make.

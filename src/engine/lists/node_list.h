@@ -42,8 +42,8 @@ struct OverFace {
 };
 
 // The list of a sphere for a margin, from its cell, which lists what is so near; false: it is too long.
-inline bool gather_primitives(const GridView &grid, const QuerySphere &s, Real margin, Real going,
-                              FeatureList &list)
+LSDCD_FN bool gather_primitives(const GridView &grid, const QuerySphere &s, Real margin, Real going,
+                                FeatureList &list)
 {
   begin_list(list, s.x, s.cutoff, margin);
   CellAddress at;
@@ -68,7 +68,8 @@ inline bool gather_primitives(const GridView &grid, const QuerySphere &s, Real m
 }
 
 // For a way of a share of its radius, or less where that is too long.
-inline void gather_nodes(const GridView &grid, const QuerySphere &s, Real going, FeatureList &list)
+LSDCD_FN void gather_nodes(const GridView &grid, const QuerySphere &s, Real going,
+                           FeatureList &list)
 {
   Real margin = kSkinFraction * s.radius;
   for (int i = 0; i <= kMaxShrinks; i++, margin /= kShrink)

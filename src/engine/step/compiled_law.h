@@ -94,9 +94,9 @@ struct StepJob;
 // The numbers that engines store and move for a law.
 struct LawTraits {
   bool history, heat, records;
-  int n_extra, n_vectors;    // n_vectors: of the extra numbers those that come first, three each
+  // n_vectors, at most kMostVectors: of the extra numbers those that come first, three each
+  int n_extra, n_vectors;
 };
-constexpr int kMostVectors = 2;
 
 template <class Law>
 LawTraits traits_of(const Law &law)

@@ -191,7 +191,7 @@ LSDCD_FN void put_list(const StepJob &job, const Warp<kSize> &warp, bool mine, c
 }
 
 // The same where the nodes of the mesh move. Candidates have no list yet when they are chosen.
-inline void put_node_list(const StepJob &job, const QuerySphere &s, std::size_t k)
+LSDCD_FN void put_node_list(const StepJob &job, const QuerySphere &s, std::size_t k)
 {
   FeatureList made;
   gather_nodes(job.grid, s, job.settings.nodes.going, made);
@@ -302,8 +302,10 @@ struct MeshStep {
   LSDCD_FN void make_list(const Warp<kSize> &warp, bool mine, std::size_t k) const
   {
     if constexpr (Law::kNodes)
-      if (job.settings.nodes.velocity)
-        return put_node_list(job, query_sphere_of_candidate(law, job, k), k);
+      if (job.settings.nodes.velocity) {
+        if (mine) put_node_list(job, query_sphere_of_candidate(law, job, k), k);
+        return;
+      }
     put_list(job, warp, mine, job.grid, query_sphere_of_candidate(law, job, k), k);
   }
   // Prefetches for a CPU what make_list() will read, part by part.

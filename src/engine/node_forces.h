@@ -1,0 +1,253 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// The forces of contacts on the nodes of a mesh: the shares of each contact, in the order of the spheres. The sum of
+// a node has three levels, as those of a step have (results/results.h): 32 shares, 32 of these sums, and these in turn,
+// so that a GPU, which adds many at once, has the bits of a CPU.
+#pragma once
+
+#include "backend/backend.h"
+#include "contact/node_field.h"
+#include "engine/results/results.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace lsdcd {
+
+// The contacts of a step on one mesh. `slot`: the first record of each candidate that has contacts.
+struct NodeContacts {
+  const int *candidates;    // null: all spheres
+  std::size_t n;
+  const int *n_contacts, *slot;
+  const ContactRecord *records;
+  StridedView<const Real> x;
+  std::uint32_t mesh;
+  MeshFeaturesView wall;
+  const Vec3 *velocity;    // of the nodes
+
+  LSDCD_FN int count(std::size_t k) const
+  {
+    const int n_k = n_contacts[k];
+    return n_k > 0 && records[slot[k]].mesh == mesh ? n_k : 0;
+  }
+  LSDCD_FN NodeShares shares(std::size_t k, const ContactRecord &record) const
+  {
+    return node_shares(wall, record.feature, x[candidates ? candidates[k] : k] - record.arm);
+  }
+};
+
+// Adds up values three numbers each, one after the other, on three levels for each node.
+class NodeSums {
+ public:
+  NodeSums(std::size_t n_nodes, Real *sums) : sums_(sums), n_(n_nodes, 0) {}
+
+  void add(std::int32_t node, Real share, const Vec3 &force)
+  {
+    int &n = n_[node];
+    if (n > 0 && n % kTotalsBlock == 0) end_block(node, n);
+    n++;
+    for (int d = 0; d < 3; d++) sums_[3 * std::size_t(node) + d] += share * force[d];
+  }
+  void finish()
+  {
+    for (std::size_t i = 0; !group_.empty() && i < n_.size(); i++) {
+      if (n_[i] <= kTotalsBlock) continue;
+      for (std::size_t d = 3 * i; d < 3 * i + 3; d++) sums_[d] = total_[d] + (group_[d] + sums_[d]);
+    }
+  }
+
+ private:
+  void end_block(std::int32_t node, int n)
+  {
+    if (group_.empty()) {
+      group_.assign(3 * n_.size(), 0);
+      total_ = group_;
+    }
+    for (std::size_t d = 3 * std::size_t(node); d < 3 * std::size_t(node) + 3; d++) {
+      group_[d] += sums_[d];
+      sums_[d] = 0;
+      if (n % (kTotalsBlock * kTotalsBlock) != 0) continue;
+      total_[d] += group_[d];
+      group_[d] = 0;
+    }
+  }
+
+  Real *sums_;
+  std::vector<int> n_;
+  std::vector<Real> group_, total_;    // of nodes with more than a block; empty: there are none
+};
+
+// Their power on the spheres, of candidate k.
+LSDCD_FN Real power_on_spheres(const NodeContacts &in, std::size_t k)
+{
+  Real power = 0;
+  for (int c = 0; c < in.count(k); c++) {
+    const ContactRecord &record = in.records[in.slot[k] + c];
+    power -= dot(record.force, field_at(in.shares(k, record), in.velocity));
+  }
+  return power;
+}
+
+// Of block `at` of n values.
+LSDCD_FN Real sum_of_block(const Real *values, std::size_t at, std::size_t n)
+{
+  Real sum = 0;
+  for (std::size_t k = at * kTotalsBlock; k < (at + 1) * kTotalsBlock && k < n; k++)
+    sum += values[k];
+  return sum;
+}
+
+template <class B>
+class NodeForces {
+  template <class T>
+  using Array = typename B::template Array<T>;
+  template <class T>
+  using Scratch = typename B::template Scratch<T>;
+
+ public:
+  // Where a host can read the contacts. Sets `forces`, x y z, node after node, and returns the power on the spheres.
+  Real add_on_host(const NodeContacts &in, std::size_t n_nodes, Real *forces) const
+  {
+    NodeSums sums(n_nodes, forces);
+    std::vector<Real> power(in.n);
+    for (std::size_t k = 0; k < in.n; k++) {
+      power[k] = 0;
+      for (int c = 0; c < in.count(k); c++) {
+        const ContactRecord &record = in.records[in.slot[k] + c];
+        const NodeShares at = in.shares(k, record);
+        for (int j = 0; j < at.n; j++) sums.add(at.node[j], at.share[j], record.force);
+        power[k] -= dot(record.force, field_at(at, in.velocity));
+      }
+    }
+    sums.finish();
+    for (int level = 0; level < 2; level++) {
+      const std::size_t n = power.size();
+      for (std::size_t at = 0; at < blocks_of(n); at++)
+        power[at] = sum_of_block(power.data(), at, n);
+      power.resize(blocks_of(n));
+    }
+    return sum_of(power);
+  }
+
+  // By the backend: the shares of all contacts, sorted by node, which keeps their order.
+  Real add(B &b, const NodeContacts &in, std::size_t n_nodes, Real *forces)
+  {
+    if (in.n == 0) return 0;
+    int *at = reserve(offset_, in.n);
+    b.for_each(in.n, [=] LSDCD_LAMBDA(std::size_t k) { at[k] = 3 * in.count(k); });
+    const std::size_t n = b.exclusive_scan(at, in.n);
+    if (n == 0) return 0;
+    Scratch<std::uint32_t> nodes(n), numbers(n);
+    put_shares(b, in, n_nodes, nodes.data(), numbers.data(), n);
+    b.sort_pairs(nodes, numbers, static_cast<std::uint32_t>(n_nodes));
+    sum_shares(b, nodes.data(), numbers.data(), n, n_nodes);
+    const std::size_t n_sums = sum_power(b, in);
+    b.copy_out(sums_.data(), forces, 3 * n_nodes);
+    return sum_of(to_host(b, power_, n_sums));
+  }
+
+  std::size_t bytes() const
+  {
+    return (powers_.size() + power_.size() + sums_.size()) * sizeof(Real) +
+           (offset_.size() + first_.size()) * sizeof(int) +
+           (share_.size() + block_.size() + group_.size()) * sizeof(Vec3);
+  }
+
+  // The steps of the above. Public because nvcc takes no device lambda from a private function.
+
+  // Three shares a contact; n_nodes stands for a node that there is not.
+  void put_shares(B &b, const NodeContacts &in, std::size_t n_nodes, std::uint32_t *node,
+                  std::uint32_t *number, std::size_t n)
+  {
+    Vec3 *share = reserve(share_, n);
+    const int *offset = offset_.data();
+    b.for_each(in.n, [=] LSDCD_LAMBDA(std::size_t k) {
+      int to = offset[k];
+      for (int c = 0; c < in.count(k); c++) {
+        const ContactRecord &record = in.records[in.slot[k] + c];
+        const NodeShares at = in.shares(k, record);
+        for (int j = 0; j < 3; j++, to++) {
+          const bool is_one = j < at.n;
+          node[to] = static_cast<std::uint32_t>(is_one ? at.node[j] : n_nodes);
+          number[to] = static_cast<std::uint32_t>(to);
+          if (is_one) share[to] = at.share[j] * record.force;
+        }
+      }
+    });
+  }
+
+  // Puts sums of groups into power_, and returns how many there are.
+  std::size_t sum_power(B &b, const NodeContacts &in)
+  {
+    const std::size_t n = in.n, n_blocks = blocks_of(n), n_groups = blocks_of(n_blocks);
+    Real *of_one = reserve(powers_, n + n_blocks), *of_block = of_one + n,
+         *of_group = reserve(power_, n_groups);
+    b.for_each(n, [=] LSDCD_LAMBDA(std::size_t k) { of_one[k] = power_on_spheres(in, k); });
+    b.for_each(n_blocks,
+               [=] LSDCD_LAMBDA(std::size_t at) { of_block[at] = sum_of_block(of_one, at, n); });
+    b.for_each(n_groups, [=] LSDCD_LAMBDA(std::size_t at) {
+      of_group[at] = sum_of_block(of_block, at, n_blocks);
+    });
+    return n_groups;
+  }
+
+  void sum_shares(B &b, const std::uint32_t *node, const std::uint32_t *number, std::size_t n,
+                  std::size_t n_nodes)
+  {
+    const Vec3 *share = share_.data();
+    Vec3 *block = reserve(block_, n), *group = reserve(group_, n);
+    int *first = reserve(first_, n_nodes + 2);
+    Real *sums = reserve(sums_, 3 * n_nodes);
+    // first[i]: the first share of node i, or of a later one that has any.
+    b.for_each(n + 1, [=] LSDCD_LAMBDA(std::size_t i) {
+      const std::size_t from = i == 0 ? 0 : node[i - 1] + std::size_t(1),
+                        to = i == n ? n_nodes + 1 : node[i];
+      for (std::size_t v = from; v <= to; v++) first[v] = static_cast<int>(i);
+    });
+    constexpr int kBlock = kTotalsBlock, kGroup = kBlock * kBlock;
+    b.for_each(n, [=] LSDCD_LAMBDA(std::size_t i) {
+      const std::uint32_t of = node[i];
+      const int at = static_cast<int>(i), from = first[of], end = first[of + 1];
+      if (of == n_nodes || (at - from) % kBlock != 0) return;
+      Vec3 sum = {0, 0, 0};
+      for (int k = at; k < at + kBlock && k < end; k++) sum += share[number[k]];
+      block[i] = sum;
+    });
+    b.for_each(n, [=] LSDCD_LAMBDA(std::size_t i) {
+      const std::uint32_t of = node[i];
+      const int at = static_cast<int>(i), from = first[of], end = first[of + 1];
+      if (of == n_nodes || (at - from) % kGroup != 0) return;
+      Vec3 sum = {0, 0, 0};
+      for (int k = at; k < at + kGroup && k < end; k += kBlock) sum += block[k];
+      group[i] = sum;
+    });
+    b.for_each(n_nodes, [=] LSDCD_LAMBDA(std::size_t v) {
+      Vec3 sum = {0, 0, 0};
+      for (int k = first[v]; k < first[v + 1]; k += kGroup) sum += group[k];
+      for (int d = 0; d < 3; d++) sums[3 * v + d] = sum[d];
+    });
+  }
+
+ private:
+  template <class T>
+  static T *reserve(Array<T> &array, std::size_t n)
+  {
+    if (array.size() < n) array = Array<T>(n + n / 8);
+    return array.data();
+  }
+
+  static std::size_t blocks_of(std::size_t n) { return (n + kTotalsBlock - 1) / kTotalsBlock; }
+  static Real sum_of(const std::vector<Real> &values)
+  {
+    Real sum = 0;
+    for (const Real value : values) sum += value;
+    return sum;
+  }
+
+  Array<Real> powers_, power_, sums_;    // powers_: of candidates, and of blocks
+  Array<int> offset_, first_;
+  Array<Vec3> share_, block_, group_;
+};
+
+}    // namespace lsdcd
