@@ -166,9 +166,9 @@ def floor(folder):
     for name, p in paths.items():
         axes[0].plot(1e3 * p[:, 0], 1e6 * (p[:, 1] - p[0, 1]), lw=1, label=name)
         axes[1].plot(1e3 * p[:, 0], 100 * (p[:, 2] / p[0, 2] - 1), lw=1)
-    axes[0].set_ylabel("height [um]")
-    axes[1].set_ylabel("energy [%]")
-    axes[1].set_xlabel("x [mm]; a seam every 10 mm and on each diagonal")
+    axes[0].set_ylabel("height, um")
+    axes[1].set_ylabel("energy, %")
+    axes[1].set_xlabel("x, mm; a seam every 10 mm and on each diagonal")
     figure.legend(loc="upper center", ncols=2)
     figure.savefig(os.path.join(folder, "yade_floor.png"), dpi=110, bbox_inches="tight")
     # On a plane nothing changes. A place of 0.2 is rounded to 3e-17, and 16 000 steps add up to less than 1e-12.

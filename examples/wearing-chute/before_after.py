@@ -53,20 +53,24 @@ def draw(before, after, path):
     gone = np.linalg.norm(after - before, axis=2).mean(axis=1)
     figure, panels = plt.subplots(3, 1, figsize=(7.2, 7.2), layout="constrained", height_ratios=(1, 1, 0.7))
     draw_solid(panels[0], before, np.full((len(gone), 4), (0.85, 0.87, 0.9, 1)))
-    draw_solid(panels[1], after, plt.get_cmap("YlOrRd")(gone / gone.max()))
-    for axes, title in zip(panels, ("before", "after: red is where most is gone")):
+    colours = matplotlib.cm.ScalarMappable(matplotlib.colors.Normalize(0, gone.max()), "YlOrRd")
+    draw_solid(panels[1], after, colours.to_rgba(gone))
+    bar = figure.colorbar(colours, ax=panels[1], shrink=0.7, pad=0.01)
+    bar.set_label("worn off, d", fontsize=12)
+    for axes, title in zip(panels, ("before", "after", "section in the middle; heights are drawn 6 times as large")):
         axes.set_title(title, fontsize=14)
     middle = np.abs(before[:, :, 1]) < 1e-4
-    for corners, colour, name in ((before, "#B8BDC4", "before"), (after, "#D55E00", "after")):
+    for corners, colour, name in ((before, "#7A8088", "before"), (after, "#D55E00", "after")):
         for k in range(3):
             both = middle[:, k] & middle[:, (k + 1) % 3]
             for a, b in corners[both][:, [k, (k + 1) % 3]]:
-                panels[2].plot((a[0], b[0]), (a[2], b[2]), color=colour, linewidth=2, label=name)
-                name = None
-    panels[2].set_xlabel("along the chute, diameters of a grain", fontsize=12)
-    panels[2].set_ylabel("section", fontsize=12)
-    panels[2].legend(fontsize=11, loc="center", bbox_to_anchor=(0.6, 0.45))
-    figure.savefig(path, dpi=80)
+                panels[2].plot((a[0], b[0]), (a[2], b[2]), color=colour, linewidth=2)
+        panels[2].text(5, {"before": 0.06, "after": -0.6}[name], name, color=colour, fontsize=12)
+    panels[2].set_aspect(6)
+    panels[2].set_ylim(-0.9, 0.3)
+    panels[2].set_xlabel("along the chute, diameters d of a grain", fontsize=12)
+    panels[2].set_ylabel("height, d", fontsize=12)
+    figure.savefig(path, dpi=80, bbox_inches="tight")
     print(path)
 
 
