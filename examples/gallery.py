@@ -76,7 +76,7 @@ def scenes():
         "paddle": Scene((80, -80), (-7, 7, 0, 6, -7, 7), five, ("√(g d), speed", 0, 8), [glass, solid]),
         "lid": Scene((80, -80), (-6.5, 6.5, 0, 6, 0, 9), five, ("d, height", 0, 5), [glass, solid], quantity="z"),
         "wheel": Scene((80, -80), (14, 48, 0, 6, 0, 16), five, ("√(g d), speed", 0, 2), [glass, solid],
-                       arrows=[[(39, 0, 13.5), (47, 0, 13.5)]]),
+                       arrows=[[(41.5, 0, 13.5), (47.5, 0, 13.5)]]),
         "insertion": Scene((75, -60), (-9, 9, -9, 9, -7, 9), five, ("√(g d), speed; the wrong way", 0, 5), [solid]),
         "clumps": Scene((75, 20), (-15, 15, -15, 15, -1, 14), five, "clumps of 3 spheres; 4 colours", [solid, glass]),
         "belt": Scene((75, -75), (-1, 46, -6, 6, -16, 8), (10, "10 diameters d"), ("√(g d), speed", 0, 5),
