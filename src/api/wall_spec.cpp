@@ -31,13 +31,12 @@ void check_posed(const lsdcd_wall &wall, int mesh, bool wanted)
 {
   check_mesh(wall, mesh, 0);
   const MeshSpec &spec = wall.in->spec().meshes[static_cast<std::size_t>(mesh)];
-  if (spec.body.present)
-    throw ApiError(LSDCD_ERROR_ARGUMENT, "mesh " + std::to_string(mesh) + ", '" + spec.name +
-                                             "', is a body, which moves by what acts on it, so it "
-                                             "cannot have a motion, a servo or a pose");
+  const std::string named = "mesh " + std::to_string(mesh) + ", '" + spec.name + "'",
+                    why = wall.in->why_it_takes_no_motion(mesh);
+  if (!why.empty()) throw ApiError(LSDCD_ERROR_ARGUMENT, named + ": " + why);
   if (spec.motion.is_posed() == wanted) return;
   throw ApiError(LSDCD_ERROR_ARGUMENT,
-                 "mesh " + std::to_string(mesh) + ", '" + spec.name + "', is " +
+                 named + ", is " +
                      (wanted ? "not posed by the caller: set posed_by_caller in its "
                                "lsdcd_wall_mesh when the wall is made"
                              : "posed by the caller: lsdcd_wall_set_pose() moves it"));

@@ -713,15 +713,20 @@ void Wall::set_motion(int mesh, const RigidMotion &motion, const Step &now)
   log_change(m, "motion " + (motion.moves() ? m.motion.text(m.bounds(0)) : "none"));
 }
 
-// Throws InputError where the mesh moves by what acts on it, or by its nodes.
+std::string Wall::why_it_takes_no_motion(int mesh) const
+{
+  const MeshPart &m = meshes_[mesh];
+  if (m.body)
+    return "a body moves by what acts on it, so it cannot have a motion, a servo or a pose";
+  if (m.nodes)
+    return "its nodes alone move this mesh, so it cannot have a motion, a servo or a pose";
+  return "";
+}
+
 void Wall::check_may_move(const MeshPart &m) const
 {
-  if (m.body)
-    throw InputError(
-        named(m, "a body moves by what acts on it, so it cannot have a motion, a servo or a pose"));
-  if (m.nodes)
-    throw InputError(
-        named(m, "its nodes alone move this mesh, so it cannot have a motion, a servo or a pose"));
+  const std::string why = why_it_takes_no_motion(m.index);
+  if (!why.empty()) throw InputError(named(m, why));
 }
 
 void Wall::check_is_body(int mesh) const

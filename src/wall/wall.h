@@ -137,6 +137,8 @@ class Wall {
 
   // Names of inputs: those of today, and more.
   void set_inputs(const InputNames &inputs);
+  // Why set_motion(), set_servo() and set_pose() throw for this mesh; empty: they do not. Not together.
+  std::string why_it_takes_no_motion(int mesh) const;
   // Another motion of a mesh, from where it is; one without terms stops it. A servo goes on: that of `motion` is
   // not looked at.
   void set_motion(int mesh, const RigidMotion &motion, const Step &now);

@@ -1125,10 +1125,11 @@ TEST_F(wall_spec, takes_no_pose_for_a_body)
                     "mesh",    file_, "body", "mass", "1", "com", "0", "0",      "0",
                     "inertia", "1",   "1",    "1",    "0", "0",   "0"});
   EXPECT_EQ(code_of([&] { wall.set_pose(0, api::Pose()); }), LSDCD_ERROR_ARGUMENT);
-  EXPECT_NE(text_of([&] { wall.set_pose(0, api::Pose()); })
-                .find("is a body, which moves by what acts on it, so it cannot have a motion, a "
-                      "servo or a pose"),
-            std::string::npos);
+  EXPECT_NE(
+      text_of([&] { wall.set_pose(0, api::Pose()); })
+          .find("': a body moves by what acts on it, so it cannot have a motion, a servo or a "
+                "pose"),
+      std::string::npos);
 }
 
 TEST_F(wall_spec, refuses_poses_that_are_none)
