@@ -136,7 +136,7 @@ def check(page, words):
         return check_script(page, words[at], words[at + 1:])
     if name == "cmake":
         return check_cmake(words[1:])
-    if name in OTHERS or re.match(r"build/(fuzz/)?bin/((test|bench|fuzz)_|\w+_tests$)", program) or program.startswith("$") or program in ("./distance", "./simbody_wheel"):
+    if name in OTHERS or re.match(r"build/(fuzz/)?bin/((test|bench|fuzz)_|\w+_tests$)", program) or program.startswith("$") or program in ("./distance", "./simbody_wheel", "./bullet_crates"):
         return ""
     if "/" in program or program.endswith((".py", ".sh")):
         return check_script(page, program, words[1:])
