@@ -111,6 +111,23 @@ std::string BodyCoat::text() const
          " deeper between the points";
 }
 
+// Those of the last step.
+ContactHistory BodyCoat::springs(const FeatureName &name)
+{
+  const int n = static_cast<int>(points_.size());
+  ContactHistory springs(laws_.front().n_extra());
+  engine_->springs_to(springs, n);
+  springs.grow(n);
+  springs.rename_features([&](int mesh, FeatureCode f) { return name(others_[mesh], f); });
+  return springs;
+}
+
+void BodyCoat::rename_features(const FeatureName &name)
+{
+  if (laws_.front().has_history())
+    engine_->springs_from(springs(name), static_cast<int>(points_.size()));
+}
+
 void BodyCoat::set_grid(const MeshPart &m)
 {
   const auto at = std::find(others_.begin(), others_.end(), m.index);
@@ -333,10 +350,7 @@ std::vector<Real> BodyCoat::save(const FeatureName &name)
   if (!law.has_history()) return {};
   if (!restored_.empty()) return restored_;    // no step was made since
   const int n = static_cast<int>(points_.size());
-  ContactHistory springs(law.n_extra());
-  engine_->springs_to(springs, n);
-  springs.grow(n);
-  springs.rename_features([&](int mesh, FeatureCode f) { return name(others_[mesh], f); });
+  const ContactHistory springs = this->springs(name);
   std::vector<Real> out = {static_cast<Real>(law.history_kind()), static_cast<Real>(n)};
   for (int i = 0; i < n; i++) {
     if (springs.count(i) == 0) continue;

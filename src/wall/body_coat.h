@@ -31,6 +31,9 @@ class BodyCoat {
   Real radius() const { return radius_; }
   std::string text() const;    // line of the log
 
+  using FeatureName = std::function<FeatureCode(int mesh, FeatureCode feature)>;
+  // Gives the features of its springs the names that `name` gives them: before the grid of a mesh is another one.
+  void rename_features(const FeatureName &name);
   // The grid of a mesh from now on.
   void set_grid(const MeshPart &m);
 
@@ -40,7 +43,6 @@ class BodyCoat {
 
   // Returns what its contacts keep, with the names that `name` gives to features. restore() takes it again, before a
   // step. The first process warns where it is of another law or another coat.
-  using FeatureName = std::function<FeatureCode(int mesh, FeatureCode feature)>;
   std::vector<Real> save(const FeatureName &name);
   void restore(const std::vector<Real> &saved);
 
@@ -53,6 +55,7 @@ class BodyCoat {
   std::string named(const std::string &text) const;
   void place(const Pose &pose, Real back);
   Spheres spheres();
+  ContactHistory springs(const FeatureName &name);
   StepSettings settings(const std::deque<MeshPart> &meshes, const Step &step);
   void take_masses(const std::deque<MeshPart> &meshes, const Spheres &s, const StepSettings &want);
   void take_restored(const std::deque<MeshPart> &meshes);

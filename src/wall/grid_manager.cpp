@@ -99,9 +99,14 @@ void GridManager::rebuild(Real wanted, std::int64_t step)
   if (old > 0) {
     history_.on_host();
     // Images get other numbers: a spring on one goes to what that is an image of.
-    for (const MeshPart *m : anew)
-      history_.rename_features(
-          [&](int mesh, FeatureCode f) { return mesh == m->index ? without_image(mesh, f) : f; });
+    for (const MeshPart *m : anew) {
+      const auto name = [&](int mesh, FeatureCode f) {
+        return mesh == m->index ? without_image(mesh, f) : f;
+      };
+      history_.rename_features(name);
+      if (coats_ && m->grid.has_images())
+        for (BodyCoat &coat : *coats_) coat.rename_features(name);
+    }
   }
   for (const MeshPart *m : anew) checks_.check_outside(*m, box(), wanted);
   for (MeshPart *m : anew) {

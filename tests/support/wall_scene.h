@@ -18,6 +18,8 @@ struct WallScene : Grains {
   Real dt;
   Real gravity[3] = {0, 0, 0};
   std::int64_t now = 0;
+  // Steps after which spheres are looked at anew, as they go less than 0.05 in between; 0: all are watched.
+  int look_every = 0;
   std::unique_ptr<Wall> wall;
 
   WallScene(FakeHost &host, const WallSpec &spec, const WallUnits &units = WallUnits(),
@@ -25,7 +27,7 @@ struct WallScene : Grains {
       host(host),
       dt(dt)
   {
-    host.simulation = wide_box();
+    if (!host.simulation.any_periodic()) host.simulation = wide_box();    // or that of the test
     wall = std::make_unique<Wall>(host, spec, units, backend, "", StepClock{0, 0, 0, dt});
   }
 
@@ -37,9 +39,12 @@ struct WallScene : Grains {
     wall->history().grow(static_cast<int>(x.size()));
     StepInput input;
     input.step = {now, dt, kind};
-    input.look = input.new_spheres = kind == Step::setup;
-    input.drift.kind = SphereDrift::watched;
+    input.new_spheres = kind == Step::setup;
+    const bool is_due = look_every > 0 && now % look_every == 0;
+    input.look = input.new_spheres || is_due;
+    input.drift.kind = look_every > 0 ? SphereDrift::bounded : SphereDrift::watched;
     input.drift.distance = 0.05;
+    input.drift.has_begun = look_every > 0 && !input.look;
     input.gravity = gravity;
     wall->begin(spheres(), input);
     wall->launch(spheres());
@@ -49,6 +54,23 @@ struct WallScene : Grains {
   {
     wall->begin_run(now, false);
     step(Step::setup);
+  }
+  // A step in which spheres move as well, by their forces and gravity.
+  void move_spheres()
+  {
+    kick();
+    for (std::size_t i = 0; i < x.size(); i++) x[i] += dt * v[i];
+    run(1);
+    kick();
+  }
+  // Half a step of their velocities.
+  void kick()
+  {
+    const Vec3 g = {gravity[0], gravity[1], gravity[2]};
+    for (std::size_t i = 0; i < x.size(); i++) {
+      v[i] += 0.5 * dt * (1 / mass[i] * force[i] + g);
+      omega[i] += 0.5 * dt / (0.4 * mass[i] * radius[i] * radius[i]) * torque[i];
+    }
   }
   void run(int n)
   {
