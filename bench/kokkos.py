@@ -77,6 +77,25 @@ def time_steps(host, bed, folder, order, options, settled, rows):
         rows.add("" if wall else NO_WALL, order, times[wall], **what)
 
 
+def time_bodies(host, bed, folder, order, options, rows):
+    """Walls without and with a body in turn; prints what a body adds to a step, by the least times."""
+    walls = bed.walls_with_body()
+    times = {name: [] for name in walls}
+    for _ in range(options.rounds):
+        for name, wall in walls.items():
+            script = runs.timed_script(host, bed, order, wall, options.steps, options.chunks)
+            times[name] += runs.read_times(host.run_well(script, folder, bed.ranks))["ms"]
+    for name in walls:
+        rows.add(name, order, times[name], steps=options.steps)
+    for name in walls:
+        if not name.endswith("body"):
+            continue
+        for other in ("at rest", "moves"):
+            more = min(times[name]) - min(times[name.replace("body", other)])
+            print(f"{CASES[bed.name]}{name}: {1e3 * more:.1f} us a step more than {other}",
+                  flush=True)
+
+
 def time_lammps_walls(host, bed, folder, order, options, rows):
     """LAMMPS's own walls: some are tens of times as slow, so there are fewer steps."""
     steps = max(10, options.steps // 5)
@@ -152,6 +171,8 @@ def measure(host, options, named, folder, place):
                 for order in options.orders:
                     rows = Rows(host, bed, named)
                     time_steps(host, bed, work, order, options, settled, rows)
+                    if options.bodies and name == "box":
+                        time_bodies(host, bed, work, order, options, rows)
                     if options.against and name == "flat":
                         time_lammps_walls(host, bed, work, order, options, rows)
                     if options.copies:
@@ -207,6 +228,8 @@ def read_options(words):
                    help="steps before (default 3000)")
     p.add_argument("--against", action="store_true",
                    help="time LAMMPS's own flat walls on the flat floor, too")
+    p.add_argument("--bodies", action="store_true",
+                   help="time the closed box, and its floor, as a rigid body, too")
     p.add_argument("--ranks", default="1", metavar="LIST",
                    help='numbers of processes, as "1 2 4": weak scaling')
     p.add_argument("--copies", action="store_true",

@@ -72,6 +72,7 @@ class Bed:
         along = max(1, round(each**(1 / 3)))
         sites = [px * along, py * along, math.ceil(self.atoms / (px * py * along**2))]
         side = [SPACING * n - (1 - SPACING) for n in sites]
+        self.side = side
         triangles = box(side, WALL_CELLS)
         self.triangles = len(triangles)
         write_stl(self.mesh, triangles, "a closed box")
@@ -91,6 +92,24 @@ class Bed:
                 " periodic" * (self.boundary[0] == "p")
         # LAMMPS's own; its suffix must not choose the form.
         return f"suffix off\nfix wall all {style} {LAW} zplane 0.0 NULL\nsuffix on"
+
+    def walls_with_body(self):
+        """Of the closed box: {what is added to the row's case: the wall}. The box is one mesh, or its floor is a mesh of its own
+        beside the rest. The last mesh is at rest, moves (1e-9 a unit of time), or is a body on a slider with a spring, so heavy
+        that it moves less than 1e-4 while steps are timed."""
+        floor, sides = self.mesh.with_name("floor.stl"), self.mesh.with_name("sides.stl")
+        triangles = box(self.side, WALL_CELLS)
+        write_stl(floor, [t for t in triangles if all(p[2] == 0 for p in t)], "a floor")
+        write_stl(sides, [t for t in triangles if any(p[2] != 0 for p in t)], "five walls")
+        heavy, stiff = float(self.atoms), 100.0 * self.atoms
+        body = (f"body mass {heavy!r} com 0 0 0 inertia {heavy!r} {heavy!r} {heavy!r} 0 0 0 gravity 0 0 0 "
+                f"joint slider 0 0 1 spring {stiff!r} {0.1 * heavy!r}")
+        walls = {}
+        for meshes, name in (((self.mesh,), ""), ((sides, floor), ", two meshes")):
+            wall = f"fix wall all wall/lsdcd {self.law} " + " ".join(f"mesh {m}" for m in meshes)
+            for words, what in (("", ", at rest"), (" motion linear 0 0 1e-9", ", moves"), (f" {body}", ", body")):
+                walls[name + what] = wall + words
+        return walls
 
     def processors(self):
         return "processors {} {} 1".format(*self.split)
