@@ -154,6 +154,7 @@ class EngineOn : public WallEngine, public CandidatesInPlace {
   int n_touching() const override { return static_cast<int>(results_.touching().size()); }
   const int *touching() const override { return results_.touching().data(); }
   const SphereOutput *sphere_output() const override { return results_.output().data(); }
+  const TouchingSphere *touching_spheres() const override { return results_.states().data(); }
   const Real *sphere_heat() const override
   {
     return law_.traits.heat ? results_.sphere_heat().data() : nullptr;
@@ -352,6 +353,7 @@ class EngineOn : public WallEngine, public CandidatesInPlace {
     else
       run_law(job, n, law_of(0, 0));
     if (step_.update_history) springs_.swap();
+    if (step_.totals && !B::kOnHost) results.start_sums(b_);
   }
 
   // After a choice.

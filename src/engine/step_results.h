@@ -10,6 +10,7 @@
 #include "engine/results/results.h"
 #include "engine/step/step_job.h"
 
+#include <memory>
 #include <vector>
 
 namespace lsdcd {
@@ -33,6 +34,7 @@ class StepResults {
     candidates_ = candidates;
     n_ = n;
     totals_known_ = false;
+    n_parts_ = 0;
     if (n_contacts_.size() < n) {
       const std::size_t room = n + n / 8;
       n_contacts_ = Array<int>(room);
@@ -87,6 +89,7 @@ class StepResults {
   {
     touching_.clear();
     output_.clear();
+    states_.clear();
     sphere_heat_.clear();
     records_.clear();
     if (n_ == 0) return;
@@ -96,6 +99,7 @@ class StepResults {
 
   const std::vector<int> &touching() const { return touching_; }
   const std::vector<SphereOutput> &output() const { return output_; }
+  const std::vector<TouchingSphere> &states() const { return states_; }
   const std::vector<Real> &sphere_heat() const { return sphere_heat_; }
   const std::vector<ContactRecord> &records() const { return records_; }
 
@@ -132,14 +136,16 @@ class StepResults {
     return (numbers_.size() + heat_.size() + uncertain_.size()) * sizeof(Real) +
            (n_contacts_.size() + slot_.size() + stored_candidates_.size()) * sizeof(int) +
            touching_.capacity() * sizeof(int) + output_.capacity() * sizeof(SphereOutput) +
-           sphere_heat_.capacity() * sizeof(Real) + records_.capacity() * sizeof(ContactRecord);
+           states_.capacity() * sizeof(TouchingSphere) + sphere_heat_.capacity() * sizeof(Real) +
+           records_.capacity() * sizeof(ContactRecord) +
+           (block_sums_.size() + group_sums_.size() + sums_on_host_.size()) * sizeof(WallTotals);
   }
 
   // Before other spheres are candidates: totals stay those of the last step.
   void detach_from_candidates(B &b)
   {
     know_mesh_totals(b);
-    if (totals_known_ || !candidates_ || n_ == 0) return;
+    if (totals_known_ || n_parts_ == 1 || !candidates_ || n_ == 0) return;
     if (stored_candidates_.size() < n_) stored_candidates_ = Array<int>(n_ + n_ / 8);
     const int *from = candidates_;
     int *to = stored_candidates_.data();
@@ -150,8 +156,10 @@ class StepResults {
   void know_mesh_totals(B &b)
   {
     if (!slots_) return;
-    mesh_totals_.clear();
-    for (int m = 0; m < slots_->n_meshes(); m++) mesh_totals_.push_back(sum(b, slots_->mesh(), m));
+    mesh_totals_.assign(slots_->n_meshes(), WallTotals());
+    if (n_ > 0 && n_parts_ != slots_->n_meshes()) start_sums(b);
+    for (int m = 0; m < slots_->n_meshes() && n_ > 0; m++) mesh_totals_[m] = read_sum(m);
+    if (n_parts_ > 1) n_parts_ = 0;
     slots_ = nullptr;
   }
 
@@ -160,11 +168,13 @@ class StepResults {
   void fetch_output(B &b)
   {
     const std::size_t n = n_;
-    const bool has_heat = traits_.heat;
+    const bool has_heat = traits_.heat, has_states = step_.states;
     Array<SphereOutput> out(n);
+    Array<TouchingSphere> states(has_states ? n : 0);
     Array<Real> heat_out(has_heat ? n : 0);
     Array<int> sphere(n);
     SphereOutput *to = out.data();
+    TouchingSphere *to_state = states.data();
     Real *to_heat = heat_out.data();
     int *to_sphere = sphere.data();
     const Real *from_heat = heat_.data();
@@ -177,16 +187,21 @@ class StepResults {
       to[k] = SphereOutput();
       if (touches) to[k] = output_of(result.get(k), spheres.x[i], spheres.radius[i]);
       if (has_heat) to_heat[k] = touches ? from_heat[k] : 0;
+      if (has_states)
+        to_state[k] = {spheres.x[i], spheres.radius[i], spheres.mass[i],
+                       spheres.type ? spheres.type[i] : 0, 0};
       to_sphere[k] = static_cast<int>(i);
     });
     if (slots_ && slots_->n_multi_mesh() > 0) join_output(b, to, to_heat);
     const std::vector<SphereOutput> all = to_host(b, out, n);
     const std::vector<Real> heat = to_host(b, heat_out, heat_out.size());
+    const std::vector<TouchingSphere> state = to_host(b, states, states.size());
     const std::vector<int> index = to_host(b, sphere, n);
     for (std::size_t k = 0; k < n; k++) {
       if (!(all[k].contacts > 0)) continue;
       touching_.push_back(index[k]);
       output_.push_back(all[k]);
+      if (has_states) states_.push_back(state[k]);
       if (has_heat) sphere_heat_.push_back(heat[k]);
     }
   }
@@ -239,25 +254,40 @@ class StepResults {
   void sum_totals(B &b)
   {
     totals_known_ = true;
-    totals_ = sum(b, nullptr, 0);
+    totals_ = WallTotals();
+    if (n_ == 0) return;
+    if (n_parts_ != 1) sum(b, 1);
+    totals_ = read_sum(0);
   }
 
-  // Over all slots, or over those of one mesh; `mesh` has the mesh of each slot.
-  WallTotals sum(B &b, const int *mesh, int only)
+  // Starts the sums of each mesh where there are slots, or else those of all.
+  void start_sums(B &b) { sum(b, slots_ ? slots_->n_meshes() : 1); }
+
+  // Of one part, which is all slots, or of as many as there are meshes. Does not wait.
+  void sum(B &b, int n_parts)
   {
-    WallTotals total;
-    if (n_ == 0) return total;
     const std::size_t n = n_, n_blocks = (n + kTotalsBlock - 1) / kTotalsBlock,
-                      n_sums = (n_blocks + kTotalsBlock - 1) / kTotalsBlock;
-    Array<WallTotals> blocks(n_blocks), sums(n_sums);
-    WallTotals *block = blocks.data(), *sum = sums.data();
+                      n_groups = (n_blocks + kTotalsBlock - 1) / kTotalsBlock;
+    n_parts_ = n_parts;
+    n_groups_ = n_groups;
+    const std::size_t parts = static_cast<std::size_t>(n_parts);
+    if (block_sums_.size() < parts * n_blocks)
+      block_sums_ = Array<WallTotals>(parts * (n_blocks + n_blocks / 8));
+    if (group_sums_.size() < parts * n_groups) {
+      const std::size_t room = parts * (n_groups + n_groups / 8);
+      group_sums_ = Array<WallTotals>(room);
+      sums_on_host_ = typename B::template HostArray<WallTotals>(room);
+    }
+    WallTotals *block = block_sums_.data(), *group = group_sums_.data();
     const ResultColumns result = columns_;
-    const int *candidates = candidates_;
+    const int *candidates = candidates_, *mesh = n_parts > 1 ? slots_->mesh() : nullptr;
     const Real *uncertain = uncertain_.data();
-    b.for_each(n_blocks, [=] LSDCD_LAMBDA(std::size_t at) {
+    b.for_each(parts * n_blocks, [=] LSDCD_LAMBDA(std::size_t at) {
+      const int part = static_cast<int>(at / n_blocks);
+      const std::size_t begin = at % n_blocks * kTotalsBlock;
       WallTotals t;
-      for (std::size_t k = at * kTotalsBlock; k < (at + 1) * kTotalsBlock && k < n; k++) {
-        if (mesh && mesh[k] != only) continue;
+      for (std::size_t k = begin; k < begin + kTotalsBlock && k < n; k++) {
+        if (mesh && mesh[k] != part) continue;
         if (uncertain && uncertain[k] > 0) add_uncertain(t, uncertain[k]);
         if (result.n_contacts[k] == 0) continue;
         const SphereResult r = result.get(k);
@@ -265,13 +295,26 @@ class StepResults {
       }
       block[at] = t;
     });
-    b.for_each(n_sums, [=] LSDCD_LAMBDA(std::size_t at) {
+    b.for_each(parts * n_groups, [=] LSDCD_LAMBDA(std::size_t at) {
+      const WallTotals *const blocks = block + at / n_groups * n_blocks;
+      const std::size_t begin = at % n_groups * kTotalsBlock;
       WallTotals t;
-      for (std::size_t k = at * kTotalsBlock; k < (at + 1) * kTotalsBlock && k < n_blocks; k++)
-        add_block(t, block[k]);
-      sum[at] = t;
+      for (std::size_t k = begin; k < begin + kTotalsBlock && k < n_blocks; k++)
+        add_block(t, blocks[k]);
+      group[at] = t;
     });
-    for (const WallTotals &t : to_host(b, sums, n_sums)) add_block(total, t);
+    b.copy_out(group_sums_.data(), sums_on_host_.data(), parts * n_groups);
+    if (!are_summed_) are_summed_ = std::make_unique<typename B::Event>();
+    are_summed_->record(b);
+  }
+
+  // Waits for what was started before start_sums() returned, and for nothing behind it.
+  WallTotals read_sum(int part) const
+  {
+    are_summed_->wait();
+    WallTotals total;
+    const WallTotals *const groups = sums_on_host_.data() + part * n_groups_;
+    for (std::size_t k = 0; k < n_groups_; k++) add_block(total, groups[k]);
     return total;
   }
 
@@ -288,10 +331,16 @@ class StepResults {
 
   WallTotals totals_;
   bool totals_known_ = true;
+  int n_parts_ = 0;    // of the sums that were started; 0: none were
+  std::size_t n_groups_ = 0;
+  Array<WallTotals> block_sums_, group_sums_;    // part after part
+  typename B::template HostArray<WallTotals> sums_on_host_;
+  std::unique_ptr<typename B::Event> are_summed_;
   const CandidateSlots<B> *slots_ = nullptr;    // until their totals are known
   std::vector<WallTotals> mesh_totals_;
   std::vector<int> touching_;
   std::vector<SphereOutput> output_;
+  std::vector<TouchingSphere> states_;
   std::vector<Real> sphere_heat_;
   std::vector<ContactRecord> records_;
 };

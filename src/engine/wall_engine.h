@@ -90,8 +90,10 @@ struct StepSettings {
   Real dt = 0;                   // time
   bool update_history = true;    // false in setup: springs act but do not move
   bool per_sphere = false;       // fill SphereOutput
-  bool records = true;           // bring the records of settings.records
-  Real wall_temperature = 0;     // where the law has heat
+  bool states = false;           // and TouchingSphere, where per_sphere is set
+  bool totals = false;          // they will be asked for before the next step: summed with this one
+  bool records = true;          // bring the records of settings.records
+  Real wall_temperature = 0;    // where the law has heat
   // For each mesh, in place of wall_temperature and of the settings' surface; valid until finish().
   const Real *mesh_temperature = nullptr;
   const SurfaceMotion *surface = nullptr;
@@ -127,6 +129,14 @@ struct SphereOutput {
   Vec3 force;       // sum over them, on the sphere
   Vec3 point;       // mean contact point on the wall, weighted by normal force
   Real radius;      // 0 where nothing touches
+};
+
+// A sphere with a contact, as the step has read it.
+struct TouchingSphere {
+  Vec3 x;
+  Real radius, mass;
+  int type;    // 0 where laws do not differ by it
+  int pad;     // keeps the record free of indeterminate bytes
 };
 
 // The effect of one contact on the wall in one step.
@@ -257,6 +267,8 @@ class WallEngine {
   virtual int n_touching() const = 0;
   virtual const int *touching() const = 0;
   virtual const SphereOutput *sphere_output() const = 0;
+  // States of the same, after a step with `states`.
+  virtual const TouchingSphere *touching_spheres() const = 0;
   // Power into each of them; null where the law has no heat.
   virtual const Real *sphere_heat() const = 0;
 

@@ -54,6 +54,12 @@ class Host {
   virtual void sum(Real * /*numbers*/, int /*n*/) {}
   // Each of the n numbers becomes the largest of all processes.
   virtual void max(Real * /*numbers*/, int /*n*/) {}
+  // Both in one message, where the host can: n sums and m largest numbers.
+  virtual void sum_and_max(Real *sums, int n, Real *largest, int m)
+  {
+    sum(sums, n);
+    max(largest, m);
+  }
   // `bytes` bytes of the process `from` replace those of the receivers; other processes may pass null. To those
   // that fill memory only the first process sends.
   virtual void broadcast(void * /*data*/, std::size_t /*bytes*/, int /*from*/,

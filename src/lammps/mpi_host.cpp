@@ -34,6 +34,20 @@ void broadcast_bytes(void *data, std::size_t bytes, int root, MPI_Comm comm)
               MPI_BYTE, root, comm);
 }
 
+// Of messages whose first two numbers count what follows: sums, then largest numbers.
+void add_or_keep_largest(void *one, void *other, int *messages, MPI_Datatype * /*type*/)
+{
+  const double *from = static_cast<const double *>(one);
+  double *to = static_cast<double *>(other);
+  for (int k = 0; k < *messages; k++) {
+    const int n = static_cast<int>(from[0]), m = static_cast<int>(from[1]);
+    from += 2;
+    to += 2;
+    for (int i = 0; i < n; i++) *to++ += *from++;
+    for (int i = 0; i < m; i++, to++, from++) *to = std::max(*to, *from);
+  }
+}
+
 bool is_finalized()
 {
   int finalized;
@@ -69,6 +83,24 @@ void MpiHost::sum(double *numbers, int n)
 void MpiHost::max(double *numbers, int n)
 {
   MPI_Allreduce(MPI_IN_PLACE, numbers, n, MPI_DOUBLE, MPI_MAX, world_);
+}
+
+void MpiHost::sum_and_max(double *sums, int n, double *largest, int m)
+{
+  if (processes() == 1) return;
+  std::vector<double> all = {static_cast<double>(n), static_cast<double>(m)};
+  all.insert(all.end(), sums, sums + n);
+  all.insert(all.end(), largest, largest + m);
+  MPI_Datatype message;
+  MPI_Op join;
+  MPI_Type_contiguous(static_cast<int>(all.size()), MPI_DOUBLE, &message);
+  MPI_Type_commit(&message);
+  MPI_Op_create(add_or_keep_largest, 1, &join);
+  MPI_Allreduce(MPI_IN_PLACE, all.data(), 1, message, join, world_);
+  MPI_Op_free(&join);
+  MPI_Type_free(&message);
+  std::copy_n(all.data() + 2, n, sums);
+  std::copy_n(all.data() + 2 + n, m, largest);
 }
 
 void MpiHost::broadcast(void *data, std::size_t bytes, int from, Receivers /*to*/)

@@ -31,6 +31,7 @@ class MpiHost : public Host {
 
   void sum(double *numbers, int n) override;
   void max(double *numbers, int n) override;
+  void sum_and_max(double *sums, int n, double *largest, int m) override;
   void broadcast(void *data, std::size_t bytes, int from, Receivers to = Receivers::all) override;
   std::vector<double> gather(const std::vector<double> &mine) override;
 

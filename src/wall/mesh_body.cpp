@@ -228,12 +228,13 @@ void MeshBody::check_step(const MeshTotals &contacts, const SphereRange &spheres
   ContactSum sums[2];
   Real most_of_sphere[2] = {0, 0};
   if (contacts.contacts > 0) {
-    sums[0] = stiffness_;
-    sums[1] = damping_;
+    constexpr int n = ContactSum::kNumbers;
+    Real both[2 * n];
+    std::copy_n(stiffness_.number, n, both);
+    std::copy_n(damping_.number, n, both + n);
     std::copy_n(most_of_sphere_, 2, most_of_sphere);
-    host_.sum(sums[0].number, ContactSum::kNumbers);
-    host_.sum(sums[1].number, ContactSum::kNumbers);
-    host_.max(most_of_sphere, 2);
+    host_.sum_and_max(both, 2 * n, most_of_sphere, 2);
+    for (int k = 0; k < 2; k++) std::copy_n(both + k * n, n, sums[k].number);
   }
   sums[0] += spring();
   sums[0] += coat.stiffness;
@@ -245,20 +246,20 @@ void MeshBody::check_step(const MeshTotals &contacts, const SphereRange &spheres
   if (dt_ >= longest) fail_step(longest, contacts.contacts + coat.contacts);
 }
 
-void MeshBody::sum_contacts(const WallEngine &engine, const Spheres &spheres)
+void MeshBody::sum_contacts(const WallEngine &engine)
 {
   has_contacts_ = true;
   stiffness_ = damping_ = ContactSum();
   most_of_sphere_[0] = most_of_sphere_[1] = 0;
-  const SphereKinds kinds = {laws_.kinds > 1 ? spheres.type : nullptr, laws_.kind_of_type.data(),
-                             static_cast<int>(laws_.kind_of_type.size()) - 1};
   const ContactRecord *record = engine.records();
   const Pose pose = body_.pose();
   for (int k = 0; k < engine.n_touching(); k++) {
-    const int i = engine.touching()[k];
-    const ContactLaw &law = law_of(laws_, mesh_, kinds[i]);
-    const Vec3 centre = pose.to_mesh(spheres.x[i]);
-    const Real radius = spheres.radius[i], mass = spheres.mass[i] / force_;
+    const TouchingSphere &sphere = engine.touching_spheres()[k];
+    const SphereKinds kinds = {laws_.kinds > 1 ? &sphere.type : nullptr, laws_.kind_of_type.data(),
+                               static_cast<int>(laws_.kind_of_type.size()) - 1};
+    const ContactLaw &law = law_of(laws_, mesh_, kinds[0]);
+    const Vec3 centre = pose.to_mesh(sphere.x);
+    const Real radius = sphere.radius, mass = sphere.mass / force_;
     for (int n = 0; n < static_cast<int>(engine.sphere_output()[k].contacts); n++, record++) {
       if (record->mesh != static_cast<std::uint32_t>(mesh_)) continue;
       const Real distance = norm(record->arm);

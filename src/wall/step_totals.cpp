@@ -29,8 +29,7 @@ void StepTotals::reduce(const WallEngine *engine, const std::vector<Pose> &poses
     most.push_back(t.largest_overlap_ratio);
   }
   sum.insert(sum.end(), node_powers.begin(), node_powers.end());
-  host_.sum(sum.data(), static_cast<int>(sum.size()));
-  host_.max(most.data(), n);
+  host_.sum_and_max(sum.data(), static_cast<int>(sum.size()), most.data(), n);
   for (int k = 0; k < n; k++) {
     const Real *const s = sum.data() + kSums * k;
     const MeshSpec &settings = settings_.meshes[k];

@@ -25,7 +25,7 @@ struct MeshTotals {
   Real energy = 0;                      // elastic, in overlaps and springs
 };
 
-// Sums are made when they are asked for: one round of messages in a step, and only in some steps.
+// Sums are made when they are asked for: one message in a step, and only in some steps.
 class StepTotals {
  public:
   // Both must outlive it.
@@ -39,6 +39,7 @@ class StepTotals {
   // The wall acts on nothing: all is 0 until the next step.
   void clear();
 
+  bool are_made() const { return reduced_; }    // of the last step
   // Makes the sums, once a step. `engine`: null while there are no spheres. `poses`: of the meshes in
   // this step. `node_powers`: power of each mesh by its nodes, of this process; empty: none have nodes. `coats`: of each
   // mesh, the same on all processes; null: there are none. Collective.

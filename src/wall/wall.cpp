@@ -293,14 +293,14 @@ void Wall::check_history(int n)
 void Wall::move(const HostSpheres &spheres, const Step &step)
 {
   if (has_bodies_) {
-    if (range_.radius == 0) look_at_range(spheres);
+    if (!range_is_known_) look_at_range(spheres);
     complete_bodies();
   }
   for (MeshPart &m : meshes_) {
     if (!m.motion.moves_or_varies()) continue;
     const Real passed = m.motion.advance(step, input_.inputs);
     if (step.kind != Step::step || passed == 0 || !m.servo_controller.acts()) continue;
-    if (range_.radius == 0) look_at_range(spheres);
+    if (!range_is_known_) look_at_range(spheres);
     m.servo_controller.advance(servo_load(m.index), m.motion.pose_without_servo(), passed,
                                step.number);
   }
@@ -357,14 +357,19 @@ void Wall::advance_bodies(const Step &step)
 }
 
 // Notes the loads of this process: sums over all are made when they are asked for.
-void Wall::note_step_of_bodies(const HostSpheres &spheres, const Step &step)
+void Wall::note_step_of_bodies(const Step &step)
 {
   for (MeshPart &m : meshes_) {
     if (!m.body) continue;
     m.body->note_step(step.kind == Step::step ? step.dt : 0);
-    if (cutoff() > 0 && m.body->asks_for_contacts())
-      m.body->sum_contacts(*engine_, on_cpu(spheres).all());
+    if (cutoff() > 0 && m.body->asks_for_contacts()) m.body->sum_contacts(*engine_);
   }
+}
+
+bool Wall::any_servo_acts() const
+{
+  return std::any_of(meshes_.begin(), meshes_.end(),
+                     [](const MeshPart &m) { return m.servo_controller.acts(); });
 }
 
 bool Wall::any_body_asks_for_contacts() const
@@ -422,6 +427,7 @@ void Wall::look_at_range(const HostSpheres &spheres)
   }
   host_.max(most, 3);
   range_ = {most[0], most[1], most[1] > 0 ? -most[2] : 0};
+  range_is_known_ = true;
 }
 
 ServoLoad Wall::servo_load(int mesh)
@@ -443,7 +449,9 @@ StepSettings Wall::step_settings()
   step.update_history = input_.step.kind == Step::step;
   const bool asked = has_bodies_ && any_body_asks_for_contacts();
   step.per_sphere = spec_.contacts || asked;
+  step.states = asked;
   step.records = spec_.has_loads() || input_.virial || asked;
+  step.totals = has_bodies_ || any_servo_acts();
   const bool several = meshes_.size() > 1;
   if (several || spec_.meshes.front().surface_varies()) {
     surfaces_.clear();
@@ -585,7 +593,7 @@ void Wall::finish(const HostSpheres &spheres)
     search_.count_step(step.kind != Step::step);
   }
   totals_.expire();
-  if (has_bodies_) note_step_of_bodies(spheres, step);
+  if (has_bodies_) note_step_of_bodies(step);
   if (has_nodes_) sum_node_forces();
   if (spec_.has_loads() && step.kind == Step::step) {    // what sets a run up has no duration
     const bool any = cutoff() > 0;
@@ -644,6 +652,7 @@ void Wall::end_run(const HostSpheres &spheres, std::int64_t step, bool far,
 
 const StepTotals &Wall::totals()
 {
+  if (totals_.are_made()) return totals_;
   std::vector<Pose> poses;
   for (const MeshPart &m : meshes_) poses.push_back(m.motion.pose());
   std::vector<Real> node_powers;
@@ -761,7 +770,7 @@ void Wall::set_servo(int mesh, const Servo &servo)
   check_may_move(m);
   m.motion.set(servo);
   m.servo_controller.begin_anew();
-  range_ = {};    // a run without setup looks then
+  range_is_known_ = false;    // a run without setup looks then
   motion_has_changed(m);
   log_change(m, "servo " + (servo.present ? servo_text(servo, spec_.inputs) : "none"));
 }

@@ -189,6 +189,7 @@ class Wall {
   void check_points(const HostSpheres &s);
   void look_at_range(const HostSpheres &spheres);
   ServoLoad servo_load(int mesh);
+  bool any_servo_acts() const;
   bool any_body_asks_for_contacts() const;
   void complete_bodies();
   void advance_bodies(const Step &step);
@@ -196,7 +197,7 @@ class Wall {
   void build_node_grids();
   void turn_springs(int n);
   void sum_node_forces();
-  void note_step_of_bodies(const HostSpheres &spheres, const Step &step);
+  void note_step_of_bodies(const Step &step);
   void step_coats(const Step &step);
   // On this mesh in the last step.
   const CoatLoad &coat_load(int mesh) const { return coat_loads_[mesh]; }
@@ -246,6 +247,7 @@ class Wall {
   bool continued_ = false;    // from a saved state
   bool points_warned_ = false, snapshot_warned_ = false;
   SphereRange range_;    // for gains of servos and the timestep of bodies
+  bool range_is_known_ = false;
   // The surface motion of each mesh, for the engine in this step.
   std::vector<SurfaceMotion> surfaces_;
   std::vector<Real> temperatures_;

@@ -9,6 +9,7 @@ import sys
 
 import lmp
 import stl
+import test_files
 
 BEGIN = """\
 units           lj
@@ -393,6 +394,31 @@ def damped(checks, folder):
                        abs((v[-1] - after[-1][SPEED + 2]) / (gamma * acceleration * dt**2 / 4) - 1), 0.05)
 
 
+def files(checks, folder):
+    """mesh_stl, mesh_fields and dump image have the body where it is, with the force of a sphere that presses on it."""
+    half, radius, speed, dt, overlap, stiffness = 0.2, 0.1, 0.5, 1e-3, 1e-3, 1e4
+    box(folder / "cube.stl", (-half,) * 3, (half,) * 3)
+    create = sphere(0, 0, half + radius - overlap, radius, 1, (0, 0, 0))
+    law = f"hooke {stiffness} NULL 0 NULL 0 0 mesh cube.stl "
+    body = (f"body mass 50 com 0 0 0 inertia 1 1 1 0 0 0 gravity 0 0 0 joint slider 1 0 0 velocity {speed} 0 0 "
+            "mesh_stl s_*.stl every 50 mesh_fields f_*.vtp every 50")
+    picture = "write_dump all image {}.ppm type type fix w type 0.02 0 size 200 200 view 60 30\n"
+    go(folder, script(law + body, create, dt, move="") + "run 100\n" + picture.format("moved"))
+    whole = test_files.stl_points(folder / "s_100.stl")
+    way = [speed * 100 * dt, 0, 0]
+    # Corners are at +-half, in float.
+    checks.at_most("files: mesh_stl has the body where it is",
+                   max(abs(abs(a - way[k % 3]) - half) for k, a in enumerate(whole)), 1e-7)
+    fields = test_files.arrays(folder / "f_100.vtp")
+    checks.at_most("files: so has mesh_fields", abs(max(fields["points"][::3]) - half - way[0]), 1e-14)
+    pushed = sum(fields["force"][2::3])
+    checks.at_most("files: and the force of the sphere", abs(pushed / (-stiffness * overlap) - 1), 1e-12)
+    for name, place in (("placed", f"move {way[0]} 0 0"), ("unmoved", "")):
+        go(folder, script(law + place, create, dt, move="", columns=(FORCE,)) + "run 0\n" + picture.format(name))
+    pictures = [(folder / f"{name}.ppm").read_bytes() for name in ("moved", "placed", "unmoved")]
+    checks.fact("files: dump image draws it there", pictures[0] == pictures[1] != pictures[2])
+
+
 def restart(checks, folder):
     """Runs that are cut in two, and go on from a restart file, in mid-swing: the same bits."""
     box(folder / "cube.stl", (-0.75,) * 3, (0.75,) * 3, 2)
@@ -460,8 +486,8 @@ def changes(checks, folder):
 def main():
     checks = lmp.Checks()
     folder = lmp.scratch()
-    tests = {f.__name__: f for f in (impacts, off_centre, plate, hinge, motor, momentum, two_bodies, coats, weak_points, damped, restart,
-                                         changes)}
+    tests = {f.__name__: f for f in (impacts, off_centre, plate, hinge, motor, momentum, two_bodies, coats, weak_points, damped, files,
+                                         restart, changes)}
     for name in sys.argv[1:] or tests:
         tests[name](checks, folder)
     checks.done(folder)

@@ -15,6 +15,7 @@ import sys
 
 import lmp
 import scene
+import test_body
 
 HISTORY = "hooke/history 1e4 NULL 120 NULL 0.4 1"
 LAWS = {"hooke": "hooke 1e4 NULL 5 NULL 0.5 1",
@@ -123,6 +124,30 @@ def atoms_that_come_and_go(checks, folder):
                        lmp.largest_difference(plain, kokkos), 1e-9)
 
 
+def bodies(checks, folder):
+    """A flap on a hinge and a free cube with a coat, which spheres push: they move as with the plain fix."""
+    test_body.box(folder / "flap.stl", (2.0, -4.0, 0.4), (2.2, 4.0, 3.0), 3)
+    test_body.box(folder / "cube.stl", (-3.0, -3.0, 0.6), (-2.0, -2.0, 1.6))
+    mesh = ("mesh floor.stl mesh flap.stl body density 0.5 joint hinge 2.1 0 3 0 1 0 spring 20 1 "
+            "mesh cube.stl body density 0.5 coat 0.4 0.15")
+    shown = " ".join(f"$(f_wall[{m}][{c}]:%.17g)" for m in (2, 3) for c in range(1, test_body.ENERGY + 1))
+    text = (scene.CREATE + scene.forces(HISTORY, mesh) + scene.dump("moves", 100) +
+            f'fix out all print 100 "$(step) {shown}" file out.txt screen no\nrun 1000\n')
+    for ranks in (1, 2):
+        moves, rows = [], []
+        for flags, script in ((lmp.KOKKOS, plain_among_kokkos(text)), (lmp.KOKKOS, text)):
+            moves.append(go(folder, flags, script, ranks)[0])
+            rows.append(test_body.rows_of(folder / "out.txt"))
+        checks.at_most(f"bodies, {ranks} ranks: spheres as with the plain fix", lmp.largest_difference(*moves), 1e-9)
+        sizes = [max(1e-9, *(abs(r[k]) for r in rows[0])) for k in range(len(rows[0][0]))]
+        checks.at_most(f"bodies, {ranks} ranks: bodies as with the plain fix",
+                       max(abs(a - b) / s for p, q in zip(*rows) for a, b, s in zip(p, q, sizes)), 1e-9)
+        last, n = rows[0][-1], test_body.ENERGY
+        checks.fact(f"bodies, {ranks} ranks: the flap swings and the cube turns",
+                    abs(last[test_body.COORDINATE]) > 0.01 and abs(last[n + test_body.OMEGA]) > 1e-3,
+                    f"{last[test_body.COORDINATE]} {last[n + test_body.OMEGA]}")
+
+
 def a_bed(checks, folder):
     """1000 spheres that touch each other, too: neighbouring paths part, whatever rounds."""
     start = re.sub(r"lattice .*", "lattice sc 1.9", scene.CREATE)
@@ -199,6 +224,7 @@ def main():
     atoms_that_come_and_go(checks, folder)
     # These do not depend on how atoms move, and mix in fixes that move them over the host.
     if not lmp.DEVICE_MOVES:
+        bodies(checks, folder)
         forms(checks, folder)
         a_bed(checks, folder)
         refusals(checks, folder)

@@ -100,6 +100,7 @@ class InPlaceForHost : public WallEngine {
   int n_touching() const override { return engine_->n_touching(); }
   const int *touching() const override { return engine_->touching(); }
   const SphereOutput *sphere_output() const override { return engine_->sphere_output(); }
+  const TouchingSphere *touching_spheres() const override { return engine_->touching_spheres(); }
   const Real *sphere_heat() const override { return engine_->sphere_heat(); }
   int n_records() const override { return engine_->n_records(); }
   const ContactRecord *records() const override { return engine_->records(); }
