@@ -3,6 +3,7 @@
 
 #include "tool/accuracy_rows.h"
 
+#include "tool/csv_file.h"
 
 #include <cstdio>
 
@@ -21,11 +22,6 @@ std::string number(const char *format, double value)
 std::string known(const char *format, double value)
 {
   return value < 0 ? "" : number(format, value);
-}
-
-std::string quoted(const std::string &text)
-{
-  return '"' + text + '"';
 }
 
 const char *kColumns =
@@ -64,10 +60,10 @@ void AccuracyRows::add(const RowContext &c, const StudyRow &r, const PaperColumn
 
   std::string line = c.table;
   const auto add = [&](const std::string &value) { line += ',' + value; };
-  add(quoted(note));
-  add(quoted(r.device));
-  add(quoted(c.commit));
-  add(quoted(c.shape));
+  add(csv_quoted(note));
+  add(csv_quoted(r.device));
+  add(csv_quoted(c.commit));
+  add(csv_quoted(c.shape));
   add(std::to_string(r.triangles));
   add(known("%.10g", c.cube > 0 ? c.cube : -1));
   add(number("%.10g", c.largest));

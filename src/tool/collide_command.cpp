@@ -21,7 +21,7 @@ namespace lsdcd {
 
 namespace {
 
-struct Options {
+struct CollideOptions {
   std::string wall, body, poses, output, segments, device = "auto";
   std::vector<double> pose, scale, body_scale;
   double weld = -1, cell = 0, memory = 0;
@@ -29,7 +29,7 @@ struct Options {
   bool json = false, progress = false;
 };
 
-struct Totals {
+struct CollideTotals {
   std::vector<std::size_t> pairs;    // of each pose
   std::size_t all = 0, colliding = 0, first = 0, most = 0;
   std::uint64_t uncertain = 0;
@@ -46,12 +46,7 @@ struct Totals {
   }
 };
 
-double since(std::chrono::steady_clock::time_point then)
-{
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - then).count();
-}
-
-std::string text_of(const Totals &t, double share)
+std::string text_of(const CollideTotals &t, double share)
 {
   char text[96];
   std::snprintf(text, sizeof text, "%zu poses, %.0f%%, %.3g a second", t.pairs.size(), 100 * share,
@@ -61,7 +56,7 @@ std::string text_of(const Totals &t, double share)
 
 // Each pose of the file, or the one of the command line.
 template <class Visit>
-void each_pose(const Options &o, const Visit &visit)
+void each_pose(const CollideOptions &o, const Visit &visit)
 {
   if (o.poses.empty()) {
     visit(o.pose.empty() ? BodyPose() : pose_of_numbers(o.pose), 1);
@@ -72,10 +67,11 @@ void each_pose(const Options &o, const Visit &visit)
   while (reader.read(pose)) visit(pose, reader.share_read());
 }
 
-Totals run(const Options &o, MeshCollision &collision, PairWriter *pairs, PairWriter *segments)
+CollideTotals run(const CollideOptions &o, MeshCollision &collision, PairWriter *pairs,
+                  PairWriter *segments)
 {
   Progress progress(o.progress);
-  Totals totals;
+  CollideTotals totals;
   each_pose(o, [&](const BodyPose &pose, double share) {
     const auto asked = std::chrono::steady_clock::now();
     Collision found;
@@ -84,7 +80,7 @@ Totals run(const Options &o, MeshCollision &collision, PairWriter *pairs, PairWr
     } catch (const InputError &e) {
       throw InputError("pose " + std::to_string(totals.pairs.size()) + ": " + e.what());
     }
-    totals.seconds += since(asked);
+    totals.seconds += seconds_since(asked);
     if (pairs) pairs->write(totals.pairs.size(), collision, found);
     if (segments) segments->write(totals.pairs.size(), collision, found);
     totals.add(found);
@@ -94,7 +90,7 @@ Totals run(const Options &o, MeshCollision &collision, PairWriter *pairs, PairWr
   return totals;
 }
 
-void print(const Options &o, const Totals &t, const MeshCollision &collision)
+void print(const CollideOptions &o, const CollideTotals &t, const MeshCollision &collision)
 {
   const std::size_t n = t.pairs.size();
   const GridReport &grid = collision.grid();
@@ -137,7 +133,7 @@ void print(const Options &o, const Totals &t, const MeshCollision &collision)
               1e-6 * static_cast<double>(grid.bytes), collision.device().c_str());
 }
 
-void check(const Options &o)
+void check(const CollideOptions &o)
 {
   check_outputs({{"--output", o.output}, {"--segments", o.segments}}, {o.wall, o.body, o.poses});
   try {
@@ -151,7 +147,7 @@ void check(const Options &o)
   }
 }
 
-void collide(const Options &o)
+void collide(const CollideOptions &o)
 {
 #if defined(_OPENMP)
   threads_asked_for() = true;    // a program of one user, not one of many processes
@@ -171,13 +167,13 @@ void collide(const Options &o)
                     : o.device == "cuda" ? Device::cuda
                                          : Device::automatic;
   MeshCollision collision(wall, body, settings);
-  const Totals totals = run(o, collision, pairs.get(), segments.get());
+  const CollideTotals totals = run(o, collision, pairs.get(), segments.get());
   if (pairs) pairs->commit();
   if (segments) segments->commit();
   print(o, totals, collision);
 }
 
-void add_options(Command &command, Options &o)
+void add_options(Command &command, CollideOptions &o)
 {
   command.option("wall", o.wall, "mesh: .stl, .obj, .ply or .off").required();
   command.option("body", o.body, "STL file of the rigid body").required();
@@ -212,7 +208,7 @@ void add_options(Command &command, Options &o)
 
 void add_collide_command(Command &program)
 {
-  const auto o = std::make_shared<Options>();
+  const auto o = std::make_shared<CollideOptions>();
   Command command =
       program.command("collide", "which triangles of a rigid body meet which of a wall");
   add_options(command, *o);

@@ -23,7 +23,7 @@ namespace {
 const std::map<std::string, double> kMetres = {{"m", 1},     {"cm", 1e-2},   {"mm", 1e-3},
                                                {"um", 1e-6}, {"in", 0.0254}, {"ft", 0.3048}};
 
-struct Options {
+struct ConvertOptions {
   std::string file, output;
   std::vector<double> scale;
   std::string units = "m";
@@ -38,7 +38,7 @@ std::string known_unit(const std::string &word)
   return word + " not in {" + all + "}";
 }
 
-void run(const Options &o)
+void run(const ConvertOptions &o)
 {
   check_mesh_name(o.output);    // before the work
   check_outputs({{"--output", o.output}}, {o.file});
@@ -75,7 +75,7 @@ void run(const Options &o)
 
 void add_convert_command(Command &program)
 {
-  const auto o = std::make_shared<Options>();
+  const auto o = std::make_shared<ConvertOptions>();
   Command command = program.command(
       "convert", "writes a mesh in another format or other units: STL, OBJ, PLY, OFF");
   command.footer("Coordinates keep all their digits. Polygons are cut into triangles. STL is "

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Lines of numbers in a file that appears whole or not at all, or, named -, in the standard output.
+// Lines of numbers and texts in a file that appears whole or not at all, or, named -, in the standard output.
 #pragma once
 
 #include "base/atomic_file.h"
@@ -15,6 +15,14 @@
 #include <string>
 
 namespace lsdcd {
+
+// CSV: quotes around a text from outside.
+inline std::string csv_quoted(const std::string &text)
+{
+  std::string out = "\"";
+  for (char c : text) out += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return out + "\"";
+}
 
 class CsvFile {
  public:

@@ -24,7 +24,7 @@ namespace lsdcd {
 
 namespace {
 
-struct Options {
+struct DistanceOptions {
   std::string mesh, points, output, device = "auto";
   std::vector<double> scale;
   double weld = -1;
@@ -34,7 +34,7 @@ struct Options {
   bool estimate_sides = false, json = false, progress = false;
 };
 
-struct Totals {
+struct DistanceTotals {
   std::size_t points = 0, found = 0, inside = 0;
   double nearest = HUGE_VAL, farthest = 0;    // of those found
   double seconds = 0, query_seconds = 0;
@@ -52,12 +52,7 @@ struct Totals {
   }
 };
 
-double since(std::chrono::steady_clock::time_point then)
-{
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - then).count();
-}
-
-std::string text_of(const Totals &t, double share, double seconds)
+std::string text_of(const DistanceTotals &t, double share, double seconds)
 {
   char text[96];
   std::snprintf(text, sizeof text, "%zu points, %.0f%%, %.2f million/s", t.points, 100 * share,
@@ -66,7 +61,7 @@ std::string text_of(const Totals &t, double share, double seconds)
 }
 
 // With more than one thread a block is read and another one written while a third is answered.
-Totals stream(const Options &o, PointReader &reader, PointAnswers &answers)
+DistanceTotals stream(const DistanceOptions &o, PointReader &reader, PointAnswers &answers)
 {
   const auto start = std::chrono::steady_clock::now();
   const auto writer = open_answers(o.output, reader.has_ids(), answers.sides);
@@ -74,7 +69,7 @@ Totals stream(const Options &o, PointReader &reader, PointAnswers &answers)
   const auto how = threads() > 1 ? std::launch::async : std::launch::deferred;
   PointBlock blocks[3];
   AnswerBlock answered[2];
-  Totals totals;
+  DistanceTotals totals;
   const auto read = [&](int k) {
     return std::async(how, [&, k] {
       reader.read(blocks[k % 3], o.block);
@@ -91,20 +86,21 @@ Totals stream(const Options &o, PointReader &reader, PointAnswers &answers)
     reading = read(k + 1);
     const auto asked = std::chrono::steady_clock::now();
     answers.answer(points, found);
-    totals.query_seconds += since(asked);
+    totals.query_seconds += seconds_since(asked);
     if (writing.valid()) writing.get();
     writing = std::async(how, [&writer, &b = points, &a = found] { writer->write(b, a); });
     totals.add(found);
-    progress.show(text_of(totals, share, since(start)));
+    progress.show(text_of(totals, share, seconds_since(start)));
   }
   if (writing.valid()) writing.get();
   if (totals.points == 0) throw InputError(o.points + ": there is no point in it");
   writer->commit();
-  totals.seconds = since(start);
+  totals.seconds = seconds_since(start);
   return totals;
 }
 
-void print(const Options &o, const Totals &t, const PointAnswers &answers, const WeldedMesh &mesh)
+void print(const DistanceOptions &o, const DistanceTotals &t, const PointAnswers &answers,
+           const WeldedMesh &mesh)
 {
   // Messages do not go between the answers.
   std::FILE *const to = o.output == "-" ? stderr : stdout;
@@ -147,7 +143,7 @@ void print(const Options &o, const Totals &t, const PointAnswers &answers, const
       t.seconds, t.query_seconds, rate, answers.report.seconds);
 }
 
-void distance(const Options &o)
+void distance(const DistanceOptions &o)
 {
 #if defined(_OPENMP)
   threads_asked_for() = true;    // a program of one user, not one of many processes
@@ -170,7 +166,7 @@ void distance(const Options &o)
 
 void add_distance_command(Command &program)
 {
-  const auto o = std::make_shared<Options>();
+  const auto o = std::make_shared<DistanceOptions>();
   Command command = program.command(
       "distance", "distance, closest point, triangle, feature and side of many points");
   command.option("mesh", o->mesh, "mesh: .stl, .obj, .ply or .off").required();

@@ -16,7 +16,7 @@ namespace lsdcd {
 
 namespace {
 
-struct Options {
+struct InspectOptions {
   std::string file;
   std::vector<double> scale;
   double weld = -1, radius = 0, length = 0, memory = 0;
@@ -40,7 +40,7 @@ nlohmann::json as_json(const GridReport &r)
   return j;
 }
 
-void inspect(const Options &o)
+void inspect(const InspectOptions &o)
 {
   WeldedMesh mesh = load_mesh(o.file, o.scale, o.weld);
   if (mesh.report.oriented) note_meetings(mesh, meets_itself(mesh));
@@ -51,7 +51,7 @@ void inspect(const Options &o)
                 verdict_line(mesh.report).c_str());
 }
 
-void grid(const Options &o)
+void grid(const InspectOptions &o)
 {
   const WeldedMesh mesh = load_wall(o.file, o.scale, o.weld);
   GridSettings settings;
@@ -71,7 +71,7 @@ void grid(const Options &o)
     std::printf("%s\n%s\n", describe(mesh.report, o.file).c_str(), describe(g.report).c_str());
 }
 
-void add_mesh_options(Command &command, Options &o)
+void add_mesh_options(Command &command, InspectOptions &o)
 {
   command.option("file", o.file, "mesh: .stl, .obj, .ply or .off").required();
   add_scale_option(command, o.scale);
@@ -83,7 +83,7 @@ void add_mesh_options(Command &command, Options &o)
 
 void add_inspect_command(Command &program)
 {
-  const auto o = std::make_shared<Options>();
+  const auto o = std::make_shared<InspectOptions>();
   Command command =
       program.command("inspect", "what the mesh is: facets, welds, holes, folds, area, volume");
   command.footer("Example:\n  lsdcd inspect wall.stl --json");
@@ -93,7 +93,7 @@ void add_inspect_command(Command &program)
 
 void add_grid_command(Command &program)
 {
-  const auto o = std::make_shared<Options>();
+  const auto o = std::make_shared<InspectOptions>();
   Command command = program.command("grid", "what a grid for spheres up to a radius would cost");
   command.footer("Example:\n  lsdcd grid wall.stl --radius 0.005");
   add_mesh_options(command, *o);

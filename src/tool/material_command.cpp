@@ -18,7 +18,7 @@ const MaterialWords kWords = {"--on", "--with",
                               "lsdcd material FILE NAME [--on WALL] [--normal "
                               "hertz/material|jkr|dmt] [--with [MATERIAL] KEY VALUE ...]"};
 
-struct Options {
+struct MaterialOptions {
   std::string file, name, wall, normal = "hertz/material", units = "si";
   std::vector<std::string> with;
   bool json = false;
@@ -57,7 +57,7 @@ void print(const char *first, const std::vector<std::string> &words)
   std::printf("\n");
 }
 
-void run(const Options &o)
+void run(const MaterialOptions &o)
 {
   if (o.name.empty()) {
     const MaterialFile file = read_materials(find_material_file(o.file));
@@ -97,7 +97,7 @@ void run(const Options &o)
 
 void add_material_command(Command &program)
 {
-  const auto o = std::make_shared<Options>();
+  const auto o = std::make_shared<MaterialOptions>();
   Command command = program.command(
       "material", "what a material file says; with a name, the keywords for an input script");
   command.footer("Example:\n  lsdcd material glass.lsdcd glass --on aluminium");

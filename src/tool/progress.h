@@ -12,6 +12,11 @@
 
 namespace lsdcd {
 
+inline double seconds_since(std::chrono::steady_clock::time_point then)
+{
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - then).count();
+}
+
 class Progress {
  public:
   explicit Progress(bool asked) : terminal_(isatty(STDERR_FILENO) == 1), on_(asked || terminal_) {}

@@ -22,7 +22,7 @@ namespace {
 
 constexpr int kUnmended = 3;    // an exit code; doc/tool.md
 
-struct Options {
+struct RepairOptions {
   std::string file, output;
   double weld = -1;
   bool open = false, json = false, progress = false;
@@ -68,7 +68,7 @@ std::string number(Real x)
   return text;
 }
 
-void print(const Options &o, const RepairReport &r)
+void print(const RepairOptions &o, const RepairReport &r)
 {
   std::printf("repair %s\n", o.file.c_str());
   print("welded", count_of(r.welded_corners, "corner", "corners") + " to another's place, " +
@@ -111,7 +111,7 @@ void add_meetings(RepairedMesh &repaired)
 }
 
 // Returns whether all is mended.
-bool run(const Options &o)
+bool run(const RepairOptions &o)
 {
   check_mesh_name(o.output);    // before the work
   check_outputs({{"--output", o.output}}, {o.file});
@@ -141,7 +141,7 @@ bool run(const Options &o)
 
 void add_repair_command(Command &program, int &exit_code)
 {
-  const auto o = std::make_shared<Options>();
+  const auto o = std::make_shared<RepairOptions>();
   Command command = program.command("repair", "mends a mesh, and tells what it did");
   command.footer(
       "Welds corners, drops degenerate and duplicate facets, cuts facets where corners of\n"

@@ -27,7 +27,7 @@ constexpr double kRayleighShare = 0.2;
 constexpr double kStepsPerImpact = 20;
 constexpr double kDeep = 0.05;    // overlap / radius; larger overlaps change the results
 
-struct Options {
+struct TimestepOptions {
   std::string file, name, on;
   std::vector<double> radius;
   double speed = kNotGiven, wall_speed = 0;
@@ -63,7 +63,7 @@ struct Pair {
   double modulus, mass, radius, speed;    // E*, and effective ones
 };
 
-void run(const Options &o)
+void run(const TimestepOptions &o)
 {
   MaterialFile file;
   const MaterialSection *grain = nullptr, *wall = nullptr;
@@ -164,7 +164,7 @@ void run(const Options &o)
 
 void add_timestep_command(Command &program)
 {
-  const auto o = std::make_shared<Options>();
+  const auto o = std::make_shared<TimestepOptions>();
   Command command =
       program.command("timestep", "computes a timestep from material, radius and speed");
   command.footer(

@@ -7,6 +7,7 @@
 #include "base/input_error.h"
 #include "base/shared_files.h"
 #include "study/tradeoff.h"
+#include "tool/csv_file.h"
 #include "tool/load_mesh.h"
 #include "tool/number_options.h"
 #include "tool/output_file.h"
@@ -24,7 +25,7 @@ namespace lsdcd {
 
 namespace {
 
-struct Options {
+struct TradeoffOptions {
   std::string file, device = "auto", csv = "tradeoff.csv", plot;
   std::vector<double> scale;
   double weld = -1, memory = 1024, below = 0;
@@ -75,14 +76,6 @@ std::string device_name(const TradeoffRow &row)
   return row.device;
 }
 
-// CSV: quotes around every text from outside.
-std::string quoted(const std::string &text)
-{
-  std::string out = "\"";
-  for (char c : text) out += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return out + "\"";
-}
-
 std::string csv_of(const Tradeoff &tradeoff, const WeldedMesh &mesh,
                    const TradeoffSettings &settings)
 {
@@ -98,12 +91,12 @@ std::string csv_of(const Tradeoff &tradeoff, const WeldedMesh &mesh,
   const auto number = [](double value) { return formatted("%.5g", value); };
   const std::string name = std::filesystem::path(mesh.source).filename().string();
   for (const TradeoffRow &r : tradeoff.rows) {
-    const std::vector<std::string> fields = {quoted(name),
+    const std::vector<std::string> fields = {csv_quoted(name),
                                              std::to_string(mesh.faces.size()),
                                              number(least),
                                              number(most),
                                              r.on_cuda ? "cuda" : "cpu",
-                                             quoted(device_name(r)),
+                                             csv_quoted(device_name(r)),
                                              number(r.choice.length),
                                              nearest_word(r.choice),
                                              precision_word(r.choice),
@@ -126,7 +119,7 @@ std::string csv_of(const Tradeoff &tradeoff, const WeldedMesh &mesh,
                                              std::to_string(settings.repeats),
                                              "sorted",
                                              std::to_string(settings.seed),
-                                             quoted(LSDCD_COMMIT)};
+                                             csv_quoted(LSDCD_COMMIT)};
     for (std::size_t i = 0; i < fields.size(); i++) out += (i ? "," : "") + fields[i];
     out += "\n";
   }
@@ -167,7 +160,7 @@ std::string print_words(const Tradeoff &result, double below, bool on_cuda)
   return "";
 }
 
-void tradeoff(Options &o)
+void tradeoff(TradeoffOptions &o)
 {
   std::string why;
   const bool gpu = cuda_available(&why);
@@ -219,7 +212,7 @@ void tradeoff(Options &o)
 
 void add_tradeoff_command(Command &program)
 {
-  const auto o = std::make_shared<Options>();
+  const auto o = std::make_shared<TradeoffOptions>();
   Command command = program.command(
       "tradeoff", "measures error, time and memory of each setting on a mesh: a CSV and a plot");
   command.footer(std::string(kHelp) +
