@@ -67,7 +67,7 @@ def states(checks, host, folder, name):
 def rows_of_all(checks, host, folder):
     options = kokkos.read_options(
         ["--atoms", str(ATOMS), "--triangles", "2000", "--settle", "80", "--steps", "30",
-         "--chunks", "2", "--rounds", "1", "--against", "--copies", "--ranks", "1 2", "--orders",
+         "--chunks", "2", "--rounds", "1", "--against", "--copies", "--bodies", "--ranks", "1 2", "--orders",
          "sorted"])
     with contextlib.redirect_stdout(io.StringIO()):
         kokkos.measure(host, options, "none", str(folder), folder / "work")
@@ -76,6 +76,9 @@ def rows_of_all(checks, host, folder):
     checks.fact("rows of each bed, with and without, on 1 and 2 processes", all(
         (case + more, ranks) in find for case in kokkos.CASES.values()
         for more in ("", ", no wall", ", copies", ", no wall, copies") for ranks in "12"))
+    checks.fact("and of the closed box as a body, and of its floor", all(
+        ("closed box" + meshes + what, "1") in find for meshes in ("", ", two meshes")
+        for what in (", at rest", ", moves", ", body")))
     flat, none = find["flat floor", "1"], find["flat floor, no wall", "1"]
     checks.fact("as many builds with the wall as without",
                 facts(flat)["builds"] == facts(none)["builds"], facts(flat)["builds"])
