@@ -10,6 +10,7 @@
 #include "host_kokkos.h"
 
 #include "engine/candidates_in_place.h"
+#include "engine/forwarding_engine.h"
 
 #include <utility>
 #include <vector>
@@ -74,19 +75,15 @@ struct AddForces {
 
 // Atoms: AtomKokkos, or what has its arrays.
 template <class DeviceType, class Atoms>
-class FloatAtomsEngine : public WallEngine {
+class FloatAtomsEngine : public ForwardingEngine {
  public:
   // `engine` computes where DeviceType has the atoms. `deepest` gets the largest overlap (length) of the steps that
   // read_diagnostics() reads. Both outlive this.
   FloatAtomsEngine(std::unique_ptr<WallEngine> engine, Atoms *atoms, Real *deepest) :
-      engine_(std::move(engine)), chosen_(dynamic_cast<CandidatesInPlace &>(*engine_)),
+      ForwardingEngine(std::move(engine)), chosen_(dynamic_cast<CandidatesInPlace &>(*engine_)),
       atoms_(atoms), deepest_(deepest)
   {
   }
-
-  std::string backend() const override { return engine_->backend(); }
-  void set_grid(const GridView &grid, int mesh) override { engine_->set_grid(grid, mesh); }
-  void set_pose(const Pose &pose, int mesh) override { engine_->set_pose(pose, mesh); }
 
   // The host asks for this before a step whose candidates are likely to be chosen anew.
   Real largest_radius(const Spheres &spheres) override
@@ -136,23 +133,12 @@ class FloatAtomsEngine : public WallEngine {
     if (mode == LaunchMode::beside_adding_early) add_forces();
     adds_in_finish_ = mode != LaunchMode::beside_adding_early;
   }
-  bool is_under_way() const override { return engine_->is_under_way(); }
   void finish() override
   {
     engine_->finish();
     state_ = engine_->state();
     if (adds_in_finish_) add_forces();
   }
-
-  const WallTotals &totals() const override { return engine_->totals(); }
-  WallTotals mesh_totals(int mesh) const override { return engine_->mesh_totals(mesh); }
-  int n_touching() const override { return engine_->n_touching(); }
-  const int *touching() const override { return engine_->touching(); }
-  const SphereOutput *sphere_output() const override { return engine_->sphere_output(); }
-  const TouchingSphere *touching_spheres() const override { return engine_->touching_spheres(); }
-  const Real *sphere_heat() const override { return engine_->sphere_heat(); }
-  int n_records() const override { return engine_->n_records(); }
-  const ContactRecord *records() const override { return engine_->records(); }
 
   StepDiagnostics read_diagnostics() override
   {
@@ -165,26 +151,6 @@ class FloatAtomsEngine : public WallEngine {
     return seen;
   }
 
-  bool copies_records() const override { return engine_->copies_records(); }
-  void start_nodes(int mesh, const NodesNow &now) override { engine_->start_nodes(mesh, now); }
-  void move_nodes(int mesh, const NodesNow &now) override { engine_->move_nodes(mesh, now); }
-  void fetch_records(int mesh, MeshFeatures &to) override { engine_->fetch_records(mesh, to); }
-  void turn_springs(int n, int mesh, const TurningMesh &turning) override
-  {
-    engine_->turn_springs(n, mesh, turning);
-  }
-  Real add_node_forces(int mesh, const NodesNow &now, const MeshFeaturesView &wall,
-                       Real *forces) override
-  {
-    return engine_->add_node_forces(mesh, now, wall, forces);
-  }
-  void springs_to(ContactHistory &store, int n) override { engine_->springs_to(store, n); }
-  void springs_from(const ContactHistory &store, int n) override
-  {
-    engine_->springs_from(store, n);
-  }
-  SpringsInPlace *springs_in_place() override { return engine_->springs_in_place(); }
-  int n_candidates() const override { return engine_->n_candidates(); }
   std::size_t bytes() const override
   {
     return engine_->bytes() +
@@ -258,8 +224,7 @@ class FloatAtomsEngine : public WallEngine {
     return own;
   }
 
-  std::unique_ptr<WallEngine> engine_;
-  CandidatesInPlace &chosen_;    // by the same
+  CandidatesInPlace &chosen_;    // by engine_
   Atoms *atoms_;
   Real *deepest_;
   Numbers x_, v_, omega_, radius_, mass_;

@@ -3,6 +3,7 @@
 
 #include "support/test_engine.h"
 
+#include "engine/forwarding_engine.h"
 #include "support/device.h"
 #include "support/device_memory.h"
 
@@ -13,17 +14,14 @@ namespace {
 // Copies a host's spheres to the memory of an engine, and forces back. Vectors are x x x y y y z z z in
 // one step and x y z x y z in the next. Two of four steps run beside the host's work, and one of these
 // adds forces at once.
-class InPlaceForHost : public WallEngine {
+class InPlaceForHost : public ForwardingEngine {
  public:
   InPlaceForHost(std::unique_ptr<WallEngine> engine, bool cuda) :
-      engine_(std::move(engine)), x_(cuda), v_(cuda), omega_(cuda), force_(cuda), torque_(cuda),
-      radius_(cuda), mass_(cuda), temperature_(cuda), heat_(cuda), mask_(cuda)
+      ForwardingEngine(std::move(engine)), x_(cuda), v_(cuda), omega_(cuda), force_(cuda),
+      torque_(cuda), radius_(cuda), mass_(cuda), temperature_(cuda), heat_(cuda), mask_(cuda)
   {
   }
 
-  std::string backend() const override { return engine_->backend(); }
-  void set_grid(const GridView &grid, int mesh) override { engine_->set_grid(grid, mesh); }
-  void set_pose(const Pose &pose, int mesh) override { engine_->set_pose(pose, mesh); }
   Real largest_radius(const Spheres &s) override { return engine_->largest_radius(places(s)); }
   Real farthest_past(const Spheres &s, const PeriodicFaces &faces) override
   {
@@ -61,7 +59,6 @@ class InPlaceForHost : public WallEngine {
     state_ = StepState::launched;
   }
 
-  bool is_under_way() const override { return engine_->is_under_way(); }
 
   void finish() override
   {
@@ -76,36 +73,9 @@ class InPlaceForHost : public WallEngine {
     for (std::size_t i = 0; i < n; i++) host_.heat_flow[i] = heat[i];
   }
 
-  StepDiagnostics read_diagnostics() override { return engine_->read_diagnostics(); }
-  bool copies_records() const override { return engine_->copies_records(); }
-  void start_nodes(int mesh, const NodesNow &now) override { engine_->start_nodes(mesh, now); }
-  void move_nodes(int mesh, const NodesNow &now) override { engine_->move_nodes(mesh, now); }
-  void fetch_records(int mesh, MeshFeatures &to) override { engine_->fetch_records(mesh, to); }
-  void turn_springs(int n, int mesh, const TurningMesh &turning) override
-  {
-    engine_->turn_springs(n, mesh, turning);
-  }
-  Real add_node_forces(int mesh, const NodesNow &now, const MeshFeaturesView &wall,
-                       Real *forces) override
-  {
-    return engine_->add_node_forces(mesh, now, wall, forces);
-  }
-  void springs_to(ContactHistory &store, int n) override { engine_->springs_to(store, n); }
-  void springs_from(const ContactHistory &store, int n) override
-  {
-    engine_->springs_from(store, n);
-  }
-  const WallTotals &totals() const override { return engine_->totals(); }
-  WallTotals mesh_totals(int mesh) const override { return engine_->mesh_totals(mesh); }
-  int n_touching() const override { return engine_->n_touching(); }
-  const int *touching() const override { return engine_->touching(); }
-  const SphereOutput *sphere_output() const override { return engine_->sphere_output(); }
-  const TouchingSphere *touching_spheres() const override { return engine_->touching_spheres(); }
-  const Real *sphere_heat() const override { return engine_->sphere_heat(); }
-  int n_records() const override { return engine_->n_records(); }
-  const ContactRecord *records() const override { return engine_->records(); }
-  int n_candidates() const override { return engine_->n_candidates(); }
-  std::size_t bytes() const override { return engine_->bytes(); }
+
+  // A host's springs go through springs_to() and springs_from().
+  SpringsInPlace *springs_in_place() override { return nullptr; }
 
  private:
   // The arrays that a choice reads.
@@ -143,7 +113,6 @@ class InPlaceForHost : public WallEngine {
     for (std::size_t i = 0; i < n; i++) to.add(i, rows[i]);
   }
 
-  std::unique_ptr<WallEngine> engine_;
   int turn_ = 0;
   Spheres host_;
   DeviceArray<Real> x_, v_, omega_, force_, torque_, radius_, mass_, temperature_, heat_;

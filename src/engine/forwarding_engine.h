@@ -1,0 +1,61 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// An engine that hands each call to another one. Who gives an engine other spheres overrides what takes them.
+#pragma once
+
+#include "engine/wall_engine.h"
+
+#include <memory>
+#include <utility>
+
+namespace lsdcd {
+
+// The state of a step (state_) stays with the class that overrides begin(), launch() and finish().
+class ForwardingEngine : public WallEngine {
+ public:
+  explicit ForwardingEngine(std::unique_ptr<WallEngine> engine) : engine_(std::move(engine)) {}
+
+  std::string backend() const override { return engine_->backend(); }
+  void set_grid(const GridView &grid, int mesh) override { engine_->set_grid(grid, mesh); }
+  void set_pose(const Pose &pose, int mesh) override { engine_->set_pose(pose, mesh); }
+  bool is_under_way() const override { return engine_->is_under_way(); }
+
+  const WallTotals &totals() const override { return engine_->totals(); }
+  WallTotals mesh_totals(int mesh) const override { return engine_->mesh_totals(mesh); }
+  int n_touching() const override { return engine_->n_touching(); }
+  const int *touching() const override { return engine_->touching(); }
+  const SphereOutput *sphere_output() const override { return engine_->sphere_output(); }
+  const TouchingSphere *touching_spheres() const override { return engine_->touching_spheres(); }
+  const Real *sphere_heat() const override { return engine_->sphere_heat(); }
+  int n_records() const override { return engine_->n_records(); }
+  const ContactRecord *records() const override { return engine_->records(); }
+  StepDiagnostics read_diagnostics() override { return engine_->read_diagnostics(); }
+
+  bool copies_records() const override { return engine_->copies_records(); }
+  void start_nodes(int mesh, const NodesNow &now) override { engine_->start_nodes(mesh, now); }
+  void move_nodes(int mesh, const NodesNow &now) override { engine_->move_nodes(mesh, now); }
+  void fetch_records(int mesh, MeshFeatures &to) override { engine_->fetch_records(mesh, to); }
+  void turn_springs(int n, int mesh, const TurningMesh &turning) override
+  {
+    engine_->turn_springs(n, mesh, turning);
+  }
+  Real add_node_forces(int mesh, const NodesNow &now, const MeshFeaturesView &wall,
+                       Real *forces) override
+  {
+    return engine_->add_node_forces(mesh, now, wall, forces);
+  }
+  void springs_to(ContactHistory &store, int n) override { engine_->springs_to(store, n); }
+  void springs_from(const ContactHistory &store, int n) override
+  {
+    engine_->springs_from(store, n);
+  }
+  SpringsInPlace *springs_in_place() override { return engine_->springs_in_place(); }
+  int n_candidates() const override { return engine_->n_candidates(); }
+  std::size_t bytes() const override { return engine_->bytes(); }
+
+ protected:
+  std::unique_ptr<WallEngine> engine_;
+};
+
+}    // namespace lsdcd
