@@ -675,6 +675,7 @@ class Script:
         self.lines = read_lines(path)
         self.variables = dict(options.var or [])
         self.properties, self.meshes, self.gone, self.sizes, self.grain_types = {}, {}, {}, [], set()
+        self.missing_data = []    # files of read_data
         self.templates, self.distributions = {}, {}    # of constant spheres; words of distributions
         self.walls, self.mesh_of, self.unchecked, self.used = {}, {}, set(), set()    # by line; IDs
         self.moves, self.dumps, self.regions, self.box, self.faces = {}, [], {}, {}, ["f"] * 6
@@ -850,6 +851,7 @@ class Script:
         name = re.sub(r"\$\{(\w+)\}", lambda m: self.variables.get(m[1], m[0]), line.words[1])
         path = self.folder / name
         if not path.exists():
+            self.missing_data.append(name)
             return
         text = path.read_text(encoding="utf-8", errors="surrogateescape")
         for lo, hi, a in re.findall(r"^\s*(\S+)\s+(\S+)\s+([xyz])lo [xyz]hi", text, re.M):
@@ -863,6 +865,9 @@ class Script:
 
     def size(self, line):
         """Radius and mass of a grain."""
+        if not self.sizes and self.missing_data:
+            raise Left(f"model hooke needs the size of a grain, and {self.missing_data[0]} is not beside the script",
+                       "convert the script in the folder of that file, or give --radius and --density")
         if not self.sizes:
             raise Left("model hooke needs the size of a grain, which this script does not tell", "give --radius and --density")
         masses = [4 / 3 * math.pi * s[0] ** 3 * s[1] if s else 0 for s in self.sizes]

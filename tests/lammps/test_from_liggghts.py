@@ -210,6 +210,9 @@ LEFT = {
         "".join(f"fix n{k} all property/global {name} peratomtypepair 1 {v}\n" for k, (name, v) in enumerate(
             (("kn", 1e5), ("kt", 1e5), ("gamman", 5), ("gammat", 0)))) + BODY.format("") + WALL.replace("hertz", "hooke/stiffness"),
         "contacts of cad that are damped"),
+    "hooke, whose grains are in a file that is not there": (
+        "fix m5 all property/global characteristicVelocity scalar 2\nread_data none.data\n" + MESH.format("") + WALL.replace("hertz", "hooke"),
+        "model hooke needs the size of a grain, and none.data is not beside the script"),
     "a body that is held, and goes on with its speed": (
         ELASTIC + BODY.format("") + WALL + "fix_modify cad forceflags 0 0 0\n", "fix_modify forceflags of a mesh with 6dof"),
     "a body that is given a speed": (ELASTIC + BODY.format("") + WALL + "fix_modify cad vel 0 0 0\n", "fix_modify vel of a mesh with 6dof"),
