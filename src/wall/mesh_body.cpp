@@ -228,13 +228,13 @@ void MeshBody::check_step(const MeshTotals &contacts, const SphereRange &spheres
   ContactSum sums[2];
   Real most_of_sphere[2] = {0, 0};
   if (contacts.contacts > 0) {
-    constexpr int n = ContactSum::kNumbers;
-    Real both[2 * n];
-    std::copy_n(stiffness_.number, n, both);
-    std::copy_n(damping_.number, n, both + n);
+    constexpr int kNumbers = ContactSum::kNumbers;
+    Real both[2 * kNumbers];
+    std::copy_n(stiffness_.number, kNumbers, both);
+    std::copy_n(damping_.number, kNumbers, both + kNumbers);
     std::copy_n(most_of_sphere_, 2, most_of_sphere);
-    host_.sum_and_max(both, 2 * n, most_of_sphere, 2);
-    for (int k = 0; k < 2; k++) std::copy_n(both + k * n, n, sums[k].number);
+    host_.sum_and_max(both, 2 * kNumbers, most_of_sphere, 2);
+    for (int k = 0; k < 2; k++) std::copy_n(both + k * kNumbers, kNumbers, sums[k].number);
   }
   sums[0] += spring();
   sums[0] += coat.stiffness;
