@@ -109,7 +109,7 @@ WALKS = {
             read_stl read_stl_bytes read_binary read_stl_text Placement::apply weld weld_points sort_facets
             build_edges number_flat_edges_last measure_mesh > GridManager::rebuild MeshGrid::build
             MeshGrid::whole with_images load_or_build_grid > build_cpu.cpp:build_grid build_grid_on
-            mesh_features.cpp:make_features make_face_record edge_record make_edge face_record MeshFeatures::view > move_flat""",
+            mesh_features.cpp:make_features make_face_record edge_record make_segment put_inward face_record MeshFeatures::view > move_flat""",
     },
     "from the words rolling cdt to the torque": {
         "before": """
