@@ -292,9 +292,12 @@ class CornerRule {
   int n_active_ = 0;
   int active_[kMost];
   bool shares_[kMost];
-  Real times_[kMost], stiff_[kMost],
-      pull_[kMost];    // m; diagonal and right side of the problem
-  Real l_[kMost], target_[kMost];
+  Real stiff_[kMost], pull_[kMost];    // diagonal and right side of the problem
+  Real l_[kMost];
+  union {
+    Real times_[kMost];     // m, until s is chosen
+    Real target_[kMost];    // then where l goes
+  };
   Real factor_[kMost * (kMost + 1) / 2];    // lower triangle, row by row
 };
 

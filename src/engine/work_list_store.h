@@ -1,10 +1,12 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Memory for the work lists of a step on a GPU.
+// Memory for the work lists of a step on a GPU, and for its general path.
 #pragma once
 
 #include "engine/step/step_job.h"
+
+#include <algorithm>
 
 namespace lsdcd {
 
@@ -14,10 +16,11 @@ class WorkListStore {
   using Array = typename B::template Array<T>;
 
  public:
-  // After a choice of n candidates. `carries_over`: steps are over all of them, so that items with more than
-  // one contact are listed from step to step. `multi_contact`: for each, does it seem to have them now? Or
-  // null.
-  void clear(B &b, std::size_t n, bool carries_over, const char *multi_contact, StepCounts *counts)
+  // After a choice of n candidates, of which n_multi_mesh spheres have more than one mesh. `carries_over`: steps are over
+  // all of them, so that items with more than one contact are listed from step to step. `multi_contact`: for each, does
+  // it seem to have them now? Or null.
+  void clear(B &b, std::size_t n, std::size_t n_multi_mesh, bool carries_over,
+             const char *multi_contact, StepCounts *counts)
   {
     if (B::kOnHost) return;
     carries_over_ = carries_over;
@@ -26,6 +29,8 @@ class WorkListStore {
       room_ = n + n / 8;
       memory_ = Array<int>(4 * room_);
     }
+    if (general_.size() < general_bytes(n, n_multi_mesh))
+      general_ = Array<char>(general_bytes(n + n / 8, n_multi_mesh + n_multi_mesh / 8));
     int *listed_in = column(3), *first = column(0);    // of the first step
     b.for_each(2, [=] LSDCD_LAMBDA(std::size_t k) {
       counts->n_found[k] = counts->n_multi_contact[k] = 0;
@@ -46,6 +51,7 @@ class WorkListStore {
     lists.found = column(2);
     lists.n_found = counts->n_found + turn;
     lists.n_found_next = counts->n_found + 1 - turn;
+    lists.memory = general_.data();
     if (!carries_over_) return lists;
     lists.last = column(1 - turn);
     lists.n_last = counts->n_multi_contact + 1 - turn;
@@ -56,15 +62,24 @@ class WorkListStore {
     return lists;
   }
 
-  std::size_t bytes() const { return memory_.size() * sizeof(int); }
+  std::size_t bytes() const { return memory_.size() * sizeof(int) + general_.size(); }
 
  private:
+  static std::size_t general_bytes(std::size_t n, std::size_t n_multi_mesh)
+  {
+    const auto threads = [](std::size_t items) {    // in whole blocks
+      return std::min(kMostGeneral, (items + kStepBlock - 1) / kStepBlock * kStepBlock);
+    };
+    return std::max(threads(n) * sizeof(GeneralMemory),
+                    threads(n_multi_mesh) * sizeof(MultiMeshMemory));
+  }
   int *column(int which) { return memory_.data() + which * room_; }
 
   bool carries_over_ = false;
   int step_ = 0;    // since the choice
   std::size_t room_ = 0;
   Array<int> memory_;
+  Array<char> general_;    // of threads on the general path
 };
 
 }    // namespace lsdcd

@@ -49,7 +49,8 @@ bool append_contacts(const GridView &grid, const SearchSettings &search, const V
                      std::vector<WallAnswers::Contact> &contacts, bool &certain)
 {
   WeightedContacts<kCapacity> t;
-  narrow_phase<false>(grid, search, {x, radius, radius, nullptr, 0}, nullptr, t);
+  CornerRule<kCapacity> rule;
+  narrow_phase<false>(rule, grid, search, {x, radius, radius, nullptr, 0}, nullptr, t);
   if (t.set.overflow) return false;
   certain = t.exact_within >= radius;
   for (int i = 0; i < t.set.n; i++)

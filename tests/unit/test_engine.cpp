@@ -76,9 +76,10 @@ void run_step(CountingBackend &, std::size_t n, const Work &work)
 {
   work.begin();
   const WorkLists &lists = work.work_lists();
+  typename Work::Memory memory;
   *lists.n_found_next = 0;
   if (!work.has_fast_path()) {
-    for (std::size_t k = 0; k < n; k++) work.general_path(k);
+    for (std::size_t k = 0; k < n; k++) work.general_path(k, memory);
     return;
   }
   const auto run_general_path = [&](int k, bool leaves_lists) {
@@ -89,7 +90,7 @@ void run_step(CountingBackend &, std::size_t n, const Work &work)
       }
       work.make_list(Warp<1>(), true, k);
     }
-    if (!work.general_path(k) || !lists.next) return;
+    if (!work.general_path(k, memory) || !lists.next) return;
     lists.next[(*lists.n_next)++] = k;
     lists.listed_in[k] = lists.step + 1;
   };

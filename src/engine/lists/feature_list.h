@@ -77,9 +77,9 @@ struct FeatureLists {
   }
 };
 
-// List k of many.
+// List k of many, borrowed.
 struct ListedFeatures {
-  FeatureLists lists;
+  const FeatureLists &lists;
   std::size_t k;
 };
 

@@ -173,10 +173,10 @@ LSDCD_FN bool needs_list(const Law &law, const StepJob &job, std::size_t k)
 }
 
 // Makes the list of slot k, whose sphere is s, anew: for no less than at the choice, as a sphere that
-// has shrunk may grow to that again.
+// has shrunk may grow to that again. A function of its own, so that its list is not on the stack of the rest.
 template <unsigned kSize>
-LSDCD_FN void put_list(const StepJob &job, const Warp<kSize> &warp, bool mine, const GridView &grid,
-                       QuerySphere s, std::size_t k)
+LSDCD_NOINLINE void put_list(const StepJob &job, const Warp<kSize> &warp, bool mine,
+                             const GridView &grid, QuerySphere s, std::size_t k)
 {
   FeatureList made;
   const Real chosen = mine ? job.lists.cutoff(k) : 0;
@@ -203,7 +203,8 @@ LSDCD_FN void put_node_list(const StepJob &job, const QuerySphere &s, std::size_
 // Candidate k with any number of contacts. Its cell is searched where it has no list that holds. True: it has
 // more than one. A function of its own, so that it takes no registers from the fast path.
 template <class Law>
-LSDCD_NOINLINE bool any_contacts(const Law &law, const StepJob &job, std::size_t k)
+LSDCD_NOINLINE bool any_contacts(const Law &law, const StepJob &job, std::size_t k,
+                                 GeneralMemory &memory)
 {
   const std::size_t i = sphere_of(job, k);
   const Vec3 x = centre_of<Law>(job, i);
@@ -221,11 +222,13 @@ LSDCD_NOINLINE bool any_contacts(const Law &law, const StepJob &job, std::size_t
   bool is_found = false;
   if constexpr (Law::kNodes)
     if (list && job.settings.nodes.velocity) {
-      narrow_phase_at_nodes<Law::kBeyondContact>(job.grid, job.settings.search, s, *list, some);
+      narrow_phase_at_nodes<Law::kBeyondContact>(memory.rule, job.grid, job.settings.search, s,
+                                                 *list, some);
       is_found = true;
       list = nullptr;    // what overflows is found in the cell
     }
-  if (!is_found) narrow_phase<Law::kBeyondContact>(job.grid, job.settings.search, s, list, some);
+  if (!is_found)
+    narrow_phase<Law::kBeyondContact>(memory.rule, job.grid, job.settings.search, s, list, some);
   ContactsView set = some.set.view();
   const Real *weight = some.weight;
   Real exact_within = some.exact_within;
@@ -238,8 +241,8 @@ LSDCD_NOINLINE bool any_contacts(const Law &law, const StepJob &job, std::size_t
       scratch = job.overflow + k % kOverflowScratches;
       if (!try_lock(&scratch->locked)) continue;
       scratch->contacts.set.clear();
-      narrow_phase_in<Law::kBeyondContact>(scratch->rule, job.grid, job.settings.search, s, list,
-                                           scratch->contacts);
+      narrow_phase<Law::kBeyondContact>(scratch->rule, job.grid, job.settings.search, s, list,
+                                        scratch->contacts);
       set = scratch->contacts.set.view();
       weight = scratch->contacts.weight;
       exact_within = scratch->contacts.exact_within;
@@ -315,7 +318,11 @@ struct MeshStep {
     return Ahead(job.grid, centre_of<Law>(job, sphere_of(job, k)));
   }
   void prefetch(Ahead &ahead, int part) const { ahead.prefetch(job.grid, part); }
-  LSDCD_FN bool general_path(std::size_t k) const { return any_contacts(law, job, k); }
+  using Memory = GeneralMemory;
+  LSDCD_FN bool general_path(std::size_t k, Memory &memory) const
+  {
+    return any_contacts(law, job, k, memory);
+  }
   LSDCD_FN const WorkLists &work_lists() const { return job.work_lists; }
 };
 

@@ -166,11 +166,10 @@ LSDCD_FN void narrow_phase_of_meshes(const StepJob &job, const MultiMeshSphere &
 // A function of its own, so that it is compiled once however many laws there are.
 template <bool kBeyondContact>
 LSDCD_NOINLINE void narrow_phase_of_meshes(const StepJob &job, const MultiMeshSphere &s,
+                                           MultiMeshMemory &memory,
                                            WeightedContacts<kContacts> &all, int *end)
 {
-  WeightedContacts<kContacts> of_mesh;
-  CornerRule<kContacts> rule;
-  narrow_phase_of_meshes<kBeyondContact>(job, s, of_mesh, rule, all, end);
+  narrow_phase_of_meshes<kBeyondContact>(job, s, memory.of_mesh, memory.rule, all, end);
 }
 template <bool kBeyondContact>
 LSDCD_NOINLINE void narrow_phase_of_meshes(const StepJob &job, const MultiMeshSphere &s,
@@ -250,13 +249,13 @@ LSDCD_FN void apply_multi_mesh_law(const StepJob &job, const MultiMeshSphere &s,
 }
 
 template <class Law>
-LSDCD_FN void multi_mesh_contacts(const StepJob &job, std::size_t g)
+LSDCD_FN void multi_mesh_contacts(const StepJob &job, std::size_t g, MultiMeshMemory &memory)
 {
   const MultiMeshSphere s = multi_mesh_sphere<Law::kBeyondContact>(job, g);
   check_cutoff(job, s.i, s.cutoff);
   int end[kMaxMeshes];
   WeightedContacts<kContacts> some;
-  narrow_phase_of_meshes<Law::kBeyondContact>(job, s, some, end);
+  narrow_phase_of_meshes<Law::kBeyondContact>(job, s, memory, some, end);
   if (job.uncertain)
     for (int k = s.begin + 1; k < s.end; k++) job.uncertain[k] = 0;
   if (!some.set.overflow) {
@@ -313,9 +312,10 @@ struct MultiMeshStep {
       });
     }
   }
-  LSDCD_FN bool general_path(std::size_t g) const
+  using Memory = MultiMeshMemory;
+  LSDCD_FN bool general_path(std::size_t g, Memory &memory) const
   {
-    multi_mesh_contacts<Law>(job, g);
+    multi_mesh_contacts<Law>(job, g, memory);
     return true;
   }
   // Its centre in the frame of the mesh of slot k.

@@ -100,40 +100,23 @@ LSDCD_FN void share_overlap(const SearchSettings &settings, Real cutoff, Real to
 }
 
 // The contacts of a sphere with their weights. `rule`: memory of the corner rule, which a stack may have no room
-// for.
+// for. A function of its own, so that it is compiled once however many laws there are.
 template <bool kBeyondContact, int kCapacity>
-LSDCD_FN void narrow_phase_with(const GridView &grid, const SearchSettings &settings,
-                                const QuerySphere &s, const ListedFeatures *list,
-                                CornerRule<kCapacity> &rule, WeightedContacts<kCapacity> &out)
+LSDCD_NOINLINE void narrow_phase(CornerRule<kCapacity> &rule, const GridView &grid,
+                                 const SearchSettings &settings, const QuerySphere &s,
+                                 const ListedFeatures *list, WeightedContacts<kCapacity> &out)
 {
   find_filtered<kBeyondContact>(grid, settings, s, list, out);
   if (!out.set.overflow) share_overlap(settings, s.cutoff, tolerance_of(grid), rule, out);
 }
 
-// Functions of their own, so that they are compiled once however many laws there are.
-template <bool kBeyondContact, int kCapacity>
-LSDCD_NOINLINE void narrow_phase_in(CornerRule<kCapacity> &rule, const GridView &grid,
-                                    const SearchSettings &settings, const QuerySphere &s,
-                                    const ListedFeatures *list, WeightedContacts<kCapacity> &out)
-{
-  narrow_phase_with<kBeyondContact>(grid, settings, s, list, rule, out);
-}
-template <bool kBeyondContact, int kCapacity>
-LSDCD_NOINLINE void narrow_phase(const GridView &grid, const SearchSettings &settings,
-                                 const QuerySphere &s, const ListedFeatures *list,
-                                 WeightedContacts<kCapacity> &out)
-{
-  CornerRule<kCapacity> rule;
-  narrow_phase_with<kBeyondContact>(grid, settings, s, list, rule, out);
-}
-
 // The same where the nodes of the mesh move, from the sphere's list of primitives.
 template <bool kBeyondContact, int kCapacity>
-LSDCD_NOINLINE void narrow_phase_at_nodes(const GridView &grid, const SearchSettings &settings,
-                                          const QuerySphere &s, const ListedFeatures &list,
+LSDCD_NOINLINE void narrow_phase_at_nodes(CornerRule<kCapacity> &rule, const GridView &grid,
+                                          const SearchSettings &settings, const QuerySphere &s,
+                                          const ListedFeatures &list,
                                           WeightedContacts<kCapacity> &out)
 {
-  CornerRule<kCapacity> rule;
   out.exact_within = kAnyDistance;
   find_in_node_list(grid, list, s.x, s.cutoff, out.set);
   filter_contacts<kBeyondContact>(grid, settings, s, out.set);

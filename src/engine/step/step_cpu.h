@@ -74,7 +74,9 @@ template <class Work>
     else
       general.add(i);
   }
-  for (int k = 0; k < general.n; k++) work.general_path(static_cast<std::size_t>(general.at[k]));
+  typename Work::Memory memory;
+  for (int k = 0; k < general.n; k++)
+    work.general_path(static_cast<std::size_t>(general.at[k]), memory);
 }
 
 // A step over items [0, n) of `work`, a MeshStep or a MultiMeshStep.

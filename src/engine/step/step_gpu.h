@@ -12,10 +12,10 @@
 
 namespace lsdcd {
 
-constexpr unsigned kStepBlock = 128, kStepWarps = kStepBlock / kWarpSize;
+constexpr unsigned kStepWarps = kStepBlock / kWarpSize;
 // How many blocks serve the list. While the fast path runs: few, as they take room from blocks that would hide
 // its memory latency.
-constexpr int kFewBlocks = 66, kMaxBlocks = 528;
+constexpr int kFewBlocks = 66, kMaxBlocks = kMostGeneral / kStepBlock;
 
 // The items of the general path: those of `list`, or with a null list all of [0, n). The first `blocks` of the
 // kernel take them; while there are few items, only `few` of these do. `leaves_lists`: an item that needs a list
@@ -47,6 +47,7 @@ LSDCD_GPU_FN void run_general_path(const GeneralPart &part, const Work &work)
   const int warps = min(int(part.blocks), enough) * int(kStepWarps), step = kWarpSize * warps;
   const int number = Block::number() * kStepWarps + Block::warp(), rank = warp.rank();
   if (number >= warps) return;
+  auto &memory = static_cast<typename Work::Memory *>(lists.memory)[kWarpSize * number + rank];
   // Listed items are few, and each takes its own branches: at first one item a warp.
   const int first = part.list ? rank * warps + number : kWarpSize * number + rank;
   for (int s = first; warp.any(s < end); s += step) {
@@ -61,7 +62,7 @@ LSDCD_GPU_FN void run_general_path(const GeneralPart &part, const Work &work)
       if (warp.any(is_due)) work.make_list(warp, is_due, k);
       warp.wait();
     }
-    const bool again = has_one && work.general_path(k);
+    const bool again = has_one && work.general_path(k, memory);
     warp.wait();
     if (!part.list || !lists.next) continue;
     put_listed(again, k, lists.next, lists.n_next);
@@ -110,7 +111,7 @@ void run_step(B &b, std::size_t n_items, const Work &work)
   const unsigned blocks = (n + kStepBlock - 1) / kStepBlock,
                  general_blocks = std::min<unsigned>(blocks, kMaxBlocks);
   const WorkLists &lists = work.work_lists();
-  GeneralPart part = {nullptr, nullptr, static_cast<int>(n), 0, blocks, false};
+  GeneralPart part = {nullptr, nullptr, static_cast<int>(n), 0, general_blocks, false};
   int *to_clear = lists.n_found_next;
   if (work.has_fast_path()) {
     part = {lists.last, lists.n_last, 0, kFewBlocks, lists.last ? general_blocks : 0, true};

@@ -25,11 +25,25 @@ struct WorkLists {
   int *next = nullptr, *n_next = nullptr;
   // The newest step that begins with an item, for each item, and the number of this step.
   int *listed_in = nullptr, step = 0;
+  void *memory = nullptr;    // of threads on the general path
 };
 
 // Contacts that a kernel has room for on its stack: enough for nearly every sphere. One with more
 // takes a scratch memory, which has room for kMaxContacts.
 constexpr int kContacts = 8;
+
+// Memory of a thread on the general path, with one mesh and with several. A CPU has it on the stack. A GPU sets the stack
+// of a kernel aside for all threads that it can hold, of which few take that path, so it has this for kMostGeneral
+// threads at most instead.
+struct GeneralMemory {
+  CornerRule<kContacts> rule;
+};
+struct MultiMeshMemory {
+  CornerRule<kContacts> rule;
+  WeightedContacts<kContacts> of_mesh;    // of one mesh after the other
+};
+constexpr unsigned kStepBlock = 128;    // threads of a block
+constexpr std::size_t kMostGeneral = 528 * kStepBlock;
 
 // Slots for springs and records of a step. A sphere with a single contact has the slot of its own number; one
 // with more contacts reserves slots from `shared` on.
