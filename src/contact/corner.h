@@ -41,6 +41,7 @@ class CornerRule {
   {
     for (int i = 0; i < set.n; i++) weight[i] = 1;
     if (set.n < 2) return;
+    if (set.n == 2) return solve_pair(set, radius, weight, tolerance);
     n_ = 0;
     for (int i = 0; i < set.n; i++) {
       if (lies_in_tangent_plane(set, radius, i, tolerance))
@@ -68,6 +69,19 @@ class CornerRule {
       if (fabs(rise) <= tolerance && set.distance[i] + set.distance[k] >= radius) return true;
     }
     return false;
+  }
+
+  // The only two contacts: they need no memory, which a GPU has far from its threads.
+  LSDCD_FN static void solve_pair(const ContactSet<kMost> &set, Real radius, Real *weight,
+                                  Real tolerance)
+  {
+    bool bears = true;
+    for (int i = 0; i < 2; i++)
+      if (lies_in_tangent_plane(set, radius, i, tolerance)) {
+        weight[i] = 0;
+        bears = false;
+      }
+    if (bears && dot(set.normal[0], set.normal[1]) > 0) solve_two(set, radius, weight, 0, 1);
   }
 
   // Contacts that share with no other one keep the weight 1.
