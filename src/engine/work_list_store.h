@@ -29,8 +29,10 @@ class WorkListStore {
       room_ = n + n / 8;
       memory_ = Array<int>(4 * room_);
     }
-    if (general_.size() < general_bytes(n, n_multi_mesh))
+    if (general_.size() < general_bytes(n, n_multi_mesh)) {
+      general_ = Array<char>();    // not beside the new one
       general_ = Array<char>(general_bytes(n + n / 8, n_multi_mesh + n_multi_mesh / 8));
+    }
     int *listed_in = column(3), *first = column(0);    // of the first step
     b.for_each(2, [=] LSDCD_LAMBDA(std::size_t k) {
       counts->n_found[k] = counts->n_multi_contact[k] = 0;
