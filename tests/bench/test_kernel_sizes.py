@@ -2,12 +2,13 @@
 # SPDX-FileCopyrightText: 2026 LSDCD contributors
 # SPDX-License-Identifier: BSD-3-Clause
 
-"""The machine code of CUDA kernels is no larger than it was: read from the compiled files, without a
-GPU or tools of CUDA's.
+"""The machine code of CUDA kernels is no larger than it was, and their stacks are no larger than what a driver gives
+each program anyhow: read from the compiled files, without a GPU or tools of CUDA's.
 
 usage: test_kernel_sizes.py FILE ... [--keep], with LSDCD_COMPILER set. FILE: a library or objects
 
-A case is a kernel and what it is made of, with its largest instance; kernels below 8 kB are left out.
+A case is a kernel and what it is made of, with its largest instance; kernels below 8 kB are left out. Stacks are those of
+the kernels of a step, which run beside all spheres of a program.
 """
 import os
 import pathlib
@@ -21,22 +22,53 @@ import kept_numbers
 ROOM = 0.10
 SMALLEST = 8192    # bytes
 EM_CUDA = 190
+SYMBOLS = 2    # the type of a section
+MIN_STACK_SIZE = 0x0412    # in .nv.info: a format, of which 4 has a length, and an attribute
+MOST_STACK = 1024    # bytes a thread; a driver sets more aside for every thread that a GPU can hold
 
 
-def code_sections(data):
-    """Name and bytes of each kernel in the ELF images that nvcc has embedded in a file."""
+def images(data):
+    """Sections, by name, of each ELF image that nvcc has embedded in a file: type, link and bytes."""
     at = -1
     while (at := data.find(b"\x7fELF\x02\x01", at + 1)) >= 0:
         if struct.unpack_from("<H", data, at + 18)[0] != EM_CUDA:
             continue
         table = at + struct.unpack_from("<Q", data, at + 40)[0]
         size, n, names = struct.unpack_from("<HHH", data, at + 58)
-        sections = [struct.unpack_from("<IIQQQQ", data, table + k * size) for k in range(n)]
-        for name, _, _, _, _, length in sections:
-            start = at + sections[names][4] + name
-            text = data[start:data.index(b"\0", start)].decode()
-            if text.startswith(".text."):
-                yield text[len(".text."):], length
+        rows = [struct.unpack_from("<IIQQQQI", data, table + k * size) for k in range(n)]
+        sections = [(kind, link, data[at + offset:at + offset + length])
+                    for _, kind, _, _, offset, length, link in rows]
+        text = sections[names][2]
+        yield sections, {text_at(text, row[0]): k for k, row in enumerate(rows)}
+
+
+def text_at(data, at):
+    return data[at:data.index(b"\0", at)].decode()
+
+
+def code_sections(data):
+    """Name and bytes of each kernel."""
+    for sections, named in images(data):
+        for name, k in named.items():
+            if name.startswith(".text."):
+                yield name[len(".text."):], len(sections[k][2])
+
+
+def stacks(data):
+    """Name and bytes of the stack of each kernel."""
+    for sections, named in images(data):
+        info = sections[named[".nv.info"]][2] if ".nv.info" in named else b""
+        _, link, symbols = next(s for s in sections if s[0] == SYMBOLS)
+        at = 0
+        while at < len(info):
+            kind, length = struct.unpack_from(">H", info, at)[0], struct.unpack_from("<H", info, at + 2)[0]
+            if kind >> 8 != 4:    # the value is in place of the length
+                at += 4
+                continue
+            if kind == MIN_STACK_SIZE:
+                symbol, size = struct.unpack_from("<II", info, at + 4)
+                yield text_at(sections[link][2], struct.unpack_from("<I", symbols, 24 * symbol)[0]), size
+            at += 4 + length
 
 
 def case_of(demangled):
@@ -57,5 +89,11 @@ found = {}
 for name, (_, size) in zip(full, kernels):
     if "lsdcd::" in name and "cub::" not in name and size >= SMALLEST:
         found[case_of(name)] = max(size, found.get(case_of(name), 0))
+of_steps = [(size, name) for f in files for name, size in stacks(pathlib.Path(f).read_bytes())
+            if "StepPart" in name]
+size, name = max(of_steps, default=(0, ""))
+print(f"{len(of_steps)} kernels of a step: stacks of {size} bytes at most, of {MOST_STACK}")
+if size > MOST_STACK:
+    raise SystemExit(f"FAIL {name} asks for a stack of {size} bytes")
 sys.exit(kept_numbers.compare(pathlib.Path(__file__).with_name("kernel_sizes.csv"),
                               os.environ["LSDCD_COMPILER"], found, ROOM, "bytes") > 0)
