@@ -9,6 +9,7 @@
 // the machine does is in both; the least times are nearest to the truth.
 #include "bench.h"
 
+#include "support/device_memory.h"
 #include "support/fake_host.h"
 #include "support/grains.h"
 #include "support/meshes.h"
@@ -52,10 +53,12 @@ struct Sheet {
 
 class Bed {
  public:
-  Bed(const Sheet &sheet, int n_spheres, bool has_nodes) : sheet_(sheet), has_nodes_(has_nodes)
+  // `in_place`: spheres are in the memory of a GPU.
+  Bed(const Sheet &sheet, int n_spheres, bool has_nodes, Device device, bool in_place) :
+      sheet_(sheet), has_nodes_(has_nodes), in_place_(in_place)
   {
     WallSpec spec;
-    spec.device = Device::cpu;
+    spec.device = device;
     ContactLaw &law = spec.laws.front().law;
     law = classic_law(NormalModel::hertz, true);
     law.k_normal = 1e5;
@@ -74,8 +77,11 @@ class Bed {
       host_.simulation.corner[k] = -2 * sheet.half;
       host_.simulation.edge[k][k] = 4 * sheet.half;
     }
-    wall_ = std::make_unique<Wall>(host_, spec, WallUnits(), WallBackend(), "",
-                                   StepClock{0, 0, 0, kDt});
+    WallBackend backend;
+    if (in_place)
+      backend = {[](const EngineSettings &s) { return make_cuda_engine_in_place(s, 0, nullptr); },
+                 true, [this](const HostSpheres &, CpuArrays) { return grains_.spheres(); }};
+    wall_ = std::make_unique<Wall>(host_, spec, WallUnits(), backend, "", StepClock{0, 0, 0, kDt});
     Random random(5);
     const Real most = sheet.half - 2;
     for (int i = 0; i < n_spheres; i++) {
@@ -103,9 +109,7 @@ class Bed {
     for (int k = 0; k < kSteps; k++) {
       now_++;
       go(has_nodes_ ? now_ : 0);
-      const double start = clock_ms();
-      step(Step::step);
-      ms += clock_ms() - start;
+      ms += step(Step::step);
     }
     return ms;
   }
@@ -147,8 +151,11 @@ class Bed {
       grains_.x[k] = p + on_sheet_[k] * normal;
     }
   }
-  void step(Step::Kind kind)
+  // Milliseconds of the step, without what brings spheres to a GPU.
+  double step(Step::Kind kind)
   {
+    const HostSpheres spheres = in_place_ ? on_gpu() : grains_.spheres();
+    const double start = clock_ms();
     if (has_nodes_) wall_->set_nodes(0, &nodes_[0].x, &velocity_[0].x);
     wall_->history().grow(static_cast<int>(grains_.x.size()));
     StepInput input;
@@ -156,14 +163,36 @@ class Bed {
     input.look = input.new_spheres = kind == Step::setup;
     input.drift.kind = SphereDrift::watched;
     input.drift.distance = 0.1 * kRadius;
-    wall_->begin(grains_.spheres(), input);
-    wall_->launch(grains_.spheres());
-    wall_->finish(grains_.spheres());
+    wall_->begin(spheres, input);
+    wall_->launch(spheres);
+    wall_->finish(spheres);
     if (has_nodes_) sum_ += wall_->node_forces(0).front();
+    if (in_place_) sum_ += arrays_[3].get(1).front();    // waits for the forces
+    return clock_ms() - start;
+  }
+  HostSpheres on_gpu()
+  {
+    HostSpheres s = grains_.spheres();
+    const std::size_t n = 3 * static_cast<std::size_t>(s.n);
+    const auto put = [&](int k, const std::vector<Vec3> &from) {
+      return arrays_[k].put(&from[0].x, n);
+    };
+    s.x = put(0, grains_.x);
+    s.v = put(1, grains_.v);
+    s.omega = put(2, grains_.omega);
+    s.force = put(3, grains_.force);
+    s.torque = put(4, grains_.torque);
+    s.radius = arrays_[5].put(grains_.radius);
+    s.mass = arrays_[6].put(grains_.mass);
+    return s;
   }
 
   const Sheet &sheet_;
-  bool has_nodes_;
+  bool has_nodes_, in_place_;
+  DeviceArray<Real> arrays_[7] = {DeviceArray<Real>(in_place_), DeviceArray<Real>(in_place_),
+                                  DeviceArray<Real>(in_place_), DeviceArray<Real>(in_place_),
+                                  DeviceArray<Real>(in_place_), DeviceArray<Real>(in_place_),
+                                  DeviceArray<Real>(in_place_)};
   FakeHost host_;
   std::unique_ptr<Wall> wall_;
   Grains grains_;
@@ -174,16 +203,17 @@ class Bed {
   Real sum_ = 0;
 };
 
-void measure(const BenchOptions &o, BenchRows &rows)
+void measure_on(Device device, bool in_place, const BenchOptions &o, BenchRows &rows)
 {
   const double most = o.most_triangles > 0 ? o.most_triangles : o.quick ? 1e3 : 1e5;
   const int repeats = o.repeats > 0 ? o.repeats : o.quick ? 1 : 5;
-  rows.begin(Device::cpu);
+  rows.begin(device);
   for (const int n : {22, 71, 224}) {
     if (2. * n * n > 1.1 * most) continue;
     const Sheet sheet(n);
     const int n_spheres = static_cast<int>(o.spheres > 0 ? o.spheres : 2. * n * n);
-    Bed rigid(sheet, n_spheres, false), nodes(sheet, n_spheres, true);
+    Bed rigid(sheet, n_spheres, false, device, in_place),
+        nodes(sheet, n_spheres, true, device, in_place);
     std::vector<double> ms[2];
     for (int k = 0; k <= repeats; k++)    // one to warm up
       for (Bed *bed : {&rigid, &nodes}) {
@@ -197,6 +227,7 @@ void measure(const BenchOptions &o, BenchRows &rows)
     const Timing of_rigid = timing_of(ms[0]);
     for (Bed *bed : {&rigid, &nodes}) {
       row.what = bed == &nodes ? "hertz/history, nodes" : "hertz/history, rigid";
+      if (in_place) row.what += ", in place";
       row.timing = timing_of(ms[bed == &nodes]);
       row.facts =
           format("contacts=%lld bytes=%zu over_rigid=%.2f over_rigid_min=%.2f",
@@ -204,6 +235,14 @@ void measure(const BenchOptions &o, BenchRows &rows)
                  row.timing.median_ms / of_rigid.median_ms, row.timing.min_ms / of_rigid.min_ms);
       rows.add(row);
     }
+  }
+}
+
+void measure(const BenchOptions &o, BenchRows &rows)
+{
+  for (const Device device : o.devices) {
+    measure_on(device, false, o, rows);
+    if (device == Device::cuda) measure_on(device, true, o, rows);
   }
 }
 

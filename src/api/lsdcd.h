@@ -575,8 +575,8 @@ typedef struct lsdcd_wall_mesh {
    * .vtp: stress, contacts and wear of each triangle, for ParaView. `stl`: the mesh where it is. */
   const char *fields, *stl;
   int fields_every, stl_every;
-  int nodes_by_caller; /* 1: lsdcd_wall_set_nodes() moves each of its vertices, and nothing else moves it. On the CPU,
-                          exact, in double precision */
+  int nodes_by_caller; /* 1: lsdcd_wall_set_nodes() moves each of its vertices, and nothing else moves it. Exact, in
+                          double precision */
   double
       pressure; /* force/area, with nodes_by_caller: pushes to where normals point by the winding, out of a closed
                           mesh; see lsdcd_wall_get_node_forces() */

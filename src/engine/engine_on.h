@@ -37,8 +37,6 @@ class EngineOn : public WallEngine, public CandidatesInPlace {
       throw InputError(
           "precision single does not support granular, rolling, cohesion, a moving surface "
           "or mesh, several meshes, wear or mesh_fields: use mixed or double");
-    if (settings.nodes && !B::kOnHost)
-      throw InputError("meshes whose nodes move are computed on the CPU: use device cpu or auto");
     if (has_copies()) nodes_ = std::vector<MovingNodes<B>>(settings.meshes);
     clear_diagnostics(StepCounts());
     unlock_scratches();

@@ -10,6 +10,7 @@
 #include "backend/backend.h"
 #include "engine/wall_engine.h"
 #include "mesh/mesh_features.h"
+#include "mesh/node_spin.h"
 
 #include <algorithm>
 #include <utility>
@@ -32,6 +33,7 @@ class MovingNodes {
     const std::size_t n = mesh.vertices.size();
     if (!are_there()) {
       put_topology(b, topology_of(mesh), mesh);
+      put_faces_around(b, mesh);
       at_ = Array<Vec3>(n);
       before_ = from_host(b, mesh.vertices);
       velocity_ = Array<Vec3>(n);
@@ -42,6 +44,7 @@ class MovingNodes {
       n_left_ = Array<int>(1);
     }
     put_nodes(b, now);
+    if (now.with_spins) find_spins(b, now);
     b.wait();
   }
 
@@ -65,6 +68,7 @@ class MovingNodes {
     b.for_each(of.n_faces, [=] LSDCD_LAMBDA(std::size_t f) {
       put_parts(moved, static_cast<std::uint32_t>(f));
     });
+    if (now.with_spins) find_spins(b, now);
   }
 
   // The same field where the backend computes.
@@ -77,10 +81,30 @@ class MovingNodes {
   std::size_t bytes() const
   {
     return 4 * at_.size() * sizeof(Vec3) + edge_acts_.size() + vertex_acts_.size() +
-           left_.size() * sizeof(FeatureCode) + topology_numbers_.size() * sizeof(int);
+           left_.size() * sizeof(FeatureCode) +
+           (topology_numbers_.size() + face_first_.size() + face_around_.size()) * sizeof(int);
   }
 
   // The steps of the above. Public because nvcc takes no device lambda from a private function.
+
+  // The faces of a node in the order of their numbers, as a host adds them.
+  void find_spins(B &b, const NodesNow &now)
+  {
+    const int *faces = topology_.faces, *first = face_first_.data(), *around = face_around_.data();
+    const Vec3 *at = at_.data(), *velocity = velocity_.data();
+    Vec3 *spin = spin_.data();
+    const Real back = now.back;
+    b.for_each(at_.size(), [=] LSDCD_LAMBDA(std::size_t i) {
+      Vec3 sum = {0, 0, 0};
+      Real weight = 0;
+      for (int k = first[i]; k < first[i + 1]; k++) {
+        const FaceSpin of = spin_of_face(faces + 3 * std::size_t(around[k]), at, velocity, back);
+        sum += of.size * of.spin;
+        weight += of.size;
+      }
+      spin[i] = weight > 0 ? (1 / weight) * sum : sum;
+    });
+  }
 
   // Faces and segments that are left to the host are put into left_.
   void move_planes(B &b, const MovedMesh &moved)
@@ -135,12 +159,20 @@ class MovingNodes {
   }
 
  private:
+  // By memory that copies without a wait, which the last step's copy has left: move() waits for it.
   void put_nodes(B &b, const NodesNow &now)
   {
     const std::size_t n = at_.size();
-    b.copy_in(now.mesh->vertices.data(), at_.data(), n);
-    b.copy_in(now.velocity, velocity_.data(), n);
-    if (now.spin) b.copy_in(now.spin, spin_.data(), n);
+    const Vec3 *at = now.mesh->vertices.data(), *velocity = now.velocity;
+    if constexpr (!B::kOnHost) {
+      if (staged_.size() == 0) staged_ = typename B::template HostArray<Vec3>(2 * n);
+      std::copy_n(at, n, staged_.data());
+      std::copy_n(velocity, n, staged_.data() + n);
+      at = staged_.data();
+      velocity = at + n;
+    }
+    b.copy_in(at, at_.data(), n);
+    b.copy_in(velocity, velocity_.data(), n);
   }
 
   void put_topology(B &b, const MeshTopologyView &on_host, const WeldedMesh &mesh)
@@ -164,9 +196,24 @@ class MovingNodes {
                  to + at[5], to + at[6], on_host.n_faces, on_host.n_edges, on_host.n_vertices};
   }
 
+  void put_faces_around(B &b, const WeldedMesh &mesh)
+  {
+    std::vector<int> first(mesh.vertices.size() + 1, 0), around(3 * mesh.faces.size());
+    for (const auto &face : mesh.faces)
+      for (const int v : face) first[v + 1]++;
+    for (std::size_t i = 1; i < first.size(); i++) first[i] += first[i - 1];
+    std::vector<int> at = first;
+    for (std::size_t f = 0; f < mesh.faces.size(); f++)
+      for (const int v : mesh.faces[f]) around[at[v]++] = static_cast<int>(f);
+    face_first_ = from_host(b, first);
+    face_around_ = from_host(b, around);
+  }
+
   Array<int> topology_numbers_;
+  Array<int> face_first_, face_around_;    // the faces around each vertex
   MeshTopologyView topology_ = {};
   Array<Vec3> at_, before_, velocity_, spin_;
+  typename B::template HostArray<Vec3> staged_;
   Array<char> edge_acts_, vertex_acts_;
   Array<FeatureCode> left_;
   Array<int> n_left_;

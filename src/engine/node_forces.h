@@ -10,6 +10,7 @@
 #include "contact/node_field.h"
 #include "engine/results/results.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -127,7 +128,7 @@ class NodeForces {
         power[at] = sum_of_block(power.data(), at, n);
       power.resize(blocks_of(n));
     }
-    return sum_of(power);
+    return sum_of(power.data(), power.size());
   }
 
   // By the backend: the shares of all contacts, sorted by node, which keeps their order.
@@ -143,8 +144,14 @@ class NodeForces {
     b.sort_pairs(nodes, numbers, static_cast<std::uint32_t>(n_nodes));
     sum_shares(b, nodes.data(), numbers.data(), n, n_nodes);
     const std::size_t n_sums = sum_power(b, in);
-    b.copy_out(sums_.data(), forces, 3 * n_nodes);
-    return sum_of(to_host(b, power_, n_sums));
+    if (on_host_.size() < 3 * n_nodes + n_sums)
+      on_host_ = typename B::template HostArray<Real>(3 * n_nodes + n_sums + n_sums / 8);
+    const Real *power = on_host_.data() + 3 * n_nodes;
+    b.copy_out(sums_.data(), on_host_.data(), 3 * n_nodes);
+    b.copy_out(power_.data(), on_host_.data() + 3 * n_nodes, n_sums);
+    b.wait();
+    std::copy_n(on_host_.data(), 3 * n_nodes, forces);
+    return sum_of(power, n_sums);
   }
 
   std::size_t bytes() const
@@ -238,14 +245,15 @@ class NodeForces {
   }
 
   static std::size_t blocks_of(std::size_t n) { return (n + kTotalsBlock - 1) / kTotalsBlock; }
-  static Real sum_of(const std::vector<Real> &values)
+  static Real sum_of(const Real *values, std::size_t n)
   {
     Real sum = 0;
-    for (const Real value : values) sum += value;
+    for (std::size_t k = 0; k < n; k++) sum += values[k];
     return sum;
   }
 
   Array<Real> powers_, power_, sums_;    // powers_: of candidates, and of blocks
+  typename B::template HostArray<Real> on_host_;
   Array<int> offset_, first_;
   Array<Vec3> share_, block_, group_;
 };

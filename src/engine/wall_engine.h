@@ -51,7 +51,7 @@ struct EngineSettings {
   bool moves = false;       // set_pose() or StepSettings::surface will be used
   bool records = false;     // record what every contact does to the wall
   bool bodies = false;      // StepSettings::mobility will be used; contacts are recorded, too
-  bool nodes = false;       // StepSettings::nodes will be used; likewise. On a CPU only
+  bool nodes = false;       // StepSettings::nodes will be used; likewise
   // The engine has copies of the records of meshes whose nodes move, as on a GPU, where this is so in any case.
   bool copies_records = false;
   WearModel wear = WearModel::none;    // where there are records
@@ -105,9 +105,11 @@ struct StepSettings {
 
 // A mesh whose nodes move, as its host has it in this step.
 struct NodesNow {
-  const WeldedMesh *mesh;         // its vertices are where the nodes are
-  const Vec3 *velocity, *spin;    // as in NodeField; spin null: all are 0
-  Real far;                       // the largest coordinate of the nodes, without its sign
+  const WeldedMesh *mesh;    // its vertices are where the nodes are
+  const Vec3 *velocity;      // as in NodeField
+  Real far;                  // the largest coordinate of the nodes, without its sign
+  bool with_spins;           // else no law reads spins
+  Real back;                 // how long ago velocities are of (time)
 };
 
 // Sums over the spheres of the last step on this process.

@@ -6,10 +6,12 @@
 #include "base/input_error.h"
 #include "base/input_words.h"
 #include "engine/lists/feature_list.h"
+#include "mesh/node_spin.h"
 #include "wall/mesh_name.h"
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <string>
 
 namespace lsdcd {
@@ -22,6 +24,7 @@ namespace {
 constexpr Real kOfGrid = 0.15, kOfLists = 0.05,
                kAllowance = kOfGrid + kOfLists + kSkinFraction + 1e-3;
 
+// How far the farthest has gone, and its number.
 Real farthest(const std::vector<Vec3> &from, const std::vector<Vec3> &to, std::size_t &node)
 {
   Real most = -1;
@@ -56,12 +59,14 @@ std::string MeshNodes::named(const std::string &text) const
 void MeshNodes::set(const Real *x, const Real *v)
 {
   const std::size_t n = mesh_.vertices.size();
+  static_assert(sizeof(Vec3) == 3 * sizeof(Real), "a row of three numbers is a vector");
   next_.resize(n);
-  next_velocity_.assign(n, Vec3{0, 0, 0});
-  for (std::size_t i = 0; i < n; i++) {
-    next_[i] = {x[3 * i], x[3 * i + 1], x[3 * i + 2]};
-    if (v) next_velocity_[i] = {v[3 * i], v[3 * i + 1], v[3 * i + 2]};
-  }
+  next_velocity_.resize(n);
+  std::memcpy(static_cast<void *>(next_.data()), x, n * sizeof(Vec3));
+  if (v)
+    std::memcpy(static_cast<void *>(next_velocity_.data()), v, n * sizeof(Vec3));
+  else
+    std::fill(next_velocity_.begin(), next_velocity_.end(), Vec3{0, 0, 0});
 }
 
 void MeshNodes::begin_step(const Step &step, Real cutoff, WallEngine &engine)
@@ -80,16 +85,18 @@ void MeshNodes::begin_step(const Step &step, Real cutoff, WallEngine &engine)
                            ", more than the largest radius " + number_text(cutoff) +
                            ": it may have gone through a sphere; make the timestep shorter"));
   way_ += most;
+  way_of_grid_ += most;
   mesh_.vertices.swap(next_);
   velocity_.swap(next_velocity_);
   bounds_ = {mesh_.vertices.front(), mesh_.vertices.front()};
   for (const Vec3 &x : mesh_.vertices) extend(bounds_, x);
-  if (with_spins_) find_spins(step.kind == Step::step ? step.dt / 2 : 0);
+  back_ = step.kind == Step::step ? step.dt / 2 : 0;
   if (engine.copies_records() && grid_.is_built()) {
     engine.move_nodes(index_, now());
     are_records_old_ = true;
   } else {
     update_features(mesh_, next_, with_sides_, features_);
+    if (with_spins_ && !engine.copies_records()) find_spins();
   }
   if (!have_moved_) turned_from_.swap(next_);
   have_moved_ = true;
@@ -101,7 +108,7 @@ NodesNow MeshNodes::now() const
   Real far = 0;
   for (const Vec3 *x : {&bounds_.lo, &bounds_.hi})
     for (int d = 0; d < 3; d++) far = std::max(far, std::fabs((*x)[d]));
-  return {&mesh_, velocity_.data(), with_spins_ ? spin_.data() : nullptr, far};
+  return {&mesh_, velocity_.data(), far, with_spins_, back_};
 }
 
 void MeshNodes::fetch_records(WallEngine &engine)
@@ -110,30 +117,15 @@ void MeshNodes::fetch_records(WallEngine &engine)
   are_records_old_ = false;
 }
 
-// The spin of a face is that of its plane, n x dn/dt, and about its normal half the curl of the velocities. With
-// the edges e, f from one corner, the velocities d, g of their ends relative to it, and N = e x f,
-//
-//   dN/dt = d x f + e x g,   n . curl = n . ((f x n) x d + (n x e) x g)/|N|.
-//
-// For a rigid motion that is the angular velocity. The edges are those of `back` ago (time), when the velocities are of;
-// a turn by an angle a in a step has the spin to a^2/12. A node has the mean of its faces, weighted by area.
-void MeshNodes::find_spins(Real back)
+void MeshNodes::find_spins()
 {
   std::fill(spin_.begin(), spin_.end(), Vec3{0, 0, 0});
   std::vector<Real> weight(spin_.size(), 0);
   for (const auto &face : mesh_.faces) {
-    const Vec3 &a = mesh_.vertices[face[0]], &va = velocity_[face[0]];
-    const Vec3 d = velocity_[face[1]] - va, g = velocity_[face[2]] - va,
-               e = mesh_.vertices[face[1]] - a - back * d,
-               f = mesh_.vertices[face[2]] - a - back * g;
-    const Vec3 area = cross(e, f);
-    const Real size = norm(area);
-    const Vec3 n = (1 / size) * area, changes = (1 / size) * (cross(d, f) + cross(e, g));
-    const Real curl = dot(n, cross(cross(f, n), d) + cross(cross(n, e), g)) / size;
-    const Vec3 spin = cross(n, changes) + (Real(0.5) * curl) * n;
+    const FaceSpin of = spin_of_face(face.data(), mesh_.vertices.data(), velocity_.data(), back_);
     for (const int v : face) {
-      spin_[v] += size * spin;
-      weight[v] += size;
+      spin_[v] += of.size * of.spin;
+      weight[v] += of.size;
     }
   }
   for (std::size_t i = 0; i < spin_.size(); i++)
@@ -142,11 +134,14 @@ void MeshNodes::find_spins(Real back)
 
 // ---- the grid ----------------------------------------------------------------------------
 
-bool MeshNodes::needs_grid(Real cutoff) const
+bool MeshNodes::needs_grid(Real cutoff)
 {
   if (!grid_.is_built() || cutoff != grid_.cutoff()) return true;
+  // None has gone farther than the farthest of each step.
+  if (way_of_grid_ <= kOfGrid * cutoff) return false;
   std::size_t node = 0;
-  return !(farthest(built_at_, mesh_.vertices, node) <= kOfGrid * cutoff);
+  way_of_grid_ = farthest(built_at_, mesh_.vertices, node);
+  return !(way_of_grid_ <= kOfGrid * cutoff);
 }
 
 bool MeshNodes::needs_choice(Real cutoff) const
@@ -164,6 +159,7 @@ void MeshNodes::build_grid(Real cutoff, WallEngine &engine)
   fetch_records(engine);
   grid_.build(mesh_, features_, cutoff, kAllowance * cutoff);
   built_at_ = mesh_.vertices;
+  way_of_grid_ = 0;
   give_grid(engine);
 }
 

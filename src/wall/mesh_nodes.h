@@ -39,7 +39,7 @@ class MeshNodes {
   NodeField field(Real cutoff) const;
 
   // Does the grid hold no longer, as it is for another cutoff or a node has gone too far?
-  bool needs_grid(Real cutoff) const;
+  bool needs_grid(Real cutoff);
   bool has_grid() const { return grid_.is_built(); }
   // Have nodes gone so far since candidates were chosen that the lists of spheres are no longer complete?
   bool needs_choice(Real cutoff) const;
@@ -73,7 +73,7 @@ class MeshNodes {
 
  private:
   std::string named(const std::string &text) const;
-  void find_spins(Real back);
+  void find_spins();
   NodesNow now() const;
 
   Host &host_;
@@ -86,7 +86,9 @@ class MeshNodes {
   std::vector<Vec3> velocity_, spin_;
   std::vector<Vec3> next_, next_velocity_;    // set for the next step; empty: as they are
   NodeGrid grid_;
+  Real back_ = 0;                    // how long ago velocities are of (time)
   Real way_ = 0;                     // of the fastest node in each step since the choice
+  Real way_of_grid_ = 0;             // at least how far a node has gone since the grid was built
   std::vector<Vec3> built_at_;       // where nodes were when the grid was built
   std::vector<Vec3> turned_from_;    // where nodes were when springs were turned last
   bool have_moved_ = false, springs_are_new_ = true;    // since then

@@ -72,10 +72,6 @@ Wall::Wall(Host &host, WallSpec spec, const WallUnits &units, WallBackend backen
     check_plane(host_, spec_, m);
     check_motion(host_, spec_, m);
   }
-  if (has_nodes_ && backend_.in_place)
-    throw InputError(std::string("this wall reads its ") + host_.names().sphere +
-                     "s in place, as on a GPU, where nodes do not move so far: " +
-                     host_.remedy(Remedy::compute_on_host));
   coat_loads_.resize(meshes_.size());
   make_coats(units.velocity);
   make_engine();
@@ -166,7 +162,7 @@ EngineSettings Wall::engine_settings() const
   want.bodies = has_bodies_;
   want.nodes = has_nodes_;
   want.wear = spec_.wear.model;
-  want.device = has_nodes_ ? Device::cpu : spec_.device;
+  want.device = spec_.device;
   want.device_rank = host_.ranks().node_rank;
   return want;
 }
@@ -195,7 +191,7 @@ void Wall::log_creation(const std::string &material, const WallBackend &backend)
 {
   if (!host_.is_first()) return;
   std::string device = engine_->backend(), why;
-  if (!spec_.brief && !backend.in_place && spec_.device == Device::automatic && !has_nodes_ &&
+  if (!spec_.brief && !backend.in_place && spec_.device == Device::automatic &&
       !cuda_available(&why))
     device += " (no CUDA: " + why + ")";
   host_.log(

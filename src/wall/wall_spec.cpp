@@ -104,8 +104,6 @@ void check_nodes(const WallSpec &wall, std::size_t k)
   if (wall.precision != Precision::double_)
     refuse("precision mixed or single", "use precision double");
   if (wall.nearest > 0) refuse("lists of the nearest primitives", "leave nearest out");
-  if (wall.device == Device::cuda)
-    refuse("device cuda", "such walls are computed on the CPU so far, use device cpu or auto");
 }
 
 // A mesh that recedes by its wear keeps no number that counts on its shape.

@@ -87,9 +87,10 @@ if not kernels:
 full = subprocess.run(["c++filt"], input="\n".join(name for name, _ in kernels),
                       stdout=subprocess.PIPE, text=True, check=True).stdout.splitlines()
 found = {}
-for name, (_, size) in zip(full, kernels):
+for name, (mangled, size) in zip(full, kernels):
     if "lsdcd::" in name and "cub::" not in name and size >= SMALLEST:
-        found[case_of(name)] = max(size, found.get(case_of(name), 0))
+        case = case_of(name) + (" at nodes that move" if WITH_NODES in mangled else "")
+        found[case] = max(size, found.get(case, 0))
 of_steps = [(size, name) for f in files for name, size in stacks(pathlib.Path(f).read_bytes())
             if "StepPart" in name and WITH_NODES not in name]
 size, name = max(of_steps, default=(0, ""))

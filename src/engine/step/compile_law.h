@@ -122,7 +122,7 @@ template <class B>
 CompiledLaw<B> plain_law(const ContactLaw &law, const WallEffects &effects);
 template <class B>
 CompiledLaw<B> float_law(const ContactLaw &law, const WallEffects &effects);
-// These are for walls with a mesh whose nodes move, on a CPU only.
+// These are for walls with a mesh whose nodes move.
 template <class B>
 CompiledLaw<B> granular_nodes_law(const ContactLaw &law, const WallEffects &effects);
 template <class B>
@@ -135,12 +135,11 @@ template <class B>
 CompiledLaw<B> law_for(const EngineSettings &settings, const ContactLaw &law)
 {
   const WallEffects effects = wall_effects(settings);
-  if constexpr (B::kOnHost)
-    if (settings.nodes) {
-      if (!law.is_classic()) return granular_nodes_law<B>(law, effects);
-      return law.is_extended() ? added_nodes_law<B>(law, effects)
-                               : classic_nodes_law<B>(law, effects);
-    }
+  if (settings.nodes) {
+    if (!law.is_classic()) return granular_nodes_law<B>(law, effects);
+    return law.is_extended() ? added_nodes_law<B>(law, effects)
+                             : classic_nodes_law<B>(law, effects);
+  }
   if (!law.is_classic()) return granular_law<B>(law, effects);
   if (law.is_extended()) return added_law<B>(law, effects);
   if (effects.surface || effects.records) return on_wall_law<B>(law, effects);
