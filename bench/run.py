@@ -16,7 +16,8 @@ plane (floor.py), mesh-size the same contacts with 1e2 to 1e7 triangles (mesh_si
 NAME --words lists the words of the first three. Four print their rows and write no document: turning times
 spheres that a turning wall carries along or leaves behind, cells steps by the length of cells, sides on which side of
 a closed mesh points are, nodes a rigid sheet and one whose nodes move, on one core. region times a mesh against fix
-wall/gran/region (region.py) and prints its table.
+wall/gran/region (region.py), device steps of a LAMMPS without Kokkos on a core and on a GPU (device.py); both print
+their table.
 
 Rows of the four are kept in doc/data/performance_DEVICE.csv (performance.py). Further words
 go to them, as --spheres 1e6; bench_query --help lists them. query --part near-and-far times
@@ -30,6 +31,7 @@ import subprocess
 import sys
 
 import accuracy
+import device
 import effects
 import hard_cases
 import floor
@@ -46,8 +48,8 @@ COMPARISONS = {"kokkos": kokkos.main, "liggghts": liggghts.main, "floor": floor.
                "mesh-size": mesh_size.main}
 
 PRINTED = ["turning", "cells", "sides", "nodes"]
-# Its rows are kept, and printed for doc/other-walls.md.
-PEERS = {"region": region.main}
+# Tables that they print: region for doc/other-walls.md, device for doc/performance.md.
+PEERS = {"region": region.main, "device": device.main}
 
 
 def print_rows(name, args, rest):

@@ -19,4 +19,12 @@ bool cuda_available(std::string *why)
   return false;
 }
 
+int cuda_devices()
+{
+  int n = 0;
+  const cudaError_t status = cudaGetDeviceCount(&n);
+  cudaGetLastError();    // or the next call would report it again
+  return status == cudaSuccess ? n : 0;
+}
+
 }    // namespace lsdcd

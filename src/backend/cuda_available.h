@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Is there a GPU that this build can use?
+// Is there a GPU that this build can use, and how many?
 #pragma once
 
 #include <string>
@@ -10,5 +10,8 @@ namespace lsdcd {
 
 // True if this build has CUDA and a usable GPU is present; `why` says what is missing otherwise.
 bool cuda_available(std::string *why);
+
+// How many GPUs this process sees; 0 where cuda_available() is false.
+int cuda_devices();
 
 }    // namespace lsdcd

@@ -17,6 +17,11 @@ bool cuda_available(std::string *why)
   return false;
 }
 
+int cuda_devices()
+{
+  return 0;
+}
+
 std::unique_ptr<GpuArrays> make_gpu_arrays(void *)
 {
   std::string why;

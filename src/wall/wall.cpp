@@ -72,6 +72,8 @@ Wall::Wall(Host &host, WallSpec spec, const WallUnits &units, WallBackend backen
     check_plane(host_, spec_, m);
     check_motion(host_, spec_, m);
   }
+  const bool is_settled = backend_.in_place || has_nodes_;
+  device_ = DeviceChoice(spec_.device, is_settled ? 0 : cuda_devices(), host_.ranks().node_size);
   coat_loads_.resize(meshes_.size());
   make_coats(units.velocity);
   make_engine();
@@ -162,7 +164,7 @@ EngineSettings Wall::engine_settings() const
   want.bodies = has_bodies_;
   want.nodes = has_nodes_;
   want.wear = spec_.wear.model;
-  want.device = spec_.device;
+  want.device = device_.device();
   want.device_rank = host_.ranks().node_rank;
   return want;
 }
@@ -236,6 +238,8 @@ void Wall::begin(const HostSpheres &spheres, const StepInput &input)
     check_history(spheres.n);
   }
   clock_.advance(step);
+  if (device_.is_open() && step.kind == Step::step && (input.look || is_set_up_)) choose_device();
+  is_set_up_ = step.kind == Step::setup;
   recede(step);
   move(spheres, step);
   if (input.look)
@@ -305,6 +309,21 @@ void Wall::move(const HostSpheres &spheres, const Step &step)
     if (m.motion.moves_or_varies()) m.motion.place();
   for (MeshPart &m : meshes_)
     if (m.nodes) m.nodes->begin_step(step, cutoff(), *engine_);
+}
+
+// By the spheres near the wall in the last step. Engines of both devices give the same bits.
+void Wall::choose_device()
+{
+  Real near = engine_->n_candidates();
+  host_.max(&near, 1);
+  if (!device_.update(static_cast<std::int64_t>(near))) return;
+  totals();    // of the last step, while its engine is there
+  make_engine_anew();
+  if (spec_.brief || !host_.is_first()) return;
+  host_.log("on " + engine_->backend() + " from now on, with " +
+            std::to_string(static_cast<std::int64_t>(near)) + " " + host_.names().sphere +
+            "s near the wall in one process: a GPU is faster from " +
+            std::to_string(device_.least_for_gpu()) + " on");
 }
 
 // Inputs still have the values of the step before.

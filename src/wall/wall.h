@@ -7,6 +7,7 @@
 
 #include "wall/body_coat.h"
 #include "wall/candidate_schedule.h"
+#include "wall/device_choice.h"
 #include "wall/grid_manager.h"
 #include "wall/host_spheres.h"
 #include "wall/load_recorder.h"
@@ -184,6 +185,7 @@ class Wall {
 
   void begin_snapshot(int n, const Step &step);
   void check_history(int n);
+  void choose_device();
   void move(const HostSpheres &spheres, const Step &step);
   void look_at_spheres(const HostSpheres &spheres, std::int64_t step);
   void check_points(const HostSpheres &s);
@@ -227,6 +229,8 @@ class Wall {
   bool has_bodies_ = false, has_nodes_ = false;
   std::deque<BodyCoat> coats_;          // of bodies that have one
   std::vector<CoatLoad> coat_loads_;    // of each mesh, in the last step; all 0 without coats
+  DeviceChoice device_;
+  bool is_set_up_ = false;    // the last step set a run up
   std::unique_ptr<WallEngine> engine_;
   bool engine_moves_ = false, engine_records_ = false;    // what its laws are compiled for
   bool virial_ = false;                                   // may be asked for in this run

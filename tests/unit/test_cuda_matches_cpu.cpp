@@ -4,8 +4,14 @@
 // The CUDA engine against the CPU engine: one source, so the same bits.
 #include "effects/effects.h"
 #include "support/crowd.h"
+#include "support/fake_host.h"
+#include "support/grains.h"
+#include "wall/wall.h"
 
 #include <gtest/gtest.h>
+
+#include <algorithm>
+#include <memory>
 
 using namespace lsdcd;
 
@@ -154,6 +160,75 @@ TEST(cuda_engine, gives_the_same_bits_twice)
   EXPECT_TRUE(same_bytes(once.force, twice.force));
   EXPECT_TRUE(same_bytes(once.springs, twice.springs));
   EXPECT_EQ(once.totals.energy, twice.totals.energy);
+}
+
+// A wall of one triangle under n spheres, which it steps as LAMMPS would; they lie 1e-3 deep and slide.
+struct Floor {
+  FakeHost host;
+  Grains grains;
+  std::unique_ptr<Wall> wall;
+
+  Floor(Device device, int n)
+  {
+    host.simulation = wide_box();
+    WallSpec spec;
+    spec.laws.resize(1);
+    spec.laws[0].law = classic(NormalModel::hooke, true);
+    spec.device = device;
+    spec.meshes.resize(1);
+    TriangleSoup soup;
+    soup.corners = {{-40, -40, 0}, {40, -40, 0}, {0, 40, 0}};
+    spec.meshes[0].mesh = std::make_shared<const WeldedMesh>(weld(soup, -1));
+    wall = std::make_unique<Wall>(host, spec, WallUnits(), WallBackend(), "",
+                                  StepClock{0, 0, 0, 1e-3});
+    for (int i = 0; i < n; i++) {
+      grains.add({-10 + 0.4 * (i % 50), -10 + 0.4 * (i / 50), 0.199}, 0.2);
+      grains.v.back() = {0.1, 0.02, 0};
+    }
+  }
+
+  void step(std::int64_t number, bool look)
+  {
+    const std::size_t n = grains.x.size();
+    for (std::size_t i = 0; i < n; i++) grains.force[i] = grains.torque[i] = {0, 0, 0};
+    wall->history().grow(static_cast<int>(n));
+    StepInput input;
+    input.step = {number, 1e-3, number == 0 ? Step::setup : Step::step};
+    input.look = input.new_spheres = look;
+    input.drift.kind = SphereDrift::watched;
+    input.drift.distance = 0.05;
+    wall->begin(grains.spheres(), input);
+    wall->finish(grains.spheres());
+  }
+  // Lifts all spheres but some, and looks at them at once and two steps later, when it is known who is near.
+  void go(std::int64_t first, int left)
+  {
+    for (std::size_t i = left; i < grains.x.size(); i++) grains.x[i].z = 5;
+    for (int k = 0; k < 6; k++) step(first + k, k == 0 || k == 2);
+  }
+  long changes() const
+  {
+    return std::count_if(host.lines.begin(), host.lines.end(), [](const std::string &line) {
+      return line.find("from now on") != std::string::npos;
+    });
+  }
+};
+
+TEST(device_automatic, goes_to_the_cpu_and_back_with_the_same_bits)
+{
+  Floor cpu(Device::cpu, 1000), any(Device::automatic, 1000);
+  for (Floor *floor : {&cpu, &any}) {
+    floor->wall->begin_run(0, false);
+    floor->go(0, 1000);
+  }
+  EXPECT_EQ(any.changes(), 0) << "1000 spheres are for a GPU, where it began";
+  EXPECT_TRUE(same_bytes(cpu.grains.force, any.grains.force));
+  for (Floor *floor : {&cpu, &any}) floor->go(6, 50);
+  EXPECT_EQ(any.changes(), 1) << "50 spheres are for the CPU";
+  EXPECT_NE(cpu.grains.force[0].x, 0) << "springs went along";
+  EXPECT_TRUE(same_bytes(cpu.grains.force, any.grains.force));
+  EXPECT_TRUE(same_bytes(cpu.grains.torque, any.grains.torque));
+  EXPECT_EQ(cpu.wall->totals().mesh(0).force.x, any.wall->totals().mesh(0).force.x);
 }
 
 }    // namespace
