@@ -43,62 +43,12 @@ std::string amount(double bytes)
   return text;
 }
 
-}    // namespace
-
-Vec3 brick_centre(const TriangleGrid &grid, std::size_t slot)
-{
-  const std::size_t nx = grid.n_bricks[0], ny = grid.n_bricks[1];
-  const Real side = kBrickSide * grid.length, half = Real(0.5);
-  const std::size_t x = slot % nx, y = slot / nx % ny, z = slot / nx / ny;
-  return grid.origin + side * Vec3{x + half, y + half, z + half};
-}
-
-GridView TriangleGrid::view() const
-{
-  GridView v = {};
-  v.wall = wall.view();
-  v.origin = origin;
-  v.length = length;
-  v.inv_length = 1 / length;
-  v.cutoff = cutoff;
-  v.tolerance = tolerance;
-  v.margin = margin;
-  v.outside = outside;
-  v.list_kind = list_kind;
-  v.in_floats = in_floats;
-  v.is_large =
-      array_bytes(wall.faces) + array_bytes(wall.edges) + array_bytes(wall.vertices) > kCacheBytes;
-  for (int k = 0; k < 3; k++) v.n_bricks[k] = n_bricks[k];
-  point_to(v, *this);
-  return v;
-}
-
 template <class Grid>
 std::size_t bytes_of_arrays(const Grid &grid)
 {
   std::size_t total = rounded(sizeof(FlatHeader));
   GridView::each_array(grid, [&](const auto &a) { total += rounded(array_bytes(a)); });
   return total;
-}
-std::size_t flat_bytes(const TriangleGrid &grid)
-{
-  return bytes_of_arrays(grid);
-}
-std::size_t flat_bytes(const GridParts &grid)
-{
-  return bytes_of_arrays(grid);
-}
-
-std::size_t flat_wall_bytes(const TriangleGrid &grid)
-{
-  std::size_t total = rounded(sizeof(FlatHeader)) + kArrays * kAlign;
-  MeshFeaturesView::each_array(grid.wall, [&](const auto &a) { total += rounded(array_bytes(a)); });
-  return total;
-}
-
-std::size_t budget_of(const GridSettings &settings, const TriangleGrid &grid)
-{
-  return settings.memory_budget > 0 ? settings.memory_budget : kListBudget + flat_wall_bytes(grid);
 }
 
 // Puts each array where it belongs in the block by copy(array, address).
@@ -131,6 +81,58 @@ void copy_arrays(const Grid &grid, char *block)
   flatten_arrays(grid, block,
                  [](const auto &a, char *to) { std::memcpy(to, a.data(), array_bytes(a)); });
 }
+
+}    // namespace
+
+Vec3 brick_centre(const TriangleGrid &grid, std::size_t slot)
+{
+  const std::size_t nx = grid.n_bricks[0], ny = grid.n_bricks[1];
+  const Real side = kBrickSide * grid.length, half = Real(0.5);
+  const std::size_t x = slot % nx, y = slot / nx % ny, z = slot / nx / ny;
+  return grid.origin + side * Vec3{x + half, y + half, z + half};
+}
+
+GridView TriangleGrid::view() const
+{
+  GridView v = {};
+  v.wall = wall.view();
+  v.origin = origin;
+  v.length = length;
+  v.inv_length = 1 / length;
+  v.cutoff = cutoff;
+  v.tolerance = tolerance;
+  v.margin = margin;
+  v.outside = outside;
+  v.list_kind = list_kind;
+  v.in_floats = in_floats;
+  v.is_large =
+      array_bytes(wall.faces) + array_bytes(wall.edges) + array_bytes(wall.vertices) > kCacheBytes;
+  for (int k = 0; k < 3; k++) v.n_bricks[k] = n_bricks[k];
+  point_to(v, *this);
+  return v;
+}
+
+std::size_t flat_bytes(const TriangleGrid &grid)
+{
+  return bytes_of_arrays(grid);
+}
+std::size_t flat_bytes(const GridParts &grid)
+{
+  return bytes_of_arrays(grid);
+}
+
+std::size_t flat_wall_bytes(const TriangleGrid &grid)
+{
+  std::size_t total = rounded(sizeof(FlatHeader)) + kArrays * kAlign;
+  MeshFeaturesView::each_array(grid.wall, [&](const auto &a) { total += rounded(array_bytes(a)); });
+  return total;
+}
+
+std::size_t budget_of(const GridSettings &settings, const TriangleGrid &grid)
+{
+  return settings.memory_budget > 0 ? settings.memory_budget : kListBudget + flat_wall_bytes(grid);
+}
+
 void flatten(const TriangleGrid &grid, char *block)
 {
   copy_arrays(grid, block);
