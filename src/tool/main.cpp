@@ -17,9 +17,7 @@ namespace {
 // Exit codes of the program; doc/tool.md has them too.
 constexpr int kDone = 0, kUnusable = 1, kUsage = 2;
 
-}    // namespace
-
-int main(int argc, char **argv)
+int run(int argc, char **argv)
 {
   Program program(
       "lsdcd: meshes of DEM walls, their grids, distances to them, bodies in them, and materials",
@@ -40,9 +38,15 @@ int main(int argc, char **argv)
   add_tradeoff_command(program);
   add_accuracy_command(program);
   add_effects_command(program);
+  return program.run(argc, argv) ? exit_code : kUsage;
+}
 
+}    // namespace
+
+int main(int argc, char **argv)
+{
   try {
-    return program.run(argc, argv) ? exit_code : kUsage;
+    return run(argc, argv);
   } catch (const std::bad_alloc &) {
     std::fprintf(stderr, "lsdcd: no memory left\n");
   } catch (const std::exception &e) {

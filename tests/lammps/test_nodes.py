@@ -251,6 +251,7 @@ def refused(checks, folder):
 
 FREE = """\
 units           lj
+newton          off
 atom_style      sphere
 atom_modify     map array
 boundary        f f f

@@ -374,7 +374,7 @@ def check_wall_specs():
             fact(f"a wall of {name} has the bits of its words", by_words.any() and by_words.tobytes() == by_spec.tobytes(),
                  by_words - by_spec)
         body = lsdcd.Wall(f"hooke 1 0 0 0 0 0 mesh {floor} body mass 1 com 0 0 0 inertia 1 1 1 0 0 0 device cpu")
-        refused("a body takes no pose", "is a body, which moves by what acts on it", lambda: body.set_pose(0), lsdcd.Error)
+        refused("a body takes no pose", "a body moves by what acts on it", lambda: body.set_pose(0), lsdcd.Error)
         fact("words may have their name", lsdcd.Wall(words=f"hooke 1 0 0 0 0 0 mesh {floor} device cpu").totals())
     soft = lsdcd.Law("hooke/history", kn=500, kt=300, gamman=20, xmu=0.5, dampflag=1)
     both = lsdcd.Wall(lsdcd.WallSpec(hooke, [lsdcd.WallMesh(mesh, type_laws=[(2, None, soft)])]))
