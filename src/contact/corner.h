@@ -172,7 +172,7 @@ class CornerRule {
       Real covered = 0;
       for (int p = 0; p < n_; p++)
         covered += cover(set, used_[k], used_[p]) * (radius - set.distance[used_[p]]);
-      times_[used_[k]] = covered / d;
+      work_[used_[k]] = covered / d;
       deepest = d > deepest ? d : deepest;
     }
     const Real most = deepest * deepest, least = kLeast * most;
@@ -192,7 +192,7 @@ class CornerRule {
     for (int k = 0; k < n_; k++) {
       const int i = used_[k];
       const Real d = radius - set.distance[i];
-      stiff_[i] = 1 + s * times_[i] / (d * d);
+      stiff_[i] = 1 + s * work_[i] / (d * d);
       pull_[i] = d + s / d;
     }
   }
@@ -263,31 +263,31 @@ class CornerRule {
     const int m = n_active_;
     for (int k = 0; k < m; k++) {
       Real sum = pull_[active_[k]];
-      for (int p = 0; p < k; p++) sum -= at(k, p) * target_[p];
-      target_[k] = sum / at(k, k);
+      for (int p = 0; p < k; p++) sum -= at(k, p) * work_[p];
+      work_[k] = sum / at(k, k);
     }
     for (int k = m - 1; k >= 0; k--) {
-      for (int p = k + 1; p < m; p++) target_[k] -= at(p, k) * target_[p];
-      target_[k] /= at(k, k);
+      for (int p = k + 1; p < m; p++) work_[k] -= at(p, k) * work_[p];
+      work_[k] /= at(k, k);
     }
     int blocking = -1;
     Real part = 1;
     for (int k = 0; k < m; k++) {
-      if (target_[k] > 0) continue;
+      if (work_[k] > 0) continue;
       const Real from = l_[active_[k]];
-      const Real max_step = from > 0 ? from / (from - target_[k]) : 0;
+      const Real max_step = from > 0 ? from / (from - work_[k]) : 0;
       if (max_step < part || blocking < 0) {
         part = max_step;
         blocking = k;
       }
     }
     if (blocking < 0) {
-      for (int k = 0; k < m; k++) l_[active_[k]] = target_[k];
+      for (int k = 0; k < m; k++) l_[active_[k]] = work_[k];
       return true;
     }
     for (int k = 0; k < m; k++) {
       Real &l = l_[active_[k]];
-      l += part * (target_[k] - l);
+      l += part * (work_[k] - l);
     }
     leave(set, blocking);
     return n_active_ == 0;
@@ -308,10 +308,7 @@ class CornerRule {
   bool shares_[kMost];
   Real stiff_[kMost], pull_[kMost];    // diagonal and right side of the problem
   Real l_[kMost];
-  union {
-    Real times_[kMost];     // m, until s is chosen
-    Real target_[kMost];    // then where l goes
-  };
+  Real work_[kMost];                        // m, until s is chosen; then where l goes
   Real factor_[kMost * (kMost + 1) / 2];    // lower triangle, row by row
 };
 
