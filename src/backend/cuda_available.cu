@@ -7,24 +7,33 @@
 
 namespace lsdcd {
 
+namespace {
+
+cudaError_t count_gpus(int &n)
+{
+  n = 0;
+  const cudaError_t status = cudaGetDeviceCount(&n);
+  cudaGetLastError();    // or the next call would report it again
+  return status;
+}
+
+}    // namespace
+
 bool cuda_available(std::string *why)
 {
-  int n = 0;
-  const cudaError_t status = cudaGetDeviceCount(&n);
+  int n;
+  const cudaError_t status = count_gpus(n);
   if (status == cudaSuccess && n > 0) return true;
   if (why)
     *why = status == cudaSuccess ? "no GPU found"
                                  : std::string("no usable GPU: ") + cudaGetErrorString(status);
-  cudaGetLastError();    // or the next call would report it again
   return false;
 }
 
 int cuda_devices()
 {
-  int n = 0;
-  const cudaError_t status = cudaGetDeviceCount(&n);
-  cudaGetLastError();    // or the next call would report it again
-  return status == cudaSuccess ? n : 0;
+  int n;
+  return count_gpus(n) == cudaSuccess ? n : 0;
 }
 
 }    // namespace lsdcd

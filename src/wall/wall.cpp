@@ -72,8 +72,9 @@ Wall::Wall(Host &host, WallSpec spec, const WallUnits &units, WallBackend backen
     check_plane(host_, spec_, m);
     check_motion(host_, spec_, m);
   }
-  const bool is_settled = backend_.in_place || has_nodes_;
-  device_ = DeviceChoice(spec_.device, is_settled ? 0 : cuda_devices(), host_.ranks().node_size);
+  // Where the spheres are says it in place, and records of nodes that move stay with their engine.
+  const bool is_fixed = backend_.in_place || has_nodes_;
+  device_ = DeviceChoice(spec_.device, is_fixed ? 0 : cuda_devices(), host_.ranks().node_size);
   coat_loads_.resize(meshes_.size());
   make_coats(units.velocity);
   make_engine();
