@@ -6,7 +6,7 @@
 
 A sphere bounces in a box that moves: each wall is a plane, and both codes evaluate the same formulas
 in another order. The oracle is Debian's 29Sep2021 and, with the argument `host`, LAMMPS 4Jul2026
-with our plugin loaded.
+with our plugin loaded. LSDCD_QUICK=1 takes one law for motions without a turn.
 
 LAMMPS takes the velocity of a region from a difference over a step: places of size 2, rounded to
 2e-16, give 2e-12 of a velocity of size 1, and half a dozen bounces make at most twice as much
@@ -100,7 +100,7 @@ def turning():
 
 
 def compare(checks, box):
-    for name, law in LAWS.items():
+    for name, law in lmp.sample(LAWS).items():
         for title, variables, words, region in cases():
             theirs, ours = box.theirs(law, region, variables), box.ours(law, words, variables)
             touching = sum(any(row[9:12]) for rows in theirs.values() for row in rows.values())
