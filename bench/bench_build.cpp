@@ -62,6 +62,7 @@ void measure_mesh(const BenchOptions &o, BenchRows &rows, const TriangleSoup &so
     settings.length = length;
     settings.cutoff = 1;
     settings.memory_budget = std::size_t(16) << 30;
+    settings.form = ListForm::packed;
     TriangleGrid grid;
     std::vector<double> inner;
     BenchRow row;

@@ -142,6 +142,7 @@ CylinderBed::CylinderBed(const EvenCylinder &wall, const BedSpheres &b, const Co
   GridSettings grid;
   grid.cutoff = kLargest;
   grid.for_gpu = cuda;
+  grid.form = ListForm::packed;
   grid_ = FlatGrid(build_grid(mesh, grid, cuda));
   build_ms = clock_ms() - began;
   triangles = mesh.faces.size();

@@ -61,6 +61,7 @@ GridSettings settings_of(const lsdcd_grid_options &o, bool with_sides)
   s.list_kind = ListKind::of_option(o.nearest);
   s.in_floats = o.precision == LSDCD_FLOAT;
   s.purpose = GridPurpose::points;
+  s.form = ListForm::full;
   return s;
 }
 

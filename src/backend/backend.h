@@ -10,7 +10,8 @@
 //   for_each                     f(i) for i in [0, n), in any order, possibly at once
 //   for_each_in_warps            the same by threads that share their work: f(warp, mine, i)
 //   largest                      of read(i), i in [0, n); waits
-//   exclusive_scan               numbers become the sums of those before them; returns the total; waits
+//   exclusive_scan               numbers become the sums of those before them; returns the total; waits. This and
+//                                largest take scratch memory that the caller keeps, or get some for a while
 //   sort_pairs                   by key, stable
 //   compact                      what is flagged of an array, in order
 //   Event                        a point in what was started: record() and wait() for it

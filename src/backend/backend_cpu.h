@@ -111,6 +111,18 @@ struct CpuBackend {
     return total;
   }
 
+  // A GPU has the scratch memory of these from who calls them often.
+  template <class T, class Read>
+  T largest(std::size_t n, const Read &read, Array<char> & /*scratch*/)
+  {
+    return largest<T>(n, read);
+  }
+  template <class T>
+  T exclusive_scan(T *values, std::size_t n, Array<char> & /*scratch*/)
+  {
+    return exclusive_scan(values, n);
+  }
+
   // 16 bits at a time, up to the bits of the largest key.
   void sort_pairs(Scratch<std::uint32_t> &keys, Scratch<std::uint32_t> &values,
                   std::uint32_t largest)

@@ -268,6 +268,32 @@ struct CudaBackend {
     return last + read_one(*this, values + n - 1);
   }
 
+  // The same two in scratch memory that the caller keeps between steps: the pool of Scratch takes 32 MiB of the device for
+  // any number of bytes.
+  template <class T, class Read>
+  T largest(std::size_t n, const Read &read, Array<char> &scratch)
+  {
+    if (n == 0) return T(0);
+    using Places = thrust::counting_iterator<std::size_t>;
+    const thrust::transform_iterator<Read, Places, T, T> values(Places(0), read);
+    T *out = nullptr;
+    with_kept_scratch(sizeof(T), scratch, [&](char *at, void *more, std::size_t &bytes) {
+      out = reinterpret_cast<T *>(at);
+      return cub::DeviceReduce::Max(more, bytes, values, out, n, stream);
+    });
+    return read_one(*this, out);
+  }
+  template <class T>
+  T exclusive_scan(T *values, std::size_t n, Array<char> &scratch)
+  {
+    if (n == 0) return T(0);
+    const T last = read_one(*this, values + n - 1);
+    with_kept_scratch(0, scratch, [&](char *, void *more, std::size_t &bytes) {
+      return cub::DeviceScan::ExclusiveSum(more, bytes, values, values, n, stream);
+    });
+    return last + read_one(*this, values + n - 1);
+  }
+
   // Pairs of a key and a value, before a sort and after it, in memory that is used again.
   struct PairMemory {
     Array<std::uint32_t> keys[2], values[2];
@@ -362,6 +388,21 @@ struct CudaBackend {
     Scratch<char> room = scratch<char>(bytes);
     cuda_check(call(room.data(), bytes), "scan, sort or reduce");
     release_scratch();
+  }
+
+  // The same with memory of the caller's, which begins with `first` bytes for a result: call(at, more, bytes).
+  template <class Call>
+  void with_kept_scratch(std::size_t first, Array<char> &scratch, Call call)
+  {
+    constexpr std::size_t kAlign = 256;    // as of an allocation
+    first = (first + kAlign - 1) / kAlign * kAlign;
+    std::size_t bytes = 0;
+    cuda_check(call(nullptr, nullptr, bytes), "sizing scratch memory");
+    if (scratch.size() < first + bytes) {
+      scratch = Array<char>();
+      scratch = Array<char>(2 * (first + bytes));
+    }
+    cuda_check(call(scratch.data(), scratch.data() + first, bytes), "scan or reduce");
   }
 
   // Scratch memory comes and goes in the order of the default stream: another one is made

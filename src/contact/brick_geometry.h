@@ -13,6 +13,8 @@ namespace lsdcd {
 // p is the sphere's centre in the frame of its brick.
 class BrickGeometry {
  public:
+  using Candidates = FullCandidates;    // of complete lists
+
   LSDCD_FN BrickGeometry(const GridView &grid, const Vec3 &q, const CellAddress &at) :
       grid_(grid), q_(q), p_(vec_cast<float>(at.from_centre + from_brick_centre(grid, at.cell))),
       tolerance_(static_cast<float>(tolerance(grid)))
@@ -51,7 +53,9 @@ class BrickGeometry {
   {
     return closest_point_with(code, within, 0);
   }
-  LSDCD_FN static void prefetch(const GridView &, const Candidate *, std::uint32_t) {}
+  LSDCD_FN static void prefetch(const GridView &, const Candidates &, std::uint32_t, std::uint32_t)
+  {
+  }
   // Could there be a closest point if the tolerance were larger by `more` (length)?
   LSDCD_FN bool may_be_closest(FeatureCode code, Real within, Real more) const
   {

@@ -98,11 +98,13 @@ LSDCD_FN void find_in_complete(const GridView &grid, const Vec3 &q, Real radius,
   }
   // The list is sorted by distance from the cell's centre: no feature past this bound can be
   // within the radius.
-  const Real enough = radius + norm(at.from_centre);
+  using Candidates = typename Geometry::Candidates;
+  const Candidates candidates(grid.lists);
+  const typename Candidates::Limit enough = candidates.limit(radius + norm(at.from_centre));
   for (std::uint32_t i = cell.first; i < cell.first + cell.count; i++) {
-    const Candidate candidate = grid.lists.candidates[i];
-    if (candidate.bound > enough) break;
-    add_feature_noinline(geometry, candidate.feature, radius, set);
+    const typename Candidates::Entry candidate = candidates[i];
+    if (!candidates.is_within(candidate, enough)) break;
+    add_feature_noinline(geometry, candidates.feature(candidate), radius, set);
     if (set.overflow) break;    // nothing else is valid
   }
 }

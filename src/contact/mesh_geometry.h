@@ -5,6 +5,7 @@
 #pragma once
 
 #include "geometry/closest_point.h"
+#include "grid/lookup/candidates.h"
 #include "grid/lookup/locate.h"
 
 namespace lsdcd {
@@ -14,6 +15,8 @@ enum class FaceRegion { far, outside, rim, inside };
 
 class MeshGeometry {
  public:
+  using Candidates = PackedCandidates;    // of complete lists
+
   LSDCD_FN MeshGeometry(const GridView &grid, const Vec3 &q) : grid_(grid), q_(q) {}
   LSDCD_FN MeshGeometry(const GridView &grid, const Vec3 &q, const CellAddress &) :
       grid_(grid), q_(q)
@@ -32,14 +35,15 @@ class MeshGeometry {
   {
     return closest_point_on(grid_.wall, code, q_, grid_.tolerance, within, copy);
   }
-  // On a CPU: prefetches the records of n candidates of a large wall.
+  // On a CPU: prefetches the records of n candidates of a large wall, from the first on.
   LSDCD_FN static void prefetch([[maybe_unused]] const GridView &grid,
-                                [[maybe_unused]] const Candidate *candidates,
+                                [[maybe_unused]] const Candidates &candidates,
+                                [[maybe_unused]] std::uint32_t first,
                                 [[maybe_unused]] std::uint32_t n)
   {
 #if !LSDCD_ON_GPU()
     for (std::uint32_t i = 0; grid.is_large && i < n; i++)
-      lsdcd::prefetch(grid.wall, candidates[i].feature);
+      lsdcd::prefetch(grid.wall, candidates.feature(candidates[first + i]));
 #endif
   }
   // Could there be a closest point if the tolerance were larger by `more` (length)?

@@ -59,17 +59,23 @@ class EngineOn : public WallEngine, public CandidatesInPlace {
 
   Real largest_radius(const Spheres &spheres) override
   {
-    return b_.template largest<Real>(spheres.n, [=] LSDCD_LAMBDA(std::size_t i) -> Real {
-      return !spheres.mask || (spheres.mask[i] & spheres.group_bit) ? spheres.radius[i] : 0;
-    });
+    return b_.template largest<Real>(
+        spheres.n,
+        [=] LSDCD_LAMBDA(std::size_t i) -> Real {
+          return !spheres.mask || (spheres.mask[i] & spheres.group_bit) ? spheres.radius[i] : 0;
+        },
+        scratch_);
   }
 
   Real farthest_past(const Spheres &spheres, const PeriodicFaces &faces) override
   {
-    return b_.template largest<Real>(spheres.n, [=] LSDCD_LAMBDA(std::size_t i) -> Real {
-      const bool is_in_group = !spheres.mask || (spheres.mask[i] & spheres.group_bit);
-      return is_in_group ? faces.past(spheres.x[i]) : 0;
-    });
+    return b_.template largest<Real>(
+        spheres.n,
+        [=] LSDCD_LAMBDA(std::size_t i) -> Real {
+          const bool is_in_group = !spheres.mask || (spheres.mask[i] & spheres.group_bit);
+          return is_in_group ? faces.past(spheres.x[i]) : 0;
+        },
+        scratch_);
   }
 
   void choose(const Spheres &spheres, Real margin, bool watch = false) override
@@ -436,6 +442,7 @@ class EngineOn : public WallEngine, public CandidatesInPlace {
 
   int pool_written_ = -1;
   Array<OverflowScratch> overflow_;
+  Array<char> scratch_;    // of the largest of all spheres
 };
 
 }    // namespace lsdcd

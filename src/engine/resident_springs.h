@@ -212,8 +212,9 @@ class ResidentSprings : public SpringsInPlace {
   int largest_packed_size(int n) override
   {
     const int *count = count_.data();
-    return 1 + per_spring() * b_.template largest<int>(
-                                  n, [=] LSDCD_LAMBDA(std::size_t i) -> int { return count[i]; });
+    return 1 + per_spring() *
+                   b_.template largest<int>(
+                       n, [=] LSDCD_LAMBDA(std::size_t i) -> int { return count[i]; }, scratch_);
   }
 
   int most_packed_size() const override { return 1 + per_spring() * kMaxContacts; }
@@ -225,7 +226,7 @@ class ResidentSprings : public SpringsInPlace {
     const SpringsView springs = view();
     const int per_spring = this->per_spring(), n_extra = traits_.n_extra;
     b_.for_each(n, [=] LSDCD_LAMBDA(std::size_t k) { at[k] = 1 + per_spring * count[which[k]]; });
-    const int total = b_.exclusive_scan(at, n);
+    const int total = b_.exclusive_scan(at, n, scratch_);
     b_.for_each(n, [=] LSDCD_LAMBDA(std::size_t k) {
       const int i = which[k];
       int m = n + at[k];
@@ -257,7 +258,7 @@ class ResidentSprings : public SpringsInPlace {
     b_.for_each(n, [=] LSDCD_LAMBDA(std::size_t k) {
       at[k] = to[k] < 0 ? 0 : static_cast<int>(buffer[place_of(buffer, k, n_first, second)]);
     });
-    const std::size_t total = b_.exclusive_scan(at, n);
+    const std::size_t total = b_.exclusive_scan(at, n, scratch_);
     extend(end_ + total);
     Pool &pool = pool_[now_];
     Spring *springs = pool.springs.data();
@@ -297,7 +298,7 @@ class ResidentSprings : public SpringsInPlace {
   {
     const int *count = count_.data();
     b_.for_each(n, [=] LSDCD_LAMBDA(std::size_t i) { to[i] = count[i]; });
-    return b_.exclusive_scan(to, n);
+    return b_.exclusive_scan(to, n, scratch_);
   }
 
   // Room for n springs, keeping those that are there.
@@ -349,6 +350,7 @@ class ResidentSprings : public SpringsInPlace {
   LawTraits traits_;
   const StepCounts *counts_;
   Array<int> first_, count_;
+  Array<char> scratch_;    // of sums
   Pool pool_[2];
   int now_ = 0;
   std::size_t n_candidates_ = 0, wanted_ = 0;

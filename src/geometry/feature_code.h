@@ -15,6 +15,7 @@ namespace lsdcd {
 using FeatureCode = std::uint32_t;
 enum class FeatureKind : std::uint32_t { face = 0, edge = 1, vertex = 2 };
 
+constexpr int kFeatureIndexBits = 30;
 constexpr FeatureCode kFeatureIndexMask = 0x3fffffffu;
 constexpr FeatureCode kNoFeature = 0xffffffffu;
 constexpr std::size_t kMaxFeatures = kFeatureIndexMask;

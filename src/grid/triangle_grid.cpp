@@ -109,6 +109,7 @@ GridView TriangleGrid::view() const
       array_bytes(wall.faces) + array_bytes(wall.edges) + array_bytes(wall.vertices) > kCacheBytes;
   for (int k = 0; k < 3; k++) v.n_bricks[k] = n_bricks[k];
   point_to(v, *this);
+  v.lists.packing = lists.packing;
   return v;
 }
 

@@ -30,6 +30,45 @@ struct Candidate {
   float bound;    // length
 };
 
+// The same in one word, for steps: the code's kind is in the two top bits and its index in the lowest ones, as many as
+// the wall needs; between them is the bound, in steps of which those that fit make up a length `largest`. Each operation
+// of steps() gives no less for more, so that
+//
+//   bound <= limit => steps(bound) <= steps(limit),
+//
+// and a search up to a limit finds in a packed list all that it finds in a full one. It may also try a candidate whose
+// bound is less than a step past the limit, which costs time and changes no contact.
+struct PackedCandidate {
+  std::uint32_t word;
+};
+struct CandidatePacking {
+  Real steps_per_length = 0;      // 1/length
+  std::uint32_t code_bits = 0;    // 0: lists are not packed
+  std::uint32_t shift = 0;        // of the steps
+
+  CandidatePacking() = default;
+  // For codes with indices below n; `largest`: a length above 0.
+  CandidatePacking(std::uint64_t n, Real largest)
+  {
+    while (shift < kFeatureIndexBits && n > std::uint64_t(1) << shift) shift++;
+    code_bits = ~(((std::uint32_t(1) << (kFeatureIndexBits - shift)) - 1) << shift);
+    steps_per_length = most() / largest;
+  }
+
+  LSDCD_FN std::uint32_t most() const { return ~code_bits >> shift; }    // steps that fit
+  // The steps of a bound or a limit, where a word has them: 0 of a negative limit, and all that fit of more and of what is
+  // not a number.
+  LSDCD_FN std::uint32_t steps(Real length) const
+  {
+    const Real n = length * steps_per_length;
+    return (n < most() ? (n > 0 ? static_cast<std::uint32_t>(n) : 0) : most()) << shift;
+  }
+  LSDCD_FN PackedCandidate pack(const Candidate &c) const { return {c.feature | steps(c.bound)}; }
+  LSDCD_FN FeatureCode feature(PackedCandidate c) const { return c.word & code_bits; }
+  LSDCD_FN std::uint32_t bound(PackedCandidate c) const { return c.word & ~code_bits; }
+};
+static_assert(sizeof(CandidatePacking) == 16, "flat blocks have its bytes, and no padding");
+
 // A cell with one candidate holds it inline (count 1, first = its feature code).
 struct Cell {
   std::uint32_t first;
@@ -84,6 +123,8 @@ struct CellListsView {
   const Brick *bricks;
   const Cell *cells;
   const Candidate *candidates;
+  const PackedCandidate *packed;    // in the places of their candidates
+  CandidatePacking packing;
 
   // Calls visit() with each array of a view or of CellLists.
   template <class Lists, class Visit>
@@ -93,6 +134,7 @@ struct CellListsView {
     visit(lists.bricks);
     visit(lists.cells);
     visit(lists.candidates);
+    visit(lists.packed);
   }
 };
 
@@ -128,6 +170,10 @@ struct GridView {
 // read a list for each point.
 enum class GridPurpose { step, points };
 
+// Which candidates a grid has. Steps read packed ones of complete lists in double, and full ones of all other lists;
+// queries read full ones. So lists that are not complete, and those in float, are full in any case.
+enum class ListForm { full, packed, both };
+
 struct GridSettings {
   Real length = 0;                  // 0: chosen from the mesh, the cutoff and the budget
   Real cutoff = 0;                  // > 0
@@ -137,6 +183,7 @@ struct GridSettings {
   ListKind list_kind = ListKind::complete();
   bool in_floats = false;    // brick records, for queries in float
   GridPurpose purpose = GridPurpose::step;
+  ListForm form = ListForm::both;
   bool for_gpu = false;        // spheres are on a GPU: the chosen length is shorter
   bool may_coarsen = false;    // a given length may grow, too, until the budget holds
   // Where centres of spheres can be. The grid is cut off there.
@@ -144,6 +191,9 @@ struct GridSettings {
   std::string length_name = "grid";    // of `length`, for messages: what the caller calls it
   // Called between the parts of a build and on a CPU within them.
   ProgressListener progress;
+
+  bool packs() const { return form != ListForm::full && list_kind.is_complete() && !in_floats; }
+  bool has_full_lists() const { return form != ListForm::packed || !packs(); }
 };
 constexpr std::size_t kListBudget = 1ull << 30;    // bytes, beside the records of the wall
 
@@ -184,6 +234,8 @@ struct CellLists {
   std::vector<Brick> bricks;
   std::vector<Cell> cells;
   std::vector<Candidate> candidates;
+  std::vector<PackedCandidate> packed;
+  CandidatePacking packing;
 };
 
 // Owns a grid and the wall records that it points to, on the host. Every device builds

@@ -86,6 +86,7 @@ void AccuracyStudy::set_grid(const StudyLists &lists)
   grid.length = lists.length;
   grid.cutoff = box_.largest;
   grid.list_kind = ListKind::of_option(lists.nearest);
+  grid.form = ListForm::full;
   grid.memory_budget = settings_.memory_budget;
   const bool on_cuda = settings_.device != Device::cpu && cuda_available(nullptr);
   grid_ = TriangleGrid();

@@ -59,6 +59,7 @@ void grid(const InspectOptions &o)
   settings.cutoff = o.radius;
   settings.memory_budget = static_cast<std::size_t>(o.memory * 1048576);
   settings.limited = !(o.length > 0);    // as fix wall/lsdcd
+  settings.form = ListForm::packed;
   Progress progress(o.progress);
   settings.progress = [&](const std::string &what, double share) {
     progress.show(progress_text(what, share));

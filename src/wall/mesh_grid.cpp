@@ -148,6 +148,7 @@ GridSettings MeshGrid::grid_settings(Real cutoff, const PeriodicBox &box) const
   want.in_floats = wall_.precision != Precision::double_;
   // Asked for a length that is chosen only, so that devices share the cache of one that is given.
   want.for_gpu = !(want.length > 0) && uses_gpu();
+  want.form = ListForm::packed;
   want.within = within(cutoff, box);
   want.progress = progress;
   return want;

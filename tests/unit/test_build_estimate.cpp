@@ -26,6 +26,7 @@ WeldedMesh slivers(int n)
 GridSettings settings_of(Real cutoff, ListKind list_kind)
 {
   GridSettings settings;
+  settings.form = ListForm::full;    // as estimates count them
   settings.cutoff = settings.length = cutoff;
   settings.list_kind = list_kind;
   settings.memory_budget = std::size_t(4) << 30;

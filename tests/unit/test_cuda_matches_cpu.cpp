@@ -49,6 +49,7 @@ TEST(cuda_grid, has_the_same_lists_as_the_cpu_grid)
     EXPECT_TRUE(same_bytes(cpu.lists.bricks, cuda.lists.bricks)) << c.name;
     EXPECT_TRUE(same_bytes(cpu.lists.cells, cuda.lists.cells)) << c.name;
     EXPECT_TRUE(same_bytes(cpu.lists.candidates, cuda.lists.candidates)) << c.name;
+    EXPECT_TRUE(same_bytes(cpu.lists.packed, cuda.lists.packed)) << c.name;
     EXPECT_GT(cuda.lists.candidates.size() + cuda.lists.cells.size(), 0u) << c.name;
   }
 }

@@ -15,6 +15,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cinttypes>
 #include <cmath>
 #include <cstdint>
@@ -334,6 +335,82 @@ TEST(grid, lists_ascend_and_bounds_lie_below_the_true_distance)
     }
     EXPECT_GT(lists, 100u);
   }
+}
+
+// Walls of 1 to 2^30 features of a kind, and bounds past the largest, too.
+TEST(grid, a_packed_candidate_has_its_code)
+{
+  Random random(31);
+  for (std::uint64_t n :
+       {std::uint64_t(1), std::uint64_t(2), std::uint64_t(3), std::uint64_t(299884),
+        std::uint64_t(1) << 29, std::uint64_t(kMaxFeatures)}) {
+    const CandidatePacking packing(n, 0.7);
+    for (int i = 0; i < 1000; i++) {
+      const FeatureKind kind = FeatureKind(random() % 3);
+      const std::uint32_t last = static_cast<std::uint32_t>(n - 1),
+                          index = i == 0 ? last : static_cast<std::uint32_t>(random() % n);
+      const FeatureCode code = feature_code(kind, index);
+      const float bound = i % 7 == 0 ? 3e38f : static_cast<float>(uniform(random, 0, 1));
+      EXPECT_EQ(packing.feature(packing.pack({code, bound})), code) << n;
+    }
+  }
+}
+
+TEST(grid, packing_leaves_bounds_in_order)
+{
+  constexpr Real kInf = std::numeric_limits<Real>::infinity();
+  Random random(32);
+  for (std::uint64_t n : {3u, 299884u, 1u << 27, 1u << 30})
+    for (Real largest : {0.7, 1e-60, 1e60}) {
+      const CandidatePacking packing(n, largest);
+      Real before = -kInf;
+      std::vector<Real> lengths = {-kInf, -1, -0., 0., 1e300, kInf};
+      for (int i = 0; i < 2000; i++) lengths.push_back(uniform(random, 0, 1.2 * largest));
+      std::sort(lengths.begin(), lengths.end());
+      for (Real length : lengths) {
+        EXPECT_LE(packing.steps(before), packing.steps(length));
+        before = length;
+      }
+    }
+}
+
+TEST(grid, a_packed_bound_is_less_than_a_step_below_the_bound)
+{
+  const TriangleGrid grid = grid_of(cylinder_mesh(40, 3, 1, 1.5), 0.3);
+  const CandidatePacking &packing = grid.lists.packing;
+  const Real step = 1 / packing.steps_per_length;
+  ASSERT_EQ(grid.lists.packed.size(), grid.lists.candidates.size());
+  ASSERT_GT(grid.lists.packed.size(), 1000u);
+  EXPECT_LT(step, 1e-4 * grid.cutoff);
+  for (std::size_t i = 0; i < grid.lists.packed.size(); i++) {
+    const Candidate full = grid.lists.candidates[i];
+    const std::uint32_t word = grid.lists.packed[i].word;
+    // Index in the lowest bits, kind in the two top ones, as the format says.
+    const Real bound = step * ((word & 0x3fffffffu) >> packing.shift);
+    ASSERT_EQ((word & 0xc0000000u) | (word & ((1u << packing.shift) - 1)), full.feature);
+    ASSERT_LE(bound, full.bound * (1 + 1e-12));
+    ASSERT_GT(bound, full.bound - step * (1 + 1e-6));
+  }
+}
+
+TEST(grid, packed_lists_stand_in_for_full_ones_where_these_are_complete_and_in_double)
+{
+  const WeldedMesh mesh = weld(cylinder_mesh(40, 3, 1, 1.5), -1);
+  GridSettings settings;
+  settings.cutoff = 0.3;
+  for (const bool in_floats : {false, true})
+    for (const int nearest : {0, 3}) {
+      settings.in_floats = in_floats;
+      settings.list_kind = ListKind::of_option(nearest);
+      settings.form = ListForm::full;
+      const TriangleGrid full = build_grid(mesh, settings, test_on_cuda());
+      settings.form = ListForm::packed;
+      const TriangleGrid packed = build_grid(mesh, settings, test_on_cuda());
+      const bool packs = !in_floats && nearest == 0;
+      EXPECT_EQ(packed.lists.packed.size(), packs ? full.lists.candidates.size() : 0);
+      EXPECT_EQ(packed.lists.candidates.size(), packs ? 0 : full.lists.candidates.size());
+      EXPECT_EQ(full.lists.packed.size(), 0u);
+    }
 }
 
 // Does the list of a cell hold a feature?

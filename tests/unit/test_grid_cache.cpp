@@ -330,6 +330,7 @@ TEST(grid_cache, every_setting_is_told)
   EXPECT_EQ(with([](GridSettings &s) { s.list_kind = ListKind::of_option(1); }),
             CacheState::other_settings);
   EXPECT_EQ(with([](GridSettings &s) { s.in_floats = true; }), CacheState::other_settings);
+  EXPECT_EQ(with([](GridSettings &s) { s.form = ListForm::packed; }), CacheState::other_settings);
 }
 
 TEST(grid_cache, a_file_of_another_program_is_foreign)

@@ -163,7 +163,7 @@ class CandidateSlots {
       for (MeshSet of = set[multi_mesh[g]]; of != 0; of &= of - 1) count++;
       first[g] = count;
     });
-    const int total = b.exclusive_scan(first, n);
+    const int total = b.exclusive_scan(first, n, scratch_);
     n_slots_ += total;
     b.for_each(n + 1, [=] LSDCD_LAMBDA(std::size_t g) {
       const int at = begin + (g < n ? first[g] : total);

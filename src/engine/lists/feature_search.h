@@ -72,13 +72,20 @@ class CellsInBall {
 // How many candidates ahead a CPU asks for their records.
 constexpr std::uint32_t kAhead = 8;
 
+// Where the list of a cell with more than one candidate begins.
+inline const void *first_candidate(const GridView &grid, const Cell &cell)
+{
+  if (grid.lists.packed) return grid.lists.packed + cell.first;
+  return grid.lists.candidates + cell.first;
+}
+
 // Asks a CPU's memory for the first candidates of a sphere at q, whose turn comes soon.
 inline void prefetch_candidates(const GridView &grid, const Vec3 &q)
 {
   CellAddress at;
   Cell cell;
   if (!find_cell(grid, q, at, cell)) return;
-  if (cell.count > 1) __builtin_prefetch(grid.lists.candidates + cell.first);
+  if (cell.count > 1) __builtin_prefetch(first_candidate(grid, cell));
   asm volatile("");    // as in prefetch()
 }
 
@@ -112,15 +119,17 @@ class SearchAhead {
     } else if (part == 3) {
       const Cell cell = *static_cast<const Cell *>(at_);
       n_ = cell.count < kAhead ? cell.count : kAhead;
-      at_ = grid.lists.candidates + cell.first;
+      at_ = first_candidate(grid, cell);
       if (n_ == 1) {    // the cell has it inline
         if (!grid.in_floats) lsdcd::prefetch(grid.wall, cell.first);
         at_ = nullptr;
       }
     } else if (part == 4) {
-      const Candidate *candidates = static_cast<const Candidate *>(at_);
       for (std::uint32_t i = 0; !grid.in_floats && i < n_; i++)
-        lsdcd::prefetch(grid.wall, candidates[i].feature);
+        lsdcd::prefetch(grid.wall, grid.lists.packed
+                                       ? grid.lists.packing.feature(
+                                             static_cast<const PackedCandidate *>(at_)[i])
+                                       : static_cast<const Candidate *>(at_)[i].feature);
       return;
     }
     __builtin_prefetch(at_);
@@ -149,14 +158,15 @@ template <class Geometry, unsigned kSize, class Found>
 LSDCD_FN bool for_each_within(const Warp<kSize> &warp, bool mine, const GridView &grid,
                               const FeatureSearch &search, const Found &found)
 {
-  const Candidate *candidates = grid.lists.candidates;
+  using Candidates = typename Geometry::Candidates;
+  const Candidates candidates(grid.lists);
   // Each half-space of a feature's region moves by the margin at most; one tolerance more is for
   // rounding.
   const Real more = search.margin + Geometry::tolerance(grid),
              within = (1 + Real(2e-6)) * search.cutoff + more;
   CellsInBall cells(mine, grid, search.q, search.past, search.cell);
-  std::uint32_t at = 0, end = 0;    // of the cell's candidates those that are left
-  Real enough = 0;                  // past this bound none is near
+  std::uint32_t at = 0, end = 0;             // of the cell's candidates those that are left
+  typename Candidates::Limit enough = {};    // past this bound none is near
   bool complete = true;
   for (;;) {
     Cell cell = {};
@@ -166,13 +176,14 @@ LSDCD_FN bool for_each_within(const Warp<kSize> &warp, bool mine, const GridView
         complete = found(cell.first);
       } else {
         // A list ascends in its bounds on the distance from the cell's centre.
-        const Real away = norm(search.q - cells.centre(grid)), least = candidates[cell.first].bound;
-        complete = !(least + away < search.close);
-        if (complete && least <= within + away) {
+        const Real away = norm(search.q - cells.centre(grid));
+        const typename Candidates::Entry least = candidates[cell.first];
+        enough = candidates.limit(within + away);
+        complete = !(candidates.is_below(least, away, search.close));
+        if (complete && candidates.is_within(least, enough)) {
           at = cell.first;
           end = at + cell.count;
-          enough = within + away;
-          Geometry::prefetch(grid, candidates + at, cell.count < kAhead ? cell.count : kAhead);
+          Geometry::prefetch(grid, candidates, at, cell.count < kAhead ? cell.count : kAhead);
         }
       }
       if (!complete) cells.close();
@@ -181,21 +192,23 @@ LSDCD_FN bool for_each_within(const Warp<kSize> &warp, bool mine, const GridView
     if (busy == 0) return complete;
     const WorkSplit<kSize> split(warp, busy);
     const Vec3 q = warp.of(search.q, split.owner);
-    const Real its_enough = warp.of(enough, split.owner), its_within = warp.of(within, split.owner),
-               its_more = warp.of(more, split.owner);
+    const typename Candidates::Limit its_enough = warp.of(enough, split.owner);
+    const Real its_within = warp.of(within, split.owner), its_more = warp.of(more, split.owner);
     const std::uint32_t c = warp.of(at, split.owner) + split.turn,
                         c_end = warp.of(end, split.owner);
     bool near = split.helps && c < c_end;
-    if (near && c + kAhead < c_end) Geometry::prefetch(grid, candidates + c + kAhead, 1);
-    const Candidate candidate = near ? candidates[c] : Candidate();
-    near = near && candidate.bound <= its_enough;
-    unsigned hits = warp.vote(near && Geometry(grid, q).may_be_closest(candidate.feature,
-                                                                       its_within, its_more)) &
-                    split.own;
+    if (near && c + kAhead < c_end) Geometry::prefetch(grid, candidates, c + kAhead, 1);
+    const typename Candidates::Entry candidate =
+        near ? candidates[c] : typename Candidates::Entry();
+    near = near && candidates.is_within(candidate, its_enough);
+    const FeatureCode its_code = candidates.feature(candidate);
+    unsigned hits =
+        warp.vote(near && Geometry(grid, q).may_be_closest(its_code, its_within, its_more)) &
+        split.own;
     const bool all_near = (warp.vote(near) & split.own) == split.own;
     if (at < end) at = all_near ? at + split.size : end;
     for (; warp.vote(hits != 0); hits &= hits - 1) {
-      const FeatureCode code = warp.of(candidate.feature, warp.first(hits));
+      const FeatureCode code = warp.of(its_code, warp.first(hits));
       if (hits == 0 || found(code)) continue;
       complete = false;
       cells.close();

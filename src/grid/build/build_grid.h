@@ -38,15 +38,17 @@ class GridBuilder {
     view_.wall.edge_vertex = put(wall.edge_vertex);
     of_contact_ = put(wall.contact_features);
     of_primitives_ = put(wall.primitives);
+    n_of_a_kind_ = std::max({wall.faces.size(), wall.edges.size(), wall.vertices.size()});
     n_contact_ = wall.contact_features.size();
     n_primitives_ = wall.primitives.size();
   }
 
   // Lists of the contact features or of primitives. Returns false,
   // with `lists` untouched, if they would not fit `budget` bytes.
-  bool build(const GridPlan &plan, ListKind list_kind, std::size_t budget, CellLists &lists,
-             ListReport &report)
+  bool build(const GridPlan &plan, const GridSettings &settings, std::size_t budget,
+             CellLists &lists, ListReport &report)
   {
+    const ListKind list_kind = settings.list_kind;
     const auto start = std::chrono::steady_clock::now();
     view_.plan = plan;
     progress_.of(plan.length);
@@ -75,6 +77,12 @@ class GridBuilder {
     lists.brick_of = to_host(b_, built.brick_of, built.brick_of.size());
     lists.bricks = to_host(b_, built.bricks, built.n_bricks);
     lists.cells = to_host(b_, built.cells, built.n_cells);
+    if (settings.packs()) {
+      lists.packing =
+          CandidatePacking(n_of_a_kind_, plan.cutoff + plan.widened() + plan.half_diagonal);
+      lists.packed = packed(built, lists.packing, settings.has_full_lists());
+    }
+    if (!settings.has_full_lists()) return true;
     if constexpr (B::kOnHost)
       lists.candidates = drained(built.candidates.data(), built.n_candidates);
     else
@@ -92,6 +100,34 @@ class GridBuilder {
   }
 
  private:
+  // The candidates, packed where they are, a part after the other. On a host they are lost unless they stay.
+  std::vector<PackedCandidate> packed(BuiltLists<B> &built, const CandidatePacking &packing,
+                                      bool they_stay)
+  {
+    const std::size_t n = built.n_candidates;
+    std::vector<PackedCandidate> out(B::kOnHost ? 0 : n);
+    if constexpr (B::kOnHost) {
+      out.reserve(n);
+      const auto pack = [&](const Candidate *begin, const Candidate *end) {
+        for (const Candidate *c = begin; c < end; c++) out.push_back(packing.pack(*c));
+      };
+      if (they_stay)
+        pack(built.candidates.data(), built.candidates.data() + n);
+      else
+        move_and_release(built.candidates.data(), n, pack);
+    } else {
+      constexpr std::size_t kPart = 1 << 22;
+      Scratch<PackedCandidate> part(std::min(n, kPart));
+      for (std::size_t from = 0; from < n; from += kPart) {
+        const std::size_t n_part = std::min(n - from, kPart);
+        pack_part(b_, packing, built.candidates.data() + from, n_part, part.data());
+        b_.copy_out(part.data(), out.data() + from, n_part);
+        b_.wait();
+      }
+    }
+    return out;
+  }
+
   // Puts an array where the backend can read it: on a device, a copy that lives as long as the builder.
   template <class T>
   const T *put(const std::vector<T> &from)
@@ -106,7 +142,7 @@ class GridBuilder {
   B b_;
   std::vector<Scratch<char>> copies_;
   const FeatureCode *of_contact_, *of_primitives_;
-  std::size_t n_contact_, n_primitives_;
+  std::size_t n_contact_, n_primitives_, n_of_a_kind_;
   BuildView view_ = {};
   BuildProgress progress_;
   double needed_ = 0;
@@ -122,8 +158,8 @@ bool fill_grid(GridBuilder<B> &builder, const GridPlan &plan, const GridSettings
   const double for_lists = budget - double(of_wall);
   needed = of_wall + plan.least_bytes();
   if (needed > budget) return false;
-  const bool lists_fit = builder.build(
-      plan, settings.list_kind, static_cast<std::size_t>(for_lists), grid.lists, grid.report.lists);
+  const bool lists_fit = builder.build(plan, settings, static_cast<std::size_t>(for_lists),
+                                       grid.lists, grid.report.lists);
   needed = std::max(needed, of_wall + builder.needed());
   if (!lists_fit) return false;
   grid.origin = plan.origin;

@@ -146,6 +146,13 @@ void write_lists(B &b, const BuildView &view, const OctantPairs<B> &pairs, const
   });
 }
 
+template <class B>
+void pack_part(B &b, const CandidatePacking &packing, const Candidate *candidates, std::size_t n,
+               PackedCandidate *packed)
+{
+  b.for_each(n, [=] LSDCD_LAMBDA(std::size_t i) { packed[i] = packing.pack(candidates[i]); });
+}
+
 // Makes lists of at most `most` candidates a cell. False if they would not fit `budget` bytes or
 // cannot be numbered; `out` then has the counts only.
 template <class B>

@@ -66,12 +66,12 @@ Hash version_hash()
 // listed here too.
 Hash settings_hash(const GridSettings &s)
 {
-  const auto &[length, cutoff, memory_budget, limited, sides, list_kind, in_floats, purpose,
+  const auto &[length, cutoff, memory_budget, limited, sides, list_kind, in_floats, purpose, form,
                for_gpu, may_coarsen, within, length_name, progress] = s;
   (void) length_name;
   (void) progress;
   return Hasher().of(length, cutoff, memory_budget, limited, sides, list_kind.most(), in_floats,
-                     purpose, for_gpu, may_coarsen, within.lo, within.hi);
+                     purpose, form, for_gpu, may_coarsen, within.lo, within.hi);
 }
 
 Hash mesh_hash(const WeldedMesh &mesh)
