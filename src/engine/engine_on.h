@@ -366,8 +366,10 @@ class EngineOn : public WallEngine, public CandidatesInPlace {
     if (seen.too_large) throw_for(spheres, seen);
     springs_.make_room(broad_phase_.n(), seen);
     const bool several = broad_phase_.uses_slots();
-    work_lists_.clear(b_, broad_phase_.n(), several ? broad_phase_.slots().n_multi_mesh() : 0,
-                      !several, broad_phase_.seem_multi_contact(), counts_.data());
+    work_lists_.clear(
+        b_, broad_phase_.n(), several ? broad_phase_.slots().n_multi_mesh() : 0, !several,
+        !several && !broad_phase_.mesh(0).grid.view.in_floats && broad_phase_.lists().n,
+        broad_phase_.seem_multi_contact(), counts_.data(), seen);
   }
 
   void run_law(StepJob &job, std::size_t n, const LawBytes &law)

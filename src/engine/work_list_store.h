@@ -18,20 +18,32 @@ class WorkListStore {
  public:
   // After a choice of n candidates, of which n_multi_mesh spheres have more than one mesh. `carries_over`: steps are over
   // all of them, so that items with more than one contact are listed from step to step. `multi_contact`: for each, does
-  // it seem to have them now? Or null.
-  void clear(B &b, std::size_t n, std::size_t n_multi_mesh, bool carries_over,
-             const char *multi_contact, StepCounts *counts)
+  // it seem to have them now? Or null. `has_fast_path`: only those that it leaves take the general one. `seen`: the counts
+  // after the last step.
+  void clear(B &b, std::size_t n, std::size_t n_multi_mesh, bool carries_over, bool has_fast_path,
+             const char *multi_contact, StepCounts *counts, const StepCounts &seen)
   {
     if (B::kOnHost) return;
+    const bool has_stepped = step_ > 0;
     carries_over_ = carries_over;
     step_ = 0;
     if (room_ < n) {
       room_ = n + n / 8;
       memory_ = Array<int>(4 * room_);
     }
-    if (general_.size() < general_bytes(n, n_multi_mesh)) {
+    // Spheres on the general path share the memory of its threads. Few take it where the wall is flat beside them: after
+    // steps, there is memory for twice as many as did, and no less than what a kernel uses at least.
+    std::size_t n_general = n;
+    if (has_fast_path && has_stepped) {
+      const std::size_t took = std::max(seen.n_found[0], seen.n_found[1]) +
+                               std::max(seen.n_multi_contact[0], seen.n_multi_contact[1]);
+      n_general = std::min(n, std::max(kFewGeneral, 2 * took));
+    }
+    const std::size_t need = general_bytes(n_general, n_multi_mesh);
+    if (general_.size() < need || general_.size() / 4 > need) {
       general_ = Array<char>();    // not beside the new one
-      general_ = Array<char>(general_bytes(n + n / 8, n_multi_mesh + n_multi_mesh / 8));
+      general_ =
+          Array<char>(general_bytes(n_general + n_general / 8, n_multi_mesh + n_multi_mesh / 8));
     }
     int *listed_in = column(3), *first = column(0);    // of the first step
     b.for_each(2, [=] LSDCD_LAMBDA(std::size_t k) {
@@ -54,6 +66,7 @@ class WorkListStore {
     lists.n_found = counts->n_found + turn;
     lists.n_found_next = counts->n_found + 1 - turn;
     lists.memory = general_.data();
+    lists.memory_bytes = general_.size();
     if (!carries_over_) return lists;
     lists.last = column(1 - turn);
     lists.n_last = counts->n_multi_contact + 1 - turn;

@@ -15,7 +15,7 @@ namespace lsdcd {
 constexpr unsigned kStepWarps = kStepBlock / kWarpSize;
 // How many blocks serve the list. While the fast path runs: few, as they take room from blocks that would hide
 // its memory latency.
-constexpr int kFewBlocks = 66, kMaxBlocks = kMostGeneral / kStepBlock;
+constexpr int kFewBlocks = kFewGeneral / kStepBlock, kMaxBlocks = kMostGeneral / kStepBlock;
 
 // The items of the general path: those of `list`, or with a null list all of [0, n). The first `blocks` of the
 // kernel take them; while there are few items, only `few` of these do. `leaves_lists`: an item that needs a list
@@ -109,7 +109,9 @@ void run_step(B &b, std::size_t n_items, const Work &work)
   if (n_items == 0) return;
   const unsigned n = static_cast<unsigned>(n_items);
   const unsigned blocks = (n + kStepBlock - 1) / kStepBlock,
-                 general_blocks = std::min<unsigned>(blocks, kMaxBlocks);
+                 have_memory = static_cast<unsigned>(work.work_lists().memory_bytes /
+                                                     (kStepBlock * sizeof(typename Work::Memory))),
+                 general_blocks = std::min({blocks, unsigned(kMaxBlocks), have_memory});
   const WorkLists &lists = work.work_lists();
   GeneralPart part = {nullptr, nullptr, static_cast<int>(n), 0, general_blocks, false};
   int *to_clear = lists.n_found_next;

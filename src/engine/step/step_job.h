@@ -26,6 +26,7 @@ struct WorkLists {
   // The newest step that begins with an item, for each item, and the number of this step.
   int *listed_in = nullptr, step = 0;
   void *memory = nullptr;    // of threads on the general path
+  std::size_t memory_bytes = 0;
 };
 
 // Contacts that a kernel has room for on its stack: enough for nearly every sphere. One with more
@@ -43,7 +44,7 @@ struct MultiMeshMemory {
   WeightedContacts<kContacts> of_mesh;    // of one mesh after the other
 };
 constexpr unsigned kStepBlock = 128;    // threads of a block
-constexpr std::size_t kMostGeneral = 528 * kStepBlock;
+constexpr std::size_t kMostGeneral = 528 * kStepBlock, kFewGeneral = 66 * kStepBlock;
 
 // Slots for springs and records of a step. A sphere with a single contact has the slot of its own number; one
 // with more contacts reserves slots from `shared` on.
