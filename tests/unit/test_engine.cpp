@@ -57,14 +57,14 @@ struct CountingBackend : CpuBackend {
     CpuBackend::copy_out(from, host, n);
   }
   void wait() { crossings()++; }
-  template <class T, class Read>
-  T largest(std::size_t n, const Read &read)
+  template <class T, class Read, class... Scratch>
+  T largest(std::size_t n, const Read &read, Scratch &...)
   {
     crossings()++;
     return CpuBackend::largest<T>(n, read);
   }
-  template <class T>
-  T exclusive_scan(T *values, std::size_t n)
+  template <class T, class... Scratch>
+  T exclusive_scan(T *values, std::size_t n, Scratch &...)
   {
     crossings()++;
     return CpuBackend::exclusive_scan(values, n);
