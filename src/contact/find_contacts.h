@@ -147,11 +147,13 @@ LSDCD_FN Real find_contacts_in(const GridView &grid, const Vec3 &q, Real radius,
   return kAnyDistance;
 }
 
+// The same for any grid, also one for queries, whose lists are full.
 template <int kMost>
 LSDCD_FN Real find_contacts(const GridView &grid, const Vec3 &q, Real radius,
                             ContactSet<kMost> &set)
 {
   if (grid.in_floats) return find_contacts_in<BrickGeometry>(grid, q, radius, set);
+  if (!grid.lists.is_packed()) return find_contacts_in<FullListGeometry>(grid, q, radius, set);
   return find_contacts_in<MeshGeometry>(grid, q, radius, set);
 }
 

@@ -71,4 +71,11 @@ class MeshGeometry {
   const Vec3 &q_;
 };
 
+// The same where complete lists are full.
+class FullListGeometry : public MeshGeometry {
+ public:
+  using Candidates = FullCandidates;
+  using MeshGeometry::MeshGeometry;
+};
+
 }    // namespace lsdcd

@@ -126,6 +126,8 @@ struct CellListsView {
   const PackedCandidate *packed;    // in the places of their candidates
   CandidatePacking packing;
 
+  LSDCD_FN bool is_packed() const { return packing.code_bits != 0; }
+
   // Calls visit() with each array of a view or of CellLists.
   template <class Lists, class Visit>
   static constexpr void each_array(Lists &lists, const Visit &visit)

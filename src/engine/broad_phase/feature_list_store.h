@@ -51,6 +51,7 @@ struct GatherSlotWork {
   {
     for_each_distinct(warp, mine, mesh[k], [&](bool of_mesh, int m) {
       const PosedGrid &of = meshes[m];
+      if (of.grid.list_kind.has_primitives()) return;    // see leave_out()
       const GatherWork work = {of.grid, of.pose, spheres, margin, lists, nullptr, counts};
       work(warp, of_mesh, k);
     });
