@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // Engines for particles in place, in other layouts and behind an adapter against the CPU's: one
-// source, so the same bits. LSDCD_QUICK=1 tries a tenth of the spheres for other searches.
+// source, so the same bits. LSDCD_QUICK=1 tries a tenth of the spheres for other searches, not on
+// the largest mesh.
 #include "support/test_engine.h"
 #include "backend/backend_cpu.h"
 #include "contact/contact_history.h"
@@ -186,9 +187,12 @@ TEST(engine, gives_what_every_effect_gives_on_the_host)
 
 TEST(engine, gives_what_the_host_gives_however_it_searches)
 {
-  const int spheres = std::getenv("LSDCD_QUICK") ? 200 : 2000;
+  const bool quick = std::getenv("LSDCD_QUICK") != nullptr;
+  const int spheres = quick ? 200 : 2000;
+  std::vector<Case> walls = cases();
+  if (quick) walls.erase(walls.begin() + 2);    // the grids of the largest one take the longest
   for (const Search &search : other_searches())
-    for (const Case &c : cases()) {
+    for (const Case &c : walls) {
       const std::string name = std::string(c.name) + ", " + search.name;
       const Outcome cpu = run_steps(c, history(), on_cpu, spheres, search);
       expect_same(cpu, run_steps(c, history(), in_place, spheres, search), name);
