@@ -17,6 +17,7 @@
 #include "wall/wall.h"
 
 #include <cmath>
+#include <numeric>
 
 using namespace lsdcd;
 
@@ -53,7 +54,7 @@ struct Sheet {
 
 class Bed {
  public:
-  // `in_place`: spheres are in the memory of a GPU.
+  // `in_place`: spheres are in the memory of a GPU, and so are what a step is given of nodes and the forces on them.
   Bed(const Sheet &sheet, int n_spheres, bool has_nodes, Device device, bool in_place) :
       sheet_(sheet), has_nodes_(has_nodes), in_place_(in_place)
   {
@@ -98,6 +99,8 @@ class Bed {
     std::sort(grains_.x.begin(), grains_.x.end(),
               [&](const Vec3 &a, const Vec3 &b) { return bin(a) < bin(b); });
     go(0);
+    order_.resize(nodes_.size());
+    std::iota(order_.begin(), order_.end(), 0);
     wall_->begin_run(0, false);
     step(Step::setup);
   }
@@ -155,8 +158,15 @@ class Bed {
   double step(Step::Kind kind)
   {
     const HostSpheres spheres = in_place_ ? on_gpu() : grains_.spheres();
+    const std::size_t n = 3 * nodes_.size();
+    if (in_place_ && has_nodes_) {
+      arrays_[7].put(&nodes_[0].x, n);
+      arrays_[8].put(&velocity_[0].x, n);
+    }
     const double start = clock_ms();
-    if (has_nodes_) wall_->set_nodes(0, &nodes_[0].x, &velocity_[0].x);
+    if (has_nodes_ &&
+        !(in_place_ && wall_->set_nodes_in_place(0, arrays_[7].data(), arrays_[8].data(), order_)))
+      wall_->set_nodes(0, &nodes_[0].x, &velocity_[0].x);
     wall_->history().grow(static_cast<int>(grains_.x.size()));
     StepInput input;
     input.step = {now_, kDt, kind};
@@ -166,7 +176,8 @@ class Bed {
     wall_->begin(spheres, input);
     wall_->launch(spheres);
     wall_->finish(spheres);
-    if (has_nodes_) sum_ += wall_->node_forces(0).front();
+    if (has_nodes_ && !(in_place_ && wall_->put_node_forces(0, arrays_[9].resize(n), order_)))
+      sum_ += wall_->node_forces(0).front();
     if (in_place_) sum_ += arrays_[3].get(1).front();    // waits for the forces
     return clock_ms() - start;
   }
@@ -189,10 +200,13 @@ class Bed {
 
   const Sheet &sheet_;
   bool has_nodes_, in_place_;
-  DeviceArray<Real> arrays_[7] = {DeviceArray<Real>(in_place_), DeviceArray<Real>(in_place_),
-                                  DeviceArray<Real>(in_place_), DeviceArray<Real>(in_place_),
-                                  DeviceArray<Real>(in_place_), DeviceArray<Real>(in_place_),
-                                  DeviceArray<Real>(in_place_)};
+  // Seven of spheres, three of nodes.
+  DeviceArray<Real> arrays_[10] = {DeviceArray<Real>(in_place_), DeviceArray<Real>(in_place_),
+                                   DeviceArray<Real>(in_place_), DeviceArray<Real>(in_place_),
+                                   DeviceArray<Real>(in_place_), DeviceArray<Real>(in_place_),
+                                   DeviceArray<Real>(in_place_), DeviceArray<Real>(in_place_),
+                                   DeviceArray<Real>(in_place_), DeviceArray<Real>(in_place_)};
+  std::vector<int> order_;    // rows of those of nodes: node after node
   FakeHost host_;
   std::unique_ptr<Wall> wall_;
   Grains grains_;

@@ -720,20 +720,22 @@ LSDCD_API int lsdcd_wall_set_pose(lsdcd_wall *wall, int mesh, const double *posi
  * placement has them, at rest. Triangles stay the same.
  *
  * positions: length. velocities: length/time, of the time of the spheres' velocities: with velocity Verlet half a step
- * before the positions; null: all are 0. Both are copied from memory of the host (LSDCD_ERROR_DEVICE: of a GPU), and
- * are the same on all processes. LSDCD_ERROR_ARGUMENT: no such mesh, one without nodes_by_caller, a number that is not
- * finite. All contacts are found however far nodes go from the last step's, but for one that passes through a sphere: the
+ * before the positions; null: all are 0. Both are copied, and are the same on all processes. A wall with device LSDCD_CUDA
+ * takes them from memory of its GPU, too, in the order of its stream (LSDCD_ERROR_DEVICE: of another one); with a single process
+ * the host then waits for none of these numbers. LSDCD_ERROR_ARGUMENT: no such mesh, one without nodes_by_caller, a number that is not
+ * finite, which on a GPU the next step may tell instead (LSDCD_ERROR_INPUT), arrays in different memory. All contacts are found however far nodes go from the last step's, but for one that passes through a sphere: the
  * next step refuses (LSDCD_ERROR_INPUT) a node that goes farther than the largest radius, and a triangle without area. Alone. Own. */
 LSDCD_API int lsdcd_wall_set_nodes(lsdcd_wall *wall, int mesh, const double *positions,
                                    const double *velocities);
 /* How many there are. LSDCD_ERROR_ARGUMENT: no such mesh, one without nodes_by_caller. Alone. Own. */
 LSDCD_API int lsdcd_wall_get_node_count(lsdcd_wall *wall, int mesh, size_t *count);
-/* Where they are after the last step, 3 numbers a vertex (length). Alone. Own. */
+/* Where they are after the last step, 3 numbers a vertex (length), to memory as of lsdcd_wall_set_nodes(). Alone. Own. */
 LSDCD_API int lsdcd_wall_get_nodes(lsdcd_wall *wall, int mesh, double *positions);
 /* Forces on them in the last step, 3 numbers a vertex, over all processes: of each contact its force, shared among the
  * nodes of its triangle or edge so that their sum and moment are those of the force at the closest point, and of
  * `pressure`. What no node gets is a couple: that of rolling and twisting resistance, and that of a tangential force on
- * the arm of the overlap. Own. */
+ * the arm of the overlap. To memory as of lsdcd_wall_set_nodes(): on a GPU in the order of the wall's stream, where an error of
+ * a sphere is told by the next call. Own. */
 LSDCD_API int lsdcd_wall_get_node_forces(lsdcd_wall *wall, int mesh, double *forces);
 /* Force and torque of the spheres on a mesh in the last step, 3 numbers each, over all processes; -1: on all meshes.
  * The torque is about the point `about`, of the box, null: the origin. Own. */

@@ -932,6 +932,20 @@ class Wall {
     c::check(lsdcd_wall_get_node_forces(get(), mesh, forces.data()));
     return forces;
   }
+  // The same three with arrays of the caller, 3 numbers a vertex, in memory of the host or of the wall's GPU; null
+  // velocities are 0.
+  void set_nodes(int mesh, const double *positions, const double *velocities)
+  {
+    c::check(lsdcd_wall_set_nodes(get(), mesh, positions, velocities));
+  }
+  void nodes(int mesh, double *positions)
+  {
+    c::check(lsdcd_wall_get_nodes(get(), mesh, positions));
+  }
+  void node_forces(int mesh, double *forces)
+  {
+    c::check(lsdcd_wall_get_node_forces(get(), mesh, forces));
+  }
   // Force and torque of the spheres on a mesh in the last step; -1: on all. The torque is about a point of the box.
   Wrench wrench(int mesh, const std::array<double, 3> &about = {0, 0, 0})
   {

@@ -56,20 +56,37 @@ const std::vector<int> &node_of_vertex(lsdcd_wall &wall, int mesh)
   return nodes;
 }
 
-// An array of three numbers a vertex, in the memory of the host.
-void check_host_array(const double *array, const char *name)
+// Is an array, of three numbers a vertex, in the memory of a GPU alone? Throws where the wall computes elsewhere.
+bool is_on_gpu(const lsdcd_wall &wall, const double *array, const char *name)
 {
   need(array, name);
-  if (DeviceMemory().only_there(array))
+  if (!DeviceMemory().only_there(array)) return false;
+  if (!wall.gpu)
     throw ApiError(LSDCD_ERROR_DEVICE, std::string("the array `") + name +
-                                           "` is in the memory of a GPU, and nodes are read and "
-                                           "written in that of the host so far: copy it there");
+                                           "` is in a GPU's memory: make the wall with device "
+                                           "LSDCD_CUDA, or copy it to the host");
+  try {
+    wall.gpu->check(array, name, "the wall");
+  } catch (const InputError &e) {
+    throw ApiError(LSDCD_ERROR_DEVICE,
+                   std::string(e.what()) + ": nodes are where the arrays of spheres are");
+  }
+  return true;
+}
+
+// The first n numbers of an array, where a host reads them; `copy` has them if they are on a GPU.
+const double *on_host(const lsdcd_wall &wall, const double *array, bool on_gpu, std::size_t n,
+                      std::vector<double> &copy)
+{
+  if (!on_gpu) return array;
+  copy.resize(n);
+  wall.gpu->copy_out(array, copy.data(), n * sizeof(double));
+  return copy.data();
 }
 
 std::vector<Real> in_order_of_nodes(const double *given, const std::vector<int> &nodes,
                                     const char *name)
 {
-  check_host_array(given, name);
   std::vector<Real> out(3 * nodes.size());
   for (std::size_t k = 0; k < nodes.size(); k++)
     for (int d = 0; d < 3; d++) {
@@ -80,11 +97,15 @@ std::vector<Real> in_order_of_nodes(const double *given, const std::vector<int> 
   return out;
 }
 
-void in_order_of_vertices(const Real *of_nodes, const std::vector<int> &nodes, double *to)
+void in_order_of_vertices(const lsdcd_wall &wall, const Real *of_nodes,
+                          const std::vector<int> &nodes, double *to, bool on_gpu)
 {
+  std::vector<double> copy(on_gpu ? 3 * nodes.size() : 0);
+  double *out = on_gpu ? copy.data() : to;
   for (std::size_t k = 0; k < nodes.size(); k++)
     for (int d = 0; d < 3; d++)
-      to[3 * k + d] = of_nodes[3 * static_cast<std::size_t>(nodes[k]) + d];
+      out[3 * k + d] = of_nodes[3 * static_cast<std::size_t>(nodes[k]) + d];
+  if (on_gpu) wall.gpu->copy_in(out, to, copy.size() * sizeof(double));
 }
 
 }    // namespace
@@ -97,11 +118,23 @@ int lsdcd_wall_set_nodes(lsdcd_wall *wall, int mesh, const double *positions,
   return guard_wall(wall, [&] {
     part_with_nodes(*wall, mesh);
     const std::vector<int> &nodes = node_of_vertex(*wall, mesh);
-    const std::vector<Real> x = in_order_of_nodes(positions, nodes, "positions");
+    const bool on_gpu = is_on_gpu(*wall, positions, "positions");
+    if (velocities && is_on_gpu(*wall, velocities, "velocities") != on_gpu)
+      throw ApiError(LSDCD_ERROR_ARGUMENT,
+                     "`positions` and `velocities` are in different memory: one is on the host, "
+                     "the other on a GPU");
+    const bool is_alone = wall->caller.is_alone();
+    if (on_gpu && is_alone && wall->in->set_nodes_in_place(mesh, positions, velocities, nodes))
+      return;
+    std::vector<double> copies[2];
+    const auto ordered = [&](const double *given, const char *name, std::vector<double> &copy) {
+      return in_order_of_nodes(on_host(*wall, given, on_gpu, 3 * nodes.size(), copy), nodes, name);
+    };
+    const std::vector<Real> x = ordered(positions, "positions", copies[0]);
     std::vector<Real> v;
-    if (velocities) v = in_order_of_nodes(velocities, nodes, "velocities");
+    if (velocities) v = ordered(velocities, "velocities", copies[1]);
     wall->in->set_nodes(mesh, x.data(), velocities ? v.data() : nullptr);
-    if (wall->caller.is_alone()) return;
+    if (is_alone) return;
     wall->poses.add(mesh, x);
     wall->poses.add(mesh, v);
   });
@@ -120,8 +153,9 @@ int lsdcd_wall_get_nodes(lsdcd_wall *wall, int mesh, double *positions)
 {
   return guard_wall(wall, [&] {
     const MeshPart &part = part_with_nodes(*wall, mesh);
-    check_host_array(positions, "positions");
-    in_order_of_vertices(&part.mesh()->vertices[0].x, node_of_vertex(*wall, mesh), positions);
+    const bool on_gpu = is_on_gpu(*wall, positions, "positions");
+    in_order_of_vertices(*wall, &part.mesh()->vertices[0].x, node_of_vertex(*wall, mesh), positions,
+                         on_gpu);
   });
 }
 
@@ -129,9 +163,11 @@ int lsdcd_wall_get_node_forces(lsdcd_wall *wall, int mesh, double *forces)
 {
   return guard_wall(wall, [&] {
     part_with_nodes(*wall, mesh);
-    check_host_array(forces, "forces");
+    const bool on_gpu = is_on_gpu(*wall, forces, "forces");
+    const std::vector<int> &nodes = node_of_vertex(*wall, mesh);
+    if (on_gpu && wall->caller.is_alone() && wall->in->put_node_forces(mesh, forces, nodes)) return;
     tell_late(*wall);
-    in_order_of_vertices(wall->in->node_forces(mesh).data(), node_of_vertex(*wall, mesh), forces);
+    in_order_of_vertices(*wall, wall->in->node_forces(mesh).data(), nodes, forces, on_gpu);
   });
 }
 

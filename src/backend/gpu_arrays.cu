@@ -32,6 +32,12 @@ class CudaArrays : public GpuArrays {
                "copying from the device");
     wait();
   }
+  void copy_in(const void *from, void *to, std::size_t bytes) const override
+  {
+    cuda_check(cudaMemcpyAsync(to, from, bytes, cudaMemcpyDefault, stream_),
+               "copying to the device");
+    wait();
+  }
   void wait() const override
   {
     cuda_check(cudaStreamSynchronize(stream_), "running on the device");

@@ -22,6 +22,8 @@ class GpuArrays {
   virtual void check(const void *array, const char *name, const char *user) const = 0;
   // `bytes` bytes, once the stream has done its work so far. Waits.
   virtual void copy_out(const void *from, void *to, std::size_t bytes) const = 0;
+  // The other way: from the memory of the host. Waits.
+  virtual void copy_in(const void *from, void *to, std::size_t bytes) const = 0;
   virtual void wait() const = 0;
 };
 

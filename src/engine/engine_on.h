@@ -15,6 +15,7 @@
 #include "engine/step/compiled_law.h"
 #include "engine/step_results.h"
 #include "engine/work_list_store.h"
+#include "mesh/face_pressure.h"
 
 #include <algorithm>
 #include <string>
@@ -24,7 +25,7 @@
 namespace lsdcd {
 
 template <class B>
-class EngineOn : public WallEngine, public CandidatesInPlace {
+class EngineOn : public WallEngine, public CandidatesInPlace, public NodesInPlace {
   template <class T>
   using Array = typename B::template Array<T>;
 
@@ -37,7 +38,10 @@ class EngineOn : public WallEngine, public CandidatesInPlace {
       throw InputError(
           "precision single does not support granular, rolling, cohesion, a moving surface "
           "or mesh, several meshes, wear or mesh_fields: use mixed or double");
-    if (has_copies()) nodes_ = std::vector<MovingNodes<B>>(settings.meshes);
+    if (has_copies()) {
+      nodes_ = std::vector<MovingNodes<B>>(settings.meshes);
+      node_forces_ = std::vector<NodeForces<B>>(settings.meshes);
+    }
     clear_diagnostics(StepCounts());
     unlock_scratches();
     if (broad_phase_.uses_slots()) put_laws();
@@ -176,14 +180,32 @@ class EngineOn : public WallEngine, public CandidatesInPlace {
     return diagnostics_of(seen);
   }
 
-  bool copies_records() const override { return has_copies(); }
-  void start_nodes(int mesh, const NodesNow &now) override
+  NodesInPlace *nodes_in_place() override { return has_copies() ? this : nullptr; }
+  void start_nodes(int mesh, const NodesNow &now) override { nodes_.at(mesh).start(b_, now); }
+  void give_nodes(int mesh, const Vec3 *x, const Vec3 *v) override
   {
-    if (has_copies()) nodes_[mesh].start(b_, now);
+    nodes_.at(mesh).give(b_, x, v);
   }
-  void move_nodes(int mesh, const NodesNow &now) override
+  void give_nodes_in_place(int mesh, const Real *x, const Real *v,
+                           const std::vector<int> &node_of_row) override
   {
-    nodes_.at(mesh).move(b_, records_of(mesh), now);
+    nodes_.at(mesh).give_in_place(b_, x, v, node_of_row);
+  }
+  NodesGone move_nodes(int mesh, bool with_spins, Real back) override
+  {
+    return nodes_.at(mesh).move(b_, records_of(mesh), with_spins, back);
+  }
+  NodesGone move_nodes_back(int mesh, bool with_spins, Real back) override
+  {
+    return nodes_.at(mesh).move_back(b_, records_of(mesh), with_spins, back);
+  }
+  void make_left(int mesh, const WeldedMesh &now) override
+  {
+    nodes_.at(mesh).make_left(b_, records_of(mesh), now);
+  }
+  void fetch_nodes(int mesh, NodesAt when, Vec3 *x, Vec3 *v) override
+  {
+    nodes_.at(mesh).fetch(b_, when, x, v);
   }
   void fetch_records(int mesh, MeshFeatures &to) override
   {
@@ -210,14 +232,24 @@ class EngineOn : public WallEngine, public CandidatesInPlace {
   Real add_node_forces(int mesh, const NodesNow &now, const MeshFeaturesView &wall,
                        Real *forces) override
   {
-    const ContactRecord *records = springs_.records(step_.update_history);
-    const std::size_t n_nodes = now.mesh->vertices.size();
-    if (!has_copies())
-      return node_forces_.add_on_host(results_.node_contacts(records, mesh, wall, now.velocity),
-                                      n_nodes, forces);
-    return node_forces_.add(
-        b_, results_.node_contacts(records, mesh, records_of(mesh), nodes_[mesh].field(0).velocity),
-        n_nodes, forces);
+    if (has_copies()) throw std::logic_error("the forces of nodes are summed in place");
+    return NodeForces<B>::add_on_host(node_contacts(mesh, wall, now.velocity),
+                                      now.mesh->vertices.size(), forces);
+  }
+  void sum_node_forces(int mesh) override
+  {
+    const MovingNodes<B> &nodes = nodes_.at(mesh);
+    node_forces_[mesh].sum(b_, node_contacts(mesh, records_of(mesh), nodes.field(0).velocity),
+                           nodes.n());
+  }
+  Real fetch_node_forces(int mesh, Real *forces) override
+  {
+    return node_forces_.at(mesh).fetch(b_, forces);
+  }
+  void put_node_forces(int mesh, Real sixth, Real *to, const std::vector<int> &node_of_row) override
+  {
+    put_sums(nodes_.at(mesh), node_forces_[mesh].sums(), sixth, to,
+             nodes_[mesh].rows(b_, node_of_row), node_of_row.size());
   }
   SpringsInPlace *springs_in_place() override { return &springs_; }
   void springs_to(ContactHistory &store, int n) override { springs_.to_store(store, n); }
@@ -279,6 +311,21 @@ class EngineOn : public WallEngine, public CandidatesInPlace {
     return works_.data();
   }
 
+  // Faces push their nodes in the order of their numbers, as on a host.
+  void put_sums(const MovingNodes<B> &nodes, const Real *sums, Real sixth, Real *to,
+                const int *node_of_row, std::size_t n)
+  {
+    const int *faces = nodes.faces(), *first = nodes.face_first(), *around = nodes.faces_around();
+    const Vec3 *at = nodes.at();
+    b_.for_each(n, [=] LSDCD_LAMBDA(std::size_t k) {
+      const int i = node_of_row[k];
+      Vec3 sum = {sums[3 * i], sums[3 * i + 1], sums[3 * i + 2]};
+      for (int m = first[i]; sixth != 0 && m < first[i + 1]; m++)
+        sum += corner_share_of_pressure(faces + 3 * std::size_t(around[m]), at, sixth);
+      for (int d = 0; d < 3; d++) to[3 * k + d] = sum[d];
+    });
+  }
+
   // Clears what was counted since the host last read it.
   void clear_diagnostics(const StepCounts &seen)
   {
@@ -306,9 +353,14 @@ class EngineOn : public WallEngine, public CandidatesInPlace {
   }
   std::size_t bytes_of_nodes() const
   {
-    std::size_t bytes = node_forces_.bytes();
+    std::size_t bytes = 0;
     for (const MovingNodes<B> &nodes : nodes_) bytes += nodes.bytes();
+    for (const NodeForces<B> &forces : node_forces_) bytes += forces.bytes();
     return bytes;
+  }
+  NodeContacts node_contacts(int mesh, const MeshFeaturesView &wall, const Vec3 *velocity) const
+  {
+    return results_.node_contacts(springs_.records(step_.update_history), mesh, wall, velocity);
   }
   const MeshFeaturesView &records_of(int mesh) const
   {
@@ -437,10 +489,10 @@ class EngineOn : public WallEngine, public CandidatesInPlace {
 
   StepResults<B> results_, next_results_;    // of the last step, and of one launched beside
   WorkListStore<B> work_lists_;
-  std::vector<MovingNodes<B>> nodes_;    // of each mesh, where it has copies of records
-  NodeForces<B> node_forces_;
-  Array<MeshWork> works_;    // of all meshes
-  Array<LawEntry> laws_;     // likewise
+  std::vector<MovingNodes<B>> nodes_;         // of each mesh, where it has copies of records
+  std::vector<NodeForces<B>> node_forces_;    // likewise
+  Array<MeshWork> works_;                     // of all meshes
+  Array<LawEntry> laws_;                      // likewise
 
   int pool_written_ = -1;
   Array<OverflowScratch> overflow_;

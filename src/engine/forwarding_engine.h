@@ -32,10 +32,7 @@ class ForwardingEngine : public WallEngine {
   const ContactRecord *records() const override { return engine_->records(); }
   StepDiagnostics read_diagnostics() override { return engine_->read_diagnostics(); }
 
-  bool copies_records() const override { return engine_->copies_records(); }
-  void start_nodes(int mesh, const NodesNow &now) override { engine_->start_nodes(mesh, now); }
-  void move_nodes(int mesh, const NodesNow &now) override { engine_->move_nodes(mesh, now); }
-  void fetch_records(int mesh, MeshFeatures &to) override { engine_->fetch_records(mesh, to); }
+  NodesInPlace *nodes_in_place() override { return engine_->nodes_in_place(); }
   void turn_springs(int n, int mesh, const TurningMesh &turning) override
   {
     engine_->turn_springs(n, mesh, turning);

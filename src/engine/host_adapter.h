@@ -178,10 +178,7 @@ class HostAdapter : public WallEngine {
     return diagnostics;
   }
 
-  bool copies_records() const override { return engine_.copies_records(); }
-  void start_nodes(int mesh, const NodesNow &now) override { engine_.start_nodes(mesh, now); }
-  void move_nodes(int mesh, const NodesNow &now) override { engine_.move_nodes(mesh, now); }
-  void fetch_records(int mesh, MeshFeatures &to) override { engine_.fetch_records(mesh, to); }
+  NodesInPlace *nodes_in_place() override { return engine_.nodes_in_place(); }
   // Springs that wait are turned once the engine has them, in the step that comes.
   void turn_springs(int /*n*/, int mesh, const TurningMesh &turning) override
   {

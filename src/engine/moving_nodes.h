@@ -1,22 +1,61 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The nodes of a mesh in the memory of an engine that has copies of its records, as on a GPU: in a step only their
-// places and velocities are copied there, and the records are made anew by the source that a host has
-// (mesh/moving_records.h). Faces that are too thin for the digits of Real come back to the host, which has wider ones.
+// The nodes of a mesh in the memory of an engine that has copies of its records, as on a GPU: in a step the records are
+// made anew by the source that a host has (mesh/moving_records.h), and a small record of how far nodes have gone is all
+// that the host waits for. Faces that are too thin for the digits of Real come back to the host, which has wider ones.
 #pragma once
 
 #include "backend/atomic.h"
 #include "backend/backend.h"
-#include "engine/wall_engine.h"
+#include "engine/nodes_in_place.h"
 #include "mesh/mesh_features.h"
 #include "mesh/node_spin.h"
 
 #include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
 #include <utility>
 #include <vector>
 
 namespace lsdcd {
+
+// A number as bits that ascend with it, and back; one that is no number is behind all others.
+LSDCD_FN std::uint64_t ascending_number(Real value)
+{
+  constexpr std::uint64_t kSign = std::uint64_t(1) << 63;
+  std::uint64_t bits;
+  memcpy(&bits, &value, sizeof bits);
+  if (value != value) return ~std::uint64_t(0);
+  return bits & kSign ? ~bits : bits | kSign;
+}
+LSDCD_FN Real from_ascending_number(std::uint64_t bits)
+{
+  constexpr std::uint64_t kSign = std::uint64_t(1) << 63;
+  bits = bits & kSign ? bits & ~kSign : ~bits;
+  Real value;
+  memcpy(&value, &bits, sizeof value);
+  return value;
+}
+
+// What a step finds of the nodes: maxima as ascending bits.
+struct NodesSeen {
+  std::uint64_t way_sq, way_sq_of_grid, speed_sq;
+  std::uint64_t hi[3], minus_lo[3];
+  int n_left, pad;
+
+  // The largest coordinate, without its sign.
+  LSDCD_FN Real far() const
+  {
+    std::uint64_t most = hi[0];
+    for (int d = 0; d < 3; d++) {
+      if (hi[d] > most) most = hi[d];
+      if (minus_lo[d] > most) most = minus_lo[d];
+    }
+    return from_ascending_number(most);
+  }
+};
 
 template <class B>
 class MovingNodes {
@@ -34,30 +73,176 @@ class MovingNodes {
     if (!are_there()) {
       put_topology(b, topology_of(mesh), mesh);
       put_faces_around(b, mesh);
-      at_ = Array<Vec3>(n);
+      at_ = from_host(b, mesh.vertices);
       before_ = from_host(b, mesh.vertices);
+      next_ = Array<Vec3>(n);
+      built_at_ = Array<Vec3>(n);
       velocity_ = Array<Vec3>(n);
+      next_velocity_ = Array<Vec3>(n);
+      b.copy_in(now.velocity, velocity_.data(), n);
       spin_ = from_host(b, std::vector<Vec3>(n, Vec3{0, 0, 0}));
       edge_acts_ = Array<char>(mesh.edges.size());
       vertex_acts_ = Array<char>(n);
       left_ = Array<FeatureCode>(mesh.faces.size() + mesh.edges.size());
-      n_left_ = Array<int>(1);
+      seen_ = Array<NodesSeen>(1);
+      seen_on_host_ = typename B::template HostArray<NodesSeen>(1);
+      if (now.with_spins) find_spins(b, now.back);
     }
-    put_nodes(b, now);
-    if (now.with_spins) find_spins(b, now);
+    keep_places(b);
     b.wait();
   }
 
-  // Makes `records`, which are in the memory of the backend, anew.
-  void move(B &b, const MeshFeaturesView &records, const NodesNow &now)
+  // By memory that copies without a wait, which the last step's copy has left: move() waits for it.
+  void give(B &b, const Vec3 *x, const Vec3 *v)
+  {
+    const std::size_t n = at_.size();
+    if constexpr (!B::kOnHost) {
+      if (staged_.size() == 0) staged_ = typename B::template HostArray<Vec3>(2 * n);
+      std::copy_n(x, n, staged_.data());
+      std::copy_n(v, n, staged_.data() + n);
+      x = staged_.data();
+      v = x + n;
+    }
+    b.copy_in(x, next_.data(), n);
+    b.copy_in(v, next_velocity_.data(), n);
+  }
+
+  // Makes `records`, which are in the memory of the backend, anew where nodes were given.
+  NodesGone move(B &b, const MeshFeaturesView &records, bool with_spins, Real back)
   {
     std::swap(at_, before_);
-    put_nodes(b, now);
-    const MovedMesh moved = {topology_,
-                             moving_records(records, edge_acts_.data(), vertex_acts_.data()),
-                             at_.data(), before_.data(), now.far};
+    std::swap(at_, next_);
+    std::swap(velocity_, next_velocity_);
+    return remake(b, records, with_spins, back);
+  }
+  // The last move is taken back.
+  NodesGone move_back(B &b, const MeshFeaturesView &records, bool with_spins, Real back)
+  {
+    std::swap(at_, before_);
+    std::swap(velocity_, next_velocity_);
+    return remake(b, records, with_spins, back);
+  }
+
+  // The same field where the backend computes.
+  NodeField field(Real going) const { return {velocity_.data(), spin_.data(), going}; }
+  TurningMesh turning(const MeshFeaturesView &records) const
+  {
+    return {topology_, records.faces, before_.data(), at_.data()};
+  }
+
+  void fetch(B &b, NodesAt when, Vec3 *x, Vec3 *v) const
+  {
+    const bool is_now = when == NodesAt::now;
+    const Array<Vec3> &at = is_now ? at_ : when == NodesAt::before ? before_ : next_;
+    b.copy_out(at.data(), x, at.size());
+    b.copy_out((is_now ? velocity_ : next_velocity_).data(), v, at.size());
+    b.wait();
+  }
+
+  // The faces around node i, in the order of their numbers: around[first[i]] to around[first[i + 1] - 1].
+  const int *face_first() const { return face_first_.data(); }
+  const int *faces_around() const { return face_around_.data(); }
+  const int *faces() const { return topology_.faces; }
+  const Vec3 *at() const { return at_.data(); }
+  std::size_t n() const { return at_.size(); }
+  // The same in each call.
+  const int *rows(B &b, const std::vector<int> &node_of_row)
+  {
+    if (node_of_row_.size() != node_of_row.size()) node_of_row_ = from_host(b, node_of_row);
+    return node_of_row_.data();
+  }
+
+  std::size_t bytes() const
+  {
+    return 7 * at_.size() * sizeof(Vec3) + edge_acts_.size() + vertex_acts_.size() +
+           left_.size() * sizeof(FeatureCode) +
+           (topology_numbers_.size() + face_first_.size() + face_around_.size() +
+            node_of_row_.size()) *
+               sizeof(int);
+  }
+
+  // The steps of the above. Public because nvcc takes no device lambda from a private function.
+
+  void keep_places(B &b)
+  {
+    const Vec3 *at = at_.data();
+    Vec3 *built_at = built_at_.data();
+    b.for_each(at_.size(), [=] LSDCD_LAMBDA(std::size_t i) { built_at[i] = at[i]; });
+  }
+
+  void give_in_place(B &b, const Real *x, const Real *v, const std::vector<int> &node_of_row)
+  {
+    const int *node = rows(b, node_of_row);
+    Vec3 *to = next_.data(), *to_velocity = next_velocity_.data();
+    b.for_each(node_of_row.size(), [=] LSDCD_LAMBDA(std::size_t k) {
+      const int i = node[k];
+      to[i] = {x[3 * k], x[3 * k + 1], x[3 * k + 2]};
+      to_velocity[i] = v ? Vec3{v[3 * k], v[3 * k + 1], v[3 * k + 2]} : Vec3{0, 0, 0};
+    });
+  }
+
+  // The host waits until it has what was seen, while the rest goes on.
+  NodesGone remake(B &b, const MeshFeaturesView &records, bool with_spins, Real back)
+  {
+    look(b);
+    const MovedMesh moved = moved_mesh(records);
     move_planes(b, moved);
-    make_left(b, moved, *now.mesh);
+    b.copy_out(seen_.data(), seen_on_host_.data(), 1);
+    seen_is_there_.record(b);
+    move_rest(b, moved);
+    if (with_spins) find_spins(b, back);
+    seen_is_there_.wait();
+    const NodesSeen &seen = *seen_on_host_.data();
+    const auto way = [](std::uint64_t bits) {
+      const Real sq = from_ascending_number(bits);
+      return sq >= 0 ? std::sqrt(sq) : HUGE_VAL;
+    };
+    NodesGone gone = {way(seen.way_sq), way(seen.way_sq_of_grid), way(seen.speed_sq), {}, {},
+                      seen.n_left > 0};
+    for (int d = 0; d < 3; d++) {
+      gone.lo[d] = -from_ascending_number(seen.minus_lo[d]);
+      gone.hi[d] = from_ascending_number(seen.hi[d]);
+    }
+    return gone;
+  }
+
+  // A thread looks at several nodes, so that few raise the same number at once.
+  void look(B &b)
+  {
+    constexpr std::size_t kThreads = 4096;
+    const std::size_t n = at_.size(), n_threads = n < kThreads ? n : kThreads;
+    const Vec3 *at = at_.data(), *before = before_.data(), *built_at = built_at_.data(),
+               *velocity = velocity_.data();
+    NodesSeen *seen = seen_.data();
+    b.for_each(1, [=] LSDCD_LAMBDA(std::size_t) { *seen = NodesSeen(); });
+    b.for_each(n_threads, [=] LSDCD_LAMBDA(std::size_t t) {
+      NodesSeen of = {};
+      const auto raise = [](std::uint64_t &to, Real value) {
+        const std::uint64_t bits = ascending_number(value);
+        if (bits > to) to = bits;
+      };
+      for (std::size_t i = t; i < n; i += n_threads) {
+        const Vec3 x = at[i];
+        raise(of.way_sq, norm_sq(x - before[i]));
+        raise(of.way_sq_of_grid, norm_sq(x - built_at[i]));
+        raise(of.speed_sq, norm_sq(velocity[i]));
+        for (int d = 0; d < 3; d++) {
+          raise(of.hi[d], x[d]);
+          raise(of.minus_lo[d], -x[d]);
+        }
+      }
+      raise_to(&seen->way_sq, of.way_sq);
+      raise_to(&seen->way_sq_of_grid, of.way_sq_of_grid);
+      raise_to(&seen->speed_sq, of.speed_sq);
+      for (int d = 0; d < 3; d++) {
+        raise_to(&seen->hi[d], of.hi[d]);
+        raise_to(&seen->minus_lo[d], of.minus_lo[d]);
+      }
+    });
+  }
+
+  void move_rest(B &b, const MovedMesh &moved)
+  {
     const MeshTopologyView &of = topology_;
     b.for_each(of.n_edges, [=] LSDCD_LAMBDA(std::size_t i) {
       put_faces_of_edge(moved, static_cast<std::uint32_t>(i));
@@ -68,32 +253,14 @@ class MovingNodes {
     b.for_each(of.n_faces, [=] LSDCD_LAMBDA(std::size_t f) {
       put_parts(moved, static_cast<std::uint32_t>(f));
     });
-    if (now.with_spins) find_spins(b, now);
   }
-
-  // The same field where the backend computes.
-  NodeField field(Real going) const { return {velocity_.data(), spin_.data(), going}; }
-  TurningMesh turning(const MeshFeaturesView &records) const
-  {
-    return {topology_, records.faces, before_.data(), at_.data()};
-  }
-
-  std::size_t bytes() const
-  {
-    return 4 * at_.size() * sizeof(Vec3) + edge_acts_.size() + vertex_acts_.size() +
-           left_.size() * sizeof(FeatureCode) +
-           (topology_numbers_.size() + face_first_.size() + face_around_.size()) * sizeof(int);
-  }
-
-  // The steps of the above. Public because nvcc takes no device lambda from a private function.
 
   // The faces of a node in the order of their numbers, as a host adds them.
-  void find_spins(B &b, const NodesNow &now)
+  void find_spins(B &b, Real back)
   {
     const int *faces = topology_.faces, *first = face_first_.data(), *around = face_around_.data();
     const Vec3 *at = at_.data(), *velocity = velocity_.data();
     Vec3 *spin = spin_.data();
-    const Real back = now.back;
     b.for_each(at_.size(), [=] LSDCD_LAMBDA(std::size_t i) {
       Vec3 sum = {0, 0, 0};
       Real weight = 0;
@@ -110,24 +277,26 @@ class MovingNodes {
   void move_planes(B &b, const MovedMesh &moved)
   {
     FeatureCode *left = left_.data();
-    int *n_left = n_left_.data();
+    NodesSeen *seen = seen_.data();
     const std::uint32_t n_faces = topology_.n_faces;
-    b.for_each(1, [=] LSDCD_LAMBDA(std::size_t) { *n_left = 0; });
     b.for_each(std::size_t(n_faces) + topology_.n_edges, [=] LSDCD_LAMBDA(std::size_t k) {
       const auto i = static_cast<std::uint32_t>(k);
       if (i < n_faces) {
-        if (!move_face(moved, i)) left[fetch_add(n_left, 1)] = feature_code(FeatureKind::face, i);
+        MovedMesh mesh = moved;
+        mesh.far = seen->far();
+        if (!move_face(mesh, i))
+          left[fetch_add(&seen->n_left, 1)] = feature_code(FeatureKind::face, i);
       } else if (!move_segment(moved, i - n_faces)) {
-        left[fetch_add(n_left, 1)] = feature_code(FeatureKind::edge, i - n_faces);
+        left[fetch_add(&seen->n_left, 1)] = feature_code(FeatureKind::edge, i - n_faces);
       }
     });
   }
 
   // In the order of their numbers, so that the first face without area is the error.
-  void make_left(B &b, const MovedMesh &moved, const WeldedMesh &mesh)
+  void make_left(B &b, const MeshFeaturesView &records, const WeldedMesh &mesh)
   {
-    const int n = read_one(b, n_left_.data());
-    if (n == 0) return;
+    const MovedMesh moved = moved_mesh(records);
+    const int n = seen_on_host_.data()->n_left;
     std::vector<FeatureCode> codes(n);
     b.copy_out(left_.data(), codes.data(), n);
     b.wait();
@@ -156,23 +325,15 @@ class MovingNodes {
       }
     });
     b.wait();    // before code and record are freed
+    move_rest(b, moved);
   }
 
  private:
-  // By memory that copies without a wait, which the last step's copy has left: move() waits for it.
-  void put_nodes(B &b, const NodesNow &now)
+  // `far` is where the backend has seen it.
+  MovedMesh moved_mesh(const MeshFeaturesView &records)
   {
-    const std::size_t n = at_.size();
-    const Vec3 *at = now.mesh->vertices.data(), *velocity = now.velocity;
-    if constexpr (!B::kOnHost) {
-      if (staged_.size() == 0) staged_ = typename B::template HostArray<Vec3>(2 * n);
-      std::copy_n(at, n, staged_.data());
-      std::copy_n(velocity, n, staged_.data() + n);
-      at = staged_.data();
-      velocity = at + n;
-    }
-    b.copy_in(at, at_.data(), n);
-    b.copy_in(velocity, velocity_.data(), n);
+    return {topology_, moving_records(records, edge_acts_.data(), vertex_acts_.data()), at_.data(),
+            before_.data(), 0};
   }
 
   void put_topology(B &b, const MeshTopologyView &on_host, const WeldedMesh &mesh)
@@ -212,11 +373,14 @@ class MovingNodes {
   Array<int> topology_numbers_;
   Array<int> face_first_, face_around_;    // the faces around each vertex
   MeshTopologyView topology_ = {};
-  Array<Vec3> at_, before_, velocity_, spin_;
+  Array<int> node_of_row_;    // of arrays of a caller
+  Array<Vec3> at_, before_, next_, built_at_, velocity_, next_velocity_, spin_;
   typename B::template HostArray<Vec3> staged_;
   Array<char> edge_acts_, vertex_acts_;
   Array<FeatureCode> left_;
-  Array<int> n_left_;
+  Array<NodesSeen> seen_;
+  typename B::template HostArray<NodesSeen> seen_on_host_;
+  typename B::Event seen_is_there_;
 };
 
 }    // namespace lsdcd

@@ -107,8 +107,8 @@ class NodeForces {
   using Scratch = typename B::template Scratch<T>;
 
  public:
-  // Where a host can read the contacts. Sets `forces`, x y z, node after node, and returns the power on the spheres.
-  Real add_on_host(const NodeContacts &in, std::size_t n_nodes, Real *forces) const
+  // Where a host can read the contacts. Adds to `forces`, x y z, node after node, and returns the power on the spheres.
+  static Real add_on_host(const NodeContacts &in, std::size_t n_nodes, Real *forces)
   {
     NodeSums sums(n_nodes, forces);
     std::vector<Real> power(in.n);
@@ -131,28 +131,38 @@ class NodeForces {
     return sum_of(power.data(), power.size());
   }
 
-  // By the backend: the shares of all contacts, sorted by node, which keeps their order.
-  Real add(B &b, const NodeContacts &in, std::size_t n_nodes, Real *forces)
+  // By the backend, in its memory: the shares of all contacts, sorted by node, which keeps their order.
+  void sum(B &b, const NodeContacts &in, std::size_t n_nodes)
   {
-    if (in.n == 0) return 0;
-    int *at = reserve(offset_, in.n);
-    b.for_each(in.n, [=] LSDCD_LAMBDA(std::size_t k) { at[k] = 3 * in.count(k); });
-    const std::size_t n = b.exclusive_scan(at, in.n);
-    if (n == 0) return 0;
+    n_sums_ = 0;
+    n_nodes_ = n_nodes;
+    std::size_t n = 0;
+    if (in.n > 0) {
+      int *at = reserve(offset_, in.n);
+      b.for_each(in.n, [=] LSDCD_LAMBDA(std::size_t k) { at[k] = 3 * in.count(k); });
+      n = b.exclusive_scan(at, in.n);
+    }
+    if (n == 0) return clear(b);
     Scratch<std::uint32_t> nodes(n), numbers(n);
     put_shares(b, in, n_nodes, nodes.data(), numbers.data(), n);
     b.sort_pairs(nodes, numbers, static_cast<std::uint32_t>(n_nodes));
     sum_shares(b, nodes.data(), numbers.data(), n, n_nodes);
-    const std::size_t n_sums = sum_power(b, in);
-    if (on_host_.size() < 3 * n_nodes + n_sums)
-      on_host_ = typename B::template HostArray<Real>(3 * n_nodes + n_sums + n_sums / 8);
-    const Real *power = on_host_.data() + 3 * n_nodes;
-    b.copy_out(sums_.data(), on_host_.data(), 3 * n_nodes);
-    b.copy_out(power_.data(), on_host_.data() + 3 * n_nodes, n_sums);
-    b.wait();
-    std::copy_n(on_host_.data(), 3 * n_nodes, forces);
-    return sum_of(power, n_sums);
+    n_sums_ = sum_power(b, in);
   }
+
+  // The last sums, if `forces` is not null, and the power on the spheres. Waits.
+  Real fetch(B &b, Real *forces)
+  {
+    const std::size_t n = 3 * n_nodes_;
+    if (on_host_.size() < n + n_sums_)
+      on_host_ = typename B::template HostArray<Real>(n + n_sums_ + n_sums_ / 8);
+    if (forces) b.copy_out(sums_.data(), on_host_.data(), n);
+    b.copy_out(power_.data(), on_host_.data() + n, n_sums_);
+    b.wait();
+    if (forces) std::copy_n(on_host_.data(), n, forces);
+    return sum_of(on_host_.data() + n, n_sums_);
+  }
+  const Real *sums() const { return sums_.data(); }
 
   std::size_t bytes() const
   {
@@ -162,6 +172,12 @@ class NodeForces {
   }
 
   // The steps of the above. Public because nvcc takes no device lambda from a private function.
+
+  void clear(B &b)
+  {
+    Real *sums = reserve(sums_, 3 * n_nodes_);
+    b.for_each(3 * n_nodes_, [=] LSDCD_LAMBDA(std::size_t i) { sums[i] = 0; });
+  }
 
   // Three shares a contact; n_nodes stands for a node that there is not.
   void put_shares(B &b, const NodeContacts &in, std::size_t n_nodes, std::uint32_t *node,
@@ -252,7 +268,8 @@ class NodeForces {
     return sum;
   }
 
-  Array<Real> powers_, power_, sums_;    // powers_: of candidates, and of blocks
+  std::size_t n_nodes_ = 0, n_sums_ = 0;    // of the last step; n_sums_: of power_
+  Array<Real> powers_, power_, sums_;       // powers_: of candidates, and of blocks
   typename B::template HostArray<Real> on_host_;
   Array<int> offset_, first_;
   Array<Vec3> share_, block_, group_;

@@ -107,7 +107,6 @@ struct StepSettings {
 struct NodesNow {
   const WeldedMesh *mesh;    // its vertices are where the nodes are
   const Vec3 *velocity;      // as in NodeField
-  Real far;                  // the largest coordinate of the nodes, without its sign
   bool with_spins;           // else no law reads spins
   Real back;                 // how long ago velocities are of (time)
 };
@@ -199,6 +198,8 @@ class SpringsInPlace {
   virtual void unpack(int n, const int *to, const double *buffer, int n_first, int second) = 0;
 };
 
+class NodesInPlace;    // engine/nodes_in_place.h
+
 // Computes wall forces for the spheres of one process: choose() now and then, begin(), launch() and
 // finish() in every step. Springs stay with the engine between steps and follow the spheres'
 // indices; a host that moves spheres takes them out before (springs_to) and gives them back.
@@ -285,20 +286,14 @@ class WallEngine {
 
   // For meshes whose nodes move, where the settings have nodes.
 
-  // Has the engine copies of their records? Then it takes views of flat blocks only, and the records of a mesh change
-  // by move_nodes() alone from start_nodes() on, which comes after each set_grid().
-  virtual bool copies_records() const { return false; }
-  virtual void start_nodes(int /*mesh*/, const NodesNow &) {}
-  // The nodes have gone to where they are now: makes the records anew (mesh/moving_records.h). Before begin(). Throws
-  // InputError where a face has no area.
-  virtual void move_nodes(int /*mesh*/, const NodesNow &) {}
-  // Copies the records to the host. Waits.
-  virtual void fetch_records(int /*mesh*/, MeshFeatures &) {}
+  // An engine that has copies of their records, as on a GPU; else null.
+  virtual NodesInPlace *nodes_in_place() { return nullptr; }
   // Turns the springs of the spheres [0, n) on a mesh with their features, before a step, in the frame of the mesh.
-  // An engine with copies has the places before and after its last move_nodes(), and reads nothing of `turning`.
+  // An engine with copies has the places before and after the last step of nodes, and reads nothing of `turning`.
   virtual void turn_springs(int n, int mesh, const TurningMesh &turning) = 0;
   // Adds the forces of the contacts of the last step to those of the nodes of a mesh, x y z, node after node (force), in
-  // the order of the spheres. Returns the power of the nodes on the spheres. step.records need not be set.
+  // the order of the spheres. Returns the power of the nodes on the spheres. step.records need not be set. An engine with
+  // copies does this where they are (NodesInPlace::sum_forces()).
   virtual Real add_node_forces(int mesh, const NodesNow &now, const MeshFeaturesView &wall,
                                Real *forces) = 0;
 

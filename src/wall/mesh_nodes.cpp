@@ -6,6 +6,7 @@
 #include "base/input_error.h"
 #include "base/input_words.h"
 #include "engine/lists/feature_list.h"
+#include "mesh/face_pressure.h"
 #include "mesh/node_spin.h"
 #include "wall/mesh_name.h"
 
@@ -67,54 +68,139 @@ void MeshNodes::set(const Real *x, const Real *v)
     std::memcpy(static_cast<void *>(next_velocity_.data()), v, n * sizeof(Vec3));
   else
     std::fill(next_velocity_.begin(), next_velocity_.end(), Vec3{0, 0, 0});
+  are_given_there_ = false;
 }
 
-void MeshNodes::begin_step(const Step &step, Real cutoff, WallEngine &engine)
+bool MeshNodes::set_in_place(const Real *x, const Real *v, const std::vector<int> &node_of_row)
 {
-  if (next_.empty()) return;
+  if (!engine_) return false;
+  engine_->give_nodes_in_place(index_, x, v, node_of_row);
+  are_given_there_ = true;
+  next_.clear();
+  return true;
+}
+
+void MeshNodes::begin_step(const Step &step, Real cutoff)
+{
+  if (next_.empty() && !are_given_there_) return;
+  back_ = step.kind == Step::step ? step.dt / 2 : 0;
+  if (engine_)
+    move_in_place(step, cutoff);
+  else
+    move_here(step, cutoff);
+  have_moved_ = true;
+  next_.clear();
+  are_given_there_ = false;
+}
+
+void MeshNodes::check_way(const Step &step, Real cutoff, Real most, const std::vector<Vec3> &from,
+                          const std::vector<Vec3> &to) const
+{
+  const bool is_too_far = step.kind == Step::step && cutoff > 0 && most > cutoff;
+  if (std::isfinite(most) && !is_too_far) return;
   std::size_t node = 0;
-  const Real most = farthest(mesh_.vertices, next_, node);
-  if (!std::isfinite(most) && !std::isfinite(norm(next_[node])))
+  farthest(from, to, node);
+  if (!std::isfinite(most) && !std::isfinite(norm(to[node])))
     throw InputError(
         named("node " + std::to_string(node) +
               " (from 0) is at no finite place: the motion of the nodes is unstable, or "
               "one is lost"));
-  if (step.kind == Step::step && cutoff > 0 && most > cutoff)
+  if (is_too_far)
     throw InputError(named("node " + std::to_string(node) + " (from 0) has gone " +
                            number_text(most) + " in step " + std::to_string(step.number) +
                            ", more than the largest radius " + number_text(cutoff) +
                            ": it may have gone through a sphere; make the timestep shorter"));
+}
+
+void MeshNodes::check_velocities(const std::vector<Vec3> &v) const
+{
+  for (std::size_t i = 0; i < v.size(); i++)
+    for (int d = 0; d < 3; d++)
+      if (!std::isfinite(v[i][d]))
+        throw InputError(named("the velocity of node " + std::to_string(i) + " (from 0) is " +
+                               number_text(v[i][d]) + ", which is not finite"));
+}
+
+void MeshNodes::move_here(const Step &step, Real cutoff)
+{
+  std::size_t node = 0;
+  const Real most = farthest(mesh_.vertices, next_, node);
+  check_way(step, cutoff, most, mesh_.vertices, next_);
   way_ += most;
   way_of_grid_ += most;
   mesh_.vertices.swap(next_);
   velocity_.swap(next_velocity_);
   bounds_ = {mesh_.vertices.front(), mesh_.vertices.front()};
   for (const Vec3 &x : mesh_.vertices) extend(bounds_, x);
-  back_ = step.kind == Step::step ? step.dt / 2 : 0;
-  if (engine.copies_records() && grid_.is_built()) {
-    engine.move_nodes(index_, now());
-    are_records_old_ = true;
-  } else {
-    update_features(mesh_, next_, with_sides_, features_);
-    if (with_spins_ && !engine.copies_records()) find_spins();
-  }
+  update_features(mesh_, next_, with_sides_, features_);
+  if (with_spins_) find_spins();
   if (!have_moved_) turned_from_.swap(next_);
-  have_moved_ = true;
-  next_.clear();
+}
+
+void MeshNodes::move_in_place(const Step &step, Real cutoff)
+{
+  if (!are_given_there_) engine_->give_nodes(index_, next_.data(), next_velocity_.data());
+  const NodesGone gone = engine_->move_nodes(index_, with_spins_, back_);
+  are_records_old_ = true;
+  if (!std::isfinite(gone.most + gone.speed) || (cutoff > 0 && gone.most > cutoff)) {
+    std::vector<Vec3> to(mesh_.vertices.size()), v(to.size());
+    engine_->fetch_nodes(index_, NodesAt::now, to.data(), v.data());
+    engine_->fetch_nodes(index_, NodesAt::before, mesh_.vertices.data(), velocity_.data());
+    are_places_old_ = false;
+    try {
+      check_way(step, cutoff, gone.most, mesh_.vertices, to);
+      check_velocities(v);
+    } catch (...) {
+      const NodesGone back = engine_->move_nodes_back(index_, with_spins_, back_);
+      if (back.any_left) engine_->make_left(index_, mesh_);
+      next_.clear();
+      are_given_there_ = false;
+      throw;
+    }
+  }
+  way_ += gone.most;
+  way_of_grid_ = gone.since_grid;
+  bounds_ = {gone.lo, gone.hi};
+  are_places_old_ = are_given_there_;
+  if (!are_given_there_) {
+    mesh_.vertices.swap(next_);
+    velocity_.swap(next_velocity_);
+  }
+  if (gone.any_left) engine_->make_left(index_, mesh());
 }
 
 NodesNow MeshNodes::now() const
 {
-  Real far = 0;
-  for (const Vec3 *x : {&bounds_.lo, &bounds_.hi})
-    for (int d = 0; d < 3; d++) far = std::max(far, std::fabs((*x)[d]));
-  return {&mesh_, velocity_.data(), far, with_spins_, back_};
+  return {&mesh_, velocity_.data(), with_spins_, back_};
 }
 
-void MeshNodes::fetch_records(WallEngine &engine)
+void MeshNodes::fetch_records()
 {
-  if (are_records_old_) engine.fetch_records(index_, features_);
+  if (are_records_old_) engine_->fetch_records(index_, features_);
   are_records_old_ = false;
+}
+
+void MeshNodes::fetch_places() const
+{
+  if (are_places_old_)
+    engine_->fetch_nodes(index_, NodesAt::now, mesh_.vertices.data(), velocity_.data());
+  are_places_old_ = false;
+}
+
+void MeshNodes::leave_engine()
+{
+  if (!engine_) return;
+  fetch_records();
+  fetch_places();
+  fetch_forces();
+  if (are_given_there_) {
+    next_.resize(mesh_.vertices.size());
+    next_velocity_.resize(next_.size());
+    engine_->fetch_nodes(index_, NodesAt::given, next_.data(), next_velocity_.data());
+  }
+  are_given_there_ = are_sums_there_ = false;
+  is_grid_lost_ = true;
+  engine_ = nullptr;
 }
 
 void MeshNodes::find_spins()
@@ -136,9 +222,10 @@ void MeshNodes::find_spins()
 
 bool MeshNodes::needs_grid(Real cutoff)
 {
-  if (!grid_.is_built() || cutoff != grid_.cutoff()) return true;
+  if (!grid_.is_built() || cutoff != grid_.cutoff() || is_grid_lost_) return true;
   // None has gone farther than the farthest of each step.
   if (way_of_grid_ <= kOfGrid * cutoff) return false;
+  if (engine_) return true;
   std::size_t node = 0;
   way_of_grid_ = farthest(built_at_, mesh_.vertices, node);
   return !(way_of_grid_ <= kOfGrid * cutoff);
@@ -156,18 +243,21 @@ NodeField MeshNodes::field(Real cutoff) const
 
 void MeshNodes::build_grid(Real cutoff, WallEngine &engine)
 {
-  fetch_records(engine);
+  fetch_records();
+  fetch_places();
   grid_.build(mesh_, features_, cutoff, kAllowance * cutoff);
   built_at_ = mesh_.vertices;
   way_of_grid_ = 0;
+  is_grid_lost_ = false;
   give_grid(engine);
 }
 
 void MeshNodes::give_grid(WallEngine &engine)
 {
-  if (engine.copies_records()) grid_.make_flat();
+  engine_ = engine.nodes_in_place();
+  if (engine_) grid_.make_flat();
   engine.set_grid(grid_.view(), index_);
-  engine.start_nodes(index_, now());
+  if (engine_) engine_->start_nodes(index_, now());
 }
 
 // ---- springs -----------------------------------------------------------------------------
@@ -188,32 +278,62 @@ void MeshNodes::clear_forces()
   std::fill(of_contacts_.begin(), of_contacts_.end(), 0);
   power_ = 0;
   are_summed_ = true;
+  are_sums_there_ = are_forces_old_ = is_power_old_ = false;
 }
 
 void MeshNodes::sum_forces(WallEngine &engine)
 {
-  clear_forces();
+  if (!engine_) {
+    clear_forces();
+    are_summed_ = false;
+    power_ = engine.add_node_forces(index_, now(), features_.view(), of_contacts_.data());
+    return;
+  }
+  engine_->sum_node_forces(index_);
   are_summed_ = false;
-  power_ = engine.add_node_forces(index_, now(), features_.view(), of_contacts_.data());
+  are_sums_there_ = are_forces_old_ = is_power_old_ = true;
 }
 
-// A pressure on a flat face is a third of p times its area on each corner: the moment of that is the pressure's own,
-// and on a closed mesh both sums are 0.
+void MeshNodes::fetch_forces()
+{
+  if (are_forces_old_) power_ = engine_->fetch_node_forces(index_, of_contacts_.data());
+  are_forces_old_ = is_power_old_ = false;
+}
+
+void MeshNodes::fetch_power() const
+{
+  if (is_power_old_) power_ = engine_->fetch_node_forces(index_, nullptr);
+  is_power_old_ = false;
+}
+
+Real MeshNodes::sixth_of(Real pressure) const
+{
+  const bool is_inverted = mesh_.report.closed && mesh_.report.volume < 0;
+  return (is_inverted ? -pressure : pressure) / 6;
+}
+
 const std::vector<Real> &MeshNodes::forces(Real pressure)
 {
+  fetch_forces();
   if (!are_summed_) host_.sum(of_contacts_.data(), static_cast<int>(of_contacts_.size()));
   are_summed_ = true;
   if (pressure == 0) return of_contacts_;
+  fetch_places();
   forces_ = of_contacts_;
-  const bool is_inverted = mesh_.report.closed && mesh_.report.volume < 0;
-  const Real part = (is_inverted ? -pressure : pressure) / 6;
+  const Real sixth = sixth_of(pressure);
   for (const auto &face : mesh_.faces) {
-    const Vec3 &a = mesh_.vertices[face[0]];
-    const Vec3 share = part * cross(mesh_.vertices[face[1]] - a, mesh_.vertices[face[2]] - a);
+    const Vec3 share = corner_share_of_pressure(face.data(), mesh_.vertices.data(), sixth);
     for (const int v : face)
       for (int d = 0; d < 3; d++) forces_[3 * v + d] += share[d];
   }
   return forces_;
+}
+
+bool MeshNodes::put_forces(Real pressure, Real *to, const std::vector<int> &node_of_row)
+{
+  if (!are_sums_there_) return false;
+  engine_->put_node_forces(index_, sixth_of(pressure), to, node_of_row);
+  return true;
 }
 
 std::size_t MeshNodes::bytes() const
@@ -222,8 +342,9 @@ std::size_t MeshNodes::bytes() const
   MeshFeaturesView::each_array(features_, [&](const auto &a) {
     total += a.size() * sizeof(typename std::decay_t<decltype(a)>::value_type);
   });
+  const std::vector<Vec3> &x = mesh_.vertices, &v = velocity_;
   for (const std::vector<Vec3> *a :
-       {&mesh_.vertices, &velocity_, &spin_, &next_, &next_velocity_, &built_at_, &turned_from_})
+       {&x, &v, &spin_, &next_, &next_velocity_, &built_at_, &turned_from_})
     total += a->size() * sizeof(Vec3);
   return total;
 }

@@ -8,6 +8,7 @@
 // that a list left out may turn towards the sphere.
 #pragma once
 
+#include "engine/nodes_in_place.h"
 #include "engine/wall_engine.h"
 #include "grid/node_grid.h"
 #include "host/host.h"
@@ -25,17 +26,26 @@ class MeshNodes {
   MeshNodes(Host &host, const WallSpec &wall, int mesh, const WeldedMesh &welded);
 
   int count() const { return static_cast<int>(mesh_.vertices.size()); }
+
   // Places (length) and velocities (length/time) of the nodes from the next step on: x y z, node after node. Velocities
   // are of the same time as those of spheres. `v` null: all are 0.
   void set(const Real *x, const Real *v);
+  // The same where the wall computes, by its engine, in the order of its stream: row k is of node node_of_row[k], which
+  // is the same in each call. False: nothing was read, as the engine does not have the nodes; then give them to set().
+  bool set_in_place(const Real *x, const Real *v, const std::vector<int> &node_of_row);
 
   // Begins a step: nodes go to where they were set. `cutoff`: 0 while there are no spheres. Throws InputError, which
   // names the node or face, where one is at no finite place, has no area, or has gone farther than the cutoff in one
   // step, as it may have gone through a sphere.
-  void begin_step(const Step &step, Real cutoff, WallEngine &engine);
+  void begin_step(const Step &step, Real cutoff);
 
-  const WeldedMesh &mesh() const { return mesh_; }    // where the nodes are in this step
-  const Box &bounds() const { return bounds_; }       // of them
+  // Where the nodes are in this step. Waits where the engine has moved them.
+  const WeldedMesh &mesh() const
+  {
+    fetch_places();
+    return mesh_;
+  }
+  const Box &bounds() const { return bounds_; }    // of them
   NodeField field(Real cutoff) const;
 
   // Does the grid hold no longer, as it is for another cutoff or a node has gone too far?
@@ -47,8 +57,8 @@ class MeshNodes {
   // Builds it and gives it to the engine.
   void build_grid(Real cutoff, WallEngine &engine);
   void give_grid(WallEngine &engine);
-  // Before the engine is another one: gets the records that it has copies of.
-  void fetch_records(WallEngine &engine);
+  // Before the engine is another one: gets all that the engine alone has.
+  void leave_engine();
   // Its records may be those of an earlier step where the engine has copies of them.
   GridView view() const { return grid_.view(); }
 
@@ -63,8 +73,15 @@ class MeshNodes {
   // Sums over all processes, x y z, node after node (force): of contacts, and of `pressure` (force/area), which pushes
   // to where the normals of faces point by their winding, and outward on a closed mesh. Collective, once a step.
   const std::vector<Real> &forces(Real pressure);
+  // The same to an array where the wall computes, as in set_in_place(). False: the sums are not there, or not those of
+  // all processes. Not collective. Does not wait.
+  bool put_forces(Real pressure, Real *to, const std::vector<int> &node_of_row);
   // The power of the mesh on the spheres of this process, by the motion of its nodes.
-  Real power() const { return power_; }
+  Real power() const
+  {
+    fetch_power();
+    return power_;
+  }
 
   std::size_t bytes() const;
 
@@ -75,26 +92,42 @@ class MeshNodes {
   std::string named(const std::string &text) const;
   void find_spins();
   NodesNow now() const;
+  void move_here(const Step &step, Real cutoff);
+  void move_in_place(const Step &step, Real cutoff);
+  void check_way(const Step &step, Real cutoff, Real most, const std::vector<Vec3> &from,
+                 const std::vector<Vec3> &to) const;
+  void check_velocities(const std::vector<Vec3> &v) const;
+  void fetch_places() const;
+  void fetch_power() const;
+  void fetch_records();
+  void fetch_forces();
+  Real sixth_of(Real pressure) const;
 
   Host &host_;
   const WallSpec &wall_;
   int index_;
   bool with_sides_, with_spins_;
-  WeldedMesh mesh_;
+  NodesInPlace *engine_ = nullptr;    // the engine, where it has the nodes, from its first grid on
+  mutable WeldedMesh mesh_;
   MeshFeatures features_;
   Box bounds_;
-  std::vector<Vec3> velocity_, spin_;
+  mutable std::vector<Vec3> velocity_;
+  std::vector<Vec3> spin_;
   std::vector<Vec3> next_, next_velocity_;    // set for the next step; empty: as they are
   NodeGrid grid_;
   Real back_ = 0;                    // how long ago velocities are of (time)
   Real way_ = 0;                     // of the fastest node in each step since the choice
   Real way_of_grid_ = 0;             // at least how far a node has gone since the grid was built
-  std::vector<Vec3> built_at_;       // where nodes were when the grid was built
+  std::vector<Vec3> built_at_;       // where nodes were when the grid was built, without engine_
   std::vector<Vec3> turned_from_;    // where nodes were when springs were turned last
   bool have_moved_ = false, springs_are_new_ = true;    // since then
-  bool are_records_old_ = false;                        // the engine has those of this step
+  // What engine_ alone has: records, places and velocities in this step, and in the next, forces, the power.
+  bool are_records_old_ = false, are_given_there_ = false, are_forces_old_ = false;
+  mutable bool are_places_old_ = false, is_power_old_ = false;
+  bool are_sums_there_ = false;    // engine_ has forces of the last step
+  bool is_grid_lost_ = false;      // an engine that knew how far nodes have gone from it was left
   std::vector<Real> of_contacts_, forces_;
-  Real power_ = 0;
+  mutable Real power_ = 0;
   bool are_summed_ = true;
 };
 

@@ -176,7 +176,7 @@ void Wall::make_engine()
   engine_moves_ = want.moves;
   engine_records_ = want.records || want.bodies || want.nodes;
   for (MeshPart &m : meshes_)
-    if (m.nodes && engine_) m.nodes->fetch_records(*engine_);
+    if (m.nodes && engine_) m.nodes->leave_engine();
   run_collectively(host_, true, [&] { engine_ = backend_.make_engine(want); });
   history_.set_engine(*engine_, backend_.in_place);
   grids_.set_engine(*engine_);
@@ -309,7 +309,7 @@ void Wall::move(const HostSpheres &spheres, const Step &step)
   for (MeshPart &m : meshes_)
     if (m.motion.moves_or_varies()) m.motion.place();
   for (MeshPart &m : meshes_)
-    if (m.nodes) m.nodes->begin_step(step, cutoff(), *engine_);
+    if (m.nodes) m.nodes->begin_step(step, cutoff());
 }
 
 // By the spheres near the wall in the last step. Engines of both devices give the same bits.
@@ -564,14 +564,22 @@ void Wall::sum_node_forces()
   }
 }
 
-const std::vector<Real> &Wall::node_forces(int mesh)
+Real Wall::pressure(int mesh) const
 {
   const MeshSpec &spec = spec_.meshes[mesh];
-  const Real pressure =
-      spec.pressure_input == kNoInput
-          ? spec.pressure
-          : input_.inputs.at(static_cast<std::size_t>(spec.pressure_input)) / pressure_unit_;
-  return meshes_[mesh].nodes->forces(pressure);
+  return spec.pressure_input == kNoInput
+             ? spec.pressure
+             : input_.inputs.at(static_cast<std::size_t>(spec.pressure_input)) / pressure_unit_;
+}
+
+const std::vector<Real> &Wall::node_forces(int mesh)
+{
+  return meshes_[mesh].nodes->forces(pressure(mesh));
+}
+
+bool Wall::put_node_forces(int mesh, Real *to, const std::vector<int> &node_of_row)
+{
+  return meshes_[mesh].nodes->put_forces(pressure(mesh), to, node_of_row);
 }
 
 void Wall::clear_totals()

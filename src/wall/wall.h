@@ -124,6 +124,8 @@ class Wall {
   // Forces on the nodes of a mesh that has_nodes, of the last step, x y z, node after node: of contacts and of its
   // pressure, the sums over all processes.
   const std::vector<Real> &node_forces(int mesh);
+  // The same of this process to an array where the wall computes: MeshNodes::put_forces(). Local.
+  bool put_node_forces(int mesh, Real *to, const std::vector<int> &node_of_row);
   // Adds arm times force, over contacts of this process: xx, yy, zz, xy, xz, yz. Energy. Local.
   void add_virial(Real *virial) const;
   // Calls row(sphere, numbers) for each sphere of this process with a contact, with the
@@ -157,6 +159,12 @@ class Wall {
   // next step and those after it. Velocities are of the same time as those of spheres; null: all are 0. The same on
   // all processes. Local.
   void set_nodes(int mesh, const Real *x, const Real *v) { meshes_[mesh].nodes->set(x, v); }
+  // The same where the wall computes: MeshNodes::set_in_place().
+  bool set_nodes_in_place(int mesh, const Real *x, const Real *v,
+                          const std::vector<int> &node_of_row)
+  {
+    return meshes_[mesh].nodes->set_in_place(x, v, node_of_row);
+  }
 
   // For a saved state: the history of a sphere, with the names of features that any run has. Returns the
   // numbers written. Local.
@@ -199,6 +207,7 @@ class Wall {
   void build_node_grids();
   void turn_springs(int n);
   void sum_node_forces();
+  Real pressure(int mesh) const;    // in this step, in units of forces
   void note_step_of_bodies(const Step &step);
   void step_coats(const Step &step);
   // On this mesh in the last step.

@@ -226,6 +226,27 @@ def check_wall(library, floor):
     refused(say("float32 is refused"), "not a contiguous float64",
             lambda: wall.step(**{**there, "mass": library.give(np.ones(1000, np.float32))}, dt=dt))
 
+    hooke = lsdcd.Law("hooke/history", kn=1000, kt=300, gamman=20, xmu=0.5, dampflag=1)
+    walls = [lsdcd.Wall(lsdcd.WallSpec(hooke, [lsdcd.WallMesh(lsdcd.Mesh(floor), "floor", nodes_by_caller=True)]), device=where)
+             for where in ("cpu", "cuda")]
+    nodes = walls[0].nodes()
+    forces, given = library.give(np.zeros_like(nodes)), grains(1000)
+    there = {k: library.give(v) for k, v in given.items()}
+    for k in range(5):
+        places, speeds = nodes + (0, 0, 1e-4 * k), np.full_like(nodes, 0.1)
+        walls[0].set_nodes(0, places, speeds)
+        walls[1].set_nodes(0, library.give(places), library.give(speeds))
+        walls[0].step(**given, dt=dt)
+        walls[1].step(**there, dt=dt)
+        walls[1].node_forces(0, out=forces)
+    library.wait()
+    fact(say("nodes in arrays of the device, and the forces on them"), (library.take(forces) == walls[0].node_forces(0)).all()
+         and (walls[1].nodes() == places).all() and (library.take(there["force"]) == given["force"]).all())
+    refused(say("velocities of numpy beside positions on a device are refused"), "velocities is on the host",
+            lambda: walls[1].set_nodes(0, library.give(places), speeds))
+    refused(say("nodes on a device are refused by a wall on the host"), "make it with device=\"cuda\"",
+            lambda: walls[0].set_nodes(0, library.give(places)))
+
     # The stream of the wall sets the force to 0 after much other work; then the wall adds to it.
     stream = library.stream()
     with library.on(stream):

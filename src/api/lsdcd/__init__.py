@@ -717,7 +717,7 @@ class Wall(_Owner):
             where, other = ("a CUDA device", "cpu") if self._on_device else ("the host", "cuda")
             raise TypeError(f"{name} is {_place(array)}, and the wall was made for arrays on {where}: make it with "
                             f"device=\"{other}\"")
-        if name in ("force", "torque", "heat") and not array.writable:
+        if name in ("force", "torque", "heat", "out") and not array.writable:
             raise ValueError(f"{name} cannot be written to")
         return array
 
@@ -774,23 +774,39 @@ class Wall(_Owner):
 
         positions: (vertices, 3), length, in the order of Mesh.vertices. velocities: (vertices, 3), length/time, of the
         time of the spheres' velocities: with velocity Verlet half a step before the positions; None: all are 0. The same on
-        all processes. Raises Error for a mesh that there is not or that has no such nodes and for a number that is not
-        finite, ValueError for another shape; the next step for a node that goes farther than the largest radius, or a
-        triangle without area."""
+        all processes. With device="cuda" both may be contiguous float64 arrays on the device, which are read in the order of
+        the wall's stream. Raises Error for a mesh that there is not or that has no such nodes and for a number that is not
+        finite (on a device the next step may), ValueError for another shape, TypeError for an array of another type or place;
+        the next step for a node that goes farther than the largest radius, or a triangle without area."""
         shape = (self._n_nodes(mesh), 3)
-        given = [_numbers(positions, shape, "positions"), _numbers(velocities, shape, "velocities")]
-        self._do(_lib.lsdcd_wall_set_nodes, self._handle, _c_int(mesh, "mesh"),
-                 *(None if numbers is None else numbers.ctypes.data for numbers in given))
+        arrays = {"positions": positions} | ({} if velocities is None else {"velocities": velocities})
+        if any(self._is_on_device(values, name) for name, values in arrays.items()):
+            given = [self._array(values, name, shape) for name, values in arrays.items()]
+            self._nodes = given    # until they have been read
+            places = [array.address for array in given]
+        else:
+            numbers = [_numbers(values, shape, name) for name, values in arrays.items()]
+            places = [values.ctypes.data for values in numbers]
+        self._do(_lib.lsdcd_wall_set_nodes, self._handle, _c_int(mesh, "mesh"), *places, *[None] * (2 - len(places)))
 
     def nodes(self, mesh: int = 0) -> NDArray[np.float64]:
         """Where the vertices of a mesh with nodes_by_caller are after the last step, (vertices, 3), length."""
         return self._of_nodes(_lib.lsdcd_wall_get_nodes, mesh)
 
-    def node_forces(self, mesh: int = 0) -> NDArray[np.float64]:
+    def node_forces(self, mesh: int = 0, out: Any = None) -> Any:
         """Forces on these vertices in the last step, (vertices, 3), over all processes: those of contacts, each shared among
         the nodes of its triangle or edge so that their sum and moment are those of the force at the closest point, and
-        those of `pressure`."""
-        return self._of_nodes(_lib.lsdcd_wall_get_node_forces, mesh)
+        those of `pressure`. `out`: a contiguous float64 array of this shape, where the wall was made for, that they are written to
+        and that is returned; on a device in the order of the wall's stream. Raises TypeError for an array of another type or place,
+        ValueError for another shape or what cannot be written."""
+        if out is None:
+            return self._of_nodes(_lib.lsdcd_wall_get_node_forces, mesh)
+        array = self._array(out, "out", (self._n_nodes(mesh), 3))
+        self._do(_lib.lsdcd_wall_get_node_forces, self._handle, _c_int(mesh, "mesh"), array.address)
+        return out
+
+    def _is_on_device(self, values: Any, name: str) -> bool:
+        return _is_array(values) and not _arrays.read(values, name, _arrays.stream_handle(self._stream)).on_host
 
     def _n_nodes(self, mesh: int) -> int:
         count = _size()
