@@ -200,7 +200,7 @@ void FixWallLsdcdKokkos<DeviceType>::warn_of_rounding()
        lsdcd::number_text(100 * lost / deepest) + " % of the deepest overlap of this run, " +
        lsdcd::number_text(deepest) +
        ", and more of others. Use a LAMMPS with KOKKOS_PREC double, a softer contact (a smaller "
-       "kn), or a box around 0; shown once");
+       "kn), or a box around 0; this warning is shown once");
 }
 
 // Do fixes before this one in the script only add forces, so that their order does not matter?

@@ -61,7 +61,7 @@ template <class DeviceType>
 std::unique_ptr<WallEngine> make_engine_on(const EngineSettings &settings)
 {
   if (!kOnHost<DeviceType> && settings.law().has_heat())
-    throw InputError("the sub-model heat is not there for atoms on a GPU, where LAMMPS keeps no "
+    throw InputError("the sub-model heat does not work for atoms on a GPU, where LAMMPS keeps no "
                      "temperature: use wall/lsdcd, or wall/lsdcd/kk/host");
   if (settings.device != Device::automatic)
     throw InputError("the keyword device has no meaning for wall/lsdcd/kk, which computes where "

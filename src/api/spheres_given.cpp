@@ -168,7 +168,7 @@ Box checked_extents(const Spheres &s)
     if (!(norm_sq(0 * s.x[i]) == 0))
       refuse_sphere("x", i,
                     vector_text(s.x[i]) +
-                        ", which is no place: a shorter dt, or softer contacts, may help");
+                        ", which is not finite: a shorter dt, or softer contacts, may help");
   return around;
 }
 

@@ -271,7 +271,7 @@ void check_apart(const WallSpec &wall)
       const std::string first = element("meshes", i), second = element("meshes", k);
       if (are_one_mesh(wall, one, wall, other))
         refuse_field(second + ".mesh", "that of " + first + " at the same place",
-                     "every contact would be felt twice; leave one out, or move it");
+                     "every contact would count twice; leave one out, or move it");
       const struct {
         const char *field;
         const std::string &name, &of_other;

@@ -47,9 +47,10 @@ void check_is_body(const lsdcd_wall &wall, int mesh)
   check_mesh(wall, mesh, 0);
   const MeshSpec &spec = wall.in->spec().meshes[static_cast<std::size_t>(mesh)];
   if (!spec.body.present)
-    throw ApiError(LSDCD_ERROR_ARGUMENT, "mesh " + std::to_string(mesh) + ", '" + spec.name +
-                                             "', is no body: give its lsdcd_wall_mesh a body when "
-                                             "the wall is made");
+    throw ApiError(LSDCD_ERROR_ARGUMENT,
+                   "mesh " + std::to_string(mesh) + ", '" + spec.name +
+                       "', is not a body: give its lsdcd_wall_mesh a body when "
+                       "the wall is made");
 }
 
 }    // namespace

@@ -29,7 +29,7 @@ void check_count(const lsdcd_wall &wall, std::size_t n)
   if (n < before)
     throw ApiError(LSDCD_ERROR_ARGUMENT, "there are " + std::to_string(n) +
                                              " spheres and there were " + std::to_string(before) +
-                                             ": say by lsdcd_wall_renumber() which are left");
+                                             ": tell by lsdcd_wall_renumber() which ones are left");
   if (!wall.restored.empty() && wall.restored.size() != n)
     throw ApiError(LSDCD_ERROR_ARGUMENT, "what was restored has " +
                                              std::to_string(wall.restored.size()) +
@@ -92,7 +92,7 @@ void warn_of_outside(lsdcd_wall &wall, const StepWanted &want)
   host.warn(number_text(n) + (n == 1 ? " sphere is" : " spheres are") +
             " outside of the box, where the wall may not reach: the first, " + text +
             "; the box has " + extents_text(box) +
-            ". Give lo and hi that hold all centres, or neither. Shown once");
+            ". Give lo and hi that hold all centres, or neither. This warning is shown once");
 }
 
 // The same on all processes.

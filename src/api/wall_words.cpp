@@ -84,7 +84,7 @@ int lsdcd_wall_change(lsdcd_wall *wall, const char *const *words, size_t n)
     const int taken = change_wall(*wall->in, all, {wall->number, wall->dt});
     if (static_cast<std::size_t>(taken) != all.size())
       throw ApiError(LSDCD_ERROR_ARGUMENT, "'" + all[taken] +
-                                               "' is no word of [mesh K] motion ..., [mesh K] "
+                                               "' is not a word of [mesh K] motion ..., [mesh K] "
                                                "servo ... or [mesh K] body ...");
   });
 }

@@ -33,7 +33,7 @@ AtomicFile::AtomicFile(const std::string &path) : path_(path)
   // Replacing a device or a pipe, even /dev/null, would remove it from the system.
   struct stat there;
   if (stat(path.c_str(), &there) == 0 && !S_ISREG(there.st_mode))
-    throw InputError("'" + path + "': is not a regular file; give the name of a file, new or old");
+    throw InputError("'" + path + "' is not a regular file; give the name of a file, new or old");
   // If it is a link, the file that it leads to is replaced.
   std::error_code not_there;
   const auto target = std::filesystem::canonical(path, not_there);

@@ -57,9 +57,9 @@ inline bool is_orthogonal(const BodyPose &pose, Real tolerance)
 inline void check_rotation(const BodyPose &pose, Real tolerance = 1e-8)
 {
   if (!is_orthogonal(pose, tolerance))
-    throw InputError("the pose's matrix is no rotation: rows are not unit vectors at right angles "
-                     "to " +
-                     number_text(tolerance));
+    throw InputError(
+        "the pose's matrix is not a rotation: its rows are not perpendicular unit vectors, to " +
+        number_text(tolerance));
   if (!(dot(pose.row[0], cross(pose.row[1], pose.row[2])) > 0))
     throw InputError("the pose's matrix mirrors the body: its determinant is -1");
 }

@@ -58,7 +58,7 @@ PosePoints::PosePoints(const std::vector<Vec3> &points)
 {
   if (points.size() < 3)
     throw InputError("it has " + std::to_string(points.size()) +
-                     " atoms, and only three or more, not on a line, tell how it is turned");
+                     " atoms, and only three or more, not on a line, define how it is turned");
   for (const Vec3 &x : points) centre_ += (1 / static_cast<Real>(points.size())) * x;
   Real c[3][3] = {{0, 0, 0}, {0, 0, 0}, {0, 0, 0}};
   for (const Vec3 &x : points) {
@@ -74,7 +74,7 @@ PosePoints::PosePoints(const std::vector<Vec3> &points)
   }
   constexpr Real kThin = 1e-4;    // of widths
   if (!(minors > kThin * kThin * trace * trace))
-    throw InputError("its atoms are on a line, so that they do not tell how it is turned");
+    throw InputError("its atoms are on a line, so that they do not define how it is turned");
   radius_ = std::sqrt(trace / static_cast<Real>(points.size()));
 }
 

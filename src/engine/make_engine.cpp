@@ -11,8 +11,9 @@ std::unique_ptr<WallEngine> make_cuda_engine(const EngineSettings &settings);
 #else
 std::unique_ptr<WallEngine> make_cuda_engine_in_place(const EngineSettings &, int, void *)
 {
-  throw InputError("built without the CUDA engine: the particles are on a GPU, the wall "
-                   "cannot be; build it where nvcc is found, or use wall/lsdcd/kk/host");
+  throw InputError(
+      "the spheres are on a GPU, and LSDCD was built without its CUDA engine: build it "
+      "where nvcc is found, or use wall/lsdcd/kk/host");
 }
 #endif
 

@@ -202,10 +202,10 @@ std::vector<Vec3f> floats(const std::vector<Vec3> &in)
 void check_record_number(std::uint64_t n)
 {
   if (n > kMaxFeatures)
-    throw InputError("the mesh's copies in floats, in each brick of the grid one of what it lists, "
-                     "are " +
-                     std::to_string(n) + ", and only " + std::to_string(kMaxFeatures) +
-                     " can be numbered: use precision double, or longer cells");
+    throw InputError("each brick of the grid has copies of its mesh features in float, and " +
+                     std::to_string(n) + " copies are more than the " +
+                     std::to_string(kMaxFeatures) +
+                     " that can be numbered: use precision double, or longer cells");
 }
 
 void add_brick_records(TriangleGrid &grid)

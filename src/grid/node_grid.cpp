@@ -69,7 +69,7 @@ void NodeGrid::plan(const WeldedMesh &mesh, const MeshFeatures &features)
   for (const Vec3 &x : mesh.vertices) extend(box, x);
   const Real diagonal = norm(box.hi - box.lo);
   if (!std::isfinite(diagonal))
-    throw InputError("nodes of '" + mesh.source + "' are not at finite places");
+    throw InputError("nodes of '" + mesh.source + "' have positions that are not finite");
   tolerance_ = 4e-13 * cutoff_ + 16 * kRoundoff * (diagonal + cutoff_);
   const Real reach = cutoff_ + allowance_ + tolerance_;
   constexpr double kMostCells = 48;    // that a primitive reaches, in the mean
@@ -181,7 +181,7 @@ void NodeGrid::build(const WeldedMesh &mesh, const MeshFeatures &features, Real 
   if (n_candidates > 0xfffffff0u)
     throw InputError("the nodes of '" + mesh.source + "' lie so close that " +
                      std::to_string(n_candidates) +
-                     " candidates of cells cannot be numbered: coarsen the mesh");
+                     " candidates of cells cannot be numbered: use a coarser mesh");
   lists_.candidates.resize(n_candidates);
 
   // From here on a cell's count is that of its candidates that are there.

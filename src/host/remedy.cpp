@@ -22,15 +22,16 @@ std::string library_remedy(Remedy remedy)
     case Remedy::follow_spheres:
       return "leave out its bounds";
     case Remedy::make_room:
-      return "give a smaller reach, so that they are chosen more often, or restore a saved state, "
+      return "give a smaller reach, so that they are selected more often, or restore a saved "
+             "state, "
              "which makes "
              "room for them";
     case Remedy::announce_growth:
       return "set `changed` in a step with other radii";
     case Remedy::begin_motion:
-      return "another motion begins from where the mesh is";
+      return "start another motion, which begins where the mesh is";
     case Remedy::begin_servo:
-      return "another servo lets it go on";
+      return "give another servo, which goes on from there";
     case Remedy::give_velocities:
       return "give velocities as well";
     case Remedy::give_displacements:

@@ -126,7 +126,7 @@ std::vector<std::string> read_words(Tokens &w, const std::vector<std::string> &w
     seen.push_back(w.take());
     read_word(word, w, body, inputs);
   }
-  if (w.number_follows()) w.fail("the number '" + w.peek() + "' is one too many");
+  if (w.number_follows()) w.fail("the number '" + w.peek() + "' is one more than expected");
   return seen;
 }
 
@@ -159,8 +159,8 @@ BodySpec read_modified_body(Tokens &w, const BodySpec &body, InputNames &inputs)
       w, {"joint", "spring", "limits", "motor", "load", "moment", "gravity"}, to, inputs);
   const auto has = [&](const char *word) { return std::count(seen.begin(), seen.end(), word) > 0; };
   if (seen.empty())
-    w.fail(w.done() ? "what is to change is missing"
-                    : "'" + w.peek() + "' is no word of a body that can change");
+    w.fail(w.done() ? "nothing is given to change: write at least one of the words"
+                    : "'" + w.peek() + "' is not a word of a body, or cannot change");
   if (!has("joint")) return to;
   const JointDrive none, all = to.drive;
   to.drive = none;

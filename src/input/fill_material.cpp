@@ -58,7 +58,8 @@ class Filler {
     for (const Override &o : c_.overrides)
       if (const Property *p = find_property(o.key);
           p && !p->of_pair && !same_ && o.of.empty() && particle_.find(o.key) && wall_.find(o.key))
-        fail("'" + o.key + "' of both materials is in the file: say whose it is, as " + with_ +
+        fail("'" + o.key +
+             "' of both materials is in the file: write which one you mean, for example " + with_ +
              c_.wall + " " + o.key + " VALUE'");
 
     tell("material    " + both() + ", " + file_.path + ", in units " + units_);
@@ -176,8 +177,9 @@ class Filler {
   std::string default_damping()
   {
     if (c_.normal == "hertz/material") return "coeff_restitution";
-    tell_more("no damping: " + c_.normal + " goes with none that takes a restitution; " + with_ +
-              "eta VALUE damping velocity', say");
+    tell_more("no damping: " + c_.normal +
+              " works with no damping model that takes a restitution; to have damping, write " +
+              with_ + "eta VALUE damping velocity'");
     return "none";
   }
 

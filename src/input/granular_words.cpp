@@ -91,8 +91,9 @@ std::vector<std::string> granular_families()
 }
 
 const char *const kNoMaterialHere =
-    "numbers stand here, not a material: that of a mesh is 'material NAME' behind mesh FILE, and "
-    "that of atom types 'types I NAME' behind the wall's, granular material FILE PARTICLE";
+    "numbers are expected, not a material: write the material of a mesh as 'material NAME' after "
+    "mesh "
+    "FILE, and that of atom types as 'types I NAME' after granular material FILE PARTICLE";
 
 std::string granular_syntax()
 {

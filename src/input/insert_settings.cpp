@@ -82,7 +82,7 @@ void read_rate(Tokens &w, const std::string &word, FeedSettings &feed)
 {
   w.set_context(word, word + " R");
   if (feed.kind != FeedSettings::at_once)
-    w.fail("there is another rate: give massrate or numberrate");
+    w.fail("massrate and numberrate are both given: leave one out");
   feed.kind = word == "massrate" ? FeedSettings::by_mass : FeedSettings::by_number;
   feed.rate = w.number("R", kAboveZero);
 }
@@ -149,14 +149,16 @@ void check(Tokens &w, const InsertSettings &s)
   const Real least = Grain{0, grains.smallest / 2, grains.density_lo}.mass();
   const Real most = Grain{0, grains.largest / 2, grains.density_hi}.mass();
   if (!(least > 0) || !std::isfinite(most))
-    w.fail("by diam and dens grains have masses from " + number_text(least) + " to " +
-           number_text(most) + ": give both in the units of the script");
+    w.fail("diam and dens give the grains masses from " + number_text(least) + " to " +
+           number_text(most) + ": write both in the units of the script");
   if (feed.kind == FeedSettings::at_once && feed.mass <= 0 && feed.number == 0)
     w.fail("the amount is missing: give massrate, numberrate, mass or number");
-  if (feed.mass > 0 && feed.number > 0) w.fail("mass and number are two amounts: give one");
+  if (feed.mass > 0 && feed.number > 0)
+    w.fail("mass and number are both given, and each of them sets the amount: leave one out");
   if (s.face.file.empty() && s.along_normal)
-    w.fail("vel normal is for a mesh: give vel X Y Z with a region");
-  if (s.face.file.empty() && s.depth > 0) w.fail("depth is for a mesh");
+    w.fail("vel normal needs a mesh: write vel X Y Z if you give a region");
+  if (s.face.file.empty() && s.depth > 0)
+    w.fail("depth needs a mesh: leave it out if you give a region");
 }
 
 }    // namespace

@@ -281,8 +281,8 @@ const Keyword kKeywords[] = {
     {"contacts", "", "", "", "off", "per-atom array of 8 columns (9 with heat), as fix wall/gran's",
      [](Tokens &, WallCommand &s) { s.wall.contacts = true; }},
     {"periodic", "", "", "", "off",
-     "says that the mesh is intended to reach through periodic faces or to continue itself there; "
-     "it acts through them in any case",
+     "no warning if the mesh reaches past periodic faces, or does not continue there; it acts "
+     "through them in any case",
      [](Tokens &, WallCommand &s) { s.wall.periodic = true; }},
     {"log", "full | brief", "", "", "full", "brief: one line instead of the full report",
      [](Tokens &w, WallCommand &s) {

@@ -41,7 +41,7 @@ void read_types(Tokens &w, LawOfTypes &of)
     good = (from.empty() || is_whole(from, &of.first_type)) &&
            (to.empty() || is_whole(to, &of.last_type)) && of.first_type <= of.last_type;
   }
-  if (!good) w.fail("'" + word + "' is no range of atom types");
+  if (!good) w.fail("'" + word + "' is not a range of atom types, such as 2, 1*3 or *");
 }
 
 // The law takes from the wall what it leaves out itself. Beside `granular` only limit_damping may be left out.
@@ -91,7 +91,7 @@ ContactLaw read_law(Tokens &w, std::string &name, const std::string &syntax)
 void read_beside_classic(Tokens &w, ContactLaw &law, Family family)
 {
   if (!law.is_classic())
-    w.fail(std::string("it goes with the classic styles; granular has ") +
+    w.fail(std::string("it works only with the classic styles; granular has ") +
            (family == Family::rolling ? "'rolling sds' before mesh"
                                       : "the normal sub-models dmt and jkr"));
   const std::vector<const SubModel *> rows = sub_models(family, GoesWith::classic);

@@ -34,7 +34,7 @@ std::string take_name(Tokens &w, const std::string &what)
 {
   for (const char *const word : {"mesh", "types", "on", "with", "material"})
     if (!w.done() && w.peek() == word)
-      w.fail(what + " is missing: '" + word + "' stands in its place");
+      w.fail(what + " is missing: the word '" + word + "' was found instead");
   return take(w, what);
 }
 
@@ -69,14 +69,17 @@ void read_overrides(Tokens &w, const std::vector<std::string> &names, const std:
   while (is_key() || is_name()) {
     const std::string of = is_key() ? "" : w.take();
     if (!is_key() && !w.done() && !is_behind(w.peek())) w.fail(not_a_property(w.peek()));
-    if (!is_key()) w.fail("after '" + with + " " + of + "' comes a property of it and its value");
+    if (!is_key())
+      w.fail("after '" + with + " " + of +
+             "' write a property and its value, such as restitution 0.9");
     const std::string key = w.take();
     const Property *p = find_property(key);
     if (!of.empty() && (!p || p->of_pair))
-      w.fail("'" + key + "' is not of " + of + " alone: leave the name out");
+      w.fail("'" + key + "' is not a property of " + of + " alone: leave the name out");
     for (const Override &o : overrides)
       if (o.key == key && o.of == of) w.fail("'" + key + "' is given twice");
-    if (key == "density") w.fail("density is the atoms' own: no contact style takes it");
+    if (key == "density")
+      w.fail("no contact style takes a density, because each atom has its own: leave it out");
     const Real number = w.number(key.c_str(), p ? std::nextafter(p->above, Tokens::kHuge) : 0,
                                  p ? p->most : Tokens::kHuge);
     overrides.push_back({of, key, number});
@@ -111,7 +114,7 @@ void read_types(Tokens &w, MaterialCommand &c)
   const auto is_range = [&] {
     return !w.done() && w.peek().find_first_not_of("0123456789*") == std::string::npos;
   };
-  if (!is_range()) w.fail("after 'types' come atom types and their material, such as 2 coal");
+  if (!is_range()) w.fail("after 'types' write atom types and their material, such as 2 coal");
   while (is_range()) {
     const std::string types = w.take();
     c.types.push_back({types, take_name(w, "the material of atom types " + types)});
@@ -140,13 +143,13 @@ void read_meshes(Tokens &w, MaterialCommand &c, const std::vector<std::string> &
     if (!is_value && word == "law" && !c.meshes.empty())
       c.meshes.back().has_law |= w.done() || w.peek() != "types";
     if (!is_value && word == "material") {
-      if (c.meshes.empty()) w.fail("'material' of a mesh comes after its mesh FILE");
+      if (c.meshes.empty()) w.fail("write the 'material' of a mesh after its mesh FILE");
       MeshMaterial &mesh = c.meshes.back();
       const std::string of = "mesh '" + c.rest[mesh.at - 1] + "'";
       for (const char *const head : {"law", "types", "granular"})
         if (last == head || before_last == head)
           w.fail("in 'law' of " + of + ", " + kNoMaterialHere);
-      if (!mesh.name.empty()) w.fail("a mesh has two materials");
+      if (!mesh.name.empty()) w.fail("a mesh has two materials: leave one out");
       mesh.name = take_name(w, "the material of " + of);
       if (w.done() || w.peek() != "with") continue;
       w.take();
@@ -215,7 +218,7 @@ MaterialCommand read_material_command(const std::vector<std::string> &tokens,
   for (const char *const word : {"types", "on", "with"})
     if (!w.done() && w.peek() == word)
       w.fail("'" + w.peek() +
-             "' must stand earlier: the order is PARTICLE, types, on, with, sub-models, mesh");
+             "' must come earlier: the order is PARTICLE, types, on, with, sub-models, mesh");
   read_meshes(w, c, names, words);
   // The wall's own is then that of no contact, and the file need not have it.
   if (!has_wall && !c.meshes.empty() &&

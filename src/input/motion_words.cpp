@@ -47,11 +47,13 @@ void read_axis(Tokens &w, MotionTerm &m)
 
 void read_variable(Tokens &w, const char *name, int &input, InputNames &inputs)
 {
-  if (w.done()) w.fail(std::string("the variable ") + name + " is missing (NULL: none)");
+  if (w.done())
+    w.fail(std::string("the variable ") + name +
+           " is missing: write v_NAME, or NULL if there is none");
   if (variable_follows(w))
     input = number_of_input(inputs, take_variable(w));
   else if (w.take() != "NULL")
-    w.fail(std::string("in the place of ") + name + " a variable v_NAME or NULL is expected");
+    w.fail(name + std::string(" must be a variable, v_NAME, or NULL"));
 }
 
 void read_variables(Tokens &w, MotionTerm &m, InputNames &inputs)
@@ -81,7 +83,7 @@ void read_table(Tokens &w, MotionTerm &m)
     if (kind != "axis" && kind != "linear" && kind != "repeat" && kind != "degrees") return;
     w.take();
     if (std::find(given.begin(), given.end(), kind) != given.end())
-      w.fail("the word '" + word + "' is given twice, or beside one that says otherwise");
+      w.fail("the word '" + word + "' is given twice, or together with a word that contradicts it");
     given.push_back(kind);
     if (word == "axis") {
       read_axis(w, m);
@@ -117,9 +119,9 @@ MotionTerm read_motion_term(Tokens &w, InputNames &inputs)
   if (m.kind == MotionKind::variable) read_variables(w, m, inputs);
   if (m.kind == MotionKind::table) read_table(w, m);
   if (m.is_by_inputs() && std::all_of(m.input, m.input + 6, [](int i) { return i == kNoInput; }))
-    w.fail("all variables are NULL, and nothing moves");
+    w.fail("all variables are NULL, so that nothing would move: give at least one");
   if (w.number_follows())
-    w.fail("the number '" + w.peek() + "' is one too many" +
+    w.fail("the number '" + w.peek() + "' is one more than expected" +
            (has_period ? ": there is one centre P, one axis R and one period; for a second turn "
                          "write motion once more"
                        : ""));
@@ -179,7 +181,7 @@ RigidMotion read_modified_motion(Tokens &w, InputNames &inputs)
     if (!w.done() && w.peek() == "none") {
       w.take();
       if (read.moves() || (!w.done() && w.peek() == "motion"))
-        w.fail("none stops all motion: it must stand alone");
+        w.fail("none stops all motion: write no other motion with it");
     } else {
       read.add(read_motion_term(w, inputs));
     }

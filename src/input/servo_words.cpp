@@ -58,10 +58,10 @@ Servo read_one_servo(Tokens &w, InputNames &inputs)
     if (word == "gain") s.max_gain = w.number("the gain", kAboveZero);
     if (word == "limits") read_limits(w, s);
   }
-  if (w.number_follows()) w.fail("the number '" + w.peek() + "' is one too many");
+  if (w.number_follows()) w.fail("the number '" + w.peek() + "' is one more than expected");
   if (s.max_speed == 0)
     w.fail("vmax is missing, the speed at which the mesh moves up to the spheres" +
-           (w.done() ? "" : "; '" + w.peek() + "' is no word of a servo"));
+           (w.done() ? "" : "; '" + w.peek() + "' is not a word of a servo"));
   return s;
 }
 

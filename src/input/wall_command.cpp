@@ -29,7 +29,8 @@ std::string answer_to(const std::string &word, bool granular)
   const char *const kBelt =
       "the words are surface_vel vx vy vz and surface_angvel wx wy wz [cx cy cz]";
   const char *const kSpeed = "it is not needed: folds are measured, and all of them are walls";
-  const char *const kReport = "the mesh is always looked through and told in the log: leave it out";
+  const char *const kReport =
+      "the fix always inspects the mesh and writes the result to the log: leave it out";
   const char *const kWeld = "the word for joining corners is weld tol";
   const char *const kLoads = "see mesh_fields FILE every N, and force and torque in f_ID[1] to "
                              "f_ID[6]";
@@ -134,8 +135,8 @@ void read_keywords(Tokens &w, WallCommand &command, bool granular)
     w.set_context(row.name, syntax_of(row));
     const bool next = word == "mesh" && !meshes.back().file.empty();
     if (next && !early.empty())
-      w.fail("there are several, and '" + early +
-             "' comes before the first: keywords of a mesh stand after its mesh FILE");
+      w.fail("there are several meshes, and '" + early +
+             "' comes before the first: write the keywords of a mesh after its mesh FILE");
     if (next) {
       meshes.emplace_back();
       seen_of_mesh.clear();
@@ -174,10 +175,8 @@ void check_apart(Tokens &w, const WallSpec &s, std::size_t k)
     const std::string both = name_of_mesh(s, i) + " and " + name_of_mesh(s, k);
     if (are_one_mesh(s, mesh, s, other)) {
       w.set_context("mesh", "mesh FILE");
-      w.fail(
-          both +
-          " are the same file at the same place, and every contact would be felt twice: leave one "
-          "out, or move it");
+      w.fail(both + " are the same file at the same place, so that every contact would count "
+                    "twice: leave one out, or move it");
     }
     const struct {
       const char *keyword;
@@ -189,7 +188,7 @@ void check_apart(Tokens &w, const WallSpec &s, std::size_t k)
       if (!file.name.empty() && file.name == file.of_other) {
         w.set_context(file.keyword, std::string(file.keyword) + " FILE");
         w.fail(both + " have the same file '" + file.name +
-               "', and one would replace that of the other: give each a name of its own");
+               "', so that one would overwrite the other: give each a name of its own");
       }
   }
 }

@@ -25,7 +25,7 @@ InletFace::InletFace(const WeldedMesh &mesh, Real depth) : depth_(depth)
     throw InputError(mesh.source + ": " + std::to_string(mesh.report.two_sided_faces) + " of " +
                      std::to_string(mesh.faces.size()) +
                      " facets are there in both windings, so that the side of the inlet is not "
-                     "known: keep one of each two");
+                     "known: keep one of each pair");
   Real area = 0;
   for (const std::array<int, 3> &f : mesh.faces) {
     const std::array<Vec3, 3> t = {mesh.vertices[f[0]], mesh.vertices[f[1]], mesh.vertices[f[2]]};
@@ -36,8 +36,9 @@ InletFace::InletFace(const WeldedMesh &mesh, Real depth) : depth_(depth)
     middle_ += norm(twice) / 6 * (t[0] + t[1] + t[2]);
   }
   if (!(area > 0) || !(norm(normal_) > 1e-6 * area))
-    throw InputError(mesh.source + ": the triangles have no common side: an inlet is a flat mesh, "
-                                   "wound one way");
+    throw InputError(
+        mesh.source +
+        ": the triangles have no common side: an inlet must be a flat mesh, wound one way");
   normal_ = (1 / norm(normal_)) * normal_;
   middle_ = (1 / area) * middle_;
   check_flat(mesh);

@@ -57,8 +57,9 @@ ComputeCollideLsdcd::ComputeCollideLsdcd(LAMMPS *lmp, int narg, char **arg) :
     lsdcd::MpiHost mpi(world);
     const lsdcd::WeldedMesh mesh = lsdcd::read_together(mpi, settings.mesh);
     if (mesh.faces.empty())
-      throw lsdcd::InputError(settings.mesh.file +
-                              ": all triangles have no area; check the file, or make weld smaller");
+      throw lsdcd::InputError(
+          settings.mesh.file +
+          ": none of its triangles has an area; check the file, or make weld smaller");
     middle = 0.5 * (mesh.report.lo + mesh.report.hi);
     for (const Vec3 &x : mesh.vertices) reach = std::max(reach, norm(x - middle));
     find_bodies();
@@ -280,8 +281,8 @@ void ComputeCollideLsdcd::log_mesh(const lsdcd::WeldedMesh &mesh) const
   }
   if (!settings.brief) {
     if (settings.atoms_file.empty())
-      text += "\n  the mesh is taken to be where " + name_of(0) + " is now, in step " +
-              std::to_string(update->ntimestep) + "; the keyword atoms tells it in any step";
+      text += "\n  the compute assumes that the mesh is where " + name_of(0) + " is now, in step " +
+              std::to_string(update->ntimestep) + "; if it is not, give the keyword atoms";
     text += '\n';
     text += describe(mesh.report, settings.mesh.file);
   }

@@ -177,7 +177,7 @@ lsdcd::BodyPose ComputeCollideLsdcd::pose_of(int body, const std::vector<double>
   if (!(off <= kRigid * points->radius())) {
     char text[64];
     std::snprintf(text, sizeof text, "%.3g", off);
-    throw InputError(name_of(body) + " is no rigid copy of " + kind_text() + ": its atoms are " +
+    throw InputError(name_of(body) + " is not a rigid copy of " + kind_text() + ": its atoms are " +
                      text +
                      " off, root mean square; they must move as one, by fix rigid, rigid/small or "
                      "move, and have their tags in one order");

@@ -106,9 +106,9 @@ FixInsertLsdcd::FixInsertLsdcd(LAMMPS *lmp, int narg, char **arg) :
   const double mean = settings.plan.grains.mean_mass();
   const lsdcd::FeedSettings &feed = settings.plan.feed;
   if (feed.kind != lsdcd::FeedSettings::at_once)
-    log("a grain in " +
+    log("a grain every " +
         number_text((feed.kind == lsdcd::FeedSettings::by_mass ? mean : 1) / feed.rate) +
-        " time units, of a mass of " + number_text(mean) + " in the mean");
+        " time units, with a mass of " + number_text(mean) + " on average");
 
   force_reneighbor = 1;
   time_depend = 1;
@@ -152,8 +152,8 @@ void FixInsertLsdcd::read_face()
   const double radius = insertion->source().largest_radius();
   if (!face->has_room(radius))
     throw lsdcd::InputError(
-        settings.face.file + ": the face has no place that is " + number_text(radius) +
-        ", the largest radius, from its edges: make it wider, or its scale larger");
+        settings.face.file + ": no place on the face is " + number_text(radius) +
+        ", the largest radius, away from its edges: make the face wider, or its scale larger");
   velocity = settings.along_normal ? settings.speed * face->normal() : settings.velocity;
   log(std::to_string(mesh.faces.size()) + " triangles, area " + number_text(face->area()) +
       ", normal " + lsdcd::vector_text(face->normal()));
@@ -170,8 +170,9 @@ void FixInsertLsdcd::find_region()
   const std::string name = "region " + settings.region;
   if (!region) throw lsdcd::InputError("there is no " + name + ": define it before this fix");
   if (!region->bboxflag || region->varshape || region->dynamic_check())
-    throw lsdcd::InputError(name +
-                            " has no bounds or changes: give one that stays and has side in");
+    throw lsdcd::InputError(
+        name +
+        " has no bounds, or changes with time: give a region that does neither, with side in");
   velocity = settings.velocity;
 }
 
@@ -325,8 +326,8 @@ void FixInsertLsdcd::pre_exchange()
   if (insertion->owed().empty() || told) return;
   told = true;
   warn(late_text("in step " + std::to_string(step), refused) +
-       "; they are tried again until they have places, and the end of the run tells how many have "
-       "none");
+       "; the fix tries again until they have places, and reports at the end of the run how many "
+       "have none");
 }
 
 // Does this process own the place, a copy of which it may change? One process says so.
@@ -402,10 +403,10 @@ std::string FixInsertLsdcd::late_text(const std::string &when, const lsdcd::Refu
   add(refused.walls, "met a wall");
   add(refused.no_place, face ? "found no point of the face off its edges and in the box"
                              : "found no point of the region in the box");
-  if (!why.empty()) why = "; of " + std::to_string(refused.all()) + " places refused " + why;
+  if (!why.empty()) why = "; of " + std::to_string(refused.all()) + " places tried " + why;
   const lsdcd::GrainTotals late = insertion->late();
-  return when + " grains are due without a place: " + std::to_string(late.number) + ", of mass " +
-         number_text(late.mass) + why;
+  return when + ", " + std::to_string(late.number) + " grains of mass " + number_text(late.mass) +
+         " are due and have found no place" + why;
 }
 
 // By what was in the way most often.
@@ -417,29 +418,30 @@ std::string FixInsertLsdcd::remedy(const lsdcd::Refused &refused) const
            "in the box: make it larger, or move it into the box";
   if (refused.walls > refused.grains)
     return "Walls are in the way: move the " + place +
-           " off them, or name those that grains keep off with wall ID";
+           " away from them, or name by wall ID only the walls that grains must avoid";
   const std::string attempts =
       "more attempts than " + std::to_string(settings.plan.attempts) + " for each grain";
   if (settings.plan.feed.kind == lsdcd::FeedSettings::at_once)
-    return "They do not fit in: a larger " + place + ", fewer or smaller grains, or " + attempts +
-           " help";
-  return "Grains are in the way, as they leave more slowly than the rate brings others: a larger " +
+    return "They do not fit in: give a larger " + place + ", fewer or smaller grains, or " +
+           attempts;
+  return "Grains are in the way, because they leave more slowly than the rate brings others: give "
+         "a larger " +
          place + (face ? ", more depth" : "") +
-         ", a higher velocity or a smaller rate help, and a little " + attempts;
+         ", a higher velocity or a smaller rate. A little can also be gained by " + attempts;
 }
 
 void FixInsertLsdcd::post_run()
 {
   const std::int64_t came = insertion->inserted() - inserted_before;
   if (came != 0)
-    log(std::to_string(insertion->inserted()) + " grains, of mass " +
-        number_text(insertion->inserted_mass()) + ", are in");
+    log(std::to_string(insertion->inserted()) + " grains of mass " +
+        number_text(insertion->inserted_mass()) + " have been inserted");
   if (insertion->owed().empty()) return;
   const lsdcd::Refused &all = insertion->refused();
   const lsdcd::Refused in_run = {all.no_place - refused_seen.no_place,
                                  all.grains - refused_seen.grains, all.walls - refused_seen.walls};
-  warn(late_text("at the end", in_run) + "; in this run " + std::to_string(came) +
-       (came == 1 ? " grain" : " grains") + " came. " + remedy(in_run));
+  warn(late_text("at the end", in_run) + "; this run inserted " + std::to_string(came) +
+       (came == 1 ? " grain" : " grains") + ". " + remedy(in_run));
 }
 
 double FixInsertLsdcd::compute_vector(int i)
@@ -466,12 +468,12 @@ void FixInsertLsdcd::restart(char *buffer)
   } catch (const lsdcd::StateError &e) {
     fatal(unusable_state(e, "what was inserted"));
   }
-  const std::string in = std::to_string(insertion->inserted()) + " grains, of mass " +
-                         number_text(insertion->inserted_mass()) + ", are in";
+  const std::string in = std::to_string(insertion->inserted()) + " grains of mass " +
+                         number_text(insertion->inserted_mass()) + " have been inserted";
   if (insertion->is_past_total())
-    warn(in + ", which is more than the total that this fix asks for: no more come");
+    warn(in + ", which is more than the total of this fix: it inserts no more");
   else if (!is_same)
-    log("amounts or grains are others than before the restart and count from here on; " + in);
+    log("amounts or grains differ from those before the restart, and count from here on; " + in);
   follow_schedule();
 }
 

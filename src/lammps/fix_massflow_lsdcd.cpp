@@ -45,7 +45,7 @@ FixMassflowLsdcd::FixMassflowLsdcd(LAMMPS *lmp, int narg, char **arg) :
       warn(std::to_string(mesh.report.two_sided_faces) + " of " +
            std::to_string(mesh.faces.size()) +
            " facets of the mesh are there in both windings: forward is along the normal of the "
-           "first; keep one of each two");
+           "first; keep one of each pair");
     const std::string outside = lsdcd::outside_box({mesh.report.lo, mesh.report.hi},
                                                    lsdcd::host_box(*domain), neighbor->skin);
     if (!outside.empty()) throw lsdcd::InputError(outside);
@@ -98,7 +98,7 @@ lsdcd::WeldedMesh FixMassflowLsdcd::read_mesh()
   lsdcd::WeldedMesh mesh = lsdcd::read_together(mpi, settings.surface);
   if (mesh.faces.empty())
     throw lsdcd::InputError(settings.surface.file +
-                            ": all triangles have no area, and nothing passes such a surface; "
+                            ": none of its triangles has an area, so that nothing can pass; "
                             "check the file, or make weld smaller");
   return mesh;
 }
@@ -130,8 +130,8 @@ void FixMassflowLsdcd::init()
   watch.init(*update);
   for (int i = 0; settings.deletes && i < modify->nfix; i++)
     if (modify->fix[i]->rigid_flag)
-      warn("delete yes does not tell fix " + std::string(modify->fix[i]->id) +
-           " of atoms that it takes out of rigid bodies: leave these out of the group");
+      warn("delete yes removes atoms without telling fix " + std::string(modify->fix[i]->id) +
+           ", whose rigid bodies they belong to: leave these atoms out of the group");
 }
 
 // Between runs atoms may be put anywhere: only time steps let them pass.
@@ -212,8 +212,8 @@ void FixMassflowLsdcd::look(int i)
       fatal_here("atom " + std::to_string(atom->tag_enable ? atom->tag[i] : 0) +
                  " moved by more than the skin " + number_text(neighbor->skin) +
                  " in one step, and whether it passed is not known: make the timestep "
-                 "smaller or the skin larger (neighbor), or have all atoms looked at "
-                 "in every step with neigh_modify check no");
+                 "smaller or the skin larger (neighbor), or let the fix look at all atoms in every "
+                 "step by neigh_modify check no");
     count(i, surface->passes(from, x, box));
     t.clear = 0;
   } else {

@@ -186,12 +186,11 @@ void FixWallLsdcd::init_bodies()
     int dim;
     if (std::strncmp(fix->style, "gravity", 7) != 0) continue;
     if (gravity)
-      fatal("there are several fixes gravity: say which acceleration a body has, by gravity gx gy "
-            "gz");
+      fatal("there are several fixes gravity: give the acceleration of a body by gravity gx gy gz");
     gravity = static_cast<const double *>(fix->extract("gvec", dim));
     if (!gravity)
-      fatal("this LAMMPS does not tell the acceleration of fix gravity: give that of a body by "
-            "gravity gx gy gz");
+      fatal("the fix cannot read the acceleration of fix gravity from this LAMMPS: give that of a "
+            "body by gravity gx gy gz");
   }
 }
 
@@ -217,8 +216,8 @@ void FixWallLsdcd::warn_of_pairs()
   if (node_atoms.empty() || !pairs || neighbor->exclude || pairs_warned) return;
   pairs_warned = true;
   warn("pair_style " + std::string(force->pair_style) +
-       " acts between the atoms that are nodes of the wall and the spheres, too, beside the wall: "
-       "leave that out by neigh_modify exclude group");
+       " also acts between the spheres and the nodes of the wall, in addition to the wall: switch "
+       "this off by neigh_modify exclude group");
 }
 
 std::vector<lsdcd::ScriptFile> FixWallLsdcd::files() const
@@ -296,7 +295,7 @@ void FixWallLsdcd::min_setup(int /*vflag*/)
     std::fill(array_atom[i], array_atom[i] + size_peratom_cols, 0.0);
   if (wall_in_minimize_warned) return;
   wall_in_minimize_warned = true;
-  warn("no effect in a minimization, as fix wall/gran has none");
+  warn("the wall has no effect in a minimization, like fix wall/gran");
 }
 
 void FixWallLsdcd::pre_exchange()
@@ -767,8 +766,8 @@ int FixWallLsdcd::image(int *&kinds, double **&rows)
   // LAMMPS does not say which diameter the script gives.
   if (comm->me == 0 && first && !spec().brief && picture.spec.draw != lsdcd::Draw::faces)
     host.log("dump image draws the mesh as " + std::to_string(n) +
-             " lines; where nothing is seen of it, their diameter is 0: write fix " +
-             std::string(id) + " type DIAMETER 0");
+             " lines; if you do not see them, their diameter is 0: write fix " + std::string(id) +
+             " type DIAMETER 0");
   return n;
 }
 

@@ -50,19 +50,19 @@ std::string LammpsHost::remedy(lsdcd::Remedy problem) const
     case Remedy::follow_spheres:
       return "its boundary shrink-wrapped";
     case Remedy::make_room:
-      return "choose more often, with a smaller skin, or continue from a restart file, which makes "
-             "room for them";
+      return "give a smaller skin, so that they are selected more often, or continue from a "
+             "restart file, which makes room for them";
     case Remedy::announce_growth:
       return "radii that something else than fix adapt changes in a run need 'neigh_modify delay 0 "
              "every 1 check no'";
     case Remedy::begin_motion:
-      return "fix_modify motion starts another from where the mesh is";
+      return "start another motion from where the mesh is by fix_modify motion";
     case Remedy::begin_servo:
-      return "fix_modify servo lets it go on";
+      return "let it go on by fix_modify servo";
     case Remedy::give_velocities:
-      return "give v_vx v_vy v_vz in place of NULL";
+      return "give v_vx v_vy v_vz instead of NULL";
     case Remedy::give_displacements:
-      return "give its variable in place of NULL";
+      return "give its variable instead of NULL";
     case Remedy::compute_on_host:
       return "use fix wall/lsdcd without the suffix /kk (suffix off), which computes on the CPU";
     case Remedy::begin_replay:

@@ -45,12 +45,12 @@ void NodeAtoms::init(lsdcd::Wall &wall, int wall_bit)
   const std::string &name = wall.spec().meshes[mesh].node_group;
   const int group = lmp->group->find(name.c_str());
   if (group < 0)
-    throw InputError("there is no group '" + name + "', whose atoms are to be the nodes of mesh '" +
+    throw InputError("there is no group '" + name + "', whose atoms should be the nodes of mesh '" +
                      wall.spec().meshes[mesh].name + "': define it before the wall");
   bit = lmp->group->bitmask[group];
   const Atom &atom = *lmp->atom;
   if (!atom.tag_enable)
-    throw InputError("nodes are known by their IDs: leave out atom_modify id no");
+    throw InputError("the fix knows nodes by their atom IDs: leave out atom_modify id no");
   // Nodes from a restart file are known already.
   if (tag_of.empty() && !wall.nodes(mesh).names.empty()) set_tags(wall.nodes(mesh).names);
   if (tag_of.empty()) find(wall);
@@ -63,8 +63,8 @@ void NodeAtoms::init(lsdcd::Wall &wall, int wall_bit)
   if (both > 0)
     throw InputError(std::to_string(both) + " atoms are nodes of mesh '" +
                      wall.spec().meshes[mesh].name +
-                     "' and in the group of the fix, too: they would touch the triangles that they "
-                     "are corners of; give the fix a group without them");
+                     "' and also in the group of the fix: they would touch the triangles whose "
+                     "corners they are; give the fix a group without them");
   send(wall, true);
 }
 

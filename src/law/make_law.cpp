@@ -48,12 +48,12 @@ void finish_granular(LawDraft &d)
   const bool adhesive = law.normal == NormalModel::dmt || law.normal == NormalModel::jkr;
   const std::string normal = "'" + std::string(d.normal_name) + "'";
   if (law.limit_damping && adhesive)
-    throw LawError("limit_damping", "an adhesive sub-model, " + normal + ", has to pull");
+    throw LawError("limit_damping", "the adhesive sub-model " + normal + " must be able to pull");
   // The damping says what the second number of the normal sub-model is.
   law.eta = d.second;
   if (law.damping != DampingModel::stiffness) return;
   if (adhesive)
-    throw LawError("damping", "the damping does not go with the adhesive sub-model " + normal);
+    throw LawError("damping", "the damping does not work with the adhesive sub-model " + normal);
   const bool exact = d.damping_name == std::string("coeff_restitution");
   if (d.second > 1 || (exact && d.second == 0))
     throw LawError("damping", "e = " + number_text(d.second) +

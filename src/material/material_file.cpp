@@ -97,8 +97,9 @@ class Reader {
         location_ = pair.place;
         if (std::none_of(into_.materials.begin(), into_.materials.end(),
                          [&](const MaterialSection &m) { return m.first == name; }))
-          fail("the pair names '" + name + "', which is no material of this file: add 'material " +
-               name + "', or include the file that has it");
+          fail("the pair names '" + name +
+               "', which is not a material of this file: add 'material " + name +
+               "', or include the file that has it");
       }
   }
 
@@ -108,7 +109,7 @@ class Reader {
   {
     for (const MaterialSection &old : sections)
       if ((old.first == a && old.second == b) || (old.first == b && old.second == a))
-        fail("'" + a + (b.empty() ? "" : " " + b) + "' is there already, at " + old.place +
+        fail("'" + a + (b.empty() ? "" : " " + b) + "' is already given, at " + old.place +
              ": keep one");
     sections.push_back({a, b, location_, {}});
     return &sections.back();
@@ -128,7 +129,7 @@ class Reader {
       fail("'" + tokens[0] + "' is a property of one material: write it under 'material " +
            section.first + "'");
     if (const Stated *old = section.find(p->name))
-      fail("'" + tokens[0] + "' is there already, at " + old->place + ": keep one");
+      fail("'" + tokens[0] + "' is already given, at " + old->place + ": keep one");
     if (tokens.size() != 3)
       fail("'" + tokens[0] + "' needs a value and its unit: write '" + example + "'");
     Real number = 0;

@@ -32,7 +32,7 @@ std::string two_sided(const MeshReport &report)
       " there in both windings";
   if (are_all) text += ", as in a double-sided export";
   if (report.closed && report.sheet_faces == faces) text += ", so that the mesh encloses nothing";
-  if (report.closed || are_all) text += "; lsdcd repair keeps one of each two";
+  if (report.closed || are_all) text += "; lsdcd repair keeps one of each pair";
   return text;
 }
 

@@ -158,8 +158,9 @@ void check_numbers(const WeldedMesh &mesh)
 {
   if (mesh.faces.size() > kMaxFeatures || mesh.edges.size() > kMaxFeatures ||
       mesh.vertices.size() > kMaxFeatures)
-    throw InputError(mesh.source + ": " + std::to_string(mesh.edges.size()) + " edges, at most " +
-                     std::to_string(kMaxFeatures) + " can be used; coarsen the mesh");
+    throw InputError(mesh.source + ": " + std::to_string(mesh.edges.size()) +
+                     " edges are more than the " + std::to_string(kMaxFeatures) +
+                     " that can be used; use a coarser mesh");
 }
 
 // The same test as that of welding: thinner than the rounding of its corners a face has no normal.

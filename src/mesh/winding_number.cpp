@@ -83,7 +83,7 @@ std::string why_no_inside(const WeldedMesh &mesh)
   if (mesh.faces.empty()) return "it has no facets with an area";
   const CountedFacets counted(mesh);
   const std::string both_ways = " there in both windings, as in a double-sided export",
-                    remedy = ": lsdcd repair keeps one of each two";
+                    remedy = ": lsdcd repair keeps one of each pair";
   if (counted.facets.empty())
     return "each of its facets is" + both_ways + ", so that it encloses nothing" + remedy;
   std::string some;

@@ -67,8 +67,7 @@ void check_columns(const TableRows &rows, const std::string &place)
   const bool has_angle = n == 2 || n == 5;
   if (has_angle && !rows.options.has_axis)
     throw InputError(place + ": rows of " + std::to_string(n) +
-                     " numbers end with an angle: say about which axis it is, axis Px Py Pz Rx Ry "
-                     "Rz");
+                     " numbers end with an angle: give its axis, by axis Px Py Pz Rx Ry Rz");
   if (!has_angle && rows.options.has_axis)
     throw InputError(place + ": rows of " + std::to_string(n) +
                      " numbers have no angle about the axis that is given: leave the axis out, or "
@@ -101,7 +100,7 @@ void MotionTable::read(const PlaceOf &place_of)
     if (i > 0 && !(row[0] > times_.back()))
       throw InputError(place_of(i) + ": the time " + number_text(row[0]) +
                        " is not after that of the row before, " + number_text(times_.back()) +
-                       ": times ascend");
+                       ": times must ascend");
     times_.push_back(row[0]);
     if (columns >= 4) std::copy(row + 1, row + 4, &value(i, 0));
     if (turns()) read_rotation(i, row + (columns == 2 ? 1 : 4), place_of);
@@ -128,8 +127,7 @@ void MotionTable::read_rotation(std::size_t row, const Real *numbers, const Plac
             number_text(norm(a - from) * 180 / kPi) + " degrees from that of the row before, " +
             numbers_text(before, 3) +
             ", and which way the mesh turns is not known beyond 180: give rows that are nearer to "
-            "one another; quaternions in their place, between which the mesh turns the shorter "
-            "way; "
+            "one another; or quaternions instead, between which the mesh turns the shorter way; "
             "or angles about one axis, which have no limit");
     }
     const Quaternion q = turn_by(a);    // its sign goes on from row to row, as a does
@@ -175,7 +173,8 @@ void MotionTable::close(const PlaceOf &place_of)
     const Real turned = value(last, 3) - value(0, 3),
                whole = 2 * kPi * std::round(turned / (2 * kPi));
     if (std::fabs(turned - whole) > kTurned)
-      throw InputError(place + "from that the mesh turns by " + number_text(turned * 180 / kPi) +
+      throw InputError(place + "from one to the other the mesh turns by " +
+                       number_text(turned * 180 / kPi) +
                        " degrees. End it after whole turns, or leave repeat out");
     value(last, 3) = value(0, 3) + whole;
   } else if (turns()) {
@@ -328,7 +327,7 @@ MotionTable read_motion_table(const std::string &file, const TableOptions &optio
       Real number;
       if (!is_number(word, &number))
         throw InputError(place(line) + ": '" + shown(word) +
-                         "' is no number; a line of text begins with #");
+                         "' is not a number; begin a line of text with #");
       rows.numbers.push_back(number);
       at = text.find_first_not_of(kBlanks, end);
     }
@@ -337,7 +336,7 @@ MotionTable read_motion_table(const std::string &file, const TableOptions &optio
     if (columns != rows.columns)
       throw InputError(place(line) + ": the row has " + std::to_string(columns) +
                        " numbers, and that of line " + std::to_string(lines.front()) + " has " +
-                       std::to_string(rows.columns) + ": give all rows the same");
+                       std::to_string(rows.columns) + ": give all rows equally many numbers");
     lines.push_back(line);
   }
   if (in.bad()) throw InputError("reading the table '" + file + "' of a motion has failed");

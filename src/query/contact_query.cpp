@@ -93,7 +93,7 @@ class ContactQuery {
         if (!many->find(grid_, q, radius, found))
           throw InputError("sphere " + std::to_string(sphere) + " touches the wall in more than " +
                            std::to_string(kMaxContacts) +
-                           " separate places: take a smaller radius, or a coarser mesh");
+                           " separate places: use a smaller radius, or a coarser mesh");
       }
       out_.first[i + 1] = found.size() - before;
     }

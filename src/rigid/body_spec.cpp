@@ -25,7 +25,8 @@ void check_finite(const char *what, const Vec3 &a)
 void check_not_below_0(const char *what, Real value)
 {
   if (!(value >= 0) || !std::isfinite(value))
-    throw InputError(std::string(what) + " is " + number_text(value) + ", not a number from 0 on");
+    throw InputError(std::string(what) + " is " + number_text(value) +
+                     ", not a number of 0 or more");
 }
 
 void check_axis(const Joint &j)
@@ -57,7 +58,7 @@ void check_has_coordinate(const BodySpec &body)
 void check_limits(const JointDrive &d, Real coordinate)
 {
   const std::string limits = "the limits " + number_text(d.lo) + " " + number_text(d.hi);
-  if (std::isnan(d.lo) || std::isnan(d.hi)) throw InputError(limits + " are no numbers");
+  if (std::isnan(d.lo) || std::isnan(d.hi)) throw InputError(limits + " are not numbers");
   if (d.lo > d.hi) throw InputError(limits + " are reversed: the lower one comes first");
   if (d.lo > coordinate || d.hi < coordinate)
     throw InputError(limits + " do not contain " + number_text(coordinate) +

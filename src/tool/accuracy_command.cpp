@@ -120,12 +120,12 @@ void add_accuracy_command(Command &program)
   c.option("--repeats", o.repeats, "timed runs after one to warm up")
       .range(1, 10000)
       .shows_default();
-  c.option("--seed", o.seed, "of the spheres").shows_default();
-  c.option("--memory", o.memory, "budget of a grid in MB").check(above_zero).shows_default();
+  c.option("--seed", o.seed, "seed of the spheres").shows_default();
+  c.option("--memory", o.memory, "memory budget of a grid in MB").check(above_zero).shows_default();
   c.option("--csv", o.csv, "write all rows to this file");
   c.option("--commit", o.commit, "what was built, for the CSV").shows_default();
   c.footer(std::string(kAbout) +
-           "\nCPU runs take OMP_NUM_THREADS threads, one where it is not set.\n"
+           "\nCPU runs use OMP_NUM_THREADS threads, or one if it is not set.\n"
            "Example:\n  lsdcd accuracy table2 --spheres 1e5 --csv table2.csv");
   c.runs([] { run_accuracy(o); });
 }

@@ -86,7 +86,7 @@ CollideTotals run(const CollideOptions &o, MeshCollision &collision, PairWriter 
     totals.add(found);
     progress.show(text_of(totals, share));
   });
-  if (totals.pairs.empty()) throw InputError(o.poses + ": there is no pose in it");
+  if (totals.pairs.empty()) throw InputError(o.poses + ": the file has no poses");
   return totals;
 }
 
@@ -185,22 +185,25 @@ void add_options(Command &command, CollideOptions &o)
   command.option("-o,--output", o.output, "pairs of triangles that meet, to a .csv file");
   command.option("--segments", o.segments,
                  "where they cut each other, to a .csv file or lines for ParaView, .vtp");
-  add_scale_option(command, o.scale, "--scale", "of the wall: one factor, or three (x y z)");
-  add_scale_option(command, o.body_scale, "--body-scale", "of the body: one factor, or three");
+  add_scale_option(command, o.scale, "--scale", "scale of the wall: one factor, or three (x y z)");
+  add_scale_option(command, o.body_scale, "--body-scale",
+                   "scale of the body: one factor, or three");
   add_weld_option(command, o.weld);
   command.option("--grid", o.cell, "cell length (default: the median edge of the body)")
       .check(above_zero);
   command.option("--nearest", o.nearest, "triangles a cell, which may miss pairs (default: all)")
       .range(1, kMaxNearest);
-  command.option("--memory", o.memory, "of the grid, in MB (default: 1024 beside the mesh)")
+  command
+      .option("--memory", o.memory,
+              "memory budget of the grid in MB (default: 1024 beside the mesh)")
       .check(above_zero);
   command.option("--device", o.device, "device that computes")
       .one_of({"auto", "cpu", "cuda"})
       .shows_default();
-  command.option("--threads", o.threads, "on the CPU (default: OMP_NUM_THREADS, or all)")
+  command.option("--threads", o.threads, "threads on the CPU (default: OMP_NUM_THREADS, or all)")
       .range(1, 4096);
   command.flag("--progress", o.progress,
-               "tell how far it is, even if standard error is not a terminal");
+               "show the progress even if standard error is not a terminal");
   command.flag("--json", o.json, "print JSON");
 }
 
@@ -210,17 +213,18 @@ void add_collide_command(Command &program)
 {
   const auto o = std::make_shared<CollideOptions>();
   Command command =
-      program.command("collide", "which triangles of a rigid body meet which of a wall");
+      program.command("collide", "finds which triangles of a rigid body meet which of a wall");
   add_options(command, *o);
   command.footer(
       "A pose turns the body about the origin of its file by a unit quaternion, w first, and then\n"
       "moves it by x y z; or it is three rows of a rotation matrix, each with its number of the\n"
-      "shift. In a file empty lines and those from # are left out, and a first line of names.\n"
+      "shift. In a file, empty lines, lines that begin with # and a first line of names are "
+      "skipped.\n"
       "Triangles that only touch count as a pair. Surfaces count: a body completely inside a\n"
       "closed wall meets nothing.\n"
       "Columns of pairs: pose (from 0), wall_triangle and body_triangle (of the files, from 0; "
       "-1:\n"
-      "one without area); of segments also from_x to to_z, nan where both lie in one plane.\n"
+      "one without area); of segments also from_x to to_z, nan if both lie in one plane.\n"
       "Example:\n"
       "  lsdcd collide wall.stl body.stl --pose 0 0 1.5 0.7071 0.7071 0 0 -o pairs.csv");
   command.runs([o] { collide(*o); });

@@ -67,7 +67,7 @@ void run(const ConvertOptions &o)
   std::printf("%s: %zu facets from (%g, %g, %g) to (%g, %g, %g)\n", o.output.c_str(),
               soup.n_triangles(), lo.x, lo.y, lo.z, hi.x, hi.y, hi.z);
   if (read.left_out > 0)
-    std::printf("%zu points and lines of %s are no facets, and left out\n", read.left_out,
+    std::printf("%zu points and lines of %s are not facets, and were left out\n", read.left_out,
                 o.file.c_str());
 }
 
@@ -78,10 +78,10 @@ void add_convert_command(Command &program)
   const auto o = std::make_shared<ConvertOptions>();
   Command command = program.command(
       "convert", "writes a mesh in another format or other units: STL, OBJ, PLY, OFF");
-  command.footer("Coordinates keep all their digits. Polygons are cut into triangles. STL is "
-                 "binary where all\n"
-                 "corners are floats, else text; PLY is binary, of floats or else of doubles.\n"
-                 "Example:\n  lsdcd convert wall.obj --units mm -o wall.stl");
+  command.footer(
+      "Coordinates keep all their digits. Polygons are cut into triangles. STL is binary if "
+      "all\ncorners are floats, else text; PLY is binary, of floats or else of doubles.\n"
+      "Example:\n  lsdcd convert wall.obj --units mm -o wall.stl");
   command.option("file", o->file, "mesh, .stl, .obj, .ply or .off").required();
   command.option("-o,--output", o->output, "mesh to write, of the same formats").required();
   Option scale = add_scale_option(command, o->scale);

@@ -93,7 +93,7 @@ DistanceTotals stream(const DistanceOptions &o, PointReader &reader, PointAnswer
     progress.show(text_of(totals, share, seconds_since(start)));
   }
   if (writing.valid()) writing.get();
-  if (totals.points == 0) throw InputError(o.points + ": there is no point in it");
+  if (totals.points == 0) throw InputError(o.points + ": the file has no points");
   writer->commit();
   totals.seconds = seconds_since(start);
   return totals;
@@ -168,7 +168,7 @@ void add_distance_command(Command &program)
 {
   const auto o = std::make_shared<DistanceOptions>();
   Command command = program.command(
-      "distance", "distance, closest point, triangle, feature and side of many points");
+      "distance", "computes distance, closest point, triangle, feature and side of many points");
   command.option("mesh", o->mesh, "mesh: .stl, .obj, .ply or .off").required();
   command
       .option("points", o->points,
@@ -186,15 +186,15 @@ void add_distance_command(Command &program)
   command.option("--device", o->device, "device that computes")
       .one_of({"auto", "cpu", "cuda"})
       .shows_default();
-  command.option("--threads", o->threads, "on the CPU (default: OMP_NUM_THREADS, or all)")
+  command.option("--threads", o->threads, "threads on the CPU (default: OMP_NUM_THREADS, or all)")
       .range(1, 4096);
   command.option("--block", o->block, "points in memory at once")
       .range(std::size_t(1), std::size_t(1) << 26)
       .shows_default();
   command.flag("--estimate-sides", o->estimate_sides,
-               "of a mesh that is not closed, by winding numbers, not certified");
+               "estimate sides of a mesh that is not closed, by winding numbers, not certified");
   command.flag("--progress", o->progress,
-               "tell how far it is, even if standard error is not a terminal");
+               "show the progress even if standard error is not a terminal");
   command.flag("--json", o->json, "print JSON");
   command.footer(
       "One line or record per point, in the order of the points; rows of a dump begin with "

@@ -15,7 +15,8 @@ void add_effects_command(Command &program)
 {
   Command command = program.command(
       "effects", "lists all effects of a wall with their keywords and bytes per atom and contact");
-  command.footer("What each costs in time is in doc/effects.md.\n\nExample:\n  lsdcd effects");
+  command.footer(
+      "doc/effects.md has the time that each of them costs.\n\nExample:\n  lsdcd effects");
   const auto json = std::make_shared<bool>(false);
   command.flag("--json", *json, "print JSON");
   command.runs([json] {

@@ -38,7 +38,8 @@ T number(const InputFile &file, const std::vector<std::string_view> &words, std:
                                               ", where a number should be");
   if (!read_number(words[column], value))
     file.fail_at_line(file.line_number(), "has '" + std::string(words[column]) + "' in column " +
-                                              std::to_string(column + 1) + ", which is no number");
+                                              std::to_string(column + 1) +
+                                              ", which is not a number");
   return value;
 }
 

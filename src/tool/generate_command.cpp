@@ -49,10 +49,10 @@ void write(const Output &o, const Triangles &coarse)
   const WeldedMesh mesh = weld(soup, -1);
   // The shape is so fine, or so long and thin, that welding would merge its corners.
   if (!problems_of(mesh.report).empty())
-    throw InputError(
-        o.file + " is not written, it would not be clean:" + verdict_line(mesh.report).substr(13) +
-        "; is one of its lengths below 1e-6 of the whole? Give a larger --edge or "
-        "fewer --segments");
+    throw InputError(o.file + " is not written, because it would not be clean:" +
+                     verdict_line(mesh.report).substr(13) +
+                     "; is one of its lengths below 1e-6 of the whole? Give a larger --edge or "
+                     "fewer --segments");
   write_whole_file(o.file, stl_bytes(soup));
   if (o.json)
     std::printf("%s\n", as_json(mesh.report).dump(2).c_str());
@@ -179,8 +179,8 @@ void add_bins(Shapes &shapes)
   Command hopper = shapes.add(
       "hopper", "a bin above a cone with an outlet at z = 0; open, a wall without thickness",
       "--radius 0.1 --height 0.3 --cone 0.1 --outlet 0.03 --edge 0.01 -o hopper.stl");
-  shapes.length("--radius", s->radius, "of the bin", true);
-  shapes.length("--height", s->height, "of the bin, above the cone", true);
+  shapes.length("--radius", s->radius, "radius of the bin", true);
+  shapes.length("--height", s->height, "height of the bin, above the cone", true);
   shapes.length("--cone", s->cone, "height of the cone (default: a flat floor)");
   shapes.length("--outlet", s->outlet, "radius of the outlet", true);
   shapes.round();
@@ -225,11 +225,12 @@ void add_machines(Shapes &shapes)
   Command drum = shapes.add(
       "drum", "a drum about the y axis from y = 0 on, with lifters; open at its ends",
       "--radius 0.5 --length 0.3 --lifters 8 --height 0.05 --thickness 0.03 -o drum.stl");
-  shapes.length("--radius", s->radius, "of the drum", true);
+  shapes.length("--radius", s->radius, "radius of the drum", true);
   shapes.length("--length", s->length, "along y", true);
   drum.option("--lifters", s->number, "how many (default: none)").range(2, 1000);
-  shapes.length("--height", s->height, "of a lifter (default: a tenth of the radius)");
-  shapes.length("--thickness", s->thickness, "of a lifter (default: a twentieth of the radius)");
+  shapes.length("--height", s->height, "height of a lifter (default: a tenth of the radius)");
+  shapes.length("--thickness", s->thickness,
+                "thickness of a lifter (default: a twentieth of the radius)");
   shapes.round();
   drum.flag("--closed", s->flag, "with its ends");
   drum.runs([o = shapes.output(), s] {
@@ -255,13 +256,13 @@ void add_machines(Shapes &shapes)
   Command screw = shapes.add(
       "screw", "a shaft along y from y = 0 on, with a right-handed blade; closed",
       "--radius 0.06 --shaft 0.015 --pitch 0.1 --turns 3 --thickness 0.004 -o screw.stl");
-  shapes.length("--radius", s->radius, "of the blade", true);
+  shapes.length("--radius", s->radius, "radius of the blade", true);
   shapes.length("--shaft", s->shaft, "radius of the shaft", true);
-  shapes.length("--pitch", s->pitch, "that the blade advances in a turn", true);
-  shapes.length("--thickness", s->thickness, "of the blade, along y", true);
+  shapes.length("--pitch", s->pitch, "length that the blade advances in a turn", true);
+  shapes.length("--thickness", s->thickness, "thickness of the blade, along y", true);
   shapes.length("--stub", s->stub,
-                "of shaft before and after the blade (default: a tenth of a pitch)");
-  screw.option("--turns", s->number, "of the blade").required().range(1, 1000);
+                "length of shaft before and after the blade (default: a tenth of a pitch)");
+  screw.option("--turns", s->number, "turns of the blade").required().range(1, 1000);
   shapes.round();
   screw.runs([o = shapes.output(), s] {
     need_less("--shaft", s->shaft, "--radius", s->radius);
@@ -278,7 +279,7 @@ void add_generate_command(Command &program)
 {
   Command generate = program.command("generate", "writes the mesh of a simple shape");
   generate.needs_a_command();
-  generate.footer("lsdcd generate SHAPE --help tells a shape's sizes.\n"
+  generate.footer("lsdcd generate SHAPE --help lists the sizes of a shape.\n"
                   "Example:\n  lsdcd generate box --width 2 --depth 1 --height 1 -o box.stl");
   Shapes shapes(generate);
   add_flat(shapes);

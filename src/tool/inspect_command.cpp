@@ -86,7 +86,7 @@ void add_inspect_command(Command &program)
 {
   const auto o = std::make_shared<InspectOptions>();
   Command command =
-      program.command("inspect", "what the mesh is: facets, welds, holes, folds, area, volume");
+      program.command("inspect", "describes a mesh: facets, welds, holes, folds, area, volume");
   command.footer("Example:\n  lsdcd inspect wall.stl --json");
   add_mesh_options(command, *o);
   command.runs([o] { inspect(*o); });
@@ -95,16 +95,18 @@ void add_inspect_command(Command &program)
 void add_grid_command(Command &program)
 {
   const auto o = std::make_shared<InspectOptions>();
-  Command command = program.command("grid", "what a grid for spheres up to a radius would cost");
+  Command command =
+      program.command("grid", "estimates the cost of a grid for spheres up to a radius");
   command.footer("Example:\n  lsdcd grid wall.stl --radius 0.005");
   add_mesh_options(command, *o);
   command.option("--radius", o->radius, "largest sphere radius").required().check(above_zero);
   command.option("--grid", o->length, "cell length (default: chosen)").check(above_zero);
   command
-      .option("--memory", o->memory, "budget in MB (default: 1024 beside the mesh's own records)")
+      .option("--memory", o->memory,
+              "memory budget in MB (default: 1024 beside the mesh's own records)")
       .check(above_zero);
   command.flag("--progress", o->progress,
-               "tell how far it is, even if standard error is not a terminal");
+               "show the progress even if standard error is not a terminal");
   command.runs([o] { grid(*o); });
 }
 

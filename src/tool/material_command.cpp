@@ -99,20 +99,21 @@ void add_material_command(Command &program)
 {
   const auto o = std::make_shared<MaterialOptions>();
   Command command = program.command(
-      "material", "what a material file says; with a name, the keywords for an input script");
+      "material",
+      "prints what a material file says or, with a name, the keywords for an input script");
   command.footer("Example:\n  lsdcd material glass.lsdcd glass --on aluminium");
   command.option("file", o->file, "material file, looked for as in an input script").required();
   command.option("name", o->name, "material of the grains");
   command.option("--on", o->wall, "material of the wall (default: the same)");
-  command.option("--normal", o->normal, "of the contact")
+  command.option("--normal", o->normal, "normal sub-model of the contact")
       .one_of({"hertz/material", "jkr", "dmt"})
       .shows_default();
-  command.option("--units", o->units, "of the input script")
+  command.option("--units", o->units, "units of the input script")
       .one_of({"si", "cgs", "micro", "nano"})
       .shows_default();
   command.option("--with", o->with,
-                 "properties and values in place of the file's, or [material] property value "
-                 "where the file has none");
+                 "properties and values that replace those of the file, or [material] property "
+                 "value if the file has none");
   command.flag("--json", o->json, "print JSON");
   command.runs([o] { run(*o); });
 }

@@ -30,7 +30,7 @@ inline std::string not_zero(const std::string &word)
 
 inline Option add_scale_option(Command &command, std::vector<double> &scale,
                                const char *name = "--scale",
-                               const char *help = "of the mesh: one factor, or three (x y z)")
+                               const char *help = "scale of the mesh: one factor, or three (x y z)")
 {
   return command.option(name, scale, help).words(1, 3).check(not_zero);
 }

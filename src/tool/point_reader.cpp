@@ -237,7 +237,7 @@ class NpyReader : public PointReader {
     constexpr std::size_t kMax = 1 << 16;
     std::string head(std::min(length, kMax), ' ');
     if (length > kMax || file.bytes(head.data(), length) < length)
-      file.fail("its .npy header is not whole");
+      file.fail("its .npy header is truncated");
     const auto is_space = [](char c) { return c == ' ' || c == '\n'; };
     head.erase(std::remove_if(head.begin(), head.end(), is_space), head.end());
     for (const NumberType &type : kNumberTypes)
@@ -261,7 +261,7 @@ class NpyReader : public PointReader {
   [[noreturn]] void fail_in_point(std::size_t point) const
   {
     files_[0].fail("ends in point " + std::to_string(point) + " of " + std::to_string(n_) +
-                   "; it is not whole");
+                   "; it is truncated");
   }
 
   std::vector<InputFile> files_;    // in Fortran order one at each of the columns x, y and z

@@ -142,11 +142,11 @@ bool run(const RepairOptions &o)
 void add_repair_command(Command &program, int &exit_code)
 {
   const auto o = std::make_shared<RepairOptions>();
-  Command command = program.command("repair", "mends a mesh, and tells what it did");
+  Command command = program.command("repair", "mends a mesh, and reports what it did");
   command.footer(
       "Welds corners, drops degenerate and duplicate facets, cuts facets where corners of\n"
       "neighbours lie on their open edges, and winds them alike, closed shells with normals out,\n"
-      "cavities in them with normals in. It fills no holes. Ends with 3 where the mesh is written\n"
+      "cavities in them with normals in. It fills no holes. It ends with 3 if the mesh is\nwritten "
       "and something is left that it cannot mend: open edges, edges of more than two facets,\n"
       "one-sided parts, facets that meet.\n"
       "Example:\n  lsdcd repair wall.stl -o mended.stl");
@@ -164,7 +164,7 @@ void add_repair_command(Command &program, int &exit_code)
   command.flag("--open", o->open,
                "open edges are not an error: ends with 0 if nothing else is left");
   command.flag("--progress", o->progress,
-               "tell how far it is, even if standard error is not a terminal");
+               "show the progress even if standard error is not a terminal");
   command.flag("--json", o->json, "print JSON");
   command.runs([o, &exit_code] {
     if (!run(*o)) exit_code = kUnmended;

@@ -68,7 +68,7 @@ void run(const TimestepOptions &o)
   MaterialFile file;
   const MaterialSection *grain = nullptr, *wall = nullptr;
   if (!o.file.empty()) {
-    if (o.name.empty()) throw_usage_error("name", "which material of the file?");
+    if (o.name.empty()) throw_usage_error("name", "give the name of a material in the file");
     file = read_materials(find_material_file(o.file));
     grain = wall = &file.material(o.name);
     if (!o.on.empty()) wall = &file.material(o.on);
@@ -189,20 +189,21 @@ void add_timestep_command(Command &program)
   command.option("file", o->file, "material file, looked for as in an input script");
   command.option("name", o->name, "material of the grains");
   command.option("--on", o->on, "material of the wall in the file (default: the grains')");
-  command.option("--radius", o->radius, "of the grains; the smallest counts")
+  command.option("--radius", o->radius, "radii of the grains; the smallest counts")
       .required()
       .words(1, -1)
       .check(above_zero);
-  command.option("--speed", o->speed, "of the fastest impact").required().check(above_zero);
-  command.option("--wall-speed", o->wall_speed, "of the fastest point of a wall that moves")
+  command.option("--speed", o->speed, "speed of the fastest impact").required().check(above_zero);
+  command.option("--wall-speed", o->wall_speed, "speed of the fastest point of a wall that moves")
       .check(not_below_zero)
       .shows_default();
-  command.option("--young", o->young, "Young's modulus of the grains, in place of the file's")
+  command.option("--young", o->young, "Young's modulus of the grains, instead of the file's")
       .check(above_zero);
-  command.option("--poisson", o->poisson, "their Poisson's ratio").check(below_a_half);
+  command.option("--poisson", o->poisson, "Poisson's ratio of the grains").check(below_a_half);
   command.option("--density", o->density, "their density").check(above_zero);
-  command.option("--wall-young", o->wall_young, "of the wall").check(above_zero);
-  command.option("--wall-poisson", o->wall_poisson, "of the wall").check(below_a_half);
+  command.option("--wall-young", o->wall_young, "Young's modulus of the wall").check(above_zero);
+  command.option("--wall-poisson", o->wall_poisson, "Poisson's ratio of the wall")
+      .check(below_a_half);
   command.flag("--json", o->json, "print JSON");
   command.runs([o] { run(*o); });
 }

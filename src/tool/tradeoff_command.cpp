@@ -232,9 +232,8 @@ void add_tradeoff_command(Command &program)
   add_weld_option(command, o->weld);
   command
       .option("--memory", o->memory,
-              "budget of a grid in MB, also while it is built; the default becomes as coarse as "
-              "that asks "
-              "for, other settings above are left out")
+              "memory budget of a grid in MB, also while it is built; the default grid becomes as "
+              "coarse as this needs, other settings above it are left out")
       .shows_default()
       .check(above_zero);
   command
@@ -257,10 +256,10 @@ void add_tradeoff_command(Command &program)
   command.option("--moving", o->settings.moving, "spheres that bounce, and that roll")
       .shows_default()
       .range(1, 100000);
-  command.option("--repeats", o->settings.repeats, "of a timed step; the quickest counts")
+  command.option("--repeats", o->settings.repeats, "repeats of a timed step; the quickest counts")
       .shows_default()
       .range(1, 1000);
-  command.option("--seed", o->settings.seed, "of places and radii").shows_default();
+  command.option("--seed", o->settings.seed, "seed of positions and radii").shows_default();
   command.option("--csv", o->csv, "file for the rows, written whole or not at all").shows_default();
   command.option("--plot", o->plot,
                  "picture, .png, or `none` (default: the name of the CSV with .png)");

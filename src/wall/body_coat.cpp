@@ -60,8 +60,9 @@ BodyCoat::BodyCoat(Host &host, const WallSpec &wall, int mesh, const MeshGrid &g
   run_collectively(host, host.is_first(), [&] {
     points_ = surface_points(*grid.mesh(), apart_, kMostCoatPoints);
     if (points_.empty())
-      throw InputError(named("a coat of points " + number_text(apart_) + " apart has more than " +
-                             std::to_string(kMostCoatPoints) + ": give a longer spacing"));
+      throw InputError(named("a coat of points " + number_text(apart_) +
+                             " apart would need more than " + std::to_string(kMostCoatPoints) +
+                             " points: give a longer spacing"));
   });
   std::uint64_t n = points_.size();
   host.broadcast(&n, sizeof n, 0);
@@ -370,7 +371,8 @@ void BodyCoat::restore(const std::vector<Real> &saved)
       saved[1] == static_cast<Real>(points_.size()))
     restored_ = saved;
   else
-    host_.warn(named("springs of its coat begin anew: the " + std::string(host_.names().saved) +
+    host_.warn(named("the springs of its coat start from zero: the " +
+                     std::string(host_.names().saved) +
                      " was written with another coat or contact law"));
 }
 

@@ -68,7 +68,7 @@ void BoxChecks::check_periodic(const MeshPart &m, const PeriodicBox &box) const
   if (axes.empty()) return;
   host_.warn(named(m, "the mesh reaches past the periodic boundary in " + axes +
                           ": what lies there acts inside the box as well, by its periodic images. "
-                          "Add the keyword periodic if that is meant, or make the boundary fixed"));
+                          "Add the keyword periodic if you want that, or make the boundary fixed"));
 }
 
 void BoxChecks::check_radius(const PeriodicBox &box, Real radius) const
@@ -150,7 +150,7 @@ void BoxChecks::check_gone(const PeriodicBox &box, Real cutoff, std::int64_t ste
                             host_.names().sphere + ": in step " + std::to_string(step) +
                             " it spans " + extents_text(now) + ", the box " +
                             extents_text(box.bounds({0, 0, 0})) +
-                            "; check the motion and its units. Shown once"));
+                            "; check the motion and its units. This warning is shown once"));
   }
 }
 
@@ -220,7 +220,7 @@ void BoxChecks::check_turning_out(const MeshPart &m, const PeriodicBox &box)
                             capital(host_.names().sphere) +
                             "s that it carries out of the box are lost: make the box larger in " +
                             axis + ", or " + host_.remedy(Remedy::follow_spheres) +
-                            ". Shown once"));
+                            ". This warning is shown once"));
     return;
   }
 }

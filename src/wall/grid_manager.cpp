@@ -176,7 +176,7 @@ void GridManager::log_build(const MeshPart &m, Real old_cutoff, std::int64_t ste
   std::string t = with_mesh_name(settings_, m.index, "");
   if (!again)
     t += "grid for radius " + number_text(grid.cutoff()) +
-         (m.nodes ? ", made anew as nodes move" : "\n" + grid.grid_text());
+         (m.nodes ? ", made again as nodes move" : "\n" + grid.grid_text());
   else if (grid.cutoff() > old_cutoff)
     t += "larger particles, grid rebuilt for radius " + number_text(grid.cutoff());
   else
@@ -204,14 +204,15 @@ void GridManager::check_wrapping(const Spheres &spheres)
   host_.warn("a particle was " + number_text(out) +
              " past a periodic face before it was wrapped, more than the " + host_.names().margin +
              " " + number_text(now.margin) + ": contacts there may have been missed; " +
-             host_.remedy(Remedy::wrap_sooner) + ". The grid now reaches further; shown once");
+             host_.remedy(Remedy::wrap_sooner) +
+             ". The grid now reaches further; this warning is shown once");
 }
 
 void GridManager::end_run()
 {
   if (box_rebuilds_ > 1 && !settings_.brief)
     host_.log("the grid was rebuilt " + std::to_string(box_rebuilds_) +
-              " times in this run, as the box changed");
+              " times in this run, because the box changed");
   box_rebuilds_ = 0;
 }
 

@@ -88,8 +88,9 @@ MeshBody::MeshBody(Host &host, WallSpec &wall, const LawTable &laws, int mesh, c
   }
   if (s.joint.kind == JointKind::hinge && std::isfinite(s.drive.hi - s.drive.lo) &&
       s.drive.hi - s.drive.lo > 2 * kPi)
-    host_.warn(named("the limits " + number_text(s.drive.lo) + " " + number_text(s.drive.hi) +
-                     " of its hinge are more than a turn apart: they are in radians"));
+    host_.warn(
+        named("the limits " + number_text(s.drive.lo) + " " + number_text(s.drive.hi) +
+              " of its hinge are more than a turn apart: limits are in radians, not in degrees"));
   measure();
 }
 

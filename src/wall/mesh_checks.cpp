@@ -24,8 +24,8 @@ void check_side(const WallSpec &settings, const MeshPart &m)
   if (r.closed && r.two_sided_faces > 0)
     throw InputError("side in and side out need facets of one winding; " +
                      std::to_string(r.two_sided_faces) + " of those of '" + m.spec.name +
-                     "' are there in both, as in a double-sided export: keep one of each two "
-                     "(lsdcd repair) or use side both");
+                     "' are there in both, as in a double-sided export: keep one of each pair "
+                     "(lsdcd repair), or use side both");
   throw InputError("side in and side out need a closed, oriented mesh; '" + m.spec.name + "' has " +
                    std::to_string(r.open_edges) + " open, " + std::to_string(r.nonmanifold_edges) +
                    " non-manifold and " + std::to_string(r.misoriented_edges) +

@@ -186,7 +186,7 @@ void MeshMotion::check_limits(Real position) const
 {
   const Servo &s = servo();
   if (position < s.lo || position > s.hi)
-    throw InputError(named("the servo is at " + number_text(position) + ", outside of the limits " +
+    throw InputError(named("the servo is at " + number_text(position) + ", outside the limits " +
                            number_text(s.lo) + " " + number_text(s.hi) +
                            ", which count from where it began: widen them"));
 }
@@ -195,24 +195,24 @@ void MeshMotion::check_snapshot(const Step &at) const
 {
   const std::string in_replay = std::string("in a ") + host_.names().replay + " ";
   if (spec().body.present)
-    throw InputError(named(in_replay +
-                           "a body is not where it was, as it follows from the loads of all steps "
-                           "before: leave body out, and give its places by motion variable"));
+    throw InputError(named(
+        in_replay + "the position of a body is not known, because it follows from the loads of all "
+                    "steps before: leave body out, and give its positions by motion variable"));
   if (servo().present && !servo().holds)
     throw InputError(
-        named(in_replay + "a servo is not where it was, as it follows from the loads of all "
-                          "steps before: leave servo out, and give its places by motion variable"));
+        named(in_replay +
+              "the position of a servo is not known, because it follows from the loads of all "
+              "steps before: leave servo out, and give its positions by motion variable"));
   if (takes_differences())
     throw InputError(named(in_replay +
-                           "there is no step over which the velocity of motion variable could be a "
-                           "difference: " +
+                           "there is no step before, from which motion variable could take the "
+                           "velocity as a difference: " +
                            host_.remedy(Remedy::give_velocities)));
   if (adds_up())
-    throw InputError(
-        named(in_replay +
-              "the displacement or angle that velocities of variables add up to in all "
-              "steps before is not known: " +
-              host_.remedy(Remedy::give_displacements)));
+    throw InputError(named(in_replay +
+                           "the displacement or angle is not known, because it is the sum of "
+                           "velocities of variables over all steps before: " +
+                           host_.remedy(Remedy::give_displacements)));
   StepClock there = clock_;
   there.advance(at);
   if (spec().motion.moves() && there.now() < 0)
@@ -230,12 +230,10 @@ std::string MeshMotion::text(const Box &bounds) const
   if (!motion.moves()) return motion.start().placed ? "none; the mesh stays where it is" : "";
   constexpr int kSamples = 64;
   std::string text = own_text();
-  if (takes_differences())
-    text += "; where no speed is given velocities are differences over a step";
+  if (takes_differences()) text += "; if no speed is given, velocities are differences over a step";
   if (adds_up())
-    text +=
-        "; where a speed alone is given velocities are added up, with the mean of those before and "
-        "after a step";
+    text += "; if only a speed is given, velocities are added up, with the mean of those before "
+            "and after a step";
   std::vector<Real> times;
   for (int i = 0; i < kSamples; i++) times.push_back(motion.longest_period() * i / kSamples);
   for (const MotionTerm &m : motion.terms()) {
@@ -247,7 +245,7 @@ std::string MeshMotion::text(const Box &bounds) const
   if (has_inputs()) return text;
   Real most = 0;
   for (const Real t : times) most = std::max(most, fastest_in(motion.pose_at(t), bounds));
-  return text + "; corners of its bounds go at up to " + number_text(most);
+  return text + "; corners of its bounds move at up to " + number_text(most);
 }
 
 // The text of the terms that move it or, where none does, of those that were stopped.
@@ -321,7 +319,7 @@ void MeshMotion::restore(const MotionState &was, const Step &now)
     host_.warn(named("the " + saved + " was written with the motion '" + its + "' and " +
                      host_.names().wall + " has " +
                      (motion.moves() ? "'" + own + "', which begins" : "none: the mesh stays") +
-                     " where the mesh was; the phase is not carried over"));
+                     " where the mesh was; the phase is lost"));
   }
   if (!same_line)
     host_.warn(named("the " + saved + " was written with a servo along another line, or " +

@@ -103,13 +103,13 @@ void MeshNodes::check_way(const Step &step, Real cutoff, Real most, const std::v
   if (!std::isfinite(most) && !std::isfinite(norm(to[node])))
     throw InputError(
         named("node " + std::to_string(node) +
-              " (from 0) is at no finite place: the motion of the nodes is unstable, or "
-              "one is lost"));
+              " (from 0) has a position that is not finite: the motion of the nodes is unstable, "
+              "or a node was lost; use a shorter timestep or more damping"));
   if (is_too_far)
-    throw InputError(named("node " + std::to_string(node) + " (from 0) has gone " +
+    throw InputError(named("node " + std::to_string(node) + " (from 0) has moved by " +
                            number_text(most) + " in step " + std::to_string(step.number) +
                            ", more than the largest radius " + number_text(cutoff) +
-                           ": it may have gone through a sphere; make the timestep shorter"));
+                           ": it may have passed through a sphere; use a shorter timestep"));
 }
 
 void MeshNodes::check_velocities(const std::vector<Vec3> &v) const

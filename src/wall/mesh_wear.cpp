@@ -64,8 +64,8 @@ MeshWear::MeshWear(Host &host, const WallSpec &wall, int index, const MeshReport
 {
   if (report.misoriented_edges > 0 || report.two_sided_faces > 0)
     throw InputError(named(
-        "wear cannot move this mesh, as neighbouring triangles are wound in opposite ways, so "
-        "that its vertices have no side to go to: wind them alike, as lsdcd repair does"));
+        "wear cannot move this mesh, because neighbouring triangles are wound in opposite ways, so "
+        "that its vertices have no side to move to: wind them alike, for example by lsdcd repair"));
   run_collectively(host_, host_.is_first(), [&] {
     held_.assign(report.vertices, 0);
     for (const auto &face : mesh->faces) first_size_.push_back(norm(normal_of(*mesh, face)));
@@ -109,10 +109,11 @@ void MeshWear::hold(int vertex, int face, const WeldedMesh &mesh, std::int64_t s
   held_[vertex] = 1;
   if (is_reported_) return;
   is_reported_ = true;
-  report_ = "wear has come so far at step " + std::to_string(step) + " that facet " +
-            std::to_string(mesh.face_facet[face] + 1) +
-            " would fold over or cut another: its corners stay from now on, and so do others that "
-            "come so far, which is not said again. What wears off there is counted as held back";
+  report_ =
+      "wear has come so far at step " + std::to_string(step) + " that facet " +
+      std::to_string(mesh.face_facet[face] + 1) +
+      " would fold over or cut another: its corners stay from now on. The same will hold for other "
+      "facets, without another message. The volume that wears off there is counted as held back";
 }
 
 // A vertex goes along the sum of the areas around it, away from the spheres, by its volume over a third of that sum. To

@@ -19,8 +19,8 @@ std::string sunk_remedy(Real overlap, Real timestep_ratio)
 {
   if (timestep_ratio > 1)
     return "the timestep is " + number_text(timestep_ratio) +
-           " times the longest that resolves a contact: shorten it first. "
-           "A stiffer contact needs a shorter one still";
+           " times the longest that resolves a contact: use a shorter one first. A stiffer contact "
+           "would need an even shorter one";
   return overlap > 1 ? kWrongSide
                      : "the contact is too soft for this load or speed: use a stiffer contact (a "
                        "larger kn), which needs a shorter timestep, or lower the speeds";
@@ -65,7 +65,7 @@ void OverlapMonitor::check_sunk(Real worst, Real timestep_ratio, const SpheresOn
   const std::string overlap = overlap_text(most, which[0], spheres);
   host_.warn(host_.names().sphere + (" " + std::to_string(which[0])) + " sank into the wall by " +
              overlap + " by step " + std::to_string(which[1]) + ": " +
-             sunk_remedy(most, timestep_ratio) + "; shown once");
+             sunk_remedy(most, timestep_ratio) + "; this warning is shown once");
 }
 
 // New spheres have tags above the highest tag that there was.
@@ -91,10 +91,10 @@ void OverlapMonitor::check_new(const StepDiagnostics &seen, const SpheresOnCpu &
   host_.broadcast(&tag, sizeof tag, lowest_rank(host_, mine == most));
   const std::string overlap = overlap_text(most, tag, spheres);
   host_.warn(host_.names().sphere + (" " + std::to_string(tag)) +
-             " comes to be in the wall, which it overlaps by " + overlap + " in step " +
+             " appeared inside the wall, which it overlaps by " + overlap + " in step " +
              std::to_string(step) + ": " +
              (most > 1 ? kWrongSide : "it will be thrown out; " + host_.remedy(Remedy::put_clear)) +
-             ". A deeper one is reported again");
+             ". This warning comes again for a larger overlap");
 }
 
 }    // namespace lsdcd

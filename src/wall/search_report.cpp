@@ -66,8 +66,8 @@ void SearchReport::log_uncertified(int nearest, bool brief)
                   " answers were not certified exact";
   if (sum > 0)
     t += "; contacts overlapping by up to " + number_text(100 * worst) +
-         " % of a radius may have been missed (nearest all certifies all). Told "
-         "again when they are ten times as many or could be twice as deep";
+         " % of a radius may have been missed (nearest all misses none). This warning comes again "
+         "if they are ten times as many or could be twice as deep";
   host_.log(t);
 }
 

@@ -46,15 +46,16 @@ void ServoController::advance(const ServoLoad &load, const Pose &placed, Real dt
         wall_, mesh_,
         "a servo's gain of " + number_text(s.max_gain) + " would not be stable with " +
             number_text(load.contacts) + " contacts at the timestep " + number_text(dt) + ": " +
-            number_text(gain) + " is used in its place, and less with more of them; shown once"));
+            number_text(gain) +
+            " is used instead, and a smaller one with more contacts; this warning is shown once"));
   }
   if (!s.advance(pushes, gain, dt) || limit_warned_) return;
   limit_warned_ = true;
   host_.log(with_mesh_name(wall_, mesh_,
                            "the servo is at its limit " + number_text(s.position) + " at step " +
                                std::to_string(step) + ", where it pushes with " +
-                               number_text(pushes) + " in place of " + number_text(s.target) +
-                               "; said once"));
+                               number_text(pushes) + " instead of " + number_text(s.target) +
+                               "; this message is shown once"));
 }
 
 }    // namespace lsdcd

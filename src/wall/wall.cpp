@@ -93,9 +93,8 @@ Wall::Wall(Host &host, WallSpec spec, const WallUnits &units, WallBackend backen
     check_surface(host_, spec_, m);
   }
   if (meshes_.size() > 1 && spec_.corner == Corner::sum)
-    host_.warn(
-        "with corner sum a sphere over a seam where two meshes meet is pushed by both: use corner "
-        "blend, or one mesh of all triangles");
+    host_.warn("with corner sum both meshes push a sphere over a seam where they meet: use corner "
+               "blend, or one mesh of all triangles");
 }
 
 void Wall::make_body(MeshPart &m, Real force)
@@ -269,10 +268,10 @@ void Wall::begin_snapshot(int n, const Step &step)
   snapshot_warned_ = true;
   const std::string a_replay = std::string("a ") + host_.names().replay;
   if (history_.is_on())
-    host_.warn(a_replay + " does not know the springs of contacts, which no " +
+    host_.warn(a_replay + " does not know the springs of contacts, because no " +
                host_.names().record +
-               " has: friction, rolling, twisting and adhesion past touch begin at 0 in each "
-               "snapshot");
+               " contains them: friction, rolling, twisting and adhesion past touch begin at 0 in "
+               "each snapshot");
   if (spec_.has_loads())
     host_.warn(a_replay +
                " has no steps over which loads and wear add up: no wear is counted and no "
@@ -524,8 +523,8 @@ void Wall::recede(const Step &step)
     if (!m.wear || !m.wear->is_due(step)) continue;
     if (cutoff() > 0 && m.grid.has_images())
       throw InputError(
-          named(m, "wear cannot move a mesh that has periodic images, whose ends would come "
-                   "apart: keep it off periodic faces by the largest radius"));
+          named(m, "wear cannot move a mesh that has periodic images, because its ends would come "
+                   "apart: keep it away from periodic faces by the largest radius"));
     std::vector<Vec3> at;
     if (!m.wear->recede(m.grid.mesh(), step.number, at)) continue;
     m.move_vertices(at);
@@ -765,7 +764,9 @@ void Wall::check_may_move(const MeshPart &m) const
 void Wall::check_is_body(int mesh) const
 {
   const MeshPart &m = meshes_[mesh];
-  if (!m.body) throw InputError(named(m, "the mesh is no body, and cannot become one later"));
+  if (!m.body)
+    throw InputError(named(m, "the mesh is not a body, and cannot become one later: make it a body "
+                              "when the wall is made"));
 }
 
 void Wall::set_body(int mesh, const BodySpec &to)
@@ -870,12 +871,12 @@ void Wall::restore(const WallState &was, const Step &now)
     if (is_restored(m, was.meshes[k], one_of_many))
       restore_mesh(m, was.meshes[k], now);
     else
-      host_.warn(named(m, "springs, motion, loads and wear begin anew: the " + saved +
+      host_.warn(named(m, "springs, motion, loads and wear start from zero: the " + saved +
                               " was written with another mesh in this place"));
   }
   if (!was.unread.empty())
     host_.warn("the " + saved + " has " + was.unread +
-               ", which this version does not know: it is not carried over");
+               ", which this version does not know and ignores");
   if (there == here) return;
   const auto meshes = [](std::size_t n) {
     return std::to_string(n) + (n == 1 ? " mesh" : " meshes");
@@ -885,7 +886,7 @@ void Wall::restore(const WallState &was, const Step &now)
              (there > here ? "springs, motion, loads and wear of those after mesh " +
                                  std::to_string(here) + " are not carried over"
                            : "those after mesh " + std::to_string(there) +
-                                 " begin anew, without springs, motion, loads and wear"));
+                                 " start without springs, motion, loads and wear"));
 }
 
 // `one_of_many`: springs tell which mesh they are of by its number alone.
@@ -926,10 +927,9 @@ void Wall::restore_shape(MeshPart &m, const ShapeState &was)
 {
   if (was.vertices.empty() || m.springs_are_foreign) return;
   if (!m.wear) {
-    host_.warn(
-        named(m, "the " + std::string(host_.names().saved) +
-                     " has a shape of this mesh that wear has moved, and this wall's wear moves "
-                     "nothing (deform): the mesh is that of its file"));
+    host_.warn(named(m, "the " + std::string(host_.names().saved) +
+                            " has a worn shape of this mesh, and the wear of this wall moves no "
+                            "mesh (deform): the mesh has the shape of its file"));
     return;
   }
   std::vector<Vec3> at;

@@ -55,9 +55,10 @@ bool WallFiles::try_to_write(const std::string &lost, const std::function<void()
     return true;
   } catch (const InputError &e) {
     if (!warned_)
-      host_.warn(std::string(e.what()) + ": " + lost +
-                 "; older files are as they were. Make room, or mend the path: the run goes on, "
-                 "tries again with the next file and tells of no other that cannot be written");
+      host_.warn(
+          std::string(e.what()) + ": " + lost +
+          "; older files are unchanged. Free disk space, or correct the path: the run goes on and "
+          "tries again with the next file. Other files that cannot be written are not reported");
     warned_ = true;
     return false;
   }

@@ -66,15 +66,13 @@ void check_body(const WallSpec &wall, std::size_t k)
   check_inputs(wall, k, "the load of its body", body.load_input, std::size(body.load_input));
   check_inputs(wall, k, "the moment of its body", body.moment_input, std::size(body.moment_input));
   if (body.present && body.coat.present && wall.meshes.size() == 1)
-    throw InputError(mesh_text(wall, k) +
-                     ": its body has a coat, which feels other meshes, and the wall has none: "
-                     "leave the coat out");
+    throw InputError(mesh_text(wall, k) + ": its body has a coat, which feels other meshes, and "
+                                          "the wall has no other mesh: leave the coat out");
   if (body.present && body.coat.present &&
       std::any_of(wall.meshes.begin(), wall.meshes.end(),
                   [](const MeshSpec &m) { return m.has_nodes; }))
-    throw InputError(mesh_text(wall, k) +
-                     ": its body has a coat, which does not feel meshes whose nodes move so far: "
-                     "leave the coat out, or the nodes");
+    throw InputError(mesh_text(wall, k) + ": its body has a coat, which cannot feel meshes whose "
+                                          "nodes move: leave out the coat, or the nodes");
   try {
     check_body(body);
   } catch (const InputError &e) {
@@ -98,9 +96,9 @@ void check_nodes(const WallSpec &wall, std::size_t k)
     return;
   }
   if (mesh.motion.any() || mesh.body.present)
-    refuse("a motion, servo, pose or body", "its nodes alone move it, leave the other out");
+    refuse("a motion, servo, pose or body", "its nodes alone move it; leave the other out");
   if (!mesh.cache_file.empty())
-    refuse("a cache file", "its grid is made anew as they move, leave the file out");
+    refuse("a cache file", "its grid is made again as they move; leave the file out");
   if (wall.precision != Precision::double_)
     refuse("precision mixed or single", "use precision double");
   if (wall.nearest > 0) refuse("lists of the nearest primitives", "leave nearest out");
@@ -116,9 +114,9 @@ void check_wear_shape(const WallSpec &wall, std::size_t k)
         ": leave that or deform out, or give the mesh wear_factor 0, by which it does not wear");
   };
   if (wall.wear_shape.every > 0 && !wall.wears())
-    throw InputError("wear shall move the meshes, but nothing wears: give a wear model");
+    throw InputError("wear should move the meshes, but nothing wears: give a wear model");
   if (!wall.recedes(mesh)) return;
-  if (mesh.has_nodes) refuse("its nodes are moved by others");
+  if (mesh.has_nodes) refuse("others move its nodes");
   if (mesh.body.present) refuse("it is a rigid body, whose mass and centre are those of its shape");
 }
 

@@ -321,13 +321,13 @@ def coats(checks, folder):
     # The load bears its weight of 6.2784 twice; the motor adds 1: acceleration g + 1.
     speed = -g * 0.1 + (g + 1) * 0.1
     checks.at_most("fix_modify body: the new load and motor act", abs(rows[-1][SPEED + 2] - speed), 1e-4)
-    for words, says in (("density 3", "no word of a body that can change"), ("spring 1 1", "hinge or slider"),
-                        ("", "what is to change is missing")):
+    for words, says in (("density 3", "is not a word of a body, or cannot change"), ("spring 1 1", "hinge or slider"),
+                        ("", "nothing is given to change")):
         done = lmp.run(text + f"fix_modify w mesh 2 body {words}\n", folder)
         checks.fact(f"refused: fix_modify body {words}", done.returncode != 0 and says in done.stdout.replace("\n", " "),
                     " ".join(line for line in done.stdout.split("\n") if "ERROR" in line)[:200])
     done = lmp.run(text + "fix_modify w mesh 1 body load 0 0 1\n", folder)
-    checks.fact("refused: fix_modify body of a mesh that is none", done.returncode != 0 and "is no body" in done.stdout)
+    checks.fact("refused: fix_modify body of a mesh that is none", done.returncode != 0 and "is not a body" in done.stdout)
 
 
 def weak_points(checks, folder):
@@ -480,7 +480,7 @@ def changes(checks, folder):
             "the coat of the body comes to the periodic face in y", "leave the coat out, make the boundary fixed")
     corners = "".join(f"create_atoms 1 single {x} {y} -1 units box\n" for x in (-1, 1) for y in (-0.41, 0.41))
     coat = script(fix + "coat 0.1 0.075 mesh floor.stl nodes all", corners + "set group all diameter 0.01 density 1\n", 1e-3)
-    refused("a coat beside nodes", coat, "its body has a coat, which does not feel meshes whose nodes move")
+    refused("a coat beside nodes", coat, "its body has a coat, which cannot feel meshes whose nodes move")
 
 
 def main():

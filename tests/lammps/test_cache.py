@@ -88,7 +88,7 @@ def main():
             checks.fact(f"{where}, {name}: replaced", cache.read_bytes()[64:] == good[64:] or
                         go(folder, "cache cache", ranks).read == 1)
 
-        for words, told in (("grid 0.3", "of other settings"), ("move 0 0 1e-9", "of another mesh")):
+        for words, told in (("grid 0.3", "belongs to other settings"), ("move 0 0 1e-9", "belongs to another mesh")):
             run = go(folder, f"{words} cache cache", ranks)
             same(f"{where}, {words}", run, go(folder, words, ranks), written=1, warnings=1)
             checks.fact(f"{where}, {words}: told", told in run.warnings[0], run.warnings[0])

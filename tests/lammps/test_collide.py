@@ -240,10 +240,10 @@ def check_restart(checks, folder):
 compute         c cubes lsdcd/collide wall mesh cube.stl bodies molecule grid 0.4 atoms atoms.txt
 """ + THERMO.format(more="c_c[1][2] c_c[2][2] c_c[3][2]")
     first = begin("p p f") + after + "run 100\nwrite_restart half.restart\nundump atoms\n"
-    told = "is taken to be where the body of molecule 1 is now, in step 0"
+    told = "assumes that the mesh is where the body of molecule 1 is now, in step 0"
     checks.fact("bodies whose atoms are in a file: now does not matter", told not in lmp.run_well(first, folder))
     here = lmp.run_well(first.replace(" atoms atoms.txt", ""), folder)
-    checks.fact("without it the log says what is taken to be now", here.count(told) == 1)
+    checks.fact("without it the log says what it assumes", here.count(told) == 1)
     rows = compare(checks, "bodies whose atoms are in a file", folder, first,
                    lambda t: (np.array([0, 0, 1.0]), np.zeros(3)), 1, 3)
     again = SETTINGS.replace("atom_style      sphere\n", "") + """read_restart half.restart

@@ -163,7 +163,7 @@ def full_disk(checks, folder):
     done = lmp.run(text(scene.CREATE, "run 300\n", to="full/", mesh="floor.stl"), folder)
     lmp.LMP = usual
     told = warned(done.stdout)
-    words = ("full/now.stl", "No space left", "no mesh_stl of this step", "Make room")
+    words = ("full/now.stl", "No space left", "no mesh_stl of this step", "Free disk space")
     checks.fact("a full disk: one warning with file, reason, loss and remedy",
                 len(told) == 1 and all(w in told[0] for w in words), str(told))
     kept = folder / "kept"

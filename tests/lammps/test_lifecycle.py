@@ -246,7 +246,7 @@ def inserted_atoms_are_checked(checks, folder):
     """A sphere of radius 0.5 put at z = 0.3 over the plane z = 0 overlaps by 40 %."""
     body = (head() + FORCES + "fix move all nve/sphere\n" +
             f"fix wall all wall/lsdcd {HOOKE} mesh floor.stl\n")
-    said = re.compile(r"atom (\d+) comes to be in the wall, which it overlaps by (\S+) % of its radius 0.5 in step (\d+)")
+    said = re.compile(r"atom (\d+) appeared inside the wall, which it overlaps by (\S+) % of its radius 0.5 in step (\d+)")
 
     def put(z, x=0):
         return f"create_atoms 1 single {x} 0 {z} units box\nset group all diameter 1.0 density 2.0\n"

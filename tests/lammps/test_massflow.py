@@ -356,7 +356,7 @@ def check_warnings(checks, folder):
                 "wound in opposite ways" not in plain and "both windings" not in plain and "longer than" not in plain)
     if not lmp.ON_KOKKOS:    # the hosts with Kokkos have no package RIGID
         rigid = forces("delete yes").replace("all nve", "all rigid single")
-        checks.fact("rigid bodies and delete", "delete yes does not tell fix move" in
+        checks.fact("rigid bodies and delete", "delete yes removes atoms without telling fix move, whose rigid bodies" in
                     lmp.run_well(begin() + rigid + "run 0\n", folder))
     checks.fact("a facet wound the other way", "edges of the mesh join facets that are wound" in turned)
     checks.fact("a facet in both windings", "facets of the mesh are there in both windings: forward" in both, both[-300:])

@@ -87,8 +87,8 @@ def main():
     deep = "set group all z 0.3\n"
     text = lmp.run_well(BOX + deep + fix(name="base") + "run 1\nminimize 0 0 1 1\n", folder)
     checks.fact("a warning names the fix and the atom",
-                lines(text, "WARNING: Fix base wall/lsdcd: atom 2 comes to be"))
-    checks.fact("that of a minimization too", lines(text, "Fix base wall/lsdcd: no effect"))
+                lines(text, "WARNING: Fix base wall/lsdcd: atom 2 appeared"))
+    checks.fact("that of a minimization too", lines(text, "Fix base wall/lsdcd: the wall has no effect"))
     done = lmp.run(BOX + fix(name="base", more="sclae 2") + "run 1\n", folder)
     checks.fact("an error names the fix", "Fix base wall/lsdcd: 'sclae'" in done.stdout)
     grow = ("variable d equal 1.0+0.4*(step>2)\nfix grow all adapt 1 atom diameter v_d\n"
@@ -147,7 +147,7 @@ def main():
     fast = BOX + "set group all z 0.6\nvelocity all set 0 0 -3\ntimestep 0.1\n" + fix() + "thermo_modify lost ignore\nrun 3\n"
     text = lmp.run_well(fast, folder)
     checks.fact("a sphere that sank in a step too long is told to shorten it",
-                lines(text, "sank into the wall", "shorten it first") and not lines(text, "stiffer contact (a larger kn)"), text[-900:])
+                lines(text, "sank into the wall", "use a shorter one first") and not lines(text, "stiffer contact (a larger kn)"), text[-900:])
 
     # Walls that act on nothing.
     text = lmp.run_well(BOX + "unfix move\nset group all diameter 0\n" + fix() + "run 0\nrun 0\n", folder)

@@ -223,7 +223,7 @@ def refused(checks, folder):
         done = lmp.run(head + text + "run 1\n", folder)
         checks.fact(name, done.returncode != 0 and says in " ".join(done.stdout.split()))
     wall = "fix w {group} wall/lsdcd hooke 2e4 0 0 0 0 0 mesh sheet.stl nodes {nodes} {more}\n"
-    fails("nodes in the group of the fix", wall.format(group="all", nodes="nodes", more=""), "and in the group of the fix, too")
+    fails("nodes in the group of the fix", wall.format(group="all", nodes="nodes", more=""), "and also in the group of the fix")
     fails("a group that is not there", wall.format(group="grains", nodes="noes", more=""), "there is no group 'noes'")
     fails("a motion beside nodes", wall.format(group="grains", nodes="nodes", more="motion linear 0 0 1"), "its nodes alone move it")
     fails("pressure without nodes", wall.format(group="grains", nodes="nodes", more="").replace("nodes nodes", "pressure 1"),

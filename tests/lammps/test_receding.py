@@ -101,7 +101,7 @@ def grains(checks, folder):
     text = lmp.run_well(scene.SETTINGS + "read_restart half.restart\n" +
                         scene.forces("hooke/history 1e4 NULL 120 NULL 0.4 1", mesh="mesh floor.stl wear archard 2e-3 50") +
                         "run 1\n", folder)
-    checks.fact("a wall without deform says that it leaves the shape", "the mesh is that of its file" in " ".join(text.split()))
+    checks.fact("a wall without deform says that it leaves the shape", "the mesh has the shape of its file" in " ".join(text.split()))
 
 
 # ---- worn through ------------------------------------------------------------------------------

@@ -95,9 +95,9 @@ def refused(checks, folder):
     lmp.run_well(dumped(""), folder)
     lines = "variable dz equal -0.01*step*dt\n"
     for name, script_text, told in (
-            ("a servo", text("servo force z -10 vmax 0.1"), "in a rerun a servo is not where it was"),
+            ("a servo", text("servo force z -10 vmax 0.1"), "in a rerun the position of a servo is not known"),
             ("velocities that are differences", lines + text("motion variable NULL NULL v_dz NULL NULL NULL"),
-             "in a rerun there is no step over which the velocity"),
+             "in a rerun there is no step before, from which motion variable"),
             ("a motion that begins later", text(MOVES).replace("fix w ", "reset_timestep 40\nfix w "),
              "the snapshot of step 0 is before step 40"),
             ("massflow", text("") + "fix m all massflow/lsdcd mesh floor.stl\n",

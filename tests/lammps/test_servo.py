@@ -207,7 +207,7 @@ def limits(checks, folder):
     # 0.005 shared by two contacts of 1e4.
     checks.at_most("where it pushes with k overlap/2", abs(stop[PUSH] / -25 - 1), 1e-3)
     checks.fact("the log says so once a servo", len(told) == 2 and "-0.055" in told[0] and
-                "in place of -50" in told[0] and "limit 0 at" in told[1], str(told))
+                "instead of -50" in told[0] and "limit 0 at" in told[1], str(told))
     checks.fact("and it comes back with another target, to the other limit", rows[-1][PLACE] == 0)
     checks.fact("never past them", all(-0.055 <= row[PLACE] <= 0 for row in rows))
 
@@ -287,7 +287,7 @@ def restart(checks, folder):
                 lmp.read_thermo(log)[-1][1] < -0.1, str(lmp.read_thermo(log)))
     done = go_on("servo force z -10 vmax 0.1 limits -0.01 0", start=lmp.run)
     checks.fact("narrower limits are refused", done.returncode != 0 and
-                "outside of the limits -0.01 0" in done.stdout.replace("\n", " "), done.stdout[-300:])
+                "outside the limits -0.01 0" in done.stdout.replace("\n", " "), done.stdout[-300:])
     # Where it was stopped it is still, until it is told to go on; also one that a motion then took along.
     at = "print 'at $(f_wall[12]:%.17g)'\n"
 
@@ -365,10 +365,10 @@ def refused(checks, folder):
               None, "reaches the periodic face in z at step 0"),
              ("two of one word", wall(HOOKE, "servo force z 1 vmax 1 vmax 2"), "vmax is given twice"),
              ("through of a force", wall(HOOKE, "servo force z through 0 0 0 1 vmax 1"), "through is for servo torque only"),
-             ("too many numbers", wall(HOOKE, "servo force z 1 2 vmax 1"), "'2' is one too many"),
+             ("too many numbers", wall(HOOKE, "servo force z 1 2 vmax 1"), "'2' is one more than expected"),
              ("words of LIGGGHTS", wall(HOOKE, "vel_max 1"), "the words are servo force|torque"),
              ("limits behind it", good + "run 50\nfix_modify wall servo force z 1 vmax 1 limits -1e-6 0\n",
-              "outside of the limits"),
+              "outside the limits"),
              ("fix_modify without a word", good + "fix_modify wall servo\n", "its value is missing"),
              ("another line beside a motion",
               wall(HOOKE, "motion linear 1 0 0 servo force z 1 vmax 1") +

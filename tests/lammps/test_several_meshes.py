@@ -78,7 +78,7 @@ def check_seam(checks, folder):
         checks.at_most(f"seam: corner sum of {name}, {times} times the force",
                        abs(dump[0][1][11] / (times * 1e4 * 0.001) - 1), 1e-8)
         checks.fact(f"seam: corner sum of {name}, warned of {times - 1} times",
-                    text.count("with corner sum a sphere over a seam") == times - 1)
+                    text.count("with corner sum both meshes push a sphere over a seam") == times - 1)
     text = go(folder, f"fix wall all wall/lsdcd {SMOOTH} {HALVES}", "b", 0, **beside)[1]
     checks.fact("seam: corner blend is not warned of", "with corner sum" not in text)
     # k (R - h), with R and h of order 1 and their difference 1e-3: 1e-13 of the force.

@@ -174,14 +174,14 @@ def check_restart(checks, folder):
                 "springs, motion, loads and wear of those after mesh 5 are not carried over" in text)
     text = proceed(folder, walls + " mesh zlo.stl move 0 0 -0.5", "half.restart", "c", 10)[1]
     checks.fact("restart: so are more", "written with 6 meshes and this fix has 7: those after mesh "
-                "6 begin anew" in text)
+                "6 start without springs" in text)
     write_plate(folder / "fine.stl", 1, SIDE, cells=2)
     text = proceed(folder, walls.replace("yhi.stl", "fine.stl"), "half.restart", "c", 10)[1]
     checks.fact("restart: another mesh is named", "mesh 4 'fine.stl': springs, motion, loads and wear "
-                "begin anew" in text)
+                "start from zero" in text)
     text = proceed(folder, walls.replace("yhi.stl", "yhi.stl move 0 1e-3 0"), "half.restart", "c", 10)[1]
     checks.fact("restart: another one with as many triangles, too", "mesh 4 'yhi.stl': springs, motion, loads "
-                "and wear begin anew" in text)
+                "and wear start from zero" in text)
 
 
 def check_ranks(checks, folder):

@@ -379,7 +379,7 @@ TEST_F(WrongBody, poses_that_are_no_rigid_motion)
   const double stretched[12] = {2, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0},
                mirrored[12] = {-1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
   c.matrix = stretched;
-  refused(LSDCD_ERROR_INPUT, "no rotation");
+  refused(LSDCD_ERROR_INPUT, "not a rotation");
   c.matrix = mirrored;
   refused(LSDCD_ERROR_INPUT, "mirrors");
   const double nearly[12] = {1 + 2e-6, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};

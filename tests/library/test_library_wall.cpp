@@ -308,7 +308,7 @@ TEST_F(wall, refuses_a_place_that_is_no_number_in_each_step)
   for (int i = 0; i < 3; i++) grains.add(i, 0, 0.49);
   grains.step(wall, 2);
   grains.x[3] = std::nan("");
-  EXPECT_EQ(text_of([&] { grains.step(wall); }).rfind("x[1] is nan 0 0.49, which is no place", 0),
+  EXPECT_EQ(text_of([&] { grains.step(wall); }).rfind("x[1] is nan 0 0.49, which is not finite", 0),
             0u);
 }
 

@@ -376,9 +376,9 @@ TEST_F(wall_gpu, tells_of_nodes_in_arrays_of_the_device_in_the_next_step)
     wall.set_nodes(0, at.put(to), speed.put(fast));
     return text_of([&] { on_gpu.step(wall, rain, step_of()); });
   };
-  EXPECT_TRUE(has(error(4, NAN, 0), "is at no finite place"));
+  EXPECT_TRUE(has(error(4, NAN, 0), "has a position that is not finite"));
   EXPECT_TRUE(has(error(4, 0, NAN), "the velocity of node"));
-  EXPECT_TRUE(has(error(4, 3, 0), "has gone 3 in step"));
+  EXPECT_TRUE(has(error(4, 3, 0), "has moved by 3 in step"));
   EXPECT_TRUE(same_bytes(wall.nodes(0), rest));
   on_gpu.step(wall, rain, step_of());
   EXPECT_TRUE(same_bytes(rain.force, force));

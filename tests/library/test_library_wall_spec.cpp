@@ -914,7 +914,7 @@ TEST_F(wall_spec, names_the_field_its_value_and_the_remedy)
          with_granular(w).normal = {"jkr", {1000, 0.5, 0.3, 1}};
          w.granular.limit_damping = 1;
        },
-       "`law.limit_damping` is 1: an adhesive sub-model, 'jkr', has to pull"},
+       "`law.limit_damping` is 1: the adhesive sub-model 'jkr' must be able to pull"},
       {[&](Wrong &w) { w.meshes[1].law = &w.granular; },
        "`meshes[1].law` is hertz, damping viscoelastic, tangential linear_history: the "
        "wall's law has hooke/history, and only numbers may differ"},
@@ -924,8 +924,7 @@ TEST_F(wall_spec, names_the_field_its_value_and_the_remedy)
       {[&](Wrong &w) { w.meshes[1].size = 16; }, "`meshes[1]`: size is 16, and should be sizeof("},
       {[&](Wrong &w) { w.meshes[1].mesh = nullptr; }, "`meshes[1].mesh` is null: give a mesh"},
       {[&](Wrong &w) { w.meshes[1].placement[11] = 0; },
-       "`meshes[1].mesh` is that of meshes[0] at the same place: every contact would be felt "
-       "twice"},
+       "`meshes[1].mesh` is that of meshes[0] at the same place: every contact would count twice"},
       {[&](Wrong &w) { w.meshes[1].placement[3] = HUGE_VAL; },
        "`meshes[1].placement[3]` is inf: give a finite number"},
       {[&](Wrong &w) { w.meshes[1].placement[0] = 0; },

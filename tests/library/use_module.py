@@ -277,7 +277,7 @@ assert lsdcd.Body(body, mesh).collide((0, 0, 0.25)).body.tolist() == upright
 blades = np.array([[[x, 0, -1], [x + .001, 0, -1], [x, 0, 1]] for x in np.linspace(-5, 5, 3000)])
 assert lsdcd.Body(body, lsdcd.Mesh(blades)).collide((0, 0, 0)).body.tolist() == list(range(3000))
 assert refused(lsdcd.Error, "pose", lambda: body.collide()).code == "argument"
-assert refused(lsdcd.Error, "no rotation", lambda: body.collide(matrix=2 * turned[:3])).code == "input"
+assert refused(lsdcd.Error, "not a rotation", lambda: body.collide(matrix=2 * turned[:3])).code == "input"
 assert refused(lsdcd.Error, "same_wall", lambda: lsdcd.Body(body, mesh, cell=1)).code == "argument"
 refused(ValueError, "position has the shape", lambda: body.collide((0, 0)))
 refused(ValueError, "last row", lambda: body.collide(matrix=np.ones((4, 4))))

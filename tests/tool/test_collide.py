@@ -144,7 +144,7 @@ def check_refused(folder):
     refused(folder, [*words, "--pose", 1, 2, 3, 4], "has 4 numbers", "x y z qw qx qy qz", code=2)
     refused(folder, [*words, "--pose", 0, 0, 0, 1, 1, 0, 0], "length 1.41", "unit", code=2)
     refused(folder, [*words, "--pose", 0, 0, "1e20"], "pose 0", "rounding errors")
-    refused(folder, [*words, "--pose", *[2, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0]], "no rotation", code=2)
+    refused(folder, [*words, "--pose", *[2, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0]], "not a rotation", code=2)
     refused(folder, [*words, "--pose", 0, 0, "here"], "--pose", "here", code=2)
     refused(folder, [*words, "--pose", 0, 0, 0, "--poses", "path.txt"], "excludes", code=2)
     refused(folder, [*words, "--device", "tpu"], "--device", code=2)

@@ -253,7 +253,7 @@ def main():
     for name, content, expected in (
             ("short.npy", whole[:-5], ["point 3999 of 4000"]),
             ("flat.npy", None, ["(9,)", "(n, 3)"]), ("short_columns.npy", by_columns[:-5], ["point 3999 of 4000"]),
-            ("many_columns.npy", by_columns.replace(b"(4000, 3)", b"(4" + 18 * b"0" + b", 3)"), ["is not whole"]),
+            ("many_columns.npy", by_columns.replace(b"(4000, 3)", b"(4" + 18 * b"0" + b", 3)"), ["is truncated"]),
             ("complex.npy", None, ["<c16", "float64"]), ("big_endian.npy", None, [">f8", "little-endian"]),
             ("head.npy", whole[:50], ["header"]),
             ("word.csv", b"0,0,0\n1,two,3\n", ["line 2", "'two'", "column 2"]),

@@ -163,7 +163,7 @@ TEST(body_words, are_refused_with_what_is_wrong)
       {"density 1 joint slider 0 0 1 limits 1 -2", "reversed"},
       {"density 1 joint slider 0 0 1 spring -1 1", "stiffness"},
       {"density 1 load 1 2 3 load 1 2 3", "twice"},
-      {"density 1 2", "one too many"},
+      {"density 1 2", "one more than expected"},
       {"density 1 load 1 v_ 3", "name is missing"},
   };
   for (const auto &c : cases)

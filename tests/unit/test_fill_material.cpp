@@ -254,9 +254,9 @@ TEST_F(fill_material_words, with_overrides_that_cannot_be_meant_are_refused)
                    {"'youngs_modulus' of both", "with steel youngs_modulus VALUE"}));
   EXPECT_TRUE(
       says(error_of("granular material FILE glass on steel with steel restitution 1 mesh a"),
-           {"'restitution' is not of steel alone"}));
+           {"'restitution' is not a property of steel alone"}));
   EXPECT_TRUE(says(error_of("granular material FILE glass on steel with steel mesh a"),
-                   {"after 'with steel' comes a property"}));
+                   {"after 'with steel' write a property"}));
 }
 
 TEST_F(fill_material_words, with_a_misspelt_property_name_it_and_the_nearest)
@@ -342,14 +342,15 @@ TEST_F(fill_material_words, that_are_missing_are_asked_for)
   EXPECT_TRUE(says(error_of("granular material"), {"file name", "Syntax: granular"}));
   EXPECT_TRUE(says(error_of("granular material FILE"), {"material's name", "Syntax: granular"}));
   EXPECT_TRUE(says(error_of("granular material FILE glass on"), {"wall's material"}));
-  EXPECT_TRUE(says(error_of("granular material FILE glass on mesh floor.stl"),
-                   {"after 'on' the wall's material is missing", "'mesh' stands in its place"}));
+  EXPECT_TRUE(
+      says(error_of("granular material FILE glass on mesh floor.stl"),
+           {"after 'on' the wall's material is missing", "the word 'mesh' was found instead"}));
   for (const std::string before :
        {"", "glass types 2 ", "glass on ", "glass types 2 steel 3 ", "glass mesh a.stl material "})
     for (const std::string word : {"mesh b.stl", "types 1 glass mesh b.stl", "on steel mesh b.stl"})
       EXPECT_TRUE(
           says(error_of("granular material FILE " + before + word),
-               {"is missing: '" + word.substr(0, word.find(' ')) + "' stands in its place"}))
+               {"is missing: the word '" + word.substr(0, word.find(' ')) + "' was found instead"}))
           << before << word;
 }
 
@@ -362,7 +363,7 @@ TEST_F(fill_material_words, in_another_order_are_told_the_right_one)
                              : words.find("on steel") != words.npos ? "on"
                                                                     : "with";
     EXPECT_TRUE(says(error_of("granular material FILE glass " + words + " mesh a.stl"),
-                     {"'" + late + "' must stand earlier: the order is PARTICLE, types, on, with"}))
+                     {"'" + late + "' must come earlier: the order is PARTICLE, types, on, with"}))
         << words;
   }
 }
@@ -375,7 +376,8 @@ TEST_F(fill_material_words, of_a_law_are_refused)
         "law hooke material FILE steel", "law granular jkr material FILE steel",
         "law types 2 material FILE steel", "law types 2 granular material FILE steel",
         "law types 2 granular jkr material FILE steel"})
-    EXPECT_TRUE(says(error_of(wall + law), {"in 'law' of mesh 'a.stl', numbers stand here"}))
+    EXPECT_TRUE(says(error_of(wall + law),
+                     {"in 'law' of mesh 'a.stl', numbers are expected, not a material"}))
         << law;
 }
 

@@ -442,7 +442,7 @@ TEST(MeshMotion, is_not_known_in_a_snapshot_with_a_servo)
   Wall wall;
   wall.servo_along_z();
   expect_refused(wall, {kFirst + 1, kDt, Step::snapshot},
-                 "in a replay a servo is not where it was");
+                 "in a replay the position of a servo is not known");
 }
 
 TEST(MeshMotion, has_no_differences_in_a_snapshot)
@@ -487,7 +487,7 @@ TEST(MeshMotion, begins_another_motion_after_a_restart_from_where_it_was)
   after.linear({0, 3, 0});
   EXPECT_EQ(where_it_goes_on(before, after), (Vec3{3, 3, 0}));
   ASSERT_EQ(after.host.warnings.size(), 1);
-  EXPECT_NE(after.host.warnings[0].find("the phase is not carried over"), std::string::npos);
+  EXPECT_NE(after.host.warnings[0].find("the phase is lost"), std::string::npos);
 }
 
 TEST(MeshMotion, that_was_stopped_stays_so_after_a_restart)
@@ -563,7 +563,7 @@ TEST(MeshMotion, tells_the_rows_of_a_table_and_its_speed)
   const MeshMotion motion(wall.host, wall.settings, 0, step(0));
   EXPECT_EQ(motion.text({{0, 0, 0}, {1, 1, 1}}),
             "table " + folder.path("arm.txt") +
-                " linear; 4 rows from 0 to 9; corners of its bounds go at up to 8");
+                " linear; 4 rows from 0 to 9; corners of its bounds move at up to 8");
 }
 
 TEST(MeshMotion, tells_how_fast_its_corners_go)
@@ -572,7 +572,7 @@ TEST(MeshMotion, tells_how_fast_its_corners_go)
   wall.linear({3, 4, 0});
   const MeshMotion motion(wall.host, wall.settings, 0, step(0));
   EXPECT_EQ(motion.text({{0, 0, 0}, {1, 1, 1}}),
-            "linear 3 4 0; corners of its bounds go at up to 5");
+            "linear 3 4 0; corners of its bounds move at up to 5");
 }
 
 }    // namespace

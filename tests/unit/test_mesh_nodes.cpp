@@ -818,8 +818,9 @@ TEST(mesh_nodes, that_jump_past_a_sphere_are_an_error)
     scene.next();
     ADD_FAILURE() << "no error";
   } catch (const InputError &e) {
-    EXPECT_NE(std::string(e.what()).find("has gone 1 in step 1, more than the largest radius 0.5"),
-              std::string::npos)
+    EXPECT_NE(
+        std::string(e.what()).find("has moved by 1 in step 1, more than the largest radius 0.5"),
+        std::string::npos)
         << e.what();
   }
 }

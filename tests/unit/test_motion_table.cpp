@@ -421,7 +421,7 @@ TEST(motion_table, refuses_rows_with_their_place_and_a_remedy)
 {
   const Row still = {0, 0, 0, 0};
   expect_error(error_of({{0, 1, 2}}), "row 0", "there are 3 numbers in a row: a row is a time and");
-  expect_error(error_of({{0, 1}, {1, 1}}), "row 0", "say about which axis it is, axis Px Py Pz");
+  expect_error(error_of({{0, 1}, {1, 1}}), "row 0", "give its axis, by axis Px Py Pz");
   expect_error(error_of({still, {1, 0, 0, 0}}, with_axis()), "row 0", "leave the axis out");
   expect_error(error_of({still}), "row 0", "needs two or more");
   expect_error(error_of({still, {1, 0, 0, 0}, {1, 0, 0, 0}}), "row 2",
@@ -471,11 +471,11 @@ TEST(motion_table, reads_a_file_with_comments_and_commas)
 TEST(motion_table, names_the_line_of_a_file_that_is_wrong)
 {
   expect_error(error_of_file("t x y z\n0 0 0 0\n"), "arm.txt' line 1",
-               "'t' is no number; a line of text begins with #");
+               "'t' is not a number; begin a line of text with #");
   expect_error(error_of_file("# t x\n\n0 0 0 0\n1 2 3\n"), "arm.txt' line 4",
                "the row has 3 numbers, and that of line 3 has 4");
   expect_error(error_of_file("0 0 0 0\n# half way\n1 0 0 0\n0.5 0 0 0\n"), "arm.txt' line 4",
-               "the time 0.5 is not after that of the row before, 1: times ascend");
+               "the time 0.5 is not after that of the row before, 1: times must ascend");
   expect_error(error_of_file("# nothing\n"), "arm.txt'", "has no rows");
   try {
     read_motion_table("no/such/table", {});

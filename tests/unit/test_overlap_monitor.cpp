@@ -94,9 +94,10 @@ TEST(OverlapMonitor, tells_once_of_the_sphere_that_sank_deepest_on_all_processes
 {
   const std::vector<std::string> told = warned_of_sunk({0.2, 0.15, 0.25, 0.12});
   ASSERT_EQ(told.size(), 1);
-  EXPECT_EQ(told[0], "sphere 3 sank into the wall by 25 % of its radius 3 by step 7: the contact "
-                     "is too soft for this load or speed: use a stiffer contact (a larger kn), "
-                     "which needs a shorter timestep, or lower the speeds; shown once");
+  EXPECT_EQ(told[0],
+            "sphere 3 sank into the wall by 25 % of its radius 3 by step 7: the contact "
+            "is too soft for this load or speed: use a stiffer contact (a larger kn), "
+            "which needs a shorter timestep, or lower the speeds; this warning is shown once");
 }
 
 TEST(OverlapMonitor, blames_a_timestep_that_is_too_long_before_the_stiffness)
@@ -106,8 +107,8 @@ TEST(OverlapMonitor, blames_a_timestep_that_is_too_long_before_the_stiffness)
   EXPECT_EQ(
       told[0],
       "sphere 3 sank into the wall by 25 % of its radius 3 by step 7: the timestep is 12.5 times "
-      "the longest that resolves a contact: shorten it first. A stiffer contact needs a shorter "
-      "one still; shown once");
+      "the longest that resolves a contact: use a shorter one first. A stiffer contact would need "
+      "an even shorter one; this warning is shown once");
 }
 
 TEST(OverlapMonitor, is_silent_up_to_a_tenth_of_the_radius)
@@ -127,7 +128,7 @@ TEST(OverlapMonitor, tells_of_a_new_sphere_that_was_put_into_the_wall)
   const std::vector<std::string> told = warned_of_new(5, {0.5});
   ASSERT_EQ(told.size(), 1);
   EXPECT_EQ(
-      told[0].find("sphere 5 comes to be in the wall, which it overlaps by 50 % of its radius "
+      told[0].find("sphere 5 appeared inside the wall, which it overlaps by 50 % of its radius "
                    "4 in step 100: it will be thrown out"),
       0);
 }
@@ -181,7 +182,7 @@ TEST(OverlapMonitor, tells_again_of_new_spheres_that_are_a_tenth_deeper)
 {
   const std::vector<std::string> told = warned_of_coming({0.5, 0.54, 0.56}, false);
   ASSERT_EQ(told.size(), 2);
-  EXPECT_EQ(told[1].find("sphere 6 comes to be in the wall, which it overlaps by 56 %"), 0);
+  EXPECT_EQ(told[1].find("sphere 6 appeared inside the wall, which it overlaps by 56 %"), 0);
 }
 
 TEST(OverlapMonitor, takes_the_first_spheres_of_a_run_that_goes_on_for_old_ones)

@@ -106,7 +106,7 @@ TEST(ServoController, warns_once_of_a_gain_that_would_not_be_stable)
   const Moved moved = after(settings, pressed(60, 1), 2);
   ASSERT_EQ(moved.warnings.size(), 1);
   EXPECT_EQ(moved.warnings[0].find("a servo's gain of 1 would not be stable with 1 contacts at the "
-                                   "timestep 0.01: 0.005 is used in its place"),
+                                   "timestep 0.01: 0.005 is used instead"),
             0);
 }
 
@@ -125,8 +125,8 @@ TEST(ServoController, logs_once_that_a_limit_stops_it)
   EXPECT_EQ(moved.position, 1e-4);
   ASSERT_EQ(moved.lines.size(), 1);
   EXPECT_EQ(moved.lines[0],
-            "the servo is at its limit 0.0001 at step 7, where it pushes with 60 in place of 100; "
-            "said once");
+            "the servo is at its limit 0.0001 at step 7, where it pushes with 60 instead of 100; "
+            "this message is shown once");
 }
 
 TEST(ServoController, tells_of_another_servo_again)

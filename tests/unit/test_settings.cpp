@@ -416,7 +416,7 @@ TEST(settings, laws_of_other_sub_models_are_refused)
   EXPECT_TRUE(names(error_with(law + law), "the mesh already has a law for all atom types"));
   for (const char *types : {"0", "3*2", "a", "1.5", "2-3"})
     EXPECT_TRUE(names(error_with("law types " + std::string(types) + " hooke 1 NULL 1 NULL 1 1"),
-                      "no range of atom types"));
+                      "not a range of atom types"));
   EXPECT_TRUE(names(error_with("material steel"), "granular material FILE"));
 }
 
@@ -532,7 +532,7 @@ TEST(settings, wrong_motions_are_refused)
       {"motion", "its value is missing"},
       {"motion slide 1 0 0", "'slide' is not one of its values"},
       {"motion linear 1 0", "the value of Vz is missing"},
-      {"motion linear 1 0 0 4", "one too many"},
+      {"motion linear 1 0 0 4", "one more than expected"},
       {"motion wiggle 1 0 0 -2", "the period = -2 is out of range: it must be above 0"},
       {"motion rotate 0 0 0 0 0 1 0", "the period = 0 is out of range"},
       {"motion rotate 0 0 0 0 0 0 1", "the axis Rx Ry Rz must not be 0 0 0"},
@@ -540,13 +540,13 @@ TEST(settings, wrong_motions_are_refused)
       {"motion linear v_u 0 0", "Use motion variable"},
       {"motion rotate 0 0 0 0 0 1 v_p", "Use motion variable"},
       {"motion variable v_a v_b v_c NULL NULL", "the variable v_vz is missing"},
-      {"motion variable v_a 1 NULL NULL NULL NULL", "in the place of v_dy a variable"},
-      {"motion variable NULL NULL NULL NULL NULL NULL", "nothing moves"},
+      {"motion variable v_a 1 NULL NULL NULL NULL", "v_dy must be a variable, v_NAME, or NULL"},
+      {"motion variable NULL NULL NULL NULL NULL NULL", "nothing would move"},
       {"motion rotate 0 0 0 0 0 1 variable v_a", "the variable v_speed is missing"},
-      {"motion rotate 0 0 0 0 0 1 variable NULL NULL", "nothing moves"},
+      {"motion rotate 0 0 0 0 0 1 variable NULL NULL", "nothing would move"},
       {"motion riggle 0 0 0 0 0 1 5", "the value of the period is missing"},
       {"motion table", "the file name is missing after table"},
-      {"motion table a.txt linear cubic", "'cubic' is given twice, or beside one"},
+      {"motion table a.txt linear cubic", "'cubic' is given twice, or together with"},
       {"motion table a.txt axis 0 0 0 0 0 0", "the axis Rx Ry Rz must not be 0 0 0"},
       {"motion variable v_ NULL NULL NULL NULL NULL", "name is missing after v_"},
       {"wiggle w 1 1", "'w' is not one of its values"},
@@ -800,7 +800,7 @@ TEST(settings, granular_errors_name_the_word_and_show_the_syntax)
       {"hertz 1e5 3" + kSlip + " temperature 1", "no sub-model heat uses it"},
       {"hertz 1e5 3" + kSlip + " heat area 1 temperature v_", "the variable's name is missing"},
       {"hertz 1e5 3" + kSlip + " heat area 1 temperature hot", "T must be a number, not 'hot'"},
-      {"dmt 1e5 3 0.3 2 limit_damping" + kSlip, "has to pull"},
+      {"dmt 1e5 3 0.3 2 limit_damping" + kSlip, "must be able to pull"},
       {"hertz 1e5 3" + kSlip + " roling sds 1 2 3", "the nearest is 'rolling'"},
   };
   for (const auto &[tokens, told] : cases)

@@ -120,7 +120,7 @@ TEST(wall_spec, a_body_that_there_cannot_be_is_refused)
     void (*spoil)(BodySpec &);
     const char *text;
   } cases[] = {
-      {[](BodySpec &b) { b.density = -1; }, "the density is -1, not a number from 0 on"},
+      {[](BodySpec &b) { b.density = -1; }, "the density is -1, not a number of 0 or more"},
       {[](BodySpec &b) { b.density = 0; }, "a mass of 0 is not above 0"},
       {[](BodySpec &b) {
          b.density = 0, b.mass = {1, {0, 0, 0}, {1, 1, 3, 0, 0, 0}};
@@ -141,7 +141,7 @@ TEST(wall_spec, a_body_that_there_cannot_be_is_refused)
        "limits works only with"},
       {[](BodySpec &b) { b.joint.kind = JointKind::planar, b.motor_input = 0; },
        "motor works only with"},
-      {[](BodySpec &b) { b.drive.damping = -1; }, "the damping is -1, not a number from 0 on"},
+      {[](BodySpec &b) { b.drive.damping = -1; }, "the damping is -1, not a number of 0 or more"},
       {[](BodySpec &b) { b.drive.lo = 1, b.drive.hi = 0; }, "the limits 1 0 are reversed"},
       {[](BodySpec &b) { b.drive.lo = 1, b.drive.hi = 2; }, "the limits 1 2 do not contain 0"},
       {[](BodySpec &b) { b.load.y = NAN; }, "the load is 0 nan 0, which is not finite"},

@@ -392,7 +392,7 @@ TEST(winding_number, is_refused_where_each_facet_is_there_in_both_windings)
     EXPECT_FALSE(has_inside(mesh));
     EXPECT_EQ(why_no_inside(mesh), "each of its facets is there in both windings, as in a "
                                    "double-sided export, so that it encloses nothing: lsdcd repair "
-                                   "keeps one of each two");
+                                   "keeps one of each pair");
   }
 }
 

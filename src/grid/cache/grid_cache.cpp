@@ -96,9 +96,9 @@ void CachedGrid::open_and_check(const std::string &path, const GridKey &wanted)
   take(key);
   if (front.format != kFormat || !(key.version == wanted.version))
     return refuse(CacheState::other_version, "was written by another version of LSDCD");
-  if (!(key.mesh == wanted.mesh)) return refuse(CacheState::other_mesh, "is of another mesh");
+  if (!(key.mesh == wanted.mesh)) return refuse(CacheState::other_mesh, "belongs to another mesh");
   if (!(key.settings == wanted.settings))
-    return refuse(CacheState::other_settings, "is of other settings or radii");
+    return refuse(CacheState::other_settings, "belongs to other settings or radii");
 
   std::uint64_t block_bytes = 0;
   take(block_bytes);

@@ -87,7 +87,7 @@ void write(const std::string &file, const GridKey &key, const CachedGrid &cached
   const bool missing = cached.state() == CacheState::missing;
   if (!missing) out.cache_warning = "cache '" + file + "' " + cached.problem();
   if (cached.state() == CacheState::foreign) {
-    out.cache_warning += "; it is left as it is and the grid is not kept: name another file";
+    out.cache_warning += "; it stays as it is, and the grid is not kept: name another file";
     return;
   }
   std::size_t written;

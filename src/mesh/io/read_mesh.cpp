@@ -60,8 +60,8 @@ ReadMesh read_mesh(const std::string &path)
     return read_stl_mesh(path);
   } catch (const InputError &e) {
     throw InputError(std::string(e.what()) +
-                     " (it was read as STL; endings of names that are known: " + all_endings() +
-                     ")");
+                     " (it was read as STL, because its name does not end with one of " +
+                     all_endings() + ")");
   }
 }
 

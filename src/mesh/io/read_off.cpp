@@ -66,7 +66,7 @@ class OffReader {
     for (std::size_t f = 0; f < n_faces_; f++) read_face();
     const auto word = words_.next_word();
     if (!word.empty())
-      words_.fail(word, quoted(word) + " found behind the " + promised(),
+      words_.fail(word, quoted(word) + " found after the " + promised(),
                   "correct the counts or export the mesh again");
     if (read_.soup.corners.empty())
       throw InputError(read_.soup.source +
@@ -126,7 +126,7 @@ class OffReader {
     read_count(word, "the number of edges");
     const auto more = words_.word_in_line();
     if (!more.empty())
-      words_.fail(more, quoted(more) + " found behind the counts of vertices, faces and edges",
+      words_.fail(more, quoted(more) + " found after the counts of vertices, faces and edges",
                   "write each vertex in a line of its own");
   }
 
