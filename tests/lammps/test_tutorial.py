@@ -28,7 +28,10 @@ def commands(checks):
     (folder / "build" / "bin").symlink_to(pathlib.Path(lmp.LMP).parent)
     (folder / "examples").symlink_to(ROOT / "examples")
     blocks = re.findall(r"^```sh\n(.*?)^```", (ROOT / "doc" / "tutorial.md").read_text(), re.M | re.S)
-    done = run(["bash", "-ec", "set -o pipefail\n" + "".join(blocks)], folder)
+    # One heap for each rolling friction is enough to see that the commands work.
+    text = "".join(blocks)
+    checks.fact("the page asks for several heaps", text.count("--seeds 3") == 1)
+    done = run(["bash", "-ec", "set -o pipefail\n" + text.replace("--seeds 3", "--seeds 1")], folder)
     checks.fact("every command ends well", done.returncode == 0, done.stdout[-1500:] if done.returncode else "")
     text = done.stdout
     checks.fact("the part is not clean", "clean       no: 2 duplicate facets, 8 edges" in text)
