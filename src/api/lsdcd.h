@@ -616,8 +616,12 @@ typedef struct lsdcd_wall_spec {
   int wear;                /* LSDCD_NO_WEAR, LSDCD_ARCHARD or LSDCD_FINNIE */
   double wear_coefficient; /* K; of LSDCD_FINNIE 1/pressure */
   double hardness;         /* H > 0 of LSDCD_ARCHARD, pressure */
-  int periodic_ends;       /* 1: meshes are meant to end at periodic faces, where they continue */
-  int brief;               /* 1: the log has one line */
+  /* Every so many steps the vertices of meshes that wear go away from the spheres, by a volume of wear_deform_factor times
+   * what has worn; 0: they stay, and a factor of 0 is 1. lsdcd_wall_get_nodes() tells where they are. */
+  int wear_deform_every;
+  double wear_deform_factor;
+  int periodic_ends; /* 1: meshes are meant to end at periodic faces, where they continue */
+  int brief;         /* 1: the log has one line */
 } lsdcd_wall_spec;
 /* `options` may be null: all defaults. All that the structs point to is copied or shared. LSDCD_ERROR_ARGUMENT names
  * the field that makes no sense, its value and what to give. Any. */
@@ -696,6 +700,9 @@ typedef struct lsdcd_wall_totals {
   double energy;      /* elastic */
   double worn;        /* volume worn off so far */
   double servo[3];    /* position, velocity, push; 0 without a servo */
+  /* With wear_deform_every, volumes times wear_deform_factor: by which wear has moved the mesh so far, and what has worn
+   * at vertices that stay, as a triangle would fold over or meet another part of the mesh. */
+  double removed, held_back;
 } lsdcd_wall_totals;
 /* The totals of a mesh in the last step, over all processes; -1: of all, without servos. Own. */
 LSDCD_API int lsdcd_wall_get_totals(lsdcd_wall *wall, int mesh, lsdcd_wall_totals *totals);
@@ -727,9 +734,11 @@ LSDCD_API int lsdcd_wall_set_pose(lsdcd_wall *wall, int mesh, const double *posi
  * next step refuses (LSDCD_ERROR_INPUT) a node that goes farther than the largest radius, and a triangle without area. Alone. Own. */
 LSDCD_API int lsdcd_wall_set_nodes(lsdcd_wall *wall, int mesh, const double *positions,
                                    const double *velocities);
-/* How many there are. LSDCD_ERROR_ARGUMENT: no such mesh, one without nodes_by_caller. Alone. Own. */
+/* How many there are, of a mesh with `nodes_by_caller` or one that wear moves (wear_deform_every). LSDCD_ERROR_ARGUMENT: no
+ * such mesh, another one. Alone. Own. */
 LSDCD_API int lsdcd_wall_get_node_count(lsdcd_wall *wall, int mesh, size_t *count);
-/* Where they are after the last step, 3 numbers a vertex (length), to memory as of lsdcd_wall_set_nodes(). Alone. Own. */
+/* Where the vertices of such a mesh are after the last step, in the box, 3 numbers a vertex (length), to memory as of
+ * lsdcd_wall_set_nodes(). Alone. Own. */
 LSDCD_API int lsdcd_wall_get_nodes(lsdcd_wall *wall, int mesh, double *positions);
 /* Forces on them in the last step, 3 numbers a vertex, over all processes: of each contact its force, shared among the
  * nodes of its triangle or edge so that their sum and moment are those of the force at the closest point, and of

@@ -732,6 +732,8 @@ struct WallSpec {
   int device = LSDCD_CPU;
   int wear = LSDCD_NO_WEAR;
   double wear_coefficient = 0, hardness = 0;
+  int wear_deform_every = 0;    // steps; 0: wear moves no mesh
+  double wear_deform_factor = 1;
   bool periodic_ends = false, brief = false;
 };
 
@@ -786,6 +788,9 @@ class Spec {
     spec_.wear = from.wear;
     spec_.wear_coefficient = from.wear_coefficient;
     spec_.hardness = from.hardness;
+    spec_.wear_deform_every = from.wear_deform_every;
+    if (from.wear_deform_every != 0 || from.wear_deform_factor != 1)
+      spec_.wear_deform_factor = from.wear_deform_factor;
     spec_.periodic_ends = from.periodic_ends;
     spec_.brief = from.brief;
   }
@@ -919,7 +924,7 @@ class Wall {
     c::check(lsdcd_wall_set_nodes(get(), mesh, positions.data(),
                                   velocities.empty() ? nullptr : velocities.data()));
   }
-  // Where they are after the last step, and the forces on them then.
+  // Where they are after the last step, also of a mesh that wear moves (wear_deform_every), and the forces on nodes then.
   std::vector<double> nodes(int mesh)
   {
     std::vector<double> positions(node_numbers(mesh));

@@ -7,6 +7,7 @@
 #include "backend/cuda_available.h"
 #include "base/input_words.h"
 
+#include <cstddef>
 #include <string>
 
 using namespace lsdcd;
@@ -67,6 +68,7 @@ new_wall(const lsdcd_wall_options *options,
   made->gpu = gpu_of(o);
   made->caller.gpu = made->gpu.get();
   made->in = make(*made, o);
+  note_vertices(*made);
   check_no_inputs(*made->in);
   made->in->begin_run(0, false);
   return made.release();
@@ -107,7 +109,8 @@ extern "C" {
 int lsdcd_wall_get_totals(lsdcd_wall *wall, int mesh, lsdcd_wall_totals *totals)
 {
   return guard_wall(wall, [&] {
-    lsdcd_wall_totals out = checked(totals, "lsdcd_wall_totals");
+    lsdcd_wall_totals out =
+        checked(totals, "lsdcd_wall_totals", offsetof(lsdcd_wall_totals, removed));
     check_mesh(*wall, mesh, -1);
     tell_late(*wall);
     const StepTotals &all = wall->in->totals();
@@ -122,9 +125,13 @@ int lsdcd_wall_get_totals(lsdcd_wall *wall, int mesh, lsdcd_wall_totals *totals)
     out.uncertified = t.uncertified;
     out.power = t.power;
     out.energy = t.energy;
-    out.worn = 0;
-    for (const MeshPart &m : wall->in->meshes())
-      if (mesh < 0 || mesh == m.index) out.worn += wall->in->worn(m.index);
+    out.worn = out.removed = out.held_back = 0;
+    for (const MeshPart &m : wall->in->meshes()) {
+      if (mesh >= 0 && mesh != m.index) continue;
+      out.worn += wall->in->worn(m.index);
+      out.removed += wall->in->removed(m.index);
+      out.held_back += wall->in->held_back(m.index);
+    }
     if (mesh >= 0 && wall->in->meshes()[mesh].servo().present) {
       const Servo &s = wall->in->meshes()[mesh].servo();
       out.servo[0] = s.position;

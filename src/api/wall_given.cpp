@@ -252,6 +252,11 @@ MeshSpec mesh_spec_of(const lsdcd_wall_mesh &given, std::size_t k, const WallSpe
   if (factor != 0 && factor != 1 && !wall.wears())
     refuse_field(field + ".wear_factor", factor,
                  "nothing wears, as `wear` is LSDCD_NO_WEAR: leave it 0");
+  if (wall.recedes(mesh) && (mesh.has_nodes || mesh.body.present))
+    refuse_field(
+        field + (mesh.has_nodes ? ".nodes_by_caller" : ".body"), mesh.has_nodes ? "1" : "given",
+        "wear moves this mesh (wear_deform_every); leave one of them out, or give the mesh "
+        "wear_factor -1, by which it does not wear");
   mesh.fields = file_of(given.fields, given.fields_every, field + ".fields", ".vtp");
   mesh.stl = file_of(given.stl, given.stl_every, field + ".stl", ".stl");
   if (given.cache && *given.cache) {
@@ -299,6 +304,19 @@ void read_wear(const lsdcd_wall_spec &given, WallSpec &wall)
   else
     check_zero(&given.hardness, 1, "hardness",
                model == LSDCD_FINNIE ? "LSDCD_FINNIE" : "LSDCD_NO_WEAR");
+  wall.wear_shape.every = given.wear_deform_every;
+  if (given.wear_deform_every < 0)
+    refuse_field("wear_deform_every", std::to_string(given.wear_deform_every),
+                 "it is a number of steps, or 0: wear moves no mesh");
+  if (given.wear_deform_every > 0 && model == LSDCD_NO_WEAR)
+    refuse_field("wear_deform_every", std::to_string(given.wear_deform_every),
+                 "nothing wears, as `wear` is LSDCD_NO_WEAR: leave it 0");
+  if (given.wear_deform_every == 0)
+    check_zero(&given.wear_deform_factor, 1, "wear_deform_factor",
+               "a wall without wear_deform_every");
+  else if (given.wear_deform_factor != 0)
+    wall.wear_shape.factor =
+        checked_number(given.wear_deform_factor, "wear_deform_factor", kAboveZero);
 }
 
 void read_search(const lsdcd_wall_spec &given, bool on_device, WallSpec &wall)

@@ -110,6 +110,9 @@ void check_mesh(const lsdcd_wall &wall, int mesh, int least);
 // Throws where spheres cannot change their order.
 void check_order_is_free(const lsdcd_wall &wall);
 
+// Before wear moves any vertex: which one each of the caller's meshes has become.
+void note_vertices(lsdcd_wall &wall);
+
 // Stores errors of the last step's spheres that were not thrown at once.
 void note_late(lsdcd_wall &wall);
 // Throws it on all processes. Collective.

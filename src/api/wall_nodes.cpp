@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// A mesh of a wall whose nodes the caller moves: lsdcd_wall_set_nodes, lsdcd_wall_get_nodes,
-// lsdcd_wall_get_node_forces, lsdcd_wall_get_node_count.
+// A mesh of a wall whose nodes the caller moves, or whose vertices wear moves: lsdcd_wall_set_nodes,
+// lsdcd_wall_get_nodes, lsdcd_wall_get_node_forces, lsdcd_wall_get_node_count.
 #include "api/device_memory.h"
 #include "api/refusals.h"
 #include "api/wall_handle.h"
@@ -31,6 +31,14 @@ const MeshPart &part_with_nodes(const lsdcd_wall &wall, int mesh)
           "wall is made");
 }
 
+// Likewise, or one that wear moves.
+const MeshPart &part_that_deforms(const lsdcd_wall &wall, int mesh)
+{
+  check_mesh(wall, mesh, 0);
+  const MeshPart &part = wall.in->meshes()[static_cast<std::size_t>(mesh)];
+  return part.wear && part.spec.mesh ? part : part_with_nodes(wall, mesh);
+}
+
 // For each vertex of the caller's mesh, the node of the wall's mesh, which was welded once more.
 const std::vector<int> &node_of_vertex(lsdcd_wall &wall, int mesh)
 {
@@ -38,7 +46,7 @@ const std::vector<int> &node_of_vertex(lsdcd_wall &wall, int mesh)
   if (all.empty()) all.resize(wall.in->meshes().size());
   std::vector<int> &nodes = all[static_cast<std::size_t>(mesh)];
   if (!nodes.empty()) return nodes;
-  const MeshPart &part = part_with_nodes(wall, mesh);
+  const MeshPart &part = part_that_deforms(wall, mesh);
   std::vector<Vec3> places;
   for (const Vec3 &x : part.spec.mesh->vertices) places.push_back(part.spec.placement.apply(x));
   const std::vector<Vec3> &at = part.grid.mesh()->vertices;
@@ -110,6 +118,16 @@ void in_order_of_vertices(const lsdcd_wall &wall, const Real *of_nodes,
 
 }    // namespace
 
+namespace lsdcd {
+
+void note_vertices(lsdcd_wall &wall)
+{
+  for (const MeshPart &part : wall.in->meshes())
+    if (part.wear && part.spec.mesh) node_of_vertex(wall, part.index);
+}
+
+}    // namespace lsdcd
+
 extern "C" {
 
 int lsdcd_wall_set_nodes(lsdcd_wall *wall, int mesh, const double *positions,
@@ -144,7 +162,7 @@ int lsdcd_wall_get_node_count(lsdcd_wall *wall, int mesh, size_t *count)
 {
   return guard_wall(wall, [&] {
     need(count, "count");
-    part_with_nodes(*wall, mesh);
+    part_that_deforms(*wall, mesh);
     *count = node_of_vertex(*wall, mesh).size();
   });
 }
@@ -152,10 +170,12 @@ int lsdcd_wall_get_node_count(lsdcd_wall *wall, int mesh, size_t *count)
 int lsdcd_wall_get_nodes(lsdcd_wall *wall, int mesh, double *positions)
 {
   return guard_wall(wall, [&] {
-    const MeshPart &part = part_with_nodes(*wall, mesh);
+    const MeshPart &part = part_that_deforms(*wall, mesh);
     const bool on_gpu = is_on_gpu(*wall, positions, "positions");
-    in_order_of_vertices(*wall, &part.mesh()->vertices[0].x, node_of_vertex(*wall, mesh), positions,
-                         on_gpu);
+    std::vector<Vec3> at = part.mesh()->vertices;
+    if (!part.nodes)
+      for (Vec3 &x : at) x = part.motion.pose().to_box(x);
+    in_order_of_vertices(*wall, &at[0].x, node_of_vertex(*wall, mesh), positions, on_gpu);
   });
 }
 

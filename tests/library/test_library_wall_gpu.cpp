@@ -388,6 +388,48 @@ TEST_F(wall_gpu, tells_of_nodes_in_arrays_of_the_device_in_the_next_step)
       has(text_of([&] { wall.set_nodes(0, at.data(), rest.data()); }), "are in different memory"));
 }
 
+// Waves that wear moves every 5 steps, with arrays on a device and with copies of those of the host. What wears off is a sum in
+// another order, so that ways of below 0.1 differ by 300 roundings, 3e-15, and forces as above.
+TEST_F(wall_gpu, wear_moves_a_mesh_on_a_device_as_on_the_host)
+{
+  const lsdcd::Mesh waves(waves_);
+  api::WallSpec spec;
+  spec.law = api::Law::classic({"hertz/history", {1e5, 5e4, 100, 50, 0.5, 1}});
+  spec.meshes.emplace_back(waves, "waves");
+  spec.wear = LSDCD_ARCHARD;
+  spec.wear_coefficient = 1e-2;
+  spec.hardness = 1e3;
+  spec.wear_deform_every = 5;
+  spec.wear_deform_factor = 10;
+  api::WallSpec copied = spec;
+  copied.device = LSDCD_CUDA;
+  const lsdcd::WallOptions options = on_device();
+  lsdcd::Wall host(spec), device(spec, &options), copies(copied);
+  constexpr int kSpheres = 300, kSteps = 60;
+  constexpr double kRounding = (kSteps + 1) * 6e4 * 3e-15;
+  Rain here(kSpheres), there = here, beside = here;
+  Copies on_gpu(true), on_cpu(false);
+  for (int k = 0; k <= kSteps; k++) {
+    on_cpu.step(host, here, step_of(k == 0));
+    on_cpu.step(copies, beside, step_of(k == 0));
+    on_gpu.step(device, there, step_of(k == 0));
+    for (std::size_t i = 0; i < here.force.size(); i++) {
+      ASSERT_NEAR(there.force[i], here.force[i], kRounding) << "step " << k;
+      ASSERT_NEAR(beside.force[i], here.force[i], kRounding) << "step " << k;
+    }
+    here.move();
+    there = beside = here;
+  }
+  const lsdcd_wall_totals wanted = host.totals();
+  EXPECT_GT(wanted.removed, 1e-6);
+  const std::vector<double> at = host.nodes(0);
+  for (lsdcd::Wall *wall : {&device, &copies}) {
+    EXPECT_NEAR(wall->totals().removed, wanted.removed, 1e-12 * wanted.removed);
+    const std::vector<double> now = wall->nodes(0);
+    for (std::size_t i = 0; i < at.size(); i++) EXPECT_NEAR(now[i], at[i], 1e-14);
+  }
+}
+
 TEST_F(wall_gpu, gives_each_of_two_processes_the_forces_of_arrays_of_the_host)
 {
   // Both threads use the GPU at once. No tolerance, as above: no sum is over the processes but that of contacts.

@@ -398,6 +398,112 @@ TEST_F(wall_spec, writes_the_files_of_words)
   EXPECT_EQ(by_spec.totals(0).worn, by_words.totals(0).worn);
 }
 
+// ---- wear that moves the wall ----------------------------------------------------------------
+
+api::WallSpec receding(api::WallSpec spec)
+{
+  spec.wear = LSDCD_ARCHARD;
+  spec.wear_coefficient = 1e-3;
+  spec.hardness = 1;
+  spec.wear_deform_every = 4;
+  spec.wear_deform_factor = 3;
+  return spec;
+}
+
+// A sphere that slides, kept in its place, over one of the two triangles.
+Grains slider()
+{
+  Grains grains;
+  grains.add(4, -3, 0.49, 2);
+  return grains;
+}
+
+TEST_F(wall_spec, wear_moves_the_mesh_as_by_words)
+{
+  const std::string stl[] = {file_ + ".words.stl", file_ + ".spec.stl"};
+  const api::Mesh mesh(file_);
+  api::WallSpec spec = receding(floor_of(hooke_history(), mesh));
+  spec.meshes[0].stl = stl[1];
+  spec.meshes[0].stl_every = 12;
+  api::Wall by_words(words({"mesh_stl", stl[0], "every", "12", "wear", "archard", "1e-3", "1",
+                            "deform", "every", "4", "factor", "3"})),
+      by_spec(spec);
+  const std::vector<double> flat = mesh.arrays().vertices;
+  EXPECT_EQ(by_spec.nodes(0), flat);
+  Pile().go(by_words, 13);
+  Pile().go(by_spec, 13);
+  EXPECT_EQ(bytes_of(stl[1]), bytes_of(stl[0]));
+  for (const std::string &name : stl) std::remove(name.c_str());
+  EXPECT_GT(by_spec.totals(0).removed, 0);
+  EXPECT_EQ(by_spec.totals(0).removed, by_words.totals(0).removed);
+  EXPECT_NE(by_spec.nodes(0), flat);
+}
+
+// The sphere wears the first 3 steps; in the 4th the corners of its triangle, whose area is 200, go down by the volume
+// over the sum of the thirds of areas around them, and that of the volume between is exactly the factor times what has
+// worn. A corner of both triangles has twice the area, so it goes half as far. Rounding: of a volume of order 1.
+TEST_F(wall_spec, the_worn_volume_is_between_the_old_vertices_and_the_new)
+{
+  const api::Mesh mesh(file_);
+  api::Wall wall(receding(floor_of(hooke_history(), mesh)));
+  Grains grains = slider();
+  grains.step(wall, 1, true);
+  grains.step(wall, 3);
+  const double worn = wall.totals(0).worn;
+  EXPECT_GT(worn, 0);
+  EXPECT_EQ(wall.totals(0).removed, 0);
+  grains.step(wall, 1);
+  const api::MeshArrays of = mesh.arrays();
+  const std::vector<double> at = wall.nodes(0);
+  double between = 0;
+  for (const std::uint32_t vertex : of.faces) between -= 200. / 3 * at[3 * vertex + 2];
+  EXPECT_NEAR(between, 3 * worn, 1e-12 * worn);
+  EXPECT_NEAR(wall.totals(0).removed, 3 * worn, 1e-12 * worn);
+  EXPECT_EQ(wall.totals(0).held_back, 0);
+  for (std::size_t k = 0; k < at.size(); k += 3) {
+    const double x = of.vertices[k], y = of.vertices[k + 1], depth = 3 * worn / 200;
+    const double wanted = x < y ? 0 : x > y ? depth : depth / 2;
+    EXPECT_NEAR(at[k + 2], -wanted, 1e-12 * depth) << x << " " << y;
+  }
+}
+
+TEST_F(wall_spec, a_saved_wall_has_the_shape_that_wear_gave_it)
+{
+  const api::Mesh mesh(file_);
+  const api::WallSpec spec = receding(floor_of(hooke_history(), mesh));
+  api::Wall wall(spec), again(spec);
+  Grains grains = slider();
+  grains.step(wall, 8);    // a restored wall counts steps from 0
+  EXPECT_NE(wall.nodes(0), mesh.arrays().vertices);
+  again.restore(wall.save());
+  EXPECT_EQ(again.nodes(0), wall.nodes(0));
+  grains.step(wall, 4);
+  const std::vector<double> force = grains.force;
+  grains.step(again, 4);
+  EXPECT_EQ(grains.force, force);
+  EXPECT_EQ(again.nodes(0), wall.nodes(0));
+}
+
+// The vertices of a mesh that moves are in the box: lifted by the motion, and lower by the wear.
+TEST_F(wall_spec, vertices_that_wear_moves_go_with_the_mesh)
+{
+  const api::Mesh mesh(file_);
+  api::WallSpec spec = receding(floor_of(hooke_history(), mesh));
+  spec.meshes[0].posed_by_caller = true;
+  api::Wall still(receding(floor_of(hooke_history(), mesh))), wall(spec);
+  api::Pose lifted;
+  lifted.position = {0, 0, 1};
+  wall.set_pose(0, lifted);
+  Grains low = slider(), high = slider();
+  high.x[2] += 1;
+  low.step(still, 5);
+  high.step(wall, 5);
+  const std::vector<double> at = wall.nodes(0), below = still.nodes(0);
+  EXPECT_LT(below[2] + below[5] + below[8] + below[11], 0);
+  for (std::size_t k = 0; k < at.size(); k++)
+    EXPECT_NEAR(at[k], below[k] + (k % 3 == 2), 1e-15 * 20) << k;
+}
+
 // The mesh is shared: the handle may go first.
 TEST_F(wall_spec, shares_meshes_that_are_freed_before_it)
 {
@@ -1006,6 +1112,24 @@ TEST_F(wall_spec, names_the_field_its_value_and_the_remedy)
       {[&](Wrong &w) { w.spec.wear = LSDCD_ARCHARD; }, "`hardness` is 0: it is above 0"},
       {[&](Wrong &w) { w.spec.wear_coefficient = 1; },
        "`wear_coefficient` is 1: LSDCD_NO_WEAR does not use it"},
+      {[&](Wrong &w) { w.spec.wear_deform_every = 10; },
+       "`wear_deform_every` is 10: nothing wears, as `wear` is LSDCD_NO_WEAR"},
+      {[&](Wrong &w) { w.spec.wear_deform_every = -1; },
+       "`wear_deform_every` is -1: it is a number of steps"},
+      {[&](Wrong &w) { w.spec.wear_deform_factor = 2; },
+       "`wear_deform_factor` is 2: a wall without wear_deform_every does not use it"},
+      {[&](Wrong &w) {
+         w.spec.wear = LSDCD_FINNIE;
+         w.spec.wear_deform_every = 10;
+         w.spec.wear_deform_factor = -2;
+       },
+       "`wear_deform_factor` is -2: it is above 0"},
+      {[&](Wrong &w) {
+         w.spec.wear = LSDCD_FINNIE;
+         w.spec.wear_deform_every = 10;
+         w.meshes[1].nodes_by_caller = 1;
+       },
+       "`meshes[1].nodes_by_caller` is 1: wear moves this mesh"},
   };
   EXPECT_EQ(Wrong(mesh).text(), "");
   for (const auto &row : rows) {

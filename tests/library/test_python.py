@@ -415,6 +415,17 @@ def check_wall_specs():
     fact("its nodes have the forces of the spheres", np.allclose(lifted.node_forces(0).sum(axis=0), -force[:2].sum(axis=0), rtol=0,
                                                                  atol=1e-10), lifted.node_forces(0))
 
+    wears = lsdcd.Wall(lsdcd.WallSpec(hooke, [lsdcd.WallMesh(mesh, "liner")], wear=("archard", 1e-3, 1), wear_deform=(3, 2)))
+    forces(wears, 2)
+    worn = wears.totals().worn
+    forces(wears, 1)
+    total, sunk = wears.totals(), wears.nodes(0) - square
+    # Both triangles have the area 50: the volume between is that times the mean of their corners.
+    between = -50 / 3 * sum(sunk[[0, 1, 2, 0, 2, 3], 2])
+    fact("wear moves the vertices by the factor times what has worn", worn > 0 and total.held_back == 0 and
+         abs(total.removed - 2 * worn) < 1e-12 * worn and abs(between - 2 * worn) < 1e-11 * worn and not sunk[:, :2].any(),
+         (worn, total.removed, between))
+
     law = {"kn": 1, "kt": 1, "gamman": 0, "xmu": 0, "dampflag": 0}
     for says, call, kind in (
             ("style is 'hook'", lambda: lsdcd.Law("hook", **law), ValueError),
@@ -428,6 +439,8 @@ def check_wall_specs():
             ("is zero or not finite", lambda: lsdcd.Placement().scale(0), lsdcd.Error),
             ("scale takes one factor or three", lambda: lsdcd.Placement().scale(1, 2), ValueError),
             ("wear is ('archard', 1)", lambda: lsdcd.WallSpec(hooke, [], wear=("archard", 1)), ValueError),
+            ("wear_deform is (0, 1)", lambda: lsdcd.WallSpec(hooke, [], wear_deform=(0, 1)), ValueError),
+            ("nothing wears", lambda: lsdcd.Wall(lsdcd.WallSpec(hooke, [lsdcd.WallMesh(mesh)], wear_deform=(3, 1))), lsdcd.Error),
             ("corner is 'round'; it is 'blend' or 'sum'", lambda: lsdcd.WallSpec(hooke, [], corner="round"), ValueError),
             ("a mesh of the wall is", lambda: lsdcd.WallSpec(hooke, [mesh]), TypeError),
             ("`n_meshes` is 0", lambda: lsdcd.Wall(lsdcd.WallSpec(hooke, [])), lsdcd.Error),

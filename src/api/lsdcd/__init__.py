@@ -564,6 +564,8 @@ class WallTotals(_Record):
     energy: float         # elastic
     worn: float           # volume so far
     servo: NDArray[np.float64]    # (3,) position, velocity, push; 0 without a servo
+    removed: float        # volume by which wear has moved the mesh, see `wear_deform`
+    held_back: float      # likewise, worn at vertices that stay
 
 
 class Host(Protocol):
@@ -790,7 +792,8 @@ class Wall(_Owner):
         self._do(_lib.lsdcd_wall_set_nodes, self._handle, _c_int(mesh, "mesh"), *places, *[None] * (2 - len(places)))
 
     def nodes(self, mesh: int = 0) -> NDArray[np.float64]:
-        """Where the vertices of a mesh with nodes_by_caller are after the last step, (vertices, 3), length."""
+        """Where the vertices of a mesh with nodes_by_caller, or of one that wear moves (wear_deform), are after the last step,
+        (vertices, 3), length."""
         return self._of_nodes(_lib.lsdcd_wall_get_nodes, mesh)
 
     def node_forces(self, mesh: int = 0, out: Any = None) -> Any:

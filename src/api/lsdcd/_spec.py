@@ -312,26 +312,30 @@ class WallSpec:
     "double", "float" or "mixed", contacts in float and forces in double. `nearest` 0: exact; N: only the N triangles
     nearest to a cell. `cell`, length, and `memory`, bytes of each mesh: of its grid, 0: chosen. `rmax`: the largest radius
     that there will be, 0: that of the spheres. `compute`: "cpu" or "cuda", for spheres in arrays of the host. `wear`:
-    None, ("archard", K, H) with the hardness H, a pressure, or ("finnie", K), 1/pressure. `periodic_ends`: meshes are meant
-    to end at periodic faces. `brief`: one line in the log."""
+    None, ("archard", K, H) with the hardness H, a pressure, or ("finnie", K), 1/pressure. `wear_deform`: (steps, factor),
+    every so many steps wear moves the vertices of the meshes, by a volume of so many times what has worn; None: they stay.
+    `periodic_ends`: meshes are meant to end at periodic faces. `brief`: one line in the log."""
 
     def __init__(self, law: Law, meshes: Sequence[WallMesh], corner: str = "blend", side: str = "both",
                  precision: str = "double", nearest: int = 0, cell: float = 0.0, memory: float = 0.0, rmax: float = 0.0,
                  compute: str = "cpu", wear: tuple[str, float] | tuple[str, float, float] | None = None,
-                 periodic_ends: bool = False, brief: bool = False) -> None:
+                 periodic_ends: bool = False, brief: bool = False, wear_deform: tuple[int, float] | None = None) -> None:
         parts = [_instance(m, WallMesh, "a mesh of the wall") for m in meshes]
         array = (_WallMesh * len(parts))(*(part._struct for part in parts))
         numbers = [_c_double(n, "a number of wear") for n in wear[1:]] if wear else []
         model = 1 + _chosen("wear", wear[0], ("archard", "finnie")) if wear else 0
         if wear and len(numbers) != 3 - model:
             raise ValueError(f"wear is {wear!r}; it is (\"archard\", K, H) or (\"finnie\", K)")
+        every, factor = wear_deform if wear_deform else (0, 0.0)
+        if wear_deform and not (every > 0 and factor > 0):    # C has other meanings for 0
+            raise ValueError(f"wear_deform is {wear_deform!r}; it is (steps, factor), both above 0, or None")
         self._struct = _sized(
             _WallSpec, law=_address(_instance(law, Law, "law"), Law, "law"), meshes=ctypes.addressof(array),
             n_meshes=len(parts), corner=_chosen("corner", corner, ("blend", "sum")),
             side=_chosen("side", side, ("both", "in", "out")),
             precision=_chosen("precision", precision, ("double", "float", "mixed")), nearest=nearest, cell=cell, memory=memory,
             rmax=rmax, device=_chosen("compute", compute, DEVICES), wear=model, wear_coefficient=numbers[0] if wear else 0.0,
-            hardness=numbers[1] if model == 1 else 0.0, periodic_ends=bool(periodic_ends), brief=bool(brief))
+            hardness=numbers[1] if model == 1 else 0.0, wear_deform_every=every, wear_deform_factor=factor, periodic_ends=bool(periodic_ends), brief=bool(brief))
         self._kept = (law, parts, array)    # what the struct points to
 
 
