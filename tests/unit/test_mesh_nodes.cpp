@@ -802,6 +802,79 @@ TEST(mesh_nodes, of_an_open_mesh_have_the_pressure_times_its_vector_area)
   EXPECT_LE(norm(scene.sum_of_nodes() - 3 * area), 1e-13 * 3 * mesh->report.area);
 }
 
+// ---- periodic boxes ----------------------------------------------------------------------
+
+// A box from -4 to 4, periodic along x and y.
+PeriodicBox periodic_box()
+{
+  PeriodicBox box = wide_box();
+  for (int k = 0; k < 3; k++) {
+    box.corner[k] = -4;
+    box.edge[k] = {0, 0, 0};
+    box.edge[k][k] = 8;
+    box.periodic[k] = k < 2;
+  }
+  return box;
+}
+
+// A sheet that waves, and spheres on it, all shifted: forces on spheres in each of n steps, and in the last on nodes.
+std::vector<Vec3> forces_of_waves(const Vec3 &shift, int n)
+{
+  const auto mesh = welded(curved_sheet(6));
+  FakeHost host;
+  host.simulation = periodic_box();
+  Scene scene(host, nodes_of(all_motions(), mesh));
+  for (const Vec3 &x : places_over(*mesh, 40, 0.02)) scene.add(x + shift);
+  std::vector<Vec3> at = mesh->vertices, v(at.size()), all;
+  for (int i = 0; i <= n; i++) {
+    for (std::size_t k = 0; k < at.size(); k++) {
+      const Real angle = 2 * mesh->vertices[k].x + mesh->vertices[k].y + 5 * kDt * i;
+      at[k] = mesh->vertices[k] + shift + Vec3{0, 0, 0.05 * std::sin(angle)};
+      v[k] = {0, 0, 0.25 * std::cos(angle)};
+    }
+    scene.set_nodes(at, v);
+    if (i == 0)
+      scene.set_up();
+    else
+      scene.next();
+    all.insert(all.end(), scene.force.begin(), scene.force.end());
+  }
+  for (std::size_t k = 0; k < at.size(); k++) all.push_back(scene.node_force(k));
+  return all;
+}
+
+// Clear of the faces everything may be anywhere in the box. Places of up to 4 are rounded to 4e-16, which Hertz's stiffness of
+// below 1e4 sqrt(0.5 0.1) and springs make 1e-12 of a force.
+TEST(mesh_nodes, in_a_periodic_box_act_the_same_wherever_they_are)
+{
+  const std::vector<Vec3> one = forces_of_waves({0, 0, 0}, 30),
+                          other = forces_of_waves({-2, 1.75, 1}, 30);
+  Real most = 0;
+  for (std::size_t k = 0; k < one.size(); k++) {
+    most = std::max(most, norm(one[k]));
+    EXPECT_LE(norm(one[k] - other[k]), 1e-11) << k;
+  }
+  EXPECT_GT(most, 10);
+}
+
+// The sheet reaches 1 to each side, and the spheres 0.5 beyond: at 3 and more from the middle it would need images.
+TEST(mesh_nodes, that_come_to_a_periodic_face_are_an_error)
+{
+  for (const Real shift : {2.6, 4., 8.}) {
+    try {
+      forces_of_waves({shift, 0, 0}, 0);
+      ADD_FAILURE() << "no error";
+    } catch (const InputError &e) {
+      const std::string says = e.what();
+      EXPECT_NE(says.find("reaches the periodic face in x at step 0"), std::string::npos) << says;
+      EXPECT_NE(says.find("A mesh whose nodes move acts through no periodic face"),
+                std::string::npos)
+          << says;
+    }
+  }
+  EXPECT_NO_THROW(forces_of_waves({0, 0, 2.6}, 0));    // its faces along z are not periodic
+}
+
 // ---- what is refused ---------------------------------------------------------------------
 
 TEST(mesh_nodes, that_jump_past_a_sphere_are_an_error)
