@@ -21,33 +21,36 @@ struct TurningMesh {
 };
 
 // The rotation of a face: its normal by the smallest turn of its plane, and in the plane the turn that fits best
-// (the polar decomposition of the plane map).
+// (the polar decomposition of the plane map). `now`: its unit normal after the turn.
+//
+// With the edges e0, f0 from one corner before and e1, f1 after, and the areas n = e x f, the plane map in the frames
+// (e/|e|, n x e/(|n| |e|)) is upper triangular, (p q; 0 r), with p = |e1|/|e0| and p r = |n1|/|n0|. It turns by the angle of
+// (p + r, -q), which is that of
+//
+//   c = p^2 + |n1|/|n0|,   s = (p^2 f0.e0 - f1.e1)/|n0|.
 struct FaceTurn {
-  Vec3 from[3], to[3];    // orthonormal frames
+  Vec3 from[3], to[3];    // orthogonal frames: those of `from` have lengths that those of `to` undo
   bool is_none;
 
   LSDCD_FN FaceTurn(const Vec3 &a0, const Vec3 &b0, const Vec3 &c0, const Vec3 &a1, const Vec3 &b1,
-                    const Vec3 &c1)
+                    const Vec3 &c1, const Vec3 &now)
   {
     const Vec3 e0 = b0 - a0, f0 = c0 - a0, e1 = b1 - a1, f1 = c1 - a1;
     is_none = e0 == e1 && f0 == f1;
     if (is_none) return;
-    const Vec3 n0 = cross(e0, f0), n1 = cross(e1, f1);
-    const Real length0 = norm(e0), length1 = norm(e1), area0 = norm(n0), area1 = norm(n1),
-               of_length0 = 1 / length0, of_area0 = 1 / area0;
-    from[0] = of_length0 * e0;
+    const Vec3 n0 = cross(e0, f0);
+    const Real length0_sq = norm_sq(e0), length1_sq = norm_sq(e1), area1 = dot(cross(e1, f1), now),
+               of_area0 = 1 / norm(n0), p_sq = length1_sq / length0_sq, c = p_sq + area1 * of_area0,
+               s = of_area0 * (p_sq * dot(f0, e0) - dot(f1, e1)),
+               over = 1 / sqrt((c * c + s * s) * (length0_sq * length1_sq)), cosine = over * c,
+               sine = over * s;
+    const Vec3 second = cross(now, e1);
+    from[0] = e0;
     from[2] = of_area0 * n0;
-    from[1] = cross(from[2], from[0]);
-    const Vec3 first = (1 / length1) * e1;
-    to[2] = (1 / area1) * n1;
-    const Vec3 second = cross(to[2], first);
-    // The plane map in these frames is upper triangular, (p q; 0 r), with p = |e1|/|e0| and p r the ratio of areas. It
-    // turns by the angle of (p + r, -q), here times p.
-    const Real p = length1 * of_length0, c = p * p + area1 * of_area0,
-               s = p * (p * dot(f0, from[0]) - dot(f1, first)) * (length0 * of_area0),
-               over = 1 / sqrt(c * c + s * s), cosine = over * c, sine = over * s;
-    to[0] = cosine * first + sine * second;
-    to[1] = cosine * second - sine * first;
+    from[1] = cross(from[2], e0);
+    to[0] = cosine * e1 + sine * second;
+    to[1] = cosine * second - sine * e1;
+    to[2] = now;
   }
   LSDCD_FN Vec3 of(const Vec3 &a) const
   {
@@ -59,7 +62,8 @@ struct FaceTurn {
 LSDCD_FN FaceTurn turn_of_face(const TurningMesh &m, int face)
 {
   const int *c = m.mesh.faces + 3 * std::size_t(face);
-  return {m.from[c[0]], m.from[c[1]], m.from[c[2]], m.to[c[0]], m.to[c[1]], m.to[c[2]]};
+  return {m.from[c[0]], m.from[c[1]], m.from[c[2]],        m.to[c[0]],
+          m.to[c[1]],   m.to[c[2]],   m.faces[face].normal};
 }
 
 // Sums of turned vectors over the faces of a feature.
@@ -96,31 +100,32 @@ LSDCD_FN void turn_with_feature(const TurningMesh &m, Spring &spring, Vec3 *besi
 {
   const int i = static_cast<int>(feature_index(spring.feature)), n = 2 + n_vectors;
   const FeatureKind kind = feature_kind(spring.feature);
-  Vec3 vectors[2 + kMostVectors] = {spring.normal, spring.shear};
-  for (int k = 0; k < n_vectors; k++) vectors[2 + k] = beside[k];
   if (kind == FeatureKind::face) {
     const FaceTurn turn = turn_of_face(m, i);
-    for (int k = 0; k < n; k++) vectors[k] = turn.of(vectors[k]);
     const Vec3 &now = m.faces[i].normal;
-    vectors[0] = dot(vectors[0], now) < 0 ? -now : now;
-  } else {
-    TurnedSums sums = {};
-    if (kind == FeatureKind::edge)
-      add_faces_of_edge(m, i, vectors, n, sums);
-    else
-      for (int k = m.mesh.vertex_first[i]; k < m.mesh.vertex_first[i + 1]; k++)
-        add_faces_of_edge(m, m.mesh.vertex_edge[k], vectors, n, sums);
-    if (sums.n_faces == 0 && kind == FeatureKind::edge) {
-      const Vec3 was = direction_of_edge(m, i, m.from), now = direction_of_edge(m, i, m.to);
-      for (int k = 0; k < n; k++) vectors[k] = transport(vectors[k], was, now);
-    }
-    for (int k = 0; k < n && sums.any; k++) {
-      const Real length = norm(sums.sum[k]);
-      if (sums.n_faces == 1)
-        vectors[k] = sums.sum[k];
-      else if (length > 0)
-        vectors[k] = (norm(vectors[k]) / length) * sums.sum[k];
-    }
+    spring.normal = dot(turn.is_none ? now : turn.from[2], spring.normal) < 0 ? -now : now;
+    spring.shear = turn.of(spring.shear);
+    for (int k = 0; k < n_vectors; k++) beside[k] = turn.of(beside[k]);
+    return;
+  }
+  Vec3 vectors[2 + kMostVectors] = {spring.normal, spring.shear};
+  for (int k = 0; k < n_vectors; k++) vectors[2 + k] = beside[k];
+  TurnedSums sums = {};
+  if (kind == FeatureKind::edge)
+    add_faces_of_edge(m, i, vectors, n, sums);
+  else
+    for (int k = m.mesh.vertex_first[i]; k < m.mesh.vertex_first[i + 1]; k++)
+      add_faces_of_edge(m, m.mesh.vertex_edge[k], vectors, n, sums);
+  if (sums.n_faces == 0 && kind == FeatureKind::edge) {
+    const Vec3 was = direction_of_edge(m, i, m.from), now = direction_of_edge(m, i, m.to);
+    for (int k = 0; k < n; k++) vectors[k] = transport(vectors[k], was, now);
+  }
+  for (int k = 0; k < n && sums.any; k++) {
+    const Real length = norm(sums.sum[k]);
+    if (sums.n_faces == 1)
+      vectors[k] = sums.sum[k];
+    else if (length > 0)
+      vectors[k] = (norm(vectors[k]) / length) * sums.sum[k];
   }
   spring.normal = vectors[0];
   spring.shear = vectors[1];

@@ -32,11 +32,10 @@ LSDCD_FN NodeShares node_shares(const MeshFeaturesView &wall, FeatureCode featur
       const FaceRecord &face = wall.faces[i];
       const FaceVertices &corner = wall.face_vertex[i];
       const Vec3 d = at - face.anchor;
-      const Real one = dot(face.inward[2], d) /
-                       dot(face.inward[2], wall.vertices[corner.v[1]].position - face.anchor),
-                 two = dot(face.inward[0], d) /
-                       dot(face.inward[0], wall.vertices[corner.v[2]].position - face.anchor);
-      return {3, {corner.v[0], corner.v[1], corner.v[2]}, {1 - one - two, one, two}};
+      const Real zero = (dot(face.inward[1], d) + face.height) / face.height,
+                 one = dot(face.inward[2], d) /
+                       dot(face.inward[2], wall.vertices[corner.v[1]].position - face.anchor);
+      return {3, {corner.v[0], corner.v[1], corner.v[2]}, {zero, one, 1 - zero - one}};
     }
     case FeatureKind::edge: {
       const EdgeRecord &edge = wall.edges[i];

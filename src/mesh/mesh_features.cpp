@@ -370,6 +370,7 @@ void update_features(const WeldedMesh &mesh, const std::vector<Vec3> &before, bo
              n_edges = static_cast<std::int64_t>(mesh.edges.size()),
              n_vertices = static_cast<std::int64_t>(mesh.vertices.size());
   std::int64_t thin = n_faces;    // the first face without area
+  std::int64_t acting = 0;        // edges and vertices that can hold a contact
   std::vector<char> edge_acts(n_edges), vertex_acts(n_vertices);
   Real far = 0;    // the largest coordinate
   for (const Vec3 &x : mesh.vertices)
@@ -388,17 +389,25 @@ void update_features(const WeldedMesh &mesh, const std::vector<Vec3> &before, bo
       out.faces[f] = make_face_record(a, b, d);
       if (!has_area(a, b, d)) thin = std::min(thin, f);
     }
-#pragma omp for schedule(static)
+#pragma omp for schedule(static) reduction(+ : acting)
     for (std::int64_t i = 0; i < n_edges; i++) {
       if (!move_segment(moved, static_cast<std::uint32_t>(i)))
         put_far_segment(mesh, i, out.edges[i]);
       put_faces_of_edge(moved, static_cast<std::uint32_t>(i));
+      acting += edge_acts[i];
     }
+#pragma omp for schedule(static) reduction(+ : acting)
+    for (std::int64_t i = 0; i < n_vertices; i++) {
+      move_vertex(moved, static_cast<std::uint32_t>(i));
+      acting += vertex_acts[i];
+    }
+    // Where all act, as in most meshes that have moved, the parts are those of the last step.
+    if (acting < n_edges + n_vertices || !out.all_parts_act) {
 #pragma omp for schedule(static)
-    for (std::int64_t i = 0; i < n_vertices; i++) move_vertex(moved, static_cast<std::uint32_t>(i));
-#pragma omp for schedule(static)
-    for (std::int64_t f = 0; f < n_faces; f++) put_parts(moved, static_cast<std::uint32_t>(f));
+      for (std::int64_t f = 0; f < n_faces; f++) put_parts(moved, static_cast<std::uint32_t>(f));
+    }
   }
+  out.all_parts_act = acting == n_edges + n_vertices;
   if (thin < n_faces) throw_without_area(mesh, thin);
 }
 

@@ -29,6 +29,8 @@ struct MeshFeatures {
   // The primitives of the wall: the faces, each for its edges and vertices, too, and the
   // edges and vertices without a face.
   std::vector<FeatureCode> primitives;
+  // Of a mesh that moves: face_parts name all edges and vertices. False where others than update_features() wrote them.
+  bool all_parts_act = false;
 
   MeshFeaturesView view() const;
 };

@@ -176,7 +176,10 @@ NodesNow MeshNodes::now() const
 
 void MeshNodes::fetch_records()
 {
-  if (are_records_old_) engine_->fetch_records(index_, features_);
+  if (are_records_old_) {
+    engine_->fetch_records(index_, features_);
+    features_.all_parts_act = false;
+  }
   are_records_old_ = false;
 }
 

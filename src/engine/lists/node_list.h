@@ -77,14 +77,30 @@ LSDCD_FN void gather_nodes(const GridView &grid, const QuerySphere &s, Real goin
   begin_list(list, s.x, s.cutoff, -1);
 }
 
-// The contacts of a face at whose rim or past which q is, with its edges and vertices. An edge has one only where q is
-// past the sides of all its faces, which closest_on_edge() asks, too: not where q is over the inside of one of them,
-// `inside`, or kNoFeature. Twice the tolerance covers the rounding between the two.
+// What of a face at whose rim or past which q is can have a contact, by the point over the face alone: bit k is edge k, bit
+// 3 + k vertex k, bit 6 the face. An edge has one only where q is past its side; twice the tolerance covers the rounding
+// between the two tests. A vertex is at least as far as the lines of its two edges.
+LSDCD_FN unsigned parts_in_reach(const OverFace &over, Real cutoff, Real tolerance)
+{
+  const Real within = cutoff + tolerance,
+             beside_sq = (1 + Real(1e-9)) * (within * within) - over.height * over.height;
+  unsigned parts = over.least >= -tolerance ? 64 : 0;
+  bool is_near[3];
+  for (int k = 0; k < 3; k++) {
+    parts |= static_cast<unsigned>(over.side[k] <= 2 * tolerance) << k;
+    is_near[k] = over.side[k] * over.side[k] <= beside_sq;
+  }
+  for (int k = 0; k < 3; k++)
+    parts |= static_cast<unsigned>(is_near[k] & is_near[(k + 2) % 3]) << (3 + k);
+  return parts;
+}
+
+// The contacts of these parts. Where q is over the inside of a face, `inside`, or kNoFeature, that face's edges have none.
 template <int kMost>
 LSDCD_NOINLINE void add_rim(const MeshGeometry &geometry, const GridView &grid, FeatureCode face,
-                            FeatureCode inside, const Vec3 &q, Real cutoff, ContactSet<kMost> &set)
+                            unsigned in_reach, FeatureCode inside, const Vec3 &q, Real cutoff,
+                            ContactSet<kMost> &set)
 {
-  const OverFace over(grid.wall.faces[feature_index(face)], q);
   const FaceParts &parts = geometry.parts(face);
   const Real within_sq = (1 + Real(1e-9)) * (cutoff * cutoff);
   const auto is_of_inside = [&](FeatureCode edge) {
@@ -94,13 +110,13 @@ LSDCD_NOINLINE void add_rim(const MeshGeometry &geometry, const GridView &grid, 
   };
   for (int k = 0; k < 3; k++) {
     const FeatureCode edge = parts.part[k], vertex = parts.part[3 + k];
-    if (edge != kNoFeature && over.side[k] <= 2 * grid.tolerance && !is_of_inside(edge))
+    if (in_reach >> k & 1 && edge != kNoFeature && !is_of_inside(edge))
       add_feature_noinline(geometry, edge, cutoff, set);
-    if (vertex != kNoFeature &&
+    if (in_reach >> (3 + k) & 1 && vertex != kNoFeature &&
         norm_sq(q - grid.wall.vertices[feature_index(vertex)].position) <= within_sq)
       add_feature_noinline(geometry, vertex, cutoff, set);
   }
-  if (over.least >= -grid.tolerance) add_feature_noinline(geometry, face, cutoff, set);
+  if (in_reach & 64) add_feature_noinline(geometry, face, cutoff, set);
 }
 
 // On a CPU: prefetches the records of the first faces of a list whose turn comes soon.
@@ -125,6 +141,7 @@ LSDCD_FN void find_in_node_list(const GridView &grid, const ListedFeatures &list
   prefetch_node_list(grid, list.lists, list.k + kAhead);
   const MeshGeometry geometry(grid, q);
   FeatureCode rim[FeatureList::kMax], inside = kNoFeature;
+  unsigned in_reach[FeatureList::kMax];
   int n_rim = 0;
   const int n = list.lists.size(list.k);
   for (int i = 0; i < n; i++) {
@@ -138,7 +155,8 @@ LSDCD_FN void find_in_node_list(const GridView &grid, const ListedFeatures &list
     const Real distance = fabs(over.height);
     if (!(distance < cutoff) || over.is_past(cutoff)) continue;
     if (!(over.least >= grid.tolerance)) {
-      rim[n_rim++] = code;
+      rim[n_rim] = code;
+      in_reach[n_rim++] = parts_in_reach(over, cutoff, grid.tolerance);
       continue;
     }
     if (over.least >= 2 * grid.tolerance) inside = code;
@@ -146,7 +164,7 @@ LSDCD_FN void find_in_node_list(const GridView &grid, const ListedFeatures &list
              grid.tolerance);
   }
   for (int i = 0; i < n_rim && !set.overflow; i++)
-    add_rim(geometry, grid, rim[i], inside, q, cutoff, set);
+    add_rim(geometry, grid, rim[i], in_reach[i], inside, q, cutoff, set);
 }
 
 }    // namespace lsdcd
