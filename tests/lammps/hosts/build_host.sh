@@ -9,11 +9,12 @@
 #   VERSION 20210929         29Sep2021 of bookworm on bookworm's Kokkos 3.4
 #   KIND mpich               with MPICH instead of the machine's own MPI
 #   KIND serial              without MPI
+#   KIND package             without MPI and PLUGIN, with the styles of this tree compiled in (cmake/packaging/lammps)
 #   KIND mixed, single       with a Kokkos that has atoms in float, and adds forces in double or in float
 #   KIND openmp              with a Kokkos for threads (-k on t N)
 #   LSDCD_HOSTS              where (default ${XDG_CACHE_HOME:-~/.cache}/lsdcd/hosts)
 #   LSDCD_HOST_JOBS          compilers at once (default: one per core)
-# All have the packages GRANULAR and PLUGIN; those whose KIND is not one of MPI also KOKKOS (Serial and double where
+# All have the packages GRANULAR and, but for KIND package, PLUGIN; those whose KIND is not one of MPI also KOKKOS (Serial and double where
 # KIND does not say otherwise), GRAPHICS and fix rigid/small, these two not in float. The folder, VERSION or
 # VERSION-KIND, then holds
 #   lmp, liblammps.so.0      the program; both resolve their libraries from the folder itself
@@ -63,10 +64,10 @@ kind=${2:-} mpi="" backend=SERIAL precision=double build_mpi=on mpicxx=mpicxx mp
 case $kind in
   "") ;;
   mpich) mpi=mpich mpicxx=mpicxx.mpich mpi_options=(-D MPI_C_COMPILER=mpicc.mpich -D MPI_CXX_COMPILER=mpicxx.mpich) ;;
-  serial) mpi=serial build_mpi=off mpicxx=c++ ;;
+  serial | package) mpi=serial build_mpi=off mpicxx=c++ ;;
   mixed | single) precision=$kind ;;
   openmp) backend=OPENMP ;;
-  *) die "no such kind: $kind (mpich, serial, mixed, single or openmp)" ;;
+  *) die "no such kind: $kind (mpich, serial, package, mixed, single or openmp)" ;;
 esac
 if [ "$version" = 20210929 ] && [ $precision$backend != doubleSERIAL ]; then
   die "29Sep2021 is built with Kokkos's backend Serial in double precision only"
@@ -86,6 +87,13 @@ if [ -n "$mpi" ] || [ $precision != double ]; then    # what a plugin is tried w
   options=("${options[@]/PKG_RIGID=on/PKG_RIGID=off}")
 fi
 if [ -n "$mpi" ]; then kokkos= kokkos_source=; fi
+ours=    # the sources that are compiled in
+if [ "$kind" = package ]; then
+  tree=$(cd "$(dirname "${BASH_SOURCE[0]}")/../../.." && pwd)
+  options=("${options[@]/PKG_PLUGIN=on/PKG_PLUGIN=off}" -D LSDCD_CUDA=OFF
+           -D CMAKE_PROJECT_lammps_INCLUDE="$tree/cmake/packaging/lammps/LSDCD.cmake")
+  ours=$(cd "$tree" && find CMakeLists.txt cmake src -type f -print0 | LC_ALL=C sort -z | xargs -0 sha256sum | sha256sum | cut -c1-16)
+fi
 atomics_bypass=on    # with one thread only
 if [ $backend = OPENMP ]; then options=("${options[@]/BUILD_OMP=off/BUILD_OMP=on}") atomics_bypass=off; fi
 # LAMMPS's name for the precision of atoms, and of sums.
@@ -179,7 +187,7 @@ fi
 if [ -n "$kokkos" ]; then
   options+=(-D PKG_KOKKOS=on -D EXTERNAL_KOKKOS=on -D CMAKE_CXX_STANDARD="$standard")
 fi
-stamp="3 $version $sha256 kokkos=$kokkos $flags ${options[*]} $tools"
+stamp="3 $version $sha256 kokkos=$kokkos $flags ${options[*]} $tools$ours"
 if [ -x "$folder/lmp" ] && [ "$(cat "$folder/stamp" 2>/dev/null)" = "$stamp" ]; then
   echo "$folder"
   exit 0
@@ -199,21 +207,22 @@ rm -f "$work"/src/KOKKOS/{angle,bond,dihedral,improper}_* \
   "$work"/src/{.,KOKKOS}/compute_temp_{com,deform,partial,profile,ramp}[._]* \
   "$work"/src/compute_{angle,bond,dihedral,improper,inertia,dipole,torque,omega,angmom,vcm,displace}[._]* \
   "$work"/src/compute_{cluster,aggregate,heat_flux}[._]* "$work"/src/KOKKOS/atom_vec_charge_*
-if [ $precision != double ]; then
+if [ $precision$backend != doubleSERIAL ]; then
   # Of its package KOKKOS the styles that the scripts use, and what LAMMPS names in its list of sources.
   find "$work/src/KOKKOS" -regextype egrep -regex '.*/(atom_vec|compute|dynamical|fix|min|pair|third)_.*' ! -regex \
     ".*/(atom_vec(_sphere|_atomic)?|compute_(temp|erotate_sphere)|min(_linesearch)?|pair(_gran_hooke_history)?)_kokkos[.].*" ! -regex \
     ".*/fix_(enforce2d|freeze|gravity|minimize|neigh_history|nh|nh_sphere|nve|nve_sphere|property_atom|setforce|wall_gran)_(kokkos|old)[.].*" -delete
 fi
-if [ -n "$small" ]; then
-  rm -f "$work"/src/pair_{born,buck,coul,lj,morse,soft,table,yukawa,zbl,write}[._]* "$work"/src/min_{fire,hftn,quickmin,sd}.* \
+if [ -n "$small" ] || [ $backend != SERIAL ]; then
+  rm -f "$work"/src/pair_{born,buck,coul,lj,morse,table,yukawa,zbl,write}[._]* "$work"/src/min_{fire,hftn,quickmin,sd}.* \
     "$work"/src/compute_{centroid,com,count,fragment,global,group,slice,property_chunk,property_grid,property_local}[._]* \
-    "$work"/src/compute_{reduce_chunk,reduce_region,temp_chunk,temp_region,chunk_spread_atom,pair_local}[._]* \
+    "$work"/src/compute_{reduce_chunk,temp_chunk,temp_region,chunk_spread_atom,pair_local}[._]* \
     "$work"/src/{angle,bond,dihedral,improper}_{zero,write}.* "$work"/src/dump_{cfg,grid,local,xyz}[._]* \
-    "$work"/src/fix_{ave_grid,ave_histo,aveforce,efield,evaporate,nve_limit,nve_noforce,wall_region,wall_table}[._]* \
+    "$work"/src/fix_{ave_grid,aveforce,efield,evaporate,nve_limit,nve_noforce,wall_region,wall_table}[._]* \
     "$work"/src/GRANULAR/{compute_fabric,fix_add_heat,fix_addtorque_atom,fix_damping_cundall,fix_settorque_atom}.* \
     "$work"/src/GRANULAR/fix_viscous_nonlinear.* "$work"/src/reset_atoms_*
 fi
+if [ -n "$small" ]; then rm -f "$work"/src/{pair_soft,compute_reduce_region,fix_ave_histo}[._]*; fi
 find "$work/src/RIGID" -type f ! -name 'fix_rigid_small.*' ! -name rigid_const.h -delete
 
 # The package files of Kokkos: Debian's names a folder that is not there, and LAMMPS asks for
