@@ -232,7 +232,7 @@ def refused(checks, folder):
     for name, line, warns in (("warned of", "", True), ("excluded", "neigh_modify exclude group nodes grains\n", False)):
         done = lmp.run(soft + line + wall.format(group="grains", nodes="nodes", more="") + "run 1\n", folder)
         checks.fact(f"a pair style between nodes and grains, {name}",
-                    done.returncode == 0 and ("pair_style soft acts between" in " ".join(done.stdout.split())) == warns)
+                    done.returncode == 0 and ("pair_style soft also acts between" in " ".join(done.stdout.split())) == warns)
     bonds, net.bonds = net.bonds, []
     net.write(folder, coefficients, skip=(3, 5))
     fails("vertices without an atom", wall.format(group="grains", nodes="nodes", more=""),
