@@ -782,13 +782,14 @@ class Wall(_Owner):
         the next step for a node that goes farther than the largest radius, or a triangle without area."""
         shape = (self._n_nodes(mesh), 3)
         arrays = {"positions": positions} | ({} if velocities is None else {"velocities": velocities})
+        places: list[int | None]
         if any(self._is_on_device(values, name) for name, values in arrays.items()):
             given = [self._array(values, name, shape) for name, values in arrays.items()]
             self._nodes = given    # until they have been read
             places = [array.address for array in given]
         else:
             numbers = [_numbers(values, shape, name) for name, values in arrays.items()]
-            places = [values.ctypes.data for values in numbers]
+            places = [None if values is None else values.ctypes.data for values in numbers]
         self._do(_lib.lsdcd_wall_set_nodes, self._handle, _c_int(mesh, "mesh"), *places, *[None] * (2 - len(places)))
 
     def nodes(self, mesh: int = 0) -> NDArray[np.float64]:
