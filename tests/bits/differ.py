@@ -31,6 +31,7 @@ MASKS = [(name, re.compile(pattern), instead, reason) for name, pattern, instead
      "durations"),
     ("cpu", r"\b(\w+) CPU = [\d.e+-]+ sec(ond)?s?", r"\1 CPU = TIME", "a duration"),
     ("wall time", r"^Total wall time: .*", "Total wall time: TIME", "a duration"),
+    ("bytes of a grid", r"\b[\d.]+ (kB|MB)(?=, built in)", "BYTES", "memory of the program, not an answer"),
     ("grid built", r"built in [\d.]+ s\b", "built in TIME", "a duration"),
     ("cache", r"\bin \d+\.\d{3} s\b", "in TIME", "a duration"),
     ("source", r"\(\S*?([\w.]+\.(?:cpp|cu|h)):\d+\)", "(SOURCE)",
