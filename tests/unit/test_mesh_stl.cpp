@@ -61,7 +61,7 @@ TEST(whole_file, a_pipe_is_refused_and_stays)
     write_whole_file(pipe, "text");
     ADD_FAILURE() << "not refused";
   } catch (const InputError &e) {
-    EXPECT_NE(std::string(e.what()).find("pipe': is not a regular file"), std::string::npos);
+    EXPECT_NE(std::string(e.what()).find("pipe' is not a regular file"), std::string::npos);
   }
   struct stat there;
   ASSERT_EQ(stat(pipe.c_str(), &there), 0);
