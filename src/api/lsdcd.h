@@ -783,7 +783,8 @@ LSDCD_API int lsdcd_wall_change(lsdcd_wall *wall, const char *const *words, size
  * that fit in `room` are written; with `room` 0 the array may be null. Own. */
 LSDCD_API int lsdcd_wall_save(lsdcd_wall *wall, double *numbers, size_t room, size_t *count);
 /* Into a wall of the same spec or words, before its first step, whose spheres then have the same order; process by
- * process. Own. */
+ * process. Steps count on from the last one of that wall, for files and wear that come every so many steps. A servo moves by the
+ * load of the step before: begin with `setup`. Own. */
 LSDCD_API int lsdcd_wall_restore(lsdcd_wall *wall, const double *numbers, size_t count);
 /* Null is fine. Alone. Own. */
 LSDCD_API void lsdcd_wall_free(lsdcd_wall *wall);

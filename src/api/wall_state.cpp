@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -63,15 +64,18 @@ std::vector<const double *> packed_spheres(const lsdcd_wall &wall, std::size_t n
   return spheres;
 }
 
-constexpr const char *kSpheres = "springs of spheres";
+constexpr const char *kSpheres = "springs of spheres", *kStep = "step";
 
-// Before 0.10.0: how many numbers of the wall, these, how many spheres, and of each how many numbers and these.
-void read_saved(const Real *numbers, std::size_t n, WallState &state, SphereHistories &spheres)
+// Before 0.10.0: how many numbers of the wall, these, how many spheres, and of each how many numbers and these. `step`
+// stays where the numbers have none, as those of that time.
+void read_saved(const Real *numbers, std::size_t n, WallState &state, SphereHistories &spheres,
+                std::int64_t &step)
 {
   StateReader in(numbers, n, "the data of the wall");
   if (State::is_one(numbers, n)) {
     const State all(WallState::kKind, numbers, n);
     all.read(kSpheres, 1, spheres);
+    all.find(kStep, 1, step);
     state = WallState::from(all);
     in.take_numbers(all.numbers().size());
   } else {
@@ -158,6 +162,7 @@ int lsdcd_wall_save(lsdcd_wall *wall, double *numbers, size_t room, size_t *coun
     }
     State state = wall->in->save().blocks();
     state.add(kSpheres, 1, spheres);
+    state.add(kStep, 1, wall->number);
     const std::vector<Real> all = state.numbers();
     *count = all.size();
     std::copy_n(all.begin(), std::min(room, all.size()), numbers);
@@ -172,15 +177,17 @@ int lsdcd_wall_restore(lsdcd_wall *wall, const double *numbers, size_t count)
       throw ApiError(LSDCD_ERROR_ARGUMENT, "a wall is restored before its first step");
     WallState state;
     SphereHistories spheres;
+    std::int64_t step = 0;
     try {
-      read_saved(numbers, count, state, spheres);
+      read_saved(numbers, count, state, spheres, step);
     } catch (const StateError &e) {
       throw ApiError(LSDCD_ERROR_ARGUMENT,
                      std::string("these are not the numbers that lsdcd_wall_save() wrote, all of "
                                  "them: ") +
                          e.what());
     }
-    wall->in->restore(state, {wall->number, wall->dt});
+    wall->in->restore(state, {step, wall->dt});
+    wall->number = step;
     wall->restored = std::move(spheres);
     if (!wall->in->history().is_on()) wall->restored.clear();
   });

@@ -67,6 +67,25 @@ TEST_F(wall, goes_on_from_what_was_saved)
   EXPECT_EQ(same.force, grains.force);
 }
 
+// What it pushed with in the last step is known once the forces of that step are set up.
+TEST_F(wall, goes_on_with_its_servo_after_a_setup)
+{
+  const std::vector<std::string> servo = words({"servo", "force", "z", "25", "vmax", "0.5"});
+  lsdcd::Wall first(servo), second(servo);
+  Grains grains;
+  grains.add(0.3, 0.2, 0.49, 0.1);
+  grains.step(first, 10);
+  Grains same = grains;
+  second.restore(first.save());
+  same.step(second, 1, true);
+  EXPECT_EQ(same.force, grains.force);
+  grains.step(first, 5);
+  same.step(second, 5);
+  EXPECT_EQ(same.force, grains.force);
+  EXPECT_EQ(second.pose(), first.pose());
+  EXPECT_NE(first.pose()[11], 0);
+}
+
 TEST_F(wall, has_totals_of_a_mesh_that_moves)
 {
   lsdcd::Wall wall(words({"motion", "linear", "0", "0", "2"}));

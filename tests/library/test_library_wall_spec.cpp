@@ -18,6 +18,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace test_library_wall_spec {
@@ -473,15 +474,77 @@ TEST_F(wall_spec, a_saved_wall_has_the_shape_that_wear_gave_it)
   const api::WallSpec spec = receding(floor_of(hooke_history(), mesh));
   api::Wall wall(spec), again(spec);
   Grains grains = slider();
-  grains.step(wall, 8);    // a restored wall counts steps from 0
+  grains.step(wall, 6);
   EXPECT_NE(wall.nodes(0), mesh.arrays().vertices);
   again.restore(wall.save());
   EXPECT_EQ(again.nodes(0), wall.nodes(0));
-  grains.step(wall, 4);
-  const std::vector<double> force = grains.force;
-  grains.step(again, 4);
-  EXPECT_EQ(grains.force, force);
+  for (int k = 7; k <= 12; k++) {
+    const std::vector<double> before = wall.nodes(0);
+    grains.step(wall);
+    EXPECT_EQ(wall.nodes(0) != before, k % 4 == 0) << k;
+    const std::vector<double> force = grains.force;
+    grains.step(again);
+    EXPECT_EQ(grains.force, force) << k;
+    EXPECT_EQ(again.nodes(0), wall.nodes(0)) << k;
+  }
+}
+
+// Saved after step 5, in which no file is due. The mesh rises, so that each file is another one.
+TEST_F(wall_spec, a_saved_wall_writes_the_files_that_are_due)
+{
+  const api::Mesh mesh(file_);
+  api::WallSpec spec = floor_of(hooke_history(), mesh);
+  api::WallMesh &floor = spec.meshes[0];
+  floor.motions = {api::Motion::linear({0, 0, 0.1})};
+  floor.fields_every = 4;
+  floor.stl_every = 3;
+  const auto name_of = [&](const char *run, const std::string &end) {
+    return file_ + "." + run + "." + end;
+  };
+  const auto wall_of = [&](const char *run) {
+    floor.fields = name_of(run, "*.vtp");
+    floor.stl = name_of(run, "*.stl");
+    return api::Wall(spec);
+  };
+  api::Wall whole = wall_of("whole"), begun = wall_of("begun"), again = wall_of("again");
+  Grains grains = slider();
+  grains.step(whole, 13);
+  grains.step(begun, 5);
+  again.restore(begun.save());
+  grains.step(again, 8);
+  for (int step = 0; step <= 13; step++)
+    for (const auto &[end, every] : {std::pair(".vtp", 4), std::pair(".stl", 3)}) {
+      const std::string file = std::to_string(step) + end,
+                        wanted = bytes_of(name_of("whole", file));
+      EXPECT_EQ(wanted.empty(), step == 0 || step % every != 0) << file;
+      EXPECT_EQ(bytes_of(name_of("again", file)), step > 5 ? wanted : "") << file;
+      for (const char *run : {"whole", "begun", "again"}) std::remove(name_of(run, file).c_str());
+    }
+  for (const char *run : {"whole", "begun", "again"})
+    std::remove(name_of(run, "series.pvd").c_str());
+}
+
+// As it was written before the step was saved: its steps count from 0, and all else goes on.
+TEST_F(wall_spec, a_saved_wall_without_a_step_counts_from_0)
+{
+  const api::Mesh mesh(file_);
+  const api::WallSpec spec = receding(floor_of(hooke_history(), mesh));
+  api::Wall wall(spec), again(spec);
+  Grains grains = slider();
+  grains.step(wall, 6);
+  const std::vector<double> saved = wall.save();
+  const lsdcd::State state("wall", saved.data(), saved.size());
+  std::vector<std::vector<double>> spheres;
+  state.read("springs of spheres", 1, spheres);
+  lsdcd::State old = lsdcd::WallState::from(state).blocks();
+  old.add("springs of spheres", 1, spheres);
+  again.restore(old.numbers());
   EXPECT_EQ(again.nodes(0), wall.nodes(0));
+  const std::vector<double> before = wall.nodes(0);
+  grains.step(again, 3);
+  EXPECT_EQ(again.nodes(0), before);
+  grains.step(again, 1);
+  EXPECT_NE(again.nodes(0), before);
 }
 
 // The vertices of a mesh that moves are in the box: lifted by the motion, and lower by the wear.
