@@ -373,6 +373,7 @@ lsdcd::SphereDrift FixWallLsdcd::sphere_drift() const
     drift.kind = lsdcd::SphereDrift::bounded;
   else if (neighbor->skin > 0)
     drift.kind = lsdcd::SphereDrift::watched;
+  drift.host_has_looked = !update->setupflag && lsdcd::has_looked_at_atoms(*neighbor);
   return drift;
 }
 

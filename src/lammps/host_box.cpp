@@ -25,10 +25,25 @@ PeriodicBox host_box(const LAMMPS_NS::Domain &domain)
   return box;
 }
 
+namespace {
+
+// Does LAMMPS reneighbour by how far atoms have gone, all of them?
+bool looks_at_atoms(const LAMMPS_NS::Neighbor &neighbor)
+{
+  return neighbor.dist_check && !neighbor.build_once && !neighbor.includegroup;
+}
+
+}    // namespace
+
 bool atoms_stay_close(const LAMMPS_NS::Neighbor &neighbor)
 {
-  return neighbor.dist_check && neighbor.every == 1 && neighbor.delay == 0 &&
-         !neighbor.build_once && !neighbor.includegroup;
+  return neighbor.every == 1 && neighbor.delay == 0 && looks_at_atoms(neighbor);
+}
+
+bool has_looked_at_atoms(const LAMMPS_NS::Neighbor &neighbor)
+{
+  return neighbor.ago > 0 && neighbor.ago >= neighbor.delay && neighbor.ago % neighbor.every == 0 &&
+         looks_at_atoms(neighbor);
 }
 
 }    // namespace lsdcd

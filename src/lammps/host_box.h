@@ -21,6 +21,10 @@ PeriodicBox host_box(const LAMMPS_NS::Domain &domain);
 // has is a reneighbouring.
 bool atoms_stay_close(const LAMMPS_NS::Neighbor &neighbor);
 
+// Has LAMMPS looked at all atoms in this step, which was no reneighbouring? Then none has gone farther than half the skin
+// since the last one. With a delay it looks in the steps after it.
+bool has_looked_at_atoms(const LAMMPS_NS::Neighbor &neighbor);
+
 }    // namespace lsdcd
 
 #endif

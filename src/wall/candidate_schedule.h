@@ -22,9 +22,11 @@ struct SphereDrift {
   };
   Kind kind = unknown;
   Real distance = 0;    // length; of watched: how far a sphere goes before a new choice
-  // Only of bounded: have spheres moved since the host counted their drift from 0? One that has gone
-  // `distance` one way may go as far the other way.
+  // Have spheres moved since the host counted their drift from 0? One that has gone `distance` one way may go as far the
+  // other way.
   bool has_begun = false;
+  // Only of watched: the host has looked in this step, and none has gone farther than `distance` since it counted from 0.
+  bool host_has_looked = false;
 };
 
 // A mesh that moves, as it is in this step.
@@ -50,13 +52,15 @@ class CandidateSchedule {
   CandidateUpdate next(const SphereDrift &drift, const std::vector<MovingMesh> &moving,
                        const std::function<bool()> &has_moved) const;
 
-  // Spheres were chosen in this step.
-  void note_update(const std::vector<MovingMesh> &moving);
+  // Spheres were chosen in this step, with the drift that next() was asked with.
+  void note_update(const SphereDrift &drift, const std::vector<MovingMesh> &moving);
 
  private:
   bool any_has_gone(Real farther_than, const std::vector<MovingMesh> &moving) const;
 
   bool expired_ = true;
+  bool chosen_at_zero_ =
+      false;    // before spheres had moved since the host counted their drift from 0
   std::vector<Pose> chosen_;    // of the moving meshes, in the step of the last choice
 };
 

@@ -512,7 +512,7 @@ void Wall::choose_if_due(const Spheres &spheres)
   engine_->choose(spheres, choice.margin, choice.watch);
   for (MeshPart &m : meshes_)
     if (m.nodes) m.nodes->note_choice();
-  schedule_.note_update(moving);
+  schedule_.note_update(input_.drift, moving);
   search_.count_update();
 }
 

@@ -225,15 +225,18 @@ print           "after $(vcm(all,z):%.10g)"
 
 
 def wall_comes(checks, folder):
-    """To a sphere at rest, for which LAMMPS alone would never reneighbour: it leaves with 2 V."""
-    for neigh in ("delay 0 every 1 check yes", "delay 10 every 10 check no"):
+    """To a sphere at rest, for which LAMMPS alone would never reneighbour: it leaves with 2 V. And a sphere comes to a
+    wall at rest, and leaves with V. In the last schedule LAMMPS looks in step 3000, where they are 0.6 apart, and not before
+    step 6000, and they touch in step 5000."""
+    for neigh in ("delay 0 every 1 check yes", "delay 10 every 10 check no", "delay 3000 every 1 check yes"):
         for skin in (0.3, 0.02):
-            text = RESTING.format(skin=skin, neigh=neigh, law=SMOOTH, v=3.0, steps=6000)
-            log = lmp.run_well(text, folder)
-            left = float(log.split("\nafter ")[1].split()[0])
-            # Half a swing of pi sqrt(m/k) in 300 steps: Verlet is wrong by (1/100)^2/24, and the
-            # steps that begin and end it by as much.
-            checks.at_most(f"a wall that comes ({neigh}, skin {skin}) pushes", abs(left - 6), 1e-4)
+            for v, comes, leaves in ((3.0, 0, 6), (0, -3, 3)):
+                text = RESTING.format(skin=skin, neigh=neigh, law=SMOOTH, v=v, steps=6000)
+                log = lmp.run_well(text.replace("fix             move", f"velocity all set 0 0 {comes}\nfix move"), folder)
+                left = float(log.split("\nafter ")[1].split()[0])
+                # Half a swing of pi sqrt(m/k) in 300 steps: Verlet is wrong by (1/100)^2/24, and the
+                # steps that begin and end it by as much.
+                checks.at_most(f"a wall with {v} and a sphere with {comes} ({neigh}, skin {skin})", abs(left - leaves), 1e-4)
 
 
 def wall_leaves_its_box(checks, folder):
@@ -336,6 +339,7 @@ def searches(checks, folder):
     checks.fact("spheres touch", near > 30, str(near))
     for name, words in (("a grid for larger spheres", {"more": "rmax 0.7 grid 0.3"}),
                         ("choices by the engine", {"neigh": "delay 10 every 10 check no"}),
+                        ("looks by the engine and by LAMMPS", {"neigh": "delay 10 every 1 check yes"}),
                         ("two runs without setup", {"run": "run 300 post no\nrun 300 pre no\n"})):
         checks.at_most(f"{name}: as plain", lmp.largest_difference(plain, go("other", **words)), 0)
     # fix wall/gran under respa, with time of the outer step.

@@ -41,10 +41,10 @@ MovingMesh turned_by(Real angle)
 }
 
 // The next step after a choice with these meshes.
-CandidateSchedule after_choice(const std::vector<MovingMesh> &moving = {})
+CandidateSchedule after_choice(const std::vector<MovingMesh> &moving = {}, bool has_begun = false)
 {
   CandidateSchedule schedule;
-  schedule.note_update(moving);
+  schedule.note_update(drift(SphereDrift::watched, has_begun), moving);
   return schedule;
 }
 
@@ -134,6 +134,28 @@ TEST(CandidateSchedule, watched_margin_does_not_grow_with_what_spheres_have_gone
 {
   EXPECT_EQ(CandidateSchedule().next(drift(SphereDrift::watched, true), {}, never_asked).margin,
             kDistance);
+}
+
+// The host has seen that none has gone the distance since it counted from 0, where the choice was made.
+TEST(CandidateSchedule, spares_the_engine_a_look_that_the_host_took)
+{
+  SphereDrift looked = drift(SphereDrift::watched, true);
+  looked.host_has_looked = true;
+  EXPECT_FALSE(after_choice().next(looked, {}, never_asked).is_due);
+  const auto yes = [] { return true; };
+  EXPECT_TRUE(after_choice().next(drift(SphereDrift::watched, true), {}, yes).is_due);
+  EXPECT_TRUE(after_choice({}, true).next(looked, {}, yes).is_due);
+}
+
+// Relative to a wall that has gone its own part of the margin, spheres may have gone all of it.
+TEST(CandidateSchedule, asks_the_engine_where_the_wall_has_gone_its_part_of_the_margin)
+{
+  const CandidateSchedule schedule = after_choice({moved_by({0, 0, 0})});
+  SphereDrift looked = drift(SphereDrift::watched, true);
+  looked.host_has_looked = true;
+  EXPECT_FALSE(schedule.next(looked, {moved_by({0, 0, 0.249})}, never_asked).is_due);
+  EXPECT_TRUE(schedule.next(looked, {moved_by({0, 0, 0.251})}, [] { return true; }).is_due);
+  EXPECT_FALSE(schedule.next(looked, {moved_by({0, 0, 0.251})}, [] { return false; }).is_due);
 }
 
 TEST(CandidateSchedule, is_due_in_each_step_where_spheres_come_and_go)
