@@ -17,7 +17,8 @@ NAME --words lists the words of the first three. Four print their rows and write
 spheres that a turning wall carries along or leaves behind, cells steps by the length of cells, sides on which side of
 a closed mesh points are, nodes a rigid sheet and one whose nodes move, on one core. region times a mesh against fix
 wall/gran/region (region.py), device steps of a LAMMPS without Kokkos on a core and on a GPU (device.py); both print
-their table.
+their table. decomposition computes how a vessel of 1e9 grains would be shared by 1e3 GPUs, and runs nothing
+(decomposition.py).
 
 Rows of the four are kept in doc/data/performance_DEVICE.csv (performance.py). Further words
 go to them, as --spheres 1e6; bench_query --help lists them. query --part near-and-far times
@@ -47,9 +48,16 @@ DOCUMENTS = {"accuracy": [tradeoff.main, accuracy.main], "effects": [effects.mai
 COMPARISONS = {"kokkos": kokkos.main, "liggghts": liggghts.main, "floor": floor.main,
                "mesh-size": mesh_size.main}
 
+
+def decomposition(args, words):
+    """Needs numpy, which a machine lent for a GPU may lack."""
+    import decomposition as computed
+    return computed.main(args, words)
+
+
 PRINTED = ["turning", "cells", "sides", "nodes"]
-# Tables that they print: region for doc/other-walls.md, device for doc/performance.md.
-PEERS = {"region": region.main, "device": device.main}
+# Tables that they print: region for doc/other-walls.md, device and decomposition for doc/performance.md.
+PEERS = {"region": region.main, "device": device.main, "decomposition": decomposition}
 
 
 def print_rows(name, args, rest):

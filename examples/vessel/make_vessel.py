@@ -79,8 +79,8 @@ def turned(profile, segments):
     return facets
 
 
-def main():
-    arg = arguments()
+def profiles(arg):
+    """Corners (r, z) of the vessel, from below, and of the beam pipe."""
     z_cone = arg.tube
     z_cylinder = arg.tube + arg.cone
     z_rim = z_cylinder + arg.height
@@ -97,7 +97,12 @@ def main():
              z_rim - arg.pipe_depth + arg.pipe_radius * (1 - math.cos(q))) for q in quarter]
     pipe[0] = (0.0, pipe[0][1])
     pipe.append((arg.pipe_radius, z_rim))
+    return profile, pipe
 
+
+def main():
+    arg = arguments()
+    profile, pipe = profiles(arg)
     write_stl(Path(arg.out) / "vessel.stl",
               turned(subdivided(profile, arg.edge), arg.segments)
               + turned(subdivided(pipe, arg.edge), arg.segments * 2 // 5),
