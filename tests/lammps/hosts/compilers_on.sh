@@ -5,7 +5,7 @@
 # Lets g++ and clang of another Debian read all sources, against the LAMMPS that it has, and prints their warnings.
 #   compilers_on.sh SUITE [PATTERN]   trixie or sid; PATTERN: only sources whose path has a match, for example "^src/"
 #   LSDCD_HOSTS      where the Debian is kept (default ${XDG_CACHE_HOME:-~/.cache}/lsdcd/hosts), as SUITE-root, which
-#                    demo_on.sh uses, too; some 2 GB with both compilers
+#                    run_on.sh uses, too; some 2 GB with both compilers
 #   LSDCD_HOST_JOBS  compilers at once (default: one per core)
 # The Debian comes from the mirror that this machine's apt uses. Exits 77 with a line "skipped: ..." where it cannot be
 # had or entered, and 1 where there is a warning.

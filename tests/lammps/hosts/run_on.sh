@@ -2,20 +2,21 @@
 # SPDX-FileCopyrightText: 2026 LSDCD contributors
 # SPDX-License-Identifier: GPL-2.0-only
 
-# Runs `./run demo`, with few steps and little optimisation, on another Debian with the LAMMPS that it has.
-#   demo_on.sh SUITE    trixie or sid
-#   LSDCD_HOSTS         where the Debian is kept (default ${XDG_CACHE_HOME:-~/.cache}/lsdcd/hosts),
-#                       as SUITE-root; some 1.5 GB with all that the demo installs
-# The Debian comes from the mirror that this machine's apt uses. Exits 77 with a line
-# "skipped: ..." where it cannot be had or entered.
+# Runs a command of ./run on another Debian with the LAMMPS that it has; the demo with few steps and little optimisation.
+#   run_on.sh SUITE WORD...   trixie or sid; for example: run_on.sh trixie demo, run_on.sh trixie test "^lammps"
+#   LSDCD_HOSTS               where the Debian is kept (default ${XDG_CACHE_HOME:-~/.cache}/lsdcd/hosts), as SUITE-root;
+#                             1.5 GB with all that the demo installs, 3 GB with the tests
+# What the command wrote is in SUITE-root/root/lsdcd, and its output in SUITE-root/root/run.log. The Debian comes from
+# the mirror that this machine's apt uses. Exits 77 with a line "skipped: ..." where it cannot be had or entered.
 set -euo pipefail
 top=$(cd "$(dirname "${BASH_SOURCE[0]}")/../../.." && pwd)
 . "$top/tests/lammps/hosts/debian_mirror.sh"
 suite=$1
+shift
 hosts=${LSDCD_HOSTS:-${XDG_CACHE_HOME:-$HOME/.cache}/lsdcd/hosts}
 debian=$hosts/$suite-root
 
-skip() { echo "skipped: no demo on $suite: $*"; exit 77; }
+skip() { echo "skipped: no Debian $suite: $*"; exit 77; }
 debian_root "$suite" "$debian"
 
 # What is in the tree, without what was built.
@@ -30,12 +31,14 @@ if [ -e /etc/resolv.conf ]; then cp -L /etc/resolv.conf "$debian/etc/resolv.conf
 # Mounts are seen by these commands only, and end with them.
 status=0
 unshare --mount --fork bash -euc '
-  mount -t proc proc "$0/proc"
-  mount -t sysfs sys "$0/sys"
-  mount --rbind /dev "$0/dev"
-  exec chroot "$0" env -i HOME=/root TERM=dumb PATH=/usr/sbin:/usr/bin:/sbin:/bin LSDCD_QUICK=1 \
-    /root/lsdcd/run demo' "$debian" 2>&1 </dev/null | tee "$debian/root/demo.log" || status=$?
-if grep -q '^./run: could not install' "$debian/root/demo.log"; then skip "its packages cannot be installed"; fi
+  root=$0
+  mount -t proc proc "$root/proc"
+  mount -t sysfs sys "$root/sys"
+  mount --rbind /dev "$root/dev"
+  exec chroot "$root" env -i HOME=/root TERM=dumb PATH=/usr/sbin:/usr/bin:/sbin:/bin LSDCD_QUICK=1 /root/lsdcd/run "$@"
+' "$debian" "$@" 2>&1 </dev/null | tee "$debian/root/run.log" || status=$?
+if grep -q '^./run: could not install' "$debian/root/run.log"; then skip "its packages cannot be installed"; fi
+if [ "$1" != demo ]; then exit "$status"; fi
 
 demo=$debian/root/lsdcd/demo
 fact() { if "${@:2}"; then echo "PASS $1"; else echo "FAIL $1"; status=1; fi; }
