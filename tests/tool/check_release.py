@@ -106,7 +106,7 @@ def check_programs(version, build):
 
 
 def check_packages(version, packages):
-    names = sorted(path.name for path in packages.iterdir())
+    names = sorted(path.name for path in packages.iterdir()) if packages.is_dir() else []
     fact("there is a source tarball", f"lsdcd-{version}.tar.gz" in names, names)
     debs = [name.split("_") for name in names if name.endswith(".deb")]
     fact(f"all packages are of {version}", debs and all(deb[1] == version for deb in debs), names)
