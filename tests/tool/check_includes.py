@@ -17,6 +17,8 @@ usage: check_includes.py [ROOT]
   its words and remedies in messages by Host::names() and Host::remedy().
 * No file includes itself by way of others.
 * src itself has no source file: each lies in a room, and each room has a floor.
+* A source that only some builds of the core have is compiled alone (lsdcd_alone of src/CMakeLists.txt), so that the others are
+  compiled together in the same way in all of them.
 
 Prints one line per violation, and exits with 1 if there is one.
 """
@@ -129,7 +131,23 @@ def circles(root):
         yield from follow(path, [])
 
 
+def batches(root):
+    """Sources that a condition or a return() before them keeps from some builds, and that are compiled with others."""
+    for folder, _, names in sorted(os.walk(os.path.join(root, "src"))):
+        if "CMakeLists.txt" not in names:
+            continue
+        with open(os.path.join(folder, "CMakeLists.txt"), encoding="utf-8") as f:
+            text = f.read()
+        alone = " ".join(re.findall(r"lsdcd_alone\(([^)]*)\)", text)).split()
+        for match in re.finditer(r"^( *)target_sources\(lsdcd_core PRIVATE ([^)]*)\)", text, re.M):
+            if match[1] or "return()" in text[:match.start()]:
+                for name in match[2].split():
+                    if name.endswith(".cpp") and name not in alone:
+                        yield f"{os.path.relpath(os.path.join(folder, name), root)}: only some builds have it, so it is compiled alone"
+
+
 def violations(root):
+    yield from batches(root)
     for circle in circles(root):
         yield f"{circle[0]}: includes itself: {' -> '.join(circle[1:])}"
     for path in sources(root):
