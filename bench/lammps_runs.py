@@ -27,20 +27,21 @@ PEAK = ("import resource, subprocess, sys; status = subprocess.call(sys.argv[2:]
 
 
 class Run:
-    """One process on one core: its output, wall-clock seconds and peak resident memory, MB."""
+    """One process on one core: its output, wall-clock seconds and peak resident memory, MB. `clock`: see processor_clock."""
 
-    def __init__(self, program, text, folder):
+    def __init__(self, program, text, folder, clock=None):
         script, log, peak = folder / "in.script", folder / "out.txt", folder / "peak.txt"
         script.write_text(text)
         env = {**os.environ, "OMP_NUM_THREADS": "1"}
+        program = [program] if clock is None else ["env", f"LD_PRELOAD={clock}", program]
         began = time.monotonic()
         with open(log, "w") as out:
-            done = subprocess.run([sys.executable, "-c", PEAK, peak.name, program, "-in", script.name, "-log", "none"],
+            done = subprocess.run([sys.executable, "-c", PEAK, peak.name, *program, "-in", script.name, "-log", "none"],
                                   cwd=folder, env=env, stdout=out, stderr=subprocess.STDOUT)
         self.seconds = time.monotonic() - began
         self.output = log.read_text(errors="replace")
         if done.returncode != 0 or "ERROR" in self.output:
-            raise SystemExit(f"{program} failed:\n{self.output[-3000:]}")
+            raise SystemExit(f"{program[-1]} failed:\n{self.output[-3000:]}")
         self.peak_mb = int(peak.read_text()) * 1024 / 1e6
 
     def step_ms(self):
@@ -52,6 +53,14 @@ class Run:
         """Of neighbour lists, in each of those runs."""
         builds = re.findall(r"^Neighbor list builds = (\d+)", self.output, re.M)
         return [int(b) for b in builds[-len(self.step_ms()):]]
+
+
+def processor_clock(folder):
+    """A library with which a program times itself by the processor time that it takes, whatever else the machine does."""
+    made = folder / "processor_clock.so"
+    source = pathlib.Path(__file__).resolve().parent / "processor_clock.c"
+    subprocess.run(["cc", "-O2", "-shared", "-fPIC", "-o", str(made), str(source)], check=True)
+    return made.resolve()
 
 
 def row(program, case, commit, triangles, spheres, order, ms, compiler="", **facts):

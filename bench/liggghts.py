@@ -6,9 +6,11 @@
 100 000 spheres of radii 0.35 to 1 in a closed cylinder (radius 50, height 100) of 2 560, 19 968 and
 202 752 triangles; Hertz contacts with shear history, friction and restitution; no contacts between
 spheres. *At the wall*: every sphere overlaps the wall and is fixed in place. *Turning*: the same, and
-the cylinder turns round its axis. *In bulk*: spheres fill the cylinder and move freely.
+the cylinder turns round its axis. *In bulk*: spheres fill the cylinder and move freely; *late* and *unchecked* differ in
+when the programs look how far spheres have gone.
 
-The wall's part of a step is the step with the wall less the step without it, in the same process.
+The wall's part of a step is the step with the wall less the step without it, in the same process. *Own*: what the programs'
+own timers say: that of fix wall/lsdcd, and those of LIGGGHTS's fixes for walls and meshes. All times are processor time.
 Set-up and memory are those of a run of 0 steps with the wall less those of one without. Both
 programs read the same spheres and the same mesh, LIGGGHTS as text. Rows are kept in doc/data/liggghts_cpu.csv.
 """
@@ -16,6 +18,7 @@ import argparse
 import math
 import os
 import random
+import re
 import shutil
 import statistics
 import sys
@@ -34,7 +37,9 @@ SMALLEST, LARGEST = 0.35, 1.0
 # Segments round the cylinder and along it: 2 round along + round^2 / 4 triangles.
 MESHES = {2560: (64, 12), 19968: (192, 28), 202752: (576, 104)}
 CASES = {"at the wall": "all at the wall, fixed", "turning": "all at the wall, fixed; the cylinder turns",
-         "in bulk": "in bulk, moving", "in bulk late": "in bulk, moving; `neigh_modify delay 10`"}
+         "in bulk": "in bulk, moving", "in bulk late": "in bulk, moving; `neigh_modify delay 10`",
+         "in bulk unchecked": "in bulk, moving; `neigh_modify every 20 check no`"}
+NEIGHBORS = {"in bulk late": "delay 10 every 1 check yes", "in bulk unchecked": "delay 0 every 20 check no"}
 ORDERS = ("random", "sorted")
 YOUNG, POISSON, RESTITUTION, FRICTION, DENSITY = 1e8, 0.3, 0.5, 0.5, 2500.0
 DT, SPEED, SKIN = 1e-3, 2.5, 0.2    # in bulk, neighbour lists are built every 20 to 30 steps
@@ -185,6 +190,7 @@ fix             wall all wall/gran model hertz tangential history mesh n_meshes 
 PROGRAMS = {"lsdcd": (OURS, OUR_WALL, "unfix wall\n"),
             "LIGGGHTS": (THEIRS, THEIR_WALL, "unfix wall\nunfix mesh\n")}
 QUIET = "thermo 100000000\n"
+TIMERS = {"lsdcd": "", "LIGGGHTS": "modify_timing on\n"}
 
 
 def timed_script(program, case, steps, chunks):
@@ -193,10 +199,9 @@ def timed_script(program, case, steps, chunks):
     if case == "turning":
         wall, no_wall = turning(program)
     move = "fix move all nve/sphere\n" if case.startswith("in bulk") else ""
-    if case == "in bulk late":
-        start = start.replace("delay 0 every 1", "delay 10 every 1")
+    start = start.replace("delay 0 every 1 check yes", NEIGHBORS.get(case, "delay 0 every 1 check yes"))
     runs = f"run {max(5, steps // 4)}\n" + f"run {steps}\n" * chunks
-    return start + wall + move + QUIET + runs + no_wall + runs
+    return start + wall + move + QUIET + TIMERS[program] + runs + no_wall + runs
 
 
 def turning(program):
@@ -252,8 +257,22 @@ def start_costs(executable, program, folder, repeats):
     return {"setup_s": f"{added('seconds'):.3g}", "memory_mb": f"{added('peak_mb'):.4g}"}
 
 
+def own_ms(program, output, runs, steps):
+    """By the program's own timers, ms per step of each run of `steps` steps with the wall, of which there are `runs`: the
+    last of them."""
+    if program == "lsdcd":
+        parts = re.findall(r"timing breakdown of the wall.*\n.*\n.*\n((?:  \w+ *\|.*\n)+)", output, re.M)
+        seconds = [sum(float(line.split("|")[2]) for line in part.splitlines()) for part in parts]
+    else:
+        loops = output.split("Loop time of")[1:]
+        seconds = [sum(float(t) for t in re.findall(r"^Fix (?:\S*mesh\S*|wall) \S+ time \(%\) = (\S+)", loop, re.M))
+                   for loop in loops]
+    return [1e3 * s / steps for s in seconds[1:1 + runs]]
+
+
 def compare(options, executables, folder, named):
     rows = []
+    clock = lammps_runs.processor_clock(folder)
     for triangles in options.triangles:
         n_round, n_along = MESHES[triangles]
         write_mesh(folder, n_round, n_along)
@@ -268,20 +287,24 @@ def compare(options, executables, folder, named):
                 steps = options.steps * (10 if case.startswith("in bulk") else 1)
                 parts = {p: [] for p in executables}
                 plain = {p: [] for p in executables}
+                own = {p: [] for p in executables}
                 builds = {p: 0 for p in executables}
                 for _ in range(options.repeats):    # in turn, so that other load meets both
                     for program, executable in executables.items():
-                        run = lammps_runs.Run(executable, timed_script(program, case, steps, options.chunks), folder)
+                        run = lammps_runs.Run(executable, timed_script(program, case, steps, options.chunks), folder, clock)
                         ms = run.step_ms()
                         half = len(ms) // 2
                         builds[program] += sum(run.builds()[1:half])
                         plain[program] += ms[half + 1:]
+                        own[program] += own_ms(program, run.output, half - 1, steps)
                         parts[program] += [a - b for a, b in zip(ms[1:half], ms[half + 1:])]
                 for program in executables:
                     rows.append(lammps_runs.row("liggghts", f"{case}, {program}", named, triangles,
                                                 options.spheres, order, parts[program], steps=steps,
                                                 builds=builds[program],
                                                 no_wall_ms=f"{statistics.median(plain[program]):.4g}",
+                                                own_ms=f"{statistics.median(own[program]):.4g}",
+                                                own_least=f"{min(own[program]):.4g}", own_most=f"{max(own[program]):.4g}",
                                                 **start[program], **check))
     return rows
 
