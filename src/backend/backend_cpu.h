@@ -122,31 +122,52 @@ struct CpuBackend {
   {
     return exclusive_scan(values, n);
   }
+  template <class T>
+  void scan(T *values, std::size_t n, Array<char> & /*scratch*/)
+  {
+    exclusive_scan(values, n);
+  }
 
-  // 16 bits at a time, up to the bits of the largest key.
   void sort_pairs(Scratch<std::uint32_t> &keys, Scratch<std::uint32_t> &values,
                   std::uint32_t largest)
   {
     const std::size_t n = keys.size();
     Scratch<std::uint32_t> other_keys(n), other_values(n);
-    for (int shift = 0; shift < 32 && (largest >> shift) > 0; shift += 16) {
-      std::vector<std::size_t> start(65536, 0);
-      for (std::size_t i = 0; i < n; i++) start[(keys.data()[i] >> shift) & 0xffff]++;
-      exclusive_scan(start.data(), start.size());
-      for (std::size_t i = 0; i < n; i++) {
-        const std::size_t to = start[(keys.data()[i] >> shift) & 0xffff]++;
-        other_keys.data()[to] = keys.data()[i];
-        other_values.data()[to] = values.data()[i];
-      }
+    for (int shift = 0; shift < bits_of(largest); shift += 16) {
+      sort_by_16_bits(n, shift, keys.data(), values.data(), other_keys.data(), other_values.data());
       std::swap(keys, other_keys);
       std::swap(values, other_values);
     }
+  }
+  template <class Memory>
+  SortedPairs sort_in(std::size_t n, int bits, Memory &memory)
+  {
+    int now = 0;
+    for (int shift = 0; shift < bits; shift += 16, now = 1 - now)
+      sort_by_16_bits(n, shift, memory.keys[now].data(), memory.values[now].data(),
+                      memory.keys[1 - now].data(), memory.values[1 - now].data());
+    return {memory.keys[now].data(), memory.values[now].data()};
   }
 
   std::string name() const
   {
     const int n = threads();
     return "CPU, " + std::to_string(n) + (n == 1 ? " thread" : " threads");
+  }
+
+ private:
+  void sort_by_16_bits(std::size_t n, int shift, const std::uint32_t *keys,
+                       const std::uint32_t *values, std::uint32_t *to_keys,
+                       std::uint32_t *to_values)
+  {
+    std::vector<std::size_t> start(65536, 0);
+    for (std::size_t i = 0; i < n; i++) start[(keys[i] >> shift) & 0xffff]++;
+    exclusive_scan(start.data(), start.size());
+    for (std::size_t i = 0; i < n; i++) {
+      const std::size_t to = start[(keys[i] >> shift) & 0xffff]++;
+      to_keys[to] = keys[i];
+      to_values[to] = values[i];
+    }
   }
 };
 

@@ -233,43 +233,14 @@ struct CudaBackend {
   void compact(std::size_t n, const int *from, const char *flags, Array<char> &scratch, int *to,
                std::uint32_t *total)
   {
-    std::size_t bytes = 0;
-    const auto flagged = [&](void *at) {
-      cuda_check(cub::DeviceSelect::Flagged(at, bytes, from, flags, to, total, static_cast<int>(n),
-                                            stream),
-                 "keeping what is flagged");
-    };
-    flagged(nullptr);
-    if (scratch.size() < bytes) scratch = Array<char>(2 * bytes);
-    bytes = scratch.size();
-    flagged(scratch.data());
+    with_kept_scratch(0, scratch, [&](char *, void *more, std::size_t &bytes) {
+      return cub::DeviceSelect::Flagged(more, bytes, from, flags, to, total, static_cast<int>(n),
+                                        stream);
+    });
   }
 
-  template <class T, class Read>
-  T largest(std::size_t n, const Read &read)
-  {
-    if (n == 0) return T(0);
-    using Places = thrust::counting_iterator<std::size_t>;
-    const thrust::transform_iterator<Read, Places, T, T> values(Places(0), read);
-    Scratch<T> out = scratch<T>(1);
-    with_scratch([&](void *scratch, std::size_t &bytes) {
-      return cub::DeviceReduce::Max(scratch, bytes, values, out.data(), n, stream);
-    });
-    return read_one(*this, out.data());
-  }
-  template <class T>
-  T exclusive_scan(T *values, std::size_t n)
-  {
-    if (n == 0) return T(0);
-    const T last = read_one(*this, values + n - 1);
-    with_scratch([&](void *scratch, std::size_t &bytes) {
-      return cub::DeviceScan::ExclusiveSum(scratch, bytes, values, values, n, stream);
-    });
-    return last + read_one(*this, values + n - 1);
-  }
-
-  // The same two in scratch memory that the caller keeps between steps: the pool of Scratch takes 32 MiB of the device for
-  // any number of bytes.
+  // In scratch memory that the caller keeps between steps: the pool of Scratch takes 32 MiB of the device for any number of
+  // bytes.
   template <class T, class Read>
   T largest(std::size_t n, const Read &read, Array<char> &scratch)
   {
@@ -284,62 +255,77 @@ struct CudaBackend {
     return read_one(*this, out);
   }
   template <class T>
-  T exclusive_scan(T *values, std::size_t n, Array<char> &scratch)
+  void scan(T *values, std::size_t n, Array<char> &scratch)
   {
-    if (n == 0) return T(0);
-    const T last = read_one(*this, values + n - 1);
+    if (n == 0) return;
     with_kept_scratch(0, scratch, [&](char *, void *more, std::size_t &bytes) {
       return cub::DeviceScan::ExclusiveSum(more, bytes, values, values, n, stream);
     });
-    return last + read_one(*this, values + n - 1);
+  }
+  // The last number before the scan and after it come in one wait.
+  template <class T>
+  T exclusive_scan(T *values, std::size_t n, Array<char> &scratch)
+  {
+    if (n == 0) return T(0);
+    T *last = nullptr, both[2];
+    with_kept_scratch(sizeof both, scratch, [&](char *at, void *more, std::size_t &bytes) {
+      last = reinterpret_cast<T *>(at);
+      if (last) copy_over(values + n - 1, last, 1);
+      return cub::DeviceScan::ExclusiveSum(more, bytes, values, values, n, stream);
+    });
+    copy_over(values + n - 1, last + 1, 1);
+    copy_out(last, both, 2);
+    wait();
+    return both[0] + both[1];
   }
 
-  // Pairs of a key and a value, before a sort and after it, in memory that is used again.
-  struct PairMemory {
-    Array<std::uint32_t> keys[2], values[2];
+  // The same two with scratch memory for a while.
+  template <class T, class Read>
+  T largest(std::size_t n, const Read &read)
+  {
     Array<char> scratch;
+    return largest<T>(n, read, scratch);
+  }
+  template <class T>
+  T exclusive_scan(T *values, std::size_t n)
+  {
+    Array<char> scratch;
+    return exclusive_scan(values, n, scratch);
+  }
 
-    void reserve(std::size_t n)
-    {
-      if (keys[0].size() >= n) return;
-      for (int k = 0; k < 2; k++) {
-        keys[k] = Array<std::uint32_t>(n);
-        values[k] = Array<std::uint32_t>(n);
-      }
-    }
-  };
-  // Sorts the first n pairs by the lowest `bits` of their keys and returns the values in order. Does not wait.
-  template <class = void>
-  const std::uint32_t *sort_in(std::size_t n, int bits, PairMemory &memory)
+  template <class Memory>
+  SortedPairs sort_in(std::size_t n, int bits, Memory &memory)
   {
     cub::DoubleBuffer<std::uint32_t> keys(memory.keys[0].data(), memory.keys[1].data()),
         values(memory.values[0].data(), memory.values[1].data());
-    std::size_t bytes = 0;
-    const auto sort = [&](void *at) {
-      cuda_check(cub::DeviceRadixSort::SortPairs(at, bytes, keys, values, n, 0, bits, stream),
-                 "sorting");
-    };
-    sort(nullptr);
-    if (memory.scratch.size() < bytes) memory.scratch = Array<char>(bytes);
-    sort(memory.scratch.data());
-    return values.Current();
+    with_kept_scratch(0, memory.scratch, [&](char *, void *more, std::size_t &bytes) {
+      return cub::DeviceRadixSort::SortPairs(more, bytes, keys, values, n, 0, bits, stream);
+    });
+    return {keys.Current(), values.Current()};
   }
 
-  // Over the bits of the largest key. A template, so that only who sorts compiles it.
+  // A template, so that only who sorts compiles it. CUB asks twice: for the size of its scratch memory, then to run.
   template <class = void>
   void sort_pairs(Scratch<std::uint32_t> &keys, Scratch<std::uint32_t> &values,
                   std::uint32_t largest)
   {
     const std::size_t n = keys.size();
     if (n == 0) return;
-    int bits = 1;
-    while (bits < 32 && (largest >> bits) > 0) bits++;
     Scratch<std::uint32_t> sorted_keys(n), sorted_values(n);
-    with_scratch([&](void *scratch, std::size_t &bytes) {
-      return cub::DeviceRadixSort::SortPairs(scratch, bytes, keys.data(), sorted_keys.data(),
-                                             values.data(), sorted_values.data(), n, 0, bits,
-                                             stream);
-    });
+    std::size_t bytes = 0;
+    const auto sort = [&](void *at) {
+      cuda_check(cub::DeviceRadixSort::SortPairs(at, bytes, keys.data(), sorted_keys.data(),
+                                                 values.data(), sorted_values.data(), n, 0,
+                                                 bits_of(largest), stream),
+                 "sorting");
+    };
+    sort(nullptr);
+    // Scratch memory comes and goes in the order of the default stream: another one is made to wait for it, and is
+    // waited for.
+    Scratch<char> room(bytes);
+    if (stream) cuda_check(cudaStreamSynchronize(nullptr), "allocating device memory");
+    sort(room.data());
+    if (stream) wait();
     std::swap(keys, sorted_keys);
     std::swap(values, sorted_values);
   }
@@ -379,18 +365,15 @@ struct CudaBackend {
     return cudaFuncGetAttributes(&attributes, kernel) == cudaSuccess && attributes.ptxVersion >= 90;
   }
 
-  // CUB asks twice: for the size of its scratch memory, then to run.
-  template <class Call>
-  void with_scratch(Call call)
+  template <class T>
+  void copy_over(const T *from, T *to, std::size_t n)
   {
-    std::size_t bytes = 0;
-    cuda_check(call(nullptr, bytes), "sizing scratch memory");
-    Scratch<char> room = scratch<char>(bytes);
-    cuda_check(call(room.data(), bytes), "scan, sort or reduce");
-    release_scratch();
+    cuda_check(cudaMemcpyAsync(to, from, n * sizeof(T), cudaMemcpyDeviceToDevice, stream),
+               "copying on the device");
   }
 
-  // The same with memory of the caller's, which begins with `first` bytes for a result: call(at, more, bytes).
+  // CUB asks twice: for the size of its scratch memory, then to run. Memory is the caller's, and begins with `first` bytes
+  // for a result: call(at, more, bytes).
   template <class Call>
   void with_kept_scratch(std::size_t first, Array<char> &scratch, Call call)
   {
@@ -402,21 +385,7 @@ struct CudaBackend {
       scratch = Array<char>();
       scratch = Array<char>(2 * (first + bytes));
     }
-    cuda_check(call(scratch.data(), scratch.data() + first, bytes), "scan or reduce");
-  }
-
-  // Scratch memory comes and goes in the order of the default stream: another one is made
-  // to wait for it, and is waited for.
-  template <class T>
-  Scratch<T> scratch(std::size_t n)
-  {
-    Scratch<T> room(n);
-    if (stream) cuda_check(cudaStreamSynchronize(nullptr), "allocating device memory");
-    return room;
-  }
-  void release_scratch()
-  {
-    if (stream) wait();
+    cuda_check(call(scratch.data(), scratch.data() + first, bytes), "scan, select, sort or reduce");
   }
 };
 

@@ -103,8 +103,6 @@ template <class B>
 class NodeForces {
   template <class T>
   using Array = typename B::template Array<T>;
-  template <class T>
-  using Scratch = typename B::template Scratch<T>;
 
  public:
   // Where a host can read the contacts. Adds to `forces`, x y z, node after node, and returns the power on the spheres.
@@ -131,22 +129,20 @@ class NodeForces {
     return sum_of(power.data(), power.size());
   }
 
-  // By the backend, in its memory: the shares of all contacts, sorted by node, which keeps their order.
+  // By the backend, in its memory: the shares of all contacts, sorted by node, which keeps their order. The sums of a few
+  // more than the last step had are started before the host knows how many there are, and made again if that was too few.
   void sum(B &b, const NodeContacts &in, std::size_t n_nodes)
   {
     n_sums_ = 0;
     n_nodes_ = n_nodes;
-    std::size_t n = 0;
-    if (in.n > 0) {
-      int *at = reserve(offset_, in.n);
-      b.for_each(in.n, [=] LSDCD_LAMBDA(std::size_t k) { at[k] = 3 * in.count(k); });
-      n = b.exclusive_scan(at, in.n);
+    if (in.n == 0) return clear(b);
+    count_shares(b, in);
+    for (std::size_t room = room_for(n_shares_);; room = room_for(n_shares_)) {
+      sum_shares(b, in, room);
+      counted_.wait();
+      n_shares_ = *n_on_host_.data();
+      if (n_shares_ <= room) break;
     }
-    if (n == 0) return clear(b);
-    Scratch<std::uint32_t> nodes(n), numbers(n);
-    put_shares(b, in, n_nodes, nodes.data(), numbers.data(), n);
-    b.sort_pairs(nodes, numbers, static_cast<std::uint32_t>(n_nodes));
-    sum_shares(b, nodes.data(), numbers.data(), n, n_nodes);
     n_sums_ = sum_power(b, in);
   }
 
@@ -167,7 +163,7 @@ class NodeForces {
   std::size_t bytes() const
   {
     return (powers_.size() + power_.size() + sums_.size()) * sizeof(Real) +
-           (offset_.size() + first_.size()) * sizeof(int) +
+           (offset_.size() + first_.size()) * sizeof(int) + scan_.size() + pairs_.bytes() +
            (share_.size() + block_.size() + group_.size()) * sizeof(Vec3);
   }
 
@@ -179,21 +175,38 @@ class NodeForces {
     b.for_each(3 * n_nodes_, [=] LSDCD_LAMBDA(std::size_t i) { sums[i] = 0; });
   }
 
-  // Three shares a contact; n_nodes stands for a node that there is not.
-  void put_shares(B &b, const NodeContacts &in, std::size_t n_nodes, std::uint32_t *node,
-                  std::uint32_t *number, std::size_t n)
+  // Where the shares of each candidate begin, three a contact, and their number behind these, which goes to the host.
+  void count_shares(B &b, const NodeContacts &in)
   {
-    Vec3 *share = reserve(share_, n);
+    const std::size_t n = in.n;
+    int *at = reserve(offset_, n + 1);
+    b.for_each(n + 1, [=] LSDCD_LAMBDA(std::size_t k) { at[k] = k < n ? 3 * in.count(k) : 0; });
+    b.scan(at, n + 1, scan_);
+    b.copy_out(at + n, n_on_host_.data(), 1);
+    counted_.record(b);
+  }
+
+  // The first `room` shares; n_nodes stands for a node that there is not.
+  void put_shares(B &b, const NodeContacts &in, std::size_t room)
+  {
+    pairs_.reserve(room);
+    std::uint32_t *node = pairs_.keys[0].data(), *number = pairs_.values[0].data();
+    Vec3 *share = reserve(share_, room);
     const int *offset = offset_.data();
-    b.for_each(in.n, [=] LSDCD_LAMBDA(std::size_t k) {
-      int to = offset[k];
-      for (int c = 0; c < in.count(k); c++) {
+    const auto none = static_cast<std::uint32_t>(n_nodes_);
+    const std::size_t n = in.n;
+    b.for_each(room, [=] LSDCD_LAMBDA(std::size_t to) {
+      number[to] = static_cast<std::uint32_t>(to);
+      if (to >= static_cast<std::size_t>(offset[n])) node[to] = none;
+    });
+    b.for_each(n, [=] LSDCD_LAMBDA(std::size_t k) {
+      std::size_t to = offset[k];
+      for (int c = 0; c < in.count(k) && to + 3 <= room; c++) {
         const ContactRecord &record = in.records[in.slot[k] + c];
         const NodeShares at = in.shares(k, record);
         for (int j = 0; j < 3; j++, to++) {
           const bool is_one = j < at.n;
-          node[to] = static_cast<std::uint32_t>(is_one ? at.node[j] : n_nodes);
-          number[to] = static_cast<std::uint32_t>(to);
+          node[to] = is_one ? static_cast<std::uint32_t>(at.node[j]) : none;
           if (is_one) share[to] = at.share[j] * record.force;
         }
       }
@@ -215,9 +228,13 @@ class NodeForces {
     return n_groups;
   }
 
-  void sum_shares(B &b, const std::uint32_t *node, const std::uint32_t *number, std::size_t n,
-                  std::size_t n_nodes)
+  // Of each node.
+  void sum_shares(B &b, const NodeContacts &in, std::size_t n)
   {
+    put_shares(b, in, n);
+    const std::size_t n_nodes = n_nodes_;
+    const SortedPairs sorted = b.sort_in(n, bits_of(static_cast<std::uint32_t>(n_nodes)), pairs_);
+    const std::uint32_t *node = sorted.keys, *number = sorted.values;
     const Vec3 *share = share_.data();
     Vec3 *block = reserve(block_, n), *group = reserve(group_, n);
     int *first = reserve(first_, n_nodes + 2);
@@ -268,11 +285,21 @@ class NodeForces {
     return sum;
   }
 
-  std::size_t n_nodes_ = 0, n_sums_ = 0;    // of the last step; n_sums_: of power_
-  Array<Real> powers_, power_, sums_;       // powers_: of candidates, and of blocks
+  // A multiple of three, as a contact has.
+  static std::size_t room_for(std::size_t n_shares)
+  {
+    return 3 * ((n_shares + n_shares / 8) / 3 + 1024);
+  }
+
+  std::size_t n_nodes_ = 0, n_shares_ = 0, n_sums_ = 0;    // of the last step; n_sums_: of power_
+  Array<Real> powers_, power_, sums_;                      // powers_: of candidates, and of blocks
   typename B::template HostArray<Real> on_host_;
   Array<int> offset_, first_;
   Array<Vec3> share_, block_, group_;
+  PairMemory<B> pairs_;    // of a node and a share
+  Array<char> scan_;
+  typename B::template HostArray<int> n_on_host_ = typename B::template HostArray<int>(1);
+  typename B::Event counted_;    // once it is there
 };
 
 }    // namespace lsdcd

@@ -134,7 +134,7 @@ class CudaTreeQuery : public StreamQuery {
       key[i] = number_on_curve(tree.share_of_box(points[from + i]), kCurveBits);
       number[i] = static_cast<std::uint32_t>(i);
     });
-    return b_.sort_in(n, 3 * kCurveBits, pairs_);
+    return b_.sort_in(n, 3 * kCurveBits, pairs_).values;
   }
 
  private:
@@ -146,7 +146,7 @@ class CudaTreeQuery : public StreamQuery {
   std::shared_ptr<const DeviceTree> tree_;
   CudaBackend b_;
   RadiusCheck<CudaBackend> radii_;
-  CudaBackend::PairMemory pairs_;
+  PairMemory<CudaBackend> pairs_;
 };
 
 std::unique_ptr<StreamQuery> DeviceTree::query_on(void *stream) const
