@@ -17,6 +17,7 @@
 #include <ctime>
 #include <exception>
 #include <fstream>
+#include <iterator>
 
 namespace lsdcd {
 
@@ -39,7 +40,8 @@ const char *kWords =
     "  --length L            of cells\n"
     "  --repeats N           timed runs after one to warm up\n"
     "  --brute-limit TESTS   measure a brute force of up to so many tests whole\n"
-    "  --part NAME           of the queries: status, distance, near-and-far or calls alone\n"
+    "  --part NAME           of the queries: status, distance, near-and-far or calls alone;\n"
+    "                        of the nodes: host or in-place\n"
     "  --quick               small sizes, to see that all runs\n"
     "  --csv FILE            write the rows there too\n"
     "  --commit NAME         what was built\n";
@@ -143,8 +145,9 @@ BenchOptions read_options(int argc, char **argv, const char *about)
       stop("no such option: " + word);
   }
   if (!device.empty() && device != "cpu" && device != "cuda") stop("no such device: " + device);
-  if (!o.part.empty() && o.part != "status" && o.part != "distance" && o.part != "near-and-far" &&
-      o.part != "tree" && o.part != "calls")
+  const char *const parts[] = {"",      "status", "distance", "near-and-far",
+                               "calls", "tree",   "host",     "in-place"};
+  if (std::find(std::begin(parts), std::end(parts), o.part) == std::end(parts))
     stop("no such part: " + o.part);
   std::string why;
   const bool cuda = cuda_available(&why);

@@ -23,7 +23,7 @@ struct BenchOptions {
   int repeats = 0;
   double brute_limit = 0;    // tests of a brute force that is measured whole
   bool quick = false;        // small sizes, to see that all runs
-  std::string part;          // of bench_query, this alone
+  std::string part;          // of bench_query and bench_nodes, this alone
   std::string csv, commit;
 };
 

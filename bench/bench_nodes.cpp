@@ -6,7 +6,8 @@
 //
 // Spheres go where the sheet goes, and slide along it in both cases. A step is that of a host program: places and
 // velocities of nodes are given, forces of nodes are asked for. Steps of both walls take turns, so that what else
-// the machine does is in both; the least times are nearest to the truth.
+// the machine does is in both; the least times are nearest to the truth. --part host or in-place: spheres in the memory of
+// the host alone, or in that of a GPU.
 #include "bench.h"
 
 #include "support/device_memory.h"
@@ -254,9 +255,10 @@ void measure_on(Device device, bool in_place, const BenchOptions &o, BenchRows &
 
 void measure(const BenchOptions &o, BenchRows &rows)
 {
+  const auto asks_for = [&](const char *part) { return o.part.empty() || o.part == part; };
   for (const Device device : o.devices) {
-    measure_on(device, false, o, rows);
-    if (device == Device::cuda) measure_on(device, true, o, rows);
+    if (asks_for("host")) measure_on(device, false, o, rows);
+    if (device == Device::cuda && asks_for("in-place")) measure_on(device, true, o, rows);
   }
 }
 
