@@ -24,6 +24,12 @@
 
 namespace lsdcd {
 
+// On a host: which cells of a grid have candidates.
+struct OccupiedCells {
+  std::vector<std::int32_t> brick_of;
+  std::vector<Brick> bricks;
+};
+
 template <class B>
 class EngineOn : public WallEngine, public CandidatesInPlace, public NodesInPlace {
   template <class T>
@@ -181,6 +187,22 @@ class EngineOn : public WallEngine, public CandidatesInPlace, public NodesInPlac
   }
 
   NodesInPlace *nodes_in_place() override { return has_copies() ? this : nullptr; }
+  void build_node_grid(int mesh, const NodeGridSettings &settings) override
+  {
+    broad_phase_.set_lists(b_, nodes_.at(mesh).build_grid(b_, settings, records_of(mesh)), mesh);
+  }
+  // For an adapter, which selects by cells on its host: that grid, without records and candidates.
+  GridView occupied_cells(int mesh, OccupiedCells &to)
+  {
+    const NodeGrid<B> &grid = nodes_.at(mesh).grid();
+    to = {to_host(b_, grid.brick_of(), grid.brick_of().size()),
+          to_host(b_, grid.bricks(), grid.bricks().size())};
+    GridView view = grid.view(MeshFeaturesView());
+    view.lists = CellListsView();
+    view.lists.brick_of = to.brick_of.data();
+    view.lists.bricks = to.bricks.data();
+    return view;
+  }
   void start_nodes(int mesh, const NodesNow &now) override { nodes_.at(mesh).start(b_, now); }
   void give_nodes(int mesh, const Vec3 *x, const Vec3 *v) override
   {

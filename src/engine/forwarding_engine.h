@@ -33,6 +33,10 @@ class ForwardingEngine : public WallEngine {
   StepDiagnostics read_diagnostics() override { return engine_->read_diagnostics(); }
 
   NodesInPlace *nodes_in_place() override { return engine_->nodes_in_place(); }
+  void build_node_grid(int mesh, const NodeGridSettings &settings) override
+  {
+    engine_->build_node_grid(mesh, settings);
+  }
   void turn_springs(int n, int mesh, const TurningMesh &turning) override
   {
     engine_->turn_springs(n, mesh, turning);

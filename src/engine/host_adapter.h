@@ -47,7 +47,7 @@ class HostAdapter : public WallEngine {
  public:
   HostAdapter(const EngineSettings &settings, const CompiledLaw<B> &law, B backend) :
       settings_(settings), traits_(law.traits), engine_(settings, law, std::move(backend)),
-      meshes_(settings.meshes), waiting_(law.traits.n_extra)
+      meshes_(settings.meshes), node_cells_(settings.meshes), waiting_(law.traits.n_extra)
   {
   }
 
@@ -55,11 +55,9 @@ class HostAdapter : public WallEngine {
 
   void set_grid(const GridView &grid, int mesh = 0) override
   {
-    flush_diagnostics();
-    springs_to_waiting();
+    forget_choice();
     engine_.set_grid(grid, mesh);
     meshes_.at(mesh).grid = GridOn<CpuBackend>(cpu_, grid);
-    candidates_.clear();
   }
 
   void set_pose(const Pose &pose, int mesh = 0) override
@@ -179,6 +177,13 @@ class HostAdapter : public WallEngine {
   }
 
   NodesInPlace *nodes_in_place() override { return engine_.nodes_in_place(); }
+  void build_node_grid(int mesh, const NodeGridSettings &settings) override
+  {
+    forget_choice();
+    engine_.build_node_grid(mesh, settings);
+    meshes_.at(mesh).grid =
+        GridOn<CpuBackend>(cpu_, engine_.occupied_cells(mesh, node_cells_[mesh]));
+  }
   // Springs that wait are turned once the engine has them, in the step that comes.
   void turn_springs(int /*n*/, int mesh, const TurningMesh &turning) override
   {
@@ -218,6 +223,14 @@ class HostAdapter : public WallEngine {
 
  private:
   bool uses_slots() const { return lsdcd::uses_slots(settings_); }
+
+  // Before another grid.
+  void forget_choice()
+  {
+    flush_diagnostics();
+    springs_to_waiting();
+    candidates_.clear();
+  }
 
   // The candidates of any mesh by cells, ascending.
   std::vector<int> candidates_by_cells(const Spheres &spheres, Real margin)
@@ -399,6 +412,7 @@ class HostAdapter : public WallEngine {
 
   CpuBackend cpu_;
   std::vector<EngineMesh<CpuBackend>> meshes_;
+  std::vector<OccupiedCells> node_cells_;    // of meshes whose nodes move
   CandidateSelector<CpuBackend> selector_;
   std::vector<int> candidates_, touching_;
   DisplacementCheck<CpuBackend> displacement_;

@@ -9,6 +9,7 @@
 #include "backend/atomic.h"
 #include "backend/backend.h"
 #include "engine/nodes_in_place.h"
+#include "grid/build/node_grid.h"
 #include "mesh/mesh_features.h"
 #include "mesh/node_spin.h"
 
@@ -63,34 +64,42 @@ class MovingNodes {
   using Array = typename B::template Array<T>;
 
  public:
-  bool are_there() const { return at_.size() > 0; }
-
   // The records of the mesh are those of the host.
   void start(B &b, const NodesNow &now)
   {
     const WeldedMesh &mesh = *now.mesh;
     const std::size_t n = mesh.vertices.size();
-    if (!are_there()) {
-      put_topology(b, topology_of(mesh), mesh);
-      put_faces_around(b, mesh);
-      at_ = from_host(b, mesh.vertices);
-      before_ = from_host(b, mesh.vertices);
-      next_ = Array<Vec3>(n);
-      built_at_ = Array<Vec3>(n);
-      velocity_ = Array<Vec3>(n);
-      next_velocity_ = Array<Vec3>(n);
-      b.copy_in(now.velocity, velocity_.data(), n);
-      spin_ = from_host(b, std::vector<Vec3>(n, Vec3{0, 0, 0}));
-      edge_acts_ = Array<char>(mesh.edges.size());
-      vertex_acts_ = Array<char>(n);
-      left_ = Array<FeatureCode>(mesh.faces.size() + mesh.edges.size());
-      seen_ = Array<NodesSeen>(1);
-      seen_on_host_ = typename B::template HostArray<NodesSeen>(1);
-      if (now.with_spins) find_spins(b, now.back);
-    }
-    keep_places(b);
+    put_topology(b, topology_of(mesh), mesh);
+    put_faces_around(b, mesh);
+    primitives_ = from_host(b, *now.primitives);
+    at_ = from_host(b, mesh.vertices);
+    before_ = from_host(b, mesh.vertices);
+    next_ = Array<Vec3>(n);
+    built_at_ = Array<Vec3>(n);
+    velocity_ = Array<Vec3>(n);
+    next_velocity_ = Array<Vec3>(n);
+    b.copy_in(now.velocity, velocity_.data(), n);
+    spin_ = from_host(b, std::vector<Vec3>(n, Vec3{0, 0, 0}));
+    edge_acts_ = Array<char>(mesh.edges.size());
+    vertex_acts_ = Array<char>(n);
+    left_ = Array<FeatureCode>(mesh.faces.size() + mesh.edges.size());
+    seen_ = from_host(b, std::vector<NodesSeen>(1, NodesSeen()));
+    seen_on_host_ = typename B::template HostArray<NodesSeen>(1);
+    if (now.with_spins) find_spins(b, now.back);
     b.wait();
   }
+
+  // From where nodes are. What it returns lies in memory of this, until the next call.
+  GridView build_grid(B &b, const NodeGridSettings &settings, const MeshFeaturesView &records)
+  {
+    grid_.build(b,
+                {primitives_.data(), primitives_.size(), topology_.faces, topology_.edges,
+                 at_.data(), records.faces},
+                settings);
+    keep_places(b);
+    return grid_.view(records);
+  }
+  const NodeGrid<B> &grid() const { return grid_; }
 
   // By memory that copies without a wait, which the last step's copy has left: move() waits for it.
   void give(B &b, const Vec3 *x, const Vec3 *v)
@@ -155,7 +164,7 @@ class MovingNodes {
   std::size_t bytes() const
   {
     return 7 * at_.size() * sizeof(Vec3) + edge_acts_.size() + vertex_acts_.size() +
-           left_.size() * sizeof(FeatureCode) +
+           (left_.size() + primitives_.size()) * sizeof(FeatureCode) + grid_.bytes() +
            (topology_numbers_.size() + face_first_.size() + face_around_.size() +
             node_of_row_.size()) *
                sizeof(int);
@@ -214,7 +223,6 @@ class MovingNodes {
     const Vec3 *at = at_.data(), *before = before_.data(), *built_at = built_at_.data(),
                *velocity = velocity_.data();
     NodesSeen *seen = seen_.data();
-    b.for_each(1, [=] LSDCD_LAMBDA(std::size_t) { *seen = NodesSeen(); });
     b.for_each(n_threads, [=] LSDCD_LAMBDA(std::size_t t) {
       NodesSeen of = {};
       const auto raise = [](std::uint64_t &to, Real value) {
@@ -250,7 +258,9 @@ class MovingNodes {
     b.for_each(of.n_vertices, [=] LSDCD_LAMBDA(std::size_t i) {
       move_vertex(moved, static_cast<std::uint32_t>(i));
     });
+    NodesSeen *seen = seen_.data();
     b.for_each(of.n_faces, [=] LSDCD_LAMBDA(std::size_t f) {
+      if (f == 0) *seen = NodesSeen();    // for the next step; the host has it
       put_parts(moved, static_cast<std::uint32_t>(f));
     });
   }
@@ -377,7 +387,8 @@ class MovingNodes {
   Array<Vec3> at_, before_, next_, built_at_, velocity_, next_velocity_, spin_;
   typename B::template HostArray<Vec3> staged_;
   Array<char> edge_acts_, vertex_acts_;
-  Array<FeatureCode> left_;
+  Array<FeatureCode> primitives_, left_;
+  NodeGrid<B> grid_;
   Array<NodesSeen> seen_;
   typename B::template HostArray<NodesSeen> seen_on_host_;
   typename B::Event seen_is_there_;

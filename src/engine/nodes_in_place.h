@@ -15,7 +15,7 @@ namespace lsdcd {
 // How nodes have gone in a step.
 struct NodesGone {
   Real most;          // how far one has gone, at most (length); HUGE_VAL where one is no number
-  Real since_grid;    // likewise, since the grid was set
+  Real since_grid;    // likewise, since the grid was built
   Real speed;         // the largest (length/time); likewise
   Vec3 lo, hi;        // corners of their bounds
   bool any_left;      // is the host to make records, as they need more digits than a Real has?
@@ -28,8 +28,8 @@ class NodesInPlace {
  public:
   virtual ~NodesInPlace() = default;
 
-  // After each set_grid() of a mesh: its records change by move_nodes() alone from here on. Reads places and velocities
-  // of `now` where this engine does not have the nodes yet.
+  // After set_grid() of a mesh, with its records and without lists, once: records change by move_nodes() from here on, and
+  // WallEngine::build_node_grid() makes the lists.
   virtual void start_nodes(int mesh, const NodesNow &now) = 0;
   // Where nodes will be, and their velocities: of each node, in the memory of the host.
   virtual void give_nodes(int mesh, const Vec3 *x, const Vec3 *v) = 0;

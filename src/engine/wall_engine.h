@@ -26,6 +26,7 @@
 #include <memory>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 namespace lsdcd {
 
@@ -106,9 +107,10 @@ struct StepSettings {
 // A mesh whose nodes move, as its host has it in this step.
 struct NodesNow {
   const WeldedMesh *mesh;    // its vertices are where the nodes are
-  const Vec3 *velocity;      // as in NodeField
-  bool with_spins;           // else no law reads spins
-  Real back;                 // how long ago velocities are of (time)
+  const std::vector<FeatureCode> *primitives;
+  const Vec3 *velocity;    // as in NodeField
+  bool with_spins;         // else no law reads spins
+  Real back;               // how long ago velocities are of (time)
 };
 
 // Sums over the spheres of the last step on this process.
@@ -198,7 +200,8 @@ class SpringsInPlace {
   virtual void unpack(int n, const int *to, const double *buffer, int n_first, int second) = 0;
 };
 
-class NodesInPlace;    // engine/nodes_in_place.h
+class NodesInPlace;         // engine/nodes_in_place.h
+struct NodeGridSettings;    // grid/build/node_grid.h
 
 // Computes wall forces for the spheres of one process: choose() now and then, begin(), launch() and
 // finish() in every step. Springs stay with the engine between steps and follow the spheres'
@@ -288,6 +291,9 @@ class WallEngine {
 
   // An engine that has copies of their records, as on a GPU; else null.
   virtual NodesInPlace *nodes_in_place() { return nullptr; }
+  // The same: builds the grid of a mesh from where its nodes are now, to use from now on, by grid/build/node_grid.h. Asks
+  // for a choice.
+  virtual void build_node_grid(int mesh, const NodeGridSettings &settings) = 0;
   // Turns the springs of the spheres [0, n) on a mesh with their features, before a step, in the frame of the mesh.
   // An engine with copies has the places before and after the last step of nodes, and reads nothing of `turning`.
   virtual void turn_springs(int n, int mesh, const TurningMesh &turning) = 0;

@@ -31,13 +31,8 @@ void GridManager::set_engine(WallEngine &engine)
 {
   engine_ = &engine;
   for (const MeshPart &m : meshes_) {
-    if (cutoff() == 0 || (m.nodes && !m.nodes->has_grid())) continue;
-    run_collectively(host_, true, [&] {
-      if (m.nodes)
-        m.nodes->give_grid(*engine_);
-      else
-        engine_->set_grid(m.view(), m.index);
-    });
+    if (cutoff() == 0 || m.nodes) continue;    // the next step builds those of nodes
+    run_collectively(host_, true, [&] { engine_->set_grid(m.view(), m.index); });
   }
 }
 

@@ -171,7 +171,7 @@ void MeshNodes::move_in_place(const Step &step, Real cutoff)
 
 NodesNow MeshNodes::now() const
 {
-  return {&mesh_, velocity_.data(), with_spins_, back_};
+  return {&mesh_, &features_.primitives, velocity_.data(), with_spins_, back_};
 }
 
 void MeshNodes::fetch_records()
@@ -192,6 +192,7 @@ void MeshNodes::fetch_places() const
 
 void MeshNodes::leave_engine()
 {
+  cutoff_ = 0;
   if (!engine_) return;
   fetch_records();
   fetch_places();
@@ -202,7 +203,7 @@ void MeshNodes::leave_engine()
     engine_->fetch_nodes(index_, NodesAt::given, next_.data(), next_velocity_.data());
   }
   are_given_there_ = are_sums_there_ = false;
-  is_grid_lost_ = true;
+  records_ = FlatGrid();
   engine_ = nullptr;
 }
 
@@ -225,7 +226,7 @@ void MeshNodes::find_spins()
 
 bool MeshNodes::needs_grid(Real cutoff)
 {
-  if (!grid_.is_built() || cutoff != grid_.cutoff() || is_grid_lost_) return true;
+  if (cutoff != cutoff_) return true;
   // None has gone farther than the farthest of each step.
   if (way_of_grid_ <= kOfGrid * cutoff) return false;
   if (engine_) return true;
@@ -246,21 +247,36 @@ NodeField MeshNodes::field(Real cutoff) const
 
 void MeshNodes::build_grid(Real cutoff, WallEngine &engine)
 {
-  fetch_records();
-  fetch_places();
-  grid_.build(mesh_, features_, cutoff, kAllowance * cutoff);
-  built_at_ = mesh_.vertices;
+  const NodeGridSettings settings = {cutoff, kAllowance * cutoff,
+                                     Real(mesh_.report.volume < 0 ? -1 : 1), bounds_, mesh_.source};
+  if (!engine_ && engine.nodes_in_place()) give_nodes(engine);
+  if (engine_) {
+    engine.build_node_grid(index_, settings);
+  } else {
+    CpuBackend cpu;
+    const MeshTopologyView topology = topology_of(mesh_);
+    grid_.build(cpu,
+                {features_.primitives.data(), features_.primitives.size(), topology.faces,
+                 topology.edges, mesh_.vertices.data(), features_.faces.data()},
+                settings);
+    built_at_ = mesh_.vertices;
+    engine.set_grid(grid_.view(features_.view()), index_);
+  }
+  cutoff_ = cutoff;
   way_of_grid_ = 0;
-  is_grid_lost_ = false;
-  give_grid(engine);
 }
 
-void MeshNodes::give_grid(WallEngine &engine)
+// It gets the records as a grid that has no cells yet.
+void MeshNodes::give_nodes(WallEngine &engine)
 {
+  GridView view = {};
+  view.wall = features_.view();
+  view.list_kind = ListKind::every();
+  records_ = FlatGrid(GridParts{features_, CellLists(), BrickRecords(), view});
+  grid_ = NodeGrid<CpuBackend>();
+  engine.set_grid(records_.view(), index_);
   engine_ = engine.nodes_in_place();
-  if (engine_) grid_.make_flat();
-  engine.set_grid(grid_.view(), index_);
-  if (engine_) engine_->start_nodes(index_, now());
+  engine_->start_nodes(index_, now());
 }
 
 // ---- springs -----------------------------------------------------------------------------
@@ -341,7 +357,8 @@ bool MeshNodes::put_forces(Real pressure, Real *to, const std::vector<int> &node
 
 std::size_t MeshNodes::bytes() const
 {
-  std::size_t total = grid_.bytes() + (of_contacts_.size() + forces_.size()) * sizeof(Real);
+  std::size_t total =
+      grid_.bytes() + records_.bytes() + (of_contacts_.size() + forces_.size()) * sizeof(Real);
   MeshFeaturesView::each_array(features_, [&](const auto &a) {
     total += a.size() * sizeof(typename std::decay_t<decltype(a)>::value_type);
   });

@@ -4,13 +4,15 @@
 // A mesh whose nodes, its welded vertices, are where the caller puts them in each step: its records, its grid, and
 // the forces of contacts on its nodes. Every process has all nodes.
 //
-// Lists, of cells (grid/node_grid.h) and of spheres (engine/lists/node_list.h), go by distance alone, as a region
+// Lists, of cells (grid/build/node_grid.h) and of spheres (engine/lists/node_list.h), go by distance alone, as a region
 // that a list left out may turn towards the sphere.
 #pragma once
 
+#include "backend/backend_cpu.h"
 #include "engine/nodes_in_place.h"
 #include "engine/wall_engine.h"
-#include "grid/node_grid.h"
+#include "grid/build/node_grid.h"
+#include "grid/flat_grid.h"
 #include "host/host.h"
 #include "wall/wall_spec.h"
 
@@ -50,17 +52,15 @@ class MeshNodes {
 
   // Does the grid hold no longer, as it is for another cutoff or a node has gone too far?
   bool needs_grid(Real cutoff);
-  bool has_grid() const { return grid_.is_built(); }
   // Have nodes gone so far since candidates were chosen that the lists of spheres are no longer complete?
   bool needs_choice(Real cutoff) const;
   void note_choice() { way_ = 0; }
-  // Builds it and gives it to the engine.
+  // Builds it, where the engine has the nodes if it can.
   void build_grid(Real cutoff, WallEngine &engine);
-  void give_grid(WallEngine &engine);
-  // Before the engine is another one: gets all that the engine alone has.
+  // Before the engine is another one, which needs a grid: gets all that the engine alone has.
   void leave_engine();
-  // Its records may be those of an earlier step where the engine has copies of them.
-  GridView view() const { return grid_.view(); }
+  // They may be those of an earlier step where the engine has copies of them.
+  MeshFeaturesView records() const { return features_.view(); }
 
   // Turns the springs of spheres [0, n) with their features since the last step.
   void turn_springs(WallEngine &engine, int n);
@@ -92,6 +92,7 @@ class MeshNodes {
   std::string named(const std::string &text) const;
   void find_spins();
   NodesNow now() const;
+  void give_nodes(WallEngine &engine);
   void move_here(const Step &step, Real cutoff);
   void move_in_place(const Step &step, Real cutoff);
   void check_way(const Step &step, Real cutoff, Real most, const std::vector<Vec3> &from,
@@ -114,9 +115,11 @@ class MeshNodes {
   mutable std::vector<Vec3> velocity_;
   std::vector<Vec3> spin_;
   std::vector<Vec3> next_, next_velocity_;    // set for the next step; empty: as they are
-  NodeGrid grid_;
-  Real back_ = 0;                    // how long ago velocities are of (time)
-  Real way_ = 0;                     // of the fastest node in each step since the choice
+  Real cutoff_ = 0;                           // of the grid; 0: there is none
+  NodeGrid<CpuBackend> grid_;                 // without engine_
+  FlatGrid records_;                          // with it, as they were when it got the nodes
+  Real back_ = 0;                             // how long ago velocities are of (time)
+  Real way_ = 0;                              // of the fastest node in each step since the choice
   Real way_of_grid_ = 0;             // at least how far a node has gone since the grid was built
   std::vector<Vec3> built_at_;       // where nodes were when the grid was built, without engine_
   std::vector<Vec3> turned_from_;    // where nodes were when springs were turned last
@@ -125,7 +128,6 @@ class MeshNodes {
   bool are_records_old_ = false, are_given_there_ = false, are_forces_old_ = false;
   mutable bool are_places_old_ = false, is_power_old_ = false;
   bool are_sums_there_ = false;    // engine_ has forces of the last step
-  bool is_grid_lost_ = false;      // an engine that knew how far nodes have gone from it was left
   std::vector<Real> of_contacts_, forces_;
   mutable Real power_ = 0;
   bool are_summed_ = true;

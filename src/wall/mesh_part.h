@@ -43,7 +43,9 @@ struct MeshPart {
 
   // In its own frame, in this step; null but on one process per node, where its nodes do not move.
   const WeldedMesh *mesh() const { return nodes ? &nodes->mesh() : grid.mesh(); }
-  GridView view() const { return nodes ? nodes->view() : grid.view(); }
+  GridView view() const { return grid.view(); }    // where its nodes do not move
+  // Of its features. Where nodes move on a GPU, they may be those of an earlier step.
+  MeshFeaturesView records() const { return nodes ? nodes->records() : grid.view().wall; }
 
   // Its vertices go elsewhere, as of MeshGrid. Collective.
   void move_vertices(const std::vector<Vec3> &at)

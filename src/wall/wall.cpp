@@ -622,11 +622,11 @@ void Wall::finish(const HostSpheres &spheres)
     const bool any = cutoff() > 0;
     for (const MeshPart &m : meshes_)
       loads_.add(m.index, any ? engine_->records() : nullptr, any ? engine_->n_records() : 0,
-                 step.dt, any ? m.view().wall : MeshFeaturesView());
+                 step.dt, any ? m.records() : MeshFeaturesView());
   }
   if (step.kind == Step::step && cutoff() > 0)
     for (const MeshPart &m : meshes_)
-      if (m.wear) m.wear->add(engine_->records(), engine_->n_records(), step.dt, m.view().wall);
+      if (m.wear) m.wear->add(engine_->records(), engine_->n_records(), step.dt, m.records());
   if (input_.new_spheres) check_new_spheres(spheres);
   if (step.kind == Step::setup) times_.begin_run();    // as the host's loop time
 }

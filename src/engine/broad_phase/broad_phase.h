@@ -81,6 +81,12 @@ class BroadPhase {
     meshes_.at(mesh).grid = GridOn<B>(b, grid);
     n_ = 0;
   }
+  // Other lists for the same wall, in memory of the backend that is the caller's.
+  void set_lists(B &b, const GridView &grid, int mesh)
+  {
+    meshes_.at(mesh).grid.set_lists(b, grid);
+    n_ = 0;
+  }
   void place(const Pose &pose, int mesh) { meshes_.at(mesh).pose = pose; }
 
   bool uses_slots() const { return uses_slots_; }    // meshes, or kinds of spheres

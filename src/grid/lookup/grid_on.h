@@ -35,9 +35,7 @@ class GridOn {
       b.wait();
       view = moved_view(on_host, block_.data());
     }
-    const std::vector<BrickWord> words = brick_words(on_host);
-    words_ = from_host(b, words);
-    table = BrickTable(words, words_.data());
+    put_table(b, on_host);
     if (!with_coarse) return;
     coarse = CoarseTable(on_host);
     coarse_words_ = from_host(b, coarse_words(on_host, coarse));
@@ -50,9 +48,29 @@ class GridOn {
     if constexpr (B::kOnHost) flat_ = std::move(flat);
   }
 
+  // Other lists for the wall that is there: `with` lies where B computes, in memory of the caller's.
+  void set_lists(B b, const GridView &with)
+  {
+    view = with;
+    std::vector<std::int32_t> brick_of(std::size_t(with.n_bricks[0]) * with.n_bricks[1] *
+                                       with.n_bricks[2]);
+    b.copy_out(with.lists.brick_of, brick_of.data(), brick_of.size());
+    b.wait();
+    GridView on_host = with;
+    on_host.lists.brick_of = brick_of.data();
+    put_table(b, on_host);
+  }
+
   std::size_t bytes() const { return block_.size() + words_.size() * sizeof(BrickWord); }
 
  private:
+  void put_table(B &b, const GridView &on_host)
+  {
+    const std::vector<BrickWord> words = brick_words(on_host);
+    words_ = from_host(b, words);
+    table = BrickTable(words, words_.data());
+  }
+
   FlatGrid flat_;
   Array<char> block_;
   Array<BrickWord> words_;

@@ -1,0 +1,176 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Cells of a mesh whose nodes move, against the distances of another method, and between backends.
+#include "backend/backend_cpu.h"
+#include "support/device.h"
+#include "support/meshes.h"
+#include "support/node_lists.h"
+#include "support/query_oracle.h"
+#include "support/random.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <numeric>
+#include <vector>
+
+namespace lsdcd::test_node_grid {
+namespace {
+
+constexpr Real kCutoff = 0.5, kAllowance = 0.1;
+
+// Waves, with triangles of one size.
+WeldedMesh waves()
+{
+  WeldedMesh mesh = weld(floor_mesh(16, 8, 3), -1);
+  for (Vec3 &x : mesh.vertices) x.z = std::sin(x.x) * std::cos(2 * x.y);
+  return mesh;
+}
+// Many triangles have one corner, so that lists are long.
+WeldedMesh cone()
+{
+  return weld(cone_mesh(300, 6, 4), -1);
+}
+// Two triangles a side, far from the origin: each reaches many cells.
+WeldedMesh large_box()
+{
+  return weld(box_mesh({1000, -20, 30}, {1060, 20, 90}), -1);
+}
+
+NodeGridSettings settings_of(const WeldedMesh &mesh)
+{
+  Box box = {mesh.vertices.front(), mesh.vertices.front()};
+  for (const Vec3 &x : mesh.vertices) extend(box, x);
+  return {kCutoff, kAllowance, 1, box, "mesh"};
+}
+
+// The list of the cell that holds a point.
+std::vector<Candidate> list_at(const NodeLists &lists, const Vec3 &x)
+{
+  const GridView &grid = lists.scalars;
+  long cell[3];
+  for (int d = 0; d < 3; d++) {
+    cell[d] = static_cast<long>(std::floor((x[d] - grid.origin[d]) / grid.length));
+    if (cell[d] < 0 || cell[d] >= 8L * grid.n_bricks[d]) return {};
+  }
+  const long slot = (cell[2] / 8 * grid.n_bricks[1] + cell[1] / 8) * grid.n_bricks[0] + cell[0] / 8;
+  const int brick = lists.brick_of[slot];
+  if (brick < 0) return {};
+  const BrickLayer &layer = lists.bricks[brick].layer[cell[2] % 8];
+  long at = layer.first_cell;
+  const long bit = cell[1] % 8 * 8 + cell[0] % 8;
+  for (long k = 0; k < bit; k++) at += layer.mask >> k & 1;
+  if (!(layer.mask >> bit & 1)) return {};
+  const Cell &of = lists.cells[at];
+  if (of.count == 1) return {{of.first, -HUGE_VALF}};
+  const auto first = lists.candidates.begin() + of.first;
+  return {first, first + of.count};
+}
+Vec3 centre_of_cell(const GridView &grid, const Vec3 &x)
+{
+  Vec3 centre;
+  for (int d = 0; d < 3; d++)
+    centre[d] = grid.origin[d] +
+                grid.length * (std::floor((x[d] - grid.origin[d]) / grid.length) + Real(0.5));
+  return centre;
+}
+
+// Each list has all that a sphere in its cell can touch before a node has gone the allowance, is sorted, and has bounds
+// that are none too large. Rounding of places is at most 1e-12 here, and of bounds 1e-6.
+void expect_complete(const WeldedMesh &mesh, int n_points)
+{
+  const NodeGridSettings settings = settings_of(mesh);
+  const NodeLists lists = node_lists_by(CpuBackend(), mesh, settings);
+  Random random(11);
+  int n_near = 0, n_listed = 0;
+  for (int k = 0; k < n_points; k++) {
+    Vec3 x;    // near a triangle
+    const auto &face =
+        mesh.faces[static_cast<std::size_t>(uniform(random, 0, 1) * double(mesh.faces.size()))];
+    Real a = uniform(random, 0, 1), b = uniform(random, 0, 1);
+    if (a + b > 1) a = 1 - a, b = 1 - b;
+    for (int d = 0; d < 3; d++)
+      x[d] =
+          mesh.vertices[face[0]][d] + a * (mesh.vertices[face[1]][d] - mesh.vertices[face[0]][d]) +
+          b * (mesh.vertices[face[2]][d] - mesh.vertices[face[0]][d]) + uniform(random, -0.7, 0.7);
+    const std::vector<Candidate> list = list_at(lists, x);
+    const Vec3 centre = centre_of_cell(lists.scalars, x);
+    n_listed += static_cast<int>(list.size());
+    for (std::size_t i = 1; i < list.size(); i++)
+      EXPECT_TRUE(list[i - 1].bound < list[i].bound ||
+                  (list[i - 1].bound == list[i].bound && list[i - 1].feature < list[i].feature));
+    for (std::size_t f = 0; f < mesh.faces.size(); f++) {
+      const auto corner = [&](int c) { return mesh.vertices[mesh.faces[f][c]]; };
+      const auto distance = [&](const Vec3 &from) {
+        return std::sqrt(region_distance_sq(corner(0), corner(1), corner(2), from));
+      };
+      const FeatureCode code = feature_code(FeatureKind::face, static_cast<std::uint32_t>(f));
+      const auto at = std::find_if(list.begin(), list.end(),
+                                   [&](const Candidate &c) { return c.feature == code; });
+      if (distance(x) <= kCutoff + kAllowance - 1e-12) {
+        n_near++;
+        EXPECT_NE(at, list.end()) << "face " << f;
+      }
+      if (at != list.end()) {
+        EXPECT_LE(at->bound, distance(centre) - kAllowance + 1e-12);
+      }
+    }
+  }
+  EXPECT_GT(n_near, n_points / 2);
+  EXPECT_LT(n_listed, 40 * n_near);    // a list that has all would be no test
+}
+
+TEST(node_grid, cells_list_all_that_comes_within_the_cutoff)
+{
+  expect_complete(waves(), 4000);
+  expect_complete(cone(), 2000);
+  expect_complete(large_box(), 4000);
+}
+
+// Threads may come in any order.
+struct BackwardBackend : CpuBackend {
+  template <class F>
+  void for_each(std::size_t n, const F &f, unsigned = 0)
+  {
+    for (std::size_t i = n; i-- > 0;) f(i);
+  }
+};
+
+void expect_same(const NodeLists &a, const NodeLists &b)
+{
+  EXPECT_EQ(a.scalars.length, b.scalars.length);
+  EXPECT_TRUE(a.scalars.origin == b.scalars.origin);
+  EXPECT_EQ(a.scalars.tolerance, b.scalars.tolerance);
+  const auto expect_same_bytes = [](const auto &x, const auto &y) {
+    ASSERT_EQ(x.size(), y.size());
+    EXPECT_EQ(0, std::memcmp(static_cast<const void *>(x.data()),
+                             static_cast<const void *>(y.data()), x.size() * sizeof x[0]));
+  };
+  expect_same_bytes(a.brick_of, b.brick_of);
+  expect_same_bytes(a.bricks, b.bricks);
+  expect_same_bytes(a.cells, b.cells);
+  expect_same_bytes(a.candidates, b.candidates);
+}
+
+TEST(node_grid, lists_do_not_depend_on_the_order_of_threads)
+{
+  for (const WeldedMesh &mesh : {waves(), cone(), large_box()})
+    expect_same(node_lists_by(CpuBackend(), mesh, settings_of(mesh)),
+                node_lists_by(BackwardBackend(), mesh, settings_of(mesh)));
+}
+
+#if defined(LSDCD_HAVE_CUDA)
+TEST(node_grid, a_GPU_builds_the_same_lists)
+{
+  if (!test_on_cuda()) GTEST_SKIP() << "for a GPU";
+  for (const WeldedMesh &mesh : {waves(), cone(), large_box()})
+    expect_same(node_lists_by(CpuBackend(), mesh, settings_of(mesh)),
+                node_lists_on_cuda(mesh, settings_of(mesh)));
+}
+#endif
+
+}    // namespace
+}    // namespace lsdcd::test_node_grid
