@@ -79,17 +79,6 @@ class NodeSums {
   std::vector<Real> group_, total_;    // of nodes with more than a block; empty: there are none
 };
 
-// Their power on the spheres, of candidate k.
-LSDCD_FN Real power_on_spheres(const NodeContacts &in, std::size_t k)
-{
-  Real power = 0;
-  for (int c = 0; c < in.count(k); c++) {
-    const ContactRecord &record = in.records[in.slot[k] + c];
-    power -= dot(record.force, field_at(in.shares(k, record), in.velocity));
-  }
-  return power;
-}
-
 // Of block `at` of n values.
 LSDCD_FN Real sum_of_block(const Real *values, std::size_t at, std::size_t n)
 {
@@ -143,7 +132,7 @@ class NodeForces {
       n_shares_ = *n_on_host_.data();
       if (n_shares_ <= room) break;
     }
-    n_sums_ = sum_power(b, in);
+    n_sums_ = sum_power(b, in.n);
   }
 
   // The last sums, if `forces` is not null, and the power on the spheres. Waits.
@@ -186,7 +175,7 @@ class NodeForces {
     counted_.record(b);
   }
 
-  // The first `room` shares; n_nodes stands for a node that there is not.
+  // The first `room` shares, where n_nodes stands for a node that there is not, and the power of nodes on each candidate.
   void put_shares(B &b, const NodeContacts &in, std::size_t room)
   {
     pairs_.reserve(room);
@@ -195,12 +184,14 @@ class NodeForces {
     const int *offset = offset_.data();
     const auto none = static_cast<std::uint32_t>(n_nodes_);
     const std::size_t n = in.n;
+    Real *powers = reserve(powers_, n + blocks_of(n));
     b.for_each(room, [=] LSDCD_LAMBDA(std::size_t to) {
       number[to] = static_cast<std::uint32_t>(to);
       if (to >= static_cast<std::size_t>(offset[n])) node[to] = none;
     });
     b.for_each(n, [=] LSDCD_LAMBDA(std::size_t k) {
       std::size_t to = offset[k];
+      Real power = 0;
       for (int c = 0; c < in.count(k) && to + 3 <= room; c++) {
         const ContactRecord &record = in.records[in.slot[k] + c];
         const NodeShares at = in.shares(k, record);
@@ -209,17 +200,17 @@ class NodeForces {
           node[to] = is_one ? static_cast<std::uint32_t>(at.node[j]) : none;
           if (is_one) share[to] = at.share[j] * record.force;
         }
+        power -= dot(record.force, field_at(at, in.velocity));
       }
+      powers[k] = power;
     });
   }
 
   // Puts sums of groups into power_, and returns how many there are.
-  std::size_t sum_power(B &b, const NodeContacts &in)
+  std::size_t sum_power(B &b, std::size_t n)
   {
-    const std::size_t n = in.n, n_blocks = blocks_of(n), n_groups = blocks_of(n_blocks);
-    Real *of_one = reserve(powers_, n + n_blocks), *of_block = of_one + n,
-         *of_group = reserve(power_, n_groups);
-    b.for_each(n, [=] LSDCD_LAMBDA(std::size_t k) { of_one[k] = power_on_spheres(in, k); });
+    const std::size_t n_blocks = blocks_of(n), n_groups = blocks_of(n_blocks);
+    Real *of_one = powers_.data(), *of_block = of_one + n, *of_group = reserve(power_, n_groups);
     b.for_each(n_blocks,
                [=] LSDCD_LAMBDA(std::size_t at) { of_block[at] = sum_of_block(of_one, at, n); });
     b.for_each(n_groups, [=] LSDCD_LAMBDA(std::size_t at) {
