@@ -122,8 +122,8 @@ class NodeForces {
   // more than the last step had are started before the host knows how many there are, and made again if that was too few.
   void sum(B &b, const NodeContacts &in, std::size_t n_nodes)
   {
-    n_sums_ = 0;
     n_nodes_ = n_nodes;
+    n_powers_ = in.n;
     if (in.n == 0) return clear(b);
     count_shares(b, in);
     for (std::size_t room = room_for(n_shares_);; room = room_for(n_shares_)) {
@@ -132,20 +132,19 @@ class NodeForces {
       n_shares_ = *n_on_host_.data();
       if (n_shares_ <= room) break;
     }
-    n_sums_ = sum_power(b, in.n);
   }
 
   // The last sums, if `forces` is not null, and the power on the spheres. Waits.
   Real fetch(B &b, Real *forces)
   {
-    const std::size_t n = 3 * n_nodes_;
-    if (on_host_.size() < n + n_sums_)
-      on_host_ = typename B::template HostArray<Real>(n + n_sums_ + n_sums_ / 8);
+    const std::size_t n = 3 * n_nodes_, n_sums = sum_power(b);
+    if (on_host_.size() < n + n_sums)
+      on_host_ = typename B::template HostArray<Real>(n + n_sums + n_sums / 8);
     if (forces) b.copy_out(sums_.data(), on_host_.data(), n);
-    b.copy_out(power_.data(), on_host_.data() + n, n_sums_);
+    b.copy_out(power_.data(), on_host_.data() + n, n_sums);
     b.wait();
     if (forces) std::copy_n(on_host_.data(), n, forces);
-    return sum_of(on_host_.data() + n, n_sums_);
+    return sum_of(on_host_.data() + n, n_sums);
   }
   const Real *sums() const { return sums_.data(); }
 
@@ -178,18 +177,17 @@ class NodeForces {
   // The first `room` shares, where n_nodes stands for a node that there is not, and the power of nodes on each candidate.
   void put_shares(B &b, const NodeContacts &in, std::size_t room)
   {
-    pairs_.reserve(room);
-    std::uint32_t *node = pairs_.keys[0].data(), *number = pairs_.values[0].data();
     Vec3 *share = reserve(share_, room);
+    pairs_.reserve(share_.size());
+    std::uint32_t *node = pairs_.keys[0].data(), *number = pairs_.values[0].data();
     const int *offset = offset_.data();
     const auto none = static_cast<std::uint32_t>(n_nodes_);
     const std::size_t n = in.n;
     Real *powers = reserve(powers_, n + blocks_of(n));
-    b.for_each(room, [=] LSDCD_LAMBDA(std::size_t to) {
-      number[to] = static_cast<std::uint32_t>(to);
-      if (to >= static_cast<std::size_t>(offset[n])) node[to] = none;
-    });
-    b.for_each(n, [=] LSDCD_LAMBDA(std::size_t k) {
+    b.for_each(std::max(n, room), [=] LSDCD_LAMBDA(std::size_t k) {
+      if (k < room) number[k] = static_cast<std::uint32_t>(k);
+      if (k < room && k >= static_cast<std::size_t>(offset[n])) node[k] = none;
+      if (k >= n) return;
       std::size_t to = offset[k];
       Real power = 0;
       for (int c = 0; c < in.count(k) && to + 3 <= room; c++) {
@@ -207,8 +205,9 @@ class NodeForces {
   }
 
   // Puts sums of groups into power_, and returns how many there are.
-  std::size_t sum_power(B &b, std::size_t n)
+  std::size_t sum_power(B &b)
   {
+    const std::size_t n = n_powers_;
     const std::size_t n_blocks = blocks_of(n), n_groups = blocks_of(n_blocks);
     Real *of_one = powers_.data(), *of_block = of_one + n, *of_group = reserve(power_, n_groups);
     b.for_each(n_blocks,
@@ -282,8 +281,8 @@ class NodeForces {
     return 3 * ((n_shares + n_shares / 8) / 3 + 1024);
   }
 
-  std::size_t n_nodes_ = 0, n_shares_ = 0, n_sums_ = 0;    // of the last step; n_sums_: of power_
-  Array<Real> powers_, power_, sums_;                      // powers_: of candidates, and of blocks
+  std::size_t n_nodes_ = 0, n_shares_ = 0, n_powers_ = 0;    // of the last step
+  Array<Real> powers_, power_, sums_;    // powers_: of candidates, and of blocks
   typename B::template HostArray<Real> on_host_;
   Array<int> offset_, first_;
   Array<Vec3> share_, block_, group_;
