@@ -87,14 +87,19 @@ def for_host(text, flags):
 # LSDCD_KOKKOS_FLAGS: of a host on a GPU, "-k on g 1 -sf kk -pk kokkos newton off neigh half"; empty for a LAMMPS without
 # Kokkos, which LSDCD_KOKKOS_HOST and LSDCD_KOKKOS_PLUGIN may be as well.
 KOKKOS = tuple(os.environ.get("LSDCD_KOKKOS_FLAGS", "-k on -sf kk").split())
-# A column of a fix's per-atom array, in an atom-style variable.
-COLUMN = "f" if ON_KOKKOS and "20260704" in KOKKOS_HOST else "F"
 # What starts several processes of it, and how many at most: those of MPICH never give up a core while they wait.
 MPIRUN = os.environ.get("LSDCD_MPIRUN", "mpirun --oversubscribe").split()
 MOST_RANKS = int(os.environ.get("LSDCD_MOST_RANKS", "1000"))
 DEVICE_MOVES = os.environ.get("LSDCD_KOKKOS_MOVES") == "device"
 if DEVICE_MOVES:
     KOKKOS += ("-pk", "kokkos", "comm", "device", "sort", "device")
+
+
+def column():
+    """The letter before the ID of a fix whose per-atom array an atom-style variable reads: F in 29Sep2021, f in later LAMMPS."""
+    said = subprocess.run([KOKKOS_HOST if ON_KOKKOS else LMP, "-h"], env=environment(), text=True, stdout=subprocess.PIPE,
+                          stderr=subprocess.DEVNULL, stdin=subprocess.DEVNULL, check=False).stdout
+    return "F" if re.search(r"LAMMPS 2021|Simulator - \d+ \w+ 2021", said) else "f"
 
 
 def run(script, folder, ranks=1, timeout=300, env=None, host=ON_KOKKOS, flags=KOKKOS, **variables):

@@ -99,14 +99,14 @@ def rows_are_read(checks, folder):
     """Another fix reads the array before the wall writes it: the rows of the last step."""
     start = scene.SETTINGS.replace("sort 40 1.5", "sort {} 1.5")
     lmp.run_well(scene.CREATE + "write_data start.data\n", folder)
-    moves = {}
+    moves, letter = {}, lmp.column()
     for name, every, ranks in (("unsorted", 0, 1), ("sorted", 1, 1), ("spread", 0, 4)):
         body = (start.format(every) + "read_data start.data\n" +
                 scene.forces(scene.GRANULAR, BUMPS))
         # The push comes before the wall in the order of fixes.
         body = body.replace("fix             wall ", "fix             push all addforce v_px 0 0\n"
                                                      "fix             wall ")
-        body = body.replace("pair_style", f"variable        px atom 0.1*{lmp.COLUMN}_wall[2]\npair_style", 1)
+        body = body.replace("pair_style", f"variable        px atom 0.1*{letter}_wall[2]\npair_style", 1)
         lmp.run_well(body + scene.dump("moves", 100) + "run 1500\n", folder, ranks)
         moves[name] = lmp.read_dump(folder / "moves")
     for name in ("sorted", "spread"):

@@ -64,15 +64,16 @@ def close(a, b):
 
 def in_commands(checks, folder):
     """How the manual says that commands read the array: overlaps 0.01 and 0.05, kn 1e4."""
+    letter = lmp.column()
     _, _, text = go(folder, extra=f"""\
-variable        push atom {lmp.COLUMN}_wall[4]
+variable        push atom {letter}_wall[4]
 compute         sum all reduce sum v_push
 compute         same all reduce sum f_wall[4]
 fix             h all ave/histo 1 1 1 0 1000 2 v_push mode vector
 thermo_style    custom step c_sum c_same f_h[1] f_h[2] f_h[3] f_h[4]
 thermo_modify   format float %.17g norm no""", steps=1)
     row = lmp.read_thermo(text)[0]
-    checks.fact(f"an atom-style variable reads a column as {lmp.COLUMN}_ID[4]", close(row[1], 600), str(row[1]))
+    checks.fact(f"an atom-style variable reads a column as {letter}_ID[4]", close(row[1], 600), str(row[1]))
     checks.fact("compute reduce reads a column as f_ID[4]", close(row[2], 600), str(row[2]))
     last = lmp.read_thermo(text)[-1]    # both, none outside, least, most; after a step of 1e-4
     checks.fact("fix ave/histo reads the variable", last[3:5] == [2, 0] and
