@@ -342,7 +342,7 @@ void FixWallLsdcd::end_of_step()
 void FixWallLsdcd::post_run()
 {
   const std::string advice =
-      sphere_drift().kind == lsdcd::SphereDrift::bounded
+      lsdcd::atoms_stay_close(*neighbor)
           ? ""
           : " (neigh_modify delay 0 every 1 check yes saves looking at all atoms)";
   if (spheres_go_far()) need_positions();
@@ -362,6 +362,12 @@ lsdcd::Step FixWallLsdcd::step_now() const
                               : lsdcd::Step::step};
 }
 
+// Under respa atoms move on between LAMMPS's look at them and the force of the wall.
+bool FixWallLsdcd::lammps_looks_at_spheres() const
+{
+  return nlevels_respa == 0 && lsdcd::atoms_stay_close(*neighbor);
+}
+
 // Half the skin is for atoms, and as much again for a wall that moves.
 lsdcd::SphereDrift FixWallLsdcd::sphere_drift() const
 {
@@ -369,17 +375,18 @@ lsdcd::SphereDrift FixWallLsdcd::sphere_drift() const
   if (group->dynamic[igroup]) return drift;
   drift.distance = 0.5 * neighbor->skin;
   drift.has_begun = neighbor->ago > 0;
-  if (lsdcd::atoms_stay_close(*neighbor))
+  if (lammps_looks_at_spheres())
     drift.kind = lsdcd::SphereDrift::bounded;
   else if (neighbor->skin > 0)
     drift.kind = lsdcd::SphereDrift::watched;
-  drift.host_has_looked = !update->setupflag && lsdcd::has_looked_at_atoms(*neighbor);
+  drift.host_has_looked =
+      !update->setupflag && nlevels_respa == 0 && lsdcd::has_looked_at_atoms(*neighbor);
   return drift;
 }
 
 bool FixWallLsdcd::spheres_go_far() const
 {
-  return !update->setupflag && !lsdcd::atoms_stay_close(*neighbor);
+  return !update->setupflag && !lammps_looks_at_spheres();
 }
 
 lsdcd::StepInput FixWallLsdcd::step_input(bool look)

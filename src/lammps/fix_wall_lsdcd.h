@@ -113,6 +113,7 @@ class FixWallLsdcd : public Fix, protected OwnMessages {
   lsdcd::Step step_now() const;
   lsdcd::StepInput step_input(bool look);
   lsdcd::SphereDrift sphere_drift() const;
+  bool lammps_looks_at_spheres() const;
   bool spheres_go_far() const;
   void begin(bool look);
   int find_variable(const std::string &) const;
