@@ -13,10 +13,41 @@
 #include "domain.h"
 
 #include <cstdio>
+#include <string>
 #include <vector>
 
 using namespace LAMMPS_NS;
 using lsdcd::Vec3;
+
+#if LSDCD_HOST_VERSION < 20260501
+namespace {
+
+std::vector<Region *> regions_of(Domain &domain)
+{
+#if LSDCD_HOST_VERSION < 20220601
+  return std::vector<Region *>(domain.regions, domain.regions + domain.nregion);
+#else
+  return domain.get_region_list();
+#endif
+}
+
+bool has_part(Domain &domain, const Region &whole, const Region *part)
+{
+  const std::string style = whole.style;
+  if (style != "union" && style != "intersect") return false;
+#if LSDCD_HOST_VERSION < 20220601
+  for (int k = 0; k < whole.nregion; k++)
+    if (domain.regions[whole.list[k]] == part) return true;
+#else
+  (void) domain;
+  for (int k = 0; k < whole.nregion; k++)
+    if (whole.reglist[k] == part) return true;
+#endif
+  return false;
+}
+
+}    // namespace
+#endif
 
 RegionMeshLsdcd::RegionMeshLsdcd(LAMMPS *lmp, int narg, char **arg) :
     Region(lmp, narg, arg), OwnMessages(lmp, "Region", id, "mesh/lsdcd")
@@ -73,20 +104,17 @@ void RegionMeshLsdcd::init()
   if (scale_warned) warn(wrong);
 }
 
-// LAMMPS also turns the points that it asks a union or an intersection for, where a part rotates, but about
-// an axis that it never sets. Since May 2026 it asks for parts that rotate alike.
+// LAMMPS before May 2026 also turns the points that it asks a union or an intersection for, where a part rotates, but about
+// an axis that it never sets.
 void RegionMeshLsdcd::refuse_rotating_whole() const
 {
-#if LSDCD_HOST_VERSION < 20220601
-  for (int i = 0; i < domain->nregion; i++) {
-    const Region *const whole = domain->regions[i];
-    for (int k = 0; whole->list && whole->rotateflag && k < whole->nregion; k++)
-      if (domain->regions[whole->list[k]] == this)
-        fatal("region " + std::string(whole->id) + " of style " + whole->style +
-              " has a part that rotates, and this LAMMPS would turn it about an axis that it never "
-              "sets: put the meshes into one file, whose shells are a union, or use the regions "
-              "one by one");
-  }
+#if LSDCD_HOST_VERSION < 20260501
+  for (const Region *const whole : regions_of(*domain))
+    if (whole->rotateflag && has_part(*domain, *whole, this))
+      fatal("region " + std::string(whole->id) + " of style " + whole->style +
+            " has a part that rotates, and this LAMMPS would turn it about an axis that it never "
+            "sets: put the meshes into one file, whose shells are a union, or use the regions "
+            "one by one");
 #endif
 }
 
