@@ -3,9 +3,11 @@
 
 #include "wall/mesh_nodes.h"
 
+#include "backend/backend_cpu.h"
 #include "base/input_error.h"
 #include "base/input_words.h"
 #include "engine/lists/feature_list.h"
+#include "grid/build/node_grid.h"
 #include "mesh/face_pressure.h"
 #include "mesh/node_spin.h"
 #include "wall/mesh_name.h"
@@ -41,6 +43,8 @@ Real farthest(const std::vector<Vec3> &from, const std::vector<Vec3> &to, std::s
 
 }    // namespace
 
+struct MeshNodes::HostGrid : NodeGrid<CpuBackend> {};
+
 MeshNodes::MeshNodes(Host &host, const WallSpec &wall, int mesh, const WeldedMesh &welded) :
     host_(host), wall_(wall), index_(mesh), with_sides_(wall.side != Side::both),
     with_spins_(wall.law().rolling.is_on() || wall.law().twisting.is_on()), mesh_(welded),
@@ -49,6 +53,8 @@ MeshNodes::MeshNodes(Host &host, const WallSpec &wall, int mesh, const WeldedMes
     of_contacts_(3 * velocity_.size(), 0)
 {
 }
+
+MeshNodes::~MeshNodes() = default;
 
 std::string MeshNodes::named(const std::string &text) const
 {
@@ -255,12 +261,13 @@ void MeshNodes::build_grid(Real cutoff, WallEngine &engine)
   } else {
     CpuBackend cpu;
     const MeshTopologyView topology = topology_of(mesh_);
-    grid_.build(cpu,
-                {features_.primitives.data(), features_.primitives.size(), topology.faces,
-                 topology.edges, mesh_.vertices.data(), features_.faces.data()},
-                settings);
+    if (!grid_) grid_ = std::make_unique<HostGrid>();
+    grid_->build(cpu,
+                 {features_.primitives.data(), features_.primitives.size(), topology.faces,
+                  topology.edges, mesh_.vertices.data(), features_.faces.data()},
+                 settings);
     built_at_ = mesh_.vertices;
-    engine.set_grid(grid_.view(features_.view()), index_);
+    engine.set_grid(grid_->view(features_.view()), index_);
   }
   cutoff_ = cutoff;
   way_of_grid_ = 0;
@@ -273,7 +280,7 @@ void MeshNodes::give_nodes(WallEngine &engine)
   view.wall = features_.view();
   view.list_kind = ListKind::every();
   records_ = FlatGrid(GridParts{features_, CellLists(), BrickRecords(), view});
-  grid_ = NodeGrid<CpuBackend>();
+  grid_.reset();
   engine.set_grid(records_.view(), index_);
   engine_ = engine.nodes_in_place();
   engine_->start_nodes(index_, now());
@@ -357,8 +364,8 @@ bool MeshNodes::put_forces(Real pressure, Real *to, const std::vector<int> &node
 
 std::size_t MeshNodes::bytes() const
 {
-  std::size_t total =
-      grid_.bytes() + records_.bytes() + (of_contacts_.size() + forces_.size()) * sizeof(Real);
+  std::size_t total = (grid_ ? grid_->bytes() : 0) + records_.bytes() +
+                      (of_contacts_.size() + forces_.size()) * sizeof(Real);
   MeshFeaturesView::each_array(features_, [&](const auto &a) {
     total += a.size() * sizeof(typename std::decay_t<decltype(a)>::value_type);
   });

@@ -8,10 +8,8 @@
 // that a list left out may turn towards the sphere.
 #pragma once
 
-#include "backend/backend_cpu.h"
 #include "engine/nodes_in_place.h"
 #include "engine/wall_engine.h"
-#include "grid/build/node_grid.h"
 #include "grid/flat_grid.h"
 #include "host/host.h"
 #include "wall/wall_spec.h"
@@ -26,6 +24,7 @@ class MeshNodes {
   // The mesh with this number, from 0, as it was welded: its nodes are there, at rest, until they are set. Host and
   // wall must outlive it.
   MeshNodes(Host &host, const WallSpec &wall, int mesh, const WeldedMesh &welded);
+  ~MeshNodes();
 
   int count() const { return static_cast<int>(mesh_.vertices.size()); }
 
@@ -116,13 +115,15 @@ class MeshNodes {
   std::vector<Vec3> spin_;
   std::vector<Vec3> next_, next_velocity_;    // set for the next step; empty: as they are
   Real cutoff_ = 0;                           // of the grid; 0: there is none
-  NodeGrid<CpuBackend> grid_;                 // without engine_
-  FlatGrid records_;                          // with it, as they were when it got the nodes
-  Real back_ = 0;                             // how long ago velocities are of (time)
-  Real way_ = 0;                              // of the fastest node in each step since the choice
-  Real way_of_grid_ = 0;             // at least how far a node has gone since the grid was built
-  std::vector<Vec3> built_at_;       // where nodes were when the grid was built, without engine_
-  std::vector<Vec3> turned_from_;    // where nodes were when springs were turned last
+  // Who includes this need not compile what a backend does.
+  struct HostGrid;
+  std::unique_ptr<HostGrid> grid_;    // without engine_, once it is built
+  FlatGrid records_;                  // with it, as they were when it got the nodes
+  Real back_ = 0;                     // how long ago velocities are of (time)
+  Real way_ = 0;                      // of the fastest node in each step since the choice
+  Real way_of_grid_ = 0;              // at least how far a node has gone since the grid was built
+  std::vector<Vec3> built_at_;        // where nodes were when the grid was built, without engine_
+  std::vector<Vec3> turned_from_;     // where nodes were when springs were turned last
   bool have_moved_ = false, springs_are_new_ = true;    // since then
   // What engine_ alone has: records, places and velocities in this step, and in the next, forces, the power.
   bool are_records_old_ = false, are_given_there_ = false, are_forces_old_ = false;
