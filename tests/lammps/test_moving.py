@@ -354,22 +354,10 @@ def searches(checks, folder):
 
 # A sphere that is 0.06 above the floor, with a skin of 0.1, and has fallen 0.01 k^2 after k steps: LAMMPS looks at the beginning of
 # the third step, in which it goes from 0.04 to 0.09.
-FALLS_UNDER_RESPA = """\
-units           lj
-atom_style      sphere
-boundary        f f f
-newton          off
-comm_modify     vel yes
-region          box block -3 3 -3 3 -1 5
-create_box      1 box
-create_atoms    1 single 0.31 0.22 0.56 units box
-set             atom 1 diameter 1.0 density 2.0
-pair_style      gran/hooke 1000 NULL 50 NULL 0.5 0
-pair_coeff      * *
+FALLS_UNDER_RESPA = lmp.SMALL_BOX.format(atoms="create_atoms 1 single 0.31 0.22 0.56 units box") + """\
 neighbor        0.1 bin
 neigh_modify    delay 0 every 1 check yes
 fix             pull all gravity 2e4 vector 0 0 -1
-fix             move all nve/sphere
 fix             wall all {wall}
 timestep        1e-3
 run_style       respa 2 2 pair 2
