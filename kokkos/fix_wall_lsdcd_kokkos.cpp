@@ -230,7 +230,7 @@ void FixWallLsdcdKokkos<DeviceType>::pre_reverse(int /*eflag*/, int /*vflag*/)
   if (wall->step_state() != lsdcd::StepState::begun) return;
   const bool adds_early = launch_mode == lsdcd::LaunchMode::beside_adding_early;
   if (adds_early) atomKK->sync(execution_space, F_MASK | TORQUE_MASK);
-  run_core([&] { wall->launch(spheres(), launch_mode); });
+  wall->launch(spheres(), launch_mode);
   if (adds_early) atomKK->modified(execution_space, F_MASK | TORQUE_MASK);
 }
 

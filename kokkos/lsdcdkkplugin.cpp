@@ -3,7 +3,7 @@
 
 // Registers the styles of this library, and fix wall/lsdcd/kk, with the Kokkos LAMMPS that loads this file.
 
-#include "fix_wall_lsdcd_kokkos.h"
+#include "guarded_fix_kokkos.h"
 
 #include "lammps/plugin_styles.h"
 
@@ -12,7 +12,7 @@
 #include <sstream>
 #include <string>
 
-using LAMMPS_NS::FixWallLsdcdKokkos;
+using LAMMPS_NS::GuardedFixKokkos;
 using lsdcd::create_fix;
 
 static std::string version_text(int version)
@@ -62,7 +62,7 @@ extern "C" __attribute__((visibility("default"))) void lsdcd_add_styles(void *lm
   const auto add = [&](const char *name, lammpsplugin_factory2 *create) {
     lsdcd::add_style("fix", lmp, handle, regfunc, name, "the same with Kokkos", create);
   };
-  add("wall/lsdcd/kk", create_fix<FixWallLsdcdKokkos<LMPDeviceType>>);
-  add("wall/lsdcd/kk/device", create_fix<FixWallLsdcdKokkos<LMPDeviceType>>);
-  add("wall/lsdcd/kk/host", create_fix<FixWallLsdcdKokkos<LMPHostType>>);
+  add("wall/lsdcd/kk", create_fix<GuardedFixKokkos<LMPDeviceType>>);
+  add("wall/lsdcd/kk/device", create_fix<GuardedFixKokkos<LMPDeviceType>>);
+  add("wall/lsdcd/kk/host", create_fix<GuardedFixKokkos<LMPHostType>>);
 }

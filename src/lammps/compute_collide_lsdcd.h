@@ -25,7 +25,7 @@ struct Pose;
 
 namespace LAMMPS_NS {
 
-class ComputeCollideLsdcd : public Compute, private OwnMessages {
+class ComputeCollideLsdcd : public Compute, protected OwnMessages {
  public:
   ComputeCollideLsdcd(class LAMMPS *, int, char **);
   ~ComputeCollideLsdcd() override;

@@ -224,11 +224,9 @@ void FixInsertLsdcd::init()
   }
   if (!missing.empty())
     fatal("in 'wall', there is no fix '" + missing[0] + "': give the ID of a fix wall/lsdcd");
-  run_core([&] {
-    if (!settings.region.empty()) find_region();
-    lsdcd::MpiHost mpi(world);
-    lsdcd::run_collectively(mpi, true, [&] { walls->follow(found, mpi.is_first()); });
-  });
+  if (!settings.region.empty()) find_region();
+  lsdcd::MpiHost mpi(world);
+  lsdcd::run_collectively(mpi, true, [&] { walls->follow(found, mpi.is_first()); });
 }
 
 void FixInsertLsdcd::setup(int /*vflag*/)
@@ -317,7 +315,7 @@ void FixInsertLsdcd::pre_exchange()
     refused = {};
     std::vector<Insertion::Placed> placed;
     if (!insertion->owed().empty()) {
-      run_core([&] { placed = choose(refused); });
+      placed = choose(refused);
       create(placed);
     }
     insertion->accept(step, placed, refused);

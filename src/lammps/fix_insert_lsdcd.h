@@ -19,7 +19,7 @@
 
 namespace LAMMPS_NS {
 
-class FixInsertLsdcd : public Fix, private OwnMessages {
+class FixInsertLsdcd : public Fix, protected OwnMessages {
  public:
   FixInsertLsdcd(class LAMMPS *, int, char **);
   ~FixInsertLsdcd() override;

@@ -18,7 +18,7 @@
 
 namespace LAMMPS_NS {
 
-class FixMassflowLsdcd : public Fix, private OwnMessages {
+class FixMassflowLsdcd : public Fix, protected OwnMessages {
  public:
   FixMassflowLsdcd(class LAMMPS *, int, char **);
   ~FixMassflowLsdcd() override;

@@ -248,12 +248,10 @@ void FixWallLsdcd::init()
   if (!rigid) std::vector<double>().swap(damping_mass);
   check_heat();
   if (spec().has_bodies()) init_bodies();
-  run_core([&] {
-    for (const int k : wall->inputs_read()) find_variable(spec().inputs[k]);
-    wall->begin_run(update->ntimestep, thermo_virial);
-    check_files_apart(*this, *modify, host, update->ntimestep);
-    init_nodes();
-  });
+  for (const int k : wall->inputs_read()) find_variable(spec().inputs[k]);
+  wall->begin_run(update->ntimestep, thermo_virial);
+  check_files_apart(*this, *modify, host, update->ntimestep);
+  init_nodes();
   if (doubled_warned) return;
   need_on_host();
   const std::string doubled = doubled_mesh(*this, *modify, *atom, world);
@@ -301,11 +299,9 @@ void FixWallLsdcd::min_setup(int /*vflag*/)
 void FixWallLsdcd::pre_exchange()
 {
   if (spheres_go_far()) need_positions();
-  run_core([&] {
-    const lsdcd::HostSpheres s = spheres();
-    wall->poll_diagnostics(s, update->ntimestep);
-    if (spheres_go_far()) wall->check_wrapping(s);
-  });
+  const lsdcd::HostSpheres s = spheres();
+  wall->poll_diagnostics(s, update->ntimestep);
+  if (spheres_go_far()) wall->check_wrapping(s);
   if (has_history()) make_exchange_room();
 }
 
@@ -336,7 +332,7 @@ void FixWallLsdcd::post_force_respa(int vflag, int ilevel, int /*iloop*/)
 
 void FixWallLsdcd::end_of_step()
 {
-  run_core([&] { wall->write_due_files(); });
+  wall->write_due_files();
 }
 
 void FixWallLsdcd::post_run()
@@ -346,10 +342,8 @@ void FixWallLsdcd::post_run()
           ? ""
           : " (neigh_modify delay 0 every 1 check yes saves looking at all atoms)";
   if (spheres_go_far()) need_positions();
-  run_core([&] {
-    wall->end_run(spheres(), update->ntimestep, spheres_go_far(), advice,
-                  timer->get_wall(Timer::TOTAL));
-  });
+  wall->end_run(spheres(), update->ntimestep, spheres_go_far(), advice,
+                timer->get_wall(Timer::TOTAL));
 }
 
 // ---- a step ------------------------------------------------------------------------------
@@ -408,12 +402,10 @@ void FixWallLsdcd::begin(bool look)
 {
   if (rigid) fill_masses();
   lsdcd::StepInput input = step_input(look);
-  run_core([&] {
-    input.inputs = read_inputs();
-    if (!node_atoms.empty()) need_nodes();
-    for (NodeAtoms &nodes : node_atoms) nodes.send(*wall, look);
-    begin_step(input);
-  });
+  input.inputs = read_inputs();
+  if (!node_atoms.empty()) need_nodes();
+  for (NodeAtoms &nodes : node_atoms) nodes.send(*wall, look);
+  begin_step(input);
   if (input.new_spheres && wall->cutoff() > 0) counted_atoms = atom->natoms;
 }
 
@@ -459,10 +451,8 @@ void FixWallLsdcd::begin_step(const lsdcd::StepInput &input)
 
 void FixWallLsdcd::finish_step()
 {
-  run_core([&] {
-    wall->finish(spheres());
-    add_node_forces();
-  });
+  wall->finish(spheres());
+  add_node_forces();
   if (vflag_global) wall->add_virial(virial);
   if (spec().contacts) fill_contacts();
 }
@@ -630,14 +620,12 @@ void FixWallLsdcd::write_restart(FILE *file)
 
 void FixWallLsdcd::restart(char *buffer)
 {
-  run_core([&] {
-    try {
-      wall->restore(lsdcd::read_wall_state(reinterpret_cast<const double *>(buffer), kAllNumbers),
-                    step_now());
-    } catch (const lsdcd::StateError &e) {
-      throw lsdcd::InputError(unusable_state(e, "springs, motion, loads and wear"));
-    }
-  });
+  try {
+    wall->restore(lsdcd::read_wall_state(reinterpret_cast<const double *>(buffer), kAllNumbers),
+                  step_now());
+  } catch (const lsdcd::StateError &e) {
+    throw lsdcd::InputError(unusable_state(e, "springs, motion, loads and wear"));
+  }
 }
 
 // ---- outputs -----------------------------------------------------------------------------
@@ -781,10 +769,8 @@ int FixWallLsdcd::image(int *&kinds, double **&rows)
 
 int FixWallLsdcd::modify_param(int narg, char **arg)
 {
-  int taken = 0;
-  run_core([&] {
-    taken = lsdcd::change_wall(*wall, std::vector<std::string>(arg, arg + narg), step_now());
-  });
+  const int taken =
+      lsdcd::change_wall(*wall, std::vector<std::string>(arg, arg + narg), step_now());
   size_outputs();
   return taken;
 }

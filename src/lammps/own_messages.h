@@ -30,9 +30,13 @@ class OwnMessages {
   [[noreturn]] void fatal(const std::string &) const;
   [[noreturn]] void fatal_here(const std::string &) const;
 
-  // Runs work of the core, and ends LAMMPS with what that throws. Exceptions of LAMMPS pass: they are none of these.
+  // Runs work of the core, returns what it returns, and ends LAMMPS with what it throws. Exceptions of LAMMPS pass: they
+  // are none of these.
   template <class Work>
-  void run_core(Work &&work) const;
+  auto run_core(Work &&work) const -> decltype(work());
+  // The same where this process does the work alone.
+  template <class Work>
+  auto run_core_here(Work &&work) const -> decltype(work());
 
  private:
   class LAMMPS *lammps;
@@ -40,10 +44,10 @@ class OwnMessages {
 };
 
 template <class Work>
-void OwnMessages::run_core(Work &&work) const
+auto OwnMessages::run_core(Work &&work) const -> decltype(work())
 {
   try {
-    work();
+    return work();
   } catch (const lsdcd::ProcessError &e) {
     fatal_here(e.what());
   } catch (const std::bad_alloc &) {
@@ -52,6 +56,20 @@ void OwnMessages::run_core(Work &&work) const
     fatal(e.what());
   } catch (const std::logic_error &e) {
     fatal(e.what());
+  }
+}
+
+template <class Work>
+auto OwnMessages::run_core_here(Work &&work) const -> decltype(work())
+{
+  try {
+    return work();
+  } catch (const std::bad_alloc &) {
+    fatal_here("out of memory");
+  } catch (const std::runtime_error &e) {
+    fatal_here(e.what());
+  } catch (const std::logic_error &e) {
+    fatal_here(e.what());
   }
 }
 

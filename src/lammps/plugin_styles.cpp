@@ -31,19 +31,19 @@ void add_plain_styles(void *lmp, void *handle, void *regfunc)
 {
   using namespace LAMMPS_NS;
   add_style("fix", lmp, handle, regfunc, "wall/lsdcd", "fix wall/lsdcd: DEM walls from an STL mesh",
-            create_fix<FixWallLsdcd>);
+            create_fix<GuardedFix<FixWallLsdcd>>);
   add_style("fix", lmp, handle, regfunc, "massflow/lsdcd",
             "fix massflow/lsdcd: what passes a surface from an STL mesh",
-            create_fix<FixMassflowLsdcd>);
+            create_fix<GuardedFix<FixMassflowLsdcd>>);
   add_style("fix", lmp, handle, regfunc, "insert/lsdcd",
             "fix insert/lsdcd: grains through a flat mesh or into a region",
-            create_fix<FixInsertLsdcd>);
+            create_fix<GuardedFix<FixInsertLsdcd>>);
   add_style("compute", lmp, handle, regfunc, "lsdcd/collide",
             "compute lsdcd/collide: rigid bodies against the walls of fix wall/lsdcd",
-            create_style<Compute, ComputeCollideLsdcd>);
+            create_style<Compute, GuardedCompute<ComputeCollideLsdcd>>);
   add_style("region", lmp, handle, regfunc, "mesh/lsdcd",
             "region mesh/lsdcd: the inside of a closed mesh",
-            create_style<Region, RegionMeshLsdcd>);
+            create_style<Region, GuardedRegion<RegionMeshLsdcd>>);
 }
 
 }    // namespace lsdcd

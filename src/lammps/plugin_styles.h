@@ -4,8 +4,7 @@
 // Tells LAMMPS the styles of a plugin. plugin_guard.cpp has asked LAMMPS before whether they fit.
 #pragma once
 
-#include "fix.h"
-
+#include "lammps/guarded_styles.h"
 #include "lammps/plugin_api.h"
 
 namespace lsdcd {
@@ -15,16 +14,16 @@ void add_style(const char *kind, void *lmp, void *handle, void *regfunc, const c
                const char *info, lammpsplugin_factory2 *create);
 
 // As LAMMPS reads it back: a pointer to the kind's own class.
-template <class Base, class Style>
+template <class Base, class Guarded>
 void *create_style(void *lmp, int narg, char **arg)
 {
-  Base *made = new Style(static_cast<LAMMPS_NS::LAMMPS *>(lmp), narg, arg);
+  Base *made = new Guarded(static_cast<LAMMPS_NS::LAMMPS *>(lmp), narg, arg);
   return made;
 }
-template <class Fix>
+template <class Guarded>
 void *create_fix(void *lmp, int narg, char **arg)
 {
-  return create_style<LAMMPS_NS::Fix, Fix>(lmp, narg, arg);
+  return create_style<LAMMPS_NS::Fix, Guarded>(lmp, narg, arg);
 }
 
 // All that do not need Kokkos.

@@ -18,7 +18,7 @@
 namespace LAMMPS_NS {
 
 // Every process has the whole mesh.
-class RegionMeshLsdcd : public Region, private OwnMessages {
+class RegionMeshLsdcd : public Region, protected OwnMessages {
  public:
   RegionMeshLsdcd(class LAMMPS *, int, char **);
 

@@ -467,6 +467,11 @@ def changes(checks, folder):
     refused("moments that no body has", script(
         "hooke 1e3 NULL 0 NULL 0 0 mesh cube.stl body mass 1 com 0 0 0 inertia 1 1 3 0 0 0", far, 1e-3), "no body has")
     refused("rerun", plain + "dump d all custom 1 d.txt id x y z vx vy vz\nrun 1\nrerun d.txt dump x y z\n", "in a rerun")
+    # At 1.01 of 2 / sqrt(K / m). Outputs ask for the body before its next step looks at the timestep.
+    refused("an error that an output finds", script(
+        fix.replace("density 1", "mass 1 com 0 0 0 inertia 1 1 1 0 0 0 joint slider 0 0 1 spring 4e4 0 velocity 0 0 1"),
+        far, 0.0101) + "thermo_style custom step f_w[34]\nthermo 1\nrun 20\n",
+        "ERROR: Fix w wall/lsdcd: the timestep 0.0101 is not below 0.01", "Last command: run 20")
     refused("two dimensions", plain.replace("boundary        f f f", "dimension 2\nboundary        f f p").replace(
         "-2 2 -2 2 -2 2", "-2 2 -2 2 -0.1 0.1").replace("single 1 1 1", "single 1 1 0"), "plane z = 0")
     refused("a periodic face", plain.replace("boundary        f f f", "boundary        p f f").replace(

@@ -4,8 +4,9 @@
 // For LAMMPS's list of styles: LSDCD.cmake.
 #ifdef COMPUTE_CLASS
 // clang-format off
-ComputeStyle(lsdcd/collide,ComputeCollideLsdcd);
+ComputeStyle(lsdcd/collide,GuardedCompute<ComputeCollideLsdcd>);
 // clang-format on
 #else
 #include "lammps/compute_collide_lsdcd.h"
+#include "lammps/guarded_styles.h"
 #endif

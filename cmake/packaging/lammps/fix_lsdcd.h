@@ -4,12 +4,13 @@
 // For LAMMPS's list of styles: LSDCD.cmake.
 #ifdef FIX_CLASS
 // clang-format off
-FixStyle(insert/lsdcd,FixInsertLsdcd);
-FixStyle(massflow/lsdcd,FixMassflowLsdcd);
-FixStyle(wall/lsdcd,FixWallLsdcd);
+FixStyle(insert/lsdcd,GuardedFix<FixInsertLsdcd>);
+FixStyle(massflow/lsdcd,GuardedFix<FixMassflowLsdcd>);
+FixStyle(wall/lsdcd,GuardedFix<FixWallLsdcd>);
 // clang-format on
 #else
 #include "lammps/fix_insert_lsdcd.h"
 #include "lammps/fix_massflow_lsdcd.h"
 #include "lammps/fix_wall_lsdcd.h"
+#include "lammps/guarded_styles.h"
 #endif

@@ -4,8 +4,9 @@
 // For LAMMPS's list of styles: LSDCD.cmake.
 #ifdef REGION_CLASS
 // clang-format off
-RegionStyle(mesh/lsdcd,RegionMeshLsdcd);
+RegionStyle(mesh/lsdcd,GuardedRegion<RegionMeshLsdcd>);
 // clang-format on
 #else
+#include "lammps/guarded_styles.h"
 #include "lammps/region_mesh_lsdcd.h"
 #endif
