@@ -4,19 +4,15 @@
 #include "insert/insertion.h"
 
 #include <algorithm>
+#include <limits>
+#include <numeric>
 
 namespace lsdcd {
 
 namespace {
 
-constexpr std::int64_t kPlaces = 3;    // part of a key, as in grain_source.cpp
-constexpr Real kSmaller = 0.9;    // a grain below that part of a radius may fit where that did not
+constexpr std::int64_t kPlaces = 3;         // part of a key, as in grain_source.cpp
 constexpr std::size_t kNumbersOf090 = 2;    // of the plan in its restart files
-
-bool comes_before(const Grain &a, const Grain &b)
-{
-  return a.radius != b.radius ? a.radius > b.radius : a.number < b.number;
-}
 
 }    // namespace
 
@@ -44,8 +40,7 @@ void Insertion::begin_run(std::int64_t step, Real dt)
 
 void Insertion::draw_due(std::int64_t step)
 {
-  const std::size_t before = owed_.size();
-  was_late_ = before > 0;
+  late_ = owed_.size();
   first_new_ = next_number_;
   while (owed_.size() < kMostDrawn) {
     const Grain grain = next_grain();
@@ -55,8 +50,6 @@ void Insertion::draw_due(std::int64_t step)
     drawn_.number++;
     drawn_.mass += grain.mass();
   }
-  std::sort(owed_.begin() + before, owed_.end(), comes_before);
-  std::inplace_merge(owed_.begin(), owed_.begin() + before, owed_.end(), comes_before);
 }
 
 bool Insertion::has_more(std::int64_t step) const
@@ -64,36 +57,71 @@ bool Insertion::has_more(std::int64_t step) const
   return owed_.empty() && schedule_.is_due(step, drawn_, next_grain().mass());
 }
 
-std::vector<Insertion::Placed> Insertion::place(std::int64_t step, InsertionSite &site,
-                                                Packing &packing, Refused &refused) const
+// Indices of owed(), the largest first.
+std::vector<std::size_t> Insertion::by_size() const
 {
-  std::vector<Placed> placed;
-  for (std::size_t i = 0; i < owed_.size();) {
-    const Grain &grain = owed_[i];
-    RandomStream random({plan_.seed, kPlaces, grain.number, step});
-    bool found = false;
-    for (int k = 0; k < plan_.attempts && !found; k++) {
-      PackedSphere sphere = {{0, 0, 0}, grain.radius};
-      if (!site.draw(random, grain.radius, sphere.at)) {
-        refused.no_place++;
-      } else if (packing.overlaps(sphere)) {
-        refused.grains++;
-      } else if (!site.is_clear_of_walls(sphere)) {
-        refused.walls++;
-      } else {
-        found = true;
-        packing.add(sphere);
-        placed.push_back({i, sphere.at});
-      }
-    }
-    i++;
-    if (found) continue;
-    const Real fits = kSmaller * grain.radius;
-    i = std::partition_point(owed_.begin() + i, owed_.end(),
-                             [fits](const Grain &other) { return other.radius > fits; }) -
-        owed_.begin();
+  std::vector<std::size_t> all(owed_.size());
+  std::iota(all.begin(), all.end(), 0);
+  std::stable_sort(all.begin(), all.end(), [this](std::size_t a, std::size_t b) {
+    return owed_[a].radius > owed_[b].radius;
+  });
+  return all;
+}
+
+// The largest first pack most densely, and leave the small ones where not all have places: hence the second try.
+std::vector<Insertion::Placed> Insertion::place(std::int64_t step, InsertionSite &site,
+                                                const Packing &packing, Refused &refused) const
+{
+  Attempt attempt = {packing};
+  const bool is_whole = late_ <= kMostPassedOver && place_in_order(by_size(), step, site, attempt);
+  if (!is_whole) {
+    attempt = {packing};
+    place_in_order({}, step, site, attempt);
   }
-  return placed;
+  refused.add(attempt.refused);
+  return attempt.placed;
+}
+
+// Tries the grains of owed() in this order, or as they are where it is empty. Returns false, and leaves out those that
+// follow, after the grain that is one too many to be passed over.
+bool Insertion::place_in_order(const std::vector<std::size_t> &order, std::int64_t step,
+                               InsertionSite &site, Attempt &attempt) const
+{
+  std::size_t passed_over = 0;
+  Real too_large = std::numeric_limits<Real>::infinity();
+  for (std::size_t k = 0; k < owed_.size(); k++) {
+    const std::size_t i = order.empty() ? k : order[k];
+    const Real radius = owed_[i].radius;
+    if (radius < too_large) {
+      if (finds_place(i, step, site, attempt)) continue;
+      site.check_has_room(radius);
+      too_large = radius;
+    }
+    if (++passed_over > kMostPassedOver) return false;
+  }
+  return true;
+}
+
+bool Insertion::finds_place(std::size_t i, std::int64_t step, InsertionSite &site,
+                            Attempt &attempt) const
+{
+  const Grain &grain = owed_[i];
+  RandomStream random({plan_.seed, kPlaces, grain.number, step});
+  for (int k = 0; k < plan_.attempts; k++) {
+    PackedSphere sphere = {{0, 0, 0}, grain.radius};
+    if (!site.draw(random, grain.radius, sphere.at)) {
+      attempt.refused.no_place++;
+    } else if (attempt.packing.overlaps(sphere)) {
+      attempt.refused.grains++;
+    } else if (!site.is_clear_of_walls(sphere)) {
+      attempt.refused.walls++;
+    } else {
+      attempt.packing.add(sphere);
+      attempt.placed.push_back({i, sphere.at});
+      return true;
+    }
+  }
+  return false;
 }
 
 void Insertion::accept(std::int64_t step, const std::vector<Placed> &placed, const Refused &refused)
@@ -111,7 +139,7 @@ void Insertion::accept(std::int64_t step, const std::vector<Placed> &placed, con
     if (!has_place[i]) owed_[kept++] = owed_[i];
   owed_.resize(kept);
   refused_.add(refused);
-  wait_ = was_late_ && !late_came ? std::min<std::int64_t>(2 * wait_, kLongestWait) : 1;
+  wait_ = late_ > 0 && !late_came ? std::min<std::int64_t>(2 * wait_, kLongestWait) : 1;
   retry_step_ = step + wait_;
   not_drawn_ = schedule_.is_due(step, drawn_, next_grain().mass())
                    ? schedule_.due_beyond(step, drawn_, source_.recipe().mean_mass())
@@ -182,6 +210,8 @@ bool Insertion::restore(const Real *numbers, std::size_t n, std::int64_t step)
     wait_ = g.wait;
     retry_step_ = step + g.retry_in;
     for (const std::int64_t number : g.owed) owed_.push_back(source_.grain(number));
+    std::sort(owed_.begin(), owed_.end(),    // a file of before 0.10.0 has the largest first
+              [](const Grain &a, const Grain &b) { return a.number < b.number; });
   } else {
     // Grains without a place are drawn anew.
     drawn_ = g.inserted;

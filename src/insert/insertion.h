@@ -28,6 +28,9 @@ class InsertionSite {
   virtual ~InsertionSite() = default;
   virtual bool draw(RandomStream &random, Real radius, Vec3 &at) = 0;    // false: none is found
   virtual bool is_clear_of_walls(const PackedSphere &grain) = 0;
+  // Throws InputError where a grain of this radius would find no place without any other grain. Asked of
+  // each radius for which a step had none.
+  virtual void check_has_room(Real radius) = 0;
 };
 
 // All processes have the same state. In a step each calls draw_due(); one calls place(), and all pass its result to
@@ -41,6 +44,9 @@ class Insertion {
   // Grains without a place are tried again 1, 2, 4 ... steps later, at most so many, for as long as none of them
   // finds one; and in each step in which another grain is due.
   static constexpr int kLongestWait = 20;
+  // So many grains at most are without a place where others that were drawn later have one. This keeps the sizes of
+  // what is in those that were drawn, however full the place is, and one grain without a place does not hold back all.
+  static constexpr std::size_t kMostPassedOver = 5;
   // No more grains are drawn before these have places, so that a huge amount needs no huge memory.
   static constexpr std::size_t kMostDrawn = 1000000;
 
@@ -53,8 +59,9 @@ class Insertion {
   void draw_due(std::int64_t step);
   // Is more due in this step, after all that was drawn has found a place?
   bool has_more(std::int64_t step) const;
-  // The largest first. A grain that finds no place leaves the others of about its size to the next try.
-  std::vector<Placed> place(std::int64_t step, InsertionSite &site, Packing &packing,
+  // The largest first where all find places that way, but for kMostPassedOver; else in the order in which they were
+  // drawn. Where a grain finds no place, those that are no smaller wait for the next try. `packing`: of what is there.
+  std::vector<Placed> place(std::int64_t step, InsertionSite &site, const Packing &packing,
                             Refused &refused) const;
   void accept(std::int64_t step, const std::vector<Placed> &placed, const Refused &refused);
 
@@ -82,6 +89,15 @@ class Insertion {
 
  private:
   void find_next_step(std::int64_t now);
+  struct Attempt {
+    Packing packing;
+    std::vector<Placed> placed = {};
+    Refused refused = {};
+  };
+  std::vector<std::size_t> by_size() const;
+  bool place_in_order(const std::vector<std::size_t> &order, std::int64_t step, InsertionSite &site,
+                      Attempt &attempt) const;
+  bool finds_place(std::size_t i, std::int64_t step, InsertionSite &site, Attempt &attempt) const;
   bool has_drawn_all() const { return owed_.size() < kMostDrawn; }
   Grain next_grain() const { return source_.grain(next_number_); }
   Real amount_given(std::int64_t step) const;
@@ -92,9 +108,9 @@ class Insertion {
   FeedSchedule schedule_;
   GrainTotals drawn_;
   std::int64_t next_number_ = 0;              // of grains
-  std::vector<Grain> owed_;                   // the largest first
+  std::vector<Grain> owed_;                   // in the order of their numbers
   GrainTotals not_drawn_;                     // due beyond these
-  bool was_late_ = false;                     // before this step's grains were drawn
+  std::size_t late_ = 0;                      // of owed_, before this step's grains were drawn
   std::int64_t first_new_ = 0;                // number of the first of these
   std::int64_t wait_ = 1, retry_step_ = 0;    // for owed grains
   Real inserted_mass_ = 0;

@@ -38,7 +38,7 @@ namespace LAMMPS_NS {
 // Asked by the first process alone.
 class LammpsSite : public lsdcd::InsertionSite {
  public:
-  explicit LammpsSite(const FixInsertLsdcd &fix) :
+  explicit LammpsSite(FixInsertLsdcd &fix) :
       fix_(fix), zone_(fix.zone()), box_(lsdcd::host_box(*fix.domain))
   {
   }
@@ -62,8 +62,26 @@ class LammpsSite : public lsdcd::InsertionSite {
     return fix_.walls->is_clear(grain, box_);
   }
 
+  // Beside walls that have never moved: others may yet make room.
+  void check_has_room(double radius) override
+  {
+    if (radius <= fix_.radius_with_room) return;
+    lsdcd::RandomStream random({fix_.settings.plan.seed, kRoom});
+    for (int k = 0; k < kTriesOfRoom; k++) {
+      PackedSphere grain = {{0, 0, 0}, radius};
+      if (!draw(random, radius, grain.at)) {
+        k += kTries;
+      } else if (fix_.walls->is_clear_at_rest(grain, box_)) {
+        fix_.radius_with_room = radius;
+        return;
+      }
+    }
+    throw lsdcd::InputError(fix_.no_room_text(radius, kTriesOfRoom));
+  }
+
  private:
-  static constexpr int kTries = 10000;
+  static constexpr int kTries = 10000, kTriesOfRoom = 100000;
+  static constexpr std::int64_t kRoom = 4;    // part of a key, as in insertion.cpp
 
   // A mesh may reach past a periodic face; LAMMPS's regions end there.
   bool is_in_box(const Vec3 &at) const
@@ -77,7 +95,7 @@ class LammpsSite : public lsdcd::InsertionSite {
     return true;
   }
 
-  const FixInsertLsdcd &fix_;
+  FixInsertLsdcd &fix_;
   const lsdcd::Box zone_;
   const lsdcd::PeriodicBox box_;
 };
@@ -224,6 +242,7 @@ void FixInsertLsdcd::init()
   }
   if (!missing.empty())
     fatal("in 'wall', there is no fix '" + missing[0] + "': give the ID of a fix wall/lsdcd");
+  radius_with_room = 0;
   if (!settings.region.empty()) find_region();
   lsdcd::MpiHost mpi(world);
   lsdcd::run_collectively(mpi, true, [&] { walls->follow(found, mpi.is_first()); });
@@ -259,7 +278,7 @@ double FixInsertLsdcd::largest_radius(int type) const
 std::vector<double> FixInsertLsdcd::gather_spheres(const lsdcd::Box &zone) const
 {
   const lsdcd::PeriodicBox box = lsdcd::host_box(*domain);
-  const double largest = insertion->owed().front().radius;
+  const double largest = insertion->source().largest_radius();
   std::vector<double> mine;
   for (int i = 0; i < atom->nlocal; i++) {
     const double *x = atom->x[i];
@@ -282,8 +301,8 @@ std::vector<Insertion::Placed> FixInsertLsdcd::choose(lsdcd::Refused &refused)
     std::vector<PackedSphere> there;
     for (std::size_t i = 0; i < near.size(); i += 4)
       there.push_back({{near[i], near[i + 1], near[i + 2]}, near[i + 3]});
-    lsdcd::Packing packing(there, around, insertion->owed().front().radius,
-                           lsdcd::host_box(*domain));
+    const lsdcd::Packing packing(there, around, insertion->source().largest_radius(),
+                                 lsdcd::host_box(*domain));
     walls->place(update->dt);
     LammpsSite site(*this);
     for (const Insertion::Placed &p : insertion->place(update->ntimestep, site, packing, refused))
@@ -405,6 +424,17 @@ std::string FixInsertLsdcd::late_text(const std::string &when, const lsdcd::Refu
   const lsdcd::GrainTotals late = insertion->late();
   return when + ", " + std::to_string(late.number) + " grains of mass " + number_text(late.mass) +
          " are due and have found no place" + why;
+}
+
+std::string FixInsertLsdcd::no_room_text(double radius, int tries) const
+{
+  return "of " + std::to_string(tries) + " places " +
+         (face ? "on " + settings.face.file : "in region " + settings.region) +
+         " none is clear of the walls for a grain of diameter " + number_text(2 * radius) +
+         ", even without other grains, so that it would hold back all that come after it: give "
+         "smaller grains in 'diam' or a larger " +
+         (face ? "mesh" : "region") +
+         ", move it away from the walls, or name by wall ID only the walls that grains must avoid";
 }
 
 // By what was in the way most often.

@@ -52,6 +52,8 @@ class FixInsertLsdcd : public Fix, protected OwnMessages {
   std::string radii_id;           // of the fix that tells radii to pair styles
   lsdcd::Refused refused_seen;    // before this run
   std::int64_t inserted_before = 0;
+  double radius_with_room =
+      0;                // of grains that have places beside the walls; on the first process
   bool told = false;    // in this run, that grains have no place
 
   void read_face();
@@ -63,6 +65,7 @@ class FixInsertLsdcd : public Fix, protected OwnMessages {
   bool owns(double *) const;
   void follow_schedule();
   std::string late_text(const std::string &, const lsdcd::Refused &) const;
+  std::string no_room_text(double radius, int tries) const;
   std::string remedy(const lsdcd::Refused &) const;
 };
 

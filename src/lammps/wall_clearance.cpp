@@ -40,7 +40,7 @@ void WallClearance::place(Real dt)
   std::size_t n = 0;
   for (const LAMMPS_NS::FixWallLsdcd *wall : walls_)
     for (const MeshPart &part : wall->meshes())
-      if (n < surfaces_.size()) surfaces_[n++].place(part.motion.pose_in(dt));
+      if (n < surfaces_.size()) surfaces_[n++].place(part, dt);
 }
 
 bool WallClearance::is_clear(Surface &surface, const PackedSphere &sphere, const PeriodicBox &box)
@@ -56,6 +56,13 @@ bool WallClearance::is_clear(const PackedSphere &sphere, const PeriodicBox &box)
 {
   for (Surface &surface : surfaces_)
     if (!is_clear(surface, sphere, box)) return false;
+  return true;
+}
+
+bool WallClearance::is_clear_at_rest(const PackedSphere &sphere, const PeriodicBox &box)
+{
+  for (Surface &surface : surfaces_)
+    if (!surface.moves && !is_clear(surface, sphere, box)) return false;
   return true;
 }
 

@@ -9,6 +9,7 @@
 #include "mesh/periodic_box.h"
 #include "motion/motion.h"
 #include "query/triangle_tree.h"
+#include "wall/mesh_part.h"
 
 #include <cstddef>
 #include <deque>
@@ -31,6 +32,8 @@ class WallClearance {
 
   // Is the sphere's centre at least its radius from every mesh, and from its images?
   bool is_clear(const PackedSphere &sphere, const PeriodicBox &box);
+  // The same of meshes that have never moved.
+  bool is_clear_at_rest(const PackedSphere &sphere, const PeriodicBox &box);
 
   std::size_t bytes() const;
 
@@ -44,7 +47,8 @@ class WallClearance {
     TriangleTable names;
     TriangleTree tree;
     Pose pose;
-    Box bounds;    // in that pose
+    bool moves = false;    // or was moved
+    Box bounds;            // in that pose
     std::uint32_t hint = kNoPrimitive;
 
     Surface(const std::string &fix, std::size_t index, std::uint64_t fingerprint, int shape,
@@ -55,10 +59,11 @@ class WallClearance {
     {
     }
 
-    void place(const Pose &at)
+    void place(const MeshPart &part, Real dt)
     {
-      pose = at;
-      bounds = placed_bounds(at, {mesh.report.lo, mesh.report.hi});
+      pose = part.motion.pose_in(dt);
+      moves = part.moves() || part.wear;
+      bounds = placed_bounds(pose, {mesh.report.lo, mesh.report.hi});
     }
   };
   bool has_all(bool has_meshes) const;

@@ -10,7 +10,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdlib>
 #include <cstring>
 #include <random>
 #include <vector>
@@ -37,7 +39,9 @@ struct Cube : InsertionSite {
     for (int k = 0; k < 3; k++) at[k] = random.uniform(0, side);
     return true;
   }
-  bool is_clear_of_walls(const PackedSphere &) override { return true; }
+  bool is_clear_of_walls(const PackedSphere &grain) override { return grain.radius < too_large; }
+  void check_has_room(Real) override {}
+  Real too_large = 1e9;    // radius
   Box zone() const { return {{0, 0, 0}, {side, side, side}}; }
 };
 
@@ -192,6 +196,112 @@ TEST(insertion, where_late_grains_find_places_the_others_are_tried_in_the_next_s
   there.clear();
   EXPECT_EQ(insert(insertion, 16, site, there), 1U);
   EXPECT_EQ(insertion.next_step(), 17);
+}
+
+// Grains of 4 to 5 are due all at once, and go down through a chute that takes one or two in ten steps. How many came
+// in, by fifths of the range of their diameters.
+std::array<int, 5> sizes_through_a_full_chute(int steps, bool is_poly)
+{
+  InsertionPlan plan = plan_of(FeedSettings::at_once, 0);
+  plan.feed.number = 200 + 2 * steps;
+  plan.grains.sizes.clear();
+  if (is_poly) plan.grains.sizes = {{4.1, 0.2}, {4.3, 0.2}, {4.5, 0.2}, {4.7, 0.2}, {4.9, 0.2}};
+  plan.grains.smallest = 4;
+  plan.grains.largest = 5;
+  plan.attempts = 30;
+  Insertion insertion(plan, 0, 1);
+  Cube site;
+  site.side = 15;
+  std::vector<PackedSphere> there;
+  std::array<int, 5> count = {};
+  for (int step = 1; step <= steps; step++) {
+    for (PackedSphere &grain : there) grain.at.z -= 0.05;
+    there.erase(std::remove_if(there.begin(), there.end(),
+                               [](const PackedSphere &grain) { return grain.at.z < -5; }),
+                there.end());
+    if (step != insertion.next_step()) continue;
+    const std::size_t before = there.size();
+    insert(insertion, step, site, there);
+    for (std::size_t i = before; i < there.size(); i++)
+      count[std::min(4, static_cast<int>(5 * (2 * there[i].radius - 4)))]++;
+  }
+  EXPECT_GT(insertion.late().number, 100);    // it was full
+  return count;
+}
+
+// Of n grains a fifth of the range has n / 5, with the variance 4 n / 25; three deviations.
+void expect_a_fifth_each(const std::array<int, 5> &count)
+{
+  Real n = 0;
+  for (const int c : count) n += c;
+  for (const int c : count) EXPECT_NEAR(c, n / 5, 3 * std::sqrt(4 * n / 25)) << "of " << n;
+  EXPECT_GT(n, 300);
+}
+
+TEST(insertion, into_a_full_chute_keeps_the_sizes)
+{
+  expect_a_fifth_each(sizes_through_a_full_chute(2500, false));
+  expect_a_fifth_each(sizes_through_a_full_chute(2500, true));
+}
+
+TEST(insertion, into_a_full_chute_keeps_the_sizes_for_100000_steps)
+{
+  expect_a_fifth_each(sizes_through_a_full_chute(100000, false));
+}
+
+TEST(insertion, a_grain_without_a_place_holds_back_no_burst_of_1500)
+{
+  InsertionPlan plan = plan_of(FeedSettings::at_once, 0);
+  plan.feed.number = 1500;
+  plan.grains.sizes.clear();
+  plan.grains.smallest = 0.5;
+  Insertion insertion(plan, 0, 1);
+  Cube site;
+  insertion.draw_due(1);
+  Real largest = 0;
+  for (const Grain &grain : insertion.owed()) largest = std::max(largest, grain.radius);
+  site.too_large = largest;
+  std::vector<PackedSphere> there;
+  EXPECT_EQ(insert(insertion, 1, site, there), 1499U);
+  EXPECT_EQ(insert(insertion, insertion.next_step(), site, there), 0U);
+  site.too_large = 1;
+  EXPECT_EQ(insert(insertion, insertion.next_step(), site, there), 1U);
+  EXPECT_EQ(insertion.next_step(), FeedSchedule::kNever);
+}
+
+TEST(insertion, so_many_as_may_be_passed_over_hold_back_all_that_come_after_them)
+{
+  InsertionPlan plan = plan_of(FeedSettings::by_number, 1);
+  plan.grains.sizes = {{1, 0.5}, {2, 0.5}};
+  plan.grains.largest = 2;
+  Insertion insertion(plan, 0, 1);
+  Cube site;
+  site.too_large = 0.7;
+  std::vector<PackedSphere> there;
+  for (int step = 1; step <= 100; step++) insert(insertion, step, site, there);
+  // Those before the last of them are in, and no other one.
+  std::size_t small = 0, large = 0;
+  for (std::int64_t k = 0; large <= Insertion::kMostPassedOver; k++)
+    (insertion.source().grain(k).radius < 0.7 ? small : large)++;
+  EXPECT_EQ(there.size(), small);
+  site.too_large = 9;
+  insert(insertion, insertion.next_step(), site, there);
+  EXPECT_EQ(insertion.late().number, 0);
+}
+
+TEST(insertion, where_a_grain_has_no_place_it_asks_whether_there_is_room_for_its_radius)
+{
+  InsertionPlan plan = plan_of(FeedSettings::at_once, 0);
+  plan.feed.number = 10;
+  Insertion insertion(plan, 0, 1);
+  struct Narrow : Cube {
+    void check_has_room(Real radius) override { throw InputError(radius == 0.5 ? "no room" : ""); }
+  } site;
+  std::vector<PackedSphere> there;
+  EXPECT_EQ(insert(insertion, 1, site, there), 10U);
+  Insertion late(plan, 0, 1);
+  site.too_large = 0.5;
+  EXPECT_THROW(insert(late, 1, site, there), InputError);
 }
 
 TEST(insertion, a_huge_amount_takes_the_memory_of_a_million_grains)
