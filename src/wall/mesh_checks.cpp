@@ -5,8 +5,11 @@
 
 #include "base/input_error.h"
 #include "base/input_words.h"
+#include "base/vector_text.h"
 #include "contact/faces_pushed.h"
+#include "mesh/face_plane.h"
 #include "mesh/plane_cut.h"
+#include "mesh/split_faces.h"
 #include "wall/mesh_name.h"
 #include "wall/spec_text.h"
 
@@ -37,6 +40,14 @@ void check_side(const WallSpec &settings, const MeshPart &m)
 void check_plane(Host &host, const WallSpec &settings, const MeshPart &m)
 {
   if (host.box().dimension == 3) return;
+  const std::string spheres = std::string(host.names().sphere) + "s";
+  if (m.spec.has_nodes)
+    throw InputError(with_mesh_name(
+        settings, m.index,
+        "in two dimensions a mesh cannot have nodes, because its vertices lie off the plane z = 0, "
+        "in which all " +
+            spheres + " are: make the box three-dimensional and hold the " + spheres +
+            " in the plane, or leave nodes out"));
   const MeshReport &r = m.grid.report();
   if (!(r.lo.z < 0 && r.hi.z > 0))
     throw InputError(with_mesh_name(
@@ -60,6 +71,34 @@ void check_plane(Host &host, const WallSpec &settings, const MeshPart &m)
         number_text(cut[0]) + " faces lean where the mesh cuts the plane z = 0, by up to " +
             number_text(cut[1]) + " degrees: " + host.remedy(Remedy::stay_in_plane) +
             "; draw the outline out along z"));
+}
+
+void check_stays_closed(Host &host, const WallSpec &settings, const MeshPart &m)
+{
+  if (!m.nodes) return;
+  const WeldedMesh &mesh = m.nodes->mesh();
+  const std::vector<Vec3> &x = mesh.vertices;
+  const std::string remedy =
+      ": make the triangles on both sides share their edges, for example by lsdcd repair";
+  for (const auto &[a, b, c] : mesh.dropped)
+    if (face_plane(x[a], x[b], x[c]).degenerate)
+      throw InputError(with_mesh_name(
+          settings, m.index,
+          "the facet with the corners " + vector_text(x[a]) + ", " + vector_text(x[b]) + " and " +
+              vector_text(x[c]) + " of '" + m.spec.name +
+              "' has no area, so that the wall has no triangle there, and a hole would open where "
+              "its nodes move apart" +
+              remedy));
+  if (!host.is_first() || mesh.report.open_edges == 0) return;
+  CutBefore none;
+  const std::size_t junctions = split_faces(mesh, mesh.report.weld_tolerance, none).junctions;
+  if (junctions > 0)
+    host.warn(with_mesh_name(
+        settings, m.index,
+        std::to_string(junctions) + " vertices of '" + m.spec.name +
+            "' lie on open edges of other triangles, between the ends of these: where nodes move "
+            "apart, a gap opens there" +
+            remedy));
 }
 
 void check_motion(const Host &host, const WallSpec &settings, const MeshPart &m)

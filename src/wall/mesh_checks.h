@@ -12,8 +12,12 @@ namespace lsdcd {
 void check_side(const WallSpec &settings, const MeshPart &m);
 
 // In two dimensions spheres feel the mesh where it cuts the plane z = 0. Throws InputError where it
-// does not cut it; warns of faces that lean there. Collective.
+// does not cut it, and where it has nodes; warns of faces that lean there. Collective.
 void check_plane(Host &host, const WallSpec &settings, const MeshPart &m);
+
+// Throws InputError, the same on all processes, where a mesh with nodes has a facet without area, which welding has
+// dropped; warns of vertices on open edges of others. A gap would open there when nodes move apart.
+void check_stays_closed(Host &host, const WallSpec &settings, const MeshPart &m);
 
 // Throws InputError where a mesh would leave the plane of a run in two dimensions.
 void check_motion(const Host &host, const WallSpec &settings, const MeshPart &m);

@@ -355,6 +355,16 @@ const std::vector<Real> &MeshNodes::forces(Real pressure)
   return forces_;
 }
 
+Vec3 MeshNodes::moment()
+{
+  const std::vector<Real> &f = forces(0);
+  fetch_places();
+  Vec3 sum = {0, 0, 0};
+  for (std::size_t i = 0; i < mesh_.vertices.size(); i++)
+    sum += cross(mesh_.vertices[i], {f[3 * i], f[3 * i + 1], f[3 * i + 2]});
+  return sum;
+}
+
 bool MeshNodes::put_forces(Real pressure, Real *to, const std::vector<int> &node_of_row)
 {
   if (!are_sums_there_) return false;

@@ -14,7 +14,7 @@ void StepTotals::clear()
 }
 
 void StepTotals::reduce(const WallEngine *engine, const std::vector<Pose> &poses,
-                        const std::vector<Real> &node_powers, const std::vector<CoatLoad> *coats)
+                        const std::vector<NodeLoad> &nodes, const std::vector<CoatLoad> *coats)
 {
   if (reduced_) return;
   constexpr int kSums = 9;
@@ -28,7 +28,7 @@ void StepTotals::reduce(const WallEngine *engine, const std::vector<Pose> &poses
                 static_cast<Real>(t.contacts), static_cast<Real>(t.uncertified), t.energy});
     most.push_back(t.largest_overlap_ratio);
   }
-  sum.insert(sum.end(), node_powers.begin(), node_powers.end());
+  for (const NodeLoad &of : nodes) sum.push_back(of.power);
   host_.sum_and_max(sum.data(), static_cast<int>(sum.size()), most.data(), n);
   for (int k = 0; k < n; k++) {
     const Real *const s = sum.data() + kSums * k;
@@ -36,7 +36,8 @@ void StepTotals::reduce(const WallEngine *engine, const std::vector<Pose> &poses
     const Pose &pose = poses[k];
     MeshTotals &m = meshes_[k];
     m.force = {s[0], s[1], s[2]};
-    m.torque_at_origin = {s[3], s[4], s[5]};
+    const bool has_nodes = !nodes.empty() && nodes[k].present;
+    m.torque_at_origin = has_nodes ? nodes[k].moment : Vec3{s[3], s[4], s[5]};
     m.contacts = s[6];
     m.overlap = most[k];
     m.uncertified = s[7];
@@ -53,7 +54,7 @@ void StepTotals::reduce(const WallEngine *engine, const std::vector<Pose> &poses
     // From 0, so that it is not -0 at rest.
     m.power = 0 - dot(m.force, pose.velocity) -
               dot(m.torque_at_origin - cross(pose.shift, m.force), pose.angular);
-    if (!node_powers.empty()) m.power += sum[kSums * n + k];
+    if (!nodes.empty()) m.power += sum[kSums * n + k];
   }
   reduced_ = true;
 }

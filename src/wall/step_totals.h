@@ -25,6 +25,15 @@ struct MeshTotals {
   Real energy = 0;                      // elastic, in overlaps and springs
 };
 
+// What the nodes of a mesh do, where they move.
+struct NodeLoad {
+  bool present = false;    // the mesh has nodes
+  Real power = 0;          // on the spheres of this process, by their motion
+  Vec3 moment = {
+      0, 0,
+      0};    // of the forces of contacts on them, of all processes, about the origin of the box
+};
+
 // Sums are made when they are asked for: one message in a step, and only in some steps.
 class StepTotals {
  public:
@@ -41,10 +50,10 @@ class StepTotals {
 
   bool are_made() const { return reduced_; }    // of the last step
   // Makes the sums, once a step. `engine`: null while there are no spheres. `poses`: of the meshes in
-  // this step. `node_powers`: power of each mesh by its nodes, of this process; empty: none have nodes. `coats`: of each
+  // this step. `nodes`: of each mesh; empty: none have nodes. `coats`: of each
   // mesh, the same on all processes; null: there are none. Collective.
   void reduce(const WallEngine *engine, const std::vector<Pose> &poses,
-              const std::vector<Real> &node_powers = {},
+              const std::vector<NodeLoad> &nodes = {},
               const std::vector<CoatLoad> *coats = nullptr);
 
   // The sums of the last reduce().

@@ -70,6 +70,7 @@ Wall::Wall(Host &host, WallSpec spec, const WallUnits &units, WallBackend backen
       m.wear = std::make_unique<MeshWear>(host_, spec_, m.index, m.grid.report(), m.grid.mesh());
     check_side(spec_, m);
     check_plane(host_, spec_, m);
+    check_stays_closed(host_, spec_, m);
     check_motion(host_, spec_, m);
   }
   // Where the spheres are says it in place, and records of nodes that move stay with their engine.
@@ -678,10 +679,11 @@ const StepTotals &Wall::totals()
   if (totals_.are_made()) return totals_;
   std::vector<Pose> poses;
   for (const MeshPart &m : meshes_) poses.push_back(m.motion.pose());
-  std::vector<Real> node_powers;
-  for (const MeshPart &m : meshes_)
-    if (has_nodes_) node_powers.push_back(m.nodes ? m.nodes->power() : 0);
-  totals_.reduce(cutoff() > 0 ? engine_.get() : nullptr, poses, node_powers,
+  std::vector<NodeLoad> nodes;
+  for (MeshPart &m : meshes_)
+    if (has_nodes_)
+      nodes.push_back(m.nodes ? NodeLoad{true, m.nodes->power(), m.nodes->moment()} : NodeLoad());
+  totals_.reduce(cutoff() > 0 ? engine_.get() : nullptr, poses, nodes,
                  coats_.empty() ? nullptr : &coat_loads_);
   return totals_;
 }

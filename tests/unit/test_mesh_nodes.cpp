@@ -637,6 +637,31 @@ TEST(mesh_nodes, get_the_force_and_its_moment_at_the_contact)
   }
 }
 
+// A sphere that slides, spins and rolls on a sheet in the plane z = 0: its force acts at its foot, and all else that turns it
+// acts on it alone. Sums of 9 nodes of forces of up to 200 at 1.5 are rounded to 1e-12.
+TEST(mesh_nodes, have_the_torque_of_the_forces_on_them)
+{
+  on_processes(2, [](FakeHost &host) {
+    const auto mesh = welded(floor_mesh(2, 1));
+    WallSpec spec = nodes_of(all_motions(), mesh);
+    spec.meshes.front().torque_about = {1, -2, 3};
+    Scene scene(host, spec);
+    const Vec3 foot = {host.rank() == 0 ? -0.4 : 0.3, 0.15, 0};
+    scene.add(foot + Vec3{0, 0, kRadius - 0.02});
+    scene.v[0] = {0.5, -0.3, -0.1};
+    scene.omega[0] = {1, 2, 3};
+    scene.set_up();
+    for (int i = 0; i < 3; i++) scene.next();
+    const Vec3 mine = cross(foot - spec.meshes.front().torque_about, -scene.force[0]);
+    Real expected[3] = {mine.x, mine.y, mine.z};
+    host.sum(expected, 3);
+    EXPECT_GT(norm(scene.torque[0]), 0.1);
+    EXPECT_LE(
+        norm(scene.wall->totals().mesh(0).torque - Vec3{expected[0], expected[1], expected[2]}),
+        1e-12);
+  });
+}
+
 // A sphere falls on a free plate whose nodes have masses: velocity Verlet of both. Each step gives both the same
 // impulse, so that momentum is kept to rounding, 1e-16 a step of the impulse.
 TEST(mesh_nodes, of_a_free_plate_take_the_momentum_that_a_sphere_loses)
@@ -944,8 +969,72 @@ TEST(mesh_nodes, go_with_nothing_else_that_moves_a_mesh)
   spec.meshes.front().body.present = true;
   EXPECT_THROW(check_spec(spec), InputError);
   spec = nodes_of(hooke(1000).law(), mesh);
+  spec.meshes.front().torque_about_mesh = true;
+  EXPECT_THROW(check_spec(spec), InputError);
+  spec = nodes_of(hooke(1000).law(), mesh);
   spec.device = Device::cuda;
   EXPECT_NO_THROW(check_spec(spec));
+}
+
+// Two squares, of which one has a vertex in the middle of the side that they share. `closed`: with the facet without
+// area that is between them.
+TriangleSoup with_junction(bool closed)
+{
+  const Vec3 a = {-1, 0, 0}, b = {1, 0, 0}, middle = {0, 0, 0}, low = {0, -1, 0}, high = {0, 1, 0};
+  TriangleSoup soup;
+  soup.corners = {a, low, b, a, middle, high, middle, b, high};
+  if (closed) soup.corners.insert(soup.corners.end(), {a, b, middle});
+  return soup;
+}
+
+TEST(mesh_nodes, whose_facets_have_no_area_are_an_error)
+{
+  FakeHost host;
+  try {
+    Scene scene(host, nodes_of(hooke(1000).law(), welded(with_junction(true))));
+    ADD_FAILURE() << "no error";
+  } catch (const InputError &e) {
+    EXPECT_NE(std::string(e.what()).find(
+                  "the facet with the corners -1 0 0, 1 0 0 and 0 0 0 of 'sheet' has no area"),
+              std::string::npos)
+        << e.what();
+  }
+  EXPECT_NO_THROW(Scene(host, wall_of(hooke(1000).law(), welded(with_junction(true)))));
+}
+
+// A facet of two points, or one that is there twice, opens no hole.
+TEST(mesh_nodes, whose_facets_are_lines_or_there_twice_are_none)
+{
+  TriangleSoup soup = floor_mesh(1, 1);
+  const Vec3 a = soup.corners[0], b = soup.corners[1], c = soup.corners[2];
+  soup.corners.insert(soup.corners.end(), {a, b, b, a, c, b});
+  FakeHost host;
+  EXPECT_NO_THROW(Scene(host, nodes_of(hooke(1000).law(), welded(soup))));
+  EXPECT_TRUE(host.warnings.empty());
+}
+
+TEST(mesh_nodes, that_lie_on_open_edges_are_warned_of)
+{
+  FakeHost host;
+  Scene scene(host, nodes_of(hooke(1000).law(), welded(with_junction(false))));
+  ASSERT_EQ(host.warnings.size(), 1u);
+  EXPECT_NE(host.warnings[0].find("1 vertices of 'sheet' lie on open edges"), std::string::npos);
+}
+
+TEST(mesh_nodes, in_two_dimensions_are_an_error)
+{
+  FakeHost host;
+  host.simulation = wide_box();
+  host.simulation.dimension = 2;
+  host.simulation.periodic[2] = true;
+  try {
+    Scene scene(host, nodes_of(hooke(1000).law(), welded(box_mesh({-1, -1, -1}, {1, 1, 1}))));
+    ADD_FAILURE() << "no error";
+  } catch (const InputError &e) {
+    EXPECT_NE(std::string(e.what()).find("in two dimensions a mesh cannot have nodes"),
+              std::string::npos)
+        << e.what();
+  }
 }
 
 }    // namespace lsdcd::test_mesh_nodes
