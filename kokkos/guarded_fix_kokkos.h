@@ -32,7 +32,7 @@ class GuardedFixKokkos : public GuardedFix<FixWallLsdcdKokkos<DeviceType>> {
     this->run_core_here(
         [&] { Style::unpack_exchange_kokkos(buffer, to, n, n_first, second, space); });
   }
-  void sort_kokkos(Kokkos::BinSort<KeyViewType, BinOp> &sorter) override
+  void sort_kokkos(Kokkos::BinSort<KokkosBase::KeyViewType, KokkosBase::BinOp> &sorter) override
   {
     this->run_core_here([&] { Style::sort_kokkos(sorter); });
   }
