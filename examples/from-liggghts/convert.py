@@ -14,8 +14,9 @@ A line is converted with the defaults of LIGGGHTS 3.8, or with --pfm of LIGGGHTS
 means the same physics. A line that is left stays as a comment below a line
   # LEFT in.chute:34: why; do: what to do
 and the same list is printed. A line with NOTE is converted, and says what to look at. The script is written
-whole or, after an error, not at all. It reads the script once from top to bottom: numbers of materials may be variables
-with a plain value (or --var NAME VALUE), loops and ifs stay as they are.
+whole or, after an error, not at all. It reads the script from top to bottom as a program: a variable, an ID or a region is what it
+is at that line, the lines of include stand in place of it, and loops and ifs stay as they are. What a loop or an if may change, and
+what is needed here as a number, is left (or give --var NAME VALUE).
 
 The radius and the density of the grains, which the model hooke needs, come from particletemplate/sphere, from set, from
 the file of read_data, or from --radius and --density. Files are looked for beside the script.
@@ -23,7 +24,8 @@ A script that goes on from the restart file of another converted one is converte
 doc/from-liggghts.md has a table of all commands.
 """
 import argparse
-import ast
+import collections
+import copy
 import functools
 import math
 import os
@@ -69,11 +71,11 @@ class CannotConvert(Exception):
 
 
 class Left(Exception):
-    """A command that stays as a comment: why, and what to do."""
+    """A command that stays as a comment: why, what to do, and the nearest commands if they only wait to be taken."""
 
-    def __init__(self, why, do):
+    def __init__(self, why, do, nearest=""):
         super().__init__(why)
-        self.why, self.do = why, do
+        self.why, self.do, self.nearest = why, do, nearest
 
 
 def options(words, known):
@@ -100,15 +102,40 @@ def is_yes(values, key, default):
 
 
 class Line:
-    def __init__(self, number, text):
-        self.number, self.text = number, text
+    """A command, and what holds at it: its place in the whole program, the variables, the parts that a jump may skip, the loops
+    around it, and the number of clear commands before it."""
+
+    def __init__(self, number, text, file):
+        self.number, self.text, self.file = number, text, file
         self.words = words_of(text)
+        self.index, self.scope, self.skips, self.loops, self.stage = 0, {}, frozenset(), [], 0
+        self.included = False    # of include: its lines follow
+
+    def but(self, text):
+        """The same command with another text."""
+        other = copy.copy(self)
+        other.text, other.words = text, words_of(text)
+        return other
 
 
 def words_of(text):
-    """Words of a command, without its comment; quoted ones in one piece."""
-    found = re.findall(r'"[^"]*"|\'[^\']*\'|#.*|[^\s#"\']+', text.replace("&\n", " "))
+    """Words of a command, without its comment; quoted ones and $(...) in one piece."""
+    found = re.findall(r'"[^"]*"|\'[^\']*\'|#.*|(?:\$\((?:[^()]|\([^()]*\))*\)|[^\s#"\'])+', text.replace("&\n", " "))
     return [w for w in found if not w.startswith("#")]
+
+
+def nested(w):
+    """The commands in the words of if and run."""
+    if w[0] == "run":
+        return [x for x in w[1:] if x[0] in "\"'" and " " in x]
+    if w[0] == "if":
+        return [x for k, x in enumerate(w) if k > 2 and x not in ("then", "elif", "else") and w[k - 1] != "elif"]
+    return []
+
+
+def commands_in(w):
+    """Words of a command and of the commands in it."""
+    return [w] + [inner for inner in (words_of(x.strip("\"'")) for x in nested(w)) if inner]
 
 
 def read_lines(path):
@@ -121,11 +148,248 @@ def read_lines(path):
         if re.search(r"&\s*(#.*)?$", text):
             begun = re.sub(r"&\s*(#.*)?$", "&\n", begun)
             continue
-        lines.append(Line(first, begun))
+        lines.append(Line(first, begun, path.name))
         begun = ""
     if lines and not lines[-1].text and not begun:
         lines.pop()    # the end of the last line
-    return lines + ([Line(first, begun)] if begun else [])
+    return lines + ([Line(first, begun, path.name)] if begun else [])
+
+
+# ---- variables ---------------------------------------------------------------------------
+
+LEVELS = {level: k for k, levels in enumerate((["||"], ["&&"], ["==", "!="], ["<", "<=", ">", ">="], ["+", "-"], ["*", "/", "%"], ["^"]))
+          for level in levels}
+TWO = {"||": lambda a, b: a != 0 or b != 0, "&&": lambda a, b: a != 0 and b != 0, "==": lambda a, b: a == b, "!=": lambda a, b: a != b,
+       "<": lambda a, b: a < b, "<=": lambda a, b: a <= b, ">": lambda a, b: a > b, ">=": lambda a, b: a >= b,
+       "+": lambda a, b: a + b, "-": lambda a, b: a - b, "*": lambda a, b: a * b, "/": lambda a, b: a / b, "%": math.fmod, "^": math.pow}
+FUNCTIONS = {"sqrt": math.sqrt, "exp": math.exp, "ln": math.log, "log": math.log10, "abs": abs, "sin": math.sin, "cos": math.cos,
+             "tan": math.tan, "asin": math.asin, "acos": math.acos, "atan": math.atan, "atan2": math.atan2, "ceil": math.ceil,
+             "floor": math.floor, "round": lambda x: math.floor(x + 0.5)}
+TOKEN = re.compile(r"\s*((?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?|[A-Za-z_]\w*|\|\||&&|[=!<>]=|[-+*/%^<>!(),])")
+VARIABLE = re.compile(r"\$\{(\w+)\}|\$(\w)|\$\(((?:[^()]|\([^()]*\))*)\)")
+
+
+def formula(text, variable):
+    """The value of a formula of LAMMPS, where variable(NAME) is that of v_NAME: an operator takes what is left of it first, and a
+    sign is stronger than ^. ValueError for what is known in a run only."""
+    tokens, end = [], 0
+    for found in TOKEN.finditer(text):
+        if found.start() != end:
+            break
+        tokens.append(found[1])
+        end = found.end()
+    if text[end:].strip():
+        raise ValueError(text)
+
+    def take(expected=None):
+        if not tokens or (expected and tokens[0] != expected):
+            raise ValueError(text)
+        return tokens.pop(0)
+
+    def operand():
+        token = take()
+        if token == "(":
+            value = terms(0)
+            take(")")
+        elif token in "-!":
+            value = -operand() if token == "-" else float(operand() == 0)
+        elif token[0].isdigit() or token[0] == ".":
+            value = float(token)
+        elif token.startswith("v_"):
+            value = variable(token[2:])
+        elif token in FUNCTIONS:
+            take("(")
+            values = [terms(0)]
+            while tokens[:1] == [","]:
+                take()
+                values.append(terms(0))
+            take(")")
+            value = FUNCTIONS[token](*values)
+        elif token == "PI":
+            value = math.pi
+        else:
+            raise ValueError(text)
+        return float(value)
+
+    def terms(level):
+        value = operand()
+        while tokens and LEVELS.get(tokens[0], -1) >= level:
+            token = take()
+            value = float(TWO[token](value, terms(LEVELS[token] + 1)))
+        return value
+
+    try:
+        value = terms(0)
+    except (TypeError, ArithmeticError) as error:
+        raise ValueError(text) from error
+    if tokens:
+        raise ValueError(text)
+    return value
+
+
+def number_of(name, scope, depth=0):
+    """The value of v_NAME in a scope; ValueError where it is not known."""
+    style, values = scope.get(name) or ("", [""])
+    if depth > 50:
+        raise ValueError(f"{name} is a formula of itself")
+    return formula(values[0], lambda other: number_of(other, scope, depth + 1)) if style == "equal" else float(values[0])
+
+
+def text_of(name, scope):
+    """The text that stands for ${NAME}, or None."""
+    if not scope.get(name):
+        return None
+    style, values = scope[name]
+    try:
+        return f"{number_of(name, scope):.15g}" if style == "equal" else values[0]
+    except ValueError:
+        return None
+
+
+def expand(text, scope):
+    """A text with the values of its variables that are known."""
+    def new(m):
+        if m[3] is None:
+            value = text_of(m[1] or m[2], scope)
+            return m[0] if value is None else value
+        inner, _, form = m[3].partition(":%")
+        try:
+            value = formula(inner, lambda name: number_of(name, scope))
+            return f"%{form}" % value if form else f"{value:.17g}"
+        except (ValueError, TypeError):
+            return m[0]
+    return VARIABLE.sub(new, text)
+
+
+class Program:
+    """The lines of a script in the order in which they stand, those of include in place of it. Each line gets its scope: the style
+    and values of each variable there, or None where a loop or an if may have changed it."""
+    ONCE = {"index", "loop", "world", "universe", "uloop", "file", "atomfile"}    # a second definition has no effect
+
+    def __init__(self, path, given):
+        self.path, self.given = path, {name: ("index", [value]) for name, value in given}
+        self.unread = False    # whether a file is named that was not read
+        self.lines = self.with_includes(read_lines(path), 0)
+        self.assigned = collections.Counter(name for line in self.lines for name in self.changed(line))
+        for k, line in enumerate(self.lines):
+            line.index = k
+        self.loops, self.skips = self.jumps()
+        for first, last in self.loops:
+            for line in self.lines[first:last + 1]:
+                line.loops.append((first, last))
+        for skip in self.skips:
+            for line in self.lines[skip[0]:skip[1] + 1]:
+                line.skips |= {skip}
+        self.give_scopes()
+
+    def with_includes(self, lines, depth):
+        found = []
+        for line in lines:
+            found.append(line)
+            if line.words[:1] != ["include"] or len(line.words) < 2:
+                self.unread = self.unread or self.reads_more(line) or any(
+                    w[0] == "jump" and w[1:2] not in (["SELF"], [self.path.name]) for w in commands_in(line.words or [""]))
+                continue
+            # The name may be a variable that has one value.
+            single = {name: values for name, values in self.given.items()}
+            for w in (other.words for other in found):
+                if w[:1] == ["variable"] and w[2:3] in (["index"], ["string"]) and len(w) == 4 and w[1] not in self.given:
+                    single[w[1]] = None if w[1] in single else (w[2], [w[3].strip("\"'")])
+            path = self.path.parent / expand(line.words[1], single)
+            inner = read_lines(path) if path.is_file() and depth < 9 else []
+            if inner and not any(c[0] in ("jump", "label") for other in inner for c in commands_in(other.words or [""])):
+                line.included = True
+                found += self.with_includes(inner, depth + 1)
+            else:
+                self.unread = True
+        return found
+
+    @staticmethod
+    def reads_more(line):
+        """Whether a command includes a file that was not read."""
+        return not line.included and any(w[0] == "include" for w in commands_in(line.words or [""]))
+
+    @staticmethod
+    def changed(line):
+        """Names of the variables that a command may give a value."""
+        names = []
+        for w in commands_in(line.words or [""]):
+            names += w[1:2] if w[0] == "variable" else w[1:] if w[0] == "next" else []
+        return names
+
+    def jumps(self):
+        """First and last lines of loops, and of what jumps may skip."""
+        labels, loops, skips = {}, [], []
+        for line in self.lines:
+            if line.words[:1] == ["label"] and len(line.words) > 1:
+                labels.setdefault(line.words[1], line.index)
+        for line in self.lines:
+            for w in commands_in(line.words or [""]):
+                if w[0] != "jump" or w[1:2] not in (["SELF"], [self.path.name]):
+                    continue
+                to = [0] if len(w) < 3 else list(labels.values()) if "$" in w[2] else [labels[w[2]]] if w[2] in labels else []
+                loops += [(first, line.index) for first in to if first <= line.index]
+                skips += [(line.index + 1, label - 1) for label in to if label > line.index + 1]
+        return loops, skips
+
+    def give_scopes(self):
+        scope, stage = dict(self.given), 0
+        for line in self.lines:
+            for first, last in self.loops:
+                if first == line.index:
+                    scope = self.unknown(scope, [x for x in self.lines[first:last + 1] if x.words[:1] != ["variable"] or
+                                                 x.words[2:3] not in [[style] for style in self.ONCE]])
+            for first, last in self.skips:
+                if last + 1 == line.index:
+                    scope = self.unknown(scope, self.lines[first:last + 1])
+            stage += line.words[:1] == ["clear"]
+            line.scope, line.stage = scope, stage
+            self.give_words(line)
+            scope = self.after(line, scope)
+
+    def unknown(self, scope, lines):
+        """The scope where what these lines give variables is not known."""
+        names = {name for line in lines for name in self.changed(line)}
+        if any(map(self.reads_more, lines)):
+            names |= set(scope)
+        return {**scope, **dict.fromkeys(names - set(self.given))}
+
+    @staticmethod
+    def give_words(line):
+        """Gives a line the words that its variables stand for, as in model ${m}. Numbers stay ${x}, as a user may change them."""
+        def new(m):
+            style, values = line.scope.get(m[1]) or ("", [])
+            return values[0] if style in ("index", "string") and len(values) == 1 and not re.match(r"[-+.\d$]", values[0]) else m[0]
+
+        text = re.sub(r"\$\{(\w+)\}", new, line.text)
+        if text != line.text and line.words[:1] != ["variable"]:
+            line.words = words_of(text)
+
+    def after(self, line, scope):
+        """The scope behind a line."""
+        w = line.words
+        if w[:1] == ["variable"] and len(w) > 2:
+            name, style, *values = w[1:]
+            if name in self.given or (style in self.ONCE and name in scope):
+                return scope
+            # What stands in quotes is not replaced.
+            values = [x[1:-1] if x[0] in "\"'" else expand(x, scope) for x in values]
+            if style == "delete":
+                return {other: value for other, value in scope.items() if other != name}
+            if style == "loop" and all(x.isdigit() for x in values) and values and int(values[-1]) < 100000:
+                values = [str(k) for k in range(int(values[0]) if len(values) > 1 else 1, int(values[-1]) + 1)]
+                style = "index"
+            return {**scope, name: (style, values) if style in ("index", "string", "equal") and values else None}
+        if w[:1] == ["next"]:
+            scope = dict(scope)
+            for name in (x for x in w[1:] if x in scope):
+                style, values = scope.pop(name) or ("", [])
+                if style != "index":
+                    scope[name] = None
+                elif len(values) > 1:
+                    scope[name] = (style, values[1:])
+            return scope
+        return self.unknown(scope, [line]) if self.changed(line) or self.reads_more(line) else scope
 
 
 # ---- meshes ------------------------------------------------------------------------------
@@ -177,7 +441,9 @@ class Mesh:
         self.mass, self.moments, self.suspended, self.held = None, None, False, False    # of 6dof
         self.wall, self.wall_line, self.index, self.several, self.reference = None, None, None, False, None
         self.written, self.body = set(), ""    # mesh_stl, mesh_fields; words of 6dof
-        self.parse(script, w[4:])
+        self.before, self.history, self.unsure = [], "", False    # variables that it needs; what a run has done to it; its motions
+        self.first = None    # ID of its wall, its place there, whether there are others
+        self.parse(script, [script.carry(x, line, self.before) for x in w[4:]])
 
     def parse(self, script, w):
         number, values, surface, spin = script.number, {}, None, None
@@ -234,8 +500,8 @@ class Mesh:
                 raise Left(f"the word {key} of a mesh", "fix_wall_lsdcd.rst")
         if self.file is None or not self.file.lower().endswith((".stl", ".obj", ".ply", ".off")):
             raise Left(f"the file {self.file}", "write it as STL")
-        path = script.folder / self.file
-        if path.is_file() and path.open("rb").read(1) == b"#":
+        self.path = script.folder / expand(self.file, self.line.scope)
+        if self.path.is_file() and self.path.open("rb").read(1) == b"#":
             raise Left(f"the file {self.file}, which begins with a comment", "the file without its lines before 'solid'")
         if self.style.endswith("/stress/servo"):
             self.add_servo(script, values)
@@ -251,7 +517,7 @@ class Mesh:
 
     def faces(self, script):
         """Corners and normal of each triangle of the placed mesh; None where the file is not there."""
-        if not (script.folder / self.file).exists():
+        if not self.path.exists():
             return None
         found = [(t, cross(minus(t[1], t[0]), minus(t[2], t[0]))) for t in self.triangles(script)]
         return [(t, unit(n)) for t, n in found if any(n)]
@@ -263,7 +529,7 @@ class Mesh:
         kept, faces = " ".join(words), self.faces(script)
         try:
             v = [script.number(x, self.line) for x in words]
-        except CannotConvert:
+        except Left:
             raise Left("surface_vel of a variable", "the keyword surface_vel takes v_NAME too: give it the velocity along "
                        "the triangles, in the size that LIGGGHTS keeps") from None
         size = math.sqrt(dot(v, v))
@@ -343,7 +609,7 @@ class Mesh:
         if "suspension" in v:
             if axis is None:
                 raise Left("suspension of a mesh with 6dof that has more than one way to move", "spring of a body on a hinge or slider")
-            if sum(line.words[:1] == ["run"] for line in script.lines) > 1:
+            if script.runs() > 1:
                 raise Left("suspension of a mesh with 6dof, whose zero begins anew with each run in LIGGGHTS",
                            f"{words.strip()} spring with its stiffness, damping and rest; its zero stays where it was")
             if v["suspension"][::2] != ["k_t", "c_t", "k_r", "c_r"]:
@@ -389,9 +655,8 @@ class Mesh:
 
     def triangles(self, script):
         """Placed."""
-        path = script.folder / self.file
-        if not path.exists():
-            raise CannotConvert(f"{script.at(self.line)}: {path} is not there, and the mesh is needed to convert this")
+        if not self.path.exists():
+            raise CannotConvert(f"{script.at(self.line)}: {self.path} is not there, and the mesh is needed to convert this")
 
         def placed(p):
             for key, values in self.place:
@@ -404,7 +669,7 @@ class Mesh:
                     p = turned(p, unit(v[:3]), v[3])
             return p
 
-        triangles = [tuple(placed(p) for p in t) for t in read_stl(path)]
+        triangles = [tuple(placed(p) for p in t) for t in read_stl(self.path)]
         if not triangles:
             raise Left(f"{self.file}, in which no triangle was found", "write it as STL")
         return triangles
@@ -501,6 +766,7 @@ class Model:
 
     def __init__(self, words, pfm):
         self.normal = self.cohesion = self.rolling = None
+        self.nearest = False
         self.tangential = "no_history" if pfm else None
         self.surface, self.on, self.rest = "default", {"tangential_damping"}, list(words)
         for word, name in self.ORDER.items():
@@ -542,10 +808,10 @@ class Model:
     def extras(self, c, classic):
         """Rolling and cohesion of the wall, which go with classic styles."""
         words = ""
-        if not self.rolls(c):
-            pass
-        elif self.rolling in ("cdt", "epsd2") and classic:
+        if self.rolling in ("cdt", "epsd2") and classic:
             words += f" rolling {self.rolling} {short(c.get('coefficientRollingFriction', c.i, c.j))}"
+        elif self.nearest:
+            words += self.nearest_rolling(c)
         elif self.rolling:
             raise self.left_rolling(c)
         if self.cohesion == "sjkr" and classic:
@@ -560,12 +826,23 @@ class Model:
             return any(c.get(name, c.i, c.j) != 0 for name in ("gamman", "gammat"))
         return c.beta() > 0
 
-    def rolls(self, c):
-        """False where the coefficient is 0: such a contact has no torque."""
-        return self.rolling in ("cdt", "epsd2") and c.get("coefficientRollingFriction", c.i, c.j) != 0 or \
-            self.rolling not in ("cdt", "epsd2", None)
+    def drop_zeros(self, contacts):
+        """Takes out rolling friction and cohesion whose coefficients are 0 in all contacts: they have no torque, no force. Where one has
+        some, each needs its words, as a law of a mesh without them has those of the wall."""
+        if self.rolling in ("cdt", "epsd2") and not any(c.get("coefficientRollingFriction", c.i, c.j) for c in contacts):
+            self.rolling = None
+        if self.cohesion in ("sjkr", "sjkr2") and not any(c.get("cohesionEnergyDensity", c.i, c.j) for c in contacts):
+            self.cohesion = None
+        # LAMMPS's rolling with a spring is the nearest to these.
+        self.nearest = self.rolling in ("cdt", "epsd2") and self.normal == "hertz"
 
-    def left_rolling(self, c):
+    @staticmethod
+    def nearest_rolling(c):
+        """The rolling of LAMMPS with the limit mu R F of cdt and epsd2, and the spring of epsd2 at an overlap of 0.1 % of the radius."""
+        k = short(float(f"{8 * c.elastic()[1] * c.radius * math.sqrt(1e-3):.3g}")) if c.radius else "K"
+        return f" rolling sds {k} 0 {short(c.get('coefficientRollingFriction', c.i, c.j))}"
+
+    def left_rolling(self, c, nearest=""):
         why = f"rolling_friction {self.rolling} with model {self.normal}"
         do = "pair_style granular with hooke and rolling sds k 0 mu, k the tangential stiffness for epsd2"
         if self.normal == "hertz" and self.rolling in ("cdt", "epsd2"):
@@ -578,7 +855,9 @@ class Model:
             if c.radius:
                 do += f", which is {k * c.radius * math.sqrt(1e-3):.3g} at an overlap of 0.1 % of R = {short(c.radius)}"
             do += "; or model hooke with cdt or epsd2 on the wall"
-        return Left(why, do)
+        if nearest:
+            do = "the lines with #: below are the nearest" + ", with a number for K" * (c.radius is None) + ": " + do
+        return Left(why, do, nearest)
 
     def classic(self, c, r, m):
         """Words of a classic style for a contact whose effective radius and mass are r and m."""
@@ -624,7 +903,7 @@ class Model:
             raise Left("a restitution below 0.115", "damping coeff_restitution, from LAMMPS 4Feb2025 on")
         tangential = f"mindlin {short(kt)}" if self.tangential == "history" else "linear_nohistory"
         return (f"hertz {short(k)} {short(e)} tangential {tangential} {short(share)} {short(mu)} damping tsuji" +
-                " limit_damping" * self.limit)
+                " limit_damping" * self.limit + (self.nearest_rolling(c) if self.nearest else ""))
 
 
 class Wall:
@@ -672,24 +951,16 @@ class Wall:
 class Script:
     def __init__(self, path, options):
         self.path, self.folder, self.options = path, path.parent, options
-        self.lines = read_lines(path)
-        self.variables = dict(options.var or [])
-        self.properties, self.meshes, self.gone, self.sizes, self.grain_types = {}, {}, {}, [], set()
-        self.missing_data = []    # files of read_data
-        self.templates, self.distributions = {}, {}    # of constant spheres; words of distributions
-        self.walls, self.mesh_of, self.unchecked, self.used = {}, {}, set(), set()    # by line; IDs
-        self.moves, self.dumps, self.regions, self.box, self.faces = {}, [], {}, {}, ["f"] * 6
-        self.out, self.left, self.ran, self.pair, self.plain = [], [], 0, None, set()
-        self.mirrored, self.texts, self.dumped, self.lattice = {}, set(), {}, False
-        self.left_variables, self.parts, self.feeds, self.computed, self.spun = set(), {}, {}, set(), False
+        self.program = Program(path, options.var or [])
+        self.lines = self.program.lines
+        # What is known of the whole script.
+        self.properties, self.sizes, self.grain_types, self.all_types = {}, [], set(), False
+        self.missing_data, self.data_boxes = [], {}    # files of read_data; edges of the box in them, by line
+        self.meshes, self.mesh_of, self.walls, self.unchecked, self.used = {}, {}, {}, set(), set()    # by line; IDs
+        self.dumps, self.dumped, self.lattice = [], {}, False
+        self.gravity_names, self.gravities = set(), []    # the acceleration of each fix gravity, None where it is not known
         self.names = {"c_thermo_temp", "c_thermo_press", "c_thermo_pe"} | {
             f"{line.words[0][0]}_{line.words[1]}" for line in self.lines if line.words[:1] in (["fix"], ["compute"]) and line.words[1:]}
-        self.noted, self.noted_dashpot, self.units = False, False, "lattice" if options.pfm else "box"
-        self.densities = {}    # of set and insertions: of the groups or regions, the last one at the end
-        self.early, self.later = set(), {}    # meshes that variables name before their wall, and its ID and place
-        self.gravity_names, self.gravities = set(), []    # the acceleration of each fix gravity, None where it is not known
-        self.all_types, self.step, self.sources = False, 0, []    # the step here, None where it is not known; what has made grains
-        self.substitute_words()
         for line in self.lines:
             try:
                 self.collect(line)
@@ -697,32 +968,108 @@ class Script:
                 raise CannotConvert(f"{self.at(line)}: words are missing or wrong: {line.text.strip()}") from None
         if options.radius and options.density:
             self.sizes = [(options.radius, options.density)]
-        self.meshes, self.gone = {}, {}
+        # What is known at a line, in the order of the script.
+        self.out, self.left, self.left_variables = [], [], set()
+        self.noted, self.noted_dashpot, self.units = False, False, "lattice" if options.pfm else "box"
+        self.early, self.later = set(), {}    # meshes that are named before their wall, and its ID and place
+        self.ran = 0
+        self.clear()
+
+    def clear(self):
+        """What the command clear forgets: all but variables."""
+        self.meshes, self.gone, self.alive, self.moves, self.plain = {}, {}, set(), {}, set()    # alive: fixes of LAMMPS
+        self.templates, self.distributions = {}, {}    # of constant spheres, and words of distributions, with their lines
+        self.regions, self.box, self.box_moves, self.faces, self.pair = {}, {}, False, ["f"] * 6, None
+        self.mirrored, self.texts, self.parts, self.feeds, self.helpers = {}, set(), {}, {}, {}
+        self.computed, self.spun, self.named = set(), False, {}
+        self.densities = {}    # of set and insertions: of the groups or regions, the last one at the end; None: not known
+        self.step, self.sources = 0, []    # the step here, None where it is not known; what has made grains
 
     def at(self, line):
-        return f"{self.path.name}:{line.number}"
+        return f"{line.file}:{line.number}"
 
     # -- what is known of the whole script
 
     def number(self, word, line):
-        text = re.sub(r"\$\{(\w+)\}|\$(\w)", lambda m: self.variables.get(m[1] or m[2], m[0]), word).strip("\"'")
+        """The value of a word at a line."""
+        text = expand(word, line.scope).strip("\"'")
         try:
             return float(text)
         except ValueError:
             pass
         try:
-            return arithmetic(re.sub(r"v_(\w+)", lambda m: self.variables.get(m[1], m[0]), text))
-        except (ValueError, SyntaxError, ZeroDivisionError):
-            raise CannotConvert(f"{self.at(line)}: '{word}' is no number that is known here; give the values of "
-                                "its variables with --var NAME VALUE") from None
+            return formula(text, lambda name: number_of(name, line.scope))
+        except ValueError:
+            raise Left(f"'{word}' of {self.at(line)} is no number that is known here",
+                       "give the values of its variables with --var NAME VALUE, or write numbers") from None
+
+    def known(self, word, line):
+        """A number, or None."""
+        try:
+            return self.number(word, line)
+        except Left:
+            return {"INF": math.inf, "-INF": -math.inf}.get(word)
+
+    def carry(self, word, line, before, to=None):
+        """A word that is written at another line than its own: each variable in it that has several values in the script becomes the
+        value at its line, or one that keeps it, whose command goes to `before`. `to` is an earlier line, which knows fewer variables."""
+        def new(m):
+            name = m[1] or m[2]
+            if name and self.steady(name, line) and (to is None or to.scope.get(name) == line.scope.get(name)):
+                return m[0]
+            value = expand(m[0], line.scope)
+            if "$" not in value or (name and name in self.program.given):
+                return value
+            if to is not None:
+                raise Left(f"{m[0]}, which is not known where the wall is", "a name without it")
+            kept = f"lsdcd_{line.words[1]}_{name or len(before)}"
+            if f"variable        {kept} string {m[0]}" not in before:
+                before.append(f"variable        {kept} string {m[0]}")
+            return f"${{{kept}}}"
+        return VARIABLE.sub(new, word)
+
+    def steady(self, name, line):
+        """Whether a variable has one value in the whole script."""
+        found, times = line.scope.get(name), self.program.assigned[name]
+        if times == 0 or not found or times > 1 or name in self.program.given:
+            return times == 0 and (name in self.program.given or not self.program.unread)
+
+        def other(name):
+            if not self.steady(name, line):
+                raise ValueError(name)
+            return 1.0
+
+        try:
+            text = VARIABLE.sub(lambda m: m[0] if self.program.assigned[m[1] or m[2]] else "1", found[1][0])
+            if found[0] == "equal":
+                formula(text, other)
+        except ValueError:
+            return False
+        return True
+
+    def sure(self, where, line):
+        """Whether a line above, `where`, has always been the last one of its ID at `line`; else raises Left."""
+        changed = [x for first, last in line.loops if where.index < first for x in self.lines[first:last + 1]
+                   if x is not where and x.words[:2] == where.words[:2]]
+        if not where.skips <= line.skips or changed:
+            raise Left(f"{' '.join(where.words[:2])} of {self.at(where)}, which a jump may " + ("change" if changed else "skip"),
+                       "a script for each case, or other IDs")
+
+    def runs(self):
+        """The number of runs; 2 for one in a loop."""
+        return sum(2 if line.loops else 1 for line in self.lines for w in commands_in(line.words or [""]) if w[0] == "run")
 
     def property(self, line, name, *types):
-        if name not in self.properties:
-            raise CannotConvert(f"{self.at(line)}: needs fix property/global {name}, which the script does not have")
-        before = [d for d in self.properties[name] if d[0].number < line.number][-1:]
-        later = [d for d in self.properties[name] if d[0].number > line.number]
+        found = [d for d in self.properties.get(name, []) if d[0].stage == line.stage]
+        if not found:
+            text = f"needs fix property/global {name}, which the script does not have"
+            raise Left(text, "its values in this script") if self.program.unread else CannotConvert(f"{self.at(line)}: {text}")
+        before = [d for d in found if d[0].index < line.index][-1:]
+        later = [d for d in found if d[0].index > line.index]
         where, w = (before + later)[0]
-        if any(d[1] != w for d in later):
+        self.sure(where, line)
+        values = [[expand(x, d[0].scope) for x in d[1]] for d in [(where, w), *later]]
+        if any(x != values[0] for x in values):
             raise Left(f"{name}, which changes in the script", "write the law of each stage yourself")
         kind, values = w[0], w[1:]
         if kind == "scalar":
@@ -736,41 +1083,16 @@ class Script:
             raise CannotConvert(f"{self.at(where)}: {name} has no value for the types {types}")
         return self.number(values[k], where)
 
-    def substitute_words(self):
-        """Variables that stand for words, as in model ${m}: where they have one value, it is read. Numbers stay ${x}."""
-        values = {}
-        for w in (line.words for line in self.lines):
-            if w[:1] == ["variable"] and w[2:3] in (["index"], ["string"]):
-                values.setdefault(w[1], set()).update(x.strip("\"'") for x in w[3:])
-        values.update({name: {value} for name, value in self.variables.items()})
-        single = {name: min(v) for name, v in values.items() if len(v) == 1}
-        for _ in single:    # a variable may stand for another one
-            single = {name: re.sub(r"\$\{(\w+)\}", lambda m: single.get(m[1], m[0]), v) for name, v in single.items()}
-        words = {name: v for name, v in single.items() if not re.match(r"[-+.\d$]", v)}
-        for line in self.lines:
-            text = re.sub(r"\$\{(\w+)\}", lambda m: words.get(m[1], m[0]), line.text)
-            if text != line.text and line.words[:1] != ["variable"]:
-                line.words = words_of(text)
-
     def collect(self, line):
         w = line.words
         if not w:
             return
-        if w[0] == "variable" and len(w) > 3 and w[2] in ("equal", "index", "string") and w[1] not in dict(self.options.var or []):
-            try:
-                value = repr(self.number(w[3], line))
-            except CannotConvert:
-                value = None
-            if w[2] == "index" and w[1] in self.variables:
-                pass    # the first one stays
-            elif value is None or self.variables.get(w[1], value) != value:
-                self.variables[w[1]] = f"${{{w[1]}}}"    # several values: no number
-            else:
-                self.variables[w[1]] = value
+        if w[0] == "fix" and len(w) > 3 and self.grows(w):
+            self.sizes.append(None)
         elif w[0] == "fix" and len(w) > 3:
             style = self.style(w)
             if style == "gravity":
-                g = [self.known(x) for x in [w[4], *w[6:9]]]
+                g = [self.known(x, line) for x in [w[4], *w[6:9]]]
                 self.gravity_names.add(w[1])
                 self.gravities.append([g[0] * x for x in unit(g[1:])] if w[5] == "vector" and None not in g and len(g) == 4 else None)
             elif style == "property/global":
@@ -782,10 +1104,9 @@ class Script:
                     mesh = left
                 self.mesh_of[line] = self.meshes[w[1]] = mesh
             elif style == "particletemplate/sphere":
-                self.template(line)
-            elif style.startswith("particledistribution/discrete"):
-                law = {"particledistribution/discrete/numberbased": "poly"}.get(style, "mass")
-                self.distributions[w[1]] = (law, w[6:])
+                kind, *size = self.template(line)
+                self.add_type(kind)
+                self.sizes.append(None if None in size else tuple(size))
             elif style == "wall/gran":
                 try:
                     self.walls[line] = wall = Wall(self, line)
@@ -803,26 +1124,26 @@ class Script:
         elif w[0] == "read_data":
             self.read_data(line)
         elif w[0] == "create_atoms":
-            self.grain_types.add(int(self.number(w[1], line)))
-        elif w[0] == "set" and "type" in w[3:]:
-            self.grain_types.add(int(self.number(w[w.index("type", 3) + 1], line)))
-        elif w[0] == "read_restart":
+            self.add_type(self.known(w[1], line))
+        elif w[0] == "set":
+            for word in (x for x in ("type", "type/fraction") if x in w[3:]):
+                self.add_type(self.known(w[w.index(word, 3) + 1], line))
+            if any(word in w[3:] for word in ("diameter", "density", "mass")):
+                size = [self.known(w[w.index(word, 3) + 1], line) if word in w[3:] else None for word in ("diameter", "density")]
+                self.sizes.append(None if None in size or "mass" in w[3:] else (size[0] / 2, size[1]))
+        elif w[0] in ("read_restart", "read_dump"):
             self.all_types = True
         elif w[0] == "unfix" and w[1] in self.gravity_names:
             self.gravities.append(None)
-        if w[0] == "set" and "diameter" in w[3:] and "density" in w[3:]:
-            self.sizes.append((self.number(w[w.index("diameter", 3) + 1], line) / 2,
-                               self.number(w[w.index("density", 3) + 1], line)))
         elif w[0] == "lattice":
             self.lattice = True
-        elif w[0] == "boundary":
-            self.faces = [side[k] for side in (x * 2 for x in w[1:4]) for k in (0, 1)]
-        elif w[0] == "region":
-            self.regions[w[1]] = line
-        elif w[0] == "create_box":
-            block = self.regions[w[2]].words if w[2] in self.regions else []
-            if block[2:3] == ["block"]:
-                self.box = {a: tuple(self.number(x, line) for x in block[3 + 2 * k:5 + 2 * k]) for k, a in enumerate("xyz")}
+
+    def add_type(self, kind):
+        """A type that grains may have; None where it is not known."""
+        if kind is None:
+            self.all_types = True
+        else:
+            self.grain_types.add(int(kind))
 
     @staticmethod
     def style(w):
@@ -830,7 +1151,7 @@ class Script:
         return w[3][:-4] if w[3].endswith("/omp") else w[3]
 
     def template(self, line):
-        """Reads fix particletemplate/sphere; templates has type, radius and density of each constant sphere."""
+        """Type, radius and density of a fix particletemplate/sphere; None where they are not known or not constant."""
         w = line.words
         try:
             v = options(w[5:], {"atom_type": 1, "volume_limit": 1, "relative": 1,
@@ -838,24 +1159,23 @@ class Script:
                                 "density": {"constant": 2, "uniform": 3, "gaussian": 3}})
         except Left:
             v = {}
-        kind = v.get("atom_type", ["1"])[0]
-        self.grain_types.add(int(self.number(kind, line)))
-        if "relative" in v or not all(v.get(k, [""])[0] == "constant" for k in ("radius", "density")):
-            self.sizes.append(None)
-            return
-        radius, density = (self.number(v[k][1], line) for k in ("radius", "density"))
-        self.templates[w[1]] = (kind, radius, density)
-        self.sizes.append((radius, density))
+        size = [self.known(v[k][1], line) if v.get(k, [""])[0] == "constant" and "relative" not in v else None
+                for k in ("radius", "density")]
+        # A word that is not known may hide the type.
+        kind = self.known(w[w.index("atom_type", 5) + 1], line) if "atom_type" in w[5:] else 1
+        return kind, *size
 
     def read_data(self, line):
-        name = re.sub(r"\$\{(\w+)\}", lambda m: self.variables.get(m[1], m[0]), line.words[1])
+        name = expand(line.words[1], line.scope)
         path = self.folder / name
+        self.data_boxes[line] = {}
         if not path.exists():
             self.missing_data.append(name)
+            self.all_types = True
             return
         text = path.read_text(encoding="utf-8", errors="surrogateescape")
         for lo, hi, a in re.findall(r"^\s*(\S+)\s+(\S+)\s+([xyz])lo [xyz]hi", text, re.M):
-            self.box[a] = (float(lo), float(hi))
+            self.data_boxes[line][a] = (float(lo), float(hi))
         part = re.search(r"^Atoms.*?\n\s*\n(.*?)(?:\n\s*\n|\Z)", text, re.M | re.S)
         for row in (part[1].splitlines() if part else []):
             w = row.split()
@@ -870,8 +1190,8 @@ class Script:
                        "convert the script in the folder of that file, or give --radius and --density")
         if not self.sizes:
             raise Left("model hooke needs the size of a grain, which this script does not tell", "give --radius and --density")
-        masses = [4 / 3 * math.pi * s[0] ** 3 * s[1] if s else 0 for s in self.sizes]
-        if max(masses) > 1.001 * min(masses):
+        masses = [4 / 3 * math.pi * s[0] ** 3 * s[1] if s else math.inf for s in self.sizes]
+        if max(masses) > 1.001 * min(masses) or math.inf in masses:
             raise Left("model hooke has a stiffness for each mass, and the grains differ",
                        "model hertz; or --radius and --density, the grain whose stiffness all shall have")
         return self.sizes[0][0], masses[0]
@@ -880,8 +1200,8 @@ class Script:
         """Types that grains may have: those that the script makes, or all that have a modulus."""
         if self.grain_types and not self.all_types:
             return sorted(self.grain_types)
-        moduli = self.properties.get("youngsModulus", [(None, ["peratomtype", "?"])])[0][1]
-        return list(range(1, len(moduli)))
+        moduli = [len(w) - 1 for _, w in self.properties.get("youngsModulus", [])]
+        return list(range(1, max(moduli, default=1) + 1))
 
     # -- writing
 
@@ -891,10 +1211,12 @@ class Script:
     def note(self, line, text):
         self.put(f"# NOTE {self.at(line)}: {text}")
 
-    def leave(self, line, why, do):
+    def leave(self, line, why, do, nearest=""):
         self.left.append(f"{self.at(line)}: {why}; do: {do}")
         self.put(f"# LEFT {self.left[-1]}")
         self.put("\n".join("# " + t for t in line.text.splitlines()))
+        for text in nearest.splitlines():
+            self.put(f"#: {text}")
 
     @staticmethod
     def grows(w):
@@ -904,10 +1226,10 @@ class Script:
     def convert(self):
         text = self.written()
         walls = [i for wall in self.walls.values() if isinstance(wall, Wall) for i in wall.ids]
-        later = {name: (mesh.wall, mesh.index, mesh.several) for name, mesh in self.meshes.items()
-                 if name in self.early and mesh.wall and walls.count(name) == 1}
+        later = {mesh.id: mesh.first for mesh in self.mesh_of.values()
+                 if isinstance(mesh, Mesh) and mesh.id in self.early and mesh.first and walls.count(mesh.id) == 1}
         if later:
-            # Variables name a mesh before its wall, whose ID and place is known now.
+            # Lines name a mesh before its wall, whose ID and place is known now.
             self.__init__(self.path, self.options)
             self.later = later
             text = self.written()
@@ -919,19 +1241,77 @@ class Script:
             if not line.words:
                 self.put(line.text)
                 continue
-            before = len(self.out)
+            self.come_back(line)
+            before, moved = len(self.out), None
+            if line.words[0] in ("fix", "dump", "compute") and len(line.words) > 1:
+                moved = self.moves.get(line.words[1])
+                self.gone.pop(line.words[1], None)
+                self.plain.discard(line.words[1])
             try:
                 self.command(line)
             except (IndexError, ValueError):
                 raise CannotConvert(f"{self.at(line)}: words are missing or wrong: {line.text.strip()}") from None
             except Left as left:
                 del self.out[before:]
-                self.leave(line, left.why, left.do)
-                if line.words[0] in ("fix", "dump", "compute"):
+                self.leave(line, left.why, left.do, left.nearest)
+                if line.words[0] == "fix":
+                    self.end_replaced(line, moved)
+                if line.words[0] in ("fix", "dump", "compute") and not left.nearest:
                     self.gone[line.words[1]] = left
                 elif line.words[0] == "variable":
                     self.left_variables.add(f"v_{line.words[1]}")
+            else:
+                made = rf"fix +{re.escape(line.words[1])} " if line.words[0] == "fix" else None
+                if made and any(isinstance(text, str) and re.match(made, text) for text in self.out[before:]):
+                    self.alive.add(line.words[1])
         return "\n".join(text if isinstance(text, str) else self.mesh_dump(text) for text in self.out) + "\n"
+
+    def end_replaced(self, line, moved):
+        """Ends what a fix with the same ID has made, where the one that would replace it is left."""
+        name = line.words[1]
+        if moved and name in self.moves:
+            del self.moves[name]
+            moved[0].moves.remove(moved[1])
+        if moved and moved[0].wall:
+            self.put(self.modify(moved[0], moved[0].moves))
+        if name in self.alive:
+            self.alive.discard(name)
+            self.end_wall(name)
+            self.put(f"unfix           {name}")
+
+    def come_back(self, line):
+        """At the first line of a loop: what its lines have done when it comes back."""
+        for first, last in (loop for loop in line.loops if loop[0] == line.index):
+            cleared = max((x.index for x in self.lines[first:last + 1] if x.words[:1] == ["clear"]), default=first)
+            body = [(x, w) for x in self.lines[cleared:last + 1] for w in commands_in(x.words or [""])]
+            self.ran, self.step = self.ran + 1, None
+            if any(w[0] == "run" for _, w in body):
+                self.age()
+            for x, w in body:
+                style = self.style(w) if w[0] == "fix" and len(w) > 3 else ""
+                if style == "move/mesh" and w[5:6] and w[5] in self.meshes:
+                    self.meshes[w[5]].history = "moved"
+                if style.startswith("insert/"):
+                    ends = any(v[:2] == ["unfix", w[1]] for y, v in body if y.index > x.index and y.skips <= x.skips)
+                    self.sources.append((None, -1, "" if ends else "on"))
+                if w[0] in ("create_atoms", "read_data", "read_dump", "replicate", "read_restart"):
+                    self.sources.append((None, -1, ""))
+                if style.startswith("insert/") or w[0] in ("set", "create_atoms", "read_data"):
+                    self.densities["?"] = None
+                self.spun = self.spun or w[0] == "set"
+
+    def age(self):
+        """What a run does to meshes: in a new fix they would begin anew."""
+        for mesh in self.meshes.values():
+            if mesh.moves or mesh.servo or mesh.body:
+                mesh.history = "moved"
+            elif mesh.wear and mesh.wall:
+                mesh.history = mesh.history or "worn"
+
+    def end_wall(self, name):
+        """The meshes of a wall that ends are in none."""
+        for mesh in (m for m in self.meshes.values() if m.wall == name):
+            mesh.wall = None
 
     def command(self, line):
         w = line.words
@@ -948,26 +1328,36 @@ class Script:
         elif w[0] == "pair_coeff":
             if self.pair is None:
                 raise Left("pair_coeff of a pair style that was left", "see there")
-            for text in self.pair:
+            for text in self.pair or [f"# {' '.join(w)}"]:
                 self.put(text)
             self.pair = []
         elif w[0] == "fix":
             self.fix(line)
         elif w[0] == "dump":
             self.dump(line)
-        elif w[0] == "jump" and w[1] not in ("SELF", self.path.name):
+        elif line.included:
+            self.put(f"# {line.text.strip()}: its lines follow")
+        elif w[0] == "include":
+            raise Left(f"include of {w[1]}, which is not beside the script or has loops of its own",
+                       "convert it by itself, and name that; give the values of its variables with --var NAME VALUE")
+        elif any(c[0] == "jump" and c[1] not in ("SELF", self.path.name) for c in commands_in(w)):
             raise Left("a jump to another file", "convert that file by itself, and name it here")
-        elif w[0] == "if" and self.nested(w) and all(self.only_balances(words_of(x.strip("\"'"))) for x in self.nested(w)):
+        elif w[0] == "if" and nested(w) and all(self.only_balances(words_of(x.strip("\"'"))) for x in nested(w)):
             text = line.text
-            for x in self.nested(w):
+            for x in nested(w):
                 text = text.replace(x, f'"{" ".join(self.balance(words_of(x.strip(chr(34) + chr(39)))).split())}"')
             self.put(text)
-        elif w[0] in ("if", "run") and any(x.strip("\"'").split()[0] not in PLAIN_COMMANDS for x in self.nested(w)):
+        elif w[0] in ("if", "run") and any(c[0] not in PLAIN_COMMANDS for c in commands_in(w)[1:]):
             raise Left(f"commands in {w[0]} that are to be converted", "convert them as lines of their own, and put them here")
         elif w[0] == "compute" and (w[3] not in SAME_COMPUTES or (w[3] == "contact/atom" and len(w) > 4)):
             raise Left(f"compute {w[3]}", "LAMMPS has no compute of that name with these words")
         elif w[0] in ("unfix", "undump", "uncompute", "fix_modify", "compute_modify", "dump_modify") and w[1] in self.gone:
             self.put(f"# {' '.join(w)}")
+            if w[0].startswith("un") and not line.skips:
+                del self.gone[w[1]]
+        elif w[0] == "clear":
+            self.clear()
+            self.put(line.text)
         elif w[0] == "dump_modify" and w[1] in self.texts:
             kept = options(w[2:], {"binary": 1, "every": 1, "sort": 1, "append": 1, "flush": 1, "first": 1, "pad": 1,
                                    "element": 0, "region": 1, "thresh": 3, "unwrap": 1, "compressor": 1})
@@ -976,18 +1366,27 @@ class Script:
         elif w[0] == "unfix" and w[1] in self.moves:
             self.stop(line)
         elif w[0] == "unfix" and w[1] in self.meshes:
-            mesh = self.meshes[w[1]]
+            mesh = self.meshes[w[1]] if line.skips else self.meshes.pop(w[1])
             self.put(f"# unfix {w[1]}: " + (f"it is part of the fix {mesh.wall}" if mesh.wall else "no fix of its own"))
         elif w[0] == "unfix" and w[1] in self.feeds:
-            k = self.feeds.pop(w[1])
-            self.sources[k] = (*self.sources[k][:2], "")
+            where, k = self.feeds.pop(w[1])
+            if line.skips <= where.skips:
+                self.sources[k] = (*self.sources[k][:2], "")
+            self.alive.discard(w[1])
             for name in self.parts.pop(w[1], [w[1]]):
                 self.put(f"unfix {name}")
+            for name in reversed(self.helpers.pop(w[1], [])):
+                self.put(f"region          {name} delete")
         elif w[0] in ("unfix", "undump", "dump_modify") and w[1] in self.plain:
             self.put(f"# {' '.join(w)}")
+            if w[0] != "dump_modify" and not line.skips:
+                self.plain.discard(w[1])
+                self.templates.pop(w[1], None)
+                self.distributions.pop(w[1], None)
         elif w[0] == "fix_modify":
             self.fix_modify(line)
-        elif w[0] == "region" and w[2] not in ("block", "cylinder", "sphere", "cone", "prism", "plane", "union", "intersect"):
+        elif w[0] == "region" and w[2] not in ("delete", "block", "cylinder", "sphere", "cone", "prism", "plane", "union", "intersect"):
+            self.regions.pop(w[1], None)
             raise Left(f"region {w[2]}", "LAMMPS has no region of that name; region mesh/lsdcd is the inside of a closed mesh")
         elif w[0] == "read_restart":
             self.step = None
@@ -1006,23 +1405,18 @@ class Script:
     def only_balances(w):
         return w[:1] == ["fix"] and w[3:4] == ["balance"] and len(w) == 8
 
-    @staticmethod
-    def nested(w):
-        """The commands in the words of if and run."""
-        if w[0] == "run":
-            return [x for x in w[1:] if x[0] in "\"'" and " " in x]
-        return [x for k, x in enumerate(w) if k > 2 and x not in ("then", "elif", "else") and w[k - 1] != "elif"]
-
     def count_steps(self, line):
-        """Follows the step and the grains, on which insertions hang, through the commands that both programs know."""
+        """Follows the step, the grains and the box, on which insertions hang, through the commands that both programs know."""
         w = line.words
-        if w[0] == "run":
+        if any(c[0] == "run" for c in commands_in(w)):
             self.ran += 1
+            self.age()
+        if w[0] == "run":
             try:
                 steps = int(self.number(w[1], line))
                 upto = w[2:] == ["upto"]
                 self.step = steps if upto else None if self.step is None or len(w) > 2 else self.step + steps
-            except CannotConvert:
+            except Left:
                 self.step = None
         elif w[0] == "reset_timestep":
             if self.feeds:
@@ -1031,19 +1425,42 @@ class Script:
                            "unfix before it, and the insertion again with what is still to come")
             try:
                 self.step = int(self.number(w[1], line))
-            except CannotConvert:
+            except Left:
                 self.step = None
         elif w[0] in ("jump", "if", "label", "next", "minimize", "read_dump"):
             self.step = None
-        if w[0] == "clear":
-            self.sources, self.feeds, self.spun, self.step = [], {}, False, 0
-            self.computed.clear()
+        elif w[0] == "unfix":
+            self.alive.discard(w[1])
+            self.end_wall(w[1])
+        self.follow_box(line)
         if w[0] in ("read_data", "read_dump", "replicate"):
             self.make(None)
         elif w[0] == "create_atoms":
-            bounds = [(self.known(x),) * 2 for x in w[3:6]] if w[2] == "single" and self.units == "box" else \
+            bounds = [(self.known(x, line),) * 2 for x in w[3:6]] if w[2] == "single" and self.units == "box" else \
                 (self.region(w[3]) or [None])[-1] if w[2] == "region" else None
             self.make(bounds)
+
+    def follow_box(self, line):
+        """Keeps regions, edges of the box, and whether these move."""
+        w = line.words
+        if w[0] == "region":
+            self.regions[w[1]] = line
+            if w[2] == "delete":
+                del self.regions[w[1]]
+        elif w[0] == "boundary":
+            self.faces = [side[k] for side in (x * 2 for x in w[1:4]) for k in (0, 1)]
+        elif w[0] == "create_box":
+            where = self.regions.get(w[2])
+            if where and where.words[2] == "block":
+                sides = [self.known(x, where) for x in where.words[3:9]]
+                self.box = {} if None in sides else {a: tuple(sides[2 * k:2 * k + 2]) for k, a in enumerate("xyz")}
+        elif w[0] == "read_data":
+            self.box = self.data_boxes[line]
+        elif w[0] in ("change_box", "replicate"):
+            self.box, self.box_moves = {}, True
+        elif w[0] == "group" and len(w) > 2:
+            for name in [x for x in self.densities if x == f"group {w[1]}"]:
+                self.densities = {"? " * (x == name) + x: value for x, value in self.densities.items()}
 
     def pass_on(self, line):
         w, text = line.words, line.text
@@ -1051,8 +1468,8 @@ class Script:
                 w[0] in ("region", "create_atoms", "displace_atoms", "change_box", "velocity") or w[3:4] == ["move"]):
             text = re.sub(r"\s*(#.*)?$", r" units box \1", text, count=1).rstrip()
             self.note(line, "units box is the default of LIGGGHTS 3.8; of LIGGGHTS-PFM (--pfm) and LAMMPS it is units lattice")
-        if w[0] == "jump":
-            text = " ".join(["jump SELF", *w[2:]])
+        if any(c[0] == "jump" for c in commands_in(w)):
+            text = re.sub(rf"\bjump(\s+){re.escape(self.path.name)}(?![^\s\"'])", r"jump\1SELF", text)
         if w[0] == "compute" and w[3] == "coord/atom" and w[4] != "cutoff":
             text = " ".join([*w[:4], "cutoff", *w[4:]])
         if w[0] == "compute" and w[3] == "stress/atom" and w[4:5] != ["NULL"]:
@@ -1081,7 +1498,9 @@ class Script:
             if chosen == "group all":
                 self.densities.clear()
             self.densities.pop(chosen, None)    # the last one is that of the last command
-            self.densities[chosen] = values["density"][0]
+            kept = []
+            density = self.carry(values["density"][0], line, kept)
+            self.densities[chosen] = None if line.skips or kept else density
         if "diameter" not in values:
             return text
         if "mass" in values and words.index("mass") < words.index("diameter"):
@@ -1091,8 +1510,10 @@ class Script:
         density = values.pop("density", [None])[0]
         if density is None and "mass" not in values:
             found = set(self.densities.values())
-            if list(self.densities)[-1:] == [chosen] or len(found) == 1:
-                density = self.densities.get(chosen) or found.pop()
+            if list(self.densities)[-1:] == [chosen] and self.densities[chosen]:
+                density = self.densities[chosen]
+            elif len(found) == 1 and None not in found:
+                density = found.pop()
             elif not found and not self.all_types and all(other.words[:1] != ["read_data"] for other in self.lines):
                 density = "1"    # of create_atoms in both
             else:
@@ -1118,14 +1539,16 @@ class Script:
         direct = line.words[0] in ("thermo_style", "print")
 
         def helper(name, k, value):
-            self.put(f"variable        {name}_{k} equal {value}")
-            return f"v_{name}_{k}"
+            own = f"{name}_{k}" if f"{name}_{k}" not in self.program.assigned else f"lsdcd_{name}_{k}"
+            self.put(f"variable        {own} equal {value}")
+            return f"v_{own}"
 
         def new(m):
             name, k = m[1], int(m[2])
             if name in self.gone or name in self.plain:
                 raise Left(f"f_{name}, which is not here", "take another output")
             if name in self.mirrored:
+                self.named[name] = self.mirrored[name]
                 flow = self.mirrored[name].get(k)
                 if flow is None:
                     page = "fix_insert_lsdcd.rst" if name in self.parts else "fix_massflow_lsdcd.rst"
@@ -1136,12 +1559,14 @@ class Script:
             if name not in self.meshes:
                 return m[0]
             mesh, variable = self.meshes[name], line.words[0] == "variable"
-            if variable and not mesh.wall:
+            if not mesh.wall:
                 self.early.add(name)
-            value = mesh.output(k, self) if mesh.wall or (variable and name in self.later) else None
+            value = mesh.output(k, self) if mesh.wall or name in self.later else None
             if value is None:
                 raise Left(f"element {k} of f_{name}", "wall_output.rst lists what there is")
-            if variable or re.fullmatch(r"f_\w+(\[\d+\])" + "{1,2}" * direct, value):
+            self.named.setdefault(name, set()).add((mesh.wall, mesh.index, mesh.several) if mesh.wall else self.later[name])
+            # LAMMPS looks for the fix where it is named, but in variables.
+            if variable or (mesh.wall and re.fullmatch(r"f_\w+(\[\d+\])" + "{1,2}" * direct, value)):
                 return value
             return helper(name, k, value)
 
@@ -1154,6 +1579,9 @@ class Script:
             for name in sorted(COLUMNS - ATOM_VECTORS - {"element"}):
                 if re.search(rf"(?<![\w$}}]){name}\[", text):
                     if name not in self.computed:
+                        if line.skips or any(all(x.words[:1] != ["clear"] for x in self.lines[a:b]) for a, b in line.loops):
+                            raise Left(f"{name}[...] of a variable in a loop, or where a jump may skip it",
+                                       f"compute property/atom {name} before it, and c_ID[...]")
                         self.put(f"compute         lsdcd_{name} all property/atom {name}")
                     self.computed.add(name)
                     text = re.sub(rf"(?<![\w$}}]){name}\[", f"c_lsdcd_{name}[", text)
@@ -1170,11 +1598,13 @@ class Script:
         model.settings(model.rest, "pair_style")
         model.check()
         self.note_friction(line, model, [Contact(self, line, i, j) for i in kinds for j in kinds])
-        rolling = [c for c in (Contact(self, line, i, j) for i in kinds for j in kinds) if model.rolls(c)]
-        if rolling and not model.cohesion:
-            raise model.left_rolling(rolling[0])
+        contacts = [Contact(self, line, i, j) for i in kinds for j in kinds]
+        model.drop_zeros(contacts)
+        self.pair = None
         if model.cohesion:
             raise Left("cohesion between grains", "pair_style granular with jkr or dmt; this comes before pair_coeff")
+        if model.rolling and not model.nearest:
+            raise model.left_rolling(contacts[0])
         if model.normal == "hertz":
             self.put("pair_style      granular")
             self.note(line, "damping tsuji has another number than the restitution, so that LAMMPS's pairs return the "
@@ -1183,6 +1613,9 @@ class Script:
             self.pair = [f"pair_coeff      {i} {j} {model.granular(Contact(self, line, a, b))}"
                          for i, j, a, b in [("*", "*", kinds[0], kinds[0])] +
                          [(a, b, a, b) for a in kinds for b in kinds if a <= b and b != kinds[0]]]
+            if model.nearest:
+                nearest, self.pair = "\n".join(["pair_style      granular", *self.pair]), []
+                raise model.left_rolling(contacts[0], nearest)
             return
         r, m = self.size(line) if model.normal == "hooke" else (1.0, 1.0)
         laws = {model.classic(Contact(self, line, i, j), r / 2, m / 2) for i in kinds for j in kinds}
@@ -1205,20 +1638,23 @@ class Script:
     def fix(self, line):
         w = line.words
         name, style = w[1], self.style(w)
+        self.mirrored.pop(name, None)
         if style == "property/global":
             self.plain.add(name)
             self.put(f"# {line.text.strip()}")
         elif style.startswith("mesh/surface"):
             self.meshes.pop(name, None)
-            self.gone.pop(name, None)
             if isinstance(self.mesh_of[line], Left):
                 raise self.mesh_of[line]
             self.meshes[name] = self.mesh_of[line]
             self.put(f"# mesh {name}: see the fixes that use it")
+            for text in self.meshes[name].before:
+                self.put(text)
             if name in self.unchecked:
                 self.note(line, f"{self.meshes[name].file} is not there: on triangles inclined to the surface's velocity LIGGGHTS "
                           "keeps its full size")
         elif style == "wall/gran":
+            self.end_wall(name)    # of a wall that this one replaces
             if isinstance(self.walls[line], Left):
                 raise self.walls[line]
             (self.mesh_wall if self.walls[line].ids else self.primitive)(line, self.walls[line])
@@ -1231,11 +1667,19 @@ class Script:
             self.note(line, "fix check/timestep/gran has no counterpart; lsdcd timestep names a timestep")
         elif style.startswith("insert/"):
             self.insert(line)
-        elif name in self.templates or (name in self.distributions and
-                                        all(k in self.templates for k in self.distributions[name][1][::2])):
-            self.plain.add(name)
-            self.put(f"# {name}: see the fixes that insert grains")
         elif style.startswith(("particletemplate", "particledistribution")):
+            self.templates.pop(name, None)
+            self.distributions.pop(name, None)
+            kind, *size = self.template(line) if style == "particletemplate/sphere" else (None, None)
+            if kind and None not in size:
+                self.templates[name] = (short(kind), *size, line)
+            if style.startswith("particledistribution/discrete"):
+                law = {"particledistribution/discrete/numberbased": "poly"}.get(style, "mass")
+                self.distributions[name] = (law, w[6:], line)
+            if name in self.templates or (name in self.distributions and all(k in self.templates for k in w[6::2])):
+                self.plain.add(name)
+                self.put(f"# {name}: see the fixes that insert grains")
+                return
             raise Left(style, "radii and densities go to fix insert/lsdcd (diam, dens), or to set after create_atoms")
         elif style == "balance" and len(w) == 8:
             self.put(self.balance(w))
@@ -1243,13 +1687,15 @@ class Script:
             if style == "nve/limit" and w[4] in ("radius_ratio", "absolute"):
                 raise Left(f"nve/limit {w[4]}", "nve/limit of LAMMPS has the largest distance alone")
             if self.grows(w):
-                self.pass_on(Line(line.number, " ".join(w + ["mass yes"])))    # LIGGGHTS keeps the density
+                self.pass_on(line.but(" ".join(w + ["mass yes"])))    # LIGGGHTS keeps the density
                 return
+            if style == "deform":
+                self.box, self.box_moves = {}, True
             text = line.text if style == w[3] else re.sub(rf"(\s{style})/omp\b", r"\1", line.text)
             if style == "ave/time" and "f_" in line.text:
                 self.pass_on(line)
             else:
-                self.pass_on(Line(line.number, text))
+                self.pass_on(line.but(text))
         else:
             raise Left(f"fix {style}", "LAMMPS has no fix of that name with these words")
 
@@ -1261,22 +1707,16 @@ class Script:
 
     # -- insertion
 
-    def known(self, word):
-        """A number, or None."""
-        try:
-            return self.number(word, self.lines[0])
-        except CannotConvert:
-            return {"INF": math.inf, "-INF": -math.inf}.get(word)
-
     def region(self, name):
         """Shape, axis of a cylinder, and lowest and highest x, y, z of a block, cylinder or sphere whose inside stands still; None of
         other regions."""
-        w = self.regions[name].words if name in self.regions else []
+        where = self.regions.get(name)
+        w = where.words if where else []
         n = {"block": 6, "cylinder": 6, "sphere": 4}.get("".join(w[2:3]))
         if n is None:
             return None
         axis = w[3] if w[2] == "cylinder" else ""
-        v = [self.known(x) for x in w[3 + len(axis):3 + n]]
+        v = [self.known(x, where) for x in w[3 + len(axis):3 + n]]
         try:
             rest = options(w[3 + n:], {"units": 1, "side": 1, "seed": 1, "volume_limit": 1})
         except Left:
@@ -1311,6 +1751,11 @@ class Script:
 
     def whole_region(self, line, name, radius, all_in, in_box):
         """The region of the centres. LIGGGHTS keeps each sphere in the region with all_in, and in the box by default."""
+        if name in self.regions:
+            self.sure(self.regions[name], line)
+        if in_box and self.box_moves:
+            raise Left(f"insertion into region {name} after a change of the box, whose edges are not known here",
+                       "fix insert/lsdcd with a region that ends one radius before the faces of the box")
         found = self.region(name)
         if found is None:
             if all_in:
@@ -1330,17 +1775,22 @@ class Script:
         if not all_in and inside == sides:
             return name
         whole = f"{line.words[1]}_whole"
+        self.helpers[line.words[1]] = [whole]
         self.put_region(whole, shape, axis, inside if shape == "block" else sides)
         if inside != sides and shape != "block":
             self.put_region(f"{whole}_box", "block", "", box)
             self.put(f"region          {whole}_in intersect 2 {whole} {whole}_box")
+            self.helpers[line.words[1]] += [f"{whole}_box", f"{whole}_in"]
             whole += "_in"
         return whole
 
     def inserted_grains(self, name, line):
         """Of each type and density of a distribution: words of fix insert/lsdcd, shares of the number and of the mass, radii."""
-        law, parts = self.distributions.get(name, ("", []))
-        found = [(self.templates.get(k), self.number(f, line)) for k, f in zip(parts[::2], parts[1::2])]
+        law, parts, where = self.distributions.get(name, ("", [], line))
+        found = [(self.templates.get(k), self.number(f, where)) for k, f in zip(parts[::2], parts[1::2])]
+        for other in [where, *(t[3] for t, _ in found if t)]:
+            self.sure(other, line)
+        found = [(t and t[:3], f) for t, f in found]
         if not found or not all(t for t, _ in found):
             raise Left("insertion of grains that are no spheres of constant radius and density",
                        "fix insert/lsdcd, with diam one, range, poly or mass")
@@ -1385,6 +1835,9 @@ class Script:
                        "a fix insert/lsdcd and unfix for each pulse")
         if form == "pack" and v.get("insert_every", v.get("every", v.get("insert_every_time", "once"))) != "once":
             raise Left("insert/pack that fills up again and again", "fix insert/lsdcd with massrate or numberrate")
+        if ("massrate" in v or "particlerate" in v) and self.new_timestep(line):
+            raise Left(f"{w[3]} with a rate, and another timestep after a run: LIGGGHTS keeps the grains of a step, not of a time",
+                       "fix insert/lsdcd for each part, with the rate that you mean")
         amounts = [f"{ours} {v[theirs]}" for theirs, ours in (
             ("massrate", "massrate"), ("particlerate", "numberrate"), ("nparticles", "number"), ("mass", "mass"),
             ("particles_in_region", "number"), ("mass_in_region", "mass")) if v.get(theirs, "INF") != "INF"]
@@ -1397,7 +1850,7 @@ class Script:
             amounts.append(f"mass {short(mass)}")
         if not apart:
             raise Left("overlapcheck no", "fix insert/lsdcd puts no grain into another: a lower number")
-        if any(self.known(x) != 0 for x in v.get("omega", ["constant"])[1:]):
+        if any(self.known(x, line) != 0 for x in v.get("omega", ["constant"])[1:]):
             raise Left("insertion with a spin", "set ... omega of the new grains, as grains come without a spin here")
         velocity = ""
         if "vel" in v:
@@ -1410,6 +1863,7 @@ class Script:
             mesh = self.meshes.get(v.get("insertion_face"))
             if mesh is None:
                 raise Left("insert/stream through a face that is not converted", "fix insert/lsdcd mesh FILE")
+            self.stands_still(mesh, line)
             place = f"mesh {mesh.file}{mesh.placement()}"
         elif "region" not in v:
             raise Left(w[3], "fix insert/lsdcd region ID")
@@ -1420,17 +1874,17 @@ class Script:
         text = "\n".join(f"fix             {name} {w[2]} insert/lsdcd {place} {grains} {' '.join(parts)}{velocity}" +
                          (f" seed {v['seed']}" if "seed" in v else "")
                          for name, grains, parts in self.one_fix_each(line, w[1], kinds, amounts))
-        if "start" in v and (self.step is None or self.known(v["start"]) != self.step + 1):
+        if "start" in v and (self.step is None or self.known(v["start"], line) != self.step + 1):
             raise Left(f"start {v['start']}", f"end a run one step before that, and put after it: {text}")
         if there:
-            text = self.less_what_is_there(w[1], v, len(kinds), amounts, text)
+            text = self.less_what_is_there(line, w[1], v, len(kinds), amounts, text)
         self.sources.append((bounds, self.ran, "once" if form == "pack" else "on"))
-        self.feeds[w[1]] = len(self.sources) - 1
+        self.feeds[w[1]] = (line, len(self.sources) - 1)
         self.densities.update({f"fix {w[1]} {k}": kind[0].split()[-1] for k, kind in enumerate(kinds)})
         if not any("thermo_temp" in other.words for other in self.lines):
             self.put("compute_modify  thermo_temp dynamic/dof yes")    # else ke is 0 while grains come
         self.put(text)
-        if form == "pack" and self.is_dense(v, kinds, bounds):
+        if form == "pack" and self.is_dense(line, v, kinds, bounds):
             self.note(line, "LIGGGHTS gives up on grains without a place after maxattempt, here they come later: count the grains of both")
         if form != "stream" and whole and max(radii) > min(radii):
             self.note(line, "all grains stay the largest radius off the region's edge; in LIGGGHTS each its own")
@@ -1438,18 +1892,31 @@ class Script:
             self.note(line, "grains are put on the face itself, where LIGGGHTS lets them go after their way through extrude_length, and "
                       "are whole within its edges" + ("" if whole else "; without all_in yes their centres go up to the edges there"))
 
-    def is_dense(self, v, kinds, bounds):
+    def new_timestep(self, line):
+        """Whether the timestep changes after the first run that an insertion sees, and before its unfix."""
+        ran = False
+        for other in [x for x in self.lines if x.index > line.index] + [x for x in self.lines if x.loops and line.loops]:
+            if other.words[:2] == ["unfix", line.words[1]] and other.skips <= line.skips:
+                return False
+            for w in commands_in(other.words or [""]):
+                ran = ran or w[0] == "run"
+                if ran and (w[0] == "timestep" or w[3:4] == ["dt/reset"]):
+                    return True
+        return False
+
+    def is_dense(self, line, v, kinds, bounds):
         """Whether a pack fills so much of its region, or how much is not known, that grains may find no place."""
         if "volumefraction_region" in v:
-            return not (self.known(v["volumefraction_region"]) or 1) <= 0.15
-        n, radius = self.known(v.get("particles_in_region", "")), max(kinds[0][3])
+            return not (self.known(v["volumefraction_region"], line) or 1) <= 0.15
+        n, radius = self.known(v.get("particles_in_region", ""), line), max(kinds[0][3])
         if n is None or not bounds or any(math.isinf(x) for side in bounds for x in side):
             return True
         return n * 4 / 3 * math.pi * radius ** 3 > 0.15 * self.volume(v["region"])
 
-    def less_what_is_there(self, name, v, kinds, amounts, text):
+    def less_what_is_there(self, line, name, v, kinds, amounts, text):
         """A pack with its number less the grains that are in its region."""
-        used = any(re.search(rf"\bf_{name}\b", line.text) or line.words[:2] == ["unfix", name] for line in self.lines)
+        used = any(re.search(rf"\bf_{name}\b", x.text) or (x.words[:2] == ["unfix", name] and (x.index > line.index or x.loops))
+                   for x in self.lines)
         if used or kinds > 1 or "particles_in_region" not in v:
             raise Left("insert/pack into a region that may have grains, which count in LIGGGHTS",
                        "fix insert/lsdcd with the number less these: variable n equal N-count(all,REGION), number ${n}")
@@ -1463,7 +1930,7 @@ class Script:
         names = [name] + [f"{name}_{k}" for k in range(2, len(kinds) + 1)]
         self.parts[name] = names
         self.names.update(f"f_{n}" for n in names)
-        self.mirrored[name] = {k: "(" + "+".join(f"f_{n}[{k}]" for n in names) + ")" for k in (1, 2)}
+        self.mirror(line, {k: "(" + "+".join(f"f_{n}[{k}]" for n in names) + ")" for k in (1, 2)})
         shared, before = [], [0.0] * len(amounts)
         values = [(word, self.number(value, line)) for word, value in (a.split() for a in amounts)]
         for fix, (grains, number, mass, _) in zip(names, kinds):
@@ -1504,13 +1971,16 @@ class Script:
         meshes = [self.meshes[i] for i in wall.ids if i in self.meshes]
         for i in wall.ids:
             if i not in self.meshes and i not in self.gone:
-                raise CannotConvert(f"{self.at(line)}: there is no mesh {i}")
-        if any(mesh.wall and mesh.moves for mesh in meshes):
-            raise Left("a second wall of a mesh that moves", "the place where the mesh is then: in a new fix it begins anew")
+                text = f"there is no mesh {i}"
+                raise Left(text, "its fix in this script") if self.program.unread else CannotConvert(f"{self.at(line)}: {text}")
+        for mesh in meshes:
+            self.begins_here(mesh, line)
         if not meshes:
             raise Left(f"the mesh {wall.ids[0]}, which is not converted", "the wall with mesh FILE; see the mesh for why")
         model.check()
-        self.note_friction(line, model, [Contact(self, line, mesh.type, i) for mesh in meshes for i in self.grains()])
+        contacts = [Contact(self, line, mesh.type, i) for mesh in meshes for i in self.grains()]
+        model.drop_zeros(contacts)
+        self.note_friction(line, model, contacts)
         self.note_stored(line, wall)
         self.check_bodies(line, model, meshes)
         # One fix, so that a grain where meshes meet is pushed once; each mesh has its law.
@@ -1518,15 +1988,36 @@ class Script:
         first = laws[0][self.grains()[0]]
         words = [f"fix             {w[1]} {self.group_of(line, meshes)} wall/lsdcd {first}" + self.wear(line, meshes)]
         for index, (mesh, by_type) in enumerate(zip(meshes, laws), 1):
-            mesh.wall, mesh.index, mesh.several = w[1], index, len(meshes) > 1
-            words.append(self.mesh_words(mesh))
+            mesh.wall, mesh.index, mesh.several = mesh.first = w[1], index, len(meshes) > 1
+            words.append(self.mesh_words(mesh, line))
             own = by_type[self.grains()[0]]
             words += [f"law {own}"] * (own != first)
             words += [f"law types {kind} {law}" for kind, law in by_type.items() if law != own]
         for i in (i for i in wall.ids if i not in self.meshes):
             self.leave(line, f"the mesh {i}, which is not converted", "add it as mesh FILE")
             self.out.pop()
-        self.put(" &\n                ".join(words))
+        for mesh in meshes:
+            if self.named.get(mesh.id, set()) - {(mesh.wall, mesh.index, mesh.several)}:
+                self.leave(line, f"outputs of {mesh.id} that lines above take from another wall", "these lines again below this one")
+                self.out.pop()
+        text = " &\n                ".join(words)
+        if model.nearest:
+            raise model.left_rolling(contacts[0], text)
+        self.put(text)
+
+    def begins_here(self, mesh, line):
+        """Raises Left for a mesh that does not begin at a wall as its line says, or not always."""
+        self.sure(mesh.line, line)
+        for other in (m[4] for m in self.moves.values() if m[0] is mesh):
+            self.sure(other, line)
+        if mesh.wall and mesh.moves:
+            raise Left("a second wall of a mesh that moves", "the place where the mesh is then: in a new fix it begins anew")
+        if mesh.history:
+            raise Left(f"the mesh {mesh.id}, which has {mesh.history} in a run before: in a new fix it begins anew",
+                       {"moved": "the mesh where it is then, by move and rotate after its file; or one wall from the start with all meshes",
+                        "worn": "one wall from the start, as the wear of the new one begins at 0"}[mesh.history])
+        if line.skips and any(other is not line and isinstance(wall, Wall) and mesh.id in wall.ids for other, wall in self.walls.items()):
+            raise Left(f"one of several walls of the mesh {mesh.id}, which a jump may skip", "a script for each case")
 
     def group_of(self, line, meshes):
         """The group that a wall of meshes pushes is that of its meshes in LIGGGHTS. A group of the wall other than all adds atoms that
@@ -1579,7 +2070,7 @@ class Script:
         self.note(line, f"LIGGGHTS wears by twice its k_finnie, {short(k)}, and by the whole force, not the normal one")
         return f" wear finnie {short(2 * k)}"
 
-    def mesh_words(self, mesh):
+    def mesh_words(self, mesh, wall_line):
         moves = "".join(f" motion {m}" for m in reversed(mesh.moves))
         words = f"mesh {mesh.file}{mesh.placement()}{moves}" + "".join(f" {x}" for x in mesh.words)
         moving = mesh.id in self.used or mesh.servo or mesh.body
@@ -1589,11 +2080,11 @@ class Script:
             words += " torque_about " + "mesh " * bool(moving) + " ".join(mesh.reference or (mesh.com if mesh.body else "000"))
         if mesh.servo or mesh.body:
             words += f" {mesh.servo or mesh.body}"
-        for line in self.dumps:
-            words += self.dump_words(line, mesh)
+        for line in (x for x in self.dumps if x.stage == wall_line.stage):
+            words += self.dump_words(line, mesh, wall_line)
         return words
 
-    def dump_words(self, line, mesh):
+    def dump_words(self, line, mesh, wall_line):
         """Of dump ID group style N file [...] for one mesh."""
         w = line.words
         named = self.dumped_meshes(line)
@@ -1602,10 +2093,14 @@ class Script:
         keyword, end = ("mesh_stl", ".stl") if w[3] in ("mesh/stl", "stl") else ("mesh_fields", ".vtp")
         if keyword in mesh.written:
             return ""    # one file of a kind for each mesh: the other dump is left
+        try:
+            every, name = (self.carry(x, line, [], to=wall_line) for x in w[4:6])
+        except Left:
+            return ""
         mesh.written.add(keyword)
         self.dumped[line].add(mesh.id)
-        path = re.sub(r"_?\*", f"_{mesh.id}_*", w[5]) if "*" in w[5] else str(Path(w[5]).with_suffix("")) + f"_{mesh.id}"
-        return f" {keyword} {re.sub('[.](stl|vtk|vtp|vtm)$', '', path)}{end} every {w[4]}"
+        path = re.sub(r"_?\*", f"_{mesh.id}_*", name) if "*" in name else str(Path(name).with_suffix("")) + f"_{mesh.id}"
+        return f" {keyword} {re.sub('[.](stl|vtk|vtp|vtm)$', '', path)}{end} every {every}"
 
     @staticmethod
     def dumped_meshes(line):
@@ -1632,13 +2127,15 @@ class Script:
         kind, shape, place, shear = wall.type, wall.shape, wall.place, wall.shear
         model.check()
         self.note_stored(line, wall)
+        contacts = [Contact(self, line, kind, i) for i in grains]
+        model.drop_zeros(contacts)
         if model.normal == "hertz":
-            laws = {"granular " + model.granular(Contact(self, line, kind, i)) for i in grains}
-            for i in grains:
-                model.extras(Contact(self, line, kind, i), False)
+            laws = {"granular " + model.granular(c) for c in contacts}
+            if model.cohesion or (model.rolling and not model.nearest):
+                model.extras(contacts[0], False)
         else:
             laws = set(self.law_of(line, model, kind).values())
-            if any(model.rolls(Contact(self, line, kind, i)) for i in grains) or model.cohesion:
+            if model.rolling or model.cohesion:
                 raise Left("rolling friction or cohesion of a plane", "a mesh of the plane: lsdcd generate plane")
         self.note_friction(line, model)
         if len(laws) > 1:
@@ -1657,7 +2154,10 @@ class Script:
         else:
             raise Left(f"{shape} about another axis than z through the origin",
                        "a mesh: lsdcd generate cylinder, placed by rotate and move")
-        self.put(" ".join([f"fix             {w[1]} {w[2]} wall/gran {laws.pop()} {where}", *shear]))
+        text = " ".join([f"fix             {w[1]} {w[2]} wall/gran {laws.pop()} {where}", *shear])
+        if model.nearest:
+            raise model.left_rolling(contacts[0], text)
+        self.put(text)
 
     def motion(self, line, w):
         style, rest = w[6], w[7:]
@@ -1696,10 +2196,13 @@ class Script:
         amplitudes, phases, periods = w[3:3 + n], w[4 + n:4 + 2 * n], w[5 + 2 * n:]
         if [w[0], w[2], w[3 + n], w[4 + 2 * n]] != ["order", "amplitude", "phase", "period"] or len(periods) not in (1, n):
             raise ValueError("waves")
-        run = min([other.number for other in self.lines if other.words[:1] == ["run"]], default=0)
-        if any(other.words[:1] == ["timestep"] and other.number > max(line.number, run) or other.words[3:4] == ["dt/reset"]
-               for other in self.lines):
+        commands = [(other, c) for other in self.lines for c in commands_in(other.words or [""])]
+        run = min([other.index for other, c in commands if c[0] == "run"], default=0)
+        if any(c[0] == "timestep" and (other.index > max(line.index, run) or other.loops) or c[3:4] == ["dt/reset"]
+               for other, c in commands):
             raise Left("a motion by waves where the timestep changes", "motion table, or variables of the time")
+        if any(c[0] == "reset_timestep" and (other.index > line.index or (other.loops and line.loops)) for other, c in commands):
+            raise Left("a motion by waves before reset_timestep, which its formula counts on", "motion table, or variables of the time")
         begin = "$(step)" if self.step is None else self.step
         place, speed = f"lsdcd_{name}_s", f"lsdcd_{name}_v"
         self.put(f"variable        lsdcd_{name}_t equal 2*PI*(step-{begin})*dt")
@@ -1712,17 +2215,51 @@ class Script:
         return place, speed
 
     def move(self, line):
-        w = line.words
+        before = []
+        w = line.words[:7] + [self.carry(x, line, before) for x in line.words[7:]]
+        replaced = self.moves.pop(w[1], None)
+        if replaced:
+            replaced[0].moves.remove(replaced[1])
+            if replaced[0].moves:
+                raise Left(f"one of several motions of {replaced[0].id} is replaced", "fix_modify motion with all that go on: they begin anew")
         mesh = self.meshes.get(w[5])
         if mesh is None:
             raise Left(f"the mesh {w[5]}, which is not converted", "motion, after its file")
+        self.sure(mesh.line, line)
+        for text in before:
+            self.put(text)
         words = self.motion(line, w)
         for name in (x for x in words.split() if x.startswith("v_") and not self.is_here(x)):
             raise Left(f"{name}, which is not here", "another variable")
         active = [m for m in self.moves.values() if m[0] is mesh]
+        self.check_motions(line, w, words, mesh, active)
+        if mesh.wall is None:
+            if mesh.wall_line is None:
+                raise Left(f"the mesh {w[5]} is no wall", "fix massflow/lsdcd has no motion")
+            if mesh.wall_line.index < line.index:
+                raise Left(f"the mesh {w[5]} is in no wall", "add it to the wall")
+            self.sure(line, mesh.wall_line)
+            self.note(line, f"a motion of fix {mesh.wall_line.words[1]}")
+        self.moves[w[1]] = [mesh, words, self.ran, w[6], line]
+        mesh.moves.append(words)
+        if replaced and replaced[0] is not mesh and replaced[0].wall:
+            self.put(self.modify(replaced[0], []))
+        if mesh.wall is None:
+            return
+        self.put(self.modify(mesh, mesh.moves))
+        if len(mesh.moves) > 1:
+            self.note(line, "the first motion of LIGGGHTS is the outer one; here it is the last")
+
+    def check_motions(self, line, w, words, mesh, active):
+        """Raises Left for a motion that does not go with the others of its mesh."""
         if any(m[2] != self.ran for m in active):
             raise Left(f"a second motion of {mesh.id} that begins later",
                        "fix_modify motion begins all anew; write both from the start, the outer one last")
+        stays = [x for first, last in line.loops for x in self.lines[first:last + 1] if x is not line and x.words[5:6] == w[5:6] and
+                 x.words[1] != w[1] and x.words[0] == "fix" and self.style(x.words) == "move/mesh" and not any(
+                     y.words[:2] == ["unfix", x.words[1]] and y.index > x.index and y.skips <= x.skips for y in self.lines[:last + 1])]
+        if mesh.unsure or stays or any(m[4].skips != line.skips for m in active):
+            raise Left(f"a motion of {mesh.id} beside another one, which a jump may skip or bring back", "one fix_modify motion with both")
         if active and any(x.startswith("riggle") for x in [words, *(m[1] for m in active)]):
             raise Left(f"riggle beside another motion of {mesh.id}", "LIGGGHTS turns about the axis where it was; here it "
                        "moves along with an outer motion: motion riggle and the others, in the order that is meant")
@@ -1731,20 +2268,6 @@ class Script:
                        "axis where it was; write the linear one first to have the axis move along")
         if words.startswith("rotate"):
             self.check_axes(line, w, words, [m for m in active if m[1].startswith("rotate")])
-        self.moves[w[1]] = [mesh, words, self.ran, w[6]]
-        mesh.moves.append(words)
-        if mesh.wall is None:
-            if mesh.wall_line is None:
-                raise Left(f"the mesh {w[5]} is no wall", "fix massflow/lsdcd has no motion")
-            if mesh.wall_line.number < line.number:
-                raise Left(f"the mesh {w[5]} is in no wall", "add it to the wall")
-            self.note(line, f"a motion of fix {mesh.wall_line.words[1]}")
-            if self.ran:
-                self.note(line, "it begins where that fix is defined")
-            return
-        self.put(self.modify(mesh))
-        if len(mesh.moves) > 1:
-            self.note(line, "the first motion of LIGGGHTS is the outer one; here it is the last")
 
     def check_axes(self, line, w, words, others):
         """Two turns of one mesh. The axis of LIGGGHTS's rotate stays in space; here the first turn turns the axis of the second,
@@ -1755,16 +2278,22 @@ class Script:
             raise Left("a rotation after another about an axis that is not parallel to it, which stays in space in LIGGGHTS",
                        "not there: here the first rotation turns the axis of the second; rotate/superposable of LIGGGHTS-PFM, too")
 
-    def modify(self, mesh):
+    @staticmethod
+    def modify(mesh, moves):
         which = f" mesh {mesh.index}" if mesh.several else ""
-        return f"fix_modify      {mesh.wall}{which} " + (" ".join(f"motion {m}" for m in reversed(mesh.moves)) or "motion none")
+        return f"fix_modify      {mesh.wall}{which} " + (" ".join(f"motion {m}" for m in reversed(moves)) or "motion none")
 
     def stop(self, line):
-        mesh, words, *_ = self.moves.pop(line.words[1])
-        mesh.moves.remove(words)
-        if mesh.moves:
+        mesh, words, _, _, where = self.moves[line.words[1]]
+        several = len(mesh.moves) > 1
+        if line.skips <= where.skips:
+            del self.moves[line.words[1]]
+            mesh.moves.remove(words)
+        else:
+            mesh.unsure = True    # a jump may have kept it
+        if several:
             raise Left(f"one of several motions of {mesh.id} ends", "fix_modify motion with the others: they begin anew")
-        self.put(self.modify(mesh))
+        self.put(self.modify(mesh, []) if mesh.wall else f"# {line.text.strip()}")
 
     def fix_modify(self, line):
         w = line.words
@@ -1782,7 +2311,11 @@ class Script:
         if [word, *w[3:]] == ["integrate", "stop"]:
             self.put(f"fix_modify      {mesh.wall}{which} servo none")
         elif [word, *w[3:]] == ["integrate", "start"] or (word == "target_val" and len(w) == 4):
-            target = w[3] if word == "target_val" else mesh.target
+            kept = []
+            target = self.carry(w[3], line, kept) if word == "target_val" else mesh.target
+            if mesh.unsure or kept:
+                raise Left(f"fix_modify {w[2]} with a target that a jump may change", "fix_modify servo with all its words")
+            mesh.unsure = not line.skips <= mesh.line.skips or bool(line.loops)
             mesh.servo = mesh.servo.replace(f" {mesh.target} vmax", f" {target} vmax")
             mesh.target = target
             self.put(f"fix_modify      {mesh.wall}{which} {mesh.servo}")
@@ -1803,6 +2336,12 @@ class Script:
         mesh.held = True
         self.put(f"fix_modify      {mesh.wall}{which} body joint ball {' '.join(place)}")
 
+    def stands_still(self, mesh, line):
+        """Raises Left for a mesh that moves where only a wall can."""
+        self.sure(mesh.line, line)
+        if mesh.id in self.used or mesh.servo or mesh.body:
+            raise Left(f"{self.style(line.words)} of the mesh {mesh.id}, which moves", "a mesh that stands: only walls move")
+
     def massflow(self, line):
         w = line.words
         v = options(w[4:], {"mesh": 1, "vec_side": 3, "count": 1, "delete_atoms": 1, "file": 1, "append": 1, "writeTime": 0,
@@ -1810,6 +2349,7 @@ class Script:
         mesh = self.meshes.get(v["mesh"][0])
         if mesh is None:
             raise Left("massflow/mesh through a mesh that is not converted", "fix massflow/lsdcd mesh FILE")
+        self.stands_still(mesh, line)
         if "vec_side" not in v or "point_at_outlet" in v:
             raise Left("massflow/mesh with point_at_outlet", "fix massflow/lsdcd counts along the normals of the triangles, of "
                        "curved meshes too: wind them so that they point to the outlet")
@@ -1836,10 +2376,19 @@ class Script:
             self.note(line, "no file or line with each grain that has passed")
         number, mass = (1, 2) if forward else (3, 4)
         rate = f"f_{w[1]}[6]" if forward else f"(-f_{w[1]}[6])"
-        self.mirrored[w[1]] = {1: f"f_{w[1]}[{mass}]", 2: f"f_{w[1]}[{number}]", 3: rate, 5: f"f_{w[1]}[8]", 6: f"f_{w[1]}[7]"}
+        self.mirror(line, {1: f"f_{w[1]}[{mass}]", 2: f"f_{w[1]}[{number}]", 3: rate, 5: f"f_{w[1]}[8]", 6: f"f_{w[1]}[7]"})
+
+    def mirror(self, line, outputs):
+        """Sets what stands for the outputs of a fix."""
+        name = line.words[1]
+        if self.named.get(name, outputs) != outputs:
+            self.leave(line, f"outputs of {name} that lines above take from another fix of this ID", "these lines again below this one")
+            self.out.pop()
+        self.mirrored[name] = outputs
 
     def dump(self, line):
         w = line.words
+        self.texts.discard(w[1])
         if line in self.dumps:
             self.gone[w[1]] = Left("a file of the wall", "nothing")
             self.put(line)

@@ -385,9 +385,173 @@ LEFT.update({
     "grains that are not known": ("fix i all insert/pack seed 1 distributiontemplate d region r particles_in_region 9\n",
                                   "insertion of grains that are no spheres"),
 })
+# A script is a program: a name means what it means at its line.
+MOVE = "fix t all move/mesh mesh cad {}\n"
+LID = MESH.replace("cad", "lid").replace("a.stl", "b.stl").format("")
+BOTH_WALL = WALL.replace("n_meshes 1 meshes cad", "n_meshes 2 meshes cad lid")
+LOOP = "label l\nvariable i loop 3\n{}next i\njump SELF l\n"
+SKIP = 'if "${{c}} == 1" then "jump SELF one"\n{}label one\n'
+SERVO = "fix cad all mesh/surface/stress/servo file a.stl type 1 com 0 0 0 ctrlPV force axis 0 0 1 target_val 1 vel_max 1\n"
+ROLLS = "fix m5 all property/global coefficientRollingFriction peratomtypepair 1 0.1\nset group all diameter 0.02 density 2500\n"
+WRITTEN.update({
+    "a variable that changes between a mesh and its wall": (
+        "variable h equal 0.2\n" + MESH.format("move 0 0 ${h} surface_vel ${h} 0 0") + "variable h equal -0.1\n" +
+        LID.replace("type 1", "type 1 move 0 0 ${h}") + BOTH_WALL, "mesh a.stl move 0 0 0.2 surface_vel 0.2 0 0 &\n                mesh b.stl move 0 0 -0.1\n"),
+    "a variable that changes between a motion and its wall": (
+        "variable p equal 1.5\n" + MESH.format("") + MOVE.format("wiggle amplitude 0 0 1 period ${p}") + "variable p equal 3\n" + WALL,
+        "mesh a.stl motion wiggle 0 0 1 1.5\n"),
+    "a file name of a string that changes": (
+        "variable f string a\n" + MESH.format("").replace("a.stl", "${f}.stl") + "variable f string b\n" + WALL, "mesh a.stl\n"),
+    "a variable whose value is known in a run is kept for the wall": (
+        "variable h equal 2*step\n" + MESH.format("move 0 0 ${h}") + "variable h equal 1\n" + WALL,
+        "\nvariable        lsdcd_cad_h string ${h}\nvariable h equal 1\n"),
+    "a variable that an if may change is kept for the wall": (
+        'variable h equal 1\nif "${c} == 1" then "variable h equal 2"\n' + MESH.format("move 0 0 ${h}") + WALL,
+        "mesh a.stl move 0 0 ${lsdcd_cad_h}\n"),
+    "a file for each turn of a loop": (
+        LOOP.format(MESH.format("").replace("a.stl", "a_${i}.stl") + WALL + "run 1\nunfix w\nunfix cad\n"), "mesh a_${lsdcd_cad_i}.stl\n"),
+    "a speed for each turn of a loop": (
+        MESH.format("") + WALL + LOOP.format("variable v equal 0.1*${i}\n" + MOVE.format("linear ${v} 0 0") + "run 1\nunfix t\n"),
+        "\nvariable        lsdcd_t_v string ${v}\nfix_modify      w motion linear ${lsdcd_t_v} 0 0\nrun 1\nfix_modify      w motion none\n"),
+    "the first index of a name stays": (
+        "variable h index 1\nvariable h index 2\n" + MESH.format("surface_vel ${h} 0 0") + WALL, "surface_vel 1 0 0\n"),
+    "next takes the second index": (
+        "variable h index 1 2\nnext h\n" + MESH.format("surface_vel ${h} 0 0") + WALL, "surface_vel 2 0 0\n"),
+    "a formula is of the values where it is used": (
+        "variable a equal 1\nvariable b equal v_a*2\nvariable a equal 3\n" + MESH.format("surface_vel ${b} 0 0") + WALL, "surface_vel 6 0 0\n"),
+    "a sign is stronger than a power, and powers go from the left": (
+        "variable a equal -2^2+2^3^2\n" + MESH.format("surface_ang_vel origin 0 0 0 axis 0 0 1 omega ${a}") + WALL, "surface_angvel 0 0 68 0 0 0\n"),
+    "functions of a formula": (
+        "variable a equal sqrt(16)+floor(2.5)*(1<2)-ceil(PI)\n" + MESH.format("surface_ang_vel origin 0 0 0 axis 0 0 1 omega ${a}") + WALL,
+        "surface_angvel 0 0 2 0 0 0\n"),
+    "a variable in brackets, with a blank": (
+        "variable d equal 0.6\nregion b block $(-v_d/2 -0.1) $(v_d/2 +0.1) 0 1 0 1\ncreate_box 1 b\n"
+        "fix p all wall/gran model hertz tangential history primitive type 1 xplane 0.4\n", "xplane NULL 0.4\n"),
+    "a variable with a point behind it": ("variable rho equal 1000\nset group all diameter 0.1 density ${rho}.\n",
+                                          "set group all diameter 0.1 density ${rho}.\n"),
+    "a motion with the ID of another one replaces it": (
+        MESH.format("") + MOVE.format("linear 0 0 0.1") + MOVE.format("linear 0 0 0.2") + WALL, "mesh a.stl motion linear 0 0 0.2\n"),
+    "... after a run, too": (
+        MESH.format("") + WALL + MOVE.format("linear 0 0 0.1") + "run 1\n" + MOVE.format("linear 0 0 0.2"),
+        "run 1\nfix_modify      w motion linear 0 0 0.2\n"),
+    "... of another mesh, which stands then": (
+        MESH.format("") + LID + BOTH_WALL + MOVE.format("linear 0 0 0.1") + MOVE.replace("cad", "lid").format("linear 0 0 0.2"),
+        "fix_modify      w mesh 1 motion none\nfix_modify      w mesh 2 motion linear 0 0 0.2\n"),
+    "a motion that ends before its wall": (MESH.format("") + MOVE.format("linear 0 0 0.1") + "unfix t\n" + WALL, "\n                mesh a.stl\n"),
+    "an ID that is used again for another fix": (
+        "fix 1 all property/global k_finnie peratomtypepair 1 0\nunfix 1\nfix 1 all nve/sphere\nunfix 1\n", "\nfix 1 all nve/sphere\nunfix 1\n"),
+    "a fix that was left, and then is converted": (
+        ONE + "fix i all insert/pack seed 7 distributiontemplate none particles_in_region 9 region r\nunfix i\n"
+        "fix i all insert/pack seed 7 distributiontemplate d particles_in_region 9 region r\nunfix i\n", "count the grains of both\nunfix i\n", 1),
+    "a template, a distribution and a region that are used again": (
+        ONE + BEFORE + "fix i all insert/pack seed 7 distributiontemplate d all_in yes particles_in_region 9 region r\nrun 1\nunfix i\nunfix d\nunfix p1\n"
+        "region r delete\n" + ONE.replace("0.002", "0.003") + "region r block 2 3 0 1 0 1\n"
+        "fix i all insert/pack seed 7 distributiontemplate d all_in yes particles_in_region 9 region r\n",
+        "region          i_whole delete\n# unfix d\n# unfix p1\nregion r delete\n# p1: see the fixes that insert grains\n# p2: see the fixes that insert "
+        "grains\n# d: see the fixes that insert grains\nregion r block 2 3 0 1 0 1\nregion          i_whole block 2.003 2.997 0.003 0.997 0.003 0.997\n"),
+    "after clear all begins anew": (
+        MESH.format("") + WALL + "run 1\nclear\n" + MATERIAL.replace("pair 1 0.4", "pair 1 0.2") + MESH.format("scale 2") + WALL,
+        "0.907485213 0.2 &\n                mesh a.stl scale 2\n"),
+    "the boundary of the box is that of its line": (
+        ONE + BEFORE + "boundary f p f\ncreate_box 1 r\nfix i all insert/pack seed 7 distributiontemplate d particles_in_region 9 region r\n"
+        "clear\nboundary p p p\n", "region          i_whole block 0.002 0.998 0 1 0.002 0.998\n"),
+    "the period of a dump whose variable comes after the wall": (
+        MESH.format("") + WALL + "variable n equal round(1e-2/5e-5)\ndump d all mesh/stl ${n} d*.stl\n", "mesh_stl d_cad_*.stl every 200\n"),
+    "an output of a mesh before its wall": (
+        MESH.format("") + "thermo_style custom step f_cad[3]\n" + WALL, "\nvariable        cad_3 equal f_w[3]\nthermo_style custom step v_cad_3\n"),
+    "a jump in an if to this file": ('label l\nif "${n} > 1" then "jump in.there l"\n', 'then "jump SELF l"\n'),
+    "a cohesion of 0": (
+        "fix m5 all property/global cohesionEnergyDensity peratomtypepair 1 0\npair_style gran model hertz tangential history cohesion sjkr\n"
+        "pair_coeff * *\n" + MESH.format("") + WALL.replace("history", "history cohesion sjkr2"), "granular hertz/material 10000000 0.5"),
+    "a mesh without rolling beside one with it": (
+        "fix n1 all property/global youngsModulus peratomtype 1e7 1e7\nfix n2 all property/global poissonsRatio peratomtype 0.3 0.3\n"
+        "fix n3 all property/global coefficientRestitution peratomtypepair 2 0.5 0.5 0.5 0.5\n"
+        "fix n4 all property/global coefficientFriction peratomtypepair 2 0.4 0.4 0.4 0.4\n"
+        "fix n5 all property/global coefficientRollingFriction peratomtypepair 2 0.1 0 0 0\nfix n6 all property/global characteristicVelocity "
+        "scalar 2\ncreate_atoms 1 single 0 0 0\nset group all diameter 0.02 density 2500\n" + MESH.format("") + LID.replace("type 1", "type 2") +
+        BOTH_WALL.replace("hertz tangential history", "hooke tangential history rolling_friction cdt"), " 0.4 1 rolling cdt 0\n"),
+})
+LEFT.update({
+    "a number that is not known": (MESH.format("") + "fix n1 all property/global youngsModulus peratomtype ${young}\n" + WALL,
+                                   "'${young}' of in.there:6 is no number"),
+    "a variable that an if may change": (
+        'variable h equal 1\nif "${c} == 1" then "variable h equal 2"\n' + MESH.format("surface_vel ${h} 0 0"), "surface_vel of a variable"),
+    "a variable that a run changes": (
+        'variable h equal 1\nrun 9 every 3 "variable h equal 2"\n' + MESH.format("surface_vel ${h} 0 0"), "surface_vel of a variable"),
+    "a variable after a file that is not there": (
+        "variable h equal 1\ninclude none.in\n" + MESH.format("surface_vel ${h} 0 0"), "surface_vel of a variable"),
+    "an include that is not there": ("include none.in\n", "include of none.in"),
+    "a number of a loop": (LOOP.format(MESH.format("surface_vel ${i} 0 0")) + WALL, "the mesh cad, which is not converted"),
+    "a property of a loop": (
+        "label l\nvariable e index 0.3 0.5\nfix n3 all property/global coefficientRestitution peratomtypepair 1 ${e}\nclear\nnext e\njump SELF l\n" +
+        MATERIAL.replace("pair 1 0.5", "pair 1 ${e}") + MESH.format("") + WALL, "'${e}' of in.there:13 is no number"),
+    "a mesh that has moved, in a new wall": (
+        MESH.format("") + WALL + MOVE.format("linear 0 0 1") + "run 1\nunfix t\nunfix w\n" + WALL.replace("fix w", "fix v"), "the mesh cad, which has moved"),
+    "a mesh that has moved before its wall": (MESH.format("") + MOVE.format("linear 0 0 1") + "run 1\n" + WALL, "the mesh cad, which has moved"),
+    "a servo in a new wall": (SERVO + WALL + "run 1\nunfix w\n" + WALL, "the mesh cad, which has moved"),
+    "a worn mesh in a new wall": (
+        "fix k all property/global k_finnie peratomtypepair 1 1e-9\n" + MESH.format("wear finnie") + WALL + "run 1\n" + WALL, "the mesh cad, which has worn"),
+    "a mesh that moves in an if, in a new wall": (
+        MESH.format("") + WALL + MOVE.format("linear 0 0 1") + 'if "${c} == 1" then "run 1"\n' + WALL.replace("fix w", "fix v"), "a second wall of a mesh that moves"),
+    "a motion of one of two that goes on": (
+        MESH.format("") + WALL + MOVE.format("linear 1 0 0") + MOVE.replace("t all", "u all").format("linear 0 1 0") + MOVE.format("linear 0 0 1"),
+        "one of several motions of cad is replaced"),
+    "a motion beside one that a jump may skip": (
+        MESH.format("") + WALL + SKIP.format(MOVE.format("linear 1 0 0")) + MOVE.replace("t all", "u all").format("linear 0 1 0"),
+        "a motion of cad beside another one"),
+    "a mesh that a jump may skip": (SKIP.format(MESH.format("")) + WALL, "fix cad of in.there:6, which a jump may skip"),
+    "a material that a jump may skip": (MESH.format("") + SKIP.format(MATERIAL.splitlines()[3] + "\n") + WALL, "fix m4 of in.there:7, which a jump may skip"),
+    "a region that a jump may skip": (
+        ONE + BEFORE + SKIP.format("region r delete\nregion r block 2 3 0 1 0 1\n") +
+        "fix i all insert/pack seed 7 distributiontemplate d all_in yes particles_in_region 9 region r\n", "region r of in.there:11, which a jump may skip"),
+    "a density that a jump may skip": (
+        "create_atoms 1 single 0 0 0\nset group all density 2500\n" + SKIP.format("set group all density 1000\n") + "set group all diameter 0.02\n",
+        "set diameter of grains whose density"),
+    "a density of a group that has grown": (
+        "create_atoms 1 single 0 0 0\nset group all density 1000\nset group a density 2500\ngroup a id 5\nset group a diameter 0.02\n",
+        "set diameter of grains whose density"),
+    "hooke of diameters in lines of their own": (
+        "fix m5 all property/global characteristicVelocity scalar 2\nset group all diameter 0.02 density 2500\nset group a diameter 0.03\n"
+        "pair_style gran model hooke\n", "model hooke has a stiffness for each mass"),
+    "a pack after a change of the box": (
+        ONE + BEFORE + "create_box 1 r\nchange_box all x final 0 2\nfix i all insert/pack seed 7 distributiontemplate d particles_in_region 9 region r\n",
+        "insertion into region r after a change of the box"),
+    "a template whose radius is not constant now": (
+        ONE + "unfix p1\nfix p1 all particletemplate/sphere 1 atom_type 1 radius uniform 0.002 0.003 density constant 2500\n"
+        "fix i all insert/pack seed 7 distributiontemplate d particles_in_region 9 region r\n", "insertion of grains that are no spheres"),
+    "a mass flow through a mesh that moves": (
+        MESH.format("") + WALL + MOVE.format("linear 1 0 0") + "fix flow all massflow/mesh mesh cad vec_side 0 0 1\n", "massflow/mesh of the mesh cad, which moves"),
+    "a jump in an if to another file": ('if "${n} > 1" then "jump in.other l"\n', "a jump to another file"),
+})
+# What stands behind these lines, or with lines below them: the line that is left, and why.
+LEFT_INSIDE = {
+    "a pack in a loop, which finds the grains of the turn before": (
+        ONE + BEFORE + LOOP.format("fix i all insert/pack seed 7 distributiontemplate d particles_in_region 9 region r\nrun 1\nunfix i\n"),
+        "fix i", "insert/pack into a region that may have grains"),
+    "a wall in a loop, whose mesh has moved in the turn before": (
+        MESH.format("") + LOOP.format(WALL + MOVE.format("linear 0 0 1") + "run 1\nunfix t\nunfix w\n"), "fix w", "the mesh cad, which has moved"),
+    "a motion in a loop beside one that goes on": (
+        MESH.format("") + WALL + MOVE.replace("t all", "u all").format("linear 0 0 1") + LOOP.format(MOVE.format("linear 0 1 0") + "run 1\nunfix t\n"),
+        "fix t", "a second motion of cad that begins later"),
+    "a motion in a loop beside one that stays": (
+        MESH.format("") + WALL + LOOP.format(MOVE.format("linear 0 1 0") + MOVE.replace("t all", "u all").format("linear 0 0 1") + "run 1\nunfix t\n"),
+        "fix t", "a motion of cad beside another one"),
+    "a motion before its wall that a jump may skip": (
+        MESH.format("") + SKIP.format(MOVE.format("linear 0 1 0")) + WALL, "fix t", "fix t of in.there:7, which a jump may skip"),
+    "a mesh that changes in a loop": (
+        MESH.format("") + LOOP.format(WALL + "run 1\nunfix w\nunfix cad\n" + MESH.format("scale 2")), "fix w", "fix cad of in.there:5, which a jump may change"),
+    "a rate with another timestep": (
+        ONE + BEFORE + "fix i all insert/rate/region seed 7 distributiontemplate d massrate 0.1 insert_every 9 region r\nrun 1\ntimestep 1e-5\nrun 1\n",
+        "fix i", "insert/rate/region with a rate, and another timestep"),
+    "waves and a step that is reset": (
+        MESH.format("") + WALL + MOVE.format("vibrot origin 0 0 0 axis 0 0 1 order 1 amplitude 1 phase 0 period 1") + "run 1\nreset_timestep 0\n",
+        "fix t", "a motion by waves before reset_timestep"),
+    "an output of one grain in a loop": ("label l\nvariable a equal omegax[1]\njump SELF l\n", "variable a", "omegax[...] of a variable in a loop"),
+    "a suspension over the runs of a loop": (
+        BODY.format("forceflags 0 0 1 torqueflags 0 0 0 suspension k_t 1 c_t 2 k_r 3 c_r 4") + LOOP.format("run 1\n"), "fix cad", "suspension of a mesh"),
+}
 REFUSED = {
     "a mesh that is missing": (MATERIAL + WALL.replace("meshes cad", "meshes b") + MESH.format(""), "there is no mesh b"),
-    "a number that is not known": (MATERIAL.replace("1e7", "${young}") + MESH.format("") + WALL, "'${young}' is no number"),
     "a property that is missing": (MATERIAL.split("fix m3")[0] + MESH.format("") + WALL, "needs fix property/global"),
     "a command without its words": ("fix w all wall/gran model hertz mesh n_meshes 1 meshes\n", "words are missing"),
     "a motion without its words": (MATERIAL + MESH.format("") + WALL + "fix t all move/mesh mesh cad wiggle\n", "words are missing"),
@@ -424,15 +588,18 @@ def convert(folder, text, name="in.there", more=()):
 
 
 def words(checks, folder):
-    for what, (text, expected) in WRITTEN.items():
+    for what, (text, expected, *left) in WRITTEN.items():
         done, out = convert(folder, MATERIAL + text)
-        checks.fact(what, done.returncode == 0 and expected in out and "\n# LEFT" not in out, done.stderr)
+        checks.fact(what, done.returncode == 0 and expected in out and out.count("\n# LEFT") == (left or [0])[0], done.stderr)
     for what, (text, reason) in LEFT.items():
         done, out = convert(folder, MATERIAL + text)
         line = MATERIAL.count("\n") + text.count("\n")
         form = rf"^# LEFT in\.there:{line}: {re.escape(reason)}.*; do: \S.*\n# {re.escape(text.splitlines()[-1])}$"
         checks.fact(f"left: {what}", done.returncode == 0 and re.search(form, out, re.M) and
                     f"in.there:{line}" in done.stderr, done.stderr)
+    for what, (text, begin, reason) in LEFT_INSIDE.items():
+        done, out = convert(folder, MATERIAL + text)
+        checks.fact(f"left: {what}", re.search(rf"^# LEFT in\.there:\d+: {re.escape(reason)}.*\n# {begin} ", out or "", re.M), done.stderr)
     for what, (text, reason) in REFUSED.items():
         done, out = convert(folder, text)
         checks.fact(f"refused, and nothing written: {what}", done.returncode == 1 and out is None and reason in done.stderr and
@@ -536,6 +703,38 @@ def surfaces(checks, folder):
     (folder / "a.stl").unlink()
 
 
+def included(checks, folder):
+    """The lines of include stand in place of it."""
+    (folder / "mat.in").write_text("variable mu equal 0.7    # of the floor\nfix k all rigid/none single\n")
+    (folder / "loop.in").write_text("label l\nnext i\njump SELF l\n")
+    text = "variable part index mat\ninclude ${part}.in\n" + MATERIAL.replace("pair 1 0.4", "pair 1 ${mu}") + MESH.format("") + WALL
+    done, out = convert(folder, text)
+    checks.fact("an include is read, and its lines have its name", "# include ${part}.in: its lines follow\nvariable mu equal 0.7    # of the floor\n# LEFT "
+                "mat.in:2: fix rigid/none" in out and " 0.7 &\n                mesh a.stl\n" in out and "commands left: 1" in done.stderr, done.stderr)
+    done, out = convert(folder, text.replace("${part}", "loop"))
+    checks.fact("one with loops is left, and what needs it", "# LEFT in.there:2: include of loop.in" in out and
+                "# LEFT in.there:8: '${mu}' of in.there:6 is no number" in out and "commands left: 2" in done.stderr, done.stderr)
+    for name in ("mat.in", "loop.in"):
+        (folder / name).unlink()
+
+
+def nearest(checks, folder):
+    """Rolling of LIGGGHTS that LAMMPS does not have: its nearest lines wait as comments, and the rest goes on."""
+    rolling = "hertz tangential history rolling_friction "
+    text = (MATERIAL + ROLLS + f"pair_style gran model {rolling}epsd2\npair_coeff * *\n" + MESH.format("") +
+            WALL.replace("hertz tangential history", rolling + "cdt") + "region b block 0 1 0 1 0 1\ncreate_box 1 b\n"
+            f"fix p all wall/gran model {rolling}cdt primitive type 1 zplane 0\n" + MOVE.format("linear 1 0 0") +
+            "thermo_style custom step f_cad[3]\nunfix w\n")
+    done, out = convert(folder, text)
+    # 8 G* sqrt(R 0.001 R), and 1/G* = 4 (2 - nu) (1 + nu) / E.
+    k = f"{8 * 1e7 / (4 * 1.7 * 1.3) * 0.01 * math.sqrt(1e-3):.3g}"
+    sds = f" rolling sds {float(k):.10g} 0 0.1"
+    checks.fact("the nearest pair style, wall and plane stand as comments", "\n#: pair_style      granular\n#: pair_coeff      * * hertz " in out and
+                out.count(sds) == 3 and f"0.4{sds} &\n#:                 mesh a.stl\n" in out and "\n#: fix             p all wall/gran granular" in out and
+                "commands left: 3" in done.stderr, out)
+    checks.fact("the motion and the output of its mesh stay", "\nfix_modify      w motion linear 1 0 0\nthermo_style custom step f_w[3]\nunfix w\n" in out, out)
+
+
 def sweeping(checks, folder):
     """sweep.py counts commands and what is left."""
     (folder / "a").mkdir()
@@ -583,11 +782,17 @@ def whole_scripts(checks, folder):
     checks.fact("a property that changes is no number", "LEFT in.there:6: coefficientFriction, which changes in the script" in out)
     _, out = convert(folder, MATERIAL + changed + MESH.format("") + WALL)
     checks.fact("the last value before the wall counts", " 0.6 &\n" in out)
-    done, out = convert(folder, MATERIAL.replace("1e7", "${young}") + "variable young equal 1e7\n" + MESH.format("") + WALL +
-                        "variable young equal 2e7\n")
-    checks.fact("a variable with two values is no number", out is None and "'${young}' is no number" in done.stderr, done.stderr)
+    young = "variable young equal {}\n"
+    _, out = convert(folder, young.format("1e7") + MATERIAL.replace("1e7", "${young}") + young.format("2e7") + MESH.format("") + WALL)
+    checks.fact("a material has the value of its line", "granular hertz/material 10000000 0.5" in out and "\n# LEFT" not in out, out)
+    _, out = convert(folder, young.format("1e7") + MATERIAL.replace("1e7", "${young}") + young.format("2e7") + MESH.format("") + WALL +
+                     "run 1\nfix m1 all property/global youngsModulus peratomtype ${young}\n")
+    checks.fact("a material with the same words and another value changes", "LEFT in.there:8: youngsModulus, which changes in the script" in out, out)
     _, out = convert(folder, MATERIAL + MESH.format("") + "variable f equal f_cad[3]\n" + WALL + WALL.replace("fix w", "fix v"))
     checks.fact("which of two later walls a variable is of is not known", "LEFT in.there:6: element 3 of f_cad" in out, out)
+    _, out = convert(folder, MATERIAL + MESH.format("") + LID + WALL + "thermo_style custom step f_cad[3]\nrun 1\nunfix w\n" + BOTH_WALL)
+    checks.fact("outputs above, of a mesh that is in another wall now, are left", re.search(
+        "^# LEFT in.there:11: outputs of cad that lines above take from another wall.*\nfix  .*&\n +mesh a.stl &\n +mesh b.stl$", out, re.M), out)
     waves = "fix t all move/mesh mesh cad vibrot origin 0 0 0 axis 0 0 1 order 1 amplitude 1 phase 0 period 1\n"
     for more, left in (("", False), ("timestep 1e-4\nrun 1\n", False), ("run 1\ntimestep 1e-4\nrun 1\n", True)):
         _, out = convert(folder, MATERIAL + MESH.format("") + WALL + waves + more)
@@ -703,6 +908,20 @@ PHYSICS = {
               "fix t all move/mesh mesh cad viblin axis 1 0 0 order 2 amplitude 0.001 0.0005 phase -1.5707963268 1 period 0.08 0.04\n"
               "variable arm equal f_cad[5]/f_cad[3]\nthermo_style custom step f_cad[3] f_cad[5]\nrun 2000\n", "${arm}",
               [(0.001 * WAVES - 1e-6, 0.001 * WAVES + 1e-6)]),
+    # A motion with the ID of another one takes its place, before its wall and after a run: 0.1 and -0.05 for 1000 steps each.
+    "replaced": ("hertz", SLIDE.replace("SPEED", "0").replace("FILE", "flat.stl").replace("WORDS", "").replace(
+        "fix w ", "fix t all move/mesh mesh cad linear 0.3 0 0\nfix t all move/mesh mesh cad linear 0.1 0 0\nfix w ") +
+        "variable arm equal f_cad[5]/f_cad[3]\nthermo_style custom step f_cad[3] f_cad[5]\nrun 1000\n"
+        "fix t all move/mesh mesh cad linear -0.05 0 0\nrun 1000\n", "${arm}", [(0.0005 - 1e-6, 0.0005 + 1e-6)]),
+    # Variables with other values at the wall. A quarter of a period: the amplitude, to half a step of the speed.
+    "at_its_line": ("hertz", "variable h equal 0\nvariable p equal 0.08\n" + SLIDE.replace("SPEED", "0").replace("FILE", "flat.stl").replace(
+        "WORDS", "move 0 0 ${h}").replace("fix w ", "fix t all move/mesh mesh cad wiggle amplitude 0.001 0 0 period ${p}\nvariable h equal -0.05\n"
+                                          "variable p equal 3\nfix w ") +
+        "variable arm equal f_cad[5]/f_cad[3]\nthermo_style custom step f_cad[3] f_cad[5]\nrun 2000\n", "${arm}", [(0.001 - 1e-6, 0.001 + 1e-6)]),
+    # 0.1, 0.2 and 0.3 for 500 steps each.
+    "loop": ("hertz", SLIDE.replace("SPEED", "0").replace("FILE", "flat.stl").replace("WORDS", "") +
+             "variable arm equal f_cad[5]/f_cad[3]\nthermo_style custom step f_cad[3] f_cad[5]\nlabel l\nvariable i loop 3\nvariable v equal 0.1*${i}\n"
+             "fix t all move/mesh mesh cad linear ${v} 0 0\nrun 500\nunfix t\nnext i\njump in.there l\nrun 1\n", "${arm}", [(0.003 - 1e-6, 0.003 + 1e-6)]),
     # 50000 a second for 400 steps.
     "unfix": (HERTZ, POUR + EDGES + "variable n equal atoms\nregion box1 block 0 0.2 0 0.2 0 0.2 units box\nfix ins all insert/rate/region "
               "seed 32452843 distributiontemplate d1 nparticles 100000 particlerate 50000 insert_every 100 region box1\nrun 400\n"
@@ -777,11 +996,18 @@ def grain_types(checks, folder):
            "fix m3 all property/global coefficientRestitution peratomtypepair 2 0.5 0.5 0.5 0.5\n"
            "fix m4 all property/global coefficientFriction peratomtypepair 2 0.4 0.2 0.2 0.3\n{}pair_style gran model hertz tangential history\n"
            "pair_coeff * *\n" + MESH.format("") + WALL)
+    data = "a file\n\n1 atoms\n2 atom types\n\n-1 1 xlo xhi\n\nAtoms\n\n1 1 0.1 1000 0 0 0\n2 2 0.1 1000 0 0 0\n"
+    (folder / "grains_5.data").write_text(data)
     for name, grains in (("by set", "create_atoms 1 single 0 0 0\nset region r type 2\n"), ("by a restart file", "read_restart a\n"),
+                         ("by set type/fraction", "create_atoms 1 single 0 0 0\nset group all type/fraction 2 0.5 15485863\n"),
+                         ("by a file whose name has an index", "variable n index 5\nread_data grains_${n}.data\n"),
+                         ("by a file that is not there", "create_atoms 1 single 0 0 0\nread_data grains_6.data\n"),
+                         ("by a type that is not known", "create_atoms ${t} single 0 0 0\n"),
                          ("by what is not known", "")):
         _, out = convert(folder, two.format(grains))
         checks.fact(f"two types {name}", re.search(r"law types 2 granular .* 0\.2$", out, re.M) and
                     [line.split()[1:3] for line in re.findall("^pair_coeff.*", out, re.M)] == [["*", "*"], ["1", "2"], ["2", "2"]], out)
+    (folder / "grains_5.data").unlink()
 
 
 def figures(text, name):
@@ -814,6 +1040,6 @@ if __name__ == "__main__":
         words(facts, place)
         two_materials(facts, place)
         several_materials(facts, place)
-        for part in (ids, grain_types, winding, surfaces, whole_scripts, sweeping, physics):
+        for part in (ids, grain_types, winding, surfaces, included, nearest, whole_scripts, sweeping, physics):
             part(facts, place)
     facts.done(place)
