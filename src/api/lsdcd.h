@@ -724,7 +724,7 @@ LSDCD_API int lsdcd_wall_set_pose(lsdcd_wall *wall, int mesh, const double *posi
 /* Where the vertices of a mesh with `nodes_by_caller` are in the next step and those after it, and how fast they go, in
  * the box: 3 numbers each, in the order of lsdcd_mesh_get_arrays(), whose `welded_vertex` leads to them from the vertices of a
  * file. Between the three nodes of a triangle places and velocities are linear. Until the first call they are as the
- * placement has them, at rest. Triangles stay the same.
+ * placement has them, at rest; after lsdcd_wall_restore() where they were saved. Triangles stay the same.
  *
  * positions: length. velocities: length/time, of the time of the spheres' velocities: with velocity Verlet half a step
  * before the positions; null: all are 0. Both are copied, and are the same on all processes. A wall with device LSDCD_CUDA

@@ -14,6 +14,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <cstring>
 #include <string>
 
@@ -59,6 +60,14 @@ MeshNodes::~MeshNodes() = default;
 std::string MeshNodes::named(const std::string &text) const
 {
   return with_mesh_name(wall_, index_, text);
+}
+
+// Names a node as the host does, or by its number.
+std::string MeshNodes::node_text(std::size_t i) const
+{
+  if (names.empty()) return "node " + std::to_string(i) + " (from 0)";
+  return std::string(host_.names().sphere) + " " +
+         std::to_string(static_cast<std::int64_t>(names[i])) + ", a node,";
 }
 
 // ---- where they are ----------------------------------------------------------------------
@@ -108,13 +117,13 @@ void MeshNodes::check_way(const Step &step, Real cutoff, Real most, const std::v
   farthest(from, to, node);
   if (!std::isfinite(most) && !std::isfinite(norm(to[node])))
     throw InputError(
-        named("node " + std::to_string(node) +
-              " (from 0) has a position that is not finite: the motion of the nodes is unstable, "
+        named(node_text(node) +
+              " has a position that is not finite: the motion of the nodes is unstable, "
               "or a node was lost; use a shorter timestep or more damping"));
   if (is_too_far)
-    throw InputError(named("node " + std::to_string(node) + " (from 0) has moved by " +
-                           number_text(most) + " in step " + std::to_string(step.number) +
-                           ", more than the largest radius " + number_text(cutoff) +
+    throw InputError(named(node_text(node) + " has moved by " + number_text(most) + " in step " +
+                           std::to_string(step.number) + ", more than the largest radius " +
+                           number_text(cutoff) +
                            ": it may have passed through a sphere; use a shorter timestep"));
 }
 
@@ -123,8 +132,8 @@ void MeshNodes::check_velocities(const std::vector<Vec3> &v) const
   for (std::size_t i = 0; i < v.size(); i++)
     for (int d = 0; d < 3; d++)
       if (!std::isfinite(v[i][d]))
-        throw InputError(named("the velocity of node " + std::to_string(i) + " (from 0) is " +
-                               number_text(v[i][d]) + ", which is not finite"));
+        throw InputError(named("the velocity of " + node_text(i) + " is " + number_text(v[i][d]) +
+                               ", which is not finite"));
 }
 
 void MeshNodes::move_here(const Step &step, Real cutoff)
@@ -284,6 +293,27 @@ void MeshNodes::give_nodes(WallEngine &engine)
   engine.set_grid(records_.view(), index_);
   engine_ = engine.nodes_in_place();
   engine_->start_nodes(index_, now());
+}
+
+// ---- saved states ------------------------------------------------------------------------
+
+NodeState MeshNodes::save() const
+{
+  NodeState all = {names, {}};
+  for (const Vec3 &x : mesh().vertices) all.places.insert(all.places.end(), {x.x, x.y, x.z});
+  return all;
+}
+
+void MeshNodes::restore(const NodeState &was)
+{
+  names = was.names;
+  springs_are_new_ = was.places.empty();
+  if (springs_are_new_) return;
+  std::vector<Vec3> set = std::move(next_), set_velocity = std::move(next_velocity_);
+  this->set(was.places.data(), nullptr);
+  move_here({0, 0, Step::setup}, 0);
+  next_ = std::move(set);
+  next_velocity_ = std::move(set_velocity);
 }
 
 // ---- springs -----------------------------------------------------------------------------

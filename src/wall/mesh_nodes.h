@@ -19,6 +19,13 @@
 
 namespace lsdcd {
 
+// The nodes of a mesh in a saved state, in the order of its vertices.
+struct NodeState {
+  std::vector<Real> names;    // of the particles of the host that are nodes; empty: it has none
+  std::vector<Real>
+      places;    // x y z of each (length); empty: no nodes, or a state without their places
+};
+
 class MeshNodes {
  public:
   // The mesh with this number, from 0, as it was welded: its nodes are there, at rest, until they are set. Host and
@@ -63,8 +70,11 @@ class MeshNodes {
 
   // Turns the springs of spheres [0, n) with their features since the last step.
   void turn_springs(WallEngine &engine, int n);
-  // Springs from elsewhere are of the step that comes.
-  void forget_turns() { springs_are_new_ = true; }
+  // For a saved state: where the nodes are, and their names.
+  NodeState save() const;
+  // Before the first step: nodes are where they were saved, to which springs belong, until the next step begins. A state
+  // without places has springs of the step that comes.
+  void restore(const NodeState &was);
 
   // After a step: what its contacts do to the nodes, on this process.
   void sum_forces(WallEngine &engine);
@@ -91,6 +101,7 @@ class MeshNodes {
 
  private:
   std::string named(const std::string &text) const;
+  std::string node_text(std::size_t i) const;
   void find_spins();
   NodesNow now() const;
   void give_nodes(WallEngine &engine);

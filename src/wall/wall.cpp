@@ -845,7 +845,7 @@ WallState Wall::save()
                           m.motion.state(),
                           {loads.time(), loads.packed()},
                           m.body ? m.body->state() : BodyState(),
-                          {m.nodes ? m.nodes->names : std::vector<Real>()},
+                          m.nodes ? m.nodes->save() : NodeState(),
                           {},
                           m.wear ? m.wear->save(m.grid.mesh()) : ShapeState()});
   }
@@ -899,11 +899,8 @@ bool Wall::is_restored(const MeshPart &m, const MeshState &was, bool one_of_many
 
 void Wall::restore_mesh(MeshPart &m, const MeshState &was, const Step &now)
 {
-  m.motion.restore(was.motion, now);
-  if (m.nodes) {
-    m.nodes->forget_turns();
-    m.nodes->names = was.nodes.names;
-  }
+  if (!m.nodes) m.motion.restore(was.motion, now);
+  restore_nodes(m, was.nodes);
   if (m.body) {
     m.body->restore(was.body);
     m.spec.motion.set_pose(m.body->body().pose());
@@ -923,6 +920,24 @@ void Wall::restore_mesh(MeshPart &m, const MeshState &was, const Step &now)
                " was written with another mesh");
   else
     loads_.restore(m.index, was.loads.time, was.loads.rows);
+}
+
+// Those of another mesh are in another order, and as many as it has vertices.
+void Wall::restore_nodes(MeshPart &m, const NodeState &was)
+{
+  const std::string saved = host_.names().saved;
+  if (m.nodes && !m.springs_are_foreign) {
+    m.nodes->restore(was);
+  } else if (m.nodes && !was.places.empty()) {
+    host_.warn(named(m, "the " + saved +
+                            " was written with another mesh: the nodes begin at the vertices of "
+                            "this one, whatever they were there"));
+  } else if (!was.places.empty()) {
+    host_.warn(
+        named(m, "the " + saved +
+                     " has nodes of this mesh that had moved, and here it has none: the mesh "
+                     "has the shape of its file"));
+  }
 }
 
 void Wall::restore_shape(MeshPart &m, const ShapeState &was)

@@ -225,6 +225,7 @@ class Wall {
   static MeshIdentity identity_of(const MeshPart &m);
   bool is_restored(const MeshPart &m, const MeshState &was, bool one_of_many) const;
   void restore_mesh(MeshPart &m, const MeshState &was, const Step &now);
+  void restore_nodes(MeshPart &m, const NodeState &was);
   void restore_shape(MeshPart &m, const ShapeState &was);
 
   Host &host_;

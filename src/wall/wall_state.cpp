@@ -160,6 +160,7 @@ State WallState::blocks() const
     if (m.loads.time > 0 || !m.loads.rows.empty()) mesh.add("loads", 1, m.loads);
     if (m.body.present) mesh.add("body", 1, m.body);
     if (!m.nodes.names.empty()) mesh.add("nodes", 1, m.nodes);
+    if (!m.nodes.places.empty()) mesh.add("places of nodes", 1, m.nodes.places);
     if (!m.coat.empty()) mesh.add("coat", 1, m.coat);
     if (!m.shape.vertices.empty()) mesh.add("shape", 1, m.shape);
     all.add("mesh", 1, mesh);
@@ -186,9 +187,13 @@ WallState WallState::from(const State &state)
     mesh.find("loads", 1, m.loads);
     mesh.find("body", 1, m.body);
     mesh.find("nodes", 1, m.nodes);
+    mesh.find("places of nodes", 1, m.nodes.places);
     mesh.find("coat", 1, m.coat);
     mesh.find("shape", 1, m.shape);
     const std::size_t n = static_cast<std::size_t>(std::max<std::int64_t>(0, m.mesh.vertices));
+    if ((!m.nodes.names.empty() && m.nodes.names.size() != n) ||
+        (!m.nodes.places.empty() && m.nodes.places.size() != 3 * n))
+      throw StateError("the nodes in the data of the wall are not those of the mesh's vertices");
     const ShapeState &s = m.shape;
     if (!s.vertices.empty() &&
         (s.vertices.size() != 3 * n || s.pending.size() != 4 * n || s.held.size() != n))

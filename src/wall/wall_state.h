@@ -7,6 +7,7 @@
 #include "base/state_blocks.h"
 #include "wall/mesh_body.h"
 #include "wall/mesh_motion.h"
+#include "wall/mesh_nodes.h"
 #include "wall/mesh_wear.h"
 
 #include <cstddef>
@@ -31,11 +32,6 @@ struct MeshIdentity {
 struct LoadState {
   Real time = 0;             // of the average
   std::vector<Real> rows;    // of all processes, as of MeshLoads::packed()
-};
-
-// The particles of the host that are nodes of a mesh.
-struct NodeState {
-  std::vector<Real> names;    // in the order of its vertices; empty: the host has none
 };
 
 struct MeshState {

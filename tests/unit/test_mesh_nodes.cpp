@@ -918,6 +918,95 @@ TEST(mesh_nodes, that_come_to_a_periodic_face_are_an_error)
   EXPECT_NO_THROW(forces_of_waves({0, 0, 2.6}, 0));    // its faces along z are not periodic
 }
 
+// ---- saved states ------------------------------------------------------------------------
+
+// A grain that a turning sheet drags along, with springs of friction: step i.
+void turn_sheet(Scene &scene, const WeldedMesh &mesh, int i)
+{
+  MotionTerm turn;
+  turn.kind = MotionKind::rotate;
+  turn.axis = {0.6, 0, 0.8};
+  turn.period = 0.1;
+  RigidMotion motion;
+  motion.add(turn);
+  const PosedNodes at(mesh, motion.pose_at(i * kDt), i > 0 ? kDt / 2 : 0);
+  scene.set_nodes(at.at, at.velocity);
+  if (i == 0)
+    scene.set_up();
+  else
+    scene.next();
+}
+
+// Without the places of nodes the springs would miss the turn of the step after the restore, of 0.06.
+TEST(mesh_nodes, go_on_from_a_saved_state_with_the_same_bits)
+{
+  const auto mesh = welded(floor_mesh(2, 1));
+  FakeHost host, other_host;
+  Scene first(host, nodes_of(all_motions(), mesh));
+  first.add({0.3, 0.2, 0.46});
+  first.v[0] = {0.1, 0.4, 0};
+  for (int i = 0; i <= 10; i++) turn_sheet(first, *mesh, i);
+  const WallState saved = first.wall->save();
+  std::vector<Real> packed(first.wall->history().max_packed_size());
+  const int size = first.wall->pack_saved(0, packed.data());
+
+  Scene second(other_host, nodes_of(all_motions(), mesh));
+  static_cast<Grains &>(second) = first;
+  second.wall->history().grow(1);
+  second.wall->restore(saved, {10, kDt});
+  second.wall->history().unpack_saved(0, packed.data(), size);
+  EXPECT_EQ(second.nodes(), first.nodes());
+  second.now = 10;
+  second.set_up();
+  turn_sheet(first, *mesh, 11);
+  turn_sheet(second, *mesh, 11);
+  EXPECT_GT(norm(first.force[0]), 1);
+  EXPECT_EQ(second.force[0], first.force[0]);
+  EXPECT_EQ(second.torque[0], first.torque[0]);
+}
+
+TEST(mesh_nodes, of_another_mesh_are_not_those_of_a_saved_state)
+{
+  const auto mesh = welded(floor_mesh(2, 1)), other = welded(floor_mesh(3, 1));
+  FakeHost host, other_host;
+  Scene first(host, nodes_of(hooke(1000).law(), mesh));
+  first.wall->nodes(0).names.assign(mesh->vertices.size(), 7);
+  Scene second(other_host, nodes_of(hooke(1000).law(), other));
+  second.wall->restore(first.wall->save(), {0, kDt});
+  EXPECT_TRUE(second.wall->nodes(0).names.empty());
+  EXPECT_EQ(second.nodes(), other->vertices);
+  ASSERT_EQ(other_host.warnings.size(), 1u);
+  EXPECT_NE(other_host.warnings[0].find("was written with another mesh"), std::string::npos);
+}
+
+// What moved a rigid mesh does not move nodes, and nodes do not move a rigid mesh: the log says where it is.
+TEST(mesh_nodes, do_not_take_the_motion_of_a_saved_state)
+{
+  const auto mesh = welded(floor_mesh(2, 1));
+  WallSpec moving = wall_of(hooke(1000).law(), mesh);
+  MotionTerm lift;
+  lift.kind = MotionKind::linear;
+  lift.velocity = {0, 0, 100};
+  moving.meshes.front().motion.add(lift);
+  FakeHost host, nodes_host, rigid_host;
+  Scene lifted(host, moving);
+  lifted.set_up();
+  lifted.run(3);
+  Scene nodes(nodes_host, nodes_of(hooke(1000).law(), mesh));
+  nodes.wall->restore(lifted.wall->save(), {3, kDt});
+  nodes.now = 3;
+  nodes.add({0.3, 0.2, kRadius - 0.01});
+  nodes.set_up();
+  nodes.next();
+  EXPECT_NEAR(nodes.force[0].z, 1000 * 0.01, 1e-10);
+  EXPECT_EQ(nodes.nodes(), mesh->vertices);
+
+  Scene rigid(rigid_host, wall_of(hooke(1000).law(), mesh));
+  rigid.wall->restore(nodes.wall->save(), {3, kDt});
+  ASSERT_EQ(rigid_host.warnings.size(), 1u);
+  EXPECT_NE(rigid_host.warnings[0].find("the mesh has the shape of its file"), std::string::npos);
+}
+
 // ---- what is refused ---------------------------------------------------------------------
 
 TEST(mesh_nodes, that_jump_past_a_sphere_are_an_error)

@@ -774,7 +774,7 @@ class Wall(_Owner):
         """Where the vertices of mesh number `mesh`, from 0, which has nodes_by_caller, are in the next step and those
         after it, and how fast they go. Between the nodes of a triangle both are linear.
 
-        positions: (vertices, 3), length, in the order of Mesh.vertices. velocities: (vertices, 3), length/time, of the
+        positions: (vertices, 3), length, in the order of Mesh.arrays().vertices. velocities: (vertices, 3), length/time, of the
         time of the spheres' velocities: with velocity Verlet half a step before the positions; None: all are 0. The same on
         all processes. With device="cuda" both may be contiguous float64 arrays on the device, which are read in the order of
         the wall's stream. Raises Error for a mesh that there is not or that has no such nodes and for a number that is not
