@@ -205,7 +205,23 @@ void FixWallLsdcd::init_nodes()
         "the wall has no effect in a minimization, and its nodes would move without it: unfix the "
         "wall before");
   if (!node_atoms.empty()) need_nodes();
-  for (NodeAtoms &nodes : node_atoms) nodes.init(*wall, groupbit);
+  for (NodeAtoms &nodes : node_atoms)
+    note(nodes.init(*wall, groupbit, watch.may_be_snapshot(*update)));
+}
+
+// A run without setup begins with atoms that may have other IDs.
+void FixWallLsdcd::check_node_tags()
+{
+  if (node_atoms.empty()) return;
+  need_nodes();
+  run_core([&] {
+    for (NodeAtoms &nodes : node_atoms) note(nodes.check_tags(*wall));
+  });
+}
+
+void FixWallLsdcd::note(const std::string &text)
+{
+  if (!text.empty()) warn(text);
 }
 
 // LAMMPS knows which pairs are left out once it has set up its lists.
@@ -311,8 +327,10 @@ void FixWallLsdcd::pre_force(int vflag)
   v_init(vflag);
   rerun = false;
   if (neighbor->ago == 0 && callbacks) ask_for_most_room();
-  const bool anew = neighbor->ago == 0 ||
-                    (update->ntimestep == update->firststep + 1 && set_up_at != update->firststep);
+  const bool without_setup =
+      update->ntimestep == update->firststep + 1 && set_up_at != update->firststep;
+  if (without_setup) check_node_tags();
+  const bool anew = neighbor->ago == 0 || without_setup;
   if (!adapts) begin(anew);
 }
 
@@ -404,7 +422,7 @@ void FixWallLsdcd::begin(bool look)
   lsdcd::StepInput input = step_input(look);
   input.inputs = read_inputs();
   if (!node_atoms.empty()) need_nodes();
-  for (NodeAtoms &nodes : node_atoms) nodes.send(*wall, look);
+  for (NodeAtoms &nodes : node_atoms) nodes.send(*wall, look, input.step);
   begin_step(input);
   if (input.new_spheres && wall->cutoff() > 0) counted_atoms = atom->natoms;
 }

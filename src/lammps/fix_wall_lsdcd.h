@@ -136,6 +136,8 @@ class FixWallLsdcd : public Fix, protected OwnMessages {
   void check_heat() const;
   void init_bodies();
   void init_nodes();
+  void check_node_tags();
+  void note(const std::string &);
   void warn_of_pairs();
   void check_types(const lsdcd::WallSpec &) const;
 };

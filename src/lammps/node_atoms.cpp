@@ -10,13 +10,17 @@
 
 #include "atom.h"
 #include "domain.h"
+#include "fix.h"
 #include "group.h"
 #include "lammps.h"
+#include "modify.h"
 
 #include <mpi.h>
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
+#include <numeric>
 
 using namespace LAMMPS_NS;
 using lsdcd::InputError;
@@ -27,6 +31,14 @@ namespace {
 // An atom is a vertex's if it is so near, as a share of the shortest edge of the mesh: more than the rounding of a
 // mesh file in float, less than confuses two vertices.
 constexpr double kTolerance = 1e-3;
+
+// Outside of a step.
+const lsdcd::Step kAtRest = {0, 0, lsdcd::Step::setup};
+
+double tolerance_of(const lsdcd::MeshPart &part)
+{
+  return kTolerance * part.grid.report().smallest_edge;
+}
 
 }    // namespace
 
@@ -40,7 +52,7 @@ void NodeAtoms::set_tags(const std::vector<double> &tags)
   }
 }
 
-void NodeAtoms::init(lsdcd::Wall &wall, int wall_bit)
+std::string NodeAtoms::init(lsdcd::Wall &wall, int wall_bit, bool keeps_tags)
 {
   const std::string &name = wall.spec().meshes[mesh].node_group;
   const int group = lmp->group->find(name.c_str());
@@ -51,9 +63,14 @@ void NodeAtoms::init(lsdcd::Wall &wall, int wall_bit)
   const Atom &atom = *lmp->atom;
   if (!atom.tag_enable)
     throw InputError("the fix knows nodes by their atom IDs: leave out atom_modify id no");
+  moved_bit = bit_of_fix_move();
+  std::string note;
   // Nodes from a restart file are known already.
   if (tag_of.empty() && !wall.nodes(mesh).names.empty()) set_tags(wall.nodes(mesh).names);
-  if (tag_of.empty()) find(wall);
+  if (tag_of.empty())
+    find(wall);
+  else if (!keeps_tags)
+    note = check_tags(wall);
   wall.nodes(mesh).names.assign(tag_of.begin(), tag_of.end());
 
   bigint both = 0;
@@ -65,48 +82,60 @@ void NodeAtoms::init(lsdcd::Wall &wall, int wall_bit)
                      wall.spec().meshes[mesh].name +
                      "' and also in the group of the fix: they would touch the triangles whose "
                      "corners they are; give the fix a group without them");
-  send(wall, true);
+  send(wall, true, kAtRest);
+  return note;
 }
 
-// Each process looks for a vertex near each of its atoms, and all put together what they have found.
-void NodeAtoms::find(const lsdcd::Wall &wall)
+// Fix move gives its atoms the velocities of the whole step.
+int NodeAtoms::bit_of_fix_move() const
 {
-  const lsdcd::MeshPart &part = wall.meshes()[mesh];
-  const std::vector<Vec3> &vertices = part.mesh()->vertices;
-  const int n = static_cast<int>(vertices.size());
-  const double tolerance = kTolerance * part.grid.report().smallest_edge;
-  std::vector<int> by_x(n);
-  for (int k = 0; k < n; k++) by_x[k] = k;
-  std::sort(by_x.begin(), by_x.end(), [&](int a, int b) { return vertices[a].x < vertices[b].x; });
+  int bits = 0;
+  for (int k = 0; k < lmp->modify->nfix; k++)
+    if (std::strcmp(lmp->modify->fix[k]->style, "move") == 0) bits |= lmp->modify->fix[k]->groupbit;
+  return bits;
+}
 
+// Each process looks for a place near each of its atoms, and all put together what they have found.
+NodeAtoms::Near NodeAtoms::atoms_near(const std::vector<Vec3> &places, double tolerance) const
+{
+  const int n = static_cast<int>(places.size());
+  std::vector<int> by_x(n);
+  std::iota(by_x.begin(), by_x.end(), 0);
+  std::sort(by_x.begin(), by_x.end(), [&](int a, int b) { return places[a].x < places[b].x; });
   const Atom &atom = *lmp->atom;
-  std::vector<double> sums(2 * n,
-                           0);    // how many atoms are at each vertex, and the sum of their tags
-  bigint in_group = 0;
+  Near near = {std::vector<double>(n, 0), std::vector<double>(n, 0)};
   for (int i = 0; i < atom.nlocal; i++) {
     if (!(atom.mask[i] & bit)) continue;
-    in_group++;
     double x[3];
     lmp->domain->unmap(atom.x[i], atom.image[i], x);
     const Vec3 at = {x[0], x[1], x[2]};
     auto k = std::lower_bound(by_x.begin(), by_x.end(), at.x - tolerance,
-                              [&](int a, double least) { return vertices[a].x < least; });
-    for (; k != by_x.end() && vertices[*k].x <= at.x + tolerance; ++k)
-      if (lsdcd::norm(vertices[*k] - at) <= tolerance) {
-        sums[2 * *k]++;
-        sums[2 * *k + 1] += static_cast<double>(atom.tag[i]);
+                              [&](int a, double least) { return places[a].x < least; });
+    for (; k != by_x.end() && places[*k].x <= at.x + tolerance; ++k)
+      if (lsdcd::norm(places[*k] - at) <= tolerance) {
+        near.count[*k]++;
+        near.tag[*k] += static_cast<double>(atom.tag[i]);
       }
   }
-  MPI_Allreduce(MPI_IN_PLACE, sums.data(), 2 * n, MPI_DOUBLE, MPI_SUM, lmp->world);
-  MPI_Allreduce(MPI_IN_PLACE, &in_group, 1, MPI_LMP_BIGINT, MPI_SUM, lmp->world);
+  MPI_Allreduce(MPI_IN_PLACE, near.count.data(), n, MPI_DOUBLE, MPI_SUM, lmp->world);
+  MPI_Allreduce(MPI_IN_PLACE, near.tag.data(), n, MPI_DOUBLE, MPI_SUM, lmp->world);
+  return near;
+}
+
+void NodeAtoms::find(const lsdcd::Wall &wall)
+{
+  const std::vector<Vec3> &vertices = wall.meshes()[mesh].mesh()->vertices;
+  const double tolerance = tolerance_of(wall.meshes()[mesh]);
+  const Near near = atoms_near(vertices, tolerance);
   const lsdcd::MeshSpec &spec = wall.spec().meshes[mesh];
+  const int n = static_cast<int>(vertices.size());
   int without = 0, first = -1;
   for (int k = n - 1; k >= 0; k--) {
-    if (sums[2 * k] > 1)
-      throw InputError(lsdcd::number_text(sums[2 * k]) + " atoms of group '" + spec.node_group +
+    if (near.count[k] > 1)
+      throw InputError(lsdcd::number_text(near.count[k]) + " atoms of group '" + spec.node_group +
                        "' are at the vertex " + lsdcd::vector_text(vertices[k]) + " of mesh '" +
                        spec.name + "': one of them is its node, remove the others");
-    if (sums[2 * k] > 0) continue;
+    if (near.count[k] > 0) continue;
     without++;
     first = k;
   }
@@ -116,9 +145,55 @@ void NodeAtoms::find(const lsdcd::Wall &wall)
                      spec.node_group + "' within " + lsdcd::number_text(tolerance) +
                      " (a thousandth of the shortest edge): the first is at " +
                      lsdcd::vector_text(vertices[first]) + "; put an atom at each welded vertex");
-  std::vector<double> tags;
-  for (int k = 0; k < n; k++) tags.push_back(sums[2 * k + 1]);
-  set_tags(tags);
+  set_tags(near.tag);
+}
+
+std::string NodeAtoms::check_tags(lsdcd::Wall &wall)
+{
+  const lsdcd::MeshPart &part = wall.meshes()[mesh];
+  const std::vector<Vec3> &was = part.mesh()->vertices;
+  const double tolerance = tolerance_of(part);
+  find_local();
+  gather(wall, true, kAtRest);
+  const int n = static_cast<int>(was.size()), lost_one = lost();
+  const double *x = numbers.data();
+  bool are_there = lost_one < 0;
+  for (int k = 0; k < n && are_there; k++)
+    are_there = lsdcd::norm(Vec3{x[3 * k], x[3 * k + 1], x[3 * k + 2]} - was[k]) <= tolerance;
+  if (are_there) return "";
+
+  const Near near = atoms_near(was, tolerance);
+  if (std::all_of(near.count.begin(), near.count.end(), [](double c) { return c == 1; })) {
+    set_tags(near.tag);
+    wall.nodes(mesh).names.assign(tag_of.begin(), tag_of.end());
+    return "the nodes of mesh '" + part.spec.name +
+           "' have other atom IDs than before: the fix has found them where they were";
+  }
+  const std::string why =
+      ". delete_atoms and reset_atom_ids give atoms other IDs, and the fix finds nodes by their "
+      "places "
+      "only where they have not moved since: use delete_atoms with compress no, or run 0 between "
+      "commands that give IDs and commands that move nodes";
+  if (lost_one >= 0) fail_lost(wall, lost_one, why);
+  if (may_be_others(*part.mesh()))
+    throw InputError("the atoms with the IDs of the nodes of mesh '" + part.spec.name +
+                     "' are no longer where these were, and edges between them are longer or "
+                     "shorter by half: other atoms may have these IDs now" +
+                     why + "; move nodes in smaller parts with run 0 between them");
+  return "";
+}
+
+// Does an edge have another length, as where atoms are those of other nodes? Where nodes were moved together it has not.
+bool NodeAtoms::may_be_others(const lsdcd::WeldedMesh &was) const
+{
+  constexpr double kStretch = 1.5;
+  for (const auto &[a, b] : was.edges) {
+    const double *x = numbers.data() + 3 * a, *y = numbers.data() + 3 * b;
+    const double now = lsdcd::norm(Vec3{x[0] - y[0], x[1] - y[1], x[2] - y[2]}),
+                 before = lsdcd::norm(was.vertices[a] - was.vertices[b]);
+    if (!(now <= kStretch * before && before <= kStretch * now)) return true;
+  }
+  return false;
 }
 
 void NodeAtoms::find_local()
@@ -133,29 +208,59 @@ void NodeAtoms::find_local()
 }
 
 // A sum of one number and of zeros is exact: all processes have the same bits, whoever has the atom.
-void NodeAtoms::send(lsdcd::Wall &wall, bool look)
+//
+// Velocities are those of half a step ago, as those of spheres are. An atom that fix move moves has that of the whole step:
+// where that is not its way in the step over dt, to rounding, it gets that.
+void NodeAtoms::gather(const lsdcd::Wall &wall, bool look, const lsdcd::Step &now)
 {
-  if (look) find_local();
   const Atom &atom = *lmp->atom;
   const std::size_t n = tag_of.size();
+  const std::vector<Vec3> *was =
+      moved_bit && now.kind == lsdcd::Step::step ? &wall.meshes()[mesh].mesh()->vertices : nullptr;
   numbers.assign((look ? 7 : 6) * n, 0);    // atoms are lost where they are looked for
   for (const Local &of : local) {
     double *x = numbers.data() + 3 * of.node, *v = x + 3 * n;
     lmp->domain->unmap(atom.x[of.atom], atom.image[of.atom], x);
     std::copy_n(atom.v[of.atom], 3, v);
+    if (was && atom.mask[of.atom] & moved_bit) {
+      const Vec3 &from = (*was)[of.node];
+      for (int d = 0; d < 3; d++) {
+        const double rounding = 4 * lsdcd::kRoundoff * (std::fabs(x[d]) + std::fabs(from[d]));
+        if (std::fabs(x[d] - from[d] - now.dt * v[d]) > rounding) v[d] = (x[d] - from[d]) / now.dt;
+      }
+    }
     if (look) numbers[6 * n + of.node]++;
   }
   MPI_Allreduce(MPI_IN_PLACE, numbers.data(), static_cast<int>(numbers.size()), MPI_DOUBLE, MPI_SUM,
                 lmp->world);
-  for (std::size_t k = 0; look && k < n; k++)
-    if (numbers[6 * n + k] != 1)
-      throw InputError("atom " + std::to_string(tag_of[k]) + ", a node of mesh '" +
-                       wall.spec().meshes[mesh].name + "', is " +
-                       (numbers[6 * n + k] == 0 ? "lost, or no longer in group '" +
-                                                      wall.spec().meshes[mesh].node_group + "'"
-                                                : "there more than once") +
-                       ": a mesh cannot go on without its nodes");
-  wall.set_nodes(mesh, numbers.data(), numbers.data() + 3 * n);
+}
+
+// The first node whose tag no atom has, or two; -1: there is none. After atoms were looked for.
+int NodeAtoms::lost() const
+{
+  const std::size_t n = tag_of.size();
+  for (std::size_t k = 0; k < n; k++)
+    if (numbers[6 * n + k] != 1) return static_cast<int>(k);
+  return -1;
+}
+
+void NodeAtoms::fail_lost(const lsdcd::Wall &wall, int node, const std::string &why) const
+{
+  const lsdcd::MeshSpec &spec = wall.spec().meshes[mesh];
+  throw InputError("atom " + std::to_string(tag_of[node]) + ", a node of mesh '" + spec.name +
+                   "', is " +
+                   (numbers[6 * tag_of.size() + node] == 0
+                        ? "lost, or no longer in group '" + spec.node_group + "'"
+                        : "there more than once") +
+                   ": a mesh cannot go on without its nodes" + why);
+}
+
+void NodeAtoms::send(lsdcd::Wall &wall, bool look, const lsdcd::Step &now)
+{
+  if (look) find_local();
+  gather(wall, look, now);
+  if (const int node = look ? lost() : -1; node >= 0) fail_lost(wall, node);
+  wall.set_nodes(mesh, numbers.data(), numbers.data() + 3 * tag_of.size());
 }
 
 void NodeAtoms::add_forces(lsdcd::Wall &wall)

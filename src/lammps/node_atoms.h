@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: GPL-2.0-only
 
-// The atoms that are the nodes of one mesh: found once at the welded vertices, known by their tags from then on,
-// wherever LAMMPS sorts them or sends them.
+// The atoms that are the nodes of one mesh: found once at the welded vertices, known by their tags in a run,
+// wherever LAMMPS sorts them or sends them. Between runs a command may give atoms other tags.
 #pragma once
 
 #include "lammps/own_messages.h"
@@ -22,20 +22,37 @@ class NodeAtoms {
   NodeAtoms(class LAMMPS *lmp, int mesh) : lmp(lmp), mesh(mesh) {}
 
   // Before a run: finds them where that was not done, and checks what may have changed. `wall_bit`: of the group of the
-  // spheres. Throws InputError, the same on all processes, where a vertex has no atom or two, and where an atom is a
-  // sphere of the wall, too. Collective.
-  void init(lsdcd::Wall &wall, int wall_bit);
+  // spheres. `keeps_tags`: atoms have the tags that they had and may be anywhere, as in a rerun. Returns what the log should
+  // say. Throws InputError, the same on all processes, where a vertex has no atom or two, and where an atom is a sphere of
+  // the wall, too. Collective.
+  std::string init(lsdcd::Wall &wall, int wall_bit, bool keeps_tags);
+
+  // Checks by the places where the wall has its nodes that the atoms with their tags are still they, and finds them there
+  // if they have other tags; returns what the log should say then. Throws InputError where one is lost, and where they may
+  // be others. Collective.
+  std::string check_tags(lsdcd::Wall &wall);
 
   // Before a step: gives the wall the places and velocities of all nodes. `look`: atoms may have other indices since
-  // the last time. Throws InputError where one is lost. Collective.
-  void send(lsdcd::Wall &wall, bool look);
+  // the last time. `now`: the step. Throws InputError where one is lost. Collective.
+  void send(lsdcd::Wall &wall, bool look, const lsdcd::Step &now);
   // After it: adds the forces on them. Collective.
   void add_forces(lsdcd::Wall &wall);
 
  private:
+  // Atoms of the group near places: of each place how many, and the sum of their tags.
+  struct Near {
+    std::vector<double> count, tag;
+  };
+
   void set_tags(const std::vector<double> &);
+  Near atoms_near(const std::vector<lsdcd::Vec3> &places, double tolerance) const;
   void find(const lsdcd::Wall &wall);
   void find_local();
+  void gather(const lsdcd::Wall &wall, bool look, const lsdcd::Step &now);
+  int lost() const;
+  [[noreturn]] void fail_lost(const lsdcd::Wall &wall, int node, const std::string &why = "") const;
+  bool may_be_others(const lsdcd::WeldedMesh &was) const;
+  int bit_of_fix_move() const;
 
   class LAMMPS *lmp;
   int mesh, bit = 0;
@@ -45,7 +62,9 @@ class NodeAtoms {
     int atom, node;
   };
   std::vector<Local> local;    // nodes of this process
-  std::vector<double> numbers;
+  int moved_bit = 0;           // of the groups that fix move moves
+  std::vector<double>
+      numbers;    // of all nodes: places, velocities, and where atoms are looked for how many have the tag
 };
 
 }    // namespace LAMMPS_NS

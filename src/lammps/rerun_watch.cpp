@@ -7,15 +7,21 @@
 
 using namespace LAMMPS_NS;
 
+static constexpr int kDynamics = 1;
+
 // Commands between runs initialise fixes, too: outside of a run, or with the steps of the last one.
 void RerunWatch::init(const Update &update)
 {
-  constexpr int kDynamics = 1;
   if (update.whichflag != kDynamics) return;
   if (update.firststep != first || update.laststep != last) inits = 0;
   first = update.firststep;
   last = update.laststep;
   inits++;
+}
+
+bool RerunWatch::may_be_snapshot(const Update &update) const
+{
+  return update.whichflag == kDynamics && (inits > 1 || update.ntimestep != update.firststep);
 }
 
 bool RerunWatch::sees_snapshot(const Update &update)

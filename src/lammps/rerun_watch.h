@@ -14,6 +14,8 @@ namespace LAMMPS_NS {
 class RerunWatch {
  public:
   void init(const class Update &);    // in the fix's init()
+  // After it: may this be a snapshot of a rerun? Its atoms may be anywhere, and have the IDs of its dump.
+  bool may_be_snapshot(const class Update &) const;
   // In the fix's setup(): is this a snapshot of a rerun?
   bool sees_snapshot(const class Update &);
 

@@ -247,6 +247,110 @@ def refused(checks, folder):
     checks.fact("a lost node", done.returncode != 0 and "atom 3, a node of mesh 'sheet.stl', is lost" in " ".join(done.stdout.split()))
 
 
+# ---- atoms that get other IDs, another mesh --------------------------------------------------
+
+SHEET = """\
+units           lj
+newton          off
+atom_style      sphere
+atom_modify     map array
+boundary        f f f
+comm_modify     vel yes cutoff 1.0
+{create}
+group           nodes type 2
+group           grains type 1
+pair_style      zero 1.0
+pair_coeff      * *
+neighbor        0.1 bin
+timestep        1e-3
+fix             w grains wall/lsdcd hooke 2000 NULL 0 NULL 0 1 mesh {mesh} nodes nodes
+"""
+# The last number is the force of a grain 0.01 deep: 2000 x 0.01.
+PRESS = """\
+create_atoms    1 single 0.1 0.2 {z}
+set             type 1 diameter 0.5 density 15
+group           grains type 1
+run             0
+print           "$(f_w[3]:%.17g)" file out.txt screen no
+"""
+
+
+def sheet(folder):
+    """A grain, which has the first ID, over 4 x 4 squares; meshes of the same and of other triangles. The begin of scripts."""
+    n = 4
+    at = [(2 * i / n - 1, 2 * j / n - 1, 0) for j in range(n + 1) for i in range(n + 1)]
+    faces = []
+    for j in range(n):
+        for i in range(n):
+            a = j * (n + 1) + i
+            faces += [(a, a + 1, a + n + 2), (a, a + n + 2, a + n + 1)]
+    stl.write(folder / "sheet.stl", [[at[v] for v in face] for face in faces])
+    stl.write(folder / "turned.stl", [[at[v] for v in face[1:] + face[:1]] for face in faces])
+    stl.write(folder / "coarse.stl", [[at[v] for v in face] for face in ((0, 4, 24), (0, 24, 20))])
+    create = "region box block -2 2 -2 2 -1 2\ncreate_box 2 box\ncreate_atoms 1 single -1.5 -1.5 -0.5\n"
+    # In an order that is not that of places, as of a mesher.
+    create += "".join("create_atoms 2 single {} {} {}\n".format(*at[7 * k % len(at)]) for k in range(len(at)))
+    return create + "set type 2 diameter 0.01 density 1e9\nset type 1 diameter 0.5 density 15"
+
+
+def renumbered(checks, folder):
+    """Commands between runs give the nodes other IDs: a grain 0.01 deep has its force still, or the run is refused."""
+    head = SHEET.format(create=sheet(folder), mesh="sheet.stl") + "run 1\n"
+    def force(text, z=0.24, ranks=1):
+        lmp.run_well(head + text + PRESS.format(z=z), folder, ranks)
+        return rows_of(folder / "out.txt")[0][0]
+    for name, text, ranks in (("delete_atoms", "delete_atoms group grains\n", 1),
+                              ("reset_atom_ids on two processes", "delete_atoms group grains compress no\nreset_atom_ids\n", 2)):
+        checks.at_most(f"nodes that have other IDs after {name}", abs(force(text, ranks=ranks) + 20), 1e-9)
+    keep = "delete_atoms group grains compress no\n"
+    moved = force(keep + "displace_atoms nodes move 0 0 0.3\n", 0.54)
+    checks.at_most("nodes that were displaced between runs", abs(moved + 20), 1e-9)
+    for text, says in (("delete_atoms group grains\n", "a node of mesh 'sheet.stl', is lost"),
+                       ("reset_atom_ids sort yes\n", "other atoms may have these IDs now")):
+        done = lmp.run(head + text + "displace_atoms nodes move 0 0 0.3\nrun 0\n", folder)
+        out = " ".join(done.stdout.split())
+        checks.fact(f"nodes that were displaced after {text.strip()}: {says}", done.returncode != 0 and says in out and
+                    "delete_atoms and reset_atom_ids give atoms other IDs" in out)
+    # Without a setup LAMMPS says nothing of the commands before it.
+    lmp.run_well(head + "delete_atoms group grains\nrun 1 pre no\n" + PRESS.format(z=0.24), folder)
+    checks.at_most("and after a run without setup", abs(rows_of(folder / "out.txt")[0][0] + 20), 1e-9)
+
+
+def another_mesh(checks, folder):
+    """A restart file names the nodes of its mesh: those of another one are found by their places."""
+    lmp.run_well(SHEET.format(create=sheet(folder), mesh="sheet.stl") + "delete_atoms group grains compress no\n"
+                 "run 1\nwrite_restart one.restart\n", folder)
+    for mesh in ("sheet", "turned", "coarse"):
+        out = lmp.run_well(SHEET.format(create="read_restart one.restart", mesh=mesh + ".stl") + PRESS.format(z=0.24), folder)
+        checks.at_most(f"restart with {mesh}.stl", abs(rows_of(folder / "out.txt")[0][0] + 20), 1e-9)
+        checks.fact(f"and a warning, {mesh}.stl",
+                    ("was written with another mesh" in " ".join(out.split())) == (mesh != "sheet"))
+
+
+# ---- nodes that fix move moves -------------------------------------------------------------
+
+TURNTABLE = """\
+group           held type 2
+velocity        grains set 0 3.14159265358979 0
+fix             pull grains gravity 20 vector 0 0 -1
+fix             turn grains nve
+fix             go nodes move rotate 0 0 0 0 0 1 2.0
+timestep        2e-3
+run             1000
+print           "$(xcm(grains,x):%.17g) $(xcm(grains,y):%.17g)" file out.txt screen no
+"""
+
+
+def turntable(checks, folder):
+    """A grain on a turntable stays there for a turn. The springs of friction hold w^2 r m with 1e-3 of r."""
+    create = sheet(folder).replace("single -1.5 -1.5 -0.5", "single 0.6 0 0.2499")
+    law = "hooke/history 1e5 3e4 50 20 0.9 1"
+    text = SHEET.format(create=create, mesh="sheet.stl").replace("hooke 2000 NULL 0 NULL 0 1", law)
+    lmp.run_well(text + TURNTABLE.replace("3.14159265358979", str(0.6 * math.pi)), folder)
+    x, y = rows_of(folder / "out.txt")[0]
+    checks.at_most("a grain stays on a turntable that fix move turns", math.hypot(x - 0.6, y), 1e-3 * 0.6)
+
+
 # ---- with Kokkos -------------------------------------------------------------------------
 
 FREE = """\
@@ -306,7 +410,7 @@ def beside_plain(checks, folder):
 def main():
     checks = lmp.Checks()
     folder = lmp.scratch()
-    tests = {f.__name__: f for f in (sags, on_processes, bulges, impact, refused) + lmp.ON_KOKKOS * (beside_plain,)}
+    tests = {f.__name__: f for f in (sags, on_processes, bulges, impact, refused, renumbered, another_mesh, turntable) + lmp.ON_KOKKOS * (beside_plain,)}
     for name in sys.argv[1:] or tests:
         tests[name](checks, folder)
     checks.done(folder)
