@@ -118,8 +118,6 @@ void note_late(lsdcd_wall &wall);
 // Throws it on all processes. Collective.
 void tell_late(lsdcd_wall &wall);
 
-// Restart data of a wall of versions before 0.10.0, which have words. Throws StateError or InputError.
-WallState old_wall_state(const Real *numbers, std::size_t n);
 // Contacts of spheres get what was restored, in the first step.
 void unpack_restored(lsdcd_wall &wall);
 

@@ -66,26 +66,17 @@ std::vector<const double *> packed_spheres(const lsdcd_wall &wall, std::size_t n
 
 constexpr const char *kSpheres = "springs of spheres", *kStep = "step";
 
-// Before 0.10.0: how many numbers of the wall, these, how many spheres, and of each how many numbers and these. `step`
-// stays where the numbers have none, as those of that time.
+// Reads what lsdcd_wall_save() wrote. Throws StateError.
 void read_saved(const Real *numbers, std::size_t n, WallState &state, SphereHistories &spheres,
                 std::int64_t &step)
 {
-  StateReader in(numbers, n, "the data of the wall");
-  if (State::is_one(numbers, n)) {
-    const State all(WallState::kKind, numbers, n);
-    all.read(kSpheres, 1, spheres);
-    all.find(kStep, 1, step);
-    state = WallState::from(all);
-    in.take_numbers(all.numbers().size());
-  } else {
-    const std::size_t size = in.take_count();
-    state = old_wall_state(in.take_numbers(size), size);
-    in(spheres);
-  }
-  if (in.left() > 0) in.fail("are too long");
+  const State all(WallState::kKind, numbers, n);
+  all.read(kSpheres, 1, spheres);
+  all.read(kStep, 1, step);
+  state = WallState::from(all);
+  if (all.numbers().size() != n) throw StateError("the data of the wall are too long");
   for (const std::vector<Real> &sphere : spheres)
-    if (sphere.empty()) in.fail("have a sphere without a number");
+    if (sphere.empty()) throw StateError("the data of the wall have a sphere without a number");
 }
 
 }    // namespace

@@ -5,7 +5,6 @@
 #include "input/wall_command.h"
 
 #include "api/wall_handle.h"
-#include "input/old_wall_state.h"
 #include "input/shared_material.h"
 #include "input/wall_change.h"
 
@@ -47,15 +46,6 @@ WallSpec without_groups(WallSpec wall)
 }
 
 }    // namespace
-
-namespace lsdcd {
-
-WallState old_wall_state(const Real *numbers, std::size_t n)
-{
-  return read_wall_state(numbers, n);
-}
-
-}    // namespace lsdcd
 
 extern "C" {
 

@@ -80,7 +80,7 @@ void StateReader::take(std::string &text)
 State::State(const std::string &kind, const Real *numbers, std::size_t n) : kind_(kind)
 {
   const std::string data = "the data of the " + kind;
-  if (!is_one(numbers, n)) throw StateError(data + " are of another program or version");
+  if (n == 0 || numbers[0] != kMark) throw StateError(data + " are of another program or version");
   StateReader head(numbers + 1, n - 1, data);
   if (head.next<std::int64_t>() != kFormat) head.fail("are of a later version");
   const std::size_t size = head.take_count();

@@ -128,8 +128,6 @@ class State {
   explicit State(std::string kind) : kind_(std::move(kind)) {}
   // At most n numbers. Throws StateError where they are no state of this kind.
   State(const std::string &kind, const Real *numbers, std::size_t n);
-  // Do these numbers begin as those of a state do, whatever its kind?
-  static bool is_one(const Real *numbers, std::size_t n) { return n > 0 && numbers[0] == kMark; }
 
   template <class T>
   void add(const std::string &name, int version, const T &value)
@@ -167,7 +165,7 @@ class State {
   std::vector<Real> numbers() const;
 
  private:
-  static const Real kMark;    // below 0, as no data of former versions begin with it
+  static const Real kMark;    // what the numbers of every state begin with
 
   struct Block {
     std::string name;

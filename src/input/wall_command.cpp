@@ -16,7 +16,7 @@ namespace lsdcd {
 
 namespace {
 
-// Words of fix wall/gran and LIGGGHTS, and retired ones, each with the words to use here.
+// Words of fix wall/gran and LIGGGHTS, each with the words to use here.
 std::string answer_to(const std::string &word, bool granular)
 {
   const char *const kMoves =
@@ -81,10 +81,6 @@ std::string answer_to(const std::string &word, bool granular)
       {"model", kNumbers},
       {"file", "the word is mesh FILE"},
       {"rolling_friction", "the words are rolling cdt MU and rolling epsd2 MU"},
-      {"tune", "run lsdcd tradeoff FILE --radius R --below E, which measures and prints the words "
-               "to write in its place"},
-      {"exact", "a grid no longer keeps both kinds of list; write nearest all, which is exact, or "
-                "nearest N, which counts uncertified answers in f_ID[9]"},
   };
   for (const auto &row : foreign)
     if (word == row.word) return row.answer;

@@ -11,8 +11,7 @@ namespace lsdcd {
 
 namespace {
 
-constexpr std::int64_t kPlaces = 3;         // part of a key, as in grain_source.cpp
-constexpr std::size_t kNumbersOf090 = 2;    // of the plan in its restart files
+constexpr std::int64_t kPlaces = 3;    // part of a key, as in grain_source.cpp
 
 }    // namespace
 
@@ -193,12 +192,10 @@ State Insertion::state(std::int64_t step) const
 
 bool Insertion::restore(const Real *numbers, std::size_t n, std::int64_t step)
 {
-  const InsertionState s = InsertionState::from(numbers, n, step);
+  const InsertionState s = InsertionState::from(numbers, n);
   const InsertionState::Grains &g = s.grains;
   const std::vector<Real> plan = numbers_of_plan(), &former = s.plan.numbers;
-  const bool is_same = !s.plan_has_ended &&
-                       (former.size() == plan.size() || former.size() == kNumbersOf090) &&
-                       std::equal(former.begin(), former.end(), plan.begin());
+  const bool is_same = former == plan;
   schedule_.restore(s.schedule, step);
   refused_ = s.refused;
   inserted_mass_ = g.inserted.mass;
@@ -210,8 +207,6 @@ bool Insertion::restore(const Real *numbers, std::size_t n, std::int64_t step)
     wait_ = g.wait;
     retry_step_ = step + g.retry_in;
     for (const std::int64_t number : g.owed) owed_.push_back(source_.grain(number));
-    std::sort(owed_.begin(), owed_.end(),    // a file of before 0.10.0 has the largest first
-              [](const Grain &a, const Grain &b) { return a.number < b.number; });
   } else {
     // Grains without a place are drawn anew.
     drawn_ = g.inserted;

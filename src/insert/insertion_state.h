@@ -24,7 +24,7 @@ struct Refused {
 // Steps are counted from the step of the file.
 struct InsertionState {
   struct Plan {
-    // Numbers of amounts and grains, beginning with the kind of the feed; a file of 0.9.0 has the first two only.
+    // Numbers of amounts and grains, beginning with the kind of the feed.
     std::vector<Real> numbers;
     Real given = 0;    // mass or number
   };
@@ -38,11 +38,10 @@ struct InsertionState {
   FeedState schedule;
   Grains grains;
   Refused refused;
-  bool plan_has_ended = false;    // of a file of 0.9.0, which has no totals to compare
 
   State blocks() const;
   // Throws StateError.
-  static InsertionState from(const Real *numbers, std::size_t n, std::int64_t step);
+  static InsertionState from(const Real *numbers, std::size_t n);
 };
 
 }    // namespace lsdcd

@@ -72,19 +72,11 @@ void FixMassflowLsdcd::restart(char *buffer)
   std::vector<double> there;
   Window then;
   try {
-    if (numbers[0] > 0) {    // versions before 0.10.0: types, the window, all totals
-      lsdcd::StateReader in(numbers, kAllNumbers, kKind);
-      const std::size_t types = in.take_count();
-      in(then);
-      there.resize(kColumns * types + kAfterTypes);
-      std::copy_n(in.take_numbers(there.size()), there.size(), there.begin());
-    } else {
-      const lsdcd::State state(kKind, numbers, kAllNumbers);
-      state.read("totals", 1, there);
-      state.read("rate", 1, then);
-      const std::string unread = unread_state(state);
-      if (!unread.empty()) warn(unread);
-    }
+    const lsdcd::State state(kKind, numbers, kAllNumbers);
+    state.read("totals", 1, there);
+    state.read("rate", 1, then);
+    const std::string unread = unread_state(state);
+    if (!unread.empty()) warn(unread);
   } catch (const lsdcd::StateError &e) {
     fatal(unusable_state(e, "what has passed"));
   }

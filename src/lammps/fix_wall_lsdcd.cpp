@@ -5,7 +5,6 @@
 
 #include "base/input_error.h"
 #include "base/input_words.h"
-#include "input/old_wall_state.h"
 #include "input/shared_material.h"
 #include "input/wall_change.h"
 #include "input/wall_command.h"
@@ -639,8 +638,9 @@ void FixWallLsdcd::write_restart(FILE *file)
 void FixWallLsdcd::restart(char *buffer)
 {
   try {
-    wall->restore(lsdcd::read_wall_state(reinterpret_cast<const double *>(buffer), kAllNumbers),
-                  step_now());
+    const lsdcd::State state(lsdcd::WallState::kKind, reinterpret_cast<const double *>(buffer),
+                             kAllNumbers);
+    wall->restore(lsdcd::WallState::from(state), step_now());
   } catch (const lsdcd::StateError &e) {
     throw lsdcd::InputError(unusable_state(e, "springs, motion, loads and wear"));
   }

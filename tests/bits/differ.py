@@ -39,8 +39,8 @@ MASKS = [(name, re.compile(pattern), instead, reason) for name, pattern, instead
     ("version of the wall", r"^(Loaded .*lsdcd.*|.*lsdcdplugin.*|.*lsdcdkkplugin.*)$", "PLUGIN",
      "place and version of the plugin"),
     ("processes", r"\[[\w.-]+:\d+\]", "[PROCESS]", "name of the machine and number of the process"),
-    ("version", r"^  version     \S+$", None, "the release, in the log since 0.9.0"),
-    ("wall/gran", r"^Fix \S+ wall/lsdcd: fix wall/gran of this LAMMPS gives other forces", None, "in the log since 0.10.0"),
+    ("version", r"^  version     \S+$", None, "the release"),
+    ("wall/gran", r"^Fix \S+ wall/lsdcd: fix wall/gran of this LAMMPS gives other forces", None, "a fact of the LAMMPS that runs"),
     ("part of a file", r"\.part-[\w-]+", ".part-N", "a name that is made from the clock"),
 )]
 # Where a run stops, MPI's words and how much of its output comes through depend on time.

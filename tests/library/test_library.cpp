@@ -870,7 +870,7 @@ TEST(library, given_triangles_have_their_face_or_that_of_their_double_or_none)
   EXPECT_EQ(m.triangle, (std::vector<std::uint32_t>{1, 3, 7}));
 }
 
-// Facts and arrays as the header of 0.9.0 had them: nothing beyond their ends is written.
+// Structs that end earlier: nothing beyond their ends is written.
 TEST(library, shorter_facts_and_arrays_of_an_older_program_are_filled)
 {
   const lsdcd::Mesh mesh(cube_vertices<double>(), kCubeFaces);

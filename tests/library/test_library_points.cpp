@@ -398,7 +398,7 @@ TEST(signed_distance, of_an_open_mesh_is_refused_or_estimated)
   for (const std::uint8_t s : status) EXPECT_TRUE(s & LSDCD_SIDE_ESTIMATED);
 }
 
-// A query as the header of 0.9.0 had it.
+// A struct that ends before this member.
 TEST(signed_distance, is_not_written_for_an_older_program)
 {
   const lsdcd::Grid grid(lsdcd::Mesh{numbers(kBox)});

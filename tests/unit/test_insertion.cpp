@@ -13,7 +13,6 @@
 #include <array>
 #include <cmath>
 #include <cstdlib>
-#include <cstring>
 #include <random>
 #include <vector>
 
@@ -488,90 +487,6 @@ TEST(insertion, with_a_total_below_what_is_in_nothing_comes_and_it_says_so)
   const Insertion second = continued(former, plan);
   EXPECT_TRUE(second.is_past_total());
   EXPECT_EQ(second.next_step(), FeedSchedule::kNever);
-}
-
-// Data that versions before 0.10.0 wrote.
-
-void put(std::string &bytes, const void *what, std::size_t size)
-{
-  bytes.append(static_cast<const char *>(what), size);
-}
-
-// The lists of 0.9.0's successors: sizes are of 8 bytes, each list is its name and its numbers.
-std::vector<Real> named_lists(const std::vector<std::pair<std::string, std::vector<Real>>> &lists)
-{
-  std::string bytes, all;
-  for (const auto &[name, numbers] : lists) {
-    const std::uint64_t length = name.size(), n = numbers.size();
-    put(bytes, &length, sizeof length);
-    bytes += name;
-    put(bytes, &n, sizeof n);
-    put(bytes, numbers.data(), n * sizeof(Real));
-  }
-  const Real format = -2;
-  const std::uint64_t size = bytes.size();
-  put(all, &format, sizeof format);
-  put(all, &size, sizeof size);
-  all += bytes;
-  std::vector<Real> numbers((all.size() + sizeof(Real) - 1) / sizeof(Real));
-  std::memcpy(numbers.data(), all.data(), all.size());
-  return numbers;
-}
-
-// At step 33 of 0.1: 3 of rate 1 are given, 2 grains of mass 1 are drawn, and the second has no place.
-std::vector<Real> lists_of_former()
-{
-  return named_lists({{"drawn", {2, 2, 2}},
-                      {"given", {3.3}},
-                      {"inserted", {1, 1}},
-                      {"not drawn", {0, 0}},
-                      {"owed", {1}},
-                      {"plan", {1, 1, 0, 0}},
-                      {"refused", {1, 2, 3}},
-                      {"retry", {2, 5}},
-                      {"schedule", {0, 33, 0.1, 33}}});
-}
-
-TEST(insertion, goes_on_from_lists_of_former_versions)
-{
-  InsertionPlan plan = plan_of(FeedSettings::by_mass, 1);
-  Insertion insertion(plan, 1000, 0.1);
-  std::vector<Real> numbers = lists_of_former();
-  const std::vector<Real> now = insertion.state(1000).numbers();
-  EXPECT_FALSE(insertion.restore(numbers.data(), numbers.size(), 1000));    // other grains
-  EXPECT_EQ(insertion.inserted(), 1);
-  EXPECT_EQ(insertion.refused().all(), 6);
-  for (std::size_t n = 0; n < numbers.size(); n++)
-    EXPECT_THROW(insertion.restore(numbers.data(), n, 1000), StateError) << n;
-}
-
-// 0.9.0: how many numbers, its tag, number and mass drawn, mass inserted, 3 of refusals, the next step, kind, rate, amount
-// and step of the schedule, timestep, first step; then number, radius and density of each grain owed.
-TEST(insertion, goes_on_from_what_0_9_0_wrote)
-{
-  const InsertionPlan plan = plan_of(FeedSettings::by_mass, 1);
-  const std::vector<Real> numbers = {20, 19790401, 3,   3, 1, 1, 2, 3, 45, 1, 1,
-                                     0,  0,        0.1, 0, 1, 1, 2, 2, 1,  2};
-  Insertion insertion(plan, 33, 0.1);
-  EXPECT_TRUE(insertion.restore(numbers.data(), numbers.size(), 33));
-  EXPECT_EQ(insertion.inserted(), 1);
-  EXPECT_EQ(insertion.inserted_mass(), 1);
-  ASSERT_EQ(insertion.owed().size(), 2U);
-  EXPECT_EQ(insertion.owed()[1].number, 2);
-  EXPECT_EQ(insertion.next_step(), 40);    // 4 are due then, before the next try at step 45
-  for (std::size_t n = 0; n < numbers.size(); n++)
-    EXPECT_THROW(insertion.restore(numbers.data(), n, 33), StateError) << n;
-}
-
-TEST(insertion, whose_plan_of_0_9_0_has_ended_goes_on_by_a_larger_total)
-{
-  InsertionPlan plan = plan_of(FeedSettings::by_mass, 1);
-  plan.feed.number = 5;
-  const std::vector<Real> numbers = {14, 19790401, 3, 3, 3, 0, 0, 0, -1, 1, 1, 0, 0, 0.1, 0};
-  Insertion insertion(plan, 100, 0.1);
-  insertion.restore(numbers.data(), numbers.size(), 100);
-  EXPECT_EQ(next_steps(insertion, 100, 2), (std::vector<std::int64_t>{10, 20}));
-  EXPECT_EQ(insertion.next_step(), FeedSchedule::kNever);
 }
 
 TEST(insertion, the_state_of_another_program_is_refused_and_changes_nothing)

@@ -218,8 +218,7 @@ TEST(settings, words_of_other_walls_are_answered)
       {"type 1", "before mesh"},
       {"file a.stl", "mesh FILE"},
       {"damping tsuji", "style granular"},
-      {"limit_damping", "before mesh"},
-      {"tune 1e-3", "lsdcd tradeoff FILE --radius R --below E"}};
+      {"limit_damping", "before mesh"}};
   for (const auto &c : cases) {
     EXPECT_TRUE(names(error_with(c.first), c.second));
     EXPECT_FALSE(names(error_with(c.first), "nearest"));
@@ -283,7 +282,6 @@ TEST(settings, wrong_words_are_named_with_what_is_right)
       {"a cache without a name", law + "cache", "the file name is missing"},
       {"a keyword twice", law + "rmax 1 rmax 2", "twice"},
       {"a cut without a normal", law + "cut 0 0 0 1", "the normal must not be 0 0 0"},
-      {"N and exact", law + "nearest 2 exact", "write nearest all"},
   };
   for (const auto &c : cases) EXPECT_TRUE(names(error_of(c.line), c.told)) << c.what;
 }
