@@ -7,7 +7,6 @@
 #include "api/objects.h"
 #include "api/refusals.h"
 #include "bodies/read_pose.h"
-#include "grid/cache/grid_cache.h"
 #include "law/sub_models.h"
 #include "output/file_series.h"
 
@@ -259,11 +258,7 @@ MeshSpec mesh_spec_of(const lsdcd_wall_mesh &given, std::size_t k, const WallSpe
         "wear_factor -1, by which it does not wear");
   mesh.fields = file_of(given.fields, given.fields_every, field + ".fields", ".vtp");
   mesh.stl = file_of(given.stl, given.stl_every, field + ".stl", ".stl");
-  if (given.cache && *given.cache) {
-    std::string why;
-    if (!cache_available(&why)) refuse_field(field + ".cache", in_quotes(given.cache), why);
-    mesh.cache_file = given.cache;
-  }
+  if (given.cache) mesh.cache_file = given.cache;
   return mesh;
 }
 

@@ -4,7 +4,6 @@
 #include "input/keywords.h"
 
 #include "base/atomic_file.h"
-#include "grid/cache/grid_cache.h"
 #include "input/body_words.h"
 #include "input/law_words.h"
 #include "input/motion_words.h"
@@ -68,8 +67,6 @@ void read_cache(Tokens &w, MeshSpec &s, InputNames &)
   if (w.done()) w.fail("the file name is missing");
   const std::string file = w.take();
   if (file == "none") return;
-  std::string why;
-  if (!cache_available(&why)) w.fail(why);
   s.cache_file = file;
 }
 

@@ -326,9 +326,9 @@ TEST(library, a_shell_that_cuts_itself_has_sides_from_a_cache_too)
   const lsdcd::Mesh mesh(numbers(soup));
   for (const bool again : {false, true}) {
     lsdcd::GridOptions options(kCutoff);
-    if (std::string(LSDCD_TEST_CACHE) != "no") options.cache = file.c_str();
+    options.cache = file.c_str();
     const lsdcd::Grid grid(mesh, options);
-    EXPECT_EQ(bool(grid.facts().from_cache), again && options.cache);
+    EXPECT_EQ(bool(grid.facts().from_cache), again);
     EXPECT_TRUE(grid.facts().has_sides);
     if (options.cache) {    // else no cells are made
       EXPECT_NE(grid.report().find("sides on the host alone"), std::string::npos) << grid.report();
@@ -986,7 +986,6 @@ TEST(library, threads_of_a_query_do_not_change_it)
 
 TEST(library, a_cache_is_read_the_second_time)
 {
-  if (std::string(LSDCD_TEST_CACHE) == "no") GTEST_SKIP() << "the build has no grid cache";
   lsdcd::TempDir folder;
   const std::string file = folder.path("grid.cache");
   const lsdcd::Mesh mesh(numbers(box_and_cylinder()));

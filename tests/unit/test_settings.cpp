@@ -3,7 +3,6 @@
 
 #include "base/input_error.h"
 #include "effects/effects.h"
-#include "grid/cache/grid_cache.h"
 #include "input/granular_words.h"
 #include "input/motion_words.h"
 #include "input/script_files.h"
@@ -291,14 +290,9 @@ TEST(settings, cache_none_is_no_cache)
   EXPECT_EQ(with("cache none").meshes[0].cache_file, "");
 }
 
-// In a build without the libraries it is refused with the remedy.
-TEST(settings, a_cache_is_taken_where_it_is_built)
+TEST(settings, a_cache_has_the_name_of_its_file)
 {
-  std::string why;
-  if (cache_available(&why))
-    EXPECT_EQ(with("cache vessel.grid").meshes[0].cache_file, "vessel.grid");
-  else
-    EXPECT_TRUE(names(error_with("cache vessel.grid"), "libzstd-dev"));
+  EXPECT_EQ(with("cache vessel.grid").meshes[0].cache_file, "vessel.grid");
 }
 
 TEST(settings, keywords_of_a_mesh_are_of_the_one_before_them)

@@ -44,11 +44,6 @@ bool looks_like_ours(const char *start, std::size_t bytes)
 
 }    // namespace
 
-bool cache_available(std::string *)
-{
-  return true;
-}
-
 CachedGrid::CachedGrid(const std::string &path, const GridKey &wanted)
 {
   open_and_check(path, wanted);

@@ -30,10 +30,6 @@ struct GridKey {
   Hash settings;
 };
 
-// False in a build without zstd and xxHash, which `why` then says. There every
-// other function here throws InputError with the same text.
-bool cache_available(std::string *why);
-
 GridKey grid_key(const WeldedMesh &mesh, const GridSettings &settings);
 
 // The state of the file with a cache's name.
