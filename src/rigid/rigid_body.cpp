@@ -41,7 +41,7 @@ void RigidBody::make_constants()
   in_plane_[1] = cross(joint_.axis, in_plane_[0]);
 }
 
-// The part of these velocities that the joint allows.
+// Takes velocities that the joint allows.
 void RigidBody::take_velocity(const Vec3 &velocity, const Vec3 &omega)
 {
   const Vec3 &a = joint_.axis;
@@ -79,15 +79,37 @@ void RigidBody::set_velocity(const Vec3 &velocity, const Vec3 &omega)
                      " of the centre with the angular velocity " + vector_text(omega));
 }
 
+// Returns the angular velocity that is left where the joint takes hold of a body that moves so: an impulse of the joint has
+// no power in the motions that it allows, so that the momentum along these stays.
+Vec3 RigidBody::allowed_turn(const Vec3 &velocity, const Vec3 &omega) const
+{
+  const Vec3 momentum = apply(mass_.inertia, omega) +
+                        mass_.mass * cross(state_.centre - pivot(), velocity);    // about pivot()
+  switch (joint_.kind) {
+    case JointKind::ball:
+      return apply(inverse_, momentum);
+    case JointKind::hinge:
+    case JointKind::planar:
+      return dot(joint_.axis, momentum) / inertia_of_axis_ * joint_.axis;
+    default:    // free: all of it; slider: not read
+      return omega;
+  }
+}
+
 void RigidBody::begin_from(const RigidBody &was)
 {
   RigidState now;
   now.home = now.centre = was.pose().to_box(mass_.centre);
   now.home_turn = now.turn = was.turn();
-  state_ = now;
+  set_state(now);
+  const Vec3 w = was.omega(), v = was.velocity() + cross(w, now.centre - was.centre());
+  take_velocity(v, allowed_turn(v, w));
+}
+
+void RigidBody::set_state(const RigidState &state)
+{
+  state_ = state;
   make_constants();
-  const Vec3 w = was.omega();
-  take_velocity(was.velocity() + cross(w, now.centre - was.centre()), w);
 }
 
 // ---- a step ------------------------------------------------------------------------------
@@ -201,6 +223,14 @@ void RigidBody::turn_freely(Real h)
 Vec3 RigidBody::apply(const SymmetricMatrix &in_mesh, const Vec3 &a) const
 {
   return rotate(state_.turn, in_mesh * rotate(inverse(state_.turn), a));
+}
+
+bool RigidBody::keeps(const Vec3 &direction, Real length) const
+{
+  constexpr Real kRounding = 1e-12;    // of unit vectors
+  return joint_.keeps(direction) &&
+         norm(rotate(state_.home_turn, direction) - direction) <= kRounding &&
+         std::fabs(dot(state_.home - mass_.centre, direction)) <= kRounding * length;
 }
 
 // From the centre to the joint's point, in the frame of the mesh.

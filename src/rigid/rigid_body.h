@@ -46,7 +46,8 @@ class RigidBody {
 
   // Velocity of the centre and angular velocity. Throws InputError where the joint does not allow them.
   void set_velocity(const Vec3 &velocity, const Vec3 &omega);
-  // From where another body of the same mesh is, whose velocities go on as far as the joint allows them.
+  // Begins where another body of the same mesh is, with its velocity as the joint leaves it: projected, in the metric of mass
+  // and inertia, onto what the joint allows. Kinetic energy falls by that of the difference.
   void begin_from(const RigidBody &was);
 
   // Half a step's change of velocity, over the time h, by what acts beside the drive. The damper's part is exact.
@@ -61,8 +62,9 @@ class RigidBody {
   Vec3 velocity() const;    // of the centre
   Vec3 omega() const;
   Vec3 angular_momentum() const;    // about the centre
-  Real coordinate() const { return state_.coordinate[0]; }
-  Real rate() const { return state_.rate[0]; }
+  // Of hinge and slider; else 0.
+  Real coordinate() const { return joint_.has_coordinate() ? state_.coordinate[0] : 0; }
+  Real rate() const { return joint_.has_coordinate() ? state_.rate[0] : 0; }
   Real kinetic_energy() const;
   Real spring_energy() const;
 
@@ -73,14 +75,19 @@ class RigidBody {
   // The torque is about pivot().
   Wrench reaction(const Wrench &load) const;
   Vec3 pivot() const;    // the joint's point, or the centre of mass
+  // Is the mesh, in all that the joint allows, as its file has it along this unit vector: not moved along it, and turned about
+  // nothing but it? `length`: by whose rounding places may differ.
+  bool keeps(const Vec3 &direction, Real length) const;
   Vec3 axis_in_mesh() const { return rotate(inverse(state_.home_turn), joint_.axis); }
 
   const RigidState &state() const { return state_; }
-  void set_state(const RigidState &state) { state_ = state; }
+  // Goes on as a body of the same mass and joint was.
+  void set_state(const RigidState &state);
 
  private:
   void make_constants();
   void take_velocity(const Vec3 &velocity, const Vec3 &omega);
+  Vec3 allowed_turn(const Vec3 &velocity, const Vec3 &omega) const;
   void place();
   Vec3 apply(const SymmetricMatrix &in_mesh, const Vec3 &a) const;
   Vec3 arm_of_point() const;

@@ -105,6 +105,11 @@ const Joint kJoints[] = {{JointKind::free, {}, {0, 0, 1}},
                          {JointKind::planar, {}, {0, 0.6, 0.8}},
                          {JointKind::ball, {0.3, -0.2, 0.1}, {0, 0, 1}}};
 
+const char *name_of(const Joint &joint)
+{
+  return kJointNames[static_cast<int>(joint.kind)];
+}
+
 // A body in the middle of its motion.
 RigidBody moving(const Joint &joint)
 {
@@ -117,6 +122,80 @@ RigidBody moving(const Joint &joint)
   body.kick(1, push);
   for (int n = 0; n < 100; n++) body.drift(0.01);
   return body;
+}
+
+// A body that turns and moves in any way, without a principal axis along any joint.
+RigidBody tumbling()
+{
+  MassProperties p = block(2, {0.5, 0.7, 0.9}, {0.1, 0.2, 0.3});
+  p.inertia.xy = 0.1;
+  p.inertia.xz = -0.07;
+  p.inertia.yz = 0.05;
+  RigidBody body(p, Joint());
+  body.set_velocity({1, -2, 0.5}, {0.3, -0.4, 3});
+  for (int n = 0; n < 100; n++) body.drift(0.01);
+  return body;
+}
+
+struct Velocities {
+  Vec3 centre, turn;
+};
+
+// a + s b
+Velocities sum(const Velocities &a, Real s, const Velocities &b)
+{
+  return {a.centre + s * b.centre, a.turn + s * b.turn};
+}
+
+Velocities velocities_of(const RigidBody &body)
+{
+  return {body.velocity(), body.omega()};
+}
+
+// m v.v' + omega.I omega', with the inertia of the mesh's frame: twice the kinetic energy of one velocity.
+Real metric(const RigidBody &body, const Velocities &a, const Velocities &b)
+{
+  return body.mass().mass * dot(a.centre, b.centre) +
+         dot(in_mesh(body, a.turn), body.mass().inertia * in_mesh(body, b.turn));
+}
+
+// The velocities that a joint allows a body there, as many as it has degrees of freedom.
+std::vector<Velocities> allowed_by(const Joint &joint, const Vec3 &centre)
+{
+  const Vec3 axes[] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, none = {0, 0, 0}, &n = joint.axis;
+  const auto about = [&](const Vec3 &axis) {
+    return Velocities{cross(axis, centre - joint.point), axis};
+  };
+  std::vector<Velocities> all;
+  switch (joint.kind) {
+    case JointKind::free:
+      for (const Vec3 &a : axes) all.insert(all.end(), {{a, none}, {none, a}});
+      break;
+    case JointKind::hinge:
+      return {about(n)};
+    case JointKind::slider:
+      return {{n, none}};
+    case JointKind::planar:    // any two of these span the plane
+      for (const Vec3 &a : {axes[0], axes[1]}) all.push_back({a - dot(a, n) * n, none});
+      all.push_back({none, n});
+      break;
+    case JointKind::ball:
+      for (const Vec3 &a : axes) all.push_back(about(a));
+  }
+  return all;
+}
+
+// Where the difference has no part, in the metric, along anything that is allowed: Gram and Schmidt's way.
+Velocities projected(const RigidBody &body, const Velocities &of, std::vector<Velocities> allowed)
+{
+  Velocities result = {};
+  for (std::size_t i = 0; i < allowed.size(); i++) {
+    Velocities &a = allowed[i];
+    for (std::size_t j = 0; j < i; j++) a = sum(a, -metric(body, a, allowed[j]), allowed[j]);
+    a = sum(Velocities(), 1 / std::sqrt(metric(body, a, a)), a);
+    result = sum(result, metric(body, of, a), a);
+  }
+  return result;
 }
 
 }    // namespace
@@ -453,6 +532,74 @@ TEST(rigid_body, goes_on_with_another_centre_of_mass_without_a_jump)
   EXPECT_LT(norm(is.row[0] - was.row[0]), 1e-14);
   EXPECT_LT(norm(is.velocity - was.velocity), 1e-14);
   EXPECT_LT(norm(is.angular - was.angular), 1e-14);
+}
+
+// Velocities are about 3 and energies about 20, each a sum of some ten products.
+TEST(rigid_body, has_in_another_joint_the_velocity_that_is_nearest_in_energy)
+{
+  const RigidBody body = tumbling();
+  const Velocities before = velocities_of(body);
+  for (const Joint &joint : kJoints) {
+    RigidBody next(body.mass(), joint);
+    next.begin_from(body);
+    const Velocities after = velocities_of(next), lost = sum(before, -1, after),
+                     nearest = projected(body, before, allowed_by(joint, body.centre()));
+    EXPECT_LT(norm(after.centre - nearest.centre), 1e-14) << name_of(joint);
+    EXPECT_LT(norm(after.turn - nearest.turn), 1e-14) << name_of(joint);
+    EXPECT_NEAR(body.kinetic_energy() - next.kinetic_energy(), metric(body, lost, lost) / 2, 1e-13)
+        << name_of(joint);
+  }
+}
+
+// A cube of mass 1 and side 1 spins about its centre, and is caught at the distance 3: L = I omega, over I + m 3^2.
+TEST(rigid_body, keeps_its_angular_momentum_about_the_point_that_is_caught)
+{
+  RigidBody body(block(1, {1 / 6., 1 / 6., 1 / 6.}), Joint());
+  body.set_velocity({0, 0, 0}, {0, 0, 1});
+  const Vec3 point = {0, 3, 0};
+  for (const Joint &joint :
+       {Joint{JointKind::ball, point, {0, 0, 1}}, Joint{JointKind::hinge, point, {0, 0, 1}}}) {
+    RigidBody next(body.mass(), joint);
+    next.begin_from(body);
+    EXPECT_NEAR(next.omega().z, 1 / 55., 1e-16);
+    EXPECT_NEAR(next.kinetic_energy(), 1 / 12. / 55, 1e-16);
+  }
+  RigidBody passing(block(1, {1 / 6., 1 / 6., 1 / 6.}), Joint());
+  passing.set_velocity({1, 0, 0}, {0, 0, 0});
+  RigidBody caught(passing.mass(), {JointKind::ball, point, {0, 0, 1}});
+  caught.begin_from(passing);
+  EXPECT_NEAR(caught.omega().z, 3 / (1 / 6. + 9), 1e-16);    // L = 3 m v
+}
+
+// A state is all that goes from one body to another of the same mass and joint, as after a restart: the arm of the joint's point
+// in the body, and so its inertia, are those of where it was when it got the joint.
+TEST(rigid_body, goes_on_from_the_state_of_another_to_the_last_bit)
+{
+  for (const Joint &joint : kJoints) {
+    const RigidBody before = tumbling();
+    RigidBody one(before.mass(), joint);
+    one.begin_from(before);
+    RigidBody other(before.mass(), joint);
+    other.set_state(one.state());
+    for (RigidBody *body : {&one, &other})
+      for (int n = 0; n < 10; n++) step(*body, 0.01, weight);
+    EXPECT_TRUE(one.centre() == other.centre() && one.velocity() == other.velocity() &&
+                one.omega() == other.omega() && one.turn().v == other.turn().v)
+        << name_of(joint);
+    EXPECT_EQ(one.kinetic_energy(), other.kinetic_energy());
+    const Vec3 x = {0.3, -0.1, 0.7}, n = {0.6, 0, 0.8};
+    EXPECT_EQ(one.mobility().along(x, n), other.mobility().along(x, n));
+  }
+}
+
+TEST(rigid_body, has_a_coordinate_only_where_its_joint_has_one)
+{
+  for (const Joint &joint : kJoints) {
+    RigidBody body = moving(joint);
+    body.drift(0.1);
+    EXPECT_EQ(body.coordinate() != 0, joint.has_coordinate()) << name_of(joint);
+    EXPECT_EQ(body.rate() != 0, joint.has_coordinate()) << name_of(joint);
+  }
 }
 
 TEST(rigid_body, refuses_a_velocity_that_its_joint_does_not_allow)
