@@ -89,8 +89,14 @@ MassProperties mass_properties(const WeldedMesh &mesh, Real density)
 
 void check_mass_properties(const MassProperties &p, const std::string &of)
 {
+  // Within these squares of lengths, units and inverses are numbers.
+  constexpr Real kHeaviest = 1e100, kLargestMoment = 1e200;
   if (!(p.mass > 0))
     throw InputError(of + ": a mass of " + number_text(p.mass) + " is not above 0");
+  if (!(p.mass >= 1 / kHeaviest && p.mass <= kHeaviest))
+    throw InputError(of + ": a mass of " + number_text(p.mass) + " is not between " +
+                     number_text(1 / kHeaviest) + " and " + number_text(kHeaviest) +
+                     ", beyond which steps have no numbers: give another density or mass");
   Real moment[3];
   std::copy_n(principal_axes(p.inertia).value, 3, moment);
   std::sort(moment, moment + 3);
@@ -100,6 +106,11 @@ void check_mass_properties(const MassProperties &p, const std::string &of)
                      number_text(moment[0]) + ", " + number_text(moment[1]) + ", " +
                      number_text(moment[2]) +
                      ": each is above 0, and none is larger than the other two together");
+  if (!(moment[0] >= 1 / kLargestMoment && moment[2] <= kLargestMoment))
+    throw InputError(of + ": the principal moments of inertia " + number_text(moment[0]) + ", " +
+                     number_text(moment[1]) + ", " + number_text(moment[2]) + " are not between " +
+                     number_text(1 / kLargestMoment) + " and " + number_text(kLargestMoment) +
+                     ", beyond which steps have no numbers: give another density or inertia");
 }
 
 }    // namespace lsdcd

@@ -25,7 +25,7 @@ struct MassProperties {
 MassProperties mass_properties(const WeldedMesh &mesh, Real density);
 
 // Throws InputError, which begins with `of`, where no body has such numbers: a mass or a principal moment that is not
-// above 0, or a moment larger than the other two together (equal: a lamina).
+// above 0, or a moment larger than the other two together (equal: a lamina); or where steps could not compute with them.
 void check_mass_properties(const MassProperties &p, const std::string &of);
 
 }    // namespace lsdcd

@@ -124,4 +124,19 @@ TEST(mass_properties, take_a_lamina_and_refuse_what_no_body_has)
   EXPECT_THROW(check_mass_properties(p, "plate"), InputError);
 }
 
+// Half a mass of infinity has no place.
+TEST(mass_properties, are_refused_where_steps_have_no_numbers)
+{
+  const WeldedMesh cube = weld(box_mesh({0, 0, 0}, {2, 2, 2}), -1);
+  for (const Real density : {1e308, 1e200, 1e-200, 1e-310})
+    EXPECT_THROW(mass_properties(cube, density), InputError) << density;
+  EXPECT_NO_THROW(mass_properties(cube, 1e30));
+  MassProperties p;
+  p.mass = 1;
+  for (const Real moment : {1e300, 1e-300, HUGE_VAL}) {
+    p.inertia = {moment, moment, moment, 0, 0, 0};
+    EXPECT_THROW(check_mass_properties(p, "ball"), InputError) << moment;
+  }
+}
+
 }    // namespace lsdcd::test_mass_properties
