@@ -144,10 +144,8 @@ Vec3 unit_vector(const Vec3 &a)
 
 void RigidMotion::begin_from(const Pose &pose)
 {
-  const Pose at_home;
   start_ = pose.still();
-  start_.placed = !(pose.row[0] == at_home.row[0] && pose.row[1] == at_home.row[1] &&
-                    pose.row[2] == at_home.row[2] && pose.shift == at_home.shift);
+  start_.placed = !is_same_place(pose, Pose());
 }
 
 void RigidMotion::stop()

@@ -79,23 +79,31 @@ MeshBody::MeshBody(Host &host, WallSpec &wall, const LawTable &laws, int mesh, c
                      [&] { s.mass = mass_properties(*grid.mesh(), s.density); });
     host.broadcast(&s.mass, sizeof s.mass, 0);
   }
-  body_ = RigidBody(in_units(s.mass, force), s.joint);
-  body_.drive = s.drive;
+  RigidBody body(in_units(s.mass, force), s.joint);
   try {
-    body_.set_velocity(s.velocity, s.omega);
+    body.set_velocity(s.velocity, s.omega);
   } catch (const InputError &e) {
     throw InputError(named(e.what()));
   }
-  if (s.joint.kind == JointKind::hinge && std::isfinite(s.drive.hi - s.drive.lo) &&
-      s.drive.hi - s.drive.lo > 2 * kPi)
-    host_.warn(
-        named("the limits " + number_text(s.drive.lo) + " " + number_text(s.drive.hi) +
-              " of its hinge are more than a turn apart: limits are in radians, not in degrees"));
-  measure();
+  go_on(s, body);
+  ask_about_degrees();
 }
 
-void MeshBody::measure()
+void MeshBody::check(const BodySpec &to, const RigidBody &as) const
 {
+  try {
+    check_body(to, as.coordinate());
+  } catch (const InputError &e) {
+    throw InputError(named(e.what()));
+  }
+}
+
+void MeshBody::go_on(const BodySpec &to, const RigidBody &as)
+{
+  check(to, as);
+  wall_.meshes[mesh_].body = to;
+  body_ = as;
+  body_.drive = to.drive;
   mobility_ = body_.mobility();
   const MeshReport &r = grid_.report();
   bound_of_mobility_ = largest_in(mobility_, {r.lo, r.hi});
@@ -105,8 +113,8 @@ void MeshBody::measure()
 
 void MeshBody::set(const BodySpec &to)
 {
-  BodySpec now = spec();
-  const bool same_joint = are_same(to.joint, now.joint);
+  const BodySpec was = spec();
+  BodySpec now = was;
   now.joint = to.joint;
   now.drive = to.drive;
   now.load = to.load;
@@ -116,19 +124,28 @@ void MeshBody::set(const BodySpec &to)
   std::copy_n(to.moment_input, 3, now.moment_input);
   now.has_gravity = to.has_gravity;
   now.gravity = to.gravity;
-  try {
-    check_body(now, same_joint ? body_.coordinate() : 0);
-  } catch (const InputError &e) {
-    throw InputError(named(e.what()));
+  RigidBody as = body_;
+  if (!are_same(now.joint, was.joint)) {
+    as = RigidBody(body_.mass(), now.joint);
+    as.begin_from(body_);
   }
-  wall_.meshes[mesh_].body = now;
-  if (!same_joint) {
-    RigidBody other(body_.mass(), now.joint);
-    other.begin_from(body_);
-    body_ = other;
-    measure();
-  }
-  body_.drive = now.drive;
+  go_on(now, as);
+  if (now.drive.lo != was.drive.lo || now.drive.hi != was.drive.hi) ask_about_degrees();
+}
+
+// Degrees are mostly whole or half; a number of turns, as 62.83, is not.
+void MeshBody::ask_about_degrees() const
+{
+  const Joint &joint = spec().joint;
+  const Real lo = spec().drive.lo, hi = spec().drive.hi, turns = (hi - lo) / (2 * kPi);
+  const auto may_be_degrees = [](Real limit) { return 2 * limit == std::floor(2 * limit); };
+  if (joint.kind != JointKind::hinge || !std::isfinite(turns) || !(turns > 1) ||
+      !may_be_degrees(lo) || !may_be_degrees(hi))
+    return;
+  host_.warn(named("the limits " + number_text(lo) + " " + number_text(hi) +
+                   " of its hinge are in radians, " + number_text(turns) +
+                   " turns apart: if degrees are meant, write " + number_text(lo * kPi / 180) +
+                   " " + number_text(hi * kPi / 180)));
 }
 
 std::string MeshBody::named(const std::string &text) const
@@ -312,27 +329,43 @@ BodyState MeshBody::state() const
   return {true, spec().mass, spec().joint, body_.state()};
 }
 
+RigidBody MeshBody::continued(const BodyState &was) const
+{
+  RigidBody before(in_units(was.mass, force_), was.joint);
+  before.set_state(was.state);
+  if (is_same(was)) return before;
+  RigidBody body(body_.mass(), spec().joint);
+  body.begin_from(before);
+  return body;
+}
+
+void MeshBody::check(const BodyState &was) const
+{
+  if (was.present) check(spec(), continued(was));
+}
+
 void MeshBody::restore(const BodyState &was)
 {
   pending_ = false;
+  const std::string saved = host_.names().saved;
   if (!was.present) {
-    host_.warn(named("the " + std::string(host_.names().saved) +
+    host_.warn(named("the " + saved +
                      " has no body for this mesh: the body starts at its initial position with its "
                      "initial velocity"));
     return;
   }
-  if (are_same(was.mass, spec().mass) && are_same(was.joint, spec().joint)) {
-    body_.set_state(was.state);
-    return;
-  }
-  RigidBody before(in_units(was.mass, force_), was.joint);
-  before.set_state(was.state);
-  body_.begin_from(before);
-  host_.warn(
-      named("the " + std::string(host_.names().saved) +
-            " was written with another mass or joint of this body: the body continues "
-            "from where it was, with the part of its velocity that its joint allows, and its "
-            "coordinate starts at 0 there"));
+  go_on(spec(), continued(was));
+  if (!is_same(was))
+    host_.warn(
+        named("the " + saved +
+              " was written with another mass or joint of this body: the body continues "
+              "from where it was, with the part of its velocity that its joint allows, and its "
+              "coordinate starts at 0 there"));
+}
+
+bool MeshBody::is_same(const BodyState &was) const
+{
+  return are_same(was.mass, spec().mass) && are_same(was.joint, spec().joint);
 }
 
 }    // namespace lsdcd

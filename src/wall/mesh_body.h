@@ -79,13 +79,21 @@ class MeshBody {
   std::string text() const;
 
   BodyState state() const;
-  // Goes on as it was; with another mass or joint from where it was. The first process warns.
+  // Throws InputError where restore() would begin as no body may, as outside of its limits.
+  void check(const BodyState &was) const;
+  // Goes on as it was; with another mass or joint from where it was. The first process warns. Collective.
   void restore(const BodyState &was);
 
  private:
   const BodySpec &spec() const { return wall_.meshes[mesh_].body; }
   std::string named(const std::string &text) const;
-  void measure();
+  // Checks what becomes of it, takes it, and makes all that follows from it: for a new body, other words and a saved state.
+  // Throws InputError, and then nothing has changed. Collective.
+  void go_on(const BodySpec &to, const RigidBody &as);
+  void check(const BodySpec &to, const RigidBody &as) const;
+  void ask_about_degrees() const;
+  bool is_same(const BodyState &was) const;
+  RigidBody continued(const BodyState &was) const;
   ContactSum spring() const;
   ModeRates of_spheres(const MeshTotals &contacts, const SphereRange &spheres) const;
   [[noreturn]] void fail_step(Real longest, Real contacts) const;

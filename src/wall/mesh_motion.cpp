@@ -167,10 +167,10 @@ void MeshMotion::set(const Servo &to)
     s.holds = true;
     s.velocity = 0;
   } else if (s.has_line_of(to)) {
+    check_limits(to, s.position);
     const Real position = s.position;
     s = to;
     s.position = position;
-    check_limits(position);
   } else {
     if (spec().motion.moves())
       throw InputError(named("a servo along another line cannot begin while the motion '" +
@@ -182,9 +182,8 @@ void MeshMotion::set(const Servo &to)
 }
 
 // One outside of its limits would jump back inside in one step.
-void MeshMotion::check_limits(Real position) const
+void MeshMotion::check_limits(const Servo &s, Real position) const
 {
-  const Servo &s = servo();
   if (position < s.lo || position > s.hi)
     throw InputError(named("the servo is at " + number_text(position) + ", outside the limits " +
                            number_text(s.lo) + " " + number_text(s.hi) +
@@ -275,7 +274,7 @@ MotionState MeshMotion::state() const
 
 void MeshMotion::check(const MotionState &was) const
 {
-  if (servo().has_line_of(was.servo)) check_limits(was.servo.position);
+  if (servo().has_line_of(was.servo)) check_limits(servo(), was.servo.position);
 }
 
 // A servo goes on along the same line, whatever its target is now. A motion that was stopped stays so.
@@ -294,7 +293,7 @@ void MeshMotion::restore(const MotionState &was, const Step &now)
              same = same_line && are_same(motion.moves() ? motion.terms() : motion.stopped(),
                                           wall_.inputs, was.terms, was.inputs);
   const std::string own = own_text(), its = motion_text(was.terms, was.inputs);
-  motion.begin_from(same ? was.start : same_line ? was.placed : was.last);
+  motion.begin_from(same && was.moves() ? was.start : same_line ? was.placed : was.last);
   const std::string saved = host_.names().saved;
   const std::string so = " was stopped when the " + saved + " was written, and stays so: ";
   if (same && was.stopped) {
@@ -315,7 +314,7 @@ void MeshMotion::restore(const MotionState &was, const Step &now)
       motion.terms()[i].speed = was.terms[i].speed;
     }
     place();
-  } else if (motion.moves() ? !was.terms.empty() : !was.terms.empty() && !was.stopped) {
+  } else if (motion.moves() ? !was.terms.empty() : was.moves()) {
     host_.warn(named("the " + saved + " was written with the motion '" + its + "' and " +
                      host_.names().wall + " has " +
                      (motion.moves() ? "'" + own + "', which begins" : "none: the mesh stays") +

@@ -24,6 +24,10 @@ struct MotionState {
   std::vector<MotionTerm> terms;
   bool stopped = false;
   InputNames inputs;    // of the terms
+
+  bool moves() const { return !terms.empty() && !stopped; }
+  // Was it where a body or the program put it? At rest it would be where it began.
+  bool was_posed() const { return !moves() && !is_same_place(start, placed); }
 };
 
 // Functions throw InputError, the same on all processes, with a text that names the mesh.
@@ -79,7 +83,7 @@ class MeshMotion {
   // On the first process; all have the rows then. Collective where there is one that is not read yet.
   void read_tables(std::vector<MotionTerm> &terms) const;
   void begin(const Step &now);
-  void check_limits(Real position) const;
+  void check_limits(const Servo &s, Real position) const;
 
   Host &host_;
   WallSpec &wall_;

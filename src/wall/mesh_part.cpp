@@ -44,7 +44,7 @@ bool MeshPart::keeps_edge(const PeriodicBox &box, int k) const
   const Vec3 edge = unit_vector(box.edge[k]),
              across = unit_vector(cross(box.edge[(k + 1) % 3], box.edge[(k + 2) % 3]));
   if (nodes) return false;
-  const bool keeps = body ? spec.body.joint.keeps(edge) : spec.motion.keeps(edge);
+  const bool keeps = body ? body->body().keeps(edge, norm(box.edge[k])) : spec.motion.keeps(edge);
   return norm(cross(edge, across)) <= 1e-12 && keeps;
 }
 

@@ -103,9 +103,15 @@ void Wall::make_body(MeshPart &m, Real force)
   has_bodies_ = true;
   m.body = std::make_unique<MeshBody>(host_, spec_, laws_, m.index, m.grid, force);
   m.spec.motion.begin_posed();
+  follow_body(m);
+}
+
+// What is made of a body's place and mobility, when it begins, changes or is restored.
+void Wall::follow_body(MeshPart &m)
+{
+  timestep_.add_body(m.index, m.body->most_mobility());
   m.spec.motion.set_pose(m.body->body().pose());
   m.motion.place();
-  timestep_.add_body(m.index, m.body->most_mobility());
 }
 
 void Wall::make_coats(Real force)
@@ -777,9 +783,7 @@ void Wall::set_body(int mesh, const BodySpec &to)
   MeshPart &m = meshes_[mesh];
   complete_bodies();
   m.body->set(to);
-  timestep_.add_body(m.index, m.body->most_mobility());
-  m.spec.motion.set_pose(m.body->body().pose());
-  m.motion.place();
+  follow_body(m);
   motion_has_changed(m);
   log_change(m, "body " + m.body->text());
 }
@@ -861,8 +865,10 @@ void Wall::restore(const WallState &was, const Step &now)
   const bool one_of_many = here > 1 || there > 1;
   const std::string saved = host_.names().saved;
   for (std::size_t k = 0; k < std::min(there, here); k++)
-    if (is_restored(meshes_[k], was.meshes[k], one_of_many))
+    if (is_restored(meshes_[k], was.meshes[k], one_of_many)) {
       meshes_[k].motion.check(was.meshes[k].motion);
+      if (meshes_[k].body) meshes_[k].body->check(was.meshes[k].body);
+    }
   continued_ = true;
   files_.continue_lists();
   history_.set_kind_of_file(was.history_kind);
@@ -899,16 +905,22 @@ bool Wall::is_restored(const MeshPart &m, const MeshState &was, bool one_of_many
 
 void Wall::restore_mesh(MeshPart &m, const MeshState &was, const Step &now)
 {
+  const std::string saved = host_.names().saved;
   if (!m.nodes) m.motion.restore(was.motion, now);
   restore_nodes(m, was.nodes);
   if (m.body) {
     m.body->restore(was.body);
-    m.spec.motion.set_pose(m.body->body().pose());
-    m.motion.place();
-  } else if (was.body.present) {
-    host_.warn(named(m, "the " + std::string(host_.names().saved) +
-                            " has a body for this mesh, and the wall has none: the mesh stays "
-                            "where that body was"));
+    follow_body(m);
+  } else if (m.nodes) {
+    if (!is_same_place(was.motion.last, Pose()))
+      host_.warn(named(m, "the " + saved +
+                              " was written when something else moved this mesh, and now its nodes "
+                              "do: they begin at the vertices of its file"));
+  } else if (was.body.present || (was.motion.was_posed() && !m.spec.motion.is_posed())) {
+    host_.warn(named(m, "the " + saved +
+                            (was.body.present ? " has a body" : " has a pose of the program") +
+                            " for this mesh, and " + host_.names().wall +
+                            " has none: the mesh goes on from where it was"));
   }
   for (BodyCoat &coat : coats_)
     if (coat.mesh() == m.index) coat.restore(was.coat);

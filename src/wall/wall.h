@@ -180,6 +180,7 @@ class Wall {
   EngineSettings engine_settings() const;
   void make_engine();
   void make_body(MeshPart &m, Real force);
+  void follow_body(MeshPart &m);
   void make_coats(Real force);
   void make_engine_anew();
   void log_creation(const std::string &material, const WallBackend &backend) const;

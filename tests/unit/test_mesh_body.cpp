@@ -170,6 +170,190 @@ TEST(mesh_body, goes_on_from_where_it_was_in_another_joint)
   EXPECT_NE(other.warnings[0].find("another mass or joint"), std::string::npos);
 }
 
+// A free cube that has moved and turned gets a joint, whose point is then elsewhere in the body than in the mesh's file.
+TEST(mesh_body, goes_on_from_a_state_saved_after_another_joint_to_the_last_bit)
+{
+  const Joint joints[] = {{JointKind::ball, {2, 0.5, 0}, {0, 0, 1}},
+                          {JointKind::hinge, {2, 0.5, 0}, {0, 0.6, 0.8}},
+                          {JointKind::planar, {0, 0, 0}, {0, 0.6, 0.8}},
+                          {JointKind::slider, {0, 0, 0}, {0, 0.6, 0.8}}};
+  for (const Joint &joint : joints) {
+    FakeHost host, other;
+    WallSpec spec = cube();
+    spec.meshes[0].body.velocity = {20, 0, 3};
+    spec.meshes[0].body.omega = {1, 2, 0.5};
+    Scene whole(host, spec);
+    whole.set_up();
+    whole.run(100);
+    BodySpec to = whole.wall->spec().meshes[0].body;
+    to.joint = joint;
+    whole.wall->set_body(0, to);
+    whole.set_up();
+    whole.run(10);
+    const WallState saved = WallState::from(whole.wall->save().blocks());
+    whole.run(10);
+    Scene second(other, cube(joint));
+    second.now = whole.now - 10;
+    second.wall->restore(saved, {second.now, kDt});
+    EXPECT_EQ(second.wall->body(0)->most_mobility(), whole.wall->body(0)->most_mobility());
+    second.set_up();
+    second.run(10);
+    const Pose a = whole.body().pose(), b = second.body().pose();
+    EXPECT_TRUE(a.shift == b.shift && a.velocity == b.velocity && a.angular == b.angular &&
+                a.row[0] == b.row[0]);
+    EXPECT_EQ(whole.body().kinetic_energy(), second.body().kinetic_energy());
+    EXPECT_TRUE(other.warnings.empty());
+  }
+}
+
+// Turned by 90 degrees about z: the slider along x of the box is along -y of the mesh.
+TEST(mesh_body, gives_way_as_another_joint_of_a_restart_allows)
+{
+  FakeHost host, other;
+  WallSpec spec = cube();
+  constexpr int kSteps = 1000;
+  spec.meshes[0].body.omega = {0, 0, kPi / 2 / (kSteps * kDt)};
+  Scene first(host, spec);
+  first.set_up();
+  first.run(kSteps);
+  Scene second(other, cube({JointKind::slider, {0, 0, 0}, {1, 0, 0}}));
+  second.wall->restore(first.wall->save(), {first.now, kDt});
+  const Mobility gives = second.wall->body(0)->mobility();
+  EXPECT_NEAR(gives.along({1, 0, 0}, {0, -1, 0}), 1 / 8., 1e-12);
+  EXPECT_NEAR(gives.along({1, 0, 0}, {1, 0, 0}), 0, 1e-12);
+}
+
+// It was at 0.5. One that is refused changes nothing.
+TEST(mesh_body, is_not_restored_outside_of_its_limits)
+{
+  FakeHost host, other;
+  WallSpec spec = cube({JointKind::slider, {0, 0, 0}, {1, 0, 0}});
+  spec.meshes[0].body.velocity = {1, 0, 0};
+  Scene first(host, spec);
+  first.set_up();
+  first.run(500);
+  spec.meshes[0].body.drive.lo = -0.2;
+  spec.meshes[0].body.drive.hi = 0.2;
+  Scene second(other, spec);
+  try {
+    second.wall->restore(first.wall->save(), {first.now, kDt});
+    ADD_FAILURE();
+  } catch (const InputError &e) {
+    EXPECT_NE(std::string(e.what()).find("limits -0.2 0.2 do not contain 0.5"), std::string::npos)
+        << e.what();
+  }
+  EXPECT_EQ(second.body().centre().x, 0);
+}
+
+// Its mesh has no motion before and after: only the state says where it was.
+TEST(mesh_body, leaves_its_mesh_where_it_was_where_it_is_none_after_a_restart)
+{
+  FakeHost host, other;
+  WallSpec spec = cube();
+  spec.meshes[0].body.velocity = {1, 0, 0};
+  Scene first(host, spec);
+  first.set_up();
+  first.run(500);
+  spec.meshes[0].body = BodySpec();
+  Scene second(other, spec);
+  second.wall->restore(first.wall->save(), {first.now, kDt});
+  EXPECT_NEAR(second.wall->meshes()[0].motion.pose().to_box({0, 0, 0}).x, 0.5, 1e-14);
+  ASSERT_EQ(other.warnings.size(), 1u);
+  EXPECT_NE(other.warnings[0].find("has a body for this mesh"), std::string::npos);
+}
+
+// Nodes are where the program has them: the place of a body or a motion would move them once more, and the sphere over the
+// left end of the top would find nothing there.
+TEST(mesh_body, does_not_move_nodes_after_a_restart)
+{
+  for (const bool by_motion : {false, true}) {
+    FakeHost host, other;
+    WallSpec moved = cube(), spec = cube();
+    moved.meshes[0].body.velocity = {1, 0, 0};
+    if (by_motion) {
+      moved.meshes[0].body = BodySpec();
+      MotionTerm term;
+      term.velocity = {1, 0, 0};
+      moved.meshes[0].motion.add(term);
+    }
+    Scene first(host, moved);
+    first.set_up();
+    first.run(500);
+    spec.meshes[0].body = BodySpec();
+    spec.meshes[0].has_nodes = true;
+    Scene second(other, spec);
+    second.add({-0.8, 0.1, kSide / 2 + kRadius - 0.01});
+    second.wall->restore(first.wall->save(), {first.now, kDt});
+    second.set_up();
+    EXPECT_NEAR(second.force[0].z, 0.01 * kStiffness, 1e-10);
+    ASSERT_GE(other.warnings.size(), 1u);
+    EXPECT_NE(other.warnings[0].find("now its nodes do"), std::string::npos);
+  }
+}
+
+// Limits of hinges that look like degrees; ten turns, and an angle below one turn, do not.
+TEST(mesh_body, asks_whether_limits_are_degrees_where_they_look_like_those)
+{
+  const struct {
+    Real lo, hi;
+    bool asks;
+  } cases[] = {{-45, 90, true},
+               {0, 360, true},
+               {-22.5, 22.5, true},
+               {0, 62.83, false},
+               {-20 * kPi, 20 * kPi, false},
+               {-1, 2, false},
+               {-HUGE_VAL, 90, false}};
+  for (const auto &c : cases) {
+    FakeHost host;
+    WallSpec spec = cube({JointKind::hinge, {0, 0, 0}, {0, 0, 1}});
+    spec.meshes[0].body.drive.lo = c.lo;
+    spec.meshes[0].body.drive.hi = c.hi;
+    Scene scene(host, spec);
+    EXPECT_EQ(host.warnings.size(), c.asks) << c.lo << " " << c.hi;
+    BodySpec to = spec.meshes[0].body;
+    to.load = {0, 0, 1};    // the same limits: asked once
+    scene.wall->set_body(0, to);
+    EXPECT_EQ(host.warnings.size(), c.asks) << c.lo << " " << c.hi;
+    to.drive.lo = -180;
+    to.drive.hi = 180;
+    scene.wall->set_body(0, to);
+    ASSERT_EQ(host.warnings.size(), c.asks + 1u);
+    EXPECT_NE(host.warnings.back().find("write -3.14159 3.14159"), std::string::npos);
+  }
+}
+
+// Images of a mesh are those of its file: a body that went along the periodic edge before a hinge held it there has others. A
+// large sphere reaches it through the face, where it had no force.
+TEST(mesh_body, has_no_images_where_it_was_moved_along_the_edge_before_its_joint)
+{
+  FakeHost host;
+  host.simulation = wide_box();
+  PeriodicBox &box = host.simulation;
+  box.corner.z = -4;
+  box.edge[2].z = 8;
+  box.periodic[2] = true;
+  WallSpec spec = cube();
+  spec.meshes[0].body.velocity = {0, 0, 20};
+  Scene scene(host, spec);
+  scene.add({0, 0, -3.6}, kRadius);
+  scene.set_up();
+  scene.run(100);    // it reaches from 1 to 3, and 1 from the face
+  BodySpec to = scene.wall->spec().meshes[0].body;
+  to.joint = {JointKind::hinge, {0, 0, 0}, {0, 0, 1}};
+  scene.wall->set_body(0, to);
+  scene.set_up();
+  EXPECT_NEAR(scene.body().centre().z, 2, 1e-12);
+  scene.radius[0] = 1.5;
+  try {
+    scene.set_up();
+    ADD_FAILURE() << scene.force[0].z;
+  } catch (const InputError &e) {
+    EXPECT_NE(std::string(e.what()).find("reaches the periodic face in z"), std::string::npos)
+        << e.what();
+  }
+}
+
 // One contact of stiffness k, with the body of mass 8 and the sphere of mass 1 on it.
 TEST(mesh_body, refuses_a_timestep_at_which_sphere_and_body_would_be_unstable)
 {

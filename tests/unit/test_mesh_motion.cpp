@@ -389,6 +389,7 @@ TEST_F(ServoAtFive, goes_on_along_the_line_of_a_servo)
 TEST_F(ServoAtFive, refuses_limits_that_a_servo_is_past)
 {
   EXPECT_THROW(motion.set(servo_along({0, 0, 1}, 0, 4)), InputError);
+  EXPECT_EQ(wall.servo().hi, 10);    // it is as it was
 }
 
 TEST_F(ServoAtFive, begins_along_another_line_from_where_it_is)
@@ -488,6 +489,18 @@ TEST(MeshMotion, begins_another_motion_after_a_restart_from_where_it_was)
   EXPECT_EQ(where_it_goes_on(before, after), (Vec3{3, 3, 0}));
   ASSERT_EQ(after.host.warnings.size(), 1);
   EXPECT_NE(after.host.warnings[0].find("the phase is lost"), std::string::npos);
+}
+
+// As the program of a library puts a mesh, by poses, where neither before nor after a motion moves it.
+TEST(MeshMotion, rests_after_a_restart_where_poses_had_it)
+{
+  Wall before, after;
+  before.mesh().motion.begin_posed();
+  Pose pose;
+  pose.placed = true;
+  pose.shift = {3, 0, 0};
+  before.mesh().motion.set_pose(pose);
+  EXPECT_EQ(where_it_goes_on(before, after), (Vec3{3, 0, 0}));
 }
 
 TEST(MeshMotion, that_was_stopped_stays_so_after_a_restart)
