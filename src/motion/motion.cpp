@@ -3,6 +3,8 @@
 
 #include "motion/motion.h"
 
+#include "base/quaternion.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -271,6 +273,24 @@ Real farthest_between(const Pose &a, const Pose &b, const Box &box)
   Real most = 0;
   for_corners(box, [&](const Vec3 &x) { most = std::max(most, norm(b.to_box(x) - a.to_box(x))); });
   return most;
+}
+
+Pose between(const Pose &a, const Pose &b, Real share)
+{
+  const auto turn = [&](int i, int j) { return dot(b.row[i], a.row[j]); };    // from a to b
+  const Vec3 axis =
+      0.5 * Vec3{turn(2, 1) - turn(1, 2), turn(0, 2) - turn(2, 0), turn(1, 0) - turn(0, 1)};
+  const Real sine = norm(axis),
+             angle = std::atan2(sine, (turn(0, 0) + turn(1, 1) + turn(2, 2) - 1) / 2);
+  Pose pose = a.still();
+  pose.placed = a.placed || b.placed;
+  pose.shift += share * (b.shift - a.shift);
+  if (!(sine > 0)) return pose;
+  Vec3 part[3];
+  rows_of(rotation_about(1 / sine * axis, share * angle), part);
+  for (int i = 0; i < 3; i++)
+    pose.row[i] = part[i].x * a.row[0] + part[i].y * a.row[1] + part[i].z * a.row[2];
+  return pose;
 }
 
 Real fastest_in(const Pose &pose, const Box &box)

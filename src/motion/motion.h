@@ -128,6 +128,9 @@ bool are_same(const Servo &a, const InputNames &inputs_of_a, const Servo &b,
 
 // The largest distance between the places of a point of this box (in the mesh's frame) in two poses.
 Real farthest_between(const Pose &a, const Pose &b, const Box &box);
+// The pose when this share of the way from a to b is done, at rest: the origin of the mesh goes straight, and it turns
+// evenly.
+Pose between(const Pose &a, const Pose &b, Real share);
 // The largest speed of a point of this box.
 Real fastest_in(const Pose &pose, const Box &box);
 // The bounds of this box where the pose puts it.

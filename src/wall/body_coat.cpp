@@ -18,6 +18,10 @@ namespace {
 
 constexpr std::size_t kMostCoatPoints = 1000000;
 
+// Overlaps over the radius: to warn of, and to stop at. A point that goes less than kBetweenLooks of its radius from one look
+// to the next is seen where it goes through a mesh.
+constexpr Real kDeep = 0.5, kThrough = 0.9, kBetweenLooks = 2 * (1 - kThrough);
+
 // A law without what only spheres have.
 ContactLaw law_of_coat(ContactLaw law)
 {
@@ -44,6 +48,40 @@ Mobility turned(const Mobility &m, const Pose &from, const Pose &to)
   out.shifts = turned(m.shifts, from, to);
   out.turns = turned(m.turns, from, to);
   return out;
+}
+
+// The pose of a mesh in the frame of another one, at rest.
+Pose seen_from(const Pose &other, const Pose &own)
+{
+  Pose pose;
+  pose.placed = true;
+  for (int i = 0; i < 3; i++)
+    for (int j = 0; j < 3; j++)
+      for (int k = 0; k < 3; k++)
+        pose.row[i][j] = (k == 0 ? 0 : pose.row[i][j]) + other.row[k][i] * own.row[k][j];
+  pose.shift = other.to_mesh(own.shift);
+  return pose;
+}
+
+// n.K n of a mesh at a place of the box; 0 where it is no body.
+Real gives_way(const MeshPart &m, const Vec3 &at, const Vec3 &normal)
+{
+  const Pose &pose = m.motion.pose();
+  return m.body ? m.body->mobility().along(pose.to_mesh(at), pose.turn_to_mesh(normal)) : 0;
+}
+
+// The velocity that a body gets there, along the normal.
+Real velocity_by(const CoatPushes::Push &push, const MeshPart &m, const Vec3 &at,
+                 const Vec3 &normal)
+{
+  if (push.contacts == 0) return 0;
+  const Mobility mobility = m.body->mobility();
+  const Pose &pose = m.motion.pose();
+  const Vec3 point = pose.to_box(mobility.point), n = pose.turn_to_mesh(normal),
+             torque = push.torque_at_origin - cross(point, push.force);
+  return dot(n, mobility.shifts * pose.turn_to_mesh(push.force)) +
+         dot(cross(pose.to_mesh(at) - mobility.point, n),
+             mobility.turns * pose.turn_to_mesh(torque));
 }
 
 }    // namespace
@@ -149,7 +187,6 @@ void BodyCoat::place(const Pose &pose, Real back)
     x_[i] = arm + pose.shift;
     v_[i] = velocity + turning - back * cross(omega, turning);
     omega_[i] = omega;
-    force_on_[i] = torque_on_[i] = {0, 0, 0};
   }
 }
 
@@ -167,6 +204,22 @@ Spheres BodyCoat::spheres()
   return s;
 }
 
+// The surface motion of the other mesh, in its frame, less that of the body. It is exact, but for the part of a velocity of
+// half a step ago that is due to turning, where both surfaces turn.
+SurfaceMotion BodyCoat::surface_against(const MeshPart &own, const MeshPart &other) const
+{
+  const SurfaceMotion &mine = own.motion.surface();
+  SurfaceMotion s = other.motion.surface();
+  if (!mine.moves()) return s;
+  const Pose &from = own.motion.pose(), &to = other.motion.pose();
+  const auto turned = [&](const Vec3 &a) { return to.turn_to_mesh(from.turn_to_box(a)); };
+  const Vec3 angular = turned(mine.angular), centre = to.to_mesh(from.to_box(mine.centre));
+  if (norm_sq(s.angular) == 0) s.centre = centre;
+  s.velocity -= turned(mine.velocity) + cross(angular, s.centre - centre);
+  s.angular -= angular;
+  return s;
+}
+
 StepSettings BodyCoat::settings(const std::deque<MeshPart> &meshes, const Step &step)
 {
   const MeshPart &own = meshes[mesh_];
@@ -174,7 +227,7 @@ StepSettings BodyCoat::settings(const std::deque<MeshPart> &meshes, const Step &
   mobilities_.clear();
   for (const int k : others_) {
     const MeshPart &m = meshes[k];
-    surfaces_.push_back(m.motion.surface());
+    surfaces_.push_back(surface_against(own, m));
     mobilities_.push_back(turned(own.body->mobility(), own.motion.pose(), m.motion.pose()));
   }
   StepSettings s;
@@ -186,20 +239,58 @@ StepSettings BodyCoat::settings(const std::deque<MeshPart> &meshes, const Step &
   return s;
 }
 
-void BodyCoat::step(const std::deque<MeshPart> &meshes, const Step &step,
-                    std::vector<CoatLoad> &loads)
+// Puts all meshes where they are when this share of their way since the step before is done.
+void BodyCoat::put(const std::deque<MeshPart> &meshes, Real share, Real back)
 {
+  const auto pose = [&](int mesh) {
+    const MeshMotion &m = meshes[mesh].motion;
+    return share < 1 ? between(m.pose_before(), m.pose(), share) : m.pose();
+  };
   for (std::size_t k = 0; k < others_.size(); k++)
-    engine_->set_pose(meshes[others_[k]].motion.pose(), static_cast<int>(k));
-  const StepSettings want = settings(meshes, step);
-  place(meshes[mesh_].motion.pose(), want.update_history ? step.dt / 2 : 0);
+    engine_->set_pose(pose(others_[k]), static_cast<int>(k));
+  place(pose(mesh_), back);
+}
+
+void BodyCoat::choose(const std::deque<MeshPart> &meshes)
+{
   const Spheres s = spheres();
+  if (!restored_.empty()) take_restored(meshes);
+  if (is_stale_ || engine_->has_moved(s)) engine_->choose(s, 0.5 * radius_, true);
+  is_stale_ = false;
+}
+
+// Computes contacts without another effect.
+void BodyCoat::look(StepSettings want)
+{
+  want.update_history = false;
+  engine_->step(spheres(), want);
+  engine_->read_diagnostics();
+}
+
+void BodyCoat::begin(const std::deque<MeshPart> &meshes, const Step &step, CoatPushes &pushes)
+{
+  is_as_placed_ &= step.kind != Step::step;
+  contacts_.clear();
+  for (Real &mass : masses_) mass = heavy_;
   try {
-    if (!restored_.empty()) take_restored(meshes);
-    if (is_stale_ || engine_->has_moved(s)) engine_->choose(s, 0.5 * radius_, true);
-    is_stale_ = false;
-    take_masses(meshes, s, want);
-    engine_->step(s, want);
+    check_way(meshes, step);
+    put(meshes, 1, step.kind == Step::step ? step.dt / 2 : 0);
+    choose(meshes);
+    if (engine_->n_candidates() == 0) return;
+    look(settings(meshes, step));
+  } catch (const std::exception &e) {
+    throw InputError(named(std::string("in its coat, ") + e.what()));
+  }
+  find_contacts(meshes, pushes);
+}
+
+void BodyCoat::finish(const std::deque<MeshPart> &meshes, const Step &step,
+                      const CoatPushes &pushes, std::vector<CoatLoad> &loads)
+{
+  take_masses(meshes, pushes);
+  for (std::size_t i = 0; i < points_.size(); i++) force_on_[i] = torque_on_[i] = {0, 0, 0};
+  try {
+    engine_->step(spheres(), settings(meshes, step));
     engine_->read_diagnostics();
   } catch (const std::exception &e) {
     throw InputError(named(std::string("in its coat, ") + e.what()));
@@ -209,6 +300,42 @@ void BodyCoat::step(const std::deque<MeshPart> &meshes, const Step &step,
   check_depth();
 }
 
+// Looks at the contacts on the way of a body that goes far in a step: at a step's end a point may be behind a mesh already.
+void BodyCoat::check_way(const std::deque<MeshPart> &meshes, const Step &step)
+{
+  const MeshPart &own = meshes[mesh_];
+  const Real longest = kBetweenLooks * radius_;
+  Real way = 0;
+  for (const int k : others_) {
+    const MeshPart &other = meshes[k];
+    const Pose before = seen_from(other.motion.pose_before(), own.motion.pose_before()),
+               now = seen_from(other.motion.pose(), own.motion.pose());
+    const Real far = farthest_between(before, now, own.bounds(0));
+    if (far <= longest) continue;
+    Box swept = placed_bounds(before, own.bounds(radius_ + far));
+    for_corners(placed_bounds(now, own.bounds(radius_ + far)),
+                [&](const Vec3 &x) { extend(swept, x); });
+    if (overlap(swept, other.bounds(0))) way = std::max(way, far);
+  }
+  constexpr Real kMostLooks = 1000;
+  const std::string moves = "the body moves by " + number_text(way) + " in step " +
+                            std::to_string(step.number) + ", " + number_text(way / radius_) +
+                            " radii of its coat, ";
+  if (way > kMostLooks * longest)
+    throw InputError(moves + "and may pass through another mesh: use a shorter timestep");
+  const int looks = static_cast<int>(std::ceil(way / longest));
+  for (int i = 1; i < looks; i++) {
+    put(meshes, static_cast<Real>(i) / looks, 0);
+    choose(meshes);
+    if (engine_->n_candidates() == 0) continue;
+    look(settings(meshes, step));
+    int other = 0;
+    if (deepest(other) >= kThrough)
+      throw InputError(moves + "and passes through mesh '" + wall_.meshes[other].name +
+                       "': use a shorter timestep");
+  }
+}
+
 // Do joints hold what touches along the normal? A free body gives way by 1/mass at least.
 bool BodyCoat::is_held(Real gives_way) const
 {
@@ -216,43 +343,49 @@ bool BodyCoat::is_held(Real gives_way) const
   return gives_way < kHeld / body_mass();
 }
 
-// Damping takes 1/mass + n.K n, with K of this body. The mass of a point on another body is its 1/(n.K n), for the normal
-// that a first look at the contacts gives: that of the strongest, where a point has several. Where joints hold both along
-// the normal, damping takes the mass of this body: it is for what moves along the surface.
-void BodyCoat::take_masses(const std::deque<MeshPart> &meshes, const Spheres &s,
-                           const StepSettings &want)
+void BodyCoat::find_contacts(const std::deque<MeshPart> &meshes, CoatPushes &pushes)
 {
-  for (const int i : lighter_) masses_[i] = heavy_;
-  lighter_.clear();
-  const MeshPart &own = meshes[mesh_];
-  const bool has_joint = own.body->body().joint().kind != JointKind::free,
-             any_body = std::any_of(others_.begin(), others_.end(),
-                                    [&](int k) { return meshes[k].body != nullptr; });
-  if ((!any_body && !has_joint) || engine_->n_candidates() == 0) return;
-  StepSettings look = want;
-  look.update_history = false;
-  engine_->step(s, look);
   const ContactRecord *record = engine_->records();
   for (int k = 0; k < engine_->n_touching(); k++) {
     const int i = engine_->touching()[k];
-    Real strongest = -HUGE_VAL;
-    for (int n = 0; n < static_cast<int>(engine_->sphere_output()[k].contacts); n++, record++) {
-      const MeshPart &other = meshes[others_[record->mesh]];
-      const Real distance = norm(record->arm);
-      if (!(other.body || has_joint) || !(distance > 0) || !(record->normal > strongest)) continue;
-      strongest = record->normal;
-      const Vec3 at = other.motion.pose().to_mesh(x_[i]) - record->arm;
-      const Real gives_way =
-          other.body ? other.body->mobility().along(at, 1 / distance * record->arm) : 0;
-      masses_[i] = other.body ? 1 / (1 / heavy_ + gives_way) : heavy_;
-      if (!has_joint) continue;
-      const Pose &there = other.motion.pose(), &here = own.motion.pose();
-      const Real gives = own.body->mobility().along(
-          here.to_mesh(there.to_box(at)),
-          here.turn_to_mesh(there.turn_to_box(1 / distance * record->arm)));
-      if (is_held(gives + gives_way)) masses_[i] = 1 / (1 / body_mass() - gives);
+    const ContactRecord *strongest = nullptr;
+    for (int n = 0; n < static_cast<int>(engine_->sphere_output()[k].contacts); n++, record++)
+      if (norm_sq(record->arm) > 0 && (!strongest || record->normal > strongest->normal))
+        strongest = record;
+    if (!strongest) continue;    // the point lies on the mesh
+    const int other = others_[strongest->mesh];
+    const Vec3 arm = meshes[other].motion.pose().turn_to_box(strongest->arm);
+    const PointContact c = {i, other, x_[i] - arm, 1 / norm(arm) * arm};
+    contacts_.push_back(c);
+    pushes.add(other, mesh_, c.at, c.normal);
+  }
+}
+
+// Damping takes the mass 1/(n.K n) of both bodies at a contact that is alone. Of several, each takes the mass that it moves
+// where all push alike: 1/(sum of n.K n' over these). N of them under the middle of a body of mass M damp as one of mass M
+// and of N times the stiffness. A contact whose push others take back, as on the other side of the body, counts as alone.
+// The engine adds n.K n of this body itself. Where joints hold both along the normal, damping takes the mass of this
+// body, shared by the contacts: it is for what moves along the surface.
+void BodyCoat::take_masses(const std::deque<MeshPart> &meshes, const CoatPushes &pushes)
+{
+  constexpr Real kRounding = 1e-9;
+  for (const PointContact &c : contacts_) {
+    const auto alone = [&](int mesh) { return gives_way(meshes[mesh], c.at, c.normal); };
+    const auto together = [&](int mesh, const Vec3 &normal) {
+      Real sum = 0;
+      for (std::size_t by = 0; by < pushes.meshes() && meshes[mesh].body; by++)
+        sum += std::max<Real>(
+            0, velocity_by(pushes.on(mesh, static_cast<int>(by)), meshes[mesh], c.at, normal));
+      return sum;
+    };
+    const Real own = alone(mesh_), other = alone(c.other);
+    if (is_held(own + other)) {
+      masses_[c.point] = 1 / (pushes.on(mesh_, c.other).contacts / body_mass() - own);
+      continue;
     }
-    if (masses_[i] != heavy_) lighter_.push_back(i);
+    const Real all = together(mesh_, c.normal) + together(c.other, -c.normal);
+    masses_[c.point] =
+        1 / (1 / heavy_ + (all > (1 + kRounding) * (own + other) ? all - own : other));
   }
 }
 
@@ -283,7 +416,6 @@ void BodyCoat::add_loads(const std::deque<MeshPart> &meshes, std::vector<CoatLoa
 void BodyCoat::add_stiffness(const std::deque<MeshPart> &meshes, std::vector<CoatLoad> &loads) const
 {
   const MeshPart &own = meshes[mesh_];
-  const Mobility &own_gives = own.body->mobility_to_forces();
   const ContactRecord *record = engine_->records();
   for (int k = 0; k < engine_->n_touching(); k++) {
     const int i = engine_->touching()[k];
@@ -294,13 +426,7 @@ void BodyCoat::add_stiffness(const std::deque<MeshPart> &meshes, std::vector<Coa
       const Pose &pose = other.motion.pose();
       const Vec3 arm = pose.turn_to_box(record->arm), normal = 1 / distance * arm,
                  along = any_perpendicular(normal), at = x_[i] - arm;
-      const auto gives = [&](const MeshPart &m, const Mobility &mobility, const Vec3 &direction) {
-        const Pose &p = m.motion.pose();
-        return mobility.along(p.to_mesh(at), p.turn_to_mesh(direction));
-      };
-      Real yields = gives(own, own_gives, normal);
-      if (other.body) yields += gives(other, other.body->mobility_to_forces(), normal);
-      const Real mass = is_held(yields / force_) ? body_mass() : 1 / (1 / heavy_ + yields / force_);
+      const Real mass = 1 / (1 / masses_[i] + gives_way(own, at, normal));
       const ContactSlopes slope =
           contact_slopes(laws_[record->mesh], std::max<Real>(0, radius_ - distance), radius_, mass);
       const auto add = [&](const MeshPart &m, const Vec3 &direction, const ContactSlope &of) {
@@ -312,9 +438,9 @@ void BodyCoat::add_stiffness(const std::deque<MeshPart> &meshes, std::vector<Coa
         load.damping.add(mobility, x, d, of.damping);
         const Real gives_way = mobility.along(x, d);
         load.most += {of.stiffness * gives_way, of.damping * gives_way};
-        load.mass = std::max(load.mass, mass);
       };
       for (const MeshPart *m : {&own, &other}) {
+        loads[m->index].mass = std::max(loads[m->index].mass, mass);
         if (!m->body) continue;
         add(*m, normal, slope.normal);
         add(*m, along, slope.tangential);
@@ -324,19 +450,37 @@ void BodyCoat::add_stiffness(const std::deque<MeshPart> &meshes, std::vector<Coa
   }
 }
 
+// The largest overlap over the radius, and the mesh that it is with.
+Real BodyCoat::deepest(int &other) const
+{
+  Real most = 0;
+  for (std::size_t k = 0; k < others_.size(); k++) {
+    const Real ratio = engine_->mesh_totals(static_cast<int>(k)).largest_overlap_ratio;
+    if (ratio > most) other = others_[k];
+    most = std::max(most, ratio);
+  }
+  return most;
+}
+
 // A point that goes through the other mesh would be pushed out on its other side.
 void BodyCoat::check_depth()
 {
-  constexpr Real kDeep = 0.5, kThrough = 0.9;    // of the radius
-  Real deepest = 0;
-  for (std::size_t k = 0; k < others_.size(); k++)
-    deepest = std::max(deepest, engine_->mesh_totals(static_cast<int>(k)).largest_overlap_ratio);
-  if (deepest < kDeep || (deepest < kThrough && deep_warned_)) return;
-  const std::string text = named("its coat of radius " + number_text(radius_) +
-                                 " is pressed in by " + number_text(deepest) +
-                                 " of that, and at 1 it goes through the other mesh: give it a "
-                                 "larger radius, a shorter spacing, or the contact more stiffness");
-  if (deepest >= kThrough) throw InputError(text);
+  int other = 0;
+  const Real deep = deepest(other);
+  if (deep < kDeep || (deep < kThrough && deep_warned_)) return;
+  const std::string coat = "its coat of radius " + number_text(radius_),
+                    text = named(is_as_placed_
+                                     ? coat + " begins with a point that is pressed into mesh '" +
+                                           wall_.meshes[other].name + "' by " + number_text(deep) +
+                                           " of that: other meshes feel the body " +
+                                           number_text(radius_) +
+                                           " outside of its surface, so place it " +
+                                           number_text(deep * radius_) + " farther from that mesh"
+                                     : coat + " is pressed in by " + number_text(deep) +
+                                           " of that, and at 1 it goes through the other mesh: "
+                                           "give it a larger radius, a shorter spacing, or the "
+                                           "contact more stiffness");
+  if (deep >= kThrough) throw InputError(text);
   deep_warned_ = true;
   host_.warn(text + ". Shown once");
 }
@@ -365,6 +509,7 @@ std::vector<Real> BodyCoat::save(const FeatureName &name)
 void BodyCoat::restore(const std::vector<Real> &saved)
 {
   restored_.clear();
+  is_as_placed_ = false;
   const ContactLaw &law = laws_.front();
   if (saved.size() < 2) return;
   if (law.has_history() && saved[0] == static_cast<Real>(law.history_kind()) &&

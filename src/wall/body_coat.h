@@ -37,9 +37,14 @@ class BodyCoat {
   // The grid of a mesh from now on.
   void set_grid(const MeshPart &m);
 
-  // Computes the contacts of a step, in which all meshes are where they are now, and adds them to the loads of each
-  // mesh. Throws InputError, the same on all processes.
-  void step(const std::deque<MeshPart> &meshes, const Step &step, std::vector<CoatLoad> &loads);
+  // A step, in which all meshes are where they are now: begin() of all coats, then finish() of all. They throw InputError,
+  // the same on all processes.
+
+  // Finds the contacts and adds them to the pushes. Throws where a point has gone through a mesh since the step before.
+  void begin(const std::deque<MeshPart> &meshes, const Step &step, CoatPushes &pushes);
+  // Computes the contacts, whose damping hangs on all pushes, and adds them to the loads of each mesh.
+  void finish(const std::deque<MeshPart> &meshes, const Step &step, const CoatPushes &pushes,
+              std::vector<CoatLoad> &loads);
 
   // Returns what its contacts keep, with the names that `name` gives to features. restore() takes it again, before a
   // step. The first process warns where it is of another law or another coat.
@@ -53,14 +58,21 @@ class BodyCoat {
   Real body_mass() const { return wall_.meshes[mesh_].body.mass.mass; }
   bool is_held(Real gives_way) const;
   std::string named(const std::string &text) const;
+  void put(const std::deque<MeshPart> &meshes, Real share, Real back);
   void place(const Pose &pose, Real back);
+  void choose(const std::deque<MeshPart> &meshes);
+  void check_way(const std::deque<MeshPart> &meshes, const Step &step);
+  void look(StepSettings want);
   Spheres spheres();
   ContactHistory springs(const FeatureName &name);
+  SurfaceMotion surface_against(const MeshPart &own, const MeshPart &other) const;
   StepSettings settings(const std::deque<MeshPart> &meshes, const Step &step);
-  void take_masses(const std::deque<MeshPart> &meshes, const Spheres &s, const StepSettings &want);
+  void find_contacts(const std::deque<MeshPart> &meshes, CoatPushes &pushes);
+  void take_masses(const std::deque<MeshPart> &meshes, const CoatPushes &pushes);
   void take_restored(const std::deque<MeshPart> &meshes);
   void add_loads(const std::deque<MeshPart> &meshes, std::vector<CoatLoad> &loads) const;
   void add_stiffness(const std::deque<MeshPart> &meshes, std::vector<CoatLoad> &loads) const;
+  Real deepest(int &other) const;
   void check_depth();
 
   Host &host_;
@@ -73,11 +85,17 @@ class BodyCoat {
   std::vector<Vec3> points_;        // in the frame of the mesh
   std::vector<Vec3> x_, v_, omega_, force_on_, torque_on_;
   std::vector<Real> radii_, masses_;
-  Real heavy_ = 0;              // the mass of points that touch no other body
-  std::vector<int> lighter_;    // the others, in the last step
+  Real heavy_ = 0;    // the mass of points that touch no other body
+  // Of a point with another mesh: the strongest that it has in this step.
+  struct PointContact {
+    int point, other;    // numbers of the wall's mesh
+    Vec3 at, normal;     // in the box; to the point
+  };
+  std::vector<PointContact> contacts_;
   std::unique_ptr<WallEngine> engine_;
   bool is_stale_ = true;    // grids are new
   bool deep_warned_ = false;
+  bool is_as_placed_ = true;      // no step was made
   std::vector<Real> restored_;    // until the first step
   // These are of each mesh of the engine, in a step.
   std::vector<SurfaceMotion> surfaces_;

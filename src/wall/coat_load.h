@@ -6,7 +6,9 @@
 
 #include "rigid/step_limit.h"
 
+#include <cstddef>
 #include <cstdint>
+#include <vector>
 
 namespace lsdcd {
 
@@ -22,6 +24,37 @@ struct CoatLoad {
   ContactSum stiffness, damping;
   ModeRates most;
   std::uint32_t bodies = 0;    // that it touches: a bit for each mesh
+};
+
+// What the contacts of all coats would do to each mesh if each pushed with a force of 1, by the mesh that it is with.
+class CoatPushes {
+ public:
+  struct Push {
+    Vec3 force = {0, 0, 0}, torque_at_origin = {0, 0, 0};    // on the mesh, in the frame of the box
+    int contacts = 0;
+  };
+
+  explicit CoatPushes(std::size_t meshes) : meshes_(meshes), all_(meshes * meshes) {}
+
+  std::size_t meshes() const { return meshes_; }
+  const Push &on(int mesh, int by) const { return all_[mesh * meshes_ + by]; }
+  // A contact at the place x, whose unit normal points from one mesh to the other.
+  void add(int from, int to, const Vec3 &x, const Vec3 &normal)
+  {
+    add_to(all_[to * meshes_ + from], x, normal);
+    add_to(all_[from * meshes_ + to], x, -normal);
+  }
+
+ private:
+  static void add_to(Push &push, const Vec3 &x, const Vec3 &normal)
+  {
+    push.force += normal;
+    push.torque_at_origin += cross(x, normal);
+    push.contacts++;
+  }
+
+  std::size_t meshes_;
+  std::vector<Push> all_;
 };
 
 }    // namespace lsdcd

@@ -119,6 +119,8 @@ bool MeshMotion::adds_up() const
 
 Real MeshMotion::advance(const Step &to, const std::vector<Real> &inputs)
 {
+  before_ = pose_;
+  has_before_ = to.kind == Step::step;
   const Time before = clock_.now();
   clock_.advance(to);
   const Real passed = static_cast<Real>(clock_.now() - before);

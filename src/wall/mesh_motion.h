@@ -37,7 +37,9 @@ class MeshMotion {
   // wall must outlive it. Its time is 0 at `now`.
   MeshMotion(Host &host, WallSpec &wall, int mesh, const Step &now);
 
-  const Pose &pose() const { return pose_; }                   // in this step
+  const Pose &pose() const { return pose_; }    // in this step
+  // In the step before; in a step that no time has passed to, that of this step.
+  const Pose &pose_before() const { return has_before_ ? before_ : pose_; }
   const SurfaceMotion &surface() const { return surface_; }    // likewise
 
   bool moves_or_varies() const;    // does the engine see a motion?
@@ -89,7 +91,8 @@ class MeshMotion {
   WallSpec &wall_;
   int mesh_;
   StepClock clock_;
-  Pose pose_;
+  Pose pose_, before_;
+  bool has_before_ = false;
   SurfaceMotion surface_;
 };
 

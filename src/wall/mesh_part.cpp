@@ -50,13 +50,14 @@ bool MeshPart::keeps_edge(const PeriodicBox &box, int k) const
 
 // Where its motion keeps an edge, that is the edge, and periodic images are what they are for a
 // mesh at rest. Along the others spheres can be anywhere, and nothing repeats: BoxChecks::check_moving()
-// sees to it that nothing acts through them.
+// sees to it that nothing acts through them. Points of a coat can be anywhere but past a periodic face.
 PeriodicBox MeshPart::effective_box(const PeriodicBox &real) const
 {
   PeriodicBox box = real;
-  if (!moves()) return box;
+  if (!moves() && !coat_feels_it) return box;
   for (int k = 0; k < 3; k++) {
-    if (keeps_edge(real, k)) continue;
+    const bool keeps = !moves() || keeps_edge(real, k);
+    if (keeps && (real.periodic[k] || !coat_feels_it)) continue;
     Real lo = 0, hi = 1;
     for_corners(bounds(0), [&](const Vec3 &corner) {
       const Real at = real.fraction(corner)[k];

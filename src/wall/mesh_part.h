@@ -36,6 +36,7 @@ struct MeshPart {
   std::unique_ptr<MeshWear> wear;    // null: it does not recede
 
   bool springs_are_foreign = false;    // those of a saved state are of another mesh
+  bool coat_feels_it = false;          // the coat of a body, which may be outside of the box
 
   const Servo &servo() const { return spec.motion.servo(); }
   bool moves() const { return nodes || spec.motion.any(); }    // or was moved
@@ -60,7 +61,8 @@ struct MeshPart {
   void find_range(const PeriodicBox &box, int k, const Pose &at, Real &lo, Real &hi) const;
   // Does it look the same from each of its images across the faces that edge k joins?
   bool keeps_edge(const PeriodicBox &box, int k) const;
-  PeriodicBox effective_box(const PeriodicBox &box) const;    // from its own frame
+  // The box of what can touch it, from its own frame.
+  PeriodicBox effective_box(const PeriodicBox &box) const;
 
  private:
   Host &host_;

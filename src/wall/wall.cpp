@@ -116,8 +116,11 @@ void Wall::follow_body(MeshPart &m)
 
 void Wall::make_coats(Real force)
 {
-  for (const MeshPart &m : meshes_)
-    if (m.has_coat()) coats_.emplace_back(host_, spec_, m.index, m.grid, engine_settings(), force);
+  for (const MeshPart &m : meshes_) {
+    if (!m.has_coat()) continue;
+    coats_.emplace_back(host_, spec_, m.index, m.grid, engine_settings(), force);
+    for (MeshPart &other : meshes_) other.coat_feels_it |= other.index != m.index;
+  }
   grids_.set_coats(coats_);
 }
 
@@ -365,7 +368,9 @@ void Wall::step_coats(const Step &step)
 {
   coat_loads_.assign(meshes_.size(), CoatLoad());
   times_.begin();
-  for (BodyCoat &coat : coats_) coat.step(meshes_, step, coat_loads_);
+  CoatPushes pushes(meshes_.size());
+  for (BodyCoat &coat : coats_) coat.begin(meshes_, step, pushes);
+  for (BodyCoat &coat : coats_) coat.finish(meshes_, step, pushes, coat_loads_);
   times_.end(TimeReport::forces);
 }
 

@@ -105,6 +105,12 @@ std::string error_of_run(Scene &scene, int n)
   return "";
 }
 
+std::ptrdiff_t n_warnings(const FakeHost &host, const std::string &text)
+{
+  return std::count_if(host.warnings.begin(), host.warnings.end(),
+                       [&](const std::string &w) { return w.find(text) != std::string::npos; });
+}
+
 Vec3 momentum_of(Scene &scene, const std::vector<int> &meshes)
 {
   Vec3 sum = {0, 0, 0};
@@ -133,6 +139,35 @@ ContactLaw frictional()
 }
 
 }    // namespace
+
+// A servo's plate presses it onto the floor: its gain is stable with the damping of the body, which no sphere has. What is
+// left of the way falls off by e in 500 steps or less.
+TEST(body_coat, is_pressed_steadily_by_a_servo)
+{
+  const Real push = 50;
+  for (const bool turns : {false, true}) {
+    FakeHost host;
+    MeshSpec plate = floor_at_0(1.5);
+    plate.placement.move({0, 0, kSide + 2 * kRadius + 0.001});
+    Servo &servo = plate.motion.servo();
+    servo.present = true;
+    servo.turns = turns;
+    servo.axis = turns ? Vec3{0, 1, 0} : Vec3{0, 0, 1};
+    servo.point = {-5, 0, kSide + 2 * kRadius};
+    servo.target = turns ? 5 * push : -push;
+    servo.max_speed = turns ? 0.1 : 0.5;
+    WallSpec spec = wall_of({floor_at_0(), plate, cube({0, 0, kSide / 2 + kRadius})});
+    spec.laws.front().law.eta = 30;
+    spec.meshes[2].body.joint = {JointKind::slider, {0, 0, 0}, {0, 0, 1}};
+    Scene scene(host, spec);
+    scene.gravity[2] = -kGravity;
+    scene.set_up();
+    scene.run(3000);
+    EXPECT_NEAR(scene.wall->servo_push(1), servo.target, 1e-2 * std::fabs(servo.target)) << turns;
+    if (!turns)
+      EXPECT_NEAR(scene.wall->totals().mesh(0).force.z, -kMass * kGravity - push, 1e-2 * push);
+  }
+}
 
 // N springs of stiffness k bear M g: the centre is half a side and a radius above the floor, less M g / (N k).
 TEST(body_coat, a_cube_comes_to_rest_level_at_the_height_that_its_weight_asks_for)
@@ -326,6 +361,40 @@ TEST(body_coat, two_bodies_have_the_restitution_that_is_set_whatever_their_masse
   }
 }
 
+// N points of a face, or of both faces where both bodies have a coat, move one mass, 1/(1/M + 1/m), on N springs. A
+// contact lasts 48 steps at least, pi sqrt(m'/(N k)), and its end, where the force would attract, is cut off.
+TEST(body_coat, has_the_restitution_that_is_set_however_many_points_touch)
+{
+  const Real e = 0.6;
+  struct Row {
+    bool free, both;
+    Real tilt;    // degrees; 45: it lands on the 5 points of an edge
+  };
+  for (const Row &row :
+       {Row{false, false, 0}, Row{true, false, 0}, Row{true, true, 0}, Row{false, false, 45}}) {
+    FakeHost host;
+    MeshSpec upper = cube({0, 0, 0}, {0, 0, -1});
+    upper.placement = Placement();
+    upper.placement.rotate({0, 1, 0}, row.tilt);
+    const Real half = row.tilt > 0 ? std::sqrt(2.) : 1;
+    upper.placement.move({0, 0, half + kRadius + 0.0005});
+    WallSpec spec = wall_of({row.free ? cube({0, 0, -kSide / 2}) : floor_at_0(), upper});
+    if (!row.both) spec.meshes[0].body.coat = CoatSpec();
+    spec.meshes[0].body.density = 3;
+    ContactLaw &law = spec.laws.front().law;
+    law = granular_law(NormalModel::hooke);
+    law.k_normal = 100 * kStiffness;
+    law.damping = DampingModel::stiffness;
+    law.eta = restitution_damping(NormalModel::hooke, e);
+    Scene scene(host, spec);
+    scene.dt = 1e-4;
+    scene.set_up();
+    scene.run(1500);
+    const Real below = row.free ? scene.body(0).velocity().z : 0;
+    EXPECT_NEAR(scene.body(1).velocity().z - below, e, 0.02) << row.free << row.both << row.tilt;
+  }
+}
+
 // One spring k and damper c = eta m' between masses M and m, whose reduced mass is m', or M and a wall: the rates k / m' and
 // c / m' = eta, and a step below 4 / (eta + sqrt(eta^2 + 4 k / m')).
 TEST(body_coat, a_timestep_at_which_its_contacts_would_be_unstable_is_refused)
@@ -393,17 +462,73 @@ TEST(body_coat, is_refused_where_it_is_pressed_through_a_mesh)
   EXPECT_NE(error.find("goes through the other mesh"), std::string::npos) << error;
 }
 
+// It comes to rest by M v^2 / 2 = N k d^2 / 2 after 0.6 of the radius.
 TEST(body_coat, warns_once_where_it_is_pressed_in_deep)
 {
+  const Real speed = 0.6 * kRadius * std::sqrt(kPointsOfFace * kStiffness / kMass);
   FakeHost host;
-  Scene scene(host, wall_of({floor_at_0(), cube({0, 0, kSide / 2 + kRadius - 0.06})}));
+  Scene scene(host,
+              wall_of({floor_at_0(), cube({0, 0, kSide / 2 + kRadius + 0.001}, {0, 0, -speed})}));
   scene.set_up();
-  scene.run(5);
-  EXPECT_EQ(std::count_if(host.warnings.begin(), host.warnings.end(),
-                          [](const std::string &w) {
-                            return w.find("is pressed in by") != std::string::npos;
-                          }),
-            1);
+  scene.run(100);
+  EXPECT_EQ(n_warnings(host, "is pressed in by"), 1);
+}
+
+// As two boxes of a drawing touch.
+TEST(body_coat, says_how_far_to_lift_a_body_that_begins_in_another_mesh)
+{
+  FakeHost host;
+  Scene flush(host, wall_of({floor_at_0(), cube({0, 0, kSide / 2})})),
+      deep(host, wall_of({floor_at_0(), cube({0, 0, kSide / 2 + 0.4 * kRadius})}));
+  std::string error;
+  try {
+    flush.set_up();
+  } catch (const InputError &e) {
+    error = e.what();
+  }
+  EXPECT_NE(error.find("begins with a point that is pressed into mesh 'floor' by 1 of that: other "
+                       "meshes feel the body 0.1 outside of its surface, so place it 0.1 farther"),
+            std::string::npos)
+      << error;
+  deep.set_up();
+  EXPECT_EQ(n_warnings(host, "so place it 0.06 farther"), 1);
+}
+
+// From a place before the floor, whatever the part of a step after which a point is there.
+TEST(body_coat, does_not_pass_a_mesh_between_two_steps)
+{
+  for (const bool turns : {false, true})
+    for (const Real way : {0.25, 1.5, 30.})    // radii in a step
+      for (const Real begins : {0.1, 0.35, 0.6}) {
+        FakeHost host;
+        WallSpec spec = wall_of({floor_at_0(3), cube({0, 0, 0})});
+        BodySpec &body = spec.meshes[1].body;
+        const Real gap = kRadius * (1 + way * begins), speed = way * kRadius / 1e-3;
+        if (turns) {    // about an axis 10 beside it, at the height of the floor
+          body.joint = {JointKind::hinge, {10, 0, 0}, {0, 1, 0}};
+          body.omega = {0, -speed / 9, 0};    // of its nearest points; the others go faster
+        } else {
+          body.velocity = {0, 0, -speed};
+        }
+        spec.meshes[1].placement.move({0, 0, kSide / 2 + gap});
+        Scene scene(host, spec);
+        scene.set_up();
+        const std::string error = error_of_run(scene, 8);
+        EXPECT_NE(error.find("through"), std::string::npos) << turns << way << begins << error;
+      }
+}
+
+// It flies beside the floor and over it, as far in a step.
+TEST(body_coat, goes_as_fast_as_it_likes_where_nothing_is_on_its_way)
+{
+  FakeHost host;
+  WallSpec spec = wall_of({floor_at_0(), cube({11.5, 0, 1}, {0, 0, -4000}),
+                           cube({-9, 0, kSide / 2 + 1.5 * kRadius}, {500, 0, 0})});
+  Scene scene(host, spec);
+  scene.set_up();
+  EXPECT_EQ(error_of_run(scene, 20), "");
+  EXPECT_EQ(scene.body(1).velocity(), (Vec3{0, 0, -4000}));
+  EXPECT_EQ(scene.body(2).velocity(), (Vec3{500, 0, 0}));
 }
 
 TEST(body_coat, feels_each_mesh_by_the_law_of_that_mesh)
@@ -478,7 +603,7 @@ TEST(body_coat, feels_no_friction_on_a_mesh_that_turns_as_it_does)
   EXPECT_LT(std::hypot(force.x, force.y), 1e-9 * pressed);
 }
 
-// The joint holds it along the normal, where n.K n is 0. Dampers of N points, gamma M each, stop its slide.
+// The joint holds it along the normal, where n.K n is 0. Dampers of N points, gamma M / N each, stop its slide.
 TEST(body_coat, slides_on_its_joint_against_dampers_that_take_its_mass)
 {
   FakeHost host;
@@ -487,14 +612,14 @@ TEST(body_coat, slides_on_its_joint_against_dampers_that_take_its_mass)
   law = classic_law(NormalModel::hooke, false);
   law.k_normal = kStiffness;
   law.eta = 20;
-  law.gamma_tangent = 0.05;
+  law.gamma_tangent = 0.65;
   law.mu = 10;
   spec.meshes[1].body.joint = {JointKind::slider, {0, 0, 0}, {1, 0, 0}};
   Scene scene(host, spec);
   scene.set_up();
   scene.run(1000);
   // Leapfrog with a damper that lags is off by half a step of its rate, 3e-4, times the time.
-  const Real rate = kPointsOfFace * 0.05;
+  const Real rate = law.gamma_tangent;
   EXPECT_NEAR(scene.body(1).velocity().x / 0.1, std::exp(-rate * 1000 * scene.dt), 1e-3);
 }
 
@@ -510,6 +635,62 @@ TEST(body_coat, is_carried_along_by_a_belt)
   scene.set_up();
   scene.run(3000);
   EXPECT_NEAR(scene.body(1).velocity().x, 0.5, 0.05);
+}
+
+// A crawler: the belt of its own surface drives it to minus the belt's speed, by mu g until there. So does that of a
+// surface that turns, about the axis of its hinge.
+TEST(body_coat, is_driven_by_its_own_belt)
+{
+  const Real mu = 0.2, speed = 0.5;
+  for (const bool turns : {false, true}) {
+    FakeHost host;
+    WallSpec spec = wall_of({floor_at_0(), cube({0, 0, kSide / 2 + kRadius - 0.005})});
+    spec.laws.front().law = frictional();
+    spec.laws.front().law.mu = mu;
+    spec.laws.front().law.gamma_tangent = 20;
+    (turns ? spec.meshes[1].surface.angular.z : spec.meshes[1].surface.velocity.x) = speed;
+    BodySpec &body = spec.meshes[1].body;
+    body.joint = {turns ? JointKind::hinge : JointKind::slider, {0, 0, 0}, {0, 0, 1}};
+    if (!turns) body.joint.axis = {1, 0, 0};
+    Scene scene(host, spec);
+    scene.set_up();
+    const auto at = [&] { return turns ? scene.body(1).omega().z : scene.body(1).velocity().x; };
+    const Real pressed = kPointsOfFace * kStiffness * 0.005;
+    scene.run(100);
+    // Springs of friction need mu F / (kt v) of the time to give way, 2 % of it.
+    if (!turns) EXPECT_NEAR(at(), -mu * pressed / kMass * 0.1, 0.1 * mu * pressed / kMass * 0.1);
+    scene.run(3000);
+    EXPECT_NEAR(at(), -speed, 0.02 * speed) << turns;
+  }
+}
+
+// Grids are those of the box of spheres, where no coat is. The floor at rest, one that glides along itself, and one
+// beside the plane of two dimensions.
+TEST(body_coat, lies_on_what_is_outside_of_the_box)
+{
+  for (const int kind : {0, 1, 2}) {
+    FakeHost host;
+    WallSpec spec = wall_of({floor_at_0(), cube({0, 0, kSide / 2 + kRadius}, {0, 20, 0})});
+    spec.laws.front().law.eta = 10;
+    if (kind == 1) {
+      MotionTerm term;
+      term.velocity = {0.5, 0, 0};
+      spec.meshes[0].motion.add(term);
+    }
+    Scene scene(host, spec);
+    scene.gravity[2] = -kGravity;
+    PeriodicBox &box = host.simulation;
+    const Real half = kind == 2 ? 0.1 : 3;
+    box.corner = {-3, -half, -3};
+    box.edge[1] = {0, 2 * half, 0};
+    for (const int k : {0, 2}) box.edge[k] = k == 0 ? Vec3{6, 0, 0} : Vec3{0, 0, 6};
+    scene.set_up();
+    scene.run(400);
+    const RigidBody &b = scene.body(1);
+    EXPECT_NEAR(b.centre().y, 8, 1e-9) << kind;
+    EXPECT_NEAR(b.centre().z, kSide / 2 + kRadius, 0.01) << kind;
+    EXPECT_LT(norm(rotate(b.turn(), {0, 0, 1}) - Vec3{0, 0, 1}), 1e-9) << kind;
+  }
 }
 
 TEST(body_coat, slides_and_sticks_with_the_same_bits_after_a_saved_state)
@@ -600,12 +781,7 @@ TEST(body_coat, loses_springs_on_a_mesh_that_is_another_one)
   second.now = 2;
   second.wall->restore(first.wall->save(), {2, second.dt});
   second.set_up();
-  EXPECT_EQ(std::count_if(other.warnings.begin(), other.warnings.end(),
-                          [](const std::string &w) {
-                            return w.find("points of its coat lose their springs") !=
-                                   std::string::npos;
-                          }),
-            1);
+  EXPECT_EQ(n_warnings(other, "points of its coat lose their springs"), 1);
 }
 
 TEST(body_coat, has_the_same_bits_on_any_number_of_processes)
