@@ -121,6 +121,35 @@ void check_motion(const Host &host, const WallSpec &settings, const MeshPart &m)
           "'"));
 }
 
+void check_way(Host &host, const WallSpec &settings, MeshPart &m, const Step &step, Real radius,
+               const SpheresOnCpu &spheres)
+{
+  const Pose &from = m.motion.pose_before(), &to = m.motion.pose();
+  const Real way = farthest_between(from, to, m.bounds(0));
+  const bool passes = way > 2 * radius;
+  if (way <= radius || (m.way_warned && !passes)) return;
+  Box swept = placed_bounds(from, m.bounds(radius));
+  for_corners(placed_bounds(to, m.bounds(radius)), [&](const Vec3 &x) { extend(swept, x); });
+  const HostSpheres s = spheres.all();
+  Real meets = 0;
+  for (int i = 0; i < s.n && meets == 0; i++) {
+    const Vec3 x = s.x[i];
+    meets = s.may_be_in_group(i) && overlap(swept, {x, x});
+  }
+  host.max(&meets, 1);
+  if (meets == 0) return;
+  const std::string text = with_mesh_name(
+      settings, m.index,
+      "the mesh has moved by " + number_text(way) + " in step " + std::to_string(step.number) +
+          ", more than the largest " + (passes ? "diameter " : "radius ") +
+          number_text(passes ? 2 * radius : radius) +
+          ": it may have passed through a sphere; use a shorter timestep" +
+          (m.body ? "" : ", or a motion without jumps"));
+  if (passes) throw InputError(text);
+  m.way_warned = true;
+  host.warn(text + ". Shown once");
+}
+
 void check_surface(Host &host, const WallSpec &settings, const MeshPart &m)
 {
   if (!host.is_first()) return;    // the first process has the mesh

@@ -4,6 +4,7 @@
 // Errors and warnings where a mesh does not go with the settings of its wall.
 #pragma once
 
+#include "wall/host_spheres.h"
 #include "wall/mesh_part.h"
 
 namespace lsdcd {
@@ -21,6 +22,11 @@ void check_stays_closed(Host &host, const WallSpec &settings, const MeshPart &m)
 
 // Throws InputError where a mesh would leave the plane of a run in two dimensions.
 void check_motion(const Host &host, const WallSpec &settings, const MeshPart &m);
+
+// Warns once where a mesh has gone farther in a step than `radius`, that of the largest sphere, and spheres are where it
+// went. Throws InputError where it has gone farther than the diameter: it may have jumped over one. Collective.
+void check_way(Host &host, const WallSpec &settings, MeshPart &m, const Step &step, Real radius,
+               const SpheresOnCpu &spheres);
 
 // Warns of a surface motion that pushes faces along their normals.
 void check_surface(Host &host, const WallSpec &settings, const MeshPart &m);

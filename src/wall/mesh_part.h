@@ -36,6 +36,7 @@ struct MeshPart {
   std::unique_ptr<MeshWear> wear;    // null: it does not recede
 
   bool springs_are_foreign = false;    // those of a saved state are of another mesh
+  bool way_warned = false;             // that it goes far in a step
   bool coat_feels_it = false;          // the coat of a body, which may be outside of the box
 
   const Servo &servo() const { return spec.motion.servo(); }

@@ -317,8 +317,12 @@ void Wall::move(const HostSpheres &spheres, const Step &step)
   if (has_bodies_) advance_bodies(step);
   for (MeshPart &m : meshes_)
     if (m.motion.moves_or_varies()) m.motion.place();
-  for (MeshPart &m : meshes_)
-    if (m.nodes) m.nodes->begin_step(step, cutoff());
+  for (MeshPart &m : meshes_) {
+    if (m.nodes)
+      m.nodes->begin_step(step, cutoff());
+    else if (largest_radius_ > 0)
+      check_way(host_, spec_, m, step, largest_radius_, on_cpu(spheres));
+  }
 }
 
 // By the spheres near the wall in the last step. Engines of both devices give the same bits.
@@ -418,6 +422,7 @@ void Wall::look_at_spheres(const HostSpheres &spheres, std::int64_t step)
   Real most[2] = {engine_->largest_radius(s), overlaps_.worst()};
   host_.max(most, 2);
   overlaps_.check_sunk(most[1], timestep_.worst_ratio(), on_cpu(spheres));
+  largest_radius_ = most[0];
   if (most[0] == 0) check_points(spheres);
   if ((most[0] > 0 || !coats_.empty()) && grids_.fit_spheres(most[0], on_cpu(spheres), step))
     schedule_.expire();

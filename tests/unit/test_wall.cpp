@@ -117,6 +117,45 @@ TEST(Wall, pushes_a_sphere_by_its_overlap)
   EXPECT_EQ(scene.grains.force[0].x, 0);
 }
 
+// In radii. A mesh that goes less sees the sphere in front of it; one that goes more may leave it behind.
+TEST(Wall, stops_where_a_mesh_jumps_over_spheres)
+{
+  struct Row {
+    Real jump, height;
+    bool warns, stops;
+  };
+  const Row rows[] = {{0.9, 1.2, false, false},
+                      {1.4, 1.2, true, false},
+                      {2.1, 1.2, false, true},
+                      {6, 1.2, false, true},
+                      {6, 7.5, false, false}};
+  for (const bool is_body : {false, true})
+    for (const Row &row : rows) {
+      const Floor floor;
+      FakeHost host;
+      const Real speed = row.jump * kRadius / kDt;
+      Scene scene(host, is_body ? floor.wall({"body", "mass", "1", "com", "0", "0", "0", "inertia",
+                                              "1", "1", "1", "0", "0", "0", "velocity", "0", "0",
+                                              std::to_string(speed)})
+                                : floor.wall({"motion", "variable", "NULL", "NULL", "v_jump",
+                                              "NULL", "NULL", "NULL"}));
+      scene.grains.add({0.3, 0.2, row.height * kRadius});
+      scene.inputs = {0};
+      scene.set_up();
+      scene.inputs = {row.jump * kRadius};
+      const std::size_t before = host.warnings.size();
+      std::string error;
+      try {
+        scene.run(1);
+      } catch (const InputError &e) {
+        error = e.what();
+      }
+      EXPECT_EQ(error.find("it may have passed through a sphere") != std::string::npos, row.stops)
+          << row.jump << error;
+      EXPECT_EQ(host.warnings.size() - before, row.warns) << row.jump << is_body;
+    }
+}
+
 // Placed askew, so that every coordinate of the mesh is rounded.
 TEST(Wall, has_the_same_bits_from_a_mesh_as_from_its_file)
 {
