@@ -439,7 +439,7 @@ class Mesh:
         self.file, self.type, self.place, self.words, self.wear = None, 1, [], [], False
         self.servo, self.moves, self.com, self.axis, self.target = None, [], (0.0, 0.0, 0.0), None, None
         self.mass, self.moments, self.suspended, self.held = None, None, False, False    # of 6dof
-        self.wall, self.wall_line, self.index, self.several, self.reference = None, None, None, False, None
+        self.wall, self.wall_lines, self.index, self.several, self.reference = None, [], None, False, None
         self.written, self.body = set(), ""    # mesh_stl, mesh_fields; words of 6dof
         self.before, self.history, self.unsure = [], "", False    # variables that it needs; what a run has done to it; its motions
         self.first = None    # ID of its wall, its place there, whether there are others
@@ -981,7 +981,8 @@ class Script:
         self.templates, self.distributions = {}, {}    # of constant spheres, and words of distributions, with their lines
         self.regions, self.box, self.box_moves, self.faces, self.pair = {}, {}, False, ["f"] * 6, None
         self.mirrored, self.texts, self.parts, self.feeds, self.helpers = {}, set(), {}, {}, {}
-        self.computed, self.spun, self.named = set(), False, {}
+        self.computed, self.spun = set(), False
+        self.named, self.named_flows = {}, {}    # outputs that lines have taken, of meshes and of other fixes
         self.densities = {}    # of set and insertions: of the groups or regions, the last one at the end; None: not known
         self.step, self.sources = 0, []    # the step here, None where it is not known; what has made grains
 
@@ -1028,14 +1029,14 @@ class Script:
             return f"${{{kept}}}"
         return VARIABLE.sub(new, word)
 
-    def steady(self, name, line):
+    def steady(self, name, line, depth=0):
         """Whether a variable has one value in the whole script."""
         found, times = line.scope.get(name), self.program.assigned[name]
         if times == 0 or not found or times > 1 or name in self.program.given:
             return times == 0 and (name in self.program.given or not self.program.unread)
 
         def other(name):
-            if not self.steady(name, line):
+            if depth > 50 or not self.steady(name, line, depth + 1):
                 raise ValueError(name)
             return 1.0
 
@@ -1114,8 +1115,8 @@ class Script:
                     self.walls[line] = left
                     return
                 for mesh in (self.meshes.get(i) for i in wall.ids):
-                    if isinstance(mesh, Mesh) and mesh.wall_line is None:
-                        mesh.wall_line = line
+                    if isinstance(mesh, Mesh):
+                        mesh.wall_lines.append(line)
             elif style == "move/mesh":
                 self.used.add(w[5])
         elif w[0] == "dump" and len(w) > 5 and w[3] in MESH_DUMPS and "ghost" not in w[6:]:
@@ -1238,10 +1239,10 @@ class Script:
     def written(self):
         self.put(f"# Converted from {self.path.name} by convert.py of LSDCD. Read the lines with LEFT and NOTE.")
         for line in self.lines:
+            self.come_back(line)
             if not line.words:
                 self.put(line.text)
                 continue
-            self.come_back(line)
             before, moved = len(self.out), None
             if line.words[0] in ("fix", "dump", "compute") and len(line.words) > 1:
                 moved = self.moves.get(line.words[1])
@@ -1291,6 +1292,9 @@ class Script:
                 style = self.style(w) if w[0] == "fix" and len(w) > 3 else ""
                 if style == "move/mesh" and w[5:6] and w[5] in self.meshes:
                     self.meshes[w[5]].history = "moved"
+                for mesh in map(self.meshes.get, self.walls[x].ids if isinstance(self.walls.get(x), Wall) else []):
+                    if mesh and mesh.wear:
+                        mesh.history = mesh.history or "worn"
                 if style.startswith("insert/"):
                     ends = any(v[:2] == ["unfix", w[1]] for y, v in body if y.index > x.index and y.skips <= x.skips)
                     self.sources.append((None, -1, "" if ends else "on"))
@@ -1410,7 +1414,8 @@ class Script:
         w = line.words
         if any(c[0] == "run" for c in commands_in(w)):
             self.ran += 1
-            self.age()
+            if w[:2] != ["run", "0"]:
+                self.age()
         if w[0] == "run":
             try:
                 steps = int(self.number(w[1], line))
@@ -1548,7 +1553,7 @@ class Script:
             if name in self.gone or name in self.plain:
                 raise Left(f"f_{name}, which is not here", "take another output")
             if name in self.mirrored:
-                self.named[name] = self.mirrored[name]
+                self.named_flows[name] = self.mirrored[name]
                 flow = self.mirrored[name].get(k)
                 if flow is None:
                     page = "fix_insert_lsdcd.rst" if name in self.parts else "fix_massflow_lsdcd.rst"
@@ -2234,12 +2239,13 @@ class Script:
         active = [m for m in self.moves.values() if m[0] is mesh]
         self.check_motions(line, w, words, mesh, active)
         if mesh.wall is None:
-            if mesh.wall_line is None:
+            if not mesh.wall_lines:
                 raise Left(f"the mesh {w[5]} is no wall", "fix massflow/lsdcd has no motion")
-            if mesh.wall_line.index < line.index:
+            following = [other for other in mesh.wall_lines if other.index > line.index]
+            if not following:
                 raise Left(f"the mesh {w[5]} is in no wall", "add it to the wall")
-            self.sure(line, mesh.wall_line)
-            self.note(line, f"a motion of fix {mesh.wall_line.words[1]}")
+            self.sure(line, following[0])
+            self.note(line, f"a motion of fix {following[0].words[1]}")
         self.moves[w[1]] = [mesh, words, self.ran, w[6], line]
         mesh.moves.append(words)
         if replaced and replaced[0] is not mesh and replaced[0].wall:
@@ -2381,7 +2387,7 @@ class Script:
     def mirror(self, line, outputs):
         """Sets what stands for the outputs of a fix."""
         name = line.words[1]
-        if self.named.get(name, outputs) != outputs:
+        if self.named_flows.get(name, outputs) != outputs:
             self.leave(line, f"outputs of {name} that lines above take from another fix of this ID", "these lines again below this one")
             self.out.pop()
         self.mirrored[name] = outputs

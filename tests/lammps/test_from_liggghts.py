@@ -437,6 +437,8 @@ WRITTEN.update({
     "... of another mesh, which stands then": (
         MESH.format("") + LID + BOTH_WALL + MOVE.format("linear 0 0 0.1") + MOVE.replace("cad", "lid").format("linear 0 0 0.2"),
         "fix_modify      w mesh 1 motion none\nfix_modify      w mesh 2 motion linear 0 0 0.2\n"),
+    "a motion between two walls": (
+        MESH.format("") + WALL + "run 1\nunfix w\n" + MOVE.format("linear 0 0 0.1") + WALL.replace("fix w", "fix v"), "mesh a.stl motion linear 0 0 0.1\n"),
     "a motion that ends before its wall": (MESH.format("") + MOVE.format("linear 0 0 0.1") + "unfix t\n" + WALL, "\n                mesh a.stl\n"),
     "an ID that is used again for another fix": (
         "fix 1 all property/global k_finnie peratomtypepair 1 0\nunfix 1\nfix 1 all nve/sphere\nunfix 1\n", "\nfix 1 all nve/sphere\nunfix 1\n"),
@@ -476,6 +478,7 @@ LEFT.update({
                                    "'${young}' of in.there:6 is no number"),
     "a variable that an if may change": (
         'variable h equal 1\nif "${c} == 1" then "variable h equal 2"\n' + MESH.format("surface_vel ${h} 0 0"), "surface_vel of a variable"),
+    "a formula of itself": ("variable h equal v_h+1\n" + MESH.format("surface_vel ${h} 0 0"), "surface_vel of a variable"),
     "a variable that a run changes": (
         'variable h equal 1\nrun 9 every 3 "variable h equal 2"\n' + MESH.format("surface_vel ${h} 0 0"), "surface_vel of a variable"),
     "a variable after a file that is not there": (
@@ -530,6 +533,9 @@ LEFT_INSIDE = {
         "fix i", "insert/pack into a region that may have grains"),
     "a wall in a loop, whose mesh has moved in the turn before": (
         MESH.format("") + LOOP.format(WALL + MOVE.format("linear 0 0 1") + "run 1\nunfix t\nunfix w\n"), "fix w", "the mesh cad, which has moved"),
+    "a worn mesh in a loop": (
+        "fix k all property/global k_finnie peratomtypepair 1 1e-9\n" + MESH.format("wear finnie") + LOOP.format(WALL + "run 1\nunfix w\n"), "fix w",
+        "the mesh cad, which has worn"),
     "a motion in a loop beside one that goes on": (
         MESH.format("") + WALL + MOVE.replace("t all", "u all").format("linear 0 0 1") + LOOP.format(MOVE.format("linear 0 1 0") + "run 1\nunfix t\n"),
         "fix t", "a second motion of cad that begins later"),
@@ -732,6 +738,13 @@ def nearest(checks, folder):
     checks.fact("the nearest pair style, wall and plane stand as comments", "\n#: pair_style      granular\n#: pair_coeff      * * hertz " in out and
                 out.count(sds) == 3 and f"0.4{sds} &\n#:                 mesh a.stl\n" in out and "\n#: fix             p all wall/gran granular" in out and
                 "commands left: 3" in done.stderr, out)
+    drum = (MATERIAL + ROLLS + "fix m6 all property/global cohesionEnergyDensity peratomtypepair 1 ${coh}\n" +
+            f"pair_style gran model {rolling.replace('rolling', 'cohesion sjkr rolling')}cdt\npair_coeff * *\n" + MESH.format("") + LID +
+            BOTH_WALL.replace("hertz tangential history", rolling + "cdt") + MOVE.format("rotate origin 0 0 0 axis 0 1 0 period 1.33") +
+            MOVE.replace("t all", "u all").replace("cad", "lid").format("rotate origin 0 0 0 axis 0 1 0 period 1.33"))
+    said, turning = convert(folder, "variable coh equal 0\n" + drum)
+    checks.fact("of a drum with cdt and a cohesion of 0 the laws are left, and both meshes turn", "commands left: 2" in said.stderr and turning.endswith(
+        "\nfix_modify      w mesh 1 motion rotate 0 0 0 0 1 0 1.33\nfix_modify      w mesh 2 motion rotate 0 0 0 0 1 0 1.33\n"), turning)
     checks.fact("the motion and the output of its mesh stay", "\nfix_modify      w motion linear 1 0 0\nthermo_style custom step f_w[3]\nunfix w\n" in out, out)
 
 
@@ -793,6 +806,14 @@ def whole_scripts(checks, folder):
     _, out = convert(folder, MATERIAL + MESH.format("") + LID + WALL + "thermo_style custom step f_cad[3]\nrun 1\nunfix w\n" + BOTH_WALL)
     checks.fact("outputs above, of a mesh that is in another wall now, are left", re.search(
         "^# LEFT in.there:11: outputs of cad that lines above take from another wall.*\nfix  .*&\n +mesh a.stl &\n +mesh b.stl$", out, re.M), out)
+    flat = "fix out all mesh/surface file flat.stl type 1\n"
+    flow = "fix flow all massflow/mesh mesh out vec_side 0 0 {}\n"
+    write_stl(folder / "flat.stl", FLAT)
+    _, out = convert(folder, flat + flow.format(1) + "thermo_style custom step f_flow[2]\nunfix flow\n" + flow.format(-1) + "unfix flow\nunfix out\n" +
+                     MESH.replace("cad", "flow").format("") + "fix w all wall/gran model hertz mesh n_meshes 1 meshes flow\n" + MATERIAL)
+    checks.fact("outputs of a mass flow that counts the other way are left", "\n# LEFT in.there:5: outputs of flow that lines above take" in out and
+                out.count("\n# LEFT") == 1, out)
+    (folder / "flat.stl").unlink()
     waves = "fix t all move/mesh mesh cad vibrot origin 0 0 0 axis 0 0 1 order 1 amplitude 1 phase 0 period 1\n"
     for more, left in (("", False), ("timestep 1e-4\nrun 1\n", False), ("run 1\ntimestep 1e-4\nrun 1\n", True)):
         _, out = convert(folder, MATERIAL + MESH.format("") + WALL + waves + more)
