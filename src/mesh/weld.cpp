@@ -272,6 +272,15 @@ void number_edges(WeldedMesh &mesh, const std::vector<int> &number)
     for (int &e : face) e = number[e];
 }
 
+std::vector<std::array<int, 3>> facets_without_area(const WeldedMesh &mesh)
+{
+  const std::vector<Vec3> &x = mesh.vertices;
+  std::vector<Triple> all;
+  for (const Triple &facet : mesh.dropped)
+    if (face_plane(x[facet[0]], x[facet[1]], x[facet[2]]).degenerate) all.push_back(facet);
+  return all;
+}
+
 void connect_vertices(WeldedMesh &mesh)
 {
   build_vertex_edges(mesh);

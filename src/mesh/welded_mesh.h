@@ -81,6 +81,9 @@ constexpr Real kDefaultWeld = 1e-6;    // of the bounding-box diagonal
 // Throws InputError when no proper face, edge or vertex is left.
 WeldedMesh weld(const TriangleSoup &soup, Real tolerance);
 
+// The facets with three vertices that welding has dropped because they lie on one line. They have an area once these move.
+std::vector<std::array<int, 3>> facets_without_area(const WeldedMesh &mesh);
+
 // The report as the block of lines that the log shows; no trailing newline.
 std::string describe(const MeshReport &report, const std::string &source);
 

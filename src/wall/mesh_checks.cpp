@@ -7,7 +7,6 @@
 #include "base/input_words.h"
 #include "base/vector_text.h"
 #include "contact/faces_pushed.h"
-#include "mesh/face_plane.h"
 #include "mesh/plane_cut.h"
 #include "mesh/split_faces.h"
 #include "wall/mesh_name.h"
@@ -75,30 +74,34 @@ void check_plane(Host &host, const WallSpec &settings, const MeshPart &m)
 
 void check_stays_closed(Host &host, const WallSpec &settings, const MeshPart &m)
 {
-  if (!m.nodes) return;
-  const WeldedMesh &mesh = m.nodes->mesh();
-  const std::vector<Vec3> &x = mesh.vertices;
-  const std::string remedy =
-      ": make the triangles on both sides share their edges, for example by lsdcd repair";
-  for (const auto &[a, b, c] : mesh.dropped)
-    if (face_plane(x[a], x[b], x[c]).degenerate)
-      throw InputError(with_mesh_name(
-          settings, m.index,
-          "the facet with the corners " + vector_text(x[a]) + ", " + vector_text(x[b]) + " and " +
-              vector_text(x[c]) + " of '" + m.spec.name +
-              "' has no area, so that the wall has no triangle there, and a hole would open where "
-              "its nodes move apart" +
-              remedy));
-  if (!host.is_first() || mesh.report.open_edges == 0) return;
+  const WeldedMesh *mesh = m.mesh();
+  if (!(m.nodes || m.wear) || !mesh) return;
+  const auto named = [&](const std::string &text) {
+    return with_mesh_name(settings, m.index,
+                          text + ": make the triangles on both sides share their edges, for "
+                                 "example by lsdcd repair");
+  };
+  const std::vector<std::array<int, 3>> lines = facets_without_area(*mesh);
+  if (m.nodes && !lines.empty()) {
+    const auto [a, b, c] = lines.front();
+    const std::vector<Vec3> &x = mesh->vertices;
+    throw InputError(named("the facet with the corners " + vector_text(x[a]) + ", " +
+                           vector_text(x[b]) + " and " + vector_text(x[c]) + " of '" + m.spec.name +
+                           "' has no area, so that the wall has no triangle there, and a hole "
+                           "would open where its nodes move apart"));
+  }
+  if (!host.is_first()) return;
+  if (!lines.empty())
+    host.warn(named("wear does not move the corners of " + std::to_string(lines.size()) +
+                    " facets of '" + m.spec.name +
+                    "' that have no area, because a hole would open there"));
+  if (mesh->report.open_edges == 0) return;
   CutBefore none;
-  const std::size_t junctions = split_faces(mesh, mesh.report.weld_tolerance, none).junctions;
-  if (junctions > 0)
-    host.warn(with_mesh_name(
-        settings, m.index,
-        std::to_string(junctions) + " vertices of '" + m.spec.name +
-            "' lie on open edges of other triangles, between the ends of these: where nodes move "
-            "apart, a gap opens there" +
-            remedy));
+  const std::size_t junctions = split_faces(*mesh, mesh->report.weld_tolerance, none).junctions;
+  if (junctions > lines.size())
+    host.warn(named(std::to_string(junctions - lines.size()) + " vertices of '" + m.spec.name +
+                    "' lie on open edges of other triangles, between the ends of these: where they "
+                    "move apart, a gap opens there"));
 }
 
 void check_motion(const Host &host, const WallSpec &settings, const MeshPart &m)

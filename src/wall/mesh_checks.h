@@ -16,8 +16,9 @@ void check_side(const WallSpec &settings, const MeshPart &m);
 // does not cut it, and where it has nodes; warns of faces that lean there. Collective.
 void check_plane(Host &host, const WallSpec &settings, const MeshPart &m);
 
-// Throws InputError, the same on all processes, where a mesh with nodes has a facet without area, which welding has
-// dropped; warns of vertices on open edges of others. A gap would open there when nodes move apart.
+// A gap opens where vertices of a facet without area, which welding has dropped, or on the open edge of another move apart.
+// Throws InputError, the same on all processes, where a mesh with nodes has such a facet; warns of those of a mesh
+// that wear moves, which keeps their corners, and of vertices on open edges. After both are made.
 void check_stays_closed(Host &host, const WallSpec &settings, const MeshPart &m);
 
 // Throws InputError where a mesh would leave the plane of a run in two dimensions.

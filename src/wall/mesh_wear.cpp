@@ -68,6 +68,9 @@ MeshWear::MeshWear(Host &host, const WallSpec &wall, int index, const MeshReport
         "that its vertices have no side to move to: wind them alike, for example by lsdcd repair"));
   run_collectively(host_, host_.is_first(), [&] {
     held_.assign(report.vertices, 0);
+    // A hole would open between their corners.
+    for (const auto &facet : facets_without_area(*mesh))
+      for (const int v : facet) held_[v] = 1;
     for (const auto &face : mesh->faces) first_size_.push_back(norm(normal_of(*mesh, face)));
     meet_ = meeting_faces(*mesh);
   });
@@ -303,8 +306,10 @@ void MeshWear::restore(const ShapeState &was)
   if (!host_.is_first()) return;
   pending_ = was.pending;
   carried_ = was.carried;
-  held_.assign(was.held.begin(), was.held.end());
-  is_reported_ = std::find(held_.begin(), held_.end(), 1) != held_.end();
+  for (std::size_t v = 0; v < held_.size(); v++) {
+    is_reported_ |= was.held[v] != 0 && !held_[v];
+    held_[v] |= was.held[v] != 0;
+  }
 }
 
 std::size_t MeshWear::bytes() const

@@ -147,6 +147,15 @@ TriangleSoup split_floor(int n, int m, Real gap, Real half)
   return soup;
 }
 
+TriangleSoup mesh_with_junction(bool closed)
+{
+  const Vec3 a = {-1, 0, 0}, b = {1, 0, 0}, middle = {0, 0, 0}, low = {0, -1, 0}, high = {0, 1, 0};
+  TriangleSoup soup;
+  soup.corners = {a, low, b, a, middle, high, middle, b, high};
+  if (closed) soup.corners.insert(soup.corners.end(), {a, b, middle});
+  return soup;
+}
+
 TriangleSoup turned(TriangleSoup soup, Real angle)
 {
   for (Vec3 &p : soup.corners)

@@ -25,6 +25,10 @@ TriangleSoup floor_mesh(int n, Real half, unsigned seed = 0);
 // sets the halves apart.
 TriangleSoup split_floor(int n, int m, Real gap, Real half);
 
+// Triangles on both sides of the x axis, of which those on one side have a vertex in the middle of the side of the
+// other. `closed`: with the facet without area that is between them.
+TriangleSoup mesh_with_junction(bool closed);
+
 // Turned about z by an angle in radians.
 TriangleSoup turned(TriangleSoup soup, Real angle);
 

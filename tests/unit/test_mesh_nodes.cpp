@@ -1065,22 +1065,11 @@ TEST(mesh_nodes, go_with_nothing_else_that_moves_a_mesh)
   EXPECT_NO_THROW(check_spec(spec));
 }
 
-// Two squares, of which one has a vertex in the middle of the side that they share. `closed`: with the facet without
-// area that is between them.
-TriangleSoup with_junction(bool closed)
-{
-  const Vec3 a = {-1, 0, 0}, b = {1, 0, 0}, middle = {0, 0, 0}, low = {0, -1, 0}, high = {0, 1, 0};
-  TriangleSoup soup;
-  soup.corners = {a, low, b, a, middle, high, middle, b, high};
-  if (closed) soup.corners.insert(soup.corners.end(), {a, b, middle});
-  return soup;
-}
-
 TEST(mesh_nodes, whose_facets_have_no_area_are_an_error)
 {
   FakeHost host;
   try {
-    Scene scene(host, nodes_of(hooke(1000).law(), welded(with_junction(true))));
+    Scene scene(host, nodes_of(hooke(1000).law(), welded(mesh_with_junction(true))));
     ADD_FAILURE() << "no error";
   } catch (const InputError &e) {
     EXPECT_NE(std::string(e.what()).find(
@@ -1088,7 +1077,7 @@ TEST(mesh_nodes, whose_facets_have_no_area_are_an_error)
               std::string::npos)
         << e.what();
   }
-  EXPECT_NO_THROW(Scene(host, wall_of(hooke(1000).law(), welded(with_junction(true)))));
+  EXPECT_NO_THROW(Scene(host, wall_of(hooke(1000).law(), welded(mesh_with_junction(true)))));
 }
 
 // A facet of two points, or one that is there twice, opens no hole.
@@ -1105,7 +1094,7 @@ TEST(mesh_nodes, whose_facets_are_lines_or_there_twice_are_none)
 TEST(mesh_nodes, that_lie_on_open_edges_are_warned_of)
 {
   FakeHost host;
-  Scene scene(host, nodes_of(hooke(1000).law(), welded(with_junction(false))));
+  Scene scene(host, nodes_of(hooke(1000).law(), welded(mesh_with_junction(false))));
   ASSERT_EQ(host.warnings.size(), 1u);
   EXPECT_NE(host.warnings[0].find("1 vertices of 'sheet' lie on open edges"), std::string::npos);
 }

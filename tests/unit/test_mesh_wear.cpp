@@ -86,13 +86,16 @@ Real worn(const std::vector<ContactRecord> &records)
 }
 
 struct Case {
-  WeldedMesh mesh = can();
+  WeldedMesh mesh;
   MeshFeatures features = make_features(mesh, false);
   WallSpec wall = wearing();
   MeshWear wear;
   std::int64_t step = 0;
 
-  explicit Case(Host &host) : wear(host, wall, 0, mesh.report, &mesh) {}
+  explicit Case(Host &host, const WeldedMesh &of = can()) :
+      mesh(of), wear(host, wall, 0, mesh.report, &mesh)
+  {
+  }
 
   void wear_off(const std::vector<ContactRecord> &records)
   {
@@ -218,6 +221,30 @@ TEST(mesh_wear, holds_back_what_would_come_through)
   EXPECT_EQ(meets_itself(c.mesh).pairs, 0U);
   ASSERT_EQ(host.warnings.size(), 1U);
   EXPECT_NE(host.warnings[0].find("would fold over or cut another"), std::string::npos);
+}
+
+// Between the middle of a side and the side a hole would open; before and after a saved state.
+TEST(mesh_wear, leaves_the_corners_of_a_facet_without_area)
+{
+  FakeHost host;
+  const WeldedMesh mesh = weld(mesh_with_junction(true), -1);
+  Case c(host, mesh), other(host, mesh);
+  other.wear.restore(c.wear.save(&c.mesh));
+  for (Case *of : {&c, &other}) {
+    std::vector<ContactRecord> records(mesh.faces.size());
+    for (std::size_t f = 0; f < records.size(); f++) {
+      records[f].feature = feature_code(FeatureKind::face, static_cast<std::uint32_t>(f));
+      records[f].wear_power = 1;
+      records[f].arm = {0, 0, 1};
+    }
+    of->wear_off(records);
+    ASSERT_TRUE(of->recede());
+    for (std::size_t v = 0; v < mesh.vertices.size(); v++) {
+      const bool is_on_axis = mesh.vertices[v].y == 0;
+      EXPECT_EQ(of->mesh.vertices[v].z == 0, is_on_axis) << v;
+    }
+    EXPECT_NEAR(of->wear.removed() + of->wear.held_back(), kFactor * worn(records), 1e-14);
+  }
 }
 
 }    // namespace
