@@ -441,7 +441,8 @@ class Mesh:
         self.mass, self.moments, self.suspended, self.held = None, None, False, False    # of 6dof
         self.wall, self.wall_lines, self.index, self.several, self.reference = None, [], None, False, None
         self.written, self.body = set(), ""    # mesh_stl, mesh_fields; words of 6dof
-        self.before, self.history, self.unsure = [], "", False    # variables that it needs; what a run has done to it; its motions
+        self.before, self.unsure = [], False    # variables that it needs; whether a jump may have changed its motions
+        self.way, self.worn = [0.0, 0.0, 0.0], False    # how runs have moved it, None where that is no known way; whether they wore it
         self.first = None    # ID of its wall, its place there, whether there are others
         self.parse(script, [script.carry(x, line, self.before) for x in w[4:]])
 
@@ -984,7 +985,7 @@ class Script:
         self.computed, self.spun = set(), False
         self.named, self.named_flows = {}, {}    # outputs that lines have taken, of meshes and of other fixes
         self.densities = {}    # of set and insertions: of the groups or regions, the last one at the end; None: not known
-        self.step, self.sources = 0, []    # the step here, None where it is not known; what has made grains
+        self.step, self.timestep, self.sources = 0, None, []    # here, None where it is not known; what has made grains
 
     def at(self, line):
         return f"{line.file}:{line.number}"
@@ -1287,14 +1288,14 @@ class Script:
             body = [(x, w) for x in self.lines[cleared:last + 1] for w in commands_in(x.words or [""])]
             self.ran, self.step = self.ran + 1, None
             if any(w[0] == "run" for _, w in body):
-                self.age()
+                self.age(line)
             for x, w in body:
                 style = self.style(w) if w[0] == "fix" and len(w) > 3 else ""
                 if style == "move/mesh" and w[5:6] and w[5] in self.meshes:
-                    self.meshes[w[5]].history = "moved"
+                    self.meshes[w[5]].way = None
                 for mesh in map(self.meshes.get, self.walls[x].ids if isinstance(self.walls.get(x), Wall) else []):
                     if mesh and mesh.wear:
-                        mesh.history = mesh.history or "worn"
+                        mesh.worn = True
                 if style.startswith("insert/"):
                     ends = any(v[:2] == ["unfix", w[1]] for y, v in body if y.index > x.index and y.skips <= x.skips)
                     self.sources.append((None, -1, "" if ends else "on"))
@@ -1304,13 +1305,20 @@ class Script:
                     self.densities["?"] = None
                 self.spun = self.spun or w[0] == "set"
 
-    def age(self):
-        """What a run does to meshes: in a new fix they would begin anew."""
+    def age(self, line):
+        """What a run does to meshes, which would begin anew in another wall: a known time at known speeds is a way."""
+        w, time = line.words, None
+        if w[0] == "run" and w[2:] in ([], ["upto"]) and not line.loops and not line.skips and self.timestep is not None:
+            steps, begin = self.known(w[1], line), self.step if len(w) > 2 else 0
+            time = (steps - begin) * self.timestep if None not in (steps, begin) else None
         for mesh in self.meshes.values():
-            if mesh.moves or mesh.servo or mesh.body:
-                mesh.history = "moved"
-            elif mesh.wear and mesh.wall:
-                mesh.history = mesh.history or "worn"
+            mesh.worn = mesh.worn or bool(mesh.wear and mesh.wall)
+            if mesh.servo or mesh.body:
+                mesh.way = None
+            for _, words, _, style, where in (m for m in self.moves.values() if m[0] is mesh and mesh.way):
+                speed = [self.known(x, where) for x in words.split()[1:]] if style == "linear" else [None]
+                known = time is not None and None not in speed and not mesh.unsure and not where.skips and not where.loops
+                mesh.way = [x + v * time for x, v in zip(mesh.way, speed)] if known else None
 
     def end_wall(self, name):
         """The meshes of a wall that ends are in none."""
@@ -1415,7 +1423,9 @@ class Script:
         if any(c[0] == "run" for c in commands_in(w)):
             self.ran += 1
             if w[:2] != ["run", "0"]:
-                self.age()
+                self.age(line)
+        for c in (c for c in commands_in(w) if c[0] == "timestep"):
+            self.timestep = self.known(c[1], line) if c is w and not line.loops and not line.skips else None
         if w[0] == "run":
             try:
                 steps = int(self.number(w[1], line))
@@ -1694,6 +1704,8 @@ class Script:
             if self.grows(w):
                 self.pass_on(line.but(" ".join(w + ["mass yes"])))    # LIGGGHTS keeps the density
                 return
+            if style == "dt/reset":
+                self.timestep = None
             if style == "deform":
                 self.box, self.box_moves = {}, True
             text = line.text if style == w[3] else re.sub(rf"(\s{style})/omp\b", r"\1", line.text)
@@ -2005,6 +2017,8 @@ class Script:
             if self.named.get(mesh.id, set()) - {(mesh.wall, mesh.index, mesh.several)}:
                 self.leave(line, f"outputs of {mesh.id} that lines above take from another wall", "these lines again below this one")
                 self.out.pop()
+        for mesh in (m for m in meshes if any(m.way)):
+            self.note(line, f"{mesh.id} begins where its motions have brought it")
         text = " &\n                ".join(words)
         if model.nearest:
             raise model.left_rolling(contacts[0], text)
@@ -2017,10 +2031,10 @@ class Script:
             self.sure(other, line)
         if mesh.wall and mesh.moves:
             raise Left("a second wall of a mesh that moves", "the place where the mesh is then: in a new fix it begins anew")
-        if mesh.history:
-            raise Left(f"the mesh {mesh.id}, which has {mesh.history} in a run before: in a new fix it begins anew",
-                       {"moved": "the mesh where it is then, by move and rotate after its file; or one wall from the start with all meshes",
-                        "worn": "one wall from the start, as the wear of the new one begins at 0"}[mesh.history])
+        if mesh.worn or mesh.way is None:
+            raise Left(f"the mesh {mesh.id}, which has {'worn' if mesh.worn else 'moved'} in a run before: in a new fix it begins anew",
+                       "one wall from the start, as the wear of the new one begins at 0" if mesh.worn else
+                       "the mesh where it is then, by move and rotate after its file; or one wall from the start with all meshes")
         if line.skips and any(other is not line and isinstance(wall, Wall) and mesh.id in wall.ids for other, wall in self.walls.items()):
             raise Left(f"one of several walls of the mesh {mesh.id}, which a jump may skip", "a script for each case")
 
@@ -2077,12 +2091,17 @@ class Script:
 
     def mesh_words(self, mesh, wall_line):
         moves = "".join(f" motion {m}" for m in reversed(mesh.moves))
-        words = f"mesh {mesh.file}{mesh.placement()}{moves}" + "".join(f" {x}" for x in mesh.words)
+        way = [f"{x:.15g}" for x in mesh.way]
+        moved = " move " + " ".join(way) if any(mesh.way) else ""
+        words = f"mesh {mesh.file}{mesh.placement()}{moved}{moves}" + "".join(f" {x}" for x in mesh.words)
         moving = mesh.id in self.used or mesh.servo or mesh.body
         torque = any(re.search(rf"f_{mesh.id}\[[456]\]", line.text) for line in self.lines)
         if mesh.reference or (moving and torque):
             # The point of the torque moves with the mesh in LIGGGHTS.
-            words += " torque_about " + "mesh " * bool(moving) + " ".join(mesh.reference or (mesh.com if mesh.body else "000"))
+            about = mesh.reference or (mesh.com if mesh.body else "000")
+            if moved:
+                about = [f"{self.number(x, mesh.line) + way:.15g}" for x, way in zip(about, mesh.way)]
+            words += " torque_about " + "mesh " * bool(moving) + " ".join(about)
         if mesh.servo or mesh.body:
             words += f" {mesh.servo or mesh.body}"
         for line in (x for x in self.dumps if x.stage == wall_line.stage):

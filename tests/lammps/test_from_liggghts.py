@@ -437,6 +437,11 @@ WRITTEN.update({
     "... of another mesh, which stands then": (
         MESH.format("") + LID + BOTH_WALL + MOVE.format("linear 0 0 0.1") + MOVE.replace("cad", "lid").format("linear 0 0 0.2"),
         "fix_modify      w mesh 1 motion none\nfix_modify      w mesh 2 motion linear 0 0 0.2\n"),
+    "a mesh that has moved at known speeds begins there in a new wall": (
+        "timestep 1e-3\n" + MESH.format("scale 2 reference_point 1 1 1") + MOVE.format("linear 0 1 2") + "run 100\nrun 150 upto\n" + WALL + "run 50\nunfix t\n"
+        "run 1000\nunfix w\n" + WALL, "fix_modify      w motion none\nrun 1000\nunfix w\n# NOTE in.there:15: cad begins where its motions have brought it\nfix "
+        "            w all wall/lsdcd granular hertz/material 10000000 0.5 0.3 damping coeff_restitution tangential mindlin_slip NULL 0.907485213 0.4 &\n"
+        "                mesh a.stl scale 2 move 0 0.2 0.4 torque_about mesh 1 1.2 1.4\n"),
     "a motion between two walls": (
         MESH.format("") + WALL + "run 1\nunfix w\n" + MOVE.format("linear 0 0 0.1") + WALL.replace("fix w", "fix v"), "mesh a.stl motion linear 0 0 0.1\n"),
     "a motion that ends before its wall": (MESH.format("") + MOVE.format("linear 0 0 0.1") + "unfix t\n" + WALL, "\n                mesh a.stl\n"),
@@ -491,6 +496,13 @@ LEFT.update({
     "a mesh that has moved, in a new wall": (
         MESH.format("") + WALL + MOVE.format("linear 0 0 1") + "run 1\nunfix t\nunfix w\n" + WALL.replace("fix w", "fix v"), "the mesh cad, which has moved"),
     "a mesh that has moved before its wall": (MESH.format("") + MOVE.format("linear 0 0 1") + "run 1\n" + WALL, "the mesh cad, which has moved"),
+    "a mesh that has turned, in a new wall": (
+        "timestep 1e-3\n" + MESH.format("") + WALL + MOVE.format("rotate origin 0 0 0 axis 0 0 1 period 1") + "run 1\nunfix t\n" + WALL, "the mesh cad, which has moved"),
+    "a mesh that has moved with a timestep that an if may change, in a new wall": (
+        'timestep 1e-3\nif "${c} == 1" then "timestep 1e-4"\n' + MESH.format("") + WALL + MOVE.format("linear 0 0 1") + "run 1\nunfix t\n" + WALL,
+        "the mesh cad, which has moved"),
+    "a mesh that has moved in a loop, in a new wall": (
+        "timestep 1e-3\n" + MESH.format("") + WALL + MOVE.format("linear 0 0 1") + LOOP.format("run 1\n") + "unfix t\n" + WALL, "the mesh cad, which has moved"),
     "a servo in a new wall": (SERVO + WALL + "run 1\nunfix w\n" + WALL, "the mesh cad, which has moved"),
     "a worn mesh in a new wall": (
         "fix k all property/global k_finnie peratomtypepair 1 1e-9\n" + MESH.format("wear finnie") + WALL + "run 1\n" + WALL, "the mesh cad, which has worn"),
@@ -939,6 +951,10 @@ PHYSICS = {
         "WORDS", "move 0 0 ${h}").replace("fix w ", "fix t all move/mesh mesh cad wiggle amplitude 0.001 0 0 period ${p}\nvariable h equal -0.05\n"
                                           "variable p equal 3\nfix w ") +
         "variable arm equal f_cad[5]/f_cad[3]\nthermo_style custom step f_cad[3] f_cad[5]\nrun 2000\n", "${arm}", [(0.001 - 1e-6, 0.001 + 1e-6)]),
+    # A new wall has the mesh, and the point of its torque, where 0.1 has brought them in 1000 steps.
+    "rewalled": ("hertz", SLIDE.replace("SPEED", "0").replace("FILE", "flat.stl").replace("WORDS", "") + "fix t all move/mesh mesh cad linear 0.1 0 0\n"
+                 "variable arm equal f_cad[5]/f_cad[3]\nthermo_style custom step f_cad[3] f_cad[5]\nrun 1000\nunfix t\nunfix w\n"
+                 "fix w all wall/gran model MODEL mesh n_meshes 1 meshes cad\nrun 1000\n", "${arm}", [(0.001 - 1e-6, 0.001 + 1e-6)]),
     # 0.1, 0.2 and 0.3 for 500 steps each.
     "loop": ("hertz", SLIDE.replace("SPEED", "0").replace("FILE", "flat.stl").replace("WORDS", "") +
              "variable arm equal f_cad[5]/f_cad[3]\nthermo_style custom step f_cad[3] f_cad[5]\nlabel l\nvariable i loop 3\nvariable v equal 0.1*${i}\n"
