@@ -955,7 +955,8 @@ class Script:
         self.program = Program(path, options.var or [])
         self.lines = self.program.lines
         # What is known of the whole script.
-        self.properties, self.sizes, self.grain_types, self.all_types = {}, [], set(), False
+        self.properties, self.grain_types, self.all_types = {}, set(), self.program.unread
+        self.sizes = [None] * self.program.unread
         self.missing_data, self.data_boxes = [], {}    # files of read_data; edges of the box in them, by line
         self.meshes, self.mesh_of, self.walls, self.unchecked, self.used = {}, {}, {}, set(), set()    # by line; IDs
         self.dumps, self.dumped, self.lattice = [], {}, False

@@ -941,24 +941,17 @@ PHYSICS = {
               "fix t all move/mesh mesh cad viblin axis 1 0 0 order 2 amplitude 0.001 0.0005 phase -1.5707963268 1 period 0.08 0.04\n"
               "variable arm equal f_cad[5]/f_cad[3]\nthermo_style custom step f_cad[3] f_cad[5]\nrun 2000\n", "${arm}",
               [(0.001 * WAVES - 1e-6, 0.001 * WAVES + 1e-6)]),
-    # A motion with the ID of another one takes its place, before its wall and after a run: 0.1 and -0.05 for 1000 steps each.
-    "replaced": ("hertz", SLIDE.replace("SPEED", "0").replace("FILE", "flat.stl").replace("WORDS", "").replace(
-        "fix w ", "fix t all move/mesh mesh cad linear 0.3 0 0\nfix t all move/mesh mesh cad linear 0.1 0 0\nfix w ") +
-        "variable arm equal f_cad[5]/f_cad[3]\nthermo_style custom step f_cad[3] f_cad[5]\nrun 1000\n"
-        "fix t all move/mesh mesh cad linear -0.05 0 0\nrun 1000\n", "${arm}", [(0.0005 - 1e-6, 0.0005 + 1e-6)]),
-    # Variables with other values at the wall. A quarter of a period: the amplitude, to half a step of the speed.
-    "at_its_line": ("hertz", "variable h equal 0\nvariable p equal 0.08\n" + SLIDE.replace("SPEED", "0").replace("FILE", "flat.stl").replace(
-        "WORDS", "move 0 0 ${h}").replace("fix w ", "fix t all move/mesh mesh cad wiggle amplitude 0.001 0 0 period ${p}\nvariable h equal -0.05\n"
-                                          "variable p equal 3\nfix w ") +
-        "variable arm equal f_cad[5]/f_cad[3]\nthermo_style custom step f_cad[3] f_cad[5]\nrun 2000\n", "${arm}", [(0.001 - 1e-6, 0.001 + 1e-6)]),
-    # A new wall has the mesh, and the point of its torque, where 0.1 has brought them in 1000 steps.
-    "rewalled": ("hertz", SLIDE.replace("SPEED", "0").replace("FILE", "flat.stl").replace("WORDS", "") + "fix t all move/mesh mesh cad linear 0.1 0 0\n"
-                 "variable arm equal f_cad[5]/f_cad[3]\nthermo_style custom step f_cad[3] f_cad[5]\nrun 1000\nunfix t\nunfix w\n"
-                 "fix w all wall/gran model MODEL mesh n_meshes 1 meshes cad\nrun 1000\n", "${arm}", [(0.001 - 1e-6, 0.001 + 1e-6)]),
-    # 0.1, 0.2 and 0.3 for 500 steps each.
-    "loop": ("hertz", SLIDE.replace("SPEED", "0").replace("FILE", "flat.stl").replace("WORDS", "") +
-             "variable arm equal f_cad[5]/f_cad[3]\nthermo_style custom step f_cad[3] f_cad[5]\nlabel l\nvariable i loop 3\nvariable v equal 0.1*${i}\n"
-             "fix t all move/mesh mesh cad linear ${v} 0 0\nrun 500\nunfix t\nnext i\njump in.there l\nrun 1\n", "${arm}", [(0.003 - 1e-6, 0.003 + 1e-6)]),
+    # A script is a program. 0.1 for 500 steps: of a motion that takes the place of another one, by variables that are others at the wall;
+    # -0.05 for 500 steps, which takes its place; then a new wall, which has the mesh and the point of its torque where they are, and 0.1,
+    # 0.2 and 0.3 for 200 steps each in a loop.
+    "program": ("hertz", "variable h equal 0\nvariable p equal 0.1\n" + SLIDE.replace("SPEED", "0").replace("FILE", "flat.stl").replace(
+        "WORDS", "move 0 0 ${h}").replace("fix w ", "fix t all move/mesh mesh cad linear 0.3 0 0\nfix t all move/mesh mesh cad linear ${p} 0 0\n"
+                                          "variable h equal -0.05\nvariable p equal 0.7\nfix w ") +
+        "variable arm equal f_cad[5]/f_cad[3]\nthermo_style custom step f_cad[3] f_cad[5]\nrun 500\nvariable a string ${arm}\n"
+        "fix t all move/mesh mesh cad linear -0.05 0 0\nrun 500\nvariable b string ${arm}\nunfix t\nunfix w\n"
+        "fix w all wall/gran model MODEL mesh n_meshes 1 meshes cad\nlabel l\nvariable i loop 3\nvariable v equal 0.1*${i}\n"
+        "fix t all move/mesh mesh cad linear ${v} 0 0\nrun 200\nunfix t\nnext i\njump in.there l\nrun 1\n", "${a} ${b} ${arm}",
+        [(0.0005 - 1e-6, 0.0005 + 1e-6), (0.00025 - 1e-6, 0.00025 + 1e-6), (0.00145 - 1e-6, 0.00145 + 1e-6)]),
     # 50000 a second for 400 steps.
     "unfix": (HERTZ, POUR + EDGES + "variable n equal atoms\nregion box1 block 0 0.2 0 0.2 0 0.2 units box\nfix ins all insert/rate/region "
               "seed 32452843 distributiontemplate d1 nparticles 100000 particlerate 50000 insert_every 100 region box1\nrun 400\n"
@@ -1039,6 +1032,7 @@ def grain_types(checks, folder):
                          ("by set type/fraction", "create_atoms 1 single 0 0 0\nset group all type/fraction 2 0.5 15485863\n"),
                          ("by a file whose name has an index", "variable n index 5\nread_data grains_${n}.data\n"),
                          ("by a file that is not there", "create_atoms 1 single 0 0 0\nread_data grains_6.data\n"),
+                         ("by an include that is not there", "create_atoms 1 single 0 0 0\ninclude none.in\n"),
                          ("by a type that is not known", "create_atoms ${t} single 0 0 0\n"),
                          ("by what is not known", "")):
         _, out = convert(folder, two.format(grains))
