@@ -24,6 +24,10 @@ struct Joint {
   bool has_point() const { return kind == JointKind::hinge || kind == JointKind::ball; }
   // Is its motion one number: a right-handed angle (hinge) or a length (slider), 0 where the body began?
   bool has_coordinate() const { return kind == JointKind::hinge || kind == JointKind::slider; }
+  bool operator==(const Joint &other) const
+  {
+    return kind == other.kind && point == other.point && axis == other.axis;
+  }
 
   // Does it leave places along this unit vector as they are, and turn about nothing but it?
   bool keeps(const Vec3 &direction) const

@@ -98,9 +98,18 @@ Vec3 RigidBody::allowed_turn(const Vec3 &velocity, const Vec3 &omega) const
 
 void RigidBody::begin_from(const RigidBody &was)
 {
+  const RigidState &at = was.state();
   RigidState now;
-  now.home = now.centre = was.pose().to_box(mass_.centre);
-  now.home_turn = now.turn = was.turn();
+  now.centre = was.pose().to_box(mass_.centre);
+  now.turn = at.turn;
+  if (joint_ == was.joint() && joint_.has_coordinate()) {
+    now.home = at.home + rotate(at.home_turn, mass_.centre - was.mass().centre);
+    now.home_turn = at.home_turn;
+    now.coordinate[0] = at.coordinate[0];
+  } else {
+    now.home = now.centre;
+    now.home_turn = now.turn;
+  }
   set_state(now);
   const Vec3 w = was.omega(), v = was.velocity() + cross(w, now.centre - was.centre());
   take_velocity(v, allowed_turn(v, w));

@@ -47,7 +47,8 @@ class RigidBody {
   // Velocity of the centre and angular velocity. Throws InputError where the joint does not allow them.
   void set_velocity(const Vec3 &velocity, const Vec3 &omega);
   // Begins where another body of the same mesh is, with its velocity as the joint leaves it: projected, in the metric of mass
-  // and inertia, onto what the joint allows. Kinetic energy falls by that of the difference.
+  // and inertia, onto what the joint allows. Kinetic energy falls by that of the difference. A coordinate goes on where the
+  // joint is the same, and else starts at 0.
   void begin_from(const RigidBody &was);
 
   // Half a step's change of velocity, over the time h, by what acts beside the drive. The damper's part is exact.

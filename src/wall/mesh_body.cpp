@@ -23,20 +23,17 @@ MassProperties in_units(MassProperties p, Real force)
   return p;
 }
 
-bool are_same(const SymmetricMatrix &a, const SymmetricMatrix &b)
-{
-  return a.xx == b.xx && a.yy == b.yy && a.zz == b.zz && a.xy == b.xy && a.xz == b.xz &&
-         a.yz == b.yz;
-}
-
+// Other programs and machines may round the integrals of a mesh otherwise.
 bool are_same(const MassProperties &a, const MassProperties &b)
 {
-  return a.mass == b.mass && a.centre == b.centre && are_same(a.inertia, b.inertia);
-}
-
-bool are_same(const Joint &a, const Joint &b)
-{
-  return a.kind == b.kind && a.point == b.point && a.axis == b.axis;
+  constexpr Real kRounding = 1e-12;
+  const Real size = std::sqrt(a.inertia.trace() / a.mass);
+  SymmetricMatrix off = a.inertia;
+  off += -1 * b.inertia;
+  const Vec3 diagonal = {off.xx, off.yy, off.zz}, others = {off.xy, off.xz, off.yz};
+  return std::fabs(a.mass - b.mass) <= kRounding * a.mass &&
+         norm(a.centre - b.centre) <= kRounding * (size + norm(a.centre)) &&
+         norm(diagonal) + norm(others) <= kRounding * a.inertia.trace();
 }
 
 // n.K n is convex in the place, so that on a face it is largest at a corner.
@@ -125,7 +122,7 @@ void MeshBody::set(const BodySpec &to)
   now.has_gravity = to.has_gravity;
   now.gravity = to.gravity;
   RigidBody as = body_;
-  if (!are_same(now.joint, was.joint)) {
+  if (!(now.joint == was.joint)) {
     as = RigidBody(body_.mass(), now.joint);
     as.begin_from(body_);
   }
@@ -331,10 +328,13 @@ BodyState MeshBody::state() const
 
 RigidBody MeshBody::continued(const BodyState &was) const
 {
+  RigidBody body(body_.mass(), spec().joint);
+  if (is_same(was)) {
+    body.set_state(was.state);
+    return body;
+  }
   RigidBody before(in_units(was.mass, force_), was.joint);
   before.set_state(was.state);
-  if (is_same(was)) return before;
-  RigidBody body(body_.mass(), spec().joint);
   body.begin_from(before);
   return body;
 }
@@ -356,16 +356,15 @@ void MeshBody::restore(const BodyState &was)
   }
   go_on(spec(), continued(was));
   if (!is_same(was))
-    host_.warn(
-        named("the " + saved +
-              " was written with another mass or joint of this body: the body continues "
-              "from where it was, with the part of its velocity that its joint allows, and its "
-              "coordinate starts at 0 there"));
+    host_.warn(named("the " + saved +
+                     " was written with another mass or joint of this body: the body continues "
+                     "from where it was, with the part of its velocity that its joint allows" +
+                     (was.joint == spec().joint ? "" : ", and its coordinate starts at 0 there")));
 }
 
 bool MeshBody::is_same(const BodyState &was) const
 {
-  return are_same(was.mass, spec().mass) && are_same(was.joint, spec().joint);
+  return are_same(was.mass, spec().mass) && was.joint == spec().joint;
 }
 
 }    // namespace lsdcd

@@ -245,6 +245,27 @@ TEST(mesh_body, is_not_restored_outside_of_its_limits)
   EXPECT_EQ(second.body().centre().x, 0);
 }
 
+// A mass that another machine has rounded otherwise is the same.
+TEST(mesh_body, keeps_its_coordinate_after_a_restart_with_another_mass)
+{
+  for (const Real factor : {1 + 1e-15, 2.}) {
+    FakeHost host, other;
+    WallSpec spec = cube({JointKind::slider, {0, 0, 0}, {1, 0, 0}});
+    spec.meshes[0].body.velocity = {1, 0, 0};
+    Scene first(host, spec);
+    first.set_up();
+    first.run(500);
+    spec.meshes[0].body.density *= factor;
+    Scene second(other, spec);
+    second.wall->restore(first.wall->save(), {first.now, kDt});
+    EXPECT_EQ(second.body().coordinate(), first.body().coordinate());
+    EXPECT_EQ(other.warnings.size(), factor == 2.);
+    spec.meshes[0].body.drive.hi = 0.4;
+    Scene third(other, spec);
+    EXPECT_THROW(third.wall->restore(first.wall->save(), {first.now, kDt}), InputError);
+  }
+}
+
 // Its mesh has no motion before and after: only the state says where it was.
 TEST(mesh_body, leaves_its_mesh_where_it_was_where_it_is_none_after_a_restart)
 {

@@ -592,6 +592,23 @@ TEST(rigid_body, goes_on_from_the_state_of_another_to_the_last_bit)
   }
 }
 
+// As after a restart with another density: back by its coordinate the mesh is where it began.
+TEST(rigid_body, keeps_its_coordinate_in_the_same_joint_with_another_mass)
+{
+  for (const Joint &joint : kJoints) {
+    if (!joint.has_coordinate()) continue;
+    const RigidBody body = moving(joint);
+    RigidBody next(block(3, {1, 1.2, 0.8}, {-0.4, 0.1, 0.2}), joint);
+    next.begin_from(body);
+    EXPECT_EQ(next.coordinate(), body.coordinate());
+    EXPECT_NEAR(next.rate(), body.rate(), 1e-14 * std::fabs(body.rate()));
+    EXPECT_LT(norm(next.pose().shift - body.pose().shift), 1e-14);
+    next.drift(-next.coordinate() / next.rate());
+    EXPECT_LT(norm(next.pose().shift), 1e-14) << name_of(joint);
+    EXPECT_LT(norm(next.pose().row[0] - Vec3{1, 0, 0}), 1e-14) << name_of(joint);
+  }
+}
+
 TEST(rigid_body, has_a_coordinate_only_where_its_joint_has_one)
 {
   for (const Joint &joint : kJoints) {
