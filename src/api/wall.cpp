@@ -118,6 +118,7 @@ int lsdcd_wall_get_totals(lsdcd_wall *wall, int mesh, lsdcd_wall_totals *totals)
     for (int k = 0; k < 3; k++) {
       out.force[k] = t.force[k];
       out.torque[k] = t.torque[k];
+      out.couple[k] = t.couple[k];
       out.servo[k] = 0;
     }
     out.contacts = t.contacts;

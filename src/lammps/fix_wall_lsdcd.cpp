@@ -106,8 +106,8 @@ FixWallLsdcd::FixWallLsdcd(LAMMPS *lmp, int narg, char **arg, const lsdcd::WallB
   extscalar = 1;
   extvector = -1;
   extarray = 0;
-  extlist = new int[kShape + kOfShape];
-  std::fill(extlist, extlist + kShape + kOfShape, 1);
+  extlist = new int[kNodes + kOfNodes];
+  std::fill(extlist, extlist + kNodes + kOfNodes, 1);
   extlist[7] = 0;    // the largest overlap is not a sum
   size_outputs();
   energy_global_flag = 1;
@@ -667,6 +667,7 @@ double FixWallLsdcd::mesh_output(int mesh, int i)
   const lsdcd::MeshTotals &t = wall->totals().mesh(mesh);
   if (i < kTotals) return column(t, i);
   if (i == kPower) return t.power;
+  if (i >= kNodes) return t.couple[i - kNodes];
   if (i >= kShape) return i == kShape ? wall->removed(mesh) : wall->held_back(mesh);
   if (i >= kBody) return body_output(mesh, i - kBody);
   return meshes()[mesh].servo().present ? servo_output(mesh, i - kVector) : 0;
@@ -751,7 +752,8 @@ void FixWallLsdcd::size_outputs()
   };
   if (any(has_servo)) size_vector = size_array_cols = kBody;
   if (any(is_body)) size_vector = size_array_cols = kBody + kOfBody;
-  if (spec().wear_shape.every > 0) size_vector = size_array_cols = kShape + kOfShape;
+  if (spec().wear_shape.every > 0) size_vector = size_array_cols = kNodes;
+  if (spec().has_nodes()) size_vector = size_array_cols = kNodes + kOfNodes;
   // Places and speeds are no sums.
   extlist[kVector] = extlist[kVector + 1] = extlist[kBody + 19] = 0;
   std::fill(extlist + kBody, extlist + kBody + 13, 0);

@@ -36,8 +36,11 @@ void StepTotals::reduce(const WallEngine *engine, const std::vector<Pose> &poses
     const Pose &pose = poses[k];
     MeshTotals &m = meshes_[k];
     m.force = {s[0], s[1], s[2]};
-    const bool has_nodes = !nodes.empty() && nodes[k].present;
-    m.torque_at_origin = has_nodes ? nodes[k].moment : Vec3{s[3], s[4], s[5]};
+    m.torque_at_origin = {s[3], s[4], s[5]};
+    if (!nodes.empty() && nodes[k].present) {
+      m.couple = m.torque_at_origin - nodes[k].moment;
+      m.torque_at_origin = nodes[k].moment;
+    }
     m.contacts = s[6];
     m.overlap = most[k];
     m.uncertified = s[7];
@@ -76,6 +79,7 @@ MeshTotals StepTotals::of_all() const
     all.force += m.force;
     all.torque += m.torque;
     all.torque_at_origin += m.torque_at_origin;
+    all.couple += m.couple;
     all.contacts += m.contacts;
     all.overlap = std::max(all.overlap, m.overlap);
     all.uncertified += m.uncertified;

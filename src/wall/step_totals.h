@@ -18,6 +18,7 @@ struct MeshTotals {
   Vec3 force = {0, 0, 0};               // on the mesh
   Vec3 torque = {0, 0, 0};              // on the mesh, about the point of MeshSpec::torque_about
   Vec3 torque_at_origin = {0, 0, 0};    // on the mesh, about the origin of the box
+  Vec3 couple = {0, 0, 0};              // on the mesh, which no node of it gets; 0 without nodes
   Real contacts = 0;                    // how many, of spheres
   Real overlap = 0;                     // the largest overlap / radius, of spheres
   Real uncertified = 0;                 // spheres whose answer was not certified exact

@@ -659,6 +659,13 @@ TEST(mesh_nodes, have_the_torque_of_the_forces_on_them)
     EXPECT_LE(
         norm(scene.wall->totals().mesh(0).torque - Vec3{expected[0], expected[1], expected[2]}),
         1e-12);
+
+    // All that the sphere gets besides, about its foot, has its reaction on the mesh.
+    const Vec3 rest = -cross(scene.x[0] - foot, scene.force[0]) - scene.torque[0];
+    Real couple[3] = {rest.x, rest.y, rest.z};
+    host.sum(couple, 3);
+    EXPECT_LE(norm(scene.wall->totals().mesh(0).couple - Vec3{couple[0], couple[1], couple[2]}),
+              1e-12);
   });
 }
 

@@ -566,6 +566,7 @@ class WallTotals(_Record):
     servo: NDArray[np.float64]    # (3,) position, velocity, push; 0 without a servo
     removed: float        # volume by which wear has moved the mesh, see `wear_deform`
     held_back: float      # likewise, worn at vertices that stay
+    couple: NDArray[np.float64]    # (3,) on a mesh whose nodes you move, which no node gets: the torque is of their forces
 
 
 class Host(Protocol):

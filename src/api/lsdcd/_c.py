@@ -124,7 +124,7 @@ _WallStep = _struct("_WallStep", ("dt", _real), ("setup", _int), ("changed", _in
 _WallTotals = _struct(
     "_WallTotals", ("force", _real * 3), ("torque", _real * 3), ("contacts", _real), ("overlap", _real),
     ("uncertified", _real), ("power", _real), ("energy", _real), ("worn", _real), ("servo", _real * 3),
-    ("removed", _real), ("held_back", _real))
+    ("removed", _real), ("held_back", _real), ("couple", _real * 3))
 
 
 class Error(ValueError):
