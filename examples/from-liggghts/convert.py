@@ -443,7 +443,7 @@ class Mesh:
         self.written, self.body = set(), ""    # mesh_stl, mesh_fields; words of 6dof
         self.before, self.unsure = [], False    # variables that it needs; whether a jump may have changed its motions
         self.way, self.worn = [0.0, 0.0, 0.0], False    # how runs have moved it, None where that is no known way; whether they wore it
-        self.first = None    # ID of its wall, its place there, whether there are others
+        self.first, self.wall_at = None, None    # ID of its wall, its place there, whether there are others; the line of its wall now
         self.parse(script, [script.carry(x, line, self.before) for x in w[4:]])
 
     def parse(self, script, w):
@@ -2007,6 +2007,7 @@ class Script:
         words = [f"fix             {w[1]} {self.group_of(line, meshes)} wall/lsdcd {first}" + self.wear(line, meshes)]
         for index, (mesh, by_type) in enumerate(zip(meshes, laws), 1):
             mesh.wall, mesh.index, mesh.several = mesh.first = w[1], index, len(meshes) > 1
+            mesh.wall_at = line
             words.append(self.mesh_words(mesh, line))
             own = by_type[self.grains()[0]]
             words += [f"law {own}"] * (own != first)
@@ -2242,6 +2243,7 @@ class Script:
     def move(self, line):
         before = []
         w = line.words[:7] + [self.carry(x, line, before) for x in line.words[7:]]
+        self.same_mesh(line, w[5])
         replaced = self.moves.pop(w[1], None)
         if replaced:
             replaced[0].moves.remove(replaced[1])
@@ -2275,6 +2277,23 @@ class Script:
         self.put(self.modify(mesh, mesh.moves))
         if len(mesh.moves) > 1:
             self.note(line, "the first motion of LIGGGHTS is the outer one; here it is the last")
+
+    def same_mesh(self, line, name):
+        """Raises Left where the motion that a line replaces or ends may be one of another mesh, or its mesh be in another wall."""
+        now = self.moves.get(line.words[1])
+        around = [x for first, last in line.loops for x in self.lines[first:last + 1] if x.words[:2] == ["fix", line.words[1]]]
+        if any(x.words[5:6] != [name] for x in around) or (now and (
+                not now[4].skips <= line.skips or (line.loops and now[0].id != name))):
+            raise Left(f"the motion {line.words[1]}, which a jump may have given to another mesh", "an ID for each motion")
+        mesh = self.meshes.get(name)
+        if mesh and mesh.wall:
+            self.same_wall(mesh, line)
+
+    def same_wall(self, mesh, line):
+        """Raises Left where a mesh may be in another wall than the last one above."""
+        self.sure(mesh.wall_at, line)
+        if any(mesh.wall_at.index < first <= x.index <= last for first, last in line.loops for x in mesh.wall_lines):
+            raise Left(f"a change of the mesh {mesh.id}, whose wall changes in the loop", "one wall for all turns of the loop")
 
     def check_motions(self, line, w, words, mesh, active):
         """Raises Left for a motion that does not go with the others of its mesh."""
@@ -2311,6 +2330,7 @@ class Script:
 
     def stop(self, line):
         mesh, words, _, _, where = self.moves[line.words[1]]
+        self.same_mesh(line, mesh.id)
         several = len(mesh.moves) > 1
         if line.skips <= where.skips:
             del self.moves[line.words[1]]
@@ -2329,6 +2349,7 @@ class Script:
             return
         if (not mesh.servo and not mesh.body) or mesh.wall is None:
             raise Left(f"fix_modify {w[2]}", "fix_modify of the wall with that mesh: motion, servo or body")
+        self.same_wall(mesh, line)
         if mesh.body:
             self.modify_body(line, mesh)
             return

@@ -554,6 +554,15 @@ LEFT_INSIDE = {
     "a motion in a loop beside one that stays": (
         MESH.format("") + WALL + LOOP.format(MOVE.format("linear 0 1 0") + MOVE.replace("t all", "u all").format("linear 0 0 1") + "run 1\nunfix t\n"),
         "fix t", "a motion of cad beside another one"),
+    "a motion in a loop whose ID goes to another mesh": (
+        MESH.format("") + LID + BOTH_WALL + LOOP.format(MOVE.format("linear 0 1 0") + "run 1\n" + MOVE.replace("cad", "lid").format("linear 0 0 1")),
+        "fix t", "the motion t, which a jump may have given to another mesh"),
+    "an end of a motion that a jump may have given to another mesh": (
+        MESH.format("") + LID + BOTH_WALL + MOVE.format("linear 0 1 0") + SKIP.format(MOVE.replace("cad", "lid").format("linear 0 0 1")) + "unfix t\n",
+        "unfix", "the motion t, which a jump may have given to another mesh"),
+    "a motion in a loop whose wall changes": (
+        MESH.format("") + LID + WALL + LOOP.format(MOVE.format("linear 0 1 0") + "unfix t\nunfix w\n" + BOTH_WALL.replace("cad lid", "lid cad")),
+        "fix t", "fix w of in.there:7, which a jump may change"),
     "a motion before its wall that a jump may skip": (
         MESH.format("") + SKIP.format(MOVE.format("linear 0 1 0")) + WALL, "fix t", "fix t of in.there:7, which a jump may skip"),
     "a mesh that changes in a loop": (
