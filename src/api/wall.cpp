@@ -91,7 +91,7 @@ void check_order_is_free(const lsdcd_wall &wall)
 void note_late(lsdcd_wall &wall)
 {
   if (!wall.tells_late() || wall.late.code != LSDCD_OK) return;
-  wall.late = failure_of([&] { wall.in->poll_diagnostics(wall.caller.tagged({}), wall.number); });
+  wall.late = failure_of([&] { wall.in->poll_diagnostics(wall.caller.tagged({})); });
 }
 
 void tell_late(lsdcd_wall &wall)

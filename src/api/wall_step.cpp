@@ -151,7 +151,7 @@ void take_step(lsdcd_wall &wall, const StepWanted &want)
   if (wall.caller.box().any_periodic()) wall.in->check_wrapping(s);
   try {
     wall.in->finish(s);
-    if (!wall.tells_late()) wall.in->poll_diagnostics(s, wall.number);
+    if (!wall.tells_late()) wall.in->poll_diagnostics(s);
   } catch (const ProcessError &e) {
     if (wall.caller.is_alone()) throw InputError(e.what());
     wall.late = {LSDCD_ERROR_INPUT, e.what()};

@@ -97,17 +97,20 @@ LSDCD_FN void unlock(int *lock)
 #endif
 }
 
-LSDCD_FN void raise_to(std::uint64_t *at, std::uint64_t value)
+// Returns whether it was lower.
+LSDCD_FN bool raise_to(std::uint64_t *at, std::uint64_t value)
 {
 #if LSDCD_ON_GPU()
   static_assert(sizeof(unsigned long long) == sizeof(std::uint64_t), "64 bits");
-  if (*static_cast<volatile std::uint64_t *>(at) < value)
-    atomicMax(reinterpret_cast<unsigned long long *>(at), static_cast<unsigned long long>(value));
+  return *static_cast<volatile std::uint64_t *>(at) < value &&
+         atomicMax(reinterpret_cast<unsigned long long *>(at),
+                   static_cast<unsigned long long>(value)) < value;
 #else
   std::uint64_t seen = __atomic_load_n(at, __ATOMIC_RELAXED);
-  while (seen < value &&
-         !__atomic_compare_exchange_n(at, &seen, value, true, __ATOMIC_RELAXED, __ATOMIC_RELAXED)) {
-  }
+  while (seen < value)
+    if (__atomic_compare_exchange_n(at, &seen, value, true, __ATOMIC_RELAXED, __ATOMIC_RELAXED))
+      return true;
+  return false;
 #endif
 }
 

@@ -183,7 +183,7 @@ class EngineOn : public WallEngine, public CandidatesInPlace, public NodesInPlac
     const StepCounts seen = read_counts();
     if (seen.too_large || seen.no_scratch || seen.no_slots || seen.grown) throw_for(spheres_, seen);
     clear_diagnostics(seen);
-    return diagnostics_of(seen);
+    return diagnostics_of(seen, first_step_);
   }
 
   NodesInPlace *nodes_in_place() override { return has_copies() ? this : nullptr; }
@@ -361,6 +361,7 @@ class EngineOn : public WallEngine, public CandidatesInPlace, public NodesInPlac
       }
       *counts = cleared;
     });
+    are_counts_clear_ = true;
   }
 
  private:
@@ -421,6 +422,10 @@ class EngineOn : public WallEngine, public CandidatesInPlace, public NodesInPlac
     job.lists = broad_phase_.lists();
     job.springs = springs_.view();
     job.counts = counts_.data();
+    if (are_counts_clear_) first_step_ = step_.number;
+    are_counts_clear_ = false;
+    job.step = static_cast<std::uint64_t>(std::max<std::int64_t>(0, step_.number - first_step_)) &
+               DeepestOverlap::kRest;
     job.pool = springs_.next(results.slot());
     job.overflow = overflow_.data();
     // The last step cleared the counts of this one, if it wrote to the other pool.
@@ -507,6 +512,8 @@ class EngineOn : public WallEngine, public CandidatesInPlace, public NodesInPlac
   Spheres spheres_;
   StepSettings step_;
   Array<StepCounts> counts_;
+  bool are_counts_clear_ = true;
+  std::int64_t first_step_ = 0;    // since they were cleared
   ResidentSprings<B> springs_;
 
   StepResults<B> results_, next_results_;    // of the last step, and of one launched beside

@@ -270,6 +270,9 @@ class HostAdapter : public WallEngine {
     if (seen.deepest > diagnostics_.deepest) {
       diagnostics_.deepest = seen.deepest;
       diagnostics_.deepest_sphere = candidates_[seen.deepest_sphere];
+      diagnostics_.deepest_mesh = seen.deepest_mesh;
+      diagnostics_.deepest_meshes = seen.deepest_meshes;
+      diagnostics_.deepest_step = seen.deepest_step;
     }
     diagnostics_.uncertified += seen.uncertified;
     diagnostics_.uncertain = std::max(diagnostics_.uncertain, seen.uncertain);

@@ -88,6 +88,7 @@ struct Spheres {
 };
 
 struct StepSettings {
+  std::int64_t number = 0;       // of the step, for StepDiagnostics
   Real dt = 0;                   // time
   bool update_history = true;    // false in setup: springs act but do not move
   bool per_sphere = false;       // fill SphereOutput
@@ -156,8 +157,11 @@ struct ContactRecord {
 
 // Counts of the steps since the host last read them.
 struct StepDiagnostics {
-  Real deepest = 0;           // largest overlap / radius
-  int deepest_sphere = -1;    // its index in the step that it was in
+  Real deepest = 0;                    // largest overlap / radius
+  int deepest_sphere = -1;             // its index in the step that it was in
+  int deepest_mesh = 0;                // of the wall's
+  std::uint32_t deepest_meshes = 0;    // a bit for each mesh that this sphere touched then
+  std::int64_t deepest_step = 0;       // StepSettings::number
   std::int64_t uncertified = 0;
   Real uncertain = 0;    // overlap / radius of the deepest contact they may have missed
   // Neighbour lists that were made, the features in them, and searches of cells for spheres without a list; all

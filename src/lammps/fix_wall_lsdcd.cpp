@@ -315,7 +315,7 @@ void FixWallLsdcd::pre_exchange()
 {
   if (spheres_go_far()) need_positions();
   const lsdcd::HostSpheres s = spheres();
-  wall->poll_diagnostics(s, update->ntimestep);
+  wall->poll_diagnostics(s);
   if (spheres_go_far()) wall->check_wrapping(s);
   if (has_history()) make_exchange_room();
 }
@@ -359,7 +359,7 @@ void FixWallLsdcd::post_run()
           ? ""
           : " (neigh_modify delay 0 every 1 check yes saves looking at all atoms)";
   if (spheres_go_far()) need_positions();
-  wall->end_run(spheres(), update->ntimestep, spheres_go_far(), advice,
+  wall->end_run(spheres(), spheres_go_far(), advice,
                 timer->get_wall(Timer::TOTAL));
 }
 

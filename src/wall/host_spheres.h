@@ -66,6 +66,7 @@ class SpheresOnCpu {
       spheres_(spheres), to_cpu_(std::move(to_cpu))
   {
   }
+  bool are_there() const { return !to_cpu_; }    // nothing has to be brought
   HostSpheres all() const { return get(CpuArrays::all); }
   std::int64_t tag(int i) const { return get(CpuArrays::tags).tag[i]; }
   std::int64_t highest_tag() const { return get(CpuArrays::tags).highest_tag(); }

@@ -6,6 +6,8 @@
 #include "base/input_words.h"
 
 #include <algorithm>
+#include <limits>
+#include <utility>
 
 namespace lsdcd {
 
@@ -14,6 +16,9 @@ namespace {
 const char *const kWrongSide =
     "its centre is past the wall: is the side that side in or out names that of the spheres, "
     "or should it be both?";
+
+const char *const kCameThrough =
+    "its centre came to the wall, so that it may come out on the other side and be lost: ";
 
 std::string sunk_remedy(Real overlap, Real timestep_ratio)
 {
@@ -28,19 +33,49 @@ std::string sunk_remedy(Real overlap, Real timestep_ratio)
 
 }    // namespace
 
-void OverlapMonitor::note(const StepDiagnostics &seen, const SpheresOnCpu &spheres,
-                          std::int64_t step)
+void OverlapMonitor::note_of_run(const StepDiagnostics &seen, const SpheresOnCpu &spheres)
 {
+  if (seen.deepest <= of_run_.overlap) return;
+  const bool has_tag = spheres.are_there() || seen.deepest > kWorthATag;
+  of_run_ = deepest_of(seen, has_tag ? spheres.tag(seen.deepest_sphere) : 0);
+}
+
+void OverlapMonitor::note(const StepDiagnostics &seen, const SpheresOnCpu &spheres)
+{
+  note_of_run(seen, spheres);
   if (seen.deepest <= kLarge) placed_overlap_ = 0;
-  if (sunk_warned_ || seen.deepest <= std::max(worst_, kLarge)) return;
+  if (seen.deepest <= std::max(worst_.overlap, warned_from_)) return;
   const std::int64_t tag = spheres.tag(seen.deepest_sphere);
   if (tag > placed_after_ && tag <= placed_until_ && seen.deepest <= kWorse * placed_overlap_) {
     placed_overlap_ = std::min(placed_overlap_, seen.deepest);
     return;
   }
-  worst_ = seen.deepest;
-  worst_step_ = step;
-  worst_tag_ = tag;
+  if (!is_named(tag)) worst_ = deepest_of(seen, tag);
+}
+
+// Collective. `overlap`: the largest of all processes, which one of them has.
+OverlapMonitor::Deepest OverlapMonitor::deepest_of_all(Deepest mine, Real overlap)
+{
+  host_.broadcast(&mine, sizeof mine, lowest_rank(host_, mine.overlap == overlap));
+  return mine;
+}
+
+std::string OverlapMonitor::name(std::uint32_t mesh) const
+{
+  return "mesh " + std::to_string(mesh + 1) + " '" + wall_.meshes[mesh].name + "'";
+}
+
+std::string OverlapMonitor::names(std::uint32_t meshes) const
+{
+  std::string all;
+  for (std::uint32_t mesh = 0; mesh < wall_.meshes.size(); mesh++)
+    if (meshes >> mesh & 1) all += (all.empty() ? "" : " and ") + name(mesh);
+  return all;
+}
+
+bool OverlapMonitor::is_named(std::int64_t tag) const
+{
+  return std::find(named_.begin(), named_.end(), tag) != named_.end();
 }
 
 // Collective: the sphere is on one process, and its radius is needed by the first.
@@ -53,19 +88,43 @@ std::string OverlapMonitor::overlap_text(Real overlap, std::int64_t tag,
          (radius > 0 ? " " + number_text(radius) : "");
 }
 
+// Not of spheres that have been named.
 void OverlapMonitor::check_sunk(Real worst, Real timestep_ratio, const SpheresOnCpu &spheres)
 {
-  if (sunk_warned_ || worst <= kLarge) return;
-  sunk_warned_ = true;
-  Real most = worst_;
+  if (worst <= warned_from_) return;
+  const Deepest seen = deepest_of_all(worst_, worst);
+  const bool through = seen.overlap >= kThrough;
+  if (through) named_.push_back(seen.tag);
+  warned_from_ = named_.size() == kMostNamed ? std::numeric_limits<Real>::infinity()
+                 : seen.overlap >= 0.5       ? kThrough
+                 : seen.overlap >= 0.25      ? 0.5
+                                             : 0.25;
+  if (worst_.overlap <= warned_from_ || is_named(worst_.tag)) worst_ = {};
+  const std::string overlap = overlap_text(seen.overlap, seen.tag, spheres);
+  const std::string comes_again =
+      through ? ""
+      : warned_from_ < kThrough
+          ? "; this warning comes again past " + number_text(100 * warned_from_) + " %"
+          : "; this warning comes again where a centre comes to the wall";
+  host_.warn(host_.names().sphere + (" " + std::to_string(seen.tag)) + " sank into the wall by " +
+             overlap + " in step " + std::to_string(seen.step) +
+             (through ? ", pressed by " + names(seen.meshes) : ", at " + name(seen.mesh)) + ": " +
+             (through && seen.overlap <= 1 ? kCameThrough : "") +
+             sunk_remedy(seen.overlap, timestep_ratio) + comes_again);
+}
+
+void OverlapMonitor::end_run(bool brief)
+{
+  Real most = of_run_.overlap;
   host_.max(&most, 1);
-  const int rank = lowest_rank(host_, worst_ == most);
-  std::int64_t which[2] = {worst_tag_, worst_step_};
-  host_.broadcast(which, sizeof which, rank);
-  const std::string overlap = overlap_text(most, which[0], spheres);
-  host_.warn(host_.names().sphere + (" " + std::to_string(which[0])) + " sank into the wall by " +
-             overlap + " by step " + std::to_string(which[1]) + ": " +
-             sunk_remedy(most, timestep_ratio) + "; this warning is shown once");
+  const Deepest mine = std::exchange(of_run_, {});
+  if (brief || most == 0) return;
+  const Deepest deepest = deepest_of_all(mine, most);
+  host_.log("the deepest overlap of this run is " + number_text(100 * most) + " % of the radius" +
+            (deepest.tag > 0
+                 ? std::string(" of ") + host_.names().sphere + " " + std::to_string(deepest.tag)
+                 : "") +
+            ", at " + name(deepest.mesh) + " in step " + std::to_string(deepest.step));
 }
 
 // New spheres have tags above the highest tag that there was.
@@ -79,7 +138,10 @@ void OverlapMonitor::check_new(const StepDiagnostics &seen, const SpheresOnCpu &
   Real numbers[2] = {mine, static_cast<Real>(spheres.highest_tag())};
   host_.max(numbers, 2);
   const Real most = numbers[0], highest = numbers[1];
-  if (!is_new) note(seen, spheres, step);
+  if (is_new)
+    note_of_run(seen, spheres);
+  else
+    note(seen, spheres);
   if (most > kLarge) {
     if (placed_overlap_ == 0) placed_after_ = highest_tag_;
     placed_until_ = static_cast<std::int64_t>(highest);

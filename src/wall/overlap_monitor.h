@@ -1,12 +1,18 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Warnings of spheres that are deep in the wall: those that sank in, and those that were put there.
+// The deepest overlaps: a line after each run, and warnings of spheres that are deep in the wall, because they sank in or
+// were put there.
 #pragma once
 
 #include "engine/wall_engine.h"
 #include "host/host.h"
 #include "wall/host_spheres.h"
+#include "wall/wall_spec.h"
+
+#include <cstdint>
+#include <string>
+#include <vector>
 
 namespace lsdcd {
 
@@ -14,19 +20,24 @@ namespace lsdcd {
 // whose centre is past the wall overlaps by more than 1, with side in or out.
 class OverlapMonitor {
  public:
-  explicit OverlapMonitor(Host &host) : host_(host) {}
+  // Both must outlive it.
+  OverlapMonitor(Host &host, const WallSpec &wall) : host_(host), wall_(wall) {}
 
-  // Notes the deepest sphere of the steps up to `step`. A sphere that was put into the wall has not
-  // sunk, until no sphere is deep in the wall or it is deeper than it was put.
-  void note(const StepDiagnostics &seen, const SpheresOnCpu &spheres, std::int64_t step);
+  // Notes the deepest sphere since the last look. A sphere that was put into the wall has not sunk, until no sphere
+  // is deep in the wall or it is deeper than it was put. Local.
+  void note(const StepDiagnostics &seen, const SpheresOnCpu &spheres);
 
-  // The largest overlap noted on this process; 0: no large one.
-  Real worst() const { return worst_; }
+  // The largest overlap noted on this process that is to be warned of; 0: there is none.
+  Real worst() const { return worst_.overlap; }
 
-  // Warns of the deepest sphere that sank, once. `worst`: the largest worst() of all processes.
-  // `timestep_ratio`: the timestep over the longest that resolves a contact; above 1 it is blamed first,
-  // since a stiffer contact would ask for a shorter one still. Collective.
+  // Warns of the deepest sphere that sank: past 0.1, past 0.25 and past 0.5 once each, and then of each sphere whose centre
+  // came to the wall, up to ten. `worst`: the largest worst() of all processes. `timestep_ratio`: the timestep over the
+  // longest that resolves a contact; above 1 it is blamed first, since a stiffer contact would ask for a shorter one
+  // still. Collective.
   void check_sunk(Real worst, Real timestep_ratio, const SpheresOnCpu &spheres);
+
+  // Logs the deepest overlap noted since the last call, unless `brief`. Collective.
+  void end_run(bool brief);
 
   // Warns of the deepest new sphere: one with a higher tag than all spheres had at the last call.
   // Warns again of an overlap that is more than a tenth larger. `seen`: of the step in which spheres
@@ -36,19 +47,40 @@ class OverlapMonitor {
                  bool goes_on);
 
  private:
+  struct Deepest {
+    Real overlap = 0;
+    std::int64_t tag = 0, step = 0;    // tag 0: not looked up
+    std::uint32_t mesh = 0, meshes = 0;
+  };
+  static Deepest deepest_of(const StepDiagnostics &seen, std::int64_t tag)
+  {
+    return {seen.deepest, tag, seen.deepest_step, static_cast<std::uint32_t>(seen.deepest_mesh),
+            seen.deepest_meshes};
+  }
+  void note_of_run(const StepDiagnostics &seen, const SpheresOnCpu &spheres);
+  Deepest deepest_of_all(Deepest mine, Real overlap);
+  std::string name(std::uint32_t mesh) const;
+  std::string names(std::uint32_t meshes) const;    // a bit for each
   std::string overlap_text(Real overlap, std::int64_t tag, const SpheresOnCpu &spheres);
+  bool is_named(std::int64_t tag) const;
 
   static constexpr Real kLarge = 0.1;
   static constexpr Real kWorse = 1.1;    // times an overlap that was warned of: warned of again
+  // A centre that is so near may be on the other side in the next step.
+  static constexpr Real kThrough = 0.95;
+  static constexpr std::size_t kMostNamed = 10;
+  // Where tags have to be fetched from a GPU, only those of deeper spheres are.
+  static constexpr Real kWorthATag = 0.01;
 
   Host &host_;
-  bool sunk_warned_ = false;
+  const WallSpec &wall_;
   // On this process.
-  Real worst_ = 0;
-  std::int64_t worst_tag_ = 0, worst_step_ = 0;
+  Deepest worst_, of_run_;
   // On all processes.
-  std::int64_t highest_tag_ = -1;    // of spheres that are not new; -1: before the first look
-  Real worst_new_ = kLarge;          // a new sphere that overlaps by more is warned of
+  Real warned_from_ = kLarge;          // overlaps above it are warned of
+  std::vector<std::int64_t> named_;    // tags of spheres whose centres came to the wall
+  std::int64_t highest_tag_ = -1;      // of spheres that are not new; -1: before the first look
+  Real worst_new_ = kLarge;            // a new sphere that overlaps by more is warned of
   // The last spheres of which some were put into the wall have tags in (placed_after_,
   // placed_until_]. Their overlap is 0 once no sphere of this process is deep in the wall.
   std::int64_t placed_after_ = 0, placed_until_ = 0;

@@ -52,7 +52,7 @@ Wall::Wall(Host &host, WallSpec spec, const WallUnits &units, WallBackend backen
     host_(host),
     spec_(in_units(std::move(spec), units)), laws_(law_table(spec_)), backend_(std::move(backend)),
     clock_(clock), pressure_unit_(units.pressure), history_(host, spec_), totals_(host, spec_),
-    loads_(host, spec_), files_(host, spec_, units.pressure), overlaps_(host), search_(host),
+    loads_(host, spec_), files_(host, spec_, units.pressure), overlaps_(host, spec_), search_(host),
     times_(host), timestep_(host, laws_, units.velocity), box_checks_(host, spec_, meshes_),
     grids_(host, spec_, laws_, meshes_, box_checks_, history_, times_)
 {
@@ -477,6 +477,7 @@ ServoLoad Wall::servo_load(int mesh)
 StepSettings Wall::step_settings()
 {
   StepSettings step;
+  step.number = input_.step.number;
   step.dt = input_.step.dt;
   step.update_history = input_.step.kind == Step::step;
   const bool asked = has_bodies_ && any_body_asks_for_contacts();
@@ -658,9 +659,9 @@ StepDiagnostics Wall::read_diagnostics(const HostSpheres &spheres)
   return seen;
 }
 
-void Wall::poll_diagnostics(const HostSpheres &spheres, std::int64_t step)
+void Wall::poll_diagnostics(const HostSpheres &spheres)
 {
-  overlaps_.note(read_diagnostics(spheres), on_cpu(spheres), step);
+  overlaps_.note(read_diagnostics(spheres), on_cpu(spheres));
 }
 
 // An error of this process alone must not keep the others waiting.
@@ -673,14 +674,14 @@ void Wall::check_new_spheres(const HostSpheres &spheres)
   if (!error.empty()) throw ProcessError(error);
 }
 
-void Wall::end_run(const HostSpheres &spheres, std::int64_t step, bool far,
-                   const std::string &advice, Real loop)
+void Wall::end_run(const HostSpheres &spheres, bool far, const std::string &advice, Real loop)
 {
   if (has_bodies_) complete_bodies();
-  poll_diagnostics(spheres, step);
+  poll_diagnostics(spheres);
   Real worst = overlaps_.worst();
   host_.max(&worst, 1);
   overlaps_.check_sunk(worst, timestep_.worst_ratio(), on_cpu(spheres));
+  overlaps_.end_run(spec_.brief);
   if (far) grids_.check_wrapping(spheres);
   grids_.end_run();
   search_.end_run(spec_.brief, advice);

@@ -99,13 +99,12 @@ class Wall {
   void clear_totals();
   // Before spheres change their order or processes, and before set_motion() and set_servo(): what steps have noted
   // since the last time, of these spheres, whose tags are read. Throws where one had to leave out a sphere. Local.
-  void poll_diagnostics(const HostSpheres &spheres, std::int64_t step);
+  void poll_diagnostics(const HostSpheres &spheres);
   // Warns where spheres went too far past a periodic face, for hosts that do not know how far they go: before they
   // are wrapped. Reads positions and groups, where the engine does.
   void check_wrapping(const Spheres &spheres) { grids_.check_wrapping(spheres); }
   // `advice` follows the number of choices in the log; `loop`: seconds of the run, 0 where not known.
-  void end_run(const HostSpheres &spheres, std::int64_t step, bool far, const std::string &advice,
-               Real loop);
+  void end_run(const HostSpheres &spheres, bool far, const std::string &advice, Real loop);
 
   // The totals of the last step.
   const StepTotals &totals();

@@ -266,7 +266,7 @@ def inserted_atoms_are_checked(checks, folder):
     text = lmp.run_well(body + put(0.48) + "fix g all gravity 8.0 vector 0 0 -1\n" + put(3, 1) +
                         "velocity all set 0 0 -9\nrun 600\n", folder)
     checks.fact("one that falls in is not", "sank into the wall" in text and not said.findall(text))
-    checks.fact("and its radius is told", re.search(r"sank into the wall by \S+ % of its radius 0.5 by step", text))
+    checks.fact("and its radius is told", re.search(r"sank into the wall by \S+ % of its radius 0.5 in step", text))
     # Both are in the wall, and only the deeper one is told; then one more falls in.
     both = body + put(0.3) + put(0.32, 1.5) + "timestep 0.001\n"
     text = lmp.run_well(both + "run 100\n", folder)

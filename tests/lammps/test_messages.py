@@ -149,6 +149,13 @@ def main():
     checks.fact("a sphere that sank in a step too long is told to shorten it",
                 lines(text, "sank into the wall", "use a shorter one first") and not lines(text, "stiffer contact (a larger kn)"), text[-900:])
 
+    # A plate goes down through the floor, with a sphere in between.
+    text = lmp.run(BOX + "set group all x 0 y 0 z 0.5\n" + fix("mesh floor.stl move 0 0 1 motion linear 0 0 -3") +
+                   "thermo 100\nrun 3000\n", folder, ranks=2).stdout
+    through = "sank into the wall by 99.9705 % of its radius 0.5 in step 332, pressed by mesh 1 'floor.stl' and mesh 2 'floor.stl'"
+    checks.fact("a sphere that is squeezed through a mesh is named with both before it is lost", len(lines(
+        text.split("ERROR: Lost atoms")[0], "WARNING: Fix w", "atom 2", through)) == 1 and "Lost atoms" in text, text[-2000:])
+
     # Walls that act on nothing.
     text = lmp.run_well(BOX + "unfix move\nset group all diameter 0\n" + fix() + "run 0\nrun 0\n", folder)
     checks.fact("a group of points is told once",

@@ -102,6 +102,48 @@ void move(Scene &s)
   s.compute(kStep, true, true);
 }
 
+TEST(several_meshes, the_deepest_overlap_is_told_with_its_mesh_and_all_that_its_sphere_touches)
+{
+  std::vector<TriangleSoup> parts(3, floor_mesh(1, 3));
+  for (Vec3 &p : parts[1].corners) p.z = 0.7;    // a gap of 0.7, and a floor far away
+  for (Vec3 &p : parts[2].corners) p += Vec3{20, 0, 0};
+  for (const bool turned : {false, true}) {
+    Wall wall(parts, kRadius, laws(kStiffness).front().settings, turned);
+    WallEngine &engine = *wall.scene->engine;
+    SphereArrays spheres;
+    const Vec3 begin[] = {{0, 0, 0.3}, {1, 1, 0.8}, {20, 0, 0.35}};    // 40 and 20 %, 80 %, 30 %
+    for (const Vec3 &x : begin) spheres.add(x, kRadius);
+    const auto compute = [&] {
+      engine.choose(spheres.spheres(), 0);
+      engine.step(spheres.spheres(), StepSettings());
+      return engine.read_diagnostics();
+    };
+    const auto put = [&](int i, const Vec3 &x) { put_vector(spheres.x, i, x); };
+    StepDiagnostics seen = compute();
+    EXPECT_NEAR(seen.deepest, 0.8, 1e-6);    // in float
+    EXPECT_EQ(seen.deepest_sphere, 1);
+    EXPECT_EQ(seen.deepest_mesh, 1);
+    EXPECT_EQ(seen.deepest_meshes, 2U);
+    put(1, {1, 1, 5});
+    seen = compute();
+    EXPECT_NEAR(seen.deepest, 0.4, 1e-6);
+    EXPECT_EQ(seen.deepest_sphere, 0);
+    EXPECT_EQ(seen.deepest_mesh, 0);
+    EXPECT_EQ(seen.deepest_meshes, 3U);
+    put(0, {0, 0, 0.45});    // 10 % and 50 %
+    seen = compute();
+    EXPECT_NEAR(seen.deepest, 0.5, 1e-6);
+    EXPECT_EQ(seen.deepest_mesh, 1);
+    EXPECT_EQ(seen.deepest_meshes, 3U);
+    put(0, {0, 0, 5});
+    seen = compute();
+    EXPECT_NEAR(seen.deepest, 0.3, 1e-6);
+    EXPECT_EQ(seen.deepest_sphere, 2);
+    EXPECT_EQ(seen.deepest_mesh, 2);
+    EXPECT_EQ(seen.deepest_meshes, 4U);
+  }
+}
+
 // The same triangles in one mesh, which share no corner, and dealt out to 32. Places of size 10 are
 // rounded to 2e-15 by turning, which a stiffness of 1e5 to 1e6 (corners share their overlap, with
 // angles as small as 1e-2) makes 1e-7 of forces of 1e4 at most.

@@ -263,9 +263,11 @@ class Particles {
     host.move(dt);
     if (choice == Candidates::now) engine->choose(spheres(), 0);
     StepSettings step;
+    step.number = number++;
     step.dt = dt;
     engine->step(spheres(), step);
   }
+  std::int64_t number = 1000;    // of the next step
 
   Spheres spheres() { return there_.put(host); }
 
@@ -690,8 +692,16 @@ TEST(engine, notes_the_deepest_overlap_of_all_steps_since_the_last_look)
   const StepDiagnostics diagnostics = p.engine->read_diagnostics();
   EXPECT_NEAR(diagnostics.deepest, 0.25, 1e-7);    // it is kept in single precision
   EXPECT_EQ(diagnostics.deepest_sphere, 1);
+  EXPECT_EQ(diagnostics.deepest_meshes, 1U);
+  EXPECT_EQ(diagnostics.deepest_step, 1000);
   p.step(1);
-  EXPECT_NEAR(p.engine->read_diagnostics().deepest, 0.1, 1e-7);
+  p.step(1);
+  p.host.x[5] = 0.2;
+  p.step(1);
+  const StepDiagnostics later = p.engine->read_diagnostics();
+  EXPECT_NEAR(later.deepest, 0.5, 1e-7);
+  EXPECT_EQ(later.deepest_step, 1004);
+  EXPECT_EQ(p.engine->read_diagnostics().deepest_meshes, 0U);
 }
 
 TEST(engine, many_springs_take_shared_places)

@@ -10,9 +10,13 @@
 namespace lsdcd::test_overlap_monitor {
 namespace {
 
-StepDiagnostics deepest(Real overlap, int sphere)
+StepDiagnostics deepest(Real overlap, int sphere, std::int64_t step = 7, int mesh = 0,
+                        std::uint32_t meshes = 1)
 {
   StepDiagnostics seen;
+  seen.deepest_step = step;
+  seen.deepest_mesh = mesh;
+  seen.deepest_meshes = meshes;
   seen.deepest = overlap;
   seen.deepest_sphere = sphere;
   return seen;
@@ -42,6 +46,21 @@ Named spheres_of(const FakeHost &host)
   return all;
 }
 
+// A wall of three meshes.
+const WallSpec &wall()
+{
+  static const WallSpec spec = [] {
+    WallSpec of;
+    for (const char *name : {"floor.stl", "vane.stl", "inlet.stl"}) {
+      MeshSpec mesh;
+      mesh.name = name;
+      of.meshes.push_back(mesh);
+    }
+    return of;
+  }();
+  return spec;
+}
+
 void check_sunk(FakeHost &host, OverlapMonitor &monitor, Named &named, Real timestep_ratio = 1)
 {
   Real worst = monitor.worst();
@@ -55,8 +74,8 @@ std::vector<std::string> warned_of_sunk(const std::vector<Real> &overlaps, Real 
   std::vector<std::string> warnings;
   on_processes(2, [&](FakeHost &host) {
     Named named = spheres_of(host);
-    OverlapMonitor monitor(host);
-    for (int i : {0, 1}) monitor.note(deepest(overlaps[2 * host.rank() + i], i), named.get(), 7);
+    OverlapMonitor monitor(host, wall());
+    for (int i : {0, 1}) monitor.note(deepest(overlaps[2 * host.rank() + i], i), named.get());
     check_sunk(host, monitor, named, timestep_ratio);
     check_sunk(host, monitor, named, timestep_ratio);
     if (host.rank() == 0) warnings = host.warnings;
@@ -72,7 +91,7 @@ std::vector<std::string> warned_of_new(std::int64_t tag, const std::vector<Real>
   std::vector<std::string> warnings;
   on_processes(2, [&](FakeHost &host) {
     Named named = spheres_of(host);
-    OverlapMonitor monitor(host);
+    OverlapMonitor monitor(host, wall());
     monitor.check_new({}, named.get(), 0, goes_on);
     if (host.rank() == 1) named.tags[1] = tag;
     std::int64_t step = 100;
@@ -81,7 +100,7 @@ std::vector<std::string> warned_of_new(std::int64_t tag, const std::vector<Real>
       if (step == 100)
         monitor.check_new(seen, named.get(), step, true);
       else
-        monitor.note(seen, named.get(), step);
+        monitor.note(seen, named.get());
       step++;
     }
     check_sunk(host, monitor, named);
@@ -94,10 +113,12 @@ TEST(OverlapMonitor, tells_once_of_the_sphere_that_sank_deepest_on_all_processes
 {
   const std::vector<std::string> told = warned_of_sunk({0.2, 0.15, 0.25, 0.12});
   ASSERT_EQ(told.size(), 1);
-  EXPECT_EQ(told[0],
-            "sphere 3 sank into the wall by 25 % of its radius 3 by step 7: the contact "
-            "is too soft for this load or speed: use a stiffer contact (a larger kn), "
-            "which needs a shorter timestep, or lower the speeds; this warning is shown once");
+  EXPECT_EQ(
+      told[0],
+      "sphere 3 sank into the wall by 25 % of its radius 3 in step 7, at mesh 1 'floor.stl': the "
+      "contact "
+      "is too soft for this load or speed: use a stiffer contact (a larger kn), "
+      "which needs a shorter timestep, or lower the speeds; this warning comes again past 50 %");
 }
 
 TEST(OverlapMonitor, blames_a_timestep_that_is_too_long_before_the_stiffness)
@@ -106,9 +127,10 @@ TEST(OverlapMonitor, blames_a_timestep_that_is_too_long_before_the_stiffness)
   ASSERT_EQ(told.size(), 1);
   EXPECT_EQ(
       told[0],
-      "sphere 3 sank into the wall by 25 % of its radius 3 by step 7: the timestep is 12.5 times "
+      "sphere 3 sank into the wall by 25 % of its radius 3 in step 7, at mesh 1 'floor.stl': the "
+      "timestep is 12.5 times "
       "the longest that resolves a contact: use a shorter one first. A stiffer contact would need "
-      "an even shorter one; this warning is shown once");
+      "an even shorter one; this warning comes again past 50 %");
 }
 
 TEST(OverlapMonitor, is_silent_up_to_a_tenth_of_the_radius)
@@ -121,6 +143,110 @@ TEST(OverlapMonitor, names_the_side_where_a_centre_is_past_the_wall)
   const std::vector<std::string> told = warned_of_sunk({1.01, 0, 0, 0});
   ASSERT_EQ(told.size(), 1);
   EXPECT_NE(told[0].find("its centre is past the wall"), std::string::npos);
+}
+
+// The warnings of the first process where one of the spheres 1 to 4 overlaps so in each step, looked at after each.
+std::vector<std::string> warned_step_by_step(const std::vector<StepDiagnostics> &steps)
+{
+  std::vector<std::string> warnings;
+  on_processes(2, [&](FakeHost &host) {
+    Named named = spheres_of(host);
+    OverlapMonitor monitor(host, wall());
+    for (StepDiagnostics seen : steps) {
+      seen.deepest_sphere -= 2 * host.rank();
+      if (seen.deepest_sphere == 0 || seen.deepest_sphere == 1) monitor.note(seen, named.get());
+      check_sunk(host, monitor, named);
+    }
+    if (host.rank() == 0) warnings = host.warnings;
+  });
+  return warnings;
+}
+
+TEST(OverlapMonitor, warns_again_past_a_quarter_and_a_half_and_where_a_centre_comes_to_the_wall)
+{
+  const std::vector<std::string> told = warned_step_by_step(
+      {deepest(0.11, 0), deepest(0.2, 3), deepest(0.26, 3), deepest(0.27, 1), deepest(0.49, 2),
+       deepest(0.6, 2), deepest(0.94, 2), deepest(0.96, 1, 88, 1, 6), deepest(0.97, 1),
+       deepest(1.2, 2, 99, 2, 4)});
+  ASSERT_EQ(told.size(), 5U);
+  const auto has = [&](int k, const char *text) {
+    EXPECT_NE(told[k].find(text), std::string::npos) << told[k];
+  };
+  has(0, "sphere 1 sank into the wall by 11 %");
+  has(0, "comes again past 25 %");
+  has(1, "sphere 4 sank into the wall by 26 %");
+  has(1, "comes again past 50 %");
+  has(2, "sphere 3 sank into the wall by 60 %");
+  has(2, "comes again where a centre comes to the wall");
+  has(3, "sphere 2 sank into the wall by 96 % of its radius 2 in step 88, pressed by mesh 2 "
+         "'vane.stl' and mesh 3 'inlet.stl': its centre came to the wall, so that it may come out");
+  has(4, "sphere 3 sank into the wall by 120 % of its radius 3 in step 99, pressed by mesh 3 "
+         "'inlet.stl': its centre is past the wall");
+}
+
+TEST(OverlapMonitor, names_both_of_two_spheres_whose_centres_come_to_the_wall_at_once)
+{
+  std::vector<std::string> warnings;
+  on_processes(2, [&](FakeHost &host) {
+    Named named = spheres_of(host);
+    OverlapMonitor monitor(host, wall());
+    monitor.note(deepest(0.96 + 0.01 * host.rank(), 0), named.get());
+    for (int look = 0; look < 3; look++) check_sunk(host, monitor, named);
+    if (host.rank() == 0) warnings = host.warnings;
+  });
+  ASSERT_EQ(warnings.size(), 2U);
+  EXPECT_EQ(warnings[0].find("sphere 3 sank into the wall by 97 %"), 0U);
+  EXPECT_EQ(warnings[1].find("sphere 1 sank into the wall by 96 %"), 0U);
+}
+
+TEST(OverlapMonitor, names_no_more_than_ten)
+{
+  std::vector<std::string> warnings;
+  FakeHost host;
+  OverlapMonitor monitor(host, wall());
+  Named named;
+  for (int i = 0; i < 20; i++) {
+    named.tags.push_back(i + 1);
+    named.radii.push_back(1);
+    monitor.note(deepest(0.96, i), named.get());
+    monitor.check_sunk(monitor.worst(), 1, named.get());
+  }
+  EXPECT_EQ(host.warnings.size(), 10U);
+}
+
+// The lines of the first process after two runs, in which the spheres 1 to 4 overlap so.
+std::vector<std::string> told_after_runs(const std::vector<std::vector<StepDiagnostics>> &runs,
+                                         bool brief = false)
+{
+  std::vector<std::string> lines;
+  on_processes(2, [&](FakeHost &host) {
+    Named named = spheres_of(host);
+    OverlapMonitor monitor(host, wall());
+    for (const std::vector<StepDiagnostics> &run : runs) {
+      for (StepDiagnostics seen : run) {
+        seen.deepest_sphere -= 2 * host.rank();
+        if (seen.deepest_sphere == 0 || seen.deepest_sphere == 1) monitor.note(seen, named.get());
+      }
+      monitor.end_run(brief);
+    }
+    if (host.rank() == 0) lines = host.lines;
+  });
+  return lines;
+}
+
+TEST(OverlapMonitor, tells_the_deepest_overlap_of_each_run)
+{
+  const std::vector<std::vector<StepDiagnostics>> runs = {
+      {deepest(0.01, 0, 5), deepest(0.03, 3, 6, 2, 4), deepest(0.02, 1, 7)},
+      {},
+      {deepest(0.002, 1, 12, 1, 2)}};
+  const std::vector<std::string> told = told_after_runs(runs);
+  ASSERT_EQ(told.size(), 2U);
+  EXPECT_EQ(told[0], "the deepest overlap of this run is 3 % of the radius of sphere 4, at mesh 3 "
+                     "'inlet.stl' in step 6");
+  EXPECT_EQ(told[1], "the deepest overlap of this run is 0.2 % of the radius of sphere 2, at mesh "
+                     "2 'vane.stl' in step 12");
+  EXPECT_TRUE(told_after_runs(runs, true).empty());
 }
 
 TEST(OverlapMonitor, tells_of_a_new_sphere_that_was_put_into_the_wall)
@@ -164,7 +290,7 @@ std::vector<std::string> warned_of_coming(const std::vector<Real> &overlaps, boo
 {
   std::vector<std::string> warnings;
   on_processes(2, [&](FakeHost &host) {
-    OverlapMonitor monitor(host);
+    OverlapMonitor monitor(host, wall());
     Named named;
     for (Real overlap : overlaps) {
       const int n = static_cast<int>(named.tags.size());

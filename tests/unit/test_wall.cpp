@@ -13,6 +13,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <fstream>
@@ -434,6 +435,33 @@ TEST(Wall, does_not_look_how_far_spheres_of_other_groups_went)
   EXPECT_EQ(host.warnings.size(), 1u);
 }
 
+TEST(Wall, names_the_meshes_that_press_a_sphere_whose_centre_comes_to_one_of_them)
+{
+  const Floor floor;
+  FakeHost host;
+  Scene scene(host, floor.wall({"mesh", floor.name, "move", "0", "0", "0.4"}));
+  scene.grains.add({0, 0, -0.3});    // 40 % in the floor
+  scene.grains.tags = {42};
+  scene.set_up();
+  scene.now = 6;
+  scene.grains.x[0].z = 0.01;    // 98 %, and 22 % in the other one
+  scene.run(1);
+  scene.grains.x[0].z = 0.2;
+  scene.run(1);
+  scene.wall->end_run(scene.grains.spheres(), false, "", 0);
+  ASSERT_EQ(host.warnings.size(), 2U);    // the first one is of where it was put
+  EXPECT_EQ(host.warnings[1].find("sphere 42 sank into the wall by 98 % of its radius 0.5 in step "
+                                  "7, pressed by mesh 1 '" +
+                                  floor.name + "' and mesh 2 '" + floor.name +
+                                  "': its centre came to the wall"),
+            0U)
+      << host.warnings[1];
+  EXPECT_EQ(std::count(host.lines.begin(), host.lines.end(),
+                       "the deepest overlap of this run is 98 % of the radius of sphere 42, at "
+                       "mesh 1 '" + floor.name + "' in step 7"),
+            1);
+}
+
 TEST(Wall, of_one_process_that_fails_names_its_sphere)
 {
   const Floor floor;
@@ -445,7 +473,7 @@ TEST(Wall, of_one_process_that_fails_names_its_sphere)
   scene.grains.radius[0] = 0.51;    // without a word to the wall
   scene.run(1);
   try {
-    scene.wall->poll_diagnostics(scene.grains.spheres(), 1);
+    scene.wall->poll_diagnostics(scene.grains.spheres());
     ADD_FAILURE() << "no error";
   } catch (const ProcessError &e) {
     EXPECT_EQ(std::string(e.what()).rfind("sphere 42 ", 0), 0u) << e.what();
@@ -467,7 +495,7 @@ TEST(Wall, has_the_ways_out_of_its_host_in_errors_of_the_engine)
   scene.grains.radius[0] = 0.51;
   scene.run(1);
   try {
-    scene.wall->poll_diagnostics(scene.grains.spheres(), 1);
+    scene.wall->poll_diagnostics(scene.grains.spheres());
     ADD_FAILURE() << "no error";
   } catch (const ProcessError &e) {
     EXPECT_STREQ(

@@ -13,6 +13,22 @@ namespace lsdcd {
 
 constexpr std::uint64_t kNoSphere = std::uint64_t(1) << 32;
 
+// Three words begin with overlap / radius as ascending bits, so that the deepest overlap of any thread stays in each. In
+// the first one there follow the mesh and the sphere + 1; 2^28 spheres of a process would not fit into its memory. The
+// two others are written only where the first one was: steps follow each other, so that the second word is always of the
+// sphere in the first. The third, of a sphere between several meshes, has a bit for each mesh that it touches. It may be
+// of another sphere with the same overlap in float: hence the host looks for the mesh of the first word in it.
+struct DeepestOverlap {
+  static constexpr int kRatioAt = 33, kMeshAt = 28;
+  static constexpr std::uint64_t kRest = (std::uint64_t(1) << kRatioAt) - 1,
+                                 kSphere = (std::uint64_t(1) << kMeshAt) - 1;
+
+  LSDCD_FN static std::uint64_t ratio(Real overlap_ratio)
+  {
+    return std::uint64_t(ascending_bits(static_cast<float>(overlap_ratio))) << kRatioAt;
+  }
+};
+
 // The first three are of one choice or step, the others since the host last read them.
 struct StepCounts {
   std::uint32_t n_candidates;
@@ -25,19 +41,33 @@ struct StepCounts {
   std::uint64_t too_large;
   std::uint64_t grown;          // likewise of the first sphere that feels more than at the choice
   std::uint64_t uncertified;    // answers
-  // deepest: (overlap / radius as ascending bits) << 32 | sphere + 1.
-  // uncertain: the largest overlap / radius that an uncertified answer may have missed, as ascending bits.
-  std::uint64_t deepest, uncertain;
+  // Of the deepest overlap, see DeepestOverlap.
+  std::uint64_t deepest, deepest_step, deepest_meshes;
+  // The largest overlap / radius that an uncertified answer may have missed, as ascending bits.
+  std::uint64_t uncertain;
   std::uint64_t lists, listed,
       by_cells;    // lists made in steps, their features; searches of cells
 };
 
-// The counts as the host reads them.
-inline StepDiagnostics diagnostics_of(const StepCounts &seen)
+// The counts as the host reads them; `first_step`: of those that they are of.
+inline StepDiagnostics diagnostics_of(const StepCounts &seen, std::int64_t first_step)
 {
+  using Deepest = DeepestOverlap;
   StepDiagnostics diagnostics;
-  diagnostics.deepest = from_ascending_bits(static_cast<std::uint32_t>(seen.deepest >> 32));
-  diagnostics.deepest_sphere = static_cast<int>(seen.deepest & 0xffffffffu) - 1;
+  diagnostics.deepest =
+      from_ascending_bits(static_cast<std::uint32_t>(seen.deepest >> Deepest::kRatioAt));
+  diagnostics.deepest_sphere = static_cast<int>(seen.deepest & Deepest::kSphere) - 1;
+  if (seen.deepest > 0) {
+    const auto mesh =
+        static_cast<std::uint32_t>((seen.deepest & Deepest::kRest) >> Deepest::kMeshAt);
+    diagnostics.deepest_mesh = static_cast<int>(mesh);
+    diagnostics.deepest_meshes = 1u << mesh;
+    const auto meshes = static_cast<std::uint32_t>(seen.deepest_meshes & Deepest::kRest);
+    if (((seen.deepest_meshes ^ seen.deepest) >> Deepest::kRatioAt) == 0 && (meshes >> mesh & 1))
+      diagnostics.deepest_meshes = meshes;
+    diagnostics.deepest_step =
+        first_step + static_cast<std::int64_t>(seen.deepest_step & Deepest::kRest);
+  }
   diagnostics.uncertified = static_cast<std::int64_t>(seen.uncertified);
   diagnostics.uncertain = from_ascending_bits(static_cast<std::uint32_t>(seen.uncertain));
   diagnostics.lists = static_cast<std::int64_t>(seen.lists);

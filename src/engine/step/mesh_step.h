@@ -125,7 +125,7 @@ LSDCD_FN void apply_law(const Law &law, const StepJob &job, std::size_t k, std::
   if constexpr (Law::kHeat)
     if (law.has_heat()) *sink.heat = 0;
   add_contacts(job.grid, law, job.settings, s, set, weight, sink, out);
-  record_overlap(job, i, out.overlap_ratio);
+  record_overlap(job, i, job.settings.mesh, out.overlap_ratio);
   if constexpr (Law::kHistory)
     if (job.settings.update) {
       if (out.n_contacts > 0) job.pool.first[i] = first;

@@ -191,6 +191,8 @@ LSDCD_FN void apply_multi_mesh_law(const StepJob &job, const MultiMeshSphere &s,
     return;
   }
   int first = 0, n_done = 0;
+  Real deepest = 0;
+  std::uint32_t deepest_mesh = 0, touched = 0;
   SphereSink sink = {};
   const int n_acting = count_acting(all.set.view(), all.weight);
   // All laws of a wall store the same numbers of a contact.
@@ -232,7 +234,11 @@ LSDCD_FN void apply_multi_mesh_law(const StepJob &job, const MultiMeshSphere &s,
     SphereResult out = {};
     add_contacts(mesh.grid, law, mesh.settings, state, set, all.weight + from, to_mesh, out);
     from = to;
-    record_overlap(job, s.i, out.overlap_ratio);
+    if (out.overlap_ratio > 0) touched |= 1u << mesh.settings.mesh;
+    if (out.overlap_ratio > deepest) {
+      deepest = out.overlap_ratio;
+      deepest_mesh = mesh.settings.mesh;
+    }
     if (out.n_contacts == 0) continue;
     if constexpr (Law::kRecords) job.pool.slot[k] = first + n_done;
     if constexpr (Law::kHeat)
@@ -241,6 +247,8 @@ LSDCD_FN void apply_multi_mesh_law(const StepJob &job, const MultiMeshSphere &s,
     if (pose.placed) to_box(pose, out);
     add_force(job, k, s.i, s.x, out);
   }
+  if (record_overlap(job, s.i, deepest_mesh, deepest))
+    raise_to(&job.counts->deepest_meshes, DeepestOverlap::ratio(deepest) | touched);
   if constexpr (Law::kHistory)
     if (job.settings.update) {
       if (n_done > 0) job.pool.first[s.i] = first;

@@ -89,6 +89,7 @@ struct StepJob {
   SpringsView springs = {};    // of the last step
 
   StepCounts *counts = nullptr;
+  std::uint64_t step = 0;             // since counts were cleared
   StridedView<Real> force, torque;    // added to
   Real *heat_flow = nullptr;          // likewise, where the law has heat
   ResultColumns result = {};          // of each k
@@ -154,11 +155,16 @@ LSDCD_FN void check_cutoff(const StepJob &job, std::size_t i, Real cutoff)
   if (cutoff > job.grid.cutoff) raise_to(&job.counts->too_large, kNoSphere - i);
 }
 
-LSDCD_FN void record_overlap(const StepJob &job, std::size_t i, Real ratio)
+// Notes overlap / radius of sphere i at a mesh. Returns whether it is the deepest so far.
+LSDCD_FN bool record_overlap(const StepJob &job, std::size_t i, std::uint32_t mesh, Real ratio)
 {
-  if (ratio > 0)
-    raise_to(&job.counts->deepest,
-             std::uint64_t(ascending_bits(static_cast<float>(ratio))) << 32 | (i + 1));
+  using Deepest = DeepestOverlap;
+  if (!(ratio > 0)) return false;
+  const std::uint64_t begin = Deepest::ratio(ratio);
+  if (!raise_to(&job.counts->deepest, begin | std::uint64_t(mesh) << Deepest::kMeshAt | (i + 1)))
+    return false;
+  raise_to(&job.counts->deepest_step, begin | job.step);
+  return true;
 }
 
 // Counts a candidate k whose search may have missed a contact; `uncertain`: the overlap of the deepest one, 0 if
