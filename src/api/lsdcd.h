@@ -703,7 +703,8 @@ typedef struct lsdcd_wall_totals {
   /* With wear_deform_every, volumes times wear_deform_factor: by which wear has moved the mesh so far, and what has worn
    * at vertices that stay, as a triangle would fold over or meet another part of the mesh. */
   double removed, held_back;
-  double couple[3]; /* on a mesh with nodes_by_caller, which none of its nodes gets: the torque is that of their forces */
+  /* On a mesh with nodes_by_caller, which none of its nodes gets: the torque is that of their forces. */
+  double couple[3];
 } lsdcd_wall_totals;
 /* The totals of a mesh in the last step, over all processes; -1: of all, without servos. Own. */
 LSDCD_API int lsdcd_wall_get_totals(lsdcd_wall *wall, int mesh, lsdcd_wall_totals *totals);
