@@ -215,10 +215,10 @@ int FixInsertLsdcd::setmask()
 
 void FixInsertLsdcd::init()
 {
-  std::vector<const FixWallLsdcd *> found;
+  std::vector<FixWallLsdcd *> found;
   std::vector<std::string> missing = settings.walls;
   for (int i = 0; i < modify->nfix; i++) {
-    const auto *wall = dynamic_cast<const FixWallLsdcd *>(modify->fix[i]);
+    auto *wall = dynamic_cast<FixWallLsdcd *>(modify->fix[i]);
     const auto named = std::find(missing.begin(), missing.end(), modify->fix[i]->id);
     const bool is_named = named != missing.end();
     if (is_named && !wall)
@@ -328,6 +328,7 @@ void FixInsertLsdcd::pre_exchange()
 {
   const std::int64_t step = update->ntimestep;
   if (step != next_reneighbor) return;
+  walls->begin_step();
   lsdcd::Refused refused;
   do {
     insertion->draw_due(step);

@@ -223,6 +223,22 @@ void FixWallLsdcd::note(const std::string &text)
   if (!text.empty()) warn(text);
 }
 
+void FixWallLsdcd::recede()
+{
+  run_core([&] { wall->recede(step_now()); });
+}
+
+std::vector<lsdcd::Vec3> FixWallLsdcd::places_of_nodes(int mesh)
+{
+  std::vector<lsdcd::Vec3> at;
+  need_nodes();
+  run_core([&] {
+    for (NodeAtoms &nodes : node_atoms)
+      if (nodes.is_of(mesh)) at = nodes.places(*wall);
+  });
+  return at;
+}
+
 // LAMMPS knows which pairs are left out once it has set up its lists.
 void FixWallLsdcd::warn_of_pairs()
 {

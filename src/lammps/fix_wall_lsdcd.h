@@ -70,6 +70,10 @@ class FixWallLsdcd : public Fix, protected OwnMessages {
   const std::deque<lsdcd::MeshPart> &meshes() const { return wall->meshes(); }
   std::vector<lsdcd::ScriptFile> files() const;    // that it reads and writes
 
+  // For fixes that come before the wall in a step. Collective.
+  void recede();                                         // as the wall will in this step
+  std::vector<lsdcd::Vec3> places_of_nodes(int mesh);    // where the atoms are that are its nodes
+
  protected:
   friend class LammpsHost;
   LammpsHost host{*this};

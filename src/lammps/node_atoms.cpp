@@ -263,6 +263,17 @@ void NodeAtoms::send(lsdcd::Wall &wall, bool look, const lsdcd::Step &now)
   wall.set_nodes(mesh, numbers.data(), numbers.data() + 3 * tag_of.size());
 }
 
+std::vector<Vec3> NodeAtoms::places(const lsdcd::Wall &wall)
+{
+  find_local();
+  gather(wall, true, {0, 0, lsdcd::Step::setup});    // velocities do not matter
+  if (const int node = lost(); node >= 0) fail_lost(wall, node);
+  std::vector<Vec3> at;
+  for (std::size_t k = 0; k < tag_of.size(); k++)
+    at.push_back({numbers[3 * k], numbers[3 * k + 1], numbers[3 * k + 2]});
+  return at;
+}
+
 void NodeAtoms::add_forces(lsdcd::Wall &wall)
 {
   const std::vector<double> &forces = wall.node_forces(mesh);

@@ -32,9 +32,13 @@ class NodeAtoms {
   // be others. Collective.
   std::string check_tags(lsdcd::Wall &wall);
 
+  bool is_of(int which) const { return which == mesh; }
+
   // Before a step: gives the wall the places and velocities of all nodes. `look`: atoms may have other indices since
   // the last time. `now`: the step. Throws InputError where one is lost. Collective.
   void send(lsdcd::Wall &wall, bool look, const lsdcd::Step &now);
+  // Where they are now, in the order of the nodes. Throws InputError where one is lost. Collective.
+  std::vector<lsdcd::Vec3> places(const lsdcd::Wall &wall);
   // After it: adds the forces on them. Collective.
   void add_forces(lsdcd::Wall &wall);
 

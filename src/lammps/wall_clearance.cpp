@@ -4,6 +4,7 @@
 #include "lammps/wall_clearance.h"
 
 #include "lammps/fix_wall_lsdcd.h"
+#include "mesh/measure_mesh.h"
 
 namespace lsdcd {
 
@@ -14,15 +15,12 @@ bool WallClearance::has_all(bool has_meshes) const
   for (const LAMMPS_NS::FixWallLsdcd *wall : walls_)
     for (std::size_t m = 0; m < wall->meshes().size(); m++, n++)
       if (n >= surfaces_.size() || surfaces_[n].fix != wall->id || surfaces_[n].index != m ||
-          surfaces_[n].fingerprint != wall->meshes()[m].grid.mesh_fingerprint() ||
-          surfaces_[n].shape != wall->meshes()[m].grid.shape() ||
-          wall->meshes()[m].nodes)    // whose shape is another one each time
+          surfaces_[n].fingerprint != wall->meshes()[m].grid.mesh_fingerprint())
         return false;
   return n == surfaces_.size();
 }
 
-void WallClearance::follow(const std::vector<const LAMMPS_NS::FixWallLsdcd *> &walls,
-                           bool has_meshes)
+void WallClearance::follow(const std::vector<LAMMPS_NS::FixWallLsdcd *> &walls, bool has_meshes)
 {
   walls_ = walls;
   if (has_all(has_meshes)) return;
@@ -30,25 +28,53 @@ void WallClearance::follow(const std::vector<const LAMMPS_NS::FixWallLsdcd *> &w
   for (const LAMMPS_NS::FixWallLsdcd *wall : walls_)
     for (std::size_t m = 0; m < wall->meshes().size(); m++) {
       const MeshPart &part = wall->meshes()[m];
-      surfaces_.emplace_back(wall->id, m, part.grid.mesh_fingerprint(), part.grid.shape(),
-                             *part.mesh());
+      surfaces_.emplace_back(wall->id, m, part.grid.mesh_fingerprint(), *part.mesh());
     }
+}
+
+void WallClearance::begin_step()
+{
+  nodes_.clear();
+  for (LAMMPS_NS::FixWallLsdcd *wall : walls_) {
+    wall->recede();
+    for (const MeshPart &part : wall->meshes())
+      nodes_.push_back(part.nodes ? wall->places_of_nodes(part.index) : std::vector<Vec3>());
+  }
 }
 
 void WallClearance::place(Real dt)
 {
   std::size_t n = 0;
   for (const LAMMPS_NS::FixWallLsdcd *wall : walls_)
-    for (const MeshPart &part : wall->meshes())
-      if (n < surfaces_.size()) surfaces_[n++].place(part, dt);
+    for (const MeshPart &part : wall->meshes()) {
+      const std::vector<Vec3> &at = part.nodes ? nodes_[n] : part.grid.mesh()->vertices;
+      surfaces_[n++].place(at, part, dt);
+    }
+}
+
+void WallClearance::Surface::place(const std::vector<Vec3> &vertices, const MeshPart &part, Real dt)
+{
+  if (!(mesh.vertices == vertices)) {
+    mesh.vertices = vertices;
+    set_bounds(mesh);
+    search.reset();
+  }
+  pose = part.motion.pose_in(dt);
+  moves = part.moves() || part.wear;
+  bounds = placed_bounds(pose, {mesh.report.lo, mesh.report.hi});
+}
+
+bool WallClearance::Surface::is_within(const PackedSphere &sphere)
+{
+  if (!search) search = std::make_unique<Search>(mesh);
+  return search->tree.is_within(pose.to_mesh(sphere.at), sphere.radius, search->hint);
 }
 
 bool WallClearance::is_clear(Surface &surface, const PackedSphere &sphere, const PeriodicBox &box)
 {
   // Images of the wall about the sphere are those of the sphere about the wall.
   for (const PackedSphere &image : images_in(sphere, surface.bounds, 0, box))
-    if (surface.tree.is_within(surface.pose.to_mesh(image.at), image.radius, surface.hint))
-      return false;
+    if (surface.is_within(image)) return false;
   return true;
 }
 
@@ -69,7 +95,8 @@ bool WallClearance::is_clear_at_rest(const PackedSphere &sphere, const PeriodicB
 std::size_t WallClearance::bytes() const
 {
   std::size_t sum = 0;
-  for (const Surface &surface : surfaces_) sum += surface.tree.bytes();
+  for (const Surface &surface : surfaces_)
+    if (surface.search) sum += surface.search->tree.bytes();
   return sum;
 }
 

@@ -13,6 +13,7 @@
 
 #include <cstddef>
 #include <deque>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -25,9 +26,11 @@ namespace lsdcd {
 // Only the process with the meshes, the first one, may ask for distances.
 class WallClearance {
  public:
-  // Makes a tree for each mesh that is new.
-  void follow(const std::vector<const LAMMPS_NS::FixWallLsdcd *> &walls, bool has_meshes);
-  // Where the meshes are one timestep after their last one.
+  // Copies each mesh that is new.
+  void follow(const std::vector<LAMMPS_NS::FixWallLsdcd *> &walls, bool has_meshes);
+  // Before a step: asks for the shapes that meshes will have in it. Collective.
+  void begin_step();
+  // Puts the meshes where they are one timestep after their last one, in those shapes.
   void place(Real dt);
 
   // Is the sphere's centre at least its radius from every mesh, and from its images?
@@ -39,37 +42,37 @@ class WallClearance {
 
  private:
   struct Surface {
+    struct Search {
+      TriangleTable names;
+      TriangleTree tree;
+      std::uint32_t hint = kNoPrimitive;
+
+      explicit Search(const WeldedMesh &mesh) : names(mesh), tree(mesh, names) {}
+    };
     std::string fix;    // its ID
     std::size_t index;
     std::uint64_t fingerprint;
-    int shape;    // MeshGrid::shape()
     WeldedMesh mesh;
-    TriangleTable names;
-    TriangleTree tree;
+    std::unique_ptr<Search> search;    // null until a sphere is near, since vertices have moved
     Pose pose;
     bool moves = false;    // or was moved
     Box bounds;            // in that pose
-    std::uint32_t hint = kNoPrimitive;
 
-    Surface(const std::string &fix, std::size_t index, std::uint64_t fingerprint, int shape,
+    Surface(const std::string &fix, std::size_t index, std::uint64_t fingerprint,
             const WeldedMesh &from) :
         fix(fix),
-        index(index), fingerprint(fingerprint), shape(shape), mesh(from), names(mesh),
-        tree(mesh, names)
+        index(index), fingerprint(fingerprint), mesh(from)
     {
     }
 
-    void place(const MeshPart &part, Real dt)
-    {
-      pose = part.motion.pose_in(dt);
-      moves = part.moves() || part.wear;
-      bounds = placed_bounds(pose, {mesh.report.lo, mesh.report.hi});
-    }
+    void place(const std::vector<Vec3> &vertices, const MeshPart &part, Real dt);
+    bool is_within(const PackedSphere &sphere);
   };
   bool has_all(bool has_meshes) const;
-  bool is_clear(Surface &surface, const PackedSphere &sphere, const PeriodicBox &box);
+  static bool is_clear(Surface &surface, const PackedSphere &sphere, const PeriodicBox &box);
 
-  std::vector<const LAMMPS_NS::FixWallLsdcd *> walls_;
+  std::vector<LAMMPS_NS::FixWallLsdcd *> walls_;
+  std::vector<std::vector<Vec3>> nodes_;    // of each mesh; empty: they do not move
   std::deque<Surface> surfaces_;
 };
 

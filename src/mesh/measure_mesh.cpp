@@ -17,17 +17,6 @@ namespace {
 constexpr Real kDegrees = 180 / kPi;
 constexpr Real kFeatureFold = 30;    // degrees
 
-void measure_bounds(WeldedMesh &mesh)
-{
-  MeshReport &report = mesh.report;
-  report.lo = report.hi = mesh.vertices[0];
-  for (const Vec3 &x : mesh.vertices)
-    for (int i = 0; i < 3; ++i) {
-      report.lo[i] = std::min(report.lo[i], x[i]);
-      report.hi[i] = std::max(report.hi[i], x[i]);
-    }
-}
-
 void measure_edge_lengths(WeldedMesh &mesh)
 {
   if (mesh.edges.empty()) return;
@@ -89,6 +78,17 @@ void measure_adjacency(WeldedMesh &mesh, const std::vector<FacePlane> &plane)
 
 }    // namespace
 
+void set_bounds(WeldedMesh &mesh)
+{
+  MeshReport &report = mesh.report;
+  report.lo = report.hi = mesh.vertices[0];
+  for (const Vec3 &x : mesh.vertices)
+    for (int i = 0; i < 3; ++i) {
+      report.lo[i] = std::min(report.lo[i], x[i]);
+      report.hi[i] = std::max(report.hi[i], x[i]);
+    }
+}
+
 bool runs_along(const WeldedMesh &mesh, int face, int edge)
 {
   int k = 0;
@@ -115,7 +115,7 @@ void measure_mesh(WeldedMesh &mesh, const std::vector<FacePlane> &plane)
 {
   mesh.report.vertices = mesh.vertices.size();
   mesh.report.edges = mesh.edges.size();
-  measure_bounds(mesh);
+  set_bounds(mesh);
   measure_edge_lengths(mesh);
   measure_faces(mesh, plane);
   measure_adjacency(mesh, plane);

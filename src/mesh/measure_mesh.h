@@ -19,6 +19,9 @@ void measure_mesh(WeldedMesh &mesh, const std::vector<FacePlane> &plane);
 // The same for vertices that have moved, with the faces and edges that there were.
 void measure_again(WeldedMesh &mesh);
 
+// Sets the bounding box in mesh.report, for vertices that have moved.
+void set_bounds(WeldedMesh &mesh);
+
 // Does the face run along the edge from its lower to its higher vertex?
 bool runs_along(const WeldedMesh &mesh, int face, int edge);
 

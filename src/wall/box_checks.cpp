@@ -20,7 +20,8 @@ namespace {
 
 Vec3 extents(const MeshPart &m)
 {
-  return m.grid.report().hi - m.grid.report().lo;
+  const Box bounds = m.bounds(0);
+  return bounds.hi - bounds.lo;
 }
 
 std::string capital(std::string text)

@@ -9,6 +9,7 @@
 #include "engine/lists/feature_list.h"
 #include "grid/build/node_grid.h"
 #include "mesh/face_pressure.h"
+#include "mesh/measure_mesh.h"
 #include "mesh/node_spin.h"
 #include "wall/mesh_name.h"
 
@@ -49,7 +50,7 @@ struct MeshNodes::HostGrid : NodeGrid<CpuBackend> {};
 MeshNodes::MeshNodes(Host &host, const WallSpec &wall, int mesh, const WeldedMesh &welded) :
     host_(host), wall_(wall), index_(mesh), with_sides_(wall.side != Side::both),
     with_spins_(wall.law().rolling.is_on() || wall.law().twisting.is_on()), mesh_(welded),
-    features_(make_moving_features(mesh_, with_sides_)), bounds_{mesh_.report.lo, mesh_.report.hi},
+    features_(make_moving_features(mesh_, with_sides_)),
     velocity_(mesh_.vertices.size(), Vec3{0, 0, 0}), spin_(velocity_),
     of_contacts_(3 * velocity_.size(), 0)
 {
@@ -145,8 +146,7 @@ void MeshNodes::move_here(const Step &step, Real cutoff)
   way_of_grid_ += most;
   mesh_.vertices.swap(next_);
   velocity_.swap(next_velocity_);
-  bounds_ = {mesh_.vertices.front(), mesh_.vertices.front()};
-  for (const Vec3 &x : mesh_.vertices) extend(bounds_, x);
+  set_bounds(mesh_);
   update_features(mesh_, next_, with_sides_, features_);
   if (with_spins_) find_spins();
   if (!have_moved_) turned_from_.swap(next_);
@@ -175,7 +175,8 @@ void MeshNodes::move_in_place(const Step &step, Real cutoff)
   }
   way_ += gone.most;
   way_of_grid_ = gone.since_grid;
-  bounds_ = {gone.lo, gone.hi};
+  mesh_.report.lo = gone.lo;
+  mesh_.report.hi = gone.hi;
   are_places_old_ = are_given_there_;
   if (!are_given_there_) {
     mesh_.vertices.swap(next_);
@@ -262,8 +263,8 @@ NodeField MeshNodes::field(Real cutoff) const
 
 void MeshNodes::build_grid(Real cutoff, WallEngine &engine)
 {
-  const NodeGridSettings settings = {cutoff, kAllowance * cutoff,
-                                     Real(mesh_.report.volume < 0 ? -1 : 1), bounds_, mesh_.source};
+  const NodeGridSettings settings = {
+      cutoff, kAllowance * cutoff, Real(mesh_.report.volume < 0 ? -1 : 1), bounds(), mesh_.source};
   if (!engine_ && engine.nodes_in_place()) give_nodes(engine);
   if (engine_) {
     engine.build_node_grid(index_, settings);

@@ -53,7 +53,7 @@ class MeshNodes {
     fetch_places();
     return mesh_;
   }
-  const Box &bounds() const { return bounds_; }    // of them
+  Box bounds() const { return {mesh_.report.lo, mesh_.report.hi}; }    // of them
   NodeField field(Real cutoff) const;
 
   // Does the grid hold no longer, as it is for another cutoff or a node has gone too far?
@@ -123,7 +123,6 @@ class MeshNodes {
   NodesInPlace *engine_ = nullptr;    // the engine, where it has the nodes, from its first grid on
   mutable WeldedMesh mesh_;
   MeshFeatures features_;
-  Box bounds_;
   mutable std::vector<Vec3> velocity_;
   std::vector<Vec3> spin_;
   std::vector<Vec3> next_, next_velocity_;    // set for the next step; empty: as they are

@@ -21,14 +21,13 @@ struct MeshPart {
   // it. Throws InputError on all processes. Collective.
   MeshPart(Host &host, WallSpec &wall, const LawTable &laws, int index, const Step &now) :
       index(index), spec(wall.meshes[index]), grid(host, wall, spec),
-      motion(host, wall, index, now), servo_controller(host, wall, laws, index, bounds(0)),
-      host_(host)
+      motion(host, wall, index, now), servo_controller(host, wall, laws, index), host_(host)
   {
   }
 
   const int index;
   MeshSpec &spec;                      // in that of the wall; its motion may change later
-  std::unique_ptr<MeshNodes> nodes;    // null: they do not move. First, as bounds() asks for it
+  std::unique_ptr<MeshNodes> nodes;    // null: they do not move
   MeshGrid grid;
   MeshMotion motion;
   ServoController servo_controller;
@@ -41,6 +40,7 @@ struct MeshPart {
 
   const Servo &servo() const { return spec.motion.servo(); }
   bool moves() const { return nodes || spec.motion.any(); }    // or was moved
+  bool changes_shape() const { return nodes || wear; }         // from step to step
   bool has_coat() const { return body && spec.body.coat.present; }
 
   // In its own frame, in this step; null but on one process per node, where its nodes do not move.

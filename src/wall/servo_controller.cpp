@@ -19,7 +19,7 @@ Real ServoController::stable_gain(const ServoLoad &load, const Pose &placed, Rea
   Real arm = 1;
   if (s.turns) {
     const Vec3 past = {load.radius, load.radius, load.radius};
-    const Box bounds = placed_bounds(placed, {extents_.lo - past, extents_.hi + past});
+    const Box bounds = placed_bounds(placed, {load.extents.lo - past, load.extents.hi + past});
     arm = 0;
     for_corners(bounds, [&](const Vec3 &corner) {
       arm = std::max(arm, norm(cross(s.axis, corner - s.point)));

@@ -5,6 +5,7 @@
 #pragma once
 
 #include "host/host.h"
+#include "mesh/periodic_box.h"
 #include "wall/wall_spec.h"
 
 #include <cstdint>
@@ -20,14 +21,15 @@ struct ServoLoad {
   // The largest that a contact can have, now or later.
   Real radius = 0;    // length
   Real mass = 0;
+  Box extents = {{0, 0, 0}, {0, 0, 0}};    // of the mesh, in its own frame
 };
 
 class ServoController {
  public:
-  // The servo of the mesh with this number, from 0, whose extents in its own frame these are. The servo is
-  // wall.meshes[mesh].motion.servo(). Host, wall and laws must outlive it.
-  ServoController(Host &host, WallSpec &wall, const LawTable &laws, int mesh, const Box &extents) :
-      host_(host), wall_(wall), laws_(laws), mesh_(mesh), extents_(extents)
+  // The servo of the mesh with this number, from 0, which is wall.meshes[mesh].motion.servo(). Host, wall and laws
+  // must outlive it.
+  ServoController(Host &host, WallSpec &wall, const LawTable &laws, int mesh) :
+      host_(host), wall_(wall), laws_(laws), mesh_(mesh)
   {
   }
 
@@ -51,7 +53,6 @@ class ServoController {
   WallSpec &wall_;
   const LawTable &laws_;
   int mesh_;
-  Box extents_;
   bool gain_logged_ = false, limit_warned_ = false;
 };
 

@@ -471,7 +471,8 @@ ServoLoad Wall::servo_load(int mesh)
           t.contacts + coat.contacts,
           std::max(t.overlap, coat.overlap),
           std::max(range_.radius, coat.radius),
-          std::max(range_.mass, coat.mass)};
+          std::max(range_.mass, coat.mass),
+          meshes_[mesh].bounds(0)};
 }
 
 StepSettings Wall::step_settings()

@@ -87,6 +87,8 @@ class Wall {
   // The clock goes on, meshes move, grids are built where they have to be. In place: what steps read of
   // spheres is there once the host's stream has done what it has been given.
   void begin(const HostSpheres &spheres, const StepInput &input);
+  // Moves the vertices of meshes that recede, where that is due in this step. begin() of the step does so otherwise.
+  void recede(const Step &step);
   // Chooses the spheres near the wall where that is due, and starts the step where the engine can work
   // beside the host. Local.
   void launch(const HostSpheres &spheres, LaunchMode mode = LaunchMode::in_turn);
@@ -203,7 +205,6 @@ class Wall {
   bool any_body_asks_for_contacts() const;
   void complete_bodies();
   void advance_bodies(const Step &step);
-  void recede(const Step &step);
   void build_node_grids();
   void turn_springs(int n);
   void sum_node_forces();

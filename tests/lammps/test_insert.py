@@ -17,6 +17,7 @@ import sys
 
 import lmp
 import stl
+from test_loads import read_vtp
 
 RATE, DENSITY, SPEED = 0.05, 2.0, 1.0
 SIZES = {0.1: 0.5, 0.16: 0.3, 0.2: 0.2}    # shares of mass
@@ -176,9 +177,78 @@ def check_wall(checks, folder):
             gap.append((out if out > 0 else 1 - max(x)) - g[0])
         checks.fact(f"clear of a wall {name}", rows[-1][1] == 300 and rows[-1][2] > 10 and min(gap) > -1e-9 and
                     all(row[3] == 0 and row[4] == 0 for row in rows) and min(gap) < 0.02, f"{min(gap)} {rows[-1]}")
+    check_nodes(checks, folder)
     rows = lmp.read_thermo(lmp.run_well(VESSEL + f"fix wall all wall/lsdcd {WALL} mesh cube.stl\n" + FILL + "wall none\n" +
                                         thermo + "run 2\n", folder))
     checks.fact("wall none leaves it out of sight", rows[-1][3] > 0, str(rows[-1]))
+
+
+def check_nodes(checks, folder):
+    """The cube again, which atoms that are its nodes bring from afar, and on while grains come, by 0.05 a step."""
+    corners = "".join(f"create_atoms 2 single {x} {y} {z} units box\n" for x in (-7, -5) for y in (-1, 1) for z in (-1, 1))
+    text = VESSEL.replace("block -2 2", "block -8 2").replace("create_box      1", "create_box      2") + corners + \
+        "set type 2 diameter 1e-3 density 1\ngroup nodes type 2\ngroup grains type 1\nunfix move\n" \
+        "fix go nodes move linear 5 0 0 units box\n" \
+        f"fix wall grains wall/lsdcd {WALL} mesh cube.stl move -6 0 0 nodes nodes\nrun 116\n" + \
+        FILL.replace("in all", "in grains") + "\n" + DUMP.format(1) + "dump_modify d thresh mass > 1e-6\nrun 6\n"
+    lmp.run_well(text, folder, 2)
+    seen, gap = set(), []
+    for step, grains in sorted(lmp.read_dump(folder / "grains").items()):
+        for tag in grains.keys() - seen:
+            x = [abs(grains[tag][2] + 6 - 0.05 * step), abs(grains[tag][3]), abs(grains[tag][4])]
+            out = math.sqrt(sum(max(c - 1, 0) ** 2 for c in x))
+            gap.append((out if out > 0 else 1 - max(x)) - grains[tag][0])
+        seen |= grains.keys()
+    checks.fact("clear of a wall whose nodes move", len(gap) > 40 and -1e-9 < min(gap) < 0.02, f"{len(gap)} {min(gap)}")
+
+
+def from_triangle(x, corners):
+    """The distance of a point: from the plane if its foot is inside, else from the nearest edge."""
+    def minus(a, b):
+        return [p - q for p, q in zip(a, b)]
+    def dot(a, b):
+        return sum(p * q for p, q in zip(a, b))
+    def cross(a, b):
+        return [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+    normal = cross(minus(corners[1], corners[0]), minus(corners[2], corners[0]))
+    edges = [(corners[k], minus(corners[(k + 1) % 3], corners[k])) for k in range(3)]
+    if all(dot(cross(normal, e), minus(x, a)) >= 0 for a, e in edges):
+        return abs(dot(normal, minus(x, corners[0]))) / math.sqrt(dot(normal, normal))
+    shares = [min(1, max(0, dot(minus(x, a), e) / dot(e, e))) for a, e in edges]
+    return min(math.dist(x, [p + s * q for p, q in zip(a, e)]) for s, (a, e) in zip(shares, edges))
+
+
+def check_worn(checks, folder):
+    """A sheet that a ball wears down while grains come from below, at rest: clear of the shape that it has then."""
+    stl.write(folder / "sheet.stl", stl.sheet(6, lambda i, j: (i / 3 - 1, j / 3 - 1, 0)))
+    lmp.run_well(VESSEL.replace("fix             move all nve/sphere\n", "").replace("timestep 0.01", "timestep 0.001") + """\
+create_atoms 1 single 0.3 0 0.195 units box
+set group all diameter 0.4 density 1
+group ball id 1
+fix wall all wall/lsdcd hooke 2000 0 0 0 0 0 mesh sheet.stl wear archard 1 1000 deform every 10 factor 6 mesh_fields worn_*.vtp every 10
+variable dx equal 0.3*cos(30*step*dt)-0.3
+variable dy equal 0.3*sin(30*step*dt)
+variable dz equal -0.3*step*dt
+variable vx equal -9*sin(30*step*dt)
+variable vy equal 9*cos(30*step*dt)
+variable vz equal -0.3
+fix go ball move variable v_dx v_dy v_dz v_vx v_vy v_vz units box
+region below block -0.7 0.7 -0.7 0.7 -0.4 -0.06 units box
+fix in all insert/lsdcd region below numberrate 100 diam one 0.1 dens 1 seed 3
+""" + DUMP.format(10) + "run 500\n", folder)
+    seen, gap, lowest = {1}, [], 0
+    for step, grains in sorted(lmp.read_dump(folder / "grains").items()):
+        new = grains.keys() - seen
+        seen |= new
+        if not new:
+            continue
+        worn = read_vtp(folder / f"worn_{step}.vtp")
+        points = [worn["points"][3 * k:3 * k + 3] for k in worn["connectivity"]]
+        lowest = min(z for _, _, z in points)
+        for tag in new:
+            gap.append(min(from_triangle(grains[tag][2:5], points[k:k + 3]) for k in range(0, len(points), 3)) - grains[tag][0])
+    checks.fact("clear of a wall that wear has moved", len(gap) > 20 and lowest < -0.1 and -1e-9 < min(gap) < 0.05,
+                f"{len(gap)} {lowest} {min(gap)}")
 
 
 def check_kokkos(checks, folder):
@@ -347,7 +417,7 @@ def main():
     if "host" in sys.argv[1:]:
         on_host()
     checks, folder = lmp.Checks(), lmp.scratch()
-    parts = (check_face, check_radii, check_periodic, check_wall, check_debt, check_other_plan, check_recovers, check_huge,
+    parts = (check_face, check_radii, check_periodic, check_wall, check_worn, check_debt, check_other_plan, check_recovers, check_huge,
              check_ends)
     parts += lmp.ON_KOKKOS * (check_kokkos,)
     names = [word for word in sys.argv[1:] if word != "host"]

@@ -123,8 +123,9 @@ def through(checks, folder):
     stl.write(folder / "plate.stl", plate(12, 1.8, 0.05))
     text = lmp.run_well(BEGIN.format(x="0.02 0.01 0.495") +
                         "fix w all wall/lsdcd hooke 1e4 0 100 0 0 0 mesh plate.stl surface_vel 1 0 0 &\n"
-                        "wear archard 1.25e-3 50 deform every 20 factor 4 mesh_fields plate_*.vtp every 20\n"
-                        "fix down all addforce 0 0 -50\nfix hold all setforce 0 0 NULL\nfix go all nve\n" +
+                        "wear archard 1.25e-3 50 deform every 20 factor 4 mesh_fields plate_*.vtp every 20 draw faces 1\n"
+                        "fix down all addforce 0 0 -50\nfix hold all setforce 0 0 NULL\nfix go all nve\n"
+                        "group none empty\ndump im none image 2500 plate.*.ppm type type fix w type 1 0 size 100 100\n" +
                         EACH.format("plate.txt") + "run 2500\n", folder)
     rows = rows_of(folder / "plate.txt")
     flat = " ".join(text.split())
@@ -136,6 +137,7 @@ def through(checks, folder):
     whole, now = 1.8 * 1.8 * 0.05, volume(last)
     # The sum of 1000 products of coordinates of 1.
     checks.at_most("a closed mesh has lost what was removed", abs(whole - now - rows[-1][2]), 1e-14)
+    checks.fact("dump image draws it anew", len({(folder / f"plate.{k}.ppm").read_bytes() for k in (0, 2500)}) == 2)
     checks.fact("its shape has changed", apart(first, last, "points") > 0.01)
     lowest = [z for x, y, z in corners(last) if z > -0.05]
     checks.fact("its top stays above its bottom", -0.05 < min(lowest) < -0.02, f"{min(lowest):.3g}")

@@ -25,7 +25,8 @@ WallSpec wall()
   return settings;
 }
 
-// Spheres that press a mesh down with this force, each with a radius of 0.5 and a mass of 1.
+// Spheres that press a mesh down with this force, each with a radius of 0.5 and a mass of 1. Extents of the mesh are a
+// cube of 2 about the origin.
 ServoLoad pressed(Real force, Real contacts)
 {
   ServoLoad load;
@@ -33,6 +34,7 @@ ServoLoad pressed(Real force, Real contacts)
   load.contacts = contacts;
   load.radius = 0.5;
   load.mass = 1;
+  load.extents = {{-1, -1, -1}, {1, 1, 1}};
   return load;
 }
 
@@ -41,12 +43,12 @@ struct Moved {
   std::vector<std::string> lines, warnings;
 };
 
-// After `steps` steps with the same load. Extents of the mesh are a cube of 2 about the origin.
+// After `steps` steps with the same load.
 Moved after(WallSpec settings, const ServoLoad &load, int steps = 1)
 {
   FakeHost host;
   const LawTable laws = law_table(settings);
-  ServoController controller(host, settings, laws, 0, {{-1, -1, -1}, {1, 1, 1}});
+  ServoController controller(host, settings, laws, 0);
   for (int i = 0; i < steps; i++) controller.advance(load, Pose(), kDt, 7);
   const Servo &s = settings.meshes[0].motion.servo();
   return {s.velocity, s.position, host.lines, host.warnings};
@@ -81,11 +83,22 @@ TEST(ServoController, counts_the_arm_of_contacts_where_it_turns)
   EXPECT_NEAR(after(settings, load).velocity, 40 / (2 * 4.5 * 1e4 * kDt), 1e-14);
 }
 
+// As wear moves its vertices: the arm is that of the mesh as it is.
+TEST(ServoController, counts_the_arm_of_a_mesh_that_has_grown)
+{
+  WallSpec settings = wall();
+  settings.meshes[0].motion.servo().turns = true;
+  ServoLoad load = pressed(0, 1);
+  load.torque = {0, 0, -60};
+  load.extents = {{-2, -2, -2}, {2, 2, 2}};    // and a sphere: 2.5 sqrt(2)
+  EXPECT_NEAR(after(settings, load).velocity, 40 / (2 * 12.5 * 1e4 * kDt), 1e-14);
+}
+
 TEST(ServoController, pushes_against_what_spheres_exert)
 {
   WallSpec settings = wall();
   FakeHost host;
-  EXPECT_EQ(ServoController(host, settings, law_table(settings), 0, {}).push(pressed(60, 1)), 60);
+  EXPECT_EQ(ServoController(host, settings, law_table(settings), 0).push(pressed(60, 1)), 60);
 }
 
 TEST(ServoController, does_not_act_where_it_holds)
@@ -93,7 +106,7 @@ TEST(ServoController, does_not_act_where_it_holds)
   WallSpec settings = wall();
   FakeHost host;
   const LawTable laws = law_table(settings);
-  const ServoController controller(host, settings, laws, 0, {});
+  const ServoController controller(host, settings, laws, 0);
   EXPECT_TRUE(controller.acts());
   settings.meshes[0].motion.servo().holds = true;
   EXPECT_FALSE(controller.acts());
@@ -135,7 +148,7 @@ TEST(ServoController, tells_of_another_servo_again)
   settings.meshes[0].motion.servo().hi = 1e-4;
   FakeHost host;
   const LawTable laws = law_table(settings);
-  ServoController controller(host, settings, laws, 0, {});
+  ServoController controller(host, settings, laws, 0);
   controller.advance(pressed(60, 1), Pose(), kDt, 7);
   controller.begin_anew();
   controller.advance(pressed(60, 1), Pose(), kDt, 8);
