@@ -114,10 +114,8 @@ void ComputeCollideLsdcd::make_collisions(const lsdcd::WeldedMesh &body)
   how.memory = settings.memory;
   how.device = settings.device;
   lsdcd::MpiHost mpi(world);
+  check_shapes(wall());
   for (const lsdcd::MeshPart &part : wall().meshes()) {
-    if (part.nodes)
-      fatal("fix " + settings.wall +
-            " has a mesh whose nodes move, and bodies collide with rigid meshes only");
     const lsdcd::WeldedMesh mesh = lsdcd::copy_together(mpi, part.grid.mesh());
     Against one;
     one.fingerprint = part.grid.mesh_fingerprint();
@@ -127,6 +125,16 @@ void ComputeCollideLsdcd::make_collisions(const lsdcd::WeldedMesh &body)
     });
     meshes.push_back(std::move(one));
   }
+}
+
+// Grids of the compute are those of the meshes as they were when it was defined.
+void ComputeCollideLsdcd::check_shapes(const FixWallLsdcd &fix) const
+{
+  for (const lsdcd::MeshPart &part : fix.meshes())
+    if (part.changes_shape())
+      fatal("fix " + settings.wall + " has a mesh " +
+            (part.nodes ? "whose nodes move" : "that wear moves (deform)") +
+            ", and bodies collide with rigid meshes only");
 }
 
 // The same wall as when the compute was defined?
@@ -142,6 +150,7 @@ void ComputeCollideLsdcd::check_wall(const FixWallLsdcd &fix) const
 
 void ComputeCollideLsdcd::init()
 {
+  check_shapes(wall());
   check_wall(wall());
   evaluated_at = -1;    // atoms may have been moved since
 }

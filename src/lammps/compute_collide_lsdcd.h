@@ -76,6 +76,7 @@ class ComputeCollideLsdcd : public Compute, protected OwnMessages {
 
   const class FixWallLsdcd &wall() const;
   void make_collisions(const lsdcd::WeldedMesh &);
+  void check_shapes(const FixWallLsdcd &) const;
   void check_wall(const FixWallLsdcd &) const;
   void evaluate();
   void collide(int, const lsdcd::BodyPose &, const FixWallLsdcd &, const lsdcd::PeriodicBox &);

@@ -36,6 +36,21 @@ void check_side(const WallSpec &settings, const MeshPart &m)
                    "mesh (lsdcd repair) or use side both");
 }
 
+void check_pressure(const WallSpec &settings, const MeshPart &m)
+{
+  const MeshReport &r = m.grid.report();
+  const bool acts = m.spec.pressure != 0 || m.spec.pressure_input != kNoInput;
+  if (!acts || r.misoriented_edges + r.two_sided_faces + r.inverted_facets == 0) return;
+  throw InputError(with_mesh_name(
+      settings, m.index,
+      "a pressure acts along the normals of faces by their winding, and this mesh has " +
+          std::to_string(r.misoriented_edges) + " misoriented edges, " +
+          std::to_string(r.two_sided_faces) + " faces in both windings and " +
+          std::to_string(r.inverted_facets) +
+          " facets of closed shells that are wound against the others, so that it would push to "
+          "both sides: wind all alike, for example by lsdcd repair"));
+}
+
 void check_plane(Host &host, const WallSpec &settings, const MeshPart &m)
 {
   if (host.box().dimension == 3) return;
@@ -47,6 +62,12 @@ void check_plane(Host &host, const WallSpec &settings, const MeshPart &m)
         "in which all " +
             spheres + " are: make the box three-dimensional and hold the " + spheres +
             " in the plane, or leave nodes out"));
+  if (m.wear)
+    throw InputError(with_mesh_name(
+        settings, m.index,
+        "in two dimensions wear cannot move a mesh, because what comes off one of the two "
+        "triangles behind a piece of the outline would let the outline lean: leave deform out, or "
+        "give the mesh wear_factor 0"));
   const MeshReport &r = m.grid.report();
   if (!(r.lo.z < 0 && r.hi.z > 0))
     throw InputError(with_mesh_name(

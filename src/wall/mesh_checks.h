@@ -12,8 +12,12 @@ namespace lsdcd {
 // Throws InputError, the same on all processes, where side in or out has no meaning for the mesh.
 void check_side(const WallSpec &settings, const MeshPart &m);
 
+// Throws InputError, the same on all processes, where a pressure would push faces to both sides.
+void check_pressure(const WallSpec &settings, const MeshPart &m);
+
 // In two dimensions spheres feel the mesh where it cuts the plane z = 0. Throws InputError where it
-// does not cut it, and where it has nodes; warns of faces that lean there. Collective.
+// does not cut it, and where it has nodes or wear moves its vertices; warns of faces that lean there.
+// Collective.
 void check_plane(Host &host, const WallSpec &settings, const MeshPart &m);
 
 // A gap opens where vertices of a facet without area, which welding has dropped, or on the open edge of another move apart.

@@ -69,6 +69,7 @@ Wall::Wall(Host &host, WallSpec spec, const WallUnits &units, WallBackend backen
     if (spec_.recedes(m.spec))
       m.wear = std::make_unique<MeshWear>(host_, spec_, m.index, m.grid.report(), m.grid.mesh());
     check_side(spec_, m);
+    check_pressure(spec_, m);
     check_plane(host_, spec_, m);
     check_stays_closed(host_, spec_, m);
     check_motion(host_, spec_, m);
@@ -272,11 +273,19 @@ void Wall::begin(const HostSpheres &spheres, const StepInput &input)
 // step are not known.
 void Wall::begin_snapshot(int n, const Step &step)
 {
-  for (const MeshPart &m : meshes_) m.motion.check_snapshot(step);
+  const std::string a_replay = std::string("a ") + host_.names().replay;
+  for (const MeshPart &m : meshes_) {
+    m.motion.check_snapshot(step);
+    if (m.wear)
+      throw InputError(
+          named(m, "in " + a_replay +
+                       " the shape of a mesh that wear moves is not known, because it "
+                       "follows from the contacts of all steps before: leave deform out, "
+                       "and give the mesh of that time, which mesh_stl writes"));
+  }
   for (int i = 0; history_.is_on() && i < n; i++) history_.on_host().clear(i);
   if (snapshot_warned_) return;
   snapshot_warned_ = true;
-  const std::string a_replay = std::string("a ") + host_.names().replay;
   if (history_.is_on())
     host_.warn(a_replay + " does not know the springs of contacts, because no " +
                host_.names().record +
@@ -647,7 +656,21 @@ void Wall::finish(const HostSpheres &spheres)
     for (const MeshPart &m : meshes_)
       if (m.wear) m.wear->add(engine_->records(), engine_->n_records(), step.dt, m.records());
   if (input_.new_spheres) check_new_spheres(spheres);
+  if (step.kind == Step::setup) log_new_springs(step);
   if (step.kind == Step::setup) times_.begin_run();    // as the host's loop time
+}
+
+// Where a wall comes, or comes anew, among spheres that rest on it.
+void Wall::log_new_springs(const Step &step)
+{
+  if (continued_ || springs_told_ || step.number == 0 || !history_.is_on()) return;
+  springs_told_ = true;
+  const auto contacts = static_cast<std::int64_t>(totals().of_all().contacts);
+  if (contacts == 0 || spec_.brief) return;
+  host_.log(
+      "there are " + std::to_string(contacts) +
+      " contacts already where the wall begins, in step " + std::to_string(step.number) +
+      ": their springs are 0, as a wall that is made again takes over none of the one before it");
 }
 
 // The counts of the steps since the last call, for the log.

@@ -217,6 +217,7 @@ class Wall {
 
   StepSettings step_settings();
   void choose_if_due(const Spheres &spheres);
+  void log_new_springs(const Step &step);
   StepDiagnostics read_diagnostics(const HostSpheres &spheres);
   void check_new_spheres(const HostSpheres &spheres);
 
@@ -260,6 +261,7 @@ class Wall {
 
   StepInput input_;           // of the last begin()
   bool continued_ = false;    // from a saved state
+  bool springs_told_ = false;
   bool points_warned_ = false, snapshot_warned_ = false;
   SphereRange range_;    // for gains of servos and the timestep of bodies
   bool range_is_known_ = false;

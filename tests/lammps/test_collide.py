@@ -224,6 +224,11 @@ def check_other_wall(checks, folder):
     checks.fact("a wall with another mesh of the same size is refused", done.returncode != 0 and
                 "fix wall has other meshes than when the compute was defined" in done.stdout,
                 str(lmp.read_thermo(done.stdout)))
+    worn = again.format("half").replace("mesh half.stl", "mesh half.stl wear archard 1 50 deform every 10")
+    for name, text in (("made again", first + worn), ("from the beginning", first.replace(compute, worn + compute))):
+        done = lmp.run(text + "run 0\n", folder)
+        checks.fact(f"a wall that wear moves, {name}, is refused", done.returncode != 0 and
+                    "has a mesh that wear moves (deform), and bodies collide with rigid" in " ".join(done.stdout.split()))
     checks.fact("the compute defined again sees that mesh",
                 pairs(again.format("other") + "thermo_style one\nuncompute c\n" + compute +
                       "thermo_style custom step c_c[1]\n") == 0)

@@ -6,6 +6,7 @@
 //   LSDCD_SEED   the first seed of these, so that several processes can share a large sample; 1 unless given
 #include "base/input_error.h"
 #include "mesh/mesh_features.h"
+#include "output/mesh_image.h"
 #include "support/brute_force.h"
 #include "support/device.h"
 #include "support/laws.h"
@@ -850,6 +851,59 @@ TEST(mesh_nodes, of_an_open_mesh_have_the_pressure_times_its_vector_area)
                             mesh->vertices[mesh->faces[face][(k + 1) % 3]]);
   }
   EXPECT_LE(norm(scene.sum_of_nodes() - 3 * area), 1e-13 * 3 * mesh->report.area);
+}
+
+void reverse(TriangleSoup &soup, std::size_t facet)
+{
+  std::swap(soup.corners[3 * facet + 1], soup.corners[3 * facet + 2]);
+}
+
+// Such faces would be pushed to the other side: those of a closed mesh inward.
+TEST(mesh_nodes, of_faces_wound_against_each_other_take_no_pressure)
+{
+  TriangleSoup closed = box_mesh({-1, -1, -1}, {1, 1, 1}), open = curved_sheet(4), shells = closed;
+  reverse(closed, 5);
+  reverse(open, 3);
+  TriangleSoup other = box_mesh({2, -1, -1}, {4, 1, 1});
+  for (std::size_t i = 0; i < other.n_triangles(); i++) reverse(other, i);
+  shells.corners.insert(shells.corners.end(), other.corners.begin(), other.corners.end());
+  for (const TriangleSoup &soup : {closed, open, shells})
+    for (const bool by_input : {false, true}) {
+      WallSpec spec = nodes_of(hooke(1000).law(), welded(soup));
+      FakeHost host;
+      EXPECT_NO_THROW(Scene(host, spec));
+      if (by_input) {
+        spec.inputs = {"p"};
+        spec.meshes.front().pressure_input = 0;
+      } else {
+        spec.meshes.front().pressure = 5;
+      }
+      try {
+        Scene scene(host, spec);
+        ADD_FAILURE() << "no error";
+      } catch (const InputError &e) {
+        EXPECT_NE(std::string(e.what()).find("wind all alike"), std::string::npos) << e.what();
+      }
+    }
+}
+
+// ---- where they are ----------------------------------------------------------------------
+
+// A box of side 2, which a picture shows by contours at shares of its bounds.
+TEST(mesh_nodes, that_have_moved_have_the_bounds_of_their_places)
+{
+  const auto mesh = welded(box_mesh({-1, -1, -1}, {1, 1, 1}));
+  FakeHost host;
+  Scene scene(host, nodes_of(hooke(1000).law(), mesh));
+  const std::size_t before = draw_mesh(*mesh, Draw::contours).size();
+  std::vector<Vec3> at = mesh->vertices;
+  for (Vec3 &x : at) x += {0, 0, 5};
+  scene.set_nodes(at, {});
+  scene.set_up();
+  const WeldedMesh &now = *scene.wall->meshes()[0].mesh();
+  EXPECT_EQ(now.report.lo.z, 4);
+  EXPECT_EQ(now.report.hi.z, 6);
+  EXPECT_EQ(draw_mesh(now, Draw::contours).size(), before);
 }
 
 // ---- periodic boxes ----------------------------------------------------------------------

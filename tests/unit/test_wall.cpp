@@ -9,6 +9,7 @@
 #include "mesh/io/read_mesh.h"
 #include "support/fake_host.h"
 #include "support/grains.h"
+#include "support/meshes.h"
 #include "wall/wall.h"
 
 #include <gtest/gtest.h>
@@ -518,6 +519,74 @@ TEST(Wall, does_not_move_springs_in_a_snapshot)
   EXPECT_EQ(scene.grains.force[0].x, 0);
   ASSERT_EQ(host.warnings.size(), 1u);
   EXPECT_EQ(host.warnings[0].rfind("a replay does not know the springs", 0), 0u);
+}
+
+// As after `unfix` and another `fix`, when a gate is taken out: what rests on it slips a little.
+TEST(Wall, that_begins_among_spheres_at_rest_tells_that_their_springs_are_new)
+{
+  const auto told = [](std::int64_t first, Real z, bool continued) {
+    const Floor floor;
+    FakeHost host;
+    Scene scene(host, floor.wall());
+    scene.grains.add({0.3, 0.2, z});
+    scene.now = first;
+    if (continued) scene.wall->restore(Scene(host, floor.wall()).wall->save(), {first, kDt});
+    scene.set_up();
+    scene.set_up();
+    int lines = 0;
+    for (const std::string &line : host.lines)
+      lines += line.rfind("there are 1 contacts already where the wall begins, in step 5", 0) == 0;
+    return lines;
+  };
+  EXPECT_EQ(told(5, 0.49, false), 1);
+  EXPECT_EQ(told(0, 0.49, false), 0);
+  EXPECT_EQ(told(5, 0.51, false), 0);
+  EXPECT_EQ(told(5, 0.49, true), 0);
+}
+
+// Its shape follows from the contacts of all steps before.
+TEST(Wall, whose_mesh_recedes_has_no_snapshots)
+{
+  const Floor floor;
+  FakeHost host;
+  Scene scene(host, floor.wall({"wear", "archard", "1e-4", "50", "deform", "every", "10"}));
+  scene.grains.add({0.3, 0.2, 0.49});
+  scene.set_up();
+  scene.run(10);
+  try {
+    scene.step(Step::snapshot, true);
+    ADD_FAILURE() << "no error";
+  } catch (const InputError &e) {
+    EXPECT_NE(std::string(e.what()).find("in a replay the shape of a mesh that wear moves"),
+              std::string::npos)
+        << e.what();
+  }
+}
+
+// A contact wears the corners of one triangle of an outline's strip, which would lean.
+TEST(Wall, whose_mesh_recedes_is_refused_in_two_dimensions)
+{
+  FakeHost host;
+  host.simulation = wide_box();
+  host.simulation.dimension = 2;
+  WallSpec upright;
+  upright.meshes.resize(1);
+  upright.meshes.front().mesh =
+      std::make_shared<WeldedMesh>(weld(box_mesh({-1, -1, -1}, {1, 1, 1}), -1));
+  upright.wear = {WearModel::archard, 1e-4};
+  const auto make = [&](const WallSpec &wall) {
+    Wall(host, wall, WallUnits(), WallBackend(), "", StepClock{0, 0, 0, kDt});
+  };
+  EXPECT_NO_THROW(make(upright));
+  upright.wear_shape.every = 10;
+  try {
+    make(upright);
+    ADD_FAILURE() << "no error";
+  } catch (const InputError &e) {
+    EXPECT_NE(std::string(e.what()).find("in two dimensions wear cannot move a mesh"),
+              std::string::npos)
+        << e.what();
+  }
 }
 
 TEST(Wall, has_a_mesh_from_the_first_process_on_all)
