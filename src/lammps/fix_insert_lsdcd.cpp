@@ -7,6 +7,7 @@
 #include "base/vector_text.h"
 #include "lammps/fix_wall_lsdcd.h"
 #include "lammps/host_atom_vec.h"
+#include "lammps/host_atoms.h"
 #include "lammps/host_box.h"
 #include "lammps/mpi_host.h"
 #include "lammps/mpi_mesh.h"
@@ -107,6 +108,10 @@ FixInsertLsdcd::FixInsertLsdcd(LAMMPS *lmp, int narg, char **arg) :
 {
   if (!atom->radius_flag || !atom->rmass_flag)
     fatal("atoms need a radius and a mass each: use atom_style sphere");
+  const std::string shape = lsdcd::shape_of_atoms(*atom);
+  if (!shape.empty())
+    fatal("the atom style has " + shape +
+          ", and grains would have no shape: use atom_style sphere without them");
   if (domain->dimension == 2)
     fatal("the simulation has two dimensions: there is no insertion there");
   run_core([&] {

@@ -8,6 +8,7 @@
 #include "input/shared_material.h"
 #include "input/wall_change.h"
 #include "input/wall_command.h"
+#include "lammps/host_atoms.h"
 #include "lammps/host_box.h"
 #include "lammps/other_fixes.h"
 #include "lammps/own_wall_gran.h"
@@ -146,6 +147,10 @@ void FixWallLsdcd::check_atoms() const
 {
   if (!atom->radius_flag || !atom->rmass_flag || !atom->omega_flag || !atom->torque_flag)
     fatal("atoms need a radius, omega and torque: use atom_style sphere");
+  const std::string shape = lsdcd::shape_of_atoms(*atom);
+  if (!shape.empty())
+    fatal("the atom style has " + shape +
+          ", which the wall would take for spheres: use atom_style sphere without them");
 }
 
 void FixWallLsdcd::check_types(const lsdcd::WallSpec &spec) const
@@ -244,7 +249,14 @@ void FixWallLsdcd::warn_of_pairs()
 {
   const bool pairs =
       force->pair && force->pair_style && std::strcmp(force->pair_style, "zero") != 0;
-  if (node_atoms.empty() || !pairs || neighbor->exclude || pairs_warned) return;
+  if (node_atoms.empty() || !pairs || pairs_warned) return;
+  bool meet = !neighbor->exclude;
+  if (!meet) need_nodes();
+  for (const lsdcd::MeshPart &m : meshes())
+    if (m.nodes && !meet)
+      meet = lsdcd::pairs_act_between(*neighbor, *atom, groupbit,
+                                      group->bitmask[group->find(m.spec.node_group.c_str())], host);
+  if (!meet) return;
   pairs_warned = true;
   warn("pair_style " + std::string(force->pair_style) +
        " also acts between the spheres and the nodes of the wall, in addition to the wall: switch "

@@ -207,6 +207,11 @@ TABLES = [
          "Fix wall wall/lsdcd",
          "in two dimensions a mesh must move in the plane z = 0 and turn about z, not by 'servo force z 1 vmax 1'"),
     ]),
+    (changed(NO_RADIUS, ("atom_style      atomic", "atom_style      {}"), ("mass            1 1.0\nfix             move all nve\n", "")) +
+     HOOKE + "mesh floor.stl\n" + RUN, [
+        ("shapes", "hybrid sphere ellipsoid", "Fix wall wall/lsdcd: the atom style has ellipsoids, which the wall would take for spheres"),
+        ("shapes_of_triangles", "hybrid sphere tri", "Fix wall wall/lsdcd: the atom style has triangles"),
+    ]),
     (NO_RADIUS + HOOKE + "mesh {}\n" + RUN, [
         ("no_radius", "floor.stl", "radius", "atom_style sphere"),
     ]),
@@ -328,6 +333,11 @@ TABLES = [
     ]),
     (changed(NO_RADIUS, ("fix             move all nve\n", "")) + "fix             in all insert/lsdcd {}\n" + RUN, [
         ("insert_no_radius", "region box diam one 0.2 dens 1 number 5", "atoms need a radius and a mass each: use atom_style sphere"),
+    ]),
+
+    (changed(NO_RADIUS, ("atom_style      atomic", "atom_style      {}"), ("mass            1 1.0\nfix             move all nve\n", "")) +
+     "fix             in all insert/lsdcd region box diam one 0.2 dens 1 number 5\n" + RUN, [
+        ("insert_shapes", "hybrid sphere ellipsoid", "Fix in insert/lsdcd: the atom style has ellipsoids, and grains would have no shape"),
     ]),
 
     # compute lsdcd/collide

@@ -229,7 +229,9 @@ def refused(checks, folder):
     fails("pressure without nodes", wall.format(group="grains", nodes="nodes", more="").replace("nodes nodes", "pressure 1"),
           "give it nodes")
     soft = head.replace("pair_style      zero 0.8\npair_coeff      * *", "pair_style soft 0.8\npair_coeff * * 0")
-    for name, line, warns in (("warned of", "", True), ("excluded", "neigh_modify exclude group nodes grains\n", False)):
+    for name, line, warns in (("warned of", "", True), ("of another type", "neigh_modify exclude type 3 1\n", True),
+                              ("by types", "neigh_modify exclude type 3 1 exclude type 1 2\n", False),
+                              ("excluded", "neigh_modify exclude group nodes grains\n", False)):
         done = lmp.run(soft + line + wall.format(group="grains", nodes="nodes", more="") + "run 1\n", folder)
         checks.fact(f"a pair style between nodes and grains, {name}",
                     done.returncode == 0 and ("pair_style soft also acts between" in " ".join(done.stdout.split())) == warns)

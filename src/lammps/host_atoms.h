@@ -1,0 +1,30 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: GPL-2.0-only
+
+// What LAMMPS's atoms are, and between which of them its pair style acts.
+#ifndef LSDCD_HOST_ATOMS_H
+#define LSDCD_HOST_ATOMS_H
+
+#include <string>
+
+namespace LAMMPS_NS {
+class Atom;
+class Neighbor;
+}    // namespace LAMMPS_NS
+
+namespace lsdcd {
+
+class Host;
+
+// The shapes that the atom style allows, as "ellipsoids"; empty: all atoms are spheres or points.
+std::string shape_of_atoms(const LAMMPS_NS::Atom &atom);
+
+// Is there an atom of one group and an atom of the other, by the bits of their groups, which no neigh_modify exclude keeps
+// apart? Known once LAMMPS has set up its neighbour lists. Atoms of both groups are taken to be in different molecules.
+// Collective.
+bool pairs_act_between(const LAMMPS_NS::Neighbor &neighbor, const LAMMPS_NS::Atom &atom,
+                       int group_bit, int other_bit, Host &host);
+
+}    // namespace lsdcd
+
+#endif
