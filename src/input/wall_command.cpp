@@ -192,6 +192,7 @@ void check_apart(Tokens &w, const WallSpec &s, std::size_t k)
 void check_meshes(Tokens &w, const WallSpec &s)
 {
   const bool several = s.meshes.size() > 1;
+  w.set_context("mesh", "mesh FILE");
   if (s.meshes.size() > kMaxMeshes)
     w.fail("there are " + std::to_string(s.meshes.size()) + " meshes, and at most " +
            std::to_string(kMaxMeshes) +

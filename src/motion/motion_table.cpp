@@ -105,6 +105,10 @@ void MotionTable::read(const PlaceOf &place_of)
     if (columns >= 4) std::copy(row + 1, row + 4, &value(i, 0));
     if (turns()) read_rotation(i, row + (columns == 2 ? 1 : 4), place_of);
   }
+  if (!rows_.options.repeats && times_.back() <= 0)
+    throw InputError(place_of(n - 1) + ": the last row is at time " + number_text(times_.back()) +
+                     ", and the motion begins at time 0, so that the mesh would rest where that "
+                     "row has it: give times from 0 on, or let the table repeat");
 }
 
 void MotionTable::read_rotation(std::size_t row, const Real *numbers, const PlaceOf &place_of)

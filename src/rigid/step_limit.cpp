@@ -44,6 +44,9 @@ Real ContactSum::largest(const Mobility &body) const
     for (int b = 0; b < 6; b++)
       for (int c = 0; c < 6; c++) both[a][b] += product[a][c] * s[c][b];
   for (int a = 0; a < 6; a++)
+    for (int b = 0; b < 6; b++)
+      if (!std::isfinite(both[a][b])) return HUGE_VAL;    // beyond any timestep
+  for (int a = 0; a < 6; a++)
     for (int b = 0; b < a; b++) both[a][b] = both[b][a];
   diagonalise(both, vectors);
   Real most = 0;

@@ -153,9 +153,10 @@ void MeshMotion::set(const RigidMotion &to, const Step &now)
   std::vector<MotionTerm> terms = to.terms();
   read_tables(terms);
   RigidMotion &motion = spec().motion;
-  const bool holds = servo().holds;
-  const Pose placed = holds ? pose_ : pose_without_servo();
-  if (holds) servo().position = 0;
+  // Terms act before a servo: one that holds would turn them.
+  const bool takes_servo = servo().holds && to.moves();
+  const Pose placed = takes_servo ? pose_ : pose_without_servo();
+  if (takes_servo) servo().position = 0;
   motion.stop();
   motion.begin_from(placed);
   for (const MotionTerm &term : terms) motion.add(term);
@@ -175,8 +176,9 @@ void MeshMotion::set(const Servo &to)
     s.position = position;
   } else {
     if (spec().motion.moves())
-      throw InputError(named("a servo along another line cannot begin while the motion '" +
-                             own_text() + "' moves the mesh: stop that motion first"));
+      throw InputError(named(std::string(s.present ? "a servo along another line" : "a servo") +
+                             " cannot begin while the motion '" + own_text() +
+                             "' moves the mesh: stop that motion first"));
     spec().motion.begin_from(pose_);
     s = to;
   }

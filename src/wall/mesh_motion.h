@@ -58,7 +58,7 @@ class MeshMotion {
   Pose pose_without_servo() const;
 
   // The terms of another motion, from where the mesh is; without any it stops. A servo goes on with what it
-  // has added up.
+  // has added up, but for one that holds when terms come: its position is 0 where the mesh is.
   void set(const RigidMotion &to, const Step &now);
   // Another servo, from where the mesh is; one that is not present stops it. Along the same line its
   // position goes on.

@@ -6,6 +6,7 @@
 
 import os
 import pathlib
+import shutil
 import subprocess
 
 import lmp
@@ -52,6 +53,16 @@ def main():
     text = lmp.run_well("plugin list\n\n", folder,
                         env={"LAMMPS_PLUGIN_PATH": f"nowhere:{folder}/more"})
     checks.fact("LAMMPS_PLUGIN_PATH is searched", f"Loaded 1 plugins from {folder}/more" in text)
+
+    (folder / "bin").mkdir()
+    alone = shutil.copy(lmp.LMP, folder / "bin")
+    for missing in ("its own plugin", "the other file of that"):
+        done = subprocess.run([alone, "-in", "in.script", "-log", "none"], env=lmp.environment(), text=True, cwd=folder,
+                              stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+        checks.fact(f"it does not go on without {missing}", done.returncode != 0 and
+                    "lmp-lsdcd needs its own plugin" in " ".join(done.stdout.split()))
+        (folder / "lib").mkdir(exist_ok=True)
+        shutil.copy(lmp.LIB / "lsdcdplugin.so", folder / "lib")
 
     # A host that says it is another version: its lammps_version() comes first.
     (folder / "other.c").write_text("int lammps_version(void *host) { (void) host; return 20380119; }\n")

@@ -386,6 +386,26 @@ TEST_F(ServoAtFive, goes_on_along_the_line_of_a_servo)
   EXPECT_EQ(wall.servo().hi, 6);
 }
 
+// The position that limits count from stays, whichever of the two is stopped first.
+TEST_F(ServoAtFive, goes_on_along_its_line_after_servo_and_motion_were_stopped)
+{
+  motion.set(Servo());
+  motion.set(RigidMotion(), step(0));
+  EXPECT_EQ(where(motion), (Vec3{0, 0, 5}));
+  motion.set(servo_along({0, 0, 1}, 0, 6));
+  EXPECT_EQ(wall.servo().position, 5);
+  EXPECT_EQ(where(motion), (Vec3{0, 0, 5}));
+}
+
+// Terms that come act where the servo has the mesh: a turn that it holds does not turn them.
+TEST_F(ServoAtFive, that_holds_is_left_behind_by_another_motion)
+{
+  motion.set(Servo());
+  motion.set(along({0, 3, 0}), step(0));
+  EXPECT_EQ(wall.servo().position, 0);
+  EXPECT_EQ(where(motion), (Vec3{0, 0, 5}));
+}
+
 TEST_F(ServoAtFive, refuses_limits_that_a_servo_is_past)
 {
   EXPECT_THROW(motion.set(servo_along({0, 0, 1}, 0, 4)), InputError);
@@ -407,6 +427,17 @@ TEST(MeshMotion, refuses_another_line_while_a_motion_moves_it)
   wall.servo_along_z();
   MeshMotion motion(wall.host, wall.settings, 0, step(0));
   EXPECT_THROW(motion.set(servo_along({1, 0, 0}, -1, 1)), InputError);
+}
+
+TEST_F(AlongX, refuses_a_first_servo_without_talk_of_another)
+{
+  try {
+    motion.set(servo_along({1, 0, 0}, -1, 1));
+    ADD_FAILURE() << "no error";
+  } catch (const InputError &e) {
+    EXPECT_EQ(std::string(e.what()).rfind("a servo cannot begin while the motion 'linear", 0), 0u)
+        << e.what();
+  }
 }
 
 // rerun

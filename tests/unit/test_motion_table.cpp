@@ -460,6 +460,18 @@ std::string error_of_file(const std::string &text, const TableOptions &o = {})
   return "none";
 }
 
+// The motion begins at time 0, where the last row has no velocity any more.
+TEST(motion_table, that_ends_before_it_begins_is_an_error)
+{
+  for (const char *rows : {"-2 0 0 0\n-1 1 0 0\n", "-2 0 0 0\n0 1 0 0\n"})
+    expect_error(error_of_file(rows), "arm.txt' line 2", "and the motion begins at time 0");
+  TableOptions repeats;
+  repeats.repeats = repeats.linear = true;
+  EXPECT_NO_THROW(MotionTable(rows_of({{-2, 0, 0, 0}, {-1.5, 1, 0, 0}, {-1, 0, 0, 0}}, repeats),
+                              [](std::size_t) { return ""; }));
+  EXPECT_EQ(error_of_file("-2 0 0 0\n1e-9 1 0 0\n"), "none");
+}
+
 TEST(motion_table, reads_a_file_with_comments_and_commas)
 {
   const TempDir folder;

@@ -332,7 +332,8 @@ TEST(settings, of_several_meshes_errors_name_the_one)
   std::string many = law;
   for (int k = 0; k < kMaxMeshes; k++) many += " mesh a" + std::to_string(k) + ".stl";
   EXPECT_EQ(parse(many).meshes.size(), 32u);
-  EXPECT_TRUE(names(error_of(many + " mesh b.stl"), "at most 32"));
+  EXPECT_TRUE(
+      names(error_of(many + " mesh b.stl"), "in 'mesh', there are 33 meshes, and at most 32"));
 }
 
 TEST(settings, laws_are_of_a_mesh_and_of_types_with_it)

@@ -76,6 +76,17 @@ TEST(longest_step, of_a_plate_on_springs)
   EXPECT_NEAR(limit_of(kFree), 5.72e-4, 5e-7);
 }
 
+// K/I is 1e309: no timestep is short enough, and none may pass.
+TEST(longest_step, of_a_spring_beyond_all_numbers_is_none)
+{
+  Mobility body;
+  body.turns = {1e6, 1e6, 1e6, 0, 0, 0};
+  ContactSum spring;
+  spring.add(Vec3{0, 0, 0}, Vec3{0, 0, 1}, 1e303);
+  EXPECT_EQ(longest_step(spring.largest(body), 0), 0);
+  EXPECT_EQ(longest_step(spring.largest(body), spring.largest(body)), 0);
+}
+
 // At the hinge's distance x the eigenvalue is k sum x^2 / I.
 TEST(longest_step, of_a_hinged_plate)
 {

@@ -188,7 +188,10 @@ void provide_plugins(LAMMPS *lmp)
 
   quiet = true;
   const std::string own = (own_folder() / "lsdcdplugin.so").string();
-  load(lmp, own);
+  if (!load(lmp, own) || find("fix", "wall/lsdcd") == loaded.end())
+    lmp->error->all(FLERR, "lmp-lsdcd needs its own plugin " + own +
+                               ", which is built and installed with it: build the target "
+                               "lmp-lsdcd, or install it again");
   for (const fs::path &folder : plugin_folders()) {
     int count = 0;
     std::error_code none;
