@@ -228,9 +228,12 @@ void FixWallLsdcd::note(const std::string &text)
   if (!text.empty()) warn(text);
 }
 
-void FixWallLsdcd::recede()
+void FixWallLsdcd::prepare_meshes()
 {
-  run_core([&] { wall->recede(step_now()); });
+  run_core([&] {
+    wall->recede(step_now());
+    if (spec().has_bodies()) wall->body(0);    // completes the last step of all
+  });
 }
 
 std::vector<lsdcd::Vec3> FixWallLsdcd::places_of_nodes(int mesh)

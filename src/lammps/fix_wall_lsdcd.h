@@ -71,7 +71,7 @@ class FixWallLsdcd : public Fix, protected OwnMessages {
   std::vector<lsdcd::ScriptFile> files() const;    // that it reads and writes
 
   // For fixes that come before the wall in a step. Collective.
-  void recede();                                         // as the wall will in this step
+  void prepare_meshes();                                 // as the wall will before it moves them
   std::vector<lsdcd::Vec3> places_of_nodes(int mesh);    // where the atoms are that are its nodes
 
  protected:

@@ -36,7 +36,7 @@ void WallClearance::begin_step()
 {
   nodes_.clear();
   for (LAMMPS_NS::FixWallLsdcd *wall : walls_) {
-    wall->recede();
+    wall->prepare_meshes();
     for (const MeshPart &part : wall->meshes())
       nodes_.push_back(part.nodes ? wall->places_of_nodes(part.index) : std::vector<Vec3>());
   }
@@ -59,7 +59,7 @@ void WallClearance::Surface::place(const std::vector<Vec3> &vertices, const Mesh
     set_bounds(mesh);
     search.reset();
   }
-  pose = part.motion.pose_in(dt);
+  pose = part.pose_in(dt);
   moves = part.moves() || part.wear;
   bounds = placed_bounds(pose, {mesh.report.lo, mesh.report.hi});
 }

@@ -28,7 +28,7 @@ class WallClearance {
  public:
   // Copies each mesh that is new.
   void follow(const std::vector<LAMMPS_NS::FixWallLsdcd *> &walls, bool has_meshes);
-  // Before a step: asks for the shapes that meshes will have in it. Collective.
+  // Before a step: has the meshes ready for it, and asks for the shapes that they will have. Collective.
   void begin_step();
   // Puts the meshes where they are one timestep after their last one, in those shapes.
   void place(Real dt);

@@ -163,6 +163,14 @@ void MeshBody::advance(Real dt)
   body_.drift(dt);
 }
 
+Pose MeshBody::pose_in(Real dt) const
+{
+  RigidBody next = body_;
+  next.kick(dt / 2, load_);
+  next.drift(dt);
+  return next.pose();
+}
+
 void MeshBody::note_step(Real dt)
 {
   dt_ = dt;

@@ -52,6 +52,8 @@ class MeshBody {
 
   // Half a step by the load of the last one, and the way. Inputs may change before.
   void advance(Real dt);
+  // Where advance() would take it, once the last step is complete.
+  Pose pose_in(Real dt) const;
   // The step that follows it: 0 where no time has passed, in the set-up of a run.
   void note_step(Real dt);
   bool is_complete() const { return !pending_; }

@@ -43,6 +43,9 @@ struct MeshPart {
   bool changes_shape() const { return nodes || wear; }         // from step to step
   bool has_coat() const { return body && spec.body.coat.present; }
 
+  // Where it is that much time from now. A servo stays; of a body the step that comes, once the last one is complete.
+  Pose pose_in(Real later) const { return body ? body->pose_in(later) : motion.pose_in(later); }
+
   // In its own frame, in this step; null but on one process per node, where its nodes do not move.
   const WeldedMesh *mesh() const { return nodes ? &nodes->mesh() : grid.mesh(); }
   GridView view() const { return grid.view(); }    // where its nodes do not move
