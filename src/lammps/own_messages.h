@@ -31,7 +31,7 @@ class OwnMessages {
   [[noreturn]] void fatal_here(const std::string &) const;
 
   // Runs work of the core, returns what it returns, and ends LAMMPS with what it throws. Exceptions of LAMMPS pass: they
-  // are none of these.
+  // are none of these. Out of memory may be one process alone.
   template <class Work>
   auto run_core(Work &&work) const -> decltype(work());
   // The same where this process does the work alone.
@@ -51,7 +51,7 @@ auto OwnMessages::run_core(Work &&work) const -> decltype(work())
   } catch (const lsdcd::ProcessError &e) {
     fatal_here(e.what());
   } catch (const std::bad_alloc &) {
-    fatal("out of memory");
+    fatal_here("out of memory");
   } catch (const std::runtime_error &e) {
     fatal(e.what());
   } catch (const std::logic_error &e) {

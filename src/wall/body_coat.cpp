@@ -63,26 +63,30 @@ Pose seen_from(const Pose &other, const Pose &own)
   return pose;
 }
 
-// n.K n of a mesh at a place of the box; 0 where it is no body.
-Real gives_way(const MeshPart &m, const Vec3 &at, const Vec3 &normal)
+// n.K n of a body at a place of the box.
+Real gives_way(const MeshPart &m, const Mobility &mobility, const Vec3 &at, const Vec3 &normal)
 {
   const Pose &pose = m.motion.pose();
-  return m.body ? m.body->mobility().along(pose.to_mesh(at), pose.turn_to_mesh(normal)) : 0;
+  return mobility.along(pose.to_mesh(at), pose.turn_to_mesh(normal));
 }
 
-// The velocity that a body gets there, along the normal.
-Real velocity_by(const CoatPushes::Push &push, const MeshPart &m, const Vec3 &at,
-                 const Vec3 &normal)
-{
-  if (push.contacts == 0) return 0;
-  const Mobility mobility = m.body->mobility();
-  const Pose &pose = m.motion.pose();
-  const Vec3 point = pose.to_box(mobility.point), n = pose.turn_to_mesh(normal),
-             torque = push.torque_at_origin - cross(point, push.force);
-  return dot(n, mobility.shifts * pose.turn_to_mesh(push.force)) +
-         dot(cross(pose.to_mesh(at) - mobility.point, n),
-             mobility.turns * pose.turn_to_mesh(torque));
-}
+// The velocities that pushes give a body, in the frame of the box.
+struct Yield {
+  Vec3 shift, turn, point;    // of `point`
+
+  Yield(const CoatPushes::Push &push, const MeshPart &m, const Mobility &mobility)
+  {
+    const Pose &pose = m.motion.pose();
+    point = pose.to_box(mobility.point);
+    const Vec3 torque = push.torque_at_origin - cross(point, push.force);
+    shift = pose.turn_to_box(mobility.shifts * pose.turn_to_mesh(push.force));
+    turn = pose.turn_to_box(mobility.turns * pose.turn_to_mesh(torque));
+  }
+  Real along(const Vec3 &at, const Vec3 &normal) const
+  {
+    return dot(normal, shift + cross(turn, at - point));
+  }
+};
 
 }    // namespace
 
@@ -369,13 +373,24 @@ void BodyCoat::find_contacts(const std::deque<MeshPart> &meshes, CoatPushes &pus
 void BodyCoat::take_masses(const std::deque<MeshPart> &meshes, const CoatPushes &pushes)
 {
   constexpr Real kRounding = 1e-9;
+  if (contacts_.empty()) return;
+  const int n = static_cast<int>(meshes.size());
+  std::vector<Mobility> mobility(meshes.size());
+  std::vector<std::vector<Yield>> yields(meshes.size());
+  for (const MeshPart &m : meshes) {
+    if (!m.body) continue;
+    mobility[m.index] = m.body->mobility();
+    for (int by = 0; by < n; by++)
+      if (pushes.on(m.index, by).contacts > 0)
+        yields[m.index].emplace_back(pushes.on(m.index, by), m, mobility[m.index]);
+  }
   for (const PointContact &c : contacts_) {
-    const auto alone = [&](int mesh) { return gives_way(meshes[mesh], c.at, c.normal); };
+    const auto alone = [&](int mesh) {
+      return meshes[mesh].body ? gives_way(meshes[mesh], mobility[mesh], c.at, c.normal) : 0;
+    };
     const auto together = [&](int mesh, const Vec3 &normal) {
       Real sum = 0;
-      for (std::size_t by = 0; by < pushes.meshes() && meshes[mesh].body; by++)
-        sum += std::max<Real>(
-            0, velocity_by(pushes.on(mesh, static_cast<int>(by)), meshes[mesh], c.at, normal));
+      for (const Yield &of : yields[mesh]) sum += std::max<Real>(0, of.along(c.at, normal));
       return sum;
     };
     const Real own = alone(mesh_), other = alone(c.other);
@@ -416,6 +431,7 @@ void BodyCoat::add_loads(const std::deque<MeshPart> &meshes, std::vector<CoatLoa
 void BodyCoat::add_stiffness(const std::deque<MeshPart> &meshes, std::vector<CoatLoad> &loads) const
 {
   const MeshPart &own = meshes[mesh_];
+  const Mobility own_gives = own.body->mobility();
   const ContactRecord *record = engine_->records();
   for (int k = 0; k < engine_->n_touching(); k++) {
     const int i = engine_->touching()[k];
@@ -426,7 +442,7 @@ void BodyCoat::add_stiffness(const std::deque<MeshPart> &meshes, std::vector<Coa
       const Pose &pose = other.motion.pose();
       const Vec3 arm = pose.turn_to_box(record->arm), normal = 1 / distance * arm,
                  along = any_perpendicular(normal), at = x_[i] - arm;
-      const Real mass = 1 / (1 / masses_[i] + gives_way(own, at, normal));
+      const Real mass = 1 / (1 / masses_[i] + gives_way(own, own_gives, at, normal));
       const ContactSlopes slope =
           contact_slopes(laws_[record->mesh], std::max<Real>(0, radius_ - distance), radius_, mass);
       const auto add = [&](const MeshPart &m, const Vec3 &direction, const ContactSlope &of) {
