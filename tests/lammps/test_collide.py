@@ -71,8 +71,8 @@ def turn(axis, angle):
 
 
 def write_data(path, cubes, box=6.0):
-    """An atom of dust, and cubes: (centre, turn, velocity, angular velocity), a molecule each."""
-    atoms, velocities, molecules = ["1 1 0.1 1.0 5.5 5.5 5.5"], ["1 0 0 0 0 0 0"], ["1 0"]
+    """An atom that no mesh jumps over, and cubes: (centre, turn, velocity, angular velocity), a molecule each."""
+    atoms, velocities, molecules = ["1 1 0.8 1.0 5.5 5.5 5.5"], ["1 0 0 0 0 0 0"], ["1 0"]
     for molecule, (centre, r, v, w) in enumerate(cubes, 1):
         for corner in CORNERS:
             off = r @ corner
