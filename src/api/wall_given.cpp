@@ -430,6 +430,10 @@ BodySpec body_of(const lsdcd_rigid_body *pointer, const std::string &field, bool
   if (begins) {
     body.density = given.density;
     const double *i = given.inertia;
+    if (given.density != 0 && given.mass != 0)
+      refuse_field(field + ".density", given.density,
+                   "the body has the mass " + number_text(given.mass) +
+                       ", too; give a density, or mass, centre and inertia");
     body.mass = {given.mass, vector(given.centre, "centre"), {i[0], i[1], i[2], i[3], i[4], i[5]}};
     body.velocity = vector(given.velocity, "velocity");
     body.omega = vector(given.angular_velocity, "angular_velocity");

@@ -7,14 +7,18 @@
 PYTHONPATH and LSDCD_LIBRARY name the package and its library. No GPU is needed: addresses of devices are read, not
 followed (test_python_gpu.py follows them).
 """
+import concurrent.futures
 import contextlib
+import copy
 import gc
 import importlib.util
 import math
 import multiprocessing
 import os
 import pathlib
+import pickle
 import shutil
+import signal
 import subprocess
 import sys
 import tempfile
@@ -567,6 +571,118 @@ def check_given_values():
         fact("totals too", wall.totals() == wall.totals())
 
 
+def check_values_that_c_reads_otherwise():
+    """Numbers that stand for something else in C, texts as truth, None as a number, and a name that belongs to another law."""
+    sub, style = lsdcd.SubModel, {"kn": 1e4, "gamman": 20, "gammat": 7, "xmu": 0.5, "dampflag": 1}
+    mesh = lsdcd.Mesh(np.array([[-1, -1, 0], [1, -1, 0], [1, 1, 0], [-1, 1, 0]], float), [[0, 1, 2], [0, 2, 3]])
+    law = lsdcd.Law("hooke/history", kt=1, **style)
+    friction, inertia = sub("mindlin", kt=1, xgammat=1, mu=0.5), (1, 1, 1, 0, 0, 0)
+    wall = lsdcd.Wall(lsdcd.WallSpec(law, [lsdcd.WallMesh(mesh)]))
+    for says, call in (
+            ("kt of hooke/history is -1; it is 0 or more, or None", lambda: lsdcd.Law("hooke/history", kt=-1, **style)),
+            ("kt of mindlin is -1.0", lambda: lsdcd.Law.granular(sub("hertz/material", E=1, e=1, nu=0), sub(
+                "mindlin", kt=-1.0, xgammat=1, mu=0.5), "tsuji")),
+            ("hertz has no number e beside the damping viscoelastic", lambda: lsdcd.Law.granular(sub("hertz", kn=1, e=1), friction)),
+            ("hertz has no number eta beside the damping tsuji", lambda: lsdcd.Law.granular(
+                sub("hertz", kn=1, eta=1), friction, "tsuji")),
+            ("hooke has no number eta beside the damping coeff_restitution", lambda: lsdcd.Law.granular(
+                sub("hooke", kn=1, eta=1), friction, "coeff_restitution")),
+            ("hertz has no number e beside", lambda: lsdcd.Law.granular(sub("hertz", kn=1, e=1, eta=1), friction)),
+            ("hertz needs the number eta", lambda: lsdcd.Law.granular(sub("hertz", kn=1), friction)),
+            ("limits is (0, 0)", lambda: lsdcd.RigidBody(1, joint="slider", axis=(0, 0, 1), limits=(0, 0))),
+            ("limits is (0, 0)", lambda: lsdcd.Servo((0, 0, 1), 1, 1, limits=(0, 0.0))),
+            ("max_gain is 0", lambda: lsdcd.Servo((0, 0, 1), 1, 1, max_gain=0)),
+            ("coat is (0, 1)", lambda: lsdcd.RigidBody(1, coat=(0, 1))),
+            ("wear_factor is -1", lambda: lsdcd.WallMesh(mesh, wear_factor=-1)),
+            ("the last type of a row of type_laws is 0", lambda: lsdcd.WallMesh(mesh, type_laws=[(1, 0, law)])),
+            ("cutoff is 0", lambda: mesh.grid(cutoff=0)),
+            ("mesh is -1; meshes count from 0", lambda: wall.totals(-1)),
+            ("mesh is -1; meshes count from 0", lambda: wall.wrench(-1))):
+        refused(f"refused: {says}", says, call, ValueError)
+    body = lsdcd.Body(mesh, mesh)
+    for name, call in (
+            ("posed_by_caller", lambda no: lsdcd.WallMesh(mesh, posed_by_caller=no)),
+            ("nodes_by_caller", lambda no: lsdcd.WallMesh(mesh, nodes_by_caller=no)),
+            ("torque_about_moves", lambda no: lsdcd.WallMesh(mesh, torque_about_moves=no)),
+            ("limit_damping", lambda no: lsdcd.Law("hooke", kt=1, limit_damping=no, **style)),
+            ("straight", lambda no: lsdcd.Motion.table([[0, 0, 0, 0], [1, 0, 0, 1]], straight=no)),
+            ("repeats", lambda no: lsdcd.Motion.table([[0, 0, 0, 0], [1, 0, 0, 1]], repeats=no)),
+            ("turns", lambda no: lsdcd.Servo((0, 0, 1), 1, 1, turns=no)),
+            ("brief", lambda no: lsdcd.WallSpec(law, [], brief=no)),
+            ("periodic_ends", lambda no: lsdcd.WallSpec(law, [], periodic_ends=no)),
+            ("periodic", lambda no: lsdcd.Wall(lsdcd.WallSpec(law, [lsdcd.WallMesh(mesh)]), periodic=(no, no, no))),
+            ("estimate_sides", lambda no: mesh.grid().query([0, 0, 1], estimate_sides=no)),
+            ("segments", lambda no: body.collide((0, 0, 1), segments=no)),
+            ("setup", lambda no: wall.step(*[np.zeros((0, 3))] * 3, *[np.zeros(0)] * 2, *[np.zeros((0, 3))] * 2, 1, setup=no))):
+        refused(f"{name} is no text", f"{name} is 'no', not True or False", lambda: call("no"))
+        call(np.False_)
+        call(0)
+    refused("None is no coordinate", "not real numbers", lambda: mesh.grid().query([[None, 0, 0], [0, 0, 1]]))
+    refused("a body has density or mass", "body.density` is 1: the body has the mass 100", lambda: lsdcd.Wall(lsdcd.WallSpec(law, [lsdcd.WallMesh(
+        mesh, body=lsdcd.RigidBody(1, mass=100, inertia=inertia))])), lsdcd.Error)
+
+    # One buffer for two motions, at 1 and 2: after 0.1 the meshes are at 0.1 and 0.2.
+    rows, motions, none = np.zeros((2, 4)), [], np.zeros((0, 3))
+    for speed in (1, 2):
+        rows[1] = 1, 0, 0, speed
+        motions.append(lsdcd.Motion.table(rows, straight=True))
+    moved = lsdcd.Wall(lsdcd.WallSpec(law, [lsdcd.WallMesh(mesh, motions=[motion], placement=lsdcd.Placement().move(0, 0, 9 * k))
+                                            for k, motion in enumerate(motions)]))
+    for _ in range(10):
+        moved.step(none, none, none, np.zeros(0), np.zeros(0), none.copy(), none.copy(), 0.01)
+    fact("a table of motion is a copy of its rows", abs(moved.pose(0)[2, 3] - 0.1) < 1e-14 and abs(moved.pose(1)[2, 3] - 0.2) < 1e-14,
+         (moved.pose(0), moved.pose(1)))
+
+
+def missing_mesh(name):
+    """Raises Error; in a process of its own, too."""
+    lsdcd.Mesh(name)
+
+
+def check_errors():
+    """Errors that go to another process, that quote what is no UTF-8, and Ctrl-C as a callback begins."""
+    try:
+        missing_mesh("/nowhere.stl")
+    except lsdcd.Error as error:
+        for name, copied in (("pickled", pickle.loads(pickle.dumps(error))), ("copied", copy.copy(error))):
+            fact(f"an Error is {name}", type(copied) is lsdcd.Error and copied.code == "input" and str(copied) == str(error), copied)
+    with concurrent.futures.ProcessPoolExecutor(1, multiprocessing.get_context("fork")) as pool:
+        refused("an Error comes from another process", "/nowhere.stl", lambda: pool.submit(missing_mesh, "/nowhere.stl").result(30),
+                lsdcd.Error)
+
+    square = np.array([[-1, -1, 0], [1, -1, 0], [1, 1, 0], [-1, 1, 0]], float)
+    with tempfile.TemporaryDirectory() as folder:
+        name = os.path.join(os.fsencode(folder), b"bad\xff.stl")
+        write_floor(os.fsdecode(name))
+        fact("a mesh has a name that is no UTF-8", lsdcd.Mesh(name).facts.faces > 0)
+        binary = os.path.join(folder, "binary.obj")
+        with open(binary, "wb") as file:
+            file.write(b"v \xff\xfe 0 0\n")
+        for what, says, call in (("a missing file", r"no\xff.stl", lambda: lsdcd.Mesh(os.path.join(os.fsencode(folder), b"no\xff.stl"))),
+                                 ("bytes of a binary file", r"\xff\xfe", lambda: lsdcd.Mesh(binary))):
+            refused(f"{what} in a message is no UTF-8", says, call, lsdcd.Error)
+        log = []
+        law = lsdcd.Law("hooke", kn=1, kt=0, gamman=0, xmu=0, dampflag=0)
+        lsdcd.Wall(lsdcd.WallSpec(law, [lsdcd.WallMesh(lsdcd.Mesh(name), b"lid\xff")]), show=lambda text, warning: log.append(text))
+        fact("the log of a wall has a name that is no UTF-8", any(r"lid\xff" in text for text in log), log)
+
+    def interrupt(frame, event, _):
+        if event == "call" and frame.f_code.co_name in ("tell", "call"):    # of a progress, of a wall: before their first lines
+            sys.setprofile(None)
+            signal.raise_signal(signal.SIGINT)
+
+    mesh, before, told = lsdcd.Mesh(square, [[0, 1, 2], [0, 2, 3]]), signal.getsignal(signal.SIGINT), []
+    for name, call in (("a progress", lambda: mesh.grid(cutoff=1, progress=lambda what, done: told.append(done))),
+                       ("a log", lambda: lsdcd.Wall(lsdcd.WallSpec(law, [lsdcd.WallMesh(mesh)]), show=lambda text, warning: None))):
+        sys.setprofile(interrupt)
+        try:
+            refused(f"Ctrl-C as {name} begins is a KeyboardInterrupt", "", call, KeyboardInterrupt)
+        finally:
+            sys.setprofile(None)
+    fact("and ends its call", len(told) == 1, told)
+    fact("the handler is the old one", signal.getsignal(signal.SIGINT) is before)
+
+
 def check_box():
     """The box of a wall's spheres, by its two corners."""
     with tempfile.TemporaryDirectory() as folder:
@@ -706,6 +822,8 @@ if __name__ == "__main__":
     check_wall_specs()
     check_wall_arrays()
     check_given_values()
+    check_values_that_c_reads_otherwise()
+    check_errors()
     check_box()
     check_wheel()
     check_fork()

@@ -39,8 +39,8 @@ from . import _arrays
 from ._c import DEVICES as DEVICES, ERRORS as ERRORS, Error as Error, Progress as Progress
 from ._c import (_BodyFacts, _BodyOptions, _BodyState, _Broadcast, _Collision, _Contacts, _GridFacts, _GridOptions, _Host,
                  _MeshArrays, _MeshFacts, _Owner, _Query, _Record, _Reduce, _Show, _Spheres, _WallOptions, _WallStep,
-                 _WallTotals, _as_floats, _c_double, _c_int, _c_text, _check, _chosen, _facts, _int, _lib,
-                 _listened, _numbers, _real, _size, _sized)
+                 _WallTotals, _as_floats, _c_double, _c_int, _c_text, _check, _chosen, _facts, _flag, _int, _interrupts_held,
+                 _lib, _listened, _numbers, _real, _size, _sized, _text)
 from ._spec import (Law as Law, Motion as Motion, Placement as Placement, RigidBody as RigidBody, Servo as Servo,
                     SubModel as SubModel, SubModelFacts as SubModelFacts, WallMesh as WallMesh, WallSpec as WallSpec,
                     sub_models as sub_models)
@@ -139,7 +139,7 @@ class Mesh(_Owner):
     @property
     def report(self) -> str:
         """What `lsdcd inspect` says."""
-        return str(_lib.lsdcd_mesh_report(self._handle).decode())
+        return _text(_lib.lsdcd_mesh_report(self._handle))
 
     def grid(self, cutoff: float | None = None, cell: float = 0.0, nearest: int = 0, precision: str = "double",
              memory: float = 0.0, cache: str | os.PathLike[str] | None = None, threads: int = 0, device: str = "cpu",
@@ -149,6 +149,8 @@ class Mesh(_Owner):
         chosen; `cache`, a file that keeps the cells; `device` "cpu" or "cuda", which builds them. `progress` is called
         some ten times a second with what is done and the share of it. Raises Error for settings that cannot be kept, and
         what `progress` raises."""
+        if cutoff is not None and _c_double(cutoff, "cutoff") == 0:    # which is any of C
+            raise ValueError("cutoff is 0; it is above 0, or None: any distance")
         options = _sized(_GridOptions, cutoff=0.0 if cutoff is None else cutoff, cell=cell, nearest=nearest,
                          precision=_chosen("precision", precision, ("double", "float")), memory=memory,
                          cache=cache or None, threads=threads,
@@ -215,7 +217,7 @@ class Grid(_Owner):
     @property
     def report(self) -> str:
         """Its cells, its memory, and what became of the cache."""
-        return str(_lib.lsdcd_grid_report(self._handle).decode())
+        return _text(_lib.lsdcd_grid_report(self._handle))
 
     def query(self, points: Any, want: str | Iterable[str] | None = None, radius: Any = None, threads: int = 0, *,
               out: Mapping[str, Any] | Answer | None = None, stream: Any = None, estimate_sides: bool = False,
@@ -245,7 +247,8 @@ class Grid(_Owner):
         asked, kept, steps = _read_points(points, stream)
         given, shape, real = kept[-1], asked.shape[:-1], kept[-1].dtype
         query = _sized(_Query, n=math.prod(shape), type=int(real == np.float32), threads=threads,
-                       estimate_sides=estimate_sides, points=given.address, points_row=steps[0], points_column=steps[1])
+                       estimate_sides=_flag(estimate_sides, "estimate_sides"), points=given.address, points_row=steps[0],
+                       points_column=steps[1])
         if radius is not None:
             _set_radius(query, radius, given, shape, kept)
         handle, owner = (0, None) if given.on_host else _arrays.stream_of(asked, stream)
@@ -534,12 +537,13 @@ class Body(_Owner):
         pose = {name: values for name, values in given.items() if values is not None}
         if len(pose.get("matrix", ())) == 4 and pose["matrix"][3].tolist() != [0, 0, 0, 1]:
             raise ValueError("the last row of matrix is not 0, 0, 0, 1")
+        with_segments = _flag(segments, "segments")
         ask = _sized(_Collision, threads=threads, **{k: v.ctypes.data for k, v in pose.items()})
         while True:
             ask.room = self._room
             wall, body = np.empty(ask.room, np.uint32), np.empty(ask.room, np.uint32)
             ask.wall_triangle, ask.body_triangle = wall.ctypes.data, body.ctypes.data
-            if segments:
+            if with_segments:
                 found = np.empty((ask.room, 2, 3))
                 ask.segment = found.ctypes.data
             _check(_lib.lsdcd_collide(self._handle, ctypes.byref(ask)))
@@ -548,7 +552,7 @@ class Body(_Owner):
             self._room = ask.pairs
         answer = Collision(collides=bool(ask.collides), wall=wall[:ask.pairs], body=body[:ask.pairs],
                            uncertain=ask.uncertain)
-        if segments:
+        if with_segments:
             answer.segments = found[:ask.pairs]
         return answer
 
@@ -635,7 +639,7 @@ class Wall(_Owner):
             raise TypeError("a wall is made of a WallSpec, or of `words`: give one of them")
         self._on_device = bool(_chosen("device", device, DEVICES))
         self._stream = stream    # which must live as long as the wall
-        self._told: BaseException | None = None    # what a callback raised, which C cannot pass on
+        self._told: list[BaseException] = []    # what callbacks raised, which C cannot pass on
         self._arrays: Any = None    # of the last step, whose errors the library may still have to tell
 
         def called(function: Callable[..., object]) -> Callable[..., int]:
@@ -644,13 +648,13 @@ class Wall(_Owner):
                     function(*arguments)
                     return 0
                 except BaseException as e:
-                    self._told = self._told or e
+                    self._told.append(e)
                     return 1
             return call
 
         def tell(warning: int, text: bytes) -> None:
             if show:
-                show(text.decode(), bool(warning))
+                show(_text(text), bool(warning))
 
         if (lo is None) != (hi is None):    # C reads 0 for what is not given
             raise ValueError("lo and hi are the two corners of the box: give both, or neither where spheres go anywhere")
@@ -661,8 +665,8 @@ class Wall(_Owner):
             raise ValueError(f"periodic has {len(periodic)} values, not one for each of x, y and z")
         self._show: Any = _Show(called(tell)) if show else _Show(0)    # it must live as long as the wall
         self._host = None if host is None else _host_struct(host, called)
-        options = _sized(_WallOptions, periodic=(_int * 3)(*map(bool, periodic)), margin=margin, time=time,
-                         units=units, show=self._show, threads=threads,
+        options = _sized(_WallOptions, periodic=(_int * 3)(*(_flag(along, "periodic") for along in periodic)), margin=margin,
+                         time=time, units=units, show=self._show, threads=threads,
                          host=ctypes.addressof(self._host) if self._host else None,
                          stream=_arrays.stream_handle(stream), device=int(self._on_device))
         for name, place in (("lo", least), ("hi", most)):
@@ -675,10 +679,14 @@ class Wall(_Owner):
             self._do(_lib.lsdcd_wall_make, *_words(spec or words or ()), *made)
 
     def _do(self, call: Any, *arguments: Any) -> None:
-        code = call(*arguments)
-        told, self._told = self._told, None
-        if told is not None:
-            raise told
+        if self._host is None and not self._show:    # nothing that C calls
+            return _check(call(*arguments))
+        with _interrupts_held(self._told):
+            code = call(*arguments)
+        told = list(self._told)
+        self._told.clear()
+        if told:
+            raise told[0]
         _check(code)
 
     def step(self, x: Any, v: Any, omega: Any, radius: Any, mass: Any, force: Any, torque: Any, dt: float,
@@ -703,7 +711,7 @@ class Wall(_Owner):
         arrays = {name: self._array(array, name, shape) for name, (array, shape) in given.items()
                   if array is not None or name not in optional}
         spheres = _sized(_Spheres, n=math.prod(n), **{name: array.address for name, array in arrays.items()})
-        step = _sized(_WallStep, dt=dt, setup=bool(setup), changed=bool(changed), reach=reach)
+        step = _sized(_WallStep, dt=dt, setup=_flag(setup, "setup"), changed=_flag(changed, "changed"), reach=reach)
         before, self._arrays = self._arrays, arrays
         self._do(_lib.lsdcd_wall_step_spheres, self._handle, ctypes.byref(spheres), ctypes.byref(step))
         del before    # errors of the last step were told in this one
@@ -745,7 +753,7 @@ class Wall(_Owner):
     def totals(self, mesh: int | None = None) -> WallTotals:
         """Of a mesh, from 0, or of all."""
         totals = _sized(_WallTotals)
-        self._do(_lib.lsdcd_wall_get_totals, self._handle, -1 if mesh is None else _c_int(mesh, "mesh"), ctypes.byref(totals))
+        self._do(_lib.lsdcd_wall_get_totals, self._handle, _mesh_or_all(mesh), ctypes.byref(totals))
         values = {name: getattr(totals, name) for name, _ in _WallTotals._fields_[1:]}
         return WallTotals(**{k: np.array(v) if isinstance(v, ctypes.Array) else v for k, v in values.items()})
 
@@ -827,7 +835,7 @@ class Wall(_Owner):
         """Force and torque of the spheres on a mesh, from 0, in the last step, over all processes; None: on all meshes.
         The torque is about the point `about`, (3,), of the box."""
         force, torque, point = np.empty(3), np.empty(3), _numbers(about, (3,), "about")
-        self._do(_lib.lsdcd_wall_get_wrench, self._handle, -1 if mesh is None else _c_int(mesh, "mesh"),
+        self._do(_lib.lsdcd_wall_get_wrench, self._handle, _mesh_or_all(mesh),
                  None if point is None else point.ctypes.data, force.ctypes.data, torque.ctypes.data)
         return Wrench(force=force, torque=torque)
 
@@ -878,6 +886,16 @@ class Wall(_Owner):
         """Before the first step of a wall of the same spec or words."""
         saved = _in_a_row(_as_floats(numbers, "numbers"), "numbers", np.float64)
         self._do(_lib.lsdcd_wall_restore, self._handle, saved.ctypes.data, saved.size)
+
+
+def _mesh_or_all(mesh: int | None) -> int:
+    """As C has it: -1 is all."""
+    if mesh is None:
+        return -1
+    number = _c_int(mesh, "mesh")
+    if number < 0:
+        raise ValueError(f"mesh is {number}; meshes count from 0, and None is all of them")
+    return number
 
 
 def _host_struct(host: Host, called: Callable[[Callable[..., object]], Callable[..., int]]) -> Any:

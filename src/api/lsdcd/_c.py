@@ -4,11 +4,14 @@
 """The shared library of lsdcd.h through ctypes: its structs and errors, and numbers that fit them."""
 from __future__ import annotations
 
+import contextlib
 import ctypes
 import glob
 import operator
 import os
-from typing import Any, Callable, Sequence
+import signal
+import threading
+from typing import Any, Callable, Iterator, Sequence
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -131,9 +134,12 @@ class Error(ValueError):
     """What the library refuses, and what to do; `code`: one of ERRORS."""
     __module__ = "lsdcd"    # where users find it
 
-    def __init__(self, code: int) -> None:
-        super().__init__(_lib.lsdcd_last_error().decode())
-        self.code = ERRORS[code]
+    def __init__(self, text: str, code: str) -> None:
+        super().__init__(text)
+        self.code = code
+
+    def __reduce__(self) -> Any:    # else pickle would make it of its text alone
+        return type(self), (str(self), self.code), self.__dict__
 
 
 def _load() -> Any:
@@ -183,10 +189,38 @@ def _load() -> Any:
 _lib = _load()
 
 
+def _text(given: bytes) -> str:
+    """A text of the library. It may name a file in bytes that are no UTF-8, or quote some of a binary one: these are as \\xff."""
+    return given.decode(errors="backslashreplace")
+
 
 def _check(code: int) -> None:
     if code != 0:
-        raise Error(code)
+        raise Error(_text(_lib.lsdcd_last_error()), ERRORS[code])
+
+
+@contextlib.contextmanager
+def _interrupts_held(raised: list[BaseException]) -> Iterator[None]:
+    """Adds what the handler of Ctrl-C raises, KeyboardInterrupt, to `raised` while C calls Python: where it comes as a
+    callback begins or ends, ctypes would print it and go on."""
+    handler = signal.getsignal(signal.SIGINT)
+    if threading.current_thread() is not threading.main_thread() or not callable(handler):
+        yield
+        return
+    its_handler = handler
+
+    def hold(number: int, frame: Any) -> None:
+        try:
+            its_handler(number, frame)
+        except BaseException as error:
+            raised.append(error)
+
+    signal.signal(signal.SIGINT, hold)
+    try:
+        yield
+    finally:
+        if signal.getsignal(signal.SIGINT) is hold:    # else a callback has set another one
+            signal.signal(signal.SIGINT, handler)
 
 
 def _listened(call: Callable[[], Any], options: Any, listener: Progress | None) -> None:
@@ -198,13 +232,14 @@ def _listened(call: Callable[[], Any], options: Any, listener: Progress | None) 
 
     def tell(_: Any, what: bytes, done: float) -> int:
         try:
-            return int(bool(progress(what.decode(), done)))
-        except BaseException as error:    # KeyboardInterrupt, too: none may pass through C
+            return int(bool(progress(_text(what), done)) or bool(raised))
+        except BaseException as error:    # none may pass through C
             raised.append(error)
             return 1
 
     options.progress = _Progress(tell)
-    code = call()
+    with _interrupts_held(raised):
+        code = call()
     if raised:
         raise raised[0]
     _check(code)
@@ -228,6 +263,13 @@ def _c_int(value: Any, name: str) -> int:
     if not -2**31 <= number < 2**31:
         raise ValueError(f"{name} is {number}, and goes from {-2**31} to {2**31 - 1} at most")
     return number
+
+
+def _flag(value: Any, name: str) -> bool:
+    """bool() would make True of "no"."""
+    if isinstance(value, (bool, int, np.bool_, np.integer)) and value in (0, 1):
+        return bool(value)
+    raise TypeError(f"{name} is {value!r}, not True or False")
 
 
 def _c_double(value: Any, name: str) -> float:
@@ -312,9 +354,9 @@ def _as_floats(given: ArrayLike, name: str) -> NDArray[Any]:
     values = _arrays.plain(given, name)
     if values.dtype in (np.float32, np.float64):
         return values
-    # An object may be a fraction. float() would make a number of a text.
+    # An object may be a fraction. numpy would make a number of a text, and NaN of None.
     if values.size and values.dtype.kind not in "fiuO" or \
-            values.dtype.kind == "O" and any(isinstance(value, (str, bytes, bool)) for value in values.flat):
+            values.dtype.kind == "O" and any(value is None or isinstance(value, (str, bytes, bool)) for value in values.flat):
         raise TypeError(f"{name}: {values.dtype}, not real numbers")
     try:
         return values.astype(np.float64)

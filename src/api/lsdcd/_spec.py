@@ -11,13 +11,14 @@ from typing import TYPE_CHECKING, Any, Sequence
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ._c import (DEVICES, _as_floats, _c_double, _c_text, _check, _chosen, _Law, _lib, _Motion, _numbers, _Record, _RigidBody,
-                 _Servo, _sized, _SubModel, _SubModelFacts, _TypeLaw, _WallMesh, _WallSpec)
+from ._c import (DEVICES, _as_floats, _c_double, _c_text, _check, _chosen, _flag, _Law, _lib, _Motion, _numbers, _Record,
+                 _RigidBody, _Servo, _sized, _SubModel, _SubModelFacts, _TypeLaw, _WallMesh, _WallSpec)
 
 if TYPE_CHECKING:
     from . import Mesh
 
 _DERIVED = -1.0
+_OF_RESTITUTION = ("tsuji", "coeff_restitution")    # dampings whose number is e; that of others is eta
 
 
 class SubModelFacts(_Record):
@@ -77,7 +78,8 @@ class Law:
     @classmethod
     def granular(cls, normal: SubModel, tangential: SubModel, damping: str | None = None, rolling: SubModel | None = None,
                  twisting: SubModel | None = None, heat: SubModel | None = None, limit_damping: bool = False) -> Law:
-        """A law of sub-models, as LAMMPS's pair style granular has them; `damping` None: viscoelastic.
+        """A law of sub-models, as LAMMPS's pair style granular has them; `damping` None: viscoelastic. The number eta|e of
+        `normal` is e, of restitution, beside tsuji and coeff_restitution, and eta beside the others.
 
             Law.granular(SubModel("hertz/material", E=5e6, e=0.5, nu=0.3), SubModel("mindlin", xgammat=1, mu=0.5), "tsuji")"""
         law = cls.__new__(cls)
@@ -89,17 +91,18 @@ class Law:
 
 def _law_struct(given: dict[str, SubModel | None], beside_style: bool, limit_damping: bool) -> Any:
     """An lsdcd_law, whose numbers lie in the order of their names."""
-    law = _sized(_Law, limit_damping=bool(limit_damping))
+    law = _sized(_Law, limit_damping=_flag(limit_damping, "limit_damping"))
+    damping = given.get("damping")
     for field, model in given.items():
         if model is None:
             continue
         if not isinstance(model, SubModel):
             raise TypeError(f"{field} is {model!r}, not a SubModel")
-        setattr(law, field, _sub_model_struct(field, model, beside_style))
+        setattr(law, field, _sub_model_struct(field, model, beside_style, damping.name if damping else "viscoelastic"))
     return law
 
 
-def _sub_model_struct(field: str, model: SubModel, beside_style: bool) -> Any:
+def _sub_model_struct(field: str, model: SubModel, beside_style: bool, damping: str) -> Any:
     rows = [row for row in sub_models() if row.field == field and row.beside_style == beside_style]
     row = next((row for row in rows if row.name == model.name), None)
     if row is None:
@@ -107,11 +110,18 @@ def _sub_model_struct(field: str, model: SubModel, beside_style: bool) -> Any:
                          f"{', '.join(repr(row.name) for row in rows) or 'none'}")
     left, numbers = dict(model.numbers), []
     for name, may_be_derived in zip(row.numbers, row.may_be_derived):
-        given = [word for word in name.split("|") if word in left]    # "eta|e": either name
-        value = left.pop(given[0]) if given else None
+        if name == "eta|e":
+            name, other = ("e", "eta") if damping in _OF_RESTITUTION else ("eta", "e")
+            if other in left:
+                raise ValueError(f"{model.name} has no number {other} beside the damping {damping}: e goes with "
+                                 f"{' and '.join(_OF_RESTITUTION)}, eta with the others; give {name}, or another damping")
+        value = left.pop(name, None)
         if value is None and not may_be_derived:
             raise ValueError(f"{model.name} needs the number {name}; it has {', '.join(row.numbers)}")
-        numbers.append(_DERIVED if value is None else _c_double(value, f"{name} of {model.name}"))
+        number = _DERIVED if value is None else _c_double(value, f"{name} of {model.name}")
+        if value is not None and may_be_derived and number == _DERIVED:    # which C would derive
+            raise ValueError(f"{name} of {model.name} is {value!r}; it is 0 or more, or None: derived")
+        numbers.append(number)
     if left:
         raise ValueError(f"{model.name} has no number {next(iter(left))}; it has {', '.join(row.numbers) or 'none'}")
     return _SubModel(_c_text(model.name, field), (ctypes.c_double * 8)(*numbers))
@@ -199,12 +209,12 @@ class Motion:
         Angles are in radians. x goes to R (x - point) + point + displacement; before the first row and from the last one on it
         rests there. A cubic spline, or with `straight` straight between rows, at constant velocities. With `repeats` the last
         row, equal to the first but for whole turns, begins the next period."""
-        numbers = np.ascontiguousarray(_as_floats(rows, "rows"), dtype=np.float64)
+        numbers = np.array(_as_floats(rows, "rows"), dtype=np.float64, order="C")    # a copy: the caller may go on with rows
         if numbers.ndim != 2:
             raise ValueError(f"rows has the shape {numbers.shape}, not (n, 2), (n, 4), (n, 5), (n, 7) or (n, 8)")
         motion = cls._made(6, point=point, axis=(0, 0, 0) if axis is None else axis)
         for name, value in (("rows", numbers.ctypes.data), ("n_rows", len(numbers)), ("columns", numbers.shape[1]),
-                            ("straight", bool(straight)), ("repeats", bool(repeats))):
+                            ("straight", _flag(straight, "straight")), ("repeats", _flag(repeats, "repeats"))):
             setattr(motion._struct, name, value)
         motion._kept = numbers
         return motion
@@ -213,13 +223,16 @@ class Motion:
 class Servo:
     """Moves a mesh along `axis`, (3,), so that it pushes the spheres along it with the force `target`; with `turns` it
     turns it about the axis through `point`, (3,), with a torque. `max_speed`, > 0: length/time or 1/time. `max_gain`:
-    speed per push, None: the largest that is stable. `limits`: of its position, lo <= 0 <= hi, None: none."""
+    speed per push, > 0, None: the largest that is stable. `limits`: of its position, lo <= 0 <= hi, not both 0, None: none."""
 
     def __init__(self, axis: ArrayLike, target: float, max_speed: float, turns: bool = False, point: ArrayLike = (0, 0, 0),
                  max_gain: float | None = None, limits: tuple[float, float] | None = None) -> None:
-        lo, hi = (0.0, 0.0) if limits is None else limits
-        self._struct = _sized(_Servo, turns=bool(turns), axis=_three(axis, "axis"), point=_three(point, "point"), target=target,
-                              max_speed=max_speed, max_gain=0.0 if max_gain is None else max_gain, lo=lo, hi=hi)
+        lo, hi = _limits(limits)
+        gain = 0.0 if max_gain is None else _c_double(max_gain, "max_gain")
+        if max_gain is not None and gain == 0:    # which C would choose
+            raise ValueError("max_gain is 0; it is above 0, or None: the largest that is stable")
+        self._struct = _sized(_Servo, turns=_flag(turns, "turns"), axis=_three(axis, "axis"), point=_three(point, "point"),
+                              target=target, max_speed=max_speed, max_gain=gain, lo=lo, hi=hi)
 
 
 class RigidBody:
@@ -229,8 +242,8 @@ class RigidBody:
     Either `density`, > 0, of a closed mesh, or `mass`, > 0, `centre`, a length, and `inertia`, (6,), about the centre: xx yy
     zz xy xz yz, mass length^2, where xy is minus the integral of x y. `joint`: "free", "hinge" about `axis` through `point`,
     "slider" along `axis`, "planar" with the normal `axis`, or "ball" about `point`. Of the coordinate of a hinge, an angle,
-    right-handed, and of a slider, a length: `spring`, (stiffness, damping, rest), `limits`, lo <= 0 <= hi, and `motor`, a
-    torque or force. `load`: force at the centre; `moment`: torque; `gravity`: length/time^2. `velocity` of the centre and
+    right-handed, and of a slider, a length: `spring`, (stiffness, damping, rest), `limits`, lo <= 0 <= hi, not both 0, and
+    `motor`, a torque or force. `load`: force at the centre; `moment`: torque; `gravity`: length/time^2. `velocity` of the centre and
     `angular_velocity` at the start. `coat`: points of its surface feel the other meshes of the wall; True, or (spacing,
     radius), lengths > 0.
 
@@ -242,8 +255,10 @@ class RigidBody:
                  limits: tuple[float, float] | None = None, motor: float = 0.0, load: ArrayLike = (0, 0, 0),
                  moment: ArrayLike = (0, 0, 0), velocity: ArrayLike = (0, 0, 0), angular_velocity: ArrayLike = (0, 0, 0),
                  gravity: ArrayLike = (0, 0, 0), coat: bool | tuple[float, float] = False) -> None:
-        lo, hi = (0.0, 0.0) if limits is None else limits
-        spacing, radius = (0.0, 0.0) if isinstance(coat, bool) else coat
+        lo, hi = _limits(limits)
+        spacing, radius = (0.0, 0.0) if isinstance(coat, (bool, np.bool_)) else coat
+        if not isinstance(coat, (bool, np.bool_)) and 0 in (spacing, radius):    # which C would choose
+            raise ValueError(f"coat is {coat!r}; spacing and radius are above 0, or True: both are chosen")
         moments = _numbers(inertia, (6,), "inertia")
         stiffness, damping, rest = spring
         self._struct = _sized(
@@ -284,22 +299,27 @@ class WallMesh:
         matrix = placement.matrix if isinstance(placement, Placement) else _numbers(placement, (3, 4), "placement")
         flat = np.zeros(12) if matrix is None else matrix.ravel()
         laws = [_instance(row, Law, "a law of type_laws") for _, _, row in type_laws]
+        if any(last is not None and last == 0 for _, last, _ in type_laws):    # which is all of C
+            raise ValueError("the last type of a row of type_laws is 0; types count from 1, and None is all from the first on")
         rows = [_sized(_TypeLaw, first_type=first, last_type=0 if last is None else last, law=ctypes.addressof(row._struct))
                 for (first, last, _), row in zip(type_laws, laws)]
         types, moved = (_TypeLaw * len(rows))(*rows), _motion_array(motions)
         factor = _c_double(wear_factor, "wear_factor")
+        if factor < 0:    # -1 of C is never
+            raise ValueError(f"wear_factor is {wear_factor!r}; it is above 0, or 0: the mesh does not wear")
         self._struct = _sized(
             _WallMesh, mesh=_instance(mesh, Mesh, "mesh")._handle, name=name or None, placement=(ctypes.c_double * 12)(*flat),
             law=_address(law, Law, "law"), type_laws=ctypes.addressof(types), n_type_laws=len(rows),
-            posed_by_caller=bool(posed_by_caller), motions=ctypes.addressof(moved), n_motions=len(moved),
+            posed_by_caller=_flag(posed_by_caller, "posed_by_caller"), motions=ctypes.addressof(moved), n_motions=len(moved),
             servo=_address(servo, Servo, "servo"), surface_velocity=_three(surface_velocity, "surface_velocity"),
             surface_angular_velocity=_three(surface_angular_velocity, "surface_angular_velocity"),
             surface_centre=_three(surface_centre, "surface_centre"), temperature=temperature,
-            torque_about=_three(torque_about, "torque_about"), torque_about_moves=bool(torque_about_moves),
+            torque_about=_three(torque_about, "torque_about"),
+            torque_about_moves=_flag(torque_about_moves, "torque_about_moves"),
             # C has 0 for once and -1 for never.
             wear_factor={0.0: -1.0, 1.0: 0.0}.get(factor, factor), cache=cache or None,
             fields=fields[0] if fields else None, fields_every=fields[1] if fields else 0, stl=stl[0] if stl else None,
-            stl_every=stl[1] if stl else 0, nodes_by_caller=bool(nodes_by_caller), pressure=pressure,
+            stl_every=stl[1] if stl else 0, nodes_by_caller=_flag(nodes_by_caller, "nodes_by_caller"), pressure=pressure,
             body=_address(body, RigidBody, "body"))
         self._kept = (mesh, law, laws, types, tuple(motions), moved, servo, body)    # what the struct points to
 
@@ -335,13 +355,24 @@ class WallSpec:
             side=_chosen("side", side, ("both", "in", "out")),
             precision=_chosen("precision", precision, ("double", "float", "mixed")), nearest=nearest, cell=cell, memory=memory,
             rmax=rmax, device=_chosen("compute", compute, DEVICES), wear=model, wear_coefficient=numbers[0] if wear else 0.0,
-            hardness=numbers[1] if model == 1 else 0.0, wear_deform_every=every, wear_deform_factor=factor, periodic_ends=bool(periodic_ends), brief=bool(brief))
+            hardness=numbers[1] if model == 1 else 0.0, wear_deform_every=every, wear_deform_factor=factor,
+            periodic_ends=_flag(periodic_ends, "periodic_ends"), brief=_flag(brief, "brief"))
         self._kept = (law, parts, array)    # what the struct points to
 
 
 def _motion_array(motions: Sequence[Motion]) -> Any:
     each = [_instance(m, Motion, "a motion")._struct for m in motions]
     return (_Motion * len(each))(*each)
+
+
+def _limits(limits: tuple[float, float] | None) -> tuple[float, float]:
+    """As C has them: both 0 are none."""
+    if limits is None:
+        return 0.0, 0.0
+    lo, hi = (_c_double(end, "an end of limits") for end in limits)
+    if lo == 0 == hi:
+        raise ValueError("limits is (0, 0), between which nothing moves: give lo <= 0 <= hi, of which one is not 0, or None: none")
+    return lo, hi
 
 
 def _three(values: ArrayLike, name: str) -> Any:
