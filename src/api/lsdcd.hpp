@@ -700,6 +700,7 @@ struct WallMesh {
       mesh(mesh.get()), name(std::move(name))
   {
   }
+  explicit WallMesh(const Mesh &&, std::string = "") = delete;    // it would end at once
 
   const lsdcd_mesh *mesh;
   std::string name;
@@ -738,9 +739,32 @@ struct WallSpec {
 };
 
 namespace c {
-inline lsdcd_sub_model struct_of(const SubModel &model)
+// Throws where a field of lsdcd_law is given another number of numbers than its sub-model has; in C these would be 0. A
+// name that there is not is left to the library.
+inline void check_numbers(const SubModel &model, const std::string &field, bool beside_style)
+{
+  lsdcd_sub_model_facts facts = {};
+  facts.size = sizeof facts;
+  for (std::size_t k = 0; lsdcd_sub_model_get_facts(k, &facts) == LSDCD_OK; k++) {
+    if (field != facts.field || model.name != facts.name ||
+        beside_style != (facts.beside_style != 0))
+      continue;
+    const std::size_t n = static_cast<std::size_t>(facts.n);
+    if (model.numbers.size() == n) return;
+    std::string names;
+    for (std::size_t i = 0; i < n; i++)
+      names += (i == 0 ? ": " : " ") + std::string(facts.number[i]);
+    throw Error(LSDCD_ERROR_ARGUMENT, "lsdcd::SubModel: '" + model.name + "' is given " +
+                                          std::to_string(model.numbers.size()) +
+                                          (model.numbers.size() == 1 ? " number" : " numbers") +
+                                          ", and has " + std::to_string(n) + names +
+                                          "; kDerived may stand for one that is derived");
+  }
+}
+inline lsdcd_sub_model struct_of(const SubModel &model, const std::string &field, bool beside_style)
 {
   lsdcd_sub_model out = {};
+  check_numbers(model, field, beside_style);
   constexpr std::size_t kRoom = sizeof out.numbers / sizeof out.numbers[0];
   if (model.numbers.size() > kRoom)
     throw Error(LSDCD_ERROR_ARGUMENT, "lsdcd::SubModel: '" + model.name + "' is given " +
@@ -755,14 +779,15 @@ inline lsdcd_law struct_of(const Law &law)
 {
   lsdcd_law out = {};
   out.size = sizeof out;
-  out.style = struct_of(law.style);
-  out.normal = struct_of(law.normal);
-  out.tangential = struct_of(law.tangential);
-  out.damping = struct_of(law.damping);
-  out.rolling = struct_of(law.rolling);
-  out.twisting = struct_of(law.twisting);
-  out.heat = struct_of(law.heat);
-  out.cohesion = struct_of(law.cohesion);
+  const bool beside_style = !law.style.name.empty();
+  out.style = struct_of(law.style, "style", beside_style);
+  out.normal = struct_of(law.normal, "normal", beside_style);
+  out.tangential = struct_of(law.tangential, "tangential", beside_style);
+  out.damping = struct_of(law.damping, "damping", beside_style);
+  out.rolling = struct_of(law.rolling, "rolling", beside_style);
+  out.twisting = struct_of(law.twisting, "twisting", beside_style);
+  out.heat = struct_of(law.heat, "heat", beside_style);
+  out.cohesion = struct_of(law.cohesion, "cohesion", beside_style);
   out.limit_damping = law.limit_damping;
   return out;
 }

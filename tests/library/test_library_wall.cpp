@@ -3,7 +3,6 @@
 
 // A wall through the library's headers: forces in closed form, springs that follow their spheres, wrong use.
 #include "floor_and_grains.h"
-#include "wall/wall_state.h"
 
 #include <array>
 #include <cmath>
@@ -216,56 +215,6 @@ TEST_F(wall, refuses_numbers_that_it_did_not_save)
   EXPECT_EQ(code_of([&] { other.restore(saved); }), LSDCD_ERROR_ARGUMENT);
   EXPECT_EQ(code_of([&] { other.restore({3, 1, 2, 3}); }), LSDCD_ERROR_ARGUMENT);
   EXPECT_EQ(code_of([&] { other.restore({4, -6, 1e6, 0, 1e9, 0}); }), LSDCD_ERROR_ARGUMENT);
-}
-
-// How many numbers of the wall, these, how many spheres, and of each how many numbers and these. Numbers of the wall are the
-// format, the kind of the history, time, meshes; of each how many numbers its motion has, these, and what is known of it
-// and of its loads.
-std::vector<double> as_saved_before_0_10_0(const std::vector<double> &saved)
-{
-  const lsdcd::State state("wall", saved.data(), saved.size());
-  std::vector<std::vector<double>> spheres;
-  state.read("springs of spheres", 1, spheres);
-  const lsdcd::WallState all = lsdcd::WallState::from(state);
-  const lsdcd::MeshIdentity &mesh = all.meshes.at(0).mesh;
-  const double pose[] = {1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0};
-  std::vector<double> motion = {0, 0, 0, 1, 1e-3};    // clock
-  for (int k = 0; k < 3; k++) motion.insert(motion.end(), pose, pose + 12);
-  motion.insert(motion.end(), {0, 0, 0, 0, 1, 0, 0, 0, 0, 0});    // no servo
-  motion.push_back(0);                                            // no terms
-  std::vector<double> wall = {-6, all.history_kind, 1e-3, 1, static_cast<double>(motion.size())};
-  wall.insert(wall.end(), motion.begin(), motion.end());
-  wall.insert(wall.end(), {0, static_cast<double>(mesh.facets), static_cast<double>(mesh.edges),
-                           static_cast<double>(mesh.vertices), 0, mesh.fingerprint});
-  std::vector<double> old = {static_cast<double>(wall.size())};
-  old.insert(old.end(), wall.begin(), wall.end());
-  old.push_back(static_cast<double>(spheres.size()));
-  for (const std::vector<double> &sphere : spheres) {
-    old.push_back(static_cast<double>(sphere.size()));
-    old.insert(old.end(), sphere.begin(), sphere.end());
-  }
-  return old;
-}
-
-TEST_F(wall, goes_on_from_what_versions_before_0_10_0_saved)
-{
-  lsdcd::Wall wall(words()), other(words());
-  Grains grains;
-  grains.add(0, 0, 0.49, 0.1);
-  grains.step(wall);
-  grains.step(wall);
-  std::vector<double> old = as_saved_before_0_10_0(wall.save());
-  other.restore(old);
-  Grains others = grains;
-  grains.step(wall);
-  others.step(other);
-  EXPECT_EQ(others.force, grains.force);
-  EXPECT_NE(grains.force[0], 0);    // of a spring
-  lsdcd::Wall third(words());
-  while (!old.empty()) {
-    old.pop_back();
-    EXPECT_EQ(code_of([&] { third.restore(old); }), LSDCD_ERROR_ARGUMENT) << old.size();
-  }
 }
 
 TEST_F(wall, needs_a_GPU_for_arrays_on_one)

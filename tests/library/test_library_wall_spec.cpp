@@ -18,6 +18,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -524,29 +525,6 @@ TEST_F(wall_spec, a_saved_wall_writes_the_files_that_are_due)
     std::remove(name_of(run, "series.pvd").c_str());
 }
 
-// As it was written before the step was saved: its steps count from 0, and all else goes on.
-TEST_F(wall_spec, a_saved_wall_without_a_step_counts_from_0)
-{
-  const api::Mesh mesh(file_);
-  const api::WallSpec spec = receding(floor_of(hooke_history(), mesh));
-  api::Wall wall(spec), again(spec);
-  Grains grains = slider();
-  grains.step(wall, 6);
-  const std::vector<double> saved = wall.save();
-  const lsdcd::State state("wall", saved.data(), saved.size());
-  std::vector<std::vector<double>> spheres;
-  state.read("springs of spheres", 1, spheres);
-  lsdcd::State old = lsdcd::WallState::from(state).blocks();
-  old.add("springs of spheres", 1, spheres);
-  again.restore(old.numbers());
-  EXPECT_EQ(again.nodes(0), wall.nodes(0));
-  const std::vector<double> before = wall.nodes(0);
-  grains.step(again, 3);
-  EXPECT_EQ(again.nodes(0), before);
-  grains.step(again, 1);
-  EXPECT_NE(again.nodes(0), before);
-}
-
 // The vertices of a mesh that moves are in the box: lifted by the motion, and lower by the wear.
 TEST_F(wall_spec, vertices_that_wear_moves_go_with_the_mesh)
 {
@@ -1010,6 +988,44 @@ class Wrong {
   lsdcd_wall_spec spec;
 };
 
+// A spec has the address of its meshes alone.
+static_assert(std::is_constructible_v<api::WallMesh, api::Mesh &>);
+static_assert(!std::is_constructible_v<api::WallMesh, api::Mesh>);
+static_assert(!std::is_constructible_v<api::WallMesh, const api::Mesh, const char *>);
+
+TEST_F(wall_spec, gives_a_sub_model_all_of_its_numbers)
+{
+  const api::Mesh mesh(file_);
+  using api::kDerived;
+  api::Law rolls = hooke_history(),
+           turns = api::Law::granular({"hooke", {1, 0}}, {"mindlin", {1, 1, 0.5}});
+  rolls.rolling = {"cdt", {0.1, 0}};
+  turns.twisting = {"sds", {1, 1}};
+  const struct {
+    api::Law law;
+    const char *text;
+  } rows[] = {
+      {api::Law::classic({"hooke/history", {1e4, 5e3, 20, kDerived, 0.5, 1}}), ""},
+      {api::Law::classic({"hooke/history", {1e4, 5e3, 20, 0.5, 1}}),
+       "'hooke/history' is given 5 numbers, and has 6: kn kt gamman gammat xmu dampflag"},
+      {api::Law::classic({"hooke/history", {1e4, 5e3, 20, 0, 0.5, 1, 0}}), "is given 7 numbers"},
+      {api::Law::classic({"hooke", {1e4}}), "is given 1 number, and has 6"},
+      {api::Law::granular({"hertz", {1e4}}, {"mindlin", {1, 1, 0.5}}), "has 2: kn eta|e"},
+      {api::Law::granular({"hertz", {1e4, 0}}, {"linear_history", {1, 0.5}}),
+       "has 3: kt xgammat mu"},
+      {rolls, "'cdt' is given 2 numbers, and has 1: MU"},
+      {turns, "'sds' is given 2 numbers, and has 3: k gamma mu"},
+      {api::Law::classic({"hook", {1e4}}), "hooke"},
+  };
+  for (const auto &row : rows) {
+    const std::string text = text_of([&] { lsdcd::Wall wall(floor_of(row.law, mesh)); });
+    EXPECT_NE(text.find(row.text), std::string::npos) << text << "; expected: " << row.text;
+    if (!*row.text) {
+      EXPECT_EQ(text, "");
+    }
+  }
+}
+
 TEST_F(wall_spec, names_the_field_its_value_and_the_remedy)
 {
   const api::Mesh mesh(file_);
@@ -1289,6 +1305,8 @@ TEST_F(wall_spec, refuses_bodies_that_there_cannot_be)
       {[](api::WallMesh &m) { m.body->joint = 5; },
        "`meshes[0].body.joint` is 5: it is LSDCD_FREE"},
       {[](api::WallMesh &m) { m.body->joint = LSDCD_HINGE; }, "`meshes[0].body.axis` is 0 0 0"},
+      {[](api::WallMesh &m) { m.body->density = 3; },
+       "`meshes[0].body.density` is 3: the body has the mass 2, too"},
       {[](api::WallMesh &m) { m.body->mass = 0; },
        "`meshes[0].body`: inertia: a mass of 0 is not above 0"},
       {[](api::WallMesh &m) { m.body->stiffness = 1; },
