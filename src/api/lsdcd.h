@@ -769,6 +769,9 @@ typedef struct lsdcd_body_state {
   double reaction_force[3], reaction_torque[3];
   double coordinate; /* of LSDCD_HINGE (radians) and LSDCD_SLIDER (length); else 0 */
   double energy;     /* kinetic, and of its spring */
+  /* Of a stop along (about) the axis: what holds the body there, and in the step in which it comes there mass (moment of
+   * inertia) times speed over the timestep. */
+  double stop_force;
 } lsdcd_body_state;
 /* LSDCD_ERROR_ARGUMENT: no such mesh, or one that is no body. Own. */
 LSDCD_API int lsdcd_wall_get_body(lsdcd_wall *wall, int mesh, lsdcd_body_state *state);

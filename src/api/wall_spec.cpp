@@ -160,8 +160,9 @@ int lsdcd_wall_get_body(lsdcd_wall *wall, int mesh, lsdcd_body_state *state)
     put(body.omega(), out.angular_velocity);
     put(reaction.force, out.reaction_force);
     put(reaction.torque, out.reaction_torque);
-    out.coordinate = body.joint().has_coordinate() ? body.coordinate() : 0;
+    out.coordinate = body.coordinate();
     out.energy = of.spring_and_kinetic_energy();
+    out.stop_force = of.stop_force();
     copy_out(out, state);
   });
 }

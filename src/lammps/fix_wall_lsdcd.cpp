@@ -107,8 +107,8 @@ FixWallLsdcd::FixWallLsdcd(LAMMPS *lmp, int narg, char **arg, const lsdcd::WallB
   extscalar = 1;
   extvector = -1;
   extarray = 0;
-  extlist = new int[kNodes + kOfNodes];
-  std::fill(extlist, extlist + kNodes + kOfNodes, 1);
+  extlist = new int[kAll];
+  std::fill(extlist, extlist + kAll, 1);
   extlist[7] = 0;    // the largest overlap is not a sum
   size_outputs();
   energy_global_flag = 1;
@@ -698,6 +698,7 @@ double FixWallLsdcd::mesh_output(int mesh, int i)
   const lsdcd::MeshTotals &t = wall->totals().mesh(mesh);
   if (i < kTotals) return column(t, i);
   if (i == kPower) return t.power;
+  if (i == kStop) return body_output(mesh, kOfBody);
   if (i >= kNodes) return t.couple[i - kNodes];
   if (i >= kShape) return i == kShape ? wall->removed(mesh) : wall->held_back(mesh);
   if (i >= kBody) return body_output(mesh, i - kBody);
@@ -711,7 +712,7 @@ double FixWallLsdcd::servo_output(int mesh, int i)
   return i == 0 ? s.position : i == 1 ? s.velocity : wall->servo_push(mesh);
 }
 
-// Centre, velocity, quaternion, angular velocity; force and torque of the joint; coordinate, energy.
+// Centre, velocity, quaternion, angular velocity; force and torque of the joint; coordinate, energy; force of a stop.
 double FixWallLsdcd::body_output(int mesh, int i)
 {
   const lsdcd::MeshBody *of = wall->body(mesh);
@@ -724,7 +725,8 @@ double FixWallLsdcd::body_output(int mesh, int i)
   if (i < 13) return b.omega()[i - 10];
   if (i < 16) return of->reaction().force[i - 13];
   if (i < 19) return of->reaction().torque[i - 16];
-  return i == 19 ? b.coordinate() : of->spring_and_kinetic_energy();
+  if (i == 19) return b.coordinate();
+  return i == 20 ? of->spring_and_kinetic_energy() : of->stop_force();
 }
 
 double FixWallLsdcd::compute_array(int mesh, int i)
@@ -745,7 +747,7 @@ static bool is_body(const lsdcd::MeshPart &m)
 // Outputs of all meshes together; and of the one servo and the one body, if there is one.
 double FixWallLsdcd::compute_vector(int i)
 {
-  if (i >= kShape) {
+  if (i >= kShape && i < kStop) {
     double sum = 0;
     for (const lsdcd::MeshPart &m : meshes()) sum += mesh_output(m.index, i);
     return sum;
@@ -775,16 +777,17 @@ int FixWallLsdcd::only_mesh_with(bool (*has)(const lsdcd::MeshPart &)) const
   return only;
 }
 
-// A wall with a servo has its outputs after the others, and one with a body has its behind these.
+// A wall with a servo has its outputs after the others, and one with a body has its behind these, with those of wear and
+// nodes before its last.
 void FixWallLsdcd::size_outputs()
 {
   const auto any = [this](bool (*has)(const lsdcd::MeshPart &)) {
     return std::any_of(meshes().begin(), meshes().end(), has);
   };
   if (any(has_servo)) size_vector = size_array_cols = kBody;
-  if (any(is_body)) size_vector = size_array_cols = kBody + kOfBody;
   if (spec().wear_shape.every > 0) size_vector = size_array_cols = kNodes;
-  if (spec().has_nodes()) size_vector = size_array_cols = kNodes + kOfNodes;
+  if (spec().has_nodes()) size_vector = size_array_cols = kStop;
+  if (any(is_body)) size_vector = size_array_cols = kAll;
   // Places and speeds are no sums.
   extlist[kVector] = extlist[kVector + 1] = extlist[kBody + 19] = 0;
   std::fill(extlist + kBody, extlist + kBody + 13, 0);

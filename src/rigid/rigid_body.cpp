@@ -121,7 +121,47 @@ void RigidBody::set_state(const RigidState &state)
   make_constants();
 }
 
+// ---- stops -------------------------------------------------------------------------------
+
+// Is the body at a stop that bars its way in this direction of the coordinate, 1 or -1?
+bool RigidBody::is_barred(int direction) const
+{
+  if (!joint_.has_coordinate()) return false;
+  return direction > 0 ? coordinate() >= drive.hi : coordinate() <= drive.lo;
+}
+
+void RigidBody::hold_at_stop()
+{
+  Real &rate = state_.rate[0];
+  if ((rate > 0 && is_barred(1)) || (rate < 0 && is_barred(-1))) rate = 0;
+}
+
+bool RigidBody::is_held(const Wrench &load) const
+{
+  if (!joint_.has_coordinate() || state_.rate[0] != 0) return false;
+  const Real pressed = along_coordinate(load) + driven();
+  return pressed != 0 && is_barred(pressed > 0 ? 1 : -1);
+}
+
+Real RigidBody::stop_force(const Wrench &load) const
+{
+  return is_held(load) ? blow_ - (along_coordinate(load) + driven()) : blow_;
+}
+
 // ---- a step ------------------------------------------------------------------------------
+
+// Of spring, damper and motor, along the coordinate.
+Real RigidBody::driven() const
+{
+  return drive.motor - drive.stiffness * (state_.coordinate[0] - drive.rest) -
+         drive.damping * state_.rate[0];
+}
+
+Real RigidBody::along_coordinate(const Wrench &load) const
+{
+  return dot(joint_.axis,
+             joint_.kind == JointKind::hinge ? load.torque_about(pivot()) : load.force);
+}
 
 void RigidBody::kick(Real h, const Wrench &load)
 {
@@ -142,10 +182,10 @@ void RigidBody::kick(Real h, const Wrench &load)
       return;
     case JointKind::hinge:
     case JointKind::slider: {
-      const Real along = dot(a, joint_.kind == JointKind::hinge ? torque : load.force),
-                 spring = -drive.stiffness * (s.coordinate[0] - drive.rest);
-      s.rate[0] =
-          kicked(s.rate[0], along + drive.motor + spring, inertia_of_axis_, drive.damping, h);
+      const Real spring = -drive.stiffness * (s.coordinate[0] - drive.rest);
+      s.rate[0] = kicked(s.rate[0], along_coordinate(load) + drive.motor + spring, inertia_of_axis_,
+                         drive.damping, h);
+      hold_at_stop();
     }
   }
 }
@@ -168,7 +208,11 @@ void RigidBody::drift(Real h)
     case JointKind::slider: {
       const Real next = s.coordinate[0] + h * s.rate[0],
                  allowed = std::max(drive.lo, std::min(drive.hi, next));
-      if (allowed != next) s.rate[0] = (allowed - s.coordinate[0]) / h;
+      blow_ = 0;
+      if (allowed != next) {
+        blow_ = -inertia_of_axis_ * s.rate[0] / h;
+        s.rate[0] = (allowed - s.coordinate[0]) / h;
+      }
       s.coordinate[0] = allowed;
     }
   }
@@ -328,6 +372,17 @@ Pose RigidBody::pose() const
 
 Mobility RigidBody::mobility() const
 {
+  Mobility m = free_mobility();
+  const bool up = state_.rate[0] >= 0 && is_barred(1), down = state_.rate[0] <= 0 && is_barred(-1);
+  if (up && down) m.shifts = m.turns = SymmetricMatrix();
+  if (up != down)
+    (joint_.kind == JointKind::hinge ? m.turn_into_stop : m.into_stop) =
+        (up ? 1. : -1.) * axis_in_mesh();
+  return m;
+}
+
+Mobility RigidBody::free_mobility() const
+{
   const Vec3 axis = axis_in_mesh();
   const Real per_mass = 1 / mass_.mass;
   Mobility m;
@@ -370,10 +425,9 @@ Wrench RigidBody::reaction(const Wrench &load) const
     case JointKind::ball:
       return {mass_times(apply(inverse_, torque - gyration)) - f, {0, 0, 0}};
     case JointKind::hinge: {
-      const Real driven = drive.motor - drive.stiffness * (state_.coordinate[0] - drive.rest) -
-                          drive.damping * state_.rate[0];
-      const Vec3 spin_up = (dot(a, torque) + driven) / inertia_of_axis_ * a;
-      return {mass_times(spin_up) - f, apply(inertia_, spin_up) + gyration - torque - driven * a};
+      const Real beside = driven() + stop_force(load);
+      const Vec3 spin_up = (dot(a, torque) + beside) / inertia_of_axis_ * a;
+      return {mass_times(spin_up) - f, apply(inertia_, spin_up) + gyration - torque - beside * a};
     }
     case JointKind::slider:
       return {dot(a, f) * a - f, -torque};

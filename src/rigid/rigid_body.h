@@ -44,6 +44,9 @@ class RigidBody {
 
   JointDrive drive;    // may change between steps
 
+  // Takes away the velocity into a stop at which the body is: to be called where it, or its limits, are others.
+  void hold_at_stop();
+
   // Velocity of the centre and angular velocity. Throws InputError where the joint does not allow them.
   void set_velocity(const Vec3 &velocity, const Vec3 &omega);
   // Begins where another body of the same mesh is, with its velocity as the joint leaves it: projected, in the metric of mass
@@ -51,9 +54,11 @@ class RigidBody {
   // joint is the same, and else starts at 0.
   void begin_from(const RigidBody &was);
 
-  // Half a step's change of velocity, over the time h, by what acts beside the drive. The damper's part is exact.
+  // Half a step's change of velocity, over the time h, by what acts beside the drive. The damper's part is exact. At a
+  // stop the body takes up no velocity into it.
   void kick(Real h, const Wrench &load);
-  // Moves it over the time h. At a limit its velocity is what takes it there in this time.
+  // Moves it over the time h. Where it comes to a stop its velocity is what takes it there in this time, until the next
+  // kick().
   void drift(Real h);
 
   const MassProperties &mass() const { return mass_; }
@@ -72,8 +77,15 @@ class RigidBody {
   // Where the mesh is, with velocities for contacts.
   Pose pose() const;
   Mobility mobility() const;
-  // Force and torque of the joint that hold the body, with the velocity that it has now: not spring, damper, motor and limits.
-  // The torque is about pivot().
+  // The same without stops: no push finds the body easier to move.
+  Mobility free_mobility() const;
+  // Does the load, with the drive, press the body at rest into a stop?
+  bool is_held(const Wrench &load) const;
+  // Force (torque) of a stop along (about) the axis of the joint: what holds the body there, and mass (moment of
+  // inertia) times the speed that the last drift() has taken from it, over the time of that.
+  Real stop_force(const Wrench &load) const;
+  // Force and torque of the joint that hold the body, with the velocity that it has now: not spring, damper, motor and
+  // stop, which act beside them. The torque is about pivot().
   Wrench reaction(const Wrench &load) const;
   Vec3 pivot() const;    // the joint's point, or the centre of mass
   // Is the mesh, in all that the joint allows, as its file has it along this unit vector: not moved along it, and turned about
@@ -93,12 +105,16 @@ class RigidBody {
   Vec3 apply(const SymmetricMatrix &in_mesh, const Vec3 &a) const;
   Vec3 arm_of_point() const;
   Vec3 velocity_of_pivot() const;
+  Real driven() const;
+  Real along_coordinate(const Wrench &load) const;
+  bool is_barred(int direction) const;
   Vec3 spin_up() const;
   void turn_freely(Real h);
 
   MassProperties mass_;    // in the frame of the mesh
   Joint joint_;
   RigidState state_;
+  Real blow_ = 0;    // of a stop, in the last drift(): stop_force()
 
   // About the joint's point (hinge, ball) or the centre, in the frame of the mesh.
   SymmetricMatrix inertia_, inverse_;

@@ -40,13 +40,15 @@ SymmetricMatrix turned(const SymmetricMatrix &m, const Pose &from, const Pose &t
   return {column[0].x, column[1].y, column[2].z, column[0].y, column[0].z, column[1].z};
 }
 
-// The same, in the frame of another mesh.
+// The same, in the frame of another mesh, whose contacts have normals into the body.
 Mobility turned(const Mobility &m, const Pose &from, const Pose &to)
 {
   Mobility out;
   out.point = to.to_mesh(from.to_box(m.point));
   out.shifts = turned(m.shifts, from, to);
   out.turns = turned(m.turns, from, to);
+  out.into_stop = to.turn_to_mesh(from.turn_to_box(-m.into_stop));
+  out.turn_into_stop = to.turn_to_mesh(from.turn_to_box(-m.turn_into_stop));
   return out;
 }
 
@@ -63,7 +65,7 @@ Pose seen_from(const Pose &other, const Pose &own)
   return pose;
 }
 
-// n.K n of a body at a place of the box.
+// n.K n of a body at a place of the box, by the normal out of it.
 Real gives_way(const MeshPart &m, const Mobility &mobility, const Vec3 &at, const Vec3 &normal)
 {
   const Pose &pose = m.motion.pose();
@@ -78,9 +80,11 @@ struct Yield {
   {
     const Pose &pose = m.motion.pose();
     point = pose.to_box(mobility.point);
-    const Vec3 torque = push.torque_at_origin - cross(point, push.force);
-    shift = pose.turn_to_box(mobility.shifts * pose.turn_to_mesh(push.force));
-    turn = pose.turn_to_box(mobility.turns * pose.turn_to_mesh(torque));
+    const Vec3 force = pose.turn_to_mesh(push.force),
+               torque = pose.turn_to_mesh(push.torque_at_origin - cross(point, push.force));
+    const bool moves = !mobility.is_borne(force, torque);
+    shift = moves ? pose.turn_to_box(mobility.shifts * force) : Vec3{0, 0, 0};
+    turn = moves ? pose.turn_to_box(mobility.turns * torque) : Vec3{0, 0, 0};
   }
   Real along(const Vec3 &at, const Vec3 &normal) const
   {
@@ -385,15 +389,15 @@ void BodyCoat::take_masses(const std::deque<MeshPart> &meshes, const CoatPushes 
         yields[m.index].emplace_back(pushes.on(m.index, by), m, mobility[m.index]);
   }
   for (const PointContact &c : contacts_) {
-    const auto alone = [&](int mesh) {
-      return meshes[mesh].body ? gives_way(meshes[mesh], mobility[mesh], c.at, c.normal) : 0;
+    const auto alone = [&](int mesh, const Vec3 &out) {
+      return meshes[mesh].body ? gives_way(meshes[mesh], mobility[mesh], c.at, out) : 0;
     };
     const auto together = [&](int mesh, const Vec3 &normal) {
       Real sum = 0;
       for (const Yield &of : yields[mesh]) sum += std::max<Real>(0, of.along(c.at, normal));
       return sum;
     };
-    const Real own = alone(mesh_), other = alone(c.other);
+    const Real own = alone(mesh_, -c.normal), other = alone(c.other, c.normal);
     if (is_held(own + other)) {
       masses_[c.point] = 1 / (pushes.on(mesh_, c.other).contacts / body_mass() - own);
       continue;
@@ -442,7 +446,7 @@ void BodyCoat::add_stiffness(const std::deque<MeshPart> &meshes, std::vector<Coa
       const Pose &pose = other.motion.pose();
       const Vec3 arm = pose.turn_to_box(record->arm), normal = 1 / distance * arm,
                  along = any_perpendicular(normal), at = x_[i] - arm;
-      const Real mass = 1 / (1 / masses_[i] + gives_way(own, own_gives, at, normal));
+      const Real mass = 1 / (1 / masses_[i] + gives_way(own, own_gives, at, -normal));
       const ContactSlopes slope =
           contact_slopes(laws_[record->mesh], std::max<Real>(0, radius_ - distance), radius_, mass);
       const auto add = [&](const MeshPart &m, const Vec3 &direction, const ContactSlope &of) {

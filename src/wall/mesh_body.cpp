@@ -101,7 +101,8 @@ void MeshBody::go_on(const BodySpec &to, const RigidBody &as)
   wall_.meshes[mesh_].body = to;
   body_ = as;
   body_.drive = to.drive;
-  mobility_ = body_.mobility();
+  body_.hold_at_stop();
+  mobility_ = body_.free_mobility();
   const MeshReport &r = grid_.report();
   bound_of_mobility_ = largest_in(mobility_, {r.lo, r.hi});
   most_mobility_ = grid_.mesh() ? largest_on_faces(mobility_, *grid_.mesh()) : 0;
@@ -211,7 +212,8 @@ ModeRates MeshBody::of_spheres(const MeshTotals &contacts, const SphereRange &sp
                       spheres.mass);
     one = {std::max(one.stiffness, of.stiffness), std::max(one.damping, of.damping)};
   }
-  const Real of_all = contacts.contacts * bound_of_mobility_ +
+  const Real of_body = is_held() ? 0 : bound_of_mobility_,
+             of_all = contacts.contacts * of_body +
                       (spheres.lightest > 0 ? 1 / (spheres.lightest / force_) : 0);
   return {of_all * one.stiffness, of_all * one.damping};
 }
@@ -220,6 +222,7 @@ ModeRates MeshBody::rates(const MeshTotals &contacts, const SphereRange &spheres
                           const CoatLoad &coat, bool of_coat) const
 {
   ModeRates all = of_spheres(contacts, spheres);
+  if (is_held()) return all;
   ContactSum stiffness = spring();
   if (!of_coat) {
     all.stiffness += stiffness.largest(mobility_);
@@ -263,9 +266,10 @@ void MeshBody::check_step(const MeshTotals &contacts, const SphereRange &spheres
   sums[0] += coat.stiffness;
   sums[1] += coat.damping;
   const ModeRates others = of_others(true);
+  const Mobility gives = is_held() ? Mobility() : mobility_;
   const Real longest =
-      longest_step(sums[0].largest(mobility_) + std::max(most_of_sphere[0], others.stiffness),
-                   sums[1].largest(mobility_) + std::max(most_of_sphere[1], others.damping));
+      longest_step(sums[0].largest(gives) + std::max(most_of_sphere[0], others.stiffness),
+                   sums[1].largest(gives) + std::max(most_of_sphere[1], others.damping));
   if (dt_ >= longest) fail_step(longest, contacts.contacts + coat.contacts);
 }
 
@@ -276,6 +280,7 @@ void MeshBody::sum_contacts(const WallEngine &engine)
   most_of_sphere_[0] = most_of_sphere_[1] = 0;
   const ContactRecord *record = engine.records();
   const Pose pose = body_.pose();
+  const Mobility mobility = body_.mobility();
   for (int k = 0; k < engine.n_touching(); k++) {
     const TouchingSphere &sphere = engine.touching_spheres()[k];
     const SphereKinds kinds = {laws_.kinds > 1 ? &sphere.type : nullptr, laws_.kind_of_type.data(),
@@ -289,7 +294,7 @@ void MeshBody::sum_contacts(const WallEngine &engine)
       if (!(distance > 0)) continue;    // the centre lies on the wall
       const Vec3 normal = 1 / distance * record->arm, at = centre - record->arm,
                  along = any_perpendicular(normal);
-      const Real together = 1 / (1 / mass + mobility_.along(at, normal));
+      const Real together = 1 / (1 / mass + mobility.along(at, normal));
       const ContactSlopes slope =
           contact_slopes(law, std::max<Real>(0, radius - distance), radius, together * force_);
       const auto add = [&](const Vec3 &direction, const ContactSlope &of) {

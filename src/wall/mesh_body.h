@@ -42,12 +42,14 @@ class MeshBody {
            Real force);
 
   const RigidBody &body() const { return body_; }
-  Mobility mobility() const { return 1 / force_ * mobility_; }
-  // The same of forces in the wall's units.
+  // To pushes where it is now; 1/mass.
+  Mobility mobility() const { return 1 / force_ * body_.mobility(); }
+  // Without stops, and of forces in the wall's units.
   const Mobility &mobility_to_forces() const { return mobility_; }
   // The largest n.K n where a sphere can touch a face; 1/mass.
   Real most_mobility() const { return most_mobility_ / force_; }
   Wrench reaction() const { return body_.reaction(load_); }
+  Real stop_force() const { return body_.stop_force(load_); }
   Real spring_and_kinetic_energy() const;
 
   // Half a step by the load of the last one, and the way. Inputs may change before.
@@ -96,6 +98,8 @@ class MeshBody {
   void ask_about_degrees() const;
   bool is_same(const BodyState &was) const;
   RigidBody continued(const BodyState &was) const;
+  // Is it pressed into a stop by the load of the step? It has no modes then.
+  bool is_held() const { return body_.is_held(load_); }
   ContactSum spring() const;
   ModeRates of_spheres(const MeshTotals &contacts, const SphereRange &spheres) const;
   [[noreturn]] void fail_step(Real longest, Real contacts) const;

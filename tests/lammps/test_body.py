@@ -29,7 +29,7 @@ timestep        {dt}
 {move}
 """
 # Columns of the fix's vector, from 1.
-FORCE, CENTRE, SPEED, TURN, OMEGA, REACTION, COUPLE, COORDINATE, ENERGY = 1, 15, 18, 21, 25, 28, 31, 34, 35
+FORCE, POWER, CENTRE, SPEED, TURN, OMEGA, REACTION, COUPLE, COORDINATE, ENERGY, STOP = 1, 11, 15, 18, 21, 25, 28, 31, 34, 35, 41
 
 
 def box(path, lo, hi, cells=1):
@@ -198,6 +198,31 @@ def motor(checks, folder):
     checks.at_most("motor and damper with another timestep", off, 1e-12)
     checks.fact("the timestep changed in a run", abs(rows[-1][-1] - (1 + 0.2 + 0.1 + 0.165)) < 0.06,
                 f"time {rows[-1][-1]:.6g}")
+
+
+def stops(checks, folder):
+    """A flap that a motor holds at its stop, and a sphere that hits it there: outputs as of a mesh at rest, and the stop's torque."""
+    side, thick, torque, upper, dt, radius = 0.2, 0.02, 5.0, 0.3, 1e-3, 0.05
+    box(folder / "flap.stl", (-thick / 2, -side / 2, -side), (thick / 2, side / 2, 0))
+    far = "create_atoms 1 single 1 1 1 units box\nset group all diameter 0.01 density 1\n"
+    law = "granular hooke 1e4 0.3 damping coeff_restitution tangential linear_nohistory 0 0 mesh flap.stl "
+    body = f"body density 100 joint hinge 0 0 0 0 1 0 motor {torque} limits 0 {upper} gravity 0 0 0"
+    rows, _ = go(folder, script(law + body, far, dt, move="", columns=range(1, 42)) +
+                 "run 200\nfix_modify w body motor 0 limits 0 1\nrun 200\n")
+    held, loose = [r for r in rows if r[0] == 200]
+    for name, row in (("held", held), ("let go", loose), ("200 steps later", rows[-1])):
+        checks.fact(f"stop: at rest, {name}", row[COORDINATE] == upper and not any(row[OMEGA:OMEGA + 3]) and row[ENERGY] == 0)
+    checks.at_most("stop: it bears the motor", abs(held[STOP] + torque), 1e-14)
+    checks.fact("stop: it bears nothing more", loose[STOP] == 0 and not any(held[36:41]))
+
+    hit = sphere(-thick / 2 - radius - 1e-4, 0, -0.7 * side, radius, 1, (1, 0, 0))
+    speeds = []
+    for fix in (law, law + body.replace(f"0 {upper}", "0 1").replace(f"motor {torque}", "motor -100")):
+        rows, _ = go(folder, script(fix, hit, 1e-4, columns=(POWER,), also=ATOM) + "run 400\n")
+        speeds.append([r[-3] for r in rows])
+        checks.fact("stop: no power", not any(r[1] for r in rows))
+    checks.fact("stop: a sphere rebounds as from a mesh at rest", speeds[0] == speeds[1] and speeds[0][-1] < -0.2,
+                f"{speeds[0][-1]}, {speeds[1][-1]}")
 
 
 def crowd(cells=3, apart=0.5):
@@ -491,7 +516,7 @@ def changes(checks, folder):
 def main():
     checks = lmp.Checks()
     folder = lmp.scratch()
-    tests = {f.__name__: f for f in (impacts, off_centre, plate, hinge, motor, momentum, two_bodies, coats, weak_points, damped, files,
+    tests = {f.__name__: f for f in (impacts, off_centre, plate, hinge, motor, stops, momentum, two_bodies, coats, weak_points, damped, files,
                                          restart, changes)}
     for name in sys.argv[1:] or tests:
         tests[name](checks, folder)

@@ -1289,6 +1289,24 @@ TEST_F(wall_spec, a_body_takes_another_joint_and_load_from_where_it_is)
   EXPECT_GT(wall.body(0).velocity[2], 1);
 }
 
+TEST_F(wall_spec, a_body_tells_the_force_of_its_stop)
+{
+  const api::Mesh mesh(file_);
+  api::WallSpec spec = floor_of(hooke_history(), mesh);
+  api::RigidBody body(2, {0, 0, 0}, {1, 1, 2, 0, 0, 0});
+  body.slider({0, 0, 1});
+  body.lo = 0;
+  body.hi = 1;
+  body.load[2] = -4;
+  spec.meshes[0].body = body;
+  api::Wall wall(spec);
+  Grains grains;
+  grains.add(0.3, 0.2, 5);
+  for (int k = 0; k < 10; k++) grains.step(wall);
+  EXPECT_EQ(wall.body(0).stop_force, 4);
+  EXPECT_EQ(wall.body(0).energy, 0);
+}
+
 TEST_F(wall_spec, refuses_bodies_that_there_cannot_be)
 {
   const api::Mesh mesh(file_);

@@ -576,6 +576,59 @@ TEST(body_coat, has_the_restitution_that_is_set_on_a_mesh_that_has_moved)
   EXPECT_NEAR(scene.body(1).velocity().z, e, 0.02);
 }
 
+// One point of a body on a hinge, into which a plate comes down. What pushes it into its stop is damped with the mass of the
+// body, as where joints hold it, and what pushes it off with I / arm^2.
+TEST(body_coat, does_not_give_way_to_a_mesh_that_pushes_it_into_its_stop)
+{
+  const Real speed = 0.2, arm = 0.5, overlap = 0.01, eta = 3;
+  for (const bool off : {false, true}) {
+    FakeHost host;
+    MeshSpec plate = floor_at_0(), body = cube({0, 0, 0});
+    plate.placement.move({0, 0, 1 + kRadius - overlap});
+    MotionTerm term;
+    term.velocity = {0, 0, -speed};
+    plate.motion.add(term);
+    body.mesh = welded(octahedron());
+    body.body.coat.spacing = 5;
+    body.body.joint = {JointKind::hinge, {-arm, 0, 0}, {0, 1, 0}};
+    (off ? body.body.drive.lo : body.body.drive.hi) = 0;
+    WallSpec spec = wall_of({plate, body});
+    spec.laws.front().law.eta = eta;
+    Scene scene(host, spec);
+    scene.set_up();
+    const MassProperties &p = scene.body(1).mass();
+    const Real mass = off ? (p.inertia.yy + p.mass * arm * arm) / (arm * arm) : p.mass;
+    EXPECT_NEAR(scene.wall->totals().mesh(0).force.z, kStiffness * overlap + eta * mass * speed,
+                1e-6);    // of a point as heavy as 1e9
+  }
+}
+
+// It falls on a light lid that lies on its stop, as on a mesh at rest; of a point as heavy as 1e9 bodies.
+TEST(body_coat, is_thrown_back_by_a_body_at_its_stop_as_by_a_mesh_at_rest)
+{
+  Real after[2];
+  for (const bool at_rest : {false, true}) {
+    FakeHost host;
+    MeshSpec lid = cube({0, 0, -kSide / 2}), falls = cube({0, 0, 1 + kRadius + 0.001}, {0, 0, -1});
+    lid.body.coat = CoatSpec();
+    lid.body.density = 0.01;
+    lid.body.joint = {JointKind::slider, {0, 0, 0}, {0, 0, 1}};
+    lid.body.drive.lo = 0;
+    lid.body.drive.motor = -100;
+    if (at_rest) lid.body = BodySpec();
+    falls.mesh = welded(octahedron());
+    falls.body.coat.spacing = 5;
+    WallSpec spec = wall_of({lid, falls});
+    spec.laws.front().law.eta = 10;
+    Scene scene(host, spec);
+    scene.set_up();
+    scene.run(300);
+    after[at_rest] = scene.body(1).velocity().z;
+  }
+  EXPECT_GT(after[1], 0.3);
+  EXPECT_NEAR(after[0], after[1], 1e-8);
+}
+
 // Both turn about one axis: no point moves along the floor, at the same time. Velocities of two times half a step apart
 // differ by dt/2 w^2 r, which the springs of friction would add up.
 TEST(body_coat, feels_no_friction_on_a_mesh_that_turns_as_it_does)

@@ -45,6 +45,19 @@ struct Scene : WallScene {
   const RigidBody &body() { return wall->body(0)->body(); }
 };
 
+// Light, and pressed by a motor: what pushes down on it pushes it into its stop. A hinge that is not above it has the other
+// sense.
+WallSpec cube_at_its_stop(JointKind kind, Real mass)
+{
+  const bool turns = kind == JointKind::hinge;
+  WallSpec wall = cube({kind, {-3, 0, 0}, turns ? Vec3{0, 1, 0} : Vec3{0, 0, 1}});
+  BodySpec &body = wall.meshes[0].body;
+  body.density = mass / std::pow(kSide, 3);
+  (turns ? body.drive.hi : body.drive.lo) = 0;
+  body.drive.motor = turns ? 100 : -100;
+  return wall;
+}
+
 std::string error_of_run(Scene &scene, Real dt)
 {
   try {
@@ -419,6 +432,120 @@ TEST(mesh_body, refuses_a_timestep_at_which_its_sliding_would_be_unstable)
     const std::string error = error_of_run(scene, share * 2 * std::sqrt(8 / kStiffness));
     EXPECT_EQ(error.empty(), share < 1) << error;
   }
+}
+
+// A stop bears it, as a mesh at rest does. Without the stop, on the sphere alone, it would be unstable from 9e-4 on.
+TEST(mesh_body, takes_any_timestep_of_a_mesh_at_rest_while_it_is_pressed_into_its_stop)
+{
+  for (const JointKind kind : {JointKind::slider, JointKind::hinge})
+    for (const bool pressed : {true, false}) {
+      FakeHost host;
+      const Real overlap = 1e-5, push = kStiffness * overlap;
+      WallSpec spec = cube_at_its_stop(kind, 2e-4);
+      JointDrive &drive = spec.meshes[0].body.drive;
+      if (!pressed) drive = JointDrive();
+      if (!pressed) drive.motor = kind == JointKind::hinge ? -3.2 * push : push;
+      Scene scene(host, spec);
+      scene.add({0.2, 0, kSide / 2 + kRadius - overlap});
+      scene.set_up();
+      EXPECT_EQ(error_of_run(scene, 1e-3).empty(), pressed);
+    }
+}
+
+// To the last bit, and the mesh does not move.
+TEST(mesh_body, at_its_stop_throws_spheres_back_as_a_mesh_at_rest)
+{
+  for (const JointKind kind : {JointKind::slider, JointKind::hinge}) {
+    FakeHost host, other;
+    WallSpec at_rest = cube(), at_stop = cube_at_its_stop(kind, 0.01);
+    at_rest.meshes[0].body = BodySpec();
+    for (WallSpec *spec : {&at_rest, &at_stop}) spec->laws.front().law.eta = 10;
+    Scene wall(host, at_rest), scene(other, at_stop);
+    for (Scene *s : {&wall, &scene}) {
+      s->add({0.2, 0, kSide / 2 + kRadius - 1e-6});
+      s->v[0] = {0, 0, -1};
+      s->set_up();
+    }
+    for (int n = 0; n < 150; n++) {
+      wall.move_spheres();
+      scene.move_spheres();
+      ASSERT_EQ(scene.force[0].z, wall.force[0].z) << n;
+      ASSERT_EQ(scene.body().kinetic_energy(), 0) << n;
+      ASSERT_EQ(scene.wall->totals().of_all().power, 0) << n;
+    }
+    EXPECT_GT(wall.v[0].z, 0.5);
+    EXPECT_EQ(scene.body().coordinate(), 0);
+  }
+}
+
+// The damper takes the mass of the sphere, 1, or that of both, 8/9.
+TEST(mesh_body, gives_way_at_its_stop_to_what_pushes_it_off)
+{
+  for (const bool off : {false, true}) {
+    FakeHost host;
+    WallSpec spec = cube({JointKind::slider, {0, 0, 0}, {0, 0, 1}});
+    JointDrive &drive = spec.meshes[0].body.drive;
+    (off ? drive.hi : drive.lo) = 0;
+    spec.laws.front().law.eta = 5;
+    Scene scene(host, spec);
+    scene.add({0, 0, kSide / 2 + kRadius - 0.01});
+    scene.v[0] = {0, 0, -2};
+    scene.set_up();
+    EXPECT_NEAR(scene.force[0].z, kStiffness * 0.01 + (off ? 8. / 9 : 1) * 5 * 2, 1e-12);
+  }
+}
+
+// It leaves its stop for what pulls it, and not for what had pressed it on, between two runs or after a saved state.
+TEST(mesh_body, rests_at_the_stop_to_which_a_motor_has_pressed_it)
+{
+  const JointDrive into = {0, 0, 0, 0, 0.1, 800}, nothing = {0, 0, 0, 0, 1, 0};
+  FakeHost host, other;
+  WallSpec spec = cube({JointKind::slider, {0, 0, 0}, {0, 0, 1}});
+  spec.meshes[0].body.drive = into;
+  Scene scene(host, spec);
+  scene.set_up();
+  scene.run(100);    // 0.1 takes 45 steps
+  EXPECT_EQ(scene.body().coordinate(), 0.1);
+  EXPECT_EQ(scene.wall->body(0)->spring_and_kinetic_energy(), 0);
+  EXPECT_NEAR(scene.wall->body(0)->stop_force(), -800, 1e-12);
+
+  WallSpec of_other = spec;
+  of_other.meshes[0].body.drive = nothing;
+  Scene after(other, of_other);
+  after.now = 100;
+  after.wall->restore(scene.wall->save(), {100, kDt});
+  BodySpec to = scene.wall->spec().meshes[0].body;
+  to.drive = nothing;
+  scene.wall->set_body(0, to);
+  for (Scene *s : {&scene, &after}) {
+    s->set_up();
+    s->run(100);
+    EXPECT_EQ(s->body().coordinate(), 0.1);
+    EXPECT_EQ(s->wall->body(0)->stop_force(), 0);
+  }
+  to.drive.motor = -8;
+  scene.wall->set_body(0, to);
+  scene.set_up();
+  scene.run(100);
+  EXPECT_NEAR(scene.body().coordinate(), 0.1 - 0.5 * std::pow(100 * kDt, 2), 1e-14);
+}
+
+// Limits that have come to where it is take its velocity at once, so that spheres see none in the set-up of the next run.
+TEST(mesh_body, is_at_rest_from_limits_that_it_meets_on)
+{
+  FakeHost host;
+  WallSpec spec = cube({JointKind::slider, {0, 0, 0}, {0, 0, 1}});
+  spec.meshes[0].body.velocity = {0, 0, 1};
+  Scene scene(host, spec);
+  scene.set_up();
+  scene.run(100);
+  BodySpec to = scene.wall->spec().meshes[0].body;
+  to.drive.lo = 0;
+  to.drive.hi = scene.body().coordinate();
+  scene.wall->set_body(0, to);
+  EXPECT_EQ(scene.body().rate(), 0);
+  spec.meshes[0].body.drive = {0, 0, 0, -1, 0, 0};
+  EXPECT_EQ(Scene(host, spec).body().rate(), 0);
 }
 
 TEST(mesh_body, takes_no_motion_beside_it)

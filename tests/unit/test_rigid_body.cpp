@@ -387,11 +387,70 @@ TEST(slider, stops_at_a_limit_and_leaves_it)
   body.drive.lo = -0.5;
   for (int n = 0; n < 1000; n++) step(body, 1e-3, weight);
   EXPECT_EQ(body.coordinate(), -0.5);
-  EXPECT_NEAR(body.rate(), 0, kG * 1e-3);    // half a step of what presses it on
+  EXPECT_EQ(body.rate(), 0);    // though its weight presses it on
   body.drive.motor = 2 * kG;
   const int n = 100;
   for (int k = 0; k < n; k++) step(body, 1e-3, weight);
   EXPECT_NEAR(body.coordinate(), -0.5 + 0.5 * kG * 0.1 * 0.1, 2 * kG * 1e-3 * 0.1);
+}
+
+// It is driven from stop to stop and pressed on each: what motor and stops give in all steps is the momentum that it has
+// in the middle of the next one, to the rounding of a thousand steps.
+TEST(stop, takes_the_momentum_that_the_body_loses)
+{
+  const Real dt = 1e-3;
+  for (const JointKind kind : {JointKind::slider, JointKind::hinge}) {
+    RigidBody body(block(2, {1, 1, 1}), {kind, {0.3, 0, 0}, {0, 0.6, 0.8}});
+    const Real inertia = kind == JointKind::slider ? 2 : 1 + 2 * 0.3 * 0.3;
+    body.drive.lo = -0.01;
+    body.drive.hi = 0.02;
+    Real given = 0, hardest = 0;
+    int held = 0;
+    for (int n = 0; n < 1030; n++) {
+      body.kick(dt / 2, {});
+      body.drift(dt);
+      body.drive.motor = n / 100 % 2 ? -40 : 40;
+      body.kick(dt / 2, {});
+      held += body.is_held({});
+      hardest = std::max(hardest, std::fabs(body.stop_force({})));
+      given += (body.drive.motor + body.stop_force({})) * dt;
+    }
+    body.kick(dt / 2, {});
+    EXPECT_GT(held, 300);
+    EXPECT_GT(hardest, 400);    // it strikes
+    EXPECT_GT(std::fabs(body.rate()), 0.1);
+    EXPECT_NEAR(given, inertia * body.rate(), 1e-12);
+  }
+}
+
+// A rod of weight 1 hangs out from a hinge at its end, and lies on its stop: the hinge bears all of its force, and none
+// of the moment about its axis.
+TEST(stop, bears_a_moment_and_the_hinge_the_weight_of_a_body_at_rest)
+{
+  const Real length = 0.4, mass = 1 / kG;
+  RigidBody body(block(mass, {1e-5, mass * length * length / 12, mass * length * length / 12},
+                       {length / 2, 0, 0}),
+                 {JointKind::hinge, {0, 0, 0}, {0, 1, 0}});
+  body.drive.hi = 0;    // down is forward
+  for (int n = 0; n < 10; n++) step(body, 1e-3, weight);
+  EXPECT_EQ(body.kinetic_energy(), 0);
+  EXPECT_NEAR(body.stop_force(weight(body)), -length / 2, 1e-15);
+  const Wrench reaction = body.reaction(weight(body));
+  EXPECT_NEAR(reaction.force.z, 1, 1e-15);
+  EXPECT_NEAR(norm(reaction.torque), 0, 1e-15);
+}
+
+TEST(stop, takes_no_velocity_into_it_from_limits_that_come_to_where_the_body_is)
+{
+  RigidBody body(block(1, {1, 1, 1}), {JointKind::slider, {}, {0, 0, 1}});
+  body.set_velocity({0, 0, 2}, {0, 0, 0});
+  body.drift(0.1);
+  body.drive.lo = body.coordinate();
+  body.hold_at_stop();
+  EXPECT_EQ(body.rate(), 2);    // away from it
+  body.drive.hi = body.coordinate();
+  body.hold_at_stop();
+  EXPECT_EQ(body.rate(), 0);
 }
 
 TEST(ball, keeps_its_point_and_the_momentum_about_the_vertical)
@@ -467,6 +526,46 @@ TEST(mobility, is_what_an_impulse_does)
       EXPECT_NEAR(body.mobility().along(x, n), speed(pushed) - speed(body), 1e-13);
     }
   }
+}
+
+// The same at a stop, where kick() lets no velocity into it: a push out of the body, against the normal.
+TEST(mobility, is_none_to_what_pushes_the_body_into_its_stop)
+{
+  std::mt19937 random(6);
+  std::uniform_real_distribution<Real> any(-1, 1);
+  int borne = 0, free = 0;
+  for (const Joint &joint : {kJoints[1], kJoints[2]})
+    for (const bool upper : {false, true}) {
+      RigidBody body = moving(joint);
+      body.drive.lo = upper ? -HUGE_VAL : body.coordinate();
+      body.drive.hi = upper ? body.coordinate() : HUGE_VAL;
+      RigidState at_rest = body.state();
+      at_rest.rate[0] = 0;
+      body.set_state(at_rest);
+      for (int k = 0; k < 20; k++) {
+        const Vec3 x = {any(random), any(random), any(random)},
+                   n = unit_vector({any(random), any(random), any(random)});
+        const Pose pose = body.pose();
+        const Vec3 at = pose.to_box(x), along = pose.turn_to_box(-n);
+        RigidBody pushed = body;
+        pushed.kick(1, {along, cross(at, along)});
+        const Real gives =
+            dot(along, pushed.velocity() + cross(pushed.omega(), at - pushed.centre()));
+        EXPECT_NEAR(body.mobility().along(x, n), gives, 1e-13);
+        (gives == 0 ? borne : free)++;
+      }
+    }
+  EXPECT_GT(borne, 20);
+  EXPECT_GT(free, 20);
+}
+
+TEST(mobility, is_none_between_two_stops_that_are_one)
+{
+  RigidBody body = moving(kJoints[1]);
+  body.drive.lo = body.drive.hi = body.coordinate();
+  body.hold_at_stop();
+  EXPECT_FALSE(body.mobility().any());
+  EXPECT_TRUE(body.free_mobility().any());
 }
 
 // Velocities of the pose are the derivatives of places, and its accelerations those of velocities.

@@ -608,6 +608,7 @@ class BodyState(_Record):
     reaction_torque: NDArray[np.float64]     # (3,), about the joint's point, or the centre of mass
     coordinate: float                        # of a hinge (radians) or slider (length); else 0
     energy: float                            # kinetic, and of its spring
+    stop_force: float                        # of a stop, along (about) the axis: holding the body, or taking its speed
 
 
 class Wall(_Owner):

@@ -97,7 +97,8 @@ _RigidBody = _struct(
     ("angular_velocity", _real * 3), ("gravity", _real * 3), ("coat", _int), ("coat_spacing", _real), ("coat_radius", _real))
 _BodyState = _struct(
     "_BodyState", ("centre", _real * 3), ("quaternion", _real * 4), ("velocity", _real * 3), ("angular_velocity", _real * 3),
-    ("reaction_force", _real * 3), ("reaction_torque", _real * 3), ("coordinate", _real), ("energy", _real))
+    ("reaction_force", _real * 3), ("reaction_torque", _real * 3), ("coordinate", _real), ("energy", _real),
+    ("stop_force", _real))
 _WallMesh = _struct(
     "_WallMesh", ("mesh", _at), ("name", ctypes.c_char_p), ("placement", _real * 12), ("law", _at), ("type_laws", _at),
     ("n_type_laws", _size), ("posed_by_caller", _int), ("motions", _at), ("n_motions", _size), ("servo", _at),
