@@ -7,6 +7,17 @@
 
 namespace lsdcd {
 
+namespace {
+
+// Of a rigid mesh on what touches it. From 0, so that it is not -0 at rest.
+Real power_of(const MeshTotals &m, const Pose &pose)
+{
+  return 0 - dot(m.force, pose.velocity) -
+         dot(m.torque_at_origin - cross(pose.shift, m.force), pose.angular);
+}
+
+}    // namespace
+
 void StepTotals::clear()
 {
   std::fill(meshes_.begin(), meshes_.end(), MeshTotals());
@@ -54,12 +65,15 @@ void StepTotals::reduce(const WallEngine *engine, const std::vector<Pose> &poses
     const Vec3 about =
         settings.torque_about_mesh ? pose.to_box(settings.torque_about) : settings.torque_about;
     m.torque = m.torque_at_origin - cross(about, m.force);
-    // From 0, so that it is not -0 at rest.
-    m.power = 0 - dot(m.force, pose.velocity) -
-              dot(m.torque_at_origin - cross(pose.shift, m.force), pose.angular);
+    m.power = power_of(m, pose);
     if (!nodes.empty()) m.power += sum[kSums * n + k];
   }
   reduced_ = true;
+}
+
+void StepTotals::set_power(int mesh, const Pose &pose)
+{
+  meshes_[mesh].power = power_of(meshes_[mesh], pose);
 }
 
 bool StepTotals::torques_share_a_point() const

@@ -56,6 +56,8 @@ class StepTotals {
   void reduce(const WallEngine *engine, const std::vector<Pose> &poses,
               const std::vector<NodeLoad> &nodes = {},
               const std::vector<CoatLoad> *coats = nullptr);
+  // The power of a mesh that is a body, by its pose with the velocities of the whole step, once these are known.
+  void set_power(int mesh, const Pose &pose);
 
   // The sums of the last reduce().
   const MeshTotals &mesh(int k) const { return meshes_[k]; }

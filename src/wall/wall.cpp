@@ -340,7 +340,7 @@ void Wall::choose_device()
   Real near = engine_->n_candidates();
   host_.max(&near, 1);
   if (!device_.update(static_cast<std::int64_t>(near))) return;
-  totals();    // of the last step, while its engine is there
+  sums();    // of the last step, while its engine is there
   make_engine_anew();
   if (spec_.brief || !host_.is_first()) return;
   host_.log("on " + engine_->backend() + " from now on, with " +
@@ -356,11 +356,14 @@ void Wall::complete_bodies()
   if (std::none_of(meshes_.begin(), meshes_.end(), pending)) return;
   const Real *g = input_.gravity;
   const Vec3 gravity = g ? Vec3{g[0], g[1], g[2]} : Vec3{0, 0, 0};
-  for (MeshPart &m : meshes_)
-    if (m.body) m.body->complete(totals().mesh(m.index), gravity);
+  for (MeshPart &m : meshes_) {
+    if (!m.body) continue;
+    m.body->complete(sums().mesh(m.index), gravity);
+    totals_.set_power(m.index, m.body->body().pose());
+  }
   for (MeshPart &m : meshes_)
     if (m.body)
-      m.body->check_step(totals().mesh(m.index), range_, coat_load(m.index),
+      m.body->check_step(sums().mesh(m.index), range_, coat_load(m.index),
                          [&](bool of_coat) { return rates_of_touched(m, of_coat); });
 }
 
@@ -371,7 +374,7 @@ ModeRates Wall::rates_of_touched(const MeshPart &m, bool of_coat)
   for (const MeshPart &other : meshes_) {
     if (!(coat_load(m.index).bodies >> other.index & 1)) continue;
     const ModeRates of =
-        other.body->rates(totals().mesh(other.index), range_, coat_load(other.index), of_coat);
+        other.body->rates(sums().mesh(other.index), range_, coat_load(other.index), of_coat);
     most = {std::max(most.stiffness, of.stiffness), std::max(most.damping, of.damping)};
   }
   return most;
@@ -473,7 +476,7 @@ void Wall::look_at_range(const HostSpheres &spheres)
 
 ServoLoad Wall::servo_load(int mesh)
 {
-  const MeshTotals &t = totals().mesh(mesh);
+  const MeshTotals &t = sums().mesh(mesh);
   const CoatLoad &coat = coat_load(mesh);
   return {t.force,
           t.torque_at_origin,
@@ -716,6 +719,13 @@ void Wall::end_run(const HostSpheres &spheres, bool far, const std::string &advi
 // ---- outputs -----------------------------------------------------------------------------
 
 const StepTotals &Wall::totals()
+{
+  if (has_bodies_) complete_bodies();
+  return sums();
+}
+
+// The sums of contacts, which bodies need for velocities of the whole step.
+const StepTotals &Wall::sums()
 {
   if (totals_.are_made()) return totals_;
   std::vector<Pose> poses;

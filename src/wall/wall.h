@@ -195,6 +195,7 @@ class Wall {
 
   void begin_snapshot(int n, const Step &step);
   void check_history(int n);
+  const StepTotals &sums();
   void choose_device();
   void move(const HostSpheres &spheres, const Step &step);
   void look_at_spheres(const HostSpheres &spheres, std::int64_t step);

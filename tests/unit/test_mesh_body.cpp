@@ -548,6 +548,40 @@ TEST(mesh_body, is_at_rest_from_limits_that_it_meets_on)
   EXPECT_EQ(Scene(host, spec).body().rate(), 0);
 }
 
+// - F.V - T.w with all of the whole step, T about the centre, on two processes; and the same in the set-up of the next
+// run, where nothing has moved.
+TEST(mesh_body, has_the_power_of_force_and_velocity_in_the_same_step)
+{
+  for (const Joint &joint : {Joint(), Joint{JointKind::hinge, {0.3, 0, 0}, {0, 0.6, 0.8}}})
+    on_processes(2, [&](FakeHost &host) {
+      WallSpec spec = cube(joint);
+      spec.meshes.push_back(spec.meshes[0]);    // a mesh at rest, that has none
+      spec.meshes[1].body = BodySpec();
+      spec.meshes[1].placement.move({9, 0, 0});
+      Scene scene(host, spec);
+      scene.add({0.4, host.rank() ? 0.3 : -0.6, kSide / 2 + kRadius - 0.01});
+      scene.v[0] = {0, 0, -0.5};
+      scene.set_up();
+      Real most = 0;
+      const auto expected = [&] {
+        const RigidBody &b = scene.body();
+        const MeshTotals &on = scene.wall->totals().mesh(0);
+        return -dot(on.force, b.velocity()) -
+               dot(on.torque_at_origin - cross(b.centre(), on.force), b.omega());
+      };
+      for (int n = 0; n < 40; n++) {
+        scene.move_spheres();
+        const Real power = scene.wall->totals().of_all().power;
+        most = std::max(most, std::fabs(power));
+        ASSERT_NEAR(power, expected(), 1e-12) << n;
+      }
+      EXPECT_GT(most, 0.02);
+      const Real power = scene.wall->totals().mesh(0).power;
+      scene.set_up();
+      EXPECT_EQ(scene.wall->totals().mesh(0).power, power);
+    });
+}
+
 TEST(mesh_body, takes_no_motion_beside_it)
 {
   FakeHost host;
