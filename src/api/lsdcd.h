@@ -73,7 +73,8 @@ typedef int lsdcd_progress(void *data, const char *what, double done);
 typedef struct lsdcd_mesh lsdcd_mesh;
 
 /* Reads a mesh file, by the end of its name: STL, OBJ, PLY or OFF. Polygons are cut into triangles.
- * Corners closer than `weld` (length) become one; < 0: 1e-6 of the diagonal of the mesh. The mesh need be neither closed nor manifold. Any. */
+ * Corners closer than `weld` (length) become one; < 0: equal ones, and those on open edges within 1e-6 of the part of the
+ * mesh that edges connect. The mesh need be neither closed nor manifold. Any. */
 LSDCD_API int lsdcd_mesh_read(const char *file, double weld, lsdcd_mesh **mesh);
 /* The same from corners: nine numbers a triangle, copied. Any. */
 LSDCD_API int lsdcd_mesh_from_corners(const double *corners, size_t n_triangles, double weld,

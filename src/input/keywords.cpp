@@ -172,7 +172,7 @@ const Keyword kKeywords[] = {
     {"rotate", "ax ay az degrees", "degrees", "axis not 0 0 0", "none",
      "right-handed rotation about an axis through the origin", nullptr, read_rotate},
     {"move", "x y z", "length", "", "0 0 0", "shift", nullptr, read_move},
-    {"weld", "tol", "length", ">= 0", "1e-6 of the mesh diagonal",
+    {"weld", "tol", "length", ">= 0", "cracks of 1e-6 of a part",
      "corners closer than this are one vertex; 0: only equal ones", nullptr,
      [](Tokens &w, MeshSpec &s, InputNames &) { s.weld = w.number("the tolerance", 0); }},
     {"grid", "L | auto", "length", "> 0", "auto", "cell edge of the limit-space grid",

@@ -20,6 +20,7 @@ void send_corners(Host &host, TriangleSoup &soup)
   host.broadcast(&corners, sizeof corners, 0);
   run_collectively(host, true, [&] { soup.corners.resize(corners); });
   host.broadcast(soup.corners.data(), corners * sizeof(Vec3), 0);
+  host.broadcast(&soup.rounding, sizeof soup.rounding, 0);
 }
 
 }    // namespace
@@ -38,6 +39,8 @@ WeldedMesh read_together(Host &host, const MeshSpec &settings)
     mesh = weld(soup, settings.weld);
     check_has_area(mesh);
   });
+  const std::string doubt = weld_warning(mesh.report);
+  if (!doubt.empty()) host.warn("mesh '" + settings.file + "': " + doubt);
   return mesh;
 }
 

@@ -19,6 +19,10 @@ namespace lsdcd {
 WeldedMesh assemble(std::vector<Vec3> vertices, const std::vector<int> &corners,
                     std::vector<std::array<int, 2>> bare_edges);
 
+// As weld(), but edges ascend in their vertices, the edges of vertices are left to the caller, and nothing is measured
+// but what was dropped and closed. Facets may collapse. `corner_vertex` becomes the vertex of each corner.
+WeldedMesh join_corners(const TriangleSoup &soup, Real tolerance, std::vector<int> &corner_vertex);
+
 // Throws InputError where the ends of n edges are more than an int can number.
 void check_edge_number(std::size_t n, const std::string &source);
 

@@ -36,6 +36,14 @@ std::string two_sided(const MeshReport &report)
   return text;
 }
 
+// On facets as small as the rounding of the file.
+std::string coarse(const MeshReport &report)
+{
+  return "the coordinates have steps of " + number_text(report.coordinate_step) + " where " +
+         counted(report.coarse_corners, "corner", "corners") +
+         " on open edges have shorter edges than four of these: cracks between them stay";
+}
+
 std::string surface(const MeshReport &report)
 {
   const std::string both = two_sided(report);
@@ -51,6 +59,13 @@ std::string surface(const MeshReport &report)
 
 }    // namespace
 
+std::string weld_warning(const MeshReport &report)
+{
+  if (report.coarse_corners == 0) return "";
+  return coarse(report) +
+         ". Export the mesh with more digits or nearer to the origin, or give weld a length";
+}
+
 std::string describe(const MeshReport &report, const std::string &source)
 {
   std::string block = "mesh " + source;
@@ -65,6 +80,14 @@ std::string describe(const MeshReport &report, const std::string &source)
   line("vertices", std::to_string(report.vertices) + ", welded from " +
                        counted(report.corners, "corner", "corners") + " (tolerance " +
                        number_text(report.weld_tolerance) + ")");
+  if (report.closed_cracks > 0)
+    line("cracks", "closed at " + counted(report.closed_cracks, "corner", "corners") +
+                       ", which moved by up to " + number_text(report.widest_crack));
+  if (report.collapsed_facets > 0)
+    line("collapsed", counted(report.collapsed_facets, "facet", "facets") +
+                          " of the degenerate ones, with an area of " +
+                          number_text(report.collapsed_area));
+  if (report.coarse_corners > 0) line("rounding", coarse(report));
   line("edges", std::to_string(report.edges) + ", " + std::to_string(report.open_edges) +
                     " open, " + std::to_string(report.nonmanifold_edges) + " non-manifold, " +
                     std::to_string(report.misoriented_edges) + " misoriented");

@@ -21,6 +21,7 @@ constexpr int kNone = -1;
 // The input of welding: the points of the mesh and then those of images.
 struct Copies {
   std::vector<Vec3> points;
+  std::vector<int> first;        // point of the mesh, and of its image by each shift
   std::vector<int> vertex_of;    // of the mesh, of each point
   std::vector<int> corners;      // three points for each facet, the mesh's first
   std::vector<int> face_of;      // of the mesh, of each facet
@@ -43,6 +44,7 @@ Copies copies_of(const WeldedMesh &mesh, const PeriodicBox &box, Real depth)
 {
   Copies out;
   out.points = mesh.vertices;
+  out.first = {0};
   const std::size_t n_vertices = mesh.vertices.size();
   for (std::size_t v = 0; v < n_vertices; v++) out.vertex_of.push_back(static_cast<int>(v));
   const std::vector<FacetPart> parts = parts_of(mesh);
@@ -59,6 +61,7 @@ Copies copies_of(const WeldedMesh &mesh, const PeriodicBox &box, Real depth)
       for (std::size_t p = first_of_shift; p < out.points.size(); p++)
         point_of[out.vertex_of[p]] = kNone;
       first_of_shift = out.points.size();
+      out.first.push_back(static_cast<int>(first_of_shift));
     }
     const FacetPart &part = parts[image.part];
     std::array<int, 3> points;
@@ -101,7 +104,7 @@ WeldedMesh with_images(const WeldedMesh &mesh, const PeriodicBox &box, Real dept
   const std::size_t n_vertices = mesh.vertices.size();
   if (copies.points.size() == n_vertices) return mesh;
 
-  WeldedPoints welded = weld_points(copies.points, mesh.report.weld_tolerance);
+  WeldedPoints welded = weld_copies(copies.points, copies.first, mesh.report.weld_tolerance);
   const std::vector<int> &point = welded.corner_point;    // of every copy
   std::vector<int> corners(copies.corners.size());
   for (std::size_t c = 0; c < corners.size(); c++) corners[c] = point[copies.corners[c]];

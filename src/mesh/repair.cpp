@@ -11,7 +11,6 @@
 #include "mesh/orient_faces.h"
 #include "mesh/split_faces.h"
 #include "mesh/union_find.h"
-#include "mesh/weld_points.h"
 
 #include <algorithm>
 #include <cmath>
@@ -139,16 +138,14 @@ RepairedMesh repair(const TriangleSoup &soup, Real tolerance,
   tell("welding corners");
   RepairedMesh out;
   RepairReport &report = out.report;
-  tolerance = report.tolerance = weld(soup, tolerance).report.weld_tolerance;    // and checks
-
-  WeldedPoints welded = weld_points(soup.corners, tolerance);
+  std::vector<int> old_corners;
+  WeldedMesh mesh = join_corners(soup, tolerance, old_corners);
+  tolerance = report.tolerance = mesh.report.weld_tolerance;
   for (std::size_t c = 0; c < soup.corners.size(); c++) {
-    const Real moved = distance(soup.corners[c], welded.points[welded.corner_point[c]]);
+    const Real moved = distance(soup.corners[c], mesh.vertices[old_corners[c]]);
     report.welded_corners += moved > 0;
     report.welding_moved = std::max(report.welding_moved, moved);
   }
-  const std::vector<int> old_corners = welded.corner_point;
-  WeldedMesh mesh = assemble(std::move(welded.points), old_corners, {});
   report.degenerate_facets = mesh.report.degenerate_facets;
   report.duplicate_facets = mesh.report.duplicate_facets;
 
@@ -179,7 +176,8 @@ RepairedMesh repair(const TriangleSoup &soup, Real tolerance,
   report.shells = oriented.shells;
   report.cavities = oriented.cavities;
   out.soup = soup_of(mesh, oriented.turned);
-  out.mesh = weld(out.soup, tolerance);
+  out.mesh = weld(out.soup, 0);    // its corners are apart, or equal
+  out.mesh.report.weld_tolerance = tolerance;
   name_what_is_left(out.mesh, report);
   return out;
 }

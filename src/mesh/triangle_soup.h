@@ -12,15 +12,29 @@
 
 namespace lsdcd {
 
+// How coarse the numbers are that a file has for its corners.
+struct FileRounding {
+  // Between neighbouring numbers, over their size: 2^-23 if all are floats, else 2^-52. 0: not known yet.
+  Real step = 0;
+  Vec3 origin = {0, 0, 0};    // where 0 0 0 of the file is
+
+  // The length of a step at x.
+  Real at(const Vec3 &x) const { return step * norm(x - origin); }
+};
+
 // Corners of triangle t are corners[3t], corners[3t+1], corners[3t+2], in the
 // file's winding; units are the file's until a placement is applied. The facet
 // number in messages is t + 1.
 struct TriangleSoup {
   std::vector<Vec3> corners;
   std::string source;    // file name, for messages
+  FileRounding rounding;
 
   std::size_t n_triangles() const { return corners.size() / 3; }
 };
+
+// Returns the rounding; where it is not known yet, of corners that are as in the file.
+FileRounding known_rounding(const TriangleSoup &soup);
 
 // Reads an STL file, ASCII or binary, distinguished by structure (a binary header
 // may begin with "solid"). ASCII: several solids, any case, CR LF accepted.

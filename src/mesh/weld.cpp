@@ -6,6 +6,7 @@
 #include "base/input_error.h"
 #include "base/input_words.h"
 #include "mesh/assemble.h"
+#include "mesh/cracks.h"
 #include "mesh/face_plane.h"
 #include "mesh/hash_index.h"
 #include "mesh/measure_mesh.h"
@@ -24,14 +25,12 @@ namespace {
 using Triple = std::array<int, 3>;
 using Pair = std::array<int, 2>;
 
-Real checked_tolerance(Real tolerance, Real diagonal, const std::string &source)
+void check_tolerance(Real tolerance, Real diagonal, const std::string &source)
 {
-  if (tolerance < 0) return kDefaultWeld * diagonal;
   if (std::isnan(tolerance) || (diagonal > 0 && tolerance >= diagonal))
     throw InputError(source + ": a weld tolerance of " + number_text(tolerance) +
                      " would weld the whole mesh, " + number_text(diagonal) +
                      " across, into one point; give a smaller one");
-  return tolerance;
 }
 
 Triple sorted(Triple t)
@@ -196,6 +195,85 @@ void build_vertex_edges(WeldedMesh &mesh)
     for (const int v : mesh.edges[e]) mesh.vertex_edge[fill[v]++] = static_cast<int>(e);
 }
 
+// Faces and edges over mesh.vertices. `plane` becomes those of the faces.
+void connect(const std::vector<int> &corner_vertex, WeldedMesh &mesh, std::vector<FacePlane> &plane,
+             std::vector<Pair> bare_edges = {})
+{
+  sort_facets(corner_vertex, mesh, plane, bare_edges);
+  build_edges(mesh, bare_edges);
+}
+
+// Counts the facets that had an area, and have none where their corners are now.
+void measure_collapsed(const TriangleSoup &soup, const std::vector<int> &corner_vertex,
+                       WeldedMesh &mesh)
+{
+  const auto plane_of = [](const std::vector<Vec3> &x, std::size_t a, std::size_t b,
+                           std::size_t c) { return face_plane(x[a], x[b], x[c]); };
+  for (std::size_t c = 0; c < soup.corners.size(); c += 3) {
+    const int *v = &corner_vertex[c];
+    const auto moved = [&](int k) { return !(soup.corners[c + k] == mesh.vertices[v[k]]); };
+    if (!moved(0) && !moved(1) && !moved(2)) continue;
+    if (!plane_of(mesh.vertices, v[0], v[1], v[2]).degenerate) continue;
+    const FacePlane before = plane_of(soup.corners, c, c + 1, c + 2);
+    if (before.degenerate) continue;
+    mesh.report.collapsed_facets++;
+    mesh.report.collapsed_area += before.area;
+  }
+}
+
+WeldedMesh join(const TriangleSoup &soup, Real tolerance, std::vector<int> &corner_vertex,
+                std::vector<FacePlane> &plane)
+{
+  const Real diagonal = checked_diagonal(soup);
+  const bool by_default = tolerance < 0;
+  if (!by_default) check_tolerance(tolerance, diagonal, soup.source);
+  const auto start = [&](std::vector<Vec3> points) {
+    WeldedMesh mesh;
+    mesh.source = soup.source;
+    mesh.report.facets = soup.n_triangles();
+    mesh.report.corners = soup.corners.size();
+    mesh.report.weld_tolerance = tolerance;
+    mesh.vertices = std::move(points);
+    return mesh;
+  };
+  WeldedPoints welded = weld_points(soup.corners, by_default ? 0 : tolerance);
+  corner_vertex = std::move(welded.corner_point);
+  WeldedMesh mesh = start(std::move(welded.points));
+  connect(corner_vertex, mesh, plane);
+  if (by_default) {
+    const Cracks cracks = find_cracks(mesh, known_rounding(soup));
+    if (cracks.closed > 0) {
+      welded = move_points({std::move(mesh.vertices), std::move(corner_vertex)}, cracks.onto);
+      corner_vertex = std::move(welded.corner_point);
+      mesh = start(std::move(welded.points));
+      plane.clear();
+      connect(corner_vertex, mesh, plane);
+    }
+    mesh.report.weld_tolerance = cracks.tolerance;
+    mesh.report.closed_cracks = cracks.closed;
+    mesh.report.widest_crack = cracks.widest;
+    mesh.report.coarse_corners = cracks.coarse;
+    mesh.report.coordinate_step = cracks.step;
+  }
+  if (tolerance > 0 || mesh.report.closed_cracks > 0) measure_collapsed(soup, corner_vertex, mesh);
+  return mesh;
+}
+
+void check_collapsed(const WeldedMesh &mesh, bool by_default)
+{
+  const MeshReport &r = mesh.report;
+  const Real share = r.collapsed_area / (r.area + r.collapsed_area);
+  if (!(share > kMostCollapsed)) return;
+  throw InputError(mesh.source + ": " +
+                   (by_default ? std::string("closing its cracks")
+                               : "a weld tolerance of " + number_text(r.weld_tolerance)) +
+                   " takes away " + std::to_string(r.collapsed_facets) + " of " +
+                   std::to_string(r.facets) + " facets, with " + number_text(100 * share) +
+                   " % of the area; give a smaller " +
+                   (by_default ? "weld tolerance, or 0" : "one") +
+                   ", or let lsdcd repair weld it, which says how far the surface moves");
+}
+
 }    // namespace
 
 void check_edge_number(std::size_t n, const std::string &source)
@@ -214,23 +292,12 @@ WeldedMesh weld(const TriangleSoup &soup, Real tolerance)
 
 WeldedMesh weld(const TriangleSoup &soup, Real tolerance, std::vector<int> &corner_vertex)
 {
-  const Real diagonal = checked_diagonal(soup);
-  WeldedMesh mesh;
-  mesh.source = soup.source;
-  mesh.report.facets = soup.n_triangles();
-  mesh.report.corners = soup.corners.size();
-  mesh.report.weld_tolerance = checked_tolerance(tolerance, diagonal, soup.source);
-
-  WeldedPoints welded = weld_points(soup.corners, mesh.report.weld_tolerance);
-  mesh.vertices = std::move(welded.points);
   std::vector<FacePlane> plane;
-  std::vector<Pair> bare_edges;
-  corner_vertex = std::move(welded.corner_point);
-  sort_facets(corner_vertex, mesh, plane, bare_edges);
-  build_edges(mesh, bare_edges);
+  WeldedMesh mesh = join(soup, tolerance, corner_vertex, plane);
   number_flat_edges_last(mesh, plane);
   build_vertex_edges(mesh);
   measure_mesh(mesh, plane);
+  check_collapsed(mesh, tolerance < 0);
   // They grew by doubling, and live as long as the wall.
   mesh.vertices.shrink_to_fit();
   mesh.faces.shrink_to_fit();
@@ -244,9 +311,14 @@ WeldedMesh assemble(std::vector<Vec3> vertices, const std::vector<int> &corners,
   WeldedMesh mesh;
   mesh.vertices = std::move(vertices);
   std::vector<FacePlane> plane;
-  sort_facets(corners, mesh, plane, bare_edges);
-  build_edges(mesh, bare_edges);
+  connect(corners, mesh, plane, std::move(bare_edges));
   return mesh;
+}
+
+WeldedMesh join_corners(const TriangleSoup &soup, Real tolerance, std::vector<int> &corner_vertex)
+{
+  std::vector<FacePlane> plane;
+  return join(soup, tolerance, corner_vertex, plane);
 }
 
 void number_edges(WeldedMesh &mesh, const std::vector<int> &number)

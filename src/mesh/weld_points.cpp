@@ -9,6 +9,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
+#include <numeric>
+#include <utility>
 
 namespace lsdcd {
 namespace {
@@ -142,18 +145,46 @@ WeldedPoints weld_points(const std::vector<Vec3> &corners, Real tolerance)
   if (moved.empty()) return exact;
 
   // All points are known now, so that the nearest does not depend on the order.
-  std::vector<int> target(points.size(), HashIndex::kNone);
-  for (const int p : moved) target[p] = grid.nearest(points[p]);
-  WeldedPoints out;
-  std::vector<int> renumbered(points.size());
-  for (std::size_t p = 0; p < points.size(); ++p) {
-    if (target[p] != HashIndex::kNone) continue;
-    renumbered[p] = static_cast<int>(out.points.size());
-    out.points.push_back(points[p]);
+  std::vector<int> onto(points.size());
+  std::iota(onto.begin(), onto.end(), 0);
+  for (const int p : moved) onto[p] = grid.nearest(points[p]);
+  return move_points(std::move(exact), onto);
+}
+
+WeldedPoints weld_copies(const std::vector<Vec3> &points, const std::vector<int> &first,
+                         Real tolerance)
+{
+  WeldedPoints all;
+  all.points = points;
+  all.corner_point.resize(points.size());
+  std::iota(all.corner_point.begin(), all.corner_point.end(), 0);
+  std::vector<int> onto = all.corner_point;
+  // Zero has no cells: equal points are within the smallest distance that there is between numbers.
+  PointGrid grid(points, std::max(tolerance, std::numeric_limits<Real>::min()));
+  for (std::size_t c = 0; c < first.size(); c++) {
+    const int begin = first[c];
+    const int end = c + 1 < first.size() ? first[c + 1] : static_cast<int>(points.size());
+    for (int p = begin; p < end; p++) {
+      const int nearest = grid.nearest(points[p]);
+      if (nearest != HashIndex::kNone) onto[p] = nearest;
+    }
+    for (int p = begin; p < end; p++)
+      if (onto[p] == p) grid.insert(p);
   }
-  for (const int p : moved) renumbered[p] = renumbered[target[p]];
-  out.corner_point = std::move(exact.corner_point);
-  for (int &point : out.corner_point) point = renumbered[point];
+  return move_points(std::move(all), onto);
+}
+
+WeldedPoints move_points(WeldedPoints from, const std::vector<int> &onto)
+{
+  WeldedPoints out;
+  std::vector<int> renumbered(from.points.size());
+  for (std::size_t p = 0; p < from.points.size(); ++p) {
+    if (onto[p] != static_cast<int>(p)) continue;
+    renumbered[p] = static_cast<int>(out.points.size());
+    out.points.push_back(from.points[p]);
+  }
+  out.corner_point = std::move(from.corner_point);
+  for (int &point : out.corner_point) point = renumbered[onto[point]];
   return out;
 }
 

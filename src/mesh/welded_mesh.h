@@ -34,9 +34,15 @@ struct MeshReport {
   bool closed = false;    // every edge that has faces has two of them
   // Closed, no misoriented edge, inverted facet, meeting pair or two-sided face.
   bool oriented = false;
-  Real weld_tolerance = 0;                // length
-  Real area = 0;                          // length^2
-  Real volume = 0;                        // length^3, signed; > 0 when normals point out
+  Real weld_tolerance = 0;             // length; by default kDefaultWeld of the largest part
+  std::size_t closed_cracks = 0;       // corners on open edges that the default moved to another,
+  Real widest_crack = 0;               // so far at most: length
+  std::size_t coarse_corners = 0;      // on open edges, where facets are as small as
+  Real coordinate_step = 0;            // two such steps of the file's coordinates: length
+  std::size_t collapsed_facets = 0;    // of the degenerate ones, those that welding made so,
+  Real collapsed_area = 0;             // with so much area before: length^2
+  Real area = 0;                       // length^2
+  Real volume = 0;                     // length^3, signed; > 0 when normals point out
   Vec3 lo = {0, 0, 0}, hi = {0, 0, 0};    // bounding box
   Real smallest_edge = 0, largest_edge = 0, median_edge = 0;
   Real smallest_height = 0;         // thinnest face: its area * 2 / longest edge
@@ -74,15 +80,19 @@ struct WeldedMesh {
   PeriodicImages images;
 };
 
-constexpr Real kDefaultWeld = 1e-6;    // of the bounding-box diagonal
+constexpr Real kDefaultWeld = 1e-6;      // of the diagonal of a part
+constexpr Real kMostCollapsed = 1e-6;    // of the area
 
-// Welds corners closer than `tolerance` (a length; < 0 means kDefaultWeld times
-// the bounding-box diagonal; 0 means exact equality), builds edges and adjacency.
-// Throws InputError when no proper face, edge or vertex is left.
+// Welds equal corners, and those closer than `tolerance` (a length); < 0: those that find_cracks() finds
+// (mesh/cracks.h). Builds edges and adjacency. Throws InputError when no proper face, edge or vertex is left, and when
+// facets collapse that have more than kMostCollapsed of the area.
 WeldedMesh weld(const TriangleSoup &soup, Real tolerance);
 
 // The facets with three vertices that welding has dropped because they lie on one line. They have an area once these move.
 std::vector<std::array<int, 3>> facets_without_area(const WeldedMesh &mesh);
+
+// What the log warns of, after the name of the mesh; empty: nothing.
+std::string weld_warning(const MeshReport &report);
 
 // The report as the block of lines that the log shows; no trailing newline.
 std::string describe(const MeshReport &report, const std::string &source);

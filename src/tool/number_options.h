@@ -39,7 +39,7 @@ inline Option add_scale_option(Command &command, std::vector<double> &scale,
 inline void add_weld_option(Command &command, double &weld)
 {
   command
-      .option("--weld", weld, "weld corners closer than this (default: 1e-6 of the box diagonal)")
+      .option("--weld", weld, "weld corners closer than this (default: cracks of 1e-6 of a part)")
       .check(not_below_zero);
 }
 

@@ -159,7 +159,7 @@ void add_repair_command(Command &program, int &exit_code)
   command
       .option("--weld", o->weld,
               "corners closer than this to each other, or to an open edge, are on it\n"
-              "(default: 1e-6 of the box diagonal)")
+              "(default: cracks of 1e-6 of a part)")
       .check(not_below_zero);
   command.flag("--open", o->open,
                "open edges are not an error: ends with 0 if nothing else is left");

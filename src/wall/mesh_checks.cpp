@@ -51,6 +51,12 @@ void check_pressure(const WallSpec &settings, const MeshPart &m)
           "both sides: wind all alike, for example by lsdcd repair"));
 }
 
+void check_weld(Host &host, const WallSpec &settings, const MeshPart &m)
+{
+  const std::string doubt = weld_warning(m.grid.report());
+  if (!doubt.empty()) host.warn(with_mesh_name(settings, m.index, doubt));
+}
+
 void check_plane(Host &host, const WallSpec &settings, const MeshPart &m)
 {
   if (host.box().dimension == 3) return;

@@ -15,6 +15,9 @@ void check_side(const WallSpec &settings, const MeshPart &m);
 // Throws InputError, the same on all processes, where a pressure would push faces to both sides.
 void check_pressure(const WallSpec &settings, const MeshPart &m);
 
+// Warns of cracks that welding leaves open.
+void check_weld(Host &host, const WallSpec &settings, const MeshPart &m);
+
 // In two dimensions spheres feel the mesh where it cuts the plane z = 0. Throws InputError where it
 // does not cut it, and where it has nodes or wear moves its vertices; warns of faces that lean there.
 // Collective.

@@ -43,6 +43,7 @@ void MeshGrid::read()
   run_collectively(host_, fills, [&] { soup.corners.resize(corners); });
   host_.broadcast(soup.corners.data(), corners * sizeof(Vec3), 0,
                   spec_.has_nodes ? Receivers::all : Receivers::that_fill_memory);
+  host_.broadcast(&soup.rounding, sizeof soup.rounding, 0);
   run_collectively(host_, fills, [&] {
     mesh_ = std::make_unique<WeldedMesh>(weld(soup, spec_.weld));
     check_has_area(*mesh_);

@@ -68,6 +68,7 @@ Wall::Wall(Host &host, WallSpec spec, const WallUnits &units, WallBackend backen
     }
     if (spec_.recedes(m.spec))
       m.wear = std::make_unique<MeshWear>(host_, spec_, m.index, m.grid.report(), m.grid.mesh());
+    check_weld(host_, spec_, m);
     check_side(spec_, m);
     check_pressure(spec_, m);
     check_plane(host_, spec_, m);

@@ -42,7 +42,7 @@ struct MeshSpec {
   std::string file;
   std::shared_ptr<const WeldedMesh> mesh;    // null: that of the file
   Placement placement;    // from the frame of the file, or of the mesh, to the box
-  Real weld = -1;         // length; < 0: kDefaultWeld of the diagonal
+  Real weld = -1;         // length; < 0: cracks (mesh/cracks.h)
 
   // In place of the wall's: of the rows with a type the last one. Empty: the wall's.
   std::vector<LawOfTypes> laws;

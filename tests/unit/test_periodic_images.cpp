@@ -302,6 +302,17 @@ TEST(periodic_images, loads_of_an_image_are_those_of_the_mesh)
   EXPECT_EQ(sum, 1.5);
 }
 
+// A closed foil through the periodic faces, thinner than a millionth of its diagonal.
+TEST(periodic_images, keep_a_thin_foil_open)
+{
+  const WeldedMesh foil = weld(box_mesh({0, 0.3, 0.5}, {1, 0.7, 0.5 + 4e-7}), -1);
+  const WeldedMesh whole = with_images(foil, box_of({1, 1, 1}), 0.1);
+  EXPECT_EQ(whole.images.n_vertices, 8u);
+  EXPECT_GT(whole.faces.size(), foil.faces.size());
+  for (std::size_t v = 0; v < 8; v++) EXPECT_EQ(whole.vertices[v], foil.vertices[v]);
+  for (std::size_t f = 0; f < foil.faces.size(); f++) EXPECT_EQ(whole.faces[f], foil.faces[f]);
+}
+
 TEST(loose_ends, a_gap_across_the_face_is_found_and_measured)
 {
   TriangleSoup belt = square(4, 1);

@@ -5,6 +5,8 @@
 #include "mesh/assemble.h"
 #include "mesh/fingerprint.h"
 #include "mesh/measure_mesh.h"
+#include "mesh/placement.h"
+#include "mesh/weld_points.h"
 #include "mesh/welded_mesh.h"
 
 #include <gtest/gtest.h>
@@ -525,6 +527,124 @@ TEST(weld, edge_lengths_and_height_of_a_3_4_5_triangle)
   EXPECT_DOUBLE_EQ(report.smallest_height, 2.4);
 }
 
+// A plate of n by m squares of half a metre, from `at` on.
+Triangles plate(int n, int m, const Vec3 &at)
+{
+  Triangles out;
+  const auto place = [&](int i, int j) { return at + Vec3{0.5 * i, 0.5 * j, 0}; };
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j < m; ++j) {
+      out.push_back({place(i, j), place(i + 1, j), place(i + 1, j + 1)});
+      out.push_back({place(i, j), place(i + 1, j + 1), place(i, j + 1)});
+    }
+  return out;
+}
+
+const Vec3 kFarAway = {450000, 5420000, 300};
+
+// The weld of all would be 5 m.
+TEST(weld, a_triangle_far_away_takes_nothing_from_a_plate)
+{
+  const Triangles marked = joined(plate(40, 8, kFarAway), {{kA, kB, kC}});
+  const auto report = weld(marked).report;
+  EXPECT_EQ(report.degenerate_facets, 0u);
+  EXPECT_DOUBLE_EQ(report.area, 80.5);
+  EXPECT_DOUBLE_EQ(report.weld_tolerance, 1e-6 * std::sqrt(416.));
+}
+
+// 1e-4 wide between plates of 1 m: a part has a weld of 2e-6, and all together of 0.1.
+TEST(weld, a_triangle_far_away_closes_no_slit)
+{
+  const Triangles plates = joined(plate(2, 2, kA), plate(2, 2, {1 + 1e-4, 0, 0}));
+  EXPECT_EQ(weld(joined(plates, {{Vec3{1e5, 0, 0}, {1e5, 1, 0}, {1e5, 0, 1}}})).vertices.size(),
+            21u);
+}
+
+TEST(weld, a_closed_foil_thinner_than_a_millionth_of_its_diagonal_stays_closed)
+{
+  const auto report = weld(box({-1, -0.7, -5e-7}, {1, 0.7, 5e-7})).report;
+  EXPECT_EQ(report.vertices, 8u);
+  EXPECT_TRUE(report.oriented);
+  EXPECT_NEAR(report.volume, 2.8e-6, 1e-15);    // coordinates of 1 round by 1e-16
+}
+
+// Each facet of a plate of 1 m, as floats where these have steps of 7.6e-6, has corners that are off by one step.
+Triangles cracked_plate()
+{
+  std::mt19937 random(4);
+  std::uniform_int_distribution<int> side(0, 1);
+  Triangles cracked = plate(2, 2, {100.3, 100.3, 100.3});
+  for (auto &t : cracked)
+    for (auto &c : t)
+      for (int i = 0; i < 3; ++i) {
+        const float x = static_cast<float>(c[i]);
+        c[i] = side(random) ? x : std::nextafter(x, 200.f);
+      }
+  return cracked;
+}
+
+TEST(weld, cracks_as_wide_as_the_steps_of_floats_close)
+{
+  EXPECT_EQ(weld(cracked_plate()).vertices.size(), 9u);
+}
+
+// Placed corners are no floats any more.
+TEST(weld, cracks_as_wide_as_the_steps_of_floats_close_where_the_mesh_is_placed)
+{
+  TriangleSoup soup = soup_of(cracked_plate());
+  Placement placement;
+  placement.move({-100.3, -100.3, -100.3});
+  placement.scale({0.001, 0.001, 0.001});
+  placement.rotate({1, 2, 3}, 40);
+  placement.apply(soup);
+  EXPECT_EQ(lsdcd::weld(soup, -1).vertices.size(), 9u);
+}
+
+// Off by 4e-7 of the plate at most, where a facet alone would have a weld of 2e-8 of it.
+TEST(weld, a_fine_mesh_that_is_cracked_everywhere_closes)
+{
+  const int n = 60;
+  std::mt19937 random(9);
+  std::uniform_real_distribution<Real> jitter(-5e-6, 5e-6);
+  Triangles cracked = plate(n, n, kA);
+  for (auto &t : cracked)
+    for (auto &c : t) c += Vec3{jitter(random), jitter(random), jitter(random)};
+  const auto report = weld(cracked).report;
+  EXPECT_EQ(report.vertices, std::size_t(n + 1) * (n + 1));
+  EXPECT_EQ(report.open_edges, 4u * n);
+  EXPECT_EQ(report.degenerate_facets, 0u);
+}
+
+// An edge of 1e-6 between two facets of 2 m, and their seam is off by 2e-7 there.
+TEST(weld, an_edge_shorter_than_a_millionth_of_the_mesh_stays)
+{
+  const Real s = 1e-6, off = 2e-7;
+  const Triangles seam = {
+      {kA, Vec3{s, 0, 0}, kD}, {kA, kD, {0, -2, 0}}, {Vec3{s, off, 0}, Vec3{0, off, 0}, kC}};
+  const auto mesh = weld(seam);
+  EXPECT_EQ(mesh.vertices.size(), 5u);
+  EXPECT_EQ(mesh.report.open_edges, 5u);
+  EXPECT_EQ(mesh.report.closed_cracks, 2u);
+  EXPECT_DOUBLE_EQ(mesh.report.widest_crack, off);
+}
+
+// Floats have steps of 0.5 m there.
+TEST(weld, facets_as_small_as_the_steps_of_floats_stay_and_are_named)
+{
+  const auto report = weld(plate(40, 8, kFarAway)).report;
+  EXPECT_DOUBLE_EQ(report.area, 80);
+  EXPECT_EQ(report.coarse_corners, 96u);
+  EXPECT_NE(weld_warning(report).find("96 corners on open edges"), std::string::npos);
+  EXPECT_EQ(weld_warning(weld(kCube).report), "");
+}
+
+TEST(weld, points_of_one_copy_stay_apart)
+{
+  const std::vector<Vec3> points = {{0, 0, 0},      {0, 0, 1e-7},  {1, 0, 0},
+                                    {0, 0, 1.1e-7}, {0, 0, -1e-9}, {5, 0, 0}};
+  EXPECT_EQ(weld_copies(points, {0, 3}, 1e-6).corner_point, (std::vector<int>{0, 1, 2, 1, 0, 3}));
+}
+
 std::string error_of(const Triangles &triangles, Real tolerance = -1)
 {
   try {
@@ -544,6 +664,26 @@ TEST(weld, a_tolerance_that_swallows_the_mesh_is_refused)
 {
   EXPECT_NE(error_of(kCube, 2).find("weld tolerance of 2"), std::string::npos);
   EXPECT_NE(error_of(kCube, NAN), "accepted");
+}
+
+TEST(weld, a_tolerance_that_takes_away_a_part_of_the_area_is_refused)
+{
+  const std::string error = error_of(plate(40, 8, kA), 0.6);
+  EXPECT_NE(error.find("takes away"), std::string::npos) << error;
+  EXPECT_NE(error.find("of 640 facets"), std::string::npos) << error;
+}
+
+// A sliver of 1e-7 by 1 in a cube of 6.
+TEST(weld, a_sliver_that_a_tolerance_takes_away_is_told)
+{
+  Triangles cube = kCube;
+  const Vec3 beside = {1e-7, 0, 0};
+  cube.push_back({kA, beside, kD});
+  const auto report = weld(cube, 1e-6).report;
+  EXPECT_EQ(report.collapsed_facets, 1u);
+  EXPECT_DOUBLE_EQ(report.collapsed_area, 5e-8);
+  EXPECT_NE(describe(report, "").find("collapsed   1 facet of the degenerate ones"),
+            std::string::npos);
 }
 
 TEST(weld, a_coordinate_out_of_range_names_the_facet)

@@ -95,8 +95,8 @@ class MeshArrays(_Record):
 
 class Mesh(_Owner):
     """From a file (STL, OBJ, PLY or OFF); from triangles, (n, 3, 3); or from vertices,
-    (m, 3), and faces, (n, 3), whole numbers from 0. Corners closer than `weld`, a length, become one; < 0: 1e-6 of
-    the diagonal. Raises ValueError for another shape and a vertex that there is not, TypeError for faces that are not
+    (m, 3), and faces, (n, 3), whole numbers from 0. Corners closer than `weld`, a length, become one; < 0: equal
+    ones, and those on open edges within 1e-6 of the part that edges connect. Raises ValueError for another shape and a vertex that there is not, TypeError for faces that are not
     whole numbers, Error, a ValueError, too, for a file that cannot be read. Any number of threads may share it."""
     _free = _lib.lsdcd_mesh_free
 
