@@ -8,13 +8,24 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <vector>
 
 namespace lsdcd {
 
-// A floor may be far larger than a box along two axes, but no useful wall is along all three. For a
-// mesh that is flat along an axis the other two have to distinguish millimetres from metres.
-Real likely_scale(const Vec3 &mesh, const Vec3 &box)
+namespace {
+
+struct Unit {
+  Real factor;    // to metres
+  const char *name;
+};
+
+// Units with which a mesh that is many times too large would have about the size of the box, the likeliest first: inches
+// are rare. At least one.
+std::vector<Unit> likely_units(const Vec3 &mesh, const Vec3 &box)
 {
+  // A floor may be far larger than a box along two axes, but no useful wall is along all three. For a
+  // mesh that is flat along an axis the other two have to distinguish millimetres from metres.
   constexpr Real kTooLarge = 20, kFlatTooLarge = 300, kFlat = 1e-6;
   Real least = HUGE_VAL, limit = kTooLarge;
   for (int k = 0; k < 3; k++)
@@ -22,13 +33,28 @@ Real likely_scale(const Vec3 &mesh, const Vec3 &box)
       least = std::min(least, mesh[k] / box[k]);
     else
       limit = kFlatTooLarge;
-  if (!(least > limit)) return 1;
+  if (!(least > limit)) return {};
+  constexpr Real kSmall = 0.1, kLarge = 1.2;    // of the box
+  const Unit units[] = {
+      {1e-2, "centimetres"}, {1e-3, "millimetres"}, {1e-6, "micrometres"}, {0.0254, "inches"}};
   const Real ratio = norm(mesh) / norm(box);
-  Real best = 1;
-  // Micrometres, millimetres, centimetres, inches and feet to metres.
-  for (Real factor : {1e-6, 1e-3, 1e-2, 0.0254, 0.3048})
-    if (std::fabs(std::log(ratio * factor)) < std::fabs(std::log(ratio * best))) best = factor;
-  return best;
+  const auto miss = [&](const Unit &u) { return std::fabs(std::log(ratio * u.factor)); };
+  std::vector<Unit> likely;
+  for (const Unit &u : units)
+    if (ratio * u.factor >= kSmall && ratio * u.factor <= kLarge) likely.push_back(u);
+  if (likely.empty())
+    likely.push_back(
+        *std::min_element(std::begin(units), std::end(units),
+                          [&](const Unit &a, const Unit &b) { return miss(a) < miss(b); }));
+  return likely;
+}
+
+}    // namespace
+
+Real likely_scale(const Vec3 &mesh, const Vec3 &box)
+{
+  const std::vector<Unit> likely = likely_units(mesh, box);
+  return likely.empty() ? 1 : likely[0].factor;
 }
 
 std::string likely_scale_text(const Vec3 &mesh, const PeriodicBox &box)
@@ -40,9 +66,11 @@ std::string likely_scale_text(const Vec3 &mesh, const PeriodicBox &box)
     extents.z = extents.x;
     room.z = room.x;
   }
-  const Real factor = likely_scale(extents, room);
-  return factor < 1 ? "; the file is probably in other units: add scale " + number_text(factor)
-                    : "";
+  std::string text;
+  for (const Unit &u : likely_units(extents, room))
+    text += (text.empty() ? "; the file is probably in other units: add scale " : ", or ") +
+            number_text(u.factor) + " if they are " + u.name;
+  return text;
 }
 
 std::string too_large_text(const Vec3 &mesh, const Box &spans, const PeriodicBox &box)

@@ -11,11 +11,11 @@
 namespace lsdcd {
 
 // `mesh` and `box` are extents (length). The result is 1 unless the mesh is many times larger than the
-// box along every axis in which it has an extent. Then it is the factor between two common units of
-// length that makes the extents similar.
+// box along every axis in which it has an extent. Then it is the factor from a unit of the metric system to metres with
+// which the mesh fits into the box; from inches where nothing else fits.
 Real likely_scale(const Vec3 &mesh, const Vec3 &box);
 
-// The end of a message, "; the file is probably in other units: add scale 0.001". Empty where the scale
+// The end of a message, "; the file is probably in other units: add scale 0.001 if they are millimetres". Empty where the scale
 // is likely right, and where a box that follows its spheres says nothing of it. `mesh`: extents.
 std::string likely_scale_text(const Vec3 &mesh, const PeriodicBox &box);
 

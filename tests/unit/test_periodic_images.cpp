@@ -342,6 +342,28 @@ TEST(likely_scale, millimetres_in_a_box_of_metres)
   EXPECT_EQ(likely_scale({100, 80, 120}, {0.12, 0.12, 0.12}), 1e-3);
 }
 
+TEST(likely_scale, centimetres_in_a_box_of_metres)
+{
+  PeriodicBox box = box_of({0.2, 0.2, 0.32});
+  EXPECT_EQ(likely_scale({10, 10, 20}, {0.2, 0.2, 0.32}), 1e-2);
+  EXPECT_EQ(likely_scale_text({10, 10, 20}, box),
+            "; the file is probably in other units: add scale 0.01 if they are centimetres");
+}
+
+// A mesh of 8 to 12 inches, or of centimetres, for a box of 30 cm.
+TEST(likely_scale, names_inches_where_both_may_be)
+{
+  EXPECT_EQ(likely_scale_text({8, 8, 12}, box_of({0.3, 0.3, 0.3})),
+            "; the file is probably in other units: add scale 0.01 if they are centimetres, or "
+            "0.0254 if they are inches");
+}
+
+TEST(likely_scale, is_never_without_a_unit_where_a_mesh_is_far_too_large)
+{
+  for (Real size = 25; size < 1e9; size *= 1.7)
+    EXPECT_LT(likely_scale({size, size, size}, {1, 1, 1}), 1) << size;
+}
+
 TEST(likely_scale, a_flat_floor_in_millimetres_in_a_box_of_metres)
 {
   EXPECT_EQ(likely_scale({80, 80, 0}, {0.1, 0.1, 0.06}), 1e-3);
