@@ -47,14 +47,23 @@ std::string coarse(const MeshReport &report)
 std::string surface(const MeshReport &report)
 {
   const std::string both = two_sided(report);
-  if (!report.closed) return both.empty() ? "open" : "open; " + both;
+  if (!report.closed) {
+    const std::string open = report.open_edges > 0
+                                 ? "open"
+                                 : "not closed: edges with three facets or another odd number";
+    return both.empty() ? open : open + "; " + both;
+  }
   if (!both.empty()) return "closed, but " + both;
   if (report.meeting_pairs > 0)
     return "closed, but cuts or touches itself: " +
            counted(report.meeting_pairs, "pair of facets", "pairs of facets");
   if (report.inverted_facets > 0) return "closed, normals of some shells point in, of others out";
   if (!report.oriented) return "closed, not all facets face the same side";
-  return report.volume > 0 ? "closed, normals point out" : "closed, normals point in";
+  const std::string touching =
+      report.nonmanifold_edges == 0
+          ? ""
+          : "; solids touch along " + counted(report.nonmanifold_edges, "edge", "edges");
+  return (report.volume > 0 ? "closed, normals point out" : "closed, normals point in") + touching;
 }
 
 }    // namespace

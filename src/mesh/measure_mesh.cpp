@@ -53,10 +53,15 @@ void measure_faces(WeldedMesh &mesh, const std::vector<FacePlane> &plane)
 void measure_adjacency(WeldedMesh &mesh, const std::vector<FacePlane> &plane)
 {
   MeshReport &report = mesh.report;
+  bool even = true;
   for (int e = 0; e < static_cast<int>(mesh.edges.size()); ++e) {
     const int n_faces = mesh.edge_first[e + 1] - mesh.edge_first[e];
     if (n_faces == 1) ++report.open_edges;
-    if (n_faces > 2) ++report.nonmanifold_edges;
+    if (n_faces > 2) {
+      ++report.nonmanifold_edges;
+      if (n_faces % 2 == 0 && !runs_balance(mesh, e)) ++report.misoriented_edges;
+    }
+    even = even && n_faces % 2 == 0;
     if (n_faces != 2) continue;
     const int f = mesh.edge_face[mesh.edge_first[e]], g = mesh.edge_face[mesh.edge_first[e] + 1];
     const bool misoriented = runs_along(mesh, f, e) == runs_along(mesh, g, e);
@@ -67,7 +72,7 @@ void measure_adjacency(WeldedMesh &mesh, const std::vector<FacePlane> &plane)
     report.largest_fold = std::max(report.largest_fold, fold);
     if (fold > kFeatureFold) ++report.feature_edges;
   }
-  report.closed = !mesh.faces.empty() && report.open_edges == 0 && report.nonmanifold_edges == 0;
+  report.closed = !mesh.faces.empty() && even;
   if (!report.closed || report.misoriented_edges > 0) return;
   const ShellFaults faults = faults_of_shells(mesh);
   report.inverted_facets = faults.inverted_faces;
@@ -94,6 +99,14 @@ bool runs_along(const WeldedMesh &mesh, int face, int edge)
   int k = 0;
   while (mesh.face_edges[face][k] != edge) ++k;
   return mesh.faces[face][k] == mesh.edges[edge][0];
+}
+
+bool runs_balance(const WeldedMesh &mesh, int edge)
+{
+  int sum = 0;
+  for (int i = mesh.edge_first[edge]; i < mesh.edge_first[edge + 1]; i++)
+    sum += runs_along(mesh, mesh.edge_face[i], edge) ? 1 : -1;
+  return sum == 0;
 }
 
 void note_meetings(WeldedMesh &mesh, const SelfMeetings &meetings)

@@ -25,6 +25,9 @@ void set_bounds(WeldedMesh &mesh);
 // Does the face run along the edge from its lower to its higher vertex?
 bool runs_along(const WeldedMesh &mesh, int face, int edge);
 
+// Do as many of the faces at an edge run along it as against it?
+bool runs_balance(const WeldedMesh &mesh, int edge);
+
 // Notes in the report that these facets meet. A mesh with such facets is not oriented.
 void note_meetings(WeldedMesh &mesh, const SelfMeetings &meetings);
 

@@ -20,7 +20,7 @@ struct Part {
   std::vector<int> faces;
   Box box;
   Real area = 0, turned_area = 0, volume = 0;    // volume: as it is turned, in units of the box
-  bool closed = true, one_sided = false;
+  bool closed = false, one_sided = false;
 
   bool is_shell() const { return closed && !one_sided; }
 };
@@ -37,21 +37,73 @@ bool holds(const Box &outer, const Box &inner)
   return true;
 }
 
+constexpr int kNone = -1;
+
+// Of the faces at an edge, the next one when `face` turns about the edge towards its back.
+int next_behind(const WeldedMesh &mesh, int edge, int face)
+{
+  const Vec3 &at = mesh.vertices[mesh.edges[edge][0]];
+  const auto corner = [&](int f, int k) -> const Vec3 & { return mesh.vertices[mesh.faces[f][k]]; };
+  // The corner across the edge, from one of its ends; what that has along the edge does not count below.
+  const auto across = [&](int f) {
+    int k = 0;
+    while (mesh.face_edges[f][k] != edge) ++k;
+    return corner(f, (k + 2) % 3) - at;
+  };
+  const Vec3 along = mesh.vertices[mesh.edges[edge][1]] - at, axis = (1 / norm(along)) * along;
+  const Vec3 behind = -face_plane(corner(face, 0), corner(face, 1), corner(face, 2)).normal;
+  // Into the face, square to the edge.
+  const Vec3 side = cross(axis, behind), into = dot(side, across(face)) < 0 ? -side : side;
+  int next = kNone;
+  Real least = 3 * kPi;
+  for (int i = mesh.edge_first[edge]; i < mesh.edge_first[edge + 1]; i++) {
+    const int f = mesh.edge_face[i];
+    if (f == face) continue;
+    Real angle = std::atan2(dot(across(f), behind), dot(across(f), into));
+    if (angle <= 0) angle += 2 * kPi;
+    if (angle >= least) continue;
+    least = angle;
+    next = f;
+  }
+  return next;
+}
+
+// The face with which a face goes on at an edge; kNone: that is not clear. Where solids touch along an edge it is the one
+// across the solid behind it.
+int neighbour(const WeldedMesh &mesh, int edge, int face)
+{
+  const int begin = mesh.edge_first[edge], n = mesh.edge_first[edge + 1] - begin;
+  if (n == 2)
+    return mesh.edge_face[begin] == face ? mesh.edge_face[begin + 1] : mesh.edge_face[begin];
+  if (n % 2 == 1) return kNone;
+  const int other = next_behind(mesh, edge, face);
+  return next_behind(mesh, edge, other) == face ? other : kNone;
+}
+
+// Is each of these there an even number of times?
+bool come_in_pairs(std::vector<int> edges)
+{
+  std::sort(edges.begin(), edges.end());
+  for (std::size_t i = 0; i < edges.size(); i += 2)
+    if (i + 1 == edges.size() || edges[i] != edges[i + 1]) return false;
+  return true;
+}
+
 // The part that a face belongs to, turned as that face is.
 Part gather(const WeldedMesh &mesh, int first, std::vector<char> &seen, std::vector<char> &turned)
 {
   Part part;
   part.faces = {first};
   seen[first] = 1;
+  std::vector<int> ends;    // where it is not clear how it goes on
   for (std::size_t i = 0; i < part.faces.size(); i++) {
     const int f = part.faces[i];
     for (const int e : mesh.face_edges[f]) {
-      const int begin = mesh.edge_first[e];
-      if (mesh.edge_first[e + 1] - begin != 2) {
-        part.closed = false;
+      const int g = neighbour(mesh, e, f);
+      if (g == kNone) {
+        ends.push_back(e);
         continue;
       }
-      const int g = mesh.edge_face[begin] == f ? mesh.edge_face[begin + 1] : mesh.edge_face[begin];
       const char wanted = turned[f] != (runs_along(mesh, f, e) == runs_along(mesh, g, e));
       if (!seen[g]) {
         seen[g] = 1;
@@ -62,6 +114,7 @@ Part gather(const WeldedMesh &mesh, int first, std::vector<char> &seen, std::vec
       }
     }
   }
+  part.closed = come_in_pairs(std::move(ends));
   return part;
 }
 

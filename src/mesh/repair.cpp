@@ -104,7 +104,7 @@ void name_what_is_left(const WeldedMesh &mesh, RepairReport &report)
       together.join(mesh.edges[e][0], mesh.edges[e][1]);
       ends.push_back(mesh.edges[e][0]);
     }
-    if (n > 2) count(many, e);
+    if (n > 2 && (n % 2 == 1 || !runs_balance(mesh, static_cast<int>(e)))) count(many, e);
     if (n == 2 && runs_along(mesh, mesh.edge_face[first], e) ==
                       runs_along(mesh, mesh.edge_face[first + 1], e))
       count(against, e);

@@ -26,12 +26,12 @@ struct MeshReport {
   std::size_t edges = 0;
   std::size_t open_edges = 0;           // one face
   std::size_t nonmanifold_edges = 0;    // more than two faces
-  std::size_t misoriented_edges = 0;    // two faces that run along it the same way
+  std::size_t misoriented_edges = 0;    // along which windings disagree
   std::size_t inverted_facets = 0;      // of closed shells that point in while others point out
   // Pairs of facets that cut, overlap or touch each other: of different closed shells, or, after
   // note_meetings(), of any.
   std::size_t meeting_pairs = 0;
-  bool closed = false;    // every edge that has faces has two of them
+  bool closed = false;    // every edge has an even number of faces, most have two
   // Closed, no misoriented edge, inverted facet, meeting pair or two-sided face.
   bool oriented = false;
   Real weld_tolerance = 0;             // length; by default kDefaultWeld of the largest part

@@ -55,7 +55,10 @@ std::vector<std::string> problems_of(const MeshReport &report)
   count(report.degenerate_facets, "degenerate facet", "degenerate facets");
   count(report.duplicate_facets, "duplicate facet", "duplicate facets");
   count(report.two_sided_faces, "facet in both windings", "facets in both windings");
-  count(report.nonmanifold_edges, "edge of more than two facets", "edges of more than two facets");
+  // Where solids touch along edges these have more than two facets, and that is no problem.
+  if (!report.closed || report.misoriented_edges > 0)
+    count(report.nonmanifold_edges, "edge of more than two facets",
+          "edges of more than two facets");
   count(report.misoriented_edges, "edge along which windings disagree",
         "edges along which windings disagree");
   count(report.inverted_facets, "facet of a closed shell wound against the others",

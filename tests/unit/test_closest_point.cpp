@@ -502,5 +502,55 @@ TEST(wall_features, sides_point_out_of_a_box)
   }
 }
 
+// Wedges along z from angle `from` to angle `to`, with their edge on the axis.
+void add_wedge(TriangleSoup &soup, Real from, Real to)
+{
+  const auto place = [](Real angle, Real z) {
+    return Vec3{2 * std::cos(angle), 2 * std::sin(angle), z};
+  };
+  const Vec3 a = {0, 0, 0}, b = place(from, 0), c = place(to, 0), d = {0, 0, 1}, e = place(from, 1),
+             f = place(to, 1);
+  for (const auto &t : {std::array<Vec3, 3>{a, c, b},
+                        {d, e, f},
+                        {a, b, e},
+                        {a, e, d},
+                        {b, c, f},
+                        {b, f, e},
+                        {c, a, d},
+                        {c, d, f}})
+    soup.corners.insert(soup.corners.end(), t.begin(), t.end());
+}
+
+// Where the edge is what is nearest, a point is outside of both.
+TEST(wall_features, sides_point_out_at_an_edge_along_which_two_solids_touch)
+{
+  Random random(5);
+  const auto uniform = [&](Real lo, Real hi) {
+    return std::uniform_real_distribution<Real>(lo, hi)(random);
+  };
+  int directions = 0;
+  for (int i = 0; i < 200; i++) {
+    const Real first = uniform(0.2, 2.9), second = uniform(0.2, 2.9);
+    const Real gap = uniform(0.05, 2 * kPi - first - second);
+    if (first + second + gap > 2 * kPi - 0.05) continue;
+    const Real bounds[4] = {0, first, first + gap, first + gap + second};
+    TriangleSoup soup;
+    add_wedge(soup, bounds[0], bounds[1]);
+    add_wedge(soup, bounds[2], bounds[3]);
+    const Wall wall(soup.corners, true);
+    std::size_t shared = 0;
+    while (wall.mesh.edge_first[shared + 1] - wall.mesh.edge_first[shared] != 4) shared++;
+    for (Real angle = 0.01; angle < 2 * kPi; angle += 0.05) {
+      const Vec3 direction = {std::cos(angle), std::sin(angle), 0};
+      bool is_nearest = true;    // the edge, of all the wall
+      for (const Real b : bounds) is_nearest = is_nearest && std::cos(angle - b) < 0;
+      if (!is_nearest) continue;
+      EXPECT_GT(dot(wall.features.edge_out[shared], direction), 0) << angle;
+      directions++;
+    }
+  }
+  EXPECT_GT(directions, 200);
+}
+
 }    // namespace
 }    // namespace lsdcd::test_closest_point

@@ -645,6 +645,65 @@ TEST(weld, points_of_one_copy_stay_apart)
   EXPECT_EQ(weld_copies(points, {0, 3}, 1e-6).corner_point, (std::vector<int>{0, 1, 2, 1, 0, 3}));
 }
 
+TEST(weld, two_cubes_that_touch_along_an_edge_are_closed)
+{
+  const Triangles two = joined(kCube, box({1, 1, 0}, {2, 2, 1}));
+  const auto report = weld(two).report;
+  EXPECT_EQ(report.nonmanifold_edges, 1u);
+  EXPECT_TRUE(report.closed);
+  EXPECT_TRUE(report.oriented);
+  EXPECT_DOUBLE_EQ(report.volume, 2);
+  EXPECT_NE(describe(report, "").find("closed, normals point out; solids touch along 1 edge"),
+            std::string::npos);
+}
+
+// Each cube of a chessboard touches others along all of its edges, so that no two faces of a cube share an edge alone.
+TEST(weld, cubes_that_touch_along_all_their_edges_are_closed)
+{
+  Triangles board;
+  for (int i = 0; i < 4; ++i)
+    for (int j = 0; j < 4; ++j)
+      for (int k = 0; k < 4; ++k)
+        if ((i + j + k) % 2 == 0)
+          board = joined(board, box({1. * i, 1. * j, 1. * k}, {i + 1., j + 1., k + 1.}));
+  const auto report = weld(board).report;
+  EXPECT_TRUE(report.oriented);
+  EXPECT_DOUBLE_EQ(report.volume, 32);
+}
+
+TEST(weld, of_two_cubes_that_touch_one_is_wound_against_the_other)
+{
+  const auto report = weld(joined(kCube, turned(box({1, 1, 0}, {2, 2, 1})))).report;
+  EXPECT_TRUE(report.closed);
+  EXPECT_EQ(report.inverted_facets, 12u);
+  EXPECT_FALSE(report.oriented);
+}
+
+// The inner prism has an edge of the outer one, and slanted ends.
+TEST(weld, solids_that_share_an_edge_and_overlap_have_no_sides)
+{
+  const auto prism = [](const Vec3 &p, const Vec3 &q, Real lower) {
+    const Vec3 up = {0, 0, 1}, a = kA, b = p + Vec3{0, 0, lower}, c = q + Vec3{0, 0, lower}, d = up,
+               e = p + Vec3{0, 0, 1 - lower}, f = q + Vec3{0, 0, 1 - lower};
+    return Triangles{{a, c, b}, {d, e, f}, {a, b, e}, {a, e, d},
+                     {b, c, f}, {b, f, e}, {c, a, d}, {c, d, f}};
+  };
+  const Triangles outer = prism({4, -3, 0}, {4, 3, 0}, 0),
+                  inner = prism({1, -0.5, 0}, {1, 0.5, 0}, 0.2);
+  EXPECT_TRUE(weld(outer).report.oriented);
+  EXPECT_TRUE(weld(inner).report.oriented);
+  EXPECT_FALSE(weld(joined(outer, inner)).report.oriented);
+}
+
+TEST(weld, three_facets_at_an_edge_are_not_closed)
+{
+  const Triangles with_wall = joined(kCube, {{kA, {1, 1, 0}, {1, 1, 1}}, {kA, {1, 1, 1}, kD}});
+  const auto report = weld(with_wall).report;
+  EXPECT_EQ(report.open_edges, 0u);
+  EXPECT_FALSE(report.closed);
+  EXPECT_NE(describe(report, "").find("surface     not closed"), std::string::npos);
+}
+
 std::string error_of(const Triangles &triangles, Real tolerance = -1)
 {
   try {
