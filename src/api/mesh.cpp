@@ -62,6 +62,7 @@ TriangleSoup soup_of(const T *vertices, std::size_t n_vertices, const std::uint3
   check_number(n, "n_faces");
   TriangleSoup soup;
   soup.source = "from faces";
+  soup.rounding.step = std::numeric_limits<T>::epsilon();
   soup.corners.reserve(3 * n);
   for (std::size_t k = 0; k < 3 * n; k++) {
     const std::size_t v = faces[k];

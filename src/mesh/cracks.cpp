@@ -67,7 +67,8 @@ class Cells {
   explicit Cells(const Box &box) : lo_(box.lo)
   {
     const Vec3 size = box.hi - box.lo;
-    least_ = std::ilogb(std::max({size.x, size.y, size.z})) - 50;    // numbers are exact integers
+    const Real extent = std::max({size.x, size.y, size.z});
+    if (extent > 0) least_ = std::ilogb(extent) - 50;    // so that numbers are exact integers
   }
 
   // The width of cells that are some `reach` wide.
@@ -98,8 +99,9 @@ class Cells {
   }
   int number(const Cell &cell, bool add)
   {
+    constexpr auto kWidth = std::int64_t(1) << 52;    // beyond the numbers of cells
     const std::uint64_t hash =
-        hash_three(cell.i, cell.j, cell.k ^ (std::int64_t(cell.width) << 52));
+        hash_three(cell.i, cell.j, cell.k ^ std::int64_t(cell.width) * kWidth);
     const auto is_same = [&](int c) { return cells_[c] == cell; };
     if (!add) return table_.find(hash, is_same);
     const int fresh = static_cast<int>(cells_.size());
@@ -109,7 +111,7 @@ class Cells {
   }
 
   Vec3 lo_;
-  int least_;
+  int least_ = std::numeric_limits<Real>::min_exponent;
   HashIndex table_;
   std::vector<Cell> cells_;
 };

@@ -131,7 +131,6 @@ Vec3 Placement::apply(const Vec3 &x) const
 void Placement::apply(TriangleSoup &soup) const
 {
   if (is_identity()) return;
-  soup.rounding = known_rounding(soup);    // placed corners no longer show it
   soup.rounding.origin = apply(soup.rounding.origin);
   for (std::size_t i = 0; i < soup.corners.size(); ++i) {
     const Vec3 placed = apply(soup.corners[i]);

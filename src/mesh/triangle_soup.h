@@ -14,7 +14,7 @@ namespace lsdcd {
 
 // How coarse the numbers are that a file has for its corners.
 struct FileRounding {
-  // Between neighbouring numbers, over their size: 2^-23 if all are floats, else 2^-52. 0: not known yet.
+  // Between neighbouring numbers, over their size: 2^-23 of a file of floats. 0: that of Real.
   Real step = 0;
   Vec3 origin = {0, 0, 0};    // where 0 0 0 of the file is
 
@@ -33,7 +33,7 @@ struct TriangleSoup {
   std::size_t n_triangles() const { return corners.size() / 3; }
 };
 
-// Returns the rounding; where it is not known yet, of corners that are as in the file.
+// Returns the rounding of its file, where a step of 0 has become that of Real.
 FileRounding known_rounding(const TriangleSoup &soup);
 
 // Reads an STL file, ASCII or binary, distinguished by structure (a binary header

@@ -15,6 +15,7 @@
 #include <cstdint>
 #include <cstring>
 #include <filesystem>
+#include <limits>
 #include <thread>
 
 namespace lsdcd::test_read_stl {
@@ -194,6 +195,7 @@ TEST(read_stl, binary_corners_are_the_floats_of_the_file)
   ASSERT_EQ(soup.corners.size(), 3u);
   EXPECT_EQ(soup.corners[0], (Vec3{0.1f, -2, 3e30f}));
   EXPECT_EQ(soup.corners[2], (Vec3{7, 8, 9}));
+  EXPECT_EQ(known_rounding(soup).step, std::numeric_limits<float>::epsilon());
 }
 
 TEST(read_stl, binary_header_may_begin_with_solid)

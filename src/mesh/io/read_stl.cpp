@@ -10,6 +10,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <limits>
 
 namespace lsdcd {
 namespace {
@@ -81,6 +82,7 @@ void read_binary(const char *bytes, TriangleSoup &soup)
 {
   const std::uint64_t n = promised_facets(bytes);
   soup.corners.resize(3 * n);    // the file is known to be that long
+  soup.rounding.step = std::numeric_limits<float>::epsilon();
   for (std::uint64_t facet = 0; facet < n; ++facet) {
     const char *at = bytes + kHeaderBytes + kFacetBytes * facet + 12;    // past the normal
     for (int i = 0; i < 9; ++i) {
