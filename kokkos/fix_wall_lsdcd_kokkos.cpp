@@ -253,6 +253,12 @@ void FixWallLsdcdKokkos<DeviceType>::need_nodes()
 }
 
 template <class DeviceType>
+void FixWallLsdcdKokkos<DeviceType>::need_ids()
+{
+  atomKK->sync(Host, TAG_MASK);
+}
+
+template <class DeviceType>
 void FixWallLsdcdKokkos<DeviceType>::add_node_forces()
 {
   if (node_atoms.empty()) return;

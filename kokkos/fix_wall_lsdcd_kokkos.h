@@ -39,6 +39,7 @@ class FixWallLsdcdKokkos : public FixWallLsdcd, public KokkosBase {
   void need_on_host() override;
   void need_positions() override;
   void need_nodes() override;
+  void need_ids() override;
   void add_node_forces() override;
   lsdcd::HostSpheres spheres() override;
   void make_exchange_room() override;

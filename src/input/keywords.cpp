@@ -277,6 +277,9 @@ const Keyword kKeywords[] = {
      read_temperature},
     {"contacts", "", "", "", "off", "per-atom array of 8 columns (9 with heat), as fix wall/gran's",
      [](Tokens &, WallCommand &s) { s.wall.contacts = true; }},
+    {"each_contact", "", "", "", "off",
+     "local array with a row for each contact: atom, mesh, force, point, overlap",
+     [](Tokens &, WallCommand &s) { s.wall.each_contact = true; }},
     {"periodic", "", "", "", "off",
      "no warning if the mesh reaches past periodic faces, or does not continue there; it acts "
      "through them in any case",

@@ -119,6 +119,13 @@ FixWallLsdcd::FixWallLsdcd(LAMMPS *lmp, int narg, char **arg, const lsdcd::WallB
     peratom_freq = 1;
   }
 
+  if (spec().each_contact) {
+    local_flag = 1;
+    size_local_rows = 0;
+    size_local_cols = static_cast<int>(decltype(contact_rows)::value_type().size());
+    local_freq = 1;
+  }
+
   // Last: Atom would call a fix that was refused after this.
   if (has_history() || contacts) {
     FixWallLsdcd::grow_arrays(atom->nmax);
@@ -337,6 +344,7 @@ void FixWallLsdcd::min_setup(int /*vflag*/)
   wall->clear_totals();
   for (int i = 0; spec().contacts && i < atom->nlocal; i++)
     std::fill(array_atom[i], array_atom[i] + size_peratom_cols, 0.0);
+  size_local_rows = 0;
   if (wall_in_minimize_warned) return;
   wall_in_minimize_warned = true;
   warn("the wall has no effect in a minimization, like fix wall/gran");
@@ -503,6 +511,7 @@ void FixWallLsdcd::finish_step()
   add_node_forces();
   if (vflag_global) wall->add_virial(virial);
   if (spec().contacts) fill_contacts();
+  if (spec().each_contact) fill_each_contact();
 }
 
 void FixWallLsdcd::add_node_forces()
@@ -801,9 +810,24 @@ void FixWallLsdcd::fill_contacts()
       [this](int i, const double *row) { std::copy_n(row, size_peratom_cols, array_atom[i]); });
 }
 
+void FixWallLsdcd::fill_each_contact()
+{
+  need_ids();
+  contact_rows.clear();
+  wall->for_contacts([this](const lsdcd::WallContact &c) {
+    contact_rows.push_back({static_cast<double>(atom->tag[c.sphere]), c.mesh + 1.0, c.force.x,
+                            c.force.y, c.force.z, c.point.x, c.point.y, c.point.z, c.overlap});
+  });
+  contact_row_at.clear();
+  for (auto &row : contact_rows) contact_row_at.push_back(row.data());
+  array_local = contact_row_at.data();
+  size_local_rows = static_cast<int>(contact_rows.size());
+}
+
 double FixWallLsdcd::memory_usage()
 {
   double bytes = wall->bytes() + damping_mass.capacity() * sizeof(double);
+  bytes += (double) contact_rows.capacity() * (sizeof contact_rows[0] + sizeof contact_row_at[0]);
   if (spec().contacts) bytes += (double) atom->nmax * size_peratom_cols * sizeof(double);
   return bytes;
 }

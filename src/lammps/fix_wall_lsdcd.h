@@ -15,6 +15,7 @@
 #include "lammps/wall_picture.h"
 #include "wall/wall.h"
 
+#include <array>
 #include <deque>
 #include <memory>
 #include <string>
@@ -94,6 +95,8 @@ class FixWallLsdcd : public Fix, protected OwnMessages {
   int room = 0;                        // this wall's part of maxexchange
   bool wall_in_minimize_warned = false, doubled_warned = false, pairs_warned = false;
   WallPicture picture;
+  std::vector<std::array<double, 9>> contact_rows;    // of the local array
+  std::vector<double *> contact_row_at;
 
   // Parts of the vector: force, torque, contacts, largest overlap, uncertified; volume worn off, power; with a
   // servo three more, and with a body those and what body_output() has; where wear moves meshes all of these, the
@@ -112,6 +115,7 @@ class FixWallLsdcd : public Fix, protected OwnMessages {
   virtual void need_on_host() {}      // before atom data are read outside of a step
   virtual void need_positions() {}    // before check_wrapping()
   virtual void need_nodes() {}        // before atoms that are nodes are read
+  virtual void need_ids() {}          // before atom IDs are read
   virtual void add_node_forces();
   virtual void make_exchange_room();
 
@@ -125,6 +129,7 @@ class FixWallLsdcd : public Fix, protected OwnMessages {
   int find_variable(const std::string &) const;
   std::vector<double> read_inputs();
   void fill_contacts();
+  void fill_each_contact();
 
   bool has_history() { return wall->history().is_on(); }
   lsdcd::ContactHistory &history_on_host() { return wall->history().on_host(); }

@@ -172,7 +172,7 @@ EngineSettings Wall::engine_settings() const
     want.moves |= m.nodes || m.motion.moves_or_varies();
     if (!want.surface.moves()) want.surface = m.spec.surface;
   }
-  want.records = spec_.has_loads() || virial_;
+  want.records = spec_.has_loads() || spec_.each_contact || virial_;
   want.bodies = has_bodies_;
   want.nodes = has_nodes_;
   want.wear = spec_.wear.model;
@@ -495,9 +495,9 @@ StepSettings Wall::step_settings()
   step.dt = input_.step.dt;
   step.update_history = input_.step.kind == Step::step;
   const bool asked = has_bodies_ && any_body_asks_for_contacts();
-  step.per_sphere = spec_.contacts || asked;
-  step.states = asked;
-  step.records = spec_.has_loads() || input_.virial || asked;
+  step.per_sphere = spec_.contacts || spec_.each_contact || asked;
+  step.states = spec_.each_contact || asked;
+  step.records = spec_.has_loads() || spec_.each_contact || input_.virial || asked;
   step.totals = has_bodies_ || any_servo_acts();
   const bool several = meshes_.size() > 1;
   if (several || spec_.meshes.front().surface_varies()) {
@@ -769,6 +769,22 @@ void Wall::for_contact_rows(const std::function<void(int, const Real *)> &row) c
     const Real numbers[9] = {o.contacts, o.force.x, o.force.y, o.force.z,         o.point.x,
                              o.point.y,  o.point.z, o.radius,  heat ? heat[k] : 0};
     row(touching[k], numbers);
+  }
+}
+
+// Records are in the order of the spheres that touch, as many of each as it has contacts.
+void Wall::for_contacts(const std::function<void(const WallContact &)> &found) const
+{
+  if (cutoff() == 0) return;
+  const ContactRecord *record = engine_->records();
+  for (int k = 0; k < engine_->n_touching(); k++) {
+    const TouchingSphere &sphere = engine_->touching_spheres()[k];
+    for (int n = 0; n < static_cast<int>(engine_->sphere_output()[k].contacts); n++, record++) {
+      const Pose &pose = meshes_[record->mesh].motion.pose();
+      const Vec3 arm = pose.turn_to_box(record->arm);
+      found({engine_->touching()[k], static_cast<int>(record->mesh),
+             -pose.turn_to_box(record->force), sphere.x - arm, sphere.radius - norm(arm)});
+    }
   }
 }
 

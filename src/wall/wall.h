@@ -57,6 +57,14 @@ struct StepInput {
   const Real *gravity = nullptr;
 };
 
+// A contact of a sphere with a mesh. Forces are those of a step, places those that it began with.
+struct WallContact {
+  int sphere, mesh;
+  Vec3 force;      // on the sphere
+  Vec3 point;      // of the mesh, the closest to the sphere's centre
+  Real overlap;    // length
+};
+
 // In each step: begin(), launch(), finish(). Places, velocities and radii must not change between begin()
 // and finish(); forces and torques may.
 //
@@ -132,6 +140,10 @@ class Wall {
   // Calls row(sphere, numbers) for each sphere of this process with a contact, with the
   // spec().contact_columns() numbers of the contacts array. Local.
   void for_contact_rows(const std::function<void(int, const Real *)> &row) const;
+
+  // Calls found(contact) for each contact of the last step of this process, where spec().each_contact, sphere after
+  // sphere. Local.
+  void for_contacts(const std::function<void(const WallContact &)> &found) const;
 
   // Files that are due in this step.
   void write_due_files();

@@ -96,6 +96,7 @@ struct WallSpec {
   Wear wear;                                                   // K and H in pressure units
   WearShape wear_shape;                                        // of meshes that recede
   bool contacts = false;                                       // for_contact_rows() will be called
+  bool each_contact = false;                                   // for_contacts() will be called
   bool periodic = false;    // meshes are meant to reach past periodic faces
   bool brief = false;       // one line in the log
 

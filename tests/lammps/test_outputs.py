@@ -102,6 +102,39 @@ write_dump      all custom minimized id {CONTACTS} modify sort id
                 not any(any(row) for row in rows_in.values()), str(rows_in))
 
 
+def local_rows(path):
+    """The rows of the last snapshot of a dump local: atom, mesh, force, point, overlap."""
+    rows = path.read_text().split("ITEM: ENTRIES")[-1].splitlines()[1:]
+    return sorted([float(word) for word in row.split()] for row in rows)
+
+
+def each_contact(checks, folder):
+    """Atom 2 touches the floor at z = 0 and a wall that goes along x from -1.45 on at 0.1, where it is after 10 steps
+    of 1e-4; atom 1 touches the floor."""
+    entries = " ".join(f"f_wall[{k}]" for k in range(1, 10))
+    for ranks in (1, 2):
+        thermo, dump, _ = go(folder, ranks=ranks, steps=10, law="hooke 1e4 NULL 0 NULL 0.5 1", extra=f"""\
+dump            l all local 10 local {entries}
+dump_modify     l format float %.17g""", columns=CONTACTS + " x y z",
+                             more="each_contact contacts mesh floor.stl rotate 0 1 0 90 move -1.45 0 0 motion linear 0.1 0 0")
+        rows, atoms, on = local_rows(folder / "local"), dump[10], f"on {ranks} ranks"
+        checks.fact(f"each_contact {on}: a row for each", [row[:2] for row in rows] == [[1, 1], [2, 1], [2, 2]], str(rows))
+        at = [atoms[row[0]][14:] for row in rows]
+        feet = [[at[0][0], at[0][1], 0], [at[1][0], at[1][1], 0], [-1.45 + 0.1 * 1e-3, *at[2][1:]]]
+        checks.fact(f"each_contact {on}: points", all(
+            abs(a - b) < 1e-12 for row, foot in zip(rows, feet) for a, b in zip(row[5:8], foot)), str(rows))
+        overlaps = [0.5 - math.dist(x, foot) for x, foot in zip(at, feet)]
+        checks.fact(f"each_contact {on}: overlaps", all(abs(row[8] - o) < 1e-12 for row, o in zip(rows, overlaps)),
+                    str((rows, overlaps)))
+        pushes = (rows[0][4], rows[1][4], rows[2][2])
+        checks.fact(f"each_contact {on}: normal forces are 1e4 overlaps",
+                    all(abs(f / (1e4 * o) - 1) < 1e-9 for f, o in zip(pushes, overlaps)), str((pushes, overlaps)))
+        for i in (1, 2):
+            total = [sum(row[2 + d] for row in rows if row[0] == i) for d in range(3)]
+            checks.fact(f"each_contact {on}: forces on atom {i} add up to its force in contacts", all(
+                abs(a - b) < 1e-10 for a, b in zip(total, atoms[i][7:10])), str((total, atoms[i])))
+
+
 def main():
     checks, folder = lmp.Checks(), lmp.scratch()
     (folder / "floor.stl").write_bytes((lmp.HERE / "scripts" / "floor.stl").read_bytes())
@@ -212,6 +245,7 @@ def main():
             pictures.append((folder / "wall.0.ppm").read_bytes())
         checks.fact(f"dump image shows the mesh: draw {what}", pictures[0] != pictures[1])
     in_commands(checks, folder)
+    each_contact(checks, folder)
     in_minimization(checks, folder)
     checks.done(folder)
 
