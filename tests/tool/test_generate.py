@@ -183,7 +183,7 @@ def main():
             "--thickness is 0.9", "lifters")
     refused(folder, ("generate vessel --radius 1 --height 2 --cone 1 --outlet .3 --tube .6 --knuckle 9 "
                      "-o a.stl").split(), "--knuckle 9", "largest")
-    refused(folder, "generate plane --width 1 --depth 1e-9 -o a.stl".split(), "a.stl is not written", "--edge")
+    refused(folder, "generate plane --width 1 --depth 1e-16 -o a.stl".split(), "a.stl is not written", "--edge")
     refused(folder, "generate plane --width 1 --depth 1 --edge 1e-5 -o a.stl".split(), "--edge", "20 million")
     refused(folder, "generate plane --width 1 --depth 1 -o no/a.stl".split(), "no/a.stl")
     for shape in ("", *(s for s in shapes if s == s.strip()), "screw"):
