@@ -670,7 +670,11 @@ typedef struct lsdcd_wall_step {
  * are the same on all processes; `changed` and `reach` of one hold for all.
  *
  * An error of a sphere names it by its order of coming, from 1; processes take turns, p of P has p + 1,
- * p + 1 + P and so on of those that come in the same step. A wall whose step failed can only be freed.
+ * p + 1 + P and so on of those that come in the same step.
+ *
+ * What is refused before a step begins, as an array that is missing, changes nothing. A wall whose step failed half-way, as by a
+ * sphere that outgrew its grid, has added some forces and moved some springs: it refuses every call from then on
+ * (LSDCD_ERROR_INPUT), and can only be freed.
  *
  * With a `host`, and on a device, a step does not wait to know of each sphere: their errors come with the next
  * call that is not "alone", and the arrays of a step stay until then. On a device forces are there once the
@@ -718,7 +722,8 @@ LSDCD_API int lsdcd_wall_get_pose(lsdcd_wall *wall, int mesh, double *matrix);
  *
  * position: length; null: 0. quaternion: w x y z of R, of length 1 to 1e-3; null: no rotation. velocity: length/time, of
  * the point at `position`; null: 0. angular_velocity: 1/time, along the axes of the box, right-handed; null: 0. Both are
- * of the time of the spheres' velocities: with velocity Verlet half a step before the pose. All are the same on all
+ * of the time of the spheres' velocities: with velocity Verlet half a step before the pose. So in a step, but not with `setup`,
+ * R x of the velocity is that of half a step before, too: R x - dt/2 angular_velocity x (R x). All are the same on all
  * processes. LSDCD_ERROR_ARGUMENT: no such mesh, one that is a body or not posed by the caller, a number that is not
  * finite or a quaternion of another length. Alone. Own. */
 LSDCD_API int lsdcd_wall_set_pose(lsdcd_wall *wall, int mesh, const double *position,
@@ -790,8 +795,11 @@ LSDCD_API int lsdcd_wall_change(lsdcd_wall *wall, const char *const *words, size
 LSDCD_API int lsdcd_wall_save(lsdcd_wall *wall, double *numbers, size_t room, size_t *count);
 /* Into a wall of the same spec or words, before its first step, whose spheres then have the same order; process by
  * process. Steps count on from the last one of that wall, for files and wear that come every so many steps. A servo moves by the
- * load of the step before: begin with `setup`. Own. */
+ * load of the step before: begin with `setup`. Numbers of a wall with other meshes, placements or motions as it was made, laws, corner, side
+ * or wear are refused with what differs (LSDCD_ERROR_ARGUMENT), and the wall stays as it is. Own. */
 LSDCD_API int lsdcd_wall_restore(lsdcd_wall *wall, const double *numbers, size_t count);
+/* Takes from numbers of another wall what fits this one; what does not, `show` tells. Else as lsdcd_wall_restore(). Own. */
+LSDCD_API int lsdcd_wall_restore_what_fits(lsdcd_wall *wall, const double *numbers, size_t count);
 /* Null is fine. Alone. Own. */
 LSDCD_API void lsdcd_wall_free(lsdcd_wall *wall);
 

@@ -932,7 +932,8 @@ class Wall {
     c::check(lsdcd_wall_get_pose(get(), mesh, matrix.data()));
     return matrix;
   }
-  // Where mesh number `mesh`, which has posed_by_caller, is in the next step and those after it.
+  // Where mesh number `mesh`, which has posed_by_caller, is in the next step and those after it. In a step, but not with
+  // `setup`, points move with velocity + angular_velocity x (R x) of half a step before the pose, see lsdcd_wall_set_pose().
   void set_pose(int mesh, const Pose &pose)
   {
     c::check(lsdcd_wall_set_pose(get(), mesh, pose.position.data(), pose.quaternion.data(),
@@ -1019,9 +1020,11 @@ class Wall {
       return lsdcd_wall_save(get(), to, room, count);
     });
   }
-  void restore(const std::vector<double> &numbers)
+  // What a wall of the same spec saved; with `what_fits` also of another one, as far as it goes.
+  void restore(const std::vector<double> &numbers, bool what_fits = false)
   {
-    c::check(lsdcd_wall_restore(get(), numbers.data(), numbers.size()));
+    const auto call = what_fits ? lsdcd_wall_restore_what_fits : lsdcd_wall_restore;
+    c::check(call(get(), numbers.data(), numbers.size()));
   }
   lsdcd_wall *get() { return handle_.get(); }
 

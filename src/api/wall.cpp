@@ -48,6 +48,15 @@ WallBackend backend_of(const lsdcd_wall_options &o, lsdcd_wall &made)
   return {make, true, to_cpu};
 }
 
+void check_can_go_on(const lsdcd_wall &wall)
+{
+  if (!wall.failed.empty())
+    throw ApiError(
+        LSDCD_ERROR_INPUT,
+        "a step of this wall failed half-way, so that it cannot go on: " + wall.failed +
+            ". Free it and make another one, which may go on from what was saved before");
+}
+
 void check_no_inputs(const Wall &wall)
 {
   const std::vector<int> inputs = wall.inputs_read();
@@ -68,6 +77,7 @@ new_wall(const lsdcd_wall_options *options,
   made->gpu = gpu_of(o);
   made->caller.gpu = made->gpu.get();
   made->in = make(*made, o);
+  made->parts = parts_of(*made->in);
   note_vertices(*made);
   check_no_inputs(*made->in);
   made->in->begin_run(0, false);
@@ -157,9 +167,11 @@ int lsdcd_wall_get_pose(lsdcd_wall *wall, int mesh, double *matrix)
 void lsdcd_wall_free(lsdcd_wall *wall)
 {
   if (wall && wall->gpu)
-    guard_wall(wall, [&] {
-      wall->gpu->wait();
-      wall->in.reset();
+    guard([&] {
+      wall->gpu->run([&] {
+        wall->gpu->wait();
+        wall->in.reset();
+      });
     });
   delete wall;
 }

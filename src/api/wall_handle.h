@@ -8,6 +8,7 @@
 
 #include "api/c_border.h"
 #include "api/wall_caller.h"
+#include "api/wall_parts.h"
 #include "backend/gpu_arrays.h"
 
 #include <cstddef>
@@ -15,6 +16,7 @@
 #include <cstring>
 #include <functional>
 #include <memory>
+#include <string>
 #include <vector>
 
 namespace lsdcd {
@@ -69,6 +71,8 @@ struct lsdcd_wall {
   bool begun = false;                 // since spheres were numbered anew, too
   lsdcd::Real largest_radius = 0;     // of this process, in the last step that looked
   lsdcd::Failure late;                // of this process, which the next call reports to all
+  lsdcd::WallParts parts;             // of the spec that it was made of
+  std::string failed;                 // why a step failed half-way; empty: none did
   lsdcd::SphereHistories restored;    // restored, until the first step
   bool outside_warned = false;
   lsdcd::PosesGiven poses;
@@ -83,12 +87,16 @@ struct lsdcd_wall {
 
 namespace lsdcd {
 
-// Wraps every function of a wall: its GPU is current.
+// Throws where a step failed half-way: springs and motions may be those of that step, and forces were added.
+void check_can_go_on(const lsdcd_wall &wall);
+
+// Wraps every function of a wall but the one that frees it: its GPU is current.
 template <class Body>
 int guard_wall(lsdcd_wall *wall, const Body &body) noexcept
 {
   return guard([&] {
     need(wall, "wall");
+    check_can_go_on(*wall);
     if (wall->gpu)
       wall->gpu->run(body);
     else

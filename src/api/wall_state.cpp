@@ -64,19 +64,49 @@ std::vector<const double *> packed_spheres(const lsdcd_wall &wall, std::size_t n
   return spheres;
 }
 
-constexpr const char *kSpheres = "springs of spheres", *kStep = "step";
+constexpr const char *kSpheres = "springs of spheres", *kStep = "step", *kParts = "parts";
 
 // Reads what lsdcd_wall_save() wrote. Throws StateError.
 void read_saved(const Real *numbers, std::size_t n, WallState &state, SphereHistories &spheres,
-                std::int64_t &step)
+                std::int64_t &step, WallParts &parts)
 {
   const State all(WallState::kKind, numbers, n);
+  all.read(kParts, 1, parts);
   all.read(kSpheres, 1, spheres);
   all.read(kStep, 1, step);
   state = WallState::from(all);
   if (all.numbers().size() != n) throw StateError("the data of the wall are too long");
   for (const std::vector<Real> &sphere : spheres)
     if (sphere.empty()) throw StateError("the data of the wall have a sphere without a number");
+}
+
+// Reads what a wall of the same spec saved; with `what_fits` also what one of another spec did, as far as it goes.
+void restore(lsdcd_wall &wall, const double *numbers, std::size_t count, bool what_fits)
+{
+  need(numbers, "numbers");
+  if (wall.begun) throw ApiError(LSDCD_ERROR_ARGUMENT, "a wall is restored before its first step");
+  WallState state;
+  SphereHistories spheres;
+  std::int64_t step = 0;
+  WallParts parts;
+  try {
+    read_saved(numbers, count, state, spheres, step, parts);
+  } catch (const StateError &e) {
+    throw ApiError(LSDCD_ERROR_ARGUMENT,
+                   std::string("these are not the numbers that lsdcd_wall_save() wrote, all of "
+                               "them: ") +
+                       e.what());
+  }
+  const std::string differ = differences(wall.parts, parts);
+  if (!what_fits && !differ.empty())
+    throw ApiError(LSDCD_ERROR_ARGUMENT,
+                   "these are numbers of another wall: " + differ +
+                       ". Make the wall of the spec that it had, or take what fits by "
+                       "lsdcd_wall_restore_what_fits()");
+  wall.in->restore(state, {step, wall.dt});
+  wall.number = step;
+  wall.restored = std::move(spheres);
+  if (!wall.in->history().is_on()) wall.restored.clear();
 }
 
 }    // namespace
@@ -154,6 +184,7 @@ int lsdcd_wall_save(lsdcd_wall *wall, double *numbers, size_t room, size_t *coun
     State state = wall->in->save().blocks();
     state.add(kSpheres, 1, spheres);
     state.add(kStep, 1, wall->number);
+    state.add(kParts, 1, wall->parts);
     const std::vector<Real> all = state.numbers();
     *count = all.size();
     std::copy_n(all.begin(), std::min(room, all.size()), numbers);
@@ -162,25 +193,11 @@ int lsdcd_wall_save(lsdcd_wall *wall, double *numbers, size_t room, size_t *coun
 
 int lsdcd_wall_restore(lsdcd_wall *wall, const double *numbers, size_t count)
 {
-  return guard_wall(wall, [&] {
-    need(numbers, "numbers");
-    if (wall->begun)
-      throw ApiError(LSDCD_ERROR_ARGUMENT, "a wall is restored before its first step");
-    WallState state;
-    SphereHistories spheres;
-    std::int64_t step = 0;
-    try {
-      read_saved(numbers, count, state, spheres, step);
-    } catch (const StateError &e) {
-      throw ApiError(LSDCD_ERROR_ARGUMENT,
-                     std::string("these are not the numbers that lsdcd_wall_save() wrote, all of "
-                                 "them: ") +
-                         e.what());
-    }
-    wall->in->restore(state, {step, wall->dt});
-    wall->number = step;
-    wall->restored = std::move(spheres);
-    if (!wall->in->history().is_on()) wall->restored.clear();
-  });
+  return guard_wall(wall, [&] { restore(*wall, numbers, count, false); });
+}
+
+int lsdcd_wall_restore_what_fits(lsdcd_wall *wall, const double *numbers, size_t count)
+{
+  return guard_wall(wall, [&] { restore(*wall, numbers, count, true); });
 }
 }

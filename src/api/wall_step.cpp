@@ -13,6 +13,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <exception>
 #include <string>
 #include <vector>
 
@@ -173,7 +174,13 @@ int lsdcd_wall_step_spheres(lsdcd_wall *wall, const lsdcd_spheres *spheres,
     Failure failure = wall->late;
     if (failure.code == LSDCD_OK)
       failure = failure_of([&] { want = step_wanted(*wall, spheres, step); });
-    take_step(*wall, agreed(*wall, failure, want));
+    const StepWanted wanted = agreed(*wall, failure, want);
+    try {
+      take_step(*wall, wanted);
+    } catch (const std::exception &e) {
+      wall->failed = e.what();
+      throw;
+    }
   });
 }
 

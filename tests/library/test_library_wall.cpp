@@ -379,5 +379,50 @@ TEST_F(wall, names_a_sphere_that_outgrew_its_grid)
   }
 }
 
+// A sphere that outgrew its grid is found when the springs of the step have moved.
+TEST_F(wall, refuses_all_calls_after_a_step_that_failed_half_way)
+{
+  lsdcd::Wall wall(words());
+  Grains grains;
+  grains.add(5, 5, 0.49);
+  grains.add(0, 0, 0.49);
+  grains.step(wall);
+  grains.radius[1] = 0.51;
+  const std::string first = text_of([&] { grains.step(wall); });
+  grains.radius[1] = 0.5;
+  const std::function<void()> calls[] = {
+      [&] { grains.step(wall); },     [&] { wall.totals(); },  [&] { wall.save(); },
+      [&] { wall.renumber({1, 0}); }, [&] { wall.pack({0}); }, [&] { wall.pose(0); },
+      [&] { wall.set_motion(0, {}); }};
+  for (const std::function<void()> &call : calls) {
+    EXPECT_EQ(code_of(call), LSDCD_ERROR_INPUT);
+    EXPECT_EQ(text_of(call).rfind(
+                  "a step of this wall failed half-way, so that it cannot go on: " + first, 0),
+              0u)
+        << text_of(call);
+  }
+}
+
+TEST_F(wall, goes_on_after_a_step_that_was_refused_before_it_began)
+{
+  lsdcd::Wall wall(words()), unbroken(words());
+  Grains grains;
+  grains.add(0, 0, 0.49, 0.1);
+  Grains same = grains;
+  grains.step(wall, 3);
+  same.step(unbroken, 3);
+  grains.mass[0] = 0;
+  lsdcd_wall_step wrong = {};
+  wrong.size = sizeof wrong;
+  EXPECT_EQ(code_of([&] { wall.step(grains.spheres(), wrong); }), LSDCD_ERROR_ARGUMENT);
+  wrong.dt = kDt;
+  wrong.changed = 1;
+  EXPECT_EQ(code_of([&] { wall.step(grains.spheres(), wrong); }), LSDCD_ERROR_ARGUMENT);
+  grains.mass = same.mass;
+  grains.step(wall);
+  same.step(unbroken);
+  EXPECT_EQ(grains.force, same.force);
+}
+
 }    // namespace
 }    // namespace test_library_wall

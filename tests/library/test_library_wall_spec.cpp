@@ -525,6 +525,93 @@ TEST_F(wall_spec, a_saved_wall_writes_the_files_that_are_due)
     std::remove(name_of(run, "series.pvd").c_str());
 }
 
+TEST_F(wall_spec, takes_saved_data_of_a_wall_of_the_same_spec_alone)
+{
+  const api::Mesh mesh(file_), other(std::vector<double>{-9, -9, 0, 9, -9, 0, 0, 9, 0}, {0, 1, 2});
+  api::WallSpec two = floor_of(hooke_history(), mesh);
+  two.meshes.emplace_back(other, "ramp").placement.move(0, 0, 9);
+  two.meshes[1].motions = {api::Motion::linear({0, 0, 1})};
+  lsdcd::Wall wall(two);
+  Grains grains = slider();
+  grains.step(wall, 3);
+  const std::vector<double> saved = wall.save();
+  using Spec = api::WallSpec;
+  const struct {
+    std::function<void(Spec &)> change;
+    const char *text;    // empty: it may differ
+  } rows[] = {
+      {[](Spec &) {}, ""},
+      {[](Spec &s) { s.meshes[0].name = "lid"; }, ""},
+      {[](Spec &s) { s.rmax = 1; }, ""},
+      {[](Spec &s) { s.law.style.numbers[0] *= 1 + 1e-15; }, "the law is hooke/history with "},
+      {[](Spec &s) { s.law.style.name = "hertz/history"; }, "the law is hertz/history with "},
+      {[](Spec &s) { s.law.style.name = "hooke"; }, "the law is hooke with "},
+      {[](Spec &s) {
+         s.law.rolling = {"cdt", {0.1}};
+       },
+       ", rolling cdt with "},
+      {[](Spec &s) {
+         s.law = api::Law::granular({"hertz", {1, 0}}, {"mindlin", {1, 1, 0.5}});
+       },
+       "the law is "},
+      {[](Spec &s) { s.meshes[0].law = hooke_history(1); }, "the law of meshes[0] is "},
+      {[](Spec &s) { s.corner = LSDCD_SUM; }, "the corner is sum and was blend"},
+      {[](Spec &s) {
+         s.wear = LSDCD_FINNIE;
+         s.wear_coefficient = 1;
+       },
+       "the wear is finnie 1 and was none 0"},
+      {[](Spec &s) { s.meshes.pop_back(); }, "the number of meshes is 1 and was 2"},
+      {[](Spec &s) { std::swap(s.meshes[0], s.meshes[1]); },
+       "the motion of meshes[0] is linear 0 0 1 and was rest"},
+      {[&](Spec &s) { s.meshes[0].mesh = other.get(); },
+       "the mesh of meshes[0] is 1 triangles with 3 vertices"},
+      {[](Spec &s) { s.meshes[0].placement.move(0, 0, 0.1); },
+       "the placement of meshes[0] is 1 0 0 0, 0 1 0 0, 0 0 1 0.1 and was"},
+      {[](Spec &s) { s.meshes[1].motions = {}; },
+       "the motion of meshes[1] is rest and was linear 0 0 1"},
+      {[](Spec &s) { s.meshes[0].posed_by_caller = true; },
+       "the motion of meshes[0] is poses of the program and was rest"},
+      {[](Spec &s) { s.meshes[0].nodes_by_caller = true; }, "is nodes of the program and was rest"},
+      {[](Spec &s) {
+         s.meshes[0].body = api::RigidBody(2, {0, 0, 0}, {1, 1, 2, 0, 0, 0});
+       },
+       "is a body, free "}};
+  for (const auto &row : rows) {
+    Spec spec = two;
+    row.change(spec);
+    lsdcd::Wall here(spec);
+    const std::string text = text_of([&] { here.restore(saved); });
+    if (!*row.text) {
+      EXPECT_EQ(text, "");
+      continue;
+    }
+    EXPECT_EQ(text.rfind("these are numbers of another wall: the ", 0), 0u)
+        << text << ", for " << row.text;
+    EXPECT_NE(text.find(row.text), std::string::npos) << text << ", not " << row.text;
+    EXPECT_EQ(code_of([&] { here.restore(saved); }), LSDCD_ERROR_ARGUMENT);
+  }
+  two.law.style.numbers[0] *= 2;
+  lsdcd::Wall stiffer(two);
+  stiffer.restore(saved, true);
+  EXPECT_EQ(stiffer.pose(1), wall.pose(1));
+}
+
+// A motion that was set later is in the data.
+TEST_F(wall_spec, takes_saved_data_after_its_motion_has_changed)
+{
+  const api::Mesh mesh(file_);
+  const api::WallSpec spec = floor_of(hooke_history(), mesh);
+  lsdcd::Wall wall(spec), again(spec);
+  Grains grains = slider();
+  grains.step(wall, 3);
+  wall.set_motion(0, {api::Motion::linear({0, 0, -1})});
+  grains.step(wall, 3);
+  again.restore(wall.save());
+  EXPECT_EQ(again.pose(0), wall.pose(0));
+  EXPECT_LT(again.pose(0)[11], 0);
+}
+
 // The vertices of a mesh that moves are in the box: lifted by the motion, and lower by the wear.
 TEST_F(wall_spec, vertices_that_wear_moves_go_with_the_mesh)
 {

@@ -336,6 +336,9 @@ def check_wall_specs():
             wall.step(x, v, omega, radius, mass, force, torque, dt=1e-3, **more)
         return np.concatenate([force, torque])
 
+    def floor_of(law):
+        return lsdcd.Wall(lsdcd.WallSpec(law, [lsdcd.WallMesh(mesh)]))
+
     hooke = lsdcd.Law("hooke/history", kn=1000, kt=300, gamman=20, xmu=0.5, dampflag=1)
     sub = lsdcd.SubModel
     granular = lsdcd.Law.granular(sub("hertz/material", E=2000, e=0.5, nu=0.3), sub("mindlin", kt=None, xgammat=1, mu=0.5),
@@ -380,6 +383,11 @@ def check_wall_specs():
         body = lsdcd.Wall(f"hooke 1 0 0 0 0 0 mesh {floor} body mass 1 com 0 0 0 inertia 1 1 1 0 0 0 device cpu")
         refused("a body takes no pose", "a body moves by what acts on it", lambda: body.set_pose(0), lsdcd.Error)
         fact("words may have their name", lsdcd.Wall(words=f"hooke 1 0 0 0 0 0 mesh {floor} device cpu").totals())
+    saved = floor_of(hooke).save()
+    other = floor_of(lsdcd.Law("hooke/history", kn=2000, kt=300, gamman=20, xmu=0.5, dampflag=1))
+    refused("data of a wall with another law are refused", "the law is hooke/history with 2000 ", lambda: other.restore(saved),
+            lsdcd.Error)
+    other.restore(saved, what_fits=True)
     soft = lsdcd.Law("hooke/history", kn=500, kt=300, gamman=20, xmu=0.5, dampflag=1)
     both = lsdcd.Wall(lsdcd.WallSpec(hooke, [lsdcd.WallMesh(mesh, type_laws=[(2, None, soft)])]))
     ratio = forces(both, 1, type=np.array([1, 2], np.int32))

@@ -772,7 +772,8 @@ class Wall(_Owner):
 
         position: (3,), length. quaternion: (4,), w x y z of R, of length 1 to 1e-3. velocity: (3,), length/time, of the
         point at `position`. angular_velocity: (3,), 1/time, right-handed, along the axes of the box. Both are of the time
-        of the spheres' velocities: with velocity Verlet half a step before the pose. What is None is 0, or no rotation.
+        of the spheres' velocities: with velocity Verlet half a step before the pose. So in a step, but not with `setup`, R x of
+        the velocity is that of half a step before, too: R x - dt/2 angular_velocity x (R x). What is None is 0, or no rotation.
         The same on all processes. Raises Error for a mesh that there is not, that is a body or that is not posed by the
         caller, a number that is not finite and a quaternion of another length; ValueError for other shapes."""
         given = [_numbers(position, (3,), "position"), _numbers(quaternion, (4,), "quaternion"),
@@ -883,10 +884,12 @@ class Wall(_Owner):
         self._do(call, self._handle, *arguments, numbers.ctypes.data, count, ctypes.byref(count))
         return numbers
 
-    def restore(self, numbers: ArrayLike) -> None:
-        """Before the first step of a wall of the same spec or words."""
+    def restore(self, numbers: ArrayLike, what_fits: bool = False) -> None:
+        """Before the first step of a wall of the same spec or words. Raises Error for numbers of another wall, with what differs; with
+        `what_fits` it takes of them what fits, and `show` is told what does not."""
         saved = _in_a_row(_as_floats(numbers, "numbers"), "numbers", np.float64)
-        self._do(_lib.lsdcd_wall_restore, self._handle, saved.ctypes.data, saved.size)
+        call = _lib.lsdcd_wall_restore_what_fits if _flag(what_fits, "what_fits") else _lib.lsdcd_wall_restore
+        self._do(call, self._handle, saved.ctypes.data, saved.size)
 
 
 def _mesh_or_all(mesh: int | None) -> int:

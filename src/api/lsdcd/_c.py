@@ -181,7 +181,7 @@ def _load() -> Any:
     lib.lsdcd_wall_get_wrench.argtypes = [_at, _int, _at, _at, _at]
     lib.lsdcd_wall_set_motion.argtypes = [_at, _int, _at, _size]
     lib.lsdcd_wall_save.argtypes = [_at, _at, _size, _at]
-    lib.lsdcd_wall_restore.argtypes = [_at, _at, _size]
+    lib.lsdcd_wall_restore.argtypes = lib.lsdcd_wall_restore_what_fits.argtypes = [_at, _at, _size]
     lib.lsdcd_wall_pack.argtypes = [_at, _at, _size, _at, _size, _at]
     lib.lsdcd_wall_unpack.argtypes = [_at, _at, _size, _at, _size]
     return lib

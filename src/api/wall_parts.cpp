@@ -1,0 +1,144 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "api/wall_parts.h"
+
+#include "api/refusals.h"
+#include "law/sub_models.h"
+#include "wall/spec_text.h"
+
+#include <charconv>
+#include <cstddef>
+#include <initializer_list>
+
+namespace lsdcd {
+
+namespace {
+
+// The shortest text that is this number alone.
+std::string exact_text(Real value)
+{
+  char buffer[32];
+  const auto end = std::to_chars(buffer, buffer + sizeof buffer, value + 0.);    // not -0
+  return {buffer, end.ptr};
+}
+
+std::string exact_text(std::initializer_list<Real> values)
+{
+  std::string text;
+  for (const Real value : values) text += (text.empty() ? "" : " ") + exact_text(value);
+  return text;
+}
+
+std::string exact_text(const Vec3 &v)
+{
+  return exact_text({v.x, v.y, v.z});
+}
+
+template <class Model>
+std::string numbers_of(const Chosen<Model> &chosen)
+{
+  return chosen.is_on()
+             ? ", " + exact_text({chosen.numbers[0], chosen.numbers[1], chosen.numbers[2]})
+             : "";
+}
+
+std::string text_of(const ContactLaw &law)
+{
+  return sub_models_text(law) + " with " +
+         exact_text({law.k_normal, law.surface_energy, law.eta, law.k_tangent, law.gamma_tangent,
+                     law.xgammat, law.mu}) +
+         numbers_of(law.rolling) + numbers_of(law.twisting) + numbers_of(law.heat) +
+         numbers_of(law.cohesion) + (law.limit_damping ? ", limit_damping" : "");
+}
+
+std::string text_of(const std::vector<LawOfTypes> &laws)
+{
+  std::string text;
+  for (const LawOfTypes &row : laws) {
+    const std::string types = types_text(row);
+    text += (text.empty() ? "" : "; ") + (types.empty() ? "" : "types " + types + " ") +
+            text_of(row.law);
+  }
+  return text.empty() ? "that of the wall" : text;
+}
+
+std::string text_of(const Placement &placement)
+{
+  std::string text;
+  for (int k = 0; k < 3; k++)
+    text +=
+        exact_text(placement.row(k)) + " " + exact_text(placement.shift()[k]) + (k < 2 ? ", " : "");
+  return text;
+}
+
+std::string text_of(const BodySpec &body)
+{
+  const SymmetricMatrix &i = body.mass.inertia;
+  return std::string("a body, ") + kJointNames[static_cast<int>(body.joint.kind)] + " " +
+         exact_text(body.joint.point) + " " + exact_text(body.joint.axis) + ", of density " +
+         exact_text(body.density) + ", mass " + exact_text(body.mass.mass) + ", centre " +
+         exact_text(body.mass.centre) + " and inertia " +
+         exact_text({i.xx, i.yy, i.zz, i.xy, i.xz, i.yz});
+}
+
+std::string mover_of(const MeshSpec &mesh, const InputNames &inputs)
+{
+  if (mesh.has_nodes) return "nodes of the program";
+  if (mesh.body.present) return text_of(mesh.body);    // which is posed, too
+  if (mesh.motion.is_posed()) return "poses of the program";
+  const std::string motions = motion_text(mesh.motion.terms(), inputs),
+                    servo = servo_text(mesh.motion.servo(), inputs);
+  if (motions.empty() && servo.empty()) return "rest";
+  return motions + (motions.empty() || servo.empty() ? "" : ", ") + servo;
+}
+
+std::string wear_of(const WallSpec &wall)
+{
+  const char *const models[] = {"none", "archard", "finnie"};
+  return models[static_cast<int>(wall.wear.model)] + (" " + exact_text(wall.wear.per_work)) +
+         (wall.wear_shape.every > 0 ? ", moves vertices " + exact_text(wall.wear_shape.factor)
+                                    : "");
+}
+
+}    // namespace
+
+WallParts parts_of(const Wall &wall)
+{
+  const WallSpec &spec = wall.spec();
+  const char *const corners[] = {"blend", "sum"}, *const sides[] = {"both", "in", "out"};
+  WallParts parts = {{"number of meshes", std::to_string(spec.meshes.size())},
+                     {"law", text_of(spec.laws)},
+                     {"corner", corners[static_cast<int>(spec.corner)]},
+                     {"side", sides[static_cast<int>(spec.side)]},
+                     {"wear", wear_of(spec)}};
+  for (std::size_t k = 0; k < spec.meshes.size(); k++) {
+    const MeshSpec &mesh = spec.meshes[k];
+    const std::string of = " of " + element("meshes", k);
+    parts.push_back({"motion" + of, mover_of(mesh, spec.inputs)});
+    parts.push_back({"placement" + of, text_of(mesh.placement)});
+    parts.push_back({"law" + of, text_of(mesh.laws)});
+    if (spec.wears()) parts.push_back({"wear_factor" + of, exact_text(mesh.wear_factor)});
+  }
+  for (const MeshPart &mesh : wall.meshes()) {
+    const MeshReport &report = mesh.grid.report();
+    parts.push_back({"mesh of " + element("meshes", static_cast<std::size_t>(mesh.index)),
+                     std::to_string(report.facets) + " triangles with " +
+                         std::to_string(report.vertices) + " vertices and the number " +
+                         std::to_string(mesh.grid.mesh_fingerprint())});
+  }
+  return parts;
+}
+
+std::string differences(const WallParts &is, const WallParts &was)
+{
+  std::string text;
+  for (const std::vector<std::string> &part : is)
+    for (const std::vector<std::string> &other : was)
+      if (part.size() == 2 && other.size() == 2 && part[0] == other[0] && part[1] != other[1])
+        text += (text.empty() ? "the " : "; the ") + part[0] + " is " + part[1] + " and was " +
+                other[1];
+  return text;
+}
+
+}    // namespace lsdcd
