@@ -295,6 +295,20 @@ TEST(moving_wall, a_surface_that_turns_carries_as_far_as_a_mesh_that_does)
   EXPECT_LE(norm(mesh.scene.x(0) - surface.scene.x(0)), 1e-4);
 }
 
+// Friction of a sphere that is held is opposite to its sliding but for that: a spring of length h, at a distance r of the axis,
+// lags by asin(h / r). In a step it turns by 1e-3.
+TEST(moving_wall, friction_on_a_turntable_lags_by_the_length_of_its_spring)
+{
+  const Real r = 0.1, h = 0.014, stiffness = 1000, overlap = 0.01, mu = 0.4;
+  EngineSettings s = hooke_history(stiffness, mu * stiffness * overlap / h, 0, 0, mu);
+  s.surface.angular = {0, 0, 2};
+  Scene scene(floor_mesh(4, 2), kRadius, s);
+  scene.add_sphere({r, 0, kRadius - overlap}, kRadius, kMass);
+  for (int n = 0; n < 2000; n++) scene.compute(5e-4);
+  EXPECT_NEAR(std::atan2(-scene.force(0).x, scene.force(0).y), std::asin(h / r), 1e-3);
+  EXPECT_NEAR(std::hypot(scene.force(0).x, scene.force(0).y), mu * stiffness * overlap, 1e-9);
+}
+
 // Rolling and twisting, too.
 TEST(moving_wall, rolling_and_twisting_are_relative_to_a_surface_that_turns)
 {
