@@ -398,8 +398,7 @@ void FixWallLsdcd::post_run()
           ? ""
           : " (neigh_modify delay 0 every 1 check yes saves looking at all atoms)";
   if (spheres_go_far()) need_positions();
-  wall->end_run(spheres(), spheres_go_far(), advice,
-                timer->get_wall(Timer::TOTAL));
+  wall->end_run(spheres(), spheres_go_far(), advice, timer->get_wall(Timer::TOTAL));
 }
 
 // ---- a step ------------------------------------------------------------------------------
