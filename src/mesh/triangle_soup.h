@@ -28,7 +28,7 @@ struct FileRounding {
 struct TriangleSoup {
   std::vector<Vec3> corners;
   std::string source;    // file name, for messages
-  FileRounding rounding;
+  FileRounding rounding = {};
 
   std::size_t n_triangles() const { return corners.size() / 3; }
 };
