@@ -157,7 +157,9 @@ void check_way(Host &host, const WallSpec &settings, MeshPart &m, const Step &st
   const Pose &from = m.motion.pose_before(), &to = m.motion.pose();
   const Real way = farthest_between(from, to, m.bounds(0));
   const bool passes = way > 2 * radius;
-  if (way <= radius || (m.way_warned && !passes)) return;
+  const bool is_of_program = m.spec.motion.is_posed() && !m.body;    // which may put it anywhere
+  const bool stops = passes && !is_of_program;
+  if (way <= radius || (m.way_warned && !stops)) return;
   Box swept = placed_bounds(from, m.bounds(radius));
   for_corners(placed_bounds(to, m.bounds(radius)), [&](const Vec3 &x) { extend(swept, x); });
   const HostSpheres s = spheres.all();
@@ -175,7 +177,7 @@ void check_way(Host &host, const WallSpec &settings, MeshPart &m, const Step &st
           number_text(passes ? 2 * radius : radius) +
           ": it may have passed through a sphere; use a shorter timestep" +
           (m.body ? "" : ", or a motion without jumps"));
-  if (passes) throw InputError(text);
+  if (stops) throw InputError(text);
   m.way_warned = true;
   host.warn(text + ". Shown once");
 }

@@ -32,7 +32,8 @@ void check_stays_closed(Host &host, const WallSpec &settings, const MeshPart &m)
 void check_motion(const Host &host, const WallSpec &settings, const MeshPart &m);
 
 // Warns once where a mesh has gone farther in a step than `radius`, that of the largest sphere, and spheres are where it
-// went. Throws InputError where it has gone farther than the diameter: it may have jumped over one. Collective.
+// went. Throws InputError where it has gone farther than the diameter, as it may have jumped over one, and it is not the
+// program that puts it there. Collective.
 void check_way(Host &host, const WallSpec &settings, MeshPart &m, const Step &step, Real radius,
                const SpheresOnCpu &spheres);
 

@@ -158,6 +158,26 @@ TEST(Wall, stops_where_a_mesh_jumps_over_spheres)
     }
 }
 
+TEST(Wall, warns_once_where_its_program_puts_a_mesh_past_spheres)
+{
+  const Floor floor;
+  FakeHost host;
+  WallSpec spec = floor.wall({});
+  spec.meshes[0].motion.begin_posed();
+  Scene scene(host, spec);
+  scene.grains.add({0.3, 0.2, 1.2 * kRadius});
+  scene.set_up();
+  const std::size_t before = host.warnings.size();
+  for (const Real way : {6., 0.}) {
+    Pose there;
+    there.shift.z = way * kRadius;
+    there.placed = true;
+    scene.wall->set_pose(0, there);
+    scene.run(1);
+  }
+  EXPECT_EQ(host.warnings.size() - before, 1U);
+}
+
 // Placed askew, so that every coordinate of the mesh is rounded.
 TEST(Wall, has_the_same_bits_from_a_mesh_as_from_its_file)
 {
@@ -459,7 +479,8 @@ TEST(Wall, names_the_meshes_that_press_a_sphere_whose_centre_comes_to_one_of_the
       << host.warnings[1];
   EXPECT_EQ(std::count(host.lines.begin(), host.lines.end(),
                        "the deepest overlap of this run is 98 % of the radius of sphere 42, at "
-                       "mesh 1 '" + floor.name + "' in step 7"),
+                       "mesh 1 '" +
+                           floor.name + "' in step 7"),
             1);
 }
 
