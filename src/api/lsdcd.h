@@ -669,8 +669,9 @@ typedef struct lsdcd_wall_step {
  * when it asks for forces; with velocity Verlet they are those of the half step, as in LAMMPS. `dt` and `setup`
  * are the same on all processes; `changed` and `reach` of one hold for all.
  *
- * An error of a sphere names it by its order of coming, from 1; processes take turns, p of P has p + 1,
- * p + 1 + P and so on of those that come in the same step.
+ * An error of a sphere names it by its place in the arrays, from 0, and its process where there are several. What process 0
+ * says of a sphere of another one names it by its order of coming, from 1: of those that come in the same step process p of P has
+ * p + 1, p + 1 + P and so on.
  *
  * What is refused before a step begins, as an array that is missing, changes nothing. A wall whose step failed half-way, as by a
  * sphere that outgrew its grid, has added some forces and moved some springs: it refuses every call from then on

@@ -113,6 +113,14 @@ void WallCaller::agree(const Failure &mine, std::vector<Real> &numbers)
   throw ApiError(first.code, first.text);
 }
 
+std::string WallCaller::sphere_text(std::int64_t tag) const
+{
+  const auto at = std::find(tags.begin(), tags.end(), tag);
+  if (at == tags.end()) return "the sphere that came as number " + std::to_string(tag);
+  return "sphere " + std::to_string(at - tags.begin()) + " (from 0)" +
+         (is_alone() ? "" : " of process " + std::to_string(rank()));
+}
+
 void WallCaller::set_spheres(const Spheres &spheres)
 {
   spheres_ = spheres;

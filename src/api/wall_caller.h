@@ -51,6 +51,8 @@ class WallCaller : public Host {
   void max(Real *numbers, int n) override;
   void broadcast(void *data, std::size_t bytes, int from, Receivers to = Receivers::all) override;
   PeriodicBox box() const override { return box_; }
+  // By its place in the arrays of the last step; one of another process by its order of coming.
+  std::string sphere_text(std::int64_t tag) const override;
 
   std::int64_t highest_tag() const { return highest_tag_; }
   // Numbers for spheres without one, 0, in the order of the array. `highest`: of all processes so far.

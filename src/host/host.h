@@ -10,6 +10,7 @@
 #include "mesh/periodic_box.h"
 
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -79,6 +80,11 @@ class Host {
   void log(const std::string &text) { show(text, false); }
   void warn(const std::string &text) { show(text, true); }
   const HostNames &names() const { return names_; }
+  // Names the sphere that has this tag: "atom 7".
+  virtual std::string sphere_text(std::int64_t tag) const
+  {
+    return names_.sphere + (" " + std::to_string(tag));
+  }
   // Half a sentence, which says what to do about a problem.
   virtual std::string remedy(Remedy problem) const { return library_remedy(problem); }
 

@@ -66,8 +66,7 @@ void GridManager::check_rmax(Real radius, const SpheresOnCpu &spheres) const
     if (s.radius[i] == radius && s.may_be_in_group(i))
       first = std::max(first, -static_cast<Real>(s.tag[i]));
   host_.max(&first, 1);
-  throw InputError(host_.names().sphere +
-                   (" " + std::to_string(static_cast<std::int64_t>(-first))) + " has radius " +
+  throw InputError(host_.sphere_text(static_cast<std::int64_t>(-first)) + " has radius " +
                    number_text(radius) + ", more than rmax " + number_text(settings_.rmax) +
                    ": raise rmax or use rmax auto");
 }

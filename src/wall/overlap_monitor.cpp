@@ -106,8 +106,8 @@ void OverlapMonitor::check_sunk(Real worst, Real timestep_ratio, const SpheresOn
       : warned_from_ < kThrough
           ? "; this warning comes again past " + number_text(100 * warned_from_) + " %"
           : "; this warning comes again where a centre comes to the wall";
-  host_.warn(host_.names().sphere + (" " + std::to_string(seen.tag)) + " sank into the wall by " +
-             overlap + " in step " + std::to_string(seen.step) +
+  host_.warn(host_.sphere_text(seen.tag) + " sank into the wall by " + overlap + " in step " +
+             std::to_string(seen.step) +
              (through ? ", pressed by " + names(seen.meshes) : ", at " + name(seen.mesh)) + ": " +
              (through && seen.overlap <= 1 ? kCameThrough : "") +
              sunk_remedy(seen.overlap, timestep_ratio) + comes_again);
@@ -121,10 +121,8 @@ void OverlapMonitor::end_run(bool brief)
   if (brief || most == 0) return;
   const Deepest deepest = deepest_of_all(mine, most);
   host_.log("the deepest overlap of this run is " + number_text(100 * most) + " % of the radius" +
-            (deepest.tag > 0
-                 ? std::string(" of ") + host_.names().sphere + " " + std::to_string(deepest.tag)
-                 : "") +
-            ", at " + name(deepest.mesh) + " in step " + std::to_string(deepest.step));
+            (deepest.tag > 0 ? " of " + host_.sphere_text(deepest.tag) : "") + ", at " +
+            name(deepest.mesh) + " in step " + std::to_string(deepest.step));
 }
 
 // New spheres have tags above the highest tag that there was.
@@ -152,9 +150,8 @@ void OverlapMonitor::check_new(const StepDiagnostics &seen, const SpheresOnCpu &
   worst_new_ = kWorse * most;
   host_.broadcast(&tag, sizeof tag, lowest_rank(host_, mine == most));
   const std::string overlap = overlap_text(most, tag, spheres);
-  host_.warn(host_.names().sphere + (" " + std::to_string(tag)) +
-             " appeared inside the wall, which it overlaps by " + overlap + " in step " +
-             std::to_string(step) + ": " +
+  host_.warn(host_.sphere_text(tag) + " appeared inside the wall, which it overlaps by " + overlap +
+             " in step " + std::to_string(step) + ": " +
              (most > 1 ? kWrongSide : "it will be thrown out; " + host_.remedy(Remedy::put_clear)) +
              ". This warning comes again for a larger overlap");
 }

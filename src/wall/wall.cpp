@@ -219,8 +219,7 @@ void Wall::on_this_process(const HostSpheres &spheres, Work &&work)
   try {
     work();
   } catch (const SphereError &e) {
-    throw ProcessError(host_.names().sphere +
-                       (" " + std::to_string(on_cpu(spheres).tag(e.sphere))) + " " + e.problem +
+    throw ProcessError(host_.sphere_text(on_cpu(spheres).tag(e.sphere)) + " " + e.problem +
                        (e.remedy ? "; " + host_.remedy(*e.remedy) : ""));
   } catch (const RemedyError &e) {
     throw ProcessError(e.problem + "; " + host_.remedy(e.remedy));

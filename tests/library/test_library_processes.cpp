@@ -215,7 +215,7 @@ TEST_F(processes, are_all_told_of_a_sphere_of_one_in_the_next_call)
     if (host.rank() == 1) mine.radius[1] = 0.51;    // without `changed`
     mine.step(wall);
     const std::string told = text_of([&] { wall.totals(); });
-    EXPECT_EQ(told.rfind("sphere 4 ", 0), 0u) << told;    // the second of the second process
+    EXPECT_EQ(told.rfind("sphere 1 (from 0) of process 1 ", 0), 0u) << told;
     EXPECT_EQ(text_of([&] { mine.step(wall); }), told);
   });
 }

@@ -375,8 +375,23 @@ TEST_F(wall, names_a_sphere_that_outgrew_its_grid)
     ADD_FAILURE() << "no error";
   } catch (const lsdcd::Error &e) {
     EXPECT_EQ(e.code(), LSDCD_ERROR_INPUT);
-    EXPECT_EQ(std::string(e.what()).rfind("sphere 2 ", 0), 0u) << e.what();
+    EXPECT_EQ(std::string(e.what()).rfind("sphere 1 (from 0) has", 0), 0u) << e.what();
   }
+}
+
+TEST_F(wall, names_a_sphere_by_its_place_in_the_arrays_after_they_were_sorted)
+{
+  lsdcd::Wall wall(words());
+  Grains grains;
+  grains.add(5, 5, 0.49);
+  grains.add(0, 0, 0.49);
+  grains.add(-5, 0, 0.49);
+  grains.step(wall);
+  wall.renumber({2, 0, 1});
+  grains.step(wall);
+  grains.radius[2] = 0.51;
+  const std::string told = text_of([&] { grains.step(wall); });
+  EXPECT_EQ(told.rfind("sphere 2 (from 0) has radius 0.51", 0), 0u) << told;
 }
 
 // A sphere that outgrew its grid is found when the springs of the step have moved.

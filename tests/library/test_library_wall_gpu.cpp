@@ -546,7 +546,7 @@ TEST_F(wall_gpu, tells_of_a_sphere_in_the_next_call)
   rain.radius[1] *= 2;    // without `changed`
   copies.step(wall, rain, step_of());
   const std::string told = text_of([&] { wall.totals(); });
-  EXPECT_EQ(told.rfind("sphere 2 ", 0), 0u) << told;
+  EXPECT_EQ(told.rfind("sphere 1 (from 0) has", 0), 0u) << told;
   EXPECT_EQ(text_of([&] { copies.step(wall, rain, step_of()); }), told);
 }
 
