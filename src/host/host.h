@@ -80,7 +80,7 @@ class Host {
   void log(const std::string &text) { show(text, false); }
   void warn(const std::string &text) { show(text, true); }
   const HostNames &names() const { return names_; }
-  // Names the sphere that has this tag: "atom 7".
+  // Names the sphere that has this tag: "sphere 7".
   virtual std::string sphere_text(std::int64_t tag) const
   {
     return names_.sphere + (" " + std::to_string(tag));
