@@ -623,6 +623,8 @@ typedef struct lsdcd_wall_spec {
   double wear_deform_factor;
   int periodic_ends; /* 1: meshes are meant to end at periodic faces, where they continue */
   int brief;         /* 1: the log has one line */
+  /* Steps of each mean of force and torque in lsdcd_wall_totals, as a solver of a fluid samples them; 0: there are none */
+  int average_every;
 } lsdcd_wall_spec;
 /* `options` may be null: all defaults. All that the structs point to is copied or shared. LSDCD_ERROR_ARGUMENT names
  * the field that makes no sense, its value and what to give. Any. */
@@ -711,6 +713,9 @@ typedef struct lsdcd_wall_totals {
   double removed, held_back;
   /* On a mesh with nodes_by_caller, which none of its nodes gets: the torque is that of their forces. */
   double couple[3];
+  /* With average_every, means over the last so many steps that ended with one whose number divides by it, counted from
+   * the first step of the wall; weighted by time. 0 before, and without it. */
+  double mean_force[3], mean_torque[3];
 } lsdcd_wall_totals;
 /* The totals of a mesh in the last step, over all processes; -1: of all, without servos. Own. */
 LSDCD_API int lsdcd_wall_get_totals(lsdcd_wall *wall, int mesh, lsdcd_wall_totals *totals);

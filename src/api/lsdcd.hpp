@@ -736,6 +736,7 @@ struct WallSpec {
   int wear_deform_every = 0;    // steps; 0: wear moves no mesh
   double wear_deform_factor = 1;
   bool periodic_ends = false, brief = false;
+  int average_every = 0;    // steps
 };
 
 namespace c {
@@ -818,6 +819,7 @@ class Spec {
       spec_.wear_deform_factor = from.wear_deform_factor;
     spec_.periodic_ends = from.periodic_ends;
     spec_.brief = from.brief;
+    spec_.average_every = from.average_every;
   }
   Spec(const Spec &) = delete;
   Spec &operator=(const Spec &) = delete;

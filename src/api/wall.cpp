@@ -143,6 +143,13 @@ int lsdcd_wall_get_totals(lsdcd_wall *wall, int mesh, lsdcd_wall_totals *totals)
       out.removed += wall->in->removed(m.index);
       out.held_back += wall->in->held_back(m.index);
     }
+    MeanLoad mean;
+    if (wall->in->spec().average_every > 0)
+      mean = mesh < 0 ? wall->in->means().of_all() : wall->in->means().mesh(mesh);
+    for (int k = 0; k < 3; k++) {
+      out.mean_force[k] = mean.force[k];
+      out.mean_torque[k] = mean.torque[k];
+    }
     if (mesh >= 0 && wall->in->meshes()[mesh].servo().present) {
       const Servo &s = wall->in->meshes()[mesh].servo();
       out.servo[0] = s.position;

@@ -339,6 +339,10 @@ void read_search(const lsdcd_wall_spec &given, bool on_device, WallSpec &wall)
   wall.device = on_device ? Device::automatic : device == LSDCD_CUDA ? Device::cuda : Device::cpu;
   wall.periodic = checked_flag(given.periodic_ends, "periodic_ends");
   wall.brief = checked_flag(given.brief, "brief");
+  wall.average_every = given.average_every;
+  if (given.average_every < 0)
+    refuse_field("average_every", std::to_string(given.average_every),
+                 "it is a number of steps, or 0: there are no means");
 }
 
 }    // namespace

@@ -280,6 +280,11 @@ const Keyword kKeywords[] = {
     {"each_contact", "", "", "", "off",
      "local array with a row for each contact: atom, mesh, force, point, overlap",
      [](Tokens &, WallCommand &s) { s.wall.each_contact = true; }},
+    {"average", "N", "steps", "N >= 1", "off",
+     "means of force and torque over N steps, as more numbers of the vector",
+     [](Tokens &w, WallCommand &s) {
+       s.wall.average_every = static_cast<int>(w.whole("N", 1, 2147483647));
+     }},
     {"periodic", "", "", "", "off",
      "no warning if the mesh reaches past periodic faces, or does not continue there; it acts "
      "through them in any case",

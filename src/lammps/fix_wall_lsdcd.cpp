@@ -107,8 +107,8 @@ FixWallLsdcd::FixWallLsdcd(LAMMPS *lmp, int narg, char **arg, const lsdcd::WallB
   extscalar = 1;
   extvector = -1;
   extarray = 0;
-  extlist = new int[kAll];
-  std::fill(extlist, extlist + kAll, 1);
+  extlist = new int[kMean + kOfMean];
+  std::fill(extlist, extlist + kMean + kOfMean, 1);
   extlist[7] = 0;    // the largest overlap is not a sum
   size_outputs();
   energy_global_flag = 1;
@@ -699,9 +699,15 @@ static double column(const lsdcd::MeshTotals &t, int i)
   return i < 3 ? t.force[i] : i < 6 ? t.torque[i - 3] : after_torque[i - 6];
 }
 
+static double mean_column(const lsdcd::MeanLoad &mean, int i)
+{
+  return i < 3 ? mean.force[i] : mean.torque[i - 3];
+}
+
 // Output i of one mesh. Collective.
 double FixWallLsdcd::mesh_output(int mesh, int i)
 {
+  if (i >= kMean) return mean_column(wall->means().mesh(mesh), i - kMean);
   if (i == kWorn) return wall->worn(mesh);
   const lsdcd::MeshTotals &t = wall->totals().mesh(mesh);
   if (i < kTotals) return column(t, i);
@@ -755,6 +761,7 @@ static bool is_body(const lsdcd::MeshPart &m)
 // Outputs of all meshes together; and of the one servo and the one body, if there is one.
 double FixWallLsdcd::compute_vector(int i)
 {
+  if (i >= kMean) return mean_column(wall->means().of_all(), i - kMean);
   if (i >= kShape && i < kStop) {
     double sum = 0;
     for (const lsdcd::MeshPart &m : meshes()) sum += mesh_output(m.index, i);
@@ -795,7 +802,8 @@ void FixWallLsdcd::size_outputs()
   if (any(has_servo)) size_vector = size_array_cols = kBody;
   if (spec().wear_shape.every > 0) size_vector = size_array_cols = kNodes;
   if (spec().has_nodes()) size_vector = size_array_cols = kStop;
-  if (any(is_body)) size_vector = size_array_cols = kAll;
+  if (any(is_body)) size_vector = size_array_cols = kMean;
+  if (spec().average_every > 0) size_vector = size_array_cols = kMean + kOfMean;
   // Places and speeds are no sums.
   extlist[kVector] = extlist[kVector + 1] = extlist[kBody + 19] = 0;
   std::fill(extlist + kBody, extlist + kBody + 13, 0);

@@ -101,11 +101,11 @@ class FixWallLsdcd : public Fix, protected OwnMessages {
   // Parts of the vector: force, torque, contacts, largest overlap, uncertified; volume worn off, power; with a
   // servo three more, and with a body those and what body_output() has; where wear moves meshes all of these, the
   // removed volume and that held back; with nodes all of these, and the couple that no node gets; with a body all of
-  // these, and the force of its stop.
+  // these, and the force of its stop; with means all of these, and the mean force and torque.
   static constexpr int kTotals = 9, kWorn = kTotals, kPower = kTotals + 1, kVector = kTotals + 2,
                        kServo = 3, kBody = kVector + kServo, kOfBody = 21, kShape = kBody + kOfBody,
                        kOfShape = 2, kNodes = kShape + kOfShape, kOfNodes = 3,
-                       kStop = kNodes + kOfNodes, kAll = kStop + 1;
+                       kStop = kNodes + kOfNodes, kMean = kStop + 1, kOfMean = 6;
 
   // wall/lsdcd/kk does these in its own way.
   virtual void begin_step(const lsdcd::StepInput &);

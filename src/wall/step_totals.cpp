@@ -76,15 +76,6 @@ void StepTotals::set_power(int mesh, const Pose &pose)
   meshes_[mesh].power = power_of(meshes_[mesh], pose);
 }
 
-bool StepTotals::torques_share_a_point() const
-{
-  if (settings_.meshes.size() == 1) return true;
-  const Vec3 &first = settings_.meshes.front().torque_about;
-  return std::all_of(settings_.meshes.begin(), settings_.meshes.end(), [&](const MeshSpec &m) {
-    return !m.torque_about_mesh && m.torque_about == first;
-  });
-}
-
 MeshTotals StepTotals::of_all() const
 {
   MeshTotals all = meshes_.front();
@@ -100,7 +91,7 @@ MeshTotals StepTotals::of_all() const
     all.power += m.power;
     all.energy += m.energy;
   }
-  if (!torques_share_a_point()) all.torque = all.torque_at_origin;
+  if (!torques_share_a_point(settings_)) all.torque = all.torque_at_origin;
   return all;
 }
 

@@ -66,8 +66,6 @@ class StepTotals {
   MeshTotals of_all() const;
 
  private:
-  bool torques_share_a_point() const;
-
   Host &host_;
   const WallSpec &settings_;
   std::vector<MeshTotals> meshes_;

@@ -52,8 +52,9 @@ Wall::Wall(Host &host, WallSpec spec, const WallUnits &units, WallBackend backen
     host_(host),
     spec_(in_units(std::move(spec), units)), laws_(law_table(spec_)), backend_(std::move(backend)),
     clock_(clock), pressure_unit_(units.pressure), history_(host, spec_), totals_(host, spec_),
-    loads_(host, spec_), files_(host, spec_, units.pressure), overlaps_(host, spec_), search_(host),
-    times_(host), timestep_(host, laws_, units.velocity), box_checks_(host, spec_, meshes_),
+    means_(host, spec_), loads_(host, spec_), files_(host, spec_, units.pressure),
+    overlaps_(host, spec_), search_(host), times_(host), timestep_(host, laws_, units.velocity),
+    box_checks_(host, spec_, meshes_),
     grids_(host, spec_, laws_, meshes_, box_checks_, history_, times_)
 {
   for (std::size_t k = 0; k < spec_.meshes.size(); k++) {
@@ -497,7 +498,7 @@ StepSettings Wall::step_settings()
   step.per_sphere = spec_.contacts || spec_.each_contact || asked;
   step.states = spec_.each_contact || asked;
   step.records = spec_.has_loads() || spec_.each_contact || input_.virial || asked;
-  step.totals = has_bodies_ || any_servo_acts();
+  step.totals = has_bodies_ || any_servo_acts() || spec_.average_every > 0;
   const bool several = meshes_.size() > 1;
   if (several || spec_.meshes.front().surface_varies()) {
     surfaces_.clear();
@@ -649,6 +650,9 @@ void Wall::finish(const HostSpheres &spheres)
   totals_.expire();
   if (has_bodies_) note_step_of_bodies(step);
   if (has_nodes_) sum_node_forces();
+  if (spec_.average_every > 0 && step.kind == Step::step)
+    means_.add(step, cutoff() > 0 ? engine_.get() : nullptr, poses(), node_loads(),
+               coats_.empty() ? nullptr : &coat_loads_);
   if (spec_.has_loads() && step.kind == Step::step) {    // what sets a run up has no duration
     const bool any = cutoff() > 0;
     for (const MeshPart &m : meshes_)
@@ -728,15 +732,26 @@ const StepTotals &Wall::totals()
 const StepTotals &Wall::sums()
 {
   if (totals_.are_made()) return totals_;
-  std::vector<Pose> poses;
-  for (const MeshPart &m : meshes_) poses.push_back(m.motion.pose());
-  std::vector<NodeLoad> nodes;
-  for (MeshPart &m : meshes_)
-    if (has_nodes_)
-      nodes.push_back(m.nodes ? NodeLoad{true, m.nodes->power(), m.nodes->moment()} : NodeLoad());
-  totals_.reduce(cutoff() > 0 ? engine_.get() : nullptr, poses, nodes,
+  totals_.reduce(cutoff() > 0 ? engine_.get() : nullptr, poses(), node_loads(),
                  coats_.empty() ? nullptr : &coat_loads_);
   return totals_;
+}
+
+std::vector<Pose> Wall::poses() const
+{
+  std::vector<Pose> all;
+  for (const MeshPart &m : meshes_) all.push_back(m.motion.pose());
+  return all;
+}
+
+// Empty where no mesh has nodes. Collective.
+std::vector<NodeLoad> Wall::node_loads()
+{
+  std::vector<NodeLoad> all;
+  for (MeshPart &m : meshes_)
+    if (has_nodes_)
+      all.push_back(m.nodes ? NodeLoad{true, m.nodes->power(), m.nodes->moment()} : NodeLoad());
+  return all;
 }
 
 Real Wall::servo_push(int mesh)
@@ -912,7 +927,12 @@ WallState Wall::save()
                           m.body ? m.body->state() : BodyState(),
                           m.nodes ? m.nodes->save() : NodeState(),
                           {},
-                          m.wear ? m.wear->save(m.grid.mesh()) : ShapeState()});
+                          m.wear ? m.wear->save(m.grid.mesh()) : ShapeState(),
+                          {}});
+  }
+  if (spec_.average_every > 0) {
+    const std::vector<MeanLoadState> means = means_.save();
+    for (std::size_t k = 0; k < means.size(); k++) all.meshes[k].mean = {means[k]};
   }
   for (BodyCoat &coat : coats_)
     all.meshes[coat.mesh()].coat = coat.save(
@@ -986,6 +1006,7 @@ void Wall::restore_mesh(MeshPart &m, const MeshState &was, const Step &now)
   for (BodyCoat &coat : coats_)
     if (coat.mesh() == m.index) coat.restore(was.coat);
   restore_shape(m, was.shape);
+  if (!was.mean.empty()) means_.restore(m.index, was.mean.front());
   motion_has_changed(m);
   if (!spec_.has_loads(m.spec)) return;
   if (m.springs_are_foreign)

@@ -11,6 +11,7 @@
 #include "wall/grid_manager.h"
 #include "wall/host_spheres.h"
 #include "wall/load_recorder.h"
+#include "wall/mean_loads.h"
 #include "wall/overlap_monitor.h"
 #include "wall/search_report.h"
 #include "wall/step_totals.h"
@@ -118,6 +119,7 @@ class Wall {
 
   // The totals of the last step.
   const StepTotals &totals();
+  MeanLoads &means() { return means_; }    // of spec().average_every steps
   // Volumes by which a mesh that recedes has lost, and what was worn by the factor and stays: see MeshWear.
   Real removed(int mesh) const { return meshes_[mesh].wear ? meshes_[mesh].wear->removed() : 0; }
   Real held_back(int mesh) const
@@ -221,6 +223,8 @@ class Wall {
   void build_node_grids();
   void turn_springs(int n);
   void sum_node_forces();
+  std::vector<Pose> poses() const;
+  std::vector<NodeLoad> node_loads();
   Real pressure(int mesh) const;    // in this step, in units of forces
   void note_step_of_bodies(const Step &step);
   void step_coats(const Step &step);
@@ -262,6 +266,7 @@ class Wall {
 
   HistoryExchange history_;
   StepTotals totals_;
+  MeanLoads means_;
   LoadRecorder loads_;
   WallFiles files_;
   OverlapMonitor overlaps_;

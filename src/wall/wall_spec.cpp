@@ -232,6 +232,15 @@ const ContactLaw &law_of_all_types(const WallSpec &wall, int mesh)
   return last == own.rend() ? wall.law() : last->law;
 }
 
+bool torques_share_a_point(const WallSpec &wall)
+{
+  if (wall.meshes.size() == 1) return true;
+  const Vec3 &first = wall.meshes.front().torque_about;
+  return std::all_of(wall.meshes.begin(), wall.meshes.end(), [&](const MeshSpec &m) {
+    return !m.torque_about_mesh && m.torque_about == first;
+  });
+}
+
 bool are_one_mesh(const WallSpec &wall, const MeshSpec &mesh, const WallSpec &other_wall,
                   const MeshSpec &other)
 {

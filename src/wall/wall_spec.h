@@ -95,10 +95,11 @@ struct WallSpec {
   std::size_t memory_budget = GridSettings().memory_budget;    // bytes, for each mesh
   Wear wear;                                                   // K and H in pressure units
   WearShape wear_shape;                                        // of meshes that recede
-  bool contacts = false;                                       // for_contact_rows() will be called
-  bool each_contact = false;                                   // for_contacts() will be called
-  bool periodic = false;    // meshes are meant to reach past periodic faces
-  bool brief = false;       // one line in the log
+  int average_every = 0;        // steps of each mean of MeanLoads; 0: there is none
+  bool contacts = false;        // for_contact_rows() will be called
+  bool each_contact = false;    // for_contacts() will be called
+  bool periodic = false;        // meshes are meant to reach past periodic faces
+  bool brief = false;           // one line in the log
 
   // The sub-models, which all laws have.
   const ContactLaw &law() const { return laws.front().law; }
@@ -128,6 +129,9 @@ LawTable law_table(const WallSpec &wall);
 
 // The law of a mesh with what has no type: its own of all types, or the wall's.
 const ContactLaw &law_of_all_types(const WallSpec &wall, int mesh);
+
+// Are the torques of all meshes about the same point in each step?
+bool torques_share_a_point(const WallSpec &wall);
 
 // Are these the same triangles, which are always at the same place?
 bool are_one_mesh(const WallSpec &wall, const MeshSpec &mesh, const WallSpec &other_wall,

@@ -88,6 +88,18 @@ void each_number(Numbers &numbers, ShapeState &s)
 }
 
 template <class Numbers>
+void each_number(Numbers &numbers, MeanLoad &m)
+{
+  numbers(m.force, m.torque, m.torque_at_origin);
+}
+
+template <class Numbers>
+void each_number(Numbers &numbers, MeanLoadState &m)
+{
+  numbers(m.time, m.sum, m.mean);
+}
+
+template <class Numbers>
 void each_number(Numbers &numbers, SymmetricMatrix &m)
 {
   numbers(m.xx, m.yy, m.zz, m.xy, m.xz, m.yz);
@@ -163,6 +175,7 @@ State WallState::blocks() const
     if (!m.nodes.places.empty()) mesh.add("places of nodes", 1, m.nodes.places);
     if (!m.coat.empty()) mesh.add("coat", 1, m.coat);
     if (!m.shape.vertices.empty()) mesh.add("shape", 1, m.shape);
+    if (!m.mean.empty()) mesh.add("mean", 1, m.mean);
     all.add("mesh", 1, mesh);
   }
   return all;
@@ -190,6 +203,7 @@ WallState WallState::from(const State &state)
     mesh.find("places of nodes", 1, m.nodes.places);
     mesh.find("coat", 1, m.coat);
     mesh.find("shape", 1, m.shape);
+    mesh.find("mean", 1, m.mean);
     const std::size_t n = static_cast<std::size_t>(std::max<std::int64_t>(0, m.mesh.vertices));
     if ((!m.nodes.names.empty() && m.nodes.names.size() != n) ||
         (!m.nodes.places.empty() && m.nodes.places.size() != 3 * n))

@@ -5,6 +5,7 @@
 #pragma once
 
 #include "base/state_blocks.h"
+#include "wall/mean_loads.h"
 #include "wall/mesh_body.h"
 #include "wall/mesh_motion.h"
 #include "wall/mesh_nodes.h"
@@ -40,8 +41,9 @@ struct MeshState {
   LoadState loads;
   BodyState body;
   NodeState nodes;
-  std::vector<Real> coat;    // of BodyCoat::save()
-  ShapeState shape;          // of a mesh that recedes by its wear
+  std::vector<Real> coat;             // of BodyCoat::save()
+  ShapeState shape;                   // of a mesh that recedes by its wear
+  std::vector<MeanLoadState> mean;    // one, or none where there are no means
 };
 
 struct WallState {

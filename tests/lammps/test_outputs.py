@@ -195,6 +195,16 @@ def main():
     checks.at_most("elastic energy is the integral of the force",
                    (max(energies) - min(energies)) / max(energies), 3e-5)
 
+    # LAMMPS averages f_wall[1] to f_wall[6] itself, over the same steps.
+    thermo, _, _ = go(folder, law="hertz/history 1e5 NULL 0 NULL 0.5 0", more="contacts average 20",
+                      atoms="create_atoms 1 single 0.3 0 0.51 units box\n" + SPHERES + "velocity all set 0.3 0 -1.0\n",
+                      extra="fix by_lammps all ave/time 1 20 20 " + " ".join(f"f_wall[{k}]" for k in range(1, 7)) +
+                            "\nthermo_style custom step " + " ".join(f"f_by_lammps[{k}] f_wall[{k + 41}]" for k in range(1, 7)) +
+                            "\nthermo 20\nthermo_modify format float %.17g norm no", steps=200)
+    off = max(abs(row[k] - row[k + 1]) for row in thermo[1:] for k in range(1, 13, 2))
+    checks.fact("means are those that LAMMPS makes of the force and torque of each step",
+                len(thermo) == 11 and max(abs(row[5]) for row in thermo) > 10 and off < 1e-10, f"{off} {thermo[-1]}")
+
     _, _, text = go(folder, extra="timestep 0.1", steps=0)
     checks.fact("a timestep above a tenth of the contact time is warned of",
                 "wall/lsdcd: timestep 0.1 is more than a tenth" in text)

@@ -400,6 +400,26 @@ TEST_F(wall_spec, writes_the_files_of_words)
   EXPECT_EQ(by_spec.totals(0).worn, by_words.totals(0).worn);
 }
 
+TEST_F(wall_spec, means_are_those_of_the_steps)
+{
+  const api::Mesh mesh(file_);
+  api::WallSpec spec = floor_of(hooke_history(), mesh);
+  spec.average_every = 5;
+  api::Wall wall(spec);
+  Grains grains;
+  grains.add(1, 2, 0.5);
+  grains.step(wall, 1, true);
+  double sum = 0;
+  for (int step = 1; step <= 10; step++) {
+    grains.x[2] = 0.5 - 0.001 * step * step;
+    grains.step(wall);
+    if (step > 5) sum += wall.totals(0).force[2];
+  }
+  EXPECT_NE(sum, 0);
+  EXPECT_NEAR(wall.totals(0).mean_force[2], sum / 5, 1e-13 * std::fabs(sum));
+  EXPECT_EQ(wall.totals(-1).mean_force[2], wall.totals(0).mean_force[2]);
+}
+
 // ---- wear that moves the wall ----------------------------------------------------------------
 
 api::WallSpec receding(api::WallSpec spec)
@@ -1282,6 +1302,8 @@ TEST_F(wall_spec, names_the_field_its_value_and_the_remedy)
        "`wear_deform_every` is 10: nothing wears, as `wear` is LSDCD_NO_WEAR"},
       {[&](Wrong &w) { w.spec.wear_deform_every = -1; },
        "`wear_deform_every` is -1: it is a number of steps"},
+      {[&](Wrong &w) { w.spec.average_every = -1; },
+       "`average_every` is -1: it is a number of steps"},
       {[&](Wrong &w) { w.spec.wear_deform_factor = 2; },
        "`wear_deform_factor` is 2: a wall without wear_deform_every does not use it"},
       {[&](Wrong &w) {

@@ -65,6 +65,7 @@ struct Scene {
   Grains grains;
   std::unique_ptr<Wall> wall;
   std::int64_t now = 0;
+  Real dt = kDt;
   std::vector<Real> inputs;
 
   Scene(FakeHost &host, const WallSpec &settings) : host(host)
@@ -80,7 +81,7 @@ struct Scene {
       grains.force[i] = grains.torque[i] = {0, 0, 0};
     wall->history().grow(static_cast<int>(grains.x.size()));
     StepInput input;
-    input.step = {now, kDt, kind};
+    input.step = {now, dt, kind};
     input.look = look;
     input.new_spheres = look;
     input.box_changes = true;
@@ -482,6 +483,90 @@ TEST(Wall, names_the_meshes_that_press_a_sphere_whose_centre_comes_to_one_of_the
                        "mesh 1 '" +
                            floor.name + "' in step 7"),
             1);
+}
+
+// The sphere of a process overlaps the floor by this part of the radius in a step.
+Real overlap_in(std::int64_t step, int rank)
+{
+  return 0.001 * static_cast<Real>(step * step + 20 * rank);
+}
+
+void press(Scene &scene, int n)
+{
+  for (int i = 0; i < n; i++) {
+    scene.grains.x[0].z = kRadius * (1 - overlap_in(scene.now + 1, scene.host.rank()));
+    scene.run(1);
+  }
+}
+
+// The mean force of two processes on the floor in these steps; rounding of a few sums of order 100.
+Real mean_push(std::int64_t first, std::int64_t last)
+{
+  Real sum = 0;
+  for (std::int64_t step = first; step <= last; step++)
+    sum += overlap_in(step, 0) + overlap_in(step, 1);
+  return -kN * kRadius * sum / static_cast<Real>(last - first + 1);
+}
+
+TEST(Wall, has_the_mean_force_of_each_interval_until_the_next_one_ends)
+{
+  const Floor floor;
+  on_processes(2, [&](FakeHost &host) {
+    Scene scene(host, floor.wall({"average", "4", "mesh", floor.name, "move", "0", "0", "-30"}));
+    scene.grains.add({2, host.rank() ? -1. : 1., 0.4});
+    scene.now = 2;
+    scene.set_up();    // counts for nothing
+    press(scene, 1);
+    EXPECT_EQ(scene.wall->means().mesh(0).force.z, 0);
+    press(scene, 1);
+    EXPECT_NEAR(scene.wall->means().mesh(0).force.z, mean_push(3, 4), 1e-11);
+    press(scene, 3);
+    EXPECT_NEAR(scene.wall->means().mesh(0).force.z, mean_push(3, 4), 1e-11);
+    press(scene, 1);
+    EXPECT_NEAR(scene.wall->means().mesh(0).force.z, mean_push(5, 8), 1e-11);
+    // About 0 0 0 by spheres at x = 2.
+    EXPECT_NEAR(scene.wall->means().mesh(0).torque.y, -2 * mean_push(5, 8), 1e-11);
+    EXPECT_EQ(scene.wall->means().mesh(1).force.z, 0);
+    EXPECT_EQ(scene.wall->means().of_all().force.z, scene.wall->means().mesh(0).force.z);
+  });
+}
+
+TEST(Wall, weights_a_mean_by_the_time_of_its_steps)
+{
+  const Floor floor;
+  FakeHost host;
+  Scene scene(host, floor.wall({"average", "2"}));
+  scene.grains.add({0, 0, 0.4});
+  scene.set_up();
+  press(scene, 1);
+  scene.dt = 3 * kDt;
+  press(scene, 1);
+  EXPECT_NEAR(scene.wall->means().mesh(0).force.z,
+              -kN * kRadius * (overlap_in(1, 0) + 3 * overlap_in(2, 0)) / 4, 1e-11);
+}
+
+TEST(Wall, goes_on_with_a_mean_from_a_saved_state)
+{
+  const Floor floor;
+  on_processes(2, [&](FakeHost &host) {
+    const auto begin = [&](Scene &scene, std::int64_t now) {
+      scene.grains.add({2, 1, 0.4});
+      scene.now = now;
+    };
+    Scene first(host, floor.wall({"average", "4"})), next(host, floor.wall({"average", "4"}));
+    begin(first, 0);
+    first.set_up();
+    press(first, 6);
+    WallState state = first.wall->save();
+    const std::vector<Real> numbers = state.blocks().numbers();
+    begin(next, 6);
+    next.wall->restore(WallState::from(State(WallState::kKind, numbers.data(), numbers.size())),
+                       {6, kDt});
+    next.set_up();
+    EXPECT_NEAR(next.wall->means().mesh(0).force.z, mean_push(1, 4), 1e-11);
+    press(next, 2);
+    EXPECT_NEAR(next.wall->means().mesh(0).force.z, mean_push(5, 8), 1e-11);
+  });
 }
 
 TEST(Wall, of_one_process_that_fails_names_its_sphere)

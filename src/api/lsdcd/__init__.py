@@ -571,6 +571,8 @@ class WallTotals(_Record):
     removed: float        # volume by which wear has moved the mesh, see `wear_deform`
     held_back: float      # likewise, worn at vertices that stay
     couple: NDArray[np.float64]    # (3,) on a mesh whose nodes you move, which no node gets: the torque is of their forces
+    mean_force: NDArray[np.float64]     # (3,) over the steps of `average`
+    mean_torque: NDArray[np.float64]    # (3,) likewise
 
 
 class Host(Protocol):

@@ -110,7 +110,7 @@ _WallSpec = _struct(
     "_WallSpec", ("law", _at), ("meshes", _at), ("n_meshes", _size), ("corner", _int), ("side", _int), ("precision", _int),
     ("nearest", _int), ("cell", _real), ("memory", _real), ("rmax", _real), ("device", _int), ("wear", _int),
     ("wear_coefficient", _real), ("hardness", _real), ("wear_deform_every", _int), ("wear_deform_factor", _real),
-    ("periodic_ends", _int), ("brief", _int))
+    ("periodic_ends", _int), ("brief", _int), ("average_every", _int))
 
 _Show = ctypes.CFUNCTYPE(None, _at, _int, ctypes.c_char_p)
 _Reduce = ctypes.CFUNCTYPE(_int, _at, ctypes.POINTER(_real), _int)
@@ -128,7 +128,7 @@ _WallStep = _struct("_WallStep", ("dt", _real), ("setup", _int), ("changed", _in
 _WallTotals = _struct(
     "_WallTotals", ("force", _real * 3), ("torque", _real * 3), ("contacts", _real), ("overlap", _real),
     ("uncertified", _real), ("power", _real), ("energy", _real), ("worn", _real), ("servo", _real * 3),
-    ("removed", _real), ("held_back", _real), ("couple", _real * 3))
+    ("removed", _real), ("held_back", _real), ("couple", _real * 3), ("mean_force", _real * 3), ("mean_torque", _real * 3))
 
 
 class Error(ValueError):

@@ -334,12 +334,14 @@ class WallSpec:
     that there will be, 0: that of the spheres. `compute`: "cpu" or "cuda", for spheres in arrays of the host. `wear`:
     None, ("archard", K, H) with the hardness H, a pressure, or ("finnie", K), 1/pressure. `wear_deform`: (steps, factor),
     every so many steps wear moves the vertices of the meshes, by a volume of so many times what has worn; None: they stay.
-    `periodic_ends`: meshes are meant to end at periodic faces. `brief`: one line in the log."""
+    `periodic_ends`: meshes are meant to end at periodic faces. `brief`: one line in the log. `average`: steps of the means of
+    force and torque in Wall.totals(), 0: there are none."""
 
     def __init__(self, law: Law, meshes: Sequence[WallMesh], corner: str = "blend", side: str = "both",
                  precision: str = "double", nearest: int = 0, cell: float = 0.0, memory: float = 0.0, rmax: float = 0.0,
                  compute: str = "cpu", wear: tuple[str, float] | tuple[str, float, float] | None = None,
-                 periodic_ends: bool = False, brief: bool = False, wear_deform: tuple[int, float] | None = None) -> None:
+                 periodic_ends: bool = False, brief: bool = False, wear_deform: tuple[int, float] | None = None,
+                 average: int = 0) -> None:
         parts = [_instance(m, WallMesh, "a mesh of the wall") for m in meshes]
         array = (_WallMesh * len(parts))(*(part._struct for part in parts))
         numbers = [_c_double(n, "a number of wear") for n in wear[1:]] if wear else []
@@ -356,7 +358,7 @@ class WallSpec:
             precision=_chosen("precision", precision, ("double", "float", "mixed")), nearest=nearest, cell=cell, memory=memory,
             rmax=rmax, device=_chosen("compute", compute, DEVICES), wear=model, wear_coefficient=numbers[0] if wear else 0.0,
             hardness=numbers[1] if model == 1 else 0.0, wear_deform_every=every, wear_deform_factor=factor,
-            periodic_ends=_flag(periodic_ends, "periodic_ends"), brief=_flag(brief, "brief"))
+            periodic_ends=_flag(periodic_ends, "periodic_ends"), brief=_flag(brief, "brief"), average_every=average)
         self._kept = (law, parts, array)    # what the struct points to
 
 
