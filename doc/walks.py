@@ -92,8 +92,8 @@ WALKS = {
         "now": """
             plugin_guard.cpp:lammpsplugin_init host_matches ask_mpi plugin_guard.cpp:kokkos_matches
             open_styles > lsdcdkkplugin.cpp:lsdcd_add_styles lsdcdkkplugin.cpp:kokkos_matches add_plain_styles add_style create_fix
-            FixWallLsdcdKokkos::FixWallLsdcdKokkos FixWallLsdcd::FixWallLsdcd > make_engine_on
-            engine_cuda.cu:make_cuda_engine_in_place > FixWallLsdcd::pre_force FixWallLsdcd::begin
+            > GuardedFixKokkos::GuardedFixKokkos > FixWallLsdcdKokkos::FixWallLsdcdKokkos FixWallLsdcd::FixWallLsdcd
+            > make_engine_on engine_cuda.cu:make_cuda_engine_in_place > FixWallLsdcd::pre_force FixWallLsdcd::begin
             FixWallLsdcdKokkos::begin_step FixWallLsdcdKokkos::spheres host_kokkos.h:rows_of Wall::begin
             EngineOn::begin CudaSideStream::ready > FixWallLsdcdKokkos::pre_reverse Wall::launch
             Wall::step_settings EngineOn::launch EngineOn::launch_beside CudaSideStream::begin Wall::choose_if_due
@@ -106,7 +106,7 @@ WALKS = {
         "before": RECORD_BEFORE,
         "now": """
             > MeshPart::MeshPart > MeshGrid::MeshGrid MeshGrid::read read_mesh.cpp:read_mesh read_stl_mesh
-            read_stl read_stl_bytes read_binary read_stl_text Placement::apply weld weld_points sort_facets
+            read_stl read_stl_bytes read_binary read_stl_text Placement::apply weld weld.cpp:join weld_points weld.cpp:connect sort_facets
             build_edges number_flat_edges_last measure_mesh > GridManager::rebuild MeshGrid::build
             MeshGrid::whole with_images load_or_build_grid > build_cpu.cpp:build_grid build_grid_on
             mesh_features.cpp:make_features make_face_record edge_record make_segment put_inward face_record MeshFeatures::view > move_flat""",

@@ -164,8 +164,9 @@ TEST(body_coat, is_pressed_steadily_by_a_servo)
     scene.set_up();
     scene.run(3000);
     EXPECT_NEAR(scene.wall->servo_push(1), servo.target, 1e-2 * std::fabs(servo.target)) << turns;
-    if (!turns)
+    if (!turns) {
       EXPECT_NEAR(scene.wall->totals().mesh(0).force.z, -kMass * kGravity - push, 1e-2 * push);
+    }
   }
 }
 
@@ -711,7 +712,9 @@ TEST(body_coat, is_driven_by_its_own_belt)
     const Real pressed = kPointsOfFace * kStiffness * 0.005;
     scene.run(100);
     // Springs of friction need mu F / (kt v) of the time to give way, 2 % of it.
-    if (!turns) EXPECT_NEAR(at(), -mu * pressed / kMass * 0.1, 0.1 * mu * pressed / kMass * 0.1);
+    if (!turns) {
+      EXPECT_NEAR(at(), -mu * pressed / kMass * 0.1, 0.1 * mu * pressed / kMass * 0.1);
+    }
     scene.run(3000);
     EXPECT_NEAR(at(), -speed, 0.02 * speed) << turns;
   }
