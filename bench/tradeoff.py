@@ -156,7 +156,7 @@ def machines(rows):
 
 TEXT = """{begin}
 **Keep the default settings.** They miss no contact, their forces are exact, and on a CPU no other setting is faster by more than noise.
-You need the rest of this page only if you want to save memory, if you have a GPU that computes slowly in double precision, or if you want to
+You need the rest of this page only if you want to save memory, or if you want to
 know what you would lose with the method of the paper, `nearest N`.
 
 ## What the other settings do
@@ -167,8 +167,10 @@ The table compares the settings in the vessel of `examples/vessel`, which has {t
 {first}
 - **`grid`** sets the length of the cells. It changes the memory and the time for building the grid, but never a result.
 - **`precision mixed`** and **`precision single`** miss no contact. Their forces are right to six digits on average, and to three in the worst
-  case. They are meant for GPUs that compute slowly in double precision, of which none was measured. On the machines of this table they gain
-  nothing.
+  case. They were meant for GPUs that compute slowly in double precision, and do not help there: counted on an H100 with Kokkos, 1e6 spheres
+  in a closed box, *mixed* adds 0.2 % to the double-precision instructions of a step and *single* saves 0.7 % (2 % where LAMMPS itself is built
+  with KOKKOS_PREC=mixed), because the wall has 7 % of them in all ([how it was counted](notes/performance.md#double-precision-instructions-of-a-step-2026-11)).
+  On the machines of this table they gain nothing either.
 - **`corner sum`** adds the forces of both sides of a shallow fold in full, so that the fold is twice as stiff. You see it in the energy of
   the rolling sphere. Use it only to compare with a wall that does so.
 - **`nearest N`** misses contacts. It misses more of them with a smaller N and with larger spheres. A sphere whose contact is missed sinks
