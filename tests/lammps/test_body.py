@@ -496,7 +496,7 @@ def changes(checks, folder):
     refused("an error that an output finds", script(
         fix.replace("density 1", "mass 1 com 0 0 0 inertia 1 1 1 0 0 0 joint slider 0 0 1 spring 4e4 0 velocity 0 0 1"),
         far, 0.0101) + "thermo_style custom step f_w[34]\nthermo 1\nrun 20\n",
-        "ERROR: Fix w wall/lsdcd: the timestep 0.0101 is not below 0.01", "Last command: run 20")
+        "ERROR: Fix w wall/lsdcd: the timestep 0.0101 is not below 0.01", "Last ", ": run 20")
     refused("two dimensions", plain.replace("boundary        f f f", "dimension 2\nboundary        f f p").replace(
         "-2 2 -2 2 -2 2", "-2 2 -2 2 -0.1 0.1").replace("single 1 1 1", "single 1 1 0"), "plane z = 0")
     refused("a periodic face", plain.replace("boundary        f f f", "boundary        p f f").replace(
