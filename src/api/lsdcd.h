@@ -736,9 +736,10 @@ LSDCD_API int lsdcd_wall_set_pose(lsdcd_wall *wall, int mesh, const double *posi
                                   const double *quaternion, const double *velocity,
                                   const double *angular_velocity);
 /* Where the vertices of a mesh with `nodes_by_caller` are in the next step and those after it, and how fast they go, in
- * the box: 3 numbers each, in the order of lsdcd_mesh_get_arrays(), whose `welded_vertex` leads to them from the vertices of a
- * file. Between the three nodes of a triangle places and velocities are linear. Until the first call they are as the
- * placement has them, at rest; after lsdcd_wall_restore() where they were saved. Triangles stay the same.
+ * the box: 3 numbers each, in the order of the caller's vertices: those of lsdcd_mesh_from_faces() or of an OBJ, PLY or OFF file; of
+ * STL files and of corners the corners, three a triangle. There are `given_vertices` of lsdcd_mesh_facts. Of several that were
+ * welded to one the first counts, and the others are where it is; one of no triangle is not read. Between the three nodes of a triangle places and velocities are linear. Until the first call they are as the
+ * placement has them, at rest; after lsdcd_wall_restore() as they were saved. Triangles stay the same.
  *
  * positions: length. velocities: length/time, of the time of the spheres' velocities: with velocity Verlet half a step
  * before the positions; null: all are 0. Both are copied, and are the same on all processes. A wall with device LSDCD_CUDA
@@ -748,15 +749,15 @@ LSDCD_API int lsdcd_wall_set_pose(lsdcd_wall *wall, int mesh, const double *posi
  * next step refuses (LSDCD_ERROR_INPUT) a node that goes farther than the largest radius, and a triangle without area. Alone. Own. */
 LSDCD_API int lsdcd_wall_set_nodes(lsdcd_wall *wall, int mesh, const double *positions,
                                    const double *velocities);
-/* How many there are, of a mesh with `nodes_by_caller` or one that wear moves (wear_deform_every). LSDCD_ERROR_ARGUMENT: no
+/* How many vertices the caller has, of a mesh with `nodes_by_caller` or one that wear moves (wear_deform_every). LSDCD_ERROR_ARGUMENT: no
  * such mesh, another one. Alone. Own. */
 LSDCD_API int lsdcd_wall_get_node_count(lsdcd_wall *wall, int mesh, size_t *count);
-/* Where the vertices of such a mesh are after the last step, in the box, 3 numbers a vertex (length), to memory as of
- * lsdcd_wall_set_nodes(). Alone. Own. */
+/* Where the vertices of such a mesh are after the last step, in the box, 3 numbers a vertex (length), to memory and in the order
+ * of lsdcd_wall_set_nodes(); no numbers for a vertex of no triangle. Alone. Own. */
 LSDCD_API int lsdcd_wall_get_nodes(lsdcd_wall *wall, int mesh, double *positions);
 /* Forces on them in the last step, 3 numbers a vertex, over all processes: of each contact its force, shared among the
  * nodes of its triangle or edge so that their sum and moment are those of the force at the closest point, and of
- * `pressure`. What no node gets is a couple: that of rolling and twisting resistance, and that of a tangential force on
+ * `pressure`. Of several vertices that were welded to one the first has its force, and the others 0. What no node gets is a couple: that of rolling and twisting resistance, and that of a tangential force on
  * the arm of the overlap. To memory as of lsdcd_wall_set_nodes(): on a GPU in the order of the wall's stream, where an error of
  * a sphere is told by the next call. Own. */
 LSDCD_API int lsdcd_wall_get_node_forces(lsdcd_wall *wall, int mesh, double *forces);
@@ -800,8 +801,8 @@ LSDCD_API int lsdcd_wall_change(lsdcd_wall *wall, const char *const *words, size
  * that fit in `room` are written; with `room` 0 the array may be null. Own. */
 LSDCD_API int lsdcd_wall_save(lsdcd_wall *wall, double *numbers, size_t room, size_t *count);
 /* Into a wall of the same spec or words, before its first step, whose spheres then have the same order; process by
- * process. Steps count on from the last one of that wall, for files and wear that come every so many steps. A servo moves by the
- * load of the step before: begin with `setup`. Numbers of a wall with other meshes, placements or motions as it was made, laws, corner, side
+ * process. Steps count on from the last one of that wall, for files and wear that come every so many steps. All goes on as if that wall
+ * did, bit for bit on as many processes; lsdcd_wall_save() writes the same numbers again. Numbers of a wall with other meshes, placements or motions as it was made, laws, corner, side
  * or wear are refused with what differs (LSDCD_ERROR_ARGUMENT), and the wall stays as it is. Own. */
 LSDCD_API int lsdcd_wall_restore(lsdcd_wall *wall, const double *numbers, size_t count);
 /* Takes from numbers of another wall what fits this one; what does not, `show` tells. Else as lsdcd_wall_restore(). Own. */

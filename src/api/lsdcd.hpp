@@ -942,7 +942,7 @@ class Wall {
                                  pose.velocity.data(), pose.angular_velocity.data()));
   }
   // Where the vertices of mesh number `mesh`, which has nodes_by_caller, are in the next step and those after it: 3
-  // numbers a vertex, in the order of MeshArrays::vertices. `velocities` may be empty: all are 0 then. Throws
+  // numbers a vertex, in the order of your vertices, see lsdcd_wall_set_nodes(). `velocities` may be empty: all are 0 then. Throws
   // LSDCD_ERROR_ARGUMENT for another number of them.
   void set_nodes(int mesh, const std::vector<double> &positions,
                  const std::vector<double> &velocities = {})

@@ -92,12 +92,6 @@ void check_mesh(const lsdcd_wall &wall, int mesh, int least)
                                              std::to_string(n) + ", counted from 0");
 }
 
-void check_order_is_free(const lsdcd_wall &wall)
-{
-  if (!wall.restored.empty())
-    throw ApiError(LSDCD_ERROR_ARGUMENT, "spheres keep their order until the step after a restore");
-}
-
 void note_late(lsdcd_wall &wall)
 {
   if (!wall.tells_late() || wall.late.code != LSDCD_OK) return;

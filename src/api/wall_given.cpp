@@ -231,6 +231,7 @@ MeshSpec mesh_spec_of(const lsdcd_wall_mesh &given, std::size_t k, const WallSpe
   MeshSpec mesh;
   if (!given.mesh) refuse_field(field + ".mesh", "null", "give a mesh");
   mesh.mesh = {given.mesh->in, &given.mesh->in->mesh};
+  mesh.welded_vertex = {given.mesh->in, &given.mesh->in->welded_vertex};
   mesh.weld = 0;    // it is welded
   mesh.name = given.name && *given.name ? given.name : "mesh " + std::to_string(k + 1);
   mesh.placement = placement_of(given.placement, field + ".placement");

@@ -62,21 +62,32 @@ class PosesGiven {
 
 }    // namespace lsdcd
 
+namespace lsdcd {
+
+// The rows of arrays of nodes are the vertices of a mesh as its caller has them, each of which is a node of the wall's mesh.
+struct NodeRows {
+  std::vector<int> node;         // kNoVertex: the vertex is of no triangle
+  std::vector<int> first_row;    // of each node; the others were welded to it
+  bool are_one_each = true;      // each row is a node of its own
+};
+
+}    // namespace lsdcd
+
 struct lsdcd_wall {
   lsdcd::WallCaller caller;
   std::unique_ptr<lsdcd::GpuArrays> gpu;    // that has the arrays of spheres; null: the host has
   int threads;
   std::int64_t number = 0;    // of the last step
   lsdcd::Real dt = 0;
-  bool begun = false;                 // since spheres were numbered anew, too
-  lsdcd::Real largest_radius = 0;     // of this process, in the last step that looked
-  lsdcd::Failure late;                // of this process, which the next call reports to all
-  lsdcd::WallParts parts;             // of the spec that it was made of
-  std::string failed;                 // why a step failed half-way; empty: none did
-  lsdcd::SphereHistories restored;    // restored, until the first step
+  bool begun = false;                // since spheres were numbered anew, too
+  lsdcd::Real largest_radius = 0;    // of this process, in the last step that looked
+  lsdcd::Failure late;               // of this process, which the next call reports to all
+  lsdcd::WallParts parts;            // of the spec that it was made of
+  std::string failed;                // why a step failed half-way; empty: none did
+  bool is_restored = false;          // until the first step
   bool outside_warned = false;
   lsdcd::PosesGiven poses;
-  std::vector<std::vector<int>> node_of_vertex;    // of each mesh, once asked for
+  std::vector<lsdcd::NodeRows> node_rows;    // of each mesh that deforms
   std::unique_ptr<lsdcd::Wall> in;
 
   explicit lsdcd_wall(const lsdcd_wall_options &o) : caller(o), threads(o.threads) {}
@@ -115,18 +126,13 @@ void check_no_inputs(const Wall &wall);
 
 // Throws where there is no such mesh; `least`: -1 where that is all of them.
 void check_mesh(const lsdcd_wall &wall, int mesh, int least);
-// Throws where spheres cannot change their order.
-void check_order_is_free(const lsdcd_wall &wall);
 
-// Before wear moves any vertex: which one each of the caller's meshes has become.
+// Before any vertex moves: which one each of the caller's meshes has become.
 void note_vertices(lsdcd_wall &wall);
 
 // Stores errors of the last step's spheres that were not thrown at once.
 void note_late(lsdcd_wall &wall);
 // Throws it on all processes. Collective.
 void tell_late(lsdcd_wall &wall);
-
-// Contacts of spheres get what was restored, in the first step.
-void unpack_restored(lsdcd_wall &wall);
 
 }    // namespace lsdcd

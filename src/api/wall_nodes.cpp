@@ -6,8 +6,10 @@
 #include "api/device_memory.h"
 #include "api/refusals.h"
 #include "api/wall_handle.h"
+#include "base/input_words.h"
 #include "mesh/weld_map.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <numeric>
@@ -39,29 +41,40 @@ const MeshPart &part_that_deforms(const lsdcd_wall &wall, int mesh)
   return part.wear && part.spec.mesh ? part : part_with_nodes(wall, mesh);
 }
 
-// For each vertex of the caller's mesh, the node of the wall's mesh, which was welded once more.
-const std::vector<int> &node_of_vertex(lsdcd_wall &wall, int mesh)
+// The wall's mesh was welded once more.
+NodeRows node_rows_of(const MeshPart &part)
 {
-  std::vector<std::vector<int>> &all = wall.node_of_vertex;
-  if (all.empty()) all.resize(wall.in->meshes().size());
-  std::vector<int> &nodes = all[static_cast<std::size_t>(mesh)];
-  if (!nodes.empty()) return nodes;
-  const MeshPart &part = part_that_deforms(wall, mesh);
   std::vector<Vec3> places;
   for (const Vec3 &x : part.spec.mesh->vertices) places.push_back(part.spec.placement.apply(x));
   const std::vector<Vec3> &at = part.grid.mesh()->vertices;
   std::vector<int> numbers(at.size());
   std::iota(numbers.begin(), numbers.end(), 0);
-  std::vector<int> found = vertices_at(places, at, numbers);
+  const std::vector<int> node_of_welded = vertices_at(places, at, numbers);
   std::vector<char> taken(at.size(), 0);
-  for (std::size_t k = 0; k < found.size(); k++)
-    if (found[k] == kNoVertex || taken[found[k]]++)
+  for (std::size_t k = 0; k < node_of_welded.size(); k++)
+    if (node_of_welded[k] == kNoVertex || taken[node_of_welded[k]]++)
       throw ApiError(LSDCD_ERROR_INPUT, "vertex " + std::to_string(k) + " of mesh '" +
                                             part.spec.name +
                                             "' is placed where another is: its placement shrinks "
                                             "them to one");
-  nodes = std::move(found);
-  return nodes;
+  NodeRows rows;
+  rows.first_row.assign(at.size(), kNoVertex);
+  for (const int welded : *part.spec.welded_vertex) {
+    const int row = static_cast<int>(rows.node.size()),
+              node = welded == kNoVertex ? kNoVertex : node_of_welded[welded];
+    rows.node.push_back(node);
+    if (node != kNoVertex && rows.first_row[node] == kNoVertex)
+      rows.first_row[node] = row;
+    else
+      rows.are_one_each = false;
+  }
+  return rows;
+}
+
+const NodeRows &node_rows(const lsdcd_wall &wall, int mesh)
+{
+  part_that_deforms(wall, mesh);
+  return wall.node_rows[static_cast<std::size_t>(mesh)];
 }
 
 // Is an array, of three numbers a vertex, in the memory of a GPU alone? Throws where the wall computes elsewhere.
@@ -92,27 +105,71 @@ const double *on_host(const lsdcd_wall &wall, const double *array, bool on_gpu, 
   return copy.data();
 }
 
-std::vector<Real> in_order_of_nodes(const double *given, const std::vector<int> &nodes,
-                                    const char *name)
+// Of several vertices that were welded to one the first counts.
+std::vector<Real> in_order_of_nodes(const double *given, const NodeRows &rows, const char *name)
 {
-  std::vector<Real> out(3 * nodes.size());
-  for (std::size_t k = 0; k < nodes.size(); k++)
+  std::vector<Real> out(3 * rows.first_row.size());
+  for (std::size_t row = 0; row < rows.node.size(); row++) {
+    const int node = rows.node[row];
+    if (node == kNoVertex) continue;
     for (int d = 0; d < 3; d++) {
-      const double number = given[3 * k + d];
-      if (!std::isfinite(number)) checked_number(number, element(name, 3 * k + d));    // throws
-      out[3 * static_cast<std::size_t>(nodes[k]) + d] = number;
+      const double number = given[3 * row + d];
+      if (!std::isfinite(number)) checked_number(number, element(name, 3 * row + d));    // throws
+      if (rows.first_row[node] == static_cast<int>(row))
+        out[3 * static_cast<std::size_t>(node) + d] = number;
     }
+  }
   return out;
 }
 
-void in_order_of_vertices(const lsdcd_wall &wall, const Real *of_nodes,
-                          const std::vector<int> &nodes, double *to, bool on_gpu)
+// Throws where vertices that were welded to one go apart, as a crack would open.
+void check_welded(const double *given, const NodeRows &rows)
 {
-  std::vector<double> copy(on_gpu ? 3 * nodes.size() : 0);
+  if (rows.are_one_each) return;
+  const auto at = [given](std::size_t row) {
+    return Vec3{given[3 * row], given[3 * row + 1], given[3 * row + 2]};
+  };
+  Box box = {at(static_cast<std::size_t>(rows.first_row[0])),
+             at(static_cast<std::size_t>(rows.first_row[0]))};
+  for (const int row : rows.first_row) {
+    const Vec3 x = at(static_cast<std::size_t>(row));
+    box.lo = {std::min(box.lo.x, x.x), std::min(box.lo.y, x.y), std::min(box.lo.z, x.z)};
+    box.hi = {std::max(box.hi.x, x.x), std::max(box.hi.y, x.y), std::max(box.hi.z, x.z)};
+  }
+  constexpr Real kOfExtents = 0.01;    // welds are much shorter
+  for (std::size_t row = 0; row < rows.node.size(); row++) {
+    if (rows.node[row] == kNoVertex) continue;
+    const auto first = static_cast<std::size_t>(rows.first_row[rows.node[row]]);
+    const Real apart = norm(at(row) - at(first));
+    if (apart > kOfExtents * norm(box.hi - box.lo))
+      throw ApiError(LSDCD_ERROR_ARGUMENT,
+                     "nodes " + std::to_string(first) + " and " + std::to_string(row) +
+                         " (from 0) are one vertex of the mesh, and go " + number_text(apart) +
+                         " apart: give both the same place, or make the mesh "
+                         "with vertices that are not welded");
+  }
+}
+
+// Places: vertices that were welded to one have the same, those of no triangle none. Forces: the first of them has it, so
+// that their sum is that of the mesh; the others have 0.
+enum class OfRows { places, forces };
+
+void in_order_of_rows(const lsdcd_wall &wall, const Real *of_nodes, const NodeRows &rows,
+                      OfRows what, double *to, bool on_gpu)
+{
+  std::vector<double> copy(on_gpu ? 3 * rows.node.size() : 0);
   double *out = on_gpu ? copy.data() : to;
-  for (std::size_t k = 0; k < nodes.size(); k++)
-    for (int d = 0; d < 3; d++)
-      out[3 * k + d] = of_nodes[3 * static_cast<std::size_t>(nodes[k]) + d];
+  for (std::size_t row = 0; row < rows.node.size(); row++)
+    for (int d = 0; d < 3; d++) {
+      const int node = rows.node[row];
+      double &number = out[3 * row + d];
+      if (node == kNoVertex)
+        number = what == OfRows::places ? NAN : 0;
+      else if (what == OfRows::places || rows.first_row[node] == static_cast<int>(row))
+        number = of_nodes[3 * static_cast<std::size_t>(node) + d];
+      else
+        number = 0;
+    }
   if (on_gpu) wall.gpu->copy_in(out, to, copy.size() * sizeof(double));
 }
 
@@ -122,8 +179,13 @@ namespace lsdcd {
 
 void note_vertices(lsdcd_wall &wall)
 {
-  for (const MeshPart &part : wall.in->meshes())
-    if (part.wear && part.spec.mesh) node_of_vertex(wall, part.index);
+  wall.node_rows.resize(wall.in->meshes().size());
+  for (const MeshPart &part : wall.in->meshes()) {
+    if (!part.spec.mesh || !(part.wear || part.nodes)) continue;
+    NodeRows &rows = wall.node_rows[static_cast<std::size_t>(part.index)];
+    rows = node_rows_of(part);
+    if (part.nodes) part.nodes->rows = rows.first_row;
+  }
 }
 
 }    // namespace lsdcd
@@ -135,20 +197,23 @@ int lsdcd_wall_set_nodes(lsdcd_wall *wall, int mesh, const double *positions,
 {
   return guard_wall(wall, [&] {
     part_with_nodes(*wall, mesh);
-    const std::vector<int> &nodes = node_of_vertex(*wall, mesh);
+    const NodeRows &rows = node_rows(*wall, mesh);
     const bool on_gpu = is_on_gpu(*wall, positions, "positions");
     if (velocities && is_on_gpu(*wall, velocities, "velocities") != on_gpu)
       throw ApiError(LSDCD_ERROR_ARGUMENT,
                      "`positions` and `velocities` are in different memory: one is on the host, "
                      "the other on a GPU");
     const bool is_alone = wall->caller.is_alone();
-    if (on_gpu && is_alone && wall->in->set_nodes_in_place(mesh, positions, velocities, nodes))
+    if (on_gpu && is_alone && rows.are_one_each &&
+        wall->in->set_nodes_in_place(mesh, positions, velocities, rows.node))
       return;
     std::vector<double> copies[2];
     const auto ordered = [&](const double *given, const char *name, std::vector<double> &copy) {
-      return in_order_of_nodes(on_host(*wall, given, on_gpu, 3 * nodes.size(), copy), nodes, name);
+      return in_order_of_nodes(on_host(*wall, given, on_gpu, 3 * rows.node.size(), copy), rows,
+                               name);
     };
     const std::vector<Real> x = ordered(positions, "positions", copies[0]);
+    check_welded(on_gpu ? copies[0].data() : positions, rows);
     std::vector<Real> v;
     if (velocities) v = ordered(velocities, "velocities", copies[1]);
     wall->in->set_nodes(mesh, x.data(), velocities ? v.data() : nullptr);
@@ -162,8 +227,7 @@ int lsdcd_wall_get_node_count(lsdcd_wall *wall, int mesh, size_t *count)
 {
   return guard_wall(wall, [&] {
     need(count, "count");
-    part_that_deforms(*wall, mesh);
-    *count = node_of_vertex(*wall, mesh).size();
+    *count = node_rows(*wall, mesh).node.size();
   });
 }
 
@@ -175,7 +239,7 @@ int lsdcd_wall_get_nodes(lsdcd_wall *wall, int mesh, double *positions)
     std::vector<Vec3> at = part.mesh()->vertices;
     if (!part.nodes)
       for (Vec3 &x : at) x = part.motion.pose().to_box(x);
-    in_order_of_vertices(*wall, &at[0].x, node_of_vertex(*wall, mesh), positions, on_gpu);
+    in_order_of_rows(*wall, &at[0].x, node_rows(*wall, mesh), OfRows::places, positions, on_gpu);
   });
 }
 
@@ -184,10 +248,13 @@ int lsdcd_wall_get_node_forces(lsdcd_wall *wall, int mesh, double *forces)
   return guard_wall(wall, [&] {
     part_with_nodes(*wall, mesh);
     const bool on_gpu = is_on_gpu(*wall, forces, "forces");
-    const std::vector<int> &nodes = node_of_vertex(*wall, mesh);
-    if (on_gpu && wall->caller.is_alone() && wall->in->put_node_forces(mesh, forces, nodes)) return;
+    const NodeRows &rows = node_rows(*wall, mesh);
+    if (on_gpu && wall->caller.is_alone() && rows.are_one_each &&
+        wall->in->put_node_forces(mesh, forces, rows.node))
+      return;
     tell_late(*wall);
-    in_order_of_vertices(*wall, wall->in->node_forces(mesh).data(), nodes, forces, on_gpu);
+    in_order_of_rows(*wall, wall->in->node_forces(mesh).data(), rows, OfRows::forces, forces,
+                     on_gpu);
   });
 }
 

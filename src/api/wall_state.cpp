@@ -105,25 +105,12 @@ void restore(lsdcd_wall &wall, const double *numbers, std::size_t count, bool wh
                        "lsdcd_wall_restore_what_fits()");
   wall.in->restore(state, {step, wall.dt});
   wall.number = step;
-  wall.restored = std::move(spheres);
-  if (!wall.in->history().is_on()) wall.restored.clear();
+  wall.in->restore_springs(spheres);
+  wall.caller.tags.assign(wall.in->history().is_on() ? spheres.size() : 0, 0);
+  wall.is_restored = !wall.caller.tags.empty();
 }
 
 }    // namespace
-
-namespace lsdcd {
-
-void unpack_restored(lsdcd_wall &wall)
-{
-  HistoryExchange &history = wall.in->history();
-  history.on_host();
-  for (std::size_t i = 0; i < wall.restored.size(); i++)
-    history.unpack_saved(static_cast<int>(i), wall.restored[i].data(),
-                         static_cast<int>(wall.restored[i].size()));
-  wall.restored.clear();
-}
-
-}    // namespace lsdcd
 
 extern "C" {
 
@@ -134,7 +121,6 @@ int lsdcd_wall_pack(lsdcd_wall *wall, const ptrdiff_t *which, size_t n, double *
     need(count, "count");
     if (n > 0) need(which, "which");
     if (room > 0) need(numbers, "numbers");
-    check_order_is_free(*wall);
     check_spheres(*wall, which, n, "which");
     const bool keeps = wall->in->history().is_on();
     const ContactHistory &history = wall->in->history().on_host();
@@ -157,7 +143,6 @@ int lsdcd_wall_unpack(lsdcd_wall *wall, const ptrdiff_t *to, size_t n, const dou
   return guard_wall(wall, [&] {
     need(numbers, "numbers");
     if (n > 0) need(to, "to");
-    check_order_is_free(*wall);
     check_spheres(*wall, to, n, "to");
     const std::vector<const double *> spheres = packed_spheres(*wall, n, numbers, count);
     const bool keeps = wall->in->history().is_on();

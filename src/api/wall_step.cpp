@@ -25,16 +25,15 @@ namespace {
 void check_count(const lsdcd_wall &wall, std::size_t n)
 {
   const std::size_t before = wall.caller.tags.size();
+  if (wall.is_restored && n != before)
+    throw ApiError(LSDCD_ERROR_ARGUMENT, "what was restored has " + std::to_string(before) +
+                                             " spheres, and this step has " + std::to_string(n));
   if (n > 0x7fffffffu)
     throw ApiError(LSDCD_ERROR_ARGUMENT, "n is " + std::to_string(n) + ", more than an int counts");
   if (n < before)
     throw ApiError(LSDCD_ERROR_ARGUMENT, "there are " + std::to_string(n) +
                                              " spheres and there were " + std::to_string(before) +
                                              ": tell by lsdcd_wall_renumber() which ones are left");
-  if (!wall.restored.empty() && wall.restored.size() != n)
-    throw ApiError(LSDCD_ERROR_ARGUMENT, "what was restored has " +
-                                             std::to_string(wall.restored.size()) +
-                                             " spheres, and this step has " + std::to_string(n));
 }
 
 // The wishes of this process for a step.
@@ -137,7 +136,7 @@ void take_step(lsdcd_wall &wall, const StepWanted &want)
   check_no_inputs(*wall.in);
   const HostSpheres s = wall.caller.tagged(want.spheres);
   wall.in->history().grow(s.n);
-  if (!wall.restored.empty()) unpack_restored(wall);
+  wall.is_restored = false;
   wall.dt = want.step.dt;
   if (!want.step.setup) wall.number++;
   StepInput input;
@@ -198,7 +197,6 @@ int lsdcd_wall_renumber(lsdcd_wall *wall, const ptrdiff_t *from, size_t n)
                        "from[" + std::to_string(i) + "] is " + std::to_string(from[i]) +
                            ": each is a sphere of the last step, from 0 and once, or -1");
     }
-    check_order_is_free(*wall);
     HistoryExchange &history = wall->in->history();
     std::vector<std::vector<Real>> packed(n);
     if (history.is_on()) {

@@ -62,7 +62,12 @@ class HistoryExchange {
   // Features are written with the names that `name` gives them. Returns the numbers written.
   int pack_saved(int i, double *buffer, const FeatureName &name) const;
   // Before the first sphere is unpacked.
-  void set_kind_of_file(double kind) { kind_is_ours_ = kind == law_.history_kind(); }
+  void set_kind_of_file(double kind)
+  {
+    kind_is_ours_ = kind == law_.history_kind();
+    other_law_ = 0;
+    checked_ = false;
+  }
   // `size` numbers of one sphere. Numbers that another law wrote are not read, but counted.
   void unpack_saved(int i, const double *buffer, int size);
   // Drops the history of spheres that name a feature which is not there, and warns of these and of those

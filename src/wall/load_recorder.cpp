@@ -36,6 +36,7 @@ MeshLoads LoadRecorder::gathered(int mesh) const
 
 void LoadRecorder::restore(int mesh, Real time, const std::vector<double> &rows)
 {
+  loads_[mesh] = MeshLoads();
   loads_[mesh].set_time(time);
   if (host_.is_first()) loads_[mesh].add_packed(rows.data(), rows.size() / MeshLoads::kPackedLoad);
 }

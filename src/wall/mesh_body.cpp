@@ -336,7 +336,7 @@ std::string MeshBody::text() const
 
 BodyState MeshBody::state() const
 {
-  return {true, spec().mass, spec().joint, body_.state()};
+  return {true, spec().mass, spec().joint, body_.state(), load_};
 }
 
 RigidBody MeshBody::continued(const BodyState &was) const
@@ -368,6 +368,7 @@ void MeshBody::restore(const BodyState &was)
     return;
   }
   go_on(spec(), continued(was));
+  load_ = was.load;
   if (!is_same(was))
     host_.warn(named("the " + saved +
                      " was written with another mass or joint of this body: the body continues "

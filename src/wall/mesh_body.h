@@ -29,6 +29,7 @@ struct BodyState {
   MassProperties mass;
   Joint joint;
   RigidState state;
+  Wrench load;    // of the last step, by which the next one begins
 };
 
 // In the order of a step: advance() takes it to where contacts are computed, note_step() tells that they are, and

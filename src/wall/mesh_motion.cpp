@@ -291,6 +291,7 @@ void MeshMotion::restore(const MotionState &was, const Step &now)
     last.placed = true;
     motion.set_pose(last);
     begin(now);
+    clock_ = was.clock;
     return;
   }
   const bool same_line = was.servo.position == 0 || servo().has_line_of(was.servo),

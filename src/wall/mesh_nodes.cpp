@@ -66,7 +66,9 @@ std::string MeshNodes::named(const std::string &text) const
 // Names a node as the host does, or by its number.
 std::string MeshNodes::node_text(std::size_t i) const
 {
-  if (names.empty()) return "node " + std::to_string(i) + " (from 0)";
+  if (names.empty())
+    return "node " + std::to_string(rows.empty() ? i : static_cast<std::size_t>(rows[i])) +
+           " (from 0)";
   return std::string(host_.names().sphere) + " " +
          std::to_string(static_cast<std::int64_t>(names[i])) + ", a node,";
 }
@@ -300,8 +302,10 @@ void MeshNodes::give_nodes(WallEngine &engine)
 
 NodeState MeshNodes::save() const
 {
-  NodeState all = {names, {}};
+  NodeState all = {names, {}, {}};
   for (const Vec3 &x : mesh().vertices) all.places.insert(all.places.end(), {x.x, x.y, x.z});
+  if (!names.empty()) return all;
+  for (const Vec3 &v : velocity_) all.velocities.insert(all.velocities.end(), {v.x, v.y, v.z});
   return all;
 }
 
@@ -311,7 +315,7 @@ void MeshNodes::restore(const NodeState &was)
   springs_are_new_ = was.places.empty();
   if (springs_are_new_) return;
   std::vector<Vec3> set = std::move(next_), set_velocity = std::move(next_velocity_);
-  this->set(was.places.data(), nullptr);
+  this->set(was.places.data(), was.velocities.empty() ? nullptr : was.velocities.data());
   move_here({0, 0, Step::setup}, 0);
   next_ = std::move(set);
   next_velocity_ = std::move(set_velocity);

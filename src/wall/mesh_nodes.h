@@ -24,6 +24,8 @@ struct NodeState {
   std::vector<Real> names;    // of the particles of the host that are nodes; empty: it has none
   std::vector<Real>
       places;    // x y z of each (length); empty: no nodes, or a state without their places
+  // x y z of each (length/time); empty: 0, and of nodes that a host sets before each step.
+  std::vector<Real> velocities;
 };
 
 class MeshNodes {
@@ -98,6 +100,8 @@ class MeshNodes {
 
   // The names that the host has for nodes, for saved states; empty: none.
   std::vector<Real> names;
+  // The row in the arrays of a program in which each node is, for messages; empty: nodes are in the order of their numbers.
+  std::vector<int> rows;
 
  private:
   std::string named(const std::string &text) const;

@@ -48,6 +48,8 @@ class StepTotals {
   void expire() { reduced_ = false; }
   // The wall acts on nothing: all is 0 until the next step.
   void clear();
+  // Those of a saved state, until the next step.
+  void restore(int mesh, const MeshTotals &was) { meshes_[mesh] = was; }
 
   bool are_made() const { return reduced_; }    // of the last step
   // Makes the sums, once a step. `engine`: null while there are no spheres. `poses`: of the meshes in

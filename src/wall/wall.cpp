@@ -928,7 +928,8 @@ WallState Wall::save()
                           m.nodes ? m.nodes->save() : NodeState(),
                           {},
                           m.wear ? m.wear->save(m.grid.mesh()) : ShapeState(),
-                          {}});
+                          {},
+                          {{sums().mesh(m.index), coat_load(m.index)}}});
   }
   if (spec_.average_every > 0) {
     const std::vector<MeanLoadState> means = means_.save();
@@ -954,6 +955,7 @@ void Wall::restore(const WallState &was, const Step &now)
   files_.continue_lists();
   history_.set_kind_of_file(was.history_kind);
   clock_.base = was.time;
+  clear_totals();
   for (std::size_t k = 0; k < std::min(there, here); k++) {
     MeshPart &m = meshes_[k];
     m.springs_are_foreign = !(was.meshes[k].mesh == identity_of(m));
@@ -976,6 +978,17 @@ void Wall::restore(const WallState &was, const Step &now)
                                  std::to_string(here) + " are not carried over"
                            : "those after mesh " + std::to_string(there) +
                                  " start without springs, motion, loads and wear"));
+}
+
+void Wall::restore_springs(const std::vector<std::vector<Real>> &spheres)
+{
+  const int n = static_cast<int>(spheres.size());
+  history_.grow(std::max(history_.room(), n));
+  ContactHistory &springs = history_.on_host();
+  for (int i = 0; history_.is_on() && i < history_.room(); i++) springs.clear(i);
+  for (int i = 0; i < n; i++)
+    history_.unpack_saved(i, spheres[i].data(), static_cast<int>(spheres[i].size()));
+  check_history(n);
 }
 
 // `one_of_many`: springs tell which mesh they are of by its number alone.
@@ -1007,6 +1020,10 @@ void Wall::restore_mesh(MeshPart &m, const MeshState &was, const Step &now)
     if (coat.mesh() == m.index) coat.restore(was.coat);
   restore_shape(m, was.shape);
   if (!was.mean.empty()) means_.restore(m.index, was.mean.front());
+  if (!was.last.empty()) {
+    totals_.restore(m.index, was.last.front().totals);
+    coat_loads_[m.index] = was.last.front().coat;
+  }
   motion_has_changed(m);
   if (!spec_.has_loads(m.spec)) return;
   if (m.springs_are_foreign)

@@ -190,6 +190,8 @@ class Wall {
   // Restores what this or another wall has saved, the same on all processes. Throws InputError, and nothing has changed then,
   // where a servo would be outside of its limits.
   void restore(const WallState &was, const Step &now);
+  // After restore(): the history of the spheres of this process, each as pack_saved() wrote it. Warns of what does not fit.
+  void restore_springs(const std::vector<std::vector<Real>> &spheres);
 
  private:
   EngineSettings engine_settings() const;

@@ -41,6 +41,8 @@ struct MeshSpec {
   // A file, which one process reads, or a mesh in its own frame. Only the first process needs it.
   std::string file;
   std::shared_ptr<const WeldedMesh> mesh;    // null: that of the file
+  // Of such a mesh: which vertex of it each vertex of the program became, kNoVertex: none.
+  std::shared_ptr<const std::vector<int>> welded_vertex;
   Placement placement;    // from the frame of the file, or of the mesh, to the box
   Real weld = -1;         // length; < 0: cracks (mesh/cracks.h)
 

@@ -76,6 +76,20 @@ void each_number(Numbers &numbers, LoadState &l)
 }
 
 template <class Numbers>
+void each_number(Numbers &numbers, StepLoad &l)
+{
+  MeshTotals &t = l.totals;
+  numbers(t.force, t.torque, t.torque_at_origin, t.couple, t.contacts, t.overlap, t.uncertified,
+          t.power, t.energy, l.coat.contacts, l.coat.overlap, l.coat.radius, l.coat.mass);
+}
+
+template <class Numbers>
+void each_number(Numbers &numbers, Wrench &w)
+{
+  numbers(w.force, w.torque);
+}
+
+template <class Numbers>
 void each_number(Numbers &numbers, NodeState &n)
 {
   numbers(n.names);
@@ -171,11 +185,14 @@ State WallState::blocks() const
     if (!tables.empty()) mesh.add("tables", 1, tables);
     if (m.loads.time > 0 || !m.loads.rows.empty()) mesh.add("loads", 1, m.loads);
     if (m.body.present) mesh.add("body", 1, m.body);
+    if (m.body.present) mesh.add("load of body", 1, m.body.load);
     if (!m.nodes.names.empty()) mesh.add("nodes", 1, m.nodes);
     if (!m.nodes.places.empty()) mesh.add("places of nodes", 1, m.nodes.places);
+    if (!m.nodes.velocities.empty()) mesh.add("velocities of nodes", 1, m.nodes.velocities);
     if (!m.coat.empty()) mesh.add("coat", 1, m.coat);
     if (!m.shape.vertices.empty()) mesh.add("shape", 1, m.shape);
     if (!m.mean.empty()) mesh.add("mean", 1, m.mean);
+    if (!m.last.empty()) mesh.add("last step", 1, m.last);
     all.add("mesh", 1, mesh);
   }
   return all;
@@ -199,14 +216,18 @@ WallState WallState::from(const State &state)
           throw StateError("a motion in the data of the wall has an input that is not there");
     mesh.find("loads", 1, m.loads);
     mesh.find("body", 1, m.body);
+    mesh.find("load of body", 1, m.body.load);
     mesh.find("nodes", 1, m.nodes);
     mesh.find("places of nodes", 1, m.nodes.places);
+    mesh.find("velocities of nodes", 1, m.nodes.velocities);
     mesh.find("coat", 1, m.coat);
     mesh.find("shape", 1, m.shape);
     mesh.find("mean", 1, m.mean);
+    mesh.find("last step", 1, m.last);
     const std::size_t n = static_cast<std::size_t>(std::max<std::int64_t>(0, m.mesh.vertices));
     if ((!m.nodes.names.empty() && m.nodes.names.size() != n) ||
-        (!m.nodes.places.empty() && m.nodes.places.size() != 3 * n))
+        (!m.nodes.places.empty() && m.nodes.places.size() != 3 * n) ||
+        (!m.nodes.velocities.empty() && m.nodes.velocities.size() != 3 * n))
       throw StateError("the nodes in the data of the wall are not those of the mesh's vertices");
     const ShapeState &s = m.shape;
     if (!s.vertices.empty() &&

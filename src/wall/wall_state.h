@@ -30,6 +30,12 @@ struct MeshIdentity {
   }
 };
 
+// What acted on a mesh in the last step, by which servos move, and bodies where they are.
+struct StepLoad {
+  MeshTotals totals;
+  CoatLoad coat;    // its contacts, overlap, radius and mass
+};
+
 struct LoadState {
   Real time = 0;             // of the average
   std::vector<Real> rows;    // of all processes, as of MeshLoads::packed()
@@ -44,6 +50,7 @@ struct MeshState {
   std::vector<Real> coat;             // of BodyCoat::save()
   ShapeState shape;                   // of a mesh that recedes by its wear
   std::vector<MeanLoadState> mean;    // one, or none where there are no means
+  std::vector<StepLoad> last;         // one, or none in data of before 0.11.0
 };
 
 struct WallState {

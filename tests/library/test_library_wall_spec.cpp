@@ -450,7 +450,10 @@ TEST_F(wall_spec, wear_moves_the_mesh_as_by_words)
   api::Wall by_words(words({"mesh_stl", stl[0], "every", "12", "wear", "archard", "1e-3", "1",
                             "deform", "every", "4", "factor", "3"})),
       by_spec(spec);
-  const std::vector<double> flat = mesh.arrays().vertices;
+  std::vector<double> flat;    // the corners of the file, an STL
+  const api::MeshArrays of = mesh.arrays();
+  for (const std::uint32_t vertex : of.welded_vertex)
+    flat.insert(flat.end(), of.vertices.begin() + 3 * vertex, of.vertices.begin() + 3 * vertex + 3);
   EXPECT_EQ(by_spec.nodes(0), flat);
   Pile().go(by_words, 13);
   Pile().go(by_spec, 13);
@@ -478,12 +481,13 @@ TEST_F(wall_spec, the_worn_volume_is_between_the_old_vertices_and_the_new)
   const api::MeshArrays of = mesh.arrays();
   const std::vector<double> at = wall.nodes(0);
   double between = 0;
-  for (const std::uint32_t vertex : of.faces) between -= 200. / 3 * at[3 * vertex + 2];
+  for (std::size_t k = 2; k < at.size(); k += 3) between -= 200. / 3 * at[k];    // of each corner
   EXPECT_NEAR(between, 3 * worn, 1e-12 * worn);
   EXPECT_NEAR(wall.totals(0).removed, 3 * worn, 1e-12 * worn);
   EXPECT_EQ(wall.totals(0).held_back, 0);
   for (std::size_t k = 0; k < at.size(); k += 3) {
-    const double x = of.vertices[k], y = of.vertices[k + 1], depth = 3 * worn / 200;
+    const std::size_t vertex = 3 * of.welded_vertex[k / 3];
+    const double x = of.vertices[vertex], y = of.vertices[vertex + 1], depth = 3 * worn / 200;
     const double wanted = x < y ? 0 : x > y ? depth : depth / 2;
     EXPECT_NEAR(at[k + 2], -wanted, 1e-12 * depth) << x << " " << y;
   }
@@ -496,7 +500,7 @@ TEST_F(wall_spec, a_saved_wall_has_the_shape_that_wear_gave_it)
   api::Wall wall(spec), again(spec);
   Grains grains = slider();
   grains.step(wall, 6);
-  EXPECT_NE(wall.nodes(0), mesh.arrays().vertices);
+  EXPECT_NE(wall.nodes(0), again.nodes(0));
   again.restore(wall.save());
   EXPECT_EQ(again.nodes(0), wall.nodes(0));
   for (int k = 7; k <= 12; k++) {
@@ -795,19 +799,22 @@ TEST_F(wall_spec, goes_on_from_where_it_was_posed)
 
 // ---- nodes -----------------------------------------------------------------------------------
 
-// A plate of four vertices, the first two of which are given in another order than triangles have them, mirrored and
-// shifted by its placement: the k-th node is the k-th vertex.
+// A plate of four vertices in another order than triangles have them, mirrored and shifted by its placement: the k-th node
+// is the k-th vertex of the caller. A fifth is of no triangle.
 TEST_F(wall_spec, set_nodes_lifts_a_plate_vertex_by_vertex)
 {
-  const api::Mesh mesh(std::vector<double>{1, 1, 0, -1, -1, 0, 1, -1, 0, -1, 1, 0},
-                       std::vector<std::uint32_t>{1, 2, 0, 1, 0, 3});
+  const std::vector<double> vertices = {1, 1, 0, -1, -1, 0, 1, -1, 0, -1, 1, 0, 7, 7, 7};
+  const std::vector<std::uint32_t> faces = {1, 2, 0, 1, 0, 3};
+  const api::Mesh mesh(vertices, faces);
   api::WallSpec spec = floor_of(api::Law::classic({"hooke", {kN, 0, 20, 0, 0, 1}}), mesh);
   spec.meshes[0].placement.scale(-1, 1, 1).move(0.25, 0, 1);
   spec.meshes[0].nodes_by_caller = true;
   lsdcd::Wall wall(spec);
-  const std::vector<double> vertices = mesh.arrays().vertices, placed = wall.nodes(0);
+  std::vector<double> placed = wall.nodes(0);
   ASSERT_EQ(placed.size(), vertices.size());
-  for (std::size_t k = 0; k < placed.size(); k += 3) {
+  EXPECT_TRUE(std::isnan(placed[12]));
+  std::fill(placed.begin() + 12, placed.end(), 0);
+  for (std::size_t k = 0; k < 12; k += 3) {
     EXPECT_EQ(placed[k], 0.25 - vertices[k]);
     EXPECT_EQ(placed[k + 1], vertices[k + 1]);
     EXPECT_EQ(placed[k + 2], 1);
@@ -821,21 +828,47 @@ TEST_F(wall_spec, set_nodes_lifts_a_plate_vertex_by_vertex)
   }
   wall.set_nodes(0, at, velocities);
   Grains grains;
-  const auto face = mesh.arrays().faces;
   double middle[2] = {0, 0};
   for (int k = 0; k < 3; k++)
-    for (int d = 0; d < 2; d++) middle[d] += at[3 * face[k] + d] / 3;
+    for (int d = 0; d < 2; d++) middle[d] += at[3 * faces[k] + d] / 3;
   grains.add(middle[0], middle[1], 1.5);
   grains.step(wall);
   const double wanted = kN * 0.0625 + 20 * grains.mass[0] * 0.5;
   EXPECT_NEAR(grains.force[2], wanted, kN * kRounding);
   EXPECT_NEAR(wall.totals(0).power, 0.5 * wanted, kN * kRounding);
   const std::vector<double> forces = wall.node_forces(0);
-  for (std::uint32_t k = 0; k < 4; k++) {
-    const bool is_corner = k == face[0] || k == face[1] || k == face[2];
-    EXPECT_NEAR(forces[3 * k + 2], is_corner ? -wanted / 3 : 0, kN * kRounding) << k;
+  for (std::uint32_t k = 0; k < 5; k++)
+    EXPECT_NEAR(forces[3 * k + 2], k < 3 ? -wanted / 3 : 0, kN * kRounding) << k;
+  std::vector<double> there = wall.nodes(0);
+  there.resize(12);
+  at.resize(12);
+  EXPECT_EQ(there, at);
+}
+
+// Two triangles of six corners, of which four are two vertices: the first of each two has the force of both.
+TEST_F(wall_spec, nodes_that_were_welded_stay_together)
+{
+  const std::vector<double> corners = {-2, -2, 0, 2, -2, 0, 2, 2, 0, -2, -2, 0, 2, 2, 0, -2, 2, 0};
+  const api::Mesh mesh(corners);
+  api::WallSpec spec = floor_of(api::Law::classic({"hooke", {kN, 0, 0, 0, 0, 0}}), mesh);
+  spec.meshes[0].nodes_by_caller = true;
+  lsdcd::Wall wall(spec);
+  EXPECT_EQ(wall.nodes(0), corners);
+  Grains grains;
+  grains.add(0, 0, 0.49);    // over the middle of the edge between the two
+  grains.step(wall);
+  const std::vector<double> forces = wall.node_forces(0);
+  const double half = -kN * 0.01 / 2, wanted[6] = {half, 0, half, 0, 0, 0};
+  for (int k = 0; k < 6; k++) EXPECT_NEAR(forces[3 * k + 2], wanted[k], kN * kRounding) << k;
+  std::vector<double> torn = corners;
+  torn[3 * 4 + 2] = 0.1;
+  try {
+    wall.set_nodes(0, torn);
+    ADD_FAILURE();
+  } catch (const api::Error &e) {
+    EXPECT_NE(std::string(e.what()).find("nodes 2 and 4 (from 0) are one vertex"),
+              std::string::npos);
   }
-  EXPECT_EQ(wall.nodes(0), at);
 }
 
 TEST_F(wall_spec, refuses_nodes_that_make_no_sense)

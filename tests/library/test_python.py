@@ -517,6 +517,72 @@ def check_wall_arrays():
         refused("a stream needs a device", "stream is given", lambda: lsdcd.Wall(words, stream=7), lsdcd.Error)
 
 
+def saved_walls():
+    """For each kind of wall whose state is more than springs: its name, how it is made, and what it is told before step k."""
+    angles = np.arange(6) * np.pi / 3
+    vertices = np.array([[2 * np.cos(a), 2 * np.sin(a), 0] for a in angles] + [[0, 0, 0]])
+    disc = lsdcd.Mesh(vertices, [[k, (k + 1) % 6, 6] for k in range(6)])
+    corners = np.array([[x, y, z] for x in (-2, 2) for y in (-2, 2) for z in (-1, 0)], float)
+    sides = (0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)
+    box = lsdcd.Mesh(corners, [t for a, b, c, d in sides for t in ((a, b, c), (a, c, d))])
+    law = lsdcd.Law("hooke/history", kn=1e4, kt=5e3, gamman=20, xmu=0.5, dampflag=1)
+    below = lsdcd.WallMesh(disc, "below", lsdcd.Placement().move(0, 0, -1.05))
+    slider = lsdcd.RigidBody(mass=20, inertia=(1, 1, 1, 0, 0, 0), joint="slider", axis=(0, 0, 1), spring=(2e4, 5, 0))
+    coated = lsdcd.RigidBody(20, velocity=(0.1, 0, -0.2), gravity=(0, 0, -10), coat=(0.5, 0.1))
+
+    def pose(wall, t):
+        wall.set_pose(0, position=(0, 0.1 * t, 0), velocity=(0, 0.1, 0))
+
+    def bend(wall, t):
+        up = np.outer(vertices[:, 0], (0, 0, 1))
+        wall.set_nodes(0, vertices + 0.4 * t * up, 0.4 * up)
+
+    for name, mesh, tell, words in (
+            ("at rest", {}, None, {"average": 7}), ("motion", {"motions": [lsdcd.Motion.wiggle((0, 0.05, 0), 0.05)]}, None, {}),
+            ("pose", {"posed_by_caller": True}, pose, {}), ("nodes", {"nodes_by_caller": True}, bend, {}),
+            ("servo", {"servo": lsdcd.Servo((0, 0, 1), 30, 0.2)}, None, {}),
+            ("servo that turns", {"servo": lsdcd.Servo((0, 0, 1), 3, 0.2, turns=True)}, None, {}),
+            ("slider", {"body": slider}, None, {}), ("body with a coat", {"body": coated}, None, {}),
+            ("wear that moves", {}, None, {"wear": ("archard", 1e-6, 1e5), "wear_deform": (3, 0.1)})):
+        of_box = "coat" in name or "wear" in name
+        meshes = [lsdcd.WallMesh(box if of_box else disc, **mesh)] + ([below] if "coat" in name else [])
+        yield name, lambda: lsdcd.Wall(lsdcd.WallSpec(law, meshes, rmax=0.2, **words)), tell
+
+
+def check_saved_states():
+    """A wall that was restored has all that the other one has, and goes on as it does, bit for bit."""
+    dt, n = 5e-4, 5
+
+    def go(wall, grains, tell, first, last):
+        for k in range(first, last):
+            if tell:
+                tell(wall, k * dt)
+            grains["x"] += grains["v"] * dt
+            force, torque = np.zeros((2, n, 3))
+            wall.step(**grains, radius=np.full(n, 0.2), mass=np.ones(n), force=force, torque=torque, dt=dt)
+            grains["v"] += (force - (0, 0, 10)) * dt
+            grains["omega"] += torque / 0.016 * dt
+
+    for name, make, tell in saved_walls():
+        x = np.array([[a, 0.1 * a * a, 0.19] for a in np.linspace(-1.2, 1.2, n)])
+        grains = {"x": x, "v": 0.1 * np.sin(x + [[1], [2], [3], [4], [5]]), "omega": np.cos(x)}
+        wall = make()
+        go(wall, grains, tell, 0, 25)
+        saved = wall.save()
+        again, others = make(), {k: v.copy() for k, v in grains.items()}
+        again.restore(saved)
+        twice = again.save()
+        fact(f"{name}: saved, restored and saved again are the same bytes", saved.tobytes() == twice.tobytes(),
+             (saved.size, twice.size))
+        again.restore(saved)
+        fact(f"{name}: restored twice is restored", again.save().tobytes() == saved.tobytes())
+        fact(f"{name}: has the totals of the last step", again.totals() == wall.totals() and wall.totals().contacts > 0)
+        go(wall, grains, tell, 25, 40)
+        go(again, others, tell, 25, 40)
+        fact(f"{name}: goes on bit for bit", all((grains[k] == others[k]).all() for k in grains)
+             and (wall.pose() == again.pose()).all())
+
+
 def check_given_values():
     """What is no number, no whole number or no text of C is refused, and never read as another one."""
     triangle = np.array([[[-9.0, -9, 0], [9, -9, 0], [0, 9, 0]]])
@@ -829,6 +895,7 @@ if __name__ == "__main__":
     check_processes()
     check_wall_specs()
     check_wall_arrays()
+    check_saved_states()
     check_given_values()
     check_values_that_c_reads_otherwise()
     check_errors()

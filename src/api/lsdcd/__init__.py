@@ -787,7 +787,9 @@ class Wall(_Owner):
         """Where the vertices of mesh number `mesh`, from 0, which has nodes_by_caller, are in the next step and those
         after it, and how fast they go. Between the nodes of a triangle both are linear.
 
-        positions: (vertices, 3), length, in the order of Mesh.arrays().vertices. velocities: (vertices, 3), length/time, of the
+        positions: (vertices, 3), length, in the order of your vertices: those that the mesh was made of or that its file
+        numbers, of STL and triangles their corners. Of several that were welded to one the first counts, and the others are
+        where it is; one of no face is not read. velocities: (vertices, 3), length/time, of the
         time of the spheres' velocities: with velocity Verlet half a step before the positions; None: all are 0. The same on
         all processes. With device="cuda" both may be contiguous float64 arrays on the device, which are read in the order of
         the wall's stream. Raises Error for a mesh that there is not or that has no such nodes and for a number that is not
@@ -807,13 +809,13 @@ class Wall(_Owner):
 
     def nodes(self, mesh: int = 0) -> NDArray[np.float64]:
         """Where the vertices of a mesh with nodes_by_caller, or of one that wear moves (wear_deform), are after the last step,
-        (vertices, 3), length."""
+        (vertices, 3), length, in your order; nan for a vertex of no face."""
         return self._of_nodes(_lib.lsdcd_wall_get_nodes, mesh)
 
     def node_forces(self, mesh: int = 0, out: Any = None) -> Any:
         """Forces on these vertices in the last step, (vertices, 3), over all processes: those of contacts, each shared among
         the nodes of its triangle or edge so that their sum and moment are those of the force at the closest point, and
-        those of `pressure`. `out`: a contiguous float64 array of this shape, where the wall was made for, that they are written to
+        those of `pressure`. Of vertices that were welded to one the first has its force, the others 0. `out`: a contiguous float64 array of this shape, where the wall was made for, that they are written to
         and that is returned; on a device in the order of the wall's stream. Raises TypeError for an array of another type or place,
         ValueError for another shape or what cannot be written."""
         if out is None:
