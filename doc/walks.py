@@ -38,7 +38,7 @@ SEARCH_BEFORE = """
     gather_for gather_within for_each_within CellsInBall::next insert_code > GatherWork::operator() WallLists::put"""
 SEARCH_NOW = """
     BroadPhase::choose CandidateSelector::choose CandidateSelector::select {select}
-    CandidateTest::centres CandidateTest::check CandidateTest::coarse_test CandidateTest::locate CandidateTest::refine
+    CandidateTest::centres CandidateTest::check CandidateTest::coarse_test CandidateTest::is_near CandidateTest::refine
     query_sphere_at can_touch FeatureListStore::make feature_list.h:gather gather_for gather_within for_each_within
     CellsInBall::next insert_code > GatherWork::operator() FeatureLists::put"""
 STEP_BEFORE = """
@@ -73,7 +73,7 @@ WALKS = {
             FixWallLsdcd::pre_force FixWallLsdcd::begin FixWallLsdcd::begin_step FixWallLsdcd::spheres
             FixWallLsdcd::spheres_in_atom Wall::begin Wall::launch EngineOn::launch Wall::step_settings
             Wall::choose_if_due CandidateSchedule::next EngineOn::choose"""
-            + SEARCH_NOW.format(select="selection_cpu.h:start selection_cpu.h:refine")
+            + SEARCH_NOW.format(select="selection_cpu.h:run selection_cpu.h:refine")
             + " > FixWallLsdcd::post_force FixWallLsdcd::finish_step Wall::finish EngineOn::finish"
             + STEP_NOW.format(step="step_cpu.h:run_step run_fast_path > run_left"),
     },
@@ -98,7 +98,7 @@ WALKS = {
             EngineOn::begin CudaSideStream::ready > FixWallLsdcdKokkos::pre_reverse Wall::launch
             Wall::step_settings EngineOn::launch EngineOn::launch_beside CudaSideStream::begin Wall::choose_if_due
             CandidateSchedule::next EngineOn::choose"""
-            + SEARCH_NOW.format(select="selection_gpu.h:start selection_gpu.h:mark > mark_candidates_gpu.h:operator() > refine_gpu.h:operator()")
+            + SEARCH_NOW.format(select="selection_gpu.h:run > selection_gpu.h:operator()")
             + STEP_NOW.format(step="step_gpu.h:run_step > step_gpu.h:operator() run_general_path")
             + " > FixWallLsdcd::post_force FixWallLsdcdKokkos::finish_step FixWallLsdcd::finish_step Wall::finish",
     },

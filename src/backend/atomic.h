@@ -57,15 +57,6 @@ LSDCD_FN void count_one(std::uint64_t *at)
   add_to(at, 1);
 }
 
-LSDCD_FN void set_bits(unsigned *at, unsigned bits)
-{
-#if LSDCD_ON_GPU()
-  atomicOr(at, bits);
-#else
-  __atomic_fetch_or(at, bits, __ATOMIC_RELAXED);
-#endif
-}
-
 // Sets a flag that any thread may set.
 LSDCD_FN void set_flag(int *flag)
 {

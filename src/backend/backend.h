@@ -15,7 +15,7 @@
 //   scan                         the same without the total, and without a wait
 //   sort_pairs                   by key, stable, up to the bits of the largest key
 //   sort_in                      the same in memory that the caller keeps, by the lowest bits; does not wait
-//   compact                      what is flagged of an array, in order
+//   compact                      what is flagged of an array, or of the numbers [0, n), in order
 //   Event                        a point in what was started: record() and wait() for it
 //   SideStream                   what is started between begin() and end() waits for what came before ready() only
 //   milliseconds                 that f() takes

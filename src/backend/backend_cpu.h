@@ -86,13 +86,14 @@ struct CpuBackend {
     return 1e3 * std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   }
 
-  // Copies those of from[0, n) whose flag is set to `to`; *total becomes their number.
+  // Copies those of from[0, n), or of the numbers [0, n) where it is null, whose flag is set to `to`; *total becomes how
+  // many they are.
   void compact(std::size_t n, const int *from, const char *flags, Array<char> & /*scratch*/,
                int *to, std::uint32_t *total)
   {
     std::uint32_t kept = 0;
     for (std::size_t k = 0; k < n; k++)
-      if (flags[k]) to[kept++] = from[k];
+      if (flags[k]) to[kept++] = from ? from[k] : static_cast<int>(k);
     *total = kept;
   }
 

@@ -178,10 +178,6 @@ struct CudaBackend {
   void for_each_block(const LaunchShape &shape, const F &f)
   {
     const auto kernel = cuda_for_each_block<F>;
-    if (shape.shared > 0)
-      cuda_check(cudaFuncSetAttribute(kernel, cudaFuncAttributeMaxDynamicSharedMemorySize,
-                                      static_cast<int>(shape.shared)),
-                 "asking for shared memory");
     LaunchShape can = shape;
     if (shape.begins_early) {
       static const bool early = can_begin_early(kernel);
@@ -227,16 +223,24 @@ struct CudaBackend {
     return ms;
   }
 
-  // Copies those of from[0, n) whose flag is set to `to`; *total, on the device, becomes their number. Does not
-  // wait: `scratch` must not be freed before it has ended.
+  // Copies those of from[0, n), or of the numbers [0, n) where it is null, whose flag is set to `to`; *total, on the
+  // device, becomes how many they are. Does not wait: `scratch` must not be freed before it has ended.
   template <class = void>
   void compact(std::size_t n, const int *from, const char *flags, Array<char> &scratch, int *to,
                std::uint32_t *total)
   {
-    with_kept_scratch(0, scratch, [&](char *, void *more, std::size_t &bytes) {
-      return cub::DeviceSelect::Flagged(more, bytes, from, flags, to, total, static_cast<int>(n),
-                                        stream);
-    });
+    const auto select = [&](auto source) {
+      with_kept_scratch(0, scratch, [&](char *, void *more, std::size_t &bytes) {
+        return cub::DeviceSelect::Flagged(more, bytes, source, flags, to, total,
+                                          static_cast<int>(n), stream);
+      });
+    };
+    if (n == 0)
+      cuda_check(cudaMemsetAsync(total, 0, sizeof *total, stream), "clearing a count");
+    else if (from)
+      select(from);
+    else
+      select(thrust::counting_iterator<int>(0));
   }
 
   // In scratch memory that the caller keeps between steps: the pool of Scratch takes 32 MiB of the device for any number of
@@ -351,7 +355,6 @@ struct CudaBackend {
     cudaLaunchConfig_t config = {};
     config.gridDim = dim3(shape.blocks);
     config.blockDim = dim3(shape.threads);
-    config.dynamicSmemBytes = shape.shared;
     config.stream = stream;
     config.attrs = &early;
     config.numAttrs = shape.begins_early ? 1 : 0;

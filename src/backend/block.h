@@ -9,8 +9,6 @@
 
 #include "backend/warp.h"
 
-#include <cub/block/block_reduce.cuh>
-#include <cub/block/block_scan.cuh>
 #include <cuda_pipeline_primitives.h>
 #include <cuda_runtime.h>
 
@@ -27,7 +25,6 @@ using GpuWarp = Warp<kWarpSize>;
 
 struct LaunchShape {
   unsigned blocks, threads;     // threads of a block
-  std::size_t shared = 0;       // bytes of a block's memory()
   bool begins_early = false;    // may it begin while the work before it runs?
 };
 
@@ -40,12 +37,6 @@ struct Block {
   LSDCD_GPU_FN static unsigned n_blocks() { return gridDim.x; }
   // Until all threads of the block are here.
   LSDCD_GPU_FN static void wait() { __syncthreads(); }
-  // The shared memory that the start asked for, aligned for a Chunk.
-  LSDCD_GPU_FN static void *memory()
-  {
-    extern __shared__ uint4 block_memory[];
-    return block_memory;
-  }
 
   // Work that may begin early does so once each block of the work before it has called let_next_begin() or
   // ended, on GPUs that can (from Hopper on). It waits for what it needs of that one.
@@ -61,31 +52,6 @@ struct Block {
     asm volatile("griddepcontrol.wait;" ::: "memory");
 #endif
   }
-};
-
-// Sums over the threads of a block, of which each calls them. Block::wait() comes between two.
-template <unsigned kThreads>
-class BlockSums {
-  using Sum = cub::BlockReduce<unsigned, kThreads>;
-  using Scan = cub::BlockScan<unsigned, kThreads>;
-
- public:
-  union Memory {    // shared
-    typename Sum::TempStorage sum;
-    typename Scan::TempStorage scan;
-  };
-  LSDCD_GPU_FN explicit BlockSums(Memory &memory) : memory_(memory) {}
-
-  // The sum of all threads' n; known to thread 0.
-  LSDCD_GPU_FN unsigned sum(unsigned n) { return Sum(memory_.sum).Sum(n); }
-  // `before`: the sum of n of lower threads; `all`: the sum of n of all threads.
-  LSDCD_GPU_FN void scan(unsigned n, unsigned &before, unsigned &all)
-  {
-    Scan(memory_.scan).ExclusiveSum(n, before, all);
-  }
-
- private:
-  Memory &memory_;
 };
 
 // 16 bytes, which a thread reads and writes at once.

@@ -160,9 +160,9 @@ class CellQuery {
       const CellSphereLists<S> lists = {reinterpret_cast<InCell *>(list_.data()),
                                         static_cast<unsigned>(room<S>(m)), counts};
       b.for_each_block({n_tiles<S>(m), kFindBlock}, FindCellSpheres<Work>{m, mine, lists});
-      b.for_each_block({blocks(kSinglesBlocks), kSearchBlock, 0, true},
+      b.for_each_block({blocks(kSinglesBlocks), kSearchBlock, true},
                        SearchSingles<Work>{mine, lists});
-      b.for_each_block({blocks(kListsBlocks), kSearchBlock, 0, true},
+      b.for_each_block({blocks(kListsBlocks), kSearchBlock, true},
                        SearchLists<Work>{mine, lists, next, long_list, kMaxLong});
       if constexpr (Work::kHasLong)
         b.for_each_block({limits_.processors(), kSearchBlock},

@@ -23,8 +23,8 @@ class CandidateSelector {
   const int *data() const { return candidates_.data(); }
 
   // Selects the spheres that could touch the mesh after moving by up to `margin`: by its cells and, with
-  // `refines`, by the features of these where cells list all within the cutoff. Kernels put the number into `counts`; it is valid once
-  // had_room() agrees. `n_springs`: of each sphere, or null; becomes 0 for spheres that are no candidates.
+  // `refines`, by the features of these where cells list all within the cutoff. Kernels put the number into
+  // `counts`. `n_springs`: of each sphere, or null; becomes 0 for spheres that are no candidates.
   void choose(B &b, const EngineMesh<B> &mesh, const Spheres &spheres, Real margin, Real pull_off,
               bool refines, StepCounts *counts, int *n_springs)
   {
@@ -36,8 +36,6 @@ class CandidateSelector {
     else
       select<false>(b, mesh, spheres, margin, pull_off, by_features, counts, n_springs);
   }
-  // Had choose() memory enough, by its counts? False: choose again.
-  bool had_room(B &b, const StepCounts &seen) { return selection_.had_room(b, seen.n_candidates); }
 
   std::vector<int> to_host(B &b, std::size_t n) { return lsdcd::to_host(b, candidates_, n); }
   std::size_t bytes() const { return candidates_.size() * sizeof(int) + selection_.bytes(); }
@@ -56,7 +54,7 @@ class CandidateSelector {
                                    past,    pull_off,        by_features,
                                    counts,  n_springs};
     choice.fixed_margin = choice.filter.margin(past * grid.inv_length / kBrickSide);
-    selection_.start(b, spheres.n, choice, candidates_.data(), &counts->n_candidates);
+    selection_.run(b, spheres.n, choice, candidates_.data(), &counts->n_candidates);
   }
 
   Array candidates_;
@@ -104,18 +102,15 @@ class BroadPhase {
     if (uses_slots()) return choose_slots(b, spheres, margin, counts);
     const GridView &grid = meshes_[0].grid.view;
     CandidateSpheres candidates = {spheres.x, spheres.radius, pull_off_, nullptr, 0};
-    StepCounts seen;
-    std::size_t early = 0;
-    do {
-      selector_.choose(b, meshes_[0], spheres, margin, pull_off_, true, counts.data(), n_springs);
-      b.copy_out(counts.data(), counts_on_host_.data(), 1);
-      counted_.record(b);
-      // A GPU need not wait until the host knows how many there are.
-      candidates.index = selector_.data();
-      early = lists_.make_early(b, grid, meshes_[0].pose, candidates, margin, counts.data());
-      counted_.wait();
-      seen = *counts_on_host_.data();
-    } while (!seen.too_large && !selector_.had_room(b, seen));
+    selector_.choose(b, meshes_[0], spheres, margin, pull_off_, true, counts.data(), n_springs);
+    b.copy_out(counts.data(), counts_on_host_.data(), 1);
+    counted_.record(b);
+    // A GPU need not wait until the host knows how many there are.
+    candidates.index = selector_.data();
+    const std::size_t early =
+        lists_.make_early(b, grid, meshes_[0].pose, candidates, margin, counts.data());
+    counted_.wait();
+    const StepCounts seen = *counts_on_host_.data();
     if (seen.too_large) return seen;
     n_ = candidates.n = seen.n_candidates;
     lists_.make(b, grid, meshes_[0].pose, candidates, margin, counts.data(), early);
@@ -199,10 +194,8 @@ class BroadPhase {
     StepCounts seen = {};
     slots_.clear(b, spheres.n);
     for (const EngineMesh<B> &mesh : meshes_) {
-      do {
-        selector_.choose(b, mesh, spheres, margin, pull_off_, true, counts.data(), nullptr);
-        seen = read_one(b, counts.data());
-      } while (!seen.too_large && !selector_.had_room(b, seen));
+      selector_.choose(b, mesh, spheres, margin, pull_off_, true, counts.data(), nullptr);
+      seen = read_one(b, counts.data());
       if (seen.too_large) return seen;
       slots_.add(b, selector_.data(), seen.n_candidates);
     }

@@ -104,9 +104,8 @@ struct CandidateTest {
       raise_to(&counts->too_large, kNoSphere - i);
   }
 
-  // `table`: the table, as a backend has it.
-  template <class Table>
-  LSDCD_FN bool coarse_test(const Item &item, const Vec3 &x, const Table &table) const
+  // Tests the brick that holds x.
+  LSDCD_FN bool coarse_test(const Item &item, const Vec3 &x) const
   {
     const BrickGuess guess = filter.guess(pose.to_mesh(x));
     // With a margin it is enough to look at one brick where no other is within the margin.
@@ -116,24 +115,21 @@ struct CandidateTest {
     if (guess.inside & sure) may = table.at(filter.slot(grid, guess));
     return may & in_group(item);
   }
-  // The cell that holds x, kNotKnown where several may matter, or kNotFound where no candidate is near.
-  static constexpr std::uint32_t kNotKnown = kNoCell, kNotFound = kNoCell - 1;
-  template <class Table>
-  LSDCD_FN std::uint32_t locate(const Vec3 &x, const Table &table) const
+  // Tests the cells that a sphere at x may come to.
+  LSDCD_FN bool is_near(const Vec3 &x) const
   {
     const Vec3 q = pose.to_mesh(x);
-    if constexpr (kPast) return occupied_within(grid, table, q, past) ? kNotKnown : kNotFound;
-    const std::uint32_t cell = occupied_cell(grid, table, q);
-    return cell != kNoCell ? cell : kNotFound;
+    if constexpr (kPast) return occupied_within(grid, table, q, past);
+    return occupied_cell(grid, table, q) != kNoCell;
   }
 
   LSDCD_FN bool has_refine() const { return by_features; }
-  // `cell`: by locate(), or kNotKnown.
+  // Tests the features of these cells.
   template <unsigned kSize>
-  LSDCD_FN bool refine(const Warp<kSize> &warp, bool mine, std::size_t i, std::uint32_t cell) const
+  LSDCD_FN bool refine(const Warp<kSize> &warp, bool mine, std::size_t i) const
   {
     const QuerySphere s = query_sphere_at(pose, spheres.x[i], spheres.radius[i], pull_off);
-    return can_touch(warp, mine, grid, s, margin, cell);
+    return can_touch(warp, mine, grid, s, margin);
   }
   // On a CPU: what refine() of a large wall reads first.
   LSDCD_FN void prefetch(const Vec3 &x) const { prefetch_search(grid, pose, x); }

@@ -19,11 +19,10 @@ namespace lsdcd {
 template <class B>
 class Selection<B, true> {
  public:
-  bool had_room(B &, std::uint32_t /*total*/) { return true; }
   std::size_t bytes() const { return 0; }
 
   template <class Work>
-  void start(B &, std::size_t n, const Work &work, int *to, std::uint32_t *total)
+  void run(B &, std::size_t n, const Work &work, int *to, std::uint32_t *total)
   {
     // Blocks of one size whatever the number of threads, so that the order is fixed.
     constexpr std::int64_t kBlock = 4096;
@@ -39,8 +38,7 @@ class Selection<B, true> {
         const Vec3 x = work.centres()[i];
         const auto item = work.read(i);
         work.check(i, item);
-        const bool passes =
-            work.coarse_test(item, x, work.table) && work.locate(x, work.table) != Work::kNotFound;
+        const bool passes = work.coarse_test(item, x) && work.is_near(x);
         if (work.has_notes()) work.note(i, passes);
         if (passes) to[lo + count++] = static_cast<int>(i);
       }
@@ -65,7 +63,7 @@ class Selection<B, true> {
     for (int k = 0; k < n; k++) {
       if (k + kAhead < n) work.prefetch(work.centres()[spheres[k + kAhead]]);
       const int i = spheres[k];
-      if (work.refine(Warp<1>(), true, i, Work::kNotKnown))
+      if (work.refine(Warp<1>(), true, i))
         spheres[n_passed++] = i;
       else if (work.has_notes())
         work.note(i, false);
