@@ -5,6 +5,7 @@
 
 #include "float_atoms_engine.h"
 
+#include "backend/owned_array.h"
 #include "base/input_words.h"
 
 #include "comm.h"
@@ -275,7 +276,7 @@ void FixWallLsdcdKokkos<DeviceType>::fill_masses()
   FixWallLsdcd::fill_masses();
   const std::size_t n = damping_mass.size();
   if (d_damping_mass.extent(0) < n)
-    d_damping_mass = decltype(d_damping_mass)("lsdcd:damping_mass", n + n / 8);
+    d_damping_mass = decltype(d_damping_mass)("lsdcd:damping_mass", lsdcd::with_spare(n));
   const Kokkos::View<double *, LMPHostType, Kokkos::MemoryTraits<Kokkos::Unmanaged>> host(
       damping_mass.data(), n);
   Kokkos::deep_copy(Kokkos::subview(d_damping_mass, std::make_pair(std::size_t(0), n)), host);

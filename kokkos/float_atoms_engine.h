@@ -9,6 +9,7 @@
 
 #include "host_kokkos.h"
 
+#include "backend/owned_array.h"
 #include "engine/candidates_in_place.h"
 #include "engine/forwarding_engine.h"
 
@@ -166,7 +167,7 @@ class FloatAtomsEngine : public ForwardingEngine {
   {
     const std::size_t n = static_cast<std::size_t>(atoms_->nlocal);
     if (radius_.extent(0) >= n && n > 0) return;
-    const std::size_t room = n + n / 8 + 1;
+    const std::size_t room = with_spare(n) + 1;
     const auto numbers = [](const char *name, std::size_t count) {
       return Numbers(std::string("lsdcd:") + name, count);
     };

@@ -26,6 +26,8 @@
 // each backend to this list.
 #pragma once
 
+#include "backend/owned_array.h"
+
 #include <cstddef>
 #include <cstdint>
 #include <type_traits>

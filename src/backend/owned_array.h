@@ -9,6 +9,12 @@
 
 namespace lsdcd {
 
+// Returns n and an eighth more: an array that grows little by little is then seldom made anew.
+constexpr std::size_t with_spare(std::size_t n)
+{
+  return n + n / 8;
+}
+
 // Memory has static allocate(bytes) and free(pointer). Contents are undefined until
 // written; moving swaps.
 template <class T, class Memory>
@@ -31,6 +37,12 @@ class OwnedArray {
   }
   OwnedArray(const OwnedArray &) = delete;
   OwnedArray &operator=(const OwnedArray &) = delete;
+
+  // Makes it anew, with_spare(n) long, where it is shorter than n: its contents are lost then.
+  void reserve(std::size_t n)
+  {
+    if (n_ < n) *this = OwnedArray(with_spare(n));
+  }
 
   T *data() { return data_; }
   const T *data() const { return data_; }

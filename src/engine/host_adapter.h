@@ -36,10 +36,8 @@ class HostAdapter : public WallEngine {
 
     void reserve(std::size_t n)
     {
-      if (host.size() >= n) return;
-      const std::size_t room = n + n / 8;
-      host = typename B::template HostArray<T>(room);
-      device = Array<T>(room);
+      host.reserve(n);
+      device.reserve(n);
     }
     std::size_t bytes() const { return 2 * host.size() * sizeof(T); }
   };

@@ -138,8 +138,7 @@ class NodeForces {
   Real fetch(B &b, Real *forces)
   {
     const std::size_t n = 3 * n_nodes_, n_sums = sum_power(b);
-    if (on_host_.size() < n + n_sums)
-      on_host_ = typename B::template HostArray<Real>(n + n_sums + n_sums / 8);
+    on_host_.reserve(n + n_sums);
     if (forces) b.copy_out(sums_.data(), on_host_.data(), n);
     b.copy_out(power_.data(), on_host_.data() + n, n_sums);
     b.wait();
@@ -263,7 +262,7 @@ class NodeForces {
   template <class T>
   static T *reserve(Array<T> &array, std::size_t n)
   {
-    if (array.size() < n) array = Array<T>(n + n / 8);
+    array.reserve(n);
     return array.data();
   }
 
@@ -278,7 +277,7 @@ class NodeForces {
   // A multiple of three, as a contact has.
   static std::size_t room_for(std::size_t n_shares)
   {
-    return 3 * ((n_shares + n_shares / 8) / 3 + 1024);
+    return 3 * (with_spare(n_shares) / 3 + 1024);
   }
 
   std::size_t n_nodes_ = 0, n_shares_ = 0, n_powers_ = 0;    // of the last step

@@ -5,6 +5,7 @@
 // writes the other.
 #pragma once
 
+#include "backend/backend.h"
 #include "contact/contact_history.h"
 #include "contact/feature_turn.h"
 #include "engine/step/step_job.h"
@@ -140,7 +141,7 @@ class ResidentSprings : public SpringsInPlace {
   ContactPool next(int *slot)
   {
     Pool &pool = pool_[1 - now_];
-    if (pool.size < wanted_) pool = make(wanted_ + wanted_ / 8);
+    if (pool.size < wanted_) pool = make(with_spare(wanted_));
     pool.shared = n_candidates_;
     return {static_cast<int>(pool.shared),
             static_cast<int>(pool.size),
@@ -197,7 +198,7 @@ class ResidentSprings : public SpringsInPlace {
     const SpringsView from = store.view();
     Pool &pool = pool_[now_];
     const std::size_t size = store.pool_size();
-    if (pool.size < size) pool = make(size + size / 8);
+    if (pool.size < size) pool = make(with_spare(size));
     b_.copy_in(from.first.at, first_.data(), n);
     b_.copy_in(from.count.at, count_.data(), n);
     // Later spheres have no springs in this pool.
@@ -306,7 +307,7 @@ class ResidentSprings : public SpringsInPlace {
   {
     Pool &pool = pool_[now_];
     if (pool.size >= n) return;
-    Pool wider = make(n + n / 8);
+    Pool wider = make(with_spare(n));
     const std::size_t n_extra = traits_.n_extra;
     const Spring *from = pool.springs.data();
     const Real *from_extra = pool.extra.data();

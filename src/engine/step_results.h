@@ -35,16 +35,13 @@ class StepResults {
     n_ = n;
     totals_known_ = false;
     n_parts_ = 0;
-    if (n_contacts_.size() < n) {
-      const std::size_t room = n + n / 8;
-      n_contacts_ = Array<int>(room);
-      if (traits.heat) heat_ = Array<Real>(room);
-      if (traits.records) slot_ = Array<int>(room);
-    }
+    n_contacts_.reserve(n);
+    if (traits.heat) heat_.reserve(n);
+    if (traits.records) slot_.reserve(n);
     if (!may_miss)
       uncertain_ = Array<Real>();
-    else if (uncertain_.size() < n)
-      uncertain_ = Array<Real>(n + n / 8);
+    else
+      uncertain_.reserve(n);
     const std::size_t room = n_contacts_.size(),
                       numbers = room * ResultColumns::reals(step.per_sphere, adds_later);
     if (numbers_.size() < numbers) numbers_ = Array<Real>(numbers);
@@ -146,7 +143,7 @@ class StepResults {
   {
     know_mesh_totals(b);
     if (totals_known_ || n_parts_ == 1 || !candidates_ || n_ == 0) return;
-    if (stored_candidates_.size() < n_) stored_candidates_ = Array<int>(n_ + n_ / 8);
+    stored_candidates_.reserve(n_);
     const int *from = candidates_;
     int *to = stored_candidates_.data();
     b.for_each(n_, [=] LSDCD_LAMBDA(std::size_t k) { to[k] = from[k]; });
@@ -271,13 +268,9 @@ class StepResults {
     n_parts_ = n_parts;
     n_groups_ = n_groups;
     const std::size_t parts = static_cast<std::size_t>(n_parts);
-    if (block_sums_.size() < parts * n_blocks)
-      block_sums_ = Array<WallTotals>(parts * (n_blocks + n_blocks / 8));
-    if (group_sums_.size() < parts * n_groups) {
-      const std::size_t room = parts * (n_groups + n_groups / 8);
-      group_sums_ = Array<WallTotals>(room);
-      sums_on_host_ = typename B::template HostArray<WallTotals>(room);
-    }
+    block_sums_.reserve(parts * n_blocks);
+    group_sums_.reserve(parts * n_groups);
+    sums_on_host_.reserve(parts * n_groups);
     WallTotals *block = block_sums_.data(), *group = group_sums_.data();
     const ResultColumns result = columns_;
     const int *candidates = candidates_, *mesh = n_parts > 1 ? slots_->mesh() : nullptr;

@@ -4,6 +4,7 @@
 // Memory for the work lists of a step on a GPU, and for its general path.
 #pragma once
 
+#include "backend/backend.h"
 #include "engine/step/step_job.h"
 
 #include <algorithm>
@@ -28,7 +29,7 @@ class WorkListStore {
     carries_over_ = carries_over;
     step_ = 0;
     if (room_ < n) {
-      room_ = n + n / 8;
+      room_ = with_spare(n);
       memory_ = Array<int>(4 * room_);
     }
     // Spheres on the general path share the memory of its threads. Few take it where the wall is flat beside them: after
@@ -42,8 +43,7 @@ class WorkListStore {
     const std::size_t need = general_bytes(n_general, n_multi_mesh);
     if (general_.size() < need || general_.size() / 4 > need) {
       general_ = Array<char>();    // not beside the new one
-      general_ =
-          Array<char>(general_bytes(n_general + n_general / 8, n_multi_mesh + n_multi_mesh / 8));
+      general_ = Array<char>(general_bytes(with_spare(n_general), with_spare(n_multi_mesh)));
     }
     int *listed_in = column(3), *first = column(0);    // of the first step
     b.for_each(2, [=] LSDCD_LAMBDA(std::size_t k) {

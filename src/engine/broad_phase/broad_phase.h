@@ -30,7 +30,7 @@ class CandidateSelector {
   {
     const std::size_t n = spheres.n;
     const bool by_features = refines && mesh.grid.view.list_kind.is_complete();
-    if (candidates_.size() < n) candidates_ = Array(n + n / 8);
+    candidates_.reserve(n);
     if (excess_margin(mesh.grid.view, margin) > 0)
       select<true>(b, mesh, spheres, margin, pull_off, by_features, counts, n_springs);
     else

@@ -38,7 +38,7 @@ class CandidateSlots {
     n_spheres_ = n;
     n_found_ = 0;
     end_.clear();
-    if (set_.size() < n) set_ = Array<MeshSet>(n + n / 8);
+    set_.reserve(n);
     MeshSet *set = set_.data();
     b.for_each(n, [=] LSDCD_LAMBDA(std::size_t i) { set[i] = 0; });
   }
@@ -63,14 +63,11 @@ class CandidateSlots {
   {
     kinds_ = kinds;
     const std::size_t most = n_found_;
-    if (sphere_.size() < most) {
-      const std::size_t room = most + most / 8;
-      sphere_ = Array<int>(room);
-      mesh_ = Array<int>(room);
-      multi_mesh_ = Array<int>(room);
-      first_ = Array<int>(room + 1);
-      flags_ = Array<char>(room);
-    }
+    sphere_.reserve(most);
+    mesh_.reserve(most);
+    multi_mesh_.reserve(most);
+    first_.reserve(most + 1);
+    flags_.reserve(most);
     begin_.assign(1, 0);
     n_multi_mesh_ = 0;
     for (std::size_t m = 0; m < end_.size(); m++) {

@@ -66,7 +66,7 @@ class DisplacementCheck {
   void store(B &b, const Spheres &spheres, std::vector<EngineMesh<B>> &meshes, Real margin)
   {
     const std::size_t n = spheres.n;
-    if (x_.size() < 3 * n) x_ = Array(3 * (n + n / 8));
+    x_.reserve(3 * n);
     const StridedView<Real> to(x_.data());
     const StridedView<const Real> x = spheres.x;
     b.for_each(n, [=] LSDCD_LAMBDA(std::size_t i) { to.put(i, x[i]); });

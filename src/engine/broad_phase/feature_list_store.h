@@ -5,6 +5,7 @@
 #pragma once
 
 #include "backend/atomic.h"
+#include "backend/backend.h"
 #include "engine/broad_phase/candidate_test.h"
 #include "engine/results/step_counts.h"
 
@@ -86,7 +87,7 @@ class FeatureListStore {
     const std::size_t n = spheres.n;
     if (!reserve(grid, grid.is_large, n) || n <= early) return;
     if (grid.list_kind.is_every()) return leave_out(b, n, nullptr, nullptr);
-    if (!B::kOnHost) multi_contact_ = Array<char>(n + n / 8);
+    if (!B::kOnHost) multi_contact_.reserve(n);
     b.for_each_in_warps(n, gather(grid, pose, spheres, margin, counts));
   }
   // The same for n slots of more than one mesh; `large`: is any of them?
@@ -139,7 +140,7 @@ class FeatureListStore {
     // Meshes whose nodes move have lists of the kind `every`.
     if ((grid.list_kind.has_primitives() && !grid.list_kind.is_every()) || n == 0) return false;
     if (ints_.size() < n * FeatureLists::kInts) {
-      const std::size_t room = n + n / 8;
+      const std::size_t room = with_spare(n);
       reals_ = Array<Real>(room * FeatureLists::kReals);
       ints_ = Array<std::int32_t>(room * FeatureLists::kInts);
     }
@@ -152,7 +153,7 @@ class FeatureListStore {
   void reserve_copies(std::size_t n)
   {
     if (copy_slots_.size() < n) {
-      copy_slots_ = Array<RecordCopies::Slot>(n + n / 8);
+      copy_slots_.reserve(n);
       records_ = Array<FeatureRecord>(kCopies * copy_slots_.size());
     }
     std::fill_n(copy_slots_.data(), n, RecordCopies::Slot());

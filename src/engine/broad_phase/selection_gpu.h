@@ -57,11 +57,11 @@ class Selection<B, false> {
   template <class Work>
   void run(B &b, std::size_t n, const Work &work, int *to, std::uint32_t *total)
   {
-    if (flags_.size() < n) flags_ = Array<char>(n + n / 8);
+    flags_.reserve(n);
     char *flags = flags_.data();
     b.for_each(n, FlagByCells<Work>{work, flags});
     if (!work.has_refine()) return b.compact(n, nullptr, flags, scratch_, to, total);
-    if (left_.size() < n) left_ = Array<int>(n + n / 8);
+    left_.reserve(n);
     b.compact(n, nullptr, flags, scratch_, left_.data(), total);
     const std::size_t n_left = read_one(b, total);
     b.for_each_in_warps(n_left, FlagByFeatures<Work>{work, left_.data(), flags});
