@@ -127,14 +127,12 @@ def lengths_by_share(rows):
 def first_screen(rows):
     shares = lengths_by_share(rows)
     default = shares.pop("1")
-    base = dict(corner="blend", precision="double", nearest="all")
+    base = dict(corner="blend", nearest="all")
     out = "| " + " | ".join(HEAD) + " |\n|" + " --- |" * len(HEAD) + "\n"
     out += line(rows, "**nothing** (the default)", default, **base)
     for share, lengths in sorted(shares.items()):
         if set(lengths) == set(DEVICES):
             out += line(rows, f"`grid` {share} times the default", lengths, **base)
-    for precision in ("mixed", "single"):
-        out += line(rows, f"`precision {precision}`", default, **{**base, "precision": precision})
     out += line(rows, "`corner sum`", default, **{**base, "corner": "sum"})
     for n in ("8", "3", "2", "1"):
         out += line(rows, f"`nearest {n}`", default, **{**base, "nearest": n})
@@ -166,16 +164,13 @@ The table compares the settings in the vessel of `examples/vessel`, which has {t
 
 {first}
 - **`grid`** sets the length of the cells. It changes the memory and the time for building the grid, but never a result.
-- **`precision mixed`** and **`precision single`** miss no contact. Their forces are right to six digits on average, and to three in the worst
-  case. They were meant for GPUs that compute slowly in double precision, and do not help there: counted on an H100 with Kokkos, 1e6 spheres
-  in a closed box, *mixed* adds 0.2 % to the double-precision instructions of a step and *single* saves 0.7 % (2 % where LAMMPS itself is built
-  with KOKKOS_PREC=mixed), because the wall has 7 % of them in all ([how it was counted](notes/performance.md#double-precision-instructions-of-a-step-2026-11)).
-  On the machines of this table they gain nothing either.
 - **`corner sum`** adds the forces of both sides of a shallow fold in full, so that the fold is twice as stiff. You see it in the energy of
   the rolling sphere. Use it only to compare with a wall that does so.
 - **`nearest N`** misses contacts. It misses more of them with a smaller N and with larger spheres. A sphere whose contact is missed sinks
   into the wall and is thrown out later. `f_ID[9]` counts the spheres for which a contact may be missing. The setting is also slower than the
   default, because it searches the cells in each step.
+
+All steps compute in double precision. Contacts in float, which earlier builds offered, helped nobody ([figures](notes/accuracy.md#contacts-in-float)).
 
 To measure all this for your own mesh, run `lsdcd tradeoff wall.stl --radius R --below 1e-3`. It draws a picture like the one
 below, with all settings that it has tried, and prints the keywords of the fastest setting with errors below 1e-3.

@@ -39,7 +39,7 @@ SEARCH_BEFORE = """
 SEARCH_NOW = """
     BroadPhase::choose CandidateSelector::choose CandidateSelector::select {select}
     CandidateTest::centres CandidateTest::check CandidateTest::coarse_test CandidateTest::is_near CandidateTest::refine
-    query_sphere_at can_touch FeatureListStore::make feature_list.h:gather gather_for gather_within for_each_within
+    query_sphere_at can_touch FeatureListStore::make feature_list.h:gather gather_within for_each_within
     CellsInBall::next insert_code > GatherWork::operator() FeatureLists::put"""
 STEP_BEFORE = """
     EngineOn::start EngineOn::collect EngineOn::run EngineMesh::work force_settings job_of EngineOn::start_law
@@ -52,7 +52,7 @@ STEP_NOW = """
     EngineOn::compute EngineOn::mesh_work force_settings job_of EngineOn::run_law > run_compiled_law {step}
     > MeshStep::fast_path centre_of query_sphere_of FeatureLists::holds find_in_list add_feature
     MeshGeometry::closest_point closest_point_on closest_on_face > MeshStep::general_path any_contacts narrow_phase
-    find_filtered find_filtered_in find_contacts_in share_overlap CornerRule::solve apply_law state_at
+    find_filtered find_contacts_in share_overlap CornerRule::solve apply_law state_at
     add_motion add_contacts begin_memory transfer_of handed_on GranularModel::evaluate TouchingNormal::force add_force
     ResultColumns::put StridedView::add"""
 RECORD_BEFORE = """

@@ -596,8 +596,6 @@ LSDCD_API int lsdcd_place_move(double *placement, double x, double y, double z);
 enum { LSDCD_BLEND = 0, LSDCD_SUM = 1 };
 /* Where spheres belong; one side needs closed meshes whose triangles are wound alike. */
 enum { LSDCD_BOTH_SIDES = 0, LSDCD_INSIDE = 1, LSDCD_OUTSIDE = 2 };
-/* Beside LSDCD_DOUBLE and LSDCD_FLOAT: contacts in float, forces in double. */
-enum { LSDCD_MIXED = 2 };
 /* Volume that comes off: K F s / H, or by angle and energy of impacts. */
 enum { LSDCD_NO_WEAR = 0, LSDCD_ARCHARD = 1, LSDCD_FINNIE = 2 };
 
@@ -606,11 +604,11 @@ typedef struct lsdcd_wall_spec {
   const lsdcd_law *law;          /* of all meshes that have none */
   const lsdcd_wall_mesh *meshes; /* n_meshes of them, 1 at least */
   size_t n_meshes;
-  int corner, side, precision; /* see above */
-  int nearest;                 /* as in lsdcd_grid_options, 0: exact */
-  double cell;                 /* likewise, length; 0: chosen */
-  double memory;               /* likewise, bytes, of each mesh; 0: chosen */
-  double rmax;                 /* the largest radius that there will be; 0: that of the spheres */
+  int corner, side; /* see above */
+  int nearest;      /* as in lsdcd_grid_options, 0: exact */
+  double cell;      /* likewise, length; 0: chosen */
+  double memory;    /* likewise, bytes, of each mesh; 0: chosen */
+  double rmax;      /* the largest radius that there will be; 0: that of the spheres */
   /* Where forces are computed for spheres in arrays of the host: LSDCD_CPU, or LSDCD_CUDA, with copies in each step. Of
    * arrays on a device it is LSDCD_CPU: they are computed there. */
   int device;

@@ -727,7 +727,7 @@ struct WallMesh {
 struct WallSpec {
   Law law;
   std::vector<WallMesh> meshes;
-  int corner = LSDCD_BLEND, side = LSDCD_BOTH_SIDES, precision = LSDCD_DOUBLE;
+  int corner = LSDCD_BLEND, side = LSDCD_BOTH_SIDES;
   int nearest = 0;
   double cell = 0, memory = 0, rmax = 0;
   int device = LSDCD_CPU;
@@ -805,7 +805,6 @@ class Spec {
     spec_.n_meshes = meshes_.size();
     spec_.corner = from.corner;
     spec_.side = from.side;
-    spec_.precision = from.precision;
     spec_.nearest = from.nearest;
     spec_.cell = from.cell;
     spec_.memory = from.memory;

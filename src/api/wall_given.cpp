@@ -322,9 +322,6 @@ void read_search(const lsdcd_wall_spec &given, bool on_device, WallSpec &wall)
   const Side sides[] = {Side::both, Side::in, Side::out};
   wall.side = sides[checked_choice(given.side, "side", 3,
                                    "LSDCD_BOTH_SIDES, LSDCD_INSIDE or LSDCD_OUTSIDE")];
-  const Precision precisions[] = {Precision::double_, Precision::single_, Precision::mixed};
-  wall.precision = precisions[checked_choice(given.precision, "precision", 3,
-                                             "LSDCD_DOUBLE, LSDCD_FLOAT or LSDCD_MIXED")];
   wall.nearest = checked_choice(given.nearest, "nearest", kMaxNearest + 1,
                                 "0 for all, or 1 to " + std::to_string(kMaxNearest));
   wall.grid_length = checked_number(given.cell, "cell", 0);

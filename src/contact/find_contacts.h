@@ -48,7 +48,7 @@ LSDCD_FN void add_once(ContactSet<kMost> &set, FeatureCode feature, const Closes
 }
 
 // Adds the contact of a feature, if it has one. The geometry knows where the closest point is and what
-// codes stand for: MeshGeometry in double, BrickGeometry in float. `copy`: a copy of its record, or null.
+// codes stand for. `copy`: a copy of its record, or null.
 template <class Geometry, int kMost>
 LSDCD_FN void add_feature(const Geometry &geometry, FeatureCode code, Real radius,
                           ContactSet<kMost> &set, const FeatureRecord *copy = nullptr)
@@ -152,7 +152,6 @@ template <int kMost>
 LSDCD_FN Real find_contacts(const GridView &grid, const Vec3 &q, Real radius,
                             ContactSet<kMost> &set)
 {
-  if (grid.in_floats) return find_contacts_in<BrickGeometry>(grid, q, radius, set);
   if (!grid.lists.is_packed()) return find_contacts_in<FullListGeometry>(grid, q, radius, set);
   return find_contacts_in<MeshGeometry>(grid, q, radius, set);
 }

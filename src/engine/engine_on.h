@@ -40,10 +40,6 @@ class EngineOn : public WallEngine, public CandidatesInPlace, public NodesInPlac
       settings_(settings), law_(law), b_(std::move(backend)), broad_phase_(settings), counts_(1),
       springs_(b_, law.traits, counts_.data()), overflow_(kOverflowScratches)
   {
-    if (settings.precision == Precision::single_ && !has_float_forces(settings))
-      throw InputError(
-          "precision single does not support granular, rolling, cohesion, a moving surface "
-          "or mesh, several meshes, wear or mesh_fields: use mixed or double");
     if (has_copies()) {
       nodes_ = std::vector<MovingNodes<B>>(settings.meshes);
       node_forces_ = std::vector<NodeForces<B>>(settings.meshes);
@@ -445,10 +441,9 @@ class EngineOn : public WallEngine, public CandidatesInPlace, public NodesInPlac
     if (seen.too_large) throw_for(spheres, seen);
     springs_.make_room(broad_phase_.n(), seen);
     const bool several = broad_phase_.uses_slots();
-    work_lists_.clear(
-        b_, broad_phase_.n(), several ? broad_phase_.slots().n_multi_mesh() : 0, !several,
-        !several && !broad_phase_.mesh(0).grid.view.in_floats && broad_phase_.lists().n,
-        broad_phase_.seem_multi_contact(), counts_.data(), seen);
+    work_lists_.clear(b_, broad_phase_.n(), several ? broad_phase_.slots().n_multi_mesh() : 0,
+                      !several, !several && broad_phase_.lists().n,
+                      broad_phase_.seem_multi_contact(), counts_.data(), seen);
   }
 
   void run_law(StepJob &job, std::size_t n, const LawBytes &law)

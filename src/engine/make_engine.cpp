@@ -27,12 +27,6 @@ void step_once(WallEngine &engine, const Spheres &spheres, const StepSettings &s
   if (springs && step.update_history) engine.springs_to(*springs, spheres.n);
 }
 
-bool has_float_forces(const EngineSettings &settings)
-{
-  return settings.law().is_classic() && !settings.law().is_extended() &&
-         !settings.surface.moves() && !settings.moves && !uses_slots(settings) && !settings.records;
-}
-
 std::unique_ptr<WallEngine> make_engine(const EngineSettings &settings)
 {
   std::string why;

@@ -34,11 +34,6 @@ enum class Corner { blend, sum };
 enum class Side { both, in, out };    // in the order of the keyword's words
 enum class Device { automatic, cpu, cuda };
 
-// double_: everything in double. mixed: contacts are found in float, in the frame of a
-// brick of the grid, forces are computed in double. single_: forces in float too.
-// Sums, springs at rest and the spheres themselves are double in all three.
-enum class Precision { double_, mixed, single_ };
-
 // Meshes that move apart, of one wall.
 constexpr int kMaxMeshes = 32;
 
@@ -46,7 +41,6 @@ struct EngineSettings {
   LawTable laws = ContactLaw();
   Corner corner = Corner::blend;
   Side side = Side::both;
-  Precision precision = Precision::double_;
   int meshes = 1;           // that move apart; with more than one `moves` counts as true
   SurfaceMotion surface;    // of each mesh, in the plane of each contact
   bool moves = false;       // set_pose() or StepSettings::surface will be used
@@ -331,10 +325,6 @@ class WallEngine {
 // where the law has no history.
 void step_once(WallEngine &engine, const Spheres &spheres, const StepSettings &step,
                ContactHistory *springs);
-
-// Can forces be computed in float? Only those of the classic styles without sub-models beside them, on walls that
-// neither move nor have records.
-bool has_float_forces(const EngineSettings &settings);
 
 // For a host whose arrays are in its own memory. Device::cuda without a GPU throws InputError;
 // Device::automatic takes the CPU then.

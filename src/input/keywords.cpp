@@ -188,11 +188,6 @@ const Keyword kKeywords[] = {
     {"nearest", "all | N", "", "1 to 32", "all",
      "a cell lists everything that a sphere can touch, or the N triangles nearest to its centre",
      [](Tokens &w, WallCommand &s) { s.wall.nearest = read_nearest(w); }},
-    {"precision", "double | mixed | single", "", "", "double",
-     "mixed: contacts in float, forces in double; single: both in float",
-     [](Tokens &w, WallCommand &s) {
-       s.wall.precision = static_cast<Precision>(w.choice({"double", "mixed", "single"}));
-     }},
     {"cache", "FILE | none", "", "", "none",
      "file that keeps the grid, so that the next start need not build it", nullptr, read_cache},
     {"corner", "blend | sum", "", "", "blend",

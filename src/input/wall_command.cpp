@@ -32,6 +32,8 @@ std::string answer_to(const std::string &word, bool granular)
   const char *const kReport =
       "the fix always inspects the mesh and writes the result to the log: leave it out";
   const char *const kWeld = "the word for joining corners is weld tol";
+  const char *const kDouble =
+      "all steps compute in double: delete precision and its value; LIGGGHTS's is weld tol here";
   const char *const kLoads = "see mesh_fields FILE every N, and force and torque in f_ID[1] to "
                              "f_ID[6]";
   const char *const kNumbers = "the contact's numbers stand before mesh, or come from granular "
@@ -71,6 +73,7 @@ std::string answer_to(const std::string &word, bool granular)
       {"verbose", kReport},
       {"element_exclusion_list", kReport},
       {"min_feature_length", kWeld},
+      {"precision", kDouble},
       {"stress", kLoads},
       {"reference_point", "the words are torque_about x y z"},
       {"type", kNumbers},

@@ -66,13 +66,4 @@ ContactSlopes contact_slopes(const ContactLaw &law, Real overlap, Real radius, R
   return s;
 }
 
-Real pull_off_slope(const ContactLaw &law, Real radius)
-{
-  const bool jkr = law.is(NormalModel::jkr);
-  if (!jkr && !law.is(NormalModel::dmt)) return 0;
-  const Real pull = (jkr ? 3 : 4) * kPi * law.surface_energy * radius,
-             overlap = std::pow(pull / (law.k_normal * std::sqrt(radius)), 2. / 3);
-  return contact_slope(law, overlap, radius, 1).stiffness / pull;
-}
-
 }    // namespace lsdcd

@@ -21,8 +21,4 @@ struct ContactSlopes {
 };
 ContactSlopes contact_slopes(const ContactLaw &law, Real overlap, Real radius, Real mass);
 
-// For dmt and jkr: the change of the force per change of the overlap (1/length), as a share of the
-// pull-off force, where that balances the elastic force. 0 for laws without adhesion.
-Real pull_off_slope(const ContactLaw &law, Real radius);
-
 }    // namespace lsdcd

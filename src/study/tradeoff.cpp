@@ -24,7 +24,6 @@ namespace {
 struct TooLate {};
 
 constexpr int kGpuFactor = 16;    // times the spheres, to fill a GPU
-constexpr int kPrecisions = 3;
 
 ContactLaw law_to_time()
 {
@@ -78,17 +77,13 @@ class Measuring {
       }
       for (int nearest : kTriedNearest) {
         if (is_late()) {
-          late_ += kPrecisions;
+          late_++;
           continue;
         }
         const std::unique_ptr<TriangleGrid> built = build(length, nearest);
         if (!built) continue;
-        TriangleGrid &grid = *built;
-        if (sample_.n() == 0) make_sample(grid);
-        for (Precision precision : {Precision::double_, Precision::mixed, Precision::single_}) {
-          if (precision == Precision::mixed) add_brick_records(grid);    // single reads them, too
-          try_options(grid, {length, nearest, precision});
-        }
+        if (sample_.n() == 0) make_sample(*built);
+        try_options(*built, {length, nearest});
       }
     }
     if (late_ > 0) leave_out(std::to_string(late_) + " settings for which there was no time");
@@ -119,9 +114,9 @@ class Measuring {
       grid.reset();    // before the next one takes memory
       return build(length, nearest);
     } catch (const TooLate &) {
-      late_ += kPrecisions;
+      late_++;
     } catch (const InputError &e) {
-      leave_out(words_of({length, nearest, Precision::double_}) + " and less: " + e.what());
+      leave_out(words_of({length, nearest}) + ": " + e.what());
     }
     return nullptr;
   }
@@ -136,7 +131,6 @@ class Measuring {
                            settings_.memory_budget);
     for (Corner corner : {Corner::blend, Corner::sum}) {
       engine_.corner = corner;
-      engine_.precision = Precision::double_;
       reference_[corner == Corner::sum] = evaluate_sample(grid.view(), engine_, sample_);
     }
     if (!settings_.cuda) return;
@@ -160,7 +154,6 @@ class Measuring {
     if (settings_.cuda) status_ns[true] = status_time(grid, true);
     for (Corner corner : {Corner::blend, Corner::sum}) {
       engine_.corner = corner;
-      engine_.precision = choice.precision;
       TradeoffRow row = {};
       row.choice = choice;
       row.corner = corner;
@@ -203,7 +196,7 @@ class Measuring {
     const SphereSample &sample = timed(on_cuda);
     row.on_cuda = on_cuda;
     row.is_default = row.choice.length == standard_[on_cuda] && row.choice.nearest == 0 &&
-                     row.choice.precision == Precision::double_ && row.corner == Corner::blend;
+                     row.corner == Corner::blend;
     row.device = engine->backend();
     row.checked = sample_.n();
     row.spheres = sample.n();
@@ -235,18 +228,11 @@ std::string nearest_word(const GridOptions &choice)
   return choice.nearest == 0 ? "all" : std::to_string(choice.nearest);
 }
 
-const char *precision_word(const GridOptions &choice)
-{
-  const char *const words[] = {"double", "mixed", "single"};
-  return words[static_cast<int>(choice.precision)];
-}
-
 std::string words_of(const GridOptions &choice)
 {
   char length[32];
   std::snprintf(length, sizeof length, "%.4g", choice.length);
-  return std::string("grid ") + length + " nearest " + nearest_word(choice) + " precision " +
-         precision_word(choice);
+  return std::string("grid ") + length + " nearest " + nearest_word(choice);
 }
 
 const TradeoffRow *fastest_below(const std::vector<TradeoffRow> &rows, Real bound, bool on_cuda)

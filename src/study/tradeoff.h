@@ -25,11 +25,10 @@ struct TradeoffSettings {
   std::uint64_t seed = 1;
 };
 
-// Values of the keywords `grid`, `nearest` and `precision`.
+// Values of the keywords `grid` and `nearest`.
 struct GridOptions {
   Real length;    // of a cell
   int nearest;    // 0: complete lists
-  Precision precision;
 };
 
 struct TradeoffRow {
@@ -37,7 +36,7 @@ struct TradeoffRow {
   Corner corner;
   bool on_cuda;
   std::string device;
-  AnswerError error;    // against complete lists in double with the same corner rule
+  AnswerError error;    // against complete lists with the same corner rule
   Real bounce_drift, roll_drift;
   double ns_per_sphere;    // of a step: it searches cells with nearest N, and reads lists with all
   double status_ns;        // of a status query, which searches cells with both kinds of lists
@@ -56,18 +55,17 @@ struct Tradeoff {
 // The lists that are tried for each cell length, the complete ones first.
 constexpr int kTriedNearest[] = {0, 1, 2, 3, 4, 8};
 
-// Cells of half to four times the default length, all lists, three precisions, both
-// corner rules, each device: spheres in the order in which LAMMPS sorts them, uniform in the
-// band within the cutoff. Hooke with springs at rest for errors and times. The default comes
-// first. Errors and drifts are computed once, on the CPU: those of a GPU are the same bits.
+// Cells of half to four times the default length, all lists, both corner rules, each device: spheres
+// in the order in which LAMMPS sorts them, uniform in the band within the cutoff. Hooke with springs at
+// rest for errors and times. The default comes first. Errors and drifts are computed once, on the CPU:
+// those of a GPU are the same bits.
 Tradeoff measure_tradeoff(const WeldedMesh &mesh, const TradeoffSettings &settings,
                           const std::function<void(const TradeoffRow &)> &progress);
 
 void mark_front(std::vector<TradeoffRow> &rows);
 
-// "all" or N; "double", "mixed" or "single"; "grid 0.4 nearest all precision double".
+// "all" or N; "grid 0.4 nearest all".
 std::string nearest_word(const GridOptions &choice);
-const char *precision_word(const GridOptions &choice);
 std::string words_of(const GridOptions &choice);
 
 // The fastest row of one device with corner blend, with missed contacts / contacts and the largest error of a

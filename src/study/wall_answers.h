@@ -24,8 +24,8 @@ struct WallAnswers {
   long uncertified = 0;    // spheres with lists that may lack a contact
 };
 
-// Computed on the CPU; every device has the same numbers. Only stiffness, corner rule and precision of
-// `engine` matter.
+// Computed on the CPU; every device has the same numbers. Only stiffness and corner rule of `engine`
+// matter.
 WallAnswers evaluate_sample(const GridView &grid, const EngineSettings &engine,
                             const SphereSample &sample);
 

@@ -12,12 +12,11 @@ import csv
 import os
 import sys
 
-ZERO = 1e-9    # where errors of 0, and of rounding in double, are drawn
+ZERO = 1e-9    # where errors of 0, and of rounding, are drawn
 # Settings with a name: what differs from the default, marker, colour. All others are grey dots.
-NAMED = [("the default", {}, "*", "#000000"), ("precision mixed", {"precision": "mixed"}, "s", "#0072B2"),
-         ("precision single", {"precision": "single"}, "^", "#D55E00"), ("nearest 8", {"nearest": "8"}, "D", "#009E73"),
+NAMED = [("the default", {}, "*", "#000000"), ("nearest 8", {"nearest": "8"}, "D", "#009E73"),
          ("nearest 4", {"nearest": "4"}, "v", "#CC79A7"), ("nearest 1", {"nearest": "1"}, "X", "#E69F00")]
-SETTING = ("grid", "nearest", "precision", "corner")
+SETTING = ("grid", "nearest", "corner")
 
 
 def shown(error):

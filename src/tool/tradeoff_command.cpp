@@ -34,9 +34,9 @@ struct TradeoffOptions {
 
 const char *const kHelp =
     "Tries cells of half to four times the default length, lists of 1, 2, 3, 4 and 8 nearest "
-    "triangles, and all; precision double, mixed and single; corner blend and sum; on each device. "
+    "triangles, and all; corner blend and sum; on each device. "
     "Spheres are placed at random beside the wall. Columns of the CSV:\n"
-    "  missed          contacts missed / contacts; against `nearest all` in double\n"
+    "  missed          contacts missed / contacts; against `nearest all`\n"
     "  uncertified     spheres whose answer is not certified exact / spheres\n"
     "  force_median, force_largest   error of a sphere's force / that force, or that of an\n"
     "                  overlap of 1 % of the radius where that is larger\n"
@@ -54,9 +54,7 @@ const char *const kHelp =
     "                  error and as good in the other\n"
     "  default         1 for what the fix does by itself\n"
     "--below E takes nearest N only where all its answers are certified, and of settings within a\n"
-    "tenth of the fastest the one with the smallest error. Among a million spheres the largest "
-    "error\n"
-    "in float can be twenty times that of some thousand: ask for less than you need.";
+    "tenth of the fastest the one with the smallest error.";
 
 std::string formatted(const char *format, double value)
 {
@@ -85,7 +83,7 @@ std::string csv_of(const Tradeoff &tradeoff, const WeldedMesh &mesh,
     most = std::max(most, r);
   }
   std::string out =
-      "mesh,triangles,least_radius,largest_radius,kind,device,grid,nearest,precision,corner,missed,"
+      "mesh,triangles,least_radius,largest_radius,kind,device,grid,nearest,corner,missed,"
       "uncertified,force_median,force_largest,force_mean,bounce_drift,roll_drift,ns_per_sphere,"
       "status_ns,bytes,front,default,contacts,spheres,moving,repeats,order,seed,commit\n";
   const auto number = [](double value) { return formatted("%.5g", value); };
@@ -99,7 +97,6 @@ std::string csv_of(const Tradeoff &tradeoff, const WeldedMesh &mesh,
                                              csv_quoted(device_name(r)),
                                              number(r.choice.length),
                                              nearest_word(r.choice),
-                                             precision_word(r.choice),
                                              r.corner == Corner::blend ? "blend" : "sum",
                                              number(r.error.missed_share()),
                                              number(double(r.error.uncertified) / r.checked),
@@ -174,12 +171,12 @@ void tradeoff(TradeoffOptions &o)
   const WeldedMesh mesh = load_wall(o.file, o.scale, o.weld);
   AtomicFile file(o.csv);    // now, rather than fail when all is done
   std::printf("%s, %zu triangles\n", o.file.c_str(), mesh.faces.size());
-  std::printf("      grid  nearest  precision  corner  device   missed %%  force error: mean  "
+  std::printf("      grid  nearest  corner  device   missed %%  force error: mean  "
               "largest  bounce    roll  ns/sphere   status        MB\n");
   const Tradeoff result = measure_tradeoff(mesh, o.settings, [](const TradeoffRow &r) {
-    std::printf("%10.4g  %-7s  %-9s  %-6s  %-6s  %8.3g  %17.2g  %7.2g  %6.1g  %6.1g  %9.1f  %7.1f  "
+    std::printf("%10.4g  %-7s  %-6s  %-6s  %8.3g  %17.2g  %7.2g  %6.1g  %6.1g  %9.1f  %7.1f  "
                 "%8.3g%s\n",
-                r.choice.length, nearest_word(r.choice).c_str(), precision_word(r.choice),
+                r.choice.length, nearest_word(r.choice).c_str(),
                 r.corner == Corner::blend ? "blend" : "sum", r.on_cuda ? "cuda" : "cpu",
                 100 * r.error.missed_share(), r.error.mean, r.error.largest, r.bounce_drift,
                 r.roll_drift, r.ns_per_sphere, r.status_ns, r.bytes / 1e6,

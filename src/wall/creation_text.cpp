@@ -108,13 +108,11 @@ std::string effect_lines(const HostNames &names, const WallSpec &settings,
 
 std::string search_lines(const WallSpec &settings)
 {
-  const char *const precisions[] = {"double", "mixed", "single"};
   const char *const sides[] = {"both", "in", "out"};
   return "\n  search      " +
          (settings.nearest > 0 ? "nearest " + std::to_string(settings.nearest)
                                : std::string("all that can touch")) +
-         ", precision " + precisions[static_cast<int>(settings.precision)] + "\n  corners     " +
-         (settings.corner == Corner::blend ? "blend" : "sum") + ", side " +
+         "\n  corners     " + (settings.corner == Corner::blend ? "blend" : "sum") + ", side " +
          sides[static_cast<int>(settings.side)];
 }
 

@@ -116,7 +116,6 @@ void GridManager::rebuild(Real wanted, std::int64_t step)
     checks_.check_within_cutoff(*m, box());
     log_build(*m, old, step);
     checks_.check_ends(*m, wanted == old);
-    if (old == 0 && m == anew.front()) warn_of_rounding(*m, wanted);
   }
 }
 
@@ -132,20 +131,6 @@ void GridManager::follow_shape(MeshPart &m)
   if (coats_)
     for (BodyCoat &coat : *coats_) coat.set_grid(m);
   times_.end(TimeReport::grids);
-}
-
-// Warns that overlaps are rounded to floats, where a law holds spheres to the wall.
-void GridManager::warn_of_rounding(const MeshPart &m, Real radius) const
-{
-  if (settings_.precision == Precision::double_) return;
-  Real slope = 0;
-  for (int kind = 0; kind < laws_.kinds; kind++)
-    slope = std::max(slope, pull_off_slope(law_of(laws_, m.index, kind), radius));
-  const Real part_of_pull_off = slope * 1e-6 * (radius + 14 * m.grid.view().length);
-  if (part_of_pull_off > 0.1)
-    host_.warn("with precision mixed overlaps are rounded so that forces may be wrong by " +
-               number_text(part_of_pull_off) +
-               " of the pull-off force: use precision double, or softer particles");
 }
 
 // A line where a grid takes long, each ten seconds; the host shows those of the first process.

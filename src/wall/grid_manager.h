@@ -65,7 +65,6 @@ class GridManager {
   void rebuild(Real cutoff, std::int64_t step);
   void check_rmax(Real radius, const SpheresOnCpu &spheres) const;
   bool fits(const MeshPart &m) const { return m.grid.fits(m.effective_box(box())); }
-  void warn_of_rounding(const MeshPart &m, Real radius) const;
   ProgressListener progress(const MeshPart &m) const;
   void log_build(const MeshPart &m, Real old_cutoff, std::int64_t step) const;
 

@@ -146,7 +146,6 @@ GridSettings MeshGrid::grid_settings(Real cutoff, const PeriodicBox &box) const
   want.limited = !(want.length > 0);    // a length that is given may take its time
   want.sides = wall_.side != Side::both;
   want.list_kind = ListKind::of_option(wall_.nearest);
-  want.in_floats = wall_.precision != Precision::double_;
   // Asked for a length that is chosen only, so that devices share the cache of one that is given.
   want.for_gpu = !(want.length > 0) && uses_gpu();
   want.form = ListForm::packed;

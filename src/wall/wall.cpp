@@ -166,7 +166,6 @@ EngineSettings Wall::engine_settings() const
   want.laws = laws_;
   want.corner = spec_.corner;
   want.side = spec_.side;
-  want.precision = spec_.precision;
   want.meshes = static_cast<int>(meshes_.size());
   want.moves = meshes_.size() > 1;
   for (const MeshPart &m : meshes_) {

@@ -99,8 +99,6 @@ void check_nodes(const WallSpec &wall, std::size_t k)
     refuse("a motion, servo, pose or body", "its nodes alone move it; leave the other out");
   if (!mesh.cache_file.empty())
     refuse("a cache file", "its grid is made again as they move; leave the file out");
-  if (wall.precision != Precision::double_)
-    refuse("precision mixed or single", "use precision double");
   if (mesh.torque_about_mesh)
     refuse("a torque about a point of the mesh",
            "they have no frame in which a point could stay; give a point of the box");

@@ -89,7 +89,6 @@ struct WallSpec {
   InputNames inputs;
   Corner corner = Corner::blend;
   Side side = Side::both;
-  Precision precision = Precision::double_;
   Device device = Device::automatic;
   Real grid_length = 0;    // length; 0: chosen
   Real rmax = 0;           // length; 0: the largest radius that there is

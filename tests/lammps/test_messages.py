@@ -200,7 +200,7 @@ def main():
     checks.fact("and nothing where that agrees", not lines(text, other), text[:900])
 
     # Words that say the default.
-    text = lmp.run_well(BOX + fix("grid auto rmax auto memory 1024 cache none nearest all precision double corner blend "
+    text = lmp.run_well(BOX + fix("grid auto rmax auto memory 1024 cache none nearest all corner blend "
                                   "side both device auto log full draw edges 1") + "run 0\n", folder)
     checks.fact("words that say the default are taken without a word", not lines(text, "WARNING"), text[-300:])
 
@@ -266,12 +266,6 @@ def main():
                         "size 64 64\nrun 2\n", folder)
     checks.fact("the log tells once why lines may not be seen",
                 len(lines(text, "dump image draws", "diameter is 0")) == 1)
-    # Steel, then something soft.
-    for modulus, wrong in ((1e11, True), (1e4, False)):
-        law = f"granular jkr {modulus:g} 0 0.25 0.05 damping none tangential linear_nohistory 0 0"
-        text = lmp.run_well(BOX + fix("precision mixed", law=law) + "run 0\n", folder)
-        checks.fact(f"precision mixed with jkr, modulus {modulus:g}: {'told' if wrong else 'not told'}",
-                    len(lines(text, "WARNING: Fix w wall/lsdcd: with precision mixed")) == wrong)
     checks.done(folder)
 
 

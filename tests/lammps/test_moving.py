@@ -530,7 +530,6 @@ def refused(checks, folder):
              ("linear along z", "p", "motion linear 0 0 1", "reaches the periodic face in z"),
              ("a variable that there is not", "f", "motion variable v_no NULL NULL NULL NULL NULL",
               "there is no variable 'no'"),
-             ("single precision", "f", "motion linear 1 0 0 precision single", "precision single"),
              ("a negative period", "f", "motion wiggle 0 0 1 -2", "the period = -2 is out of range"),
              ("two centres", "f", "motion rotate 0 0 0 0 0 1 2 1 1 1", "one centre P"),
              ("an unknown word", "f", "motion slide 1 0 0", "'slide' is not one of its values")]

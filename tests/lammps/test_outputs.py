@@ -236,15 +236,6 @@ def main():
     thermo, _, _ = go(folder, atoms=corner, mesh="cube.stl", more="nearest all grid 0.1 contacts")
     checks.fact("nearest all: all three, all certified",
                 thermo[0][8] == 3 and thermo[0][10] == 0, str(thermo[0][8:11]))
-    # Half a brick of cells of 0.1 is 0.7 away: 16 roundings of floats, over 0.05.
-    double, _, _ = go(folder, atoms=corner, mesh="cube.stl", more="grid 0.1 contacts")
-    for precision in ("mixed", "single"):
-        thermo, _, _ = go(folder, atoms=corner, mesh="cube.stl",
-                          more=f"grid 0.1 precision {precision} contacts")
-        error = max(abs(thermo[0][k] - double[0][k]) for k in (2, 3, 4))
-        checks.at_most(f"precision {precision}: forces", error, 1e4 * 16 * 2**-24 * 1.9)
-        checks.fact(f"precision {precision}: is not double", error > 0, str(error))
-
     # dump image takes the diameter of lines, or 1 for filled triangles, from the same word.
     for what, flags in (("edges", "0.05 0"), ("faces 2", "1 0"), ("contours", "0.05 0"),
                         ("faces cut 1 0 0 0", "1 0")):

@@ -167,12 +167,5 @@ TEST(roll, drags_along_its_circles)
   EXPECT_NEAR(drum.force(0).z, 0, 1e-9);
 }
 
-TEST(belt, is_refused_in_single_precision)
-{
-  EngineSettings s = on_belt({kSpeed, 0, 0});
-  s.precision = Precision::single_;
-  EXPECT_THROW(make_engine(s), std::exception);
-}
-
 }    // namespace
 }    // namespace lsdcd::test_belt

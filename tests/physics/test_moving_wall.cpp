@@ -40,13 +40,11 @@ RigidMotion rotating(const Vec3 &point, const Vec3 &axis, Real period)
 // Spheres that cross a wall of random triangles, in one scene at rest and in one that is turned
 // and drives past at constant velocity: all that a wall does is the same in its frame.
 struct Twins {
-  Twins(const EngineSettings &s, const Pose &at, Precision precision) : pose(at)
+  Twins(const EngineSettings &s, const Pose &at) : pose(at)
   {
-    EngineSettings here = s;
-    here.precision = precision;
     const Real cutoff = cutoff_of(s.law(), kRadius);
-    rest = std::make_unique<Scene>(random_soup(600, 5), cutoff, here);
-    driven = std::make_unique<Scene>(random_soup(600, 5), cutoff, moving(here));
+    rest = std::make_unique<Scene>(random_soup(600, 5), cutoff, s);
+    driven = std::make_unique<Scene>(random_soup(600, 5), cutoff, moving(s));
     std::mt19937_64 random(3);
     std::uniform_real_distribution<Real> place(-0.3, 1.3), speed(-3, 3);
     const MeshReport &r = rest->mesh.report;
@@ -91,7 +89,7 @@ Pose some_pose()
 TEST(moving_wall, turned_and_driven_at_constant_velocity_acts_as_at_rest)
 {
   for (const NamedLaw &law : laws(kStiffness)) {
-    Twins twins(law.settings, some_pose(), Precision::double_);
+    Twins twins(law.settings, some_pose());
     for (int k = 0; k < 5; k++) twins.step();
     int touching = 0;
     for (int i = 0; i < twins.rest->n(); i++) {
@@ -105,23 +103,10 @@ TEST(moving_wall, turned_and_driven_at_constant_velocity_acts_as_at_rest)
   }
 }
 
-// The search in float rounds places to 1e-7 of a brick.
-TEST(moving_wall, is_searched_in_float_in_its_own_frame)
-{
-  Twins twins(hooke(kStiffness, 50, 20, 0.4), some_pose(), Precision::mixed);
-  twins.step();
-  int touching = 0;
-  for (int i = 0; i < twins.rest->n(); i++) {
-    touching += norm(twins.rest->force(i)) > 0;
-    EXPECT_LE(norm(twins.pose.turn_to_mesh(twins.driven->force(i)) - twins.rest->force(i)), 1.0);
-  }
-  EXPECT_GT(touching, 30);
-}
-
 // Totals about the box's origin and points of contact in the box's frame.
 TEST(moving_wall, reports_in_the_frame_of_the_box)
 {
-  Twins twins(hooke(kStiffness, 50, 20, 0.4), some_pose(), Precision::double_);
+  Twins twins(hooke(kStiffness, 50, 20, 0.4), some_pose());
   twins.step();
   Pose at = twins.pose;
   at.shift -= kStep * at.velocity;    // step() goes on to the next
@@ -409,9 +394,6 @@ TEST(moving_wall, must_be_announced)
 {
   const auto engine = make_test_engine(hooke(kStiffness));
   EXPECT_THROW(engine->set_pose(some_pose()), std::logic_error);
-  EngineSettings s = moving(hooke(kStiffness));
-  s.precision = Precision::single_;
-  EXPECT_THROW(make_engine(s), InputError);
 }
 
 }    // namespace

@@ -57,7 +57,6 @@ class Wall {
     settings.meshes = static_cast<int>(parts.size());
     GridSettings g;
     g.cutoff = cutoff;
-    g.in_floats = settings.precision != Precision::double_;
     for (int m = 0; m < settings.meshes; m++) {
       for (Vec3 &p : parts[m].corners) p = pose_of(m, turned).to_mesh(p);
       grids_.emplace_back(build_grid(weld(parts[m], -1), g));
@@ -147,11 +146,10 @@ TEST(several_meshes, the_deepest_overlap_is_told_with_its_mesh_and_all_that_its_
 // The same triangles in one mesh, which share no corner, and dealt out to 32. Places of size 10 are
 // rounded to 2e-15 by turning, which a stiffness of 1e5 to 1e6 (corners share their overlap, with
 // angles as small as 1e-2) makes 1e-7 of forces of 1e4 at most.
-void expect_as_one(bool turned, Precision precision, Real tolerance)
+void expect_as_one(bool turned, Real tolerance)
 {
   const TriangleSoup soup = random_soup(600, 5);
   for (NamedLaw &law : laws(kStiffness)) {
-    law.settings.precision = precision;
     const Real cutoff = cutoff_of(law.settings.law(), kRadius);
     Scene one(soup, cutoff, law.settings);
     Wall wall(dealt(soup, kMaxMeshes), cutoff, law.settings, turned);
@@ -186,11 +184,11 @@ void expect_as_one(bool turned, Precision precision, Real tolerance)
 
 TEST(several_meshes, at_rest_act_as_one)
 {
-  expect_as_one(false, Precision::double_, 1e-7);
+  expect_as_one(false, 1e-7);
 }
 TEST(several_meshes, in_frames_of_their_own_act_as_one)
 {
-  expect_as_one(true, Precision::double_, 1e-7);
+  expect_as_one(true, 1e-7);
 }
 
 // ---- seams -------------------------------------------------------------------------------------

@@ -99,13 +99,9 @@ ContactLaw everything(NormalModel normal)
   return law;
 }
 
-// The last two have one grid.
 std::vector<Search> other_searches()
 {
-  return {{"nearest 2", 2, Precision::double_},
-          {"nearest 3, mixed", 3, Precision::mixed},
-          {"mixed", 0, Precision::mixed},
-          {"single", 0, Precision::single_}};
+  return {{"nearest 2", 2}, {"nearest 3", 3}};
 }
 
 namespace {
@@ -122,9 +118,7 @@ const Wall &wall_of(const Case &c, const GridSettings &g)
 {
   static Wall last;
   const GridSettings &had = last.settings;
-  if (last.name == c.name && had.cutoff == g.cutoff && had.list_kind == g.list_kind &&
-      had.in_floats == g.in_floats)
-    return last;
+  if (last.name == c.name && had.cutoff == g.cutoff && had.list_kind == g.list_kind) return last;
   const WeldedMesh mesh = mesh_of(c);
   last = {c.name, g, mesh.report, FlatGrid(build_grid(mesh, g))};
   return last;
@@ -153,13 +147,11 @@ Outcome run_steps(const Case &c, const ContactLaw &law, const EngineMaker &make,
   g.cutoff = cutoff_of(law, c.cutoff);
   g.length = c.length;
   g.list_kind = ListKind::of_option(search.nearest);
-  g.in_floats = search.precision != Precision::double_;
   g.within = within(c);
   const Wall &built = wall_of(c, g);
 
   EngineSettings e = wall;
   e.law() = law;
-  e.precision = search.precision;
   const auto engine = make(e);
   engine->set_grid(built.flat.view());
 

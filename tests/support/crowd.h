@@ -51,13 +51,12 @@ struct Outcome {
   std::vector<ContactRecord> records;
 };
 
-// How a wall is searched: settings of the grid and of the engine that belong together.
+// How a wall is searched.
 struct Search {
   const char *name;
   int nearest;
-  Precision precision;
 };
-constexpr Search kComplete = {"complete", 0, Precision::double_};
+constexpr Search kComplete = {"complete", 0};
 std::vector<Search> other_searches();
 
 using EngineMaker = std::function<std::unique_ptr<WallEngine>(const EngineSettings &)>;

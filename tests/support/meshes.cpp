@@ -191,7 +191,6 @@ Scene::Scene(const TriangleSoup &soup, Real cutoff, EngineSettings settings, Rea
   g.cutoff = cutoff;
   g.sides = settings.side != Side::both;
   g.list_kind = ListKind::of_option(nearest);
-  g.in_floats = settings.precision != Precision::double_;
   grid = build_grid(mesh, g, test_on_cuda());
   flat_ = FlatGrid(grid);
   use(make_test_engine(settings));

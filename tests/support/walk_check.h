@@ -46,13 +46,6 @@ struct Walks {
   LSDCD_FN bool failed() const { return missed + extra + pruned + by_cells + wrong > 0; }
 };
 
-// Rounding in float moves a height or a distance by this much (length): BrickGeometry widens its
-// tests by it.
-LSDCD_FN Real float_error(const GridView &grid)
-{
-  return tolerance_of(grid) - grid.tolerance;
-}
-
 // A sphere, how far from its centre it feels the wall, and where its walk goes first.
 struct Walker {
   Sphere sphere;
@@ -139,75 +132,38 @@ LSDCD_FN long not_in(const ContactSet<kMost> &a, const ContactSet<kMost> &b)
 // No more answer than a list has room for.
 using WalkSet = ContactSet<FeatureList::kMax + 1>;
 
-// Against every feature of the wall, in double. Lists of the wall's records: the same contacts to
-// the bit. Lists of brick records: all must be there that are contacts however float rounds, and
-// no others than those that may be.
-template <class Geometry>
+// Against every feature of the wall: the same contacts to the bit.
 LSDCD_FN void compare_with_all(const GridView &grid, const FeatureCode *features, int n_features,
-                               const FeatureLists &lists, const Vec3 &q, Real cutoff,
-                               const WalkSet &set, Walks &out)
+                               const Vec3 &q, Real cutoff, const WalkSet &set, Walks &out)
 {
-  if (!grid.in_floats) {
-    WalkSet all;
-    const MeshGeometry geometry(grid, q);
-    for (int i = 0; i < n_features && !all.overflow; i++)
-      add_feature(geometry, features[i], cutoff, all);
-    out.missed += not_in(all, set);
-    out.extra += not_in(set, all);
-    return;
-  }
-  const Geometry geometry(grid, q);
-  const Real error = float_error(grid);
-  for (int i = 0; i < n_features; i++) {
-    const ClosestPoint closest =
-        closest_point_on(grid.wall, features[i], q, grid.tolerance, cutoff - error);
-    if (!closest.found) continue;
-    bool found = false;
-    for (int k = 0; k < lists.size(0) && !found; k++) {
-      const FeatureCode code = lists.code(0, k);
-      found = geometry.feature(code) == features[i] && geometry.closest_point(code, cutoff).found;
-    }
-    out.missed += !found;
-  }
-  for (int k = 0; k < set.n; k++)
-    out.extra += !closest_point_on(grid.wall, set.feature[k], q, geometry.tolerance() + error,
-                                   cutoff + error)
-                      .found;
+  WalkSet all;
+  const MeshGeometry geometry(grid, q);
+  for (int i = 0; i < n_features && !all.overflow; i++)
+    add_feature(geometry, features[i], cutoff, all);
+  out.missed += not_in(all, set);
+  out.extra += not_in(set, all);
 }
 
-// Contacts of cells that no listed feature has. In double: to the bit. Which of several near points
+// Contacts of cells that no listed feature has. Which of several near points
 // stands for all of them may depend on their order, which is another one in cells: the points of all
-// listed features count. In float an edge of a shallow fold may hold a contact by the tolerance
-// alone, on the side where its faces hold it, too. Some cells list such an edge, others do not: what
-// counts is that the list has the same point of the wall.
-template <class Geometry>
+// listed features count.
 LSDCD_FN long not_listed(const GridView &grid, const FeatureLists &lists, const Vec3 &q,
                          Real cutoff, const WalkSet &cells)
 {
-  const Geometry geometry(grid, q);
+  const MeshGeometry geometry(grid, q);
   WalkSet listed;
   for (int k = 0; k < lists.size(0); k++) {
     const ClosestPoint closest = geometry.closest_point(lists.code(0, k), cutoff);
     if (closest.found)
       listed.add(geometry.feature(lists.code(0, k)), closest.normal, closest.distance);
   }
-  if (!grid.in_floats) return not_in(cells, listed);
-  const Real same = kSamePoint * geometry.tolerance();
-  long n = 0;
-  for (int k = 0; k < cells.n; k++) {
-    bool found = false;
-    for (int i = 0; i < listed.n && !found; i++)
-      found =
-          norm(cells.distance[k] * cells.normal[k] - listed.distance[i] * listed.normal[i]) <= same;
-    n += !found;
-  }
-  return n;
+  return not_in(cells, listed);
 }
 
 constexpr int kWalkSteps = 16;
 
-template <class Geometry, class T>
-LSDCD_FN Walks check_walk_in(const WalkMesh<T> &mesh, std::uint64_t i)
+template <class T>
+LSDCD_FN Walks check_walk(const WalkMesh<T> &mesh, std::uint64_t i)
 {
   const GridView &grid = mesh.pairs.grid;
   const Walker w = walker_of(mesh, i);
@@ -221,7 +177,7 @@ LSDCD_FN Walks check_walk_in(const WalkMesh<T> &mesh, std::uint64_t i)
   out.with_list = 1;
   if (mesh.gathered < 1) {
     const Real margin = made.margin;
-    gather_within<Geometry>(alone, true, grid, from, w.cutoff, mesh.gathered * margin, made);
+    gather_within(alone, true, grid, from, w.cutoff, mesh.gathered * margin, made);
     made.margin = margin;
   }
   Real reals[FeatureLists::kReals];
@@ -240,13 +196,13 @@ LSDCD_FN Walks check_walk_in(const WalkMesh<T> &mesh, std::uint64_t i)
       q += margin * (r.below(2) ? r.in(0, 2) : r.log_in(1e-9, 1)) * r.direction();
     q = within_margin(lists, from, q, w.cutoff);
     WalkSet set, cells;
-    find_in_list<Geometry>(grid, {lists, 0}, q, w.cutoff, set);
+    find_in_list(grid, {lists, 0}, q, w.cutoff, set);
     out.steps++;
     out.touching += set.n > 0;
-    compare_with_all<Geometry>(grid, mesh.features, mesh.n_features, lists, q, w.cutoff, set, out);
-    find_contacts_in<Geometry>(grid, q, w.cutoff, cells);
+    compare_with_all(grid, mesh.features, mesh.n_features, q, w.cutoff, set, out);
+    find_contacts_in<MeshGeometry>(grid, q, w.cutoff, cells);
     out.pruned += cells.n > 0 && !chosen;
-    out.by_cells += not_listed<Geometry>(grid, lists, q, w.cutoff, cells);
+    out.by_cells += not_listed(grid, lists, q, w.cutoff, cells);
     if (step > 0) continue;
     const PairMesh<T> &pairs = mesh.pairs;
     const Real d = long_distance(pairs.triangle, pairs.n_triangles, q);
@@ -261,13 +217,6 @@ LSDCD_FN Walks check_walk_in(const WalkMesh<T> &mesh, std::uint64_t i)
     out.wrong += !(out.error <= 1);
   }
   return out;
-}
-
-template <class T>
-LSDCD_FN Walks check_walk(const WalkMesh<T> &mesh, std::uint64_t i)
-{
-  if (mesh.pairs.grid.in_floats) return check_walk_in<BrickGeometry>(mesh, i);
-  return check_walk_in<MeshGeometry>(mesh, i);
 }
 
 }    // namespace lsdcd

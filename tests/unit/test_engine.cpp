@@ -143,10 +143,7 @@ struct MakeCountingLaw {
 CountingLaw counting_law(const EngineSettings &s)
 {
   const MakeCountingLaw make = {wall_effects(s)};
-  if (s.law().is_classic()) {
-    if (s.precision == Precision::single_) return with_classic_law<float>(s.law(), make);
-    return with_classic_law<Real>(s.law(), make);
-  }
+  if (s.law().is_classic()) return with_classic_law<Real>(s.law(), make);
   return with_granular_law(s.law(), make);
 }
 

@@ -67,11 +67,10 @@ struct Wall {
   WeldedMesh mesh;
   TriangleGrid grid;
 
-  explicit Wall(std::uint64_t seed, bool on_cuda = false, bool in_floats = false) :
+  explicit Wall(std::uint64_t seed, bool on_cuda = false) :
       made(random_mesh(seed)), mesh(weld(made.soup, 0))
   {
     GridSettings settings;
-    settings.in_floats = in_floats;
     settings.cutoff = made.cutoff;
     settings.length = made.length;
     settings.memory_budget = 64 << 20;
@@ -173,16 +172,13 @@ WalkMesh<T> walk_mesh(const Wall &wall, const std::vector<FeatureCode> &features
                       const std::vector<LongTriangle<T>> &triangles, std::uint64_t seed,
                       Real gathered)
 {
-  PairMesh<T> pairs = wall.pairs(triangles, seed);
-  // Regions of features are wider by what float rounds, and so is a closest point's place twice: 1.5
-  // tolerances past the rim, and the height.
-  pairs.tolerance += Real(2.5) * float_error(pairs.grid);
-  return {pairs, features.data(), static_cast<int>(features.size()), gathered};
+  return {wall.pairs(triangles, seed), features.data(), static_cast<int>(features.size()),
+          gathered};
 }
 
 // Walks of spheres on as many meshes as n_steps take, their lists gathered for a share of the
 // margin; `first`: the first mesh and sphere that failed.
-Walks walk(double n_steps, bool in_floats, Real gathered, std::string &first)
+Walks walk(double n_steps, Real gathered, std::string &first)
 {
   const bool cuda = test_on_cuda();
   const double spheres = n_steps / kWalkSteps;
@@ -192,7 +188,7 @@ Walks walk(double n_steps, bool in_floats, Real gathered, std::string &first)
   long first_mesh = -1;
   for_meshes(std::max(1l, static_cast<long>(spheres / per_mesh)), !cuda, [&](long i) {
     const std::uint64_t seed = seed_of(i);
-    const Wall wall(seed, cuda, in_floats);
+    const Wall wall(seed, cuda);
     const std::vector<FeatureCode> features = features_of(wall);
     std::vector<Walks> walks(per_mesh);
     if (features.empty()) return;
@@ -229,60 +225,36 @@ Walks walk(double n_steps, bool in_floats, Real gathered, std::string &first)
 TEST(property, a_list_holds_every_contact_inside_of_its_margin)
 {
   const double n_steps = setting("LSDCD_PAIRS", 1e7);
-  for (const bool in_floats : {false, true}) {
-    std::string where;
-    const double start = now();
-    const Walks t = walk(n_steps / 2, in_floats, 1, where);
-    std::printf("  %s: %.4g steps of %.4g spheres in %.0f s, %.0f %% have a list, %.0f %% touch; "
-                "largest error %.3f of the tolerance\n",
-                in_floats ? "brick records" : "double", double(t.steps), double(t.spheres),
-                now() - start, 100. * t.with_list / t.spheres, 100. * t.touching / t.steps,
-                t.error);
-    char what[80];
-    std::snprintf(what, sizeof what, "%.3g steps inside the margin, %s: ", double(t.steps),
-                  in_floats ? "brick records" : "double");
-    const auto none = [&](const char *of, long n) {
-      expect_answer({kTheme, "3", std::string(what) + of}, 0, n, 0, "none" + where);
-    };
-    none("contacts that lists miss", t.missed);
-    none("contacts of lists alone", t.extra);
-    none("steps that touch, of spheres that a choice leaves out", t.pruned);
-    none("contacts of cells that no listed feature has", t.by_cells);
-    none("nearest contacts at no distance to all triangles", t.wrong);
-    EXPECT_GT(t.with_list, t.spheres / 2);
-    EXPECT_GT(t.touching, t.steps / 4);
-  }
-}
-
-// Seeds at which a cell lists an edge of a shallow fold that holds a contact by the float tolerance alone,
-// and the list of the wall does not: the list has a face with the same point.
-TEST(property, a_list_has_the_contact_that_a_float_finds_on_the_edge_of_a_shallow_fold)
-{
-  if (test_on_cuda()) GTEST_SKIP() << "seeds of the CPU";
-  constexpr long kWalks[][2] = {{55, 32757}, {164, 9920}, {183, 30652}, {197, 1033}, {290, 5839}};
-  for (const auto &[number, sphere] : kWalks) {
-    const std::uint64_t seed = Numbers(1000003ull + static_cast<std::uint64_t>(number)).next();
-    const Wall wall(seed, false, true);
-    const auto triangles = long_triangles<long double>(wall.made.soup);
-    const std::vector<FeatureCode> features = features_of(wall);
-    const Walks walks = check_walk(walk_mesh(wall, features, triangles, seed, 1), sphere);
-    EXPECT_GT(walks.touching, 0) << number;
-    EXPECT_EQ(walks.by_cells, 0) << number;
-  }
+  std::string where;
+  const double start = now();
+  const Walks t = walk(n_steps, 1, where);
+  std::printf("  %.4g steps of %.4g spheres in %.0f s, %.0f %% have a list, %.0f %% touch; "
+              "largest error %.3f of the tolerance\n",
+              double(t.steps), double(t.spheres), now() - start, 100. * t.with_list / t.spheres,
+              100. * t.touching / t.steps, t.error);
+  char what[80];
+  std::snprintf(what, sizeof what, "%.3g steps inside the margin: ", double(t.steps));
+  const auto none = [&](const char *of, long n) {
+    expect_answer({kTheme, "3", std::string(what) + of}, 0, n, 0, "none" + where);
+  };
+  none("contacts that lists miss", t.missed);
+  none("contacts of lists alone", t.extra);
+  none("steps that touch, of spheres that a choice leaves out", t.pruned);
+  none("contacts of cells that no listed feature has", t.by_cells);
+  none("nearest contacts at no distance to all triangles", t.wrong);
+  EXPECT_GT(t.with_list, t.spheres / 2);
+  EXPECT_GT(t.touching, t.steps / 4);
 }
 
 // The check can fail: lists for a margin 1 % short of what is walked miss contacts.
 TEST(property, a_list_for_less_than_the_margin_is_seen_to_miss_contacts)
 {
   if (setting("LSDCD_MESH", -1) >= 0) GTEST_SKIP() << "one mesh may have no contact to miss";
-  for (const bool in_floats : {false, true}) {
-    std::string where;
-    const Walks t = walk(1e5, in_floats, Real(0.99), where);
-    std::printf("  %s: %ld contacts missed in %ld steps\n", in_floats ? "brick records" : "double",
-                t.missed, t.steps);
-    EXPECT_GT(t.missed, 0);
-    EXPECT_GT(t.pruned, 0);
-  }
+  std::string where;
+  const Walks t = walk(1e5, Real(0.99), where);
+  std::printf("  %ld contacts missed in %ld steps\n", t.missed, t.steps);
+  EXPECT_GT(t.missed, 0);
+  EXPECT_GT(t.pruned, 0);
 }
 
 // ---- local minima ----------------------------------------------------------------------------

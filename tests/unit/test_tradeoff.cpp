@@ -53,10 +53,10 @@ TEST(front, is_of_each_device)
 
 // ---- the words for a bound -------------------------------------------------------------
 
-TradeoffRow setting(int nearest, Precision precision, Real largest, double ns)
+TradeoffRow setting(int nearest, Real largest, double ns)
 {
   TradeoffRow row = {};
-  row.choice = {0.5, nearest, precision};
+  row.choice = {0.5, nearest};
   row.error.contacts = 1000;
   row.error.largest = largest;
   row.ns_per_sphere = ns;
@@ -69,28 +69,27 @@ std::string words_below(Real bound, const std::vector<TradeoffRow> &rows)
   return row ? words_of(row->choice) : "none";
 }
 
-const TradeoffRow kExact = setting(0, Precision::double_, 0, 100);
-const char *const kExactWords = "grid 0.5 nearest all precision double";
+const TradeoffRow kExact = setting(0, 0, 100);
+const char *const kExactWords = "grid 0.5 nearest all";
 
 TEST(below, the_fastest_setting_is_taken)
 {
-  EXPECT_EQ(words_below(1e-3, {kExact, setting(0, Precision::mixed, 1e-6, 50)}),
-            "grid 0.5 nearest all precision mixed");
+  EXPECT_EQ(words_below(1e-3, {kExact, setting(8, 1e-6, 50)}), "grid 0.5 nearest 8");
 }
 
 TEST(below, of_times_a_tenth_apart_the_more_exact_is_taken)
 {
-  EXPECT_EQ(words_below(1e-3, {setting(0, Precision::single_, 1e-6, 92), kExact}), kExactWords);
+  EXPECT_EQ(words_below(1e-3, {setting(8, 1e-6, 92), kExact}), kExactWords);
 }
 
 TEST(below, an_error_of_a_force_that_is_not_below_is_refused)
 {
-  EXPECT_EQ(words_below(1e-3, {kExact, setting(0, Precision::mixed, 1e-3, 50)}), kExactWords);
+  EXPECT_EQ(words_below(1e-3, {kExact, setting(8, 1e-3, 50)}), kExactWords);
 }
 
 TEST(below, a_share_of_missed_contacts_that_is_not_below_is_refused)
 {
-  TradeoffRow misses = setting(0, Precision::mixed, 0, 50);
+  TradeoffRow misses = setting(8, 0, 50);
   misses.error.missed = 2;
   EXPECT_EQ(words_below(2e-3, {kExact, misses}), kExactWords);
   EXPECT_NE(words_below(3e-3, {kExact, misses}), kExactWords);
@@ -98,15 +97,15 @@ TEST(below, a_share_of_missed_contacts_that_is_not_below_is_refused)
 
 TEST(below, a_setting_with_uncertified_answers_is_refused)
 {
-  TradeoffRow four = setting(4, Precision::double_, 0, 50);
-  EXPECT_EQ(words_below(0.5, {kExact, four}), "grid 0.5 nearest 4 precision double");
+  TradeoffRow four = setting(4, 0, 50);
+  EXPECT_EQ(words_below(0.5, {kExact, four}), "grid 0.5 nearest 4");
   four.error.uncertified = 1;
   EXPECT_EQ(words_below(0.5, {kExact, four}), kExactWords);
 }
 
 TEST(below, corner_sum_and_another_device_are_passed_over)
 {
-  TradeoffRow sum = setting(0, Precision::double_, 0, 50), gpu = sum;
+  TradeoffRow sum = setting(0, 0, 50), gpu = sum;
   sum.corner = Corner::sum;
   gpu.on_cuda = true;
   EXPECT_EQ(words_below(1e-3, {sum, gpu}), "none");
@@ -306,26 +305,23 @@ TEST(tradeoff, has_a_row_for_every_setting_the_default_first)
 {
   const Tradeoff t = small();
   EXPECT_TRUE(t.left_out.empty());
-  std::set<std::tuple<Real, int, int, int>> seen;
+  std::set<std::tuple<Real, int, int>> seen;
   std::set<Real> lengths;
   for (const TradeoffRow &r : t.rows) {
     lengths.insert(r.choice.length);
-    EXPECT_TRUE(seen.insert({r.choice.length, r.choice.nearest,
-                             static_cast<int>(r.choice.precision), static_cast<int>(r.corner)})
-                    .second);
+    EXPECT_TRUE(
+        seen.insert({r.choice.length, r.choice.nearest, static_cast<int>(r.corner)}).second);
     EXPECT_EQ(r.on_cuda, test_on_cuda());
     EXPECT_GT(r.ns_per_sphere, 0);
     EXPECT_GT(r.status_ns, 0);
     EXPECT_GT(r.error.contacts, 200);
     if (r.choice.nearest == 0) {
       EXPECT_EQ(r.error.missed, 0);
-    }
-    if (r.choice.nearest == 0 && r.choice.precision == Precision::double_) {
       EXPECT_LT(r.error.largest, 1e-12);
     }
   }
   EXPECT_GE(lengths.size(), 2u);
-  EXPECT_EQ(t.rows.size(), lengths.size() * std::size(kTriedNearest) * 6);
+  EXPECT_EQ(t.rows.size(), lengths.size() * std::size(kTriedNearest) * 2);
   EXPECT_TRUE(t.rows[0].is_default);
   EXPECT_EQ(std::count_if(t.rows.begin(), t.rows.end(), [](const auto &r) { return r.is_default; }),
             1);

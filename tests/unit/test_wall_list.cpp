@@ -26,11 +26,10 @@ struct Wall {
   TriangleGrid grid;
   FlatGrid flat;
 
-  Wall(const TriangleSoup &soup, Real cutoff, bool in_floats = false) : mesh(weld(soup, -1))
+  Wall(const TriangleSoup &soup, Real cutoff) : mesh(weld(soup, -1))
   {
     GridSettings g;
     g.cutoff = cutoff;
-    g.in_floats = in_floats;
     grid = build_grid(mesh, g);
     flat = FlatGrid(grid);
   }
@@ -118,17 +117,15 @@ Vec3 in_grid(Numbers &r, const GridView &grid)
 
 TEST(wall_list, is_ascending_and_without_doubles)
 {
-  for (bool in_floats : {false, true}) {
-    const Wall wall(random_soup(100, 3), 0.5, in_floats);
-    Numbers r(1);
-    int several = 0;
-    for (int k = 0; k < 5000; k++) {
-      const FeatureList made = OneList(wall.view(), in_grid(r, wall.view()), 0.5).made;
-      several += made.n > 1;
-      for (int i = 1; i < made.n; i++) ASSERT_LT(made.code[i - 1], made.code[i]);
-    }
-    EXPECT_GT(several, 50);
+  const Wall wall(random_soup(100, 3), 0.5);
+  Numbers r(1);
+  int several = 0;
+  for (int k = 0; k < 5000; k++) {
+    const FeatureList made = OneList(wall.view(), in_grid(r, wall.view()), 0.5).made;
+    several += made.n > 1;
+    for (int i = 1; i < made.n; i++) ASSERT_LT(made.code[i - 1], made.code[i]);
   }
+  EXPECT_GT(several, 50);
 }
 
 const Vec3 kOverFloor = {0.31, 0.17, 0.4};
@@ -197,66 +194,36 @@ TEST(wall_list, is_none_where_a_sphere_touches_more_than_seven)
 
 TEST(wall_list, of_a_sphere_outside_of_the_grid_is_empty_and_holds)
 {
-  for (bool in_floats : {false, true}) {
-    const Wall wall(floor_mesh(4, 2), 0.5, in_floats);
-    for (Real far : {10., -10., 1e6}) {
-      const OneList list(wall.view(), {far, far, far}, 0.5);
-      EXPECT_TRUE(list.has_list) << far;
-      EXPECT_EQ(list.made.n, 0) << far;
-      EXPECT_TRUE(list.holds({far, far, far}, 0.5)) << far;
-    }
+  const Wall wall(floor_mesh(4, 2), 0.5);
+  for (Real far : {10., -10., 1e6}) {
+    const OneList list(wall.view(), {far, far, far}, 0.5);
+    EXPECT_TRUE(list.has_list) << far;
+    EXPECT_EQ(list.made.n, 0) << far;
+    EXPECT_TRUE(list.holds({far, far, far}, 0.5)) << far;
   }
 }
 
 // At the rim of the grid, where the ball of the margin meets cells that are not there.
 TEST(wall_list, at_the_rim_of_the_grid_has_what_is_inside)
 {
-  for (bool in_floats : {false, true}) {
-    Wall wall(floor_mesh(4, 2), 0.5);
-    GridSettings g;
-    g.cutoff = 0.5;
-    g.in_floats = in_floats;
-    g.within = {{-1, -1, 0}, {1, 1, 1}};    // the floor itself is the rim
-    wall.grid = build_grid(wall.mesh, g);
-    wall.flat = FlatGrid(wall.grid);
-    const GridView grid = wall.view();
-    for (Real up : {0., 1e-15, 1e-9, 0.01, 0.4}) {
-      const Real z = std::max(up, grid.origin.z);
-      ASSERT_LE(z, 0.4);
-      ContactSet<8> cells;
-      find_contacts(grid, {0.31, 0.17, z}, 0.5, cells);
-      const OneList list(grid, {0.31, 0.17, z}, 0.5);
-      ASSERT_EQ(cells.n, 1);
-      if (list.has_list) {
-        EXPECT_GE(list.made.n, 1) << up;
-      }
-    }
-  }
-}
-
-TEST(wall_list, of_brick_records_stays_in_one_brick)
-{
-  const Wall wall(random_soup(100, 3), 0.5, true);
+  Wall wall(floor_mesh(4, 2), 0.5);
+  GridSettings g;
+  g.cutoff = 0.5;
+  g.within = {{-1, -1, 0}, {1, 1, 1}};    // the floor itself is the rim
+  wall.grid = build_grid(wall.mesh, g);
+  wall.flat = FlatGrid(wall.grid);
   const GridView grid = wall.view();
-  Numbers r(4);
-  int cut = 0, none = 0;
-  for (int k = 0; k < 100000; k++) {
-    Vec3 q = in_grid(r, grid);
-    if (r.below(2)) {    // close to a side of a brick, as close as rounding lets it
-      const int d = r.below(3);
-      q[d] = grid.origin[d] + r.below(grid.n_bricks[d]) * kBrickSide * grid.length +
-             (r.below(2) ? 1 : -1) * r.log_in(1e-17, 1e-2);
+  for (Real up : {0., 1e-15, 1e-9, 0.01, 0.4}) {
+    const Real z = std::max(up, grid.origin.z);
+    ASSERT_LE(z, 0.4);
+    ContactSet<8> cells;
+    find_contacts(grid, {0.31, 0.17, z}, 0.5, cells);
+    const OneList list(grid, {0.31, 0.17, z}, 0.5);
+    ASSERT_EQ(cells.n, 1);
+    if (list.has_list) {
+      EXPECT_GE(list.made.n, 1) << up;
     }
-    const Real most = kSkinFraction * r.log_in(1e-3, 0.5), margin = margin_at(grid, q, most);
-    EXPECT_LE(margin, most);
-    cut += margin < most;
-    none += !(margin > 0);
-    int lo[3], hi[3];
-    if (!(margin > 0) || !cells_in_ball(grid, q, margin, lo, hi)) continue;
-    for (int d = 0; d < 3; d++) ASSERT_EQ(lo[d] / kBrickSide, (hi[d] - 1) / kBrickSide);
   }
-  EXPECT_GT(cut, 1000);
-  EXPECT_GT(none, 1000);
 }
 
 // ---- in an engine ------------------------------------------------------------------------------
@@ -496,81 +463,75 @@ TEST(wall_list, a_sphere_that_shrinks_may_grow_to_what_it_was_at_the_choice)
 
 TEST(wall_list, of_a_sphere_that_comes_in_from_outside_of_the_grid_is_made_in_time)
 {
-  for (bool in_floats : {false, true}) {
-    const Wall wall(floor_mesh(10, 5, 3), 0.5, in_floats);
-    EngineSettings s = hooke(1e3);
-    if (in_floats) s.precision = Precision::mixed;
-    Bed kept(wall, s), anew(wall, s);
-    const Vec3 outside = {-9, -9, 5.4};
-    kept.add(outside, 0.5);
-    anew.add(outside, 0.5);
-    EXPECT_FALSE(cell_slot_of(wall.view(), outside).inside);
-    kept.choose(12);
-    ASSERT_EQ(kept.engine->n_candidates(), 1);
-    // To a place over the floor, a third of a margin a step.
-    const Vec3 way = Vec3{-0.5, -0.5, 0.4} - outside;
-    const int steps = static_cast<int>(norm(way) / (kSkinFraction * 0.5 / 3));
-    int touching = 0;
-    for (int k = 0; k <= steps; k++) {
-      kept.put(0, outside + (static_cast<Real>(k) / steps) * way);
-      anew.x = kept.x;
-      kept.step();
-      anew.choose(0);
-      anew.step();
-      EXPECT_TRUE(kept.force_on(0) == anew.force_on(0)) << k;
-      touching += kept.force_on(0).z > 0;
-    }
-    EXPECT_GT(touching, 3);
+  const Wall wall(floor_mesh(10, 5, 3), 0.5);
+  EngineSettings s = hooke(1e3);
+  Bed kept(wall, s), anew(wall, s);
+  const Vec3 outside = {-9, -9, 5.4};
+  kept.add(outside, 0.5);
+  anew.add(outside, 0.5);
+  EXPECT_FALSE(cell_slot_of(wall.view(), outside).inside);
+  kept.choose(12);
+  ASSERT_EQ(kept.engine->n_candidates(), 1);
+  // To a place over the floor, a third of a margin a step.
+  const Vec3 way = Vec3{-0.5, -0.5, 0.4} - outside;
+  const int steps = static_cast<int>(norm(way) / (kSkinFraction * 0.5 / 3));
+  int touching = 0;
+  for (int k = 0; k <= steps; k++) {
+    kept.put(0, outside + (static_cast<Real>(k) / steps) * way);
+    anew.x = kept.x;
+    kept.step();
+    anew.choose(0);
+    anew.step();
+    EXPECT_TRUE(kept.force_on(0) == anew.force_on(0)) << k;
+    touching += kept.force_on(0).z > 0;
   }
+  EXPECT_GT(touching, 3);
 }
 
 // Contacts are taken in the order of their numbers, so that forces and springs do not tell when a
-// list was made. That goes for brick records as well: the frame is that of the brick that the
-// sphere is in, and a list never leaves it. In the dense soup some spheres have no list.
+// list was made. In the dense soup some spheres have no list.
 TEST(wall_list, that_is_kept_on_a_long_walk_gives_the_bits_of_choosing_in_each_step)
 {
   constexpr int kSteps = 1000, kSpheres = 40;
   const Real cutoff = 0.5, step = 0.3 * kSkinFraction * cutoff;
   const TriangleSoup soups[] = {floor_mesh(20, 10, 7), box_mesh({0, 0, 0}, {4, 4, 4}),
                                 random_soup(60, 3), random_soup(1000, 3)};
-  for (const TriangleSoup &soup : soups)
-    for (Precision precision : {Precision::double_, Precision::mixed}) {
-      const Wall wall(soup, cutoff, precision == Precision::mixed);
-      EngineSettings s;
-      s.law() = classic(NormalModel::hertz, true);
-      s.precision = precision;
-      Bed kept(wall, s), anew(wall, s);
-      Numbers r(8);
-      const std::vector<VertexRecord> &vertices = wall.grid.wall.vertices;
-      for (int i = 0; i < kSpheres; i++) {
-        const Vec3 at = vertices[r.next() % vertices.size()].position;
-        const Vec3 q = at + r.in(0.5, 0.9) * cutoff * r.direction();
-        const Real radius = cutoff * r.in(0.8, 1);
-        kept.add(q, radius);
-        anew.add(q, radius);
-      }
-      kept.choose(kSteps * step);    // no walk goes farther
-      std::int64_t contacts = 0, lists = 0;
-      int differ = 0, by_cells = 0;
-      for (int k = 0; k < kSteps; k++) {
-        for (int i = 0; i < kSpheres; i++) kept.put(i, kept.centre(i) + step * r.direction());
-        anew.x = kept.x;
-        kept.step();
-        anew.choose(0);
-        anew.step();
-        contacts += kept.engine->totals().contacts;
-        const StepDiagnostics seen = kept.engine->read_diagnostics();
-        lists += seen.lists;
-        by_cells += seen.by_cells > 0;
-        differ += !same_bytes(kept.force, anew.force) || !same_bytes(kept.torque, anew.torque);
-      }
-      const std::string &name = soup.source;
-      EXPECT_EQ(differ, 0) << name;
-      EXPECT_LT(by_cells, kSteps / 4) << name;
-      EXPECT_TRUE(same_bytes(kept.springs(), anew.springs())) << name;
-      EXPECT_GT(contacts, kSteps * kSpheres / 2) << name;
-      EXPECT_LT(lists, kSteps * kSpheres / 4) << name;    // it is kept
+  for (const TriangleSoup &soup : soups) {
+    const Wall wall(soup, cutoff);
+    EngineSettings s;
+    s.law() = classic(NormalModel::hertz, true);
+    Bed kept(wall, s), anew(wall, s);
+    Numbers r(8);
+    const std::vector<VertexRecord> &vertices = wall.grid.wall.vertices;
+    for (int i = 0; i < kSpheres; i++) {
+      const Vec3 at = vertices[r.next() % vertices.size()].position;
+      const Vec3 q = at + r.in(0.5, 0.9) * cutoff * r.direction();
+      const Real radius = cutoff * r.in(0.8, 1);
+      kept.add(q, radius);
+      anew.add(q, radius);
     }
+    kept.choose(kSteps * step);    // no walk goes farther
+    std::int64_t contacts = 0, lists = 0;
+    int differ = 0, by_cells = 0;
+    for (int k = 0; k < kSteps; k++) {
+      for (int i = 0; i < kSpheres; i++) kept.put(i, kept.centre(i) + step * r.direction());
+      anew.x = kept.x;
+      kept.step();
+      anew.choose(0);
+      anew.step();
+      contacts += kept.engine->totals().contacts;
+      const StepDiagnostics seen = kept.engine->read_diagnostics();
+      lists += seen.lists;
+      by_cells += seen.by_cells > 0;
+      differ += !same_bytes(kept.force, anew.force) || !same_bytes(kept.torque, anew.torque);
+    }
+    const std::string &name = soup.source;
+    EXPECT_EQ(differ, 0) << name;
+    EXPECT_LT(by_cells, kSteps / 4) << name;
+    EXPECT_TRUE(same_bytes(kept.springs(), anew.springs())) << name;
+    EXPECT_GT(contacts, kSteps * kSpheres / 2) << name;
+    EXPECT_LT(lists, kSteps * kSpheres / 4) << name;    // it is kept
+  }
 }
 
 }    // namespace

@@ -107,7 +107,7 @@ _WallMesh = _struct(
     ("cache", ctypes.c_char_p), ("fields", ctypes.c_char_p), ("stl", ctypes.c_char_p), ("fields_every", _int),
     ("stl_every", _int), ("nodes_by_caller", _int), ("pressure", _real), ("body", _at))
 _WallSpec = _struct(
-    "_WallSpec", ("law", _at), ("meshes", _at), ("n_meshes", _size), ("corner", _int), ("side", _int), ("precision", _int),
+    "_WallSpec", ("law", _at), ("meshes", _at), ("n_meshes", _size), ("corner", _int), ("side", _int),
     ("nearest", _int), ("cell", _real), ("memory", _real), ("rmax", _real), ("device", _int), ("wear", _int),
     ("wear_coefficient", _real), ("hardness", _real), ("wear_deform_every", _int), ("wear_deform_factor", _real),
     ("periodic_ends", _int), ("brief", _int), ("average_every", _int))

@@ -328,9 +328,8 @@ class WallSpec:
     """What a wall is made of: the `law` of its spheres, and its `meshes`, 1 at least.
 
     `corner`: "blend", contacts of a sphere at a corner share their overlap, or "sum", their forces add. `side`: "both",
-    "in" or "out", where spheres belong; one side needs closed meshes whose triangles are wound alike. `precision`:
-    "double", "float" or "mixed", contacts in float and forces in double. `nearest` 0: exact; N: only the N triangles
-    nearest to a cell. `cell`, length, and `memory`, bytes of each mesh: of its grid, 0: chosen. `rmax`: the largest radius
+    "in" or "out", where spheres belong; one side needs closed meshes whose triangles are wound alike. `nearest` 0: exact;
+    N: only the N triangles nearest to a cell. `cell`, length, and `memory`, bytes of each mesh: of its grid, 0: chosen. `rmax`: the largest radius
     that there will be, 0: that of the spheres. `compute`: "cpu" or "cuda", for spheres in arrays of the host. `wear`:
     None, ("archard", K, H) with the hardness H, a pressure, or ("finnie", K), 1/pressure. `wear_deform`: (steps, factor),
     every so many steps wear moves the vertices of the meshes, by a volume of so many times what has worn; None: they stay.
@@ -338,7 +337,7 @@ class WallSpec:
     force and torque in Wall.totals(), 0: there are none."""
 
     def __init__(self, law: Law, meshes: Sequence[WallMesh], corner: str = "blend", side: str = "both",
-                 precision: str = "double", nearest: int = 0, cell: float = 0.0, memory: float = 0.0, rmax: float = 0.0,
+                 nearest: int = 0, cell: float = 0.0, memory: float = 0.0, rmax: float = 0.0,
                  compute: str = "cpu", wear: tuple[str, float] | tuple[str, float, float] | None = None,
                  periodic_ends: bool = False, brief: bool = False, wear_deform: tuple[int, float] | None = None,
                  average: int = 0) -> None:
@@ -355,7 +354,7 @@ class WallSpec:
             _WallSpec, law=_address(_instance(law, Law, "law"), Law, "law"), meshes=ctypes.addressof(array),
             n_meshes=len(parts), corner=_chosen("corner", corner, ("blend", "sum")),
             side=_chosen("side", side, ("both", "in", "out")),
-            precision=_chosen("precision", precision, ("double", "float", "mixed")), nearest=nearest, cell=cell, memory=memory,
+            nearest=nearest, cell=cell, memory=memory,
             rmax=rmax, device=_chosen("compute", compute, DEVICES), wear=model, wear_coefficient=numbers[0] if wear else 0.0,
             hardness=numbers[1] if model == 1 else 0.0, wear_deform_every=every, wear_deform_factor=factor,
             periodic_ends=_flag(periodic_ends, "periodic_ends"), brief=_flag(brief, "brief"), average_every=average)

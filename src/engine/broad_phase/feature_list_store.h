@@ -145,7 +145,7 @@ class FeatureListStore {
       ints_ = Array<std::int32_t>(room * FeatureLists::kInts);
     }
     set_view(grid);
-    if (B::kOnHost && large && !grid.in_floats) reserve_copies(n);
+    if (B::kOnHost && large) reserve_copies(n);
     return true;
   }
 

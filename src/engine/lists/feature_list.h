@@ -21,7 +21,7 @@ struct FeatureList {
   Real margin;    // length; negative: there is no list
   Real cutoff;    // how far from its centre a sphere felt the wall then
   std::int32_t n;
-  FeatureCode code[kMax];    // ascending; of the wall, or with `in_floats` of brick records
+  FeatureCode code[kMax];    // ascending
 };
 
 // The lists of many, a column per number, so that neighbours read neighbouring words.
@@ -90,21 +90,10 @@ constexpr Real kSkinFraction = 0.05;
 constexpr Real kShrink = 4;
 constexpr int kMaxShrinks = 3;
 
-// The largest margin, at most `margin`, that the lists of cells allow at q. A ball within it meets
-// few cells; codes of brick records are only valid in one brick, so the ball must stay there.
-LSDCD_FN Real margin_at(const GridView &grid, const Vec3 &q, Real margin)
+// The largest margin, at most `margin`, within which a ball meets few cells.
+LSDCD_FN Real allowed_margin(const GridView &grid, Real margin)
 {
-  Real m = margin < grid.length ? margin : grid.length;
-  if (!grid.in_floats) return m;
-  const Real brick = kBrickSide * grid.length;
-  for (int d = 0; d < 3; d++) {
-    const Real u = (q[d] - grid.origin[d]) / brick, in = (u - floor(u)) * brick;
-    // Less what cells_in_ball() takes for rounding, so that it finds no cell of the next brick.
-    const Real room = (in < brick - in ? in : brick - in) - Real(1e-6) * grid.length -
-                      64 * kRoundoff * (fabs(q[d]) + fabs(grid.origin[d]) + brick);
-    if (room < m) m = room;
-  }
-  return m;
+  return margin < grid.length ? margin : grid.length;
 }
 
 // Puts a code into a list where it belongs, once. False: there is no room for it.
@@ -130,43 +119,14 @@ LSDCD_FN void begin_list(FeatureList &list, const Vec3 &q, Real cutoff, Real mar
 }
 
 // The list of a sphere at q for a margin; false: it is too long.
-template <class Geometry, unsigned kSize>
+template <unsigned kSize>
 LSDCD_FN bool gather_within(const Warp<kSize> &warp, bool mine, const GridView &grid, const Vec3 &q,
                             Real cutoff, Real margin, FeatureList &list)
 {
   if (mine) begin_list(list, q, cutoff, margin);
-  return for_each_within<Geometry>(warp, mine, grid,
-                                   {q, cutoff, margin, excess_margin(grid, margin), -1, kNoCell},
-                                   [&](FeatureCode code) { return insert_code(list, code); });
-}
-
-// Makes the list of a sphere anew, for the margin or, where that is too long, for less. `cutoff`:
-// how far it feels the wall from its centre.
-template <class Geometry, unsigned kSize>
-LSDCD_FN void gather_for(const Warp<kSize> &warp, bool mine, const GridView &grid, const Vec3 &q,
-                         Real cutoff, Real margin, FeatureList &list)
-{
-  Real m = margin_at(grid, q, margin);
-  bool missing = mine && m >= 0;
-  const bool has_room = missing;
-  for (int i = 0; i <= kMaxShrinks && warp.vote(missing); i++, m /= kShrink)
-    if (gather_within<Geometry>(warp, missing, grid, q, cutoff, m, list)) missing = false;
-  if (mine && (missing || !has_room)) begin_list(list, q, cutoff, -1);
-}
-
-// Can a sphere at q touch a feature after moving by up to the margin? True, too, where the answer would take too
-// long. A feature at distance d is in the list of any cell from which it is within the grid's cutoff: cells
-// within d - grid.cutoff of q are enough. `cell`: see FeatureSearch.
-template <class Geometry, unsigned kSize>
-LSDCD_FN bool can_touch(const Warp<kSize> &warp, bool mine, const GridView &grid, const Vec3 &q,
-                        Real cutoff, Real margin, std::uint32_t cell)
-{
-  const bool too_long = !(margin_at(grid, q, margin) >= margin);
-  const Real past = excess_margin(grid, cutoff + margin - grid.cutoff);
-  return !for_each_within<Geometry>(warp, mine && !too_long, grid,
-                                    {q, cutoff, margin, past, cutoff, cell},
-                                    [](FeatureCode) { return false; }) ||
-         too_long;
+  return for_each_within(warp, mine, grid,
+                         {q, cutoff, margin, excess_margin(grid, margin), -1, kNoCell},
+                         [&](FeatureCode code) { return insert_code(list, code); });
 }
 
 // A sphere's cutoff, past which it feels nothing, and the springs it had in the last step.
@@ -179,50 +139,57 @@ struct QuerySphereWith {
 };
 using QuerySphere = QuerySphereWith<const Spring *>;
 
-// The same for either kind of records. A thread whose sphere is not `mine` helps the others of its warp.
+// Can a sphere touch a feature after moving by up to the margin? True, too, where the answer would take too
+// long. A feature at distance d is in the list of any cell from which it is within the grid's cutoff: cells
+// within d - grid.cutoff of the sphere are enough. `cell`: see FeatureSearch. A thread whose sphere is not `mine`
+// helps the others of its warp.
 template <unsigned kSize>
 LSDCD_NOINLINE bool can_touch(const Warp<kSize> &warp, bool mine, const GridView &grid,
                               const QuerySphere &s, Real margin, std::uint32_t cell = kNoCell)
 {
-  if (grid.in_floats)
-    return can_touch<BrickGeometry>(warp, mine, grid, s.x, s.cutoff, margin, cell);
-  return can_touch<MeshGeometry>(warp, mine, grid, s.x, s.cutoff, margin, cell);
+  const bool too_long = !(allowed_margin(grid, margin) >= margin);
+  const Real past = excess_margin(grid, s.cutoff + margin - grid.cutoff);
+  return !for_each_within(warp, mine && !too_long, grid,
+                          {s.x, s.cutoff, margin, past, s.cutoff, cell},
+                          [](FeatureCode) { return false; }) ||
+         too_long;
 }
 
 // Does a sphere seem to touch more than one feature of its list where it is? A hint: no result depends on it.
 LSDCD_FN bool touches_more_than_one(const GridView &grid, const QuerySphere &s,
                                     const FeatureList &list)
 {
-  if (list.n < 2 || grid.in_floats) return false;
+  if (list.n < 2) return false;
   const MeshGeometry geometry(grid, s.x);
   int n = 0;
   for (int i = 0; i < list.n; i++) n += geometry.may_be_closest(list.code[i], s.cutoff, 0);
   return n > 1;
 }
 
-// Makes the list of a sphere anew, for a way of up to `margin` at most; false: it has none, its cell
-// has to be searched.
+// Makes the list of a sphere anew, for a way of up to `margin` at most, or for less where that list is too long;
+// false: it has none, its cell has to be searched.
 template <unsigned kSize>
 LSDCD_NOINLINE bool gather(const Warp<kSize> &warp, bool mine, const GridView &grid,
                            const QuerySphere &s, Real margin, FeatureList &list)
 {
-  const Real most = kSkinFraction * s.radius, m = margin < most ? margin : most;
-  if (grid.in_floats)
-    gather_for<BrickGeometry>(warp, mine, grid, s.x, s.cutoff, m, list);
-  else
-    gather_for<MeshGeometry>(warp, mine, grid, s.x, s.cutoff, m, list);
-  return mine && list.margin >= 0;
+  const Real most = kSkinFraction * s.radius;
+  Real m = allowed_margin(grid, margin < most ? margin : most);
+  bool missing = mine;
+  for (int i = 0; i <= kMaxShrinks && warp.vote(missing); i++, m /= kShrink)
+    if (gather_within(warp, missing, grid, s.x, s.cutoff, m, list)) missing = false;
+  if (missing) begin_list(list, s.x, s.cutoff, -1);
+  return mine && !missing;
 }
 
 // Local minima of the distance from q to the listed features, in the order of their numbers, so
 // that an answer does not depend on when the list was made.
-template <class Geometry, int kCapacity>
+template <int kCapacity>
 LSDCD_FN void find_in_list(const GridView &grid, const ListedFeatures &list, const Vec3 &q,
                            Real cutoff, ContactSet<kCapacity> &set)
 {
   const int n = list.lists.size(list.k);
   if (n == 0) return;
-  const Geometry geometry(grid, q);
+  const MeshGeometry geometry(grid, q);
   for (int i = 0; i < n; i++) {
     const FeatureCode code = list.lists.code(list.k, i);
     const FeatureRecord *copy = list.lists.copies.of(list.k, i);

@@ -5,6 +5,7 @@
 #pragma once
 
 #include "backend/warp.h"
+#include "contact/mesh_geometry.h"
 #include "geometry/wall_records.h"
 #include "grid/lookup/occupied_within.h"
 
@@ -121,11 +122,11 @@ class SearchAhead {
       n_ = cell.count < kAhead ? cell.count : kAhead;
       at_ = first_candidate(grid, cell);
       if (n_ == 1) {    // the cell has it inline
-        if (!grid.in_floats) lsdcd::prefetch(grid.wall, cell.first);
+        lsdcd::prefetch(grid.wall, cell.first);
         at_ = nullptr;
       }
     } else if (part == 4) {
-      for (std::uint32_t i = 0; !grid.in_floats && i < n_; i++)
+      for (std::uint32_t i = 0; i < n_; i++)
         lsdcd::prefetch(grid.wall, grid.lists.packed
                                        ? grid.lists.packing.feature(
                                              static_cast<const PackedCandidate *>(at_)[i])
@@ -154,36 +155,36 @@ struct FeatureSearch {
 // a contact on the way is in the complete list of the cell of the sphere at that time, that cell meets the
 // ball around q, and lists of cells hold for a margin of their own. Each thread of a warp has a search, or none
 // where it is not `mine`. The threads share the candidates; found() gets those of the thread's own search.
-template <class Geometry, unsigned kSize, class Found>
+template <unsigned kSize, class Found>
 LSDCD_FN bool for_each_within(const Warp<kSize> &warp, bool mine, const GridView &grid,
                               const FeatureSearch &search, const Found &found)
 {
-  using Candidates = typename Geometry::Candidates;
+  using Candidates = MeshGeometry::Candidates;
   const Candidates candidates(grid.lists);
   // Each half-space of a feature's region moves by the margin at most; one tolerance more is for
   // rounding.
-  const Real more = search.margin + Geometry::tolerance(grid),
+  const Real more = search.margin + MeshGeometry::tolerance(grid),
              within = (1 + Real(2e-6)) * search.cutoff + more;
   CellsInBall cells(mine, grid, search.q, search.past, search.cell);
-  std::uint32_t at = 0, end = 0;             // of the cell's candidates those that are left
-  typename Candidates::Limit enough = {};    // past this bound none is near
+  std::uint32_t at = 0, end = 0;    // of the cell's candidates those that are left
+  Candidates::Limit enough = {};    // past this bound none is near
   bool complete = true;
   for (;;) {
     Cell cell = {};
     while (at == end && cells.next(grid, cell)) {
       if (cell.count == 1) {
-        if (!Geometry(grid, search.q).may_be_closest(cell.first, within, more)) continue;
+        if (!MeshGeometry(grid, search.q).may_be_closest(cell.first, within, more)) continue;
         complete = found(cell.first);
       } else {
         // A list ascends in its bounds on the distance from the cell's centre.
         const Real away = norm(search.q - cells.centre(grid));
-        const typename Candidates::Entry least = candidates[cell.first];
+        const Candidates::Entry least = candidates[cell.first];
         enough = candidates.limit(within + away);
         complete = !(candidates.is_below(least, away, search.close));
         if (complete && candidates.is_within(least, enough)) {
           at = cell.first;
           end = at + cell.count;
-          Geometry::prefetch(grid, candidates, at, cell.count < kAhead ? cell.count : kAhead);
+          MeshGeometry::prefetch(grid, candidates, at, cell.count < kAhead ? cell.count : kAhead);
         }
       }
       if (!complete) cells.close();
@@ -192,18 +193,17 @@ LSDCD_FN bool for_each_within(const Warp<kSize> &warp, bool mine, const GridView
     if (busy == 0) return complete;
     const WorkSplit<kSize> split(warp, busy);
     const Vec3 q = warp.of(search.q, split.owner);
-    const typename Candidates::Limit its_enough = warp.of(enough, split.owner);
+    const Candidates::Limit its_enough = warp.of(enough, split.owner);
     const Real its_within = warp.of(within, split.owner), its_more = warp.of(more, split.owner);
     const std::uint32_t c = warp.of(at, split.owner) + split.turn,
                         c_end = warp.of(end, split.owner);
     bool near = split.helps && c < c_end;
-    if (near && c + kAhead < c_end) Geometry::prefetch(grid, candidates, c + kAhead, 1);
-    const typename Candidates::Entry candidate =
-        near ? candidates[c] : typename Candidates::Entry();
+    if (near && c + kAhead < c_end) MeshGeometry::prefetch(grid, candidates, c + kAhead, 1);
+    const Candidates::Entry candidate = near ? candidates[c] : Candidates::Entry();
     near = near && candidates.is_within(candidate, its_enough);
     const FeatureCode its_code = candidates.feature(candidate);
     unsigned hits =
-        warp.vote(near && Geometry(grid, q).may_be_closest(its_code, its_within, its_more)) &
+        warp.vote(near && MeshGeometry(grid, q).may_be_closest(its_code, its_within, its_more)) &
         split.own;
     const bool all_near = (warp.vote(near) & split.own) == split.own;
     if (at < end) at = all_near ? at + split.size : end;

@@ -120,8 +120,6 @@ template <class B>
 CompiledLaw<B> on_wall_law(const ContactLaw &law, const WallEffects &effects);
 template <class B>
 CompiledLaw<B> plain_law(const ContactLaw &law, const WallEffects &effects);
-template <class B>
-CompiledLaw<B> float_law(const ContactLaw &law, const WallEffects &effects);
 // These are for walls with a mesh whose nodes move.
 template <class B>
 CompiledLaw<B> granular_nodes_law(const ContactLaw &law, const WallEffects &effects);
@@ -143,7 +141,6 @@ CompiledLaw<B> law_for(const EngineSettings &settings, const ContactLaw &law)
   if (!law.is_classic()) return granular_law<B>(law, effects);
   if (law.is_extended()) return added_law<B>(law, effects);
   if (effects.surface || effects.records) return on_wall_law<B>(law, effects);
-  if (settings.precision == Precision::single_) return float_law<B>(law, effects);
   return plain_law<B>(law, effects);
 }
 

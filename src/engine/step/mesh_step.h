@@ -274,8 +274,7 @@ struct MeshStep {
       Law::kExtra > 0 || Law::kContactTorque || Law::kHeat || Law::kBeyondContact;
   static constexpr int kBlocksAtOnce = kLarge ? 3 : 4;
 
-  // Lists of brick records are left to general_path().
-  bool has_fast_path() const { return job.lists.n && !job.grid.in_floats; }
+  bool has_fast_path() const { return job.lists.n; }
   LSDCD_FN void begin() const { clear_next(job); }
   // Sphere k where it has one contact or none, as nearly all have: with room for one nothing is indexed
   // and all is in registers. False, and nothing done, where it has more or no list that holds.
@@ -293,7 +292,7 @@ struct MeshStep {
         find_in_node_list(job.grid, {job.lists, k}, x, s.cutoff, set);
         is_found = true;
       }
-    if (!is_found) find_in_list<MeshGeometry>(job.grid, {job.lists, k}, x, s.cutoff, set);
+    if (!is_found) find_in_list(job.grid, {job.lists, k}, x, s.cutoff, set);
     filter_contacts<Law::kBeyondContact>(job.grid, job.settings.search, s, set);
     if (set.overflow) return false;
     check_cutoff(job, i, s.cutoff);

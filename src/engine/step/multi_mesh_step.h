@@ -153,7 +153,7 @@ LSDCD_FN void narrow_phase_of_meshes(const StepJob &job, const MultiMeshSphere &
     of_mesh.set.clear();
     find_filtered<kBeyondContact>(mesh.grid, mesh.settings.search, seen, holds ? &list : nullptr,
                                   of_mesh);
-    tolerance = fmax(tolerance, tolerance_of(mesh.grid));
+    tolerance = fmax(tolerance, mesh.grid.tolerance);
     if (!of_mesh.set.overflow)
       add_mesh(mesh.settings.pose, of_mesh.set, tolerance, all.set, end, k - s.begin);
     all.set.overflow |= of_mesh.set.overflow;

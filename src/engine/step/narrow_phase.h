@@ -45,30 +45,19 @@ LSDCD_FN void filter_contacts(const GridView &grid, const SearchSettings &settin
 // Finds the contacts within the cutoff, into a set that is empty: from the sphere's list, or from its cell where
 // `list` is null. Sorted by the features' numbers, so that the corner rule and sums give the same bits from
 // both. Where the set overflows nothing else is valid.
-template <bool kBeyondContact, class Geometry, class Springs, int kCapacity>
-LSDCD_FN void find_filtered_in(const GridView &grid, const SearchSettings &settings,
-                               const QuerySphereWith<Springs> &s, const ListedFeatures *list,
-                               WeightedContacts<kCapacity> &out)
-{
-  out.exact_within = kAnyDistance;
-  if (list)
-    find_in_list<Geometry>(grid, *list, s.x, s.cutoff, out.set);
-  else
-    out.exact_within = find_contacts_in<Geometry>(grid, s.x, s.cutoff, out.set);
-  filter_contacts<kBeyondContact>(grid, settings, s, out.set);
-  out.set.sort();
-}
 template <bool kBeyondContact, class Springs, int kCapacity>
 LSDCD_FN void find_filtered(const GridView &grid, const SearchSettings &settings,
                             const QuerySphereWith<Springs> &s, const ListedFeatures *list,
                             WeightedContacts<kCapacity> &out)
 {
-  if (grid.in_floats)
-    find_filtered_in<kBeyondContact, BrickGeometry>(grid, settings, s, list, out);
+  out.exact_within = kAnyDistance;
+  if (list)
+    find_in_list(grid, *list, s.x, s.cutoff, out.set);
   else
-    find_filtered_in<kBeyondContact, MeshGeometry>(grid, settings, s, list, out);
+    out.exact_within = find_contacts_in<MeshGeometry>(grid, s.x, s.cutoff, out.set);
+  filter_contacts<kBeyondContact>(grid, settings, s, out.set);
+  out.set.sort();
 }
-
 // Can a search of this grid miss contacts?
 LSDCD_FN bool may_miss_any(const GridView &grid)
 {
@@ -79,12 +68,6 @@ LSDCD_FN bool may_miss_any(const GridView &grid)
 LSDCD_FN Real may_miss(Real cutoff, Real exact_within)
 {
   return exact_within < cutoff ? cutoff - exact_within : 0;
-}
-
-// Tolerance of the closest points of a grid; see kSamePoint.
-LSDCD_FN Real tolerance_of(const GridView &grid)
-{
-  return grid.in_floats ? BrickGeometry::tolerance(grid) : MeshGeometry::tolerance(grid);
 }
 
 // Gives every contact its weight: overlaps are shared as those of a sphere of radius `cutoff`, so
@@ -107,7 +90,7 @@ LSDCD_NOINLINE void narrow_phase(CornerRule<kCapacity> &rule, const GridView &gr
                                  const ListedFeatures *list, WeightedContacts<kCapacity> &out)
 {
   find_filtered<kBeyondContact>(grid, settings, s, list, out);
-  if (!out.set.overflow) share_overlap(settings, s.cutoff, tolerance_of(grid), rule, out);
+  if (!out.set.overflow) share_overlap(settings, s.cutoff, grid.tolerance, rule, out);
 }
 
 // The same where the nodes of the mesh move, from the sphere's list of primitives.
@@ -121,7 +104,7 @@ LSDCD_NOINLINE void narrow_phase_at_nodes(CornerRule<kCapacity> &rule, const Gri
   find_in_node_list(grid, list, s.x, s.cutoff, out.set);
   filter_contacts<kBeyondContact>(grid, settings, s, out.set);
   out.set.sort();
-  if (!out.set.overflow) share_overlap(settings, s.cutoff, tolerance_of(grid), rule, out);
+  if (!out.set.overflow) share_overlap(settings, s.cutoff, grid.tolerance, rule, out);
 }
 
 }    // namespace lsdcd
