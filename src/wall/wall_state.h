@@ -50,7 +50,7 @@ struct MeshState {
   std::vector<Real> coat;             // of BodyCoat::save()
   ShapeState shape;                   // of a mesh that recedes by its wear
   std::vector<MeanLoadState> mean;    // one, or none where there are no means
-  std::vector<StepLoad> last;         // one, or none in data of before 0.11.0
+  std::vector<StepLoad> last;         // one; none: data without it
 };
 
 struct WallState {
