@@ -5,7 +5,6 @@
 
 #include "base/input_error.h"
 #include "base/input_words.h"
-#include "law/contact_slope.h"
 #include "wall/mesh_name.h"
 
 #include <algorithm>

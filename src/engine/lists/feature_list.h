@@ -124,8 +124,7 @@ LSDCD_FN bool gather_within(const Warp<kSize> &warp, bool mine, const GridView &
                             Real cutoff, Real margin, FeatureList &list)
 {
   if (mine) begin_list(list, q, cutoff, margin);
-  return for_each_within(warp, mine, grid,
-                         {q, cutoff, margin, excess_margin(grid, margin), -1, kNoCell},
+  return for_each_within(warp, mine, grid, {q, cutoff, margin, excess_margin(grid, margin), -1},
                          [&](FeatureCode code) { return insert_code(list, code); });
 }
 
@@ -141,16 +140,15 @@ using QuerySphere = QuerySphereWith<const Spring *>;
 
 // Can a sphere touch a feature after moving by up to the margin? True, too, where the answer would take too
 // long. A feature at distance d is in the list of any cell from which it is within the grid's cutoff: cells
-// within d - grid.cutoff of the sphere are enough. `cell`: see FeatureSearch. A thread whose sphere is not `mine`
+// within d - grid.cutoff of the sphere are enough. A thread whose sphere is not `mine`
 // helps the others of its warp.
 template <unsigned kSize>
 LSDCD_NOINLINE bool can_touch(const Warp<kSize> &warp, bool mine, const GridView &grid,
-                              const QuerySphere &s, Real margin, std::uint32_t cell = kNoCell)
+                              const QuerySphere &s, Real margin)
 {
   const bool too_long = !(allowed_margin(grid, margin) >= margin);
   const Real past = excess_margin(grid, s.cutoff + margin - grid.cutoff);
-  return !for_each_within(warp, mine && !too_long, grid,
-                          {s.x, s.cutoff, margin, past, s.cutoff, cell},
+  return !for_each_within(warp, mine && !too_long, grid, {s.x, s.cutoff, margin, past, s.cutoff},
                           [](FeatureCode) { return false; }) ||
          too_long;
 }

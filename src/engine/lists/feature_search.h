@@ -14,11 +14,8 @@ namespace lsdcd {
 // The cells that a ball meets, those that have candidates, one after the other.
 class CellsInBall {
  public:
-  // `mine`: false: there is none. With a radius of 0 it is the cell that holds q; `cell`: its index in
-  // lists.cells, or kNoCell where that is not known.
-  LSDCD_FN CellsInBall(bool mine, const GridView &grid, const Vec3 &q, Real radius,
-                       std::uint32_t cell) :
-      cell_(radius > 0 ? kNoCell : cell)
+  // `mine`: false: there is none. With a radius of 0 it is the cell that holds q.
+  LSDCD_FN CellsInBall(bool mine, const GridView &grid, const Vec3 &q, Real radius)
   {
     if (radius > 0) {
       open_ = mine && cells_in_ball(grid, q, radius, lo_, hi_);
@@ -37,14 +34,10 @@ class CellsInBall {
   LSDCD_FN bool next(const GridView &grid, Cell &cell)
   {
     while (open_ && step()) {
-      std::uint32_t at = cell_;
-      if (at == kNoCell) {
-        const Brick *brick = brick_at(grid, i_, j_, k_);
-        const int in_brick = cell_in_brick(i_, j_, k_);
-        if (!brick || !has_candidates(*brick, in_brick)) continue;
-        at = cell_index(*brick, in_brick);
-      }
-      cell = grid.lists.cells[at];
+      const Brick *brick = brick_at(grid, i_, j_, k_);
+      const int in_brick = cell_in_brick(i_, j_, k_);
+      if (!brick || !has_candidates(*brick, in_brick)) continue;
+      cell = grid.lists.cells[cell_index(*brick, in_brick)];
       return true;
     }
     return open_ = false;
@@ -65,7 +58,6 @@ class CellsInBall {
     return ++k_ < hi_[2];
   }
 
-  std::uint32_t cell_;
   bool open_;
   int lo_[3] = {0, 0, 0}, hi_[3] = {0, 0, 0}, i_, j_, k_;
 };
@@ -146,9 +138,8 @@ class SearchAhead {
 struct FeatureSearch {
   Vec3 q;
   Real cutoff, margin;
-  Real past;             // radius around q of the cells that are searched
-  Real close;            // the search ends where a candidate may be nearer
-  std::uint32_t cell;    // of q, in lists.cells, or kNoCell where it is not known
+  Real past;     // radius around q of the cells that are searched
+  Real close;    // the search ends where a candidate may be nearer
 };
 
 // Calls found(code) for each feature until that returns false; returns true if it never did. Nothing is missed:
@@ -165,7 +156,7 @@ LSDCD_FN bool for_each_within(const Warp<kSize> &warp, bool mine, const GridView
   // rounding.
   const Real more = search.margin + MeshGeometry::tolerance(grid),
              within = (1 + Real(2e-6)) * search.cutoff + more;
-  CellsInBall cells(mine, grid, search.q, search.past, search.cell);
+  CellsInBall cells(mine, grid, search.q, search.past);
   std::uint32_t at = 0, end = 0;    // of the cell's candidates those that are left
   Candidates::Limit enough = {};    // past this bound none is near
   bool complete = true;

@@ -58,6 +58,7 @@ LSDCD_FN void find_filtered(const GridView &grid, const SearchSettings &settings
   filter_contacts<kBeyondContact>(grid, settings, s, out.set);
   out.set.sort();
 }
+
 // Can a search of this grid miss contacts?
 LSDCD_FN bool may_miss_any(const GridView &grid)
 {
