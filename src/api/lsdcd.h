@@ -645,8 +645,8 @@ typedef struct lsdcd_spheres {
   size_t n;
   ptrdiff_t row;             /* of all arrays of vectors, 3 at least; 0: 3 */
   const double *x;           /* length, finite */
-  const double *v;           /* length/time */
-  const double *omega;       /* 1/time */
+  const double *v;           /* length/time, finite; looked at in steps of setup, the first and changed ones */
+  const double *omega;       /* 1/time, likewise */
   const double *radius;      /* >= 0, finite */
   const double *mass;        /* > 0, finite */
   double *force;             /* added to */

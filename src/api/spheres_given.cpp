@@ -12,6 +12,7 @@
 #include <cmath>
 #include <cstdint>
 #include <string>
+#include <utility>
 
 namespace lsdcd {
 
@@ -148,6 +149,18 @@ void check_sizes(const Spheres &s)
       refuse_sphere("radius", i, number_text(s.radius[i]) + "; it is 0 or more, and finite");
     if (!(s.mass[i] > 0) || !std::isfinite(s.mass[i]))
       refuse_sphere("mass", i, number_text(s.mass[i]) + "; it is above 0, and finite");
+  }
+}
+
+// One that is not finite would give a force that is no number.
+void check_motion(const Spheres &s)
+{
+  for (int i = 0; i < s.n; i++) {
+    for (const auto &[name, vector] : {std::pair{"v", Vec3(s.v[i])}, {"omega", Vec3(s.omega[i])}})
+      if (!(norm_sq(0 * vector) == 0))
+        refuse_sphere(name, i, vector_text(vector) + ", which is not finite");
+    if (s.temperature && !std::isfinite(s.temperature[i]))
+      refuse_sphere("temperature", i, number_text(s.temperature[i]) + "; it is finite");
   }
 }
 

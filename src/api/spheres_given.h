@@ -22,6 +22,7 @@ Spheres spheres_of(const lsdcd_spheres &spheres, bool has_heat, bool has_types);
 // Checks of arrays of the host:
 void check_types(const Spheres &spheres);
 void check_sizes(const Spheres &spheres);
+void check_motion(const Spheres &spheres);
 // The box around the centres.
 Box checked_extents(const Spheres &spheres);
 

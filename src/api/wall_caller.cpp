@@ -138,16 +138,22 @@ Spheres WallCaller::spheres_on_cpu()
   const std::ptrdiff_t row = spheres_.x.row;
   if (!are_copied_) {
     copy(x_, spheres_.x.at, row * (n - 1) + 3);
+    copy(v_, spheres_.v.at, row * (n - 1) + 3);
+    copy(omega_, spheres_.omega.at, row * (n - 1) + 3);
     copy(radius_, spheres_.radius, n);
     copy(mass_, spheres_.mass, n);
+    if (spheres_.temperature) copy(temperature_, spheres_.temperature, n);
     if (spheres_.type) copy(type_, spheres_.type, n);
     are_copied_ = true;
   }
   Spheres s;
   s.n = spheres_.n;
   s.x = {x_.data(), row, 1};
+  s.v = {v_.data(), row, 1};
+  s.omega = {omega_.data(), row, 1};
   s.radius = radius_.data();
   s.mass = mass_.data();
+  s.temperature = spheres_.temperature ? temperature_.data() : nullptr;
   s.type = spheres_.type ? type_.data() : nullptr;
   return s;
 }

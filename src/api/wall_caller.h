@@ -77,7 +77,7 @@ class WallCaller : public Host {
   Spheres spheres_;
   // Are spheres on a GPU copied, as somebody has asked for them in this step?
   bool are_copied_ = false;
-  std::vector<Real> x_, radius_, mass_;
+  std::vector<Real> x_, v_, omega_, radius_, mass_, temperature_;
   std::vector<int> type_;
 };
 

@@ -66,6 +66,7 @@ StepWanted step_wanted(lsdcd_wall &wall, const lsdcd_spheres *spheres, const lsd
   if (!wall.outside_warned) want.outside = outside(wall.caller.box(), s, extents);
   if (!want.look) return want;
   check_sizes(s);
+  check_motion(s);
   if (has_types) check_types(s);
   wall.largest_radius = 0;
   for (int i = 0; i < s.n; i++) wall.largest_radius = std::max(wall.largest_radius, s.radius[i]);

@@ -3,6 +3,8 @@
 
 #include "base/state_blocks.h"
 
+#include <xxhash.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -10,12 +12,18 @@ namespace lsdcd {
 
 namespace {
 
-constexpr int kFormat = 1;    // of the list of blocks
+constexpr int kFormat = 2;    // of the list of blocks
 constexpr std::size_t kBytes = 6;
 
 std::size_t numbers_for(std::size_t bytes)
 {
   return (bytes + kBytes - 1) / kBytes;
+}
+
+// Returns the upper 53 bits of the 64-bit XXH3 of the numbers' bytes, so that a number holds it exactly.
+std::uint64_t checksum(const Real *numbers, std::size_t n)
+{
+  return XXH3_64bits(numbers, n * sizeof(Real)) >> 11;
 }
 
 }    // namespace
@@ -82,9 +90,15 @@ State::State(const std::string &kind, const Real *numbers, std::size_t n) : kind
   const std::string data = "the data of the " + kind;
   if (n == 0 || numbers[0] != kMark) throw StateError(data + " are of another program or version");
   StateReader head(numbers + 1, n - 1, data);
-  if (head.next<std::int64_t>() != kFormat) head.fail("are of a later version");
+  const std::int64_t format = head.next<std::int64_t>();
+  if (format != kFormat)
+    head.fail(format > kFormat ? "are of a later version" : "are of an earlier version");
+  const Real sum = head.next<Real>();
   const std::size_t size = head.take_count();
-  StateReader in(head.take_numbers(size), size, data);
+  const Real *const from = head.take_numbers(size);
+  if (sum != static_cast<Real>(checksum(from, size)))
+    head.fail("are damaged: their checksum is not that of what was written");
+  StateReader in(from, size, data);
   const std::string found = in.next<std::string>();
   if (found != kind) throw StateError("these are data of the " + found + ", not of the " + kind);
   add_blocks(in);
@@ -119,7 +133,7 @@ std::vector<Real> State::numbers() const
   StateWriter blocks, all;
   blocks(kind_);
   write_blocks(blocks);
-  all(kMark, kFormat, blocks.all());
+  all(kMark, kFormat, checksum(blocks.all().data(), blocks.all().size()), blocks.all());
   return all.all();
 }
 

@@ -3,8 +3,8 @@
 
 // The data of a restart file: numbers in blocks that have a name and a version.
 //
-// As numbers a state is kMark, the format of the list, how many numbers there are in all, the kind of the state, and
-// its blocks. A block is its name, its version, how many numbers follow, and these; they may be blocks again. A text
+// As numbers a state is kMark, the format of the list, a checksum of what follows the next number, how many numbers
+// there are in all, the kind of the state, and its blocks. A block is its name, its version, how many numbers follow, and these; they may be blocks again. A text
 // is its length and its bytes, six in a number, so that each number is an integer below 2^48 and exact.
 #pragma once
 
@@ -20,7 +20,7 @@
 
 namespace lsdcd {
 
-// The data end early, are of something else or of a later version. Hosts add what to do.
+// The data end early, are damaged, of something else or of another version. Hosts add what to do.
 struct StateError : InputError {
   using InputError::InputError;
 };
@@ -126,7 +126,7 @@ class State {
  public:
   // `kind`: what the state is of, as "wall": data of another kind are refused.
   explicit State(std::string kind) : kind_(std::move(kind)) {}
-  // At most n numbers. Throws StateError where they are no state of this kind.
+  // Reads at most n numbers. Throws StateError where they are no state of this kind, or not what was written.
   State(const std::string &kind, const Real *numbers, std::size_t n);
 
   template <class T>

@@ -277,6 +277,20 @@ TEST_F(wall, refuses_a_place_that_is_no_number_in_each_step)
             0u);
 }
 
+TEST_F(wall, refuses_a_velocity_that_is_not_finite)
+{
+  const double inf = std::numeric_limits<double>::infinity();
+  lsdcd::Wall wall(words());
+  Grains grains;
+  for (int i = 0; i < 3; i++) grains.add(i, 0, 0.49);
+  grains.omega[7] = inf;
+  EXPECT_EQ(text_of([&] { grains.step(wall); }), "omega[2] is 0 inf 0, which is not finite");
+  grains.v[5] = -inf;
+  EXPECT_EQ(text_of([&] { grains.step(wall); }), "v[1] is 0 0 -inf, which is not finite");
+  grains.v[5] = grains.omega[7] = 0;
+  grains.step(wall);
+}
+
 // Along z the box repeats, and nothing is outside.
 TEST_F(wall, warns_once_of_spheres_outside_of_its_box)
 {

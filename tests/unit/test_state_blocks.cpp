@@ -98,17 +98,44 @@ TEST(State, that_is_cut_anywhere_is_refused)
   }
 }
 
-// Counts and lengths may be anything: an error, or numbers of the size that there is, but nothing past the end.
-TEST(State, with_a_wrong_number_anywhere_is_read_to_its_end_at_most)
+const Real kBad[] = {-1, 0, 0.5, 7, 1e9, 0x1p53, 1e300, std::nan("")};
+
+TEST(State, with_a_wrong_number_anywhere_is_refused)
 {
   const std::vector<Real> whole = numbers_of(some_part());
-  const Real bad[] = {-1, 0, 0.5, 7, 1e9, 0x1p53, 1e300, std::nan("")};
   for (std::size_t at = 0; at < whole.size(); at++)
-    for (const Real number : bad) {
+    for (const Real bad : kBad) {
       std::vector<Real> numbers = whole;
-      numbers[at] = number;
+      numbers[at] = bad;
+      if (bad != whole[at]) EXPECT_NE(problem_of(numbers), "") << bad << " at " << at;
+    }
+}
+
+TEST(State, tells_that_a_number_was_damaged)
+{
+  std::vector<Real> numbers = numbers_of(some_part());
+  numbers.back() = 2.25;
+  EXPECT_EQ(problem_of(numbers),
+            "the data of the thing are damaged: their checksum is not that of what was written");
+}
+
+// Counts and lengths may be anything: an error, or numbers of the size that there is, but nothing past the end.
+TEST(StateReader, with_a_wrong_number_anywhere_reads_to_the_end_at_most)
+{
+  StateWriter out;
+  out(some_part());
+  for (std::size_t at = 0; at < out.all().size(); at++)
+    for (const Real bad : kBad) {
+      std::vector<Real> numbers = out.all();
+      numbers[at] = bad;
       numbers.shrink_to_fit();    // for a sanitizer
-      problem_of(numbers);
+      StateReader in(numbers.data(), numbers.size(), "the data");
+      try {
+        in.next<Part>();
+        EXPECT_LE(in.left(), numbers.size());
+      } catch (const StateError &e) {
+        EXPECT_EQ(std::string(e.what()).substr(0, 8), "the data");
+      }
     }
 }
 
