@@ -664,10 +664,12 @@ typedef struct lsdcd_wall_step {
                     with `setup` look at that anyway */
   double reach; /* length; near spheres are chosen anew when one has gone farther; 0: a tenth of the
                     largest radius of the last step that looked */
+  int synchronous; /* 1: the velocities of spheres, poses and nodes are of the time of their places; 0: of half a step
+                    before, as velocity Verlet has them when it asks for forces. Not beside bodies */
 } lsdcd_wall_step;
 /* Adds the wall's forces and torques of this step. Velocities are those that the caller's integrator has
- * when it asks for forces; with velocity Verlet they are those of the half step, as in LAMMPS. `dt` and `setup`
- * are the same on all processes; `changed` and `reach` of one hold for all.
+ * when it asks for forces; with velocity Verlet they are those of the half step, as in LAMMPS, and with `synchronous` those of the
+ * places. `dt`, `setup` and `synchronous` are the same on all processes; `changed` and `reach` of one hold for all.
  *
  * An error of a sphere names it by its place in the arrays, from 0, and its process where there are several. What process 0
  * says of a sphere of another one names it by its order of coming, from 1: of those that come in the same step process p of P has
@@ -726,8 +728,8 @@ LSDCD_API int lsdcd_wall_get_pose(lsdcd_wall *wall, int mesh, double *matrix);
  *
  * position: length; null: 0. quaternion: w x y z of R, of length 1 to 1e-3; null: no rotation. velocity: length/time, of
  * the point at `position`; null: 0. angular_velocity: 1/time, along the axes of the box, right-handed; null: 0. Both are
- * of the time of the spheres' velocities: with velocity Verlet half a step before the pose. So in a step, but not with `setup`,
- * R x of the velocity is that of half a step before, too: R x - dt/2 angular_velocity x (R x). All are the same on all
+ * of the time of the spheres' velocities: with velocity Verlet half a step before the pose. So in a step, but not with `setup`
+ * or `synchronous`, R x of the velocity is that of half a step before, too: R x - dt/2 angular_velocity x (R x). All are the same on all
  * processes. LSDCD_ERROR_ARGUMENT: no such mesh, one that is a body or not posed by the caller, a number that is not
  * finite or a quaternion of another length. Alone. Own. */
 LSDCD_API int lsdcd_wall_set_pose(lsdcd_wall *wall, int mesh, const double *position,
@@ -740,7 +742,7 @@ LSDCD_API int lsdcd_wall_set_pose(lsdcd_wall *wall, int mesh, const double *posi
  * placement has them, at rest; after lsdcd_wall_restore() as they were saved. Triangles stay the same.
  *
  * positions: length. velocities: length/time, of the time of the spheres' velocities: with velocity Verlet half a step
- * before the positions; null: all are 0. Both are copied, and are the same on all processes. A wall with device LSDCD_CUDA
+ * before the positions (lsdcd_wall_step); null: all are 0. Both are copied, and are the same on all processes. A wall with device LSDCD_CUDA
  * takes them from memory of its GPU, too, in the order of its stream (LSDCD_ERROR_DEVICE: of another one); with a single process
  * the host then waits for none of these numbers. LSDCD_ERROR_ARGUMENT: no such mesh, one without nodes_by_caller, a number that is not
  * finite, which on a GPU the next step may tell instead (LSDCD_ERROR_INPUT), arrays in different memory. All contacts are found however far nodes go from the last step's, but for one that passes through a sphere: the

@@ -934,7 +934,7 @@ class Wall {
     return matrix;
   }
   // Where mesh number `mesh`, which has posed_by_caller, is in the next step and those after it. In a step, but not with
-  // `setup`, points move with velocity + angular_velocity x (R x) of half a step before the pose, see lsdcd_wall_set_pose().
+  // `setup` or `synchronous`, points move with velocity + angular_velocity x (R x) of half a step before the pose, see lsdcd_wall_set_pose().
   void set_pose(int mesh, const Pose &pose)
   {
     c::check(lsdcd_wall_set_pose(get(), mesh, pose.position.data(), pose.quaternion.data(),

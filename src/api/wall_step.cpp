@@ -44,11 +44,26 @@ struct StepWanted {
   Outside outside;
 };
 
+// Bodies step by velocity Verlet, so that their velocities are always those of half a step before.
+void check_synchronous(const lsdcd_wall &wall, const lsdcd_wall_step &step)
+{
+  if (step.synchronous != 0 && step.synchronous != 1)
+    throw ApiError(LSDCD_ERROR_ARGUMENT,
+                   "synchronous is " + std::to_string(step.synchronous) + "; give 0 or 1");
+  for (const MeshPart &m : wall.in->meshes())
+    if (step.synchronous && m.body)
+      throw ApiError(
+          LSDCD_ERROR_ARGUMENT,
+          "synchronous is 1, and " + m.spec.name +
+              " is a body, which steps by velocity Verlet: integrate the spheres likewise");
+}
+
 StepWanted step_wanted(lsdcd_wall &wall, const lsdcd_spheres *spheres, const lsdcd_wall_step *step)
 {
   StepWanted want;
   const lsdcd_spheres given = checked(spheres, "lsdcd_spheres", offsetof(lsdcd_spheres, type));
   want.step = checked(step, "lsdcd_wall_step");
+  check_synchronous(wall, want.step);
   if (!(want.step.dt > 0) || !std::isfinite(want.step.dt))
     throw ApiError(LSDCD_ERROR_ARGUMENT, "dt is " + number_text(want.step.dt) + ", not above 0");
   if (!(want.step.reach >= 0))
@@ -110,13 +125,16 @@ StepWanted agreed(lsdcd_wall &wall, const Failure &failure, StepWanted want)
                             static_cast<Real>(wall.caller.highest_tag()),
                             want.outside.n > 0 ? 1. : 0.,
                             wall.poses.number(),
-                            -wall.poses.number()};
+                            -wall.poses.number(),
+                            step.synchronous ? 1. : 0.,
+                            step.synchronous ? 0. : 1.};
   wall.caller.agree(failure, most);
-  if (most[0] != -most[1] || most[2] == most[3])
-    throw ApiError(LSDCD_ERROR_ARGUMENT, "dt goes from " + number_text(-most[1]) + " to " +
-                                             number_text(most[0]) + " over the processes" +
-                                             (most[2] == most[3] ? ", and some set up" : "") +
-                                             ": dt and setup are the same on all");
+  if (most[0] != -most[1] || most[2] == most[3] || most[10] == most[11])
+    throw ApiError(LSDCD_ERROR_ARGUMENT,
+                   "dt goes from " + number_text(-most[1]) + " to " + number_text(most[0]) +
+                       " over the processes" + (most[2] == most[3] ? ", and some set up" : "") +
+                       (most[10] == most[11] ? ", and some are synchronous" : "") +
+                       ": dt, setup and synchronous are the same on all");
   if (most[8] != -most[9])
     throw ApiError(
         LSDCD_ERROR_ARGUMENT,
@@ -141,7 +159,8 @@ void take_step(lsdcd_wall &wall, const StepWanted &want)
   wall.dt = want.step.dt;
   if (!want.step.setup) wall.number++;
   StepInput input;
-  input.step = {wall.number, want.step.dt, want.step.setup ? Step::setup : Step::step};
+  input.step = {wall.number, want.step.dt, want.step.setup ? Step::setup : Step::step,
+                want.step.synchronous != 0};
   input.look = input.new_spheres = want.look;
   input.box_changes = wall.caller.box().any_follows();
   input.drift.kind = SphereDrift::watched;

@@ -85,8 +85,10 @@ struct StepSettings {
   std::int64_t number = 0;       // of the step, for StepDiagnostics
   Real dt = 0;                   // time
   bool update_history = true;    // false in setup: springs act but do not move
-  bool per_sphere = false;       // fill SphereOutput
-  bool states = false;           // and TouchingSphere, where per_sphere is set
+  bool synchronous =
+      false;    // velocities are of the time of the places, as in setup; else of half a step before
+  bool per_sphere = false;      // fill SphereOutput
+  bool states = false;          // and TouchingSphere, where per_sphere is set
   bool totals = false;          // they will be asked for before the next step: summed with this one
   bool records = true;          // bring the records of settings.records
   Real wall_temperature = 0;    // where the law has heat

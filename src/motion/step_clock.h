@@ -23,6 +23,10 @@ struct Step {
   std::int64_t number = 0;
   Real dt = 0;    // time
   Kind kind = step;
+  bool synchronous = false;    // velocities of spheres and nodes are of the time of their places
+
+  // How long before their places velocities are (time): half a step with velocity Verlet, as it asks for forces.
+  Real velocities_behind() const { return kind == step && !synchronous ? dt / 2 : 0; }
 };
 
 // Time advances by one dt in each step, whatever number the host gives the step: it is base at

@@ -101,7 +101,7 @@ bool MeshNodes::set_in_place(const Real *x, const Real *v, const std::vector<int
 void MeshNodes::begin_step(const Step &step, Real cutoff)
 {
   if (next_.empty() && !are_given_there_) return;
-  back_ = step.kind == Step::step ? step.dt / 2 : 0;
+  back_ = step.velocities_behind();
   if (engine_)
     move_in_place(step, cutoff);
   else

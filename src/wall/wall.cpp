@@ -493,6 +493,7 @@ StepSettings Wall::step_settings()
   step.number = input_.step.number;
   step.dt = input_.step.dt;
   step.update_history = input_.step.kind == Step::step;
+  step.synchronous = input_.step.synchronous;
   const bool asked = has_bodies_ && any_body_asks_for_contacts();
   step.per_sphere = spec_.contacts || spec_.each_contact || asked;
   step.states = spec_.each_contact || asked;

@@ -236,7 +236,13 @@ TEST_F(processes, refuse_together_what_one_gives_wrongly)
     s.torque = mine.torque.data();
     step.dt = kDt * (1 + host.rank());
     EXPECT_EQ(text_of([&] { wall.step(s, step); }),
-              "dt goes from 0.001 to 0.002 over the processes: dt and setup are the same on all");
+              "dt goes from 0.001 to 0.002 over the processes: dt, setup and synchronous are the "
+              "same on all");
+    step.dt = kDt;
+    step.synchronous = host.rank();
+    EXPECT_EQ(text_of([&] { wall.step(s, step); }),
+              "dt goes from 0.001 to 0.001 over the processes, and some are synchronous: dt, setup "
+              "and synchronous are the same on all");
   });
 }
 

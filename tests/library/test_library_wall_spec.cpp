@@ -766,6 +766,52 @@ TEST_F(wall_spec, set_pose_lifts_a_plate_with_the_force_of_its_overlap_and_veloc
   EXPECT_EQ(grains.force[2], force);
 }
 
+// A sphere whose velocity is that of the plate below it, at the same time, feels no friction; half a step before, the plate below was
+// turned by angle = omega dt / 2, and its velocity differs by omega x angle to first order: 10 times that, to a relative angle.
+TEST_F(wall_spec, takes_velocities_of_the_time_of_places_in_synchronous_steps)
+{
+  const api::Mesh mesh(file_);
+  const double omega = 50, angle = omega * kDt / 2, x = 0.5;
+  const api::Motion turns = api::Motion::rotate({0, 0, 0}, {0, 0, 1}, 2 * std::acos(-1.0) / omega);
+  for (const bool by_motion : {false, true})
+    for (const bool synchronous : {false, true}) {
+      api::WallSpec spec = floor_of(api::Law::classic({"hooke", {kN, 0, 0, 10, 1000, 1}}), mesh);
+      spec.meshes[0].posed_by_caller = !by_motion;
+      if (by_motion) spec.meshes[0].motions = {turns};
+      lsdcd::Wall wall(spec);
+      api::Pose pose;
+      pose.angular_velocity = {0, 0, omega};
+      if (!by_motion) wall.set_pose(0, pose);
+      Grains grains;
+      grains.add(x, 0, 0.45);
+      grains.v[1] = omega * x;
+      lsdcd_wall_step step = {};
+      step.size = sizeof step;
+      step.dt = kDt;
+      step.synchronous = synchronous;
+      wall.step(grains.spheres(), step);
+      const double slip = synchronous ? 0 : 10 * omega * x * angle;
+      EXPECT_NEAR(grains.force[0], slip, slip * angle + 10 * omega * x * kRounding) << by_motion;
+      EXPECT_NEAR(grains.force[1], 0, slip * angle + 10 * omega * x * kRounding) << by_motion;
+    }
+}
+
+TEST_F(wall_spec, refuses_synchronous_steps_beside_a_body)
+{
+  const api::Mesh mesh(file_);
+  api::WallSpec spec = floor_of(hooke_history(), mesh);
+  spec.meshes[0].body = api::RigidBody(1, {0, 0, 0}, {1, 1, 1, 0, 0, 0});
+  lsdcd::Wall wall(spec);
+  Grains grains;
+  grains.add(0.3, 0.2, 0.5);
+  lsdcd_wall_step step = {};
+  step.size = sizeof step;
+  step.dt = kDt;
+  step.synchronous = 1;
+  EXPECT_EQ(text_of([&] { wall.step(grains.spheres(), step); }).rfind("synchronous is 1, and ", 0),
+            0u);
+}
+
 TEST_F(wall_spec, rests_where_it_was_placed_until_it_is_posed)
 {
   const api::Mesh mesh(file_);

@@ -694,11 +694,12 @@ class Wall(_Owner):
 
     def step(self, x: Any, v: Any, omega: Any, radius: Any, mass: Any, force: Any, torque: Any, dt: float,
              setup: bool = False, changed: bool = False, reach: float = 0.0, temperature: Any = None, heat: Any = None,
-             type: Any = None) -> None:
+             type: Any = None, synchronous: bool = False) -> None:
         """Adds to `force` and `torque`, (n, 3), and with a law of heat to `heat`, (n,), what the wall does in a
         step of `dt`. All arrays are contiguous float64, of numpy or with `__dlpack__` or `__cuda_array_interface__`,
         where the wall was made for. `setup`: the forces with which a run begins; `changed`: radii grew since the last
-        step. New spheres are at the end. `type`: int32, for laws by type.
+        step. New spheres are at the end. `type`: int32, for laws by type. `synchronous`: velocities of spheres, poses and nodes are of
+        the time of their places; else of half a step before, as velocity Verlet has them when it asks for forces.
 
         On a device arrays are read, and forces are added, in the order of the wall's stream. There, and with a `host`,
         an error of a sphere is raised by the next call; until then the wall keeps the arrays.
@@ -714,7 +715,8 @@ class Wall(_Owner):
         arrays = {name: self._array(array, name, shape) for name, (array, shape) in given.items()
                   if array is not None or name not in optional}
         spheres = _sized(_Spheres, n=math.prod(n), **{name: array.address for name, array in arrays.items()})
-        step = _sized(_WallStep, dt=dt, setup=_flag(setup, "setup"), changed=_flag(changed, "changed"), reach=reach)
+        step = _sized(_WallStep, dt=dt, setup=_flag(setup, "setup"), changed=_flag(changed, "changed"), reach=reach,
+                      synchronous=_flag(synchronous, "synchronous"))
         before, self._arrays = self._arrays, arrays
         self._do(_lib.lsdcd_wall_step_spheres, self._handle, ctypes.byref(spheres), ctypes.byref(step))
         del before    # errors of the last step were told in this one
@@ -775,7 +777,7 @@ class Wall(_Owner):
         position: (3,), length. quaternion: (4,), w x y z of R, of length 1 to 1e-3. velocity: (3,), length/time, of the
         point at `position`. angular_velocity: (3,), 1/time, right-handed, along the axes of the box. Both are of the time
         of the spheres' velocities: with velocity Verlet half a step before the pose. So in a step, but not with `setup`, R x of
-        the velocity is that of half a step before, too: R x - dt/2 angular_velocity x (R x). What is None is 0, or no rotation.
+        the velocity is that of half a step before, too, unless it is `synchronous`. What is None is 0, or no rotation.
         The same on all processes. Raises Error for a mesh that there is not, that is a body or that is not posed by the
         caller, a number that is not finite and a quaternion of another length; ValueError for other shapes."""
         given = [_numbers(position, (3,), "position"), _numbers(quaternion, (4,), "quaternion"),

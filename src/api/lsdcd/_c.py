@@ -124,7 +124,8 @@ _WallOptions = _struct(
 _Spheres = _struct(
     "_Spheres", ("n", _size), ("row", _step), ("x", _at), ("v", _at), ("omega", _at), ("radius", _at),
     ("mass", _at), ("force", _at), ("torque", _at), ("temperature", _at), ("heat", _at), ("type", _at))
-_WallStep = _struct("_WallStep", ("dt", _real), ("setup", _int), ("changed", _int), ("reach", _real))
+_WallStep = _struct("_WallStep", ("dt", _real), ("setup", _int), ("changed", _int), ("reach", _real),
+                    ("synchronous", _int))
 _WallTotals = _struct(
     "_WallTotals", ("force", _real * 3), ("torque", _real * 3), ("contacts", _real), ("overlap", _real),
     ("uncertified", _real), ("power", _real), ("energy", _real), ("worn", _real), ("servo", _real * 3),

@@ -69,7 +69,7 @@ inline ForceSettings force_settings(const EngineSettings &engine, const StepSett
   s.surface = step.surface ? step.surface[mesh] : engine.surface;
   s.surface_moves = s.surface.moves();
   s.pose = pose;
-  s.back = s.update ? step.dt / 2 : 0;
+  s.back = s.update && !step.synchronous ? step.dt / 2 : 0;
   s.wall_velocity = pose.turn_to_mesh(pose.velocity - s.back * pose.acceleration);
   s.wall_angular = pose.turn_to_mesh(pose.angular - s.back * pose.spin_up);
   s.wear = engine.wear;
