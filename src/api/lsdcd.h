@@ -52,7 +52,7 @@ enum {
   LSDCD_ERROR_DEVICE = 5,   /* no CUDA, or an array where it cannot be reached */
   LSDCD_ERROR_MEMORY = 6,   /* none left */
   LSDCD_ERROR_INTERNAL = 7, /* a defect of this library */
-  LSDCD_ERROR_CANCELLED = 8 /* `progress` asked for it */
+  LSDCD_ERROR_CANCELLED = 8 /* `progress` asked for it, or `show` threw */
 };
 
 /* "0.10.0". Any. */
@@ -425,7 +425,8 @@ LSDCD_API int lsdcd_sub_model_get_facts(size_t k, lsdcd_sub_model_facts *facts);
  * lsdcd_wall_from_spec() makes one of meshes and laws, lsdcd_wall_make() of the words of a script. */
 typedef struct lsdcd_wall lsdcd_wall;
 
-/* A message of a wall: a line for the log, or with `warning` 1 what is probably not meant. */
+/* A message of a wall: a line for the log, or with `warning` 1 what is probably not meant. What it throws in C++ does not
+ * interrupt the call, which then returns LSDCD_ERROR_CANCELLED with its text, though all is done; a wall is not made. */
 typedef void lsdcd_message(void *data, int warning, const char *text);
 
 /* For a program of several processes, as with MPI. Each has a wall of the same spec or words, for spheres of its own,

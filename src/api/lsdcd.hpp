@@ -635,7 +635,7 @@ struct Motion : lsdcd_motion {
   {
     Motion m;
     m.kind = kind;
-    for (int k = 0; k < 3; k++) {
+    for (std::size_t k = 0; k < 3; k++) {
       m.velocity[k] = v[k];
       m.amplitude[k] = a[k];
       m.point[k] = p[k];
@@ -849,7 +849,7 @@ class Spec {
     mesh.n_motions = from.motions.size();
     if (from.servo) mesh.servo = &*from.servo;
     if (from.body) mesh.body = &*from.body;
-    for (int k = 0; k < 3; k++) {
+    for (std::size_t k = 0; k < 3; k++) {
       mesh.surface_velocity[k] = from.surface_velocity[k];
       mesh.surface_angular_velocity[k] = from.surface_angular_velocity[k];
       mesh.surface_centre[k] = from.surface_centre[k];

@@ -81,6 +81,7 @@ new_wall(const lsdcd_wall_options *options,
   note_vertices(*made);
   check_no_inputs(*made->in);
   made->in->begin_run(0, false);
+  made->caller.tell_what_show_threw();
   return made.release();
 }
 

@@ -7,6 +7,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <exception>
+#include <utility>
 
 namespace lsdcd {
 
@@ -81,7 +83,20 @@ WallCaller::WallCaller(const lsdcd_wall_options &options) :
 
 void WallCaller::show(const std::string &text, bool is_warning)
 {
-  if (message_ && is_first()) message_(data_, is_warning, text.c_str());
+  if (!message_ || !is_first()) return;
+  try {
+    message_(data_, is_warning, text.c_str());
+  } catch (const std::exception &e) {
+    show_threw_ = e.what();
+  } catch (...) {
+    show_threw_ = "not a std::exception";
+  }
+}
+
+void WallCaller::tell_what_show_threw()
+{
+  if (show_threw_.empty()) return;
+  throw ApiError(LSDCD_ERROR_CANCELLED, "`show` has thrown: " + std::exchange(show_threw_, ""));
 }
 
 void WallCaller::sum(Real *numbers, int n)

@@ -66,12 +66,15 @@ class WallCaller : public Host {
 
   const GpuArrays *gpu = nullptr;    // that has the arrays of spheres; null: the host has
 
+  // Throws ApiError where a program's `show` has thrown since the last time. The call in which it did is done before.
+  void tell_what_show_threw();
+
  private:
   void show(const std::string &text, bool is_warning) override;
-
   PeriodicBox box_;
   lsdcd_message *message_;
   void *data_;
+  std::string show_threw_;    // empty: it has not
   lsdcd_host host_ = {};
   std::int64_t highest_tag_ = 0;
   Spheres spheres_;

@@ -112,6 +112,7 @@ int guard_wall(lsdcd_wall *wall, const Body &body) noexcept
       wall->gpu->run(body);
     else
       body();
+    wall->caller.tell_what_show_threw();
   });
 }
 

@@ -10,6 +10,7 @@ LSDCD_CMAKE, the compilers and cmake; LSDCD_CUDA, whether the build has CUDA. Pr
 import os
 import pathlib
 import re
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -115,6 +116,12 @@ def check_builds(prefix, work, libraries):
     fact("the example in C compiles by pkg-config", code == 0, text)
     gives("and gives the distances", WANTED, "./c", "cube.stl", folder=work, **there)
 
+    compile_cpp = "{} -std=c++17 -Wall -Wextra -Wconversion -Wsign-conversion -Werror -pedantic -fsyntax-only {} $(pkg-config --cflags lsdcd)"
+    for compiler in [os.environ["LSDCD_CXX"]] + [there for there in ["clang++"] if shutil.which(there)]:
+        code, text = run("sh", "-c", compile_cpp.format(compiler, examples + "/distance.cpp"), folder=work,
+                         PKG_CONFIG_PATH=os.path.join(libraries, "pkgconfig"))
+        fact(f"{os.path.basename(compiler)} has no warning of conversions in lsdcd.hpp", code == 0, text)
+
     for example in ("distance.c", "distance.cpp", "collide.cpp"):
         os.symlink(os.path.join(examples, example), os.path.join(work, example))
     for components in (["core"], ["core", "cuda"]):
@@ -145,10 +152,10 @@ def check_static(prefix, work, libraries):
         print("skipped: the static library (a build with CUDA has none)")
         return
     example = os.path.join(ROOT, "examples", "library", "distance.c")
-    command = "{} -std=c99 {} -o in_static $(pkg-config --cflags lsdcd) {}/liblsdcd.a $(pkg-config --static --libs lsdcd | sed 's/-llsdcd//')"
-    code, text = run("sh", "-c", command.format(os.environ["LSDCD_C"], example, libraries), folder=work,
+    command = "{} -std=c99 {} -o in_static $(pkg-config --cflags --libs lsdcd-static)"
+    code, text = run("sh", "-c", command.format(os.environ["LSDCD_C"], example), folder=work,
                      PKG_CONFIG_PATH=os.path.join(libraries, "pkgconfig"))
-    fact("the example in C links to the static library by pkg-config --static", code == 0, text)
+    fact("the example in C links to the static library by pkg-config", code == 0, text)
     gives("and gives the distances", WANTED, "./in_static", "cube.stl", folder=work)
     folder = os.path.join(work, "static")
     os.mkdir(folder)

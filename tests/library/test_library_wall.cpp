@@ -325,6 +325,40 @@ TEST_F(wall, warns_once_of_spheres_outside_of_its_box)
       << warnings[0];
 }
 
+// Without a box nothing is outside, so that the second call has nothing to show.
+TEST_F(wall, tells_what_its_show_has_thrown_after_a_whole_step)
+{
+  lsdcd::WallOptions options;
+  options.show = [](void *, int warning, const char *) {
+    if (warning) throw std::runtime_error("no more lines");
+  };
+  for (int k = 0; k < 3; k++) {
+    options.lo[k] = -5;
+    options.hi[k] = 5;
+  }
+  lsdcd::Wall wall(words(), &options), quiet(words());
+  Grains grains, same;
+  for (Grains *g : {&grains, &same}) {
+    g->add(0, 0, 0.49);
+    g->add(6, 0, 3);
+  }
+  EXPECT_EQ(code_of([&] { grains.step(wall); }), LSDCD_ERROR_CANCELLED);
+  EXPECT_EQ(std::string(lsdcd_last_error()), "`show` has thrown: no more lines");
+  same.step(quiet);
+  EXPECT_EQ(grains.force, same.force);
+  grains.step(wall);
+  same.step(quiet);
+  EXPECT_EQ(grains.force, same.force);
+}
+
+TEST_F(wall, is_not_made_where_its_show_throws)
+{
+  lsdcd::WallOptions options;
+  options.show = [](void *, int, const char *) { throw 1; };
+  EXPECT_EQ(text_of([&] { lsdcd::Wall wall(words(), &options); }),
+            "`show` has thrown: not a std::exception");
+}
+
 TEST_F(wall, refuses_rows_that_overlap)
 {
   lsdcd::Wall wall(words());

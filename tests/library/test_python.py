@@ -254,7 +254,10 @@ class Processes:
     def __init__(self, rank, meeting, brought):
         self.rank, self.meeting, self.brought = rank, meeting, brought
 
+    FORMATS = set()    # of the buffers; mpi4py 3 knows no "<d", as ctypes has it
+
     def meet(self, values):
+        self.FORMATS.add(memoryview(values).format)
         self.brought[self.rank] = values.copy()
         self.meeting.wait(10)
         all_of = [values.copy() for values in self.brought]
@@ -319,6 +322,7 @@ def check_processes():
 
         for no_host in (0, [], "x", np.zeros(2), object()):
             refused(f"{no_host!r} is no host", "without rank", lambda: lsdcd.Wall(words.format(floor), host=no_host), TypeError)
+        fact("a host's arrays have native types", Processes.FORMATS == {"d", "B"}, Processes.FORMATS)
         refused("what a host raises is raised", "no network",
                 lambda: lsdcd.Wall(words.format(floor), host=Breaks(0, None, None)), KeyError)
 

@@ -913,11 +913,15 @@ def _host_struct(host: Host, called: Callable[[Callable[..., object]], Callable[
     missing = [name for name in ("rank", "size", "sum", "max", "broadcast") if not hasattr(host, name)]
     if missing:
         raise TypeError(f"host is a {type(host).__name__} without {', '.join(missing)}, which lsdcd.Host has")
-    as_array = np.ctypeslib.as_array
+
+    def as_array(numbers: Any, shape: tuple[int, ...], kind: type = np.float64) -> NDArray[Any]:
+        """In place. The view has the native type, where ctypes has one that names its byte order: mpi4py 3 does not know that."""
+        return np.ctypeslib.as_array(numbers, shape).view(kind)
+
     return _sized(_Host, rank=host.rank, processes=host.size, node_rank=getattr(host, "node_rank", 0),
                   sum=_Reduce(called(lambda numbers, n: host.sum(as_array(numbers, (n,))))),
                   max=_Reduce(called(lambda numbers, n: host.max(as_array(numbers, (n,))))),
-                  broadcast=_Broadcast(called(lambda data, n, source: host.broadcast(as_array(data, (n,)), source))))
+                  broadcast=_Broadcast(called(lambda data, n, source: host.broadcast(as_array(data, (n,), np.uint8), source))))
 
 
 def _words(words: str | Iterable[str]) -> tuple[Any, int]:
