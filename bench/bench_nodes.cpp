@@ -175,7 +175,7 @@ class Bed {
     input.drift.kind = SphereDrift::watched;
     input.drift.distance = 0.1 * kRadius;
     wall_->begin(spheres, input);
-    wall_->launch(spheres);
+    wall_->submit(spheres);
     wall_->finish(spheres);
     if (has_nodes_ && !(in_place_ && wall_->put_node_forces(0, arrays_[9].resize(n), order_)))
       sum_ += wall_->node_forces(0).front();

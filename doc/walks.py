@@ -71,10 +71,10 @@ WALKS = {
             + STEP_BEFORE.format(step="CpuBackend::step CpuBackend::step_run CpuBackend::step_several"),
         "now": """
             FixWallLsdcd::pre_force FixWallLsdcd::begin FixWallLsdcd::begin_step FixWallLsdcd::spheres
-            FixWallLsdcd::spheres_in_atom Wall::begin Wall::launch EngineOn::launch Wall::step_settings
-            Wall::choose_if_due CandidateSchedule::next EngineOn::choose"""
+            FixWallLsdcd::spheres_in_atom Wall::begin Wall::submit Wall::step_settings
+            Wall::choose_if_due WallEngine::choose_if_due CandidateSchedule::next EngineOn::choose"""
             + SEARCH_NOW.format(select="selection_cpu.h:run selection_cpu.h:refine")
-            + " > FixWallLsdcd::post_force FixWallLsdcd::finish_step Wall::finish EngineOn::finish"
+            + " EngineOn::submit > FixWallLsdcd::post_force FixWallLsdcd::finish_step Wall::finish EngineOn::collect"
             + STEP_NOW.format(step="step_cpu.h:run_step run_fast_path > run_left"),
     },
     "from -k on to the force of a sphere": {
@@ -95,10 +95,11 @@ WALKS = {
             > GuardedFixKokkos::GuardedFixKokkos > FixWallLsdcdKokkos::FixWallLsdcdKokkos FixWallLsdcd::FixWallLsdcd
             > make_engine_on engine_cuda.cu:make_cuda_engine_in_place > FixWallLsdcd::pre_force FixWallLsdcd::begin
             FixWallLsdcdKokkos::begin_step FixWallLsdcdKokkos::spheres host_kokkos.h:rows_of Wall::begin
-            EngineOn::begin CudaSideStream::ready > FixWallLsdcdKokkos::pre_reverse Wall::launch
-            Wall::step_settings EngineOn::launch EngineOn::launch_beside CudaSideStream::begin Wall::choose_if_due
-            CandidateSchedule::next EngineOn::choose"""
+            EngineOn::begin CudaSideStream::ready > FixWallLsdcdKokkos::pre_reverse Wall::submit
+            Wall::step_settings Wall::choose_if_due WallEngine::choose_if_due CandidateSchedule::next EngineOn::choose
+            EngineOn::where_step_runs CudaSideStream::begin"""
             + SEARCH_NOW.format(select="selection_gpu.h:run > selection_gpu.h:operator()")
+            + " EngineOn::submit"
             + STEP_NOW.format(step="step_gpu.h:run_step > step_gpu.h:operator() run_general_path")
             + " > FixWallLsdcd::post_force FixWallLsdcdKokkos::finish_step FixWallLsdcd::finish_step Wall::finish",
     },

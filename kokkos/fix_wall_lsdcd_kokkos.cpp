@@ -148,8 +148,7 @@ template <class DeviceType>
 void FixWallLsdcdKokkos<DeviceType>::init()
 {
   FixWallLsdcd::init();
-  launch_mode =
-      others_only_add() ? lsdcd::LaunchMode::beside_adding_early : lsdcd::LaunchMode::beside;
+  when = others_only_add() ? lsdcd::When::beside_adding_early : lsdcd::When::beside;
   deepest_overlap = 0;
   if (lsdcd::kFloatAtoms) log_rounding();
 }
@@ -221,7 +220,9 @@ void FixWallLsdcdKokkos<DeviceType>::begin_step(const lsdcd::StepInput &input)
 {
   atomKK->sync(execution_space,
                X_MASK | V_MASK | OMEGA_MASK | RADIUS_MASK | RMASS_MASK | MASK_MASK | TYPE_MASK);
-  wall->begin(spheres(), input);
+  lsdcd::StepInput beside = input;
+  if (!lsdcd::kOnHost<DeviceType> && input.step.kind == lsdcd::Step::step) beside.when = when;
+  wall->begin(spheres(), beside);
 }
 
 // The GPU is at the forces between atoms, and finds the wall's beside them.
@@ -229,9 +230,9 @@ template <class DeviceType>
 void FixWallLsdcdKokkos<DeviceType>::pre_reverse(int /*eflag*/, int /*vflag*/)
 {
   if (wall->step_state() != lsdcd::StepState::begun) return;
-  const bool adds_early = launch_mode == lsdcd::LaunchMode::beside_adding_early;
+  const bool adds_early = when == lsdcd::When::beside_adding_early;
   if (adds_early) atomKK->sync(execution_space, F_MASK | TORQUE_MASK);
-  wall->launch(spheres(), launch_mode);
+  wall->submit(spheres());
   if (adds_early) atomKK->modified(execution_space, F_MASK | TORQUE_MASK);
 }
 

@@ -56,7 +56,7 @@ class FixWallLsdcdKokkos : public FixWallLsdcd, public KokkosBase {
 
   Kokkos::View<double *, DeviceType> d_damping_mass;
   // Where fixes before this one only add forces, they are added right behind those between atoms.
-  lsdcd::LaunchMode launch_mode = lsdcd::LaunchMode::beside;
+  lsdcd::When when = lsdcd::When::beside;
   // Where atoms are in float:
   double deepest_overlap = 0;    // of this process in this run; length
   bool rounding_logged = false, rounding_warned = false;

@@ -104,7 +104,8 @@ class FloatAtomsEngine : public ForwardingEngine {
     if (!all_are_there_) {
       copy(FloatArrays::all);
       // The engine may be on a stream of its own.
-      if (is_beside_) typename DeviceType::execution_space().fence("lsdcd: atoms in double");
+      if (when_ != When::in_turn)
+        typename DeviceType::execution_space().fence("lsdcd: atoms in double");
       all_are_there_ = true;
     }
     is_watching_ = watch;
@@ -112,8 +113,9 @@ class FloatAtomsEngine : public ForwardingEngine {
   }
   bool has_moved(const Spheres &spheres) override { return engine_->has_moved(in_double(spheres)); }
 
-  void begin() override
+  void begin(When when) override
   {
+    when_ = when;
     all_are_there_ = all_are_due_;
     if (all_are_due_) {
       copy(FloatArrays::all);
@@ -122,23 +124,20 @@ class FloatAtomsEngine : public ForwardingEngine {
       if (is_watching_) copy(FloatArrays::positions);
     }
     all_are_due_ = false;
-    engine_->begin();
+    engine_->begin(when);
     state_ = engine_->state();
   }
-  void launch(const Spheres &spheres, const StepSettings &step, LaunchMode mode,
-              const std::function<void()> &prepare) override
+  void submit(const Spheres &spheres, const StepSettings &step) override
   {
-    is_beside_ = mode != LaunchMode::in_turn;
-    engine_->launch(in_double(spheres), step, mode, prepare);
+    engine_->submit(in_double(spheres), step);
     state_ = engine_->state();
-    if (mode == LaunchMode::beside_adding_early) add_forces();
-    adds_in_finish_ = mode != LaunchMode::beside_adding_early;
+    if (when_ == When::beside_adding_early) add_forces();
   }
-  void finish() override
+  void collect() override
   {
-    engine_->finish();
+    engine_->collect();
     state_ = engine_->state();
-    if (adds_in_finish_) add_forces();
+    if (when_ != When::beside_adding_early) add_forces();
   }
 
   StepDiagnostics read_diagnostics() override
@@ -231,7 +230,7 @@ class FloatAtomsEngine : public ForwardingEngine {
   Numbers x_, v_, omega_, radius_, mass_;
   Numbers force_, torque_;    // 0 but between a step's forces and add_forces()
   bool all_are_due_ = false, all_are_there_ = false, is_watching_ = false;
-  bool is_beside_ = false, adds_in_finish_ = false;
+  When when_ = When::in_turn;    // of the step that was begun
 };
 
 }    // namespace lsdcd

@@ -51,9 +51,9 @@ class EngineOn : public WallEngine, public CandidatesInPlace, public NodesInPlac
 
   std::string backend() const override { return b_.name(); }
 
-  void set_grid(const GridView &grid, int mesh = 0) override
+  void put_grid(const GridView &grid, int mesh) override
   {
-    broad_phase_.set_grid(b_, grid, mesh);
+    where_step_runs([&] { broad_phase_.set_grid(b_, grid, mesh); });
   }
 
   void set_pose(const Pose &pose, int mesh = 0) override
@@ -86,11 +86,13 @@ class EngineOn : public WallEngine, public CandidatesInPlace, public NodesInPlac
 
   void choose(const Spheres &spheres, Real margin, bool watch = false) override
   {
-    results_.detach_from_candidates(b_);
-    springs_.grow(spheres.n);
-    use(spheres, broad_phase_.choose(b_, spheres, margin, counts_, springs_.count()));
-    forget_far_meshes();
-    if (watch) broad_phase_.store_positions(b_, spheres, margin);
+    where_step_runs([&] {
+      results_.detach_from_candidates(b_);
+      springs_.grow(spheres.n);
+      use(spheres, broad_phase_.choose(b_, spheres, margin, counts_, springs_.count()));
+      forget_far_meshes();
+      if (watch) broad_phase_.store_positions(b_, spheres, margin);
+    });
   }
 
   // For an adapter, which has selected by cells: which of these spheres are candidates, ascending. Steps are
@@ -103,40 +105,41 @@ class EngineOn : public WallEngine, public CandidatesInPlace, public NodesInPlac
     return broad_phase_.chosen(b_, spheres.n);
   }
 
-  bool has_moved(const Spheres &spheres) override { return broad_phase_.has_moved(b_, spheres); }
-
-  void begin() override
+  bool has_moved(const Spheres &spheres) override
   {
-    beside_.ready(b_);
+    bool has = false;
+    where_step_runs([&] { has = broad_phase_.has_moved(b_, spheres); });
+    return has;
+  }
+
+  void begin(When when = When::in_turn) override
+  {
+    when_ = when;
+    if (when != When::in_turn) beside_.ready(b_);
     state_ = StepState::begun;
   }
 
-  void launch(const Spheres &spheres, const StepSettings &step, LaunchMode mode,
-              const std::function<void()> &prepare) override
+  void submit(const Spheres &spheres, const StepSettings &step) override
   {
     require(StepState::begun);
-    mode_ = mode;
-    if (mode == LaunchMode::in_turn) {
-      if (prepare) prepare();
-      set_step(spheres, step);
-    } else {
-      launch_beside(spheres, step, prepare);
-    }
-    state_ = StepState::launched;
+    set_step(spheres, step);
+    if (when_ != When::in_turn) where_step_runs([&] { compute(next_results_, true); });
+    if (when_ == When::beside_adding_early) next_results_.add_forces(b_);
+    state_ = StepState::submitted;
   }
   bool is_under_way() const override
   {
-    return state_ == StepState::launched && mode_ != LaunchMode::in_turn;
+    return state_ == StepState::submitted && when_ != When::in_turn;
   }
 
-  void finish() override
+  void collect() override
   {
-    require(StepState::launched);
-    if (mode_ == LaunchMode::in_turn)
+    require(StepState::submitted);
+    if (when_ == When::in_turn)
       compute(results_, false);
     else
       std::swap(results_, next_results_);
-    if (mode_ == LaunchMode::beside) results_.add_forces(b_);
+    if (when_ == When::beside) results_.add_forces(b_);
     state_ = StepState::none;
     fetch();
   }
@@ -183,9 +186,11 @@ class EngineOn : public WallEngine, public CandidatesInPlace, public NodesInPlac
   }
 
   NodesInPlace *nodes_in_place() override { return has_copies() ? this : nullptr; }
-  void build_node_grid(int mesh, const NodeGridSettings &settings) override
+  void build_grid_of_nodes(int mesh, const NodeGridSettings &settings) override
   {
-    broad_phase_.set_lists(b_, nodes_.at(mesh).build_grid(b_, settings, records_of(mesh)), mesh);
+    where_step_runs([&] {
+      broad_phase_.set_lists(b_, nodes_.at(mesh).build_grid(b_, settings, records_of(mesh)), mesh);
+    });
   }
   // For an adapter, which selects by cells on its host: that grid, without records and candidates.
   GridView occupied_cells(int mesh, OccupiedCells &to)
@@ -243,9 +248,11 @@ class EngineOn : public WallEngine, public CandidatesInPlace, public NodesInPlac
   }
   void turn_springs(int n, int mesh, const TurningMesh &turning) override
   {
-    springs_.grow(n);
-    springs_.turn(n, static_cast<std::uint32_t>(mesh),
-                  has_copies() ? nodes_[mesh].turning(records_of(mesh)) : turning);
+    where_step_runs([&] {
+      springs_.grow(n);
+      springs_.turn(n, static_cast<std::uint32_t>(mesh),
+                    has_copies() ? nodes_[mesh].turning(records_of(mesh)) : turning);
+    });
   }
   Real add_node_forces(int mesh, const NodesNow &now, const MeshFeaturesView &wall,
                        Real *forces) override
@@ -386,20 +393,19 @@ class EngineOn : public WallEngine, public CandidatesInPlace, public NodesInPlac
     return broad_phase_.mesh(mesh).grid.view.wall;
   }
 
-  void launch_beside(const Spheres &spheres, const StepSettings &step,
-                     const std::function<void()> &prepare)
+  // Does this part of a step where the step runs: of one that was begun beside the host's work on the engine's own stream.
+  template <class Work>
+  void where_step_runs(const Work &work)
   {
+    if (state_ != StepState::begun || when_ == When::in_turn) return work();
     beside_.begin(b_);
     try {
-      if (prepare) prepare();
-      set_step(spheres, step);
-      compute(next_results_, true);
+      work();
     } catch (...) {    // a program may go on after an error
       beside_.end(b_);
       throw;
     }
     beside_.end(b_);
-    if (mode_ == LaunchMode::beside_adding_early) next_results_.add_forces(b_);
   }
 
   // The work of the step, without waiting for it. `adds_later`: forces are left to the results.
@@ -502,7 +508,7 @@ class EngineOn : public WallEngine, public CandidatesInPlace, public NodesInPlac
   CompiledLaw<B> law_;
   B b_;
   typename B::SideStream beside_;
-  LaunchMode mode_ = LaunchMode::in_turn;    // of the step that was launched
+  When when_ = When::in_turn;    // of the step that was begun
   BroadPhase<B> broad_phase_;
   Spheres spheres_;
   StepSettings step_;
@@ -511,7 +517,7 @@ class EngineOn : public WallEngine, public CandidatesInPlace, public NodesInPlac
   std::int64_t first_step_ = 0;    // since they were cleared
   ResidentSprings<B> springs_;
 
-  StepResults<B> results_, next_results_;    // of the last step, and of one launched beside
+  StepResults<B> results_, next_results_;    // of the last step, and of one submitted beside
   WorkListStore<B> work_lists_;
   std::vector<MovingNodes<B>> nodes_;         // of each mesh, where it has copies of records
   std::vector<NodeForces<B>> node_forces_;    // likewise

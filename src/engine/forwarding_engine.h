@@ -11,13 +11,12 @@
 
 namespace lsdcd {
 
-// The state of a step (state_) stays with the class that overrides begin(), launch() and finish().
+// The state of a step (state_) stays with the class that overrides begin(), submit() and collect().
 class ForwardingEngine : public WallEngine {
  public:
   explicit ForwardingEngine(std::unique_ptr<WallEngine> engine) : engine_(std::move(engine)) {}
 
   std::string backend() const override { return engine_->backend(); }
-  void set_grid(const GridView &grid, int mesh) override { engine_->set_grid(grid, mesh); }
   void set_pose(const Pose &pose, int mesh) override { engine_->set_pose(pose, mesh); }
   bool is_under_way() const override { return engine_->is_under_way(); }
 
@@ -33,10 +32,6 @@ class ForwardingEngine : public WallEngine {
   StepDiagnostics read_diagnostics() override { return engine_->read_diagnostics(); }
 
   NodesInPlace *nodes_in_place() override { return engine_->nodes_in_place(); }
-  void build_node_grid(int mesh, const NodeGridSettings &settings) override
-  {
-    engine_->build_node_grid(mesh, settings);
-  }
   void turn_springs(int n, int mesh, const TurningMesh &turning) override
   {
     engine_->turn_springs(n, mesh, turning);
@@ -56,6 +51,12 @@ class ForwardingEngine : public WallEngine {
   std::size_t bytes() const override { return engine_->bytes(); }
 
  protected:
+  void put_grid(const GridView &grid, int mesh) override { engine_->set_grid(grid, mesh); }
+  void build_grid_of_nodes(int mesh, const NodeGridSettings &settings) override
+  {
+    engine_->build_node_grid(mesh, settings);
+  }
+
   std::unique_ptr<WallEngine> engine_;
 };
 

@@ -51,7 +51,7 @@ class HostAdapter : public WallEngine {
 
   std::string backend() const override { return engine_.backend(); }
 
-  void set_grid(const GridView &grid, int mesh = 0) override
+  void put_grid(const GridView &grid, int mesh) override
   {
     forget_choice();
     engine_.set_grid(grid, mesh);
@@ -104,14 +104,12 @@ class HostAdapter : public WallEngine {
     return displacement_.has_moved(cpu_, spheres, meshes_);
   }
 
-  void begin() override { state_ = StepState::begun; }
-
   // The engine's stream is no one else's: its work is always beside the host's.
-  void launch(const Spheres &spheres, const StepSettings &step, LaunchMode /*mode*/,
-              const std::function<void()> &prepare) override
+  void begin(When /*when*/ = When::in_turn) override { state_ = StepState::begun; }
+
+  void submit(const Spheres &spheres, const StepSettings &step) override
   {
     require(StepState::begun);
-    if (prepare) prepare();
     host_ = spheres;
     const std::size_t n = candidates_.size();
     B &b = engine_.backend_now();
@@ -124,18 +122,18 @@ class HostAdapter : public WallEngine {
     }
     engine_.set_step(packed(), step);
     engine_.compute();
-    state_ = StepState::launched;
+    state_ = StepState::submitted;
     if (n == 0) return;
     if (!uses_slots())
       b.copy_out(engine_.contacts_of_candidates().data(), n_contacts_.host.data(), n);
     b.copy_out(response_.device.data(), response_.host.data(), n);
     if (traits_.heat) b.copy_out(heat_.device.data(), heat_.host.data(), 2 * n);
   }
-  bool is_under_way() const override { return state_ == StepState::launched; }
+  bool is_under_way() const override { return state_ == StepState::submitted; }
 
-  void finish() override
+  void collect() override
   {
-    require(StepState::launched);
+    require(StepState::submitted);
     engine_.backend_now().wait();
     add_responses();
     engine_.fetch();
@@ -175,7 +173,7 @@ class HostAdapter : public WallEngine {
   }
 
   NodesInPlace *nodes_in_place() override { return engine_.nodes_in_place(); }
-  void build_node_grid(int mesh, const NodeGridSettings &settings) override
+  void build_grid_of_nodes(int mesh, const NodeGridSettings &settings) override
   {
     forget_choice();
     engine_.build_node_grid(mesh, settings);

@@ -17,6 +17,16 @@ std::unique_ptr<WallEngine> make_cuda_engine_in_place(const EngineSettings &, in
 }
 #endif
 
+bool WallEngine::choose_if_due(const Spheres &spheres, const SphereDrift &drift,
+                               const std::vector<MovingMesh> &moving)
+{
+  const CandidateUpdate choice = schedule_.next(drift, moving, [&] { return has_moved(spheres); });
+  if (!choice.is_due) return false;
+  choose(spheres, choice.margin, choice.watch);
+  schedule_.note_update(drift, moving);
+  return true;
+}
+
 void step_once(WallEngine &engine, const Spheres &spheres, const StepSettings &step,
                ContactHistory *springs)
 {

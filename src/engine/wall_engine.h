@@ -10,6 +10,7 @@
 #include "contact/contact_history.h"
 #include "contact/feature_turn.h"
 #include "contact/node_field.h"
+#include "engine/candidate_schedule.h"
 #include "grid/triangle_grid.h"
 #include "law/contact_law.h"
 #include "law/law_table.h"
@@ -22,7 +23,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -92,7 +92,7 @@ struct StepSettings {
   bool totals = false;          // they will be asked for before the next step: summed with this one
   bool records = true;          // bring the records of settings.records
   Real wall_temperature = 0;    // where the law has heat
-  // For each mesh, in place of wall_temperature and of the settings' surface; valid until finish().
+  // For each mesh, in place of wall_temperature and of the settings' surface; valid until collect().
   const Real *mesh_temperature = nullptr;
   const SurfaceMotion *surface = nullptr;
   // Likewise, where a mesh is a rigid body: how it gives way, which is 0 of others.
@@ -165,16 +165,16 @@ struct StepDiagnostics {
   std::int64_t lists = 0, listed = 0, by_cells = 0;
 };
 
-// A step is begun, launched and finished.
-enum class StepState { none, begun, launched };
+// A step is begun, submitted and collected.
+enum class StepState { none, begun, submitted };
 
-// Stream and time of a step's work.
-enum class LaunchMode {
-  in_turn,    // after the host's work on its stream; on a CPU finish() does it
+// When a step does its work, and where.
+enum class When {
+  in_turn,    // after the host's work on its stream; on a CPU collect() does it
   // In place on a GPU: at once, on a stream of its own, after the host's work on its stream by
-  // begin(). finish() adds forces and torques.
+  // begin(). collect() adds forces and torques.
   beside,
-  beside_adding_early,    // likewise, but they are added after the host's work by launch()
+  beside_adding_early,    // likewise, but they are added after the host's work by submit()
 };
 
 // Springs of a process's spheres in the memory of an engine's backend; so are all pointers. Per sphere
@@ -203,8 +203,8 @@ class SpringsInPlace {
 class NodesInPlace;         // engine/nodes_in_place.h
 struct NodeGridSettings;    // grid/build/node_grid.h
 
-// Computes wall forces for the spheres of one process: choose() now and then, begin(), launch() and
-// finish() in every step. Springs stay with the engine between steps and follow the spheres'
+// Computes wall forces for the spheres of one process: in every step begin(), choose_if_due(), submit() and
+// collect(). Springs stay with the engine between steps and follow the spheres'
 // indices; a host that moves spheres takes them out before (springs_to) and gives them back.
 class WallEngine {
  public:
@@ -213,10 +213,14 @@ class WallEngine {
   // Backend in words, for the log: "CPU, 4 threads" or "CUDA, NVIDIA H200".
   virtual std::string backend() const = 0;
 
-  // The grid of a mesh, to use from now on; borrowed, must outlive its use. Asks for a choice.
-  virtual void set_grid(const GridView &grid, int mesh = 0) = 0;
+  // Sets the grid of a mesh, to use from now on; it is borrowed, and must outlive its use. The next choose_if_due() chooses.
+  void set_grid(const GridView &grid, int mesh = 0)
+  {
+    expire_choice();
+    put_grid(grid, mesh);
+  }
 
-  // Pose and velocity of a mesh from now on; not between launch() and finish(). At first it is the frame of the
+  // Pose and velocity of a mesh from now on; not between submit() and collect(). At first it is the frame of the
   // grid. Only for engines whose settings say that the wall moves.
   virtual void set_pose(const Pose &pose, int mesh = 0) = 0;
 
@@ -236,32 +240,37 @@ class WallEngine {
   // the margin of the last choice? Others may go as far as they like.
   virtual bool has_moved(const Spheres &spheres) = 0;
 
-  // Begins a step: what it reads of spheres is final, in place once the host's stream has done its
-  // work. Until finish() the host must not change x, v, omega or radii, and may change
-  // force and torque. A step that was begun before and not finished is dropped.
-  virtual void begin() = 0;
+  // Begins a step, which does its work `when` it says: what it reads of spheres is final, in place once the host's stream has
+  // done its work. Until collect() the host must not change x, v, omega or radii, and may change force and torque. A step that
+  // was begun before and not collected is dropped.
+  virtual void begin(When when = When::in_turn) = 0;
 
-  // Gives the step its spheres and settings. `prepare` is called first, where the step runs: it may
-  // ask has_moved() and choose(). Where it throws, the step stays begun.
-  virtual void launch(const Spheres &spheres, const StepSettings &step,
-                      LaunchMode mode = LaunchMode::in_turn,
-                      const std::function<void()> &prepare = {}) = 0;
+  // Chooses spheres where the last choice does not hold for this step any more, which the engine knows from how far spheres
+  // and meshes have gone. `moving`: the meshes that move, always in the same order. Returns whether it has chosen. Throws as
+  // choose(); the step stays begun.
+  bool choose_if_due(const Spheres &spheres, const SphereDrift &drift,
+                     const std::vector<MovingMesh> &moving);
+  // Makes the next choose_if_due() choose, however little has moved.
+  void expire_choice() { schedule_.expire(); }
 
-  // After launch(): does the work go on by itself, so that finish() only waits for it?
+  // Gives the step its spheres and settings, and starts its work where something else than this thread does it.
+  virtual void submit(const Spheres &spheres, const StepSettings &step) = 0;
+
+  // After submit(): does the work go on by itself, so that collect() only waits for it?
   virtual bool is_under_way() const = 0;
 
-  // Finishes it: adds forces and torques, and replaces the springs (unless update_history is false)
-  // and the totals, which are those of the last step until then.
-  virtual void finish() = 0;
+  // Adds forces and torques, does the work before where nothing else does it, and replaces the springs (unless update_history is
+  // false) and the totals, which are those of the last step until then.
+  virtual void collect() = 0;
 
   StepState state() const { return state_; }
 
-  // The three in one.
+  // The three in one, in turn.
   void step(const Spheres &spheres, const StepSettings &step)
   {
     begin();
-    launch(spheres, step);
-    finish();
+    submit(spheres, step);
+    collect();
   }
 
   virtual const WallTotals &totals() const = 0;
@@ -269,7 +278,7 @@ class WallEngine {
   virtual WallTotals mesh_totals(int mesh) const = 0;
 
   // The spheres with a contact in the last step: their number, indices and outputs.
-  // Valid after finish() of a step with per_sphere.
+  // Valid after collect() of a step with per_sphere.
   virtual int n_touching() const = 0;
   virtual const int *touching() const = 0;
   virtual const SphereOutput *sphere_output() const = 0;
@@ -279,7 +288,7 @@ class WallEngine {
   virtual const Real *sphere_heat() const = 0;
 
   // Records of the contacts of the last step, in the order of the spheres;
-  // valid after finish() where settings.records and step.records are set.
+  // valid after collect() where settings.records and step.records are set.
   virtual int n_records() const = 0;
   virtual const ContactRecord *records() const = 0;
 
@@ -291,9 +300,13 @@ class WallEngine {
 
   // An engine that has copies of their records, as on a GPU; else null.
   virtual NodesInPlace *nodes_in_place() { return nullptr; }
-  // The same: builds the grid of a mesh from where its nodes are now, to use from now on, by grid/build/node_grid.h. Asks
-  // for a choice.
-  virtual void build_node_grid(int mesh, const NodeGridSettings &settings) = 0;
+  // The same: builds the grid of a mesh from where its nodes are now, to use from now on, by grid/build/node_grid.h. The next
+  // choose_if_due() chooses.
+  void build_node_grid(int mesh, const NodeGridSettings &settings)
+  {
+    expire_choice();
+    build_grid_of_nodes(mesh, settings);
+  }
   // Turns the springs of the spheres [0, n) on a mesh with their features, before a step, in the frame of the mesh.
   // An engine with copies has the places before and after the last step of nodes, and reads nothing of `turning`.
   virtual void turn_springs(int n, int mesh, const TurningMesh &turning) = 0;
@@ -317,10 +330,16 @@ class WallEngine {
   void require(StepState state) const
   {
     if (state_ != state)
-      throw std::logic_error("a step is begun, launched and finished, in this order");
+      throw std::logic_error("a step is begun, submitted and collected, in this order");
   }
+  // Does what set_grid() and build_node_grid() say.
+  virtual void put_grid(const GridView &grid, int mesh) = 0;
+  virtual void build_grid_of_nodes(int mesh, const NodeGridSettings &settings) = 0;
 
   StepState state_ = StepState::none;
+
+ private:
+  CandidateSchedule schedule_;
 };
 
 // One step of a host that keeps the springs itself, from a choice of its own; `springs` may be null
@@ -334,7 +353,7 @@ std::unique_ptr<WallEngine> make_engine(const EngineSettings &settings);
 
 // For particles that live where the engine computes, in the memory of the CPU, or of a GPU: `device` holds them,
 // `stream` is a cudaStream_t of it. Pointers in Spheres are to that memory, so that a step copies nothing and waits
-// for nothing, and finish() fetches what the step's settings ask for. The latter throws InputError in a build
+// for nothing, and collect() fetches what the step's settings ask for. The latter throws InputError in a build
 // without CUDA.
 std::unique_ptr<WallEngine> make_cpu_engine(const EngineSettings &settings);
 std::unique_ptr<WallEngine> make_cuda_engine_in_place(const EngineSettings &settings, int device,

@@ -501,7 +501,7 @@ void FixWallLsdcd::begin_step(const lsdcd::StepInput &input)
 {
   const lsdcd::HostSpheres s = spheres();
   wall->begin(s, input);
-  wall->launch(s);
+  wall->submit(s);
 }
 
 void FixWallLsdcd::finish_step()

@@ -180,7 +180,6 @@ void BodyCoat::set_grid(const MeshPart &m)
   const auto at = std::find(others_.begin(), others_.end(), m.index);
   if (at == others_.end()) return;
   engine_->set_grid(m.grid.view(), static_cast<int>(at - others_.begin()));
-  is_stale_ = true;
 }
 
 // ---- a step ------------------------------------------------------------------------------
@@ -263,8 +262,10 @@ void BodyCoat::choose(const std::deque<MeshPart> &meshes)
 {
   const Spheres s = spheres();
   if (!restored_.empty()) take_restored(meshes);
-  if (is_stale_ || engine_->has_moved(s)) engine_->choose(s, 0.5 * radius_, true);
-  is_stale_ = false;
+  SphereDrift drift;
+  drift.kind = SphereDrift::watched;
+  drift.distance = 0.5 * radius_;
+  engine_->choose_if_due(s, drift, {});
 }
 
 // Computes contacts without another effect.

@@ -93,7 +93,6 @@ class BodyCoat {
   };
   std::vector<PointContact> contacts_;
   std::unique_ptr<WallEngine> engine_;
-  bool is_stale_ = true;    // grids are new
   bool deep_warned_ = false;
   bool is_as_placed_ = true;      // no step was made
   std::vector<Real> restored_;    // until the first step

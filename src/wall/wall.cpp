@@ -198,7 +198,6 @@ void Wall::make_engine_anew()
 {
   history_.on_host();
   make_engine();
-  schedule_.expire();
 }
 
 void Wall::log_creation(const std::string &material, const WallBackend &backend) const
@@ -245,7 +244,7 @@ void Wall::begin(const HostSpheres &spheres, const StepInput &input)
   const Step &step = input.step;
   if (step.kind == Step::snapshot) begin_snapshot(spheres.n, step);
   if (input.look) {
-    schedule_.expire();
+    engine_->expire_choice();
     check_history(spheres.n);
   }
   clock_.advance(step);
@@ -256,7 +255,7 @@ void Wall::begin(const HostSpheres &spheres, const StepInput &input)
   if (input.look)
     look_at_spheres(spheres, step.number);
   else if (input.box_changes && grids_.fit_box(step.number))
-    schedule_.expire();
+    engine_->expire_choice();
   box_checks_.check_moving(grids_.box(), cutoff(), step);
   box_checks_.check_gone(grids_.box(), cutoff(), step.number);
   for (const MeshPart &m : meshes_)
@@ -266,7 +265,8 @@ void Wall::begin(const HostSpheres &spheres, const StepInput &input)
     look_at_range(spheres);
   }
   if (cutoff() == 0) return;
-  engine_->begin();
+  on_this_process(spheres, [&] { history_.to_engine(spheres.n); });
+  engine_->begin(input.when);
 }
 
 // In a snapshot, quantities that follow from the time alone are right; those that are added up from step to
@@ -437,7 +437,7 @@ void Wall::look_at_spheres(const HostSpheres &spheres, std::int64_t step)
   largest_radius_ = most[0];
   if (most[0] == 0) check_points(spheres);
   if ((most[0] > 0 || !coats_.empty()) && grids_.fit_spheres(most[0], on_cpu(spheres), step))
-    schedule_.expire();
+    engine_->expire_choice();
 }
 
 // A group of points feels no wall.
@@ -530,7 +530,6 @@ StepSettings Wall::step_settings()
 
 void Wall::choose_if_due(const Spheres &spheres)
 {
-  history_.to_engine(spheres.n);
   if (has_nodes_) {
     build_node_grids();
     turn_springs(spheres.n);
@@ -538,13 +537,9 @@ void Wall::choose_if_due(const Spheres &spheres)
   std::vector<MovingMesh> moving;
   for (const MeshPart &m : meshes_)
     if (m.moves() && !m.nodes) moving.push_back({m.motion.pose(), m.bounds(cutoff())});
-  const CandidateUpdate choice =
-      schedule_.next(input_.drift, moving, [&] { return engine_->has_moved(spheres); });
-  if (!choice.is_due) return;
-  engine_->choose(spheres, choice.margin, choice.watch);
+  if (!engine_->choose_if_due(spheres, input_.drift, moving)) return;
   for (MeshPart &m : meshes_)
     if (m.nodes) m.nodes->note_choice();
-  schedule_.note_update(input_.drift, moving);
   search_.count_update();
 }
 
@@ -561,7 +556,7 @@ void Wall::recede(const Step &step)
     if (!m.wear->recede(m.grid.mesh(), step.number, at)) continue;
     m.move_vertices(at);
     grids_.follow_shape(m);
-    schedule_.expire();
+    engine_->expire_choice();
   }
 }
 
@@ -570,10 +565,9 @@ void Wall::build_node_grids()
 {
   for (MeshPart &m : meshes_) {
     if (!m.nodes) continue;
-    if (m.nodes->needs_choice(cutoff())) schedule_.expire();
+    if (m.nodes->needs_choice(cutoff())) engine_->expire_choice();
     if (!m.nodes->needs_grid(cutoff())) continue;
     m.nodes->build_grid(cutoff(), *engine_);
-    schedule_.expire();
   }
 }
 
@@ -620,16 +614,15 @@ void Wall::clear_totals()
     if (m.nodes) m.nodes->clear_forces();
 }
 
-void Wall::launch(const HostSpheres &spheres, LaunchMode mode)
+void Wall::submit(const HostSpheres &spheres)
 {
   if (step_state() != StepState::begun) return;
   const StepSettings step = step_settings();
   on_this_process(spheres, [&] {
     times_.begin();
-    engine_->launch(spheres, step, mode, [&] {
-      choose_if_due(spheres);
-      times_.end(TimeReport::choice);
-    });
+    choose_if_due(spheres);
+    times_.end(TimeReport::choice);
+    engine_->submit(spheres, step);
     if (engine_->is_under_way()) times_.end(TimeReport::forces);
   });
 }
@@ -637,12 +630,12 @@ void Wall::launch(const HostSpheres &spheres, LaunchMode mode)
 void Wall::finish(const HostSpheres &spheres)
 {
   const Step &step = input_.step;
-  launch(spheres);
+  submit(spheres);
   if (!coats_.empty()) step_coats(step);
-  if (step_state() == StepState::launched) {
+  if (step_state() == StepState::submitted) {
     const bool waits = engine_->is_under_way();
     times_.begin();
-    on_this_process(spheres, [&] { engine_->finish(); });
+    on_this_process(spheres, [&] { engine_->collect(); });
     times_.end(waits ? TimeReport::waiting : TimeReport::forces);
     history_.set_spheres_of_engine(spheres.n);
     search_.count_step(step.kind != Step::step);
@@ -890,7 +883,7 @@ void Wall::log_change(const MeshPart &m, const std::string &text)
 // Laws for a wall at rest do not know where it is.
 void Wall::motion_has_changed(const MeshPart &m)
 {
-  schedule_.expire();
+  engine_->expire_choice();
   check_motion(host_, spec_, m);
   if (any_moves() && !engine_moves_) make_engine_anew();
 }

@@ -6,7 +6,6 @@
 #pragma once
 
 #include "wall/body_coat.h"
-#include "wall/candidate_schedule.h"
 #include "wall/device_choice.h"
 #include "wall/grid_manager.h"
 #include "wall/host_spheres.h"
@@ -50,7 +49,8 @@ struct StepInput {
   bool new_spheres = false;    // spheres may have come: the timestep and their overlaps are checked
   bool box_changes = false;    // the box may have changed since the last step
   SphereDrift drift;
-  bool virial = false;    // add_virial() will be called
+  When when = When::in_turn;    // its work is done
+  bool virial = false;          // add_virial() will be called
   // The values of spec().inputs in this step, the same on all processes; of those that inputs_read() leaves out
   // any number.
   std::vector<Real> inputs;
@@ -66,7 +66,7 @@ struct WallContact {
   Real overlap;    // length
 };
 
-// In each step: begin(), launch(), finish(). Places, velocities and radii must not change between begin()
+// In each step: begin(), submit(), finish(). Places, velocities and radii must not change between begin()
 // and finish(); forces and torques may.
 //
 // Spheres are counted from 0, meshes too. Functions are collective, so that all processes call them, but for those
@@ -100,10 +100,10 @@ class Wall {
   void recede(const Step &step);
   // Chooses the spheres near the wall where that is due, and starts the step where the engine can work
   // beside the host. Local.
-  void launch(const HostSpheres &spheres, LaunchMode mode = LaunchMode::in_turn);
+  void submit(const HostSpheres &spheres);
   // Local. none: no step was begun, or one that has no spheres.
   StepState step_state() const { return engine_->state(); }
-  // Adds forces and torques. Launches the step where it was not launched.
+  // Adds forces and torques. Submits the step where that was not done.
   void finish(const HostSpheres &spheres);
 
   // The wall acts on nothing until the next step: its totals are 0. Local.
@@ -277,7 +277,6 @@ class Wall {
   TimestepCheck timestep_;
   BoxChecks box_checks_;
   GridManager grids_;
-  CandidateSchedule schedule_;
 
   StepInput input_;           // of the last begin()
   bool continued_ = false;    // from a saved state

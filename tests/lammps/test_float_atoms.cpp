@@ -121,7 +121,7 @@ EngineSettings settings_of(int meshes)
 // 400 spheres move at random for 300 steps, some of them through both floors; every 100 steps there are more, and the
 // arrays are too short. Candidates are chosen by the engines' own has_moved(), and where spheres come.
 template <class Sum>
-void walk(int meshes, LaunchMode mode)
+void walk(int meshes, When when)
 {
   const FlatGrid floors[2] = {grid_of_floor(0), grid_of_floor(0.05)};
   Atoms<Sum> atoms(700);
@@ -169,20 +169,21 @@ void walk(int meshes, LaunchMode mode)
     }
     StepSettings settings;
     settings.dt = 1e-3;
-    const auto run = [&](WallEngine &e, const Spheres &spheres, LaunchMode launch) {
+    const auto run = [&](WallEngine &e, const Spheres &spheres, When when) {
       if (look) {
         EXPECT_NEAR(e.largest_radius(spheres), 0.05, 0.001);
       }
-      e.begin();
-      e.launch(spheres, settings, launch, [&] {
-        if (!look && !e.has_moved(spheres)) return;
-        e.choose(spheres, 0.01, true);
-        choices++;
-      });
-      e.finish();
+      e.begin(when);
+      if (look) e.expire_choice();
+      SphereDrift drift;
+      drift.kind = SphereDrift::watched;
+      drift.distance = 0.01;
+      choices += e.choose_if_due(spheres, drift, {}) ? 1 : 0;
+      e.submit(spheres, settings);
+      e.collect();
     };
-    run(engine, without, mode);
-    run(*other, given, LaunchMode::in_turn);
+    run(engine, without, when);
+    run(*other, given, When::in_turn);
     ASSERT_EQ(engine.n_candidates(), other->n_candidates());
     contacts += engine.totals().contacts;
     ASSERT_EQ(engine.totals().contacts, other->totals().contacts);
@@ -206,27 +207,27 @@ void walk(int meshes, LaunchMode mode)
 
 TEST(float_atoms, forces_added_in_float_are_those_in_double_rounded_once)
 {
-  walk<float>(1, LaunchMode::in_turn);
+  walk<float>(1, When::in_turn);
 }
 
 TEST(float_atoms, forces_added_in_double_are_those_in_double)
 {
-  walk<double>(1, LaunchMode::in_turn);
+  walk<double>(1, When::in_turn);
 }
 
 TEST(float_atoms, spheres_near_two_meshes_are_added_once)
 {
-  walk<float>(2, LaunchMode::in_turn);
+  walk<float>(2, When::in_turn);
 }
 
 TEST(float_atoms, a_step_that_is_launched_beside_adds_in_finish)
 {
-  walk<float>(1, LaunchMode::beside);
+  walk<float>(1, When::beside);
 }
 
 TEST(float_atoms, a_step_may_add_when_it_is_launched)
 {
-  walk<float>(1, LaunchMode::beside_adding_early);
+  walk<float>(1, When::beside_adding_early);
 }
 
 int main(int argc, char **argv)

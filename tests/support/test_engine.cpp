@@ -33,13 +33,11 @@ class InPlaceForHost : public ForwardingEngine {
   }
   bool has_moved(const Spheres &s) override { return engine_->has_moved(places(s)); }
 
-  void begin() override { state_ = StepState::begun; }
+  void begin(When /*when*/) override { state_ = StepState::begun; }
 
-  void launch(const Spheres &host, const StepSettings &step, LaunchMode /*mode*/,
-              const std::function<void()> &prepare) override
+  void submit(const Spheres &host, const StepSettings &step) override
   {
     require(StepState::begun);
-    if (prepare) prepare();
     host_ = host;
     turn_++;
     const std::size_t n = host.n;
@@ -52,18 +50,18 @@ class InPlaceForHost : public ForwardingEngine {
     s.mass = put(mass_, host.mass, n);
     s.temperature = put(temperature_, host.temperature, n);
     s.heat_flow = put(heat_, host.heat_flow, n);
-    constexpr LaunchMode kModes[] = {LaunchMode::in_turn, LaunchMode::in_turn, LaunchMode::beside,
-                                     LaunchMode::beside_adding_early};
-    engine_->begin();
-    engine_->launch(s, step, kModes[turn_ % 4]);
-    state_ = StepState::launched;
+    constexpr When kWhen[] = {When::in_turn, When::in_turn, When::beside,
+                              When::beside_adding_early};
+    engine_->begin(kWhen[turn_ % 4]);
+    engine_->submit(s, step);
+    state_ = StepState::submitted;
   }
 
 
-  void finish() override
+  void collect() override
   {
-    require(StepState::launched);
-    engine_->finish();
+    require(StepState::submitted);
+    engine_->collect();
     state_ = StepState::none;
     const std::size_t n = host_.n;
     add_vectors(host_.force, force_.get(3 * n), n);

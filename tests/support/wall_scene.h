@@ -47,7 +47,7 @@ struct WallScene : Grains {
     input.drift.has_begun = look_every > 0 && !input.look;
     input.gravity = gravity;
     wall->begin(spheres(), input);
-    wall->launch(spheres());
+    wall->submit(spheres());
     wall->finish(spheres());
   }
   void set_up()

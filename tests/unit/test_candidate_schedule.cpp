@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // When near spheres are chosen anew: whatever moves, none comes to the wall unseen.
-#include "wall/candidate_schedule.h"
+#include "engine/candidate_schedule.h"
 
 #include <gtest/gtest.h>
 

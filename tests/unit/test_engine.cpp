@@ -295,7 +295,7 @@ bool same_springs(const ContactHistory &a, int i, const ContactHistory &b, int j
   return same_bytes(of(a, i), of(b, j));
 }
 
-// `now`: to what the host has put there by launch(), and not by finish().
+// `now`: to what the host has put there by submit(), and not by collect().
 void add_forces_found_beside(bool now)
 {
   const int n = 3000;
@@ -304,13 +304,12 @@ void add_forces_found_beside(bool now)
   for (int k = 0; k < 3; k++) {
     const Spheres a = beside.spheres(), b = after.spheres();
     const std::vector<Real> others(3 * n, of_host);
-    beside.engine->begin();
+    beside.engine->begin(now ? When::beside_adding_early : When::beside);
     if (now) beside.set_force(others);
-    beside.engine->launch(a, StepSettings(),
-                          now ? LaunchMode::beside_adding_early : LaunchMode::beside,
-                          [&] { beside.engine->choose(a, 0); });
+    beside.engine->choose(a, 0);
+    beside.engine->submit(a, StepSettings());
     if (!now) beside.set_force(others);
-    beside.engine->finish();
+    beside.engine->collect();
     after.engine->choose(b, 0);
     after.set_force(others);
     after.engine->step(b, StepSettings());
@@ -988,21 +987,21 @@ TEST(engine, takes_no_slots_from_the_next_step)
 void keep_the_totals_of_the_last_step(bool beside)
 {
   AllTouching all;
-  const auto launch = [&] {
-    all.engine->begin();
-    all.engine->launch(all.spheres, all.step, beside ? LaunchMode::beside : LaunchMode::in_turn,
-                       [&] { all.choose(); });
+  const auto submit = [&] {
+    all.engine->begin(beside ? When::beside : When::in_turn);
+    all.choose();
+    all.engine->submit(all.spheres, all.step);
   };
   const std::vector<Real> x = all.host.x;
   for (int i = 0; i < all.n; i += 2) all.host.x[3 * i] += 100;
-  launch();
-  all.engine->finish();
+  submit();
+  all.engine->collect();
   // More spheres than there was memory for before, and other columns.
   all.host.x = x;
   all.step.per_sphere = true;
-  launch();
+  submit();
   EXPECT_EQ(all.engine->totals().contacts, all.n / 2 * kAllRound);
-  all.engine->finish();
+  all.engine->collect();
   EXPECT_EQ(all.engine->totals().contacts, all.n * kAllRound);
 }
 TEST(engine, keeps_the_totals_of_the_last_step_through_a_choice)
@@ -1015,24 +1014,28 @@ TEST(engine, keeps_the_totals_of_the_last_step_through_a_step_beside)
 }
 
 // One state says where a step is, also where the choice before it fails.
-TEST(engine, knows_a_step_that_is_begun_launched_or_none)
+TEST(engine, knows_a_step_that_is_begun_submitted_or_none)
 {
-  for (const LaunchMode mode : {LaunchMode::in_turn, LaunchMode::beside}) {
+  for (const When when : {When::in_turn, When::beside}) {
     AllTouching all;
     WallEngine &engine = *all.engine;
-    const auto launch = [&] { engine.launch(all.spheres, all.step, mode); };
+    const auto submit = [&] { engine.submit(all.spheres, all.step); };
     EXPECT_EQ(engine.state(), StepState::none);
-    EXPECT_THROW(launch(), std::logic_error);
-    engine.begin();
+    EXPECT_THROW(submit(), std::logic_error);
+    engine.begin(when);
     EXPECT_EQ(engine.state(), StepState::begun);
-    EXPECT_THROW(engine.finish(), std::logic_error);
-    EXPECT_THROW(engine.launch(all.spheres, all.step, mode, [] { throw InputError("too large"); }),
-                 InputError);
+    EXPECT_THROW(engine.collect(), std::logic_error);
+    const Real radius = std::exchange(all.host.radius[0], 100);    // beyond the cutoff of its grid
+    all.spheres = all.there.put(all.host);
+    EXPECT_THROW(all.choose(), InputError);
     EXPECT_EQ(engine.state(), StepState::begun);
-    launch();
-    EXPECT_EQ(engine.state(), StepState::launched);
-    EXPECT_EQ(engine.is_under_way(), mode == LaunchMode::beside);
-    engine.finish();
+    all.host.radius[0] = radius;
+    all.spheres = all.there.put(all.host);
+    all.choose();
+    submit();
+    EXPECT_EQ(engine.state(), StepState::submitted);
+    EXPECT_EQ(engine.is_under_way(), when == When::beside);
+    engine.collect();
     EXPECT_EQ(engine.state(), StepState::none);
     EXPECT_EQ(engine.totals().contacts, all.n * kAllRound);
   }

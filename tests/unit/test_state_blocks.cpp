@@ -107,7 +107,9 @@ TEST(State, with_a_wrong_number_anywhere_is_refused)
     for (const Real bad : kBad) {
       std::vector<Real> numbers = whole;
       numbers[at] = bad;
-      if (bad != whole[at]) EXPECT_NE(problem_of(numbers), "") << bad << " at " << at;
+      if (bad != whole[at]) {
+        EXPECT_NE(problem_of(numbers), "") << bad << " at " << at;
+      }
     }
 }
 

@@ -89,7 +89,7 @@ struct Scene {
     input.drift.kind = SphereDrift::watched;
     input.drift.distance = 0.05;
     wall->begin(grains.spheres(), input);
-    wall->launch(grains.spheres());
+    wall->submit(grains.spheres());
     wall->finish(grains.spheres());
   }
   void set_up()

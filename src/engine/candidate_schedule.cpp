@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "wall/candidate_schedule.h"
+#include "engine/candidate_schedule.h"
 
 #include "motion/motion.h"
 
