@@ -10,8 +10,7 @@
 //   for_each                     f(i) for i in [0, n), in any order, possibly at once
 //   for_each_in_warps            the same by threads that share their work: f(warp, mine, i)
 //   largest                      of read(i), i in [0, n); waits
-//   exclusive_scan               numbers become the sums of those before them; returns the total; waits. This and
-//                                largest take scratch memory that the caller keeps, or get some for a while
+//   exclusive_scan               numbers become the sums of those before them; returns the total; waits
 //   scan                         the same without the total, and without a wait
 //   sort_pairs                   by key, stable, up to the bits of the largest key
 //   sort_in                      the same in memory that the caller keeps, by the lowest bits; does not wait
@@ -20,6 +19,9 @@
 //   SideStream                   what is started between begin() and end() waits for what came before ready() only
 //   milliseconds                 that f() takes
 //   name                         for logs
+//
+// What these need of memory meanwhile is the backend's own, which it keeps: so a backend is moved, never copied, and one
+// thread uses it. What is started beside has other scratch memory, as it may run at the same time.
 //
 // kOnHost says whether its memory is the host's. A GPU's has for_each_block() beside these, for what is written for
 // blocks of threads (block.h), and Limits, which says how many of them it holds. tests/tool/check_backends.py holds
@@ -51,7 +53,6 @@ struct PairMemory {
   using Array = typename B::template Array<T>;
 
   Array<std::uint32_t> keys[2], values[2];
-  Array<char> scratch;
 
   void reserve(std::size_t n)
   {
@@ -61,7 +62,7 @@ struct PairMemory {
       values[k] = Array<std::uint32_t>(n);
     }
   }
-  std::size_t bytes() const { return 4 * keys[0].size() * sizeof(std::uint32_t) + scratch.size(); }
+  std::size_t bytes() const { return 4 * keys[0].size() * sizeof(std::uint32_t); }
 };
 struct SortedPairs {
   const std::uint32_t *keys, *values;

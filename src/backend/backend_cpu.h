@@ -26,6 +26,10 @@ namespace lsdcd {
 struct CpuBackend {
   static constexpr bool kOnHost = true;    // is its memory the host's?
 
+  CpuBackend() = default;
+  CpuBackend(CpuBackend &&) = default;    // as a GPU's, which owns memory
+  CpuBackend &operator=(CpuBackend &&) = default;
+
   struct Memory {
     static void *allocate(std::size_t bytes) { return ::operator new(bytes); }
     static void free(void *at) { ::operator delete(at); }
@@ -48,6 +52,8 @@ struct CpuBackend {
     std::copy(from, from + n, host);
   }
   void wait() {}
+
+  std::size_t scratch_bytes() const { return 0; }
 
   // One thing comes after the other.
   struct Event {
@@ -88,8 +94,7 @@ struct CpuBackend {
 
   // Copies those of from[0, n), or of the numbers [0, n) where it is null, whose flag is set to `to`; *total becomes how
   // many they are.
-  void compact(std::size_t n, const int *from, const char *flags, Array<char> & /*scratch*/,
-               int *to, std::uint32_t *total)
+  void compact(std::size_t n, const int *from, const char *flags, int *to, std::uint32_t *total)
   {
     std::uint32_t kept = 0;
     for (std::size_t k = 0; k < n; k++)
@@ -112,19 +117,8 @@ struct CpuBackend {
     return total;
   }
 
-  // A GPU has the scratch memory of these from who calls them often.
-  template <class T, class Read>
-  T largest(std::size_t n, const Read &read, Array<char> & /*scratch*/)
-  {
-    return largest<T>(n, read);
-  }
   template <class T>
-  T exclusive_scan(T *values, std::size_t n, Array<char> & /*scratch*/)
-  {
-    return exclusive_scan(values, n);
-  }
-  template <class T>
-  void scan(T *values, std::size_t n, Array<char> & /*scratch*/)
+  void scan(T *values, std::size_t n)
   {
     exclusive_scan(values, n);
   }

@@ -165,11 +165,20 @@ struct CudaBackend {
   class SideStream {
    public:
     void ready(CudaBackend &b) { streams_.ready(b.stream); }
-    void begin(CudaBackend &b) { streams_.begin(b.stream); }
-    void end(CudaBackend &b) { streams_.end(b.stream); }
+    void begin(CudaBackend &b)
+    {
+      streams_.begin(b.stream);
+      std::swap(b.scratch_, scratch_);
+    }
+    void end(CudaBackend &b)
+    {
+      streams_.end(b.stream);
+      std::swap(b.scratch_, scratch_);
+    }
 
    private:
     CudaSideStream streams_;
+    Array<char> scratch_;    // of the stream that is not the backend's now
   };
 
   using Limits = CudaLimits;
@@ -223,14 +232,16 @@ struct CudaBackend {
     return ms;
   }
 
+  // Of the stream that is the backend's now.
+  std::size_t scratch_bytes() const { return scratch_.size(); }
+
   // Copies those of from[0, n), or of the numbers [0, n) where it is null, whose flag is set to `to`; *total, on the
-  // device, becomes how many they are. Does not wait: `scratch` must not be freed before it has ended.
+  // device, becomes how many they are. Does not wait.
   template <class = void>
-  void compact(std::size_t n, const int *from, const char *flags, Array<char> &scratch, int *to,
-               std::uint32_t *total)
+  void compact(std::size_t n, const int *from, const char *flags, int *to, std::uint32_t *total)
   {
     const auto select = [&](auto source) {
-      with_kept_scratch(0, scratch, [&](char *, void *more, std::size_t &bytes) {
+      with_scratch(0, [&](char *, void *more, std::size_t &bytes) {
         return cub::DeviceSelect::Flagged(more, bytes, source, flags, to, total,
                                           static_cast<int>(n), stream);
       });
@@ -243,36 +254,34 @@ struct CudaBackend {
       select(thrust::counting_iterator<int>(0));
   }
 
-  // In scratch memory that the caller keeps between steps: the pool of Scratch takes 32 MiB of the device for any number of
-  // bytes.
   template <class T, class Read>
-  T largest(std::size_t n, const Read &read, Array<char> &scratch)
+  T largest(std::size_t n, const Read &read)
   {
     if (n == 0) return T(0);
     using Places = thrust::counting_iterator<std::size_t>;
     const thrust::transform_iterator<Read, Places, T, T> values(Places(0), read);
     T *out = nullptr;
-    with_kept_scratch(sizeof(T), scratch, [&](char *at, void *more, std::size_t &bytes) {
+    with_scratch(sizeof(T), [&](char *at, void *more, std::size_t &bytes) {
       out = reinterpret_cast<T *>(at);
       return cub::DeviceReduce::Max(more, bytes, values, out, n, stream);
     });
     return read_one(*this, out);
   }
   template <class T>
-  void scan(T *values, std::size_t n, Array<char> &scratch)
+  void scan(T *values, std::size_t n)
   {
     if (n == 0) return;
-    with_kept_scratch(0, scratch, [&](char *, void *more, std::size_t &bytes) {
+    with_scratch(0, [&](char *, void *more, std::size_t &bytes) {
       return cub::DeviceScan::ExclusiveSum(more, bytes, values, values, n, stream);
     });
   }
   // The last number before the scan and after it come in one wait.
   template <class T>
-  T exclusive_scan(T *values, std::size_t n, Array<char> &scratch)
+  T exclusive_scan(T *values, std::size_t n)
   {
     if (n == 0) return T(0);
     T *last = nullptr, both[2];
-    with_kept_scratch(sizeof both, scratch, [&](char *at, void *more, std::size_t &bytes) {
+    with_scratch(sizeof both, [&](char *at, void *more, std::size_t &bytes) {
       last = reinterpret_cast<T *>(at);
       if (last) copy_over(values + n - 1, last, 1);
       return cub::DeviceScan::ExclusiveSum(more, bytes, values, values, n, stream);
@@ -283,26 +292,12 @@ struct CudaBackend {
     return both[0] + both[1];
   }
 
-  // The same two with scratch memory for a while.
-  template <class T, class Read>
-  T largest(std::size_t n, const Read &read)
-  {
-    Array<char> scratch;
-    return largest<T>(n, read, scratch);
-  }
-  template <class T>
-  T exclusive_scan(T *values, std::size_t n)
-  {
-    Array<char> scratch;
-    return exclusive_scan(values, n, scratch);
-  }
-
   template <class Memory>
   SortedPairs sort_in(std::size_t n, int bits, Memory &memory)
   {
     cub::DoubleBuffer<std::uint32_t> keys(memory.keys[0].data(), memory.keys[1].data()),
         values(memory.values[0].data(), memory.values[1].data());
-    with_kept_scratch(0, memory.scratch, [&](char *, void *more, std::size_t &bytes) {
+    with_scratch(0, [&](char *, void *more, std::size_t &bytes) {
       return cub::DeviceRadixSort::SortPairs(more, bytes, keys, values, n, 0, bits, stream);
     });
     return {keys.Current(), values.Current()};
@@ -375,21 +370,25 @@ struct CudaBackend {
                "copying on the device");
   }
 
-  // CUB asks twice: for the size of its scratch memory, then to run. Memory is the caller's, and begins with `first` bytes
-  // for a result: call(at, more, bytes).
+  // CUB asks twice: for the size of its scratch memory, then to run. That memory is kept for the next call, as the pool of
+  // Scratch takes 32 MiB of the device for any number of bytes; work of one stream uses it in turn. It begins with
+  // `first` bytes for a result: call(at, more, bytes).
   template <class Call>
-  void with_kept_scratch(std::size_t first, Array<char> &scratch, Call call)
+  void with_scratch(std::size_t first, Call call)
   {
     constexpr std::size_t kAlign = 256;    // as of an allocation
     first = (first + kAlign - 1) / kAlign * kAlign;
     std::size_t bytes = 0;
     cuda_check(call(nullptr, nullptr, bytes), "sizing scratch memory");
-    if (scratch.size() < first + bytes) {
-      scratch = Array<char>();
-      scratch = Array<char>(2 * (first + bytes));
+    if (scratch_.size() < first + bytes) {
+      scratch_ = Array<char>();
+      scratch_ = Array<char>(2 * (first + bytes));
     }
-    cuda_check(call(scratch.data(), scratch.data() + first, bytes), "scan, select, sort or reduce");
+    cuda_check(call(scratch_.data(), scratch_.data() + first, bytes),
+               "scan, select, sort or reduce");
   }
+
+  Array<char> scratch_;
 };
 
 }    // namespace lsdcd

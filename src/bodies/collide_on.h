@@ -68,7 +68,7 @@ class BodyCollisionOn : public BodyCollision {
 
   std::unique_ptr<BodyCollision> with_same_wall() const override
   {
-    auto other = std::make_unique<BodyCollisionOn>(b_);
+    auto other = std::make_unique<BodyCollisionOn>(B());
     other->shared_ = shared_;
     other->wall_ = wall_;
     other->grid_ = grid_;

@@ -65,23 +65,17 @@ class EngineOn : public WallEngine, public CandidatesInPlace, public NodesInPlac
 
   Real largest_radius(const Spheres &spheres) override
   {
-    return b_.template largest<Real>(
-        spheres.n,
-        [=] LSDCD_LAMBDA(std::size_t i) -> Real {
-          return !spheres.mask || (spheres.mask[i] & spheres.group_bit) ? spheres.radius[i] : 0;
-        },
-        scratch_);
+    return b_.template largest<Real>(spheres.n, [=] LSDCD_LAMBDA(std::size_t i) -> Real {
+      return !spheres.mask || (spheres.mask[i] & spheres.group_bit) ? spheres.radius[i] : 0;
+    });
   }
 
   Real farthest_past(const Spheres &spheres, const PeriodicFaces &faces) override
   {
-    return b_.template largest<Real>(
-        spheres.n,
-        [=] LSDCD_LAMBDA(std::size_t i) -> Real {
-          const bool is_in_group = !spheres.mask || (spheres.mask[i] & spheres.group_bit);
-          return is_in_group ? faces.past(spheres.x[i]) : 0;
-        },
-        scratch_);
+    return b_.template largest<Real>(spheres.n, [=] LSDCD_LAMBDA(std::size_t i) -> Real {
+      const bool is_in_group = !spheres.mask || (spheres.mask[i] & spheres.group_bit);
+      return is_in_group ? faces.past(spheres.x[i]) : 0;
+    });
   }
 
   void choose(const Spheres &spheres, Real margin, bool watch = false) override
@@ -284,7 +278,8 @@ class EngineOn : public WallEngine, public CandidatesInPlace, public NodesInPlac
   {
     return broad_phase_.bytes() + springs_.bytes() + results_.bytes() + next_results_.bytes() +
            overflow_.size() * sizeof(OverflowScratch) + work_lists_.bytes() +
-           works_.size() * sizeof(MeshWork) + laws_.size() * sizeof(LawEntry) + bytes_of_nodes();
+           works_.size() * sizeof(MeshWork) + laws_.size() * sizeof(LawEntry) + bytes_of_nodes() +
+           b_.scratch_bytes();
   }
 
   B &backend_now() { return b_; }
@@ -526,7 +521,6 @@ class EngineOn : public WallEngine, public CandidatesInPlace, public NodesInPlac
 
   int pool_written_ = -1;
   Array<OverflowScratch> overflow_;
-  Array<char> scratch_;    // of the largest of all spheres
 };
 
 }    // namespace lsdcd

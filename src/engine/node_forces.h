@@ -150,7 +150,7 @@ class NodeForces {
   std::size_t bytes() const
   {
     return (powers_.size() + power_.size() + sums_.size()) * sizeof(Real) +
-           (offset_.size() + first_.size()) * sizeof(int) + scan_.size() + pairs_.bytes() +
+           (offset_.size() + first_.size()) * sizeof(int) + pairs_.bytes() +
            (share_.size() + block_.size() + group_.size()) * sizeof(Vec3);
   }
 
@@ -168,7 +168,7 @@ class NodeForces {
     const std::size_t n = in.n;
     int *at = reserve(offset_, n + 1);
     b.for_each(n + 1, [=] LSDCD_LAMBDA(std::size_t k) { at[k] = k < n ? 3 * in.count(k) : 0; });
-    b.scan(at, n + 1, scan_);
+    b.scan(at, n + 1);
     b.copy_out(at + n, n_on_host_.data(), 1);
     counted_.record(b);
   }
@@ -286,7 +286,6 @@ class NodeForces {
   Array<int> offset_, first_;
   Array<Vec3> share_, block_, group_;
   PairMemory<B> pairs_;    // of a node and a share
-  Array<char> scan_;
   typename B::template HostArray<int> n_on_host_ = typename B::template HostArray<int>(1);
   typename B::Event counted_;    // once it is there
 };

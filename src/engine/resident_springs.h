@@ -213,9 +213,8 @@ class ResidentSprings : public SpringsInPlace {
   int largest_packed_size(int n) override
   {
     const int *count = count_.data();
-    return 1 + per_spring() *
-                   b_.template largest<int>(
-                       n, [=] LSDCD_LAMBDA(std::size_t i) -> int { return count[i]; }, scratch_);
+    return 1 + per_spring() * b_.template largest<int>(
+                                  n, [=] LSDCD_LAMBDA(std::size_t i) -> int { return count[i]; });
   }
 
   int most_packed_size() const override { return 1 + per_spring() * kMaxContacts; }
@@ -227,7 +226,7 @@ class ResidentSprings : public SpringsInPlace {
     const SpringsView springs = view();
     const int per_spring = this->per_spring(), n_extra = traits_.n_extra;
     b_.for_each(n, [=] LSDCD_LAMBDA(std::size_t k) { at[k] = 1 + per_spring * count[which[k]]; });
-    const int total = b_.exclusive_scan(at, n, scratch_);
+    const int total = b_.exclusive_scan(at, n);
     b_.for_each(n, [=] LSDCD_LAMBDA(std::size_t k) {
       const int i = which[k];
       int m = n + at[k];
@@ -259,7 +258,7 @@ class ResidentSprings : public SpringsInPlace {
     b_.for_each(n, [=] LSDCD_LAMBDA(std::size_t k) {
       at[k] = to[k] < 0 ? 0 : static_cast<int>(buffer[place_of(buffer, k, n_first, second)]);
     });
-    const std::size_t total = b_.exclusive_scan(at, n, scratch_);
+    const std::size_t total = b_.exclusive_scan(at, n);
     extend(end_ + total);
     Pool &pool = pool_[now_];
     Spring *springs = pool.springs.data();
@@ -299,7 +298,7 @@ class ResidentSprings : public SpringsInPlace {
   {
     const int *count = count_.data();
     b_.for_each(n, [=] LSDCD_LAMBDA(std::size_t i) { to[i] = count[i]; });
-    return b_.exclusive_scan(to, n, scratch_);
+    return b_.exclusive_scan(to, n);
   }
 
   // Room for n springs, keeping those that are there.
@@ -351,7 +350,6 @@ class ResidentSprings : public SpringsInPlace {
   LawTraits traits_;
   const StepCounts *counts_;
   Array<int> first_, count_;
-  Array<char> scratch_;    // of sums
   Pool pool_[2];
   int now_ = 0;
   std::size_t n_candidates_ = 0, wanted_ = 0;

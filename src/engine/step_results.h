@@ -238,7 +238,7 @@ class StepResults {
     const int *n_contacts = n_contacts_.data();
     const int *slot = slot_.data();
     b.for_each(n, [=] LSDCD_LAMBDA(std::size_t k) { at[k] = n_contacts[k]; });
-    const std::size_t total = b.exclusive_scan(at, n, scratch_);
+    const std::size_t total = b.exclusive_scan(at, n);
     // The gaps between them were never written.
     Array<ContactRecord> packed(total);
     ContactRecord *to = packed.data();
@@ -321,7 +321,6 @@ class StepResults {
   ResultColumns columns_;
   Array<Real> numbers_, heat_, uncertain_;
   Array<int> n_contacts_, slot_, stored_candidates_;
-  Array<char> scratch_;    // of sums
 
   WallTotals totals_;
   bool totals_known_ = true;

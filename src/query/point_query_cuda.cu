@@ -13,9 +13,9 @@ namespace lsdcd {
 
 class DeviceGrid : public DeviceCopy, public GridOn<CudaBackend> {
  public:
-  DeviceGrid(const GridView &grid, const TriangleTable &names) : GridOn(CudaBackend(), grid, true)
+  DeviceGrid(CudaBackend b, const GridView &grid, const TriangleTable &names) :
+      GridOn(b, grid, true)
   {
-    CudaBackend b;
     of_face_ = from_host(b, names.of_face);
     of_edge_ = from_host(b, names.of_edge);
     of_vertex_ = from_host(b, names.of_vertex);
@@ -35,7 +35,7 @@ class DeviceGrid : public DeviceCopy, public GridOn<CudaBackend> {
 
 std::shared_ptr<const DeviceCopy> copy_to_cuda(const GridView &grid, const TriangleTable &names)
 {
-  return std::make_shared<const DeviceGrid>(grid, names);
+  return std::make_shared<const DeviceGrid>(CudaBackend(), grid, names);
 }
 
 int current_cuda_device()

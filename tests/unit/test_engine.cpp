@@ -59,14 +59,14 @@ struct CountingBackend : CpuBackend {
     CpuBackend::copy_out(from, host, n);
   }
   void wait() { crossings()++; }
-  template <class T, class Read, class... Scratch>
-  T largest(std::size_t n, const Read &read, Scratch &...)
+  template <class T, class Read>
+  T largest(std::size_t n, const Read &read)
   {
     crossings()++;
     return CpuBackend::largest<T>(n, read);
   }
-  template <class T, class... Scratch>
-  T exclusive_scan(T *values, std::size_t n, Scratch &...)
+  template <class T>
+  T exclusive_scan(T *values, std::size_t n)
   {
     crossings()++;
     return CpuBackend::exclusive_scan(values, n);

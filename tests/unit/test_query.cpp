@@ -302,7 +302,8 @@ Cell cell_by_words(const GridView &grid, const BrickTable &table, const Vec3 &q)
 // alone, on the CPU.
 Answers ask_cells_first(const TriangleGrid &grid, const std::vector<Sphere> &spheres)
 {
-  const GridOn<CpuBackend> g(CpuBackend(), FlatGrid(grid), true);
+  CpuBackend b;
+  const GridOn<CpuBackend> g(b, FlatGrid(grid), true);
   const std::size_t n = spheres.size();
   Answers found = {std::vector<std::uint8_t>(n), std::vector<Real>(n)};
   const DistanceArrays<Real> out = {found.status.data(), found.distance.data()};

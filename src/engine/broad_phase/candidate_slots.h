@@ -160,7 +160,7 @@ class CandidateSlots {
       for (MeshSet of = set[multi_mesh[g]]; of != 0; of &= of - 1) count++;
       first[g] = count;
     });
-    const int total = b.exclusive_scan(first, n, scratch_);
+    const int total = b.exclusive_scan(first, n);
     n_slots_ += total;
     b.for_each(n + 1, [=] LSDCD_LAMBDA(std::size_t g) {
       const int at = begin + (g < n ? first[g] : total);
@@ -179,7 +179,7 @@ class CandidateSlots {
   std::size_t compact(B &b, const int *found, std::size_t n, int *to)
   {
     if (n == 0) return 0;
-    b.compact(n, found, flags_.data(), scratch_, to, count_.data());
+    b.compact(n, found, flags_.data(), to, count_.data());
     return read_one(b, count_.data());
   }
 
@@ -190,7 +190,6 @@ class CandidateSlots {
   Array<int> found_;      // candidates, mesh after mesh
   Array<int> sphere_, mesh_, multi_mesh_, first_;
   Array<char> flags_;
-  Array<char> scratch_;
   Array<std::uint32_t> count_ = Array<std::uint32_t>(1);
 };
 

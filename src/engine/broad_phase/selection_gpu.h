@@ -60,18 +60,18 @@ class Selection<B, false> {
     flags_.reserve(n);
     char *flags = flags_.data();
     b.for_each(n, FlagByCells<Work>{work, flags});
-    if (!work.has_refine()) return b.compact(n, nullptr, flags, scratch_, to, total);
+    if (!work.has_refine()) return b.compact(n, nullptr, flags, to, total);
     left_.reserve(n);
-    b.compact(n, nullptr, flags, scratch_, left_.data(), total);
+    b.compact(n, nullptr, flags, left_.data(), total);
     const std::size_t n_left = read_one(b, total);
     b.for_each_in_warps(n_left, FlagByFeatures<Work>{work, left_.data(), flags});
-    b.compact(n_left, left_.data(), flags, scratch_, to, total);
+    b.compact(n_left, left_.data(), flags, to, total);
   }
 
-  std::size_t bytes() const { return flags_.size() + left_.size() * sizeof(int) + scratch_.size(); }
+  std::size_t bytes() const { return flags_.size() + left_.size() * sizeof(int); }
 
  private:
-  Array<char> flags_, scratch_;
+  Array<char> flags_;
   Array<int> left_;    // by the cells
 };
 

@@ -26,7 +26,7 @@ class GridOn {
 
   GridOn() = default;
   // Borrows a block that lies where B computes, and copies it elsewhere.
-  GridOn(B b, const GridView &on_host, bool with_coarse = false) : view(on_host)
+  GridOn(B &b, const GridView &on_host, bool with_coarse = false) : view(on_host)
   {
     if constexpr (!B::kOnHost) {
       if (!on_host.block) throw std::logic_error("a device needs the view of a flat grid block");
@@ -42,14 +42,13 @@ class GridOn {
     coarse.words = coarse_words_.data();
   }
   // The same, but it owns what the other one borrows.
-  GridOn(B b, FlatGrid &&flat, bool with_coarse = false) :
-      GridOn(std::move(b), flat.view(), with_coarse)
+  GridOn(B &b, FlatGrid &&flat, bool with_coarse = false) : GridOn(b, flat.view(), with_coarse)
   {
     if constexpr (B::kOnHost) flat_ = std::move(flat);
   }
 
   // Other lists for the wall that is there: `with` lies where B computes, in memory of the caller's.
-  void set_lists(B b, const GridView &with)
+  void set_lists(B &b, const GridView &with)
   {
     view = with;
     std::vector<std::int32_t> brick_of(std::size_t(with.n_bricks[0]) * with.n_bricks[1] *
