@@ -27,7 +27,7 @@ using SaturatingLaw = ContactModel<T, HookeNormal, SaturatingDamping, LinearNoHi
 // Step 3: the law, compiled for a kernel.
 CompiledLaw<CpuBackend> compiled(const SaturatingLaw<Real> &law)
 {
-  return CompileLaw<CpuBackend, WallKernels::plain>{{false, false}}(law);
+  return CompileLaw<CpuBackend, WallKernels::plain>{{false, false, false}}(law);
 }
 
 // Step 4: a closed form. One sphere on a floor, the force of one step.

@@ -120,24 +120,12 @@ template <class B>
 CompiledLaw<B> on_wall_law(const ContactLaw &law, const WallEffects &effects);
 template <class B>
 CompiledLaw<B> plain_law(const ContactLaw &law, const WallEffects &effects);
-// These are for walls with a mesh whose nodes move.
-template <class B>
-CompiledLaw<B> granular_nodes_law(const ContactLaw &law, const WallEffects &effects);
-template <class B>
-CompiledLaw<B> added_nodes_law(const ContactLaw &law, const WallEffects &effects);
-template <class B>
-CompiledLaw<B> classic_nodes_law(const ContactLaw &law, const WallEffects &effects);
 
 // One law of the settings.
 template <class B>
 CompiledLaw<B> law_for(const EngineSettings &settings, const ContactLaw &law)
 {
   const WallEffects effects = wall_effects(settings);
-  if (settings.nodes) {
-    if (!law.is_classic()) return granular_nodes_law<B>(law, effects);
-    return law.is_extended() ? added_nodes_law<B>(law, effects)
-                             : classic_nodes_law<B>(law, effects);
-  }
   if (!law.is_classic()) return granular_law<B>(law, effects);
   if (law.is_extended()) return added_law<B>(law, effects);
   if (effects.surface || effects.records) return on_wall_law<B>(law, effects);

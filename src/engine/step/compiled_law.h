@@ -62,7 +62,7 @@ struct LawsView {
 
 // The effects that a kernel has.
 struct WallEffects {
-  bool surface, records;
+  bool surface, records, nodes;    // nodes: of a mesh move
 };
 
 template <class Law, bool kSurface_, bool kRecords_, bool kNodes_ = false>
@@ -71,22 +71,22 @@ struct OnWall : Law {
 };
 
 // The kernels that a law has, by their effects. plain: {none}. moving_or_both: {moving}, {moving + records}.
-// plain_or_both: {none}, {moving + records}. Where a wall has records alone it takes {moving + records}.
-// nodes: {moving + records + nodes}, of walls with a mesh whose nodes move.
-enum class WallKernels { plain, moving_or_both, plain_or_both, nodes };
+// plain_or_both: {none}, {moving + records}. Where a wall has records alone it takes {moving + records}. Beside each
+// of these is {moving + records + nodes}, so that walls whose nodes do not move have no instruction for them.
+enum class WallKernels { plain, moving_or_both, plain_or_both };
 
 // Calls make(law) with the law that has the effects.
 template <WallKernels kernels, class Law, class Make>
 auto on_wall(const Law &law, const WallEffects &effects, const Make &make)
 {
-  if constexpr (kernels == WallKernels::nodes) return make(OnWall<Law, true, true, true>{law});
   if constexpr (kernels == WallKernels::plain) return make(OnWall<Law, false, false>{law});
   if constexpr (kernels == WallKernels::moving_or_both)
     if (!effects.records) return make(OnWall<Law, true, false>{law});
   if constexpr (kernels == WallKernels::plain_or_both)
     if (!effects.records && !effects.surface) return make(OnWall<Law, false, false>{law});
-  if constexpr (kernels == WallKernels::moving_or_both || kernels == WallKernels::plain_or_both)
-    return make(OnWall<Law, true, true>{law});
+  if constexpr (kernels != WallKernels::plain)
+    return effects.nodes ? make(OnWall<Law, true, true, true>{law})
+                         : make(OnWall<Law, true, true>{law});
 }
 
 struct StepJob;
@@ -121,7 +121,7 @@ struct CompiledLaw {
 // The wall's effects that the settings ask for.
 inline WallEffects wall_effects(const EngineSettings &s)
 {
-  return {s.surface.moves() || s.moves || uses_slots(s), s.records || s.bodies || s.nodes};
+  return {s.surface.moves() || s.moves || uses_slots(s), s.records || s.bodies || s.nodes, s.nodes};
 }
 
 }    // namespace lsdcd
