@@ -34,7 +34,7 @@ MEMBERS = {WALL_FORCE: ["SurfaceMotion surface;", "bool surface_moves;", "Pose p
                         "Vec3 wall_velocity, wall_angular;", "WearModel wear;", "ContactRecord *records;",
                         "Real *heat;", "Real *extra;", "const Real *extra;", "Real temperature;",
                         "Real wall_temperature;"],
-           "law/contact.h": ["Vec3Of<T> omega;", "T temperature_difference;"]}
+           "law/contact.h": ["Vec3 omega;", "Real temperature_difference;"]}
 
 
 def end_of_statement(text, at):

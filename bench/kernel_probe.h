@@ -12,13 +12,13 @@
 namespace lsdcd {
 
 #if PROBE_LAW == 0
-using ProbedLaw = OnWall<HookeLaw<Real>, false, false>;
+using ProbedLaw = OnWall<HookeLaw, false, false>;
 #elif PROBE_LAW == 1
-using ProbedLaw = OnWall<HookeHistoryLaw<Real>, false, false>;
+using ProbedLaw = OnWall<HookeHistoryLaw, false, false>;
 #elif PROBE_LAW == 2
-using ProbedLaw = OnWall<HertzHistoryLaw<Real>, false, false>;
+using ProbedLaw = OnWall<HertzHistoryLaw, false, false>;
 #else
-using ProbedLaw = OnWall<GranularModel<Real, TouchingNormal<Real>, true, false>, false, false>;
+using ProbedLaw = OnWall<GranularModel<TouchingNormal, true, false>, false, false>;
 #endif
 
 // Search, law and result of one sphere, as the kernels have them; `sink` has room for 8 contacts.

@@ -8,46 +8,44 @@
 
 namespace lsdcd {
 
-// One sphere-wall contact in one step. T is the type that forces are computed in.
-template <class T>
+// One sphere-wall contact in one step.
 struct Contact {
-  Vec3Of<T> normal;            // unit, wall -> centre
-  T overlap;                   // length, > 0 where they touch
-  T radius;                    // of the sphere; its effective radius against a wall
-  T mass;                      // of the sphere, or of the rigid body it belongs to
-  T v_normal;                  // length/time, > 0 when it moves away from the wall
-  Vec3Of<T> v_tangent;         // length/time, of the sphere's surface at the contact
-  Vec3Of<T> omega;             // 1/time, of the sphere; set only where the law has kContactTorque
-  T temperature_difference;    // wall less sphere; set only where it has kHeat
-  T dt;                        // time
-  bool update;                 // false: springs act but do not move (setup)
+  Vec3 normal;       // unit, wall -> centre
+  Real overlap;      // length, > 0 where they touch
+  Real radius;       // of the sphere; its effective radius against a wall
+  Real mass;         // of the sphere, or of the rigid body it belongs to
+  Real v_normal;     // length/time, > 0 when it moves away from the wall
+  Vec3 v_tangent;    // length/time, of the sphere's surface at the contact
+  Vec3 omega;        // 1/time, of the sphere; set only where the law has kContactTorque
+  Real temperature_difference;    // wall less sphere; set only where it has kHeat
+  Real dt;                        // time
+  bool update;                    // false: springs act but do not move (setup)
 };
 
-template <class T>
 struct ContactForce {
-  T normal;                // force along the normal, < 0 where it pulls
-  Vec3Of<T> tangential;    // force on the sphere at the contact
-  T energy;                // elastic energy held
+  Real normal;        // force along the normal, < 0 where it pulls
+  Vec3 tangential;    // force on the sphere at the contact
+  Real energy;        // elastic energy held
 };
 
 // Memory of a contact from step to step: a tangential spring and, with some laws, further
 // numbers: first vectors in the tangent plane, then scalars.
-template <class T, int kExtra>
+template <int kExtra>
 struct ContactMemory {
   static constexpr int kSize = kExtra;
-  Vec3Of<T> shear;
-  T extra[kExtra];
+  Vec3 shear;
+  Real extra[kExtra];
 
-  LSDCD_FN Vec3Of<T> vec(int at) const { return {extra[at], extra[at + 1], extra[at + 2]}; }
-  LSDCD_FN void put(int at, const Vec3Of<T> &a)
+  LSDCD_FN Vec3 vec(int at) const { return {extra[at], extra[at + 1], extra[at + 2]}; }
+  LSDCD_FN void put(int at, const Vec3 &a)
   {
     for (int k = 0; k < 3; k++) extra[at + k] = a[k];
   }
 };
-template <class T>
-struct ContactMemory<T, 0> {
+template <>
+struct ContactMemory<0> {
   static constexpr int kSize = 0;
-  Vec3Of<T> shear;
+  Vec3 shear;
 };
 
 }    // namespace lsdcd

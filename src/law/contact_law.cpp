@@ -57,7 +57,7 @@ ContactLaw granular_law(NormalModel normal)
 
 Real ContactLaw::pull_off() const
 {
-  return is(NormalModel::jkr) ? JkrNormal<Real>(modulus, surface_energy).pull_off : 0;
+  return is(NormalModel::jkr) ? JkrNormal(modulus, surface_energy).pull_off : 0;
 }
 
 Real tsuji_damping(Real e)

@@ -2,8 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // A contact law put together from sub-models at compile time. Every law has
-//   Number             the type that it computes in
-//   kHistory           does it store a ContactMemory<Number, kExtra> per contact?
+//   kHistory           does it store a ContactMemory<kExtra> per contact?
 //   kVectors, kScalars how many vectors and scalars that has beside the shear displacement
 //   kBeyondContact, pull_off  does it act beyond contact, and up to what distance at radius 1?
 //   kContactTorque, kHeat     does evaluate() also return a contact torque, a heat flow?
@@ -28,29 +27,27 @@
 namespace lsdcd {
 
 // The classic styles.
-template <class T, template <class> class Normal, template <class> class Damping,
-          template <class> class Tangential>
+template <class Normal, class Damping, class Tangential>
 struct ContactModel {
-  using Number = T;
-  static constexpr bool kHistory = Tangential<T>::kHistory;
+  static constexpr bool kHistory = Tangential::kHistory;
   static constexpr int kVectors = 0, kScalars = 0, kExtra = 0;
   static constexpr bool kBeyondContact = false, kContactTorque = false, kHeat = false;
 
-  Normal<T> elastic;
-  Damping<T> damping;
-  Tangential<T> tangential;
+  Normal elastic;
+  Damping damping;
+  Tangential tangential;
   bool limit_damping;
 
   // Factor of the stiffnesses: the contact radius, or 1.
-  LSDCD_FN T scale(const Contact<T> &c) const
+  LSDCD_FN Real scale(const Contact &c) const
   {
-    return Normal<T>::kUsesContactRadius ? elastic.contact_radius(c) : T(1);
+    return Normal::kUsesContactRadius ? elastic.contact_radius(c) : 1;
   }
 
-  LSDCD_FN ContactForce<T> evaluate(const Contact<T> &c, ContactMemory<T, 0> &memory) const
+  LSDCD_FN ContactForce evaluate(const Contact &c, ContactMemory<0> &memory) const
   {
-    const T scale = this->scale(c);
-    ContactForce<T> out;
+    const Real scale = this->scale(c);
+    ContactForce out;
     out.normal = elastic.force(c, scale) + damping.force(c, scale);
     if (limit_damping && out.normal < 0) out.normal = 0;
     out.tangential = tangential.force(c, scale, out.normal, memory.shear);
@@ -61,45 +58,39 @@ struct ContactModel {
 };
 
 // With the formulas of LAMMPS 29Sep2021.
-template <class T>
-using HookeLaw = ContactModel<T, HookeNormal, MassVelocityDamping, LinearNoHistory>;
-template <class T>
-using HookeHistoryLaw = ContactModel<T, HookeNormal, MassVelocityDamping, LinearHistory>;
-template <class T>
-using HertzHistoryLaw = ContactModel<T, HertzNormal, MassVelocityDamping, LinearHistory>;
+using HookeLaw = ContactModel<HookeNormal, MassVelocityDamping, LinearNoHistory>;
+using HookeHistoryLaw = ContactModel<HookeNormal, MassVelocityDamping, LinearHistory>;
+using HertzHistoryLaw = ContactModel<HertzNormal, MassVelocityDamping, LinearHistory>;
 
 // Result of laws with kContactTorque or kHeat.
-template <class T>
-struct FullForce : ContactForce<T> {
-  Vec3Of<T> contact_torque;    // torque on the sphere beside that of the tangential force
-  T heat;                      // power into the sphere
+struct FullForce : ContactForce {
+  Vec3 contact_torque;    // torque on the sphere beside that of the tangential force
+  Real heat;              // power into the sphere
 };
 
 // A classic style with sub-models of LIGGGHTS. kHistory_: does a contact have a history?
 template <class Base, bool kHistory_>
 struct AddedModel {
-  using Number = typename Base::Number;
-  using T = Number;
   static constexpr bool kHistory = kHistory_;
   static constexpr int kVectors = kHistory ? 1 : 0, kScalars = 0, kExtra = 3 * kVectors;
   static constexpr bool kBeyondContact = false, kContactTorque = true, kHeat = false;
 
   Base base;
-  ClassicRolling<T> rolling;
-  SjkrCohesion<T> cohesion;
-  T k_tangent;    // per unit of Base::scale()
+  ClassicRolling rolling;
+  SjkrCohesion cohesion;
+  Real k_tangent;    // per unit of Base::scale()
 
   LSDCD_FN bool stores(int) const { return rolling.stores_vector(); }
 
-  LSDCD_FN FullForce<T> evaluate(const Contact<T> &c, ContactMemory<T, kExtra> &memory) const
+  LSDCD_FN FullForce evaluate(const Contact &c, ContactMemory<kExtra> &memory) const
   {
-    ContactMemory<T, 0> sliding = {memory.shear};
-    FullForce<T> out = {base.evaluate(c, sliding), {0, 0, 0}, 0};
+    ContactMemory<0> sliding = {memory.shear};
+    FullForce out = {base.evaluate(c, sliding), {0, 0, 0}, 0};
     memory.shear = sliding.shear;
     if (rolling.is_on()) {
-      const T scale = base.scale(c);
-      const RollingInput<T> in = {c, base.elastic.force(c, scale), out.normal, fabs(out.normal),
-                                  scale * k_tangent};
+      const Real scale = base.scale(c);
+      const RollingInput in = {c, base.elastic.force(c, scale), out.normal, fabs(out.normal),
+                               scale * k_tangent};
       rolling.act(in, memory, 0, out.contact_torque, out.energy);
     }
     if (cohesion.is_on()) {
@@ -112,25 +103,24 @@ struct AddedModel {
 
 // The sub-models of `granular`, with the formulas of LAMMPS 4Jul2026. kFull: with those that few scenes
 // use (`mindlin_rescale`, rolling, twisting, heat), each of which may be off.
-template <class T, class Normal, bool kHistory_, bool kFull>
+template <class Normal, bool kHistory_, bool kFull>
 struct GranularModel {
-  using Number = T;
   static constexpr bool kHistory = kHistory_;
   static constexpr int kVectors = kHistory && kFull ? 1 : 0, kScalars = 2 * kVectors;
   static constexpr int kExtra = 3 * kVectors + kScalars;
   static constexpr bool kBeyondContact = Normal::kBeyondContact;
   static constexpr bool kContactTorque = kHistory && kFull, kHeat = kFull;
-  static_assert(GranularRolling<T>::kAllStore, "a law without memory has no contact torque");
+  static_assert(GranularRolling::kAllStore, "a law without memory has no contact torque");
 
   // Places in ContactMemory::extra.
   static constexpr int kRolled = 0, kRadius = 3, kTwist = 4;
 
   Normal elastic;
-  GranularDamping<T> damping;
-  GranularFriction<T> tangential;
-  GranularRolling<T> rolling;
-  SpringTwisting<T> twisting;
-  Conduction<T> conduction;
+  GranularDamping damping;
+  GranularFriction tangential;
+  GranularRolling rolling;
+  SpringTwisting twisting;
+  Conduction conduction;
   bool uses_contact_radius;    // does anything, though the normal force may not?
   bool limit_damping;
 
@@ -140,17 +130,17 @@ struct GranularModel {
   }
   LSDCD_FN bool has_heat() const { return conduction.is_on(); }
 
-  LSDCD_FN FullForce<T> evaluate(const Contact<T> &c, ContactMemory<T, kExtra> &memory) const
+  LSDCD_FN FullForce evaluate(const Contact &c, ContactMemory<kExtra> &memory) const
   {
-    const T a =
-        uses_contact_radius || elastic.uses_contact_radius() ? elastic.contact_radius(c) : T(0);
-    const T f = elastic.force(c, a), gamma = damping.coefficient(c, a, f);
+    const Real a =
+        uses_contact_radius || elastic.uses_contact_radius() ? elastic.contact_radius(c) : 0;
+    const Real f = elastic.force(c, a), gamma = damping.coefficient(c, a, f);
 
-    FullForce<T> out;
+    FullForce out;
     out.normal = f - gamma * c.v_normal;
     if (limit_damping && out.normal < 0) out.normal = 0;
     out.energy = elastic.energy(c, a);
-    const T limit = elastic.limit(c, f, out.normal);
+    const Real limit = elastic.limit(c, f, out.normal);
 
     out.tangential = friction(c, a, gamma, tangential.mu * limit, memory);
     if constexpr (kHistory) out.energy += tangential.energy(a, memory);
@@ -160,7 +150,7 @@ struct GranularModel {
       rolling.act({c, f, out.normal, limit, tangential.stiffness(a)}, memory, kRolled,
                   out.contact_torque, out.energy);
       if (twisting.is_on()) {
-        const TwistCoefficients<T> t = twisting.coefficients(
+        const TwistCoefficients t = twisting.coefficients(
             limit, a, tangential.stiffness(a), tangential.xgammat * gamma, tangential.mu);
         out.contact_torque += twisting.contact_torque(c, t, memory, kTwist) * c.normal;
         out.energy += twisting.energy(t, memory, kTwist);
@@ -172,8 +162,8 @@ struct GranularModel {
   }
 
  private:
-  LSDCD_FN Vec3Of<T> friction(const Contact<T> &c, T a, T gamma, T limit,
-                              ContactMemory<T, kExtra> &memory) const
+  LSDCD_FN Vec3 friction(const Contact &c, Real a, Real gamma, Real limit,
+                         ContactMemory<kExtra> &memory) const
   {
     if constexpr (!kHistory) {
       return tangential.slip_force(c, gamma, limit);

@@ -38,15 +38,15 @@ ContactSlopes slopes_of(const ContactLaw &law, Real overlap, Real radius, Real m
     return {{scale * ((hertz ? kHertzSlope : 1) * law.k_normal), scale * mass * law.eta},
             {scale * law.k_tangent, scale * mass * law.gamma_tangent}};
   }
-  Contact<Real> c = {};
+  Contact c = {};
   c.overlap = overlap;
   c.radius = radius;
   c.mass = mass;
   const Real a = law.is(NormalModel::jkr)
-                     ? JkrNormal<Real>(law.modulus, law.surface_energy).contact_radius(c)
+                     ? JkrNormal(law.modulus, law.surface_energy).contact_radius(c)
                      : std::sqrt(overlap * radius);
   const Real k = law.is(NormalModel::hooke) ? law.k_normal : kHertzSlope * law.k_normal * a;
-  const Real damping = GranularDamping<Real>{law.damping, law.eta}.coefficient(c, a, k * overlap);
+  const Real damping = GranularDamping{law.damping, law.eta}.coefficient(c, a, k * overlap);
   return {{k, damping}, {tangential_stiffness(law, a), damping * law.xgammat}};
 }
 

@@ -10,12 +10,11 @@
 
 namespace lsdcd {
 
-template <class T>
 struct SaturatingDamping {
-  T gamma;    // 1/time
-  T v0;       // length/time
+  Real gamma;    // 1/time
+  Real v0;       // length/time
 
-  LSDCD_FN T force(const Contact<T> &c, T scale) const
+  LSDCD_FN Real force(const Contact &c, Real scale) const
   {
     return -scale * c.mass * gamma * v0 * c.v_normal / (v0 + fabs(c.v_normal));
   }

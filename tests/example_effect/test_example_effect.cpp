@@ -21,11 +21,10 @@ namespace lsdcd::test_example_effect {
 namespace {
 
 // Step 2: a law that has it.
-template <class T>
-using SaturatingLaw = ContactModel<T, HookeNormal, SaturatingDamping, LinearNoHistory>;
+using SaturatingLaw = ContactModel<HookeNormal, SaturatingDamping, LinearNoHistory>;
 
 // Step 3: the law, compiled for a kernel.
-CompiledLaw<CpuBackend> compiled(const SaturatingLaw<Real> &law)
+CompiledLaw<CpuBackend> compiled(const SaturatingLaw &law)
 {
   return CompileLaw<CpuBackend, WallKernels::plain>{{false, false, false}}(law);
 }

@@ -155,8 +155,8 @@ TEST(jkr, contact_radius_solves_its_equation_from_no_to_strong_adhesion)
 {
   for (Real gamma : {0.0, 1e-12, 1e-6, 1e-3, 1.0, 1e3})
     for (Real overlap : {1e-9, 1e-6, 1e-4, 1e-2, 0.0, -0.3, -0.7, -0.999}) {
-      const JkrNormal<Real> law(kModulus, gamma);
-      Contact<Real> c = {};
+      const JkrNormal law(kModulus, gamma);
+      Contact c = {};
       c.radius = kRadius;
       c.overlap = overlap < 0 ? overlap * law.pull_off * std::cbrt(kRadius) : overlap;
       const long double a = law.contact_radius(c);

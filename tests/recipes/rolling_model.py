@@ -14,26 +14,25 @@ from edit_copy import edit_copy
 
 FORMULA = """\
 // `plastic` K MU: a contact torque that grows by K per angle rolled, up to MU |F| R.
-template <class T>
 struct PlasticRolling {
   static constexpr RollingModel kModel = RollingModel::plastic;
   static constexpr bool kStoresVector = true;
 
   template <class Memory>
-  LSDCD_FN static Vec3Of<T> contact_torque(const T *n, const RollingInput<T> &in, Memory &m, int at)
+  LSDCD_FN static Vec3 contact_torque(const Real *n, const RollingInput &in, Memory &m, int at)
   {
-    const Contact<T> &c = in.contact;
-    Vec3Of<T> held = m.vec(at);
+    const Contact &c = in.contact;
+    Vec3 held = m.vec(at);
     if (c.update) held -= (n[0] * c.dt) * rolling_part(c.omega, c.normal);
-    const T size = norm(held), limit = n[1] * in.limit * c.radius;
+    const Real size = norm(held), limit = n[1] * in.limit * c.radius;
     if (size > limit) held = (limit / size) * held;
     m.put(at, held);
     return held;
   }
   template <class Memory>
-  LSDCD_FN static T energy(const T *n, const RollingInput<T> &, const Memory &m, int at)
+  LSDCD_FN static Real energy(const Real *n, const RollingInput &, const Memory &m, int at)
   {
-    return T(0.5) * norm_sq(m.vec(at)) / n[0];
+    return 0.5 * norm_sq(m.vec(at)) / n[0];
   }
 };
 
@@ -48,8 +47,8 @@ EDITS = {
         ("enum class RollingModel { none, sds, cdt, epsd2 };",
          "enum class RollingModel { none, sds, cdt, epsd2, plastic };"),
         ("// ---- the family ", FORMULA + "// ---- the family "),
-        ("using GranularRolling = Rolling<T, SdsRolling>;",
-         "using GranularRolling = Rolling<T, SdsRolling, PlasticRolling>;")],
+        ("using GranularRolling = Rolling<SdsRolling>;",
+         "using GranularRolling = Rolling<SdsRolling, PlasticRolling>;")],
     "law/sub_models.cpp": [("      {F::rolling, \"cdt\"", ROW + "      {F::rolling, \"cdt\"")],
 }
 

@@ -143,7 +143,7 @@ struct MakeCountingLaw {
 CountingLaw counting_law(const EngineSettings &s)
 {
   const MakeCountingLaw make = {wall_effects(s)};
-  if (s.law().is_classic()) return with_classic_law<Real>(s.law(), make);
+  if (s.law().is_classic()) return with_classic_law(s.law(), make);
   return with_granular_law(s.law(), make);
 }
 
@@ -582,7 +582,7 @@ TEST(engine, springs_follow_through_pack_and_unpack)
 
 TEST(engine, a_step_without_outputs_neither_copies_nor_waits)
 {
-  using Law = OnWall<HertzHistoryLaw<Real>, false, false>;
+  using Law = OnWall<HertzHistoryLaw, false, false>;
   const ContactLaw p = history();
   const Law law = {{{p.k_normal}, {p.eta}, {p.k_tangent, p.gamma_tangent, p.mu}, false}};
   Particles particles(with_history(), 2000, 0.5, false);

@@ -12,19 +12,18 @@
 
 namespace lsdcd {
 
-// The classic styles, in numbers of type T: calls make(law).
-template <class T, class Make>
+// The classic styles: calls make(law).
+template <class Make>
 auto with_classic_law(const ContactLaw &p, Make make)
 {
-  const T k = static_cast<T>(p.k_normal), mu = static_cast<T>(p.mu);
-  const MassVelocityDamping<T> damping = {static_cast<T>(p.eta)};
-  const T k_tangent = static_cast<T>(p.k_tangent), gamma_tangent = static_cast<T>(p.gamma_tangent);
-  const LinearHistory<T> history = {k_tangent, gamma_tangent, mu};
+  const MassVelocityDamping damping = {p.eta};
+  const LinearHistory history = {p.k_tangent, p.gamma_tangent, p.mu};
   if (p.is(NormalModel::hertz))
-    return make(HertzHistoryLaw<T>{{k}, damping, history, p.limit_damping});
+    return make(HertzHistoryLaw{{p.k_normal}, damping, history, p.limit_damping});
   if (p.tangential == TangentialModel::linear_history_classic)
-    return make(HookeHistoryLaw<T>{{k}, damping, history, p.limit_damping});
-  return make(HookeLaw<T>{{k}, damping, LinearNoHistory<T>{gamma_tangent, mu}, p.limit_damping});
+    return make(HookeHistoryLaw{{p.k_normal}, damping, history, p.limit_damping});
+  return make(
+      HookeLaw{{p.k_normal}, damping, LinearNoHistory{p.gamma_tangent, p.mu}, p.limit_damping});
 }
 
 // A rolling model with its numbers, among those of one kernel.
@@ -42,10 +41,10 @@ Family family_of(const Chosen<Model> &chosen)
 template <class Make>
 auto with_added_law(const ContactLaw &p, const Make &make)
 {
-  return with_classic_law<Real>(p, [&](const auto &base) {
+  return with_classic_law(p, [&](const auto &base) {
     using Base = std::decay_t<decltype(base)>;
-    const auto rolling = family_of<ClassicRolling<Real>>(p.rolling);
-    const SjkrCohesion<Real> cohesion = {p.cohesion.numbers[0]};
+    const auto rolling = family_of<ClassicRolling>(p.rolling);
+    const SjkrCohesion cohesion = {p.cohesion.numbers[0]};
     if constexpr (!Base::kHistory)
       if (!p.has_history())
         return make(AddedModel<Base, false>{base, rolling, cohesion, p.k_tangent});
@@ -55,8 +54,7 @@ auto with_added_law(const ContactLaw &p, const Make &make)
 
 // `granular` with one normal sub-model.
 template <bool kHistory, bool kFull, class Normal>
-GranularModel<Real, Normal, kHistory, kFull> granular_model(const ContactLaw &p,
-                                                            const Normal &normal)
+GranularModel<Normal, kHistory, kFull> granular_model(const ContactLaw &p, const Normal &normal)
 {
   const TangentialModel t = p.tangential;
   const bool spring = t != TangentialModel::linear_nohistory,
@@ -67,12 +65,12 @@ GranularModel<Real, Normal, kHistory, kFull> granular_model(const ContactLaw &p,
   const bool uses_contact_radius = p.damping == DampingModel::viscoelastic || mindlin ||
                                    p.twisting.model == TwistingModel::marshall || p.has_heat();
   const Real *const twisting = p.twisting.numbers;
-  const GranularFriction<Real> friction = {
+  const GranularFriction friction = {
       spring ? p.k_tangent : 0, p.xgammat, p.mu, spring, mindlin, of_force, p.rescales(), slip};
   return {normal,
           {p.damping, p.eta},
           friction,
-          family_of<GranularRolling<Real>>(p.rolling),
+          family_of<GranularRolling>(p.rolling),
           {p.twisting.model, twisting[0], twisting[1], twisting[2]},
           {p.heat.model, p.heat.numbers[0]},
           uses_contact_radius,
@@ -84,9 +82,9 @@ template <class Make>
 auto with_granular_law(const ContactLaw &p, const Make &make)
 {
   if (p.is(NormalModel::jkr))
-    return make(granular_model<true, true>(p, JkrNormal<Real>(p.modulus, p.surface_energy)));
+    return make(granular_model<true, true>(p, JkrNormal(p.modulus, p.surface_energy)));
   const Real pull = p.is(NormalModel::dmt) ? 4 * kPi * p.surface_energy : 0;
-  const TouchingNormal<Real> normal = {p.normal, p.k_normal, pull};
+  const TouchingNormal normal = {p.normal, p.k_normal, pull};
   const bool full = p.rolling.is_on() || p.twisting.is_on() || p.has_heat() || p.rescales();
   if (p.has_history())
     return full ? make(granular_model<true, true>(p, normal))

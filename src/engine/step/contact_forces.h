@@ -92,8 +92,7 @@ LSDCD_FN auto begin_memory(const Law &law, const MeshFeaturesView &wall,
                            const ForceSettings &settings, const ContactsView &set, int i,
                            const SphereStateWith<Springs> &s)
 {
-  using T = typename Law::Number;
-  ContactMemory<T, Law::kExtra> memory = {};
+  ContactMemory<Law::kExtra> memory = {};
   if constexpr (Law::kHistory) {
     const Transfer in = transfer_of(wall, set, i, s.springs, s.n_springs);
     if (in.from < 0) return memory;
@@ -103,7 +102,7 @@ LSDCD_FN auto begin_memory(const Law &law, const MeshFeaturesView &wall,
       if constexpr (Law::kSurface)
         if (settings.update && settings.surface_moves)
           now = turn_about(n, settings.dt * dot(settings.surface.angular, n), now);
-      return vec_cast<T>(now);
+      return now;
     };
     memory.shear = turned(s.springs[in.from].shear);
     if constexpr (Law::kExtra > 0) {
@@ -114,8 +113,7 @@ LSDCD_FN auto begin_memory(const Law &law, const MeshFeaturesView &wall,
           old += 3;
         }
       for (int k = 0; k < Law::kScalars; k++)
-        if (law.stores(Law::kVectors + k))
-          memory.extra[3 * Law::kVectors + k] = static_cast<T>(in.part * *old++);
+        if (law.stores(Law::kVectors + k)) memory.extra[3 * Law::kVectors + k] = in.part * *old++;
     }
   }
   return memory;
@@ -132,14 +130,12 @@ LSDCD_FN void store_extra(const Law &law, const Memory &memory, Real *to)
     if (law.stores(Law::kVectors + k)) *to++ = memory.extra[3 * Law::kVectors + k];
 }
 
-// Evaluates the law for each contact and adds its force, torque and energy to `out`. Numbers are of type
-// Law::Number inside the law, Real outside. `weights` null: all are 1.
+// Evaluates the law for each contact and adds its force, torque and energy to `out`. `weights` null: all are 1.
 template <class Law, class Springs>
 LSDCD_FN void add_contacts(const GridView &grid, const Law &law, const ForceSettings &settings,
                            const SphereStateWith<Springs> &s, const ContactsView &set,
                            const Real *weights, const SphereSink &sink, SphereResult &out)
 {
-  using T = typename Law::Number;
   [[maybe_unused]] const std::uint32_t mesh = Law::kSurface ? settings.mesh : 0;
   for (int i = 0; i < set.n; i++) {
     const Real weight = weights ? weights[i] : 1;
@@ -166,20 +162,19 @@ LSDCD_FN void add_contacts(const GridView &grid, const Law &law, const ForceSett
         v -= field_at(nodes, settings.nodes.velocity);
       }
     const Real v_normal = dot(v, n);
-    Contact<T> c;
-    c.normal = vec_cast<T>(n);
-    c.overlap = static_cast<T>(overlap);
-    c.radius = static_cast<T>(s.radius);
-    c.mass = static_cast<T>(s.mass);
+    Contact c;
+    c.normal = n;
+    c.overlap = overlap;
+    c.radius = s.radius;
+    c.mass = s.mass;
     if constexpr (Law::kRecords)
-      if (settings.gives_way)
-        c.mass = static_cast<T>(1 / (1 / s.mass + settings.mobility.along(closest, n)));
-    c.v_normal = static_cast<T>(v_normal);
+      if (settings.gives_way) c.mass = 1 / (1 / s.mass + settings.mobility.along(closest, n));
+    c.v_normal = v_normal;
     Vec3 along = v - v_normal * n;
     if constexpr (Law::kSurface)
       if (settings.surface_moves) along -= settings.surface.along(closest, n, settings.back);
-    c.v_tangent = vec_cast<T>(along - s.radius * cross(s.omega, n));
-    c.dt = static_cast<T>(settings.dt);
+    c.v_tangent = along - s.radius * cross(s.omega, n);
+    c.dt = settings.dt;
     c.update = settings.update;
     if constexpr (Law::kContactTorque) {
       // Rolling and twisting are relative to a wall that turns.
@@ -187,20 +182,19 @@ LSDCD_FN void add_contacts(const GridView &grid, const Law &law, const ForceSett
       if constexpr (Law::kSurface) omega -= settings.wall_angular + settings.surface.angular;
       if constexpr (Law::kNodes)
         if (settings.nodes.velocity) omega -= field_at(nodes, settings.nodes.spin);
-      c.omega = vec_cast<T>(omega);
+      c.omega = omega;
     }
     if constexpr (Law::kHeat)
-      if (law.has_heat())
-        c.temperature_difference = static_cast<T>(settings.wall_temperature - s.temperature);
+      if (law.has_heat()) c.temperature_difference = settings.wall_temperature - s.temperature;
 
     auto memory = begin_memory(law, grid.wall, settings, set, i, s);
     const auto f = law.evaluate(c, memory);
     if constexpr (Law::kHistory) {
       const int at = out.n_contacts;
-      sink.springs[at] = {vec_cast<Real>(memory.shear), n, set.feature[i], mesh};
+      sink.springs[at] = {memory.shear, n, set.feature[i], mesh};
       if constexpr (Law::kExtra > 0) store_extra(law, memory, sink.extra + at * n_extra(law));
     }
-    const Vec3 tangential = weight * vec_cast<Real>(f.tangential);
+    const Vec3 tangential = weight * f.tangential;
     if constexpr (Law::kRecords) {
       const Real normal = weight * f.normal, pressing = normal > 0 ? normal : Real(0);
       ContactRecord &record = sink.records[out.n_contacts];
@@ -215,7 +209,7 @@ LSDCD_FN void add_contacts(const GridView &grid, const Law &law, const ForceSett
     out.force += (weight * f.normal) * n + tangential;
     out.torque -= s.radius * cross(n, tangential);
     out.energy += weight * f.energy;
-    if constexpr (Law::kContactTorque) out.torque += weight * vec_cast<Real>(f.contact_torque);
+    if constexpr (Law::kContactTorque) out.torque += weight * f.contact_torque;
     if constexpr (Law::kHeat)
       if (law.has_heat()) *sink.heat += weight * f.heat;
     if (settings.with_point) {

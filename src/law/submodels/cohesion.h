@@ -12,19 +12,18 @@ enum class CohesionModel { none, sjkr };
 
 // `sjkr` of LIGGGHTS: k times the area in which a plane cuts the sphere, pi (R^2 - r^2)
 // with the centre's distance r = R - overlap. Friction does not see it.
-template <class T>
 struct SjkrCohesion {
-  T k;    // energy/length^3; 0: off
+  Real k;    // energy/length^3; 0: off
 
   LSDCD_FN bool is_on() const { return k > 0; }
-  LSDCD_FN T pull(const Contact<T> &c) const
+  LSDCD_FN Real pull(const Contact &c) const
   {
-    return T(kPi) * k * c.overlap * (2 * c.radius - c.overlap);
+    return kPi * k * c.overlap * (2 * c.radius - c.overlap);
   }
   // The energy of the surfaces in contact; < 0.
-  LSDCD_FN T energy(const Contact<T> &c) const
+  LSDCD_FN Real energy(const Contact &c) const
   {
-    return T(-kPi) * k * c.overlap * c.overlap * (c.radius - c.overlap / 3);
+    return -kPi * k * c.overlap * c.overlap * (c.radius - c.overlap / 3);
   }
 };
 

@@ -14,24 +14,22 @@ enum class DampingModel { none, velocity, mass_velocity, viscoelastic, stiffness
 
 // The classic styles: coefficient = scale m gamma.
 // gamma: 1/time with HookeNormal, 1/(time length) with HertzNormal.
-template <class T>
 struct MassVelocityDamping {
-  T gamma;
+  Real gamma;
 
-  LSDCD_FN T force(const Contact<T> &c, T scale) const
+  LSDCD_FN Real force(const Contact &c, Real scale) const
   {
     return -scale * c.mass * gamma * c.v_normal;
   }
 };
 
 // The models of `granular`. All contacts of a wall have the same one.
-template <class T>
 struct GranularDamping {
   DampingModel model;
-  T eta;
+  Real eta;
 
   // mass/time, at a contact of radius a with the elastic force f
-  LSDCD_FN T coefficient(const Contact<T> &c, T a, T f) const
+  LSDCD_FN Real coefficient(const Contact &c, Real a, Real f) const
   {
     switch (model) {
       case DampingModel::velocity:
@@ -41,8 +39,8 @@ struct GranularDamping {
       case DampingModel::viscoelastic:
         return eta * c.mass * a;
       case DampingModel::stiffness: {    // per root of mass times secant stiffness
-        const T stiffness = c.mass * f / c.overlap;
-        return stiffness > 0 ? eta * sqrt(stiffness) : T(0);
+        const Real stiffness = c.mass * f / c.overlap;
+        return stiffness > 0 ? eta * sqrt(stiffness) : 0;
       }
       default:
         return 0;

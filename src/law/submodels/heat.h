@@ -11,15 +11,14 @@ namespace lsdcd {
 enum class HeatModel { none, radius, area };
 
 // `radius`: 2 k a dT (Vargas and McCarthy 2001); `area`: h pi a^2 dT. Power.
-template <class T>
 struct Conduction {
   HeatModel model;
-  T conductance;    // power/(length temperature), power/(length^2 temperature)
+  Real conductance;    // power/(length temperature), power/(length^2 temperature)
 
   LSDCD_FN bool is_on() const { return model != HeatModel::none; }
-  LSDCD_FN T flow(const Contact<T> &c, T a) const
+  LSDCD_FN Real flow(const Contact &c, Real a) const
   {
-    const T per_kelvin = model == HeatModel::area ? T(kPi) * a * a : 2 * a;
+    const Real per_kelvin = model == HeatModel::area ? kPi * a * a : 2 * a;
     return conductance * per_kelvin * c.temperature_difference;
   }
 };

@@ -26,27 +26,25 @@ LSDCD_FN Real cutoff_of(Real radius, Real pull_off)
 // ---- the classic styles ------------------------------------------------------------------
 
 // Linear spring. k: force/length.
-template <class T>
 struct HookeNormal {
   static constexpr bool kUsesContactRadius = false;    // does force()?
-  T k;
+  Real k;
 
-  LSDCD_FN T contact_radius(const Contact<T> &c) const { return sqrt(c.overlap * c.radius); }
-  LSDCD_FN T force(const Contact<T> &c, T) const { return k * c.overlap; }
-  LSDCD_FN T energy(const Contact<T> &c, T) const { return T(0.5) * k * c.overlap * c.overlap; }
+  LSDCD_FN Real contact_radius(const Contact &c) const { return sqrt(c.overlap * c.radius); }
+  LSDCD_FN Real force(const Contact &c, Real) const { return k * c.overlap; }
+  LSDCD_FN Real energy(const Contact &c, Real) const { return 0.5 * k * c.overlap * c.overlap; }
 };
 
 // Hertz: F = k a overlap, a = sqrt(R overlap). k: force/length^2, 4/3 of the modulus.
-template <class T>
 struct HertzNormal {
   static constexpr bool kUsesContactRadius = true;
-  T k;
+  Real k;
 
-  LSDCD_FN T contact_radius(const Contact<T> &c) const { return sqrt(c.overlap * c.radius); }
-  LSDCD_FN T force(const Contact<T> &c, T a) const { return a * k * c.overlap; }
-  LSDCD_FN T energy(const Contact<T> &c, T a) const
+  LSDCD_FN Real contact_radius(const Contact &c) const { return sqrt(c.overlap * c.radius); }
+  LSDCD_FN Real force(const Contact &c, Real a) const { return a * k * c.overlap; }
+  LSDCD_FN Real energy(const Contact &c, Real a) const
   {
-    return T(0.4) * k * a * c.overlap * c.overlap;
+    return 0.4 * k * a * c.overlap * c.overlap;
   }
 };
 
@@ -58,28 +56,27 @@ struct HertzNormal {
 // `hooke`, `hertz` and `dmt` share one kernel: the choice is the same for all contacts of a wall. DMT
 // (Derjaguin, Muller and Toporov 1975) is Hertz minus a constant pull 4 pi gamma R while the spheres
 // touch.
-template <class T>
 struct TouchingNormal {
   static constexpr bool kBeyondContact = false;    // does it act past touch?
   NormalModel model;
-  T k;       // force/length (hooke), force/length^2
-  T pull;    // 4 pi gamma, force/length; 0 but for dmt
+  Real k;       // force/length (hooke), force/length^2
+  Real pull;    // 4 pi gamma, force/length; 0 but for dmt
 
   LSDCD_FN bool uses_contact_radius() const { return model != NormalModel::hooke; }    // in force()
-  LSDCD_FN T contact_radius(const Contact<T> &c) const { return sqrt(c.overlap * c.radius); }
-  LSDCD_FN T force(const Contact<T> &c, T a) const
+  LSDCD_FN Real contact_radius(const Contact &c) const { return sqrt(c.overlap * c.radius); }
+  LSDCD_FN Real force(const Contact &c, Real a) const
   {
     if (!uses_contact_radius()) return k * c.overlap;
     return a * k * c.overlap - pull * c.radius;
   }
-  LSDCD_FN T limit(const Contact<T> &c, T f, T normal) const
+  LSDCD_FN Real limit(const Contact &c, Real f, Real normal) const
   {
     return fabs(model == NormalModel::dmt ? f + 2 * pull * c.radius : normal);
   }
-  LSDCD_FN T energy(const Contact<T> &c, T a) const
+  LSDCD_FN Real energy(const Contact &c, Real a) const
   {
-    if (!uses_contact_radius()) return T(0.5) * k * c.overlap * c.overlap;
-    return T(0.4) * k * a * c.overlap * c.overlap - pull * c.radius * c.overlap;
+    if (!uses_contact_radius()) return 0.5 * k * c.overlap * c.overlap;
+    return 0.4 * k * a * c.overlap * c.overlap - pull * c.radius * c.overlap;
   }
 };
 
@@ -87,19 +84,19 @@ struct TouchingNormal {
 //   overlap = a^2/R - 2 sqrt(pi gamma a/E),
 // and the force is 4 E a^3/(3 R) - 4 sqrt(pi gamma E a^3). A contact that has touched holds until
 // the pull is greatest, 3 pi gamma R, at an overlap of -(3 pi^2 gamma^2 R/(16 E^2))^(1/3).
-template <class T>
 struct JkrNormal {
   static constexpr bool kBeyondContact = true;
-  T modulus, surface_energy;
-  T root;           // sqrt(pi gamma E)
-  T size;           // (4 pi gamma/E)^(1/3): a = size R^(2/3) y^2 with y = 1 at overlap 0
+  Real modulus, surface_energy;
+  Real root;        // sqrt(pi gamma E)
+  Real size;        // (4 pi gamma/E)^(1/3): a = size R^(2/3) y^2 with y = 1 at overlap 0
   Real pull_off;    // for a radius of 1; length^(2/3)
 
-  JkrNormal(T modulus_, T surface_energy_) : modulus(modulus_), surface_energy(surface_energy_)
+  JkrNormal(Real modulus_, Real surface_energy_) :
+      modulus(modulus_), surface_energy(surface_energy_)
   {
-    const Real ratio = Real(surface_energy_) / Real(modulus_);
-    root = static_cast<T>(sqrt(kPi * Real(surface_energy_) * Real(modulus_)));
-    size = static_cast<T>(cube_root(4 * kPi * ratio));
+    const Real ratio = surface_energy / modulus;
+    root = sqrt(kPi * surface_energy * modulus);
+    size = cube_root(4 * kPi * ratio);
     pull_off = cube_root(3 * kPi * kPi * ratio * ratio / 16);
   }
 
@@ -108,38 +105,38 @@ struct JkrNormal {
   // With a = s y^2, s = size R^(2/3), the overlap is y^4 - y in units of s^2/R. Newton's
   // method from above: the left side is convex and rises for y > 4^(-1/3) = 0.63, and
   // contacts hold down to y = (3/4)^(1/3) = 0.91.
-  LSDCD_FN T contact_radius(const Contact<T> &c) const
+  LSDCD_FN Real contact_radius(const Contact &c) const
   {
-    const T cube = static_cast<T>(cube_root(c.radius)), s = size * cube * cube;
-    const T unit = s * s / c.radius;
-    if (!(unit > 0)) return sqrt(c.overlap > 0 ? c.overlap * c.radius : T(0));
-    const T q = c.overlap / unit;
+    const Real cube = cube_root(c.radius), s = size * cube * cube;
+    const Real unit = s * s / c.radius;
+    if (!(unit > 0)) return sqrt(c.overlap > 0 ? c.overlap * c.radius : 0);
+    const Real q = c.overlap / unit;
     // Two upper bounds: one is close for small q, the other for large q.
-    T y = 1;
+    Real y = 1;
     if (q > 0) {
-      const T small = 1 + q / 3, large = 1 + sqrt(sqrt(q));
+      const Real small = 1 + q / 3, large = 1 + sqrt(sqrt(q));
       y = small < large ? small : large;
     }
     for (int k = 0; k < 6; k++) {
-      const T cubed = y * y * y;
+      const Real cubed = y * y * y;
       y -= (y * cubed - y - q) / (4 * cubed - 1);
     }
     return s * y * y;
   }
-  LSDCD_FN T force(const Contact<T> &c, T a) const
+  LSDCD_FN Real force(const Contact &c, Real a) const
   {
-    return T(4) / 3 * modulus * a * a * a / c.radius - 4 * root * a * sqrt(a);
+    return Real(4) / 3 * modulus * a * a * a / c.radius - 4 * root * a * sqrt(a);
   }
-  LSDCD_FN T limit(const Contact<T> &c, T f, T) const
+  LSDCD_FN Real limit(const Contact &c, Real f, Real) const
   {
-    return fabs(f + T(6 * kPi) * surface_energy * c.radius);
+    return fabs(f + 6 * kPi * surface_energy * c.radius);
   }
   // The elastic energy minus that of the surfaces in contact.
-  LSDCD_FN T energy(const Contact<T> &c, T a) const
+  LSDCD_FN Real energy(const Contact &c, Real a) const
   {
-    const T cubed = a * a * a, per_radius = 1 / c.radius;
-    return T(8) / 15 * modulus * cubed * a * a * per_radius * per_radius -
-           T(8) / 3 * root * cubed * sqrt(a) * per_radius + T(2 * kPi) * surface_energy * a * a;
+    const Real cubed = a * a * a, per_radius = 1 / c.radius;
+    return Real(8) / 15 * modulus * cubed * a * a * per_radius * per_radius -
+           Real(8) / 3 * root * cubed * sqrt(a) * per_radius + 2 * kPi * surface_energy * a * a;
   }
 };
 

@@ -22,56 +22,53 @@ enum class TangentialModel {
 };
 
 // Friction that grows with the slip velocity up to `limit`. `viscous`: force time/length.
-template <class T>
-LSDCD_FN Vec3Of<T> viscous_friction(const Vec3Of<T> &v_tangent, T viscous, T limit)
+LSDCD_FN Vec3 viscous_friction(const Vec3 &v_tangent, Real viscous, Real limit)
 {
-  const T speed = norm(v_tangent);
+  const Real speed = norm(v_tangent);
   if (!(speed > 0)) return {0, 0, 0};
-  const T drag = viscous * speed;
+  const Real drag = viscous * speed;
   return (-(drag < limit ? drag : limit) / speed) * v_tangent;
 }
 
 // ---- the classic styles ------------------------------------------------------------------
 
 // Viscous friction up to mu |F_normal| (`hooke`).
-template <class T>
 struct LinearNoHistory {
   static constexpr bool kHistory = false;
-  T gamma, mu;
+  Real gamma, mu;
 
-  LSDCD_FN Vec3Of<T> force(const Contact<T> &c, T, T f_normal, Vec3Of<T> &) const
+  LSDCD_FN Vec3 force(const Contact &c, Real, Real f_normal, Vec3 &) const
   {
     return viscous_friction(c.v_tangent, c.mass * gamma, mu * fabs(f_normal));
   }
-  LSDCD_FN T energy(T, const Vec3Of<T> &) const { return 0; }
+  LSDCD_FN Real energy(Real, const Vec3 &) const { return 0; }
 };
 
 // A spring and a dashpot in the tangent plane; where they exceed mu |F_normal|
 // the spring is cut back to what the limit allows (`*/history`; Silbert et al.
 // 2001). The shear displacement is moved with the contact where c.update is set.
-template <class T>
 struct LinearHistory {
   static constexpr bool kHistory = true;
-  T k, gamma, mu;
+  Real k, gamma, mu;
 
-  LSDCD_FN Vec3Of<T> force(const Contact<T> &c, T scale, T f_normal, Vec3Of<T> &shear) const
+  LSDCD_FN Vec3 force(const Contact &c, Real scale, Real f_normal, Vec3 &shear) const
   {
     if (c.update) shear += c.dt * c.v_tangent;
-    const T stretched = norm(shear);
+    const Real stretched = norm(shear);
     if (c.update) shear -= dot(shear, c.normal) * c.normal;
 
-    const Vec3Of<T> viscous = (c.mass * gamma) * c.v_tangent;
-    const Vec3Of<T> f = -scale * (k * shear + viscous);
-    const T size = norm(f), limit = mu * fabs(f_normal);
+    const Vec3 viscous = (c.mass * gamma) * c.v_tangent;
+    const Vec3 f = -scale * (k * shear + viscous);
+    const Real size = norm(f), limit = mu * fabs(f_normal);
     if (!(size > limit)) return f;
     if (!(stretched > 0)) return {0, 0, 0};
-    const T part = limit / size;
+    const Real part = limit / size;
     if (c.update && k > 0) shear = part * (shear + (1 / k) * viscous) - (1 / k) * viscous;
     return part * f;
   }
-  LSDCD_FN T energy(T scale, const Vec3Of<T> &shear) const
+  LSDCD_FN Real energy(Real scale, const Vec3 &shear) const
   {
-    return T(0.5) * scale * k * norm_sq(shear);
+    return 0.5 * scale * k * norm_sq(shear);
   }
 };
 
@@ -82,36 +79,35 @@ struct LinearHistory {
 // stiffness is proportional to the contact radius. `shear` is the displacement or, with `of_force`, the
 // spring's force. With `rescale` it shrinks as the contact unloads (Thornton et al.
 // 2013), for which the radius of the last step is stored. With `slip` it is cut alone.
-template <class T>
 struct GranularFriction {
-  T k, xgammat, mu;    // k: 0 where there is no spring
+  Real k, xgammat, mu;    // k: 0 where there is no spring
   bool spring, by_radius, of_force, rescale, slip;
 
-  LSDCD_FN T stiffness(T a) const { return by_radius ? k * a : k; }
-  LSDCD_FN Vec3Of<T> slip_force(const Contact<T> &c, T damping, T limit) const
+  LSDCD_FN Real stiffness(Real a) const { return by_radius ? k * a : k; }
+  LSDCD_FN Vec3 slip_force(const Contact &c, Real damping, Real limit) const
   {
     return viscous_friction(c.v_tangent, xgammat * damping, limit);
   }
   // a: contact radius. The scalar `at` is that of the last step.
   template <class Memory>
-  LSDCD_FN void rescale_spring(T a, Memory &m, int at) const
+  LSDCD_FN void rescale_spring(Real a, Memory &m, int at) const
   {
     if (a < m.extra[at]) m.shear = (a / m.extra[at]) * m.shear;
     m.extra[at] = a;
   }
   template <class Memory>
-  LSDCD_FN Vec3Of<T> spring_force(const Contact<T> &c, T a, T damping, T limit, Memory &m) const
+  LSDCD_FN Vec3 spring_force(const Contact &c, Real a, Real damping, Real limit, Memory &m) const
   {
-    const T stiff = stiffness(a);
+    const Real stiff = stiffness(a);
     if (c.update) m.shear += (of_force ? -stiff * c.dt : c.dt) * c.v_tangent;
 
-    const Vec3Of<T> viscous = (-xgammat * damping) * c.v_tangent;
+    const Vec3 viscous = (-xgammat * damping) * c.v_tangent;
     if (slip) return cut_apart(stiff, viscous, limit, m);
-    const Vec3Of<T> f = (of_force ? m.shear : -stiff * m.shear) + viscous;
-    const T size = norm(f);
+    const Vec3 f = (of_force ? m.shear : -stiff * m.shear) + viscous;
+    const Real size = norm(f);
     if (!(size > limit)) return f;
     if (!(norm_sq(m.shear) > 0)) return {0, 0, 0};
-    const Vec3Of<T> cut = (limit / size) * f;
+    const Vec3 cut = (limit / size) * f;
     if (of_force)
       m.shear = cut - viscous;
     else if (stiff > 0)
@@ -121,19 +117,19 @@ struct GranularFriction {
   // The limit cuts the spring first, then the sum. LAMMPS's form leaves the spring that gives the limit
   // together with the dashpot: in fast slip it is longer than the limit allows, or pulls along the slip.
   template <class Memory>
-  LSDCD_FN Vec3Of<T> cut_apart(T stiff, const Vec3Of<T> &viscous, T limit, Memory &m) const
+  LSDCD_FN Vec3 cut_apart(Real stiff, const Vec3 &viscous, Real limit, Memory &m) const
   {
-    const T pull = stiff * norm(m.shear);
+    const Real pull = stiff * norm(m.shear);
     if (pull > limit) m.shear = (limit / pull) * m.shear;
-    const Vec3Of<T> f = -stiff * m.shear + viscous;
-    const T size = norm(f);
+    const Vec3 f = -stiff * m.shear + viscous;
+    const Real size = norm(f);
     return size > limit ? (limit / size) * f : f;
   }
   template <class Memory>
-  LSDCD_FN T energy(T a, const Memory &m) const
+  LSDCD_FN Real energy(Real a, const Memory &m) const
   {
-    const T stiff = stiffness(a), sq = norm_sq(m.shear);
-    return of_force ? (stiff > 0 ? T(0.5) * sq / stiff : T(0)) : T(0.5) * stiff * sq;
+    const Real stiff = stiffness(a), sq = norm_sq(m.shear);
+    return of_force ? (stiff > 0 ? 0.5 * sq / stiff : 0) : 0.5 * stiff * sq;
   }
 };
 

@@ -11,48 +11,47 @@ namespace lsdcd {
 enum class TwistingModel { none, marshall, sds };
 
 // The coefficients of one contact.
-template <class T>
 struct TwistCoefficients {
-  T k, gamma, limit;    // torque/angle, torque time/angle, torque
+  Real k, gamma, limit;    // torque/angle, torque time/angle, torque
 };
 
 // `sds` and `marshall`: spring, dashpot and slider (Marshall 2009, equations 30 to 44).
 // The angle is the scalar `at` of the memory. `marshall` takes its coefficients from the
 // tangential ones and the contact radius.
-template <class T>
 struct SpringTwisting {
   TwistingModel model;
-  T k, gamma, mu;    // torque/angle, torque time/angle, length; not for marshall
+  Real k, gamma, mu;    // torque/angle, torque time/angle, length; not for marshall
 
   LSDCD_FN bool is_on() const { return model != TwistingModel::none; }
-  LSDCD_FN TwistCoefficients<T> coefficients(T limit_force, T a, T k_tangent, T gamma_tangent,
-                                             T mu_tangent) const
+  LSDCD_FN TwistCoefficients coefficients(Real limit_force, Real a, Real k_tangent,
+                                          Real gamma_tangent, Real mu_tangent) const
   {
     if (model != TwistingModel::marshall) return {k, gamma, mu * limit_force};
-    const T half_sq = T(0.5) * a * a;
-    return {half_sq * k_tangent, half_sq * gamma_tangent, T(2) / 3 * a * mu_tangent * limit_force};
+    const Real half_sq = 0.5 * a * a;
+    return {half_sq * k_tangent, half_sq * gamma_tangent,
+            Real(2) / 3 * a * mu_tangent * limit_force};
   }
 
   // The contact torque about the normal.
   template <class Memory>
-  LSDCD_FN T contact_torque(const Contact<T> &c, const TwistCoefficients<T> &t, Memory &m,
-                            int at) const
+  LSDCD_FN Real contact_torque(const Contact &c, const TwistCoefficients &t, Memory &m,
+                               int at) const
   {
-    const T rate = dot(c.omega, c.normal);
-    T angle = m.extra[at];
+    const Real rate = dot(c.omega, c.normal);
+    Real angle = m.extra[at];
     if (c.update) angle += c.dt * rate;
-    T contact_torque = -t.k * angle - t.gamma * rate;
+    Real contact_torque = -t.k * angle - t.gamma * rate;
     if (fabs(contact_torque) > t.limit) {
-      contact_torque = rate > 0 ? -t.limit : (rate < 0 ? t.limit : T(0));
+      contact_torque = rate > 0 ? -t.limit : (rate < 0 ? t.limit : 0);
       if (t.k > 0) angle = (-contact_torque - t.gamma * rate) / t.k;
     }
     m.extra[at] = angle;
     return contact_torque;
   }
   template <class Memory>
-  LSDCD_FN T energy(const TwistCoefficients<T> &t, const Memory &m, int at) const
+  LSDCD_FN Real energy(const TwistCoefficients &t, const Memory &m, int at) const
   {
-    return T(0.5) * t.k * m.extra[at] * m.extra[at];
+    return 0.5 * t.k * m.extra[at] * m.extra[at];
   }
 };
 
