@@ -4,7 +4,6 @@
 // From a sphere to its contacts: one for each local minimum of distance.
 #pragma once
 
-#include "contact/brick_geometry.h"
 #include "contact/contact_set.h"
 #include "contact/mesh_geometry.h"
 

@@ -4,8 +4,8 @@
 // The distance from one sphere to the wall, and whether it is certified.
 #pragma once
 
-#include "contact/brick_geometry.h"
 #include "geometry/primitive_distance.h"
+#include "query/brick_distances.h"
 
 #include <cstdint>
 
@@ -37,38 +37,6 @@ class MeshDistances {
  protected:
   const GridView &grid_;
   const Vec3 &q_;
-};
-
-// By copies of the records in float, in the frame of a brick. A primitive has a distance if the wall has a local
-// minimum of distance on it: past a shared side it is the neighbour that has one.
-class BrickDistances {
- public:
-  static constexpr bool kFloats = true;
-
-  LSDCD_FN BrickDistances(const GridView &grid, const Vec3 &q, const CellAddress &at) :
-      geometry_(grid, q, at)
-  {
-  }
-
-  LSDCD_FN Real primitive(FeatureCode code, Real within) const
-  {
-    if (feature_kind(code) != FeatureKind::face) return feature(code, within);
-    const FaceRegion over = geometry_.over(code, within);
-    if (over == FaceRegion::far) return kAnyDistance;
-    Real nearest = over == FaceRegion::outside ? kAnyDistance : feature(code, within);
-    if (over == FaceRegion::inside) return nearest;
-    for (FeatureCode part : geometry_.parts(code).part)
-      if (part != kNoFeature) nearest = fmin(nearest, feature(part, within));
-    return nearest;
-  }
-  LSDCD_FN Real feature(FeatureCode code, Real within) const
-  {
-    const ClosestPoint closest = geometry_.closest_point(code, within);
-    return closest.found ? closest.distance : kAnyDistance;
-  }
-
- private:
-  BrickGeometry geometry_;
 };
 
 // How a grid is searched: by which distances, and whether its lists are complete.

@@ -10,10 +10,10 @@
 
 #include "backend/backend_cpu.h"
 #include "base/input_error.h"
-#include "contact/brick_geometry.h"
 #include "grid/flat_grid.h"
 #include "grid/lookup/grid_on.h"
 #include "mesh/welded_mesh.h"
+#include "query/brick_distances.h"
 #include "query/point_query.h"
 
 #include <gtest/gtest.h>
@@ -267,7 +267,7 @@ TEST(query, answers_in_float_are_within_float_rounding_of_a_brick)
     for (int n : {0, 2, 4}) {
       const TriangleGrid grid = c.grid(n, true);
       const Answers a = ask(c, grid, c.spheres);
-      expect_right(c, a, 2 * BrickGeometry::tolerance(grid.view()), n > 0,
+      expect_right(c, a, 2 * BrickDistances::tolerance(grid.view()), n > 0,
                    "floats, " + std::to_string(n));
     }
   }
