@@ -756,6 +756,20 @@ TEST(engine, many_springs_take_shared_places)
   EXPECT_GT(three, 300);
 }
 
+// They are read by other rules than those of steps.
+TEST(engine, refuses_grids_for_queries)
+{
+  GridSettings floats, full;
+  floats.in_floats = true;
+  full.form = ListForm::full;
+  const std::unique_ptr<WallEngine> engine = on_cpu(EngineSettings());
+  for (GridSettings *g : {&floats, &full}) {
+    g->cutoff = 0.5;
+    const FlatGrid flat(build_grid(weld(floor_mesh(2, 1, 2), -1), *g));
+    EXPECT_THROW(engine->set_grid(flat.view()), std::logic_error) << g->in_floats;
+  }
+}
+
 // `n` spheres of one radius over another wall.
 struct OverWall : Particles {
   OverWall(const EngineSettings &settings, int n, const TriangleSoup &soup, Real radius) :
