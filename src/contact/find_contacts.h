@@ -46,30 +46,29 @@ LSDCD_FN void add_once(ContactSet<kMost> &set, FeatureCode feature, const Closes
   if (at < 0) set.add(feature, closest.normal, closest.distance);
 }
 
-// Adds the contact of a feature, if it has one. The geometry knows where the closest point is and what
-// codes stand for. `copy`: a copy of its record, or null.
-template <class Geometry, int kMost>
-LSDCD_FN void add_feature(const Geometry &geometry, FeatureCode code, Real radius,
+// Adds the contact of a feature, if it has one. `copy`: a copy of its record, or null.
+template <int kMost>
+LSDCD_FN void add_feature(const MeshGeometry &geometry, FeatureCode feature, Real radius,
                           ContactSet<kMost> &set, const FeatureRecord *copy = nullptr)
 {
-  const ClosestPoint closest = geometry.closest_point(code, radius, copy);
+  const ClosestPoint closest = geometry.closest_point(feature, radius, copy);
   if (closest.found && closest.distance < radius)
-    add_once(set, geometry.feature(code), closest, geometry.tolerance());
+    add_once(set, feature, closest, geometry.tolerance());
 }
 
 // The same as a function of its own, for searches that few spheres need: the tests of features are
 // long, and would be compiled into each law's kernels many times.
-template <class Geometry, int kMost>
-LSDCD_NOINLINE void add_feature_noinline(const Geometry &geometry, FeatureCode code, Real radius,
-                                         ContactSet<kMost> &set,
+template <int kMost>
+LSDCD_NOINLINE void add_feature_noinline(const MeshGeometry &geometry, FeatureCode feature,
+                                         Real radius, ContactSet<kMost> &set,
                                          const FeatureRecord *copy = nullptr)
 {
-  add_feature(geometry, code, radius, set, copy);
+  add_feature(geometry, feature, radius, set, copy);
 }
 
 // The contacts of a face and its edges and vertices. Over the inside of a face only the face is near.
-template <class Geometry, int kMost>
-LSDCD_NOINLINE void add_primitive(const Geometry &geometry, FeatureCode primitive, Real radius,
+template <int kMost>
+LSDCD_NOINLINE void add_primitive(const MeshGeometry &geometry, FeatureCode primitive, Real radius,
                                   ContactSet<kMost> &set)
 {
   if (feature_kind(primitive) == FeatureKind::face) {
@@ -83,21 +82,20 @@ LSDCD_NOINLINE void add_primitive(const Geometry &geometry, FeatureCode primitiv
   add_feature_noinline(geometry, primitive, radius, set);
 }
 
-template <class Geometry, int kMost>
+template <class Candidates, int kMost>
 LSDCD_FN void find_in_complete(const GridView &grid, const Vec3 &q, Real radius,
                                ContactSet<kMost> &set)
 {
   CellAddress at;
   Cell cell;
   if (!find_cell(grid, q, at, cell)) return;
-  const Geometry geometry(grid, q, at);
+  const MeshGeometry geometry(grid, q);
   if (cell.count == 1) {
     add_feature_noinline(geometry, cell.first, radius, set);
     return;
   }
   // The list is sorted by distance from the cell's centre: no feature past this bound can be
   // within the radius.
-  using Candidates = typename Geometry::Candidates;
   const Candidates candidates(grid.lists);
   const typename Candidates::Limit enough = candidates.limit(radius + norm(at.from_centre));
   for (std::uint32_t i = cell.first; i < cell.first + cell.count; i++) {
@@ -109,14 +107,14 @@ LSDCD_FN void find_in_complete(const GridView &grid, const Vec3 &q, Real radius,
 }
 
 // Returns the radius up to which the set is known to be complete.
-template <class Geometry, int kMost>
+template <int kMost>
 LSDCD_FN Real find_in_nearest(const GridView &grid, const Vec3 &q, Real radius,
                               ContactSet<kMost> &set)
 {
   CellAddress at;
   Cell cell;
   if (!find_cell(grid, q, at, cell)) return kAnyDistance;
-  const Geometry geometry(grid, q, at);
+  const MeshGeometry geometry(grid, q);
   if (cell.count == 1) {
     add_primitive(geometry, cell.first, radius, set);
     return kAnyDistance;
@@ -136,13 +134,13 @@ LSDCD_FN Real find_in_nearest(const GridView &grid, const Vec3 &q, Real radius,
 // Finds the local minima of the distance from q to the wall that are below `radius` (length, at
 // most grid.cutoff). With complete lists it finds all, with nearest lists those on the listed
 // primitives. Returns the radius up to which none can be missing.
-// The geometry must be the one that the grid was made for.
-template <class Geometry, int kMost>
+// Candidates: the form of the grid's complete lists.
+template <class Candidates, int kMost>
 LSDCD_FN Real find_contacts_in(const GridView &grid, const Vec3 &q, Real radius,
                                ContactSet<kMost> &set)
 {
-  if (grid.list_kind.has_primitives()) return find_in_nearest<Geometry>(grid, q, radius, set);
-  find_in_complete<Geometry>(grid, q, radius, set);
+  if (grid.list_kind.has_primitives()) return find_in_nearest(grid, q, radius, set);
+  find_in_complete<Candidates>(grid, q, radius, set);
   return kAnyDistance;
 }
 
@@ -151,8 +149,8 @@ template <int kMost>
 LSDCD_FN Real find_contacts(const GridView &grid, const Vec3 &q, Real radius,
                             ContactSet<kMost> &set)
 {
-  if (!grid.lists.is_packed()) return find_contacts_in<FullListGeometry>(grid, q, radius, set);
-  return find_contacts_in<MeshGeometry>(grid, q, radius, set);
+  if (!grid.lists.is_packed()) return find_contacts_in<FullCandidates>(grid, q, radius, set);
+  return find_contacts_in<PackedCandidates>(grid, q, radius, set);
 }
 
 // The outward pseudonormal of a feature: its dot product with (q - closest point)

@@ -15,20 +15,11 @@ enum class FaceRegion { far, outside, rim, inside };
 
 class MeshGeometry {
  public:
-  using Candidates = PackedCandidates;    // of complete lists
-
   LSDCD_FN MeshGeometry(const GridView &grid, const Vec3 &q) : grid_(grid), q_(q) {}
-  LSDCD_FN MeshGeometry(const GridView &grid, const Vec3 &q, const CellAddress &) :
-      grid_(grid), q_(q)
-  {
-  }
 
   // Closest points that are closer than kSamePoint times this (length) count as one.
   LSDCD_FN static Real tolerance(const GridView &grid) { return grid.tolerance; }
   LSDCD_FN Real tolerance() const { return grid_.tolerance; }
-
-  // The feature of the wall that a code in a list stands for.
-  LSDCD_FN FeatureCode feature(FeatureCode code) const { return code; }
 
   LSDCD_FN ClosestPoint closest_point(FeatureCode code, Real within,
                                       const FeatureRecord *copy = nullptr) const
@@ -37,7 +28,7 @@ class MeshGeometry {
   }
   // On a CPU: prefetches the records of n candidates of a large wall, from the first on.
   LSDCD_FN static void prefetch([[maybe_unused]] const GridView &grid,
-                                [[maybe_unused]] const Candidates &candidates,
+                                [[maybe_unused]] const PackedCandidates &candidates,
                                 [[maybe_unused]] std::uint32_t first,
                                 [[maybe_unused]] std::uint32_t n)
   {
@@ -69,13 +60,6 @@ class MeshGeometry {
  private:
   const GridView &grid_;
   const Vec3 &q_;
-};
-
-// The same where complete lists are full.
-class FullListGeometry : public MeshGeometry {
- public:
-  using Candidates = FullCandidates;
-  using MeshGeometry::MeshGeometry;
 };
 
 }    // namespace lsdcd

@@ -154,8 +154,7 @@ LSDCD_FN long not_listed(const GridView &grid, const FeatureLists &lists, const 
   WalkSet listed;
   for (int k = 0; k < lists.size(0); k++) {
     const ClosestPoint closest = geometry.closest_point(lists.code(0, k), cutoff);
-    if (closest.found)
-      listed.add(geometry.feature(lists.code(0, k)), closest.normal, closest.distance);
+    if (closest.found) listed.add(lists.code(0, k), closest.normal, closest.distance);
   }
   return not_in(cells, listed);
 }
@@ -200,7 +199,7 @@ LSDCD_FN Walks check_walk(const WalkMesh<T> &mesh, std::uint64_t i)
     out.steps++;
     out.touching += set.n > 0;
     compare_with_all(grid, mesh.features, mesh.n_features, q, w.cutoff, set, out);
-    find_contacts_in<MeshGeometry>(grid, q, w.cutoff, cells);
+    find_contacts_in<PackedCandidates>(grid, q, w.cutoff, cells);
     out.pruned += cells.n > 0 && !chosen;
     out.by_cells += not_listed(grid, lists, q, w.cutoff, cells);
     if (step > 0) continue;

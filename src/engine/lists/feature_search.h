@@ -150,7 +150,7 @@ template <unsigned kSize, class Found>
 LSDCD_FN bool for_each_within(const Warp<kSize> &warp, bool mine, const GridView &grid,
                               const FeatureSearch &search, const Found &found)
 {
-  using Candidates = MeshGeometry::Candidates;
+  using Candidates = PackedCandidates;
   const Candidates candidates(grid.lists);
   // Each half-space of a feature's region moves by the margin at most; one tolerance more is for
   // rounding.
