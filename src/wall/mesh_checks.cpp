@@ -186,12 +186,13 @@ void check_surface(Host &host, const WallSpec &settings, const MeshPart &m)
 {
   if (!host.is_first()) return;    // the first process has the mesh
   const PushReport push = faces_pushed(*m.grid.mesh(), m.spec.surface);
-  if (push.faces == 0) return;
+  if (push.area < kSlivers) return;
   host.warn(with_mesh_name(
       settings, m.index,
       "surface_vel and surface_angvel push " + std::to_string(push.faces) + " of " +
-          std::to_string(m.grid.report().facets) + " faces along their normals, by up to " +
-          number_text(push.component) + " (" + number_text(100 * push.share) +
+          std::to_string(m.grid.report().facets) + " faces, " + number_text(100 * push.area) +
+          " % of the area, along their normals, by up to " + number_text(push.component) + " (" +
+          number_text(100 * push.share) +
           " % of the speed there). That part is left out: the mesh itself stays where it "
           "is, and lifters, blades and screws convey nothing. To move the mesh itself, "
           "use the keyword motion"));

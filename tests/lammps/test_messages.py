@@ -79,9 +79,9 @@ def main():
         checks.fact("and what to do", "stays where it is" in told[0] and
                     "use the keyword motion" in told[0])
     text = lmp.run_well(BOX + fix(turning, mesh="drum.stl") + "run 1\n", folder)
-    checks.fact("a drum without lifters is not warned of", "faces along" not in text)
+    checks.fact("a drum without lifters is not warned of", "along their normals" not in text)
     text = lmp.run_well(BOX + fix("surface_vel 1 0 0") + "run 1\n", folder)
-    checks.fact("nor a belt", "faces along" not in text)
+    checks.fact("nor a belt", "along their normals" not in text)
 
     # Whose warning, and of which atom.
     deep = "set group all z 0.3\n"
