@@ -162,14 +162,8 @@ void BoxChecks::check_pose(const MeshPart &m, const Pose &at, const PeriodicBox 
   for (int k = 0; k < 3; k++) {
     if (!box.periodic[k] || (m.keeps_edge(box, k) && !m.has_coat())) continue;
     const Real depth = (cutoff + box.margin) / box.width(k);
-    const auto is_clear = [depth](Real f) { return f > depth && f < 1 - depth; };    // a NaN is not
-    bool clear = true;
-    for_corners(m.bounds(0),
-                [&](const Vec3 &corner) { clear &= is_clear(box.fraction(at.to_box(corner))[k]); });
-    if (clear) continue;
     Real lo, hi;
-    m.find_range(box, k, at, lo, hi);
-    if (is_clear(lo) && is_clear(hi)) continue;
+    if (!m.reaches(box, k, depth, at, lo, hi)) continue;
     const std::string axis(1, "xyz"[k]);
     if (m.keeps_edge(box, k))
       throw InputError(named(m, "the coat of the body comes to the periodic face in " + axis +
@@ -187,34 +181,28 @@ void BoxChecks::check_pose(const MeshPart &m, const Pose &at, const PeriodicBox 
   }
 }
 
-// One that begins past a face is meant to be there, and so may be one that only slides, as a gate.
-void BoxChecks::check_turning_out(const MeshPart &m, const PeriodicBox &box)
+void BoxChecks::look_ahead(const MeshPart &m, const PeriodicBox &box, Real cutoff)
 {
-  constexpr int kSamples =
-      64;    // the farthest point is missed by a thousandth of the mesh's radius
-  constexpr Real kTolerance = 1e-3;    // of the box: a drum that fits it turns within it
+  constexpr int kSamples = 64;    // points of a turn are missed by a thousandth of its radius
+  constexpr Real kPast = 1e-3;    // of the box: a drum that fits it turns within it
   const Real period = m.spec.motion.longest_period();
+  if (m.nodes || period <= 0 || m.motion.has_inputs()) return;
+  const auto pose = [&](int i) { return m.motion.pose_in(period * i / kSamples); };
+  for (int i = 1; i < kSamples; i++) check_pose(m, pose(i), box, cutoff, "");
+
   bool &warned = warned_[m.index].turning_out_warned;
-  if (warned || period <= 0 || m.motion.has_inputs()) return;
-  for (int k = 0; k < 3; k++) {
+  for (int k = 0; k < 3 && !warned; k++) {
     if (box.periodic[k] || box.follows(k) || (k == 2 && box.dimension == 2)) continue;
-    bool clear = true;
     Real lo, hi, least = 0, most = 1;
-    for (int i = 0; i < kSamples; i++) {
-      const Pose at = m.motion.pose_in(period * i / kSamples);
-      if (i > 0)
-        for_corners(m.bounds(0), [&](const Vec3 &corner) {
-          const Real f = box.fraction(at.to_box(corner))[k];
-          clear &= f >= -kTolerance && f <= 1 + kTolerance;
-        });
-      if (i > 0 && clear) continue;
-      m.find_range(box, k, at, lo, hi);
-      if (i == 0 && (lo < -kTolerance || hi > 1 + kTolerance)) break;
+    // One that begins past a face is meant to be there.
+    if (m.reaches(box, k, -kPast, pose(0), lo, hi)) continue;
+    for (int i = 1; i < kSamples; i++) {
+      if (!m.reaches(box, k, -kPast, pose(i), lo, hi)) continue;
+      warned = true;
       least = std::min(least, lo);
       most = std::max(most, hi);
     }
-    if (least >= -kTolerance && most <= 1 + kTolerance) continue;
-    warned = true;
+    if (!warned) continue;
     const std::string axis(1, "xyz"[k]);
     host_.warn(named(m, "the mesh will turn out of the box: in " + axis + " it will reach from " +
                             number_text(least) + " to " + number_text(most) + " of the box. " +
@@ -222,22 +210,15 @@ void BoxChecks::check_turning_out(const MeshPart &m, const PeriodicBox &box)
                             "s that it carries out of the box are lost: make the box larger in " +
                             axis + ", or " + host_.remedy(Remedy::follow_spheres) +
                             ". This warning is shown once"));
-    return;
   }
 }
 
 void BoxChecks::check_moving(const PeriodicBox &box, Real cutoff, const Step &now)
 {
-  constexpr int kSamples = 256;
   for (const MeshPart &m : meshes_) {
-    const RigidMotion &motion = m.spec.motion;
     if (!m.moves()) continue;
     check_pose(m, m.motion.pose(), box, cutoff, " at step " + std::to_string(now.number));
-    if (m.nodes) continue;
-    if (now.kind != Step::step) check_turning_out(m, box);
-    if (now.kind == Step::step || m.motion.has_inputs()) continue;
-    for (int i = 1; i < kSamples; i++)
-      check_pose(m, m.motion.pose_in(motion.longest_period() * i / kSamples), box, cutoff, "");
+    if (now.kind != Step::step) look_ahead(m, box, cutoff);
   }
 }
 

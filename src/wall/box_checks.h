@@ -56,7 +56,7 @@ class BoxChecks {
   void check_small(const MeshPart &m, const PeriodicBox &box, Real radius) const;
   void check_pose(const MeshPart &m, const Pose &at, const PeriodicBox &box, Real cutoff,
                   const std::string &when) const;
-  void check_turning_out(const MeshPart &m, const PeriodicBox &box);
+  void look_ahead(const MeshPart &m, const PeriodicBox &box, Real cutoff);
 
   // Checks that were made of a mesh.
   struct Warned {

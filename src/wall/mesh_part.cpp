@@ -16,26 +16,34 @@ Box MeshPart::bounds(Real past) const
   return {box.lo - more, box.hi + more};
 }
 
-void MeshPart::find_range(const PeriodicBox &box, int k, const Pose &at, Real &lo, Real &hi) const
+// The box around it is looked at first, then each vertex.
+bool MeshPart::reaches(const PeriodicBox &box, int k, Real depth, const Pose &at, Real &lo,
+                       Real &hi) const
 {
+  const auto is_clear = [depth](Real f) { return f > depth && f < 1 - depth; };    // a NaN is not
+  bool clear = true;
+  for_corners(bounds(0),
+              [&](const Vec3 &corner) { clear &= is_clear(box.fraction(at.to_box(corner))[k]); });
+  if (clear) return false;
   Real range[2];
-  if (nodes) {
-    range[0] = HUGE_VAL;
-    range[1] = -HUGE_VAL;
-    for (const Vec3 &x : nodes->mesh().vertices) {
-      const Real part = box.fraction(x)[k];
-      range[0] = std::min(range[0], part);
-      range[1] = std::max(range[1], part);
+  if (const WeldedMesh *own = mesh()) {
+    const Vec3 across = cross(box.edge[(k + 1) % 3], box.edge[(k + 2) % 3]),
+               along = at.turn_to_mesh(across);
+    Real least = HUGE_VAL, most = -HUGE_VAL;
+    for (const Vec3 &x : own->vertices) {
+      const Real way = dot(along, x);
+      least = std::min(least, way);
+      most = std::max(most, way);
     }
-  } else if (grid.mesh()) {
-    if (!vertices_) vertices_ = std::make_unique<PointTree>(grid.mesh()->vertices);
-    const Vec3 along = at.turn_to_mesh(cross(box.edge[(k + 1) % 3], box.edge[(k + 2) % 3]));
-    range[0] = box.fraction(at.to_box(vertices_->farthest_along(-1 * along)))[k];
-    range[1] = box.fraction(at.to_box(vertices_->farthest_along(along)))[k];
+    const Real begin = dot(across, at.to_box({0, 0, 0}) - box.corner),
+               whole = dot(across, box.edge[k]);
+    range[0] = (begin + least) / whole;
+    range[1] = (begin + most) / whole;
   }
   host_.broadcast(range, sizeof range, 0);
   lo = range[0];
   hi = range[1];
+  return !(is_clear(lo) && is_clear(hi));
 }
 
 // It does where it moves across that edge and turns about nothing but it.

@@ -4,7 +4,6 @@
 // One mesh of a wall: its spec and grid, and where it is.
 #pragma once
 
-#include "mesh/point_tree.h"
 #include "wall/mesh_body.h"
 #include "wall/mesh_grid.h"
 #include "wall/mesh_motion.h"
@@ -52,17 +51,10 @@ struct MeshPart {
   // Of its features. Where nodes move on a GPU, they may be those of an earlier step.
   MeshFeaturesView records() const { return nodes ? nodes->records() : grid.view().wall; }
 
-  // Its vertices go elsewhere, as of MeshGrid. Collective.
-  void move_vertices(const std::vector<Vec3> &at)
-  {
-    grid.move_vertices(at);
-    vertices_.reset();
-  }
-
   Box bounds(Real past) const;    // in its own frame, and `past` (length) beyond
-  // From where to where its vertices go along edge k of the box at a pose, as parts of the box.
-  // Collective.
-  void find_range(const PeriodicBox &box, int k, const Pose &at, Real &lo, Real &hi) const;
+  // Does it go, at a pose, to less than `depth` (a part of the box) from one of the faces that edge k of the box joins? Then lo
+  // and hi become from where to where it goes, as parts of the box. Collective.
+  bool reaches(const PeriodicBox &box, int k, Real depth, const Pose &at, Real &lo, Real &hi) const;
   // Does it look the same from each of its images across the faces that edge k joins?
   bool keeps_edge(const PeriodicBox &box, int k) const;
   // The box of what can touch it, from its own frame.
@@ -70,7 +62,6 @@ struct MeshPart {
 
  private:
   Host &host_;
-  mutable std::unique_ptr<PointTree> vertices_;    // of a process that has the mesh; once asked for
 };
 
 }    // namespace lsdcd

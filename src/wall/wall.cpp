@@ -554,7 +554,7 @@ void Wall::recede(const Step &step)
                    "apart: keep it away from periodic faces by the largest radius"));
     std::vector<Vec3> at;
     if (!m.wear->recede(m.grid.mesh(), step.number, at)) continue;
-    m.move_vertices(at);
+    m.grid.move_vertices(at);
     grids_.follow_shape(m);
     engine_->expire_choice();
   }
@@ -1057,7 +1057,7 @@ void Wall::restore_shape(MeshPart &m, const ShapeState &was)
   for (std::size_t k = 0; k < was.vertices.size(); k += 3)
     at.push_back({was.vertices[k], was.vertices[k + 1], was.vertices[k + 2]});
   m.wear->restore(was);
-  m.move_vertices(at);
+  m.grid.move_vertices(at);
   grids_.follow_shape(m);
 }
 

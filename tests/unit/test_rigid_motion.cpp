@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // Poses and velocities of moving meshes against closed forms in long double.
-#include "mesh/point_tree.h"
 #include "motion/motion.h"
 
 #include <gtest/gtest.h>
@@ -223,26 +222,6 @@ TEST(wall_motion, bounds_the_way_and_speed_of_points_of_a_box)
   const Box turned = placed_bounds(motion.pose_at(2), box);
   EXPECT_EQ(turned.lo, (Vec3{-2, -3, -1}));
   EXPECT_EQ(turned.hi, (Vec3{4, 1, 1}));
-}
-
-TEST(PointTree, finds_the_farthest_of_all_points)
-{
-  // On a sphere, in the order of turns about z, so that each is farther than the last along some axis.
-  std::vector<Vec3> points;
-  constexpr int kPoints = 5000;
-  for (int i = 0; i < kPoints; i++) {
-    const Real z = -1 + (2.0 * i + 1) / kPoints, r = std::sqrt(1 - z * z);
-    points.push_back({r * std::cos(0.7 * i), r * std::sin(0.7 * i), z});
-  }
-  const PointTree tree(points);
-  std::vector<Vec3> directions = {{1, 0, 0},  {-1, 0, 0}, {0, 1, 0},
-                                  {0, -1, 0}, {0, 0, 1},  {0, 0, -1}};
-  for (int i = 0; i < 200; i++) directions.push_back(std::cos(i) * points[23 * i] - points[17 * i]);
-  for (const Vec3 &along : directions) {
-    Real most = -HUGE_VAL;
-    for (const Vec3 &x : points) most = std::max(most, dot(along, x));
-    EXPECT_EQ(dot(along, tree.farthest_along(along)), most);
-  }
 }
 
 }    // namespace
