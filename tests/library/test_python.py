@@ -274,6 +274,68 @@ class Processes:
         data[:] = self.meet(data)[source]
 
 
+def check_copied_arrays(wall, given):
+    """What is not contiguous float64 is copied, and forces come to where they are asked for: 0.51 - 0.5 of overlap at z 0.49."""
+    rows = np.zeros((2, 4, 3), np.float32)
+    rows[0, 0, 2] = 0.484375    # exact in float32: the overlap is 0.015625
+    force, torque = rows[1, :1], np.zeros((1, 6))[:, ::2]
+    force[:] = 0.5
+    wall.step(**{**given, "x": rows[0, :1], "v": np.zeros((1, 6))[:, ::2], "radius": np.full(2, 0.5)[::2], "mass": np.ones(1, int),
+                 "force": force, "torque": torque})
+    fact("columns and float32 are copied, and forces are added", (rows[1, 0] == (0.5, 0.5, 0.5 + 15.625)).all(), rows[1, 0])
+    x = np.array([[0, 0, 0.49]])
+    wall.step(**{**given, "x": x})
+    x.resize((2, 3))
+    fact("arrays of the last step can be resized", x.shape == (2, 3))
+
+
+def check_specs():
+    """Specs print and are pickled as the call that made them, a mesh has arrays, a wall's meshes have names, and `with` closes."""
+    square = np.array([[-5, -5, 0], [5, -5, 0], [5, 5, 0], [-5, 5, 0]], float)
+    mesh = lsdcd.Mesh(square, [[0, 1, 2], [0, 2, 3]])
+    axis = np.array([0.0, 0, 1])
+    law = lsdcd.Law("hooke", kn=1000, kt=0, gamman=0, gammat=None, xmu=0, dampflag=0)
+    granular = lsdcd.Law.granular(lsdcd.SubModel("hertz", kn=1e4, eta=1), lsdcd.SubModel("linear_nohistory", xgammat=1, mu=0.5))
+    specs = (law, granular, lsdcd.Motion.rotate((0, 0, 0), axis, 2.0), lsdcd.Servo(axis, 5.0, 1.0, limits=(-1, 1)),
+             lsdcd.RigidBody(2.0, joint="hinge", axis=axis), lsdcd.Motion.table(np.arange(8.0).reshape(2, 4)))
+    printed = [repr(spec) for spec in specs]
+    axis[:] = 7
+    fact("specs print as the call that made them", printed[0] ==
+         "Law(style='hooke', kn=1000, kt=0, gamman=0, gammat=None, xmu=0, dampflag=0)", printed[0])
+    fact("class methods, too, and arrays are as they were", printed[2] ==
+         "Motion.rotate(point=(0, 0, 0), axis=array([0., 0., 1.]), period=2.0)" == repr(specs[2]), printed[2])
+    again = [pickle.loads(pickle.dumps(spec)) for spec in specs]
+    fact("pickled specs print alike", [repr(spec) for spec in again] == printed, again)
+    walls = [lsdcd.Wall(lsdcd.WallSpec(of, [lsdcd.WallMesh(mesh)])) for of in (law, again[0], granular, again[1])]
+    force = np.zeros((4, 1, 3))
+    for k, wall in enumerate(walls):
+        wall.step(np.array([[0, 0, 0.49]]), np.ones((1, 3)), np.ones((1, 3)), np.full(1, 0.5), np.ones(1), force[k], np.zeros((1, 3)), 1e-3)
+    fact("a pickled law has the forces of the first", (force[0] == force[1]).all() and (force[2] == force[3]).all() and
+         force[0].any() and (force[0] != force[2]).any(), force)
+
+    class Others:    # as trimesh has meshes
+        vertices, faces = square, np.array([[0, 1, 2], [0, 2, 3]])
+
+    taken = lsdcd.Mesh(Others())
+    fact("a mesh is made of what has vertices and faces", (taken.vertices == mesh.vertices).all() and (taken.faces == mesh.faces).all())
+    fact("vertices and faces are those of the welded mesh", mesh.vertices.shape == (4, 3) and mesh.faces.tolist() == [[0, 1, 2], [0, 2, 3]])
+    fact("a mesh made of a mesh is the same", (lsdcd.Mesh(mesh).vertices == mesh.vertices).all())
+
+    lid = lsdcd.WallMesh(mesh, "lid", placement=lsdcd.Placement().move(0, 0, 1), posed_by_caller=True)
+    with lsdcd.Wall(lsdcd.WallSpec(law, [lsdcd.WallMesh(mesh), lid])) as wall:
+        wall.set_pose("lid", position=(0, 0, 2))
+        wall.step(np.array([[0, 0, 0.49]]), np.zeros((1, 3)), np.zeros((1, 3)), np.full(1, 0.5), np.ones(1), np.zeros((1, 3)),
+                  np.zeros((1, 3)), 1e-3)
+        fact("meshes go by their names", (wall.pose("lid") == wall.pose(1)).all() and wall.pose("lid")[2, 3] == 2 and
+             wall.totals("mesh 1").contacts == 1 and wall.totals("lid").contacts == 0)
+        refused("a name that there is not", "no mesh is called; there are 'mesh 1', 'lid'", lambda: wall.pose("cover"), ValueError)
+    refused("a wall after `with`", "`wall` is null", lambda: wall.totals(), lsdcd.Error)
+    with lsdcd.Mesh(square, [[0, 1, 2]]) as closed:
+        part = lsdcd.WallMesh(closed)
+    refused("a mesh that has been closed", "meshes[0]: its Mesh has been closed", lambda: lsdcd.Wall(lsdcd.WallSpec(law, [part])),
+            ValueError)
+
+
 def check_processes():
     """A sphere that slides on a floor at z = 0 goes to another process; the wall of each is in a thread."""
     words = "hooke/history 1000 300 0 0 0.5 0 mesh {} device cpu"
@@ -493,10 +555,12 @@ def check_wall_arrays():
         refused("an array on a device is refused", "on CUDA device 3, and the wall was made for arrays on the host",
                 lambda: wall.step(**{**given, "x": OnCuda((1, 3), "<f8")}))
         for name, wrong, kind in (("force", [[0, 0, 0]], TypeError), ("x", np.zeros((2, 3)), ValueError),
-                                  ("x", np.zeros((1, 3), np.float32), TypeError), ("x", np.zeros((1, 6))[:, ::2], ValueError),
+                                  ("x", np.zeros((1, 3), complex), TypeError), ("force", np.zeros((1, 3), int), TypeError),
+                                  ("type", np.ones(1), TypeError),
                                   ("mass", np.ones((1, 1)), ValueError), ("radius", 0.5, ValueError)):
-            refused(f"{name} as {type(wrong).__name__} {np.shape(wrong)} is refused", "not a contiguous float64 array of shape",
+            refused(f"{name} as {type(wrong).__name__} {np.shape(wrong)} is refused", "is not a contiguous ",
                     lambda name=name, wrong=wrong: wall.step(**{**given, name: wrong}), kind)
+        check_copied_arrays(wall, given)
         fixed = np.zeros((1, 3))
         fixed.flags.writeable = False
         refused("a force that cannot be written is refused", "cannot be written", lambda: wall.step(**{**given, "force": fixed}),
@@ -898,6 +962,7 @@ if __name__ == "__main__":
     check_device_path()
     check_processes()
     check_wall_specs()
+    check_specs()
     check_wall_arrays()
     check_saved_states()
     check_given_values()

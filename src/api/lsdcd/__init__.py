@@ -30,7 +30,7 @@ import math
 import os
 import re
 import threading
-from typing import Any, Callable, Iterable, Mapping, Protocol, Sequence
+from typing import Any, Callable, Iterable, Mapping, Protocol, Sequence, runtime_checkable
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -93,29 +93,39 @@ class MeshArrays(_Record):
     welded_face: NDArray[np.uint32]
 
 
+@runtime_checkable
+class HasFaces(Protocol):
+    """A mesh of another library."""
+    vertices: Any    # (m, 3)
+    faces: Any       # (n, 3), whole numbers from 0
+
+
 class Mesh(_Owner):
-    """From a file (STL, OBJ, PLY or OFF); from triangles, (n, 3, 3); or from vertices,
-    (m, 3), and faces, (n, 3), whole numbers from 0. Corners closer than `weld`, a length, become one; < 0: equal
+    """From a file (STL, OBJ, PLY or OFF); from triangles, (n, 3, 3); from vertices, (m, 3), and faces, (n, 3), whole
+    numbers from 0; or from what has both as `vertices` and `faces`, as meshes of trimesh have. Corners closer than `weld`, a length, become one; < 0: equal
     ones, and those on open edges within 1e-6 of the part that edges connect. Raises ValueError for another shape and a vertex that there is not, TypeError for faces that are not
     whole numbers, Error, a ValueError, too, for a file that cannot be read. Any number of threads may share it."""
     _free = _lib.lsdcd_mesh_free
 
-    def __init__(self, source: str | bytes | os.PathLike[str] | ArrayLike, faces: ArrayLike | None = None,
+    def __init__(self, source: str | bytes | os.PathLike[str] | ArrayLike | HasFaces, faces: ArrayLike | None = None,
                  weld: float = -1.0) -> None:
         super().__init__()
+        given: Any = source
+        if faces is None and isinstance(given, HasFaces):
+            given, faces = given.vertices, given.faces
         weld = _c_double(weld, "weld")
-        if isinstance(source, (str, bytes, os.PathLike)):
-            _check(_lib.lsdcd_mesh_read(_c_text(source, "the file's name"), weld, ctypes.byref(self._handle)))
+        if isinstance(given, (str, bytes, os.PathLike)):
+            _check(_lib.lsdcd_mesh_read(_c_text(given, "the file's name"), weld, ctypes.byref(self._handle)))
             return
         if faces is not None:
-            vertices = np.ascontiguousarray(_as_floats(source, "vertices"))
+            vertices = np.ascontiguousarray(_as_floats(given, "vertices"))
             if vertices.ndim != 2 or vertices.shape[1] != 3:
                 raise ValueError(f"vertices have the shape {vertices.shape}, not (m, 3)")
             numbers = _vertex_numbers(faces, len(vertices))
             _check(_lib.lsdcd_mesh_from_faces(vertices.ctypes.data, int(vertices.dtype == np.float32), len(vertices),
                                               numbers.ctypes.data, len(numbers), weld, ctypes.byref(self._handle)))
             return
-        corners = np.ascontiguousarray(_as_floats(source, "triangles"), dtype=np.float64)
+        corners = np.ascontiguousarray(_as_floats(given, "triangles"), dtype=np.float64)
         if corners.ndim != 3 or corners.shape[1:] != (3, 3):
             raise ValueError(f"triangles have the shape {corners.shape}, not (n, 3, 3)")
         _check(_lib.lsdcd_mesh_from_corners(corners.ctypes.data, len(corners), weld,
@@ -124,6 +134,19 @@ class Mesh(_Owner):
     @property
     def facts(self) -> MeshFacts:
         return MeshFacts(**_facts(_MeshFacts, _lib.lsdcd_mesh_get_facts, self._handle))
+
+    def __repr__(self) -> str:
+        return f"<Mesh of {self.facts.triangles} triangles>" if self._handle else "<Mesh, closed>"
+
+    @property
+    def vertices(self) -> NDArray[np.float64]:
+        """(V, 3), length, of the welded mesh: arrays().vertices."""
+        return self.arrays().vertices
+
+    @property
+    def faces(self) -> NDArray[np.uint32]:
+        """(F, 3), vertices of each face of the welded mesh: arrays().faces."""
+        return self.arrays().faces
 
     def arrays(self) -> MeshArrays:
         """The welded mesh, whose numbers, from 0, features have."""
@@ -614,7 +637,7 @@ class BodyState(_Record):
 
 
 class Wall(_Owner):
-    """A wall of meshes that pushes spheres, by a WallSpec. `lo`, `hi`: the
+    """A wall of meshes that pushes spheres, by a WallSpec. Where a method takes a mesh, it is its number, from 0, or its name. `lo`, `hi`: the
     box of the spheres' centres, None: wherever they go; `periodic`: along x, y, z, with `margin`, how far past a
     face a sphere may go before the caller puts it back. `show(text, warning)` gets each line of the log. One
     thread at a time.
@@ -676,6 +699,7 @@ class Wall(_Owner):
             if place is not None:
                 setattr(options, name, (_real * 3)(*place))
         made = (ctypes.byref(options), ctypes.byref(self._handle))
+        self._names = spec._names() if isinstance(spec, WallSpec) else []
         if isinstance(spec, WallSpec):
             self._do(_lib.lsdcd_wall_from_spec, ctypes.byref(spec._struct), *made)
         else:
@@ -696,8 +720,8 @@ class Wall(_Owner):
              setup: bool = False, changed: bool = False, reach: float = 0.0, temperature: Any = None, heat: Any = None,
              type: Any = None, synchronous: bool = False) -> None:
         """Adds to `force` and `torque`, (n, 3), and with a law of heat to `heat`, (n,), what the wall does in a
-        step of `dt`. All arrays are contiguous float64, of numpy or with `__dlpack__` or `__cuda_array_interface__`,
-        where the wall was made for. `setup`: the forces with which a run begins; `changed`: radii grew since the last
+        step of `dt`. Arrays are of numpy or with `__dlpack__` or `__cuda_array_interface__`, where the wall was made for. Contiguous
+        float64 is used in place; on the host others, as columns of a larger array or float32, are copied. `setup`: the forces with which a run begins; `changed`: radii grew since the last
         step. New spheres are at the end. `type`: int32, for laws by type. `synchronous`: velocities of spheres, poses and nodes are of
         the time of their places; else of half a step before, as velocity Verlet has them when it asks for forces.
 
@@ -712,22 +736,50 @@ class Wall(_Owner):
         given = {name: (array, (*n, 3)) for name, array in vectors.items()}
         given |= {name: (array, n) for name, array in numbers.items()}
         optional = ("temperature", "heat", "type")
-        arrays = {name: self._array(array, name, shape) for name, (array, shape) in given.items()
+        added: list[tuple[Any, Any]] = []    # arrays of the caller, and what comes to them
+        arrays = {name: self._array(array, name, shape, added) for name, (array, shape) in given.items()
                   if array is not None or name not in optional}
         spheres = _sized(_Spheres, n=math.prod(n), **{name: array.address for name, array in arrays.items()})
         step = _sized(_WallStep, dt=dt, setup=_flag(setup, "setup"), changed=_flag(changed, "changed"), reach=reach,
                       synchronous=_flag(synchronous, "synchronous"))
-        before, self._arrays = self._arrays, arrays
+        # Errors of the last step may be told in this one, whose arrays are then still there.
+        before, self._arrays = self._arrays, arrays if self._on_device or self._host else None
         self._do(_lib.lsdcd_wall_step_spheres, self._handle, ctypes.byref(spheres), ctypes.byref(step))
-        del before    # errors of the last step were told in this one
+        for to, what in added:
+            to += what
+        del before
 
-    def _array(self, values: Any, name: str, shape: tuple[int, ...]) -> _arrays.Array:
-        """An array of spheres, in place."""
+    def _mesh(self, mesh: int | str) -> int:
+        """The number of a mesh that is given by its number or its name."""
+        if not isinstance(mesh, str):
+            return _c_int(mesh, "mesh")
+        if self._names.count(mesh) != 1:
+            raise ValueError(f"mesh is {mesh!r}, which {'several meshes are' if mesh in self._names else 'no mesh is'} called; "
+                             f"there are {', '.join(map(repr, self._names))}")
+        return self._names.index(mesh)
+
+    def _mesh_or_all(self, mesh: int | str | None) -> int:
+        """All of C is -1."""
+        if mesh is None:
+            return -1
+        number = self._mesh(mesh)
+        if number < 0:
+            raise ValueError(f"mesh is {number}; meshes count from 0, and None is all of them")
+        return number
+
+    def _array(self, values: Any, name: str, shape: tuple[int, ...],
+               added: list[tuple[Any, Any]] | None = None) -> _arrays.Array:
+        """An array of spheres, in place. With `added` what cannot be used in place on the host is copied; what is added to it comes
+        to a new array of zeros, and both are appended to `added`."""
         array = _arrays.read(values, name, _arrays.stream_handle(self._stream)) if _is_array(values) else None
         kind = np.dtype(np.int32 if name == "type" else np.float64)
         packed = (3, 1)[2 - len(shape):]
         wrong_type = array is None or array.dtype != kind
         if array is None or wrong_type or array.shape != shape or array.steps(len(shape) - 1) != packed:
+            if added is not None and not self._on_device and array is not None and array.on_host and array.shape == shape:
+                copied = _copied(array, name, kind, added)
+                if copied is not None:
+                    return copied
             raise (TypeError if wrong_type else ValueError)(f"{name} is not a contiguous {kind.name} array of shape {shape}")
         if array.on_host == self._on_device:
             where, other = ("a CUDA device", "cpu") if self._on_device else ("the host", "cuda")
@@ -755,21 +807,21 @@ class Wall(_Owner):
         self._do(_lib.lsdcd_wall_unpack, self._handle, spheres.ctypes.data, spheres.size, packed.ctypes.data,
                  packed.size)
 
-    def totals(self, mesh: int | None = None) -> WallTotals:
+    def totals(self, mesh: int | str | None = None) -> WallTotals:
         """Of a mesh, from 0, or of all."""
         totals = _sized(_WallTotals)
-        self._do(_lib.lsdcd_wall_get_totals, self._handle, _mesh_or_all(mesh), ctypes.byref(totals))
+        self._do(_lib.lsdcd_wall_get_totals, self._handle, self._mesh_or_all(mesh), ctypes.byref(totals))
         values = {name: getattr(totals, name) for name, _ in _WallTotals._fields_[1:]}
         return WallTotals(**{k: np.array(v) if isinstance(v, ctypes.Array) else v for k, v in values.items()})
 
-    def pose(self, mesh: int = 0) -> NDArray[np.float64]:
+    def pose(self, mesh: int | str = 0) -> NDArray[np.float64]:
         """Where mesh number `mesh`, from 0, is after the last step, (3, 4): what was at x when the wall was made is at
         R x + t, each row of R with its t, a length, behind it. Raises Error for a mesh that there is not."""
         matrix = np.empty((3, 4))
-        self._do(_lib.lsdcd_wall_get_pose, self._handle, _c_int(mesh, "mesh"), matrix.ctypes.data)
+        self._do(_lib.lsdcd_wall_get_pose, self._handle, self._mesh(mesh), matrix.ctypes.data)
         return matrix
 
-    def set_pose(self, mesh: int = 0, position: ArrayLike | None = None, quaternion: ArrayLike | None = None,
+    def set_pose(self, mesh: int | str = 0, position: ArrayLike | None = None, quaternion: ArrayLike | None = None,
                  velocity: ArrayLike | None = None, angular_velocity: ArrayLike | None = None) -> None:
         """Where mesh number `mesh`, from 0, which has posed_by_caller, is in the next step and those after it: what was at
         x when the wall was made is at R x + position, and moves with velocity + angular_velocity x (R x).
@@ -782,10 +834,10 @@ class Wall(_Owner):
         caller, a number that is not finite and a quaternion of another length; ValueError for other shapes."""
         given = [_numbers(position, (3,), "position"), _numbers(quaternion, (4,), "quaternion"),
                  _numbers(velocity, (3,), "velocity"), _numbers(angular_velocity, (3,), "angular_velocity")]
-        self._do(_lib.lsdcd_wall_set_pose, self._handle, _c_int(mesh, "mesh"),
+        self._do(_lib.lsdcd_wall_set_pose, self._handle, self._mesh(mesh),
                  *(None if numbers is None else numbers.ctypes.data for numbers in given))
 
-    def set_nodes(self, mesh: int, positions: ArrayLike, velocities: ArrayLike | None = None) -> None:
+    def set_nodes(self, mesh: int | str, positions: ArrayLike, velocities: ArrayLike | None = None) -> None:
         """Where the vertices of mesh number `mesh`, from 0, which has nodes_by_caller, are in the next step and those
         after it, and how fast they go. Between the nodes of a triangle both are linear.
 
@@ -807,14 +859,14 @@ class Wall(_Owner):
         else:
             numbers = [_numbers(values, shape, name) for name, values in arrays.items()]
             places = [None if values is None else values.ctypes.data for values in numbers]
-        self._do(_lib.lsdcd_wall_set_nodes, self._handle, _c_int(mesh, "mesh"), *places, *[None] * (2 - len(places)))
+        self._do(_lib.lsdcd_wall_set_nodes, self._handle, self._mesh(mesh), *places, *[None] * (2 - len(places)))
 
-    def nodes(self, mesh: int = 0) -> NDArray[np.float64]:
+    def nodes(self, mesh: int | str = 0) -> NDArray[np.float64]:
         """Where the vertices of a mesh with nodes_by_caller, or of one that wear moves (wear_deform), are after the last step,
         (vertices, 3), length, in your order; nan for a vertex of no face."""
         return self._of_nodes(_lib.lsdcd_wall_get_nodes, mesh)
 
-    def node_forces(self, mesh: int = 0, out: Any = None) -> Any:
+    def node_forces(self, mesh: int | str = 0, out: Any = None) -> Any:
         """Forces on these vertices in the last step, (vertices, 3), over all processes: those of contacts, each shared among
         the nodes of its triangle or edge so that their sum and moment are those of the force at the closest point, and
         those of `pressure`. Of vertices that were welded to one the first has its force, the others 0. `out`: a contiguous float64 array of this shape, where the wall was made for, that they are written to
@@ -823,54 +875,54 @@ class Wall(_Owner):
         if out is None:
             return self._of_nodes(_lib.lsdcd_wall_get_node_forces, mesh)
         array = self._array(out, "out", (self._n_nodes(mesh), 3))
-        self._do(_lib.lsdcd_wall_get_node_forces, self._handle, _c_int(mesh, "mesh"), array.address)
+        self._do(_lib.lsdcd_wall_get_node_forces, self._handle, self._mesh(mesh), array.address)
         return out
 
     def _is_on_device(self, values: Any, name: str) -> bool:
         return _is_array(values) and not _arrays.read(values, name, _arrays.stream_handle(self._stream)).on_host
 
-    def _n_nodes(self, mesh: int) -> int:
+    def _n_nodes(self, mesh: int | str) -> int:
         count = _size()
-        self._do(_lib.lsdcd_wall_get_node_count, self._handle, _c_int(mesh, "mesh"), ctypes.byref(count))
+        self._do(_lib.lsdcd_wall_get_node_count, self._handle, self._mesh(mesh), ctypes.byref(count))
         return count.value
 
-    def _of_nodes(self, call: Any, mesh: int) -> NDArray[np.float64]:
+    def _of_nodes(self, call: Any, mesh: int | str) -> NDArray[np.float64]:
         numbers = np.empty((self._n_nodes(mesh), 3))
-        self._do(call, self._handle, _c_int(mesh, "mesh"), numbers.ctypes.data)
+        self._do(call, self._handle, self._mesh(mesh), numbers.ctypes.data)
         return numbers
 
-    def wrench(self, mesh: int | None = None, about: ArrayLike = (0, 0, 0)) -> Wrench:
+    def wrench(self, mesh: int | str | None = None, about: ArrayLike = (0, 0, 0)) -> Wrench:
         """Force and torque of the spheres on a mesh, from 0, in the last step, over all processes; None: on all meshes.
         The torque is about the point `about`, (3,), of the box."""
         force, torque, point = np.empty(3), np.empty(3), _numbers(about, (3,), "about")
-        self._do(_lib.lsdcd_wall_get_wrench, self._handle, _mesh_or_all(mesh),
+        self._do(_lib.lsdcd_wall_get_wrench, self._handle, self._mesh_or_all(mesh),
                  None if point is None else point.ctypes.data, force.ctypes.data, torque.ctypes.data)
         return Wrench(force=force, torque=torque)
 
-    def set_motion(self, mesh: int, motions: Sequence[Motion]) -> None:
+    def set_motion(self, mesh: int | str, motions: Sequence[Motion]) -> None:
         """Other motions for a mesh, from where it is; none: it stops there."""
         array = _motion_array(motions)
-        self._do(_lib.lsdcd_wall_set_motion, self._handle, _c_int(mesh, "mesh"), ctypes.addressof(array), len(array))
+        self._do(_lib.lsdcd_wall_set_motion, self._handle, self._mesh(mesh), ctypes.addressof(array), len(array))
 
-    def set_servo(self, mesh: int, servo: Servo | None) -> None:
+    def set_servo(self, mesh: int | str, servo: Servo | None) -> None:
         """Another servo for a mesh, from where it is; None: it stops there. Along the same line its position goes on."""
         given = None if servo is None else ctypes.addressof(_instance(servo, Servo, "servo")._struct)
-        self._do(_lib.lsdcd_wall_set_servo, self._handle, _c_int(mesh, "mesh"), given)
+        self._do(_lib.lsdcd_wall_set_servo, self._handle, self._mesh(mesh), given)
 
-    def body(self, mesh: int) -> BodyState:
+    def body(self, mesh: int | str) -> BodyState:
         """The rigid body that mesh number `mesh`, from 0, is after the last step, with velocities of the whole step. Raises
         Error for a mesh that there is not or that is no body."""
         state = _sized(_BodyState)
-        self._do(_lib.lsdcd_wall_get_body, self._handle, _c_int(mesh, "mesh"), ctypes.byref(state))
+        self._do(_lib.lsdcd_wall_get_body, self._handle, self._mesh(mesh), ctypes.byref(state))
         values = {name: getattr(state, name) for name, _ in _BodyState._fields_[1:]}
         return BodyState(**{k: np.array(v) if isinstance(v, ctypes.Array) else v for k, v in values.items()})
 
-    def set_body(self, mesh: int, body: RigidBody) -> None:
+    def set_body(self, mesh: int | str, body: RigidBody) -> None:
         """Another joint, spring, limits, motor, load, moment and gravity of a body, from where it is and without a jump. With
         another joint its coordinate begins at 0 there, and what the joint allows of its velocity goes on. Mass, velocities and
         coat of `body` are not looked at. Raises Error for a mesh that is no body, and for limits that do not hold the
         coordinate."""
-        self._do(_lib.lsdcd_wall_set_body, self._handle, _c_int(mesh, "mesh"),
+        self._do(_lib.lsdcd_wall_set_body, self._handle, self._mesh(mesh),
                  ctypes.addressof(_instance(body, RigidBody, "body")._struct))
 
     def change(self, words: str | Iterable[str]) -> None:
@@ -898,14 +950,22 @@ class Wall(_Owner):
         self._do(call, self._handle, saved.ctypes.data, saved.size)
 
 
-def _mesh_or_all(mesh: int | None) -> int:
-    """As C has it: -1 is all."""
-    if mesh is None:
-        return -1
-    number = _c_int(mesh, "mesh")
-    if number < 0:
-        raise ValueError(f"mesh is {number}; meshes count from 0, and None is all of them")
-    return number
+def _copied(array: _arrays.Array, name: str, kind: np.dtype[Any], added: list[tuple[Any, Any]]) -> _arrays.Array | None:
+    """An array of spheres on the host as the library reads it; None: it has no such numbers. Of results zeros, which are
+    appended to `added` beside the array that they come to."""
+    is_result = name in ("force", "torque", "heat")
+    if array.dtype.kind not in ("iu" if name == "type" else "f" if is_result else "fiu"):
+        return None
+    values = array.host()
+    if is_result:
+        if not array.writable:
+            raise ValueError(f"{name} cannot be written to")
+        made = np.zeros(array.shape)
+        added.append((values, made))
+        return _arrays.of_numpy(made)
+    if name == "type" and values.size and not -2**31 <= values.min() <= values.max() < 2**31:
+        raise ValueError(f"type goes from {values.min()} to {values.max()}, beyond int32")
+    return _arrays.of_numpy(np.ascontiguousarray(values, dtype=kind))
 
 
 def _host_struct(host: Host, called: Callable[[Callable[..., object]], Callable[..., int]]) -> Any:

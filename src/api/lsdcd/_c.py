@@ -6,12 +6,14 @@ from __future__ import annotations
 
 import contextlib
 import ctypes
+import functools
 import glob
+import inspect
 import operator
 import os
 import signal
 import threading
-from typing import Any, Callable, Iterator, Sequence
+from typing import Any, Callable, Iterator, Sequence, TypeVar, cast
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -308,6 +310,9 @@ def _chosen(name: str, word: str, words: Sequence[str]) -> int:
     return words.index(word)
 
 
+_Self = TypeVar("_Self", bound="_Owner")
+
+
 class _Owner:
     """Owns `_handle`, memory of the library, which `_free` frees: once, so that it has one owner."""
 
@@ -317,12 +322,60 @@ class _Owner:
         self._handle = _at()
 
     def __del__(self) -> None:
+        self.close()
+
+    def close(self) -> None:
+        """Frees the memory now; every later call is an Error. `with` does it at its end."""
         if getattr(self, "_handle", None):
             self._free(self._handle)
+            self._handle = _at()
+
+    def __enter__(self: _Self) -> _Self:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()
 
     def __reduce_ex__(self, protocol: Any) -> Any:    # what copy, deepcopy and pickle ask for
         raise TypeError(f"a {type(self).__name__} holds memory of the library and is neither copied nor pickled; "
                         "share it, or make another one")
+
+
+class _Spec:
+    """Prints, and is pickled, as the call that made it. `_made_by`: the name of a class method, "" for the class itself, and the
+    arguments by name."""
+    _made_by: tuple[str, dict[str, Any]]
+
+    def __repr__(self) -> str:
+        method, given = self._made_by
+        maker = type(self).__name__ + ("." + method if method else "")
+        return f"{maker}({', '.join(f'{name}={value!r}' for name, value in given.items())})"
+
+    def __reduce__(self) -> Any:
+        return _make_again, (type(self), *self._made_by)
+
+
+def _make_again(kind: Any, method: str, given: dict[str, Any]) -> Any:
+    return getattr(kind, method)(**given) if method else kind(**given)
+
+
+_Maker = TypeVar("_Maker", bound=Callable[..., Any])
+
+
+def _noted(maker: _Maker) -> _Maker:
+    """Notes for _Spec what an __init__ or a class method is called with. Arrays are copied: the caller may go on with them."""
+    names = inspect.signature(maker)
+
+    @functools.wraps(maker)
+    def make(first: Any, *arguments: Any, **more: Any) -> Any:
+        made = maker(first, *arguments, **more)
+        given: dict[str, Any] = {}
+        for name, value in list(names.bind(first, *arguments, **more).arguments.items())[1:]:
+            by_name = value if names.parameters[name].kind is inspect.Parameter.VAR_KEYWORD else {name: value}
+            given |= {key: np.array(one) if isinstance(one, np.ndarray) else one for key, one in by_name.items()}
+        (first if made is None else made)._made_by = ("" if made is None else maker.__name__, given)
+        return made
+    return cast(_Maker, make)
 
 
 class _Record:

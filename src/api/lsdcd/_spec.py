@@ -11,8 +11,8 @@ from typing import TYPE_CHECKING, Any, Sequence
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ._c import (DEVICES, _as_floats, _c_double, _c_text, _check, _chosen, _flag, _Law, _lib, _Motion, _numbers, _Record,
-                 _RigidBody, _Servo, _sized, _SubModel, _SubModelFacts, _TypeLaw, _WallMesh, _WallSpec)
+from ._c import (DEVICES, _as_floats, _c_double, _c_text, _check, _chosen, _flag, _Law, _lib, _Motion, _noted, _numbers, _Record,
+                 _RigidBody, _Servo, _sized, _Spec, _SubModel, _SubModelFacts, _TypeLaw, _WallMesh, _WallSpec)
 
 if TYPE_CHECKING:
     from . import Mesh
@@ -61,7 +61,7 @@ class SubModel:
         return f"SubModel({', '.join([repr(self.name), *(f'{name}={value!r}' for name, value in self.numbers.items())])})"
 
 
-class Law:
+class Law(_Spec):
     """The force between a sphere and a wall. One of the classic styles, with what may stand beside it,
 
         Law("hooke/history", kn=1e5, kt=3e4, gamman=50, gammat=None, xmu=0.5, dampflag=1, rolling=SubModel("cdt", MU=0.1))
@@ -70,12 +70,14 @@ class Law:
     Raises ValueError for names of sub-models and numbers that there are not, TypeError for what is no number. What does
     not go together, or is out of its range, Wall() refuses."""
 
+    @_noted
     def __init__(self, style: str, *, rolling: SubModel | None = None, cohesion: SubModel | None = None,
                  limit_damping: bool = False, **numbers: float | None) -> None:
         self._struct = _law_struct({"style": SubModel(style, **numbers), "rolling": rolling, "cohesion": cohesion},
                                    True, limit_damping)
 
     @classmethod
+    @_noted
     def granular(cls, normal: SubModel, tangential: SubModel, damping: str | None = None, rolling: SubModel | None = None,
                  twisting: SubModel | None = None, heat: SubModel | None = None, limit_damping: bool = False) -> Law:
         """A law of sub-models, as LAMMPS's pair style granular has them; `damping` None: viscoelastic. The number eta|e of
@@ -134,6 +136,9 @@ class Placement:
     def __init__(self) -> None:
         self._numbers = (ctypes.c_double * 12)()
 
+    def __repr__(self) -> str:
+        return f"<Placement {self.matrix.tolist()}>"
+
     def scale(self, x: float, y: float | None = None, z: float | None = None) -> Placement:
         """By one factor, or by three."""
         if (y is None) != (z is None):
@@ -158,7 +163,7 @@ class Placement:
         return np.array(self._numbers).reshape(3, 4)
 
 
-class Motion:
+class Motion(_Spec):
     """A motion of the time since the wall was made or set_motion() was called. Vectors are (3,)."""
     _struct: Any
     _kept: Any = None    # what the struct points to
@@ -172,36 +177,43 @@ class Motion:
         return motion
 
     @classmethod
+    @_noted
     def linear(cls, velocity: ArrayLike) -> Motion:
         """At a velocity, length/time."""
         return cls._made(0, velocity=velocity)
 
     @classmethod
+    @_noted
     def wiggle(cls, amplitude: ArrayLike, period: float) -> Motion:
         """By amplitude, a length, times sin(2 pi t / period)."""
         return cls._made(1, amplitude=amplitude, period=period)
 
     @classmethod
+    @_noted
     def cosine(cls, amplitude: ArrayLike, period: float) -> Motion:
         """By amplitude, a length, times 1 - cos(2 pi t / period), which begins at rest."""
         return cls._made(2, amplitude=amplitude, period=period)
 
     @classmethod
+    @_noted
     def rotate(cls, point: ArrayLike, axis: ArrayLike, period: float) -> Motion:
         """Right-handed about an axis through a point, once in a period."""
         return cls._made(3, point=point, axis=axis, period=period)
 
     @classmethod
+    @_noted
     def transrot(cls, velocity: ArrayLike, point: ArrayLike, axis: ArrayLike, period: float) -> Motion:
         """Turns as rotate(), and goes at a velocity, length/time."""
         return cls._made(4, velocity=velocity, point=point, axis=axis, period=period)
 
     @classmethod
+    @_noted
     def riggle(cls, point: ArrayLike, axis: ArrayLike, angle: float, period: float) -> Motion:
         """To and fro about an axis through a point, by angle, in radians, times sin(2 pi t / period)."""
         return cls._made(5, point=point, axis=axis, angle=angle, period=period)
 
     @classmethod
+    @_noted
     def table(cls, rows: ArrayLike, point: ArrayLike = (0, 0, 0), axis: ArrayLike | None = None, straight: bool = False,
               repeats: bool = False) -> Motion:
         """A curve through `rows`, (n, k): times, which ascend, and then with k = 2 an angle about `axis`, with 4 a displacement
@@ -220,11 +232,12 @@ class Motion:
         return motion
 
 
-class Servo:
+class Servo(_Spec):
     """Moves a mesh along `axis`, (3,), so that it pushes the spheres along it with the force `target`; with `turns` it
     turns it about the axis through `point`, (3,), with a torque. `max_speed`, > 0: length/time or 1/time. `max_gain`:
     speed per push, > 0, None: the largest that is stable. `limits`: of its position, lo <= 0 <= hi, not both 0, None: none."""
 
+    @_noted
     def __init__(self, axis: ArrayLike, target: float, max_speed: float, turns: bool = False, point: ArrayLike = (0, 0, 0),
                  max_gain: float | None = None, limits: tuple[float, float] | None = None) -> None:
         lo, hi = _limits(limits)
@@ -235,7 +248,7 @@ class Servo:
                               target=target, max_speed=max_speed, max_gain=gain, lo=lo, hi=hi)
 
 
-class RigidBody:
+class RigidBody(_Spec):
     """A mesh as a rigid body, which moves by what acts on it. It begins where the mesh is placed. Vectors are (3,), along
     the axes of the box.
 
@@ -249,6 +262,7 @@ class RigidBody:
 
     Raises TypeError and ValueError for what is no such value; Wall() and Wall.set_body() refuse what makes no sense."""
 
+    @_noted
     def __init__(self, density: float = 0.0, *, mass: float = 0.0, centre: ArrayLike = (0, 0, 0),
                  inertia: ArrayLike = (0, 0, 0, 0, 0, 0), joint: str = "free", point: ArrayLike = (0, 0, 0),
                  axis: ArrayLike = (0, 0, 0), spring: tuple[float, float, float] = (0.0, 0.0, 0.0),
@@ -271,7 +285,7 @@ class RigidBody:
             coat=bool(coat), coat_spacing=spacing, coat_radius=radius)
 
 
-class WallMesh:
+class WallMesh(_Spec):
     """A mesh of a wall, which may be in others, too. `name`: what messages call it. `placement`: a Placement, or (3, 4),
     rows of M, each with its t behind it; None: as the mesh is. `law`: the wall's sub-models with other numbers, None: the
     wall's. `type_laws`: (first, last, Law) of atom types from first to last, None: all from first on; of two with a type
@@ -286,6 +300,7 @@ class WallMesh:
 
     Raises TypeError and ValueError for what is no such value; Wall() refuses what makes no sense."""
 
+    @_noted
     def __init__(self, mesh: Mesh, name: str = "", placement: Placement | ArrayLike | None = None, law: Law | None = None,
                  type_laws: Sequence[tuple[int, int | None, Law]] = (), posed_by_caller: bool = False,
                  motions: Sequence[Motion] = (), servo: Servo | None = None, surface_velocity: ArrayLike = (0, 0, 0),
@@ -321,10 +336,11 @@ class WallMesh:
             fields=fields[0] if fields else None, fields_every=fields[1] if fields else 0, stl=stl[0] if stl else None,
             stl_every=stl[1] if stl else 0, nodes_by_caller=_flag(nodes_by_caller, "nodes_by_caller"), pressure=pressure,
             body=_address(body, RigidBody, "body"))
+        self._name = name
         self._kept = (mesh, law, laws, types, tuple(motions), moved, servo, body)    # what the struct points to
 
 
-class WallSpec:
+class WallSpec(_Spec):
     """What a wall is made of: the `law` of its spheres, and its `meshes`, 1 at least.
 
     `corner`: "blend", contacts of a sphere at a corner share their overlap, or "sum", their forces add. `side`: "both",
@@ -336,6 +352,7 @@ class WallSpec:
     `periodic_ends`: meshes are meant to end at periodic faces. `brief`: one line in the log. `average`: steps of the means of
     force and torque in Wall.totals(), 0: there are none."""
 
+    @_noted
     def __init__(self, law: Law, meshes: Sequence[WallMesh], corner: str = "blend", side: str = "both",
                  nearest: int = 0, cell: float = 0.0, memory: float = 0.0, rmax: float = 0.0,
                  compute: str = "cpu", wear: tuple[str, float] | tuple[str, float, float] | None = None,
@@ -359,6 +376,13 @@ class WallSpec:
             hardness=numbers[1] if model == 1 else 0.0, wear_deform_every=every, wear_deform_factor=factor,
             periodic_ends=_flag(periodic_ends, "periodic_ends"), brief=_flag(brief, "brief"), average_every=average)
         self._kept = (law, parts, array)    # what the struct points to
+
+    def _names(self) -> list[str]:
+        """What the wall calls its meshes. Raises ValueError where one of them has been closed."""
+        for k, part in enumerate(self._kept[1]):
+            if not part._kept[0]._handle:
+                raise ValueError(f"meshes[{k}]: its Mesh has been closed, so that no wall can be made of it")
+        return [part._name or f"mesh {k + 1}" for k, part in enumerate(self._kept[1])]
 
 
 def _motion_array(motions: Sequence[Motion]) -> Any:
