@@ -18,6 +18,7 @@
 //   Event                        a point in what was started: record() and wait() for it
 //   SideStream                   what is started between begin() and end() waits for what came before ready() only
 //   milliseconds                 that f() takes
+//   scratch_bytes                of the memory that these need meanwhile
 //   name                         for logs
 //
 // What these need of memory meanwhile is the backend's own, which it keeps: so a backend is moved, never copied, and one
