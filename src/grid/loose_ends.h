@@ -7,21 +7,17 @@
 #include "mesh/mesh_features.h"
 #include "mesh/periodic_box.h"
 
-#include <cstddef>
-
 namespace lsdcd {
 
 struct LooseEnds {
-  std::size_t edges = 0;    // of the mesh
-  Real widest = 0;          // length; of the gaps
-  int axis = 0;             // the edge of the box along which the widest gap is
+  Real gap = 0;    // length; the widest, 0 without any
+  int axis = 0;    // the edge of the box along which it is
 };
 
-// Finds open edges that face an image across a periodic face, with a gap of at most `widest` (length)
-// in between. A part of the mesh that meets an image of itself somewhere along that axis is left
-// out: its open edges there are holes. `mesh` is the mesh with its images, `wall` has its
-// records.
+// Finds the mesh, or connected parts of it, that come to less than `cutoff` (length) from a periodic face, or past it, are shorter than the box
+// there by at most `widest` (length), and have open edges that look to both sides. `mesh` is the mesh with its images, `wall`
+// has its records.
 LooseEnds loose_ends(const WeldedMesh &mesh, const MeshFeaturesView &wall, const PeriodicBox &box,
-                     Real widest);
+                     Real cutoff, Real widest);
 
 }    // namespace lsdcd

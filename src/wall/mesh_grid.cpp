@@ -204,13 +204,12 @@ void MeshGrid::note_images(const WeldedMesh &whole)
   for (int k = 0; k < 3; k++)
     if (box_.periodic[k]) least = std::min(least, box_.width(k));
   const Real widest = std::max(2 * cutoff_, (wall_.periodic ? 0.25 : 0.05) * least);
-  const LooseEnds loose = loose_ends(whole, view().wall, box_, widest);
-  if (loose.edges == 0) return;
+  const LooseEnds loose = loose_ends(whole, view().wall, box_, cutoff_, widest);
+  if (loose.gap == 0) return;
   ends_warning_ = "the ends of the mesh do not meet across the periodic boundary in " +
-                  std::string(1, "xyz"[loose.axis]) + ": " + std::to_string(loose.edges) +
-                  " open edges face a gap of up to " + number_text(loose.widest) +
-                  "; make the mesh as long as the box, " + number_text(box_.width(loose.axis)) +
-                  ", or let its ends overlap";
+                  std::string(1, "xyz"[loose.axis]) + ", where its open edges face a gap of " +
+                  number_text(loose.gap) + "; make the mesh as long as the box, " +
+                  number_text(box_.width(loose.axis)) + ", or let its ends overlap";
 }
 
 bool MeshGrid::has(FeatureCode feature) const

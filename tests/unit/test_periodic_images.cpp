@@ -320,10 +320,24 @@ TEST(loose_ends, a_gap_across_the_face_is_found_and_measured)
   PeriodicBox box = box_of({1, 1, 1});
   const WeldedMesh whole = with_images(weld(belt, -1), box, 0.1);
   const TriangleGrid grid = grid_of(whole, 0.05);
-  const LooseEnds loose = loose_ends(whole, grid.view().wall, box, 0.2);
-  EXPECT_EQ(loose.edges, 8u);    // four at each end
-  EXPECT_NEAR(loose.widest, 0.03, 1e-12);
+  const LooseEnds loose = loose_ends(whole, grid.view().wall, box, 0.1, 0.2);
+  EXPECT_NEAR(loose.gap, 0.03, 1e-12);
   EXPECT_EQ(loose.axis, 0);
+}
+
+// Of two plates that hang together nowhere, and of a short one beside a long one.
+TEST(loose_ends, a_gap_of_the_mesh_or_of_a_part_is_found)
+{
+  const PeriodicBox box = box_of({1, 1, 1});
+  for (const Real begins : {0.5, 0.01}) {
+    TriangleSoup belts = square(4, 1);
+    for (Vec3 &x : belts.corners) x = {(begins == 0.5 ? 0.49 : 1) * x.x, 0.1 + 0.2 * x.y, 0.5};
+    for (const Vec3 &x : square(3, 1).corners)
+      belts.corners.push_back({begins + (0.97 - begins) * x.x, 0.5 + 0.2 * x.y, 0.5});
+    const WeldedMesh whole = with_images(weld(belts, -1), box, 0.1);
+    const LooseEnds loose = loose_ends(whole, grid_of(whole, 0.05).view().wall, box, 0.1, 0.2);
+    EXPECT_NEAR(loose.gap, begins == 0.5 ? 0.03 : 0.04, 1e-12) << begins;
+  }
 }
 
 TEST(loose_ends, ends_that_meet_or_overlap_are_none)
@@ -333,7 +347,7 @@ TEST(loose_ends, ends_that_meet_or_overlap_are_none)
     for (Vec3 &x : belt.corners) x = {length * x.x, 0.4 + 0.2 * x.y, 0.5};
     PeriodicBox box = box_of({1, 1, 1});
     const WeldedMesh whole = with_images(weld(belt, -1), box, 0.1);
-    EXPECT_EQ(loose_ends(whole, grid_of(whole, 0.05).view().wall, box, 0.2).edges, 0u) << length;
+    EXPECT_EQ(loose_ends(whole, grid_of(whole, 0.05).view().wall, box, 0.1, 0.2).gap, 0) << length;
   }
 }
 
