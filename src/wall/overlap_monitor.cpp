@@ -43,13 +43,13 @@ void OverlapMonitor::note_of_run(const StepDiagnostics &seen, const SpheresOnCpu
 void OverlapMonitor::note(const StepDiagnostics &seen, const SpheresOnCpu &spheres)
 {
   note_of_run(seen, spheres);
-  if (seen.deepest <= kLarge) placed_overlap_ = 0;
-  if (seen.deepest <= std::max(worst_.overlap, warned_from_)) return;
-  const std::int64_t tag = spheres.tag(seen.deepest_sphere);
-  if (tag > placed_after_ && tag <= placed_until_ && seen.deepest <= kWorse * placed_overlap_) {
-    placed_overlap_ = std::min(placed_overlap_, seen.deepest);
+  if (seen.deepest <= kLarge) placed_ = 0;
+  if (seen.deepest <= kWorse * placed_) {
+    placed_ = std::min(placed_, seen.deepest);
     return;
   }
+  if (seen.deepest <= std::max(worst_.overlap, warned_from_)) return;
+  const std::int64_t tag = spheres.tag(seen.deepest_sphere);
   if (!is_named(tag)) worst_ = deepest_of(seen, tag);
 }
 
@@ -140,11 +140,7 @@ void OverlapMonitor::check_new(const StepDiagnostics &seen, const SpheresOnCpu &
     note_of_run(seen, spheres);
   else
     note(seen, spheres);
-  if (most > kLarge) {
-    if (placed_overlap_ == 0) placed_after_ = highest_tag_;
-    placed_until_ = static_cast<std::int64_t>(highest);
-    placed_overlap_ = std::max(placed_overlap_, most);
-  }
+  if (most > kLarge) placed_ = std::max(placed_, most);
   highest_tag_ = std::max(highest_tag_, static_cast<std::int64_t>(highest));
   if (most <= worst_new_) return;
   worst_new_ = kWorse * most;

@@ -23,8 +23,8 @@ class OverlapMonitor {
   // Both must outlive it.
   OverlapMonitor(Host &host, const WallSpec &wall) : host_(host), wall_(wall) {}
 
-  // Notes the deepest sphere since the last look. A sphere that was put into the wall has not sunk, until no sphere
-  // is deep in the wall or it is deeper than it was put. Local.
+  // Notes the deepest sphere since the last look. None has sunk that is not deeper than spheres that were put into the
+  // wall, until none is deep in it. Local.
   void note(const StepDiagnostics &seen, const SpheresOnCpu &spheres);
 
   // The largest overlap noted on this process that is to be warned of; 0: there is none.
@@ -81,10 +81,8 @@ class OverlapMonitor {
   std::vector<std::int64_t> named_;    // tags of spheres whose centres came to the wall
   std::int64_t highest_tag_ = -1;      // of spheres that are not new; -1: before the first look
   Real worst_new_ = kLarge;            // a new sphere that overlaps by more is warned of
-  // The last spheres of which some were put into the wall have tags in (placed_after_,
-  // placed_until_]. Their overlap is 0 once no sphere of this process is deep in the wall.
-  std::int64_t placed_after_ = 0, placed_until_ = 0;
-  Real placed_overlap_ = 0;
+  // On this process: what spheres that were put into the wall still overlap by, until none is deep in it.
+  Real placed_ = 0;
 };
 
 }    // namespace lsdcd
