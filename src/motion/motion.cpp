@@ -307,4 +307,11 @@ Box placed_bounds(const Pose &pose, const Box &box)
   return around;
 }
 
+Box swept_bounds(const Pose &a, const Pose &b, const Box &box)
+{
+  Box around = placed_bounds(a, box);
+  for_corners(box, [&](const Vec3 &x) { extend(around, b.to_box(x)); });
+  return around;
+}
+
 }    // namespace lsdcd

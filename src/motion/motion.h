@@ -135,5 +135,7 @@ Pose between(const Pose &a, const Pose &b, Real share);
 Real fastest_in(const Pose &pose, const Box &box);
 // The bounds of this box where the pose puts it.
 Box placed_bounds(const Pose &pose, const Box &box);
+// The bounds of this box in both poses.
+Box swept_bounds(const Pose &a, const Pose &b, const Box &box);
 
 }    // namespace lsdcd

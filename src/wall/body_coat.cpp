@@ -321,9 +321,7 @@ void BodyCoat::check_way(const std::deque<MeshPart> &meshes, const Step &step)
                now = seen_from(other.motion.pose(), own.motion.pose());
     const Real far = farthest_between(before, now, own.bounds(0));
     if (far <= longest) continue;
-    Box swept = placed_bounds(before, own.bounds(radius_ + far));
-    for_corners(placed_bounds(now, own.bounds(radius_ + far)),
-                [&](const Vec3 &x) { extend(swept, x); });
+    const Box swept = swept_bounds(before, now, own.bounds(radius_ + far));
     if (overlap(swept, other.bounds(0))) way = std::max(way, far);
   }
   constexpr Real kMostLooks = 1000;

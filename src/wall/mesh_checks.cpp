@@ -160,8 +160,7 @@ void check_way(Host &host, const WallSpec &settings, MeshPart &m, const Step &st
   const bool is_of_program = m.spec.motion.is_posed() && !m.body;    // which may put it anywhere
   const bool stops = passes && !is_of_program;
   if (way <= radius || (m.way_warned && !stops)) return;
-  Box swept = placed_bounds(from, m.bounds(radius));
-  for_corners(placed_bounds(to, m.bounds(radius)), [&](const Vec3 &x) { extend(swept, x); });
+  const Box swept = swept_bounds(from, to, m.bounds(radius));
   const HostSpheres s = spheres.all();
   Real meets = 0;
   for (int i = 0; i < s.n && meets == 0; i++) {

@@ -222,6 +222,9 @@ TEST(wall_motion, bounds_the_way_and_speed_of_points_of_a_box)
   const Box turned = placed_bounds(motion.pose_at(2), box);
   EXPECT_EQ(turned.lo, (Vec3{-2, -3, -1}));
   EXPECT_EQ(turned.hi, (Vec3{4, 1, 1}));
+  const Box swept = swept_bounds(motion.pose_at(0), motion.pose_at(2), box);
+  EXPECT_EQ(swept.lo, (Vec3{-3, -4, -1}));
+  EXPECT_EQ(swept.hi, (Vec3{4, 2, 1}));
 }
 
 }    // namespace
