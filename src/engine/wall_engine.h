@@ -177,26 +177,25 @@ enum class When {
   beside_adding_early,    // likewise, but they are added after the host's work by submit()
 };
 
-// Springs of a process's spheres in the memory of an engine's backend; so are all pointers. Per sphere
-// there are a first spring and a count, which follow it through sorting.
+// The springs of a process's spheres in the memory of an engine's backend, in which all pointers here lie. Each sphere has a
+// first spring and a count, which follow it through sorting.
 class SpringsInPlace {
  public:
   virtual ~SpringsInPlace() = default;
 
-  // Room for n spheres; new ones have no springs.
+  // Makes room for n spheres; new ones have no springs.
   virtual void grow(int n) = 0;
   virtual int *first() = 0;
   virtual int *count() = 0;
 
-  // Exchange, as a host on a GPU lays it out: first the offset of each
-  // sphere's numbers, as an integer in a double; then for each its count of springs and
-  // these. Sphere which[k] leaves and sphere from[k], if that is not -1, takes its place.
-  // Returns the numbers written.
+  // Packs spheres that leave the process, as a host on a GPU lays out its messages: first the offset of each sphere's
+  // numbers, as an integer in a double, then for each sphere its count of springs and its springs. Sphere which[k] leaves, and
+  // sphere from[k], if that is not -1, takes its place. Returns how many numbers it wrote.
   virtual int largest_packed_size(int n) = 0;    // numbers of one of n spheres; waits
   virtual int most_packed_size() const = 0;      // that one can have
   virtual int pack(int n, const int *which, const int *from, double *buffer) = 0;
-  // Sphere to[k], if that is not -1, gets the k-th of what came. From n_first on the offsets
-  // are those of a second message, which begins at `second`.
+  // Unpacks spheres that came: sphere to[k], if that is not -1, gets the k-th. From n_first on offsets are those of a second
+  // message, which begins at `second`.
   virtual void unpack(int n, const int *to, const double *buffer, int n_first, int second) = 0;
 };
 
@@ -210,7 +209,7 @@ class WallEngine {
  public:
   virtual ~WallEngine() = default;
 
-  // Backend in words, for the log: "CPU, 4 threads" or "CUDA, NVIDIA H200".
+  // Returns the backend in words, for the log: "CPU, 4 threads" or "CUDA, NVIDIA H200".
   virtual std::string backend() const = 0;
 
   // Sets the grid of a mesh, to use from now on; it is borrowed, and must outlive its use. The next choose_if_due() chooses.
@@ -225,24 +224,23 @@ class WallEngine {
     put_grid(grid, mesh);
   }
 
-  // Pose and velocity of a mesh from now on; not between submit() and collect(). At first it is the frame of the
-  // grid. Only for engines whose settings say that the wall moves.
+  // Sets the pose and velocity of a mesh from now on. At first a mesh is in the frame of its grid. Must not be called between submit()
+  // and collect(), and only for engines whose settings say that the wall moves.
   virtual void set_pose(const Pose &pose, int mesh = 0) = 0;
 
-  // Largest radius in the group.
+  // Returns the largest radius of the group (length).
   virtual Real largest_radius(const Spheres &spheres) = 0;
-  // How far a sphere of the group is past a periodic face, at most; length.
+  // Returns how far the spheres of the group are past periodic faces at most (length).
   virtual Real farthest_past(const Spheres &spheres, const PeriodicFaces &faces) = 0;
 
-  // Broad phase: chooses the candidate spheres of the next steps, those of the group that could touch the wall
-  // after moving by up to `margin` (length) relative to it, and makes their neighbour lists. Radii must not grow
-  // until the next choice: a candidate that does is an error, another sphere is missed until then.
-  // `watch`: has_moved() will be asked. Throws InputError if a sphere is larger than the grid's
-  // cutoff (index and radius in the message).
+  // Chooses the candidate spheres of the next steps, the broad phase: those of the group that could touch the wall after moving
+  // by up to `margin` (length) relative to it. Makes their neighbour lists. Radii must not grow until the next choice: a candidate
+  // that grows is an error, and another sphere that grows is missed until then. With `watch` has_moved() may be asked. Throws
+  // InputError with index and radius if a sphere is larger than the grid's cutoff.
   virtual void choose(const Spheres &spheres, Real margin, bool watch = false) = 0;
 
-  // Has a sphere that could touch the wall where it is now moved, relative to the wall, by more than
-  // the margin of the last choice? Others may go as far as they like.
+  // Returns whether a sphere that could touch the wall where it is now has moved, relative to the wall, by more than the margin
+  // of the last choice. Spheres that cannot touch it may have gone any distance.
   virtual bool has_moved(const Spheres &spheres) = 0;
 
   // Begins a step, which does its work `when` it says: what it reads of spheres is final, in place once the host's stream has
@@ -261,7 +259,7 @@ class WallEngine {
   // Gives the step its spheres and settings, and starts its work where something else than this thread does it.
   virtual void submit(const Spheres &spheres, const StepSettings &step) = 0;
 
-  // After submit(): does the work go on by itself, so that collect() only waits for it?
+  // Returns after submit() whether the work goes on by itself, so that collect() only waits for it.
   virtual bool is_under_way() const = 0;
 
   // Adds forces and torques, does the work before where nothing else does it, and replaces the springs (unless update_history is
@@ -270,7 +268,7 @@ class WallEngine {
 
   StepState state() const { return state_; }
 
-  // The three in one, in turn.
+  // Does a whole step in turn: begin(), submit() and collect().
   void step(const Spheres &spheres, const StepSettings &step)
   {
     begin();
@@ -278,8 +276,9 @@ class WallEngine {
     collect();
   }
 
+  // Returns the totals of the last step on this process.
   virtual const WallTotals &totals() const = 0;
-  // The totals of one mesh, without the sphere.
+  // Returns the totals of one mesh, without largest_overlap_sphere.
   virtual WallTotals mesh_totals(int mesh) const = 0;
 
   // The spheres with a contact in the last step: their number, indices and outputs.
@@ -287,9 +286,9 @@ class WallEngine {
   virtual int n_touching() const = 0;
   virtual const int *touching() const = 0;
   virtual const SphereOutput *sphere_output() const = 0;
-  // States of the same, after a step with `states`.
+  // The states of these spheres, after a step with `states`.
   virtual const TouchingSphere *touching_spheres() const = 0;
-  // Power into each of them; null where the law has no heat.
+  // The power into each of these spheres; null where the law has no heat.
   virtual const Real *sphere_heat() const = 0;
 
   // Records of the contacts of the last step, in the order of the spheres;
@@ -297,38 +296,39 @@ class WallEngine {
   virtual int n_records() const = 0;
   virtual const ContactRecord *records() const = 0;
 
-  // Throws InputError if a sphere had to be left out of a step, too large or with more contacts than
-  // there is memory for, or if one grew after the choice. Begins anew.
+  // Returns what steps have counted since the last call, and counts anew. Throws InputError if a step had to leave out a sphere
+  // that is too large or has more contacts than there is memory for, or if one grew after the choice.
   virtual StepDiagnostics read_diagnostics() = 0;
 
-  // For meshes whose nodes move, where the settings have nodes.
+  // The following is for meshes whose nodes move, where the settings have nodes.
 
-  // An engine that has copies of their records, as on a GPU; else null.
+  // Returns the nodes in the engine's own memory, where it has copies of the records of meshes, as on a GPU; else null.
   virtual NodesInPlace *nodes_in_place() { return nullptr; }
-  // The same: builds the grid of a mesh from where its nodes are now, to use from now on, by grid/build/node_grid.h. The next
-  // choose_if_due() chooses.
+  // Builds the grid of a mesh from where its nodes are now, to use from now on, by grid/build/node_grid.h, in an engine with
+  // nodes_in_place(). The next choose_if_due() chooses.
   void build_node_grid(int mesh, const NodeGridSettings &settings)
   {
     expire_choice();
     build_grid_of_nodes(mesh, settings);
   }
-  // Turns the springs of the spheres [0, n) on a mesh with their features, before a step, in the frame of the mesh.
-  // An engine with copies has the places before and after the last step of nodes, and reads nothing of `turning`.
+  // Turns the springs of the spheres [0, n) on a mesh with their features, before a step, in the frame of the mesh. An engine with
+  // nodes_in_place() knows where nodes were before, and reads nothing of `turning`.
   virtual void turn_springs(int n, int mesh, const TurningMesh &turning) = 0;
   // Adds the forces of the contacts of the last step to those of the nodes of a mesh, x y z, node after node (force), in
   // the order of the spheres. Returns the power of the nodes on the spheres. step.records need not be set. An engine with
-  // copies does this where they are (NodesInPlace::sum_forces()).
+  // nodes_in_place() sums them there, by NodesInPlace::sum_forces().
   virtual Real add_node_forces(int mesh, const NodesNow &now, const MeshFeaturesView &wall,
                                Real *forces) = 0;
 
-  // Springs of the spheres [0, n).
+  // Copy the springs of the spheres [0, n) from the engine and to it.
   virtual void springs_to(ContactHistory &store, int n) = 0;
   virtual void springs_from(const ContactHistory &store, int n) = 0;
-  // Where spheres live in the memory of the engine's backend; null where a host hands them over.
+  // Returns the springs where spheres are in the memory of the engine's backend, or null where a host hands spheres over.
   virtual SpringsInPlace *springs_in_place() { return nullptr; }
 
-  // Candidates of the last choice; bytes of the engine.
+  // Returns how many candidates the last choice left.
   virtual int n_candidates() const = 0;
+  // Returns the bytes of memory that the engine uses where it computes.
   virtual std::size_t bytes() const = 0;
 
  protected:
@@ -337,7 +337,7 @@ class WallEngine {
     if (state_ != state)
       throw std::logic_error("a step is begun, submitted and collected, in this order");
   }
-  // Does what set_grid() and build_node_grid() say.
+  // Do the work of set_grid() and build_node_grid(), which have asked for a choice.
   virtual void put_grid(const GridView &grid, int mesh) = 0;
   virtual void build_grid_of_nodes(int mesh, const NodeGridSettings &settings) = 0;
 
@@ -347,8 +347,8 @@ class WallEngine {
   CandidateSchedule schedule_;
 };
 
-// One step of a host that keeps the springs itself, from a choice of its own; `springs` may be null
-// where the law has no history.
+// Does one step, from a choice of its own, for a host that keeps the springs itself. `springs` may be null where the law has no
+// history.
 void step_once(WallEngine &engine, const Spheres &spheres, const StepSettings &step,
                ContactHistory *springs);
 

@@ -93,51 +93,55 @@ class Wall {
   // Before each run. `virial`: add_virial() may be called in it.
   void begin_run(std::int64_t step, bool virial);
 
-  // The clock goes on, meshes move, grids are built where they have to be. In place: what steps read of
-  // spheres is there once the host's stream has done what it has been given.
+  // Begins a step: advances the clock, moves the meshes, and builds grids where they do not fit any more. Where spheres are in
+  // the memory of a GPU, what the step reads of them must be there once the host's stream has done its work so far.
   void begin(const HostSpheres &spheres, const StepInput &input);
-  // Moves the vertices of meshes that recede, where that is due in this step. begin() of the step does so otherwise.
+  // Moves the vertices of meshes that recede by wear, where that is due in this step. A host that reads the shape before begin()
+  // calls it; otherwise begin() does.
   void recede(const Step &step);
-  // Chooses the spheres near the wall where that is due, and starts the step where the engine can work
-  // beside the host. Local.
+  // Chooses the spheres near the wall where that is due, and starts the step where the engine can work beside the host.
+  // Local.
   void submit(const HostSpheres &spheres);
-  // Local. none: no step was begun, or one that has no spheres.
+  // Returns how far the step is. StepState::none means that no step was begun, or one without spheres. Local.
   StepState step_state() const { return engine_->state(); }
-  // Adds forces and torques. Submits the step where that was not done.
+  // Adds forces and torques to those of the spheres, and submits the step before if nobody has.
   void finish(const HostSpheres &spheres);
 
-  // The wall acts on nothing until the next step: its totals are 0. Local.
+  // Sets all totals to 0, because the wall acts on nothing until the next step. Local.
   void clear_totals();
-  // Before spheres change their order or processes, and before set_motion() and set_servo(): what steps have noted
-  // since the last time, of these spheres, whose tags are read. Throws where one had to leave out a sphere. Local.
+  // Reads what steps have noted of these spheres since the last call. Must be called before spheres change their order or
+  // process, and before set_motion() and set_servo(), because notes name spheres by their index. Throws where a step had to leave out
+  // a sphere. Local.
   void poll_diagnostics(const HostSpheres &spheres);
-  // Warns where spheres went too far past a periodic face, for hosts that do not know how far they go: before they
-  // are wrapped. Reads positions and groups, where the engine does.
+  // Warns where spheres went too far past a periodic face. Hosts that do not know how far spheres go call it before they wrap
+  // them. Positions and groups are read in the memory in which the engine reads them.
   void check_wrapping(const Spheres &spheres) { grids_.check_wrapping(spheres); }
-  // `advice` follows the number of choices in the log; `loop`: seconds of the run, 0 where not known.
+  // Ends a run: logs how it went. `advice` follows the number of choices in the log; `loop` is the run's time in seconds, or 0
+  // if it is not known.
   void end_run(const HostSpheres &spheres, bool far, const std::string &advice, Real loop);
 
-  // The totals of the last step.
+  // Returns the totals of the last step, summed over all processes.
   const StepTotals &totals();
   MeanLoads &means() { return means_; }    // of spec().average_every steps
-  // Volumes by which a mesh that recedes has lost, and what was worn by the factor and stays: see MeshWear.
+  // Return the volume by which wear has moved a mesh back, and the volume that is worn but held back, see MeshWear. 0 of others.
   Real removed(int mesh) const { return meshes_[mesh].wear ? meshes_[mesh].wear->removed() : 0; }
   Real held_back(int mesh) const
   {
     return meshes_[mesh].wear ? meshes_[mesh].wear->held_back() : 0;
   }
   Real worn(int mesh) const { return spec_.wears() ? loads_.worn(mesh) : 0; }    // volume
-  // Force or torque of the mesh on the spheres, along the servo's axis.
+  // Returns the force, or the torque, of the mesh on the spheres along the axis of its servo.
   Real servo_push(int mesh);
-  // The mesh's body, with velocities of the whole step; null: it is none.
+  // Returns the body that a mesh is, with velocities of the whole step, or null if it is none.
   const MeshBody *body(int mesh);
   MeshNodes &nodes(int mesh) { return *meshes_[mesh].nodes; }    // of a mesh that has_nodes
-  // Forces on the nodes of a mesh that has_nodes, of the last step, x y z, node after node: of contacts and of its
-  // pressure, the sums over all processes.
+  // Returns the forces of the last step on the nodes of a mesh that has_nodes, x y z, node after node: those of contacts and of
+  // its pressure, summed over all processes.
   const std::vector<Real> &node_forces(int mesh);
-  // The same of this process to an array where the wall computes: MeshNodes::put_forces(). Local.
+  // Writes this process's share of node_forces() to `to`, which lies where the wall computes, as MeshNodes::put_forces() says.
+  // Local.
   bool put_node_forces(int mesh, Real *to, const std::vector<int> &node_of_row);
-  // Adds arm times force, over contacts of this process: xx, yy, zz, xy, xz, yz. Energy. Local.
+  // Adds the sum of arm times force over the contacts of this process, an energy, to six numbers: xx, yy, zz, xy, xz, yz. Local.
   void add_virial(Real *virial) const;
   // Calls row(sphere, numbers) for each sphere of this process with a contact, with the
   // spec().contact_columns() numbers of the contacts array. Local.
@@ -147,50 +151,52 @@ class Wall {
   // sphere. Local.
   void for_contacts(const std::function<void(const WallContact &)> &found) const;
 
-  // Files that are due in this step.
+  // Writes the files that are due in this step.
   void write_due_files();
   int files_every() const { return files_.every(); }    // steps; 0: there are none. Local.
 
-  // Between steps. Throw InputError, and change nothing then.
+  // The following are called between steps. Where they throw InputError, nothing has changed.
 
-  // Names of inputs: those of today, and more.
+  // Sets the names of inputs, which begin with those that there are.
   void set_inputs(const InputNames &inputs);
-  // Why set_motion(), set_servo() and set_pose() throw for this mesh; empty: they do not. Not together.
+  // Returns why this mesh takes no motion, servo or pose, or an empty text if it takes them. Local.
   std::string why_it_takes_no_motion(int mesh) const;
-  // Another motion of a mesh, from where it is; one without terms stops it. A servo goes on: that of `motion` is
-  // not looked at.
+  // Moves a mesh by another motion from where it is, or stops it by a motion without terms. Its servo goes on; the servo of
+  // `motion` is not read.
   void set_motion(int mesh, const RigidMotion &motion, const Step &now);
-  // Another servo of a mesh, from where the mesh is; one that is not present stops it. Along the same line its
-  // position goes on.
+  // Moves a mesh by another servo from where it is, or takes its servo away by one that is not present. A servo along the
+  // same line goes on from the position that the last one had.
   void set_servo(int mesh, const Servo &servo);
   // Sets what holds and drives a mesh that is a body: joint, spring, limits, motor, load, moment and gravity of `to`, from
   // where the body is, without a jump. With another joint its coordinate begins at 0 there, and what the joint allows
   // of its velocity goes on. The rest of `to` is not looked at.
   void set_body(int mesh, const BodySpec &to);
   void check_is_body(int mesh) const;    // throws InputError. Local.
-  // The pose of a mesh whose motion is_posed(), and that is no body and has no nodes, for the next step and those after it. Local.
+  // Sets the pose, for the next step and those after it, of a mesh whose motion is_posed(), and that is no body and has no
+  // nodes. Local.
   void set_pose(int mesh, const Pose &pose);
-  // Places (length) and velocities (length/time) of the nodes of a mesh that has_nodes, x y z, node after node, for the
-  // next step and those after it. Velocities are of the same time as those of spheres; null: all are 0. The same on
-  // all processes. Local.
+  // Sets places (length) and velocities (length/time) of the nodes of a mesh that has_nodes, x y z, node after node, for the
+  // next step and those after it. Velocities are of the same time as those of spheres, or all 0 where `v` is null. All
+  // processes give the same numbers. Local.
   void set_nodes(int mesh, const Real *x, const Real *v) { meshes_[mesh].nodes->set(x, v); }
-  // The same where the wall computes: MeshNodes::set_in_place().
+  // Sets places and velocities of nodes from arrays that lie where the wall computes, as MeshNodes::set_in_place() says.
   bool set_nodes_in_place(int mesh, const Real *x, const Real *v,
                           const std::vector<int> &node_of_row)
   {
     return meshes_[mesh].nodes->set_in_place(x, v, node_of_row);
   }
 
-  // For a saved state: the history of a sphere, with the names of features that any run has. Returns the
-  // numbers written. Local.
+  // Writes the history of a sphere for a saved state, with names of features that hold in any run. Returns how many numbers it
+  // wrote. Local.
   int pack_saved(int sphere, Real *buffer);
-  // For a saved state: what the wall keeps beside the histories of spheres. Only the first process has
-  // the loads of all.
+  // Returns what the wall keeps beside the histories of spheres, for a saved state. The loads of all processes are on the first
+  // one alone.
   WallState save();
-  // Restores what this or another wall has saved, the same on all processes. Throws InputError, and nothing has changed then,
-  // where a servo would be outside of its limits.
+  // Restores what this or another wall has saved; all processes give the same state. Throws InputError, with nothing changed,
+  // where a servo would be outside its limits.
   void restore(const WallState &was, const Step &now);
-  // After restore(): the history of the spheres of this process, each as pack_saved() wrote it. Warns of what does not fit.
+  // Restores the history of the spheres of this process after restore(), each as pack_saved() wrote it. Warns of what does not
+  // fit.
   void restore_springs(const std::vector<std::vector<Real>> &spheres);
 
  private:
