@@ -48,7 +48,7 @@ class DeviceMemory {
     asked_at = loads;
     return found;
   }
-  // How many objects the process has loaded so far, including those unloaded since.
+  // Returns how many objects the process has loaded so far, including those unloaded since.
   static unsigned long long n_loads()
   {
     unsigned long long loads = 0;

@@ -53,7 +53,7 @@ class ApiGrid {
   bool uses_tree() const { return settings_.list_kind.is_complete() && !settings_.in_floats; }
 
   const TriangleTree &tree(const ProgressListener &progress = {}) const;
-  // The boxes near the tree's mesh; null without a cutoff.
+  // Returns the boxes near the tree's mesh; null without a cutoff.
   const CutoffBoxes *near(const ProgressListener &progress = {}) const;
   const ApiCells &cells(bool on_cuda = false, const ProgressListener &progress = {}) const;
   const ApiCells *cells_made() const { return cells_.made(); }

@@ -18,7 +18,7 @@ inline bool needs_estimate(const ApiGrid &grid, const lsdcd_query &q)
   return (q.side || q.signed_distance) && q.estimate_sides && !grid.has_sides;
 }
 
-// The caller's query with its defaults filled in. Throws ApiError where it does not fit the grid.
+// Returns the caller's query with its defaults filled in. Throws ApiError where it does not fit the grid.
 lsdcd_query checked_query(const ApiGrid &grid, const lsdcd_query *given, bool on_host);
 
 template <class T>

@@ -34,7 +34,7 @@ inline std::string in_quotes(const std::string &text)
   return "\"" + text + "\"";
 }
 
-// A finite number from `least` to `most`.
+// Returns a finite number from `least` to `most`.
 inline double checked_number(double value, const std::string &field, double least = -Tokens::kHuge,
                              double most = Tokens::kHuge)
 {

@@ -23,7 +23,7 @@ Spheres spheres_of(const lsdcd_spheres &spheres, bool has_heat, bool has_types);
 void check_types(const Spheres &spheres);
 void check_sizes(const Spheres &spheres);
 void check_motion(const Spheres &spheres);
-// The box around the centres.
+// Returns the box around the centres.
 Box checked_extents(const Spheres &spheres);
 
 // How many centres are outside of a box that neither repeats nor follows them, and the first.

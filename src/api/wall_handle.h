@@ -47,7 +47,7 @@ class PosesGiven {
       hash_ = (hash_ ^ bits ^ bits >> 32) * 0x100000001b3;
     }
   }
-  // The part that fits a double, exactly.
+  // Returns the part that fits a double, exactly.
   Real number() const { return static_cast<Real>(hash_ >> 11); }
 
  private:
@@ -120,7 +120,7 @@ int guard_wall(lsdcd_wall *wall, const Body &body) noexcept
 lsdcd_wall *new_wall(
     const lsdcd_wall_options *options,
     const std::function<std::unique_ptr<Wall>(lsdcd_wall &, const lsdcd_wall_options &)> &make);
-// Where it computes.
+// Returns where it computes.
 WallBackend backend_of(const lsdcd_wall_options &options, lsdcd_wall &made);
 // Throws where a step would need numbers that only a script has.
 void check_no_inputs(const Wall &wall);

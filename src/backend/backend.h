@@ -38,7 +38,7 @@
 
 namespace lsdcd {
 
-// How many bits keys up to this one have; at least 1.
+// Returns how many bits keys up to this one have; at least 1.
 inline int bits_of(std::uint32_t largest)
 {
   int bits = 1;

@@ -11,7 +11,7 @@ namespace lsdcd {
 // True if this build has CUDA and a usable GPU is present; `why` says what is missing otherwise.
 bool cuda_available(std::string *why);
 
-// How many GPUs this process sees; 0 where cuda_available() is false.
+// Returns how many GPUs this process sees; 0 where cuda_available() is false.
 int cuda_devices();
 
 }    // namespace lsdcd

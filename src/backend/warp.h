@@ -34,7 +34,7 @@ struct Warp {
     if constexpr (kSize > 1) __syncwarp(members());
 #endif
   }
-  // A bit for each thread that says yes.
+  // Returns a bit for each thread that says yes.
   LSDCD_FN static unsigned vote(bool yes)
   {
 #if LSDCD_ON_GPU()
@@ -49,7 +49,7 @@ struct Warp {
 #endif
     return yes;
   }
-  // The value that the thread of this rank has.
+  // Returns the value that the thread of this rank has.
   template <class T>
   LSDCD_FN static T of(T value, [[maybe_unused]] unsigned rank)
   {
@@ -62,7 +62,7 @@ struct Warp {
   {
     return {of(v.x, rank), of(v.y, rank), of(v.z, rank)};
   }
-  // The value that the thread `step` ranks below has; its own where there is none.
+  // Returns the value that the thread `step` ranks below has; its own where there is none.
   template <class T>
   LSDCD_FN static T from_below(T value, [[maybe_unused]] unsigned step)
   {
@@ -71,7 +71,7 @@ struct Warp {
 #endif
     return value;
   }
-  // The largest value that any thread has.
+  // Returns the largest value that any thread has.
   LSDCD_FN static unsigned largest(unsigned value)
   {
 #if LSDCD_ON_GPU()
@@ -80,7 +80,7 @@ struct Warp {
 #endif
     return value;
   }
-  // The value of the thread whose rank differs in the bit `apart`; its own where there is none.
+  // Returns the value of the thread whose rank differs in the bit `apart`; its own where there is none.
   template <class T>
   LSDCD_FN static T of_other(T value, [[maybe_unused]] unsigned apart)
   {
@@ -101,7 +101,7 @@ struct Warp {
     if constexpr (kSize > 1) return static_cast<unsigned>(count_bits(votes));
     return votes;
   }
-  // The number of votes of threads with lower ranks than this one's.
+  // Returns the number of votes of threads with lower ranks than this one's.
   LSDCD_FN static unsigned count_below(unsigned votes)
   {
     return count(votes & ((1u << rank()) - 1));

@@ -11,9 +11,9 @@
 
 namespace lsdcd {
 
-// The cube root of x >= 0, to a rounding or two; 0 below the smallest normal number. A third of the
-// exponent's bits is the root to 5 %; each of Halley's steps has the cube of the error
-// of the one before: 8e-5, 4e-13, below rounding.
+// Returns the cube root of x >= 0, to a rounding or two; 0 below the smallest normal number. A third of the exponent's
+// bits is the root to 5 %; each of Halley's steps has the cube of the error of the one before: 8e-5, 4e-13, below
+// rounding.
 LSDCD_FN Real cube_root(Real x)
 {
   if (!(x >= 2.2250738585072014e-308)) return 0;

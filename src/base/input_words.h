@@ -22,9 +22,9 @@ constexpr Real kAboveZero = 1e-300;    // the lower end of a range without 0
 // "from 0 to 1", or "above 0" for kAboveZero.
 std::string range_text(Real low, Real high);
 
-// The name that takes the fewest inserted, deleted, changed or swapped letters.
+// Returns the name that takes the fewest inserted, deleted, changed or swapped letters.
 std::string nearest(const std::string &word, const std::vector<std::string> &names);
-// Is it near enough to be suggested? At most two letters differ, and not all.
+// Returns whether it is near enough to be suggested. At most two letters differ, and not all.
 bool is_near(const std::string &word, const std::string &name);
 // "the nearest is 'x'" if that is near; else "those are x, y".
 std::string nearest_or_all(const std::string &word, const std::vector<std::string> &names);
@@ -40,21 +40,21 @@ class Tokens {
   std::string take() { return tokens_[at_++]; }
   bool number_follows() const;
 
-  // The position in the words, and the words read since a position, as they were written.
+  // Returns the position in the words, and the words read since a position, as they were written.
   std::size_t at() const { return at_; }
   std::string between(std::size_t first) const;
 
   // `name` is being read, with this syntax: errors of the next words say so.
   void set_context(const std::string &name, const std::string &syntax);
 
-  // A number in [low, high]; `what` is its name in messages.
+  // Returns a number in [low, high]; `what` is its name in messages.
   Real number(const char *what, Real low = -kHuge, Real high = kHuge);
   // The same, without a fraction.
   std::int64_t whole(const char *what, Real low, Real high);
   // As number(), or `otherwise` if the word is `instead`.
   Real number_or(const char *instead, Real otherwise, const char *what, Real low,
                  Real high = kHuge);
-  // The index of the word among `choices`.
+  // Returns the index of the word among `choices`.
   int choice(const std::vector<std::string> &choices);
 
   [[noreturn]] void fail(const std::string &problem) const;

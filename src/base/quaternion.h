@@ -15,7 +15,7 @@ struct Quaternion {
   Vec3 v = {0, 0, 0};
 };
 
-// The rotation `b` followed by `a`.
+// Returns the rotation `b` followed by `a`.
 inline Quaternion operator*(const Quaternion &a, const Quaternion &b)
 {
   return {a.w * b.w - dot(a.v, b.v), a.w * b.v + b.w * a.v + cross(a.v, b.v)};

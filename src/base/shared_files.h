@@ -8,9 +8,8 @@
 
 namespace lsdcd {
 
-// The folder share/lsdcd of this build or installation: the nearest one above the folder of the
-// program or plugin. If there is none, the name that it would have beside this folder; empty: not
-// known.
+// Returns the folder share/lsdcd of this build or installation: the nearest one above the folder of the program or
+// plugin. If there is none, the name that it would have beside this folder; empty: not known.
 std::filesystem::path shared_folder();
 
 }    // namespace lsdcd

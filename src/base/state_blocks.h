@@ -84,7 +84,7 @@ class StateReader {
     return value;
   }
   const Real *take_numbers(std::size_t n);    // where these are
-  // How many things follow, of one number each at least.
+  // Returns how many things follow, of one number each at least.
   std::size_t take_count();
   std::size_t left() const { return left_; }
   [[noreturn]] void fail(const std::string &problem) const;

@@ -63,7 +63,7 @@ class BodyCollision {
   // many pieces for the grid's cells.
   virtual void set_body(const TriangleSoup &body) = 0;
   virtual std::size_t n_pieces() const = 0;
-  // A new one without a body that shares this one's copy of the wall, on the same device.
+  // Returns a new one without a body that shares this one's copy of the wall, on the same device.
   virtual std::unique_ptr<BodyCollision> with_same_wall() const = 0;
 
   // Throws InputError if the pose is no rigid motion, or so far away that coordinates have too few

@@ -277,7 +277,7 @@ class BodyCollisionOn : public BodyCollision {
 
   // 2 / 3 of the longest edge (subdivide.h), and what piece_of() adds to it.
   static constexpr Real kMaxRadius = (2. / 3) * (1 + 2e-6);
-  // The longest edge of pieces: a cell, or what the cutoff allows, a little less for rounding.
+  // Returns the longest edge of pieces: a cell, or what the cutoff allows, a little less for rounding.
   Real longest_edge() const
   {
     return std::min(grid_.length, grid_.cutoff / (kMaxRadius * (1 + Real(1e-4))));

@@ -25,8 +25,8 @@ class PosePoints {
   static constexpr int kSums = 14;
   void add(std::size_t point, const Vec3 &x, const Vec3 &origin, double *sums) const;
 
-  // The rigid motion of the points to their present positions with the least mean square distance (Horn
-  // 1987), and the square root of that.
+  // Returns the rigid motion of the points to their present positions with the least mean square distance (Horn 1987),
+  // and the square root of that.
   BodyPose fit(const double *sums, const Vec3 &origin, Real &off) const;
 
  private:

@@ -24,7 +24,7 @@
 
 namespace lsdcd {
 
-// The grid's primitive as a triangle, for exact tests.
+// Returns the grid's primitive as a triangle, for exact tests.
 LSDCD_FN Triangle wall_triangle(const MeshFeaturesView &wall, FeatureCode primitive)
 {
   const std::uint32_t i = feature_index(primitive);

@@ -153,8 +153,8 @@ LSDCD_FN Real find_contacts(const GridView &grid, const Vec3 &q, Real radius,
   return find_contacts_in<PackedCandidates>(grid, q, radius, set);
 }
 
-// The outward pseudonormal of a feature: its dot product with (q - closest point)
-// tells on which side of a closed wall q is (Baerentzen and Aanaes 2005).
+// Returns the outward pseudonormal of a feature: its dot product with (q - closest point) tells on which side of a closed
+// wall q is (Baerentzen and Aanaes 2005).
 LSDCD_FN Vec3 outward(const MeshFeaturesView &wall, FeatureCode feature)
 {
   const std::uint32_t i = feature_index(feature);

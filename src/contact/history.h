@@ -56,12 +56,12 @@ LSDCD_FN bool are_adjacent(const MeshFeaturesView &wall, FeatureCode a, FeatureC
 // Cosine above which a contact that changed features is still the same contact.
 constexpr Real kMoved = 0.7;
 
-// The springs of the last step as one mesh sees them. If the wall has one mesh, all are of this mesh.
+// Returns the springs of the last step as one mesh sees them. If the wall has one mesh, all are of this mesh.
 LSDCD_FN bool is_own(const Spring *, int)
 {
   return true;
 }
-// A vector that belongs to spring k, in the frame of that mesh.
+// Returns a vector that belongs to spring k, in the frame of that mesh.
 LSDCD_FN Vec3 in_own_frame(const Spring *, int, const Vec3 &h)
 {
   return h;
@@ -121,7 +121,7 @@ LSDCD_FN Transfer transfer_of(const MeshFeaturesView &wall, const ContactsView &
   return {best, best_cos};
 }
 
-// A vector of the old spring `in.from` after the contact with this unit normal has taken it over.
+// Returns a vector of the old spring `in.from` after the contact with this unit normal has taken it over.
 template <class Springs>
 LSDCD_FN Vec3 handed_on(const Vec3 &h, const Transfer &in, const Springs &old, const Vec3 &normal)
 {

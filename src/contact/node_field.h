@@ -48,7 +48,7 @@ LSDCD_FN NodeShares node_shares(const MeshFeaturesView &wall, FeatureCode featur
   }
 }
 
-// The value of a field there. Where all nodes have the same it is exactly that.
+// Returns the value of a field there. Where all nodes have the same it is exactly that.
 LSDCD_FN Vec3 field_at(const NodeShares &at, const Vec3 *field)
 {
   const Vec3 first = field[at.node[0]];

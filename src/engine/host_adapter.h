@@ -228,7 +228,7 @@ class HostAdapter : public WallEngine {
     candidates_.clear();
   }
 
-  // The candidates of any mesh by cells, ascending.
+  // Returns the candidates of any mesh by cells, ascending.
   std::vector<int> candidates_by_cells(const Spheres &spheres, Real margin)
   {
     std::vector<int> candidates;

@@ -46,7 +46,7 @@ struct NodesSeen {
   std::uint64_t hi[3], minus_lo[3];
   int n_left, pad;
 
-  // The largest coordinate, without its sign.
+  // Returns the largest coordinate, without its sign.
   LSDCD_FN Real far() const
   {
     std::uint64_t most = hi[0];
@@ -148,7 +148,7 @@ class MovingNodes {
     b.wait();
   }
 
-  // The faces around node i, in the order of their numbers: around[first[i]] to around[first[i + 1] - 1].
+  // Returns the faces around node i, in the order of their numbers: around[first[i]] to around[first[i + 1] - 1].
   const int *face_first() const { return face_first_.data(); }
   const int *faces_around() const { return face_around_.data(); }
   const int *faces() const { return topology_.faces; }

@@ -94,7 +94,8 @@ class NodeForces {
   using Array = typename B::template Array<T>;
 
  public:
-  // Where a host can read the contacts. Adds to `forces`, x y z, node after node, and returns the power on the spheres.
+  // Returns where a host can read the contacts. Adds to `forces`, x y z, node after node, and returns the power on the
+  // spheres.
   static Real add_on_host(const NodeContacts &in, std::size_t n_nodes, Real *forces)
   {
     NodeSums sums(n_nodes, forces);

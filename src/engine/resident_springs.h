@@ -137,7 +137,7 @@ class ResidentSprings : public SpringsInPlace {
     });
   }
 
-  // The pool that the next step writes; `slot`: see ContactPool.
+  // Returns the pool that the next step writes; `slot`: see ContactPool.
   ContactPool next(int *slot)
   {
     Pool &pool = pool_[1 - now_];
@@ -160,7 +160,7 @@ class ResidentSprings : public SpringsInPlace {
     end_ = kUnknown;
   }
 
-  // The records of the last step, with gaps; `moved`: did it move springs?
+  // Returns the records of the last step, with gaps; `moved`: did it move springs?
   const ContactRecord *records(bool moved) const
   {
     return pool_[moved ? now_ : 1 - now_].records.data();

@@ -53,7 +53,7 @@ struct EngineSettings {
   Device device = Device::automatic;
   int device_rank = 0;    // which of the GPUs this process takes (node-local rank, wrapped)
 
-  // The first law of the table: the only one, or the sub-models of all.
+  // Returns the first law of the table: the only one, or the sub-models of all.
   ContactLaw &law() { return laws.laws.front(); }
   const ContactLaw &law() const { return laws.laws.front(); }
 };
@@ -286,9 +286,9 @@ class WallEngine {
   virtual int n_touching() const = 0;
   virtual const int *touching() const = 0;
   virtual const SphereOutput *sphere_output() const = 0;
-  // The states of these spheres, after a step with `states`.
+  // Returns the states of these spheres, after a step with `states`.
   virtual const TouchingSphere *touching_spheres() const = 0;
-  // The power into each of these spheres; null where the law has no heat.
+  // Returns the power into each of these spheres; null where the law has no heat.
   virtual const Real *sphere_heat() const = 0;
 
   // Records of the contacts of the last step, in the order of the spheres;

@@ -56,7 +56,7 @@ class WorkListStore {
     });
   }
 
-  // The work lists of the next step.
+  // Returns the work lists of the next step.
   WorkLists next(StepCounts *counts)
   {
     WorkLists lists;

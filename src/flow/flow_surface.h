@@ -31,11 +31,11 @@ class FlowSurface {
   // Triangles that the straight path from one point to the other passes.
   Passes passes(const WrappedPoint &from, const Vec3 &to, const PeriodicBox &box) const;
 
-  // A lower bound of the distance to the surface. It is at most `most` and at most half the smallest
-  // periodic width.
+  // Returns a lower bound of the distance to the surface. It is at most `most` and at most half the smallest periodic
+  // width.
   Real clearance(const Vec3 &x, const PeriodicBox &box, Real most = 1e150) const;
 
-  // How far images have moved at most because the box has changed; clearances change by that.
+  // Returns how far images have moved at most because the box has changed; clearances change by that.
   Real images_move(const PeriodicBox &before, const PeriodicBox &now) const;
 
   std::size_t bytes() const

@@ -27,7 +27,7 @@ class Path {
   // Through the triangle: 1 along its normal, -1 against it, else 0.
   int crosses(const Vec3 &a, const Vec3 &b, const Vec3 &c) const;
 
-  // A box around its ends, with room for rounding.
+  // Returns a box around its ends, with room for rounding.
   Box bounds() const;
 
  private:

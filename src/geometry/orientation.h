@@ -83,8 +83,8 @@ inline LSDCD_NOINLINE int exact_in_plane(Vec3 a, Vec3 b, Vec3 c, int u, int v)
 
 }    // namespace orientation_detail
 
-// The sign of det(a - d, b - d, c - d): -1 where a, b, c turn to the left as seen from d, 1 to the
-// right; 0 where rounded numbers do not decide.
+// Returns the sign of det(a - d, b - d, c - d): -1 where a, b, c turn to the left as seen from d, 1 to the right; 0 where
+// rounded numbers do not decide.
 LSDCD_FN int rounded_orientation(const Vec3 &a, const Vec3 &b, const Vec3 &c, const Vec3 &d)
 {
   using namespace orientation_detail;

@@ -99,13 +99,13 @@ class ListKind {
   // n: 1 to kMaxNearest
   static constexpr ListKind nearest(int n) { return ListKind(n); }
   static constexpr ListKind every() { return ListKind(kEvery); }
-  // The values of `nearest` of scripts and of the library: 0 is complete.
+  // Returns the values of `nearest` of scripts and of the library: 0 is complete.
   static constexpr ListKind of_option(int n) { return n == 0 ? complete() : nearest(n); }
 
   LSDCD_FN bool is_complete() const { return n_ == 0; }
   LSDCD_FN bool has_primitives() const { return n_ > 0; }
   LSDCD_FN bool is_every() const { return n_ == kEvery; }
-  // How many primitives of a list are read. The next one is a bound of all that was left out.
+  // Returns how many primitives of a list are read. The next one is a bound of all that was left out.
   LSDCD_FN std::uint32_t most() const { return static_cast<std::uint32_t>(n_); }
 
   friend bool operator==(ListKind a, ListKind b) { return a.n_ == b.n_; }
@@ -260,7 +260,7 @@ struct TriangleGrid {
 // which cell length would.
 TriangleGrid build_grid(const WeldedMesh &mesh, const GridSettings &settings, bool on_cuda = false);
 
-// The report as lines for the log.
+// Returns the report as lines for the log.
 std::string describe(const GridReport &report);
 
 // One flat, relocatable block of bytes for a whole grid, so that the processes of
@@ -278,7 +278,7 @@ struct GridParts {
 };
 std::size_t flat_bytes(const GridParts &grid);
 void flatten(const GridParts &grid, char *block);
-// The part that any grid of this wall has, with room for the padding of the rest.
+// Returns the part that any grid of this wall has, with room for the padding of the rest.
 std::size_t flat_wall_bytes(const TriangleGrid &grid);
 // The bytes that all of a grid may take, by the settings.
 std::size_t budget_of(const GridSettings &settings, const TriangleGrid &grid);

@@ -98,7 +98,7 @@ class Host {
 
 // The functions below are collective: all processes call them together.
 
-// The lowest rank where `here`; the number of processes where there is none.
+// Returns the lowest rank where `here`; the number of processes where there is none.
 int lowest_rank(Host &host, bool here);
 
 // A text of the process `from` replaces those of the others.

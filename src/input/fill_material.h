@@ -28,9 +28,9 @@ struct FilledTokens {
 FilledTokens fill_material(const std::vector<std::string> &tokens, const std::string &units,
                            const MaterialWords &words = kScriptWords);
 
-// The contact of the material with itself, in the words of LAMMPS 29Sep2021's `pair_style granular`,
-// which later versions take, too: without `granular`, with tsuji and its number in place of
-// coeff_restitution, and with a velocity damping of 0 in place of none.
+// Returns the contact of the material with itself, in the words of LAMMPS 29Sep2021's `pair_style granular`, which later
+// versions take, too: without `granular`, with tsuji and its number in place of coeff_restitution, and with a velocity
+// damping of 0 in place of none.
 std::vector<std::string> words_of_29sep2021(std::vector<std::string> filled);
 
 }    // namespace lsdcd

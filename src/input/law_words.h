@@ -14,7 +14,7 @@ namespace lsdcd {
 
 // "hooke|hooke/history|... kn kt|NULL ... [limit_damping] mesh FILE [keywords], or granular ..."
 std::string law_syntax();
-// The style and its numbers. `name`: the style; with `granular`, all its words.
+// Returns the style and its numbers. `name`: the style; with `granular`, all its words.
 ContactLaw read_law(Tokens &w, std::string &name, const std::string &syntax);
 // A sub-model of LIGGGHTS beside a classic style: "cdt MU". `instead`: what granular has.
 void read_beside_classic(Tokens &w, ContactLaw &law, Family family);

@@ -18,7 +18,7 @@ struct ScriptFile {
   bool written = false;
 };
 
-// The files of a wall's meshes, by name; none is opened.
+// Returns the files of a wall's meshes, by name; none is opened.
 std::vector<ScriptFile> files_of(const WallSpec &settings);
 
 // Would writing one of these in a step after `now` replace the other? Different spellings of a folder

@@ -30,7 +30,7 @@ struct WallCommand {
 // Throws InputError that names the argument, what was expected and the syntax.
 WallCommand parse_wall(const std::vector<std::string> &arguments);
 
-// The command with every keyword, its unit, range and default; several lines.
+// Returns the command with every keyword, its unit, range and default; several lines.
 std::string wall_help();
 
 }    // namespace lsdcd

@@ -60,7 +60,7 @@ class FeedSchedule {
   // The first step after `now` for insertion, and the first in which the grain is due.
   std::int64_t first_open(std::int64_t now) const;
   std::int64_t first_due(std::int64_t now, const GrainTotals &before, Real mass) const;
-  // How many grains of this mean mass are due beyond those drawn.
+  // Returns how many grains of this mean mass are due beyond those drawn.
   GrainTotals due_beyond(std::int64_t step, const GrainTotals &drawn, Real mean) const;
 
   void set_timestep(std::int64_t step, Real dt);    // from this step on

@@ -23,7 +23,7 @@ class InletFace {
   Real area() const { return areas_.back(); }
   Box zone() const;    // around all positions
 
-  // A position, uniformly among those at which a grain of this radius crosses no edge of the face. False: none
+  // Finds a position, uniformly among those at which a grain of this radius crosses no edge of the face. False: none
   // was found.
   bool draw(RandomStream &random, Real radius, Vec3 &at) const;
   bool has_room(Real radius) const;

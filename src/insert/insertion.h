@@ -53,7 +53,7 @@ class Insertion {
   Insertion(const InsertionPlan &plan, std::int64_t step, Real dt);
 
   const GrainSource &source() const { return source_; }
-  // The next step with something to do, or FeedSchedule::kNever.
+  // Returns the next step with something to do, or FeedSchedule::kNever.
   std::int64_t next_step() const { return next_step_; }
 
   void draw_due(std::int64_t step);

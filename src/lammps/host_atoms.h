@@ -16,12 +16,12 @@ namespace lsdcd {
 
 class Host;
 
-// The shapes that the atom style allows, as "ellipsoids"; empty: all atoms are spheres or points.
+// Returns the shapes that the atom style allows, as "ellipsoids"; empty: all atoms are spheres or points.
 std::string shape_of_atoms(const LAMMPS_NS::Atom &atom);
 
-// Is there an atom of one group and an atom of the other, by the bits of their groups, which no neigh_modify exclude keeps
-// apart? Known once LAMMPS has set up its neighbour lists. Atoms of both groups are taken to be in different molecules.
-// Collective.
+// Returns whether there is an atom of one group and an atom of the other, by the bits of their groups, which no
+// neigh_modify exclude keeps apart. Known once LAMMPS has set up its neighbour lists. Atoms of both groups are taken to
+// be in different molecules. Collective.
 bool pairs_act_between(const LAMMPS_NS::Neighbor &neighbor, const LAMMPS_NS::Atom &atom,
                        int group_bit, int other_bit, Host &host);
 

@@ -14,7 +14,7 @@ class Neighbor;
 
 namespace lsdcd {
 
-// The simulation box, without a margin.
+// Returns the simulation box, without a margin.
 PeriodicBox host_box(const LAMMPS_NS::Domain &domain);
 
 // Does LAMMPS reneighbour before any atom has gone farther than half the skin? A step in which one

@@ -14,7 +14,7 @@ namespace lsdcd {
 // throws InputError on all.
 WeldedMesh read_together(Host &host, const MeshSpec &settings);
 
-// A copy of a mesh that the first process has; others give null. Its faces keep their numbers.
+// Returns a copy of a mesh that the first process has; others give null. Its faces keep their numbers.
 WeldedMesh copy_together(Host &host, const WeldedMesh *mesh);
 
 }    // namespace lsdcd

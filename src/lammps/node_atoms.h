@@ -37,7 +37,7 @@ class NodeAtoms {
   // Before a step: gives the wall the places and velocities of all nodes. `look`: atoms may have other indices since
   // the last time. `now`: the step. Throws InputError where one is lost. Collective.
   void send(lsdcd::Wall &wall, bool look, const lsdcd::Step &now);
-  // Where they are now, in the order of the nodes. Throws InputError where one is lost. Collective.
+  // Returns where they are now, in the order of the nodes. Throws InputError where one is lost. Collective.
   std::vector<lsdcd::Vec3> places(const lsdcd::Wall &wall);
   // After it: adds the forces on them. Collective.
   void add_forces(lsdcd::Wall &wall);

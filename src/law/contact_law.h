@@ -54,23 +54,23 @@ struct ContactLaw {
   bool limit_damping = false;
 
   bool is(NormalModel model) const { return normal == model; }
-  // Is it one of LAMMPS's styles before `granular`? These have formulas of their own.
+  // Returns whether it is one of LAMMPS's styles before `granular`. These have formulas of their own.
   bool is_classic() const { return damping == DampingModel::classic; }
   bool has_heat() const { return heat.is_on(); }
   // Does the tangential spring shrink as the contact unloads?
   bool rescales() const { return tangential >= TangentialModel::mindlin_rescale; }
-  // Has it a sub-model of LIGGGHTS beside a classic style?
+  // Returns whether it has a sub-model of LIGGGHTS beside a classic style.
   bool is_extended() const { return is_classic() && (rolling.is_on() || cohesion.is_on()); }
 
   // Does a contact have a history? With adhesion beyond contact it does: only what touched is held.
   bool has_history() const;
   // Numbers of a contact's history beside its shear displacement.
   int n_extra() const;
-  // A number for restart files. It is equal for laws whose histories mean the same.
+  // Returns a number for restart files. It is equal for laws whose histories mean the same.
   int history_kind() const;
 
-  // The distance beyond contact at which adhesion lets go of a sphere of radius 1. It grows with
-  // the cube root of the radius. 0: nothing acts beyond contact.
+  // Returns the distance beyond contact at which adhesion lets go of a sphere of radius 1. It grows with the cube root of
+  // the radius. 0: nothing acts beyond contact.
   Real pull_off() const;
 };
 
@@ -79,14 +79,13 @@ ContactLaw classic_law(NormalModel normal, bool history);
 // `granular` with its default damping and linear_nohistory, without numbers.
 ContactLaw granular_law(NormalModel normal);
 
-// The damping, per square root of mass times secant stiffness, that gives the restitution e.
-// tsuji: a fit for Hertz contacts, right to 1.1e-3 (Tsuji, Tanaka and Ishida 1992). Their mass
-// is that of one of two equal spheres, twice the effective mass: hence the root of 2.
-// The other is exact for hooke and for Hertz contacts (Brilliantov et al. 1996).
+// Returns the damping, per square root of mass times secant stiffness, that gives the restitution e. tsuji: a fit for
+// Hertz contacts, right to 1.1e-3 (Tsuji, Tanaka and Ishida 1992). Their mass is that of one of two equal spheres, twice
+// the effective mass: hence the root of 2. The other is exact for hooke and for Hertz contacts (Brilliantov et al. 1996).
 Real tsuji_damping(Real e);
 Real restitution_damping(NormalModel normal, Real e);
 
-// How far from its centre a sphere can feel the wall.
+// Returns how far from its centre a sphere can feel the wall.
 Real cutoff_of(const ContactLaw &law, Real radius);
 
 }    // namespace lsdcd

@@ -177,7 +177,7 @@ struct GranularModel {
   }
 };
 
-// How many numbers of a contact's history a law has beside its shear displacement.
+// Returns how many numbers of a contact's history a law has beside its shear displacement.
 template <class Law>
 LSDCD_FN int n_extra(const Law &law)
 {

@@ -28,9 +28,8 @@ struct HertzImpact {
 };
 HertzImpact hertz_impact(Real modulus, Real mass, Real radius, Real speed);
 
-// The time in which a Rayleigh wave runs round half a sphere, by the usual fit of its speed:
-// pi R sqrt(density / G) / (0.1631 nu + 0.8766), with G = E / (2 (1 + nu)). Li, Xu and Thornton, Powder
-// Technol. 160, 219 (2005).
+// Returns the time in which a Rayleigh wave runs round half a sphere, by the usual fit of its speed: pi R sqrt(density /
+// G) / (0.1631 nu + 0.8766), with G = E / (2 (1 + nu)). Li, Xu and Thornton, Powder Technol. 160, 219 (2005).
 Real rayleigh_time(Real radius, Real density, Real youngs_modulus, Real poissons_ratio);
 
 }    // namespace lsdcd

@@ -35,13 +35,13 @@ inline Real largest_pull_off(const LawTable &table)
   return largest;
 }
 
-// The law of this mesh and kind, both from 0.
+// Returns the law of this mesh and kind, both from 0.
 inline const ContactLaw &law_of(const LawTable &table, int mesh, int kind)
 {
   return table.laws[static_cast<std::size_t>(mesh) * table.of_mesh() + kind];
 }
 
-// How far from its centre a sphere can feel the wall.
+// Returns how far from its centre a sphere can feel the wall.
 inline Real cutoff_of(const LawTable &table, Real radius)
 {
   return cutoff_of(radius, largest_pull_off(table));

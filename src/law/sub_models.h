@@ -64,10 +64,10 @@ std::vector<const SubModel *> sub_models(Family family, GoesWith with);
 // Their names: "none|sds".
 std::string names_text(Family family, GoesWith with);
 
-// The words of a family in scripts: "tangential"; empty for style and normal.
+// Returns the words of a family in scripts: "tangential"; empty for style and normal.
 const char *family_word(Family family);
 
-// The rows of a law, in the order of families. Where two rows have the same formula it has the first.
+// Returns the rows of a law, in the order of families. Where two rows have the same formula it has the first.
 std::vector<const SubModel *> rows_of(const ContactLaw &law);
 
 // "hooke/history, rolling cdt"

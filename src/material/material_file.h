@@ -56,9 +56,8 @@ struct MaterialFile {
 // remedy.
 MaterialFile read_materials(const std::string &path);
 
-// Where `file` is: as given, then in the folders of the environment variables
-// LSDCD_POTENTIALS and LAMMPS_POTENTIALS (several separated by ':'), then in
-// potentials of shared_folder(). Throws InputError.
+// Returns where `file` is: as given, then in the folders of the environment variables LSDCD_POTENTIALS and
+// LAMMPS_POTENTIALS (several separated by ':'), then in potentials of shared_folder(). Throws InputError.
 std::string find_material_file(const std::string &file);
 
 }    // namespace lsdcd

@@ -8,8 +8,8 @@
 
 namespace lsdcd {
 
-// An SI value of the property in `units`: si, cgs, micro or nano. Throws InputError for
-// others, which have no scale (lj) or are for atoms (real, metal, electron).
+// Returns an SI value of the property in `units`: si, cgs, micro or nano. Throws InputError for others, which have no
+// scale (lj) or are for atoms (real, metal, electron).
 Real in_units(Real si, const Property &property, const std::string &units);
 
 }    // namespace lsdcd

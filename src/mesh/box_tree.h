@@ -29,8 +29,8 @@ class BoxTree {
   {
     if (!things_.empty()) visit(root(), may_hold, found);
   }
-  // The smallest of `most` and of_thing(i) over all things. of_box(box) is a lower bound of of_thing(i)
-  // for the things in the box. The half with the smaller bound is searched first.
+  // Returns the smallest of `most` and of_thing(i) over all things. of_box(box) is a lower bound of of_thing(i) for the
+  // things in the box. The half with the smaller bound is searched first.
   template <class OfBox, class OfThing>
   Real least(Real most, OfBox &&of_box, OfThing &&of_thing) const
   {

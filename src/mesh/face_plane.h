@@ -15,7 +15,7 @@ struct FacePlane {
   bool degenerate;
 };
 
-// The plane of the triangle a, b, c.
+// Returns the plane of the triangle a, b, c.
 FacePlane face_plane(const Vec3 &a, const Vec3 &b, const Vec3 &c);
 
 }    // namespace lsdcd

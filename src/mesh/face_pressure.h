@@ -9,7 +9,8 @@
 
 namespace lsdcd {
 
-// The share of one corner; `sixth`: of the pressure (force/area), which pushes to where the normal points by the winding.
+// Returns the share of one corner; `sixth`: of the pressure (force/area), which pushes to where the normal points by the
+// winding.
 LSDCD_FN Vec3 corner_share_of_pressure(const int *face, const Vec3 *at, Real sixth)
 {
   const Vec3 &a = at[face[0]];

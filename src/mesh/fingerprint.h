@@ -10,7 +10,7 @@
 
 namespace lsdcd {
 
-// A number made of the bits of vertices, edges and faces, in their order.
+// Returns a number made of the bits of vertices, edges and faces, in their order.
 std::uint64_t fingerprint(const WeldedMesh &mesh);
 
 }    // namespace lsdcd

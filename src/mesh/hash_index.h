@@ -37,7 +37,7 @@ class HashIndex {
 
   static constexpr int kNone = -1;
 
-  // The index stored under this hash for which is_same(index) holds, or kNone.
+  // Returns the index stored under this hash for which is_same(index) holds, or kNone.
   template <class IsSame>
   int find(std::uint64_t hash, IsSame is_same) const
   {

@@ -36,8 +36,8 @@ struct PartImage {
   }
 };
 
-// The images within `depth` (length) of the box, ascending. Throws InputError if there are more than
-// vertex numbers can count.
+// Returns the images within `depth` (length) of the box, ascending. Throws InputError if there are more than vertex
+// numbers can count.
 std::vector<PartImage> images_in_reach(const WeldedMesh &mesh, const std::vector<FacetPart> &parts,
                                        const PeriodicBox &box, Real depth);
 

@@ -34,8 +34,8 @@ void note_meetings(WeldedMesh &mesh, const SelfMeetings &meetings);
 // Squares of lengths outside 1e-100 .. 1e100 would leave the range of Real.
 constexpr Real kLargestLength = 1e100;
 
-// The diagonal of the bounding box. Throws InputError where there is no facet, where a coordinate is no number or beyond
-// kLargestLength, and where all are so small.
+// Returns the diagonal of the bounding box. Throws InputError where there is no facet, where a coordinate is no number or
+// beyond kLargestLength, and where all are so small.
 Real checked_diagonal(const TriangleSoup &soup);
 
 // Throws InputError if no facet has an area: edges and points alone are no wall.

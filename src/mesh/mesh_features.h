@@ -42,8 +42,8 @@ FaceRecord make_face_record(const Vec3 &a, const Vec3 &b, const Vec3 &c);
 // primitives and the parts of faces.
 MeshFeatures make_features(const WeldedMesh &mesh, bool with_sides, bool with_primitives = false);
 
-// The records of a mesh whose vertices move: those of every edge and vertex, as any of them may hold a contact later.
-// Which do now, face_parts says, and grids sort `primitives`.
+// Returns the records of a mesh whose vertices move: those of every edge and vertex, as any of them may hold a contact
+// later. Which do now, face_parts says, and grids sort `primitives`.
 MeshFeatures make_moving_features(const WeldedMesh &mesh, bool with_sides);
 
 // The same for other places of the vertices, which were at `before` at the last call. A face or edge that has only
@@ -52,9 +52,9 @@ MeshFeatures make_moving_features(const WeldedMesh &mesh, bool with_sides);
 void update_features(const WeldedMesh &mesh, const std::vector<Vec3> &before, bool with_sides,
                      MeshFeatures &features);
 
-// The parts of it, for an engine that has records of its own (mesh/moving_records.h).
+// Returns the parts of it, for an engine that has records of its own (mesh/moving_records.h).
 
-// The records of a view to be written, and flags of its edges and vertices.
+// Returns the records of a view to be written, and flags of its edges and vertices.
 MovingRecords moving_records(const MeshFeaturesView &of, char *edge_acts, char *vertex_acts);
 // The record of a face that is too thin for Real. Throws InputError where it has no area.
 FaceRecord make_thin_face_record(const WeldedMesh &mesh, std::size_t face);

@@ -129,8 +129,8 @@ LSDCD_FN Real corner_angle(const Vec3 &at, const Vec3 &b, const Vec3 &c)
   return atan2(norm(cross(b - at, c - at)), dot(b - at, c - at));
 }
 
-// The sum of the normals of the faces around a vertex, weighted by their angles there. Of the two edges of a face at a
-// vertex one begins there by the winding.
+// Returns the sum of the normals of the faces around a vertex, weighted by their angles there. Of the two edges of a face
+// at a vertex one begins there by the winding.
 LSDCD_FN Vec3 outward_of_vertex(const MeshTopologyView &mesh, const Vec3 *at,
                                 const FaceRecord *faces, std::uint32_t vertex)
 {
@@ -171,8 +171,8 @@ LSDCD_FN FaceParts parts_of(const MeshTopologyView &mesh, std::uint32_t face,
 // kThick longest^2: the rounding of the normal is below 4 kRoundoff/kThick, 2e-14, which is a fifth of kFlatFold.
 constexpr Real kThick = 0.05;
 
-// The record of a face that moves, by the formulas of make_face_record() in Real. False: it is too thin, or its squares
-// may leave the range. `far`: no coordinate is larger.
+// Finds the record of a face that moves, by the formulas of make_face_record() in Real. False: it is too thin, or its
+// squares may leave the range. `far`: no coordinate is larger.
 LSDCD_FN bool put_thick_face(const Vec3 &a, const Vec3 &b, const Vec3 &c, Real far, FaceRecord &f)
 {
   const Vec3 edge[3] = {b - a, c - b, a - c}, area = cross(edge[0], edge[1]);

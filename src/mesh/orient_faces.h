@@ -32,7 +32,7 @@ struct ShellFaults {
   SelfMeetings meetings;    // of faces of different shells
 };
 
-// The faults of the shells of a closed mesh whose windings agree along its edges.
+// Returns the faults of the shells of a closed mesh whose windings agree along its edges.
 ShellFaults faults_of_shells(const WeldedMesh &mesh);
 
 }    // namespace lsdcd

@@ -58,7 +58,7 @@ struct PeriodicBox {
   Real margin = 0;      // length; how far past a face a sphere may go before it is wrapped
   int dimension = 3;    // 2: spheres stay in the plane z = 0
 
-  // A point in units of the edges: 0 to 1 inside the box.
+  // Returns a point in units of the edges: 0 to 1 inside the box.
   Vec3 fraction(const Vec3 &x) const;
   // Distance between the two faces that edge k joins. Length.
   Real width(int k) const;
@@ -94,7 +94,7 @@ struct PeriodicFaces {
 };
 PeriodicFaces periodic_faces(const PeriodicBox &box);
 
-// The bounds of a box in units of the edges of the periodic one.
+// Returns the bounds of a box in units of the edges of the periodic one.
 Box in_fractions(const Box &box, const PeriodicBox &periodic);
 
 }    // namespace lsdcd

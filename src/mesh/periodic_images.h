@@ -9,10 +9,10 @@
 
 namespace lsdcd {
 
-// The mesh with the images of its triangles within `depth` (length) of the box. Images are moved by
-// sums of periodic edges and welded to the mesh. The parts of the mesh keep their numbers, and images
-// follow (WeldedMesh::images). An image that equals a triangle of the mesh is dropped. The report is that
-// of the mesh, except for its bounds. Without such triangles the result is the mesh.
+// Returns the mesh with the images of its triangles within `depth` (length) of the box. Images are moved by sums of
+// periodic edges and welded to the mesh. The parts of the mesh keep their numbers, and images follow
+// (WeldedMesh::images). An image that equals a triangle of the mesh is dropped. The report is that of the mesh, except
+// for its bounds. Without such triangles the result is the mesh.
 WeldedMesh with_images(const WeldedMesh &mesh, const PeriodicBox &box, Real depth);
 
 }    // namespace lsdcd

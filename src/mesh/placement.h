@@ -37,7 +37,7 @@ class Placement {
   bool is_identity() const;
   // The steps it was built from, in order, for messages.
   const std::vector<PlacementStep> &steps() const { return steps_; }
-  // Is it the same map?
+  // Returns whether it is the same map.
   bool operator==(const Placement &other) const;
   Vec3 apply(const Vec3 &x) const;
 

@@ -11,10 +11,10 @@
 
 namespace lsdcd {
 
-// The vertices, and points on edges and faces: these are cut at the middle of their longest edge until no edge is longer
-// than `apart` (length, > 0). The same on all machines. Every point of the surface is within apart / sqrt(3) of one of
-// them: a triangle whose edges are not longer than a is covered by three discs of radius a / sqrt(3) about its corners.
-// Empty: there would be more than `most`.
+// Returns the vertices, and points on edges and faces: these are cut at the middle of their longest edge until no edge is
+// longer than `apart` (length, > 0). The same on all machines. Every point of the surface is within apart / sqrt(3) of
+// one of them: a triangle whose edges are not longer than a is covered by three discs of radius a / sqrt(3) about its
+// corners. Empty: there would be more than `most`.
 std::vector<Vec3> surface_points(const WeldedMesh &mesh, Real apart, std::size_t most);
 
 }    // namespace lsdcd

@@ -18,7 +18,7 @@ struct FileRounding {
   Real step = 0;
   Vec3 origin = {0, 0, 0};    // where 0 0 0 of the file is
 
-  // The length of a step at x.
+  // Returns the length of a step at x.
   Real at(const Vec3 &x) const { return step * norm(x - origin); }
 };
 

@@ -16,8 +16,8 @@ WeldedMesh weld(const TriangleSoup &soup, Real tolerance, std::vector<int> &corn
 
 constexpr int kNoFace = -1, kNoVertex = -1;
 
-// The face of each facet of the file. A duplicate, in either winding, has the face that it equals, a facet without area
-// kNoFace.
+// Returns the face of each facet of the file. A duplicate, in either winding, has the face that it equals, a facet
+// without area kNoFace.
 std::vector<int> faces_of_facets(const WeldedMesh &mesh, const std::vector<int> &corner_vertex);
 
 // The vertex of the corners that are exactly at each of these positions; kNoVertex where none is.

@@ -21,8 +21,8 @@ struct WeldedPoints {
 // corners cannot collapse into one. Coordinates must be finite; tolerance >= 0.
 WeldedPoints weld_points(const std::vector<Vec3> &corners, Real tolerance);
 
-// The points of copies of a mesh, of which copy c begins at first[c]. Each goes to the nearest point of the copies before
-// it within `tolerance`, if there is one. Points of one copy stay apart, however near they are.
+// Returns the points of copies of a mesh, of which copy c begins at first[c]. Each goes to the nearest point of the
+// copies before it within `tolerance`, if there is one. Points of one copy stay apart, however near they are.
 WeldedPoints weld_copies(const std::vector<Vec3> &points, const std::vector<int> &first,
                          Real tolerance);
 

@@ -94,7 +94,7 @@ std::vector<std::array<int, 3>> facets_without_area(const WeldedMesh &mesh);
 // What the log warns of, after the name of the mesh; empty: nothing.
 std::string weld_warning(const MeshReport &report);
 
-// The report as the block of lines that the log shows; no trailing newline.
+// Returns the report as the block of lines that the log shows; no trailing newline.
 std::string describe(const MeshReport &report, const std::string &source);
 
 }    // namespace lsdcd

@@ -11,11 +11,11 @@
 
 namespace lsdcd {
 
-// The n + 1 slopes of n pieces, at the ends of pieces. The first two pieces are one polynomial, and the last two ("not a
-// knot"); two pieces alone are one parabola.
+// Returns the n + 1 slopes of n pieces, at the ends of pieces. The first two pieces are one polynomial, and the last two
+// ("not a knot"); two pieces alone are one parabola.
 std::vector<Real> spline_slopes(const std::vector<Real> &length, const std::vector<Real> &mean);
 
-// The n slopes of n pieces after which all begins anew, at the beginnings of pieces.
+// Returns the n slopes of n pieces after which all begins anew, at the beginnings of pieces.
 std::vector<Real> periodic_spline_slopes(std::vector<Real> length, std::vector<Real> mean);
 
 }    // namespace lsdcd

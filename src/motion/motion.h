@@ -98,10 +98,9 @@ class RigidMotion {
   // false: the mesh is as its file has it
   bool any() const { return moves() || servo_.present || start_.placed || is_posed_; }
 
-  // The pose at time t since the terms began. It depends only on t and the values of variables, so that it
-  // is as exact after 1e9 steps as after one. After a whole number of periods a term gives the bits that
-  // it began with. A time that differs from such a number only by rounding counts as
-  // that number.
+  // Returns the pose at time t since the terms began. It depends only on t and the values of variables, so that it is as
+  // exact after 1e9 steps as after one. After a whole number of periods a term gives the bits that it began with. A time
+  // that differs from such a number only by rounding counts as that number.
   Pose terms_at(Time t) const;
   // The same with the servo where it is now.
   Pose pose_at(Time t) const;
@@ -120,22 +119,22 @@ class RigidMotion {
   Pose posed_;
 };
 
-// Are they the same at all times, from the same start? Inputs are the same where their names are.
+// Returns whether they are the same at all times, from the same start. Inputs are the same where their names are.
 bool are_same(const std::vector<MotionTerm> &a, const InputNames &inputs_of_a,
               const std::vector<MotionTerm> &b, const InputNames &inputs_of_b);
 bool are_same(const Servo &a, const InputNames &inputs_of_a, const Servo &b,
               const InputNames &inputs_of_b);
 
-// The largest distance between the places of a point of this box (in the mesh's frame) in two poses.
+// Returns the largest distance between the places of a point of this box (in the mesh's frame) in two poses.
 Real farthest_between(const Pose &a, const Pose &b, const Box &box);
 // The pose when this share of the way from a to b is done, at rest: the origin of the mesh goes straight, and it turns
 // evenly.
 Pose between(const Pose &a, const Pose &b, Real share);
-// The largest speed of a point of this box.
+// Returns the largest speed of a point of this box.
 Real fastest_in(const Pose &pose, const Box &box);
-// The bounds of this box where the pose puts it.
+// Returns the bounds of this box where the pose puts it.
 Box placed_bounds(const Pose &pose, const Box &box);
-// The bounds of this box in both poses.
+// Returns the bounds of this box in both poses.
 Box swept_bounds(const Pose &a, const Pose &b, const Box &box);
 
 }    // namespace lsdcd

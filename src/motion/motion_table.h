@@ -100,8 +100,8 @@ class MotionTable {
   Real turned_sign_ = 1;    // -1: the quaternion of the next period is that of this one times -1
 };
 
-// The rows of a text file: numbers with spaces, tabs or commas between them, a row a line; the rest of a line behind # is
-// not read. Throws InputError with the file and the line.
+// Returns the rows of a text file: numbers with spaces, tabs or commas between them, a row a line; the rest of a line
+// behind # is not read. Throws InputError with the file and the line.
 MotionTable read_motion_table(const std::string &file, const TableOptions &options);
 
 }    // namespace lsdcd

@@ -47,7 +47,7 @@ struct Pose {
   }
 };
 
-// Are they the same place of a mesh, whatever their velocities?
+// Returns whether they are the same place of a mesh, whatever their velocities.
 inline bool is_same_place(const Pose &a, const Pose &b)
 {
   return a.row[0] == b.row[0] && a.row[1] == b.row[1] && a.row[2] == b.row[2] && a.shift == b.shift;

@@ -35,7 +35,7 @@ struct Servo {
            point == other.point;
   }
 
-  // The push, from the force and the torque about the origin that spheres exert on the mesh.
+  // Returns the push, from the force and the torque about the origin that spheres exert on the mesh.
   Real push(const Vec3 &force, const Vec3 &torque) const
   {
     return 0 - dot(axis, turns ? torque - cross(point, force) : force);    // none: 0, not -0

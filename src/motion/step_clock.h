@@ -25,7 +25,7 @@ struct Step {
   Kind kind = step;
   bool synchronous = false;    // velocities of spheres and nodes are of the time of their places
 
-  // How long before their places velocities are (time): half a step with velocity Verlet, as it asks for forces.
+  // Returns how long before their places velocities are (time): half a step with velocity Verlet, as it asks for forces.
   Real velocities_behind() const { return kind == step && !synchronous ? dt / 2 : 0; }
 };
 

@@ -13,7 +13,7 @@ namespace lsdcd {
 // Empty: it is one; else what to write.
 std::string wrong_series_name(const std::string &name, const std::string &end);
 
-// The name with the step in place of its first '*'.
+// Returns the name with the step in place of its first '*'.
 std::string file_of_step(const std::string &path, long long step);
 
 // VTK's collection (.pvd): a file with the names and times of the files of a series. It lies beside them

@@ -47,8 +47,8 @@ class MeshLoads {
   std::vector<double> packed() const;
   void add_packed(const double *rows, std::size_t n_rows);
 
-  // The load of every face. The faces that meet at an edge or a vertex share its load evenly; the load of an edge or vertex without
-  // a face, which only a dropped triangle leaves behind, is not in.
+  // Returns the load of every face. The faces that meet at an edge or a vertex share its load evenly; the load of an edge
+  // or vertex without a face, which only a dropped triangle leaves behind, is not in.
   std::vector<Load> of_faces(const WeldedMesh &mesh) const;
 
  private:

@@ -12,15 +12,15 @@
 
 namespace lsdcd {
 
-// The bytes of a file, in the order and winding of the soup: binary if all corners are floats, else text
-// with every bit.
+// Returns the bytes of a file, in the order and winding of the soup: binary if all corners are floats, else text with
+// every bit.
 std::string stl_bytes(const TriangleSoup &soup);
 
 // Binary; corners rounded to float, in the winding of the mesh. The file appears whole or not at all;
 // throws InputError that names it.
 void write_mesh_stl(const std::string &path, const WeldedMesh &mesh, const Pose &pose = {});
 
-// A corner rounded to float, as in a binary file.
+// Returns a corner rounded to float, as in a binary file.
 Vec3 rounded_as_in_stl(const Vec3 &corner);
 
 bool are_floats(const std::vector<Vec3> &points);

@@ -36,7 +36,7 @@ inline std::string base64(const std::vector<unsigned char> &bytes)
   return text;
 }
 
-// An array as VTK's "binary": the number of bytes in 64 bits, then the values.
+// Returns an array as VTK's "binary": the number of bytes in 64 bits, then the values.
 template <class T>
 std::string data_array(const char *type, const std::string &name, const std::vector<T> &values,
                        const std::string &more = "")

@@ -22,8 +22,8 @@ class BrickDistances {
   {
   }
 
-  // A bound of the rounding error of a height over a plane: 16 units in the last place of the largest
-  // coordinate in a brick's frame, which is the cutoff plus half the brick's diagonal (7 cells).
+  // Returns a bound of the rounding error of a height over a plane: 16 units in the last place of the largest coordinate
+  // in a brick's frame, which is the cutoff plus half the brick's diagonal (7 cells).
   LSDCD_FN static Real tolerance(const GridView &grid)
   {
     constexpr Real kFloatRoundoff = 5.9604644775390625e-8;

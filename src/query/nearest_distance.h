@@ -80,7 +80,7 @@ LSDCD_FN std::uint8_t status_of(const Answer &a)
   return (a.found() ? kFound : 0) | (a.certified ? kCertified : 0);
 }
 
-// The answer far from the wall.
+// Returns the answer far from the wall.
 LSDCD_FN Answer far_answer()
 {
   return {kAnyDistance, true};
@@ -135,7 +135,7 @@ LSDCD_FN Answer nearest_in_cell(const GridView &grid, const Vec3 &q, Real radius
   return answer(true);
 }
 
-// The nearer of two distances, or the first: 0 and -0 are equal, and not the same bits.
+// Returns the nearer of two distances, or the first: 0 and -0 are equal, and not the same bits.
 LSDCD_FN Real nearer(Real first, Real second)
 {
   return second < first ? second : first;
@@ -181,9 +181,8 @@ LSDCD_FN Answer nearest_in_warp(const GridView &grid, const Vec3 &q, Real radius
 
 constexpr std::uint32_t kWholeList = 0xffffffffu;
 
-// The nearest point of the wall within `radius` (length, at most grid.cutoff) of q, which lies
-// at `at`, in the cell `cell` of grid.lists. Certified answers are exact, but for the rounding of
-// Search::Distances.
+// Returns the nearest point of the wall within `radius` (length, at most grid.cutoff) of q, which lies at `at`, in the
+// cell `cell` of grid.lists. Certified answers are exact, but for the rounding of Search::Distances.
 template <class Search, class Before = FirstOfEqual>
 LSDCD_FN Answer nearest_from(const GridView &grid, const Vec3 &q, Real radius,
                              const CellAddress &at, const Cell &cell, const Before &before = {})

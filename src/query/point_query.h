@@ -52,7 +52,7 @@ std::string current_cuda_name();
 class DeviceCopy : public std::enable_shared_from_this<DeviceCopy> {
  public:
   virtual ~DeviceCopy() = default;
-  // A query on a stream of that device, null: the default one. It shares this copy.
+  // Returns a query on a stream of that device, null: the default one. It shares this copy.
   virtual std::unique_ptr<StreamQuery> query_on(void *stream) const = 0;
 
   const int device = current_cuda_device();

@@ -66,7 +66,7 @@ LSDCD_FN Nearest at_closest(FeatureCode feature, const Vec3 &q, const ClosestPoi
   return {feature, q - closest.distance * closest.normal, closest.normal};
 }
 
-// The wall's code for a code in a list.
+// Returns the wall's code for a code in a list.
 template <bool kFloats>
 LSDCD_FN FeatureCode feature_of_wall(const GridView &grid, FeatureCode listed)
 {

@@ -16,7 +16,7 @@ class RadiusCheck {
   // `cutoff`: the largest radius.
   explicit RadiusCheck(Real cutoff) : cutoff_(cutoff), first_(1) {}
 
-  // The check that the kernels of the next query make.
+  // Returns the check that the kernels of the next query make.
   template <class S>
   TooLarge<S> begin(B &b)
   {

@@ -42,7 +42,7 @@ class CutoffBoxes {
   std::vector<std::uint64_t> bits_;
 };
 
-// The bytes of both; each may be null.
+// Returns the bytes of both; each may be null.
 inline std::size_t bytes_of(const TriangleTree *tree, const CutoffBoxes *boxes)
 {
   return (tree ? tree->bytes() : 0) + (boxes ? boxes->bytes() : 0);

@@ -202,7 +202,7 @@ struct TreeView {
   {
     return primitives[face_primitive[face]].normal;
   }
-  // A sum of the normals of a feature's faces, at a vertex by their angles (Baerentzen and Aanaes 2005).
+  // Returns a sum of the normals of a feature's faces, at a vertex by their angles (Baerentzen and Aanaes 2005).
   LSDCD_FN Vec3 outward(const TreeAnswer &answer) const
   {
     const std::uint32_t i = feature_index(answer.feature);

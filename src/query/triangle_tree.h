@@ -28,8 +28,8 @@ class TriangleTree {
   TriangleTree(const TriangleTree &) = delete;
   TriangleTree &operator=(const TriangleTree &) = delete;
 
-  // The nearest point to q within `radius`; kAnyDistance: at any distance. `hint`: the primitive found for a point
-  // that may be near q, or kNoPrimitive; it changes the time alone.
+  // Returns the nearest point to q within `radius`; kAnyDistance: at any distance. `hint`: the primitive found for a
+  // point that may be near q, or kNoPrimitive; it changes the time alone.
   TreeAnswer nearest(const Vec3 &q, Real radius, std::uint32_t hint) const;
 
   // Is anything nearer to q than `radius`? The hint becomes what was found.

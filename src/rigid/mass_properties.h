@@ -19,9 +19,9 @@ struct MassProperties {
   SymmetricMatrix inertia;
 };
 
-// A body of this density that fills a closed mesh. Its integrals are exact polynomials of the corners: tetrahedra of
-// a point and each face (Eberly, Polyhedral Mass Properties, 2009). Inner shells are hollows. Either winding will
-// do. Throws InputError, with the place of open edges, where the mesh does not bound a volume.
+// Returns a body of this density that fills a closed mesh. Its integrals are exact polynomials of the corners: tetrahedra
+// of a point and each face (Eberly, Polyhedral Mass Properties, 2009). Inner shells are hollows. Either winding will do.
+// Throws InputError, with the place of open edges, where the mesh does not bound a volume.
 MassProperties mass_properties(const WeldedMesh &mesh, Real density);
 
 // Throws InputError, which begins with `of`, where no body has such numbers: a mass or a principal moment that is not

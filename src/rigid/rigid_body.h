@@ -74,7 +74,7 @@ class RigidBody {
   Real kinetic_energy() const;
   Real spring_energy() const;
 
-  // Where the mesh is, with velocities for contacts.
+  // Returns where the mesh is, with velocities for contacts.
   Pose pose() const;
   Mobility mobility() const;
   // The same without stops: no push finds the body easier to move.

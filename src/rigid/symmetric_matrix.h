@@ -48,7 +48,7 @@ inline SymmetricMatrix unit_matrix()
   return {1, 1, 1, 0, 0, 0};
 }
 
-// The inertia of a unit mass at d about the origin: d.d - d d'.
+// Returns the inertia of a unit mass at d about the origin: d.d - d d'.
 inline SymmetricMatrix inertia_of_point(const Vec3 &d)
 {
   SymmetricMatrix m = norm_sq(d) * unit_matrix();

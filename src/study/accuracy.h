@@ -71,9 +71,9 @@ class AccuracyStudy {
 
   const std::vector<Sphere> &spheres() const { return spheres_; }
   const WeldedMesh &mesh() const { return mesh_; }
-  // The status that (6) compares with, by sphere.
+  // Returns the status that (6) compares with, by sphere.
   const std::vector<std::uint8_t> &truth() const { return truth_; }
-  // The grid of the last measurement.
+  // Returns the grid of the last measurement.
   const TriangleGrid &grid() const { return grid_; }
   Real agreement(const std::vector<std::uint8_t> &touching) const;
 

@@ -21,7 +21,7 @@ LSDCD_FN bool formula_five_inside(const Vec3 &a, const Vec3 &b, const Vec3 &c, c
          dot(q - b, c - b) >= 0 && dot(q - c, a - c) >= 0 && dot(q - c, b - c) >= 0;
 }
 
-// The distance to the plane if formula (5) says inside, else to the nearest side.
+// Returns the distance to the plane if formula (5) says inside, else to the nearest side.
 LSDCD_FN Real formula_five_distance(const MeshFeaturesView &wall, FeatureCode primitive,
                                     const Vec3 &q)
 {
@@ -59,10 +59,10 @@ struct CountedAnswer {
   }
 };
 
-// The nearest entry of the list of q's cell within `radius`. The library's search (nearest_in_cell) reads the same
-// entries; it ends at the first bound above the nearest distance. Where formula (5) is used no bound ends the search,
-// because its distances can be below theirs; a list that is read to its end is certified, and so is one whose next
-// entry is farther than the sphere.
+// Returns the nearest entry of the list of q's cell within `radius`. The library's search (nearest_in_cell) reads the
+// same entries; it ends at the first bound above the nearest distance. Where formula (5) is used no bound ends the
+// search, because its distances can be below theirs; a list that is read to its end is certified, and so is one whose
+// next entry is farther than the sphere.
 template <bool kComplete, class Distances>
 LSDCD_FN CountedAnswer search_counted(const GridView &grid, const Vec3 &q, Real radius)
 {

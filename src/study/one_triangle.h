@@ -17,7 +17,7 @@ struct Guess {
   Real accuracy;
 };
 
-// The study's spheres against its mesh; the lists have cells of this length.
+// Returns the study's spheres against its mesh; the lists have cells of this length.
 std::vector<Guess> guess_one_triangle(AccuracyStudy &study, Real length);
 
 }    // namespace lsdcd

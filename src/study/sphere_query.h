@@ -63,7 +63,7 @@ class SphereQuery {
   // wall, infinite beyond the radius.
   virtual std::vector<std::uint8_t> status() = 0;
   virtual std::vector<Real> distance() = 0;
-  // How many entries of lists such a run reads for each sphere.
+  // Returns how many entries of lists such a run reads for each sphere.
   virtual std::vector<std::uint32_t> entries(const QuerySettings &settings) = 0;
 
   virtual std::string device() const = 0;

@@ -13,7 +13,8 @@
 
 namespace lsdcd {
 
-// The counter-th number of a SplitMix64 sequence, in (0, 1]: a multiple of 2^-53. Integers and one exact product: the same bits everywhere.
+// Returns the counter-th number of a SplitMix64 sequence, in (0, 1]: a multiple of 2^-53. Integers and one exact product:
+// the same bits everywhere.
 LSDCD_FN Real uniform(std::uint64_t seed, std::uint64_t counter)
 {
   const std::uint64_t z = split_mix(seed + (counter + 1) * kSplitMixStep);
@@ -34,7 +35,7 @@ struct SphereBox {
   }
 };
 
-// The position of a point of the box along a Z-curve with 1024 steps per side.
+// Returns the position of a point of the box along a Z-curve with 1024 steps per side.
 std::uint32_t number_on_curve(const SphereBox &box, const Vec3 &at);
 
 enum class Order { random, sorted };

@@ -68,9 +68,9 @@ void mark_front(std::vector<TradeoffRow> &rows);
 std::string nearest_word(const GridOptions &choice);
 std::string words_of(const GridOptions &choice);
 
-// The fastest row of one device with corner blend, with missed contacts / contacts and the largest error of a
-// force below `bound`, and with all answers certified: otherwise the next sphere may miss a contact. Rows within a
-// tenth of the fastest differ by noise, so the one of these with the smallest error is returned. Null: there is none.
+// Returns the fastest row of one device with corner blend, with missed contacts / contacts and the largest error of a
+// force below `bound`, and with all answers certified: otherwise the next sphere may miss a contact. Rows within a tenth
+// of the fastest differ by noise, so the one of these with the smallest error is returned. Null: there is none.
 const TradeoffRow *fastest_below(const std::vector<TradeoffRow> &rows, Real bound, bool on_cuda);
 
 }    // namespace lsdcd

@@ -31,14 +31,14 @@ class Option {
 
   Option &required();
   Option &shows_default();
-  // How many words it takes; `most` -1: any number.
+  // Returns how many words it takes; `most` -1: any number.
   Option &words(int least, int most);
   Option &one_of(const std::vector<std::string> &words);
   Option &range(int least, int most);
   Option &range(std::size_t least, std::size_t most);
   // `what`: what --help calls a word of the option.
   Option &check(const WordCheck &check, const std::string &what = "");
-  // The words that --help shows instead of the type.
+  // Returns the words that --help shows instead of the type.
   Option &shows_words(const std::string &text);
   Option &excludes(const Option &other);
 

@@ -24,7 +24,7 @@ bool read_number(std::string_view word, T &value)
   return error == std::errc() && end == word.data() + word.size();
 }
 
-// The number in a column of the last line read.
+// Returns the number in a column of the last line read.
 template <class T>
 T number(const InputFile &file, const std::vector<std::string_view> &words, std::size_t column)
 {

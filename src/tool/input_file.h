@@ -44,7 +44,7 @@ class InputFile {
   double share_read() const { return size_ > 0 ? double(taken()) / size_ : 0; }
   long line_number() const { return line_; }
 
-  // The next bytes, without taking them; fewer if the file has no more.
+  // Returns the next bytes, without taking them; fewer if the file has no more.
   std::string_view ahead(std::size_t n) const
   {
     return {buffer_.data() + at_, std::min(n, end_ - at_)};
@@ -62,7 +62,7 @@ class InputFile {
     }
     return done;
   }
-  // The next line without its end, valid until the next call; false: there is none.
+  // Finds the next line without its end, valid until the next call; false: there is none.
   bool line(std::string_view &text)
   {
     for (std::size_t looked = 0;;) {

@@ -19,7 +19,7 @@ nlohmann::json as_json(const MeshReport &report);
 // Faults of a mesh; empty: it is clean. An open mesh may be clean: many walls are open.
 std::vector<std::string> problems_of(const MeshReport &report);
 
-// A line below describe(): "  clean       yes", or no and why not.
+// Returns a line below describe(): "  clean       yes", or no and why not.
 std::string verdict_line(const MeshReport &report);
 
 }    // namespace lsdcd

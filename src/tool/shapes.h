@@ -20,7 +20,7 @@ struct RadiusHeight {
 };
 using Profile = std::vector<RadiusHeight>;
 
-// A convex polygon; its corners are in counter-clockwise order, viewed from outside.
+// Returns a convex polygon; its corners are in counter-clockwise order, viewed from outside.
 Triangles fan(const Line &corners);
 
 // Between two lines, from the first corners of both to the last; they may have different numbers of
@@ -50,11 +50,11 @@ Line cut(const Line &line, Real edge);
 // As between(), but the next edge is the shorter one of two. Lines may meet in a point at either end.
 void add_strip(Triangles &to, const Line &left, const Line &right);
 
-// The surface of a profile (r, z) that turns about the z axis in `segments` steps. An upward profile faces out.
+// Returns the surface of a profile (r, z) that turns about the z axis in `segments` steps. An upward profile faces out.
 Triangles turned(const Profile &profile, int segments, Real edge);
 
-// The arc of radius `round` that replaces corner `at` between its neighbours. It uses at most half of each
-// edge; throws InputError if that is not enough.
+// Returns the arc of radius `round` that replaces corner `at` between its neighbours. It uses at most half of each edge;
+// throws InputError if that is not enough.
 Profile rounded_corner(const RadiusHeight &before, const RadiusHeight &at,
                        const RadiusHeight &after, Real round, int steps);
 
@@ -78,7 +78,7 @@ struct ScrewShape {
   int turns, segments;
   Real edge;
 };
-// A shaft along the y axis from y = 0 on, with a right-handed blade; one closed surface.
+// Returns a shaft along the y axis from y = 0 on, with a right-handed blade; one closed surface.
 Triangles screw_shape(const ScrewShape &screw);
 
 // Splits edges in two until none is longer than `edge`. Neighbours stay neighbours.

@@ -34,7 +34,7 @@ class GridManager {
   {
     return meshes_.front().grid.cutoff();
   }    // length; 0: there were no spheres yet
-  // The box of the simulation. Its margin is the farthest that spheres have gone past a periodic face.
+  // Returns the box of the simulation. Its margin is the farthest that spheres have gone past a periodic face.
   PeriodicBox box() const;
 
   // The engine of the steps from now on; it gets the grids that there are.

@@ -38,7 +38,7 @@ class HistoryExchange {
   // Room for `room` spheres from now on, wherever the history is.
   void grow(int room);
   int room() const { return room_; }
-  // The history of this process's spheres, on the host from now on.
+  // Returns the history of this process's spheres, on the host from now on.
   ContactHistory &on_host();
   // The history of the n spheres of this process goes to the engine, if it is not there.
   void to_engine(int n);

@@ -47,7 +47,7 @@ class MeshBody {
   Mobility mobility() const { return 1 / force_ * body_.mobility(); }
   // Without stops, and of forces in the wall's units.
   const Mobility &mobility_to_forces() const { return mobility_; }
-  // The largest n.K n where a sphere can touch a face; 1/mass.
+  // Returns the largest n.K n where a sphere can touch a face; 1/mass.
   Real most_mobility() const { return most_mobility_ / force_; }
   Wrench reaction() const { return body_.reaction(load_); }
   Real stop_force() const { return body_.stop_force(load_); }
@@ -55,7 +55,7 @@ class MeshBody {
 
   // Half a step by the load of the last one, and the way. Inputs may change before.
   void advance(Real dt);
-  // Where advance() would take it, once the last step is complete.
+  // Returns where advance() would take it, once the last step is complete.
   Pose pose_in(Real dt) const;
   // The step that follows it: 0 where no time has passed, in the set-up of a run.
   void note_step(Real dt);
@@ -63,8 +63,8 @@ class MeshBody {
   // Half a step by the load of this one: the contacts', and the rest with the values of inputs in this step.
   void complete(const MeshTotals &contacts, const Vec3 &gravity);
 
-  // The step that was completed: fast modes of the body on its spring and on all that touches it. `of_coat`: exactly
-  // on its spring and coats, and by a bound on spheres; else by bounds, which cost nothing.
+  // Returns the step that was completed: fast modes of the body on its spring and on all that touches it. `of_coat`:
+  // exactly on its spring and coats, and by a bound on spheres; else by bounds, which cost nothing.
   ModeRates rates(const MeshTotals &contacts, const SphereRange &spheres, const CoatLoad &coat,
                   bool of_coat) const;
   // Throws InputError where the timestep is too long for what touches it. `of_others`: the largest rates() of the
@@ -99,7 +99,7 @@ class MeshBody {
   void ask_about_degrees() const;
   bool is_same(const BodyState &was) const;
   RigidBody continued(const BodyState &was) const;
-  // Is it pressed into a stop by the load of the step? It has no modes then.
+  // Returns whether it is pressed into a stop by the load of the step. It has no modes then.
   bool is_held() const { return body_.is_held(load_); }
   ContactSum spring() const;
   ModeRates of_spheres(const MeshTotals &contacts, const SphereRange &spheres) const;

@@ -67,7 +67,7 @@ class MeshMotion {
   // Throws where the pose or velocities in a snapshot are not known from its time alone.
   void check_snapshot(const Step &at) const;
 
-  // A line for the log; empty: nothing moves. `bounds`: of the mesh in its own frame.
+  // Returns a line for the log; empty: nothing moves. `bounds`: of the mesh in its own frame.
   std::string text(const Box &bounds) const;
 
   // The same on all processes. With the same terms a motion goes on where it was. Others begin where the mesh

@@ -49,7 +49,7 @@ class MeshNodes {
   // step, as it may have gone through a sphere.
   void begin_step(const Step &step, Real cutoff);
 
-  // Where the nodes are in this step. Waits where the engine has moved them.
+  // Returns where the nodes are in this step. Waits where the engine has moved them.
   const WeldedMesh &mesh() const
   {
     fetch_places();
@@ -87,9 +87,9 @@ class MeshNodes {
   // The same to an array where the wall computes, as in set_in_place(). False: the sums are not there, or not those of
   // all processes. Not collective. Does not wait.
   bool put_forces(Real pressure, Real *to, const std::vector<int> &node_of_row);
-  // The moment of the forces of contacts on the nodes about the origin of the box, of all processes. Collective.
+  // Returns the moment of the forces of contacts on the nodes about the origin of the box, of all processes. Collective.
   Vec3 moment();
-  // The power of the mesh on the spheres of this process, by the motion of its nodes.
+  // Returns the power of the mesh on the spheres of this process, by the motion of its nodes.
   Real power() const
   {
     fetch_power();

@@ -42,7 +42,8 @@ struct MeshPart {
   bool changes_shape() const { return nodes || wear; }         // from step to step
   bool has_coat() const { return body && spec.body.coat.present; }
 
-  // Where it is that much time from now. A servo stays; of a body the step that comes, once the last one is complete.
+  // Returns where it is that much time from now. A servo stays; of a body the step that comes, once the last one is
+  // complete.
   Pose pose_in(Real later) const { return body ? body->pose_in(later) : motion.pose_in(later); }
 
   // In its own frame, in this step; null but on one process per node, where its nodes do not move.
@@ -55,7 +56,7 @@ struct MeshPart {
   // Does it go, at a pose, to less than `depth` (a part of the box) from one of the faces that edge k of the box joins? Then lo
   // and hi become from where to where it goes, as parts of the box. Collective.
   bool reaches(const PeriodicBox &box, int k, Real depth, const Pose &at, Real &lo, Real &hi) const;
-  // Does it look the same from each of its images across the faces that edge k joins?
+  // Returns whether it looks the same from each of its images across the faces that edge k joins.
   bool keeps_edge(const PeriodicBox &box, int k) const;
   // The box of what can touch it, from its own frame.
   PeriodicBox effective_box(const PeriodicBox &box) const;

@@ -34,7 +34,7 @@ class ServoController {
   }
 
   bool acts() const { return servo().present && !servo().holds; }
-  // The force or torque with which the mesh pushes the spheres along the servo's axis, or about it.
+  // Returns the force or torque with which the mesh pushes the spheres along the servo's axis, or about it.
   Real push(const ServoLoad &load) const { return servo().push(load.force, load.torque); }
 
   // Moves a servo that acts over the time `dt` > 0 up to this step. Without the servo the mesh is where

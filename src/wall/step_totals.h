@@ -61,7 +61,7 @@ class StepTotals {
   // The power of a mesh that is a body, by its pose with the velocities of the whole step, once these are known.
   void set_power(int mesh, const Pose &pose);
 
-  // The sums of the last reduce().
+  // Returns the sums of the last reduce().
   const MeshTotals &mesh(int k) const { return meshes_[k]; }
   // Over all meshes: sums, and the largest overlap. Torques are about the origin of the box if the
   // meshes have their torques about different points.

@@ -28,7 +28,7 @@ class TimestepCheck {
   // where it is a tenth worse than what was warned of. Collective.
   void check(Real dt, const HostSpheres &s);
 
-  // The largest timestep warned of, over the longest that resolves a contact; 1: none.
+  // Returns the largest timestep warned of, over the longest that resolves a contact; 1: none.
   Real worst_ratio() const { return worst_ > 1 ? worst_ / kWorse : 1; }
 
  private:

@@ -102,7 +102,7 @@ struct WallSpec {
   bool periodic = false;        // meshes are meant to reach past periodic faces
   bool brief = false;           // one line in the log
 
-  // The sub-models, which all laws have.
+  // Returns the sub-models, which all laws have.
   const ContactLaw &law() const { return laws.front().law; }
   // Numbers of a sphere in the contacts array; 0 without it.
   int contact_columns() const { return contacts ? 8 + law().has_heat() : 0; }
@@ -125,7 +125,7 @@ void check_spec(const WallSpec &wall);
 // Cohesion of 0 everywhere costs nothing: no law has it then.
 void leave_out_zero_cohesion(WallSpec &wall);
 
-// The law of each mesh and type of sphere.
+// Returns the law of each mesh and type of sphere.
 LawTable law_table(const WallSpec &wall);
 
 // The law of a mesh with what has no type: its own of all types, or the wall's.

@@ -135,7 +135,7 @@ class BroadPhase {
   const FeatureLists &lists() const { return lists_.view(); }
   const CandidateSlots<B> &slots() const { return slots_; }
 
-  // The law of each of these spheres.
+  // Returns the law of each of these spheres.
   SphereKinds kinds_of(B &b, const Spheres &spheres)
   {
     if (laws_.kinds == 1) return {};

@@ -29,7 +29,7 @@ struct PosedGrid {
   Pose pose;
 };
 
-// The query for a sphere at x. No spring matters to the broad phase.
+// Returns the query for a sphere at x. No spring matters to the broad phase.
 LSDCD_FN QuerySphere query_sphere_at(const Pose &pose, const Vec3 &x, Real radius, Real pull_off)
 {
   return {pose.to_mesh(x), radius, cutoff_of(radius, pull_off), nullptr, 0};

@@ -41,7 +41,7 @@ struct FeatureLists {
     return {reals, reinterpret_cast<float *>(reals + 3 * room), ints, room, unit, {}};
   }
 
-  // The lists from number k on.
+  // Returns the lists from number k on.
   FeatureLists from(std::size_t k) const
   {
     return {x + k, lengths + k, n + k, column, unit, copies.from(k)};
@@ -90,7 +90,7 @@ constexpr Real kSkinFraction = 0.05;
 constexpr Real kShrink = 4;
 constexpr int kMaxShrinks = 3;
 
-// The largest margin, at most `margin`, within which a ball meets few cells.
+// Returns the largest margin, at most `margin`, within which a ball meets few cells.
 LSDCD_FN Real allowed_margin(const GridView &grid, Real margin)
 {
   return margin < grid.length ? margin : grid.length;
@@ -118,7 +118,7 @@ LSDCD_FN void begin_list(FeatureList &list, const Vec3 &q, Real cutoff, Real mar
   list.cutoff = cutoff;
 }
 
-// The list of a sphere at q for a margin; false: it is too long.
+// Finds the list of a sphere at q for a margin; false: it is too long.
 template <unsigned kSize>
 LSDCD_FN bool gather_within(const Warp<kSize> &warp, bool mine, const GridView &grid, const Vec3 &q,
                             Real cutoff, Real margin, FeatureList &list)

@@ -65,7 +65,7 @@ class CellsInBall {
 // How many candidates ahead a CPU asks for their records.
 constexpr std::uint32_t kAhead = 8;
 
-// Where the list of a cell with more than one candidate begins.
+// Returns where the list of a cell with more than one candidate begins.
 inline const void *first_candidate(const GridView &grid, const Cell &cell)
 {
   if (grid.lists.packed) return grid.lists.packed + cell.first;

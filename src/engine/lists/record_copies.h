@@ -22,7 +22,7 @@ struct RecordCopies {
   Slot *slots = nullptr;               // of each list
   int *used = nullptr, capacity = 0;
 
-  // The copies from list k on.
+  // Returns the copies from list k on.
   RecordCopies from(std::size_t k) const
   {
     RecordCopies c = *this;
@@ -30,7 +30,7 @@ struct RecordCopies {
     return c;
   }
 
-  // The copy of record i of list k; null: there is none.
+  // Returns the copy of record i of list k; null: there is none.
   LSDCD_FN const FeatureRecord *of([[maybe_unused]] std::size_t k, [[maybe_unused]] int i) const
   {
 #if !LSDCD_ON_GPU()

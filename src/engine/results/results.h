@@ -55,7 +55,7 @@ struct ResultColumns {
     return c;
   }
 
-  // The results from number k on.
+  // Returns the results from number k on.
   ResultColumns from(std::size_t k) const
   {
     ResultColumns c = *this;
@@ -139,8 +139,7 @@ LSDCD_FN void add_block(WallTotals &sum, const WallTotals &t)
   }
 }
 
-// The columns of `contacts`. Contacts that exert no force still have a row: that of the
-// sphere.
+// Returns the columns of `contacts`. Contacts that exert no force still have a row: that of the sphere.
 LSDCD_FN SphereOutput output_of(const SphereResult &r, const Vec3 &x, Real radius)
 {
   return {Real(r.n_contacts), r.force, r.weight > 0 ? (1 / r.weight) * r.weighted_point : x,

@@ -49,7 +49,7 @@ struct StepCounts {
       by_cells;    // lists made in steps, their features; searches of cells
 };
 
-// The counts as the host reads them; `first_step`: of those that they are of.
+// Returns the counts as the host reads them; `first_step`: of those that they are of.
 inline StepDiagnostics diagnostics_of(const StepCounts &seen, std::int64_t first_step)
 {
   using Deepest = DeepestOverlap;

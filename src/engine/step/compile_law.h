@@ -26,7 +26,7 @@ auto with_classic_law(const ContactLaw &p, Make make)
       HookeLaw{{p.k_normal}, damping, LinearNoHistory{p.gamma_tangent, p.mu}, p.limit_damping});
 }
 
-// A rolling model with its numbers, among those of one kernel.
+// Returns a rolling model with its numbers, among those of one kernel.
 template <class Family, class Model>
 Family family_of(const Chosen<Model> &chosen)
 {

@@ -118,7 +118,7 @@ struct CompiledLaw {
   void (*run)(const LawBytes &, const StepJob &, std::size_t n, Backend &);
 };
 
-// The wall's effects that the settings ask for.
+// Returns the wall's effects that the settings ask for.
 inline WallEffects wall_effects(const EngineSettings &s)
 {
   return {s.surface.moves() || s.moves || uses_slots(s), s.records || s.bodies || s.nodes, s.nodes};

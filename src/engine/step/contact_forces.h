@@ -55,7 +55,7 @@ struct ForceSettings {
   NodeField nodes;      // where its nodes move; read only by laws for these
 };
 
-// The settings of one mesh.
+// Returns the settings of one mesh.
 inline ForceSettings force_settings(const EngineSettings &engine, const StepSettings &step,
                                     const Pose &pose, int mesh)
 {

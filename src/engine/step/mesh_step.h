@@ -154,7 +154,7 @@ LSDCD_FN Real pull_off_of(const Law &law)
     return 0;
 }
 
-// The query for candidate k.
+// Returns the query for candidate k.
 template <class Law>
 LSDCD_FN QuerySphere query_sphere_of_candidate(const Law &law, const StepJob &job, std::size_t k)
 {

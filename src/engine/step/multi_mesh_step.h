@@ -77,7 +77,7 @@ LSDCD_FN MultiMeshSphere multi_mesh_sphere(const StepJob &job, std::size_t g)
   return s;
 }
 
-// The query for it in the frame of the mesh of slot k.
+// Returns the query for it in the frame of the mesh of slot k.
 template <bool kBeyondContact>
 LSDCD_FN QuerySphereWith<SpringsInFrame> in_frame_of(const StepJob &job, const MultiMeshSphere &s,
                                                      int k)

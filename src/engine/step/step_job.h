@@ -105,7 +105,8 @@ LSDCD_FN std::size_t sphere_of(const StepJob &job, std::size_t k)
   return job.candidates ? job.candidates[k] : k;
 }
 
-// The query for sphere i at x. `beyond`: does the law act beyond contact? `pull_off`: of the law, at a radius of 1.
+// Returns the query for sphere i at x. `beyond`: does the law act beyond contact? `pull_off`: of the law, at a radius of
+// 1.
 LSDCD_FN QuerySphere query_sphere_of(const StepJob &job, std::size_t i, const Vec3 &x, Real radius,
                                      bool beyond, Real pull_off)
 {
@@ -131,7 +132,7 @@ inline StepJob from_slot(StepJob job, std::size_t first)
   return job;
 }
 
-// The part of a job that the spheres decide.
+// Returns the part of a job that the spheres decide.
 inline StepJob job_of(const GridView &grid, const ForceSettings &settings, const Spheres &spheres)
 {
   StepJob job;

@@ -91,7 +91,7 @@ class GridBuilder {
   }
 
   std::string name() const { return b_.name(); }
-  // The bytes that the last build needs, also while it runs. If it did not fit: a lower bound.
+  // Returns the bytes that the last build needs, also while it runs. If it did not fit: a lower bound.
   double needed() const { return needed_; }
 
   static double seconds_since(std::chrono::steady_clock::time_point start)
@@ -100,7 +100,7 @@ class GridBuilder {
   }
 
  private:
-  // The candidates, packed where they are, a part after the other. On a host they are lost unless they stay.
+  // Returns the candidates, packed where they are, a part after the other. On a host they are lost unless they stay.
   std::vector<PackedCandidate> packed(BuiltLists<B> &built, const CandidatePacking &packing,
                                       bool they_stay)
   {
@@ -174,8 +174,8 @@ bool fill_grid(GridBuilder<B> &builder, const GridPlan &plan, const GridSettings
   return needed <= budget;
 }
 
-// How many coarser plans can be skipped if this one is `over` times too large: no part of a grid
-// grows faster than length^-3.
+// Returns how many coarser plans can be skipped if this one is `over` times too large: no part of a grid grows faster
+// than length^-3.
 inline int least_steps(double over)
 {
   if (!std::isfinite(over)) return 1;

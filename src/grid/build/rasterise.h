@@ -65,7 +65,7 @@ LSDCD_FN void feature_box(const MeshFeaturesView &wall, FeatureCode feature, Vec
 constexpr int kOctantSide = kBrickSide / 2;
 constexpr int kOctantCells = kOctantSide * kOctantSide * kOctantSide;
 
-// The cell in its brick of the i-th cell of an octant, x fastest.
+// Returns the cell in its brick of the i-th cell of an octant, x fastest.
 LSDCD_FN int cell_of_octant(int octant, int i)
 {
   const int x = (octant & 1) * kOctantSide + (i & 3);
@@ -101,7 +101,7 @@ LSDCD_FN BrickBox brick_box(const BuildView &b, FeatureCode feature)
   return box;
 }
 
-// The slot in the table of the i-th brick of a box.
+// Returns the slot in the table of the i-th brick of a box.
 LSDCD_FN std::uint32_t brick_slot(const GridPlan &plan, const BrickBox &box, std::uint64_t i)
 {
   const std::uint64_t x = box.first[0] + i % box.n[0], y = box.first[1] + i / box.n[0] % box.n[1],
@@ -109,7 +109,7 @@ LSDCD_FN std::uint32_t brick_slot(const GridPlan &plan, const BrickBox &box, std
   return static_cast<std::uint32_t>((z * plan.n_bricks[1] + y) * plan.n_bricks[0] + x);
 }
 
-// The octants of a brick that the feature meets, a bit each.
+// Returns the octants of a brick that the feature meets, a bit each.
 LSDCD_FN unsigned octants_met(const BuildView &b, FeatureCode feature, std::uint32_t slot)
 {
   const GridPlan &plan = b.plan;
@@ -152,7 +152,7 @@ LSDCD_FN std::uint64_t cells_where(const GridPlan &plan, std::uint32_t octant_ke
   return met;
 }
 
-// The bits of x: below 0 if x is.
+// Returns the bits of x: below 0 if x is.
 inline std::int64_t sign_of(Real x)
 {
   std::int64_t bits;
@@ -160,8 +160,8 @@ inline std::int64_t sign_of(Real x)
   return bits;
 }
 
-// The cells of an octant that a face meets. It has the bits of 64 calls of face_meets(), but the cells
-// of a column share what x and y add to each half-space, and a processor tests several at once.
+// Returns the cells of an octant that a face meets. It has the bits of 64 calls of face_meets(), but the cells of a
+// column share what x and y add to each half-space, and a processor tests several at once.
 inline std::uint64_t face_cells(const GridPlan &plan, std::uint32_t octant_key,
                                 const FaceRecord &face)
 {
@@ -204,7 +204,7 @@ inline std::uint64_t face_cells(const GridPlan &plan, std::uint32_t octant_key,
   return met;
 }
 
-// The cells of an octant that the feature meets. The record is read once for all of them.
+// Returns the cells of an octant that the feature meets. The record is read once for all of them.
 LSDCD_FN std::uint64_t cells_met(const BuildView &b, FeatureCode feature, std::uint32_t octant_key)
 {
   const Real cutoff = b.plan.cutoff, widened = b.plan.widened();

@@ -30,7 +30,7 @@ struct FixedPoint<float> {
   static constexpr int kMantissa = 23, kBits = 23;
   static constexpr Real kUnit = 5.9604644775390625e-8;    // 2^-24: of rounding
 
-  // The bits of `sum` past those of `bias`; too large where it is below, or not a number.
+  // Returns the bits of `sum` past those of `bias`; too large where it is below, or not a number.
   LSDCD_FN static std::uint32_t past(float sum, float bias) { return bits_of(sum) - bits_of(bias); }
 
  private:
@@ -136,7 +136,7 @@ struct BrickFilter {
                inside = i < end[0] && j < end[1] && k < end[2];
     return {unsure, inside, i, j, k};
   }
-  // A margin, in bricks, for is_clear(). 0: it is more than half a brick.
+  // Returns a margin, in bricks, for is_clear(). 0: it is more than half a brick.
   std::uint32_t margin(Real bricks) const
   {
     const Real fixed = std::ceil(std::ldexp(bricks, static_cast<int>(shift))) + 2. * doubt;

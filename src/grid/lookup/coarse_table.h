@@ -35,7 +35,7 @@ struct CoarseTable {
     while (count() > std::size_t(kWords) * 32) shift++;
   }
 
-  // The slot of the cube with these numbers, z first.
+  // Returns the slot of the cube with these numbers, z first.
   LSDCD_FN std::uint32_t slot(std::uint32_t k, std::uint32_t j, std::uint32_t i) const
   {
     return (k * n[1] + j) * n[0] + i;
@@ -46,7 +46,7 @@ struct CoarseTable {
   }
 };
 
-// The bits of a table for a view on the host.
+// Returns the bits of a table for a view on the host.
 inline std::vector<std::uint32_t> coarse_words(const GridView &grid, const CoarseTable &table)
 {
   std::vector<std::uint32_t> words(CoarseTable::kWords, 0);

@@ -61,7 +61,7 @@ LSDCD_FN CellSlot cell_slot_of(const GridView &grid, const Vec3 &q)
   return p;
 }
 
-// The slot of the cell's brick in the table.
+// Returns the slot of the cell's brick in the table.
 LSDCD_FN std::size_t brick_slot(const GridView &grid, int i, int j, int k)
 {
   return (static_cast<std::size_t>(k >> 3) * grid.n_bricks[1] + (j >> 3)) * grid.n_bricks[0] +
@@ -81,7 +81,7 @@ LSDCD_FN std::int32_t cell_in_brick(const CellSlot &p)
   return cell_in_brick(p.i, p.j, p.k);
 }
 
-// The brick of a cell of the grid; null where no wall is near.
+// Returns the brick of a cell of the grid; null where no wall is near.
 LSDCD_FN const Brick *brick_at(const GridView &grid, int i, int j, int k)
 {
   const std::int32_t b = grid.lists.brick_of[brick_slot(grid, i, j, k)];

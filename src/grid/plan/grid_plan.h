@@ -64,8 +64,8 @@ struct CellCentres {
   }
 };
 
-// The default length of a cell, for complete lists or nearest primitives, for steps or points, and for
-// spheres on a CPU or a GPU.
+// Returns the default length of a cell, for complete lists or nearest primitives, for steps or points, and for spheres on
+// a CPU or a GPU.
 Real default_length(const WeldedMesh &mesh, Real cutoff, ListKind list_kind, bool for_gpu,
                     GridPurpose purpose = GridPurpose::step);
 

@@ -20,7 +20,7 @@ struct SjkrCohesion {
   {
     return kPi * k * c.overlap * (2 * c.radius - c.overlap);
   }
-  // The energy of the surfaces in contact; < 0.
+  // Returns the energy of the surfaces in contact; < 0.
   LSDCD_FN Real energy(const Contact &c) const
   {
     return -kPi * k * c.overlap * c.overlap * (c.radius - c.overlap / 3);

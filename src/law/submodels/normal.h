@@ -16,8 +16,8 @@ namespace lsdcd {
 
 enum class NormalModel { hooke, hertz, dmt, jkr };
 
-// How far from its centre a sphere feels the wall. `pull_off` is for a radius of 1, and
-// greater than 0 only for adhesion that acts beyond contact.
+// Returns how far from its centre a sphere feels the wall. `pull_off` is for a radius of 1, and greater than 0 only for
+// adhesion that acts beyond contact.
 LSDCD_FN Real cutoff_of(Real radius, Real pull_off)
 {
   return pull_off > 0 ? radius + pull_off * cube_root(radius) : radius;
@@ -131,7 +131,7 @@ struct JkrNormal {
   {
     return fabs(f + 6 * kPi * surface_energy * c.radius);
   }
-  // The elastic energy minus that of the surfaces in contact.
+  // Returns the elastic energy minus that of the surfaces in contact.
   LSDCD_FN Real energy(const Contact &c, Real a) const
   {
     const Real cubed = a * a * a, per_radius = 1 / c.radius;

@@ -64,7 +64,7 @@ struct SdsRolling {
 
 // ---- LIGGGHTS ----------------------------------------------------------------------------
 
-// The rolling part of the sphere's angular velocity.
+// Returns the rolling part of the sphere's angular velocity.
 LSDCD_FN Vec3 rolling_part(const Vec3 &omega, const Vec3 &normal)
 {
   return omega - dot(omega, normal) * normal;

@@ -32,7 +32,7 @@ struct SpringTwisting {
             Real(2) / 3 * a * mu_tangent * limit_force};
   }
 
-  // The contact torque about the normal.
+  // Returns the contact torque about the normal.
   template <class Memory>
   LSDCD_FN Real contact_torque(const Contact &c, const TwistCoefficients &t, Memory &m,
                                int at) const

@@ -32,7 +32,7 @@ ReadMesh read_off_bytes(const char *bytes, std::size_t size, const std::string &
 // byte, the element, the value and the remedy.
 ReadMesh read_ply_bytes(const char *bytes, std::size_t size, const std::string &source);
 
-// The name's end from its last dot on, in lower case.
+// Returns the name's end from its last dot on, in lower case.
 std::string name_ending(const std::string &path);
 
 }    // namespace lsdcd

@@ -43,9 +43,9 @@ class TextWords {
   // `source` is the name in messages.
   TextWords(const char *bytes, std::size_t size, std::string source, TextStyle style = {});
 
-  // The next word in this line or after it; empty: the file ends.
+  // Returns the next word in this line or after it; empty: the file ends.
   std::string_view next_word();
-  // The next word in this line; empty: the line ends.
+  // Returns the next word in this line; empty: the line ends.
   std::string_view word_in_line();
   // Leaves what is left of this line, and of those that continue it.
   void skip_line();
@@ -57,11 +57,11 @@ class TextWords {
   bool next_line();
 
   bool done() const { return at_ == end_; }
-  // The offset of the next byte.
+  // Returns the offset of the next byte.
   std::string_view here() const { return {at_, 0}; }    // NOLINT(bugprone-string-constructor)
   const char *end() const { return end_; }
 
-  // The number that the word is. For an error name() says which one it is;
+  // Returns the number that the word is. For an error name() says which one it is;
   template <class Name>
   Real number(std::string_view word, Name &&name) const
   {
