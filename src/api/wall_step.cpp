@@ -172,8 +172,8 @@ void take_step(lsdcd_wall &wall, const StepWanted &want)
   try {
     wall.in->finish(s);
     if (!wall.tells_late()) wall.in->poll_diagnostics(s);
-  } catch (const ProcessError &e) {
-    if (wall.caller.is_alone()) throw InputError(e.what());
+  } catch (const InputError &e) {
+    if (!e.is_local || wall.caller.is_alone()) throw;
     wall.late = {LSDCD_ERROR_INPUT, e.what()};
   }
   if (!want.step.setup && wall.in->files_every() > 0) wall.in->write_due_files();

@@ -12,6 +12,16 @@ namespace lsdcd {
 // The message names the file, line or facet, the value found, and the remedy.
 struct InputError : std::runtime_error {
   using std::runtime_error::runtime_error;
+  // Says what is wrong with sphere `index` of the arrays.
+  InputError(int index, const std::string &what_is_wrong) :
+      std::runtime_error("sphere " + std::to_string(index) + " " + what_is_wrong), sphere(index),
+      problem(what_is_wrong)
+  {
+  }
+
+  int sphere = -1;          // the index of the sphere that is wrong; -1: no sphere is
+  std::string problem;      // the message without the sphere
+  bool is_local = false;    // only this process knows of it
 };
 
 }    // namespace lsdcd

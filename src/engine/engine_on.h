@@ -11,7 +11,7 @@
 #include "engine/moving_nodes.h"
 #include "engine/node_forces.h"
 #include "engine/resident_springs.h"
-#include "engine/results/sphere_error.h"
+#include "engine/results/step_errors.h"
 #include "engine/step/compiled_law.h"
 #include "engine/step_results.h"
 #include "engine/work_list_store.h"
@@ -494,9 +494,9 @@ class EngineOn : public WallEngine, public CandidatesInPlace, public NodesInPlac
       const int i = static_cast<int>(kNoSphere - seen.too_large);
       throw_too_large(i, read_one(b_, spheres.radius + i), broad_phase_.mesh(0).grid.view.cutoff);
     }
-    if (seen.grown) throw_has_grown(static_cast<int>(kNoSphere - seen.grown));
+    if (seen.grown) throw_has_grown(static_cast<int>(kNoSphere - seen.grown), settings_.names);
     if (seen.no_scratch) throw_too_many_contacts(kMaxContacts);
-    throw_no_slots();
+    throw_no_slots(settings_.names);
   }
 
   EngineSettings settings_;

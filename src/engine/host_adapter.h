@@ -253,8 +253,9 @@ class HostAdapter : public WallEngine {
   {
     try {
       return engine_.read_diagnostics();
-    } catch (const SphereError &e) {
-      throw SphereError(candidates_[e.sphere], e.problem, e.remedy);
+    } catch (const InputError &e) {
+      if (e.sphere < 0) throw;
+      throw InputError(candidates_[e.sphere], e.problem);
     }
   }
 

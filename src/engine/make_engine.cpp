@@ -9,11 +9,12 @@ namespace lsdcd {
 #if defined(LSDCD_HAVE_CUDA)
 std::unique_ptr<WallEngine> make_cuda_engine(const EngineSettings &settings);
 #else
-std::unique_ptr<WallEngine> make_cuda_engine_in_place(const EngineSettings &, int, void *)
+std::unique_ptr<WallEngine> make_cuda_engine_in_place(const EngineSettings &settings, int, void *)
 {
   throw InputError(
-      "the spheres are on a GPU, and LSDCD was built without its CUDA engine: build it "
-      "where nvcc is found, or use wall/lsdcd/kk/host");
+      std::string("the spheres are on a GPU, and LSDCD was built without its CUDA engine: build it "
+                  "where nvcc is found, or ") +
+      settings.names.compute_on_cpu);
 }
 #endif
 

@@ -12,6 +12,7 @@
 #include "contact/node_field.h"
 #include "engine/candidate_schedule.h"
 #include "grid/triangle_grid.h"
+#include "host/host_names.h"
 #include "law/contact_law.h"
 #include "law/law_table.h"
 #include "law/wear.h"
@@ -52,6 +53,7 @@ struct EngineSettings {
   WearModel wear = WearModel::none;    // where there are records
   Device device = Device::automatic;
   int device_rank = 0;    // which of the GPUs this process takes (node-local rank, wrapped)
+  HostNames names;        // for errors
 
   // Returns the first law of the table: the only one, or the sub-models of all.
   ContactLaw &law() { return laws.laws.front(); }

@@ -6,13 +6,12 @@
 
 #include "base/error_text.h"
 #include "base/real.h"
-#include "host/remedy.h"
+#include "host/host_names.h"
 #include "mesh/periodic_box.h"
 
 #include <cstddef>
 #include <cstdint>
 #include <memory>
-#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -85,8 +84,6 @@ class Host {
   {
     return names_.sphere + (" " + std::to_string(tag));
   }
-  // Half a sentence, which says what to do about a problem.
-  virtual std::string remedy(Remedy problem) const { return library_remedy(problem); }
 
  protected:
   // Shows a text once, by the first process.
@@ -95,6 +92,9 @@ class Host {
   Ranks ranks_;
   HostNames names_;
 };
+
+// Throws an InputError that is local: the other processes go on until the program ends them. Not collective.
+[[noreturn]] void fail_here(const std::string &error);
 
 // The functions below are collective: all processes call them together.
 
@@ -117,10 +117,5 @@ void run_collectively(Host &host, bool here, Work &&work)
   else if (here)
     work();
 }
-
-// An error of this process alone; the others may go on until the program ends them.
-struct ProcessError : std::runtime_error {
-  using std::runtime_error::runtime_error;
-};
 
 }    // namespace lsdcd

@@ -22,6 +22,28 @@ LammpsHost::LammpsHost(FixWallLsdcd &fix) : MpiNodeHost(fix.world), fix(fix)
   names_.replay = "rerun";
   names_.record = "dump";
   names_.unset_radius = 0.5;    // from when atoms are created
+  names_.wrap_sooner = "use neigh_modify delay 0 every 1 check yes";
+  names_.put_clear = "keep what inserts or creates atoms a radius away from the mesh";
+  names_.stay_in_plane = "fix enforce2d throws away what they push along z";
+  names_.give_radii = "set diameter";
+  names_.give_other_radii = "write 'set group all diameter D'";
+  names_.set_radii =
+      "write 'set group all diameter D': atoms have radius 0.5 until a diameter is set";
+  names_.follow_spheres = "its boundary shrink-wrapped";
+  names_.make_room =
+      "give a smaller skin, so that they are selected more often, or continue from a "
+      "restart file, which makes room for them";
+  names_.announce_growth =
+      "radii that something else than fix adapt changes in a run need 'neigh_modify delay 0 "
+      "every 1 check no'";
+  names_.begin_motion = "start another motion from where the mesh is by fix_modify motion";
+  names_.begin_servo = "let it go on by fix_modify servo";
+  names_.give_velocities = "give v_vx v_vy v_vz instead of NULL";
+  names_.give_displacements = "give its variable instead of NULL";
+  names_.compute_on_cpu = "use wall/lsdcd/kk/host";
+  names_.begin_replay =
+      "before the fix is defined, reset_timestep to the step in which the run that was "
+      "dumped defined it";
 }
 
 lsdcd::PeriodicBox LammpsHost::box() const
@@ -29,47 +51,6 @@ lsdcd::PeriodicBox LammpsHost::box() const
   lsdcd::PeriodicBox box = lsdcd::host_box(*fix.domain);
   box.margin = fix.neighbor->skin;
   return box;
-}
-
-std::string LammpsHost::remedy(lsdcd::Remedy problem) const
-{
-  using lsdcd::Remedy;
-  switch (problem) {
-    case Remedy::wrap_sooner:
-      return "use neigh_modify delay 0 every 1 check yes";
-    case Remedy::put_clear:
-      return "keep what inserts or creates atoms a radius away from the mesh";
-    case Remedy::stay_in_plane:
-      return "fix enforce2d throws away what they push along z";
-    case Remedy::give_radii:
-      return "set diameter";
-    case Remedy::give_other_radii:
-      return "write 'set group all diameter D'";
-    case Remedy::set_radii:
-      return "write 'set group all diameter D': atoms have radius 0.5 until a diameter is set";
-    case Remedy::follow_spheres:
-      return "its boundary shrink-wrapped";
-    case Remedy::make_room:
-      return "give a smaller skin, so that they are selected more often, or continue from a "
-             "restart file, which makes room for them";
-    case Remedy::announce_growth:
-      return "radii that something else than fix adapt changes in a run need 'neigh_modify delay 0 "
-             "every 1 check no'";
-    case Remedy::begin_motion:
-      return "start another motion from where the mesh is by fix_modify motion";
-    case Remedy::begin_servo:
-      return "let it go on by fix_modify servo";
-    case Remedy::give_velocities:
-      return "give v_vx v_vy v_vz instead of NULL";
-    case Remedy::give_displacements:
-      return "give its variable instead of NULL";
-    case Remedy::compute_on_host:
-      return "use fix wall/lsdcd without the suffix /kk (suffix off), which computes on the CPU";
-    case Remedy::begin_replay:
-      return "before the fix is defined, reset_timestep to the step in which the run that was "
-             "dumped defined it";
-  }
-  return "";
 }
 
 void LammpsHost::show(const std::string &text, bool is_warning)

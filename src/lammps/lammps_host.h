@@ -14,7 +14,6 @@ class LammpsHost : public lsdcd::MpiNodeHost {
   explicit LammpsHost(class FixWallLsdcd &);
 
   lsdcd::PeriodicBox box() const override;
-  std::string remedy(lsdcd::Remedy) const override;
 
  private:
   void show(const std::string &, bool) override;

@@ -5,6 +5,7 @@
 #ifndef LMP_OWN_MESSAGES_H
 #define LMP_OWN_MESSAGES_H
 
+#include "base/input_error.h"
 #include "host/host.h"
 
 #include <new>
@@ -30,11 +31,11 @@ class OwnMessages {
   [[noreturn]] void fatal(const std::string &) const;
   [[noreturn]] void fatal_here(const std::string &) const;
 
-  // Runs work of the core, returns what it returns, and ends LAMMPS with what it throws. Exceptions of LAMMPS pass: they
-  // are none of these. Out of memory may be one process alone.
+  // Runs work of the core, returns what it returns, and ends LAMMPS with what it throws. Exceptions of LAMMPS pass.
+  // Memory may run out on one process alone, and so may errors that are local.
   template <class Work>
   auto run_core(Work &&work) const -> decltype(work());
-  // The same where this process does the work alone.
+  // Runs work of the core as run_core() does, where only this process does it: its errors are local.
   template <class Work>
   auto run_core_here(Work &&work) const -> decltype(work());
 
@@ -48,8 +49,9 @@ auto OwnMessages::run_core(Work &&work) const -> decltype(work())
 {
   try {
     return work();
-  } catch (const lsdcd::ProcessError &e) {
-    fatal_here(e.what());
+  } catch (const lsdcd::InputError &e) {
+    if (e.is_local) fatal_here(e.what());
+    fatal(e.what());
   } catch (const std::bad_alloc &) {
     fatal_here("out of memory");
   } catch (const std::runtime_error &e) {

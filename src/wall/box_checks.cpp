@@ -33,8 +33,8 @@ std::string capital(std::string text)
 // In place of a radius that does not fit the box or a mesh.
 std::string radius_remedy(const Host &host, Real radius)
 {
-  return host.remedy(radius == host.names().unset_radius ? Remedy::set_radii
-                                                         : Remedy::give_other_radii);
+  return radius == host.names().unset_radius ? host.names().set_radii
+                                             : host.names().give_other_radii;
 }
 
 }    // namespace
@@ -208,7 +208,7 @@ void BoxChecks::look_ahead(const MeshPart &m, const PeriodicBox &box, Real cutof
                             number_text(least) + " to " + number_text(most) + " of the box. " +
                             capital(host_.names().sphere) +
                             "s that it carries out of the box are lost: make the box larger in " +
-                            axis + ", or " + host_.remedy(Remedy::follow_spheres) +
+                            axis + ", or " + host_.names().follow_spheres +
                             ". This warning is shown once"));
   }
 }

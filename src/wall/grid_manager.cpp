@@ -182,7 +182,7 @@ void GridManager::check_wrapping(const Spheres &spheres)
   host_.warn("a particle was " + number_text(out) +
              " past a periodic face before it was wrapped, more than the " + host_.names().margin +
              " " + number_text(now.margin) + ": contacts there may have been missed; " +
-             host_.remedy(Remedy::wrap_sooner) +
+             host_.names().wrap_sooner +
              ". The grid now reaches further; this warning is shown once");
 }
 

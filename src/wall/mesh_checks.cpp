@@ -92,11 +92,11 @@ void check_plane(Host &host, const WallSpec &settings, const MeshPart &m)
   }
   host.max(cut, 2);
   if (cut[0] > 0)
-    host.warn(with_mesh_name(
-        settings, m.index,
-        number_text(cut[0]) + " faces lean where the mesh cuts the plane z = 0, by up to " +
-            number_text(cut[1]) + " degrees: " + host.remedy(Remedy::stay_in_plane) +
-            "; draw the outline out along z"));
+    host.warn(with_mesh_name(settings, m.index,
+                             number_text(cut[0]) +
+                                 " faces lean where the mesh cuts the plane z = 0, by up to " +
+                                 number_text(cut[1]) + " degrees: " + host.names().stay_in_plane +
+                                 "; draw the outline out along z"));
 }
 
 void check_stays_closed(Host &host, const WallSpec &settings, const MeshPart &m)

@@ -210,19 +210,19 @@ void MeshMotion::check_snapshot(const Step &at) const
     throw InputError(named(in_replay +
                            "there is no step before, from which motion variable could take the "
                            "velocity as a difference: " +
-                           host_.remedy(Remedy::give_velocities)));
+                           host_.names().give_velocities));
   if (adds_up())
     throw InputError(named(in_replay +
                            "the displacement or angle is not known, because it is the sum of "
                            "velocities of variables over all steps before: " +
-                           host_.remedy(Remedy::give_displacements)));
+                           host_.names().give_displacements));
   StepClock there = clock_;
   there.advance(at);
   if (spec().motion.moves() && there.now() < 0)
     throw InputError(
         named(in_replay + "the snapshot of step " + std::to_string(at.number) + " is before step " +
               std::to_string(clock_.base_step) +
-              ", in which the motion of the mesh begins: " + host_.remedy(Remedy::begin_replay)));
+              ", in which the motion of the mesh begins: " + host_.names().begin_replay));
 }
 
 std::string MeshMotion::text(const Box &bounds) const
@@ -303,13 +303,13 @@ void MeshMotion::restore(const MotionState &was, const Step &now)
   const std::string so = " was stopped when the " + saved + " was written, and stays so: ";
   if (same && was.stopped) {
     motion.stop();
-    host_.warn(named("the motion '" + its + "'" + so + host_.remedy(Remedy::begin_motion)));
+    host_.warn(named("the motion '" + its + "'" + so + host_.names().begin_motion));
   }
   if (servo().has_line_of(was.servo)) {
     servo().position = was.servo.position;
     servo().velocity = was.servo.velocity;
     servo().holds = was.servo.holds;
-    if (servo().holds) host_.warn(named("the servo" + so + host_.remedy(Remedy::begin_servo)));
+    if (servo().holds) host_.warn(named("the servo" + so + host_.names().begin_servo));
   }
   begin(now);
   if (same) {

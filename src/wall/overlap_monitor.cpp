@@ -146,10 +146,11 @@ void OverlapMonitor::check_new(const StepDiagnostics &seen, const SpheresOnCpu &
   worst_new_ = kWorse * most;
   host_.broadcast(&tag, sizeof tag, lowest_rank(host_, mine == most));
   const std::string overlap = overlap_text(most, tag, spheres);
-  host_.warn(host_.sphere_text(tag) + " appeared inside the wall, which it overlaps by " + overlap +
-             " in step " + std::to_string(step) + ": " +
-             (most > 1 ? kWrongSide : "it will be thrown out; " + host_.remedy(Remedy::put_clear)) +
-             ". This warning comes again for a larger overlap");
+  host_.warn(
+      host_.sphere_text(tag) + " appeared inside the wall, which it overlaps by " + overlap +
+      " in step " + std::to_string(step) + ": " +
+      (most > 1 ? kWrongSide : std::string("it will be thrown out; ") + host_.names().put_clear) +
+      ". This warning comes again for a larger overlap");
 }
 
 }    // namespace lsdcd

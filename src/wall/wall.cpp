@@ -5,7 +5,6 @@
 
 #include "base/input_error.h"
 #include "base/input_words.h"
-#include "engine/results/sphere_error.h"
 #include "wall/creation_text.h"
 #include "wall/mesh_checks.h"
 #include "wall/mesh_name.h"
@@ -178,6 +177,7 @@ EngineSettings Wall::engine_settings() const
   want.wear = spec_.wear.model;
   want.device = device_.device();
   want.device_rank = host_.ranks().node_rank;
+  want.names = host_.names();
   return want;
 }
 
@@ -211,20 +211,19 @@ void Wall::log_creation(const std::string &material, const WallBackend &backend)
       creation_text(host_.names(), spec_, meshes_, coats_, engine_settings(), material, device));
 }
 
-// An error of a sphere gets the name that the host has for it.
+// Runs what this process does alone. Throws its errors as local ones, in which a sphere has the name that the host has for it.
 template <class Work>
 void Wall::on_this_process(const HostSpheres &spheres, Work &&work)
 {
-  try {
-    work();
-  } catch (const SphereError &e) {
-    throw ProcessError(host_.sphere_text(on_cpu(spheres).tag(e.sphere)) + " " + e.problem +
-                       (e.remedy ? "; " + host_.remedy(*e.remedy) : ""));
-  } catch (const RemedyError &e) {
-    throw ProcessError(e.problem + "; " + host_.remedy(e.remedy));
-  } catch (const std::exception &e) {
-    throw ProcessError(e.what());
-  }
+  const std::string error = error_of([&] {
+    try {
+      work();
+    } catch (const InputError &e) {
+      if (e.sphere < 0) throw;
+      throw InputError(host_.sphere_text(on_cpu(spheres).tag(e.sphere)) + " " + e.problem);
+    }
+  });
+  if (!error.empty()) fail_here(error);
 }
 
 // ---- a step ------------------------------------------------------------------------------
@@ -452,7 +451,7 @@ void Wall::check_points(const HostSpheres &spheres)
   points_warned_ = true;
   host_.warn("all " + std::to_string(static_cast<std::int64_t>(count)) + " " +
              host_.names().sphere + "s" + (s.group ? std::string(" of group ") + s.group : "") +
-             " have radius 0: the wall acts on none; " + host_.remedy(Remedy::give_radii));
+             " have radius 0: the wall acts on none; " + host_.names().give_radii);
 }
 
 // The range of spheres that can touch.
@@ -695,7 +694,7 @@ void Wall::check_new_spheres(const HostSpheres &spheres)
   StepDiagnostics seen;
   const std::string error = error_of([&] { seen = read_diagnostics(spheres); });
   overlaps_.check_new(seen, on_cpu(spheres), step, continued_ || step > 0);
-  if (!error.empty()) throw ProcessError(error);
+  if (!error.empty()) fail_here(error);
 }
 
 void Wall::end_run(const HostSpheres &spheres, bool far, const std::string &advice, Real loop)

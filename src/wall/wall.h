@@ -70,7 +70,7 @@ struct WallContact {
 // and finish(); forces and torques may.
 //
 // Spheres are counted from 0, meshes too. Functions are collective, so that all processes call them, but for those
-// that say that they are local. Errors that all processes have alike are InputError, those of one process ProcessError.
+// that say that they are local. Errors are InputError; those of one process alone are local.
 class Wall {
  public:
   // Reads the meshes, makes the engine, and logs what there is. `material`: what a material file filled in,

@@ -14,7 +14,7 @@ usage: check_includes.py [ROOT]
 * Only LAMMPS_ROOMS include headers of LAMMPS, which have no room in their name, and of MPI.
 * A header of ONLY_IN, which is slow to compile, is included by its one file.
 * HOST_FREE_ROOMS name no host in texts: neither LAMMPS nor its commands (HOST_WORDS). A host has
-  its words and remedies in messages by Host::names() and Host::remedy().
+  its words and remedies in messages by Host::names().
 * No file includes itself by way of others.
 * src itself has no source file: each lies in a room, and each room has a floor.
 * A source that only some builds of the core have is compiled alone (lsdcd_alone of src/CMakeLists.txt), so that the others are

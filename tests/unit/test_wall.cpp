@@ -582,8 +582,9 @@ TEST(Wall, of_one_process_that_fails_names_its_sphere)
   try {
     scene.wall->poll_diagnostics(scene.grains.spheres());
     ADD_FAILURE() << "no error";
-  } catch (const ProcessError &e) {
+  } catch (const InputError &e) {
     EXPECT_EQ(std::string(e.what()).rfind("sphere 42 ", 0), 0u) << e.what();
+    EXPECT_TRUE(e.is_local);
   }
 }
 
@@ -591,10 +592,7 @@ TEST(Wall, has_the_ways_out_of_its_host_in_errors_of_the_engine)
 {
   const Floor floor;
   struct Told : FakeHost {
-    std::string remedy(Remedy problem) const override
-    {
-      return problem == Remedy::announce_growth ? "tell of it" : "";
-    }
+    Told() { names_.announce_growth = "tell of it"; }
   } host;
   Scene scene(host, floor.wall({"rmax", "0.6"}));
   scene.grains.add({0, 0, 0.49});
@@ -604,7 +602,7 @@ TEST(Wall, has_the_ways_out_of_its_host_in_errors_of_the_engine)
   try {
     scene.wall->poll_diagnostics(scene.grains.spheres());
     ADD_FAILURE() << "no error";
-  } catch (const ProcessError &e) {
+  } catch (const InputError &e) {
     EXPECT_STREQ(
         e.what(),
         "sphere 1 has grown since the spheres near the wall were selected, so that others may "

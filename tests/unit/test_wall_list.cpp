@@ -3,7 +3,7 @@
 
 // Lists of the wall: what one holds, how far it holds, and what an engine does with it. Walks inside
 // the margin on random meshes are in test_properties.cpp.
-#include "engine/results/sphere_error.h"
+#include "base/input_error.h"
 #include "engine/step/narrow_phase.h"
 #include "support/brute_force.h"
 #include "support/crowd.h"
@@ -439,7 +439,7 @@ TEST(wall_list, a_sphere_that_grows_after_the_choice_is_felt_and_then_an_error)
   try {
     bed.engine->read_diagnostics();
     ADD_FAILURE() << "nothing is said";
-  } catch (const SphereError &e) {
+  } catch (const InputError &e) {
     EXPECT_EQ(e.sphere, 1);
     EXPECT_NE(e.problem.find("has grown"), std::string::npos);
   }
