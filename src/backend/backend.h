@@ -30,6 +30,7 @@
 #pragma once
 
 #include "backend/owned_array.h"
+#include "base/real.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -90,6 +91,40 @@ auto to_host(B &b, const Array &array, std::size_t n)
   b.wait();
   return host;
 }
+
+// What a kernel does to an array of the backend. None of these waits. Their work is in named structs, which private functions
+// can start: nvcc takes no device lambda from one.
+
+template <class T>
+struct PutAll {
+  T *to;
+  T value;
+  LSDCD_FN void operator()(std::size_t i) const { to[i] = value; }
+};
+template <class B, class T, class Value>
+void put_all(B &b, T *to, std::size_t n, const Value &value)
+{
+  b.for_each(n, PutAll<T>{to, static_cast<T>(value)});
+}
+template <class B, class T, class Value>
+void put_one(B &b, T *to, const Value &value)
+{
+  put_all(b, to, 1, value);
+}
+
+template <class From, class To>
+struct CopyAll {
+  const From *from;
+  To *to;
+  LSDCD_FN void operator()(std::size_t i) const { to[i] = static_cast<To>(from[i]); }
+};
+template <class B, class From, class To>
+void copy_all(B &b, const From *from, To *to, std::size_t n)
+{
+  b.for_each(n, CopyAll<From, To>{from, to});
+}
+
+// Copies of one thing, which wait.
 
 template <class B, class T>
 T read_one(B &b, const T *at)

@@ -30,6 +30,25 @@ struct OccupiedCells {
   std::vector<Brick> bricks;
 };
 
+// The force on the node of row k: of contacts, and of faces that push it in the order of their numbers, as on a host.
+struct SumOfNode {
+  const int *faces, *first, *around;
+  const Vec3 *at;
+  const Real *sums;
+  const int *node_of_row;
+  Real sixth;
+  Real *to;
+
+  LSDCD_FN void operator()(std::size_t k) const
+  {
+    const int i = node_of_row[k];
+    Vec3 sum = {sums[3 * i], sums[3 * i + 1], sums[3 * i + 2]};
+    for (int m = first[i]; sixth != 0 && m < first[i + 1]; m++)
+      sum += corner_share_of_pressure(faces + 3 * std::size_t(around[m]), at, sixth);
+    for (int d = 0; d < 3; d++) to[3 * k + d] = sum[d];
+  }
+};
+
 template <class B>
 class EngineOn : public WallEngine, public CandidatesInPlace, public NodesInPlace {
   template <class T>
@@ -285,8 +304,6 @@ class EngineOn : public WallEngine, public CandidatesInPlace, public NodesInPlac
   B &backend_now() { return b_; }
   const Array<int> &contacts_of_candidates() const { return results_.n_contacts(); }
 
-  // The steps of the above. Public because nvcc takes no device lambda from a private function.
-
   // A spring on a mesh of which its sphere is no candidate is of no use, and would be read as one on another.
   void forget_far_meshes()
   {
@@ -294,28 +311,21 @@ class EngineOn : public WallEngine, public CandidatesInPlace, public NodesInPlac
       springs_.forget_others(broad_phase_.slots().n_spheres(), broad_phase_.slots().meshes_of());
   }
 
+ private:
   void unlock_scratches()
   {
-    OverflowScratch *overflow = overflow_.data();
-    b_.for_each(kOverflowScratches, [=] LSDCD_LAMBDA(std::size_t i) { overflow[i].locked = 0; });
+    for (int i = 0; i < kOverflowScratches; i++) put_one(b_, &overflow_.data()[i].locked, 0);
   }
 
-  void clear_counts(int pool)
-  {
-    StepCounts *counts = counts_.data();
-    b_.for_each(1, [=] LSDCD_LAMBDA(std::size_t) { counts->shared_used[pool] = 0; });
-  }
+  void clear_counts(int pool) { put_one(b_, &counts_.data()->shared_used[pool], 0); }
 
   // The laws for multi-mesh spheres.
   void put_laws()
   {
     const std::vector<ContactLaw> &laws = settings_.laws.laws;
     laws_ = Array<LawEntry>(laws.size());
-    LawEntry *to = laws_.data();
-    for (std::size_t k = 0; k < laws_.size(); k++, to++) {
-      const LawEntry entry = {law_.laws[k], laws[k].pull_off()};
-      b_.for_each(1, [=] LSDCD_LAMBDA(std::size_t) { *to = entry; });
-    }
+    for (std::size_t k = 0; k < laws_.size(); k++)
+      put_one(b_, laws_.data() + k, LawEntry{law_.laws[k], laws[k].pull_off()});
   }
 
   // Grids and settings of all meshes for the next step. Does not wait.
@@ -323,46 +333,30 @@ class EngineOn : public WallEngine, public CandidatesInPlace, public NodesInPlac
   {
     const std::size_t n = broad_phase_.n_meshes();
     if (works_.size() < n) works_ = Array<MeshWork>(n);
-    MeshWork *to = works_.data();
-    for (int m = 0; m < broad_phase_.n_meshes(); m++, to++) {
-      const MeshWork work = mesh_work(m);
-      b_.for_each(1, [=] LSDCD_LAMBDA(std::size_t) { *to = work; });
-    }
+    for (int m = 0; m < broad_phase_.n_meshes(); m++) put_one(b_, works_.data() + m, mesh_work(m));
     return works_.data();
   }
 
-  // Faces push their nodes in the order of their numbers, as on a host.
   void put_sums(const MovingNodes<B> &nodes, const Real *sums, Real sixth, Real *to,
                 const int *node_of_row, std::size_t n)
   {
-    const int *faces = nodes.faces(), *first = nodes.face_first(), *around = nodes.faces_around();
-    const Vec3 *at = nodes.at();
-    b_.for_each(n, [=] LSDCD_LAMBDA(std::size_t k) {
-      const int i = node_of_row[k];
-      Vec3 sum = {sums[3 * i], sums[3 * i + 1], sums[3 * i + 2]};
-      for (int m = first[i]; sixth != 0 && m < first[i + 1]; m++)
-        sum += corner_share_of_pressure(faces + 3 * std::size_t(around[m]), at, sixth);
-      for (int d = 0; d < 3; d++) to[3 * k + d] = sum[d];
-    });
+    b_.for_each(n, SumOfNode{nodes.faces(), nodes.face_first(), nodes.faces_around(), nodes.at(),
+                             sums, node_of_row, sixth, to});
   }
 
   // Clears what was counted since the host last read it.
   void clear_diagnostics(const StepCounts &seen)
   {
-    StepCounts *counts = counts_.data();
-    b_.for_each(1, [=] LSDCD_LAMBDA(std::size_t) {
-      StepCounts cleared = {};
-      for (int i = 0; i < 2; i++) {
-        cleared.shared_used[i] = seen.shared_used[i];
-        cleared.n_found[i] = seen.n_found[i];
-        cleared.n_multi_contact[i] = seen.n_multi_contact[i];
-      }
-      *counts = cleared;
-    });
+    StepCounts cleared = {};
+    for (int i = 0; i < 2; i++) {
+      cleared.shared_used[i] = seen.shared_used[i];
+      cleared.n_found[i] = seen.n_found[i];
+      cleared.n_multi_contact[i] = seen.n_multi_contact[i];
+    }
+    put_one(b_, counts_.data(), cleared);
     are_counts_clear_ = true;
   }
 
- private:
   bool has_copies() const { return settings_.nodes && (!B::kOnHost || settings_.copies_records); }
   MeshWork mesh_work(int m) const
   {

@@ -116,8 +116,7 @@ class HostAdapter : public WallEngine {
     if (traits_.history && are_waiting_) move_springs(candidates_, spheres.n);
     if (n > 0) {
       pack(spheres);
-      Response *response = response_.device.data();
-      b.for_each(n, [=] LSDCD_LAMBDA(std::size_t k) { response[k] = {}; });
+      put_all(b, response_.device.data(), n, Response());
       if (traits_.heat) send_heat(spheres);
     }
     engine_.set_step(packed(), step);

@@ -172,12 +172,7 @@ class MovingNodes {
 
   // The steps of the above. Public because nvcc takes no device lambda from a private function.
 
-  void keep_places(B &b)
-  {
-    const Vec3 *at = at_.data();
-    Vec3 *built_at = built_at_.data();
-    b.for_each(at_.size(), [=] LSDCD_LAMBDA(std::size_t i) { built_at[i] = at[i]; });
-  }
+  void keep_places(B &b) { copy_all(b, at_.data(), built_at_.data(), at_.size()); }
 
   void give_in_place(B &b, const Real *x, const Real *v, const std::vector<int> &node_of_row)
   {

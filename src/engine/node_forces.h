@@ -157,11 +157,7 @@ class NodeForces {
 
   // The steps of the above. Public because nvcc takes no device lambda from a private function.
 
-  void clear(B &b)
-  {
-    Real *sums = reserve(sums_, 3 * n_nodes_);
-    b.for_each(3 * n_nodes_, [=] LSDCD_LAMBDA(std::size_t i) { sums[i] = 0; });
-  }
+  void clear(B &b) { put_all(b, reserve(sums_, 3 * n_nodes_), 3 * n_nodes_, 0); }
 
   // Where the shares of each candidate begin, three a contact, and their number behind these, which goes to the host.
   void count_shares(B &b, const NodeContacts &in)

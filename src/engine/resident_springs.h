@@ -202,8 +202,7 @@ class ResidentSprings : public SpringsInPlace {
     b_.copy_in(from.first.at, first_.data(), n);
     b_.copy_in(from.count.at, count_.data(), n);
     // Later spheres have no springs in this pool.
-    int *past = count_.data() + n;
-    b_.for_each(count_.size() - n, [=] LSDCD_LAMBDA(std::size_t i) { past[i] = 0; });
+    put_all(b_, count_.data() + n, count_.size() - n, 0);
     b_.copy_in(from.pool, pool.springs.data(), size);
     if (traits_.n_extra > 0) b_.copy_in(from.extra, pool.extra.data(), size * traits_.n_extra);
     b_.wait();
@@ -292,34 +291,6 @@ class ResidentSprings : public SpringsInPlace {
                      traits_.records * sizeof(ContactRecord));
   }
 
-  // Public because nvcc takes no device lambda from a private function.
-
-  std::size_t offsets(std::size_t n, int *to)
-  {
-    const int *count = count_.data();
-    b_.for_each(n, [=] LSDCD_LAMBDA(std::size_t i) { to[i] = count[i]; });
-    return b_.exclusive_scan(to, n);
-  }
-
-  // Room for n springs, keeping those that are there.
-  void extend(std::size_t n)
-  {
-    Pool &pool = pool_[now_];
-    if (pool.size >= n) return;
-    Pool wider = make(with_spare(n));
-    const std::size_t n_extra = traits_.n_extra;
-    const Spring *from = pool.springs.data();
-    const Real *from_extra = pool.extra.data();
-    Spring *to = wider.springs.data();
-    Real *to_extra = wider.extra.data();
-    b_.for_each(end_, [=] LSDCD_LAMBDA(std::size_t i) {
-      to[i] = from[i];
-      for (std::size_t e = i * n_extra; e < (i + 1) * n_extra; e++) to_extra[e] = from_extra[e];
-    });
-    b_.wait();
-    pool = std::move(wider);
-  }
-
  private:
   static constexpr std::size_t kUnknown = ~std::size_t(0);
   static constexpr std::size_t kSpareSlots = 65536;
@@ -334,6 +305,24 @@ class ResidentSprings : public SpringsInPlace {
   {
     if (k < static_cast<std::size_t>(n_first)) return as_integer(buffer[k]);
     return second + as_integer(buffer[second + (k - n_first)]);
+  }
+
+  std::size_t offsets(std::size_t n, int *to)
+  {
+    copy_all(b_, count_.data(), to, n);
+    return b_.exclusive_scan(to, n);
+  }
+
+  // Room for n springs, keeping those that are there.
+  void extend(std::size_t n)
+  {
+    Pool &pool = pool_[now_];
+    if (pool.size >= n) return;
+    Pool wider = make(with_spare(n));
+    copy_all(b_, pool.springs.data(), wider.springs.data(), end_);
+    copy_all(b_, pool.extra.data(), wider.extra.data(), end_ * traits_.n_extra);
+    b_.wait();
+    pool = std::move(wider);
   }
 
   Pool make(std::size_t n)

@@ -144,10 +144,8 @@ class StepResults {
     know_mesh_totals(b);
     if (totals_known_ || n_parts_ == 1 || !candidates_ || n_ == 0) return;
     stored_candidates_.reserve(n_);
-    const int *from = candidates_;
-    int *to = stored_candidates_.data();
-    b.for_each(n_, [=] LSDCD_LAMBDA(std::size_t k) { to[k] = from[k]; });
-    candidates_ = to;
+    copy_all(b, candidates_, stored_candidates_.data(), n_);
+    candidates_ = stored_candidates_.data();
   }
 
   void know_mesh_totals(B &b)
@@ -237,7 +235,7 @@ class StepResults {
     int *at = offset.data();
     const int *n_contacts = n_contacts_.data();
     const int *slot = slot_.data();
-    b.for_each(n, [=] LSDCD_LAMBDA(std::size_t k) { at[k] = n_contacts[k]; });
+    copy_all(b, n_contacts, at, n);
     const std::size_t total = b.exclusive_scan(at, n);
     // The gaps between them were never written.
     Array<ContactRecord> packed(total);

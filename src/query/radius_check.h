@@ -21,7 +21,7 @@ class RadiusCheck {
   TooLarge<S> begin(B &b)
   {
     std::uint64_t *first = first_.data();
-    b.for_each(1, [=] LSDCD_LAMBDA(std::size_t) { *first = 0; });
+    put_one(b, first, 0);
     return {static_cast<decltype(S::r)>(cutoff_), first};
   }
   // Waits where a query has radii, and throws InputError where one is bad.

@@ -145,30 +145,6 @@ class BroadPhase {
   }
   int n_kinds() const { return laws_.kinds; }
 
-  // Public because nvcc takes no device lambda from a private function. These do not wait.
-  const int *put_kinds(B &b)
-  {
-    const std::size_t n = laws_.kind_of_type.size();
-    if (kind_of_type_.size() == n) return kind_of_type_.data();
-    kind_of_type_ = Array<int>(n);
-    int *to = kind_of_type_.data();
-    for (const int kind : laws_.kind_of_type) {
-      b.for_each(1, [=] LSDCD_LAMBDA(std::size_t) { *to = kind; });
-      to++;
-    }
-    return kind_of_type_.data();
-  }
-  const PosedGrid *put_grids(B &b)
-  {
-    if (posed_.size() < meshes_.size()) posed_ = Array<PosedGrid>(meshes_.size());
-    PosedGrid *to = posed_.data();
-    for (int m = 0; m < n_meshes(); m++, to++) {
-      const PosedGrid placed = {meshes_[m].grid.view, meshes_[m].pose};
-      b.for_each(1, [=] LSDCD_LAMBDA(std::size_t) { *to = placed; });
-    }
-    return posed_.data();
-  }
-
   // See DisplacementCheck.
   void store_positions(B &b, const Spheres &spheres, Real margin)
   {
@@ -189,6 +165,25 @@ class BroadPhase {
   }
 
  private:
+  // These do not wait.
+  const int *put_kinds(B &b)
+  {
+    const std::size_t n = laws_.kind_of_type.size();
+    if (kind_of_type_.size() == n) return kind_of_type_.data();
+    kind_of_type_ = Array<int>(n);
+    int *to = kind_of_type_.data();
+    for (const int kind : laws_.kind_of_type) put_one(b, to++, kind);
+    return kind_of_type_.data();
+  }
+  const PosedGrid *put_grids(B &b)
+  {
+    if (posed_.size() < meshes_.size()) posed_ = Array<PosedGrid>(meshes_.size());
+    PosedGrid *to = posed_.data();
+    for (const EngineMesh<B> &mesh : meshes_)
+      put_one(b, to++, PosedGrid{mesh.grid.view, mesh.pose});
+    return posed_.data();
+  }
+
   StepCounts choose_slots(B &b, const Spheres &spheres, Real margin, Array<StepCounts> &counts)
   {
     StepCounts seen = {};

@@ -26,6 +26,64 @@ LSDCD_FN bool is_single(MeshSet set)
   return (set & (set - 1)) == 0;
 }
 
+// Flags candidates of one mesh only and of this kind.
+struct FlagSingle {
+  const int *found;
+  const MeshSet *set;
+  SphereKinds kind;
+  int of_kind;
+  char *flags;
+
+  LSDCD_FN void operator()(std::size_t k) const
+  {
+    flags[k] = is_single(set[found[k]]) && kind[found[k]] == of_kind;
+  }
+};
+// Flags multi-mesh spheres: one counts with the first of its meshes.
+struct FlagMultiMesh {
+  const int *found;
+  const MeshSet *set;
+  int mesh;
+  char *flags;
+
+  LSDCD_FN void operator()(std::size_t k) const
+  {
+    const MeshSet of = set[found[k]], before = (MeshSet(1) << mesh) - 1;
+    flags[k] = !is_single(of) && (of & before) == 0;
+  }
+};
+
+// Multi-mesh spheres and their slots.
+struct MultiMeshSlots {
+  const int *multi_mesh;
+  const MeshSet *set;
+  int *first, *sphere, *mesh;
+};
+struct CountMeshes {
+  MultiMeshSlots to;
+
+  LSDCD_FN void operator()(std::size_t g) const
+  {
+    int count = 0;
+    for (MeshSet of = to.set[to.multi_mesh[g]]; of != 0; of &= of - 1) count++;
+    to.first[g] = count;
+  }
+};
+struct PutSlots {
+  MultiMeshSlots to;
+  int begin;    // of all
+
+  LSDCD_FN void operator()(std::size_t g) const
+  {
+    int k = to.first[g] += begin;
+    for (int m = 0; m < kMaxMeshes; m++)
+      if (has_mesh(to.set[to.multi_mesh[g]], m)) {
+        to.sphere[k] = to.multi_mesh[g];
+        to.mesh[k++] = m;
+      }
+  }
+};
+
 template <class B>
 class CandidateSlots {
   template <class T>
@@ -39,8 +97,7 @@ class CandidateSlots {
     n_found_ = 0;
     end_.clear();
     set_.reserve(n);
-    MeshSet *set = set_.data();
-    b.for_each(n, [=] LSDCD_LAMBDA(std::size_t i) { set[i] = 0; });
+    put_all(b, set_.data(), n, 0);
   }
 
   // The n candidates of the next mesh.
@@ -76,11 +133,11 @@ class CandidateSlots {
       const std::size_t at = begin_.back();
       for (int k = 0; k < kinds; k++) {
         const std::size_t to = begin_.back();
-        flag_single(b, found, n, kind, k);
+        b.for_each(n, FlagSingle{found, set_.data(), kind, k, flags_.data()});
         begin_.push_back(to + compact(b, found, n, sphere_.data() + to));
       }
-      fill(b, at, begin_.back() - at, static_cast<int>(m));
-      flag_multi_mesh(b, found, n, static_cast<int>(m));
+      put_all(b, mesh_.data() + at, begin_.back() - at, m);
+      b.for_each(n, FlagMultiMesh{found, set_.data(), static_cast<int>(m), flags_.data()});
       n_multi_mesh_ += compact(b, found, n, multi_mesh_.data() + n_multi_mesh_);
     }
     n_slots_ = begin_.back();
@@ -109,73 +166,28 @@ class CandidateSlots {
            set_.size() * sizeof(MeshSet) + flags_.size();
   }
 
-  // The steps of the above. Public because nvcc takes no device lambda from a private function.
-
+ private:
   void reserve(B &b, std::size_t n)
   {
     if (found_.size() >= n) return;
     Array<int> wider(n + n / 2);
-    const int *from = found_.data();
-    int *to = wider.data();
-    b.for_each(n_found_, [=] LSDCD_LAMBDA(std::size_t k) { to[k] = from[k]; });
+    copy_all(b, found_.data(), wider.data(), n_found_);
     b.wait();
     found_ = std::move(wider);
-  }
-
-  void flag_single(B &b, const int *found, std::size_t n, const SphereKinds &kind, int of_kind)
-  {
-    char *flags = flags_.data();
-    const MeshSet *set = set_.data();
-    b.for_each(n, [=] LSDCD_LAMBDA(std::size_t k) {
-      flags[k] = is_single(set[found[k]]) && kind[found[k]] == of_kind;
-    });
-  }
-  // A multi-mesh sphere counts with the first of its meshes.
-  void flag_multi_mesh(B &b, const int *found, std::size_t n, int mesh)
-  {
-    char *flags = flags_.data();
-    const MeshSet *set = set_.data();
-    const MeshSet before = (MeshSet(1) << mesh) - 1;
-    b.for_each(n, [=] LSDCD_LAMBDA(std::size_t k) {
-      const MeshSet of = set[found[k]];
-      flags[k] = !is_single(of) && (of & before) == 0;
-    });
-  }
-
-  void fill(B &b, std::size_t at, std::size_t n, int mesh)
-  {
-    int *to = mesh_.data() + at;
-    b.for_each(n, [=] LSDCD_LAMBDA(std::size_t k) { to[k] = mesh; });
   }
 
   void make_multi_mesh_slots(B &b)
   {
     const std::size_t n = n_multi_mesh_;
-    const int *multi_mesh = multi_mesh_.data();
-    const MeshSet *set = set_.data();
-    int *first = first_.data(), *sphere = sphere_.data(), *mesh = mesh_.data();
-    const int begin = static_cast<int>(n_slots_);
-    b.for_each(n, [=] LSDCD_LAMBDA(std::size_t g) {
-      int count = 0;
-      for (MeshSet of = set[multi_mesh[g]]; of != 0; of &= of - 1) count++;
-      first[g] = count;
-    });
-    const int total = b.exclusive_scan(first, n);
+    const MultiMeshSlots slots = {multi_mesh_.data(), set_.data(), first_.data(), sphere_.data(),
+                                  mesh_.data()};
+    b.for_each(n, CountMeshes{slots});
+    const int begin = static_cast<int>(n_slots_), total = b.exclusive_scan(first_.data(), n);
     n_slots_ += total;
-    b.for_each(n + 1, [=] LSDCD_LAMBDA(std::size_t g) {
-      const int at = begin + (g < n ? first[g] : total);
-      first[g] = at;
-      if (g == n) return;
-      int k = at;
-      for (int m = 0; m < kMaxMeshes; m++)
-        if (has_mesh(set[multi_mesh[g]], m)) {
-          sphere[k] = multi_mesh[g];
-          mesh[k++] = m;
-        }
-    });
+    b.for_each(n, PutSlots{slots, begin});
+    put_one(b, first_.data() + n, begin + total);
   }
 
- private:
   std::size_t compact(B &b, const int *found, std::size_t n, int *to)
   {
     if (n == 0) return 0;

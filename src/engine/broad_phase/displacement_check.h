@@ -42,6 +42,16 @@ struct HasMoved {
   }
 };
 
+struct FlagMoved {
+  HasMoved test;
+  int *flag;
+
+  LSDCD_FN void operator()(std::size_t i) const
+  {
+    if (test(i)) set_flag(flag);
+  }
+};
+
 // Does a number of a[0, n) differ from the one in the same place of b by `most` or more? Yes where one of them is no
 // number. It is written without a branch, so that compilers take several at once: the sign of |a - b| - most says it,
 // and that of a result that is no number is clear, as fabs() leaves it.
@@ -92,19 +102,19 @@ class DisplacementCheck {
     return false;
   }
 
-  // Public because nvcc takes no device lambda from a private function.
+  std::size_t bytes() const { return x_.size() * sizeof(Real); }
+
+ private:
   bool holds_for_any(B &b, std::size_t n, const HasMoved &test)
   {
     int *flag = flag_.data();    // kernels write this memory of the host
     *flag = 0;
-    b.for_each(n, [=] LSDCD_LAMBDA(std::size_t i) {
-      if (test(i)) set_flag(flag);
-    });
+    b.for_each(n, FlagMoved{test, flag});
     b.wait();
     return *flag;
   }
 
-  // The same on a CPU for meshes that stay where they are. It looks at every sphere in every step, so that it has to
+  // holds_for_any() on a CPU for meshes that stay where they are. It looks at every sphere in every step, so that it has to
   // be cheap for nearly all of them: blocks in which no coordinate has changed by margin / sqrt(3) are done with one
   // comparison of each. A sphere that has gone farther, and from which no mesh can be touched within the margin, is
   // from now on compared with where it is: until it has gone the margin from there, it cannot touch one.
@@ -137,9 +147,6 @@ class DisplacementCheck {
     return *flag;
   }
 
-  std::size_t bytes() const { return x_.size() * sizeof(Real); }
-
- private:
   using Array = typename B::template Array<Real>;
 
   Array x_;

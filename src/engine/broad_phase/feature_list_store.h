@@ -13,6 +13,18 @@
 
 namespace lsdcd {
 
+// Lists of meshes whose nodes move are made in steps (lists/node_list.h): there is none yet of slot k.
+struct LeaveOut {
+  const PosedGrid *meshes;
+  const int *mesh;
+  float *lengths;
+
+  LSDCD_FN void operator()(std::size_t k) const
+  {
+    if (!meshes || meshes[mesh[k]].grid.list_kind.is_every()) lengths[k] = -1;
+  }
+};
+
 // Makes the list of candidate k.
 struct GatherWork {
   GridView grid;
@@ -52,7 +64,7 @@ struct GatherSlotWork {
   {
     for_each_distinct(warp, mine, mesh[k], [&](bool of_mesh, int m) {
       const PosedGrid &of = meshes[m];
-      if (of.grid.list_kind.has_primitives()) return;    // see leave_out()
+      if (of.grid.list_kind.has_primitives()) return;    // see LeaveOut
       const GatherWork work = {of.grid, of.pose, spheres, margin, lists, nullptr, counts};
       work(warp, of_mesh, k);
     });
@@ -103,16 +115,6 @@ class FeatureListStore {
   // with these. Null: not known.
   const char *multi_contact() const { return lists_.n ? multi_contact_.data() : nullptr; }
 
-  // Lists of meshes whose nodes move are made in steps (lists/node_list.h): there are none yet. `meshes` null: all
-  // slots are of one. Public because nvcc takes no device lambda from a private function.
-  void leave_out(B &b, std::size_t n, const PosedGrid *meshes, const int *mesh)
-  {
-    float *lengths = lists_.lengths;
-    b.for_each(n, [=] LSDCD_LAMBDA(std::size_t k) {
-      if (!meshes || meshes[mesh[k]].grid.list_kind.is_every()) lengths[k] = -1;
-    });
-  }
-
   std::size_t bytes() const
   {
     return multi_contact_.size() + reals_.size() * sizeof(Real) +
@@ -121,6 +123,12 @@ class FeatureListStore {
   }
 
  private:
+  // `meshes` null: all slots are of one.
+  void leave_out(B &b, std::size_t n, const PosedGrid *meshes, const int *mesh)
+  {
+    b.for_each(n, LeaveOut{meshes, mesh, lists_.lengths});
+  }
+
   GatherWork gather(const GridView &grid, const Pose &pose, const CandidateSpheres &spheres,
                     Real margin, StepCounts *counts)
   {

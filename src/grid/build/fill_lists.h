@@ -97,7 +97,7 @@ void finish_bricks(B &b, const OctantPairs<B> &pairs, const std::uint64_t *cells
                    std::size_t table_size, Brick *bricks, std::int32_t *brick_of)
 {
   const std::uint32_t *slots = pairs.slot.data();
-  b.for_each(table_size, [=] LSDCD_LAMBDA(std::size_t i) { brick_of[i] = -1; });
+  put_all(b, brick_of, table_size, -1);
   b.for_each(pairs.n_bricks, [=] LSDCD_LAMBDA(std::size_t i) {
     for (int k = 0; k < kLayers; k++) {
       bricks[i].layer[k].first_cell = static_cast<std::uint32_t>(cells[i * kLayers + k]);

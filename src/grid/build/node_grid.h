@@ -261,11 +261,11 @@ class NodeGrid {
     Array<std::uint32_t> numbers(n);
     std::int32_t *brick_of = brick_of_.data();
     std::uint32_t *number = numbers.data();
-    b.for_each(n, [=] LSDCD_LAMBDA(std::size_t slot) { brick_of[slot] = 0; });
+    put_all(b, brick_of, n, 0);
     b.for_each(of.n, [=] LSDCD_LAMBDA(std::size_t p) {
       cells.each_brick(of.bounds(of.code[p]), [&](std::size_t slot) { set_flag(brick_of + slot); });
     });
-    b.for_each(n, [=] LSDCD_LAMBDA(std::size_t slot) { number[slot] = brick_of[slot]; });
+    copy_all(b, brick_of, number, n);
     bricks_ = Array<Brick>(b.exclusive_scan(number, n));
     b.for_each(n, [=] LSDCD_LAMBDA(std::size_t slot) {
       brick_of[slot] = brick_of[slot] ? static_cast<std::int32_t>(number[slot]) : -1;
@@ -278,7 +278,7 @@ class NodeGrid {
   {
     const NodeCells cells = cells_;
     const std::int32_t *brick_of = brick_of_.data();
-    b.for_each(bricks_.size() * kBrickCells, [=] LSDCD_LAMBDA(std::size_t c) { count[c] = 0; });
+    put_all(b, count, bricks_.size() * kBrickCells, 0);
     b.for_each(of.n, [=] LSDCD_LAMBDA(std::size_t p) {
       cells.each_cell(of, of.code[p], [&](std::size_t slot, std::int32_t cell, Real, const Vec3 &) {
         fetch_add(count + (std::size_t(brick_of[slot]) * kBrickCells + cell), 1u);
