@@ -50,7 +50,7 @@ bool append_contacts(const GridView &grid, const SearchSettings &search, const V
 {
   WeightedContacts<kCapacity> t;
   CornerRule<kCapacity> rule;
-  narrow_phase<false>(rule, grid, search, {x, radius, radius, nullptr, 0}, nullptr, t);
+  narrow_phase<false, false>(rule, grid, search, {x, radius, radius, nullptr, 0}, nullptr, t);
   if (t.set.overflow) return false;
   certain = t.exact_within >= radius;
   for (int i = 0; i < t.set.n; i++)

@@ -219,16 +219,10 @@ LSDCD_NOINLINE bool any_contacts(const Law &law, const StepJob &job, std::size_t
   }
 
   WeightedContacts<kContacts> some;
-  bool is_found = false;
+  narrow_phase<Law::kBeyondContact, Law::kNodes>(memory.rule, job.grid, job.settings.search, s,
+                                                 list, some);
   if constexpr (Law::kNodes)
-    if (list && job.settings.nodes.velocity) {
-      narrow_phase_at_nodes<Law::kBeyondContact>(memory.rule, job.grid, job.settings.search, s,
-                                                 *list, some);
-      is_found = true;
-      list = nullptr;    // what overflows is found in the cell
-    }
-  if (!is_found)
-    narrow_phase<Law::kBeyondContact>(memory.rule, job.grid, job.settings.search, s, list, some);
+    if (job.settings.search.at_nodes) list = nullptr;    // what overflows is found in the cell
   ContactsView set = some.set.view();
   const Real *weight = some.weight;
   Real exact_within = some.exact_within;
@@ -241,8 +235,8 @@ LSDCD_NOINLINE bool any_contacts(const Law &law, const StepJob &job, std::size_t
       scratch = job.overflow + k % kOverflowScratches;
       if (!try_lock(&scratch->locked)) continue;
       scratch->contacts.set.clear();
-      narrow_phase<Law::kBeyondContact>(scratch->rule, job.grid, job.settings.search, s, list,
-                                        scratch->contacts);
+      narrow_phase<Law::kBeyondContact, Law::kNodes>(scratch->rule, job.grid, job.settings.search,
+                                                     s, list, scratch->contacts);
       set = scratch->contacts.set.view();
       weight = scratch->contacts.weight;
       exact_within = scratch->contacts.exact_within;
@@ -286,13 +280,7 @@ struct MeshStep {
     const QuerySphere s = query_sphere_of(job, i, x, radius, Law::kBeyondContact, pull_off_of(law));
     if (!job.lists.holds(k, x, s.cutoff)) return false;
     ContactSet<1> set;
-    bool is_found = false;
-    if constexpr (Law::kNodes)
-      if (job.settings.nodes.velocity) {
-        find_in_node_list(job.grid, {job.lists, k}, x, s.cutoff, set);
-        is_found = true;
-      }
-    if (!is_found) find_in_list(job.grid, {job.lists, k}, x, s.cutoff, set);
+    find_listed<Law::kNodes>(job.grid, job.settings.search, {job.lists, k}, x, s.cutoff, set);
     filter_contacts<Law::kBeyondContact>(job.grid, job.settings.search, s, set);
     if (set.overflow) return false;
     check_cutoff(job, i, s.cutoff);
@@ -304,7 +292,7 @@ struct MeshStep {
   LSDCD_FN void make_list(const Warp<kSize> &warp, bool mine, std::size_t k) const
   {
     if constexpr (Law::kNodes)
-      if (job.settings.nodes.velocity) {
+      if (job.settings.search.at_nodes) {
         if (mine) put_node_list(job, query_sphere_of_candidate(law, job, k), k);
         return;
       }

@@ -151,8 +151,8 @@ LSDCD_FN void narrow_phase_of_meshes(const StepJob &job, const MultiMeshSphere &
     const bool holds = job.lists.n && job.lists.holds(k, seen.x, s.cutoff);
     if (job.lists.n && !holds) count_one(&job.counts->by_cells);
     of_mesh.set.clear();
-    find_filtered<kBeyondContact>(mesh.grid, mesh.settings.search, seen, holds ? &list : nullptr,
-                                  of_mesh);
+    find_filtered<kBeyondContact, false>(mesh.grid, mesh.settings.search, seen,
+                                         holds ? &list : nullptr, of_mesh);
     tolerance = fmax(tolerance, mesh.grid.tolerance);
     if (!of_mesh.set.overflow)
       add_mesh(mesh.settings.pose, of_mesh.set, tolerance, all.set, end, k - s.begin);

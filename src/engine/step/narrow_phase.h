@@ -16,6 +16,8 @@ namespace lsdcd {
 struct SearchSettings {
   Corner corner = Corner::blend;
   Side side = Side::both;
+  // Nodes of the mesh move: lists name primitives. Read only by laws for these.
+  bool at_nodes = false;
 };
 
 template <int kCapacity>
@@ -42,17 +44,28 @@ LSDCD_FN void filter_contacts(const GridView &grid, const SearchSettings &settin
   }
 }
 
+// Finds the contacts within the cutoff in the list of a sphere, of features or of primitives.
+template <bool kNodes, int kCapacity>
+LSDCD_FN void find_listed(const GridView &grid, [[maybe_unused]] const SearchSettings &settings,
+                          const ListedFeatures &list, const Vec3 &q, Real cutoff,
+                          ContactSet<kCapacity> &set)
+{
+  if constexpr (kNodes)
+    if (settings.at_nodes) return find_in_node_list(grid, list, q, cutoff, set);
+  find_in_list(grid, list, q, cutoff, set);
+}
+
 // Finds the contacts within the cutoff, into a set that is empty: from the sphere's list, or from its cell where
 // `list` is null. Sorted by the features' numbers, so that the corner rule and sums give the same bits from
 // both. Where the set overflows nothing else is valid.
-template <bool kBeyondContact, class Springs, int kCapacity>
+template <bool kBeyondContact, bool kNodes, class Springs, int kCapacity>
 LSDCD_FN void find_filtered(const GridView &grid, const SearchSettings &settings,
                             const QuerySphereWith<Springs> &s, const ListedFeatures *list,
                             WeightedContacts<kCapacity> &out)
 {
   out.exact_within = kAnyDistance;
   if (list)
-    find_in_list(grid, *list, s.x, s.cutoff, out.set);
+    find_listed<kNodes>(grid, settings, *list, s.x, s.cutoff, out.set);
   else
     out.exact_within = find_contacts_in<PackedCandidates>(grid, s.x, s.cutoff, out.set);
   filter_contacts<kBeyondContact>(grid, settings, s, out.set);
@@ -85,26 +98,12 @@ LSDCD_FN void share_overlap(const SearchSettings &settings, Real cutoff, Real to
 
 // The contacts of a sphere with their weights. `rule`: memory of the corner rule, which a stack may have no room
 // for. A function of its own, so that it is compiled once however many laws there are.
-template <bool kBeyondContact, int kCapacity>
+template <bool kBeyondContact, bool kNodes, int kCapacity>
 LSDCD_NOINLINE void narrow_phase(CornerRule<kCapacity> &rule, const GridView &grid,
                                  const SearchSettings &settings, const QuerySphere &s,
                                  const ListedFeatures *list, WeightedContacts<kCapacity> &out)
 {
-  find_filtered<kBeyondContact>(grid, settings, s, list, out);
-  if (!out.set.overflow) share_overlap(settings, s.cutoff, grid.tolerance, rule, out);
-}
-
-// The same where the nodes of the mesh move, from the sphere's list of primitives.
-template <bool kBeyondContact, int kCapacity>
-LSDCD_NOINLINE void narrow_phase_at_nodes(CornerRule<kCapacity> &rule, const GridView &grid,
-                                          const SearchSettings &settings, const QuerySphere &s,
-                                          const ListedFeatures &list,
-                                          WeightedContacts<kCapacity> &out)
-{
-  out.exact_within = kAnyDistance;
-  find_in_node_list(grid, list, s.x, s.cutoff, out.set);
-  filter_contacts<kBeyondContact>(grid, settings, s, out.set);
-  out.set.sort();
+  find_filtered<kBeyondContact, kNodes>(grid, settings, s, list, out);
   if (!out.set.overflow) share_overlap(settings, s.cutoff, grid.tolerance, rule, out);
 }
 
