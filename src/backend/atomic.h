@@ -23,7 +23,7 @@ LSDCD_FN T fetch_add(T *at, T n)
 #endif
 }
 
-// The same of 1, where many threads add to one number at once.
+// Adds 1 and returns what was there before, for numbers that many threads add to at once.
 LSDCD_FN std::uint64_t fetch_add_one(std::uint64_t *at)
 {
 #if LSDCD_ON_GPU()

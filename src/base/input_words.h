@@ -49,7 +49,7 @@ class Tokens {
 
   // Returns a number in [low, high]; `what` is its name in messages.
   Real number(const char *what, Real low = -kHuge, Real high = kHuge);
-  // The same, without a fraction.
+  // A whole number in [low, high]; `what` is its name in messages.
   std::int64_t whole(const char *what, Real low, Real high);
   // As number(), or `otherwise` if the word is `instead`.
   Real number_or(const char *instead, Real otherwise, const char *what, Real low,

@@ -150,7 +150,7 @@ class State {
     if (in.left() > 0) in.fail("is too long");
     return true;
   }
-  // Likewise; a block that is not there is an error.
+  // Reads a block as find() does. Throws StateError where the block is not there.
   template <class T>
   void read(const std::string &name, int version, T &value) const
   {

@@ -18,7 +18,7 @@ struct SphereDrift {
   enum Kind {
     bounded,    // none goes farther than `distance` between two calls of expire()
     watched,    // any distance: the engine looks at all spheres in each step
-    unknown     // likewise, and spheres join and leave the group: the engine chooses in each step
+    unknown    // any distance, and spheres join and leave the group: the engine chooses in each step
   };
   Kind kind = unknown;
   Real distance = 0;    // length; of watched: how far a sphere goes before a new choice

@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The choice of an engine, for a host that brings each step the numbers of its candidates alone.
+// The candidates of an engine, for a host that copies no other spheres to the engine in each step.
 #pragma once
 
 namespace lsdcd {
 
-// Engines for particles in their own memory are such, too.
+// Engines for particles that lie where the engine computes have this interface.
 class CandidatesInPlace {
  public:
   virtual ~CandidatesInPlace() = default;

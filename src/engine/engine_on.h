@@ -511,7 +511,7 @@ class EngineOn : public WallEngine, public CandidatesInPlace, public NodesInPlac
   std::vector<MovingNodes<B>> nodes_;         // of each mesh, where it has copies of records
   std::vector<NodeForces<B>> node_forces_;    // likewise
   Array<MeshWork> works_;                     // of all meshes
-  Array<LawEntry> laws_;                      // likewise
+  Array<LawEntry> laws_;                      // of all meshes
 
   int pool_written_ = -1;
   Array<OverflowScratch> overflow_;

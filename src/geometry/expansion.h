@@ -68,7 +68,7 @@ class Expansion {
   std::vector<Real> terms_;
 };
 
-// The same with room for a fixed number of terms, for any backend.
+// An Expansion with room for a fixed number of terms, for any backend.
 template <int kRoom>
 class FixedExpansion {
  public:

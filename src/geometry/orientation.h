@@ -100,14 +100,15 @@ LSDCD_FN int rounded_orientation(const Vec3 &a, const Vec3 &b, const Vec3 &c, co
   return 0;
 }
 
-// The same; 0 where all four are in one plane.
+// Returns the sign that rounded_orientation() returns where it is sure, and the exact one elsewhere: 0 where all four
+// points are in one plane.
 LSDCD_FN int orientation(const Vec3 &a, const Vec3 &b, const Vec3 &c, const Vec3 &d)
 {
   const int rounded = rounded_orientation(a, b, c, d);
   return rounded != 0 ? rounded : orientation_detail::exact(a, b, c, d);
 }
 
-// The same of the projections of three points along an axis, 0 to 2: 1 where a, b, c turn to the
+// Returns the exact orientation of the projections of three points along an axis, 0 to 2: 1 where a, b, c turn to the
 // left.
 LSDCD_FN int orientation_along(int axis, const Vec3 &a, const Vec3 &b, const Vec3 &c)
 {

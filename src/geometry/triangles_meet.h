@@ -197,7 +197,7 @@ LSDCD_FN bool triangles_meet(const Triangle &a, const Triangle &b)
   return crossing(a, b, of_a, of_b) <= 0;
 }
 
-// The same by rounded signs alone: 1 yes, -1 no, 0 if they do not decide.
+// Do the triangles meet, by rounded signs alone? Returns 1 for yes, -1 for no, 0 if they do not decide.
 LSDCD_FN int triangles_meet_rounded(const Triangle &a, const Triangle &b)
 {
   using namespace triangles_meet_detail;

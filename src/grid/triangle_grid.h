@@ -267,7 +267,7 @@ std::string describe(const GridReport &report);
 // a node can share one: pack into memory of flat_bytes(), view it anywhere.
 // The block must be 64-byte aligned. A CUDA engine takes views of flat blocks only.
 std::size_t flat_bytes(const TriangleGrid &grid);
-// The same of a grid whose parts lie apart.
+// A grid whose parts lie apart, for flat_bytes() and flatten().
 struct GridParts {
   const MeshFeatures &wall;
   const CellLists &lists;
@@ -280,17 +280,17 @@ std::size_t flat_bytes(const GridParts &grid);
 void flatten(const GridParts &grid, char *block);
 // Returns the part that any grid of this wall has, with room for the padding of the rest.
 std::size_t flat_wall_bytes(const TriangleGrid &grid);
-// The bytes that all of a grid may take, by the settings.
+// Returns the bytes that the whole grid may take, by the settings.
 std::size_t budget_of(const GridSettings &settings, const TriangleGrid &grid);
 void flatten(const TriangleGrid &grid, char *block);
-// The same, but frees each array of the grid when it is copied.
+// Flattens the grid into `block`, and frees each array of the grid once it is copied.
 void move_flat(TriangleGrid &grid, char *block);
 GridView flat_view(const char *block);
 
-// The same view over a copy of its flat block at another address.
+// Returns the view of a flat block as a view of the block's copy at `to`.
 GridView moved_view(const GridView &view, const char *to);
 
-// Centre of the brick at a slot in the table.
+// Returns the centre of the brick at a slot in the table.
 Vec3 brick_centre(const TriangleGrid &grid, std::size_t slot);
 
 }    // namespace lsdcd

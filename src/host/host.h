@@ -21,7 +21,7 @@ namespace lsdcd {
 // One process among all of a program.
 struct Ranks {
   int rank = 0, processes = 1;         // rank 0 is the first process
-  int node_rank = 0, node_size = 1;    // likewise among the processes of its node
+  int node_rank = 0, node_size = 1;    // of this process among those of its node, and their number
   bool fills_memory =
       true;    // it fills the memory of its node; the first process is one that does
 };
@@ -37,8 +37,8 @@ struct NodeMemory {
 // The processes that get what another one sends.
 enum class Receivers { all, that_fill_memory };
 
-// There is one object per process. This one is a process on its own in an unbounded box, whose log nobody reads;
-// programs override what they have.
+// The program that LSDCD is part of, one object per process. The default is one process, an unbounded box and no log.
+// Override what your program has.
 class Host {
  public:
   virtual ~Host() = default;
@@ -50,26 +50,26 @@ class Host {
 
   // Collective: all processes call these in the same order.
 
-  // Each of the n numbers becomes the sum over all processes.
+  // Replaces each of the n numbers by its sum over all processes.
   virtual void sum(Real * /*numbers*/, int /*n*/) {}
-  // Each of the n numbers becomes the largest of all processes.
+  // Replaces each of the n numbers by the largest of all processes.
   virtual void max(Real * /*numbers*/, int /*n*/) {}
-  // Both in one message, where the host can: n sums and m largest numbers.
+  // Does sum() and max() in one message, where the host can: n sums and m largest numbers.
   virtual void sum_and_max(Real *sums, int n, Real *largest, int m)
   {
     sum(sums, n);
     max(largest, m);
   }
-  // `bytes` bytes of the process `from` replace those of the receivers; other processes may pass null. To those
-  // that fill memory only the first process sends.
+  // Sends `bytes` bytes of the process `from` to the receivers, which get them in place of their own; other processes
+  // may pass null. Only the first process sends to those that fill memory.
   virtual void broadcast(void * /*data*/, std::size_t /*bytes*/, int /*from*/,
                          Receivers /*to*/ = Receivers::all)
   {
   }
   // Returns the numbers of all processes, by rank, on the first process, and none on the others.
   virtual std::vector<Real> gather(const std::vector<Real> &mine);
-  // The number of bytes counts on processes that fill memory. Only they may write to the block, before publish().
-  // Throws on all processes where one has no room.
+  // Makes memory that all processes of a node share. `bytes` is read on processes that fill memory, and only they may
+  // write to the block, before publish(). Throws on all processes where one has no room.
   virtual NodeMemory node_memory(std::size_t bytes);
   virtual void publish(const NodeMemory & /*memory*/) {}
 
@@ -101,14 +101,14 @@ class Host {
 // Returns the lowest rank where `here`; the number of processes where there is none.
 int lowest_rank(Host &host, bool here);
 
-// A text of the process `from` replaces those of the others.
+// Replaces `text` on all processes by that of the process `from`.
 void broadcast_text(Host &host, std::string &text, int from = 0);
 
-// Throws InputError on all processes if a text is not empty: that of the lowest such rank.
+// Throws InputError on all processes if `error` is not empty on one of them, with the text of the lowest such rank.
 void fail_together(Host &host, const std::string &error);
 
-// Runs `work` where `here`. What it throws is thrown on all processes, as InputError; a process on its own throws it
-// as it is.
+// Runs `work` on processes where `here` is true. What it throws on one of them is thrown on all, as InputError; a
+// process on its own throws it as it is.
 template <class Work>
 void run_collectively(Host &host, bool here, Work &&work)
 {

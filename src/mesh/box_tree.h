@@ -43,7 +43,7 @@ class BoxTree {
   {
     if (!things_.empty()) visit_pairs(root(), found);
   }
-  // The same for thing i of this tree and thing j of another.
+  // Calls found(i, j) once for every pair of thing i of this tree and thing j of `other` whose boxes overlap.
   template <class Found>
   void visit_pairs(const BoxTree &other, Found &&found) const
   {

@@ -44,7 +44,7 @@ class HashIndex {
     return slots_[find_slot(static_cast<std::uint32_t>(hash), is_same)].index;
   }
 
-  // The same, but where there is none it stores `fresh` and returns that.
+  // Returns the index that find() would find. Where there is none, it stores `fresh` and returns that.
   template <class IsSame>
   int find_or_insert(std::uint64_t hash, int fresh, IsSame is_same)
   {

@@ -16,7 +16,7 @@ namespace lsdcd {
 // holds one entry per face. The welder counts what it drops.
 void measure_mesh(WeldedMesh &mesh, const std::vector<FacePlane> &plane);
 
-// The same for vertices that have moved, with the faces and edges that there were.
+// Measures a mesh again whose vertices have moved, and whose faces and edges are as they were.
 void measure_again(WeldedMesh &mesh);
 
 // Sets the bounding box in mesh.report, for vertices that have moved.

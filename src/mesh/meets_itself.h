@@ -21,11 +21,11 @@ struct SelfMeetings {
 // touch each other. It is exact for the corners as they are. Periodic images are left out.
 SelfMeetings meets_itself(const WeldedMesh &mesh);
 
-// The same pairs themselves, each with its lower number first, in ascending order.
+// Returns all pairs that meets_itself() counts, each with its lower number first, in ascending order.
 std::vector<std::array<int, 2>> meeting_faces(const WeldedMesh &mesh);
 
-// The same between faces of different shells; each has the numbers of its faces. Shells with boxes
-// that do not overlap cost nothing.
+// Finds pairs of faces of different shells that have more in common than shared corners and edges. A shell is given by
+// the numbers of its faces. Shells with boxes that do not overlap cost nothing.
 SelfMeetings shells_meet(const WeldedMesh &mesh, const std::vector<std::vector<int>> &shells);
 
 }    // namespace lsdcd

@@ -163,7 +163,8 @@ void check_numbers(const WeldedMesh &mesh)
                      " that can be used; use a coarser mesh");
 }
 
-// The same test as that of welding: thinner than the rounding of its corners a face has no normal.
+// Has a face with these corners an area? Thinner than the rounding of its corners it has no normal. Welding makes the
+// same test.
 bool has_area(const Vec3 &a, const Vec3 &b, const Vec3 &c)
 {
   Real most = 0;

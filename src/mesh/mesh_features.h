@@ -35,7 +35,7 @@ struct MeshFeatures {
   MeshFeaturesView view() const;
 };
 
-// The record of one face, of three corners that are not in a line.
+// Returns the record of a face with three corners that are not in a line.
 FaceRecord make_face_record(const Vec3 &a, const Vec3 &b, const Vec3 &c);
 
 // `with_sides` adds the pseudonormals that distinguish inside from outside, `with_primitives` the
@@ -46,9 +46,10 @@ MeshFeatures make_features(const WeldedMesh &mesh, bool with_sides, bool with_pr
 // later. Which do now, face_parts says, and grids sort `primitives`.
 MeshFeatures make_moving_features(const WeldedMesh &mesh, bool with_sides);
 
-// The same for other places of the vertices, which were at `before` at the last call. A face or edge that has only
-// been shifted keeps its record to the last bit; the others get theirs by the formulas of make_features() in Real,
-// where that keeps the digits of a normal. Throws InputError where a face has no area.
+// Updates the records of make_moving_features() for vertices that have moved, and that were at `before` at the last
+// call. A face or edge that has only been shifted keeps its record to the last bit; the others get theirs by the
+// formulas of make_features() in Real, where that keeps the digits of a normal. Throws InputError where a face has no
+// area.
 void update_features(const WeldedMesh &mesh, const std::vector<Vec3> &before, bool with_sides,
                      MeshFeatures &features);
 

@@ -41,7 +41,7 @@ FileRounding known_rounding(const TriangleSoup &soup);
 // Throws InputError naming the file, the line or facet, the value and the remedy.
 TriangleSoup read_stl(const std::string &path);
 
-// The same from a buffer already in memory; `source` is used in messages.
+// Reads an STL file from a buffer in memory, as read_stl() does from a file. Messages name it `source`.
 TriangleSoup read_stl_bytes(const char *bytes, std::size_t size, const std::string &source);
 
 }    // namespace lsdcd

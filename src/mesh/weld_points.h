@@ -26,7 +26,7 @@ WeldedPoints weld_points(const std::vector<Vec3> &corners, Real tolerance);
 WeldedPoints weld_copies(const std::vector<Vec3> &points, const std::vector<int> &first,
                          Real tolerance);
 
-// The same corners, where point p becomes point onto[p]; that one stays. The order of the points that stay is kept.
+// Replaces each point p by point onto[p], which stays, in the corners of `from`. The points that stay keep their order.
 WeldedPoints move_points(WeldedPoints from, const std::vector<int> &onto);
 
 }    // namespace lsdcd

@@ -71,7 +71,7 @@ struct WeldedMesh {
   std::vector<std::array<int, 2>> edges;         // vertices, lower index first
   std::vector<int> edge_first,
       edge_face;    // faces of edge e: edge_face[edge_first[e] .. edge_first[e+1])
-  std::vector<int> vertex_first, vertex_edge;    // edges of vertex v, likewise
+  std::vector<int> vertex_first, vertex_edge;    // edges of vertex v, as edge_face
   // Facets with three vertices that are no face: of faces that are there already, in either winding, and
   // those without area. Winding numbers need them (winding_number.h).
   std::vector<std::array<int, 3>> dropped;

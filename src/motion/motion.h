@@ -102,7 +102,7 @@ class RigidMotion {
   // exact after 1e9 steps as after one. After a whole number of periods a term gives the bits that it began with. A time
   // that differs from such a number only by rounding counts as that number.
   Pose terms_at(Time t) const;
-  // The same with the servo where it is now.
+  // The pose at time t since the terms began, with the servo where it is now.
   Pose pose_at(Time t) const;
 
   // With those of tables from time 0 to their last row. 0: no term has one.

@@ -32,7 +32,7 @@ struct Pose {
   LSDCD_FN Vec3 to_box(const Vec3 &x) const { return placed ? turn_to_box(x) + shift : x; }
   LSDCD_FN Vec3 to_mesh(const Vec3 &x) const { return placed ? turn_to_mesh(x - shift) : x; }
 
-  // The same pose at rest.
+  // Returns this pose at rest.
   Pose still() const
   {
     Pose pose = *this;

@@ -39,7 +39,8 @@ struct StepCounts {
   int no_scratch, no_slots, unused;    // unused: so that there is no byte that nothing writes
   // kNoSphere less the index of the first sphere beyond the grid's cutoff, or 0: an error.
   std::uint64_t too_large;
-  std::uint64_t grown;          // likewise of the first sphere that feels more than at the choice
+  // kNoSphere less the index of the first sphere that feels more than at the choice, or 0: an error.
+  std::uint64_t grown;
   std::uint64_t uncertified;    // answers
   // Of the deepest overlap, see DeepestOverlap.
   std::uint64_t deepest, deepest_step, deepest_meshes;

@@ -91,7 +91,7 @@ struct StepJob {
   StepCounts *counts = nullptr;
   std::uint64_t step = 0;             // since counts were cleared
   StridedView<Real> force, torque;    // added to
-  Real *heat_flow = nullptr;          // likewise, where the law has heat
+  Real *heat_flow = nullptr;          // added to, where the law has heat
   ResultColumns result = {};          // of each k
   Real *heat = nullptr;               // of each k, where the law has heat
   Real *uncertain = nullptr;    // overlap / radius that k's search may miss; null: nothing can be

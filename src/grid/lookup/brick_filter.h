@@ -158,7 +158,7 @@ struct BrickFilter {
     const std::uint32_t nx = grid.n_bricks[0], ny = grid.n_bricks[1];
     return ((at.k >> shift) * ny + (at.j >> shift)) * nx + (at.i >> shift);
   }
-  // The same in a coarse table.
+  // The slot in a coarse table of a brick that is inside.
   LSDCD_FN std::uint32_t slot(const CoarseTable &table, const BrickGuess &at) const
   {
     const std::uint32_t down = shift + table.shift;

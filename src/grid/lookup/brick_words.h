@@ -71,8 +71,8 @@ struct BrickSlot {
   std::int32_t cell;
 };
 
-// The same as cell_slot_of(), to the bit, without a branch: a thread has several points at once, and
-// would wait for the words of one after the other. Tables have less than 2^32 slots.
+// Returns what cell_slot_of() finds, to the bit, without a branch: a thread has several points at once, and would wait
+// for the words of one after the other. Tables have less than 2^32 slots.
 LSDCD_FN BrickSlot brick_slot_of(const GridView &grid, const Vec3 &q)
 {
   const WholeNumber i = whole_below((q.x - grid.origin.x) * grid.inv_length),

@@ -41,7 +41,7 @@ class GridOn {
     coarse_words_ = from_host(b, coarse_words(on_host, coarse));
     coarse.words = coarse_words_.data();
   }
-  // The same, but it owns what the other one borrows.
+  // Makes what the constructor above makes, but owns the flat grid, which that one borrows.
   GridOn(B &b, FlatGrid &&flat, bool with_coarse = false) : GridOn(b, flat.view(), with_coarse)
   {
     if constexpr (B::kOnHost) flat_ = std::move(flat);
