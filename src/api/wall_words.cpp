@@ -5,7 +5,6 @@
 #include "input/wall_command.h"
 
 #include "api/wall_handle.h"
-#include "input/shared_material.h"
 #include "input/wall_change.h"
 
 #include <string>
@@ -57,9 +56,13 @@ int lsdcd_wall_make(const char *const *words, size_t n, const lsdcd_wall_options
     std::vector<std::string> all = words_of(words, n);
     need_words(all, "a contact style, its numbers and `mesh FILE` make a wall");
     *wall = new_wall(options, [&](lsdcd_wall &made, const lsdcd_wall_options &o) {
-      const FilledTokens filled = fill_material(made.caller, all, o.units ? o.units : "si");
-      return std::make_unique<Wall>(made.caller, without_groups(parse_wall(filled.tokens).wall),
-                                    WallUnits(), backend_of(o, made), filled.report,
+      std::string report;
+      const auto laws = [&](const WallMaterials &materials,
+                            const std::vector<MaterialPair> &pairs) {
+        return read_laws(made.caller, materials, pairs, o.units ? o.units : "si", report);
+      };
+      return std::make_unique<Wall>(made.caller, without_groups(parse_wall(all, laws).wall),
+                                    WallUnits(), backend_of(o, made), report,
                                     StepClock{o.time, 0, 0, 0});
     });
   });

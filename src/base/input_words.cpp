@@ -106,6 +106,13 @@ bool Tokens::number_follows() const
   return !done() && is_number(peek(), &value);
 }
 
+bool Tokens::is_near(const std::string &word, std::size_t n) const
+{
+  const auto from = tokens_.begin() + static_cast<std::ptrdiff_t>(at_),
+             to = from + static_cast<std::ptrdiff_t>(std::min(n, tokens_.size() - at_));
+  return std::find(from, to, word) != to;
+}
+
 Real Tokens::number(const char *what, Real low, Real high)
 {
   Real value = 0;

@@ -39,6 +39,8 @@ class Tokens {
   const std::string &peek() const { return tokens_[at_]; }
   std::string take() { return tokens_[at_++]; }
   bool number_follows() const;
+  // Is it one of the next n words?
+  bool is_near(const std::string &word, std::size_t n) const;
 
   // Returns the position in the words, and the words read since a position, as they were written.
   std::size_t at() const { return at_; }

@@ -32,7 +32,7 @@ std::string choices_of(Family family)
 const Family kFamilies[] = {Family::damping, Family::tangential, Family::rolling, Family::twisting,
                             Family::heat};
 
-void read_sub_model(Tokens &w, LawDraft &d, Family family)
+const SubModel &read_name(Tokens &w, Family family)
 {
   w.set_context(with_gap("granular", family_word(family)), choices_of(family));
   if (w.done()) w.fail("the name of the sub-model is missing");
@@ -40,10 +40,39 @@ void read_sub_model(Tokens &w, LawDraft &d, Family family)
     if (w.peek() != row->name) continue;
     w.take();
     w.set_context(with_gap("granular", with_gap(family_word(family), row->name)), words_of(*row));
-    read_numbers(w, *row, d);
-    return;
+    return *row;
   }
   w.fail("'" + w.peek() + "' is not a sub-model");
+}
+
+// Calls read(family) for each sub-model that follows. Returns whether limit_damping does, too.
+template <class Read>
+bool read_families(Tokens &w, const Read &read)
+{
+  const std::vector<std::string> words = granular_families();
+  std::vector<std::string> seen;
+  bool limits = false;
+  while (!w.done()) {
+    const auto at = std::find(words.begin(), words.end(), w.peek());
+    if (at == words.end()) break;
+    const bool limit = w.take() == "limit_damping";
+    w.set_context("granular " + *at, limit ? *at : choices_of(kFamilies[at - words.begin()]));
+    if (std::count(seen.begin(), seen.end(), *at)) w.fail("it is given twice");
+    seen.push_back(*at);
+    limits |= limit;
+    if (!limit) read(kFamilies[at - words.begin()]);
+  }
+  return limits;
+}
+
+// A number; NaN: NULL, where there may be one.
+Real read_number(Tokens &w, const Parameter &p, bool may_be_null)
+{
+  const bool null = may_be_null && !w.done() && w.peek() == "NULL";
+  const Real value = null ? NAN : w.number(p.name, p.least, p.most);
+  if (null) w.take();
+  if (p.is_flag && value != 0 && value != 1) w.fail(std::string(p.name) + " must be 0 or 1");
+  return value;
 }
 
 // Which words an error of finish_granular() is about.
@@ -67,19 +96,24 @@ void read_numbers(Tokens &w, const SubModel &row, LawDraft &d)
 {
   std::vector<Real> given;
   for (const Parameter &p : row.parameters) {
-    const bool null = p.may_be_null && !w.done() && w.peek() == "NULL";
-    given.push_back(null ? NAN : w.number(p.name, p.least, p.most));
-    if (p.is_flag && given.back() != 0 && given.back() != 1)
-      w.fail(std::string(p.name) + " must be 0 or 1");
-    if (!null) continue;
-    w.take();
-    if (!can_derive(row, d))
+    given.push_back(read_number(w, p, p.may_be_null));
+    if (std::isnan(given.back()) && !can_derive(row, d))
       w.fail(std::string(p.name) +
              " can be NULL only where the normal sub-model has E and nu, not "
              "with '" +
              d.normal_name + "'");
   }
   add_sub_model(row, given, d);
+}
+
+void read_sub_models_of_materials(Tokens &w, MaterialPair &pair)
+{
+  pair.limit_damping = read_families(w, [&](Family family) {
+    GivenSubModel given = {&read_name(w, family), {}};
+    for (const Parameter &p : given.row->parameters)
+      given.numbers.push_back(read_number(w, p, p.may_be_null || p.property));
+    pair.beside.push_back(given);
+  });
 }
 
 std::vector<std::string> granular_families()
@@ -89,11 +123,6 @@ std::vector<std::string> granular_families()
   words.push_back("limit_damping");
   return words;
 }
-
-const char *const kNoMaterialHere =
-    "numbers are expected, not a material: write the material of a mesh as 'material NAME' after "
-    "mesh "
-    "FILE, and that of atom types as 'types I NAME' after granular material FILE PARTICLE";
 
 std::string granular_syntax()
 {
@@ -115,33 +144,15 @@ ContactLaw read_granular(Tokens &w, std::string &text)
   LawDraft d;
   d.law = granular_law(NormalModel::hooke);
   const std::size_t first = w.at();
-  if (!w.done() && w.peek() == "material") {
-    w.set_context("granular", choices_of(Family::normal));
-    w.fail(kNoMaterialHere);
-  }
-  read_sub_model(w, d, Family::normal);
-
-  const std::vector<std::string> words = granular_families();
-  std::vector<std::string> seen;
-  const auto has = [&](const std::string &word) {
-    return std::find(seen.begin(), seen.end(), word) != seen.end();
-  };
-  const std::string tangential = family_word(Family::tangential);
-  while (!w.done()) {
-    const auto at = std::find(words.begin(), words.end(), w.peek());
-    if (at == words.end()) break;
-    const bool limit = w.take() == "limit_damping";
-    w.set_context("granular " + *at, limit ? *at : choices_of(kFamilies[at - words.begin()]));
-    if (has(*at)) w.fail("it is given twice");
-    seen.push_back(*at);
-    if (limit)
-      d.law.limit_damping = true;
-    else
-      read_sub_model(w, d, kFamilies[at - words.begin()]);
-  }
+  read_numbers(w, read_name(w, Family::normal), d);
+  bool has_tangential = false;
+  d.law.limit_damping = read_families(w, [&](Family family) {
+    read_numbers(w, read_name(w, family), d);
+    has_tangential |= family == Family::tangential;
+  });
   text = "granular " + w.between(first);
 
-  if (!has(tangential)) {
+  if (!has_tangential) {
     w.set_context("granular", choices_of(Family::tangential));
     w.fail("the tangential sub-model is missing");
   }

@@ -6,6 +6,7 @@
 
 #include "base/input_words.h"
 #include "law/sub_models.h"
+#include "material/material_law.h"
 
 #include <string>
 #include <vector>
@@ -19,11 +20,12 @@ void read_numbers(Tokens &w, const SubModel &row, LawDraft &draft);
 // `text` becomes what was read, for the log.
 ContactLaw read_granular(Tokens &w, std::string &text);
 
+// Reads the sub-models beside a normal one that takes its numbers from materials: NULL is one of these, or derived.
+void read_sub_models_of_materials(Tokens &w, MaterialPair &pair);
+
 // For help and for errors: "granular NORMAL tangential MODEL [...]", the words that
 // begin a family ("tangential"), and every sub-model with its parameters.
 std::string granular_syntax();
-// Where `material` stands in place of numbers.
-extern const char *const kNoMaterialHere;
 std::vector<std::string> granular_families();
 std::string granular_help();
 

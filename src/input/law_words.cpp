@@ -25,7 +25,20 @@ bool is_whole(const std::string &word, int *value)
   return true;
 }
 
-// As LAMMPS's: 2, 1*3, 2*, *3, *
+// The law takes from the wall what it leaves out itself. Beside `granular` only limit_damping may be left out.
+void inherit(const ContactLaw &from, LawOfTypes &of)
+{
+  ContactLaw &law = of.law;
+  const bool is_limited = from.limit_damping && !law.limit_damping;
+  law.limit_damping = law.limit_damping || is_limited;
+  if (is_limited && !law.is_classic()) of.name += " limit_damping";
+  if (!law.is_classic()) return;
+  if (!law.rolling.is_on()) law.rolling = from.rolling;
+  if (!law.cohesion.is_on()) law.cohesion = from.cohesion;
+}
+
+}    // namespace
+
 void read_types(Tokens &w, LawOfTypes &of)
 {
   if (w.done()) w.fail("the atom types are missing after 'types'");
@@ -43,20 +56,6 @@ void read_types(Tokens &w, LawOfTypes &of)
   }
   if (!good) w.fail("'" + word + "' is not a range of atom types, such as 2, 1*3 or *");
 }
-
-// The law takes from the wall what it leaves out itself. Beside `granular` only limit_damping may be left out.
-void inherit(const ContactLaw &from, LawOfTypes &of)
-{
-  ContactLaw &law = of.law;
-  const bool is_limited = from.limit_damping && !law.limit_damping;
-  law.limit_damping = law.limit_damping || is_limited;
-  if (is_limited && !law.is_classic()) of.name += " limit_damping";
-  if (!law.is_classic()) return;
-  if (!law.rolling.is_on()) law.rolling = from.rolling;
-  if (!law.cohesion.is_on()) law.cohesion = from.cohesion;
-}
-
-}    // namespace
 
 std::string law_syntax()
 {
@@ -114,7 +113,12 @@ void read_law_of_mesh(Tokens &w, MeshSpec &mesh, InputNames &)
   } else if (!mesh.laws.empty() && mesh.laws.front().first_type == 0) {
     w.fail("the mesh already has a law for all atom types");
   }
-  if (!w.done() && w.peek() == "material") w.fail(kNoMaterialHere);
+  if (w.is_near("material", 3)) {
+    w.set_context("law' of mesh '" + mesh.file, kLawOfTypesSyntax);
+    w.fail("numbers are expected, not a material: write the material of a mesh as 'material NAME' "
+           "after mesh FILE, and that of atom types as 'types I NAME' after granular material FILE "
+           "PARTICLE");
+  }
   of.law = read_law(w, of.name, kLawOfTypesSyntax);
   while (of.law.is_classic() && !w.done()) {
     const bool rolls = w.peek() == family_word(Family::rolling);

@@ -22,6 +22,9 @@ void read_beside_classic(Tokens &w, ContactLaw &law, Family family);
 // [types I] STYLE NUMBERS, after `law`.
 void read_law_of_mesh(Tokens &w, MeshSpec &mesh, InputNames &);
 
+// Reads a range of types as LAMMPS's: 2, 1*3, 2*, *3, *
+void read_types(Tokens &w, LawOfTypes &of);
+
 // Once all is read: what a mesh's law leaves out is the wall's; refuses other sub-models.
 void finish_laws(Tokens &w, WallSpec &settings);
 

@@ -7,7 +7,6 @@
 #include "input/granular_words.h"
 #include "input/keywords.h"
 #include "input/law_words.h"
-#include "input/material_command.h"
 #include "mesh/io/read_mesh.h"
 
 #include <algorithm>
@@ -128,6 +127,10 @@ void read_keywords(Tokens &w, WallCommand &command, bool granular)
   meshes.resize(1);
   while (!w.done()) {
     const std::string word = w.take();
+    if (word == "material" && command.materials.are_given()) {
+      read_material_of_mesh(w, meshes.size() - 1, meshes.back().file, command.materials);
+      continue;
+    }
     const auto found = std::find(names.begin(), names.end(), word);
     if (found == names.end()) refuse_keyword(word, names, granular);
     const Keyword &row = keywords()[found - names.begin()];
@@ -220,18 +223,23 @@ void check_meshes(Tokens &w, const WallSpec &s)
 
 }    // namespace
 
-WallCommand parse_wall(const std::vector<std::string> &arguments)
+WallCommand parse_wall(const std::vector<std::string> &arguments, const LawsOfMaterials &laws_of)
 {
   WallCommand command;
   WallSpec &wall = command.wall;
   Tokens w(arguments);
   w.set_context("fix wall/lsdcd", law_syntax());
   LawOfTypes &law = wall.laws.front();
-  law.law = read_law(w, law.name, law_syntax());
-  const bool granular = !law.law.is_classic();
+  const bool has_materials = has_material(arguments);
+  if (has_materials)
+    read_wall_materials(w, arguments, command.materials);
+  else
+    law.law = read_law(w, law.name, law_syntax());
+  const bool granular = has_materials || !law.law.is_classic();
   read_keywords(w, command, granular);
   w.set_context("fix wall/lsdcd", granular ? granular_syntax() : law_syntax());
   if (wall.meshes[0].file.empty()) w.fail("mesh FILE is missing");
+  if (has_materials) add_laws(command.materials, laws_of, wall);
   finish_laws(w, wall);
   check_meshes(w, wall);
   return command;

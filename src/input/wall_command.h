@@ -4,6 +4,7 @@
 // The arguments of fix wall/lsdcd -> WallSpec. One row per keyword in keywords.cpp.
 #pragma once
 
+#include "input/material_words.h"
 #include "output/mesh_image.h"
 #include "wall/wall_spec.h"
 
@@ -24,11 +25,14 @@ struct PictureSpec {
 struct WallCommand {
   WallSpec wall;
   PictureSpec picture;
+  WallMaterials materials;
 };
 
 // `arguments` begin with FSTYLE. Laws have their names, NULLs resolved, and stiffnesses still in pressure units.
-// Throws InputError that names the argument, what was expected and the syntax.
-WallCommand parse_wall(const std::vector<std::string> &arguments);
+// `laws_of`: gives those of materials, once all else is read. Throws InputError that names the argument, what was expected
+// and the syntax.
+WallCommand parse_wall(const std::vector<std::string> &arguments,
+                       const LawsOfMaterials &laws_of = {});
 
 // Returns the command with every keyword, its unit, range and default; several lines.
 std::string wall_help();

@@ -5,7 +5,6 @@
 
 #include "base/input_error.h"
 #include "base/input_words.h"
-#include "input/shared_material.h"
 #include "input/wall_change.h"
 #include "input/wall_command.h"
 #include "lammps/host_atoms.h"
@@ -63,11 +62,13 @@ FixWallLsdcd::FixWallLsdcd(LAMMPS *lmp, int narg, char **arg, const lsdcd::WallB
   check_atoms();
 
   run_core([&] {
-    const lsdcd::FilledTokens filled = lsdcd::fill_material(
-        host, std::vector<std::string>(arg + 3, arg + narg), update->unit_style);
-    for (int i = 3; i + 1 < narg && !filled.report.empty() && material_file.empty(); i++)
-      if (std::strcmp(arg[i], "material") == 0) material_file = arg[i + 1];
-    const lsdcd::WallCommand command = lsdcd::parse_wall(filled.tokens);
+    std::string report;
+    const lsdcd::WallCommand command = lsdcd::parse_wall(
+        std::vector<std::string>(arg + 3, arg + narg),
+        [&](const lsdcd::WallMaterials &materials, const std::vector<lsdcd::MaterialPair> &pairs) {
+          return read_laws(host, materials, pairs, update->unit_style, report);
+        });
+    material_file = command.materials.pair.file;
     const lsdcd::WallSpec &spec = command.wall;
     picture.spec = command.picture;
     if (picture.spec.type > atom->ntypes)
@@ -82,7 +83,7 @@ FixWallLsdcd::FixWallLsdcd(LAMMPS *lmp, int narg, char **arg, const lsdcd::WallB
 #endif
     const double now = update->atime + (update->ntimestep - update->atimestep) * update->dt;
     wall = std::make_unique<lsdcd::Wall>(
-        host, spec, lsdcd::WallUnits{force->nktv2p, force->ftm2v}, place, filled.report,
+        host, spec, lsdcd::WallUnits{force->nktv2p, force->ftm2v}, place, report,
         lsdcd::StepClock{now, update->ntimestep, update->ntimestep, update->dt}, spheres_in_atom());
     const std::string differs =
         lsdcd::wall_gran_difference(LSDCD_HOST_VERSION, spec.laws.front().name, spec.law());

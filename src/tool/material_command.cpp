@@ -3,12 +3,13 @@
 
 #include "tool/commands.h"
 
-#include "input/fill_material.h"
+#include "input/material_words.h"
 #include "material/material_file.h"
 #include "tool/mesh_json.h"
 
 #include <cstdio>
 #include <memory>
+#include <sstream>
 
 namespace lsdcd {
 
@@ -16,7 +17,8 @@ namespace {
 
 const MaterialWords kWords = {"--on", "--with",
                               "lsdcd material FILE NAME [--on WALL] [--normal "
-                              "hertz/material|jkr|dmt] [--with [MATERIAL] KEY VALUE ...]"};
+                              "hertz/material|jkr|dmt] [--with [MATERIAL] KEY VALUE ...]",
+                              "as the options say"};
 
 struct MaterialOptions {
   std::string file, name, wall, normal = "hertz/material", units = "si";
@@ -50,13 +52,6 @@ void list(const std::vector<MaterialSection> &sections)
   }
 }
 
-void print(const char *first, const std::vector<std::string> &words)
-{
-  std::printf("%s", first);
-  for (const std::string &word : words) std::printf(" %s", word.c_str());
-  std::printf("\n");
-}
-
 void run(const MaterialOptions &o)
 {
   if (o.name.empty()) {
@@ -71,26 +66,34 @@ void run(const MaterialOptions &o)
     list(file.pairs);
     return;
   }
-  std::vector<std::string> words = {"granular", o.normal, "material", o.file, o.name};
-  if (!o.wall.empty()) words.insert(words.end(), {"on", o.wall});
-  if (!o.with.empty()) words.push_back("with");
-  words.insert(words.end(), o.with.begin(), o.with.end());
-  const FilledTokens filled = fill_material(words, o.units, kWords);
+  MaterialPair pair;
+  pair.file = o.file;
+  pair.particle = o.name;
+  pair.wall = o.wall.empty() ? o.name : o.wall;
+  pair.normal = o.normal;
+  Tokens with(o.with);
+  with.set_context("material", kWords.syntax);
+  if (!o.with.empty()) pair.overrides = read_overrides(with, {pair.particle, pair.wall}, "--with");
+  if (!with.done()) with.fail(not_a_property(with.peek()));
+  const MaterialLaw made = law_of_materials(pair, o.units, kWords);
   if (o.json) {
-    const nlohmann::json all = {{"words", filled.tokens}, {"report", filled.report}};
+    std::vector<std::string> words;
+    std::istringstream text(made.name);
+    for (std::string word; text >> word;) words.push_back(word);
+    const nlohmann::json all = {{"words", words}, {"report", made.report}};
     std::printf("%s\n", all.dump(2).c_str());
     return;
   }
-  std::printf("%s\n", filled.report.c_str());
-  print(" ", filled.tokens);
+  std::printf("%s\n", made.report.c_str());
+  std::printf("  %s\n", made.name.c_str());
   if (!o.wall.empty()) return;
-  const std::vector<std::string> old = words_of_29sep2021(filled.tokens),
-                                 recent(filled.tokens.begin() + 1, filled.tokens.end());
+  const std::string old = text_of(sub_models_of_29sep2021(made.sub_models)),
+                    recent = text_of(made.sub_models);
   std::printf("grains on one another, with pair_style granular of LAMMPS 29Sep2021 and later:\n");
-  print("  pair_coeff * *", old);
+  std::printf("  pair_coeff * * %s\n", old.c_str());
   if (old == recent) return;
   std::printf("the same in the wall's words, which 29Sep2021 does not know:\n");
-  print("  pair_coeff * *", recent);
+  std::printf("  pair_coeff * * %s\n", recent.c_str());
 }
 
 }    // namespace

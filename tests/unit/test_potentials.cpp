@@ -3,7 +3,7 @@
 
 // The material files that come with the project.
 #include "base/input_error.h"
-#include "input/fill_material.h"
+#include "input/wall_command.h"
 #include "material/material_file.h"
 
 #include <gtest/gtest.h>
@@ -81,8 +81,15 @@ TEST(potentials, fill_the_styles_that_the_manual_shows)
             "restitution", "0.7", "sliding_friction", "0.3", "mesh", "a"},
            {"granular", "jkr", "material", "silica_powder.lsdcd", "silica", "with",
             "sliding_friction", "0.4", "rolling", "sds", "1", "0", "NULL", "mesh", "a"}})
-    for (const char *units : {"si", "cgs", "micro", "nano"})
-      EXPECT_GT(fill_material(words, units).tokens.size(), words.size());
+    for (const std::string units : {"si", "cgs", "micro", "nano"}) {
+      std::string report;
+      const auto laws = [&](const WallMaterials &materials,
+                            const std::vector<MaterialPair> &pairs) {
+        return read_laws(materials, pairs, units, report);
+      };
+      EXPECT_GT(parse_wall(words, laws).wall.law().k_normal, 0);
+      EXPECT_NE(report, "");
+    }
 }
 
 }    // namespace

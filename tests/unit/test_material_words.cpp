@@ -1,17 +1,18 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// `material` in a script's words becomes the numbers that could have stood there.
+// `material` in a script's words gives the laws of the numbers that could have stood there.
 #include "base/input_error.h"
-#include "input/fill_material.h"
+#include "input/wall_command.h"
 #include "support/temp_dir.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <iterator>
 #include <sstream>
 
-namespace lsdcd::test_fill_material {
+namespace lsdcd::test_material_words {
 namespace {
 
 const char *const kFile = "units si\n"
@@ -34,31 +35,39 @@ const char *const kFile = "units si\n"
                           "  restitution 0.9 1\n"
                           "  sliding_friction 0.2 1\n";
 
-struct FillMaterial : ::testing::Test {
+struct MaterialWordsTest : ::testing::Test {
   TempDir folder;
   std::string file = folder.write("m.lsdcd", kFile);
   std::string report;
 
-  // FILE stands for the file above.
-  std::vector<std::string> fill(const std::string &line, const std::string &units = "si")
+  // FILE stands for the file above. A line without a mesh gets one.
+  WallSpec wall(const std::string &line, const std::string &units = "si")
   {
     std::istringstream stream(line);
-    std::vector<std::string> tokens;
-    for (std::string word; stream >> word;) tokens.push_back(word == "FILE" ? file : word);
-    const FilledTokens filled = fill_material(tokens, units);
-    report = filled.report;
-    return filled.tokens;
+    std::vector<std::string> words;
+    for (std::string word; stream >> word;) words.push_back(word == "FILE" ? file : word);
+    report.clear();
+    return parse_wall(words,
+                      [&](const WallMaterials &materials, const std::vector<MaterialPair> &pairs) {
+                        return read_laws(materials, pairs, units, report);
+                      })
+        .wall;
   }
+  // The words of the wall's law, with numbers.
   std::string filled(const std::string &line, const std::string &units = "si")
   {
-    std::string text;
-    for (const std::string &word : fill(line, units)) text += (text.empty() ? "" : " ") + word;
-    return text;
+    const bool has_mesh = line.find(" mesh ") != line.npos;
+    return wall(line + (has_mesh ? "" : " mesh a.stl"), units).laws.front().name;
+  }
+  std::vector<std::string> fill(const std::string &line, const std::string &units = "si")
+  {
+    std::istringstream stream(filled(line, units));
+    return {std::istream_iterator<std::string>(stream), {}};
   }
   std::string error_of(const std::string &line, const std::string &units = "si")
   {
     try {
-      fill(line, units);
+      wall(line, units);
     } catch (const InputError &e) {
       return e.what();
     }
@@ -66,7 +75,7 @@ struct FillMaterial : ::testing::Test {
   }
 };
 
-using fill_material_words = FillMaterial;
+using material_words = MaterialWordsTest;
 
 ::testing::AssertionResult says(const std::string &message, const std::vector<std::string> &tokens)
 {
@@ -76,53 +85,57 @@ using fill_material_words = FillMaterial;
   return ::testing::AssertionSuccess();
 }
 
-TEST_F(fill_material_words, others_come_back_as_they_are)
-{
-  for (const char *line : {"hooke 1e5 NULL 50 NULL 0.5 1 mesh material",
-                           "granular hertz/material 1e9 0.9 0.3 mesh a.stl", "nonsense material"}) {
-    EXPECT_EQ(filled(line), line);
-    EXPECT_EQ(report, "");
-  }
-}
-
-TEST_F(fill_material_words, are_a_whole_granular_style)
+TEST_F(material_words, are_a_whole_granular_style)
 {
   EXPECT_EQ(filled("granular material FILE glass mesh a.stl scale 2"),
             "granular hertz/material 6.9e+10 0.97 0.23 damping coeff_restitution "
-            "tangential mindlin NULL 1 0.092 mesh a.stl scale 2");
+            "tangential mindlin NULL 1 0.092");
 }
 
-// The words that the script would have for each pair alone.
-TEST_F(fill_material_words, of_meshes_and_types_become_laws)
+// The law of each pair alone, and that of numbers in its place.
+TEST_F(material_words, of_meshes_and_types_become_laws)
 {
   const auto law = [&](const std::string &pair) {
-    const std::string all = filled("granular material FILE " + pair + " mesh a.stl");
-    return all.substr(0, all.find(" mesh"));
+    return filled("granular material FILE " + pair + " mesh a.stl");
   };
+  const auto rows = [](const WallSpec &wall, std::size_t mesh) {
+    std::vector<std::string> all;
+    for (const LawOfTypes &row : wall.meshes[mesh].laws)
+      all.push_back(std::to_string(row.first_type) + " " + row.name);
+    return all;
+  };
+  using Rows = std::vector<std::string>;
   const std::string steel = law("glass on steel"), glass = law("glass"),
                     more = " with sliding_friction 0.7";
-  EXPECT_EQ(
-      filled(
-          "granular material FILE glass mesh a.stl scale 2 material steel mesh b.stl corner sum"),
-      glass + " mesh a.stl law " + steel + " scale 2 mesh b.stl corner sum");
-  EXPECT_EQ(filled("granular material FILE glass types 2* steel mesh a.stl material glass" + more +
-                   " torque_about mesh mesh b.stl"),
-            glass + " mesh a.stl law " + law("glass" + more) + " law types 2* " +
-                law("steel on glass" + more) + " torque_about mesh mesh b.stl law types 2* " +
-                law("steel on glass"));
+  const WallSpec meshes =
+      wall("granular material FILE glass mesh a.stl scale 2 material steel mesh b.stl corner sum");
+  EXPECT_EQ(meshes.laws.front().name, glass);
+  EXPECT_EQ(rows(meshes, 0), Rows({"0 " + steel}));
+  EXPECT_EQ(rows(meshes, 1), Rows());
+  const WallSpec types =
+      wall("granular material FILE glass types 2* steel mesh a.stl material glass" + more +
+           " torque_about mesh law types 3 " + glass + " mesh b.stl law " + glass);
+  EXPECT_EQ(rows(types, 0),
+            Rows({"0 " + law("glass" + more), "2 " + law("steel on glass" + more), "3 " + glass}));
+  EXPECT_EQ(rows(types, 1), Rows({"0 " + glass, "2 " + law("steel on glass")}));
+  const WallSpec by_numbers = wall(glass + " mesh a.stl");
+  EXPECT_EQ(by_numbers.law().k_normal, meshes.law().k_normal);
+  EXPECT_EQ(by_numbers.law().eta, meshes.law().eta);
+  EXPECT_EQ(by_numbers.law().k_tangent, meshes.law().k_tangent);
+  EXPECT_EQ(by_numbers.law().mu, meshes.law().mu);
 }
 
 // Steel on steel is not in the file.
-TEST_F(fill_material_words, ask_for_pairs_that_meet)
+TEST_F(material_words, ask_for_pairs_that_meet)
 {
-  EXPECT_EQ(filled("granular material FILE steel mesh a.stl material glass").find("granular"), 0u);
+  EXPECT_EQ(error_of("granular material FILE steel mesh a.stl material glass"), "");
   EXPECT_TRUE(says(error_of("granular material FILE steel mesh a.stl material glass mesh b.stl"),
                    {"has no restitution of steel on steel"}));
   EXPECT_TRUE(says(error_of("granular material FILE glass types 2 steel mesh a.stl material steel"),
                    {"has no restitution of steel on steel"}));
 }
 
-TEST_F(fill_material_words, of_meshes_stand_behind_their_files)
+TEST_F(material_words, of_meshes_stand_behind_their_files)
 {
   EXPECT_TRUE(says(error_of("granular material FILE glass material steel mesh a.stl"),
                    {"after its mesh FILE"}));
@@ -130,17 +143,17 @@ TEST_F(fill_material_words, of_meshes_stand_behind_their_files)
       says(error_of("granular material FILE glass mesh a.stl material steel material glass"),
            {"two materials"}));
   EXPECT_TRUE(says(error_of("granular material FILE glass types steel mesh a.stl"), {"2 coal"}));
-  EXPECT_TRUE(says(filled("granular material FILE glass mesh material cache material"),
-                   {"mesh material cache material"}));
+  EXPECT_EQ(wall("granular material FILE glass mesh material cache material").meshes[0].cache_file,
+            "material");
 }
 
-TEST_F(fill_material_words, may_name_the_normal_model)
+TEST_F(material_words, may_name_the_normal_model)
 {
   EXPECT_EQ(filled("granular hertz/material material FILE glass mesh a.stl"),
             filled("granular material FILE glass mesh a.stl"));
 }
 
-TEST_F(fill_material_words, are_in_the_units_of_the_script)
+TEST_F(material_words, are_in_the_units_of_the_script)
 {
   const std::vector<std::string> tokens = fill("granular jkr material FILE glass mesh a", "cgs");
   EXPECT_EQ(std::stod(tokens[2]), 69e10);
@@ -149,7 +162,7 @@ TEST_F(fill_material_words, are_in_the_units_of_the_script)
   EXPECT_EQ(std::stod(fill("granular material FILE glass mesh a", "micro")[2]), 69e6);
 }
 
-TEST_F(fill_material_words, of_units_without_a_scale_are_refused)
+TEST_F(material_words, of_units_without_a_scale_are_refused)
 {
   EXPECT_TRUE(says(error_of("granular material FILE glass mesh a", "lj"), {"units lj", "cgs"}));
   EXPECT_TRUE(says(error_of("granular material FILE glass mesh a", "metal"), {"units metal"}));
@@ -157,38 +170,37 @@ TEST_F(fill_material_words, of_units_without_a_scale_are_refused)
 
 // LAMMPS takes E/(2(1-nu^2)) for a wall: of two materials it must come out as
 // 1/((1-0.0529)/69e9 + (1-0.09)/207e9) = 5.51808706e10.
-TEST_F(fill_material_words, of_two_materials_give_their_effective_modulus)
+TEST_F(material_words, of_two_materials_give_their_effective_modulus)
 {
   const std::vector<std::string> tokens = fill("granular material FILE glass on steel mesh a");
   const double e = std::stod(tokens[2]), nu = std::stod(tokens[4]);
   EXPECT_NEAR(e / (2 * (1 - nu * nu)), 5.51808706e10, 1e3);
   EXPECT_EQ(tokens[3], "0.9");
-  EXPECT_TRUE(says(filled("granular material FILE glass on steel mesh a"), {"NULL 1 0.2 mesh"}));
+  EXPECT_TRUE(says(filled("granular material FILE glass on steel mesh a"), {"NULL 1 0.2"}));
 }
 
-TEST_F(fill_material_words, give_the_geometric_mean_of_surface_energies)
+TEST_F(material_words, give_the_geometric_mean_of_surface_energies)
 {
   const std::vector<std::string> tokens = fill("granular dmt material FILE glass on steel mesh a");
   EXPECT_NEAR(std::stod(tokens[5]), 0.04, 1e-16);
 }
 
-TEST_F(fill_material_words, of_adhesive_models_have_no_damping_by_default)
+TEST_F(material_words, of_adhesive_models_have_no_damping_by_default)
 {
   EXPECT_EQ(filled("granular jkr material FILE glass mesh a.stl"),
-            "granular jkr 6.9e+10 0 0.23 0.02 damping none tangential mindlin NULL 1 0.092 "
-            "mesh a.stl");
+            "granular jkr 6.9e+10 0 0.23 0.02 damping none tangential mindlin NULL 1 0.092");
   EXPECT_TRUE(says(report, {"no damping"}));
 }
 
-TEST_F(fill_material_words, keep_the_damping_of_the_script)
+TEST_F(material_words, keep_the_damping_of_the_script)
 {
   EXPECT_EQ(filled("granular material FILE glass damping tsuji mesh a.stl"),
             "granular hertz/material 6.9e+10 0.97 0.23 tangential mindlin NULL 1 0.092 "
-            "damping tsuji mesh a.stl");
+            "damping tsuji");
   EXPECT_EQ(fill("granular material FILE glass damping none mesh a.stl")[3], "0");
 }
 
-TEST_F(fill_material_words, with_a_damping_of_another_kind_need_its_number)
+TEST_F(material_words, with_a_damping_of_another_kind_need_its_number)
 {
   EXPECT_TRUE(says(error_of("granular material FILE glass damping velocity mesh a"),
                    {"'damping velocity'", "with eta VALUE", "tsuji"}));
@@ -198,49 +210,51 @@ TEST_F(fill_material_words, with_a_damping_of_another_kind_need_its_number)
   EXPECT_TRUE(says(error_of("granular material FILE glass with eta 3 mesh a"), {"name it"}));
 }
 
-TEST_F(fill_material_words, keep_the_tangential_model_of_the_script)
+TEST_F(material_words, keep_the_tangential_model_of_the_script)
 {
   EXPECT_EQ(filled("granular material FILE glass tangential linear_history 1e5 0.5 0.3 mesh a"),
             "granular hertz/material 6.9e+10 0.97 0.23 damping coeff_restitution "
-            "tangential linear_history 1e5 0.5 0.3 mesh a");
+            "tangential linear_history 1e+05 0.5 0.3");
 }
 
-TEST_F(fill_material_words, fill_the_nulls_that_are_of_the_materials)
+TEST_F(material_words, fill_the_nulls_that_are_of_the_materials)
 {
   EXPECT_TRUE(says(filled("granular material FILE glass tangential linear_nohistory 1 NULL mesh a"),
-                   {"linear_nohistory 1 0.092 mesh"}));
-  EXPECT_TRUE(says(filled("granular material FILE glass limit_damping rolling sds 1e3 2 NULL "
-                          "tangential mindlin/force NULL 1 NULL mesh a"),
-                   {"limit_damping rolling sds 1e3 2 0.01 tangential mindlin/force NULL 1 0.092 "
-                    "mesh"}));
+                   {"linear_nohistory 1 0.092"}));
+  EXPECT_TRUE(
+      says(filled("granular material FILE glass limit_damping rolling sds 1e3 2 NULL "
+                  "tangential mindlin/force NULL 1 NULL mesh a"),
+           {"rolling sds 1000 2 0.01 tangential mindlin/force NULL 1 0.092 limit_damping"}));
 }
 
 // 2/(1/1.7 + 1/51) = 3.29032258
-TEST_F(fill_material_words, give_the_harmonic_mean_of_conductivities)
+TEST_F(material_words, give_the_harmonic_mean_of_conductivities)
 {
-  const auto tokens = fill("granular material FILE glass on steel heat radius NULL mesh a", "cgs");
+  const auto tokens =
+      fill("granular material FILE glass on steel heat radius NULL mesh a temperature 1", "cgs");
   const auto heat = std::find(tokens.begin(), tokens.end(), "heat");
   ASSERT_NE(heat, tokens.end());
   EXPECT_NEAR(std::stod(heat[2]), 3.29032258e5, 1e-2);
 }
 
-TEST_F(fill_material_words, leave_the_words_of_the_fix_alone)
+TEST_F(material_words, leave_the_words_of_the_fix_alone)
 {
-  EXPECT_TRUE(says(filled("granular material FILE glass mesh rolling cache sds"),
-                   {"mesh rolling cache sds"}));
+  const MeshSpec mesh = wall("granular material FILE glass mesh rolling cache sds").meshes[0];
+  EXPECT_EQ(mesh.file, "rolling");
+  EXPECT_EQ(mesh.cache_file, "sds");
 }
 
-TEST_F(fill_material_words, with_overrides_take_the_numbers_of_the_script_as_they_are)
+TEST_F(material_words, with_overrides_take_the_numbers_of_the_script_as_they_are)
 {
   EXPECT_EQ(filled("granular material FILE glass with youngs_modulus 5e7 restitution 0.5 "
                    "sliding_friction 0.1 mesh a",
                    "cgs"),
             "granular hertz/material 5e+07 0.5 0.23 damping coeff_restitution "
-            "tangential mindlin NULL 1 0.1 mesh a");
+            "tangential mindlin NULL 1 0.1");
   EXPECT_TRUE(says(report, {"youngs_modulus 5e+07, as the input script says"}));
 }
 
-TEST_F(fill_material_words, with_overrides_that_cannot_be_meant_are_refused)
+TEST_F(material_words, with_overrides_that_cannot_be_meant_are_refused)
 {
   EXPECT_TRUE(says(error_of("granular material FILE glass with density 2 mesh a"), {"density"}));
   EXPECT_TRUE(says(error_of("granular material FILE glass with mesh a"), {"'with' needs"}));
@@ -259,7 +273,7 @@ TEST_F(fill_material_words, with_overrides_that_cannot_be_meant_are_refused)
                    {"after 'with steel' write a property"}));
 }
 
-TEST_F(fill_material_words, with_a_misspelt_property_name_it_and_the_nearest)
+TEST_F(material_words, with_a_misspelt_property_name_it_and_the_nearest)
 {
   const std::vector<std::string> said = {"'restituion' is not a property", "'restitution'"};
   EXPECT_TRUE(says(error_of("granular material FILE glass with restituion 1 mesh a"), said));
@@ -268,31 +282,29 @@ TEST_F(fill_material_words, with_a_misspelt_property_name_it_and_the_nearest)
                    {"'youngs_modulu' is not a property", "'youngs_modulus'"}));
 }
 
-TEST_F(fill_material_words, with_a_misspelt_keyword_leave_it_to_the_keywords)
+TEST_F(material_words, with_a_misspelt_keyword_leave_it_to_the_keywords)
 {
-  EXPECT_TRUE(says(filled("granular material FILE glass with restitution 1 rmaxx 1 mesh a"),
-                   {"rmaxx 1 mesh a"}));
+  for (const char *with : {"", "with restitution 1 "})
+    EXPECT_TRUE(
+        says(error_of("granular material FILE glass " + std::string(with) + "rmaxx 1 mesh a"),
+             {"'rmaxx' is not a keyword", "'rmax R"}));
 }
 
-TEST_F(fill_material_words, are_called_what_the_caller_calls_them)
+TEST_F(material_words, are_called_what_the_caller_calls_them)
 {
-  const auto error = [&](const std::vector<std::string> &tokens) {
-    try {
-      fill_material(tokens, "si", {"--on", "--with", "TOOL"});
-    } catch (const InputError &e) {
-      return std::string(e.what());
-    }
-    return std::string();
-  };
-  EXPECT_TRUE(says(error({"granular", "material", file, "steel"}), {"'--with restitution VALUE'"}));
-  EXPECT_TRUE(says(error({"granular", "material", file, "glass", "steel"}),
-                   {"'--on steel'", "Syntax: TOOL"}));
-  EXPECT_TRUE(says(error({"granular", "material", file, "glass", "with"}),
-                   {"'--with' needs", "Syntax: TOOL"}));
+  MaterialPair pair;
+  pair.file = file;
+  pair.particle = pair.wall = "steel";
+  try {
+    law_of_materials(pair, "si", {"--on", "--with", "TOOL", "as given"});
+    FAIL();
+  } catch (const InputError &e) {
+    EXPECT_TRUE(says(e.what(), {"'--with restitution VALUE'"}));
+  }
 }
 
 // The wall's numbers given, where the file has none: as with a file that has them.
-TEST_F(fill_material_words, with_overrides_give_the_partner_what_the_file_does_not_know)
+TEST_F(material_words, with_overrides_give_the_partner_what_the_file_does_not_know)
 {
   const std::string contact = " restitution 0.9 sliding_friction 0.2 mesh a",
                     by_file = filled("granular material FILE glass on steel mesh a", "cgs");
@@ -308,7 +320,7 @@ TEST_F(fill_material_words, with_overrides_give_the_partner_what_the_file_does_n
             by_file);
 }
 
-TEST_F(fill_material_words, with_overrides_may_name_whose_number_they_replace)
+TEST_F(material_words, with_overrides_may_name_whose_number_they_replace)
 {
   const std::vector<std::string> tokens =
       fill("granular jkr material FILE glass on steel with steel surface_energy 0.32 mesh a");
@@ -318,26 +330,27 @@ TEST_F(fill_material_words, with_overrides_may_name_whose_number_they_replace)
                                                                             "0.02 (0.02 J/m2"}));
 }
 
-TEST_F(fill_material_words, that_one_partner_lacks_are_asked_for_by_its_name)
+TEST_F(material_words, that_one_partner_lacks_are_asked_for_by_its_name)
 {
   EXPECT_TRUE(says(error_of("granular material FILE glass on bare mesh a"),
                    {"'bare' has no youngs_modulus", "with bare youngs_modulus VALUE"}));
 }
 
-TEST_F(fill_material_words, of_29sep2021_have_the_damping_that_it_knows)
+TEST_F(material_words, of_29sep2021_have_the_damping_that_it_knows)
 {
-  const auto text = [&](const std::string &line) {
-    std::string out;
-    for (const std::string &word : words_of_29sep2021(fill(line))) out += word + " ";
-    return out;
+  MaterialPair pair;
+  pair.file = file;
+  pair.particle = pair.wall = "glass";
+  const auto text = [&] {
+    return text_of(sub_models_of_29sep2021(law_of_materials(pair, "si", kScriptWords).sub_models));
   };
-  EXPECT_EQ(text("granular material FILE glass"),
-            "hertz/material 6.9e+10 0.95676 0.23 damping tsuji tangential mindlin NULL 1 0.092 ");
-  EXPECT_EQ(text("granular jkr material FILE glass"),
-            "jkr 6.9e+10 0 0.23 0.02 damping velocity tangential mindlin NULL 1 0.092 ");
+  EXPECT_EQ(text(),
+            "hertz/material 6.9e+10 0.95676 0.23 damping tsuji tangential mindlin NULL 1 0.092");
+  pair.normal = "jkr";
+  EXPECT_EQ(text(), "jkr 6.9e+10 0 0.23 0.02 damping velocity tangential mindlin NULL 1 0.092");
 }
 
-TEST_F(fill_material_words, that_are_missing_are_asked_for)
+TEST_F(material_words, that_are_missing_are_asked_for)
 {
   EXPECT_TRUE(says(error_of("granular material"), {"file name", "Syntax: granular"}));
   EXPECT_TRUE(says(error_of("granular material FILE"), {"material's name", "Syntax: granular"}));
@@ -354,7 +367,7 @@ TEST_F(fill_material_words, that_are_missing_are_asked_for)
           << before << word;
 }
 
-TEST_F(fill_material_words, in_another_order_are_told_the_right_one)
+TEST_F(material_words, in_another_order_are_told_the_right_one)
 {
   for (const std::string words :
        {"on steel types 2 steel", "with restitution 1 types 2 steel", "with restitution 1 on steel",
@@ -368,7 +381,7 @@ TEST_F(fill_material_words, in_another_order_are_told_the_right_one)
   }
 }
 
-TEST_F(fill_material_words, of_a_law_are_refused)
+TEST_F(material_words, of_a_law_are_refused)
 {
   const std::string wall = "granular material FILE glass mesh a.stl ";
   for (const char *law :
@@ -381,11 +394,12 @@ TEST_F(fill_material_words, of_a_law_are_refused)
         << law;
 }
 
-TEST_F(fill_material_words, and_a_law_of_one_mesh_are_refused)
+TEST_F(material_words, and_a_law_of_one_mesh_are_refused)
 {
   const std::string
-      law = " law granular hertz/material 1 1 0.3 tangential mindlin NULL 1 0.5",
-      types = " law types 2 granular hertz/material 1 1 0.3 tangential mindlin NULL 1 0.5";
+      law = " law granular hertz/material 1 1 0.3 tangential mindlin NULL 1 0.5 damping tsuji",
+      types = " law types 2 granular hertz/material 1 1 0.3 tangential mindlin NULL 1 0.5 damping "
+              "tsuji";
   const std::string wall = "granular material FILE glass mesh a.stl";
   for (const std::string &words : {" material steel" + law, law + " material steel"})
     EXPECT_TRUE(says(error_of(wall + words), {"'a.stl' has 'material steel' and 'law'"})) << words;
@@ -393,25 +407,25 @@ TEST_F(fill_material_words, and_a_law_of_one_mesh_are_refused)
   EXPECT_EQ(error_of(wall + " material steel" + types), "");
 }
 
-TEST_F(fill_material_words, with_an_unknown_material_name_the_nearest)
+TEST_F(material_words, with_an_unknown_material_name_the_nearest)
 {
   EXPECT_TRUE(says(error_of("granular material FILE gloss mesh a"), {"'gloss'", "'glass'"}));
   EXPECT_TRUE(
       says(error_of("granular material FILE glass on steal mesh a"), {"'steal'", "'steel'"}));
 }
 
-TEST_F(fill_material_words, with_a_material_like_none_list_them)
+TEST_F(material_words, with_a_material_like_none_list_them)
 {
   EXPECT_TRUE(says(error_of("granular material FILE glass on copper mesh a"),
                    {"'copper'", "those are glass, steel, bare"}));
 }
 
-TEST_F(fill_material_words, with_two_names_in_a_row_are_told_of_on)
+TEST_F(material_words, with_two_names_in_a_row_are_told_of_on)
 {
   EXPECT_TRUE(says(error_of("granular material FILE glass steel mesh a"), {"'on steel'"}));
 }
 
-TEST_F(fill_material_words, that_the_file_does_not_know_can_be_given)
+TEST_F(material_words, that_the_file_does_not_know_can_be_given)
 {
   EXPECT_TRUE(
       says(error_of("granular material FILE steel mesh a"),
@@ -421,23 +435,23 @@ TEST_F(fill_material_words, that_the_file_does_not_know_can_be_given)
   EXPECT_EQ(filled("granular material FILE bare with youngs_modulus 1 poissons_ratio 0.1 "
                    "restitution 1 sliding_friction 2 mesh a"),
             "granular hertz/material 1 1 0.1 damping coeff_restitution "
-            "tangential mindlin NULL 1 2 mesh a");
+            "tangential mindlin NULL 1 2");
 }
 
-TEST_F(fill_material_words, of_other_normal_models_are_refused)
+TEST_F(material_words, of_other_normal_models_are_refused)
 {
   EXPECT_TRUE(says(error_of("granular hooke material FILE glass mesh a"), {"'hooke'", "jkr"}));
 }
 
 // kn = 4/3 E*, kt = 8 G*: with E = 69e9, nu = 0.23, 4.856932e10 and 6.338707e10.
-TEST_F(fill_material_words, of_classic_styles_are_refused_with_what_can_be_said)
+TEST_F(material_words, of_classic_styles_are_refused_with_what_can_be_said)
 {
   const std::string error = error_of("hertz/history material FILE glass mesh a");
   EXPECT_TRUE(says(error, {"hertz/history", "granular material", "kn 4856931", "kt 6338707"}));
   EXPECT_TRUE(says(error_of("hooke material FILE glass mesh a"), {"hooke", "granular material"}));
 }
 
-TEST_F(fill_material_words, are_reported_with_unit_source_and_line)
+TEST_F(material_words, are_reported_with_unit_source_and_line)
 {
   fill("granular material FILE glass on steel mesh a", "cgs");
   EXPECT_TRUE(says(
@@ -447,4 +461,4 @@ TEST_F(fill_material_words, are_reported_with_unit_source_and_line)
 }
 
 }    // namespace
-}    // namespace lsdcd::test_fill_material
+}    // namespace lsdcd::test_material_words

@@ -1,0 +1,358 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "material/material_law.h"
+
+#include "base/input_error.h"
+#include "base/input_words.h"
+#include "law/make_law.h"
+#include "material/contact_moduli.h"
+#include "material/material_file.h"
+#include "material/material_units.h"
+
+#include <charconv>
+#include <cmath>
+
+namespace lsdcd {
+
+namespace {
+
+// With the fewest digits that read back as the same number.
+std::string exact_text(Real value)
+{
+  char buffer[40];
+  return std::string(buffer, std::to_chars(buffer, buffer + sizeof buffer, value).ptr);
+}
+
+// The number that tsuji in a pair style of LAMMPS needs for the restitution e. The fit is for the mass
+// of one of two equal spheres; LAMMPS uses the effective mass, half of that. The damping falls as the
+// number grows: the number 0 gives the least restitution, 0.11.
+Real tsuji_number(Real e)
+{
+  const Real wanted = std::sqrt(Real(2)) * restitution_damping(NormalModel::hertz, e);
+  Real low = 0, high = 1;
+  for (int halved = 0; halved < 60; halved++) {
+    const Real middle = (low + high) / 2;
+    (tsuji_damping(middle) > wanted ? low : high) = middle;
+  }
+  return std::round(1e6 * low) / 1e6;
+}
+
+const SubModel &granular_row(Family family, const std::string &name)
+{
+  for (const SubModel *row : sub_models(family, GoesWith::granular))
+    if (row->name == name) return *row;
+  throw InputError("'" + name + "' is not a sub-model");
+}
+
+class LawFiller {
+ public:
+  LawFiller(const MaterialPair &pair, const std::string &units, const MaterialWords &words) :
+      c_(pair), units_(units), words_(words), with_(std::string("'") + words.with + " "),
+      file_(read_materials(find_material_file(c_.file))), particle_(file_.material(c_.particle)),
+      wall_(file_.material(c_.wall)), pair_(file_.pair(c_.particle, c_.wall)),
+      same_(c_.particle == c_.wall)
+  {
+    for (const GivenSubModel &given : c_.beside)
+      if (given.row->family == Family::damping)
+        damping_ = given.row->name;
+      else if (given.row->family == Family::tangential)
+        has_tangential_ = true;
+    for (const Override &o : c_.overrides) check_meant(o);
+    tell("material    " + both() + ", " + file_.path + ", in units " + units_);
+    set_contact();
+  }
+
+  MaterialLaw make()
+  {
+    MaterialLaw made;
+    GivenSubModel normal = {&granular_row(Family::normal, c_.normal),
+                            {modulus_, damping_number(), ratio_}};
+    if (c_.normal != "hertz/material") normal.numbers.push_back(surface_energy());
+    made.sub_models.push_back(normal);
+    if (damping_.empty())
+      made.sub_models.push_back({&granular_row(Family::damping, default_damping()), {}});
+    if (!has_tangential_)
+      made.sub_models.push_back(
+          {&granular_row(Family::tangential, "mindlin"), {NAN, 1, of_pair("sliding_friction")}});
+    for (const GivenSubModel &given : c_.beside) made.sub_models.push_back(filled(given));
+    made.law = law_of(made.sub_models);
+    made.name = "granular " + text_of(made.sub_models) + (c_.limit_damping ? " limit_damping" : "");
+    made.report = report_;
+    return made;
+  }
+
+  // The damping of classic styles is divided by the mass, which no material has.
+  [[noreturn]] void refuse_style(const std::string &style) const
+  {
+    std::string numbers;
+    if (style == "hertz/history") {
+      const Property &p = *find_property("youngs_modulus");
+      numbers = " Of its numbers, " + both() + " gives kn " +
+                exact_text(in_units(contact_.youngs * 4 / 3, p, units_)) + " and kt " +
+                exact_text(in_units(contact_.shear * 8, p, units_)) + " in units " + units_ + ".";
+    }
+    throw InputError("in 'material', " + style +
+                     " cannot be filled: its damping (and the stiffness of hooke) depends on how "
+                     "large and fast the grains are, not only on what they are made of." +
+                     numbers + " Use 'granular material', whose damping takes a restitution");
+  }
+
+ private:
+  std::string both() const { return c_.particle + " on " + c_.wall; }
+
+  void check_meant(const Override &o) const
+  {
+    const Property *p = find_property(o.key);
+    if (p && !p->of_pair && !same_ && o.of.empty() && particle_.find(o.key) && wall_.find(o.key))
+      fail("'" + o.key +
+           "' of both materials is in the file: write which one you mean, for example " + with_ +
+           c_.wall + " " + o.key + " VALUE'");
+  }
+
+  const Real *override_of(const std::string &key, const std::string &of = "") const
+  {
+    for (const Override &o : c_.overrides)
+      if (o.key == key && o.of == of) return &o.value;
+    return nullptr;
+  }
+
+  // The value that the caller gives in place of the material file's; null: none.
+  const Real *given(const MaterialSection &m, const char *key) const
+  {
+    if (const Real *number = override_of(key, m.first)) return number;
+    return same_ || !m.find(key) ? override_of(key) : nullptr;
+  }
+
+  // A value in SI; one from the caller is as it was.
+  Real in_script(const char *key, Real si, const Real *number = nullptr) const
+  {
+    return number ? *number : in_units(si, *find_property(key), units_);
+  }
+  Real in_script(const MaterialSection &m, const char *key, Real si) const
+  {
+    return in_script(key, si, given(m, key));
+  }
+
+  void tell(const std::string &line) { report_ += (report_.empty() ? "  " : "\n  ") + line; }
+  void tell_more(const std::string &line) { tell("            " + line); }
+
+  void tell(const std::string &of, const std::string &key, Real number, const Stated *stated)
+  {
+    const std::string line = of + ": " + key + " " + exact_text(number);
+    if (!stated) return tell_more(line + ", " + words_.as_given);
+    const std::string unit = stated->property->unit;
+    const std::string si = unit == "1" ? "" : number_text(stated->value) + " " + unit + ", ";
+    tell_more(line + " (" + si + stated->place.substr(stated->place.rfind('/') + 1) +
+              "): " + (stated->source.empty() ? "no source" : stated->source));
+  }
+
+  // SI
+  Real of_one(const MaterialSection &m, const char *key)
+  {
+    const Property &p = *find_property(key);
+    const Real *number = given(m, key);
+    const Stated *s = number ? nullptr : m.find(key);
+    if (!number && !s)
+      throw InputError("in 'material', " + m.place + ": '" + m.first + "' has no " + key +
+                       ": add it there, or write " + with_ + (same_ ? "" : m.first + " ") + key +
+                       " VALUE'");
+    const Real si = number ? *number / in_units(1, p, units_) : s->value;
+    tell(m.first, key, in_script(m, key, si), s);
+    return si;
+  }
+
+  // Properties of pairs are numbers without a unit.
+  Real of_pair(const char *key)
+  {
+    const Real *number = override_of(key);
+    const Stated *s = pair_ && !number ? pair_->find(key) : nullptr;
+    if (!number && !s)
+      throw InputError("in 'material', " + file_.path + " has no " + key + " of " + both() +
+                       ": write " + with_ + key + " VALUE', or add it to the file under 'pair " +
+                       c_.particle + " " + c_.wall + "'");
+    const Real value = number ? *number : s->value;
+    tell(both(), key, value, s);
+    return value;
+  }
+
+  Elastic elastic(const MaterialSection &m)
+  {
+    const Real modulus = of_one(m, "youngs_modulus");
+    return {modulus, of_one(m, "poissons_ratio")};
+  }
+
+  void set_contact()
+  {
+    const Elastic a = elastic(particle_), b = same_ ? a : elastic(wall_);
+    contact_ = contact_moduli(a, b);
+    const Elastic one = same_ ? a : as_one(a, b);
+    modulus_ = same_ ? in_script(particle_, "youngs_modulus", one.youngs_modulus)
+                     : in_script("youngs_modulus", one.youngs_modulus);
+    ratio_ = one.poissons_ratio;
+    if (!same_)
+      tell_more("as one material: youngs_modulus " + exact_text(modulus_) + ", poissons_ratio " +
+                exact_text(ratio_) + " (the same E* and G*)");
+  }
+
+  // No damping model with a restitution goes with an adhesive normal model.
+  std::string default_damping()
+  {
+    if (c_.normal == "hertz/material") return "coeff_restitution";
+    tell_more("no damping: " + c_.normal +
+              " works with no damping model that takes a restitution; to have damping, write " +
+              with_ + "eta VALUE damping velocity'");
+    return "none";
+  }
+
+  Real damping_number()
+  {
+    const bool takes = c_.normal == "hertz/material";    // a restitution
+    if (const Real *eta = override_of("eta")) {
+      if (damping_.empty())
+        fail(with_ + "eta' is the number of a damping model: name it, such as 'damping "
+                     "velocity'");
+      tell("damping " + damping_, "eta", *eta, nullptr);
+      return *eta;
+    }
+    if (damping_ == "none" || (damping_.empty() && !takes)) return 0;
+    if (!takes || (!damping_.empty() && damping_ != "tsuji" && damping_ != "coeff_restitution"))
+      fail("'damping " + damping_ + "' with " + c_.normal +
+           " does not take the material's restitution: give its own number as " + with_ +
+           "eta VALUE'" + (takes ? ", or use tsuji or coeff_restitution" : ""));
+    return of_pair("restitution");
+  }
+
+  // For different materials it is the geometric mean, as for dispersion forces (Israelachvili,
+  // Intermolecular and Surface Forces).
+  Real surface_energy()
+  {
+    const char *key = "surface_energy";
+    const Real a = of_one(particle_, key);
+    if (same_) return in_script(particle_, key, a);
+    const Real energy = in_script(key, std::sqrt(a * of_one(wall_, key)));
+    tell_more("surface_energy " + exact_text(energy) + ", geometric mean");
+    return energy;
+  }
+
+  // Two half-spaces in series with a common contact spot: the harmonic mean.
+  Real conductivity()
+  {
+    const char *key = "thermal_conductivity";
+    const Real a = of_one(particle_, key);
+    if (same_) return in_script(particle_, key, a);
+    const Real b = of_one(wall_, key);
+    const Real mean = in_script(key, 2 * a * b / (a + b));
+    tell_more("thermal_conductivity " + exact_text(mean) + ", harmonic mean");
+    return mean;
+  }
+
+  // With the numbers that are properties of the materials.
+  GivenSubModel filled(GivenSubModel given)
+  {
+    for (std::size_t k = 0; k < given.numbers.size(); k++)
+      if (const char *property = given.row->parameters[k].property;
+          property && std::isnan(given.numbers[k]))
+        given.numbers[k] = find_property(property)->of_pair ? of_pair(property) : conductivity();
+    return given;
+  }
+
+  ContactLaw law_of(const std::vector<GivenSubModel> &sub_models) const
+  {
+    LawDraft draft = {granular_law(NormalModel::hooke)};
+    for (const GivenSubModel &given : sub_models) add_sub_model(*given.row, given.numbers, draft);
+    draft.law.limit_damping = c_.limit_damping;
+    try {
+      finish_granular(draft);
+    } catch (const LawError &e) {
+      fail(e.what());
+    }
+    return draft.law;
+  }
+
+  [[noreturn]] void fail(const std::string &problem) const
+  {
+    throw InputError("in 'material', " + problem +
+                     (*words_.syntax ? std::string(". Syntax: ") + words_.syntax : ""));
+  }
+
+  const MaterialPair &c_;
+  std::string units_, report_;
+  const MaterialWords &words_;
+  std::string with_;    // as "'with ", to quote
+  MaterialFile file_;
+  const MaterialSection &particle_, &wall_;
+  const MaterialSection *pair_;
+  bool same_;
+  std::string damping_;    // given; empty: none is
+  bool has_tangential_ = false;
+  ContactModuli contact_;           // SI
+  Real modulus_ = 0, ratio_ = 0;    // in the caller's units
+};
+
+}    // namespace
+
+MaterialLaw law_of_materials(const MaterialPair &pair, const std::string &units,
+                             const MaterialWords &words)
+{
+  return LawFiller(pair, units, words).make();
+}
+
+void check_normal_of_materials(const std::string &normal)
+{
+  if (normal != "hertz/material" && normal != "jkr" && normal != "dmt")
+    throw InputError("the normal model '" + normal +
+                     "' does not take material constants: use hertz/material, jkr or dmt");
+}
+
+void check_override(const Override &o)
+{
+  const Property *p = find_property(o.key);
+  if (!p && o.key != "eta") throw InputError(not_a_property(o.key));
+  if (!o.of.empty() && (!p || p->of_pair))
+    throw InputError("'" + o.key + "' is not a property of " + o.of + " alone: leave the name out");
+  if (o.key == "density")
+    throw InputError(
+        "no contact style takes a density, because each atom has its own: leave it out");
+  const Real least = p ? std::nextafter(p->above, Tokens::kHuge) : 0,
+             most = p ? p->most : Tokens::kHuge;
+  if (!(o.value >= least && o.value <= most))
+    throw InputError(o.key + " = " + number_text(o.value) + " is out of range: it is " +
+                     (p ? "above " + number_text(p->above) +
+                              (most < Tokens::kHuge ? " and at most " + number_text(most) : "")
+                        : "0 or more"));
+}
+
+void refuse_classic_of_materials(const std::string &style, const MaterialPair &pair,
+                                 const std::string &units, const MaterialWords &words)
+{
+  LawFiller(pair, units, words).refuse_style(style);
+}
+
+std::string text_of(const std::vector<GivenSubModel> &sub_models)
+{
+  std::string text;
+  for (const GivenSubModel &given : sub_models) {
+    const std::string family = family_word(given.row->family);
+    text += (text.empty() ? "" : " ") + (family.empty() ? "" : family + " ") + given.row->name;
+    for (const Real number : given.numbers)
+      text += " " + (std::isnan(number) ? "NULL" : exact_text(number));
+  }
+  return text;
+}
+
+std::vector<GivenSubModel> sub_models_of_29sep2021(std::vector<GivenSubModel> sub_models)
+{
+  for (GivenSubModel &given : sub_models) {
+    if (given.row->family != Family::damping) continue;
+    const std::string name = given.row->name;
+    if (name == "none") given.row = &granular_row(Family::damping, "velocity");    // of eta 0
+    if (name != "coeff_restitution") continue;
+    given.row = &granular_row(Family::damping, "tsuji");
+    Real &e = sub_models.front().numbers[1];
+    e = tsuji_number(e);
+  }
+  return sub_models;
+}
+
+}    // namespace lsdcd
