@@ -418,6 +418,32 @@ typedef struct lsdcd_sub_model_facts {
 /* The facts of sub-model number k, from 0, of all that this library has; LSDCD_ERROR_ARGUMENT: there are not so many. Any. */
 LSDCD_API int lsdcd_sub_model_get_facts(size_t k, lsdcd_sub_model_facts *facts);
 
+/* A number in place of the file's, in the caller's units. */
+typedef struct lsdcd_override {
+  const char *of; /* the material, where the number is of one; null: of both together, or of the one whose number the
+                     file lacks */
+  const char *key; /* "youngs_modulus", "restitution", ...; "eta" is the number of a damping without restitution */
+  double value;
+} lsdcd_override;
+
+/* Two materials of a file, as lsdcd material and `granular material` of a script take them. */
+typedef struct lsdcd_materials {
+  size_t size;      /* of this struct */
+  const char *file; /* its path, or the name of one that is installed: "steel.lsdcd" */
+  const char *particle, *wall; /* names in the file; wall null: that of the particles */
+  const lsdcd_override *overrides; /* n_overrides of them */
+  size_t n_overrides;
+  const char *units; /* of the law's numbers: "si", "cgs", "micro" or "nano"; null: "si" */
+} lsdcd_materials;
+
+/* Fills a law with the numbers of two materials, the bits of a script. `law` says which sub-models there are:
+ * normal.name is "jkr", "dmt", or null for "hertz/material", without numbers; of others that are named, LSDCD_DERIVED is a
+ * number of the materials where the file has such a property. Without names, damping is by the restitution and the
+ * tangential sub-model "mindlin". `report`: becomes a text of each number and its source, until this thread's next
+ * such call; null: not asked for. LSDCD_ERROR_INPUT names the file, and what it lacks. Any. */
+LSDCD_API int lsdcd_law_from_material(const lsdcd_materials *materials, lsdcd_law *law,
+                                      const char **report);
+
 /* ---- walls ---------------------------------------------------------------------------------- */
 
 /* The wall of fix wall/lsdcd, for any program that moves spheres: every contact law, meshes that move,

@@ -514,6 +514,19 @@ struct SubModel {
   }
 };
 
+// Two materials of a file, see lsdcd_materials.
+struct Materials {
+  // A number in place of the file's. `of`: the material where it is of one, else empty.
+  struct Override {
+    std::string of, key;
+    double value;
+  };
+
+  std::string file, particle, wall;    // wall empty: the material of the particles
+  std::vector<Override> overrides;
+  std::string units = "si";    // of the law's numbers
+};
+
 // The force between a sphere and a wall; fields as in lsdcd_law.
 struct Law {
   SubModel style, normal, tangential, damping, rolling, twisting, heat, cohesion;
@@ -534,6 +547,10 @@ struct Law {
     law.tangential = std::move(tangential);
     return law;
   }
+  // With the numbers of two materials. `with`: its sub-models, the normal one without numbers; kDerived is a number
+  // of the materials, as lsdcd_law_from_material() says. `report`: becomes a text of each number and its source.
+  static Law from_material(const Materials &materials, Law with, std::string *report = nullptr);
+  static Law from_material(const Materials &materials, std::string *report = nullptr);
 };
 
 // Where a mesh is and how it moves, as lsdcd_wall_set_pose() takes it.
@@ -792,6 +809,17 @@ inline lsdcd_law struct_of(const Law &law)
   out.limit_damping = law.limit_damping;
   return out;
 }
+// With as many numbers as its facts say.
+inline SubModel model_of(const lsdcd_sub_model &from, const std::string &field)
+{
+  if (!from.name) return {};
+  lsdcd_sub_model_facts facts = {};
+  facts.size = sizeof facts;
+  std::size_t k = 0;
+  do check(lsdcd_sub_model_get_facts(k++, &facts));
+  while (field != facts.field || std::string(from.name) != facts.name || facts.beside_style != 0);
+  return {from.name, {from.numbers, from.numbers + facts.n}};
+}
 
 // A WallSpec as structs of C, which point into it.
 class Spec {
@@ -874,6 +902,45 @@ class Spec {
   lsdcd_wall_spec spec_ = {};
 };
 }    // namespace c
+
+inline Law Law::from_material(const Materials &materials, Law with, std::string *report)
+{
+  const SubModel given = std::move(with.normal);
+  with.normal = {};
+  if (!given.numbers.empty())
+    throw Error(LSDCD_ERROR_ARGUMENT, "lsdcd::Law::from_material: '" + given.name +
+                                          "' is given numbers, which are the materials'; leave "
+                                          "them out");
+  lsdcd_law law = c::struct_of(with);
+  if (!given.name.empty()) law.normal.name = given.name.c_str();
+  std::vector<lsdcd_override> overrides;
+  for (const Materials::Override &o : materials.overrides)
+    overrides.push_back({o.of.empty() ? nullptr : o.of.c_str(), o.key.c_str(), o.value});
+  lsdcd_materials from = {};
+  from.size = sizeof from;
+  from.file = materials.file.c_str();
+  from.particle = materials.particle.c_str();
+  from.wall = materials.wall.empty() ? nullptr : materials.wall.c_str();
+  from.overrides = overrides.data();
+  from.n_overrides = overrides.size();
+  from.units = materials.units.c_str();
+  const char *told = nullptr;
+  c::check(lsdcd_law_from_material(&from, &law, &told));
+  if (report) *report = told;
+  Law out;
+  out.normal = c::model_of(law.normal, "normal");
+  out.tangential = c::model_of(law.tangential, "tangential");
+  out.damping = c::model_of(law.damping, "damping");
+  out.rolling = c::model_of(law.rolling, "rolling");
+  out.twisting = c::model_of(law.twisting, "twisting");
+  out.heat = c::model_of(law.heat, "heat");
+  out.limit_damping = law.limit_damping != 0;
+  return out;
+}
+inline Law Law::from_material(const Materials &materials, std::string *report)
+{
+  return from_material(materials, Law(), report);
+}
 
 // All that is 0 has its default.
 struct WallOptions : lsdcd_wall_options {

@@ -17,6 +17,7 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <sstream>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -206,6 +207,170 @@ TEST_F(wall_spec, has_the_bits_of_words_for_each_sub_model)
   }
   EXPECT_EQ(fields.size(), 8u);
 }
+
+// ---- laws of materials -----------------------------------------------------------------------
+
+const char *const kMaterials = "units si\n"
+                               "material glass\n"
+                               "  youngs_modulus 5e4 Pa\n"
+                               "  poissons_ratio 0.23 1\n"
+                               "  surface_energy 0.5 J/m2\n"
+                               "  thermal_conductivity 1.7 W/m/K\n"
+                               "material steel\n"
+                               "  youngs_modulus 2e5 Pa\n"
+                               "  poissons_ratio 0.3 1\n"
+                               "  surface_energy 0.8 J/m2\n"
+                               "  thermal_conductivity 51 W/m/K\n"
+                               "pair glass glass\n"
+                               "  restitution 0.9 1\n"
+                               "  sliding_friction 0.092 1\n"
+                               "pair glass steel\n"
+                               "  sliding_friction 0.2 1\n";
+
+class law_of_materials : public wall_spec {
+ protected:
+  lsdcd::TempDir folder_;
+  const std::string materials_ = folder_.write("some.lsdcd", kMaterials);
+
+  api::Materials of(const std::string &particle, const std::string &wall = "",
+                    const std::vector<api::Materials::Override> &overrides = {},
+                    const std::string &units = "si") const
+  {
+    return {materials_, particle, wall, overrides, units};
+  }
+  // The forces of the wall of these words with `material`.
+  std::vector<double> of_words(const std::string &line, const std::string &units = "si") const
+  {
+    std::istringstream stream(line);
+    std::vector<std::string> words;
+    for (std::string word; stream >> word;) words.push_back(word == "FILE" ? materials_ : word);
+    words.insert(words.end(), {"mesh", file_, "device", "cpu"});
+    if (line.find(" heat ") != line.npos) words.insert(words.end(), {"temperature", "350"});
+    lsdcd_wall_options options = {};
+    options.size = sizeof options;
+    options.units = units.c_str();
+    api::Wall wall(words, &options);
+    return Pile().go(wall);
+  }
+  std::vector<double> of_law(const api::Law &law) const
+  {
+    const api::Mesh mesh(file_);
+    api::WallSpec spec = floor_of(law, mesh);
+    if (!law.heat.name.empty()) spec.meshes[0].temperature = 350;
+    api::Wall wall(spec);
+    return Pile().go(wall);
+  }
+};
+
+TEST_F(law_of_materials, has_the_bits_of_the_words)
+{
+  api::Law adhesive, damped, hot;
+  adhesive.normal = {"jkr"};
+  damped.damping = {"tsuji"};
+  damped.tangential = {"mindlin", {api::kDerived, 0.5, api::kDerived}};
+  damped.rolling = {"sds", {1e4, 1, 0.1}};
+  damped.limit_damping = true;
+  hot.heat = {"radius", {api::kDerived}};
+  const struct {
+    const char *words;
+    api::Materials materials;
+    api::Law with;
+    const char *units;
+  } rows[] = {
+      {"granular material FILE glass", of("glass"), {}, "si"},
+      {"granular material FILE glass", of("glass", "", {}, "cgs"), {}, "cgs"},
+      {"granular material FILE glass on steel with restitution 0.8",
+       of("glass", "steel", {{"", "restitution", 0.8}}),
+       {},
+       "si"},
+      {"granular material FILE glass on steel with steel youngs_modulus 1e5 restitution 0.8",
+       of("glass", "steel", {{"steel", "youngs_modulus", 1e5}, {"", "restitution", 0.8}}),
+       {},
+       "si"},
+      {"granular jkr material FILE glass on steel", of("glass", "steel"), adhesive, "si"},
+      {"granular material FILE glass tangential mindlin NULL 0.5 NULL damping tsuji rolling sds "
+       "1e4 "
+       "1 0.1 limit_damping",
+       of("glass"), damped, "si"},
+      {"granular material FILE glass heat radius NULL", of("glass"), hot, "si"},
+  };
+  for (const auto &row : rows) {
+    const std::vector<double> wanted = of_words(row.words, row.units);
+    EXPECT_TRUE(any_nonzero(wanted)) << row.words;
+    EXPECT_EQ(of_law(api::Law::from_material(row.materials, row.with)), wanted) << row.words;
+  }
+}
+
+TEST_F(law_of_materials, tells_each_number_and_its_source)
+{
+  std::string report;
+  const api::Law law = api::Law::from_material(of("glass"), &report);
+  EXPECT_EQ(law.normal.numbers, (std::vector<double>{5e4, 0.9, 0.23}));
+  EXPECT_NE(report.find("glass on glass: restitution 0.9 (some.lsdcd line 13)"), report.npos)
+      << report;
+}
+
+TEST_F(law_of_materials, says_what_is_wrong)
+{
+  const auto with = [](const std::string &normal, const api::SubModel &damping) {
+    api::Law law;
+    law.normal = {normal};
+    law.damping = damping;
+    return law;
+  };
+  api::Law classic = hooke_history(), sticky, stiff;
+  sticky.cohesion = {"sjkr", {50}};
+  stiff.rolling = {"sds", {api::kDerived, 1, 0.1}};
+  const struct {
+    api::Materials materials;
+    api::Law law;
+    std::string says;
+    int code;
+  } rows[] = {
+      {of("iron"), {}, "some.lsdcd", LSDCD_ERROR_INPUT},
+      {of(""), {}, "`materials.particle` is \"\"", LSDCD_ERROR_ARGUMENT},
+      {of("glass", "steel"),
+       {},
+       "has no restitution of glass on steel: write 'overrides restitution",
+       LSDCD_ERROR_INPUT},
+      {of("glass", "steel", {{"", "youngs_modulus", 1e5}}),
+       {},
+       "write which one you mean",
+       LSDCD_ERROR_INPUT},
+      {of("glass", "", {{"", "restitution", 2}}),
+       {},
+       "`materials.overrides[0]` is \"restitution\": restitution = 2 is out of range",
+       LSDCD_ERROR_ARGUMENT},
+      {of("glass", "", {{"", "resitution", 0.5}}),
+       {},
+       "`materials.overrides[0]` is \"resitution\": 'resitution' is not a property; the nearest is "
+       "'restitution'",
+       LSDCD_ERROR_ARGUMENT},
+      {of("glass", "", {{"steel", "youngs_modulus", 1e5}}),
+       {},
+       "`materials.overrides[0].of` is \"steel\": the materials are",
+       LSDCD_ERROR_ARGUMENT},
+      {of("glass", "", {{"", "restitution", 0.5}, {"", "restitution", 0.6}}),
+       {},
+       "`materials.overrides[1].key` is \"restitution\": it is given twice",
+       LSDCD_ERROR_ARGUMENT},
+      {of("glass", "", {}, "lj"), {}, "units lj", LSDCD_ERROR_INPUT},
+      {of("glass"), classic, "`law.style.name` is \"hooke/history\": a style takes no materials",
+       LSDCD_ERROR_ARGUMENT},
+      {of("glass"), with("hertz", {}), "`law.normal.name` is \"hertz\"", LSDCD_ERROR_ARGUMENT},
+      {of("glass"), with("jkr", {"tsuji"}), "does not take the material's restitution",
+       LSDCD_ERROR_INPUT},
+      {of("glass"), sticky, "`law.cohesion.name` is \"sjkr\"", LSDCD_ERROR_ARGUMENT},
+      {of("glass"), stiff, "`law.rolling.numbers[0]` is -1", LSDCD_ERROR_ARGUMENT},
+  };
+  for (const auto &row : rows) {
+    const auto make = [&] { api::Law::from_material(row.materials, row.law); };
+    EXPECT_NE(text_of(make).find(row.says), std::string::npos) << row.says << "\n" << text_of(make);
+    EXPECT_EQ(code_of(make), row.code) << row.says;
+  }
+}
+
+// ---- meshes against words ----------------------------------------------------------------------
 
 TEST_F(wall_spec, has_the_bits_of_words_for_laws_of_meshes_and_types)
 {

@@ -446,6 +446,29 @@ def check_wall_specs():
             by_spec = forces(lsdcd.Wall(lsdcd.WallSpec(law, [lsdcd.WallMesh(mesh, **part)])))
             fact(f"a wall of {name} has the bits of its words", by_words.any() and by_words.tobytes() == by_spec.tobytes(),
                  by_words - by_spec)
+        materials = os.path.join(folder, "some.lsdcd")
+        with open(materials, "w", encoding="ascii") as f:
+            f.write("units si\nmaterial glass\nyoungs_modulus 5e4 Pa\npoissons_ratio 0.23 1\npair glass glass\n"
+                    "restitution 0.9 1\nsliding_friction 0.1 1\n")
+        glass = lsdcd.Law.from_material(materials, "glass")
+        same = lsdcd.Law.granular(sub("hertz/material", E=5e4, e=0.9, nu=0.23), sub("mindlin", xgammat=1, mu=0.1),
+                                  "coeff_restitution")
+        fact("a law of materials has the bits of their numbers", forces(floor_of(glass)).tobytes() == forces(floor_of(same)).tobytes())
+        fact("and of the words", forces(lsdcd.Wall(f"granular material {materials} glass mesh {floor} device cpu")).tobytes() ==
+             forces(floor_of(glass)).tobytes())
+        fact("it tells its numbers", "restitution 0.9 (some.lsdcd line 6)" in glass.report, glass.report)
+        again = pickle.loads(pickle.dumps(glass))
+        fact("it is pickled", forces(floor_of(again)).tobytes() == forces(floor_of(glass)).tobytes(), again)
+        rough = lsdcd.Law.from_material(materials, "glass", tangential=sub("mindlin", xgammat=0.5), damping="tsuji",
+                                        overrides={"restitution": 0.5, ("glass", "youngs_modulus"): 1e4})
+        fact("with other sub-models and numbers", forces(floor_of(rough)).tobytes() == forces(floor_of(lsdcd.Law.granular(
+            sub("hertz/material", E=1e4, e=0.5, nu=0.23), sub("mindlin", xgammat=0.5, mu=0.1), "tsuji"))).tobytes())
+        for says, more, kind in (
+                ("'iron' is not a material of", {"particle": "iron"}, lsdcd.Error),
+                ("restitution = 2 is out of range", {"overrides": {"restitution": 2.0}}, lsdcd.Error),
+                ("restitution of overrides is 'a'", {"overrides": {"restitution": "a"}}, TypeError),
+                ("does not take material constants", {"normal": "hooke"}, lsdcd.Error)):
+            refused(says, says, lambda more=more: lsdcd.Law.from_material(**{"file": materials, "particle": "glass", **more}), kind)
         body = lsdcd.Wall(f"hooke 1 0 0 0 0 0 mesh {floor} body mass 1 com 0 0 0 inertia 1 1 1 0 0 0 device cpu")
         refused("a body takes no pose", "a body moves by what acts on it", lambda: body.set_pose(0), lsdcd.Error)
         fact("words may have their name", lsdcd.Wall(words=f"hooke 1 0 0 0 0 0 mesh {floor} device cpu").totals())

@@ -80,6 +80,11 @@ _SubModel = type("_SubModel", (ctypes.Structure,), {"_fields_": [("name", ctypes
 _Law = _struct(
     "_Law", ("style", _SubModel), ("normal", _SubModel), ("tangential", _SubModel), ("damping", _SubModel),
     ("rolling", _SubModel), ("twisting", _SubModel), ("heat", _SubModel), ("cohesion", _SubModel), ("limit_damping", _int))
+_Override: Any = type("_Override", (ctypes.Structure,), {"_fields_": [
+    ("of", ctypes.c_char_p), ("key", ctypes.c_char_p), ("value", _real)]})
+_Materials = _struct(
+    "_Materials", ("file", ctypes.c_char_p), ("particle", ctypes.c_char_p), ("wall", ctypes.c_char_p), ("overrides", _at),
+    ("n_overrides", _size), ("units", ctypes.c_char_p))
 _SubModelFacts = _struct(
     "_SubModelFacts", ("field", ctypes.c_char_p), ("name", ctypes.c_char_p), ("source", ctypes.c_char_p),
     ("beside_style", _int), ("n", _int), ("number", ctypes.c_char_p * 8), ("unit", ctypes.c_char_p * 8),
@@ -176,6 +181,7 @@ def _load() -> Any:
                  "get_body", "set_body"):
         getattr(lib, "lsdcd_wall_" + call).argtypes = [_at, _int, _at]
     lib.lsdcd_sub_model_get_facts.argtypes = [_size, _at]
+    lib.lsdcd_law_from_material.argtypes = [_at, _at, _at]
     lib.lsdcd_place_scale.argtypes = lib.lsdcd_place_move.argtypes = [_at, _real, _real, _real]
     lib.lsdcd_place_rotate.argtypes = [_at, _at, _real]
     lib.lsdcd_wall_from_spec.argtypes = [_at, _at, _at]

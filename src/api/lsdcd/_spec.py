@@ -6,13 +6,13 @@ from __future__ import annotations
 
 import ctypes
 import os
-from typing import TYPE_CHECKING, Any, Sequence
+from typing import TYPE_CHECKING, Any, Mapping, Sequence
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ._c import (DEVICES, _as_floats, _c_double, _c_text, _check, _chosen, _flag, _Law, _lib, _Motion, _noted, _numbers, _Record,
-                 _RigidBody, _Servo, _sized, _Spec, _SubModel, _SubModelFacts, _TypeLaw, _WallMesh, _WallSpec)
+from ._c import (DEVICES, _as_floats, _c_double, _c_text, _check, _chosen, _flag, _Law, _lib, _Materials, _Motion, _noted, _numbers, _Override,
+                 _Record, _RigidBody, _Servo, _sized, _Spec, _SubModel, _SubModelFacts, _TypeLaw, _WallMesh, _WallSpec)
 
 if TYPE_CHECKING:
     from . import Mesh
@@ -68,7 +68,8 @@ class Law(_Spec):
 
     or Law.granular(). Numbers are in the caller's units: kn a force/length, gamman 1/time, and so on; None is derived.
     Raises ValueError for names of sub-models and numbers that there are not, TypeError for what is no number. What does
-    not go together, or is out of its range, Wall() refuses."""
+    not go together, or is out of its range, Wall() refuses. `report`: of from_material(), each number with its source."""
+    report = ""
 
     @_noted
     def __init__(self, style: str, *, rolling: SubModel | None = None, cohesion: SubModel | None = None,
@@ -91,8 +92,43 @@ class Law(_Spec):
         return law
 
 
-def _law_struct(given: dict[str, SubModel | None], beside_style: bool, limit_damping: bool) -> Any:
-    """An lsdcd_law, whose numbers lie in the order of their names."""
+    @classmethod
+    @_noted
+    def from_material(cls, file: str | os.PathLike[str], particle: str, wall: str | None = None, *,
+                      normal: str = "hertz/material", tangential: SubModel | None = None, damping: str | None = None,
+                      rolling: SubModel | None = None, twisting: SubModel | None = None, heat: SubModel | None = None,
+                      limit_damping: bool = False, overrides: Mapping[str | tuple[str, str], float] | None = None,
+                      units: str = "si") -> Law:
+        """A law with the numbers of two materials of a file, its path or the name of one that is installed: those of the spheres
+        and of the `wall`, None: the same. `normal`: "hertz/material", "jkr" or "dmt". By default damping is by the restitution,
+        and `tangential` "mindlin"; numbers of sub-models that are left out are the materials' where the file has such a property.
+        `overrides`: numbers in place of the file's, {"restitution": 0.5, ("steel", "youngs_modulus"): 1e8}, in `units`, "si",
+        "cgs", "micro" or "nano", as are those of the law.
+
+            Law.from_material("glass.lsdcd", "glass", "aluminium", overrides={"restitution": 0.8})
+
+        Raises Error for what the file lacks, and as Law() does."""
+        law = cls.__new__(cls)
+        law._struct = _law_struct({"tangential": tangential, "damping": SubModel(damping) if damping is not None else None,
+                                   "rolling": rolling, "twisting": twisting, "heat": heat}, False, limit_damping, True)
+        law._struct.normal.name = _c_text(normal, "normal")
+        rows = []
+        for key, value in (overrides or {}).items():
+            of, name = (None, key) if isinstance(key, str) else key
+            rows.append(_Override(_c_text(of, "a material of overrides"), _c_text(name, "a property of overrides"),
+                                  _c_double(value, f"{name} of overrides")))
+        array = (_Override * len(rows))(*rows)
+        given = _sized(_Materials, file=file, particle=particle, wall=wall, overrides=ctypes.addressof(array),
+                       n_overrides=len(rows), units=units)
+        report = ctypes.c_char_p()
+        _check(_lib.lsdcd_law_from_material(ctypes.byref(given), ctypes.byref(law._struct), ctypes.byref(report)))
+        law.report = (report.value or b"").decode()
+        return law
+
+
+def _law_struct(given: dict[str, SubModel | None], beside_style: bool, limit_damping: bool,
+                has_materials: bool = False) -> Any:
+    """An lsdcd_law, whose numbers lie in the order of their names. With materials, all may be left out: C says which may not."""
     law = _sized(_Law, limit_damping=_flag(limit_damping, "limit_damping"))
     damping = given.get("damping")
     for field, model in given.items():
@@ -100,11 +136,12 @@ def _law_struct(given: dict[str, SubModel | None], beside_style: bool, limit_dam
             continue
         if not isinstance(model, SubModel):
             raise TypeError(f"{field} is {model!r}, not a SubModel")
-        setattr(law, field, _sub_model_struct(field, model, beside_style, damping.name if damping else "viscoelastic"))
+        setattr(law, field, _sub_model_struct(field, model, beside_style, damping.name if damping else "viscoelastic",
+                                               has_materials))
     return law
 
 
-def _sub_model_struct(field: str, model: SubModel, beside_style: bool, damping: str) -> Any:
+def _sub_model_struct(field: str, model: SubModel, beside_style: bool, damping: str, has_materials: bool) -> Any:
     rows = [row for row in sub_models() if row.field == field and row.beside_style == beside_style]
     row = next((row for row in rows if row.name == model.name), None)
     if row is None:
@@ -112,6 +149,7 @@ def _sub_model_struct(field: str, model: SubModel, beside_style: bool, damping: 
                          f"{', '.join(repr(row.name) for row in rows) or 'none'}")
     left, numbers = dict(model.numbers), []
     for name, may_be_derived in zip(row.numbers, row.may_be_derived):
+        may_be_derived |= has_materials
         if name == "eta|e":
             name, other = ("e", "eta") if damping in _OF_RESTITUTION else ("eta", "e")
             if other in left:
