@@ -111,7 +111,7 @@ T checked(const T *given, const char *name, std::size_t least = sizeof(T),
   return whole;
 }
 
-// Element k of an array of such structs, which all have the size of the first.
+// Returns element k of an array of the caller's structs, which all have the size of the first.
 template <class T>
 T checked_element(const T *array, std::size_t k, const char *name, std::size_t least,
                   const std::string &field)
@@ -126,7 +126,7 @@ T checked_element(const T *array, std::size_t k, const char *name, std::size_t l
   return element;
 }
 
-// The same the other way round.
+// Copies a struct of the library to the caller's, as much as the caller's `size` says that it has.
 template <class T>
 void copy_out(const T &made, T *to)
 {

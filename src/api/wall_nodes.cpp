@@ -33,7 +33,7 @@ const MeshPart &part_with_nodes(const lsdcd_wall &wall, int mesh)
           "wall is made");
 }
 
-// Likewise, or one that wear moves.
+// Returns the mesh, which has nodes that move or is moved by wear; another one is an error.
 const MeshPart &part_that_deforms(const lsdcd_wall &wall, int mesh)
 {
   check_mesh(wall, mesh, 0);

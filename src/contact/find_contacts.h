@@ -56,7 +56,7 @@ LSDCD_FN void add_feature(const MeshGeometry &geometry, FeatureCode feature, Rea
     add_once(set, feature, closest, geometry.tolerance());
 }
 
-// The same as a function of its own, for searches that few spheres need: the tests of features are
+// Does what add_feature() does, as a function of its own, for searches that few spheres need: the tests of features are
 // long, and would be compiled into each law's kernels many times.
 template <int kMost>
 LSDCD_NOINLINE void add_feature_noinline(const MeshGeometry &geometry, FeatureCode feature,
@@ -144,7 +144,7 @@ LSDCD_FN Real find_contacts_in(const GridView &grid, const Vec3 &q, Real radius,
   return kAnyDistance;
 }
 
-// The same for any grid, also one for queries, whose lists are full.
+// Finds the contacts in any grid, also one for queries, whose lists are full.
 template <int kMost>
 LSDCD_FN Real find_contacts(const GridView &grid, const Vec3 &q, Real radius,
                             ContactSet<kMost> &set)

@@ -16,7 +16,7 @@ struct FeedSettings {
   Kind kind = at_once;
   Real rate = 0;              // mass/time or 1/time
   Real mass = 0;              // in all; 0: no limit
-  std::int64_t number = 0;    // likewise
+  std::int64_t number = 0;    // in all; 0: no limit
   int every = 1;              // steps between insertions, at least
 };
 

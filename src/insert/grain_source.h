@@ -43,7 +43,7 @@ class GrainSource {
   // All that a grain depends on beside its number.
   std::vector<Real> numbers() const;
 
-  // The same for the same number and seed, whoever asks.
+  // Return the grain of a number and the change of its velocity, which depend on the number and the seed alone.
   Grain grain(std::int64_t number) const;
   Vec3 velocity_jitter(std::int64_t number) const;
 

@@ -137,7 +137,7 @@ void ComputeCollideLsdcd::check_shapes(const FixWallLsdcd &fix) const
             ", and bodies collide with rigid meshes only");
 }
 
-// The same wall as when the compute was defined?
+// Checks that the wall is the one that there was when the compute was defined.
 void ComputeCollideLsdcd::check_wall(const FixWallLsdcd &fix) const
 {
   bool same = fix.meshes().size() == meshes.size();

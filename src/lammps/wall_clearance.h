@@ -35,7 +35,7 @@ class WallClearance {
 
   // Is the sphere's centre at least its radius from every mesh, and from its images?
   bool is_clear(const PackedSphere &sphere, const PeriodicBox &box);
-  // The same of meshes that have never moved.
+  // Is the sphere's centre at least its radius from every mesh that has never moved, and from its images?
   bool is_clear_at_rest(const PackedSphere &sphere, const PeriodicBox &box);
 
   std::size_t bytes() const;

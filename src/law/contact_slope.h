@@ -15,7 +15,7 @@ struct ContactSlope {
 };
 ContactSlope contact_slope(const ContactLaw &law, Real overlap, Real radius, Real mass);
 
-// Likewise along the normal, and in the plane; the latter is 0 without friction.
+// Bounds of the change of one contact's force along the normal, and in the plane, where it is 0 without friction.
 struct ContactSlopes {
   ContactSlope normal, tangential;
 };

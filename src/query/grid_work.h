@@ -25,7 +25,7 @@ struct DistanceArrays {
     status[i] = status_of(a);
     if (distance) distance[i] = a.found() ? static_cast<T>(a.distance) : kFar;
   }
-  // The same for four neighbours from i on, a multiple of 4, that are far from the wall.
+  // Stores the answers of four neighbours from i on, a multiple of 4, that are far from the wall.
   LSDCD_FN void store_four_far(std::size_t i) const
   {
     four_at(status, i) = {{kCertified, kCertified, kCertified, kCertified}};
@@ -82,7 +82,7 @@ struct GridWork {
   TooLarge<S> too_large;
   std::size_t from;    // spheres before these
 
-  // The same for the spheres from the n-th on, a multiple of 4.
+  // Returns this work for the spheres from the n-th on, a multiple of 4.
   GridWork after(std::size_t n) const
   {
     return {grid, table, spheres + n, out.after(n), filter, coarse, too_large, from + n};

@@ -141,7 +141,8 @@ LSDCD_FN Real nearer(Real first, Real second)
   return second < first ? second : first;
 }
 
-// The same from a complete list by the lanes of a warp, which call it with the same arguments and get the same answer.
+// Finds the nearest distance from a complete list by the lanes of a warp, which call it with the same arguments and get
+// the same answer.
 // Each lane tries one entry, and its search radius is the nearest distance before this turn. The nearest distance that
 // one thread would have had before an entry comes from the lanes below, so that the search ends at the same entry as
 // with one thread.

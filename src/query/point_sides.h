@@ -43,7 +43,7 @@ template <class T>
 void query_with_sides(const HostGrid &grid, const TriangleTable &names, const PointSides &sides,
                       bool by_normals, const PointArrays<T> &io);
 
-// The same by query_tree(). All sides are those of winding numbers.
+// Answers the query of the function above by query_tree(). All sides are those of winding numbers.
 template <class T>
 void query_with_sides(const TriangleTree &tree, const CutoffBoxes *boxes, const PointSides &sides,
                       Real cutoff, const PointArrays<T> &io);

@@ -89,8 +89,8 @@ class TreeBoundsFloat {
   float rounding_, most_ = 0, most_sq_ = 0;
 };
 
-// The same in double and without planes, for points so far away that float would leave too many. Boxes are
-// compared by the distance.
+// How far boxes and triangles are at least, in double and without planes, for points so far away that float would leave
+// too many. Boxes are compared by the distance.
 class TreeBoundsDouble {
  public:
   using Type = Real;

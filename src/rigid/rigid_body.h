@@ -26,7 +26,7 @@ struct Wrench {
 // All that a step changes.
 struct RigidState {
   Vec3 home = {0, 0, 0};    // the centre where coordinates are 0, in the box
-  Quaternion home_turn;     // likewise; from the frame of the mesh to the box
+  Quaternion home_turn;     // the turn there, from the frame of the mesh to the box
   Vec3 centre = {0, 0, 0};
   Quaternion turn;
   // free: velocity of the centre, and angular momentum about it, in the box. ball: the latter, about the joint's point.
@@ -77,7 +77,7 @@ class RigidBody {
   // Returns where the mesh is, with velocities for contacts.
   Pose pose() const;
   Mobility mobility() const;
-  // The same without stops: no push finds the body easier to move.
+  // Returns the mobility() of the body without stops: no push finds the body easier to move.
   Mobility free_mobility() const;
   // Does the load, with the drive, press the body at rest into a stop?
   bool is_held(const Wrench &load) const;

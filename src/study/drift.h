@@ -13,7 +13,7 @@
 namespace lsdcd {
 
 // Starts of spheres: beside a random point of a face, on the side that `normal` points
-// to. The same for every setting that is tried.
+// to. Every setting that is tried has the same starts.
 struct DriftStarts {
   std::vector<Vec3> point, normal, along;    // along: unit, in the face
   Real radius;

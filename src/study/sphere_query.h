@@ -56,7 +56,7 @@ class SphereQuery {
   // tried; and where the settings do not fit the grid: the paper's test needs lists of primitives
   // in double, or every face.
   virtual void run(const QuerySettings &settings) = 0;
-  // The same, once to warm up and then `repeats` times.
+  // Does run() once to warm up, and then `repeats` times, which are timed.
   virtual QueryTiming time(const QuerySettings &settings, int repeats) = 0;
 
   // Answers of the last run, copied to the host: kFound and kCertified; distances to the

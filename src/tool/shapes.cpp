@@ -306,7 +306,7 @@ bool is_longer(const Vec3 &a, const Vec3 &b, Real edge)
   return length_of(a, b) > (1 + kSame) * edge;
 }
 
-// The same bits from either end.
+// Returns the middle of an edge, with the same bits from either end.
 Vec3 middle(const Vec3 &a, const Vec3 &b)
 {
   return 0.5 * (a + b);

@@ -40,7 +40,7 @@ SymmetricMatrix turned(const SymmetricMatrix &m, const Pose &from, const Pose &t
   return {column[0].x, column[1].y, column[2].z, column[0].y, column[0].z, column[1].z};
 }
 
-// The same, in the frame of another mesh, whose contacts have normals into the body.
+// Returns the mobility of a body in the frame of another mesh, whose contacts have normals into the body.
 Mobility turned(const Mobility &m, const Pose &from, const Pose &to)
 {
   Mobility out;

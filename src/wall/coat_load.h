@@ -15,7 +15,7 @@ namespace lsdcd {
 // The contacts of coats with one mesh in a step: of its own coat with other meshes, and of their coats with it.
 struct CoatLoad {
   Vec3 force = {0, 0, 0};               // on the mesh
-  Vec3 torque_at_origin = {0, 0, 0};    // likewise, about the origin of the box
+  Vec3 torque_at_origin = {0, 0, 0};    // on the mesh, about the origin of the box
   Real energy = 0;                      // elastic; it counts with the mesh that is touched
   Real contacts = 0;                    // how many
   Real overlap = 0;                     // the largest overlap / radius

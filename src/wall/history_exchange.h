@@ -40,9 +40,10 @@ class HistoryExchange {
   int room() const { return room_; }
   // Returns the history of this process's spheres, on the host from now on.
   ContactHistory &on_host();
-  // The history of the n spheres of this process goes to the engine, if it is not there.
+  // Gives the history of the n spheres of this process to the engine, if it is not there.
   void to_engine(int n);
-  // Likewise, for a host that moves spheres where the engine computes: it packs, unpacks and sorts the history there.
+  // Gives the history to the engine as to_engine() does, and returns it, for a host that moves spheres where the engine
+  // computes: it packs, unpacks and sorts the history there.
   SpringsInPlace &in_engine(int n);
   bool is_with_engine() const { return with_engine_; }
   // The engine has the history of the first n spheres of the host.

@@ -85,7 +85,7 @@ class MeshGrid {
   std::uint64_t mesh_fingerprint_ = 0;
   std::string mesh_text_, grid_text_;
   std::string cache_text_, cache_warning_, ends_warning_;    // of the last build
-  PeriodicBox box_;                                          // likewise
+  PeriodicBox box_;                                          // of the last build
   Box within_ = kNoLimit;
   std::uint64_t cells_ = 0;
   int shape_ = 0;

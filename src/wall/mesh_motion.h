@@ -40,7 +40,7 @@ class MeshMotion {
   const Pose &pose() const { return pose_; }    // in this step
   // In the step before; in a step that no time has passed to, that of this step.
   const Pose &pose_before() const { return has_before_ ? before_ : pose_; }
-  const SurfaceMotion &surface() const { return surface_; }    // likewise
+  const SurfaceMotion &surface() const { return surface_; }    // in this step
 
   bool moves_or_varies() const;    // does the engine see a motion?
   bool has_inputs() const;
@@ -70,8 +70,8 @@ class MeshMotion {
   // Returns a line for the log; empty: nothing moves. `bounds`: of the mesh in its own frame.
   std::string text(const Box &bounds) const;
 
-  // The same on all processes. With the same terms a motion goes on where it was. Others begin where the mesh
-  // was, and the first process warns.
+  // Returns the state of the motion, for a saved state, which restore() takes: it is the same on all processes. With
+  // the same terms a motion goes on where it was. Others begin where the mesh was, and the first process warns.
   MotionState state() const;
   // Throws where a servo would be outside of its limits.
   void check(const MotionState &was) const;

@@ -40,8 +40,9 @@ class MeshNodes {
   // Places (length) and velocities (length/time) of the nodes from the next step on: x y z, node after node. Velocities
   // are of the same time as those of spheres. `v` null: all are 0.
   void set(const Real *x, const Real *v);
-  // The same where the wall computes, by its engine, in the order of its stream: row k is of node node_of_row[k], which
-  // is the same in each call. False: nothing was read, as the engine does not have the nodes; then give them to set().
+  // Sets places and velocities, as set() does, from arrays that lie where the wall computes, in the order of its
+  // engine's stream: row k is of node node_of_row[k], which is the same in each call. Returns false where nothing was
+  // read, as the engine does not have the nodes; then give them to set().
   bool set_in_place(const Real *x, const Real *v, const std::vector<int> &node_of_row);
 
   // Begins a step: nodes go to where they were set. `cutoff`: 0 while there are no spheres. Throws InputError, which
@@ -84,8 +85,9 @@ class MeshNodes {
   // Sums over all processes, x y z, node after node (force): of contacts, and of `pressure` (force/area), which pushes
   // to where the normals of faces point by their winding, and outward on a closed mesh. Collective, once a step.
   const std::vector<Real> &forces(Real pressure);
-  // The same to an array where the wall computes, as in set_in_place(). False: the sums are not there, or not those of
-  // all processes. Not collective. Does not wait.
+  // Writes the sums that forces() returns to an array that lies where the wall computes, with rows as in
+  // set_in_place(). Returns false where the sums are not there, or not those of all processes. Not collective. Does not
+  // wait.
   bool put_forces(Real pressure, Real *to, const std::vector<int> &node_of_row);
   // Returns the moment of the forces of contacts on the nodes about the origin of the box, of all processes. Collective.
   Vec3 moment();
