@@ -50,7 +50,7 @@ STEP_BEFORE = """
     ResultColumns::put StridedView::add"""
 STEP_NOW = """
     EngineOn::compute EngineOn::mesh_work force_settings job_of EngineOn::run_law > run_compiled_law {step}
-    > MeshStep::fast_path centre_of query_sphere_of FeatureLists::holds find_in_list add_feature
+    > MeshStep::fast_path centre_of query_sphere_of FeatureLists::holds find_listed find_in_list add_feature
     MeshGeometry::closest_point closest_point_on closest_on_face > MeshStep::general_path any_contacts narrow_phase
     find_filtered find_contacts_in share_overlap CornerRule::solve apply_law state_at
     add_motion add_contacts begin_memory transfer_of handed_on GranularModel::evaluate TouchingNormal::force add_force

@@ -420,16 +420,18 @@ LSDCD_API int lsdcd_sub_model_get_facts(size_t k, lsdcd_sub_model_facts *facts);
 
 /* A number in place of the file's, in the caller's units. */
 typedef struct lsdcd_override {
-  const char *of; /* the material, where the number is of one; null: of both together, or of the one whose number the
+  const char *
+      of; /* the material, where the number is of one; null: of both together, or of the one whose number the
                      file lacks */
-  const char *key; /* "youngs_modulus", "restitution", ...; "eta" is the number of a damping without restitution */
+  const char *
+      key; /* "youngs_modulus", "restitution", ...; "eta" is the number of a damping without restitution */
   double value;
 } lsdcd_override;
 
 /* Two materials of a file, as lsdcd material and `granular material` of a script take them. */
 typedef struct lsdcd_materials {
-  size_t size;      /* of this struct */
-  const char *file; /* its path, or the name of one that is installed: "steel.lsdcd" */
+  size_t size;                 /* of this struct */
+  const char *file;            /* its path, or the name of one that is installed: "steel.lsdcd" */
   const char *particle, *wall; /* names in the file; wall null: that of the particles */
   const lsdcd_override *overrides; /* n_overrides of them */
   size_t n_overrides;
@@ -670,9 +672,10 @@ LSDCD_API int lsdcd_wall_make(const char *const *words, size_t n, const lsdcd_wa
 typedef struct lsdcd_spheres {
   size_t size; /* of this struct */
   size_t n;
-  ptrdiff_t row;             /* of all arrays of vectors, 3 at least; 0: 3 */
-  const double *x;           /* length, finite */
-  const double *v;           /* length/time, finite; looked at in steps of setup, the first and changed ones */
+  ptrdiff_t row;   /* of all arrays of vectors, 3 at least; 0: 3 */
+  const double *x; /* length, finite */
+  const double
+      *v; /* length/time, finite; looked at in steps of setup, the first and changed ones */
   const double *omega;       /* 1/time, likewise */
   const double *radius;      /* >= 0, finite */
   const double *mass;        /* > 0, finite */
