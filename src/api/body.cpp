@@ -133,7 +133,7 @@ int lsdcd_body_make(const lsdcd_mesh *wall, const lsdcd_mesh *mesh,
     need(mesh, "mesh");
     lsdcd_body_options o = {};
     o.size = sizeof o;
-    if (options) o = checked(options, "lsdcd_body_options", offsetof(lsdcd_body_options, progress));
+    if (options) o = checked(options, "lsdcd_body_options");
     check_threads(o.threads);
     const CallThreads threads(o.threads);
     if (o.same_wall) {

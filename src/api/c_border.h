@@ -94,45 +94,27 @@ inline void check_threads(int n)
                    "`threads` is " + std::to_string(n) + "; it is 0 to " + std::to_string(kMax));
 }
 
-// Copies a caller's struct of this or an earlier version. `least`: bytes of the first version. `field`: where it is,
-// for errors; empty: it is an argument.
+// Returns a copy of a caller's struct, which has the size that it has here. `field`: where it is, for errors; empty: it is an
+// argument.
 template <class T>
-T checked(const T *given, const char *name, std::size_t least = sizeof(T),
-          const std::string &field = "")
+T checked(const T *given, const char *name, const std::string &field = "")
 {
   const std::string where = field.empty() ? name : field;
   need(given, where.c_str());
-  if (given->size < least || given->size > sizeof(T))
-    throw ApiError(LSDCD_ERROR_ARGUMENT, "`" + where + "`: size is " + std::to_string(given->size) +
-                                             ", and should be sizeof(" + name + "), " +
-                                             std::to_string(sizeof(T)));
-  T whole = {};
-  std::memcpy(&whole, given, given->size);
-  return whole;
-}
-
-// Returns element k of an array of the caller's structs, which all have the size of the first.
-template <class T>
-T checked_element(const T *array, std::size_t k, const char *name, std::size_t least,
-                  const std::string &field)
-{
-  const auto *const at = reinterpret_cast<const char *>(array) + k * array->size;
-  const T element = checked(reinterpret_cast<const T *>(at), name, least, field);
-  if (element.size != array->size)
+  if (given->size != sizeof(T))
     throw ApiError(LSDCD_ERROR_ARGUMENT,
-                   "`" + field + "`: size is " + std::to_string(element.size) +
-                       ", and that of the first element is " + std::to_string(array->size) +
-                       ": all elements of an array have the same");
-  return element;
+                   "`" + where + "`: size is " + std::to_string(given->size) +
+                       ", and should be sizeof(" + name + "), " + std::to_string(sizeof(T)) +
+                       ": set it, and compile with the header of this library");
+  return *given;
 }
 
-// Copies a struct of the library to the caller's, as much as the caller's `size` says that it has.
+// Copies a struct of the library to the caller's.
 template <class T>
 void copy_out(const T &made, T *to)
 {
-  const std::size_t size = to->size;
-  std::memcpy(to, &made, size);
-  to->size = size;
+  *to = made;
+  to->size = sizeof(T);
 }
 
 }    // namespace lsdcd

@@ -18,7 +18,7 @@ namespace {
 
 lsdcd_contacts checked_contacts(const ApiGrid &grid, const lsdcd_contacts *given)
 {
-  lsdcd_contacts c = checked(given, "lsdcd_contacts", offsetof(lsdcd_contacts, progress));
+  lsdcd_contacts c = checked(given, "lsdcd_contacts");
   check_points(c);
   need(c.first, "first");
   if (!grid.is_limited())

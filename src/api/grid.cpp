@@ -167,8 +167,7 @@ int lsdcd_grid_build(const lsdcd_mesh *mesh, const lsdcd_grid_options *options, 
   return guard([&] {
     need(grid, "grid");
     need(mesh, "mesh");
-    const lsdcd_grid_options o =
-        checked(options, "lsdcd_grid_options", offsetof(lsdcd_grid_options, progress));
+    const lsdcd_grid_options o = checked(options, "lsdcd_grid_options");
     const CallThreads threads(std::max(o.threads, 0));
     CallProgress progress(o.progress, o.data);
     *grid = new lsdcd_grid{std::make_shared<const ApiGrid>(mesh->in, o, progress.listener())};

@@ -275,7 +275,7 @@ namespace lsdcd {
 
 NamedLaw law_of(const lsdcd_law *given, const std::string &field)
 {
-  return LawMaker(checked(given, "lsdcd_law", sizeof(lsdcd_law), field), field).make();
+  return LawMaker(checked(given, "lsdcd_law", field), field).make();
 }
 
 }    // namespace lsdcd
@@ -285,9 +285,8 @@ extern "C" {
 int lsdcd_law_from_material(const lsdcd_materials *materials, lsdcd_law *law, const char **report)
 {
   return guard([&] {
-    const lsdcd_materials given =
-        checked(materials, "lsdcd_materials", sizeof *materials, "materials");
-    lsdcd_law out = checked(law, "lsdcd_law", sizeof *law, "law");
+    const lsdcd_materials given = checked(materials, "lsdcd_materials", "materials");
+    lsdcd_law out = checked(law, "lsdcd_law", "law");
     MaterialPair pair;
     pair.file = text_of(given.file, "materials.file", "give a file of materials");
     pair.particle = text_of(given.particle, "materials.particle", "give a material of the file");

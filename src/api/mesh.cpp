@@ -156,8 +156,7 @@ int lsdcd_mesh_get_arrays(const lsdcd_mesh *mesh, const lsdcd_mesh_arrays *array
 {
   return guard([&] {
     need(mesh, "mesh");
-    const lsdcd_mesh_arrays to =
-        checked(arrays, "lsdcd_mesh_arrays", offsetof(lsdcd_mesh_arrays, welded_vertex));
+    const lsdcd_mesh_arrays to = checked(arrays, "lsdcd_mesh_arrays");
     const WeldedMesh &m = mesh->in->mesh;
     if (double *at = to.vertices)
       for (const Vec3 &v : m.vertices)
@@ -177,8 +176,7 @@ int lsdcd_mesh_get_facts(const lsdcd_mesh *mesh, lsdcd_mesh_facts *facts)
 {
   return guard([&] {
     need(mesh, "mesh");
-    lsdcd_mesh_facts f =
-        checked(facts, "lsdcd_mesh_facts", offsetof(lsdcd_mesh_facts, given_vertices));
+    lsdcd_mesh_facts f = checked(facts, "lsdcd_mesh_facts");
     const WeldedMesh &m = mesh->in->mesh;
     f.triangles = m.report.facets;
     f.faces = m.faces.size();

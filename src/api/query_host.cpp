@@ -35,7 +35,7 @@ void check_sides(const ApiGrid &grid, bool on_host)
 
 lsdcd_query checked_query(const ApiGrid &grid, const lsdcd_query *given, bool on_host)
 {
-  lsdcd_query q = checked(given, "lsdcd_query", offsetof(lsdcd_query, winding));
+  lsdcd_query q = checked(given, "lsdcd_query");
   check_points(q);
   if (q.n > 0 && !q.distance && !q.closest && !q.normal && !q.triangle && !q.feature && !q.side &&
       !q.status && !q.winding && !q.signed_distance && !q.barycentric)

@@ -70,7 +70,7 @@ new_wall(const lsdcd_wall_options *options,
          const std::function<std::unique_ptr<Wall>(lsdcd_wall &, const lsdcd_wall_options &)> &make)
 {
   lsdcd_wall_options o = {};
-  if (options) o = checked(options, "lsdcd_wall_options", offsetof(lsdcd_wall_options, host));
+  if (options) o = checked(options, "lsdcd_wall_options");
   check_threads(o.threads);
   const CallThreads threads(o.threads);
   auto made = std::make_unique<lsdcd_wall>(o);
@@ -114,8 +114,7 @@ extern "C" {
 int lsdcd_wall_get_totals(lsdcd_wall *wall, int mesh, lsdcd_wall_totals *totals)
 {
   return guard_wall(wall, [&] {
-    lsdcd_wall_totals out =
-        checked(totals, "lsdcd_wall_totals", offsetof(lsdcd_wall_totals, removed));
+    lsdcd_wall_totals out = checked(totals, "lsdcd_wall_totals");
     check_mesh(*wall, mesh, -1);
     tell_late(*wall);
     const StepTotals &all = wall->in->totals();

@@ -148,8 +148,7 @@ void add_laws(const lsdcd_wall_mesh &given, const std::string &field, MeshSpec &
   need_elements(given.type_laws, given.n_type_laws, field + ".type_laws");
   for (std::size_t k = 0; k < given.n_type_laws; k++) {
     const std::string of = element(field + ".type_laws", k);
-    const lsdcd_type_law row =
-        checked_element(given.type_laws, k, "lsdcd_type_law", sizeof(lsdcd_type_law), of);
+    const lsdcd_type_law row = checked(given.type_laws + k, "lsdcd_type_law", of);
     if (row.first_type < 1)
       refuse_field(of + ".first_type", std::to_string(row.first_type), "types count from 1");
     if (row.last_type != 0 && row.last_type < row.first_type)
@@ -360,9 +359,7 @@ WallSpec wall_spec_of(const lsdcd_wall_spec *pointer, bool on_device)
                  "a wall has 1 to " + std::to_string(kMaxMeshes) + " meshes");
   for (std::size_t k = 0; k < given.n_meshes; k++)
     wall.meshes.push_back(
-        mesh_spec_of(checked_element(given.meshes, k, "lsdcd_wall_mesh", sizeof(lsdcd_wall_mesh),
-                                     element("meshes", k)),
-                     k, wall));
+        mesh_spec_of(checked(given.meshes + k, "lsdcd_wall_mesh", element("meshes", k)), k, wall));
   leave_out_zero_cohesion(wall);
   check_sub_models(wall);
   check_apart(wall);
@@ -393,15 +390,14 @@ std::vector<MotionTerm> motions_of(const lsdcd_motion *given, std::size_t n,
   std::vector<MotionTerm> terms;
   for (std::size_t k = 0; k < n; k++) {
     const std::string of = element(field, k);
-    terms.push_back(
-        motion_of(checked_element(given, k, "lsdcd_motion", sizeof(lsdcd_motion), of), of));
+    terms.push_back(motion_of(checked(given + k, "lsdcd_motion", of), of));
   }
   return terms;
 }
 
 Servo servo_of(const lsdcd_servo *pointer, const std::string &field)
 {
-  const lsdcd_servo given = checked(pointer, "lsdcd_servo", sizeof(lsdcd_servo), field);
+  const lsdcd_servo given = checked(pointer, "lsdcd_servo", field);
   Servo servo;
   servo.present = true;
   servo.turns = checked_flag(given.turns, field + ".turns");
@@ -422,8 +418,7 @@ Servo servo_of(const lsdcd_servo *pointer, const std::string &field)
 
 BodySpec body_of(const lsdcd_rigid_body *pointer, const std::string &field, bool begins)
 {
-  const lsdcd_rigid_body given =
-      checked(pointer, "lsdcd_rigid_body", sizeof(lsdcd_rigid_body), field);
+  const lsdcd_rigid_body given = checked(pointer, "lsdcd_rigid_body", field);
   const auto vector = [&](const double *values, const char *name) {
     return checked_vector(values, field + "." + name);
   };

@@ -61,7 +61,7 @@ void check_synchronous(const lsdcd_wall &wall, const lsdcd_wall_step &step)
 StepWanted step_wanted(lsdcd_wall &wall, const lsdcd_spheres *spheres, const lsdcd_wall_step *step)
 {
   StepWanted want;
-  const lsdcd_spheres given = checked(spheres, "lsdcd_spheres", offsetof(lsdcd_spheres, type));
+  const lsdcd_spheres given = checked(spheres, "lsdcd_spheres");
   want.step = checked(step, "lsdcd_wall_step");
   check_synchronous(wall, want.step);
   if (!(want.step.dt > 0) || !std::isfinite(want.step.dt))

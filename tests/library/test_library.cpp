@@ -472,20 +472,6 @@ TEST(library, sides_of_a_closed_mesh_are_never_estimated)
   }
 }
 
-// A query as the first version of the header had it.
-TEST(library, a_shorter_query_of_an_older_program_is_answered)
-{
-  const lsdcd::Grid grid(lsdcd::Mesh(numbers(lsdcd::box_mesh({-1, -1, -1}, {1, 1, 1}))));
-  const double point[] = {0, 0, 0};
-  double distance = 0;
-  lsdcd_query q = lsdcd::Query<double>(point, 1);
-  q.size = offsetof(lsdcd_query, winding);
-  q.distance = &distance;
-  q.winding = &distance;    // beyond its end
-  ASSERT_EQ(lsdcd_query_host(grid.get(), &q), LSDCD_OK);
-  EXPECT_EQ(distance, 1);
-}
-
 TEST(library, a_cavity_has_the_side_of_what_is_round_it)
 {
   TriangleSoup soup = lsdcd::box_mesh({-1, -1, -1}, {1, 1, 1}),
@@ -870,25 +856,44 @@ TEST(library, given_triangles_have_their_face_or_that_of_their_double_or_none)
   EXPECT_EQ(m.triangle, (std::vector<std::uint32_t>{1, 3, 7}));
 }
 
-// Structs that end earlier: nothing beyond their ends is written.
-TEST(library, shorter_facts_and_arrays_of_an_older_program_are_filled)
+// Until 1.0 a struct has the size that the library's header gives it: another one is of another version.
+TEST(library, structs_of_another_size_are_refused)
 {
   const lsdcd::Mesh mesh(cube_vertices<double>(), kCubeFaces);
-  lsdcd_mesh_facts facts = {};
-  facts.size = offsetof(lsdcd_mesh_facts, given_vertices);
-  facts.given_vertices = 77;
-  ASSERT_EQ(lsdcd_mesh_get_facts(mesh.get(), &facts), LSDCD_OK);
-  EXPECT_EQ(facts.vertices, 8u);
-  EXPECT_EQ(facts.given_vertices, 77u);
-  std::vector<std::uint32_t> faces(36);
-  std::uint32_t beyond = 77;
-  lsdcd_mesh_arrays arrays = {};
-  arrays.size = offsetof(lsdcd_mesh_arrays, welded_vertex);
-  arrays.faces = faces.data();
-  arrays.welded_vertex = arrays.welded_face = &beyond;
-  ASSERT_EQ(lsdcd_mesh_get_arrays(mesh.get(), &arrays), LSDCD_OK);
-  EXPECT_EQ(faces, mesh.arrays().faces);
-  EXPECT_EQ(beyond, 77u);
+  const lsdcd::Grid grid(mesh);
+  const double point[] = {0, 0, 0};
+  double distance = 7;
+  for (const int more : {-8, 8}) {
+    const auto is_refused = [&](auto given, const auto &call) {
+      const std::size_t right = given.size;
+      given.size += more;
+      EXPECT_EQ(call(&given), LSDCD_ERROR_ARGUMENT);
+      EXPECT_NE(std::string(lsdcd_last_error())
+                    .find("size is " + std::to_string(given.size) + ", and should be sizeof("),
+                std::string::npos)
+          << lsdcd_last_error();
+      EXPECT_NE(std::string(lsdcd_last_error()).find("), " + std::to_string(right) + ":"),
+                std::string::npos);
+    };
+    lsdcd_mesh_facts facts = {};
+    facts.size = sizeof facts;
+    is_refused(facts, [&](auto *f) { return lsdcd_mesh_get_facts(mesh.get(), f); });
+    lsdcd_mesh_arrays arrays = {};
+    arrays.size = sizeof arrays;
+    is_refused(arrays, [&](auto *f) { return lsdcd_mesh_get_arrays(mesh.get(), f); });
+    lsdcd_grid_facts of_grid = {};
+    of_grid.size = sizeof of_grid;
+    is_refused(of_grid, [&](auto *f) { return lsdcd_grid_get_facts(grid.get(), f); });
+    lsdcd_query q = lsdcd::Query<double>(point, 1);
+    q.distance = &distance;
+    is_refused(q, [&](auto *f) { return lsdcd_query_host(grid.get(), f); });
+    lsdcd_grid_options options = lsdcd::GridOptions();
+    is_refused(options, [&](auto *f) {
+      lsdcd_grid *made = nullptr;
+      return lsdcd_grid_build(mesh.get(), f, &made);
+    });
+  }
+  EXPECT_EQ(distance, 7);
 }
 
 TEST(library, edges_of_the_welded_mesh_join_corners_of_their_faces)

@@ -398,20 +398,5 @@ TEST(signed_distance, of_an_open_mesh_is_refused_or_estimated)
   for (const std::uint8_t s : status) EXPECT_TRUE(s & LSDCD_SIDE_ESTIMATED);
 }
 
-// A struct that ends before this member.
-TEST(signed_distance, is_not_written_for_an_older_program)
-{
-  const lsdcd::Grid grid(lsdcd::Mesh{numbers(kBox)});
-  const double p[] = {0, 0, 0.5};
-  double distance = 0, beyond = 7;
-  lsdcd_query q = lsdcd::Query<double>(p, 1);
-  q.size = offsetof(lsdcd_query, signed_distance);
-  q.distance = &distance;
-  q.signed_distance = q.barycentric = &beyond;
-  ASSERT_EQ(lsdcd_query_host(grid.get(), &q), LSDCD_OK);
-  EXPECT_EQ(distance, 0.5);
-  EXPECT_EQ(beyond, 7);
-}
-
 }    // namespace
 }    // namespace test_library_points

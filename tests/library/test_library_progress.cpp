@@ -272,22 +272,5 @@ TEST(progress, an_error_of_a_later_part_has_the_number_of_its_point)
 }
 
 // Structs as an older header has them.
-TEST(progress, options_of_an_older_program_have_no_listener)
-{
-  const lsdcd::Mesh mesh = box();
-  const auto never = [](void *, const char *, double) {
-    ADD_FAILURE();
-    return 1;
-  };
-  lsdcd_grid_options options = lsdcd::GridOptions();
-  options.size = offsetof(lsdcd_grid_options, progress);
-  options.progress = never;    // beyond its end
-  const lsdcd::Grid grid(mesh, options);
-  lsdcd_body_options of_body = lsdcd::BodyOptions();
-  of_body.size = offsetof(lsdcd_body_options, progress);
-  of_body.progress = never;
-  const lsdcd::Body body(mesh, mesh, of_body);
-}
-
 }    // namespace
 }    // namespace test_library_progress
