@@ -153,9 +153,9 @@ exit $status
 
 
 def full_disk(checks, folder):
-    # Five .vtp of 140 kB, restart files of 16 kB, an STL of 68 kB, which needs as much once more
-    # while it is replaced.
-    program, usual = small_disk(folder, 800), lmp.LMP
+    # Five .vtp of 140 kB, restart files of 16 kB and 8 bytes, an STL of 68 kB, which needs as much once more while it is
+    # replaced. LAMMPS does not see that the last bytes of a file find no room, as these 8 would on 800 kB.
+    program, usual = small_disk(folder, 796), lmp.LMP
     if not program:
         print("SKIP a full disk: only root can mount one")
         return
@@ -174,7 +174,7 @@ def full_disk(checks, folder):
     for name in NAMES:
         shutil.copy(kept / name, folder)
     step = go_on(folder, "floor.stl")
-    checks.fact("and the run goes on from the other one", step >= 2 * EVERY, f"step {step}")
+    checks.fact("and the run goes on from the other one", step >= EVERY, f"step {step}")
 
 
 def main():
