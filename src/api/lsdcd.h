@@ -420,11 +420,10 @@ LSDCD_API int lsdcd_sub_model_get_facts(size_t k, lsdcd_sub_model_facts *facts);
 
 /* A number in place of the file's, in the caller's units. */
 typedef struct lsdcd_override {
-  const char *
-      of; /* the material, where the number is of one; null: of both together, or of the one whose number the
-                     file lacks */
-  const char *
-      key; /* "youngs_modulus", "restitution", ...; "eta" is the number of a damping without restitution */
+  /* The material that has the number; null: both together, or the one that lacks it in the file. */
+  const char *of;
+  /* "youngs_modulus", "restitution", ...; "eta" is the number of a damping without restitution. */
+  const char *key;
   double value;
 } lsdcd_override;
 
@@ -672,11 +671,10 @@ LSDCD_API int lsdcd_wall_make(const char *const *words, size_t n, const lsdcd_wa
 typedef struct lsdcd_spheres {
   size_t size; /* of this struct */
   size_t n;
-  ptrdiff_t row;   /* of all arrays of vectors, 3 at least; 0: 3 */
-  const double *x; /* length, finite */
-  const double
-      *v; /* length/time, finite; looked at in steps of setup, the first and changed ones */
-  const double *omega;       /* 1/time, likewise */
+  ptrdiff_t row;             /* of all arrays of vectors, 3 at least; 0: 3 */
+  const double *x;           /* length, finite */
+  const double *v;           /* length/time, finite */
+  const double *omega;       /* 1/time, finite */
   const double *radius;      /* >= 0, finite */
   const double *mass;        /* > 0, finite */
   double *force;             /* added to */
@@ -712,7 +710,7 @@ typedef struct lsdcd_wall_step {
  * With a `host`, and on a device, a step does not wait to know of each sphere: their errors come with the next
  * call that is not "alone", and the arrays of a step stay until then. On a device forces are there once the
  * stream has done all its work. Only steps that look, see `changed`, copy some of the arrays to the host, and
- * only these check types, radii, masses and, on a device, places. Own. */
+ * only these check types, radii, masses, velocities and, on a device, places. Own. */
 LSDCD_API int lsdcd_wall_step_spheres(lsdcd_wall *wall, const lsdcd_spheres *spheres,
                                       const lsdcd_wall_step *step);
 /* Before the next step: sphere i of n is the one that was from[i], or with -1 a new one. The history of its
