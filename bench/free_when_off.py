@@ -7,8 +7,8 @@
 usage: free_when_off.py [--build DIR]
 
 Compiles the kernels of four laws twice: with the sources as they are, and with a copy
-from which every branch of the effects (moving surfaces, records, contact torques, heat, extra memory)
-and what it reads has been cut out.
+from which every branch of the effects (moving surfaces, records, contact torques, heat, moving nodes,
+extra memory) has been cut out.
 Counts the instructions that run (callgrind) and those that the GPU's kernel has (SASS,
 where there is nvcc). Exits with 1 where two counts differ. DIR is a build of LSDCD with tests.
 """
@@ -25,16 +25,11 @@ from hard_cases import ROOT
 LAWS = ["hooke", "hooke/history", "hertz/history", "granular hertz, linear_history"]
 NVCC = shutil.which("nvcc") or "/usr/local/cuda/bin/nvcc"
 FLAGS = ["-std=c++17", "-O3", "-DNDEBUG", "-ffp-contract=off"]
-# Effects' branches in headers of the kernel, and the members that only they read.
+# Effects' branches in headers of the kernel.
 WALL_FORCE = "engine/step/contact_forces.h"
 BRANCHES = {WALL_FORCE: ["Law::kSurface", "Law::kRecords", "Law::kContactTorque", "Law::kHeat",
-                         "Law::kExtra > 0"],
+                         "Law::kNodes", "Law::kExtra > 0"],
             "law/contact_model.h": ["kContactTorque", "kHeat", "kFull"]}
-MEMBERS = {WALL_FORCE: ["SurfaceMotion surface;", "bool surface_moves;", "Pose pose;",
-                        "Vec3 wall_velocity, wall_angular;", "WearModel wear;", "ContactRecord *records;",
-                        "Real *heat;", "Real *extra;", "const Real *extra;", "Real temperature;",
-                        "Real wall_temperature;"],
-           "law/contact.h": ["Vec3 omega;", "Real temperature_difference;"]}
 
 
 def end_of_statement(text, at):
@@ -57,7 +52,7 @@ def end_of_statement(text, at):
     return text.index(";", at) + 1
 
 
-def cut(text, branches, members, name):
+def cut(text, branches, name):
     for condition in branches:
         head = f"if constexpr ({condition})"
         if head not in text:
@@ -67,11 +62,6 @@ def cut(text, branches, members, name):
             end = end_of_statement(text, at + len(head))
             rest = re.match(r"\s*else\b", text[end:])
             text = text[:at] + text[end + (rest.end() if rest else 0):]
-    for member in members:
-        pattern = r"^ *" + re.escape(member) + r".*\n"
-        if not re.search(pattern, text, re.M):
-            sys.exit(f"{name} has no member '{member}': free_when_off.py needs its new name")
-        text = re.sub(pattern, "", text, count=1, flags=re.M)
     return text
 
 
@@ -90,10 +80,10 @@ def instructions_run(sources, build, law, folder):
                                                          ("src", "liblsdcd_core.a"))]
     runtime = os.path.join(os.path.dirname(NVCC), "..", "lib64", "libcudart_static.a")
     if os.path.exists(runtime):    # of a build with CUDA
-        libraries += [runtime, "-ldl", "-lpthread", "-lrt"]
+        libraries += [runtime, "-lpthread", "-lrt"]
     run(["g++", *FLAGS, "-fopenmp", f"-DPROBE_LAW={law}", "-I" + sources,
          "-I" + os.path.join(ROOT, "tests"), os.path.join(ROOT, "bench", "kernel_probe.cpp"),
-         *libraries, "-o", program])
+         *libraries, "-lzstd", "-lxxhash", "-ldl", "-o", program])
     text = run(["valgrind", "--tool=callgrind", "--callgrind-out-file=/dev/null",
                 "--toggle-collect=probed_kernel(*", program],
                env=dict(os.environ, OMP_NUM_THREADS="1"))
@@ -119,11 +109,11 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         whole, without = os.path.join(ROOT, "src"), os.path.join(folder, "src")
         shutil.copytree(whole, without)
-        for name in BRANCHES.keys() | MEMBERS.keys():
+        for name, branches in BRANCHES.items():
             with open(os.path.join(without, name)) as f:
                 text = f.read()
             with open(os.path.join(without, name), "w") as f:
-                f.write(cut(text, BRANCHES.get(name, []), MEMBERS.get(name, []), name))
+                f.write(cut(text, branches, name))
         differs = False
         print("| law | counted | with the effects' source | without it |")
         print("| --- | --- | --- | --- |")

@@ -52,7 +52,6 @@ int main()
   Real *numbers = reinterpret_cast<Real *>(&law);
   for (std::size_t k = 0; k < sizeof law / sizeof(Real); k++) numbers[k] = 0.5;
   ForceSettings settings = {};
-  settings.search = {true, 0};
   settings.dt = 1e-3;
   settings.update = true;
   const int contacts = probed_kernel(flat.view(), law, settings, spheres, springs);

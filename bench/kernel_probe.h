@@ -7,6 +7,7 @@
 
 #include "engine/step/compiled_law.h"
 #include "engine/step/contact_forces.h"
+#include "engine/step/narrow_phase.h"
 #include "law/contact_model.h"
 
 namespace lsdcd {
@@ -27,8 +28,9 @@ LSDCD_FN SphereResult probed_force(const GridView &grid, const ProbedLaw &law,
                                    const SphereSink &sink)
 {
   SphereResult out = {};
-  Touch<8> found;
-  touch<false>(grid, settings.search, {s.x, s.radius, s.radius, nullptr, 0}, nullptr, found);
+  CornerRule<8> rule;
+  WeightedContacts<8> found = {};
+  narrow_phase<false, false>(rule, grid, settings.search, {s.x, s.radius, s.radius}, nullptr, found);
   if (!found.set.overflow)
     add_contacts(grid, law, settings, s, found.set.view(), found.weight, sink, out);
   return out;
