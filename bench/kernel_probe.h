@@ -30,7 +30,8 @@ LSDCD_FN SphereResult probed_force(const GridView &grid, const ProbedLaw &law,
   SphereResult out = {};
   CornerRule<8> rule;
   WeightedContacts<8> found = {};
-  narrow_phase<false, false>(rule, grid, settings.search, {s.x, s.radius, s.radius}, nullptr, found);
+  narrow_phase<false, false>(rule, grid, settings.search, {s.x, s.radius, s.radius}, nullptr,
+                             found);
   if (!found.set.overflow)
     add_contacts(grid, law, settings, s, found.set.view(), found.weight, sink, out);
   return out;
