@@ -216,13 +216,12 @@ bool FixWallLsdcdKokkos<DeviceType>::others_only_add() const
 }
 
 template <class DeviceType>
-void FixWallLsdcdKokkos<DeviceType>::begin_step(const lsdcd::StepInput &input)
+void FixWallLsdcdKokkos<DeviceType>::begin_step(lsdcd::StepInput &input)
 {
   atomKK->sync(execution_space,
                X_MASK | V_MASK | OMEGA_MASK | RADIUS_MASK | RMASS_MASK | MASK_MASK | TYPE_MASK);
-  lsdcd::StepInput beside = input;
-  if (!lsdcd::kOnHost<DeviceType> && input.step.kind == lsdcd::Step::step) beside.when = when;
-  wall->begin(spheres(), beside);
+  if (!lsdcd::kOnHost<DeviceType> && input.step.kind == lsdcd::Step::step) input.when = when;
+  wall->begin(spheres(), input);
 }
 
 // The GPU is at the forces between atoms, and finds the wall's beside them.

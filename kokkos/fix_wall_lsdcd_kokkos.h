@@ -33,7 +33,7 @@ class FixWallLsdcdKokkos : public FixWallLsdcd, public KokkosBase {
 #endif
 
  protected:
-  void begin_step(const lsdcd::StepInput &) override;
+  void begin_step(lsdcd::StepInput &) override;
   void finish_step() override;
   void fill_masses() override;
   void need_on_host() override;

@@ -10,7 +10,6 @@
 #include "query/radius_error.h"
 
 #include <algorithm>
-#include <cstring>
 #include <locale.h>
 #include <new>
 #include <string>

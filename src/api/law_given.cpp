@@ -233,8 +233,8 @@ void read_overrides(const lsdcd_materials &given, MaterialPair &pair)
   }
 }
 
-// What an lsdcd_law says before it is filled.
-void read_beside(const lsdcd_law &law, MaterialPair &pair)
+// Reads what an lsdcd_law says before it is filled.
+void read_beside(lsdcd_law law, MaterialPair &pair)
 {
   if (law.style.name)
     refuse_field(
@@ -249,8 +249,7 @@ void read_beside(const lsdcd_law &law, MaterialPair &pair)
   }
   for (const Family family : {Family::style, Family::damping, Family::tangential, Family::rolling,
                               Family::twisting, Family::heat, Family::cohesion}) {
-    lsdcd_law copy = law;
-    const lsdcd_sub_model given = field_in(copy, family);
+    const lsdcd_sub_model &given = field_in(law, family);
     const std::string field = std::string("law.") + field_of(family);
     if (given.name)
       pair.beside.push_back(sub_model_of(given, family, false, true, field));

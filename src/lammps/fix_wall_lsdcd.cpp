@@ -498,7 +498,7 @@ std::vector<double> FixWallLsdcd::read_inputs()
   return values;
 }
 
-void FixWallLsdcd::begin_step(const lsdcd::StepInput &input)
+void FixWallLsdcd::begin_step(lsdcd::StepInput &input)
 {
   const lsdcd::HostSpheres s = spheres();
   wall->begin(s, input);

@@ -108,7 +108,7 @@ class FixWallLsdcd : public Fix, protected OwnMessages {
                        kStop = kNodes + kOfNodes, kMean = kStop + 1, kOfMean = 6;
 
   // wall/lsdcd/kk does these in its own way.
-  virtual void begin_step(const lsdcd::StepInput &);
+  virtual void begin_step(lsdcd::StepInput &);
   virtual void finish_step();
   virtual lsdcd::HostSpheres spheres();
   virtual void fill_masses();
