@@ -149,6 +149,8 @@ typedef struct lsdcd_grid lsdcd_grid;
 /* Distances of a grid with precision LSDCD_FLOAT are off by at most 3e-6 (cutoff + 14 cell). */
 enum { LSDCD_DOUBLE = 0, LSDCD_FLOAT = 1 };
 enum { LSDCD_CPU = 0, LSDCD_CUDA = 1 };
+/* Of a wall: LSDCD_CUDA in steps with so many spheres near it that a GPU is quicker, and where there is one; else LSDCD_CPU. */
+enum { LSDCD_AUTO = 2 };
 
 typedef struct lsdcd_grid_options {
   size_t size;       /* of this struct */
@@ -529,6 +531,10 @@ typedef struct lsdcd_motion {
   int columns;
   int straight; /* 1: straight between rows, at constant velocities; 0: a cubic spline */
   int repeats;  /* 1: the last row, the first one but for whole turns, begins the next period */
+  int degrees;  /* 1: its angles and rotation vectors are degrees */
+  /* A text file of such rows, in place of rows, n_rows and columns: numbers between blanks or commas, # begins a comment. An axis
+   * says that its rows have an angle about it. The first process reads it. Null: none. */
+  const char *file;
 } lsdcd_motion;
 
 /* Moves a mesh along an axis, or turns it about one, so that it pushes the spheres with a force, or a torque. */
@@ -637,8 +643,8 @@ typedef struct lsdcd_wall_spec {
   double cell;      /* likewise, length; 0: chosen */
   double memory;    /* likewise, bytes, of each mesh; 0: chosen */
   double rmax;      /* the largest radius that there will be; 0: that of the spheres */
-  /* Where forces are computed for spheres in arrays of the host: LSDCD_CPU, or LSDCD_CUDA, with copies in each step. Of
-   * arrays on a device it is LSDCD_CPU: they are computed there. */
+  /* Where forces are computed for spheres in arrays of the host: LSDCD_CPU, or LSDCD_CUDA, with copies in each step, or
+   * LSDCD_AUTO. Of arrays on a device it is LSDCD_CPU: they are computed there. */
   int device;
   int wear;                /* LSDCD_NO_WEAR, LSDCD_ARCHARD or LSDCD_FINNIE */
   double wear_coefficient; /* K; of LSDCD_FINNIE 1/pressure */
@@ -651,6 +657,7 @@ typedef struct lsdcd_wall_spec {
   int brief;         /* 1: the log has one line */
   /* Steps of each mean of force and torque in lsdcd_wall_totals, as a solver of a fluid samples them; 0: there are none */
   int average_every;
+  int each_contact; /* 1: lsdcd_wall_get_contacts() will be called */
 } lsdcd_wall_spec;
 /* `options` may be null: all defaults. All that the structs point to is copied or shared. LSDCD_ERROR_ARGUMENT names
  * the field that makes no sense, its value and what to give. Any. */
@@ -793,6 +800,21 @@ LSDCD_API int lsdcd_wall_get_node_forces(lsdcd_wall *wall, int mesh, double *for
  * The torque is about the point `about`, of the box, null: the origin. Own. */
 LSDCD_API int lsdcd_wall_get_wrench(lsdcd_wall *wall, int mesh, const double *about, double *force,
                                     double *torque);
+
+/* Contacts of this process in the last step. Arrays hold `room` of them, packed; those that are null are not asked for. */
+typedef struct lsdcd_wall_contacts {
+  size_t size;       /* of this struct */
+  size_t room;       /* 0: only `contacts` is asked for */
+  ptrdiff_t *sphere; /* its place in the arrays of that step, from 0 */
+  int *mesh;         /* from 0 */
+  double *force;     /* 3 numbers each, on the sphere */
+  double *point;     /* 3 numbers each, of the mesh, the closest to the centre */
+  double *overlap;   /* length, at the begin of the step, as is the point */
+  size_t
+      contacts; /* answer: all there are, so the room that all take; with less room no array is written */
+} lsdcd_wall_contacts;
+/* Of a wall with each_contact. Of a sphere in several they come one after the other. Own. */
+LSDCD_API int lsdcd_wall_get_contacts(lsdcd_wall *wall, lsdcd_wall_contacts *contacts);
 /* Other motions for a mesh, from where it is; n 0: it stops there. Not of one with `posed_by_caller`. Own. */
 LSDCD_API int lsdcd_wall_set_motion(lsdcd_wall *wall, int mesh, const lsdcd_motion *motions,
                                     size_t n);

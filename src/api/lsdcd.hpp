@@ -642,6 +642,16 @@ struct Motion : lsdcd_motion {
     m.columns = columns;
     return m;
   }
+  // Such rows of a text file, see lsdcd_motion; with an axis where rows have an angle about it. `file` must live as long as `rows`.
+  static Motion table(const std::string &file, const std::array<double, 3> &point = {0, 0, 0},
+                      const std::array<double, 3> &axis = {0, 0, 0})
+  {
+    Motion m = made(LSDCD_TABLE, {}, {}, point, axis, 0);
+    m.file = file.c_str();
+    return m;
+  }
+  static Motion table(const std::string &&, const std::array<double, 3> & = {0, 0, 0},
+                      const std::array<double, 3> & = {0, 0, 0}) = delete;
   static Motion table(std::vector<double> &&, int, const std::array<double, 3> & = {0, 0, 0},
                       const std::array<double, 3> & = {0, 0, 0}) = delete;
 
@@ -753,7 +763,8 @@ struct WallSpec {
   int wear_deform_every = 0;    // steps; 0: wear moves no mesh
   double wear_deform_factor = 1;
   bool periodic_ends = false, brief = false;
-  int average_every = 0;    // steps
+  int average_every = 0;        // steps
+  bool each_contact = false;    // Wall::contacts() will be called
 };
 
 namespace c {
@@ -847,6 +858,7 @@ class Spec {
     spec_.periodic_ends = from.periodic_ends;
     spec_.brief = from.brief;
     spec_.average_every = from.average_every;
+    spec_.each_contact = from.each_contact;
   }
   Spec(const Spec &) = delete;
   Spec &operator=(const Spec &) = delete;
@@ -941,6 +953,14 @@ inline Law Law::from_material(const Materials &materials, std::string *report)
 {
   return from_material(materials, Law(), report);
 }
+
+// A contact of the last step; fields as in lsdcd_wall_contacts.
+struct WallContact {
+  std::ptrdiff_t sphere = 0;
+  int mesh = 0;
+  std::array<double, 3> force = {}, point = {};
+  double overlap = 0;
+};
 
 // All that is 0 has its default.
 struct WallOptions : lsdcd_wall_options {
@@ -1051,6 +1071,34 @@ class Wall {
     Wrench w;
     c::check(lsdcd_wall_get_wrench(get(), mesh, about.data(), w.force.data(), w.torque.data()));
     return w;
+  }
+  // Contacts of this process in the last step, of a wall with each_contact.
+  std::vector<WallContact> contacts()
+  {
+    lsdcd_wall_contacts ask = {};
+    ask.size = sizeof ask;
+    c::check(lsdcd_wall_get_contacts(get(), &ask));
+    const std::size_t n = ask.room = ask.contacts;
+    std::vector<std::ptrdiff_t> spheres(n);
+    std::vector<int> meshes(n);
+    std::vector<double> forces(3 * n), points(3 * n), overlaps(n);
+    ask.sphere = spheres.data();
+    ask.mesh = meshes.data();
+    ask.force = forces.data();
+    ask.point = points.data();
+    ask.overlap = overlaps.data();
+    c::check(lsdcd_wall_get_contacts(get(), &ask));
+    std::vector<WallContact> all(n);
+    for (std::size_t i = 0; i < n; i++) {
+      all[i].sphere = spheres[i];
+      all[i].mesh = meshes[i];
+      all[i].overlap = overlaps[i];
+      for (std::size_t k = 0; k < 3; k++) {
+        all[i].force[k] = forces[3 * i + k];
+        all[i].point[k] = points[3 * i + k];
+      }
+    }
+    return all;
   }
   // Other motions, from where the mesh is; none: it stops there.
   void set_motion(int mesh, const std::vector<Motion> &motions)

@@ -154,6 +154,32 @@ int lsdcd_wall_get_totals(lsdcd_wall *wall, int mesh, lsdcd_wall_totals *totals)
   });
 }
 
+int lsdcd_wall_get_contacts(lsdcd_wall *wall, lsdcd_wall_contacts *contacts)
+{
+  return guard_wall(wall, [&] {
+    const lsdcd_wall_contacts to = checked(contacts, "lsdcd_wall_contacts");
+    if (!wall->in->spec().each_contact)
+      throw ApiError(LSDCD_ERROR_ARGUMENT,
+                     "this wall does not keep its contacts: set each_contact in its "
+                     "lsdcd_wall_spec when the wall is made");
+    tell_late(*wall);
+    std::vector<WallContact> found;
+    wall->in->for_contacts([&](const WallContact &c) { found.push_back(c); });
+    contacts->contacts = found.size();
+    if (found.size() > to.room) return;
+    for (std::size_t i = 0; i < found.size(); i++) {
+      const WallContact &c = found[i];
+      if (to.sphere) to.sphere[i] = c.sphere;
+      if (to.mesh) to.mesh[i] = c.mesh;
+      if (to.overlap) to.overlap[i] = c.overlap;
+      for (int k = 0; k < 3; k++) {
+        if (to.force) to.force[3 * i + k] = c.force[k];
+        if (to.point) to.point[3 * i + k] = c.point[k];
+      }
+    }
+  });
+}
+
 int lsdcd_wall_get_pose(lsdcd_wall *wall, int mesh, double *matrix)
 {
   return guard_wall(wall, [&] {

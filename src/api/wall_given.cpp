@@ -42,20 +42,37 @@ void need_elements(const T *array, std::size_t n, const std::string &field)
                  "give an array of " + std::to_string(n) + ", or say that there are 0");
 }
 
-// Other kinds of motion leave at 0 what a table alone uses.
-void check_no_table(const lsdcd_motion &given, const std::string &field, const char *kind)
+void check_no_rows(const lsdcd_motion &given, const std::string &field, const char *kind)
 {
   if (given.rows)
     refuse_field(field + ".rows", "an array",
                  std::string(kind) + " does not use it: leave it null");
+  const double n_rows = static_cast<double>(given.n_rows), columns = given.columns;
+  check_zero(&n_rows, 1, field + ".n_rows", kind);
+  check_zero(&columns, 1, field + ".columns", kind);
+}
+
+// Other kinds of motion leave at 0 what a table alone uses.
+void check_no_table(const lsdcd_motion &given, const std::string &field, const char *kind)
+{
+  check_no_rows(given, field, kind);
+  if (given.file)
+    refuse_field(field + ".file", in_quotes(given.file),
+                 std::string(kind) + " does not use it: leave it null");
   const struct {
     const char *name;
-    double value;
-  } unused[] = {{".n_rows", static_cast<double>(given.n_rows)},
-                {".columns", static_cast<double>(given.columns)},
-                {".straight", static_cast<double>(given.straight)},
-                {".repeats", static_cast<double>(given.repeats)}};
-  for (const auto &u : unused) check_zero(&u.value, 1, field + u.name, kind);
+    int value;
+  } unused[] = {
+      {".straight", given.straight}, {".repeats", given.repeats}, {".degrees", given.degrees}};
+  for (const auto &u : unused) {
+    const double value = u.value;
+    check_zero(&value, 1, field + u.name, kind);
+  }
+}
+
+bool is_zero(const double *vector)
+{
+  return vector[0] == 0 && vector[1] == 0 && vector[2] == 0;
 }
 
 MotionTerm table_of(const lsdcd_motion &given, const std::string &field)
@@ -69,6 +86,17 @@ MotionTerm table_of(const lsdcd_motion &given, const std::string &field)
   term.kind = MotionKind::table;
   term.point = checked_vector(given.point, field + ".point");
   TableRows rows;
+  rows.options.linear = checked_flag(given.straight, field + ".straight");
+  rows.options.repeats = checked_flag(given.repeats, field + ".repeats");
+  rows.options.degrees = checked_flag(given.degrees, field + ".degrees");
+  if (given.file) {
+    check_no_rows(given, field, "a table of a file");
+    rows.options.has_axis = !is_zero(given.axis);
+    if (rows.options.has_axis) term.axis = checked_axis(given.axis, field + ".axis");
+    term.table_file = given.file;
+    term.table_options = rows.options;
+    return term;
+  }
   rows.columns = checked_choice(given.columns, field + ".columns", 9, "2, 4, 5, 7 or 8");
   if (given.n_rows == 0) refuse_field(field + ".n_rows", "0", "give two rows or more");
   need_elements(given.rows, given.n_rows, field + ".rows");
@@ -77,8 +105,6 @@ MotionTerm table_of(const lsdcd_motion &given, const std::string &field)
     term.axis = checked_axis(given.axis, field + ".axis");
   else
     check_zero(given.axis, 3, field + ".axis", "a table without angles about an axis");
-  rows.options.linear = checked_flag(given.straight, field + ".straight");
-  rows.options.repeats = checked_flag(given.repeats, field + ".repeats");
   rows.numbers.assign(given.rows,
                       given.rows + given.n_rows * static_cast<std::size_t>(rows.columns));
   term.table_options = rows.options;
@@ -327,15 +353,18 @@ void read_search(const lsdcd_wall_spec &given, bool on_device, WallSpec &wall)
   wall.rmax = checked_number(given.rmax, "rmax", 0);
   const double bytes = checked_number(given.memory, "memory", 0, 1e15);
   if (bytes > 0) wall.memory_budget = static_cast<std::size_t>(bytes);
-  const int device = checked_choice(given.device, "device", 2, "LSDCD_CPU or LSDCD_CUDA");
+  const int device =
+      checked_choice(given.device, "device", 3, "LSDCD_CPU, LSDCD_CUDA or LSDCD_AUTO");
   if (on_device && device != LSDCD_CPU)
     refuse_field(
-        "device", "LSDCD_CUDA",
+        "device", device == LSDCD_CUDA ? "LSDCD_CUDA" : "LSDCD_AUTO",
         "it is for arrays of the host; leave it 0, as the wall computes where the arrays of "
         "its spheres are");
-  wall.device = on_device ? Device::automatic : device == LSDCD_CUDA ? Device::cuda : Device::cpu;
+  const Device devices[] = {Device::cpu, Device::cuda, Device::automatic};
+  wall.device = on_device ? Device::automatic : devices[device];
   wall.periodic = checked_flag(given.periodic_ends, "periodic_ends");
   wall.brief = checked_flag(given.brief, "brief");
+  wall.each_contact = checked_flag(given.each_contact, "each_contact");
   wall.average_every = given.average_every;
   if (given.average_every < 0)
     refuse_field("average_every", std::to_string(given.average_every),

@@ -429,6 +429,15 @@ TEST_F(wall_spec, has_the_bits_of_words_for_motions_and_servos)
       dir.write("arm.txt", "0 0 0 0 0 0 0\n.005 0 .1 .02 .1 0 .05\n.02 0 0 0 0 0 0\n");
   api::Motion table = api::Motion::table(places, 7, {1, 2, 0});
   table.straight = table.repeats = 1;
+  api::Motion of_file = api::Motion::table(arm, {1, 2, 0});
+  of_file.straight = of_file.repeats = 1;
+  const std::vector<double> angles = {0, 0, 0.01, 0.5, 0.02, 0};
+  const std::string turn = dir.write("turn.txt", "# degrees\n0, 0\n.01, .5\n.02, 0\n");
+  api::Motion lever = api::Motion::table(angles, 2, {1, 0, 0}, {0, 1, 0}),
+              lever_of_file = api::Motion::table(turn, {1, 0, 0}, {0, 1, 0});
+  lever.degrees = lever_of_file.degrees = 1;
+  const std::vector<std::string> lever_words = {"motion", "table", turn, "axis", "1",      "0",
+                                                "0",      "0",     "1",  "0",    "degrees"};
   const api::Mesh mesh(file_);
   const struct {
     std::vector<std::string> words;
@@ -444,13 +453,21 @@ TEST_F(wall_spec, has_the_bits_of_words_for_motions_and_servos)
        {api::Motion::transrot({0, 0, 0.1}, {1, 2, 0}, {0, 0, 2}, 3)}},
       {{"motion", "riggle", "1", "2", "0", "0", "0", "2", "90", "3"},
        {api::Motion::riggle({1, 2, 0}, {0, 0, 2}, 90 * (3.14159265358979323846 / 180), 3)}},
-      {{"motion", "table", arm, "about", "1", "2", "0", "linear", "repeat"}, {table}}};
+      {{"motion", "table", arm, "about", "1", "2", "0", "linear", "repeat"}, {table}},
+      {{"motion", "table", arm, "about", "1", "2", "0", "linear", "repeat"}, {of_file}},
+      {lever_words, {lever}},
+      {lever_words, {lever_of_file}}};
   for (const auto &row : rows) {
     api::WallSpec spec = floor_of(hooke_history(), mesh);
     spec.meshes[0].motions = row.motions;
     api::Wall by_words(words(row.words)), by_spec(spec);
     EXPECT_EQ(Pile().go(by_spec), Pile().go(by_words)) << row.words[1];
   }
+  const std::string none = file_ + ".txt";
+  api::WallSpec without = floor_of(hooke_history(), mesh);
+  without.meshes[0].motions = {api::Motion::table(none)};
+  EXPECT_EQ(code_of([&] { api::Wall wall(without); }), LSDCD_ERROR_INPUT);
+  EXPECT_NE(std::string(lsdcd_last_error()).find("cannot read the table '" + none), none.npos);
   api::Servo servo;
   servo.axis[2] = 1;
   servo.target = 25;
@@ -581,6 +598,68 @@ TEST_F(wall_spec, means_are_those_of_the_steps)
   EXPECT_NE(sum, 0);
   EXPECT_NEAR(wall.totals(0).mean_force[2], sum / 5, 1e-13 * std::fabs(sum));
   EXPECT_EQ(wall.totals(-1).mean_force[2], wall.totals(0).mean_force[2]);
+}
+
+// A sphere in the edge of two walls touches both; one beside it touches the floor alone.
+TEST_F(wall_spec, gives_each_contact_of_the_last_step)
+{
+  const api::Mesh mesh(file_);
+  api::WallSpec spec = floor_of(hooke_history(), mesh);
+  spec.each_contact = true;
+  spec.meshes.emplace_back(mesh, "side");
+  spec.meshes[1].placement.rotate({0, 1, 0}, 90);    // its normal is along x
+  api::Wall wall(spec);
+  EXPECT_TRUE(wall.contacts().empty());
+  Grains grains;
+  grains.add(5, 5, 0.47);
+  grains.add(0.48, 1, 0.49);
+  grains.step(wall);
+  const std::vector<api::WallContact> found = wall.contacts();
+  const struct {
+    std::ptrdiff_t sphere;
+    int mesh;
+    Vector force, point;
+    double overlap;
+  } wanted[] = {{0, 0, {0, 0, 30}, {5, 5, 0}, 0.03},
+                {1, 0, {0, 0, 10}, {0.48, 1, 0}, 0.01},
+                {1, 1, {20, 0, 0}, {0, 1, 0.49}, 0.02}};
+  ASSERT_EQ(found.size(), 3u);
+  for (const auto &row : wanted) {
+    const auto at = std::find_if(found.begin(), found.end(), [&](const api::WallContact &c) {
+      return c.sphere == row.sphere && c.mesh == row.mesh;
+    });
+    ASSERT_NE(at, found.end());
+    // Overlaps are differences of numbers of order one; forces kn times as much; the turn's matrix is rounded.
+    EXPECT_NEAR(at->overlap, row.overlap, kRounding);
+    for (std::size_t k = 0; k < 3; k++) {
+      EXPECT_NEAR(at->force[k], row.force[k], kN * kRounding);
+      EXPECT_NEAR(at->point[k], row.point[k], kRounding);
+    }
+  }
+  int spheres[] = {-7, -7};
+  lsdcd_wall_contacts few = {};
+  few.size = sizeof few;
+  few.room = 2;
+  few.mesh = spheres;
+  EXPECT_EQ(lsdcd_wall_get_contacts(wall.get(), &few), LSDCD_OK);
+  EXPECT_EQ(few.contacts, 3u);
+  EXPECT_EQ(spheres[0], -7);    // too little room: nothing is written
+  api::Wall without(floor_of(hooke_history(), mesh));
+  EXPECT_EQ(
+      text_of([&] { without.contacts(); }),
+      "this wall does not keep its contacts: set each_contact in its lsdcd_wall_spec when the "
+      "wall is made");
+}
+
+// Of six spheres near it no GPU is quicker.
+TEST_F(wall_spec, chooses_where_it_computes)
+{
+  const api::Mesh mesh(file_);
+  api::WallSpec spec = floor_of(hooke_history(), mesh);
+  api::Wall on_cpu(spec);
+  spec.device = LSDCD_AUTO;
+  api::Wall chosen(spec);
+  EXPECT_EQ(Pile().go(chosen), Pile().go(on_cpu));
 }
 
 // ---- wear that moves the wall ----------------------------------------------------------------
@@ -1483,6 +1562,12 @@ TEST_F(wall_spec, names_the_field_its_value_and_the_remedy)
        "`meshes[0].motions[0].rows` is an array: LSDCD_LINEAR does not use it"},
       {[&](Wrong &w) { with_motion(w).repeats = 1; },
        "`meshes[0].motions[0].repeats` is 1: LSDCD_LINEAR does not use it"},
+      {[&](Wrong &w) { with_motion(w).degrees = 1; },
+       "`meshes[0].motions[0].degrees` is 1: LSDCD_LINEAR does not use it"},
+      {[&](Wrong &w) { with_motion(w).file = "arm.txt"; },
+       "`meshes[0].motions[0].file` is \"arm.txt\": LSDCD_LINEAR does not use it"},
+      {[&](Wrong &w) { with_table(w).file = "arm.txt"; },
+       "`meshes[0].motions[0].rows` is an array: a table of a file does not use it"},
       {[&](Wrong &w) { with_table(w).n_rows = 0; }, "`meshes[0].motions[0].n_rows` is 0: give two"},
       {[&](Wrong &w) { with_table(w).rows = nullptr; },
        "`meshes[0].motions[0].rows` is null: give an array of 3"},
@@ -1535,7 +1620,9 @@ TEST_F(wall_spec, names_the_field_its_value_and_the_remedy)
       {[&](Wrong &w) { w.spec.nearest = 33; }, "`nearest` is 33: it is 0 for all, or 1 to 32"},
       {[&](Wrong &w) { w.spec.cell = -1; }, "`cell` is -1: it is "},
       {[&](Wrong &w) { w.spec.rmax = nan; }, "`rmax` is nan: give a finite number"},
-      {[&](Wrong &w) { w.spec.device = 2; }, "`device` is 2: it is LSDCD_CPU or LSDCD_CUDA"},
+      {[&](Wrong &w) { w.spec.device = 3; },
+       "`device` is 3: it is LSDCD_CPU, LSDCD_CUDA or LSDCD_AUTO"},
+      {[&](Wrong &w) { w.spec.each_contact = 2; }, "`each_contact` is 2: it is 0 or 1"},
       {[&](Wrong &w) { w.spec.wear = LSDCD_ARCHARD; }, "`hardness` is 0: it is above 0"},
       {[&](Wrong &w) { w.spec.wear_coefficient = 1; },
        "`wear_coefficient` is 1: LSDCD_NO_WEAR does not use it"},

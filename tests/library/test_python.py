@@ -440,12 +440,25 @@ def check_wall_specs():
                  {"motions": [lsdcd.Motion.table([[0, 0], [0.5, 0.3], [1, 0]], (1, 0, 0), (0, 1, 0), repeats=True),
                               lsdcd.Motion.riggle((0, 0, 0), (0, 0, 1), math.radians(5), 2)]},
                  f"motion table {table} axis 1 0 0 0 1 0 repeat motion riggle 0 0 0 0 0 1 5 2"),
+                ("a table of a file", hooke, "hooke/history 1000 300 20 NULL 0.5 1 mesh {}",
+                 {"motions": [lsdcd.Motion.table(table, (1, 0, 0), (0, 1, 0), straight=True, degrees=True)]},
+                 f"motion table {table} axis 1 0 0 0 1 0 linear degrees"),
                 ("a belt", hooke, "hooke/history 1000 300 20 NULL 0.5 1 mesh {}", {"surface_velocity": (1, 0, 0)},
                  "surface_vel 1 0 0")):
             by_words = forces(lsdcd.Wall(f"{words.format(floor)} {more} device cpu"))
             by_spec = forces(lsdcd.Wall(lsdcd.WallSpec(law, [lsdcd.WallMesh(mesh, **part)])))
             fact(f"a wall of {name} has the bits of its words", by_words.any() and by_words.tobytes() == by_spec.tobytes(),
                  by_words - by_spec)
+        each = lsdcd.Wall(lsdcd.WallSpec(hooke, [lsdcd.WallMesh(mesh)], compute="auto", each_contact=True))
+        fact("a wall that chooses where it computes, and keeps its contacts, has the bits of one that does not",
+             forces(each).tobytes() == forces(floor_of(hooke)).tobytes())
+        last, found = forces(each, 1)[:2], each.contacts()
+        # Overlaps are differences of numbers of order one, and forces kn = 1000 times as much.
+        fact("contacts have the places, overlaps and forces of the spheres", found.sphere.tolist() == [0, 1] and
+             found.mesh.tolist() == [0, 0] and np.allclose(found.point, x * [1, 1, 0], rtol=0, atol=1e-15) and
+             np.allclose(found.overlap, 0.5 - x[:, 2], rtol=0, atol=1e-15) and
+             np.allclose(found.force, last, rtol=0, atol=1e-12), found)
+        refused("contacts that a wall does not keep", "set each_contact", floor_of(hooke).contacts, lsdcd.Error)
         materials = os.path.join(folder, "some.lsdcd")
         with open(materials, "w", encoding="ascii") as f:
             f.write("units si\nmaterial glass\nyoungs_modulus 5e4 Pa\npoissons_ratio 0.23 1\npair glass glass\n"

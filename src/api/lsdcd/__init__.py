@@ -39,8 +39,8 @@ from . import _arrays
 from ._c import DEVICES as DEVICES, ERRORS as ERRORS, Error as Error, Progress as Progress
 from ._c import (_BodyFacts, _BodyOptions, _BodyState, _Broadcast, _Collision, _Contacts, _GridFacts, _GridOptions, _Host,
                  _MeshArrays, _MeshFacts, _Owner, _Query, _Record, _Reduce, _Show, _Spheres, _WallOptions, _WallStep,
-                 _WallTotals, _as_floats, _c_double, _c_int, _c_text, _check, _chosen, _facts, _flag, _int, _interrupts_held,
-                 _lib, _listened, _numbers, _real, _size, _sized, _text)
+                 _WallContacts, _WallTotals, _as_floats, _c_double, _c_int, _c_text, _check, _chosen, _facts, _flag, _int,
+                 _interrupts_held, _lib, _listened, _numbers, _real, _size, _sized, _text)
 from ._spec import (Law as Law, Motion as Motion, Placement as Placement, RigidBody as RigidBody, Servo as Servo,
                     SubModel as SubModel, SubModelFacts as SubModelFacts, WallMesh as WallMesh, WallSpec as WallSpec,
                     sub_models as sub_models)
@@ -598,6 +598,15 @@ class WallTotals(_Record):
     mean_torque: NDArray[np.float64]    # (3,) likewise
 
 
+class WallContacts(_Record):
+    """Contacts of a wall's last step, in this process; those of a sphere come one after the other."""
+    sphere: NDArray[np.intp]       # (n,) its place in the arrays of the step, from 0
+    mesh: NDArray[np.int32]        # (n,) from 0
+    force: NDArray[np.float64]     # (n, 3) on the sphere
+    point: NDArray[np.float64]     # (n, 3) of the mesh, the closest to the centre when the step began
+    overlap: NDArray[np.float64]   # (n,) length, then
+
+
 class Host(Protocol):
     """What a wall asks of a program of several processes, as lsdcd_host. Each function is called on all processes
     and changes the array in place. With mpi4py:
@@ -860,6 +869,18 @@ class Wall(_Owner):
             numbers = [_numbers(values, shape, name) for name, values in arrays.items()]
             places = [None if values is None else values.ctypes.data for values in numbers]
         self._do(_lib.lsdcd_wall_set_nodes, self._handle, self._mesh(mesh), *places, *[None] * (2 - len(places)))
+
+    def contacts(self) -> WallContacts:
+        """Contacts of this process in the last step, of a wall with `each_contact`. Raises Error for another one."""
+        ask = _sized(_WallContacts)
+        self._do(_lib.lsdcd_wall_get_contacts, self._handle, ctypes.byref(ask))
+        n = ask.room = ask.contacts
+        found = WallContacts(sphere=np.empty(n, np.intp), mesh=np.empty(n, np.int32), force=np.empty((n, 3)),
+                             point=np.empty((n, 3)), overlap=np.empty(n))
+        for name, array in vars(found).items():
+            setattr(ask, name, array.ctypes.data)
+        self._do(_lib.lsdcd_wall_get_contacts, self._handle, ctypes.byref(ask))
+        return found
 
     def nodes(self, mesh: int | str = 0) -> NDArray[np.float64]:
         """Where the vertices of a mesh with nodes_by_caller, or of one that wear moves (wear_deform), are after the last step,

@@ -93,7 +93,7 @@ _TypeLaw = _struct("_TypeLaw", ("first_type", _int), ("last_type", _int), ("law"
 _Motion = _struct(
     "_Motion", ("kind", _int), ("velocity", _real * 3), ("amplitude", _real * 3), ("point", _real * 3), ("axis", _real * 3),
     ("period", _real), ("angle", _real), ("rows", _at), ("n_rows", _size), ("columns", _int), ("straight", _int),
-    ("repeats", _int))
+    ("repeats", _int), ("degrees", _int), ("file", ctypes.c_char_p))
 _Servo = _struct(
     "_Servo", ("turns", _int), ("axis", _real * 3), ("point", _real * 3), ("target", _real), ("max_speed", _real),
     ("max_gain", _real), ("lo", _real), ("hi", _real))
@@ -117,7 +117,10 @@ _WallSpec = _struct(
     "_WallSpec", ("law", _at), ("meshes", _at), ("n_meshes", _size), ("corner", _int), ("side", _int),
     ("nearest", _int), ("cell", _real), ("memory", _real), ("rmax", _real), ("device", _int), ("wear", _int),
     ("wear_coefficient", _real), ("hardness", _real), ("wear_deform_every", _int), ("wear_deform_factor", _real),
-    ("periodic_ends", _int), ("brief", _int), ("average_every", _int))
+    ("periodic_ends", _int), ("brief", _int), ("average_every", _int), ("each_contact", _int))
+_WallContacts = _struct(
+    "_WallContacts", ("room", _size), ("sphere", _at), ("mesh", _at), ("force", _at), ("point", _at), ("overlap", _at),
+    ("contacts", _size))
 
 _Show = ctypes.CFUNCTYPE(None, _at, _int, ctypes.c_char_p)
 _Reduce = ctypes.CFUNCTYPE(_int, _at, ctypes.POINTER(_real), _int)
@@ -170,7 +173,7 @@ def _load() -> Any:
     lib.lsdcd_mesh_from_faces.argtypes = [_at, _int, _size, _at, _size, _real, _at]
     for call in ("mesh_get_facts", "mesh_get_arrays", "grid_get_facts", "query_host", "contacts_host", "body_get_facts", "collide"):
         getattr(lib, "lsdcd_" + call).argtypes = [_at, _at]
-    lib.lsdcd_query_stream.argtypes = [_at, _at]
+    lib.lsdcd_query_stream.argtypes = lib.lsdcd_wall_get_contacts.argtypes = [_at, _at]
     lib.lsdcd_grid_build.argtypes = lib.lsdcd_stream_open.argtypes = [_at, _at, _at]
     lib.lsdcd_body_make.argtypes = [_at, _at, _at, _at]
     lib.lsdcd_wall_make.argtypes = [_at, _size, _at, _at]

@@ -252,20 +252,25 @@ class Motion(_Spec):
 
     @classmethod
     @_noted
-    def table(cls, rows: ArrayLike, point: ArrayLike = (0, 0, 0), axis: ArrayLike | None = None, straight: bool = False,
-              repeats: bool = False) -> Motion:
+    def table(cls, rows: ArrayLike | str | os.PathLike[str], point: ArrayLike = (0, 0, 0), axis: ArrayLike | None = None,
+              straight: bool = False, repeats: bool = False, degrees: bool = False) -> Motion:
         """A curve through `rows`, (n, k): times, which ascend, and then with k = 2 an angle about `axis`, with 4 a displacement
         x y z, with 5 both, with 7 a displacement and a rotation vector, with 8 a displacement and a quaternion w x y z.
-        Angles are in radians. x goes to R (x - point) + point + displacement; before the first row and from the last one on it
+        Angles are in radians, or with `degrees` in degrees. In place of rows, the name of a text file of them, of numbers between
+        blanks or commas; # begins a comment. x goes to R (x - point) + point + displacement; before the first row and from the last one on it
         rests there. A cubic spline, or with `straight` straight between rows, at constant velocities. With `repeats` the last
         row, equal to the first but for whole turns, begins the next period."""
+        motion = cls._made(6, point=point, axis=(0, 0, 0) if axis is None else axis)
+        given = motion._struct
+        given.straight, given.repeats = _flag(straight, "straight"), _flag(repeats, "repeats")
+        given.degrees = _flag(degrees, "degrees")
+        if isinstance(rows, (str, os.PathLike)):
+            given.file = _c_text(rows, "rows")
+            return motion
         numbers = np.array(_as_floats(rows, "rows"), dtype=np.float64, order="C")    # a copy: the caller may go on with rows
         if numbers.ndim != 2:
             raise ValueError(f"rows has the shape {numbers.shape}, not (n, 2), (n, 4), (n, 5), (n, 7) or (n, 8)")
-        motion = cls._made(6, point=point, axis=(0, 0, 0) if axis is None else axis)
-        for name, value in (("rows", numbers.ctypes.data), ("n_rows", len(numbers)), ("columns", numbers.shape[1]),
-                            ("straight", _flag(straight, "straight")), ("repeats", _flag(repeats, "repeats"))):
-            setattr(motion._struct, name, value)
+        given.rows, given.n_rows, given.columns = numbers.ctypes.data, len(numbers), numbers.shape[1]
         motion._kept = numbers
         return motion
 
@@ -384,18 +389,19 @@ class WallSpec(_Spec):
     `corner`: "blend", contacts of a sphere at a corner share their overlap, or "sum", their forces add. `side`: "both",
     "in" or "out", where spheres belong; one side needs closed meshes whose triangles are wound alike. `nearest` 0: exact;
     N: only the N triangles nearest to a cell. `cell`, length, and `memory`, bytes of each mesh: of its grid, 0: chosen. `rmax`: the largest radius
-    that there will be, 0: that of the spheres. `compute`: "cpu" or "cuda", for spheres in arrays of the host. `wear`:
+    that there will be, 0: that of the spheres. `compute`: "cpu", "cuda" or, by how many spheres
+    are near the wall, "auto", for spheres in arrays of the host. `wear`:
     None, ("archard", K, H) with the hardness H, a pressure, or ("finnie", K), 1/pressure. `wear_deform`: (steps, factor),
     every so many steps wear moves the vertices of the meshes, by a volume of so many times what has worn; None: they stay.
     `periodic_ends`: meshes are meant to end at periodic faces. `brief`: one line in the log. `average`: steps of the means of
-    force and torque in Wall.totals(), 0: there are none."""
+    force and torque in Wall.totals(), 0: there are none. `each_contact`: Wall.contacts() will be called."""
 
     @_noted
     def __init__(self, law: Law, meshes: Sequence[WallMesh], corner: str = "blend", side: str = "both",
                  nearest: int = 0, cell: float = 0.0, memory: float = 0.0, rmax: float = 0.0,
                  compute: str = "cpu", wear: tuple[str, float] | tuple[str, float, float] | None = None,
                  periodic_ends: bool = False, brief: bool = False, wear_deform: tuple[int, float] | None = None,
-                 average: int = 0) -> None:
+                 average: int = 0, each_contact: bool = False) -> None:
         parts = [_instance(m, WallMesh, "a mesh of the wall") for m in meshes]
         array = (_WallMesh * len(parts))(*(part._struct for part in parts))
         numbers = [_c_double(n, "a number of wear") for n in wear[1:]] if wear else []
@@ -410,9 +416,10 @@ class WallSpec(_Spec):
             n_meshes=len(parts), corner=_chosen("corner", corner, ("blend", "sum")),
             side=_chosen("side", side, ("both", "in", "out")),
             nearest=nearest, cell=cell, memory=memory,
-            rmax=rmax, device=_chosen("compute", compute, DEVICES), wear=model, wear_coefficient=numbers[0] if wear else 0.0,
+            rmax=rmax, device=_chosen("compute", compute, (*DEVICES, "auto")), wear=model, wear_coefficient=numbers[0] if wear else 0.0,
             hardness=numbers[1] if model == 1 else 0.0, wear_deform_every=every, wear_deform_factor=factor,
-            periodic_ends=_flag(periodic_ends, "periodic_ends"), brief=_flag(brief, "brief"), average_every=average)
+            periodic_ends=_flag(periodic_ends, "periodic_ends"), brief=_flag(brief, "brief"), average_every=average,
+            each_contact=_flag(each_contact, "each_contact"))
         self._kept = (law, parts, array)    # what the struct points to
 
     def _names(self) -> list[str]:
