@@ -65,27 +65,9 @@ def walls(rows):
     return [r for r in rows if r["case"] in CASES.values()]
 
 
-def step_table(rows):
-    mine = [r for r in walls(rows) if facts(r)["ranks"] == "1"]
-
-    def cells(r):
-        f = facts(r)
-        without = beside(rows, r, NO_WALL)
-        return [r["case"], count(r["triangles"]), count(r["spheres"]), r["order"], f["host"],
-                count(f["touching"]), f"{100 * int(f['touching']) / int(r['spheres']):.2g}",
-                f"{f['lists']} in {f['wall_steps']}", ms(r), ms(without), f"{ratio_of(r, without):.3f}",
-                *[other(rows, r, style) for style in ("wall/gran", "wall/gran/kk")]]
-
-    heads = ["bed", "triangles", "atoms", "order", "LAMMPS", "contacts with the wall", "per 100 atoms",
-             "lists of near atoms",
-             "with the wall, ms", "without, ms", "ratio",
-             "LAMMPS's wall/gran, ms", "wall/gran/kk, ms"]
-    return table(mine, heads, cells)
-
-
 def cost_table(on_cpu, on_gpu):
     """What the wall adds to a step, in per cent: a line for each bed and its size. Of several LAMMPS the newest that was
-    timed in sorted order, and those in which LAMMPS's own wall was timed on the GPU. All are in the notes."""
+    timed in sorted order, and those in which LAMMPS's own wall was timed on the GPU."""
     rows = on_gpu + on_cpu
     beds = {}
     for r in walls(rows):
@@ -124,13 +106,6 @@ def cost_table(on_cpu, on_gpu):
             "\n".join(f"* {name}: commit {commit}." for name, commit in commits.items()))
 
 
-def other(rows, row, style):
-    r = beside(rows, row, ", " + style)
-    if not r:
-        return ""
-    return ms(r) if r["median_ms"] else facts(r)["result"].replace("_", " ")
-
-
 def scaling_table(rows):
     mine = []
     for r in walls(rows):
@@ -155,44 +130,10 @@ def scaling_table(rows):
     return table(mine, heads, cells)
 
 
-def copies_table(rows):
-    mine = [r for r in rows if r["case"] in [case + COPIES for case in CASES.values()]]
-    if not mine:
-        return "No rows are kept yet."
-
-    def cells(r):
-        bed = dict(r, case=r["case"][:-len(COPIES)])
-        f, g = facts(r), facts(beside(rows, bed, NO_WALL + COPIES))
-        both = [f"{f[name]}, {g[name]}" for name in ("copies", "bytes", "largest", "list_copies",
-                                                     "list_bytes", "seen")]
-        return [bed["case"], count(r["spheres"]), f["ranks"], r["order"], r["device"], f["host"],
-                f["steps"], *both[:3], f["list_steps"], *both[3:]]
-
-    heads = ["bed", "atoms", "processes", "order", "device", "LAMMPS", "steps", "copies in a step",
-             "bytes in a step", "largest", "steps with new neighbour lists", "copies in one",
-             "bytes in one", "all of any kind"]
-    return table(mine, heads, cells)
-
-
-def machines(rows):
-    lines = []
-    for name in dict.fromkeys((r["device"], r["compiler"]) for r in rows):
-        mine = [r for r in rows if (r["device"], r["compiler"]) == name]
-        commits = ", ".join(dict.fromkeys(r["commit"] for r in mine))
-        runs = ", ".join(dict.fromkeys(f"{r['repeats']} runs of {facts(r)['steps']} steps"
-                                       for r in mine if r["median_ms"]))
-        words = ", ".join(dict.fromkeys(f"`{facts(r)['flags'].replace('_', ' ')}`" for r in mine))
-        lines.append(f"* {name[0]}: commit {commits}, LAMMPS compiled by {name[1]}, {words}; "
-                     f"medians of {runs} (least to most).")
-    return "\n".join(lines) or "* No rows are kept yet."
-
-
 def parts(on_cpu, on_gpu):
     """The generated parts of the document, with their markers."""
     text = {"cost": cost_table(on_cpu, on_gpu),
-            "kokkos-cuda": step_table(on_gpu) + "\n\n" + machines(on_gpu),
-            "kokkos-cpu": step_table(on_cpu) + "\n\n" + machines(on_cpu),
-            "kokkos-scaling": scaling_table(on_gpu), "kokkos-copies": copies_table(on_gpu + on_cpu)}
+            "kokkos-scaling": scaling_table(on_gpu)}
     return performance.between_markers(text)
 
 

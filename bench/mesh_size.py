@@ -11,48 +11,16 @@ import subprocess
 
 import lammps_runs
 import performance
-from effects import has_gpu, table
+from effects import has_gpu
 from hard_cases import commit
-from performance import count, facts, number
+from performance import facts
 from performance_plots import FONT, STYLES, label, legible, write_image
 
-KEPT, ANEW = "hertz/history, kept", "hertz/history, chosen anew"
-
-
-def find(rows, like, case):
-    return performance.find(rows, case=case, triangles=like["triangles"], order=like["order"])
-
-
-def short_name(row):
-    """CPU, or the name of the GPU; the whole name stands below the table."""
-    return row["device"].replace("CUDA, ", "").split(",")[0]
+KEPT = "hertz/history, kept"
 
 
 def rows_of_all():
     return {device: lammps_runs.read_rows("mesh-size", device=device) for device in performance.DEVICES}
-
-
-def kept_parts():
-    """The generated part of the document, with its markers."""
-    return parts(rows_of_all())
-
-
-def parts(rows_of):
-    rows = [r for device in rows_of.values() for r in device]
-
-    def cells(r):
-        f, anew = facts(r), find(rows_of["cuda" if "CUDA" in r["device"] else "cpu"], r, ANEW)
-        first = performance.find([x for x in rows if x["device"] == r["device"]], case=KEPT, order=r["order"])
-        return [count(r["triangles"]), short_name(r), count(r["spheres"]),
-                number(r["median_ms"]), f["ns_per_contact"],
-                f"{float(f['ns_per_contact']) / float(facts(first)['ns_per_contact']):.2f}",
-                number(anew["median_ms"] if anew else ""), number(f["build_ms"]), number(f["grid_mb"]), number(f["engine_mb"])]
-
-    heads = ["triangles", "device", "spheres", "step, ms", "ns per contact",
-             "over the smallest mesh", "with a new choice, ms", "weld and build, ms", "grid, MB",
-             "engine, MB"]
-    text = table([r for r in rows if r["case"] == KEPT and r["order"] == "sorted"], heads, cells)
-    return performance.between_markers({"mesh-size": text + "\n\n" + performance.machines(rows_of)})
 
 
 def plot(rows_of):
@@ -95,6 +63,5 @@ def main(args, words):
             lammps_runs.keep("mesh-size", performance.parse(done.stdout), folder, device)
         if folder != performance.DATA:
             return 0
-    performance.write_parts(kept_parts())
     plot(rows_of_all())
     return 0

@@ -2,13 +2,13 @@
 # SPDX-FileCopyrightText: 2026 LSDCD contributors
 # SPDX-License-Identifier: BSD-3-Clause
 
-"""Measures what settings buy and cost, and writes doc/accuracy.md and a part of doc/notes/accuracy.md.
+"""Measures what settings buy and cost, and writes doc/accuracy.md.
 
 usage: tradeoff.py [--build DIR] [--device cpu|cuda|auto] [--write-only] [--rows-to DIR] [--commit NAME]
 
 Runs `lsdcd tradeoff` on the vessel of examples/vessel and on a cylinder of 1e4 triangles.
-Rows are kept in doc/data, those of the GPU in files of their own; the document and the
-plots are made from what is kept there. --rows-to DIR leaves the rows in DIR and writes
+Rows are kept in doc/data, those of the GPU in files of their own; the document and its
+plot are made from what is kept there. --rows-to DIR leaves the rows in DIR and writes
 nothing else: for a GPU elsewhere, as
   tradeoff.py --device cuda --rows-to DIR --commit NAME    (then copy DIR/*.csv to doc/data)
 """
@@ -18,7 +18,7 @@ import os
 import subprocess
 import sys
 
-from accuracy import TABLES, gpu_is_there
+from accuracy import gpu_is_there
 from hard_cases import ROOT, put_between
 
 sys.path.insert(0, os.path.join(ROOT, "src", "tool"))
@@ -26,7 +26,7 @@ import plot_tradeoff    # noqa: E402
 
 DOCUMENT = os.path.join(ROOT, "doc", "accuracy.md")
 DATA = os.path.join(ROOT, "doc", "data")
-PLOT = os.path.join(ROOT, "doc", "img", "tradeoff_{}.png")
+PLOT = os.path.join(ROOT, "doc", "img", "tradeoff_vessel.png")
 BEGIN, END = "<!-- tradeoff:begin -->", "<!-- tradeoff:end -->"
 DEVICES = ("cpu", "cuda")
 REPEATS = {"cpu": "5", "cuda": "50"}    # a GPU's steps are short, and copies vary
@@ -192,30 +192,16 @@ Measured on:
 
 {runs}
 
-A cylinder with smooth sides gives the same picture ([its table](notes/accuracy.md#settings-on-a-cylinder)). All rows are in
+A cylinder with smooth sides gives the same picture. All rows are in
 `doc/data/tradeoff_*.csv`; `./run bench accuracy` makes them.
 {end}"""
 
-CYLINDER = """{begin}
-## Settings on a cylinder
 
-Radius 50, length 100, {triangles} triangles, spheres with radii of {least} to {largest}. Triangles are as large as the spheres.
-
-{table}
-![Error of forces against time, cylinder](../img/tradeoff_cylinder.png)
-
-{runs}
-{end}"""
-
-
-def write_documents(vessel, cylinder):
-    v, c = vessel[0], cylinder[0]
+def write_document(vessel):
+    v = vessel[0]
     put_between(DOCUMENT, BEGIN, END, TEXT.format(
         begin=BEGIN, end=END, triangles=v["triangles"], least=v["least_radius"], largest=v["largest_radius"],
         moving=v["moving"], first=first_screen(vessel), runs=machines(vessel)))
-    put_between(TABLES, BEGIN, END, CYLINDER.format(
-        begin=BEGIN, end=END, triangles=c["triangles"], least=c["least_radius"], largest=c["largest_radius"],
-        table=first_screen(cylinder), runs=machines(cylinder)))
 
 
 def main(arguments=None):
@@ -246,12 +232,10 @@ def main(arguments=None):
     if not all(rows.values()):
         print("rows are missing in doc/data; run without --write-only", file=sys.stderr)
         return 1
-    for mesh in MESHES:
-        plot_tradeoff.draw(rows[mesh], PLOT.format(mesh), others=False)
-        print(PLOT.format(mesh))
-    write_documents(rows["vessel"], rows["cylinder"])
+    plot_tradeoff.draw(rows["vessel"], PLOT, others=False)
+    write_document(rows["vessel"])
     print(DOCUMENT)
-    print(TABLES)
+    print(PLOT)
     return 0
 
 

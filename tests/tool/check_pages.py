@@ -68,9 +68,8 @@ def check_images(pages):
 
 
 def check_languages(pages):
-    shown = [page for page in pages.values() if not page.path.startswith("doc/notes/")]
-    fact("every code block has a language", [f"{page.path}:{line}" for page in shown for line in page.indented] +
-         [f"{block}: '{block.language}'" for page in shown for block in page.blocks
+    fact("every code block has a language", [f"{page.path}:{line}" for page in pages.values() for line in page.indented] +
+         [f"{block}: '{block.language}'" for page in pages.values() for block in page.blocks
           if block.language not in LANGUAGES and not block.form])
 
 

@@ -190,8 +190,6 @@ def main():
     os.environ["LSDCD_POTENTIALS"] = str(ROOT / "potentials")
     inline = 0
     for page in all_pages().values():
-        if page.path.startswith("doc/notes/"):
-            continue
         for block in page.blocks:
             if block.language not in ("sh", "bash"):
                 continue
