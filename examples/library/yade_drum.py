@@ -34,15 +34,16 @@ class MeshWall:
 
     Which are near is looked up before any other can have come. `speed`: of the mesh, at most."""
 
-    def __init__(self, words, mesh, speed=0.0):
-        self.wall = lsdcd.Wall(words, threads=1)
+    def __init__(self, law, name, motions=(), speed=0.0):
+        mesh = lsdcd.Mesh(name)
+        self.wall = lsdcd.Wall(lsdcd.WallSpec(law, [lsdcd.WallMesh(mesh, motions=motions)]), threads=1)
         spheres = [b for b in O.bodies if isinstance(b.shape, Sphere)]
         self.ids = np.array([b.id for b in spheres])
         self.states = [b.state for b in spheres]
         self.radius = np.array([b.shape.radius for b in spheres])
         self.mass = np.array([b.state.mass for b in spheres])
         self.room, self.speed = 0.5 * self.radius.min(), speed
-        self.grid = lsdcd.Mesh(mesh).grid(cutoff=self.radius.max() + self.room)
+        self.grid = mesh.grid(cutoff=self.radius.max() + self.room)
         self.near, self.steps_left, self.began = np.zeros(0, int), 0, False
         self.spent = 0.0    # seconds in the library
 
@@ -106,7 +107,7 @@ def material(stiffness, radius):
 
 
 def law(stiffness):
-    return f"hooke/history {stiffness!r} {0.5 * stiffness!r} 0 0 {FRICTION} 0"
+    return lsdcd.Law("hooke/history", kn=stiffness, kt=0.5 * stiffness, gamman=0, gammat=0, xmu=FRICTION, dampflag=0)
 
 
 # ---- a floor with a seam every 10 mm -----------------------------------------------------------------------------
@@ -136,7 +137,7 @@ def roll(mesh, ours, radius=0.005, speed=0.2, stiffness=1000.0, dt=4e-5, steps=1
     state, rows = O.bodies[ball].state, []
     state.vel, state.angVel = (speed, 0, 0), (0, speed / radius, 0)
     if ours:
-        add(MeshWall(law(stiffness) + " mesh " + mesh, mesh))
+        add(MeshWall(law(stiffness), mesh))
     else:
         O.bodies.append(ymport.stl(mesh, material=kind))
 
@@ -194,7 +195,7 @@ def turn(mesh, ours, number, steps, period=2.0):
     for x in places:
         O.bodies.append(utils.sphere(x.tolist(), radius, material=kind))
     if ours:
-        add(MeshWall(law(stiffness) + f" mesh {mesh} motion rotate 0 0 0 0 1 0 {period}", mesh,
+        add(MeshWall(law(stiffness), mesh, [lsdcd.Motion.rotate((0, 0, 0), (0, 1, 0), period)],
                      2 * np.pi / period * drum.RADIUS))
     else:
         turning[0].ids = O.bodies.append(ymport.stl(mesh, material=kind))

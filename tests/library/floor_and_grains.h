@@ -11,6 +11,7 @@
 #include <cstdio>
 #include <fstream>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -32,16 +33,41 @@ class FloorTest : public testing::Test {
            "vertex 10 10 0\nendloop\nendfacet\nfacet normal 0 0 1\nouter loop\n"
            "vertex -10 -10 0\nvertex 10 10 0\nvertex -10 10 0\nendloop\nendfacet\n"
            "endsolid f\n";
+    mesh_.emplace(file_);
   }
   void TearDown() override { std::remove(file_.c_str()); }
 
-  std::vector<std::string> words(const std::vector<std::string> &more = {}) const
+  static api::Law hooke_history(double kn = kN)
   {
-    std::vector<std::string> all = {"hooke/history", "1000", "300",    "0",  "0", "0.5", "0",
-                                    "mesh",          file_,  "device", "cpu"};
-    all.insert(all.end(), more.begin(), more.end());
-    return all;
+    return api::Law::classic({"hooke/history", {kn, kT, 0, 0, 0.5, 0}});
   }
+  api::WallSpec floor_of(const api::Law &law, const api::Mesh &mesh) const
+  {
+    api::WallSpec spec;
+    spec.law = law;
+    spec.meshes.emplace_back(mesh, "floor");
+    return spec;
+  }
+  api::WallSpec floor() const { return floor_of(hooke_history(), *mesh_); }
+  api::WallSpec floor_that_moves(const api::Motion &motion) const
+  {
+    api::WallSpec spec = floor();
+    spec.meshes[0].motions = {motion};
+    return spec;
+  }
+  // By a servo along z.
+  api::WallSpec floor_that_pushes(double force, double max_speed) const
+  {
+    api::WallSpec spec = floor();
+    api::Servo servo;
+    servo.axis[2] = 1;
+    servo.target = force;
+    servo.max_speed = max_speed;
+    spec.meshes[0].servo = servo;
+    return spec;
+  }
+
+  std::optional<api::Mesh> mesh_;    // of the file
 };
 
 struct Grains {
@@ -71,7 +97,9 @@ struct Grains {
     s.torque = torque.data();
     return s;
   }
-  void step(lsdcd::Wall &wall, int n = 1, bool setup = false)
+  // By a wall of the library, or of a script.
+  template <class AnyWall>
+  void step(AnyWall &wall, int n = 1, bool setup = false)
   {
     for (int i = 0; i < n; i++) {
       force.assign(x.size(), 0);

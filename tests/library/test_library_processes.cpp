@@ -30,7 +30,7 @@ void move(Grains &g)
 TEST_F(processes, give_a_sphere_that_changes_process_the_trajectory_of_one_process)
 {
   constexpr int kBefore = 40, kAfter = 60;
-  lsdcd::Wall alone(words());
+  lsdcd::Wall alone(floor());
   Grains all;
   all.add(-1, 0, 0.49, 0.5);
   all.add(1, 0.3, 0.48, -0.2);
@@ -43,7 +43,7 @@ TEST_F(processes, give_a_sphere_that_changes_process_the_trajectory_of_one_proce
   std::vector<double> packed, body;
   lsdcd::on_processes(2, [&](lsdcd::FakeHost &host) {
     const Process process(host);
-    lsdcd::Wall wall(words(), &process.options);
+    lsdcd::Wall wall(floor(), &process.options);
     Grains mine;
     if (host.rank() == 0) {
       mine.add(-1, 0, 0.49, 0.5);
@@ -86,7 +86,7 @@ TEST_F(processes, give_a_sphere_that_changes_process_the_trajectory_of_one_proce
 
 TEST_F(processes, feed_a_servo_with_the_forces_of_all)
 {
-  const std::vector<std::string> servo = words({"servo", "force", "z", "25", "vmax", "0.5"});
+  const api::WallSpec servo = floor_that_pushes(25, 0.5);
   lsdcd::Wall alone(servo);
   Grains all;
   all.add(3, -3, 0.49);
@@ -122,7 +122,7 @@ TEST_F(processes, are_warned_once_of_spheres_outside_of_the_box)
     process.options.show = [](void *data, int warning, const char *text) {
       if (warning) static_cast<std::vector<std::string> *>(data)->push_back(text);
     };
-    lsdcd::Wall wall(words(), &process.options);
+    lsdcd::Wall wall(floor(), &process.options);
     Grains mine;
     mine.add(1, 1, 0.49);
     mine.add(host.rank() == 0 ? 2 : 6, 2, 0.49);
@@ -147,7 +147,12 @@ TEST_F(processes, write_the_files_of_one_process)
 {
   // A contact on each triangle, so that no sum is in another order.
   const std::string name[] = {file_ + ".one.vtp", file_ + ".two.vtp"};
-  const auto with_fields = [&](int k) { return words({"mesh_fields", name[k], "every", "5"}); };
+  const auto with_fields = [&](int k) {
+    api::WallSpec spec = floor();
+    spec.meshes[0].fields = name[k];
+    spec.meshes[0].fields_every = 5;
+    return spec;
+  };
   lsdcd::Wall alone(with_fields(0));
   Grains all;
   all.add(3, -3, 0.49);
@@ -169,7 +174,7 @@ TEST_F(processes, go_on_from_what_each_saved)
 {
   lsdcd::on_processes(2, [&](lsdcd::FakeHost &host) {
     const Process process(host);
-    lsdcd::Wall first(words(), &process.options), second(words(), &process.options);
+    lsdcd::Wall first(floor(), &process.options), second(floor(), &process.options);
     Grains mine;
     mine.add(host.rank(), 0, 0.49, 0.1 + host.rank());
     mine.step(first, 10);
@@ -191,7 +196,7 @@ TEST_F(processes, show_each_line_once)
     process.options.show = [](void *data, int warning, const char *text) {
       static_cast<std::vector<std::string> *>(data)[warning].push_back(text);
     };
-    lsdcd::Wall wall(words(), &process.options);
+    lsdcd::Wall wall(floor(), &process.options);
     Grains mine;
     if (host.rank() == 1) mine.add(0, 0, 0.3);    // deep in the wall
     mine.step(wall, 1, true);
@@ -207,7 +212,7 @@ TEST_F(processes, are_all_told_of_a_sphere_of_one_in_the_next_call)
     for (int k = 0; k < 3; k++) process.options.hi[k] = -(process.options.lo[k] = -20);
     process.options.periodic[0] = 1;    // each step asks all how far spheres went past its faces
     process.options.margin = 0.1;
-    lsdcd::Wall wall(words(), &process.options);
+    lsdcd::Wall wall(floor(), &process.options);
     Grains mine;
     mine.add(0, 0, 0.49);
     mine.add(2, 0, 0.49);
@@ -224,7 +229,7 @@ TEST_F(processes, refuse_together_what_one_gives_wrongly)
 {
   lsdcd::on_processes(2, [&](lsdcd::FakeHost &host) {
     const Process process(host);
-    lsdcd::Wall wall(words(), &process.options);
+    lsdcd::Wall wall(floor(), &process.options);
     Grains mine;
     mine.add(0, 0, 0.49);
     lsdcd_spheres s = mine.spheres();
@@ -251,11 +256,11 @@ TEST_F(processes, need_all_callbacks)
   lsdcd::FakeHost host;
   Process process(host);
   process.callbacks.max = nullptr;
-  EXPECT_EQ(text_of([&] { lsdcd::Wall wall(words(), &process.options); }),
+  EXPECT_EQ(text_of([&] { lsdcd::Wall wall(floor(), &process.options); }),
             "`lsdcd_host`: `max` is null: give all three, or no host for one process");
   Process no_such(host);
   no_such.callbacks.rank = 2;
-  EXPECT_EQ(code_of([&] { lsdcd::Wall wall(words(), &no_such.options); }), LSDCD_ERROR_ARGUMENT);
+  EXPECT_EQ(code_of([&] { lsdcd::Wall wall(floor(), &no_such.options); }), LSDCD_ERROR_ARGUMENT);
 }
 
 TEST_F(processes, are_told_of_a_callback_that_fails)
@@ -263,13 +268,13 @@ TEST_F(processes, are_told_of_a_callback_that_fails)
   lsdcd::FakeHost host;
   Process process(host);
   process.callbacks.max = [](void *, double *, int) { return 5; };
-  EXPECT_EQ(text_of([&] { lsdcd::Wall wall(words(), &process.options); }),
+  EXPECT_EQ(text_of([&] { lsdcd::Wall wall(floor(), &process.options); }),
             "`lsdcd_host`: max() returned 5, not 0: end all processes");
 }
 
 TEST_F(processes, refuse_numbers_that_were_not_packed)
 {
-  lsdcd::Wall wall(words());
+  lsdcd::Wall wall(floor());
   Grains grains;
   grains.add(0, 0, 0.49, 0.1);
   grains.add(2, 0, 0.49, 0.2);

@@ -18,7 +18,7 @@ class wall : public FloorTest {};
 
 TEST_F(wall, adds_the_force_of_an_overlap)
 {
-  lsdcd::Wall wall(words());
+  lsdcd::Wall wall(floor());
   Grains grains;
   grains.add(0.3, 0.2, 0.49);
   grains.step(wall);
@@ -27,7 +27,7 @@ TEST_F(wall, adds_the_force_of_an_overlap)
 
 TEST_F(wall, moves_springs_in_steps_only)
 {
-  lsdcd::Wall wall(words());
+  lsdcd::Wall wall(floor());
   Grains grains;
   grains.add(0.3, 0.2, 0.49, 0.1);
   grains.step(wall, 1, true);
@@ -38,7 +38,7 @@ TEST_F(wall, moves_springs_in_steps_only)
 
 TEST_F(wall, lets_springs_follow_spheres_that_change_their_numbers)
 {
-  lsdcd::Wall wall(words());
+  lsdcd::Wall wall(floor());
   Grains grains;
   grains.add(1, 0, 0.49, 0.1);
   grains.add(-1, 0, 0.49, 0.3);
@@ -54,8 +54,8 @@ TEST_F(wall, lets_springs_follow_spheres_that_change_their_numbers)
 
 TEST_F(wall, goes_on_from_what_was_saved)
 {
-  lsdcd::Wall first(words({"motion", "linear", "0.01", "0", "0"})),
-      second(words({"motion", "linear", "0.01", "0", "0"}));
+  const api::WallSpec spec = floor_that_moves(api::Motion::linear({0.01, 0, 0}));
+  lsdcd::Wall first(spec), second(spec);
   Grains grains;
   grains.add(0.3, 0.2, 0.49, 0.1);
   grains.step(first, 10);
@@ -68,7 +68,7 @@ TEST_F(wall, goes_on_from_what_was_saved)
 
 TEST_F(wall, goes_on_with_its_servo)
 {
-  const std::vector<std::string> servo = words({"servo", "force", "z", "25", "vmax", "0.5"});
+  const api::WallSpec servo = floor_that_pushes(25, 0.5);
   lsdcd::Wall first(servo), second(servo);
   Grains grains;
   grains.add(0.3, 0.2, 0.49, 0.1);
@@ -84,7 +84,7 @@ TEST_F(wall, goes_on_with_its_servo)
 
 TEST_F(wall, has_totals_of_a_mesh_that_moves)
 {
-  lsdcd::Wall wall(words({"motion", "linear", "0", "0", "2"}));
+  lsdcd::Wall wall(floor_that_moves(api::Motion::linear({0, 0, 2})));
   Grains grains;
   grains.add(3, 0, 0.49);
   grains.step(wall);
@@ -100,7 +100,7 @@ TEST_F(wall, has_totals_of_a_mesh_that_moves)
 // A turn about an axis along y through (1, 0, 0), once in 2.
 TEST_F(wall, has_the_pose_of_a_mesh_that_turns)
 {
-  lsdcd::Wall wall(words({"motion", "rotate", "1", "0", "0", "0", "1", "0", "2"}));
+  lsdcd::Wall wall(floor_that_moves(api::Motion::rotate({1, 0, 0}, {0, 1, 0}, 2)));
   Grains grains;
   grains.add(0, 0, 5);
   grains.step(wall, 100);
@@ -115,11 +115,11 @@ TEST_F(wall, has_the_pose_of_a_mesh_that_turns)
 
 TEST_F(wall, changes_its_motion)
 {
-  lsdcd::Wall wall(words());
+  lsdcd::Wall wall(floor());
   Grains grains;
   grains.add(0, 0, 0.49);
   grains.step(wall);
-  wall.change({"motion", "linear", "0", "0", "1"});
+  wall.set_motion(0, {api::Motion::linear({0, 0, 1})});
   grains.step(wall, 5);
   EXPECT_NEAR(grains.force[2], kN * (0.01 + 5 * kDt), kN * kRounding);
 }
@@ -132,7 +132,7 @@ TEST_F(wall, shows_its_log_and_warnings)
   options.show = [](void *data, int warning, const char *text) {
     static_cast<std::vector<std::string> *>(data)[warning].push_back(text);
   };
-  lsdcd::Wall wall(words(), &options);
+  lsdcd::Wall wall(floor(), &options);
   ASSERT_EQ(shown[0].size(), 1u);
   EXPECT_NE(shown[0][0].find("hooke/history"), std::string::npos);
   Grains grains;
@@ -150,32 +150,18 @@ TEST_F(wall, acts_through_a_periodic_face)
   }
   options.periodic[2] = 1;
   options.margin = 0.1;
-  lsdcd::Wall wall(words({"move", "0", "0", "-19.6"}), &options);
+  api::WallSpec spec = floor();
+  spec.meshes[0].placement.move(0, 0, -19.6);
+  lsdcd::Wall wall(spec, &options);
   Grains grains;
   grains.add(0, 0, 19.92);    // the image of the floor is at z = 20.4
   grains.step(wall);
   EXPECT_NEAR(grains.force[2], -kN * 0.02, kN * 1e-13);
 }
 
-TEST_F(wall, refuses_words_that_make_none)
-{
-  EXPECT_EQ(code_of([&] { lsdcd::Wall wall({"hooke/history", "1000"}); }), LSDCD_ERROR_INPUT);
-  EXPECT_EQ(code_of([&] { lsdcd::Wall wall(std::vector<std::string>{}); }), LSDCD_ERROR_ARGUMENT);
-}
-
-TEST_F(wall, refuses_variables)
-{
-  try {
-    lsdcd::Wall wall(words({"motion", "variable", "v_x", "NULL", "NULL", "NULL", "NULL", "NULL"}));
-    ADD_FAILURE() << "no error";
-  } catch (const lsdcd::Error &e) {
-    EXPECT_EQ(std::string(e.what()).rfind("v_x: there are no variables here", 0), 0u) << e.what();
-  }
-}
-
 TEST_F(wall, refuses_fewer_spheres_without_a_word)
 {
-  lsdcd::Wall wall(words());
+  lsdcd::Wall wall(floor());
   Grains grains;
   grains.add(0, 0, 0.49);
   grains.add(1, 0, 0.49);
@@ -187,7 +173,7 @@ TEST_F(wall, refuses_fewer_spheres_without_a_word)
 
 TEST_F(wall, refuses_numbers_that_are_no_spheres)
 {
-  lsdcd::Wall wall(words());
+  lsdcd::Wall wall(floor());
   Grains grains;
   grains.add(0, 0, 0.49);
   grains.add(1, 0, 0.49);
@@ -198,7 +184,7 @@ TEST_F(wall, refuses_numbers_that_are_no_spheres)
 
 TEST_F(wall, refuses_numbers_that_it_did_not_save)
 {
-  lsdcd::Wall wall(words()), other(words());
+  lsdcd::Wall wall(floor()), other(floor());
   Grains grains;
   grains.add(0, 0, 0.49, 0.1);
   grains.step(wall);
@@ -219,18 +205,18 @@ TEST_F(wall, needs_a_GPU_for_arrays_on_one)
   if (lsdcd_has_cuda()) GTEST_SKIP() << "there is one";
   lsdcd::WallOptions options;
   options.device = LSDCD_CUDA;
-  const std::string told = text_of([&] { lsdcd::Wall wall(words(), &options); }),
+  const std::string told = text_of([&] { lsdcd::Wall wall(floor(), &options); }),
                     remedy = "; use LSDCD_CPU, with arrays of the host";
   EXPECT_EQ(told.rfind("CUDA: ", 0), 0u) << told;
   EXPECT_EQ(told.substr(told.size() - remedy.size()), remedy);
-  EXPECT_EQ(code_of([&] { lsdcd::Wall wall(words(), &options); }), LSDCD_ERROR_DEVICE);
+  EXPECT_EQ(code_of([&] { lsdcd::Wall wall(floor(), &options); }), LSDCD_ERROR_DEVICE);
 }
 
 TEST_F(wall, takes_no_stream_without_a_device)
 {
   lsdcd::WallOptions options;
   options.stream = &options;
-  EXPECT_EQ(code_of([&] { lsdcd::Wall wall(words(), &options); }), LSDCD_ERROR_ARGUMENT);
+  EXPECT_EQ(code_of([&] { lsdcd::Wall wall(floor(), &options); }), LSDCD_ERROR_ARGUMENT);
 }
 
 // In a process of its own: a driver stays.
@@ -238,7 +224,7 @@ TEST_F(wall, refuses_arrays_that_only_a_GPU_can_read)
 {
   if (dlopen("libcuda.so.1", RTLD_NOLOAD | RTLD_LAZY)) GTEST_SKIP() << "a driver is loaded";
   const auto step_with_a_driver = [&] {
-    lsdcd::Wall wall(words());
+    lsdcd::Wall wall(floor());
     Grains grains;
     grains.add(0, 0, 0.49);
     if (!dlopen(LSDCD_FAKE_CUDA, RTLD_NOW)) std::_Exit(-1);
@@ -251,7 +237,7 @@ TEST_F(wall, refuses_spheres_without_a_place_a_size_or_a_mass)
 {
   const double nan = std::nan(""), inf = HUGE_VAL;
   const auto told = [&](const std::function<void(Grains &)> &spoil) {
-    lsdcd::Wall wall(words());
+    lsdcd::Wall wall(floor());
     Grains grains;
     for (int i = 0; i < 3; i++) grains.add(i, 0, 0.49);
     spoil(grains);
@@ -268,7 +254,7 @@ TEST_F(wall, refuses_spheres_without_a_place_a_size_or_a_mass)
 
 TEST_F(wall, refuses_a_place_that_is_no_number_in_each_step)
 {
-  lsdcd::Wall wall(words());
+  lsdcd::Wall wall(floor());
   Grains grains;
   for (int i = 0; i < 3; i++) grains.add(i, 0, 0.49);
   grains.step(wall, 2);
@@ -280,7 +266,7 @@ TEST_F(wall, refuses_a_place_that_is_no_number_in_each_step)
 TEST_F(wall, refuses_a_velocity_that_is_not_finite)
 {
   const double inf = std::numeric_limits<double>::infinity();
-  lsdcd::Wall wall(words());
+  lsdcd::Wall wall(floor());
   Grains grains;
   for (int i = 0; i < 3; i++) grains.add(i, 0, 0.49);
   grains.omega[7] = inf;
@@ -306,7 +292,7 @@ TEST_F(wall, warns_once_of_spheres_outside_of_its_box)
   }
   options.periodic[2] = 1;
   options.margin = 0.1;
-  lsdcd::Wall wall(words(), &options);
+  lsdcd::Wall wall(floor(), &options);
   Grains grains;
   grains.add(5, 5, 0.49);
   grains.add(-5, 0, 0.49);
@@ -336,7 +322,7 @@ TEST_F(wall, tells_what_its_show_has_thrown_after_a_whole_step)
     options.lo[k] = -5;
     options.hi[k] = 5;
   }
-  lsdcd::Wall wall(words(), &options), quiet(words());
+  lsdcd::Wall wall(floor(), &options), quiet(floor());
   Grains grains, same;
   for (Grains *g : {&grains, &same}) {
     g->add(0, 0, 0.49);
@@ -355,13 +341,13 @@ TEST_F(wall, is_not_made_where_its_show_throws)
 {
   lsdcd::WallOptions options;
   options.show = [](void *, int, const char *) { throw 1; };
-  EXPECT_EQ(text_of([&] { lsdcd::Wall wall(words(), &options); }),
+  EXPECT_EQ(text_of([&] { lsdcd::Wall wall(floor(), &options); }),
             "`show` has thrown: not a std::exception");
 }
 
 TEST_F(wall, refuses_rows_that_overlap)
 {
-  lsdcd::Wall wall(words());
+  lsdcd::Wall wall(floor());
   Grains grains;
   grains.add(0, 0, 0.49);
   grains.add(1, 0, 0.49);
@@ -376,7 +362,7 @@ TEST_F(wall, refuses_rows_that_overlap)
 
 TEST_F(wall, takes_vectors_that_lie_between_each_other_and_refuses_those_that_overlap)
 {
-  lsdcd::Wall wall(words());
+  lsdcd::Wall wall(floor());
   constexpr int kRow = 16,
                 kSpheres = 3;    // x, v, omega, force and torque are 3 numbers each, one is free
   std::vector<double> all(kSpheres * kRow), ones(kSpheres, 1), radii(kSpheres, 0.5);
@@ -409,7 +395,7 @@ TEST_F(wall, takes_vectors_that_lie_between_each_other_and_refuses_those_that_ov
 
 TEST_F(wall, names_a_sphere_that_outgrew_its_grid)
 {
-  lsdcd::Wall wall(words());
+  lsdcd::Wall wall(floor());
   Grains grains;
   grains.add(5, 5, 0.49);
   grains.add(0, 0, 0.49);
@@ -426,7 +412,7 @@ TEST_F(wall, names_a_sphere_that_outgrew_its_grid)
 
 TEST_F(wall, names_a_sphere_by_its_place_in_the_arrays_after_they_were_sorted)
 {
-  lsdcd::Wall wall(words());
+  lsdcd::Wall wall(floor());
   Grains grains;
   grains.add(5, 5, 0.49);
   grains.add(0, 0, 0.49);
@@ -442,7 +428,7 @@ TEST_F(wall, names_a_sphere_by_its_place_in_the_arrays_after_they_were_sorted)
 // A sphere that outgrew its grid is found when the springs of the step have moved.
 TEST_F(wall, refuses_all_calls_after_a_step_that_failed_half_way)
 {
-  lsdcd::Wall wall(words());
+  lsdcd::Wall wall(floor());
   Grains grains;
   grains.add(5, 5, 0.49);
   grains.add(0, 0, 0.49);
@@ -465,7 +451,7 @@ TEST_F(wall, refuses_all_calls_after_a_step_that_failed_half_way)
 
 TEST_F(wall, goes_on_after_a_step_that_was_refused_before_it_began)
 {
-  lsdcd::Wall wall(words()), unbroken(words());
+  lsdcd::Wall wall(floor()), unbroken(floor());
   Grains grains;
   grains.add(0, 0, 0.49, 0.1);
   Grains same = grains;

@@ -11,9 +11,7 @@
 #include <cmath>
 #include <cstring>
 #include <cuda_runtime_api.h>
-#include <iterator>
 #include <random>
-#include <sstream>
 #include <string>
 #include <vector>
 
@@ -52,10 +50,18 @@ class wall_gpu : public FloorTest {
     std::remove(waves_.c_str());
     FloorTest::TearDown();
   }
-  static std::vector<std::string> split(const std::string &text)
+  static api::Law hertz(double kn = 1e5, double kt = 5e4, double mu = 0.5)
   {
-    std::istringstream words(text);
-    return {std::istream_iterator<std::string>(words), {}};
+    return api::Law::classic({"hertz/history", {kn, kt, 100, 50, mu, 1}});
+  }
+  static api::Law hooke() { return api::Law::classic({"hooke", {1000, 0, 0, 0, 0, 0}}); }
+  // Waves, and a floor that rises.
+  api::WallSpec waves_and_floor(const api::Mesh &waves) const
+  {
+    api::WallSpec spec = floor_of(hertz(), waves);
+    spec.meshes.emplace_back(*mesh_, "floor");
+    spec.meshes[1].motions = {api::Motion::linear({0, 0, 0.2})};
+    return spec;
   }
 };
 
@@ -159,23 +165,29 @@ TEST_F(wall_gpu, gives_arrays_on_a_device_the_forces_of_arrays_of_the_host)
 {
   // Same source, no contraction, IEEE division and root on both: no tolerance for forces. Totals are sums of at
   // most n contacts in another order: n roundings of the sum of sizes.
-  const std::string hertz = "hertz/history 1e5 5e4 100 50 0.5 1 mesh " + waves_,
-                    moving = " mesh " + file_ + " motion linear 0 0 0.2";
-  const std::vector<std::string> walls = {
-      hertz,
-      hertz + moving,
-      hertz + " law types 2 hertz/history 2e5 1e5 100 50 0.3 1" + moving,
-      hertz + " wear archard 1e-3 1e6",
-      "granular hertz 1e5 3 tangential linear_history 5e4 1 0.5 rolling sds 2e3 5 0.1 heat area 1 "
-      "mesh " +
-          waves_ + " temperature 350",
-  };
+  const api::Mesh waves(waves_);
+  api::WallSpec of_types = waves_and_floor(waves), worn = floor_of(hertz(), waves);
+  of_types.meshes[0].type_laws = {{2, 2, hertz(2e5, 1e5, 0.3)}};
+  worn.wear = LSDCD_ARCHARD;
+  worn.wear_coefficient = 1e-3;
+  worn.hardness = 1e6;
+  api::Law granular = api::Law::granular({"hertz", {1e5, 3}}, {"linear_history", {5e4, 1, 0.5}});
+  granular.rolling = {"sds", {2e3, 5, 0.1}};
+  granular.heat = {"area", {1}};
+  api::WallSpec hot = floor_of(granular, waves);
+  hot.meshes[0].temperature = 350;
+  const struct {
+    const char *text;
+    api::WallSpec spec;
+  } walls[] = {{"hertz", floor_of(hertz(), waves)},
+               {"and a floor that moves", waves_and_floor(waves)},
+               {"and a law of types", of_types},
+               {"wear", worn},
+               {"granular, with heat", hot}};
   constexpr int kSpheres = 300, kSteps = 60;
-  for (const std::string &text : walls) {
-    std::vector<std::string> on_host = split(text);
-    on_host.insert(on_host.end(), {"device", "cpu"});
+  for (const auto &[text, spec] : walls) {
     const lsdcd::WallOptions options = on_device();
-    lsdcd::Wall host(on_host), device(split(text), &options);
+    lsdcd::Wall host(spec), device(spec, &options);
     Rain there(kSpheres), here(kSpheres);
     Copies on_gpu(true), on_cpu(false);
     double contacts = 0;
@@ -435,14 +447,13 @@ TEST_F(wall_gpu, wear_moves_a_mesh_on_a_device_as_on_the_host)
 TEST_F(wall_gpu, gives_each_of_two_processes_the_forces_of_arrays_of_the_host)
 {
   // Both threads use the GPU at once. No tolerance, as above: no sum is over the processes but that of contacts.
-  const std::string text = "hertz/history 1e5 5e4 100 50 0.5 1 mesh " + waves_ + " mesh " + file_ +
-                           " motion linear 0 0 0.2";
+  const api::Mesh waves(waves_);
+  const api::WallSpec spec = waves_and_floor(waves);
   constexpr int kSpheres = 200, kSteps = 60;
   lsdcd::on_processes(2, [&](lsdcd::FakeHost &fake) {
     Process on_host(fake), on_gpu(fake);
     on_gpu.options.device = LSDCD_CUDA;
-    lsdcd::Wall host(split(text + " device cpu"), &on_host.options),
-        device(split(text), &on_gpu.options);
+    lsdcd::Wall host(spec, &on_host.options), device(spec, &on_gpu.options);
     // Other numbers of other spheres.
     const int rank = fake.rank();
     Rain there(kSpheres + 50 * rank, rank), here(kSpheres + 50 * rank, rank);
@@ -464,9 +475,10 @@ TEST_F(wall_gpu, gives_each_of_two_processes_the_forces_of_arrays_of_the_host)
 
 TEST_F(wall_gpu, lets_springs_follow_spheres_that_change_their_numbers)
 {
-  const std::vector<std::string> words = split("hertz/history 1e5 5e4 100 50 0.5 1 mesh " + waves_);
+  const api::Mesh waves(waves_);
+  const api::WallSpec spec = floor_of(hertz(), waves);
   const lsdcd::WallOptions options = on_device();
-  lsdcd::Wall straight(words, &options), turned(words, &options), restored(words, &options);
+  lsdcd::Wall straight(spec, &options), turned(spec, &options), restored(spec, &options);
   Rain a(100), b(100);
   Copies copies(true), others(true);
   for (int k = 0; k < 30; k++) {
@@ -519,10 +531,9 @@ TEST_F(wall_gpu, acts_through_a_periodic_face_and_warns_past_it)
   options.show = [](void *data, int warning, const char *text) {
     if (warning) static_cast<std::vector<std::string> *>(data)->push_back(text);
   };
-  std::vector<std::string> floor = words({"move", "0", "0", "-19.6"});
-  floor.erase(std::find(floor.begin(), floor.end(), "device"),
-              std::find(floor.begin(), floor.end(), "move"));
-  lsdcd::Wall wall(floor, &options);
+  api::WallSpec spec = floor();
+  spec.meshes[0].placement.move(0, 0, -19.6);
+  lsdcd::Wall wall(spec, &options);
   Rain one(1);
   one.radius = {0.5};
   one.v = one.omega = {0, 0, 0};
@@ -540,7 +551,7 @@ TEST_F(wall_gpu, acts_through_a_periodic_face_and_warns_past_it)
 TEST_F(wall_gpu, tells_of_a_sphere_in_the_next_call)
 {
   const lsdcd::WallOptions options = on_device();
-  lsdcd::Wall wall(split("hertz/history 1e5 5e4 100 50 0.5 1 mesh " + file_), &options);
+  lsdcd::Wall wall(floor_of(hertz(), *mesh_), &options);
   Rain rain(2);
   rain.x = {0, 0, 0.05, 1, 0, 0.05};
   Copies copies(true);
@@ -555,7 +566,7 @@ TEST_F(wall_gpu, tells_of_a_sphere_in_the_next_call)
 TEST_F(wall_gpu, takes_radii_that_have_grown)
 {
   const lsdcd::WallOptions options = on_device();
-  lsdcd::Wall wall(split("hooke 1000 0 0 0 0 0 mesh " + file_), &options);
+  lsdcd::Wall wall(floor_of(hooke(), *mesh_), &options);
   Rain rain(1);
   rain.x = {0, 0, 0.3};
   rain.radius = {0.2};
@@ -570,8 +581,9 @@ TEST_F(wall_gpu, takes_radii_that_have_grown)
 TEST_F(wall_gpu, checks_types_in_steps_that_look)
 {
   const lsdcd::WallOptions options = on_device();
-  const std::string law = "hooke 1000 0 0 0 0 0";
-  lsdcd::Wall wall(split(law + " mesh " + file_ + " law types 2 " + law), &options);
+  api::WallSpec spec = floor_of(hooke(), *mesh_);
+  spec.meshes[0].type_laws = {{2, 2, hooke()}};
+  lsdcd::Wall wall(spec, &options);
   Rain rain(2);
   Copies copies(true);
   copies.step(wall, rain, step_of());
@@ -582,10 +594,9 @@ TEST_F(wall_gpu, checks_types_in_steps_that_look)
 
 TEST_F(wall_gpu, refuses_an_array_that_is_elsewhere_before_it_writes)
 {
-  const std::vector<std::string> here = split("hooke 1000 0 0 0 0 0 mesh " + file_ + " device cpu"),
-                                 there = split("hooke 1000 0 0 0 0 0 mesh " + file_);
+  api::WallSpec spec = floor_of(hooke(), *mesh_);
   const lsdcd::WallOptions options = on_device();
-  lsdcd::Wall host(here), device(there, &options);
+  lsdcd::Wall host(spec), device(spec, &options);
   Rain rain(1);
   rain.x = {0, 0, 0.05};
   Copies on_gpu(true);
@@ -601,8 +612,8 @@ TEST_F(wall_gpu, refuses_an_array_that_is_elsewhere_before_it_writes)
             "the array `x` is in a GPU's memory: make the wall with device LSDCD_CUDA");
   device.step(s, step_of());
   EXPECT_GT(on_gpu.force.get(3)[2], 0);
-  EXPECT_EQ(code_of([&] { lsdcd::Wall wall(here, &options); }),
-            LSDCD_ERROR_INPUT);    // `device cpu`
+  spec.device = LSDCD_AUTO;    // of arrays of the host
+  EXPECT_EQ(code_of([&] { lsdcd::Wall wall(spec, &options); }), LSDCD_ERROR_ARGUMENT);
 }
 
 TEST_F(wall_gpu, keeps_the_order_of_its_stream)
@@ -611,7 +622,7 @@ TEST_F(wall_gpu, keeps_the_order_of_its_stream)
   ASSERT_EQ(cudaStreamCreateWithFlags(&stream, cudaStreamNonBlocking), cudaSuccess);
   {
     const lsdcd::WallOptions options = on_device(stream);
-    lsdcd::Wall wall(split("hooke 1000 0 0 0 0 0 mesh " + file_), &options);
+    lsdcd::Wall wall(floor_of(hooke(), *mesh_), &options);
     Rain rain(1);
     rain.radius = {0.2};
     rain.x = {0, 0, 0.15};

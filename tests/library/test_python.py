@@ -247,6 +247,12 @@ def write_floor(name):
                                   "endloop\nendfacet\nendsolid f\n", encoding="ascii")
 
 
+def on_floor(style="hooke", **numbers):
+    """What a wall of a triangle at z = 0 is made of."""
+    law = lsdcd.Law(style, **{"kn": 1000, "kt": 0, "gamman": 0, "gammat": 0, "xmu": 0, "dampflag": 0, **numbers})
+    return lsdcd.WallSpec(law, [lsdcd.WallMesh(lsdcd.Mesh(np.array([[[-9.0, -9, 0], [9, -9, 0], [0, 9, 0]]])))])
+
+
 class Processes:
     """Two processes, threads here: what lsdcd.Host asks of one."""
     size = 2
@@ -338,12 +344,12 @@ def check_specs():
 
 def check_processes():
     """A sphere that slides on a floor at z = 0 goes to another process; the wall of each is in a thread."""
-    words = "hooke/history 1000 300 0 0 0.5 0 mesh {} device cpu"
+    spec = on_floor("hooke/history", kt=300, xmu=0.5)
     dt, speed, packed, told = 1e-3, 0.1, [], [None, None]
     meeting, brought = threading.Barrier(2), [None, None]
 
-    def work(rank, floor):
-        wall = lsdcd.Wall(words.format(floor), host=Processes(rank, meeting, brought))
+    def work(rank):
+        wall = lsdcd.Wall(spec, host=Processes(rank, meeting, brought))
 
         def step(n):
             x, v = np.tile([0.0, 1, 0.49], (n, 1)), np.tile([speed, 0, 0], (n, 1))
@@ -363,34 +369,30 @@ def check_processes():
         force = step(rank)
         told[rank] = force, wall.totals()
 
-    with tempfile.TemporaryDirectory() as folder:
-        floor = os.path.join(folder, "floor.stl")
-        write_floor(floor)
-        threads = [threading.Thread(target=work, args=(rank, floor)) for rank in (0, 1)]
-        for thread in threads:
-            thread.start()
-        for thread in threads:
-            thread.join()
-        # Sums of a few numbers of order one: some roundings.
-        fact("both processes end", None not in told, told)
-        fact("what a contact keeps goes to another process",
-             abs(told[1][0][0, 0] + 300 * 11 * speed * dt) < 1e-12, told)
-        fact("totals are those of all processes",
-             all(abs(t.force[2] + 10) < 1e-11 and t.contacts == 1 for _, t in told), told)
+    threads = [threading.Thread(target=work, args=(rank,)) for rank in (0, 1)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    # Sums of a few numbers of order one: some roundings.
+    fact("both processes end", None not in told, told)
+    fact("what a contact keeps goes to another process",
+         abs(told[1][0][0, 0] + 300 * 11 * speed * dt) < 1e-12, told)
+    fact("totals are those of all processes",
+         all(abs(t.force[2] + 10) < 1e-11 and t.contacts == 1 for _, t in told), told)
 
-        class Breaks(Processes):
-            def max(self, numbers):
-                raise KeyError("no network")
+    class Breaks(Processes):
+        def max(self, numbers):
+            raise KeyError("no network")
 
-        for no_host in (0, [], "x", np.zeros(2), object()):
-            refused(f"{no_host!r} is no host", "without rank", lambda: lsdcd.Wall(words.format(floor), host=no_host), TypeError)
-        fact("a host's arrays have native types", Processes.FORMATS == {"d", "B"}, Processes.FORMATS)
-        refused("what a host raises is raised", "no network",
-                lambda: lsdcd.Wall(words.format(floor), host=Breaks(0, None, None)), KeyError)
+    for no_host in (0, [], "x", np.zeros(2), object()):
+        refused(f"{no_host!r} is no host", "without rank", lambda: lsdcd.Wall(spec, host=no_host), TypeError)
+    fact("a host's arrays have native types", Processes.FORMATS == {"d", "B"}, Processes.FORMATS)
+    refused("what a host raises is raised", "no network", lambda: lsdcd.Wall(spec, host=Breaks(0, None, None)), KeyError)
 
 
 def check_wall_specs():
-    """A wall of meshes and laws against that of words, a pose and a wrench in closed form, and what is refused."""
+    """A pose and a wrench in closed form, and what is refused. wall_against_lammps.py has walls against those of scripts."""
     square = np.array([[-5, -5, 0], [5, -5, 0], [5, 5, 0], [-5, 5, 0]], float)
     mesh = lsdcd.Mesh(square, [[0, 1, 2], [0, 2, 3]])
     x, radius, mass = np.array([[0.3, 0.2, 0.49], [1.5, -1, 0.48]]), np.full(2, 0.5), np.ones(2)
@@ -409,46 +411,7 @@ def check_wall_specs():
     sub = lsdcd.SubModel
     granular = lsdcd.Law.granular(sub("hertz/material", E=2000, e=0.5, nu=0.3), sub("mindlin", kt=None, xgammat=1, mu=0.5),
                                   "tsuji", rolling=sub("sds", k=100, gamma=1, mu=0.1), limit_damping=True)
-    cohesive = lsdcd.Law("hooke", kn=1000, kt=300, gamman=20, gammat=10, xmu=0.5, dampflag=1, rolling=sub("cdt", MU=0.1),
-                         cohesion=sub("sjkr", K=50))
     with tempfile.TemporaryDirectory() as folder:
-        floor = os.path.join(folder, "floor.stl")
-        faces = [[0, 1, 2], [0, 2, 3]]
-        with open(floor, "w", encoding="ascii") as f:
-            f.write("solid floor\n")
-            for face in faces:
-                f.write("facet normal 0 0 0\nouter loop\n" + "".join("vertex %g %g %g\n" % tuple(square[k]) for k in face) +
-                        "endloop\nendfacet\n")
-            f.write("endsolid floor\n")
-        table = os.path.join(folder, "lever.txt")
-        with open(table, "w", encoding="ascii") as f:
-            f.write("0 0\n0.5 0.3\n1 0\n")
-        placed = lsdcd.Placement().scale(2).rotate((0, 0.1, 1), 30).move(0, 0, 0.01)
-        for name, law, words, part, more in (
-                ("a style", hooke, "hooke/history 1000 300 20 NULL 0.5 1 mesh {}", {}, ""),
-                ("granular", granular, "granular hertz/material 2000 0.5 0.3 tangential mindlin NULL 1 0.5 damping tsuji "
-                 "rolling sds 100 1 0.1 limit_damping mesh {}", {}, ""),
-                ("rolling and cohesion", cohesive, "hooke 1000 300 20 10 0.5 1 mesh {}", {}, "rolling cdt 0.1 cohesion sjkr 50"),
-                ("a placement", hooke, "hooke/history 1000 300 20 NULL 0.5 1 mesh {}", {"placement": placed},
-                 "scale 2 rotate 0 0.1 1 30 move 0 0 0.01"),
-                ("a matrix", hooke, "hooke/history 1000 300 20 NULL 0.5 1 mesh {}", {"placement": placed.matrix},
-                 "scale 2 rotate 0 0.1 1 30 move 0 0 0.01"),
-                ("motions", hooke, "hooke/history 1000 300 20 NULL 0.5 1 mesh {}",
-                 {"motions": [lsdcd.Motion.rotate((0, 0, 0), (0, 1, 0), 3), lsdcd.Motion.linear((0, 0, 1))]},
-                 "motion rotate 0 0 0 0 1 0 3 motion linear 0 0 1"),
-                ("a table", hooke, "hooke/history 1000 300 20 NULL 0.5 1 mesh {}",
-                 {"motions": [lsdcd.Motion.table([[0, 0], [0.5, 0.3], [1, 0]], (1, 0, 0), (0, 1, 0), repeats=True),
-                              lsdcd.Motion.riggle((0, 0, 0), (0, 0, 1), math.radians(5), 2)]},
-                 f"motion table {table} axis 1 0 0 0 1 0 repeat motion riggle 0 0 0 0 0 1 5 2"),
-                ("a table of a file", hooke, "hooke/history 1000 300 20 NULL 0.5 1 mesh {}",
-                 {"motions": [lsdcd.Motion.table(table, (1, 0, 0), (0, 1, 0), straight=True, degrees=True)]},
-                 f"motion table {table} axis 1 0 0 0 1 0 linear degrees"),
-                ("a belt", hooke, "hooke/history 1000 300 20 NULL 0.5 1 mesh {}", {"surface_velocity": (1, 0, 0)},
-                 "surface_vel 1 0 0")):
-            by_words = forces(lsdcd.Wall(f"{words.format(floor)} {more} device cpu"))
-            by_spec = forces(lsdcd.Wall(lsdcd.WallSpec(law, [lsdcd.WallMesh(mesh, **part)])))
-            fact(f"a wall of {name} has the bits of its words", by_words.any() and by_words.tobytes() == by_spec.tobytes(),
-                 by_words - by_spec)
         each = lsdcd.Wall(lsdcd.WallSpec(hooke, [lsdcd.WallMesh(mesh)], compute="auto", each_contact=True))
         fact("a wall that chooses where it computes, and keeps its contacts, has the bits of one that does not",
              forces(each).tobytes() == forces(floor_of(hooke)).tobytes())
@@ -467,8 +430,6 @@ def check_wall_specs():
         same = lsdcd.Law.granular(sub("hertz/material", E=5e4, e=0.9, nu=0.23), sub("mindlin", xgammat=1, mu=0.1),
                                   "coeff_restitution")
         fact("a law of materials has the bits of their numbers", forces(floor_of(glass)).tobytes() == forces(floor_of(same)).tobytes())
-        fact("and of the words", forces(lsdcd.Wall(f"granular material {materials} glass mesh {floor} device cpu")).tobytes() ==
-             forces(floor_of(glass)).tobytes())
         fact("it tells its numbers", "restitution 0.9 (some.lsdcd line 6)" in glass.report, glass.report)
         again = pickle.loads(pickle.dumps(glass))
         fact("it is pickled", forces(floor_of(again)).tobytes() == forces(floor_of(glass)).tobytes(), again)
@@ -482,9 +443,8 @@ def check_wall_specs():
                 ("restitution of overrides is 'a'", {"overrides": {"restitution": "a"}}, TypeError),
                 ("does not take material constants", {"normal": "hooke"}, lsdcd.Error)):
             refused(says, says, lambda more=more: lsdcd.Law.from_material(**{"file": materials, "particle": "glass", **more}), kind)
-        body = lsdcd.Wall(f"hooke 1 0 0 0 0 0 mesh {floor} body mass 1 com 0 0 0 inertia 1 1 1 0 0 0 device cpu")
-        refused("a body takes no pose", "a body moves by what acts on it", lambda: body.set_pose(0), lsdcd.Error)
-        fact("words may have their name", lsdcd.Wall(words=f"hooke 1 0 0 0 0 0 mesh {floor} device cpu").totals())
+    body = lsdcd.Wall(lsdcd.WallSpec(hooke, [lsdcd.WallMesh(mesh, body=lsdcd.RigidBody(mass=1, inertia=(1, 1, 1, 0, 0, 0)))]))
+    refused("a body takes no pose", "a body moves by what acts on it", lambda: body.set_pose(0), lsdcd.Error)
     saved = floor_of(hooke).save()
     other = floor_of(lsdcd.Law("hooke/history", kn=2000, kt=300, gamman=20, xmu=0.5, dampflag=1))
     refused("data of a wall with another law are refused", "the law is hooke/history with 2000 ", lambda: other.restore(saved),
@@ -578,47 +538,44 @@ def check_wall_specs():
 
 def check_wall_arrays():
     """Arrays of spheres of other libraries, and what a wall refuses of them."""
-    with tempfile.TemporaryDirectory() as folder:
-        floor = os.path.join(folder, "floor.stl")
-        write_floor(floor)
-        words = f"hooke 1000 0 0 0 0 0 mesh {floor}"
-        wall = lsdcd.Wall(words + " device cpu")
-        given = {name: np.zeros((1, 3)) for name in ("x", "v", "omega", "force", "torque")}
-        given |= {"radius": np.full(1, 0.5), "mass": np.ones(1), "dt": 1e-3}
-        given["x"][0, 2] = 0.49
-        wall.step(**{k: OnlyDlpack(v) if k != "dt" else v for k, v in given.items()})
-        fact("a wall's arrays come by DLPack", abs(given["force"][0, 2] - 10) < 1e-11, given["force"])
-        refused("an array on a device is refused", "on CUDA device 3, and the wall was made for arrays on the host",
-                lambda: wall.step(**{**given, "x": OnCuda((1, 3), "<f8")}))
-        for name, wrong, kind in (("force", [[0, 0, 0]], TypeError), ("x", np.zeros((2, 3)), ValueError),
-                                  ("x", np.zeros((1, 3), complex), TypeError), ("force", np.zeros((1, 3), int), TypeError),
-                                  ("type", np.ones(1), TypeError),
-                                  ("mass", np.ones((1, 1)), ValueError), ("radius", 0.5, ValueError)):
-            refused(f"{name} as {type(wrong).__name__} {np.shape(wrong)} is refused", "is not a contiguous ",
-                    lambda name=name, wrong=wrong: wall.step(**{**given, name: wrong}), kind)
-        check_copied_arrays(wall, given)
-        fixed = np.zeros((1, 3))
-        fixed.flags.writeable = False
-        refused("a force that cannot be written is refused", "cannot be written", lambda: wall.step(**{**given, "force": fixed}),
-                ValueError)
-        for written, other in (("force", "torque"), ("force", "x"), ("torque", "omega"), ("torque", "v")):
-            refused(f"{written} that is {other}, too, is refused", f"`{written}` and `{other}` share memory",
-                    lambda written=written, other=other: wall.step(**{**given, written: given[other]}), lsdcd.Error)
-        both = np.zeros(8)
-        many = {k: np.repeat(v, 2, axis=0) if k != "dt" else v for k, v in given.items()}
-        for name, kind in (("mass", 1), ("torque", 3)):
-            at = both[6:8] if kind == 1 else both[2:8].reshape(2, 3)
-            at[...] = 1
-            shared = lsdcd.Wall(words + " device cpu")
-            if kind == 1:
-                shared.step(**{**many, name: at, "force": both[:6].reshape(2, 3)})
-                fact("arrays side by side in one are taken", abs(both[2] - 10) < 1e-11, both)
-            refused(f"a force of which a part is {name} is refused", f"and `{name}` share memory",
-                    lambda: shared.step(**{**many, name: at, "force": both[1:7].reshape(2, 3)}), lsdcd.Error)
-        refused("a box repeats along three axes", "periodic has 2 values", lambda: lsdcd.Wall(words, periodic=(True, False)), ValueError)
-        if not lsdcd._lib.lsdcd_has_cuda():
-            refused("a wall on a device needs one", "use LSDCD_CPU", lambda: lsdcd.Wall(words, device="cuda"), lsdcd.Error)
-        refused("a stream needs a device", "stream is given", lambda: lsdcd.Wall(words, stream=7), lsdcd.Error)
+    spec = on_floor()
+    wall = lsdcd.Wall(spec)
+    given = {name: np.zeros((1, 3)) for name in ("x", "v", "omega", "force", "torque")}
+    given |= {"radius": np.full(1, 0.5), "mass": np.ones(1), "dt": 1e-3}
+    given["x"][0, 2] = 0.49
+    wall.step(**{k: OnlyDlpack(v) if k != "dt" else v for k, v in given.items()})
+    fact("a wall's arrays come by DLPack", abs(given["force"][0, 2] - 10) < 1e-11, given["force"])
+    refused("an array on a device is refused", "on CUDA device 3, and the wall was made for arrays on the host",
+            lambda: wall.step(**{**given, "x": OnCuda((1, 3), "<f8")}))
+    for name, wrong, kind in (("force", [[0, 0, 0]], TypeError), ("x", np.zeros((2, 3)), ValueError),
+                              ("x", np.zeros((1, 3), complex), TypeError), ("force", np.zeros((1, 3), int), TypeError),
+                              ("type", np.ones(1), TypeError),
+                              ("mass", np.ones((1, 1)), ValueError), ("radius", 0.5, ValueError)):
+        refused(f"{name} as {type(wrong).__name__} {np.shape(wrong)} is refused", "is not a contiguous ",
+                lambda name=name, wrong=wrong: wall.step(**{**given, name: wrong}), kind)
+    check_copied_arrays(wall, given)
+    fixed = np.zeros((1, 3))
+    fixed.flags.writeable = False
+    refused("a force that cannot be written is refused", "cannot be written", lambda: wall.step(**{**given, "force": fixed}),
+            ValueError)
+    for written, other in (("force", "torque"), ("force", "x"), ("torque", "omega"), ("torque", "v")):
+        refused(f"{written} that is {other}, too, is refused", f"`{written}` and `{other}` share memory",
+                lambda written=written, other=other: wall.step(**{**given, written: given[other]}), lsdcd.Error)
+    both = np.zeros(8)
+    many = {k: np.repeat(v, 2, axis=0) if k != "dt" else v for k, v in given.items()}
+    for name, kind in (("mass", 1), ("torque", 3)):
+        at = both[6:8] if kind == 1 else both[2:8].reshape(2, 3)
+        at[...] = 1
+        shared = lsdcd.Wall(spec)
+        if kind == 1:
+            shared.step(**{**many, name: at, "force": both[:6].reshape(2, 3)})
+            fact("arrays side by side in one are taken", abs(both[2] - 10) < 1e-11, both)
+        refused(f"a force of which a part is {name} is refused", f"and `{name}` share memory",
+                lambda: shared.step(**{**many, name: at, "force": both[1:7].reshape(2, 3)}), lsdcd.Error)
+    refused("a box repeats along three axes", "periodic has 2 values", lambda: lsdcd.Wall(spec, periodic=(True, False)), ValueError)
+    if not lsdcd._lib.lsdcd_has_cuda():
+        refused("a wall on a device needs one", "use LSDCD_CPU", lambda: lsdcd.Wall(spec, device="cuda"), lsdcd.Error)
+    refused("a stream needs a device", "stream is given", lambda: lsdcd.Wall(spec, stream=7), lsdcd.Error)
 
 
 def saved_walls():
@@ -710,43 +667,35 @@ def check_given_values():
     refused("objects that are texts are refused", "object, not real", lambda: grid.query(points.astype(str).astype(object)))
     fact("objects that are numbers are taken", grid.query(points.astype(object)).distance.tolist() == [0.5])
 
-    with tempfile.TemporaryDirectory() as folder:
-        floor = os.path.join(folder, "floor.stl")
-        write_floor(floor)
-        words = f"hooke 1000 0 0 0 0 0 mesh {floor}"
-        for name, take in (("query", lambda n: grid.query(points, threads=n)), ("grid", lambda n: mesh.grid(threads=n)),
-                           ("contacts", lambda n: near.contacts(points, 1.0, threads=n)),
-                           ("body", lambda n: lsdcd.Body(mesh, mesh, threads=n)),
-                           ("collide", lambda n: body.collide((0, 0, 1), threads=n)),
-                           ("wall", lambda n: lsdcd.Wall(words, threads=n))):
-            refused(f"{name}: 2**40 threads are refused", f"threads is {2**40}", lambda: take(2**40), ValueError)
-            refused(f"{name}: half a thread is refused", "not a whole number", lambda: take(1.5))
-            take(np.int64(1))
-        refused("a mesh's number is not cut off", "mesh is", lambda: lsdcd.Wall(words).totals(2**32), ValueError)
-        for name, take in (("a file", lambda: lsdcd.Mesh(floor + "\0x")), ("a cache", lambda: mesh.grid(cutoff=1, cache="a\0b")),
-                           ("words", lambda: lsdcd.Wall(words + "\0x")), ("units", lambda: lsdcd.Wall(words, units="si\0"))):
-            refused(f"a NUL in {name} is refused", "has a NUL", take, ValueError)
+    spec = on_floor()
+    for name, take in (("query", lambda n: grid.query(points, threads=n)), ("grid", lambda n: mesh.grid(threads=n)),
+                       ("contacts", lambda n: near.contacts(points, 1.0, threads=n)),
+                       ("body", lambda n: lsdcd.Body(mesh, mesh, threads=n)),
+                       ("collide", lambda n: body.collide((0, 0, 1), threads=n)),
+                       ("wall", lambda n: lsdcd.Wall(spec, threads=n))):
+        refused(f"{name}: 2**40 threads are refused", f"threads is {2**40}", lambda: take(2**40), ValueError)
+        refused(f"{name}: half a thread is refused", "not a whole number", lambda: take(1.5))
+        take(np.int64(1))
+    refused("a mesh's number is not cut off", "mesh is", lambda: lsdcd.Wall(spec).totals(2**32), ValueError)
+    for name, take in (("a file", lambda: lsdcd.Mesh("floor.stl\0x")), ("a cache", lambda: mesh.grid(cutoff=1, cache="a\0b")),
+                       ("a name", lambda: lsdcd.WallMesh(mesh, "a\0b"))):
+        refused(f"a NUL in {name} is refused", "has a NUL", take, ValueError)
 
-        spaced = os.path.join(folder, "a 'floor'.stl")
-        write_floor(spaced)
-        fact("a quoted path in words may have blanks", lsdcd.Wall(f'hooke 1e3 0 0 0 0 0 mesh "{spaced}" device cpu').totals())
-        refused("a quote has an end", "does not end", lambda: lsdcd.Wall("hooke 1e3 0 0 0 0 0 mesh 'floor.stl"), ValueError)
-
-        wall = lsdcd.Wall(words + " device cpu")
-        given = {name: np.zeros((2, 3)) for name in ("v", "omega", "force", "torque")}
-        given |= {"x": np.full((2, 3), 0.4), "radius": np.full(2, 0.5), "mass": np.ones(2), "dt": 1e-3}
-        wall.step(**given)
-        for source in ([0.2, 1], [True, False], ["0", "1"], np.ma.array([0, 1], mask=[0, 1])):
-            refused(f"renumber {source} is refused", "", lambda: wall.renumber(source))
-            refused(f"pack {source} is refused", "", lambda: wall.pack(source))
-        refused("renumber takes one row", "has the shape (1, 2)", lambda: wall.renumber([[0, 1]]), ValueError)
-        wall.renumber([1, 0])
-        wall.step(**given)
-        wall.renumber([])
-        fact("answers are the same value by value", grid.query([[0, 0, 1.0], [0, 0, 2]], "closest distance")
-             == grid.query([[0, 0, 1.0], [0, 0, 2]], "distance closest"))
-        fact("and not where one differs", grid.query([[0, 0, 1.0], [0, 0, 2]]) != grid.query([[0, 0, 1.0], [0, 0, 3]]))
-        fact("totals too", wall.totals() == wall.totals())
+    wall = lsdcd.Wall(spec)
+    given = {name: np.zeros((2, 3)) for name in ("v", "omega", "force", "torque")}
+    given |= {"x": np.full((2, 3), 0.4), "radius": np.full(2, 0.5), "mass": np.ones(2), "dt": 1e-3}
+    wall.step(**given)
+    for source in ([0.2, 1], [True, False], ["0", "1"], np.ma.array([0, 1], mask=[0, 1])):
+        refused(f"renumber {source} is refused", "", lambda: wall.renumber(source))
+        refused(f"pack {source} is refused", "", lambda: wall.pack(source))
+    refused("renumber takes one row", "has the shape (1, 2)", lambda: wall.renumber([[0, 1]]), ValueError)
+    wall.renumber([1, 0])
+    wall.step(**given)
+    wall.renumber([])
+    fact("answers are the same value by value", grid.query([[0, 0, 1.0], [0, 0, 2]], "closest distance")
+         == grid.query([[0, 0, 1.0], [0, 0, 2]], "distance closest"))
+    fact("and not where one differs", grid.query([[0, 0, 1.0], [0, 0, 2]]) != grid.query([[0, 0, 1.0], [0, 0, 3]]))
+    fact("totals too", wall.totals() == wall.totals())
 
 
 def check_values_that_c_reads_otherwise():
@@ -863,14 +812,11 @@ def check_errors():
 
 def check_box():
     """The box of a wall's spheres, by its two corners."""
-    with tempfile.TemporaryDirectory() as folder:
-        floor = os.path.join(folder, "floor.stl")
-        write_floor(floor)
-        words = f"hooke 1000 0 0 0 0 0 mesh {floor} device cpu"
-        refused("lo needs hi", "give both, or neither", lambda: lsdcd.Wall(words, lo=(-5, -5, -5)), ValueError)
-        refused("hi needs lo", "give both, or neither", lambda: lsdcd.Wall(words, hi=(5, 5, 5)), ValueError)
-        refused("a box has a size", "lo is below hi", lambda: lsdcd.Wall(words, lo=(0, 0, 0), hi=(0, 0, 0)), ValueError)
-        refused("a time is finite", "time nan", lambda: lsdcd.Wall(words, time=np.nan), lsdcd.Error)
+    spec = on_floor()
+    refused("lo needs hi", "give both, or neither", lambda: lsdcd.Wall(spec, lo=(-5, -5, -5)), ValueError)
+    refused("hi needs lo", "give both, or neither", lambda: lsdcd.Wall(spec, hi=(5, 5, 5)), ValueError)
+    refused("a box has a size", "lo is below hi", lambda: lsdcd.Wall(spec, lo=(0, 0, 0), hi=(0, 0, 0)), ValueError)
+    refused("a time is finite", "time nan", lambda: lsdcd.Wall(spec, time=np.nan), lsdcd.Error)
 
 
 def check_fork():
@@ -906,45 +852,42 @@ def check_nonsense():
     corners = np.array([[[-9.0, -9, 0], [9, -9, 0], [0, 9, 0]]])
     mesh = lsdcd.Mesh(corners)
     grid, body, points = mesh.grid(cutoff=0.5), lsdcd.Body(mesh, mesh), np.zeros((2, 3))
-    with tempfile.TemporaryDirectory() as folder:
-        floor = os.path.join(folder, "floor.stl")
-        write_floor(floor)
-        words = f"hooke 1000 0 0 0 0 0 mesh {floor} device cpu"
-        vectors, numbers = ("x", "v", "omega", "force", "torque"), ("radius", "mass")
-        spheres = {**{k: np.zeros((1, 3)) for k in vectors}, **{k: np.ones(1) for k in numbers}, "dt": 1e-3}
-        wall, law = lsdcd.Wall(words), lsdcd.Law("hooke", kn=1, kt=0, gamman=0, xmu=0, dampflag=0)
-        calls = {"Mesh()": lsdcd.Mesh, "faces": lambda b: lsdcd.Mesh(corners[0], b), "vertices": lambda b: lsdcd.Mesh(b, [[0, 1, 2]]),
-                 "weld": lambda b: lsdcd.Mesh(corners, weld=b), "query()": grid.query, "contacts()": lambda b: grid.contacts(b, 0.1),
-                 "radius of contacts()": lambda b: grid.contacts(points, b), "Body()": lambda b: lsdcd.Body(b, mesh),
-                 "mesh of Body()": lambda b: lsdcd.Body(mesh, b), "Wall()": lsdcd.Wall,
-                 "Law()": lsdcd.Law, "WallMesh()": lsdcd.WallMesh, "WallSpec()": lambda b: lsdcd.WallSpec(b, []),
-                 "meshes of WallSpec()": lambda b: lsdcd.WallSpec(law, b), "Motion()": lsdcd.Motion.linear,
-                 "placement": lambda b: lsdcd.WallMesh(mesh, placement=b), "about": lambda b: wall.wrench(0, b),
-                 "out of query()": lambda b: grid.query(points, out={"distance": b}), "a word": lambda b: grid.query(points, [b]),
-                 "out of contacts()": lambda b: grid.contacts(points, 0.1, out={"point": b}),
-                 "to": lambda b: wall.unpack(b, [1.0]), "numbers": lambda b: wall.unpack([0], b)}
-        for name, call, some in (
-                ("grid", lambda **b: mesh.grid(**{"cutoff": 0.5, **b}),
-                 "cutoff cell nearest precision memory threads device progress"),
-                ("query", lambda **b: grid.query(points, **b), "want radius threads out stream estimate_sides progress"),
-                ("contacts", lambda **b: grid.contacts(points, 0.1, **b), "threads out progress"),
-                ("Body", lambda **b: lsdcd.Body(mesh, mesh, **b), "cell nearest memory threads device progress"),
-                ("collide", lambda **b: body.collide(**{"position": (0, 0, 0), **b}), "position quaternion matrix threads"),
-                ("Wall", lambda **b: lsdcd.Wall(words, **b), "lo hi periodic margin time units show threads device stream"),
-                ("step", lambda **b: lsdcd.Wall(words).step(**{**spheres, **b}),
-                 " ".join([*vectors, *numbers, "dt setup changed reach temperature heat type"]))):
-            calls |= {f"{word} of {name}()": lambda b, call=call, word=word: call(**{word: b}) for word in some.split()}
-        calls |= {f"{name}()": getattr(wall, name) for name in ("renumber", "pack", "totals", "pose", "change", "restore")}
-        for name, call in calls.items():
-            other = []
-            for nonsense in NONSENSE:
-                try:
-                    call(nonsense)
-                except (ValueError, TypeError):
-                    continue
-                except Exception as error:
-                    other.append(f"{nonsense!r}: {error!r}")
-            fact(f"{name}: nonsense is a ValueError or a TypeError", not other, other)
+    spec = on_floor()
+    vectors, numbers = ("x", "v", "omega", "force", "torque"), ("radius", "mass")
+    spheres = {**{k: np.zeros((1, 3)) for k in vectors}, **{k: np.ones(1) for k in numbers}, "dt": 1e-3}
+    wall, law = lsdcd.Wall(spec), lsdcd.Law("hooke", kn=1, kt=0, gamman=0, xmu=0, dampflag=0)
+    calls = {"Mesh()": lsdcd.Mesh, "faces": lambda b: lsdcd.Mesh(corners[0], b), "vertices": lambda b: lsdcd.Mesh(b, [[0, 1, 2]]),
+             "weld": lambda b: lsdcd.Mesh(corners, weld=b), "query()": grid.query, "contacts()": lambda b: grid.contacts(b, 0.1),
+             "radius of contacts()": lambda b: grid.contacts(points, b), "Body()": lambda b: lsdcd.Body(b, mesh),
+             "mesh of Body()": lambda b: lsdcd.Body(mesh, b), "Wall()": lsdcd.Wall,
+             "Law()": lsdcd.Law, "WallMesh()": lsdcd.WallMesh, "WallSpec()": lambda b: lsdcd.WallSpec(b, []),
+             "meshes of WallSpec()": lambda b: lsdcd.WallSpec(law, b), "Motion()": lsdcd.Motion.linear,
+             "placement": lambda b: lsdcd.WallMesh(mesh, placement=b), "about": lambda b: wall.wrench(0, b),
+             "out of query()": lambda b: grid.query(points, out={"distance": b}), "a word": lambda b: grid.query(points, [b]),
+             "out of contacts()": lambda b: grid.contacts(points, 0.1, out={"point": b}),
+             "to": lambda b: wall.unpack(b, [1.0]), "numbers": lambda b: wall.unpack([0], b)}
+    for name, call, some in (
+            ("grid", lambda **b: mesh.grid(**{"cutoff": 0.5, **b}),
+             "cutoff cell nearest precision memory threads device progress"),
+            ("query", lambda **b: grid.query(points, **b), "want radius threads out stream estimate_sides progress"),
+            ("contacts", lambda **b: grid.contacts(points, 0.1, **b), "threads out progress"),
+            ("Body", lambda **b: lsdcd.Body(mesh, mesh, **b), "cell nearest memory threads device progress"),
+            ("collide", lambda **b: body.collide(**{"position": (0, 0, 0), **b}), "position quaternion matrix threads"),
+            ("Wall", lambda **b: lsdcd.Wall(spec, **b), "lo hi periodic margin time units show threads device stream"),
+            ("step", lambda **b: lsdcd.Wall(spec).step(**{**spheres, **b}),
+             " ".join([*vectors, *numbers, "dt setup changed reach temperature heat type"]))):
+        calls |= {f"{word} of {name}()": lambda b, call=call, word=word: call(**{word: b}) for word in some.split()}
+    calls |= {f"{name}()": getattr(wall, name) for name in ("renumber", "pack", "totals", "pose", "change", "restore")}
+    for name, call in calls.items():
+        other = []
+        for nonsense in NONSENSE:
+            try:
+                call(nonsense)
+            except (ValueError, TypeError):
+                continue
+            except Exception as error:
+                other.append(f"{nonsense!r}: {error!r}")
+        fact(f"{name}: nonsense is a ValueError or a TypeError", not other, other)
 
 
 def check_wheel():

@@ -209,9 +209,10 @@ def grains(n):
 def check_wall(library, floor):
     """A wall's arrays on a GPU against arrays of numpy: the same bits, as test_library_wall_gpu has them."""
     say = lambda text: f"{library.name}: {text}"    # noqa: E731
-    words, dt = f"hooke/history 1000 300 5 2 0.5 1 mesh {floor}", 1e-3
-    host, given = lsdcd.Wall(words + " device cpu"), grains(1000)
-    wall, there = lsdcd.Wall(words, device="cuda"), {k: library.give(v) for k, v in given.items()}
+    law, dt = lsdcd.Law("hooke/history", kn=1000, kt=300, gamman=5, gammat=2, xmu=0.5, dampflag=1), 1e-3
+    spec = lsdcd.WallSpec(law, [lsdcd.WallMesh(lsdcd.Mesh(floor))])
+    host, given = lsdcd.Wall(spec), grains(1000)
+    wall, there = lsdcd.Wall(spec, device="cuda"), {k: library.give(v) for k, v in given.items()}
     for _ in range(5):
         host.step(**given, dt=dt)
         wall.step(**there, dt=dt)
@@ -250,7 +251,7 @@ def check_wall(library, floor):
     # The stream of the wall sets the force to 0 after much other work; then the wall adds to it.
     stream = library.stream()
     with library.on(stream):
-        wall, again = lsdcd.Wall(words, device="cuda", stream=stream), {k: library.give(v) for k, v in grains(1000).items()}
+        wall, again = lsdcd.Wall(spec, device="cuda", stream=stream), {k: library.give(v) for k, v in grains(1000).items()}
         work = library.give(np.ones((2000, 2000), np.float32))
         again["force"] += 1
         library.wait()
@@ -260,7 +261,7 @@ def check_wall(library, floor):
         wall.step(**again, dt=dt)
         found = library.take(again["force"])
     first = grains(1000)
-    lsdcd.Wall(words + " device cpu").step(**first, dt=dt)
+    lsdcd.Wall(spec).step(**first, dt=dt)
     fact(say("a wall keeps the order of its stream"), (found == first["force"]).all())
 
 

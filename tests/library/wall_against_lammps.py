@@ -1,8 +1,10 @@
 # SPDX-FileCopyrightText: 2026 LSDCD contributors
 # SPDX-License-Identifier: BSD-3-Clause
 
-"""Grains in a drum that turns, 10 000 steps by Python with the library and by LAMMPS with the fix: the same
-trajectory. LSDCD_LMP names lmp-lsdcd, PYTHONPATH and LSDCD_LIBRARY the module and its library."""
+"""Walls in Python with the library against those of scripts in LAMMPS: each kind of spec, to the last bit of forces, and grains in
+a drum that turns, 10 000 steps, the same trajectory. LSDCD_LMP names lmp-lsdcd, PYTHONPATH and LSDCD_LIBRARY the module and
+its library."""
+import math
 import os
 import subprocess
 import sys
@@ -13,8 +15,6 @@ import numpy as np
 import lsdcd
 
 N, STEPS, DT, GRAVITY = 40, 10000, 4e-5, 9.81
-LAW = "hertz/history 1e5 5e4 1e5 5e4 0.5 1"
-MOTION = "motion rotate 0 0 0 0 1 0 0.5"
 SKIPPED = 77
 
 # The same numbers in both, though in another order: forces are sums of gravity and of one or two contacts, so that a
@@ -51,6 +51,15 @@ def grains():
     return x, radius
 
 
+def run(lmp, folder, script):
+    with open(os.path.join(folder, "in.script"), "w", encoding="utf-8") as f:
+        f.write(script)
+    done = subprocess.run([lmp, "-in", "in.script", "-log", "none"], cwd=folder, stdin=subprocess.DEVNULL,
+                          capture_output=True, text=True, check=False)
+    if done.returncode:
+        sys.exit(done.stdout[-2000:] + done.stderr[-2000:])
+
+
 def by_lammps(lmp, folder, x, radius):
     rows = "".join(f"create_atoms 1 single {' '.join(repr(float(c)) for c in at)} units box\n" for at in x)
     sizes = "".join(f"set atom {i + 1} diameter {2 * float(r)!r} density 2500\n" for i, r in enumerate(radius))
@@ -68,16 +77,11 @@ neigh_modify delay 0 every 1 check yes exclude type 1 1
 timestep {DT}
 fix move all nve/sphere
 fix down all gravity {GRAVITY} vector 0 0 -1
-fix wall all wall/lsdcd {LAW} mesh drum.stl {MOTION} device cpu
+fix wall all wall/lsdcd hertz/history 1e5 5e4 1e5 5e4 0.5 1 mesh drum.stl motion rotate 0 0 0 0 1 0 0.5 device cpu
 run {STEPS}
 write_dump all custom end.dump id x y z vx vy vz omegax omegay omegaz modify sort id format float %.17g
 """
-    with open(os.path.join(folder, "in.drum"), "w", encoding="utf-8") as f:
-        f.write(script)
-    done = subprocess.run([lmp, "-in", "in.drum", "-log", "none"], cwd=folder, stdin=subprocess.DEVNULL,
-                          capture_output=True, text=True, check=False)
-    if done.returncode:
-        sys.exit(done.stdout[-2000:] + done.stderr[-2000:])
+    run(lmp, folder, script)
     return np.loadtxt(os.path.join(folder, "end.dump"), skiprows=9)[:, 1:]
 
 
@@ -85,7 +89,10 @@ def by_library(folder, x, radius):
     """fix nve/sphere: velocity Verlet, with the moment of inertia of a sphere."""
     mass = 4 * np.pi / 3 * radius**3 * 2500
     # LAMMPS's factor of pressure, nktv2p, is 1 in si.
-    wall = lsdcd.Wall(f"{LAW} mesh {folder}/drum.stl {MOTION} device cpu", lo=(-0.2,) * 3, hi=(0.2,) * 3)
+    law = lsdcd.Law("hertz/history", kn=1e5, kt=5e4, gamman=1e5, gammat=5e4, xmu=0.5, dampflag=1)
+    turn = lsdcd.Motion.rotate((0, 0, 0), (0, 1, 0), 0.5)
+    mesh = lsdcd.WallMesh(lsdcd.Mesh(f"{folder}/drum.stl"), "drum", motions=[turn])
+    wall = lsdcd.Wall(lsdcd.WallSpec(law, [mesh]), lo=(-0.2,) * 3, hi=(0.2,) * 3)
     v, omega = np.zeros((N, 3)), np.zeros((N, 3))
     force, torque = np.zeros((N, 3)), np.zeros((N, 3))
     to_v, to_omega = 0.5 * DT / mass[:, None], 0.5 * DT / 0.4 / (radius**2 * mass)[:, None]
@@ -108,6 +115,107 @@ def by_library(folder, x, radius):
     return np.hstack([x, v, omega]), contacts
 
 
+# ---- each kind of spec ---------------------------------------------------------------------------------------------
+
+
+# Spheres of radius 0.5 and mass 1, which nothing moves, on a square at z = 0.
+SQUARE = np.array([[-5, -5, 0], [5, -5, 0], [5, 5, 0], [-5, 5, 0]], float)
+X, V, OMEGA, TOUCHES = np.array([[0.3, 0.2, 0.49], [1.5, -1, 0.48]]), np.full((2, 3), 0.25), np.full((2, 3), 0.5), 5
+
+
+def specs(folder):
+    """Each kind of spec: what is special, the words of the same wall in a script, and the spec."""
+    mesh, sub, motion = lsdcd.Mesh(SQUARE, [[0, 1, 2], [0, 2, 3]]), lsdcd.SubModel, lsdcd.Motion
+    hooke = lsdcd.Law("hooke/history", kn=1000, kt=300, gamman=20, xmu=0.5, dampflag=1)
+    granular = lsdcd.Law.granular(sub("hertz/material", E=2000, e=0.5, nu=0.3), sub("mindlin", kt=None, xgammat=1, mu=0.5),
+                                  "tsuji", rolling=sub("sds", k=100, gamma=1, mu=0.1), limit_damping=True)
+    cohesive = lsdcd.Law("hooke", kn=1000, kt=300, gamman=20, gammat=10, xmu=0.5, dampflag=1, rolling=sub("cdt", MU=0.1),
+                         cohesion=sub("sjkr", K=50))
+    soft = lsdcd.Law("hooke/history", kn=500, kt=100, gamman=5, gammat=0, xmu=0.3, dampflag=1)
+    with open(os.path.join(folder, "lever.txt"), "w", encoding="ascii") as f:
+        f.write("0 0\n0.5 0.3\n1 0\n")
+    rows = [[0, 0], [0.5, 0.3], [1, 0]]
+    placed = lsdcd.Placement().scale(2).rotate((0, 0.1, 1), 30).move(0, 0, 0.01)
+    style, placing = "hooke/history 1000 300 20 NULL 0.5 1 mesh floor.stl", "scale 2 rotate 0 0.1 1 30 move 0 0 0.01"
+    for name, words, law, part, whole in (
+            ("a style", style, hooke, {}, {}),
+            ("granular", "granular hertz/material 2000 0.5 0.3 tangential mindlin NULL 1 0.5 damping tsuji rolling sds 100 1 0.1 "
+             "limit_damping mesh floor.stl", granular, {}, {}),
+            ("rolling and cohesion", "hooke 1000 300 20 10 0.5 1 mesh floor.stl rolling cdt 0.1 cohesion sjkr 50", cohesive, {}, {}),
+            ("a placement", f"{style} {placing}", hooke, {"placement": placed}, {}),
+            ("a matrix", f"{style} {placing}", hooke, {"placement": placed.matrix}, {}),
+            ("motions", f"{style} motion rotate 0 0 0 0 1 0 3 motion linear 0 0 1", hooke,
+             {"motions": [motion.rotate((0, 0, 0), (0, 1, 0), 3), motion.linear((0, 0, 1))]}, {}),
+            ("waves", f"{style} motion wiggle 0 0 0.01 2 motion transrot 0 0 1 1 0 0 0 1 0 5", hooke,
+             {"motions": [motion.wiggle((0, 0, 0.01), 2), motion.transrot((0, 0, 1), (1, 0, 0), (0, 1, 0), 5)]}, {}),
+            ("a cosine", f"{style} wiggle z 0.01 2", hooke, {"motions": [motion.cosine((0, 0, 0.01), 2)]}, {}),
+            ("a table", f"{style} motion table lever.txt axis 1 0 0 0 1 0 repeat motion riggle 0 0 0 0 0 1 5 2", hooke,
+             {"motions": [motion.table(rows, (1, 0, 0), (0, 1, 0), repeats=True),
+                          motion.riggle((0, 0, 0), (0, 0, 1), math.radians(5), 2)]}, {}),
+            ("a table of a file", f"{style} motion table lever.txt axis 1 0 0 0 1 0 linear degrees", hooke,
+             {"motions": [motion.table(f"{folder}/lever.txt", (1, 0, 0), (0, 1, 0), straight=True, degrees=True)]}, {}),
+            ("a servo", f"{style} servo force z 25 vmax 0.5 limits -0.1 0.2", hooke,
+             {"servo": lsdcd.Servo((0, 0, 1), 25, 0.5, limits=(-0.1, 0.2))}, {}),
+            ("a belt", f"{style} surface_vel 1 0 0 surface_angvel 0 0 0.5 1 2 0", hooke,
+             {"surface_velocity": (1, 0, 0), "surface_angular_velocity": (0, 0, 0.5), "surface_centre": (1, 2, 0)}, {}),
+            ("a law of a mesh", f"{style} law hooke/history 500 100 5 0 0.3 1", hooke, {"law": soft}, {}),
+            ("a law of types", f"{style} law types 2* hooke/history 500 100 5 0 0.3 1", hooke,
+             {"type_laws": [(2, None, soft)]}, {}),
+            ("the search", f"{style} corner sum nearest 2 grid 0.5 rmax 0.7", hooke, {},
+             {"corner": "sum", "nearest": 2, "cell": 0.5, "rmax": 0.7})):
+        yield name, words, lsdcd.WallSpec(law, [lsdcd.WallMesh(mesh, **part)], **whole)
+
+
+def forces_by_library(spec):
+    wall, force, torque = lsdcd.Wall(spec), np.zeros((2, 3)), np.zeros((2, 3))
+    for k in range(TOUCHES + 1):
+        force[:] = torque[:] = 0
+        wall.step(X, V, OMEGA, np.full(2, 0.5), np.ones(2), force, torque, 1e-3, setup=k == 0, type=np.array([1, 2], np.int32))
+    return np.hstack([force, torque])
+
+
+def forces_by_lammps(lmp, folder, walls):
+    """Of each wall of these words, in one run of the program."""
+    with open(os.path.join(folder, "floor.stl"), "w", encoding="ascii") as f:
+        f.write("solid floor\n")
+        for face in ([0, 1, 2], [0, 2, 3]):
+            f.write("facet normal 0 0 0\nouter loop\n" + "".join("vertex %g %g %g\n" % tuple(SQUARE[k]) for k in face) +
+                    "endloop\nendfacet\n")
+        f.write("endsolid floor\n")
+    atoms = "".join(f"create_atoms {k + 1} single {' '.join(map(repr, x.tolist()))} units box\n"
+                    for k, x in enumerate(X))
+    run(lmp, folder, "".join(f"""clear
+units si
+atom_style sphere
+atom_modify map yes sort 0 0
+boundary f f f
+region box block -10 10 -10 10 -10 10
+create_box 2 box
+{atoms}set group all diameter 1
+set group all mass 1
+set group all omega {' '.join(map(str, OMEGA[0]))}
+velocity all set {' '.join(map(str, V[0]))}
+pair_style zero 1.1
+pair_coeff * *
+comm_modify vel yes
+timestep 1e-3
+fix wall all wall/lsdcd {words} device cpu
+run {TOUCHES}
+write_dump all custom {k}.dump id fx fy fz tqx tqy tqz modify sort id format float %.17g
+""" for k, words in enumerate(walls)))
+    return [np.loadtxt(os.path.join(folder, f"{k}.dump"), skiprows=9)[:, 1:] for k in range(len(walls))]
+
+
+def all_have_the_same_bits(lmp, folder):
+    names, walls, made = zip(*specs(folder))
+    good = True
+    for name, spec, wanted in zip(names, made, forces_by_lammps(lmp, folder, walls)):
+        found = forces_by_library(spec)
+        good &= bool((found == wanted).all()) and bool(wanted[:, 2].any())
+        print(f"{name}: {'the bits' if (found == wanted).all() else f'{found - wanted} off those'} of the script")
+    return good
+
+
 def main():
     lmp = os.environ.get("LSDCD_LMP")
     if not lmp or not os.path.exists(lmp):
@@ -118,9 +226,10 @@ def main():
         x, radius = grains()
         theirs = by_lammps(lmp, folder, x, radius)
         ours, contacts = by_library(folder, x.copy(), radius)
+        good = all_have_the_same_bits(lmp, folder)
     apart = np.abs(ours[:, :3] - theirs[:, :3]).max()
     print(f"places are {apart:.3g} apart, bound {BOUND:.3g}; {contacts:.0f} contacts in {STEPS} steps")
-    return 0 if apart <= BOUND and contacts > STEPS else 1    # one in each step at least, or nothing is shown
+    return 0 if good and apart <= BOUND and contacts > STEPS else 1    # one in each step at least, or nothing is shown
 
 
 if __name__ == "__main__":
