@@ -10,6 +10,8 @@ either there is nothing to run (exit status 77).
 """
 
 import os
+import re
+import subprocess
 import sys
 
 import lmp
@@ -27,6 +29,11 @@ def main():
         print("SKIPPED: no LAMMPS with PLUGIN (LSDCD_PLUGIN_HOST, tests/lammps/hosts/build_host.sh)")
         sys.exit(77)
     checks, folder = lmp.Checks(), lmp.scratch()
+    # Their names differ from one installation to another; the program that opens the plugin has them.
+    linked = [line for file in (PLUGIN, PLUGIN.with_name(PLUGIN.stem + "-styles.so")) for line in
+              subprocess.run(["readelf", "-d", file], check=True, capture_output=True, text=True).stdout.splitlines()
+              if "(NEEDED)" in line]
+    checks.fact("the plugin links neither LAMMPS nor MPI", linked and not any(re.search("lib(mpi|lammps)", line) for line in linked))
     scene.write_floor(folder / "floor.stl")
     own, moves = lmp.LMP, []
     body = scene.CREATE + scene.forces(LAW) + scene.dump("moves", 100) + "run 1000\n"

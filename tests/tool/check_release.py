@@ -4,7 +4,7 @@
 
 """Checks what a release has to agree in; RELEASING.md says when.
 
-    check_release.py                     the files: versions, CHANGELOG.md, doc/formats.md, recipes of cmake/packaging
+    check_release.py                     the files: versions, CHANGELOG.md, doc/formats.md, styles of cmake/packaging
     check_release.py --build FOLDER      also the programs that were built there
     check_release.py --packages FOLDER   also the names of what ./run package made
     check_release.py --release           also that nothing is changed and not committed, and that the
@@ -71,26 +71,9 @@ def names_in(pattern, *paths):
     return {name for path in paths for name in re.findall(pattern, (ROOT / path).read_text(encoding="utf-8"))}
 
 
-def check_packaging(version):
-    """Recipes of cmake/packaging against the sources: what they name is there, and of this version."""
-    recipes = sorted(path.relative_to(ROOT) for path in (ROOT / "cmake/packaging").glob("**/*") if path.is_file())
-    for path in recipes:
-        text = (ROOT / path).read_text(encoding="utf-8")
-        others = set(re.findall(r"lsdcd[:-](\d+[.]\d+[.]\d+)", text)) | set(re.findall(r'version(?: = |\()"(\d+[.]\d+[.]\d+)', text))
-        fact(f"{path} has no other version than {version}", others <= {version}, others)
-    cmake = ["CMakeLists.txt", *(path.relative_to(ROOT) for folder in ("cmake", "src") for path in (ROOT / folder).glob("**/*")
-                                 if (path.name == "CMakeLists.txt" or path.suffix == ".cmake") and "packaging" not in path.parts)]
-    options = names_in(r"(?:option|set|find_path)\((LSDCD_[A-Z_]+)", *cmake)
-    named = names_in(r'(?:-D |define\(")(LSDCD_[A-Z_]+)', *recipes)
-    fact("recipes give options that there are", named and named <= options, named - options)
-    built = set(" ".join(names_in(r"--target ([\w ]+)", *recipes)).split())
-    targets = names_in(r"(?:add_library|add_executable|lsdcd_plugin)\((\w+)", *cmake)
-    fact("recipes build targets that there are", built and built <= targets, built - targets)
-    installed = names_in(r"--component (\w+)", *recipes)
-    components = names_in(r"COMPONENT (\w+)", *cmake)
-    fact("recipes install components that there are", installed and installed <= components, installed - components)
+def check_packaging():
     of_plugin = names_in(r'"(?:fix|compute|region)", lmp, handle, regfunc,\s+"([\w/]+)"', "src/lammps/plugin_styles.cpp")
-    of_package = names_in(r"(?:Fix|Compute|Region)Style\(([\w/]+),", *(path for path in recipes if path.suffix == ".h"))
+    of_package = names_in(r"(?:Fix|Compute|Region)Style\(([\w/]+),", *(ROOT / "cmake/packaging/lammps").glob("*.h"))
     fact("the package for LAMMPS has the styles of the plugin", of_plugin and of_plugin == of_package, of_plugin ^ of_package)
 
 
@@ -149,7 +132,7 @@ def main():
     fact("CMakeLists.txt has a version", version and re.fullmatch(r"\d+\.\d+\.\d+", version), version)
     check_files(version)
     check_formats()
-    check_packaging(version)
+    check_packaging()
     if words.build:
         check_programs(version, words.build.resolve())
     if words.packages:
