@@ -451,14 +451,14 @@ LSDCD_API int lsdcd_law_from_material(const lsdcd_materials *materials, lsdcd_la
 
 /* The wall of fix wall/lsdcd, for any program that moves spheres: every contact law, meshes that move,
  * servos, wear, files. Units are any that are consistent. Spheres are counted from 0, meshes too.
- * lsdcd_wall_from_spec() makes one of meshes and laws, lsdcd_wall_make() of the words of a script. */
+ * lsdcd_wall_from_spec() makes one of meshes and laws. */
 typedef struct lsdcd_wall lsdcd_wall;
 
 /* A message of a wall: a line for the log, or with `warning` 1 what is probably not meant. What it throws in C++ does not
  * interrupt the call, which then returns LSDCD_ERROR_CANCELLED with its text, though all is done; a wall is not made. */
 typedef void lsdcd_message(void *data, int warning, const char *text);
 
-/* For a program of several processes, as with MPI. Each has a wall of the same spec or words, for spheres of its own,
+/* For a program of several processes, as with MPI. Each has a wall of the same spec, for spheres of its own,
  * and all call the functions of the wall together, in the same order, but for those that say "alone". All
  * processes then fail together, too, but for out of memory and errors of CUDA: end all of them there.
  * A callback is called by all processes in the calls of their walls; it changes the array in place and
@@ -483,7 +483,6 @@ typedef struct lsdcd_wall_options {
   int periodic[3];        /* 1: the box repeats along x, y, z. Spheres are put back by the caller */
   double margin;          /* length > 0 with `periodic`: how far past a face a sphere may go */
   double time;            /* of the first step, for files */
-  const char *units;      /* of material files: LAMMPS's "si", "cgs", ...; null: "si" */
   lsdcd_message *show;    /* called in calls of this wall only; null: nothing is shown */
   void *data;             /* handed to `show` */
   int threads;            /* on the CPU; 0: OMP_NUM_THREADS, or one */
@@ -664,14 +663,6 @@ typedef struct lsdcd_wall_spec {
 LSDCD_API int lsdcd_wall_from_spec(const lsdcd_wall_spec *spec, const lsdcd_wall_options *options,
                                    lsdcd_wall **wall);
 
-/* Deprecated since 0.10.0, for lsdcd_wall_from_spec(); it stays in all of 0.x.
- *
- * `words`: n words that follow "wall/lsdcd" in a script: a contact style with its numbers, `mesh FILE`,
- * keywords. Variables, v_name, are not there. `options` may be null: all defaults. Files are read and written,
- * and the log is shown, by the first process. Any. */
-LSDCD_API int lsdcd_wall_make(const char *const *words, size_t n, const lsdcd_wall_options *options,
-                              lsdcd_wall **wall);
-
 /* Spheres in arrays of doubles, on the device of the wall all of them. Number k of sphere i of a vector is at
  * [i * row + k]. Others than said are refused, LSDCD_ERROR_ARGUMENT, with the first one's i; and force, torque or heat
  * that share memory with another array, though rows of several may lie between each other. */
@@ -844,13 +835,10 @@ LSDCD_API int lsdcd_wall_get_body(lsdcd_wall *wall, int mesh, lsdcd_body_state *
  * Own. */
 LSDCD_API int lsdcd_wall_set_body(lsdcd_wall *wall, int mesh, const lsdcd_rigid_body *body);
 
-/* Deprecated since 0.10.0, for lsdcd_wall_set_motion() and lsdcd_wall_set_servo(); it stays in all of 0.x.
- * The words of fix_modify: [mesh K] motion ..., [mesh K] servo ..., [mesh K] body ..., K from 1. Own. */
-LSDCD_API int lsdcd_wall_change(lsdcd_wall *wall, const char *const *words, size_t n);
 /* All that the wall and the contacts of its spheres keep, to go on from: *count doubles, of this process. Those
  * that fit in `room` are written; with `room` 0 the array may be null. Own. */
 LSDCD_API int lsdcd_wall_save(lsdcd_wall *wall, double *numbers, size_t room, size_t *count);
-/* Into a wall of the same spec or words, before its first step, whose spheres then have the same order; process by
+/* Into a wall of the same spec, before its first step, whose spheres then have the same order; process by
  * process. Steps count on from the last one of that wall, for files and wear that come every so many steps. All goes on as if that wall
  * did, bit for bit on as many processes; lsdcd_wall_save() writes the same numbers again. Numbers of a wall with other meshes, placements or motions as it was made, laws, corner, side
  * or wear are refused with what differs (LSDCD_ERROR_ARGUMENT), and the wall stays as it is. Own. */

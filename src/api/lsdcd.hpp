@@ -976,14 +976,6 @@ class Wall {
     c::check(lsdcd_wall_from_spec(c::Spec(spec).get(), options, &made));
     handle_.reset(made);
   }
-  // Deprecated since 0.10.0, for the one before it: the words of fix wall/lsdcd.
-  explicit Wall(const std::vector<std::string> &words, const lsdcd_wall_options *options = nullptr)
-  {
-    lsdcd_wall *made = nullptr;
-    const std::vector<const char *> all = pointers(words);
-    c::check(lsdcd_wall_make(all.data(), all.size(), options, &made));
-    handle_.reset(made);
-  }
 
   void step(const lsdcd_spheres &spheres, const lsdcd_wall_step &step)
   {
@@ -1124,12 +1116,6 @@ class Wall {
   {
     c::check(lsdcd_wall_set_body(get(), mesh, &body));
   }
-  // Deprecated since 0.10.0, for set_motion() and set_servo(): the words of fix_modify.
-  void change(const std::vector<std::string> &words)
-  {
-    const std::vector<const char *> all = pointers(words);
-    c::check(lsdcd_wall_change(get(), all.data(), all.size()));
-  }
   std::vector<double> save()
   {
     return numbers([&](double *to, std::size_t room, std::size_t *count) {
@@ -1169,12 +1155,6 @@ class Wall {
     c::check(write(nullptr, 0, &count));
     std::vector<double> all(count);
     c::check(write(all.data(), count, &count));
-    return all;
-  }
-  static std::vector<const char *> pointers(const std::vector<std::string> &words)
-  {
-    std::vector<const char *> all;
-    for (const std::string &word : words) all.push_back(word.c_str());
     return all;
   }
   std::unique_ptr<lsdcd_wall, c::Free<lsdcd_wall_free>> handle_;

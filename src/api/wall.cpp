@@ -3,12 +3,15 @@
 
 // lsdcd_wall_*: a wall is made, asked and freed.
 #include "api/call_threads.h"
+#include "api/wall_given.h"
 #include "api/wall_handle.h"
 #include "backend/cuda_available.h"
 #include "base/input_words.h"
 
 #include <cstddef>
+#include <memory>
 #include <string>
+#include <vector>
 
 using namespace lsdcd;
 
@@ -27,19 +30,12 @@ std::unique_ptr<GpuArrays> gpu_of(const lsdcd_wall_options &o)
   return make_gpu_arrays(o.stream);
 }
 
-}    // namespace
-
-namespace lsdcd {
-
-// Where the arrays of spheres are.
+// Where the arrays of spheres are, the wall computes.
 WallBackend backend_of(const lsdcd_wall_options &o, lsdcd_wall &made)
 {
   if (!made.gpu) return {};
   const auto make = [stream = o.stream,
                      device = made.gpu->device()](const EngineSettings &settings) {
-    if (settings.device != Device::automatic)
-      throw InputError("the keyword device is for arrays of the host: leave it out, as the wall "
-                       "computes where the arrays of its spheres are");
     return make_cuda_engine_in_place(settings, device, stream);
   };
   const auto to_cpu = [&caller = made.caller](const HostSpheres &spheres, CpuArrays arrays) {
@@ -48,6 +44,10 @@ WallBackend backend_of(const lsdcd_wall_options &o, lsdcd_wall &made)
   return {make, true, to_cpu};
 }
 
+}    // namespace
+
+namespace lsdcd {
+
 void check_can_go_on(const lsdcd_wall &wall)
 {
   if (!wall.failed.empty())
@@ -55,34 +55,6 @@ void check_can_go_on(const lsdcd_wall &wall)
         LSDCD_ERROR_INPUT,
         "a step of this wall failed half-way, so that it cannot go on: " + wall.failed +
             ". Free it and make another one, which may go on from what was saved before");
-}
-
-void check_no_inputs(const Wall &wall)
-{
-  const std::vector<int> inputs = wall.inputs_read();
-  if (!inputs.empty())
-    throw InputError("v_" + wall.spec().inputs[static_cast<std::size_t>(inputs.front())] +
-                     ": there are no variables here; give numbers, and change them between steps");
-}
-
-lsdcd_wall *
-new_wall(const lsdcd_wall_options *options,
-         const std::function<std::unique_ptr<Wall>(lsdcd_wall &, const lsdcd_wall_options &)> &make)
-{
-  lsdcd_wall_options o = {};
-  if (options) o = checked(options, "lsdcd_wall_options");
-  check_threads(o.threads);
-  const CallThreads threads(o.threads);
-  auto made = std::make_unique<lsdcd_wall>(o);
-  made->gpu = gpu_of(o);
-  made->caller.gpu = made->gpu.get();
-  made->in = make(*made, o);
-  made->parts = parts_of(*made->in);
-  note_vertices(*made);
-  check_no_inputs(*made->in);
-  made->in->begin_run(0, false);
-  made->caller.tell_what_show_threw();
-  return made.release();
 }
 
 void check_mesh(const lsdcd_wall &wall, int mesh, int least)
@@ -110,6 +82,29 @@ void tell_late(lsdcd_wall &wall)
 }    // namespace lsdcd
 
 extern "C" {
+
+int lsdcd_wall_from_spec(const lsdcd_wall_spec *spec, const lsdcd_wall_options *options,
+                         lsdcd_wall **wall)
+{
+  return guard([&] {
+    need(wall, "wall");
+    lsdcd_wall_options o = {};
+    if (options) o = checked(options, "lsdcd_wall_options");
+    check_threads(o.threads);
+    const CallThreads threads(o.threads);
+    auto made = std::make_unique<lsdcd_wall>(o);
+    made->gpu = gpu_of(o);
+    made->caller.gpu = made->gpu.get();
+    made->in =
+        std::make_unique<Wall>(made->caller, wall_spec_of(spec, made->gpu != nullptr), WallUnits(),
+                               backend_of(o, *made), "", StepClock{o.time, 0, 0, 0});
+    made->parts = parts_of(*made->in);
+    note_vertices(*made);
+    made->in->begin_run(0, false);
+    made->caller.tell_what_show_threw();
+    *wall = made.release();
+  });
+}
 
 int lsdcd_wall_get_totals(lsdcd_wall *wall, int mesh, lsdcd_wall_totals *totals)
 {

@@ -14,7 +14,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
-#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -115,15 +114,6 @@ int guard_wall(lsdcd_wall *wall, const Body &body) noexcept
     wall->caller.tell_what_show_threw();
   });
 }
-
-// Makes the handle, and its wall by `make`, whose Host is the handle's caller.
-lsdcd_wall *new_wall(
-    const lsdcd_wall_options *options,
-    const std::function<std::unique_ptr<Wall>(lsdcd_wall &, const lsdcd_wall_options &)> &make);
-// Returns where it computes.
-WallBackend backend_of(const lsdcd_wall_options &options, lsdcd_wall &made);
-// Throws where a step would need numbers that only a script has.
-void check_no_inputs(const Wall &wall);
 
 // Throws where there is no such mesh; `least`: -1 where that is all of them.
 void check_mesh(const lsdcd_wall &wall, int mesh, int least);

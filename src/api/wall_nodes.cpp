@@ -181,7 +181,7 @@ void note_vertices(lsdcd_wall &wall)
 {
   wall.node_rows.resize(wall.in->meshes().size());
   for (const MeshPart &part : wall.in->meshes()) {
-    if (!part.spec.mesh || !(part.wear || part.nodes)) continue;
+    if (!part.wear && !part.nodes) continue;
     NodeRows &rows = wall.node_rows[static_cast<std::size_t>(part.index)];
     rows = node_rows_of(part);
     if (part.nodes) part.nodes->rows = rows.first_row;

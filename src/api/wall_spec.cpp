@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// A wall of meshes and laws: lsdcd_wall_from_spec, lsdcd_place_*, and how its meshes move.
+// lsdcd_place_*, and how meshes of a wall move.
 #include "api/refusals.h"
 #include "api/wall_given.h"
 #include "api/wall_handle.h"
@@ -75,19 +75,6 @@ int lsdcd_place_rotate(double *placement, const double *axis, double degrees)
 int lsdcd_place_move(double *placement, double x, double y, double z)
 {
   return guard([&] { change_placement(placement, [&](Placement &p) { p.move({x, y, z}); }); });
-}
-
-int lsdcd_wall_from_spec(const lsdcd_wall_spec *spec, const lsdcd_wall_options *options,
-                         lsdcd_wall **wall)
-{
-  return guard([&] {
-    need(wall, "wall");
-    *wall = new_wall(options, [&](lsdcd_wall &made, const lsdcd_wall_options &o) {
-      return std::make_unique<Wall>(made.caller, wall_spec_of(spec, made.gpu != nullptr),
-                                    WallUnits(), backend_of(o, made), "",
-                                    StepClock{o.time, 0, 0, 0});
-    });
-  });
 }
 
 int lsdcd_wall_set_pose(lsdcd_wall *wall, int mesh, const double *position,

@@ -28,7 +28,6 @@ from __future__ import annotations
 import ctypes
 import math
 import os
-import re
 import threading
 from typing import Any, Callable, Iterable, Mapping, Protocol, Sequence, runtime_checkable
 
@@ -659,19 +658,16 @@ class Wall(_Owner):
     all call its methods together, but for renumber(), pack(), unpack(), pose(), set_pose(), nodes() and set_nodes(). The errors of one are raised
     on all.
 
-    Deprecated since 0.10.0: in place of the spec the words that follow fix wall/lsdcd in a script, a text or a list, by
-    place or as `words`. Raises Error for a spec or words that make no wall, with the field or word, its value and what to
-    give; TypeError and ValueError for other arguments."""
+    Raises Error for a spec that makes no wall, with the field, its value and what to give; TypeError and ValueError for other
+    arguments."""
     _free = _lib.lsdcd_wall_free
 
-    def __init__(self, spec: WallSpec | str | Iterable[str] | None = None, lo: ArrayLike | None = None,
-                 hi: ArrayLike | None = None,
-                 periodic: Sequence[bool] = (False, False, False), margin: float = 0.0, time: float = 0.0, units: str = "si",
+    def __init__(self, spec: WallSpec, lo: ArrayLike | None = None, hi: ArrayLike | None = None,
+                 periodic: Sequence[bool] = (False, False, False), margin: float = 0.0, time: float = 0.0,
                  show: Callable[[str, bool], object] | None = None, threads: int = 0, host: Host | None = None,
-                 device: str = "cpu", stream: Any = None, *, words: str | Iterable[str] | None = None) -> None:
+                 device: str = "cpu", stream: Any = None) -> None:
         super().__init__()
-        if (spec is None) == (words is None):
-            raise TypeError("a wall is made of a WallSpec, or of `words`: give one of them")
+        self._names: list[str] = _instance(spec, WallSpec, "spec")._names()
         self._on_device = bool(_chosen("device", device, DEVICES))
         self._stream = stream    # which must live as long as the wall
         self._told: list[BaseException] = []    # what callbacks raised, which C cannot pass on
@@ -701,18 +697,13 @@ class Wall(_Owner):
         self._show: Any = _Show(called(tell)) if show else _Show(0)    # it must live as long as the wall
         self._host = None if host is None else _host_struct(host, called)
         options = _sized(_WallOptions, periodic=(_int * 3)(*(_flag(along, "periodic") for along in periodic)), margin=margin,
-                         time=time, units=units, show=self._show, threads=threads,
+                         time=time, show=self._show, threads=threads,
                          host=ctypes.addressof(self._host) if self._host else None,
                          stream=_arrays.stream_handle(stream), device=int(self._on_device))
         for name, place in (("lo", least), ("hi", most)):
             if place is not None:
                 setattr(options, name, (_real * 3)(*place))
-        made = (ctypes.byref(options), ctypes.byref(self._handle))
-        self._names = spec._names() if isinstance(spec, WallSpec) else []
-        if isinstance(spec, WallSpec):
-            self._do(_lib.lsdcd_wall_from_spec, ctypes.byref(spec._struct), *made)
-        else:
-            self._do(_lib.lsdcd_wall_make, *_words(spec or words or ()), *made)
+        self._do(_lib.lsdcd_wall_from_spec, ctypes.byref(spec._struct), ctypes.byref(options), ctypes.byref(self._handle))
 
     def _do(self, call: Any, *arguments: Any) -> None:
         if self._host is None and not self._show:    # nothing that C calls
@@ -946,11 +937,6 @@ class Wall(_Owner):
         self._do(_lib.lsdcd_wall_set_body, self._handle, self._mesh(mesh),
                  ctypes.addressof(_instance(body, RigidBody, "body")._struct))
 
-    def change(self, words: str | Iterable[str]) -> None:
-        """Deprecated since 0.10.0, for set_motion() and set_servo(): [mesh K] motion ... or [mesh K] servo ..., as fix_modify
-        takes them, with K from 1."""
-        self._do(_lib.lsdcd_wall_change, self._handle, *_words(words))
-
     def save(self) -> NDArray[np.float64]:
         """What the wall and the contacts of its spheres keep, an array for restore()."""
         return self._numbers(_lib.lsdcd_wall_save)
@@ -964,7 +950,7 @@ class Wall(_Owner):
         return numbers
 
     def restore(self, numbers: ArrayLike, what_fits: bool = False) -> None:
-        """Before the first step of a wall of the same spec or words. Raises Error for numbers of another wall, with what differs; with
+        """Before the first step of a wall of the same spec. Raises Error for numbers of another wall, with what differs; with
         `what_fits` it takes of them what fits, and `show` is told what does not."""
         saved = _in_a_row(_as_floats(numbers, "numbers"), "numbers", np.float64)
         call = _lib.lsdcd_wall_restore_what_fits if _flag(what_fits, "what_fits") else _lib.lsdcd_wall_restore
@@ -1003,21 +989,6 @@ def _host_struct(host: Host, called: Callable[[Callable[..., object]], Callable[
                   sum=_Reduce(called(lambda numbers, n: host.sum(as_array(numbers, (n,))))),
                   max=_Reduce(called(lambda numbers, n: host.max(as_array(numbers, (n,))))),
                   broadcast=_Broadcast(called(lambda data, n, source: host.broadcast(as_array(data, (n,), np.uint8), source))))
-
-
-def _words(words: str | Iterable[str]) -> tuple[Any, int]:
-    """As an array of C strings, and how many."""
-    each = _split(words) if isinstance(words, str) else list(words)
-    return (ctypes.c_char_p * len(each))(*(_c_text(word, "a word") for word in each)), len(each)
-
-
-def _split(text: str) -> list[str]:
-    """At blanks, as a script's line: a word that begins with a quote goes on to the next such quote."""
-    found = re.findall(r"""(["'])(.*?)\1(?=\s|$)|(\S+)""", text, re.DOTALL)
-    for _, _, bare in found:
-        if bare[:1] in ("'", '"'):
-            raise ValueError(f"in words, the quote that begins {bare} does not end")
-    return [bare or quoted for _, quoted, bare in found]
 
 
 def _vertex_numbers(faces: ArrayLike, n: int) -> NDArray[np.uint32]:

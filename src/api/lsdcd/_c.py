@@ -129,7 +129,7 @@ _Host = _struct("_Host", ("rank", _int), ("processes", _int), ("node_rank", _int
                 ("max", _Reduce), ("broadcast", _Broadcast))
 _WallOptions = _struct(
     "_WallOptions", ("lo", _real * 3), ("hi", _real * 3), ("periodic", _int * 3), ("margin", _real),
-    ("time", _real), ("units", ctypes.c_char_p), ("show", _Show), ("data", _at), ("threads", _int),
+    ("time", _real), ("show", _Show), ("data", _at), ("threads", _int),
     ("host", _at), ("stream", _at), ("device", _int))
 _Spheres = _struct(
     "_Spheres", ("n", _size), ("row", _step), ("x", _at), ("v", _at), ("omega", _at), ("radius", _at),
@@ -176,10 +176,8 @@ def _load() -> Any:
     lib.lsdcd_query_stream.argtypes = lib.lsdcd_wall_get_contacts.argtypes = [_at, _at]
     lib.lsdcd_grid_build.argtypes = lib.lsdcd_stream_open.argtypes = [_at, _at, _at]
     lib.lsdcd_body_make.argtypes = [_at, _at, _at, _at]
-    lib.lsdcd_wall_make.argtypes = [_at, _size, _at, _at]
     lib.lsdcd_wall_step_spheres.argtypes = [_at, _at, _at]
-    for call in ("renumber", "change"):
-        getattr(lib, "lsdcd_wall_" + call).argtypes = [_at, _at, _size]
+    lib.lsdcd_wall_renumber.argtypes = [_at, _at, _size]
     for call in ("get_totals", "get_pose", "set_servo", "get_node_count", "get_nodes", "get_node_forces",
                  "get_body", "set_body"):
         getattr(lib, "lsdcd_wall_" + call).argtypes = [_at, _int, _at]
