@@ -9,6 +9,7 @@
 #include "bodies/read_pose.h"
 #include "law/sub_models.h"
 #include "output/file_series.h"
+#include "wall/spec_check.h"
 
 #include <cmath>
 #include <limits>
@@ -185,19 +186,6 @@ void add_laws(const lsdcd_wall_mesh &given, const std::string &field, MeshSpec &
   }
 }
 
-// Only numbers differ between the laws of a wall.
-void check_sub_models(const WallSpec &wall)
-{
-  for (std::size_t m = 0; m < wall.meshes.size(); m++)
-    for (const LawOfTypes &row : wall.meshes[m].laws)
-      if (rows_of(row.law) != rows_of(wall.law()))
-        refuse_field(element("meshes", m) + (row.is_of_all() ? ".law" : ".type_laws"),
-                     sub_models_text(row.law),
-                     "the wall's law has " + sub_models_text(wall.law()) +
-                         ", and only numbers may differ; put the mesh into a wall of its own, or "
-                         "give both the same sub-models");
-}
-
 void read_surface(const lsdcd_wall_mesh &given, const std::string &field, MeshSpec &mesh)
 {
   mesh.surface.velocity = checked_vector(given.surface_velocity, field + ".surface_velocity");
@@ -210,29 +198,11 @@ void read_motion(const lsdcd_wall_mesh &given, const std::string &field, MeshSpe
 {
   mesh.has_nodes = checked_flag(given.nodes_by_caller, field + ".nodes_by_caller");
   mesh.pressure = checked_number(given.pressure, field + ".pressure");
-  if (mesh.has_nodes && (given.posed_by_caller || given.n_motions > 0 || given.servo))
-    refuse_field(
-        field + ".nodes_by_caller", "1",
-        "lsdcd_wall_set_nodes() alone moves such a mesh: leave posed_by_caller, motions and "
-        "servo out");
-  if (!mesh.has_nodes && mesh.pressure != 0)
-    refuse_field(field + ".pressure", mesh.pressure,
-                 "it acts on nodes: set nodes_by_caller, or leave it 0");
-  const bool is_posed = checked_flag(given.posed_by_caller, field + ".posed_by_caller");
-  if (is_posed) mesh.motion.begin_posed();
-  if (is_posed && (given.n_motions > 0 || given.servo))
-    refuse_field(field + ".posed_by_caller", "1",
-                 "lsdcd_wall_set_pose() alone moves such a mesh: leave motions and servo out");
+  if (checked_flag(given.posed_by_caller, field + ".posed_by_caller")) mesh.motion.begin_posed();
   for (const MotionTerm &term : motions_of(given.motions, given.n_motions, field + ".motions"))
     mesh.motion.add(term);
   if (given.servo) mesh.motion.servo() = servo_of(given.servo, field + ".servo");
-  if (!given.body) return;
-  if (is_posed || given.n_motions > 0 || given.servo)
-    refuse_field(
-        field + ".body", "given",
-        "what acts on it alone moves such a mesh: leave posed_by_caller, motions and servo "
-        "out");
-  mesh.body = body_of(given.body, field + ".body", true);
+  if (given.body) mesh.body = body_of(given.body, field + ".body", true);
 }
 
 FileEvery file_of(const char *name, int every, const std::string &field, const char *end)
@@ -264,51 +234,17 @@ MeshSpec mesh_spec_of(const lsdcd_wall_mesh &given, std::size_t k, const WallSpe
   read_motion(given, field, mesh);
   read_surface(given, field, mesh);
   mesh.temperature = checked_number(given.temperature, field + ".temperature");
-  mesh.has_temperature = wall.law().has_heat();
-  if (mesh.temperature != 0 && !mesh.has_temperature)
-    refuse_field(field + ".temperature", mesh.temperature,
-                 "the wall's law has no sub-model `heat` that uses it: leave it 0");
+  mesh.has_temperature = wall.law().has_heat() || mesh.temperature != 0;
   mesh.torque_about = checked_vector(given.torque_about, field + ".torque_about");
   mesh.torque_about_mesh = checked_flag(given.torque_about_moves, field + ".torque_about_moves");
   const double factor = given.wear_factor;
   if (factor != -1 && factor != 0)
     mesh.wear_factor = checked_number(factor, field + ".wear_factor", 0);
   if (factor == -1) mesh.wear_factor = 0;
-  if (factor != 0 && factor != 1 && !wall.wears())
-    refuse_field(field + ".wear_factor", factor,
-                 "nothing wears, as `wear` is LSDCD_NO_WEAR: leave it 0");
-  if (wall.recedes(mesh) && (mesh.has_nodes || mesh.body.present))
-    refuse_field(
-        field + (mesh.has_nodes ? ".nodes_by_caller" : ".body"), mesh.has_nodes ? "1" : "given",
-        "wear moves this mesh (wear_deform_every); leave one of them out, or give the mesh "
-        "wear_factor -1, by which it does not wear");
   mesh.fields = file_of(given.fields, given.fields_every, field + ".fields", ".vtp");
   mesh.stl = file_of(given.stl, given.stl_every, field + ".stl", ".stl");
   if (given.cache) mesh.cache_file = given.cache;
   return mesh;
-}
-
-// Refuses meshes that would be felt twice, and outputs that would be lost.
-void check_apart(const WallSpec &wall)
-{
-  for (std::size_t k = 0; k < wall.meshes.size(); k++)
-    for (std::size_t i = 0; i < k; i++) {
-      const MeshSpec &one = wall.meshes[i], &other = wall.meshes[k];
-      const std::string first = element("meshes", i), second = element("meshes", k);
-      if (are_one_mesh(wall, one, wall, other))
-        refuse_field(second + ".mesh", "that of " + first + " at the same place",
-                     "every contact would count twice; leave one out, or move it");
-      const struct {
-        const char *field;
-        const std::string &name, &of_other;
-      } files[] = {{".cache", one.cache_file, other.cache_file},
-                   {".fields", one.fields.name, other.fields.name},
-                   {".stl", one.stl.name, other.stl.name}};
-      for (const auto &file : files)
-        if (!file.name.empty() && file.name == file.of_other)
-          refuse_field(second + file.field, in_quotes(file.name),
-                       first + " has the same file; give each one of its own");
-    }
 }
 
 void read_wear(const lsdcd_wall_spec &given, WallSpec &wall)
@@ -329,9 +265,6 @@ void read_wear(const lsdcd_wall_spec &given, WallSpec &wall)
   if (given.wear_deform_every < 0)
     refuse_field("wear_deform_every", std::to_string(given.wear_deform_every),
                  "it is a number of steps, or 0: wear moves no mesh");
-  if (given.wear_deform_every > 0 && model == LSDCD_NO_WEAR)
-    refuse_field("wear_deform_every", std::to_string(given.wear_deform_every),
-                 "nothing wears, as `wear` is LSDCD_NO_WEAR: leave it 0");
   if (given.wear_deform_every == 0)
     check_zero(&given.wear_deform_factor, 1, "wear_deform_factor",
                "a wall without wear_deform_every");
@@ -371,9 +304,7 @@ void read_search(const lsdcd_wall_spec &given, bool on_device, WallSpec &wall)
                  "it is a number of steps, or 0: there are no means");
 }
 
-}    // namespace
-
-WallSpec wall_spec_of(const lsdcd_wall_spec *pointer, bool on_device)
+WallSpec read_spec(const lsdcd_wall_spec *pointer, bool on_device)
 {
   const lsdcd_wall_spec given = checked(pointer, "lsdcd_wall_spec");
   WallSpec wall;
@@ -383,16 +314,26 @@ WallSpec wall_spec_of(const lsdcd_wall_spec *pointer, bool on_device)
   read_search(given, on_device, wall);
   read_wear(given, wall);
   need_elements(given.meshes, given.n_meshes, "meshes");
-  if (given.n_meshes < 1 || given.n_meshes > kMaxMeshes)
-    refuse_field("n_meshes", std::to_string(given.n_meshes),
-                 "a wall has 1 to " + std::to_string(kMaxMeshes) + " meshes");
+  check_mesh_count(given.n_meshes, SpecNames::fields);
   for (std::size_t k = 0; k < given.n_meshes; k++)
     wall.meshes.push_back(
         mesh_spec_of(checked(given.meshes + k, "lsdcd_wall_mesh", element("meshes", k)), k, wall));
   leave_out_zero_cohesion(wall);
-  check_sub_models(wall);
-  check_apart(wall);
+  check_spec(wall, SpecNames::fields);
   return wall;
+}
+
+}    // namespace
+
+WallSpec wall_spec_of(const lsdcd_wall_spec *given, bool on_device)
+{
+  try {
+    return read_spec(given, on_device);
+  } catch (const ApiError &) {
+    throw;
+  } catch (const InputError &e) {
+    throw ApiError(LSDCD_ERROR_ARGUMENT, e.what());
+  }
 }
 
 Placement placement_of(const double *numbers, const std::string &field)
@@ -484,12 +425,6 @@ BodySpec body_of(const lsdcd_rigid_body *pointer, const std::string &field, bool
   body.moment = vector(given.moment, "moment");
   body.has_gravity = true;
   body.gravity = vector(given.gravity, "gravity");
-  if (!begins) return body;
-  try {
-    check_body(body);
-  } catch (const InputError &e) {
-    throw ApiError(LSDCD_ERROR_ARGUMENT, "`" + field + "`: " + e.what());
-  }
   return body;
 }
 

@@ -131,19 +131,11 @@ void read_law_of_mesh(Tokens &w, MeshSpec &mesh, InputNames &)
   mesh.laws.insert(by_type ? mesh.laws.end() : mesh.laws.begin(), of);
 }
 
-void finish_laws(Tokens &w, WallSpec &s)
+void finish_laws(WallSpec &s)
 {
-  w.set_context("law", kLawOfTypesSyntax);
   for (MeshSpec &mesh : s.meshes)
     for (LawOfTypes &of : mesh.laws) inherit(s.law(), of);
   leave_out_zero_cohesion(s);
-  for (const MeshSpec &mesh : s.meshes)
-    for (const LawOfTypes &of : mesh.laws)
-      if (rows_of(of.law) != rows_of(s.law()))
-        w.fail("mesh '" + mesh.file + "' has the sub-models " + sub_models_text(of.law) +
-               ", and the wall has " + sub_models_text(s.law()) +
-               ": only the numbers may differ; put the mesh into another fix, or give the wall the "
-               "same sub-models");
 }
 
 }    // namespace lsdcd

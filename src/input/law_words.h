@@ -26,6 +26,6 @@ void read_law_of_mesh(Tokens &w, MeshSpec &mesh, InputNames &);
 void read_types(Tokens &w, LawOfTypes &of);
 
 // Once all is read: what a mesh's law leaves out is the wall's; refuses other sub-models.
-void finish_laws(Tokens &w, WallSpec &settings);
+void finish_laws(WallSpec &settings);
 
 }    // namespace lsdcd

@@ -8,6 +8,7 @@
 #include "input/keywords.h"
 #include "input/law_words.h"
 #include "mesh/io/read_mesh.h"
+#include "wall/spec_check.h"
 
 #include <algorithm>
 
@@ -162,65 +163,6 @@ void read_keywords(Tokens &w, WallCommand &command, bool granular)
   }
 }
 
-// "mesh 2 'lid.stl'", of a wall with several.
-std::string name_of_mesh(const WallSpec &s, std::size_t k)
-{
-  return "mesh " + std::to_string(k + 1) + " '" + s.meshes[k].file + "'";
-}
-
-// Refuses what mesh k has in common with an earlier one and would be lost or felt twice.
-void check_apart(Tokens &w, const WallSpec &s, std::size_t k)
-{
-  const MeshSpec &mesh = s.meshes[k];
-  for (std::size_t i = 0; i < k; i++) {
-    const MeshSpec &other = s.meshes[i];
-    const std::string both = name_of_mesh(s, i) + " and " + name_of_mesh(s, k);
-    if (are_one_mesh(s, mesh, s, other)) {
-      w.set_context("mesh", "mesh FILE");
-      w.fail(both + " are the same file at the same place, so that every contact would count "
-                    "twice: leave one out, or move it");
-    }
-    const struct {
-      const char *keyword;
-      const std::string &name, &of_other;
-    } files[] = {{"mesh_fields", mesh.fields.name, other.fields.name},
-                 {"mesh_stl", mesh.stl.name, other.stl.name},
-                 {"cache", mesh.cache_file, other.cache_file}};
-    for (const auto &file : files)
-      if (!file.name.empty() && file.name == file.of_other) {
-        w.set_context(file.keyword, std::string(file.keyword) + " FILE");
-        w.fail(both + " have the same file '" + file.name +
-               "', so that one would overwrite the other: give each a name of its own");
-      }
-  }
-}
-
-void check_meshes(Tokens &w, const WallSpec &s)
-{
-  const bool several = s.meshes.size() > 1;
-  w.set_context("mesh", "mesh FILE");
-  if (s.meshes.size() > kMaxMeshes)
-    w.fail("there are " + std::to_string(s.meshes.size()) + " meshes, and at most " +
-           std::to_string(kMaxMeshes) +
-           " can be in one fix: put those that never come near one another into one STL file, or "
-           "into another fix");
-  for (std::size_t k = 0; k < s.meshes.size(); k++) {
-    const bool has = s.meshes[k].has_temperature;
-    const std::string of = several ? " of " + name_of_mesh(s, k) : "";
-    w.set_context("temperature",
-                  "granular ... heat radius|area ... mesh FILE temperature T|v_NAME");
-    if (s.law().has_heat() && !has)
-      w.fail((several ? "the temperature" + of : "the wall's temperature") +
-             " is missing, which the sub-model heat needs");
-    if (has && !s.law().has_heat())
-      w.fail("a temperature" + of + " is given, but no sub-model heat uses it");
-    w.set_context("wear_factor", "wear MODEL numbers mesh FILE wear_factor F");
-    if (s.meshes[k].wear_factor != 1 && !s.wears())
-      w.fail("a wear_factor" + of + " is given, but nothing wears without the keyword wear");
-    check_apart(w, s, k);
-  }
-}
-
 }    // namespace
 
 WallCommand parse_wall(const std::vector<std::string> &arguments, const LawsOfMaterials &laws_of)
@@ -240,8 +182,8 @@ WallCommand parse_wall(const std::vector<std::string> &arguments, const LawsOfMa
   w.set_context("fix wall/lsdcd", granular ? granular_syntax() : law_syntax());
   if (wall.meshes[0].file.empty()) w.fail("mesh FILE is missing");
   if (has_materials) add_laws(command.materials, laws_of, wall);
-  finish_laws(w, wall);
-  check_meshes(w, wall);
+  finish_laws(wall);
+  check_spec(wall);
   return command;
 }
 

@@ -66,10 +66,6 @@ MeshBody::MeshBody(Host &host, WallSpec &wall, const LawTable &laws, int mesh, c
     host_(host),
     wall_(wall), laws_(laws), mesh_(mesh), grid_(grid), force_(force)
 {
-  const RigidMotion &motion = wall.meshes[mesh].motion;
-  if (motion.moves() || motion.servo().present)
-    throw InputError(
-        named("a body moves by what acts on it: leave out its motion, wiggle or servo"));
   BodySpec &s = wall_.meshes[mesh].body;
   if (s.density > 0) {
     run_collectively(host, host.rank() == 0,

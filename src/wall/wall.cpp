@@ -8,6 +8,7 @@
 #include "wall/creation_text.h"
 #include "wall/mesh_checks.h"
 #include "wall/mesh_name.h"
+#include "wall/spec_check.h"
 #include "wall/spec_text.h"
 
 #include <algorithm>

@@ -118,10 +118,6 @@ struct WallSpec {
   bool has_nodes() const;
 };
 
-// Throws InputError, which names the mesh and the member, where a wall cannot be made of this: for callers whose
-// numbers no parser has checked.
-void check_spec(const WallSpec &wall);
-
 // Cohesion of 0 everywhere costs nothing: no law has it then.
 void leave_out_zero_cohesion(WallSpec &wall);
 

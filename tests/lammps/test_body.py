@@ -510,7 +510,7 @@ def changes(checks, folder):
             "the coat of the body comes to the periodic face in y", "leave the coat out, make the boundary fixed")
     corners = "".join(f"create_atoms 1 single {x} {y} -1 units box\n" for x in (-1, 1) for y in (-0.41, 0.41))
     coat = script(fix + "coat 0.1 0.075 mesh floor.stl nodes all", corners + "set group all diameter 0.01 density 1\n", 1e-3)
-    refused("a coat beside nodes", coat, "its body has a coat, which cannot feel meshes whose nodes move")
+    refused("a coat beside nodes", coat, "its coat cannot feel meshes whose nodes move")
 
 
 def main():

@@ -225,9 +225,9 @@ def refused(checks, folder):
     wall = "fix w {group} wall/lsdcd hooke 2e4 0 0 0 0 0 mesh sheet.stl nodes {nodes} {more}\n"
     fails("nodes in the group of the fix", wall.format(group="all", nodes="nodes", more=""), "and also in the group of the fix")
     fails("a group that is not there", wall.format(group="grains", nodes="noes", more=""), "there is no group 'noes'")
-    fails("a motion beside nodes", wall.format(group="grains", nodes="nodes", more="motion linear 0 0 1"), "its nodes alone move it")
+    fails("a motion beside nodes", wall.format(group="grains", nodes="nodes", more="motion linear 0 0 1"), "in 'nodes', its nodes alone move")
     fails("pressure without nodes", wall.format(group="grains", nodes="nodes", more="").replace("nodes nodes", "pressure 1"),
-          "give it nodes")
+          "it acts on nodes, and the mesh has none")
     soft = head.replace("pair_style      zero 0.8\npair_coeff      * *", "pair_style soft 0.8\npair_coeff * * 0")
     for name, line, warns in (("warned of", "", True), ("of another type", "neigh_modify exclude type 3 1\n", True),
                               ("by types", "neigh_modify exclude type 3 1 exclude type 1 2\n", False),

@@ -1184,7 +1184,8 @@ TEST_F(wall_spec, refuses_nodes_that_make_no_sense)
   EXPECT_TRUE(has(error([&] { wall.set_nodes(0, {1, 2, 3}); }), "there are 3 numbers"));
   EXPECT_TRUE(has(error([&] { wall.set_motion(0, {}); }), "its nodes alone move this mesh"));
   spec.meshes[0].posed_by_caller = true;
-  EXPECT_TRUE(has(error([&] { api::Wall made(spec); }), "`meshes[0].nodes_by_caller` is 1"));
+  EXPECT_TRUE(
+      has(error([&] { api::Wall made(spec); }), "`meshes[0].nodes_by_caller`: its nodes alone"));
   spec.meshes[0].posed_by_caller = spec.meshes[0].nodes_by_caller = false;
   spec.meshes[0].pressure = 2;
   EXPECT_TRUE(has(error([&] { api::Wall made(spec); }), "it acts on nodes"));
@@ -1529,15 +1530,16 @@ TEST_F(wall_spec, names_the_field_its_value_and_the_remedy)
        },
        "`law.limit_damping` is 1: the adhesive sub-model 'jkr' must be able to pull"},
       {[&](Wrong &w) { w.meshes[1].law = &w.granular; },
-       "`meshes[1].law` is hertz, damping viscoelastic, tangential linear_history: the "
-       "wall's law has hooke/history, and only numbers may differ"},
-      {[&](Wrong &w) { w.spec.n_meshes = 0; }, "`n_meshes` is 0: a wall has 1 to "},
+       "`meshes[1].law`: it has the sub-models hertz, damping viscoelastic, tangential "
+       "linear_history, and the wall has hooke/history: only the numbers may differ"},
+      {[&](Wrong &w) { w.spec.n_meshes = 0; },
+       "`n_meshes`: there are 0 meshes, and a wall has 1 to 32"},
       {[&](Wrong &w) { w.spec.meshes = nullptr; }, "`meshes` is null: give an array of 2"},
       {[&](Wrong &w) { w.meshes[0].size = 16; }, "`meshes[0]`: size is 16, and should be sizeof("},
       {[&](Wrong &w) { w.meshes[1].size = 16; }, "`meshes[1]`: size is 16, and should be sizeof("},
       {[&](Wrong &w) { w.meshes[1].mesh = nullptr; }, "`meshes[1].mesh` is null: give a mesh"},
       {[&](Wrong &w) { w.meshes[1].placement[11] = 0; },
-       "`meshes[1].mesh` is that of meshes[0] at the same place: every contact would count twice"},
+       "`meshes[1].mesh`: it is that of meshes[0] at the same place, so that every contact would"},
       {[&](Wrong &w) { w.meshes[1].placement[3] = HUGE_VAL; },
        "`meshes[1].placement[3]` is inf: give a finite number"},
       {[&](Wrong &w) { w.meshes[1].placement[0] = 0; },
@@ -1553,7 +1555,7 @@ TEST_F(wall_spec, names_the_field_its_value_and_the_remedy)
          with_motion(w).velocity[0] = 1;
          w.meshes[0].posed_by_caller = 1;
        },
-       "`meshes[0].posed_by_caller` is 1: lsdcd_wall_set_pose() alone moves such a mesh"},
+       "`meshes[0].posed_by_caller`: the poses of the program alone move such a mesh"},
       {[&](Wrong &w) { with_motion(w).kind = 7; },
        "`meshes[0].motions[0].kind` is 7: it is LSDCD_LINEAR"},
       {[&](Wrong &w) { with_motion(w).angle = 1; },
@@ -1597,9 +1599,9 @@ TEST_F(wall_spec, names_the_field_its_value_and_the_remedy)
       {[&](Wrong &w) { with_servo(w).point[1] = 1; },
        "`meshes[0].servo.point[1]` is 1: a servo that does not turn does not use it"},
       {[&](Wrong &w) { w.meshes[0].temperature = 300; },
-       "`meshes[0].temperature` is 300: the wall's law has no sub-model `heat`"},
+       "`meshes[0].temperature`: a temperature is given, but no sub-model heat uses it"},
       {[&](Wrong &w) { w.meshes[0].wear_factor = 2; },
-       "`meshes[0].wear_factor` is 2: nothing wears"},
+       "`meshes[0].wear_factor`: a factor is given, but nothing wears"},
       {[&](Wrong &w) { w.meshes[0].fields = "a.vtk"; },
        "`meshes[0].fields` is \"a.vtk\": the file name 'a.vtk' must end in .vtp"},
       {[&](Wrong &w) { w.meshes[0].fields = "a.vtp"; },
@@ -1612,7 +1614,7 @@ TEST_F(wall_spec, names_the_field_its_value_and_the_remedy)
            m.stl_every = 1;
          }
        },
-       "`meshes[1].stl` is \"same.stl\": meshes[0] has the same file"},
+       "`meshes[1].stl`: meshes[0] has the same file 'same.stl'"},
       {[&](Wrong &w) { w.meshes[1].surface_velocity[1] = nan; },
        "`meshes[1].surface_velocity[1]` is nan"},
       {[&](Wrong &w) { w.spec.corner = 2; }, "`corner` is 2: it is LSDCD_BLEND or LSDCD_SUM"},
@@ -1627,7 +1629,7 @@ TEST_F(wall_spec, names_the_field_its_value_and_the_remedy)
       {[&](Wrong &w) { w.spec.wear_coefficient = 1; },
        "`wear_coefficient` is 1: LSDCD_NO_WEAR does not use it"},
       {[&](Wrong &w) { w.spec.wear_deform_every = 10; },
-       "`wear_deform_every` is 10: nothing wears, as `wear` is LSDCD_NO_WEAR"},
+       "`wear_deform_every`: wear should move the meshes, but nothing wears"},
       {[&](Wrong &w) { w.spec.wear_deform_every = -1; },
        "`wear_deform_every` is -1: it is a number of steps"},
       {[&](Wrong &w) { w.spec.average_every = -1; },
@@ -1645,7 +1647,7 @@ TEST_F(wall_spec, names_the_field_its_value_and_the_remedy)
          w.spec.wear_deform_every = 10;
          w.meshes[1].nodes_by_caller = 1;
        },
-       "`meshes[1].nodes_by_caller` is 1: wear moves this mesh"},
+       "`meshes[1].nodes_by_caller`: wear moves this mesh"},
   };
   EXPECT_EQ(Wrong(mesh).text(), "");
   for (const auto &row : rows) {
@@ -1775,9 +1777,10 @@ TEST_F(wall_spec, refuses_bodies_that_there_cannot_be)
        "`meshes[0].body`: spring works only with a joint"},
       {[](api::WallMesh &m) { m.body->load[1] = NAN; },
        "`meshes[0].body.load[1]` is nan: give a finite number"},
-      {[](api::WallMesh &m) { m.body->coat = 1; }, "its body has a coat"},
+      {[](api::WallMesh &m) { m.body->coat = 1; },
+       "`meshes[0].body.coat`: its coat feels other meshes"},
       {[](api::WallMesh &m) { m.posed_by_caller = true; },
-       "`meshes[0].body` is given: what acts on it alone"}};
+       "`meshes[0].body`: a body moves by what acts on it"}};
   for (const auto &row : rows)
     EXPECT_NE(says(row.spoil).find(row.text), std::string::npos) << says(row.spoil);
   lsdcd::Wall none(floor_of(hooke_history(), mesh));

@@ -465,7 +465,7 @@ def check_wall_specs():
     falls.set_body(0, lsdcd.RigidBody(joint="ball", point=(0, 0, 0)))
     fact("a body takes another joint", falls.body(0).velocity.tolist() == [0, 0, 0] and falls.body(0).coordinate == 0)
     refused("a joint has a name", "joint", lambda: lsdcd.RigidBody(1, joint="screw"), ValueError)
-    refused("a coat needs another mesh", "has a coat", lambda: lsdcd.Wall(lsdcd.WallSpec(hooke, [
+    refused("a coat needs another mesh", "its coat feels other meshes", lambda: lsdcd.Wall(lsdcd.WallSpec(hooke, [
         lsdcd.WallMesh(mesh, body=lsdcd.RigidBody(mass=1, inertia=(1, 1, 2, 0, 0, 0), coat=True))])), lsdcd.Error)
     posed = lsdcd.Wall(lsdcd.WallSpec(hooke, [lsdcd.WallMesh(mesh, "lid", posed_by_caller=True)]))
     posed.set_pose(0, position=(0, 0, 0.01), velocity=(0, 0, 0.5))
@@ -517,7 +517,7 @@ def check_wall_specs():
             ("nothing wears", lambda: lsdcd.Wall(lsdcd.WallSpec(hooke, [lsdcd.WallMesh(mesh)], wear_deform=(3, 1))), lsdcd.Error),
             ("corner is 'round'; it is 'blend' or 'sum'", lambda: lsdcd.WallSpec(hooke, [], corner="round"), ValueError),
             ("a mesh of the wall is", lambda: lsdcd.WallSpec(hooke, [mesh]), TypeError),
-            ("`n_meshes` is 0", lambda: lsdcd.Wall(lsdcd.WallSpec(hooke, [])), lsdcd.Error),
+            ("`n_meshes`: there are 0 meshes", lambda: lsdcd.Wall(lsdcd.WallSpec(hooke, [])), lsdcd.Error),
             ("rows has the shape", lambda: lsdcd.Motion.table([0, 1, 2]), ValueError),
             ("`meshes[0].motions[0].rows`, row 1: the time 0 is not after", lambda: lsdcd.Wall(lsdcd.WallSpec(
                 hooke, [lsdcd.WallMesh(mesh, motions=[lsdcd.Motion.table([[0, 0, 0, 0], [0, 0, 0, 1]])])])), lsdcd.Error),

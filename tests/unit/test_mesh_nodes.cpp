@@ -1109,23 +1109,6 @@ TEST(mesh_nodes, in_a_line_are_an_error)
   }
 }
 
-TEST(mesh_nodes, go_with_nothing_else_that_moves_a_mesh)
-{
-  const auto mesh = welded(floor_mesh(1, 1));
-  WallSpec spec = nodes_of(hooke(1000).law(), mesh);
-  spec.meshes.front().motion.add(MotionTerm());
-  EXPECT_THROW(check_spec(spec), InputError);
-  spec = nodes_of(hooke(1000).law(), mesh);
-  spec.meshes.front().body.present = true;
-  EXPECT_THROW(check_spec(spec), InputError);
-  spec = nodes_of(hooke(1000).law(), mesh);
-  spec.meshes.front().torque_about_mesh = true;
-  EXPECT_THROW(check_spec(spec), InputError);
-  spec = nodes_of(hooke(1000).law(), mesh);
-  spec.device = Device::cuda;
-  EXPECT_NO_THROW(check_spec(spec));
-}
-
 TEST(mesh_nodes, whose_facets_have_no_area_are_an_error)
 {
   FakeHost host;

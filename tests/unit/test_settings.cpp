@@ -322,18 +322,20 @@ TEST(settings, of_several_meshes_errors_name_the_one)
   const std::string law = "hooke 1e5 NULL 50 NULL 0.5 1 ";
   EXPECT_TRUE(
       names(error_of(law + "weld 0 mesh a.stl mesh b.stl"), "'weld' comes before the first"));
-  EXPECT_TRUE(names(error_with("mesh a.stl"), "mesh 1 'a.stl' and mesh 2 'a.stl'"));
-  EXPECT_TRUE(names(error_with("mesh b.stl mesh a.stl scale 1"), "mesh 1 'a.stl' and mesh 3"));
+  EXPECT_TRUE(
+      names(error_with("mesh a.stl"), "of mesh 2 'a.stl': it is that of mesh 1 'a.stl' at"));
+  EXPECT_TRUE(names(error_with("mesh b.stl mesh a.stl scale 1"),
+                    "of mesh 3 'a.stl': it is that of mesh 1"));
   EXPECT_EQ(with("mesh a.stl move 0 0 1").meshes.size(), 2u);
   EXPECT_EQ(with("mesh a.stl motion linear 0 0 1").meshes.size(), 2u);
   EXPECT_TRUE(names(error_with("move 1 0 0 rmax 1 mesh b.stl move 1 0 0 rmax 1"), "twice"));
   EXPECT_TRUE(names(error_with("mesh_fields f.vtp every 2 mesh b.stl mesh_fields f.vtp every 3"),
-                    "have the same file 'f.vtp'"));
+                    "has the same file 'f.vtp'"));
   std::string many = law;
   for (int k = 0; k < kMaxMeshes; k++) many += " mesh a" + std::to_string(k) + ".stl";
   EXPECT_EQ(parse(many).meshes.size(), 32u);
-  EXPECT_TRUE(
-      names(error_of(many + " mesh b.stl"), "in 'mesh', there are 33 meshes, and at most 32"));
+  EXPECT_TRUE(names(error_of(many + " mesh b.stl"),
+                    "in 'mesh', there are 33 meshes, and a wall has 1 to 32"));
 }
 
 TEST(settings, laws_are_of_a_mesh_and_of_types_with_it)
@@ -594,7 +596,8 @@ TEST(settings, a_mesh_wears_by_a_factor_of_its_own)
   EXPECT_EQ(s.meshes[1].wear_factor, 0);
   EXPECT_EQ(s.meshes[2].wear_factor, 1);
   EXPECT_TRUE(names(error_with("wear_factor -1 wear finnie 1"), "F = -1"));
-  EXPECT_TRUE(names(error_with("wear_factor 2"), "without the keyword wear"));
+  EXPECT_TRUE(
+      names(error_with("wear_factor 2"), "in 'wear_factor', a factor is given, but nothing wears"));
 }
 
 TEST(settings, mesh_fields_need_a_vtp_file_and_a_number_of_steps)
@@ -789,7 +792,7 @@ TEST(settings, granular_errors_name_the_word_and_show_the_syntax)
       {"hertz 1e5 3" + kSlip + " twisting sds 1 2 inf", "mu must be a number"},
       {"hertz 1e5 3" + kSlip + " damping mdr 1", "none|velocity|mass_velocity|viscoelastic"},
       {"hertz 1e5 3" + kSlip + " heat area -1 temperature 3", "h = -1 is out of range"},
-      {"hertz 1e5 3" + kSlip + " heat area 1", "the wall's temperature is missing"},
+      {"hertz 1e5 3" + kSlip + " heat area 1", "in 'temperature', the temperature is missing"},
       {"hertz 1e5 3" + kSlip + " temperature 1", "no sub-model heat uses it"},
       {"hertz 1e5 3" + kSlip + " heat area 1 temperature v_", "the variable's name is missing"},
       {"hertz 1e5 3" + kSlip + " heat area 1 temperature hot", "T must be a number, not 'hot'"},

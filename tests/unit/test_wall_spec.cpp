@@ -1,14 +1,16 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// A wall's data that no parser has read: what a wall cannot be made of is refused.
+// A wall's data: what a wall cannot be made of is refused, by the keywords of a script or by the fields of a program.
 #include "base/input_error.h"
 #include "support/fake_host.h"
+#include "wall/spec_check.h"
 #include "wall/wall.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
 #include <string>
 
 namespace lsdcd::test_wall_spec {
@@ -19,15 +21,16 @@ WallSpec good()
   WallSpec wall;
   wall.meshes.resize(2);
   wall.meshes[1].name = "blade";
+  wall.meshes[1].file = "blade.stl";
   wall.inputs = {"height"};
   return wall;
 }
 
 // The text of the error; empty: there is none.
-std::string refusal_of(const WallSpec &wall)
+std::string refusal_of(const WallSpec &wall, SpecNames names = SpecNames::keywords)
 {
   try {
-    check_spec(wall);
+    check_spec(wall, names);
   } catch (const InputError &e) {
     return e.what();
   }
@@ -47,16 +50,17 @@ TEST(wall_spec, a_wall_of_two_meshes_is_taken)
 
 TEST(wall_spec, a_wall_without_a_mesh_is_refused)
 {
-  expect_error(WallSpec(), "the wall has no mesh; give it 1 to 32 meshes");
+  expect_error(WallSpec(), "in 'mesh', there are 0 meshes, and a wall has 1 to 32");
 }
 
 TEST(wall_spec, more_meshes_than_a_wall_can_have_are_refused)
 {
   WallSpec wall = good();
-  wall.meshes.resize(kMaxMeshes);
+  const auto add = [&] { wall.meshes.emplace_back().file = std::to_string(wall.meshes.size()); };
+  while (wall.meshes.size() < kMaxMeshes) add();
   EXPECT_EQ(refusal_of(wall), "");
-  wall.meshes.resize(kMaxMeshes + 1);
-  expect_error(wall, "the wall has 33 meshes; it can have 1 to 32");
+  add();
+  expect_error(wall, "in 'mesh', there are 33 meshes, and a wall has 1 to 32");
 }
 
 TEST(wall_spec, a_wall_without_a_law_of_all_types_is_refused)
@@ -70,47 +74,181 @@ TEST(wall_spec, a_wall_without_a_law_of_all_types_is_refused)
 
 TEST(wall_spec, an_input_that_is_not_there_is_refused)
 {
-  const std::string text = "but the wall has 1 inputs";
   for (const int input : {1, -2}) {
-    const std::string number = " has input " + std::to_string(input) + ", ";
+    const std::string text =
+        "there is no input " + std::to_string(input) + ", as the wall has 1, which count from 0";
     WallSpec wall = good();
     MotionTerm term;
     term.input[5] = input;
     wall.meshes[1].motion.add(term);
-    expect_error(wall, "mesh 'blade': its motion" + number + text);
+    expect_error(wall, "in 'motion', of mesh 2 'blade': " + text);
     wall = good();
     wall.meshes[0].motion.servo().target_input = input;
-    expect_error(wall, "mesh 1: its servo" + number + text);
+    expect_error(wall, "in 'servo', of mesh 1: " + text);
     wall = good();
     wall.meshes[0].surface_input[0] = input;
-    expect_error(wall, "mesh 1: its surface" + number + text);
+    expect_error(wall, "in 'surface_vel', of mesh 1: " + text);
     wall = good();
     wall.meshes[0].temperature_input = input;
-    expect_error(wall, "mesh 1: its temperature" + number + text);
+    expect_error(wall, "in 'temperature', of mesh 1: " + text);
     wall = good();
     wall.meshes[0].body.motor_input = input;
-    expect_error(wall, "mesh 1: the motor of its body" + number + text);
+    expect_error(wall, "in 'body', of mesh 1: " + text);
     wall = good();
     wall.meshes[0].body.load_input[2] = input;
-    expect_error(wall, "mesh 1: the load of its body" + number + text);
+    expect_error(wall, "in 'body', of mesh 1: " + text);
     wall = good();
     wall.meshes[0].body.moment_input[1] = input;
-    expect_error(wall, "mesh 1: the moment of its body" + number + text);
+    expect_error(wall, "in 'body', of mesh 1: " + text);
   }
   WallSpec wall = good();
   wall.meshes[0].surface_input[0] = 0;
   EXPECT_EQ(refusal_of(wall), "");
 }
 
-TEST(wall_spec, heat_and_temperatures_need_each_other)
+// Each row is a wall that contradicts itself: what is wrong with the blade by its keyword and by its field, and why. A field of the
+// wall begins with a point.
+TEST(wall_spec, what_does_not_go_together_is_refused_by_keyword_and_by_field)
+{
+  const auto wear = [](WallSpec &w) {
+    w.wear.model = WearModel::archard;
+    w.wear_shape.every = 5;
+  };
+  const auto body = [](MeshSpec &m) {
+    m.body.present = true;
+    m.body.density = 1;
+  };
+  using Wall = WallSpec;
+  using Mesh = MeshSpec;
+  const struct {
+    std::function<void(Wall &, Mesh &)> spoil;
+    const char *keyword, *field, *text;
+  } rows[] = {
+      {[](Wall &, Mesh &m) { m.has_temperature = true; }, "temperature", "temperature",
+       "a temperature is given, but no sub-model heat uses it"},
+      {[](Wall &w, Mesh &) {
+         w.laws[0].law.heat = HeatModel::radius;
+         w.meshes[0].has_temperature = true;
+       },
+       "temperature", "temperature", "the temperature is missing, which the sub-model heat needs"},
+      {[](Wall &, Mesh &m) { m.wear_factor = 2; }, "wear_factor", "wear_factor",
+       "a factor is given, but nothing wears"},
+      {[](Wall &w, Mesh &) { w.wear_shape.every = 5; }, "wear", ".wear_deform_every",
+       "wear should move the meshes, but nothing wears"},
+      {[](Wall &, Mesh &m) { m.pressure = 1; }, "pressure", "pressure",
+       "it acts on nodes, and the mesh has none"},
+      {[](Wall &, Mesh &m) { m.pressure_input = 0; }, "pressure", "pressure", "it acts on nodes"},
+      {[](Wall &, Mesh &m) {
+         m.has_nodes = true;
+         m.motion.add(MotionTerm());
+       },
+       "nodes", "nodes_by_caller", "its nodes alone move such a mesh"},
+      {[](Wall &, Mesh &m) {
+         m.has_nodes = true;
+         m.motion.begin_posed();
+       },
+       "nodes", "nodes_by_caller", "its nodes alone move such a mesh"},
+      {[&](Wall &, Mesh &m) {
+         m.has_nodes = true;
+         body(m);
+       },
+       "nodes", "nodes_by_caller", "its nodes alone move such a mesh"},
+      {[](Wall &, Mesh &m) {
+         m.has_nodes = true;
+         m.cache_file = "a.grid";
+       },
+       "cache", "cache", "the grid of a mesh is made again as its nodes move"},
+      {[](Wall &, Mesh &m) { m.has_nodes = m.torque_about_mesh = true; }, "torque_about",
+       "torque_about_moves", "a mesh whose nodes move has no frame"},
+      {[](Wall &w, Mesh &m) {
+         m.has_nodes = true;
+         w.nearest = 2;
+       },
+       "nodes", "nodes_by_caller", "a mesh whose nodes move has no lists of the nearest"},
+      {[&](Wall &w, Mesh &m) {
+         m.has_nodes = true;
+         wear(w);
+       },
+       "nodes", "nodes_by_caller", "wear moves this mesh, and its nodes are moved by others"},
+      {[&](Wall &w, Mesh &m) {
+         body(m);
+         wear(w);
+       },
+       "body", "body", "wear moves this mesh, and the mass and centre of a body are those of its"},
+      {[](Wall &, Mesh &m) {
+         m.motion.begin_posed();
+         m.motion.add(MotionTerm());
+       },
+       "posed_by_caller", "posed_by_caller", "the poses of the program alone move such a mesh"},
+      {[&](Wall &, Mesh &m) {
+         body(m);
+         m.motion.servo().present = true;
+       },
+       "body", "body", "a body moves by what acts on it"},
+      {[&](Wall &w, Mesh &m) {
+         body(m);
+         m.body.coat.present = true;
+         w.meshes[0].has_nodes = true;
+       },
+       "body", "body.coat", "its coat cannot feel meshes whose nodes move"},
+      {[](Wall &w, Mesh &m) {
+         m.laws.resize(1);
+         m.laws[0].law = w.law();
+         m.laws[0].law.heat = HeatModel::radius;
+       },
+       "law", "law", "it has the sub-models "},
+      {[](Wall &w, Mesh &m) {
+         m.laws.resize(1);
+         m.laws[0].first_type = 2;
+         m.laws[0].law = w.law();
+         m.laws[0].law.heat = HeatModel::radius;
+       },
+       "law", "type_laws", "it has the sub-models "},
+      {[](Wall &w, Mesh &m) { m.file = w.meshes[0].file; }, "mesh", "mesh", "it is that of mesh"},
+      {[](Wall &w, Mesh &m) { m.stl.name = w.meshes[0].stl.name = "a.stl"; }, "mesh_stl", "stl",
+       "mesh"},
+      {[](Wall &w, Mesh &m) { m.fields.name = w.meshes[0].fields.name = "a.vtp"; }, "mesh_fields",
+       "fields", "mesh"},
+      {[](Wall &w, Mesh &m) { m.cache_file = w.meshes[0].cache_file = "a.grid"; }, "cache", "cache",
+       "mesh"},
+  };
+  for (const auto &row : rows) {
+    WallSpec wall = good();
+    row.spoil(wall, wall.meshes[1]);
+    const bool is_of_wall = row.field[0] == '.';
+    const std::string in_script = "in '" + std::string(row.keyword) + "', " +
+                                  (is_of_wall ? "" : "of mesh 2 'blade': ") + row.text,
+                      in_program = (is_of_wall ? "`" + std::string(row.field + 1)
+                                               : "`meshes[1]." + std::string(row.field)) +
+                                   "`: " + row.text;
+    EXPECT_EQ(refusal_of(wall).substr(0, in_script.size()), in_script);
+    EXPECT_EQ(refusal_of(wall, SpecNames::fields).substr(0, in_program.size()), in_program);
+  }
+}
+
+TEST(wall_spec, another_mesh_is_named_as_its_maker_does)
 {
   WallSpec wall = good();
-  wall.meshes[0].has_temperature = true;
-  expect_error(wall, "mesh 1 has a temperature, but the law has no sub-model heat");
-  wall.laws[0].law.heat = HeatModel::radius;
-  expect_error(wall, "mesh 'blade' has no temperature, which the sub-model heat needs");
-  wall.meshes[1].has_temperature = true;
-  EXPECT_EQ(refusal_of(wall), "");
+  wall.meshes[0].name = "lid";
+  wall.meshes[0].stl.name = wall.meshes[1].stl.name = "a.stl";
+  expect_error(wall,
+               "of mesh 2 'blade': mesh 1 'lid' has the same file 'a.stl', so that one would");
+  EXPECT_EQ(refusal_of(wall, SpecNames::fields)
+                .rfind("`meshes[1].stl`: meshes[0] has the same file 'a.stl'", 0),
+            0u);
+}
+
+// With one mesh no error says which.
+TEST(wall_spec, a_coat_needs_another_mesh)
+{
+  WallSpec wall = good();
+  wall.meshes.resize(1);
+  wall.meshes[0].body.present = wall.meshes[0].body.coat.present = true;
+  wall.meshes[0].body.density = 1;
+  EXPECT_EQ(
+      refusal_of(wall),
+      "in 'body', its coat feels other meshes, and the wall has no other mesh: leave the coat "
+      "out");
 }
 
 // The sentences of the words of a script (test_body_words).
@@ -156,7 +294,7 @@ TEST(wall_spec, a_body_that_there_cannot_be_is_refused)
     WallSpec spoilt = wall;
     c.spoil(spoilt.meshes[1].body);
     expect_error(spoilt, c.text);
-    expect_error(spoilt, "mesh 'blade': in its body, ");
+    expect_error(spoilt, "in 'body', of mesh 2 'blade': ");
   }
 }
 
