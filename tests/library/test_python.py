@@ -10,6 +10,7 @@ followed (test_python_gpu.py follows them).
 import concurrent.futures
 import contextlib
 import copy
+import ctypes
 import gc
 import importlib.util
 import math
@@ -17,6 +18,7 @@ import multiprocessing
 import os
 import pathlib
 import pickle
+import re
 import shutil
 import signal
 import subprocess
@@ -27,7 +29,7 @@ import threading
 import numpy as np
 
 import lsdcd
-from lsdcd import _arrays
+from lsdcd import _arrays, _c
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 failed = 0
@@ -909,6 +911,53 @@ def check_wheel():
         make_wheel.check_build(folder)
 
 
+def in_c():
+    """A program in C that compiles where the structs and functions of the package are those of lsdcd.h: each field by its kind, size
+    and place, no field more (GCC and Clang warn of an initialiser that is missing), and each argument."""
+    kinds = {ctypes.c_int: "int", ctypes.c_double: "double", ctypes.c_size_t: "size_t", ctypes.c_ssize_t: "ptrdiff_t",
+             ctypes.c_char_p: "const char *"}
+    lines = ["#include <lsdcd.h>", "#include <stddef.h>"]
+    for struct in (s for s in vars(_c).values() if isinstance(s, type) and issubclass(s, ctypes.Structure)):
+        name = "lsdcd" + re.sub("([A-Z])", r"_\1", struct.__name__.strip("_")).lower()
+        lines.append(f'_Static_assert(sizeof({name}) == {ctypes.sizeof(struct)}, "");')
+        for field, kind in struct._fields_:
+            place, member = getattr(struct, field), f"(({name} *) 0)->{field}"
+            lines.append(f'_Static_assert(offsetof({name}, {field}) == {place.offset} && sizeof({member}) == {place.size}, "");')
+            one = getattr(kind, "_type_", None) if issubclass(kind, ctypes.Array) else kind
+            element = f"{member}[0]" if issubclass(kind, ctypes.Array) else member
+            if one in kinds:
+                lines.append(f'_Static_assert(_Generic({element}, {kinds[one]}: 1, default: 0), "{name}.{field}");')
+        values = ", ".join("{0}" if issubclass(kind, (ctypes.Array, ctypes.Structure)) else "0" for _, kind in struct._fields_)
+        lines.append(f"const {name} made_{name} = {{{values}}};")
+    given = {ctypes.c_int: "i", ctypes.c_double: "d", ctypes.c_size_t: "n", ctypes.c_char_p: "text", ctypes.c_void_p: "p"}
+    calls = sorted(set(re.findall(r"_lib\.(lsdcd_\w+)", "".join(f.read_text() for f in (ROOT / "src/api/lsdcd").glob("*.py")))))
+    lines.append("void call(int i, double d, size_t n, const char *text, void *p)\n{")
+    for name in calls:
+        arguments = getattr(_c._lib, name).argtypes or ()
+        lines.append(f"  (void) {name}({', '.join(given[kind] for kind in arguments)});" if "free" not in name else
+                     f"  {name}({', '.join(given[kind] for kind in arguments)});")
+    return "\n".join([*lines, "  (void) i, (void) d, (void) n, (void) text, (void) p;", "}", ""])
+
+
+def check_layouts():
+    """Structs and functions of the package against the header, by a compiler."""
+    compiler = os.environ.get("LSDCD_C")
+    if not compiler or not os.path.exists(compiler):
+        return print("SKIP layouts of structs: no C compiler (LSDCD_C)")
+
+    def says(text):
+        return subprocess.run([compiler, "-std=c11", "-fsyntax-only", "-Wall", "-Wextra", "-Werror", "-I", ROOT / "src/api", "-x", "c", "-"],
+                              input=text, text=True, capture_output=True).stderr
+
+    program = in_c()
+    fact("structs and functions are those of the header", says(program) == "", says(program)[:2000])
+    for name, was, spoilt in (("a field more in C", r"(made_lsdcd_servo = \{.*), 0\};", r"\1};"),
+                              ("a field of another kind", "_motion \\*\\) 0\\)->kind, int", "_motion *) 0)->kind, double"),
+                              ("an argument less", "lsdcd_wall_get_pose\\(p, i, p\\)", "lsdcd_wall_get_pose(p, i)")):
+        other = re.sub(was, spoilt, program)
+        fact(f"{name} is found", other != program and says(other) != "", was)
+
+
 def check_types():
     mypy = shutil.which("mypy")
     if not mypy:
@@ -951,5 +1000,6 @@ if __name__ == "__main__":
     check_wheel()
     check_fork()
     check_nonsense()
+    check_layouts()
     check_types()
     sys.exit(1 if failed else 0)
