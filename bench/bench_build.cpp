@@ -82,7 +82,7 @@ void measure_mesh(const BenchOptions &o, BenchRows &rows, const TriangleSoup &so
     row.bytes = double(r.bytes);    // the grid, written once
     row.facts = format("bricks=%zu cells=%zu candidates=%zu mean_list=%.3f longest=%zu tests=%.4g "
                        "grid_mb=%.1f",
-                       r.lists.bricks, r.lists.cells, r.lists.candidates, double(r.lists.mean),
+                       r.lists.bricks, r.lists.cells, r.lists.entries, double(r.lists.mean),
                        r.lists.longest, double(r.lists.distance_tests), r.bytes / 1e6);
     rows.add(row);
     row.what = what + ", without copies";

@@ -34,7 +34,7 @@ std::vector<double> cuda_tree_ms(const TriangleTree &tree, const std::vector<Sph
                                  int repeats, std::vector<double> &distance)
 {
   CudaBackend b;
-  const auto on_gpu = from_host(b, points);
+  const auto on_gpu = from_cpu(b, points);
   CudaBackend::Array<double> out(points.size());
   PointArrays<double> io;
   io.n = points.size();
@@ -45,7 +45,7 @@ std::vector<double> cuda_tree_ms(const TriangleTree &tree, const std::vector<Sph
   query->enqueue(io);    // warms up
   std::vector<double> ms;
   for (int k = 0; k < repeats; k++) ms.push_back(b.milliseconds([&] { query->enqueue(io); }));
-  distance = to_host(b, out, points.size());
+  distance = to_cpu(b, out, points.size());
   return ms;
 }
 
@@ -57,8 +57,8 @@ std::vector<double> cuda_query_ms(const lsdcd_grid *grid, lsdcd_query q, std::si
   CudaBackend::Array<char> points(4 * n * bytes), distance(q.distance ? n * bytes : 0);
   CudaBackend::Array<std::uint8_t> status(n);
   b.copy_in(static_cast<const char *>(q.points), points.data(), points.size());
-  char *const on_host = static_cast<char *>(q.distance);
-  std::uint8_t *const status_on_host = q.status;
+  char *const on_cpu = static_cast<char *>(q.distance);
+  std::uint8_t *const status_on_cpu = q.status;
   q.points = points.data();
   if (q.radii) q.radii = points.data() + 3 * bytes;
   if (q.distance) q.distance = distance.data();
@@ -73,8 +73,8 @@ std::vector<double> cuda_query_ms(const lsdcd_grid *grid, lsdcd_query q, std::si
   std::vector<double> ms;
   for (int k = 0; k < repeats; k++)
     ms.push_back(b.milliseconds([&] { check(lsdcd_query_stream(stream, &q)); }));
-  if (on_host) b.copy_out(distance.data(), on_host, distance.size());
-  b.copy_out(status.data(), status_on_host, n);
+  if (on_cpu) b.copy_out(distance.data(), on_cpu, distance.size());
+  b.copy_out(status.data(), status_on_cpu, n);
   b.wait();
   return ms;
 }

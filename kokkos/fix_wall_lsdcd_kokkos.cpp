@@ -30,7 +30,7 @@ static AtomKokkos *kokkos_atoms(Atom *atom)
 }
 
 // The plain fix looks at atoms as soon as it is made.
-static LAMMPS *with_atoms_on_host(LAMMPS *lmp, const char *id)
+static LAMMPS *with_atoms_on_cpu(LAMMPS *lmp, const char *id)
 {
   if (!lmp->kokkos)
     lmp->error->all(FLERR, "Fix " + std::string(id) +
@@ -43,7 +43,7 @@ static LAMMPS *with_atoms_on_host(LAMMPS *lmp, const char *id)
 template <class DeviceType>
 FixWallLsdcdKokkos<DeviceType>::FixWallLsdcdKokkos(LAMMPS *lmp, int narg, char **arg) :
     FixWallLsdcd(
-        with_atoms_on_host(lmp, arg[0]), narg, arg,
+        with_atoms_on_cpu(lmp, arg[0]), narg, arg,
         lsdcd::WallBackend{
             [this](const lsdcd::EngineSettings &settings) { return make_engine(settings); }, true,
             [this](const lsdcd::HostSpheres &, lsdcd::CpuArrays arrays) { return to_cpu(arrays); }})
@@ -72,7 +72,7 @@ FixWallLsdcdKokkos<DeviceType>::make_engine(const lsdcd::EngineSettings &setting
 }
 
 template <class DeviceType>
-void FixWallLsdcdKokkos<DeviceType>::need_on_host()
+void FixWallLsdcdKokkos<DeviceType>::need_on_cpu()
 {
   atomKK->sync(Host, X_MASK | RADIUS_MASK | RMASS_MASK | MASK_MASK | TAG_MASK | TYPE_MASK);
 }
@@ -90,7 +90,7 @@ lsdcd::HostSpheres FixWallLsdcdKokkos<DeviceType>::to_cpu(lsdcd::CpuArrays array
   if (arrays == lsdcd::CpuArrays::tags)
     atomKK->sync(Host, TAG_MASK);
   else
-    need_on_host();
+    need_on_cpu();
   return spheres_in_atom();
 }
 
@@ -141,7 +141,7 @@ lsdcd::HostSpheres FixWallLsdcdKokkos<DeviceType>::spheres()
 template <class DeviceType>
 int FixWallLsdcdKokkos<DeviceType>::setmask()
 {
-  return FixWallLsdcd::setmask() | (lsdcd::kOnHost<DeviceType> ? 0 : PRE_REVERSE);
+  return FixWallLsdcd::setmask() | (lsdcd::kOnCpu<DeviceType> ? 0 : PRE_REVERSE);
 }
 
 template <class DeviceType>
@@ -220,7 +220,7 @@ void FixWallLsdcdKokkos<DeviceType>::begin_step(lsdcd::StepInput &input)
 {
   atomKK->sync(execution_space,
                X_MASK | V_MASK | OMEGA_MASK | RADIUS_MASK | RMASS_MASK | MASK_MASK | TYPE_MASK);
-  if (!lsdcd::kOnHost<DeviceType> && input.step.kind == lsdcd::Step::step) input.when = when;
+  if (!lsdcd::kOnCpu<DeviceType> && input.step.kind == lsdcd::Step::step) input.when = when;
   wall->begin(spheres(), input);
 }
 

@@ -36,7 +36,7 @@ class FixWallLsdcdKokkos : public FixWallLsdcd, public KokkosBase {
   void begin_step(lsdcd::StepInput &) override;
   void finish_step() override;
   void fill_masses() override;
-  void need_on_host() override;
+  void need_on_cpu() override;
   void need_positions() override;
   void need_nodes() override;
   void need_ids() override;

@@ -52,7 +52,7 @@ constexpr bool kFloatAtoms = false;
 #endif
 
 template <class DeviceType>
-constexpr bool kOnHost =
+constexpr bool kOnCpu =
     Kokkos::SpaceAccessibility<Kokkos::HostSpace,
                                typename DeviceType::execution_space::memory_space>::accessible;
 
@@ -60,7 +60,7 @@ constexpr bool kOnHost =
 template <class DeviceType>
 std::unique_ptr<WallEngine> make_engine_on(const EngineSettings &settings)
 {
-  if (!kOnHost<DeviceType> && settings.law().has_heat())
+  if (!kOnCpu<DeviceType> && settings.law().has_heat())
     throw InputError("the sub-model heat does not work for atoms on a GPU, where LAMMPS keeps no "
                      "temperature: use wall/lsdcd, or wall/lsdcd/kk/host");
   if (settings.device != Device::automatic)

@@ -76,7 +76,7 @@ std::unique_ptr<ApiCells> make_cells(const std::string &cache, const ApiMesh &fr
   made->report = describe(loaded.report);
   for (const std::string &line : {loaded.cache_warning, loaded.cache_text})
     if (!line.empty()) made->report += "\n  " + line;
-  made->grid = HostGrid(flat_view(made->memory.block.get()));
+  made->grid = CpuGrid(flat_view(made->memory.block.get()));
   made->sides_by_normals = settings.sides && made->grid.view.outside != 0;
   if (!made->sides_by_normals && has_inside(from.mesh))
     made->report +=

@@ -34,7 +34,7 @@ struct ApiMesh {
 // Cells with lists, for a GPU, for floats, for `nearest` and for contacts.
 struct ApiCells {
   NodeMemory memory;    // of the flat grid
-  HostGrid grid;
+  CpuGrid grid;
   bool from_cache = false;
   bool sides_by_normals = false;    // also on a device
   std::string report;

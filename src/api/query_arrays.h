@@ -19,7 +19,7 @@ inline bool needs_estimate(const ApiGrid &grid, const lsdcd_query &q)
 }
 
 // Returns the caller's query with its defaults filled in. Throws ApiError where it does not fit the grid.
-lsdcd_query checked_query(const ApiGrid &grid, const lsdcd_query *given, bool on_host);
+lsdcd_query checked_query(const ApiGrid &grid, const lsdcd_query *given, bool on_cpu);
 
 template <class T>
 PointArrays<T> arrays_of(const lsdcd_query &q)

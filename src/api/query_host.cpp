@@ -18,14 +18,14 @@ namespace lsdcd {
 
 namespace {
 
-void check_sides(const ApiGrid &grid, bool on_host)
+void check_sides(const ApiGrid &grid, bool on_cpu)
 {
   if (!grid.has_sides)
     throw ApiError(LSDCD_ERROR_SIDE,
                    "the mesh is not closed and oriented, so that it has no side: " +
                        why_no_inside(grid.mesh->mesh) +
                        "; `estimate_sides` gives those of the winding number, on the host");
-  if (!on_host && !grid.sides_by_normals())
+  if (!on_cpu && !grid.sides_by_normals())
     throw ApiError(LSDCD_ERROR_SIDE,
                    "triangles of the mesh cut, overlap or touch each other, and only the "
                    "host tells its sides: use lsdcd_query_host()");
@@ -33,17 +33,17 @@ void check_sides(const ApiGrid &grid, bool on_host)
 
 }    // namespace
 
-lsdcd_query checked_query(const ApiGrid &grid, const lsdcd_query *given, bool on_host)
+lsdcd_query checked_query(const ApiGrid &grid, const lsdcd_query *given, bool on_cpu)
 {
   lsdcd_query q = checked(given, "lsdcd_query");
   check_points(q);
   if (q.n > 0 && !q.distance && !q.closest && !q.normal && !q.triangle && !q.feature && !q.side &&
       !q.status && !q.winding && !q.signed_distance && !q.barycentric)
     throw ApiError(LSDCD_ERROR_ARGUMENT, "nothing is asked for: all arrays of answers are null");
-  if (q.winding && !on_host)
+  if (q.winding && !on_cpu)
     throw ApiError(LSDCD_ERROR_SIDE, "only the host tells winding numbers: use lsdcd_query_host()");
-  if ((q.side || q.signed_distance) && !(on_host && needs_estimate(grid, q)))
-    check_sides(grid, on_host);
+  if ((q.side || q.signed_distance) && !(on_cpu && needs_estimate(grid, q)))
+    check_sides(grid, on_cpu);
   settle_radius(grid, q);
   return q;
 }

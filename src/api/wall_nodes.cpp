@@ -96,8 +96,8 @@ bool is_on_gpu(const lsdcd_wall &wall, const double *array, const char *name)
 }
 
 // The first n numbers of an array, where a host reads them; `copy` has them if they are on a GPU.
-const double *on_host(const lsdcd_wall &wall, const double *array, bool on_gpu, std::size_t n,
-                      std::vector<double> &copy)
+const double *on_cpu(const lsdcd_wall &wall, const double *array, bool on_gpu, std::size_t n,
+                     std::vector<double> &copy)
 {
   if (!on_gpu) return array;
   copy.resize(n);
@@ -209,7 +209,7 @@ int lsdcd_wall_set_nodes(lsdcd_wall *wall, int mesh, const double *positions,
       return;
     std::vector<double> copies[2];
     const auto ordered = [&](const double *given, const char *name, std::vector<double> &copy) {
-      return in_order_of_nodes(on_host(*wall, given, on_gpu, 3 * rows.node.size(), copy), rows,
+      return in_order_of_nodes(on_cpu(*wall, given, on_gpu, 3 * rows.node.size(), copy), rows,
                                name);
     };
     const std::vector<Real> x = ordered(positions, "positions", copies[0]);

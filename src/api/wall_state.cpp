@@ -123,7 +123,7 @@ int lsdcd_wall_pack(lsdcd_wall *wall, const ptrdiff_t *which, size_t n, double *
     if (room > 0) need(numbers, "numbers");
     check_spheres(*wall, which, n, "which");
     const bool keeps = wall->in->history().is_on();
-    const ContactHistory &history = wall->in->history().on_host();
+    const ContactHistory &history = wall->in->history().on_cpu();
     std::vector<Real> all = {packed_kind(*wall)}, packed(1);
     for (std::size_t i = 0; i < n; i++) {
       const int k = static_cast<int>(which[i]);
@@ -146,7 +146,7 @@ int lsdcd_wall_unpack(lsdcd_wall *wall, const ptrdiff_t *to, size_t n, const dou
     check_spheres(*wall, to, n, "to");
     const std::vector<const double *> spheres = packed_spheres(*wall, n, numbers, count);
     const bool keeps = wall->in->history().is_on();
-    ContactHistory &history = wall->in->history().on_host();
+    ContactHistory &history = wall->in->history().on_cpu();
     for (std::size_t i = 0; i < n; i++) {
       wall->caller.tags[to[i]] = static_cast<std::int64_t>(spheres[i][0]);
       if (keeps) history.unpack(static_cast<int>(to[i]), spheres[i] + 1);

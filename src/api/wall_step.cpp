@@ -219,7 +219,7 @@ int lsdcd_wall_renumber(lsdcd_wall *wall, const ptrdiff_t *from, size_t n)
     HistoryExchange &history = wall->in->history();
     std::vector<std::vector<Real>> packed(n);
     if (history.is_on()) {
-      ContactHistory &all = history.on_host();
+      ContactHistory &all = history.on_cpu();
       for (std::size_t i = 0; i < n; i++) {
         if (from[i] < 0) continue;
         const int k = static_cast<int>(from[i]);

@@ -3,7 +3,7 @@
 
 // A backend has memory, and loops over many things, on a CPU or on a GPU. All else is made of these verbs.
 //
-//   Array, Scratch, HostArray    memory where it computes; the same for a while; memory of the host that copies
+//   Array, Scratch, CpuArray    memory where it computes; the same for a while; memory of the CPU that copies
 //                                quickly, and without a wait
 //   copy_in, copy_out            n things from and to the host. Its memory may be changed and read after wait()
 //   wait                         until all that was started has ended
@@ -24,7 +24,7 @@
 // What these need of memory meanwhile is the backend's own, which it keeps: so a backend is moved, never copied, and one
 // thread uses it. What is started beside has other scratch memory, as it may run at the same time.
 //
-// kOnHost says whether its memory is the host's. A GPU's has for_each_block() beside these, for what is written for
+// kOnCpu says whether its memory is the CPU's. A GPU's has for_each_block() beside these, for what is written for
 // blocks of threads (block.h), and Limits, which says how many of them it holds. tests/tool/check_backends.py holds
 // each backend to this list.
 #pragma once
@@ -73,7 +73,7 @@ struct SortedPairs {
 // Copies of whole arrays, which wait.
 
 template <class B, class T>
-typename B::template Array<T> from_host(B &b, const std::vector<T> &host)
+typename B::template Array<T> from_cpu(B &b, const std::vector<T> &host)
 {
   typename B::template Array<T> array(host.size());
   b.copy_in(host.data(), array.data(), host.size());
@@ -83,7 +83,7 @@ typename B::template Array<T> from_host(B &b, const std::vector<T> &host)
 
 // The first n of an array.
 template <class B, class Array>
-auto to_host(B &b, const Array &array, std::size_t n)
+auto to_cpu(B &b, const Array &array, std::size_t n)
 {
   using T = std::decay_t<decltype(*array.data())>;
   std::vector<T> host(n);

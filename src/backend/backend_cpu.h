@@ -24,7 +24,7 @@
 namespace lsdcd {
 
 struct CpuBackend {
-  static constexpr bool kOnHost = true;    // is its memory the host's?
+  static constexpr bool kOnCpu = true;    // is its memory the CPU's?
 
   CpuBackend() = default;
   CpuBackend(CpuBackend &&) = default;    // as a GPU's, which owns memory
@@ -39,7 +39,7 @@ struct CpuBackend {
   template <class T>
   using Scratch = Array<T>;
   template <class T>
-  using HostArray = Array<T>;
+  using CpuArray = Array<T>;
 
   template <class T>
   void copy_in(const T *host, T *to, std::size_t n)

@@ -58,7 +58,7 @@ __global__ void __launch_bounds__(F::kThreads, F::kBlocksAtOnce)
 }
 
 struct CudaBackend {
-  static constexpr bool kOnHost = false;    // is its memory the host's?
+  static constexpr bool kOnCpu = false;    // is its memory the CPU's?
 
   cudaStream_t stream = nullptr;
 
@@ -77,7 +77,7 @@ struct CudaBackend {
   template <class T>
   using Array = OwnedArray<T, Memory>;
 
-  // Page-locked memory of the host: what copies beside kernels.
+  // Page-locked memory of the CPU: what copies beside kernels.
   struct HostMemory {
     static void *allocate(std::size_t bytes)
     {
@@ -88,7 +88,7 @@ struct CudaBackend {
     static void free(void *at) { cudaFreeHost(at); }
   };
   template <class T>
-  using HostArray = OwnedArray<T, HostMemory>;
+  using CpuArray = OwnedArray<T, HostMemory>;
 
   // For a while, and for the default stream only: freed memory stays with the process until give_back(),
   // so that the next one is quick to get.

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Memory of the host for blocks that are read at random.
+// Memory of the CPU for blocks that are read at random.
 #pragma once
 
 #include <cstddef>

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Number type and function markers shared by host and device code.
+// Number type and function markers shared by CPU and device code.
 #pragma once
 
 #include <cmath>

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Numbers of many spheres in memory of any layout, borrowed; on the host or on a device.
+// Numbers of many spheres in memory of any layout, borrowed; on the CPU or on a device.
 #pragma once
 
 #include "base/vec3.h"

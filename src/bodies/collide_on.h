@@ -28,7 +28,7 @@ class BodyCollisionOn : public BodyCollision {
   template <class T>
   using Scratch = typename B::template Scratch<T>;
   template <class T>
-  using HostArray = typename B::template HostArray<T>;
+  using CpuArray = typename B::template CpuArray<T>;
 
  public:
   explicit BodyCollisionOn(B backend) : b_(std::move(backend)) {}
@@ -59,7 +59,7 @@ class BodyCollisionOn : public BodyCollision {
     pieces_ = Array<Piece>();    // no body if this throws
     n_triangles_ = body.n_triangles();
     body_ = body.corners;
-    corners_ = from_host(b_, body.corners);
+    corners_ = from_cpu(b_, body.corners);
     size_ = 0;
     for (const Vec3 &x : body.corners) size_ = std::max(size_, norm(x));
     cut(longest, body.source);
@@ -77,7 +77,7 @@ class BodyCollisionOn : public BodyCollision {
   }
 
   std::size_t n_pieces() const override { return pieces_.size(); }
-  bool on_cuda() const override { return !B::kOnHost; }
+  bool on_cuda() const override { return !B::kOnCpu; }
   std::string device() const override { return b_.name(); }
 
   Collision collide(const BodyPose &pose, bool with_segments) override
@@ -189,7 +189,7 @@ class BodyCollisionOn : public BodyCollision {
       if (cut_short) count_one(counts + kCutShort);
     };
     const std::size_t n = pieces_.size();
-    if constexpr (B::kOnHost)
+    if constexpr (B::kOnCpu)
       b_.for_each(groups_.size(), [=](std::size_t g) {
         if (!group_has_candidates[g]) return;
         const std::size_t end = (g + 1) * kPiecesOfGroup;
@@ -211,7 +211,7 @@ class BodyCollisionOn : public BodyCollision {
     const BodyPair *candidates = candidates_.data();
     BodyPair *met = met_.data(), *unsure = unsure_.data();
     std::size_t most = candidates_.size();    // how many there are is known where kernels run
-    if constexpr (B::kOnHost) most = std::min<std::size_t>(most, counts[kCandidates]);
+    if constexpr (B::kOnCpu) most = std::min<std::size_t>(most, counts[kCandidates]);
     b_.for_each(
         most,
         [=] LSDCD_LAMBDA(std::size_t i) {
@@ -300,7 +300,7 @@ class BodyCollisionOn : public BodyCollision {
   B b_;
   std::shared_ptr<const GridOn<B>> shared_;
   GridView grid_ = {};
-  // Wall and body on the host, for exact signs: corners of the wall's primitives, and the body's.
+  // Wall and body on the CPU, for exact signs: corners of the wall's primitives, and the body's.
   std::shared_ptr<const MeshFeatures> wall_;
   std::vector<Vec3> body_;
   Array<Vec3> corners_;
@@ -313,11 +313,11 @@ class BodyCollisionOn : public BodyCollision {
 
   // Counts of the last pose; `tally_` is a copy of `counts_`.
   Array<std::uint64_t> counts_ = Array<std::uint64_t>(kCounts);
-  HostArray<std::uint64_t> tally_ = HostArray<std::uint64_t>(kCounts);
+  CpuArray<std::uint64_t> tally_ = CpuArray<std::uint64_t>(kCounts);
   Array<BodyPair> candidates_, met_, unsure_;
-  HostArray<BodyPair> pairs_, unsure_pairs_;
+  CpuArray<BodyPair> pairs_, unsure_pairs_;
   Array<MeetingSegment> found_;
-  HostArray<MeetingSegment> segments_;
+  CpuArray<MeetingSegment> segments_;
 };
 
 }    // namespace lsdcd

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // Decides pairs by exact signs if rounded signs do not. They touch or lie in one plane, are few and
-// take long, so that the host does it for every backend.
+// take long, so that the CPU does it for every backend.
 #pragma once
 
 #include "backend/backend_cpu.h"

@@ -64,7 +64,7 @@ LSDCD_FN bool for_each_candidate(const GridView &grid, const Vec3 &centre, Real 
   const std::uint32_t n = cell.count < most ? cell.count : most;
   for (std::uint32_t k = 0; k < n; k++) {
     const FeatureCode code =
-        cell.count == 1 ? cell.first : grid.lists.candidates[cell.first + k].feature;
+        cell.count == 1 ? cell.first : grid.lists.entries[cell.first + k].feature;
     const std::uint32_t i = feature_index(code);
     Real distance;
     if (feature_kind(code) == FeatureKind::face

@@ -15,7 +15,7 @@ template <class B>
 void sort_pairs(B &backend, BodyPair *pairs, std::size_t n, std::uint32_t largest_triangle,
                 std::uint32_t largest_wall)
 {
-  if constexpr (B::kOnHost) {
+  if constexpr (B::kOnCpu) {
     std::sort(pairs, pairs + n);
   } else {
     // The second sort is stable, so that the order of the first remains.

@@ -82,7 +82,7 @@ LSDCD_NOINLINE void add_primitive(const MeshGeometry &geometry, FeatureCode prim
   add_feature_noinline(geometry, primitive, radius, set);
 }
 
-template <class Candidates, int kMost>
+template <class Entries, int kMost>
 LSDCD_FN void find_in_complete(const GridView &grid, const Vec3 &q, Real radius,
                                ContactSet<kMost> &set)
 {
@@ -96,12 +96,12 @@ LSDCD_FN void find_in_complete(const GridView &grid, const Vec3 &q, Real radius,
   }
   // The list is sorted by distance from the cell's centre: no feature past this bound can be
   // within the radius.
-  const Candidates candidates(grid.lists);
-  const typename Candidates::Limit enough = candidates.limit(radius + norm(at.from_centre));
+  const Entries entries(grid.lists);
+  const typename Entries::Limit enough = entries.limit(radius + norm(at.from_centre));
   for (std::uint32_t i = cell.first; i < cell.first + cell.count; i++) {
-    const typename Candidates::Entry candidate = candidates[i];
-    if (!candidates.is_within(candidate, enough)) break;
-    add_feature_noinline(geometry, candidates.feature(candidate), radius, set);
+    const typename Entries::Entry entry = entries[i];
+    if (!entries.is_within(entry, enough)) break;
+    add_feature_noinline(geometry, entries.feature(entry), radius, set);
     if (set.overflow) break;    // nothing else is valid
   }
 }
@@ -121,11 +121,11 @@ LSDCD_FN Real find_in_nearest(const GridView &grid, const Vec3 &q, Real radius,
   }
   const Real off_centre = norm(at.from_centre);
   for (std::uint32_t k = 0; k < cell.count; k++) {
-    const Candidate candidate = grid.lists.candidates[cell.first + k];
-    if (candidate.bound > radius + off_centre) break;
+    const CellEntry entry = grid.lists.entries[cell.first + k];
+    if (entry.bound > radius + off_centre) break;
     // The tolerance covers the rounding of distances.
-    if (k == grid.list_kind.most()) return candidate.bound - off_centre - grid.tolerance;
-    add_primitive(geometry, candidate.feature, radius, set);
+    if (k == grid.list_kind.most()) return entry.bound - off_centre - grid.tolerance;
+    add_primitive(geometry, entry.feature, radius, set);
     if (set.overflow) break;
   }
   return kAnyDistance;
@@ -134,13 +134,13 @@ LSDCD_FN Real find_in_nearest(const GridView &grid, const Vec3 &q, Real radius,
 // Finds the local minima of the distance from q to the wall that are below `radius` (length, at
 // most grid.cutoff). With complete lists it finds all, with nearest lists those on the listed
 // primitives. Returns the radius up to which none can be missing.
-// Candidates: the form of the grid's complete lists.
-template <class Candidates, int kMost>
+// Entries: the form of the grid's complete lists.
+template <class Entries, int kMost>
 LSDCD_FN Real find_contacts_in(const GridView &grid, const Vec3 &q, Real radius,
                                ContactSet<kMost> &set)
 {
   if (grid.list_kind.has_primitives()) return find_in_nearest(grid, q, radius, set);
-  find_in_complete<Candidates>(grid, q, radius, set);
+  find_in_complete<Entries>(grid, q, radius, set);
   return kAnyDistance;
 }
 
@@ -149,8 +149,8 @@ template <int kMost>
 LSDCD_FN Real find_contacts(const GridView &grid, const Vec3 &q, Real radius,
                             ContactSet<kMost> &set)
 {
-  if (!grid.lists.is_packed()) return find_contacts_in<FullCandidates>(grid, q, radius, set);
-  return find_contacts_in<PackedCandidates>(grid, q, radius, set);
+  if (!grid.lists.is_packed()) return find_contacts_in<FullEntries>(grid, q, radius, set);
+  return find_contacts_in<PackedEntries>(grid, q, radius, set);
 }
 
 // Returns the outward pseudonormal of a feature: its dot product with (q - closest point) tells on which side of a closed

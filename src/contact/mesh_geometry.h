@@ -5,7 +5,7 @@
 #pragma once
 
 #include "geometry/closest_point.h"
-#include "grid/lookup/candidates.h"
+#include "grid/lookup/entries.h"
 #include "grid/lookup/locate.h"
 
 namespace lsdcd {
@@ -26,15 +26,15 @@ class MeshGeometry {
   {
     return closest_point_on(grid_.wall, code, q_, grid_.tolerance, within, copy);
   }
-  // On a CPU: prefetches the records of n candidates of a large wall, from the first on.
+  // On a CPU: prefetches the records of n entries of a large wall, from the first on.
   LSDCD_FN static void prefetch([[maybe_unused]] const GridView &grid,
-                                [[maybe_unused]] const PackedCandidates &candidates,
+                                [[maybe_unused]] const PackedEntries &entries,
                                 [[maybe_unused]] std::uint32_t first,
                                 [[maybe_unused]] std::uint32_t n)
   {
 #if !LSDCD_ON_GPU()
     for (std::uint32_t i = 0; grid.is_large && i < n; i++)
-      lsdcd::prefetch(grid.wall, candidates.feature(candidates[first + i]));
+      lsdcd::prefetch(grid.wall, entries.feature(entries[first + i]));
 #endif
   }
   // Could there be a closest point if the tolerance were larger by `more` (length)?

@@ -31,7 +31,7 @@ LSDCD_FN void unpack_location(double packed, Spring &s)
   s.mesh = static_cast<std::uint32_t>(place >> 32);
 }
 
-// The springs of many spheres, on the host or on a device: those of sphere i are
+// The springs of many spheres, on the CPU or on a device: those of sphere i are
 // pool[first[i]] .. pool[first[i] + count[i] - 1], with further numbers beside them.
 struct SpringsView {
   Column<const int> first, count;

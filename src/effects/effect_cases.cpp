@@ -70,7 +70,7 @@ std::vector<EffectCase> effect_cases()
   add("moving surface", "surface_vel, surface_angvel", "hooke", [](EngineSettings &s) {
     s.surface = {{1, 0, 0}, {0, 0, 0.1}, {0, 0, 0}};
   });
-  add("loads of triangles", "mesh_fields", "hooke", [](EngineSettings &s) { s.records = true; });
+  add("loads of triangles", "mesh_fields", "hooke", [](EngineSettings &s) { s.contacts = true; });
   add("rigid body", "body", "hooke", [](EngineSettings &s) { s.moves = s.bodies = true; });
   add("wear archard", "wear archard", "loads of triangles",
       [](EngineSettings &s) { s.wear = WearModel::archard; });
@@ -127,7 +127,7 @@ std::vector<EffectCase> effect_cases()
   begin("sticky grains", "hertz/history, rolling epsd2, cohesion sjkr", "", s);
   s = classic(NormalModel::hertz, true);
   s.surface.velocity = {1, 0, 0};
-  s.records = true;
+  s.contacts = true;
   s.wear = WearModel::archard;
   begin("belt that wears", "hertz/history, surface_vel, wear archard", "", s);
   s = granular(NormalModel::hertz, TangentialModel::mindlin);

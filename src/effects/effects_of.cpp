@@ -57,7 +57,7 @@ std::vector<Effect> effects_of(const EngineSettings &s)
   if (s.moves) effects.push_back({"moving wall", 0});
   if (s.bodies) effects.push_back({"rigid body", 0});
   if (s.nodes) effects.push_back({"moving nodes", 0});
-  if (s.records) effects.push_back({"loads of triangles", 0});
+  if (s.contacts) effects.push_back({"loads of triangles", 0});
   if (s.wear == WearModel::archard) effects.push_back({"wear archard", 0});
   if (s.wear == WearModel::finnie) effects.push_back({"wear finnie", 0});
   return effects;

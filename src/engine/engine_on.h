@@ -24,7 +24,7 @@
 
 namespace lsdcd {
 
-// On a host: which cells of a grid have candidates.
+// On a CPU: which cells of a grid have candidates.
 struct OccupiedCells {
   std::vector<std::int32_t> brick_of;
   std::vector<Brick> bricks;
@@ -165,7 +165,7 @@ class EngineOn : public WallEngine, public CandidatesInPlace, public NodesInPlac
     step_ = step;
   }
   void compute() { compute(results_, false); }
-  void fetch() { results_.fetch(b_, springs_.records(step_.update_history)); }
+  void fetch() { results_.fetch(b_, springs_.contacts(step_.update_history)); }
 
   const WallTotals &totals() const override { return const_cast<EngineOn *>(this)->sum_totals(); }
   WallTotals mesh_totals(int mesh) const override
@@ -185,15 +185,16 @@ class EngineOn : public WallEngine, public CandidatesInPlace, public NodesInPlac
   {
     return law_.traits.heat ? results_.sphere_heat().data() : nullptr;
   }
-  int n_records() const override { return static_cast<int>(results_.records().size()); }
-  const ContactRecord *records() const override { return results_.records().data(); }
+  int n_contacts() const override { return static_cast<int>(results_.contacts().size()); }
+  const StepContact *contacts() const override { return results_.contacts().data(); }
   int n_candidates() const override { return static_cast<int>(broad_phase_.n()); }
   const int *candidates() const override { return broad_phase_.candidates(); }
 
   StepDiagnostics read_diagnostics() override
   {
     const StepCounts seen = read_counts();
-    if (seen.too_large || seen.no_scratch || seen.no_slots || seen.grown) throw_for(spheres_, seen);
+    if (seen.too_large || seen.no_scratch || seen.no_places || seen.grown)
+      throw_for(spheres_, seen);
     clear_diagnostics(seen);
     return diagnostics_of(seen, first_step_);
   }
@@ -205,12 +206,12 @@ class EngineOn : public WallEngine, public CandidatesInPlace, public NodesInPlac
       broad_phase_.set_lists(b_, nodes_.at(mesh).build_grid(b_, settings, records_of(mesh)), mesh);
     });
   }
-  // For an adapter, which selects by cells on its host: that grid, without records and candidates.
+  // For an adapter, which selects by cells on its CPU: that grid, without records and candidates.
   GridView occupied_cells(int mesh, OccupiedCells &to)
   {
     const NodeGrid<B> &grid = nodes_.at(mesh).grid();
-    to = {to_host(b_, grid.brick_of(), grid.brick_of().size()),
-          to_host(b_, grid.bricks(), grid.bricks().size())};
+    to = {to_cpu(b_, grid.brick_of(), grid.brick_of().size()),
+          to_cpu(b_, grid.bricks(), grid.bricks().size())};
     GridView view = grid.view(MeshFeaturesView());
     view.lists = CellListsView();
     view.lists.brick_of = to.brick_of.data();
@@ -243,11 +244,11 @@ class EngineOn : public WallEngine, public CandidatesInPlace, public NodesInPlac
   {
     nodes_.at(mesh).fetch(b_, when, x, v);
   }
-  void fetch_records(int mesh, MeshFeatures &to) override
+  void fetch_contacts(int mesh, MeshFeatures &to) override
   {
     const MeshFeaturesView &from = records_of(mesh);
-    const auto fetch = [&](const auto *records, auto &rows) {
-      b_.copy_out(records, rows.data(), rows.size());
+    const auto fetch = [&](const auto *from, auto &rows) {
+      b_.copy_out(from, rows.data(), rows.size());
     };
     fetch(from.faces, to.faces);
     fetch(from.edges, to.edges);
@@ -271,8 +272,8 @@ class EngineOn : public WallEngine, public CandidatesInPlace, public NodesInPlac
                        Real *forces) override
   {
     if (has_copies()) throw std::logic_error("the forces of nodes are summed in place");
-    return NodeForces<B>::add_on_host(node_contacts(mesh, wall, now.velocity),
-                                      now.mesh->vertices.size(), forces);
+    return NodeForces<B>::add_on_cpu(node_contacts(mesh, wall, now.velocity),
+                                     now.mesh->vertices.size(), forces);
   }
   void sum_node_forces(int mesh) override
   {
@@ -344,7 +345,7 @@ class EngineOn : public WallEngine, public CandidatesInPlace, public NodesInPlac
                              sums, node_of_row, sixth, to});
   }
 
-  // Clears what was counted since the host last read it.
+  // Clears what was counted since the CPU last read it.
   void clear_diagnostics(const StepCounts &seen)
   {
     StepCounts cleared = {};
@@ -357,7 +358,7 @@ class EngineOn : public WallEngine, public CandidatesInPlace, public NodesInPlac
     are_counts_clear_ = true;
   }
 
-  bool has_copies() const { return settings_.nodes && (!B::kOnHost || settings_.copies_records); }
+  bool has_copies() const { return settings_.nodes && (!B::kOnCpu || settings_.copies_records); }
   MeshWork mesh_work(int m) const
   {
     const EngineMesh<B> &mesh = broad_phase_.mesh(m);
@@ -375,7 +376,7 @@ class EngineOn : public WallEngine, public CandidatesInPlace, public NodesInPlac
   }
   NodeContacts node_contacts(int mesh, const MeshFeaturesView &wall, const Vec3 *velocity) const
   {
-    return results_.node_contacts(springs_.records(step_.update_history), mesh, wall, velocity);
+    return results_.node_contacts(springs_.contacts(step_.update_history), mesh, wall, velocity);
   }
   const MeshFeaturesView &records_of(int mesh) const
   {
@@ -417,7 +418,7 @@ class EngineOn : public WallEngine, public CandidatesInPlace, public NodesInPlac
     are_counts_clear_ = false;
     job.step = static_cast<std::uint64_t>(std::max<std::int64_t>(0, step_.number - first_step_)) &
                DeepestOverlap::kRest;
-    job.pool = springs_.next(results.slot());
+    job.pool = springs_.next(results.first_contact());
     job.overflow = overflow_.data();
     // The last step cleared the counts of this one, if it wrote to the other pool.
     if (job.pool.which == pool_written_) clear_counts(job.pool.which);
@@ -427,7 +428,7 @@ class EngineOn : public WallEngine, public CandidatesInPlace, public NodesInPlac
     else
       run_law(job, n, law_of(0, 0));
     if (step_.update_history) springs_.swap();
-    if (step_.totals && !B::kOnHost) results.start_sums(b_);
+    if (step_.totals && !B::kOnCpu) results.start_sums(b_);
   }
 
   // After a choice.
@@ -490,7 +491,7 @@ class EngineOn : public WallEngine, public CandidatesInPlace, public NodesInPlac
     }
     if (seen.grown) throw_has_grown(static_cast<int>(kNoSphere - seen.grown), settings_.names);
     if (seen.no_scratch) throw_too_many_contacts(kMaxContacts);
-    throw_no_slots(settings_.names);
+    throw_no_places(settings_.names);
   }
 
   EngineSettings settings_;

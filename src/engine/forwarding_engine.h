@@ -27,8 +27,8 @@ class ForwardingEngine : public WallEngine {
   const SphereOutput *sphere_output() const override { return engine_->sphere_output(); }
   const TouchingSphere *touching_spheres() const override { return engine_->touching_spheres(); }
   const Real *sphere_heat() const override { return engine_->sphere_heat(); }
-  int n_records() const override { return engine_->n_records(); }
-  const ContactRecord *records() const override { return engine_->records(); }
+  int n_contacts() const override { return engine_->n_contacts(); }
+  const StepContact *contacts() const override { return engine_->contacts(); }
   StepDiagnostics read_diagnostics() override { return engine_->read_diagnostics(); }
 
   NodesInPlace *nodes_in_place() override { return engine_->nodes_in_place(); }

@@ -28,10 +28,10 @@ class HostAdapter : public WallEngine {
   template <class T>
   using Array = typename B::template Array<T>;
 
-  // Memory of the host that copies quickly, and its twin.
+  // Memory of the CPU that copies quickly, and its twin.
   template <class T>
   struct Mirror {
-    typename B::template HostArray<T> host;
+    typename B::template CpuArray<T> host;
     Array<T> device;
 
     void reserve(std::size_t n)
@@ -160,8 +160,8 @@ class HostAdapter : public WallEngine {
   const SphereOutput *sphere_output() const override { return engine_.sphere_output(); }
   const TouchingSphere *touching_spheres() const override { return engine_.touching_spheres(); }
   const Real *sphere_heat() const override { return engine_.sphere_heat(); }
-  int n_records() const override { return engine_.n_records(); }
-  const ContactRecord *records() const override { return engine_.records(); }
+  int n_contacts() const override { return engine_.n_contacts(); }
+  const StepContact *contacts() const override { return engine_.contacts(); }
 
   StepDiagnostics read_diagnostics() override
   {
@@ -239,7 +239,7 @@ class HostAdapter : public WallEngine {
         const int i = static_cast<int>(kNoSphere - seen.too_large);
         throw_too_large(i, spheres.radius[i], mesh.grid.view.cutoff);
       }
-      const std::vector<int> more = selector_.to_host(cpu_, seen.n_candidates),
+      const std::vector<int> more = selector_.to_cpu(cpu_, seen.n_candidates),
                              before = std::move(candidates);
       candidates.clear();
       std::set_union(before.begin(), before.end(), more.begin(), more.end(),

@@ -3,7 +3,7 @@
 
 // The nodes of a mesh in the memory of an engine that has copies of its records, as on a GPU: in a step the records are
 // made anew by the source that a host has (mesh/moving_records.h), and a small record of how far nodes have gone is all
-// that the host waits for. Faces that are too thin for the digits of Real come back to the host, which has wider ones.
+// that the CPU waits for. Faces that are too thin for the digits of Real come back to the CPU, which has wider ones.
 #pragma once
 
 #include "backend/atomic.h"
@@ -71,20 +71,20 @@ class MovingNodes {
     const std::size_t n = mesh.vertices.size();
     put_topology(b, topology_of(mesh), mesh);
     put_faces_around(b, mesh);
-    primitives_ = from_host(b, *now.primitives);
-    at_ = from_host(b, mesh.vertices);
-    before_ = from_host(b, mesh.vertices);
+    primitives_ = from_cpu(b, *now.primitives);
+    at_ = from_cpu(b, mesh.vertices);
+    before_ = from_cpu(b, mesh.vertices);
     next_ = Array<Vec3>(n);
     built_at_ = Array<Vec3>(n);
     velocity_ = Array<Vec3>(n);
     next_velocity_ = Array<Vec3>(n);
     b.copy_in(now.velocity, velocity_.data(), n);
-    spin_ = from_host(b, std::vector<Vec3>(n, Vec3{0, 0, 0}));
+    spin_ = from_cpu(b, std::vector<Vec3>(n, Vec3{0, 0, 0}));
     edge_acts_ = Array<char>(mesh.edges.size());
     vertex_acts_ = Array<char>(n);
     left_ = Array<FeatureCode>(mesh.faces.size() + mesh.edges.size());
-    seen_ = from_host(b, std::vector<NodesSeen>(1, NodesSeen()));
-    seen_on_host_ = typename B::template HostArray<NodesSeen>(1);
+    seen_ = from_cpu(b, std::vector<NodesSeen>(1, NodesSeen()));
+    seen_on_cpu_ = typename B::template CpuArray<NodesSeen>(1);
     if (now.with_spins) find_spins(b, now.back);
     b.wait();
   }
@@ -105,8 +105,8 @@ class MovingNodes {
   void give(B &b, const Vec3 *x, const Vec3 *v)
   {
     const std::size_t n = at_.size();
-    if constexpr (!B::kOnHost) {
-      if (staged_.size() == 0) staged_ = typename B::template HostArray<Vec3>(2 * n);
+    if constexpr (!B::kOnCpu) {
+      if (staged_.size() == 0) staged_ = typename B::template CpuArray<Vec3>(2 * n);
       std::copy_n(x, n, staged_.data());
       std::copy_n(v, n, staged_.data() + n);
       x = staged_.data();
@@ -157,7 +157,7 @@ class MovingNodes {
   // The same in each call.
   const int *rows(B &b, const std::vector<int> &node_of_row)
   {
-    if (node_of_row_.size() != node_of_row.size()) node_of_row_ = from_host(b, node_of_row);
+    if (node_of_row_.size() != node_of_row.size()) node_of_row_ = from_cpu(b, node_of_row);
     return node_of_row_.data();
   }
 
@@ -185,18 +185,18 @@ class MovingNodes {
     });
   }
 
-  // The host waits until it has what was seen, while the rest goes on.
+  // The CPU waits until it has what was seen, while the rest goes on.
   NodesGone remake(B &b, const MeshFeaturesView &records, bool with_spins, Real back)
   {
     look(b);
     const MovedMesh moved = moved_mesh(records);
     move_planes(b, moved);
-    b.copy_out(seen_.data(), seen_on_host_.data(), 1);
+    b.copy_out(seen_.data(), seen_on_cpu_.data(), 1);
     seen_is_there_.record(b);
     move_rest(b, moved);
     if (with_spins) find_spins(b, back);
     seen_is_there_.wait();
-    const NodesSeen &seen = *seen_on_host_.data();
+    const NodesSeen &seen = *seen_on_cpu_.data();
     const auto way = [](std::uint64_t bits) {
       const Real sq = from_ascending_number(bits);
       return sq >= 0 ? std::sqrt(sq) : HUGE_VAL;
@@ -255,12 +255,12 @@ class MovingNodes {
     });
     NodesSeen *seen = seen_.data();
     b.for_each(of.n_faces, [=] LSDCD_LAMBDA(std::size_t f) {
-      if (f == 0) *seen = NodesSeen();    // for the next step; the host has it
+      if (f == 0) *seen = NodesSeen();    // for the next step; the CPU has it
       put_parts(moved, static_cast<std::uint32_t>(f));
     });
   }
 
-  // The faces of a node in the order of their numbers, as a host adds them.
+  // The faces of a node in the order of their numbers, as a CPU adds them.
   void find_spins(B &b, Real back)
   {
     const int *faces = topology_.faces, *first = face_first_.data(), *around = face_around_.data();
@@ -278,7 +278,7 @@ class MovingNodes {
     });
   }
 
-  // Faces and segments that are left to the host are put into left_.
+  // Faces and segments that are left to the CPU are put into left_.
   void move_planes(B &b, const MovedMesh &moved)
   {
     FeatureCode *left = left_.data();
@@ -301,7 +301,7 @@ class MovingNodes {
   void make_left(B &b, const MeshFeaturesView &records, const WeldedMesh &mesh)
   {
     const MovedMesh moved = moved_mesh(records);
-    const int n = seen_on_host_.data()->n_left;
+    const int n = seen_on_cpu_.data()->n_left;
     std::vector<FeatureCode> codes(n);
     b.copy_out(left_.data(), codes.data(), n);
     b.wait();
@@ -314,8 +314,8 @@ class MovingNodes {
       else
         put_far_segment(mesh, i, made[k].edge);
     }
-    const Array<FeatureCode> code = from_host(b, codes);
-    const Array<FeatureRecord> record = from_host(b, made);
+    const Array<FeatureCode> code = from_cpu(b, codes);
+    const Array<FeatureRecord> record = from_cpu(b, made);
     const FeatureCode *from_code = code.data();
     const FeatureRecord *from = record.data();
     b.for_each(n, [=] LSDCD_LAMBDA(std::size_t k) {
@@ -341,7 +341,7 @@ class MovingNodes {
             before_.data(), 0};
   }
 
-  void put_topology(B &b, const MeshTopologyView &on_host, const WeldedMesh &mesh)
+  void put_topology(B &b, const MeshTopologyView &on_cpu, const WeldedMesh &mesh)
   {
     std::vector<int> all;
     const auto add = [&](const int *from, std::size_t n) {
@@ -349,17 +349,17 @@ class MovingNodes {
       all.insert(all.end(), from, from + n);
       return at;
     };
-    const std::size_t at[] = {add(on_host.faces, 3 * mesh.faces.size()),
-                              add(on_host.face_edges, 3 * mesh.faces.size()),
-                              add(on_host.edges, 2 * mesh.edges.size()),
-                              add(on_host.edge_first, mesh.edge_first.size()),
-                              add(on_host.edge_face, mesh.edge_face.size()),
-                              add(on_host.vertex_first, mesh.vertex_first.size()),
-                              add(on_host.vertex_edge, mesh.vertex_edge.size())};
-    topology_numbers_ = from_host(b, all);
+    const std::size_t at[] = {add(on_cpu.faces, 3 * mesh.faces.size()),
+                              add(on_cpu.face_edges, 3 * mesh.faces.size()),
+                              add(on_cpu.edges, 2 * mesh.edges.size()),
+                              add(on_cpu.edge_first, mesh.edge_first.size()),
+                              add(on_cpu.edge_face, mesh.edge_face.size()),
+                              add(on_cpu.vertex_first, mesh.vertex_first.size()),
+                              add(on_cpu.vertex_edge, mesh.vertex_edge.size())};
+    topology_numbers_ = from_cpu(b, all);
     const int *to = topology_numbers_.data();
-    topology_ = {to + at[0], to + at[1], to + at[2],      to + at[3],      to + at[4],
-                 to + at[5], to + at[6], on_host.n_faces, on_host.n_edges, on_host.n_vertices};
+    topology_ = {to + at[0], to + at[1], to + at[2],     to + at[3],     to + at[4],
+                 to + at[5], to + at[6], on_cpu.n_faces, on_cpu.n_edges, on_cpu.n_vertices};
   }
 
   void put_faces_around(B &b, const WeldedMesh &mesh)
@@ -371,8 +371,8 @@ class MovingNodes {
     std::vector<int> at = first;
     for (std::size_t f = 0; f < mesh.faces.size(); f++)
       for (const int v : mesh.faces[f]) around[at[v]++] = static_cast<int>(f);
-    face_first_ = from_host(b, first);
-    face_around_ = from_host(b, around);
+    face_first_ = from_cpu(b, first);
+    face_around_ = from_cpu(b, around);
   }
 
   Array<int> topology_numbers_;
@@ -380,12 +380,12 @@ class MovingNodes {
   MeshTopologyView topology_ = {};
   Array<int> node_of_row_;    // of arrays of a caller
   Array<Vec3> at_, before_, next_, built_at_, velocity_, next_velocity_, spin_;
-  typename B::template HostArray<Vec3> staged_;
+  typename B::template CpuArray<Vec3> staged_;
   Array<char> edge_acts_, vertex_acts_;
   Array<FeatureCode> primitives_, left_;
   NodeGrid<B> grid_;
   Array<NodesSeen> seen_;
-  typename B::template HostArray<NodesSeen> seen_on_host_;
+  typename B::template CpuArray<NodesSeen> seen_on_cpu_;
   typename B::Event seen_is_there_;
 };
 

@@ -16,12 +16,12 @@
 
 namespace lsdcd {
 
-// The contacts of a step on one mesh. `slot`: the first record of each candidate that has contacts.
+// The contacts of a step on one mesh. `first_contact`: the first contact of each candidate that has contacts.
 struct NodeContacts {
   const int *candidates;    // null: all spheres
   std::size_t n;
-  const int *n_contacts, *slot;
-  const ContactRecord *records;
+  const int *n_contacts, *first_contact;
+  const StepContact *contacts;
   StridedView<const Real> x;
   std::uint32_t mesh;
   MeshFeaturesView wall;
@@ -30,11 +30,11 @@ struct NodeContacts {
   LSDCD_FN int count(std::size_t k) const
   {
     const int n_k = n_contacts[k];
-    return n_k > 0 && records[slot[k]].mesh == mesh ? n_k : 0;
+    return n_k > 0 && contacts[first_contact[k]].mesh == mesh ? n_k : 0;
   }
-  LSDCD_FN NodeShares shares(std::size_t k, const ContactRecord &record) const
+  LSDCD_FN NodeShares shares(std::size_t k, const StepContact &contact) const
   {
-    return node_shares(wall, record.feature, x[candidates ? candidates[k] : k] - record.arm);
+    return node_shares(wall, contact.feature, x[candidates ? candidates[k] : k] - contact.arm);
   }
 };
 
@@ -94,19 +94,19 @@ class NodeForces {
   using Array = typename B::template Array<T>;
 
  public:
-  // Returns where a host can read the contacts. Adds to `forces`, x y z, node after node, and returns the power on the
+  // Returns where a CPU can read the contacts. Adds to `forces`, x y z, node after node, and returns the power on the
   // spheres.
-  static Real add_on_host(const NodeContacts &in, std::size_t n_nodes, Real *forces)
+  static Real add_on_cpu(const NodeContacts &in, std::size_t n_nodes, Real *forces)
   {
     NodeSums sums(n_nodes, forces);
     std::vector<Real> power(in.n);
     for (std::size_t k = 0; k < in.n; k++) {
       power[k] = 0;
       for (int c = 0; c < in.count(k); c++) {
-        const ContactRecord &record = in.records[in.slot[k] + c];
-        const NodeShares at = in.shares(k, record);
-        for (int j = 0; j < at.n; j++) sums.add(at.node[j], at.share[j], record.force);
-        power[k] -= dot(record.force, field_at(at, in.velocity));
+        const StepContact &contact = in.contacts[in.first_contact[k] + c];
+        const NodeShares at = in.shares(k, contact);
+        for (int j = 0; j < at.n; j++) sums.add(at.node[j], at.share[j], contact.force);
+        power[k] -= dot(contact.force, field_at(at, in.velocity));
       }
     }
     sums.finish();
@@ -120,7 +120,7 @@ class NodeForces {
   }
 
   // By the backend, in its memory: the shares of all contacts, sorted by node, which keeps their order. The sums of a few
-  // more than the last step had are started before the host knows how many there are, and made again if that was too few.
+  // more than the last step had are started before the CPU knows how many there are, and made again if that was too few.
   void sum(B &b, const NodeContacts &in, std::size_t n_nodes)
   {
     n_nodes_ = n_nodes;
@@ -130,7 +130,7 @@ class NodeForces {
     for (std::size_t room = room_for(n_shares_);; room = room_for(n_shares_)) {
       sum_shares(b, in, room);
       counted_.wait();
-      n_shares_ = *n_on_host_.data();
+      n_shares_ = *n_on_cpu_.data();
       if (n_shares_ <= room) break;
     }
   }
@@ -139,12 +139,12 @@ class NodeForces {
   Real fetch(B &b, Real *forces)
   {
     const std::size_t n = 3 * n_nodes_, n_sums = sum_power(b);
-    on_host_.reserve(n + n_sums);
-    if (forces) b.copy_out(sums_.data(), on_host_.data(), n);
-    b.copy_out(power_.data(), on_host_.data() + n, n_sums);
+    on_cpu_.reserve(n + n_sums);
+    if (forces) b.copy_out(sums_.data(), on_cpu_.data(), n);
+    b.copy_out(power_.data(), on_cpu_.data() + n, n_sums);
     b.wait();
-    if (forces) std::copy_n(on_host_.data(), n, forces);
-    return sum_of(on_host_.data() + n, n_sums);
+    if (forces) std::copy_n(on_cpu_.data(), n, forces);
+    return sum_of(on_cpu_.data() + n, n_sums);
   }
   const Real *sums() const { return sums_.data(); }
 
@@ -166,7 +166,7 @@ class NodeForces {
     int *at = reserve(offset_, n + 1);
     b.for_each(n + 1, [=] LSDCD_LAMBDA(std::size_t k) { at[k] = k < n ? 3 * in.count(k) : 0; });
     b.scan(at, n + 1);
-    b.copy_out(at + n, n_on_host_.data(), 1);
+    b.copy_out(at + n, n_on_cpu_.data(), 1);
     counted_.record(b);
   }
 
@@ -187,14 +187,14 @@ class NodeForces {
       std::size_t to = offset[k];
       Real power = 0;
       for (int c = 0; c < in.count(k) && to + 3 <= room; c++) {
-        const ContactRecord &record = in.records[in.slot[k] + c];
-        const NodeShares at = in.shares(k, record);
+        const StepContact &contact = in.contacts[in.first_contact[k] + c];
+        const NodeShares at = in.shares(k, contact);
         for (int j = 0; j < 3; j++, to++) {
           const bool is_one = j < at.n;
           node[to] = is_one ? static_cast<std::uint32_t>(at.node[j]) : none;
-          if (is_one) share[to] = at.share[j] * record.force;
+          if (is_one) share[to] = at.share[j] * contact.force;
         }
-        power -= dot(record.force, field_at(at, in.velocity));
+        power -= dot(contact.force, field_at(at, in.velocity));
       }
       powers[k] = power;
     });
@@ -279,11 +279,11 @@ class NodeForces {
 
   std::size_t n_nodes_ = 0, n_shares_ = 0, n_powers_ = 0;    // of the last step
   Array<Real> powers_, power_, sums_;    // powers_: of candidates, and of blocks
-  typename B::template HostArray<Real> on_host_;
+  typename B::template CpuArray<Real> on_cpu_;
   Array<int> offset_, first_;
   Array<Vec3> share_, block_, group_;
   PairMemory<B> pairs_;    // of a node and a share
-  typename B::template HostArray<int> n_on_host_ = typename B::template HostArray<int>(1);
+  typename B::template CpuArray<int> n_on_cpu_ = typename B::template CpuArray<int>(1);
   typename B::Event counted_;    // once it is there
 };
 

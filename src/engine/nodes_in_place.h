@@ -18,7 +18,7 @@ struct NodesGone {
   Real since_grid;    // likewise, since the grid was built
   Real speed;         // the largest (length/time); likewise
   Vec3 lo, hi;        // corners of their bounds
-  bool any_left;      // is the host to make records, as they need more digits than a Real has?
+  bool any_left;      // is the CPU to make records, as they need more digits than a Real has?
 };
 
 // Before the last move, after it, and given for the next one.
@@ -40,18 +40,18 @@ class NodesInPlace {
   // Nodes go to where they were given, and their records are made anew (mesh/moving_records.h). Before begin(). Waits
   // for what it returns only.
   virtual NodesGone move_nodes(int mesh, bool with_spins, Real back) = 0;
-  // The host makes the records that move_nodes() has left to it. Throws InputError where a face has no area.
+  // The CPU makes the records that move_nodes() has left to it. Throws InputError where a face has no area.
   virtual void make_left(int mesh, const WeldedMesh &now) = 0;
   // After a step that is refused: nodes go back to where they were.
   virtual NodesGone move_nodes_back(int mesh, bool with_spins, Real back) = 0;
 
   // These wait. Arrays have as many items as there are nodes or records.
   virtual void fetch_nodes(int mesh, NodesAt when, Vec3 *x, Vec3 *v) = 0;
-  virtual void fetch_records(int mesh, MeshFeatures &to) = 0;
+  virtual void fetch_contacts(int mesh, MeshFeatures &to) = 0;
 
   // The forces of the contacts of the last step on the nodes of a mesh, summed in the order of the spheres.
   virtual void sum_node_forces(int mesh) = 0;
-  // Copies them to the host, x y z, node after node (force), if `forces` is not null. Returns the power of the nodes on
+  // Copies them to the CPU, x y z, node after node (force), if `forces` is not null. Returns the power of the nodes on
   // the spheres. Waits.
   virtual Real fetch_node_forces(int mesh, Real *forces) = 0;
   // Puts them where the backend computes, row k of node node_of_row[k], as in give_nodes_in_place(), with the forces of a

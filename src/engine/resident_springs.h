@@ -38,7 +38,7 @@ class ResidentSprings : public SpringsInPlace {
   struct Pool {
     Array<Spring> springs;
     Array<Real> extra;
-    Array<ContactRecord> records;
+    Array<StepContact> contacts;
     std::size_t size = 0;
     std::size_t shared = 0;    // where the shared places of its last step began
   };
@@ -75,16 +75,16 @@ class ResidentSprings : public SpringsInPlace {
     count_ = std::move(count);
   }
 
-  // For steps over n candidate spheres, each of which has a slot of its own for a single contact. Spheres
-  // with more contacts share the slots behind: three for each sphere, as in the corner of a box, or twice
+  // For steps over n candidate spheres, each of which has a place of its own for a single contact. Spheres
+  // with more contacts share the places behind: three for each sphere, as in the corner of a box, or twice
   // as many as were shared last, and some for spheres with many contacts.
   void make_room(std::size_t n, const StepCounts &last)
   {
     n_candidates_ = n;
     wanted_ = 0;
-    if (!traits_.history && !traits_.records) return;
+    if (!traits_.history && !traits_.contacts) return;
     const std::size_t shared = std::max(last.shared_used[0], last.shared_used[1]);
-    wanted_ = n + std::max(3 * n, 2 * shared) + kSpareSlots;
+    wanted_ = n + std::max(3 * n, 2 * shared) + kSparePlaces;
   }
 
   // Removes the springs of sphere i on meshes outside of set[i].
@@ -137,8 +137,8 @@ class ResidentSprings : public SpringsInPlace {
     });
   }
 
-  // Returns the pool that the next step writes; `slot`: see ContactPool.
-  ContactPool next(int *slot)
+  // Returns the pool that the next step writes; `first_contact`: see ContactPool.
+  ContactPool next(int *first_contact)
   {
     Pool &pool = pool_[1 - now_];
     if (pool.size < wanted_) pool = make(with_spare(wanted_));
@@ -148,10 +148,10 @@ class ResidentSprings : public SpringsInPlace {
             1 - now_,
             first_.data(),
             count_.data(),
-            slot,
+            first_contact,
             pool.springs.data(),
             pool.extra.data(),
-            pool.records.data()};
+            pool.contacts.data()};
   }
 
   void swap()
@@ -160,10 +160,10 @@ class ResidentSprings : public SpringsInPlace {
     end_ = kUnknown;
   }
 
-  // Returns the records of the last step, with gaps; `moved`: did it move springs?
-  const ContactRecord *records(bool moved) const
+  // Returns the contacts of the last step, with gaps; `moved`: did it move springs?
+  const StepContact *contacts(bool moved) const
   {
-    return pool_[moved ? now_ : 1 - now_].records.data();
+    return pool_[moved ? now_ : 1 - now_].contacts.data();
   }
 
   void to_store(ContactHistory &store, std::size_t n)
@@ -187,8 +187,8 @@ class ResidentSprings : public SpringsInPlace {
           to_extra[target * n_extra + e] = from.extra[source * n_extra + e];
       }
     });
-    store.assign(to_host(b_, offset, n), to_host(b_, count_, n), to_host(b_, springs, total),
-                 to_host(b_, extra, total * n_extra));
+    store.assign(to_cpu(b_, offset, n), to_cpu(b_, count_, n), to_cpu(b_, springs, total),
+                 to_cpu(b_, extra, total * n_extra));
   }
 
   void from_store(const ContactHistory &store, std::size_t n)
@@ -288,12 +288,12 @@ class ResidentSprings : public SpringsInPlace {
     const std::size_t places = pool_[0].size + pool_[1].size;
     return 2 * count_.size() * sizeof(int) +
            places * (traits_.history * (sizeof(Spring) + traits_.n_extra * sizeof(Real)) +
-                     traits_.records * sizeof(ContactRecord));
+                     traits_.contacts * sizeof(StepContact));
   }
 
  private:
   static constexpr std::size_t kUnknown = ~std::size_t(0);
-  static constexpr std::size_t kSpareSlots = 65536;
+  static constexpr std::size_t kSparePlaces = 65536;
 
   int per_spring() const
   {
@@ -330,7 +330,7 @@ class ResidentSprings : public SpringsInPlace {
     Pool pool;
     if (traits_.history) pool.springs = Array<Spring>(n);
     pool.extra = Array<Real>(traits_.history ? n * traits_.n_extra : 0);
-    if (traits_.records) pool.records = Array<ContactRecord>(n);
+    if (traits_.contacts) pool.contacts = Array<StepContact>(n);
     pool.size = n;
     return pool;
   }

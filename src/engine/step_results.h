@@ -37,7 +37,7 @@ class StepResults {
     n_parts_ = 0;
     n_contacts_.reserve(n);
     if (traits.heat) heat_.reserve(n);
-    if (traits.records) slot_.reserve(n);
+    if (traits.contacts) first_contact_.reserve(n);
     if (!may_miss)
       uncertain_ = Array<Real>();
     else
@@ -78,37 +78,37 @@ class StepResults {
     });
   }
 
-  int *slot() { return slot_.data(); }
+  int *first_contact() { return first_contact_.data(); }
   const Array<int> &n_contacts() const { return n_contacts_; }
 
-  // Copies the outputs that the step's settings ask for to the host; `records`: with gaps.
-  void fetch(B &b, const ContactRecord *records)
+  // Copies the outputs that the step's settings ask for to the CPU; `contacts`: with gaps.
+  void fetch(B &b, const StepContact *contacts)
   {
     touching_.clear();
     output_.clear();
     states_.clear();
     sphere_heat_.clear();
-    records_.clear();
+    contacts_.clear();
     if (n_ == 0) return;
     if (step_.per_sphere) fetch_output(b);
-    if (traits_.records && step_.records) fetch_records(b, records);
+    if (traits_.contacts && step_.contacts) fetch_contacts(b, contacts);
   }
 
   const std::vector<int> &touching() const { return touching_; }
   const std::vector<SphereOutput> &output() const { return output_; }
   const std::vector<TouchingSphere> &states() const { return states_; }
   const std::vector<Real> &sphere_heat() const { return sphere_heat_; }
-  const std::vector<ContactRecord> &records() const { return records_; }
+  const std::vector<StepContact> &contacts() const { return contacts_; }
 
-  // The contacts of the last step, where the backend has them; `records`: with gaps.
-  NodeContacts node_contacts(const ContactRecord *records, int mesh, const MeshFeaturesView &wall,
+  // The contacts of the last step, where the backend has them; `contacts`: with gaps.
+  NodeContacts node_contacts(const StepContact *contacts, int mesh, const MeshFeaturesView &wall,
                              const Vec3 *velocity) const
   {
     return {candidates_,
             n_,
             n_contacts_.data(),
-            slot_.data(),
-            records,
+            first_contact_.data(),
+            contacts,
             spheres_.x,
             static_cast<std::uint32_t>(mesh),
             wall,
@@ -131,11 +131,11 @@ class StepResults {
   std::size_t bytes() const
   {
     return (numbers_.size() + heat_.size() + uncertain_.size()) * sizeof(Real) +
-           (n_contacts_.size() + slot_.size() + stored_candidates_.size()) * sizeof(int) +
+           (n_contacts_.size() + first_contact_.size() + stored_candidates_.size()) * sizeof(int) +
            touching_.capacity() * sizeof(int) + output_.capacity() * sizeof(SphereOutput) +
            states_.capacity() * sizeof(TouchingSphere) + sphere_heat_.capacity() * sizeof(Real) +
-           records_.capacity() * sizeof(ContactRecord) +
-           (block_sums_.size() + group_sums_.size() + sums_on_host_.size()) * sizeof(WallTotals);
+           contacts_.capacity() * sizeof(StepContact) +
+           (block_sums_.size() + group_sums_.size() + sums_on_cpu_.size()) * sizeof(WallTotals);
   }
 
   // Before other spheres are candidates: totals stay those of the last step.
@@ -188,10 +188,10 @@ class StepResults {
       to_sphere[k] = static_cast<int>(i);
     });
     if (slots_ && slots_->n_multi_mesh() > 0) join_output(b, to, to_heat);
-    const std::vector<SphereOutput> all = to_host(b, out, n);
-    const std::vector<Real> heat = to_host(b, heat_out, heat_out.size());
-    const std::vector<TouchingSphere> state = to_host(b, states, states.size());
-    const std::vector<int> index = to_host(b, sphere, n);
+    const std::vector<SphereOutput> all = to_cpu(b, out, n);
+    const std::vector<Real> heat = to_cpu(b, heat_out, heat_out.size());
+    const std::vector<TouchingSphere> state = to_cpu(b, states, states.size());
+    const std::vector<int> index = to_cpu(b, sphere, n);
     for (std::size_t k = 0; k < n; k++) {
       if (!(all[k].contacts > 0)) continue;
       touching_.push_back(index[k]);
@@ -228,22 +228,22 @@ class StepResults {
     });
   }
 
-  void fetch_records(B &b, const ContactRecord *from)
+  void fetch_contacts(B &b, const StepContact *from)
   {
     const std::size_t n = n_;
     Array<int> offset(n);
     int *at = offset.data();
     const int *n_contacts = n_contacts_.data();
-    const int *slot = slot_.data();
+    const int *first_contact = first_contact_.data();
     copy_all(b, n_contacts, at, n);
     const std::size_t total = b.exclusive_scan(at, n);
     // The gaps between them were never written.
-    Array<ContactRecord> packed(total);
-    ContactRecord *to = packed.data();
+    Array<StepContact> packed(total);
+    StepContact *to = packed.data();
     b.for_each(n, [=] LSDCD_LAMBDA(std::size_t k) {
-      for (int c = 0; c < n_contacts[k]; c++) to[at[k] + c] = from[slot[k] + c];
+      for (int c = 0; c < n_contacts[k]; c++) to[at[k] + c] = from[first_contact[k] + c];
     });
-    records_ = to_host(b, packed, total);
+    contacts_ = to_cpu(b, packed, total);
   }
 
   void sum_totals(B &b)
@@ -268,7 +268,7 @@ class StepResults {
     const std::size_t parts = static_cast<std::size_t>(n_parts);
     block_sums_.reserve(parts * n_blocks);
     group_sums_.reserve(parts * n_groups);
-    sums_on_host_.reserve(parts * n_groups);
+    sums_on_cpu_.reserve(parts * n_groups);
     WallTotals *block = block_sums_.data(), *group = group_sums_.data();
     const ResultColumns result = columns_;
     const int *candidates = candidates_, *mesh = n_parts > 1 ? slots_->mesh() : nullptr;
@@ -294,7 +294,7 @@ class StepResults {
         add_block(t, blocks[k]);
       group[at] = t;
     });
-    b.copy_out(group_sums_.data(), sums_on_host_.data(), parts * n_groups);
+    b.copy_out(group_sums_.data(), sums_on_cpu_.data(), parts * n_groups);
     if (!are_summed_) are_summed_ = std::make_unique<typename B::Event>();
     are_summed_->record(b);
   }
@@ -304,7 +304,7 @@ class StepResults {
   {
     are_summed_->wait();
     WallTotals total;
-    const WallTotals *const groups = sums_on_host_.data() + part * n_groups_;
+    const WallTotals *const groups = sums_on_cpu_.data() + part * n_groups_;
     for (std::size_t k = 0; k < n_groups_; k++) add_block(total, groups[k]);
     return total;
   }
@@ -318,14 +318,14 @@ class StepResults {
 
   ResultColumns columns_;
   Array<Real> numbers_, heat_, uncertain_;
-  Array<int> n_contacts_, slot_, stored_candidates_;
+  Array<int> n_contacts_, first_contact_, stored_candidates_;
 
   WallTotals totals_;
   bool totals_known_ = true;
   int n_parts_ = 0;    // of the sums that were started; 0: none were
   std::size_t n_groups_ = 0;
   Array<WallTotals> block_sums_, group_sums_;    // part after part
-  typename B::template HostArray<WallTotals> sums_on_host_;
+  typename B::template CpuArray<WallTotals> sums_on_cpu_;
   std::unique_ptr<typename B::Event> are_summed_;
   const CandidateSlots<B> *slots_ = nullptr;    // until their totals are known
   std::vector<WallTotals> mesh_totals_;
@@ -333,7 +333,7 @@ class StepResults {
   std::vector<SphereOutput> output_;
   std::vector<TouchingSphere> states_;
   std::vector<Real> sphere_heat_;
-  std::vector<ContactRecord> records_;
+  std::vector<StepContact> contacts_;
 };
 
 }    // namespace lsdcd

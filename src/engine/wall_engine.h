@@ -45,12 +45,12 @@ struct EngineSettings {
   int meshes = 1;           // that move apart; with more than one `moves` counts as true
   SurfaceMotion surface;    // of each mesh, in the plane of each contact
   bool moves = false;       // set_pose() or StepSettings::surface will be used
-  bool records = false;     // record what every contact does to the wall
+  bool contacts = false;    // keep what every contact does to the wall
   bool bodies = false;      // StepSettings::mobility will be used; contacts are recorded, too
   bool nodes = false;       // StepSettings::nodes will be used; likewise
   // The engine has copies of the records of meshes whose nodes move, as on a GPU, where this is so in any case.
   bool copies_records = false;
-  WearModel wear = WearModel::none;    // where there are records
+  WearModel wear = WearModel::none;    // where contacts are kept
   Device device = Device::automatic;
   int device_rank = 0;    // which of the GPUs this process takes (node-local rank, wrapped)
   HostNames names;        // for errors
@@ -92,7 +92,7 @@ struct StepSettings {
   bool per_sphere = false;      // fill SphereOutput
   bool states = false;          // and TouchingSphere, where per_sphere is set
   bool totals = false;          // they will be asked for before the next step: summed with this one
-  bool records = true;          // bring the records of settings.records
+  bool contacts = true;         // bring the contacts of settings.contacts
   Real wall_temperature = 0;    // where the law has heat
   // For each mesh, in place of wall_temperature and of the settings' surface; valid until collect().
   const Real *mesh_temperature = nullptr;
@@ -142,7 +142,7 @@ struct TouchingSphere {
 };
 
 // The effect of one contact on the wall in one step.
-struct ContactRecord {
+struct StepContact {
   FeatureCode feature;
   std::uint32_t mesh;    // of the wall's
   Real normal;           // force on the wall, > 0 where the sphere presses
@@ -219,7 +219,7 @@ class WallEngine {
   void set_grid(const GridView &grid, int mesh = 0)
   {
     if (grid.in_floats ||
-        (grid.list_kind.is_complete() && grid.lists.candidates && !grid.lists.is_packed()))
+        (grid.list_kind.is_complete() && grid.lists.entries && !grid.lists.is_packed()))
       throw std::logic_error("a grid for queries cannot serve steps: build it without in_floats, "
                              "and not as ListForm::full");
     expire_choice();
@@ -294,9 +294,9 @@ class WallEngine {
   virtual const Real *sphere_heat() const = 0;
 
   // Records of the contacts of the last step, in the order of the spheres;
-  // valid after collect() where settings.records and step.records are set.
-  virtual int n_records() const = 0;
-  virtual const ContactRecord *records() const = 0;
+  // valid after collect() where settings.contacts and step.contacts are set.
+  virtual int n_contacts() const = 0;
+  virtual const StepContact *contacts() const = 0;
 
   // Returns what steps have counted since the last call, and counts anew. Throws InputError if a step had to leave out a sphere
   // that is too large or has more contacts than there is memory for, or if one grew after the choice.
@@ -317,7 +317,7 @@ class WallEngine {
   // nodes_in_place() knows where nodes were before, and reads nothing of `turning`.
   virtual void turn_springs(int n, int mesh, const TurningMesh &turning) = 0;
   // Adds the forces of the contacts of the last step to those of the nodes of a mesh, x y z, node after node (force), in
-  // the order of the spheres. Returns the power of the nodes on the spheres. step.records need not be set. An engine with
+  // the order of the spheres. Returns the power of the nodes on the spheres. step.contacts need not be set. An engine with
   // nodes_in_place() sums them there, by NodesInPlace::sum_forces().
   virtual Real add_node_forces(int mesh, const NodesNow &now, const MeshFeaturesView &wall,
                                Real *forces) = 0;

@@ -86,7 +86,7 @@ void codes_of(const TriangleGrid &grid, const Brick &brick, std::size_t n_cells,
       add(cell.first);
     else
       for (std::uint32_t i = cell.first; i < cell.first + cell.count; i++)
-        add(lists.candidates[i].feature);
+        add(lists.entries[i].feature);
   }
   const std::size_t n = grid.list_kind.has_primitives() ? codes.size() : 0;
   for (std::size_t i = 0; i < n; i++)
@@ -183,7 +183,7 @@ void add_records(TriangleGrid &grid, BrickRecords &out)
           cell.first = record_code(cell.first);
         else
           for (std::uint32_t i = cell.first; i < cell.first + cell.count; i++)
-            lists.candidates[i].feature = record_code(lists.candidates[i].feature);
+            lists.entries[i].feature = record_code(lists.entries[i].feature);
       }
     }
   }

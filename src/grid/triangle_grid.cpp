@@ -84,11 +84,11 @@ void copy_arrays(const Grid &grid, char *block)
 
 }    // namespace
 
-Vec3 brick_centre(const TriangleGrid &grid, std::size_t slot)
+Vec3 brick_centre(const TriangleGrid &grid, std::size_t index)
 {
   const std::size_t nx = grid.n_bricks[0], ny = grid.n_bricks[1];
   const Real side = kBrickSide * grid.length, half = Real(0.5);
-  const std::size_t x = slot % nx, y = slot / nx % ny, z = slot / nx / ny;
+  const std::size_t x = index % nx, y = index / nx % ny, z = index / nx / ny;
   return grid.origin + side * Vec3{x + half, y + half, z + half};
 }
 
@@ -198,7 +198,7 @@ std::string describe(const GridReport &r)
   const ListReport &l = r.lists;
   n += std::snprintf(text + n, sizeof text - n,
                      "%zu bricks, %zu cells, %zu candidates, lists %.2f on average, %zu at most",
-                     l.bricks, l.cells, l.candidates, l.mean, l.longest);
+                     l.bricks, l.cells, l.entries, l.mean, l.longest);
   if (r.records > 0)
     n += std::snprintf(text + n, sizeof text - n, "\n  %zu features in float, by brick, %s",
                        r.records, amount(double(r.record_bytes)).c_str());

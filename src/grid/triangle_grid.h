@@ -25,7 +25,7 @@ constexpr int kLayers = kBrickSide;
 
 // An entry of a cell's list: the feature or primitive, and a lower bound of its distance
 // from the cell centre. Lists ascend in (bound, feature).
-struct Candidate {
+struct CellEntry {
   FeatureCode feature;
   float bound;    // length
 };
@@ -36,19 +36,19 @@ struct Candidate {
 //
 //   bound <= limit => steps(bound) <= steps(limit),
 //
-// and a search up to a limit finds in a packed list all that it finds in a full one. It may also try a candidate whose
+// and a search up to a limit finds in a packed list all that it finds in a full one. It may also try an entry whose
 // bound is less than a step past the limit, which costs time and changes no contact.
-struct PackedCandidate {
+struct PackedEntry {
   std::uint32_t word;
 };
-struct CandidatePacking {
+struct EntryPacking {
   Real steps_per_length = 0;      // 1/length
   std::uint32_t code_bits = 0;    // 0: lists are not packed
   std::uint32_t shift = 0;        // of the steps
 
-  CandidatePacking() = default;
+  EntryPacking() = default;
   // For codes with indices below n; `largest`: a length above 0.
-  CandidatePacking(std::uint64_t n, Real largest)
+  EntryPacking(std::uint64_t n, Real largest)
   {
     while (shift < kFeatureIndexBits && n > std::uint64_t(1) << shift) shift++;
     code_bits = ~(((std::uint32_t(1) << (kFeatureIndexBits - shift)) - 1) << shift);
@@ -63,19 +63,19 @@ struct CandidatePacking {
     const Real n = length * steps_per_length;
     return (n < most() ? (n > 0 ? static_cast<std::uint32_t>(n) : 0) : most()) << shift;
   }
-  LSDCD_FN PackedCandidate pack(const Candidate &c) const { return {c.feature | steps(c.bound)}; }
-  LSDCD_FN FeatureCode feature(PackedCandidate c) const { return c.word & code_bits; }
-  LSDCD_FN std::uint32_t bound(PackedCandidate c) const { return c.word & ~code_bits; }
+  LSDCD_FN PackedEntry pack(const CellEntry &c) const { return {c.feature | steps(c.bound)}; }
+  LSDCD_FN FeatureCode feature(PackedEntry c) const { return c.word & code_bits; }
+  LSDCD_FN std::uint32_t bound(PackedEntry c) const { return c.word & ~code_bits; }
 };
-static_assert(sizeof(CandidatePacking) == 16, "flat blocks have its bytes, and no padding");
+static_assert(sizeof(EntryPacking) == 16, "flat blocks have its bytes, and no padding");
 
-// A cell with one candidate holds it inline (count 1, first = its feature code).
+// A cell with one entry holds it inline (count 1, first = its feature code).
 struct Cell {
   std::uint32_t first;
   std::uint32_t count;
 };
 
-// 64 cells of a brick, x fastest, then y: a bit for each that has candidates, and where the
+// 64 cells of a brick, x fastest, then y: a bit for each that has entries, and where the
 // first of these is in CellListsView::cells. It has 16 bytes, which are loaded at once: a sphere
 // reads one layer of a brick.
 struct alignas(16) BrickLayer {
@@ -122,9 +122,9 @@ struct CellListsView {
   const std::int32_t *brick_of;    // x fastest; -1 where no brick is near the wall
   const Brick *bricks;
   const Cell *cells;
-  const Candidate *candidates;
-  const PackedCandidate *packed;    // in the places of their candidates
-  CandidatePacking packing;
+  const CellEntry *entries;
+  const PackedEntry *packed;    // in the places of their entries
+  EntryPacking packing;
 
   LSDCD_FN bool is_packed() const { return packing.code_bits != 0; }
 
@@ -135,12 +135,12 @@ struct CellListsView {
     visit(lists.brick_of);
     visit(lists.bricks);
     visit(lists.cells);
-    visit(lists.candidates);
+    visit(lists.entries);
     visit(lists.packed);
   }
 };
 
-// Borrowed view of a grid on the host or on a device; trivially copyable.
+// Borrowed view of a grid on the CPU or on a device; trivially copyable.
 struct GridView {
   MeshFeaturesView wall;
   Vec3 origin;                // corner of brick (0, 0, 0); length
@@ -172,7 +172,7 @@ struct GridView {
 // read a list for each point.
 enum class GridPurpose { step, points };
 
-// Which candidates a grid has. Steps read packed ones of complete lists in double, and full ones of all other lists;
+// Which entries a grid has. Steps read packed ones of complete lists in double, and full ones of all other lists;
 // queries read full ones. So lists that are not complete, and those in float, are full in any case.
 enum class ListForm { full, packed, both };
 
@@ -212,7 +212,7 @@ struct BuildLimit {
 };
 
 struct ListReport {
-  std::size_t bricks = 0, cells = 0, candidates = 0;    // cells that have candidates
+  std::size_t bricks = 0, cells = 0, entries = 0;    // cells that have entries
   std::size_t longest = 0;
   Real mean = 0;
   std::size_t distance_tests = 0;    // feature against cell, at most; after bricking
@@ -235,9 +235,9 @@ struct CellLists {
   std::vector<std::int32_t> brick_of;
   std::vector<Brick> bricks;
   std::vector<Cell> cells;
-  std::vector<Candidate> candidates;
-  std::vector<PackedCandidate> packed;
-  CandidatePacking packing;
+  std::vector<CellEntry> entries;
+  std::vector<PackedEntry> packed;
+  EntryPacking packing;
 };
 
 // Owns a grid and the wall records that it points to, on the host. Every device builds
@@ -290,7 +290,7 @@ GridView flat_view(const char *block);
 // Returns the view of a flat block as a view of the block's copy at `to`.
 GridView moved_view(const GridView &view, const char *to);
 
-// Returns the centre of the brick at a slot in the table.
-Vec3 brick_centre(const TriangleGrid &grid, std::size_t slot);
+// Returns the centre of the brick at a index in the table.
+Vec3 brick_centre(const TriangleGrid &grid, std::size_t index);
 
 }    // namespace lsdcd

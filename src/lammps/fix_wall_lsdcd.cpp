@@ -307,7 +307,7 @@ void FixWallLsdcd::init()
   check_files_apart(*this, *modify, host, update->ntimestep);
   init_nodes();
   if (doubled_warned) return;
-  need_on_host();
+  need_on_cpu();
   const std::string doubled = doubled_mesh(*this, *modify, *atom, world);
   if (doubled.empty()) return;
   doubled_warned = true;
@@ -553,7 +553,7 @@ lsdcd::HostSpheres FixWallLsdcd::spheres()
 // Damping of an atom in a rigid body reads the mass of the body.
 void FixWallLsdcd::fill_masses()
 {
-  need_on_host();
+  need_on_cpu();
   const int nlocal = atom->nlocal;
   damping_mass.assign(atom->rmass, atom->rmass + nlocal);
   for (int k = 0; k < modify->nfix; k++) {
@@ -581,26 +581,26 @@ void FixWallLsdcd::grow_arrays(int nmax)
 // were deleted or displaced.
 void FixWallLsdcd::copy_arrays(int i, int j, int /*delflag*/)
 {
-  if (has_history()) history_on_host().copy(i, j);
+  if (has_history()) history_on_cpu().copy(i, j);
   if (spec().contacts) std::copy_n(array_atom[i], size_peratom_cols, array_atom[j]);
 }
 
 void FixWallLsdcd::set_arrays(int i)
 {
-  if (has_history()) history_on_host().clear(i);
+  if (has_history()) history_on_cpu().clear(i);
   if (spec().contacts) std::fill(array_atom[i], array_atom[i] + size_peratom_cols, 0.0);
 }
 
 int FixWallLsdcd::pack_exchange(int i, double *buf)
 {
-  const int n = has_history() ? history_on_host().pack(i, buf) : 0;
+  const int n = has_history() ? history_on_cpu().pack(i, buf) : 0;
   if (spec().contacts) std::copy_n(array_atom[i], size_peratom_cols, buf + n);
   return n + row_size();
 }
 
 int FixWallLsdcd::unpack_exchange(int i, double *buf)
 {
-  const int n = has_history() ? history_on_host().unpack(i, buf) : 0;
+  const int n = has_history() ? history_on_cpu().unpack(i, buf) : 0;
   if (spec().contacts) std::copy_n(buf + n, size_peratom_cols, array_atom[i]);
   return n + row_size();
 }
@@ -609,7 +609,7 @@ int FixWallLsdcd::unpack_exchange(int i, double *buf)
 // largest of all processes.
 void FixWallLsdcd::make_exchange_room()
 {
-  int largest = history_on_host().largest_packed_size();
+  int largest = history_on_cpu().largest_packed_size();
   MPI_Allreduce(MPI_IN_PLACE, &largest, 1, MPI_INT, MPI_MAX, world);
   ask_for_room(1 + largest);    // and its offset, which messages of Kokkos tell
 }
@@ -644,13 +644,13 @@ void FixWallLsdcd::ask_for_most_room()
 // In restart files the first number is the size, by which other fixes skip it.
 int FixWallLsdcd::size_restart(int i)
 {
-  return 1 + history_on_host().packed_size(i);
+  return 1 + history_on_cpu().packed_size(i);
 }
 
 // The largest size of all processes: LAMMPS takes the first one's, and makes rows that wide. Collective.
 int FixWallLsdcd::maxsize_restart()
 {
-  int largest = 1 + history_on_host().largest_packed_size();
+  int largest = 1 + history_on_cpu().largest_packed_size();
   MPI_Allreduce(MPI_IN_PLACE, &largest, 1, MPI_INT, MPI_MAX, world);
   return largest;
 }
@@ -665,7 +665,7 @@ void FixWallLsdcd::unpack_restart(int i, int nth)
 {
   const double *extra = atom->extra[i];
   for (int n = 0; n < nth; n++) extra += static_cast<int>(extra[0]);
-  history_on_host();
+  history_on_cpu();
   wall->history().unpack_saved(i, extra + 1, static_cast<int>(extra[0]) - 1);
 }
 

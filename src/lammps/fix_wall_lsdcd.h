@@ -112,7 +112,7 @@ class FixWallLsdcd : public Fix, protected OwnMessages {
   virtual void finish_step();
   virtual lsdcd::HostSpheres spheres();
   virtual void fill_masses();
-  virtual void need_on_host() {}      // before atom data are read outside of a step
+  virtual void need_on_cpu() {}       // before atom data are read outside of a step
   virtual void need_positions() {}    // before check_wrapping()
   virtual void need_nodes() {}        // before atoms that are nodes are read
   virtual void need_ids() {}          // before atom IDs are read
@@ -132,7 +132,7 @@ class FixWallLsdcd : public Fix, protected OwnMessages {
   void fill_each_contact();
 
   bool has_history() { return wall->history().is_on(); }
-  lsdcd::ContactHistory &history_on_host() { return wall->history().on_host(); }
+  lsdcd::ContactHistory &history_on_cpu() { return wall->history().on_cpu(); }
   int row_size() const { return spec().contacts ? size_peratom_cols : 0; }
   void ask_for_room(int);
   void ask_for_most_room();

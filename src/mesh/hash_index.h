@@ -33,7 +33,7 @@ std::uint64_t hash_three(Word a, Word b, Word c)
 
 class HashIndex {
  public:
-  HashIndex() : slots_(1024, Slot{0, kNone}) {}
+  HashIndex() : buckets_(1024, Bucket{0, kNone}) {}
 
   static constexpr int kNone = -1;
 
@@ -41,7 +41,7 @@ class HashIndex {
   template <class IsSame>
   int find(std::uint64_t hash, IsSame is_same) const
   {
-    return slots_[find_slot(static_cast<std::uint32_t>(hash), is_same)].index;
+    return buckets_[find_bucket(static_cast<std::uint32_t>(hash), is_same)].index;
   }
 
   // Returns the index that find() would find. Where there is none, it stores `fresh` and returns that.
@@ -49,39 +49,39 @@ class HashIndex {
   int find_or_insert(std::uint64_t hash, int fresh, IsSame is_same)
   {
     const auto tag = static_cast<std::uint32_t>(hash);
-    Slot &slot = slots_[find_slot(tag, is_same)];
-    if (slot.index != kNone) return slot.index;
-    slot = {tag, fresh};
-    if (++n_used_ > slots_.size() / 2) grow();
+    Bucket &bucket = buckets_[find_bucket(tag, is_same)];
+    if (bucket.index != kNone) return bucket.index;
+    bucket = {tag, fresh};
+    if (++n_used_ > buckets_.size() / 2) grow();
     return fresh;
   }
 
  private:
-  struct Slot {
+  struct Bucket {
     std::uint32_t tag;
     int index;
   };
 
   template <class IsSame>
-  std::size_t find_slot(std::uint32_t tag, IsSame is_same) const
+  std::size_t find_bucket(std::uint32_t tag, IsSame is_same) const
   {
-    const std::size_t mask = slots_.size() - 1;
+    const std::size_t mask = buckets_.size() - 1;
     std::size_t at = tag & mask;
-    while (slots_[at].index != kNone && !(slots_[at].tag == tag && is_same(slots_[at].index)))
+    while (buckets_[at].index != kNone && !(buckets_[at].tag == tag && is_same(buckets_[at].index)))
       at = (at + 1) & mask;
     return at;
   }
 
   void grow()
   {
-    std::vector<Slot> old(2 * slots_.size(), Slot{0, kNone});
-    std::swap(old, slots_);
+    std::vector<Bucket> old(2 * buckets_.size(), Bucket{0, kNone});
+    std::swap(old, buckets_);
     const auto never = [](int) { return false; };
-    for (const Slot &slot : old)
-      if (slot.index != kNone) slots_[find_slot(slot.tag, never)] = slot;
+    for (const Bucket &bucket : old)
+      if (bucket.index != kNone) buckets_[find_bucket(bucket.tag, never)] = bucket;
   }
 
-  std::vector<Slot> slots_;    // a power of two of them
+  std::vector<Bucket> buckets_;    // a power of two of them
   std::size_t n_used_ = 0;
 };
 

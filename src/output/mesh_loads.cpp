@@ -42,12 +42,12 @@ Load &MeshLoads::load(FeatureCode feature)
   return load_[at->second];
 }
 
-void MeshLoads::add(const ContactRecord *records, int n, Real dt, Real per_work,
+void MeshLoads::add(const StepContact *records, int n, Real dt, Real per_work,
                     const MeshFeaturesView &wall, std::uint32_t mesh)
 {
   time_ += dt;
   for (int i = 0; i < n; i++) {
-    const ContactRecord &r = records[i];
+    const StepContact &r = records[i];
     if (r.mesh != mesh) continue;
     Load &to = load(own_feature(wall, r.feature));
     to.normal += r.normal * dt;

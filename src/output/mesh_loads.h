@@ -31,7 +31,7 @@ class MeshLoads {
   // that the same records give the same bits. Records on a periodic image count for the part of
   // the mesh that it is an image of; `wall` may be empty without images. Records of other
   // meshes are left out.
-  void add(const ContactRecord *records, int n, Real dt, Real per_work,
+  void add(const StepContact *records, int n, Real dt, Real per_work,
            const MeshFeaturesView &wall = {}, std::uint32_t mesh = 0);
 
   // Begins a new average: forgets all but what has worn off.

@@ -31,7 +31,7 @@ struct CellQueryCpu {
   struct InCell {
     S s;
     std::size_t sphere;
-    std::uint32_t slot, cell;    // the cell's number in its brick, then in lists.cells
+    std::uint32_t index, cell;    // the cell's number in its brick, then in lists.cells
   };
 
   template <class Work>
@@ -45,18 +45,18 @@ struct CellQueryCpu {
     for (std::size_t i = from; i < to; i++) {
       const S s = work.sphere(i);
       work.check(i, s);
-      const BrickSlot at = brick_slot_of(grid, s.centre());
-      in_cell[n] = {s, i, at.slot, static_cast<std::uint32_t>(at.cell)};
-      n += at.slot != kNoBrick && work.table.at(at.slot);
+      const BrickIndex at = brick_index_of(grid, s.centre());
+      in_cell[n] = {s, i, at.index, static_cast<std::uint32_t>(at.cell)};
+      n += at.index != kNoBrick && work.table.at(at.index);
       work.far(i, s);
     }
-    for (std::size_t k = 0; k < n; k++) __builtin_prefetch(grid.lists.brick_of + in_cell[k].slot);
+    for (std::size_t k = 0; k < n; k++) __builtin_prefetch(grid.lists.brick_of + in_cell[k].index);
     for (std::size_t k = 0; k < n; k++) __builtin_prefetch(layer_of(grid, in_cell[k]));
     std::size_t n_occupied = 0;
     for (std::size_t k = 0; k < n; k++) {
       const BrickLayer &layer = *layer_of(grid, in_cell[k]);
       const int cell = static_cast<int>(in_cell[k].cell);
-      if (!has_candidates(layer, cell)) continue;
+      if (!has_entries(layer, cell)) continue;
       in_cell[n_occupied] = in_cell[k];
       in_cell[n_occupied].cell = cell_index(layer, cell);
       __builtin_prefetch(grid.lists.cells + in_cell[n_occupied++].cell);
@@ -69,12 +69,12 @@ struct CellQueryCpu {
   template <class S>
   static const BrickLayer *layer_of(const GridView &grid, const InCell<S> &at)
   {
-    return grid.lists.bricks[grid.lists.brick_of[at.slot]].layer + (at.cell >> 6);
+    return grid.lists.bricks[grid.lists.brick_of[at.index]].layer + (at.cell >> 6);
   }
   static void prefetch_list(const GridView &grid, const Cell &cell)
   {
     if (cell.count > 1)
-      __builtin_prefetch(grid.lists.candidates + cell.first);
+      __builtin_prefetch(grid.lists.entries + cell.first);
     else if (!grid.in_floats)
       prefetch(grid.wall, cell.first);
   }

@@ -3,7 +3,7 @@
 
 // A query whose kernels have one kind of work each. The first is light, with many threads and more than one
 // sphere in flight in each: it answers every sphere as if the wall were far, and lists those that are near
-// to it with what a search reads first. A kernel searches cells of one candidate, and another one cells of
+// to it with what a search reads first. A kernel searches cells of one entry, and another one cells of
 // more, both with full warps whatever the order of the spheres in memory. The last kernel searches long
 // lists, each by a warp.
 #pragma once
@@ -18,7 +18,7 @@
 
 namespace lsdcd {
 
-// Blocks at once on a processor: 64 registers a thread for one candidate, 80 for
+// Blocks at once on a processor: 64 registers a thread for one entry, 80 for
 // more.
 constexpr unsigned kSearchBlock = 256, kSinglesBlocks = 4, kListsBlocks = 3;
 
@@ -49,7 +49,7 @@ class ListTurns {
 };
 static_assert(kSphereLists == kWarpSize, "a thread for each");
 
-// Answers the listed spheres whose cell has one candidate.
+// Answers the listed spheres whose cell has one entry.
 template <class Work>
 struct SearchSingles {
   static constexpr unsigned kThreads = kSearchBlock, kBlocksAtOnce = kSinglesBlocks;
@@ -69,7 +69,7 @@ struct SearchSingles {
   }
 };
 
-// Answers those with more candidates. It lists at most `max_long` of those with long lists again. It
+// Answers those with more entries. It lists at most `max_long` of those with long lists again. It
 // also clears the counts of the next run. It can run beside the kernel before it, which has waited for
 // the lists.
 template <class Work>
@@ -140,7 +140,7 @@ class CellQuery {
     if (counts_.size() == 0) {
       long_list_ = Array<char>(kMaxLong * sizeof(CellSphere<Sphere>));
       B b;
-      counts_ = from_host(b, std::vector<CellSphereCounts>(2));
+      counts_ = from_cpu(b, std::vector<CellSphereCounts>(2));
     }
     const std::size_t most = room<S>(std::min(n, kRun)) * kSphereLists * sizeof(CellSphere<S>);
     if (list_.size() < most) list_ = Array<char>(most);

@@ -32,12 +32,12 @@ template <class S>
 constexpr unsigned kFindTile = kFindBlock *kFindEach<S>;
 
 // Spheres are in as many lists as a warp has threads: a list has every so many-th block's, and they
-// count in as many slots. A list grows from its front by those whose cell has one candidate, and
+// count in as many indices. A list grows from its front by those whose cell has one entry, and
 // from its back by those with more.
 constexpr unsigned kSphereLists = kWarpSize;
 struct CellSphereCounts {
   struct alignas(128) OfList {
-    unsigned long long n;    // one candidate: low word; more: high word
+    unsigned long long n;    // one entry: low word; more: high word
   } list[kSphereLists];
   unsigned with_long;    // of those with more, how many have long lists
 };
@@ -96,10 +96,10 @@ struct FindCellSpheres {
       const BrickGuess guess = work.guess(sphere[block.thread() + k * kFindBlock]);
       word[k] = guess.unsure ? ~0u : 0;
       if (guess.inside & !guess.unsure &&
-          CoarseTable::at(coarse, work.filter.slot(work.coarse, guess))) {
-        const std::uint32_t slot = work.filter.slot(work.grid, guess);
-        bit |= slot % 32 << 5 * k;
-        word[k] = work.table.words[slot / 32].bits;
+          CoarseTable::at(coarse, work.filter.index(work.coarse, guess))) {
+        const std::uint32_t index = work.filter.index(work.grid, guess);
+        bit |= index % 32 << 5 * k;
+        word[k] = work.table.words[index / 32].bits;
       }
     }
     unsigned votes[kEach], all = 0;

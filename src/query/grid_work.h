@@ -97,7 +97,7 @@ struct GridWork {
     at.unsure |= too_large.is(s);
     return at;
   }
-  // kNoCell where there are no candidates.
+  // kNoCell where there are no entries.
   LSDCD_FN std::uint32_t cell(const S &s) const { return occupied_cell(grid, table, s.centre()); }
   LSDCD_FN const Cell *list(std::uint32_t cell) const { return grid.lists.cells + cell; }
   LSDCD_FN void far(std::size_t i) const { out.store(i, far_answer()); }

@@ -116,21 +116,21 @@ LSDCD_FN Answer nearest_in_cell(const GridView &grid, const Vec3 &q, Real radius
   const auto answer = [&](bool certified) -> Answer {
     return {found != kNoFeature ? nearest : kAnyDistance, certified, found, kPrimitives};
   };
-  // A single candidate is in the cell itself, and there is no list to stop in.
+  // A single entry is in the cell itself, and there is no list to stop in.
   const bool single = cell.count == 1;
   const Real off_centre = single ? 0 : norm(at.from_centre);
   // The next entry is loaded before this one is tried, which waits for other memory.
-  Candidate next = {cell.first, 0};
-  if (!single) next = grid.lists.candidates[cell.first];
+  CellEntry next = {cell.first, 0};
+  if (!single) next = grid.lists.entries[cell.first];
   for (std::uint32_t k = 0; k < cell.count; k++) {
-    const Candidate candidate = next;
+    const CellEntry entry = next;
     if (!single) {
-      if (k + 1 < cell.count) next = grid.lists.candidates[cell.first + k + 1];
+      if (k + 1 < cell.count) next = grid.lists.entries[cell.first + k + 1];
       // No entry of the list from here on is nearer than this bound.
-      const bool past = candidate.bound > nearest + off_centre;
+      const bool past = entry.bound > nearest + off_centre;
       if (k == limit || past) return answer(past);
     }
-    attempt(candidate.feature);
+    attempt(entry.feature);
   }
   return answer(true);
 }
@@ -160,9 +160,9 @@ LSDCD_FN Answer nearest_in_warp(const GridView &grid, const Vec3 &q, Real radius
     Real least = nearest;    // of the entries up to this one
     Real bound = 0;
     if (there) {
-      const Candidate candidate = grid.lists.candidates[cell.first + k];
-      bound = candidate.bound;
-      least = nearer(nearest, distances.feature(candidate.feature, nearest));
+      const CellEntry entry = grid.lists.entries[cell.first + k];
+      bound = entry.bound;
+      least = nearer(nearest, distances.feature(entry.feature, nearest));
     }
     for (unsigned step = 1; step < Threads::kSize; step *= 2) {
       const Real below = warp.from_below(least, step);

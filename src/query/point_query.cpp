@@ -25,7 +25,7 @@ TriangleTable::TriangleTable(const WeldedMesh &mesh) :
 }
 
 template <class T>
-void query_grid(const HostGrid &grid, const TriangleTable &names, const PointArrays<T> &io)
+void query_grid(const CpuGrid &grid, const TriangleTable &names, const PointArrays<T> &io)
 {
   std::uint64_t too_large = 0;
   CpuBackend b;
@@ -33,7 +33,7 @@ void query_grid(const HostGrid &grid, const TriangleTable &names, const PointArr
                   [&](const auto &work) { CellQueryCpu().run(b, io.n, work); });
   if (too_large != 0) throw_bad_radius("point", ~too_large, io.radii[~too_large], grid.view.cutoff);
 }
-template void query_grid(const HostGrid &, const TriangleTable &, const PointArrays<float> &);
-template void query_grid(const HostGrid &, const TriangleTable &, const PointArrays<double> &);
+template void query_grid(const CpuGrid &, const TriangleTable &, const PointArrays<float> &);
+template void query_grid(const CpuGrid &, const TriangleTable &, const PointArrays<double> &);
 
 }    // namespace lsdcd

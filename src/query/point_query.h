@@ -15,26 +15,26 @@ namespace lsdcd {
 
 class TriangleTree;
 
-// A grid on the host, borrowed, with its brick table as bits.
-struct HostGrid {
+// A grid on the CPU, borrowed, with its brick table as bits.
+struct CpuGrid {
   GridView view = {};
   std::vector<BrickWord> words;
   BrickTable table;
 
-  HostGrid() = default;
-  HostGrid(HostGrid &&) = default;    // does not move the words
-  HostGrid &operator=(HostGrid &&) = default;
-  explicit HostGrid(const GridView &grid) :
+  CpuGrid() = default;
+  CpuGrid(CpuGrid &&) = default;    // does not move the words
+  CpuGrid &operator=(CpuGrid &&) = default;
+  explicit CpuGrid(const GridView &grid) :
       view(grid), words(brick_words(grid)), table(words, words.data())
   {
   }
 };
 
-// It computes on the host, with threads() threads. It has no state, so that any number of threads may call it at
+// It computes on the CPU, with threads() threads. It has no state, so that any number of threads may call it at
 // once. Throws InputError if a radius in `radii` exceeds the grid's cutoff; the answers are then
 // undefined. T: float or double.
 template <class T>
-void query_grid(const HostGrid &grid, const TriangleTable &names, const PointArrays<T> &io);
+void query_grid(const CpuGrid &grid, const TriangleTable &names, const PointArrays<T> &io);
 
 // A query on a stream (cudaStream_t), for arrays that its device can read. It does not wait for the stream,
 // unless `radii` have to be checked. Only one thread may use it at a time.

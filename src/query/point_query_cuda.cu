@@ -16,9 +16,9 @@ class DeviceGrid : public DeviceCopy, public GridOn<CudaBackend> {
   DeviceGrid(CudaBackend b, const GridView &grid, const TriangleTable &names) :
       GridOn(b, grid, true)
   {
-    of_face_ = from_host(b, names.of_face);
-    of_edge_ = from_host(b, names.of_edge);
-    of_vertex_ = from_host(b, names.of_vertex);
+    of_face_ = from_cpu(b, names.of_face);
+    of_edge_ = from_cpu(b, names.of_edge);
+    of_vertex_ = from_cpu(b, names.of_vertex);
     this->names = names.view();
     this->names.of_face = of_face_.data();
     this->names.of_edge = of_edge_.data();

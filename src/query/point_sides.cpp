@@ -30,7 +30,7 @@ void query_then_fill(const PointSides &sides, bool by_normals, const PointArrays
 }    // namespace
 
 template <class T>
-void query_with_sides(const HostGrid &grid, const TriangleTable &names, const PointSides &sides,
+void query_with_sides(const CpuGrid &grid, const TriangleTable &names, const PointSides &sides,
                       bool by_normals, const PointArrays<T> &io)
 {
   query_then_fill(sides, by_normals, io,
@@ -74,13 +74,13 @@ void fill_sides(const PointSides &sides, std::size_t n, const StridedView<const 
   });
 }
 
-template void query_with_sides(const HostGrid &, const TriangleTable &, const PointSides &, bool,
+template void query_with_sides(const CpuGrid &, const TriangleTable &, const PointSides &, bool,
                                const PointArrays<float> &);
 template void query_with_sides(const TriangleTree &, const CutoffBoxes *, const PointSides &, Real,
                                const PointArrays<float> &);
 template void estimate_sides(const PointSides &, std::size_t, const StridedView<const float> &,
                              const Column<float> &, std::int8_t *, std::uint8_t *);
-template void query_with_sides(const HostGrid &, const TriangleTable &, const PointSides &, bool,
+template void query_with_sides(const CpuGrid &, const TriangleTable &, const PointSides &, bool,
                                const PointArrays<double> &);
 template void query_with_sides(const TriangleTree &, const CutoffBoxes *, const PointSides &, Real,
                                const PointArrays<double> &);

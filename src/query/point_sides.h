@@ -40,7 +40,7 @@ class PointSides {
 // give where one is found. All other sides are those of winding numbers, at any distance. The mesh must have an
 // inside where sides are asked for.
 template <class T>
-void query_with_sides(const HostGrid &grid, const TriangleTable &names, const PointSides &sides,
+void query_with_sides(const CpuGrid &grid, const TriangleTable &names, const PointSides &sides,
                       bool by_normals, const PointArrays<T> &io);
 
 // Answers the query of the function above by query_tree(). All sides are those of winding numbers.

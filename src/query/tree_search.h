@@ -139,13 +139,13 @@ LSDCD_FN void search_tree(const TreeView &tree, const Warp<kSize> &warp, const V
   std::uint32_t child = tree.root;
   for (;;) {
     if (child & kTreeLeaf) {
-      const std::uint32_t leaf = child & ~kTreeLeaf, slot = leaf * kTreeWidth;
+      const std::uint32_t leaf = child & ~kTreeLeaf, start = leaf * kTreeWidth;
       unsigned candidates = bounds.candidates_in(tree.leaves[leaf], tree.sides[leaf], warp);
-      if (slot + kTreeWidth > tree.n_primitives)
-        candidates &= (1u << (tree.n_primitives - slot)) - 1;
+      if (start + kTreeWidth > tree.n_primitives)
+        candidates &= (1u << (tree.n_primitives - start)) - 1;
       if (candidates != 0) {
         for (unsigned k = rank; k < kTreeWidth; k += kSize)
-          if (candidates >> k & 1u && slot + k != best.primitive) tree.attempt(slot + k, q, best);
+          if (candidates >> k & 1u && start + k != best.primitive) tree.attempt(start + k, q, best);
         for (unsigned apart = 1; apart < kSize; apart *= 2) {
           const TreeAnswer other = {warp.of_other(best.distance, apart),
                                     warp.of_other(best.feature, apart),

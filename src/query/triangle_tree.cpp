@@ -114,16 +114,16 @@ FeatureCode TriangleTree::primitive_code(std::uint32_t number) const
 
 // Splits where the middle item along the longest side is, so that leaves and nodes are full but for the
 // last ones. Returns the child that a node above has.
-std::uint32_t TriangleTree::build(Item *first, Item *last, std::uint32_t slot, Bounds &bounds,
+std::uint32_t TriangleTree::build(Item *first, Item *last, std::uint32_t start, Bounds &bounds,
                                   const ProgressListener &progress)
 {
   constexpr std::size_t kToTell = 4096;    // items, some milliseconds
   const std::size_t n = last - first;
   if (progress && n >= kToTell)
-    progress("tree", static_cast<double>(slot) / static_cast<double>(primitives_.size()));
+    progress("tree", static_cast<double>(start) / static_cast<double>(primitives_.size()));
   if (n <= kTreeWidth) {
-    make_leaf(first, last, slot, bounds);
-    return slot / kTreeWidth | kTreeLeaf;
+    make_leaf(first, last, start, bounds);
+    return start / kTreeWidth | kTreeLeaf;
   }
   std::size_t of_child = kTreeWidth;
   while (of_child * kTreeWidth < n) of_child *= kTreeWidth;
@@ -166,7 +166,7 @@ std::uint32_t TriangleTree::build(Item *first, Item *last, std::uint32_t slot, B
     std::uint32_t child = kTreeLeaf;
     if (k < n_parts)
       child = build(part[k].first, part[k].last,
-                    slot + static_cast<std::uint32_t>(part[k].first - first), of_part, progress);
+                    start + static_cast<std::uint32_t>(part[k].first - first), of_part, progress);
     TreeNode &node = nodes_[number];
     for (int a = 0; a < 3; a++) {
       node.lo[a][k] = k < n_parts ? of_part.lo[a] : kNoBox;
@@ -179,16 +179,16 @@ std::uint32_t TriangleTree::build(Item *first, Item *last, std::uint32_t slot, B
   return static_cast<std::uint32_t>(number);
 }
 
-void TriangleTree::make_leaf(const Item *first, const Item *last, std::uint32_t slot,
+void TriangleTree::make_leaf(const Item *first, const Item *last, std::uint32_t start,
                              Bounds &bounds)
 {
-  TreeLeaf &leaf = leaves_.data()[slot / kTreeWidth];
+  TreeLeaf &leaf = leaves_.data()[start / kTreeWidth];
   leaf = TreeLeaf();
   const int n = static_cast<int>(last - first);
   Vec3 corner[kTreeWidth][3];
   Vec3 lo = {HUGE_VAL, HUGE_VAL, HUGE_VAL}, hi = -lo;
   for (int k = 0; k < n; k++) {
-    TreePrimitive &e = primitives_.data()[slot + k];
+    TreePrimitive &e = primitives_.data()[start + k];
     e = TreePrimitive();
     e.code = primitive_code(first[k].number);
     const std::uint32_t at = feature_index(e.code);
@@ -213,7 +213,7 @@ void TriangleTree::make_leaf(const Item *first, const Item *last, std::uint32_t 
       }
     }
     if (feature_kind(e.code) == FeatureKind::face) {
-      face_primitive_[at] = slot + k;
+      face_primitive_[at] = start + k;
       const FaceRecord f = make_face_record(
           mesh_.vertices[e.vertex[0]], mesh_.vertices[e.vertex[1]], mesh_.vertices[e.vertex[2]]);
       e.normal = f.normal;
@@ -234,7 +234,7 @@ void TriangleTree::make_leaf(const Item *first, const Item *last, std::uint32_t 
     offset[k] = static_cast<float>(at);
     size = std::max(size, std::fabs(at));
   };
-  TreeSides &sides = sides_.data()[slot / kTreeWidth];
+  TreeSides &sides = sides_.data()[start / kTreeWidth];
   sides = TreeSides();
   for (int k = 0; k < n; k++)
     for (int c = 0; c < 3; c++) {
@@ -244,7 +244,7 @@ void TriangleTree::make_leaf(const Item *first, const Item *last, std::uint32_t 
       sides.over_square[c][k] = square > Real(1e-30) ? static_cast<float>(1 / square) : 0;
     }
   for (int k = 0; k < n; k++) {
-    const TreePrimitive &e = primitives_.data()[slot + k];
+    const TreePrimitive &e = primitives_.data()[start + k];
     const Vec3 anchor = corner[k][0] - origin;
     if (feature_kind(e.code) == FeatureKind::face) {
       put(leaf.normal, leaf.offset, k, e.normal, -dot(e.normal, anchor));

@@ -62,9 +62,9 @@ class TriangleTree {
     float lo[3], hi[3];
   };
 
-  std::uint32_t build(Item *first, Item *last, std::uint32_t slot, Bounds &bounds,
+  std::uint32_t build(Item *first, Item *last, std::uint32_t start, Bounds &bounds,
                       const ProgressListener &progress);
-  void make_leaf(const Item *first, const Item *last, std::uint32_t slot, Bounds &bounds);
+  void make_leaf(const Item *first, const Item *last, std::uint32_t start, Bounds &bounds);
   FeatureCode primitive_code(std::uint32_t number) const;
 
   void search_leaf(std::uint32_t number, const Vec3 &q, const Vec3 &at, FloatBound &bound,

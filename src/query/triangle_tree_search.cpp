@@ -116,7 +116,7 @@ struct FloatBound {
                                                              TreeAnswer &best) const
 {
   const TreeLeaf &leaf = leaves_.data()[number];
-  const std::uint32_t slot = number * kTreeWidth, n_primitives = view_.n_primitives;
+  const std::uint32_t start = number * kTreeWidth, n_primitives = view_.n_primitives;
   const float d[3] = {static_cast<float>(at.x - leaf.origin[0]),
                       static_cast<float>(at.y - leaf.origin[1]),
                       static_cast<float>(at.z - leaf.origin[2])};
@@ -125,7 +125,7 @@ struct FloatBound {
   const float rounding =
       kPlaneRounding * (std::fabs(d[0]) + std::fabs(d[1]) + std::fabs(d[2]) + leaf.size);
   unsigned near = lanes(square <= bound.limit(rounding));
-  if (slot + kTreeWidth > n_primitives) near &= (1u << (n_primitives - slot)) - 1;
+  if (start + kTreeWidth > n_primitives) near &= (1u << (n_primitives - start)) - 1;
   if ((near & (near - 1)) != 0) {
     // Past a corner the planes give less than the distance. Beside a triangle its sides are nearest.
     Eight least;
@@ -144,8 +144,8 @@ struct FloatBound {
     }
     if (of_lane[least] > bound.limit(rounding)) break;
     near &= ~(1u << least);
-    if (slot + least == best.primitive) continue;
-    view_.attempt(slot + least, q, best);
+    if (start + least == best.primitive) continue;
+    view_.attempt(start + least, q, best);
     bound.set(best.distance * view_.inv_scale);
   }
 }

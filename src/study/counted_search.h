@@ -82,18 +82,18 @@ LSDCD_FN CountedAnswer search_counted(const GridView &grid, const Vec3 &q, Real 
   const auto answer = [&](bool certified, std::uint32_t entries) -> CountedAnswer {
     return {found ? nearest : kAnyDistance, certified, entries};
   };
-  if (cell.count == 1) {    // the candidate is in the cell itself
+  if (cell.count == 1) {    // the entry is in the cell itself
     attempt(cell.first);
     return answer(true, 1);
   }
   const std::uint32_t most = kComplete ? kWholeList : grid.list_kind.most();
   const Real off_centre = norm(at.from_centre);
   for (std::uint32_t k = 0; k < cell.count; k++) {
-    const Candidate candidate = grid.lists.candidates[cell.first + k];
+    const CellEntry entry = grid.lists.entries[cell.first + k];
     constexpr bool kBounded = !std::is_same_v<Distances, FormulaFiveDistances>;
-    const bool past = candidate.bound > (kBounded ? nearest : radius) + off_centre;
+    const bool past = entry.bound > (kBounded ? nearest : radius) + off_centre;
     if (k == most || (kBounded && past)) return answer(past, k + 1);
-    attempt(candidate.feature);
+    attempt(entry.feature);
   }
   return answer(true, cell.count);
 }

@@ -20,7 +20,7 @@ FeatureCode listed_at(const GridView &grid, const Vec3 &p)
   CellAddress at;
   Cell cell;
   if (!find_cell(grid, p, at, cell)) return kNoFeature;
-  return cell.count == 1 ? cell.first : grid.lists.candidates[cell.first].feature;
+  return cell.count == 1 ? cell.first : grid.lists.entries[cell.first].feature;
 }
 
 }    // namespace

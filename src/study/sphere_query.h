@@ -59,7 +59,7 @@ class SphereQuery {
   // Does run() once to warm up, and then `repeats` times, which are timed.
   virtual QueryTiming time(const QuerySettings &settings, int repeats) = 0;
 
-  // Answers of the last run, copied to the host: kFound and kCertified; distances to the
+  // Answers of the last run, copied to the CPU: kFound and kCertified; distances to the
   // wall, infinite beyond the radius.
   virtual std::vector<std::uint8_t> status() = 0;
   virtual std::vector<Real> distance() = 0;

@@ -33,7 +33,7 @@ class SphereQueryOn : public SphereQuery {
     flat_ = FlatGrid(grid);
     own_.reset();
     names_.emplace(mesh);
-    if constexpr (B::kOnHost)
+    if constexpr (B::kOnCpu)
       library_.emplace(flat_.view());
     else
       library_ = copy_to_cuda(flat_.view(), *names_)->query_on(nullptr);
@@ -63,17 +63,17 @@ class SphereQueryOn : public SphereQuery {
     return {ms[ms.size() / 2], ms.front(), ms.back(), static_cast<int>(ms.size())};
   }
 
-  std::vector<std::uint8_t> status() override { return to_host(b_, status_, n_); }
+  std::vector<std::uint8_t> status() override { return to_cpu(b_, status_, n_); }
   std::vector<Real> distance() override
   {
-    return to_host(b_, distance_, distance_.size() >= n_ ? n_ : 0);
+    return to_cpu(b_, distance_, distance_.size() >= n_ ? n_ : 0);
   }
   std::vector<std::uint32_t> entries(const QuerySettings &settings) override
   {
     check(settings);
     Array<std::uint32_t> read(n_);
     start_own(settings, nullptr, nullptr, read.data());
-    return to_host(b_, read, n_);
+    return to_cpu(b_, read, n_);
   }
   std::string device() const override { return b_.name(); }
 
@@ -154,16 +154,16 @@ class SphereQueryOn : public SphereQuery {
     io.radii = {&spheres_.data()->r, 4};
     io.status = status_.data();
     io.distance = {distance, 1};
-    if constexpr (B::kOnHost)
+    if constexpr (B::kOnCpu)
       query_grid(*library_, *names_, io);
     else
       library_->enqueue(io);
   }
 
   B b_;
-  FlatGrid flat_;    // on the host
+  FlatGrid flat_;    // on the CPU
   std::optional<TriangleTable> names_;
-  std::conditional_t<B::kOnHost, std::optional<HostGrid>, std::unique_ptr<StreamQuery>> library_;
+  std::conditional_t<B::kOnCpu, std::optional<CpuGrid>, std::unique_ptr<StreamQuery>> library_;
   std::optional<GridOn<B>> own_;    // what the study's own search reads, made where it is asked for
   std::uint32_t n_faces_ = 0;
   std::size_t n_ = 0;

@@ -40,7 +40,7 @@ void add_band_spheres(const TriangleGrid &grid, int n, const std::vector<Real> &
   for (std::int64_t left = kTries * n; left > 0 && sample.n() < wanted; left--) {
     const std::size_t b = random() % lists.bricks.size();
     const int cell = static_cast<int>(random() % kBrickCells);
-    if (!has_candidates(lists.bricks[b], cell)) continue;
+    if (!has_entries(lists.bricks[b], cell)) continue;
     const int at[3] = {cell & 7, cell >> 3 & 7, cell >> 6};
     Vec3 x = brick_centre(grid, place[b]);
     for (int k = 0; k < 3; k++)

@@ -32,7 +32,7 @@ inline Real uniform_below_one(Random &random)
   return static_cast<Real>(random() >> 11) * 0x1p-53;
 }
 
-// Adds up to n spheres with centres uniform in the cells that have candidates: the band
+// Adds up to n spheres with centres uniform in the cells that have entries: the band
 // within the cutoff of the wall, and half a cell more. Each radius is one of `radii`, all as
 // likely. No sphere overlaps the wall by more than half its radius: there a closest point that
 // enters a face over a concave edge takes force at once, and the least rounding is a jump. The

@@ -143,7 +143,7 @@ AnswerError compare(const WallAnswers &reference, const WallAnswers &trial,
 
 double step_seconds(WallEngine &engine, bool on_cuda, const SphereSample &sample, int repeats)
 {
-  // The host's share of a GPU step is done by all threads.
+  // The CPU's share of a GPU step is done by all threads.
   std::unique_ptr<OneThread> one_thread;
   if (!on_cuda) one_thread = std::make_unique<OneThread>();
   AtRest at_rest(sample);

@@ -25,7 +25,7 @@ struct InspectOptions {
 
 nlohmann::json as_json(const ListReport &r)
 {
-  return {{"bricks", r.bricks},  {"cells", r.cells},          {"candidates", r.candidates},
+  return {{"bricks", r.bricks},  {"cells", r.cells},          {"entries", r.entries},
           {"mean_list", r.mean}, {"longest_list", r.longest}, {"distance_tests", r.distance_tests}};
 }
 

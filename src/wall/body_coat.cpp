@@ -132,7 +132,7 @@ BodyCoat::BodyCoat(Host &host, const WallSpec &wall, int mesh, const MeshGrid &g
   engine.surface = SurfaceMotion();
   for (const MeshSpec &m : wall.meshes)
     if (!engine.surface.moves()) engine.surface = m.surface;
-  engine.moves = engine.records = engine.bodies = true;
+  engine.moves = engine.contacts = engine.bodies = true;
   engine.wear = WearModel::none;
   engine.device = Device::cpu;
   engine_ = make_cpu_engine(engine);
@@ -240,7 +240,7 @@ StepSettings BodyCoat::settings(const std::deque<MeshPart> &meshes, const Step &
   StepSettings s;
   s.dt = step.dt;
   s.update_history = step.kind == Step::step;
-  s.per_sphere = s.records = true;
+  s.per_sphere = s.contacts = true;
   s.surface = surfaces_.data();
   s.mobility = mobilities_.data();
   return s;
@@ -352,13 +352,13 @@ bool BodyCoat::is_held(Real gives_way) const
 
 void BodyCoat::find_contacts(const std::deque<MeshPart> &meshes, CoatPushes &pushes)
 {
-  const ContactRecord *record = engine_->records();
+  const StepContact *contact = engine_->contacts();
   for (int k = 0; k < engine_->n_touching(); k++) {
     const int i = engine_->touching()[k];
-    const ContactRecord *strongest = nullptr;
-    for (int n = 0; n < static_cast<int>(engine_->sphere_output()[k].contacts); n++, record++)
-      if (norm_sq(record->arm) > 0 && (!strongest || record->normal > strongest->normal))
-        strongest = record;
+    const StepContact *strongest = nullptr;
+    for (int n = 0; n < static_cast<int>(engine_->sphere_output()[k].contacts); n++, contact++)
+      if (norm_sq(contact->arm) > 0 && (!strongest || contact->normal > strongest->normal))
+        strongest = contact;
     if (!strongest) continue;    // the point lies on the mesh
     const int other = others_[strongest->mesh];
     const Vec3 arm = meshes[other].motion.pose().turn_to_box(strongest->arm);
@@ -435,19 +435,19 @@ void BodyCoat::add_stiffness(const std::deque<MeshPart> &meshes, std::vector<Coa
 {
   const MeshPart &own = meshes[mesh_];
   const Mobility own_gives = own.body->mobility();
-  const ContactRecord *record = engine_->records();
+  const StepContact *contact = engine_->contacts();
   for (int k = 0; k < engine_->n_touching(); k++) {
     const int i = engine_->touching()[k];
-    for (int n = 0; n < static_cast<int>(engine_->sphere_output()[k].contacts); n++, record++) {
-      const MeshPart &other = meshes[others_[record->mesh]];
-      const Real distance = norm(record->arm);
+    for (int n = 0; n < static_cast<int>(engine_->sphere_output()[k].contacts); n++, contact++) {
+      const MeshPart &other = meshes[others_[contact->mesh]];
+      const Real distance = norm(contact->arm);
       if (!(distance > 0)) continue;    // the point lies on the mesh
       const Pose &pose = other.motion.pose();
-      const Vec3 arm = pose.turn_to_box(record->arm), normal = 1 / distance * arm,
+      const Vec3 arm = pose.turn_to_box(contact->arm), normal = 1 / distance * arm,
                  along = any_perpendicular(normal), at = x_[i] - arm;
       const Real mass = 1 / (1 / masses_[i] + gives_way(own, own_gives, at, -normal));
-      const ContactSlopes slope =
-          contact_slopes(laws_[record->mesh], std::max<Real>(0, radius_ - distance), radius_, mass);
+      const ContactSlopes slope = contact_slopes(
+          laws_[contact->mesh], std::max<Real>(0, radius_ - distance), radius_, mass);
       const auto add = [&](const MeshPart &m, const Vec3 &direction, const ContactSlope &of) {
         const Mobility &mobility = m.body->mobility_to_forces();
         const Pose &p = m.motion.pose();

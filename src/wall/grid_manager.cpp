@@ -90,7 +90,7 @@ void GridManager::rebuild(Real wanted, std::int64_t step)
   for (MeshPart &m : meshes_)
     if (wanted != old || !fits(m)) anew.push_back(&m);
   if (old > 0) {
-    history_.on_host();
+    history_.on_cpu();
     // Images get other numbers: a spring on one goes to what that is an image of.
     for (const MeshPart *m : anew) {
       const auto name = [&](int mesh, FeatureCode f) {

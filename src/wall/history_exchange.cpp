@@ -20,7 +20,7 @@ void HistoryExchange::grow(int room)
     engine_->springs_in_place()->grow(room);
 }
 
-ContactHistory &HistoryExchange::on_host()
+ContactHistory &HistoryExchange::on_cpu()
 {
   if (with_engine_) {
     engine_->springs_to(springs_, n_with_engine_);

@@ -39,7 +39,7 @@ class HistoryExchange {
   void grow(int room);
   int room() const { return room_; }
   // Returns the history of this process's spheres, on the host from now on.
-  ContactHistory &on_host();
+  ContactHistory &on_cpu();
   // Gives the history of the n spheres of this process to the engine, if it is not there.
   void to_engine(int n);
   // Gives the history to the engine as to_engine() does, and returns it, for a host that moves spheres where the engine

@@ -20,9 +20,8 @@ class LoadRecorder {
   LoadRecorder(Host &host, const WallSpec &settings);
 
   // A step of duration `dt` (time): what contacts of this process did to all meshes. `features`: of
-  // the mesh with its periodic images; empty where there are no records.
-  void add(int mesh, const ContactRecord *records, int n, Real dt,
-           const MeshFeaturesView &features);
+  // the mesh with its periodic images; empty where there are no contacts.
+  void add(int mesh, const StepContact *contacts, int n, Real dt, const MeshFeaturesView &features);
 
   // Volume (length^3) worn off the mesh so far, on all processes. Collective.
   Real worn(int mesh) const;

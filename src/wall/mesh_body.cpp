@@ -274,7 +274,7 @@ void MeshBody::sum_contacts(const WallEngine &engine)
   has_contacts_ = true;
   stiffness_ = damping_ = ContactSum();
   most_of_sphere_[0] = most_of_sphere_[1] = 0;
-  const ContactRecord *record = engine.records();
+  const StepContact *contact = engine.contacts();
   const Pose pose = body_.pose();
   const Mobility mobility = body_.mobility();
   for (int k = 0; k < engine.n_touching(); k++) {
@@ -284,11 +284,11 @@ void MeshBody::sum_contacts(const WallEngine &engine)
     const ContactLaw &law = law_of(laws_, mesh_, kinds[0]);
     const Vec3 centre = pose.to_mesh(sphere.x);
     const Real radius = sphere.radius, mass = sphere.mass / force_;
-    for (int n = 0; n < static_cast<int>(engine.sphere_output()[k].contacts); n++, record++) {
-      if (record->mesh != static_cast<std::uint32_t>(mesh_)) continue;
-      const Real distance = norm(record->arm);
+    for (int n = 0; n < static_cast<int>(engine.sphere_output()[k].contacts); n++, contact++) {
+      if (contact->mesh != static_cast<std::uint32_t>(mesh_)) continue;
+      const Real distance = norm(contact->arm);
       if (!(distance > 0)) continue;    // the centre lies on the wall
-      const Vec3 normal = 1 / distance * record->arm, at = centre - record->arm,
+      const Vec3 normal = 1 / distance * contact->arm, at = centre - contact->arm,
                  along = any_perpendicular(normal);
       const Real together = 1 / (1 / mass + mobility.along(at, normal));
       const ContactSlopes slope =

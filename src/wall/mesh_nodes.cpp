@@ -45,7 +45,7 @@ Real farthest(const std::vector<Vec3> &from, const std::vector<Vec3> &to, std::s
 
 }    // namespace
 
-struct MeshNodes::HostGrid : NodeGrid<CpuBackend> {};
+struct MeshNodes::CpuGrid : NodeGrid<CpuBackend> {};
 
 MeshNodes::MeshNodes(Host &host, const WallSpec &wall, int mesh, const WeldedMesh &welded) :
     host_(host), wall_(wall), index_(mesh), with_sides_(wall.side != Side::both),
@@ -192,10 +192,10 @@ NodesNow MeshNodes::now() const
   return {&mesh_, &features_.primitives, velocity_.data(), with_spins_, back_};
 }
 
-void MeshNodes::fetch_records()
+void MeshNodes::fetch_contacts()
 {
   if (are_records_old_) {
-    engine_->fetch_records(index_, features_);
+    engine_->fetch_contacts(index_, features_);
     features_.all_parts_act = false;
   }
   are_records_old_ = false;
@@ -212,7 +212,7 @@ void MeshNodes::leave_engine()
 {
   cutoff_ = 0;
   if (!engine_) return;
-  fetch_records();
+  fetch_contacts();
   fetch_places();
   fetch_forces();
   if (are_given_there_) {
@@ -273,7 +273,7 @@ void MeshNodes::build_grid(Real cutoff, WallEngine &engine)
   } else {
     CpuBackend cpu;
     const MeshTopologyView topology = topology_of(mesh_);
-    if (!grid_) grid_ = std::make_unique<HostGrid>();
+    if (!grid_) grid_ = std::make_unique<CpuGrid>();
     grid_->build(cpu,
                  {features_.primitives.data(), features_.primitives.size(), topology.faces,
                   topology.edges, mesh_.vertices.data(), features_.faces.data()},

@@ -118,7 +118,7 @@ class MeshNodes {
   void check_velocities(const std::vector<Vec3> &v) const;
   void fetch_places() const;
   void fetch_power() const;
-  void fetch_records();
+  void fetch_contacts();
   void fetch_forces();
   Real sixth_of(Real pressure) const;
 
@@ -134,14 +134,14 @@ class MeshNodes {
   std::vector<Vec3> next_, next_velocity_;    // set for the next step; empty: as they are
   Real cutoff_ = 0;                           // of the grid; 0: there is none
   // Who includes this need not compile what a backend does.
-  struct HostGrid;
-  std::unique_ptr<HostGrid> grid_;    // without engine_, once it is built
-  FlatGrid records_;                  // with it, as they were when it got the nodes
-  Real back_ = 0;                     // how long ago velocities are of (time)
-  Real way_ = 0;                      // of the fastest node in each step since the choice
-  Real way_of_grid_ = 0;              // at least how far a node has gone since the grid was built
-  std::vector<Vec3> built_at_;        // where nodes were when the grid was built, without engine_
-  std::vector<Vec3> turned_from_;     // where nodes were when springs were turned last
+  struct CpuGrid;
+  std::unique_ptr<CpuGrid> grid_;    // without engine_, once it is built
+  FlatGrid records_;                 // with it, as they were when it got the nodes
+  Real back_ = 0;                    // how long ago velocities are of (time)
+  Real way_ = 0;                     // of the fastest node in each step since the choice
+  Real way_of_grid_ = 0;             // at least how far a node has gone since the grid was built
+  std::vector<Vec3> built_at_;       // where nodes were when the grid was built, without engine_
+  std::vector<Vec3> turned_from_;    // where nodes were when springs were turned last
   bool have_moved_ = false, springs_are_new_ = true;    // since then
   // What engine_ alone has: records, places and velocities in this step, and in the next, forces, the power.
   bool are_records_old_ = false, are_given_there_ = false, are_forces_old_ = false;

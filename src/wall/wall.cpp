@@ -172,7 +172,7 @@ EngineSettings Wall::engine_settings() const
     want.moves |= m.nodes || m.motion.moves_or_varies();
     if (!want.surface.moves()) want.surface = m.spec.surface;
   }
-  want.records = spec_.has_loads() || spec_.each_contact || virial_;
+  want.contacts = spec_.has_loads() || spec_.each_contact || virial_;
   want.bodies = has_bodies_;
   want.nodes = has_nodes_;
   want.wear = spec_.wear.model;
@@ -186,7 +186,7 @@ void Wall::make_engine()
 {
   const EngineSettings want = engine_settings();
   engine_moves_ = want.moves;
-  engine_records_ = want.records || want.bodies || want.nodes;
+  engine_contacts_ = want.contacts || want.bodies || want.nodes;
   for (MeshPart &m : meshes_)
     if (m.nodes && engine_) m.nodes->leave_engine();
   run_collectively(host_, true, [&] { engine_ = backend_.make_engine(want); });
@@ -197,7 +197,7 @@ void Wall::make_engine()
 // For other settings, with the history that there is.
 void Wall::make_engine_anew()
 {
-  history_.on_host();
+  history_.on_cpu();
   make_engine();
 }
 
@@ -234,7 +234,7 @@ void Wall::begin_run(std::int64_t step, bool virial)
   for (const MeshPart &m : meshes_)
     if (cutoff() > 0) box_checks_.check_outside(m, grids_.box(), cutoff());
   virial_ = virial;
-  if (virial && !engine_records_) make_engine_anew();
+  if (virial && !engine_contacts_) make_engine_anew();
   files_.begin_run(step);
 }
 
@@ -283,7 +283,7 @@ void Wall::begin_snapshot(int n, const Step &step)
                        "follows from the contacts of all steps before: leave deform out, "
                        "and give the mesh of that time, which mesh_stl writes"));
   }
-  for (int i = 0; history_.is_on() && i < n; i++) history_.on_host().clear(i);
+  for (int i = 0; history_.is_on() && i < n; i++) history_.on_cpu().clear(i);
   if (snapshot_warned_) return;
   snapshot_warned_ = true;
   if (history_.is_on())
@@ -301,7 +301,7 @@ void Wall::begin_snapshot(int n, const Step &step)
 void Wall::check_history(int n)
 {
   if (history_.is_checked()) return;
-  history_.on_host();
+  history_.on_cpu();
   history_.check_restored(n, [this](const Spring &s) {
     return s.mesh < meshes_.size() && !meshes_[s.mesh].springs_are_foreign &&
            meshes_[s.mesh].grid.has(s.feature);
@@ -497,7 +497,7 @@ StepSettings Wall::step_settings()
   const bool asked = has_bodies_ && any_body_asks_for_contacts();
   step.per_sphere = spec_.contacts || spec_.each_contact || asked;
   step.states = spec_.each_contact || asked;
-  step.records = spec_.has_loads() || spec_.each_contact || input_.virial || asked;
+  step.contacts = spec_.has_loads() || spec_.each_contact || input_.virial || asked;
   step.totals = has_bodies_ || any_servo_acts() || spec_.average_every > 0;
   const bool several = meshes_.size() > 1;
   if (several || spec_.meshes.front().surface_varies()) {
@@ -649,12 +649,12 @@ void Wall::finish(const HostSpheres &spheres)
   if (spec_.has_loads() && step.kind == Step::step) {    // what sets a run up has no duration
     const bool any = cutoff() > 0;
     for (const MeshPart &m : meshes_)
-      loads_.add(m.index, any ? engine_->records() : nullptr, any ? engine_->n_records() : 0,
+      loads_.add(m.index, any ? engine_->contacts() : nullptr, any ? engine_->n_contacts() : 0,
                  step.dt, any ? m.records() : MeshFeaturesView());
   }
   if (step.kind == Step::step && cutoff() > 0)
     for (const MeshPart &m : meshes_)
-      if (m.wear) m.wear->add(engine_->records(), engine_->n_records(), step.dt, m.records());
+      if (m.wear) m.wear->add(engine_->contacts(), engine_->n_contacts(), step.dt, m.records());
   if (input_.new_spheres) check_new_spheres(spheres);
   if (step.kind == Step::setup) log_new_springs(step);
   if (step.kind == Step::setup) times_.begin_run();    // as the host's loop time
@@ -756,10 +756,10 @@ Real Wall::servo_push(int mesh)
 void Wall::add_virial(Real *virial) const
 {
   if (cutoff() == 0) return;
-  const ContactRecord *record = engine_->records();
-  for (int k = 0; k < engine_->n_records(); k++) {
-    const Pose &pose = meshes_[record[k].mesh].motion.pose();
-    const Vec3 r = pose.turn_to_box(record[k].arm), f = -pose.turn_to_box(record[k].force);
+  const StepContact *contact = engine_->contacts();
+  for (int k = 0; k < engine_->n_contacts(); k++) {
+    const Pose &pose = meshes_[contact[k].mesh].motion.pose();
+    const Vec3 r = pose.turn_to_box(contact[k].arm), f = -pose.turn_to_box(contact[k].force);
     const Real part[6] = {r.x * f.x, r.y * f.y, r.z * f.z, r.x * f.y, r.x * f.z, r.y * f.z};
     for (int c = 0; c < 6; c++) virial[c] += part[c];
   }
@@ -783,14 +783,14 @@ void Wall::for_contact_rows(const std::function<void(int, const Real *)> &row) c
 void Wall::for_contacts(const std::function<void(const WallContact &)> &found) const
 {
   if (cutoff() == 0) return;
-  const ContactRecord *record = engine_->records();
+  const StepContact *contact = engine_->contacts();
   for (int k = 0; k < engine_->n_touching(); k++) {
     const TouchingSphere &sphere = engine_->touching_spheres()[k];
-    for (int n = 0; n < static_cast<int>(engine_->sphere_output()[k].contacts); n++, record++) {
-      const Pose &pose = meshes_[record->mesh].motion.pose();
-      const Vec3 arm = pose.turn_to_box(record->arm);
-      found({engine_->touching()[k], static_cast<int>(record->mesh),
-             -pose.turn_to_box(record->force), sphere.x - arm, sphere.radius - norm(arm)});
+    for (int n = 0; n < static_cast<int>(engine_->sphere_output()[k].contacts); n++, contact++) {
+      const Pose &pose = meshes_[contact->mesh].motion.pose();
+      const Vec3 arm = pose.turn_to_box(contact->arm);
+      found({engine_->touching()[k], static_cast<int>(contact->mesh),
+             -pose.turn_to_box(contact->force), sphere.x - arm, sphere.radius - norm(arm)});
     }
   }
 }
@@ -893,7 +893,7 @@ void Wall::motion_has_changed(const MeshPart &m)
 // The images of another run may have other numbers.
 int Wall::pack_saved(int sphere, Real *buffer)
 {
-  history_.on_host();
+  history_.on_cpu();
   return history_.pack_saved(sphere, buffer, [this](int mesh, FeatureCode feature) {
     return grids_.without_image(mesh, feature);
   });
@@ -977,7 +977,7 @@ void Wall::restore_springs(const std::vector<std::vector<Real>> &spheres)
 {
   const int n = static_cast<int>(spheres.size());
   history_.grow(std::max(history_.room(), n));
-  ContactHistory &springs = history_.on_host();
+  ContactHistory &springs = history_.on_cpu();
   for (int i = 0; history_.is_on() && i < history_.room(); i++) springs.clear(i);
   for (int i = 0; i < n; i++)
     history_.unpack_saved(i, spheres[i].data(), static_cast<int>(spheres[i].size()));

@@ -269,8 +269,8 @@ class Wall {
   DeviceChoice device_;
   bool is_set_up_ = false;    // the last step set a run up
   std::unique_ptr<WallEngine> engine_;
-  bool engine_moves_ = false, engine_records_ = false;    // what its laws are compiled for
-  bool virial_ = false;                                   // may be asked for in this run
+  bool engine_moves_ = false, engine_contacts_ = false;    // what its laws are compiled for
+  bool virial_ = false;                                    // may be asked for in this run
 
   HistoryExchange history_;
   StepTotals totals_;

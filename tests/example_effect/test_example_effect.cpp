@@ -51,7 +51,7 @@ TEST(example_effect, damps_as_its_formula_says)
 TEST(example_effect, keeps_nothing_that_it_does_not_need)
 {
   const LawTraits traits = compiled({{1}, {1, 1}, {0, 0}, false}).traits;
-  EXPECT_FALSE(traits.history || traits.heat || traits.records);
+  EXPECT_FALSE(traits.history || traits.heat || traits.contacts);
   EXPECT_EQ(traits.n_extra, 0);
 }
 

@@ -174,9 +174,9 @@ void expect_as_one(bool turned, Real tolerance)
       EXPECT_GT(joint, 30) << law.name;
     }
     ASSERT_EQ(several.engine->n_touching(), one.engine->n_touching()) << law.name;
-    // A kernel with both effects makes records that were not asked for.
-    if (law.settings.records) {
-      EXPECT_EQ(several.engine->n_records(), one.engine->n_records()) << law.name;
+    // A kernel with both effects keeps contacts that were not asked for.
+    if (law.settings.contacts) {
+      EXPECT_EQ(several.engine->n_contacts(), one.engine->n_contacts()) << law.name;
     }
     EXPECT_EQ(several.engine->totals().contacts, one.engine->totals().contacts) << law.name;
   }
@@ -296,7 +296,7 @@ class CornerOfPlates : public ::testing::Test {
                                     : m == 1 ? Vec3{p.x + 2, 0, p.y + 2}
                                              : Vec3{p.x + 2, p.y + 2, 0});
     EngineSettings s = hooke(kStiffness);
-    s.records = true;
+    s.contacts = true;
     wall = std::make_unique<Wall>(plates, kRadius, s, true);
     wall->scene->add_sphere({kRadius - kOverlap[0], kRadius - kOverlap[1], kRadius - kOverlap[2]},
                             kRadius, kMass);
@@ -339,9 +339,9 @@ TEST_F(CornerOfPlates, gives_one_output_for_a_sphere)
 
 TEST_F(CornerOfPlates, names_the_mesh_of_each_record)
 {
-  ASSERT_EQ(engine().n_records(), 4);
+  ASSERT_EQ(engine().n_contacts(), 4);
   Real normal[3] = {0, 0, 0};
-  for (int k = 0; k < 4; k++) normal[engine().records()[k].mesh] += engine().records()[k].normal;
+  for (int k = 0; k < 4; k++) normal[engine().contacts()[k].mesh] += engine().contacts()[k].normal;
   for (int m = 0; m < 3; m++)
     EXPECT_NEAR(normal[m], kStiffness * (kOverlap[m] + (m == 2 ? 0.05 : 0)), 1e-8) << m;
 }

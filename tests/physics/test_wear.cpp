@@ -17,7 +17,7 @@ constexpr Real kStiffness = 1e5, kRadius = 0.5, kMass = 2, kOverlap = 0.01;
 
 EngineSettings worn(EngineSettings s, WearModel wear)
 {
-  s.records = true;
+  s.contacts = true;
   s.wear = wear;
   return s;
 }
@@ -30,7 +30,7 @@ MeshLoads drive(Scene &scene, const Vec3 &from, const Vec3 &v, Real dt, int n, R
   for (int i = 1; i <= n; i++) {
     scene.set_x(0, from + (i * dt) * v);
     scene.compute(dt);
-    loads.add(scene.engine->records(), scene.engine->n_records(), dt, per_work);
+    loads.add(scene.engine->contacts(), scene.engine->n_contacts(), dt, per_work);
   }
   return loads;
 }
@@ -110,7 +110,7 @@ TEST(wear, of_finnie_depends_on_the_angle)
     MeshLoads out;
     scene.set_v(0, -v);
     scene.compute(dt);
-    out.add(scene.engine->records(), scene.engine->n_records(), dt, per_work);
+    out.add(scene.engine->contacts(), scene.engine->n_contacts(), dt, per_work);
     EXPECT_EQ(out.worn(), 0);
     EXPECT_GT(out.packed()[3], 0) << "the contact itself is there";
   }
@@ -162,20 +162,20 @@ TEST(stress, in_shear_is_the_friction)
 }
 
 // Records are only read: what is computed beside them is what it is without.
-TEST(records, change_no_bit_of_the_forces)
+TEST(step_contacts, change_no_bit_of_the_forces)
 {
   for (EngineSettings law :
        {hooke(kStiffness, 20, 100, 0.3), hertz_history(kStiffness, 3e4, 10, 20, 0.3)}) {
     Vec3 force[3], torque[3];
     for (int k = 0; k < 3; k++) {
-      law.records = k > 0;
+      law.contacts = k > 0;
       law.wear = k > 1 ? WearModel::archard : WearModel::none;
       Scene scene(cylinder_mesh(9, 3, 1, 2), kRadius, law);
       scene.add_sphere({0.55, 0.4, 0.45}, kRadius, kMass, {0.3, -0.2, 0.1}, {3, 2, 1});
       for (int i = 0; i < 5; i++) scene.compute(1e-4);
       force[k] = scene.force(0);
       torque[k] = scene.torque(0);
-      EXPECT_EQ(scene.engine->n_records(), k ? scene.engine->totals().contacts : 0);
+      EXPECT_EQ(scene.engine->n_contacts(), k ? scene.engine->totals().contacts : 0);
       EXPECT_GE(scene.engine->totals().contacts, 2);
     }
     for (int k = 1; k < 3; k++) {
@@ -186,7 +186,7 @@ TEST(records, change_no_bit_of_the_forces)
 }
 
 // In a shallow fold contacts share their overlap; so do the forces that are recorded.
-TEST(records, of_contacts_that_share_sum_to_the_force)
+TEST(step_contacts, of_contacts_that_share_sum_to_the_force)
 {
   Scene scene(hinge_mesh(20, 4), kRadius, worn(hooke(kStiffness), WearModel::none));
   const Real a = 20 * kPi / 180;
@@ -195,10 +195,10 @@ TEST(records, of_contacts_that_share_sum_to_the_force)
   const Vec3 out = {-std::sin(a / 2), 0, std::cos(a / 2)};
   scene.add_sphere((0.98 * kRadius / std::cos(a / 2)) * out, kRadius, kMass);
   scene.compute(1e-4);
-  ASSERT_EQ(scene.engine->n_records(), 2);
+  ASSERT_EQ(scene.engine->n_contacts(), 2);
   Vec3 sum = {0, 0, 0};
   for (int i = 0; i < 2; i++) {
-    const ContactRecord &r = scene.engine->records()[i];
+    const StepContact &r = scene.engine->contacts()[i];
     EXPECT_LT(r.normal, 0.6 * kStiffness * 0.02 * kRadius) << "it has its share only";
     const auto &face = scene.mesh.faces[feature_index(r.feature)];
     bool rises = false;
@@ -210,7 +210,7 @@ TEST(records, of_contacts_that_share_sum_to_the_force)
 
 // A sphere with more contacts than the kernel has places for is done again: every contact
 // is recorded, and the spheres around it keep theirs.
-TEST(records, of_crowded_spheres_are_all_there)
+TEST(step_contacts, of_crowded_spheres_are_all_there)
 {
   // Thin posts, further apart than a needle is thick: one contact each.
   TriangleSoup soup;
@@ -228,14 +228,14 @@ TEST(records, of_crowded_spheres_are_all_there)
     for (const Real z : {1.2, 0.3, 1.2, 0.0}) scene.add_sphere({0, 0, z}, kRadius, kMass);
     scene.add_sphere({0.45, 0, kRadius - kOverlap}, kRadius, kMass);
     scene.compute(1e-4);
-    ASSERT_GT(scene.engine->n_records(), 12);
-    for (int i = 0; i < scene.engine->n_records(); i++)
-      EXPECT_GT(scene.engine->records()[i].normal, 0) << i;
-    EXPECT_EQ(scene.engine->n_records(), scene.engine->totals().contacts);
+    ASSERT_GT(scene.engine->n_contacts(), 12);
+    for (int i = 0; i < scene.engine->n_contacts(); i++)
+      EXPECT_GT(scene.engine->contacts()[i].normal, 0) << i;
+    EXPECT_EQ(scene.engine->n_contacts(), scene.engine->totals().contacts);
     MeshLoads loads;
-    loads.add(scene.engine->records(), scene.engine->n_records(), 1, 0);
+    loads.add(scene.engine->contacts(), scene.engine->n_contacts(), 1, 0);
     // The last record is the last sphere's, on the top of a post.
-    const ContactRecord &last = scene.engine->records()[scene.engine->n_records() - 1];
+    const StepContact &last = scene.engine->contacts()[scene.engine->n_contacts() - 1];
     EXPECT_NEAR(last.normal, kStiffness * kOverlap, 1e-9);
   }
 }

@@ -24,7 +24,7 @@ namespace {
 // Loads of two steps: 3 on the second face in a step of 1, nothing in one of 3.
 MeshLoads pressed()
 {
-  ContactRecord record = {};
+  StepContact record = {};
   record.feature = feature_code(FeatureKind::face, 1);
   record.normal = 3;
   MeshLoads loads;

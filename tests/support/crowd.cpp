@@ -195,7 +195,7 @@ Outcome run_steps(const Case &c, const ContactLaw &law, const EngineMaker &make,
   out.heat = a.heat_flow;
   out.totals = engine->totals();
   out.outputs.assign(engine->sphere_output(), engine->sphere_output() + engine->n_touching());
-  out.records.assign(engine->records(), engine->records() + engine->n_records());
+  out.contacts.assign(engine->contacts(), engine->contacts() + engine->n_contacts());
   return out;
 }
 
@@ -207,7 +207,7 @@ void expect_same_rows(const Outcome &a, const Outcome &b, const std::string &nam
   EXPECT_TRUE(same_bytes(a.extra, b.extra)) << name;
   EXPECT_TRUE(same_bytes(a.heat, b.heat)) << name;
   EXPECT_TRUE(same_bytes(a.outputs, b.outputs)) << name;
-  EXPECT_TRUE(same_bytes(a.records, b.records)) << name;
+  EXPECT_TRUE(same_bytes(a.contacts, b.contacts)) << name;
 }
 
 }    // namespace lsdcd

@@ -48,7 +48,7 @@ struct Outcome {
   std::vector<Spring> springs;
   std::vector<Real> extra, heat;
   std::vector<SphereOutput> outputs;
-  std::vector<ContactRecord> records;
+  std::vector<StepContact> contacts;
 };
 
 // How a wall is searched.

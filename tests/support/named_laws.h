@@ -22,7 +22,7 @@ inline std::vector<NamedLaw> laws(Real k)
   rolling.law().rolling = {RollingModel::epsd2, {0.1}};
   all.law() = everything(NormalModel::jkr);
   records = hertz_history(k, 3e4, 50, 20, 0.4);
-  records.records = true;
+  records.contacts = true;
   return {{"hooke", hooke(k, 50, 20, 0.4)},
           {"hooke/history", hooke_history(k, 3e4, 50, 20, 0.4)},
           {"hertz/history with records", records},

@@ -17,7 +17,7 @@ struct NodeLists {
   std::vector<std::int32_t> brick_of;
   std::vector<Brick> bricks;
   std::vector<Cell> cells;
-  std::vector<Candidate> candidates;
+  std::vector<CellEntry> entries;
 };
 
 template <class B>
@@ -25,32 +25,32 @@ NodeLists node_lists_by(B b, const WeldedMesh &mesh, const NodeGridSettings &set
 {
   const MeshFeatures features = make_moving_features(mesh, false);
   const MeshTopologyView topology = topology_of(mesh);
-  const auto faces = from_host(
+  const auto faces = from_cpu(
       b, std::vector<int>(topology.faces, topology.faces + 3 * std::size_t(topology.n_faces)));
-  const auto edges = from_host(
+  const auto edges = from_cpu(
       b, std::vector<int>(topology.edges, topology.edges + 2 * std::size_t(topology.n_edges)));
-  const auto at = from_host(b, mesh.vertices);
-  const auto code = from_host(b, features.primitives);
-  const auto records = from_host(b, features.faces);
+  const auto at = from_cpu(b, mesh.vertices);
+  const auto code = from_cpu(b, features.primitives);
+  const auto records = from_cpu(b, features.faces);
   NodeGrid<B> grid;
   grid.build(b, {code.data(), code.size(), faces.data(), edges.data(), at.data(), records.data()},
              settings);
   NodeLists lists;
   lists.scalars = grid.view(MeshFeaturesView());
-  lists.brick_of = to_host(b, grid.brick_of(), grid.brick_of().size());
-  lists.bricks = to_host(b, grid.bricks(), grid.bricks().size());
+  lists.brick_of = to_cpu(b, grid.brick_of(), grid.brick_of().size());
+  lists.bricks = to_cpu(b, grid.bricks(), grid.bricks().size());
   const auto fetch = [&](const auto *from, auto &to, std::size_t n) {
     to.resize(n);
     b.copy_out(from, to.data(), n);
     b.wait();
   };
-  std::size_t n_cells = 0, n_candidates = 0;
+  std::size_t n_cells = 0, n_entries = 0;
   for (const Brick &brick : lists.bricks)
     for (const BrickLayer &layer : brick.layer) n_cells += count_bits(layer.mask);
   fetch(lists.scalars.lists.cells, lists.cells, n_cells);
   for (const Cell &c : lists.cells)
-    if (c.count > 1) n_candidates = std::max<std::size_t>(n_candidates, c.first + c.count);
-  fetch(lists.scalars.lists.candidates, lists.candidates, n_candidates);
+    if (c.count > 1) n_entries = std::max<std::size_t>(n_entries, c.first + c.count);
+  fetch(lists.scalars.lists.entries, lists.entries, n_entries);
   return lists;
 }
 

@@ -57,8 +57,8 @@ class QueryChecksOn : public QueryChecks {
 
  public:
   QueryChecksOn(const Bins &bins, const QueryCheckSettings &s) :
-      s_(s), corners_(from_host(b_, bins.corners)), first_(from_host(b_, bins.first)),
-      triangle_(from_host(b_, bins.triangle)), truth_(s.n_spheres),
+      s_(s), corners_(from_cpu(b_, bins.corners)), first_(from_cpu(b_, bins.first)),
+      triangle_(from_cpu(b_, bins.triangle)), truth_(s.n_spheres),
       spheres_(std::min(s.chunk, s.n_spheres)), status_(spheres_.size()), distance_(spheres_.size())
   {
     bins_ = {corners_.data(),
@@ -79,9 +79,9 @@ class QueryChecksOn : public QueryChecks {
     const FlatGrid flat(grid);
     const GridOn<B> on(b_, flat.view());    // for the counts
     const auto query = [&] {
-      if constexpr (B::kOnHost)
-        return [on_host = HostGrid(flat.view()), &names](const PointArrays<Real> &io) {
-          query_grid(on_host, names, io);
+      if constexpr (B::kOnCpu)
+        return [on_cpu = CpuGrid(flat.view()), &names](const PointArrays<Real> &io) {
+          query_grid(on_cpu, names, io);
         };
       else
         return [stream = copy_to_cuda(flat.view(), names)->query_on(nullptr)](
@@ -107,14 +107,14 @@ class QueryChecksOn : public QueryChecks {
     n = std::min(n, s_.n_spheres);
     Array<double> error(n);
     write_errors(error.data(), n);
-    const std::vector<double> host = to_host(b_, error, n);
+    const std::vector<double> host = to_cpu(b_, error, n);
     return *std::max_element(host.begin(), host.end());
   }
 
   Sphere sphere(std::size_t i) override
   {
     fill(i, 1);
-    return to_host(b_, spheres_, 1)[0];
+    return to_cpu(b_, spheres_, 1)[0];
   }
 
   std::string device() const override { return b_.name(); }

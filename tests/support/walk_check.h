@@ -199,7 +199,7 @@ LSDCD_FN Walks check_walk(const WalkMesh<T> &mesh, std::uint64_t i)
     out.steps++;
     out.touching += set.n > 0;
     compare_with_all(grid, mesh.features, mesh.n_features, q, w.cutoff, set, out);
-    find_contacts_in<PackedCandidates>(grid, q, w.cutoff, cells);
+    find_contacts_in<PackedEntries>(grid, q, w.cutoff, cells);
     out.pruned += cells.n > 0 && !chosen;
     out.by_cells += not_listed(grid, lists, q, w.cutoff, cells);
     if (step > 0) continue;

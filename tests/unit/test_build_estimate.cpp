@@ -33,11 +33,11 @@ GridSettings settings_of(Real cutoff, ListKind list_kind)
   return settings;
 }
 
-// An entry is a candidate; the report counts all of them, one by one.
+// The report counts all of them, one by one.
 void compare(const WeldedMesh &mesh, const GridSettings &settings)
 {
   const TriangleGrid grid = build_grid(mesh, settings);
-  const double entries = double(grid.report.lists.candidates);
+  const double entries = double(grid.report.lists.entries);
   const GridPlan plan = plan_grid(mesh, settings);
   const ListEstimate about = estimate_lists(grid.wall, plan, settings.list_kind.has_primitives());
   ASSERT_GT(about.least_entries, 0);

@@ -48,9 +48,9 @@ TEST(cuda_grid, has_the_same_lists_as_the_cpu_grid)
     EXPECT_TRUE(same_bytes(cpu.lists.brick_of, cuda.lists.brick_of)) << c.name;
     EXPECT_TRUE(same_bytes(cpu.lists.bricks, cuda.lists.bricks)) << c.name;
     EXPECT_TRUE(same_bytes(cpu.lists.cells, cuda.lists.cells)) << c.name;
-    EXPECT_TRUE(same_bytes(cpu.lists.candidates, cuda.lists.candidates)) << c.name;
+    EXPECT_TRUE(same_bytes(cpu.lists.entries, cuda.lists.entries)) << c.name;
     EXPECT_TRUE(same_bytes(cpu.lists.packed, cuda.lists.packed)) << c.name;
-    EXPECT_GT(cuda.lists.candidates.size() + cuda.lists.cells.size(), 0u) << c.name;
+    EXPECT_GT(cuda.lists.entries.size() + cuda.lists.cells.size(), 0u) << c.name;
   }
 }
 
@@ -148,8 +148,8 @@ TEST(cuda_engine, gives_what_every_effect_gives_on_the_cpu)
     EXPECT_TRUE(same_bytes(cpu.torque, cuda.torque)) << effect.name << ", " << c.name;
     EXPECT_TRUE(same_bytes(cpu.springs, cuda.springs)) << effect.name << ", " << c.name;
     EXPECT_TRUE(same_bytes(cpu.extra, cuda.extra)) << effect.name << ", " << c.name;
-    EXPECT_TRUE(same_bytes(cpu.records, cuda.records)) << effect.name << ", " << c.name;
-    EXPECT_EQ(cpu.records.empty(), !s.records && !s.bodies) << effect.name << ", " << c.name;
+    EXPECT_TRUE(same_bytes(cpu.contacts, cuda.contacts)) << effect.name << ", " << c.name;
+    EXPECT_EQ(cpu.contacts.empty(), !s.contacts && !s.bodies) << effect.name << ", " << c.name;
   }
 }
 

@@ -40,7 +40,7 @@ void expect_same(const Outcome &a, const Outcome &b, const std::string &name)
 // A backend that keeps lists of spheres with several contacts, as a GPU does, and counts what crosses between host
 // and device, and waiting.
 struct CountingBackend : CpuBackend {
-  static constexpr bool kOnHost = false;
+  static constexpr bool kOnCpu = false;
   static int &crossings()
   {
     static int n = 0;
@@ -838,7 +838,7 @@ TEST(engine, with_two_kernels_gives_what_one_pass_gives_beyond_contact_and_with_
   for (const Case &c : walls()) {
     EngineSettings s;
     s.law() = everything(NormalModel::jkr);
-    s.records = true;
+    s.contacts = true;
     s.surface.velocity = {1, 0, 0};
     expect_same(run_steps(c, s.law(), on_cpu, 2000, kComplete, s),
                 run_steps(c, s.law(), by_two_kernels, 2000, kComplete, s), c.name);
@@ -984,9 +984,9 @@ struct AllTouching {
   StepSettings step;
 };
 
-TEST(engine, takes_no_slots_from_the_next_step)
+TEST(engine, takes_no_places_from_the_next_step)
 {
-  // 12 contacts of each of 100 spheres in 60 steps are more than all shared slots.
+  // 12 contacts of each of 100 spheres in 60 steps are more than all shared places.
   constexpr int n = AllTouching::n, n_steps = 60;
   static_assert(n * n_steps * kAllRound > 65536 + 3 * n, "");
   AllTouching all;

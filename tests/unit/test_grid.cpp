@@ -262,7 +262,7 @@ TEST(grid, cells_of_a_face_at_once_are_those_found_one_by_one)
       for (std::uint32_t f = 0; f < features.faces.size(); f++) {
         const BrickBox box = brick_box(b, feature_code(FeatureKind::face, f));
         for (std::uint64_t i = 0; i < 8 * box.count(); i++) {
-          const std::uint32_t octant = 8 * brick_slot(b.plan, box, i / 8) + i % 8;
+          const std::uint32_t octant = 8 * brick_index(b.plan, box, i / 8) + i % 8;
           const auto meets = [&](const Vec3 &c, Real around) {
             Real distance;
             return face_meets(features.faces[f], c, around + b.plan.widened(), b.plan.cutoff,
@@ -313,7 +313,7 @@ TEST(grid, lists_ascend_and_bounds_lie_below_the_true_distance)
       if (grid.lists.brick_of[at] < 0) continue;
       const Brick &brick = grid.lists.bricks[grid.lists.brick_of[at]];
       for (int c = 0; c < kBrickCells; c++) {
-        if (!has_candidates(brick, c)) continue;
+        if (!has_entries(brick, c)) continue;
         const Cell cell = grid.lists.cells[cell_index(brick, c)];
         if (cell.count == 1) continue;
         lists++;
@@ -323,11 +323,11 @@ TEST(grid, lists_ascend_and_bounds_lie_below_the_true_distance)
                                              Real(at / nx % ny * 8 + c / 8 % 8) + 0.5,
                                              Real(at / nx / ny * 8 + c / 64) + 0.5};
         for (std::uint32_t i = cell.first; i < cell.first + cell.count; i++) {
-          const Candidate a = grid.lists.candidates[i];
+          const CellEntry a = grid.lists.entries[i];
           // A tolerance of the whole world asks for the distance wherever the closest point is.
           ASSERT_LE(a.bound, closest_point_on(view.wall, a.feature, centre, 1e9).distance);
           if (i == cell.first) continue;
-          const Candidate before = grid.lists.candidates[i - 1];
+          const CellEntry before = grid.lists.entries[i - 1];
           ASSERT_TRUE(before.bound < a.bound ||
                       (before.bound == a.bound && before.feature < a.feature));
         }
@@ -344,7 +344,7 @@ TEST(grid, a_packed_candidate_has_its_code)
   for (std::uint64_t n :
        {std::uint64_t(1), std::uint64_t(2), std::uint64_t(3), std::uint64_t(299884),
         std::uint64_t(1) << 29, std::uint64_t(kMaxFeatures)}) {
-    const CandidatePacking packing(n, 0.7);
+    const EntryPacking packing(n, 0.7);
     for (int i = 0; i < 1000; i++) {
       const FeatureKind kind = FeatureKind(random() % 3);
       const std::uint32_t last = static_cast<std::uint32_t>(n - 1),
@@ -362,7 +362,7 @@ TEST(grid, packing_leaves_bounds_in_order)
   Random random(32);
   for (std::uint64_t n : {3u, 299884u, 1u << 27, 1u << 30})
     for (Real largest : {0.7, 1e-60, 1e60}) {
-      const CandidatePacking packing(n, largest);
+      const EntryPacking packing(n, largest);
       Real before = -kInf;
       std::vector<Real> lengths = {-kInf, -1, -0., 0., 1e300, kInf};
       for (int i = 0; i < 2000; i++) lengths.push_back(uniform(random, 0, 1.2 * largest));
@@ -377,13 +377,13 @@ TEST(grid, packing_leaves_bounds_in_order)
 TEST(grid, a_packed_bound_is_less_than_a_step_below_the_bound)
 {
   const TriangleGrid grid = grid_of(cylinder_mesh(40, 3, 1, 1.5), 0.3);
-  const CandidatePacking &packing = grid.lists.packing;
+  const EntryPacking &packing = grid.lists.packing;
   const Real step = 1 / packing.steps_per_length;
-  ASSERT_EQ(grid.lists.packed.size(), grid.lists.candidates.size());
+  ASSERT_EQ(grid.lists.packed.size(), grid.lists.entries.size());
   ASSERT_GT(grid.lists.packed.size(), 1000u);
   EXPECT_LT(step, 1e-4 * grid.cutoff);
   for (std::size_t i = 0; i < grid.lists.packed.size(); i++) {
-    const Candidate full = grid.lists.candidates[i];
+    const CellEntry full = grid.lists.entries[i];
     const std::uint32_t word = grid.lists.packed[i].word;
     // Index in the lowest bits, kind in the two top ones, as the format says.
     const Real bound = step * ((word & 0x3fffffffu) >> packing.shift);
@@ -407,21 +407,21 @@ TEST(grid, packed_lists_stand_in_for_full_ones_where_these_are_complete_and_in_d
       settings.form = ListForm::packed;
       const TriangleGrid packed = build_grid(mesh, settings, test_on_cuda());
       const bool packs = !in_floats && nearest == 0;
-      EXPECT_EQ(packed.lists.packed.size(), packs ? full.lists.candidates.size() : 0);
-      EXPECT_EQ(packed.lists.candidates.size(), packs ? 0 : full.lists.candidates.size());
+      EXPECT_EQ(packed.lists.packed.size(), packs ? full.lists.entries.size() : 0);
+      EXPECT_EQ(packed.lists.entries.size(), packs ? 0 : full.lists.entries.size());
       EXPECT_EQ(full.lists.packed.size(), 0u);
     }
 }
 
 // Does the list of a cell hold a feature?
-bool lists(const GridView &grid, const CellSlot &at, FeatureCode feature)
+bool lists(const GridView &grid, const CellIndex &at, FeatureCode feature)
 {
   const Brick *brick = brick_at(grid, at.i, at.j, at.k);
-  if (!brick || !has_candidates(*brick, cell_in_brick(at))) return false;
+  if (!brick || !has_entries(*brick, cell_in_brick(at))) return false;
   const Cell cell = grid.lists.cells[cell_index(*brick, cell_in_brick(at))];
   if (cell.count == 1) return cell.first == feature;
   for (std::uint32_t c = cell.first; c < cell.first + cell.count; c++)
-    if (grid.lists.candidates[c].feature == feature) return true;
+    if (grid.lists.entries[c].feature == feature) return true;
   return false;
 }
 
@@ -436,7 +436,7 @@ TEST(grid, a_list_holds_for_centres_up_to_the_margin_from_its_cell)
   long found = 0;
   for (int i = 0; i < 200000; i++) {
     const Vec3 near = query_point(random, soup, {-1, -1, -1}, {1, 1, 1}, cutoff);
-    CellSlot cell = cell_slot_of(view, near);
+    CellIndex cell = cell_index_of(view, near);
     if (!cell.inside) continue;
     // From a corner of the cell straight away from it, where the least is to spare.
     Vec3 q = grid.origin + grid.length * Vec3{Real(cell.i), Real(cell.j), Real(cell.k)};
@@ -500,7 +500,7 @@ TEST(grid, moved_into_a_block_is_what_is_copied_into_one)
   GridSettings settings;
   settings.cutoff = 0.2;
   TriangleGrid grid = build_grid(weld(cylinder_mesh(256, 64, 1, 3), -1), settings);
-  ASSERT_GT(grid.lists.candidates.size() * sizeof(Candidate), std::size_t(3) << 20);
+  ASSERT_GT(grid.lists.entries.size() * sizeof(CellEntry), std::size_t(3) << 20);
   std::vector<char> copied(flat_bytes(grid)), moved(copied.size());
   flatten(grid, copied.data());
   move_flat(grid, moved.data());

@@ -119,8 +119,8 @@ TEST(grid_cache, a_grid_reads_the_same_wherever_it_lies)
   ASSERT_TRUE(cached.read(block));
   const GridView view = flat_view(block), before = cylinder().grid.view();
   EXPECT_EQ(view.block_bytes, cylinder().block.size());
-  EXPECT_EQ(std::memcmp(view.lists.candidates, before.lists.candidates,
-                        cylinder().grid.lists.candidates.size() * sizeof(Candidate)),
+  EXPECT_EQ(std::memcmp(view.lists.entries, before.lists.entries,
+                        cylinder().grid.lists.entries.size() * sizeof(CellEntry)),
             0);
 }
 

@@ -28,7 +28,7 @@ WallSpec wall(bool keeps = true)
 void give_spring(HistoryExchange &history, FeatureCode feature)
 {
   history.grow(2);
-  ContactHistory &store = history.on_host();
+  ContactHistory &store = history.on_cpu();
   const Spring one = {{0.25, -0.5, 0}, {0, 0, 1}, feature, 0};
   store.set(1, &one, nullptr, 1);
 }
@@ -57,7 +57,7 @@ TEST(HistoryExchange, comes_back_from_the_engine_as_it_went)
   history.to_engine(2);
   EXPECT_TRUE(history.is_with_engine());
   history.grow(3);
-  const ContactHistory &back = history.on_host();
+  const ContactHistory &back = history.on_cpu();
   EXPECT_FALSE(history.is_with_engine());
   EXPECT_EQ(back.count(0), 0);
   ASSERT_EQ(back.count(1), 1);
@@ -86,9 +86,9 @@ TEST(HistoryExchange, of_an_image_is_written_as_of_what_it_is_an_image_of)
   read.set_kind_of_file(settings.law().history_kind());
   read.grow(2);
   read.unpack_saved(1, buffer.data(), size);
-  ASSERT_EQ(read.on_host().count(1), 1);
-  EXPECT_EQ(read.on_host().of(1)->feature, kFace);
-  EXPECT_EQ(written.on_host().of(1)->feature, kImage);    // is as it was
+  ASSERT_EQ(read.on_cpu().count(1), 1);
+  EXPECT_EQ(read.on_cpu().of(1)->feature, kFace);
+  EXPECT_EQ(written.on_cpu().of(1)->feature, kImage);    // is as it was
 }
 
 TEST(HistoryExchange, of_another_law_is_not_taken_and_told_once)
@@ -102,7 +102,7 @@ TEST(HistoryExchange, of_another_law_is_not_taken_and_told_once)
     read.set_kind_of_file(settings.law().history_kind() + 1);
     read.grow(2);
     read.unpack_saved(1, buffer.data(), size);
-    EXPECT_EQ(read.on_host().count(1), 0);
+    EXPECT_EQ(read.on_cpu().count(1), 0);
     read.check_restored(2, is_face);
     ASSERT_EQ(host.warnings.size(), 1u);
     EXPECT_EQ(host.warnings[0],
@@ -118,7 +118,7 @@ TEST(HistoryExchange, of_features_that_are_not_there_is_dropped_and_told)
     give_spring(history, host.rank() == 0 ? kFace : kImage);
     history.check_restored(2, is_face);
     EXPECT_TRUE(history.is_checked());
-    EXPECT_EQ(history.on_host().count(1), host.rank() == 0 ? 1 : 0);
+    EXPECT_EQ(history.on_cpu().count(1), host.rank() == 0 ? 1 : 0);
     ASSERT_EQ(host.warnings.size(), 1u);
     EXPECT_EQ(host.warnings[0],
               "1 spheres lose their springs: the saved state was written with another mesh");
@@ -132,7 +132,7 @@ TEST(HistoryExchange, follows_features_that_get_other_names)
   HistoryExchange history(host, settings);
   give_spring(history, kImage);
   history.rename_features(without_image);
-  EXPECT_EQ(history.on_host().of(1)->feature, kFace);
+  EXPECT_EQ(history.on_cpu().of(1)->feature, kFace);
 }
 
 }    // namespace

@@ -20,7 +20,7 @@ WallSpec wall()
   return settings;
 }
 
-ContactRecord on_face(std::uint32_t face, std::uint32_t mesh, Real normal, Real wear_power)
+StepContact on_face(std::uint32_t face, std::uint32_t mesh, Real normal, Real wear_power)
 {
   return {feature_code(FeatureKind::face, face), mesh, normal, 0, wear_power, {0, 0, -normal}, {}};
 }
@@ -28,7 +28,7 @@ ContactRecord on_face(std::uint32_t face, std::uint32_t mesh, Real normal, Real 
 // A step of 2: the process presses face `rank` of mesh 0, and both press face 7 of mesh 1.
 void add_step(LoadRecorder &loads, int rank)
 {
-  const ContactRecord records[] = {on_face(rank, 0, 3, 10), on_face(7, 1, 4, 100)};
+  const StepContact records[] = {on_face(rank, 0, 3, 10), on_face(7, 1, 4, 100)};
   for (int mesh : {0, 1}) loads.add(mesh, records, 2, 2, {});
 }
 

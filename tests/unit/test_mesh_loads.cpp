@@ -19,7 +19,7 @@
 namespace lsdcd::test_mesh_loads {
 namespace {
 
-ContactRecord on(FeatureKind kind, std::uint32_t index, Real normal, Real shear, Real wear)
+StepContact on(FeatureKind kind, std::uint32_t index, Real normal, Real shear, Real wear)
 {
   return {feature_code(kind, index), 0, normal, shear, wear, {-shear, 0, -normal}, {0, 0, 0}};
 }
@@ -27,9 +27,9 @@ ContactRecord on(FeatureKind kind, std::uint32_t index, Real normal, Real shear,
 TEST(loads, are_integrals_over_time)
 {
   MeshLoads loads;
-  const ContactRecord first[] = {on(FeatureKind::face, 1, 2, 1, 8)};
-  const ContactRecord second[] = {on(FeatureKind::face, 1, 4, 3, 16),
-                                  on(FeatureKind::face, 0, -1, 0, 0)};
+  const StepContact first[] = {on(FeatureKind::face, 1, 2, 1, 8)};
+  const StepContact second[] = {on(FeatureKind::face, 1, 4, 3, 16),
+                                on(FeatureKind::face, 0, -1, 0, 0)};
   loads.add(first, 1, 0.5, 0.25);
   loads.add(second, 2, 0.25, 0.25);
   loads.add(nullptr, 0, 0.25, 0.25);
@@ -49,7 +49,7 @@ TEST(loads, of_edges_and_vertices_are_shared_evenly_by_their_faces)
   const WeldedMesh mesh = weld(box_mesh({0, 0, 0}, {1, 1, 1}), -1);
   for (std::size_t e = 0; e < mesh.edges.size(); e++) {
     MeshLoads loads;
-    const ContactRecord r = on(FeatureKind::edge, static_cast<std::uint32_t>(e), 6, 2, 0);
+    const StepContact r = on(FeatureKind::edge, static_cast<std::uint32_t>(e), 6, 2, 0);
     loads.add(&r, 1, 1, 0);
     Real sum = 0;
     const std::vector<Load> faces = loads.of_faces(mesh);
@@ -63,7 +63,7 @@ TEST(loads, of_edges_and_vertices_are_shared_evenly_by_their_faces)
   }
   for (std::size_t v = 0; v < mesh.vertices.size(); v++) {
     MeshLoads loads;
-    const ContactRecord r = on(FeatureKind::vertex, static_cast<std::uint32_t>(v), 0, 0, 60);
+    const StepContact r = on(FeatureKind::vertex, static_cast<std::uint32_t>(v), 0, 0, 60);
     loads.add(&r, 1, 1, 1);
     int n_around = 0;
     for (const auto &f : mesh.faces)
@@ -79,7 +79,7 @@ TEST(loads, of_edges_and_vertices_are_shared_evenly_by_their_faces)
 TEST(loads, keep_wear_and_forget_stress_when_an_average_begins)
 {
   MeshLoads loads;
-  const ContactRecord r = on(FeatureKind::face, 0, 6, 2, 5);
+  const StepContact r = on(FeatureKind::face, 0, 6, 2, 5);
   loads.add(&r, 1, 1, 1);
   loads.begin_average();
   EXPECT_EQ(loads.time(), 0);
@@ -94,10 +94,8 @@ TEST(loads, keep_wear_and_forget_stress_when_an_average_begins)
 TEST(loads, packed_and_added_up_are_those_of_all)
 {
   MeshLoads one, two, sum;
-  const ContactRecord a[] = {on(FeatureKind::face, 7, 1, 2, 3),
-                             on(FeatureKind::vertex, 3, 4, 5, 6)};
-  const ContactRecord b[] = {on(FeatureKind::vertex, 3, 7, 8, 9),
-                             on(FeatureKind::edge, 3, 1, 1, 1)};
+  const StepContact a[] = {on(FeatureKind::face, 7, 1, 2, 3), on(FeatureKind::vertex, 3, 4, 5, 6)};
+  const StepContact b[] = {on(FeatureKind::vertex, 3, 7, 8, 9), on(FeatureKind::edge, 3, 1, 1, 1)};
   one.add(a, 2, 0.5, 1);
   two.add(b, 2, 0.5, 1);
   for (const MeshLoads *part : {&one, &two}) {
@@ -135,7 +133,7 @@ TEST(mesh_fields, are_written_whole_and_exact)
   const std::string path = dir.path("fields.vtp");
   const WeldedMesh mesh = weld(floor_mesh(3, 1, 4), -1);
   MeshLoads loads;
-  const ContactRecord r = on(FeatureKind::face, 5, 6, 2, 5);
+  const StepContact r = on(FeatureKind::face, 5, 6, 2, 5);
   loads.add(&r, 1, 0.1, 1);
   loads.add(nullptr, 0, 0.1, 1);
   write_mesh_fields(path, mesh, load_fields(mesh, loads, 1000, true), 77, 0.25);
@@ -173,7 +171,7 @@ TEST(mesh_fields, forces_turn_with_the_mesh)
 {
   const WeldedMesh mesh = weld(floor_mesh(1, 1), -1);
   MeshLoads loads;
-  const ContactRecord r = on(FeatureKind::face, 1, 6, 2, 0);
+  const StepContact r = on(FeatureKind::face, 1, 6, 2, 0);
   loads.add(&r, 1, 0.5, 0);
   loads.add(nullptr, 0, 0.5, 0);
   Pose pose;    // x to y to z to x

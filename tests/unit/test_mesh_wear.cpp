@@ -52,13 +52,13 @@ long double volume(const WeldedMesh &mesh)
 }
 
 // Contacts with random faces, edges and vertices of the mesh, by spheres outside (1) or inside of it (-1).
-std::vector<ContactRecord> contacts(const WeldedMesh &mesh, int n, int side, unsigned seed)
+std::vector<StepContact> contacts(const WeldedMesh &mesh, int n, int side, unsigned seed)
 {
   const MeshFeatures features = make_features(mesh, false);
   Random random(seed);
-  std::vector<ContactRecord> all;
+  std::vector<StepContact> all;
   for (int i = 0; i < n; i++) {
-    ContactRecord r = {};
+    StepContact r = {};
     const std::size_t k = static_cast<std::size_t>(
         uniform(random, 0, 1) * static_cast<Real>(features.contact_features.size()));
     r.feature = features.contact_features[k];
@@ -78,10 +78,10 @@ std::vector<ContactRecord> contacts(const WeldedMesh &mesh, int n, int side, uns
   return all;
 }
 
-Real worn(const std::vector<ContactRecord> &records)
+Real worn(const std::vector<StepContact> &records)
 {
   long double sum = 0;
-  for (const ContactRecord &r : records) sum += r.wear_power;
+  for (const StepContact &r : records) sum += r.wear_power;
   return static_cast<Real>(sum * kPerWork * kDt);
 }
 
@@ -97,7 +97,7 @@ struct Case {
   {
   }
 
-  void wear_off(const std::vector<ContactRecord> &records)
+  void wear_off(const std::vector<StepContact> &records)
   {
     wear.add(records.data(), static_cast<int>(records.size()), kDt, features.view());
   }
@@ -120,7 +120,7 @@ TEST(mesh_wear, a_closed_mesh_loses_the_worn_volume)
     const long double whole = volume(c.mesh);
     Real all = 0;
     for (unsigned move = 0; move < 20; move++) {
-      const std::vector<ContactRecord> records = contacts(c.mesh, 200, side, 5 + move);
+      const std::vector<StepContact> records = contacts(c.mesh, 200, side, 5 + move);
       c.wear_off(records);
       all += worn(records);
       ASSERT_TRUE(c.recede());
@@ -149,8 +149,8 @@ TEST(mesh_wear, is_summed_over_processes)
     on_processes(n, [&](FakeHost &host) {
       Case c(host);
       for (unsigned move = 0; move < 3; move++) {
-        const std::vector<ContactRecord> records = contacts(can(), 300, 1, move);
-        std::vector<ContactRecord> mine;
+        const std::vector<StepContact> records = contacts(can(), 300, 1, move);
+        std::vector<StepContact> mine;
         for (std::size_t k = 0; k < records.size(); k++)
           if (static_cast<int>(k) % n == host.rank()) mine.push_back(records[k]);
         c.wear_off(mine);
@@ -201,10 +201,10 @@ TEST(mesh_wear, holds_back_what_would_come_through)
   const MeshFeatures features = make_features(c.mesh, false);
   Real all = 0;
   for (int move = 0; move < 400; move++) {
-    std::vector<ContactRecord> records;
+    std::vector<StepContact> records;
     for (std::size_t f = 0; f < c.mesh.faces.size(); f++) {
       if (features.faces[f].normal.z < 0.5) continue;
-      ContactRecord r = {};
+      StepContact r = {};
       r.feature = feature_code(FeatureKind::face, static_cast<std::uint32_t>(f));
       r.wear_power = 4;
       r.arm = {0, 0, 1};
@@ -231,7 +231,7 @@ TEST(mesh_wear, leaves_the_corners_of_a_facet_without_area)
   Case c(host, mesh), other(host, mesh);
   other.wear.restore(c.wear.save(&c.mesh));
   for (Case *of : {&c, &other}) {
-    std::vector<ContactRecord> records(mesh.faces.size());
+    std::vector<StepContact> records(mesh.faces.size());
     for (std::size_t f = 0; f < records.size(); f++) {
       records[f].feature = feature_code(FeatureKind::face, static_cast<std::uint32_t>(f));
       records[f].wear_power = 1;

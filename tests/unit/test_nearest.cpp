@@ -82,7 +82,7 @@ TEST(nearest_lists, hold_the_nearest_triangles_in_order_and_the_next_as_a_bound)
         ASSERT_GE(cell.count, std::min<long>(n + 1, surely)) << w.name;
         if (cell.count == 1) continue;
         for (std::uint32_t k = 0; k < cell.count; k++) {
-          const Real bound = view.lists.candidates[cell.first + k].bound;
+          const Real bound = view.lists.entries[cell.first + k].bound;
           EXPECT_LE(bound, d[k] + grid.tolerance) << w.name << ", N " << n;
           EXPECT_GE(bound, d[k] * (1 - kBelow) - grid.tolerance) << w.name << ", N " << n;
         }

@@ -48,7 +48,7 @@ NodeGridSettings settings_of(const WeldedMesh &mesh)
 }
 
 // The list of the cell that holds a point.
-std::vector<Candidate> list_at(const NodeLists &lists, const Vec3 &x)
+std::vector<CellEntry> list_at(const NodeLists &lists, const Vec3 &x)
 {
   const GridView &grid = lists.scalars;
   long cell[3];
@@ -56,8 +56,8 @@ std::vector<Candidate> list_at(const NodeLists &lists, const Vec3 &x)
     cell[d] = static_cast<long>(std::floor((x[d] - grid.origin[d]) / grid.length));
     if (cell[d] < 0 || cell[d] >= 8L * grid.n_bricks[d]) return {};
   }
-  const long slot = (cell[2] / 8 * grid.n_bricks[1] + cell[1] / 8) * grid.n_bricks[0] + cell[0] / 8;
-  const int brick = lists.brick_of[slot];
+  const long place = (cell[2] / 8 * grid.n_bricks[1] + cell[1] / 8) * grid.n_bricks[0] + cell[0] / 8;
+  const int brick = lists.brick_of[place];
   if (brick < 0) return {};
   const BrickLayer &layer = lists.bricks[brick].layer[cell[2] % 8];
   long at = layer.first_cell;
@@ -66,7 +66,7 @@ std::vector<Candidate> list_at(const NodeLists &lists, const Vec3 &x)
   if (!(layer.mask >> bit & 1)) return {};
   const Cell &of = lists.cells[at];
   if (of.count == 1) return {{of.first, -HUGE_VALF}};
-  const auto first = lists.candidates.begin() + of.first;
+  const auto first = lists.entries.begin() + of.first;
   return {first, first + of.count};
 }
 Vec3 centre_of_cell(const GridView &grid, const Vec3 &x)
@@ -96,7 +96,7 @@ void expect_complete(const WeldedMesh &mesh, int n_points)
       x[d] =
           mesh.vertices[face[0]][d] + a * (mesh.vertices[face[1]][d] - mesh.vertices[face[0]][d]) +
           b * (mesh.vertices[face[2]][d] - mesh.vertices[face[0]][d]) + uniform(random, -0.7, 0.7);
-    const std::vector<Candidate> list = list_at(lists, x);
+    const std::vector<CellEntry> list = list_at(lists, x);
     const Vec3 centre = centre_of_cell(lists.scalars, x);
     n_listed += static_cast<int>(list.size());
     for (std::size_t i = 1; i < list.size(); i++)
@@ -109,7 +109,7 @@ void expect_complete(const WeldedMesh &mesh, int n_points)
       };
       const FeatureCode code = feature_code(FeatureKind::face, static_cast<std::uint32_t>(f));
       const auto at = std::find_if(list.begin(), list.end(),
-                                   [&](const Candidate &c) { return c.feature == code; });
+                                   [&](const CellEntry &c) { return c.feature == code; });
       if (distance(x) <= kCutoff + kAllowance - 1e-12) {
         n_near++;
         EXPECT_NE(at, list.end()) << "face " << f;
@@ -152,7 +152,7 @@ void expect_same(const NodeLists &a, const NodeLists &b)
   expect_same_bytes(a.brick_of, b.brick_of);
   expect_same_bytes(a.bricks, b.bricks);
   expect_same_bytes(a.cells, b.cells);
-  expect_same_bytes(a.candidates, b.candidates);
+  expect_same_bytes(a.entries, b.entries);
 }
 
 TEST(node_grid, lists_do_not_depend_on_the_order_of_threads)

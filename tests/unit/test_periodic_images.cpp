@@ -292,7 +292,7 @@ TEST(periodic_images, loads_of_an_image_are_those_of_the_mesh)
   const TriangleGrid grid = grid_of(with_images(mesh, box_of({2, 2, 2}), 0.3), 0.2);
   ContactSet<4> out;
   find_contacts(grid.view(), {2.11, 0.7, 0.1}, 0.2, out);
-  ContactRecord record = {};
+  StepContact record = {};
   record.feature = out.feature[0];
   record.normal = 3;
   MeshLoads loads;

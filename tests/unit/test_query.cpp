@@ -99,7 +99,7 @@ class GridQuery {
       return;
     }
 #endif
-    on_host_ = HostGrid(flat_.view());
+    on_cpu_ = CpuGrid(flat_.view());
   }
 
   // S: Sphere or FloatSphere, whose distances are in float.
@@ -121,7 +121,7 @@ class GridQuery {
     if (on_gpu_)
       on_gpu_->enqueue(io);
     else
-      query_grid(on_host_, names_, io);
+      query_grid(on_cpu_, names_, io);
     const std::vector<T> found = distance.get(n);
     return {status.get(n), {found.begin(), found.end()}};
   }
@@ -130,7 +130,7 @@ class GridQuery {
   const TriangleTable &names_;
   FlatGrid flat_;
   bool cuda_;
-  HostGrid on_host_;
+  CpuGrid on_cpu_;
   std::unique_ptr<StreamQuery> on_gpu_;
 };
 
@@ -481,12 +481,12 @@ TEST(query, places_found_without_a_branch_are_those_found_with_them)
     const GridView view = grid.view();
     std::size_t inside = 0;
     const auto expect_same = [&](const Vec3 &q) {
-      const CellSlot p = cell_slot_of(view, q);
-      const BrickSlot at = brick_slot_of(view, q);
-      ASSERT_EQ(at.slot != kNoBrick, p.inside) << q.x << " " << q.y << " " << q.z;
+      const CellIndex p = cell_index_of(view, q);
+      const BrickIndex at = brick_index_of(view, q);
+      ASSERT_EQ(at.index != kNoBrick, p.inside) << q.x << " " << q.y << " " << q.z;
       if (!p.inside) return;
       inside++;
-      ASSERT_EQ(at.slot, brick_slot(view, p)) << q.x << " " << q.y << " " << q.z;
+      ASSERT_EQ(at.index, brick_index(view, p)) << q.x << " " << q.y << " " << q.z;
       ASSERT_EQ(at.cell, cell_in_brick(p)) << q.x << " " << q.y << " " << q.z;
       const CellAddress address = address_inside(view, q);
       const Vec3 from_centre = from_cell_centre(view, p);
@@ -540,19 +540,19 @@ void expect_filter_is_right(const GridView &view, const Vec3Of<T> &q, Sureness &
 {
   const BrickFilter<T> filter(view);
   const BrickGuess guess = filter.guess(q);
-  const std::uint32_t place = brick_slot_of(view, vec_cast<Real>(q)).slot;
+  const std::uint32_t place = brick_index_of(view, vec_cast<Real>(q)).index;
   count.points++;
   count.inside += place != kNoBrick;
   if (guess.unsure) return;
   count.sure++;
   ASSERT_EQ(guess.inside, place != kNoBrick) << q.x << " " << q.y << " " << q.z;
   if (!guess.inside) return;
-  ASSERT_EQ(filter.slot(view, guess), place) << q.x << " " << q.y << " " << q.z;
+  ASSERT_EQ(filter.index(view, guess), place) << q.x << " " << q.y << " " << q.z;
   const CoarseTable coarse(view);
   const std::size_t nx = view.n_bricks[0], ny = view.n_bricks[1], i = place % nx,
                     j = place / nx % ny, k = place / (nx * ny),
                     side = std::size_t(1) << coarse.shift;
-  ASSERT_EQ(filter.slot(coarse, guess),
+  ASSERT_EQ(filter.index(coarse, guess),
             ((k / side) * coarse.n[1] + j / side) * coarse.n[0] + i / side)
       << q.x << " " << q.y << " " << q.z;
 }
@@ -720,8 +720,8 @@ std::vector<S> as(const std::vector<Sphere> &spheres)
 }
 
 // n spheres of radius `cutoff`, each where `place` puts it.
-template <class CellSlot>
-std::vector<Sphere> many(std::size_t n, Real cutoff, const CellSlot &place)
+template <class CellIndex>
+std::vector<Sphere> many(std::size_t n, Real cutoff, const CellIndex &place)
 {
   std::vector<Sphere> out;
   for (std::size_t i = 0; i < n; i++) {

@@ -71,9 +71,9 @@ TEST(wall_list, keeps_copies_of_the_records_that_it_names_while_there_is_room)
   for (FeatureKind kind : {FeatureKind::face, FeatureKind::edge, FeatureKind::vertex})
     for (std::uint32_t i = 0; i < 2; i++) codes.push_back(feature_code(kind, i));
   FeatureRecord records[8];
-  RecordCopies::Slot slots[3] = {};
+  RecordCopies::Range ranges[3] = {};
   int used = 0;
-  const RecordCopies copies = {records, slots, &used, 8};
+  const RecordCopies copies = {records, ranges, &used, 8};
   const auto has = [&](std::size_t k, int i, FeatureCode code) {
     const FeatureRecord *copy = copies.of(k, i);
     if (!copy) return false;
@@ -469,7 +469,7 @@ TEST(wall_list, of_a_sphere_that_comes_in_from_outside_of_the_grid_is_made_in_ti
   const Vec3 outside = {-9, -9, 5.4};
   kept.add(outside, 0.5);
   anew.add(outside, 0.5);
-  EXPECT_FALSE(cell_slot_of(wall.view(), outside).inside);
+  EXPECT_FALSE(cell_index_of(wall.view(), outside).inside);
   kept.choose(12);
   ASSERT_EQ(kept.engine->n_candidates(), 1);
   // To a place over the floor, a third of a margin a step.

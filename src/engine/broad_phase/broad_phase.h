@@ -37,7 +37,7 @@ class CandidateSelector {
       select<false>(b, mesh, spheres, margin, pull_off, by_features, counts, n_springs);
   }
 
-  std::vector<int> to_host(B &b, std::size_t n) { return lsdcd::to_host(b, candidates_, n); }
+  std::vector<int> to_cpu(B &b, std::size_t n) { return lsdcd::to_cpu(b, candidates_, n); }
   std::size_t bytes() const { return candidates_.size() * sizeof(int) + selection_.bytes(); }
 
  private:
@@ -103,14 +103,14 @@ class BroadPhase {
     const GridView &grid = meshes_[0].grid.view;
     CandidateSpheres candidates = {spheres.x, spheres.radius, pull_off_, nullptr, 0};
     selector_.choose(b, meshes_[0], spheres, margin, pull_off_, true, counts.data(), n_springs);
-    b.copy_out(counts.data(), counts_on_host_.data(), 1);
+    b.copy_out(counts.data(), counts_on_cpu_.data(), 1);
     counted_.record(b);
-    // A GPU need not wait until the host knows how many there are.
+    // A GPU need not wait until the CPU knows how many there are.
     candidates.index = selector_.data();
     const std::size_t early =
         lists_.make_early(b, grid, meshes_[0].pose, candidates, margin, counts.data());
     counted_.wait();
-    const StepCounts seen = *counts_on_host_.data();
+    const StepCounts seen = *counts_on_cpu_.data();
     if (seen.too_large) return seen;
     n_ = candidates.n = seen.n_candidates;
     lists_.make(b, grid, meshes_[0].pose, candidates, margin, counts.data(), early);
@@ -119,7 +119,7 @@ class BroadPhase {
   // The numbers of those of n_spheres packed spheres that are candidates.
   std::vector<int> chosen(B &b, int n_spheres)
   {
-    if (!uses_slots()) return selector_.to_host(b, n_);
+    if (!uses_slots()) return selector_.to_cpu(b, n_);
     std::vector<int> all(n_spheres);
     std::iota(all.begin(), all.end(), 0);
     return all;
@@ -215,9 +215,9 @@ class BroadPhase {
   Array<PosedGrid> posed_;
   bool are_packed_ = false;
   std::size_t n_ = 0;
-  typename B::template HostArray<StepCounts> counts_on_host_ =
-      typename B::template HostArray<StepCounts>(1);
-  typename B::Event counted_;    // once they are in counts_on_host_
+  typename B::template CpuArray<StepCounts> counts_on_cpu_ =
+      typename B::template CpuArray<StepCounts>(1);
+  typename B::Event counted_;    // once they are in counts_on_cpu_
   DisplacementCheck<B> displacement_;
 };
 

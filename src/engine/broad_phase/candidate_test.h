@@ -40,7 +40,7 @@ LSDCD_FN void prefetch_search([[maybe_unused]] const GridView &grid,
                               [[maybe_unused]] const Pose &pose, [[maybe_unused]] const Vec3 &x)
 {
 #if !LSDCD_ON_GPU()
-  if (grid.is_large) prefetch_candidates(grid, pose.to_mesh(x));
+  if (grid.is_large) prefetch_entries(grid, pose.to_mesh(x));
 #endif
 }
 
@@ -112,7 +112,7 @@ struct CandidateTest {
     const bool sure = !guess.unsure & (!kPast || (guess.inside && fixed_margin > 0 &&
                                                   filter.is_clear(guess, fixed_margin)));
     bool may = !sure;
-    if (guess.inside & sure) may = table.at(filter.slot(grid, guess));
+    if (guess.inside & sure) may = table.at(filter.index(grid, guess));
     return may & in_group(item);
   }
   // Tests the cells that a sphere at x may come to.

@@ -91,10 +91,10 @@ class DisplacementCheck {
     bool stay = true;
     for (const EngineMesh<B> &mesh : meshes) {
       tests.push_back({mesh.grid.view, mesh.grid.table, mesh.pose, mesh.chosen, spheres.x, was,
-                       margin_ * margin_, !B::kOnHost});
+                       margin_ * margin_, !B::kOnCpu});
       stay = stay && !mesh.pose.placed && !mesh.chosen.placed;
     }
-    if constexpr (B::kOnHost) {
+    if constexpr (B::kOnCpu) {
       if (stay) return any_at_meshes_that_stay(b, spheres, tests);
     }
     for (const HasMoved &test : tests)
@@ -107,7 +107,7 @@ class DisplacementCheck {
  private:
   bool holds_for_any(B &b, std::size_t n, const HasMoved &test)
   {
-    int *flag = flag_.data();    // kernels write this memory of the host
+    int *flag = flag_.data();    // kernels write this memory of the CPU
     *flag = 0;
     b.for_each(n, FlagMoved{test, flag});
     b.wait();
@@ -151,7 +151,7 @@ class DisplacementCheck {
 
   Array x_;
   Real margin_ = 0;
-  typename B::template HostArray<int> flag_ = typename B::template HostArray<int>(1);
+  typename B::template CpuArray<int> flag_ = typename B::template CpuArray<int>(1);
 };
 
 }    // namespace lsdcd

@@ -81,12 +81,12 @@ class FeatureListStore {
   const FeatureLists &view() const { return lists_; }
 
   // Makes the lists of candidates, which will not go farther than `margin` before the next choice. On a GPU
-  // the kernel is started before the host knows counts->n_candidates, for as many as there is memory
+  // the kernel is started before the CPU knows counts->n_candidates, for as many as there is memory
   // for. Returns that number; 0 on a CPU.
   std::size_t make_early(B &b, const GridView &grid, const Pose &pose,
                          const CandidateSpheres &spheres, Real margin, StepCounts *counts)
   {
-    if (B::kOnHost || grid.list_kind.has_primitives()) return 0;
+    if (B::kOnCpu || grid.list_kind.has_primitives()) return 0;
     const std::size_t room = std::min(multi_contact_.size(), ints_.size() / FeatureLists::kInts);
     set_view(grid);
     b.for_each_in_warps(room, gather(grid, pose, spheres, margin, counts), &counts->n_candidates);
@@ -99,7 +99,7 @@ class FeatureListStore {
     const std::size_t n = spheres.n;
     if (!reserve(grid, grid.is_large, n) || n <= early) return;
     if (grid.list_kind.is_every()) return leave_out(b, n, nullptr, nullptr);
-    if (!B::kOnHost) multi_contact_.reserve(n);
+    if (!B::kOnCpu) multi_contact_.reserve(n);
     b.for_each_in_warps(n, gather(grid, pose, spheres, margin, counts));
   }
   // The same for n slots of more than one mesh; `large`: is any of them?
@@ -118,7 +118,7 @@ class FeatureListStore {
   std::size_t bytes() const
   {
     return multi_contact_.size() + reals_.size() * sizeof(Real) +
-           ints_.size() * sizeof(std::int32_t) + copy_slots_.size() * sizeof(RecordCopies::Slot) +
+           ints_.size() * sizeof(std::int32_t) + copy_ranges_.size() * sizeof(RecordCopies::Range) +
            used_ * sizeof(FeatureRecord);
   }
 
@@ -153,21 +153,21 @@ class FeatureListStore {
       ints_ = Array<std::int32_t>(room * FeatureLists::kInts);
     }
     set_view(grid);
-    if (B::kOnHost && large) reserve_copies(n);
+    if (B::kOnCpu && large) reserve_copies(n);
     return true;
   }
 
   // Pages that are never written take no memory.
   void reserve_copies(std::size_t n)
   {
-    if (copy_slots_.size() < n) {
-      copy_slots_.reserve(n);
-      records_ = Array<FeatureRecord>(kCopies * copy_slots_.size());
+    if (copy_ranges_.size() < n) {
+      copy_ranges_.reserve(n);
+      records_ = Array<FeatureRecord>(kCopies * copy_ranges_.size());
     }
-    std::fill_n(copy_slots_.data(), n, RecordCopies::Slot());
+    std::fill_n(copy_ranges_.data(), n, RecordCopies::Range());
     used_ = 0;
     const std::size_t room = std::min<std::size_t>(records_.size(), 1u << 30);
-    lists_.copies = {records_.data(), copy_slots_.data(), &used_, static_cast<int>(room)};
+    lists_.copies = {records_.data(), copy_ranges_.data(), &used_, static_cast<int>(room)};
   }
 
   static constexpr int kCopies = 4;    // for each list, in the mean; lists have 1 to 4 features
@@ -175,9 +175,9 @@ class FeatureListStore {
   FeatureLists lists_;
   Array<Real> reals_;
   Array<std::int32_t> ints_;
-  Array<char> multi_contact_;       // not on a host
-  Array<FeatureRecord> records_;    // on a host
-  Array<RecordCopies::Slot> copy_slots_;
+  Array<char> multi_contact_;       // not on a CPU
+  Array<FeatureRecord> records_;    // on a CPU
+  Array<RecordCopies::Range> copy_ranges_;
   int used_ = 0;
 };
 

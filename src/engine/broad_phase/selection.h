@@ -12,7 +12,7 @@ namespace lsdcd {
 //   bytes()                       that it holds
 // For each sphere: check() with the result of read(), then coarse_test(). If that passes: is_near(). If that passes and
 // has_refine(): refine(). note() gets each result where has_notes().
-template <class B, bool kOnHost = B::kOnHost>
+template <class B, bool kOnCpu = B::kOnCpu>
 class Selection;
 
 }    // namespace lsdcd

@@ -11,7 +11,7 @@
 
 namespace lsdcd {
 
-// The cells that a ball meets, those that have candidates, one after the other.
+// The cells that a ball meets, those that have entries, one after the other.
 class CellsInBall {
  public:
   // `mine`: false: there is none. With a radius of 0 it is the cell that holds q.
@@ -20,7 +20,7 @@ class CellsInBall {
     if (radius > 0) {
       open_ = mine && cells_in_ball(grid, q, radius, lo_, hi_);
     } else {
-      const CellSlot p = cell_slot_of(grid, q);
+      const CellIndex p = cell_index_of(grid, q);
       open_ = mine && p.inside;
       const int at[3] = {p.i, p.j, p.k};
       for (int d = 0; d < 3; d++) hi_[d] = (lo_[d] = open_ ? at[d] : 0) + 1;
@@ -36,7 +36,7 @@ class CellsInBall {
     while (open_ && step()) {
       const Brick *brick = brick_at(grid, i_, j_, k_);
       const int in_brick = cell_in_brick(i_, j_, k_);
-      if (!brick || !has_candidates(*brick, in_brick)) continue;
+      if (!brick || !has_entries(*brick, in_brick)) continue;
       cell = grid.lists.cells[cell_index(*brick, in_brick)];
       return true;
     }
@@ -62,28 +62,28 @@ class CellsInBall {
   int lo_[3] = {0, 0, 0}, hi_[3] = {0, 0, 0}, i_, j_, k_;
 };
 
-// How many candidates ahead a CPU asks for their records.
+// How many entries ahead a CPU asks for their records.
 constexpr std::uint32_t kAhead = 8;
 
-// Returns where the list of a cell with more than one candidate begins.
-inline const void *first_candidate(const GridView &grid, const Cell &cell)
+// Returns where the list of a cell with more than one entry begins.
+inline const void *first_entry(const GridView &grid, const Cell &cell)
 {
   if (grid.lists.packed) return grid.lists.packed + cell.first;
-  return grid.lists.candidates + cell.first;
+  return grid.lists.entries + cell.first;
 }
 
-// Asks a CPU's memory for the first candidates of a sphere at q, whose turn comes soon.
-inline void prefetch_candidates(const GridView &grid, const Vec3 &q)
+// Asks a CPU's memory for the first entries of a sphere at q, whose turn comes soon.
+inline void prefetch_entries(const GridView &grid, const Vec3 &q)
 {
   CellAddress at;
   Cell cell;
   if (!find_cell(grid, q, at, cell)) return;
-  if (cell.count > 1) __builtin_prefetch(first_candidate(grid, cell));
+  if (cell.count > 1) __builtin_prefetch(first_entry(grid, cell));
   asm volatile("");    // as in prefetch()
 }
 
 // Prefetches on a CPU what a search from q will read first, part by part, as each part is found in the one
-// before: the brick's number, the brick, the cell, its first candidates, their records. Many searches wait
+// before: the brick's number, the brick, the cell, its first entries, their records. Many searches wait
 // for one part at the same time.
 class SearchAhead {
  public:
@@ -92,10 +92,10 @@ class SearchAhead {
   SearchAhead() = default;
   SearchAhead(const GridView &grid, const Vec3 &q)
   {
-    const CellSlot p = cell_slot_of(grid, q);
+    const CellIndex p = cell_index_of(grid, q);
     if (!p.inside) return;
     in_brick_ = cell_in_brick(p);
-    at_ = grid.lists.brick_of + brick_slot(grid, p);
+    at_ = grid.lists.brick_of + brick_index(grid, p);
   }
 
   // Part 0, then 1, and so on.
@@ -107,22 +107,22 @@ class SearchAhead {
       at_ = brick < 0 ? nullptr : grid.lists.bricks[brick].layer + (in_brick_ >> 6);
     } else if (part == 2) {
       const BrickLayer &layer = *static_cast<const BrickLayer *>(at_);
-      at_ = has_candidates(layer, in_brick_) ? grid.lists.cells + cell_index(layer, in_brick_)
-                                             : nullptr;
+      at_ =
+          has_entries(layer, in_brick_) ? grid.lists.cells + cell_index(layer, in_brick_) : nullptr;
     } else if (part == 3) {
       const Cell cell = *static_cast<const Cell *>(at_);
       n_ = cell.count < kAhead ? cell.count : kAhead;
-      at_ = first_candidate(grid, cell);
+      at_ = first_entry(grid, cell);
       if (n_ == 1) {    // the cell has it inline
         lsdcd::prefetch(grid.wall, cell.first);
         at_ = nullptr;
       }
     } else if (part == 4) {
       for (std::uint32_t i = 0; i < n_; i++)
-        lsdcd::prefetch(grid.wall, grid.lists.packed
-                                       ? grid.lists.packing.feature(
-                                             static_cast<const PackedCandidate *>(at_)[i])
-                                       : static_cast<const Candidate *>(at_)[i].feature);
+        lsdcd::prefetch(grid.wall,
+                        grid.lists.packed
+                            ? grid.lists.packing.feature(static_cast<const PackedEntry *>(at_)[i])
+                            : static_cast<const CellEntry *>(at_)[i].feature);
       return;
     }
     __builtin_prefetch(at_);
@@ -139,26 +139,26 @@ struct FeatureSearch {
   Vec3 q;
   Real cutoff, margin;
   Real past;     // radius around q of the cells that are searched
-  Real close;    // the search ends where a candidate may be nearer
+  Real close;    // the search ends where an entry may be nearer
 };
 
 // Calls found(code) for each feature until that returns false; returns true if it never did. Nothing is missed:
 // a contact on the way is in the complete list of the cell of the sphere at that time, that cell meets the
 // ball around q, and lists of cells hold for a margin of their own. Each thread of a warp has a search, or none
-// where it is not `mine`. The threads share the candidates; found() gets those of the thread's own search.
+// where it is not `mine`. The threads share the entries; found() gets those of the thread's own search.
 template <unsigned kSize, class Found>
 LSDCD_FN bool for_each_within(const Warp<kSize> &warp, bool mine, const GridView &grid,
                               const FeatureSearch &search, const Found &found)
 {
-  using Candidates = PackedCandidates;
-  const Candidates candidates(grid.lists);
+  using Entries = PackedEntries;
+  const Entries entries(grid.lists);
   // Each half-space of a feature's region moves by the margin at most; one tolerance more is for
   // rounding.
   const Real more = search.margin + MeshGeometry::tolerance(grid),
              within = (1 + Real(2e-6)) * search.cutoff + more;
   CellsInBall cells(mine, grid, search.q, search.past);
-  std::uint32_t at = 0, end = 0;    // of the cell's candidates those that are left
-  Candidates::Limit enough = {};    // past this bound none is near
+  std::uint32_t at = 0, end = 0;    // of the cell's entries those that are left
+  Entries::Limit enough = {};       // past this bound none is near
   bool complete = true;
   for (;;) {
     Cell cell = {};
@@ -169,13 +169,13 @@ LSDCD_FN bool for_each_within(const Warp<kSize> &warp, bool mine, const GridView
       } else {
         // A list ascends in its bounds on the distance from the cell's centre.
         const Real away = norm(search.q - cells.centre(grid));
-        const Candidates::Entry least = candidates[cell.first];
-        enough = candidates.limit(within + away);
-        complete = !(candidates.is_below(least, away, search.close));
-        if (complete && candidates.is_within(least, enough)) {
+        const Entries::Entry least = entries[cell.first];
+        enough = entries.limit(within + away);
+        complete = !(entries.is_below(least, away, search.close));
+        if (complete && entries.is_within(least, enough)) {
           at = cell.first;
           end = at + cell.count;
-          MeshGeometry::prefetch(grid, candidates, at, cell.count < kAhead ? cell.count : kAhead);
+          MeshGeometry::prefetch(grid, entries, at, cell.count < kAhead ? cell.count : kAhead);
         }
       }
       if (!complete) cells.close();
@@ -184,15 +184,15 @@ LSDCD_FN bool for_each_within(const Warp<kSize> &warp, bool mine, const GridView
     if (busy == 0) return complete;
     const WorkSplit<kSize> split(warp, busy);
     const Vec3 q = warp.of(search.q, split.owner);
-    const Candidates::Limit its_enough = warp.of(enough, split.owner);
+    const Entries::Limit its_enough = warp.of(enough, split.owner);
     const Real its_within = warp.of(within, split.owner), its_more = warp.of(more, split.owner);
     const std::uint32_t c = warp.of(at, split.owner) + split.turn,
                         c_end = warp.of(end, split.owner);
     bool near = split.helps && c < c_end;
-    if (near && c + kAhead < c_end) MeshGeometry::prefetch(grid, candidates, c + kAhead, 1);
-    const Candidates::Entry candidate = near ? candidates[c] : Candidates::Entry();
-    near = near && candidates.is_within(candidate, its_enough);
-    const FeatureCode its_code = candidates.feature(candidate);
+    if (near && c + kAhead < c_end) MeshGeometry::prefetch(grid, entries, c + kAhead, 1);
+    const Entries::Entry entry = near ? entries[c] : Entries::Entry();
+    near = near && entries.is_within(entry, its_enough);
+    const FeatureCode its_code = entries.feature(entry);
     unsigned hits =
         warp.vote(near && MeshGeometry(grid, q).may_be_closest(its_code, its_within, its_more)) &
         split.own;

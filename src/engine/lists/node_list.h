@@ -60,9 +60,9 @@ LSDCD_FN bool gather_primitives(const GridView &grid, const QuerySphere &s, Real
   if (cell.count == 1) return add(cell.first);
   const Real enough = within + norm(at.from_centre);
   for (std::uint32_t i = cell.first; i < cell.first + cell.count; i++) {
-    const Candidate candidate = grid.lists.candidates[i];
-    if (candidate.bound > enough) break;
-    if (!add(candidate.feature)) return false;
+    const CellEntry entry = grid.lists.entries[i];
+    if (entry.bound > enough) break;
+    if (!add(entry.feature)) return false;
   }
   return true;
 }

@@ -13,20 +13,20 @@ namespace lsdcd {
 
 struct RecordCopies {
   // Copies of the first n records of a list, and for how many there is room.
-  struct Slot {
+  struct Range {
     std::int32_t first;
     std::int16_t n, room;
   };
 
   FeatureRecord *records = nullptr;    // null: there are none
-  Slot *slots = nullptr;               // of each list
+  Range *ranges = nullptr;             // of each list
   int *used = nullptr, capacity = 0;
 
   // Returns the copies from list k on.
   RecordCopies from(std::size_t k) const
   {
     RecordCopies c = *this;
-    if (records) c.slots += k;
+    if (records) c.ranges += k;
     return c;
   }
 
@@ -34,7 +34,7 @@ struct RecordCopies {
   LSDCD_FN const FeatureRecord *of([[maybe_unused]] std::size_t k, [[maybe_unused]] int i) const
   {
 #if !LSDCD_ON_GPU()
-    if (records && i < slots[k].n) return records + slots[k].first + i;
+    if (records && i < ranges[k].n) return records + ranges[k].first + i;
 #endif
     return nullptr;
   }
@@ -46,16 +46,16 @@ struct RecordCopies {
   {
 #if !LSDCD_ON_GPU()
     if (!records) return;
-    Slot &slot = slots[k];
-    slot.n = 0;
-    if (n > slot.room) {
+    Range &range = ranges[k];
+    range.n = 0;
+    if (n > range.room) {
       if (__atomic_load_n(used, __ATOMIC_RELAXED) > capacity - n) return;
       const int first = fetch_add(used, n);
       if (first > capacity - n) return;
-      slot = {first, 0, static_cast<std::int16_t>(n)};
+      range = {first, 0, static_cast<std::int16_t>(n)};
     }
-    for (int i = 0; i < n; i++) records[slot.first + i] = record_of(wall, code[i]);
-    slot.n = static_cast<std::int16_t>(n);
+    for (int i = 0; i < n; i++) records[range.first + i] = record_of(wall, code[i]);
+    range.n = static_cast<std::int16_t>(n);
 #endif
   }
 };

@@ -17,7 +17,7 @@ constexpr std::uint64_t kNoSphere = std::uint64_t(1) << 32;
 // the first one there follow the mesh and the sphere + 1; 2^28 spheres of a process would not fit into its memory. The
 // two others are written only where the first one was: steps follow each other, so that the second word is always of the
 // sphere in the first. The third, of a sphere between several meshes, has a bit for each mesh that it touches. It may be
-// of another sphere with the same overlap in float: hence the host looks for the mesh of the first word in it.
+// of another sphere with the same overlap in float: hence the CPU looks for the mesh of the first word in it.
 struct DeepestOverlap {
   static constexpr int kRatioAt = 33, kMeshAt = 28;
   static constexpr std::uint64_t kRest = (std::uint64_t(1) << kRatioAt) - 1,
@@ -29,14 +29,14 @@ struct DeepestOverlap {
   }
 };
 
-// The first three are of one choice or step, the others since the host last read them.
+// The first three are of one choice or step, the others since the CPU last read them.
 struct StepCounts {
   std::uint32_t n_candidates;
-  int shared_used[2];                    // slots, of each pool in the last step that wrote it
+  int shared_used[2];                    // places, of each pool in the last step that wrote it
   int n_found[2], n_multi_contact[2];    // of WorkLists, in turn
   // Spheres left out, a time for each step, as they have more contacts than a scratch memory or as all shared
-  // slots were taken: an error.
-  int no_scratch, no_slots, unused;    // unused: so that there is no byte that nothing writes
+  // places were taken: an error.
+  int no_scratch, no_places, unused;    // unused: so that there is no byte that nothing writes
   // kNoSphere less the index of the first sphere beyond the grid's cutoff, or 0: an error.
   std::uint64_t too_large;
   // kNoSphere less the index of the first sphere that feels more than at the choice, or 0: an error.
@@ -50,7 +50,7 @@ struct StepCounts {
       by_cells;    // lists made in steps, their features; searches of cells
 };
 
-// Returns the counts as the host reads them; `first_step`: of those that they are of.
+// Returns the counts as the CPU reads them; `first_step`: of those that they are of.
 inline StepDiagnostics diagnostics_of(const StepCounts &seen, std::int64_t first_step)
 {
   using Deepest = DeepestOverlap;

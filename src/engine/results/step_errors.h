@@ -30,7 +30,7 @@ namespace lsdcd {
                    "contact, which needs a shorter timestep, or a coarser mesh");
 }
 
-[[noreturn]] inline void throw_no_slots(const HostNames &names)
+[[noreturn]] inline void throw_no_places(const HostNames &names)
 {
   throw InputError(
       std::string("spheres that touch the wall in several places became so many since the spheres "

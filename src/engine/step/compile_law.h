@@ -126,7 +126,7 @@ CompiledLaw<B> law_for(const EngineSettings &settings, const ContactLaw &law)
   const WallEffects effects = wall_effects(settings);
   if (!law.is_classic()) return granular_law<B>(law, effects);
   if (law.is_extended()) return added_law<B>(law, effects);
-  if (effects.surface || effects.records) return on_wall_law<B>(law, effects);
+  if (effects.surface || effects.contacts) return on_wall_law<B>(law, effects);
   return plain_law<B>(law, effects);
 }
 

@@ -62,17 +62,17 @@ struct LawsView {
 
 // The effects that a kernel has.
 struct WallEffects {
-  bool surface, records, nodes;    // nodes: of a mesh move
+  bool surface, contacts, nodes;    // nodes: of a mesh move
 };
 
 template <class Law, bool kSurface_, bool kRecords_, bool kNodes_ = false>
 struct OnWall : Law {
-  static constexpr bool kSurface = kSurface_, kRecords = kRecords_, kNodes = kNodes_;
+  static constexpr bool kSurface = kSurface_, kContacts = kRecords_, kNodes = kNodes_;
 };
 
-// The kernels that a law has, by their effects. plain: {none}. moving_or_both: {moving}, {moving + records}.
-// plain_or_both: {none}, {moving + records}. Where a wall has records alone it takes {moving + records}. Beside each
-// of these is {moving + records + nodes}, so that walls whose nodes do not move have no instruction for them.
+// The kernels that a law has, by their effects. plain: {none}. moving_or_both: {moving}, {moving + contacts}.
+// plain_or_both: {none}, {moving + contacts}. Where a wall has contacts alone it takes {moving + contacts}. Beside each
+// of these is {moving + contacts + nodes}, so that walls whose nodes do not move have no instruction for them.
 enum class WallKernels { plain, moving_or_both, plain_or_both };
 
 // Calls make(law) with the law that has the effects.
@@ -81,9 +81,9 @@ auto on_wall(const Law &law, const WallEffects &effects, const Make &make)
 {
   if constexpr (kernels == WallKernels::plain) return make(OnWall<Law, false, false>{law});
   if constexpr (kernels == WallKernels::moving_or_both)
-    if (!effects.records) return make(OnWall<Law, true, false>{law});
+    if (!effects.contacts) return make(OnWall<Law, true, false>{law});
   if constexpr (kernels == WallKernels::plain_or_both)
-    if (!effects.records && !effects.surface) return make(OnWall<Law, false, false>{law});
+    if (!effects.contacts && !effects.surface) return make(OnWall<Law, false, false>{law});
   if constexpr (kernels != WallKernels::plain)
     return effects.nodes ? make(OnWall<Law, true, true, true>{law})
                          : make(OnWall<Law, true, true>{law});
@@ -93,7 +93,7 @@ struct StepJob;
 
 // The numbers that engines store and move for a law.
 struct LawTraits {
-  bool history, heat, records;
+  bool history, heat, contacts;
   // n_vectors, at most kMostVectors: of the extra numbers those that come first, three each
   int n_extra, n_vectors;
 };
@@ -107,7 +107,7 @@ LawTraits traits_of(const Law &law)
   int n_vectors = 0;
   if constexpr (Law::kVectors > 0)
     for (int k = 0; k < Law::kVectors; k++) n_vectors += law.stores(k);
-  return {Law::kHistory, heat, Law::kRecords, n_extra(law), n_vectors};
+  return {Law::kHistory, heat, Law::kContacts, n_extra(law), n_vectors};
 }
 
 // A law compiled for one backend; run() does the step of n candidates, see run_compiled_law().
@@ -121,7 +121,8 @@ struct CompiledLaw {
 // Returns the wall's effects that the settings ask for.
 inline WallEffects wall_effects(const EngineSettings &s)
 {
-  return {s.surface.moves() || s.moves || uses_slots(s), s.records || s.bodies || s.nodes, s.nodes};
+  return {s.surface.moves() || s.moves || uses_slots(s), s.contacts || s.bodies || s.nodes,
+          s.nodes};
 }
 
 }    // namespace lsdcd

@@ -26,12 +26,12 @@ struct SphereStateWith {
 using SphereState = SphereStateWith<const Spring *>;
 
 // Outputs of a sphere that only some laws have: each is written where the law has history, extra numbers beside
-// it, heat, records.
+// it, heat, contacts.
 struct SphereSink {
-  Spring *springs;           // one per contact
-  Real *extra;               // n_extra(law) per contact
-  Real *heat;                // power into the sphere
-  ContactRecord *records;    // one per contact
+  Spring *springs;          // one per contact
+  Real *extra;              // n_extra(law) per contact
+  Real *heat;               // power into the sphere
+  StepContact *contacts;    // one per contact
 };
 
 struct ForceSettings {
@@ -49,8 +49,8 @@ struct ForceSettings {
   // outward, and friction would draw it in.
   Real back;
   Vec3 wall_velocity, wall_angular;    // of the pose then, in the frame of the mesh
-  WearModel wear;                      // read only where there are records
-  bool gives_way;       // the mesh is a rigid body; read only where there are records
+  WearModel wear;                      // read only where contacts are kept
+  bool gives_way;       // the mesh is a rigid body; read only where contacts are kept
   Mobility mobility;    // of it
   NodeField nodes;      // where its nodes move; read only by laws for these
 };
@@ -168,7 +168,7 @@ LSDCD_FN void add_contacts(const GridView &grid, const Law &law, const ForceSett
     c.overlap = overlap;
     c.radius = s.radius;
     c.mass = s.mass;
-    if constexpr (Law::kRecords)
+    if constexpr (Law::kContacts)
       if (settings.gives_way) c.mass = 1 / (1 / s.mass + settings.mobility.along(closest, n));
     c.v_normal = v_normal;
     Vec3 along = v - v_normal * n;
@@ -196,13 +196,13 @@ LSDCD_FN void add_contacts(const GridView &grid, const Law &law, const ForceSett
       if constexpr (Law::kExtra > 0) store_extra(law, memory, sink.extra + at * n_extra(law));
     }
     const Vec3 tangential = weight * f.tangential;
-    if constexpr (Law::kRecords) {
+    if constexpr (Law::kContacts) {
       const Real normal = weight * f.normal, pressing = normal > 0 ? normal : Real(0);
-      ContactRecord &record = sink.records[out.n_contacts];
-      record = {set.feature[i],           mesh,         normal, norm(tangential), 0,
-                -normal * n - tangential, s.x - closest};
+      StepContact &kept = sink.contacts[out.n_contacts];
+      kept = {set.feature[i],           mesh,         normal, norm(tangential), 0,
+              -normal * n - tangential, s.x - closest};
       if (settings.wear != WearModel::none)
-        record.wear_power =
+        kept.wear_power =
             wear_power(settings.wear, pressing, norm(c.v_tangent), v_normal, norm(along));
     }
     out.n_contacts++;

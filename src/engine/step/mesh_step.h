@@ -61,24 +61,24 @@ LSDCD_FN void add_motion(const Law &law, const StepJob &job, const Pose &pose, s
     if (law.has_heat()) s.temperature = job.temperature[i];
 }
 
-// Reserves the slots of n contacts of candidate k, from `first` on; false: there is no memory left.
+// Reserves the places of n contacts of candidate k, from `first` on; false: there is no memory left.
 template <class Law>
-LSDCD_FN bool reserve_slots(const Law &law, const StepJob &job, std::size_t k, int n, int &first,
-                            SphereSink &sink)
+LSDCD_FN bool reserve_places(const Law &law, const StepJob &job, std::size_t k, int n, int &first,
+                             SphereSink &sink)
 {
   const ContactPool &pool = job.pool;
   first = static_cast<int>(k);
   if constexpr (Law::kSurface) first += job.first_slot;
   if constexpr (Law::kHeat)
     if (law.has_heat()) sink.heat = job.heat + k;
-  if constexpr (Law::kHistory || Law::kRecords) {
+  if constexpr (Law::kHistory || Law::kContacts) {
     if (n > 1) {
       first = pool.shared + fetch_add(&job.counts->shared_used[pool.which], n);
       if (first > pool.size - n) return false;
     }
     if constexpr (Law::kHistory) sink.springs = pool.springs + first;
     if constexpr (Law::kExtra > 0) sink.extra = pool.extra + std::size_t(first) * n_extra(law);
-    if constexpr (Law::kRecords) sink.records = pool.records + first;
+    if constexpr (Law::kContacts) sink.contacts = pool.contacts + first;
   }
   return true;
 }
@@ -102,7 +102,7 @@ LSDCD_FN void add_force(const StepJob &job, std::size_t k, std::size_t i, const 
   job.torque.add(i, out.torque);
 }
 
-// Applies the law to the contacts of candidate k, sphere i at x: force, torque, springs and records. The moment
+// Applies the law to the contacts of candidate k, sphere i at x: force, torque, springs and contacts. The moment
 // about the origin is stored, too, so that totals can be made when spheres are elsewhere. `weight` null: all
 // are 1.
 template <class Law>
@@ -116,8 +116,8 @@ LSDCD_FN void apply_law(const Law &law, const StepJob &job, std::size_t k, std::
   SphereState s = state_at(law, job, i, x, radius);
   int first = 0;
   SphereSink sink = {};
-  if (!reserve_slots(law, job, k, count_acting(set, weight), first, sink)) {
-    does_not_fit(job, k, i, job.counts->no_slots);
+  if (!reserve_places(law, job, k, count_acting(set, weight), first, sink)) {
+    does_not_fit(job, k, i, job.counts->no_places);
     return;
   }
   add_motion(law, job, job.settings.pose, i, s);
@@ -133,7 +133,7 @@ LSDCD_FN void apply_law(const Law &law, const StepJob &job, std::size_t k, std::
     }
   job.result.n_contacts[k] = out.n_contacts;
   if (out.n_contacts == 0) return;
-  if constexpr (Law::kRecords) job.pool.slot[k] = first;
+  if constexpr (Law::kContacts) job.pool.first_contact[k] = first;
   if constexpr (Law::kHeat)
     if (law.has_heat()) job.heat_flow[i] += *sink.heat;
   Vec3 at = x;

@@ -196,9 +196,9 @@ LSDCD_FN void apply_multi_mesh_law(const StepJob &job, const MultiMeshSphere &s,
   SphereSink sink = {};
   const int n_acting = count_acting(all.set.view(), all.weight);
   // All laws of a wall store the same numbers of a contact.
-  if (!reserve_slots(law_with<Law>(job, s, job.multi_mesh.mesh[s.begin]), job, s.begin, n_acting,
-                     first, sink)) {
-    does_not_fit(job, s.begin, s.i, job.counts->no_slots);
+  if (!reserve_places(law_with<Law>(job, s, job.multi_mesh.mesh[s.begin]), job, s.begin, n_acting,
+                      first, sink)) {
+    does_not_fit(job, s.begin, s.i, job.counts->no_places);
     return;
   }
   for (int k = s.begin, from = 0; k < s.end; k++) {
@@ -225,7 +225,7 @@ LSDCD_FN void apply_multi_mesh_law(const StepJob &job, const MultiMeshSphere &s,
     SphereSink to_mesh = sink;
     if constexpr (Law::kHistory) to_mesh.springs += n_done;
     if constexpr (Law::kExtra > 0) to_mesh.extra += n_done * n_extra(law);
-    if constexpr (Law::kRecords) to_mesh.records += n_done;
+    if constexpr (Law::kContacts) to_mesh.contacts += n_done;
     if constexpr (Law::kHeat)
       if (law.has_heat()) {
         to_mesh.heat = job.heat + k;
@@ -240,7 +240,7 @@ LSDCD_FN void apply_multi_mesh_law(const StepJob &job, const MultiMeshSphere &s,
       deepest_mesh = mesh.settings.mesh;
     }
     if (out.n_contacts == 0) continue;
-    if constexpr (Law::kRecords) job.pool.slot[k] = first + n_done;
+    if constexpr (Law::kContacts) job.pool.first_contact[k] = first + n_done;
     if constexpr (Law::kHeat)
       if (law.has_heat()) job.heat_flow[s.i] += *to_mesh.heat;
     n_done += out.n_contacts;

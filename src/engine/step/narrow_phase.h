@@ -67,7 +67,7 @@ LSDCD_FN void find_filtered(const GridView &grid, const SearchSettings &settings
   if (list)
     find_listed<kNodes>(grid, settings, *list, s.x, s.cutoff, out.set);
   else
-    out.exact_within = find_contacts_in<PackedCandidates>(grid, s.x, s.cutoff, out.set);
+    out.exact_within = find_contacts_in<PackedEntries>(grid, s.x, s.cutoff, out.set);
   filter_contacts<kBeyondContact>(grid, settings, s, out.set);
   out.set.sort();
 }

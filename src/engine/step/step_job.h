@@ -46,16 +46,16 @@ struct MultiMeshMemory {
 constexpr unsigned kStepBlock = 128;    // threads of a block
 constexpr std::size_t kMostGeneral = 528 * kStepBlock, kFewGeneral = 66 * kStepBlock;
 
-// Slots for springs and records of a step. A sphere with a single contact has the slot of its own number; one
-// with more contacts reserves slots from `shared` on.
+// Memory for the springs and contacts of a step. A sphere with a single contact has the place of its own number; one
+// with more contacts reserves places from `shared` on.
 struct ContactPool {
   int shared, size;
   int which;             // of the two pools
   int *first, *count;    // of each sphere
-  int *slot;             // first one of each candidate, where there are records
+  int *first_contact;    // of each candidate, where contacts are kept
   Spring *springs;
   Real *extra;
-  ContactRecord *records;
+  StepContact *contacts;
 };
 
 // Memory for the contacts of one sphere that has many: too much for a stack. Whoever holds the lock
@@ -128,7 +128,7 @@ inline StepJob from_slot(StepJob job, std::size_t first)
   job.result = job.result.from(first);
   if (job.heat) job.heat += first;
   if (job.uncertain) job.uncertain += first;
-  if (job.pool.slot) job.pool.slot += first;
+  if (job.pool.first_contact) job.pool.first_contact += first;
   return job;
 }
 
@@ -188,7 +188,7 @@ LSDCD_FN void put_no_contact(const StepJob &job, std::size_t k, std::size_t i)
   if (n_springs && job.settings.update && n_springs[i] != 0) n_springs[i] = 0;
 }
 
-// There is no memory for the contacts of candidate k, sphere i: an error once the host reads the counts.
+// There is no memory for the contacts of candidate k, sphere i: an error once the CPU reads the counts.
 // `counter`: of the memory that was used up. Until then the sphere has no springs, as its old ones are in the
 // other pool.
 LSDCD_FN void does_not_fit(const StepJob &job, std::size_t k, std::size_t i, int &counter)
@@ -197,7 +197,7 @@ LSDCD_FN void does_not_fit(const StepJob &job, std::size_t k, std::size_t i, int
   put_no_contact(job, k, i);
 }
 
-// Clears the slot counter of the other pool: the next step writes there, if this step moves springs.
+// Clears the counter of places of the other pool: the next step writes there, if this step moves springs.
 LSDCD_FN void clear_next(const StepJob &job)
 {
   if (job.settings.update) job.counts->shared_used[1 - job.pool.which] = 0;

@@ -66,27 +66,26 @@ class GridBuilder {
     const std::uint32_t most = list_kind.has_primitives() ? list_kind.most() + 1 : 0xffffffffu;
     BuiltLists<B> built;
     const bool fits = fill_lists(b_, view_, pairs, most, budget, progress_, built, report);
-    needed_ = std::max(needed_,
-                       double(grid_bytes(plan, built.n_bricks, built.n_cells, built.n_candidates)));
+    needed_ =
+        std::max(needed_, double(grid_bytes(plan, built.n_bricks, built.n_cells, built.n_entries)));
     if (!built.can_be_numbered()) needed_ = HUGE_VAL;
     if (!fits) return false;
     b_.wait();
     report.seconds = seconds_since(start);
     pairs = OctantPairs<B>();    // before the copies: here most memory is in use
     give_back_memory();
-    lists.brick_of = to_host(b_, built.brick_of, built.brick_of.size());
-    lists.bricks = to_host(b_, built.bricks, built.n_bricks);
-    lists.cells = to_host(b_, built.cells, built.n_cells);
+    lists.brick_of = to_cpu(b_, built.brick_of, built.brick_of.size());
+    lists.bricks = to_cpu(b_, built.bricks, built.n_bricks);
+    lists.cells = to_cpu(b_, built.cells, built.n_cells);
     if (settings.packs()) {
-      lists.packing =
-          CandidatePacking(n_of_a_kind_, plan.cutoff + plan.widened() + plan.half_diagonal);
+      lists.packing = EntryPacking(n_of_a_kind_, plan.cutoff + plan.widened() + plan.half_diagonal);
       lists.packed = packed(built, lists.packing, settings.has_full_lists());
     }
     if (!settings.has_full_lists()) return true;
-    if constexpr (B::kOnHost)
-      lists.candidates = drained(built.candidates.data(), built.n_candidates);
+    if constexpr (B::kOnCpu)
+      lists.entries = drained(built.entries.data(), built.n_entries);
     else
-      lists.candidates = to_host(b_, built.candidates, built.n_candidates);
+      lists.entries = to_cpu(b_, built.entries, built.n_entries);
     return true;
   }
 
@@ -100,27 +99,26 @@ class GridBuilder {
   }
 
  private:
-  // Returns the candidates, packed where they are, a part after the other. On a host they are lost unless they stay.
-  std::vector<PackedCandidate> packed(BuiltLists<B> &built, const CandidatePacking &packing,
-                                      bool they_stay)
+  // Returns the entries, packed where they are, a part after the other. On a CPU they are lost unless they stay.
+  std::vector<PackedEntry> packed(BuiltLists<B> &built, const EntryPacking &packing, bool they_stay)
   {
-    const std::size_t n = built.n_candidates;
-    std::vector<PackedCandidate> out(B::kOnHost ? 0 : n);
-    if constexpr (B::kOnHost) {
+    const std::size_t n = built.n_entries;
+    std::vector<PackedEntry> out(B::kOnCpu ? 0 : n);
+    if constexpr (B::kOnCpu) {
       out.reserve(n);
-      const auto pack = [&](const Candidate *begin, const Candidate *end) {
-        for (const Candidate *c = begin; c < end; c++) out.push_back(packing.pack(*c));
+      const auto pack = [&](const CellEntry *begin, const CellEntry *end) {
+        for (const CellEntry *c = begin; c < end; c++) out.push_back(packing.pack(*c));
       };
       if (they_stay)
-        pack(built.candidates.data(), built.candidates.data() + n);
+        pack(built.entries.data(), built.entries.data() + n);
       else
-        move_and_release(built.candidates.data(), n, pack);
+        move_and_release(built.entries.data(), n, pack);
     } else {
       constexpr std::size_t kPart = 1 << 22;
-      Scratch<PackedCandidate> part(std::min(n, kPart));
+      Scratch<PackedEntry> part(std::min(n, kPart));
       for (std::size_t from = 0; from < n; from += kPart) {
         const std::size_t n_part = std::min(n - from, kPart);
-        pack_part(b_, packing, built.candidates.data() + from, n_part, part.data());
+        pack_part(b_, packing, built.entries.data() + from, n_part, part.data());
         b_.copy_out(part.data(), out.data() + from, n_part);
         b_.wait();
       }
@@ -132,7 +130,7 @@ class GridBuilder {
   template <class T>
   const T *put(const std::vector<T> &from)
   {
-    if constexpr (B::kOnHost) return from.data();
+    if constexpr (B::kOnCpu) return from.data();
     Scratch<char> &copy = copies_.emplace_back(array_bytes(from));
     b_.copy_in(reinterpret_cast<const char *>(from.data()), copy.data(), copy.size());
     b_.wait();

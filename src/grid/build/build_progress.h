@@ -19,13 +19,13 @@ class BuildProgress {
   // Cells have this length from now on.
   void of(double length) { length_ = length; }
 
-  // Calls part(from, n) for [0, n): at once, or on the host with a listener in a hundred parts
+  // Calls part(from, n) for [0, n): at once, or on the CPU with a listener in a hundred parts
   // or more.
   template <class Part>
-  void in_parts(bool on_host, const char *what, std::size_t n, const Part &part) const
+  void in_parts(bool on_cpu, const char *what, std::size_t n, const Part &part) const
   {
     constexpr std::size_t kFewest = 1024;    // enough for all threads
-    const std::size_t each = tell_ && on_host ? std::max(n / 100, kFewest) : n;
+    const std::size_t each = tell_ && on_cpu ? std::max(n / 100, kFewest) : n;
     for (std::size_t from = 0; from < n; from += each) {
       tell(what, double(from) / double(n));
       part(from, std::min(each, n - from));

@@ -67,11 +67,11 @@ ListEstimate estimate_lists(const MeshFeatures &wall, const GridPlan &plan, bool
     const BrickBox box = brick_box(view, features[i]);
     const std::uint64_t end = first + box.count();
     for (; sample < n_samples && sample_at(sample) < end; sample++) {
-      const std::uint32_t slot = brick_slot(plan, box, sample_at(sample) - first);
-      const unsigned octants = octants_met(view, features[i], slot);
+      const std::uint32_t index = brick_index(plan, box, sample_at(sample) - first);
+      const unsigned octants = octants_met(view, features[i], index);
       int cells = 0;
       for (unsigned o = 0; o < 8; o++)
-        if (octants >> o & 1) cells += count_bits(cells_met(view, features[i], slot * 8 + o));
+        if (octants >> o & 1) cells += count_bits(cells_met(view, features[i], index * 8 + o));
       entries.add(cells);
       pairs.add(count_bits(octants));
     }
@@ -94,10 +94,10 @@ BuildEstimate estimate_build(const MeshFeatures &wall, const GridPlan &plan,
   const bool cut_short = settings.list_kind.has_primitives() && !settings.list_kind.is_every();
   if (!cut_short && lists.least_entries > kMaxNumbers)
     out.least_bytes = out.enough_bytes = HUGE_VAL;
-  // An entry is a candidate, or a cell that holds a single one.
-  static_assert(sizeof(Candidate) == sizeof(Cell), "counted as one");
-  if (!cut_short) out.least_bytes += lists.least_entries * sizeof(Candidate);
-  out.enough_bytes += 1.25 * lists.entries * sizeof(Candidate);
+  // A cell that holds a single entry has it inline, and is counted as one.
+  static_assert(sizeof(CellEntry) == sizeof(Cell), "counted as one");
+  if (!cut_short) out.least_bytes += lists.least_entries * sizeof(CellEntry);
+  out.enough_bytes += 1.25 * lists.entries * sizeof(CellEntry);
   return out;
 }
 

@@ -5,7 +5,7 @@
 #pragma once
 
 #include "base/give_back_memory.h"
-#include "grid/build/candidate_list.h"
+#include "grid/build/entry_list.h"
 #include "grid/build/octant_pairs.h"
 
 #include <cstdint>
@@ -18,15 +18,15 @@ struct BuiltLists {
   template <class T>
   using Scratch = typename B::template Scratch<T>;
 
-  std::size_t n_bricks = 0, n_cells = 0, n_candidates = 0;
+  std::size_t n_bricks = 0, n_cells = 0, n_entries = 0;
 
-  // Cells and candidates are numbered in 32 bits.
-  bool can_be_numbered() const { return n_cells <= 0xffffffffull && n_candidates < 0xffffffffull; }
+  // Cells and entries are numbered in 32 bits.
+  bool can_be_numbered() const { return n_cells <= 0xffffffffull && n_entries < 0xffffffffull; }
 
   Scratch<std::int32_t> brick_of;
   Scratch<Brick> bricks;
   Scratch<Cell> cells;
-  Scratch<Candidate> candidates;
+  Scratch<CellEntry> entries;
 };
 
 template <class B>
@@ -43,7 +43,7 @@ void find_cells_met(B &b, const BuildView &view, const OctantPairs<B> &pairs,
                     const BuildProgress &progress, std::uint64_t *met)
 {
   const std::uint32_t *octants = pairs.octant.data(), *features = pairs.feature.data();
-  progress.in_parts(B::kOnHost, "finding cells", pairs.n, [&](std::size_t from, std::size_t n) {
+  progress.in_parts(B::kOnCpu, "finding cells", pairs.n, [&](std::size_t from, std::size_t n) {
     find_cells_of(b, view, octants + from, features + from, n, met + from);
   });
 }
@@ -96,14 +96,14 @@ template <class B>
 void finish_bricks(B &b, const OctantPairs<B> &pairs, const std::uint64_t *cells,
                    std::size_t table_size, Brick *bricks, std::int32_t *brick_of)
 {
-  const std::uint32_t *slots = pairs.slot.data();
+  const std::uint32_t *indices = pairs.index.data();
   put_all(b, brick_of, table_size, -1);
   b.for_each(pairs.n_bricks, [=] LSDCD_LAMBDA(std::size_t i) {
     for (int k = 0; k < kLayers; k++) {
       bricks[i].layer[k].first_cell = static_cast<std::uint32_t>(cells[i * kLayers + k]);
       bricks[i].layer[k].pad = 0;
     }
-    brick_of[slots[i]] = static_cast<std::int32_t>(i);
+    brick_of[indices[i]] = static_cast<std::int32_t>(i);
   });
 }
 
@@ -112,10 +112,10 @@ template <class B>
 void write_lists(B &b, const BuildView &view, const OctantPairs<B> &pairs, const std::uint64_t *met,
                  const std::uint32_t *counts, const std::uint32_t *offsets,
                  const std::uint64_t *lists, const Brick *bricks, std::size_t from, std::size_t n,
-                 Cell *cells, Candidate *candidates)
+                 Cell *cells, CellEntry *entries)
 {
   const std::uint32_t *first = pairs.first.data(), *features = pairs.feature.data(),
-                      *slots = pairs.slot.data();
+                      *indices = pairs.index.data();
   b.for_each(n, [=] LSDCD_LAMBDA(std::size_t of_part) {
     const std::size_t i = from + of_part, octant = i / kOctantCells, brick = octant / 8;
     const int k = static_cast<int>(i % kOctantCells),
@@ -125,7 +125,7 @@ void write_lists(B &b, const BuildView &view, const OctantPairs<B> &pairs, const
     const std::uint32_t start = static_cast<std::uint32_t>(lists[brick * kLayers + (c >> 6)] +
                                                            offsets[brick * kBrickCells + c]);
     Cell out = {start, count};
-    const Vec3 centre = CellCentres(view.plan, slots[brick]).at(c);
+    const Vec3 centre = CellCentres(view.plan, indices[brick]).at(c);
     std::uint32_t at = 0;
     for (std::uint32_t p = first[octant]; p < first[octant + 1]; p++) {
       if (!(met[p] >> k & 1)) continue;
@@ -135,25 +135,25 @@ void write_lists(B &b, const BuildView &view, const OctantPairs<B> &pairs, const
       }
       Real distance = 0;
       meets(view, features[p], centre, view.plan.half_diagonal, distance);
-      const Candidate candidate = make_candidate(features[p], distance);
+      const CellEntry entry = make_entry(features[p], distance);
       if (count <= kLongList)
-        insert_nearest(candidates + start, at++, count, candidate);
+        insert_nearest(entries + start, at++, count, entry);
       else
-        candidates[start + at++] = candidate;
+        entries[start + at++] = entry;
     }
-    if (count > kLongList) heap_sort(candidates + start, count);
+    if (count > kLongList) heap_sort(entries + start, count);
     cells[cell_index(bricks[brick], c)] = out;
   });
 }
 
 template <class B>
-void pack_part(B &b, const CandidatePacking &packing, const Candidate *candidates, std::size_t n,
-               PackedCandidate *packed)
+void pack_part(B &b, const EntryPacking &packing, const CellEntry *entries, std::size_t n,
+               PackedEntry *packed)
 {
-  b.for_each(n, [=] LSDCD_LAMBDA(std::size_t i) { packed[i] = packing.pack(candidates[i]); });
+  b.for_each(n, [=] LSDCD_LAMBDA(std::size_t i) { packed[i] = packing.pack(entries[i]); });
 }
 
-// Makes lists of at most `most` candidates a cell. False if they would not fit `budget` bytes or
+// Makes lists of at most `most` entries a cell. False if they would not fit `budget` bytes or
 // cannot be numbered; `out` then has the counts only.
 template <class B>
 bool fill_lists(B &b, const BuildView &view, OctantPairs<B> &pairs, std::uint32_t most,
@@ -169,7 +169,7 @@ bool fill_lists(B &b, const BuildView &view, OctantPairs<B> &pairs, std::uint32_
   typename Built::template Scratch<Brick> brick(n_bricks);
   find_cells_met(b, view, pairs, progress, met.data());
   pairs.octant =
-      typename Built::template Scratch<std::uint32_t>();    // before candidates take the most
+      typename Built::template Scratch<std::uint32_t>();    // before entries take the most
   give_back_memory();
   count_cells(b, pairs, met.data(), most, count.data());
   sum_words(b, n_words, count.data(), brick.data(), offset.data(), list.data(), cell.data(),
@@ -178,14 +178,14 @@ bool fill_lists(B &b, const BuildView &view, OctantPairs<B> &pairs, std::uint32_
   const std::size_t n_occupied = b.exclusive_scan(cell.data(), n_words);
   out.n_bricks = n_bricks;
   out.n_cells = n_occupied;
-  out.n_candidates = n_list;
+  out.n_entries = n_list;
   if (!out.can_be_numbered() || grid_bytes(view.plan, n_bricks, n_occupied, n_list) > budget)
     return false;
   report = ListReport();
   report.bricks = n_bricks;
   report.cells = n_occupied;
-  report.candidates = n_list + b.exclusive_scan(single.data(), n_words);
-  report.mean = n_occupied ? Real(report.candidates) / n_occupied : 0;
+  report.entries = n_list + b.exclusive_scan(single.data(), n_words);
+  report.mean = n_occupied ? Real(report.entries) / n_occupied : 0;
   const std::uint32_t *longest_of_word = longest.data();
   report.longest = b.template largest<std::uint32_t>(
       n_words, [=] LSDCD_LAMBDA(std::size_t w) -> std::uint32_t { return longest_of_word[w]; });
@@ -193,11 +193,11 @@ bool fill_lists(B &b, const BuildView &view, OctantPairs<B> &pairs, std::uint32_
 
   out.brick_of = typename Built::template Scratch<std::int32_t>(view.plan.table_size());
   out.cells = typename Built::template Scratch<Cell>(n_occupied);
-  out.candidates = typename Built::template Scratch<Candidate>(n_list);
+  out.entries = typename Built::template Scratch<CellEntry>(n_list);
   finish_bricks(b, pairs, cell.data(), view.plan.table_size(), brick.data(), out.brick_of.data());
-  progress.in_parts(B::kOnHost, "writing lists", n_cells, [&](std::size_t from, std::size_t n) {
+  progress.in_parts(B::kOnCpu, "writing lists", n_cells, [&](std::size_t from, std::size_t n) {
     write_lists(b, view, pairs, met.data(), count.data(), offset.data(), list.data(), brick.data(),
-                from, n, out.cells.data(), out.candidates.data());
+                from, n, out.cells.data(), out.entries.data());
   });
   out.bricks = std::move(brick);
   return true;

@@ -13,7 +13,7 @@ namespace lsdcd {
 
 // Parts of a run, at most.
 template <class B>
-constexpr std::uint64_t kMaxParts = std::uint64_t(1) << (B::kOnHost ? 24 : 27);
+constexpr std::uint64_t kMaxParts = std::uint64_t(1) << (B::kOnCpu ? 24 : 27);
 
 // Finds the thing that part k of a run belongs to.
 template <class F>
@@ -43,7 +43,7 @@ struct PartOfThing {
 template <class B, class Run, class F>
 void for_each_part(B &b, const std::uint64_t *offset, const Run &run, const F &f)
 {
-  if constexpr (B::kOnHost)
+  if constexpr (B::kOnCpu)
     b.for_each(run.end - run.begin, [&](std::size_t thing) {
       const std::size_t i = run.begin + thing;
       for (std::uint64_t at = offset[i]; at < offset[i + 1]; at++)

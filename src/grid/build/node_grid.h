@@ -17,7 +17,7 @@
 #include "backend/atomic.h"
 #include "backend/backend.h"
 #include "base/input_error.h"
-#include "grid/build/candidate_list.h"
+#include "grid/build/entry_list.h"
 #include "grid/lookup/locate.h"
 #include "mesh/periodic_box.h"
 
@@ -90,22 +90,22 @@ struct NodeCells {
     }
     return cells;
   }
-  LSDCD_FN std::size_t slot(std::int32_t i, std::int32_t j, std::int32_t k) const
+  LSDCD_FN std::size_t index(std::int32_t i, std::int32_t j, std::int32_t k) const
   {
     return (static_cast<std::size_t>(k) * n_bricks[1] + j) * n_bricks[0] + i;
   }
-  std::size_t table_size() const { return slot(0, 0, n_bricks[2]); }
+  std::size_t table_size() const { return index(0, 0, n_bricks[2]); }
 
-  // Calls visit() with the slot of each brick that its bounds reach; some of them have no cell that lists it.
+  // Calls visit() with the index of each brick that its bounds reach; some of them have no cell that lists it.
   template <class Visit>
   LSDCD_FN void each_brick(const Box &box, const Visit &visit) const
   {
     const Range cells = range(box);
     for (std::int32_t k = cells.lo[2] >> 3; k << 3 < cells.hi[2]; k++)
       for (std::int32_t j = cells.lo[1] >> 3; j << 3 < cells.hi[1]; j++)
-        for (std::int32_t i = cells.lo[0] >> 3; i << 3 < cells.hi[0]; i++) visit(slot(i, j, k));
+        for (std::int32_t i = cells.lo[0] >> 3; i << 3 < cells.hi[0]; i++) visit(index(i, j, k));
   }
-  // Calls visit(slot of the brick, cell in the brick, off, past) for each cell that lists the primitive: how far the cell's
+  // Calls visit(index of the brick, cell in the brick, off, past) for each cell that lists the primitive: how far the cell's
   // centre is off the plane of a face, and past the bounds.
   template <class Visit>
   LSDCD_FN void each_cell(const NodePrimitives &of, FeatureCode code, const Visit &visit) const
@@ -126,11 +126,11 @@ struct NodeCells {
           Vec3 past;    // the bounds
           for (int d = 0; d < 3; d++)
             past[d] = fmax(fmax(box.lo[d] - centre[d], centre[d] - box.hi[d]), Real(0));
-          visit(slot(i >> 3, j >> 3, k >> 3), cell_in_brick(i, j, k), off, past);
+          visit(index(i >> 3, j >> 3, k >> 3), cell_in_brick(i, j, k), off, past);
         }
   }
   // Its bound is rounded down, and less by what the nodes may go.
-  LSDCD_FN Candidate candidate(FeatureCode code, Real off, const Vec3 &past) const
+  LSDCD_FN CellEntry entry(FeatureCode code, Real off, const Vec3 &past) const
   {
     const Real bound = fmax(off, norm(past));
     const Real least = bound - allowance - kCellRounding * (bound + length);
@@ -169,17 +169,17 @@ class NodeGrid {
     v.lists.brick_of = brick_of_.data();
     v.lists.bricks = bricks_.data();
     v.lists.cells = cell_.data();
-    v.lists.candidates = candidate_.data();
+    v.lists.entries = entry_.data();
     return v;
   }
-  // What says where cells are that have candidates.
+  // What says where cells are that have entries.
   const Array<std::int32_t> &brick_of() const { return brick_of_; }
   const Array<Brick> &bricks() const { return bricks_; }
 
   std::size_t bytes() const
   {
     return brick_of_.size() * sizeof(std::int32_t) + bricks_.size() * sizeof(Brick) +
-           cell_.size() * sizeof(Cell) + candidate_.size() * sizeof(Candidate);
+           cell_.size() * sizeof(Cell) + entry_.size() * sizeof(CellEntry);
   }
 
   // The steps of the above. Public because nvcc takes no device lambda from a private function.
@@ -190,18 +190,18 @@ class NodeGrid {
     number_bricks(b, of);
     Array<std::uint32_t> count(bricks_.size() * kBrickCells);
     Array<std::uint64_t> first_cell(bricks_.size() * kLayers), first(first_cell.size());
-    count_candidates(b, of, count.data());
+    count_entries(b, of, count.data());
     sum_layers(b, count.data(), first_cell.data(), first.data());
     const std::uint64_t n_cells = b.exclusive_scan(first_cell.data(), first_cell.size()),
-                        n_candidates = b.exclusive_scan(first.data(), first.size());
-    if (n_candidates > 0xfffffff0u)
+                        n_entries = b.exclusive_scan(first.data(), first.size());
+    if (n_entries > 0xfffffff0u)
       throw InputError("the nodes of '" + settings.source + "' lie so close that " +
-                       std::to_string(n_candidates) +
-                       " candidates of cells cannot be numbered: use a coarser mesh");
+                       std::to_string(n_entries) +
+                       " entries of cells cannot be numbered: use a coarser mesh");
     cell_ = Array<Cell>(n_cells);
-    candidate_ = Array<Candidate>(n_candidates);
+    entry_ = Array<CellEntry>(n_entries);
     put_cells(b, count.data(), first_cell.data(), first.data());
-    put_candidates(b, of, count.data());
+    put_entries(b, of, count.data());
     sort_lists(b);
     b.wait();    // before what it reads is freed
   }
@@ -252,7 +252,7 @@ class NodeGrid {
     return b.exclusive_scan(to, of.n);
   }
 
-  // In the order of their slots.
+  // In the order of their indices.
   void number_bricks(B &b, const NodePrimitives &of)
   {
     const NodeCells cells = cells_;
@@ -263,32 +263,34 @@ class NodeGrid {
     std::uint32_t *number = numbers.data();
     put_all(b, brick_of, n, 0);
     b.for_each(of.n, [=] LSDCD_LAMBDA(std::size_t p) {
-      cells.each_brick(of.bounds(of.code[p]), [&](std::size_t slot) { set_flag(brick_of + slot); });
+      cells.each_brick(of.bounds(of.code[p]),
+                       [&](std::size_t index) { set_flag(brick_of + index); });
     });
     copy_all(b, brick_of, number, n);
     bricks_ = Array<Brick>(b.exclusive_scan(number, n));
-    b.for_each(n, [=] LSDCD_LAMBDA(std::size_t slot) {
-      brick_of[slot] = brick_of[slot] ? static_cast<std::int32_t>(number[slot]) : -1;
+    b.for_each(n, [=] LSDCD_LAMBDA(std::size_t index) {
+      brick_of[index] = brick_of[index] ? static_cast<std::int32_t>(number[index]) : -1;
     });
     b.wait();    // before the numbers are freed
   }
 
   // Of each cell of each brick.
-  void count_candidates(B &b, const NodePrimitives &of, std::uint32_t *count)
+  void count_entries(B &b, const NodePrimitives &of, std::uint32_t *count)
   {
     const NodeCells cells = cells_;
     const std::int32_t *brick_of = brick_of_.data();
     put_all(b, count, bricks_.size() * kBrickCells, 0);
     b.for_each(of.n, [=] LSDCD_LAMBDA(std::size_t p) {
-      cells.each_cell(of, of.code[p], [&](std::size_t slot, std::int32_t cell, Real, const Vec3 &) {
-        fetch_add(count + (std::size_t(brick_of[slot]) * kBrickCells + cell), 1u);
-      });
+      cells.each_cell(of, of.code[p],
+                      [&](std::size_t index, std::int32_t cell, Real, const Vec3 &) {
+                        fetch_add(count + (std::size_t(brick_of[index]) * kBrickCells + cell), 1u);
+                      });
     });
   }
 
-  // The cells of each layer that have candidates, and the candidates that are not inline: a cell with one has it so.
+  // The cells of each layer that have entries, and the entries that are not inline: a cell with one has it so.
   void sum_layers(B &b, const std::uint32_t *count, std::uint64_t *n_cells,
-                  std::uint64_t *n_candidates)
+                  std::uint64_t *n_entries)
   {
     Brick *bricks = bricks_.data();
     b.for_each(bricks_.size() * kLayers, [=] LSDCD_LAMBDA(std::size_t layer) {
@@ -301,18 +303,18 @@ class NodeGrid {
       }
       bricks[layer / kLayers].layer[layer % kLayers] = of;
       n_cells[layer] = static_cast<std::uint64_t>(count_bits(of.mask));
-      n_candidates[layer] = n;
+      n_entries[layer] = n;
     });
   }
 
-  // From here on a cell's count is that of its candidates that are there.
+  // From here on a cell's count is that of its entries that are there.
   void put_cells(B &b, std::uint32_t *count, const std::uint64_t *first_cell,
-                 const std::uint64_t *first_candidate)
+                 const std::uint64_t *first_entry)
   {
     Brick *bricks = bricks_.data();
     Cell *cells = cell_.data();
     b.for_each(bricks_.size() * kLayers, [=] LSDCD_LAMBDA(std::size_t layer) {
-      std::uint64_t at = first_cell[layer], first = first_candidate[layer];
+      std::uint64_t at = first_cell[layer], first = first_entry[layer];
       bricks[layer / kLayers].layer[layer % kLayers].first_cell = static_cast<std::uint32_t>(at);
       for (int bit = 0; bit < 64; bit++) {
         const std::uint32_t n = count[64 * layer + bit];
@@ -324,23 +326,23 @@ class NodeGrid {
     });
   }
 
-  void put_candidates(B &b, const NodePrimitives &of, std::uint32_t *count)
+  void put_entries(B &b, const NodePrimitives &of, std::uint32_t *count)
   {
     const NodeCells cells = cells_;
     const std::int32_t *brick_of = brick_of_.data();
     const Brick *bricks = bricks_.data();
     Cell *cell = cell_.data();
-    Candidate *candidates = candidate_.data();
+    CellEntry *entries = entry_.data();
     b.for_each(of.n, [=] LSDCD_LAMBDA(std::size_t p) {
       const FeatureCode code = of.code[p];
-      cells.each_cell(of, code, [&](std::size_t slot, std::int32_t c, Real off, const Vec3 &past) {
-        const std::int32_t brick = brick_of[slot];
+      cells.each_cell(of, code, [&](std::size_t index, std::int32_t c, Real off, const Vec3 &past) {
+        const std::int32_t brick = brick_of[index];
         Cell &to = cell[cell_index(bricks[brick], c)];
         if (to.count == 1)
           to.first = code;
         else
-          candidates[to.first + fetch_add(count + (std::size_t(brick) * kBrickCells + c), 1u)] =
-              cells.candidate(code, off, past);
+          entries[to.first + fetch_add(count + (std::size_t(brick) * kBrickCells + c), 1u)] =
+              cells.entry(code, off, past);
       });
     });
   }
@@ -348,14 +350,14 @@ class NodeGrid {
   void sort_lists(B &b)
   {
     const Cell *cells = cell_.data();
-    Candidate *candidates = candidate_.data();
+    CellEntry *entries = entry_.data();
     b.for_each(cell_.size(), [=] LSDCD_LAMBDA(std::size_t c) {
       const std::uint32_t n = cells[c].count;
       if (n == 1) return;
-      Candidate *list = candidates + cells[c].first;
+      CellEntry *list = entries + cells[c].first;
       if (n > kLongList) return heap_sort(list, n);
       for (std::uint32_t k = 1; k < n; k++) {
-        const Candidate next = list[k];
+        const CellEntry next = list[k];
         insert_sorted(list, k, next);
       }
     });
@@ -367,7 +369,7 @@ class NodeGrid {
   Array<std::int32_t> brick_of_;
   Array<Brick> bricks_;
   Array<Cell> cell_;
-  Array<Candidate> candidate_;
+  Array<CellEntry> entry_;
 };
 
 }    // namespace lsdcd

@@ -24,7 +24,7 @@ struct OctantPairs {
 
   std::size_t n = 0, n_bricks = 0;
   Scratch<std::uint32_t> octant, feature;    // of each pair
-  Scratch<std::uint32_t> slot;               // of each brick, in the table
+  Scratch<std::uint32_t> index;              // of each brick, in the table
   Scratch<std::uint32_t> first;              // pair of each octant of each brick, and n
 };
 
@@ -39,7 +39,7 @@ template <class B, class Offsets>
 std::vector<PartRun> part_runs(B &b, const Offsets &offset, std::size_t n, std::uint64_t n_parts)
 {
   if (n_parts <= kMaxParts<B>) return {{0, n, 0, n_parts}};
-  const std::vector<std::uint64_t> at = to_host(b, offset, n + 1);
+  const std::vector<std::uint64_t> at = to_cpu(b, offset, n + 1);
   std::vector<PartRun> runs;
   for (std::size_t i = 0; i < n;) {
     std::size_t end = i + 1;
@@ -54,14 +54,14 @@ template <class B>
 void count_octants(B &b, const BuildView &view, const std::uint64_t *offsets, const PartRun &run,
                    std::uint8_t *met, std::uint32_t *counts)
 {
-  for_each_part(b, offsets, run,
-                [=] LSDCD_LAMBDA(std::size_t i, std::uint64_t part, std::uint64_t k) {
-                  const FeatureCode feature = view.features[i];
-                  const std::uint32_t slot = brick_slot(view.plan, brick_box(view, feature), part);
-                  const unsigned octants = octants_met(view, feature, slot);
-                  met[k] = static_cast<std::uint8_t>(octants);
-                  counts[k] = static_cast<std::uint32_t>(count_bits(octants));
-                });
+  for_each_part(
+      b, offsets, run, [=] LSDCD_LAMBDA(std::size_t i, std::uint64_t part, std::uint64_t k) {
+        const FeatureCode feature = view.features[i];
+        const std::uint32_t index = brick_index(view.plan, brick_box(view, feature), part);
+        const unsigned octants = octants_met(view, feature, index);
+        met[k] = static_cast<std::uint8_t>(octants);
+        counts[k] = static_cast<std::uint32_t>(count_bits(octants));
+      });
 }
 
 template <class B>
@@ -69,20 +69,20 @@ void write_octants(B &b, const BuildView &view, const std::uint64_t *offsets, co
                    const std::uint8_t *met, const std::uint32_t *counts, std::size_t base,
                    std::uint32_t *octants, std::uint32_t *features)
 {
-  for_each_part(b, offsets, run,
-                [=] LSDCD_LAMBDA(std::size_t i, std::uint64_t part, std::uint64_t k) {
-                  const FeatureCode feature = view.features[i];
-                  const std::uint32_t slot = brick_slot(view.plan, brick_box(view, feature), part);
-                  std::size_t at = base + counts[k];
-                  for (unsigned o = 0; o < 8; o++) {
-                    if (!(met[k] >> o & 1)) continue;
-                    octants[at] = slot * 8 + o;
-                    features[at++] = feature;
-                  }
-                });
+  for_each_part(
+      b, offsets, run, [=] LSDCD_LAMBDA(std::size_t i, std::uint64_t part, std::uint64_t k) {
+        const FeatureCode feature = view.features[i];
+        const std::uint32_t index = brick_index(view.plan, brick_box(view, feature), part);
+        std::size_t at = base + counts[k];
+        for (unsigned o = 0; o < 8; o++) {
+          if (!(met[k] >> o & 1)) continue;
+          octants[at] = index * 8 + o;
+          features[at++] = feature;
+        }
+      });
 }
 
-// Numbers the bricks in order of their slots and finds where each octant begins.
+// Numbers the bricks in order of their indices and finds where each octant begins.
 template <class B>
 void number_bricks(B &b, OctantPairs<B> &out)
 {
@@ -96,15 +96,15 @@ void number_bricks(B &b, OctantPairs<B> &out)
     runs[i] = i == 0 || sorted[i] >> 3 != sorted[i - 1] >> 3;
   });
   out.n_bricks = b.exclusive_scan(runs, n);
-  out.slot = typename Pairs::template Scratch<std::uint32_t>(out.n_bricks);
+  out.index = typename Pairs::template Scratch<std::uint32_t>(out.n_bricks);
   out.first = typename Pairs::template Scratch<std::uint32_t>(out.n_bricks * 8 + 1);
-  std::uint32_t *slots = out.slot.data(), *first = out.first.data();
+  std::uint32_t *indices = out.index.data(), *first = out.first.data();
   const std::size_t n_octants = out.n_bricks * 8;
   // Each pair writes the beginning of the octants after that of the pair before, up to its own.
   b.for_each(n, [=] LSDCD_LAMBDA(std::size_t i) {
     const bool new_brick = i == 0 || sorted[i] >> 3 != sorted[i - 1] >> 3;
     const std::size_t brick = new_brick ? runs[i] : runs[i] - 1;
-    if (new_brick) slots[brick] = sorted[i] >> 3;
+    if (new_brick) indices[brick] = sorted[i] >> 3;
     const std::size_t own = brick * 8 + (sorted[i] & 7);
     std::size_t from = 0;
     if (i > 0) {

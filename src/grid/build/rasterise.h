@@ -101,8 +101,8 @@ LSDCD_FN BrickBox brick_box(const BuildView &b, FeatureCode feature)
   return box;
 }
 
-// Returns the slot in the table of the i-th brick of a box.
-LSDCD_FN std::uint32_t brick_slot(const GridPlan &plan, const BrickBox &box, std::uint64_t i)
+// Returns the index in the table of the i-th brick of a box.
+LSDCD_FN std::uint32_t brick_index(const GridPlan &plan, const BrickBox &box, std::uint64_t i)
 {
   const std::uint64_t x = box.first[0] + i % box.n[0], y = box.first[1] + i / box.n[0] % box.n[1],
                       z = box.first[2] + i / box.n[0] / box.n[1];
@@ -110,13 +110,13 @@ LSDCD_FN std::uint32_t brick_slot(const GridPlan &plan, const BrickBox &box, std
 }
 
 // Returns the octants of a brick that the feature meets, a bit each.
-LSDCD_FN unsigned octants_met(const BuildView &b, FeatureCode feature, std::uint32_t slot)
+LSDCD_FN unsigned octants_met(const BuildView &b, FeatureCode feature, std::uint32_t index)
 {
   const GridPlan &plan = b.plan;
   const std::uint32_t nx = plan.n_bricks[0], ny = plan.n_bricks[1];
-  const Vec3 centre = plan.brick_centre(static_cast<std::int32_t>(slot % nx),
-                                        static_cast<std::int32_t>(slot / nx % ny),
-                                        static_cast<std::int32_t>(slot / nx / ny));
+  const Vec3 centre = plan.brick_centre(static_cast<std::int32_t>(index % nx),
+                                        static_cast<std::int32_t>(index / nx % ny),
+                                        static_cast<std::int32_t>(index / nx / ny));
   Real distance;
   if (!meets(b, feature, centre, kBrickSide * plan.half_diagonal, distance)) return 0;
   const Real quarter = Real(0.5) * kOctantSide * plan.length;

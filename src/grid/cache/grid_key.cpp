@@ -59,7 +59,7 @@ Hash version_hash()
   const std::uint64_t byte_order = 0x0102030405060708;
   return Hasher().of(byte_order, kGridSources, sizeof(Real), sizeof(std::size_t),
                      sizeof(FaceRecord), sizeof(EdgeRecord), sizeof(VertexRecord), sizeof(Brick),
-                     sizeof(Cell), sizeof(Candidate));
+                     sizeof(Cell), sizeof(CellEntry));
 }
 
 // The bindings name every member: one that is added does not compile until it is

@@ -79,7 +79,7 @@ struct FixedPoint<double> {
 //   |x| |scale - exact|, as `scale` is the nearest T, with |x| up to the grid's far side;
 //   the rounding of `from`, which is below |first| + 2 B;
 //   the rounding of y, which is below 4 B;
-//   the roundings of cell_slot_of() in double, three of numbers up to n and one of `first`.
+//   the roundings of cell_index_of() in double, three of numbers up to n and one of `first`.
 // y grows with x: for a point outside it is past the grid's side, or as near to it.
 template <class T>
 struct BrickFilter {
@@ -152,17 +152,17 @@ struct BrickFilter {
            (at.k & mask) - margin <= room;
   }
 
-  // The slot in the table of a brick that is inside.
-  LSDCD_FN std::uint32_t slot(const GridView &grid, const BrickGuess &at) const
+  // The index in the table of a brick that is inside.
+  LSDCD_FN std::uint32_t index(const GridView &grid, const BrickGuess &at) const
   {
     const std::uint32_t nx = grid.n_bricks[0], ny = grid.n_bricks[1];
     return ((at.k >> shift) * ny + (at.j >> shift)) * nx + (at.i >> shift);
   }
-  // The slot in a coarse table of a brick that is inside.
-  LSDCD_FN std::uint32_t slot(const CoarseTable &table, const BrickGuess &at) const
+  // The index in a coarse table of a brick that is inside.
+  LSDCD_FN std::uint32_t index(const CoarseTable &table, const BrickGuess &at) const
   {
     const std::uint32_t down = shift + table.shift;
-    return table.slot(at.k >> down, at.j >> down, at.i >> down);
+    return table.index(at.k >> down, at.j >> down, at.i >> down);
   }
 };
 

@@ -12,20 +12,20 @@
 
 namespace lsdcd {
 
-// For 32 slots of the table: a bit for each that has a brick, and how many bricks come before them.
-// Bricks are numbered in the order of their slots, so that these two give its number.
+// For 32 indices of the table: a bit for each that has a brick, and how many bricks come before them.
+// Bricks are numbered in the order of their indices, so that these two give its number.
 struct alignas(8) BrickWord {
   std::uint32_t bits, below;
 };
 
-// Has this slot of the table a brick? `word` is the slot's word.
-LSDCD_FN bool has_brick(const BrickWord &word, std::size_t slot)
+// Has this index of the table a brick? `word` is the index's word.
+LSDCD_FN bool has_brick(const BrickWord &word, std::size_t index)
 {
-  return word.bits >> (slot % 32) & 1u;
+  return word.bits >> (index % 32) & 1u;
 }
-LSDCD_FN std::uint32_t brick_number(const BrickWord &word, std::size_t slot)
+LSDCD_FN std::uint32_t brick_number(const BrickWord &word, std::size_t index)
 {
-  const std::uint32_t before = word.bits & ((1u << (slot % 32)) - 1);
+  const std::uint32_t before = word.bits & ((1u << (index % 32)) - 1);
   return word.below + static_cast<std::uint32_t>(count_bits(before));
 }
 
@@ -51,7 +51,7 @@ struct BrickTable {
   std::uint32_t n_words = 0, n_bricks = 0;
 
   BrickTable() = default;
-  // `words`: a copy of those of the host, where they are asked for.
+  // `words`: a copy of those of the CPU, where they are asked for.
   BrickTable(const std::vector<BrickWord> &host, const BrickWord *words) :
       words(words), n_words(static_cast<std::uint32_t>(host.size()))
   {
@@ -59,21 +59,21 @@ struct BrickTable {
       n_bricks = host.back().below + static_cast<std::uint32_t>(count_bits(host.back().bits));
   }
 
-  LSDCD_FN bool at(std::uint32_t slot) const { return has_brick(words[slot / 32], slot); }
-  LSDCD_FN BrickWord word(std::uint32_t slot) const { return words[slot / 32]; }
+  LSDCD_FN bool at(std::uint32_t index) const { return has_brick(words[index / 32], index); }
+  LSDCD_FN BrickWord word(std::uint32_t index) const { return words[index / 32]; }
 };
 
 constexpr std::uint32_t kNoBrick = 0xffffffffu;
 
-// A point's brick by its slot in the table, and the number of its cell in the brick.
-struct BrickSlot {
-  std::uint32_t slot;    // kNoBrick: outside of the grid, or not a number
+// A point's brick by its index in the table, and the number of its cell in the brick.
+struct BrickIndex {
+  std::uint32_t index;    // kNoBrick: outside of the grid, or not a number
   std::int32_t cell;
 };
 
-// Returns what cell_slot_of() finds, to the bit, without a branch: a thread has several points at once, and would wait
-// for the words of one after the other. Tables have less than 2^32 slots.
-LSDCD_FN BrickSlot brick_slot_of(const GridView &grid, const Vec3 &q)
+// Returns what cell_index_of() finds, to the bit, without a branch: a thread has several points at once, and would wait
+// for the words of one after the other. Tables have less than 2^32 indices.
+LSDCD_FN BrickIndex brick_index_of(const GridView &grid, const Vec3 &q)
 {
   const WholeNumber i = whole_below((q.x - grid.origin.x) * grid.inv_length),
                     j = whole_below((q.y - grid.origin.y) * grid.inv_length),
@@ -81,8 +81,8 @@ LSDCD_FN BrickSlot brick_slot_of(const GridView &grid, const Vec3 &q)
   const std::uint32_t nx = grid.n_bricks[0], ny = grid.n_bricks[1], nz = grid.n_bricks[2];
   const bool inside = i.fits & j.fits & k.fits & ((i.value >> 3) < nx) & ((j.value >> 3) < ny) &
                       ((k.value >> 3) < nz);
-  const std::uint32_t slot = ((k.value >> 3) * ny + (j.value >> 3)) * nx + (i.value >> 3);
-  return {inside ? slot : kNoBrick, cell_in_brick(i.value, j.value, k.value)};
+  const std::uint32_t index = ((k.value >> 3) * ny + (j.value >> 3)) * nx + (i.value >> 3);
+  return {inside ? index : kNoBrick, cell_in_brick(i.value, j.value, k.value)};
 }
 
 // The address that locate() gives, to the bit, without its brick, which nothing needs once the
@@ -99,17 +99,17 @@ LSDCD_FN CellAddress address_inside(const GridView &grid, const Vec3 &q)
 
 constexpr std::uint32_t kNoCell = 0xffffffffu;
 
-// Index in lists.cells of the cell that holds q; kNoCell where it has no candidates, as find_cell()
+// Index in lists.cells of the cell that holds q; kNoCell where it has no entries, as find_cell()
 // says. `table`: as BrickTable.
 template <class Table>
 LSDCD_FN std::uint32_t occupied_cell(const GridView &grid, const Table &table, const Vec3 &q)
 {
-  const BrickSlot at = brick_slot_of(grid, q);
-  const BrickWord word = at.slot != kNoBrick ? table.word(at.slot) : BrickWord{0, 0};
+  const BrickIndex at = brick_index_of(grid, q);
+  const BrickWord word = at.index != kNoBrick ? table.word(at.index) : BrickWord{0, 0};
   BrickLayer layer = {0, 0, 0};
-  if (has_brick(word, at.slot))
-    layer = grid.lists.bricks[brick_number(word, at.slot)].layer[at.cell >> 6];
-  return has_candidates(layer, at.cell) ? cell_index(layer, at.cell) : kNoCell;
+  if (has_brick(word, at.index))
+    layer = grid.lists.bricks[brick_number(word, at.index)].layer[at.cell >> 6];
+  return has_entries(layer, at.cell) ? cell_index(layer, at.cell) : kNoCell;
 }
 
 }    // namespace lsdcd

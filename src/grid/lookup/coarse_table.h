@@ -35,14 +35,14 @@ struct CoarseTable {
     while (count() > std::size_t(kWords) * 32) shift++;
   }
 
-  // Returns the slot of the cube with these numbers, z first.
-  LSDCD_FN std::uint32_t slot(std::uint32_t k, std::uint32_t j, std::uint32_t i) const
+  // Returns the index of the cube with these numbers, z first.
+  LSDCD_FN std::uint32_t index(std::uint32_t k, std::uint32_t j, std::uint32_t i) const
   {
     return (k * n[1] + j) * n[0] + i;
   }
-  LSDCD_FN static bool at(const std::uint32_t *words, std::uint32_t slot)
+  LSDCD_FN static bool at(const std::uint32_t *words, std::uint32_t index)
   {
-    return words[slot / 32] >> slot % 32 & 1u;
+    return words[index / 32] >> index % 32 & 1u;
   }
 };
 
@@ -55,8 +55,9 @@ inline std::vector<std::uint32_t> coarse_words(const GridView &grid, const Coars
     for (std::int32_t j = 0; j < grid.n_bricks[1]; j++)
       for (std::int32_t i = 0; i < grid.n_bricks[0]; i++, at++) {
         if (grid.lists.brick_of[at] < 0) continue;
-        const std::uint32_t slot = table.slot(k >> table.shift, j >> table.shift, i >> table.shift);
-        words[slot / 32] |= 1u << slot % 32;
+        const std::uint32_t index =
+            table.index(k >> table.shift, j >> table.shift, i >> table.shift);
+        words[index / 32] |= 1u << index % 32;
       }
   return words;
 }

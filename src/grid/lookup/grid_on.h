@@ -26,25 +26,25 @@ class GridOn {
 
   GridOn() = default;
   // Borrows a block that lies where B computes, and copies it elsewhere.
-  GridOn(B &b, const GridView &on_host, bool with_coarse = false) : view(on_host)
+  GridOn(B &b, const GridView &on_cpu, bool with_coarse = false) : view(on_cpu)
   {
-    if constexpr (!B::kOnHost) {
-      if (!on_host.block) throw std::logic_error("a device needs the view of a flat grid block");
-      block_ = Array<char>(on_host.block_bytes);
-      b.copy_in(on_host.block, block_.data(), block_.size());
+    if constexpr (!B::kOnCpu) {
+      if (!on_cpu.block) throw std::logic_error("a device needs the view of a flat grid block");
+      block_ = Array<char>(on_cpu.block_bytes);
+      b.copy_in(on_cpu.block, block_.data(), block_.size());
       b.wait();
-      view = moved_view(on_host, block_.data());
+      view = moved_view(on_cpu, block_.data());
     }
-    put_table(b, on_host);
+    put_table(b, on_cpu);
     if (!with_coarse) return;
-    coarse = CoarseTable(on_host);
-    coarse_words_ = from_host(b, coarse_words(on_host, coarse));
+    coarse = CoarseTable(on_cpu);
+    coarse_words_ = from_cpu(b, coarse_words(on_cpu, coarse));
     coarse.words = coarse_words_.data();
   }
   // Makes what the constructor above makes, but owns the flat grid, which that one borrows.
   GridOn(B &b, FlatGrid &&flat, bool with_coarse = false) : GridOn(b, flat.view(), with_coarse)
   {
-    if constexpr (B::kOnHost) flat_ = std::move(flat);
+    if constexpr (B::kOnCpu) flat_ = std::move(flat);
   }
 
   // Other lists for the wall that is there: `with` lies where B computes, in memory of the caller's.
@@ -55,18 +55,18 @@ class GridOn {
                                        with.n_bricks[2]);
     b.copy_out(with.lists.brick_of, brick_of.data(), brick_of.size());
     b.wait();
-    GridView on_host = with;
-    on_host.lists.brick_of = brick_of.data();
-    put_table(b, on_host);
+    GridView on_cpu = with;
+    on_cpu.lists.brick_of = brick_of.data();
+    put_table(b, on_cpu);
   }
 
   std::size_t bytes() const { return block_.size() + words_.size() * sizeof(BrickWord); }
 
  private:
-  void put_table(B &b, const GridView &on_host)
+  void put_table(B &b, const GridView &on_cpu)
   {
-    const std::vector<BrickWord> words = brick_words(on_host);
-    words_ = from_host(b, words);
+    const std::vector<BrickWord> words = brick_words(on_cpu);
+    words_ = from_cpu(b, words);
     table = BrickTable(words, words_.data());
   }
 

@@ -17,13 +17,13 @@ struct CellAddress {
 };
 
 // `cell`: its number in the brick that has the layer.
-LSDCD_FN bool has_candidates(const BrickLayer &layer, int cell)
+LSDCD_FN bool has_entries(const BrickLayer &layer, int cell)
 {
   return (layer.mask >> (cell & 63)) & 1u;
 }
-LSDCD_FN bool has_candidates(const Brick &brick, int cell)
+LSDCD_FN bool has_entries(const Brick &brick, int cell)
 {
-  return has_candidates(brick.layer[cell >> 6], cell);
+  return has_entries(brick.layer[cell >> 6], cell);
 }
 
 // Index of an occupied cell in CellListsView::cells.
@@ -39,15 +39,15 @@ LSDCD_FN std::uint32_t cell_index(const Brick &brick, int cell)
 
 // The location of a point before any table is read: its cell of the whole grid, and its
 // coordinates in cells.
-struct CellSlot {
+struct CellIndex {
   bool inside;    // false: outside the grid, or not a number; the rest is not set
   std::int32_t i, j, k;
   Vec3 at;
 };
 
-LSDCD_FN CellSlot cell_slot_of(const GridView &grid, const Vec3 &q)
+LSDCD_FN CellIndex cell_index_of(const GridView &grid, const Vec3 &q)
 {
-  CellSlot p;
+  CellIndex p;
   p.at.x = (q.x - grid.origin.x) * grid.inv_length;
   p.at.y = (q.y - grid.origin.y) * grid.inv_length;
   p.at.z = (q.z - grid.origin.z) * grid.inv_length;
@@ -61,22 +61,22 @@ LSDCD_FN CellSlot cell_slot_of(const GridView &grid, const Vec3 &q)
   return p;
 }
 
-// Returns the slot of the cell's brick in the table.
-LSDCD_FN std::size_t brick_slot(const GridView &grid, int i, int j, int k)
+// Returns the index of the cell's brick in the table.
+LSDCD_FN std::size_t brick_index(const GridView &grid, int i, int j, int k)
 {
   return (static_cast<std::size_t>(k >> 3) * grid.n_bricks[1] + (j >> 3)) * grid.n_bricks[0] +
          (i >> 3);
 }
-LSDCD_FN std::size_t brick_slot(const GridView &grid, const CellSlot &p)
+LSDCD_FN std::size_t brick_index(const GridView &grid, const CellIndex &p)
 {
-  return brick_slot(grid, p.i, p.j, p.k);
+  return brick_index(grid, p.i, p.j, p.k);
 }
 
 LSDCD_FN std::int32_t cell_in_brick(int i, int j, int k)
 {
   return ((k & 7) << 6) | ((j & 7) << 3) | (i & 7);
 }
-LSDCD_FN std::int32_t cell_in_brick(const CellSlot &p)
+LSDCD_FN std::int32_t cell_in_brick(const CellIndex &p)
 {
   return cell_in_brick(p.i, p.j, p.k);
 }
@@ -84,12 +84,12 @@ LSDCD_FN std::int32_t cell_in_brick(const CellSlot &p)
 // Returns the brick of a cell of the grid; null where no wall is near.
 LSDCD_FN const Brick *brick_at(const GridView &grid, int i, int j, int k)
 {
-  const std::int32_t b = grid.lists.brick_of[brick_slot(grid, i, j, k)];
+  const std::int32_t b = grid.lists.brick_of[brick_index(grid, i, j, k)];
   return b < 0 ? nullptr : grid.lists.bricks + b;
 }
 
 // Length.
-LSDCD_FN Vec3 from_cell_centre(const GridView &grid, const CellSlot &p)
+LSDCD_FN Vec3 from_cell_centre(const GridView &grid, const CellIndex &p)
 {
   const Real half = Real(0.5);
   return grid.length * Vec3{p.at.x - p.i - half, p.at.y - p.j - half, p.at.z - p.k - half};
@@ -97,18 +97,18 @@ LSDCD_FN Vec3 from_cell_centre(const GridView &grid, const CellSlot &p)
 
 LSDCD_FN CellAddress locate(const GridView &grid, const Vec3 &q)
 {
-  const CellSlot p = cell_slot_of(grid, q);
+  const CellIndex p = cell_index_of(grid, q);
   if (!p.inside) return {nullptr, 0, {0, 0, 0}};
   const Brick *brick = brick_at(grid, p.i, p.j, p.k);
   if (!brick) return {nullptr, 0, {0, 0, 0}};
   return {brick, cell_in_brick(p), from_cell_centre(grid, p)};
 }
 
-// The cell that holds q, and where q is in it. False: it has no candidates; `cell` is not set then.
+// The cell that holds q, and where q is in it. False: it has no entries; `cell` is not set then.
 LSDCD_FN bool find_cell(const GridView &grid, const Vec3 &q, CellAddress &at, Cell &cell)
 {
   at = locate(grid, q);
-  if (!at.brick || !has_candidates(*at.brick, at.cell)) return false;
+  if (!at.brick || !has_entries(*at.brick, at.cell)) return false;
   cell = grid.lists.cells[cell_index(*at.brick, at.cell)];
   return true;
 }

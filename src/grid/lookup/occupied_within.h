@@ -38,7 +38,7 @@ LSDCD_FN Real excess_margin(const GridView &grid, Real margin)
   return margin > grid.margin ? margin - grid.margin : Real(0);
 }
 
-// Has any cell that a point at q may be in after moving at most `margin` (length) a candidate?
+// Has any cell that a point at q may be in after moving at most `margin` (length) an entry?
 // With margin 0 that is the cell of q. False if q is not finite. `table`: with the functions
 // of BrickTable.
 template <class Table>

@@ -110,10 +110,10 @@ double GridPlan::least_bytes() const
 }
 
 std::size_t grid_bytes(const GridPlan &plan, std::size_t bricks, std::size_t cells,
-                       std::size_t candidates)
+                       std::size_t entries)
 {
   return plan.table_size() * sizeof(std::int32_t) + bricks * sizeof(Brick) + cells * sizeof(Cell) +
-         candidates * sizeof(Candidate);
+         entries * sizeof(CellEntry);
 }
 
 std::size_t brick_bytes(const GridPlan &plan, std::size_t bricks)
@@ -132,7 +132,7 @@ Real default_length(const WeldedMesh &mesh, Real cutoff, ListKind list_kind, boo
   // cells of the radius that takes no longer than with smaller ones, and the lists take less
   // memory than the mesh's records. Larger cells name too many spheres that touch nothing.
   if (list_kind.is_complete() && !for_gpu) return cutoff;
-  // On a GPU a sphere waits for each candidate of its cell in turn. Half of that length, and less where
+  // On a GPU a sphere waits for each entry of its cell in turn. Half of that length, and less where
   // triangles are small, makes choices 1.4 to 3 times as fast; below that memory grows and little is gained.
   if (list_kind.is_complete())
     return std::clamp(2 * mesh.report.median_edge, Real(0.25) * cutoff, Real(0.5) * cutoff);

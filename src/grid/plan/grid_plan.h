@@ -42,19 +42,19 @@ struct GridPlan {
   }
 };
 
-// The centres of a brick's cells, by the brick's slot in the table.
+// The centres of a brick's cells, by the brick's index in the table.
 struct CellCentres {
   Vec3 origin;
   Real length;
   std::uint32_t x, y, z;    // of the brick's first cell
 
-  LSDCD_FN CellCentres(const GridPlan &plan, std::uint32_t slot) :
+  LSDCD_FN CellCentres(const GridPlan &plan, std::uint32_t index) :
       origin(plan.origin), length(plan.length)
   {
     const std::uint32_t nx = plan.n_bricks[0], ny = plan.n_bricks[1];
-    x = slot % nx * kBrickSide;
-    y = slot / nx % ny * kBrickSide;
-    z = slot / nx / ny * kBrickSide;
+    x = index % nx * kBrickSide;
+    y = index / nx % ny * kBrickSide;
+    z = index / nx / ny * kBrickSide;
   }
   LSDCD_FN Vec3 at(int cell) const
   {
@@ -80,7 +80,7 @@ GridPlan coarser(const GridPlan &plan, const WeldedMesh &mesh, const GridSetting
 
 // Bytes of the finished arrays, and of the bricks while they are built.
 std::size_t grid_bytes(const GridPlan &plan, std::size_t bricks, std::size_t cells,
-                       std::size_t candidates);
+                       std::size_t entries);
 std::size_t brick_bytes(const GridPlan &plan, std::size_t bricks);
 
 // `needed`: the bytes that a grid of the given length takes at least, or, if the length is chosen, those

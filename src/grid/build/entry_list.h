@@ -1,66 +1,66 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// A cell's list of candidates while it is made.
+// A cell's list of entries while it is made.
 #pragma once
 
 #include "grid/triangle_grid.h"
 
 namespace lsdcd {
 
-LSDCD_FN Candidate make_candidate(FeatureCode feature, Real distance)
+LSDCD_FN CellEntry make_entry(FeatureCode feature, Real distance)
 {
   // Rounded down, so that a query that trusts the bound never stops early.
   constexpr Real kLargest = 3e38;    // a float has no more
   return {feature, static_cast<float>(fmin(distance * (1 - Real(1e-6)), kLargest))};
 }
 
-LSDCD_FN bool comes_before(const Candidate &a, const Candidate &b)
+LSDCD_FN bool comes_before(const CellEntry &a, const CellEntry &b)
 {
   return a.bound < b.bound || (a.bound == b.bound && a.feature < b.feature);
 }
 
 // Inserts into the sorted list[0 .. n).
-LSDCD_FN void insert_sorted(Candidate *list, std::uint32_t n, const Candidate &candidate)
+LSDCD_FN void insert_sorted(CellEntry *list, std::uint32_t n, const CellEntry &entry)
 {
-  while (n > 0 && comes_before(candidate, list[n - 1])) {
+  while (n > 0 && comes_before(entry, list[n - 1])) {
     list[n] = list[n - 1];
     n--;
   }
-  list[n] = candidate;
+  list[n] = entry;
 }
 
 // Stores the `room` smallest of all that are offered, one after another. list[0 .. n) has
 // those stored so far.
-LSDCD_FN void insert_nearest(Candidate *list, std::uint32_t n, std::uint32_t room,
-                             const Candidate &candidate)
+LSDCD_FN void insert_nearest(CellEntry *list, std::uint32_t n, std::uint32_t room,
+                             const CellEntry &entry)
 {
   if (n < room)
-    insert_sorted(list, n, candidate);
-  else if (comes_before(candidate, list[room - 1]))
-    insert_sorted(list, room - 1, candidate);
+    insert_sorted(list, n, entry);
+  else if (comes_before(entry, list[room - 1]))
+    insert_sorted(list, room - 1, entry);
 }
 
 // In place and without recursion, for a device: moves list[root] down to its place
 // in the heap list[0 .. n), whose first entry comes last.
-LSDCD_FN void sift_down(Candidate *list, std::uint32_t root, std::uint32_t n)
+LSDCD_FN void sift_down(CellEntry *list, std::uint32_t root, std::uint32_t n)
 {
-  const Candidate candidate = list[root];
+  const CellEntry entry = list[root];
   while (2 * root + 1 < n) {
     std::uint32_t child = 2 * root + 1;
     if (child + 1 < n && comes_before(list[child], list[child + 1])) child++;
-    if (!comes_before(candidate, list[child])) break;
+    if (!comes_before(entry, list[child])) break;
     list[root] = list[child];
     root = child;
   }
-  list[root] = candidate;
+  list[root] = entry;
 }
 
-LSDCD_FN void heap_sort(Candidate *list, std::uint32_t n)
+LSDCD_FN void heap_sort(CellEntry *list, std::uint32_t n)
 {
   for (std::uint32_t root = n / 2; root-- > 0;) sift_down(list, root, n);
   for (std::uint32_t last = n; last-- > 1;) {
-    const Candidate top = list[0];
+    const CellEntry top = list[0];
     list[0] = list[last];
     list[last] = top;
     sift_down(list, 0, last);
