@@ -82,9 +82,9 @@ FILE_OF_A_RUN = {
         ("    if (m.stl.every > 0) ",
          '    if (m.off.every > 0) files.push_back({"mesh_off", m.off.name, m.off.every, true});\n'
          "    if (m.stl.every > 0) ")],
-    "input/wall_command.cpp": [
-        ('{"mesh_stl", mesh.stl.name, other.stl.name},',
-         '{"mesh_stl", mesh.stl.name, other.stl.name}, {"mesh_off", mesh.off.name, other.off.name},')],
+    "wall/spec_check.cpp": [
+        ("{kStl, one.stl.name, other.stl.name}}",
+         '{{"off", "mesh_off"}, one.off.name, other.off.name}, {kStl, one.stl.name, other.stl.name}}')],
     "wall/wall_files.cpp": [
         ('#include "output/mesh_stl.h"\n', '#include "output/mesh_off.h"\n#include "output/mesh_stl.h"\n'),
         ("std::gcd(m.fields.every, m.stl.every)", "std::gcd(m.off.every, std::gcd(m.fields.every, m.stl.every))"),
