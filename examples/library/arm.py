@@ -88,7 +88,7 @@ class Arm:
 
     def moments(self, wall):
         """What the grains do to it comes out."""
-        return np.array([wall.wrench(1, hinge).torque[1] for hinge in self.hinges()[:2]])
+        return np.array([wall.totals(1, hinge).torque[1] for hinge in self.hinges()[:2]])
 
 
 def angular_momentum(grains):
@@ -131,7 +131,7 @@ def main():
     def kick(motors, moments, ahead):
         """All of it, and what gave angular momentum about the shoulder: motor, gravity, and the tray."""
         outside = [motors[0], arm.gravity()[0], drum.GRAVITY * grains.mass @ (grains.x - SHOULDER)[:, 0],
-                   -wall.wrench(0, SHOULDER).torque[1]]
+                   -wall.totals(0, SHOULDER).torque[1]]
         grains.kick()
         arm.kick(0.5 * dt, motors, moments, ahead)
         return 0.5 * dt * sum(outside), 0.5 * dt * (sum(map(abs, outside)) + abs(moments[0]))

@@ -192,11 +192,12 @@ int fall(double seconds)
     grains.push(wall, n == 0);
     for (int k = 0; k < kCrates; k++) {
       const lsdcd::Pose at = crates.pose(k);
-      const lsdcd::Wrench w = wall.wrench(1 + k, {at.position[0], at.position[1], at.position[2]});
+      const lsdcd_wall_totals w =
+          wall.totals(1 + k, {at.position[0], at.position[1], at.position[2]});
       crates.bodies[k].applyCentralForce(btVector3(w.force[0], w.force[1], w.force[2]));
       crates.bodies[k].applyTorque(btVector3(w.torque[0], w.torque[1], w.torque[2]));
     }
-    const lsdcd::Wrench on_tray = wall.wrench(0);
+    const lsdcd_wall_totals on_tray = wall.totals(0);
     for (int k = 0; k < 3; k++) book(k, -kDt * on_tray.force[k]);
     book(2, -kDt * kGravity *
                 (kCrates * kCrateMass + static_cast<double>(grains.x.size()) * kGrainMass));

@@ -287,7 +287,7 @@ struct Book {
 
 SpatialVec wrench(lsdcd::Wall &wall, int mesh, const Vec3 &about)
 {
-  const lsdcd::Wrench w = wall.wrench(mesh, {about[0], about[1], about[2]});
+  const lsdcd_wall_totals w = wall.totals(mesh, {about[0], about[1], about[2]});
   return SpatialVec(Vec3(w.torque[0], w.torque[1], w.torque[2]),
                     Vec3(w.force[0], w.force[1], w.force[2]));
 }

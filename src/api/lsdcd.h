@@ -726,7 +726,7 @@ LSDCD_API int lsdcd_wall_unpack(lsdcd_wall *wall, const ptrdiff_t *to, size_t n,
 
 typedef struct lsdcd_wall_totals {
   size_t size;                /* of this struct; set by the caller */
-  double force[3], torque[3]; /* on the mesh; the torque about the point of `torque_about` */
+  double force[3], torque[3]; /* of the spheres on the mesh; the torque about the point asked for */
   double contacts;
   double overlap;     /* the largest overlap / radius */
   double uncertified; /* spheres whose answer was not certified exact; see `nearest` */
@@ -741,10 +741,12 @@ typedef struct lsdcd_wall_totals {
   double couple[3];
   /* With average_every, means over the last so many steps that ended with one whose number divides by it, counted from
    * the first step of the wall; weighted by time. 0 before, and without it. */
-  double mean_force[3], mean_torque[3];
+  double mean_force[3], mean_torque[3]; /* the torque about `torque_about` of each mesh */
 } lsdcd_wall_totals;
-/* The totals of a mesh in the last step, over all processes; -1: of all, without servos. Own. */
-LSDCD_API int lsdcd_wall_get_totals(lsdcd_wall *wall, int mesh, lsdcd_wall_totals *totals);
+/* The totals of a mesh in the last step, over all processes; -1: of all, without servos. The torque is about the point `about`, of
+ * the box, 3 numbers; null: about `torque_about` of each mesh. Own. */
+LSDCD_API int lsdcd_wall_get_totals(lsdcd_wall *wall, int mesh, const double *about,
+                                    lsdcd_wall_totals *totals);
 /* Where a mesh is after the last step: what was at x when the wall was made is at R x + t. 12 numbers, rows of R, each
  * with its t, a length, behind it. LSDCD_ERROR_ARGUMENT: no such mesh. Alone. Own. */
 LSDCD_API int lsdcd_wall_get_pose(lsdcd_wall *wall, int mesh, double *matrix);
@@ -787,10 +789,6 @@ LSDCD_API int lsdcd_wall_get_nodes(lsdcd_wall *wall, int mesh, double *positions
  * the arm of the overlap. To memory as of lsdcd_wall_set_nodes(): on a GPU in the order of the wall's stream, where an error of
  * a sphere is told by the next call. Own. */
 LSDCD_API int lsdcd_wall_get_node_forces(lsdcd_wall *wall, int mesh, double *forces);
-/* Force and torque of the spheres on a mesh in the last step, 3 numbers each, over all processes; -1: on all meshes.
- * The torque is about the point `about`, of the box, null: the origin. Own. */
-LSDCD_API int lsdcd_wall_get_wrench(lsdcd_wall *wall, int mesh, const double *about, double *force,
-                                    double *torque);
 
 /* Contacts of this process in the last step. Arrays hold `room` of them, packed; those that are null are not asked for. */
 typedef struct lsdcd_wall_contacts {

@@ -561,11 +561,6 @@ struct Pose {
   std::array<double, 3> angular_velocity = {0, 0, 0};    // along the axes of the box, 1/time
 };
 
-// Force and torque on a mesh.
-struct Wrench {
-  std::array<double, 3> force = {0, 0, 0}, torque = {0, 0, 0};
-};
-
 // x -> M x + t, in the order of the calls: Placement().scale(0.001).rotate({0, 0, 1}, 90).move(0, 0, 1)
 class Placement {
  public:
@@ -996,12 +991,12 @@ class Wall {
   {
     c::check(lsdcd_wall_unpack(get(), to.data(), to.size(), numbers.data(), numbers.size()));
   }
-  lsdcd_wall_totals totals(int mesh = -1)
+  // Of a mesh in the last step; -1: of all. The torque is about `torque_about` of each mesh.
+  lsdcd_wall_totals totals(int mesh = -1) { return totals_about(mesh, nullptr); }
+  // The torque is about a point of the box.
+  lsdcd_wall_totals totals(int mesh, const std::array<double, 3> &about)
   {
-    lsdcd_wall_totals t = {};
-    t.size = sizeof t;
-    c::check(lsdcd_wall_get_totals(get(), mesh, &t));
-    return t;
+    return totals_about(mesh, about.data());
   }
   // Where mesh number `mesh` is, from 0, after the last step: what was at x when the wall was made is at R x + t. Three
   // rows of four numbers, each row of R with its t, a length, behind it, as Matrix has them. Throws
@@ -1056,13 +1051,6 @@ class Wall {
   void node_forces(int mesh, double *forces)
   {
     c::check(lsdcd_wall_get_node_forces(get(), mesh, forces));
-  }
-  // Force and torque of the spheres on a mesh in the last step; -1: on all. The torque is about a point of the box.
-  Wrench wrench(int mesh, const std::array<double, 3> &about = {0, 0, 0})
-  {
-    Wrench w;
-    c::check(lsdcd_wall_get_wrench(get(), mesh, about.data(), w.force.data(), w.torque.data()));
-    return w;
   }
   // Contacts of this process in the last step, of a wall with each_contact.
   std::vector<WallContact> contacts()
@@ -1131,6 +1119,13 @@ class Wall {
   lsdcd_wall *get() { return handle_.get(); }
 
  private:
+  lsdcd_wall_totals totals_about(int mesh, const double *about)
+  {
+    lsdcd_wall_totals t = {};
+    t.size = sizeof t;
+    c::check(lsdcd_wall_get_totals(get(), mesh, about, &t));
+    return t;
+  }
   // Three for each node.
   std::size_t node_numbers(int mesh)
   {

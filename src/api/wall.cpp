@@ -3,6 +3,7 @@
 
 // lsdcd_wall_*: a wall is made, asked and freed.
 #include "api/call_threads.h"
+#include "api/refusals.h"
 #include "api/wall_given.h"
 #include "api/wall_handle.h"
 #include "backend/cuda_available.h"
@@ -106,17 +107,20 @@ int lsdcd_wall_from_spec(const lsdcd_wall_spec *spec, const lsdcd_wall_options *
   });
 }
 
-int lsdcd_wall_get_totals(lsdcd_wall *wall, int mesh, lsdcd_wall_totals *totals)
+int lsdcd_wall_get_totals(lsdcd_wall *wall, int mesh, const double *about,
+                          lsdcd_wall_totals *totals)
 {
   return guard_wall(wall, [&] {
     lsdcd_wall_totals out = checked(totals, "lsdcd_wall_totals");
     check_mesh(*wall, mesh, -1);
+    const Vec3 point = about ? checked_vector(about, "about") : Vec3{0, 0, 0};
     tell_late(*wall);
     const StepTotals &all = wall->in->totals();
     const MeshTotals t = mesh < 0 ? all.of_all() : all.mesh(mesh);
+    const Vec3 torque = about ? t.torque_at_origin - cross(point, t.force) : t.torque;
     for (int k = 0; k < 3; k++) {
       out.force[k] = t.force[k];
-      out.torque[k] = t.torque[k];
+      out.torque[k] = torque[k];
       out.couple[k] = t.couple[k];
       out.servo[k] = 0;
     }

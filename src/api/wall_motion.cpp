@@ -89,25 +89,6 @@ int lsdcd_wall_set_pose(lsdcd_wall *wall, int mesh, const double *position,
   });
 }
 
-int lsdcd_wall_get_wrench(lsdcd_wall *wall, int mesh, const double *about, double *force,
-                          double *torque)
-{
-  return guard_wall(wall, [&] {
-    need(force, "force");
-    need(torque, "torque");
-    check_mesh(*wall, mesh, -1);
-    const Vec3 point = about ? checked_vector(about, "about") : Vec3{0, 0, 0};
-    tell_late(*wall);
-    const StepTotals &all = wall->in->totals();
-    const MeshTotals t = mesh < 0 ? all.of_all() : all.mesh(mesh);
-    const Vec3 turning = t.torque_at_origin - cross(point, t.force);
-    for (int k = 0; k < 3; k++) {
-      force[k] = t.force[k];
-      torque[k] = turning[k];
-    }
-  });
-}
-
 int lsdcd_wall_set_motion(lsdcd_wall *wall, int mesh, const lsdcd_motion *motions, size_t n)
 {
   return guard_wall(wall, [&] {

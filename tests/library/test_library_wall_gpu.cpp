@@ -300,7 +300,7 @@ TEST_F(wall_gpu, takes_poses_of_the_caller_on_a_device_as_on_the_host)
       ASSERT_NEAR(there.force[i], here.force[i], kRounding) << "step " << k;
       ASSERT_NEAR(there.torque[i], here.torque[i], kRounding) << "step " << k;    // arms < 1
     }
-    const api::Wrench a = device.wrench(1, {1, 2, 3}), b = host.wrench(1, {1, 2, 3});
+    const lsdcd_wall_totals a = device.totals(1, {1, 2, 3}), b = host.totals(1, {1, 2, 3});
     double size = 0;
     for (const double f : here.force) size += std::abs(f);
     for (int c = 0; c < 3; c++) {    // sums in another order; arms of up to 6

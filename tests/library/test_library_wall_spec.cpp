@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// A wall of meshes and laws: against the wall of a script's words, bit for bit, and in closed form; poses, wrenches and
+// A wall of meshes and laws: against the wall of a script's words, bit for bit, and in closed form; poses, totals and
 // wrong fields.
 #include "floor_and_grains.h"
 #include "process.h"
@@ -1266,7 +1266,7 @@ TEST_F(wall_spec, finds_all_contacts_where_a_pose_jumps)
 
 // Action = reaction. A contact's force acts on a sphere at its point, so that the sphere's torque about any point is
 // that about its centre and the one of the force there.
-TEST_F(wall_spec, wrenches_about_any_point_are_those_of_the_spheres_reversed)
+TEST_F(wall_spec, totals_about_any_point_are_those_of_the_spheres_reversed)
 {
   const api::Mesh mesh(file_);
   api::WallSpec spec = floor_of(with_damping(), mesh);
@@ -1295,8 +1295,8 @@ TEST_F(wall_spec, wrenches_about_any_point_are_those_of_the_spheres_reversed)
     }
   }
   ASSERT_GT(size, 10);
-  const api::Wrench all = wall.wrench(-1, about), one = wall.wrench(0, about),
-                    other = wall.wrench(1, about);
+  const lsdcd_wall_totals all = wall.totals(-1, about), one = wall.totals(0, about),
+                          other = wall.totals(1, about);
   for (int k = 0; k < 3; k++) {
     // Sums of some 20 numbers, whose arms are up to 10.
     EXPECT_NEAR(all.force[k], -force[k], size * kRounding);
@@ -1323,7 +1323,7 @@ TEST_F(wall_spec, is_posed_alike_on_two_processes)
   both.add(-3, 3, 0.495);
   alone.set_pose(0, pose);
   both.step(alone);
-  const api::Wrench wanted = alone.wrench(0, {1, 2, 3});
+  const lsdcd_wall_totals wanted = alone.totals(0, {1, 2, 3});
   lsdcd::on_processes(2, [&](lsdcd::FakeHost &host) {
     const Process process(host);
     lsdcd::Wall wall(spec, &process.options);
@@ -1334,9 +1334,11 @@ TEST_F(wall_spec, is_posed_alike_on_two_processes)
     mine.step(wall);
     EXPECT_EQ(mine.force[2], both.force[3 * i + 2]);
     // A sum of two numbers, in either order: the same bits.
-    const api::Wrench wrench = wall.wrench(0, {1, 2, 3});
-    EXPECT_EQ(wrench.force, wanted.force);
-    EXPECT_EQ(wrench.torque, wanted.torque);
+    const lsdcd_wall_totals totals = wall.totals(0, {1, 2, 3});
+    for (int k = 0; k < 3; k++) {
+      EXPECT_EQ(totals.force[k], wanted.force[k]);
+      EXPECT_EQ(totals.torque[k], wanted.torque[k]);
+    }
   });
 }
 
@@ -1846,11 +1848,10 @@ TEST_F(wall_spec, takes_null_for_what_is_not_given)
   Grains grains;
   grains.add(1, 0, 0.5);
   grains.step(wall);
-  double force[3], torque[3];
-  ASSERT_EQ(lsdcd_wall_get_wrench(wall.get(), 0, nullptr, force, torque), LSDCD_OK);
-  EXPECT_NEAR(force[2], -kN * 0.02, kN * kRounding);
-  EXPECT_NEAR(torque[1], kN * 0.02, kN * kRounding);    // about the origin
-  EXPECT_EQ(lsdcd_wall_get_wrench(wall.get(), 0, nullptr, nullptr, torque), LSDCD_ERROR_ARGUMENT);
+  const lsdcd_wall_totals totals = wall.totals(0);
+  EXPECT_NEAR(totals.force[2], -kN * 0.02, kN * kRounding);
+  EXPECT_NEAR(totals.torque[1], kN * 0.02, kN * kRounding);    // about the origin
+  EXPECT_EQ(lsdcd_wall_get_totals(wall.get(), 0, nullptr, nullptr), LSDCD_ERROR_ARGUMENT);
   ASSERT_EQ(lsdcd_wall_set_pose(wall.get(), 0, nullptr, nullptr, nullptr, nullptr), LSDCD_OK);
   grains.step(wall);
   EXPECT_EQ(grains.force[2], 0);

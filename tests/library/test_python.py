@@ -394,7 +394,7 @@ def check_processes():
 
 
 def check_wall_specs():
-    """A pose and a wrench in closed form, and what is refused. wall_against_lammps.py has walls against those of scripts."""
+    """A pose and totals in closed form, and what is refused. wall_against_lammps.py has walls against those of scripts."""
     square = np.array([[-5, -5, 0], [5, -5, 0], [5, 5, 0], [-5, 5, 0]], float)
     mesh = lsdcd.Mesh(square, [[0, 1, 2], [0, 2, 3]])
     x, radius, mass = np.array([[0.3, 0.2, 0.49], [1.5, -1, 0.48]]), np.full(2, 0.5), np.ones(2)
@@ -476,9 +476,9 @@ def check_wall_specs():
     fact("a plate that is posed has the force in closed form", np.allclose(force[:2, 2], wanted, rtol=0, atol=1e-10), force)
     fact("and the pose", posed.pose(0)[2, 3] == 0.01, posed.pose(0))
     about = np.array([3, -2, 1])
-    wrench, torque = posed.wrench(0, about=about), (np.cross(x - about, force[:2]) + force[2:]).sum(axis=0)
-    fact("its wrench is that of the spheres reversed", np.allclose(wrench.force, -force[:2].sum(axis=0), rtol=0, atol=1e-10) and
-         np.allclose(wrench.torque, -torque, rtol=0, atol=1e-9), (wrench, torque))
+    total, torque = posed.totals(0, about=about), (np.cross(x - about, force[:2]) + force[2:]).sum(axis=0)
+    fact("force and torque are those of the spheres reversed", np.allclose(total.force, -force[:2].sum(axis=0), rtol=0, atol=1e-10) and
+         np.allclose(total.torque, -torque, rtol=0, atol=1e-9), (total, torque))
 
     lifted = lsdcd.Wall(lsdcd.WallSpec(hooke, [lsdcd.WallMesh(mesh, "sheet", nodes_by_caller=True)]))
     nodes = lifted.nodes(0)
@@ -725,8 +725,7 @@ def check_values_that_c_reads_otherwise():
             ("wear_factor is -1", lambda: lsdcd.WallMesh(mesh, wear_factor=-1)),
             ("the last type of a row of type_laws is 0", lambda: lsdcd.WallMesh(mesh, type_laws=[(1, 0, law)])),
             ("cutoff is 0", lambda: mesh.grid(cutoff=0)),
-            ("mesh is -1; meshes count from 0", lambda: wall.totals(-1)),
-            ("mesh is -1; meshes count from 0", lambda: wall.wrench(-1))):
+            ("mesh is -1; meshes count from 0", lambda: wall.totals(-1))):
         refused(f"refused: {says}", says, call, ValueError)
     body = lsdcd.Body(mesh, mesh)
     for name, call in (
@@ -864,7 +863,7 @@ def check_nonsense():
              "mesh of Body()": lambda b: lsdcd.Body(mesh, b), "Wall()": lsdcd.Wall,
              "Law()": lsdcd.Law, "WallMesh()": lsdcd.WallMesh, "WallSpec()": lambda b: lsdcd.WallSpec(b, []),
              "meshes of WallSpec()": lambda b: lsdcd.WallSpec(law, b), "Motion()": lsdcd.Motion.linear,
-             "placement": lambda b: lsdcd.WallMesh(mesh, placement=b), "about": lambda b: wall.wrench(0, b),
+             "placement": lambda b: lsdcd.WallMesh(mesh, placement=b), "about": lambda b: wall.totals(0, b),
              "out of query()": lambda b: grid.query(points, out={"distance": b}), "a word": lambda b: grid.query(points, [b]),
              "out of contacts()": lambda b: grid.contacts(points, 0.1, out={"point": b}),
              "to": lambda b: wall.unpack(b, [1.0]), "numbers": lambda b: wall.unpack([0], b)}

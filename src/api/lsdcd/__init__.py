@@ -582,7 +582,7 @@ class Body(_Owner):
 class WallTotals(_Record):
     """Sums of a wall's last step, in its units: what lsdcd_wall_totals says."""
     force: NDArray[np.float64]     # (3,) on the mesh
-    torque: NDArray[np.float64]    # (3,) on the mesh, about the point of `torque_about`
+    torque: NDArray[np.float64]    # (3,) on the mesh, about the point asked for
     contacts: float
     overlap: float        # the largest, of the radius
     uncertified: float    # spheres whose answer is not certified; see `nearest`
@@ -623,12 +623,6 @@ class Host(Protocol):
     def sum(self, numbers: NDArray[np.float64]) -> None: ...
     def max(self, numbers: NDArray[np.float64]) -> None: ...
     def broadcast(self, data: NDArray[np.uint8], source: int) -> None: ...
-
-
-class Wrench(_Record):
-    """Force and torque of the spheres on a mesh, in the wall's units."""
-    force: NDArray[np.float64]     # (3,)
-    torque: NDArray[np.float64]    # (3,), about the point asked for
 
 
 class BodyState(_Record):
@@ -807,10 +801,12 @@ class Wall(_Owner):
         self._do(_lib.lsdcd_wall_unpack, self._handle, spheres.ctypes.data, spheres.size, packed.ctypes.data,
                  packed.size)
 
-    def totals(self, mesh: int | str | None = None) -> WallTotals:
-        """Of a mesh, from 0, or of all."""
-        totals = _sized(_WallTotals)
-        self._do(_lib.lsdcd_wall_get_totals, self._handle, self._mesh_or_all(mesh), ctypes.byref(totals))
+    def totals(self, mesh: int | str | None = None, about: ArrayLike | None = None) -> WallTotals:
+        """Of a mesh, from 0, or of all, in the last step, over all processes. The torque is about the point `about`, (3,), of the box;
+        None: about `torque_about` of each mesh."""
+        totals, point = _sized(_WallTotals), _numbers(about, (3,), "about")
+        self._do(_lib.lsdcd_wall_get_totals, self._handle, self._mesh_or_all(mesh), None if point is None else point.ctypes.data,
+                 ctypes.byref(totals))
         values = {name: getattr(totals, name) for name, _ in _WallTotals._fields_[1:]}
         return WallTotals(**{k: np.array(v) if isinstance(v, ctypes.Array) else v for k, v in values.items()})
 
@@ -902,14 +898,6 @@ class Wall(_Owner):
         numbers = np.empty((self._n_nodes(mesh), 3))
         self._do(call, self._handle, self._mesh(mesh), numbers.ctypes.data)
         return numbers
-
-    def wrench(self, mesh: int | str | None = None, about: ArrayLike = (0, 0, 0)) -> Wrench:
-        """Force and torque of the spheres on a mesh, from 0, in the last step, over all processes; None: on all meshes.
-        The torque is about the point `about`, (3,), of the box."""
-        force, torque, point = np.empty(3), np.empty(3), _numbers(about, (3,), "about")
-        self._do(_lib.lsdcd_wall_get_wrench, self._handle, self._mesh_or_all(mesh),
-                 None if point is None else point.ctypes.data, force.ctypes.data, torque.ctypes.data)
-        return Wrench(force=force, torque=torque)
 
     def set_motion(self, mesh: int | str, motions: Sequence[Motion]) -> None:
         """Other motions for a mesh, from where it is; none: it stops there."""

@@ -178,7 +178,7 @@ def _load() -> Any:
     lib.lsdcd_body_make.argtypes = [_at, _at, _at, _at]
     lib.lsdcd_wall_step_spheres.argtypes = [_at, _at, _at]
     lib.lsdcd_wall_renumber.argtypes = [_at, _at, _size]
-    for call in ("get_totals", "get_pose", "set_servo", "get_node_count", "get_nodes", "get_node_forces",
+    for call in ("get_pose", "set_servo", "get_node_count", "get_nodes", "get_node_forces",
                  "get_body", "set_body"):
         getattr(lib, "lsdcd_wall_" + call).argtypes = [_at, _int, _at]
     lib.lsdcd_sub_model_get_facts.argtypes = [_size, _at]
@@ -188,7 +188,7 @@ def _load() -> Any:
     lib.lsdcd_wall_from_spec.argtypes = [_at, _at, _at]
     lib.lsdcd_wall_set_pose.argtypes = [_at, _int, _at, _at, _at, _at]
     lib.lsdcd_wall_set_nodes.argtypes = [_at, _int, _at, _at]
-    lib.lsdcd_wall_get_wrench.argtypes = [_at, _int, _at, _at, _at]
+    lib.lsdcd_wall_get_totals.argtypes = [_at, _int, _at, _at]
     lib.lsdcd_wall_set_motion.argtypes = [_at, _int, _at, _size]
     lib.lsdcd_wall_save.argtypes = [_at, _at, _size, _at]
     lib.lsdcd_wall_restore.argtypes = lib.lsdcd_wall_restore_what_fits.argtypes = [_at, _at, _size]
