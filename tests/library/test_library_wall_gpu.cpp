@@ -451,9 +451,9 @@ TEST_F(wall_gpu, gives_each_of_two_processes_the_forces_of_arrays_of_the_host)
   const api::WallSpec spec = waves_and_floor(waves);
   constexpr int kSpheres = 200, kSteps = 60;
   lsdcd::on_processes(2, [&](lsdcd::FakeHost &fake) {
-    Process on_cpu(fake), on_gpu(fake);
-    on_gpu.options.device = LSDCD_CUDA;
-    lsdcd::Wall host(spec, &on_cpu.options), device(spec, &on_gpu.options);
+    Process of_host(fake), of_device(fake);
+    of_device.options.device = LSDCD_CUDA;
+    lsdcd::Wall host(spec, &of_host.options), device(spec, &of_device.options);
     // Other numbers of other spheres.
     const int rank = fake.rank();
     Rain there(kSpheres + 50 * rank, rank), here(kSpheres + 50 * rank, rank);
