@@ -410,9 +410,14 @@ BodySpec body_of(const lsdcd_rigid_body *pointer, const std::string &field, bool
   j.kind = static_cast<JointKind>(
       checked_choice(given.joint, field + ".joint", 5,
                      "LSDCD_FREE, LSDCD_HINGE, LSDCD_SLIDER, LSDCD_PLANAR or LSDCD_BALL"));
-  if (j.has_point()) j.point = vector(given.point, "point");
+  if (j.has_point())
+    j.point = vector(given.point, "point");
+  else
+    check_zero(given.point, 3, field + ".point", "this joint");
   if (j.has_coordinate() || j.kind == JointKind::planar)
     j.axis = checked_axis(given.axis, field + ".axis");
+  else
+    check_zero(given.axis, 3, field + ".axis", "this joint");
   body.drive.stiffness = given.stiffness;
   body.drive.damping = given.damping;
   body.drive.rest = given.rest;

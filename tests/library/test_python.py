@@ -518,7 +518,7 @@ def check_wall_specs():
             ("wear_deform is (0, 1)", lambda: lsdcd.WallSpec(hooke, [], wear_deform=(0, 1)), ValueError),
             ("nothing wears", lambda: lsdcd.Wall(lsdcd.WallSpec(hooke, [lsdcd.WallMesh(mesh)], wear_deform=(3, 1))), lsdcd.Error),
             ("corner is 'round'; it is 'blend' or 'sum'", lambda: lsdcd.WallSpec(hooke, [], corner="round"), ValueError),
-            ("a mesh of the wall is", lambda: lsdcd.WallSpec(hooke, [mesh]), TypeError),
+            ("meshes[0] is <Mesh of", lambda: lsdcd.WallSpec(hooke, [mesh]), TypeError),
             ("`n_meshes`: there are 0 meshes", lambda: lsdcd.Wall(lsdcd.WallSpec(hooke, [])), lsdcd.Error),
             ("rows has the shape", lambda: lsdcd.Motion.table([0, 1, 2]), ValueError),
             ("`meshes[0].motions[0].rows`, row 1: the time 0 is not after", lambda: lsdcd.Wall(lsdcd.WallSpec(
@@ -574,7 +574,7 @@ def check_wall_arrays():
             fact("arrays side by side in one are taken", abs(both[2] - 10) < 1e-11, both)
         refused(f"a force of which a part is {name} is refused", f"and `{name}` share memory",
                 lambda: shared.step(**{**many, name: at, "force": both[1:7].reshape(2, 3)}), lsdcd.Error)
-    refused("a box repeats along three axes", "periodic has 2 values", lambda: lsdcd.Wall(spec, periodic=(True, False)), ValueError)
+    refused("a box repeats along three axes", "it is (x, y, z)", lambda: lsdcd.Wall(spec, periodic=(True, False)), ValueError)
     if not lsdcd._lib.lsdcd_has_cuda():
         refused("a wall on a device needs one", "use LSDCD_CPU", lambda: lsdcd.Wall(spec, device="cuda"), lsdcd.Error)
     refused("a stream needs a device", "stream is given", lambda: lsdcd.Wall(spec, stream=7), lsdcd.Error)
@@ -918,10 +918,10 @@ def in_c():
     lines = ["#include <lsdcd.h>", "#include <stddef.h>"]
     for struct in (s for s in vars(_c).values() if isinstance(s, type) and issubclass(s, ctypes.Structure)):
         name = "lsdcd" + re.sub("([A-Z])", r"_\1", struct.__name__.strip("_")).lower()
-        lines.append(f'_Static_assert(sizeof({name}) == {ctypes.sizeof(struct)}, "");')
+        lines.append(f'_Static_assert(sizeof({name}) == {ctypes.sizeof(struct)}, "{name}");')
         for field, kind in struct._fields_:
             place, member = getattr(struct, field), f"(({name} *) 0)->{field}"
-            lines.append(f'_Static_assert(offsetof({name}, {field}) == {place.offset} && sizeof({member}) == {place.size}, "");')
+            lines.append(f'_Static_assert(offsetof({name}, {field}) == {place.offset} && sizeof({member}) == {place.size}, "{name}.{field}");')
             one = getattr(kind, "_type_", None) if issubclass(kind, ctypes.Array) else kind
             element = f"{member}[0]" if issubclass(kind, ctypes.Array) else member
             if one in kinds:

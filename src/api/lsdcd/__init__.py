@@ -38,12 +38,12 @@ from . import _arrays
 from ._c import DEVICES as DEVICES, ERRORS as ERRORS, Error as Error, Progress as Progress
 from ._c import (_BodyFacts, _BodyOptions, _BodyState, _Broadcast, _Collision, _Contacts, _GridFacts, _GridOptions, _Host,
                  _MeshArrays, _MeshFacts, _Owner, _Query, _Record, _Reduce, _Show, _Spheres, _WallOptions, _WallStep,
-                 _WallContacts, _WallTotals, _as_floats, _c_double, _c_int, _c_text, _check, _chosen, _facts, _flag, _int,
-                 _interrupts_held, _lib, _listened, _numbers, _real, _size, _sized, _text)
+                 _WallContacts, _WallTotals, _as_floats, _c_double, _c_int, _c_text, _check, _chosen, _facts, _flag, _instance,
+                 _int, _interrupts_held, _lib, _listened, _numbers, _real, _size, _sized, _text, _tuple)
 from ._spec import (Law as Law, Motion as Motion, Placement as Placement, RigidBody as RigidBody, Servo as Servo,
                     SubModel as SubModel, SubModelFacts as SubModelFacts, WallMesh as WallMesh, WallSpec as WallSpec,
                     sub_models as sub_models)
-from ._spec import _instance, _motion_array
+from ._spec import _motion_array
 
 __version__: str = _lib.lsdcd_version().decode()
 FOUND, CERTIFIED, SIDE_ESTIMATED = 1, 2, 4
@@ -686,11 +686,12 @@ class Wall(_Owner):
         least, most = _numbers(lo, (3,), "lo"), _numbers(hi, (3,), "hi")
         if least is not None and most is not None and not (least < most).all():
             raise ValueError(f"lo is {least}, hi is {most}: lo is below hi along each axis")
-        if len(periodic) != 3:
-            raise ValueError(f"periodic has {len(periodic)} values, not one for each of x, y and z")
+        if show is not None and not callable(show):
+            raise TypeError(f"show is {show!r}, not a function")
+        along_axes = _tuple(periodic, "(x, y, z)", "periodic")
         self._show: Any = _Show(called(tell)) if show else _Show(0)    # it must live as long as the wall
         self._host = None if host is None else _host_struct(host, called)
-        options = _sized(_WallOptions, periodic=(_int * 3)(*(_flag(along, "periodic") for along in periodic)), margin=margin,
+        options = _sized(_WallOptions, periodic=(_int * 3)(*(_flag(along, "periodic") for along in along_axes)), margin=margin,
                          time=time, show=self._show, threads=threads,
                          host=ctypes.addressof(self._host) if self._host else None,
                          stream=_arrays.stream_handle(stream), device=int(self._on_device))

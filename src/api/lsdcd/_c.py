@@ -297,10 +297,38 @@ def _c_double(value: Any, name: str) -> float:
 def _c_text(text: str | bytes | os.PathLike[str] | None, name: str) -> bytes | None:
     if text is None:
         return None
+    if not isinstance(text, (str, bytes, os.PathLike)):
+        raise TypeError(f"{name} is {text!r}, not a text")
     encoded = os.fsencode(text)
     if b"\0" in encoded:    # C would read what is before it
         raise ValueError(f"{name} has a NUL in it: {encoded!r}")
     return encoded
+
+
+def _tuple(value: Any, form: str, name: str) -> tuple[Any, ...]:
+    """The values of what is written as `form`, "(lo, hi)"."""
+    if isinstance(value, (str, bytes)) or not hasattr(value, "__len__") or not hasattr(value, "__iter__"):
+        raise TypeError(f"{name} is {value!r}, not {form}")
+    values = tuple(value)
+    if len(values) != form.count(",") + 1:
+        raise ValueError(f"{name} is {value!r}; it is {form}")
+    return values
+
+
+def _instance(value: Any, kind: Any, name: str) -> Any:
+    if not isinstance(value, kind):
+        raise TypeError(f"{name} is {value!r}, not a {kind.__name__}")
+    return value
+
+
+def _list(values: Any, name: str) -> list[Any]:
+    if isinstance(values, (str, bytes)) or not hasattr(values, "__iter__"):
+        raise TypeError(f"{name} is {values!r}, not a list")
+    return list(values)
+
+
+def _instances(values: Any, kind: Any, name: str) -> list[Any]:
+    return [_instance(value, kind, f"{name}[{k}]") for k, value in enumerate(_list(values, name))]
 
 
 def _facts(struct: Any, call: Any, handle: Any) -> dict[str, Any]:

@@ -11,8 +11,9 @@ from typing import TYPE_CHECKING, Any, Mapping, Sequence
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ._c import (DEVICES, _as_floats, _c_double, _c_text, _check, _chosen, _flag, _Law, _lib, _Materials, _Motion, _noted, _numbers, _Override,
-                 _Record, _RigidBody, _Servo, _sized, _Spec, _SubModel, _SubModelFacts, _TypeLaw, _WallMesh, _WallSpec)
+from ._c import (DEVICES, _as_floats, _c_double, _c_int, _c_text, _check, _chosen, _flag, _instance, _instances, _Law, _lib, _list,
+                 _Materials, _Motion, _noted, _numbers, _Override, _Record, _RigidBody, _Servo, _sized, _Spec, _SubModel,
+                 _SubModelFacts, _tuple, _TypeLaw, _WallMesh, _WallSpec)
 
 if TYPE_CHECKING:
     from . import Mesh
@@ -131,7 +132,7 @@ def _law_struct(given: dict[str, SubModel | None], beside_style: bool, limit_dam
     """An lsdcd_law, whose numbers lie in the order of their names. With materials, all may be left out: C says which may not."""
     law = _sized(_Law, limit_damping=_flag(limit_damping, "limit_damping"))
     damping = given.get("damping")
-    for field, model in given.items():
+    for field, model in sorted(given.items(), key=lambda one: one[0] != "damping"):    # which others are judged beside
         if model is None:
             continue
         if not isinstance(model, SubModel):
@@ -313,14 +314,16 @@ class RigidBody(_Spec):
                  moment: ArrayLike = (0, 0, 0), velocity: ArrayLike = (0, 0, 0), angular_velocity: ArrayLike = (0, 0, 0),
                  gravity: ArrayLike = (0, 0, 0), coat: bool | tuple[float, float] = False) -> None:
         lo, hi = _limits(limits)
-        spacing, radius = (0.0, 0.0) if isinstance(coat, (bool, np.bool_)) else coat
+        spacing, radius = (0.0, 0.0) if isinstance(coat, (bool, np.bool_)) else _tuple(coat, "(spacing, radius)", "coat")
         if not isinstance(coat, (bool, np.bool_)) and 0 in (spacing, radius):    # which C would choose
             raise ValueError(f"coat is {coat!r}; spacing and radius are above 0, or True: both are chosen")
         moments = _numbers(inertia, (6,), "inertia")
-        stiffness, damping, rest = spring
+        if moments is None:
+            raise TypeError("inertia is None, not six numbers")
+        stiffness, damping, rest = _tuple(spring, "(stiffness, damping, rest)", "spring")
         self._struct = _sized(
             _RigidBody, density=density, mass=mass, centre=_three(centre, "centre"),
-            inertia=(ctypes.c_double * 6)(*([] if moments is None else moments.tolist())),
+            inertia=(ctypes.c_double * 6)(*moments.tolist()),
             joint=_chosen("joint", joint, ("free", "hinge", "slider", "planar", "ball")), point=_three(point, "point"),
             axis=_three(axis, "axis"), stiffness=stiffness, damping=damping, rest=rest, lo=lo, hi=hi, motor=motor,
             load=_three(load, "load"), moment=_three(moment, "moment"), velocity=_three(velocity, "velocity"),
@@ -355,12 +358,15 @@ class WallMesh(_Spec):
                  pressure: float = 0.0, body: RigidBody | None = None) -> None:
         from . import Mesh    # which is made of this module, too
         matrix = placement.matrix if isinstance(placement, Placement) else _numbers(placement, (3, 4), "placement")
+        if matrix is not None and not isinstance(placement, Placement) and not matrix.any():    # which is none in C
+            raise ValueError("placement is all 0; it is a matrix that keeps the mesh three-dimensional, or None: as the mesh is")
         flat = np.zeros(12) if matrix is None else matrix.ravel()
-        laws = [_instance(row, Law, "a law of type_laws") for _, _, row in type_laws]
-        if any(last is not None and last == 0 for _, last, _ in type_laws):    # which is all of C
+        given = [_tuple(row, "(first, last, law)", f"type_laws[{k}]") for k, row in enumerate(_list(type_laws, "type_laws"))]
+        laws = _instances([row[2] for row in given], Law, "laws of type_laws")
+        if any(last is not None and last == 0 for _, last, _ in given):    # which is all of C
             raise ValueError("the last type of a row of type_laws is 0; types count from 1, and None is all from the first on")
         rows = [_sized(_TypeLaw, first_type=first, last_type=0 if last is None else last, law=ctypes.addressof(row._struct))
-                for (first, last, _), row in zip(type_laws, laws)]
+                for (first, last, _), row in zip(given, laws)]
         types, moved = (_TypeLaw * len(rows))(*rows), _motion_array(motions)
         factor = _c_double(wear_factor, "wear_factor")
         if factor < 0:    # -1 of C is never
@@ -376,8 +382,7 @@ class WallMesh(_Spec):
             torque_about_moves=_flag(torque_about_moves, "torque_about_moves"),
             # C has 0 for once and -1 for never.
             wear_factor={0.0: -1.0, 1.0: 0.0}.get(factor, factor), cache=cache or None,
-            fields=fields[0] if fields else None, fields_every=fields[1] if fields else 0, stl=stl[0] if stl else None,
-            stl_every=stl[1] if stl else 0, nodes_by_caller=_flag(nodes_by_caller, "nodes_by_caller"), pressure=pressure,
+            **_file_every(fields, "fields"), **_file_every(stl, "stl"), nodes_by_caller=_flag(nodes_by_caller, "nodes_by_caller"), pressure=pressure,
             body=_address(body, RigidBody, "body"))
         self._name = name
         self._kept = (mesh, law, laws, types, tuple(motions), moved, servo, body)    # what the struct points to
@@ -402,22 +407,20 @@ class WallSpec(_Spec):
                  compute: str = "cpu", wear: tuple[str, float] | tuple[str, float, float] | None = None,
                  periodic_ends: bool = False, brief: bool = False, wear_deform: tuple[int, float] | None = None,
                  average: int = 0, each_contact: bool = False) -> None:
-        parts = [_instance(m, WallMesh, "a mesh of the wall") for m in meshes]
+        parts = _instances(meshes, WallMesh, "meshes")
         array = (_WallMesh * len(parts))(*(part._struct for part in parts))
-        numbers = [_c_double(n, "a number of wear") for n in wear[1:]] if wear else []
-        model = 1 + _chosen("wear", wear[0], ("archard", "finnie")) if wear else 0
-        if wear and len(numbers) != 3 - model:
-            raise ValueError(f"wear is {wear!r}; it is (\"archard\", K, H) or (\"finnie\", K)")
-        every, factor = wear_deform if wear_deform else (0, 0.0)
-        if wear_deform and not (every > 0 and factor > 0):    # C has other meanings for 0
+        model, coefficient, hardness = _wear(wear)
+        every, factor = (0, 0.0) if wear_deform is None else _tuple(wear_deform, "(steps, factor)", "wear_deform")
+        if wear_deform is not None and not (_c_int(every, "steps of wear_deform") > 0 and
+                                            _c_double(factor, "factor of wear_deform") > 0):    # C has other meanings for 0
             raise ValueError(f"wear_deform is {wear_deform!r}; it is (steps, factor), both above 0, or None")
         self._struct = _sized(
             _WallSpec, law=_address(_instance(law, Law, "law"), Law, "law"), meshes=ctypes.addressof(array),
             n_meshes=len(parts), corner=_chosen("corner", corner, ("blend", "sum")),
             side=_chosen("side", side, ("both", "in", "out")),
             nearest=nearest, cell=cell, memory=memory,
-            rmax=rmax, device=_chosen("compute", compute, (*DEVICES, "auto")), wear=model, wear_coefficient=numbers[0] if wear else 0.0,
-            hardness=numbers[1] if model == 1 else 0.0, wear_deform_every=every, wear_deform_factor=factor,
+            rmax=rmax, device=_chosen("compute", compute, (*DEVICES, "auto")), wear=model, wear_coefficient=coefficient,
+            hardness=hardness, wear_deform_every=every, wear_deform_factor=factor,
             periodic_ends=_flag(periodic_ends, "periodic_ends"), brief=_flag(brief, "brief"), average_every=average,
             each_contact=_flag(each_contact, "each_contact"))
         self._kept = (law, parts, array)    # what the struct points to
@@ -431,7 +434,7 @@ class WallSpec(_Spec):
 
 
 def _motion_array(motions: Sequence[Motion]) -> Any:
-    each = [_instance(m, Motion, "a motion")._struct for m in motions]
+    each = [motion._struct for motion in _instances(motions, Motion, "motions")]
     return (_Motion * len(each))(*each)
 
 
@@ -439,21 +442,36 @@ def _limits(limits: tuple[float, float] | None) -> tuple[float, float]:
     """As C has them: both 0 are none."""
     if limits is None:
         return 0.0, 0.0
-    lo, hi = (_c_double(end, "an end of limits") for end in limits)
+    lo, hi = (_c_double(end, "an end of limits") for end in _tuple(limits, "(lo, hi)", "limits"))
     if lo == 0 == hi:
         raise ValueError("limits is (0, 0), between which nothing moves: give lo <= 0 <= hi, of which one is not 0, or None: none")
     return lo, hi
 
 
+def _file_every(given: tuple[str | os.PathLike[str], int] | None, name: str) -> dict[str, Any]:
+    """Fields of a file that is written every so many steps."""
+    file, every = (None, 0) if given is None else _tuple(given, "(name, steps)", name)
+    if given is not None and not file:
+        raise ValueError(f"{name} is {given!r}; it is (name, steps), or None: no file")
+    return {name: file, name + "_every": every}
+
+
+def _wear(wear: tuple[Any, ...] | None) -> tuple[int, float, float]:
+    """The model, K and H of C."""
+    if wear is None:
+        return 0, 0.0, 0.0
+    forms = {"archard": '("archard", K, H)', "finnie": '("finnie", K)'}
+    if isinstance(wear, (str, bytes)) or not hasattr(wear, "__len__") or not len(wear) or wear[0] not in forms:
+        raise ValueError(f"wear is {wear!r}; it is {' or '.join(forms.values())}, or None")
+    numbers = [_c_double(number, "a number of wear") for number in _tuple(wear, forms[wear[0]], "wear")[1:]]
+    return 1 + list(forms).index(wear[0]), numbers[0], numbers[1] if len(numbers) == 2 else 0.0
+
+
 def _three(values: ArrayLike, name: str) -> Any:
     numbers = _numbers(values, (3,), name)
-    return (ctypes.c_double * 3)(*([] if numbers is None else numbers.tolist()))
-
-
-def _instance(value: Any, kind: Any, name: str) -> Any:
-    if not isinstance(value, kind):
-        raise TypeError(f"{name} is {value!r}, not a {kind.__name__}")
-    return value
+    if numbers is None:
+        raise TypeError(f"{name} is None, not three numbers")
+    return (ctypes.c_double * 3)(*numbers.tolist())
 
 
 def _address(value: Any, kind: Any, name: str) -> int | None:
