@@ -7,6 +7,7 @@
 #include "api/call_threads.h"
 #include "api/device_memory.h"
 #include "api/query_arrays.h"
+#include "api/refusals.h"
 #include "backend/backend_cpu.h"
 #include "query/radius_error.h"
 
@@ -37,6 +38,7 @@ lsdcd_query checked_query(const ApiGrid &grid, const lsdcd_query *given, bool on
 {
   lsdcd_query q = checked(given, "lsdcd_query");
   check_points(q);
+  checked_flag(q.estimate_sides, "estimate_sides");
   if (q.n > 0 && !q.distance && !q.closest && !q.normal && !q.triangle && !q.feature && !q.side &&
       !q.status && !q.winding && !q.signed_distance && !q.barycentric)
     throw ApiError(LSDCD_ERROR_ARGUMENT, "nothing is asked for: all arrays of answers are null");

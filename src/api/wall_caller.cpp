@@ -3,6 +3,7 @@
 
 #include "api/wall_caller.h"
 
+#include "api/refusals.h"
 #include "base/input_words.h"
 
 #include <algorithm>
@@ -26,7 +27,11 @@ PeriodicBox box_of(const lsdcd_wall_options &o)
 {
   PeriodicBox box;
   bool any = false;
-  for (int k = 0; k < 3; k++) any |= o.lo[k] != 0 || o.hi[k] != 0 || o.periodic[k] != 0;
+  for (int k = 0; k < 3; k++) {
+    checked_flag(o.periodic[k],
+                 element("lsdcd_wall_options.periodic", static_cast<std::size_t>(k)));
+    any |= o.lo[k] != 0 || o.hi[k] != 0 || o.periodic[k] != 0;
+  }
   for (int k = 0; k < 3 && any; k++) {
     if (!(o.lo[k] < o.hi[k]) || !std::isfinite(o.hi[k] - o.lo[k]))
       refuse_option("lsdcd_wall_options",

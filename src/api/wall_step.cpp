@@ -3,6 +3,7 @@
 
 // lsdcd_wall_step_spheres and lsdcd_wall_renumber.
 #include "api/call_threads.h"
+#include "api/refusals.h"
 #include "api/spheres_given.h"
 #include "api/wall_handle.h"
 #include "base/input_words.h"
@@ -47,9 +48,7 @@ struct StepWanted {
 // Bodies step by velocity Verlet, so that their velocities are always those of half a step before.
 void check_synchronous(const lsdcd_wall &wall, const lsdcd_wall_step &step)
 {
-  if (step.synchronous != 0 && step.synchronous != 1)
-    throw ApiError(LSDCD_ERROR_ARGUMENT,
-                   "synchronous is " + std::to_string(step.synchronous) + "; give 0 or 1");
+  checked_flag(step.synchronous, "synchronous");
   for (const MeshPart &m : wall.in->meshes())
     if (step.synchronous && m.body)
       throw ApiError(
@@ -63,6 +62,8 @@ StepWanted step_wanted(lsdcd_wall &wall, const lsdcd_spheres *spheres, const lsd
   StepWanted want;
   const lsdcd_spheres given = checked(spheres, "lsdcd_spheres");
   want.step = checked(step, "lsdcd_wall_step");
+  checked_flag(want.step.setup, "setup");
+  checked_flag(want.step.changed, "changed");
   check_synchronous(wall, want.step);
   if (!(want.step.dt > 0) || !std::isfinite(want.step.dt))
     throw ApiError(LSDCD_ERROR_ARGUMENT, "dt is " + number_text(want.step.dt) + ", not above 0");

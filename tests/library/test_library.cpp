@@ -1427,6 +1427,9 @@ TEST_F(Wrong, nothing_asked_for)
 {
   q.distance = nullptr;
   refused(LSDCD_ERROR_ARGUMENT, "nothing is asked for");
+  q.estimate_sides = 2;
+  refused(LSDCD_ERROR_ARGUMENT, "`estimate_sides` is 2: it is 0 or 1");
+  q.estimate_sides = 0;
 }
 
 TEST_F(Wrong, the_side_of_an_open_mesh)

@@ -6,7 +6,9 @@
 
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdlib>
+#include <cstring>
 #include <dlfcn.h>
 #include <string>
 #include <vector>
@@ -447,6 +449,253 @@ TEST_F(wall, refuses_all_calls_after_a_step_that_failed_half_way)
               0u)
         << text_of(call);
   }
+}
+
+// What the rows below call, each spoilt in one thing.
+struct Calls {
+  lsdcd_wall *wall;
+  const lsdcd_wall_spec *spec;
+  Grains grains;
+  lsdcd_spheres spheres;
+  lsdcd_wall_step step = {};
+  lsdcd_wall_totals totals = {};
+  lsdcd_wall_contacts contacts = {};
+  lsdcd_body_state body = {};
+  lsdcd_motion motion = {};
+  lsdcd_servo servo = {};
+  lsdcd_rigid_body rigid = {};
+  lsdcd_wall_options options = {};
+  lsdcd_host host = {};
+  double numbers[12] = {};
+  std::ptrdiff_t which[2] = {0, 1};
+  std::size_t count = 0;
+
+  Calls(lsdcd_wall *wall, const lsdcd_wall_spec *spec) : wall(wall), spec(spec)
+  {
+    grains.add(0, 0, 0.49);
+    grains.add(1, 0, 0.49);
+    spheres = grains.spheres();
+    step.size = sizeof step;
+    step.dt = kDt;
+    totals.size = sizeof totals;
+    contacts.size = sizeof contacts;
+    body.size = sizeof body;
+    motion.size = sizeof motion;
+    servo.size = sizeof servo;
+    rigid.size = sizeof rigid;
+    options.size = sizeof options;
+    host.size = sizeof host;
+    host.processes = 1;
+    host.sum = host.max = [](void *, double *, int) { return 0; };
+    host.broadcast = [](void *, void *, size_t, int) { return 0; };
+  }
+  int take_step() const { return lsdcd_wall_step_spheres(wall, &spheres, &step); }
+  int make()
+  {
+    lsdcd_wall *made = nullptr;
+    const int code = lsdcd_wall_from_spec(spec, &options, &made);
+    lsdcd_wall_free(made);
+    return code;
+  }
+  int make_for(void (*spoil)(lsdcd_host &))
+  {
+    spoil(host);
+    options.host = &host;
+    return make();
+  }
+};
+
+TEST_F(wall, says_what_is_wrong_with_a_call)
+{
+  const double nan = std::nan(""), inf = HUGE_VAL;
+  using C = Calls;
+  const struct {
+    std::function<int(C &)> call;
+    const char *text;
+    int code = LSDCD_ERROR_ARGUMENT;
+  } rows[] = {
+      // Steps.
+      {[](C &c) { return lsdcd_wall_step_spheres(nullptr, &c.spheres, &c.step); },
+       "`wall` is null"},
+      {[](C &c) { return lsdcd_wall_step_spheres(c.wall, nullptr, &c.step); },
+       "`lsdcd_spheres` is null"},
+      {[](C &c) { return lsdcd_wall_step_spheres(c.wall, &c.spheres, nullptr); },
+       "`lsdcd_wall_step` is null"},
+      {[](C &c) { return c.spheres.size = 0, c.take_step(); },
+       "`lsdcd_spheres`: size is 0, and should be"},
+      {[](C &c) { return c.step.size++, c.take_step(); },
+       "`lsdcd_wall_step`: size is 41, and should be"},
+      {[](C &c) { return c.spheres.x = nullptr, c.take_step(); }, "`x` is null"},
+      {[](C &c) { return c.spheres.v = nullptr, c.take_step(); }, "`v` is null"},
+      {[](C &c) { return c.spheres.omega = nullptr, c.take_step(); }, "`omega` is null"},
+      {[](C &c) { return c.spheres.radius = nullptr, c.take_step(); }, "`radius` is null"},
+      {[](C &c) { return c.spheres.mass = nullptr, c.take_step(); }, "`mass` is null"},
+      {[](C &c) { return c.spheres.force = nullptr, c.take_step(); }, "`force` is null"},
+      {[](C &c) { return c.spheres.torque = nullptr, c.take_step(); }, "`torque` is null"},
+      {[](C &c) { return c.spheres.torque = c.spheres.force, c.take_step(); },
+       "`force` and `torque` share memory"},
+      {[](C &c) { return c.spheres.row = 1, c.take_step(); },
+       "row is 1: vectors of 3 numbers need 3"},
+      {[](C &c) { return c.spheres.row = -3, c.take_step(); },
+       "row is -3: vectors of 3 numbers need 3"},
+      {[](C &c) { return c.spheres.n = 1, c.take_step(); }, "there are 1 spheres and there were 2"},
+      {[](C &c) { return c.spheres.n = std::size_t(1) << 31, c.take_step(); },
+       "n is 2147483648, more than"},
+      {[](C &c) { return c.step.dt = 0, c.take_step(); }, "dt is 0, not above 0"},
+      {[](C &c) { return c.step.dt = -1, c.take_step(); }, "dt is -1, not above 0"},
+      {[=](C &c) { return c.step.dt = nan, c.take_step(); }, "dt is nan, not above 0"},
+      {[=](C &c) { return c.step.dt = inf, c.take_step(); }, "dt is inf, not above 0"},
+      {[](C &c) { return c.step.reach = -1, c.take_step(); }, "reach is -1, below 0"},
+      {[=](C &c) { return c.step.reach = nan, c.take_step(); }, "reach is nan, below 0"},
+      {[](C &c) { return c.step.setup = 2, c.take_step(); }, "`setup` is 2: it is 0 or 1"},
+      {[](C &c) { return c.step.changed = -1, c.take_step(); }, "`changed` is -1: it is 0 or 1"},
+      {[](C &c) { return c.step.synchronous = 3, c.take_step(); },
+       "`synchronous` is 3: it is 0 or 1"},
+      // Answers.
+      {[](C &c) { return lsdcd_wall_get_totals(nullptr, 0, nullptr, &c.totals); },
+       "`wall` is null"},
+      {[](C &c) { return lsdcd_wall_get_totals(c.wall, 0, nullptr, nullptr); },
+       "`lsdcd_wall_totals` is null"},
+      {[](C &c) { return c.totals.size = 1, lsdcd_wall_get_totals(c.wall, 0, nullptr, &c.totals); },
+       "`lsdcd_wall_totals`: size is 1"},
+      {[](C &c) { return lsdcd_wall_get_totals(c.wall, 1, nullptr, &c.totals); },
+       "mesh is 1; this wall has 1"},
+      {[](C &c) { return lsdcd_wall_get_totals(c.wall, -2, nullptr, &c.totals); },
+       "mesh is -2; this wall has 1"},
+      {[=](C &c) {
+         return c.numbers[1] = nan, lsdcd_wall_get_totals(c.wall, 0, c.numbers, &c.totals);
+       },
+       "`about[1]` is nan: give a finite"},
+      {[](C &c) { return lsdcd_wall_get_pose(c.wall, 0, nullptr); }, "`matrix` is null"},
+      {[](C &c) { return lsdcd_wall_get_pose(c.wall, -1, c.numbers); },
+       "mesh is -1; this wall has 1"},
+      {[](C &c) { return lsdcd_wall_get_contacts(c.wall, nullptr); },
+       "`lsdcd_wall_contacts` is null"},
+      {[](C &c) { return c.contacts.size = 0, lsdcd_wall_get_contacts(c.wall, &c.contacts); },
+       "`lsdcd_wall_contacts`: size is 0"},
+      {[](C &c) { return lsdcd_wall_get_contacts(c.wall, &c.contacts); },
+       "this wall does not keep its contacts"},
+      {[](C &c) { return lsdcd_wall_get_body(c.wall, 0, nullptr); }, "`lsdcd_body_state` is null"},
+      {[](C &c) { return lsdcd_wall_get_body(c.wall, 0, &c.body); },
+       "mesh 0, 'floor', is not a body"},
+      {[](C &c) { return lsdcd_wall_get_body(c.wall, 7, &c.body); }, "mesh is 7; this wall has 1"},
+      {[](C &c) { return lsdcd_wall_get_nodes(c.wall, 0, c.numbers); },
+       "mesh 0, 'floor', has no nodes"},
+      {[](C &c) { return lsdcd_wall_get_node_forces(c.wall, 0, c.numbers); },
+       "mesh 0, 'floor', has no nodes"},
+      {[](C &c) { return lsdcd_wall_get_node_count(c.wall, 0, &c.count); },
+       "mesh 0, 'floor', has no nodes"},
+      {[](C &c) { return lsdcd_wall_get_node_count(c.wall, 0, nullptr); }, "`count` is null"},
+      // What moves a mesh.
+      {[](C &c) { return lsdcd_wall_set_pose(c.wall, 0, c.numbers, nullptr, nullptr, nullptr); },
+       "mesh 0, 'floor', is not posed by the caller"},
+      {[](C &c) { return lsdcd_wall_set_pose(c.wall, 1, c.numbers, nullptr, nullptr, nullptr); },
+       "mesh is 1; this wall has 1"},
+      {[](C &c) { return lsdcd_wall_set_nodes(c.wall, 0, c.numbers, nullptr); },
+       "mesh 0, 'floor', has no nodes"},
+      {[](C &c) { return lsdcd_wall_set_motion(c.wall, 0, nullptr, 1); },
+       "`motions` is null: give an array of 1"},
+      {[](C &c) { return lsdcd_wall_set_motion(c.wall, 3, &c.motion, 1); },
+       "mesh is 3; this wall has 1"},
+      {[](C &c) { return c.motion.kind = 9, lsdcd_wall_set_motion(c.wall, 0, &c.motion, 1); },
+       "`motions[0].kind` is 9: it is LSDCD_LINEAR"},
+      {[](C &c) { return c.motion.size = 0, lsdcd_wall_set_motion(c.wall, 0, &c.motion, 1); },
+       "`motions[0]`: size is 0, and should be"},
+      {[](C &c) { return lsdcd_wall_set_servo(c.wall, 0, &c.servo); },
+       "`servo.axis` is 0 0 0: give a direction"},
+      {[](C &c) { return c.servo.size = 3, lsdcd_wall_set_servo(c.wall, 0, &c.servo); },
+       "`servo`: size is 3, and should be"},
+      {[](C &c) { return lsdcd_wall_set_body(c.wall, 0, &c.rigid); },
+       "mesh 0, 'floor', is not a body"},
+      // Spheres that go, and saved states.
+      {[](C &c) { return lsdcd_wall_renumber(c.wall, nullptr, 2); }, "`from` is null"},
+      {[](C &c) { return c.which[1] = 2, lsdcd_wall_renumber(c.wall, c.which, 2); },
+       "from[1] is 2: each is a"},
+      {[](C &c) { return c.which[1] = 0, lsdcd_wall_renumber(c.wall, c.which, 2); },
+       "from[1] is 0: each is a"},
+      {[](C &c) { return c.which[0] = -2, lsdcd_wall_renumber(c.wall, c.which, 2); },
+       "from[0] is -2: each is a"},
+      {[](C &c) { return lsdcd_wall_pack(c.wall, c.which, 2, nullptr, 0, nullptr); },
+       "`count` is null"},
+      {[](C &c) { return lsdcd_wall_pack(c.wall, nullptr, 2, nullptr, 0, &c.count); },
+       "`which` is null"},
+      {[](C &c) { return lsdcd_wall_pack(c.wall, c.which, 2, nullptr, 9, &c.count); },
+       "`numbers` is null"},
+      {[](C &c) {
+         return c.which[1] = 5, lsdcd_wall_pack(c.wall, c.which, 2, nullptr, 0, &c.count);
+       },
+       "which[1] is 5"},
+      {[](C &c) { return lsdcd_wall_unpack(c.wall, c.which, 2, nullptr, 0); }, "`numbers` is null"},
+      {[](C &c) { return lsdcd_wall_unpack(c.wall, nullptr, 2, c.numbers, 12); }, "`to` is null"},
+      {[](C &c) { return lsdcd_wall_unpack(c.wall, c.which, 2, c.numbers, 12); },
+       "these are not the numbers that lsdcd_wall_pack() wrote"},
+      {[](C &c) { return lsdcd_wall_save(c.wall, nullptr, 0, nullptr); }, "`count` is null"},
+      {[](C &c) { return lsdcd_wall_save(c.wall, nullptr, 5, &c.count); }, "`numbers` is null"},
+      {[](C &c) { return lsdcd_wall_restore(c.wall, nullptr, 5); }, "`numbers` is null"},
+      {[](C &c) { return lsdcd_wall_restore(c.wall, c.numbers, 5); },
+       "a wall is restored before its first step"},
+      // Walls.
+      {[](C &c) { return lsdcd_wall_from_spec(c.spec, nullptr, nullptr); }, "`wall` is null"},
+      {[](C &c) { return c.spec = nullptr, c.make(); }, "`lsdcd_wall_spec` is null"},
+      {[](C &c) { return c.options.size = 8, c.make(); },
+       "`lsdcd_wall_options`: size is 8, and should be"},
+      {[](C &c) { return c.options.threads = -1, c.make(); }, "`threads` is -1; it is 0 to 4096"},
+      {[](C &c) { return c.options.threads = 5000, c.make(); },
+       "`threads` is 5000; it is 0 to 4096"},
+      {[](C &c) { return c.options.device = 2, c.make(); },
+       "`lsdcd_wall_options`: device is neither"},
+      {[](C &c) { return c.options.stream = &c, c.make(); },
+       "`lsdcd_wall_options`: stream is given"},
+      {[](C &c) { return c.options.lo[0] = 1, c.make(); },
+       "`lsdcd_wall_options`: lo must be below hi"},
+      {[=](C &c) { return c.options.hi[0] = nan, c.make(); },
+       "`lsdcd_wall_options`: lo must be below hi"},
+      {[](C &c) { return c.options.periodic[1] = 1, c.make(); },
+       "`lsdcd_wall_options`: lo must be below hi"},
+      {[](C &c) { return c.options.periodic[1] = 2, c.make(); },
+       "`lsdcd_wall_options.periodic[1]` is 2: it is 0 or 1"},
+      {[=](C &c) { return c.options.time = nan, c.make(); },
+       "`lsdcd_wall_options`: margin is 0, time nan"},
+      {[](C &c) { return c.make_for([](lsdcd_host &h) { h.size = 0; }); },
+       "`lsdcd_host`: size is 0"},
+      {[](C &c) { return c.make_for([](lsdcd_host &h) { h.rank = 1; }); },
+       "`lsdcd_host`: rank is 1"},
+      {[](C &c) { return c.make_for([](lsdcd_host &h) { h.processes = 0; }); }, "`lsdcd_host`: "},
+      {[](C &c) { return c.make_for([](lsdcd_host &h) { h.node_rank = -1; }); }, "`lsdcd_host`: "},
+      {[](C &c) { return c.make_for([](lsdcd_host &h) { h.sum = nullptr; }); },
+       "`lsdcd_host`: `sum` is null"},
+      {[](C &c) { return c.make_for([](lsdcd_host &h) { h.broadcast = nullptr; }); },
+       "`lsdcd_host`: `broadcast` is null"},
+      // Placements.
+      {[](C &) { return lsdcd_place_move(nullptr, 1, 0, 0); }, "`placement` is null"},
+      {[](C &c) { return lsdcd_place_scale(c.numbers, 0, 1, 1); }, "scale 0 1 1: a factor is zero",
+       LSDCD_ERROR_INPUT},
+      {[=](C &c) { return lsdcd_place_move(c.numbers, 0, inf, 1); },
+       "move 0 inf 1: a component is not", LSDCD_ERROR_INPUT},
+      {[](C &c) { return lsdcd_place_rotate(c.numbers, nullptr, 90); }, "`axis` is null"},
+      {[](C &c) { return lsdcd_place_rotate(c.numbers, c.numbers, 90); },
+       "rotate about 0 0 0: the axis is", LSDCD_ERROR_INPUT},
+      {[=](C &c) { return c.numbers[3] = nan, lsdcd_place_move(c.numbers, 1, 0, 0); },
+       "`placement[3]` is nan: give a finite"},
+      {[](C &c) { return c.numbers[3] = 1, lsdcd_place_move(c.numbers, 1, 0, 0); },
+       "`placement` is a matrix with the determinant 0"},
+      {[](C &) { return lsdcd_sub_model_get_facts(0, nullptr); },
+       "`lsdcd_sub_model_facts` is null"},
+  };
+  lsdcd::Wall wall(floor());
+  const api::WallSpec of = floor();
+  const api::c::Spec spec(of);
+  Calls(wall.get(), spec.get()).take_step();
+  const std::vector<double> before = wall.save();
+  for (const auto &row : rows) {
+    Calls calls(wall.get(), spec.get());
+    EXPECT_EQ(row.call(calls), row.code) << row.text;
+    const std::string said = lsdcd_last_error();
+    EXPECT_EQ(said.substr(0, std::strlen(row.text)), row.text);
+    EXPECT_FALSE(said.empty());
+    for (const double f : calls.grains.force) EXPECT_EQ(f, 0) << row.text;
+  }
+  EXPECT_EQ(wall.save(), before);    // none has changed anything
 }
 
 TEST_F(wall, goes_on_after_a_step_that_was_refused_before_it_began)
