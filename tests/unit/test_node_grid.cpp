@@ -56,7 +56,8 @@ std::vector<CellEntry> list_at(const NodeLists &lists, const Vec3 &x)
     cell[d] = static_cast<long>(std::floor((x[d] - grid.origin[d]) / grid.length));
     if (cell[d] < 0 || cell[d] >= 8L * grid.n_bricks[d]) return {};
   }
-  const long place = (cell[2] / 8 * grid.n_bricks[1] + cell[1] / 8) * grid.n_bricks[0] + cell[0] / 8;
+  const long place =
+      (cell[2] / 8 * grid.n_bricks[1] + cell[1] / 8) * grid.n_bricks[0] + cell[0] / 8;
   const int brick = lists.brick_of[place];
   if (brick < 0) return {};
   const BrickLayer &layer = lists.bricks[brick].layer[cell[2] % 8];
