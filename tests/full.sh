@@ -1,0 +1,111 @@
+# SPDX-FileCopyrightText: 2026 LSDCD contributors
+# SPDX-License-Identifier: BSD-3-Clause
+
+# The tests that are not of every day: `./run test all|sanitized|arm64` and `./run release-check`, which read this file.
+
+test_all_packages=(
+  "${doc_packages[@]}"                 # that the HTML has no broken link
+  libcgal-dev libcgal-demo             # an independent distance oracle, and real meshes to try
+  libsimbody-dev                       # a multibody code, whose wheel an example drives over grains
+  libbullet-dev                        # a physics engine, whose crates an example drops on grains
+  libtrilinos-kokkos-dev               # Kokkos 3.4, for a LAMMPS 29Sep2021 with KOKKOS
+  mmdebstrap                           # newer Debians, to install packages on
+  valgrind                             # counts instructions of a step
+  lintian                              # Debian's rules for packages
+  clang-tidy                           # the checks of .clang-tidy
+  reuse                                # that each file has its licence
+  libmpich-dev mpich                   # another MPI library, for a LAMMPS and its plugin
+)
+arm64_packages=(
+  g++-aarch64-linux-gnu                # compiles for 64-bit Arm
+  qemu-user                            # runs what was compiled
+)
+
+# test_all [OPTION...]: options of ctest choose tests. Without a GPU CUDA code is for the one that
+# bench.test_kernel_sizes has sizes for, and kernels of moving walls take their turn.
+test_all() {
+  local folder=build/all kinds=() text hosts=() options=(-D LSDCD_TESTS=ON -D LSDCD_TURN="$turn") laws='on_wall|plain'
+  need_each "${test_all_packages[@]}"
+  case $turn in 0 | 1) laws='^plain$' ;; esac
+  have_gpu || options+=(-D CMAKE_CUDA_ARCHITECTURES=90 -D LSDCD_MACHINE_LAWS="$laws")
+  say "configure${turn:+: of what takes long, turn $turn of 0 to 2 (doc/testing.md)}"
+  configure cuda $folder "${options[@]}" || { fail "configure"; return; }
+  if wanted $folder -L host "$@"; then
+    if [[ "$*" != *release* ]]; then kinds=(kinds); fi
+    if wanted $folder -L mpi "$@"; then kinds+=(mpi); fi
+    say "LAMMPS from source, kept in $LSDCD_HOSTS"
+    text=$(tests/lammps/hosts/build_all.sh "${kinds[@]}") || fail "LAMMPS from source"
+    if [ -n "$text" ]; then mapfile -t hosts <<<"$text"; fi
+  fi
+  say "build"
+  configure cuda $folder "${options[@]}" "${hosts[@]}" && compile $folder || { fail "build"; return; }
+  say "tests"
+  run_ctest $folder "$@"
+}
+
+# The tests of every day under sanitizers: random meshes stand for real ones, tests of the tool's commands one by one for
+# its examples in a row. Sampling tests take a tenth of their samples: the same code runs, and a sanitizer makes each
+# several times as slow. Rooms take turns.
+test_sanitized() {
+  say "sanitizers: configure and build${turn:+ a third}"
+  configure sanitize build/sanitize -D LSDCD_TURN="$turn" || { fail "configure with sanitizers"; return; }
+  wanted build/sanitize -LE 'full|release' || return 0
+  compile build/sanitize quick || { fail "build with sanitizers"; return; }
+  say "sanitizers: tests"
+  LSDCD_QUICK=1 LSDCD_PAIRS=1e6 run_ctest build/sanitize -LE 'full|release' -E '^tool[.](test_(tradeoff|commands|page_commands)|format)$'
+}
+
+# The library, the tool and the unit tests for 64-bit Arm, compiled by Debian's cross compiler and run in qemu, which takes each
+# test about twenty times as long as a processor would: tests of random pairs take a tenth of the pairs of ./run test. Debian's
+# arm64 libraries come through lists of their own, so that this machine's packages stay as they are.
+test_arm64() {
+  local root=$LSDCD_HOSTS/arm64 package
+  local apt=(apt-get -q -o APT::Architecture=arm64 -o APT::Architectures=arm64 -o Dir::State::Lists="$root/lists"
+             -o Dir::Cache="$root/cache" -o Debug::NoLocking=1 -o APT::Sandbox::User=root)
+  need_to "the build for Arm needs" "${arm64_packages[@]}"
+  if [ ! -f "$root/complete" ]; then
+    mkdir -p "$root/lists/partial" "$root/cache/archives/partial" "$root/packages"
+    "${apt[@]}" update </dev/null || die "no lists of Debian's arm64 packages"
+    (cd "$root/packages" && "${apt[@]}" download libgtest-dev libzstd-dev libzstd1 libxxhash-dev libxxhash0 \
+      libcli11-dev nlohmann-json3-dev </dev/null) || die "Debian's arm64 libraries do not come from the mirror"
+    for package in "$root"/packages/*.deb; do dpkg -x "$package" "$root/root"; done
+    touch "$root/complete"
+  fi
+  say "build for 64-bit Arm; Debian's libraries for it are kept in $root"
+  # Little optimisation, as with sanitizers: it does not change an answer, and most tests run for less time than it would take.
+  configure cpu build/arm64 --toolchain cmake/arm64.cmake -D LSDCD_ARM64_ROOT="$root/root" -D LSDCD_LAMMPS=OFF \
+    -D LSDCD_TESTS=ON -D CMAKE_CXX_FLAGS_RELEASE="-O1 -DNDEBUG" && compile build/arm64 quick || { fail "build for Arm"; return; }
+  say "tests in qemu"
+  LSDCD_QUICK=1 LSDCD_PAIRS=1e5 run_ctest build/arm64 -LE full --timeout 3600 -E '^(bits|library|recipes|tool)[.]'
+}
+
+# test_full all|sanitized|arm64 [PATTERN]: what only a release asks for is left out unless a pattern names it. Tests that take
+# long take turns: of three parts the commit chooses one, each commit another, so that all have their turn.
+test_full() {
+  local commit chosen=()
+  turn=""
+  [ $# -le 2 ] || die "test $1 takes one pattern: ${*:2}"
+  pattern=${2:-.}
+  need_to "the build needs" "${build_packages[@]}"
+  need_each "${test_packages[@]}"
+  if [ "$*" = all ] && [ -z "${release:-}" ]; then
+    chosen=(-LE release)
+    commit=$(git rev-parse HEAD 2>/dev/null) || commit=0
+    turn=$((16#${commit:0:7} % 3))
+  fi
+  "test_$1" "${chosen[@]}"
+  if [ "$1" = all ]; then test_sanitized; fi
+  report
+}
+
+# What RELEASING.md lists; what fails early first.
+release_check() {
+  need_to "the build needs" "${build_packages[@]}"
+  say "versions, formats, commits"
+  "$python" tests/tool/check_release.py --release || die "not ready for a release: see the lines with FAIL"
+  release=1 test_full all
+  package
+  say "programs and packages"
+  "$python" tests/tool/check_release.py --build build --packages build/packages
+  say "ready for a release; what was skipped is above"
+}
