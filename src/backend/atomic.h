@@ -23,6 +23,16 @@ LSDCD_FN T fetch_add(T *at, T n)
 #endif
 }
 
+// Adds n, which may be less than 0.
+LSDCD_FN void add_signed(std::int64_t *at, std::int64_t n)
+{
+#if LSDCD_ON_GPU()
+  atomicAdd(reinterpret_cast<unsigned long long *>(at), static_cast<unsigned long long>(n));
+#else
+  __atomic_fetch_add(at, n, __ATOMIC_RELAXED);
+#endif
+}
+
 // Adds 1 and returns what was there before, for numbers that many threads add to at once.
 LSDCD_FN std::uint64_t fetch_add_one(std::uint64_t *at)
 {

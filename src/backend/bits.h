@@ -6,6 +6,7 @@
 
 #include "base/real.h"
 
+#include <cmath>
 #include <cstdint>
 
 // Is this compiled for the device? For #if, where a macro that is not known would be 0 without its brackets.
@@ -41,6 +42,16 @@ LSDCD_FN unsigned lowest_bit(unsigned word)
   return __ffs(word) - 1;
 #else
   return __builtin_ctz(word);
+#endif
+}
+
+// Returns the whole number nearest to x, the even one of two; |x| < 2^63.
+LSDCD_FN std::int64_t nearest_whole(Real x)
+{
+#if LSDCD_ON_GPU()
+  return __double2ll_rn(x);
+#else
+  return std::llrint(x);
 #endif
 }
 

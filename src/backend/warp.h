@@ -8,6 +8,8 @@
 #include "backend/bits.h"
 #include "base/vec3.h"
 
+#include <cstdint>
+
 namespace lsdcd {
 
 constexpr unsigned kWarpSize = 32;
@@ -94,6 +96,37 @@ struct Warp {
   {
     for (unsigned apart = 1; apart < kSize; apart *= 2) value = fmin(value, of_other(value, apart));
     return value;
+  }
+
+  // Adds up the numbers of the threads that have the same key, of those that say `mine`. Returns whether this thread has
+  // the sums of its key. On a GPU of a whole warp.
+  template <int n>
+  LSDCD_FN static bool sum_by_key(bool mine, [[maybe_unused]] int key,
+                                  [[maybe_unused]] std::int64_t (&sums)[n])
+  {
+#if LSDCD_ON_GPU()
+    if constexpr (kSize > 1) {
+      static_assert(kSize == kWarpSize, "a whole warp");
+      // In each round every second thread of a key that is left adds what the next one has, which then is done.
+      const unsigned same = __match_any_sync(kAll, mine ? key : -1), rank = threadIdx.x % kSize;
+      unsigned place = count_bits(same & ((1u << rank) - 1)), above = same & (~1u << rank);
+      const bool is_first = place == 0;
+      while (__any_sync(kAll, above != 0)) {
+        const bool has = above != 0;
+        const unsigned next = has ? lowest_bit(above) : rank;
+        for (int k = 0; k < n; k++) {
+          const std::int64_t other = __shfl_sync(kAll, sums[k], next);
+          if (has) sums[k] += other;
+        }
+        const bool is_done = place & 1;
+        const unsigned left = __ballot_sync(kAll, !is_done);
+        above = is_done ? 0 : above & left;
+        place /= 2;
+      }
+      return mine && is_first;
+    }
+#endif
+    return mine;
   }
 
   LSDCD_FN static unsigned count(unsigned votes)

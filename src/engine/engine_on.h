@@ -31,10 +31,11 @@ struct OccupiedCells {
 };
 
 // The force on the node of row k: of contacts, and of faces that push it in the order of their numbers, as on a host.
-struct SumOfNode {
+struct ForceOfNode {
   const int *faces, *first, *around;
   const Vec3 *at;
-  const Real *sums;
+  const std::int64_t *sums;
+  const NodeForceRange *range;
   const int *node_of_row;
   Real sixth;
   Real *to;
@@ -42,7 +43,9 @@ struct SumOfNode {
   LSDCD_FN void operator()(std::size_t k) const
   {
     const int i = node_of_row[k];
-    Vec3 sum = {sums[3 * i], sums[3 * i + 1], sums[3 * i + 2]};
+    const SumUnit unit(range->shares);
+    Vec3 sum;
+    for (int d = 0; d < 3; d++) sum[d] = unit.value(sums[3 * i + d]);
     for (int m = first[i]; sixth != 0 && m < first[i + 1]; m++)
       sum += corner_share_of_pressure(faces + 3 * std::size_t(around[m]), at, sixth);
     for (int d = 0; d < 3; d++) to[3 * k + d] = sum[d];
@@ -59,10 +62,8 @@ class EngineOn : public WallEngine, public CandidatesInPlace, public NodesInPlac
       settings_(settings), law_(law), b_(std::move(backend)), broad_phase_(settings), counts_(1),
       springs_(b_, law.traits, counts_.data()), overflow_(kOverflowScratches)
   {
-    if (has_copies()) {
-      nodes_ = std::vector<MovingNodes<B>>(settings.meshes);
-      node_forces_ = std::vector<NodeForces<B>>(settings.meshes);
-    }
+    if (has_copies()) nodes_ = std::vector<MovingNodes<B>>(settings.meshes);
+    if (settings.nodes) node_forces_ = std::vector<NodeForces<B>>(settings.meshes);
     clear_diagnostics(StepCounts());
     unlock_scratches();
     if (broad_phase_.uses_slots()) put_laws();
@@ -268,27 +269,31 @@ class EngineOn : public WallEngine, public CandidatesInPlace, public NodesInPlac
                     has_copies() ? nodes_[mesh].turning(records_of(mesh)) : turning);
     });
   }
-  Real add_node_forces(int mesh, const NodesNow &now, const MeshFeaturesView &wall,
-                       Real *forces) override
+  void see_node_forces(int mesh, const NodesNow &now, const MeshFeaturesView &wall) override
   {
-    if (has_copies()) throw std::logic_error("the forces of nodes are summed in place");
-    return NodeForces<B>::add_on_cpu(node_contacts(mesh, wall, now.velocity),
-                                     now.mesh->vertices.size(), forces);
+    const bool copies = has_copies();
+    const Vec3 *velocity = copies ? nodes_[mesh].field(0).velocity : now.velocity;
+    const NodeContacts in = results_.node_contacts(springs_.contacts(step_.update_history), mesh,
+                                                   copies ? records_of(mesh) : wall, velocity);
+    node_forces_.at(mesh).see(b_, in, copies ? nodes_[mesh].n() : now.mesh->vertices.size());
   }
-  void sum_node_forces(int mesh) override
+  NodeForceRange node_force_range(int mesh) override { return node_forces_.at(mesh).range(); }
+  void add_node_forces(int mesh, const NodeForceRange *of_all) override
   {
-    const MovingNodes<B> &nodes = nodes_.at(mesh);
-    node_forces_[mesh].sum(b_, node_contacts(mesh, records_of(mesh), nodes.field(0).velocity),
-                           nodes.n());
+    node_forces_.at(mesh).add(b_, of_all);
   }
-  Real fetch_node_forces(int mesh, Real *forces) override
+  Real fetch_node_forces(int mesh, std::int64_t *sums) override
   {
-    return node_forces_.at(mesh).fetch(b_, forces);
+    return node_forces_.at(mesh).fetch(b_, sums);
   }
   void put_node_forces(int mesh, Real sixth, Real *to, const std::vector<int> &node_of_row) override
   {
-    put_sums(nodes_.at(mesh), node_forces_[mesh].sums(), sixth, to,
-             nodes_[mesh].rows(b_, node_of_row), node_of_row.size());
+    MovingNodes<B> &nodes = nodes_.at(mesh);
+    const int *rows = nodes.rows(b_, node_of_row);
+    b_.for_each(node_of_row.size(),
+                ForceOfNode{nodes.faces(), nodes.face_first(), nodes.faces_around(), nodes.at(),
+                            node_forces_[mesh].sums(), node_forces_[mesh].range_in_place(), rows,
+                            sixth, to});
   }
   SpringsInPlace *springs_in_place() override { return &springs_; }
   void springs_to(ContactHistory &store, int n) override { springs_.to_store(store, n); }
@@ -338,13 +343,6 @@ class EngineOn : public WallEngine, public CandidatesInPlace, public NodesInPlac
     return works_.data();
   }
 
-  void put_sums(const MovingNodes<B> &nodes, const Real *sums, Real sixth, Real *to,
-                const int *node_of_row, std::size_t n)
-  {
-    b_.for_each(n, SumOfNode{nodes.faces(), nodes.face_first(), nodes.faces_around(), nodes.at(),
-                             sums, node_of_row, sixth, to});
-  }
-
   // Clears what was counted since the CPU last read it.
   void clear_diagnostics(const StepCounts &seen)
   {
@@ -373,10 +371,6 @@ class EngineOn : public WallEngine, public CandidatesInPlace, public NodesInPlac
     for (const MovingNodes<B> &nodes : nodes_) bytes += nodes.bytes();
     for (const NodeForces<B> &forces : node_forces_) bytes += forces.bytes();
     return bytes;
-  }
-  NodeContacts node_contacts(int mesh, const MeshFeaturesView &wall, const Vec3 *velocity) const
-  {
-    return results_.node_contacts(springs_.contacts(step_.update_history), mesh, wall, velocity);
   }
   const MeshFeaturesView &records_of(int mesh) const
   {

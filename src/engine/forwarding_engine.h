@@ -36,10 +36,18 @@ class ForwardingEngine : public WallEngine {
   {
     engine_->turn_springs(n, mesh, turning);
   }
-  Real add_node_forces(int mesh, const NodesNow &now, const MeshFeaturesView &wall,
-                       Real *forces) override
+  void see_node_forces(int mesh, const NodesNow &now, const MeshFeaturesView &wall) override
   {
-    return engine_->add_node_forces(mesh, now, wall, forces);
+    engine_->see_node_forces(mesh, now, wall);
+  }
+  NodeForceRange node_force_range(int mesh) override { return engine_->node_force_range(mesh); }
+  void add_node_forces(int mesh, const NodeForceRange *of_all) override
+  {
+    engine_->add_node_forces(mesh, of_all);
+  }
+  Real fetch_node_forces(int mesh, std::int64_t *sums) override
+  {
+    return engine_->fetch_node_forces(mesh, sums);
   }
   void springs_to(ContactHistory &store, int n) override { engine_->springs_to(store, n); }
   void springs_from(const ContactHistory &store, int n) override

@@ -188,10 +188,23 @@ class HostAdapter : public WallEngine {
     else
       engine_.turn_springs(n_candidates(), mesh, turning);
   }
-  Real add_node_forces(int mesh, const NodesNow &now, const MeshFeaturesView &wall,
-                       Real *forces) override
+  void see_node_forces(int mesh, const NodesNow &now, const MeshFeaturesView &wall) override
   {
-    return engine_.add_node_forces(mesh, now, wall, forces);
+    engine_.see_node_forces(mesh, now, wall);
+  }
+  NodeForceRange node_force_range(int mesh) override
+  {
+    NodeForceRange range = engine_.node_force_range(mesh);
+    if (range.not_finite) range.not_finite = kNoSphere - candidates_[kNoSphere - range.not_finite];
+    return range;
+  }
+  void add_node_forces(int mesh, const NodeForceRange *of_all) override
+  {
+    engine_.add_node_forces(mesh, of_all);
+  }
+  Real fetch_node_forces(int mesh, std::int64_t *sums) override
+  {
+    return engine_.fetch_node_forces(mesh, sums);
   }
 
   void springs_to(ContactHistory &store, int n) override

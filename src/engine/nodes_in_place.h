@@ -49,13 +49,9 @@ class NodesInPlace {
   virtual void fetch_nodes(int mesh, NodesAt when, Vec3 *x, Vec3 *v) = 0;
   virtual void fetch_contacts(int mesh, MeshFeatures &to) = 0;
 
-  // The forces of the contacts of the last step on the nodes of a mesh, summed in the order of the spheres.
-  virtual void sum_node_forces(int mesh) = 0;
-  // Copies them to the CPU, x y z, node after node (force), if `forces` is not null. Returns the power of the nodes on
-  // the spheres. Waits.
-  virtual Real fetch_node_forces(int mesh, Real *forces) = 0;
-  // Puts them where the backend computes, row k of node node_of_row[k], as in give_nodes_in_place(), with the forces of a
-  // pressure, of which this is a sixth (mesh/face_pressure.h). Does not wait.
+  // Puts the forces of WallEngine::add_node_forces() where the backend computes, row k of node node_of_row[k], as in
+  // give_nodes_in_place(), with the forces of a pressure, of which this is a sixth (mesh/face_pressure.h). They are no
+  // numbers where a contact's force is not finite. Does not wait.
   virtual void put_node_forces(int mesh, Real sixth, Real *to,
                                const std::vector<int> &node_of_row) = 0;
 };

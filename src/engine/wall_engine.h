@@ -11,6 +11,7 @@
 #include "contact/feature_turn.h"
 #include "contact/node_field.h"
 #include "engine/candidate_schedule.h"
+#include "engine/sum_unit.h"
 #include "grid/triangle_grid.h"
 #include "host/host_names.h"
 #include "law/contact_law.h"
@@ -110,6 +111,13 @@ struct NodesNow {
   const Vec3 *velocity;    // as in NodeField
   bool with_spins;         // else no law reads spins
   Real back;               // how long ago velocities are of (time)
+};
+
+// What is to be known of the forces of contacts on the nodes of a mesh before they are added.
+struct NodeForceRange {
+  SummandRange shares;    // components of the contacts' shares, of which a node has one a contact
+  // kNoSphere less the index of the first sphere with one that is not finite, or 0.
+  std::uint64_t not_finite;
 };
 
 // Sums over the spheres of the last step on this process.
@@ -316,11 +324,19 @@ class WallEngine {
   // Turns the springs of the spheres [0, n) on a mesh with their features, before a step, in the frame of the mesh. An engine with
   // nodes_in_place() knows where nodes were before, and reads nothing of `turning`.
   virtual void turn_springs(int n, int mesh, const TurningMesh &turning) = 0;
-  // Adds the forces of the contacts of the last step to those of the nodes of a mesh, x y z, node after node (force), in
-  // the order of the spheres. Returns the power of the nodes on the spheres. step.contacts need not be set. An engine with
-  // nodes_in_place() sums them there, by NodesInPlace::sum_forces().
-  virtual Real add_node_forces(int mesh, const NodesNow &now, const MeshFeaturesView &wall,
-                               Real *forces) = 0;
+  // The forces of the contacts of the last step on the nodes of a mesh, in fixed point. step.contacts need not be set. An
+  // engine with nodes_in_place() reads nothing of `now` and `wall`. All follow each other after a step: what they read of
+  // spheres and nodes is as in collect().
+  //
+  // Sees the contacts on this process. Does not wait.
+  virtual void see_node_forces(int mesh, const NodesNow &now, const MeshFeaturesView &wall) = 0;
+  // Returns the range of what was seen. Waits.
+  virtual NodeForceRange node_force_range(int mesh) = 0;
+  // Adds up what was seen, in units of the range of all processes, or of this one's own where it is null. Does not wait.
+  virtual void add_node_forces(int mesh, const NodeForceRange *of_all) = 0;
+  // Copies the sums in units of SumUnit(range.shares), x y z, node after node, if `sums` is not null; none are made
+  // where a force is not finite. Returns the power of the nodes on the spheres. Waits.
+  virtual Real fetch_node_forces(int mesh, std::int64_t *sums) = 0;
 
   // Copy the springs of the spheres [0, n) from the engine and to it.
   virtual void springs_to(ContactHistory &store, int n) = 0;

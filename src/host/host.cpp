@@ -51,6 +51,26 @@ int lowest_rank(Host &host, bool here)
   return host.processes() - static_cast<int>(first);
 }
 
+void sum_exactly(Host &host, std::vector<std::int64_t> &numbers)
+{
+  constexpr int kMostProcesses = 1 << 21;
+  if (host.processes() == 1) return;
+  if (host.processes() > kMostProcesses)
+    throw InputError("forces on the nodes of a mesh are summed over at most " +
+                     std::to_string(kMostProcesses) + " processes: use fewer of them");
+  std::vector<Real> halves;
+  for (const std::int64_t x : numbers) {
+    halves.push_back(static_cast<Real>(x >> 32));    // rounded down
+    halves.push_back(static_cast<Real>(static_cast<std::uint32_t>(x)));
+  }
+  host.sum(halves.data(), static_cast<int>(halves.size()));
+  for (std::size_t k = 0; k < numbers.size(); k++) {
+    const auto high = static_cast<std::uint64_t>(static_cast<std::int64_t>(halves[2 * k])),
+               low = static_cast<std::uint64_t>(halves[2 * k + 1]);
+    numbers[k] = static_cast<std::int64_t>((high << 32) + low);
+  }
+}
+
 void broadcast_text(Host &host, std::string &text, int from)
 {
   std::uint64_t size = text.size();

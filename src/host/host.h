@@ -101,6 +101,11 @@ class Host {
 // Returns the lowest rank where `here`; the number of processes where there is none.
 int lowest_rank(Host &host, bool here);
 
+// Replaces each number by its sum over all processes, which must fit into 64 bits, by Host::sum(). Each goes as two
+// numbers of 32 bits, of which 2^21 processes have sums of at most 2^53: they are exact, as is each part of
+// them, in whatever order a program adds.
+void sum_exactly(Host &host, std::vector<std::int64_t> &numbers);
+
 // Replaces `text` on all processes by that of the process `from`.
 void broadcast_text(Host &host, std::string &text, int from = 0);
 

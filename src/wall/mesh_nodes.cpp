@@ -7,6 +7,7 @@
 #include "base/input_error.h"
 #include "base/input_words.h"
 #include "engine/lists/feature_list.h"
+#include "engine/results/step_counts.h"
 #include "grid/build/node_grid.h"
 #include "mesh/face_pressure.h"
 #include "mesh/measure_mesh.h"
@@ -159,12 +160,15 @@ void MeshNodes::move_in_place(const Step &step, Real cutoff)
   if (!are_given_there_) engine_->give_nodes(index_, next_.data(), next_velocity_.data());
   const NodesGone gone = engine_->move_nodes(index_, with_spins_, back_);
   are_records_old_ = true;
-  if (!std::isfinite(gone.most + gone.speed) || (cutoff > 0 && gone.most > cutoff)) {
+  const bool pushed_well = take_range();
+  if (!pushed_well || !std::isfinite(gone.most + gone.speed) ||
+      (cutoff > 0 && gone.most > cutoff)) {
     std::vector<Vec3> to(mesh_.vertices.size()), v(to.size());
     engine_->fetch_nodes(index_, NodesAt::now, to.data(), v.data());
     engine_->fetch_nodes(index_, NodesAt::before, mesh_.vertices.data(), velocity_.data());
     are_places_old_ = false;
     try {
+      if (!pushed_well) fail_force();
       check_way(step, cutoff, gone.most, mesh_.vertices, to);
       check_velocities(v);
     } catch (...) {
@@ -211,10 +215,10 @@ void MeshNodes::fetch_places() const
 void MeshNodes::leave_engine()
 {
   cutoff_ = 0;
+  fetch_forces();
   if (!engine_) return;
   fetch_contacts();
   fetch_places();
-  fetch_forces();
   if (are_given_there_) {
     next_.resize(mesh_.vertices.size());
     next_velocity_.resize(next_.size());
@@ -339,31 +343,68 @@ void MeshNodes::clear_forces()
   std::fill(of_contacts_.begin(), of_contacts_.end(), 0);
   power_ = 0;
   are_summed_ = true;
-  are_sums_there_ = are_forces_old_ = is_power_old_ = false;
+  are_sums_there_ = are_forces_old_ = is_power_old_ = is_range_new_ = false;
 }
 
-void MeshNodes::sum_forces(WallEngine &engine)
+void MeshNodes::see_forces(WallEngine &engine)
 {
-  if (!engine_) {
-    clear_forces();
-    are_summed_ = false;
-    power_ = engine.add_node_forces(index_, now(), features_.view(), of_contacts_.data());
-    return;
-  }
-  engine_->sum_node_forces(index_);
+  summing_ = &engine;
+  engine.see_node_forces(index_, now(), features_.view());
+  is_range_new_ = are_forces_old_ = is_power_old_ = true;
   are_summed_ = false;
-  are_sums_there_ = are_forces_old_ = is_power_old_ = true;
+  are_sums_there_ = engine_ != nullptr;
+  const bool is_alone = host_.processes() == 1;
+  if (is_alone) engine.add_node_forces(index_, nullptr);
+  // What is set in place is asked for there: nothing waits for it.
+  if ((!is_alone || !are_places_old_) && !take_range()) fail_force();
+}
+
+void MeshNodes::add_forces(const SummandRange &of_all)
+{
+  range_.shares = of_all;
+  summing_->add_node_forces(index_, &range_);
+}
+
+// Returns whether the forces of the last step are finite, the first time that it is called after one.
+bool MeshNodes::take_range()
+{
+  if (!is_range_new_) return true;
+  range_ = summing_->node_force_range(index_);
+  is_range_new_ = false;
+  return range_.not_finite == 0;
+}
+
+void MeshNodes::fail_force() const
+{
+  throw InputError(static_cast<int>(kNoSphere - range_.not_finite),
+                   "pushes nodes of mesh '" + wall_.meshes[index_].name +
+                       "' by a force that is not finite: the motion of the spheres or of the "
+                       "nodes is unstable; use a shorter timestep or more damping");
 }
 
 void MeshNodes::fetch_forces()
 {
-  if (are_forces_old_) power_ = engine_->fetch_node_forces(index_, of_contacts_.data());
+  if (!are_forces_old_) return;
+  if (!take_range()) fail_force();
+  sums_.resize(of_contacts_.size());
+  power_ = summing_->fetch_node_forces(index_, sums_.data());
   are_forces_old_ = is_power_old_ = false;
+}
+
+// Over all processes.
+void MeshNodes::sum_forces()
+{
+  fetch_forces();
+  if (are_summed_) return;
+  sum_exactly(host_, sums_);
+  const SumUnit unit(range_.shares);
+  for (std::size_t k = 0; k < sums_.size(); k++) of_contacts_[k] = unit.value(sums_[k]);
+  are_summed_ = true;
 }
 
 void MeshNodes::fetch_power() const
 {
-  if (is_power_old_) power_ = engine_->fetch_node_forces(index_, nullptr);
+  if (is_power_old_) power_ = summing_->fetch_node_forces(index_, nullptr);
   is_power_old_ = false;
 }
 
@@ -375,9 +416,7 @@ Real MeshNodes::sixth_of(Real pressure) const
 
 const std::vector<Real> &MeshNodes::forces(Real pressure)
 {
-  fetch_forces();
-  if (!are_summed_) host_.sum(of_contacts_.data(), static_cast<int>(of_contacts_.size()));
-  are_summed_ = true;
+  sum_forces();
   if (pressure == 0) return of_contacts_;
   fetch_places();
   forces_ = of_contacts_;

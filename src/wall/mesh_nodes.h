@@ -79,8 +79,13 @@ class MeshNodes {
   // without places has springs of the step that comes.
   void restore(const NodeState &was);
 
-  // After a step: what its contacts do to the nodes, on this process.
-  void sum_forces(WallEngine &engine);
+  // After a step: sees what its contacts do to the nodes, on this process. Throws InputError, which names the sphere, where a force is
+  // not finite; where nodes were set in place, the next step or who asks for forces does.
+  void see_forces(WallEngine &engine);
+  // Returns the range of what was seen, for that of all processes, where these are several.
+  const SummandRange &range() const { return range_.shares; }
+  // Then adds up what was seen.
+  void add_forces(const SummandRange &of_all);
   void clear_forces();
   // Sums over all processes, x y z, node after node (force): of contacts, and of `pressure` (force/area), which pushes
   // to where the normals of faces point by their winding, and outward on a closed mesh. Collective, once a step.
@@ -120,6 +125,9 @@ class MeshNodes {
   void fetch_power() const;
   void fetch_contacts();
   void fetch_forces();
+  void sum_forces();
+  bool take_range();
+  [[noreturn]] void fail_force() const;
   Real sixth_of(Real pressure) const;
 
   Host &host_;
@@ -143,13 +151,17 @@ class MeshNodes {
   std::vector<Vec3> built_at_;       // where nodes were when the grid was built, without engine_
   std::vector<Vec3> turned_from_;    // where nodes were when springs were turned last
   bool have_moved_ = false, springs_are_new_ = true;    // since then
-  // What engine_ alone has: records, places and velocities in this step, and in the next, forces, the power.
+  // What the engine alone has: records, places and velocities in this step, and in the next, forces, the power.
   bool are_records_old_ = false, are_given_there_ = false, are_forces_old_ = false;
   mutable bool are_places_old_ = false, is_power_old_ = false;
-  bool are_sums_there_ = false;    // engine_ has forces of the last step
+  bool are_sums_there_ = false;      // engine_ has forces of the last step
+  WallEngine *summing_ = nullptr;    // the engine that has the forces of the last step
+  NodeForceRange range_ = {};
+  bool is_range_new_ = false;         // summing_ has a range that nobody has looked at
+  std::vector<std::int64_t> sums_;    // of contacts, in units of range_
   std::vector<Real> of_contacts_, forces_;
   mutable Real power_ = 0;
-  bool are_summed_ = true;
+  bool are_summed_ = true;    // of_contacts_ are those of all processes
 };
 
 }    // namespace lsdcd

@@ -577,16 +577,30 @@ void Wall::turn_springs(int n)
     if (m.nodes) m.nodes->turn_springs(*engine_, n);
 }
 
-// Sums over the spheres of this process, as for bodies.
-void Wall::sum_node_forces()
+// Collective where there are several processes: one message has the ranges of all meshes.
+void Wall::sum_node_forces(const HostSpheres &spheres)
 {
+  std::vector<MeshNodes *> all;
   for (MeshPart &m : meshes_) {
     if (!m.nodes) continue;
-    if (cutoff() > 0)
-      m.nodes->sum_forces(*engine_);
-    else
-      m.nodes->clear_forces();
+    all.push_back(m.nodes.get());
+    if (cutoff() == 0) m.nodes->clear_forces();
   }
+  if (cutoff() == 0) return;
+  on_this_process(spheres, [&] {
+    for (MeshNodes *nodes : all) nodes->see_forces(*engine_);
+  });
+  if (host_.processes() == 1) return;
+  const int n = static_cast<int>(all.size());
+  std::vector<Real> counts, exponents;
+  for (const MeshNodes *nodes : all) {
+    counts.push_back(static_cast<Real>(nodes->range().count));
+    exponents.push_back(static_cast<Real>(nodes->range().exponent));
+  }
+  host_.sum_and_max(counts.data(), n, exponents.data(), n);
+  for (int k = 0; k < n; k++)
+    all[k]->add_forces(
+        {static_cast<std::uint64_t>(counts[k]), static_cast<std::uint64_t>(exponents[k])});
 }
 
 Real Wall::pressure(int mesh) const
@@ -642,7 +656,7 @@ void Wall::finish(const HostSpheres &spheres)
   }
   totals_.expire();
   if (has_bodies_) note_step_of_bodies(step);
-  if (has_nodes_) sum_node_forces();
+  if (has_nodes_) sum_node_forces(spheres);
   if (spec_.average_every > 0 && step.kind == Step::step)
     means_.add(step, cutoff() > 0 ? engine_.get() : nullptr, poses(), node_loads(),
                coats_.empty() ? nullptr : &coat_loads_);

@@ -230,7 +230,7 @@ class Wall {
   void advance_bodies(const Step &step);
   void build_node_grids();
   void turn_springs(int n);
-  void sum_node_forces();
+  void sum_node_forces(const HostSpheres &spheres);
   std::vector<Pose> poses() const;
   std::vector<NodeLoad> node_loads();
   Real pressure(int mesh) const;    // in this step, in units of forces

@@ -7,7 +7,10 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdint>
+#include <limits>
 #include <stdexcept>
+#include <vector>
 
 namespace lsdcd::test_fake_host {
 namespace {
@@ -19,6 +22,22 @@ TEST(FakeHost, sums_the_numbers_of_all_processes)
     host.sum(numbers, 2);
     EXPECT_EQ(numbers[0], 3);
     EXPECT_EQ(numbers[1], 8);
+  });
+}
+
+// Whole numbers of 64 bits, which a sum of doubles would round, of both signs and up to the ends of their range.
+TEST(FakeHost, sums_whole_numbers_exactly)
+{
+  constexpr std::int64_t kMost = std::numeric_limits<std::int64_t>::max();
+  on_processes(3, [](FakeHost &host) {
+    const int p = host.rank();
+    std::vector<std::int64_t> numbers = {
+        p == 0 ? kMost : -p, p == 1 ? -kMost : p - 1, (std::int64_t(1) << 60) + 1 - p,
+        -(std::int64_t(1) << 61) + p, p == 2 ? kMost : -(std::int64_t(1) << 62)};
+    sum_exactly(host, numbers);
+    const std::vector<std::int64_t> expected = {kMost - 3, -kMost, 3 * (std::int64_t(1) << 60),
+                                                -3 * (std::int64_t(1) << 61) + 3, -1};
+    EXPECT_EQ(numbers, expected);
   });
 }
 

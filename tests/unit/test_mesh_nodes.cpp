@@ -5,6 +5,7 @@
 //   LSDCD_PAIRS  steps of spheres over nodes that move at random, a tenth of it; 1e7 unless given
 //   LSDCD_SEED   the first seed of these, so that several processes can share a large sample; 1 unless given
 #include "base/input_error.h"
+#include "engine/sum_unit.h"
 #include "mesh/mesh_features.h"
 #include "output/mesh_image.h"
 #include "support/brute_force.h"
@@ -19,6 +20,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
@@ -484,7 +486,7 @@ TEST(mesh_nodes, on_another_device_give_the_same_bits_on_one_side_of_a_closed_me
   expect_the_same_bits(all_motions(), Side::out, false, steps_on_devices() / 2);
 }
 
-// A node of a plate that bears hundreds of contacts has a sum of three levels.
+// Threads of a GPU that add to one of four nodes at once, and the power, which is added in blocks of blocks.
 TEST(mesh_nodes, that_bear_many_spheres_have_the_sum_of_all)
 {
   WallSpec spec = nodes_of(hooke(1000, 20, 30, 0.4).law(), welded(floor_mesh(1, 20)));
@@ -636,6 +638,159 @@ TEST(mesh_nodes, get_the_force_and_its_moment_at_the_contact)
     moment = cross(contacts[0].closest, one.force[0]);
     EXPECT_LE(norm(of_nodes + moment), 1e-13 * norm(one.force[0])) << k;
   }
+}
+
+// The unit of sums: below 2^63 units also where all numbers are as large as the largest power of two in their range lets
+// them be, and no farther from the sum than half a unit a number, which is 2^(b - 63) of the largest or less.
+TEST(mesh_nodes, sums_in_units_fit_into_64_bits_and_are_near)
+{
+  const Real largest = std::nextafter(1., 0.);    // rounds to 1, if it is rounded
+  for (int b = 1; b <= 40; b++)
+    for (const Real size : {largest, 0.5, 1e-3 * largest})
+      for (const int e : {-1060, -1021, -300, 0, 300, 1023}) {
+        const Real x = std::ldexp(size, e);
+        const std::uint64_t n = (std::uint64_t(1) << b) - 1;
+        const SumUnit unit({n, exponent_field(x)});
+        const std::int64_t units = unit.units(x);
+        EXPECT_LT(static_cast<__int128>(n) * units, static_cast<__int128>(1) << 63)
+            << b << " " << e;
+        EXPECT_EQ(unit.units(-x), -units);
+        // Normal numbers have units of half the distance at most; others those of 2^-1022.
+        EXPECT_LE(std::fabs(unit.value(units) - x),
+                  std::max(std::ldexp(x, b - 63), std::ldexp(1., -1023)))
+            << b << " " << e;
+      }
+  for (const Real x : {HUGE_VAL, -HUGE_VAL, std::nan("")}) {
+    const SumUnit none({1, exponent_field(x)});
+    EXPECT_FALSE(none.is_finite());
+    EXPECT_TRUE(std::isnan(none.value(0)));
+  }
+
+  // Numbers of both signs over 12 decades.
+  Random random(5);
+  constexpr int kMany = 1000000;
+  std::vector<Real> numbers;
+  SummandRange range = {kMany, 0};
+  Real most = 0;
+  for (int k = 0; k < kMany; k++) {
+    numbers.push_back(uniform(random, -1, 1) * std::pow(10, uniform(random, -6, 6)));
+    range.exponent = std::max<std::uint64_t>(range.exponent, exponent_field(numbers.back()));
+    most = std::max(most, std::fabs(numbers.back()));
+  }
+  const SumUnit unit(range);
+  std::int64_t sum = 0;
+  long double exact = 0;
+  for (const Real x : numbers) {
+    sum += unit.units(x);
+    exact += x;
+  }
+  const Real bound = kMany * std::ldexp(most, -43);
+  EXPECT_LE(std::fabs(static_cast<Real>(exact - unit.value(sum))), bound);
+  EXPECT_GT(std::fabs(unit.value(sum)), 100 * bound);
+}
+
+// Spheres press a tilted plate by 1e-10 to 100: the sums of its nodes are those of the spheres' forces in shares, in
+// long double, but for half a unit a contact and for the rounding of shares and products, 1e-15 of each force.
+TEST(mesh_nodes, sum_forces_over_twelve_decades)
+{
+  const auto mesh = welded(turned(floor_mesh(2, 20), 0.3));
+  FakeHost host;
+  Scene scene(host, nodes_of(hooke(1000).law(), mesh));
+  const Vec3 normal = unit(Vec3{0.3, -0.2, 1});
+  std::vector<Vec3> at = mesh->vertices;
+  for (Vec3 &x : at) x.z = -(normal.x * x.x + normal.y * x.y) / normal.z;
+  Random random(11);
+  constexpr int kMany = 20000;
+  std::vector<const std::array<int, 3> *> face;
+  for (int k = 0; k < kMany; k++) {
+    face.push_back(&mesh->faces[k % mesh->faces.size()]);
+    const std::array<int, 3> &of = *face.back();
+    const Real u = uniform(random, 0.01, 0.5), w = uniform(random, 0.01, 0.49);
+    const Real overlap = std::pow(10, uniform(random, -13, -1));
+    scene.add(at[of[0]] + u * (at[of[1]] - at[of[0]]) + w * (at[of[2]] - at[of[0]]) +
+              (kRadius - overlap) * normal);
+  }
+  scene.set_nodes(at, {});
+  scene.set_up();
+
+  std::vector<std::array<long double, 3>> sum(at.size(), {0, 0, 0});
+  Real size = 0, most = 0;
+  for (int k = 0; k < kMany; k++) {
+    const std::array<int, 3> &of = *face[k];
+    // Shares along x and y, in which the plate has an area.
+    const auto area = [&](const Vec3 &a, const Vec3 &b, const Vec3 &x) -> long double {
+      const long double ax = a.x, ay = a.y;
+      return (b.x - ax) * (x.y - ay) - (b.y - ay) * (x.x - ax);
+    };
+    const long double depth = (static_cast<long double>(normal.x) * scene.x[k].x +
+                               static_cast<long double>(normal.y) * scene.x[k].y +
+                               static_cast<long double>(normal.z) * scene.x[k].z);
+    const Vec3 foot = scene.x[k] - static_cast<Real>(depth) * normal;
+    const long double whole = area(at[of[0]], at[of[1]], at[of[2]]);
+    for (int j = 0; j < 3; j++) {
+      const long double share = area(at[of[(j + 1) % 3]], at[of[(j + 2) % 3]], foot) / whole;
+      for (int d = 0; d < 3; d++)
+        sum[of[j]][d] -= share * static_cast<long double>(scene.force[k][d]);
+    }
+    size += norm(scene.force[k]);
+    most = std::max(most, norm(scene.force[k]));
+  }
+  EXPECT_GT(most, 90);
+  const Real bound = kMany * std::ldexp(most, 15 - 63) + 1e-15 * size;
+  for (std::size_t i = 0; i < at.size(); i++)
+    for (int d = 0; d < 3; d++)
+      EXPECT_NEAR(static_cast<Real>(sum[i][d]), scene.node_force(i)[d], bound) << i << " " << d;
+}
+
+// The spheres of a step on one process, and dealt out to several: the nodes go by their forces, so that one bit would
+// grow. The first is of the CPU.
+TEST(mesh_nodes, have_the_same_bits_on_any_number_of_processes)
+{
+  const auto mesh = welded(curved_sheet(4));
+  const WallSpec spec = nodes_of(all_motions(), mesh);
+  std::vector<Real> forces, moments;
+  const auto run = [&](FakeHost &host, const WallBackend &on) {
+    Scene scene(host, spec, kDt, on);
+    Random random(23);
+    for (int k = 0; k < 300; k++) {
+      const Vec3 x = {uniform(random, -1.3, 1.3), uniform(random, -1.3, 1.3),
+                      uniform(random, -0.7, 0.7)};
+      const Real radius = uniform(random, 0.2, 0.3);
+      const Vec3 v = random_unit(random), omega = random_unit(random);
+      if (k % host.processes() != host.rank()) continue;
+      scene.add(x, radius);
+      scene.v.back() = v;
+      scene.omega.back() = omega;
+    }
+    std::vector<Vec3> at = mesh->vertices, v(at.size(), Vec3{0, 0, 0});
+    std::vector<Real> all, torques;
+    for (int i = 0; i <= 10; i++) {
+      scene.set_nodes(at, v);
+      if (i == 0)
+        scene.set_up();
+      else
+        scene.next();
+      const std::vector<Real> &f = scene.wall->node_forces(0);
+      all.insert(all.end(), f.begin(), f.end());
+      const Vec3 torque = scene.wall->totals().mesh(0).torque;
+      torques.insert(torques.end(), {torque.x, torque.y, torque.z});
+      for (std::size_t k = 0; k < at.size(); k++) {
+        v[k] += kDt * Vec3{f[3 * k], f[3 * k + 1], f[3 * k + 2]};
+        at[k] += kDt * v[k];
+      }
+      for (std::size_t k = 0; k < scene.x.size(); k++) scene.x[k] += kDt * scene.v[k];
+    }
+    if (forces.empty()) {
+      forces = all;
+      moments = torques;
+    }
+    EXPECT_EQ(all, forces) << host.processes();
+    EXPECT_EQ(torques, moments) << host.processes();
+  };
+  FakeHost host;
+  run(host, cpu(false));
+  EXPECT_GT(*std::max_element(forces.begin(), forces.end()), 10);
+  for (const int n : {1, 2, 4}) on_processes(n, [&](FakeHost &of) { run(of, tested()); });
 }
 
 // A sphere that slides, spins and rolls on a sheet in the plane z = 0: its force acts at its foot, and all else that turns it
@@ -1089,6 +1244,61 @@ TEST(mesh_nodes, that_jump_past_a_sphere_are_an_error)
         std::string::npos)
         << e.what();
   }
+}
+
+// The sphere that pushes them is named, and the mesh. Nothing of such a force is added.
+TEST(mesh_nodes, that_get_a_force_that_is_not_finite_are_an_error)
+{
+  for (const int n : {1, 2})
+    for (const Real wrong : {HUGE_VAL, -HUGE_VAL, std::nan("")}) {
+      const auto push = [&](FakeHost &host) {
+        const auto mesh = welded(floor_mesh(2, 1));
+        Scene scene(host, nodes_of(hooke(1000, 20).law(), mesh));
+        scene.add({-0.4, 0.3, kRadius - 0.01});
+        scene.add({0.3, 0.1, kRadius - 0.01});
+        scene.set_up();
+        if (host.rank() == 0) scene.v[1].z = wrong;
+        scene.next();
+      };
+      try {
+        on_processes(n, push);
+        ADD_FAILURE() << "no error";
+      } catch (const InputError &e) {
+        EXPECT_EQ(std::string(e.what()).find(
+                      "sphere 2 pushes nodes of mesh 'sheet' by a force that is not finite: "),
+                  0u)
+            << e.what();
+      }
+    }
+}
+// Where nodes are set in place nothing waits for their forces: these are no numbers, and the next step is the error.
+TEST(mesh_nodes, that_got_a_force_in_place_that_is_not_finite_are_an_error_in_the_next_step)
+{
+  const auto mesh = welded(floor_mesh(2, 1));
+  FakeHost host;
+  Scene scene(host, nodes_of(hooke(1000, 20).law(), mesh), kDt, cpu(true));
+  scene.add({-0.4, 0.3, kRadius - 0.01});
+  scene.set_up();
+  std::vector<int> order(mesh->vertices.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::vector<Vec3> force(order.size());
+  const auto set = [&] {
+    return scene.wall->set_nodes_in_place(0, &mesh->vertices[0].x, nullptr, order);
+  };
+  ASSERT_TRUE(set());
+  scene.v[0].z = HUGE_VAL;
+  scene.next();
+  ASSERT_TRUE(scene.wall->put_node_forces(0, &force[0].x, order));
+  for (const Vec3 &f : force) EXPECT_TRUE(std::isnan(f.z));
+  scene.v[0].z = 0;
+  ASSERT_TRUE(set());
+  EXPECT_THROW(scene.next(), InputError);
+  ASSERT_TRUE(set());
+  scene.next();    // a program may go on
+  ASSERT_TRUE(scene.wall->put_node_forces(0, &force[0].x, order));
+  Vec3 sum = {0, 0, 0};
+  for (const Vec3 &f : force) sum += f;
+  EXPECT_NEAR(sum.z, -10, 1e-10);
 }
 
 TEST(mesh_nodes, in_a_line_are_an_error)

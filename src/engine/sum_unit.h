@@ -1,0 +1,73 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Sums in fixed point: of whole multiples of a unit, which come to the same bits in any order, on any number of threads
+// and of processes. The unit is a power of two that follows from the numbers themselves.
+#pragma once
+
+#include "backend/bits.h"
+#include "base/real.h"
+
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+
+namespace lsdcd {
+
+// The field of the exponent in a Real's bits: |x| < 2^(field - kFieldOfHalf), also where it is 0.
+constexpr int kExponentAt = 52, kFieldOfHalf = 1022;
+constexpr unsigned kNotFinite = 2047;    // of infinity, and of what is no number
+
+LSDCD_FN unsigned exponent_field(Real x)
+{
+  std::uint64_t bits;
+  memcpy(&bits, &x, sizeof bits);
+  return static_cast<unsigned>(bits >> kExponentAt) & kNotFinite;
+}
+
+// What is to be known of all numbers before the first one is added.
+struct SummandRange {
+  std::uint64_t count;       // at least as many as any sum has
+  std::uint64_t exponent;    // the largest exponent_field()
+};
+
+// With E the least power of which all numbers are below 2^E, and a count below 2^b, the unit is 2^(E + b - 63):
+// each number becomes at most 2^(63 - b) units, as rounding does not pass a whole number, so that a sum, and each part
+// of it, has at most (2^b - 1) 2^(63 - b) < 2^63. It fits into 64 bits. A number is rounded by half a unit, which is
+// less than 2^(b - 63) of the largest, as this is at least 2^(E - 1): 2^-43 for 1e6 numbers. Sums of numbers
+// that have 53 bits within 63 - b are exact. Units are 2^-1022 at least, so that both they and their inverse are normal numbers.
+class SumUnit {
+ public:
+  LSDCD_FN explicit SumUnit(const SummandRange &of) : is_finite_(of.exponent < kNotFinite)
+  {
+    const int e = static_cast<int>(of.exponent) - kFieldOfHalf,
+              b = static_cast<int>(exponent_field(static_cast<Real>(of.count))) - kFieldOfHalf;
+    const int per_unit = 63 - e - b;
+    scale_ = per_unit < kFieldOfHalf ? per_unit : kFieldOfHalf;
+  }
+
+  // Returns whether all numbers are; else there are no units.
+  LSDCD_FN bool is_finite() const { return is_finite_; }
+  // Returns how many units are nearest to x.
+  LSDCD_FN std::int64_t units(Real x) const { return nearest_whole(x * power_of_two(scale_)); }
+  // Returns the number that so many units are, rounded to a Real; none where the numbers are not finite.
+  LSDCD_FN Real value(std::int64_t units) const
+  {
+    if (!is_finite_) return HUGE_VAL - HUGE_VAL;
+    return static_cast<Real>(units) * power_of_two(-scale_);
+  }
+
+ private:
+  LSDCD_FN static Real power_of_two(int e)
+  {
+    const std::uint64_t bits = static_cast<std::uint64_t>(e + kFieldOfHalf + 1) << kExponentAt;
+    Real power;
+    memcpy(&power, &bits, sizeof power);
+    return power;
+  }
+
+  bool is_finite_;
+  int scale_;    // a unit is 2^-scale_
+};
+
+}    // namespace lsdcd
