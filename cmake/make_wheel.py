@@ -84,6 +84,7 @@ def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
     package = ROOT / "src" / "api" / "lsdcd"
     files = {f"lsdcd/{path.name}": path.read_bytes() for path in sorted(package.iterdir())
              if path.suffix == ".py" or path.name == "py.typed"}
+    files["lsdcd/lsdcd.h"] = (package.parent / "lsdcd.h").read_bytes()    # whose structs the module reads
     with tempfile.TemporaryDirectory() as folder:
         files["lsdcd/liblsdcd.so.0"] = library(folder).read_bytes()
     files[f"{info}/LICENSE"] = (ROOT / "LICENSES" / "BSD-3-Clause.txt").read_bytes()

@@ -911,13 +911,12 @@ def check_wheel():
 
 
 def in_c():
-    """A program in C that compiles where the structs and functions of the package are those of lsdcd.h: each field by its kind, size
-    and place, no field more (GCC and Clang warn of an initialiser that is missing), and each argument."""
+    """A program in C that compiles where the structs and functions that the package has read in lsdcd.h are those of a
+    compiler: each field by its kind, size and place, none more (GCC and Clang warn of an initialiser that is missing), and each argument."""
     kinds = {ctypes.c_int: "int", ctypes.c_double: "double", ctypes.c_size_t: "size_t", ctypes.c_ssize_t: "ptrdiff_t",
              ctypes.c_char_p: "const char *"}
     lines = ["#include <lsdcd.h>", "#include <stddef.h>"]
-    for struct in (s for s in vars(_c).values() if isinstance(s, type) and issubclass(s, ctypes.Structure)):
-        name = "lsdcd" + re.sub("([A-Z])", r"_\1", struct.__name__.strip("_")).lower()
+    for name, struct in _c._HEADER.structs.items():
         lines.append(f'_Static_assert(sizeof({name}) == {ctypes.sizeof(struct)}, "{name}");')
         for field, kind in struct._fields_:
             place, member = getattr(struct, field), f"(({name} *) 0)->{field}"
@@ -928,13 +927,11 @@ def in_c():
                 lines.append(f'_Static_assert(_Generic({element}, {kinds[one]}: 1, default: 0), "{name}.{field}");')
         values = ", ".join("{0}" if issubclass(kind, (ctypes.Array, ctypes.Structure)) else "0" for _, kind in struct._fields_)
         lines.append(f"const {name} made_{name} = {{{values}}};")
+    results = {ctypes.c_int: "i = ", ctypes.c_char_p: "text = ", None: ""}
     given = {ctypes.c_int: "i", ctypes.c_double: "d", ctypes.c_size_t: "n", ctypes.c_char_p: "text", ctypes.c_void_p: "p"}
-    calls = sorted(set(re.findall(r"_lib\.(lsdcd_\w+)", "".join(f.read_text() for f in (ROOT / "src/api/lsdcd").glob("*.py")))))
     lines.append("void call(int i, double d, size_t n, const char *text, void *p)\n{")
-    for name in calls:
-        arguments = getattr(_c._lib, name).argtypes or ()
-        lines.append(f"  (void) {name}({', '.join(given[kind] for kind in arguments)});" if "free" not in name else
-                     f"  {name}({', '.join(given[kind] for kind in arguments)});")
+    for name, (result, arguments) in _c._HEADER.functions.items():
+        lines.append(f"  {results[result]}{name}({', '.join(given[kind] for kind in arguments)});")
     return "\n".join([*lines, "  (void) i, (void) d, (void) n, (void) text, (void) p;", "}", ""])
 
 

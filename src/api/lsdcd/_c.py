@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 LSDCD contributors
 # SPDX-License-Identifier: BSD-3-Clause
 
-"""The shared library of lsdcd.h through ctypes: its structs and errors, and numbers that fit them."""
+"""The shared library of lsdcd.h through ctypes: its errors, and numbers that fit its structs."""
 from __future__ import annotations
 
 import contextlib
@@ -19,9 +19,9 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _arrays
+from ._header import Header
 
-_size, _step, _int, _real, _at = (ctypes.c_size_t, ctypes.c_ssize_t, ctypes.c_int, ctypes.c_double,
-                                  ctypes.c_void_p)
+_size, _int, _real, _at = ctypes.c_size_t, ctypes.c_int, ctypes.c_double, ctypes.c_void_p
 ERRORS = ("ok", "argument", "input", "cutoff", "side", "device", "memory", "internal", "cancelled")
 DEVICES = ("cpu", "cuda")
 
@@ -32,114 +32,21 @@ Progress = Callable[[str, float], object]
 _Progress = ctypes.CFUNCTYPE(_int, _at, ctypes.c_char_p, _real)
 
 
-def _struct(name: str, *fields: tuple[str, Any]) -> Any:
-    return type(name, (ctypes.Structure,), {"_fields_": [("size", _size), *fields]})
-
-
-_MeshFacts = _struct(
-    "_MeshFacts", ("triangles", _size), ("faces", _size), ("edges", _size), ("vertices", _size),
-    ("open_edges", _size), ("closed", _int), ("oriented", _int),
-    ("area", _real), ("volume", _real), ("lo", _real * 3), ("hi", _real * 3), ("meeting_pairs", _size),
-    ("given_vertices", _size))
-_MeshArrays = _struct(
-    "_MeshArrays", ("vertices", _at), ("faces", _at), ("face_edges", _at), ("triangle", _at), ("edges", _at),
-    ("edge_first", _at), ("edge_faces", _at), ("welded_vertex", _at), ("welded_face", _at))
-_GridOptions = _struct(
-    "_GridOptions", ("cutoff", _real), ("cell", _real), ("nearest", _int), ("precision", _int),
-    ("memory", _real), ("cache", ctypes.c_char_p), ("threads", _int), ("device", _int), ("progress", _Progress),
-    ("data", _at))
-_GridFacts = _struct(
-    "_GridFacts", ("cutoff", _real), ("cell", _real), ("bytes", _size), ("nearest", _int),
-    ("has_sides", _int), ("from_cache", _int))
-_Query = _struct(
-    "_Query", ("n", _size), ("type", _int), ("threads", _int), ("points", _at),
-    ("points_row", _step), ("points_column", _step), ("radii", _at), ("radii_step", _step),
-    ("radius", _real), ("distance", _at), ("distance_step", _step), ("closest", _at),
-    ("closest_row", _step), ("closest_column", _step), ("normal", _at), ("normal_row", _step),
-    ("normal_column", _step), ("triangle", _at), ("feature", _at), ("side", _at), ("status", _at),
-    ("winding", _at), ("winding_step", _step), ("estimate_sides", _int), ("progress", _Progress), ("data", _at),
-    ("signed_distance", _at), ("signed_distance_step", _step), ("barycentric", _at), ("barycentric_row", _step),
-    ("barycentric_column", _step))
-_Contacts = _struct(
-    "_Contacts", ("n", _size), ("type", _int), ("threads", _int), ("points", _at), ("points_row", _step),
-    ("points_column", _step), ("radii", _at), ("radii_step", _step), ("radius", _real), ("first", _at), ("room", _size),
-    ("point", _at), ("distance", _at), ("overlap", _at), ("normal", _at), ("weight", _at), ("triangle", _at),
-    ("feature", _at), ("contacts", _size), ("progress", _Progress), ("data", _at))
-_BodyOptions = _struct(
-    "_BodyOptions", ("cell", _real), ("nearest", _int), ("memory", _real), ("threads", _int),
-    ("device", _int), ("same_wall", _at), ("progress", _Progress), ("data", _at))
-_BodyFacts = _struct(
-    "_BodyFacts", ("triangles", _size), ("pieces", _size), ("cell", _real), ("grid_bytes", _size),
-    ("nearest", _int), ("device", _int))
-_Collision = _struct(
-    "_Collision", ("threads", _int), ("collides", _int), ("matrix", _at), ("position", _at),
-    ("quaternion", _at), ("room", _size), ("wall_triangle", _at), ("body_triangle", _at),
-    ("segment", _at), ("pairs", _size), ("uncertain", _size))
-
-_SubModel = type("_SubModel", (ctypes.Structure,), {"_fields_": [("name", ctypes.c_char_p), ("numbers", _real * 8)]})
-_Law = _struct(
-    "_Law", ("style", _SubModel), ("normal", _SubModel), ("tangential", _SubModel), ("damping", _SubModel),
-    ("rolling", _SubModel), ("twisting", _SubModel), ("heat", _SubModel), ("cohesion", _SubModel), ("limit_damping", _int))
-_Override: Any = type("_Override", (ctypes.Structure,), {"_fields_": [
-    ("of", ctypes.c_char_p), ("key", ctypes.c_char_p), ("value", _real)]})
-_Materials = _struct(
-    "_Materials", ("file", ctypes.c_char_p), ("particle", ctypes.c_char_p), ("wall", ctypes.c_char_p), ("overrides", _at),
-    ("n_overrides", _size), ("units", ctypes.c_char_p))
-_SubModelFacts = _struct(
-    "_SubModelFacts", ("field", ctypes.c_char_p), ("name", ctypes.c_char_p), ("source", ctypes.c_char_p),
-    ("beside_style", _int), ("n", _int), ("number", ctypes.c_char_p * 8), ("unit", ctypes.c_char_p * 8),
-    ("least", _real * 8), ("most", _real * 8), ("may_be_derived", _int * 8))
-_TypeLaw = _struct("_TypeLaw", ("first_type", _int), ("last_type", _int), ("law", _at))
-_Motion = _struct(
-    "_Motion", ("kind", _int), ("velocity", _real * 3), ("amplitude", _real * 3), ("point", _real * 3), ("axis", _real * 3),
-    ("period", _real), ("angle", _real), ("rows", _at), ("n_rows", _size), ("columns", _int), ("straight", _int),
-    ("repeats", _int), ("degrees", _int), ("file", ctypes.c_char_p))
-_Servo = _struct(
-    "_Servo", ("turns", _int), ("axis", _real * 3), ("point", _real * 3), ("target", _real), ("max_speed", _real),
-    ("max_gain", _real), ("lo", _real), ("hi", _real))
-_RigidBody = _struct(
-    "_RigidBody", ("density", _real), ("mass", _real), ("centre", _real * 3), ("inertia", _real * 6), ("joint", _int),
-    ("point", _real * 3), ("axis", _real * 3), ("stiffness", _real), ("damping", _real), ("rest", _real), ("lo", _real),
-    ("hi", _real), ("motor", _real), ("load", _real * 3), ("moment", _real * 3), ("velocity", _real * 3),
-    ("angular_velocity", _real * 3), ("gravity", _real * 3), ("coat", _int), ("coat_spacing", _real), ("coat_radius", _real))
-_BodyState = _struct(
-    "_BodyState", ("centre", _real * 3), ("quaternion", _real * 4), ("velocity", _real * 3), ("angular_velocity", _real * 3),
-    ("reaction_force", _real * 3), ("reaction_torque", _real * 3), ("coordinate", _real), ("energy", _real),
-    ("stop_force", _real))
-_WallMesh = _struct(
-    "_WallMesh", ("mesh", _at), ("name", ctypes.c_char_p), ("placement", _real * 12), ("law", _at), ("type_laws", _at),
-    ("n_type_laws", _size), ("posed_by_caller", _int), ("motions", _at), ("n_motions", _size), ("servo", _at),
-    ("surface_velocity", _real * 3), ("surface_angular_velocity", _real * 3), ("surface_centre", _real * 3),
-    ("temperature", _real), ("torque_about", _real * 3), ("torque_about_moves", _int), ("wear_factor", _real),
-    ("cache", ctypes.c_char_p), ("fields", ctypes.c_char_p), ("stl", ctypes.c_char_p), ("fields_every", _int),
-    ("stl_every", _int), ("nodes_by_caller", _int), ("pressure", _real), ("body", _at))
-_WallSpec = _struct(
-    "_WallSpec", ("law", _at), ("meshes", _at), ("n_meshes", _size), ("corner", _int), ("side", _int),
-    ("nearest", _int), ("cell", _real), ("memory", _real), ("rmax", _real), ("device", _int), ("wear", _int),
-    ("wear_coefficient", _real), ("hardness", _real), ("wear_deform_every", _int), ("wear_deform_factor", _real),
-    ("periodic_ends", _int), ("brief", _int), ("average_every", _int), ("each_contact", _int))
-_WallContacts = _struct(
-    "_WallContacts", ("room", _size), ("sphere", _at), ("mesh", _at), ("force", _at), ("point", _at), ("overlap", _at),
-    ("contacts", _size))
-
 _Show = ctypes.CFUNCTYPE(None, _at, _int, ctypes.c_char_p)
 _Reduce = ctypes.CFUNCTYPE(_int, _at, ctypes.POINTER(_real), _int)
 _Broadcast = ctypes.CFUNCTYPE(_int, _at, ctypes.POINTER(ctypes.c_uint8), _size, _int)
-_Host = _struct("_Host", ("rank", _int), ("processes", _int), ("node_rank", _int), ("data", _at), ("sum", _Reduce),
-                ("max", _Reduce), ("broadcast", _Broadcast))
-_WallOptions = _struct(
-    "_WallOptions", ("lo", _real * 3), ("hi", _real * 3), ("periodic", _int * 3), ("margin", _real),
-    ("time", _real), ("show", _Show), ("data", _at), ("threads", _int),
-    ("host", _at), ("stream", _at), ("device", _int))
-_Spheres = _struct(
-    "_Spheres", ("n", _size), ("row", _step), ("x", _at), ("v", _at), ("omega", _at), ("radius", _at),
-    ("mass", _at), ("force", _at), ("torque", _at), ("temperature", _at), ("heat", _at), ("type", _at))
-_WallStep = _struct("_WallStep", ("dt", _real), ("setup", _int), ("changed", _int), ("reach", _real),
-                    ("synchronous", _int))
-_WallTotals = _struct(
-    "_WallTotals", ("force", _real * 3), ("torque", _real * 3), ("contacts", _real), ("overlap", _real),
-    ("uncertified", _real), ("power", _real), ("energy", _real), ("worn", _real), ("servo", _real * 3),
-    ("removed", _real), ("held_back", _real), ("couple", _real * 3), ("mean_force", _real * 3), ("mean_torque", _real * 3))
+
+_HEADER = Header({"lsdcd_progress": _Progress, "lsdcd_message": _Show, "sum": _Reduce, "max": _Reduce, "broadcast": _Broadcast})
+_structs: Any = _HEADER.structs
+(_MeshFacts, _MeshArrays, _GridOptions, _GridFacts, _Query, _Contacts) = (_structs["lsdcd_" + name] for name in (
+    "mesh_facts", "mesh_arrays", "grid_options", "grid_facts", "query", "contacts"))
+(_BodyOptions, _BodyFacts, _Collision) = (_structs["lsdcd_" + name] for name in ("body_options", "body_facts", "collision"))
+(_SubModel, _Law, _SubModelFacts, _Override, _Materials, _TypeLaw) = (_structs["lsdcd_" + name] for name in (
+    "sub_model", "law", "sub_model_facts", "override", "materials", "type_law"))
+(_Motion, _Servo, _RigidBody, _BodyState, _WallMesh, _WallSpec) = (_structs["lsdcd_" + name] for name in (
+    "motion", "servo", "rigid_body", "body_state", "wall_mesh", "wall_spec"))
+(_Host, _WallOptions, _Spheres, _WallStep, _WallTotals, _WallContacts) = (_structs["lsdcd_" + name] for name in (
+    "host", "wall_options", "spheres", "wall_step", "wall_totals", "wall_contacts"))
 
 
 class Error(ValueError):
@@ -162,38 +69,9 @@ def _load() -> Any:
                 for found in sorted(glob.glob(os.path.join(here, up, "liblsdcd.so.0")))]
         name = near[0] if near else "liblsdcd.so.0"
     lib = ctypes.CDLL(name)
-    for text in ("version", "last_error", "mesh_report", "grid_report"):
-        getattr(lib, "lsdcd_" + text).restype = ctypes.c_char_p
-    lib.lsdcd_mesh_report.argtypes = lib.lsdcd_grid_report.argtypes = [_at]
-    for kind in ("mesh", "grid", "stream", "body", "wall"):
-        free = getattr(lib, f"lsdcd_{kind}_free")
-        free.argtypes, free.restype = [_at], None
-    lib.lsdcd_mesh_read.argtypes = [ctypes.c_char_p, _real, _at]
-    lib.lsdcd_mesh_from_corners.argtypes = [_at, _size, _real, _at]
-    lib.lsdcd_mesh_from_faces.argtypes = [_at, _int, _size, _at, _size, _real, _at]
-    for call in ("mesh_get_facts", "mesh_get_arrays", "grid_get_facts", "query_host", "contacts_host", "body_get_facts", "collide"):
-        getattr(lib, "lsdcd_" + call).argtypes = [_at, _at]
-    lib.lsdcd_query_stream.argtypes = lib.lsdcd_wall_get_contacts.argtypes = [_at, _at]
-    lib.lsdcd_grid_build.argtypes = lib.lsdcd_stream_open.argtypes = [_at, _at, _at]
-    lib.lsdcd_body_make.argtypes = [_at, _at, _at, _at]
-    lib.lsdcd_wall_step_spheres.argtypes = [_at, _at, _at]
-    lib.lsdcd_wall_renumber.argtypes = [_at, _at, _size]
-    for call in ("get_pose", "set_servo", "get_node_count", "get_nodes", "get_node_forces",
-                 "get_body", "set_body"):
-        getattr(lib, "lsdcd_wall_" + call).argtypes = [_at, _int, _at]
-    lib.lsdcd_sub_model_get_facts.argtypes = [_size, _at]
-    lib.lsdcd_law_from_material.argtypes = [_at, _at, _at]
-    lib.lsdcd_place_scale.argtypes = lib.lsdcd_place_move.argtypes = [_at, _real, _real, _real]
-    lib.lsdcd_place_rotate.argtypes = [_at, _at, _real]
-    lib.lsdcd_wall_from_spec.argtypes = [_at, _at, _at]
-    lib.lsdcd_wall_set_pose.argtypes = [_at, _int, _at, _at, _at, _at]
-    lib.lsdcd_wall_set_nodes.argtypes = [_at, _int, _at, _at]
-    lib.lsdcd_wall_get_totals.argtypes = [_at, _int, _at, _at]
-    lib.lsdcd_wall_set_motion.argtypes = [_at, _int, _at, _size]
-    lib.lsdcd_wall_save.argtypes = [_at, _at, _size, _at]
-    lib.lsdcd_wall_restore.argtypes = lib.lsdcd_wall_restore_what_fits.argtypes = [_at, _at, _size]
-    lib.lsdcd_wall_pack.argtypes = [_at, _at, _size, _at, _size, _at]
-    lib.lsdcd_wall_unpack.argtypes = [_at, _at, _size, _at, _size]
+    for function, (result, arguments) in _HEADER.functions.items():
+        made = getattr(lib, function)
+        made.restype, made.argtypes = result, arguments
     return lib
 
 
