@@ -20,7 +20,7 @@ bool FixWallLsdcdKokkos<DeviceType>::sends_from_host(ExecutionSpace space)
 
 // Numbers on the device as an array on the host, and the other way.
 template <class DeviceType, class T>
-static std::vector<std::remove_const_t<T>> to_cpu(T *from, std::size_t n)
+static std::vector<std::remove_const_t<T>> copied_to_cpu(T *from, std::size_t n)
 {
   std::vector<std::remove_const_t<T>> to(n);
   using Raw = Kokkos::MemoryTraits<Kokkos::Unmanaged>;
@@ -44,7 +44,7 @@ int FixWallLsdcdKokkos<DeviceType>::pack_rows(int n, const int *which, const int
 {
   const int size = row_size();
   if (size == 0) return 0;
-  const std::vector<int> leaves = to_cpu<DeviceType>(which, n), comes = to_cpu<DeviceType>(from, n);
+  const std::vector<int> leaves = copied_to_cpu<DeviceType>(which, n), comes = copied_to_cpu<DeviceType>(from, n);
   std::vector<double> rows(std::size_t(n) * size);
   for (int k = 0; k < n; k++) {
     double *row = array_atom[leaves[k]];
@@ -61,8 +61,8 @@ void FixWallLsdcdKokkos<DeviceType>::unpack_rows(int n, const int *to, const dou
 {
   const int size = row_size();
   if (size == 0) return;
-  const std::vector<int> place = to_cpu<DeviceType>(to, n);
-  const std::vector<double> row = to_cpu<DeviceType>(rows, std::size_t(n) * size);
+  const std::vector<int> place = copied_to_cpu<DeviceType>(to, n);
+  const std::vector<double> row = copied_to_cpu<DeviceType>(rows, std::size_t(n) * size);
   for (int k = 0; k < n; k++)
     if (place[k] >= 0) std::copy_n(row.data() + std::size_t(k) * size, size, array_atom[place[k]]);
 }
@@ -119,7 +119,7 @@ void FixWallLsdcdKokkos<DeviceType>::sort_kokkos(Kokkos::BinSort<KeyViewType, Bi
   if (spec().contacts) {
     const auto order = sorter.get_permute_vector();
     const int n = atom->nlocal, size = row_size();
-    const auto from = to_cpu<LMPDeviceType>(order.data(), n);
+    const auto from = copied_to_cpu<LMPDeviceType>(order.data(), n);
     const std::vector<double> rows(array_atom[0], array_atom[0] + std::size_t(n) * size);
     for (int i = 0; i < n; i++)
       std::copy_n(rows.data() + std::size_t(from[i]) * size, size, array_atom[i]);

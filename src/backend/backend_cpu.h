@@ -64,6 +64,7 @@ struct CpuBackend {
     void ready(CpuBackend &) {}
     void begin(CpuBackend &) {}
     void end(CpuBackend &) {}
+    std::size_t scratch_bytes() const { return 0; }
   };
 
   // The last argument is for GPUs: threads of a block.

@@ -175,6 +175,7 @@ struct CudaBackend {
       streams_.end(b.stream);
       std::swap(b.scratch_, scratch_);
     }
+    std::size_t scratch_bytes() const { return scratch_.size(); }
 
    private:
     CudaSideStream streams_;

@@ -304,7 +304,7 @@ class EngineOn : public WallEngine, public CandidatesInPlace, public NodesInPlac
     return broad_phase_.bytes() + springs_.bytes() + results_.bytes() + next_results_.bytes() +
            overflow_.size() * sizeof(OverflowScratch) + work_lists_.bytes() +
            works_.size() * sizeof(MeshWork) + laws_.size() * sizeof(LawEntry) + bytes_of_nodes() +
-           b_.scratch_bytes();
+           b_.scratch_bytes() + beside_.scratch_bytes();
   }
 
   B &backend_now() { return b_; }

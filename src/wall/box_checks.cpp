@@ -155,15 +155,37 @@ void BoxChecks::check_gone(const PeriodicBox &box, Real cutoff, std::int64_t ste
   }
 }
 
+// Returns whether the mesh cannot have come to the faces since all its vertices were looked at, which takes 0.9 ms for 1e6.
+// No point of a mesh goes farther between two poses than the corner of the box around it that goes farthest.
+bool BoxChecks::is_still_clear(const MeshPart &m, const Pose &at, const PeriodicBox &box, int k,
+                               Real depth) const
+{
+  const Clear &last = warned_[m.index].clear[k];
+  if (m.changes_shape() || last.clear <= 0 || depth > last.depth) return false;
+  bool same = norm_sq(box.corner - last.box.corner) == 0;
+  for (int j = 0; j < 3; j++) same &= norm_sq(box.edge[j] - last.box.edge[j]) == 0;
+  if (!same) return false;
+  Real gone = 0;
+  for_corners(m.bounds(0), [&](const Vec3 &corner) {
+    gone = std::max(gone, norm(at.to_box(corner) - last.at.to_box(corner)));
+  });
+  return gone < last.clear;
+}
+
 void BoxChecks::check_pose(const MeshPart &m, const Pose &at, const PeriodicBox &box, Real cutoff,
-                           const std::string &when) const
+                           const std::string &when)
 {
   if (!box.any_periodic()) return;
   for (int k = 0; k < 3; k++) {
     if (!box.periodic[k] || (m.keeps_edge(box, k) && !m.has_coat())) continue;
     const Real depth = (cutoff + box.margin) / box.width(k);
-    Real lo, hi;
-    if (!m.reaches(box, k, depth, at, lo, hi)) continue;
+    if (is_still_clear(m, at, box, k, depth)) continue;
+    Real lo = 0, hi = 0;
+    if (!m.reaches(box, k, depth, at, lo, hi)) {
+      const Real spare = std::min(lo, 1 - hi) - depth;
+      warned_[m.index].clear[k] = {at, box, depth, spare * box.width(k)};
+      continue;
+    }
     const std::string axis(1, "xyz"[k]);
     if (m.keeps_edge(box, k))
       throw InputError(named(m, "the coat of the body comes to the periodic face in " + axis +

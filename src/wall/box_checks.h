@@ -55,13 +55,24 @@ class BoxChecks {
   std::string named(const MeshPart &m, const std::string &text) const;
   void check_small(const MeshPart &m, const PeriodicBox &box, Real radius) const;
   void check_pose(const MeshPart &m, const Pose &at, const PeriodicBox &box, Real cutoff,
-                  const std::string &when) const;
+                  const std::string &when);
+  bool is_still_clear(const MeshPart &m, const Pose &at, const PeriodicBox &box, int k,
+                      Real depth) const;
   void look_ahead(const MeshPart &m, const PeriodicBox &box, Real cutoff);
+
+  // Where all vertices of a mesh were farther than `depth` (fraction of the box) from both faces that edge k joins, by
+  // `clear` (length) more.
+  struct Clear {
+    Pose at;
+    PeriodicBox box;
+    Real depth = 0, clear = 0;
+  };
 
   // Checks that were made of a mesh.
   struct Warned {
     bool out_of_reach_warned = false, ends_warned = false;
     bool was_in_box = false, gone_warned = false, turning_out_warned = false;
+    Clear clear[3];
   };
 
   Host &host_;

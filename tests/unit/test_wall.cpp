@@ -418,6 +418,49 @@ TEST(Wall, reaches_through_a_periodic_face_that_comes_nearer)
   EXPECT_NEAR(scene.grains.force[0].x, -kN * 0.04, kN * 1e-12);
 }
 
+// A square floor that lies turned by an eighth, and is turned back: its vertices reach x = 10, the corners of the box around it 20.
+// It goes on by 0.07 a step until it is too near to the face at 18: in the first step in which it is, and not before.
+TEST(Wall, refuses_a_mesh_in_the_step_in_which_its_vertices_come_to_a_periodic_face)
+{
+  const Floor floor;
+  FakeHost host;
+  WallSpec spec = floor.wall({"rotate", "0", "0", "1", "45"});
+  spec.meshes[0].motion.begin_posed();
+  Scene scene(host, spec);
+  host.simulation.corner.x = -18;
+  host.simulation.edge[0].x = 36;
+  host.simulation.periodic[0] = true;
+  scene.grains.add({0, 0, 2});
+  Pose pose;
+  pose.placed = true;
+  const Real h = std::sqrt(0.5);
+  pose.row[0] = {h, -h, 0};
+  pose.row[1] = {h, h, 0};
+  scene.wall->set_pose(0, pose);
+  scene.set_up();
+  int steps = 0;
+  std::string says;
+  while (says.empty() && steps < 200) {
+    pose.shift.x = 0.07 * ++steps;
+    scene.wall->set_pose(0, pose);
+    try {
+      scene.run(1);
+    } catch (const InputError &e) {
+      says = e.what();
+    }
+  }
+  Real from = 0, to = 0, away = 0;
+  const std::size_t at = says.find("it goes from ");
+  ASSERT_NE(at, std::string::npos) << says;
+  ASSERT_EQ(std::sscanf(says.c_str() + at, "it goes from %lf to %lf of the box and must stay %lf",
+                        &from, &to, &away),
+            3)
+      << says;
+  EXPECT_NEAR(to, (28 + 0.07 * steps) / 36, 1e-5);    // of 6 digits
+  EXPECT_GT(to, 1 - away);
+  EXPECT_LE(to - 0.07 / 36, 1 - away);
+}
+
 TEST(Wall, warns_once_where_spheres_went_past_a_periodic_face_farther_than_its_grid)
 {
   const Floor floor;
