@@ -44,7 +44,8 @@ int FixWallLsdcdKokkos<DeviceType>::pack_rows(int n, const int *which, const int
 {
   const int size = row_size();
   if (size == 0) return 0;
-  const std::vector<int> leaves = copied_to_cpu<DeviceType>(which, n), comes = copied_to_cpu<DeviceType>(from, n);
+  const std::vector<int> leaves = copied_to_cpu<DeviceType>(which, n),
+                         comes = copied_to_cpu<DeviceType>(from, n);
   std::vector<double> rows(std::size_t(n) * size);
   for (int k = 0; k < n; k++) {
     double *row = array_atom[leaves[k]];
