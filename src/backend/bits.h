@@ -8,6 +8,9 @@
 
 #include <cmath>
 #include <cstdint>
+#if defined(__SSE2__) && defined(__x86_64__)
+#include <emmintrin.h>
+#endif
 
 // Is this compiled for the device? For #if, where a macro that is not known would be 0 without its brackets.
 #if defined(__CUDA_ARCH__)
@@ -50,6 +53,8 @@ LSDCD_FN std::int64_t nearest_whole(Real x)
 {
 #if LSDCD_ON_GPU()
   return __double2ll_rn(x);
+#elif defined(__SSE2__) && defined(__x86_64__)
+  return _mm_cvtsd_si64(_mm_set_sd(x));    // llrint() is a call, as it may set errno
 #else
   return std::llrint(x);
 #endif
