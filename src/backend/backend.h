@@ -11,9 +11,7 @@
 //   for_each_in_warps            the same by threads that share their work: f(warp, mine, i)
 //   largest                      of read(i), i in [0, n); waits
 //   exclusive_scan               numbers become the sums of those before them; returns the total; waits
-//   scan                         the same without the total, and without a wait
 //   sort_pairs                   by key, stable, up to the bits of the largest key
-//   sort_in                      the same in memory that the caller keeps, by the lowest bits; does not wait
 //   compact                      what is flagged of an array, or of the numbers [0, n), in order
 //   Event                        a point in what was started: record() and wait() for it
 //   SideStream                   what is started between begin() and end() waits for what came before ready() only
@@ -25,8 +23,8 @@
 // thread uses it. What is started beside has other scratch memory, as it may run at the same time.
 //
 // kOnCpu says whether its memory is the CPU's. A GPU's has for_each_block() beside these, for what is written for
-// blocks of threads (block.h), and Limits, which says how many of them it holds. tests/tool/check_backends.py holds
-// each backend to this list.
+// blocks of threads (block.h), Limits, which says how many of them it holds, and sort_in(), which sorts in memory that
+// the caller keeps. tests/tool/check_backends.py holds each backend to this list.
 #pragma once
 
 #include "backend/owned_array.h"
@@ -46,29 +44,6 @@ inline int bits_of(std::uint32_t largest)
   while (bits < 32 && (largest >> bits) > 0) bits++;
   return bits;
 }
-
-// Pairs of a key and a value, before a sort and after it, in memory that is used again: sort_in() sorts the first n of
-// keys[0] and values[0].
-template <class B>
-struct PairMemory {
-  template <class T>
-  using Array = typename B::template Array<T>;
-
-  Array<std::uint32_t> keys[2], values[2];
-
-  void reserve(std::size_t n)
-  {
-    if (keys[0].size() >= n) return;
-    for (int k = 0; k < 2; k++) {
-      keys[k] = Array<std::uint32_t>(n);
-      values[k] = Array<std::uint32_t>(n);
-    }
-  }
-  std::size_t bytes() const { return 4 * keys[0].size() * sizeof(std::uint32_t); }
-};
-struct SortedPairs {
-  const std::uint32_t *keys, *values;
-};
 
 // Copies of whole arrays, which wait.
 

@@ -118,12 +118,6 @@ struct CpuBackend {
     return total;
   }
 
-  template <class T>
-  void scan(T *values, std::size_t n)
-  {
-    exclusive_scan(values, n);
-  }
-
   void sort_pairs(Scratch<std::uint32_t> &keys, Scratch<std::uint32_t> &values,
                   std::uint32_t largest)
   {
@@ -135,16 +129,6 @@ struct CpuBackend {
       std::swap(values, other_values);
     }
   }
-  template <class Memory>
-  SortedPairs sort_in(std::size_t n, int bits, Memory &memory)
-  {
-    int now = 0;
-    for (int shift = 0; shift < bits; shift += 16, now = 1 - now)
-      sort_by_16_bits(n, shift, memory.keys[now].data(), memory.values[now].data(),
-                      memory.keys[1 - now].data(), memory.values[1 - now].data());
-    return {memory.keys[now].data(), memory.values[now].data()};
-  }
-
   std::string name() const
   {
     const int n = threads();

@@ -57,6 +57,29 @@ __global__ void __launch_bounds__(F::kThreads, F::kBlocksAtOnce)
   f(Block());
 }
 
+// Pairs of a key and a value, before a sort and after it, in memory that is used again: sort_in() sorts the first n of
+// keys[0] and values[0].
+template <class B>
+struct PairMemory {
+  template <class T>
+  using Array = typename B::template Array<T>;
+
+  Array<std::uint32_t> keys[2], values[2];
+
+  void reserve(std::size_t n)
+  {
+    if (keys[0].size() >= n) return;
+    for (int k = 0; k < 2; k++) {
+      keys[k] = Array<std::uint32_t>(n);
+      values[k] = Array<std::uint32_t>(n);
+    }
+  }
+  std::size_t bytes() const { return 4 * keys[0].size() * sizeof(std::uint32_t); }
+};
+struct SortedPairs {
+  const std::uint32_t *keys, *values;
+};
+
 struct CudaBackend {
   static constexpr bool kOnCpu = false;    // is its memory the CPU's?
 
@@ -268,14 +291,6 @@ struct CudaBackend {
     });
     return read_one(*this, out);
   }
-  template <class T>
-  void scan(T *values, std::size_t n)
-  {
-    if (n == 0) return;
-    with_scratch(0, [&](char *, void *more, std::size_t &bytes) {
-      return cub::DeviceScan::ExclusiveSum(more, bytes, values, values, n, stream);
-    });
-  }
   // The last number before the scan and after it come in one wait.
   template <class T>
   T exclusive_scan(T *values, std::size_t n)
@@ -293,6 +308,7 @@ struct CudaBackend {
     return both[0] + both[1];
   }
 
+  // Sorts pairs by the lowest bits of their keys, as sort_pairs() does. Does not wait.
   template <class Memory>
   SortedPairs sort_in(std::size_t n, int bits, Memory &memory)
   {
