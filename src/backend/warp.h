@@ -82,6 +82,14 @@ struct Warp {
 #endif
     return value;
   }
+  LSDCD_FN static std::uint64_t largest(std::uint64_t value)
+  {
+    for (unsigned apart = 1; apart < kSize; apart *= 2) {
+      const std::uint64_t other = of_other(value, apart);
+      if (other > value) value = other;
+    }
+    return value;
+  }
   // Returns the value of the thread whose rank differs in the bit `apart`; its own where there is none.
   template <class T>
   LSDCD_FN static T of_other(T value, [[maybe_unused]] unsigned apart)

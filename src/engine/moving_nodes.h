@@ -8,6 +8,7 @@
 
 #include "backend/atomic.h"
 #include "backend/backend.h"
+#include "backend/warp.h"
 #include "engine/nodes_in_place.h"
 #include "grid/build/node_grid.h"
 #include "mesh/mesh_features.h"
@@ -55,6 +56,52 @@ struct NodesSeen {
       if (minus_lo[d] > most) most = minus_lo[d];
     }
     return from_ascending_number(most);
+  }
+};
+
+// Looks at all nodes, in one pass: a thread at several of them, and a warp raises each number once, so that few wait for
+// each other.
+constexpr std::size_t kMostLooking = 1 << 15;
+struct LookAtNodes {
+  const Vec3 *at, *before, *built_at, *velocity;
+  std::size_t n, n_threads;
+  NodesSeen *seen;
+
+  template <unsigned kSize>
+  LSDCD_FN void operator()(const Warp<kSize> &warp, bool mine, std::size_t t) const
+  {
+    NodesSeen of = {};
+    for (std::size_t i = t; mine && i < n; i += n_threads) {
+      const Vec3 x = at[i];
+      raise(of.way_sq, norm_sq(x - before[i]));
+      raise(of.way_sq_of_grid, norm_sq(x - built_at[i]));
+      raise(of.speed_sq, norm_sq(velocity[i]));
+      for (int d = 0; d < 3; d++) {
+        raise(of.hi[d], x[d]);
+        raise(of.minus_lo[d], -x[d]);
+      }
+    }
+    raise_in_warp(warp, &seen->way_sq, of.way_sq);
+    raise_in_warp(warp, &seen->way_sq_of_grid, of.way_sq_of_grid);
+    raise_in_warp(warp, &seen->speed_sq, of.speed_sq);
+    for (int d = 0; d < 3; d++) {
+      raise_in_warp(warp, &seen->hi[d], of.hi[d]);
+      raise_in_warp(warp, &seen->minus_lo[d], of.minus_lo[d]);
+    }
+  }
+
+ private:
+  LSDCD_FN static void raise(std::uint64_t &to, Real value)
+  {
+    const std::uint64_t bits = ascending_number(value);
+    if (bits > to) to = bits;
+  }
+  template <unsigned kSize>
+  LSDCD_FN static void raise_in_warp(const Warp<kSize> &warp, std::uint64_t *to,
+                                     std::uint64_t value)
+  {
+    value = warp.largest(value);
+    if (warp.rank() == 0) raise_to(to, value);
   }
 };
 
@@ -210,38 +257,11 @@ class MovingNodes {
     return gone;
   }
 
-  // A thread looks at several nodes, so that few raise the same number at once.
   void look(B &b)
   {
-    constexpr std::size_t kThreads = 4096;
-    const std::size_t n = at_.size(), n_threads = n < kThreads ? n : kThreads;
-    const Vec3 *at = at_.data(), *before = before_.data(), *built_at = built_at_.data(),
-               *velocity = velocity_.data();
-    NodesSeen *seen = seen_.data();
-    b.for_each(n_threads, [=] LSDCD_LAMBDA(std::size_t t) {
-      NodesSeen of = {};
-      const auto raise = [](std::uint64_t &to, Real value) {
-        const std::uint64_t bits = ascending_number(value);
-        if (bits > to) to = bits;
-      };
-      for (std::size_t i = t; i < n; i += n_threads) {
-        const Vec3 x = at[i];
-        raise(of.way_sq, norm_sq(x - before[i]));
-        raise(of.way_sq_of_grid, norm_sq(x - built_at[i]));
-        raise(of.speed_sq, norm_sq(velocity[i]));
-        for (int d = 0; d < 3; d++) {
-          raise(of.hi[d], x[d]);
-          raise(of.minus_lo[d], -x[d]);
-        }
-      }
-      raise_to(&seen->way_sq, of.way_sq);
-      raise_to(&seen->way_sq_of_grid, of.way_sq_of_grid);
-      raise_to(&seen->speed_sq, of.speed_sq);
-      for (int d = 0; d < 3; d++) {
-        raise_to(&seen->hi[d], of.hi[d]);
-        raise_to(&seen->minus_lo[d], of.minus_lo[d]);
-      }
-    });
+    const std::size_t n = at_.size(), n_threads = std::min(n, kMostLooking);
+    b.for_each_in_warps(n_threads, LookAtNodes{at_.data(), before_.data(), built_at_.data(),
+                                               velocity_.data(), n, n_threads, seen_.data()});
   }
 
   void move_rest(B &b, const MovedMesh &moved)

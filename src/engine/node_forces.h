@@ -10,6 +10,7 @@
 #include "backend/atomic.h"
 #include "backend/backend.h"
 #include "backend/threads.h"
+#include "backend/warp.h"
 #include "contact/node_field.h"
 #include "engine/results/results.h"
 #include "engine/results/step_counts.h"
