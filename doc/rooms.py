@@ -4,8 +4,6 @@
 
 """Draws which rooms of src and kokkos include which: doc/img/rooms.svg.
 
-usage: rooms.py [--check]     --check: compares with the file, writes nothing
-
 An arrow goes from a room to one that it includes. It is left out where a way along other arrows
 leads there too. A room lies one row above the highest room that it includes.
 """
@@ -122,15 +120,8 @@ def picture():
 
 def main():
     new = picture()
-    if sys.argv[1:] == ["--check"]:
-        with open(PICTURE, encoding="utf-8") as f:
-            if f.read() != new:
-                sys.exit("doc/img/rooms.svg does not show what is included: run doc/rooms.py")
-    elif sys.argv[1:]:
-        sys.exit(__doc__)
-    else:
-        with open(PICTURE, "w", encoding="utf-8") as f:
-            f.write(new)
+    with open(PICTURE, "w", encoding="utf-8") as f:
+        f.write(new)
 
 
 if __name__ == "__main__":
