@@ -577,28 +577,37 @@ void Wall::turn_springs(int n)
     if (m.nodes) m.nodes->turn_springs(*engine_, n);
 }
 
-// Collective where there are several processes: one message has the ranges of all meshes.
 void Wall::sum_node_forces(const HostSpheres &spheres)
 {
+  const bool any = cutoff() > 0;
+  on_this_process(spheres, [&] {
+    for (MeshPart &m : meshes_) {
+      if (!m.nodes) continue;
+      if (any)
+        m.nodes->see_forces(*engine_);
+      else
+        m.nodes->clear_forces();
+    }
+  });
+  if (any && host_.processes() > 1) agree_on_node_forces(false);
+}
+
+// Gives the forces on nodes the range of all processes, by one message for all meshes. Collective. `failed`: this process
+// has none, as its step failed; then there are none on the others, which do not wait for it.
+void Wall::agree_on_node_forces(bool failed)
+{
   std::vector<MeshNodes *> all;
-  for (MeshPart &m : meshes_) {
+  std::vector<Real> counts, exponents;
+  for (const MeshPart &m : meshes_) {
     if (!m.nodes) continue;
     all.push_back(m.nodes.get());
-    if (cutoff() == 0) m.nodes->clear_forces();
+    const SummandRange mine = failed ? SummandRange{0, kNotFinite} : m.nodes->range();
+    counts.push_back(static_cast<Real>(mine.count));
+    exponents.push_back(static_cast<Real>(mine.exponent));
   }
-  if (cutoff() == 0) return;
-  on_this_process(spheres, [&] {
-    for (MeshNodes *nodes : all) nodes->see_forces(*engine_);
-  });
-  if (host_.processes() == 1) return;
   const int n = static_cast<int>(all.size());
-  std::vector<Real> counts, exponents;
-  for (const MeshNodes *nodes : all) {
-    counts.push_back(static_cast<Real>(nodes->range().count));
-    exponents.push_back(static_cast<Real>(nodes->range().exponent));
-  }
   host_.sum_and_max(counts.data(), n, exponents.data(), n);
-  for (int k = 0; k < n; k++)
+  for (int k = 0; k < n && !failed; k++)
     all[k]->add_forces(
         {static_cast<std::uint64_t>(counts[k]), static_cast<std::uint64_t>(exponents[k])});
 }
@@ -641,7 +650,8 @@ void Wall::submit(const HostSpheres &spheres)
   });
 }
 
-void Wall::finish(const HostSpheres &spheres)
+// Local, but for the range of forces on nodes.
+void Wall::collect(const HostSpheres &spheres)
 {
   const Step &step = input_.step;
   submit(spheres);
@@ -657,6 +667,18 @@ void Wall::finish(const HostSpheres &spheres)
   totals_.expire();
   if (has_bodies_) note_step_of_bodies(step);
   if (has_nodes_) sum_node_forces(spheres);
+}
+
+void Wall::finish(const HostSpheres &spheres)
+{
+  const Step &step = input_.step;
+  try {
+    collect(spheres);
+  } catch (const InputError &e) {
+    if (e.is_local && has_nodes_ && cutoff() > 0 && host_.processes() > 1)
+      agree_on_node_forces(true);
+    throw;
+  }
   if (spec_.average_every > 0 && step.kind == Step::step)
     means_.add(step, cutoff() > 0 ? engine_.get() : nullptr, poses(), node_loads(),
                coats_.empty() ? nullptr : &coat_loads_);

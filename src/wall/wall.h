@@ -230,7 +230,9 @@ class Wall {
   void advance_bodies(const Step &step);
   void build_node_grids();
   void turn_springs(int n);
+  void collect(const HostSpheres &spheres);
   void sum_node_forces(const HostSpheres &spheres);
+  void agree_on_node_forces(bool failed);
   std::vector<Pose> poses() const;
   std::vector<NodeLoad> node_loads();
   Real pressure(int mesh) const;    // in this step, in units of forces
