@@ -1,0 +1,132 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "shape/superellipsoid.h"
+
+#include "base/input_error.h"
+#include "base/vector_text.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace lsdcd {
+namespace {
+
+constexpr Real kLeastExponent = 2, kMostExponent = 20;
+// Products of four half-axes stay in the range of Real.
+constexpr Real kLeastHalf = 1e-70, kMostHalf = 1e70;
+
+Real beta(Real x, Real y)
+{
+  return std::exp(std::lgamma(x) + std::lgamma(y) - std::lgamma(x + y));
+}
+
+// The largest sum of two numbers x a + y b, (x, y) of the unit circle of exponent n >= 2: the dual norm of (x^2 + y^2).
+Real farthest_of_two(Real a, Real b, Real n)
+{
+  if (n == 2) return std::max(a, b);
+  const Real p = 2 * n / (n - 2), large = std::max(a, b);
+  return large * std::pow(1 + std::pow(std::min(a, b) / large, p), 1 / p);
+}
+
+// The largest curvature in a direction of the first octant, by two angles from 0 to pi/2.
+class LargestCurvature {
+ public:
+  explicit LargestCurvature(const Superellipsoid &s) : s_(s) {}
+
+  // Scans the octant, and goes uphill from each angle that is above its neighbours.
+  Real find() const
+  {
+    std::vector<Real> scan((kSteps + 1) * (kSteps + 1));
+    for (int i = 0; i <= kSteps; i++)
+      for (int j = 0; j <= kSteps; j++) scan[i * (kSteps + 1) + j] = at(i * kStep, j * kStep);
+    Real most = 0;
+    for (int i = 0; i <= kSteps; i++)
+      for (int j = 0; j <= kSteps; j++) {
+        const Real here = scan[i * (kSteps + 1) + j];
+        bool is_top = true;
+        for (int k = std::max(i - 1, 0); k <= std::min(i + 1, kSteps); k++)
+          for (int l = std::max(j - 1, 0); l <= std::min(j + 1, kSteps); l++)
+            is_top &= !(scan[k * (kSteps + 1) + l] > here);
+        if (is_top && here > 0) most = std::max(most, uphill(i * kStep, j * kStep, here));
+      }
+    return most;
+  }
+
+ private:
+  static constexpr int kSteps = 48;    // rounded edges of exponent 20 are three of them wide
+  static constexpr Real kStep = kPi / 2 / kSteps;
+
+  // Halves the step where none of eight goes uphill.
+  Real uphill(Real up, Real round, Real best) const
+  {
+    constexpr Real kSame = 1e-13, kSmallest = 1e-7;    // a top is flat to 1e-14 there
+    constexpr int kMostRounds = 200;
+    Real by = kStep / 2;
+    for (int i_round = 0; i_round < kMostRounds && by > kSmallest; i_round++) {
+      const Real from_up = up, from_round = round, before = best;
+      for (int i = -1; i <= 1; i++)
+        for (int j = -1; j <= 1; j++) {
+          const Real here = at(from_up + i * by, from_round + j * by);
+          if (here > best) best = here, up = from_up + i * by, round = from_round + j * by;
+        }
+      if (!(best > before * (1 + kSame))) by /= 2;
+    }
+    return best;
+  }
+  Real at(Real up, Real round) const
+  {
+    if (up < 0 || up > kPi / 2 || round < 0 || round > kPi / 2) return 0;
+    const Vec3 x = {s_.half.x * std::cos(up) * std::cos(round),
+                    s_.half.y * std::cos(up) * std::sin(round), s_.half.z * std::sin(up)};
+    return curvature_at(s_, (1 / gauge_value(s_, x)) * x).largest();
+  }
+
+  const Superellipsoid &s_;
+};
+
+void check(const Vec3 &half, Real n1, Real n2)
+{
+  for (int k = 0; k < 3; k++)
+    if (!(half[k] >= kLeastHalf && half[k] <= kMostHalf))
+      throw InputError("a half-axis of a shape is " + number_text(half[k]) +
+                       ": half-axes are lengths above 0");
+  for (Real n : {n1, n2})
+    if (!(n >= kLeastExponent && n <= kMostExponent))
+      throw InputError("an exponent of a shape is " + number_text(n) +
+                       ": exponents are from 2, an ellipsoid, to 20");
+}
+
+}    // namespace
+
+Superellipsoid make_superellipsoid(const Vec3 &half, Real n1, Real n2)
+{
+  check(half, n1, n2);
+  const Real least = std::min({half.x, half.y, half.z}), most = std::max({half.x, half.y, half.z});
+  Superellipsoid s = {half, n1, n2, 0, 0, least};
+  s.farthest = farthest_of_two(farthest_of_two(half.x, half.y, n2), half.z, n1);
+  s.rho = s.is_ellipsoid() ? least * (least / most) : 1 / LargestCurvature(s).find();
+  return s;
+}
+
+// Jaklic, Leonardis and Solina, Segmentation and Recovery of Superquadrics, 2000, chapter 2.
+Real volume(const Superellipsoid &s)
+{
+  const Real e1 = 2 / s.n1, e2 = 2 / s.n2;
+  return 2 * s.half.x * s.half.y * s.half.z * e1 * e2 * beta(e1 / 2 + 1, e1) * beta(e2 / 2, e2 / 2);
+}
+
+Vec3 inertia_over_mass(const Superellipsoid &s)
+{
+  const Real e1 = 2 / s.n1, e2 = 2 / s.n2;
+  const Real all = 4 * beta(e1 / 2 + 1, e1) * beta(e2 / 2, e2 / 2);
+  // Means of x^2 over a^2 (and of y^2 over b^2), and of z^2 over c^2.
+  const Real across = beta(3 * e2 / 2, e2 / 2) * beta(e1 / 2, 2 * e1 + 1) / all,
+             along = 4 * beta(e2 / 2, e2 / 2 + 1) * beta(3 * e1 / 2, e1 + 1) / all;
+  const Vec3 square = {across * s.half.x * s.half.x, across * s.half.y * s.half.y,
+                       along * s.half.z * s.half.z};
+  return {square.y + square.z, square.z + square.x, square.x + square.y};
+}
+
+}    // namespace lsdcd

@@ -1,0 +1,393 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// The least signed distance from a grain to a plane, a line, a segment and a triangle, in the grain's frame.
+//
+// A normal n across a plane or line gives n.y - h(n) as a lower bound of the signed distance on all of it. The largest such
+// bound is the minimum where a point has that signed distance: the foot, its height below the point of the surface with the
+// normal n. It has where the overlap is less than rho, and outside; else nearest_on_surface() tells.
+#pragma once
+
+#include "shape/nearest_on_surface.h"
+
+namespace lsdcd {
+
+// The part of a triangle on which its minimum is: its inside, edge k from corner k to the next one, or corner k.
+enum class TrianglePart { face, edge, corner };
+
+struct ShapeMinimum {
+  Real distance;    // signed; HUGE_VAL: none is below the limit
+  Vec3 normal;      // unit, out of the grain
+  Vec3
+      gradient;    // one of the signed distance that lets nothing fall on its plane, line or point: the normal, or a mean of two
+  Vec3 foot;       // the point of the plane, line or triangle
+  TrianglePart part;
+  int k;
+  bool
+      is_smooth;    // the overlap is less than rho, so that the signed distance has one gradient there
+  bool is_sure;    // of nearest_on_surface()
+};
+
+LSDCD_FN ShapeMinimum no_minimum()
+{
+  return {HUGE_VAL, {0, 0, 0}, {0, 0, 0}, {0, 0, 0}, TrianglePart::face, 0, true, true};
+}
+
+// The highest tangent plane of one direction or more, a lower bound of the minimum.
+struct TangentMinimum {
+  Real distance;
+  Vec3 normal, foot;
+  bool is_highest;    // else the search for it has ended elsewhere
+};
+
+// Is the bound the minimum? To be asked where the overlap is not less than rho.
+LSDCD_FN bool is_minimum(const Superellipsoid &s, const TangentMinimum &t)
+{
+  if (!t.is_highest) return false;
+  const SurfacePoint there = nearest_on_surface(s, t.foot);
+  return there.is_sure && fabs(there.distance - t.distance) <= 4 * on_surface(s);
+}
+
+// Returns the tangent plane over the plane through y with the unit normal n.
+LSDCD_FN TangentMinimum tangent_over_plane(const Superellipsoid &s, const Vec3 &y, const Vec3 &n)
+{
+  TangentMinimum t;
+  const Real height = dot(n, y);
+  t.normal = height < 0 ? -n : n;
+  const SupportPlane plane = support(s, t.normal);
+  t.distance = fabs(height) - plane.height;
+  t.foot = plane.point + t.distance * t.normal;
+  t.is_highest = true;
+  return t;
+}
+
+// The highest tangent of a grain that is parallel to a line, by the angle of its normal about the line.
+class TangentAboutLine {
+ public:
+  // y: a point of the line; along: its unit direction.
+  LSDCD_FN TangentAboutLine(const Superellipsoid &s, const Vec3 &y, const Vec3 &along) :
+      s_(s), along_(along), y_(y - dot(y, along) * along), one_(any_perpendicular(along)),
+      two_(cross(along, one_))
+  {
+  }
+
+  LSDCD_FN TangentMinimum find()
+  {
+    if (s_.is_ellipsoid())
+      start_at_shadow();
+    else
+      start_at_gauge();
+    const bool converged = refine();
+    // The foot is on the line: along it it is under the point of the surface.
+    return {-depth_, normal_, y_ + dot(along_, point_) * along_, converged};
+  }
+
+ private:
+  // The shadow of an ellipsoid along the line is an ellipse.
+  LSDCD_FN void start_at_shadow()
+  {
+    Real p = 0, q = 0, r = 0;
+    for (int k = 0; k < 3; k++) {
+      const Real square = s_.half[k] * s_.half[k];
+      p += square * one_[k] * one_[k];
+      q += square * one_[k] * two_[k];
+      r += square * two_[k] * two_[k];
+    }
+    const Real angle = 0.5 * atan2(2 * q, p - r);
+    const Real middle = (p + r) / 2, spread = sqrt((p - r) * (p - r) / 4 + q * q);
+    const Real large = sqrt(middle + spread), small = sqrt(fmax(middle - spread, Real(0)));
+    turn_axes(angle);
+    if (!(small > 0)) return;
+    const Vec3 n =
+        nearest_on_ellipsoid({large, small, large}, {dot(one_, y_), dot(two_, y_), 0}).normal;
+    turn_axes(atan2(n.y, n.x));
+  }
+  // The normal of the gauge at the point of the line that is nearest in the metric of the half-axes.
+  LSDCD_FN void start_at_gauge()
+  {
+    Real across = 0, size = 0;
+    for (int k = 0; k < 3; k++) {
+      across += along_[k] / s_.half[k] * (y_[k] / s_.half[k]);
+      size += along_[k] / s_.half[k] * (along_[k] / s_.half[k]);
+    }
+    const Vec3 n = gauge(s_, y_ - (across / size) * along_).slope;
+    const Real u = dot(one_, n), v = dot(two_, n);
+    if (u - u == 0 && v - v == 0 && u * u + v * v > 0) turn_axes(atan2(v, u));
+  }
+  LSDCD_FN void turn_axes(Real angle)
+  {
+    const Vec3 turned = cos(angle) * one_ + sin(angle) * two_;
+    two_ = cos(angle) * two_ - sin(angle) * one_;
+    one_ = turned;
+  }
+  LSDCD_FN void evaluate(Real angle)
+  {
+    normal_ = cos(angle) * one_ + sin(angle) * two_;
+    turn_ = cos(angle) * two_ - sin(angle) * one_;
+    const Vec3 u = {s_.half.x * normal_.x, s_.half.y * normal_.y, s_.half.z * normal_.z};
+    const NestedNorm h = nested_norm(u, s_.n1 / (s_.n1 - 1), s_.n2 / (s_.n2 - 1));
+    point_ = {s_.half.x * h.slope.x, s_.half.y * h.slope.y, s_.half.z * h.slope.z};
+    depth_ = h.value - dot(normal_, y_);
+    slope_ = dot(turn_, point_ - y_);
+    const Vec3 turned = {s_.half.x * turn_.x, s_.half.y * turn_.y, s_.half.z * turn_.z};
+    bend_ = -depth_;
+    for (int k = 0; k < 2; k++) {
+      const Real part = dot(h.along[k], turned);
+      bend_ += h.bend[k] * part * part;
+    }
+  }
+  // Takes Newton's steps for slope = 0 from the angle 0, and within a bracket, once there is one, halves that where they do
+  // not. On a flat side the bend is infinite, and just beside it Newton's steps are too long.
+  LSDCD_FN bool refine()
+  {
+    constexpr int kMostSteps = 200;
+    constexpr Real kLongest = 0.3, kSmallest = 2 * kRoundoff;
+    Real low = -4, high = 4, angle = 0, width = HUGE_VAL;
+    for (int i = 0; i < kMostSteps; i++) {
+      evaluate(angle);
+      if (slope_ == 0) return true;
+      (slope_ < 0 ? low : high) = angle;
+      end_[slope_ > 0] = {slope_, point_};
+      const Real newton = -slope_ / bend_;
+      const bool is_newton = bend_ > 0 && fabs(newton) <= kLongest;
+      Real next = angle + (is_newton ? newton : (slope_ < 0 ? kLongest : -kLongest));
+      if (low > -4 && high < 4) {
+        // Every third step halves the bracket if the others have not.
+        const bool is_slow = i % 3 == 0 && high - low > 0.5 * width;
+        if (i % 3 == 0) width = high - low;
+        if (is_slow || !(next > low && next < high)) next = low + 0.5 * (high - low);
+        if (next == low || next == high || high - low <= kSmallest) {
+          // The point runs over a flat side between the two ends.
+          const Real share = end_[0].slope / (end_[0].slope - end_[1].slope);
+          point_ = end_[0].point + share * (end_[1].point - end_[0].point);
+          return true;
+        }
+      }
+      if (is_newton && fabs(newton) <= kSmallest && fabs(slope_) <= on_surface(s_)) return true;
+      if (next == angle) next += slope_ < 0 ? kSmallest : -kSmallest;
+      if (!(fabs(next) <= kPi)) return false;
+      angle = next;
+    }
+    return false;
+  }
+
+  const Superellipsoid &s_;
+  const Vec3 along_, y_;
+  Vec3 one_, two_, normal_, turn_, point_;
+  Real depth_, slope_, bend_;
+  struct End {
+    Real slope;
+    Vec3 point;
+  } end_[2];    // of the bracket
+};
+
+// The least signed distance of a triangle.
+class TriangleMinimum {
+ public:
+  // normal: of length 1, either way.
+  LSDCD_FN TriangleMinimum(const Superellipsoid &s, const Vec3 (&corner)[3], const Vec3 &normal) :
+      s_(s), normal_(normal)
+  {
+    for (int k = 0; k < 3; k++) {
+      corner_[k] = corner[k];
+      const Vec3 side = corner[k == 2 ? 0 : k + 1] - corner[k];
+      inward_[k] = cross(normal, (1 / norm(side)) * side);
+    }
+    if (dot(inward_[0], corner[2] - corner[0]) < 0)
+      for (Vec3 &inward : inward_) inward = -inward;
+  }
+
+  // Returns the minimum if it is less than `below`.
+  LSDCD_FN ShapeMinimum find(Real below) const
+  {
+    const TangentMinimum plane = tangent_over_plane(s_, corner_[0], normal_);
+    if (!(plane.distance < below)) return no_minimum();
+    if (!is_less_deep(plane.distance)) return find_deep(plane, below);
+    // The distance falls towards the foot, so that the minimum is on a side that the foot is past.
+    ShapeMinimum least = no_minimum();
+    bool is_inside = true;
+    for (int k = 0; k < 3; k++) {
+      if (dot(inward_[k], plane.foot - corner_[k]) >= 0) continue;
+      is_inside = false;
+      keep_nearer(least, on_side(k, below));
+    }
+    if (!is_inside) return least;
+    return on_face(plane);
+  }
+
+  // Returns the minimum of side k if it is less than `below`.
+  LSDCD_FN ShapeMinimum on_side(int k, Real below) const
+  {
+    const int next = k == 2 ? 0 : k + 1;
+    const Vec3 side = corner_[next] - corner_[k];
+    const Real length = norm(side);
+    const Vec3 along = (1 / length) * side;
+    const TangentMinimum line = TangentAboutLine(s_, corner_[k], along).find();
+    if (!(line.distance < below)) return no_minimum();
+    if (!(line.is_highest && is_less_deep(line.distance)))
+      return on_deep_side(k, line, along, length);
+    const Real at = dot(line.foot - corner_[k], along);
+    if (at <= 0) return on_corner(k);
+    if (at >= length) return on_corner(next);
+    return on_line(line, k);
+  }
+
+  LSDCD_FN ShapeMinimum on_corner(int k) const
+  {
+    return at_point(corner_[k], TrianglePart::corner, k);
+  }
+
+ private:
+  LSDCD_FN bool is_less_deep(Real distance) const { return -distance < s_.rho; }
+  LSDCD_FN static void keep_nearer(ShapeMinimum &least, const ShapeMinimum &other)
+  {
+    if (other.distance < least.distance) least = other;
+  }
+  LSDCD_FN ShapeMinimum at_point(const Vec3 &y, TrianglePart part, int k) const
+  {
+    const SurfacePoint p = nearest_on_surface(s_, y);
+    return {p.distance, p.normal, p.normal, y, part, k, is_less_deep(p.distance), p.is_sure};
+  }
+
+  LSDCD_FN ShapeMinimum on_face(const TangentMinimum &plane) const
+  {
+    return {plane.distance,
+            plane.normal,
+            plane.normal,
+            plane.foot,
+            TrianglePart::face,
+            0,
+            is_less_deep(plane.distance),
+            true};
+  }
+  LSDCD_FN ShapeMinimum on_line(const TangentMinimum &line, int k) const
+  {
+    return {line.distance,
+            line.normal,
+            line.normal,
+            line.foot,
+            TrianglePart::edge,
+            k,
+            is_less_deep(line.distance),
+            true};
+  }
+
+  // The minimum on a side whose tangent need not be it: at an end that nothing falls from; or at the tangent if that is it; or
+  // where the tangents at both ends of a bracket meet, or in its middle.
+  LSDCD_FN ShapeMinimum on_deep_side(int k, const TangentMinimum &line, const Vec3 &along,
+                                     Real length) const
+  {
+    constexpr int kMostSteps = 120;
+    ShapeMinimum low = on_corner(k), high = on_corner(k == 2 ? 0 : k + 1);
+    if (dot(low.normal, along) >= 0) return low;
+    if (dot(high.normal, along) <= 0) return high;
+    const Real tangent_at = dot(line.foot - corner_[k], along);
+    if (tangent_at > 0 && tangent_at < length && is_minimum(s_, line)) return on_line(line, k);
+    ShapeMinimum least = low;
+    keep_nearer(least, high);
+    Real from = 0, to = length;
+    for (int i = 0; i < kMostSteps; i++) {
+      const Real fall = dot(low.normal, along), rise = dot(high.normal, along);
+      Real at = (low.distance - high.distance + rise * to - fall * from) / (rise - fall);
+      const Real bound = low.distance + fall * (at - from);
+      if (!(least.distance - bound > on_surface(s_)) || !(to - from > on_surface(s_))) break;
+      if (i % 2 == 1 || !(at > from && at < to)) at = from + 0.5 * (to - from);
+      const ShapeMinimum here = at_point(corner_[k] + at * along, TrianglePart::edge, k);
+      keep_nearer(least, here);
+      if (dot(here.normal, along) < 0)
+        low = here, from = at;
+      else
+        high = here, to = at;
+    }
+    const Real fall = dot(low.normal, along), rise = dot(high.normal, along);
+    least.gradient = low.normal + (fall / (fall - rise)) * (high.normal - low.normal);
+    return least;
+  }
+
+  // Where the tangent plane need not be the minimum, that is on the sides if a gradient there shows that nothing falls
+  // inwards. Else it is inside: the tangent if that is it.
+  LSDCD_FN ShapeMinimum find_deep(const TangentMinimum &plane, Real below) const
+  {
+    ShapeMinimum least = no_minimum();
+    for (int k = 0; k < 3; k++) keep_nearer(least, on_side(k, HUGE_VAL));
+    if (!rises_inwards(least)) {
+      bool is_inside = true;
+      for (int k = 0; k < 3; k++) is_inside &= dot(inward_[k], plane.foot - corner_[k]) >= 0;
+      if (is_inside && is_minimum(s_, plane)) return on_face(plane);
+      keep_nearer(least, search_inside(least.distance - 4 * on_surface(s_)));
+    }
+    return least.distance < below ? least : no_minimum();
+  }
+  LSDCD_FN bool rises_inwards(const ShapeMinimum &at) const
+  {
+    constexpr Real kTilt = 64 * kRoundoff;
+    if (at.part == TrianglePart::edge) return dot(at.gradient, inward_[at.k]) >= -kTilt;
+    for (int k = 1; k < 3; k++) {
+      const Vec3 side = corner_[(at.k + k) % 3] - corner_[at.k];
+      if (!(dot(at.gradient, side) >= -kTilt * norm(side))) return false;
+    }
+    return true;
+  }
+
+  // Cuts off what a gradient shows to be farther than the least found, through the centroid of what is left: each cut takes
+  // more than a third of the area.
+  LSDCD_FN ShapeMinimum search_inside(Real below) const
+  {
+    constexpr int kMostCuts = 160;
+    struct Point {
+      Real u, v;
+    };
+    const Vec3 along = cross(inward_[0], normal_);
+    Point polygon[kMostCuts + 4], rest[kMostCuts + 4];
+    int n = 3;
+    for (int k = 0; k < 3; k++) {
+      const Vec3 to = corner_[k] - corner_[0];
+      polygon[k] = {dot(along, to), dot(inward_[0], to)};
+    }
+    ShapeMinimum least = no_minimum();
+    least.distance = below;
+    bool found = false;
+    for (int cut = 0; cut < kMostCuts && n > 2; cut++) {
+      Real area = 0, u = 0, v = 0;
+      for (int i = 1; i + 1 < n; i++) {
+        const Point &o = polygon[0], &a = polygon[i], &b = polygon[i + 1];
+        const Real part = fabs((a.u - o.u) * (b.v - o.v) - (a.v - o.v) * (b.u - o.u));
+        area += part;
+        u += part * (o.u + a.u + b.u) / 3;
+        v += part * (o.v + a.v + b.v) / 3;
+      }
+      if (!(area > 0)) break;
+      const Point centre = {u / area, v / area};
+      const ShapeMinimum here =
+          at_point(corner_[0] + centre.u * along + centre.v * inward_[0], TrianglePart::face, 0);
+      if (here.distance < least.distance) least = here, found = true;
+      const Real gu = dot(here.normal, along), gv = dot(here.normal, inward_[0]);
+      // What the gradient allows to be nearer than the least.
+      const auto past = [&](const Point &p) {
+        return here.distance - least.distance + gu * (p.u - centre.u) + gv * (p.v - centre.v);
+      };
+      int left = 0;
+      Real nearest = 0;
+      for (int i = 0; i < n; i++) {
+        const Point &p = polygon[i], &q = polygon[i + 1 < n ? i + 1 : 0];
+        const Real at_p = past(p), at_q = past(q);
+        nearest = fmin(nearest, at_p);
+        if (at_p <= 0) rest[left++] = p;
+        if ((at_p < 0 && at_q > 0) || (at_p > 0 && at_q < 0)) {
+          const Real share = at_p / (at_p - at_q);
+          rest[left++] = {p.u + share * (q.u - p.u), p.v + share * (q.v - p.v)};
+        }
+      }
+      if (nearest >= -0.25 * on_surface(s_)) break;
+      n = left;
+      for (int i = 0; i < n; i++) polygon[i] = rest[i];
+    }
+    return found ? least : no_minimum();
+  }
+
+  const Superellipsoid &s_;
+  Vec3 corner_[3], inward_[3];
+  const Vec3 normal_;
+};
+
+}    // namespace lsdcd
