@@ -16,7 +16,7 @@ namespace lsdcd {
 
 namespace {
 
-constexpr int kNone = -1;
+constexpr int kNoImage = -1;
 
 // The input of welding: the points of the mesh and then those of images.
 struct Copies {
@@ -50,7 +50,7 @@ Copies copies_of(const WeldedMesh &mesh, const PeriodicBox &box, Real depth)
   const std::vector<FacetPart> parts = parts_of(mesh);
   for (const FacetPart &part : parts) copy_part(part, part.vertex, out);
 
-  std::vector<int> point_of(n_vertices, kNone);
+  std::vector<int> point_of(n_vertices, kNoImage);
   std::size_t first_of_shift = n_vertices;    // of the points
   std::array<int, 3> by = {0, 0, 0};
   Vec3 shift = {0, 0, 0};
@@ -59,7 +59,7 @@ Copies copies_of(const WeldedMesh &mesh, const PeriodicBox &box, Real depth)
       by = image.by;
       shift = Real(by[0]) * box.edge[0] + Real(by[1]) * box.edge[1] + Real(by[2]) * box.edge[2];
       for (std::size_t p = first_of_shift; p < out.points.size(); p++)
-        point_of[out.vertex_of[p]] = kNone;
+        point_of[out.vertex_of[p]] = kNoImage;
       first_of_shift = out.points.size();
       out.first.push_back(static_cast<int>(first_of_shift));
     }
@@ -67,7 +67,7 @@ Copies copies_of(const WeldedMesh &mesh, const PeriodicBox &box, Real depth)
     std::array<int, 3> points;
     for (int k = 0; k < 3; k++) {
       const int v = part.vertex[k];
-      if (point_of[v] == kNone) {
+      if (point_of[v] == kNoImage) {
         point_of[v] = static_cast<int>(out.points.size());
         out.points.push_back(mesh.vertices[v] + shift);
         out.vertex_of.push_back(v);

@@ -191,4 +191,33 @@ LSDCD_FN void search_tree(const TreeView &tree, const Warp<kSize> &warp, const V
   }
 }
 
+// Calls found(primitive) for all primitives that are at most `radius` from q, and for some that are farther. `stack` has room
+// for kTreeStack.
+template <class Bounds, class Found>
+void visit_within(const TreeView &tree, const Vec3 &q, Real radius, TreeWaiting *stack,
+                  const Found &found)
+{
+  using T = typename Bounds::Type;
+  const Warp<1> alone;
+  Bounds bounds(tree.scaled(q));
+  bounds.set_most(radius * tree.inv_scale);
+  unsigned n = 0;
+  stack[n++].child = tree.root;
+  while (n > 0) {
+    const std::uint32_t child = stack[--n].child;
+    if (child & kTreeLeaf) {
+      const std::uint32_t leaf = child & ~kTreeLeaf, slot = leaf * kTreeWidth;
+      const unsigned candidates = bounds.candidates_in(tree.leaves[leaf], tree.sides[leaf], alone);
+      for (unsigned k = 0; k < kTreeWidth && slot + k < tree.n_primitives; k++)
+        if (candidates >> k & 1u) found(slot + k);
+      continue;
+    }
+    const TreeNode &node = tree.nodes[child];
+    for (unsigned k = 0; k < kTreeWidth; k++) {
+      const T far = bounds.box(node, k);
+      if (bounds.is_within(far)) stack[n++].child = node.child[k];
+    }
+  }
+}
+
 }    // namespace lsdcd

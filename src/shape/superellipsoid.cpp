@@ -7,7 +7,9 @@
 #include "base/vector_text.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <functional>
 #include <vector>
 
 namespace lsdcd {
@@ -35,13 +37,13 @@ class LargestCurvature {
  public:
   explicit LargestCurvature(const Superellipsoid &s) : s_(s) {}
 
-  // Scans the octant, and goes uphill from each angle that is above its neighbours.
+  // Scans the octant, and goes uphill from the highest of the angles that are above their neighbours.
   Real find() const
   {
     std::vector<Real> scan((kSteps + 1) * (kSteps + 1));
     for (int i = 0; i <= kSteps; i++)
       for (int j = 0; j <= kSteps; j++) scan[i * (kSteps + 1) + j] = at(i * kStep, j * kStep);
-    Real most = 0;
+    std::vector<std::array<Real, 3>> tops;
     for (int i = 0; i <= kSteps; i++)
       for (int j = 0; j <= kSteps; j++) {
         const Real here = scan[i * (kSteps + 1) + j];
@@ -49,8 +51,15 @@ class LargestCurvature {
         for (int k = std::max(i - 1, 0); k <= std::min(i + 1, kSteps); k++)
           for (int l = std::max(j - 1, 0); l <= std::min(j + 1, kSteps); l++)
             is_top &= !(scan[k * (kSteps + 1) + l] > here);
-        if (is_top && here > 0) most = std::max(most, uphill(i * kStep, j * kStep, here));
+        if (is_top) tops.push_back({here, i * kStep, j * kStep});
       }
+    constexpr std::size_t kMostTops = 4;
+    const std::size_t n = std::min(tops.size(), kMostTops);
+    std::partial_sort(tops.begin(), tops.begin() + static_cast<std::ptrdiff_t>(n), tops.end(),
+                      std::greater<>());
+    Real most = 0;
+    for (std::size_t i = 0; i < n; i++)
+      most = std::max(most, uphill(tops[i][1], tops[i][2], tops[i][0]));
     return most;
   }
 
@@ -61,8 +70,8 @@ class LargestCurvature {
   // Halves the step where none of eight goes uphill.
   Real uphill(Real up, Real round, Real best) const
   {
-    constexpr Real kSame = 1e-13, kSmallest = 1e-7;    // a top is flat to 1e-14 there
-    constexpr int kMostRounds = 200;
+    constexpr Real kSame = 1e-10, kSmallest = 1e-6;    // a top is flat to 1e-12 there
+    constexpr int kMostRounds = 100;
     Real by = kStep / 2;
     for (int i_round = 0; i_round < kMostRounds && by > kSmallest; i_round++) {
       const Real from_up = up, from_round = round, before = best;

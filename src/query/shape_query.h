@@ -1,0 +1,48 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Contacts and signed distances of ellipsoids and superellipsoids at a mesh, on the CPU. Contacts are the local minima of the
+// signed distance from the grain over the surface, which do not depend on how it is cut into triangles.
+#pragma once
+
+#include "geometry/feature_code.h"
+#include "query/triangle_tree.h"
+#include "shape/superellipsoid.h"
+
+#include <cstddef>
+#include <limits>
+#include <vector>
+
+namespace lsdcd {
+
+// Grains in packed arrays of the caller.
+struct ShapesGiven {
+  std::size_t from = 0, n = 0;    // the first one in the arrays, and how many
+  const Real *centres;            // 3 each
+  const Real *quaternions;        // w i j k each, of any length above 0; null: not turned
+  const Real *half_axes;          // 3 each
+  const Real *exponents;          // n1 and n2 each; null: 2
+  bool all_alike;                 // half_axes and exponents are those of all grains
+};
+
+// A place of the mesh where the signed distance from a grain is a local minimum below 0, or the least of all.
+struct ShapeContact {
+  FeatureCode feature = kNoFeature;
+  Vec3 point = {0, 0, 0}, normal = {0, 0, 0};    // on the wall; unit, from there into the grain
+  Vec3 of_grain = {0, 0, 0};    // the point of the grain's surface, distance normal from `point`
+  Real distance = std::numeric_limits<Real>::infinity();    // signed; -distance is the overlap
+};
+
+// Grain `from` + i has found[first[i]] to found[first[i + 1] - 1], in the order of their features.
+struct ShapeContacts {
+  std::vector<std::size_t> first;
+  std::vector<ShapeContact> found;
+};
+
+// Both use threads() threads, and throw InputError for numbers of a grain that make no shape.
+ShapeContacts find_shape_contacts(const TriangleTree &tree, const ShapesGiven &grains);
+// Writes the nearest place of the mesh for each grain. A grain whose centre is no number is far from everything.
+void find_shape_distances(const TriangleTree &tree, const ShapesGiven &grains,
+                          ShapeContact *nearest);
+
+}    // namespace lsdcd

@@ -1,0 +1,345 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Contacts and distances of superellipsoids at meshes: closed forms, the same surface cut in other ways, and all triangles of a
+// mesh one by one.
+#include "base/quaternion.h"
+#include "query/shape_query.h"
+#include "shape/triangle_minimum.h"
+#include "support/random.h"
+#include "support/tree_case.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+#include <vector>
+
+namespace lsdcd::test_shape_query {
+namespace {
+
+constexpr int kMostPieces = 100;
+
+// Arrays of grains.
+struct Grains {
+  std::vector<Real> centres, quaternions, half, exponents;
+
+  std::size_t n() const { return centres.size() / 3; }
+  void add(const Vec3 &x, const Vec3 &axes, Real n1, Real n2,
+           const std::array<Real, 4> &q = {1, 0, 0, 0})
+  {
+    centres.insert(centres.end(), {x.x, x.y, x.z});
+    half.insert(half.end(), {axes.x, axes.y, axes.z});
+    exponents.insert(exponents.end(), {n1, n2});
+    quaternions.insert(quaternions.end(), q.begin(), q.end());
+  }
+  ShapesGiven given() const
+  {
+    return {0, n(), centres.data(), quaternions.data(), half.data(), exponents.data(), false};
+  }
+  Superellipsoid shape(std::size_t i) const
+  {
+    return make_superellipsoid({half[3 * i], half[3 * i + 1], half[3 * i + 2]}, exponents[2 * i],
+                               exponents[2 * i + 1]);
+  }
+};
+
+std::array<Real, 4> random_turn(Random &random)
+{
+  std::normal_distribution<Real> normal;
+  return {normal(random), normal(random), normal(random), normal(random)};
+}
+
+// Turns and moves a surface to where coordinates are rounded.
+const Quaternion kTurn = normalised({0.6, {0.31, -0.52, 0.4}});
+Vec3 placed(const Vec3 &p)
+{
+  return rotate(kTurn, p) + Vec3{0.17, -0.29, 0.11};
+}
+
+// Each triangle of a surface in pieces * pieces triangles of it.
+TriangleSoup cut(const std::vector<Vec3> &corners, int pieces)
+{
+  TriangleSoup soup;
+  for (std::size_t t = 0; t < corners.size(); t += 3) {
+    const auto at = [&](int i, int j) {
+      return placed((1.0 / pieces) *
+                    ((pieces - i - j) * corners[t] + i * corners[t + 1] + j * corners[t + 2]));
+    };
+    for (int i = 0; i < pieces; i++)
+      for (int j = 0; i + j < pieces; j++) {
+        soup.corners.insert(soup.corners.end(), {at(i, j), at(i + 1, j), at(i, j + 1)});
+        if (i + j + 1 < pieces)
+          soup.corners.insert(soup.corners.end(), {at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)});
+      }
+  }
+  return soup;
+}
+
+// A strip from x = 0, along y, in the direction of an angle over the plane z = 0.
+std::vector<Vec3> half_plane(Real degrees)
+{
+  const Vec3 out = {10 * std::cos(degrees * kPi / 180), 0, 10 * std::sin(degrees * kPi / 180)},
+             side = {0, 10, 0};
+  return {-side, out - side, side, out - side, out + side, side};
+}
+
+std::vector<Vec3> fold(Real degrees)
+{
+  std::vector<Vec3> corners = half_plane(180);
+  const std::vector<Vec3> other = half_plane(degrees);
+  corners.insert(corners.end(), other.begin(), other.end());
+  return corners;
+}
+
+// A pyramid that opens upwards, of n faces.
+std::vector<Vec3> bowl(int n)
+{
+  std::vector<Vec3> corners;
+  const auto rim = [n](int k) {
+    return Vec3{6 * std::cos(2 * kPi * k / n), 6 * std::sin(2 * kPi * k / n), 4};
+  };
+  for (int k = 0; k < n; k++) corners.insert(corners.end(), {{0, 0, 0}, rim(k), rim(k + 1)});
+  return corners;
+}
+
+// Grains that touch a surface by up to rho/2: moved towards it until their distance is what it should be.
+Grains at_surface(Random &random, const TriangleSoup &surface, int n, Real most_exponent)
+{
+  const TreeCase at(surface);
+  Grains grains;
+  while (static_cast<int>(grains.n()) < n) {
+    constexpr Real kOften[] = {2, 2, 3, 4, 6, 8};
+    const auto exponent = [&] {
+      return std::fmin(kOften[static_cast<int>(uniform(random, 0, 6))], most_exponent);
+    };
+    const Vec3 half = uniform(random, {0.3, 0.3, 0.3}, {1.5, 1.5, 1.5});
+    const Real n1 = exponent(), n2 = exponent();
+    const Superellipsoid s = make_superellipsoid(half, n1, n2);
+    const std::array<Real, 4> turn = random_turn(random);
+    Vec3 x = placed(uniform(random, {-1, -1, 2}, {1, 1, 4}));
+    const Real wanted = -uniform(random, 0.01, 0.5) * s.rho;
+    ShapeContact nearest;
+    for (int step = 0; step < 25; step++) {
+      Grains one;
+      one.add(x, half, n1, n2, turn);
+      find_shape_distances(at.tree, one.given(), &nearest);
+      if (nearest.distance < 2 * wanted) break;    // it began inside
+      // The distance falls by the way at most.
+      x -= 0.7 * (nearest.distance - wanted) * nearest.normal;
+    }
+    if (std::fabs(nearest.distance - wanted) < 0.1 * s.rho) grains.add(x, half, n1, n2, turn);
+  }
+  return grains;
+}
+
+// How far contacts of the same grains differ, by share of the largest half-axis.
+struct Differences {
+  std::size_t contacts = 0, other_number = 0;
+  Real overlap = 0, normal = 0, point = 0;
+};
+Differences compare(const ShapeContacts &a, const ShapeContacts &b)
+{
+  Differences d;
+  d.contacts = a.found.size();
+  for (std::size_t i = 0; i + 1 < a.first.size(); i++) {
+    if (a.first[i + 1] - a.first[i] != b.first[i + 1] - b.first[i]) {
+      d.other_number++;
+      continue;
+    }
+    for (std::size_t k = a.first[i]; k < a.first[i + 1]; k++) {
+      // Features have other numbers: the nearest normal and overlap.
+      const ShapeContact &one = a.found[k];
+      const ShapeContact *other = nullptr;
+      for (std::size_t l = b.first[i]; l < b.first[i + 1]; l++)
+        if (!other || norm(b.found[l].point - one.point) < norm(other->point - one.point))
+          other = &b.found[l];
+      d.overlap = std::fmax(d.overlap, std::fabs(other->distance - one.distance));
+      d.normal = std::fmax(d.normal, norm(other->normal - one.normal));
+      d.point = std::fmax(
+          d.point, std::fmax(norm(other->point - one.point), norm(other->of_grain - one.of_grain)));
+    }
+  }
+  return d;
+}
+
+void expect_the_same_in_all_pieces(const std::vector<Vec3> &surface, Real most_exponent,
+                                   Real tolerance_of_points)
+{
+  Random random(1);
+  const Grains grains =
+      at_surface(random, cut(surface, 1), most_exponent > 2 ? 20 : 60, most_exponent);
+  const TreeCase whole(cut(surface, 1));
+  const ShapeContacts expected = find_shape_contacts(whole.tree, grains.given());
+  EXPECT_GE(expected.found.size(), grains.n() - 1);
+  for (int pieces : {2, 7, kMostPieces}) {
+    const TreeCase other(cut(surface, pieces));
+    const Differences d = compare(expected, find_shape_contacts(other.tree, grains.given()));
+    EXPECT_EQ(d.other_number, 0u) << pieces;
+    EXPECT_LT(d.overlap, 1e-12) << pieces;
+    EXPECT_LT(d.normal, 1e-10) << pieces;
+    EXPECT_LT(d.point, tolerance_of_points) << pieces;
+  }
+}
+
+}    // namespace
+
+TEST(shape_query, finds_the_same_contacts_on_a_plane_however_it_is_cut)
+{
+  expect_the_same_in_all_pieces(fold(0), 2, 1e-10);
+}
+TEST(shape_query, finds_the_same_contacts_on_folds_however_they_are_cut)
+{
+  for (Real degrees : {-120, -30, 10, 60, 110})
+    expect_the_same_in_all_pieces(fold(degrees), 2, 1e-10);
+}
+TEST(shape_query, finds_the_same_contacts_in_a_bowl_however_it_is_cut)
+{
+  expect_the_same_in_all_pieces(bowl(5), 2, 1e-10);
+}
+TEST(shape_query, finds_the_same_contacts_of_shapes_with_flat_sides_however_a_surface_is_cut)
+{
+  // Where a side is flat a point runs over it by the rounding of a triangle's normal times its radius of curvature.
+  for (Real degrees : {0, -60, 60}) expect_the_same_in_all_pieces(fold(degrees), 8, 1e-7);
+  expect_the_same_in_all_pieces(bowl(4), 8, 1e-7);
+}
+
+TEST(shape_query, finds_one_contact_of_a_flat_side_that_lies_on_a_plane_and_one_on_each_rail)
+{
+  Grains block;
+  block.add(placed({0.3, 0.2, 0.97}), {2, 1.5, 1}, 8, 8);
+  block.quaternions = {kTurn.w, kTurn.v.x, kTurn.v.y, kTurn.v.z};    // as the surface
+  const Vec3 z = rotate(kTurn, {0, 0, 1});
+  for (int pieces : {1, 3, kMostPieces}) {
+    const TreeCase plane(cut(fold(0), pieces));
+    const ShapeContacts c = find_shape_contacts(plane.tree, block.given());
+    ASSERT_EQ(c.found.size(), 1u) << pieces;
+    EXPECT_NEAR(c.found[0].distance, -0.03, 1e-12);
+    EXPECT_LT(norm(c.found[0].normal - z), 1e-12);
+  }
+  std::vector<Vec3> rails;
+  for (Real at : {-1.2, 1.2})
+    rails.insert(rails.end(), {{at - 0.1, -9, 0},
+                               {at + 0.1, -9, 0},
+                               {at - 0.1, 9, 0},
+                               {at + 0.1, -9, 0},
+                               {at + 0.1, 9, 0},
+                               {at - 0.1, 9, 0}});
+  for (int pieces : {1, 40}) {
+    const TreeCase two(cut(rails, pieces));
+    const ShapeContacts c = find_shape_contacts(two.tree, block.given());
+    ASSERT_EQ(c.found.size(), 2u) << pieces;
+    for (const ShapeContact &one : c.found) EXPECT_EQ(feature_kind(one.feature), FeatureKind::edge);
+  }
+}
+
+TEST(shape_query, finds_the_nearest_triangle_and_all_local_minima_of_a_look_at_every_triangle)
+{
+  Random random(3);
+  std::size_t touching = 0, several = 0;
+  for (const auto &mesh :
+       cases_of<TreeCase>({box_mesh({-1, -1, -1}, {1, 1, 1}), cone_mesh(7, 1, 0.7)}, 6)) {
+    const WeldedMesh &m = mesh->mesh;
+    bool has_bare = false;    // edges and vertices of no face have contacts, too
+    for (std::size_t e = 0; e < m.edges.size(); e++)
+      has_bare |= m.edge_first[e] == m.edge_first[e + 1];
+    for (std::size_t v = 0; v < m.vertices.size(); v++)
+      has_bare |= m.vertex_first[v] == m.vertex_first[v + 1];
+    if (has_bare) continue;
+    const Real size = mesh->diagonal;
+    Grains grains;
+    for (int i = 0; i < 12; i++)
+      grains.add(m.report.lo + uniform(random, {0, 0, 0}, m.report.hi - m.report.lo),
+                 size * uniform(random, {0.1, 0.1, 0.1}, {0.2, 0.2, 0.2}), i % 2 ? 2 : 3,
+                 i % 3 ? 2 : 4, random_turn(random));
+    const ShapeContacts contacts = find_shape_contacts(mesh->tree, grains.given());
+    std::vector<ShapeContact> nearest(grains.n());
+    find_shape_distances(mesh->tree, grains.given(), nearest.data());
+    for (std::size_t i = 0; i < grains.n(); i++) {
+      const Superellipsoid s = grains.shape(i);
+      const Vec3 centre = {grains.centres[3 * i], grains.centres[3 * i + 1],
+                           grains.centres[3 * i + 2]};
+      const Real *q = &grains.quaternions[4 * i], w = q[0],
+                 scale = 1 / (q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
+      const Vec3 v = {q[1], q[2], q[3]};
+      // The inverse rotation, by its formula.
+      const auto own = [&](const Vec3 &x) {
+        const Vec3 a = x - centre;
+        return scale * ((w * w - norm_sq(v)) * a + 2 * dot(v, a) * v - 2 * w * cross(v, a));
+      };
+      std::vector<ShapeMinimum> of_face;
+      Real least = HUGE_VAL;
+      for (const auto &face : m.faces) {
+        const Vec3 corner[3] = {own(m.vertices[face[0]]), own(m.vertices[face[1]]),
+                                own(m.vertices[face[2]])};
+        of_face.push_back(
+            TriangleMinimum(s, corner, unit(cross(corner[1] - corner[0], corner[2] - corner[0])))
+                .find(HUGE_VAL));
+        least = std::fmin(least, of_face.back().distance);
+      }
+      EXPECT_NEAR(nearest[i].distance, least, 1e-12 * size);
+      // The foot and the point of the grain are where they should be.
+      EXPECT_NEAR(norm(nearest[i].of_grain - nearest[i].point), std::fabs(least), 1e-12 * size);
+      EXPECT_NEAR(gauge_value(s, own(nearest[i].of_grain)), 1, 1e-11);
+      // A minimum of a face is a local one of the surface if no face around its foot has a deeper one.
+      std::vector<Vec3> feet;
+      for (std::size_t g = 0; g < m.faces.size(); g++) {
+        const ShapeMinimum &at = of_face[g];
+        if (!(at.distance < -1e-9 * size)) continue;
+        // The vertices of the part on which it is: the faces around have them all.
+        const int first = m.faces[g][at.k], second = m.faces[g][(at.k + 1) % 3];
+        bool is_local = true;
+        for (std::size_t f = 0; f < m.faces.size() && at.part != TrianglePart::face; f++) {
+          const auto &face = m.faces[f];
+          const auto has = [&](int v) {
+            return std::find(face.begin(), face.end(), v) != face.end();
+          };
+          const bool is_around = has(first) && (at.part == TrianglePart::corner || has(second));
+          if (is_around && of_face[f].distance < at.distance - 1e-11 * size) is_local = false;
+        }
+        if (is_local) feet.push_back(at.foot);
+      }
+      std::vector<Vec3> found;
+      for (std::size_t k = contacts.first[i]; k < contacts.first[i + 1]; k++)
+        if (contacts.found[k].distance < -1e-9 * size)
+          found.push_back(own(contacts.found[k].point));
+      const auto all_in = [&](const std::vector<Vec3> &these, const std::vector<Vec3> &those) {
+        return std::all_of(these.begin(), these.end(), [&](const Vec3 &a) {
+          return std::any_of(those.begin(), those.end(),
+                             [&](const Vec3 &b) { return norm(a - b) < 1e-5 * size; });
+        });
+      };
+      EXPECT_TRUE(all_in(found, feet));
+      EXPECT_TRUE(all_in(feet, found));
+      touching += !found.empty(), several += found.size() > 1;
+    }
+  }
+  EXPECT_GT(touching, 20u);
+  EXPECT_GT(several, 5u);
+}
+
+TEST(shape_query, says_which_grain_makes_no_shape)
+{
+  const TreeCase mesh(box_mesh({-1, -1, -1}, {1, 1, 1}));
+  const auto said = [&](const Vec3 &half, Real n1, const std::array<Real, 4> &q) -> std::string {
+    Grains grains;
+    grains.add({0, 0, 0}, {1, 1, 1}, 2, 2);
+    grains.add({0, 0, 0}, half, n1, 2, q);
+    try {
+      find_shape_contacts(mesh.tree, grains.given());
+      return "nothing";
+    } catch (const InputError &e) {
+      return e.what();
+    }
+  };
+  EXPECT_EQ(said({1, 0, 1}, 2, {1, 0, 0, 0}),
+            "grain 1: a half-axis of a shape is 0: half-axes are lengths above 0");
+  EXPECT_EQ(said({1, 1, 1}, 1.9, {1, 0, 0, 0}),
+            "grain 1: an exponent of a shape is 1.9: exponents are from 2, an ellipsoid, to 20");
+  EXPECT_EQ(said({1, 1, 1}, 2, {0, 0, 0, 0}),
+            "grain 1 has a quaternion that is 0 or no number: give w i j k of a rotation");
+}
+
+}    // namespace lsdcd::test_shape_query
