@@ -292,6 +292,60 @@ typedef struct lsdcd_contacts {
  * with more than 512 contacts. Any. */
 LSDCD_API int lsdcd_contacts_host(const lsdcd_grid *grid, lsdcd_contacts *contacts);
 
+/* A grain that is the body (|x/a|^n2 + |y/b|^n2)^(n1/n2) + |z/c|^n1 <= 1 in its own frame: an ellipsoid where both exponents
+ * are 2, a box with rounded edges where they are large. */
+typedef struct lsdcd_shape_facts {
+  size_t size; /* of this struct; set by the caller */
+  double volume;
+  double inertia[3];    /* about the axes, over the mass, at uniform density: length^2 */
+  double circumscribed; /* radius of the smallest sphere about the centre that holds it */
+  double inscribed;     /* radius of the largest one that it holds */
+  /* Least radius of curvature. Contacts with an overlap above half of it may jump where they leave a concave fold. */
+  double curvature_radius;
+} lsdcd_shape_facts;
+/* half_axes: a b c; exponents: n1 n2, from 2 to 20, null: 2. LSDCD_ERROR_INPUT: numbers that make no shape. Any. */
+LSDCD_API int lsdcd_shape_get_facts(const double *half_axes, const double *exponents,
+                                    lsdcd_shape_facts *facts);
+
+/* Ellipsoids and superellipsoids, and arrays for their contacts and distances, packed; those that are null are not asked for.
+ * The signed distance of a place of the mesh from a grain is that from its surface, below 0 inside. Contacts are its local
+ * minima over the mesh below 0, however many there are: they do not depend on how the mesh is cut into triangles, and a plane
+ * has one. Those of grain i are first[i] up to before first[i + 1], ascending in features. */
+typedef struct lsdcd_shapes {
+  size_t size; /* of this struct */
+  size_t n;
+  int threads; /* 0: OMP_NUM_THREADS, or one */
+  int one_shape; /* 1: half_axes and exponents are those of one grain, and all are like it; 0: of each */
+  const double *centres; /* 3 numbers each */
+  const double *
+      quaternions; /* w i j k each, of any length above 0: turn a grain's frame to where it is; null: not turned */
+  const double *half_axes; /* a b c each, > 0 */
+  const double *
+      exponents; /* n1 (along z) and n2 (in the plane of x and y) each, from 2 to 20; null: 2, ellipsoids */
+  size_t *
+      first; /* n + 1 numbers, the last one how many contacts there are; null: contacts are not asked for */
+  size_t room;
+  double *point;                /* 3 numbers each, on the mesh */
+  double *of_grain;             /* 3 numbers each, of the grain's surface: where a force acts */
+  double *overlap;              /* > 0, from one to the other */
+  double *normal;               /* 3 numbers each, unit, from the mesh into the grain */
+  uint32_t *triangle, *feature; /* as in lsdcd_query */
+  /* Of each grain n numbers, not only of those that touch: its signed distance from the mesh, the overlap with a minus where it
+   * touches, and where that is. At any range; infinite with LSDCD_NONE where a coordinate of the centre is no number. */
+  double *distance;
+  double *closest;          /* 3 numbers each, on the mesh */
+  double *closest_of_grain; /* 3 numbers each */
+  double *closest_normal;   /* 3 numbers each */
+  uint32_t *closest_triangle, *closest_feature;
+  /* Answer: all contacts, so the room that all take; with less room only `first` and the arrays of grains are written. */
+  size_t contacts;
+  lsdcd_progress *progress; /* null: none */
+  void *data;
+} lsdcd_shapes;
+/* In arrays of the host. The grid has precision LSDCD_DOUBLE and no `nearest`; its cutoff does not matter. LSDCD_ERROR_INPUT
+ * names a grain whose numbers make no shape. Any. */
+LSDCD_API int lsdcd_shapes_host(const lsdcd_grid *grid, lsdcd_shapes *shapes);
+
 /* A grid on the CUDA device that is current, and a stream (cudaStream_t) of that device, null: the
  * default one. Without a cutoff the grid's tree answers, with the numbers of lsdcd_query_host(). Queries
  * need the stream. Streams of one grid share its copy on a device. Any. */

@@ -257,6 +257,50 @@ struct Contacts {
   }
 };
 
+// Grains that are ellipsoids or superellipsoids, packed; see lsdcd_shapes. half_axes and exponents are of each grain, or of one
+// that all are like; without exponents they are ellipsoids, without quaternions not turned.
+struct Shapes {
+  std::vector<double> centres, half_axes, exponents, quaternions;
+};
+
+// The contacts of grain i are first[i] up to before first[i + 1]; see lsdcd_shapes.
+struct ShapeContacts {
+  std::vector<std::size_t> first;
+  std::vector<double> point, of_grain, normal;    // 3 numbers each
+  std::vector<double> overlap;
+  std::vector<std::uint32_t> triangle, feature;
+
+  void resize(std::size_t n)
+  {
+    for (std::vector<double> *numbers : {&point, &of_grain, &normal}) numbers->resize(3 * n);
+    overlap.resize(n);
+    triangle.resize(n);
+    feature.resize(n);
+  }
+};
+
+// The signed distance of each grain, and where it is.
+struct ShapeDistances {
+  std::vector<double> distance;
+  std::vector<double> closest, of_grain, normal;    // 3 numbers each
+  std::vector<std::uint32_t> triangle, feature;
+};
+
+using ShapeFacts = lsdcd_shape_facts;
+// exponents: n1 and n2; none: 2, an ellipsoid.
+inline ShapeFacts shape_facts(const std::vector<double> &half_axes,
+                              const std::vector<double> &exponents = {})
+{
+  if (half_axes.size() != 3 || (!exponents.empty() && exponents.size() != 2))
+    throw Error(LSDCD_ERROR_ARGUMENT,
+                "lsdcd::shape_facts: give three half-axes, and two exponents or none");
+  ShapeFacts f = {};
+  f.size = sizeof f;
+  c::check(
+      lsdcd_shape_get_facts(half_axes.data(), exponents.empty() ? nullptr : exponents.data(), &f));
+  return f;
+}
+
 class Grid {
  public:
   Grid(const Mesh &mesh, const lsdcd_grid_options &options, const Progress &progress = {})
@@ -351,9 +395,83 @@ class Grid {
     out.resize(c.contacts);
     return out;
   }
+  // All contacts of grains of shape.
+  ShapeContacts shape_contacts(const Shapes &grains, int threads = 0,
+                               const Progress &progress = {}) const
+  {
+    lsdcd_shapes s = asked_of(grains, threads);
+    ShapeContacts out;
+    out.first.resize(s.n + 1);
+    s.first = out.first.data();
+    s.contacts = s.n;    // mostly enough
+    do {
+      s.room = s.contacts;
+      out.resize(s.room);
+      s.point = out.point.data();
+      s.of_grain = out.of_grain.data();
+      s.normal = out.normal.data();
+      s.overlap = out.overlap.data();
+      s.triangle = out.triangle.data();
+      s.feature = out.feature.data();
+      answer(s, progress);
+    } while (s.contacts > s.room);
+    out.resize(s.contacts);
+    return out;
+  }
+  // The signed distances of grains of shape, at any range.
+  ShapeDistances shape_distances(const Shapes &grains, int threads = 0,
+                                 const Progress &progress = {}) const
+  {
+    lsdcd_shapes s = asked_of(grains, threads);
+    ShapeDistances out;
+    out.distance.resize(s.n);
+    for (std::vector<double> *numbers : {&out.closest, &out.of_grain, &out.normal})
+      numbers->resize(3 * s.n);
+    out.triangle.resize(s.n);
+    out.feature.resize(s.n);
+    s.distance = out.distance.data();
+    s.closest = out.closest.data();
+    s.closest_of_grain = out.of_grain.data();
+    s.closest_normal = out.normal.data();
+    s.closest_triangle = out.triangle.data();
+    s.closest_feature = out.feature.data();
+    answer(s, progress);
+    return out;
+  }
   const lsdcd_grid *get() const { return handle_.get(); }
 
  private:
+  static lsdcd_shapes asked_of(const Shapes &grains, int threads)
+  {
+    const std::size_t n = grains.centres.size() / 3;
+    const bool one_shape = grains.half_axes.size() == 3;
+    const std::size_t shapes = one_shape ? 1 : n;
+    if (grains.centres.size() != 3 * n || grains.half_axes.size() != 3 * shapes ||
+        (!grains.exponents.empty() && grains.exponents.size() != 2 * shapes) ||
+        (!grains.quaternions.empty() && grains.quaternions.size() != 4 * n))
+      throw Error(LSDCD_ERROR_ARGUMENT, "lsdcd::Grid: grains have three numbers of a centre each, "
+                                        "four of a quaternion or none, three half-axes "
+                                        "and two exponents or none, of each grain or of one");
+    lsdcd_shapes s = {};
+    s.size = sizeof s;
+    s.n = n;
+    s.threads = threads;
+    s.one_shape = one_shape;
+    s.centres = grains.centres.data();
+    s.half_axes = grains.half_axes.data();
+    if (!grains.exponents.empty()) s.exponents = grains.exponents.data();
+    if (!grains.quaternions.empty()) s.quaternions = grains.quaternions.data();
+    return s;
+  }
+  void answer(lsdcd_shapes &s, const Progress &progress) const
+  {
+    c::check_with(progress, s, [&](lsdcd_shapes &asked) {
+      const int code = lsdcd_shapes_host(get(), &asked);
+      s.contacts = asked.contacts;
+      return code;
+    });
+  }
+
   template <class T>
   static std::size_t number_of(const std::vector<T> &points)
   {

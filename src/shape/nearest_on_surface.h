@@ -160,7 +160,7 @@ class SurfaceSearch {
     while (n > 0) {
       const Patch patch = waiting[--n];
       if (!may_have_nearer(patch)) continue;
-      if (patch.level >= kFirstDescent) {
+      if (patch.level == kFirstDescent || patch.level == kLastLevel) {
         descend(patch.corner[0] + patch.corner[1] + patch.corner[2]);
         if (patch.level == kLastLevel || !may_have_nearer(patch)) continue;
       }

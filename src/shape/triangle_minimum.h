@@ -314,7 +314,7 @@ class TriangleMinimum {
       bool is_inside = true;
       for (int k = 0; k < 3; k++) is_inside &= dot(inward_[k], plane.foot - corner_[k]) >= 0;
       if (is_inside && is_minimum(s_, plane)) return on_face(plane);
-      keep_nearer(least, search_inside(least.distance - 4 * on_surface(s_)));
+      keep_nearer(least, search_inside(fmin(below, least.distance - 4 * on_surface(s_))));
     }
     return least.distance < below ? least : no_minimum();
   }

@@ -199,6 +199,30 @@ class FakeDriver:
         del self.memory[address]
 
 
+def check_shapes():
+    grid = lsdcd.Mesh(np.array([[[-9, -9, 0], [9, -9, 0], [0, 9, 0]]], float)).grid()
+    turned = np.array([np.cos(np.pi / 4), 0, np.sin(np.pi / 4), 0])    # a quarter about y: the long axis is upright
+    centres = np.array([[0, 0, 0.95], [1, 0, 1.9], [0, 0, 3]])
+    found = grid.shape_contacts(centres, (2, 1, 1), quaternions=[[1, 0, 0, 0], 3 * turned, turned])
+    fact("an ellipsoid on its side and one on its end touch a plane", np.array_equal(found.first, [0, 1, 2, 2])
+         and np.allclose(found.overlap, [0.05, 0.1], rtol=0, atol=1e-14) and np.allclose(found.normal, [[0, 0, 1]] * 2)
+         and np.allclose(found.point, [[0, 0, 0], [1, 0, 0]]) and np.allclose(found.of_grain, [[0, 0, -0.05], [1, 0, -0.1]])
+         and found.triangle.dtype == np.uint32, found)
+    far = grid.shape_distances(centres, (2, 1, 1), (2, 2), [[1, 0, 0, 0], turned, turned])
+    fact("all have distances, below 0 where they touch", np.allclose(far.distance, [-0.05, -0.1, 1], rtol=0, atol=1e-14), far)
+    one = grid.shape_contacts((0, 0, 0.9), (1, 1, 1), (8, 8))
+    fact("a box with rounded edges lies on its side", one.first.shape == (2,) and abs(one.overlap[0] - 0.1) < 1e-14, one)
+    facts = lsdcd.shape_facts((3, 2, 1), (4, 8))
+    fact("a shape has a volume and inertia", abs(facts.volume - 41.049289) < 5e-7 and abs(facts.inertia[1] - 2.925070) < 5e-7,
+         facts)
+    refused("half-axes of two grains for three are refused", "half_axes has the shape (2, 3), not (3, 3)",
+            lambda: grid.shape_contacts(centres, np.ones((2, 3))), ValueError)
+    refused("quaternions of another number are refused", "quaternions has the shape (4,), not (3, 4)",
+            lambda: grid.shape_contacts(centres, (1, 1, 1), quaternions=turned), ValueError)
+    refused("an exponent below 2 is refused", "an exponent of a shape is 1.5", lambda: lsdcd.shape_facts((1, 1, 1), (1.5, 2)),
+            lsdcd.Error)
+
+
 def check_device_path():
     """The way of a query to a device, whose functions answer here on the host."""
     lib, driver, opened, asked = lsdcd._lib, FakeDriver(), [], []
@@ -983,6 +1007,7 @@ lsdcd.Body(grid, grid)
 if __name__ == "__main__":
     check_reading()
     check_queries()
+    check_shapes()
     check_device_path()
     check_processes()
     check_wall_specs()

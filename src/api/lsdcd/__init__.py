@@ -34,12 +34,14 @@ from typing import Any, Callable, Iterable, Mapping, Protocol, Sequence, runtime
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from . import _arrays
+from . import _arrays, _shapes
 from ._c import DEVICES as DEVICES, ERRORS as ERRORS, Error as Error, Progress as Progress
 from ._c import (_BodyFacts, _BodyOptions, _BodyState, _Broadcast, _Collision, _Contacts, _GridFacts, _GridOptions, _Host,
                  _MeshArrays, _MeshFacts, _Owner, _Query, _Record, _Reduce, _Show, _Spheres, _WallOptions, _WallStep,
                  _WallContacts, _WallTotals, _as_floats, _c_double, _c_int, _c_text, _check, _chosen, _facts, _flag, _instance,
                  _int, _interrupts_held, _lib, _listened, _numbers, _real, _size, _sized, _text, _tuple)
+from ._shapes import (ShapeContacts as ShapeContacts, ShapeDistances as ShapeDistances, ShapeFacts as ShapeFacts,
+                      shape_facts as shape_facts)
 from ._spec import (Law as Law, Motion as Motion, Placement as Placement, RigidBody as RigidBody, Servo as Servo,
                     SubModel as SubModel, SubModelFacts as SubModelFacts, WallMesh as WallMesh, WallSpec as WallSpec,
                     sub_models as sub_models)
@@ -364,6 +366,26 @@ class Grid(_Owner):
                                                 for name, (array, at) in made.items()})
             if mine:
                 raise ValueError(f"there are {ask.contacts} contacts, and out has room for {m}: give longer arrays")
+
+    def shape_contacts(self, centres: ArrayLike, half_axes: ArrayLike, exponents: ArrayLike | None = None,
+                       quaternions: ArrayLike | None = None, threads: int = 0, progress: Progress | None = None) -> ShapeContacts:
+        """All contacts of ellipsoids and superellipsoids: each place of the mesh whose signed distance from the grain is a local
+        minimum below 0, however the mesh is cut into triangles.
+
+        centres: (n, 3); half_axes: a b c, (n, 3), or (3,) for all; exponents: n1 n2 from 2 to 20, (n, 2), or (2,) for all, None:
+        2, ellipsoids; quaternions: w i j k, (n, 4), that turn a grain's axes to where they are, None: not turned. One grain may
+        be without the first dimension. progress: as of Mesh.grid().
+
+        Raises ValueError for wrong shapes of arrays, and Error, a ValueError, too, for numbers that make no grain, and for a grid
+        with `nearest` or in float."""
+        return _shapes.contacts(self._handle, centres, half_axes, exponents, quaternions, threads, progress)
+
+    def shape_distances(self, centres: ArrayLike, half_axes: ArrayLike, exponents: ArrayLike | None = None,
+                        quaternions: ArrayLike | None = None, threads: int = 0,
+                        progress: Progress | None = None) -> ShapeDistances:
+        """How far ellipsoids and superellipsoids are from the mesh, at any range, below 0 by the overlap. Arguments and errors are
+        those of shape_contacts()."""
+        return _shapes.distances(self._handle, centres, half_axes, exponents, quaternions, threads, progress)
 
     def _query_on(self, device: int, handle: int, owner: Any, query: Any, wait: bool) -> None:
         """On a stream of a device; `owner` keeps the stream alive."""

@@ -40,6 +40,7 @@ _HEADER = Header({"lsdcd_progress": _Progress, "lsdcd_message": _Show, "sum": _R
 _structs: Any = _HEADER.structs
 (_MeshFacts, _MeshArrays, _GridOptions, _GridFacts, _Query, _Contacts) = (_structs["lsdcd_" + name] for name in (
     "mesh_facts", "mesh_arrays", "grid_options", "grid_facts", "query", "contacts"))
+_Shapes, _ShapeFacts = _structs["lsdcd_shapes"], _structs["lsdcd_shape_facts"]
 (_BodyOptions, _BodyFacts, _Collision) = (_structs["lsdcd_" + name] for name in ("body_options", "body_facts", "collision"))
 (_SubModel, _Law, _SubModelFacts, _Override, _Materials, _TypeLaw) = (_structs["lsdcd_" + name] for name in (
     "sub_model", "law", "sub_model_facts", "override", "materials", "type_law"))

@@ -1,0 +1,175 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Ellipsoids and superellipsoids through the library: beside its spheres, and what is refused.
+#include "lsdcd_behind_core.h"
+#include "support/meshes.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <random>
+#include <string>
+#include <vector>
+
+namespace test_library_shapes {
+namespace {
+
+constexpr double kCutoff = 0.4;
+
+// A cylinder in a box, as corners.
+std::vector<double> corners()
+{
+  std::vector<double> out;
+  for (const lsdcd::TriangleSoup &soup :
+       {lsdcd::box_mesh({-1, -1, -1}, {1, 1, 1}), lsdcd::cylinder_mesh(12, 3, 0.5, 0.7)})
+    for (const lsdcd::Vec3 &x : soup.corners) out.insert(out.end(), {x.x, x.y, x.z});
+  return out;
+}
+
+}    // namespace
+
+struct Shape : ::testing::Test {
+  const lsdcd::Mesh mesh{corners()};
+  const lsdcd::Grid grid{mesh, kCutoff};
+  std::mt19937 random{3};
+
+  double uniform(double lo, double hi)
+  {
+    return std::uniform_real_distribution<double>(lo, hi)(random);
+  }
+  std::vector<double> numbers(std::size_t n, double lo, double hi)
+  {
+    std::vector<double> out(n);
+    for (double &x : out) x = uniform(lo, hi);
+    return out;
+  }
+  lsdcd::Shapes grains(std::size_t n)
+  {
+    lsdcd::Shapes g;
+    g.centres = numbers(3 * n, -1, 1);
+    g.half_axes = numbers(3 * n, 0.1, 0.3);
+    g.exponents = numbers(2 * n, 2, 8);
+    g.quaternions = numbers(4 * n, -1, 1);
+    return g;
+  }
+};
+
+TEST_F(Shape, of_a_sphere_has_the_contacts_and_distances_of_the_sphere)
+{
+  constexpr std::size_t kSpheres = 500;
+  lsdcd::Shapes balls;
+  balls.centres = numbers(3 * kSpheres, -1, 1);
+  balls.quaternions = numbers(4 * kSpheres, -1, 1);
+  const std::vector<double> radii = numbers(kSpheres, 0.02, kCutoff);
+  for (double r : radii) balls.half_axes.insert(balls.half_axes.end(), {r, r, r});
+  const lsdcd::Contacts<double> spheres = grid.contacts(balls.centres, radii);
+  const lsdcd::ShapeContacts shapes = grid.shape_contacts(balls);
+  EXPECT_EQ(shapes.first, spheres.first);
+  ASSERT_EQ(shapes.overlap.size(), spheres.overlap.size());
+  EXPECT_GT(shapes.overlap.size(), kSpheres / 2);
+  EXPECT_EQ(shapes.feature, spheres.feature);
+  EXPECT_EQ(shapes.triangle, spheres.triangle);
+  for (std::size_t k = 0; k < shapes.overlap.size(); k++) {
+    EXPECT_NEAR(shapes.overlap[k], spheres.overlap[k], 1e-14);
+    for (std::size_t a = 3 * k; a < 3 * k + 3; a++) {
+      EXPECT_NEAR(shapes.point[a], spheres.point[a], 1e-14);
+      // Rounding over the distance, which is at least 1e-4 of these.
+      EXPECT_NEAR(shapes.normal[a], spheres.normal[a], 1e-11);
+      EXPECT_NEAR(shapes.of_grain[a], shapes.point[a] + -shapes.overlap[k] * shapes.normal[a],
+                  1e-14);
+    }
+  }
+  const lsdcd::ShapeDistances d = grid.shape_distances(balls);
+  const std::vector<double> of_centre = lsdcd::Grid(mesh).distances(balls.centres);
+  for (std::size_t i = 0; i < kSpheres; i++)
+    EXPECT_NEAR(d.distance[i], of_centre[i] - radii[i], 1e-14);
+}
+
+TEST_F(Shape,
+       has_its_deepest_contact_at_its_distance_with_any_number_of_threads_and_in_one_call_or_many)
+{
+  constexpr std::size_t kGrains = 80;    // more than threads take at a time
+  const lsdcd::Shapes g = grains(kGrains);
+  const lsdcd::ShapeContacts one = grid.shape_contacts(g, 1), four = grid.shape_contacts(g, 4);
+  const lsdcd::ShapeDistances d = grid.shape_distances(g, 4);
+  EXPECT_EQ(one.first, four.first);
+  EXPECT_EQ(one.point, four.point);
+  EXPECT_EQ(one.normal, four.normal);
+  EXPECT_EQ(one.overlap, four.overlap);
+  for (std::size_t i = 0; i < kGrains; i++) {
+    double deepest = 0;
+    for (std::size_t k = one.first[i]; k < one.first[i + 1]; k++)
+      deepest = std::max(deepest, one.overlap[k]);
+    EXPECT_NEAR(deepest, std::max(0.0, -d.distance[i]), 1e-12);
+    lsdcd::Shapes alone;
+    alone.centres.assign(&g.centres[3 * i], &g.centres[3 * i] + 3);
+    alone.half_axes.assign(&g.half_axes[3 * i], &g.half_axes[3 * i] + 3);
+    alone.exponents.assign(&g.exponents[2 * i], &g.exponents[2 * i] + 2);
+    alone.quaternions.assign(&g.quaternions[4 * i], &g.quaternions[4 * i] + 4);
+    const lsdcd::ShapeContacts a = grid.shape_contacts(alone);
+    ASSERT_EQ(a.overlap.size(), one.first[i + 1] - one.first[i]);
+    for (std::size_t k = 0; k < a.overlap.size(); k++)
+      EXPECT_EQ(a.overlap[k], one.overlap[one.first[i] + k]);
+  }
+}
+
+TEST_F(Shape, has_the_facts_of_closed_forms)
+{
+  const lsdcd::ShapeFacts f = lsdcd::shape_facts({3, 2, 1}, {4, 8}),
+                          ellipsoid = lsdcd::shape_facts({5, 1, 1});
+  EXPECT_NEAR(f.volume, 41.049289, 5e-7);
+  EXPECT_NEAR(f.inertia[0], 1.452347, 5e-7);
+  EXPECT_NEAR(f.inertia[2], 3.829081, 5e-7);
+  EXPECT_DOUBLE_EQ(ellipsoid.volume, 4 * lsdcd::kPi / 3 * 5);
+  EXPECT_DOUBLE_EQ(ellipsoid.inertia[1], 26.0 / 5);
+  EXPECT_DOUBLE_EQ(ellipsoid.circumscribed, 5);
+  EXPECT_DOUBLE_EQ(ellipsoid.inscribed, 1);
+  EXPECT_DOUBLE_EQ(ellipsoid.curvature_radius, 0.2);
+}
+
+TEST_F(Shape, is_refused_by_a_sentence_where_it_makes_none)
+{
+  const auto refused = [&](const lsdcd_grid *by, lsdcd_shapes s, int code, const char *says) {
+    s.size = sizeof s;
+    EXPECT_EQ(lsdcd_shapes_host(by, &s), code);
+    EXPECT_NE(std::strstr(lsdcd_last_error(), says), nullptr) << lsdcd_last_error();
+  };
+  const double centres[] = {0, 0, 0, 0, 0, 0}, half[] = {1, 1, 1, 1, 1, -1},
+               exponents[] = {2, 2, 30, 2}, turns[] = {1, 0, 0, 0, 0, 0, 0, 0};
+  std::size_t first[3];
+  lsdcd_shapes s = {};
+  s.n = 2;
+  refused(grid.get(), s, LSDCD_ERROR_ARGUMENT, "`centres` is null");
+  s.centres = centres;
+  s.half_axes = half;
+  refused(grid.get(), s, LSDCD_ERROR_ARGUMENT, "nothing is asked for");
+  s.first = first;
+  refused(grid.get(), s, LSDCD_ERROR_INPUT, "grain 1: a half-axis of a shape is -1");
+  s.one_shape = 1;
+  s.quaternions = turns;
+  refused(grid.get(), s, LSDCD_ERROR_INPUT, "grain 1 has a quaternion that is 0");
+  s.quaternions = nullptr;
+  s.exponents = exponents + 2;
+  refused(grid.get(), s, LSDCD_ERROR_INPUT, "grain 0: an exponent of a shape is 30");
+  lsdcd::GridOptions nearest(kCutoff);
+  nearest.nearest = 4;
+  s.exponents = nullptr;
+  refused(lsdcd::Grid(mesh, nearest).get(), s, LSDCD_ERROR_ARGUMENT, "`nearest`");
+}
+
+TEST_F(Shape, is_infinitely_far_where_its_centre_is_no_number)
+{
+  lsdcd::Shapes g;
+  g.centres = {NAN, 0, 0, 1e9, 0, 0};
+  g.half_axes = {0.2, 0.1, 0.1};
+  const lsdcd::ShapeDistances d = grid.shape_distances(g);
+  EXPECT_TRUE(std::isinf(d.distance[0]));
+  EXPECT_EQ(d.feature[0], LSDCD_NONE);
+  EXPECT_NEAR(d.distance[1], 1e9 - 1.2, 1e-6);
+  EXPECT_EQ(grid.shape_contacts(g).overlap.size(), 0u);
+}
+
+}    // namespace test_library_shapes
