@@ -50,7 +50,7 @@ struct Shape : ::testing::Test {
   {
     lsdcd::Shapes g;
     g.centres = numbers(3 * n, -1, 1);
-    g.half_axes = numbers(3 * n, 0.1, 0.3);
+    g.half_axes = numbers(3 * n, 0.1, 0.25);
     g.exponents = numbers(2 * n, 2, 8);
     g.quaternions = numbers(4 * n, -1, 1);
     return g;
@@ -91,7 +91,7 @@ TEST_F(Shape, of_a_sphere_has_the_contacts_and_distances_of_the_sphere)
 TEST_F(Shape,
        has_its_deepest_contact_at_its_distance_with_any_number_of_threads_and_in_one_call_or_many)
 {
-  constexpr std::size_t kGrains = 80;    // more than threads take at a time
+  constexpr std::size_t kGrains = 70;    // more than threads take at a time
   const lsdcd::Shapes g = grains(kGrains);
   const lsdcd::ShapeContacts one = grid.shape_contacts(g, 1), four = grid.shape_contacts(g, 4);
   const lsdcd::ShapeDistances d = grid.shape_distances(g, 4);
