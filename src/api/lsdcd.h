@@ -314,16 +314,16 @@ LSDCD_API int lsdcd_shape_get_facts(const double *half_axes, const double *expon
 typedef struct lsdcd_shapes {
   size_t size; /* of this struct */
   size_t n;
-  int threads; /* 0: OMP_NUM_THREADS, or one */
-  int one_shape; /* 1: half_axes and exponents are those of one grain, and all are like it; 0: of each */
+  int threads;           /* 0: OMP_NUM_THREADS, or one */
+  int one_shape;         /* 1: half_axes and exponents are those of all; 0: of each */
   const double *centres; /* 3 numbers each */
-  const double *
-      quaternions; /* w i j k each, of any length above 0: turn a grain's frame to where it is; null: not turned */
+  /* w i j k each, of any length above 0: turn a grain's frame to where it is; null: not turned. */
+  const double *quaternions;
   const double *half_axes; /* a b c each, > 0 */
-  const double *
-      exponents; /* n1 (along z) and n2 (in the plane of x and y) each, from 2 to 20; null: 2, ellipsoids */
-  size_t *
-      first; /* n + 1 numbers, the last one how many contacts there are; null: contacts are not asked for */
+  /* n1 (along z) and n2 (in the plane of x and y) each, from 2 to 20; null: 2, ellipsoids. */
+  const double *exponents;
+  /* n + 1 numbers, the last one how many contacts there are; null: contacts are not asked for. */
+  size_t *first;
   size_t room;
   double *point;                /* 3 numbers each, on the mesh */
   double *of_grain;             /* 3 numbers each, of the grain's surface: where a force acts */

@@ -458,6 +458,53 @@ TEST(shape, lies_in_triangles_through_its_middle_no_deeper_anywhere_around_the_f
   EXPECT_GT(std::min({parts[0], parts[1], parts[2]}), 0);
 }
 
+TEST(shape, has_two_nearest_points_where_a_point_is_in_the_middle_of_an_ellipsoid_and_takes_one)
+{
+  Random random(9);
+  for (int i = 0; i < 20; i++) {
+    Vec3 half = uniform(random, {2, 2, 2}, {5, 5, 5});
+    half[i % 3] = 1;
+    const Superellipsoid s = make_superellipsoid(half, 2, 2);
+    Vec3 y = uniform(random, -0.3 * half, 0.3 * half);
+    y[i % 3] = 0;
+    const SurfacePoint p = nearest_on_surface(s, y);
+    EXPECT_NEAR(p.distance, Oracle(s).signed_distance(y), 1e-11);
+    EXPECT_NEAR(gauge_value(s, p.point), 1, 1e-14);
+    EXPECT_LT(norm(p.point + p.distance * p.normal - y), 1e-13);
+  }
+}
+
+TEST(shape, touches_a_line_under_a_flat_side_over_its_foot)
+{
+  Random random(10);
+  for (int i = 0; i < 200; i++) {
+    const Superellipsoid s =
+        make_superellipsoid(uniform(random, {1, 1, 1}, {5, 5, 5}), 8, i % 2 ? 8 : 20);
+    // Nearly in the middle of the sides along y, where the normal does not tell how nearly.
+    Vec3 x = {s.half.x * uniform(random, 0.2, 1), s.half.y * uniform(random, 0.001, 0.02),
+              s.half.z * uniform(random, 0.2, 1)};
+    x = (1 / gauge_value(s, x)) * x;
+    const Vec3 n = unit(gauge(s, x).slope), along = unit(cross(n, random_unit(random)));
+    const Vec3 foot = x - 0.3 * s.rho * n;
+    const TangentMinimum line =
+        TangentAboutLine(s, foot + uniform(random, -3, 3) * along, along).find();
+    EXPECT_NEAR(line.distance, -0.3 * s.rho, 1e-13 * s.farthest);
+    EXPECT_NEAR(nearest_on_surface(s, line.foot).distance, line.distance, 1e-13 * s.farthest);
+  }
+}
+
+TEST(shape, lies_in_a_triangle_deepest_inside_where_a_side_has_two_gradients)
+{
+  // The triangle is cut by a mirror plane of the shape, on which two points of the surface are equally near.
+  const Superellipsoid s =
+      make_superellipsoid({3.9907397022581281, 1.0988750040755435, 2.7419745273068701}, 3, 2);
+  const Triangle t = {{{-0.21344611173217753, -2.423755849790624, -0.48784587732720208},
+                       {0.014962583691412235, -0.27320371564405477, 2.5048645195478398},
+                       {0.71415911873487481, 1.3104450192844785, -1.3215293238608457}}};
+  const Vec3 inside = {0.38768708628525678, 7.4113376238344231e-05, -1.0180167533257831};
+  EXPECT_LE(find(s, t).distance, Oracle(s).signed_distance(inside) + 1e-11);
+}
+
 TEST(shape, touches_the_rim_of_a_table_below_its_top_by_the_edge)
 {
   // The long axis leans on the rim, where the top ends; the centre is outside and below the top.
