@@ -117,11 +117,13 @@ class ShapeSearch {
              : a.at.distance != b.at.distance ? a.at.distance < b.at.distance
                                               : a.primitive < b.primitive;
     });
-    kept_.clear();
+    local_.clear();
     for (std::size_t i = 0; i < minima_.size(); i++)
       if ((i == 0 || minima_[i].feature != minima_[i - 1].feature) && is_local(grain, minima_[i]))
-        keep(grain, minima_[i]);
-    for (const Minimum &m : kept_) found.push_back(contact_of(grain, m));
+        local_.push_back(minima_[i]);
+    merge(grain);
+    for (std::size_t i = 0; i < local_.size(); i++)
+      if (same_as_[i] == i) found.push_back(contact_of(grain, local_[i]));
   }
 
   ShapeContact nearest(const Grain &grain)
@@ -290,12 +292,23 @@ class ShapeSearch {
     return is_least;
   }
 
-  // Keeps one of the places that are the same but for rounding: that of the lowest feature.
-  void keep(const Grain &grain, const Minimum &m)
+  // Finds for each local minimum the one of the lowest feature that is the same but for rounding. Under a flat side each triangle
+  // has one, and those in the middle make the outer ones neighbours.
+  void merge(const Grain &grain)
   {
-    for (const Minimum &other : kept_)
-      if (are_same(grain, m, other)) return;
-    kept_.push_back(m);
+    same_as_.resize(local_.size());
+    const auto lowest = [&](std::size_t i) {
+      while (same_as_[i] != i) i = same_as_[i];
+      return i;
+    };
+    for (std::size_t i = 0; i < local_.size(); i++) {
+      same_as_[i] = i;
+      for (std::size_t j = 0; j < i; j++) {
+        const std::size_t one = lowest(i), other = lowest(j);
+        if (one != other && are_same(grain, local_[i], local_[j]))
+          same_as_[std::max(one, other)] = std::min(one, other);
+      }
+    }
   }
   bool are_same(const Grain &grain, const Minimum &a, const Minimum &b) const
   {
@@ -324,7 +337,8 @@ class ShapeSearch {
 
   const TriangleTree &tree_;
   const TreeView &view_;
-  std::vector<Minimum> minima_, kept_;
+  std::vector<Minimum> minima_, local_;
+  std::vector<std::size_t> same_as_;    // of local_
   mutable std::vector<int> around_;
 };
 

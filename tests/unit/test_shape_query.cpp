@@ -235,6 +235,35 @@ TEST(shape_query, finds_one_contact_of_a_flat_side_that_lies_on_a_plane_and_one_
   }
 }
 
+TEST(shape_query, finds_one_contact_of_a_flat_side_whose_middle_is_on_a_corner_of_many_triangles)
+{
+  // For the exponent 20 the side is flat to rounding on 0.14 of its half-axis: over some triangles.
+  for (Real n : {2.0, 8.0, 20.0})
+    for (const Vec3 &at : {Vec3{1, 0.4, 0.97}, Vec3{1.05, 0.4, 0.97}, Vec3{0, 0, 0.97}}) {
+      Grains block;
+      block.add(placed(at), {2, 1.5, 1}, n, n);
+      block.quaternions = {kTurn.w, kTurn.v.x, kTurn.v.y, kTurn.v.z};
+      for (int pieces : {1, 50, kMostPieces}) {
+        const TreeCase plane(cut(fold(0), pieces));
+        EXPECT_EQ(find_shape_contacts(plane.tree, block.given()).found.size(), 1u)
+            << n << " " << pieces;
+      }
+    }
+}
+
+TEST(shape_query, finds_one_contact_on_an_edge_whose_sides_are_apart_by_rounding)
+{
+  // Two triangles that are not welded, as the ends of their common edge differ by rounding.
+  const Real next = std::nextafter(1.0, 2.0);
+  TriangleSoup roof;
+  roof.corners = {{-1, 0, 0}, {1, 0, 0}, {0, 1, -1}, {-next, 0, 0}, {0, -1, -1}, {next, 0, 0}};
+  const TreeCase apart(roof);
+  ASSERT_EQ(apart.mesh.vertices.size(), 6u);
+  Grains rice;
+  rice.add({0.1, 0, 0.29}, {0.5, 0.4, 0.3}, 2, 2);
+  EXPECT_EQ(find_shape_contacts(apart.tree, rice.given()).found.size(), 1u);
+}
+
 TEST(shape_query, finds_the_nearest_triangle_and_all_local_minima_of_a_look_at_every_triangle)
 {
   Random random(3);
