@@ -53,7 +53,8 @@ LSDCD_FN Vec3 field_at(const NodeShares &at, const Vec3 *field)
 {
   const Vec3 first = field[at.node[0]];
   Vec3 value = first;
-  for (int k = 1; k < at.n; k++) value += at.share[k] * (field[at.node[k]] - first);
+  for (int k = 1; k < 3; k++)    // of a known number, so that a GPU has the shares in registers
+    if (k < at.n) value += at.share[k] * (field[at.node[k]] - first);
   return value;
 }
 

@@ -79,8 +79,8 @@ struct SeeNodeForces {
   {
     const NodeShares at = in.shares(k, contact);
     unsigned most = 0;
-    for (int j = 0; j < at.n; j++)
-      for (int d = 0; d < 3; d++) {
+    for (int j = 0; j < 3; j++)
+      for (int d = 0; d < 3 && j < at.n; d++) {
         const unsigned e = exponent_field(at.share[j] * contact.force[d]);
         if (e > most) most = e;
       }
