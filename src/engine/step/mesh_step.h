@@ -102,47 +102,154 @@ LSDCD_FN void add_force(const StepJob &job, std::size_t k, std::size_t i, const 
   job.torque.add(i, out.torque);
 }
 
-// Applies the law to the contacts of candidate k, sphere i at x: force, torque, springs and contacts. The moment
-// about the origin is stored, too, so that totals can be made when spheres are elsewhere. `weight` null: all
-// are 1.
+// A mesh and the law that a sphere has with it.
 template <class Law>
-LSDCD_FN void apply_law(const Law &law, const StepJob &job, std::size_t k, std::size_t i,
-                        const Vec3 &x, Real radius, const ContactsView &set, const Real *weight)
+struct LawAtMesh {
+  const Law &law;
+  const GridView &grid;
+  const ForceSettings &settings;
+};
+
+// A sphere that is a candidate of one mesh, for apply_law(): candidate k, sphere i at x in the frame of that mesh.
+template <class Law>
+struct OneMeshSphere {
+  static constexpr bool kSeveral = false;
+  const Law &law;
+  const StepJob &job;
+  std::size_t k, i;
+  Vec3 x;
+  Real radius;
+
+  LSDCD_FN std::size_t begin() const { return k; }
+  LSDCD_FN int n_meshes() const { return 1; }
+  LSDCD_FN LawAtMesh<Law> mesh(std::size_t) const { return {law, job.grid, job.settings}; }
+  LSDCD_FN SphereState state(const Law &, std::size_t) const
+  {
+    return state_at(law, job, i, x, radius);
+  }
+  LSDCD_FN Vec3 in_box() const
+  {
+    if constexpr (Law::kSurface)
+      if (job.settings.pose.placed) return job.x[i];
+    return x;
+  }
+  // Where the contacts of candidate k end, of n.
+  LSDCD_FN int contacts_end(std::size_t, int n) const { return n; }
+};
+
+// Applies the law to the contacts of a sphere with one mesh or several, mesh after mesh, each in the frame of its mesh:
+// force, torque, springs and contacts. The moment about the origin is stored, too, so that totals can be made when
+// spheres are elsewhere. The sphere is a OneMeshSphere, or a MultiMeshSphere with its contacts (AtMeshes), which is a
+// candidate of each of its meshes. `weight` null: all are 1, with one mesh.
+template <class Law, class Sphere>
+LSDCD_FN void apply_law(const StepJob &job, const Sphere &sphere, const ContactsView &set,
+                        const Real *weight)
 {
+  const auto begin = sphere.begin();
+  const std::size_t i = sphere.i;
   if (set.n == 0) {
-    put_no_contact(job, k, i);
+    put_no_contact(job, begin, i);
     return;
   }
-  SphereState s = state_at(law, job, i, x, radius);
-  int first = 0;
+  int first = 0, n_done = 0;
   SphereSink sink = {};
-  if (!reserve_places(law, job, k, count_acting(set, weight), first, sink)) {
-    does_not_fit(job, k, i, job.counts->no_places);
+  // All laws of a wall store the same numbers of a contact.
+  if (!reserve_places(sphere.mesh(begin).law, job, begin, count_acting(set, weight), first, sink)) {
+    does_not_fit(job, begin, i, job.counts->no_places);
     return;
   }
-  add_motion(law, job, job.settings.pose, i, s);
-  SphereResult out = {};
-  if constexpr (Law::kHeat)
-    if (law.has_heat()) *sink.heat = 0;
-  add_contacts(job.grid, law, job.settings, s, set, weight, sink, out);
-  record_overlap(job, i, job.settings.mesh, out.overlap_ratio);
+  [[maybe_unused]] Real deepest = 0;
+  [[maybe_unused]] std::uint32_t deepest_mesh = 0, touched = 0;
+  int from = 0;
+  for (int m = 0; m < sphere.n_meshes(); m++) {
+    const auto k = begin + m;
+    const int to = sphere.contacts_end(k, set.n), n = to - from;
+    if (Sphere::kSeveral && n == 0) continue;
+    const LawAtMesh<Law> mesh = sphere.mesh(k);
+    const Law &law = mesh.law;
+    const ForceSettings &settings = mesh.settings;
+    const ContactsView of_mesh = {n, set.feature + from, set.normal + from, set.distance + from};
+    auto state = sphere.state(law, k);
+    add_motion(law, job, settings.pose, i, state);
+
+    SphereSink to_mesh = sink;
+    if constexpr (Law::kHistory) to_mesh.springs += n_done;
+    if constexpr (Law::kExtra > 0) to_mesh.extra += n_done * n_extra(law);
+    if constexpr (Law::kContacts) to_mesh.contacts += n_done;
+    if constexpr (Law::kHeat)
+      if (law.has_heat()) {
+        to_mesh.heat = job.heat + k;
+        *to_mesh.heat = 0;
+      }
+    SphereResult out = {};
+    add_contacts(mesh.grid, law, settings, state, of_mesh, weight + from, to_mesh, out);
+    from = to;
+    if constexpr (Sphere::kSeveral) {
+      if (out.overlap_ratio > 0) touched |= 1u << settings.mesh;
+      if (out.overlap_ratio > deepest) {
+        deepest = out.overlap_ratio;
+        deepest_mesh = settings.mesh;
+      }
+    } else {
+      record_overlap(job, i, settings.mesh, out.overlap_ratio);
+    }
+    job.result.n_contacts[k] = out.n_contacts;
+    if (out.n_contacts == 0) continue;
+    if constexpr (Law::kContacts) job.pool.first_contact[k] = first + n_done;
+    if constexpr (Law::kHeat)
+      if (law.has_heat()) job.heat_flow[i] += *to_mesh.heat;
+    n_done += out.n_contacts;
+    if constexpr (Law::kSurface)
+      if (settings.pose.placed) to_box(settings.pose, out);
+    add_force(job, k, i, sphere.in_box(), out);
+  }
+  if constexpr (Sphere::kSeveral)
+    if (record_overlap(job, i, deepest_mesh, deepest))
+      raise_to(&job.counts->deepest_meshes, DeepestOverlap::ratio(deepest) | touched);
   if constexpr (Law::kHistory)
     if (job.settings.update) {
-      if (out.n_contacts > 0) job.pool.first[i] = first;
-      job.pool.count[i] = out.n_contacts;
+      if (n_done > 0) job.pool.first[i] = first;
+      job.pool.count[i] = n_done;
     }
-  job.result.n_contacts[k] = out.n_contacts;
-  if (out.n_contacts == 0) return;
-  if constexpr (Law::kContacts) job.pool.first_contact[k] = first;
-  if constexpr (Law::kHeat)
-    if (law.has_heat()) job.heat_flow[i] += *sink.heat;
-  Vec3 at = x;
-  if constexpr (Law::kSurface)
-    if (job.settings.pose.placed) {
-      to_box(job.settings.pose, out);
-      at = job.x[i];
+}
+
+// Finds the contacts of a sphere, item k of the step, by find(memory, contacts), and applies the law to them. Where a
+// stack has no room for all they are found once more in a scratch memory. Returns how many there are, or as many as a
+// stack has room for.
+template <class Law, class Sphere, class Memory, class Find>
+LSDCD_FN int apply_to_all(const StepJob &job, const Sphere &sphere, std::size_t k, Real cutoff,
+                          Memory &memory, Find &find)
+{
+  WeightedContacts<kContacts> some;
+  find(memory, some);
+  ContactsView set = some.set.view();
+  const Real *weight = some.weight;
+  Real exact_within = some.exact_within;
+  // A scratch memory is locked, used and unlocked in one turn: on a GPU threads that wait for it must not
+  // hold up the one that has it.
+  for (bool done = false; !done;) {
+    OverflowScratch *scratch = nullptr;
+    bool fits = true;
+    if (some.set.overflow) {
+      scratch = job.overflow + k % kOverflowScratches;
+      if (!try_lock(&scratch->locked)) continue;
+      scratch->contacts.set.clear();
+      find(*scratch, scratch->contacts);
+      set = scratch->contacts.set.view();
+      weight = scratch->contacts.weight;
+      exact_within = scratch->contacts.exact_within;
+      fits = !scratch->contacts.set.overflow;
     }
-  add_force(job, k, i, at, out);
+    if (fits) {
+      count_uncertain(job, sphere.begin(), may_miss(cutoff, exact_within), sphere.radius);
+      apply_law<Law>(job, sphere, set, weight);
+    } else {
+      does_not_fit(job, sphere.begin(), sphere.i, job.counts->no_scratch);
+    }
+    if (scratch) unlock(&scratch->locked);
+    done = true;
+  }
+  return some.set.n;
 }
 
 template <class Law>
@@ -200,7 +307,7 @@ LSDCD_FN void put_node_list(const StepJob &job, const QuerySphere &s, std::size_
   job.lists.put(k, made, job.grid.wall);
 }
 
-// Candidate k with any number of contacts. Its cell is searched where it has no list that holds. True: it has
+// Does candidate k, with any number of contacts. Its cell is searched where it has no list that holds. True: it has
 // more than one. A function of its own, so that it takes no registers from the fast path.
 template <class Law>
 LSDCD_NOINLINE bool any_contacts(const Law &law, const StepJob &job, std::size_t k,
@@ -218,40 +325,14 @@ LSDCD_NOINLINE bool any_contacts(const Law &law, const StepJob &job, std::size_t
     list = nullptr;
   }
 
-  WeightedContacts<kContacts> some;
-  narrow_phase<Law::kBeyondContact, Law::kNodes>(memory.rule, job.grid, job.settings.search, s,
-                                                 list, some);
-  if constexpr (Law::kNodes)
-    if (job.settings.search.at_nodes) list = nullptr;    // what overflows is found in the cell
-  ContactsView set = some.set.view();
-  const Real *weight = some.weight;
-  Real exact_within = some.exact_within;
-  // A scratch memory is locked, used and unlocked in one turn: on a GPU threads that wait for it must not
-  // hold up the one that has it.
-  for (bool done = false; !done;) {
-    OverflowScratch *scratch = nullptr;
-    bool fits = true;
-    if (some.set.overflow) {
-      scratch = job.overflow + k % kOverflowScratches;
-      if (!try_lock(&scratch->locked)) continue;
-      scratch->contacts.set.clear();
-      narrow_phase<Law::kBeyondContact, Law::kNodes>(scratch->rule, job.grid, job.settings.search,
-                                                     s, list, scratch->contacts);
-      set = scratch->contacts.set.view();
-      weight = scratch->contacts.weight;
-      exact_within = scratch->contacts.exact_within;
-      fits = !scratch->contacts.set.overflow;
-    }
-    if (fits) {
-      count_uncertain(job, k, may_miss(s.cutoff, exact_within), radius);
-      apply_law(law, job, k, i, x, radius, set, weight);
-    } else {
-      does_not_fit(job, k, i, job.counts->no_scratch);
-    }
-    if (scratch) unlock(&scratch->locked);
-    done = true;
-  }
-  return some.set.n > 1;
+  auto find = [&](auto &with, auto &contacts) {
+    narrow_phase<Law::kBeyondContact, Law::kNodes>(with.rule, job.grid, job.settings.search, s,
+                                                   list, contacts);
+    if constexpr (Law::kNodes)
+      if (job.settings.search.at_nodes) list = nullptr;    // what overflows is found in the cell
+  };
+  const OneMeshSphere<Law> sphere = {law, job, k, i, x, radius};
+  return apply_to_all<Law>(job, sphere, k, s.cutoff, memory, find) > 1;
 }
 
 // The candidates of one mesh, for run_step(): each takes fast_path(), and general_path() where that returns
@@ -284,7 +365,7 @@ struct MeshStep {
     filter_contacts<Law::kBeyondContact>(job.grid, job.settings.search, s, set);
     if (set.overflow) return false;
     check_cutoff(job, i, s.cutoff);
-    apply_law(law, job, k, i, x, radius, set.view(), nullptr);
+    apply_law<Law>(job, OneMeshSphere<Law>{law, job, k, i, x, radius}, set.view(), nullptr);
     return true;
   }
   LSDCD_FN bool needs_list(std::size_t k) const { return lsdcd::needs_list(law, job, k); }

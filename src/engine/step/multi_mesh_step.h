@@ -134,14 +134,14 @@ LSDCD_FN void add_mesh(const Pose &pose, const ContactSet<kCapacity> &of_mesh, R
   }
 }
 
-// The contacts of the sphere with their weights, mesh after mesh, in the frame of the box: those of slot begin + k
-// end at end[k]. `of_mesh` and `rule`: memory.
-template <bool kBeyondContact, int kCapacity>
-LSDCD_FN void narrow_phase_of_meshes(const StepJob &job, const MultiMeshSphere &s,
-                                     WeightedContacts<kCapacity> &of_mesh,
-                                     CornerRule<kCapacity> &rule, WeightedContacts<kCapacity> &all,
-                                     int *end)
+// The contacts of the sphere with their weights, mesh after mesh, in the frame of each: those of slot begin + k end at
+// end[k]. A function of its own, so that it is compiled once however many laws there are.
+template <bool kBeyondContact, class Memory, int kCapacity>
+LSDCD_NOINLINE void narrow_phase_of_meshes(const StepJob &job, const MultiMeshSphere &s,
+                                           Memory &memory, WeightedContacts<kCapacity> &all,
+                                           int *end)
 {
+  WeightedContacts<kCapacity> &of_mesh = memory.of_mesh;
   Real tolerance = 0;
   all.exact_within = kAnyDistance;
   for (int k = s.begin; k < s.end; k++) {
@@ -161,131 +161,63 @@ LSDCD_FN void narrow_phase_of_meshes(const StepJob &job, const MultiMeshSphere &
     if (of_mesh.exact_within < all.exact_within) all.exact_within = of_mesh.exact_within;
     end[k - s.begin] = all.set.n;
   }
-  share_overlap(job.settings.search, s.cutoff, tolerance, rule, all);
-}
-// A function of its own, so that it is compiled once however many laws there are.
-template <bool kBeyondContact>
-LSDCD_NOINLINE void narrow_phase_of_meshes(const StepJob &job, const MultiMeshSphere &s,
-                                           MultiMeshMemory &memory,
-                                           WeightedContacts<kContacts> &all, int *end)
-{
-  narrow_phase_of_meshes<kBeyondContact>(job, s, memory.of_mesh, memory.rule, all, end);
-}
-template <bool kBeyondContact>
-LSDCD_NOINLINE void narrow_phase_of_meshes(const StepJob &job, const MultiMeshSphere &s,
-                                           OverflowScratch &scratch, int *end)
-{
-  scratch.contacts.set.clear();
-  narrow_phase_of_meshes<kBeyondContact>(job, s, scratch.of_mesh, scratch.rule, scratch.contacts,
-                                         end);
+  share_overlap(job.settings.search, s.cutoff, tolerance, memory.rule, all);
+  for (int k = s.begin, c = 0; k < s.end; k++) {
+    const Pose &pose = job.multi_mesh.meshes[job.multi_mesh.mesh[k]].settings.pose;
+    for (; c < end[k - s.begin]; c++) all.set.normal[c] = pose.turn_to_mesh(all.set.normal[c]);
+  }
 }
 
-// Applies the law to its contacts, in the frame of the mesh of each.
-template <class Law, int kCapacity>
-LSDCD_FN void apply_multi_mesh_law(const StepJob &job, const MultiMeshSphere &s,
-                                   WeightedContacts<kCapacity> &all, const int *end)
-{
-  for (int k = s.begin; k < s.end; k++) job.result.n_contacts[k] = 0;
-  if (all.set.n == 0) {
-    put_no_contact(job, s.begin, s.i);
-    return;
-  }
-  int first = 0, n_done = 0;
-  Real deepest = 0;
-  std::uint32_t deepest_mesh = 0, touched = 0;
-  SphereSink sink = {};
-  const int n_acting = count_acting(all.set.view(), all.weight);
-  // All laws of a wall store the same numbers of a contact.
-  if (!reserve_places(law_with<Law>(job, s, job.multi_mesh.mesh[s.begin]), job, s.begin, n_acting,
-                      first, sink)) {
-    does_not_fit(job, s.begin, s.i, job.counts->no_places);
-    return;
-  }
-  for (int k = s.begin, from = 0; k < s.end; k++) {
-    const int to = end[k - s.begin], n = to - from;
-    if (n == 0) continue;
-    const MeshWork &mesh = job.multi_mesh.meshes[job.multi_mesh.mesh[k]];
-    const Law &law = law_with<Law>(job, s, job.multi_mesh.mesh[k]);
-    const Pose &pose = mesh.settings.pose;
-    for (int c = from; c < to; c++) all.set.normal[c] = pose.turn_to_mesh(all.set.normal[c]);
-    const ContactsView set = {n, all.set.feature.data() + from, all.set.normal.data() + from,
-                              all.set.distance.data() + from};
+// A multi-mesh sphere and its contacts, for apply_law(): those of slot begin + k end at ends[k].
+template <class Law>
+struct AtMeshes {
+  static constexpr bool kSeveral = true;
+  const StepJob &job;
+  const MultiMeshSphere &s;
+  const int *ends;
+  std::size_t i;
+  Real radius;
 
+  LSDCD_FN int begin() const { return s.begin; }
+  LSDCD_FN int n_meshes() const { return s.end - s.begin; }
+  LSDCD_FN LawAtMesh<Law> mesh(int k) const
+  {
+    const int m = job.multi_mesh.mesh[k];
+    const MeshWork &work = job.multi_mesh.meshes[m];
+    return {law_with<Law>(job, s, m), work.grid, work.settings};
+  }
+  LSDCD_FN SphereStateWith<SpringsInFrame> state(const Law &law, int k) const
+  {
     const QuerySphereWith<SpringsInFrame> seen = in_frame_of<Law::kBeyondContact>(job, s, k);
     SphereStateWith<SpringsInFrame> state = {};
     state.x = seen.x;
-    state.radius = s.radius;
+    state.radius = radius;
     state.springs = seen.springs;
     state.n_springs = seen.n_springs;
     if constexpr (Law::kExtra > 0)
       if (seen.n_springs > 0)
-        state.extra = job.springs.extra + std::size_t(job.springs.first[s.i]) * n_extra(law);
-    add_motion(law, job, pose, s.i, state);
-
-    SphereSink to_mesh = sink;
-    if constexpr (Law::kHistory) to_mesh.springs += n_done;
-    if constexpr (Law::kExtra > 0) to_mesh.extra += n_done * n_extra(law);
-    if constexpr (Law::kContacts) to_mesh.contacts += n_done;
-    if constexpr (Law::kHeat)
-      if (law.has_heat()) {
-        to_mesh.heat = job.heat + k;
-        *to_mesh.heat = 0;
-      }
-    SphereResult out = {};
-    add_contacts(mesh.grid, law, mesh.settings, state, set, all.weight + from, to_mesh, out);
-    from = to;
-    if (out.overlap_ratio > 0) touched |= 1u << mesh.settings.mesh;
-    if (out.overlap_ratio > deepest) {
-      deepest = out.overlap_ratio;
-      deepest_mesh = mesh.settings.mesh;
-    }
-    if (out.n_contacts == 0) continue;
-    if constexpr (Law::kContacts) job.pool.first_contact[k] = first + n_done;
-    if constexpr (Law::kHeat)
-      if (law.has_heat()) job.heat_flow[s.i] += *to_mesh.heat;
-    n_done += out.n_contacts;
-    if (pose.placed) to_box(pose, out);
-    add_force(job, k, s.i, s.x, out);
+        state.extra = job.springs.extra + std::size_t(job.springs.first[i]) * n_extra(law);
+    return state;
   }
-  if (record_overlap(job, s.i, deepest_mesh, deepest))
-    raise_to(&job.counts->deepest_meshes, DeepestOverlap::ratio(deepest) | touched);
-  if constexpr (Law::kHistory)
-    if (job.settings.update) {
-      if (n_done > 0) job.pool.first[s.i] = first;
-      job.pool.count[s.i] = n_done;
-    }
-}
+  LSDCD_FN Vec3 in_box() const { return s.x; }
+  LSDCD_FN int contacts_end(int k, int) const { return ends[k - s.begin]; }
+};
 
+// Does multi-mesh sphere g, with any number of contacts.
 template <class Law>
 LSDCD_FN void multi_mesh_contacts(const StepJob &job, std::size_t g, MultiMeshMemory &memory)
 {
   const MultiMeshSphere s = multi_mesh_sphere<Law::kBeyondContact>(job, g);
   check_cutoff(job, s.i, s.cutoff);
-  int end[kMaxMeshes];
-  WeightedContacts<kContacts> some;
-  narrow_phase_of_meshes<Law::kBeyondContact>(job, s, memory, some, end);
   if (job.uncertain)
     for (int k = s.begin + 1; k < s.end; k++) job.uncertain[k] = 0;
-  if (!some.set.overflow) {
-    count_uncertain(job, s.begin, may_miss(s.cutoff, some.exact_within), s.radius);
-    apply_multi_mesh_law<Law>(job, s, some, end);
-    return;
-  }
-  // As in any_contacts().
-  for (bool done = false; !done;) {
-    OverflowScratch *scratch = job.overflow + g % kOverflowScratches;
-    if (!try_lock(&scratch->locked)) continue;
-    narrow_phase_of_meshes<Law::kBeyondContact>(job, s, *scratch, end);
-    if (!scratch->contacts.set.overflow) {
-      count_uncertain(job, s.begin, may_miss(s.cutoff, scratch->contacts.exact_within), s.radius);
-      apply_multi_mesh_law<Law>(job, s, scratch->contacts, end);
-    } else {
-      for (int k = s.begin; k < s.end; k++) job.result.n_contacts[k] = 0;
-      does_not_fit(job, s.begin, s.i, job.counts->no_scratch);
-    }
-    unlock(&scratch->locked);
-    done = true;
-  }
+  for (int k = s.begin; k < s.end; k++) job.result.n_contacts[k] = 0;
+  int ends[kMaxMeshes];
+  auto find = [&](auto &with, auto &contacts) {
+    narrow_phase_of_meshes<Law::kBeyondContact>(job, s, with, contacts, ends);
+  };
+  const AtMeshes<Law> sphere = {job, s, ends, s.i, s.radius};
+  apply_to_all<Law>(job, sphere, g, s.cutoff, memory, find);
 }
 
 // The work of it for Backend::step(), of sphere g.
