@@ -95,7 +95,7 @@ inline void check_array(const void *array, const std::string &name, int device,
   const ArrayMemory place = memory_of_array(array);
   if (place.is_managed) return;
   if (!place.is_on_gpu)
-    throw InputError("the array `" + name + "` is in the CPU's memory; " + taker +
+    throw InputError("the array `" + name + "` is in the host's memory; " + taker +
                      " takes arrays of the device");
   if (place.device != device)
     throw InputError("the array `" + name + "` is on device " + std::to_string(place.device) +
