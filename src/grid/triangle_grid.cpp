@@ -197,7 +197,7 @@ std::string describe(const GridReport &r)
                        r.list_kind.most());
   const ListReport &l = r.lists;
   n += std::snprintf(text + n, sizeof text - n,
-                     "%zu bricks, %zu cells, %zu candidates, lists %.2f on average, %zu at most",
+                     "%zu bricks, %zu cells, %zu entries, lists %.2f on average, %zu at most",
                      l.bricks, l.cells, l.entries, l.mean, l.longest);
   if (r.records > 0)
     n += std::snprintf(text + n, sizeof text - n, "\n  %zu features in float, by brick, %s",
