@@ -245,7 +245,7 @@ class EngineOn : public WallEngine, public CandidatesInPlace, public NodesInPlac
   {
     nodes_.at(mesh).fetch(b_, when, x, v);
   }
-  void fetch_contacts(int mesh, MeshFeatures &to) override
+  void fetch_records(int mesh, MeshFeatures &to) override
   {
     const MeshFeaturesView &from = records_of(mesh);
     const auto fetch = [&](const auto *from, auto &rows) {

@@ -47,7 +47,7 @@ class NodesInPlace {
 
   // These wait. Arrays have as many items as there are nodes or records.
   virtual void fetch_nodes(int mesh, NodesAt when, Vec3 *x, Vec3 *v) = 0;
-  virtual void fetch_contacts(int mesh, MeshFeatures &to) = 0;
+  virtual void fetch_records(int mesh, MeshFeatures &to) = 0;
 
   // Puts the forces of WallEngine::add_node_forces() where the backend computes, row k of node node_of_row[k], as in
   // give_nodes_in_place(), with the forces of a pressure, of which this is a sixth (mesh/face_pressure.h). They are no

@@ -196,10 +196,10 @@ NodesNow MeshNodes::now() const
   return {&mesh_, &features_.primitives, velocity_.data(), with_spins_, back_};
 }
 
-void MeshNodes::fetch_contacts()
+void MeshNodes::fetch_records()
 {
   if (are_records_old_) {
-    engine_->fetch_contacts(index_, features_);
+    engine_->fetch_records(index_, features_);
     features_.all_parts_act = false;
   }
   are_records_old_ = false;
@@ -217,7 +217,7 @@ void MeshNodes::leave_engine()
   cutoff_ = 0;
   fetch_forces();
   if (!engine_) return;
-  fetch_contacts();
+  fetch_records();
   fetch_places();
   if (are_given_there_) {
     next_.resize(mesh_.vertices.size());

@@ -123,7 +123,7 @@ class MeshNodes {
   void check_velocities(const std::vector<Vec3> &v) const;
   void fetch_places() const;
   void fetch_power() const;
-  void fetch_contacts();
+  void fetch_records();
   void fetch_forces();
   void sum_forces();
   bool take_range();

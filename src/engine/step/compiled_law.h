@@ -65,9 +65,9 @@ struct WallEffects {
   bool surface, contacts, nodes;    // nodes: of a mesh move
 };
 
-template <class Law, bool kSurface_, bool kRecords_, bool kNodes_ = false>
+template <class Law, bool kSurface_, bool kKeepsContacts_, bool kNodes_ = false>
 struct OnWall : Law {
-  static constexpr bool kSurface = kSurface_, kContacts = kRecords_, kNodes = kNodes_;
+  static constexpr bool kSurface = kSurface_, kKeepsContacts = kKeepsContacts_, kNodes = kNodes_;
 };
 
 // The kernels that a law has, by their effects. plain: {none}. moving_or_both: {moving}, {moving + contacts}.
@@ -107,7 +107,7 @@ LawTraits traits_of(const Law &law)
   int n_vectors = 0;
   if constexpr (Law::kVectors > 0)
     for (int k = 0; k < Law::kVectors; k++) n_vectors += law.stores(k);
-  return {Law::kHistory, heat, Law::kContacts, n_extra(law), n_vectors};
+  return {Law::kHistory, heat, Law::kKeepsContacts, n_extra(law), n_vectors};
 }
 
 // A law compiled for one backend; run() does the step of n candidates, see run_compiled_law().

@@ -168,7 +168,7 @@ LSDCD_FN void add_contacts(const GridView &grid, const Law &law, const ForceSett
     c.overlap = overlap;
     c.radius = s.radius;
     c.mass = s.mass;
-    if constexpr (Law::kContacts)
+    if constexpr (Law::kKeepsContacts)
       if (settings.gives_way) c.mass = 1 / (1 / s.mass + settings.mobility.along(closest, n));
     c.v_normal = v_normal;
     Vec3 along = v - v_normal * n;
@@ -196,7 +196,7 @@ LSDCD_FN void add_contacts(const GridView &grid, const Law &law, const ForceSett
       if constexpr (Law::kExtra > 0) store_extra(law, memory, sink.extra + at * n_extra(law));
     }
     const Vec3 tangential = weight * f.tangential;
-    if constexpr (Law::kContacts) {
+    if constexpr (Law::kKeepsContacts) {
       const Real normal = weight * f.normal, pressing = normal > 0 ? normal : Real(0);
       StepContact &kept = sink.contacts[out.n_contacts];
       kept = {set.feature[i],           mesh,         normal, norm(tangential), 0,

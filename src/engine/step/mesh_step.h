@@ -71,14 +71,14 @@ LSDCD_FN bool reserve_places(const Law &law, const StepJob &job, std::size_t k, 
   if constexpr (Law::kSurface) first += job.first_slot;
   if constexpr (Law::kHeat)
     if (law.has_heat()) sink.heat = job.heat + k;
-  if constexpr (Law::kHistory || Law::kContacts) {
+  if constexpr (Law::kHistory || Law::kKeepsContacts) {
     if (n > 1) {
       first = pool.shared + fetch_add(&job.counts->shared_used[pool.which], n);
       if (first > pool.size - n) return false;
     }
     if constexpr (Law::kHistory) sink.springs = pool.springs + first;
     if constexpr (Law::kExtra > 0) sink.extra = pool.extra + std::size_t(first) * n_extra(law);
-    if constexpr (Law::kContacts) sink.contacts = pool.contacts + first;
+    if constexpr (Law::kKeepsContacts) sink.contacts = pool.contacts + first;
   }
   return true;
 }
@@ -175,7 +175,7 @@ LSDCD_FN void apply_law(const StepJob &job, const Sphere &sphere, const Contacts
     SphereSink to_mesh = sink;
     if constexpr (Law::kHistory) to_mesh.springs += n_done;
     if constexpr (Law::kExtra > 0) to_mesh.extra += n_done * n_extra(law);
-    if constexpr (Law::kContacts) to_mesh.contacts += n_done;
+    if constexpr (Law::kKeepsContacts) to_mesh.contacts += n_done;
     if constexpr (Law::kHeat)
       if (law.has_heat()) {
         to_mesh.heat = job.heat + k;
@@ -195,7 +195,7 @@ LSDCD_FN void apply_law(const StepJob &job, const Sphere &sphere, const Contacts
     }
     job.result.n_contacts[k] = out.n_contacts;
     if (out.n_contacts == 0) continue;
-    if constexpr (Law::kContacts) job.pool.first_contact[k] = first + n_done;
+    if constexpr (Law::kKeepsContacts) job.pool.first_contact[k] = first + n_done;
     if constexpr (Law::kHeat)
       if (law.has_heat()) job.heat_flow[i] += *to_mesh.heat;
     n_done += out.n_contacts;
