@@ -27,7 +27,7 @@ NVCC = shutil.which("nvcc") or "/usr/local/cuda/bin/nvcc"
 FLAGS = ["-std=c++17", "-O3", "-DNDEBUG", "-ffp-contract=off"]
 # Effects' branches in headers of the kernel.
 WALL_FORCE = "engine/step/contact_forces.h"
-BRANCHES = {WALL_FORCE: ["Law::kSurface", "Law::kContacts", "Law::kContactTorque", "Law::kHeat",
+BRANCHES = {WALL_FORCE: ["Law::kSurface", "Law::kKeepsContacts", "Law::kContactTorque", "Law::kHeat",
                          "Law::kNodes", "Law::kExtra > 0"],
             "law/contact_model.h": ["kContactTorque", "kHeat", "kFull"]}
 
