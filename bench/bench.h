@@ -5,7 +5,7 @@
 // from, the paper's cylinder in four sizes, and rows of one format.
 #pragma once
 
-#include "engine/wall_engine.h"
+#include "engine/engine.h"
 #include "mesh/triangle_soup.h"
 
 #include <algorithm>

@@ -5,7 +5,7 @@
 // in their boxes, cells of a quarter to four times the default.
 #include "bench.h"
 
-#include "engine/wall_engine.h"
+#include "engine/engine.h"
 #include "grid/flat_grid.h"
 #include "grid/plan/grid_plan.h"
 #include "mesh/welded_mesh.h"

@@ -6,7 +6,7 @@
 // are used again, or made anew in each step.
 #include "bench.h"
 
-#include "engine/wall_engine.h"
+#include "engine/engine.h"
 #include "grid/flat_grid.h"
 #include "mesh/welded_mesh.h"
 #include "study/spheres.h"

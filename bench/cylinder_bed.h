@@ -5,7 +5,7 @@
 // computes: what the programs share that time or count its steps.
 #pragma once
 
-#include "engine/wall_engine.h"
+#include "engine/engine.h"
 #include "grid/flat_grid.h"
 #include "mesh/triangle_soup.h"
 #include "support/device_memory.h"

@@ -13,7 +13,7 @@
 #include "backend/threads.h"
 #include "base/input_error.h"
 #include "base/strided_view.h"
-#include "engine/wall_engine.h"
+#include "engine/engine.h"
 
 #include <memory>
 #include <type_traits>

@@ -11,7 +11,7 @@
 #include "base/input_words.h"
 #include "bodies/mesh_collision.h"
 #include "bodies/read_pose.h"
-#include "engine/wall_engine.h"
+#include "engine/engine.h"
 
 #include <cmath>
 #include <cstddef>

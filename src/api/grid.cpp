@@ -8,7 +8,7 @@
 #include "api/cell_options.h"
 #include "api/objects.h"
 #include "base/input_words.h"
-#include "engine/wall_engine.h"
+#include "engine/engine.h"
 #include "grid/cache/load_or_build.h"
 #include "mesh/measure_mesh.h"
 #include "mesh/meets_itself.h"

@@ -4,7 +4,7 @@
 // lsdcd_has_cuda, lsdcd_stream_*, lsdcd_query_stream
 #include "api/c_border.h"
 #include "api/query_arrays.h"
-#include "engine/wall_engine.h"
+#include "engine/engine.h"
 
 using namespace lsdcd;
 

@@ -6,7 +6,7 @@
 
 #include "api/lsdcd.h"
 #include "backend/gpu_arrays.h"
-#include "engine/wall_engine.h"
+#include "engine/engine.h"
 #include "mesh/periodic_box.h"
 
 #include <cstddef>

@@ -5,7 +5,7 @@
 #pragma once
 
 #include "bodies/meeting_segment.h"
-#include "engine/wall_engine.h"
+#include "engine/engine.h"
 #include "grid/triangle_grid.h"
 #include "mesh/triangle_soup.h"
 

@@ -3,6 +3,8 @@
 
 #include "effects/effects.h"
 
+#include "contact/spring.h"
+
 namespace lsdcd {
 
 namespace {

@@ -4,7 +4,7 @@
 // Every effect that a wall can have: the table behind `lsdcd effects`.
 #pragma once
 
-#include "engine/wall_engine.h"
+#include "engine/settings.h"
 
 #include <string>
 #include <vector>

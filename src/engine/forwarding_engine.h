@@ -4,7 +4,7 @@
 // An engine that hands each call to another one. Who gives an engine other spheres overrides what takes them.
 #pragma once
 
-#include "engine/wall_engine.h"
+#include "engine/engine.h"
 
 #include <memory>
 #include <utility>

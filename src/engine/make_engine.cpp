@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include "base/input_error.h"
-#include "engine/wall_engine.h"
+#include "engine/engine.h"
 
 namespace lsdcd {
 

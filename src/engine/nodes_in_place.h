@@ -6,7 +6,7 @@
 // them where it needs them.
 #pragma once
 
-#include "engine/wall_engine.h"
+#include "engine/engine.h"
 
 #include <vector>
 

@@ -4,7 +4,7 @@
 // Energy that a bouncing and a rolling sphere gain or lose at a wall that should conserve it.
 #pragma once
 
-#include "engine/wall_engine.h"
+#include "engine/engine.h"
 #include "mesh/welded_mesh.h"
 #include "study/sphere_sample.h"
 

@@ -5,7 +5,7 @@
 // only the study asks: the paper's formula (5), every face, and how many entries of lists a search reads.
 #pragma once
 
-#include "engine/wall_engine.h"
+#include "engine/engine.h"
 #include "grid/triangle_grid.h"
 #include "query/nearest_distance.h"
 #include "query/sphere.h"

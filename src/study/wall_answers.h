@@ -4,7 +4,7 @@
 // The answers of a setting for a sample of spheres, their errors, and their cost.
 #pragma once
 
-#include "engine/wall_engine.h"
+#include "engine/engine.h"
 #include "study/sphere_sample.h"
 
 #include <vector>

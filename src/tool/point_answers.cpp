@@ -5,7 +5,7 @@
 
 #include "backend/backend_cpu.h"
 #include "base/input_error.h"
-#include "engine/wall_engine.h"
+#include "engine/engine.h"
 #include "mesh/meets_itself.h"
 #include "query/point_sides.h"
 

@@ -5,7 +5,7 @@
 #pragma once
 
 #include "contact/contact_history.h"
-#include "engine/wall_engine.h"
+#include "engine/engine.h"
 #include "host/host.h"
 #include "wall/coat_load.h"
 #include "wall/mesh_part.h"

@@ -5,7 +5,7 @@
 // GPU takes less time for a sphere and more for a step, so that it pays from some number of spheres near the wall on.
 #pragma once
 
-#include "engine/wall_engine.h"
+#include "engine/engine.h"
 
 #include <cstdint>
 

@@ -5,7 +5,7 @@
 #pragma once
 
 #include "contact/contact_history.h"
-#include "engine/wall_engine.h"
+#include "engine/engine.h"
 #include "host/host.h"
 #include "wall/wall_spec.h"
 

@@ -4,7 +4,7 @@
 // The spheres of a process as its host has them: their arrays, and their names in messages.
 #pragma once
 
-#include "engine/wall_engine.h"
+#include "engine/engine.h"
 
 #include <algorithm>
 #include <cstdint>

@@ -4,7 +4,7 @@
 // The loads on the meshes of a wall, averaged over so many steps, as a solver of another field samples them.
 #pragma once
 
-#include "engine/wall_engine.h"
+#include "engine/engine.h"
 #include "host/host.h"
 #include "motion/step_clock.h"
 #include "wall/coat_load.h"

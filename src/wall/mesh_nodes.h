@@ -8,8 +8,8 @@
 // that a list left out may turn towards the sphere.
 #pragma once
 
+#include "engine/engine.h"
 #include "engine/nodes_in_place.h"
-#include "engine/wall_engine.h"
 #include "grid/flat_grid.h"
 #include "host/host.h"
 #include "wall/wall_spec.h"

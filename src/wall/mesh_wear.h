@@ -5,7 +5,7 @@
 // volume between the old and the new surface is the worn one.
 #pragma once
 
-#include "engine/wall_engine.h"
+#include "engine/results.h"
 #include "host/host.h"
 #include "mesh/welded_mesh.h"
 #include "wall/wall_spec.h"

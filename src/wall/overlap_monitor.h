@@ -5,7 +5,7 @@
 // were put there.
 #pragma once
 
-#include "engine/wall_engine.h"
+#include "engine/engine.h"
 #include "host/host.h"
 #include "wall/host_spheres.h"
 #include "wall/wall_spec.h"

@@ -4,7 +4,7 @@
 // The work of the search for contacts, in lines for the log.
 #pragma once
 
-#include "engine/wall_engine.h"
+#include "engine/engine.h"
 #include "host/host.h"
 
 #include <cstdint>

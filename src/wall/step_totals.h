@@ -4,7 +4,7 @@
 // The loads of spheres and coats on the meshes of a wall in the last step: sums over all processes.
 #pragma once
 
-#include "engine/wall_engine.h"
+#include "engine/engine.h"
 #include "host/host.h"
 #include "wall/coat_load.h"
 #include "wall/wall_spec.h"

@@ -4,7 +4,8 @@
 // A wall as data: its meshes, contact laws, search and outputs.
 #pragma once
 
-#include "engine/wall_engine.h"
+#include "engine/settings.h"
+#include "grid/triangle_grid.h"
 #include "mesh/placement.h"
 #include "motion/motion.h"
 #include "rigid/body_spec.h"

@@ -4,7 +4,7 @@
 // The backend that this run of a test program is for.
 #pragma once
 
-#include "engine/wall_engine.h"
+#include "engine/engine.h"
 
 #include <cstdlib>
 #include <cstring>

@@ -4,7 +4,7 @@
 // Contact laws for tests.
 #pragma once
 
-#include "engine/wall_engine.h"
+#include "engine/engine.h"
 
 namespace lsdcd {
 

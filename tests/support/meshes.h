@@ -4,7 +4,7 @@
 // Meshes and walls that tests share.
 #pragma once
 
-#include "engine/wall_engine.h"
+#include "engine/engine.h"
 #include "grid/flat_grid.h"
 #include "mesh/triangle_soup.h"
 #include "mesh/welded_mesh.h"

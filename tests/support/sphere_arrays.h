@@ -5,7 +5,7 @@
 // engine computes.
 #pragma once
 
-#include "engine/wall_engine.h"
+#include "engine/engine.h"
 #include "support/device_memory.h"
 
 #include <vector>

@@ -4,7 +4,7 @@
 // The engine that a test program tests.
 #pragma once
 
-#include "engine/wall_engine.h"
+#include "engine/engine.h"
 
 #include <memory>
 

@@ -3,7 +3,7 @@
 
 // The entries of a grid's lists are known before they are made.
 #include "base/input_error.h"
-#include "engine/wall_engine.h"
+#include "engine/engine.h"
 #include "grid/build/estimate_lists.h"
 #include "grid/triangle_grid.h"
 #include "support/meshes.h"

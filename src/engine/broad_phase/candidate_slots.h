@@ -6,7 +6,7 @@
 // candidates of more than one mesh, with a slot for each (sphere, mesh).
 #pragma once
 
-#include "engine/wall_engine.h"
+#include "engine/settings.h"
 
 #include <cstdint>
 #include <vector>

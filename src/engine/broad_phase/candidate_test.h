@@ -7,6 +7,7 @@
 #pragma once
 
 #include "backend/atomic.h"
+#include "engine/grains.h"
 #include "engine/lists/feature_list.h"
 #include "engine/results/step_counts.h"
 #include "grid/lookup/brick_filter.h"

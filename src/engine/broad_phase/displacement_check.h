@@ -7,7 +7,7 @@
 
 #include "backend/atomic.h"
 #include "engine/broad_phase/candidate_test.h"
-#include "engine/wall_engine.h"
+#include "engine/grains.h"
 #include "grid/lookup/brick_words.h"
 #include "grid/lookup/occupied_within.h"
 

@@ -6,7 +6,7 @@
 
 #include "base/strided_view.h"
 #include "base/vec3.h"
-#include "engine/wall_engine.h"
+#include "engine/results.h"
 
 namespace lsdcd {
 

@@ -5,7 +5,7 @@
 #pragma once
 
 #include "backend/atomic.h"
-#include "engine/wall_engine.h"
+#include "engine/results.h"
 
 #include <cstdint>
 

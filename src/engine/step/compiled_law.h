@@ -5,7 +5,8 @@
 // once, and laws add that loop only.
 #pragma once
 
-#include "engine/wall_engine.h"
+#include "contact/feature_turn.h"
+#include "engine/settings.h"
 #include "law/contact_model.h"
 
 #include <cstddef>

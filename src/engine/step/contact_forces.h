@@ -5,11 +5,13 @@
 #pragma once
 
 #include "contact/node_field.h"
+#include "engine/results.h"
 #include "engine/results/results.h"
+#include "engine/settings.h"
 #include "engine/step/narrow_phase.h"
-#include "engine/wall_engine.h"
 #include "law/contact.h"
 #include "law/submodels/normal.h"
+#include "motion/pose.h"
 
 namespace lsdcd {
 

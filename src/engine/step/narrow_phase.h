@@ -9,7 +9,7 @@
 #include "contact/history.h"
 #include "engine/lists/feature_list.h"
 #include "engine/lists/node_list.h"
-#include "engine/wall_engine.h"
+#include "engine/settings.h"
 
 namespace lsdcd {
 

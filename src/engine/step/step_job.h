@@ -5,6 +5,7 @@
 #pragma once
 
 #include "backend/atomic.h"
+#include "engine/grains.h"
 #include "engine/results/results.h"
 #include "engine/results/step_counts.h"
 #include "engine/step/compiled_law.h"

@@ -5,23 +5,16 @@
 #pragma once
 
 #include "backend/cuda_available.h"
-#include "base/strided_view.h"
-#include "base/vec3.h"
 #include "contact/contact_history.h"
 #include "contact/feature_turn.h"
-#include "contact/node_field.h"
 #include "engine/candidate_schedule.h"
-#include "engine/sum_unit.h"
+#include "engine/grains.h"
+#include "engine/results.h"
+#include "engine/settings.h"
+#include "engine/springs_in_place.h"
 #include "grid/triangle_grid.h"
-#include "host/host_names.h"
-#include "law/contact_law.h"
-#include "law/law_table.h"
-#include "law/wear.h"
 #include "mesh/periodic_box.h"
-#include "mesh/welded_mesh.h"
 #include "motion/pose.h"
-#include "motion/surface_motion.h"
-#include "rigid/mobility.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -32,182 +25,8 @@
 
 namespace lsdcd {
 
-enum class Corner { blend, sum };
-enum class Side { both, in, out };    // in the order of the keyword's words
-enum class Device { automatic, cpu, cuda };
-
-// Meshes that move apart, of one wall.
-constexpr int kMaxMeshes = 32;
-
-struct EngineSettings {
-  LawTable laws = ContactLaw();
-  Corner corner = Corner::blend;
-  Side side = Side::both;
-  int meshes = 1;           // that move apart; with more than one `moves` counts as true
-  SurfaceMotion surface;    // of each mesh, in the plane of each contact
-  bool moves = false;       // set_pose() or StepSettings::surface will be used
-  bool contacts = false;    // keep what every contact does to the wall
-  bool bodies = false;      // StepSettings::mobility will be used; contacts are recorded, too
-  bool nodes = false;       // StepSettings::nodes will be used; likewise
-  // The engine has copies of the records of meshes whose nodes move, as on a GPU, where this is so in any case.
-  bool copies_records = false;
-  WearModel wear = WearModel::none;    // where contacts are kept
-  Device device = Device::automatic;
-  int device_rank = 0;    // which of the GPUs this process takes (node-local rank, wrapped)
-  HostNames names;        // for errors
-
-  // Returns the first law of the table: the only one, or the sub-models of all.
-  ContactLaw &law() { return laws.laws.front(); }
-  const ContactLaw &law() const { return laws.laws.front(); }
-};
-
-// Are candidates sorted into slots, by mesh and by kind of sphere?
-inline bool uses_slots(const EngineSettings &s)
-{
-  return s.meshes > 1 || s.laws.kinds > 1;
-}
-
-// Sphere data of a host code, borrowed for one step; n is the number of owned spheres.
-struct Spheres {
-  int n = 0;
-  StridedView<const Real> x;        // length
-  StridedView<const Real> v;        // length/time
-  StridedView<const Real> omega;    // 1/time
-  const Real *radius = nullptr;     // length
-  const Real *mass = nullptr;       // mass that damping sees (a rigid member's body mass)
-  const int *mask = nullptr;        // group bits, or null: all spheres
-  int group_bit = 0;
-  const int *type = nullptr;            // from 1; read where laws differ by it
-  StridedView<Real> force;              // added to
-  StridedView<Real> torque;             // added to
-  const Real *temperature = nullptr;    // where the law has heat
-  Real *heat_flow = nullptr;            // power; added to where the law has heat
-};
-
-struct StepSettings {
-  std::int64_t number = 0;       // of the step, for StepDiagnostics
-  Real dt = 0;                   // time
-  bool update_history = true;    // false in setup: springs act but do not move
-  bool synchronous =
-      false;    // velocities are of the time of the places, as in setup; else of half a step before
-  bool per_sphere = false;      // fill SphereOutput
-  bool states = false;          // and TouchingSphere, where per_sphere is set
-  bool totals = false;          // they will be asked for before the next step: summed with this one
-  bool contacts = true;         // bring the contacts of settings.contacts
-  Real wall_temperature = 0;    // where the law has heat
-  // For each mesh, in place of wall_temperature and of the settings' surface; valid until collect().
-  const Real *mesh_temperature = nullptr;
-  const SurfaceMotion *surface = nullptr;
-  // Likewise, where a mesh is a rigid body: how it gives way, which is 0 of others.
-  const Mobility *mobility = nullptr;
-  // Likewise, where the nodes of a mesh move: their velocities, which are null of others.
-  const NodeField *nodes = nullptr;
-};
-
-// A mesh whose nodes move, as its host has it in this step.
-struct NodesNow {
-  const WeldedMesh *mesh;    // its vertices are where the nodes are
-  const std::vector<FeatureCode> *primitives;
-  const Vec3 *velocity;    // as in NodeField
-  bool with_spins;         // else no law reads spins
-  Real back;               // how long ago velocities are of (time)
-};
-
-// What is to be known of the forces of contacts on the nodes of a mesh before they are added.
-struct NodeForceRange {
-  SummandRange shares;    // components of the contacts' shares, of which a node has one a contact
-  // kNoSphere less the index of the first sphere with one that is not finite, or 0.
-  std::uint64_t not_finite;
-};
-
-// Sums over the spheres of the last step on this process.
-struct WallTotals {
-  Real energy = 0;            // elastic energy in normal overlaps and tangential springs
-  Vec3 force = {0, 0, 0};     // on the mesh
-  Vec3 torque = {0, 0, 0};    // on the mesh, about the origin
-  std::int64_t contacts = 0;
-  std::int64_t uncertified = 0;       // spheres whose answer was not certified exact
-  Real largest_uncertain = 0;         // overlap / radius of the deepest contact they may miss
-  Real largest_overlap_ratio = 0;     // overlap / radius
-  int largest_overlap_sphere = -1;    // index in Spheres, -1 if none touches
-  int pad = 0;                        // keeps the record free of indeterminate bytes
-};
-
-// One sphere's contacts in columns.
-struct SphereOutput {
-  Real contacts;    // number of contacts
-  Vec3 force;       // sum over them, on the sphere
-  Vec3 point;       // mean contact point on the wall, weighted by normal force
-  Real radius;      // 0 where nothing touches
-};
-
-// A sphere with a contact, as the step has read it.
-struct TouchingSphere {
-  Vec3 x;
-  Real radius, mass;
-  int type;    // 0 where laws do not differ by it
-  int pad;     // keeps the record free of indeterminate bytes
-};
-
-// The effect of one contact on the wall in one step.
-struct StepContact {
-  FeatureCode feature;
-  std::uint32_t mesh;    // of the wall's
-  Real normal;           // force on the wall, > 0 where the sphere presses
-  Real shear;            // size of the force along the wall
-  Real wear_power;       // see law/wear.h; 0 without wear
-  // In the frame of the mesh:
-  Vec3 force;    // on the wall
-  Vec3 arm;      // from the closest point to the sphere's centre
-};
-
-// Counts of the steps since the host last read them.
-struct StepDiagnostics {
-  Real deepest = 0;                    // largest overlap / radius
-  int deepest_sphere = -1;             // its index in the step that it was in
-  int deepest_mesh = 0;                // of the wall's
-  std::uint32_t deepest_meshes = 0;    // a bit for each mesh that this sphere touched then
-  std::int64_t deepest_step = 0;       // StepSettings::number
-  std::int64_t uncertified = 0;
-  Real uncertain = 0;    // overlap / radius of the deepest contact they may have missed
-  // Neighbour lists that were made, the features in them, and searches of cells for spheres without a list; all
-  // are 0 where cells list the nearest primitives.
-  std::int64_t lists = 0, listed = 0, by_cells = 0;
-};
-
 // A step is begun, submitted and collected.
 enum class StepState { none, begun, submitted };
-
-// When a step does its work, and where.
-enum class When {
-  in_turn,    // after the host's work on its stream; on a CPU collect() does it
-  // In place on a GPU: at once, on a stream of its own, after the host's work on its stream by
-  // begin(). collect() adds forces and torques.
-  beside,
-  beside_adding_early,    // likewise, but they are added after the host's work by submit()
-};
-
-// The springs of a process's spheres in the memory of an engine's backend, in which all pointers here lie. Each sphere has a
-// first spring and a count, which follow it through sorting.
-class SpringsInPlace {
- public:
-  virtual ~SpringsInPlace() = default;
-
-  // Makes room for n spheres; new ones have no springs.
-  virtual void grow(int n) = 0;
-  virtual int *first() = 0;
-  virtual int *count() = 0;
-
-  // Packs spheres that leave the process, as a host on a GPU lays out its messages: first the offset of each sphere's
-  // numbers, as an integer in a double, then for each sphere its count of springs and its springs. Sphere which[k] leaves, and
-  // sphere from[k], if that is not -1, takes its place. Returns how many numbers it wrote.
-  virtual int largest_packed_size(int n) = 0;    // numbers of one of n spheres; waits
-  virtual int most_packed_size() const = 0;      // that one can have
-  virtual int pack(int n, const int *which, const int *from, double *buffer) = 0;
-  // Unpacks spheres that came: sphere to[k], if that is not -1, gets the k-th. From n_first on offsets are those of a second
-  // message, which begins at `second`.
-  virtual void unpack(int n, const int *to, const double *buffer, int n_first, int second) = 0;
-};
 
 class NodesInPlace;         // engine/nodes_in_place.h
 struct NodeGridSettings;    // grid/build/node_grid.h

@@ -1,0 +1,42 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// The spheres of a step, and a mesh whose nodes move, as their host has them.
+#pragma once
+
+#include "base/strided_view.h"
+#include "base/vec3.h"
+#include "geometry/feature_code.h"
+#include "mesh/welded_mesh.h"
+
+#include <vector>
+
+namespace lsdcd {
+
+// Sphere data of a host code, borrowed for one step; n is the number of owned spheres.
+struct Spheres {
+  int n = 0;
+  StridedView<const Real> x;        // length
+  StridedView<const Real> v;        // length/time
+  StridedView<const Real> omega;    // 1/time
+  const Real *radius = nullptr;     // length
+  const Real *mass = nullptr;       // mass that damping sees (a rigid member's body mass)
+  const int *mask = nullptr;        // group bits, or null: all spheres
+  int group_bit = 0;
+  const int *type = nullptr;            // from 1; read where laws differ by it
+  StridedView<Real> force;              // added to
+  StridedView<Real> torque;             // added to
+  const Real *temperature = nullptr;    // where the law has heat
+  Real *heat_flow = nullptr;            // power; added to where the law has heat
+};
+
+// A mesh whose nodes move, as its host has it in this step.
+struct NodesNow {
+  const WeldedMesh *mesh;    // its vertices are where the nodes are
+  const std::vector<FeatureCode> *primitives;
+  const Vec3 *velocity;    // as in NodeField
+  bool with_spins;         // else no law reads spins
+  Real back;               // how long ago velocities are of (time)
+};
+
+}    // namespace lsdcd

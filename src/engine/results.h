@@ -1,0 +1,77 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// What a step leaves behind: sums, what touched, contacts, and what was counted.
+#pragma once
+
+#include "base/vec3.h"
+#include "engine/sum_unit.h"
+#include "geometry/feature_code.h"
+
+#include <cstdint>
+
+namespace lsdcd {
+
+// What is to be known of the forces of contacts on the nodes of a mesh before they are added.
+struct NodeForceRange {
+  SummandRange shares;    // components of the contacts' shares, of which a node has one a contact
+  // kNoSphere less the index of the first sphere with one that is not finite, or 0.
+  std::uint64_t not_finite;
+};
+
+// Sums over the spheres of the last step on this process.
+struct WallTotals {
+  Real energy = 0;            // elastic energy in normal overlaps and tangential springs
+  Vec3 force = {0, 0, 0};     // on the mesh
+  Vec3 torque = {0, 0, 0};    // on the mesh, about the origin
+  std::int64_t contacts = 0;
+  std::int64_t uncertified = 0;       // spheres whose answer was not certified exact
+  Real largest_uncertain = 0;         // overlap / radius of the deepest contact they may miss
+  Real largest_overlap_ratio = 0;     // overlap / radius
+  int largest_overlap_sphere = -1;    // index in Spheres, -1 if none touches
+  int pad = 0;                        // keeps the record free of indeterminate bytes
+};
+
+// One sphere's contacts in columns.
+struct SphereOutput {
+  Real contacts;    // number of contacts
+  Vec3 force;       // sum over them, on the sphere
+  Vec3 point;       // mean contact point on the wall, weighted by normal force
+  Real radius;      // 0 where nothing touches
+};
+
+// A sphere with a contact, as the step has read it.
+struct TouchingSphere {
+  Vec3 x;
+  Real radius, mass;
+  int type;    // 0 where laws do not differ by it
+  int pad;     // keeps the record free of indeterminate bytes
+};
+
+// The effect of one contact on the wall in one step.
+struct StepContact {
+  FeatureCode feature;
+  std::uint32_t mesh;    // of the wall's
+  Real normal;           // force on the wall, > 0 where the sphere presses
+  Real shear;            // size of the force along the wall
+  Real wear_power;       // see law/wear.h; 0 without wear
+  // In the frame of the mesh:
+  Vec3 force;    // on the wall
+  Vec3 arm;      // from the closest point to the sphere's centre
+};
+
+// Counts of the steps since the host last read them.
+struct StepDiagnostics {
+  Real deepest = 0;                    // largest overlap / radius
+  int deepest_sphere = -1;             // its index in the step that it was in
+  int deepest_mesh = 0;                // of the wall's
+  std::uint32_t deepest_meshes = 0;    // a bit for each mesh that this sphere touched then
+  std::int64_t deepest_step = 0;       // StepSettings::number
+  std::int64_t uncertified = 0;
+  Real uncertain = 0;    // overlap / radius of the deepest contact they may have missed
+  // Neighbour lists that were made, the features in them, and searches of cells for spheres without a list; all
+  // are 0 where cells list the nearest primitives.
+  std::int64_t lists = 0, listed = 0, by_cells = 0;
+};
+
+}    // namespace lsdcd

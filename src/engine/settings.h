@@ -1,0 +1,83 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// What an engine is made for, and what a step is told.
+#pragma once
+
+#include "contact/node_field.h"
+#include "host/host_names.h"
+#include "law/contact_law.h"
+#include "law/law_table.h"
+#include "law/wear.h"
+#include "motion/surface_motion.h"
+#include "rigid/mobility.h"
+
+#include <cstdint>
+
+namespace lsdcd {
+
+enum class Corner { blend, sum };
+enum class Side { both, in, out };    // in the order of the keyword's words
+enum class Device { automatic, cpu, cuda };
+
+// Meshes that move apart, of one wall.
+constexpr int kMaxMeshes = 32;
+
+struct EngineSettings {
+  LawTable laws = ContactLaw();
+  Corner corner = Corner::blend;
+  Side side = Side::both;
+  int meshes = 1;           // that move apart; with more than one `moves` counts as true
+  SurfaceMotion surface;    // of each mesh, in the plane of each contact
+  bool moves = false;       // set_pose() or StepSettings::surface will be used
+  bool contacts = false;    // keep what every contact does to the wall
+  bool bodies = false;      // StepSettings::mobility will be used; contacts are recorded, too
+  bool nodes = false;       // StepSettings::nodes will be used; likewise
+  // The engine has copies of the records of meshes whose nodes move, as on a GPU, where this is so in any case.
+  bool copies_records = false;
+  WearModel wear = WearModel::none;    // where contacts are kept
+  Device device = Device::automatic;
+  int device_rank = 0;    // which of the GPUs this process takes (node-local rank, wrapped)
+  HostNames names;        // for errors
+
+  // Returns the first law of the table: the only one, or the sub-models of all.
+  ContactLaw &law() { return laws.laws.front(); }
+  const ContactLaw &law() const { return laws.laws.front(); }
+};
+
+// Are candidates sorted into slots, by mesh and by kind of sphere?
+inline bool uses_slots(const EngineSettings &s)
+{
+  return s.meshes > 1 || s.laws.kinds > 1;
+}
+
+struct StepSettings {
+  std::int64_t number = 0;       // of the step, for StepDiagnostics
+  Real dt = 0;                   // time
+  bool update_history = true;    // false in setup: springs act but do not move
+  bool synchronous =
+      false;    // velocities are of the time of the places, as in setup; else of half a step before
+  bool per_sphere = false;      // fill SphereOutput
+  bool states = false;          // and TouchingSphere, where per_sphere is set
+  bool totals = false;          // they will be asked for before the next step: summed with this one
+  bool contacts = true;         // bring the contacts of settings.contacts
+  Real wall_temperature = 0;    // where the law has heat
+  // For each mesh, in place of wall_temperature and of the settings' surface; valid until collect().
+  const Real *mesh_temperature = nullptr;
+  const SurfaceMotion *surface = nullptr;
+  // Likewise, where a mesh is a rigid body: how it gives way, which is 0 of others.
+  const Mobility *mobility = nullptr;
+  // Likewise, where the nodes of a mesh move: their velocities, which are null of others.
+  const NodeField *nodes = nullptr;
+};
+
+// When a step does its work, and where.
+enum class When {
+  in_turn,    // after the host's work on its stream; on a CPU collect() does it
+  // In place on a GPU: at once, on a stream of its own, after the host's work on its stream by
+  // begin(). collect() adds forces and torques.
+  beside,
+  beside_adding_early,    // likewise, but they are added after the host's work by submit()
+};
+
+}    // namespace lsdcd

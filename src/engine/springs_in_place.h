@@ -1,0 +1,30 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#pragma once
+
+namespace lsdcd {
+
+// The springs of a process's spheres in the memory of an engine's backend, in which all pointers here lie. Each sphere has a
+// first spring and a count, which follow it through sorting.
+class SpringsInPlace {
+ public:
+  virtual ~SpringsInPlace() = default;
+
+  // Makes room for n spheres; new ones have no springs.
+  virtual void grow(int n) = 0;
+  virtual int *first() = 0;
+  virtual int *count() = 0;
+
+  // Packs spheres that leave the process, as a host on a GPU lays out its messages: first the offset of each sphere's
+  // numbers, as an integer in a double, then for each sphere its count of springs and its springs. Sphere which[k] leaves, and
+  // sphere from[k], if that is not -1, takes its place. Returns how many numbers it wrote.
+  virtual int largest_packed_size(int n) = 0;    // numbers of one of n spheres; waits
+  virtual int most_packed_size() const = 0;      // that one can have
+  virtual int pack(int n, const int *which, const int *from, double *buffer) = 0;
+  // Unpacks spheres that came: sphere to[k], if that is not -1, gets the k-th. From n_first on offsets are those of a second
+  // message, which begins at `second`.
+  virtual void unpack(int n, const int *to, const double *buffer, int n_first, int second) = 0;
+};
+
+}    // namespace lsdcd
