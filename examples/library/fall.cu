@@ -155,10 +155,11 @@ try {
   lsdcd::WallOptions options;
   options.device = LSDCD_CUDA;
   options.stream = stream;
-  const auto number = [](double value) { return std::to_string(value); };
-  lsdcd::Wall wall({"hooke/history", number(s.stiffness), number(2 / 7. * s.stiffness),
-                    number(0.4 * frequency), "NULL", "0.5", "1", "mesh", file},
-                   &options);
+  lsdcd::WallSpec spec;
+  spec.law = lsdcd::Law::classic(
+      {"hooke/history", {s.stiffness, lsdcd::kDerived, 0.4 * frequency, lsdcd::kDerived, 0.5, 1.}});
+  spec.meshes.emplace_back(mesh);
+  lsdcd::Wall wall(spec, &options);
   lsdcd_spheres spheres = {};
   spheres.size = sizeof spheres;
   spheres.n = s.n;
