@@ -156,7 +156,7 @@ def refused(checks, folder):
     wear = "wear archard 0.1 50 deform"
     fails("deform without a number", f"mesh plate.stl {wear}", "'every N' is missing")
     fails("a factor of 0", f"mesh plate.stl {wear} every 5 factor 0", "factor")
-    fails("a body", f"mesh plate.stl body density 1 {wear} every 5", "it is a rigid body")
+    fails("a body", f"mesh plate.stl body density 1 {wear} every 5", "the mass and centre of a body are those of its shape")
     fails("triangles wound in opposite ways", f"mesh mixed.stl {wear} every 5", "wind them alike")
     fails("periodic images", f"mesh plate.stl move 2.5 0 0 {wear} every 5", "has periodic images",
           BEGIN.format(x="2.5 0 0.495").replace("boundary        f f f", "boundary        p f f"))
