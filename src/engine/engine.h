@@ -120,7 +120,7 @@ class WallEngine {
   // Returns the power into each of these spheres; null where the law has no heat.
   virtual const Real *sphere_heat() const = 0;
 
-  // Records of the contacts of the last step, in the order of the spheres;
+  // Return the contacts of the last step, in the order of the spheres;
   // valid after collect() where settings.contacts and step.contacts are set.
   virtual int n_contacts() const = 0;
   virtual const StepContact *contacts() const = 0;

@@ -24,7 +24,7 @@
 
 namespace lsdcd {
 
-// On a CPU: which cells of a grid have candidates.
+// On the CPU: which cells of a grid have entries.
 struct OccupiedCells {
   std::vector<std::int32_t> brick_of;
   std::vector<Brick> bricks;
@@ -207,7 +207,7 @@ class EngineOn : public WallEngine, public CandidatesInPlace, public NodesInPlac
       broad_phase_.set_lists(b_, nodes_.at(mesh).build_grid(b_, settings, records_of(mesh)), mesh);
     });
   }
-  // For an adapter, which selects by cells on its CPU: that grid, without records and candidates.
+  // For an adapter, which selects by cells on the CPU: that grid, without records and entries.
   GridView occupied_cells(int mesh, OccupiedCells &to)
   {
     const NodeGrid<B> &grid = nodes_.at(mesh).grid();

@@ -29,7 +29,7 @@ struct WallTotals {
   Real largest_uncertain = 0;         // overlap / radius of the deepest contact they may miss
   Real largest_overlap_ratio = 0;     // overlap / radius
   int largest_overlap_sphere = -1;    // index in Spheres, -1 if none touches
-  int pad = 0;                        // keeps the record free of indeterminate bytes
+  int pad = 0;                        // keeps the struct free of indeterminate bytes
 };
 
 // One sphere's contacts in columns.
@@ -45,7 +45,7 @@ struct TouchingSphere {
   Vec3 x;
   Real radius, mass;
   int type;    // 0 where laws do not differ by it
-  int pad;     // keeps the record free of indeterminate bytes
+  int pad;     // keeps the struct free of indeterminate bytes
 };
 
 // The effect of one contact on the wall in one step.

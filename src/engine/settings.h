@@ -31,7 +31,7 @@ struct EngineSettings {
   SurfaceMotion surface;    // of each mesh, in the plane of each contact
   bool moves = false;       // set_pose() or StepSettings::surface will be used
   bool contacts = false;    // keep what every contact does to the wall
-  bool bodies = false;      // StepSettings::mobility will be used; contacts are recorded, too
+  bool bodies = false;      // StepSettings::mobility will be used; contacts are kept, too
   bool nodes = false;       // StepSettings::nodes will be used; likewise
   // The engine has copies of the records of meshes whose nodes move, as on a GPU, where this is so in any case.
   bool copies_records = false;

@@ -19,7 +19,7 @@ struct alignas(16) SphereResult {
   Vec3 weighted_point;    // sum of |normal force| * contact point
   Real weight;            // sum of |normal force|
   int n_contacts;
-  int pad;    // keeps the record free of indeterminate bytes
+  int pad;    // keeps the struct free of indeterminate bytes
 };
 
 struct ResultColumns {
