@@ -98,10 +98,7 @@ lsdcd_collision checked_collision(const lsdcd_collision *given)
                                                           {c.body_triangle, "body_triangle"},
                                                           {c.segment, "segment"}};
   const DeviceMemory device;
-  for (const auto &[array, name] : arrays)
-    if (array && device.only_there(array))
-      throw ApiError(LSDCD_ERROR_DEVICE,
-                     std::string("the array `") + name + "` is in a GPU's memory: give the host's");
+  for (const auto &[array, name] : arrays) device.refuse_there(array, name, "give the host's");
   return c;
 }
 

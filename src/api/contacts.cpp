@@ -36,10 +36,7 @@ lsdcd_contacts checked_contacts(const ApiGrid &grid, const lsdcd_contacts *given
       {c.distance, "distance"}, {c.overlap, "overlap"}, {c.normal, "normal"}, {c.weight, "weight"},
       {c.triangle, "triangle"}, {c.feature, "feature"}};
   for (const auto &[array, name] : arrays)
-    if (array && device.only_there(array))
-      throw ApiError(LSDCD_ERROR_DEVICE, std::string("the array `") + name +
-                                             "` is in a GPU's memory: contacts are found on the "
-                                             "host alone");
+    device.refuse_there(array, name, "contacts are found on the host alone");
   return c;
 }
 

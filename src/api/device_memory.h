@@ -5,11 +5,14 @@
 // array exists, and it is not loaded for that.
 #pragma once
 
+#include "api/c_border.h"
+
 #include <dlfcn.h>
 #include <link.h>
 
 #include <atomic>
 #include <cstdint>
+#include <string>
 
 namespace lsdcd {
 
@@ -26,6 +29,14 @@ class DeviceMemory {
     // A pointer that the driver does not know belongs to the host.
     if (!ask_ || ask_(&type, kMemoryType, at) != 0 || type != kDevice) return false;
     return ask_(&managed, kIsManaged, at) != 0 || managed == 0;
+  }
+
+  // Throws where an array, which may be null, is in the memory of a GPU alone. The text ends with the remedy.
+  void refuse_there(const void *array, const char *name, const char *remedy) const
+  {
+    if (array && only_there(array))
+      throw ApiError(LSDCD_ERROR_DEVICE,
+                     std::string("the array `") + name + "` is in a GPU's memory: " + remedy);
   }
 
  private:

@@ -376,9 +376,7 @@ class Grid {
     const std::vector<T> same(radii.size() == n ? 0 : n, radii.empty() ? T(0) : radii[0]);
     c.radii = radii.size() == n ? radii.data() : same.data();
     c.contacts = n;    // mostly enough
-    do {
-      c.room = c.contacts;
-      out.resize(c.room);
+    fill(c, out, progress, lsdcd_contacts_host, [&] {
       c.point = out.point.data();
       c.normal = out.normal.data();
       c.distance = out.distance.data();
@@ -386,13 +384,7 @@ class Grid {
       c.weight = out.weight.data();
       c.triangle = out.triangle.data();
       c.feature = out.feature.data();
-      c::check_with(progress, c, [&](lsdcd_contacts &asked) {
-        const int code = lsdcd_contacts_host(get(), &asked);
-        c.contacts = asked.contacts;
-        return code;
-      });
-    } while (c.contacts > c.room);
-    out.resize(c.contacts);
+    });
     return out;
   }
   // All contacts of grains of shape.
@@ -404,18 +396,14 @@ class Grid {
     out.first.resize(s.n + 1);
     s.first = out.first.data();
     s.contacts = s.n;    // mostly enough
-    do {
-      s.room = s.contacts;
-      out.resize(s.room);
+    fill(s, out, progress, lsdcd_shapes_host, [&] {
       s.point = out.point.data();
       s.of_grain = out.of_grain.data();
       s.normal = out.normal.data();
       s.overlap = out.overlap.data();
       s.triangle = out.triangle.data();
       s.feature = out.feature.data();
-      answer(s, progress);
-    } while (s.contacts > s.room);
-    out.resize(s.contacts);
+    });
     return out;
   }
   // The signed distances of grains of shape, at any range.
@@ -435,7 +423,7 @@ class Grid {
     s.closest_normal = out.normal.data();
     s.closest_triangle = out.triangle.data();
     s.closest_feature = out.feature.data();
-    answer(s, progress);
+    answer(s, progress, lsdcd_shapes_host);
     return out;
   }
   const lsdcd_grid *get() const { return handle_.get(); }
@@ -463,13 +451,28 @@ class Grid {
     if (!grains.quaternions.empty()) s.quaternions = grains.quaternions.data();
     return s;
   }
-  void answer(lsdcd_shapes &s, const Progress &progress) const
+  // Asks a query of contacts, which tells how many there are.
+  template <class Asked>
+  void answer(Asked &a, const Progress &progress, int (*query)(const lsdcd_grid *, Asked *)) const
   {
-    c::check_with(progress, s, [&](lsdcd_shapes &asked) {
-      const int code = lsdcd_shapes_host(get(), &asked);
-      s.contacts = asked.contacts;
+    c::check_with(progress, a, [&](Asked &asked) {
+      const int code = query(get(), &asked);
+      a.contacts = asked.contacts;
       return code;
     });
+  }
+  // Asks with room for a.contacts, and again where there are more. put(): gives the query the arrays of `out`.
+  template <class Asked, class Out, class Put>
+  void fill(Asked &a, Out &out, const Progress &progress, int (*query)(const lsdcd_grid *, Asked *),
+            const Put &put) const
+  {
+    do {
+      a.room = a.contacts;
+      out.resize(a.room);
+      put();
+      answer(a, progress, query);
+    } while (a.contacts > a.room);
+    out.resize(a.contacts);
   }
 
   template <class T>

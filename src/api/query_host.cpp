@@ -149,9 +149,7 @@ int lsdcd_query_host(const lsdcd_grid *grid, const lsdcd_query *query)
     if (q.n == 0) return;
     const DeviceMemory device;
     each_given(q, [&](const void *array, const char *name) {
-      if (device.only_there(array))
-        throw ApiError(LSDCD_ERROR_DEVICE, std::string("the array `") + name +
-                                               "` is in a GPU's memory: use lsdcd_query_stream()");
+      device.refuse_there(array, name, "use lsdcd_query_stream()");
     });
     const CallThreads threads(q.threads);
     if (q.type == LSDCD_FLOAT)

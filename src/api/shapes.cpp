@@ -59,11 +59,7 @@ lsdcd_shapes checked_shapes(const ApiGrid &grid, const lsdcd_shapes *given)
                                                           {s.closest_triangle, "closest_triangle"},
                                                           {s.closest_feature, "closest_feature"}};
   for (const auto &[array, name] : arrays)
-    if (array && device.only_there(array))
-      throw ApiError(LSDCD_ERROR_DEVICE,
-                     std::string("the array `") + name +
-                         "` is in a GPU's memory: contacts of grains of shape are "
-                         "found on the host alone");
+    device.refuse_there(array, name, "contacts of grains of shape are found on the host alone");
   return s;
 }
 

@@ -86,10 +86,7 @@ void check_positions(const lsdcd_spheres &s, const GpuArrays *gpu)
   const DeviceMemory device;
   for (const auto &one : given) {
     if (!one.pointer) continue;
-    if (!gpu && device.only_there(one.pointer))
-      throw ApiError(LSDCD_ERROR_DEVICE,
-                     std::string("the array `") + one.name +
-                         "` is in a GPU's memory: make the wall with device LSDCD_CUDA");
+    if (!gpu) device.refuse_there(one.pointer, one.name, "make the wall with device LSDCD_CUDA");
     try {
       if (gpu) gpu->check(one.pointer, one.name, "the wall");
     } catch (const InputError &e) {
