@@ -7,7 +7,7 @@
 #include "brute_force.h"
 
 #include "query/sphere.h"
-#include "query/triangle_tree.h"
+#include "tree/triangle_tree.h"
 
 #include <cstddef>
 #include <string>

@@ -10,7 +10,7 @@
 #include "input/region_settings.h"
 #include "lammps/own_messages.h"
 #include "mesh/winding_number.h"
-#include "query/triangle_tree.h"
+#include "tree/triangle_tree.h"
 
 #include <memory>
 #include <string>

@@ -8,7 +8,7 @@
 #include "insert/packing.h"
 #include "mesh/periodic_box.h"
 #include "motion/motion.h"
-#include "query/triangle_tree.h"
+#include "tree/triangle_tree.h"
 #include "wall/mesh_part.h"
 
 #include <cstddef>

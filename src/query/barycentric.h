@@ -5,7 +5,7 @@
 #pragma once
 
 #include "base/vec3.h"
-#include "query/triangle_table.h"
+#include "tree/triangle_table.h"
 
 #include <cmath>
 

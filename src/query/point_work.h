@@ -8,7 +8,7 @@
 #include "contact/find_contacts.h"
 #include "query/barycentric.h"
 #include "query/grid_work.h"
-#include "query/triangle_table.h"
+#include "tree/triangle_table.h"
 
 #include <cstddef>
 #include <cstdint>

@@ -5,12 +5,9 @@
 // signed distance from the grain over the surface, which do not depend on how it is cut into triangles.
 #pragma once
 
-#include "geometry/feature_code.h"
-#include "query/triangle_tree.h"
-#include "shape/superellipsoid.h"
+#include "contact/shape_search.h"
 
 #include <cstddef>
-#include <limits>
 #include <vector>
 
 namespace lsdcd {
@@ -23,14 +20,6 @@ struct ShapesGiven {
   const Real *half_axes;          // 3 each
   const Real *exponents;          // n1 and n2 each; null: 2
   bool all_alike;                 // half_axes and exponents are those of all grains
-};
-
-// A place of the mesh where the signed distance from a grain is a local minimum below 0, or the least of all.
-struct ShapeContact {
-  FeatureCode feature = kNoFeature;
-  Vec3 point = {0, 0, 0}, normal = {0, 0, 0};    // on the wall; unit, from there into the grain
-  Vec3 of_grain = {0, 0, 0};    // the point of the grain's surface, distance normal from `point`
-  Real distance = std::numeric_limits<Real>::infinity();    // signed; -distance is the overlap
 };
 
 // Grain `from` + i has found[first[i]] to found[first[i + 1] - 1], in the order of their features.

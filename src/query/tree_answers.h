@@ -5,7 +5,7 @@
 #pragma once
 
 #include "query/point_work.h"
-#include "query/tree_view.h"
+#include "tree/tree_view.h"
 
 namespace lsdcd {
 

@@ -5,7 +5,7 @@
 #pragma once
 
 #include "query/point_work.h"
-#include "query/triangle_tree.h"
+#include "tree/triangle_tree.h"
 
 #include <array>
 #include <vector>

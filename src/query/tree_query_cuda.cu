@@ -9,8 +9,8 @@
 #include "query/point_query.h"
 #include "query/radius_check.h"
 #include "query/tree_answers.h"
-#include "query/tree_search.h"
-#include "query/triangle_tree.h"
+#include "tree/tree_search.h"
+#include "tree/triangle_tree.h"
 
 #include <algorithm>
 

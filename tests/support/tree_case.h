@@ -9,7 +9,7 @@
 
 #include "base/input_error.h"
 #include "mesh/welded_mesh.h"
-#include "query/triangle_tree.h"
+#include "tree/triangle_tree.h"
 
 #include <cmath>
 #include <memory>

@@ -26,7 +26,7 @@ import os
 import re
 import sys
 
-FLOORS = [["base"], ["backend"], ["geometry", "shape"], ["mesh"], ["host"], ["motion"], ["grid", "rigid"], ["contact"], ["law"], ["engine"],
+FLOORS = [["base"], ["backend"], ["geometry", "shape"], ["mesh"], ["host"], ["motion"], ["grid", "rigid", "tree"], ["contact"], ["law"], ["engine"],
           ["bodies", "query", "effects", "output", "material", "flow", "insert"],
           ["study"], ["wall"], ["input"], ["lammps", "tool", "api"], ["kokkos"]]
 # Of each room with folders. "." stands for the files that lie in none, but for those that are named.

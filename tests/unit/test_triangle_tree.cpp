@@ -8,7 +8,7 @@
 #include "mesh/meets_itself.h"
 #include "mesh/winding_number.h"
 #include "query/tree_query.h"
-#include "query/tree_search.h"
+#include "tree/tree_search.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "query/triangle_tree.h"
+#include "tree/triangle_tree.h"
 
 #include "geometry/closest_point.h"
 #include "mesh/mesh_features.h"

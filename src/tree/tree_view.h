@@ -8,7 +8,7 @@
 #include "base/vec3.h"
 #include "geometry/closest_point.h"
 #include "geometry/feature_code.h"
-#include "query/triangle_table.h"
+#include "tree/triangle_table.h"
 
 #include <cstddef>
 #include <cstdint>

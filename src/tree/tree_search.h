@@ -7,7 +7,7 @@
 
 #include "backend/bits.h"
 #include "backend/warp.h"
-#include "query/tree_view.h"
+#include "tree/tree_view.h"
 
 namespace lsdcd {
 

@@ -10,7 +10,7 @@
 #include "base/large_memory.h"
 #include "base/progress.h"
 #include "mesh/welded_mesh.h"
-#include "query/tree_view.h"
+#include "tree/tree_view.h"
 
 #include <cstddef>
 #include <cstdint>

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // The search of a tree on a CPU: eight boxes of a node, or eight triangles of a leaf, in one vector.
-#include "query/tree_search.h"
-#include "query/triangle_tree.h"
+#include "tree/tree_search.h"
+#include "tree/triangle_tree.h"
 
 #include <cmath>
 #include <utility>
