@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The cost of every effect of a wall: rows for bench/effects.py, as CSV.
+// The cost of every effect of a wall: rows for doc/effects.md, as CSV.
 //
 // Spheres lie on a floor of 20 000 triangles, each with one contact, in a step as the fix makes
 // it. Cases take turns, so that what disturbs the machine disturbs all alike; the least of the

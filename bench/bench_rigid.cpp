@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The cost of bodies and of their coats: rows for bench/effects.py, as CSV.
+// The cost of bodies and of their coats: rows for doc/effects.md, as CSV.
 //
 // Spheres lie on a floor of 20 000 triangles as in bench_effects, in a step of the whole wall. The floor is at rest, moves,
 // or is a body on a slider, so heavy that it stays. Points of a coat are those of a heavy cube on a floor and above it.

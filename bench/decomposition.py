@@ -15,16 +15,15 @@ grains. Assumed are
 
 Points stand for grains: --points in the vessel, and as many on its wall. It takes a minute.
 """
-import argparse
 import math
-import os
 import sys
 
 import numpy as np
 
-from hard_cases import ROOT
+import lammps_runs
+import rows
 
-sys.path.insert(0, os.path.join(ROOT, "examples", "vessel"))
+sys.path.insert(0, str(rows.ROOT / "examples" / "vessel"))
 import make_vessel    # noqa: E402
 
 DIAMETER = 2.9e-3             # m
@@ -158,8 +157,8 @@ def shared(counts, near, boxes):
 
 # ---- the table -----------------------------------------------------------------------------
 
-HEADS = ("GPUs", "cut", "grains, mean", "most / mean", "near the wall, mean", "most", "processes without any",
-         "ghosts, mean", "neighbours, mean (most)", "step without the wall, ms", "with", "the wall adds, %",
+HEADS = ("GPUs", "cut", "grains, mean", "most / mean", "near the wall, mean", "most near", "processes without any",
+         "ghosts, mean", "neighbours, mean (most)", "step without the wall, ms", "with the wall, ms", "the wall adds, %",
          "the same if all had as many near, %")
 
 
@@ -169,18 +168,16 @@ def row(processes, how, s):
              f"{s['near'].mean():.3g}", f"{s['near'].max():.3g}", f"{(s['near'] == 0).sum()}", f"{s['ghosts'].mean():.2g}",
              f"{s['neighbours'].mean():.0f} ({s['neighbours'].max()})", f"{1e3 * s['without']:.3f}",
              f"{1e3 * s['with']:.3f}", f"{100 * (s['with'] / s['without'] - 1):.1f}", f"{100 * even:.1f}")
-    return "| " + " | ".join(str(c) for c in cells) + " |"
+    return dict(zip(HEADS, cells))
 
 
-def main(args, words):
-    p = argparse.ArgumentParser(prog="./run bench decomposition", description=__doc__,
-                                formatter_class=argparse.RawDescriptionHelpFormatter)
+def main():
+    p = lammps_runs.parser("decomposition", __doc__)
     p.add_argument("--grains", type=float, default=1e9, metavar="N", help="in all (default 1e9)")
     p.add_argument("--processes", type=int, nargs="+", default=[64, 256, 1024], metavar="P")
     p.add_argument("--points", type=int, default=4000000, metavar="N", help="that stand for them (default 4e6)")
-    p.add_argument("--words", action="help", help="show this")
-    options = p.parse_args(words)
-    if args.quick:
+    options = p.parse_args()
+    if options.quick:
         options.points = 20000
     both = profiles()
     scale = (options.grains * math.pi / 6 * DIAMETER**3 / DENSITY / volume(*both))**(1 / 3)
@@ -189,11 +186,12 @@ def main(args, words):
     grains = inside(dice, options.points, *both)
     near, area = on_walls(dice, options.points, both)
     of_point, of_near = options.grains / len(grains), layer() * area / len(near)
-    print(f"the vessel is {scale:.1f} times as large, {2 * both[0][:, 0].max():.2f} m wide; {of_near * len(near):.3g} grains of "
-          f"{options.grains:.3g} are near the wall\n")
-    print("| " + " | ".join(HEADS) + " |\n|" + " --- |" * len(HEADS))
-    for processes in options.processes:
-        for how, cut in (("bricks", bricks), ("rcb", rcb)):
-            counts, touching, boxes = cut(processes, grains, near)
-            print(row(processes, how, shared(of_point * counts, of_near * touching, boxes)), flush=True)
-    return 0
+    rows.say(f"the vessel is {scale:.1f} times as large, {2 * both[0][:, 0].max():.2f} m wide; {of_near * len(near):.3g} grains of "
+             f"{options.grains:.3g} are near the wall")
+    print(rows.as_csv([row(processes, how, shared(of_point * counts, of_near * touching, boxes))
+                       for processes in options.processes for how, cut in (("bricks", bricks), ("rcb", rcb))
+                       for counts, touching, boxes in [cut(processes, grains, near)]]), end="")
+
+
+if __name__ == "__main__":
+    main()

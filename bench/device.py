@@ -5,21 +5,18 @@
 
 Spheres of diameter 1 lie in layers on a wavy floor of 20 000 triangles, one core a process; hooke/history among
 spheres and at the wall. The whole step with `device cpu` and with `device cuda`, in turn, for numbers of spheres and of
-processes that share the GPU: what `device auto` is decided by (src/wall/device_choice.cpp). It prints a table for
-doc/performance.md.
+processes that share the GPU: what `device auto` is decided by (src/wall/device_choice.cpp).
 """
-import argparse
 import math
 import os
-import pathlib
 import re
 import subprocess
 import sys
 
 import lammps_runs
-from hard_cases import ROOT, commit, cpu, gpu
+import rows
 
-sys.path.insert(0, os.path.join(ROOT, "examples"))
+sys.path.insert(0, str(rows.ROOT / "examples"))
 from stl import write_stl    # noqa: E402
 
 LAW = "hooke/history 4000 NULL 100 NULL 0.5 1"
@@ -85,29 +82,27 @@ def step_ms(options, folder, device, side, ranks):
     return min(1e3 * float(t) / int(n) for t, n in loops)
 
 
-def main(args, words):
-    p = argparse.ArgumentParser(prog="./run bench device", description=__doc__,
-                                formatter_class=argparse.RawDescriptionHelpFormatter)
-    p.add_argument("--lmp", metavar="FILE", help="a LAMMPS (default: lmp-lsdcd)")
+def main():
+    p = lammps_runs.parser("device", __doc__)
     p.add_argument("--plugin", metavar="FILE", help="lsdcdplugin.so for it")
     p.add_argument("--sides", type=int, nargs="+", default=[10, 30, 100, 316, 1000], metavar="N",
                    help="spheres along x and y (default: %(default)s)")
     p.add_argument("--layers", type=int, default=1, metavar="N", help="of spheres (default 1)")
     p.add_argument("--ranks", type=int, nargs="+", default=[1, 2, 4, 8, 16], metavar="N",
                    help="processes on one GPU (default: %(default)s)")
-    p.add_argument("--words", action="help", help="show this")
-    options = p.parse_args(words)
-    if not options.lmp:
-        options.lmp = os.path.abspath(os.path.join(args.build, "bin", "lmp-lsdcd"))
-    print(f"{gpu()}; {cpu()}; commit {args.commit or commit()}; layers: {options.layers}\n\n"
-          "| processes | spheres near the wall in one | device cpu, ms | device cuda, ms |\n| --- | --- | --- | --- |")
-    with lammps_runs.work_folder(None) as folder:
-        folder = pathlib.Path(folder)
+    options = p.parse_args()
+    options.lmp = os.path.abspath(options.lmp)
+    print("processes,layers,spheres_near_the_wall_in_one,cpu_ms,cuda_ms,gpu,cpu,commit")
+    with lammps_runs.work_folder(options.scripts_to) as folder:
         for ranks in options.ranks:
             for side in options.sides:
                 if side * side < 50 * ranks:
                     continue
                 write_floor(folder / "floor.stl", side)
                 ms = [step_ms(options, folder, device, side, ranks) for device in DEVICES]
-                print(f"| {ranks} | {side * side // ranks} | {ms[0]:.4g} | {ms[1]:.4g} |", flush=True)
-    return 0
+                print(f"{ranks},{options.layers},{side * side // ranks},{ms[0]:.4g},{ms[1]:.4g},{rows.gpu()},{rows.cpu()},"
+                      f"{options.commit}", flush=True)
+
+
+if __name__ == "__main__":
+    main()

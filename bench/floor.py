@@ -6,22 +6,17 @@
 9 801 spheres of diameter 1 rest on a floor in one layer; hooke/history, no contacts between
 spheres, one core. The whole step with the floor of 2, 200 and 20 000 triangles over the whole step
 of the same script with LAMMPS's own `wall/gran ... zplane`. *Large triangle added*: one more
-triangle, as large as the box, above the spheres and out of their reach. Rows are kept in
-doc/data/floor_cpu.csv.
+triangle, as large as the box, above the spheres and out of their reach.
 """
-import argparse
 import os
 import random
 import statistics
 import sys
 
 import lammps_runs
-import performance
-from effects import table
-from hard_cases import ROOT, commit
-from performance import count, facts
+import rows
 
-sys.path.insert(0, os.path.join(ROOT, "examples"))
+sys.path.insert(0, str(rows.ROOT / "examples"))
 from stl import write_stl    # noqa: E402
 
 SIDE = 99    # spheres along x and y
@@ -76,7 +71,7 @@ def floor(n, large):
     return triangles + [((-HALF, -HALF, 20.0), (HALF, -HALF, 20.0), (HALF, HALF, 20.0))] * large
 
 
-def measure(options, executable, folder, named):
+def measure(options, folder):
     write_spheres(folder / "spheres.data")
     walls = {PLANE: (2, f"wall/gran {LAW} zplane 0 NULL")}
     for triangles in options.triangles:
@@ -84,60 +79,34 @@ def measure(options, executable, folder, named):
             name = f"floor{triangles}{'-large' * large}.stl"
             write_stl(folder / name, floor(CELLS[triangles], large), "a floor")
             walls[f"floor {triangles}" + LARGE * large] = (triangles + large, f"wall/lsdcd {LAW} mesh {name}")
-    rows = []
+    found = []
     for order, sort in (("random", "0 0"), ("sorted", "1000 2.0")):
         times = {name: [] for name in walls}
         for _ in range(options.repeats):    # in turn, so that other load meets all
             for name, (_, wall) in walls.items():
                 script = SCRIPT.format(sort=sort, dt=DT, gravity=GRAVITY, wall=wall, warm=options.steps // 2)
-                run = lammps_runs.Run(executable, script + f"run {options.steps}\n" * options.chunks, folder)
+                run = lammps_runs.Run(os.path.abspath(options.lmp), script + f"run {options.steps}\n" * options.chunks, folder)
                 times[name] += run.step_ms()[1:]
         plane = statistics.median(times[PLANE])
         for name, (triangles, _) in walls.items():
-            rows.append(lammps_runs.row("floor", name, named, triangles, SIDE * SIDE, order, times[name],
-                                        steps=options.steps,
-                                        over_plane=f"{statistics.median(times[name]) / plane:.4g}"))
-    return rows
+            found.append(rows.timed("floor", name, options.commit, triangles, SIDE * SIDE, order, times[name],
+                                    steps=options.steps,
+                                    over_plane=f"{statistics.median(times[name]) / plane:.4g}"))
+    return found
 
 
-def kept_parts():
-    """The generated part of the document, with its markers."""
-    return parts(lammps_runs.read_rows("floor"))
-
-
-def parts(rows):
-    def find(case, like):
-        return performance.find(rows, case=case, order=like["order"])
-
-    def cells(r):
-        n = int(r["case"].split()[1])
-        plane, large = find(PLANE, r), find(r["case"] + LARGE, r)
-        return [count(n), performance.number(plane["median_ms"]), performance.number(r["median_ms"]),
-                facts(r)["over_plane"], facts(large)["over_plane"]]
-
-    heads = ["triangles", "flat plane, ms", "mesh, ms", "mesh / plane", "large triangle added / plane"]
-    mine = [r for r in rows if r["case"].startswith("floor") and not r["case"].endswith(LARGE) and r["order"] == "sorted"]
-    return performance.between_markers({"floor": table(mine, heads, cells) + "\n\n" + lammps_runs.machines(rows)})
-
-
-def main(args, words):
-    p = argparse.ArgumentParser(prog="./run bench floor", description=__doc__,
-                                formatter_class=argparse.RawDescriptionHelpFormatter)
+def main():
+    p = lammps_runs.parser("floor", __doc__)
     p.add_argument("--triangles", type=int, nargs="+", choices=CELLS, default=list(CELLS))
     p.add_argument("--steps", type=int, default=1000, metavar="N", help="timed as one (default 1000)")
     p.add_argument("--chunks", type=int, default=3, metavar="N", help="of these in a run (default 3)")
     p.add_argument("--repeats", type=int, default=3, metavar="N", help="of each run (default 3)")
-    p.add_argument("--words", action="help", help="show this")
-    p.add_argument("--keep", metavar="DIR", help="leave scripts and meshes there")
-    options = p.parse_args(words)
-    if args.quick:
+    options = p.parse_args()
+    if options.quick:
         options.steps, options.repeats = 50, 1
-    if not args.write_only:
-        folder = lammps_runs.rows_folder(args)
-        with lammps_runs.work_folder(options.keep) as work:
-            executable = os.path.abspath(os.path.join(args.build, "bin", "lmp-lsdcd"))
-            lammps_runs.keep("floor", measure(options, executable, work, args.commit or commit()), folder)
-        if folder != performance.DATA:
-            return 0
-    performance.write_parts(kept_parts())
-    return 0
+    with lammps_runs.work_folder(options.scripts_to) as folder:
+        print(rows.as_csv(measure(options, folder)), end="")
+
+
+if __name__ == "__main__":
+    main()

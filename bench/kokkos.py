@@ -6,13 +6,12 @@
 Beds of spheres (gran/hooke/history/kk) on a flat floor of 2 triangles, in a closed box of
 six walls of 20 172 triangles (by hooke/history and by granular mindlin, sds, marshall) and on
 a bumpy floor of 1 000 000, timed with fix wall/lsdcd/kk and without any wall from one prepared
-state (kokkos_beds.py, kokkos_runs.py). Rows have the format of bench.h and are kept in doc/data/kokkos_DEVICE.csv; doc/performance.md has their tables (kokkos_tables.py).
+state (kokkos_beds.py, kokkos_runs.py).
 
 With a LAMMPS of one's own:
   ./run bench kokkos --lmp FILE --plugin build/lib/lsdcdkkplugin.so --flags "-k on g 1 -sf kk"
 Without --lmp: those of LSDCD_KOKKOS_HOSTS, as the build knows them.
 """
-import argparse
 import os
 import pathlib
 import re
@@ -20,14 +19,17 @@ import shlex
 import shutil
 import statistics
 import subprocess
-import tempfile
 
 import kokkos_runs as runs
-import performance
-from hard_cases import commit, cpu, gpu
+import lammps_runs
 from kokkos_beds import Bed
-from kokkos_tables import (CASES, COPIES, NO_WALL, ORDERS, keep, kept, read_rows,
-                           write_document)
+from rows import as_csv, cpu, gpu, say, timed
+
+CASES = {"flat": "flat floor", "box": "closed box", "checked": "closed box, check yes",
+         "granular": "closed box, granular", "million": "bumpy floor"}
+ORDERS = ("random", "sorted")
+COPIES = ", copies"
+NO_WALL = ", no wall"
 
 
 # ---- measuring ---------------------------------------------------------------------------
@@ -38,23 +40,15 @@ class Rows:
     def __init__(self, host, bed, named):
         self.host, self.bed = host, bed
         n = os.environ.get("OMP_NUM_THREADS", "1")
-        where = gpu() if host.on_gpu else f"CPU, {n} thread{'s' * (n != '1')}, {cpu()}"
-        self.fixed = {"program": "kokkos", "case": "", "device": where, "commit": named,
-                      "compiler": host.compiler, "triangles": bed.triangles,
-                      "spheres": bed.atoms, "length": 0}
+        self.device = gpu() if host.on_gpu else f"CPU, {n} thread{'s' * (n != '1')}, {cpu()}"
+        self.commit = named
         self.rows = []
 
     def add(self, more, order, times=None, **what):
-        row = dict(self.fixed, case=CASES[self.bed.name] + more, order=order)
-        row["repeats"] = len(times) if times else 0
-        for name, value in (("median_ms", statistics.median), ("min_ms", min), ("max_ms", max)):
-            row[name] = f"{value(times):.5g}" if times else ""
-        row.update(bytes="", copy_gb_s="", floor_ms="", ratio="")
         what = {"host": self.host.version.replace(" ", ""), "ranks": self.bed.ranks, **what,
                 "flags": self.host.flags.format(ranks=self.bed.ranks).replace(" ", "_")}
-        row["facts"] = " ".join(f"{k}={v}" for k, v in what.items())
-        self.rows.append({k: str(v) for k, v in row.items()})
-        print(", ".join(str(v) for v in list(row.values())[1:] if v != ""), flush=True)
+        self.rows.append(timed("kokkos", CASES[self.bed.name] + more, self.commit, self.bed.triangles, self.bed.atoms, order,
+                               times or [], device=self.device, compiler=self.host.compiler, **what))
 
 
 def time_steps(host, bed, folder, order, options, settled, rows):
@@ -92,8 +86,7 @@ def time_bodies(host, bed, folder, order, options, rows):
             continue
         for other in ("at rest", "moves"):
             more = min(times[name]) - min(times[name.replace("body", other)])
-            print(f"{CASES[bed.name]}{name}: {1e3 * more:.1f} us a step more than {other}",
-                  flush=True)
+            say(f"{CASES[bed.name]}{name}: {1e3 * more:.1f} us a step more than {other}")
 
 
 def time_lammps_walls(host, bed, folder, order, options, rows):
@@ -110,7 +103,7 @@ def time_lammps_walls(host, bed, folder, order, options, rows):
         else:
             why = re.search(r"^.*(?:ERROR|error|abort|terminat|Concurrent).*$", output, re.M)
             rows.add(", " + style, order, steps=steps, result="aborts")
-            print(f"  {style}: {why.group(0).strip() if why else output[-300:]}", flush=True)
+            say(f"  {style}: {why.group(0).strip() if why else output[-300:]}")
 
 
 def count_copies(host, bed, folder, order, options, rows):
@@ -133,7 +126,7 @@ def count_copies(host, bed, folder, order, options, rows):
             path.unlink()
         plain, lists = ([s for s in steps if s[0] == k] for k in (0, 1))
         if not plain or not seen:
-            print("no copy was seen: this Kokkos was built without its tools interface")
+            say("no copy was seen: this Kokkos was built without its tools interface")
             return
 
         def mean(rows_, column):
@@ -152,14 +145,15 @@ def say_profiler(host, bed, folder, options):
     for name, wall in (("wall", bed.wall()), ("no_wall", "")):
         (folder / f"in.{name}").write_text(
             runs.timed_script(host, bed, options.orders[0], wall, options.steps, 1))
-        print(f"every copy by CUDA, {name} (with --keep DIR and nsys in PATH): cd {folder} && nsys "
-              f"profile -t cuda -o {name} {shlex.join(host.command(f'in.{name}', bed.ranks))} && "
-              f"nsys stats -r cuda_gpu_mem_time_sum,cuda_gpu_mem_size_sum {name}.nsys-rep")
+        say(f"every copy by CUDA, {name} (with --scripts-to DIR and nsys in PATH): cd {folder} && nsys "
+            f"profile -t cuda -o {name} {shlex.join(host.command(f'in.{name}', bed.ranks))} && "
+            f"nsys stats -r cuda_gpu_mem_time_sum,cuda_gpu_mem_size_sum {name}.nsys-rep")
 
 
-def measure(host, options, named, folder, place):
-    device = "cuda" if host.on_gpu else "cpu"
-    print(f"{host.lmp}, LAMMPS {host.version}, {host.flags}", flush=True)
+def measure(host, options, place):
+    """Rows of one LAMMPS; beds are made in the folder `place`."""
+    say(f"{host.lmp}, LAMMPS {host.version}, {host.flags}")
+    found = []
     for each in options.atoms or ([1e6, 8e6] if host.on_gpu else [20000]):
         for ranks in options.ranks:
             for name in options.cases:
@@ -169,7 +163,7 @@ def measure(host, options, named, folder, place):
                 settled = runs.prepare(host, bed, work, options.settle,
                                        "random" in options.orders)
                 for order in options.orders:
-                    rows = Rows(host, bed, named)
+                    rows = Rows(host, bed, options.commit)
                     time_steps(host, bed, work, order, options, settled, rows)
                     if options.bodies and name == "box":
                         time_bodies(host, bed, work, order, options, rows)
@@ -177,12 +171,12 @@ def measure(host, options, named, folder, place):
                         time_lammps_walls(host, bed, work, order, options, rows)
                     if options.copies:
                         count_copies(host, bed, work, order, options, rows)
-                    keep(rows.rows, device, folder)
+                    found += rows.rows
                 if options.copies and shutil.which("nsys"):
                     say_profiler(host, bed, work, options)
-                if not options.keep:
+                if not options.scripts_to:
                     shutil.rmtree(work)
-    print("rows are in", kept(device, folder))
+    return found
 
 
 def built_hosts(build):
@@ -205,10 +199,9 @@ def built_hosts(build):
 
 # ---- words ------------------------------------------------------------------------------
 
-def read_options(words):
-    p = argparse.ArgumentParser(prog="./run bench kokkos", description=__doc__, allow_abbrev=False,
-                                formatter_class=argparse.RawDescriptionHelpFormatter)
-    p.add_argument("--lmp", metavar="FILE", help="a LAMMPS with Kokkos")
+def read_options(words=None):
+    p = lammps_runs.parser("kokkos", __doc__)
+    p.set_defaults(lmp=None)
     p.add_argument("--plugin", metavar="FILE", help="lsdcdkkplugin.so for it")
     p.add_argument("--flags", default="-k on -sf kk", metavar="WORDS",
                    help="of LAMMPS; {ranks} is the number of processes (default: %(default)s)")
@@ -234,8 +227,6 @@ def read_options(words):
                    help='numbers of processes, as "1 2 4": weak scaling')
     p.add_argument("--copies", action="store_true",
                    help="count what Kokkos copies between host and device in a step")
-    p.add_argument("--words", action="help", help="show this")
-    p.add_argument("--keep", metavar="DIR", help="leave scripts and meshes there")
     options = p.parse_args(words)
     options.ranks = [int(word) for word in options.ranks.replace(",", " ").split()]
     if bool(options.lmp) != bool(options.plugin):
@@ -243,24 +234,16 @@ def read_options(words):
     return options
 
 
-def main(args, words):
-    """`./run bench kokkos`; args are those of run.py, words this program's own."""
-    if args.write_only:
-        write_document()
-        return 0
-    options = read_options(words)
-    if args.quick:
+def main():
+    options = read_options()
+    if options.quick:
         options.atoms, options.triangles, options.settle = options.atoms or [4000], 20000, 500
-    folder = args.rows_to or (os.path.join(args.build, "bench") if args.quick else performance.DATA)
-    os.makedirs(folder, exist_ok=True)
-    given = [(options.lmp, os.path.abspath(options.plugin))] if options.lmp else \
-        list(built_hosts(args.build))
-    place = pathlib.Path(options.keep or tempfile.mkdtemp(prefix="lsdcd-kokkos-")).resolve()
-    for lmp, plugin in given:
-        measure(runs.Host(os.path.abspath(lmp), plugin, options.flags, options.mpi), options,
-                args.commit or commit(), folder, place)
-    if not options.keep:
-        shutil.rmtree(place)
-    if folder == performance.DATA:
-        write_document()
-    return 0
+    build = os.environ.get("LSDCD_BUILD", "build")
+    hosts = [(options.lmp, os.path.abspath(options.plugin))] if options.lmp else built_hosts(build)
+    with lammps_runs.work_folder(options.scripts_to) as place:
+        print(as_csv([row for lmp, plugin in hosts
+                      for row in measure(runs.Host(os.path.abspath(lmp), plugin, options.flags, options.mpi), options, place)]), end="")
+
+
+if __name__ == "__main__":
+    main()

@@ -3,12 +3,11 @@
 
 """Beds of spheres for kokkos.py: what a script says of them, and their meshes."""
 import math
-import os
 import sys
 
-from hard_cases import ROOT
+import rows
 
-sys.path.insert(0, os.path.join(ROOT, "examples"))
+sys.path.insert(0, str(rows.ROOT / "examples"))
 from stl import write_stl    # noqa: E402
 
 LAW = "hooke/history 4000 NULL 100 NULL 0.5 1"

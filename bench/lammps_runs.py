@@ -1,25 +1,19 @@
 # SPDX-FileCopyrightText: 2026 LSDCD contributors
 # SPDX-License-Identifier: BSD-3-Clause
 
-"""Scripts that are timed from outside: runs of LAMMPS and LIGGGHTS, and rows of what they took."""
+"""Scripts that are timed from outside: runs of LAMMPS and LIGGGHTS."""
+import argparse
 import contextlib
 import os
 import pathlib
 import re
 import shutil
-import statistics
 import subprocess
 import sys
 import tempfile
 import time
 
-import performance
-from hard_cases import cpu, write_whole
-
-COLUMNS = ("program", "case", "device", "commit", "compiler", "triangles", "spheres", "length", "order",
-           "repeats", "median_ms", "min_ms", "max_ms", "bytes", "copy_gb_s", "floor_ms", "ratio", "facts")
-
-
+import rows
 # A process begins with the peak of the one that started it, so a small one is put between.
 PEAK = ("import resource, subprocess, sys; status = subprocess.call(sys.argv[2:]); "
         "print(resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss, file=open(sys.argv[1], 'w')); "
@@ -63,42 +57,6 @@ def processor_clock(folder):
     return made.resolve()
 
 
-def row(program, case, commit, triangles, spheres, order, ms, compiler="", **facts):
-    """In the format of bench.h, from times in ms (they may be differences)."""
-    r = dict.fromkeys(COLUMNS, "")
-    r.update(program=program, case=case, device=f"CPU, 1 thread, {cpu()}", commit=commit,
-             compiler=compiler, triangles=triangles, spheres=spheres, length=0, order=order,
-             repeats=len(ms), median_ms=f"{statistics.median(ms):.5g}", min_ms=f"{min(ms):.5g}",
-             max_ms=f"{max(ms):.5g}", facts=" ".join(f"{k}={v}" for k, v in facts.items()))
-    print(", ".join(str(v) for v in list(r.values())[1:] if v != ""), flush=True)
-    return {k: str(v) for k, v in r.items()}
-
-
-# ---- rows that are kept ------------------------------------------------------------------
-
-def kept(name, folder=performance.DATA, device="cpu"):
-    return pathlib.Path(folder, f"{name}_{device}.csv")
-
-
-def read_rows(name, folder=performance.DATA, device="cpu"):
-    path = kept(name, folder, device)
-    return performance.parse(path.read_text()) if path.exists() else []
-
-
-def keep(name, rows, folder=performance.DATA, device="cpu"):
-    """A row takes the place of the one under its key."""
-    fresh = {performance.key(r): r for r in rows}
-    old = [fresh.pop(performance.key(r), r) for r in read_rows(name, folder, device)]
-    write_whole(str(kept(name, folder, device)), performance.as_csv(old + list(fresh.values())))
-
-
-def rows_folder(args):
-    """Where a command of run.py keeps its rows; quick ones are not for the document."""
-    folder = args.rows_to or (os.path.join(args.build, "bench") if args.quick else performance.DATA)
-    os.makedirs(folder, exist_ok=True)
-    return folder
-
-
 @contextlib.contextmanager
 def work_folder(given):
     """The folder given, which stays, or one that is removed."""
@@ -111,11 +69,14 @@ def work_folder(given):
             shutil.rmtree(folder)
 
 
-def machines(rows):
-    """Which machines and commits the rows of a table are from."""
-    lines = []
-    for device in dict.fromkeys(r["device"] for r in rows):
-        mine = [r for r in rows if r["device"] == device]
-        commits, repeats = (", ".join(dict.fromkeys(r[k] for r in mine)) for k in ("commit", "repeats"))
-        lines.append(f"* {device}: commit {commits}; medians of {repeats} (least to most).")
-    return "\n".join(lines) or "* No rows are kept yet."
+def parser(name, about):
+    """The words that run.py gives every script."""
+    p = argparse.ArgumentParser(prog=f"./run bench {name}", description=about, allow_abbrev=False,
+                                formatter_class=argparse.RawDescriptionHelpFormatter)
+    p.add_argument("--device", default="cpu", help=argparse.SUPPRESS)
+    p.add_argument("--commit", default=rows.commit(), metavar="NAME", help="what was built, where git does not know")
+    p.add_argument("--quick", action="store_true", help="small sizes, to see that all runs")
+    p.add_argument("--lmp", metavar="FILE", default=os.path.join(os.environ.get("LSDCD_BUILD", "build"), "bin", "lmp-lsdcd"),
+                   help="a LAMMPS (default: %(default)s)")
+    p.add_argument("--scripts-to", metavar="DIR", help="leave scripts and meshes there")
+    return p

@@ -12,9 +12,8 @@ when the programs look how far spheres have gone.
 The wall's part of a step is the step with the wall less the step without it, in the same process. *Own*: what the programs'
 own timers say: that of fix wall/lsdcd, and those of LIGGGHTS's fixes for walls and meshes. All times are processor time.
 Set-up and memory are those of a run of 0 steps with the wall less those of one without. Both
-programs read the same spheres and the same mesh, LIGGGHTS as text. Rows are kept in doc/data/liggghts_cpu.csv.
+programs read the same spheres and the same mesh, LIGGGHTS as text.
 """
-import argparse
 import math
 import os
 import random
@@ -24,21 +23,16 @@ import statistics
 import sys
 
 import lammps_runs
-import performance
-from effects import table
-from hard_cases import ROOT, commit
-from performance import count, facts, number
+import rows
 
-sys.path.insert(0, os.path.join(ROOT, "examples"))
+sys.path.insert(0, str(rows.ROOT / "examples"))
 from stl import write_stl    # noqa: E402
 
 RADIUS, HEIGHT = 50.0, 100.0
 SMALLEST, LARGEST = 0.35, 1.0
 # Segments round the cylinder and along it: 2 round along + round^2 / 4 triangles.
 MESHES = {2560: (64, 12), 19968: (192, 28), 202752: (576, 104)}
-CASES = {"at the wall": "all at the wall, fixed", "turning": "all at the wall, fixed; the cylinder turns",
-         "in bulk": "in bulk, moving", "in bulk late": "in bulk, moving; `neigh_modify delay 10`",
-         "in bulk unchecked": "in bulk, moving; `neigh_modify every 20 check no`"}
+CASES = ("at the wall", "turning", "in bulk", "in bulk late", "in bulk unchecked")
 NEIGHBORS = {"in bulk late": "delay 10 every 1 check yes", "in bulk unchecked": "delay 0 every 20 check no"}
 ORDERS = ("random", "sorted")
 YOUNG, POISSON, RESTITUTION, FRICTION, DENSITY = 1e8, 0.3, 0.5, 0.5, 2500.0
@@ -270,8 +264,8 @@ def own_ms(program, output, runs, steps):
     return [1e3 * s / steps for s in seconds[1:1 + runs]]
 
 
-def compare(options, executables, folder, named):
-    rows = []
+def compare(options, executables, folder):
+    found = []
     clock = lammps_runs.processor_clock(folder)
     for triangles in options.triangles:
         n_round, n_along = MESHES[triangles]
@@ -299,52 +293,18 @@ def compare(options, executables, folder, named):
                         own[program] += own_ms(program, run.output, half - 1, steps)
                         parts[program] += [a - b for a, b in zip(ms[1:half], ms[half + 1:])]
                 for program in executables:
-                    rows.append(lammps_runs.row("liggghts", f"{case}, {program}", named, triangles,
-                                                options.spheres, order, parts[program], steps=steps,
-                                                builds=builds[program],
-                                                no_wall_ms=f"{statistics.median(plain[program]):.4g}",
-                                                own_ms=f"{statistics.median(own[program]):.4g}",
-                                                own_least=f"{min(own[program]):.4g}", own_most=f"{max(own[program]):.4g}",
-                                                **start[program], **check))
-    return rows
+                    found.append(rows.timed("liggghts", f"{case}, {program}", options.commit, triangles,
+                                            options.spheres, order, parts[program], steps=steps,
+                                            builds=builds[program],
+                                            no_wall_ms=f"{statistics.median(plain[program]):.4g}",
+                                            own_ms=f"{statistics.median(own[program]):.4g}",
+                                            own_least=f"{min(own[program]):.4g}", own_most=f"{max(own[program]):.4g}",
+                                            **start[program], **check))
+    return found
 
 
-# ---- the table ---------------------------------------------------------------------------
-
-def kept_parts():
-    """The generated part of the document, with its markers."""
-    return parts(lammps_runs.read_rows("liggghts"))
-
-
-def parts(rows):
-    def find(case, program, like):
-        return performance.find(rows, case=f"{case}, {program}", triangles=like["triangles"],
-                                order=like["order"])
-
-    def cells(r):
-        case = r["case"].rsplit(", ", 1)[0]
-        theirs = find(case, "LIGGGHTS", r)
-        random = dict(r, order="random")
-        ratios = [f"{float(b['median_ms']) / float(a['median_ms']):.1f}" if a and b else ""
-                  for a, b in ((r, theirs), (find(case, "lsdcd", random), find(case, "LIGGGHTS", random)))]
-        return [CASES[case], count(r["triangles"]), number(r["median_ms"]),
-                number(theirs["median_ms"] if theirs else ""), *ratios]
-
-    def set_up(r):
-        f, g = facts(r), facts(find(r["case"].rsplit(", ", 1)[0], "LIGGGHTS", r))
-        return (f"{count(r['triangles'])} triangles: {number(f['setup_s'])} s, LIGGGHTS {number(g.get('setup_s', ''))} s; "
-                f"{number(f['memory_mb'])} MB, LIGGGHTS {number(g.get('memory_mb', ''))} MB")
-
-    heads = ["spheres", "triangles", "wall/lsdcd, ms", "LIGGGHTS, ms", "LIGGGHTS / wall/lsdcd", "the same, random order"]
-    mine = sorted((r for r in rows if r["case"].endswith(", lsdcd") and r["order"] == "sorted"),
-                  key=lambda r: (list(CASES).index(r["case"].rsplit(", ", 1)[0]), int(r["triangles"])))
-    lines = [f"* Set-up and memory: {'. '.join(set_up(r) for r in mine if r['case'] == mine[0]['case'])}."]
-    return performance.between_markers({"liggghts": "\n".join([table(mine, heads, cells), "", *lines, lammps_runs.machines(rows)])})
-
-
-def main(args, words):
-    p = argparse.ArgumentParser(prog="./run bench liggghts", description=__doc__,
-                                formatter_class=argparse.RawDescriptionHelpFormatter)
+def main():
+    p = lammps_runs.parser("liggghts", __doc__)
     p.add_argument("--liggghts", default="liggghts", metavar="FILE", help="the program (default: in PATH)")
     p.add_argument("--triangles", type=int, nargs="+", choices=MESHES, default=list(MESHES))
     p.add_argument("--cases", nargs="+", choices=CASES, default=list(CASES))
@@ -354,21 +314,16 @@ def main(args, words):
                    help="timed as one; ten times as many in bulk (default 20)")
     p.add_argument("--chunks", type=int, default=3, metavar="N", help="of these in a run (default 3)")
     p.add_argument("--repeats", type=int, default=3, metavar="N", help="of each run (default 3)")
-    p.add_argument("--words", action="help", help="show this")
-    p.add_argument("--keep", metavar="DIR", help="leave scripts and meshes there")
-    options = p.parse_args(words)
-    if args.quick:
+    options = p.parse_args()
+    if options.quick:
         options.triangles, options.spheres, options.repeats = [2560], 5000, 1
-    if not args.write_only:
-        theirs = shutil.which(options.liggghts)
-        if not theirs:
-            raise SystemExit("there is no liggghts (Debian package liggghts)")
-        executables = {"lsdcd": os.path.abspath(os.path.join(args.build, "bin", "lmp-lsdcd")),
-                       "LIGGGHTS": theirs}
-        folder = lammps_runs.rows_folder(args)
-        with lammps_runs.work_folder(options.keep) as work:
-            lammps_runs.keep("liggghts", compare(options, executables, work, args.commit or commit()), folder)
-        if folder != performance.DATA:
-            return 0
-    performance.write_parts(kept_parts())
-    return 0
+    theirs = shutil.which(options.liggghts)
+    if not theirs:
+        raise SystemExit("there is no liggghts (Debian package liggghts)")
+    executables = {"lsdcd": os.path.abspath(options.lmp), "LIGGGHTS": theirs}
+    with lammps_runs.work_folder(options.scripts_to) as folder:
+        print(rows.as_csv(compare(options, executables, folder)), end="")
+
+
+if __name__ == "__main__":
+    main()

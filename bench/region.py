@@ -5,12 +5,12 @@
 
 *Floor*: 9 801 spheres lie on a plane and move, as in `./run bench floor`; the mesh has 2 triangles. *Cylinder*: 20 000
 spheres of radii 0.35 to 1 overlap the inside of a closed cylinder (radius 50, height 100) and are fixed; the mesh has 19 968
-triangles. Spheres are in random order, without contacts between them.
+triangles. Spheres are in random order, without contacts between them. *Force*: that of a sphere of diameter 1 at rest on a shape
+over that on a plane.
 
 Times are those of the CPU, by LAMMPS's own share of it, so that other load of the machine counts less. The wall's part of a
-step is the step with the wall less the step without, in the same process. Rows are kept in doc/data/region_cpu.csv.
+step is the step with the wall less the step without, in the same process.
 """
-import argparse
 import math
 import os
 import re
@@ -19,10 +19,7 @@ import statistics
 import lammps_runs
 import floor
 import liggghts
-import performance
-from effects import table
-from hard_cases import commit
-from performance import facts, number
+import rows
 
 LAW = floor.LAW
 SPHERES, TRIANGLES = 20000, 19968
@@ -68,7 +65,8 @@ def script(case, wall, steps, chunks):
             runs)
 
 
-def measure(options, executable, folder, named):
+def measure(options, folder):
+    executable = os.path.abspath(options.lmp)
     floor.write_spheres(folder / "spheres.data")
     floor.write_stl(folder / "floor.stl", floor.floor(1, False), "a floor")
     n_round, n_along = liggghts.MESHES[TRIANGLES]
@@ -76,7 +74,7 @@ def measure(options, executable, folder, named):
     plane = (folder / "spheres.data").read_text()
     liggghts.write_spheres(folder, "at the wall", "random", SPHERES, n_round)
     (folder / "spheres.data").write_text(plane)
-    rows = []
+    found = []
     for case, spheres, triangles in (("floor", floor.SIDE ** 2, 2), ("cylinder", SPHERES, TRIANGLES)):
         times = {w: [] for w in (NONE, REGION, MESH)}
         for _ in range(options.repeats):    # in turn, so that other load meets all
@@ -85,10 +83,10 @@ def measure(options, executable, folder, named):
         plain = statistics.median(times[NONE])
         for wall in (REGION, MESH):
             parts = [t - plain for t in times[wall]]
-            rows.append(lammps_runs.row("region", f"{case}, {wall}", named, triangles if wall == MESH else 0, spheres, "random",
-                                        parts, steps=options.steps, whole_ms=f"{statistics.median(times[wall]):.4g}",
-                                        no_wall_ms=f"{plain:.4g}"))
-    return rows
+            found.append(rows.timed("region", f"{case}, {wall}", options.commit, triangles if wall == MESH else 0, spheres, "random",
+                                    parts, steps=options.steps, whole_ms=f"{statistics.median(times[wall]):.4g}",
+                                    no_wall_ms=f"{plain:.4g}"))
+    return found
 
 
 # ---- forces of one sphere of diameter 1 at rest, over that on a plane ----------------------------------------------
@@ -126,7 +124,7 @@ def sheet(rise):
             quad((-4, -4, 4 * rise), (0, -4, 0), (0, 4, 0), (-4, 4, 4 * rise)))
 
 
-def forces(executable, folder):
+def forces(options, folder):
     floor.write_stl(folder / "flat.stl", sheet(0.0), "flat")
     floor.write_stl(folder / "fold.stl", sheet(TILT), "fold")
     n, side = 2048, []
@@ -136,11 +134,11 @@ def forces(executable, folder):
     floor.write_stl(folder / "side.stl", side, "side")
 
     def one(at, law, wall):
-        run = lammps_runs.Run(executable, ONE.format(at=at, wall=wall.replace("LAW", law)), folder)
+        run = lammps_runs.Run(os.path.abspath(options.lmp), ONE.format(at=at, wall=wall.replace("LAW", law)), folder)
         return float(re.search(r"^FORCE (\S+)", run.output, re.M)[1])
 
     flat = "region r block -4 4 -4 4 0 4\nfix w all wall/gran/region LAW region r"
-    rows = []
+    found = []
     for what, at, law, region, mesh in (
             ("two blocks in a union, over their seam", "0 0.4 0.499", HOOKE,
              "region a block -4 0 -4 4 0 4\nregion b block 0 4 -4 4 0 4\nregion r union 2 a b", "flat.stl"),
@@ -148,39 +146,24 @@ def forces(executable, folder):
              f"region a plane 0 0 0 {-TILT} 0 1\nregion b plane 0 0 0 {TILT} 0 1\nregion r intersect 2 a b", "fold.stl"),
             ("inside of a cylinder of diameter 4, Hertz", "1.501 0 0", HERTZ, "region r cylinder z 0 0 2 -4 4", "side.stl")):
         plane = one("1.3 0.4 0.499", law, flat)
-        rows.append({"what": what, "region": one(at, law, f"{region}\nfix w all wall/gran/region LAW region r") / plane,
-                     "mesh": one(at, law, f"fix w all wall/lsdcd LAW mesh {mesh}") / plane})
-    return table(rows, ["force of a sphere on / on a plane", "wall/gran/region", "mesh"],
-                 lambda r: [r["what"], f"{r['region']:.3f}", f"{r['mesh']:.3f}"])
+        walls = {REGION: f"{region}\nfix w all wall/gran/region LAW region r", MESH: f"fix w all wall/lsdcd LAW mesh {mesh}"}
+        for name, wall in walls.items():
+            found.append(rows.timed("region", f"force, {what}, {name}", options.commit, 0, 1, "", [],
+                                    over_plane=f"{one(at, law, wall) / plane:.3f}"))
+    return found
 
 
-def told(rows):
-    def cells(r):
-        mesh = performance.find(rows, case=r["case"].replace(REGION, MESH))
-        return [r["case"].split(",")[0], number(r["median_ms"]), number(mesh["median_ms"]),
-                f"{float(r['median_ms']) / float(mesh['median_ms']):.2f}", facts(r)["whole_ms"], facts(mesh)["whole_ms"]]
-
-    heads = ["wall", "wall/gran/region, ms", "mesh, ms", "region / mesh", "whole step, region, ms", "mesh, ms"]
-    return table([r for r in rows if r["case"].endswith(REGION)], heads, cells) + "\n\n" + lammps_runs.machines(rows)
-
-
-def main(args, words):
-    p = argparse.ArgumentParser(prog="./run bench region", description=__doc__,
-                                formatter_class=argparse.RawDescriptionHelpFormatter)
+def main():
+    p = lammps_runs.parser("region", __doc__)
     p.add_argument("--steps", type=int, default=400, metavar="N", help="timed as one (default 400)")
     p.add_argument("--chunks", type=int, default=3, metavar="N", help="of these in a run (default 3)")
     p.add_argument("--repeats", type=int, default=3, metavar="N", help="of each run (default 3)")
-    p.add_argument("--words", action="help", help="show this")
-    p.add_argument("--keep", metavar="DIR", help="leave input scripts and meshes there")
-    options = p.parse_args(words)
-    if args.quick:
+    options = p.parse_args()
+    if options.quick:
         options.steps, options.repeats = 20, 1
-    folder = lammps_runs.rows_folder(args)
-    if not args.write_only:
-        with lammps_runs.work_folder(options.keep) as work:
-            executable = os.path.abspath(os.path.join(args.build, "bin", "lmp-lsdcd"))
-            lammps_runs.keep("region", measure(options, executable, work, args.commit or commit()), folder)
-    print(told(lammps_runs.read_rows("region", folder)))
-    with lammps_runs.work_folder(options.keep) as work:
-        print("\n" + forces(os.path.abspath(os.path.join(args.build, "bin", "lmp-lsdcd")), work))
-    return 0
+    with lammps_runs.work_folder(options.scripts_to) as folder:
+        print(rows.as_csv(measure(options, folder) + forces(options, folder)), end="")
+
+
+if __name__ == "__main__":
+    main()

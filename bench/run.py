@@ -2,111 +2,108 @@
 # SPDX-FileCopyrightText: 2026 LSDCD contributors
 # SPDX-License-Identifier: BSD-3-Clause
 
-"""Runs benchmarks on the CPU and, where there is one, a GPU, and writes what they tell.
+"""Runs benchmarks: programs that print CSV.
 
-usage: run.py [--build DIR] [--only cpu|cuda] [--quick] [--write-only] [--rows-to DIR]
-              [--commit NAME] [NAME ...] [words for the programs ...]
+usage: run.py [--build DIR] [--only cpu|cuda] [--quick] [--keep | --rows-to DIR] [--commit NAME] [NAME ...] [words ...]
 
-NAME: query, build, step, cache (default: these four) make doc/performance.md; three make
-documents of their own from runs of other programs: accuracy doc/accuracy.md, doc/paper.md (tradeoff.py,
-accuracy.py), effects doc/effects.md (effects.py), hard-cases doc/hard_cases.md
-(hard_cases.py). Four compare, also into doc/performance.md: kokkos times steps of a LAMMPS with
-Kokkos (kokkos.py), liggghts our wall against LIGGGHTS's (liggghts.py), floor a mesh against a flat
-plane (floor.py), mesh-size the same contacts with 1e2 to 1e7 triangles (mesh_size.py). run.py
-NAME --words lists the words of the first three. Four print their rows and write no document: turning times
-spheres that a turning wall carries along or leaves behind, cells steps by the length of cells, sides on which side of
-a closed mesh points are, nodes a rigid sheet and one whose nodes move, on one core. region times a mesh against fix
-wall/gran/region (region.py), device steps of a LAMMPS without Kokkos on a core and on a GPU (device.py); both print
-their table. decomposition computes how a vessel of 1e9 grains would be shared by 1e3 GPUs, and runs nothing
-(decomposition.py).
+Without --keep rows go to build/bench; with it to doc/data, where a row takes the place of the one of the same case, sizes and
+order. Then bench/pages.py writes the tables of the pages. Words go to the programs: `./run bench query --help` lists them.
 
-Rows of the four are kept in doc/data/performance_DEVICE.csv (performance.py). Further words
-go to them, as --spheres 1e6; bench_query --help lists them. query --part near-and-far times
-distances on one core beside Embree and CGAL. On a machine lent for a GPU:
-  run.py --build build --only cuda --rows-to DIR query build step
-then, where the repository is, copy DIR/*.csv to doc/data and run.py --write-only.
 """
 import argparse
 import os
 import subprocess
 import sys
 
-import accuracy
-import device
-import effects
-import hard_cases
-import floor
-import kokkos
-import liggghts
-import mesh_size
-import performance
-import region
-import tradeoff
+import rows
 
-DOCUMENTS = {"accuracy": [tradeoff.main, accuracy.main], "effects": [effects.main],
-             "hard-cases": [hard_cases.main]}
-COMPARISONS = {"kokkos": kokkos.main, "liggghts": liggghts.main, "floor": floor.main,
-               "mesh-size": mesh_size.main}
+# Name: file of doc/data, devices, command, what it measures.
+CPU, BOTH = ("cpu",), ("cpu", "cuda")
+COMMON = "--device {device} --commit {commit} {quick}"
+SCRIPT = "{python} {bench}/"
+BENCHMARKS = {
+    "query": ("performance", BOTH, "{bin}/bench_query " + COMMON, "distances by the library, Embree and CGAL"),
+    "build": ("performance", BOTH, "{bin}/bench_build " + COMMON, "building of grids"),
+    "step": ("performance", BOTH, "{bin}/bench_step " + COMMON, "steps of the engine"),
+    "cache": ("performance", CPU, "{bin}/bench_cache " + COMMON, "files of grids"),
+    "mesh-size": ("mesh-size", BOTH, "{bin}/bench_mesh_size " + COMMON, "the same contacts with 1e2 to 1e7 triangles"),
+    "effects": ("effects", BOTH, "{bin}/bench_effects {device} {effects} {commit}", "what each effect of a wall costs"),
+    "bodies": ("effects_bodies", CPU, "{bin}/bench_rigid 5000 61 {commit}", "what meshes that are rigid bodies cost"),
+    "kokkos": ("kokkos", CPU, SCRIPT + "kokkos.py " + COMMON, "steps of a LAMMPS with Kokkos, on its own device"),
+    "liggghts": ("liggghts", CPU, SCRIPT + "liggghts.py " + COMMON, "our wall beside LIGGGHTS's"),
+    "floor": ("floor", CPU, SCRIPT + "floor.py " + COMMON, "a mesh beside a flat plane"),
+    "region": ("region", CPU, SCRIPT + "region.py " + COMMON, "a mesh beside fix wall/gran/region"),
+    "sides": ("sides", BOTH, "{bin}/bench_sides " + COMMON, "on which side of a closed mesh points are"),
+    "nodes": ("nodes", BOTH, "{bin}/bench_nodes " + COMMON, "a rigid sheet and one whose nodes move"),
+    "device": ("device", CPU, SCRIPT + "device.py " + COMMON, "steps of a LAMMPS without Kokkos on a core and on a GPU"),
+    "decomposition": ("decomposition", CPU, SCRIPT + "decomposition.py " + COMMON, "how 1e3 GPUs would share a vessel; computed"),
+}
+DEFAULT = ("query", "build", "step", "cache")
+ON_ONE_CORE = ("mesh-size", "effects", "bodies", "nodes")
+EFFECTS = {"cpu": "5000 401", "cuda": "200000 31"}    # spheres, rounds
 
 
-def decomposition(args, words):
-    """Needs numpy, which a machine lent for a GPU may lack."""
-    import decomposition as computed
-    return computed.main(args, words)
+def listed():
+    return "\n".join(f"  {name:14} {what}" for name, (_, _, _, what) in BENCHMARKS.items())
 
 
-PRINTED = ["turning", "cells", "sides", "nodes"]
-# Tables that they print: region for doc/other-walls.md, device and decomposition for doc/performance.md.
-PEERS = {"region": region.main, "device": device.main, "decomposition": decomposition}
+def has_gpu():
+    try:
+        return subprocess.run(["nvidia-smi", "-L"], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL).returncode == 0
+    except OSError:
+        return False
 
 
-def print_rows(name, args, rest):
-    """Runs one of PRINTED with its own words; returns its exit status."""
-    words = ["--device", args.only] if args.only else []
-    words += ["--quick"] if args.quick else []
-    env = {**os.environ, "OMP_NUM_THREADS": "1"} if name == "nodes" else None
-    return subprocess.run([os.path.join(args.build, "bin", "bench_" + name), *words, *rest], env=env).returncode
+def measure(name, device, args, words, folder):
+    """Runs a benchmark on a device and keeps its rows in a folder; its exit status."""
+    file, _, command, _ = BENCHMARKS[name]
+    known = {"bin": os.path.join(args.build, "bin"), "python": sys.executable, "bench": os.path.dirname(os.path.abspath(__file__)),
+             "device": device, "commit": args.commit.replace(" ", "_"), "quick": "--quick" * args.quick, "effects": EFFECTS[device]}
+    command = [word.format(**known) for word in command.format(**known).split()] + words
+    env = dict(os.environ, LSDCD_BUILD=os.path.abspath(args.build))
+    threads = "1" if device == "cpu" and name in ON_ONE_CORE else str(os.cpu_count() or 1)
+    if name in ON_ONE_CORE:
+        env["OMP_NUM_THREADS"] = threads
+    env.setdefault("OMP_NUM_THREADS", threads)
+    print(" ".join(command), file=sys.stderr, flush=True)
+    if "--help" in words:
+        return subprocess.run(command, env=env).returncode
+    done = subprocess.run(command, env=env, stdout=subprocess.PIPE, text=True)
+    print(done.stdout, flush=True)
+    if done.returncode == 0:
+        for path in rows.keep(folder, file, done.stdout, device):
+            print("rows are in", path, file=sys.stderr)
+    return done.returncode
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__,
-                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = argparse.ArgumentParser(description=__doc__ + listed(), formatter_class=argparse.RawDescriptionHelpFormatter,
+                                     add_help=False, allow_abbrev=False)
     parser.add_argument("--build", default="build", metavar="DIR", help="where bin/ is")
-    parser.add_argument("--only", choices=performance.DEVICES, help="this device alone")
-    parser.add_argument("--quick", action="store_true",
-                        help="small sizes, to see that all runs; rows go to DIR/bench")
-    parser.add_argument("--write-only", action="store_true",
-                        help="make tables and plots from the rows that are kept, and measure nothing; "
-                             "without names all of doc/performance.md")
-    parser.add_argument("--rows-to", metavar="DIR", help="leave the rows there, write nothing else")
+    parser.add_argument("--only", choices=BOTH, help="this device alone")
+    parser.add_argument("--quick", action="store_true", help="small sizes, to see that all runs")
+    parser.add_argument("--keep", action="store_true", help="put the rows into doc/data")
+    parser.add_argument("--rows-to", metavar="DIR", help="put the rows there, as for a machine without the repository")
     parser.add_argument("--commit", metavar="NAME", help="what was built, where git does not know")
     args, rest = parser.parse_known_args()
     names = []
     while rest and not rest[0].startswith("-"):
         names.append(rest.pop(0))
-    names = names or [*performance.PROGRAMS, *(COMPARISONS if args.write_only else ())]
-    known = [*performance.PROGRAMS, *DOCUMENTS, *COMPARISONS, *PRINTED, *PEERS]
-    for name in names:
-        if name not in known:
-            print(f"no benchmark '{name}'; there are: {', '.join(known)}", file=sys.stderr)
-            return 2
-    programs = [n for n in names if n in performance.PROGRAMS]
-    if programs:
-        status = performance.main(args, programs, rest)
-        if status != 0:
-            return status
-    for name in names:
-        status = COMPARISONS[name](args, rest) if name in COMPARISONS else 0
-        if name in PEERS:
-            status = PEERS[name](args, rest)
-        if name in PRINTED:
-            status = print_rows(name, args, rest)
-        if status != 0:
-            return status
-    for name in names:
-        for write in DOCUMENTS.get(name, []):
-            status = write(["--build", args.build, *["--write-only"] * args.write_only])
-            if status != 0:
+    if not names and {"--help", "-h"} & set(rest):
+        parser.print_help()
+        return 0
+    unknown = [name for name in names if name not in BENCHMARKS]
+    if unknown:
+        print(f"no benchmark '{unknown[0]}'; there are:\n{listed()}", file=sys.stderr)
+        return 2
+    args.commit = args.commit or rows.commit()
+    folder = args.rows_to or (rows.DATA if args.keep else os.path.join(args.build, "bench"))
+    for name in names or DEFAULT:
+        for device in BENCHMARKS[name][1]:
+            if args.only not in (None, device) or (device == "cuda" and args.only is None and not has_gpu()):
+                continue
+            status = measure(name, device, args, rest, folder)
+            if status != 0 or "--help" in rest:
                 return status
     return 0
 

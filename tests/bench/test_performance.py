@@ -3,7 +3,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 
 """The benchmark driver keeps rows by program, case, sizes and order, the pages hold what
-the rows that are kept say, and every program prints rows of the one format.
+the rows of doc/data say, and every program prints rows of the one format.
 
 usage: test_performance.py [comparisons]
   comparisons: only that those with other walls and with LIGGGHTS run, which takes minutes
@@ -19,11 +19,8 @@ import tempfile
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 BUILD = os.environ["LSDCD_BUILD"]
 sys.path.insert(0, str(ROOT / "bench"))
-import lammps_runs  # noqa: E402
-import floor  # noqa: E402
-import kokkos_tables  # noqa: E402
-import liggghts  # noqa: E402
-import performance  # noqa: E402
+import pages  # noqa: E402
+import rows as kept  # noqa: E402
 
 failed = 0
 
@@ -35,32 +32,26 @@ def fact(name, holds, detail=""):
 
 
 def row(program, case, median, order="random"):
-    r = dict.fromkeys(performance.KEY, "1")
-    return dict(r, program=program, case=case, order=order, median_ms=median)
+    r = dict.fromkeys(kept.COLUMNS, "1")
+    return dict(r, program=program, case=case, order=order, median_ms=median, facts="")
 
 
 def test_rows():
     old = [row("query", "a", "1"), row("query", "a", "2", "sorted"), row("step", "b", "3")]
     new = [row("query", "a", "9", "sorted"), row("build", "c", "4")]
-    got = [(r["program"], r["case"], r["order"], r["median_ms"])
-           for r in performance.replaced(old, new)]
+    got = [(r["program"], r["case"], r["order"], r["median_ms"]) for r in kept.replaced(old, new)]
     fact("a row replaces the one of its program, case, sizes and order, and others stay",
          got == [("query", "a", "random", "1"), ("query", "a", "sorted", "9"),
-                 ("build", "c", "random", "4"), ("step", "b", "random", "3")], str(got))
+                 ("step", "b", "random", "3"), ("build", "c", "random", "4")], str(got))
     fact("rows come back from the file as they were",
-         performance.parse(performance.as_csv(old)) == old)
+         kept.parse(kept.as_csv(old)) == old)
 
 
 def test_document():
-    pages = {performance.DOCUMENT, *performance.ELSEWHERE.values()}
-    text = "".join(pathlib.Path(page).read_text() for page in pages)
-    found = {**performance.parts(performance.read_rows("cpu")),
-             **kokkos_tables.parts(kokkos_tables.read_rows("cpu"), kokkos_tables.read_rows("cuda"))}
-    for tables in (liggghts, floor):
-        found.update(tables.kept_parts())
-    stale = [name for name, part in found.items() if part not in text]
-    fact("the documents hold what their rows say", not stale,
-         f"./run bench --write-only, of these tables: {', '.join(stale)}" if stale else "")
+    text = {page: (pages.DOC / page).read_text() for page in pages.tables()}
+    stale = [f"{page}: {name}" for page, made in pages.tables().items() for name, each in made.items()
+             if pages.replaced(text[page], name, each) != text[page]]
+    fact("the pages hold what their rows say", not stale, f"bench/pages.py writes {', '.join(stale)}" if stale else "")
 
 
 def test_programs():
@@ -72,7 +63,7 @@ def test_programs():
                               env=dict(os.environ, OMP_NUM_THREADS="1"), stdout=subprocess.PIPE,
                               stderr=subprocess.STDOUT, text=True)
         fact("a quick run ends well", done.returncode == 0, done.stdout[-500:] * done.returncode)
-        rows = performance.read_rows("cpu", folder)
+        rows = kept.read(folder, "performance")
         fact("and every program's rows are kept", {r["program"] for r in rows} ==
              {"query", "build", "step"}, str(len(rows)))
         bad = [r for r in rows if not float(r["min_ms"]) <= float(r["median_ms"]) <=
@@ -82,7 +73,7 @@ def test_programs():
         off = [r for r in with_bytes if abs(float(r["floor_ms"]) * float(r["copy_gb_s"]) * 1e6 /
                                             float(r["bytes"]) - 1) > 1e-3]    # digits printed
         fact("the floor is the bytes over that speed", with_bytes and not off, str(off[:1]))
-        fact("a table is made of them", "| 960 |" in performance.parts(rows)["point-costs"])
+        fact("a table is made of them", "| 960 |" in pages.point_costs(rows))
         test_near_and_far(rows)
         wrong = subprocess.run([os.path.join(BUILD, "bin", "bench_query"), "--spheres", "none"],
                                stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
@@ -94,16 +85,16 @@ def test_near_and_far(rows):
     near, far, anywhere = ([r for r in rows if r["case"].startswith(place)] for place in ("near, ", "far, ", "any, "))
     fact("points near the mesh are all found, on one core, in both orders",
          {r["order"] for r in near} == {"random", "sorted"} and
-         all(performance.facts(r)["found"] == r["spheres"] and "1 thread" in r["device"] for r in near))
+         all(kept.facts(r)["found"] == r["spheres"] and "1 thread" in r["device"] for r in near))
     fact("without a cutoff all are found",
-         anywhere and all(performance.facts(r)["found"] == r["spheres"] for r in anywhere))
-    fact("of those far from it none is", far and all(performance.facts(r)["found"] == "0" for r in far))
+         anywhere and all(kept.facts(r)["found"] == r["spheres"] for r in anywhere))
+    fact("of those far from it none is", far and all(kept.facts(r)["found"] == "0" for r in far))
     # In double both are right to 4e-13 of the radius and 4e-15 of the diagonal. In float a point, the corners
     # and a closest point that is found from them, all below 2, are each off by up to sqrt(3) 2^-24: 3.1e-7; a
     # distance up to 2.5 is rounded by as much again.
     radius, diagonal = 0.005 * 12**0.5, 12**0.5
     for name, limit in (("CGAL", 2 * (4e-13 * radius + 4e-15 * diagonal)), ("Embree", 6e-7), ("library, float", 4e-7)):
-        its = [performance.facts(r) for r in near + far + anywhere if name in r["case"]]
+        its = [kept.facts(r) for r in near + far + anywhere if name in r["case"]]
         if not its:
             print(f"skipped: distances by {name} (not installed)")
             continue
@@ -122,12 +113,12 @@ def test_comparisons():
                                    "--only", "cpu", "--quick", "--rows-to", folder, "--commit", "x", name],
                                   stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
             fact(f"{name} ends well", done.returncode == 0, done.stdout[-500:] * done.returncode)
-        rows = lammps_runs.read_rows("mesh-size", folder)
-        contacts = [int(performance.facts(r)["contacts"]) for r in rows]
+        rows = kept.read(folder, "mesh-size")
+        contacts = [int(kept.facts(r)["contacts"]) for r in rows]
         fact("mesh-size has the same contacts with every mesh, to a thousandth",
              rows and max(contacts) <= 1.001 * min(contacts), f"{min(contacts)} to {max(contacts)}")
         if "liggghts" in names:
-            ratios = [float(performance.facts(r)["force_ratio"]) for r in lammps_runs.read_rows("liggghts", folder)]
+            ratios = [float(kept.facts(r)["force_ratio"]) for r in kept.read(folder, "liggghts")]
             # Both laws are the same; folds of 5.6 degrees, where a sphere is at two sides, differ.
             fact("liggghts: both codes sum the same forces, to a hundredth",
                  all(abs(r - 1) < 0.01 for r in ratios), str(sorted(set(ratios))))

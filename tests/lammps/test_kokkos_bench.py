@@ -18,7 +18,8 @@ sys.path.insert(0, str(lmp.HERE.parent.parent / "bench"))
 import kokkos    # noqa: E402
 import kokkos_runs as runs    # noqa: E402
 from kokkos_beds import Bed    # noqa: E402
-from kokkos_tables import LEFT_OUT, cost_table, facts, scaling_table    # noqa: E402
+from pages import LEFT_OUT, cost, scaling    # noqa: E402
+from rows import facts    # noqa: E402
 
 ATOMS = 4000
 DUMP = """\
@@ -69,9 +70,8 @@ def rows_of_all(checks, host, folder):
         ["--atoms", str(ATOMS), "--triangles", "2000", "--settle", "80", "--steps", "30",
          "--chunks", "2", "--rounds", "1", "--against", "--copies", "--bodies", "--ranks", "1 2", "--orders",
          "sorted"])
-    with contextlib.redirect_stdout(io.StringIO()):
-        kokkos.measure(host, options, "none", str(folder), folder / "work")
-    rows = kokkos.read_rows("cpu", str(folder))
+    with contextlib.redirect_stderr(io.StringIO()):
+        rows = kokkos.measure(host, options, folder / "work")
     find = {(r["case"], facts(r)["ranks"]): r for r in rows}
     checks.fact("rows of each bed, with and without, on 1 and 2 processes", all(
         (case + more, ranks) in find for case in kokkos.CASES.values()
@@ -99,12 +99,12 @@ def rows_of_all(checks, host, folder):
     checks.fact("the integrator joins as many steps with the wall as without",
                 copies["fused"] == without["fused"], copies["fused"])
     ratio = float(flat["median_ms"]) / float(none["median_ms"])
-    table = cost_table(rows, []).splitlines()
+    table = cost(rows).splitlines()
     checks.fact("the table has what the wall adds, in per cent", any(f"| {100 * (ratio - 1):.1f} |" in line for line in table), table[2])
     checks.fact("and a row for each bed that was run, but for those that it leaves out",
                 sum(line.startswith("| CPU") for line in table) == len(kokkos.CASES) - len(LEFT_OUT), str(len(table)))
     checks.fact("scaling has a row for each bed",
-                scaling_table(rows).count("\n") == 1 + len(kokkos.CASES))
+                scaling(rows).count("\n") == 1 + len(kokkos.CASES))
 
 
 def main():

@@ -1,0 +1,220 @@
+# SPDX-FileCopyrightText: 2026 LSDCD contributors
+# SPDX-License-Identifier: BSD-3-Clause
+
+"""The pictures of pages.py: plots of doc/data."""
+import sys
+
+import matplotlib
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt    # noqa: E402
+
+from pages import DATA, DEVICES, IMAGES, ROOT, facts, find, of_study, rows_of    # noqa: E402
+
+sys.path.insert(0, str(ROOT / "src" / "tool"))
+import plot_tradeoff    # noqa: E402
+
+# By colour and by marker, so that a print in grey or a colour-blind reader tells them apart.
+STYLES = {"cpu": dict(color="#0072B2", marker="o"), "cuda": dict(color="#D55E00", marker="^")}
+FONT = 14
+NOISE = 3    # ns; doc/effects.md says so
+
+
+def write_image(figure, name, dpi=110):
+    figure.savefig(IMAGES / name, dpi=dpi, metadata={"Software": None})
+    print("drew", name)
+
+
+def legible(axis):
+    """Read at half the size, too."""
+    axis.grid(True, which="major", alpha=0.3)
+    axis.tick_params(labelsize=FONT - 1)
+    for item in (axis.title, axis.xaxis.label, axis.yaxis.label):
+        item.set_fontsize(FONT)
+
+
+def label(rows):
+    return rows[0]["device"].replace("CUDA, ", "")
+
+
+def both(name):
+    return {device: rows_of(f"{name}_{device}.csv") for device in DEVICES}
+
+
+# ---- performance.md ------------------------------------------------------------------------
+
+def axes(title, ylabel, limits):
+    figure, axis = plt.subplots(figsize=(8, 6))
+    axis.set(xscale="log", yscale="log", ylim=limits, xlabel="number of triangles", ylabel=ylabel, title=title)
+    return figure, axis
+
+
+def curve(rows, program, case, order=""):
+    return sorted((float(r["triangles"]), r) for r in rows if (r["program"], r["case"], r["order"]) == (program, case, order))
+
+
+def at_end(axis, points, words, colour, above=0):
+    """The name of a curve, at its last point."""
+    axis.annotate(words, points[-1], (-4, 8 + above), textcoords="offset points", ha="right", color=colour, fontsize=FONT)
+
+
+def finish(figure, axis, name):
+    legible(axis)
+    figure.tight_layout()
+    write_image(figure, name)
+
+
+def draw_query(rows_by_device):
+    """Time of a distance by the size of the mesh, on a CPU core and on a GPU."""
+    case = "distance, complete, float"
+    figure, axis = axes("Distance to the wall up to 1 radius, in float", "time per sphere, ns", (3e-3, 200))
+    for device, rows in rows_by_device.items():
+        for name in dict.fromkeys(r["device"] for r in rows if r["case"] == case):
+            its = [r for r in rows if r["device"] == name]
+            for order, style in (("random", "-"), ("sorted", "--")):
+                points = [(x, float(r["median_ms"]) * 1e6 / float(r["spheres"])) for x, r in curve(its, "query", case, order)]
+                if len(points) < 2:    # one mesh is a point and no curve
+                    continue
+                axis.plot(*zip(*points), linestyle=style, **STYLES[device])
+                below = 0 if order == "random" else -34 if device == "cpu" else -62    # clear of the curves
+                at_end(axis, points, f"{label(its).split(',')[0]}, {order} order", STYLES[device]["color"], below)
+    finish(figure, axis, "performance_query.png")
+
+
+def draw_build(rows_by_device):
+    figure, axis = axes("Building a grid of cells of 0.2 for spheres of radius 1", "build time, s", (1e-3, 1e8))
+    for device, rows in rows_by_device.items():
+        for case, style, name in (("given cell, without copies", "-", "grid"), ("given cell, brute force", ":", "brute force")):
+            points = [(x, float(r["median_ms"]) / 1e3) for x, r in curve(rows, "build", case)]
+            if points:
+                guessed = ["estimated" in r["facts"] for _, r in curve(rows, "build", case)]
+                guess = " (estimated)" if all(guessed) else " (partly)" if any(guessed) else ""
+                axis.plot(*zip(*points), linestyle=style, **STYLES[device])
+                at_end(axis, points, f"{name}, {label(rows).split(',')[0]}{guess}", STYLES[device]["color"])
+    finish(figure, axis, "performance_build.png")
+
+
+def draw_mesh_size(rows_by_device):
+    panels = [("time per contact in a step, ns", lambda r: float(facts(r)["ns_per_contact"])),
+              ("set-up: weld and build, s", lambda r: float(facts(r)["build_ms"]) / 1e3),
+              ("memory of the grid, MB", lambda r: float(facts(r)["grid_mb"]))]
+    figure, all_axes = plt.subplots(1, 3, figsize=(14, 4.8))
+    for axis, (name, value) in zip(all_axes, panels):
+        for device, rows in rows_by_device.items():
+            points = sorted((float(r["triangles"]), value(r)) for r in rows
+                            if r["case"] == "hertz/history, kept" and r["order"] == "sorted")
+            axis.plot(*zip(*points), **STYLES[device])
+            if axis is all_axes[0]:
+                axis.annotate(label(rows).split(",")[0], points[0], (4, 10), textcoords="offset points",
+                              color=STYLES[device]["color"], fontsize=FONT + 2)
+        axis.set(xscale="log", yscale="log", xlabel="number of triangles", ylabel=name)
+        legible(axis)
+    figure.tight_layout()
+    write_image(figure, "performance_mesh_size.png")
+
+
+# ---- effects.md ----------------------------------------------------------------------------
+
+def draw_effects(cpu, cuda):
+    """What each effect adds on the CPU, the largest first; what it adds on the GPU is noise but for those that are named."""
+    rows = sorted((r for r in cpu if r["over"]), key=lambda r: float(r["over_ns"]))
+    values = [float(r["over_ns"]) for r in rows]
+    figure, axis = plt.subplots(figsize=(8, 9))
+    axis.barh(range(len(rows)), values, color="#0072B2")
+    axis.axvspan(-NOISE, NOISE, color="0.85", zorder=0)
+    axis.axvline(0, color="black", linewidth=0.8)
+    for at, value in enumerate(values):
+        if value > NOISE:
+            axis.text(value + 0.8, at, f"{value:.0f}", va="center", fontsize=13)
+    axis.text(NOISE + 0.8, 0, "grey: noise", va="center", fontsize=13, color="0.35")
+    axis.set_yticks(range(len(rows)), [r["name"] for r in rows], fontsize=13)
+    axis.tick_params(axis="x", labelsize=13)
+    axis.set_xlabel("added for each contact and step, ns", fontsize=14)
+    axis.set_title("On a CPU core", fontsize=14)
+    axis.set_xlim(right=1.08 * max(values))    # room for the number of the longest bar
+    axis.grid(True, axis="x", alpha=0.3)
+    seen = [f"{r['name']} {float(r['over_ns']):.0f} ns" for r in cuda if r["over"] and float(r["over_ns"]) > NOISE]
+    axis.text(0.97, 0.06, "On the GPU: " + ("; ".join(seen) or "all are noise") + ";\nall others are within the noise",
+              transform=axis.transAxes, ha="right", fontsize=13)
+    figure.tight_layout()
+    write_image(figure, "effects.png", dpi=90)
+
+
+# ---- paper.md ------------------------------------------------------------------------------
+
+def draw_question(rows, steps):
+    """Errors against the time of a query: those of the paper and ours, and what shorter lists miss. Below the break of an
+    axis are the measurements without any error."""
+    figure, axes = plt.subplots(2, 2, figsize=(12, 6.4), sharex="col", height_ratios=(5, 1), gridspec_kw={"hspace": 0.06})
+    blue, red, green, black = "#0072B2", "#D55E00", "#009E73", "black"
+
+    def point(column, x, y, look, words="", away=(8, 6), **more):
+        at = axes[0 if y > 0 else 1][column]
+        at.plot(x, y if y > 0 else 0, look, markersize=9, **more)
+        if words:
+            at.annotate(words, (x, y if y > 0 else 0), away, textcoords="offset points", fontsize=14, color=more["color"])
+
+    for r in of_study(rows, "table2"):
+        if r["length"] != "0.2":
+            continue
+        every = r["lists"] == "every triangle"
+        words = {"every triangle": "every triangle", "complete": "all", "1": "N = 1"}.get(r["lists"], r["lists"])
+        if r["lists"] != "complete":
+            point(0, float(r["paper_query_ms"]), float(r["paper_error_percent"]), "s", words, (-106, 8) if every else (8, 6),
+                  color=black, fillstyle="none")
+        if r["lists"] in ("1", "complete"):
+            point(0, float(r["query_ms"]), max(0.0, float(r["error_percent"])), "o", words, color=blue)
+    axes[0][0].text(5e2, 12, "the paper, on a K40", fontsize=14, ha="center")
+    axes[0][0].text(0.17, 8e-4, "LSDCD, on an H200", fontsize=14, color=blue)
+    for triangles, look, colour in (("10000", "o", blue), ("100000", "s", red), ("1000000", "^", green)):
+        its = [(r["lists"], float(r["query_ms"]), 100 * float(r["missed"]) / float(r["touching"]))
+               for r in of_study(rows, "mesh") if r["triangles"] == triangles]
+        above = [(x, y) for _, x, y in its if y > 0]
+        axes[0][1].plot(*zip(*above), color=colour, linewidth=1)
+        axes[0][1].plot([], [], look + "-", color=colour, label=f"{int(triangles):,} triangles".replace(",", " "))
+        for lists, x, y in its:
+            point(1, x, y, look, "all" if lists == "complete" else "" if y <= 0 else "N = 1" if lists == "1" and triangles == "10000"
+                  else lists, (-9, 9) if y <= 0 else (8, 2), color=colour)
+    for column, least, title, error in ((0, 3e-5, "The paper's cylinder of 156 triangles, cells of 0.2", "error, % (formula 7)"),
+                                        (1, 1e-4, "Finer cylinders, cells of 0.4, on an H200", "missed contacts, %")):
+        high, low = axes[0][column], axes[1][column]
+        high.set(xscale="log", yscale="log", ylim=(least, 50))
+        high.set_title(title, fontsize=14)
+        high.set_ylabel(error, fontsize=14)
+        low.set(ylim=(-0.5, 1.2), xscale="log")
+        low.set_yticks([0], ["0"])
+        low.set_xlabel("time for 10 000 000 spheres, ms", fontsize=14)
+        high.spines.bottom.set_visible(False)
+        low.spines.top.set_visible(False)
+        high.tick_params(bottom=False, which="both")
+        broken = dict(marker=[(-1, -0.6), (1, 0.6)], markersize=11, linestyle="none", color="k", mec="k", clip_on=False)
+        high.plot([0, 1], [0, 0], transform=high.transAxes, **broken)
+        low.plot([0, 1], [1, 1], transform=low.transAxes, **broken)
+        for a in (high, low):
+            a.grid(True, alpha=0.3)
+            a.tick_params(labelsize=13)
+    axes[0][0].set_xlim(0.1, 2e5)
+    axes[0][1].set_xlim(0.1, 2.6)
+    axes[0][1].legend(loc="upper right", fontsize=14)
+    axes[1][1].set_xticks([0.1, 0.2, 0.5, 1, 2], ["0.1", "0.2", "0.5", "1", "2"])
+    axes[1][1].minorticks_off()
+    own = float(steps["median_ms"])
+    for a in (axes[0][1], axes[1][1]):
+        a.axvline(own, color=black, linewidth=1)
+    axes[0][1].annotate("a step of the wall,\n10 000 triangles", (own, 2e-4), (-4, 0), textcoords="offset points", fontsize=13, ha="right",
+                        rotation=90, va="bottom")
+    figure.subplots_adjust(left=0.08, right=0.99, top=0.94, bottom=0.1, wspace=0.2)
+    write_image(figure, "paper_question.png", dpi=90)
+
+
+def draw_all():
+    performance = both("performance")
+    draw_query(performance)
+    draw_build(performance)
+    draw_mesh_size(both("mesh-size"))
+    draw_effects(*(rows_of(f"effects_{device}.csv", ";") for device in DEVICES))
+    # A step that reads lists of the wall, on the same spheres, nothing copied.
+    step = find(performance["cuda"], case="hertz/history, in place", triangles=10000, spheres=10000000, order="random")
+    draw_question(rows_of("accuracy_cuda.csv"), step)
+    vessel = [row for device in DEVICES for row in plot_tradeoff.read(DATA / f"tradeoff_vessel_{device}.csv")]
+    plot_tradeoff.draw(vessel, str(IMAGES / "tradeoff_vessel.png"), others=False)
