@@ -3,7 +3,7 @@
 
 #include "fix_wall_lsdcd_kokkos.h"
 
-#include "float_atoms_engine.h"
+#include "host_kokkos.h"
 
 #include "backend/owned_array.h"
 #include "base/input_words.h"
@@ -64,11 +64,7 @@ template <class DeviceType>
 std::unique_ptr<lsdcd::WallEngine>
 FixWallLsdcdKokkos<DeviceType>::make_engine(const lsdcd::EngineSettings &settings)
 {
-  std::unique_ptr<lsdcd::WallEngine> engine = lsdcd::make_engine_on<DeviceType>(settings);
-  if constexpr (lsdcd::kFloatAtoms)
-    return std::make_unique<lsdcd::FloatAtomsEngine<DeviceType, AtomKokkos>>(
-        std::move(engine), kokkos_atoms(atom), &deepest_overlap);
-  return engine;
+  return lsdcd::make_engine_on<DeviceType>(settings);
 }
 
 template <class DeviceType>
@@ -117,23 +113,42 @@ template <class DeviceType>
 lsdcd::HostSpheres FixWallLsdcdKokkos<DeviceType>::spheres()
 {
   lsdcd::HostSpheres s = spheres_in_atom();    // temperatures stay there
-  if constexpr (lsdcd::kFloatAtoms) {          // the engine has those in double
+  if constexpr (lsdcd::kFloatAtoms) {
     s.x = s.v = s.omega = nullptr;
-    s.force = s.torque = nullptr;
     s.radius = s.mass = nullptr;
+    s.force = s.torque = nullptr;
+    s.in_float = &float_spheres;
+    put_atoms(float_spheres);
   } else {
-    s.x = lsdcd::rows_of(atomKK->k_x.template view<DeviceType>());
-    s.v = lsdcd::rows_of(atomKK->k_v.template view<DeviceType>());
-    s.omega = lsdcd::rows_of(atomKK->k_omega.template view<DeviceType>());
-    s.force = lsdcd::rows_of(atomKK->k_f.template view<DeviceType>());
-    s.torque = lsdcd::rows_of(atomKK->k_torque.template view<DeviceType>());
-    s.radius = atomKK->k_radius.template view<DeviceType>().data();
-    s.mass = atomKK->k_rmass.template view<DeviceType>().data();
+    put_atoms(s);
   }
+  if constexpr (lsdcd::kFloatForces)
+    put_forces(float_spheres);
+  else
+    put_forces(s);
   if (rigid) s.mass = d_damping_mass.data();
   s.mask = igroup ? atomKK->k_mask.template view<DeviceType>().data() : nullptr;
   s.type = atomKK->k_type.template view<DeviceType>().data();
   return s;
+}
+
+// These put views of the atoms into spheres, or into those in float.
+template <class DeviceType>
+template <class To>
+void FixWallLsdcdKokkos<DeviceType>::put_atoms(To &to)
+{
+  to.x = lsdcd::rows_of(atomKK->k_x.template view<DeviceType>());
+  to.v = lsdcd::rows_of(atomKK->k_v.template view<DeviceType>());
+  to.omega = lsdcd::rows_of(atomKK->k_omega.template view<DeviceType>());
+  to.radius = atomKK->k_radius.template view<DeviceType>().data();
+  to.mass = atomKK->k_rmass.template view<DeviceType>().data();
+}
+template <class DeviceType>
+template <class To>
+void FixWallLsdcdKokkos<DeviceType>::put_forces(To &to)
+{
+  to.force = lsdcd::rows_of(atomKK->k_f.template view<DeviceType>());
+  to.torque = lsdcd::rows_of(atomKK->k_torque.template view<DeviceType>());
 }
 
 // LAMMPS calls pre_reverse() once the GPU has been given the forces between atoms, and before the next
@@ -149,7 +164,6 @@ void FixWallLsdcdKokkos<DeviceType>::init()
 {
   FixWallLsdcd::init();
   when = others_only_add() ? lsdcd::When::beside_adding_early : lsdcd::When::beside;
-  deepest_overlap = 0;
   if (lsdcd::kFloatAtoms) log_rounding();
 }
 
@@ -190,7 +204,7 @@ void FixWallLsdcdKokkos<DeviceType>::log_rounding()
 template <class DeviceType>
 void FixWallLsdcdKokkos<DeviceType>::warn_of_rounding()
 {
-  double deepest = deepest_overlap;
+  double deepest = wall->deepest_overlap();
   MPI_Allreduce(MPI_IN_PLACE, &deepest, 1, MPI_DOUBLE, MPI_MAX, world);
   const double most = farthest_coordinate(*domain), lost = kFloatRounds * most;
   if (rounding_warned || deepest == 0 || lost <= 0.01 * deepest) return;

@@ -54,11 +54,16 @@ class FixWallLsdcdKokkos : public FixWallLsdcd, public KokkosBase {
   int pack_rows(int, const int *, const int *, double *);
   void unpack_rows(int, const int *, const double *);
 
+  template <class To>
+  void put_atoms(To &);
+  template <class To>
+  void put_forces(To &);
+
   Kokkos::View<double *, DeviceType> d_damping_mass;
   // Where fixes before this one only add forces, they are added right behind those between atoms.
   lsdcd::When when = lsdcd::When::beside;
   // Where atoms are in float:
-  double deepest_overlap = 0;    // of this process in this run; length
+  lsdcd::FloatSpheres float_spheres;
   bool rounding_logged = false, rounding_warned = false;
 };
 

@@ -50,6 +50,12 @@ constexpr bool kFloatAtoms = true;
 #else
 constexpr bool kFloatAtoms = false;
 #endif
+// And their forces? In mixed precision LAMMPS sums them in double.
+#if defined(LMP_KOKKOS_SINGLE_SINGLE)
+constexpr bool kFloatForces = true;
+#else
+constexpr bool kFloatForces = false;
+#endif
 
 template <class DeviceType>
 constexpr bool kOnCpu =
@@ -58,8 +64,9 @@ constexpr bool kOnCpu =
 
 // The engine whose memory is that of a Kokkos device.
 template <class DeviceType>
-std::unique_ptr<WallEngine> make_engine_on(const EngineSettings &settings)
+std::unique_ptr<WallEngine> make_engine_on(EngineSettings settings)
 {
+  if (kFloatAtoms) settings.arrays = HostArrays::in_float;
   if (!kOnCpu<DeviceType> && settings.law().has_heat())
     throw InputError("the sub-model heat does not work for atoms on a GPU, where LAMMPS keeps no "
                      "temperature: use wall/lsdcd, or wall/lsdcd/kk/host");

@@ -4,7 +4,7 @@
 #include "backend/backend_cuda.h"
 #include "backend/cuda_device.h"
 #include "engine/broad_phase/selection_gpu.h"
-#include "engine/host_adapter.h"
+#include "engine/engine_on.h"
 #include "engine/step/compile_law.h"
 
 namespace lsdcd {
@@ -12,11 +12,11 @@ namespace lsdcd {
 namespace {
 
 // The stream outlives what runs in it.
-class CudaEngine : private CudaStream, public HostAdapter<CudaBackend> {
+class CudaEngine : private CudaStream, public EngineOn<CudaBackend> {
  public:
   explicit CudaEngine(const EngineSettings &settings) :
       CudaStream(settings.device_rank),
-      HostAdapter(settings, law_for<CudaBackend>(settings), CudaBackend(get()))
+      EngineOn(settings, law_for<CudaBackend>(settings), CudaBackend(get()))
   {
   }
 };
@@ -25,7 +25,9 @@ class CudaEngine : private CudaStream, public HostAdapter<CudaBackend> {
 
 std::unique_ptr<WallEngine> make_cuda_engine(const EngineSettings &settings)
 {
-  return std::make_unique<CudaEngine>(settings);
+  EngineSettings apart = settings;
+  apart.arrays = HostArrays::apart;
+  return std::make_unique<CudaEngine>(apart);
 }
 
 std::unique_ptr<WallEngine> make_cuda_engine_in_place(const EngineSettings &settings, int device,

@@ -1,13 +1,14 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The engine on one backend, for spheres in its memory: one source for all backends. In the order of a sphere's way
-// it runs broad_phase/broad_phase.h now and then, and step/mesh_step.h in each step.
+// The engine on one backend: one source for all of them. It works on arrays in the backend's memory, those of the host or
+// those of its mirror (mirror.h). In the order of a sphere's way it runs broad_phase/broad_phase.h now and then, and
+// step/mesh_step.h in each step.
 #pragma once
 
 #include "base/input_error.h"
 #include "engine/broad_phase/broad_phase.h"
-#include "engine/candidates_in_place.h"
+#include "engine/mirror.h"
 #include "engine/moving_nodes.h"
 #include "engine/node_forces.h"
 #include "engine/resident_springs.h"
@@ -23,12 +24,6 @@
 #include <vector>
 
 namespace lsdcd {
-
-// On the CPU: which cells of a grid have entries.
-struct OccupiedCells {
-  std::vector<std::int32_t> brick_of;
-  std::vector<Brick> bricks;
-};
 
 // The force on the node of row k: of contacts, and of faces that push it in the order of their numbers, as on a host.
 struct ForceOfNode {
@@ -53,13 +48,14 @@ struct ForceOfNode {
 };
 
 template <class B>
-class EngineOn : public WallEngine, public CandidatesInPlace, public NodesInPlace {
+class EngineOn : public WallEngine, public NodesInPlace {
   template <class T>
   using Array = typename B::template Array<T>;
 
  public:
   EngineOn(const EngineSettings &settings, const CompiledLaw<B> &law, B backend) :
-      settings_(settings), law_(law), b_(std::move(backend)), broad_phase_(settings), counts_(1),
+      settings_(settings), law_(law), b_(std::move(backend)), broad_phase_(settings),
+      mirror_(settings.arrays, law.traits.heat), counts_(1),
       springs_(b_, law.traits, counts_.data()), overflow_(kOverflowScratches)
   {
     if (has_copies()) nodes_ = std::vector<MovingNodes<B>>(settings.meshes);
@@ -83,90 +79,79 @@ class EngineOn : public WallEngine, public CandidatesInPlace, public NodesInPlac
     broad_phase_.place(pose, mesh);
   }
 
-  Real largest_radius(const Spheres &spheres) override
+  Real largest_radius(const Spheres &host) override
   {
+    const Spheres spheres = mirror_.with_radii(b_, host);
     return b_.template largest<Real>(spheres.n, [=] LSDCD_LAMBDA(std::size_t i) -> Real {
       return !spheres.mask || (spheres.mask[i] & spheres.group_bit) ? spheres.radius[i] : 0;
     });
   }
 
-  Real farthest_past(const Spheres &spheres, const PeriodicFaces &faces) override
+  Real farthest_past(const Spheres &host, const PeriodicFaces &faces) override
   {
+    const Spheres spheres = mirror_.with_places(b_, host);
     return b_.template largest<Real>(spheres.n, [=] LSDCD_LAMBDA(std::size_t i) -> Real {
       const bool is_in_group = !spheres.mask || (spheres.mask[i] & spheres.group_bit);
       return is_in_group ? faces.past(spheres.x[i]) : 0;
     });
   }
 
-  void choose(const Spheres &spheres, Real margin, bool watch = false) override
+  void choose(const Spheres &host, Real margin, bool watch = false) override
   {
     where_step_runs([&] {
+      const Spheres spheres = mirror_.for_choice(b_, host);
       results_.detach_from_candidates(b_);
       springs_.grow(spheres.n);
       use(spheres, broad_phase_.choose(b_, spheres, margin, counts_, springs_.count()));
+      mirror_.use(b_, broad_phase_, spheres.n);
       forget_far_meshes();
       if (watch) broad_phase_.store_positions(b_, spheres, margin);
     });
   }
 
-  // For an adapter, which has selected by cells: which of these spheres are candidates, ascending. Steps are
-  // over these alone, one behind the other. Springs are still those of other spheres.
-  std::vector<int> choose_among(const Spheres &spheres, Real margin)
-  {
-    if (broad_phase_.uses_slots()) results_.detach_from_candidates(b_);
-    springs_.grow(spheres.n);
-    use(spheres, broad_phase_.choose(b_, spheres, margin, counts_, nullptr, true));
-    return broad_phase_.chosen(b_, spheres.n);
-  }
-
   bool has_moved(const Spheres &spheres) override
   {
     bool has = false;
-    where_step_runs([&] { has = broad_phase_.has_moved(b_, spheres); });
+    where_step_runs([&] { has = broad_phase_.has_moved(b_, mirror_.with_places(b_, spheres)); });
     return has;
   }
 
   void begin(When when = When::in_turn) override
   {
-    when_ = when;
-    if (when != When::in_turn) beside_.ready(b_);
+    when_ = mirror_.is_apart() ? When::in_turn : when;    // its stream is no one else's
+    if (when_ != When::in_turn) beside_.ready(b_);
     state_ = StepState::begun;
   }
 
   void submit(const Spheres &spheres, const StepSettings &step) override
   {
     require(StepState::begun);
-    set_step(spheres, step);
-    if (when_ != When::in_turn) where_step_runs([&] { compute(next_results_, true); });
+    spheres_ = spheres;
+    step_ = step;
+    if (starts_at_submit())
+      where_step_runs([&] { compute(next_results_, when_ != When::in_turn); });
     if (when_ == When::beside_adding_early) next_results_.add_forces(b_);
+    if (gives_back_at_submit()) mirror_.start_back(b_);
     state_ = StepState::submitted;
   }
   bool is_under_way() const override
   {
-    return state_ == StepState::submitted && when_ != When::in_turn;
+    return state_ == StepState::submitted && starts_at_submit();
   }
 
   void collect() override
   {
     require(StepState::submitted);
-    if (when_ == When::in_turn)
-      compute(results_, false);
-    else
+    if (starts_at_submit())
       std::swap(results_, next_results_);
+    else
+      compute(results_, false);
     if (when_ == When::beside) results_.add_forces(b_);
+    if (!gives_back_at_submit()) mirror_.start_back(b_);
+    mirror_.collect(b_);
     state_ = StepState::none;
-    fetch();
+    results_.fetch(b_, springs_.contacts(step_.update_history));
   }
-
-  // For an adapter, which has its own protocol: the step, its work without waiting for it, and what is
-  // asked for of it.
-  void set_step(const Spheres &spheres, const StepSettings &step)
-  {
-    spheres_ = spheres;
-    step_ = step;
-  }
-  void compute() { compute(results_, false); }
-  void fetch() { results_.fetch(b_, springs_.contacts(step_.update_history)); }
 
   const WallTotals &totals() const override { return const_cast<EngineOn *>(this)->sum_totals(); }
   WallTotals mesh_totals(int mesh) const override
@@ -189,7 +174,6 @@ class EngineOn : public WallEngine, public CandidatesInPlace, public NodesInPlac
   int n_contacts() const override { return static_cast<int>(results_.contacts().size()); }
   const StepContact *contacts() const override { return results_.contacts().data(); }
   int n_candidates() const override { return static_cast<int>(broad_phase_.n()); }
-  const int *candidates() const override { return broad_phase_.candidates(); }
 
   StepDiagnostics read_diagnostics() override
   {
@@ -197,7 +181,9 @@ class EngineOn : public WallEngine, public CandidatesInPlace, public NodesInPlac
     if (seen.too_large || seen.no_scratch || seen.no_places || seen.grown)
       throw_for(spheres_, seen);
     clear_diagnostics(seen);
-    return diagnostics_of(seen, first_step_);
+    StepDiagnostics diagnostics = diagnostics_of(seen, first_step_);
+    diagnostics.deepest_radius = mirror_.radius_of(b_, diagnostics.deepest_sphere);
+    return diagnostics;
   }
 
   NodesInPlace *nodes_in_place() override { return has_copies() ? this : nullptr; }
@@ -206,18 +192,6 @@ class EngineOn : public WallEngine, public CandidatesInPlace, public NodesInPlac
     where_step_runs([&] {
       broad_phase_.set_lists(b_, nodes_.at(mesh).build_grid(b_, settings, records_of(mesh)), mesh);
     });
-  }
-  // For an adapter, which selects by cells on the CPU: that grid, without records and entries.
-  GridView occupied_cells(int mesh, OccupiedCells &to)
-  {
-    const NodeGrid<B> &grid = nodes_.at(mesh).grid();
-    to = {to_cpu(b_, grid.brick_of(), grid.brick_of().size()),
-          to_cpu(b_, grid.bricks(), grid.bricks().size())};
-    GridView view = grid.view(MeshFeaturesView());
-    view.lists = CellListsView();
-    view.lists.brick_of = to.brick_of.data();
-    view.lists.bricks = to.bricks.data();
-    return view;
   }
   void start_nodes(int mesh, const NodesNow &now) override { nodes_.at(mesh).start(b_, now); }
   void give_nodes(int mesh, const Vec3 *x, const Vec3 *v) override
@@ -295,20 +269,26 @@ class EngineOn : public WallEngine, public CandidatesInPlace, public NodesInPlac
                             node_forces_[mesh].sums(), node_forces_[mesh].range_in_place(), rows,
                             sixth, to});
   }
-  SpringsInPlace *springs_in_place() override { return &springs_; }
+  SpringsInPlace *springs_in_place() override { return mirror_.is_apart() ? nullptr : &springs_; }
   void springs_to(ContactHistory &store, int n) override { springs_.to_store(store, n); }
   void springs_from(const ContactHistory &store, int n) override { springs_.from_store(store, n); }
 
   std::size_t bytes() const override
   {
-    return broad_phase_.bytes() + springs_.bytes() + results_.bytes() + next_results_.bytes() +
-           overflow_.size() * sizeof(OverflowScratch) + work_lists_.bytes() +
-           works_.size() * sizeof(MeshWork) + laws_.size() * sizeof(LawEntry) + bytes_of_nodes() +
-           b_.scratch_bytes() + beside_.scratch_bytes();
+    return broad_phase_.bytes() + mirror_.bytes() + springs_.bytes() + results_.bytes() +
+           next_results_.bytes() + overflow_.size() * sizeof(OverflowScratch) +
+           work_lists_.bytes() + works_.size() * sizeof(MeshWork) +
+           laws_.size() * sizeof(LawEntry) + bytes_of_nodes() + b_.scratch_bytes() +
+           beside_.scratch_bytes();
   }
 
-  B &backend_now() { return b_; }
-  const Array<int> &contacts_of_candidates() const { return results_.n_contacts(); }
+ private:
+  // Does the engine work on a step while the host does something else? Forces that a copy brings have to be there by collect().
+  bool starts_at_submit() const { return when_ != When::in_turn || mirror_.is_apart(); }
+  bool gives_back_at_submit() const
+  {
+    return when_ == When::beside_adding_early || mirror_.is_apart();
+  }
 
   // A spring on a mesh of which its sphere is no candidate is of no use, and would be read as one on another.
   void forget_far_meshes()
@@ -317,7 +297,6 @@ class EngineOn : public WallEngine, public CandidatesInPlace, public NodesInPlac
       springs_.forget_others(broad_phase_.slots().n_spheres(), broad_phase_.slots().meshes_of());
   }
 
- private:
   void unlock_scratches()
   {
     for (int i = 0; i < kOverflowScratches; i++) put_one(b_, &overflow_.data()[i].locked, 0);
@@ -397,6 +376,7 @@ class EngineOn : public WallEngine, public CandidatesInPlace, public NodesInPlac
   {
     const std::size_t n = broad_phase_.n();
     const bool several = broad_phase_.uses_slots();
+    spheres_ = mirror_.for_step(b_, spheres_);
     results.begin(law_.traits, step_, spheres_, broad_phase_.candidates(), n,
                   may_miss_any(broad_phase_.mesh(0).grid.view), adds_later,
                   several ? &broad_phase_.slots() : nullptr);
@@ -494,7 +474,8 @@ class EngineOn : public WallEngine, public CandidatesInPlace, public NodesInPlac
   typename B::SideStream beside_;
   When when_ = When::in_turn;    // of the step that was begun
   BroadPhase<B> broad_phase_;
-  Spheres spheres_;
+  SphereMirror<B> mirror_;
+  Spheres spheres_;    // of the step: those of the mirror once it runs
   StepSettings step_;
   Array<StepCounts> counts_;
   bool are_counts_clear_ = true;

@@ -13,6 +13,14 @@
 
 namespace lsdcd {
 
+// Arrays of a host that has them in float; pointers are to the memory of the engine's backend. Units as in Spheres.
+struct FloatSpheres {
+  StridedView<const float> x, v, omega;
+  const float *radius = nullptr, *mass = nullptr;
+  StridedView<float> force,
+      torque;    // added to; null where the host sums forces in double, in those of Spheres
+};
+
 // Sphere data of a host code, borrowed for one step; n is the number of owned spheres.
 struct Spheres {
   int n = 0;
@@ -28,6 +36,8 @@ struct Spheres {
   StridedView<Real> torque;             // added to
   const Real *temperature = nullptr;    // where the law has heat
   Real *heat_flow = nullptr;            // power; added to where the law has heat
+  // With HostArrays::in_float, in place of x, v, omega and radius, of mass where that is null, and of force and torque.
+  const FloatSpheres *in_float = nullptr;
 };
 
 // A mesh whose nodes move, as its host has it in this step.

@@ -33,7 +33,7 @@ struct NodeContacts {
   MeshFeaturesView wall;
   const Vec3 *velocity;    // of the nodes
 
-  LSDCD_FN std::size_t sphere(std::size_t k) const { return candidates ? candidates[k] : k; }
+  LSDCD_FN std::size_t sphere(std::size_t k) const { return candidates[k]; }
   LSDCD_FN int count(std::size_t k) const
   {
     const int n_k = n_contacts[k];

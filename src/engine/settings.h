@@ -20,6 +20,10 @@ enum class Corner { blend, sum };
 enum class Side { both, in, out };    // in the order of the keyword's words
 enum class Device { automatic, cpu, cuda };
 
+// Where a host has the arrays of its spheres: in double in the memory of the engine's backend, in other memory (of the CPU
+// while the engine is on a GPU), or in float in the memory of the backend.
+enum class HostArrays { in_place, apart, in_float };
+
 // Meshes that move apart, of one wall.
 constexpr int kMaxMeshes = 32;
 
@@ -36,6 +40,7 @@ struct EngineSettings {
   // The engine has copies of the records of meshes whose nodes move, as on a GPU, where this is so in any case.
   bool copies_records = false;
   WearModel wear = WearModel::none;    // where contacts are kept
+  HostArrays arrays = HostArrays::in_place;
   Device device = Device::automatic;
   int device_rank = 0;    // which of the GPUs this process takes (node-local rank, wrapped)
   HostNames names;        // for errors

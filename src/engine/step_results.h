@@ -21,7 +21,7 @@ class StepResults {
   using Array = typename B::template Array<T>;
 
  public:
-  // For a step of n candidates of these; `candidates`: their indices, or null for all. `adds_later`:
+  // For a step of n candidates of these; `candidates`: their indices. `adds_later`:
   // will add_forces() be called? `meshes`: which slots are of which mesh, or null where there is one.
   void begin(const LawTraits &traits, const StepSettings &step, const Spheres &spheres,
              const int *candidates, std::size_t n, bool may_miss, bool adds_later,
@@ -66,7 +66,7 @@ class StepResults {
     const StridedView<Real> force = spheres_.force, torque = spheres_.torque;
     const auto add = [=] LSDCD_LAMBDA(std::size_t k) {
       if (result.n_contacts[k] == 0) return;
-      const std::size_t i = candidates ? candidates[k] : k;
+      const std::size_t i = candidates[k];
       force.add(i, result.force[k]);
       torque.add(i, result.torque[k]);
     };
@@ -142,7 +142,7 @@ class StepResults {
   void detach_from_candidates(B &b)
   {
     know_mesh_totals(b);
-    if (totals_known_ || n_parts_ == 1 || !candidates_ || n_ == 0) return;
+    if (totals_known_ || n_parts_ == 1 || n_ == 0) return;
     stored_candidates_.reserve(n_);
     copy_all(b, candidates_, stored_candidates_.data(), n_);
     candidates_ = stored_candidates_.data();
@@ -177,7 +177,7 @@ class StepResults {
     const int *candidates = candidates_;
     const Spheres spheres = spheres_;
     b.for_each(n, [=] LSDCD_LAMBDA(std::size_t k) {
-      const std::size_t i = candidates ? candidates[k] : k;
+      const std::size_t i = candidates[k];
       const bool touches = result.n_contacts[k] > 0;    // nothing is written of others
       to[k] = SphereOutput();
       if (touches) to[k] = output_of(result.get(k), spheres.x[i], spheres.radius[i]);
@@ -282,7 +282,7 @@ class StepResults {
         if (uncertain && uncertain[k] > 0) add_uncertain(t, uncertain[k]);
         if (result.n_contacts[k] == 0) continue;
         const SphereResult r = result.get(k);
-        add_result(t, r, r.torque, candidates ? candidates[k] : static_cast<int>(k));
+        add_result(t, r, r.torque, candidates[k]);
       }
       block[at] = t;
     });

@@ -236,6 +236,7 @@ void Wall::begin_run(std::int64_t step, bool virial)
   virial_ = virial;
   if (virial && !engine_contacts_) make_engine_anew();
   files_.begin_run(step);
+  deepest_overlap_ = 0;
 }
 
 void Wall::begin(const HostSpheres &spheres, const StepInput &input)
@@ -716,6 +717,7 @@ StepDiagnostics Wall::read_diagnostics(const HostSpheres &spheres)
   if (cutoff() == 0) return seen;
   on_this_process(spheres, [&] { seen = engine_->read_diagnostics(); });
   search_.add(seen);
+  deepest_overlap_ = std::max(deepest_overlap_, seen.deepest * seen.deepest_radius);
   return seen;
 }
 

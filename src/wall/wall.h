@@ -113,6 +113,8 @@ class Wall {
   // process, and before set_motion() and set_servo(), because notes name spheres by their index. Throws where a step had to leave out
   // a sphere. Local.
   void poll_diagnostics(const HostSpheres &spheres);
+  // Returns the deepest overlap (length) that was read on this process since begin_run(), of a host with arrays in float.
+  Real deepest_overlap() const { return deepest_overlap_; }
   // Warns where spheres went too far past a periodic face. Hosts that do not know how far spheres go call it before they wrap
   // them. Positions and groups are read in the memory in which the engine reads them.
   void check_wrapping(const Spheres &spheres) { grids_.check_wrapping(spheres); }
@@ -281,6 +283,7 @@ class Wall {
   WallFiles files_;
   OverlapMonitor overlaps_;
   SearchReport search_;
+  Real deepest_overlap_ = 0;
   TimeReport times_;
   TimestepCheck timestep_;
   BoxChecks box_checks_;

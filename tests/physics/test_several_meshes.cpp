@@ -3,8 +3,6 @@
 
 // A wall of several meshes acts as one: spheres feel each place once, whatever mesh it is of and
 // whatever frame that is in.
-#include "engine/host_adapter.h"
-#include "engine/step/compile_law.h"
 #include "motion/motion.h"
 #include "support/crowd.h"
 #include "support/meshes.h"
@@ -423,16 +421,16 @@ TEST(several_meshes, keep_springs_across_choices)
 }
 
 // Sums are over the same spheres in the same order.
-TEST(several_meshes, act_the_same_through_the_adapter_of_a_host)
+TEST(several_meshes, act_the_same_through_a_mirror)
 {
   EngineSettings s = hooke_history(kStiffness, 3e4, 50, 20, 0.4);
   const Wall wall(dealt(random_soup(600, 5), 7), kRadius, s, true);
   s.meshes = 7;
-  HostAdapter<CpuBackend> adapter(s, law_for<CpuBackend>(s), CpuBackend());
+  const auto mirrored = with_mirror(s);
   const auto direct = on_cpu(s);
-  wall.put_into(adapter);
+  wall.put_into(*mirrored);
   wall.put_into(*direct);
-  const Crossing expected(*direct), got(adapter);
+  const Crossing expected(*direct), got(*mirrored);
   EXPECT_TRUE(same_bytes(got.force, expected.force));
   EXPECT_EQ(got.joint, expected.joint);
   EXPECT_GT(norm(expected.on_mesh), 0);
@@ -451,15 +449,15 @@ EngineSettings with_laws(bool differ)
   return s;
 }
 
-TEST(several_meshes, with_laws_through_the_adapter_of_a_host_act_the_same)
+TEST(several_meshes, with_laws_through_a_mirror_act_the_same)
 {
   const EngineSettings s = with_laws(true);
   const Wall wall(dealt(random_soup(600, 5), 7), kRadius, s, true);
-  HostAdapter<CpuBackend> adapter(s, law_for<CpuBackend>(s), CpuBackend());
+  const auto mirrored = with_mirror(s);
   const auto direct = on_cpu(s);
-  wall.put_into(adapter);
+  wall.put_into(*mirrored);
   wall.put_into(*direct);
-  const Crossing expected(*direct), got(adapter);
+  const Crossing expected(*direct), got(*mirrored);
   EXPECT_TRUE(same_bytes(got.force, expected.force));
   EXPECT_GT(expected.joint, 20);
 }

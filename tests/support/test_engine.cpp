@@ -3,9 +3,9 @@
 
 #include "support/test_engine.h"
 
-#include "engine/forwarding_engine.h"
 #include "support/device.h"
 #include "support/device_memory.h"
+#include "support/forwarding_engine.h"
 
 namespace lsdcd {
 
@@ -138,6 +138,12 @@ std::unique_ptr<WallEngine> on_cpu(EngineSettings settings)
 {
   settings.device = Device::cpu;
   return make_engine(settings);
+}
+
+std::unique_ptr<WallEngine> with_mirror(EngineSettings settings)
+{
+  settings.arrays = HostArrays::apart;
+  return make_cpu_engine(settings);
 }
 
 }    // namespace lsdcd

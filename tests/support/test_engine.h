@@ -18,5 +18,7 @@ std::unique_ptr<WallEngine> make_test_engine(EngineSettings settings);
 // other layouts.
 std::unique_ptr<WallEngine> on_cpu(EngineSettings settings);
 std::unique_ptr<WallEngine> in_place(EngineSettings settings);
+// One on the CPU that copies as if it were on a GPU.
+std::unique_ptr<WallEngine> with_mirror(EngineSettings settings);
 
 }    // namespace lsdcd

@@ -1,15 +1,16 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Engines for particles in place, in other layouts and behind an adapter against the CPU's: one
+// Engines for particles in place, in other layouts and behind a mirror against the CPU's: one
 // source, so the same bits. LSDCD_QUICK=1 tries a tenth of the spheres for other searches, not on
 // the largest mesh.
 #include "support/test_engine.h"
 #include "backend/backend_cpu.h"
 #include "contact/contact_history.h"
 #include "effects/effects.h"
+#include "engine/broad_phase/selection_cpu.h"
 #include "engine/broad_phase/selection_gpu.h"
-#include "engine/host_adapter.h"
+#include "engine/engine_on.h"
 #include "engine/step/compile_law.h"
 #include "grid/lookup/occupied_within.h"
 #include "support/crowd.h"
@@ -152,11 +153,6 @@ std::unique_ptr<WallEngine> by_two_kernels(const EngineSettings &s)
   return std::make_unique<EngineOn<CountingBackend>>(s, counting_law(s), CountingBackend());
 }
 
-std::unique_ptr<WallEngine> by_adapter(const EngineSettings &s)
-{
-  return std::make_unique<HostAdapter<CpuBackend>>(s, law_for<CpuBackend>(s), CpuBackend());
-}
-
 ContactLaw history()
 {
   return classic(NormalModel::hertz, true);
@@ -174,7 +170,7 @@ TEST(engine, gives_what_every_effect_gives_on_the_host)
       const EngineSettings &s = effect.settings;
       const Outcome cpu = run_steps(c, s.law(), on_cpu, 2000, kComplete, s);
       expect_same(cpu, run_steps(c, s.law(), in_place, 2000, kComplete, s), effect.name);
-      expect_same(cpu, run_steps(c, s.law(), by_adapter, 2000, kComplete, s), effect.name);
+      expect_same(cpu, run_steps(c, s.law(), with_mirror, 2000, kComplete, s), effect.name);
     }
 }
 

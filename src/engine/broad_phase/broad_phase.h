@@ -11,7 +11,6 @@
 #include "engine/broad_phase/feature_list_store.h"
 #include "engine/broad_phase/selection.h"
 
-#include <numeric>
 #include <stdexcept>
 #include <vector>
 
@@ -22,22 +21,19 @@ class CandidateSelector {
  public:
   const int *data() const { return candidates_.data(); }
 
-  // Selects the spheres that could touch the mesh after moving by up to `margin`: by its cells and, with
-  // `refines`, by the features of these where cells list all within the cutoff. Kernels put the number into
-  // `counts`. `n_springs`: of each sphere, or null; becomes 0 for spheres that are no candidates.
+  // Selects the spheres that could touch the mesh after moving by up to `margin`: by its cells and, where cells list
+  // all within the cutoff, by the features of these. Kernels put the number into `counts`. `n_springs`: of each sphere, or null; becomes 0 for spheres that are no candidates.
   void choose(B &b, const EngineMesh<B> &mesh, const Spheres &spheres, Real margin, Real pull_off,
-              bool refines, StepCounts *counts, int *n_springs)
+              StepCounts *counts, int *n_springs)
   {
-    const std::size_t n = spheres.n;
-    const bool by_features = refines && mesh.grid.view.list_kind.is_complete();
-    candidates_.reserve(n);
+    const bool by_features = mesh.grid.view.list_kind.is_complete();
+    candidates_.reserve(spheres.n);
     if (excess_margin(mesh.grid.view, margin) > 0)
       select<true>(b, mesh, spheres, margin, pull_off, by_features, counts, n_springs);
     else
       select<false>(b, mesh, spheres, margin, pull_off, by_features, counts, n_springs);
   }
 
-  std::vector<int> to_cpu(B &b, std::size_t n) { return lsdcd::to_cpu(b, candidates_, n); }
   std::size_t bytes() const { return candidates_.size() * sizeof(int) + selection_.bytes(); }
 
  private:
@@ -93,16 +89,14 @@ class BroadPhase {
 
   // Selects candidates among spheres in memory of the backend, and makes their lists. With one mesh
   // `n_springs` of other spheres becomes 0. Where a sphere is too large, too_large is set in the counts
-  // returned and nothing else is valid. `packed`: in steps the candidates alone will lie one behind the
-  // other, so that candidates() of one mesh is null.
+  // returned and nothing else is valid.
   StepCounts choose(B &b, const Spheres &spheres, Real margin, Array<StepCounts> &counts,
-                    int *n_springs, bool packed = false)
+                    int *n_springs)
   {
-    are_packed_ = packed && !uses_slots();
     if (uses_slots()) return choose_slots(b, spheres, margin, counts);
     const GridView &grid = meshes_[0].grid.view;
     CandidateSpheres candidates = {spheres.x, spheres.radius, pull_off_, nullptr, 0};
-    selector_.choose(b, meshes_[0], spheres, margin, pull_off_, true, counts.data(), n_springs);
+    selector_.choose(b, meshes_[0], spheres, margin, pull_off_, counts.data(), n_springs);
     b.copy_out(counts.data(), counts_on_cpu_.data(), 1);
     counted_.record(b);
     // A GPU need not wait until the CPU knows how many there are.
@@ -116,20 +110,8 @@ class BroadPhase {
     lists_.make(b, grid, meshes_[0].pose, candidates, margin, counts.data(), early);
     return seen;
   }
-  // The numbers of those of n_spheres packed spheres that are candidates.
-  std::vector<int> chosen(B &b, int n_spheres)
-  {
-    if (!uses_slots()) return selector_.to_cpu(b, n_);
-    std::vector<int> all(n_spheres);
-    std::iota(all.begin(), all.end(), 0);
-    return all;
-  }
-
   std::size_t n() const { return n_; }    // candidates, or slots
-  const int *candidates() const
-  {
-    return uses_slots() ? slots_.sphere() : are_packed_ ? nullptr : selector_.data();
-  }
+  const int *candidates() const { return uses_slots() ? slots_.sphere() : selector_.data(); }
   // For each candidate: does it seem to touch more than one feature now? Null: not known.
   const char *seem_multi_contact() const { return uses_slots() ? nullptr : lists_.multi_contact(); }
   const FeatureLists &lists() const { return lists_.view(); }
@@ -189,7 +171,7 @@ class BroadPhase {
     StepCounts seen = {};
     slots_.clear(b, spheres.n);
     for (const EngineMesh<B> &mesh : meshes_) {
-      selector_.choose(b, mesh, spheres, margin, pull_off_, true, counts.data(), nullptr);
+      selector_.choose(b, mesh, spheres, margin, pull_off_, counts.data(), nullptr);
       seen = read_one(b, counts.data());
       if (seen.too_large) return seen;
       slots_.add(b, selector_.data(), seen.n_candidates);
@@ -213,7 +195,6 @@ class BroadPhase {
   CandidateSlots<B> slots_;
   FeatureListStore<B> lists_;
   Array<PosedGrid> posed_;
-  bool are_packed_ = false;
   std::size_t n_ = 0;
   typename B::template CpuArray<StepCounts> counts_on_cpu_ =
       typename B::template CpuArray<StepCounts>(1);

@@ -81,7 +81,7 @@ struct MultiMeshSpheres {
 struct StepJob {
   GridView grid = {};
   ForceSettings settings = {};
-  const int *candidates = nullptr;    // sphere of each k; null: sphere k
+  const int *candidates = nullptr;    // sphere of each k
   int first_slot = 0;                 // in the pool, of k = 0; read only where the wall can move
   MultiMeshSpheres multi_mesh = {};
   FeatureLists lists = {};    // of each k; none: cells are searched
@@ -103,7 +103,7 @@ struct StepJob {
 
 LSDCD_FN std::size_t sphere_of(const StepJob &job, std::size_t k)
 {
-  return job.candidates ? job.candidates[k] : k;
+  return job.candidates[k];
 }
 
 // Returns the query for sphere i at x. `beyond`: does the law act beyond contact? `pull_off`: of the law, at a radius of

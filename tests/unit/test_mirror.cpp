@@ -1,19 +1,17 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The adapter of a host whose arrays are elsewhere: springs and indices across choices of other near
-// spheres. That it gives what the CPU's engine gives is in test_engine.cpp.
-#include "engine/host_adapter.h"
-#include "engine/step/compile_law.h"
+// Engines with arrays of their own: springs and indices across choices of other candidates, where the host's arrays are
+// elsewhere. That they give what an engine in place gives is in test_engine.cpp.
 #include "support/crowd.h"
 #include "support/test_engine.h"
 
 #include <gtest/gtest.h>
 
-namespace lsdcd::test_host_adapter {
+namespace lsdcd::test_mirror {
 namespace {
 
-// A floor at z = 0 with spheres on it, and the engine of the CPU beside the adapter: each fact is
+// A floor at z = 0 with spheres on it, and an engine in place beside one with a mirror: each fact is
 // one about what both say.
 class Pair {
  public:
@@ -23,8 +21,7 @@ class Pair {
     GridSettings g;
     g.cutoff = 0.5;
     flat_ = FlatGrid(build_grid(weld(floor_mesh(10, 5, 3), -1), g));
-    adapter = std::make_unique<HostAdapter<CpuBackend>>(settings_, law_for<CpuBackend>(settings_),
-                                                        CpuBackend());
+    mirrored = with_mirror(settings_);
     direct = on_cpu(settings_);
     spheres_.v.assign(3 * kSpheres, 0.1);
     spheres_.omega = spheres_.v;
@@ -57,7 +54,7 @@ class Pair {
   }
   void move(int i, const Vec3 &by) { put_vector(spheres_.x, i, vector_at(spheres_.x, i) + by); }
   bool same_forces() const { return same_bytes(force_[0], force_[1]); }
-  // The shear of sphere i's one contact, 0 where it has none, by the engine and by the adapter.
+  // The shear of sphere i's one contact, 0 where it has none, by the engine in place and by the one with a mirror.
   Real shear(int engine, int i)
   {
     ContactHistory store;
@@ -68,11 +65,11 @@ class Pair {
   {
     for (int i = 0; i < kSpheres; i++) EXPECT_EQ(shear(0, i), shear(1, i)) << "sphere " << i;
   }
-  bool has_moved() { return adapter->has_moved(spheres(force_[0])); }
-  std::vector<WallEngine *> both() { return {direct.get(), adapter.get()}; }
+  bool has_moved() { return mirrored->has_moved(spheres(force_[0])); }
+  std::vector<WallEngine *> both() { return {direct.get(), mirrored.get()}; }
 
   static constexpr int kSpheres = 4;
-  std::unique_ptr<WallEngine> adapter, direct;
+  std::unique_ptr<WallEngine> mirrored, direct;
 
  private:
   Spheres spheres(std::vector<Real> &force)
@@ -90,7 +87,7 @@ class Pair {
   std::vector<Real> force_[2];    // and torques
 };
 
-TEST(host_adapter, springs_survive_a_choice_with_other_near_spheres)
+TEST(mirror, springs_survive_a_choice_with_other_near_spheres)
 {
   Pair p;
   p.place(0b1100, 3);
@@ -106,7 +103,7 @@ TEST(host_adapter, springs_survive_a_choice_with_other_near_spheres)
   p.expect_same_springs();
 }
 
-TEST(host_adapter, a_sphere_that_was_far_has_no_spring_of_before)
+TEST(mirror, a_sphere_that_was_far_has_no_spring_of_before)
 {
   Pair p;
   for (int touching : {0b0110, 0b0100, 0b0110}) {
@@ -118,7 +115,7 @@ TEST(host_adapter, a_sphere_that_was_far_has_no_spring_of_before)
   p.expect_same_springs();
 }
 
-TEST(host_adapter, springs_that_were_asked_for_are_still_there_in_the_next_step)
+TEST(mirror, springs_that_were_asked_for_are_still_there_in_the_next_step)
 {
   Pair p;
   p.place(0b0101, 0);
@@ -131,7 +128,7 @@ TEST(host_adapter, springs_that_were_asked_for_are_still_there_in_the_next_step)
   EXPECT_GT(p.shear(1, 2), 0);
 }
 
-TEST(host_adapter, springs_that_are_given_replace_those_it_has)
+TEST(mirror, springs_that_are_given_replace_those_it_has)
 {
   Pair p;
   p.place(0b0111, 0);
@@ -156,13 +153,13 @@ TEST(host_adapter, springs_that_are_given_replace_those_it_has)
   p.expect_same_springs();
 }
 
-TEST(host_adapter, springs_survive_another_grid)
+TEST(mirror, springs_survive_another_grid)
 {
   Pair p;
   p.place(0b1010, 3);
   p.choose();
   for (int k = 0; k < 3; k++) p.step();
-  const Real before = p.shear(0, 3);    // the adapter still has its springs with its engine
+  const Real before = p.shear(0, 3);    // the springs are with the engine
   p.set_grid();
   EXPECT_EQ(p.shear(1, 3), before);
   p.choose();
@@ -172,7 +169,7 @@ TEST(host_adapter, springs_survive_another_grid)
   p.expect_same_springs();
 }
 
-TEST(host_adapter, says_that_spheres_have_moved_past_the_margin_alone)
+TEST(mirror, says_that_spheres_have_moved_past_the_margin_alone)
 {
   Pair p;
   p.place(0b0001, 0);
@@ -184,7 +181,7 @@ TEST(host_adapter, says_that_spheres_have_moved_past_the_margin_alone)
   EXPECT_TRUE(p.has_moved());
 }
 
-TEST(host_adapter, says_that_a_sphere_has_moved_once_it_is_at_the_wall)
+TEST(mirror, says_that_a_sphere_has_moved_once_it_is_at_the_wall)
 {
   Pair p;
   p.place(0b0001, 0);
@@ -197,7 +194,7 @@ TEST(host_adapter, says_that_a_sphere_has_moved_once_it_is_at_the_wall)
   EXPECT_FALSE(p.has_moved());
 }
 
-TEST(host_adapter, says_that_a_sphere_at_no_number_has_moved)
+TEST(mirror, says_that_a_sphere_at_no_number_has_moved)
 {
   Pair p;
   p.place(0b0001, 0);
@@ -207,7 +204,7 @@ TEST(host_adapter, says_that_a_sphere_at_no_number_has_moved)
 }
 
 // Other fixes ask for the last step's totals when spheres are chosen already.
-TEST(host_adapter, totals_of_the_last_step_name_its_sphere_after_another_choice)
+TEST(mirror, totals_of_the_last_step_name_its_sphere_after_another_choice)
 {
   Pair p;
   p.place(0b1100, 3);
@@ -218,7 +215,7 @@ TEST(host_adapter, totals_of_the_last_step_name_its_sphere_after_another_choice)
   for (WallEngine *e : p.both()) EXPECT_EQ(e->totals().largest_overlap_sphere, 3);
 }
 
-TEST(host_adapter, totals_of_the_last_step_name_its_sphere_after_another_grid)
+TEST(mirror, totals_of_the_last_step_name_its_sphere_after_another_grid)
 {
   Pair p;
   p.place(0b1100, 3);
@@ -228,7 +225,7 @@ TEST(host_adapter, totals_of_the_last_step_name_its_sphere_after_another_grid)
   for (WallEngine *e : p.both()) EXPECT_EQ(e->totals().largest_overlap_sphere, 3);
 }
 
-TEST(host_adapter, notes_name_the_sphere_of_the_deepest_overlap_after_another_choice)
+TEST(mirror, notes_name_the_sphere_of_the_deepest_overlap_after_another_choice)
 {
   Pair p;
   p.place(0b1100, 3);
@@ -246,4 +243,4 @@ TEST(host_adapter, notes_name_the_sphere_of_the_deepest_overlap_after_another_ch
 }
 
 }    // namespace
-}    // namespace lsdcd::test_host_adapter
+}    // namespace lsdcd::test_mirror
