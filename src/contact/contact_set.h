@@ -18,6 +18,11 @@ struct ContactsView {
   const FeatureCode *feature;
   const Vec3 *normal;
   const Real *distance;
+
+  LSDCD_FN ContactsView part(int from, int n_of_part) const
+  {
+    return {n_of_part, feature + from, normal + from, distance + from};
+  }
 };
 
 // An array of a set. A set of one needs no index, so that it can stay in registers.

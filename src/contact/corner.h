@@ -9,9 +9,18 @@
 namespace lsdcd {
 
 // One minus the cosine between two unit normals, without cancellation.
-LSDCD_FN Real one_minus_cos(const Vec3 &a, const Vec3 &b)
+template <class Direction>
+LSDCD_FN Real one_minus_cos(const Direction &a, const Direction &b)
 {
   return Real(0.5) * norm_sq(a - b);
+}
+
+// Does closest point i lie in the tangent plane of contact k, so that it bears nothing?
+template <int kMost>
+LSDCD_FN bool lies_in_plane(const ContactSet<kMost> &set, Real radius, int i, int k, Real tolerance)
+{
+  const Real rise = set.distance[k] - set.distance[i] * dot(set.normal[i], set.normal[k]);
+  return fabs(rise) <= tolerance && set.distance[i] + set.distance[k] >= radius;
 }
 
 // Weights w_i = l_i / d_i where l solves
@@ -34,10 +43,13 @@ LSDCD_FN Real one_minus_cos(const Vec3 &a, const Vec3 &b)
 // rounding hides the sign of s - h. So edges that lie in the plane of a face, and vertices in that of an
 // edge or face, to `tolerance` (length), are left out first. Else the rim of a T-junction would turn the
 // force by the square root of a rounding error.
-template <int kMost>
+//
+// Set: of spheres a ContactSet. Of other grains (contact/grain_contacts.h) `normal` and `distance` are what takes their place:
+// a direction whose products are the cosines, and the difference between `radius` and the overlap.
+template <int kMost, class Set = ContactSet<kMost>>
 class CornerRule {
  public:
-  LSDCD_FN void solve(const ContactSet<kMost> &set, Real radius, Real *weight, Real tolerance = 0)
+  LSDCD_FN void solve(const Set &set, Real radius, Real *weight, Real tolerance = 0)
   {
     for (int i = 0; i < set.n; i++) weight[i] = 1;
     if (set.n < 2) return;
@@ -58,22 +70,19 @@ class CornerRule {
 
  private:
   // Does closest point i lie in the tangent plane of a contact on a larger kind of feature?
-  LSDCD_FN static bool lies_in_tangent_plane(const ContactSet<kMost> &set, Real radius, int i,
-                                             Real tolerance)
+  LSDCD_FN static bool lies_in_tangent_plane(const Set &set, Real radius, int i, Real tolerance)
   {
     const FeatureKind kind = feature_kind(set.feature[i]);
     if (kind == FeatureKind::face) return false;
     for (int k = 0; k < set.n; k++) {
       if (!(feature_kind(set.feature[k]) < kind)) continue;
-      const Real rise = set.distance[k] - set.distance[i] * dot(set.normal[i], set.normal[k]);
-      if (fabs(rise) <= tolerance && set.distance[i] + set.distance[k] >= radius) return true;
+      if (lies_in_plane(set, radius, i, k, tolerance)) return true;
     }
     return false;
   }
 
   // The only two contacts: they need no memory, which a GPU has far from its threads.
-  LSDCD_FN static void solve_pair(const ContactSet<kMost> &set, Real radius, Real *weight,
-                                  Real tolerance)
+  LSDCD_FN static void solve_pair(const Set &set, Real radius, Real *weight, Real tolerance)
   {
     bool bears = true;
     for (int i = 0; i < 2; i++)
@@ -85,7 +94,7 @@ class CornerRule {
   }
 
   // Contacts that share with no other one keep the weight 1.
-  LSDCD_FN void leave_out_apart(const ContactSet<kMost> &set)
+  LSDCD_FN void leave_out_apart(const Set &set)
   {
     int n_sharing = 0;
     for (int k = 0; k < n_; k++) {
@@ -104,7 +113,8 @@ class CornerRule {
 
   // One minus the cover of two contacts whose normals make less than a right angle. Cover is a positive definite
   // function of the angle, as it is a sum of powers of the cosine; for parallel normals it is 1.
-  LSDCD_FN static Real uncovered(const Vec3 &a, const Vec3 &b)
+  template <class Direction>
+  LSDCD_FN static Real uncovered(const Direction &a, const Direction &b)
   {
     const Real u = one_minus_cos(a, b);
     return u + kLess * (1 - u) * (kNarrow * u / (1 + kNarrow * u));
@@ -112,8 +122,7 @@ class CornerRule {
 
   // Without the last term: with it the force would differ by sqrt(2 kLeast) of the overlap at most, and that
   // only where normals are that close.
-  LSDCD_FN static void solve_two(const ContactSet<kMost> &set, Real radius, Real *weight, int a,
-                                 int b)
+  LSDCD_FN static void solve_two(const Set &set, Real radius, Real *weight, int a, int b)
   {
     const Real d0 = radius - set.distance[a], d1 = radius - set.distance[b];
     const Real u = uncovered(set.normal[a], set.normal[b]), g = 1 - u;
@@ -134,7 +143,7 @@ class CornerRule {
 
   // The active contacts' rows of the matrix are kept as a Cholesky factor, so that adding
   // one costs a forward substitution; leaving is rare and factors those behind it afresh.
-  LSDCD_FN void solve_many(const ContactSet<kMost> &set, Real radius, Real *weight)
+  LSDCD_FN void solve_many(const Set &set, Real radius, Real *weight)
   {
     const int n = n_;
     make_convex(set, radius);
@@ -164,7 +173,7 @@ class CornerRule {
   }
 
   // Chooses s. The matrix scaled to m_i = 1 has the row sums d_i^2, so that s = max d_i^2 is always enough.
-  LSDCD_FN void make_convex(const ContactSet<kMost> &set, Real radius)
+  LSDCD_FN void make_convex(const Set &set, Real radius)
   {
     Real deepest = 0;
     for (int k = 0; k < n_; k++) {
@@ -187,7 +196,7 @@ class CornerRule {
     add_ridge(set, radius, 2 * high);
   }
 
-  LSDCD_FN void add_ridge(const ContactSet<kMost> &set, Real radius, Real s)
+  LSDCD_FN void add_ridge(const Set &set, Real radius, Real s)
   {
     for (int k = 0; k < n_; k++) {
       const int i = used_[k];
@@ -197,7 +206,7 @@ class CornerRule {
     }
   }
 
-  LSDCD_FN bool is_convex(const ContactSet<kMost> &set, Real radius, Real s)
+  LSDCD_FN bool is_convex(const Set &set, Real radius, Real s)
   {
     add_ridge(set, radius, s);
     n_active_ = 0;
@@ -215,14 +224,14 @@ class CornerRule {
     return false;
   }
 
-  LSDCD_FN static Real cover(const ContactSet<kMost> &set, int i, int j)
+  LSDCD_FN static Real cover(const Set &set, int i, int j)
   {
     if (i == j) return 1;
     if (dot(set.normal[i], set.normal[j]) <= 0) return 0;
     return 1 - uncovered(set.normal[i], set.normal[j]);
   }
 
-  LSDCD_FN Real gradient(const ContactSet<kMost> &set, int i) const
+  LSDCD_FN Real gradient(const Set &set, int i) const
   {
     Real slope = pull_[i];
     for (int k = 0; k < n_active_; k++) slope -= cover(set, i, active_[k]) * l_[active_[k]];
@@ -230,7 +239,7 @@ class CornerRule {
   }
 
   // Appends a row to the factor; false if the matrix is not positive definite.
-  LSDCD_NOINLINE bool push(const ContactSet<kMost> &set, int i)
+  LSDCD_NOINLINE bool push(const Set &set, int i)
   {
     const int m = n_active_;
     Real pivot = stiff_[i];
@@ -248,7 +257,7 @@ class CornerRule {
   }
 
   // Removes the k-th active contact and factors those behind it again.
-  LSDCD_NOINLINE void leave(const ContactSet<kMost> &set, int leaving)
+  LSDCD_NOINLINE void leave(const Set &set, int leaving)
   {
     const int m = n_active_;
     l_[active_[leaving]] = 0;
@@ -258,7 +267,7 @@ class CornerRule {
 
   // Moves l towards the solution on the active set. If l >= 0 stops it on the way, it drops the
   // contact whose l became 0 and returns false. True: l is the solution.
-  LSDCD_FN bool step(const ContactSet<kMost> &set)
+  LSDCD_FN bool step(const Set &set)
   {
     const int m = n_active_;
     for (int k = 0; k < m; k++) {

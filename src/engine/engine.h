@@ -30,6 +30,7 @@ enum class StepState { none, begun, submitted };
 
 class NodesInPlace;         // engine/nodes_in_place.h
 struct NodeGridSettings;    // grid/build/node_grid.h
+class TriangleTree;         // tree/triangle_tree.h
 
 // Computes wall forces for the spheres of one process: in every step begin(), choose_if_due(), submit() and
 // collect(). Springs stay with the engine between steps and follow the spheres'
@@ -52,6 +53,9 @@ class WallEngine {
     expire_choice();
     put_grid(grid, mesh);
   }
+
+  // Sets the tree of the triangles of a mesh's grid, which steps read where laws are for shapes. Borrowed likewise.
+  virtual void set_tree(const TriangleTree &tree, int mesh = 0);
 
   // Sets the pose and velocity of a mesh from now on. At first a mesh is in the frame of its grid. Must not be called between submit()
   // and collect(), and only for engines whose settings say that the wall moves.

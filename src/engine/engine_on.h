@@ -282,6 +282,10 @@ class EngineOn : public WallEngine, public NodesInPlace {
            beside_.scratch_bytes();
   }
 
+ protected:
+  // Returns the sphere of each candidate, or null where all are.
+  const int *candidates() const { return broad_phase_.candidates(); }
+
  private:
   // Does the engine work on a step while the host does something else? Forces that a copy brings have to be there by collect().
   bool starts_at_submit() const { return when_ != When::in_turn || mirror_.is_apart(); }

@@ -4,6 +4,7 @@
 // The spheres of a step, and a mesh whose nodes move, as their host has them.
 #pragma once
 
+#include "base/quaternion.h"
 #include "base/strided_view.h"
 #include "base/vec3.h"
 #include "geometry/feature_code.h"
@@ -19,6 +20,16 @@ struct FloatSpheres {
   const float *radius = nullptr, *mass = nullptr;
   StridedView<float> force,
       torque;    // added to; null where the host sums forces in double, in those of Spheres
+};
+
+// A grain that may be no sphere: a superellipsoid (shape/superellipsoid.h) and how it lies.
+struct GrainShape {
+  Vec3 half = {0, 0, 0};       // half-axes, length; all 0: it is a sphere
+  Real n1 = 2, n2 = 2;         // exponents
+  Quaternion turn;             // from its axes to the box
+  Vec3 inertia = {0, 0, 0};    // about its axes, mass length^2
+
+  bool is_sphere() const { return half.x == 0; }
 };
 
 // Sphere data of a host code, borrowed for one step; n is the number of owned spheres.
@@ -38,6 +49,8 @@ struct Spheres {
   Real *heat_flow = nullptr;            // power; added to where the law has heat
   // With HostArrays::in_float, in place of x, v, omega and radius, of mass where that is null, and of force and torque.
   const FloatSpheres *in_float = nullptr;
+  // Where laws are for shapes; null: all are spheres. The radius of another grain is that of a sphere around it.
+  const GrainShape *shapes = nullptr;
 };
 
 // A mesh whose nodes move, as its host has it in this step.

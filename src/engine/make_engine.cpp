@@ -3,6 +3,7 @@
 
 #include "base/input_error.h"
 #include "engine/engine.h"
+#include "engine/shape_engine.h"
 
 namespace lsdcd {
 
@@ -17,6 +18,11 @@ std::unique_ptr<WallEngine> make_cuda_engine_in_place(const EngineSettings &sett
       settings.names.compute_on_cpu);
 }
 #endif
+
+void WallEngine::set_tree(const TriangleTree &, int)
+{
+  throw std::logic_error("this engine has laws for spheres alone");
+}
 
 bool WallEngine::choose_if_due(const Spheres &spheres, const SphereDrift &drift,
                                const std::vector<MovingMesh> &moving)
@@ -40,6 +46,7 @@ void step_once(WallEngine &engine, const Spheres &spheres, const StepSettings &s
 
 std::unique_ptr<WallEngine> make_engine(const EngineSettings &settings)
 {
+  if (settings.law().for_shapes) return make_shape_engine(settings);
   std::string why;
   const bool cuda = settings.device != Device::cpu && cuda_available(&why);
 #if defined(LSDCD_HAVE_CUDA)

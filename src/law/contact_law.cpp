@@ -21,7 +21,7 @@ bool ContactLaw::has_history() const
 
 int ContactLaw::n_extra() const
 {
-  int n = 0;
+  int n = for_shapes && has_history() ? 3 : 0;
   for (const SubModel *row : rows_of(*this)) n += row->stored.beside_shear;
   return n;
 }
@@ -30,11 +30,12 @@ int ContactLaw::n_extra() const
 int ContactLaw::history_kind() const
 {
   std::uint32_t hash = 2166136261u;
-  for (const SubModel *row : rows_of(*this)) {
-    if (!row->stored.what) continue;
-    for (const char c : row->stored.what + std::string(";"))
-      hash = (hash ^ static_cast<unsigned char>(c)) * 16777619u;
-  }
+  const auto add = [&](const std::string &text) {
+    for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 16777619u;
+  };
+  for (const SubModel *row : rows_of(*this))
+    if (row->stored.what) add(row->stored.what + std::string(";"));
+  if (for_shapes && has_history()) add("arm;");
   return static_cast<int>(hash >> 1);
 }
 

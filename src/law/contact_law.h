@@ -52,6 +52,8 @@ struct ContactLaw {
   Chosen<CohesionModel> cohesion;
 
   bool limit_damping = false;
+  // It acts on grains that may be no spheres, too: a contact with a history keeps the arm of its grain.
+  bool for_shapes = false;
 
   bool is(NormalModel model) const { return normal == model; }
   // Returns whether it is one of LAMMPS's styles before `granular`. These have formulas of their own.

@@ -83,7 +83,8 @@ LSDCD_FN bool reserve_places(const Law &law, const StepJob &job, std::size_t k, 
   return true;
 }
 
-LSDCD_FN int count_acting(const ContactsView &set, const Real *weight)
+template <class Contacts>
+LSDCD_FN int count_acting(const Contacts &set, const Real *weight)
 {
   if (!weight) return set.n;
   int n = 0;
@@ -141,8 +142,8 @@ struct OneMeshSphere {
 // force, torque, springs and contacts. The moment about the origin is stored, too, so that totals can be made when
 // spheres are elsewhere. The sphere is a OneMeshSphere, or a MultiMeshSphere with its contacts (AtMeshes), which is a
 // candidate of each of its meshes. `weight` null: all are 1, with one mesh.
-template <class Law, class Sphere>
-LSDCD_FN void apply_law(const StepJob &job, const Sphere &sphere, const ContactsView &set,
+template <class Law, class Sphere, class Contacts>
+LSDCD_FN void apply_law(const StepJob &job, const Sphere &sphere, const Contacts &set,
                         const Real *weight)
 {
   const auto begin = sphere.begin();
@@ -168,7 +169,7 @@ LSDCD_FN void apply_law(const StepJob &job, const Sphere &sphere, const Contacts
     const LawAtMesh<Law> mesh = sphere.mesh(k);
     const Law &law = mesh.law;
     const ForceSettings &settings = mesh.settings;
-    const ContactsView of_mesh = {n, set.feature + from, set.normal + from, set.distance + from};
+    const Contacts of_mesh = set.part(from, n);
     auto state = sphere.state(law, k);
     add_motion(law, job, settings.pose, i, state);
 

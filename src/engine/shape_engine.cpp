@@ -1,0 +1,141 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "engine/shape_engine.h"
+
+#include "backend/backend_cpu.h"
+#include "base/input_error.h"
+#include "engine/broad_phase/selection_cpu.h"
+#include "engine/engine_on.h"
+#include "engine/step/compile_law.h"
+#include "engine/step/shape_step.h"
+
+#include <string>
+#include <utility>
+
+namespace lsdcd {
+
+namespace {
+
+// Shapes of all candidates, before a step.
+class Shapes {
+ public:
+  ShapeWork work;
+
+  void prepare(const Spheres &spheres, const int *candidates, int n)
+  {
+    work.rows = spheres.shapes;
+    if (!work.rows) return;
+    work.shape.resize(spheres.n);
+    for (int k = 0; k < n; k++) {
+      const int i = candidates ? candidates[k] : k;
+      if (!work.rows[i].is_sphere()) prepare_one(work.rows[i], spheres.radius[i], i);
+    }
+  }
+
+ private:
+  void prepare_one(const GrainShape &row, Real radius, int i)
+  {
+    Superellipsoid &shape = work.shape[i];
+    try {
+      if (!(row.half == shape.half && row.n1 == shape.n1 && row.n2 == shape.n2))
+        shape = made_.get(row.half, row.n1, row.n2);
+      for (int k = 0; k < 3; k++)
+        if (!(row.inertia[k] > 0))
+          throw InputError("a moment of inertia of a shape is not above 0");
+    } catch (const InputError &e) {
+      throw InputError(i, std::string("has a shape that cannot be: ") + e.what());
+    }
+    if (radius < shape.farthest * (1 - kRadiusRounding))
+      throw std::logic_error("the radius of a grain must be that of a sphere around it");
+  }
+  static constexpr Real kRadiusRounding = 1e-12;
+
+  ShapesMade made_;
+};
+
+// Compiles a law for shapes; all of them have the kernels of walls that move and keep contacts.
+template <class Base>
+CompiledLaw<CpuBackend> compiled(const Base &base, ShapeWork &work)
+{
+  using Law = OnWall<ShapeLaw<Base>, true, true>;
+  const Law law = {{base, &work}};
+  return {traits_of(law), {LawBytes(law)}, run_shape_law<Law, CpuBackend>};
+}
+
+CompiledLaw<CpuBackend> compiled_law(const ContactLaw &p, ShapeWork &work)
+{
+  const std::string why = why_not_for_shapes(p);
+  if (!why.empty()) throw InputError(why);
+  if (p.is_classic())
+    return with_classic_law(p, [&](const auto &law) { return compiled(law, work); });
+  const TouchingNormal normal = {p.normal, p.k_normal, 0};
+  return p.has_history() ? compiled(granular_model<true, false>(p, normal), work)
+                         : compiled(granular_model<false, false>(p, normal), work);
+}
+
+CompiledLaw<CpuBackend> compiled_laws(const EngineSettings &settings, ShapeWork &work)
+{
+  CompiledLaw<CpuBackend> all = compiled_law(settings.law(), work);
+  all.laws.clear();
+  for (const ContactLaw &law : settings.laws.laws)
+    all.laws.push_back(compiled_law(law, work).laws.front());
+  return all;
+}
+
+class ShapeEngine : public EngineOn<CpuBackend> {
+ public:
+  ShapeEngine(const EngineSettings &settings, std::unique_ptr<Shapes> shapes) :
+      EngineOn(settings, compiled_laws(settings, shapes->work), CpuBackend()),
+      shapes_(std::move(shapes))
+  {
+    shapes_->work.trees.resize(settings.meshes);
+  }
+
+  void set_tree(const TriangleTree &tree, int mesh) override
+  {
+    shapes_->work.trees.at(mesh) = &tree;
+  }
+  void submit(const Spheres &spheres, const StepSettings &step) override
+  {
+    shapes_->prepare(spheres, candidates(), n_candidates());
+    EngineOn::submit(spheres, step);
+  }
+  StepDiagnostics read_diagnostics() override
+  {
+    const std::uint64_t unsure = std::exchange(shapes_->work.unsure, 0);
+    if (unsure != 0)
+      throw InputError(static_cast<int>(kNoSphere - unsure),
+                       "has a nearest point that was not found to rounding: please report its "
+                       "shape and how it lies");
+    return EngineOn::read_diagnostics();
+  }
+
+ private:
+  std::unique_ptr<Shapes> shapes_;
+};
+
+}    // namespace
+
+std::string why_not_for_shapes(const ContactLaw &law)
+{
+  const auto refused = [](const char *what) {
+    return std::string(what) +
+           ": the wall has it for spheres alone; grains of other shapes can have hooke and hertz "
+           "with their damping and sliding friction";
+  };
+  if (law.is(NormalModel::jkr) || law.is(NormalModel::dmt)) return refused("adhesion");
+  if (law.cohesion.is_on()) return refused("cohesion");
+  if (law.rolling.is_on()) return refused("rolling resistance");
+  if (law.twisting.is_on()) return refused("twisting resistance");
+  if (law.has_heat()) return refused("heat");
+  if (law.rescales()) return refused("a tangential spring that is rescaled");
+  return "";
+}
+
+std::unique_ptr<WallEngine> make_shape_engine(const EngineSettings &settings)
+{
+  return std::make_unique<ShapeEngine>(settings, std::make_unique<Shapes>());
+}
+
+}    // namespace lsdcd

@@ -1,0 +1,324 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// A step of grains that may be no spheres, on a CPU: spheres as in other steps, others by the signed distance from them.
+#pragma once
+
+#include "base/input_error.h"
+#include "contact/grain_contacts.h"
+#include "contact/shape_search.h"
+#include "engine/step/multi_mesh_step.h"
+#include "engine/step/shape_law.h"
+#include "engine/step/step_cpu.h"
+
+#include <memory>
+#include <vector>
+
+namespace lsdcd {
+
+// Memory of contact i at the start of the step, as begin_memory() of spheres.
+template <class Law, class Springs>
+auto begin_memory(const Law &law, const ForceSettings &settings, const GrainContactsView &set,
+                  int i, const SphereStateWith<Springs> &s)
+{
+  ContactMemory<Law::kExtra> memory = {};
+  if constexpr (Law::kHistory) {
+    const OldGrainContacts<Springs> old = {s.springs, s.extra, n_extra(law), s.n_springs,
+                                           *set.at[i].metric};
+    const Transfer in = transfer_of(set, i, old);
+    if (in.from >= 0) {
+      const Vec3 &n = set.at[i].normal;
+      memory.shear = handed_on(s.springs[in.from].shear, in, s.springs, n);
+      if (settings.update && settings.surface_moves)
+        memory.shear = turn_about(n, settings.dt * dot(settings.surface.angular, n), memory.shear);
+    }
+    memory.put(0, set.at[i].arm);
+  }
+  return memory;
+}
+
+// Returns the radius by which a law takes the size of a contact from its overlap: that of the mean curvature. A flat side has
+// no contact radius above that of the sphere around the grain.
+inline Real contact_curvature_radius(const Superellipsoid &shape, const Vec3 &own_point,
+                                     Real overlap)
+{
+  const Real most = shape.farthest * (shape.farthest / overlap);
+  const Real mean = curvature_at(shape, own_point).mean;
+  return mean * most > 1 ? 1 / mean : most;
+}
+
+// Evaluates the law for each contact of a grain that is no sphere, as add_contacts() does for spheres: with the velocity of
+// the grain's point less that of the wall at the foot, and the force at the grain's point.
+template <class Law, class Springs>
+void add_contacts(const GridView &, const Law &law, const ForceSettings &settings,
+                  const SphereStateWith<Springs> &s, const GrainContactsView &set,
+                  const Real *weights, const SphereSink &sink, SphereResult &out)
+{
+  const Superellipsoid &shape = *set.shape;
+  for (int i = 0; i < set.n; i++) {
+    const GrainContact &at = set.at[i];
+    const Real weight = weights[i], ratio = at.overlap / shape.nearest;
+    if (ratio > out.overlap_ratio) out.overlap_ratio = ratio;
+    raise_to(&law.work->sharpest, DeepestOverlap::ratio(at.overlap / shape.rho) | (set.grain + 1));
+    if (!(weight > 0)) continue;
+
+    const Vec3 &n = at.normal;
+    Vec3 v = s.v;
+    if (settings.pose.placed) {
+      const Vec3 turning = cross(settings.wall_angular, at.foot);
+      v -= settings.wall_velocity + turning - settings.back * cross(settings.wall_angular, turning);
+    }
+    v += cross(s.omega, at.arm);
+    Contact c;
+    c.normal = n;
+    c.overlap = at.overlap;
+    c.radius = reads_radius(law.base)
+                   ? contact_curvature_radius(shape, at.metric->to_own(at.arm), at.overlap)
+                   : s.radius;
+    c.mass = s.mass;
+    if (settings.gives_way) c.mass = 1 / (1 / s.mass + settings.mobility.along(at.foot, n));
+    c.v_normal = dot(v, n);
+    Vec3 along = v - c.v_normal * n;
+    if (settings.surface_moves) along -= settings.surface.along(at.foot, n, settings.back);
+    c.v_tangent = along;
+    c.dt = settings.dt;
+    c.update = settings.update;
+
+    auto memory = begin_memory(law, settings, set, i, s);
+    const ContactForce f = law.evaluate(c, memory);
+    if constexpr (Law::kHistory) {
+      const int to = out.n_contacts;
+      sink.springs[to] = {memory.shear, n, at.feature, settings.mesh};
+      store_extra(law, memory, sink.extra + to * n_extra(law));
+    }
+    const Vec3 tangential = weight * f.tangential;
+    const Real normal = weight * f.normal, pressing = normal > 0 ? normal : Real(0);
+    const Vec3 force = normal * n + tangential;
+    StepContact &kept = sink.contacts[out.n_contacts];
+    kept = {at.feature, settings.mesh, normal, norm(tangential), 0, -force, s.x - at.foot};
+    if (settings.wear != WearModel::none)
+      kept.wear_power =
+          wear_power(settings.wear, pressing, norm(c.v_tangent), c.v_normal, norm(along));
+    out.n_contacts++;
+    out.force += force;
+    out.torque += cross(at.arm, force);
+    out.energy += weight * f.energy;
+    if (settings.with_point) {
+      const Real w = weight * std::fabs(f.normal);
+      out.weight += w;
+      out.weighted_point += w * at.foot;
+    }
+  }
+}
+
+// What a thread has for grains that are no spheres.
+struct ShapeMemory {
+  std::vector<std::unique_ptr<ShapeSearch>> search;    // of each mesh
+  std::vector<ShapeContact> found;
+  std::vector<GrainContact> contacts;
+  std::vector<GrainMetric> metric;
+  std::vector<Real> weight;
+  GrainCornerSet<kContacts> few;
+  CornerRule<kContacts, GrainCornerSet<kContacts>> rule;
+  struct Many {
+    GrainCornerSet<kMaxContacts> set;
+    CornerRule<kMaxContacts, GrainCornerSet<kMaxContacts>> rule;
+  };
+  std::unique_ptr<Many> many;
+};
+
+// Finds the contacts of a grain, mesh after mesh, each in the frame of its mesh, and applies the law.
+template <class Law, class Sphere>
+class ShapeAtMeshes {
+ public:
+  ShapeAtMeshes(const StepJob &job, const Sphere &sphere, const ShapeWork &work, int *ends,
+                ShapeMemory &memory) :
+      job_(job),
+      sphere_(sphere), work_(work), row_(work.rows[sphere.i]), shape_(work.shape[sphere.i]),
+      centre_(sphere.in_box()), ends_(ends), memory_(memory)
+  {
+  }
+
+  void run()
+  {
+    find();
+    const int n = static_cast<int>(memory_.contacts.size());
+    if (n > kMaxContacts) {
+      does_not_fit(job_, sphere_.begin(), sphere_.i, job_.counts->no_scratch);
+      return;
+    }
+    share();
+    apply_law<Law>(job_, sphere_, GrainContactsView{n, memory_.contacts.data(), &shape_, sphere_.i},
+                   memory_.weight.data());
+  }
+
+ private:
+  const ForceSettings &settings(int m) const { return sphere_.mesh(sphere_.begin() + m).settings; }
+
+  void find()
+  {
+    const int n = sphere_.n_meshes();
+    memory_.contacts.clear();
+    memory_.metric.resize(n);
+    tolerance_ = 0;
+    for (int m = 0; m < n; m++) {
+      find_at(m);
+      ends_[m] = static_cast<int>(memory_.contacts.size());
+    }
+  }
+  void find_at(int m)
+  {
+    const ForceSettings &of = settings(m);
+    tolerance_ = std::fmax(tolerance_, sphere_.mesh(sphere_.begin() + m).grid.tolerance);
+    GrainMetric &metric = memory_.metric[m];
+    Vec3 row[3];
+    rows_of(row_.turn, row);
+    for (int k = 0; k < 3; k++) {
+      const Vec3 axis = of.pose.turn_to_mesh({row[0][k], row[1][k], row[2][k]});
+      for (int j = 0; j < 3; j++) metric.row[j][k] = axis[j];
+      metric.scale[k] = std::sqrt(job_.mass[sphere_.i] / row_.inertia[k]);
+    }
+    const PlacedGrain grain = {
+        shape_, of.pose.to_mesh(centre_), {metric.row[0], metric.row[1], metric.row[2]}};
+    if (memory_.search.size() <= of.mesh) memory_.search.resize(of.mesh + 1);
+    std::unique_ptr<ShapeSearch> &search = memory_.search[of.mesh];
+    if (!search) search = std::make_unique<ShapeSearch>(*work_.trees[of.mesh]);
+    memory_.found.clear();
+    search->contacts(grain, memory_.found);
+    for (const ShapeContact &c : memory_.found) {
+      const Vec3 arm = c.of_grain - grain.centre;
+      add({c.feature, c.normal, -c.distance, arm, c.point, metric.direction(c.normal, arm),
+           &metric},
+          m);
+    }
+  }
+
+  // Two contacts of different meshes at the same place are one, as add_mesh() has it for spheres.
+  void add(const GrainContact &c, int m)
+  {
+    const Pose &pose = settings(m).pose;
+    for (int b = m > 0 ? ends_[m - 1] - 1 : -1; b >= 0; b--) {
+      const GrainContact &other = memory_.contacts[b];
+      const Pose &its = settings(mesh_of(b)).pose;
+      const Vec3 apart = its.to_box(other.foot) - pose.to_box(c.foot);
+      if (norm_sq(apart) > kSamePoint * kSamePoint * tolerance_ * tolerance_) continue;
+      if (c.overlap < other.overlap ||
+          (c.overlap == other.overlap && feature_kind(c.feature) >= feature_kind(other.feature)))
+        return;
+      memory_.contacts.erase(memory_.contacts.begin() + b);
+      for (int k = 0; k < m; k++)
+        if (ends_[k] > b) ends_[k]--;
+    }
+    memory_.contacts.push_back(c);
+  }
+  int mesh_of(int contact) const
+  {
+    int m = 0;
+    while (ends_[m] <= contact) m++;
+    return m;
+  }
+
+  // Gives each contact its weight by the corner rule.
+  void share()
+  {
+    const std::size_t n = memory_.contacts.size();
+    memory_.weight.assign(n, 1);
+    if (n < 2 || settings(0).search.corner != Corner::blend) return;
+    if (n <= kContacts) return solve(memory_.few, memory_.rule);
+    if (!memory_.many) memory_.many.reset(new ShapeMemory::Many);
+    solve(memory_.many->set, memory_.many->rule);
+  }
+  template <class Set, class Rule>
+  void solve(Set &set, Rule &rule)
+  {
+    set.n = 0;
+    const int n = static_cast<int>(memory_.contacts.size());
+    for (int c = 0; c < n; c++) {
+      const GrainContact &at = memory_.contacts[c];
+      const Pose &pose = settings(mesh_of(c)).pose;
+      set.add(at, shape_.farthest, centre_, pose.to_box(at.foot), pose.turn_to_box(at.normal));
+    }
+    rule.solve(set, shape_.farthest, memory_.weight.data(), tolerance_);
+  }
+
+  const StepJob &job_;
+  const Sphere &sphere_;
+  const ShapeWork &work_;
+  const GrainShape &row_;
+  const Superellipsoid &shape_;
+  const Vec3 centre_;    // in the box
+  int *ends_;            // of each mesh's contacts
+  ShapeMemory &memory_;
+  Real tolerance_ = 0;
+};
+
+// Spheres is a MeshStep or a MultiMeshStep, which does the grains that are spheres.
+template <class Law, class Spheres>
+struct ShapeStep {
+  const Law &law;
+  Spheres spheres;
+
+  static constexpr bool kFastPath = false;
+  struct Memory {
+    typename Spheres::Memory of_spheres;
+    ShapeMemory of_shapes;
+  };
+
+  const StepJob &job() const { return spheres.job; }
+  bool is_sphere(std::size_t k) const
+  {
+    const auto slot = job().multi_mesh.meshes ? job().multi_mesh.first[k] : k;
+    return law.work->is_sphere(sphere_of(job(), slot));
+  }
+  bool has_fast_path() const { return false; }
+  void begin() const { spheres.begin(); }
+  bool fast_path(std::size_t) const { return false; }
+  bool needs_list(std::size_t k) const { return is_sphere(k) && spheres.needs_list(k); }
+  template <unsigned kSize>
+  void make_list(const Warp<kSize> &warp, bool mine, std::size_t k) const
+  {
+    spheres.make_list(warp, mine, k);
+  }
+  void general_path(std::size_t k, Memory &memory) const
+  {
+    if (is_sphere(k)) {
+      spheres.general_path(k, memory.of_spheres);
+      return;
+    }
+    int ends[kMaxMeshes];
+    if (job().multi_mesh.meshes) {
+      const MultiMeshSphere s = multi_mesh_sphere<false>(job(), k);
+      for (int slot = s.begin; slot < s.end; slot++) job().result.n_contacts[slot] = 0;
+      run(AtMeshes<Law>{job(), s, ends, s.i, s.radius}, ends, memory.of_shapes);
+    } else {
+      const std::size_t i = sphere_of(job(), k);
+      run(OneMeshSphere<Law>{law, job(), k, i, centre_of<Law>(job(), i), job().radius[i]}, ends,
+          memory.of_shapes);
+    }
+  }
+
+ private:
+  template <class Sphere>
+  void run(const Sphere &sphere, int *ends, ShapeMemory &memory) const
+  {
+    try {
+      ShapeAtMeshes<Law, Sphere>(job(), sphere, *law.work, ends, memory).run();
+    } catch (const InputError &) {
+      raise_to(&law.work->unsure, kNoSphere - sphere.i);
+      put_no_contact(job(), sphere.begin(), sphere.i);
+    }
+  }
+};
+
+// As run_compiled_law().
+template <class Law, class Backend>
+void run_shape_law(const LawBytes &bytes, const StepJob &job, std::size_t n, Backend &backend)
+{
+  const Law &law = bytes.as<Law>();
+  if (job.multi_mesh.meshes)
+    run_step(backend, n, ShapeStep<Law, MultiMeshStep<Law>>{law, {job}});
+  else
+    run_step(backend, n, ShapeStep<Law, MeshStep<Law>>{law, {law, job}});
+}
+
+}    // namespace lsdcd

@@ -1,0 +1,333 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Grains that are no spheres, moved by forces of a wall: closed forms, and what must not depend on the mesh.
+#include "engine/shape_engine.h"
+#include "grid/flat_grid.h"
+#include "shape/superellipsoid.h"
+#include "support/hard_case.h"
+#include "support/laws.h"
+#include "support/meshes.h"
+#include "support/random.h"
+#include "tree/triangle_tree.h"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <vector>
+
+namespace lsdcd::test_shapes {
+namespace {
+
+EngineSettings for_shapes(EngineSettings settings)
+{
+  settings.law().for_shapes = true;
+  return settings;
+}
+
+// Grains and a wall. Grains turn by rotations about their own axes in turn, which keeps their angular momentum.
+class ShapeScene {
+ public:
+  std::vector<Vec3> x, v, momentum, omega, force, torque;
+  std::vector<GrainShape> shapes;
+  std::vector<Real> radius, mass;
+  std::unique_ptr<WallEngine> engine;
+  ContactHistory springs;
+
+  ShapeScene(const TriangleSoup &soup, Real cutoff, const EngineSettings &settings) :
+      springs(settings.law().n_extra()), mesh_(weld(soup, -1)), names_(mesh_), tree_(mesh_, names_)
+  {
+    GridSettings g;
+    g.cutoff = cutoff;
+    flat_ = FlatGrid(build_grid(mesh_, g, false));
+    engine = make_shape_engine(settings);
+    engine->set_grid(flat_.view());
+    engine->set_tree(tree_);
+  }
+
+  // At rest, not turned.
+  int add(const Vec3 &at, const Vec3 &half, Real n1 = 2, Real n2 = 2, Real m = 1)
+  {
+    const Superellipsoid s = make_superellipsoid(half, n1, n2);
+    GrainShape row;
+    row.half = half;
+    row.n1 = n1;
+    row.n2 = n2;
+    row.inertia = m * inertia_over_mass(s);
+    shapes.push_back(row);
+    x.push_back(at);
+    for (auto *rest : {&v, &momentum, &omega, &force, &torque}) rest->push_back({0, 0, 0});
+    radius.push_back(s.farthest);
+    mass.push_back(m);
+    springs.grow(static_cast<int>(x.size()));
+    return static_cast<int>(x.size()) - 1;
+  }
+  void compute(Real dt, bool update = true)
+  {
+    for (Vec3 &f : force) f = {0, 0, 0};
+    for (Vec3 &t : torque) t = {0, 0, 0};
+    for (std::size_t i = 0; i < x.size(); i++) omega[i] = omega_of(i);
+    Spheres s;
+    s.n = static_cast<int>(x.size());
+    s.x = &x[0].x;
+    s.v = &v[0].x;
+    s.omega = &omega[0].x;
+    s.force = &force[0].x;
+    s.torque = &torque[0].x;
+    s.radius = radius.data();
+    s.mass = mass.data();
+    s.shapes = shapes.data();
+    StepSettings step;
+    step.dt = dt;
+    step.update_history = update;
+    step_once(*engine, s, step, springs.n_extra() > 0 ? &springs : nullptr);
+  }
+  // As velocity Verlet.
+  void step(Real dt, const Vec3 &gravity = {0, 0, 0})
+  {
+    kick(dt / 2, gravity);
+    for (std::size_t i = 0; i < x.size(); i++) {
+      x[i] += dt * v[i];
+      turn(i, dt);
+    }
+    compute(dt);
+    kick(dt / 2, gravity);
+  }
+  Vec3 omega_of(std::size_t i) const
+  {
+    const Vec3 own = rotate(inverse(shapes[i].turn), momentum[i]), &I = shapes[i].inertia;
+    return rotate(shapes[i].turn, {own.x / I.x, own.y / I.y, own.z / I.z});
+  }
+  void spin(std::size_t i, const Vec3 &to)
+  {
+    const Vec3 own = rotate(inverse(shapes[i].turn), to), &I = shapes[i].inertia;
+    momentum[i] = rotate(shapes[i].turn, {own.x * I.x, own.y * I.y, own.z * I.z});
+  }
+  Real energy(std::size_t i) const
+  {
+    return 0.5 * mass[i] * norm_sq(v[i]) + 0.5 * dot(momentum[i], omega_of(i)) +
+           engine->totals().energy;
+  }
+
+ private:
+  void kick(Real dt, const Vec3 &gravity)
+  {
+    for (std::size_t i = 0; i < x.size(); i++) {
+      v[i] += dt * ((1 / mass[i]) * force[i] + gravity);
+      momentum[i] += dt * torque[i];
+    }
+  }
+  void turn(std::size_t i, Real dt)
+  {
+    GrainShape &s = shapes[i];
+    const int axis[] = {0, 1, 2, 1, 0};
+    const Real part[] = {0.5, 0.5, 1, 0.5, 0.5};
+    for (int k = 0; k < 5; k++) {
+      const int a = axis[k];
+      Vec3 own = {0, 0, 0};
+      own[a] = 1;
+      const Real rate = rotate(inverse(s.turn), momentum[i])[a] / s.inertia[a];
+      s.turn = s.turn * rotation_about(own, part[k] * dt * rate);
+    }
+    s.turn = normalised(s.turn);
+  }
+
+  WeldedMesh mesh_;
+  TriangleTable names_;
+  TriangleTree tree_;
+  FlatGrid flat_;
+};
+
+// ---- balls ---------------------------------------------------------------------------------
+
+// One grain and one sphere that are moved alike through a mesh.
+struct Pair {
+  ShapeScene grain;
+  Scene sphere;
+
+  Pair(const TriangleSoup &soup, Real r, const EngineSettings &law) :
+      grain(soup, r, for_shapes(law)), sphere(soup, r, law)
+  {
+    grain.add({0, 0, 0}, {r, r, r});
+    sphere.add_sphere({0, 0, 0}, r, 1);
+  }
+  // Returns how far forces and torques differ.
+  Real differ(const Vec3 &x, const Vec3 &v, const Vec3 &omega)
+  {
+    grain.x[0] = x;
+    grain.v[0] = v;
+    grain.spin(0, omega);
+    sphere.set_x(0, x);
+    sphere.set_v(0, v);
+    sphere.set_omega(0, omega);
+    grain.compute(kDt);
+    sphere.compute(kDt);
+    return norm(grain.force[0] - sphere.force(0)) + norm(grain.torque[0] - sphere.torque(0));
+  }
+  static constexpr Real kDt = 1e-3;
+};
+
+TEST(shapes, of_equal_axes_have_the_forces_of_spheres)
+{
+  constexpr Real kRadius = 0.5;
+  std::vector<TriangleSoup> meshes = {floor_mesh(6, 1.2, 3),
+                                      mesh_with_junction(true),
+                                      mesh_with_junction(false),
+                                      box_mesh({-0.6, -0.6, -0.6}, {0.6, 0.6, 0.6}),
+                                      box_mesh({-0.1, -0.2, -1}, {0.1, 0.2, 0}),
+                                      cone_mesh(12, 0.6, 0.4),
+                                      cylinder_mesh(24, 3, 0.7, 2),
+                                      faces_all_round(7)};
+  for (Real degrees : {30., 90., 150., 179.9, 180.1, 210., 270., 330.})
+    meshes.push_back(hinge_mesh(degrees, 1.5));
+  std::vector<EngineSettings> laws = {hooke(1e3, 2, 1, 0.4), hooke_history(1e3, 600, 2, 1, 0.4),
+                                      hertz_history(1e3, 600, 2, 1, 0.4)};
+  laws.push_back(granular(NormalModel::hertz, 1e3));
+  laws.back().law().damping = DampingModel::viscoelastic;
+  laws.back().law().eta = 0.2;
+  laws.back().law().tangential = TangentialModel::linear_history;
+  laws.back().law().k_tangent = 600;
+  laws.back().law().xgammat = 0.5;
+  laws.back().law().mu = 0.4;
+  std::mt19937_64 random(7);
+  std::uniform_real_distribution<Real> in(-1, 1);
+  int touched = 0;
+  for (std::size_t m = 0; m < meshes.size(); m++) {
+    for (const EngineSettings &law : laws) {
+      Pair pair(meshes[m], kRadius, law);
+      Vec3 x = {0, 0, 0}, v = {0, 0, 0};
+      Real worst = 0;
+      for (int k = 0; k < 120; k++) {
+        // A new place now and then, and steps from there.
+        if (k % 12 == 0) {
+          x = {0.8 * in(random), 0.8 * in(random), 0.8 * in(random)};
+          v = {in(random), in(random), in(random)};
+          pair.grain.springs.clear(0);
+          pair.sphere.springs.clear(0);
+        }
+        x += 0.02 * v;
+        worst = std::fmax(worst, pair.differ(x, v, 3 * Vec3{in(random), in(random), in(random)}));
+        touched += norm_sq(pair.sphere.force(0)) > 0;
+      }
+      // Forces are to 1e3; feet and normals are right to some 1e-15 of the radius, and a normal over an edge that is
+      // almost in the surface by that over the overlap.
+      EXPECT_LE(worst, 1e-9) << "mesh " << m << ", law " << &law - laws.data();
+    }
+  }
+  EXPECT_GT(touched, 2000);
+}
+
+// ---- on a plane ----------------------------------------------------------------------------
+
+// Period of small rocking about y, of an ellipsoid of half-axes 3, 2, 1 along x, y, z on a plane: by the times at which it
+// is upright.
+Real rocking_period(const EngineSettings &law, Real amplitude, Real dt)
+{
+  constexpr Real kGravity = 9.81e-3;    // mm/ms^2
+  const Real sunk = kGravity / law.law().k_normal;
+  ShapeScene scene(floor_mesh(1, 8), 3, for_shapes(law));
+  const int i = scene.add({0, 0, 0}, {3, 2, 1});
+  scene.shapes[i].turn = rotation_about({0, 1, 0}, amplitude);
+  scene.x[i] = {0, 0, std::hypot(3 * std::sin(amplitude), std::cos(amplitude)) - sunk};
+  scene.compute(dt, false);
+  std::vector<Real> turns;
+  Real was = 0;
+  for (int k = 0; turns.size() < 3; k++) {
+    scene.step(dt, {0, 0, -kGravity});
+    const Real now = scene.shapes[i].turn.v.y;
+    if (was * now < 0) turns.push_back(k + was / (was - now));
+    if (k > 1000000) return 0;
+    was = now;
+  }
+  return (turns[2] - turns[0]) * dt;
+}
+
+TEST(shapes, rock_on_a_plane_with_the_period_of_their_curvature)
+{
+  constexpr Real kStiffness = 9.81e-3 / 1e-5, kAmplitude = 1e-3;
+  const Real dt = 0.02 / std::sqrt(kStiffness);
+  // Upright is seen to 1e-3 of a step; the spring along the plane, which begins without a load, shakes it by 1e-5 of a period.
+  // T = 2 pi sqrt((I + m c^2)/(m g (a^2/c - c))) where it rolls, without m c^2 where it slides.
+  EXPECT_NEAR(rocking_period(hooke_history(kStiffness, kStiffness, 0, 0, 1e3), kAmplitude, dt),
+              38.8473, 38.8473e-4);
+  EXPECT_NEAR(rocking_period(hooke(kStiffness), kAmplitude, dt), 31.7187, 31.7187e-4);
+}
+
+// An ellipsoid of half-axes 2, 1, 1 and mass 1 that comes down with speed 1, its long axis at 45 degrees to a plane.
+struct Impact {
+  Real contact, centre, spin;    // velocities after it, of the touching point and upwards
+};
+Impact impact(const EngineSettings &law, Real dt)
+{
+  ShapeScene scene(floor_mesh(1, 8), 2, for_shapes(law));
+  const int i = scene.add({0, 0, 0}, {2, 1, 1});
+  scene.shapes[i].turn = rotation_about({0, 1, 0}, kPi / 4);
+  const Real height = std::sqrt(2.5);
+  scene.x[i] = {0, 0, height + 1e-6};
+  scene.v[i] = {0, 0, -1};
+  scene.compute(dt, false);
+  bool touched = false;
+  for (int k = 0; k < 100000; k++) {
+    scene.step(dt);
+    const bool touches = norm_sq(scene.force[i]) > 0;
+    if (touched && !touches) break;
+    touched |= touches;
+  }
+  const Vec3 w = scene.omega_of(i);
+  return {scene.v[i].z + 0.948683 * std::fabs(w.y), scene.v[i].z, std::fabs(w.y)};
+}
+
+TEST(shapes, leave_an_eccentric_impact_as_the_mobility_of_the_point_has_it)
+{
+  constexpr Real kStiffness = 1e8;
+  const Real dt = 0.005 / std::sqrt(kStiffness);
+  const Impact elastic = impact(hooke(kStiffness), dt);
+  EXPECT_NEAR(elastic.centre, 0.052632, 5e-5);
+  EXPECT_NEAR(elastic.spin, 0.998614, 1e-4);
+  // A damping by m that returns 0.8 of a sphere.
+  EngineSettings damped = granular(NormalModel::hooke, kStiffness);
+  const Real l = std::log(0.8);
+  damped.law().damping = DampingModel::mass_velocity;
+  damped.law().eta = -2 * std::sqrt(kStiffness) * l / std::sqrt(kPi * kPi + l * l);
+  const Impact lossy = impact(damped, dt);
+  EXPECT_NEAR(lossy.contact, 0.734708, 2e-3);
+  EXPECT_NEAR(lossy.centre, -0.0870, 1e-3);
+  EXPECT_NEAR(lossy.spin, 0.8662, 1e-3);
+}
+
+// ---- rails -----------------------------------------------------------------------------------
+
+// A ridge along y at x, with its edge at z = 0.
+TriangleSoup ridge(Real x)
+{
+  TriangleSoup soup;
+  soup.source = "ridge";
+  const Vec3 a = {x, -3, 0}, b = {x, 3, 0}, l = {x - 0.5, -3, -1}, m = {x - 0.5, 3, -1},
+             r = {x + 0.5, -3, -1}, q = {x + 0.5, 3, -1};
+  soup.corners = {l, m, a, m, b, a, a, b, r, b, q, r};
+  return soup;
+}
+
+TEST(shapes, a_block_on_two_rails_rests_with_half_its_weight_on_each)
+{
+  TriangleSoup rails = ridge(-3);
+  append(rails, ridge(3));
+  constexpr Real kStiffness = 1e4, kGravity = 1;
+  ShapeScene scene(rails, 5.4, for_shapes(hooke_history(kStiffness, kStiffness, 40, 20, 0.5)));
+  const int i = scene.add({0, 0, 1 - 0.5 * kGravity / kStiffness}, {5, 1, 1}, 8, 8);
+  const Real dt = 0.05 / std::sqrt(kStiffness);
+  scene.compute(dt, false);
+  Real worst = 0;
+  for (int k = 0; k < 4000; k++) {
+    scene.step(dt, {0, 0, -kGravity});
+    if (k < 3000) continue;
+    // The difference of the two is the torque about y over the arm.
+    worst = std::fmax(worst, std::fabs(scene.torque[i].y / 3 / kGravity));
+    worst = std::fmax(worst, std::fabs(scene.force[i].z / kGravity - 1));
+    EXPECT_EQ(scene.engine->totals().contacts, 2);
+  }
+  EXPECT_LE(worst, 1e-3);
+}
+
+}    // namespace
+}    // namespace lsdcd::test_shapes
