@@ -60,15 +60,19 @@ FixWallLsdcd::FixWallLsdcd(LAMMPS *lmp, int narg, char **arg, const lsdcd::WallB
   datamask_modify = F_MASK | TORQUE_MASK;
 #endif
   check_atoms();
+  if (atom->ellipsoid_flag && place.in_place)
+    fatal("the wall has ellipsoids on a CPU alone: use wall/lsdcd without /kk");
+  if (atom->ellipsoid_flag) shape_atoms = std::make_unique<ShapeAtoms>(lmp, id);
 
   run_core([&] {
     std::string report;
-    const lsdcd::WallCommand command = lsdcd::parse_wall(
+    lsdcd::WallCommand command = lsdcd::parse_wall(
         std::vector<std::string>(arg + 3, arg + narg),
         [&](const lsdcd::WallMaterials &materials, const std::vector<lsdcd::MaterialPair> &pairs) {
           return read_laws(host, materials, pairs, update->unit_style, report);
         });
     material_file = command.materials.pair.file;
+    command.wall.shapes = atom->ellipsoid_flag;
     const lsdcd::WallSpec &spec = command.wall;
     picture.spec = command.picture;
     if (picture.spec.type > atom->ntypes)
@@ -153,10 +157,13 @@ FixWallLsdcd::~FixWallLsdcd()
 
 void FixWallLsdcd::check_atoms() const
 {
-  if (!atom->radius_flag || !atom->rmass_flag || !atom->omega_flag || !atom->torque_flag)
+  if (atom->ellipsoid_flag) {
+    const std::string why = ShapeAtoms::why_not(*atom);
+    if (!why.empty()) fatal(why);
+  } else if (!atom->radius_flag || !atom->rmass_flag || !atom->omega_flag || !atom->torque_flag)
     fatal("atoms need a radius, omega and torque: use atom_style sphere");
   const std::string shape = lsdcd::shape_of_atoms(*atom);
-  if (!shape.empty())
+  if (!shape.empty() && shape != lsdcd::kEllipsoids)
     fatal("the atom style has " + shape +
           ", which the wall would take for spheres: use atom_style sphere without them");
 }
@@ -526,7 +533,7 @@ lsdcd::HostSpheres FixWallLsdcd::spheres_in_atom()
   if (s.n) {
     s.x = atom->x[0];
     s.v = atom->v[0];
-    s.omega = atom->omega[0];
+    if (atom->omega_flag) s.omega = atom->omega[0];
     s.force = atom->f[0];
     s.torque = atom->torque[0];
   }
@@ -538,6 +545,7 @@ lsdcd::HostSpheres FixWallLsdcd::spheres_in_atom()
   s.group = group->names[igroup];
   s.group_changes = group->dynamic[igroup] != 0;
   if (atom->tag_enable) s.tag = atom->tag;
+  if (shape_atoms) shape_atoms->put(s);
 #if HOST_HAS_HEAT
   s.temperature = atom->temperature;
   s.heat_flow = atom->heatflow;
@@ -834,7 +842,8 @@ void FixWallLsdcd::fill_each_contact()
 
 double FixWallLsdcd::memory_usage()
 {
-  double bytes = wall->bytes() + damping_mass.capacity() * sizeof(double);
+  double bytes = wall->bytes() + (shape_atoms ? shape_atoms->bytes() : 0) +
+                 damping_mass.capacity() * sizeof(double);
   bytes += (double) contact_rows.capacity() * (sizeof contact_rows[0] + sizeof contact_row_at[0]);
   if (spec().contacts) bytes += (double) atom->nmax * size_peratom_cols * sizeof(double);
   return bytes;

@@ -12,6 +12,7 @@
 #include "lammps/node_atoms.h"
 #include "lammps/own_messages.h"
 #include "lammps/rerun_watch.h"
+#include "lammps/shape_atoms.h"
 #include "lammps/wall_picture.h"
 #include "wall/wall.h"
 
@@ -78,6 +79,7 @@ class FixWallLsdcd : public Fix, protected OwnMessages {
  protected:
   friend class LammpsHost;
   LammpsHost host{*this};
+  std::unique_ptr<ShapeAtoms> shape_atoms;    // null: all atoms are spheres
   std::unique_ptr<lsdcd::Wall> wall;
   std::string material_file;    // as the script names it; empty: none
 

@@ -16,10 +16,10 @@ namespace lsdcd {
 
 std::string shape_of_atoms(const LAMMPS_NS::Atom &atom)
 {
-  if (atom.ellipsoid_flag) return "ellipsoids";
   if (atom.line_flag) return "lines";
   if (atom.tri_flag) return "triangles";
-  return atom.body_flag ? "bodies" : "";
+  if (atom.body_flag) return "bodies";
+  return atom.ellipsoid_flag ? kEllipsoids : "";
 }
 
 namespace {

@@ -16,7 +16,8 @@ namespace lsdcd {
 
 class Host;
 
-// Returns the shapes that the atom style allows, as "ellipsoids"; empty: all atoms are spheres or points.
+// Returns the shapes that the atom style allows, as kEllipsoids where there are no others; empty: all atoms are spheres or points.
+constexpr char kEllipsoids[] = "ellipsoids";
 std::string shape_of_atoms(const LAMMPS_NS::Atom &atom);
 
 // Returns whether there is an atom of one group and an atom of the other, by the bits of their groups, which no

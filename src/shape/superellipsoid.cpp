@@ -114,9 +114,14 @@ Superellipsoid make_superellipsoid(const Vec3 &half, Real n1, Real n2)
   check(half, n1, n2);
   const Real least = std::min({half.x, half.y, half.z}), most = std::max({half.x, half.y, half.z});
   Superellipsoid s = {half, n1, n2, 0, 0, least};
-  s.farthest = farthest_of_two(farthest_of_two(half.x, half.y, n2), half.z, n1);
+  s.farthest = circumscribed_radius(half, n1, n2);
   s.rho = s.is_ellipsoid() ? least * (least / most) : 1 / LargestCurvature(s).find();
   return s;
+}
+
+Real circumscribed_radius(const Vec3 &half, Real n1, Real n2)
+{
+  return farthest_of_two(farthest_of_two(half.x, half.y, n2), half.z, n1);
 }
 
 // Jaklic, Leonardis and Solina, Segmentation and Recovery of Superquadrics, 2000, chapter 2.

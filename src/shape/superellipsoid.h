@@ -23,6 +23,8 @@ struct Superellipsoid {
 // Returns the shape; throws InputError for numbers that make none.
 Superellipsoid make_superellipsoid(const Vec3 &half, Real n1, Real n2);
 
+// Returns the radius of the circumscribed sphere, length.
+Real circumscribed_radius(const Vec3 &half, Real n1, Real n2);
 // Returns the volume, length^3.
 Real volume(const Superellipsoid &s);
 // Returns the moments of inertia about the axes over the mass, at uniform density, length^2.

@@ -31,8 +31,14 @@ void GridManager::set_engine(WallEngine &engine)
   engine_ = &engine;
   for (const MeshPart &m : meshes_) {
     if (cutoff() == 0 || m.nodes) continue;    // the next step builds those of nodes
-    run_collectively(host_, true, [&] { engine_->set_grid(m.view(), m.index); });
+    run_collectively(host_, true, [&] { put_grid(m); });
   }
+}
+
+void GridManager::put_grid(const MeshPart &m)
+{
+  engine_->set_grid(m.view(), m.index);
+  if (m.grid.tree()) engine_->set_tree(*m.grid.tree(), m.index);
 }
 
 bool GridManager::fit_spheres(Real radius, const SpheresOnCpu &spheres, std::int64_t step)
@@ -105,7 +111,7 @@ void GridManager::rebuild(Real wanted, std::int64_t step)
   for (MeshPart *m : anew) {
     m->grid.progress = progress(*m);
     m->grid.build(wanted, m->effective_box(box()));
-    if (!m->nodes) run_collectively(host_, true, [&] { engine_->set_grid(m->view(), m->index); });
+    if (!m->nodes) run_collectively(host_, true, [&] { put_grid(*m); });
     if (coats_)
       for (BodyCoat &coat : *coats_) coat.set_grid(*m);
   }
@@ -126,7 +132,7 @@ void GridManager::follow_shape(MeshPart &m)
   times_.begin();
   m.grid.progress = progress(m);
   m.grid.build(cutoff(), m.effective_box(box()));
-  run_collectively(host_, true, [&] { engine_->set_grid(m.view(), m.index); });
+  run_collectively(host_, true, [&] { put_grid(m); });
   if (coats_)
     for (BodyCoat &coat : *coats_) coat.set_grid(m);
   times_.end(TimeReport::grids);

@@ -62,6 +62,7 @@ class GridManager {
 
  private:
   Real cutoff_of_coats() const;
+  void put_grid(const MeshPart &m);    // gives it to the engine
   void rebuild(Real cutoff, std::int64_t step);
   void check_rmax(Real radius, const SpheresOnCpu &spheres) const;
   bool fits(const MeshPart &m) const { return m.grid.fits(m.effective_box(box())); }

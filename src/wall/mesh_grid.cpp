@@ -28,8 +28,7 @@ MeshGrid::MeshGrid(Host &host, const WallSpec &wall, const MeshSpec &spec) :
 // The first process alone reads the file, which may not be there on other nodes.
 void MeshGrid::read()
 {
-  // Where its nodes move each process has the mesh.
-  const bool first = host_.is_first(), fills = host_.ranks().fills_memory || spec_.has_nodes;
+  const bool first = host_.is_first(), fills = host_.ranks().fills_memory || is_on_all();
   TriangleSoup soup;
   soup.source = spec_.name;
   run_collectively(host_, first, [&] {
@@ -42,7 +41,7 @@ void MeshGrid::read()
   host_.broadcast(&corners, sizeof corners, 0);
   run_collectively(host_, fills, [&] { soup.corners.resize(corners); });
   host_.broadcast(soup.corners.data(), corners * sizeof(Vec3), 0,
-                  spec_.has_nodes ? Receivers::all : Receivers::that_fill_memory);
+                  is_on_all() ? Receivers::all : Receivers::that_fill_memory);
   host_.broadcast(&soup.rounding, sizeof soup.rounding, 0);
   run_collectively(host_, fills, [&] {
     mesh_ = std::make_unique<WeldedMesh>(weld(soup, spec_.weld));
@@ -176,6 +175,10 @@ void MeshGrid::build(Real cutoff, const PeriodicBox &box)
                    [&] { with_images = whole(cutoff, box); });
   const WeldedMesh &mesh = mesh_ && !box.any_periodic() ? *mesh_ : with_images;
   const LoadedGrid loaded = load_or_build_grid(cache_file, mesh, want, uses_gpu(), host_, memory_);
+  if (wall_.shapes)
+    run_collectively(host_, true, [&] {
+      tree_ = std::make_unique<MeshTree>(box.any_periodic() ? whole(cutoff, box) : *mesh_);
+    });
   cache_text_ = loaded.cache_text;
   cache_warning_ = loaded.cache_warning;
   cells_ = loaded.report.lists.cells;

@@ -8,12 +8,14 @@
 #include "host/host.h"
 #include "mesh/periodic_images.h"
 #include "mesh/welded_mesh.h"
+#include "tree/triangle_tree.h"
 #include "wall/wall_spec.h"
 
 #include <cstdint>
 #include <functional>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace lsdcd {
@@ -61,7 +63,10 @@ class MeshGrid {
   void move_vertices(const std::vector<Vec3> &at);
   int shape() const { return shape_; }    // how often that was
 
-  const WeldedMesh *mesh() const { return mesh_.get(); }    // null but on one process per node
+  // Null but on one process per node, and on all where grains may be no spheres.
+  const WeldedMesh *mesh() const { return mesh_.get(); }
+  // The tree of the triangles of the grid, with images; null before the first build, and where all grains are spheres.
+  const TriangleTree *tree() const { return tree_ ? &tree_->tree : nullptr; }
 
   std::size_t bytes() const;    // held by this process
 
@@ -70,6 +75,10 @@ class MeshGrid {
 
  private:
   void read();
+  bool is_on_all() const
+  {
+    return spec_.has_nodes || wall_.shapes;
+  }    // all processes have the mesh
   bool uses_gpu() const;
   GridSettings grid_settings(Real cutoff, const PeriodicBox &box) const;
   Box within(Real cutoff, const PeriodicBox &box) const;
@@ -81,6 +90,14 @@ class MeshGrid {
   const MeshSpec &spec_;
   NodeMemory memory_;                   // after the first build
   std::unique_ptr<WeldedMesh> mesh_;    // on processes that fill memory
+  struct MeshTree {
+    WeldedMesh mesh;
+    TriangleTable names;
+    TriangleTree tree;
+
+    explicit MeshTree(WeldedMesh of) : mesh(std::move(of)), names(mesh), tree(mesh, names) {}
+  };
+  std::unique_ptr<MeshTree> tree_;
   MeshReport report_;
   std::uint64_t mesh_fingerprint_ = 0;
   std::string mesh_text_, grid_text_;

@@ -4,6 +4,7 @@
 #include "wall/spec_check.h"
 
 #include "base/input_error.h"
+#include "engine/shape_engine.h"
 #include "law/sub_models.h"
 
 #include <algorithm>
@@ -31,6 +32,8 @@ constexpr Member kMeshes = {"n_meshes", "mesh"}, kMesh = {"mesh", "mesh"}, kLaw 
                  kWearFactor = {"wear_factor", "wear_factor"},
                  kWearShape = {"wear_deform_every", "wear"}, kCache = {"cache", "cache"},
                  kFields = {"fields", "mesh_fields"}, kStl = {"stl", "mesh_stl"},
+                 kSide = {"side", "side"}, kDevice = {"device", "device"},
+                 kEach = {"each_contact", "each_contact"},
                  kTorquePoint = {"torque_about_moves", "torque_about"};
 
 // What of a mesh does not go with the rest of its wall. The text is about the member, and says what to do.
@@ -157,6 +160,21 @@ class SpecCheck {
       refuse(kWearShape,
              "wear should move the meshes, but nothing wears: leave that out, or give the wall a "
              "model of wear");
+    if (wall_.shapes) check_shapes();
+  }
+
+  // Not all that spheres have is there for other grains.
+  void check_shapes() const
+  {
+    const std::string why = why_not_for_shapes(wall_.law());
+    if (!why.empty()) refuse(kLaw, why);
+    if (wall_.side != Side::both)
+      refuse(kSide, "ellipsoids have a wall with both sides alone: leave it out");
+    if (wall_.device == Device::cuda)
+      refuse(kDevice, "the wall has ellipsoids on a CPU alone: use cpu or auto");
+    if (wall_.each_contact) refuse(kEach, "the wall lists contacts of spheres alone: leave it out");
+    if (wall_.has_nodes())
+      refuse(kNodes, "ellipsoids cannot have a mesh whose nodes move: leave it out");
   }
 
   void check_inputs(std::size_t k, const Member &member, const int *input, std::size_t n) const

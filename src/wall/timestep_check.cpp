@@ -29,16 +29,38 @@ Real TimestepCheck::mass_of(Real sphere, std::size_t law) const
   return 1 / (1 / sphere + mobility);
 }
 
+// Returns the least mass with which a point of a grain that is no sphere meets a plane: 1/m and the turning of the farthest point
+// that has the least height.
+static Real least_mass(const GrainShape &shape, Real mass, Real radius)
+{
+  const Real height = std::min({shape.half.x, shape.half.y, shape.half.z}),
+             inertia = std::min({shape.inertia.x, shape.inertia.y, shape.inertia.z});
+  return 1 / (1 / mass + std::max(radius * radius - height * height, Real(0)) / inertia);
+}
+
+// Returns the radius of a sphere whose hertz contact is as stiff as the stiffest of this grain, at an overlap of 1 % of its
+// radius. A flat side's contact is as wide as the grain.
+static Real stiffest_radius(const GrainShape &shape, Real radius)
+{
+  const Real least = std::min({shape.half.x, shape.half.y, shape.half.z});
+  if (shape.n1 > 2 || shape.n2 > 2) return 10 * radius;
+  return radius * std::min(std::sqrt(radius / least), Real(10));
+}
+
 // The shortest contact of sphere i with any mesh.
 Real TimestepCheck::shortest_of(const Spheres &s, int i) const
 {
   const SphereKinds kinds = {laws_.kinds > 1 ? s.type : nullptr, laws_.kind_of_type.data(),
                              static_cast<int>(laws_.kind_of_type.size()) - 1};
-  Real shortest = INFINITY;
+  Real shortest = INFINITY, mass = s.mass[i], radius = s.radius[i];
+  if (s.shapes && !s.shapes[i].is_sphere()) {
+    mass = least_mass(s.shapes[i], mass, radius);
+    radius = stiffest_radius(s.shapes[i], radius);
+  }
   for (std::size_t k = static_cast<std::size_t>(kinds[i]); k < laws_.laws.size();
        k += static_cast<std::size_t>(laws_.kinds))
-    shortest = std::min(
-        shortest, contact_time(laws_.laws[k], mass_of(s.mass[i], k), s.radius[i], velocity_unit_));
+    shortest =
+        std::min(shortest, contact_time(laws_.laws[k], mass_of(mass, k), radius, velocity_unit_));
   return shortest;
 }
 

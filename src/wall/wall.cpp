@@ -29,6 +29,7 @@ WallSpec in_units(WallSpec spec, const WallUnits &units)
       law.k_tangent /= units.pressure;
     }
     law.cohesion.numbers[0] /= units.pressure;    // sjkr's
+    law.for_shapes = spec.shapes;
   };
   for (LawOfTypes &row : spec.laws) convert(row.law);
   for (MeshSpec &mesh : spec.meshes) {
@@ -36,6 +37,7 @@ WallSpec in_units(WallSpec spec, const WallUnits &units)
     mesh.pressure /= units.pressure;
   }
   spec.wear.per_work *= units.pressure;
+  if (spec.shapes) spec.device = Device::cpu;
   return spec;
 }
 

@@ -207,8 +207,17 @@ TABLES = [
     ]),
     (changed(NO_RADIUS, ("atom_style      atomic", "atom_style      {}"), ("mass            1 1.0\nfix             move all nve\n", "")) +
      HOOKE + "mesh floor.stl\n" + RUN, [
-        ("shapes", "hybrid sphere ellipsoid", "Fix wall wall/lsdcd: the atom style has ellipsoids, which the wall would take for spheres"),
         ("shapes_of_triangles", "hybrid sphere tri", "Fix wall wall/lsdcd: the atom style has triangles"),
+    ]),
+    (changed(NO_RADIUS, ("atom_style      atomic", "atom_style      ellipsoid"), ("mass            1 1.0\nfix             move all nve\n", "")) +
+     "fix             wall all wall/lsdcd {} mesh floor.stl\n" + RUN, [
+        ("ellipsoids_with_adhesion", "granular jkr 1e5 700 0.3 0.3 tangential mindlin NULL 0.6 0.4",
+         "in 'law', adhesion: the wall has it for spheres alone"),
+        ("ellipsoids_with_rolling", "granular hooke 1e5 700 tangential linear_history 1e4 0.6 0.4 rolling sds 2e3 5 0.1",
+         "in 'law', rolling resistance: the wall has it for spheres alone"),
+        ("ellipsoids_with_a_side", "hooke 1e4 NULL 20 NULL 0.1 1 side out", "in 'side', ellipsoids have a wall with both sides alone"),
+        ("ellipsoids_each_contact", "hooke 1e4 NULL 20 NULL 0.1 1 each_contact", "the wall lists contacts of spheres alone"),
+        ("ellipsoids_on_a_gpu", "hooke 1e4 NULL 20 NULL 0.1 1 device cuda", "the wall has ellipsoids on a CPU alone"),
     ]),
     (NO_RADIUS + HOOKE + "mesh {}\n" + RUN, [
         ("no_radius", "floor.stl", "radius", "atom_style sphere"),

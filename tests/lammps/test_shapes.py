@@ -1,0 +1,140 @@
+#!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 LSDCD contributors
+# SPDX-License-Identifier: GPL-2.0-only
+
+"""Ellipsoids at a bumpy floor that turns, in a tray that rests: balls go as spheres do, and a run is the same on any number of
+processes that continue it from a restart file. One that comes down leaves as a closed form has it."""
+
+import math
+
+import lmp
+import scene
+import stl
+
+FIRST, SECOND = 350, 150
+LAW = "hooke/history 1e4 NULL 120 NULL 0.4 1"
+DUMP = "x y z vx vy vz {} fx fy fz tqx tqy tqz f_wall[1]"
+
+SETTINGS = """\
+units           lj
+atom_style      {style}
+atom_modify     map array sort 40 1.5
+boundary        f f f
+newton          off
+comm_modify     vel yes
+"""
+CREATE = """\
+region          box block -6 6 -6 6 -1.5 8
+create_box      1 box
+lattice         sc 0.6
+region          fill block -4 4 -4 4 1.0 1.4 units box
+create_atoms    1 region fill
+"""
+SPHERES = "set group all diameter 1.0\nset group all density 2.0\n"
+BALLS = "set group all shape 1 1 1\nset group all density 2.0\n"
+ELLIPSOIDS = "set group all shape 1.4 0.9 0.7\nset group all density 2.0\nset group all quat/random 7331\n"
+START = "velocity all create 4.0 4711 loop geom\nvelocity all set NULL NULL -2.0 sum yes\n"
+
+
+def forces(integrator, law=LAW, more=""):
+    return f"""\
+pair_style      zero 1.5
+pair_coeff      * *
+neighbor        0.3 bin
+neigh_modify    delay 0 every 1 check yes
+fix             move all {integrator}
+fix             pull all gravity 8.0 vector 0.5 0.2 -1.0
+fix             wall all wall/lsdcd {law} mesh floor.stl motion rotate 0 0 0 0 0 1 20 mesh tray.stl contacts {more}
+timestep        0.001
+"""
+
+
+def dump(name, spin):
+    return f"""\
+dump            {name} all custom 50 {name} id {DUMP.format(spin)}
+dump_modify     {name} sort id format float %.17g
+"""
+
+
+def write_meshes(folder):
+    scene.write_floor(folder / "floor.stl", side=8.5, cells=30)
+    tray = []
+    for a, b in (((-5, -5), (5, -5)), ((5, -5), (5, 5)), ((5, 5), (-5, 5)), ((-5, 5), (-5, -5))):
+        tray += stl.quad((*a, -1), (*b, -1), (*b, 8), (*a, 8))
+    stl.write(folder / "tray.stl", tray)
+
+
+def go(folder, name, style, atoms, integrator, spin):
+    lmp.run_well(SETTINGS.format(style=style) + CREATE + atoms + START + forces(integrator) +
+                 f"run {FIRST}\nwrite_restart {name}.restart\n" + dump(name, spin) + f"run {SECOND}\n", folder)
+    return lmp.read_dump(folder / name)
+
+
+def proceed(folder, restart, name, ranks):
+    lmp.run_well(SETTINGS.format(style="ellipsoid") + f"read_restart {restart}\n" + forces("nve/asphere") +
+                 dump(name, "angmomx angmomy angmomz") + f"run {SECOND}\n", folder, ranks)
+    return lmp.read_dump(folder / name)
+
+
+def impact(checks, folder):
+    """Half-axes 2, 1, 1, mass 1, long axis at 45 degrees, speed 1, no friction."""
+    stl.write(folder / "plane.stl", stl.quad((-6, -6, 0), (6, -6, 0), (6, 6, 0), (-6, 6, 0)))
+    text = lmp.run_well("""\
+units           lj
+atom_style      ellipsoid
+boundary        f f f
+newton          off
+comm_modify     vel yes
+region          box block -6 6 -6 6 -1 8
+create_box      1 box
+create_atoms    1 single 0 0 1.5811398
+set             atom 1 shape 4 2 2
+set             atom 1 quat 0 1 0 45
+set             atom 1 mass 1
+velocity        all set 0 0 -1
+pair_style      zero 4.1
+pair_coeff      * *
+fix             move all nve/asphere
+fix             wall all wall/lsdcd hooke 1e8 NULL 0 NULL 0 0 mesh plane.stl
+variable        v equal vcm(all,z)
+compute         spin all property/atom angmomy
+compute         sum all reduce sum c_spin
+variable        l equal c_sum
+timestep        5e-7
+thermo_style    custom step v_v v_l
+thermo          2000
+thermo_modify   format float %.17g
+run             2000
+""", folder)
+    _, v, spin = lmp.read_thermo(text)[-1]
+    checks.at_most("impact: velocity upwards", abs(v - 0.052632), 5e-5)
+    # The inertia about y is 1/5 m (2^2 + 1^2) = 1.
+    checks.at_most("impact: angular velocity", abs(abs(spin) - 0.998614), 1e-4)
+
+
+def main():
+    checks, folder = lmp.Checks(), lmp.scratch()
+    write_meshes(folder)
+    spheres = go(folder, "spheres", "sphere", SPHERES, "nve/sphere", "omegax omegay omegaz")
+    balls = go(folder, "balls", "ellipsoid", BALLS, "nve/asphere", "angmomx angmomy angmomz")
+    inertia = 0.4 * (2.0 * math.pi / 6) * 0.5**2
+    for rows in balls.values():
+        for row in rows.values():
+            row[6:9] = [number / inertia for number in row[6:9]]
+    touching = sum(row[-1] > 0 for row in spheres[FIRST].values())
+    checks.fact("balls: some touch", touching > 20, str(touching))
+    # 500 steps of contacts that part neighbouring paths: a factor of 1e5 on 1e-15 at most.
+    checks.at_most("balls: they go as spheres do", lmp.largest_difference(spheres, balls), 1e-10)
+
+    one = go(folder, "one", "ellipsoid", ELLIPSOIDS, "nve/asphere", "angmomx angmomy angmomz")
+    touching = sum(row[-1] > 0 for row in one[FIRST].values())
+    checks.fact("ellipsoids: some touch where it breaks", touching > 20, str(touching))
+    for ranks in (1, 4):
+        checks.at_most(f"ellipsoids: continued from a restart file on {ranks} ranks",
+                       lmp.largest_difference(one, proceed(folder, "one.restart", f"again{ranks}", ranks)), 0)
+    impact(checks, folder)
+    checks.done(folder)
+
+
+if __name__ == "__main__":
+    main()
