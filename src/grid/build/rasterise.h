@@ -5,6 +5,7 @@
 #pragma once
 
 #include "backend/bits.h"
+#include "geometry/feature_box.h"
 #include "geometry/primitive_distance.h"
 #include "grid/build/meets.h"
 #include "grid/plan/grid_plan.h"
@@ -31,32 +32,6 @@ LSDCD_FN bool meets(const BuildView &b, FeatureCode feature, const Vec3 &c, Real
     return distance <= b.plan.cutoff + b.plan.tolerance + around;
   }
   return feature_meets(b.wall, feature, c, around + b.plan.widened(), b.plan.cutoff, distance);
-}
-
-LSDCD_FN void grow_box(Vec3 &lo, Vec3 &hi, const Vec3 &p)
-{
-  for (int k = 0; k < 3; k++) {
-    if (p[k] < lo[k]) lo[k] = p[k];
-    if (p[k] > hi[k]) hi[k] = p[k];
-  }
-}
-
-LSDCD_FN void feature_box(const MeshFeaturesView &wall, FeatureCode feature, Vec3 &lo, Vec3 &hi)
-{
-  const std::uint32_t i = feature_index(feature);
-  switch (feature_kind(feature)) {
-    case FeatureKind::face:
-      lo = hi = wall.vertices[wall.face_vertex[i].v[0]].position;
-      grow_box(lo, hi, wall.vertices[wall.face_vertex[i].v[1]].position);
-      grow_box(lo, hi, wall.vertices[wall.face_vertex[i].v[2]].position);
-      return;
-    case FeatureKind::edge:
-      lo = hi = wall.vertices[wall.edge_vertex[i].v[0]].position;
-      grow_box(lo, hi, wall.vertices[wall.edge_vertex[i].v[1]].position);
-      return;
-    default:
-      lo = hi = wall.vertices[i].position;
-  }
 }
 
 // A brick's octants: what features are sorted into, finer than a brick so that a
