@@ -28,9 +28,9 @@ namespace lsdcd {
 // A step is begun, submitted and collected.
 enum class StepState { none, begun, submitted };
 
-class NodesInPlace;         // engine/nodes_in_place.h
-struct NodeGridSettings;    // grid/build/node_grid.h
-class TriangleTree;         // tree/triangle_tree.h
+class NodesInPlace;           // engine/nodes_in_place.h
+struct MovingGridSettings;    // grid/build/moving_grid.h
+class TriangleTree;           // tree/triangle_tree.h
 
 // Computes wall forces for the spheres of one process: in every step begin(), choose_if_due(), submit() and
 // collect(). Springs stay with the engine between steps and follow the spheres'
@@ -137,9 +137,9 @@ class WallEngine {
 
   // Returns the nodes in the engine's own memory, where it has copies of the records of meshes, as on a GPU; else null.
   virtual NodesInPlace *nodes_in_place() { return nullptr; }
-  // Builds the grid of a mesh from where its nodes are now, to use from now on, by grid/build/node_grid.h, in an engine with
+  // Builds the grid of a mesh from where its nodes are now, to use from now on, by grid/build/moving_grid.h, in an engine with
   // nodes_in_place(). The next choose_if_due() chooses.
-  void build_node_grid(int mesh, const NodeGridSettings &settings)
+  void build_node_grid(int mesh, const MovingGridSettings &settings)
   {
     expire_choice();
     build_grid_of_nodes(mesh, settings);
@@ -180,7 +180,7 @@ class WallEngine {
   }
   // Do the work of set_grid() and build_node_grid(), which have asked for a choice.
   virtual void put_grid(const GridView &grid, int mesh) = 0;
-  virtual void build_grid_of_nodes(int mesh, const NodeGridSettings &settings) = 0;
+  virtual void build_grid_of_nodes(int mesh, const MovingGridSettings &settings) = 0;
 
   StepState state_ = StepState::none;
 

@@ -187,7 +187,7 @@ class EngineOn : public WallEngine, public NodesInPlace {
   }
 
   NodesInPlace *nodes_in_place() override { return has_copies() ? this : nullptr; }
-  void build_grid_of_nodes(int mesh, const NodeGridSettings &settings) override
+  void build_grid_of_nodes(int mesh, const MovingGridSettings &settings) override
   {
     where_step_runs([&] {
       broad_phase_.set_lists(b_, nodes_.at(mesh).build_grid(b_, settings, records_of(mesh)), mesh);

@@ -10,7 +10,7 @@
 #include "backend/backend.h"
 #include "backend/warp.h"
 #include "engine/nodes_in_place.h"
-#include "grid/build/node_grid.h"
+#include "grid/build/moving_grid.h"
 #include "mesh/mesh_features.h"
 #include "mesh/node_spin.h"
 
@@ -137,16 +137,13 @@ class MovingNodes {
   }
 
   // From where nodes are. What it returns lies in memory of this, until the next call.
-  GridView build_grid(B &b, const NodeGridSettings &settings, const MeshFeaturesView &records)
+  GridView build_grid(B &b, const MovingGridSettings &settings, const MeshFeaturesView &records)
   {
-    grid_.build(b,
-                {primitives_.data(), primitives_.size(), topology_.faces, topology_.edges,
-                 at_.data(), records.faces},
-                settings);
+    grid_.build(b, records, {primitives_.data(), primitives_.size()}, settings);
     keep_places(b);
     return grid_.view(records);
   }
-  const NodeGrid<B> &grid() const { return grid_; }
+  const MovingGrid<B> &grid() const { return grid_; }
 
   // By memory that copies without a wait, which the last step's copy has left: move() waits for it.
   void give(B &b, const Vec3 *x, const Vec3 *v)
@@ -403,7 +400,7 @@ class MovingNodes {
   typename B::template CpuArray<Vec3> staged_;
   Array<char> edge_acts_, vertex_acts_;
   Array<FeatureCode> primitives_, left_;
-  NodeGrid<B> grid_;
+  MovingGrid<B> grid_;
   Array<NodesSeen> seen_;
   typename B::template CpuArray<NodesSeen> seen_on_cpu_;
   typename B::Event seen_is_there_;

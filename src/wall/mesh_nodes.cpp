@@ -8,7 +8,7 @@
 #include "base/input_words.h"
 #include "engine/lists/feature_list.h"
 #include "engine/results/step_counts.h"
-#include "grid/build/node_grid.h"
+#include "grid/build/moving_grid.h"
 #include "mesh/face_pressure.h"
 #include "mesh/measure_mesh.h"
 #include "mesh/node_spin.h"
@@ -46,7 +46,7 @@ Real farthest(const std::vector<Vec3> &from, const std::vector<Vec3> &to, std::s
 
 }    // namespace
 
-struct MeshNodes::CpuGrid : NodeGrid<CpuBackend> {};
+struct MeshNodes::CpuGrid : MovingGrid<CpuBackend> {};
 
 MeshNodes::MeshNodes(Host &host, const WallSpec &wall, int mesh, const WeldedMesh &welded) :
     host_(host), wall_(wall), index_(mesh), with_sides_(wall.side != Side::both),
@@ -269,18 +269,15 @@ NodeField MeshNodes::field(Real cutoff) const
 
 void MeshNodes::build_grid(Real cutoff, WallEngine &engine)
 {
-  const NodeGridSettings settings = {
+  const MovingGridSettings settings = {
       cutoff, kAllowance * cutoff, Real(mesh_.report.volume < 0 ? -1 : 1), bounds(), mesh_.source};
   if (!engine_ && engine.nodes_in_place()) give_nodes(engine);
   if (engine_) {
     engine.build_node_grid(index_, settings);
   } else {
     CpuBackend cpu;
-    const MeshTopologyView topology = topology_of(mesh_);
     if (!grid_) grid_ = std::make_unique<CpuGrid>();
-    grid_->build(cpu,
-                 {features_.primitives.data(), features_.primitives.size(), topology.faces,
-                  topology.edges, mesh_.vertices.data(), features_.faces.data()},
+    grid_->build(cpu, features_.view(), {features_.primitives.data(), features_.primitives.size()},
                  settings);
     built_at_ = mesh_.vertices;
     engine.set_grid(grid_->view(features_.view()), index_);

@@ -60,7 +60,7 @@ class ForwardingEngine : public WallEngine {
 
  protected:
   void put_grid(const GridView &grid, int mesh) override { engine_->set_grid(grid, mesh); }
-  void build_grid_of_nodes(int mesh, const NodeGridSettings &settings) override
+  void build_grid_of_nodes(int mesh, const MovingGridSettings &settings) override
   {
     engine_->build_node_grid(mesh, settings);
   }

@@ -4,10 +4,9 @@
 // The lists of a mesh whose nodes move, built by a backend and brought to the host.
 #pragma once
 
-#include "grid/build/node_grid.h"
+#include "grid/build/moving_grid.h"
 #include "mesh/mesh_features.h"
 
-#include <algorithm>
 #include <vector>
 
 namespace lsdcd {
@@ -21,40 +20,32 @@ struct NodeLists {
 };
 
 template <class B>
-NodeLists node_lists_by(B b, const WeldedMesh &mesh, const NodeGridSettings &settings)
+NodeLists node_lists_by(B b, const WeldedMesh &mesh, const MovingGridSettings &settings)
 {
   const MeshFeatures features = make_moving_features(mesh, false);
-  const MeshTopologyView topology = topology_of(mesh);
-  const auto faces = from_cpu(
-      b, std::vector<int>(topology.faces, topology.faces + 3 * std::size_t(topology.n_faces)));
-  const auto edges = from_cpu(
-      b, std::vector<int>(topology.edges, topology.edges + 2 * std::size_t(topology.n_edges)));
-  const auto at = from_cpu(b, mesh.vertices);
+  const auto vertices = from_cpu(b, features.vertices);
+  const auto faces = from_cpu(b, features.faces);
+  const auto face_vertex = from_cpu(b, features.face_vertex);
+  const auto edge_vertex = from_cpu(b, features.edge_vertex);
   const auto code = from_cpu(b, features.primitives);
-  const auto records = from_cpu(b, features.faces);
-  NodeGrid<B> grid;
-  grid.build(b, {code.data(), code.size(), faces.data(), edges.data(), at.data(), records.data()},
-             settings);
+  MeshFeaturesView records = {};
+  records.vertices = vertices.data();
+  records.faces = faces.data();
+  records.face_vertex = face_vertex.data();
+  records.edge_vertex = edge_vertex.data();
+  MovingGrid<B> grid;
+  grid.build(b, records, {code.data(), code.size()}, settings);
+  const BuiltLists<B> &built = grid.lists();
   NodeLists lists;
   lists.scalars = grid.view(MeshFeaturesView());
-  lists.brick_of = to_cpu(b, grid.brick_of(), grid.brick_of().size());
-  lists.bricks = to_cpu(b, grid.bricks(), grid.bricks().size());
-  const auto fetch = [&](const auto *from, auto &to, std::size_t n) {
-    to.resize(n);
-    b.copy_out(from, to.data(), n);
-    b.wait();
-  };
-  std::size_t n_cells = 0, n_entries = 0;
-  for (const Brick &brick : lists.bricks)
-    for (const BrickLayer &layer : brick.layer) n_cells += count_bits(layer.mask);
-  fetch(lists.scalars.lists.cells, lists.cells, n_cells);
-  for (const Cell &c : lists.cells)
-    if (c.count > 1) n_entries = std::max<std::size_t>(n_entries, c.first + c.count);
-  fetch(lists.scalars.lists.entries, lists.entries, n_entries);
+  lists.brick_of = to_cpu(b, built.brick_of, built.brick_of.size());
+  lists.bricks = to_cpu(b, built.bricks, built.n_bricks);
+  lists.cells = to_cpu(b, built.cells, built.n_cells);
+  lists.entries = to_cpu(b, built.entries, built.n_entries);
   return lists;
 }
 
 // In a build with CUDA.
-NodeLists node_lists_on_cuda(const WeldedMesh &mesh, const NodeGridSettings &settings);
+NodeLists node_lists_on_cuda(const WeldedMesh &mesh, const MovingGridSettings &settings);
 
 }    // namespace lsdcd

@@ -8,7 +8,7 @@
 
 namespace lsdcd {
 
-NodeLists node_lists_on_cuda(const WeldedMesh &mesh, const NodeGridSettings &settings)
+NodeLists node_lists_on_cuda(const WeldedMesh &mesh, const MovingGridSettings &settings)
 {
   return node_lists_by(CudaBackend(), mesh, settings);
 }

@@ -258,7 +258,7 @@ TEST(grid, cells_of_a_face_at_once_are_those_found_one_by_one)
       GridSettings settings;
       settings.cutoff = 0.25;
       settings.length = length;
-      const BuildView b = {features.view(), nullptr, false, plan_grid(mesh, settings)};
+      const BuildView b = {features.view(), nullptr, CellTest::regions, plan_grid(mesh, settings)};
       for (std::uint32_t f = 0; f < features.faces.size(); f++) {
         const BrickBox box = brick_box(b, feature_code(FeatureKind::face, f));
         for (std::uint64_t i = 0; i < 8 * box.count(); i++) {

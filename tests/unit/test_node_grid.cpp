@@ -40,7 +40,7 @@ WeldedMesh large_box()
   return weld(box_mesh({1000, -20, 30}, {1060, 20, 90}), -1);
 }
 
-NodeGridSettings settings_of(const WeldedMesh &mesh)
+MovingGridSettings settings_of(const WeldedMesh &mesh)
 {
   Box box = {mesh.vertices.front(), mesh.vertices.front()};
   for (const Vec3 &x : mesh.vertices) extend(box, x);
@@ -83,7 +83,7 @@ Vec3 centre_of_cell(const GridView &grid, const Vec3 &x)
 // that are none too large. Rounding of places is at most 1e-12 here, and of bounds 1e-6.
 void expect_complete(const WeldedMesh &mesh, int n_points)
 {
-  const NodeGridSettings settings = settings_of(mesh);
+  const MovingGridSettings settings = settings_of(mesh);
   const NodeLists lists = node_lists_by(CpuBackend(), mesh, settings);
   Random random(11);
   int n_near = 0, n_listed = 0;

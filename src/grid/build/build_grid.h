@@ -52,7 +52,7 @@ class GridBuilder {
     const auto start = std::chrono::steady_clock::now();
     view_.plan = plan;
     progress_.of(plan.length);
-    view_.primitives = list_kind.has_primitives();
+    view_.test = list_kind.has_primitives() ? CellTest::distances : CellTest::regions;
     view_.features = list_kind.has_primitives() ? of_primitives_ : of_contact_;
     OctantPairs<B> pairs;
     needed_ = HUGE_VAL;
@@ -62,16 +62,22 @@ class GridBuilder {
     give_back_memory();    // what sorting took
     needed_ = double(brick_bytes(plan, pairs.n_bricks));
     if (needed_ > double(budget)) return false;
+    Scratch<std::uint64_t> met(pairs.n);
+    find_cells_met(b_, view_, pairs, progress_, met.data());
+    pairs.octant = Scratch<std::uint32_t>();    // before entries take the most
+    give_back_memory();
     // One primitive more than are read is stored, as a bound of what is left out.
     const std::uint32_t most = list_kind.has_primitives() ? list_kind.most() + 1 : 0xffffffffu;
     BuiltLists<B> built;
-    const bool fits = fill_lists(b_, view_, pairs, most, budget, progress_, built, report);
+    const bool fits =
+        fill_lists(b_, view_, pairs, met.data(), most, budget, progress_, built, report);
     needed_ =
         std::max(needed_, double(grid_bytes(plan, built.n_bricks, built.n_cells, built.n_entries)));
     if (!built.can_be_numbered()) needed_ = HUGE_VAL;
     if (!fits) return false;
     b_.wait();
     report.seconds = seconds_since(start);
+    met = Scratch<std::uint64_t>();
     pairs = OctantPairs<B>();    // before the copies: here most memory is in use
     give_back_memory();
     lists.brick_of = to_cpu(b_, built.brick_of, built.brick_of.size());

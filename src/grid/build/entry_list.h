@@ -11,8 +11,9 @@ namespace lsdcd {
 LSDCD_FN CellEntry make_entry(FeatureCode feature, Real distance)
 {
   // Rounded down, so that a query that trusts the bound never stops early.
-  constexpr Real kLargest = 3e38;    // a float has no more
-  return {feature, static_cast<float>(fmin(distance * (1 - Real(1e-6)), kLargest))};
+  constexpr Real kLargest = 3e38, kRounding = 1e-6;    // a float has no more
+  const Real bound = distance * (distance < 0 ? 1 + kRounding : 1 - kRounding);
+  return {feature, static_cast<float>(fmin(bound, kLargest))};
 }
 
 LSDCD_FN bool comes_before(const CellEntry &a, const CellEntry &b)

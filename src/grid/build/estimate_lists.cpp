@@ -45,7 +45,7 @@ ListEstimate estimate_lists(const MeshFeatures &wall, const GridPlan &plan, bool
   BuildView view = {};
   view.wall = wall.view();
   view.features = features.data();
-  view.primitives = primitives;
+  view.test = primitives ? CellTest::distances : CellTest::regions;
   view.plan = plan;
 
   const std::int64_t n = static_cast<std::int64_t>(features.size());

@@ -4,7 +4,6 @@
 // From sorted octants to occupancy masks, cells and lists, on any backend.
 #pragma once
 
-#include "base/give_back_memory.h"
 #include "grid/build/entry_list.h"
 #include "grid/build/octant_pairs.h"
 
@@ -16,17 +15,17 @@ namespace lsdcd {
 template <class B>
 struct BuiltLists {
   template <class T>
-  using Scratch = typename B::template Scratch<T>;
+  using Array = typename B::template Array<T>;
 
   std::size_t n_bricks = 0, n_cells = 0, n_entries = 0;
 
   // Cells and entries are numbered in 32 bits.
   bool can_be_numbered() const { return n_cells <= 0xffffffffull && n_entries < 0xffffffffull; }
 
-  Scratch<std::int32_t> brick_of;
-  Scratch<Brick> bricks;
-  Scratch<Cell> cells;
-  Scratch<CellEntry> entries;
+  Array<std::int32_t> brick_of;
+  Array<Brick> bricks;
+  Array<Cell> cells;
+  Array<CellEntry> entries;
 };
 
 template <class B>
@@ -134,7 +133,10 @@ void write_lists(B &b, const BuildView &view, const OctantPairs<B> &pairs, const
         break;
       }
       Real distance = 0;
-      meets(view, features[p], centre, view.plan.half_diagonal, distance);
+      if (view.test == CellTest::bounds)
+        distance = PrimitiveBounds(view.wall, features[p]).least_distance(view.plan, centre);
+      else
+        meets(view, features[p], centre, view.plan.half_diagonal, distance);
       const CellEntry entry = make_entry(features[p], distance);
       if (count <= kLongList)
         insert_nearest(entries + start, at++, count, entry);
@@ -153,25 +155,21 @@ void pack_part(B &b, const EntryPacking &packing, const CellEntry *entries, std:
   b.for_each(n, [=] LSDCD_LAMBDA(std::size_t i) { packed[i] = packing.pack(entries[i]); });
 }
 
-// Makes lists of at most `most` entries a cell. False if they would not fit `budget` bytes or
-// cannot be numbered; `out` then has the counts only.
+// Makes lists of at most `most` entries a cell; `met` is what find_cells_met() has found. False if they would not fit
+// `budget` bytes or cannot be numbered; `out` then has the counts only.
 template <class B>
-bool fill_lists(B &b, const BuildView &view, OctantPairs<B> &pairs, std::uint32_t most,
-                std::size_t budget, const BuildProgress &progress, BuiltLists<B> &out,
-                ListReport &report)
+bool fill_lists(B &b, const BuildView &view, const OctantPairs<B> &pairs, const std::uint64_t *met,
+                std::uint32_t most, std::size_t budget, const BuildProgress &progress,
+                BuiltLists<B> &out, ListReport &report)
 {
   using Built = BuiltLists<B>;
   const std::size_t n_bricks = pairs.n_bricks, n_words = n_bricks * kLayers,
                     n_cells = n_bricks * kBrickCells;
-  typename Built::template Scratch<std::uint64_t> met(pairs.n), list(n_words), cell(n_words);
-  typename Built::template Scratch<std::uint32_t> count(n_cells), offset(n_cells), single(n_words),
+  typename B::template Scratch<std::uint64_t> list(n_words), cell(n_words);
+  typename B::template Scratch<std::uint32_t> count(n_cells), offset(n_cells), single(n_words),
       longest(n_words);
-  typename Built::template Scratch<Brick> brick(n_bricks);
-  find_cells_met(b, view, pairs, progress, met.data());
-  pairs.octant =
-      typename Built::template Scratch<std::uint32_t>();    // before entries take the most
-  give_back_memory();
-  count_cells(b, pairs, met.data(), most, count.data());
+  typename Built::template Array<Brick> brick(n_bricks);
+  count_cells(b, pairs, met, most, count.data());
   sum_words(b, n_words, count.data(), brick.data(), offset.data(), list.data(), cell.data(),
             single.data(), longest.data());
   const std::uint64_t n_list = b.exclusive_scan(list.data(), n_words);
@@ -191,13 +189,13 @@ bool fill_lists(B &b, const BuildView &view, OctantPairs<B> &pairs, std::uint32_
       n_words, [=] LSDCD_LAMBDA(std::size_t w) -> std::uint32_t { return longest_of_word[w]; });
   report.distance_tests = pairs.n * kOctantCells;
 
-  out.brick_of = typename Built::template Scratch<std::int32_t>(view.plan.table_size());
-  out.cells = typename Built::template Scratch<Cell>(n_occupied);
-  out.entries = typename Built::template Scratch<CellEntry>(n_list);
+  out.brick_of = typename Built::template Array<std::int32_t>(view.plan.table_size());
+  out.cells = typename Built::template Array<Cell>(n_occupied);
+  out.entries = typename Built::template Array<CellEntry>(n_list);
   finish_bricks(b, pairs, cell.data(), view.plan.table_size(), brick.data(), out.brick_of.data());
   progress.in_parts(B::kOnCpu, "writing lists", n_cells, [&](std::size_t from, std::size_t n) {
-    write_lists(b, view, pairs, met.data(), count.data(), offset.data(), list.data(), brick.data(),
-                from, n, out.cells.data(), out.entries.data());
+    write_lists(b, view, pairs, met, count.data(), offset.data(), list.data(), brick.data(), from,
+                n, out.cells.data(), out.entries.data());
   });
   out.bricks = std::move(brick);
   return true;

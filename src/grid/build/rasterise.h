@@ -8,17 +8,22 @@
 #include "geometry/feature_box.h"
 #include "geometry/primitive_distance.h"
 #include "grid/build/meets.h"
+#include "grid/build/primitive_bounds.h"
 #include "grid/plan/grid_plan.h"
 
 #include <cstring>
 
 namespace lsdcd {
 
+// What says whether a cell lists a feature: its region, as a contact needs; the distance of a primitive; or the bounds of
+// a primitive that moves.
+enum class CellTest { regions, distances, bounds };
+
 // The input of all kernels of the build.
 struct BuildView {
   MeshFeaturesView wall;
   const FeatureCode *features;    // all that can hold a contact, or all primitives
-  bool primitives;
+  CellTest test;
   GridPlan plan;
 };
 
@@ -27,7 +32,7 @@ struct BuildView {
 LSDCD_FN bool meets(const BuildView &b, FeatureCode feature, const Vec3 &c, Real around,
                     Real &distance)
 {
-  if (b.primitives) {
+  if (b.test == CellTest::distances) {
     distance = primitive_distance(b.wall, feature, c);
     return distance <= b.plan.cutoff + b.plan.tolerance + around;
   }
@@ -84,9 +89,36 @@ LSDCD_FN std::uint32_t brick_index(const GridPlan &plan, const BrickBox &box, st
   return static_cast<std::uint32_t>((z * plan.n_bricks[1] + y) * plan.n_bricks[0] + x);
 }
 
+// Returns the part of a span of cells that lies in an octant, from the octant's first cell on.
+LSDCD_FN CellSpan in_octant(const GridPlan &plan, const CellSpan &cells, std::uint32_t octant_key)
+{
+  const CellCentres brick(plan, octant_key >> 3);
+  const std::uint32_t first[3] = {brick.x, brick.y, brick.z};
+  CellSpan part;
+  for (int d = 0; d < 3; d++) {
+    const std::int32_t from = static_cast<std::int32_t>(first[d]) +
+                              static_cast<std::int32_t>(octant_key >> d & 1) * kOctantSide,
+                       lo = cells.lo[d] - from, hi = cells.hi[d] - from;
+    part.lo[d] = lo < 0 ? 0 : lo;
+    part.hi[d] = hi > kOctantSide ? kOctantSide : hi;
+  }
+  return part;
+}
+
+// Returns the octants of a brick that a primitive that moves reaches, a bit each.
+LSDCD_FN unsigned octants_reached(const BuildView &b, FeatureCode primitive, std::uint32_t index)
+{
+  const CellSpan cells = cells_reached(b.plan, PrimitiveBounds(b.wall, primitive));
+  unsigned reached = 0;
+  for (unsigned o = 0; o < 8; o++)
+    if (!in_octant(b.plan, cells, index * 8 + o).is_empty()) reached |= 1u << o;
+  return reached;
+}
+
 // Returns the octants of a brick that the feature meets, a bit each.
 LSDCD_FN unsigned octants_met(const BuildView &b, FeatureCode feature, std::uint32_t index)
 {
+  if (b.test == CellTest::bounds) return octants_reached(b, feature, index);
   const GridPlan &plan = b.plan;
   const std::uint32_t nx = plan.n_bricks[0], ny = plan.n_bricks[1];
   const Vec3 centre = plan.brick_centre(static_cast<std::int32_t>(index % nx),
@@ -125,6 +157,26 @@ LSDCD_FN std::uint64_t cells_where(const GridPlan &plan, std::uint32_t octant_ke
     }
   }
   return met;
+}
+
+// Returns the cells of an octant that a primitive that moves reaches.
+LSDCD_FN std::uint64_t moving_cells(const GridPlan &plan, std::uint32_t octant_key,
+                                    const PrimitiveBounds &of)
+{
+  const CellSpan cells = in_octant(plan, cells_reached(plan, of), octant_key);
+  const CellCentres centres(plan, octant_key >> 3);
+  const Vec3 &normal = of.normal;
+  const Real most = reach_of_moving(plan) +
+                    Real(0.5) * plan.length * (fabs(normal.x) + fabs(normal.y) + fabs(normal.z));
+  std::uint64_t reached = 0;
+  for (int z = cells.lo[2]; z < cells.hi[2]; z++)
+    for (int y = cells.lo[1]; y < cells.hi[1]; y++)
+      for (int x = cells.lo[0]; x < cells.hi[0]; x++) {
+        const int k = (z * kOctantSide + y) * kOctantSide + x;
+        if (!(of.off_plane(centres.at(cell_of_octant(octant_key & 7, k))) > most))
+          reached |= std::uint64_t(1) << k;
+      }
+  return reached;
 }
 
 // Returns the bits of x: below 0 if x is.
@@ -185,7 +237,9 @@ LSDCD_FN std::uint64_t cells_met(const BuildView &b, FeatureCode feature, std::u
   const Real cutoff = b.plan.cutoff, widened = b.plan.widened();
   const std::uint32_t i = feature_index(feature);
   Real distance;
-  if (b.primitives)
+  if (b.test == CellTest::bounds)
+    return moving_cells(b.plan, octant_key, PrimitiveBounds(b.wall, feature));
+  if (b.test == CellTest::distances)
     return cells_where(b.plan, octant_key, [&](const Vec3 &c, Real around) {
       return meets(b, feature, c, around, distance);
     });

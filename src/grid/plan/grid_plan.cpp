@@ -78,9 +78,7 @@ GridPlan plan_with_length(const WeldedMesh &mesh, const GridSettings &settings, 
   plan.half_diagonal = Real(0.5) * std::sqrt(Real(3)) * length * (1 + Real(1e-6));
   plan.cutoff = cutoff;
   plan.least_volume = least_volume;
-  // Covers the regions that flat edges leave out (four times their largest
-  // angle, times the cutoff) and the rounding of dot products over a whole face.
-  plan.tolerance = 4e-13 * cutoff + 16 * kRoundoff * (diagonal + cutoff);
+  plan.tolerance = list_tolerance(cutoff, diagonal);
   plan.margin = cell_margin(cutoff);
   // Half a cell, or a little more than the margin; covers rounding.
   const Real pad =
@@ -100,10 +98,9 @@ double GridPlan::least_bytes() const
 {
   // In floating point, as a much too small length overflows the integer product.
   const double entries = double(n_bricks[0]) * n_bricks[1] * n_bricks[2];
-  // A plan cut off at the most bricks does not reach the wall's far end, and octant keys have
-  // 32 bits.
+  // A plan cut off at the most bricks does not reach the wall's far end.
   for (std::int32_t n : n_bricks)
-    if (n >= kMaxBricks || entries >= 5e8) return HUGE_VAL;
+    if (n >= kMaxBricks || entries >= kMostBricks) return HUGE_VAL;
   const double side = kBrickSide * length;
   return std::max(least_volume / (side * side * side) * kBrickBytes,
                   entries * sizeof(std::int32_t));

@@ -19,6 +19,16 @@ constexpr Real cell_margin(Real cutoff)
   return Real(0.05) * cutoff;
 }
 
+// Returns the tolerance of the lists of a mesh, whose box has this diagonal. It covers the regions that flat edges leave
+// out (four times their largest angle, times the cutoff) and the rounding of dot products over a whole face.
+constexpr Real list_tolerance(Real cutoff, Real diagonal)
+{
+  return 4e-13 * cutoff + 16 * kRoundoff * (diagonal + cutoff);
+}
+
+// Bricks of a table, at most: keys of octants have 32 bits.
+constexpr double kMostBricks = 5e8;
+
 struct GridPlan {
   Vec3 origin;
   Real length, half_diagonal;    // half a cell's diagonal; the second with room for rounding
