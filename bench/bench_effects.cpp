@@ -104,15 +104,15 @@ std::vector<EffectCost> measure_effects(const std::vector<EffectCase> &cases, De
       const double start = seconds(on_cpu);
       one.engine->step(bed.spheres(), step);
       const double took = seconds(on_cpu) - start;
-      if (r >= 0) one.ns.push_back(1e9 * took / one.engine->totals().contacts);
+      if (r >= 0) one.ns.push_back(1e9 * took / one.engine->results().totals().contacts);
     }
 
   std::vector<EffectCost> costs;
   for (Runner &one : runners) {
     std::sort(one.ns.begin(), one.ns.end());
-    costs.push_back({one.engine->backend(), static_cast<int>(one.engine->totals().contacts),
-                     one.ns[one.ns.size() / 2], one.ns.front(), one.ns.back(),
-                     one.engine->bytes()});
+    costs.push_back(
+        {one.engine->backend(), static_cast<int>(one.engine->results().totals().contacts),
+         one.ns[one.ns.size() / 2], one.ns.front(), one.ns.back(), one.engine->bytes()});
   }
   return costs;
 }

@@ -60,10 +60,11 @@ void fill(BenchRow &row, const std::string &what, const WallEngine &engine, cons
   row.what = what;
   row.length = grid.length;
   row.spheres = n;
-  row.facts = format("near=%d contacts=%lld ns_per_near=%.1f grid_mb=%.1f engine_mb=%.1f",
-                     engine.n_candidates(), static_cast<long long>(engine.totals().contacts),
-                     row.timing.median_ms * 1e6 / std::max(1, engine.n_candidates()),
-                     grid.block_bytes / 1e6, engine.bytes() / 1e6);
+  row.facts =
+      format("near=%d contacts=%lld ns_per_near=%.1f grid_mb=%.1f engine_mb=%.1f",
+             engine.n_candidates(), static_cast<long long>(engine.results().totals().contacts),
+             row.timing.median_ms * 1e6 / std::max(1, engine.n_candidates()),
+             grid.block_bytes / 1e6, engine.bytes() / 1e6);
 }
 
 EngineSettings engine_settings(const Style &style, Device device)
@@ -100,7 +101,7 @@ void measure_kept_and_anew(WallEngine &engine, const Spheres &s, const Style &st
     fill(row, std::string(style.name) + where + (anew ? ", chosen anew" : ""), engine, grid, s.n);
     // The near ones are known by their numbers.
     row.bytes =
-        bytes_of_touching(style, engine.totals().contacts) +
+        bytes_of_touching(style, engine.results().totals().contacts) +
         (anew ? s.n * kPlaceAndRadius : engine.n_candidates() * (kPlaceAndRadius + sizeof(int)));
     rows.add(row);
   }

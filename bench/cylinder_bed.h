@@ -43,7 +43,7 @@ class CylinderBed {
 
   void choose();        // near spheres, anew
   void steps(int n);    // with the near spheres as they are; waits at the end
-  std::int64_t contacts() const { return engine_->totals().contacts; }
+  std::int64_t contacts() const { return engine_->results().totals().contacts; }
   int n_candidates() const { return engine_->n_candidates(); }
   Real cell() const { return grid_.view().length; }
   double grid_mb() const { return grid_.view().block_bytes / 1e6; }

@@ -98,7 +98,7 @@ void FixWallLsdcdKokkos<DeviceType>::make_exchange_room()
     // One more for the offset of an atom's numbers in the message. A process on its own packs
     // hardly any atom, those that leave a fixed box, and need not look at all of them.
     const int n = wall->history().spheres_of_engine();
-    lsdcd::SpringsInPlace &springs = wall->history().in_engine(n);
+    lsdcd::Springs &springs = wall->history().in_engine(n);
     int largest =
         1 + (comm->nprocs > 1 ? springs.largest_packed_size(n) : springs.most_packed_size());
     MPI_Allreduce(MPI_IN_PLACE, &largest, 1, MPI_INT, MPI_MAX, world);

@@ -126,7 +126,7 @@ void FixWallLsdcdKokkos<DeviceType>::sort_kokkos(Kokkos::BinSort<KeyViewType, Bi
       std::copy_n(rows.data() + std::size_t(from[i]) * size, size, array_atom[i]);
   }
   if (!has_history()) return;
-  lsdcd::SpringsInPlace &springs = wall->history().in_engine(atom->nlocal);
+  lsdcd::Springs &springs = wall->history().in_engine(atom->nlocal);
   using Ints = Kokkos::View<int *, LMPDeviceType, Kokkos::MemoryTraits<Kokkos::Unmanaged>>;
   sorter.sort(LMPDeviceType(), Ints(springs.first(), atom->nlocal));
   sorter.sort(LMPDeviceType(), Ints(springs.count(), atom->nlocal));

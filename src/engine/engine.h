@@ -11,7 +11,7 @@
 #include "engine/grains.h"
 #include "engine/results.h"
 #include "engine/settings.h"
-#include "engine/springs_in_place.h"
+#include "engine/springs.h"
 #include "grid/triangle_grid.h"
 #include "mesh/periodic_box.h"
 #include "motion/pose.h"
@@ -34,7 +34,7 @@ class TriangleTree;           // tree/triangle_tree.h
 
 // Computes wall forces for the spheres of one process: in every step begin(), choose_if_due(), submit() and
 // collect(). Springs stay with the engine between steps and follow the spheres'
-// indices; a host that moves spheres takes them out before (springs_to) and gives them back.
+// indices; a host that moves spheres takes them out before and gives them back.
 class WallEngine {
  public:
   virtual ~WallEngine() = default;
@@ -109,25 +109,10 @@ class WallEngine {
     collect();
   }
 
-  // Returns the totals of the last step on this process.
-  virtual const WallTotals &totals() const = 0;
-  // Returns the totals of one mesh, without largest_overlap_sphere.
-  virtual WallTotals mesh_totals(int mesh) const = 0;
-
-  // The spheres with a contact in the last step: their number, indices and outputs.
-  // Valid after collect() of a step with per_sphere.
-  virtual int n_touching() const = 0;
-  virtual const int *touching() const = 0;
-  virtual const SphereOutput *sphere_output() const = 0;
-  // Returns the states of these spheres, after a step with `states`.
-  virtual const TouchingSphere *touching_spheres() const = 0;
-  // Returns the power into each of these spheres; null where the law has no heat.
-  virtual const Real *sphere_heat() const = 0;
-
-  // Return the contacts of the last step, in the order of the spheres;
-  // valid after collect() where settings.contacts and step.contacts are set.
-  virtual int n_contacts() const = 0;
-  virtual const StepContact *contacts() const = 0;
+  // Returns what the last step left.
+  virtual StepResults &results() = 0;
+  // Returns the springs of the spheres, which steps read and replace.
+  virtual Springs &springs() = 0;
 
   // Returns what steps have counted since the last call, and counts anew. Throws InputError if a step had to leave out a sphere
   // that is too large or has more contacts than there is memory for, or if one grew after the choice.
@@ -160,12 +145,6 @@ class WallEngine {
   // Copies the sums in units of SumUnit(range.shares), x y z, node after node, if `sums` is not null; none are made
   // where a force is not finite. Returns the power of the nodes on the spheres. Waits.
   virtual Real fetch_node_forces(int mesh, std::int64_t *sums) = 0;
-
-  // Copy the springs of the spheres [0, n) from the engine and to it.
-  virtual void springs_to(ContactHistory &store, int n) = 0;
-  virtual void springs_from(const ContactHistory &store, int n) = 0;
-  // Returns the springs where spheres are in the memory of the engine's backend, or null where a host hands spheres over.
-  virtual SpringsInPlace *springs_in_place() { return nullptr; }
 
   // Returns how many candidates the last choice left.
   virtual int n_candidates() const = 0;

@@ -153,26 +153,8 @@ class EngineOn : public WallEngine, public NodesInPlace {
     results_.fetch(b_, springs_.contacts(step_.update_history));
   }
 
-  const WallTotals &totals() const override { return const_cast<EngineOn *>(this)->sum_totals(); }
-  WallTotals mesh_totals(int mesh) const override
-  {
-    if (!broad_phase_.uses_slots()) return totals();
-    EngineOn *self = const_cast<EngineOn *>(this);
-    WallTotals t = self->results_.mesh_totals(self->b_, mesh);
-    t.largest_overlap_sphere = -1;
-    return t;
-  }
-
-  int n_touching() const override { return static_cast<int>(results_.touching().size()); }
-  const int *touching() const override { return results_.touching().data(); }
-  const SphereOutput *sphere_output() const override { return results_.output().data(); }
-  const TouchingSphere *touching_spheres() const override { return results_.states().data(); }
-  const Real *sphere_heat() const override
-  {
-    return law_.traits.heat ? results_.sphere_heat().data() : nullptr;
-  }
-  int n_contacts() const override { return static_cast<int>(results_.contacts().size()); }
-  const StepContact *contacts() const override { return results_.contacts().data(); }
+  StepResults &results() override { return results_; }
+  Springs &springs() override { return springs_; }
   int n_candidates() const override { return static_cast<int>(broad_phase_.n()); }
 
   StepDiagnostics read_diagnostics() override
@@ -269,10 +251,6 @@ class EngineOn : public WallEngine, public NodesInPlace {
                             node_forces_[mesh].sums(), node_forces_[mesh].range_in_place(), rows,
                             sixth, to});
   }
-  SpringsInPlace *springs_in_place() override { return mirror_.is_apart() ? nullptr : &springs_; }
-  void springs_to(ContactHistory &store, int n) override { springs_.to_store(store, n); }
-  void springs_from(const ContactHistory &store, int n) override { springs_.from_store(store, n); }
-
   std::size_t bytes() const override
   {
     return broad_phase_.bytes() + mirror_.bytes() + springs_.bytes() + results_.bytes() +
@@ -376,7 +354,7 @@ class EngineOn : public WallEngine, public NodesInPlace {
   }
 
   // The work of the step, without waiting for it. `adds_later`: forces are left to the results.
-  void compute(StepResults<B> &results, bool adds_later)
+  void compute(ResultsOn<B> &results, bool adds_later)
   {
     const std::size_t n = broad_phase_.n();
     const bool several = broad_phase_.uses_slots();
@@ -456,8 +434,6 @@ class EngineOn : public WallEngine, public NodesInPlace {
     run_law(multi_mesh, slots.n_multi_mesh(), law_of(0, 0));
   }
 
-  const WallTotals &sum_totals() { return results_.totals(b_); }
-
   StepCounts read_counts() { return read_one(b_, counts_.data()); }
 
   [[noreturn]] void throw_for(const Spheres &spheres, const StepCounts &seen)
@@ -486,7 +462,7 @@ class EngineOn : public WallEngine, public NodesInPlace {
   std::int64_t first_step_ = 0;    // since they were cleared
   ResidentSprings<B> springs_;
 
-  StepResults<B> results_, next_results_;    // of the last step, and of one submitted beside
+  ResultsOn<B> results_{b_}, next_results_{b_};    // of the last step, and of one submitted beside
   WorkListStore<B> work_lists_;
   std::vector<MovingNodes<B>> nodes_;         // of each mesh, where it has copies of records
   std::vector<NodeForces<B>> node_forces_;    // likewise

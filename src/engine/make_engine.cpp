@@ -37,11 +37,11 @@ bool WallEngine::choose_if_due(const Spheres &spheres, const SphereDrift &drift,
 void step_once(WallEngine &engine, const Spheres &spheres, const StepSettings &step,
                ContactHistory *springs)
 {
-  if (springs) engine.springs_from(*springs, spheres.n);
+  if (springs) engine.springs().from_store(*springs, spheres.n);
   engine.choose(spheres, 0);
   engine.step(spheres, step);
   engine.read_diagnostics();    // throws where a sphere was left out
-  if (springs && step.update_history) engine.springs_to(*springs, spheres.n);
+  if (springs && step.update_history) engine.springs().to_store(*springs, spheres.n);
 }
 
 std::unique_ptr<WallEngine> make_engine(const EngineSettings &settings)

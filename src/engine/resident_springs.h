@@ -8,6 +8,7 @@
 #include "backend/backend.h"
 #include "contact/contact_history.h"
 #include "contact/feature_turn.h"
+#include "engine/springs.h"
 #include "engine/step/step_job.h"
 
 #include <algorithm>
@@ -31,7 +32,7 @@ LSDCD_FN std::int64_t as_integer(double bits)
 }
 
 template <class B>
-class ResidentSprings : public SpringsInPlace {
+class ResidentSprings : public Springs {
   template <class T>
   using Array = typename B::template Array<T>;
 
@@ -166,10 +167,11 @@ class ResidentSprings : public SpringsInPlace {
     return pool_[moved ? now_ : 1 - now_].contacts.data();
   }
 
-  void to_store(ContactHistory &store, std::size_t n)
+  void to_store(ContactHistory &store, int n_spheres) override
   {
     if (!traits_.history) return;
-    grow(static_cast<int>(n));
+    const std::size_t n = n_spheres;
+    grow(n_spheres);
     Array<int> offset(n);
     const std::size_t total = offsets(n, offset.data());
     Array<Spring> springs(total);
@@ -191,10 +193,11 @@ class ResidentSprings : public SpringsInPlace {
                  to_cpu(b_, extra, total * n_extra));
   }
 
-  void from_store(const ContactHistory &store, std::size_t n)
+  void from_store(const ContactHistory &store, int n_spheres) override
   {
     if (!traits_.history) return;
-    grow(static_cast<int>(n));
+    const std::size_t n = n_spheres;
+    grow(n_spheres);
     const SpringsView from = store.view();
     Pool &pool = pool_[now_];
     const std::size_t size = store.pool_size();

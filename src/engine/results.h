@@ -9,6 +9,7 @@
 #include "geometry/feature_code.h"
 
 #include <cstdint>
+#include <vector>
 
 namespace lsdcd {
 
@@ -32,20 +33,17 @@ struct WallTotals {
   int pad = 0;                        // keeps the struct free of indeterminate bytes
 };
 
-// One sphere's contacts in columns.
-struct SphereOutput {
-  Real contacts;    // number of contacts
-  Vec3 force;       // sum over them, on the sphere
-  Vec3 point;       // mean contact point on the wall, weighted by normal force
-  Real radius;      // 0 where nothing touches
-};
-
-// A sphere with a contact, as the step has read it.
+// A sphere with a contact, as the step has read it, and what its contacts did. Contacts that bear nothing count, too.
 struct TouchingSphere {
   Vec3 x;
   Real radius, mass;
-  int type;    // 0 where laws do not differ by it
-  int pad;     // keeps the struct free of indeterminate bytes
+  Vec3 force;    // sum over its contacts, on the sphere
+  Vec3 point;    // mean contact point on the wall, weighted by normal force
+  Real heat;     // power into the sphere; 0 where the law has no heat
+  int sphere;    // its index in Spheres
+  int type;      // 0 where laws do not differ by it
+  int n_contacts;
+  int pad;    // keeps the struct free of indeterminate bytes
 };
 
 // The effect of one contact on the wall in one step.
@@ -73,6 +71,27 @@ struct StepDiagnostics {
   // Neighbour lists that were made, the features in them, and searches of cells for spheres without a list; all
   // are 0 where cells list the nearest primitives.
   std::int64_t lists = 0, listed = 0, by_cells = 0;
+};
+
+// What the last step left on this process. It stays until the next collect().
+class StepResults {
+ public:
+  virtual ~StepResults() = default;
+
+  // Returns the sums over all meshes.
+  virtual const WallTotals &totals() = 0;
+  // Returns those of one mesh, without largest_overlap_sphere.
+  virtual WallTotals mesh_totals(int mesh) = 0;
+  // Returns the spheres with a contact, after a step with per_sphere.
+  const std::vector<TouchingSphere> &touching() const { return touching_; }
+  int n_touching() const { return static_cast<int>(touching_.size()); }
+  // Returns the contacts, where settings.contacts and step.contacts are set: those of touching()[0], of touching()[1] and so on.
+  const std::vector<StepContact> &contacts() const { return contacts_; }
+  int n_contacts() const { return static_cast<int>(contacts_.size()); }
+
+ protected:
+  std::vector<TouchingSphere> touching_;
+  std::vector<StepContact> contacts_;
 };
 
 }    // namespace lsdcd

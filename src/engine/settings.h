@@ -62,8 +62,7 @@ struct StepSettings {
   bool update_history = true;    // false in setup: springs act but do not move
   bool synchronous =
       false;    // velocities are of the time of the places, as in setup; else of half a step before
-  bool per_sphere = false;      // fill SphereOutput
-  bool states = false;          // and TouchingSphere, where per_sphere is set
+  bool per_sphere = false;      // bring StepResults::touching()
   bool totals = false;          // they will be asked for before the next step: summed with this one
   bool contacts = true;         // bring the contacts of settings.contacts
   Real wall_temperature = 0;    // where the law has heat

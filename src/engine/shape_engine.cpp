@@ -28,7 +28,7 @@ class Shapes {
     if (!work.rows) return;
     work.shape.resize(spheres.n);
     for (int k = 0; k < n; k++) {
-      const int i = candidates ? candidates[k] : k;
+      const int i = candidates[k];
       if (!work.rows[i].is_sphere()) prepare_one(work.rows[i], spheres.radius[i], i);
     }
   }

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Results of a step in the memory of the engine's backend: columns by candidate sphere, and the totals and
-// outputs that are made of them on request.
+// Results of a step in the memory of the engine's backend: columns by candidate sphere, and the totals and rows
+// that are made of them on request.
 #pragma once
 
 #include "engine/broad_phase/candidate_slots.h"
@@ -16,11 +16,14 @@
 namespace lsdcd {
 
 template <class B>
-class StepResults {
+class ResultsOn : public StepResults {
   template <class T>
   using Array = typename B::template Array<T>;
 
  public:
+  // The backend must outlive it.
+  explicit ResultsOn(B &backend) : b_(&backend) {}
+
   // For a step of n candidates of these; `candidates`: their indices. `adds_later`:
   // will add_forces() be called? `meshes`: which slots are of which mesh, or null where there is one.
   void begin(const LawTraits &traits, const StepSettings &step, const Spheres &spheres,
@@ -28,6 +31,7 @@ class StepResults {
              const CandidateSlots<B> *meshes = nullptr)
   {
     slots_ = meshes;
+    has_slots_ = meshes;
     traits_ = traits;
     step_ = step;
     spheres_ = spheres;
@@ -81,24 +85,15 @@ class StepResults {
   int *first_contact() { return first_contact_.data(); }
   const Array<int> &n_contacts() const { return n_contacts_; }
 
-  // Copies the outputs that the step's settings ask for to the CPU; `contacts`: with gaps.
+  // Copies what the step's settings ask for to the CPU; `contacts`: with gaps.
   void fetch(B &b, const StepContact *contacts)
   {
     touching_.clear();
-    output_.clear();
-    states_.clear();
-    sphere_heat_.clear();
     contacts_.clear();
     if (n_ == 0) return;
-    if (step_.per_sphere) fetch_output(b);
+    if (step_.per_sphere) fetch_touching(b);
     if (traits_.contacts && step_.contacts) fetch_contacts(b, contacts);
   }
-
-  const std::vector<int> &touching() const { return touching_; }
-  const std::vector<SphereOutput> &output() const { return output_; }
-  const std::vector<TouchingSphere> &states() const { return states_; }
-  const std::vector<Real> &sphere_heat() const { return sphere_heat_; }
-  const std::vector<StepContact> &contacts() const { return contacts_; }
 
   // The contacts of the last step, where the backend has them; `contacts`: with gaps.
   NodeContacts node_contacts(const StepContact *contacts, int mesh, const MeshFeaturesView &wall,
@@ -115,25 +110,29 @@ class StepResults {
             velocity};
   }
 
-  // Totals of the last step, summed on first request.
-  const WallTotals &totals(B &b)
+  // Sums on first request.
+  const WallTotals &totals() override
   {
-    if (!totals_known_) sum_totals(b);
+    if (!totals_known_) sum_totals(*b_);
     return totals_;
   }
-  // Totals of one mesh, where there are slots.
-  WallTotals mesh_totals(B &b, int mesh)
+  WallTotals mesh_totals(int mesh) override
   {
-    know_mesh_totals(b);
-    return mesh < static_cast<int>(mesh_totals_.size()) ? mesh_totals_[mesh] : WallTotals();
+    WallTotals t;
+    if (!has_slots_)
+      t = totals();
+    else
+      know_mesh_totals(*b_);
+    if (has_slots_ && mesh < static_cast<int>(mesh_totals_.size())) t = mesh_totals_[mesh];
+    t.largest_overlap_sphere = -1;
+    return t;
   }
 
   std::size_t bytes() const
   {
     return (numbers_.size() + heat_.size() + uncertain_.size()) * sizeof(Real) +
            (n_contacts_.size() + first_contact_.size() + stored_candidates_.size()) * sizeof(int) +
-           touching_.capacity() * sizeof(int) + output_.capacity() * sizeof(SphereOutput) +
-           states_.capacity() * sizeof(TouchingSphere) + sphere_heat_.capacity() * sizeof(Real) +
+           touching_.capacity() * sizeof(TouchingSphere) +
            contacts_.capacity() * sizeof(StepContact) +
            (block_sums_.size() + group_sums_.size() + sums_on_cpu_.size()) * sizeof(WallTotals);
   }
@@ -160,72 +159,57 @@ class StepResults {
 
   // The steps of the above. Public because nvcc takes no device lambda from a private function.
 
-  void fetch_output(B &b)
+  // Slots of a sphere at several meshes follow each other, and make one row.
+  void fetch_touching(B &b)
   {
     const std::size_t n = n_;
-    const bool has_heat = traits_.heat, has_states = step_.states;
-    Array<SphereOutput> out(n);
-    Array<TouchingSphere> states(has_states ? n : 0);
-    Array<Real> heat_out(has_heat ? n : 0);
-    Array<int> sphere(n);
-    SphereOutput *to = out.data();
-    TouchingSphere *to_state = states.data();
-    Real *to_heat = heat_out.data();
-    int *to_sphere = sphere.data();
-    const Real *from_heat = heat_.data();
+    Array<char> flags(n);
+    Array<int> chosen(n);
+    Array<std::uint32_t> count(1);
+    char *flag = flags.data();
     const ResultColumns result = columns_;
     const int *candidates = candidates_;
-    const Spheres spheres = spheres_;
     b.for_each(n, [=] LSDCD_LAMBDA(std::size_t k) {
-      const std::size_t i = candidates[k];
-      const bool touches = result.n_contacts[k] > 0;    // nothing is written of others
-      to[k] = SphereOutput();
-      if (touches) to[k] = output_of(result.get(k), spheres.x[i], spheres.radius[i]);
-      if (has_heat) to_heat[k] = touches ? from_heat[k] : 0;
-      if (has_states)
-        to_state[k] = {spheres.x[i], spheres.radius[i], spheres.mass[i],
-                       spheres.type ? spheres.type[i] : 0, 0};
-      to_sphere[k] = static_cast<int>(i);
+      bool touches = false;
+      if (k == 0 || candidates[k - 1] != candidates[k])
+        for (std::size_t j = k; j < n && candidates[j] == candidates[k]; j++)
+          touches |= result.n_contacts[j] > 0;    // nothing else is written of others
+      flag[k] = touches;
     });
-    if (slots_ && slots_->n_multi_mesh() > 0) join_output(b, to, to_heat);
-    const std::vector<SphereOutput> all = to_cpu(b, out, n);
-    const std::vector<Real> heat = to_cpu(b, heat_out, heat_out.size());
-    const std::vector<TouchingSphere> state = to_cpu(b, states, states.size());
-    const std::vector<int> index = to_cpu(b, sphere, n);
-    for (std::size_t k = 0; k < n; k++) {
-      if (!(all[k].contacts > 0)) continue;
-      touching_.push_back(index[k]);
-      output_.push_back(all[k]);
-      if (has_states) states_.push_back(state[k]);
-      if (has_heat) sphere_heat_.push_back(heat[k]);
-    }
-  }
-
-  // One output for each multi-mesh sphere, at its first slot.
-  void join_output(B &b, SphereOutput *to, Real *to_heat)
-  {
-    const int *first = slots_->first(), *candidates = candidates_;
-    const ResultColumns result = columns_;
+    b.compact(n, nullptr, flag, chosen.data(), count.data());
+    const std::size_t n_touching = read_one(b, count.data());
+    Array<TouchingSphere> rows(n_touching);
+    TouchingSphere *to = rows.data();
+    const int *at = chosen.data();
+    const Real *heat = traits_.heat ? heat_.data() : nullptr;
     const Spheres spheres = spheres_;
-    const bool has_heat = traits_.heat;
-    b.for_each(slots_->n_multi_mesh(), [=] LSDCD_LAMBDA(std::size_t g) {
+    b.for_each(n_touching, [=] LSDCD_LAMBDA(std::size_t m) {
+      const std::size_t first = at[m];
+      const int i = candidates[first];
       SphereResult all = {};
-      Real heat = 0;
-      const int begin = first[g];
-      for (int k = begin; k < first[g + 1]; k++) {
-        to[k] = SphereOutput();
+      Real heat_in = 0;
+      for (std::size_t k = first; k < n && candidates[k] == i; k++) {
         if (result.n_contacts[k] == 0) continue;
         const SphereResult r = result.get(k);
         all.n_contacts += r.n_contacts;
         all.force += r.force;
         all.weighted_point += r.weighted_point;
         all.weight += r.weight;
-        if (has_heat) heat += to_heat[k];
+        if (heat) heat_in += heat[k];
       }
-      if (all.n_contacts == 0) return;
-      to[begin] = output_of(all, spheres.x[candidates[begin]], spheres.radius[candidates[begin]]);
-      if (has_heat) to_heat[begin] = heat;
+      const Vec3 x = spheres.x[i];
+      to[m] = {x,
+               spheres.radius[i],
+               spheres.mass[i],
+               all.force,
+               all.weight > 0 ? (1 / all.weight) * all.weighted_point : x,
+               heat_in,
+               i,
+               spheres.type ? spheres.type[i] : 0,
+               all.n_contacts,
+               0};
     });
+    touching_ = to_cpu(b, rows, n_touching);
   }
 
   void fetch_contacts(B &b, const StepContact *from)
@@ -310,6 +294,7 @@ class StepResults {
   }
 
  private:
+  B *b_;
   LawTraits traits_ = {};
   StepSettings step_;
   Spheres spheres_;
@@ -328,12 +313,8 @@ class StepResults {
   typename B::template CpuArray<WallTotals> sums_on_cpu_;
   std::unique_ptr<typename B::Event> are_summed_;
   const CandidateSlots<B> *slots_ = nullptr;    // until their totals are known
+  bool has_slots_ = false;
   std::vector<WallTotals> mesh_totals_;
-  std::vector<int> touching_;
-  std::vector<SphereOutput> output_;
-  std::vector<TouchingSphere> states_;
-  std::vector<Real> sphere_heat_;
-  std::vector<StepContact> contacts_;
 };
 
 }    // namespace lsdcd

@@ -105,7 +105,7 @@ class Motion {
     force_ = force;
     torque_ = torque;
     const Real inertia = kInertia * starts_.radius * starts_.radius;
-    return engine_->totals().energy + Real(0.5) * norm_sq(at(v_, i)) +
+    return engine_->results().totals().energy + Real(0.5) * norm_sq(at(v_, i)) +
            Real(0.5) * inertia * norm_sq(at(omega_, i)) + fallen(i, at(x_, i));
   }
 

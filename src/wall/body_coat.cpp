@@ -163,7 +163,7 @@ ContactHistory BodyCoat::springs(const FeatureName &name)
 {
   const int n = static_cast<int>(points_.size());
   ContactHistory springs(laws_.front().n_extra());
-  engine_->springs_to(springs, n);
+  engine_->springs().to_store(springs, n);
   springs.grow(n);
   springs.rename_features([&](int mesh, FeatureCode f) { return name(others_[mesh], f); });
   return springs;
@@ -172,7 +172,7 @@ ContactHistory BodyCoat::springs(const FeatureName &name)
 void BodyCoat::rename_features(const FeatureName &name)
 {
   if (laws_.front().has_history())
-    engine_->springs_from(springs(name), static_cast<int>(points_.size()));
+    engine_->springs().from_store(springs(name), static_cast<int>(points_.size()));
 }
 
 void BodyCoat::set_grid(const MeshPart &m)
@@ -352,11 +352,11 @@ bool BodyCoat::is_held(Real gives_way) const
 
 void BodyCoat::find_contacts(const std::deque<MeshPart> &meshes, CoatPushes &pushes)
 {
-  const StepContact *contact = engine_->contacts();
-  for (int k = 0; k < engine_->n_touching(); k++) {
-    const int i = engine_->touching()[k];
+  const StepContact *contact = engine_->results().contacts().data();
+  for (const TouchingSphere &t : engine_->results().touching()) {
+    const int i = t.sphere;
     const StepContact *strongest = nullptr;
-    for (int n = 0; n < static_cast<int>(engine_->sphere_output()[k].contacts); n++, contact++)
+    for (int n = 0; n < t.n_contacts; n++, contact++)
       if (norm_sq(contact->arm) > 0 && (!strongest || contact->normal > strongest->normal))
         strongest = contact;
     if (!strongest) continue;    // the point lies on the mesh
@@ -411,7 +411,7 @@ void BodyCoat::add_loads(const std::deque<MeshPart> &meshes, std::vector<CoatLoa
 {
   CoatLoad &own = loads[mesh_];
   for (std::size_t k = 0; k < others_.size(); k++) {
-    const WallTotals t = engine_->mesh_totals(static_cast<int>(k));
+    const WallTotals t = engine_->results().mesh_totals(static_cast<int>(k));
     if (t.contacts == 0) continue;
     CoatLoad &other = loads[others_[k]];
     other.force += t.force;
@@ -435,10 +435,10 @@ void BodyCoat::add_stiffness(const std::deque<MeshPart> &meshes, std::vector<Coa
 {
   const MeshPart &own = meshes[mesh_];
   const Mobility own_gives = own.body->mobility();
-  const StepContact *contact = engine_->contacts();
-  for (int k = 0; k < engine_->n_touching(); k++) {
-    const int i = engine_->touching()[k];
-    for (int n = 0; n < static_cast<int>(engine_->sphere_output()[k].contacts); n++, contact++) {
+  const StepContact *contact = engine_->results().contacts().data();
+  for (const TouchingSphere &t : engine_->results().touching()) {
+    const int i = t.sphere;
+    for (int n = 0; n < t.n_contacts; n++, contact++) {
       const MeshPart &other = meshes[others_[contact->mesh]];
       const Real distance = norm(contact->arm);
       if (!(distance > 0)) continue;    // the point lies on the mesh
@@ -474,7 +474,7 @@ Real BodyCoat::deepest(int &other) const
 {
   Real most = 0;
   for (std::size_t k = 0; k < others_.size(); k++) {
-    const Real ratio = engine_->mesh_totals(static_cast<int>(k)).largest_overlap_ratio;
+    const Real ratio = engine_->results().mesh_totals(static_cast<int>(k)).largest_overlap_ratio;
     if (ratio > most) other = others_[k];
     most = std::max(most, ratio);
   }
@@ -569,7 +569,7 @@ void BodyCoat::take_restored(const std::deque<MeshPart> &meshes)
     }
   }
   restored_.clear();
-  engine_->springs_from(springs, n);
+  engine_->springs().from_store(springs, n);
   if (lost)
     host_.warn(named("points of its coat lose their springs: the " +
                      std::string(host_.names().saved) + " was written with another mesh"));

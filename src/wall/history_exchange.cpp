@@ -17,13 +17,13 @@ void HistoryExchange::grow(int room)
   if (!with_engine_)
     springs_.grow(room);
   else if (in_place_)
-    engine_->springs_in_place()->grow(room);
+    engine_->springs().grow(room);
 }
 
 ContactHistory &HistoryExchange::on_cpu()
 {
   if (with_engine_) {
-    engine_->springs_to(springs_, n_with_engine_);
+    engine_->springs().to_store(springs_, n_with_engine_);
     springs_.grow(std::max(room_, n_with_engine_));
     with_engine_ = false;
   }
@@ -33,16 +33,16 @@ ContactHistory &HistoryExchange::on_cpu()
 void HistoryExchange::to_engine(int n)
 {
   if (with_engine_ || !is_on()) return;
-  engine_->springs_from(springs_, n);
+  engine_->springs().from_store(springs_, n);
   n_with_engine_ = n;
   with_engine_ = true;
   grow(room_);
 }
 
-SpringsInPlace &HistoryExchange::in_engine(int n)
+Springs &HistoryExchange::in_engine(int n)
 {
   to_engine(n);
-  return *engine_->springs_in_place();
+  return engine_->springs();
 }
 
 int HistoryExchange::max_packed_size() const

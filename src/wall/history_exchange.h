@@ -44,7 +44,7 @@ class HistoryExchange {
   void to_engine(int n);
   // Gives the history to the engine as to_engine() does, and returns it, for a host that moves spheres where the engine
   // computes: it packs, unpacks and sorts the history there.
-  SpringsInPlace &in_engine(int n);
+  Springs &in_engine(int n);
   bool is_with_engine() const { return with_engine_; }
   // The engine has the history of the first n spheres of the host.
   void set_spheres_of_engine(int n) { n_with_engine_ = n; }

@@ -10,12 +10,13 @@ LoadRecorder::LoadRecorder(Host &host, const WallSpec &settings) :
 {
 }
 
-void LoadRecorder::add(int mesh, const StepContact *contacts, int n, Real dt,
+void LoadRecorder::add(int mesh, const std::vector<StepContact> &contacts, Real dt,
                        const MeshFeaturesView &features)
 {
   const MeshSpec &of = settings_.meshes[mesh];
   if (settings_.has_loads(of))
-    loads_[mesh].add(contacts, n, dt, of.wear_factor * settings_.wear.per_work, features, mesh);
+    loads_[mesh].add(contacts.data(), static_cast<int>(contacts.size()), dt,
+                     of.wear_factor * settings_.wear.per_work, features, mesh);
 }
 
 Real LoadRecorder::worn(int mesh) const

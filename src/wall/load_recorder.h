@@ -21,7 +21,8 @@ class LoadRecorder {
 
   // A step of duration `dt` (time): what contacts of this process did to all meshes. `features`: of
   // the mesh with its periodic images; empty where there are no contacts.
-  void add(int mesh, const StepContact *contacts, int n, Real dt, const MeshFeaturesView &features);
+  void add(int mesh, const std::vector<StepContact> &contacts, Real dt,
+           const MeshFeaturesView &features);
 
   // Volume (length^3) worn off the mesh so far, on all processes. Collective.
   Real worn(int mesh) const;

@@ -33,14 +33,14 @@ void MeanLoad::add(const MeanLoad &more, Real times)
   torque_at_origin += times * more.torque_at_origin;
 }
 
-void MeanLoads::add(const Step &step, const WallEngine *engine, const std::vector<Pose> &poses,
+void MeanLoads::add(const Step &step, StepResults *results, const std::vector<Pose> &poses,
                     const std::vector<NodeLoad> &nodes, const std::vector<CoatLoad> *coats)
 {
   const int n = static_cast<int>(sums_.size());
   for (int k = 0; k < n; k++) {
     MeanLoad load;
-    if (engine) {
-      const WallTotals t = n > 1 ? engine->mesh_totals(k) : engine->totals();
+    if (results) {
+      const WallTotals t = n > 1 ? results->mesh_totals(k) : results->totals();
       load.force = t.force;
       load.torque_at_origin = t.torque;
     }

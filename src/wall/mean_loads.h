@@ -41,7 +41,7 @@ class MeanLoads {
   }
 
   // Adds a step, with what StepTotals::reduce() takes. Local.
-  void add(const Step &step, const WallEngine *engine, const std::vector<Pose> &poses,
+  void add(const Step &step, StepResults *results, const std::vector<Pose> &poses,
            const std::vector<NodeLoad> &nodes, const std::vector<CoatLoad> *coats);
 
   // Of the last interval that has ended; 0 before. Collective.

@@ -269,22 +269,21 @@ void MeshBody::check_step(const MeshTotals &contacts, const SphereRange &spheres
   if (dt_ >= longest) fail_step(longest, contacts.contacts + coat.contacts);
 }
 
-void MeshBody::sum_contacts(const WallEngine &engine)
+void MeshBody::sum_contacts(const StepResults &results)
 {
   has_contacts_ = true;
   stiffness_ = damping_ = ContactSum();
   most_of_sphere_[0] = most_of_sphere_[1] = 0;
-  const StepContact *contact = engine.contacts();
+  const StepContact *contact = results.contacts().data();
   const Pose pose = body_.pose();
   const Mobility mobility = body_.mobility();
-  for (int k = 0; k < engine.n_touching(); k++) {
-    const TouchingSphere &sphere = engine.touching_spheres()[k];
+  for (const TouchingSphere &sphere : results.touching()) {
     const SphereKinds kinds = {laws_.kinds > 1 ? &sphere.type : nullptr, laws_.kind_of_type.data(),
                                static_cast<int>(laws_.kind_of_type.size()) - 1};
     const ContactLaw &law = law_of(laws_, mesh_, kinds[0]);
     const Vec3 centre = pose.to_mesh(sphere.x);
     const Real radius = sphere.radius, mass = sphere.mass / force_;
-    for (int n = 0; n < static_cast<int>(engine.sphere_output()[k].contacts); n++, contact++) {
+    for (int n = 0; n < sphere.n_contacts; n++, contact++) {
       if (contact->mesh != static_cast<std::uint32_t>(mesh_)) continue;
       const Real distance = norm(contact->arm);
       if (!(distance > 0)) continue;    // the centre lies on the wall

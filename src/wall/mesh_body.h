@@ -75,7 +75,7 @@ class MeshBody {
   // Does complete() need the contacts themselves, as their number allows no judgement?
   bool asks_for_contacts() const { return asks_for_contacts_; }
   // Those of this process in the step that was computed, with outputs and states per sphere and contacts.
-  void sum_contacts(const WallEngine &engine);
+  void sum_contacts(const StepResults &results);
 
   // Joint, drive, loads and gravity of `to`, from where it is; see Wall::set_body(). Collective.
   void set(const BodySpec &to);

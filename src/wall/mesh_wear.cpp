@@ -89,11 +89,11 @@ void MeshWear::add_at(int vertex, Real volume, const Vec3 &away)
 }
 
 // The corners of a face share what came off it evenly, and so do the ends of an edge.
-void MeshWear::add(const StepContact *contacts, int n, Real dt, const MeshFeaturesView &features)
+void MeshWear::add(const std::vector<StepContact> &contacts, Real dt,
+                   const MeshFeaturesView &features)
 {
   const Real per_power = wall_.meshes[index_].wear_factor * wall_.wear.per_work * dt;
-  for (int i = 0; i < n; i++) {
-    const StepContact &r = contacts[i];
+  for (const StepContact &r : contacts) {
     if (r.mesh != static_cast<std::uint32_t>(index_) || r.wear_power == 0) continue;
     const Real volume = per_power * r.wear_power, length = norm(r.arm);
     const Vec3 away = length > 0 ? (-1 / length) * r.arm : Vec3{0, 0, 0};

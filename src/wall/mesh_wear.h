@@ -38,7 +38,7 @@ class MeshWear {
   }
 
   // A step of duration dt (time): what contacts of this process have worn off. `features`: of the mesh.
-  void add(const StepContact *contacts, int n, Real dt, const MeshFeaturesView &features);
+  void add(const std::vector<StepContact> &contacts, Real dt, const MeshFeaturesView &features);
 
   // Removes what has worn since the last time. Returns whether vertices move; then `at` has their new places on all
   // processes that fill memory. `mesh`: as above, where it is now. Logs once where nodes stay from now on. Throws

@@ -24,7 +24,7 @@ void StepTotals::clear()
   reduced_ = true;
 }
 
-void StepTotals::reduce(const WallEngine *engine, const std::vector<Pose> &poses,
+void StepTotals::reduce(StepResults *results, const std::vector<Pose> &poses,
                         const std::vector<NodeLoad> &nodes, const std::vector<CoatLoad> *coats)
 {
   if (reduced_) return;
@@ -33,7 +33,7 @@ void StepTotals::reduce(const WallEngine *engine, const std::vector<Pose> &poses
   std::vector<Real> sum, most;
   for (int k = 0; k < n; k++) {
     WallTotals t;
-    if (engine) t = n > 1 ? engine->mesh_totals(k) : engine->totals();
+    if (results) t = n > 1 ? results->mesh_totals(k) : results->totals();
     sum.insert(sum.end(),
                {t.force.x, t.force.y, t.force.z, t.torque.x, t.torque.y, t.torque.z,
                 static_cast<Real>(t.contacts), static_cast<Real>(t.uncertified), t.energy});

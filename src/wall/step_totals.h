@@ -55,7 +55,7 @@ class StepTotals {
   // Makes the sums, once a step. `engine`: null while there are no spheres. `poses`: of the meshes in
   // this step. `nodes`: of each mesh; empty: none have nodes. `coats`: of each
   // mesh, the same on all processes; null: there are none. Collective.
-  void reduce(const WallEngine *engine, const std::vector<Pose> &poses,
+  void reduce(StepResults *results, const std::vector<Pose> &poses,
               const std::vector<NodeLoad> &nodes = {},
               const std::vector<CoatLoad> *coats = nullptr);
   // The power of a mesh that is a body, by its pose with the velocities of the whole step, once these are known.

@@ -408,7 +408,7 @@ void Wall::note_step_of_bodies(const Step &step)
   for (MeshPart &m : meshes_) {
     if (!m.body) continue;
     m.body->note_step(step.kind == Step::step ? step.dt : 0);
-    if (cutoff() > 0 && m.body->asks_for_contacts()) m.body->sum_contacts(*engine_);
+    if (cutoff() > 0 && m.body->asks_for_contacts()) m.body->sum_contacts(engine_->results());
   }
 }
 
@@ -499,7 +499,6 @@ StepSettings Wall::step_settings()
   step.synchronous = input_.step.synchronous;
   const bool asked = has_bodies_ && any_body_asks_for_contacts();
   step.per_sphere = spec_.contacts || spec_.each_contact || asked;
-  step.states = spec_.each_contact || asked;
   step.contacts = spec_.has_loads() || spec_.each_contact || input_.virial || asked;
   step.totals = has_bodies_ || any_servo_acts() || spec_.average_every > 0;
   const bool several = meshes_.size() > 1;
@@ -683,17 +682,17 @@ void Wall::finish(const HostSpheres &spheres)
     throw;
   }
   if (spec_.average_every > 0 && step.kind == Step::step)
-    means_.add(step, cutoff() > 0 ? engine_.get() : nullptr, poses(), node_loads(),
+    means_.add(step, cutoff() > 0 ? &engine_->results() : nullptr, poses(), node_loads(),
                coats_.empty() ? nullptr : &coat_loads_);
   if (spec_.has_loads() && step.kind == Step::step) {    // what sets a run up has no duration
     const bool any = cutoff() > 0;
     for (const MeshPart &m : meshes_)
-      loads_.add(m.index, any ? engine_->contacts() : nullptr, any ? engine_->n_contacts() : 0,
-                 step.dt, any ? m.records() : MeshFeaturesView());
+      loads_.add(m.index, any ? engine_->results().contacts() : std::vector<StepContact>(), step.dt,
+                 any ? m.records() : MeshFeaturesView());
   }
   if (step.kind == Step::step && cutoff() > 0)
     for (const MeshPart &m : meshes_)
-      if (m.wear) m.wear->add(engine_->contacts(), engine_->n_contacts(), step.dt, m.records());
+      if (m.wear) m.wear->add(engine_->results().contacts(), step.dt, m.records());
   if (input_.new_spheres) check_new_spheres(spheres);
   if (step.kind == Step::setup) log_new_springs(step);
   if (step.kind == Step::setup) times_.begin_run();    // as the host's loop time
@@ -765,7 +764,7 @@ const StepTotals &Wall::totals()
 const StepTotals &Wall::sums()
 {
   if (totals_.are_made()) return totals_;
-  totals_.reduce(cutoff() > 0 ? engine_.get() : nullptr, poses(), node_loads(),
+  totals_.reduce(cutoff() > 0 ? &engine_->results() : nullptr, poses(), node_loads(),
                  coats_.empty() ? nullptr : &coat_loads_);
   return totals_;
 }
@@ -796,10 +795,9 @@ Real Wall::servo_push(int mesh)
 void Wall::add_virial(Real *virial) const
 {
   if (cutoff() == 0) return;
-  const StepContact *contact = engine_->contacts();
-  for (int k = 0; k < engine_->n_contacts(); k++) {
-    const Pose &pose = meshes_[contact[k].mesh].motion.pose();
-    const Vec3 r = pose.turn_to_box(contact[k].arm), f = -pose.turn_to_box(contact[k].force);
+  for (const StepContact &contact : engine_->results().contacts()) {
+    const Pose &pose = meshes_[contact.mesh].motion.pose();
+    const Vec3 r = pose.turn_to_box(contact.arm), f = -pose.turn_to_box(contact.force);
     const Real part[6] = {r.x * f.x, r.y * f.y, r.z * f.z, r.x * f.y, r.x * f.z, r.y * f.z};
     for (int c = 0; c < 6; c++) virial[c] += part[c];
   }
@@ -808,31 +806,24 @@ void Wall::add_virial(Real *virial) const
 void Wall::for_contact_rows(const std::function<void(int, const Real *)> &row) const
 {
   if (cutoff() == 0) return;
-  const int *touching = engine_->touching();
-  const SphereOutput *out = engine_->sphere_output();
-  const Real *heat = engine_->sphere_heat();
-  for (int k = 0; k < engine_->n_touching(); k++) {
-    const SphereOutput &o = out[k];
-    const Real numbers[9] = {o.contacts, o.force.x, o.force.y, o.force.z,         o.point.x,
-                             o.point.y,  o.point.z, o.radius,  heat ? heat[k] : 0};
-    row(touching[k], numbers);
+  for (const TouchingSphere &t : engine_->results().touching()) {
+    const Real numbers[9] = {Real(t.n_contacts), t.force.x, t.force.y, t.force.z, t.point.x,
+                             t.point.y,          t.point.z, t.radius,  t.heat};
+    row(t.sphere, numbers);
   }
 }
 
-// Records are in the order of the spheres that touch, as many of each as it has contacts.
 void Wall::for_contacts(const std::function<void(const WallContact &)> &found) const
 {
   if (cutoff() == 0) return;
-  const StepContact *contact = engine_->contacts();
-  for (int k = 0; k < engine_->n_touching(); k++) {
-    const TouchingSphere &sphere = engine_->touching_spheres()[k];
-    for (int n = 0; n < static_cast<int>(engine_->sphere_output()[k].contacts); n++, contact++) {
+  const StepContact *contact = engine_->results().contacts().data();
+  for (const TouchingSphere &t : engine_->results().touching())
+    for (int n = 0; n < t.n_contacts; n++, contact++) {
       const Pose &pose = meshes_[contact->mesh].motion.pose();
       const Vec3 arm = pose.turn_to_box(contact->arm);
-      found({engine_->touching()[k], static_cast<int>(contact->mesh),
-             -pose.turn_to_box(contact->force), sphere.x - arm, sphere.radius - norm(arm)});
+      found({t.sphere, static_cast<int>(contact->mesh), -pose.turn_to_box(contact->force),
+             t.x - arm, t.radius - norm(arm)});
     }
-  }
 }
 
 void Wall::write_due_files()

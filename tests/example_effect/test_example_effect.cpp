@@ -36,7 +36,7 @@ Real force_at(Real v_normal, const CompiledLaw<CpuBackend> &law)
   scene.use(std::make_unique<EngineOn<CpuBackend>>(EngineSettings(), law, CpuBackend()));
   scene.add_sphere({0.1, 0.2, 0.49}, 0.5, 2, {0, 0, v_normal});
   scene.compute(1e-4);
-  EXPECT_EQ(scene.engine->totals().contacts, 1);
+  EXPECT_EQ(scene.engine->results().totals().contacts, 1);
   return scene.force(0).z;
 }
 

@@ -180,7 +180,7 @@ TEST(sjkr, energy_is_the_work_of_its_force)
   const auto at = [&](Real overlap) {
     scene.set_x(0, {0.1, 0.2, kRadius - overlap});
     scene.compute(1e-4);
-    return scene.engine->totals().energy;
+    return scene.engine->results().totals().energy;
   };
   const Real h = 1e-5;
   for (const Real overlap : {0.001, 0.05, 0.3}) {

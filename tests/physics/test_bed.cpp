@@ -74,7 +74,7 @@ TEST(bed, comes_to_rest_and_stays_and_the_mesh_bears_its_weight)
     moment += cross(scene.x(i), w);
     for (int k = 0; k < 3; k++) farthest = std::fmax(farthest, std::fabs(scene.x(i)[k]));
   }
-  const WallTotals &t = scene.engine->totals();
+  const WallTotals &t = scene.engine->results().totals();
   const Real rounding = std::nextafter(farthest, HUGE_VAL) - farthest, still = rounding / kDt;
   const std::string name = std::to_string(kSpheres) + " spheres in an upright drum, ";
   expect_at_most(

@@ -67,11 +67,11 @@ Answer at_point(const TriangleSoup &soup, const Vec3 &p, const std::vector<Vec3>
   for (const Vec3 &n : normals) scene.add_sphere(p + (kRadius - depth) * n, kRadius, kMass);
   scene.compute(1e-4, true, true);
   Answer out;
-  EXPECT_EQ(scene.engine->n_touching(), scene.n());
+  EXPECT_EQ(scene.engine->results().n_touching(), scene.n());
   for (int i = 0; i < scene.n(); i++) {
     const Real off = norm(scene.force(i) - kStiffness * depth * normals[i]) / (kStiffness * depth);
     if (!(off <= out.off)) out.off = off;
-    const int n = static_cast<int>(scene.engine->sphere_output()[i].contacts);
+    const int n = scene.engine->results().touching()[i].n_contacts;
     out.most = std::max(out.most, n);
     out.least = std::min(out.least, n);
   }

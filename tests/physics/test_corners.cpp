@@ -41,7 +41,8 @@ class Probe {
   }
   int contacts() const
   {
-    return scene_.engine->n_touching() ? int(scene_.engine->sphere_output()[0].contacts) : 0;
+    return scene_.engine->results().n_touching() ? scene_.engine->results().touching()[0].n_contacts
+                                                 : 0;
   }
 
  private:

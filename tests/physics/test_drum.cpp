@@ -197,14 +197,14 @@ Outcome run_scene(int n, EngineSettings law, bool rolling, Real seconds, int ste
     const Vec3 x = scene.x(0), v = scene.v(0);
     return Real(mechanical_energy({x.x, x.z, v.x, v.z, -scene.omega(0).y, 0}));
   };
-  const Real all = mechanical() + scene.engine->totals().energy;
+  const Real all = mechanical() + scene.engine->results().totals().energy;
   Outcome run = {0, 0};
   for (int i = 0; i < steps; i++) {
     scene.step(dt, {0, 0, -kGravity});
-    run.drift =
-        std::fmax(run.drift, std::fabs(mechanical() + scene.engine->totals().energy - all) / all);
+    run.drift = std::fmax(
+        run.drift, std::fabs(mechanical() + scene.engine->results().totals().energy - all) / all);
   }
-  run.lost = 1 - (mechanical() + scene.engine->totals().energy) / all;
+  run.lost = 1 - (mechanical() + scene.engine->results().totals().energy) / all;
   EXPECT_NEAR(scene.x(0).y, 1, 1e-9) << "pushed along the axis";
   return run;
 }

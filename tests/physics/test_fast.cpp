@@ -170,16 +170,16 @@ TEST(thin_plate, of_a_thousandth_of_a_radius_is_one_contact)
     }
     scene.compute(1e-4, true, true);
     Real off = 0, most = 0;
-    for (int k = 0; k < scene.engine->n_touching(); k++) {
-      const int i = scene.engine->touching()[k];
+    for (int k = 0; k < scene.engine->results().n_touching(); k++) {
+      const int i = scene.engine->results().touching()[k].sphere;
       const Vec3 x = scene.x(i), f = scene.force(i);
       const Vec3 closest = {std::clamp(x.x, -2., 2.), std::clamp(x.y, -2., 2.), x.z > 0 ? 0 : -t};
       const Real d = norm(x - closest);
       const Vec3 answer = (kStiffness * (kRadius - d) / d) * (x - closest);
       off = std::fmax(off, norm(f - answer) / (kStiffness * kRadius));
-      most = std::fmax(most, scene.engine->sphere_output()[k].contacts);
+      most = std::fmax(most, scene.engine->results().touching()[k].n_contacts);
     }
-    EXPECT_GT(scene.engine->n_touching(), 10000);
+    EXPECT_GT(scene.engine->results().n_touching(), 10000);
     const std::string name =
         std::string("closed plate of 1e-3 R, side ") + (side == Side::both ? "both" : "out");
     expect_at_most({"Fast and thin", "07a", name + ": largest |F - k overlap| over k R"}, off,

@@ -64,9 +64,9 @@ Deviation measure(Scene &scene, Law law)
     d.force = std::fmax(d.force, std::fabs((x.z > 0 ? f.z : -f.z) / f0 - 1));
     d.tangential = std::fmax(d.tangential, std::hypot(f.x, f.y) / f0);
   }
-  EXPECT_EQ(scene.engine->n_touching(), scene.n());
-  for (int k = 0; k < scene.engine->n_touching(); k++) {
-    const int n = static_cast<int>(scene.engine->sphere_output()[k].contacts);
+  EXPECT_EQ(scene.engine->results().n_touching(), scene.n());
+  for (int k = 0; k < scene.engine->results().n_touching(); k++) {
+    const int n = scene.engine->results().touching()[k].n_contacts;
     d.most_contacts = std::max(d.most_contacts, n);
     d.least_contacts = std::min(d.least_contacts, n);
   }
@@ -208,7 +208,7 @@ TEST(flat_floor, that_leans_in_space_is_a_plane)
   const Real tolerance = kStiffness * 4e-14;
   for (int i = 0; i < level.n(); i++)
     ASSERT_LE(norm(scene.force(i) - level.force(i).z * n), tolerance);
-  EXPECT_EQ(scene.engine->totals().contacts, scene.n());
+  EXPECT_EQ(scene.engine->results().totals().contacts, scene.n());
 }
 
 TEST(flat_floor, takes_the_opposite_of_the_forces_it_exerts)
@@ -225,8 +225,8 @@ TEST(flat_floor, takes_the_opposite_of_the_forces_it_exerts)
     moment += cross(closest, scene.force(i));
   }
   // A thousand roundings.
-  EXPECT_LE(norm(scene.engine->totals().force + sum), 1e-13 * size);
-  EXPECT_LE(norm(scene.engine->totals().torque + moment), 1e-13 * size * kHalf);
+  EXPECT_LE(norm(scene.engine->results().totals().force + sum), 1e-13 * size);
+  EXPECT_LE(norm(scene.engine->results().totals().torque + moment), 1e-13 * size * kHalf);
 }
 
 }    // namespace

@@ -140,13 +140,13 @@ TEST(jkr, loses_the_work_between_touch_and_pull_off_in_a_cycle)
   s.at(1e-5);
   // The energy of the engine at both ends, and again by summing its force.
   s.at(0);
-  const Real at_touch = s.scene.engine->totals().energy;
+  const Real at_touch = s.scene.engine->results().totals().energy;
   const int steps = 20000;
   Real sum = 0;
   for (int i = 0; i < steps; i++)
     sum += s.at(-jkr.pull_off() * (i + 0.5) / steps).z * jkr.pull_off() / steps;
   s.at(-jkr.pull_off() * (1 - 1e-12));
-  const Real at_pull_off = s.scene.engine->totals().energy;
+  const Real at_pull_off = s.scene.engine->results().totals().energy;
   EXPECT_NEAR(sum, work, 1e-7 * std::fabs(work));
   EXPECT_NEAR(at_touch - at_pull_off, work, 1e-9 * std::fabs(work));
 }
@@ -233,7 +233,7 @@ Real restitution(const EngineSettings &law, Real speed, int steps_per_contact)
   const Real dt = kPi * std::sqrt(kMass / kK) / steps_per_contact;
   for (int i = 0; i < 40 * steps_per_contact; i++) {
     scene.step(dt, {0, 0, 0});
-    if (scene.v(0).z > 0 && scene.engine->totals().contacts == 0) break;
+    if (scene.v(0).z > 0 && scene.engine->results().totals().contacts == 0) break;
   }
   return scene.v(0).z / speed;
 }
@@ -394,7 +394,7 @@ TEST(slip, gives_a_grain_on_a_fast_belt_mu_times_its_impulse)
     do {
       scene.step(dt, {0, 0, 0});
       impulse += dt * std::fabs(scene.force(0).z);
-    } while (scene.engine->totals().contacts > 0);
+    } while (scene.engine->results().totals().contacts > 0);
     EXPECT_NEAR(kMass * scene.v(0).x, kMu * impulse, 1e-12 * impulse) << static_cast<int>(model);
   }
 }
@@ -433,7 +433,7 @@ TEST(slip, gives_the_spring_no_more_energy_than_it_takes_from_the_sphere)
       s.scene.set_v(0, {speed * std::cos(turn), speed * std::sin(turn), 0});
       const Vec3 force = s.at(overlap, dt);
       const Real elastic = 0.4 * kK * hertz_radius(overlap) * overlap * overlap;
-      const Real stored = s.scene.engine->totals().energy - elastic;
+      const Real stored = s.scene.engine->results().totals().energy - elastic;
       ASSERT_LE(stored - before, -dt * dot(force, s.scene.v(0)) + 1e-13) << i;
       before = stored;
     }
@@ -625,7 +625,7 @@ TEST(granular, a_shallow_fold_bears_heat_and_couples_as_the_flat_wall_does)
     flat.at(0.01, 1e-6);
     fold.compute(1e-6);
   }
-  ASSERT_EQ(fold.engine->totals().contacts, 2);
+  ASSERT_EQ(fold.engine->results().totals().contacts, 2);
   EXPECT_NEAR(fold.heat(0), flat.scene.heat(0), 0.1 * flat.scene.heat(0));
   const Vec3 contact_torque = flat.scene.torque(0);
   EXPECT_LE(norm(fold.torque(0) - contact_torque), 0.1 * norm(contact_torque));

@@ -273,7 +273,7 @@ TEST(side_out, ignores_the_far_face_of_a_thin_plate)
   for (Real deep : {-0.4 * kRadius, -1e-3, 0., 0.3 * t, 0.49 * t}) {
     const Vec3 f = force_at(scene, {0.3, 0.2, -deep});
     EXPECT_LE(norm(f - Vec3{0, 0, kStiffness * (kRadius + deep)}), kClose) << deep;
-    EXPECT_EQ(scene.engine->sphere_output()[0].contacts, 1);
+    EXPECT_EQ(scene.engine->results().touching()[0].n_contacts, 1);
   }
 }
 
@@ -297,7 +297,7 @@ Real energy_drift(const TriangleSoup &soup, const Vec3 &x, const Vec3 &v, Real d
   for (int i = 0; i < n; i++) {
     scene.step(dt, kNoGravity);
     touched += norm_sq(scene.force(0)) > 0;
-    const Real e = 0.5 * kMass * norm_sq(scene.v(0)) + scene.engine->totals().energy;
+    const Real e = 0.5 * kMass * norm_sq(scene.v(0)) + scene.engine->results().totals().energy;
     if (norm_sq(scene.force(0)) == 0)
       drift = std::fmax(drift, std::fabs(e / (0.5 * kMass * norm_sq(v)) - 1));
   }

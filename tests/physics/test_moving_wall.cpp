@@ -116,14 +116,14 @@ TEST(moving_wall, reports_in_the_frame_of_the_box)
     force -= driven.force(i);
     torque -= cross(driven.x(i), driven.force(i)) + driven.torque(i);
   }
-  const WallTotals &totals = driven.engine->totals();
+  const WallTotals &totals = driven.engine->results().totals();
   // Sums of 1e2 forces of 1e4 at places of 10.
   EXPECT_LE(norm(totals.force - force), 1e-8);
   EXPECT_LE(norm(totals.torque - torque), 1e-7);
-  ASSERT_EQ(driven.engine->n_touching(), twins.rest->engine->n_touching());
-  for (int k = 0; k < driven.engine->n_touching(); k++) {
-    const SphereOutput &there = driven.engine->sphere_output()[k],
-                       &here = twins.rest->engine->sphere_output()[k];
+  ASSERT_EQ(driven.engine->results().n_touching(), twins.rest->engine->results().n_touching());
+  for (int k = 0; k < driven.engine->results().n_touching(); k++) {
+    const TouchingSphere &there = driven.engine->results().touching()[k],
+                         &here = twins.rest->engine->results().touching()[k];
     EXPECT_LE(norm(there.point - at.to_box(here.point)), 1e-12);
     EXPECT_LE(norm(there.force - at.turn_to_box(here.force)), 1e-7);
   }

@@ -214,7 +214,7 @@ TEST(cone_tip, is_slid_over_with_one_contact_and_no_loss)
       scene.compute(kDt, false, true);
       const auto energy = [&] {
         return 0.5 * kMass * norm_sq(scene.v(0)) + kMass * kGravity * (scene.x(0).z - kRadius + 1) +
-               scene.engine->totals().energy;
+               scene.engine->results().totals().energy;
       };
       const Real before = energy();
       Real drift = 0, most = 0, least = 9, held = 0;
@@ -222,11 +222,12 @@ TEST(cone_tip, is_slid_over_with_one_contact_and_no_loss)
         ASSERT_LT(i, 100000) << "stuck at " << scene.x(0).x;
         scene.step(kDt, {0, 0, -kGravity});
         scene.compute(kDt, false, true);
-        const Real contacts =
-            scene.engine->n_touching() ? scene.engine->sphere_output()[0].contacts : 0;
+        const Real contacts = scene.engine->results().n_touching()
+                                  ? scene.engine->results().touching()[0].n_contacts
+                                  : 0;
         most = std::fmax(most, contacts);
         least = std::fmin(least, contacts);
-        held = std::fmax(held, scene.engine->totals().energy);
+        held = std::fmax(held, scene.engine->results().totals().energy);
         drift = std::fmax(drift, std::fabs(energy() - before));
       }
       const std::string where =

@@ -80,7 +80,7 @@ Deviation sweep(const TriangleSoup &soup, bool hertz, Real weld_tolerance, Real 
     scene.add_sphere(q, kRadius, 1);
   }
   scene.compute(1e-4, true, true);
-  EXPECT_EQ(scene.engine->n_touching(), kPositions) << "a sphere fell through";
+  EXPECT_EQ(scene.engine->results().n_touching(), kPositions) << "a sphere fell through";
   Deviation d;
   for (int i = 0; i < kPositions; i++) {
     const Vec3 f = scene.force(i), x = scene.x(i);
@@ -90,9 +90,8 @@ Deviation sweep(const TriangleSoup &soup, bool hertz, Real weld_tolerance, Real 
     if (!(std::fabs(along / f0 - 1) <= d.force)) d.force = std::fabs(along / f0 - 1);
     if (!(std::hypot(f.x, f.y) / f0 <= d.tangential)) d.tangential = std::hypot(f.x, f.y) / f0;
   }
-  for (int k = 0; k < scene.engine->n_touching(); k++)
-    d.most_contacts =
-        std::max(d.most_contacts, static_cast<int>(scene.engine->sphere_output()[k].contacts));
+  for (int k = 0; k < scene.engine->results().n_touching(); k++)
+    d.most_contacts = std::max(d.most_contacts, scene.engine->results().touching()[k].n_contacts);
   return d;
 }
 

@@ -171,12 +171,15 @@ void expect_as_one(bool turned, Real tolerance)
       EXPECT_GT(touching, 100) << law.name;
       EXPECT_GT(joint, 30) << law.name;
     }
-    ASSERT_EQ(several.engine->n_touching(), one.engine->n_touching()) << law.name;
+    ASSERT_EQ(several.engine->results().n_touching(), one.engine->results().n_touching())
+        << law.name;
     // A kernel with both effects keeps contacts that were not asked for.
     if (law.settings.contacts) {
-      EXPECT_EQ(several.engine->n_contacts(), one.engine->n_contacts()) << law.name;
+      EXPECT_EQ(several.engine->results().n_contacts(), one.engine->results().n_contacts())
+          << law.name;
     }
-    EXPECT_EQ(several.engine->totals().contacts, one.engine->totals().contacts) << law.name;
+    EXPECT_EQ(several.engine->results().totals().contacts, one.engine->results().totals().contacts)
+        << law.name;
   }
 }
 
@@ -217,7 +220,7 @@ void expect_plane(bool turned, Real bound)
     scene.add_sphere(q, kRadius, 1);
   }
   scene.compute(kStep, true, true);
-  EXPECT_EQ(scene.engine->n_touching(), scene.n()) << "a sphere fell through";
+  EXPECT_EQ(scene.engine->results().n_touching(), scene.n()) << "a sphere fell through";
   const Real f0 = kStiffness * (kRadius - kHeight);
   for (int i = 0; i < scene.n(); i++) {
     const Vec3 f = scene.force(i);
@@ -276,8 +279,8 @@ TEST(several_meshes, in_one_place_are_felt_once)
   wall.scene->compute(kStep, true, true);
   // Heights of 0.49 are rounded to 4e-15 by turning.
   EXPECT_NEAR(wall.scene->force(0).z, kStiffness * 0.01, 1e-8);
-  EXPECT_EQ(wall.scene->engine->totals().contacts, 1);
-  EXPECT_EQ(wall.scene->engine->sphere_output()[0].contacts, 1);
+  EXPECT_EQ(wall.scene->engine->results().totals().contacts, 1);
+  EXPECT_EQ(wall.scene->engine->results().touching()[0].n_contacts, 1);
 }
 
 // A sphere in a right-angled corner of three plates, each with its own overlap.
@@ -309,7 +312,7 @@ class CornerOfPlates : public ::testing::Test {
 TEST_F(CornerOfPlates, gives_each_plate_its_own_force_and_contacts)
 {
   for (int m = 0; m < 3; m++) {
-    const WallTotals t = engine().mesh_totals(m);
+    const WallTotals t = engine().results().mesh_totals(m);
     Vec3 expected = {0, 0, 0};
     expected[m] = -kStiffness * (kOverlap[m] + (m == 2 ? 0.05 : 0));
     EXPECT_LE(norm(t.force - expected), 1e-8) << m;
@@ -319,27 +322,28 @@ TEST_F(CornerOfPlates, gives_each_plate_its_own_force_and_contacts)
 
 TEST_F(CornerOfPlates, gives_totals_of_all)
 {
-  const WallTotals t = engine().totals();
+  const WallTotals t = engine().results().totals();
   EXPECT_LE(norm(t.force + kStiffness * Vec3{0.01, 0.02, 0.08}), 1e-8);
   EXPECT_EQ(t.contacts, 4);
 }
 
 TEST_F(CornerOfPlates, gives_one_output_for_a_sphere)
 {
-  ASSERT_EQ(engine().n_touching(), 2);
+  ASSERT_EQ(engine().results().n_touching(), 2);
   for (int k = 0; k < 2; k++) {
-    const SphereOutput &out = engine().sphere_output()[k];
-    const bool in_corner = engine().touching()[k] == 0;
-    EXPECT_EQ(out.contacts, in_corner ? 3 : 1);
-    EXPECT_LE(norm(out.force - wall->scene->force(engine().touching()[k])), 1e-12);
+    const TouchingSphere &out = engine().results().touching()[k];
+    const bool in_corner = engine().results().touching()[k].sphere == 0;
+    EXPECT_EQ(out.n_contacts, in_corner ? 3 : 1);
+    EXPECT_LE(norm(out.force - wall->scene->force(engine().results().touching()[k].sphere)), 1e-12);
   }
 }
 
 TEST_F(CornerOfPlates, names_the_mesh_of_each_record)
 {
-  ASSERT_EQ(engine().n_contacts(), 4);
+  ASSERT_EQ(engine().results().n_contacts(), 4);
   Real normal[3] = {0, 0, 0};
-  for (int k = 0; k < 4; k++) normal[engine().contacts()[k].mesh] += engine().contacts()[k].normal;
+  for (int k = 0; k < 4; k++)
+    normal[engine().results().contacts()[k].mesh] += engine().results().contacts()[k].normal;
   for (int m = 0; m < 3; m++)
     EXPECT_NEAR(normal[m], kStiffness * (kOverlap[m] + (m == 2 ? 0.05 : 0)), 1e-8) << m;
 }
@@ -396,12 +400,12 @@ struct Crossing {
       spheres.clear_forces();
       if (t % kChoice == 0) engine.choose(now(), kChoice * kStep * 60);
       engine.step(now(), step);
-      on_mesh += engine.mesh_totals(1).force;
+      on_mesh += engine.results().mesh_totals(1).force;
       force.insert(force.end(), spheres.force.begin(), spheres.force.end());
       spheres.move(kStep);
     }
     ContactHistory springs;
-    engine.springs_to(springs, kSpheres);
+    engine.springs().to_store(springs, kSpheres);
     for (int i = 0; i < kSpheres; i++) joint += springs.count(i) > 1;
   }
 };

@@ -51,11 +51,11 @@ Slid slide(const TriangleSoup &soup, const Path &path, Real length, int n, Real 
     out.off_whole = std::fmax(out.off_whole, off / length);
     const Real normal = dot(f, p.normal);
     if (i > n / 10) out.limit = std::fmax(out.limit, std::fabs(norm(t) / (mu * normal) - 1));
-    if (scene.engine->n_touching() != 1) {
+    if (scene.engine->results().n_touching() != 1) {
       ADD_FAILURE() << "no contact at " << s;
       break;
     }
-    out.contacts = std::fmax(out.contacts, scene.engine->sphere_output()[0].contacts);
+    out.contacts = std::fmax(out.contacts, scene.engine->results().touching()[0].n_contacts);
     if (scene.springs.count(0) == 1) {
       const Real h = norm(scene.springs.of(0)->shear);
       out.jump = std::fmax(out.jump, std::fabs(h - last - ds) / h);

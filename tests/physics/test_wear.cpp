@@ -30,7 +30,8 @@ MeshLoads drive(Scene &scene, const Vec3 &from, const Vec3 &v, Real dt, int n, R
   for (int i = 1; i <= n; i++) {
     scene.set_x(0, from + (i * dt) * v);
     scene.compute(dt);
-    loads.add(scene.engine->contacts(), scene.engine->n_contacts(), dt, per_work);
+    loads.add(scene.engine->results().contacts().data(), scene.engine->results().n_contacts(), dt,
+              per_work);
   }
   return loads;
 }
@@ -110,7 +111,8 @@ TEST(wear, of_finnie_depends_on_the_angle)
     MeshLoads out;
     scene.set_v(0, -v);
     scene.compute(dt);
-    out.add(scene.engine->contacts(), scene.engine->n_contacts(), dt, per_work);
+    out.add(scene.engine->results().contacts().data(), scene.engine->results().n_contacts(), dt,
+            per_work);
     EXPECT_EQ(out.worn(), 0);
     EXPECT_GT(out.packed()[3], 0) << "the contact itself is there";
   }
@@ -175,8 +177,9 @@ TEST(step_contacts, change_no_bit_of_the_forces)
       for (int i = 0; i < 5; i++) scene.compute(1e-4);
       force[k] = scene.force(0);
       torque[k] = scene.torque(0);
-      EXPECT_EQ(scene.engine->n_contacts(), k ? scene.engine->totals().contacts : 0);
-      EXPECT_GE(scene.engine->totals().contacts, 2);
+      EXPECT_EQ(scene.engine->results().n_contacts(),
+                k ? scene.engine->results().totals().contacts : 0);
+      EXPECT_GE(scene.engine->results().totals().contacts, 2);
     }
     for (int k = 1; k < 3; k++) {
       EXPECT_EQ(force[k], force[0]);
@@ -195,10 +198,10 @@ TEST(step_contacts, of_contacts_that_share_sum_to_the_force)
   const Vec3 out = {-std::sin(a / 2), 0, std::cos(a / 2)};
   scene.add_sphere((0.98 * kRadius / std::cos(a / 2)) * out, kRadius, kMass);
   scene.compute(1e-4);
-  ASSERT_EQ(scene.engine->n_contacts(), 2);
+  ASSERT_EQ(scene.engine->results().n_contacts(), 2);
   Vec3 sum = {0, 0, 0};
   for (int i = 0; i < 2; i++) {
-    const StepContact &r = scene.engine->contacts()[i];
+    const StepContact &r = scene.engine->results().contacts()[i];
     EXPECT_LT(r.normal, 0.6 * kStiffness * 0.02 * kRadius) << "it has its share only";
     const auto &face = scene.mesh.faces[feature_index(r.feature)];
     bool rises = false;
@@ -228,14 +231,16 @@ TEST(step_contacts, of_crowded_spheres_are_all_there)
     for (const Real z : {1.2, 0.3, 1.2, 0.0}) scene.add_sphere({0, 0, z}, kRadius, kMass);
     scene.add_sphere({0.45, 0, kRadius - kOverlap}, kRadius, kMass);
     scene.compute(1e-4);
-    ASSERT_GT(scene.engine->n_contacts(), 12);
-    for (int i = 0; i < scene.engine->n_contacts(); i++)
-      EXPECT_GT(scene.engine->contacts()[i].normal, 0) << i;
-    EXPECT_EQ(scene.engine->n_contacts(), scene.engine->totals().contacts);
+    ASSERT_GT(scene.engine->results().n_contacts(), 12);
+    for (int i = 0; i < scene.engine->results().n_contacts(); i++)
+      EXPECT_GT(scene.engine->results().contacts()[i].normal, 0) << i;
+    EXPECT_EQ(scene.engine->results().n_contacts(), scene.engine->results().totals().contacts);
     MeshLoads loads;
-    loads.add(scene.engine->contacts(), scene.engine->n_contacts(), 1, 0);
+    loads.add(scene.engine->results().contacts().data(), scene.engine->results().n_contacts(), 1,
+              0);
     // The last record is the last sphere's, on the top of a post.
-    const StepContact &last = scene.engine->contacts()[scene.engine->n_contacts() - 1];
+    const StepContact &last =
+        scene.engine->results().contacts()[scene.engine->results().n_contacts() - 1];
     EXPECT_NEAR(last.normal, kStiffness * kOverlap, 1e-9);
   }
 }

@@ -193,9 +193,9 @@ Outcome run_steps(const Case &c, const ContactLaw &law, const EngineMaker &make,
                      springs.extra_of(i) + springs.count(i) * law.n_extra());
   }
   out.heat = a.heat_flow;
-  out.totals = engine->totals();
-  out.outputs.assign(engine->sphere_output(), engine->sphere_output() + engine->n_touching());
-  out.contacts.assign(engine->contacts(), engine->contacts() + engine->n_contacts());
+  out.totals = engine->results().totals();
+  out.outputs = engine->results().touching();
+  out.contacts = engine->results().contacts();
   return out;
 }
 

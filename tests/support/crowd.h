@@ -47,7 +47,7 @@ struct Outcome {
   WallTotals totals;
   std::vector<Spring> springs;
   std::vector<Real> extra, heat;
-  std::vector<SphereOutput> outputs;
+  std::vector<TouchingSphere> outputs;
   std::vector<StepContact> contacts;
 };
 

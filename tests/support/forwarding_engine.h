@@ -20,15 +20,8 @@ class ForwardingEngine : public WallEngine {
   void set_pose(const Pose &pose, int mesh) override { engine_->set_pose(pose, mesh); }
   bool is_under_way() const override { return engine_->is_under_way(); }
 
-  const WallTotals &totals() const override { return engine_->totals(); }
-  WallTotals mesh_totals(int mesh) const override { return engine_->mesh_totals(mesh); }
-  int n_touching() const override { return engine_->n_touching(); }
-  const int *touching() const override { return engine_->touching(); }
-  const SphereOutput *sphere_output() const override { return engine_->sphere_output(); }
-  const TouchingSphere *touching_spheres() const override { return engine_->touching_spheres(); }
-  const Real *sphere_heat() const override { return engine_->sphere_heat(); }
-  int n_contacts() const override { return engine_->n_contacts(); }
-  const StepContact *contacts() const override { return engine_->contacts(); }
+  StepResults &results() override { return engine_->results(); }
+  Springs &springs() override { return engine_->springs(); }
   StepDiagnostics read_diagnostics() override { return engine_->read_diagnostics(); }
 
   NodesInPlace *nodes_in_place() override { return engine_->nodes_in_place(); }
@@ -49,12 +42,6 @@ class ForwardingEngine : public WallEngine {
   {
     return engine_->fetch_node_forces(mesh, sums);
   }
-  void springs_to(ContactHistory &store, int n) override { engine_->springs_to(store, n); }
-  void springs_from(const ContactHistory &store, int n) override
-  {
-    engine_->springs_from(store, n);
-  }
-  SpringsInPlace *springs_in_place() override { return engine_->springs_in_place(); }
   int n_candidates() const override { return engine_->n_candidates(); }
   std::size_t bytes() const override { return engine_->bytes(); }
 

@@ -71,10 +71,6 @@ class InPlaceForHost : public ForwardingEngine {
     for (std::size_t i = 0; i < n; i++) host_.heat_flow[i] = heat[i];
   }
 
-
-  // A host's springs go through springs_to() and springs_from().
-  SpringsInPlace *springs_in_place() override { return nullptr; }
-
  private:
   // The arrays that a choice reads.
   Spheres places(const Spheres &host)

@@ -34,7 +34,7 @@ FOLDERS = {
     "mesh": [".", "io"],
     "grid": [".", "lookup", "plan", "build", "cache"],
     "law": ["contact.h", "submodels", "."],
-    "engine": ["candidate_schedule.h", "sum_unit.h", "settings.h", "grains.h", "results.h", "springs_in_place.h",
+    "engine": ["candidate_schedule.h", "sum_unit.h", "settings.h", "grains.h", "results.h", "springs.h",
                "engine.h", "results", "lists", "broad_phase", "step", "."],
     "lammps": [".", "launcher"],
 }

@@ -176,7 +176,7 @@ void expect_exact(const char *id, const std::string &what, const TriangleSoup &s
   }
   scene.compute(1e-4);
   for (int i = 0; i < n; i++) bad += !is_finite(scene.force(i)) || !is_finite(scene.torque(i));
-  EXPECT_EQ(scene.engine->totals().contacts > 0, touching > 0);
+  EXPECT_EQ(scene.engine->results().totals().contacts > 0, touching > 0);
   EXPECT_EQ(bad, 0) << what << ": a contact or force that is no number";
   EXPECT_EQ(false_ones, 0) << what;
   EXPECT_GT(touching, n / 4) << what;
@@ -532,12 +532,12 @@ TEST(vertex, of_1e5_facets_is_exact)
     for (int i = 0; i < scene.n(); i++) {
       const Real off = std::fabs(norm(scene.force(i)) - expected[i]);
       if (!(off <= largest)) largest = off;
-      if (i < scene.engine->n_touching())
-        most = std::max(most, static_cast<int>(scene.engine->sphere_output()[i].contacts));
+      if (i < scene.engine->results().n_touching())
+        most = std::max(most, scene.engine->results().touching()[i].n_contacts);
     }
     std::printf("  %s of 1e5 facets: built in %.2f s, longest list %zu, %.3g ms a sphere\n", shape,
                 build, scene.grid.report.lists.longest, 1e3 * step / scene.n());
-    EXPECT_EQ(scene.engine->n_touching(), scene.n());
+    EXPECT_EQ(scene.engine->results().n_touching(), scene.n());
     expect_at_most({kTheme, "14", std::string(shape) + " of 1e5 facets: |F - k d| / k R"},
                    largest / 0.3, scene.grid.tolerance / 0.3 + 16 * kRoundoff,
                    "tolerance and roundings");

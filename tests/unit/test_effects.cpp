@@ -33,7 +33,7 @@ TEST(effects, keep_the_bytes_of_the_table_and_no_others)
     for (int i = 0; i < kSpheres; i++)
       scene.add_sphere({-9 + 1.1 * (i % 17), -9 + 1.0 * (i / 17), 0.495}, 0.5, 1, {0.1, 0, 0});
     scene.compute(1e-7);
-    ASSERT_EQ(scene.engine->totals().contacts, kSpheres) << c.name;
+    ASSERT_EQ(scene.engine->results().totals().contacts, kSpheres) << c.name;
     int kept = 0;
     for (int i = 0; i < kSpheres; i++)
       kept += scene.springs.packed_size(i) - 1;    // 7 + n_extra numbers each
@@ -43,7 +43,7 @@ TEST(effects, keep_the_bytes_of_the_table_and_no_others)
     EXPECT_EQ(bytes_per_contact(c.settings), history ? 56 + 8 * c.settings.law().n_extra() : 0)
         << c.name;
     const bool records = c.settings.contacts || c.settings.bodies;
-    EXPECT_EQ(scene.engine->n_contacts(), records ? kSpheres : 0) << c.name;
+    EXPECT_EQ(scene.engine->results().n_contacts(), records ? kSpheres : 0) << c.name;
   }
 }
 
@@ -83,7 +83,7 @@ TEST(effects, that_are_off_take_no_memory_of_the_engine)
     for (int i = 0; i < kSpheres; i++)
       scene.add_sphere({-20 + 1.1 * (i % 25), -20 + 1.1 * (i / 25), 0.495}, 0.5, 1);
     for (int step = 0; step < 2; step++) scene.compute(1e-7);    // the second pool, too
-    ASSERT_EQ(scene.engine->totals().contacts, kSpheres) << c.name;
+    ASSERT_EQ(scene.engine->results().totals().contacts, kSpheres) << c.name;
     const std::size_t bytes = scene.engine->bytes();
     if (least == 0) least = bytes;
     // As the engine grows its arrays: by an eighth more; two pools of four slots for each sphere

@@ -210,7 +210,7 @@ TEST(engine, drops_no_contact_of_crowded_spheres)
         for (int i = 0; i < spheres; i++) force.push_back(scene.force(i));
       }
       EXPECT_EQ(scene.springs.count(spheres - 1), n);
-      EXPECT_EQ(scene.engine->totals().contacts, n * spheres);
+      EXPECT_EQ(scene.engine->results().totals().contacts, n * spheres);
       return force;
     };
     EXPECT_TRUE(same_bytes(outcome(on_cpu), outcome(in_place))) << n;
@@ -230,7 +230,7 @@ class Particles {
     grid = build_grid(mesh, g);
     flat = FlatGrid(grid);
     engine->set_grid(flat.view());
-    engine->springs_in_place()->grow(n);
+    engine->springs().grow(n);
     std::mt19937_64 random(5);
     std::uniform_real_distribution<Real> at(-9, 9), up(0, 4 * cutoff), speed(-1, 1), unit(0.3, 1);
     for (int i = 0; i < n; i++) {
@@ -263,7 +263,7 @@ class Particles {
   ContactHistory springs()
   {
     ContactHistory store;
-    engine->springs_to(store, host.n());
+    engine->springs().to_store(store, host.n());
     return store;
   }
 
@@ -535,10 +535,10 @@ TEST(engine, springs_follow_through_pack_and_unpack)
   const bool cuda = test_on_cuda();
   DeviceArray<int> d_which(cuda), d_copies(cuda), d_back(cuda);
   DeviceArray<double> buffer(cuda);
-  buffer.resize(moved * (1 + from.engine->springs_in_place()->largest_packed_size(n)));
-  const int size = from.engine->springs_in_place()->pack(moved, d_which.put(which),
-                                                         d_copies.put(copies), buffer.data());
-  EXPECT_LE(size, moved * (1 + from.engine->springs_in_place()->largest_packed_size(n)));
+  buffer.resize(moved * (1 + from.engine->springs().largest_packed_size(n)));
+  const int size =
+      from.engine->springs().pack(moved, d_which.put(which), d_copies.put(copies), buffer.data());
+  EXPECT_LE(size, moved * (1 + from.engine->springs().largest_packed_size(n)));
 
   const ContactHistory left = from.springs();
   int same = 0, carried = 0;
@@ -553,15 +553,15 @@ TEST(engine, springs_follow_through_pack_and_unpack)
     places.push_back(back[k] < 0 ? -1 : back[k] + 1);
   }
   std::vector<double> both = buffer.get(size);
-  const int second = from.engine->springs_in_place()->pack(moved, d_which.put(others),
-                                                           d_copies.put(stays), buffer.data());
+  const int second =
+      from.engine->springs().pack(moved, d_which.put(others), d_copies.put(stays), buffer.data());
   const std::vector<double> behind = buffer.get(second);
   both.insert(both.end(), behind.begin(), behind.end());
   DeviceArray<double> d_both(cuda);
   d_both.put(both);
   to.step(0.01, Particles::Candidates::now);
   const ContactHistory own = to.springs();
-  to.engine->springs_in_place()->unpack(2 * moved, d_back.put(places), d_both.data(), moved, size);
+  to.engine->springs().unpack(2 * moved, d_back.put(places), d_both.data(), moved, size);
   const ContactHistory after = to.springs();
   int arrived = 0;
   for (int k = 0; k < moved; k++) {
@@ -588,7 +588,7 @@ TEST(engine, a_step_without_outputs_neither_copies_nor_waits)
           traits_of(law), {LawBytes(law)}, run_compiled_law<Law, CountingBackend>},
       CountingBackend());
   particles.engine->set_grid(particles.flat.view());
-  particles.engine->springs_in_place()->grow(2000);
+  particles.engine->springs().grow(2000);
   particles.engine->choose(particles.spheres(), 0.5);
   EXPECT_GT(CountingBackend::crossings(), 0);
   const auto crossings_of = [&](bool per_sphere) {
@@ -601,7 +601,7 @@ TEST(engine, a_step_without_outputs_neither_copies_nor_waits)
   };
   for (int k = 0; k < 5; k++) EXPECT_EQ(crossings_of(false), 0);
   EXPECT_GT(crossings_of(true), 0);
-  EXPECT_GT(particles.engine->totals().contacts, 100);
+  EXPECT_GT(particles.engine->results().totals().contacts, 100);
 }
 
 TEST(engine, outputs_of_the_step_that_asks_for_them_are_those_of_always_asking)
@@ -613,16 +613,15 @@ TEST(engine, outputs_of_the_step_that_asks_for_them_are_those_of_always_asking)
     step.dt = 0.01;
     step.per_sphere = asks;
     p.engine->step(p.spheres(), step);
-    const SphereOutput *first = p.engine->sphere_output();
-    return std::vector<SphereOutput>(first, first + p.engine->n_touching());
+    return p.engine->results().touching();
   };
   for (Particles *p : {&once, &always}) p->engine->choose(p->spheres(), 0);
   for (bool asks : {false, true, false}) {
-    const std::vector<SphereOutput> a = outputs(once, asks), b = outputs(always, true);
+    const std::vector<TouchingSphere> a = outputs(once, asks), b = outputs(always, true);
     EXPECT_GT(b.size(), 100u);
     EXPECT_EQ(a.empty(), !asks);
     EXPECT_TRUE(!asks || same_bytes(a, b));
-    EXPECT_EQ(once.engine->totals().energy, always.engine->totals().energy);
+    EXPECT_EQ(once.engine->results().totals().energy, always.engine->results().totals().energy);
   }
 }
 
@@ -634,7 +633,7 @@ TEST(engine, springs_that_are_taken_over_are_all_that_there_are)
   const ContactHistory before = p.springs();
   ContactHistory store;
   store.grow(few);
-  p.engine->springs_from(store, few);
+  p.engine->springs().from_store(store, few);
   const ContactHistory after = p.springs();
   int had = 0, have = 0;
   for (int i = few; i < n; i++) {
@@ -748,7 +747,7 @@ TEST(engine, many_springs_take_shared_places)
   const Outcome b = run_steps(corner, history(), in_place, 20000);
   expect_same(a, b, "corner");
   int three = 0;
-  for (const SphereOutput &o : a.outputs) three += o.contacts >= 3;
+  for (const TouchingSphere &o : a.outputs) three += o.n_contacts >= 3;
   EXPECT_GT(three, 300);
 }
 
@@ -792,11 +791,11 @@ TEST(engine, has_room_for_springs_of_spheres_that_all_come_into_a_corner)
   p.host.x.assign(3 * n, 0.51);
   p.engine->choose(p.spheres(), 0.1);
   p.step(0);
-  EXPECT_EQ(p.engine->totals().contacts, 0);
+  EXPECT_EQ(p.engine->results().totals().contacts, 0);
   p.host.x.assign(3 * n, 0.49);
   p.step(0);
   EXPECT_NO_THROW(p.engine->read_diagnostics());
-  EXPECT_EQ(p.engine->totals().contacts, 3 * n);
+  EXPECT_EQ(p.engine->results().totals().contacts, 3 * n);
 }
 
 // Its old springs are in the pool that the step has left.
@@ -856,7 +855,7 @@ TEST(engine, with_two_kernels_gives_what_one_pass_gives_on_one_side_of_the_wall)
       scene.compute(1e-3);
       std::vector<Vec3> force;
       for (int i = 0; i < scene.n(); i++) force.push_back(scene.force(i));
-      EXPECT_GT(scene.engine->totals().contacts, 10);
+      EXPECT_GT(scene.engine->results().totals().contacts, 10);
       return force;
     };
     EXPECT_TRUE(same_bytes(outcome(on_cpu), outcome(by_two_kernels)));
@@ -900,10 +899,11 @@ TEST(engine, takes_spheres_whose_kind_of_contact_changes_from_step_to_step)
       for (int i = 0; i < kSpheres; i++) scene->set_x(i, place_in(m, i));
       scene->compute(1e-3);
     }
-    EXPECT_EQ(host.engine->totals().contacts, m.single + 3 * m.several + kAllRound * m.crowded);
+    EXPECT_EQ(host.engine->results().totals().contacts,
+              m.single + 3 * m.several + kAllRound * m.crowded);
     for (Scene *scene : {&device, &ahead}) {
-      EXPECT_TRUE(same_bytes(std::vector<WallTotals>{host.engine->totals()},
-                             std::vector<WallTotals>{scene->engine->totals()}));
+      EXPECT_TRUE(same_bytes(std::vector<WallTotals>{host.engine->results().totals()},
+                             std::vector<WallTotals>{scene->engine->results().totals()}));
       int same = 0;
       for (int i = 0; i < kSpheres; i++) {
         const int n = host.springs.count(i);
@@ -931,7 +931,7 @@ TEST(engine, takes_more_spheres_with_several_contacts_than_a_kernel_has_threads)
     for (int i = 0; i < n; i++)
       scene.add_sphere(place_in({0, n, 0}, i), 1.05, 1, {0.1, 0.2, 0.3}, {0.3, 0.2, 0.1});
     scene.compute(1e-3);
-    EXPECT_EQ(scene.engine->totals().contacts, 3 * n);
+    EXPECT_EQ(scene.engine->results().totals().contacts, 3 * n);
     std::vector<Vec3> force;
     for (int i = 0; i < n; i++) force.push_back(scene.force(i));
     return force;
@@ -955,7 +955,7 @@ struct AllTouching {
     spheres = there.put(host);
     step.dt = 1e-3;
     engine->set_grid(grid.view());
-    engine->springs_in_place()->grow(n);
+    engine->springs().grow(n);
     choose();
   }
 
@@ -990,7 +990,7 @@ TEST(engine, takes_no_places_from_the_next_step)
     all.engine->step(all.spheres, all.step);
   }
   EXPECT_NO_THROW(all.engine->read_diagnostics());
-  EXPECT_EQ(all.engine->totals().contacts, n * kAllRound);
+  EXPECT_EQ(all.engine->results().totals().contacts, n * kAllRound);
 }
 
 // A variable of another fix may ask for a wall's force between the forces of atoms and the wall's.
@@ -1010,9 +1010,9 @@ void keep_the_totals_of_the_last_step(bool beside)
   all.host.x = x;
   all.step.per_sphere = true;
   submit();
-  EXPECT_EQ(all.engine->totals().contacts, all.n / 2 * kAllRound);
+  EXPECT_EQ(all.engine->results().totals().contacts, all.n / 2 * kAllRound);
   all.engine->collect();
-  EXPECT_EQ(all.engine->totals().contacts, all.n * kAllRound);
+  EXPECT_EQ(all.engine->results().totals().contacts, all.n * kAllRound);
 }
 TEST(engine, keeps_the_totals_of_the_last_step_through_a_choice)
 {
@@ -1047,7 +1047,7 @@ TEST(engine, knows_a_step_that_is_begun_submitted_or_none)
     EXPECT_EQ(engine.is_under_way(), when == When::beside);
     engine.collect();
     EXPECT_EQ(engine.state(), StepState::none);
-    EXPECT_EQ(engine.totals().contacts, all.n * kAllRound);
+    EXPECT_EQ(engine.results().totals().contacts, all.n * kAllRound);
   }
 }
 
@@ -1056,9 +1056,9 @@ TEST(engine, packs_a_sphere_into_no_more_than_any_sphere_can_have)
 {
   AllTouching all;
   all.engine->step(all.spheres, all.step);
-  const int largest = all.engine->springs_in_place()->largest_packed_size(all.n);
+  const int largest = all.engine->springs().largest_packed_size(all.n);
   EXPECT_EQ(largest, 1 + kAllRound * ContactHistory().doubles_per_spring());
-  EXPECT_LE(largest, all.engine->springs_in_place()->most_packed_size());
+  EXPECT_LE(largest, all.engine->springs().most_packed_size());
 }
 
 }    // namespace

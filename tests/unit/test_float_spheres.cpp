@@ -195,8 +195,8 @@ void walk(int meshes, When when)
     run(*engine, host.spheres(floats), when);
     run(*other, given, When::in_turn);
     ASSERT_EQ(engine->n_candidates(), other->n_candidates());
-    contacts += engine->totals().contacts;
-    ASSERT_EQ(engine->totals().contacts, other->totals().contacts);
+    contacts += engine->results().totals().contacts;
+    ASSERT_EQ(engine->results().totals().contacts, other->results().totals().contacts);
     for (int i = 0; i < 3 * given.n; i++) {
       ASSERT_EQ(component(host.force(), i / 3, i % 3), static_cast<Sum>(doubles.force[i]))
           << step << " " << i;

@@ -28,8 +28,8 @@ StepContact on_face(std::uint32_t face, std::uint32_t mesh, Real normal, Real we
 // A step of 2: the process presses face `rank` of mesh 0, and both press face 7 of mesh 1.
 void add_step(LoadRecorder &loads, int rank)
 {
-  const StepContact records[] = {on_face(rank, 0, 3, 10), on_face(7, 1, 4, 100)};
-  for (int mesh : {0, 1}) loads.add(mesh, records, 2, 2, {});
+  const std::vector<StepContact> contacts = {on_face(rank, 0, 3, 10), on_face(7, 1, 4, 100)};
+  for (int mesh : {0, 1}) loads.add(mesh, contacts, 2, {});
 }
 
 TEST(LoadRecorder, adds_up_wear_of_all_processes)

@@ -99,7 +99,7 @@ struct Case {
 
   void wear_off(const std::vector<StepContact> &records)
   {
-    wear.add(records.data(), static_cast<int>(records.size()), kDt, features.view());
+    wear.add(records, kDt, features.view());
   }
   bool recede()
   {

@@ -58,7 +58,7 @@ class Pair {
   Real shear(int engine, int i)
   {
     ContactHistory store;
-    both()[engine]->springs_to(store, kSpheres);
+    both()[engine]->springs().to_store(store, kSpheres);
     return store.count(i) == 0 ? 0 : norm(store.of(i)->shear);
   }
   void expect_same_springs()
@@ -136,11 +136,11 @@ TEST(mirror, springs_that_are_given_replace_those_it_has)
   for (int k = 0; k < 3; k++) p.step();
   // As after a restart: 0 and 2 have changed places, 1 is new.
   ContactHistory had, given;
-  p.direct->springs_to(had, Pair::kSpheres);
+  p.direct->springs().to_store(had, Pair::kSpheres);
   given.grow(Pair::kSpheres);
   given.set(0, had.of(2), had.extra_of(2), had.count(2));
   given.set(2, had.of(0), had.extra_of(0), had.count(0));
-  for (WallEngine *e : p.both()) e->springs_from(given, Pair::kSpheres);
+  for (WallEngine *e : p.both()) e->springs().from_store(given, Pair::kSpheres);
   EXPECT_GT(p.shear(1, 0), 0);
   EXPECT_EQ(p.shear(1, 1), 0);
   p.expect_same_springs();    // before the step that takes them
@@ -212,7 +212,7 @@ TEST(mirror, totals_of_the_last_step_name_its_sphere_after_another_choice)
   p.step();
   p.place(0b0011, 0);
   p.choose();
-  for (WallEngine *e : p.both()) EXPECT_EQ(e->totals().largest_overlap_sphere, 3);
+  for (WallEngine *e : p.both()) EXPECT_EQ(e->results().totals().largest_overlap_sphere, 3);
 }
 
 TEST(mirror, totals_of_the_last_step_name_its_sphere_after_another_grid)
@@ -222,7 +222,7 @@ TEST(mirror, totals_of_the_last_step_name_its_sphere_after_another_grid)
   p.choose();
   p.step();
   p.set_grid();
-  for (WallEngine *e : p.both()) EXPECT_EQ(e->totals().largest_overlap_sphere, 3);
+  for (WallEngine *e : p.both()) EXPECT_EQ(e->results().totals().largest_overlap_sphere, 3);
 }
 
 TEST(mirror, notes_name_the_sphere_of_the_deepest_overlap_after_another_choice)

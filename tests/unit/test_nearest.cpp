@@ -190,7 +190,7 @@ TEST(nearest_in_the_engine, counts_uncertified_spheres_and_bounds_what_they_miss
   scene.add_sphere({0.4, 0.41, 0.42}, 0.5, 1);
   scene.add_sphere({1.5, 1.5, 0.45}, 0.1, 1);    // touches nothing, and that is certain
   scene.compute(1e-6);
-  const WallTotals &t = scene.engine->totals();
+  const WallTotals &t = scene.engine->results().totals();
   EXPECT_EQ(t.contacts, 1);
   EXPECT_EQ(t.uncertified, 1);
   // The deepest it misses overlaps by 0.5 - 0.41; the bound is of the second triangle of
@@ -211,15 +211,15 @@ TEST(nearest_in_the_engine, counts_every_sphere_that_is_not_certified)
     uncertified += exact_within < box.scene.radius(i);
     without_contact += exact_within < box.scene.radius(i) && found.empty();
   }
-  EXPECT_EQ(box.scene.engine->totals().uncertified, uncertified);
+  EXPECT_EQ(box.scene.engine->results().totals().uncertified, uncertified);
   EXPECT_GT(without_contact, 0);
 }
 
 TEST(nearest_in_the_engine, complete_lists_are_certain)
 {
   Box all(0);
-  EXPECT_EQ(all.scene.engine->totals().uncertified, 0);
-  EXPECT_EQ(all.scene.engine->totals().largest_uncertain, 0);
+  EXPECT_EQ(all.scene.engine->results().totals().uncertified, 0);
+  EXPECT_EQ(all.scene.engine->results().totals().largest_uncertain, 0);
 }
 
 }    // namespace

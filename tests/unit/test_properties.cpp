@@ -512,7 +512,7 @@ TEST(property, forces_are_finite_and_those_of_the_cpu)
       }
       force[at] = all.force;
       torque[at] = all.torque;
-      return engine->totals().contacts;
+      return engine->results().totals().contacts;
     };
     const long contacts = static_cast<long>(run(test_device(), 0));
     if (test_on_cuda()) run(Device::cpu, 1);

@@ -64,7 +64,7 @@ class Floors {
 
   const MeshTotals &of(int mesh)
   {
-    totals.reduce(engine.get(), poses);
+    totals.reduce(&engine->results(), poses);
     return totals.mesh(mesh);
   }
 

@@ -42,7 +42,7 @@ struct Process {
 
   void step(std::int64_t number)
   {
-    loads.add(0, nullptr, 0, 1, {});
+    loads.add(0, {}, 1, {});
     files.write_due(number, static_cast<double>(number), placed, rerun ? nullptr : &loads);
   }
   void steps(std::int64_t first, std::int64_t last)

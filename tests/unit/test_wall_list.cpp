@@ -262,7 +262,7 @@ class Bed {
   std::vector<Spring> springs()
   {
     ContactHistory store;
-    engine->springs_to(store, n());
+    engine->springs().to_store(store, n());
     std::vector<Spring> all;
     for (int i = 0; i < n(); i++) all.insert(all.end(), store.of(i), store.of(i) + store.count(i));
     return all;
@@ -336,7 +336,7 @@ TEST(wall_list, spheres_without_one_touch_what_all_features_say)
       const Real tolerance = 8 * kRoundoff * k * static_cast<Real>(all.size());
       EXPECT_LE(norm(bed.force_on(i) - sum), tolerance) << n << ", sphere " << i;
     }
-    EXPECT_EQ(bed.engine->totals().contacts, contacts) << n;
+    EXPECT_EQ(bed.engine->results().totals().contacts, contacts) << n;
   }
 }
 
@@ -431,11 +431,11 @@ TEST(wall_list, a_sphere_that_grows_after_the_choice_is_felt_and_then_an_error)
   bed.add({0.31, 0.17, 0.4}, 0.3);
   bed.choose(0.2);
   bed.step();
-  EXPECT_EQ(bed.engine->totals().contacts, 0);
+  EXPECT_EQ(bed.engine->results().totals().contacts, 0);
   bed.engine->read_diagnostics();
   bed.radius[1] = 0.5;
   bed.step();
-  EXPECT_EQ(bed.engine->totals().contacts, 1);
+  EXPECT_EQ(bed.engine->results().totals().contacts, 1);
   try {
     bed.engine->read_diagnostics();
     ADD_FAILURE() << "nothing is said";
@@ -519,7 +519,7 @@ TEST(wall_list, that_is_kept_on_a_long_walk_gives_the_bits_of_choosing_in_each_s
       kept.step();
       anew.choose(0);
       anew.step();
-      contacts += kept.engine->totals().contacts;
+      contacts += kept.engine->results().totals().contacts;
       const StepDiagnostics seen = kept.engine->read_diagnostics();
       lists += seen.lists;
       by_cells += seen.by_cells > 0;

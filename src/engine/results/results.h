@@ -139,11 +139,4 @@ LSDCD_FN void add_block(WallTotals &sum, const WallTotals &t)
   }
 }
 
-// Returns the columns of `contacts`. Contacts that exert no force still have a row: that of the sphere.
-LSDCD_FN SphereOutput output_of(const SphereResult &r, const Vec3 &x, Real radius)
-{
-  return {Real(r.n_contacts), r.force, r.weight > 0 ? (1 / r.weight) * r.weighted_point : x,
-          radius};
-}
-
 }    // namespace lsdcd

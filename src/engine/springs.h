@@ -3,13 +3,21 @@
 
 #pragma once
 
+#include "contact/contact_history.h"
+
 namespace lsdcd {
 
-// The springs of a process's spheres in the memory of an engine's backend, in which all pointers here lie. Each sphere has a
-// first spring and a count, which follow it through sorting.
-class SpringsInPlace {
+// The springs of a process's spheres in the memory of an engine's backend, in which pointers of spheres' numbers lie. Each
+// sphere has a first spring and a count, which follow it through sorting.
+class Springs {
  public:
-  virtual ~SpringsInPlace() = default;
+  virtual ~Springs() = default;
+
+  // Copy the springs of the spheres [0, n) to the memory of the CPU and from it.
+  virtual void to_store(ContactHistory &store, int n) = 0;
+  virtual void from_store(const ContactHistory &store, int n) = 0;
+
+  // The following is for a host that moves spheres where the engine computes.
 
   // Makes room for n spheres; new ones have no springs.
   virtual void grow(int n) = 0;
