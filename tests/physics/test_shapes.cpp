@@ -106,7 +106,7 @@ class ShapeScene {
   Real energy(std::size_t i) const
   {
     return 0.5 * mass[i] * norm_sq(v[i]) + 0.5 * dot(momentum[i], omega_of(i)) +
-           engine->totals().energy;
+           engine->results().totals().energy;
   }
 
  private:
@@ -328,7 +328,7 @@ TEST(shapes, a_block_on_two_rails_rests_with_half_its_weight_on_each)
     // The difference of the two is the torque about y over the arm.
     worst = std::fmax(worst, std::fabs(scene.torque[i].y / 3 / kGravity));
     worst = std::fmax(worst, std::fabs(scene.force[i].z / kGravity - 1));
-    EXPECT_EQ(scene.engine->totals().contacts, 2);
+    EXPECT_EQ(scene.engine->results().totals().contacts, 2);
   }
   EXPECT_LE(worst, 1e-3);
 }
@@ -349,7 +349,7 @@ Rest rest(ShapeScene &scene, int settle, int stay)
     scene.step(dt, {0, 0, -1});
     if (k == settle) from = scene.x[0];
     if (k < settle) continue;
-    const Real kinetic = scene.energy(0) - scene.engine->totals().energy;
+    const Real kinetic = scene.energy(0) - scene.engine->results().totals().energy;
     most.kinetic = std::fmax(most.kinetic, kinetic / sunk);
     most.creep = std::fmax(most.creep, norm(scene.x[0] - from) / sunk);
     most.force = std::fmax(most.force, norm(scene.force[0] - Vec3{0, 0, 1}));
@@ -456,7 +456,7 @@ TEST(shapes, keep_the_force_continuous_over_folds_and_corners)
             normalised(rotation_about((1 / norm(turn)) * turn, kStep) * scene.shapes[0].turn);
         scene.compute(1e-3);
         // Up to half of the least radius of curvature.
-        const bool now = scene.engine->totals().largest_overlap_ratio * 0.6 < 0.5 * 0.3;
+        const bool now = scene.engine->results().totals().largest_overlap_ratio * 0.6 < 0.5 * 0.3;
         if (now && shallow && k > 0) {
           worst = std::fmax(worst, norm(scene.force[0] - force) + norm(scene.torque[0] - torque));
           compared += norm_sq(scene.force[0]) > 0;
