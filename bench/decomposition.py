@@ -8,7 +8,7 @@ cut for P processes, each with a GPU: by LAMMPS's bricks of equal size, or by `f
 grains. Assumed are
 
 * grains everywhere in the vessel, as dense as a poured bed, and near the wall one layer of them (DENSITY, layer());
-* a step of PER_GRAIN on a GPU without a wall, and FIXED and PER_NEAR more with one: measured on an H200 (doc/performance.md);
+* a step of PER_GRAIN on a GPU without a wall, and FIXED and PER_NEAR more with one: measured on an H200 (doc/notes/performance.md);
 * each process's ghosts: the grains within REACH of its box, as if grains were on all sides. A step sends their places and
   velocities, BYTES a grain, at BANDWIDTH, and takes LATENCY for each neighbour;
 * all processes wait for the slowest one. The wall sends nothing in a step in which no output asks for its sums.

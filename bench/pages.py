@@ -106,6 +106,18 @@ def point_costs(cpu):
     return table(dict.fromkeys(r["triangles"] for r in rows), heads, lambda t: [count(t), *[us(t, *c) for c in columns]])
 
 
+def set_up(cpu, cuda):
+    """Seconds to build the grid with the cells that the fix chooses, copies included, on a core and on a GPU."""
+    rows = [[r for r in each if r["program"] == "build" and r["case"] == "chosen cell"] for each in (cpu, cuda)]
+
+    def seconds(triangles, each):
+        row = find(each, triangles=triangles)
+        return number(float(row["median_ms"]) / 1e3, 2) if row else ""
+
+    heads = ["triangles", "cell", *[f"{each[0]['device']}, s" for each in rows]]
+    return table(rows[0], heads, lambda r: [count(r["triangles"]), number(r["length"], 2), *[seconds(r["triangles"], each) for each in rows]])
+
+
 NO_WALL = ", no wall"
 MONTHS = ("Jan", "Feb", "Mar", "Apr", "May", "Jun", "Jul", "Aug", "Sep", "Oct", "Nov", "Dec")
 BEDS = ("flat floor", "closed box", "closed box, check yes", "closed box, granular", "bumpy floor")
@@ -353,7 +365,7 @@ def hard_cases(cpu, cuda):
     return table(lines, ["case", "number", "of them", "result", "allowed"], lambda cells: cells)
 
 
-# ---- tables of accuracy.md and paper.md ----------------------------------------------------
+# ---- tables of accuracy.md and notes/paper.md ----------------------------------------------------
 
 def settings(rows):
     """What settings buy and cost, a line each: those that were measured on the CPU."""
@@ -433,14 +445,15 @@ def tables():
     kokkos_cpu, kokkos_cuda = (rows_of(f"kokkos_{device}.csv") for device in DEVICES)
     study = [rows_of(f"accuracy_{device}.csv") for device in DEVICES]
     return {
-        "performance.md": {"cost": cost(kokkos_cuda + kokkos_cpu), "kokkos-scaling": scaling(kokkos_cuda),
+        "performance.md": {"cost": cost(kokkos_cuda + kokkos_cpu), "set-up": set_up(cpu, cuda),
                            "liggghts": liggghts(rows_of("liggghts_cpu.csv")), "floor": floor(rows_of("floor_cpu.csv"))},
+        "notes/performance.md": {"kokkos-scaling": scaling(kokkos_cuda)},
         "library.md": {"point-costs": point_costs(cpu)},
         "effects.md": {"costs": costs(*(rows_of(f"effects_{device}.csv", ";") for device in DEVICES)),
                        "bodies": bodies(rows_of("effects_bodies_cpu.csv", ";"))},
         "hard_cases.md": {"numbers": hard_cases(*(rows_of(f"hard_cases_{device}.tsv") for device in DEVICES))},
         "accuracy.md": {"settings": settings([r for d in DEVICES for r in rows_of(f"tradeoff_vessel_{d}.csv")])},
-        "paper.md": {"paper-cylinder": paper_cylinder(*study), "finer-cylinders": finer_cylinders(study[1])},
+        "notes/paper.md": {"paper-cylinder": paper_cylinder(*study), "finer-cylinders": finer_cylinders(study[1])},
     }
 
 

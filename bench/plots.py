@@ -140,7 +140,7 @@ def draw_effects(cpu, cuda):
     write_image(figure, "effects.png", dpi=90)
 
 
-# ---- paper.md ------------------------------------------------------------------------------
+# ---- notes/paper.md ------------------------------------------------------------------------------
 
 def draw_question(rows, steps):
     """Errors against the time of a query: those of the paper and ours, and what shorter lists miss. Below the break of an

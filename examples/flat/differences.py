@@ -9,7 +9,7 @@ usage: differences.py [--lmp PROGRAM]
 One sphere hits a floor at a grazing angle, with spin: once the plane of fix wall/gran, once a mesh of two triangles. A
 row has the largest difference of the forces, as a part of the largest force, that of the spins, and the sphere's speed
 after the impact. PROGRAM is the LAMMPS whose plane is looked at, any that you have; without it that is
-build/bin/lmp-lsdcd, which always runs the mesh. doc/from-wall-gran.md has the table of several versions.
+build/bin/lmp-lsdcd, which always runs the mesh. doc/other-walls.md has the table of several versions.
 """
 import argparse
 import os

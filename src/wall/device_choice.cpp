@@ -7,7 +7,7 @@ namespace lsdcd {
 
 namespace {
 
-// Measured on cores and an H200 (doc/performance.md): from so many spheres near the wall on a GPU is faster. Processes
+// Measured on cores and an H200 (doc/notes/performance.md): from so many spheres near the wall on a GPU is faster. Processes
 // that share one take turns in slices of time, so that each needs more spheres the more of them there are.
 constexpr std::int64_t kAlone = 400, kShared = 1200;
 

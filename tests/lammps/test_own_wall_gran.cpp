@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: GPL-2.0-only
 
-// The versions of LAMMPS that have a fix wall/gran that differs, law by law: doc/from-wall-gran.md has the measurements.
+// The versions of LAMMPS that have a fix wall/gran that differs, law by law: doc/other-walls.md has the measurements.
 #include "input/wall_command.h"
 #include "lammps/own_wall_gran.h"
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Which device computes where none was asked for. The numbers are those of doc/performance.md.
+// Which device computes where none was asked for. The numbers are those of doc/notes/performance.md.
 #include "wall/device_choice.h"
 
 #include <gtest/gtest.h>
