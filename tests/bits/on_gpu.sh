@@ -109,8 +109,8 @@ if [ -z "$reference" ]; then
   skip "harness" "no REFERENCE"
 elif [ ${#forms[@]} -gt 0 ]; then
   part "harness: ${forms[*]}" harness.log "$python" tests/bits/compare.py "$reference" --build "$build" --as-built --cuda \
-    --without-recorded --quick --ranks 1 --jobs 4 --forms "$(IFS=,; echo "${forms[*]}")" ${host:+--host "$host"} \
-    --kokkos-flags "$kokkos_flags" --table "$out/harness.tsv" --cmake "${words[*]:4}"
+    --quick --ranks 1 --jobs 4 --forms "$(IFS=,; echo "${forms[*]}")" ${host:+--host "$host"} \
+    --kokkos-flags "$kokkos_flags" --cmake "${words[*]:4}"
 fi
 
 # ---- speed -------------------------------------------------------------------------------

@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 LSDCD contributors
 # SPDX-License-Identifier: GPL-2.0-only
 
-"""Input scripts that must end with an error, for run_bad_scripts.py.
+"""Input scripts that must end with an error, for test_bad_scripts.py.
 
 Each table has one script and a row per case: its name, the words that replace {} in the script, and the
 parts that the message must have.

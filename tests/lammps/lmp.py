@@ -6,10 +6,10 @@
 import os
 import pathlib
 import re
-import shutil
 import subprocess
-import sys
 import tempfile
+
+import pytest
 
 CXX = os.environ.get("LSDCD_CXX", "c++")
 HERE = pathlib.Path(__file__).resolve().parent
@@ -19,15 +19,24 @@ LIB = pathlib.Path(LMP).resolve().parent.parent / "lib"
 # The small samples of ./run test.
 QUICK = bool(os.environ.get("LSDCD_QUICK"))
 
-# The LAMMPS of hosts/build_host.sh and the plugin for it; empty where it was not built.
-TEST_HOST = os.environ.get("LSDCD_TEST_HOST", "") and os.environ["LSDCD_TEST_HOST"] + "/lmp"
-TEST_HOST_PLUGIN = LIB / "lsdcd-20260704-plugin.so"
+# Another LAMMPS, the plugin for it (none where the styles are compiled in), and words of its command line: that of
+# hosts/build_host.sh, one with Kokkos, with MPICH or without MPI. HOST is empty where there is none. With LSDCD_ON_HOST
+# scripts run there. On a GPU the words are "-k on g 1 -sf kk -pk kokkos newton off neigh half".
+HOST = os.environ.get("LSDCD_HOST", "") and os.environ["LSDCD_HOST"] + "/lmp"
+PLUGIN = os.environ.get("LSDCD_HOST_PLUGIN", "")
+FLAGS = tuple(os.environ.get("LSDCD_HOST_FLAGS", "").split())
+ON_HOST = bool(os.environ.get("LSDCD_ON_HOST"))
+ON_KOKKOS = ON_HOST and "-sf" in FLAGS
+# Atoms are sorted and exchanged by Kokkos's kernels, as on a GPU, which fix wall/gran would not allow; on a host without one
+# Kokkos leaves that to LAMMPS.
+DEVICE_MOVES = "device" in FLAGS
+# What starts several processes of it, and how many at most: those of MPICH never give up a core while they wait.
+MPIRUN = os.environ.get("LSDCD_MPIRUN", "mpirun --oversubscribe").split()
+MOST_RANKS = int(os.environ.get("LSDCD_MOST_RANKS", "1000"))
 
-# A LAMMPS with Kokkos and the plugin for it. Where LSDCD_KOKKOS is set, scripts run there as
-# they are, with -sf kk.
-KOKKOS_HOST = os.environ.get("LSDCD_KOKKOS_HOST", "") and os.environ["LSDCD_KOKKOS_HOST"] + "/lmp"
-KOKKOS_PLUGIN = os.environ.get("LSDCD_KOKKOS_PLUGIN", "")
-ON_KOKKOS = bool(os.environ.get("LSDCD_KOKKOS"))
+of_host = pytest.mark.skipif(not ON_HOST, reason="no other LAMMPS (tests/lammps/hosts/build_host.sh)")
+needs_host = pytest.mark.skipif(not HOST, reason="no other LAMMPS (tests/lammps/hosts/build_host.sh)")
+of_kokkos = pytest.mark.skipif(not ON_KOKKOS, reason="no LAMMPS with Kokkos (tests/lammps/hosts/build_host.sh)")
 
 # Spheres of diameter 1 in a box of side 6: with nothing that moves them, and with it.
 SMALL_BOX_AT_REST = """\
@@ -67,51 +76,30 @@ def environment():
     return env
 
 
-def for_host(text, flags):
-    """A script with the plugin loaded. With a suffix, flat walls of LAMMPS stay without it: not
-    every style of fix wall/gran has a form for Kokkos."""
-    if DEVICE_MOVES:    # which fix wall/gran on the host would not allow
-        text = re.sub(r"(fix +\S+ +\S+ +)wall/gran .* ([xyz])plane +(\S+) +(\S+)",
-                      r"\1wall/reflect \2lo \3 \2hi \4 units box", text)
-    if "-sf" in flags and "suffix " not in text:
-        text = re.sub(r"^(\s*fix\s.*wall/gran\s(?:.*&\n)*.*)$", r"suffix off\n\1\nsuffix on", text,
-                      flags=re.M)
-    if not KOKKOS_PLUGIN:    # the styles are compiled in
-        return text
-    text = re.sub(r"^clear\b.*$", rf"\g<0>\nplugin load {KOKKOS_PLUGIN}", text, flags=re.M)
-    return f"plugin load {KOKKOS_PLUGIN}\n" + text
-
-
-# With LSDCD_KOKKOS_MOVES=device atoms are sorted and exchanged by Kokkos's kernels, as on a GPU; on
-# a host without one Kokkos leaves that to LAMMPS.
-# LSDCD_KOKKOS_FLAGS: of a host on a GPU, "-k on g 1 -sf kk -pk kokkos newton off neigh half"; empty for a LAMMPS without
-# Kokkos, which LSDCD_KOKKOS_HOST and LSDCD_KOKKOS_PLUGIN may be as well.
-KOKKOS = tuple(os.environ.get("LSDCD_KOKKOS_FLAGS", "-k on -sf kk").split())
-# What starts several processes of it, and how many at most: those of MPICH never give up a core while they wait.
-MPIRUN = os.environ.get("LSDCD_MPIRUN", "mpirun --oversubscribe").split()
-MOST_RANKS = int(os.environ.get("LSDCD_MOST_RANKS", "1000"))
-DEVICE_MOVES = os.environ.get("LSDCD_KOKKOS_MOVES") == "device"
-if DEVICE_MOVES:
-    KOKKOS += ("-pk", "kokkos", "comm", "device", "sort", "device")
+def flat_walls(fixes):
+    """Lines with LAMMPS's own flat walls. They have no suffix, as not every style of fix wall/gran has a form for Kokkos."""
+    return ('if "$(is_active(package,kokkos))" then "suffix off"\n' + fixes.rstrip("\n") +
+            '\nif "$(is_active(package,kokkos))" then "suffix on"\n')
 
 
 def column():
     """The letter before the ID of a fix whose per-atom array an atom-style variable reads: F in 29Sep2021, f in later LAMMPS."""
-    said = subprocess.run([KOKKOS_HOST if ON_KOKKOS else LMP, "-h"], env=environment(), text=True, stdout=subprocess.PIPE,
+    said = subprocess.run([HOST if ON_HOST else LMP, "-h"], env=environment(), text=True, stdout=subprocess.PIPE,
                           stderr=subprocess.DEVNULL, stdin=subprocess.DEVNULL, check=False).stdout
     return "F" if re.search(r"LAMMPS 2021|Simulator - \d+ \w+ 2021", said) else "f"
 
 
-def run(script, folder, ranks=1, timeout=300, env=None, host=ON_KOKKOS, flags=KOKKOS, **variables):
-    """Runs a script (a path, or text) in `folder`; returns the finished process. With `host`
-    under the LAMMPS with Kokkos, given `flags`."""
+def run(script, folder, ranks=1, timeout=300, env=None, host=ON_HOST, flags=FLAGS, **variables):
+    """Runs a script (a path, or text) in `folder`; returns the finished process. With `host` under that LAMMPS, which loads
+    the plugin first, given `flags`."""
     script, folder = str(script), pathlib.Path(folder)
-    if host:
-        script = for_host(script if "\n" in script else pathlib.Path(script).read_text(), flags)
     if "\n" in script:
         (folder / "in.script").write_text(script)
         script = str(folder / "in.script")
-    command = [KOKKOS_HOST if host else LMP, "-in", script, "-log", "none", "-nocite"]
+    if host and PLUGIN:
+        (folder / "in.host").write_text(f"plugin load {PLUGIN}\ninclude {script}\n")
+        script = str(folder / "in.host")
+    command = [HOST if host else LMP, "-in", script, "-log", "none", "-nocite"]
     command += flags if host else ()
     for name, value in variables.items():
         command += ["-var", name, str(value)]
@@ -125,12 +113,17 @@ def run_well(*args, **kwargs):
     """The same; the script must succeed."""
     done = run(*args, **kwargs)
     if done.returncode:
-        sys.exit(f"script failed with {done.returncode}:\n{done.stdout[-4000:]}")
+        raise AssertionError(f"script failed with {done.returncode}:\n{done.stdout[-4000:]}")
     return done.stdout
 
 
 def scratch():
     return pathlib.Path(tempfile.mkdtemp(prefix="lsdcd-"))
+
+
+def mesh_warnings(output):
+    """Warnings of files of the mesh."""
+    return [line for line in output.split("\n") if line.startswith("WARNING") and "mesh_" in line]
 
 
 def read_dump(path):
@@ -159,12 +152,12 @@ def read_thermo(output):
 def largest_difference(a, b):
     """Of two dumps of the same steps and atoms, relative to the largest value of each column."""
     if a.keys() != b.keys():
-        sys.exit(f"steps differ: {sorted(a)[:3]}... and {sorted(b)[:3]}...")
+        raise AssertionError(f"steps differ: {sorted(a)[:3]}... and {sorted(b)[:3]}...")
     columns = len(next(iter(next(iter(a.values())).values())))
     size, apart = [0.0] * columns, [0.0] * columns
     for step in a:
         if a[step].keys() != b[step].keys():
-            sys.exit(f"atoms differ at step {step}")
+            raise AssertionError(f"atoms differ at step {step}")
         for atom, row in a[step].items():
             for k, (u, v) in enumerate(zip(row, b[step][atom])):
                 size[k] = max(size[k], abs(u))
@@ -175,24 +168,3 @@ def largest_difference(a, b):
 def sample(laws):
     """All laws of a table; in the small samples the last, for tests of walls, which are the same for each law."""
     return dict(list(laws.items())[-1:]) if QUICK else laws
-
-
-class Checks:
-    """Counts facts; the exit status of the test is whether all held."""
-
-    def __init__(self):
-        self.failed = 0
-
-    def fact(self, name, holds, detail=""):
-        print(f"{'PASS' if holds else 'FAIL'} {name}{': ' + detail if detail else ''}")
-        self.failed += not holds
-
-    def at_most(self, name, value, limit):
-        self.fact(name, value <= limit, f"{value:.3g} (at most {limit:g})")
-
-    def done(self, folder=None):
-        if folder and not self.failed:
-            shutil.rmtree(folder)
-        elif folder:
-            print("files are in", folder)
-        sys.exit(1 if self.failed else 0)

@@ -72,8 +72,8 @@ def six(law, more={}, common=""):
 def planes(law, more=""):
     """`more`: of the lower plane across z."""
     walls = [f"fix {axis} all wall/gran {law} {axis}plane {-SIDE} {SIDE}" for axis in "xy"]
-    return "\n".join(walls + [f"fix zlo all wall/gran {law} zplane {-SIDE} NULL {more}",
-                              f"fix zhi all wall/gran {law} zplane NULL {SIDE}"])
+    return lmp.flat_walls("\n".join(walls + [f"fix zlo all wall/gran {law} zplane {-SIDE} NULL {more}",
+                                             f"fix zhi all wall/gran {law} zplane NULL {SIDE}"]))
 
 
 def build(walls, name, steps, atoms=GAS, kick=FAST, dt=1e-4, every=1, more="", box=OPEN, boundary="f f f",

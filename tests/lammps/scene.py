@@ -5,6 +5,7 @@
 
 import math
 
+import lmp
 import stl
 
 BOX = "block -6 6 -6 6 -1.5 8"
@@ -56,8 +57,14 @@ velocity        all set NULL NULL -2.0 sum yes
 """
 
 
+SIDES = (("sides", "xplane", -6, 6), ("sides2", "yplane", -6, 6), ("lid", "zplane", -1.5, 8))
+
+
 def forces(law, mesh="mesh floor.stl", pair=False, more="", sides="hooke 1e4 NULL 20 NULL 0.1 1"):
     pair_style = "gran/hooke 2e4 NULL 20 NULL 0.5 1" if pair else "zero 1.2"
+    box = "".join(f"fix {name} all wall/gran {sides} {plane} {lo} {hi}\n" for name, plane, lo, hi in SIDES)
+    if lmp.DEVICE_MOVES:
+        box = "".join(f"fix {name} all wall/reflect {plane[0]}lo {lo} {plane[0]}hi {hi} units box\n" for name, plane, lo, hi in SIDES)
     return f"""\
 pair_style      {pair_style}
 pair_coeff      * *
@@ -66,10 +73,7 @@ neigh_modify    delay 0 every 1 check yes
 fix             move all nve/sphere
 fix             pull all gravity 8.0 vector 0.5 0.2 -1.0
 fix             wall all wall/lsdcd {law} {mesh} contacts
-fix             sides all wall/gran {sides} xplane -6 6
-fix             sides2 all wall/gran {sides} yplane -6 6
-fix             lid all wall/gran {sides} zplane -1.5 8
-timestep        0.001
+{lmp.flat_walls(box)}timestep        0.001
 {more}
 """
 

@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 LSDCD contributors
 # SPDX-License-Identifier: GPL-2.0-only
 
@@ -10,6 +9,7 @@ import numpy
 import lmp
 import drum
 import stl
+from facts import at_most, fact
 
 RANKS = (1, 4) if lmp.QUICK else (1, 2, 4, 8)
 STEPS, EVERY = 2500 if lmp.QUICK else 4000, 100
@@ -21,7 +21,7 @@ ROWS = (f"dump rows all custom {EVERY} rows id radius x y z " + " ".join(f"f_wal
 ROUNDING = 1e-12    # of places of size 5, some turned by sines and cosines of their own
 
 
-def brute_force(checks, at, rows):
+def brute_force(at, rows):
     """Of every step in the dump: who touches, and with what force where it is at one place."""
     missed = false_ones = touching = single = 0
     wrong = 0.0
@@ -44,15 +44,14 @@ def brute_force(checks, at, rows):
         off = numpy.abs((force * normal).sum(-1) / drum.STIFFNESS - overlap)
         single += int(one.sum())
         wrong = max(wrong, off[one].max(initial=0), numpy.abs(count[one] - 1).max(initial=0))
-    checks.fact(f"{at}: spheres touch", touching > 200 and single > 150,
-                f"{touching}, {single} at one place")
-    checks.fact(f"{at}: no contact is missed", missed == 0, str(missed))
-    checks.fact(f"{at}: none is false", false_ones == 0, str(false_ones))
-    checks.at_most(f"{at}: overlap by the normal force of those that touch at one place", wrong, ROUNDING)
+    fact(f"{at}: spheres touch", touching > 200 and single > 150,
+         f"{touching}, {single} at one place")
+    fact(f"{at}: no contact is missed", missed == 0, str(missed))
+    fact(f"{at}: none is false", false_ones == 0, str(false_ones))
+    at_most(f"{at}: overlap by the normal force of those that touch at one place", wrong, ROUNDING)
 
 
-def main():
-    checks, folder = lmp.Checks(), lmp.scratch()
+def test_totals_and_rows(folder):
     stl.write(folder / "drum.stl", drum.triangles())
     n = drum.write_data(folder / "drum.data")
     alone = None
@@ -62,16 +61,11 @@ def main():
         text = lmp.run_well(drum.BEGIN + balance + ROWS + f'run {STEPS}\nprint "imbalance $(f_even)"\n',
                             folder, ranks)
         totals = numpy.array(lmp.read_thermo(text))
-        checks.fact(f"{at}: no sphere is lost", set(totals[:, 1]) == {n} and n > 300, str(n))
-        checks.at_most(f"{at}: most on a rank over the mean", float(text.split("\nimbalance ")[1].split()[0]), 2)
-        brute_force(checks, at, lmp.read_dump(folder / "rows"))
+        fact(f"{at}: no sphere is lost", set(totals[:, 1]) == {n} and n > 300, str(n))
+        at_most(f"{at}: most on a rank over the mean", float(text.split("\nimbalance ")[1].split()[0]), 2)
+        brute_force(at, lmp.read_dump(folder / "rows"))
         if alone is None:
             alone = totals
             continue
         apart = numpy.abs(totals - alone) / numpy.abs(alone).max(0)
-        checks.at_most(f"{at}: totals as on one", apart[totals[:, 0] <= ALIKE].max(), GROWTH)
-    checks.done(folder)
-
-
-if __name__ == "__main__":
-    main()
+        at_most(f"{at}: totals as on one", apart[totals[:, 0] <= ALIKE].max(), GROWTH)

@@ -1,15 +1,14 @@
-#!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 LSDCD contributors
 # SPDX-License-Identifier: GPL-2.0-only
 
 """Meshes as rigid bodies: impacts, springs, hinges, momentum, restart, ranks; closed forms."""
 
 import math
-import sys
 
 import lmp
 import stl
-import test_files
+import vtp
+from facts import at_most, fact
 
 BEGIN = """\
 units           lj
@@ -75,7 +74,7 @@ def sphere(x, y, z, radius, mass, velocity):
 ATOM = "$(vx[1]:%.17g) $(vy[1]:%.17g) $(vz[1]:%.17g)"
 
 
-def impacts(checks, folder):
+def test_impacts(folder):
     """A sphere on the middle of a cube's face: v' = (m - e M) v / (m + M), V' = (1 + e) m v / (m + M)."""
     radius, mass, speed, stiffness, e = 0.1, 1.0, 1.0, 1e6, 0.6
     box(folder / "cube.stl", (-0.1, -0.1, -0.1), (0.1, 0.1, 0.1))
@@ -91,14 +90,14 @@ def impacts(checks, folder):
         v, big = rows[-1][-1], rows[-1][SPEED + 2]
         # The contact lasts pi sqrt(m/k) at most: 314 steps of it have an error of 1e-4. The force is cut
         # off where it would attract, which loses as little.
-        checks.at_most(f"M/m = {ratio:g}: restitution", abs((v - big) / speed - e), 0.02)
-        checks.at_most(f"M/m = {ratio:g}: velocity of the body",
-                       abs(big / (-(1 + e) * mass * speed / (mass + body)) - 1), 0.02)
-        checks.at_most(f"M/m = {ratio:g}: momentum", abs(mass * v + body * big + mass * speed), 1e-12)
-        checks.at_most(f"M/m = {ratio:g}: no spin", max(abs(w) for w in rows[-1][OMEGA:OMEGA + 3]), 1e-9 * speed)
+        at_most(f"M/m = {ratio:g}: restitution", abs((v - big) / speed - e), 0.02)
+        at_most(f"M/m = {ratio:g}: velocity of the body",
+                abs(big / (-(1 + e) * mass * speed / (mass + body)) - 1), 0.02)
+        at_most(f"M/m = {ratio:g}: momentum", abs(mass * v + body * big + mass * speed), 1e-12)
+        at_most(f"M/m = {ratio:g}: no spin", max(abs(w) for w in rows[-1][OMEGA:OMEGA + 3]), 1e-9 * speed)
 
 
-def off_centre(checks, folder):
+def test_off_centre(folder):
     """Elastic, without friction, 0.05 beside the middle of the cube of side 0.2, M = m: 0.842105 m v."""
     box(folder / "cube.stl", (-0.1, -0.1, -0.1), (0.1, 0.1, 0.1))
     errors = []
@@ -110,14 +109,14 @@ def off_centre(checks, folder):
         row = rows[-1]
         errors.append(abs(-row[SPEED + 2] / 0.842105 - 1))
         overlap = math.sqrt(0.4 / stiffness)
-        checks.at_most(f"off centre, k = {stiffness:g}: impulse", errors[-1], 5 * overlap / 0.2)
+        at_most(f"off centre, k = {stiffness:g}: impulse", errors[-1], 5 * overlap / 0.2)
         spin = 0.05 * -row[SPEED + 2] / (0.2**2 / 6)    # J 0.05 / I, with M = 1
-        checks.at_most(f"off centre, k = {stiffness:g}: spin", abs(row[OMEGA + 1] / spin - 1), 5 * overlap / 0.2)
+        at_most(f"off centre, k = {stiffness:g}: spin", abs(row[OMEGA + 1] / spin - 1), 5 * overlap / 0.2)
         energy = row[ENERGY] + 0.5 * row[-1]**2
-        checks.at_most(f"off centre, k = {stiffness:g}: energy", abs(energy / 0.5 - 1), 1e-3)
+        at_most(f"off centre, k = {stiffness:g}: energy", abs(energy / 0.5 - 1), 1e-3)
 
 
-def plate(checks, folder):
+def test_plate(folder):
     """A plate of mass 1 on 100 spheres that stay, as 100 springs."""
     side, mass, stiffness, row = 0.2, 1.0, 1e5, 10
     box(folder / "plate.stl", (-side / 2, -side / 2, 0), (side / 2, side / 2, 0.002))
@@ -142,20 +141,20 @@ def plate(checks, folder):
     rows, _ = go(folder, text + "run 1000\n")
     period = 2 * math.pi * math.sqrt(mass / (n * stiffness))
     z = [r[COORDINATE] for r in rows]
-    checks.at_most("plate: sinks about its depth", abs(min(z) / (-2 * sinks) - 1), 1e-3)
+    at_most("plate: sinks about its depth", abs(min(z) / (-2 * sinks) - 1), 1e-3)
     # Cosine of the first two periods.
     off = max(abs(r[COORDINATE] + sinks * (1 - math.cos(2 * math.pi * r[0] * dt / period))) for r in rows)
-    checks.at_most("plate: swings by the closed form", off / sinks, 2e-2)
+    at_most("plate: swings by the closed form", off / sinks, 2e-2)
     for joint, limit in limits.items():
         text = script(law + f"joint {joint}", create, 0.95 * limit, columns=(COORDINATE, CENTRE + 2), **place)
         rows, _ = go(folder, text + "run 2000\n")
-        checks.at_most(f"plate {joint}: stable at 0.95 of the limit", max(abs(r[2]) for r in rows), 3 * sinks)
+        at_most(f"plate {joint}: stable at 0.95 of the limit", max(abs(r[2]) for r in rows), 3 * sinks)
         done = lmp.run(script(law + f"joint {joint}", create, 1.02 * limit, **place) + "run 2000\n", folder)
-        checks.fact(f"plate {joint}: refused above it", done.returncode != 0 and "is not below" in done.stdout,
-                    " ".join(w for w in done.stdout.split("\n") if "ERROR" in w)[:300])
+        fact(f"plate {joint}: refused above it", done.returncode != 0 and "is not below" in done.stdout,
+             " ".join(w for w in done.stdout.split("\n") if "ERROR" in w)[:300])
 
 
-def hinge(checks, folder):
+def test_hinge(folder):
     """A flap under fix gravity: its period, and the weights that the hinge bears."""
     side, thick, g = 0.2, 0.002, 9.81
     box(folder / "flap.stl", (-thick / 2, -side / 2, -side), (thick / 2, side / 2, 0))
@@ -169,18 +168,18 @@ def hinge(checks, folder):
     period = 2 * math.pi * math.sqrt(inertia / (g * side / 2))
     swing = start * period / (2 * math.pi)
     off = max(abs(r[COORDINATE] - swing * math.sin(2 * math.pi * r[0] * dt / period)) for r in rows)
-    checks.at_most("hinge: swings by the closed form", off / swing, 1e-3)
+    at_most("hinge: swings by the closed form", off / swing, 1e-3)
     # From the bottom with the speed of a release at 90 degrees.
     fast = math.sqrt(g * side / inertia)
     rows, _ = go(folder, script(law + f"omega 0 {fast:.17g} 0", far, dt, move="", more=more) + "run 500\n")
     mass = side * side * thick * 1000
-    checks.at_most("hinge: 2.5 weights at the bottom", abs(rows[0][REACTION + 2] / (mass * g) - 2.5), 1e-4)
-    checks.at_most("hinge: comes to 90 degrees", abs(max(r[COORDINATE] for r in rows) / (math.pi / 2) - 1), 1e-4)
+    at_most("hinge: 2.5 weights at the bottom", abs(rows[0][REACTION + 2] / (mass * g) - 2.5), 1e-4)
+    at_most("hinge: comes to 90 degrees", abs(max(r[COORDINATE] for r in rows) / (math.pi / 2) - 1), 1e-4)
     potential = [r[ENERGY] + mass * g * r[CENTRE + 2] for r in rows]
-    checks.at_most("hinge: energy", (max(potential) - min(potential)) / (mass * g * side), 1e-4)
+    at_most("hinge: energy", (max(potential) - min(potential)) / (mass * g * side), 1e-4)
 
 
-def motor(checks, folder):
+def test_motor(folder):
     """A motor with a variable, and a damper: I w' = T - c w, exactly for a constant T."""
     box(folder / "rotor.stl", (-0.3, -0.1, -0.1), (0.3, 0.1, 0.1))
     far = "create_atoms 1 single 1 1 1 units box\nset group all diameter 0.01 density 1\n"
@@ -190,17 +189,17 @@ def motor(checks, folder):
     torque_is = f"variable torque equal {torque}\nfix w"
     rows, _ = go(folder, script(law, far, dt, move="").replace("fix w", torque_is, 1) + "run 500\n")
     off = max(abs(r[OMEGA + 2] - torque / damping * (1 - math.exp(-damping * r[0] * dt / inertia))) for r in rows)
-    checks.at_most("motor and damper", off, 1e-12)
+    at_most("motor and damper", off, 1e-12)
     # Another timestep later, between two runs and in one.
     rows, _ = go(folder, script(law, far, dt, move="", also="$(time:%.17g)").replace("fix w", torque_is, 1) +
                  "run 100\ntimestep 0.002\nrun 100\nfix less all dt/reset 50 0.001 0.0011 1 units box\nrun 200\n")
     off = max(abs(r[OMEGA + 2] - torque / damping * (1 - math.exp(-damping * r[-1] / inertia))) for r in rows)
-    checks.at_most("motor and damper with another timestep", off, 1e-12)
-    checks.fact("the timestep changed in a run", abs(rows[-1][-1] - (1 + 0.2 + 0.1 + 0.165)) < 0.06,
-                f"time {rows[-1][-1]:.6g}")
+    at_most("motor and damper with another timestep", off, 1e-12)
+    fact("the timestep changed in a run", abs(rows[-1][-1] - (1 + 0.2 + 0.1 + 0.165)) < 0.06,
+         f"time {rows[-1][-1]:.6g}")
 
 
-def stops(checks, folder):
+def test_stops(folder):
     """A flap that a motor holds at its stop, and a sphere that hits it there: outputs as of a mesh at rest, and the stop's torque."""
     side, thick, torque, upper, dt, radius = 0.2, 0.02, 5.0, 0.3, 1e-3, 0.05
     box(folder / "flap.stl", (-thick / 2, -side / 2, -side), (thick / 2, side / 2, 0))
@@ -211,18 +210,18 @@ def stops(checks, folder):
                  "run 200\nfix_modify w body motor 0 limits 0 1\nrun 200\n")
     held, loose = [r for r in rows if r[0] == 200]
     for name, row in (("held", held), ("let go", loose), ("200 steps later", rows[-1])):
-        checks.fact(f"stop: at rest, {name}", row[COORDINATE] == upper and not any(row[OMEGA:OMEGA + 3]) and row[ENERGY] == 0)
-    checks.at_most("stop: it bears the motor", abs(held[STOP] + torque), 1e-14)
-    checks.fact("stop: it bears nothing more", loose[STOP] == 0 and not any(held[36:41]))
+        fact(f"stop: at rest, {name}", row[COORDINATE] == upper and not any(row[OMEGA:OMEGA + 3]) and row[ENERGY] == 0)
+    at_most("stop: it bears the motor", abs(held[STOP] + torque), 1e-14)
+    fact("stop: it bears nothing more", loose[STOP] == 0 and not any(held[36:41]))
 
     hit = sphere(-thick / 2 - radius - 1e-4, 0, -0.7 * side, radius, 1, (1, 0, 0))
     speeds = []
     for fix in (law, law + body.replace(f"0 {upper}", "0 1").replace(f"motor {torque}", "motor -100")):
         rows, _ = go(folder, script(fix, hit, 1e-4, columns=(POWER,), also=ATOM) + "run 400\n")
         speeds.append([r[-3] for r in rows])
-        checks.fact("stop: no power", not any(r[1] for r in rows))
-    checks.fact("stop: a sphere rebounds as from a mesh at rest", speeds[0] == speeds[1] and speeds[0][-1] < -0.2,
-                f"{speeds[0][-1]}, {speeds[1][-1]}")
+        fact("stop: no power", not any(r[1] for r in rows))
+    fact("stop: a sphere rebounds as from a mesh at rest", speeds[0] == speeds[1] and speeds[0][-1] < -0.2,
+         f"{speeds[0][-1]}, {speeds[1][-1]}")
 
 
 def crowd(cells=3, apart=0.5):
@@ -246,7 +245,7 @@ compute l all reduce sum v_lx v_ly v_lz
 BOOK = "$(v_px:%.17g) $(v_py:%.17g) $(v_pz:%.17g) $(c_l[1]:%.17g) $(c_l[2]:%.17g) $(c_l[3]:%.17g)"
 
 
-def momentum(checks, folder, steps=20000):
+def test_momentum(folder, steps=20000):
     """A free box, and spheres that hit it from inside and each other: momentum and angular momentum of all together."""
     side, mass, moment = 2.0, 5.0, (4.0, 5.0, 6.0)
     box(folder / "cut2.stl", (-side / 2,) * 3, (side / 2,) * 3, 2)
@@ -277,15 +276,15 @@ def momentum(checks, folder, steps=20000):
         for k, what in enumerate(("momentum", "angular momentum")):
             size = max(b[2 + k] for b in all_books)
             off = max(abs(u - v) for b in all_books for u, v in zip(b[k], all_books[0][k]))
-            checks.at_most(f"{mesh}, {ranks} processes: {what} in {steps} steps", off / size, 1e-12)
+            at_most(f"{mesh}, {ranks} processes: {what} in {steps} steps", off / size, 1e-12)
         early[mesh, ranks] = rows[2][CENTRE:ENERGY + 1]
-        checks.fact(f"{mesh}, {ranks} processes: spheres hit the body", abs(rows[-1][OMEGA] - 0.1) > 0.01)
+        fact(f"{mesh}, {ranks} processes: spheres hit the body", abs(rows[-1][OMEGA] - 0.1) > 0.01)
     for key in (("cut2", 2), ("cut2", 4), ("cut5", 1)):
-        checks.at_most(f"{key[0]}, {key[1]} processes: the same motion for 3000 steps",
-                       max(abs(a - b) for a, b in zip(early[key], early["cut2", 1])), 1e-10)
+        at_most(f"{key[0]}, {key[1]} processes: the same motion for 3000 steps",
+                max(abs(a - b) for a, b in zip(early[key], early["cut2", 1])), 1e-10)
 
 
-def two_bodies(checks, folder, steps=5000):
+def test_two_bodies(folder, steps=5000):
     """A free cube in a free box, with spheres between that touch both at a time: the momentum of all."""
     box(folder / "outer.stl", (-1.0,) * 3, (1.0,) * 3, 2)
     box(folder / "inner.stl", (-0.6,) * 3, (0.6,) * 3, 2)
@@ -302,12 +301,12 @@ def two_bodies(checks, folder, steps=5000):
         sums = [[r[2 + k] + sum(m * r[8 + 3 * b + k] for b, m in enumerate(masses)) for k in range(3)] for r in rows]
         size = max(m * abs(r[8 + 3 * b + k]) for r in rows for b, m in enumerate(masses) for k in range(3))
         off = max(abs(a - b) for s in sums for a, b in zip(s, sums[0]))
-        checks.at_most(f"two bodies, {ranks} processes: momentum in {steps} steps", off / size, 1e-12)
-        checks.fact(f"two bodies, {ranks} processes: both are hit", all(
+        at_most(f"two bodies, {ranks} processes: momentum in {steps} steps", off / size, 1e-12)
+        fact(f"two bodies, {ranks} processes: both are hit", all(
             max(abs(r[8 + 3 * b + 2]) for r in rows) > 1e-3 for b in (0, 1)))
 
 
-def coats(checks, folder):
+def test_coats(folder):
     """A cube with a coat on a floor: its height at rest, any number of processes, restart, and changes between runs."""
     stl.write(folder / "floor.stl", stl.quad((-1, -1, 0), (1, -1, 0), (1, 1, 0), (-1, 1, 0)))
     box(folder / "cube.stl", (-0.2,) * 3, (0.2,) * 3)
@@ -321,41 +320,41 @@ def coats(checks, folder):
     text = script(fix(f"hooke {stiffness} NULL 50 NULL 0 0", ""), far, 1e-3, move="")
     rows, log = go(folder, text + "run 1000\n")
     sinks = mass * g / (points * stiffness)
-    checks.at_most("coat: height at rest", abs(rows[-1][CENTRE + 2] - (0.2 + radius - sinks)), 1e-8)
-    checks.at_most("coat: level", max(abs(q) for q in rows[-1][TURN + 1:TURN + 4]), 1e-12)
-    checks.at_most("coat: forces on floor and cube cancel", abs(rows[-1][FORCE + 2]), 1e-12)
-    checks.fact("coat: the log tells points and errors", "points at most 0.2 apart, of radius 0.05" in log)
+    at_most("coat: height at rest", abs(rows[-1][CENTRE + 2] - (0.2 + radius - sinks)), 1e-8)
+    at_most("coat: level", max(abs(q) for q in rows[-1][TURN + 1:TURN + 4]), 1e-12)
+    at_most("coat: forces on floor and cube cancel", abs(rows[-1][FORCE + 2]), 1e-12)
+    fact("coat: the log tells points and errors", "points at most 0.2 apart, of radius 0.05" in log)
     law = f"hooke/history {stiffness} 300 0 0 0.5 0"
     text = script(fix(law, "velocity 0.6 0.1 0 omega 0.2 0.1 0.3"), far, 5e-4, move="")
     whole, _ = go(folder, text + "run 400\n")
     for ranks in (2, 4):
         rows, _ = go(folder, text + "run 400\n", ranks)
-        checks.fact(f"coat: the same bits on {ranks} processes", rows == whole)
+        fact(f"coat: the same bits on {ranks} processes", rows == whole)
     go(folder, text + "run 200\nwrite_restart half.bin\n")
     lines = text.split("\n")
     begin = lines.index("pair_style      zero 1.0")
     go_on = "atom_style sphere\nnewton off\ncomm_modify vel yes\nread_restart half.bin\n" + "\n".join(lines[begin:])
     after, _ = go(folder, go_on + "run 200\n")
-    checks.fact("coat: it goes on from a restart file", after[-1] == whole[-1],
-                str([k for k, (a, b) in enumerate(zip(after[-1], whole[-1])) if a != b]))
+    fact("coat: it goes on from a restart file", after[-1] == whole[-1],
+         str([k for k, (a, b) in enumerate(zip(after[-1], whole[-1])) if a != b]))
 
     text = script(fix(law, "", 0.9), far, 1e-3, move="")
     rows, _ = go(folder, text + "run 100\nfix_modify w mesh 2 body joint slider 0 0 2 load 0 0 12.5568 motor 0.64\nrun 100\n")
     before, after = [r for r in rows if r[0] == 100]
-    checks.fact("fix_modify body: it does not jump", before[CENTRE:SPEED + 3] == after[CENTRE:SPEED + 3])
+    fact("fix_modify body: it does not jump", before[CENTRE:SPEED + 3] == after[CENTRE:SPEED + 3])
     # The load bears its weight of 6.2784 twice; the motor adds 1: acceleration g + 1.
     speed = -g * 0.1 + (g + 1) * 0.1
-    checks.at_most("fix_modify body: the new load and motor act", abs(rows[-1][SPEED + 2] - speed), 1e-4)
+    at_most("fix_modify body: the new load and motor act", abs(rows[-1][SPEED + 2] - speed), 1e-4)
     for words, says in (("density 3", "is not a word of a body, or cannot change"), ("spring 1 1", "hinge or slider"),
                         ("", "nothing is given to change")):
         done = lmp.run(text + f"fix_modify w mesh 2 body {words}\n", folder)
-        checks.fact(f"refused: fix_modify body {words}", done.returncode != 0 and says in done.stdout.replace("\n", " "),
-                    " ".join(line for line in done.stdout.split("\n") if "ERROR" in line)[:200])
+        fact(f"refused: fix_modify body {words}", done.returncode != 0 and says in done.stdout.replace("\n", " "),
+             " ".join(line for line in done.stdout.split("\n") if "ERROR" in line)[:200])
     done = lmp.run(text + "fix_modify w mesh 1 body load 0 0 1\n", folder)
-    checks.fact("refused: fix_modify body of a mesh that is none", done.returncode != 0 and "is not a body" in done.stdout)
+    fact("refused: fix_modify body of a mesh that is none", done.returncode != 0 and "is not a body" in done.stdout)
 
 
-def weak_points(checks, folder):
+def test_weak_points(folder):
     """Where bodies of LIGGGHTS-PFM go wrong, by doc/from-liggghts.md; impacts() has the restitution of light bodies."""
     box(folder / "block.stl", (-0.1,) * 3, (0.1,) * 3)
     far = "create_atoms 1 single 1 1 1 units box\nset group all diameter 0.01 density 1\n"
@@ -366,17 +365,17 @@ def weak_points(checks, folder):
     rows, _ = go(folder, text + "run 250\nrun 125\nrun 625\n")
     # Leapfrog's phase is off by (rate dt)^2 / 24 of it, 1e-5 in the whole period.
     off = max(abs(r[COORDINATE] - speed / rate * math.sin(rate * r[0] * dt)) for r in rows)
-    checks.at_most("weak points: a spring keeps its rest over runs", off / (speed / rate), 1e-4)
+    at_most("weak points: a spring keeps its rest over runs", off / (speed / rate), 1e-4)
 
     # A body that is not balanced, whose centre is on the hinge: it stays there, and the hinge bears I_xz omega^2.
     spin, product = 20, 0.3
     law = f"hooke 1e3 NULL 0 NULL 0 0 mesh block.stl body mass 1 com 0 0 0 inertia 1 1.5 2 0 {product} 0 gravity 0 0 0 "
     rows, _ = go(folder, script(law + f"joint hinge 0 0 0 0 0 1 omega 0 0 {spin}", far, dt, move="") + "run 1000\n")
-    checks.at_most("weak points: an unbalanced body stays on its hinge",
-                   max(abs(r[TURN + k]) for r in rows for k in (1, 2)), 1e-12)
-    checks.at_most("weak points: the hinge bears its couple",
-                   max(abs(math.hypot(*r[COUPLE:COUPLE + 3]) / (product * spin**2) - 1) for r in rows), 1e-10)
-    checks.at_most("weak points: it keeps its speed", max(abs(r[OMEGA + 2] / spin - 1) for r in rows), 1e-12)
+    at_most("weak points: an unbalanced body stays on its hinge",
+            max(abs(r[TURN + k]) for r in rows for k in (1, 2)), 1e-12)
+    at_most("weak points: the hinge bears its couple",
+            max(abs(math.hypot(*r[COUPLE:COUPLE + 3]) / (product * spin**2) - 1) for r in rows), 1e-10)
+    at_most("weak points: it keeps its speed", max(abs(r[OMEGA + 2] / spin - 1) for r in rows), 1e-12)
 
     # Beside a mesh that moves by itself, which the body feels: pushed by a plate, it has the plate's speed twice at last.
     stl.write(folder / "plate.stl", stl.quad((0, -1, -1), (0, 1, -1), (0, 1, 1), (0, -1, 1)))
@@ -384,10 +383,10 @@ def weak_points(checks, folder):
            f"motion linear {speed} 0 0 "
            "mesh block.stl move 0.13 0 0 body mass 1 com 0.13 0 0 inertia 1 1 1 0 0 0 gravity 0 0 0 joint slider 1 0 0 coat 0.2 0.02 ")
     rows, _ = go(folder, script(law, far, 1e-4, move="") + "run 1000\n")
-    checks.at_most("weak points: a mesh that moves throws the body", abs(rows[-1][SPEED] / (2 * speed) - 1), 1e-3)
+    at_most("weak points: a mesh that moves throws the body", abs(rows[-1][SPEED] / (2 * speed) - 1), 1e-3)
 
 
-def damped(checks, folder):
+def test_damped(folder):
     """Where damping acts, the set-up of a run computes forces by the velocities of the whole step, the run by those of half a
     step: in LAMMPS's own walls and pairs, too. So a run that is cut is not the same to the last bit, but by how much is known."""
     box(folder / "cube.stl", (-0.75,) * 3, (0.75,) * 3, 2)
@@ -395,7 +394,7 @@ def damped(checks, folder):
     text = script(words, crowd(4, 0.35).replace("0.05 4711", "1 4711"), 5e-4, box="-5 5 -5 5 -5 5")
     whole, _ = go(folder, text + "run 300\n")
     cut, _ = go(folder, text + "run 150\nrun 150 pre no\n")
-    checks.fact("damped: run 150 and run 150 without a set-up are run 300", whole[-1] == cut[-1])
+    fact("damped: run 150 and run 150 without a set-up are run 300", whole[-1] == cut[-1])
 
     # A body on a sphere that stays: the force of the set-up is off by c a dt / 2, and half a step of it acts, which
     # changes the velocity by (c / M) a dt^2 / 4.
@@ -415,11 +414,11 @@ def damped(checks, folder):
         v = [r[SPEED + 2] for r in whole]
         acceleration = (v[-1] - v[-3]) / (2 * dt)
         # The next order has dt gamma / 2 of it, and as much from the change of the acceleration.
-        checks.at_most(f"damped: a restart changes the velocity as the page says, dt = {dt:g}",
-                       abs((v[-1] - after[-1][SPEED + 2]) / (gamma * acceleration * dt**2 / 4) - 1), 0.05)
+        at_most(f"damped: a restart changes the velocity as the page says, dt = {dt:g}",
+                abs((v[-1] - after[-1][SPEED + 2]) / (gamma * acceleration * dt**2 / 4) - 1), 0.05)
 
 
-def files(checks, folder):
+def test_files(folder):
     """mesh_stl, mesh_fields and dump image have the body where it is, with the force of a sphere that presses on it."""
     half, radius, speed, dt, overlap, stiffness = 0.2, 0.1, 0.5, 1e-3, 1e-3, 1e4
     box(folder / "cube.stl", (-half,) * 3, (half,) * 3)
@@ -429,22 +428,22 @@ def files(checks, folder):
             "mesh_stl s_*.stl every 50 mesh_fields f_*.vtp every 50")
     picture = "write_dump all image {}.ppm type type fix w type 0.02 0 size 200 200 view 60 30\n"
     go(folder, script(law + body, create, dt, move="") + "run 100\n" + picture.format("moved"))
-    whole = test_files.stl_points(folder / "s_100.stl")
+    whole = stl.points(folder / "s_100.stl")
     way = [speed * 100 * dt, 0, 0]
     # Corners are at +-half, in float.
-    checks.at_most("files: mesh_stl has the body where it is",
-                   max(abs(abs(a - way[k % 3]) - half) for k, a in enumerate(whole)), 1e-7)
-    fields = test_files.arrays(folder / "f_100.vtp")
-    checks.at_most("files: so has mesh_fields", abs(max(fields["points"][::3]) - half - way[0]), 1e-14)
+    at_most("files: mesh_stl has the body where it is",
+            max(abs(abs(a - way[k % 3]) - half) for k, a in enumerate(whole)), 1e-7)
+    fields = vtp.read(folder / "f_100.vtp")
+    at_most("files: so has mesh_fields", abs(max(fields["points"][::3]) - half - way[0]), 1e-14)
     pushed = sum(fields["force"][2::3])
-    checks.at_most("files: and the force of the sphere", abs(pushed / (-stiffness * overlap) - 1), 1e-12)
+    at_most("files: and the force of the sphere", abs(pushed / (-stiffness * overlap) - 1), 1e-12)
     for name, place in (("placed", f"move {way[0]} 0 0"), ("unmoved", "")):
         go(folder, script(law + place, create, dt, move="", columns=(FORCE,)) + "run 0\n" + picture.format(name))
     pictures = [(folder / f"{name}.ppm").read_bytes() for name in ("moved", "placed", "unmoved")]
-    checks.fact("files: dump image draws it there", pictures[0] == pictures[1] != pictures[2])
+    fact("files: dump image draws it there", pictures[0] == pictures[1] != pictures[2])
 
 
-def restart(checks, folder):
+def test_restart(folder):
     """Runs that are cut in two, and go on from a restart file, in mid-swing: the same bits."""
     box(folder / "cube.stl", (-0.75,) * 3, (0.75,) * 3, 2)
     for joint in ("free", "hinge 0.1 0.2 -0.3 1 2 3", "slider 1 2 2", "planar 1 1 0", "ball 0.1 -0.2 0.5"):
@@ -457,16 +456,16 @@ def restart(checks, folder):
         whole, _ = go(folder, text + dump.format("whole.txt") + "run 300\n")
         cut, _ = go(folder, text + dump.format("cut.txt") + "run 150\nwrite_restart half.bin\nrun 150\n")
         same = [r for r in whole if r[0] == 300] == [r for r in cut if r[0] == 300][-1:]
-        checks.fact(f"{joint}: run 150 and run 150 are run 300", same)
+        fact(f"{joint}: run 150 and run 150 are run 300", same)
         lines = text.split("\n")
         begin = lines.index("pair_style      zero 1.0")
         go_on = "atom_style sphere\nnewton off\ncomm_modify vel yes\nread_restart half.bin\n" + "\n".join(lines[begin:])
         after, _ = go(folder, go_on + "run 150\n")
-        checks.fact(f"{joint}: it goes on from a restart file", after[-1] == whole[-1],
-                    str([k for k, (a, b) in enumerate(zip(after[-1], whole[-1])) if a != b]))
+        fact(f"{joint}: it goes on from a restart file", after[-1] == whole[-1],
+             str([k for k, (a, b) in enumerate(zip(after[-1], whole[-1])) if a != b]))
 
 
-def changes(checks, folder):
+def test_changes(folder):
     """What a body does not go with ends with a sentence."""
     box(folder / "cube.stl", (-0.4,) * 3, (0.4,) * 3)
     stl.write(folder / "open.stl", stl.quad((0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)))
@@ -475,8 +474,8 @@ def changes(checks, folder):
 
     def refused(name, text, *parts):
         done = lmp.run(text, folder)
-        checks.fact(f"refused: {name}", done.returncode != 0 and all(p in done.stdout.replace("\n", " ") for p in parts),
-                    " ".join(line for line in done.stdout.split("\n") if "ERROR" in line)[:200])
+        fact(f"refused: {name}", done.returncode != 0 and all(p in done.stdout.replace("\n", " ") for p in parts),
+             " ".join(line for line in done.stdout.split("\n") if "ERROR" in line)[:200])
 
     plain = script(fix, far, 1e-3)
     refused("minimise", plain + "minimize 0 0 10 10\n", "does not move in a minimization")
@@ -513,15 +512,3 @@ def changes(checks, folder):
     refused("a coat beside nodes", coat, "its coat cannot feel meshes whose nodes move")
 
 
-def main():
-    checks = lmp.Checks()
-    folder = lmp.scratch()
-    tests = {f.__name__: f for f in (impacts, off_centre, plate, hinge, motor, stops, momentum, two_bodies, coats, weak_points, damped, files,
-                                         restart, changes)}
-    for name in sys.argv[1:] or tests:
-        tests[name](checks, folder)
-    checks.done(folder)
-
-
-if __name__ == "__main__":
-    main()

@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 LSDCD contributors
 # SPDX-License-Identifier: GPL-2.0-only
 
@@ -9,10 +8,12 @@ usage: test_clumps.py [PART ...]: these functions only
 """
 
 import math
-import sys
+
+import pytest
 
 import lmp
 import stl
+from facts import at_most, fact
 
 R, DENSITY, G = 0.5, 2.0, 10.0
 MASS = DENSITY * 4 / 3 * math.pi * R**3    # of a sphere
@@ -96,36 +97,42 @@ FEW = [(("pair", "three", "four")[(i + j) % 3], (2.1 * i - 2.9, 2.3 * j - 3.3, 0
 THROWN = "velocity all create 1.0 4711 loop geom\nvelocity all set NULL NULL -2.0 sum yes"
 
 
-def go(folder, name, clumps, kick, steps, wall, ranks=1, every=50, flags=lmp.KOKKOS, **words):
+def go(folder, name, clumps, kick, steps, wall, ranks=1, every=50, flags=lmp.FLAGS, **words):
     text = lmp.run_well(create(clumps, kick) + forces(wall, **words) + DUMP.format(name=name, every=every) +
                         f"run {steps}\n", folder, ranks, flags=flags)
     return lmp.read_dump(folder / name), lmp.read_thermo(text)
 
 
-def among_others(checks, folder):
+@pytest.fixture(scope="module")
+def folder(folder):
+    write_parts(folder)
+    return folder
+
+
+def test_among_others(folder):
     """Two meshes of 196 triangles are LAMMPS's plane, which takes the mass of the body, too."""
     steps = 4000
     theirs = go(folder, "plane", FEW, THROWN, steps, f"wall/gran {LAW} zplane 0 NULL", force="")[0]
     one, rows = go(folder, "one", FEW, THROWN, steps, ours(), thermo=1)
     touching = [step for step, atoms in one.items() if sum(row[2] < R for row in atoms.values()) > 8]
-    checks.fact("clumps lie on the floor", len(touching) > 10 and steps in touching, str(len(touching)))
+    fact("clumps lie on the floor", len(touching) > 10 and steps in touching, str(len(touching)))
     # Heights of 0.5 are rounded to 1e-16, overlaps are 1e-4: forces are off by 1e-12 of theirs, and tumbling parts
     # neighbouring paths by a factor of 1e2 at most.
-    checks.at_most("clumps on two meshes: as on LAMMPS's plane", lmp.largest_difference(theirs, one), 1e-10)
+    at_most("clumps on two meshes: as on LAMMPS's plane", lmp.largest_difference(theirs, one), 1e-10)
     two = go(folder, "two", FEW, THROWN, steps, ours(), ranks=2)[0]
-    checks.at_most("2 processes: as 1", lmp.largest_difference(one, two), 1e-10)
+    at_most("2 processes: as 1", lmp.largest_difference(one, two), 1e-10)
     whole = go(folder, "whole", FEW, THROWN, steps, ours("mesh whole.stl"))[0]
-    checks.at_most("one mesh: as two", lmp.largest_difference(one, whole), 1e-10)
+    at_most("one mesh: as two", lmp.largest_difference(one, whole), 1e-10)
     # Velocity Verlet: each force acts for a step, the first and the last one for half of it. 4000 sums of numbers
     # of the size of the weight, each rounded to 1e-16 of it.
     mass = MASS * len(one[0])
     impulse = 1e-4 * math.fsum(row[2] for row in rows[1:-1]) + 0.5e-4 * (rows[0][2] + rows[-1][2])
     time = steps * 1e-4
-    checks.at_most("the floor bears the weight, but for what the clumps gain in momentum",
-                   abs(-impulse - mass * G * time + rows[0][1] - rows[-1][1]) / (mass * G * time), 1e-12)
+    at_most("the floor bears the weight, but for what the clumps gain in momentum",
+            abs(-impulse - mass * G * time + rows[0][1] - rows[-1][1]) / (mass * G * time), 1e-12)
 
 
-def restart(checks, folder):
+def test_restart(folder):
     """In two pieces through a file, and without one. The bodies are found anew in both, from atoms in another order."""
     first, second = 2500, 1500
     begin = create(FEW, THROWN) + forces(ours())
@@ -133,15 +140,15 @@ def restart(checks, folder):
     lmp.run_well(begin + f"run {first}\nwrite_restart clumps.restart\n" + DUMP.format(name="two", every=50) +
                  f"run {second}\n", folder)
     two = lmp.read_dump(folder / "two")
-    checks.fact("restart: spheres touch where it breaks", sum(row[2] < R for row in two[first].values()) > 8)
+    fact("restart: spheres touch where it breaks", sum(row[2] < R for row in two[first].values()) > 8)
     for ranks in (1, 2):
         lmp.run_well(SETTINGS + "read_restart clumps.restart\nfix number all property/atom mol ghost yes\n" +
                      forces(ours()) + DUMP.format(name="again", every=50) + f"run {second}\n", folder, ranks)
-        checks.at_most(f"restart on {ranks}: as without",
-                       lmp.largest_difference(two, lmp.read_dump(folder / "again")), 1e-10)
+        at_most(f"restart on {ranks}: as without",
+                lmp.largest_difference(two, lmp.read_dump(folder / "again")), 1e-10)
 
 
-def rebound(checks, folder):
+def test_rebound(folder):
     """A pair that falls flat has two springs and two dashpots of its own mass M: M z'' = -2 k z - 2 M gamma z', and
     rebounds with exp(-gamma pi/omega), omega^2 = 2 k/M - gamma^2. The dashpots see the velocity half a step late, and
     the contact begins and ends within a step: each changes the exponent by gamma dt or less."""
@@ -149,11 +156,11 @@ def rebound(checks, folder):
     path = go(folder, "path", [("pair", (0.2, 0.1, R + 0.001), "0 0 0 1")], "velocity all set 0 0 -1", 3600,
               ours(law=f"hooke {k} 0 {gamma} 0 0 0"), gravity="0 vector 0 0 -1", dt=dt, every=3600)[0]
     expected = math.exp(-gamma * math.pi / math.sqrt(2 * k / (2 * MASS) - gamma**2))
-    checks.at_most("a pair that falls flat: damped by the mass of the body",
-                   abs(path[3600][1][5] / expected - 1), 3 * gamma * dt)
+    at_most("a pair that falls flat: damped by the mass of the body",
+            abs(path[3600][1][5] / expected - 1), 3 * gamma * dt)
 
 
-def slide(checks, folder):
+def test_slide(folder):
     """All spheres of a flat clump slide, with mu times what the floor pushes: the change of v along x is mu times that
     of v + g t along z, to rounding, on a floor at rest and on one that is drawn away."""
     mu, steps = 0.1, 3000
@@ -165,11 +172,11 @@ def slide(checks, folder):
         path = go(folder, "path", at, kick, steps, ours(meshes, law))[0]
         v0, v = ([sum(row[k] for row in path[step].values()) / 3 for k in (3, 4, 5)] for step in (0, steps))
         gained = mu * (G * steps * 1e-4 + v[2] - v0[2])
-        checks.at_most(f"a clump that {name}: mu times the push", abs((v[0] - v0[0]) * sign / gained - 1), 1e-11)
-        checks.fact(f"a clump that {name}: over the seam", path[0][1][0] < 0 < path[steps][1][0] or sign > 0)
+        at_most(f"a clump that {name}: mu times the push", abs((v[0] - v0[0]) * sign / gained - 1), 1e-11)
+        fact(f"a clump that {name}: over the seam", path[0][1][0] < 0 < path[steps][1][0] or sign > 0)
 
 
-def roll(checks, folder):
+def test_roll(folder):
     """Two spheres on an axle roll down a slope as one does, with 5/7 g sin. Torques act at R: v + 2/5 R omega is that
     of gravity to rounding. The slip is what the springs still swing: less than their stretch F/(M w^2) times w, with
     F = 2/7 M g sin and w^2 = 2 k_t (1 + 5/2)/M."""
@@ -180,15 +187,15 @@ def roll(checks, folder):
               gravity=f"{G} vector {sine} 0 {-math.sqrt(1 - sine**2)!r}")[0]
     v, omega = path[steps][1][3], path[steps][1][7]
     along = G * sine * steps * 1e-4
-    checks.fact("an axle rolls over the seam", path[0][1][0] < -0.4 and path[steps][1][0] > 0.1, str(path[steps][1][0]))
-    checks.at_most("an axle that rolls: gravity turns and drives it", abs((v + 0.4 * R * omega) / along - 1), 1e-11)
+    fact("an axle rolls over the seam", path[0][1][0] < -0.4 and path[steps][1][0] > 0.1, str(path[steps][1][0]))
+    at_most("an axle that rolls: gravity turns and drives it", abs((v + 0.4 * R * omega) / along - 1), 1e-11)
     stiff = math.sqrt(2 * 1e5 * 3.5 / (2 * MASS))
     slip = 2 / 7 * G * sine / stiff
-    checks.at_most("an axle that rolls: does not slip", abs(v - R * omega), slip)
-    checks.at_most("an axle that rolls: 5/7 g sin", abs(v - 5 / 7 * along), 2 / 7 * slip)
+    at_most("an axle that rolls: does not slip", abs(v - R * omega), slip)
+    at_most("an axle that rolls: 5/7 g sin", abs(v - 5 / 7 * along), 2 / 7 * slip)
 
 
-def lifted(checks, folder):
+def test_lifted(folder):
     """What moves with a mesh sees one at rest (Galilei), here up and along x, whose places are rounded otherwise."""
     steps = 2500
     rest = go(folder, "rest", FEW, THROWN, steps, ours("mesh whole.stl"))[0]
@@ -200,29 +207,16 @@ def lifted(checks, folder):
                 row[k] -= v * step * 1e-4
                 row[k + 3] -= v
     # Places of 4 are rounded to 4e-16, overlaps are 1e-4: forces are off by 4e-12, as above.
-    checks.at_most("a mesh that moves: as at rest", lmp.largest_difference(rest, moved), 1e-10)
+    at_most("a mesh that moves: as at rest", lmp.largest_difference(rest, moved), 1e-10)
 
 
-def beside_plain(checks, folder):
+@lmp.of_kokkos
+def test_beside_plain(folder):
     """wall/lsdcd/kk and the plain fix in the LAMMPS with Kokkos, whose fix rigid/small has one form only."""
     moving = "mesh left.stl motion linear 0 1.5 0 mesh right.stl motion wiggle 0 0 0.05 0.5"
     for name, meshes in (("at rest", HALVES), ("that moves", moving)):
         plain = go(folder, "plain", FEW, THROWN, 2500, ours(meshes), flags=())[0]
         kokkos = go(folder, "kokkos", FEW, THROWN, 2500, ours(meshes).replace("lsdcd", "lsdcd/kk"))[0]
-        checks.fact(f"a wall {name}: clumps touch it", any(row[12] for row in plain[2500].values()))
+        fact(f"a wall {name}: clumps touch it", any(row[12] for row in plain[2500].values()))
         # As among_others: other fixes may round in their own way with Kokkos.
-        checks.at_most(f"wall/lsdcd/kk {name}: as the plain fix", lmp.largest_difference(plain, kokkos), 1e-10)
-
-
-def main():
-    checks, folder = lmp.Checks(), lmp.scratch()
-    write_parts(folder)
-    parts = (among_others, restart, rebound, slide, roll, lifted) + lmp.ON_KOKKOS * (beside_plain,)
-    for part in parts:
-        if part.__name__ in (sys.argv[1:] or [p.__name__ for p in parts]):
-            part(checks, folder)
-    checks.done(folder)
-
-
-if __name__ == "__main__":
-    main()
+        at_most(f"wall/lsdcd/kk {name}: as the plain fix", lmp.largest_difference(plain, kokkos), 1e-10)

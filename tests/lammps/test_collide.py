@@ -1,18 +1,16 @@
-#!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 LSDCD contributors
 # SPDX-License-Identifier: GPL-2.0-only
 
 """compute lsdcd/collide: cubes of four atoms, driven by fix move and fix rigid, through a floor of one
 large triangle. How many of a cube's 12 triangles have corners on both sides of the floor's plane is
 counted from the atoms as they are dumped, by a linear map in place of the compute's rotation.
-
-usage: test_collide.py [host]: under the LAMMPS of hosts/build_host.sh, which has no package RIGID: there
-fix move turns each body about an axis of its own
 """
 import math
-import sys
+
+import pytest
 
 import lmp
+from facts import fact
 import numpy as np
 import stl
 
@@ -43,6 +41,7 @@ dump_modify     atoms format float %.17g sort id
 """
 RIGID = "fix go cubes rigid/nve molecule"
 RIGID_SMALL = "fix go cubes rigid/nve/small molecule"
+OF_RIGID = () if lmp.ON_HOST else (RIGID, RIGID_SMALL)    # which other hosts have not
 # Axes off the bodies' centres, so that these swing as they turn.
 BY_MOVE = "".join(f"group one{k} molecule {k}\nfix go{k} one{k} move rotate {words}\n" for k, words in
                   ((1, "-3 1.6 1 1 0.2 0.1 2.1"), (2, "0.5 -1 0.6 0.3 1 0 1.7"), (3, "2 -0.3 0.4 0 1 0.3 2.9")))
@@ -98,7 +97,7 @@ def pairs_of(atoms, normal, through):
     return int(((height.min(axis=1) < 0) & (height.max(axis=1) > 0)).sum())
 
 
-def compare(checks, name, folder, text, plane, ranks, cubes):
+def compare(name, folder, text, plane, ranks, cubes):
     """Each row of the last run against the dump; plane(time): normal and a point."""
     rows = {int(r[STEP]): r for r in lmp.read_thermo(lmp.run_well(text, folder, ranks))}
     steps, wrong, seen = lmp.read_dump(folder / "atoms"), [], set()
@@ -109,8 +108,8 @@ def compare(checks, name, folder, text, plane, ranks, cubes):
         if step not in rows or rows[step][:len(expected)] != expected:
             wrong.append((expected, rows.get(step)))
         seen.update(each)
-    checks.fact(f"{name}, {ranks} rank{'s' * (ranks > 1)}",
-                not wrong and len(steps) > 10 and 0 in seen and len(seen) > 2, str(wrong[:2]))
+    fact(f"{name}, {ranks} rank{'s' * (ranks > 1)}",
+         not wrong and len(steps) > 10 and 0 in seen and len(seen) > 2, str(wrong[:2]))
     return rows
 
 
@@ -121,7 +120,17 @@ def begin(boundary="f f f"):
     return SETTINGS + f"boundary {boundary}\nfix mol all property/atom mol ghost yes\nread_data cubes.data fix mol NULL Molecules\n" + FORCES
 
 
-def check_moved(checks, folder, ranks):
+@pytest.fixture(scope="module")
+def folder(folder):
+    stl.write(folder / "floor.stl", FLOOR)
+    return folder
+
+
+RANKS = pytest.mark.parametrize("ranks", (1, 3))
+
+
+@RANKS
+def test_moved(folder, ranks):
     """One body that fix move swings about an axis; its mesh is where the atoms are at first."""
     tilt = turn([1, 2, 3], 0.7)
     write_data(folder / "cubes.data", [([0.3, -0.2, 1.9], tilt, [0, 0, 0], [0, 0, 0])])
@@ -130,12 +139,12 @@ def check_moved(checks, folder, ranks):
 fix             go cubes move rotate 0.3 2.3 1.9 1 0.2 0 5.3
 compute         c cubes lsdcd/collide wall mesh tilted.stl
 """ + THERMO.format(more="c_c[1][2]") + "fix avg all ave/time 5 1 5 c_c c_c[1] file avg.txt\nrun 400\n"
-    rows = compare(checks, "a body that fix move drives through the floor", folder, text,
+    rows = compare("a body that fix move drives through the floor", folder, text,
                    lambda t: (np.array([0, 0, 1.0]), np.zeros(3)), ranks, 1)
     lines = [list(map(float, line.split())) for line in (folder / "avg.txt").read_text().split("\n")
              if line and not line.startswith("#")]
-    checks.fact("fix ave/time reads it", len(lines) == len(rows) and
-                all(row[1:] == rows[int(row[0])][COLLIDING:PAIRS + 1] for row in lines))
+    fact("fix ave/time reads it", len(lines) == len(rows) and
+         all(row[1:] == rows[int(row[0])][COLLIDING:PAIRS + 1] for row in lines))
 
 
 def three_cubes():
@@ -145,31 +154,36 @@ def three_cubes():
             ([3, -0.3, 1.2], turn([0, 1, 2], 2.0), [1.0, 0.0, -0.5], [2.0, 0.0, 0.0])]
 
 
-def check_three(checks, folder, ranks, drive):
+@RANKS
+@pytest.mark.parametrize("drive", (BY_MOVE, *OF_RIGID))
+def test_three(folder, ranks, drive):
     write_data(folder / "cubes.data", three_cubes())
     stl.write(folder / "cube.stl", cube())
     text = begin("p p f") + WALL + f"""
 {drive}
 compute         c cubes lsdcd/collide wall mesh cube.stl move -3 0.1 1.5 bodies molecule grid 0.4 log brief
 """ + THERMO.format(more="c_c[1][2] c_c[2][2] c_c[3][2] c_c[3][1]") + "run 300\n"
-    rows = compare(checks, f"three bodies, {drive.splitlines()[-1].split(' ', 2)[2][:24]}", folder, text,
+    rows = compare(f"three bodies, {drive.splitlines()[-1].split(' ', 2)[2][:24]}", folder, text,
                    lambda t: (np.array([0, 0, 1.0]), np.zeros(3)), ranks, 3)
-    checks.fact("rows have molecules", all(row[FIRST + 3] == 3 for row in rows.values()))
+    fact("rows have molecules", all(row[FIRST + 3] == 3 for row in rows.values()))
 
 
-def check_moving_wall(checks, folder, ranks, drive):
+@RANKS
+def test_moving_wall(folder, ranks):
     """The floor turns about y, then sinks as well."""
     write_data(folder / "cubes.data", three_cubes())
     stl.write(folder / "cube.stl", cube())
+    drive = BY_MOVE if lmp.ON_HOST else RIGID
     text = begin() + WALL + f""" motion rotate 0 0 0 0 1 0 8 motion linear 0 0 -0.2
 {drive}
 compute         c cubes lsdcd/collide wall mesh cube.stl move -3 0.1 1.5 bodies molecule grid 0.4
 """ + THERMO.format(more="c_c[1][2] c_c[2][2] c_c[3][2]") + "run 200\n"
-    compare(checks, "bodies and a wall that moves", folder, text,
+    compare("bodies and a wall that moves", folder, text,
             lambda t: (turn([0, 1, 0], 2 * math.pi * t / 8) @ [0, 0, 1.0], np.array([0, 0, -0.2 * t])), ranks, 3)
 
 
-def check_image(checks, folder, ranks):
+@RANKS
+def test_image(folder, ranks):
     """A plate near the upper face in x meets the image of a body at the lower one; where that face is
     not periodic it meets nothing."""
     write_data(folder / "cubes.data", [([-5.7, 0, 0], np.eye(3), [0, 0, 0], [0, 0, 0])])
@@ -182,11 +196,11 @@ thermo_style    custom step c_c c_c[1]
 run             0
 """
         rows = lmp.read_thermo(lmp.run_well(text, folder, ranks))
-        checks.fact(f"an image across a face, {boundary}, {ranks} ranks", rows[-1][1:] == expected, str(rows))
+        fact(f"an image across a face, {boundary}, {ranks} ranks", rows[-1][1:] == expected, str(rows))
     stl.write(folder / "floor.stl", FLOOR)
 
 
-def check_several(checks, folder):
+def test_several(folder):
     """Pairs of all meshes of a wall; between runs atoms may be put elsewhere."""
     write_data(folder / "cubes.data", [([0, 0, 0.2], np.eye(3), [0, 0, 0], [0, 0, 0])])
     stl.write(folder / "cube.stl", cube())
@@ -202,10 +216,10 @@ run             0
     done = lmp.run_well(text, folder)
     rows = [line.split() for line in done.split("\n") if line.split()[:1] == ["0"] and len(line.split()) == 3]
     # 4 upright sides of 2 triangles in each of two floors, then in one, then in none.
-    checks.fact("several meshes, and runs", [r[1:] for r in rows] == [["1", "16"], ["1", "8"], ["0", "0"]], str(rows))
+    fact("several meshes, and runs", [r[1:] for r in rows] == [["1", "16"], ["1", "8"], ["0", "0"]], str(rows))
 
 
-def check_other_wall(checks, folder):
+def test_other_wall(folder):
     """Half of a square, and the half across its diagonal: as many triangles and vertices, the same area and
     bounds. The cube stands in the first one, 4 upright sides of 2 triangles, and clear of the other."""
     a, b, c, d = (-3, -3, 0), (3, -3, 0), (3, 3, 0), (-3, 3, 0)
@@ -221,21 +235,21 @@ def check_other_wall(checks, folder):
         return lmp.read_thermo(lmp.run_well(first + text + "run 0\n", folder))[-1][1]
 
     done = lmp.run(first + again.format("other") + "run 0\n", folder, 2)
-    checks.fact("a wall with another mesh of the same size is refused", done.returncode != 0 and
-                "fix wall has other meshes than when the compute was defined" in done.stdout,
-                str(lmp.read_thermo(done.stdout)))
+    fact("a wall with another mesh of the same size is refused", done.returncode != 0 and
+         "fix wall has other meshes than when the compute was defined" in done.stdout,
+         str(lmp.read_thermo(done.stdout)))
     worn = again.format("half").replace("mesh half.stl", "mesh half.stl wear archard 1 50 deform every 10")
     for name, text in (("made again", first + worn), ("from the beginning", first.replace(compute, worn + compute))):
         done = lmp.run(text + "run 0\n", folder)
-        checks.fact(f"a wall that wear moves, {name}, is refused", done.returncode != 0 and
-                    "has a mesh that wear moves (deform), and bodies collide with rigid" in " ".join(done.stdout.split()))
-    checks.fact("the compute defined again sees that mesh",
-                pairs(again.format("other") + "thermo_style one\nuncompute c\n" + compute +
-                      "thermo_style custom step c_c[1]\n") == 0)
-    checks.fact("the same wall made again is the same", pairs(again.format("half")) == 8)
+        fact(f"a wall that wear moves, {name}, is refused", done.returncode != 0 and
+             "has a mesh that wear moves (deform), and bodies collide with rigid" in " ".join(done.stdout.split()))
+    fact("the compute defined again sees that mesh",
+         pairs(again.format("other") + "thermo_style one\nuncompute c\n" + compute +
+               "thermo_style custom step c_c[1]\n") == 0)
+    fact("the same wall made again is the same", pairs(again.format("half")) == 8)
 
 
-def check_restart(checks, folder):
+def test_restart(folder):
     """With the places of its atoms in a file a body is found wherever it is: after a restart, too."""
     write_data(folder / "cubes.data", three_cubes())
     stl.write(folder / "cube.stl", cube())
@@ -246,10 +260,10 @@ compute         c cubes lsdcd/collide wall mesh cube.stl bodies molecule grid 0.
 """ + THERMO.format(more="c_c[1][2] c_c[2][2] c_c[3][2]")
     first = begin("p p f") + after + "run 100\nwrite_restart half.restart\nundump atoms\n"
     told = "assumes that the mesh is where the body of molecule 1 is now, in step 0"
-    checks.fact("bodies whose atoms are in a file: now does not matter", told not in lmp.run_well(first, folder))
+    fact("bodies whose atoms are in a file: now does not matter", told not in lmp.run_well(first, folder))
     here = lmp.run_well(first.replace(" atoms atoms.txt", ""), folder)
-    checks.fact("without it the log says what it assumes", here.count(told) == 1)
-    rows = compare(checks, "bodies whose atoms are in a file", folder, first,
+    fact("without it the log says what it assumes", here.count(told) == 1)
+    rows = compare("bodies whose atoms are in a file", folder, first,
                    lambda t: (np.array([0, 0, 1.0]), np.zeros(3)), 1, 3)
     again = SETTINGS.replace("atom_style      sphere\n", "") + """read_restart half.restart
 fix mol all property/atom mol ghost yes
@@ -261,31 +275,4 @@ thermo_style    custom step c_c c_c[1] c_c[2] c_c[3] c_c[1][2] c_c[2][2] c_c[3][
 run             0
 """
     last = lmp.read_thermo(lmp.run_well(again, folder, 2))
-    checks.fact("and where a restart file has them", last == [rows[100]] and rows[100][PAIRS] > 0, str((last, rows[100])))
-
-
-def main():
-    host = "host" in sys.argv[1:]
-    if host and not lmp.TEST_HOST:
-        print("SKIPPED: no LAMMPS of hosts/build_host.sh (LSDCD_TEST_HOST)")
-        sys.exit(77)
-    if host:
-        global SETTINGS
-        SETTINGS = f"plugin load {lmp.TEST_HOST_PLUGIN}\n" + SETTINGS
-        lmp.LMP = lmp.TEST_HOST
-    checks, folder = lmp.Checks(), lmp.scratch()
-    stl.write(folder / "floor.stl", FLOOR)
-    for ranks in (1, 3):
-        check_moved(checks, folder, ranks)
-        for drive in [BY_MOVE] if host else [BY_MOVE, RIGID, RIGID_SMALL]:
-            check_three(checks, folder, ranks, drive)
-        check_moving_wall(checks, folder, ranks, BY_MOVE if host else RIGID)
-        check_image(checks, folder, ranks)
-    check_several(checks, folder)
-    check_other_wall(checks, folder)
-    check_restart(checks, folder)
-    checks.done(folder)
-
-
-if __name__ == "__main__":
-    main()
+    fact("and where a restart file has them", last == [rows[100]] and rows[100][PAIRS] > 0, str((last, rows[100])))

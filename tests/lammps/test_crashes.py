@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 LSDCD contributors
 # SPDX-License-Identifier: GPL-2.0-only
 
@@ -11,12 +10,15 @@ import random
 import shutil
 import signal
 import subprocess
-import sys
 import time
+
+import pytest
 
 import lmp
 import scene
-from test_files import arrays, listed, stl_points, warned
+import stl
+import vtp
+from facts import at_most, fact
 
 LAW = "hooke/history 1e4 NULL 120 NULL 0.4 1"
 MESH = ("mesh {1} motion wiggle 0 0 0.05 0.5 "
@@ -62,16 +64,16 @@ def killed(folder, ranks, wait):
             pass
     run.wait()
     if not ran:
-        sys.exit("the run to kill did not run:\n" + (folder / "killed.out").read_text()[-4000:])
+        raise AssertionError("the run to kill did not run:\n" + (folder / "killed.out").read_text()[-4000:])
 
 
 def amiss(folder):
     """Reads every file of the fix to its end; what is wrong with one, as text."""
     try:
         for path in folder.glob("k_*.vtp"):
-            arrays(path)
-        stl_points(folder / "now.stl")
-        gone = [f for _, f in listed(folder / "k_series.pvd") if not (folder / f).exists()]
+            vtp.read(path)
+        stl.points(folder / "now.stl")
+        gone = [f for _, f in vtp.listed(folder / "k_series.pvd") if not (folder / f).exists()]
     except Exception as error:    # of a parser: which, does not matter
         return repr(error)
     return f"listed and not there: {gone}" if gone else ""
@@ -86,10 +88,17 @@ def go_on(folder, mesh="fine.stl"):
                             scene.dump("continued", 10), mesh=mesh), folder)
         if done.returncode == 0:
             return int(lmp.read_thermo(done.stdout)[0][0])
-    sys.exit("neither restart file can be read:\n" + done.stdout[-4000:])
+    raise AssertionError("neither restart file can be read:\n" + done.stdout[-4000:])
 
 
-def kills(checks, folder):
+@pytest.fixture(scope="module")
+def folder(folder):
+    scene.write_floor(folder / "floor.stl")
+    scene.write_floor(folder / "fine.stl", cells=80)    # a run that writes files most of its time
+    return folder
+
+
+def test_kills(folder):
     chance = random.Random(17)
     for k in range(KILLS):
         ranks, wait = 1 + k % 2, chance.uniform(0, 0.3)
@@ -98,18 +107,18 @@ def kills(checks, folder):
         killed(folder, ranks, wait)
         at = f"killed on {ranks} rank{'s' * (ranks > 1)} after {wait:.3f} s"
         wrong = amiss(folder)
-        checks.fact(f"{at}: files are whole, and those listed are there", not wrong, wrong)
+        fact(f"{at}: files are whole, and those listed are there", not wrong, wrong)
         step = go_on(folder)
-        names = [f for _, f in listed(folder / "k_series.pvd")]
-        checks.fact(f"{at}: the list goes on from step {step}, each file once",
-                    names == [f"k_{s}.vtp" for s in range(20, step + GOES_ON + 1, 20)], str(names[-3:]))
+        names = [f for _, f in vtp.listed(folder / "k_series.pvd")]
+        fact(f"{at}: the list goes on from step {step}, each file once",
+             names == [f"k_{s}.vtp" for s in range(20, step + GOES_ON + 1, 20)], str(names[-3:]))
         lmp.run_well(text(scene.CREATE, f"run {step}\n{scene.dump('unbroken', 10)}run {GOES_ON}\n"),
                      folder, ranks)
-        checks.at_most(f"{at}: continued as unbroken", lmp.largest_difference(
+        at_most(f"{at}: continued as unbroken", lmp.largest_difference(
             lmp.read_dump(folder / "unbroken"), lmp.read_dump(folder / "continued")), 0)
 
 
-def killed_in_a_write(checks, folder):
+def test_killed_in_a_write(folder):
     """In the middle of a file, by the signal that comes where a process's files may not grow further."""
     def run(limit):
         files = "mesh_fields same.vtp every 20 mesh_stl same.stl every 20"
@@ -119,15 +128,15 @@ def killed_in_a_write(checks, folder):
         return subprocess.run(["sh", "-c", command], cwd=folder, env=lmp.environment(),
                               stdout=subprocess.DEVNULL).returncode
 
-    checks.fact("without a limit it runs", run("unlimited") == 0)
+    fact("without a limit it runs", run("unlimited") == 0)
     before = [(folder / name).read_bytes() for name in ("same.vtp", "same.stl")]
     half = len(before[1]) // 2 // 512
-    checks.fact("killed in the middle of a file", run(half) == -signal.SIGXFSZ)
-    checks.fact("older files are as they were",
-                before == [(folder / name).read_bytes() for name in ("same.vtp", "same.stl")])
+    fact("killed in the middle of a file", run(half) == -signal.SIGXFSZ)
+    fact("older files are as they were",
+         before == [(folder / name).read_bytes() for name in ("same.vtp", "same.stl")])
     left = list(folder.glob("same.*.part-*"))
-    checks.fact("and what it had begun is beside them",
-                len(left) == 1 and left[0].stat().st_size <= half * 512, str(left))
+    fact("and what it had begun is beside them",
+         len(left) == 1 and left[0].stat().st_size <= half * 512, str(left))
 
 
 def small_disk(folder, kilobytes):
@@ -152,7 +161,7 @@ exit $status
     return str(path)
 
 
-def full_disk(checks, folder):
+def test_full_disk(folder):
     # Five .vtp of 140 kB, restart files of 16 kB and 8 bytes, an STL of 68 kB, which needs as much once more while it is
     # replaced. LAMMPS does not see that the last bytes of a file find no room, as these 8 would on 800 kB.
     program, usual = small_disk(folder, 796), lmp.LMP
@@ -162,30 +171,16 @@ def full_disk(checks, folder):
     lmp.LMP = program
     done = lmp.run(text(scene.CREATE, "run 300\n", to="full/", mesh="floor.stl"), folder)
     lmp.LMP = usual
-    told = warned(done.stdout)
+    told = lmp.mesh_warnings(done.stdout)
     words = ("full/now.stl", "No space left", "no mesh_stl of this step", "Free disk space")
-    checks.fact("a full disk: one warning with file, reason, loss and remedy",
-                len(told) == 1 and all(w in told[0] for w in words), str(told))
+    fact("a full disk: one warning with file, reason, loss and remedy",
+         len(told) == 1 and all(w in told[0] for w in words), str(told))
     kept = folder / "kept"
     wrong = amiss(kept)
-    checks.fact("every file there is whole, and listed ones are there", not wrong, wrong)
-    checks.fact("nothing half-written is beside them", not list(kept.glob("*.part*")))
-    checks.fact("LAMMPS stops where it cannot write a restart file", "while writing restart" in done.stdout)
+    fact("every file there is whole, and listed ones are there", not wrong, wrong)
+    fact("nothing half-written is beside them", not list(kept.glob("*.part*")))
+    fact("LAMMPS stops where it cannot write a restart file", "while writing restart" in done.stdout)
     for name in NAMES:
         shutil.copy(kept / name, folder)
     step = go_on(folder, "floor.stl")
-    checks.fact("and the run goes on from the other one", step >= EVERY, f"step {step}")
-
-
-def main():
-    checks, folder = lmp.Checks(), lmp.scratch()
-    scene.write_floor(folder / "floor.stl")
-    scene.write_floor(folder / "fine.stl", cells=80)    # a run that writes files most of its time
-    kills(checks, folder)
-    killed_in_a_write(checks, folder)
-    full_disk(checks, folder)
-    checks.done(folder)
-
-
-if __name__ == "__main__":
-    main()
+    fact("and the run goes on from the other one", step >= EVERY, f"step {step}")

@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 LSDCD contributors
 # SPDX-License-Identifier: GPL-2.0-only
 
@@ -7,6 +6,7 @@ import math
 import re
 
 import lmp
+from facts import fact
 
 RADIUS, DENSITY, FALL, BELT, DT = 0.002, 2500.0, 1.0, 4.5, 1e-6
 YOUNG, E, NU, MU = 5e6, 0.5, 0.25, 0.5
@@ -81,11 +81,10 @@ def gained(model, xgammat):
     return vx
 
 
-def main():
-    checks, folder = lmp.Checks(), lmp.scratch()
+def test_gain(folder):
     page = (lmp.HERE.parent.parent / "doc" / "contact_laws.rst").read_text()
     said = re.findall(r"\b(0\.\d\d)\s+m/s", page)
-    checks.fact("the page has three figures", len(said) == 3, str(said))
+    fact("the page has three figures", len(said) == 3, str(said))
     cases = (("mindlin", 1, 0), ("mindlin/force", 1, 1), ("mindlin_slip", 1, 2), ("mindlin", 0, 2))
     for model, xgammat, figure in cases if len(said) == 3 else ():
         tangential, in_page = f"{model} NULL {xgammat} {MU}", said[figure]
@@ -94,10 +93,5 @@ def main():
         wanted = gained(model, xgammat)
         # A centre near 2e-3 is rounded by 4e-19, of overlaps of 1e-4: 1e-14,
         # and no more than 1e-9 after the ten thousand steps of a bounce.
-        checks.fact(f"{tangential}: gains what the law says", abs(found - wanted) < 1e-9 * wanted, f"{found}, {wanted}")
-        checks.fact(f"{tangential}: gains what the page says", f"{found:.2f}" == in_page, f"{found}, {in_page}")
-    checks.done(folder)
-
-
-if __name__ == "__main__":
-    main()
+        fact(f"{tangential}: gains what the law says", abs(found - wanted) < 1e-9 * wanted, f"{found}, {wanted}")
+        fact(f"{tangential}: gains what the page says", f"{found:.2f}" == in_page, f"{found}, {in_page}")

@@ -1,41 +1,25 @@
-#!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 LSDCD contributors
 # SPDX-License-Identifier: GPL-2.0-only
 
 """Files that the fix writes every N steps: read by other programs' means, and where they cannot be
 written."""
 
-import base64
 import math
 import struct
-import xml.etree.ElementTree as ElementTree
+
+import pytest
 
 import lmp
 import scene
+import stl
+import vtp
+from facts import at_most, fact
 
 LAW = "hooke/history 1e4 NULL 120 NULL 0.4 1"
 SOFT = "hooke 1e-9 NULL 0 NULL 0 0"    # spheres do not notice the mesh, however it moves
 TURN = "motion rotate 0.3 0.1 0.7 1 2 2 0.8"
 RATE = 2 * math.pi / 0.8
 FIELDS = "mesh_fields {} every 100"
-
-
-def arrays(path):
-    """{name: [numbers]} of a .vtp file, by an XML parser."""
-    formats = {"Float64": "d", "Int64": "q", "Int32": "i"}
-    found = {}
-    for a in ElementTree.parse(path).getroot().iter("DataArray"):
-        data = base64.b64decode(a.text)
-        assert struct.unpack("<Q", data[:8])[0] == len(data) - 8
-        found[a.get("Name")] = [v[0] for v in struct.iter_unpack("<" + formats[a.get("type")], data[8:])]
-    return found
-
-
-def listed(path):
-    """[(time, file)] of a .pvd file."""
-    root = ElementTree.parse(path).getroot()
-    assert root.tag == "VTKFile" and root.get("type") == "Collection"
-    return [(float(d.get("timestep")), d.get("file")) for d in root.find("Collection").findall("DataSet")]
 
 
 def turned(points, time):
@@ -60,27 +44,33 @@ def go(folder, words, run, begin=scene.CREATE, ranks=1):
     return lmp.run_well(begin + scene.forces(law, mesh="mesh floor.stl " + words) + run, folder, ranks)
 
 
-def series(checks, folder):
+@pytest.fixture(scope="module")
+def folder(folder):
+    scene.write_floor(folder / "floor.stl")
+    return folder
+
+
+def test_series(folder):
     (folder / "out").mkdir()
     go(folder, f"{TURN} {FIELDS.format('out/a&b_*.vtp')}", "run 150\nrun 250\n", ranks=2)
-    rows = listed(folder / "out" / "a&b_series.pvd")
-    checks.fact("the list has every file once, also of two runs",
-                [f for _, f in rows] == [f"a&b_{k}.vtp" for k in (100, 200, 300, 400)], str(rows))
+    rows = vtp.listed(folder / "out" / "a&b_series.pvd")
+    fact("the list has every file once, also of two runs",
+         [f for _, f in rows] == [f"a&b_{k}.vtp" for k in (100, 200, 300, 400)], str(rows))
     # Sums of 0.001 round by 1e-16 each.
-    checks.at_most("with its time", max(abs(t - 0.1 * (k + 1)) for k, (t, _) in enumerate(rows)), 1e-13)
+    at_most("with its time", max(abs(t - 0.1 * (k + 1)) for k, (t, _) in enumerate(rows)), 1e-13)
     go(folder, FIELDS.format("still.vtp"), "run 100\n")
-    checks.fact("a name without a star makes no list", not list(folder.glob("still*.pvd")))
-    first = arrays(folder / "still.vtp")
+    fact("a name without a star makes no list", not list(folder.glob("still*.pvd")))
+    first = vtp.read(folder / "still.vtp")
     for time, name in rows:
-        now = arrays(folder / "out" / name)
+        now = vtp.read(folder / "out" / name)
         # Rounding of places of size 10 in a few operations.
-        checks.at_most(f"{name}: points are where the mesh has turned to",
-                       apart(now["points"], turned(first["points"], time)), 1e-13)
-        checks.fact(f"{name}: with the triangles of the mesh", now["connectivity"] == first["connectivity"])
-        checks.fact(f"{name}: and the time of the list", now["TimeValue"] == [time])
+        at_most(f"{name}: points are where the mesh has turned to",
+                apart(now["points"], turned(first["points"], time)), 1e-13)
+        fact(f"{name}: with the triangles of the mesh", now["connectivity"] == first["connectivity"])
+        fact(f"{name}: and the time of the list", now["TimeValue"] == [time])
 
 
-def forces(checks, folder):
+def test_forces(folder):
     """Of triangles, against the totals, which the engine sums over spheres."""
     scene.write_floor(folder / "coarse.stl", cells=6)
     words = f"mesh coarse.stl move 0 0 0.3 motion rotate 0 0 0 1 2 2 20 mesh_fields v_*.vtp every 1"
@@ -89,12 +79,12 @@ def forces(checks, folder):
         "thermo_modify norm no format float %.17g\nthermo 1\nrun 120\n", folder))
     worst, size = 0, max(abs(v) for row in rows for v in row[1:])
     for step, *total in rows[1:]:
-        force = arrays(folder / f"v_{step:g}.vtp")["force"]
+        force = vtp.read(folder / f"v_{step:g}.vtp")["force"]
         worst = max(worst, *(abs(sum(force[d::3]) - total[d]) for d in range(3)))
-    checks.fact("forces on the coarse floor act along all axes",
-                all(max(abs(row[1 + d]) for row in rows) > 1 for d in range(3)))
+    fact("forces on the coarse floor act along all axes",
+         all(max(abs(row[1 + d]) for row in rows) > 1 for d in range(3)))
     # Sums of up to 100 contacts, in another order and turned.
-    checks.at_most("forces of triangles of a turning mesh sum to the force on it", worst / size, 1e-13)
+    at_most("forces of triangles of a turning mesh sum to the force on it", worst / size, 1e-13)
 
 
 def same(a, b):
@@ -102,25 +92,18 @@ def same(a, b):
     return [f for _, f in a] == [f for _, f in b] and all(abs(t - u) < 1e-13 for (t, _), (u, _) in zip(a, b))
 
 
-def continued(checks, folder):
+def test_continued(folder):
     words = f"{TURN} {FIELDS.format('c_*.vtp')}"
     go(folder, words, "run 250\nwrite_restart c.restart\nrun 250\n")
-    whole = listed(folder / "c_series.pvd")
+    whole = vtp.listed(folder / "c_series.pvd")
     again = scene.SETTINGS + "read_restart c.restart\n"
     go(folder, words, "run 100\n", again)
-    checks.fact("a run that goes back takes later files off the list",
-                same(listed(folder / "c_series.pvd"), whole[:3]), str(listed(folder / "c_series.pvd")))
+    fact("a run that goes back takes later files off the list",
+         same(vtp.listed(folder / "c_series.pvd"), whole[:3]), str(vtp.listed(folder / "c_series.pvd")))
     go(folder, words, "run 250\n", again)
-    checks.fact("and one that goes on lists the earlier ones", same(listed(folder / "c_series.pvd"), whole))
+    fact("and one that goes on lists the earlier ones", same(vtp.listed(folder / "c_series.pvd"), whole))
     go(folder, words, "run 100\n")
-    checks.fact("a new run begins a new list", same(listed(folder / "c_series.pvd"), whole[:1]))
-
-
-def stl_points(path):
-    """Corners of the triangles, in floats."""
-    data = path.read_bytes()
-    assert len(data) == 84 + 50 * struct.unpack("<I", data[80:84])[0]
-    return [v for row in struct.iter_unpack("<12x9f2x", data[84:]) for v in row]
+    fact("a new run begins a new list", same(vtp.listed(folder / "c_series.pvd"), whole[:1]))
 
 
 def write_ply(path, points):
@@ -132,12 +115,12 @@ def write_ply(path, points):
                      b"".join(struct.pack("<B3i", 3, 3 * t, 3 * t + 1, 3 * t + 2) for t in range(n)))
 
 
-def ply(checks, folder):
+def test_ply(folder):
     go(folder, "mesh_stl p.stl every 50", "run 50\n")
-    write_ply(folder / "p.ply", stl_points(folder / "p.stl"))
+    write_ply(folder / "p.ply", stl.points(folder / "p.stl"))
     done = lmp.run(scene.CREATE + scene.forces(LAW, mesh="mesh p.ply mesh_stl q.stl every 50") + "run 50\n", folder)
-    checks.fact("a mesh from a PLY has the bits of that from an STL", done.returncode == 0 and
-                (folder / "p.stl").read_bytes() == (folder / "q.stl").read_bytes(), done.stdout[-300:])
+    fact("a mesh from a PLY has the bits of that from an STL", done.returncode == 0 and
+         (folder / "p.stl").read_bytes() == (folder / "q.stl").read_bytes(), done.stdout[-300:])
 
 
 L_FLOOR = {
@@ -166,51 +149,51 @@ run 0
 """
 
 
-def concave(checks, folder):
+def test_concave(folder):
     """One face of the shape L: a grain over its notch is not pushed, one over its corner by stiffness times overlap."""
     for ending, text in L_FLOOR.items():
         (folder / f"l.{ending}").write_text(text)
         lmp.run_well(ON_L.format(f"l.{ending}"), folder)
         forces = [atom[0] for atom in lmp.read_dump(folder / "forces.dump")[0].values()]
-        checks.fact(f"a grain over the notch of an L is not pushed: {ending}",
-                    abs(forces[0] - 5) < 1e-9 and forces[1:] == [0, 0], str(forces))
+        fact(f"a grain over the notch of an L is not pushed: {ending}",
+             abs(forces[0] - 5) < 1e-9 and forces[1:] == [0, 0], str(forces))
 
 
-def stl(checks, folder):
+def test_stl(folder):
     go(folder, f"{TURN} mesh_stl s_*.stl every 40 mesh_fields s_*.vtp every 60", "run 130\n")
     names = {p.name for p in folder.glob("s_*")}
-    checks.fact("two files of the fix, each every so many steps", names == {
+    fact("two files of the fix, each every so many steps", names == {
         "s_40.stl", "s_80.stl", "s_120.stl", "s_60.vtp", "s_120.vtp", "s_series.pvd"}, str(sorted(names)))
-    field = arrays(folder / "s_120.vtp")
+    field = vtp.read(folder / "s_120.vtp")
     corners = [field["points"][3 * c + d] for c in field["connectivity"] for d in range(3)]
     as_floats = list(struct.unpack(f"<{len(corners)}f", struct.pack(f"<{len(corners)}f", *corners)))
-    checks.fact("an STL of the mesh where it is", stl_points(folder / "s_120.stl") == as_floats)
+    fact("an STL of the mesh where it is", stl.points(folder / "s_120.stl") == as_floats)
     go(folder, "mesh_stl t.stl every 50", "run 50\n")
     lmp.run_well(scene.CREATE + scene.forces(LAW, mesh="mesh t.stl mesh_stl u.stl every 50") + "run 50\n", folder)
-    checks.fact("read again and written again it is the same file",
-                (folder / "t.stl").read_bytes() == (folder / "u.stl").read_bytes())
+    fact("read again and written again it is the same file",
+         (folder / "t.stl").read_bytes() == (folder / "u.stl").read_bytes())
     done = lmp.run(scene.CREATE + scene.forces(LAW, mesh="mesh floor.stl mesh_stl no/such.stl every 5") +
                    "run 10\n", folder)
-    checks.fact("mesh_stl into a missing folder stops before the run", done.returncode != 0 and
-                "in 'mesh_stl', 'no/such.stl'" in done.stdout and "Step" not in done.stdout)
+    fact("mesh_stl into a missing folder stops before the run", done.returncode != 0 and
+         "in 'mesh_stl', 'no/such.stl'" in done.stdout and "Step" not in done.stdout)
     text = on_full_disk(folder, 64, "mesh_stl t.stl every 50", "run 100\n")
-    checks.fact("mesh_stl on a full disk: one warning", len(warned(text)) == 1 and
-                "there is no mesh_stl of this step" in warned(text)[0], str(warned(text)))
-    checks.fact("and the older file as it was",
-                (folder / "t.stl").read_bytes() == (folder / "u.stl").read_bytes())
+    fact("mesh_stl on a full disk: one warning", len(lmp.mesh_warnings(text)) == 1 and
+         "there is no mesh_stl of this step" in lmp.mesh_warnings(text)[0], str(lmp.mesh_warnings(text)))
+    fact("and the older file as it was",
+         (folder / "t.stl").read_bytes() == (folder / "u.stl").read_bytes())
 
 
 def under_limit(folder, blocks):
     """LAMMPS where no file may grow past so many blocks of 512 bytes, as on a full disk."""
     path = folder / "limited.sh"
-    program = lmp.KOKKOS_HOST if lmp.ON_KOKKOS else lmp.LMP
+    program = lmp.HOST if lmp.ON_HOST else lmp.LMP
     path.write_text(f"#!/bin/sh\ntrap '' XFSZ\nulimit -f {blocks}\nexec '{program}' \"$@\"\n")
     path.chmod(0o755)
     return str(path)
 
 
 def on_full_disk(folder, blocks, *args):
-    name = "KOKKOS_HOST" if lmp.ON_KOKKOS else "LMP"
+    name = "HOST" if lmp.ON_HOST else "LMP"
     program = getattr(lmp, name)
     limited = under_limit(folder, blocks)
     setattr(lmp, name, limited)
@@ -220,43 +203,27 @@ def on_full_disk(folder, blocks, *args):
         setattr(lmp, name, program)
 
 
-def warned(text):
-    return [line for line in text.split("\n") if line.startswith("WARNING") and "mesh_" in line]
-
-
-def not_written(checks, folder):
+def test_not_written(folder):
     words = FIELDS.format("d_*.vtp")
     go(folder, words, "run 200\n")
     before = {p.name: p.read_bytes() for p in folder.glob("d_*")}
     size = len(before["d_100.vtp"]) // 512
     text = on_full_disk(folder, size // 2, words, "run 300\n")
-    checks.fact("a full disk: one warning, which says what is lost", len(warned(text)) == 1 and
-                "d_100.vtp" in warned(text)[0] and "no mesh_fields of this step" in warned(text)[0], str(warned(text)))
-    checks.fact("and the run goes on to its end", "Loop time" in text)
-    checks.fact("older files are as they were, and nothing is beside them",
-                {p.name: p.read_bytes() for p in folder.glob("d_*")} == before)
+    fact("a full disk: one warning, which says what is lost", len(lmp.mesh_warnings(text)) == 1 and
+         "d_100.vtp" in lmp.mesh_warnings(text)[0] and "no mesh_fields of this step" in lmp.mesh_warnings(text)[0], str(lmp.mesh_warnings(text)))
+    fact("and the run goes on to its end", "Loop time" in text)
+    fact("older files are as they were, and nothing is beside them",
+         {p.name: p.read_bytes() for p in folder.glob("d_*")} == before)
 
     # A folder that is away for a while.
     (folder / "e").mkdir()
     away = "run 100\nrun 200 pre no every 100 'shell mv e f'\nshell mv f e\nrun 100 pre no\n"
     text = go(folder, FIELDS.format("e/e_*.vtp"), away)
-    checks.fact("a folder that is gone: one warning", len(warned(text)) == 1, str(warned(text)))
-    checks.fact("files and list go on when it is back",
-                [f for _, f in listed(folder / "e" / "e_series.pvd")] == ["e_100.vtp", "e_200.vtp", "e_400.vtp"])
+    fact("a folder that is gone: one warning", len(lmp.mesh_warnings(text)) == 1, str(lmp.mesh_warnings(text)))
+    fact("files and list go on when it is back",
+         [f for _, f in vtp.listed(folder / "e" / "e_series.pvd")] == ["e_100.vtp", "e_200.vtp", "e_400.vtp"])
     go(folder, FIELDS.format("g_*.vtp"), "run 100\nrun 100 pre no\nrun 200 pre no\n")
-    a, b, c = (arrays(folder / n)["contacts"] for n in ("e/e_400.vtp", "g_300.vtp", "g_400.vtp"))
+    a, b, c = (vtp.read(folder / n)["contacts"] for n in ("e/e_400.vtp", "g_300.vtp", "g_400.vtp"))
     # Sums of the same numbers in another order.
-    checks.at_most("what was not written is in the next average",
-                   apart([2 * v for v in a], [u + v for u, v in zip(b, c)]), 1e-12)
-
-
-def main():
-    checks, folder = lmp.Checks(), lmp.scratch()
-    scene.write_floor(folder / "floor.stl")
-    for part in (series, forces, continued, stl, ply, concave, not_written):
-        part(checks, folder)
-    checks.done(folder)
-
-
-if __name__ == "__main__":
-    main()
+    at_most("what was not written is in the next average",
+            apart([2 * v for v in a], [u + v for u, v in zip(b, c)]), 1e-12)

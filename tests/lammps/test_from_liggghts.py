@@ -1,9 +1,8 @@
-#!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 LSDCD contributors
 # SPDX-License-Identifier: GPL-2.0-only
 
 """examples/from-liggghts/convert.py: what it writes and leaves, and that what it writes has the physics of LIGGGHTS, by closed
-forms; with `run`, that it gives a port's figures; with `liggghts`, that LIGGGHTS has these closed forms too."""
+forms; that it gives a port's figures; and that LIGGGHTS has these closed forms too."""
 import contextlib
 import importlib.util
 import io
@@ -14,7 +13,10 @@ import subprocess
 import sys
 import types
 
+import pytest
+
 import lmp
+from facts import at_most, fact
 
 EXAMPLE = lmp.HERE.parent.parent / "examples" / "from-liggghts"
 MATERIAL = """\
@@ -614,33 +616,33 @@ def convert(folder, text, name="in.there", more=()):
     return done, out.read_text(errors="surrogateescape") if out.exists() else None
 
 
-def words(checks, folder):
+def test_words(folder):
     for what, (text, expected, *left) in WRITTEN.items():
         done, out = convert(folder, MATERIAL + text)
-        checks.fact(what, done.returncode == 0 and expected in out and out.count("\n# LEFT") == (left or [0])[0], done.stderr)
+        fact(what, done.returncode == 0 and expected in out and out.count("\n# LEFT") == (left or [0])[0], done.stderr)
     for what, (text, reason) in LEFT.items():
         done, out = convert(folder, MATERIAL + text)
         line = MATERIAL.count("\n") + text.count("\n")
         form = rf"^# LEFT in\.there:{line}: {re.escape(reason)}.*; do: \S.*\n# {re.escape(text.splitlines()[-1])}$"
-        checks.fact(f"left: {what}", done.returncode == 0 and re.search(form, out, re.M) and
-                    f"in.there:{line}" in done.stderr, done.stderr)
+        fact(f"left: {what}", done.returncode == 0 and re.search(form, out, re.M) and
+             f"in.there:{line}" in done.stderr, done.stderr)
     for what, (text, begin, reason) in LEFT_INSIDE.items():
         done, out = convert(folder, MATERIAL + text)
-        checks.fact(f"left: {what}", re.search(rf"^# LEFT in\.there:\d+: {re.escape(reason)}.*\n# {begin} ", out or "", re.M), done.stderr)
+        fact(f"left: {what}", re.search(rf"^# LEFT in\.there:\d+: {re.escape(reason)}.*\n# {begin} ", out or "", re.M), done.stderr)
     for what, (text, reason) in REFUSED.items():
         done, out = convert(folder, text)
-        checks.fact(f"refused, and nothing written: {what}", done.returncode == 1 and out is None and reason in done.stderr and
-                    "in.there:" in done.stderr, done.stderr)
+        fact(f"refused, and nothing written: {what}", done.returncode == 1 and out is None and reason in done.stderr and
+             "in.there:" in done.stderr, done.stderr)
     # A file that is there stays.
     (folder / "in.here").write_text("kept")
     subprocess.run([sys.executable, EXAMPLE / "convert.py", folder / "in.there", "-o", folder / "in.here"], capture_output=True)
-    checks.fact("an error leaves the older file", (folder / "in.here").read_text() == "kept")
-    checks.fact("no other file is left", {p.name for p in folder.iterdir()} == {"in.there", "in.here"})
+    fact("an error leaves the older file", (folder / "in.here").read_text() == "kept")
+    fact("no other file is left", {p.name for p in folder.iterdir()} == {"in.there", "in.here"})
     help_text = subprocess.run([sys.executable, EXAMPLE / "convert.py", "--help"], text=True, capture_output=True).stdout
-    checks.fact("--help teaches", all(w in help_text for w in ("LEFT", "NOTE", "--radius", "from-liggghts.md")))
+    fact("--help teaches", all(w in help_text for w in ("LEFT", "NOTE", "--radius", "from-liggghts.md")))
 
 
-def two_materials(checks, folder):
+def test_two_materials(folder):
     """Grains of one type on a wall of another: E and nu of the one material whose contact with itself is theirs."""
     both = """\
 set group all diameter 0.02 density 2500
@@ -657,13 +659,13 @@ fix m4 all property/global coefficientFriction peratomtypepair 2 0.4 0.3 0.3 0.2
     star = 1 / ((1 - 0.3**2) / 1e7 + (1 - 0.2**2) / 2e8)
     shear = 1 / (2 * 1.7 * 1.3 / 1e7 + 2 * 1.8 * 1.2 / 2e8)
     # Ten digits are written.
-    checks.at_most("E*", abs(e / (2 * (1 - nu**2)) / star - 1), 1e-8)
-    checks.at_most("G*", abs(e / (4 * (2 - nu) * (1 + nu)) / shear - 1), 1e-8)
-    checks.at_most("tangential damping", abs(share - 2 * (shear / star) ** 0.5), 1e-9)
-    checks.fact("restitution and friction of the pair", (restitution, mu) == (0.6, 0.3))
+    at_most("E*", abs(e / (2 * (1 - nu**2)) / star - 1), 1e-8)
+    at_most("G*", abs(e / (4 * (2 - nu) * (1 + nu)) / shear - 1), 1e-8)
+    at_most("tangential damping", abs(share - 2 * (shear / star) ** 0.5), 1e-9)
+    fact("restitution and friction of the pair", (restitution, mu) == (0.6, 0.3))
 
 
-def several_materials(checks, folder):
+def test_several_materials(folder):
     """Grains of types 1 and 2, meshes of types 1 and 3: one fix, and a law for each pair that differs."""
     numbers = "fix m{} all property/global {} {} {}\n"
     pairs = {(1, 1): 0.1, (1, 2): 0.2, (1, 3): 0.3, (2, 2): 0.4, (2, 3): 0.3, (3, 3): 0.6}
@@ -677,14 +679,14 @@ def several_materials(checks, folder):
     done, out = convert(folder, text)
     wall = [line.split() for line in re.search(r"^fix +w (?:.*&\n)*.*", out, re.M)[0].split("&\n")]
     # The last number of each law is the friction.
-    checks.fact("several materials: one fix with a law for each pair",
-                [(words[0], words[-1]) for words in wall] == [("fix", "0.1"), ("mesh", "a.stl"), ("law", "0.2"),
-                                                              ("mesh", "b.stl"), ("law", "0.3")] and
-                wall[2][:4] == ["law", "types", "2", "granular"] and wall[4][1] == "granular" and
-                len(re.findall("^fix .*wall/lsdcd", out, re.M)) == 1 and "\n# LEFT" not in out, f"{wall}")
+    fact("several materials: one fix with a law for each pair",
+         [(words[0], words[-1]) for words in wall] == [("fix", "0.1"), ("mesh", "a.stl"), ("law", "0.2"),
+                                                       ("mesh", "b.stl"), ("law", "0.3")] and
+         wall[2][:4] == ["law", "types", "2", "granular"] and wall[4][1] == "granular" and
+         len(re.findall("^fix .*wall/lsdcd", out, re.M)) == 1 and "\n# LEFT" not in out, f"{wall}")
 
 
-def ids(checks, folder):
+def test_ids(folder):
     """A name is no keyword: what is written does not hang on it."""
     write_stl(folder / "flat.stl", FLAT)
     text = (ONE + "fix cad all mesh/surface/stress file flat.stl type 1\nfix out all mesh/surface file flat.stl type 1\n" +
@@ -700,52 +702,52 @@ def ids(checks, folder):
             back = re.sub(rf"(?<=\W){new}(?= all | count |\[|: )|(?<=f_){new}(?=\[)|(?<=fix_modify      ){new}\b", old, out or "")
             same = [line for line in back.split("\n") if line[:1] != "#"] == [line for line in plain.split("\n") if line[:1] != "#"]
             if not same or "\n# LEFT" in out:
-                checks.fact(f"the ID {new} in place of {old}", False, done.stderr + back)
-    checks.fact("no ID is taken for a keyword", "wall/lsdcd granular" in plain and "\n# LEFT" not in plain)
+                fact(f"the ID {new} in place of {old}", False, done.stderr + back)
+    fact("no ID is taken for a keyword", "wall/lsdcd granular" in plain and "\n# LEFT" not in plain)
 
 
-def winding(checks, folder):
+def test_winding(folder):
     """A mesh that counts is wound along vec_side, against it, or both ways."""
     text = "fix out all mesh/surface file {}.stl type 1\nfix flow all massflow/mesh mesh out vec_side 0 0 {}\nvariable n equal f_flow[{}]\n"
     write_stl(folder / "flat.stl", FLAT)
     write_stl(folder / "mixed.stl", [FLAT[0], FLAT[1][::-1]])
     for side, number, rate in ((1, 1, "f_flow[6]"), (-1, 3, "(-f_flow[6])")):
-        checks.fact(f"vec_side {side}", f"n equal f_flow[{number}]" in convert(folder, text.format("flat", side, 2))[1])
-        checks.fact(f"the rate, vec_side {side}", f"n equal {rate}" in convert(folder, text.format("flat", side, 3))[1])
+        fact(f"vec_side {side}", f"n equal f_flow[{number}]" in convert(folder, text.format("flat", side, 2))[1])
+        fact(f"the rate, vec_side {side}", f"n equal {rate}" in convert(folder, text.format("flat", side, 3))[1])
     _, out = convert(folder, text.format("mixed", 1, 2))
-    checks.fact("a mesh that is wound both ways is left", "# LEFT in.there:2: mixed.stl has triangles wound along vec_side and others" in out)
+    fact("a mesh that is wound both ways is left", "# LEFT in.there:2: mixed.stl has triangles wound along vec_side and others" in out)
 
 
-def surfaces(checks, folder):
+def test_surfaces(folder):
     """The velocity of a surface on a slope has its full size in LIGGGHTS."""
     up = [[(x, y, x) for x, y, _ in t] for t in FLAT]
     for name, triangles, expected in (("level", FLAT, "surface_vel 2 0 0"), ("slope", up, "surface_vel 1.414213562 0 1.414213562"),
                                       ("roof", FLAT + up, None)):
         write_stl(folder / "a.stl", triangles)
         _, out = convert(folder, MATERIAL + MESH.format("surface_vel 2 0 0") + WALL)
-        checks.fact(f"surface_vel on a {name}", (expected or "# LEFT in.there:5: surface_vel on triangles of several slopes") in out)
+        fact(f"surface_vel on a {name}", (expected or "# LEFT in.there:5: surface_vel on triangles of several slopes") in out)
     write_stl(folder / "a.stl", up)
     _, out = convert(folder, MATERIAL + MESH.format("surface_ang_vel origin 0 0 0 axis 0 0 1 omega 5") + WALL)
-    checks.fact("surface_ang_vel on a slope is left", "# LEFT in.there:5: surface_ang_vel on triangles that are inclined" in out)
+    fact("surface_ang_vel on a slope is left", "# LEFT in.there:5: surface_ang_vel on triangles that are inclined" in out)
     (folder / "a.stl").unlink()
 
 
-def included(checks, folder):
+def test_included(folder):
     """The lines of include stand in place of it."""
     (folder / "mat.in").write_text("variable mu equal 0.7    # of the floor\nfix k all rigid/none single\n")
     (folder / "loop.in").write_text("label l\nnext i\njump SELF l\n")
     text = "variable part index mat\ninclude ${part}.in\n" + MATERIAL.replace("pair 1 0.4", "pair 1 ${mu}") + MESH.format("") + WALL
     done, out = convert(folder, text)
-    checks.fact("an include is read, and its lines have its name", "# include ${part}.in: its lines follow\nvariable mu equal 0.7    # of the floor\n# LEFT "
-                "mat.in:2: fix rigid/none" in out and " 0.7 &\n                mesh a.stl\n" in out and "commands left: 1" in done.stderr, done.stderr)
+    fact("an include is read, and its lines have its name", "# include ${part}.in: its lines follow\nvariable mu equal 0.7    # of the floor\n# LEFT "
+         "mat.in:2: fix rigid/none" in out and " 0.7 &\n                mesh a.stl\n" in out and "commands left: 1" in done.stderr, done.stderr)
     done, out = convert(folder, text.replace("${part}", "loop"))
-    checks.fact("one with loops is left, and what needs it", "# LEFT in.there:2: include of loop.in" in out and
-                "# LEFT in.there:8: '${mu}' of in.there:6 is no number" in out and "commands left: 2" in done.stderr, done.stderr)
+    fact("one with loops is left, and what needs it", "# LEFT in.there:2: include of loop.in" in out and
+         "# LEFT in.there:8: '${mu}' of in.there:6 is no number" in out and "commands left: 2" in done.stderr, done.stderr)
     for name in ("mat.in", "loop.in"):
         (folder / name).unlink()
 
 
-def nearest(checks, folder):
+def test_nearest(folder):
     """Rolling of LIGGGHTS that LAMMPS does not have: its nearest lines wait as comments, and the rest goes on."""
     rolling = "hertz tangential history rolling_friction "
     text = (MATERIAL + ROLLS + f"pair_style gran model {rolling}epsd2\npair_coeff * *\n" + MESH.format("") +
@@ -756,20 +758,20 @@ def nearest(checks, folder):
     # 8 G* sqrt(R 0.001 R), and 1/G* = 4 (2 - nu) (1 + nu) / E.
     k = f"{8 * 1e7 / (4 * 1.7 * 1.3) * 0.01 * math.sqrt(1e-3):.3g}"
     sds = f" rolling sds {float(k):.10g} 0 0.1"
-    checks.fact("the nearest pair style, wall and plane stand as comments", "\n#: pair_style      granular\n#: pair_coeff      * * hertz " in out and
-                out.count(sds) == 3 and f"0.4{sds} &\n#:                 mesh a.stl\n" in out and "\n#: fix             p all wall/gran granular" in out and
-                "commands left: 3" in done.stderr, out)
+    fact("the nearest pair style, wall and plane stand as comments", "\n#: pair_style      granular\n#: pair_coeff      * * hertz " in out and
+         out.count(sds) == 3 and f"0.4{sds} &\n#:                 mesh a.stl\n" in out and "\n#: fix             p all wall/gran granular" in out and
+         "commands left: 3" in done.stderr, out)
     drum = (MATERIAL + ROLLS + "fix m6 all property/global cohesionEnergyDensity peratomtypepair 1 ${coh}\n" +
             f"pair_style gran model {rolling.replace('rolling', 'cohesion sjkr rolling')}cdt\npair_coeff * *\n" + MESH.format("") + LID +
             BOTH_WALL.replace("hertz tangential history", rolling + "cdt") + MOVE.format("rotate origin 0 0 0 axis 0 1 0 period 1.33") +
             MOVE.replace("t all", "u all").replace("cad", "lid").format("rotate origin 0 0 0 axis 0 1 0 period 1.33"))
     said, turning = convert(folder, "variable coh equal 0\n" + drum)
-    checks.fact("of a drum with cdt and a cohesion of 0 the laws are left, and both meshes turn", "commands left: 2" in said.stderr and turning.endswith(
+    fact("of a drum with cdt and a cohesion of 0 the laws are left, and both meshes turn", "commands left: 2" in said.stderr and turning.endswith(
         "\nfix_modify      w mesh 1 motion rotate 0 0 0 0 1 0 1.33\nfix_modify      w mesh 2 motion rotate 0 0 0 0 1 0 1.33\n"), turning)
-    checks.fact("the motion and the output of its mesh stay", "\nfix_modify      w motion linear 1 0 0\nthermo_style custom step f_w[3]\nunfix w\n" in out, out)
+    fact("the motion and the output of its mesh stay", "\nfix_modify      w motion linear 1 0 0\nthermo_style custom step f_w[3]\nunfix w\n" in out, out)
 
 
-def sweeping(checks, folder):
+def test_sweeping(folder):
     """sweep.py counts commands and what is left."""
     (folder / "a").mkdir()
     (folder / "a" / "in.one").write_text(MATERIAL + MESH.format("") + WALL + "# fix c all mesh/surface file c.stl\n")
@@ -780,85 +782,85 @@ def sweeping(checks, folder):
     for more, left, sums in (([], 3, "3 scripts: 2 written, 1 with nothing left; 13 commands, 3 left"),
                              (["--converted-restart"], 2, "3 scripts: 2 written, 1 with nothing left; 13 commands, 2 left")):
         said = subprocess.run([sys.executable, EXAMPLE / "sweep.py", folder / "a", *more], text=True, capture_output=True).stdout
-        checks.fact(f"sweep {' '.join(more)}", f"in.one: 0 of 6 left\n" in said and f"in.two: {left} of 7 left\n" in said and
-                    "in.bad: in.bad:2: needs fix property/global" in said and "1 in 1: the file a.vtk\n" in said and
-                    said.endswith(f"\n{sums}\n"), said)
+        fact(f"sweep {' '.join(more)}", f"in.one: 0 of 6 left\n" in said and f"in.two: {left} of 7 left\n" in said and
+             "in.bad: in.bad:2: needs fix property/global" in said and "1 in 1: the file a.vtk\n" in said and
+             said.endswith(f"\n{sums}\n"), said)
     shutil.rmtree(folder / "a")
 
 
-def whole_scripts(checks, folder):
+def test_whole_scripts(folder):
     """A line that is left does not stop the rest; bytes stay."""
     done, out = convert(folder, MATERIAL + MESH.format("").replace("a.stl", "a.vtk") + WALL + "timestep 1e-5\n")
-    checks.fact("a wall whose only mesh is left is left, and the rest is there", done.returncode == 0 and out.count("\n# LEFT") == 2 and
-                "LEFT in.there:6: the mesh cad, which is not converted" in out and "\ntimestep 1e-5\n" in out, done.stderr)
+    fact("a wall whose only mesh is left is left, and the rest is there", done.returncode == 0 and out.count("\n# LEFT") == 2 and
+         "LEFT in.there:6: the mesh cad, which is not converted" in out and "\ntimestep 1e-5\n" in out, done.stderr)
     (folder / "a.stl").write_text("# a box\nsolid a\nendsolid a\n")
     _, out = convert(folder, MATERIAL + MESH.format("") + WALL)
-    checks.fact("an STL file that begins with a comment", "LEFT in.there:5: the file a.stl, which begins with a comment" in out)
+    fact("an STL file that begins with a comment", "LEFT in.there:5: the file a.stl, which begins with a comment" in out)
     (folder / "a.stl").unlink()
     for what, text, noted in (("with friction and damping", MATERIAL, True), ("that is elastic", MATERIAL.replace("pair 1 0.5", "pair 1 1"), False),
                               ("without friction", MATERIAL.replace("pair 1 0.4", "pair 1 0"), False)):
         _, out = convert(folder, text + MESH.format("") + WALL)
-        checks.fact(f"the dashpot of the friction is noted of a contact {what}", ("# NOTE in.there:6: until the spring" in out) == noted, out)
+        fact(f"the dashpot of the friction is noted of a contact {what}", ("# NOTE in.there:6: until the spring" in out) == noted, out)
     for fraction, noted in ((0.1, False), (0.3, True)):
         _, out = convert(folder, MATERIAL + PACK.format("", "").replace("particles_in_region 9", f"volumefraction_region {fraction}"))
-        checks.fact(f"grains that may find no place at {fraction} are noted", ("gives up on grains" in out) == noted, out)
+        fact(f"grains that may find no place at {fraction} are noted", ("gives up on grains" in out) == noted, out)
     bare = "pair_style gran model hertz\npair_coeff * *\n" + MESH.format("") + WALL.replace(" tangential history", "")
     _, out = convert(folder, MATERIAL + "lattice sc 0.1\nregion r block 0 1 0 1 0 1\n" + bare, more=("--pfm",))
-    checks.fact("--pfm: no_history and units lattice without their words", out.count("tangential linear_nohistory 0.907485213 0.4") == 2 and
-                "\nregion r block 0 1 0 1 0 1\n" in out and "NOTE in.there:7: units" not in out and "has no friction" not in out, out)
+    fact("--pfm: no_history and units lattice without their words", out.count("tangential linear_nohistory 0.907485213 0.4") == 2 and
+         "\nregion r block 0 1 0 1 0 1\n" in out and "NOTE in.there:7: units" not in out and "has no friction" not in out, out)
     latin = b"# caf\xe9\nprint \"\xe9\"\n# caf\xc3\xa9\x85\n"
     done, _ = convert(folder, latin)
-    checks.fact("bytes that are no UTF-8 stay", (folder / "in.here").read_bytes().endswith(latin), done.stderr)
+    fact("bytes that are no UTF-8 stay", (folder / "in.here").read_bytes().endswith(latin), done.stderr)
     shown = subprocess.run([sys.executable, EXAMPLE / "convert.py", folder / "in.there"], capture_output=True)
-    checks.fact("... on standard output too", shown.stdout.endswith(latin), f"{shown.stderr}")
+    fact("... on standard output too", shown.stdout.endswith(latin), f"{shown.stderr}")
     changed = "fix m4 all property/global coefficientFriction peratomtypepair 1 0.6\n"
     _, out = convert(folder, MATERIAL + MESH.format("") + WALL + "run 1\n" + changed + "run 1\n")
-    checks.fact("a property that changes is no number", "LEFT in.there:6: coefficientFriction, which changes in the script" in out)
+    fact("a property that changes is no number", "LEFT in.there:6: coefficientFriction, which changes in the script" in out)
     _, out = convert(folder, MATERIAL + changed + MESH.format("") + WALL)
-    checks.fact("the last value before the wall counts", " 0.6 &\n" in out)
+    fact("the last value before the wall counts", " 0.6 &\n" in out)
     young = "variable young equal {}\n"
     _, out = convert(folder, young.format("1e7") + MATERIAL.replace("1e7", "${young}") + young.format("2e7") + MESH.format("") + WALL)
-    checks.fact("a material has the value of its line", "granular hertz/material 10000000 0.5" in out and "\n# LEFT" not in out, out)
+    fact("a material has the value of its line", "granular hertz/material 10000000 0.5" in out and "\n# LEFT" not in out, out)
     _, out = convert(folder, young.format("1e7") + MATERIAL.replace("1e7", "${young}") + young.format("2e7") + MESH.format("") + WALL +
                      "run 1\nfix m1 all property/global youngsModulus peratomtype ${young}\n")
-    checks.fact("a material with the same words and another value changes", "LEFT in.there:8: youngsModulus, which changes in the script" in out, out)
+    fact("a material with the same words and another value changes", "LEFT in.there:8: youngsModulus, which changes in the script" in out, out)
     _, out = convert(folder, MATERIAL + MESH.format("") + "variable f equal f_cad[3]\n" + WALL + WALL.replace("fix w", "fix v"))
-    checks.fact("which of two later walls a variable is of is not known", "LEFT in.there:6: element 3 of f_cad" in out, out)
+    fact("which of two later walls a variable is of is not known", "LEFT in.there:6: element 3 of f_cad" in out, out)
     _, out = convert(folder, MATERIAL + MESH.format("") + LID + WALL + "thermo_style custom step f_cad[3]\nrun 1\nunfix w\n" + BOTH_WALL)
-    checks.fact("outputs above, of a mesh that is in another wall now, are left", re.search(
+    fact("outputs above, of a mesh that is in another wall now, are left", re.search(
         "^# LEFT in.there:11: outputs of cad that lines above take from another wall.*\nfix  .*&\n +mesh a.stl &\n +mesh b.stl$", out, re.M), out)
     flat = "fix out all mesh/surface file flat.stl type 1\n"
     flow = "fix flow all massflow/mesh mesh out vec_side 0 0 {}\n"
     write_stl(folder / "flat.stl", FLAT)
     _, out = convert(folder, flat + flow.format(1) + "thermo_style custom step f_flow[2]\nunfix flow\n" + flow.format(-1) + "unfix flow\nunfix out\n" +
                      MESH.replace("cad", "flow").format("") + "fix w all wall/gran model hertz mesh n_meshes 1 meshes flow\n" + MATERIAL)
-    checks.fact("outputs of a mass flow that counts the other way are left", "\n# LEFT in.there:5: outputs of flow that lines above take" in out and
-                out.count("\n# LEFT") == 1, out)
+    fact("outputs of a mass flow that counts the other way are left", "\n# LEFT in.there:5: outputs of flow that lines above take" in out and
+         out.count("\n# LEFT") == 1, out)
     (folder / "flat.stl").unlink()
     waves = "fix t all move/mesh mesh cad vibrot origin 0 0 0 axis 0 0 1 order 1 amplitude 1 phase 0 period 1\n"
     for more, left in (("", False), ("timestep 1e-4\nrun 1\n", False), ("run 1\ntimestep 1e-4\nrun 1\n", True)):
         _, out = convert(folder, MATERIAL + MESH.format("") + WALL + waves + more)
-        checks.fact(f"waves before {' '.join(more.split())}", ("LEFT in.there:7: a motion by waves where the timestep changes" in out) == left, out)
+        fact(f"waves before {' '.join(more.split())}", ("LEFT in.there:7: a motion by waves where the timestep changes" in out) == left, out)
     write_stl(folder / "a.stl", [[(0, 2, 3), (2, 2, 3), (1, 3, 3)]])
     for radius, noted in ((0.01, True), (1, False)):
         _, out = convert(folder, MATERIAL + f"set group all diameter {2 * radius} density 2500\n" + BALANCED.replace("move 1 2 3 ", "").format("") + WALL)
         # The corners are a distance of 1 from the centre, and the least moment is 3.
         weaker = 100 * 2500 * 4 / 3 * math.pi * radius**3 * (1 / 40 + 1 / 3)
-        checks.fact(f"damped contacts of a body with grains of radius {radius}", (f"the dashpot is weaker by at most {weaker:.2g} %" in out) == noted and
-                    ("LEFT in.there:7: contacts of cad that are damped" in out) != noted, out)
+        fact(f"damped contacts of a body with grains of radius {radius}", (f"the dashpot is weaker by at most {weaker:.2g} %" in out) == noted and
+             ("LEFT in.there:7: contacts of cad that are damped" in out) != noted, out)
     (folder / "a.stl").unlink()
     _, out = convert(folder, "variable f equal density[1]\nvariable g equal v_f+1\nprint \"${g}\"\nthermo_style custom step v_g\n")
-    checks.fact("what hangs on a variable that was left is left, or goes from thermo", out.count("\n# LEFT") == 3 and
-                out.endswith("thermo_style custom step\n"), out)
+    fact("what hangs on a variable that was left is left, or goes from thermo", out.count("\n# LEFT") == 3 and
+         out.endswith("thermo_style custom step\n"), out)
     done, _ = convert(folder, MATERIAL + "fix m5 all property/global coefficientRollingFriction peratomtypepair 1 0.1\n" + MESH.format("") +
                       WALL.replace("history", "history rolling_friction epsd2"))
     # 8 G*, and 1/G* = 4 (2 - nu) (1 + nu) / E.
-    checks.fact("rolling friction that is left has its numbers", f"rolling sds k 0 0.1, k = {8 * 1e7 / (4 * 1.7 * 1.3):.10g} sqrt(R overlap)"
-                in done.stderr, done.stderr)
+    fact("rolling friction that is left has its numbers", f"rolling sds k 0 0.1, k = {8 * 1e7 / (4 * 1.7 * 1.3):.10g} sqrt(R overlap)"
+         in done.stderr, done.stderr)
     hooke = ("fix m5 all property/global characteristicVelocity scalar 2\nset group a diameter 0.02 density 2500\n"
              "set group b diameter 0.03 density 2500\npair_style gran model hooke\n")
     _, out = convert(folder, MATERIAL + hooke, more=("--radius", "0.01", "--density", "2500"))
-    checks.fact("hooke of grains that differ, with the size that is given", "pair_style      gran/hooke " in out and "# LEFT" not in out)
+    fact("hooke of grains that differ, with the size that is given", "pair_style      gran/hooke " in out and "# LEFT" not in out)
 
 
 # ---- physics: scripts of LIGGGHTS, and what both programs have to print ----------------------------------------------
@@ -1007,7 +1009,7 @@ def write_stl(path, triangles):
                                           "endloop\nendfacet\n" for t in triangles) + "endsolid a\n")
 
 
-def physics(checks, folder, there=False):
+def physics(folder, there=False):
     write_stl(folder / "flat.stl", FLAT)
     write_stl(folder / "slope.stl", [[(x, y, x) for x, y, _ in t] for t in FLAT])
     for name, (model, text, shown, bounds) in PHYSICS.items():
@@ -1021,15 +1023,24 @@ def physics(checks, folder, there=False):
                                     stderr=subprocess.STDOUT, timeout=300).stdout
         else:
             done, out = convert(folder, script)
-            checks.fact(f"{name}: nothing is left", done.returncode == 0 and "\n# LEFT" not in out, done.stderr)
+            fact(f"{name}: nothing is left", done.returncode == 0 and "\n# LEFT" not in out, done.stderr)
             output = lmp.run(folder / "in.here", folder).stdout
         found = [float(x) for x in (re.findall(rf"^{name} is (.*)", output, re.M) or [""])[-1].split()]
         # Ten digits are written and printed.
-        checks.fact(name, len(found) == len(bounds) and all(a - 1e-9 <= x <= b + 1e-9 for x, (a, b) in zip(found, bounds)),
-                    f"{found} in {bounds}" + ("" if found else output[-2000:]))
+        fact(name, len(found) == len(bounds) and all(a - 1e-9 <= x <= b + 1e-9 for x, (a, b) in zip(found, bounds)),
+             f"{found} in {bounds}" + ("" if found else output[-2000:]))
 
 
-def grain_types(checks, folder):
+def test_physics(folder):
+    physics(folder)
+
+
+@pytest.mark.skipif(not shutil.which("liggghts"), reason="LIGGGHTS is not installed (Debian's package is liggghts)")
+def test_physics_there(folder):
+    physics(folder, there=True)
+
+
+def test_grain_types(folder):
     """Each type that grains may have gets its law."""
     two = ("fix m1 all property/global youngsModulus peratomtype 1e7 1e7\nfix m2 all property/global poissonsRatio peratomtype 0.3 0.3\n"
            "fix m3 all property/global coefficientRestitution peratomtypepair 2 0.5 0.5 0.5 0.5\n"
@@ -1045,8 +1056,8 @@ def grain_types(checks, folder):
                          ("by a type that is not known", "create_atoms ${t} single 0 0 0\n"),
                          ("by what is not known", "")):
         _, out = convert(folder, two.format(grains))
-        checks.fact(f"two types {name}", re.search(r"law types 2 granular .* 0\.2$", out, re.M) and
-                    [line.split()[1:3] for line in re.findall("^pair_coeff.*", out, re.M)] == [["*", "*"], ["1", "2"], ["2", "2"]], out)
+        fact(f"two types {name}", re.search(r"law types 2 granular .* 0\.2$", out, re.M) and
+             [line.split()[1:3] for line in re.findall("^pair_coeff.*", out, re.M)] == [["*", "*"], ["1", "2"], ["2", "2"]], out)
     (folder / "grains_5.data").unlink()
 
 
@@ -1054,32 +1065,13 @@ def figures(text, name):
     return re.findall(rf"^{name} [a-z]+ .*", text, re.M)
 
 
-def run(checks, folder):
+def test_figures(folder):
     """The numbers of the laws have the same ten digits, so both runs have the same bits."""
     subprocess.run([sys.executable, EXAMPLE / "make_meshes.py", "--out", folder], check=True, stdout=subprocess.DEVNULL)
     for name in ("meshGran", "movingMeshGran", "servoWall", "conveyor", "transfer"):
         done, out = convert(folder, (EXAMPLE / f"in.{name}.liggghts").read_text())
-        checks.fact(f"{name}: nothing is left", out is not None and "\n# LEFT" not in out, done.stderr)
+        fact(f"{name}: nothing is left", out is not None and "\n# LEFT" not in out, done.stderr)
         port = figures(lmp.run_well(EXAMPLE / f"in.{name}", folder, png=0), name)
         converted = figures(lmp.run_well(folder / "in.here", folder), name)
-        checks.fact(f"{name}: the converted script gives the port's figures", len(port) == 1 and converted == port,
-                    f"{port} {converted}")
-
-
-if __name__ == "__main__":
-    facts = lmp.Checks()
-    place = lmp.scratch()
-    if sys.argv[1:] == ["run"]:
-        run(facts, place)
-    elif sys.argv[1:] == ["liggghts"]:
-        if not shutil.which("liggghts"):
-            print("SKIPPED: LIGGGHTS is not installed (Debian's package is liggghts)")
-            sys.exit(77)
-        physics(facts, place, there=True)
-    else:
-        words(facts, place)
-        two_materials(facts, place)
-        several_materials(facts, place)
-        for part in (ids, grain_types, winding, surfaces, included, nearest, whole_scripts, sweeping, physics):
-            part(facts, place)
-    facts.done(place)
+        fact(f"{name}: the converted script gives the port's figures", len(port) == 1 and converted == port,
+             f"{port} {converted}")

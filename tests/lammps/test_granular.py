@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 LSDCD contributors
 # SPDX-License-Identifier: GPL-2.0-only
 
@@ -14,10 +13,11 @@ Where a host is wrong, the test says so by name: see host_defects().
 
 import math
 import random as random_numbers
-import sys
+import pytest
 
 import lmp
 import stl
+from facts import at_most, fact
 
 # What they have in common: E, nu, gamma, and friction that both sticks and slips.
 MATERIAL = "1e5 {eta} 0.3"
@@ -131,9 +131,8 @@ def many(count=200):
     return SETTINGS + "\n".join(lines) + "\nvelocity all create 2.0 99 loop geom\n"
 
 
-def script(scene, wall, steps, every, load="", more="", columns="", thermo=100000):
+def script(scene, wall, steps, every, more="", columns="", thermo=100000):
     return f"""\
-{load}
 {scene}
 pair_style      zero 1.3
 pair_coeff      * *
@@ -156,13 +155,13 @@ def run(folder, *words, **more):
     return lmp.read_dump(folder / "out")
 
 
-def compare(checks, folder, name, ours, hosts, load="", **settings):
+def compare(folder, name, ours, hosts, **settings):
     for title, scene, steps, every in (("one sphere", ONE, 1000, 1), ("200 spheres", many(), 1000, 10)):
-        plane = run(folder, scene, f"wall/gran granular {hosts}", steps, every, load, **settings)
-        mesh = run(folder, scene, f"wall/lsdcd granular {ours}", steps, every, load, **settings)
+        plane = run(folder, scene, f"wall/gran granular {hosts}", steps, every, **settings)
+        mesh = run(folder, scene, f"wall/lsdcd granular {ours}", steps, every, **settings)
         touching = sum(row[12] != 0 for rows in plane.values() for row in rows.values())    # torque
-        checks.fact(f"{name}, {title}: they touch", touching > 100, str(touching))
-        checks.at_most(f"{name}, {title}", lmp.largest_difference(plane, mesh), 1e-12)
+        fact(f"{name}, {title}: they touch", touching > 100, str(touching))
+        at_most(f"{name}, {title}", lmp.largest_difference(plane, mesh), 1e-12)
 
 
 HEAT = """\
@@ -174,34 +173,43 @@ fix             flow all heat/flow constant 0.5
 """
 
 
-def heat(checks, folder, load):
+@pytest.fixture(scope="module")
+def folder(folder):
+    stl.write(folder / "floor.stl", stl.sheet(40, lambda i, j: (i - 20, j - 20, 0)))
+    return folder
+
+
+@lmp.of_host
+def test_heat(folder):
     for model in ("radius 0.7", "area 3"):
         law = f"{NORMALS['jkr'].format(eta=40)} {SLIDE} heat {model}"
         settings = dict(more=HEAT, columns="c_warmth c_taken")
-        compare(checks, folder, f"heat {model}", f"{law} mesh floor.stl temperature 350",
-                f"{law} zplane 0.0 NULL temperature 350", load, **settings)
+        compare(folder, f"heat {model}", f"{law} mesh floor.stl temperature 350",
+                f"{law} zplane 0.0 NULL temperature 350", **settings)
         ramp = "variable ramp equal 300+1000*step*dt\n"
-        compare(checks, folder, f"heat {model}, a variable", f"{law} mesh floor.stl temperature v_ramp",
-                f"{law} zplane 0.0 NULL temperature v_ramp", load,
+        compare(folder, f"heat {model}, a variable", f"{law} mesh floor.stl temperature v_ramp",
+                f"{law} zplane 0.0 NULL temperature v_ramp",
                 more=HEAT + ramp, columns="c_warmth c_taken")
 
 
-def heat_of_a_compute(checks, folder, load):
+@lmp.of_host
+def test_heat_of_a_compute(folder):
     """A wall's temperature that follows where the sphere is, in steps with thermo output or not."""
     wall = (f"wall/lsdcd granular {NORMALS['jkr'].format(eta=40)} {SLIDE} heat area 3 mesh floor.stl "
             "temperature v_there")
     there = "compute there all reduce ave x\nvariable there equal 1000*c_there\n"
-    often, seldom = (run(folder, ONE, wall, 500, 100, load, more=HEAT + there, columns="c_warmth",
+    often, seldom = (run(folder, ONE, wall, 500, 100, more=HEAT + there, columns="c_warmth",
                          thermo=thermo) for thermo in (1, 500))
-    checks.at_most("heat, a variable with a compute: seldom thermo output as often",
-                   lmp.largest_difference(often, seldom), 0)
+    at_most("heat, a variable with a compute: seldom thermo output as often",
+            lmp.largest_difference(often, seldom), 0)
     nowhere = "variable there equal exp(1000*(step>4))-1\n"    # from step 5 on
-    done = lmp.run(script(ONE, wall, 9, 1, load, more=HEAT + nowhere, columns="c_warmth"), folder)
-    checks.fact("heat, a variable that is no number stops the run", done.returncode != 0 and
-                "variable 'there', which the wall reads, is inf in step 5" in done.stdout, done.stdout[-300:])
+    done = lmp.run(script(ONE, wall, 9, 1, more=HEAT + nowhere, columns="c_warmth"), folder)
+    fact("heat, a variable that is no number stops the run", done.returncode != 0 and
+         "variable 'there', which the wall reads, is inf in step 5" in done.stdout, done.stdout[-300:])
 
 
-def steady_heat(checks, folder, load):
+@lmp.of_host
+def test_steady_heat(folder):
     """A sphere pressed between a floor at 400 and a lid at 300 takes 350 and passes on
     2 k a 50, a being the root of R times the overlap, 0.01 on both sides."""
     law = "granular hertz 5e4 0 damping none tangential linear_nohistory 0 0 heat radius 0.7"
@@ -209,7 +217,6 @@ def steady_heat(checks, folder, load):
 
     def end(walls, columns):
         lmp.run_well(f"""\
-{load}
 {SETTINGS}
 create_atoms    1 single 0.3 0.2 0.49 units box
 set             group all diameter 1.0 density 2.0
@@ -227,20 +234,21 @@ run             20000
     temperature, warmed, cooled = end(f"fix floor all wall/lsdcd {law} {floor} contacts\n"
                                       f"fix lid all wall/lsdcd {law} {lid} contacts", "f_floor[9] f_lid[9]")
     both, net = end(f"fix both all wall/lsdcd {law} {floor} {lid} contacts", "f_both[9]")
-    checks.at_most("steady state, two meshes of one fix: temperature", abs(both - 350), 1e-9)
-    checks.at_most("steady state, two meshes of one fix: flow", abs(net), 1e-9)
+    at_most("steady state, two meshes of one fix: temperature", abs(both - 350), 1e-9)
+    at_most("steady state, two meshes of one fix: flow", abs(net), 1e-9)
     a = math.sqrt(0.5 * 0.01)
-    checks.at_most("steady state: temperature", abs(temperature - 350), 1e-9)
+    at_most("steady state: temperature", abs(temperature - 350), 1e-9)
     # The flow is that of temperatures that agree to 1e-9 of 50.
-    checks.at_most("steady state: flow in", abs(warmed - 2 * 0.7 * a * 50), 1e-9)
-    checks.at_most("steady state: flow out", abs(cooled + 2 * 0.7 * a * 50), 1e-9)
+    at_most("steady state: flow in", abs(warmed - 2 * 0.7 * a * 50), 1e-9)
+    at_most("steady state: flow out", abs(cooled + 2 * 0.7 * a * 50), 1e-9)
 
 
 def is_nan(rows):
     return any(math.isnan(value) for row in rows.values() for r in row.values() for value in r)
 
 
-def host_defects(checks, folder, load):
+@lmp.of_host
+def test_host_defects(folder):
     """What LAMMPS 4Jul2026 does wrong, and that we do not."""
     hertz = "hertz 5e4 40"
     for name, law in {
@@ -248,20 +256,21 @@ def host_defects(checks, folder, load):
             "rolling with k 0": f"{hertz} {SLIDE} rolling sds 0 5 0.08",
             "marshall without a tangential spring":
                 f"{hertz} tangential linear_nohistory 0.6 0.4 twisting marshall"}.items():
-        plane = run(folder, ONE, f"wall/gran granular {law} zplane 0.0 NULL", 1500, 10, load)
-        mesh = run(folder, ONE, f"wall/lsdcd granular {law} mesh floor.stl", 1500, 10, load)
-        checks.fact(f"{name}: divides by 0 in LAMMPS, not here", is_nan(plane) and not is_nan(mesh))
+        plane = run(folder, ONE, f"wall/gran granular {law} zplane 0.0 NULL", 1500, 10)
+        mesh = run(folder, ONE, f"wall/lsdcd granular {law} mesh floor.stl", 1500, 10)
+        fact(f"{name}: divides by 0 in LAMMPS, not here", is_nan(plane) and not is_nan(mesh))
 
     # Equation 32 of Marshall 2009 has the tangential stiffness, k_t a of a mindlin contact.
     # 4Jul2026 takes k_t; 29Sep2021 has the factor.
     law = f"{hertz} tangential mindlin 2e4 0.6 0.4 twisting marshall"
-    plane = run(folder, ONE, f"wall/gran granular {law} zplane 0.0 NULL", 1500, 10, load)
-    mesh = run(folder, ONE, f"wall/lsdcd granular {law} mesh floor.stl", 1500, 10, load)
-    checks.fact("marshall on mindlin: LAMMPS forgets the contact radius",
-                lmp.largest_difference(plane, mesh) > 1e-6)
+    plane = run(folder, ONE, f"wall/gran granular {law} zplane 0.0 NULL", 1500, 10)
+    mesh = run(folder, ONE, f"wall/lsdcd granular {law} mesh floor.stl", 1500, 10)
+    fact("marshall on mindlin: LAMMPS forgets the contact radius",
+         lmp.largest_difference(plane, mesh) > 1e-6)
 
 
-def older_host(checks, folder):
+@pytest.mark.skipif(lmp.ON_HOST, reason="of 29Sep2021")
+def test_older_host(folder):
     """29Sep2021. Its effective modulus is E/(2 (1 - nu)), where ours is E/(2 (1 - nu^2)),
     and its NULL for kt means something else. Its dmt limits friction by a number that it
     never sets, and its jkr lets go before it should, inside of touch: both are left out."""
@@ -274,29 +283,11 @@ def older_host(checks, folder):
             "mindlin_rescale": "hertz 5e4 40 tangential mindlin_rescale 2e4 0.6 0.4",
             "mindlin_rescale/force": "hertz 5e4 40 tangential mindlin_rescale/force 2e4 0.6 0.4",
             "twisting sds": f"hertz 5e4 40 {SLIDE} twisting sds 50 0.4 0.02"}.items():
-        compare(checks, folder, f"29Sep2021, {name}", f"{law} mesh floor.stl",
+        compare(folder, f"29Sep2021, {name}", f"{law} mesh floor.stl",
                 law.replace(" 1e5 ", f" {1e5 / (1 + nu):.17g} ") + " zplane 0.0 NULL")
 
 
-def main():
-    checks, folder = lmp.Checks(), lmp.scratch()
-    stl.write(folder / "floor.stl", stl.sheet(40, lambda i, j: (i - 20, j - 20, 0)))
-    if sys.argv[1:] != ["host"]:
-        older_host(checks, folder)
-        checks.done(folder)
-    if not lmp.TEST_HOST:
-        print("SKIPPED: no LAMMPS 4Jul2026 (tests/lammps/hosts/build_host.sh)")
-        sys.exit(77)
-    load = f"plugin load {lmp.TEST_HOST_PLUGIN}"
-    lmp.LMP = lmp.TEST_HOST
+@lmp.of_host
+def test_laws(folder):
     for name, (ours, hosts) in laws().items():
-        compare(checks, folder, name, f"{ours} mesh floor.stl", f"{hosts} zplane 0.0 NULL", load)
-    heat(checks, folder, load)
-    heat_of_a_compute(checks, folder, load)
-    steady_heat(checks, folder, load)
-    host_defects(checks, folder, load)
-    checks.done(folder)
-
-
-if __name__ == "__main__":
-    main()
+        compare(folder, name, f"{ours} mesh floor.stl", f"{hosts} zplane 0.0 NULL")

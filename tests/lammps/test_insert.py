@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 LSDCD contributors
 # SPDX-License-Identifier: GPL-2.0-only
 
@@ -13,11 +12,11 @@ usage: test_insert.py [host] [PART ...]: under the LAMMPS of hosts/build_host.sh
 import math
 import re
 import resource
-import sys
 
 import lmp
 import stl
-from test_loads import read_vtp
+import vtp
+from facts import at_most, fact
 
 RATE, DENSITY, SPEED = 0.05, 2.0, 1.0
 SIZES = {0.1: 0.5, 0.16: 0.3, 0.2: 0.2}    # shares of mass
@@ -68,7 +67,7 @@ create_box      2 box
 INLET = f"fix in all insert/lsdcd mesh inlet.stl move 0.1 -0.1 0 massrate {RATE} {SIZE_WORDS} type 2 vel normal {SPEED} seed 11\n"
 
 
-def check_face(checks, folder):
+def test_face(folder):
     """10 time units through a square of side 1 with normal -z, at z = 2."""
     stl.write(folder / "inlet.stl", stl.quad(*square(0.5, 2, down=True)))
     thermo = "thermo 1\nthermo_style custom step time atoms f_in[1] f_in[2] f_in[3]\nthermo_modify format float %.17g norm no\n"
@@ -77,48 +76,48 @@ def check_face(checks, folder):
     rows = lmp.read_thermo(out)
     # A grain comes when the rate has reached it, and is of the largest size at most.
     behind = [RATE * row[1] - row[4] for row in rows]
-    checks.fact("what is in is the rate times the time to within a grain, in every step",
-                len(rows) == 1251 and rows[-1][5] == 0 and -1e-9 < min(behind) and max(behind) < mass(0.2),
-                f"{min(behind)} {max(behind)} {rows[-1]}")
+    fact("what is in is the rate times the time to within a grain, in every step",
+         len(rows) == 1251 and rows[-1][5] == 0 and -1e-9 < min(behind) and max(behind) < mass(0.2),
+         f"{min(behind)} {max(behind)} {rows[-1]}")
     there = lmp.read_dump(folder / "grains")
     grains = last(there)
-    checks.fact("the fix's sums are those of the grains",
-                len(grains) == rows[-1][3] and abs(sum(g[1] for g in grains.values()) - rows[-1][4]) < 1e-9)
+    fact("the fix's sums are those of the grains",
+         len(grains) == rows[-1][3] and abs(sum(g[1] for g in grains.values()) - rows[-1][4]) < 1e-9)
     # Of n grains, a size has a number about n p with the variance n p (1 - p); 4.5 deviations: 1 in 1e5.
     number = {d: share / mass(d) for d, share in SIZES.items()}
     total, n = sum(number.values()), len(grains)
     off = max(abs(sum(abs(2 * g[0] - d) < 1e-12 for g in grains.values()) - n * p / total) /
               math.sqrt(n * p / total * (1 - p / total)) for d, p in number.items())
-    checks.fact("sizes have their shares of the mass", off < 4.5 and n > 200, f"{off} of {n}")
-    checks.fact("no grain overlaps another", not overlaps(grains), str(overlaps(grains)[:1]))
+    fact("sizes have their shares of the mass", off < 4.5 and n > 200, f"{off} of {n}")
+    fact("no grain overlaps another", not overlaps(grains), str(overlaps(grains)[:1]))
     # In x and y a radius off the edges of the face; the velocity is along its normal.
     wrong = [g for g in grains.values() if max(abs(g[2] - 0.1), abs(g[3] + 0.1)) > 0.5 - g[0] + 1e-7 or g[5:] != [0, 0, -SPEED]]
-    checks.fact("grains come through the face, along its normal", not wrong, str(wrong[:1]))
-    checks.fact("neighbour lists are for the largest grain to come", "ghost atom cutoff = 0.15" in out or
-                "ghost atom cutoff = 0.25" in out)
+    fact("grains come through the face, along its normal", not wrong, str(wrong[:1]))
+    fact("neighbour lists are for the largest grain to come", "ghost atom cutoff = 0.15" in out or
+         "ghost atom cutoff = 0.25" in out)
     for ranks in (2, 4):
         lmp.run_well(text, folder, ranks)
-        checks.fact(f"the same grains, with the same IDs, on {ranks} ranks", lmp.read_dump(folder / "grains") == there)
+        fact(f"the same grains, with the same IDs, on {ranks} ranks", lmp.read_dump(folder / "grains") == there)
     lmp.run_well(FACE + INLET + "run 586\nwrite_restart half.restart\n", folder)
     lmp.run_well(START + "read_restart half.restart\n" + END + "timestep 0.008\n" + INLET + DUMP.format(1250) + "run 664\n",
                  folder, 2)
-    checks.fact("after a restart in the middle the same grains, to the last bit",
-                last(lmp.read_dump(folder / "grains")) == grains)
+    fact("after a restart in the middle the same grains, to the last bit",
+         last(lmp.read_dump(folder / "grains")) == grains)
     lmp.run_well(FACE + INLET + DUMP.format(1250) + "run 250\nrun 336\nrun 664\n", folder)
-    checks.fact("in three runs the same", last(lmp.read_dump(folder / "grains")) == grains)
+    fact("in three runs the same", last(lmp.read_dump(folder / "grains")) == grains)
     rows = lmp.read_thermo(lmp.run_well(FACE + INLET + thermo + "fix dt all dt/reset 50 0.001 0.01 0.004 units box\nrun 500\n",
                                         folder))
     behind = [RATE * row[1] - row[4] for row in rows]
-    checks.fact("with a timestep that changes in the run it follows the time, too", 1.5 < rows[-1][1] < 3 and
-                -1e-9 < min(behind) and max(behind) < mass(0.2), f"{min(behind)} {max(behind)} {rows[-1]}")
+    fact("with a timestep that changes in the run it follows the time, too", 1.5 < rows[-1][1] < 3 and
+         -1e-9 < min(behind) and max(behind) < mass(0.2), f"{min(behind)} {max(behind)} {rows[-1]}")
 
 
-def check_radii(checks, folder):
+def test_radii(folder):
     """LAMMPS makes neighbour lists for grains that come into an empty box."""
     text = FACE.replace("zero 0.1", "gran/hooke 100 NULL 1 NULL 0 0") + INLET + "run 1\n"
     out = lmp.run_well(text, folder)
-    checks.fact("a granular pair style knows the largest radius before the first grain is there",
-                "ghost atom cutoff = 0.25" in out)
+    fact("a granular pair style knows the largest radius before the first grain is there",
+         "ghost atom cutoff = 0.25" in out)
 
 
 TILTED = START + """\
@@ -129,7 +128,7 @@ create_box      1 box
 EDGES = ((2, 0, 0), (0.7, 1.5, 0), (0.3, -0.4, 1.2))
 
 
-def check_periodic(checks, folder):
+def test_periodic(folder):
     """A region in a tilted periodic box, filled at once and dense enough that faces matter."""
     text = TILTED + "region fill block INF INF INF INF INF INF units box\n" + \
         "fix in all insert/lsdcd region fill number 150 diam range 0.2 0.3 dens 1 3 attempts 2000\n" + \
@@ -137,13 +136,13 @@ def check_periodic(checks, folder):
     lmp.run_well(text, folder)
     there = lmp.read_dump(folder / "grains")
     grains = last(there)
-    checks.fact("a tilted periodic box: no overlap across faces", len(grains) == 150 and not overlaps(grains, EDGES),
-                f"{len(grains)} {overlaps(grains, EDGES)[:1]}")
+    fact("a tilted periodic box: no overlap across faces", len(grains) == 150 and not overlaps(grains, EDGES),
+         f"{len(grains)} {overlaps(grains, EDGES)[:1]}")
     dense = [g[1] / (4 / 3 * math.pi * g[0] ** 3) for g in grains.values()]
-    checks.fact("sizes and densities are in their ranges",
-                all(0.1 <= g[0] <= 0.15 for g in grains.values()) and 1 <= min(dense) < 1.2 and 2.8 < max(dense) <= 3)
+    fact("sizes and densities are in their ranges",
+         all(0.1 <= g[0] <= 0.15 for g in grains.values()) and 1 <= min(dense) < 1.2 and 2.8 < max(dense) <= 3)
     lmp.run_well(text, folder, 4)
-    checks.fact("and the same on 4 ranks", lmp.read_dump(folder / "grains") == there)
+    fact("and the same on 4 ranks", lmp.read_dump(folder / "grains") == there)
 
 
 VESSEL = START + """\
@@ -162,7 +161,7 @@ def write_cube(folder):
     stl.write(folder / "cube.stl", [t for face in faces for t in stl.quad(*face)])
 
 
-def check_wall(checks, folder):
+def test_wall(folder):
     """A cube in a larger region: grains are inside or outside of it, and touch it from neither side."""
     write_cube(folder)
     thermo = "thermo 1\nthermo_style custom step f_in[1] f_in[6] f_wall[7] f_wall[8]\nthermo_modify norm no\n"
@@ -175,15 +174,15 @@ def check_wall(checks, folder):
             x = [abs(g[2] - (0.2 if motion else 0)), abs(g[3]), abs(g[4])]
             out = math.sqrt(sum(max(c - 1, 0) ** 2 for c in x))    # distance from the cube's surface
             gap.append((out if out > 0 else 1 - max(x)) - g[0])
-        checks.fact(f"clear of a wall {name}", rows[-1][1] == 300 and rows[-1][2] > 10 and min(gap) > -1e-9 and
-                    all(row[3] == 0 and row[4] == 0 for row in rows) and min(gap) < 0.02, f"{min(gap)} {rows[-1]}")
-    check_brought(checks, folder)
+        fact(f"clear of a wall {name}", rows[-1][1] == 300 and rows[-1][2] > 10 and min(gap) > -1e-9 and
+             all(row[3] == 0 and row[4] == 0 for row in rows) and min(gap) < 0.02, f"{min(gap)} {rows[-1]}")
+    check_brought(folder)
     rows = lmp.read_thermo(lmp.run_well(VESSEL + f"fix wall all wall/lsdcd {WALL} mesh cube.stl\n" + FILL + "wall none\n" +
                                         thermo + "run 2\n", folder))
-    checks.fact("wall none leaves it out of sight", rows[-1][3] > 0, str(rows[-1]))
+    fact("wall none leaves it out of sight", rows[-1][3] > 0, str(rows[-1]))
 
 
-def check_brought(checks, folder):
+def check_brought(folder):
     """The cube again, which comes from afar and goes on while there are grains: by atoms that are its nodes, and as a heavy body."""
     corners = "".join(f"create_atoms 2 single {x} {y} {z} units box\n" for x in (-7, -5) for y in (-1, 1) for z in (-1, 1))
     text = VESSEL.replace("block -2 2", "block -8 2").replace("create_box      1", "create_box      2") + corners + \
@@ -202,7 +201,7 @@ def check_brought(checks, folder):
                 gap.append((out if out > 0 else 1 - max(x)) - grains[tag][0])
             seen |= grains.keys()
         # Grains that it hits push the body of 8e9 by less than 1e-9.
-        checks.fact(f"clear of a wall {name}", len(gap) > 40 and -2e-9 < min(gap) < 0.03, f"{len(gap)} {min(gap)}")
+        fact(f"clear of a wall {name}", len(gap) > 40 and -2e-9 < min(gap) < 0.03, f"{len(gap)} {min(gap)}")
 
 
 def from_triangle(x, corners):
@@ -221,7 +220,7 @@ def from_triangle(x, corners):
     return min(math.dist(x, [p + s * q for p, q in zip(a, e)]) for s, (a, e) in zip(shares, edges))
 
 
-def check_worn(checks, folder):
+def test_worn(folder):
     """A sheet that a ball wears down while grains come from below, at rest: clear of the shape that it has then."""
     stl.write(folder / "sheet.stl", stl.sheet(6, lambda i, j: (i / 3 - 1, j / 3 - 1, 0)))
     lmp.run_well(VESSEL.replace("fix             move all nve/sphere\n", "").replace("timestep 0.01", "timestep 0.001") + """\
@@ -245,16 +244,17 @@ fix in all insert/lsdcd region below numberrate 100 diam one 0.1 dens 1 seed 3
         seen |= new
         if not new:
             continue
-        worn = read_vtp(folder / f"worn_{step}.vtp")
+        worn = vtp.read(folder / f"worn_{step}.vtp")
         points = [worn["points"][3 * k:3 * k + 3] for k in worn["connectivity"]]
         lowest = min(z for _, _, z in points)
         for tag in new:
             gap.append(min(from_triangle(grains[tag][2:5], points[k:k + 3]) for k in range(0, len(points), 3)) - grains[tag][0])
-    checks.fact("clear of a wall that wear has moved", len(gap) > 20 and lowest < -0.1 and -1e-9 < min(gap) < 0.05,
-                f"{len(gap)} {lowest} {min(gap)}")
+    fact("clear of a wall that wear has moved", len(gap) > 20 and lowest < -0.1 and -1e-9 < min(gap) < 0.05,
+         f"{len(gap)} {lowest} {min(gap)}")
 
 
-def check_kokkos(checks, folder):
+@lmp.of_kokkos
+def test_kokkos(folder):
     """Beside wall/lsdcd/kk and without Kokkos in the same LAMMPS. Grains keep clear of a cube that moves, and are put
     across a plane at z = 0.3, which must push them at once."""
     write_cube(folder)
@@ -274,7 +274,7 @@ def check_kokkos(checks, folder):
     for ranks in (1, 2):
         kokkos = grains_of(text.replace("wall/lsdcd", "wall/lsdcd/kk"), ranks)
         # Kokkos's integrator may round in its own way: 1e-16 a step.
-        checks.at_most(f"the same grains on {ranks} ranks with Kokkos", lmp.largest_difference(plain, kokkos), 1e-13)
+        at_most(f"the same grains on {ranks} ranks with Kokkos", lmp.largest_difference(plain, kokkos), 1e-13)
     seen, fresh, wrong = set(), 0, []
     for step, grains in kokkos.items():
         for i, g in grains.items():
@@ -282,11 +282,11 @@ def check_kokkos(checks, folder):
             fresh += touches and i not in seen
             wrong += [(step, i)] * (touches != (g[8] > 0))
         seen.update(grains)
-    checks.fact("a grain is felt by a wall in the step in which it comes", fresh > 10 and not wrong,
-                f"{fresh} {wrong[:3]}")
+    fact("a grain is felt by a wall in the step in which it comes", fresh > 10 and not wrong,
+         f"{fresh} {wrong[:3]}")
 
 
-def check_debt(checks, folder):
+def test_debt(folder):
     """A region with room for few grains: what finds no place stays due, and comes when there is room."""
     fill = "fix in all insert/lsdcd region fill number 40 diam one 0.9 dens 1 {}\n"
     row = 'print "row $(f_in[1]) $(f_in[2]) $(f_in[3]) $(f_in[4])"\n'
@@ -295,19 +295,19 @@ def check_debt(checks, folder):
     out = lmp.run_well(text + fill.format("vel 0.02 0.01 0") + more, folder)
     rows = [[float(w) for w in line.split()[1:]] for line in out.split("\n") if line.startswith("row ")]
     one = math.pi / 6 * 0.9 ** 3
-    checks.fact("inserted and owed are what is due", len(rows) == 2 and rows[0][2] > 5 and all(
+    fact("inserted and owed are what is due", len(rows) == 2 and rows[0][2] > 5 and all(
         row[0] + row[2] == 40 and abs(row[1] + row[3] - 40 * one) < 1e-3 for row in rows), str(rows))
-    checks.fact("what was owed comes when there is room", rows[1][0] > rows[0][0], str(rows))
-    checks.fact("the log says why", "21 grains of mass 8.01577 are due and have found no place; of " in out and " met grains" in out and
-                re.search(r"at the end, \d+ grains of mass \S+ are due and have found no place", out) is not None)
+    fact("what was owed comes when there is room", rows[1][0] > rows[0][0], str(rows))
+    fact("the log says why", "21 grains of mass 8.01577 are due and have found no place; of " in out and " met grains" in out and
+         re.search(r"at the end, \d+ grains of mass \S+ are due and have found no place", out) is not None)
     fill = fill.replace("one 0.9", "range 0.6 0.9")
     lmp.run_well(text + fill.format("attempts 3") + DUMP.format(100) + "run 100\n", folder)
     whole = last(lmp.read_dump(folder / "grains"))
     lmp.run_well(text + fill.format("attempts 3") + "run 33\nwrite_restart owed.restart\n", folder)
     lmp.run_well(START + "read_restart owed.restart\n" + END + VESSEL.split(END)[1] + fill.format("attempts 3") +
                  DUMP.format(100) + "run 67\n", folder, 2)
-    checks.fact("a restart with owed grains gives the same", last(lmp.read_dump(folder / "grains")) == whole and
-                len(whole) < 40, str(len(whole)))
+    fact("a restart with owed grains gives the same", last(lmp.read_dump(folder / "grains")) == whole and
+         len(whole) < 40, str(len(whole)))
 
 
 STREAM = """\
@@ -320,7 +320,7 @@ fix             in all insert/lsdcd region v dens 2 {}
 """
 
 
-def check_other_plan(checks, folder):
+def test_other_plan(folder):
     """After 2 time units with 20 grains, or 40, a restart with other words or other steps; then 1 time unit, which brings
     20 grains at the rate of 20."""
     one = math.pi / 6 * 0.2 ** 3 * 2
@@ -345,14 +345,14 @@ def check_other_plan(checks, folder):
             wanted.append((f"{name}, after a restart {other}", count))
     out = lmp.run_well(text, folder)
     rows = [line.split()[1:] for line in out.split("\n") if line.startswith("row ")]
-    checks.fact("all restarts run", len(rows) == len(wanted), f"{len(rows)} of {len(wanted)}")
+    fact("all restarts run", len(rows) == len(wanted), f"{len(rows)} of {len(wanted)}")
     for (name, count), row in zip(wanted, rows):
-        checks.fact(name, [float(w) for w in row] == [count, 0], f"{row}, {count}")
-    checks.fact("a total below what is in is warned of", "20 grains of mass 0.167552 have been inserted, which is more than the total "
-                "of this fix: it inserts no more" in out)
+        fact(name, [float(w) for w in row] == [count, 0], f"{row}, {count}")
+    fact("a total below what is in is warned of", "20 grains of mass 0.167552 have been inserted, which is more than the total "
+         "of this fix: it inserts no more" in out)
 
 
-def check_recovers(checks, folder):
+def test_recovers(folder):
     """What is in the inlet at the start keeps grains out for ten steps. They come when it is gone, at a rate that is
     a third of what the inlet takes; above that the log has a remedy."""
     stl.write(folder / "unit.stl", stl.quad((0, 0, 0), (0, 1, 0), (1, 1, 0), (1, 0, 0)))
@@ -363,28 +363,28 @@ def check_recovers(checks, folder):
         "fix in all insert/lsdcd mesh unit.stl numberrate {} diam one 0.2 dens 2 vel normal 5\nthermo 10\n" + \
         "thermo_style custom step f_in[1] f_in[3]\nthermo_modify norm no\n"
     rows = lmp.read_thermo(lmp.run_well(text.format(150) + DUMP.format(200) + "run 200\n", folder))
-    checks.fact("a fast inlet recovers from grains without a place", len(rows) == 21 and
-                all(row[1:] == [1.5 * row[0], 0] for row in rows[2:]), str(rows[2:4] + rows[-1:]))
+    fact("a fast inlet recovers from grains without a place", len(rows) == 21 and
+         all(row[1:] == [1.5 * row[0], 0] for row in rows[2:]), str(rows[2:4] + rows[-1:]))
     there = lmp.read_dump(folder / "grains")
-    checks.fact("none overlaps", not overlaps(last(there)))
+    fact("none overlaps", not overlaps(last(there)))
     for ranks in (2, 4):
         lmp.run_well(text.format(150) + DUMP.format(200) + "run 200\n", folder, ranks)
-        checks.fact(f"the same grains, with the same IDs, on {ranks} ranks", lmp.read_dump(folder / "grains") == there)
+        fact(f"the same grains, with the same IDs, on {ranks} ranks", lmp.read_dump(folder / "grains") == there)
     wall = f"fix wall all wall/lsdcd {WALL} mesh unit.stl\n"
     out = lmp.run_well(text.format(1500) + "run 30\nclear\n" + text.replace(spots, "").format(150) +
                        wall.replace("unit.stl", "unit.stl motion linear 0 0 -1e-9") + "run 3\n", folder)
-    checks.fact("where the rate is too high the log says so", " grains. Grains are in the way, because they leave more slowly "
-                "than the rate brings others: give a larger mesh, more depth, a higher velocity or a smaller rate. A little can "
-                "also be gained by more attempts than " in out)
-    checks.fact("where a wall that moves is in the way, too",
-                "Walls are in the way: move the mesh away from them, or name by wall ID" in out)
+    fact("where the rate is too high the log says so", " grains. Grains are in the way, because they leave more slowly "
+         "than the rate brings others: give a larger mesh, more depth, a higher velocity or a smaller rate. A little can "
+         "also be gained by more attempts than " in out)
+    fact("where a wall that moves is in the way, too",
+         "Walls are in the way: move the mesh away from them, or name by wall ID" in out)
     fails = lmp.run(text.replace(spots, "").format(150) + wall + "run 3\n", folder, 2)
-    checks.fact("a grain that fits nowhere beside a wall at rest is an error", fails.returncode != 0 and
-                "of 100000 places on unit.stl none is clear of the walls for a grain of diameter 0.2, even without other grains, "
-                "so that it would hold back all that come after it: give smaller grains in 'diam'" in fails.stdout)
+    fact("a grain that fits nowhere beside a wall at rest is an error", fails.returncode != 0 and
+         "of 100000 places on unit.stl none is clear of the walls for a grain of diameter 0.2, even without other grains, "
+         "so that it would hold back all that come after it: give smaller grains in 'diam'" in fails.stdout)
 
 
-def check_huge(checks, folder):
+def test_huge(folder):
     """1e9 grains are due at once, of which some 2000 have room, in 1.5 GB of addresses."""
     text = START + "boundary f f f\nregion box block -3 3 -3 3 -20 3 units box\ncreate_box 1 box\n" + \
         STREAM.format("number 1000000000 diam one 0.2") + 'run 3\nprint "row $(f_in[1]+f_in[3]) $(f_in[1])"\n'
@@ -393,42 +393,15 @@ def check_huge(checks, folder):
     out = lmp.run(text, folder).stdout
     resource.setrlimit(resource.RLIMIT_AS, before)
     row = [line.split()[1:] for line in out.split("\n") if line.startswith("row ")]
-    checks.fact("a huge amount needs no huge memory", row and row[0][0] == "1000000000" and float(row[0][1]) > 1000, str(row))
-    checks.fact("what does not fit in is told with a remedy", "They do not fit in: give a larger region, fewer or smaller grains, "
-                "or more attempts than 100 for each grain" in out)
+    fact("a huge amount needs no huge memory", row and row[0][0] == "1000000000" and float(row[0][1]) > 1000, str(row))
+    fact("what does not fit in is told with a remedy", "They do not fit in: give a larger region, fewer or smaller grains, "
+         "or more attempts than 100 for each grain" in out)
 
 
-def check_ends(checks, folder):
+def test_ends(folder):
     """The fix comes and goes with the one that tells its radius."""
     again = INLET.replace("fix in ", "fix two ").replace("seed 11", "seed 12")
     out = lmp.run_well(FACE + INLET + again + "run 100\ninfo fixes\nunfix in\nrun 10\n" + INLET + "run 100\ninfo fixes\n"
                        "plugin unload fix insert/lsdcd\ninfo fixes\nrun 10\n", folder)
     counts = [part.split("Loop time")[0].count("= pour") for part in out.split("Fix information:")[1:]]
-    checks.fact("it leaves nothing behind", counts == [2, 2, 0], str(counts))
-
-
-def on_host():
-    if not lmp.TEST_HOST:
-        print("SKIPPED: no LAMMPS of hosts/build_host.sh (LSDCD_TEST_HOST)")
-        sys.exit(77)
-    run = lmp.run
-    lmp.LMP = lmp.TEST_HOST
-    lmp.run = lambda script, *args, **words: run(f"plugin load {lmp.TEST_HOST_PLUGIN}\n" + script, *args, **words)
-
-
-def main():
-    if "host" in sys.argv[1:]:
-        on_host()
-    checks, folder = lmp.Checks(), lmp.scratch()
-    parts = (check_face, check_radii, check_periodic, check_wall, check_worn, check_debt, check_other_plan, check_recovers, check_huge,
-             check_ends)
-    parts += lmp.ON_KOKKOS * (check_kokkos,)
-    names = [word for word in sys.argv[1:] if word != "host"]
-    for part in parts:
-        if part.__name__ in (names or [p.__name__ for p in parts]):
-            part(checks, folder)
-    checks.done(folder)
-
-
-if __name__ == "__main__":
-    main()
+    fact("it leaves nothing behind", counts == [2, 2, 0], str(counts))

@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 LSDCD contributors
 # SPDX-License-Identifier: GPL-2.0-only
 
@@ -11,10 +10,12 @@ operation and step.
 
 import re
 import subprocess
-import sys
+
+import pytest
 
 import lmp
 import scene
+from facts import at_most, fact
 import test_body
 
 HISTORY = "hooke/history 1e4 NULL 120 NULL 0.4 1"
@@ -38,6 +39,17 @@ run             400
 """
 
 
+pytestmark = lmp.needs_host
+# These do not depend on how atoms move, and mix in fixes that move them over the host.
+NOT_ON_DEVICE = pytest.mark.skipif(lmp.DEVICE_MOVES, reason="with fixes that move atoms over the host")
+
+
+@pytest.fixture(scope="module")
+def folder(folder):
+    scene.write_floor(folder / "floor.stl")
+    return folder
+
+
 def go(folder, flags, text, ranks=1, name="moves"):
     output = lmp.run_well(text, folder, ranks, host=True, flags=flags)
     return lmp.read_dump(folder / name), output
@@ -45,86 +57,88 @@ def go(folder, flags, text, ranks=1, name="moves"):
 
 def plain_among_kokkos(text):
     """The other fixes are those of Kokkos, so that atoms are where Kokkos has them."""
-    return re.sub(r"^(fix +(?:wall|sides|sides2|lid) .*)$", r"suffix off\n\1\nsuffix on", text,
+    return re.sub(r"^(fix +wall .*)$", r"suffix off\n\1\nsuffix on", text,
                   flags=re.M)
 
 
-def single_contacts(checks, folder):
-    (folder / "floor.stl").write_bytes((lmp.HERE / "scripts" / "floor.stl").read_bytes())
+def test_single_contacts(folder):
+    (folder / "flat.stl").write_bytes((lmp.HERE / "scripts" / "floor.stl").read_bytes())
     path = lmp.HERE / "scripts" / "in.one_sphere"
     for name, law in LAWS.items():
         dumps = []
-        for flags in (PLAIN, lmp.KOKKOS):
+        for flags in (PLAIN, lmp.FLAGS):
             lmp.run_well(path, folder, host=True, flags=flags, unit="lj", kick=1, dt=1e-4,
-                         steps=1000, style="verlet", wall=f"wall/lsdcd {law} mesh floor.stl",
+                         steps=1000, style="verlet", wall=f"wall/lsdcd {law} mesh flat.stl",
                          out="one")
             dumps.append(lmp.read_dump(folder / "one"))
         touched = sum(abs(row[1][11]) > 0 for row in dumps[0].values())
-        checks.fact(f"{name}: the sphere touches the floor", touched > 20, f"{touched} steps")
-        checks.at_most(f"{name}: every step as the plain fix", lmp.largest_difference(*dumps), 1e-12)
+        fact(f"{name}: the sphere touches the floor", touched > 20, f"{touched} steps")
+        at_most(f"{name}: every step as the plain fix", lmp.largest_difference(*dumps), 1e-12)
 
 
-def forms(checks, folder):
+@NOT_ON_DEVICE
+def test_forms(folder):
     body = scene.CREATE + scene.forces(HISTORY) + scene.dump("moves", 100) + "run 1000\n"
     plain, _ = go(folder, PLAIN, body)
     touching = sum(row[9] > 0 for row in plain[1000].values())
-    checks.fact("spheres touch the floor", touching > 20, str(touching))
+    fact("spheres touch the floor", touching > 20, str(touching))
     by_name = body.replace("pair_style", "suffix off\npair_style")
     for style in ("kk", "kk/device", "kk/host"):
-        named, _ = go(folder, lmp.KOKKOS, by_name.replace("wall/lsdcd", f"wall/lsdcd/{style}"))
-        checks.at_most(f"wall/lsdcd/{style}, by name", lmp.largest_difference(plain, named), 1e-9)
-    host, _ = go(folder, lmp.KOKKOS, by_name)
-    checks.at_most("the plain fix beside Kokkos", lmp.largest_difference(plain, host), 1e-9)
-    between, _ = go(folder, lmp.KOKKOS, plain_among_kokkos(body))
-    checks.at_most("the plain fix among fixes of Kokkos", lmp.largest_difference(plain, between), 1e-9)
+        named, _ = go(folder, lmp.FLAGS, by_name.replace("wall/lsdcd", f"wall/lsdcd/{style}"))
+        at_most(f"wall/lsdcd/{style}, by name", lmp.largest_difference(plain, named), 1e-9)
+    host, _ = go(folder, lmp.FLAGS, by_name)
+    at_most("the plain fix beside Kokkos", lmp.largest_difference(plain, host), 1e-9)
+    between, _ = go(folder, lmp.FLAGS, plain_among_kokkos(body))
+    at_most("the plain fix among fixes of Kokkos", lmp.largest_difference(plain, between), 1e-9)
 
 
-def lists(checks, folder):
+def test_lists(folder):
     body = scene.CREATE + scene.forces(HISTORY) + scene.dump("moves", 100) + "run 1000\n"
     rare = body.replace("neigh_modify    delay 0 every 1", "neigh_modify    delay 0 every 2")
     for name, text in (("every step checked", body), ("every other step checked", rare)):
         plain, plain_output = go(folder, PLAIN, text)
-        kokkos, output = go(folder, lmp.KOKKOS, text)
-        checks.at_most(f"{name}: as the plain fix", lmp.largest_difference(plain, kokkos), 1e-9)
+        kokkos, output = go(folder, lmp.FLAGS, text)
+        at_most(f"{name}: as the plain fix", lmp.largest_difference(plain, kokkos), 1e-9)
         if lmp.DEVICE_MOVES:
-            checks.fact(f"{name}: atoms move on the device", "switching to legacy" not in output)
+            fact(f"{name}: atoms move on the device", "switching to legacy" not in output)
         for form, said in (("plain", plain_output), ("kk", output)):
             found = re.search(r": (\d+) steps and the setup: atoms near the wall chosen (\d+) times?(.*), "
                               r"wall neighbor lists made (\d+) times?, (\S+) mesh features each", said)
             steps, chosen, made = (int(found.group(k)) for k in (1, 2, 4))
-            checks.fact(f"{name}, {form}: near atoms are kept from step to step",
-                        chosen < steps / 5, found.group(0))
-            checks.fact(f"{name}, {form}: and so are lists of the wall",
-                        0 < made < steps * 100, found.group(0))
-            checks.fact(f"{name}, {form}: the log says what would save looking at all atoms",
-                        ("check yes saves looking" in found.group(3)) == (text is rare),
-                        found.group(0))
+            fact(f"{name}, {form}: near atoms are kept from step to step",
+                 chosen < steps / 5, found.group(0))
+            fact(f"{name}, {form}: and so are lists of the wall",
+                 0 < made < steps * 100, found.group(0))
+            fact(f"{name}, {form}: the log says what would save looking at all atoms",
+                 ("check yes saves looking" in found.group(3)) == (text is rare),
+                 found.group(0))
 
 
-def forces_set_before(checks, folder):
+def test_forces_set_before(folder):
     """By a fix before the wall in the script: the wall's forces are not among those that it replaces."""
     body = scene.CREATE + scene.forces(HISTORY) + scene.dump("moves", 100) + "run 600\n"
     body = re.sub(r"(?=^fix +wall )", "fix pushes all setforce 0.0 0.0 -4.0\n", body, flags=re.M)
     plain, _ = go(folder, PLAIN, body)
-    kokkos, _ = go(folder, lmp.KOKKOS, body)
+    kokkos, _ = go(folder, lmp.FLAGS, body)
     pushed = sum(row[9] > 0 for row in plain[600].values())
-    checks.fact("spheres are pushed onto the floor", pushed > 20, str(pushed))
-    checks.at_most("forces set before the wall: as the plain fix", lmp.largest_difference(plain, kokkos),
-                   1e-9)
+    fact("spheres are pushed onto the floor", pushed > 20, str(pushed))
+    at_most("forces set before the wall: as the plain fix", lmp.largest_difference(plain, kokkos),
+            1e-9)
 
 
-def atoms_that_come_and_go(checks, folder):
+def test_atoms_that_come_and_go(folder):
     body = (scene.CREATE + scene.forces(HISTORY) + scene.dump("moves", 50) + "run 600\n" + TAKEN_OUT)
     for ranks in (1, 2):
         plain, _ = go(folder, PLAIN, body, ranks)
-        kokkos, _ = go(folder, lmp.KOKKOS, body, ranks)
+        kokkos, _ = go(folder, lmp.FLAGS, body, ranks)
         counts = {len(rows) for rows in plain.values()}
-        checks.fact(f"{ranks} ranks: atoms leave and come", len(counts) > 2, str(counts))
-        checks.at_most(f"{ranks} ranks: deleted and created atoms: as the plain fix",
-                       lmp.largest_difference(plain, kokkos), 1e-9)
+        fact(f"{ranks} ranks: atoms leave and come", len(counts) > 2, str(counts))
+        at_most(f"{ranks} ranks: deleted and created atoms: as the plain fix",
+                lmp.largest_difference(plain, kokkos), 1e-9)
 
 
-def bodies(checks, folder):
+@NOT_ON_DEVICE
+def test_bodies(folder):
     """A flap on a hinge and a free cube with a coat, which spheres push: they move as with the plain fix."""
     test_body.box(folder / "flap.stl", (2.0, -4.0, 0.4), (2.2, 4.0, 3.0), 3)
     test_body.box(folder / "cube.stl", (-3.0, -3.0, 0.6), (-2.0, -2.0, 1.6))
@@ -135,20 +149,21 @@ def bodies(checks, folder):
             f'fix out all print 100 "$(step) {shown}" file out.txt screen no\nrun 1000\n')
     for ranks in (1, 2):
         moves, rows = [], []
-        for flags, script in ((lmp.KOKKOS, plain_among_kokkos(text)), (lmp.KOKKOS, text)):
+        for flags, script in ((lmp.FLAGS, plain_among_kokkos(text)), (lmp.FLAGS, text)):
             moves.append(go(folder, flags, script, ranks)[0])
             rows.append(test_body.rows_of(folder / "out.txt"))
-        checks.at_most(f"bodies, {ranks} ranks: spheres as with the plain fix", lmp.largest_difference(*moves), 1e-9)
+        at_most(f"bodies, {ranks} ranks: spheres as with the plain fix", lmp.largest_difference(*moves), 1e-9)
         sizes = [max(1e-9, *(abs(r[k]) for r in rows[0])) for k in range(len(rows[0][0]))]
-        checks.at_most(f"bodies, {ranks} ranks: bodies as with the plain fix",
-                       max(abs(a - b) / s for p, q in zip(*rows) for a, b, s in zip(p, q, sizes)), 1e-9)
+        at_most(f"bodies, {ranks} ranks: bodies as with the plain fix",
+                max(abs(a - b) / s for p, q in zip(*rows) for a, b, s in zip(p, q, sizes)), 1e-9)
         last, n = rows[0][-1], test_body.ENERGY
-        checks.fact(f"bodies, {ranks} ranks: the flap swings and the cube turns",
-                    abs(last[test_body.COORDINATE]) > 0.01 and abs(last[n + test_body.OMEGA]) > 1e-3,
-                    f"{last[test_body.COORDINATE]} {last[n + test_body.OMEGA]}")
+        fact(f"bodies, {ranks} ranks: the flap swings and the cube turns",
+             abs(last[test_body.COORDINATE]) > 0.01 and abs(last[n + test_body.OMEGA]) > 1e-3,
+             f"{last[test_body.COORDINATE]} {last[n + test_body.OMEGA]}")
 
 
-def a_bed(checks, folder):
+@NOT_ON_DEVICE
+def test_a_bed(folder):
     """1000 spheres that touch each other, too: neighbouring paths part, whatever rounds."""
     start = re.sub(r"lattice .*", "lattice sc 1.9", scene.CREATE)
     start = re.sub(r"region +fill .*", "region fill block -5 5 -5 5 1.0 7.5 units box", start)
@@ -158,30 +173,31 @@ def a_bed(checks, folder):
     count = int(re.search(r"Created (\d+) atoms", output).group(1))
     body = (scene.SETTINGS + "read_data start.data\n" + scene.forces(HISTORY, pair=True) +
             scene.dump("moves", 50) + "run 600\n")
-    checks.fact("a bed of a thousand", count >= 1000, str(count))
+    fact("a bed of a thousand", count >= 1000, str(count))
     # Kokkos's integrator rounds in its own way: it moves the spheres of all three.
-    one, _ = go(folder, lmp.KOKKOS, plain_among_kokkos(body))
-    two, _ = go(folder, lmp.KOKKOS, plain_among_kokkos(body), 2)
-    kokkos, _ = go(folder, lmp.KOKKOS, body)
+    one, _ = go(folder, lmp.FLAGS, plain_among_kokkos(body))
+    two, _ = go(folder, lmp.FLAGS, plain_among_kokkos(body), 2)
+    kokkos, _ = go(folder, lmp.FLAGS, body)
     apart = {}
     for name, other in (("ranks", two), ("kokkos", kokkos)):
         apart[name] = max(lmp.largest_difference({s: one[s]}, {s: other[s]}) for s in one)
-    checks.at_most("a bed parts from the plain fix's no faster than on 2 ranks",
-                   apart["kokkos"], 10 * max(apart["ranks"], 1e-12))
+    at_most("a bed parts from the plain fix's no faster than on 2 ranks",
+            apart["kokkos"], 10 * max(apart["ranks"], 1e-12))
 
 
-def refusals(checks, folder):
+@NOT_ON_DEVICE
+def test_refusals(folder):
     short = scene.CREATE + scene.forces(HISTORY) + "run 1\n"
     for name, flags, text, words in (
             ("without -k on", (), short.replace("wall/lsdcd", "wall/lsdcd/kk"), "start it with -k on"),
-            ("keyword device", lmp.KOKKOS, short.replace("contacts", "device cpu"),
+            ("keyword device", lmp.FLAGS, short.replace("contacts", "device cpu"),
              "the keyword device has no meaning")):
         done = lmp.run(text, folder, host=True, flags=flags)
-        checks.fact(f"{name}: an error that says so", done.returncode and words in done.stdout,
-                    "" if words in done.stdout else done.stdout[-400:])
+        fact(f"{name}: an error that says so", done.returncode and words in done.stdout,
+             "" if words in done.stdout else done.stdout[-400:])
 
     # A host that says its Kokkos is another: one whose library can be stood before.
-    linked = subprocess.run(["ldd", lmp.KOKKOS_HOST], stdout=subprocess.PIPE, text=True).stdout
+    linked = subprocess.run(["ldd", lmp.HOST], stdout=subprocess.PIPE, text=True).stdout
     if "liblammps" not in linked:
         print("SKIPPED: hosts that say their Kokkos is another (this one has no liblammps.so)")
         return
@@ -192,8 +208,8 @@ def refusals(checks, folder):
         source.write_text(code)
         subprocess.run([lmp.CXX, "-shared", "-fPIC", "-o", other, source], check=True)
         said = lmp.run(short, folder, host=True, env={"LD_PRELOAD": str(other)})
-        checks.fact(f"another {name} of Kokkos: not loaded, and says why", said.returncode and words in said.stdout,
-                    "" if words in said.stdout else said.stdout[:400])
+        fact(f"another {name} of Kokkos: not loaded, and says why", said.returncode and words in said.stdout,
+             "" if words in said.stdout else said.stdout[:400])
         return said.stdout
 
     backend = "serial"    # of the plugin, which it says first
@@ -210,26 +226,3 @@ def refusals(checks, folder):
     if has_layouts:    # Kokkos says its version from 3.6 on
         not_loaded("version", '#include <ostream>\nnamespace Kokkos { void print_configuration(std::ostream &out, bool) '
                    '{ out << "  Kokkos Version: 4.3.2\\n"; } }\n', ", this LAMMPS has Kokkos 4.3.2. Rebuild it against this LAMMPS: ")
-
-
-def main():
-    if not lmp.KOKKOS_HOST:
-        print("SKIPPED: no LAMMPS with Kokkos (tests/lammps/hosts/build_host.sh)")
-        sys.exit(77)
-    checks, folder = lmp.Checks(), lmp.scratch()
-    single_contacts(checks, folder)
-    scene.write_floor(folder / "floor.stl")
-    lists(checks, folder)
-    forces_set_before(checks, folder)
-    atoms_that_come_and_go(checks, folder)
-    # These do not depend on how atoms move, and mix in fixes that move them over the host.
-    if not lmp.DEVICE_MOVES:
-        bodies(checks, folder)
-        forms(checks, folder)
-        a_bed(checks, folder)
-        refusals(checks, folder)
-    checks.done(folder)
-
-
-if __name__ == "__main__":
-    main()

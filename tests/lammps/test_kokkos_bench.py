@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 LSDCD contributors
 # SPDX-License-Identifier: GPL-2.0-only
 
@@ -7,12 +6,14 @@ in the order in memory that its name says, and Kokkos's copies are counted."""
 
 import contextlib
 import io
-import pathlib
 import random
 import statistics
 import sys
 
+import pytest
+
 import lmp
+from facts import fact
 
 sys.path.insert(0, str(lmp.HERE.parent.parent / "bench"))
 import kokkos    # noqa: E402
@@ -21,6 +22,7 @@ from kokkos_beds import Bed    # noqa: E402
 from pages import LEFT_OUT, cost, scaling    # noqa: E402
 from rows import facts    # noqa: E402
 
+pytestmark = lmp.needs_host
 ATOMS = 4000
 DUMP = """\
 dump            start all custom 1 {file} id x y z vx vy vz
@@ -39,7 +41,13 @@ def typical_distance(pairs):
     return statistics.median(sum((p - q)**2 for p, q in zip(u[1:4], w[1:4]))**0.5 for u, w in pairs)
 
 
-def states(checks, host, folder, name):
+@pytest.fixture(scope="module")
+def host():
+    return runs.Host(lmp.HOST, lmp.PLUGIN, "-k on -sf kk", "mpirun -np {ranks}")
+
+
+@pytest.mark.parametrize("name", kokkos.CASES)
+def test_states(host, folder, name):
     bed = Bed(name, ATOMS, 1, folder, million=2000)
     runs.prepare(host, bed, folder, settle=80)
     rows = {}
@@ -49,23 +57,23 @@ def states(checks, host, folder, name):
             at = text.index("thermo_style")
             host.run_well(text[:at] + DUMP.format(file="start.dump") + text[at:], folder)
             rows[order, bool(wall)] = memory(folder / "start.dump")
-    checks.fact(f"{name}: as many atoms as asked", len(rows["random", True]) == ATOMS)
+    fact(f"{name}: as many atoms as asked", len(rows["random", True]) == ATOMS)
     first = sorted(rows["random", True])
-    checks.fact(f"{name}: one state, with the wall and without, in both orders",
-                all(sorted(r) == first for r in rows.values()))
+    fact(f"{name}: one state, with the wall and without, in both orders",
+         all(sorted(r) == first for r in rows.values()))
     for order in ("random", "sorted"):
-        checks.fact(f"{name}, {order}: one order with the wall and without",
-                    rows[order, True] == rows[order, False])
+        fact(f"{name}, {order}: one order with the wall and without",
+             rows[order, True] == rows[order, False])
     rng = random.Random(7)
     some = rows["random", True]
     apart = typical_distance([(rng.choice(some), rng.choice(some)) for _ in range(ATOMS)])
     for order, least, most in (("random", 0.9, 1.1), ("sorted", 0.0, 0.4)):
         seen = typical_distance(zip(rows[order, True], rows[order, True][1:])) / apart
-        checks.fact(f"{name}, {order}: neighbours in memory are {least} to {most} as far apart as "
-                    "any two", least <= seen <= most, f"{seen:.2f}")
+        fact(f"{name}, {order}: neighbours in memory are {least} to {most} as far apart as "
+             "any two", least <= seen <= most, f"{seen:.2f}")
 
 
-def rows_of_all(checks, host, folder):
+def test_rows_of_all(host, folder):
     options = kokkos.read_options(
         ["--atoms", str(ATOMS), "--triangles", "2000", "--settle", "80", "--steps", "30",
          "--chunks", "2", "--rounds", "1", "--against", "--copies", "--bodies", "--ranks", "1 2", "--orders",
@@ -73,51 +81,35 @@ def rows_of_all(checks, host, folder):
     with contextlib.redirect_stderr(io.StringIO()):
         rows = kokkos.measure(host, options, folder / "work")
     find = {(r["case"], facts(r)["ranks"]): r for r in rows}
-    checks.fact("rows of each bed, with and without, on 1 and 2 processes", all(
+    fact("rows of each bed, with and without, on 1 and 2 processes", all(
         (case + more, ranks) in find for case in kokkos.CASES.values()
         for more in ("", ", no wall", ", copies", ", no wall, copies") for ranks in "12"))
-    checks.fact("and of the closed box as a body, and of its floor", all(
+    fact("and of the closed box as a body, and of its floor", all(
         ("closed box" + meshes + what, "1") in find for meshes in ("", ", two meshes")
         for what in (", at rest", ", moves", ", body")))
     flat, none = find["flat floor", "1"], find["flat floor, no wall", "1"]
-    checks.fact("as many builds with the wall as without",
-                facts(flat)["builds"] == facts(none)["builds"], facts(flat)["builds"])
-    checks.fact("steps and lists are those of the timed runs", facts(flat)["wall_steps"] == "62" and
-                2 <= int(facts(flat)["lists"]) <= 6, f"{flat['facts']}")
-    checks.fact("LAMMPS's wall is timed on the flat floor", float(find["flat floor, wall/gran", "1"]
-                                                                    ["median_ms"]) > 0)
+    fact("as many builds with the wall as without",
+         facts(flat)["builds"] == facts(none)["builds"], facts(flat)["builds"])
+    fact("steps and lists are those of the timed runs", facts(flat)["wall_steps"] == "62" and
+         2 <= int(facts(flat)["lists"]) <= 6, f"{flat['facts']}")
+    fact("LAMMPS's wall is timed on the flat floor", float(find["flat floor, wall/gran", "1"]
+                                                             ["median_ms"]) > 0)
     there = find["flat floor, wall/gran/kk", "1"]
-    checks.fact("and wall/gran/kk, or a row that says why not",
-                bool(there["median_ms"]) == host.flat_kk or facts(there)["result"] == "aborts")
+    fact("and wall/gran/kk, or a row that says why not",
+         bool(there["median_ms"]) == host.flat_kk or facts(there)["result"] == "aborts")
     copies = facts(find["flat floor, copies", "1"])
-    checks.fact("copies are seen, none of them between host and device",
-                int(copies["seen"]) > 0 and copies["copies"] == "0" and copies["bytes"] == "0",
-                copies["seen"])
-    checks.fact("of every step but those that warm up and the last",
-                int(copies["steps"]) + int(copies["list_steps"]) == 29, copies["steps"])
+    fact("copies are seen, none of them between host and device",
+         int(copies["seen"]) > 0 and copies["copies"] == "0" and copies["bytes"] == "0",
+         copies["seen"])
+    fact("of every step but those that warm up and the last",
+         int(copies["steps"]) + int(copies["list_steps"]) == 29, copies["steps"])
     without = facts(find["flat floor, no wall, copies", "1"])
-    checks.fact("the integrator joins as many steps with the wall as without",
-                copies["fused"] == without["fused"], copies["fused"])
+    fact("the integrator joins as many steps with the wall as without",
+         copies["fused"] == without["fused"], copies["fused"])
     ratio = float(flat["median_ms"]) / float(none["median_ms"])
     table = cost(rows).splitlines()
-    checks.fact("the table has what the wall adds, in per cent", any(f"| {100 * (ratio - 1):.1f} |" in line for line in table), table[2])
-    checks.fact("and a row for each bed that was run, but for those that it leaves out",
-                sum(line.startswith("| CPU") for line in table) == len(kokkos.CASES) - len(LEFT_OUT), str(len(table)))
-    checks.fact("scaling has a row for each bed",
-                scaling(rows).count("\n") == 1 + len(kokkos.CASES))
-
-
-def main():
-    if not lmp.KOKKOS_HOST:
-        print("SKIPPED: no LAMMPS with Kokkos (tests/lammps/hosts/build_host.sh)")
-        sys.exit(77)
-    checks, folder = lmp.Checks(), pathlib.Path(lmp.scratch())
-    host = runs.Host(lmp.KOKKOS_HOST, lmp.KOKKOS_PLUGIN, "-k on -sf kk", "mpirun -np {ranks}")
-    for name in kokkos.CASES:
-        states(checks, host, folder, name)
-    rows_of_all(checks, host, folder)
-    checks.done(folder)
-
-
-if __name__ == "__main__":
-    main()
+    fact("the table has what the wall adds, in per cent", any(f"| {100 * (ratio - 1):.1f} |" in line for line in table), table[2])
+    fact("and a row for each bed that was run, but for those that it leaves out",
+         sum(line.startswith("| CPU") for line in table) == len(kokkos.CASES) - len(LEFT_OUT), str(len(table)))
+    fact("scaling has a row for each bed",
+         scaling(rows).count("\n") == 1 + len(kokkos.CASES))

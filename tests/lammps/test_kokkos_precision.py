@@ -1,10 +1,9 @@
-#!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 LSDCD contributors
 # SPDX-License-Identifier: GPL-2.0-only
 
 """fix wall/lsdcd/kk in a LAMMPS with atoms in float (KOKKOS_PREC mixed or single).
 
-LSDCD_KOKKOS_HOST and LSDCD_KOKKOS_PLUGIN name that LAMMPS and its plugin, LSDCD_DOUBLE_HOST and LSDCD_DOUBLE_PLUGIN
+LSDCD_HOST and LSDCD_HOST_PLUGIN name that LAMMPS and its plugin, LSDCD_DOUBLE_HOST and LSDCD_DOUBLE_PLUGIN
 one with atoms in double. Contacts and forces are computed in double from the positions given, so that
 
 - forces on the same positions are those of the other LAMMPS, but for their own rounding;
@@ -17,18 +16,21 @@ import random
 import re
 import struct
 import subprocess
-import sys
+import pytest
 
 import lmp
 import scene
 import stl
+from facts import at_most, fact
 from test_kokkos import plain_among_kokkos
 
 SPHERES = int(os.environ.get("LSDCD_SPHERES", 400))    # on the same positions
 ROUNDS = 2.0**-24    # what a number loses in float, as a share of it
 DOUBLE = (os.environ.get("LSDCD_DOUBLE_HOST", "") and os.environ["LSDCD_DOUBLE_HOST"] + "/lmp",
           os.environ.get("LSDCD_DOUBLE_PLUGIN", ""))
-FLOAT = (lmp.KOKKOS_HOST, lmp.KOKKOS_PLUGIN)
+FLOAT = (lmp.HOST, lmp.PLUGIN)
+pytestmark = pytest.mark.skipif(not (all(FLOAT) and all(DOUBLE)), reason="no LAMMPS with Kokkos in float beside one in double "
+                                "(tests/lammps/hosts/build_host.sh 20260704 single)")
 HISTORY = "hooke/history 1e4 NULL 120 NULL 0.4 1"
 # A share of the largest value of each column. The plain fix has radii and masses in double, 6e-8 of them apart, and contacts make
 # such differences larger: up to 4e-5 was seen.
@@ -39,17 +41,17 @@ LAWS = {"hooke": "hooke 1e4 NULL 5 NULL 0.5 1", "hooke/history": HISTORY,
 
 def on(host, *args, **kwargs):
     """lmp.run in one of the two hosts."""
-    own, (lmp.KOKKOS_HOST, lmp.KOKKOS_PLUGIN) = (lmp.KOKKOS_HOST, lmp.KOKKOS_PLUGIN), host
+    own, (lmp.HOST, lmp.PLUGIN) = (lmp.HOST, lmp.PLUGIN), host
     try:
         return lmp.run(*args, host=True, **kwargs)
     finally:
-        lmp.KOKKOS_HOST, lmp.KOKKOS_PLUGIN = own
+        lmp.HOST, lmp.PLUGIN = own
 
 
 def on_well(host, text, folder, **kwargs):
     done = on(host, text, folder, **kwargs)
     if done.returncode:
-        sys.exit(f"script failed with {done.returncode}:\n{done.stdout[-4000:]}")
+        raise AssertionError(f"script failed with {done.returncode}:\n{done.stdout[-4000:]}")
     return done.stdout
 
 
@@ -81,7 +83,14 @@ def write_spheres(path, side):
     return 8.0 / side
 
 
-def same_positions(checks, folder):
+@pytest.fixture(scope="module")
+def folder(folder):
+    scene.write_floor(folder / "floor.stl")
+    stl.write(folder / "flat.stl", stl.quad((-4, -4, 0), (4, -4, 0), (4, 4, 0), (-4, 4, 0)))
+    return folder
+
+
+def test_same_positions(folder):
     """Masses are rounded on the way in and forces on the way out: 1.2e-7 where they do not cancel."""
     side = math.isqrt(SPHERES)
     largest = write_spheres(folder / "spheres.data", side)
@@ -102,13 +111,13 @@ run             0
             on_well(host, text, folder)
             dumps.append(lmp.read_dump(folder / "forces"))
         touching = sum(any(row) for row in dumps[0][0].values())
-        checks.fact(f"{name}: most spheres touch", touching > side * side / 2, str(touching))
+        fact(f"{name}: most spheres touch", touching > side * side / 2, str(touching))
         apart = lmp.largest_difference(*dumps)
-        checks.at_most(f"{name}: forces on the same positions as in double", apart, 1e-6)
-        checks.fact(f"{name}: and not to the last bit", apart > 0)
+        at_most(f"{name}: forces on the same positions as in double", apart, 1e-6)
+        fact(f"{name}: and not to the last bit", apart > 0)
 
 
-def as_the_plain_fix(checks, folder):
+def test_as_the_plain_fix(folder):
     """The plain fix adds to the forces in double, which are rounded then; so do we, whatever else moves, sorts and
     exchanges atoms."""
     turning = "mesh floor.stl motion wiggle 0 0 0.05 0.4"
@@ -128,8 +137,8 @@ def as_the_plain_fix(checks, folder):
             on_well(FLOAT, script, folder, ranks=ranks)
             dumps.append(lmp.read_dump(folder / "moves"))
         touching = sum(row[9] > 0 for rows in dumps[0].values() for row in rows.values())
-        checks.fact(f"{name}: spheres touch", touching > 5, str(touching))
-        checks.at_most(f"{name}: as the plain fix in the same LAMMPS", lmp.largest_difference(*dumps), LIMIT)
+        fact(f"{name}: spheres touch", touching > 5, str(touching))
+        at_most(f"{name}: as the plain fix in the same LAMMPS", lmp.largest_difference(*dumps), LIMIT)
 
 
 # A sphere of mass 1 falls on a plane at z = 0, in a box that reaches to 8 from 0. It was put 1e-4 above it.
@@ -154,19 +163,19 @@ print           "speed $(vcm(all,z):%.17g)"
 """
 
 
-def rebound(checks, folder):
+def test_rebound(folder):
     """The sphere leaves the floor as in double. Each of n steps rounds its speed twice, by at most 2^-24, and its height
     of 0.5, by e = 3e-8; over half a period of the contact the latter change the speed by pi e / d of it, with the deepest
     overlap d = v sqrt(m / k) = 0.01."""
     n = 400
     text = ONE_SPHERE.format(speed=1, stiff="1e4", damping=30, dt="1e-4", steps=n)
     speeds = [float(re.findall(r"^speed (\S+)", on_well(host, text, folder), re.M)[-1]) for host in (DOUBLE, FLOAT)]
-    checks.fact("the sphere leaves the floor", 0.1 < speeds[0] < 0.9, str(speeds[0]))
-    checks.at_most("its speed is that in double", abs(speeds[1] - speeds[0]),
-                   2 * n * ROUNDS + math.pi * 0.5 * ROUNDS / 0.01)
+    fact("the sphere leaves the floor", 0.1 < speeds[0] < 0.9, str(speeds[0]))
+    at_most("its speed is that in double", abs(speeds[1] - speeds[0]),
+            2 * n * ROUNDS + math.pi * 0.5 * ROUNDS / 0.01)
 
 
-def words(checks, folder):
+def test_words(folder):
     """At 8 from 0 float rounds by 4.8e-7. With v = 2 the sphere goes 2 sqrt(1 / k) deep: 0.02 for k = 1e4, of which that is
     0.002 %, and 2e-5 for k = 1e10, of which it is 2.4 %."""
     for name, stiff, dt, deepest in (("soft", "1e4", "1e-4", 0.02), ("stiff", "1e10", "1e-6", 2e-5)):
@@ -174,49 +183,30 @@ def words(checks, folder):
         said = on_well(FLOAT, text + "run 10\nrun 10\n", folder)
         line = re.search(r"atoms are in float.* positions up to 8 from 0 are rounded by up to (\S+), which is 1 % of an overlap "
                          r"of (\S+), and an atom there that is slower than (\S+) stands still;", said)
-        checks.fact(f"{name}: the log says once what float positions cost", said.count("atoms are in float") == 1 + (deepest < 1e-3) and
-                    line and abs(float(line[1]) / 2**-21 - 1) < 1e-5 and abs(float(line[2]) / 2**-21 / 100 - 1) < 1e-5 and abs(float(line[3]) * float(dt) / 2**-21 - 1) < 1e-5,
-                    str(line and line.groups()))
+        fact(f"{name}: the log says once what float positions cost", said.count("atoms are in float") == 1 + (deepest < 1e-3) and
+             line and abs(float(line[1]) / 2**-21 - 1) < 1e-5 and abs(float(line[2]) / 2**-21 / 100 - 1) < 1e-5 and abs(float(line[3]) * float(dt) / 2**-21 - 1) < 1e-5,
+             str(line and line.groups()))
         warned = re.findall(r"WARNING.*atoms are in float.* by up to \S+: (\S+) % of the deepest overlap of this run, (\S+), ", said)
-        checks.fact(f"{name}: {'one warning' if deepest < 1e-3 else 'no warning'}", len(warned) == (deepest < 1e-3), str(warned))
+        fact(f"{name}: {'one warning' if deepest < 1e-3 else 'no warning'}", len(warned) == (deepest < 1e-3), str(warned))
         # Among some thirty steps of a contact one is nearest to the deepest point, by half a step: 0.5 (pi / 60)^2 short of it.
         for share, overlap in warned:
-            checks.at_most("its overlap is that of the run", abs(float(overlap) / deepest - 1), 0.01)
-            checks.at_most("its share is that of the overlap", abs(float(share) / 100 * float(overlap) / 2**-21 - 1), 1e-4)
+            at_most("its overlap is that of the run", abs(float(overlap) / deepest - 1), 0.01)
+            at_most("its share is that of the overlap", abs(float(share) / 100 * float(overlap) / 2**-21 - 1), 1e-4)
     said = on_well(DOUBLE, text, folder)
-    checks.fact("in double the log says nothing of it", "in float" not in said)
+    fact("in double the log says nothing of it", "in float" not in said)
 
 
-def refusals(checks, folder):
+def test_refusals(folder):
     """A plugin in a LAMMPS of another precision: one sentence, and LAMMPS goes on."""
     named = {host: subprocess.run([host[0], "-help"], stdout=subprocess.PIPE, text=True, env=lmp.environment()).stdout
              for host in (DOUBLE, FLOAT)}
     precision = {host: re.search(r"KOKKOS package precision: (\w+)", text).group(1) for host, text in named.items()}
-    checks.fact("one LAMMPS is in double, the other not",
-                precision[DOUBLE] == "double" and precision[FLOAT] in ("mixed", "single"), str(sorted(precision.values())))
+    fact("one LAMMPS is in double, the other not",
+         precision[DOUBLE] == "double" and precision[FLOAT] in ("mixed", "single"), str(sorted(precision.values())))
     for host, other in ((DOUBLE, FLOAT), (FLOAT, DOUBLE)):
         done = on((host[0], other[1]), "print 'LAMMPS goes on'\n", folder)
         said = [line for line in done.stdout.splitlines() if "not loaded" in line]
-        checks.fact(f"LAMMPS in {precision[host]} refuses the plugin for {precision[other]}, and goes on",
-                    done.returncode == 0 and "LAMMPS goes on" in done.stdout and len(said) == 1 and
-                    f"in precision {precision[other]}, this LAMMPS has no KOKKOS package in precision {precision[other]}. "
-                    "Rebuild it" in said[0], f"exit status {done.returncode}, {' '.join(said) or done.stdout[-300:]}")
-
-
-def main():
-    if not (all(FLOAT) and all(DOUBLE)):
-        print("SKIPPED: no LAMMPS with Kokkos in float beside one in double (tests/lammps/hosts/build_host.sh 20260704 single)")
-        sys.exit(77)
-    checks, folder = lmp.Checks(), lmp.scratch()
-    scene.write_floor(folder / "floor.stl")
-    stl.write(folder / "flat.stl", stl.quad((-4, -4, 0), (4, -4, 0), (4, 4, 0), (-4, 4, 0)))
-    same_positions(checks, folder)
-    as_the_plain_fix(checks, folder)
-    words(checks, folder)
-    rebound(checks, folder)
-    refusals(checks, folder)
-    checks.done(folder)
-
-
-if __name__ == "__main__":
-    main()
+        fact(f"LAMMPS in {precision[host]} refuses the plugin for {precision[other]}, and goes on",
+             done.returncode == 0 and "LAMMPS goes on" in done.stdout and len(said) == 1 and
+             f"in precision {precision[other]}, this LAMMPS has no KOKKOS package in precision {precision[other]}. "
+             "Rebuild it" in said[0], f"exit status {done.returncode}, {' '.join(said) or done.stdout[-300:]}")

@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 LSDCD contributors
 # SPDX-License-Identifier: GPL-2.0-only
 
@@ -11,56 +10,56 @@ import subprocess
 
 import lmp
 import scene
+from facts import fact
 
 SMALL = scene.CREATE + scene.forces("hooke 1e4 NULL 5 NULL 0.4 1") + "run 10\n"
 
 
-def main():
-    checks, folder = lmp.Checks(), lmp.scratch()
+def test_launcher(folder):
     scene.write_floor(folder / "floor.stl", cells=4)
 
     shown = subprocess.run([lmp.LMP, "-h"], env=lmp.environment(), text=True,
                            stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
-    checks.fact("-h succeeds and shows the fix", shown.returncode == 0 and
-                "wall/lsdcd" in shown.stdout and "corner blend | sum" in shown.stdout)
+    fact("-h succeeds and shows the fix", shown.returncode == 0 and
+         "wall/lsdcd" in shown.stdout and "corner blend | sum" in shown.stdout)
     for syntax in ("fix ID group massflow/lsdcd mesh FILE ", "fix ID group insert/lsdcd mesh FILE ",
                    "compute ID group lsdcd/collide FIX_ID mesh FILE "):
-        checks.fact(f"-h shows {syntax}", "\n" + syntax in shown.stdout)
-    checks.fact("-h shows LAMMPS's own options", "-partition" in shown.stdout)
+        fact(f"-h shows {syntax}", "\n" + syntax in shown.stdout)
+    fact("-h shows LAMMPS's own options", "-partition" in shown.stdout)
 
     text = lmp.run_well("plugin list\n" + SMALL + "clear\nplugin list\n" + SMALL, folder)
-    checks.fact("the style is there again after clear",
-                text.count("fix style plugin wall/lsdcd") == 2)
+    fact("the style is there again after clear",
+         text.count("fix style plugin wall/lsdcd") == 2)
 
     text = lmp.run_well("plugin load nofile\nplugin load lsdcdplugin.so\n", folder)
-    checks.fact("a file that is not there is named", "Open of file nofile failed" in text)
-    checks.fact("a second load is told", "Ignoring load of fix style wall/lsdcd" in text)
+    fact("a file that is not there is named", "Open of file nofile failed" in text)
+    fact("a second load is told", "Ignoring load of fix style wall/lsdcd" in text)
 
     done = lmp.run("plugin unload fix wall/lsdcd\nplugin list\n" + SMALL, folder)
-    checks.fact("an unloaded style is gone",
-                done.returncode != 0 and "wall/lsdcd" in done.stdout.split("ERROR")[-1])
+    fact("an unloaded style is gone",
+         done.returncode != 0 and "wall/lsdcd" in done.stdout.split("ERROR")[-1])
     text = lmp.run_well(SMALL + "plugin unload fix wall/lsdcd\nrun 1\n", folder)
-    checks.fact("unload deletes the fix in use", "Unloading fix style wall/lsdcd" in text)
+    fact("unload deletes the fix in use", "Unloading fix style wall/lsdcd" in text)
     text = lmp.run_well("plugin clear\nplugin load lsdcdplugin.so\n" + SMALL, folder)
-    checks.fact("clear, then load by name", "Loading plugin: fix wall/lsdcd" in text)
+    fact("clear, then load by name", "Loading plugin: fix wall/lsdcd" in text)
     done = lmp.run("plugin frobnicate\n\n", folder)
-    checks.fact("a wrong word shows the syntax",
-                done.returncode != 0 and "unload STYLE NAME" in done.stdout)
+    fact("a wrong word shows the syntax",
+         done.returncode != 0 and "unload STYLE NAME" in done.stdout)
 
     (folder / "more").mkdir()
     (folder / "more" / "otherplugin.so").symlink_to(
         pathlib.Path(lmp.LMP).resolve().parent.parent / "lib" / "lsdcdplugin.so")
     text = lmp.run_well("plugin list\n\n", folder,
                         env={"LAMMPS_PLUGIN_PATH": f"nowhere:{folder}/more"})
-    checks.fact("LAMMPS_PLUGIN_PATH is searched", f"Loaded 1 plugins from {folder}/more" in text)
+    fact("LAMMPS_PLUGIN_PATH is searched", f"Loaded 1 plugins from {folder}/more" in text)
 
     (folder / "bin").mkdir()
     alone = shutil.copy(lmp.LMP, folder / "bin")
     for missing in ("its own plugin", "the other file of that"):
         done = subprocess.run([alone, "-in", "in.script", "-log", "none"], env=lmp.environment(), text=True, cwd=folder,
                               stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
-        checks.fact(f"it does not go on without {missing}", done.returncode != 0 and
-                    "lmp-lsdcd needs its own plugin" in " ".join(done.stdout.split()))
+        fact(f"it does not go on without {missing}", done.returncode != 0 and
+             "lmp-lsdcd needs its own plugin" in " ".join(done.stdout.split()))
         (folder / "lib").mkdir(exist_ok=True)
         shutil.copy(lmp.LIB / "lsdcdplugin.so", folder / "lib")
 
@@ -71,11 +70,6 @@ def main():
     for ranks in (1, 2):
         done = lmp.run(SMALL, folder, ranks, env={"LD_PRELOAD": str(folder / "other.so")})
         text = done.stdout
-        checks.fact(f"another version is refused once on {ranks} rank{'s' if ranks > 1 else ''}",
-                    text.count("lsdcd plugin not loaded: it was built for LAMMPS version") == 1 and
-                    "this is version 20380119" in text and done.returncode != 0)
-    checks.done(folder)
-
-
-if __name__ == "__main__":
-    main()
+        fact(f"another version is refused once on {ranks} rank{'s' if ranks > 1 else ''}",
+             text.count("lsdcd plugin not loaded: it was built for LAMMPS version") == 1 and
+             "this is version 20380119" in text and done.returncode != 0)

@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 LSDCD contributors
 # SPDX-License-Identifier: GPL-2.0-only
 
@@ -12,9 +11,12 @@ import re
 import subprocess
 import sys
 
+import pytest
+
 import lmp
 import scene
 import stl
+from facts import at_most, fact
 
 HEAD = """\
 units           lj
@@ -72,7 +74,14 @@ def write_plates(path, n, centre, distance):
     stl.write(path, triangles)
 
 
-def rows_follow(checks, folder):
+@pytest.fixture(scope="module")
+def folder(folder):
+    write_floor(folder)
+    scene.write_floor(folder / "bumps.stl")
+    return folder
+
+
+def test_rows_follow(folder):
     """The contacts array after LAMMPS has moved atoms in memory or to another process."""
     body = head() + """\
 create_atoms 1 single -1.0 0 0.45 units box
@@ -85,17 +94,17 @@ group one id 1
     lmp.run_well(body + "delete_atoms group one compress no\n" + ROWS.format("after"), folder)
     before, after = rows_of(folder, "before"), rows_of(folder, "after")
     # Overlaps of 0.05 and 0.02: 500 and 200.
-    checks.fact("contacts rows: what they are of", math.isclose(before[1][3], 500, rel_tol=1e-12))
+    fact("contacts rows: what they are of", math.isclose(before[1][3], 500, rel_tol=1e-12))
     del before[1]
-    checks.fact("contacts rows follow atoms when one is deleted", after == before,
-                f"atom 2 has {after[2][3]:g}, atom 3 has {after[3][3]:g}")
+    fact("contacts rows follow atoms when one is deleted", after == before,
+         f"atom 2 has {after[2][3]:g}, atom 3 has {after[3][3]:g}")
     lmp.run_well(body + "displace_atoms all move 3 0 0\n" + ROWS.format("after"), folder, 2)
     before, after = rows_of(folder, "before"), rows_of(folder, "after")
-    checks.fact("contacts rows follow atoms to another process", after == before,
-                f"atom 1 has {after[1][3]:g}, atom 3 has {after[3][3]:g}")
+    fact("contacts rows follow atoms to another process", after == before,
+         f"atom 1 has {after[1][3]:g}, atom 3 has {after[3][3]:g}")
 
 
-def rows_are_read(checks, folder):
+def test_rows_are_read(folder):
     """Another fix reads the array before the wall writes it: the rows of the last step."""
     start = scene.SETTINGS.replace("sort 40 1.5", "sort {} 1.5")
     lmp.run_well(scene.CREATE + "write_data start.data\n", folder)
@@ -110,11 +119,11 @@ def rows_are_read(checks, folder):
         lmp.run_well(body + scene.dump("moves", 100) + "run 1500\n", folder, ranks)
         moves[name] = lmp.read_dump(folder / "moves")
     for name in ("sorted", "spread"):
-        checks.at_most(f"a fix that reads contacts rows before the wall: {name} as unsorted",
-                       lmp.largest_difference(moves["unsorted"], moves[name]), 0)
+        at_most(f"a fix that reads contacts rows before the wall: {name} as unsorted",
+                lmp.largest_difference(moves["unsorted"], moves[name]), 0)
 
 
-def crowded_migrates(checks, folder):
+def test_crowded_migrates(folder):
     """One sphere with 500 springs goes to another process outside of a run, and back."""
     write_plates(folder / "plates.stl", 500, (-1, 0, 2), 0.49)
     walls = "fix wall{} all wall/lsdcd {} mesh plates.stl corner sum contacts\n"
@@ -132,7 +141,7 @@ velocity all set 30 20 10
             "\nthermo_modify format float %.17g norm no\n" + runs + "\n"
         stays = lmp.read_thermo(lmp.run_well(body + "run 0\n", folder))[-1]
         name = f"{n_walls} of {law.split()[0]}, {runs.split()[-1]}"
-        checks.fact(f"{name}: 500 springs", stays[2] == 500, str(stays[2]))
+        fact(f"{name}: 500 springs", stays[2] == 500, str(stays[2]))
         try:
             there_and_back = "displace_atoms all move 3 0 0\ndisplace_atoms all move -3 0 0\n"
             done = lmp.run(body + 3 * there_and_back + "run 0\n", folder, 2, timeout=60,
@@ -141,11 +150,11 @@ velocity all set 30 20 10
         except subprocess.TimeoutExpired:    # Open MPI waits for the heap that glibc found broken
             moved = []
         # The energy of springs, too; displacing rounds.
-        checks.fact(f"{name}: they move to another process and back", moved and all(
+        fact(f"{name}: they move to another process and back", moved and all(
             math.isclose(a, b, rel_tol=1e-9) for a, b in zip(stays, moved)), f"{stays} and {moved}")
 
 
-def read_without_atoms(checks, folder):
+def test_read_without_atoms(folder):
     """A restart file read where most processes get no atom."""
     create = scene.CREATE.replace("block -5 5 -5 5", "block -5 5 -5 -2")
     more = "run 200\nwrite_restart few.restart\n"
@@ -158,18 +167,18 @@ def read_without_atoms(checks, folder):
                        folder, ranks)
         name = f"springs read on {ranks} ranks, of which some have no atoms"
         if done.returncode:
-            checks.fact(name, False, done.stdout[-300:])
+            fact(name, False, done.stdout[-300:])
         else:
             continued = lmp.read_dump(folder / "continued")
-            checks.at_most(name, lmp.largest_difference(two, continued), 0)
+            at_most(name, lmp.largest_difference(two, continued), 0)
     springs = sum(row[9] > 0 for row in two[200].values())
     text = lmp.run_well(scene.SETTINGS + "read_restart few.restart\n" + scene.forces(HOOKE, BUMPS) +
                         "run 0\n", folder, 2)
     found = re.search(r"(\d+) atoms lose their springs: the restart file was written with another "
                       "contact law", text)
-    checks.fact("a law without springs: says how many atoms lose theirs",
-                found and int(found.group(1)) == springs > 0, f"{springs} touch, " +
-                (found.group(0) if found else "no warning"))
+    fact("a law without springs: says how many atoms lose theirs",
+         found and int(found.group(1)) == springs > 0, f"{springs} touch, " +
+         (found.group(0) if found else "no warning"))
 
 
 ONE = """\
@@ -179,19 +188,19 @@ velocity all set 1.0 -0.7 -1.3
 """
 
 
-def as_wall_gran(checks, folder, name, body, law=HISTORY):
+def as_wall_gran(folder, name, body, law=HISTORY):
     """The script with WALL in place of the wall, whose dump is 'moves', beside LAMMPS's plane."""
     dumps = []
-    for wall in (f"wall/gran {law} zplane 0 NULL", f"wall/lsdcd {law} mesh floor.stl"):
-        done = lmp.run(body.replace("WALL", wall), folder)
+    for wall in (lmp.flat_walls(f"fix wall all wall/gran {law} zplane 0 NULL"), f"fix wall all wall/lsdcd {law} mesh floor.stl\n"):
+        done = lmp.run(body.replace("fix wall all WALL\n", wall), folder)
         if done.returncode:
-            checks.fact(name, False, re.search(r"ERROR.*|$", done.stdout).group(0))
+            fact(name, False, re.search(r"ERROR.*|$", done.stdout).group(0))
             return ""
         dumps.append(lmp.read_dump(folder / "moves"))
     touched = sum(abs(row[k][11]) > 0 for row in dumps[0].values() for k in row)
-    checks.fact(f"{name}: touches the floor", touched > 20, f"{touched} times")
+    fact(f"{name}: touches the floor", touched > 20, f"{touched} times")
     # Rounding of 1e-16 per operation over up to 10^4 of them, as in test_parity.
-    checks.at_most(name, lmp.largest_difference(*dumps), 1e-12)
+    at_most(name, lmp.largest_difference(*dumps), 1e-12)
     return done.stdout
 
 
@@ -202,29 +211,30 @@ timestep 1e-4
 """
 
 
-def radii_grow(checks, folder):
+def test_radii_grow(folder):
     """Against fix wall/gran, which knows no grid."""
     grow = "variable d equal 1.0+0.5*step/1500\nfix grow all adapt 10 atom diameter v_d mass yes\n"
     wall = "fix wall all WALL\n"
     begin = ONE.format(1.0) + FORCES + "fix move all nve/sphere\n"
     if lmp.DEVICE_MOVES:    # which fix wall/gran does not allow
         return
-    as_wall_gran(checks, folder, "set diameter and run pre no: as with wall/gran", head() +
+    as_wall_gran(folder, "set diameter and run pre no: as with wall/gran", head() +
                  begin + wall + DUMP + "run 300\nset group all diameter 1.4\nrun 300 pre no\n")
     if lmp.ON_KOKKOS:
         return    # Kokkos's atom_style sphere has no radii that vary
     for name, fixes in (("before", grow + wall), ("after", wall + grow)):
-        text = as_wall_gran(checks, folder,
+        text = as_wall_gran(folder,
                             f"fix adapt {name} the wall: radii grow as with wall/gran",
                             head("1") + begin + fixes + DUMP + "run 1500\n")
     # 10 % each time from 0.5 past 0.75: 1.1^5 = 1.61.
-    checks.fact("the log tells of each grid", text.count("larger particles, grid rebuilt") == 5,
-                str(text.count("larger particles, grid rebuilt")))
+    fact("the log tells of each grid", text.count("larger particles, grid rebuilt") == 5,
+         str(text.count("larger particles, grid rebuilt")))
 
 
-def masses_change(checks, folder):
+@pytest.mark.skipif(lmp.ON_KOKKOS, reason="the hosts have no RIGID")
+def test_masses_change(folder):
     """Fix adapt shrinks a sphere that damping sees, beside a rigid body."""
-    as_wall_gran(checks, folder, "masses beside a rigid body: as with wall/gran", head("1") +
+    as_wall_gran(folder, "masses beside a rigid body: as with wall/gran", head("1") +
                  ONE.format(1.4) + """\
 create_atoms 1 single -2.69 0.22 0.505 units box
 create_atoms 1 single -2.19 0.42 0.905 units box
@@ -242,7 +252,7 @@ fix wall all WALL
 """ + DUMP + "run 1500\n")
 
 
-def inserted_atoms_are_checked(checks, folder):
+def test_inserted_atoms_are_checked(folder):
     """A sphere of radius 0.5 put at z = 0.3 over the plane z = 0 overlaps by 40 %."""
     body = (head() + FORCES + "fix move all nve/sphere\n" +
             f"fix wall all wall/lsdcd {HOOKE} mesh floor.stl\n")
@@ -253,27 +263,27 @@ def inserted_atoms_are_checked(checks, folder):
 
     text = lmp.run_well(body + put(2) + "run 5\n" + put(0.3, 1.5) + "run 5\n" + put(0.35, -1.5) + "run 5\n" +
                         put(0.2, 2.5) + "run 5\n", folder)
-    checks.fact("spheres put into the wall are told, again where deeper",
-                said.findall(text) == [("2", "40", "5"), ("4", "60", "15")], str(said.findall(text)))
+    fact("spheres put into the wall are told, again where deeper",
+         said.findall(text) == [("2", "40", "5"), ("4", "60", "15")], str(said.findall(text)))
     text = lmp.run_well(body + put(0.3) + "run 0\nwrite_restart in.restart\n", folder)
-    checks.fact("and where a run begins", said.findall(text) == [("1", "40", "0")], str(said.findall(text)))
+    fact("and where a run begins", said.findall(text) == [("1", "40", "0")], str(said.findall(text)))
     again = body[body.index(FORCES):] + "reset_timestep 0\nrun 0\n"
     for law in (HOOKE, HISTORY):
         lmp.run_well(body.replace(HOOKE, law) + put(0.3) + "run 1\nwrite_restart in.restart\n", folder)
         text = lmp.run_well(scene.SETTINGS + "read_restart in.restart\n" + again.replace(HOOKE, law), folder)
-        checks.fact("a run that goes on from a restart file at step 0 is not a new one", not said.findall(text) and
-                    "atom 1 sank into the wall" in text, str(said.findall(text)))
+        fact("a run that goes on from a restart file at step 0 is not a new one", not said.findall(text) and
+             "atom 1 sank into the wall" in text, str(said.findall(text)))
     text = lmp.run_well(body + put(0.48) + "fix g all gravity 8.0 vector 0 0 -1\n" + put(3, 1) +
                         "velocity all set 0 0 -9\nrun 600\n", folder)
-    checks.fact("one that falls in is not", "sank into the wall" in text and not said.findall(text))
-    checks.fact("and its radius is told", re.search(r"sank into the wall by \S+ % of its radius 0.5 in step", text))
+    fact("one that falls in is not", "sank into the wall" in text and not said.findall(text))
+    fact("and its radius is told", re.search(r"sank into the wall by \S+ % of its radius 0.5 in step", text))
     # Both are in the wall, and only the deeper one is told; then one more falls in.
     both = body + put(0.3) + put(0.32, 1.5) + "timestep 0.001\n"
     text = lmp.run_well(both + "run 100\n", folder)
-    checks.fact("spheres that were put into the wall have not sunk", len(said.findall(text)) == 1 and
-                "sank" not in text)
+    fact("spheres that were put into the wall have not sunk", len(said.findall(text)) == 1 and
+         "sank" not in text)
     text = lmp.run_well(both + "run 100\nvelocity all set 0 0 -40\nrun 80\n", folder)
-    checks.fact("once they were out they may", "sank into the wall" in text)
+    fact("once they were out they may", "sank into the wall" in text)
     if lmp.ON_KOKKOS:    # which has no fix deposit
         return
     text = lmp.run_well(body + """\
@@ -282,11 +292,11 @@ fix in all deposit 3 1 20 4711 region low near 1.2
 timestep 0.0005
 run 60
 """, folder, 2)
-    checks.fact("spheres of fix deposit too, on 2 ranks", [t[1] for t in said.findall(text)] == ["40"],
-                str(said.findall(text)))
+    fact("spheres of fix deposit too, on 2 ranks", [t[1] for t in said.findall(text)] == ["40"],
+         str(said.findall(text)))
 
 
-def timestep_is_checked(checks, folder):
+def test_timestep_is_checked(folder):
     """Contact times pi sqrt(m / kn): 0.0321 at a diameter of 1, 0.0114 at 0.5."""
     body = (head() + FORCES + "fix move all nve/sphere\n" +
             f"fix wall all wall/lsdcd {HOOKE} mesh floor.stl\n")
@@ -302,8 +312,8 @@ fix pour all pour 12 1 4711 region slab diam one 1.0 dens 2.0 2.0 vol 0.25 100
 timestep 0.004
 run 300
 """, folder))
-        checks.fact("timestep: warned of once when the first spheres are poured",
-                    len(found) == 1 and math.isclose(found[0], 0.0321, rel_tol=0.01), str(found))
+        fact("timestep: warned of once when the first spheres are poured",
+             len(found) == 1 and math.isclose(found[0], 0.0321, rel_tol=0.01), str(found))
     more = """\
 create_atoms 1 single 0 0 2 units box
 set group all diameter 1.0 density 2.0
@@ -315,23 +325,24 @@ run 5
 run 5
 """
     found = times(lmp.run_well(body + more, folder))
-    checks.fact("timestep: warned of once for a smaller sphere that comes later",
-                len(found) == 1 and math.isclose(found[0], 0.0114, rel_tol=0.01), str(found))
+    fact("timestep: warned of once for a smaller sphere that comes later",
+         len(found) == 1 and math.isclose(found[0], 0.0114, rel_tol=0.01), str(found))
 
 
-def full_node(checks, folder, two_nodes):
+@pytest.mark.skipif("LSDCD_TWO_NODES" not in os.environ, reason="no LSDCD_TWO_NODES")
+def test_full_node(folder):
     """Memory for the grid that the second of two nodes has not."""
     body = (head() + ONE.format(1.0) + FORCES +
             f"fix wall all wall/lsdcd {HOOKE} mesh floor.stl grid 0.05\nrun 0\n")
     try:
         done = lmp.run(body, folder, 2, timeout=30,
-                       env={"LD_PRELOAD": two_nodes, "LSDCD_FULL_NODE": "1"})
+                       env={"LD_PRELOAD": os.environ["LSDCD_TWO_NODES"], "LSDCD_FULL_NODE": "1"})
         text = re.search(r"ERROR.*|$", done.stdout).group(0)
         ended = done.returncode != 0
     except subprocess.TimeoutExpired:
         ended, text = False, "waits forever"
-    checks.fact("no memory on one node: both stop and say so",
-                ended and "ERROR: " in text and "out of memory for the wall grid" in text, text)
+    fact("no memory on one node: both stop and say so",
+         ended and "ERROR: " in text and "out of memory for the wall grid" in text, text)
 
 
 REFUSED = """\
@@ -352,47 +363,20 @@ print("went on to the end")
 """
 
 
-def refused(checks, folder):
+@lmp.needs_host
+@pytest.mark.skipif(lmp.ON_KOKKOS, reason="once is enough")
+def test_refused(folder):
     """A LAMMPS that goes on after an error calls no wall that it has refused."""
     body = head().replace("sort 0 0", "sort 1 1.0") + ONE.format(1.0) + FORCES + f"""\
 fix move all nve/sphere
 fix wall all wall/lsdcd {HISTORY} mesh floor.stl move 100 0 0
 run 1
 """
-    library = pathlib.Path(lmp.TEST_HOST).parent / "liblammps.so.0"
-    done = subprocess.run([sys.executable, "-c", REFUSED, library, lmp.TEST_HOST_PLUGIN],
+    library = pathlib.Path(lmp.HOST).parent / "liblammps.so.0"
+    done = subprocess.run([sys.executable, "-c", REFUSED, library, lmp.PLUGIN],
                           cwd=folder, input=body, text=True, env=lmp.environment(),
                           stdout=subprocess.PIPE, stderr=subprocess.STDOUT, timeout=60)
     said = done.stdout
-    checks.fact("a refused wall: LAMMPS says so", "the mesh is outside the box" in said, said[-200:])
-    checks.fact("a refused wall: LAMMPS goes on without it",
-                "went on to the end" in said and said.count("ERROR") == 1, said[-200:])
-
-
-def main():
-    checks, folder = lmp.Checks(), lmp.scratch()
-    write_floor(folder)
-    scene.write_floor(folder / "bumps.stl")
-    rows_follow(checks, folder)
-    rows_are_read(checks, folder)
-    crowded_migrates(checks, folder)
-    read_without_atoms(checks, folder)
-    radii_grow(checks, folder)
-    if not lmp.ON_KOKKOS:    # the hosts have no RIGID
-        masses_change(checks, folder)
-    timestep_is_checked(checks, folder)
-    inserted_atoms_are_checked(checks, folder)
-    two_nodes = os.environ.get("LSDCD_TWO_NODES")
-    if two_nodes:
-        full_node(checks, folder, two_nodes)
-    else:
-        print("SKIPPED: two nodes (LSDCD_TWO_NODES)")
-    if lmp.TEST_HOST and not lmp.ON_KOKKOS:
-        refused(checks, folder)
-    else:
-        print("SKIPPED: a wall that is refused (LSDCD_TEST_HOST)")
-    checks.done(folder)
-
-
-if __name__ == "__main__":
-    main()
+    fact("a refused wall: LAMMPS says so", "the mesh is outside the box" in said, said[-200:])
+    fact("a refused wall: LAMMPS goes on without it",
+         "went on to the end" in said and said.count("ERROR") == 1, said[-200:])

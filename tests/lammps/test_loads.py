@@ -1,32 +1,17 @@
-#!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 LSDCD contributors
 # SPDX-License-Identifier: GPL-2.0-only
 
 """Stress and wear of the triangles: files, totals, ranks and restart."""
 
-import base64
-import re
-import struct
 
 import lmp
 import scene
+import vtp
+from facts import at_most, fact
 
 LAW = "hooke/history 1e4 NULL 120 NULL 0.4 1"
 FIRST, SECOND = 700, 800
 ON_RANKS = 1e-12    # sums of the same numbers in another order
-
-
-def read_vtp(path):
-    """{name: [numbers]} of the arrays of a .vtp file."""
-    formats = {"Float64": "d", "Int64": "q", "Int32": "i"}
-    arrays = {}
-    for kind, name, text in re.findall(r'<DataArray type="(\w+)" Name="(\w+)"[^>]*>([^<]*)<',
-                                       path.read_text()):
-        data = base64.b64decode(text)
-        size = struct.unpack("<Q", data[:8])[0]
-        arrays[name] = [v[0] for v in struct.iter_unpack("<" + formats[kind], data[8:])]
-        assert size == len(data) - 8
-    return arrays
 
 
 def areas(fields):
@@ -45,8 +30,7 @@ def apart(a, b, name):
     return max(abs(x - y) for x, y in zip(a[name], b[name])) / max(map(abs, a[name]))
 
 
-def main():
-    checks, folder = lmp.Checks(), lmp.scratch()
+def test_loads(folder):
     scene.write_floor(folder / "floor.stl")
     with_loads = "mesh floor.stl wear archard 0.001 50 mesh_fields {} every 100"
 
@@ -61,33 +45,33 @@ def main():
         return lmp.read_thermo(text)
 
     rows = go("one_*.vtp")
-    fields = {s: read_vtp(folder / f"one_{s}.vtp") for s in range(100, FIRST + SECOND + 1, 100)}
+    fields = {s: vtp.read(folder / f"one_{s}.vtp") for s in range(100, FIRST + SECOND + 1, 100)}
     last = fields[FIRST + SECOND]
     area = areas(last)
-    checks.fact("a file every 100 steps, none at the start", not (folder / "one_0.vtp").exists())
-    checks.fact("a value for every triangle", len(last["worn_volume"]) == 2 * 26 * 26)
-    checks.fact("the floor has worn", rows[-1][3] > 0, f"{rows[-1][3]:.3g}")
-    checks.at_most("worn volumes sum to the fix's tenth number",
-                   abs(sum(last["worn_volume"]) / rows[-1][3] - 1), ON_RANKS)
-    checks.at_most("contacts average to the mean of the fix's seventh number",
-                   abs(sum(last["contacts"]) / (sum(r[2] for r in rows[-100:]) / 100) - 1), ON_RANKS)
-    checks.at_most("depth is volume over area",
-                   max(abs(d * a - v) for d, a, v in
-                       zip(last["worn_depth"], area, last["worn_volume"])) / rows[-1][3], ON_RANKS)
+    fact("a file every 100 steps, none at the start", not (folder / "one_0.vtp").exists())
+    fact("a value for every triangle", len(last["worn_volume"]) == 2 * 26 * 26)
+    fact("the floor has worn", rows[-1][3] > 0, f"{rows[-1][3]:.3g}")
+    at_most("worn volumes sum to the fix's tenth number",
+            abs(sum(last["worn_volume"]) / rows[-1][3] - 1), ON_RANKS)
+    at_most("contacts average to the mean of the fix's seventh number",
+            abs(sum(last["contacts"]) / (sum(r[2] for r in rows[-100:]) / 100) - 1), ON_RANKS)
+    at_most("depth is volume over area",
+            max(abs(d * a - v) for d, a, v in
+                zip(last["worn_depth"], area, last["worn_volume"])) / rows[-1][3], ON_RANKS)
     # The floor leans by less than 9 degrees, so that normal forces are within 2 % of the lift.
     pressed = sum(s * a for s, a in zip(last["normal_stress"], area))
     lift = -sum(r[1] for r in rows[-100:]) / 100
-    checks.fact("stress times area is about the force on the mesh", abs(pressed / lift - 1) < 0.05,
-                f"{pressed:.4g} and {lift:.4g}")
+    fact("stress times area is about the force on the mesh", abs(pressed / lift - 1) < 0.05,
+         f"{pressed:.4g} and {lift:.4g}")
 
     mean = [sum(r[k] for r in rows[-100:]) / 100 for k in (4, 5, 1)]
-    checks.at_most("forces sum to the mean of the fix's first three numbers",
-                   max(abs(sum(last["force"][d::3]) / mean[d] - 1) for d in range(3)), ON_RANKS)
+    at_most("forces sum to the mean of the fix's first three numbers",
+            max(abs(sum(last["force"][d::3]) / mean[d] - 1) for d in range(3)), ON_RANKS)
 
     go("two_*.vtp", ranks=2)
     for name in ("worn_volume", "normal_stress", "shear_stress", "contacts", "force"):
-        checks.at_most(f"{name} on 2 ranks", apart(last, read_vtp(folder / "two_1500.vtp"), name),
-                       1e-9)
+        at_most(f"{name} on 2 ranks", apart(last, vtp.read(folder / "two_1500.vtp"), name),
+                1e-9)
 
     # A run in two pieces, in one input and through a file, in the middle of an average.
     half = FIRST + 50
@@ -95,26 +79,21 @@ def main():
     for ranks in (1, 2):
         rows = go("b_*.vtp", ranks, scene.SETTINGS + "read_restart half.restart\n", SECOND - 50)
         for step in (FIRST + 100, FIRST + SECOND):
-            a, b = (read_vtp(folder / f"{x}_{step}.vtp") for x in "ab")
+            a, b = (vtp.read(folder / f"{x}_{step}.vtp") for x in "ab")
             for name in ("worn_volume", "normal_stress", "contacts", "force"):
-                checks.at_most(f"{name} at {step}, continued on {ranks}", apart(a, b, name),
-                               0 if ranks == 1 else 1e-9)
+                at_most(f"{name} at {step}, continued on {ranks}", apart(a, b, name),
+                        0 if ranks == 1 else 1e-9)
 
     scene.write_floor(folder / "floor.stl", cells=4)
     text = lmp.run_well(scene.SETTINGS + "read_restart half.restart\n" + forces("c_*.vtp") +
                         "run 10\n", folder)
-    checks.fact("another mesh: loads begin at zero, with a warning", "begin at zero" in text)
+    fact("another mesh: loads begin at zero, with a warning", "begin at zero" in text)
     scene.write_floor(folder / "floor.stl", side=6.49)
     text = lmp.run_well(scene.SETTINGS + "read_restart half.restart\n" + forces("c_*.vtp") +
                         "run 10\n", folder)
-    checks.fact("also of one with as many triangles", "begin at zero" in text)
+    fact("also of one with as many triangles", "begin at zero" in text)
 
     done = lmp.run(scene.CREATE + scene.forces(LAW, mesh="mesh floor.stl mesh_fields no/such.vtp every 5")
                    + "run 10\n", folder)
-    checks.fact("a file that cannot be written is an error that names it",
-                done.returncode != 0 and "no/such.vtp" in done.stdout)
-    checks.done(folder)
-
-
-if __name__ == "__main__":
-    main()
+    fact("a file that cannot be written is an error that names it",
+         done.returncode != 0 and "no/such.vtp" in done.stdout)

@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 LSDCD contributors
 # SPDX-License-Identifier: GPL-2.0-only
 
@@ -9,8 +8,11 @@ and edges of a plate: all positions are exact in binary. On the surface counts a
 sphere from height z passes in step 128 z + 1.
 """
 
+import pytest
+
 import lmp
 import stl
+from facts import at_most, fact
 
 STEPS_PER_LENGTH = 128
 MASS = {1: 2.0, 2: 3.0}    # by type
@@ -91,7 +93,15 @@ def mass_of(some):
     return sum(MASS[s[0]] for s in some)
 
 
-def check_closed_form(checks, folder, ranks):
+@pytest.fixture(scope="module")
+def folder(folder):
+    write_plate(folder / "plate.stl", 2, 8)
+    write_data(folder / "spheres.data", spheres())
+    return folder
+
+
+@pytest.mark.parametrize("ranks", (1, 2, 4))
+def test_closed_form(folder, ranks):
     rows = table(begin() + forces("every 32") + "run 160\n", folder, ranks)
     over = over_plate(spheres())
     wrong = []
@@ -105,11 +115,11 @@ def check_closed_form(checks, folder, ranks):
             expected += [len(one), mass_of(one), 0]
         if row[FORWARD:] != expected:
             wrong.append((step, row[FORWARD:], expected))
-    checks.fact(f"number, mass and rate of spheres over nodes and edges, {ranks} ranks",
-                not wrong and len(rows) == 41 and rows[160][FORWARD] == len(over), str(wrong[:1]))
+    fact(f"number, mass and rate of spheres over nodes and edges, {ranks} ranks",
+         not wrong and len(rows) == 41 and rows[160][FORWARD] == len(over), str(wrong[:1]))
 
 
-def check_up(checks, folder):
+def test_up(folder):
     """Upwards on the surface is above already: a sphere from -z passes in step 128 z."""
     write_data(folder / "spheres.data", [(k, x, y, -z) for k, x, y, z in spheres()])
     rows = table(begin(velocity="0 0 1") + forces() + "run 160\n", folder)
@@ -117,11 +127,11 @@ def check_up(checks, folder):
     wrong = [step for step, row in rows.items()
              if row[BACKWARD] != len([s for s in over if step >= s[3] * STEPS_PER_LENGTH])
              or row[FORWARD] != 0 or row[NET] != -row[MASS_BACKWARD]]
-    checks.fact("what comes up counts backward", not wrong and rows[160][BACKWARD] == len(over), str(wrong))
+    fact("what comes up counts backward", not wrong and rows[160][BACKWARD] == len(over), str(wrong))
     write_data(folder / "spheres.data", spheres())
 
 
-def check_periodic(checks, folder):
+def test_periodic(folder):
     """The plate is as wide as the box, spheres drift through its sides and fall through its floor
     twice. Box and plate from -2.5: x = 2.5 is x = -2.5 of an image."""
     write_plate(folder / "plate.stl", 2.5, 10)
@@ -136,12 +146,12 @@ def check_periodic(checks, folder):
                         for lap in range(2))
             if row[FORWARD] != times or row[BACKWARD] != 0:
                 wrong.append((ranks, neigh, step, row[FORWARD], times))
-    checks.fact("periodic: each passes once in each lap, on 1, 2 and 4 ranks", not wrong, str(wrong[:1]))
+    fact("periodic: each passes once in each lap, on 1, 2 and 4 ranks", not wrong, str(wrong[:1]))
     write_plate(folder / "plate.stl", 2, 8)
     write_data(folder / "spheres.data", spheres())
 
 
-def check_restart(checks, folder):
+def test_restart(folder):
     """Cut in the middle of a window and between two layers; sums of small whole numbers are exact."""
     words = "every 32 count once"
     one = table(begin() + forces(words) + "run 160\n", folder)
@@ -149,24 +159,24 @@ def check_restart(checks, folder):
     for ranks in (1, 2, 4):
         rest = table(SETTINGS + "read_restart mid.restart\n" + forces(words) + "run 116\n", folder, ranks)
         wrong = [step for step, row in rest.items() if row != one[step]]
-        checks.fact(f"continued on {ranks} ranks as unbroken", not wrong and len(rest) == 30, str(wrong))
+        fact(f"continued on {ranks} ranks as unbroken", not wrong and len(rest) == 30, str(wrong))
     # It has passed, is counted, and comes back after the restart.
     up = "velocity all set 0 0 1\n"
     rest = table(SETTINGS + "read_restart mid.restart\n" + up + forces(words) + "run 160\n", folder)
     first = [s for s in over_plate(spheres()) if s[3] == 0.25]
     last = rest[204]
-    checks.fact("counted once, also through a restart",
-                last[FORWARD] == len(first) and last[BACKWARD] == 0, str(last))
+    fact("counted once, also through a restart",
+         last[FORWARD] == len(first) and last[BACKWARD] == 0, str(last))
 
 
-def check_window(checks, folder):
+def test_window(folder):
     """The rate after a restart with a shorter window, and with a timestep that changes."""
     lmp.run_well(begin() + forces("every 64") + "run 40\nwrite_restart mid.restart\n", folder)
     rows = table(SETTINGS + "read_restart mid.restart\n" + forces("every 8") + "run 8\n", folder)
     first = mass_of(passed(over_plate(spheres()), 40))
     # The window that was begun ends in the first step, the others each 8 steps after.
-    checks.at_most("a window that is more than full when a run goes on ends at once",
-                   abs(rows[44][RATE] * 41 / STEPS_PER_LENGTH / first - 1), 1e-6)
+    at_most("a window that is more than full when a run goes on ends at once",
+            abs(rows[44][RATE] * 41 / STEPS_PER_LENGTH / first - 1), 1e-6)
 
     # Fix dt/reset acts before this fix or after it, more often than a window ends.
     wrong, rates = [], set()
@@ -181,11 +191,11 @@ def check_window(checks, folder):
             rates.add(rate)
             if abs(row[RATE] - rate) > 1e-9 * rate:
                 wrong.append((place, step, row[RATE], rate))
-    checks.fact("where fix dt/reset changes the timestep the rate's time is that of its steps",
-                not wrong and len(rates) > 2, str(wrong[:1]))
+    fact("where fix dt/reset changes the timestep the rate's time is that of its steps",
+         not wrong and len(rates) > 2, str(wrong[:1]))
 
 
-def check_delete(checks, folder):
+def test_delete(folder):
     over, every = over_plate(spheres()), spheres()
     wrong = []
     for ranks in (1, 2, 4):
@@ -196,16 +206,16 @@ def check_delete(checks, folder):
             if (row[FORWARD] != len(passed(over, step)) or row[ATOMS] != len(every) - len(gone) or
                     row[GONE] != len(gone) or row[MASS_GONE] != mass_of(gone)):
                 wrong.append((ranks, step, row))
-    checks.fact("what passed forward is deleted at the next reneighbouring", not wrong, str(wrong[:1]))
+    fact("what passed forward is deleted at the next reneighbouring", not wrong, str(wrong[:1]))
 
     # Written when spheres have passed that are not deleted yet.
     slow = "delay 0 every 24 check no"
     lmp.run_well(begin() + forces("delete yes", slow) + "run 38\nwrite_restart mid.restart\n", folder, 2)
     rows = table(SETTINGS + "read_restart mid.restart\n" + forces("delete yes", slow) + "run 30\n", folder, 2)
     gone = [s for s in over if s[3] == 0.25]
-    checks.fact("what was to be deleted is after a restart",
-                rows[38][GONE] == 0 and rows[38][FORWARD] == len(gone) and rows[68][GONE] == len(gone),
-                f"{rows[38]} {rows[68]}")
+    fact("what was to be deleted is after a restart",
+         rows[38][GONE] == 0 and rows[38][FORWARD] == len(gone) and rows[68][GONE] == len(gone),
+         f"{rows[38]} {rows[68]}")
 
 
 GRAIN_SETTINGS = SETTINGS + """\
@@ -215,7 +225,7 @@ create_box      2 box
 """
 
 
-def check_springs(checks, folder):
+def test_springs(folder):
     """Grains that slide on a floor go on as if nothing was deleted around them."""
     def text(words):
         return GRAIN_SETTINGS + f"""\
@@ -251,15 +261,15 @@ run             600
         for words in ("", "delete yes"):
             rows = lmp.read_thermo(lmp.run_well(text(words), folder, ranks))
             dumps[ranks, words] = lmp.read_dump(folder / "grains")
-        checks.fact(f"grains were deleted beside grains with springs, {ranks} ranks",
-                    rows[-1][2] == 32, str(rows[-1]))
-        checks.at_most(f"and these go on to the last bit, {ranks} ranks",
-                       lmp.largest_difference(dumps[ranks, ""], dumps[ranks, "delete yes"]), 0)
+        fact(f"grains were deleted beside grains with springs, {ranks} ranks",
+             rows[-1][2] == 32, str(rows[-1]))
+        at_most(f"and these go on to the last bit, {ranks} ranks",
+                lmp.largest_difference(dumps[ranks, ""], dumps[ranks, "delete yes"]), 0)
     turning = max(abs(w) for row in dumps[1, ""][600].values() for w in row[6:])
-    checks.fact("springs were at work", turning > 0.05, str(turning))
+    fact("springs were at work", turning > 0.05, str(turning))
 
 
-def check_bounce(checks, folder):
+def test_bounce(folder):
     """A sphere that bounces below the plate, counted from its heights in every step."""
     text = GRAIN_SETTINGS + """\
 create_atoms    1 single 0.1 0.2 1.0 units box
@@ -268,7 +278,7 @@ pair_style      zero 1.0
 pair_coeff      * *
 fix             move all nve/sphere
 fix             pull all gravity 1.0 vector 0 0 -1
-fix             floor all wall/gran hooke 1e4 NULL 1e-300 NULL 0 0 zplane -1 NULL
+""" + lmp.flat_walls("fix floor all wall/gran hooke 1e4 NULL 1e-300 NULL 0 0 zplane -1 NULL") + """\
 fix             m all massflow/lsdcd mesh plate.stl rotate 1 0 0 180
 fix             o all massflow/lsdcd mesh plate.stl rotate 1 0 0 180 count once
 timestep        0.002
@@ -284,10 +294,10 @@ run             4000
     up = [a < 0 <= b for a, b in zip(heights, heights[1:])]
     wrong = [row for row in rows
              if row[1:] != [sum(down[:int(row[0])]), sum(up[:int(row[0])]), any(down[:int(row[0])]), 0]]
-    checks.fact("a bouncing sphere counts each time, or once", not wrong and sum(down) > 1, str(wrong[:1]))
+    fact("a bouncing sphere counts each time, or once", not wrong and sum(down) > 1, str(wrong[:1]))
 
 
-def check_deposit(checks, folder):
+def test_deposit(folder):
     """Spheres come in above and are deleted below: none is lost, none is counted twice."""
     text = GRAIN_SETTINGS + """\
 pair_style      zero 1.0
@@ -306,12 +316,12 @@ run             1300
     for ranks in (1, 4):
         rows = lmp.read_thermo(lmp.run_well(text, folder, ranks))
         inserted = [min(100, (int(row[0]) - 1) // 10 + 1) if row[0] else 0 for row in rows]
-        checks.fact(f"inserted = there + deleted, and all pass once, {ranks} ranks",
-                    all(row[1] + row[3] in (n, n - 1, n + 1) for row, n in zip(rows, inserted)) and
-                    rows[-1][1] + rows[-1][3] == 100 and rows[-1][2] == 100, str(rows[-1]))
+        fact(f"inserted = there + deleted, and all pass once, {ranks} ranks",
+             all(row[1] + row[3] in (n, n - 1, n + 1) for row, n in zip(rows, inserted)) and
+             rows[-1][1] + rows[-1][3] == 100 and rows[-1][2] == 100, str(rows[-1]))
 
 
-def check_kick(checks, folder):
+def test_kick(folder):
     """A sphere far from the plate that is thrown past it in one step."""
     write_data(folder / "spheres.data", [(1, 0, 0, 20), (1, 0, 0, 10)], 50)
     kick = """\
@@ -319,15 +329,15 @@ variable        f equal -1e6*(step==30)
 fix             kick all addforce 0 0 v_f
 """
     done = lmp.run(begin() + forces() + kick + "run 60\n", folder)
-    checks.fact("a far sphere that moves by more than the skin in a step stops the run",
-                done.returncode != 0 and "moved by more than the skin 0.3 in one step" in done.stdout,
-                done.stdout[-300:])
+    fact("a far sphere that moves by more than the skin in a step stops the run",
+         done.returncode != 0 and "moved by more than the skin 0.3 in one step" in done.stdout,
+         done.stdout[-300:])
     rows = table(begin() + forces(neigh="delay 0 every 1 check no") + kick + "run 31\n", folder)
-    checks.fact("where all are looked at in every step it is counted", rows[31][FORWARD] == 2, str(rows[31]))
+    fact("where all are looked at in every step it is counted", rows[31][FORWARD] == 2, str(rows[31]))
     write_data(folder / "spheres.data", spheres())
 
 
-def check_deform(checks, folder):
+def test_deform(folder):
     """The box grows and tilts about a plate that stays. In a tilted box LAMMPS rounds positions
     whenever it reneighbours, so that none may be on an edge."""
     off = [(k, x + 0.01, y + 0.02, z + 0.004) for k, x, y, z in spheres()]
@@ -336,10 +346,10 @@ def check_deform(checks, folder):
     change = "change_box all triclinic\nfix grow all deform 1 x final -4 5 xy final 1.0 z final -4 5 remap none\n"
     rows = table(begin("p p p") + forces() + change + "run 160\n", folder, 2)
     wrong = [step for step, row in rows.items() if row[FORWARD] != len(passed(over, step))]
-    checks.fact("in a box that grows and tilts", not wrong and rows[160][FORWARD] == len(over), str(wrong))
+    fact("in a box that grows and tilts", not wrong and rows[160][FORWARD] == len(over), str(wrong))
 
 
-def check_warnings(checks, folder):
+def test_warnings(folder):
     """Each where it belongs, and none in a script without reason."""
     few = [(1, 0, 0, 1), (1, 0.5, 0, 1)]
     write_data(folder / "spheres.data", few)
@@ -352,38 +362,14 @@ def check_warnings(checks, folder):
     (folder / "both.stl").write_text(one + "endfacet" + "\n".join(["", *lines[1:]]) + "endfacet" + other)
     both = lmp.run_well(begin() + forces().replace("plate.stl", "both.stl") + "run 0\n", folder)
     long = lmp.run_well(begin("p p f") + forces("scale 2 1 1") + "run 0\n", folder)
-    checks.fact("no warning without reason", "massflow/lsdcd: delete" not in plain and
-                "wound in opposite ways" not in plain and "both windings" not in plain and "longer than" not in plain)
+    fact("no warning without reason", "massflow/lsdcd: delete" not in plain and
+         "wound in opposite ways" not in plain and "both windings" not in plain and "longer than" not in plain)
     if not lmp.ON_KOKKOS:    # the hosts with Kokkos have no package RIGID
         rigid = forces("delete yes").replace("all nve", "all rigid single")
-        checks.fact("rigid bodies and delete", "delete yes removes atoms without telling fix move, whose rigid bodies" in
-                    lmp.run_well(begin() + rigid + "run 0\n", folder))
-    checks.fact("a facet wound the other way", "edges of the mesh join facets that are wound" in turned)
-    checks.fact("a facet in both windings", "facets of the mesh are there in both windings: forward" in both, both[-300:])
-    checks.fact("a mesh longer than the box",
-                "longer than the periodic box in x, by 2:" in long and "box in y" not in long)
+        fact("rigid bodies and delete", "delete yes removes atoms without telling fix move, whose rigid bodies" in
+             lmp.run_well(begin() + rigid + "run 0\n", folder))
+    fact("a facet wound the other way", "edges of the mesh join facets that are wound" in turned)
+    fact("a facet in both windings", "facets of the mesh are there in both windings: forward" in both, both[-300:])
+    fact("a mesh longer than the box",
+         "longer than the periodic box in x, by 2:" in long and "box in y" not in long)
     write_data(folder / "spheres.data", spheres())
-
-
-def main():
-    checks, folder = lmp.Checks(), lmp.scratch()
-    write_plate(folder / "plate.stl", 2, 8)
-    write_data(folder / "spheres.data", spheres())
-    for ranks in (1, 2, 4):
-        check_closed_form(checks, folder, ranks)
-    check_up(checks, folder)
-    check_periodic(checks, folder)
-    check_restart(checks, folder)
-    check_window(checks, folder)
-    check_delete(checks, folder)
-    check_springs(checks, folder)
-    check_bounce(checks, folder)
-    check_deposit(checks, folder)
-    check_kick(checks, folder)
-    check_deform(checks, folder)
-    check_warnings(checks, folder)
-    checks.done(folder)
-
-
-if __name__ == "__main__":
-    main()

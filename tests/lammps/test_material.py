@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 LSDCD contributors
 # SPDX-License-Identifier: GPL-2.0-only
 
@@ -12,8 +11,11 @@ import pathlib
 import re
 import subprocess
 
+import pytest
+
 import lmp
 import stl
+from facts import at_most, fact
 
 FILE = """\
 units si
@@ -84,7 +86,14 @@ def contact_numbers(e1, nu1, e2, nu2):
             1 / (2 * (2 - nu1) * (1 + nu1) / e1 + 2 * (2 - nu2) * (1 + nu2) / e2))
 
 
-def same_bits(checks, folder):
+@pytest.fixture(scope="module")
+def folder(folder):
+    (folder / "grains.lsdcd").write_text(FILE)
+    write_floor(folder / "floor.stl", 0.015)
+    return folder
+
+
+def test_same_bits(folder):
     written = {
         "granular material grains.lsdcd glass":
             "granular hertz/material 70e6 0.9 0.22 damping coeff_restitution tangential mindlin NULL 1 0.3",
@@ -99,38 +108,38 @@ def same_bits(checks, folder):
     }
     for words, numbers in written.items():
         filled, plain = run(folder, f"{words} mesh floor.stl")[0], run(folder, f"{numbers} mesh floor.stl")[0]
-        checks.fact(f"{words}: moves as with the numbers written out", filled == plain)
+        fact(f"{words}: moves as with the numbers written out", filled == plain)
     turns = filled[20000][1][6:9]
-    checks.fact("the grain was turned by friction", turns != filled[0][1][6:9], str(turns))
+    fact("the grain was turned by friction", turns != filled[0][1][6:9], str(turns))
 
 
-def by_mesh_and_type(checks, folder):
+def test_by_mesh_and_type(folder):
     """Where one pair meets, its numbers are all that counts."""
     alone = run(folder, "granular material grains.lsdcd glass on steel mesh floor.stl")[0]
     for words in ("glass mesh floor.stl material steel", "glass types 1 steel mesh floor.stl",
                   "glass mesh floor.stl move 0 0 -0.005 material glass mesh floor.stl material steel"):
         got, _, text = run(folder, f"granular material grains.lsdcd {words}")
         # Several meshes are computed in another order.
-        checks.at_most(f"{words}: as glass on steel", lmp.largest_difference(alone, got), 1e-12)
-        checks.fact(f"{words}: the log says so", re.search("material    (glass on steel|steel on glass), ", text))
+        at_most(f"{words}: as glass on steel", lmp.largest_difference(alone, got), 1e-12)
+        fact(f"{words}: the log says so", re.search("material    (glass on steel|steel on glass), ", text))
 
 
-def two_materials(checks, folder):
+def test_two_materials(folder):
     filled, words, text = run(folder, "granular material grains.lsdcd glass on steel mesh floor.stl")
     e, restitution, nu = (float(word) for word in words.split()[2:5])
     young, shear = contact_numbers(70e6, 0.22, 210e6, 0.3)
     # Ten operations in each of two codes.
-    checks.at_most("glass on steel: E*", abs(e / (2 * (1 - nu**2)) / young - 1), 4e-15)
-    checks.at_most("glass on steel: G*", abs(e / (4 * (2 - nu) * (1 + nu)) / shear - 1), 4e-15)
-    checks.fact("glass on steel: restitution", restitution == 0.7)
-    checks.fact("glass on steel: same bits with the words of the log",
-                filled == run(folder, f"{words} mesh floor.stl")[0])
+    at_most("glass on steel: E*", abs(e / (2 * (1 - nu**2)) / young - 1), 4e-15)
+    at_most("glass on steel: G*", abs(e / (4 * (2 - nu) * (1 + nu)) / shear - 1), 4e-15)
+    fact("glass on steel: restitution", restitution == 0.7)
+    fact("glass on steel: same bits with the words of the log",
+         filled == run(folder, f"{words} mesh floor.stl")[0])
     for what in ("glass on steel", "grains.lsdcd, in units si", "7e+07 Pa, grains.lsdcd line 3",
                  "soft, so that steps are long", "grains.lsdcd line 15"):
-        checks.fact(f"the log says '{what}'", what in text)
+        fact(f"the log says '{what}'", what in text)
 
 
-def systems_of_units(checks, folder):
+def test_systems_of_units(folder):
     """The same motion, but for rounding: 1e-16 in each of 20 000 steps, and what contacts
     make of it."""
     wall = "granular jkr material grains.lsdcd glass mesh floor.stl"
@@ -140,27 +149,27 @@ def systems_of_units(checks, folder):
         moves = run(folder, wall.replace("floor", "scaled"), units)[0]
         si = {step: {1: [x / m for x in rows[1][:3]] + [v * s / m for v in rows[1][3:6]] +
                         [w * s for w in rows[1][6:]]} for step, rows in moves.items()}
-        checks.at_most(f"units {units}: the motion of units si", lmp.largest_difference(reference, si), 1e-10)
+        at_most(f"units {units}: the motion of units si", lmp.largest_difference(reference, si), 1e-10)
 
 
-def places(checks, folder):
+def test_places(folder):
     elsewhere = folder / "elsewhere"
     elsewhere.mkdir()
     (elsewhere / "mine.lsdcd").write_text(FILE.replace("0.9", "0.8"))
     for variable in ("LSDCD_POTENTIALS", "LAMMPS_POTENTIALS"):
         words = run(folder, "granular material mine.lsdcd glass mesh floor.stl",
                     env={variable: str(elsewhere)})[1]
-        checks.fact(f"a file in ${variable} is found", words.split()[3] == "0.8")
+        fact(f"a file in ${variable} is found", words.split()[3] == "0.8")
     words = run(folder, "granular material alumina.lsdcd alumina on glass with sliding_friction 0.2 "
                 "mesh floor.stl")[1]
-    checks.fact("the project's own files are found by name", words.split()[3] == "0.98")
+    fact("the project's own files are found by name", words.split()[3] == "0.98")
 
 
-def ranks(checks, folder):
+def test_ranks(folder):
     wall = "granular material grains.lsdcd glass on steel mesh floor.stl"
     one, words, _ = run(folder, wall)
     two, same, _ = run(folder, wall, ranks=2)
-    checks.fact("2 processes: the same words and motion", words == same and one == two)
+    fact("2 processes: the same words and motion", words == same and one == two)
 
 
 TWO_GRAINS = """\
@@ -186,7 +195,7 @@ run             10000
 """
 
 
-def grains(checks, folder):
+def test_grains(folder):
     """The words that the tool prints for grains on one another, in the LAMMPS that is there: they
     part with the file's restitution. Its number is rounded to 1e-6; steps are a 1000th of a
     contact, and force jumps at its ends."""
@@ -196,22 +205,4 @@ def grains(checks, folder):
     words = re.search(r"pair_coeff \* \* (.*)", text)[1]
     lmp.run_well(TWO_GRAINS.format(words=words), folder)
     before, after = (lmp.read_dump(folder / "out")[step][1][0] for step in (0, 10000))
-    checks.at_most("grains on one another: restitution of pair_style granular", abs(-after / before - 0.9), 1e-3)
-
-
-def main():
-    checks, folder = lmp.Checks(), lmp.scratch()
-    (folder / "grains.lsdcd").write_text(FILE)
-    write_floor(folder / "floor.stl", 0.015)
-    same_bits(checks, folder)
-    by_mesh_and_type(checks, folder)
-    two_materials(checks, folder)
-    systems_of_units(checks, folder)
-    places(checks, folder)
-    ranks(checks, folder)
-    grains(checks, folder)
-    checks.done(folder)
-
-
-if __name__ == "__main__":
-    main()
+    at_most("grains on one another: restitution of pair_style granular", abs(-after / before - 0.9), 1e-3)

@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 LSDCD contributors
 # SPDX-License-Identifier: GPL-2.0-only
 
@@ -9,6 +8,7 @@ import re
 
 import lmp
 import stl
+from facts import at_most, fact
 
 BOX = """\
 units           lj
@@ -56,8 +56,7 @@ def lines(text, *words):
     return [line for line in text.split("\n") if all(w in line for w in words)]
 
 
-def main():
-    checks, folder = lmp.Checks(), lmp.scratch()
+def test_messages(folder):
     (folder / "floor.stl").write_bytes((lmp.HERE / "scripts" / "floor.stl").read_bytes())
     stl.write(folder / "in_mm.stl", [((-50, -50, 0), (50, -50, 0), (50, 50, 0)), ((-50, -50, 0), (50, 50, 0), (-50, 50, 0)),
                                      ((-50, -50, 0), (50, -50, 0), (0, -50, 80))])
@@ -66,39 +65,38 @@ def main():
     o, x, y, z = (0, 0, 0), (2, 0, 0), (0, 2, 0), (0, 0, 2)
     stl.write(folder / "corner.stl", [(o, x, y), (o, y, z), (o, z, x)])
     turning = "surface_angvel 0 0 3"
-
     # Surfaces that push along their normals.
     for ranks in (1, 2):
         text = lmp.run_well(BOX + fix(turning, mesh="lifters.stl") + "run 1\n", folder, ranks)
         told = lines(text, "WARNING: Fix w wall/lsdcd:", "push 8 of 80 faces")
-        checks.fact(f"lifters are told once on {ranks} ranks", len(told) == 1)
+        fact(f"lifters are told once on {ranks} ranks", len(told) == 1)
         told = told or [""]
         # At the middle of a triangle with two corners outside.
         speed = 3 * (2.0 - 0.4 / 3)
-        checks.fact("with the largest speed", f"up to {speed:g} (100 %" in told[0], told[0][:200])
-        checks.fact("and what to do", "stays where it is" in told[0] and
-                    "use the keyword motion" in told[0])
+        fact("with the largest speed", f"up to {speed:g} (100 %" in told[0], told[0][:200])
+        fact("and what to do", "stays where it is" in told[0] and
+             "use the keyword motion" in told[0])
     text = lmp.run_well(BOX + fix(turning, mesh="drum.stl") + "run 1\n", folder)
-    checks.fact("a drum without lifters is not warned of", "along their normals" not in text)
+    fact("a drum without lifters is not warned of", "along their normals" not in text)
     text = lmp.run_well(BOX + fix("surface_vel 1 0 0") + "run 1\n", folder)
-    checks.fact("nor a belt", "along their normals" not in text)
+    fact("nor a belt", "along their normals" not in text)
 
     # Whose warning, and of which atom.
     deep = "set group all z 0.3\n"
     text = lmp.run_well(BOX + deep + fix(name="base") + "run 1\nminimize 0 0 1 1\n", folder)
-    checks.fact("a warning names the fix and the atom",
-                lines(text, "WARNING: Fix base wall/lsdcd: atom 2 appeared"))
-    checks.fact("that of a minimization too", lines(text, "Fix base wall/lsdcd: the wall has no effect"))
+    fact("a warning names the fix and the atom",
+         lines(text, "WARNING: Fix base wall/lsdcd: atom 2 appeared"))
+    fact("that of a minimization too", lines(text, "Fix base wall/lsdcd: the wall has no effect"))
     done = lmp.run(BOX + fix(name="base", more="sclae 2") + "run 1\n", folder)
-    checks.fact("an error names the fix", "Fix base wall/lsdcd: 'sclae'" in done.stdout)
+    fact("an error names the fix", "Fix base wall/lsdcd: 'sclae'" in done.stdout)
     grow = ("variable d equal 1.0+0.4*(step>2)\nfix grow all adapt 1 atom diameter v_d\n"
             "neigh_modify delay 1000 check no\n")
     done = lmp.run(BOX.replace("sphere\n", "sphere 1\n", 1) + grow + fix("rmax 0.6") + "run 10\n",
                    folder)
     message = done.stdout[done.stdout.find("ERROR"):][:300]
-    checks.fact("an engine's error names the atom's ID",
-                done.returncode != 0 and "Fix w wall/lsdcd: " in message and "atom 2 " in message,
-                message)
+    fact("an engine's error names the atom's ID",
+         done.returncode != 0 and "Fix w wall/lsdcd: " in message and "atom 2 " in message,
+         message)
 
     # nearest: after the first run, and when ten times as many answers were not certified; here
     # one in every step and one at every start.
@@ -106,29 +104,29 @@ def main():
              fix("nearest 1 grid 0.1", mesh="corner.stl") + "run {} every 2 NULL\n")
     for steps, times in ((2, 1), (10, 1), (100, 2)):
         told = lines(lmp.run_well(every.format(steps), folder), "not certified exact")
-        checks.fact(f"nearest is told {times} times in {steps} steps, two a part",
-                    len(told) == times, "\n".join(told))
+        fact(f"nearest is told {times} times in {steps} steps, two a part",
+             len(told) == times, "\n".join(told))
 
     # Other units than the script's. The floor is 4 wide and flat, its spheres have radius 0.5.
     text = lmp.run_well(BOX + fix("scale 1000") + "run 0\n", folder)
-    checks.fact("a flat floor in millimetres is told, and its scale",
-                lines(text, "WARNING: Fix w", "far larger than the box", "add scale 0.001"))
+    fact("a flat floor in millimetres is told, and its scale",
+         lines(text, "WARNING: Fix w", "far larger than the box", "add scale 0.001"))
     text = lmp.run_well(BOX + fix("scale 0.001") + "run 0\nrun 0\n", folder)
-    checks.fact("a mesh smaller than a sphere is told once, with its scale",
-                len(lines(text, "WARNING: Fix w", "spheres have radius 0.5", "'scale 0.001' is not needed")) == 1)
+    fact("a mesh smaller than a sphere is told once, with its scale",
+         len(lines(text, "WARNING: Fix w", "spheres have radius 0.5", "'scale 0.001' is not needed")) == 1)
     text = lmp.run_well(BOX + fix() + "run 0\n", folder)
-    checks.fact("a floor of the script's units is not", not lines(text, "probably in"))
+    fact("a floor of the script's units is not", not lines(text, "probably in"))
     for name, command in (("Fix in insert/lsdcd", "fix in all insert/lsdcd mesh floor.stl scale {} massrate 1 diam one 0.3 dens 2\n"),
                           ("Fix o massflow/lsdcd", "fix o all massflow/lsdcd mesh floor.stl scale {}\n")):
         for scale, told in ((1000, 1), (1, 0)):
             text = lmp.run_well(BOX + command.format(scale) + "run 0\nrun 0\n", folder)
-            checks.fact(f"{name} tells {told} times of a mesh with scale {scale}", told == len(lines(
+            fact(f"{name} tells {told} times of a mesh with scale {scale}", told == len(lines(
                 text, f"WARNING: {name}", "far larger than the box", "add scale 0.001")), text[-600:])
 
     # A turn is 6.28 radians.
     for limits, told in (("0 90", 1), ("-3 3", 0)):
         text = lmp.run_well(BOX + fix("body mass 1 com 0 0 0 inertia 1 1 1 0 0 0 joint hinge 0 0 0 0 1 0 limits " + limits) + "run 0\n", folder)
-        checks.fact(f"limits {limits} of a hinge are told {told} times", told == len(lines(text, "WARNING: Fix w", "of its hinge", "in radians")), text[-600:])
+        fact(f"limits {limits} of a hinge are told {told} times", told == len(lines(text, "WARNING: Fix w", "of its hinge", "in radians")), text[-600:])
 
     # Atoms without a diameter have radius 0.5: the box and the mesh are small beside them.
     small = BOX.replace("block -3 3 -3 3 -1 5", "block -.06 .06 -.06 .06 -.02 .1").replace("2 2 4", "0 0 .02")
@@ -137,91 +135,91 @@ def main():
         text = lmp.run_well(small + fix(more, mesh="in_mm.stl") + "run 0\nrun 0\n", folder)
         told = lines(text, "WARNING: Fix w", "radius 0.5", "box spans", "no such sphere fits", "set group all diameter",
                      "until a diameter is set")
-        checks.fact(f"a diameter that was forgotten is named once, beside {what}", len(told) == 1, text[-600:])
-        checks.fact(f"the scale is not blamed for it, beside {what}", not lines(text, "is not needed"))
+        fact(f"a diameter that was forgotten is named once, beside {what}", len(told) == 1, text[-600:])
+        fact(f"the scale is not blamed for it, beside {what}", not lines(text, "is not needed"))
     small = small.replace("pair_style", "set group all diameter 0.12\npair_style")
     text = lmp.run_well(small + fix("scale 0.001", mesh="in_mm.stl") + "run 0\n", folder)
-    checks.fact("spheres that fit the box are not told", not lines(text, "no such sphere fits"))
+    fact("spheres that fit the box are not told", not lines(text, "no such sphere fits"))
 
     # A contact with k = 1e4 and a mass of pi/3 lasts pi sqrt(m/k) = 0.032. The sphere sinks by 0.2 in its first step.
     fast = BOX + "set group all z 0.6\nvelocity all set 0 0 -3\ntimestep 0.1\n" + fix() + "thermo_modify lost ignore\nrun 3\n"
     text = lmp.run_well(fast, folder)
-    checks.fact("a sphere that sank in a step too long is told to shorten it",
-                lines(text, "sank into the wall", "use a shorter one first") and not lines(text, "stiffer contact (a larger kn)"), text[-900:])
+    fact("a sphere that sank in a step too long is told to shorten it",
+         lines(text, "sank into the wall", "use a shorter one first") and not lines(text, "stiffer contact (a larger kn)"), text[-900:])
 
     # A plate goes down through the floor, with a sphere in between.
     text = lmp.run(BOX + "set group all x 0 y 0 z 0.5\n" + fix("mesh floor.stl move 0 0 1 motion linear 0 0 -3") +
                    "thermo 100\nrun 3000\n", folder, ranks=2).stdout
     through = "sank into the wall by 99.9705 % of its radius 0.5 in step 332, pressed by mesh 1 'floor.stl' and mesh 2 'floor.stl'"
-    checks.fact("a sphere that is squeezed through a mesh is named with both before it is lost", len(lines(
+    fact("a sphere that is squeezed through a mesh is named with both before it is lost", len(lines(
         text.split("ERROR: Lost atoms")[0], "WARNING: Fix w", "atom 2", through)) == 1 and "Lost atoms" in text, text[-2000:])
 
     # Walls that act on nothing.
     text = lmp.run_well(BOX + "unfix move\nset group all diameter 0\n" + fix() + "run 0\nrun 0\n", folder)
-    checks.fact("a group of points is told once",
-                len(lines(text, "WARNING: Fix w", "all 1 atoms of group all have radius 0", "set diameter")) == 1)
+    fact("a group of points is told once",
+         len(lines(text, "WARNING: Fix w", "all 1 atoms of group all have radius 0", "set diameter")) == 1)
     text = lmp.run_well(BOX + fix("motion linear 0 0 -450") + "run 4\nrun 4\n", folder)
-    checks.fact("a mesh that leaves the box is told once, with the step",
-                len(lines(text, "WARNING: Fix w", "has moved out of the box", "in step 4")) == 1)
+    fact("a mesh that leaves the box is told once, with the step",
+         len(lines(text, "WARNING: Fix w", "has moved out of the box", "in step 4")) == 1)
     text = lmp.run_well(BOX + fix("move 0 0 9 motion linear 0 0 -450") + "run 8\n", folder)
-    checks.fact("one that has yet to come in is not", not lines(text, "has moved out of"))
+    fact("one that has yet to come in is not", not lines(text, "has moved out of"))
 
     # The floor is 10 across in a box from -1 to 5 in z: turned about y, it reaches from -5 to 5.
     turned = "motion rotate 0 0 0 {} 1"
     told = "WARNING: Fix w", "will turn out of the box", "in z"
     text = lmp.run_well(BOX + fix(turned.format("0 1 0")) + "run 0\nrun 0\n", folder)
-    checks.fact("a mesh that will turn out of the box is told once", len(lines(text, *told)) == 1)
+    fact("a mesh that will turn out of the box is told once", len(lines(text, *told)) == 1)
     text = lmp.run_well(BOX + fix(turned.format("0 0 1")) + "run 0\n", folder)
-    checks.fact("one that turns within it is not", not lines(text, "will turn out of"))
+    fact("one that turns within it is not", not lines(text, "will turn out of"))
 
     # The same wall in two fixes.
     twice = "WARNING: Fix lid", "'floor.stl' is at the same place in fix w", "twice"
     both = BOX + "group one id 2\ngroup none empty\n" + fix()
     text = lmp.run_well(both + fix(name="lid") + "run 0\nrun 0\n", folder, 2)
-    checks.fact("the same mesh in two fixes is told once", len(lines(text, *twice)) == 1)
+    fact("the same mesh in two fixes is told once", len(lines(text, *twice)) == 1)
     text = lmp.run_well(both + fix(name="lid", more="move 0 0 1e-3") + "run 0\n", folder)
-    checks.fact("at another place it is not", not lines(text, *twice))
+    fact("at another place it is not", not lines(text, *twice))
     text = lmp.run_well(both + fix(name="lid").replace(" all ", " one ") + "run 0\n", folder)
-    checks.fact("in groups that share an atom it is", len(lines(text, *twice)) == 1)
+    fact("in groups that share an atom it is", len(lines(text, *twice)) == 1)
     text = lmp.run_well(both.replace(" all wall", " none wall") + fix(name="lid").replace(" all ", " one ") +
                         "run 0\n", folder)
-    checks.fact("in groups that share none it is not", not lines(text, *twice))
+    fact("in groups that share none it is not", not lines(text, *twice))
 
     # Costs are those of another machine: doc/effects.md has them, with its name.
     text = lmp.run_well(BOX + fix() + "run 0\n", folder)
-    checks.fact("the log lists effects without times",
-                lines(text, "  effects     normal spring, normal damping") and not lines(text, " ns"))
+    fact("the log lists effects without times",
+         lines(text, "  effects     normal spring, normal damping") and not lines(text, " ns"))
 
     # Laws that LAMMPS's own fix wall/gran computes otherwise, in every version that was tried.
     other = "fix wall/gran of this LAMMPS gives other forces for this law: "
     text = lmp.run_well(BOX + fix(law="granular hertz 1e6 0.5 tangential mindlin 1e6 1 0.3 damping tsuji") + "run 0\n", folder)
-    checks.fact("the log names what fix wall/gran computes otherwise", lines(text, other, "damping tsuji lacks a factor of sqrt(2)"))
+    fact("the log names what fix wall/gran computes otherwise", lines(text, other, "damping tsuji lacks a factor of sqrt(2)"))
     text = lmp.run_well(BOX + fix(law="hertz/history 1e6 NULL 5 NULL 0.5 1") + "run 0\n", folder)
-    checks.fact("and nothing where that agrees", not lines(text, other), text[:900])
+    fact("and nothing where that agrees", not lines(text, other), text[:900])
 
     # Words that say the default.
     text = lmp.run_well(BOX + fix("grid auto rmax auto memory 1024 cache none nearest all corner blend "
                                   "side both device auto log full draw edges 1") + "run 0\n", folder)
-    checks.fact("words that say the default are taken without a word", not lines(text, "WARNING"), text[-300:])
+    fact("words that say the default are taken without a word", not lines(text, "WARNING"), text[-300:])
 
     # Why there is no CUDA, as the build was configured.
     cache = lmp.LIB.parent / "CMakeCache.txt"
     left_out = "LSDCD_CUDA:BOOL=OFF" in cache.read_text() if cache.exists() else None
     if left_out is not None:
         device = lines(text, "  device      ")[0]
-        checks.fact("the log tells a build without the CUDA engine from one without its toolkit",
-                    ("left out of this build by LSDCD_CUDA=OFF" in device) == left_out and
-                    not (left_out and "toolkit" in device), device)
+        fact("the log tells a build without the CUDA engine from one without its toolkit",
+             ("left out of this build by LSDCD_CUDA=OFF" in device) == left_out and
+             not (left_out and "toolkit" in device), device)
 
     release = re.search(r"^project\(lsdcd VERSION (\S+)", (lmp.HERE.parents[1] / "CMakeLists.txt").read_text(), re.M)[1]
-    checks.fact("the log has the version", lines(text, "  version     ") == ["  version     " + release])
+    fact("the log has the version", lines(text, "  version     ") == ["  version     " + release])
 
     # What a run did: its steps, and how often lists were made.
     text = lmp.run_well(BOX + fix() + "run 1\nrun 4 pre no\n", folder)
-    checks.fact("a run has as many steps as were asked for",
-                lines(text, "Fix w wall/lsdcd: 1 step and the setup: atoms near the wall chosen 1 time, "
-                      "wall neighbor lists made 1 time, 1.00 mesh features each"))
-    checks.fact("and no setup where it had none", lines(text, "Fix w wall/lsdcd: 4 steps: atoms near"))
+    fact("a run has as many steps as were asked for",
+         lines(text, "Fix w wall/lsdcd: 1 step and the setup: atoms near the wall chosen 1 time, "
+               "wall neighbor lists made 1 time, 1.00 mesh features each"))
+    fact("and no setup where it had none", lines(text, "Fix w wall/lsdcd: 4 steps: atoms near"))
 
     # Where its time went; radii grow, and with them the grid.
     grow = "variable d equal 1.0+0.4*(step>2)\nfix grow all adapt 1 atom diameter v_d\n"
@@ -233,41 +231,36 @@ def main():
         return title, [line.split("|") for line in text.split("\n") if re.match(r"  \w+ +\| [\d.]", line)]
 
     title, rows = table("", 10)
-    checks.fact("a run ends with the wall's times",
-                len(title) == 1 and re.search(r"^Fix w wall/lsdcd: .*, [\d.]+ % of the loop time:$", title[0]) and
-                [row[0].strip() for row in rows if "Waiting" not in row[0]] == ["Choice", "Forces", "Grids", "Files"],
-                f"{title} {rows}")
+    fact("a run ends with the wall's times",
+         len(title) == 1 and re.search(r"^Fix w wall/lsdcd: .*, [\d.]+ % of the loop time:$", title[0]) and
+         [row[0].strip() for row in rows if "Waiting" not in row[0]] == ["Choice", "Forces", "Grids", "Files"],
+         f"{title} {rows}")
     shares, of_loop = (sum(float(row[column]) for row in rows) for column in (5, 6))
     rounding = 0.005 * len(rows) + 1e-9
-    checks.at_most("their shares add up to 100 %", abs(shares - 100), rounding)
+    at_most("their shares add up to 100 %", abs(shares - 100), rounding)
     told = float(re.search(r"(\S+) % of", title[0])[1])
-    checks.at_most("and those of the loop to that of the wall", abs(of_loop - told), rounding + 0.005)
-    checks.fact("no more than which it is", 0 < told < 100)
+    at_most("and those of the loop to that of the wall", abs(of_loop - told), rounding + 0.005)
+    fact("no more than which it is", 0 < told < 100)
     for what, more, steps in (("log brief", "log brief", 10), ("a run of 0 steps", "", 0)):
-        checks.fact(f"{what} has no such times", table(more, steps) == ([], []))
+        fact(f"{what} has no such times", table(more, steps) == ([], []))
 
     # A quiet log.
     text = lmp.run_well(BOX + fix("log brief nearest 3") + "run 4\n", folder)
-    checks.fact("log brief is one line", len(lines(text, "wall/lsdcd:")) == 1 and
-                "candidates" not in text, "\n".join(lines(text, "lsdcd")))
+    fact("log brief is one line", len(lines(text, "wall/lsdcd:")) == 1 and
+         "candidates" not in text, "\n".join(lines(text, "lsdcd")))
 
     # Files of fields: before the run, and nothing is left by the look.
     done = lmp.run(BOX + fix("mesh_fields no/such.vtp every 1000") + "print ran\nrun 1\n", folder)
-    checks.fact("mesh_fields into a missing folder stops before the run",
-                done.returncode != 0 and "no/such.vtp" in done.stdout and
-                "make the folder" in done.stdout and "Step" not in done.stdout,
-                done.stdout[-300:])
+    fact("mesh_fields into a missing folder stops before the run",
+         done.returncode != 0 and "no/such.vtp" in done.stdout and
+         "make the folder" in done.stdout and "Step" not in done.stdout,
+         done.stdout[-300:])
     (folder / "out").mkdir()
     lmp.run_well(BOX + fix("mesh_fields out/f_*.vtp every 1000") + "run 1\n", folder)
-    checks.fact("the look at the folder leaves nothing", not list((folder / "out").iterdir()))
+    fact("the look at the folder leaves nothing", not list((folder / "out").iterdir()))
 
     # Lines of diameter 0.
     text = lmp.run_well(BOX + fix() + "dump p all image 1 p.*.ppm type type fix w type 0 0 "
                         "size 64 64\nrun 2\n", folder)
-    checks.fact("the log tells once why lines may not be seen",
-                len(lines(text, "dump image draws", "diameter is 0")) == 1)
-    checks.done(folder)
-
-
-if __name__ == "__main__":
-    main()
+    fact("the log tells once why lines may not be seen",
+         len(lines(text, "dump image draws", "diameter is 0")) == 1)

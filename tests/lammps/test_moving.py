@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 LSDCD contributors
 # SPDX-License-Identifier: GPL-2.0-only
 
@@ -10,12 +9,14 @@ test_parity.py. LSDCD_QUICK=1 takes one law.
 
 import math
 import re
-import sys
+
+import pytest
 
 import lmp
 import scene
 import stl
-from test_loads import read_vtp
+import vtp
+from facts import at_most, fact
 
 LAWS = {"hooke": "hooke 1e4 NULL 5 NULL 0.5 1",
         "hooke_history": "hooke/history 1e4 NULL 5 NULL 0.5 1",
@@ -55,29 +56,52 @@ def write_drum(path, lo, hi, n=24, radius=2.0):
                      for t in stl.quad((*a, lo), (*b, lo), (*b, hi), (*a, hi))])
 
 
-def compare_with_wall_gran(checks, folder):
+NOT_KOKKOS = pytest.mark.skipif(lmp.ON_KOKKOS, reason="wall/gran/kk is another code, and there is no respa with Kokkos")
+
+
+@pytest.fixture(scope="module")
+def folder(folder):
+    write_plane(folder / "plane.stl")
+    scene.write_floor(folder / "bumps.stl", side=9, cells=36)
+    write_drum(folder / "short.stl", 0, 4)
+    write_drum(folder / "corner.stl", 0, 2, n=3)
+    return folder
+
+
+@pytest.fixture
+def flat_floor(folder):
+    (folder / "floor.stl").write_bytes((lmp.HERE / "scripts" / "floor.stl").read_bytes())
+
+
+@pytest.fixture
+def hilly_floor(folder):
+    scene.write_floor(folder / "floor.stl")
+
+
+@NOT_KOKKOS
+def test_compare_with_wall_gran(folder, flat_floor):
     for law_name, law in lmp.sample(LAWS).items():
         for name, words in OF_WALL_GRAN.items():
             theirs = one_sphere(folder, "a", f"wall/gran {law} zplane 0.0 NULL {words}")[0]
             for mesh in ("floor.stl", "plane.stl"):
                 ours = one_sphere(folder, "b", lsdcd(law, words, mesh))[0]
-                checks.at_most(f"{law_name}, {name}, {mesh}: as fix wall/gran, {touching(theirs)} steps "
-                               "in touch", lmp.largest_difference(theirs, ours), 1e-12)
-            checks.fact(f"{law_name}, {name}: touches", touching(theirs) > 20)
+                at_most(f"{law_name}, {name}, {mesh}: as fix wall/gran, {touching(theirs)} steps "
+                        "in touch", lmp.largest_difference(theirs, ours), 1e-12)
+            fact(f"{law_name}, {name}: touches", touching(theirs) > 20)
         theirs = one_sphere(folder, "a", f"wall/gran {law} zplane 0.0 NULL shear x 2.0")[0]
         ours = one_sphere(folder, "b", lsdcd(law, "motion linear 2 0 0"))[0]
-        checks.at_most(f"{law_name}: motion linear along a plane is its shear",
-                       lmp.largest_difference(theirs, ours), 1e-12)
+        at_most(f"{law_name}: motion linear along a plane is its shear",
+                lmp.largest_difference(theirs, ours), 1e-12)
 
 
-def compare_words(checks, folder):
+def test_compare_words(folder, flat_floor):
     """The same motion in other words."""
     law = LAWS["hooke"]
 
     def same(name, a, b, limit, law=law):
         one, two = one_sphere(folder, "a", lsdcd(law, a))[0], one_sphere(folder, "b", lsdcd(law, b))[0]
-        checks.fact(f"{name}: touches", touching(one) > 20)
-        checks.at_most(name, lmp.largest_difference(one, two), limit)
+        fact(f"{name}: touches", touching(one) > 20)
+        at_most(name, lmp.largest_difference(one, two), limit)
 
     period = 2 * math.pi / 3
     same("a turntable that turns is a surface that turns",
@@ -107,20 +131,20 @@ def compare_words(checks, folder):
 
     plain = one_sphere(folder, "a", lsdcd(law, "wiggle z 0.004 0.02"))[0]
     varied, log = with_variables("motion variable NULL NULL v_z NULL NULL v_v", law)
-    checks.at_most("variables of place and speed are a wiggle", lmp.largest_difference(plain, varied),
-                   1e-12)
-    checks.fact("and nothing is said of differences", "differences" not in log)
+    at_most("variables of place and speed are a wiggle", lmp.largest_difference(plain, varied),
+            1e-12)
+    fact("and nothing is said of differences", "differences" not in log)
     # Without damping and friction the speed does not matter.
     plain = one_sphere(folder, "a", lsdcd(SMOOTH, "wiggle z 0.004 0.02"))[0]
     varied, log = with_variables("motion variable NULL NULL v_z NULL NULL NULL", SMOOTH)
-    checks.at_most("a variable of the place alone", lmp.largest_difference(plain, varied), 1e-12)
-    checks.fact("the log says that its speed is a difference",
-                "velocities are differences over a step" in log)
+    at_most("a variable of the place alone", lmp.largest_difference(plain, varied), 1e-12)
+    fact("the log says that its speed is a difference",
+         "velocities are differences over a step" in log)
     # The speed of half a step before: off by a dt/2 = 0.02, 2 % of the speed of 1.3.
     plain = one_sphere(folder, "a", lsdcd(law, "wiggle z 0.004 0.02"))[0]
     varied = with_variables("motion variable NULL NULL v_z NULL NULL NULL", law)[0]
     apart = lmp.largest_difference(plain, varied)
-    checks.fact("with damping it is near", 1e-9 < apart < 0.05, f"{apart:.3g}")
+    fact("with damping it is near", 1e-9 < apart < 0.05, f"{apart:.3g}")
     # Speeds alone: the sum of 2 pi/0.8 dt has 1e3 roundings.
     def turned(words, variables):
         out = text.replace("fix             wall", variables + "fix             wall")
@@ -131,20 +155,20 @@ def compare_words(checks, folder):
     axis = "0.1 0.2 -7 0 1 1"
     plain = one_sphere(folder, "a", lsdcd(law, f"motion rotate {axis} 0.8"))[0]
     varied, log = turned(f"motion rotate {axis} variable NULL v_w", "variable w equal 2*PI/0.8\n")
-    checks.at_most("a turn by a variable of its speed", lmp.largest_difference(plain, varied), 1e-10)
-    checks.fact("the log says that speeds are added up", "velocities are added up" in log)
+    at_most("a turn by a variable of its speed", lmp.largest_difference(plain, varied), 1e-10)
+    fact("the log says that speeds are added up", "velocities are added up" in log)
     plain = one_sphere(folder, "a", lsdcd(law, f"motion riggle {axis} 3 0.05"))[0]
-    checks.fact("a turn to and fro touches", touching(plain) > 20)
+    fact("a turn to and fro touches", touching(plain) > 20)
     phase = "2*PI*elapsed*dt/0.05"
     varied = turned(f"motion rotate {axis} variable v_a v_w",
                     f"variable a equal 3*PI/180*sin({phase})\nvariable w equal 3*PI/180*2*PI/0.05*cos({phase})\n")[0]
-    checks.at_most("variables of angle and speed are a riggle", lmp.largest_difference(plain, varied), 1e-11)
+    at_most("variables of angle and speed are a riggle", lmp.largest_difference(plain, varied), 1e-11)
 
     out = text.replace("fix             wall", "variable u equal 2.0\nfix             wall")
     lmp.run_well(out, folder, wall=lsdcd(law, "shear y v_u"), out="v", unit="lj", kick=1, dt=1e-4,
                  steps=1000, style="verlet")
     plain = one_sphere(folder, "a", lsdcd(law, "shear y 2.0"))[0]
-    checks.at_most("shear by a variable", lmp.largest_difference(plain, lmp.read_dump(folder / "v")), 0)
+    at_most("shear by a variable", lmp.largest_difference(plain, lmp.read_dump(folder / "v")), 0)
 
 
 GALILEI = """\
@@ -178,7 +202,7 @@ run             1000
 """
 
 
-def compare_frames(checks, folder):
+def test_compare_frames(folder, flat_floor):
     """The whole scene at another velocity; last a wall that comes to spheres which stay."""
     for law_name, law in lmp.sample({**LAWS, "granular": GRANULAR}).items():
         for neigh in ("delay 0 every 1 check yes", "delay 10 every 10 check no"):
@@ -192,14 +216,14 @@ def compare_frames(checks, folder):
                             row[d] -= v[d] * step * 0.001
                             row[3 + d] -= v[d]
                 dumps.append(dump)
-            checks.fact(f"{law_name}, {neigh}: spheres touch", touching(dumps[0]) > 10,
-                        str(touching(dumps[0])))
+            fact(f"{law_name}, {neigh}: spheres touch", touching(dumps[0]) > 10,
+                 str(touching(dumps[0])))
             for k in (1, 2):
                 # Places of size 5 are rounded to 4e-16, in other ways in each frame, which shifts a
                 # force of k = 1e4 by 1e-11 of its size of 1; it grows as rounding does in 150 steps
                 # of contacts, and by 10 in each of two bounces.
-                checks.at_most(f"{law_name}, {neigh}: frame {k} as at rest",
-                               lmp.largest_difference(dumps[0], dumps[k]), 1e-10)
+                at_most(f"{law_name}, {neigh}: frame {k} as at rest",
+                        lmp.largest_difference(dumps[0], dumps[k]), 1e-10)
 
 
 RESTING = """\
@@ -224,7 +248,7 @@ print           "after $(vcm(all,z):%.10g)"
 """
 
 
-def wall_comes(checks, folder):
+def test_wall_comes(folder, flat_floor):
     """To a sphere at rest, for which LAMMPS alone would never reneighbour: it leaves with 2 V. And a sphere comes to a
     wall at rest, and leaves with V. In the last schedule LAMMPS looks in step 3000, where they are 0.6 apart, and not before
     step 6000, and they touch in step 5000."""
@@ -236,10 +260,10 @@ def wall_comes(checks, folder):
                 left = float(log.split("\nafter ")[1].split()[0])
                 # Half a swing of pi sqrt(m/k) in 300 steps: Verlet is wrong by (1/100)^2/24, and the
                 # steps that begin and end it by as much.
-                checks.at_most(f"a wall with {v} and a sphere with {comes} ({neigh}, skin {skin})", abs(left - leaves), 1e-4)
+                at_most(f"a wall with {v} and a sphere with {comes} ({neigh}, skin {skin})", abs(left - leaves), 1e-4)
 
 
-def wall_leaves_its_box(checks, folder):
+def test_wall_leaves_its_box(folder, flat_floor):
     """A floor that has come down from the top of the box bears what lies on it. The sphere is there
     where, when the mesh was placed, the box ended 1 below its centre: further than the skin of 0.02 and the
     room of 5 % that a grid for a mesh at rest has, and than a brick of its fine cells."""
@@ -255,14 +279,14 @@ set             group all diameter 2.0 density 0.25
 velocity        all set 0 0 -5""")
     left = float(lmp.run_well(text, folder).split("\nafter ")[1].split()[0])
     # Of the elastic bounce, at 4 to the floor's 1; Verlet as above.
-    checks.at_most("a wall that has left the place where it was pushes", abs(left - 3), 1e-4)
+    at_most("a wall that has left the place where it was pushes", abs(left - 3), 1e-4)
 
 
 MOVES = "motion wiggle 0.05 0 0.1 0.31 motion rotate 0.5 0.2 0 0 0.1 1 1.7"
 LAW = "hooke/history 1e4 NULL 120 NULL 0.4 1"
 
 
-def ranks_and_restart(checks, folder):
+def test_ranks_and_restart(folder, hilly_floor):
     first, second = 500, 600
 
     def forces(more="", moves=MOVES, law=LAW):
@@ -285,19 +309,19 @@ def ranks_and_restart(checks, folder):
 
     two = go("two", between="write_restart two.restart\n")[0]
     near = sum(row[9] > 0 for rows in two.values() for row in rows.values())
-    checks.fact("spheres touch the moving floor", near > 30, str(near))
+    fact("spheres touch the moving floor", near > 30, str(near))
     for ranks in (2, 4):
-        checks.at_most(f"{ranks} ranks as one", lmp.largest_difference(two, go("r", ranks)[0]), 0)
+        at_most(f"{ranks} ranks as one", lmp.largest_difference(two, go("r", ranks)[0]), 0)
     for ranks in (1, 2, 4):
         continued, text = proceed("c", ranks)
-        checks.at_most(f"continued in mid-motion on {ranks}", lmp.largest_difference(two, continued), 0)
-        checks.fact("without a warning", "was written with the motion" not in text)
+        at_most(f"continued in mid-motion on {ranks}", lmp.largest_difference(two, continued), 0)
+        fact("without a warning", "was written with the motion" not in text)
     text = proceed("c", moves="motion linear 0 0 0.01")[1]
-    checks.fact("another motion is told",
-                "was written with the motion 'wiggle 0.05 0 0.1 0.31, rotate 0.5 0.2 0 0 0.1 1 1.7'"
-                in text and "'linear 0 0 0.01', which begins where the mesh was" in text)
+    fact("another motion is told",
+         "was written with the motion 'wiggle 0.05 0 0.1 0.31, rotate 0.5 0.2 0 0 0.1 1 1.7'"
+         in text and "'linear 0 0 0.01', which begins where the mesh was" in text)
     text = proceed("c", moves="")[1]
-    checks.fact("none at all is told", "has none: the mesh stays where the mesh was" in text)
+    fact("none at all is told", "has none: the mesh stays where the mesh was" in text)
 
     # Rows of a table, in the middle of one of them, and an angle that is added up.
     (folder / "arm.txt").write_text("0 0 0 0 0 0 0\n0.11 0.05 0 0.1 0.02 0.01 0\n0.31 0 0 0 0 0 0\n")
@@ -305,27 +329,27 @@ def ranks_and_restart(checks, folder):
     speed = "variable w equal 1+step*0.001\n"
     two = go("rows", between="write_restart two.restart\n", begin=speed + start, moves=rows)[0]
     near = sum(row[9] > 0 for rows in two.values() for row in rows.values())
-    checks.fact("spheres touch a floor that follows a table", near > 30, str(near))
-    checks.at_most("a table on 2 ranks as on one",
-                   lmp.largest_difference(two, go("r", 2, begin=speed + start, moves=rows)[0]), 0)
+    fact("spheres touch a floor that follows a table", near > 30, str(near))
+    at_most("a table on 2 ranks as on one",
+            lmp.largest_difference(two, go("r", 2, begin=speed + start, moves=rows)[0]), 0)
     (folder / "arm.txt").rename(folder / "renamed.txt")
     for ranks in (1, 2):
         continued, text = proceed("c", ranks, moves=rows.replace("arm", "renamed"), before=speed)
-        checks.at_most(f"continued in a table on {ranks}", lmp.largest_difference(two, continued), 0)
-        checks.fact("without a warning of the table", "was written with the motion" not in text)
+        at_most(f"continued in a table on {ranks}", lmp.largest_difference(two, continued), 0)
+        fact("without a warning of the table", "was written with the motion" not in text)
     (folder / "arm.txt").write_text("0 0 0 0 0 0 0\n0.11 0.05 0 0.1 0.02 0.02 0\n0.31 0 0 0 0 0 0\n")
     text = proceed("c", moves=rows, before=speed)[1]
-    checks.fact("other rows are told", "was written with the motion 'table arm.txt repeat, rotate 0.5 0.2 0 0 0.1 1 "
-                "variable NULL v_w' and this fix has 'table arm.txt repeat, " in text)
+    fact("other rows are told", "was written with the motion 'table arm.txt repeat, rotate 0.5 0.2 0 0 0.1 1 "
+         "variable NULL v_w' and this fix has 'table arm.txt repeat, " in text)
 
     # The number of a step does not matter.
     two = lmp.read_dump(folder / "two")
     reset = go("reset", between="reset_timestep 10000\n")[0]
     renamed = {step - 10000 + first: rows for step, rows in reset.items()}
-    checks.at_most("reset_timestep moves nothing", lmp.largest_difference(two, renamed), 0)
+    at_most("reset_timestep moves nothing", lmp.largest_difference(two, renamed), 0)
 
 
-def searches(checks, folder):
+def test_searches(folder, hilly_floor):
     """However near atoms are chosen and contacts are found: the same bits."""
 
     def go(name, more="", run="run 600\n", neigh="delay 0 every 1 check yes"):
@@ -336,12 +360,12 @@ def searches(checks, folder):
 
     plain = go("plain")
     near = sum(row[9] > 0 for rows in plain.values() for row in rows.values())
-    checks.fact("spheres touch", near > 30, str(near))
+    fact("spheres touch", near > 30, str(near))
     for name, words in (("a grid for larger spheres", {"more": "rmax 0.7 grid 0.3"}),
                         ("choices by the engine", {"neigh": "delay 10 every 10 check no"}),
                         ("looks by the engine and by LAMMPS", {"neigh": "delay 10 every 1 check yes"}),
                         ("two runs without setup", {"run": "run 300 post no\nrun 300 pre no\n"})):
-        checks.at_most(f"{name}: as plain", lmp.largest_difference(plain, go("other", **words)), 0)
+        at_most(f"{name}: as plain", lmp.largest_difference(plain, go("other", **words)), 0)
     # fix wall/gran under respa, with time of the outer step.
     if not lmp.ON_KOKKOS:
         (folder / "flat.stl").write_bytes((lmp.HERE / "scripts" / "floor.stl").read_bytes())
@@ -349,7 +373,7 @@ def searches(checks, folder):
         respa = {"style": "respa 2 2 pair 2", "dt": 2e-4, "steps": 600}
         theirs = one_sphere(folder, "a", f"wall/gran {law} zplane 0.0 NULL {words}", **respa)[0]
         ours = one_sphere(folder, "b", lsdcd(law, words, "flat.stl"), **respa)[0]
-        checks.at_most("respa: as fix wall/gran", lmp.largest_difference(theirs, ours), 1e-12)
+        at_most("respa: as fix wall/gran", lmp.largest_difference(theirs, ours), 1e-12)
 
 
 # A sphere that is 0.06 above the floor, with a skin of 0.1, and has fallen 0.01 k^2 after k steps: LAMMPS looks at the beginning of
@@ -367,21 +391,22 @@ run             4
 """
 
 
-def respa_moves_on(checks, folder):
+@NOT_KOKKOS
+def test_respa_moves_on(folder, flat_floor):
     """Under respa spheres move on after LAMMPS has looked how far they are, so that the wall looks itself."""
     law = LAWS["hooke_history"]
     lmp.run_well(FALLS_UNDER_RESPA.format(wall=f"wall/gran {law} zplane 0.0 NULL", out="theirs"), folder)
     lmp.run_well(FALLS_UNDER_RESPA.format(wall=lsdcd(law, ""), out="ours"), folder)
     theirs, ours = lmp.read_dump(folder / "theirs"), lmp.read_dump(folder / "ours")
-    checks.fact("touches in the third step", theirs[3][1][2] < 0.5)
-    checks.at_most("respa, a sphere that is accelerated: as fix wall/gran", lmp.largest_difference(theirs, ours), 1e-12)
+    fact("touches in the third step", theirs[3][1][2] < 0.5)
+    at_most("respa, a sphere that is accelerated: as fix wall/gran", lmp.largest_difference(theirs, ours), 1e-12)
 
 
 def places(folder, name):
-    return read_vtp(folder / name)["points"]
+    return vtp.read(folder / name)["points"]
 
 
-def stopped(checks, folder):
+def test_stopped(folder, hilly_floor):
     """Where the mesh is, by its file of fields, through fix_modify and timesteps."""
     text = scene.CREATE + scene.forces(LAW, mesh="mesh floor.stl mesh_fields f_*.vtp every 100 " +
                                        "motion rotate 0 0 0 0 0 1 0.4")
@@ -400,14 +425,14 @@ def stopped(checks, folder):
     def apart(a, b):
         return max(abs(u - v) for u, v in zip(a, b))
 
-    checks.fact("a quarter turn was made", apart(p[0], moved(p[0], 0.25, 0)) > 1)
-    checks.at_most("motion none: it stays where it is", apart(p[0], p[1]), 0)
+    fact("a quarter turn was made", apart(p[0], moved(p[0], 0.25, 0)) > 1)
+    at_most("motion none: it stays where it is", apart(p[0], p[1]), 0)
     # Rounding of places of size 9, and of a phase.
-    checks.at_most("a new motion begins there", apart(p[2], moved(p[1], 0.125, 0.1)), 1e-13)
-    checks.at_most("a longer timestep goes on from there", apart(p[3], moved(p[2], 0.25, 0.2)), 1e-13)
-    checks.at_most("reset_timestep, too", apart(p[4], moved(p[3], 0.25, 0.2)), 1e-13)
-    checks.fact("the log tells of the changes", "motion none" in log and
-                "motion linear 0 0 1, rotate 0 0 0 0 0 1 0.8; corners" in log)
+    at_most("a new motion begins there", apart(p[2], moved(p[1], 0.125, 0.1)), 1e-13)
+    at_most("a longer timestep goes on from there", apart(p[3], moved(p[2], 0.25, 0.2)), 1e-13)
+    at_most("reset_timestep, too", apart(p[4], moved(p[3], 0.25, 0.2)), 1e-13)
+    fact("the log tells of the changes", "motion none" in log and
+         "motion linear 0 0 1, rotate 0 0 0 0 0 1 0.8; corners" in log)
     # 100 steps of 0.001 and 300 of them: whole turns are the bits of the file.
     # So soft that spheres do not notice.
     soft = "hooke 1e-9 NULL 0 NULL 0 0"
@@ -416,8 +441,8 @@ def stopped(checks, folder):
     lmp.run_well(scene.CREATE + scene.forces(LAW, mesh="mesh floor.stl mesh_fields h_*.vtp every 100") +
                  "run 100\n", folder)
     for step in (100, 300):
-        checks.at_most(f"whole turns at step {step} are none, to the bit",
-                       apart(places(folder, f"g_{step}.vtp"), places(folder, "h_100.vtp")), 0)
+        at_most(f"whole turns at step {step} are none, to the bit",
+                apart(places(folder, f"g_{step}.vtp"), places(folder, "h_100.vtp")), 0)
     # Half an eighth of a turn: a wiggle by 0.4 stands at 0.4 sin 45. It stays there through restart files.
     words = "mesh floor.stl mesh_fields s_*.vtp every 100 motion wiggle 0.4 0 0 0.8"
     lmp.run_well(scene.CREATE + scene.forces(soft, mesh=words) + "run 100\nfix_modify wall motion none\n"
@@ -426,14 +451,14 @@ def stopped(checks, folder):
     for end in (300, 400):
         log = lmp.run_well(again + scene.forces(soft, mesh=words) + "run 100\nwrite_restart s.restart\n", folder)
         off = [x - y for x, y in zip(places(folder, f"s_{end}.vtp")[::3], places(folder, "h_100.vtp")[::3])]
-        checks.at_most(f"a motion that was stopped stays so at step {end}",
-                       max(abs(x - 0.4 * math.sqrt(0.5)) for x in off), 1e-14)
-        checks.fact("and a warning tells of it", "the motion 'wiggle 0.4 0 0 0.8' was stopped when" in log)
+        at_most(f"a motion that was stopped stays so at step {end}",
+                max(abs(x - 0.4 * math.sqrt(0.5)) for x in off), 1e-14)
+        fact("and a warning tells of it", "the motion 'wiggle 0.4 0 0 0.8' was stopped when" in log)
     log = lmp.run_well(again + scene.forces(soft, mesh=words.replace("wiggle 0.4 0 0 0.8", "linear 0 0 1")) +
                        "run 100\n", folder)
-    checks.at_most("another motion begins there", apart(places(folder, "s_500.vtp"),
-                                                        moved(places(folder, "s_400.vtp"), 0, 0.1)), 1e-14)
-    checks.fact("and a warning names both", "with the motion 'wiggle 0.4 0 0 0.8' and this fix has 'linear 0 0 1'" in log)
+    at_most("another motion begins there", apart(places(folder, "s_500.vtp"),
+                                                 moved(places(folder, "s_400.vtp"), 0, 0.1)), 1e-14)
+    fact("and a warning names both", "with the motion 'wiggle 0.4 0 0 0.8' and this fix has 'linear 0 0 1'" in log)
     # dump image draws what stands there: a quarter turn, and the same mesh placed so.
     pictures = []
     for name, words in (("moved", "motion rotate 0 0 0 0 0 1 0.4"), ("placed", "rotate 0 0 1 90"),
@@ -442,15 +467,15 @@ def stopped(checks, folder):
                      f"write_dump all image {name}.ppm type type fix wall type 0.2 0 size 200 200 "
                      "view 20 30\n", folder)
         pictures.append((folder / f"{name}.ppm").read_bytes())
-    checks.fact("dump image draws the mesh where it is", pictures[0] == pictures[1])
-    checks.fact("which is elsewhere", pictures[0] != pictures[2])
+    fact("dump image draws the mesh where it is", pictures[0] == pictures[1])
+    fact("which is elsewhere", pictures[0] != pictures[2])
     # From a fix that had no motion: another engine, with the springs of the old one.
     still = scene.CREATE + scene.forces(LAW, mesh="mesh floor.stl") + "run 500\n"
     dumps = []
     for name, words in (("still", ""), ("begun", "fix_modify wall motion linear 1e-300 0 0\n")):
         lmp.run_well(still + words + scene.dump(name, 50) + "run 200\n", folder)
         dumps.append(lmp.read_dump(folder / name))
-    checks.at_most("motion may be given later, and springs stay", lmp.largest_difference(*dumps), 1e-12)
+    at_most("motion may be given later, and springs stay", lmp.largest_difference(*dumps), 1e-12)
 
 
 DRUM = """\
@@ -479,7 +504,7 @@ run             {steps}
 """
 
 
-def periodic_drum(checks, folder):
+def test_periodic_drum(folder):
     """A drum that turns about the periodic axis is as a long one."""
     write_drum(folder / "short.stl", 0, 4)
     write_drum(folder / "long.stl", -8, 12)
@@ -488,13 +513,13 @@ def periodic_drum(checks, folder):
         lmp.run_well(DRUM.format(bc=bc, lo=lo, hi=hi, law=LAW, mesh=name + ".stl", out=name, steps=1500,
                                  motion="motion rotate 0 0 0 0 0 1 2"), folder)
         dumps.append(lmp.read_dump(folder / name))
-    checks.fact("spheres are in touch with the drum", touching(dumps[0]) > 50)
-    checks.fact("and are carried up", max(row[1] for row in dumps[0][1500].values()) > -1.2)
+    fact("spheres are in touch with the drum", touching(dumps[0]) > 50)
+    fact("and are carried up", max(row[1] for row in dumps[0][1500].values()) > -1.2)
     # Spheres wrap once: places are rounded at 4 more; 1500 steps over edges grow that by 1e4.
-    checks.at_most("a periodic drum as a long one", lmp.largest_difference(*dumps), 1e-9)
+    at_most("a periodic drum as a long one", lmp.largest_difference(*dumps), 1e-9)
 
 
-def between_faces(checks, folder):
+def test_between_faces(folder):
     """A round drum turns between periodic faces that the corners of its bounds would reach: 2 to a vertex, and the
     sphere's radius 0.25 and the skin 0.3 to keep away. In it nothing is felt of them."""
     def drum(half, bc="p p", mesh="short.stl", motion="motion rotate 0 0 0 0 0 1 2", steps=1500, end=""):
@@ -506,24 +531,24 @@ def between_faces(checks, folder):
     for bc in ("p p", "f f"):
         lmp.run_well(drum(2.6, bc), folder)
     dumps = [lmp.read_dump(folder / name) for name in "pf"]
-    checks.fact("a drum between periodic faces: spheres touch it", touching(dumps[0]) > 50)
-    checks.at_most("they move as without these", lmp.largest_difference(*dumps), 0)
+    fact("a drum between periodic faces: spheres touch it", touching(dumps[0]) > 50)
+    at_most("they move as without these", lmp.largest_difference(*dumps), 0)
     lmp.run_well(drum(2.6, steps=30, end="fix_modify wall motion none\nrun 1\n"), folder, 2)
     done = lmp.run(drum(2.54), folder, 2)
-    checks.fact("too near to them it is refused", done.returncode != 0 and
-                "reaches the periodic face in x at step 0" in done.stdout, done.stdout[-300:])
+    fact("too near to them it is refused", done.returncode != 0 and
+         "reaches the periodic face in x at step 0" in done.stdout, done.stdout[-300:])
     # A prism of three sides, its corners 1.73 up and down and 2 once it has turned.
     done = lmp.run(drum(2.54, "f p", "corner.stl"), folder)
-    checks.fact("one that will be is told of before", done.returncode != 0 and
-                "will reach the periodic face in y" in done.stdout, done.stdout[-300:])
+    fact("one that will be is told of before", done.returncode != 0 and
+         "will reach the periodic face in y" in done.stdout, done.stdout[-300:])
     # Finite variables that add up to more than a number can be, then turned: 0 times that.
     big = "motion variable NULL v_big NULL NULL NULL NULL "
     done = lmp.run("variable big equal 1e308\n" + drum(2.6, motion=2 * big + "motion rotate 0 0 0 0 0 1 2"), folder)
-    checks.fact("what is nowhere is not between the faces", done.returncode != 0 and
-                "reaches the periodic face in x" in done.stdout, done.stdout[-300:])
+    fact("what is nowhere is not between the faces", done.returncode != 0 and
+         "reaches the periodic face in x" in done.stdout, done.stdout[-300:])
 
 
-def refused(checks, folder):
+def test_refused(folder):
     write_plane(folder / "plate.stl", 2, 1.0)
     cases = [("the periodic face in z", "p", "motion rotate 0 0 0 1 0 0 2",
               "reaches the periodic face in z at step 0"),
@@ -536,14 +561,14 @@ def refused(checks, folder):
     for name, bc, words, says in cases:
         done = lmp.run(DRUM.format(bc=bc, lo=0, hi=4, law=LAW, mesh="short.stl", out="x", steps=1,
                                    motion=words), folder)
-        checks.fact(f"{name} is refused", done.returncode != 0 and says in done.stdout,
-                    "" if says in done.stdout else done.stdout[-400:])
+        fact(f"{name} is refused", done.returncode != 0 and says in done.stdout,
+             "" if says in done.stdout else done.stdout[-400:])
     # What a motion does not allow is not advised.
     for words, advised in (("", True), ("motion rotate 0 0 0 0 0 1 2", True), ("motion linear 0 0 1", False)):
         done = lmp.run(DRUM.format(bc="p", lo=0, hi=4, law=LAW, mesh="short.stl move 0 0 0.5", out="x", steps=0,
                                    motion=words), folder)
-        checks.fact(f"past a periodic face, {words or 'at rest'}: periodic is {'' if advised else 'not '}advised",
-                    ("Add the keyword periodic" in done.stdout) == advised == (done.returncode == 0))
+        fact(f"past a periodic face, {words or 'at rest'}: periodic is {'' if advised else 'not '}advised",
+             ("Add the keyword periodic" in done.stdout) == advised == (done.returncode == 0))
     # In the middle of the box, moving to its face: when it is there; turning: before.
     # Without gravity, or the spheres fall out of the box.
     plate = DRUM.replace("mesh {mesh} {motion}", "mesh plate.stl move 0 0 2 {motion}")
@@ -551,29 +576,29 @@ def refused(checks, folder):
     done = lmp.run(plate.format(bc="p", lo=0, hi=4, law=LAW, out="x", steps=3000,
                                 motion="motion linear 0 0 0.5"), folder)
     # Of the 2 to the face 0.5 and the skin 0.3 are kept free: 1.2 at 0.5.
-    checks.fact("a mesh that moves to a periodic face stops there",
-                done.returncode != 0 and "reaches the periodic face in z at step 24" in done.stdout,
-                done.stdout[-300:])
+    fact("a mesh that moves to a periodic face stops there",
+         done.returncode != 0 and "reaches the periodic face in z at step 24" in done.stdout,
+         done.stdout[-300:])
     done = lmp.run(plate.format(bc="p", lo=1, hi=3, law=LAW, out="x", steps=1,
                                 motion="motion rotate 0 0 2 1 0 0 10").replace("3.8 units", "2.8 units")
                    .replace("0.2 units", "1.8 units"), folder)
-    checks.fact("one that will is told of before",
-                done.returncode != 0 and "will reach the periodic face in z:" in done.stdout,
-                done.stdout[-300:])
+    fact("one that will is told of before",
+         done.returncode != 0 and "will reach the periodic face in z:" in done.stdout,
+         done.stdout[-300:])
     text = DRUM.format(bc="f", lo=0, hi=4, law=LAW, mesh="short.stl", out="x", steps=1, motion="")
     for words, says in (("motion linear 1 0", "the value of Vz is missing"),
                         ("motion none motion linear 1 0 0", "none stops all motion"),
                         ("motion variable v_d NULL NULL NULL NULL NULL", "there is no variable 'd'")):
         done = lmp.run(text + f"fix_modify wall {words}\nrun 1\n", folder)
-        checks.fact(f"fix_modify {words} is refused", done.returncode != 0 and says in done.stdout,
-                    "" if says in done.stdout else done.stdout[-400:])
+        fact(f"fix_modify {words} is refused", done.returncode != 0 and says in done.stdout,
+             "" if says in done.stdout else done.stdout[-400:])
     done = lmp.run("variable d atom x\n" + text.replace("short.stl", "short.stl motion variable v_d "
                                                         "NULL NULL NULL NULL NULL"), folder)
-    checks.fact("a variable of another style is refused",
-                "'d', which the wall reads, is not of style equal" in done.stdout)
+    fact("a variable of another style is refused",
+         "'d', which the wall reads, is not of style equal" in done.stdout)
 
 
-def no_numbers(checks, folder):
+def test_no_numbers(folder):
     """Variables that are finite until step 4, and then are not: on several processes all end."""
     bad = {"nan": "exp(1000*(step>4))-exp(1000*(step>4))", "inf": "exp(1000*(step>4))-1"}
     cases = [("motion variable v_d NULL NULL NULL NULL NULL", "nan", 2),
@@ -590,33 +615,6 @@ def no_numbers(checks, folder):
         # The sign of a nan that inf - inf gives differs between processors.
         said = re.search(rf"Fix wall wall/lsdcd: variable 'd', which the wall reads, is -?{value} in step 5:",
                          errors[0] if errors else "")
-        checks.fact(f"{words}: {value} stops {ranks} rank{'s' * (ranks > 1)} in its step",
-                    done.returncode != 0 and len(errors) == 1 and said, str(errors) if errors else "it runs on")
+        fact(f"{words}: {value} stops {ranks} rank{'s' * (ranks > 1)} in its step",
+             done.returncode != 0 and len(errors) == 1 and said, str(errors) if errors else "it runs on")
 
-
-PARTS = {"wall_gran": compare_with_wall_gran, "words": compare_words, "frames": compare_frames, "comes": wall_comes,
-         "leaves": wall_leaves_its_box,
-         "ranks": ranks_and_restart, "searches": searches, "respa": respa_moves_on,
-         "stopped": stopped, "drum": periodic_drum, "between": between_faces, "refused": refused, "no_numbers": no_numbers}
-
-
-def main():
-    checks, folder = lmp.Checks(), lmp.scratch()
-    (folder / "floor.stl").write_bytes((lmp.HERE / "scripts" / "floor.stl").read_bytes())
-    write_plane(folder / "plane.stl")
-    scene.write_floor(folder / "bumps.stl", side=9, cells=36)
-    write_drum(folder / "short.stl", 0, 4)
-    write_drum(folder / "corner.stl", 0, 2, n=3)
-    for name in sys.argv[1:] or PARTS:
-        if name in ("wall_gran", "respa") and lmp.ON_KOKKOS:
-            continue    # the form of wall/gran for Kokkos is another code, and there is no respa there
-        if name in ("ranks", "stopped", "searches"):
-            scene.write_floor(folder / "floor.stl")
-        if name in ("wall_gran", "words", "comes", "leaves", "respa"):
-            (folder / "floor.stl").write_bytes((lmp.HERE / "scripts" / "floor.stl").read_bytes())
-        PARTS[name](checks, folder)
-    checks.done(folder)
-
-
-if __name__ == "__main__":
-    main()

@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 LSDCD contributors
 # SPDX-License-Identifier: GPL-2.0-only
 
@@ -7,8 +6,11 @@ path over a floor that turns, and a pitch a turn in a screw."""
 
 import math
 
+import pytest
+
 import lmp
 import stl
+from facts import at_most, fact
 
 SCENE = """\
 units           lj
@@ -38,7 +40,13 @@ def sheet(one, other):
     return [t for corners in zip(one, one[1:], other[1:], other) for t in stl.quad(*corners)]
 
 
-def orbit_on_a_shaking_floor(checks, folder):
+@pytest.fixture(scope="module")
+def folder(folder):
+    (folder / "floor.stl").write_bytes((lmp.HERE / "scripts" / "floor.stl").read_bytes())
+    return folder
+
+
+def test_orbit_on_a_shaking_floor(folder):
     """A sphere that leaves and comes back with g T/2 has to be given (1 - e)/(1 + e) of that by the floor
     in each impact. It is stable where the floor rises and slows down: there its speed
     A w cos(phase) is that."""
@@ -72,18 +80,18 @@ run             {bounces * steps}
 """)
     lmp.run_well(text, folder)
     rows = [[float(x) for x in line.split()] for line in (folder / "phases.txt").open() if line[0] != "#"]
-    checks.fact(f"a shaking floor: {bounces} periods", len(rows) == bounces, str(len(rows)))
+    fact(f"a shaking floor: {bounces} periods", len(rows) == bounces, str(len(rows)))
     lasts = [row[1] * period for row in rows]
     # Gravity and the floor's own acceleration lengthen the contact in the order of contact/period, 0.3 %;
     # it begins and ends within a step, 0.5 %.
-    checks.at_most("one impact in each", max(abs(t / contact - 1) for t in lasts), 0.02)
+    at_most("one impact in each", max(abs(t / contact - 1) for t in lasts), 0.02)
     middle = [w * row[2] / row[1] for row in rows if row[1]]
     # Within the contact the phase goes on by w contact, and with it what the floor gives.
-    checks.at_most("at the phase of the closed form", max(abs(p - phase) for p in middle), w * contact)
-    checks.at_most("and stays there", max(abs(p - middle[-1]) for p in middle[-5:]), w * contact)
+    at_most("at the phase of the closed form", max(abs(p - phase) for p in middle), w * contact)
+    at_most("and stays there", max(abs(p - middle[-1]) for p in middle[-5:]), w * contact)
 
 
-def straight_over_a_turning_floor(checks, folder):
+def test_straight_over_a_turning_floor(folder):
     """Without friction a floor that leans and turns about its normal, along which gravity pulls, gives
     nothing along it: x = x0 + v t, whatever edges pass below."""
     lean = math.radians(30)
@@ -116,12 +124,12 @@ run             30000
     # Places of size 9 are rounded to 2e-15, and with them normals, on triangles of size 0.3, to 1e-14: of
     # a force of 10, for a time of 3, if all had the same sign 5e-13; ten times that for what a path is off
     # by its own rounding.
-    checks.at_most("a floor that turns: the path is straight", max(max(o[:2]) for o in off), 5e-12)
-    checks.at_most("it keeps its height", max(o[2] for o in off), 5e-12)
-    checks.at_most("and it does not spin", max(abs(w) for row in path.values() for w in row[1][3:6]), 0)
+    at_most("a floor that turns: the path is straight", max(max(o[:2]) for o in off), 5e-12)
+    at_most("it keeps its height", max(o[2] for o in off), 5e-12)
+    at_most("and it does not spin", max(abs(w) for row in path.values() for w in row[1][3:6]), 0)
 
 
-def pitch_a_turn(checks, folder):
+def test_pitch_a_turn(folder):
     """A helix that has made a turn is one that went on by its pitch, facets and all. Gravity leans a
     frictionless sphere against the blade; damping takes out how it began, and leaves small jumps over
     edges that are the same in each turn."""
@@ -153,17 +161,4 @@ run             ${{all}}
     # Its bounces on the blade end in the first turn, and swings with e^(-gamma t/2) in a hundredth of one.
     # Places of size 10 are rounded to 2e-15; the damping carries on what 1e4 steps make of that.
     for n, (a, b) in enumerate(zip(y, y[1:])):
-        checks.at_most(f"a screw carries by its pitch in turn {n + 2}", abs(b - a - pitch), 2e-11)
-
-
-def main():
-    checks, folder = lmp.Checks(), lmp.scratch()
-    (folder / "floor.stl").write_bytes((lmp.HERE / "scripts" / "floor.stl").read_bytes())
-    orbit_on_a_shaking_floor(checks, folder)
-    straight_over_a_turning_floor(checks, folder)
-    pitch_a_turn(checks, folder)
-    checks.done(folder)
-
-
-if __name__ == "__main__":
-    main()
+        at_most(f"a screw carries by its pitch in turn {n + 2}", abs(b - a - pitch), 2e-11)

@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 LSDCD contributors
 # SPDX-License-Identifier: GPL-2.0-only
 
@@ -16,10 +15,11 @@ Where LAMMPS is wrong the test says so: see host_defects().
 """
 
 import math
-import sys
+import pytest
 
 import lmp
 import stl
+from facts import at_most, fact
 
 SIDE = 1.5    # half of the box
 PERIOD = 3.0
@@ -32,7 +32,6 @@ LAWS = {"hooke": "hooke 1e4 NULL 5 NULL 0.5 1",
         "granular, history":
             "granular hooke 1e4 5 tangential linear_history 2857 0.5 0.5 damping mass_velocity"}
 SCENE = """\
-{load}
 units           lj
 atom_style      sphere
 boundary        f f f
@@ -70,11 +69,11 @@ def write_box(path):
 
 
 class Box:
-    def __init__(self, folder, load):
-        self.folder, self.load = folder, load
+    def __init__(self, folder):
+        self.folder = folder
 
     def run(self, wall, variables, scene):
-        lmp.run_well(SCENE.format(load=self.load, variables=variables, wall=wall, **scene), self.folder)
+        lmp.run_well(SCENE.format(variables=variables, wall=wall, **scene), self.folder)
         return lmp.read_dump(self.folder / "out")
 
     def ours(self, law, words, variables="", scene=THROWN):
@@ -99,14 +98,20 @@ def turning():
            f"move v_a v_b v_c rotate v_turn {POINT} {UNIT}")
 
 
-def compare(checks, box):
+@pytest.fixture(scope="module")
+def box(folder):
+    write_box(folder / "box.stl")
+    return Box(folder)
+
+
+def test_compare(box):
     for name, law in lmp.sample(LAWS).items():
         for title, variables, words, region in cases():
             theirs, ours = box.theirs(law, region, variables), box.ours(law, words, variables)
             touching = sum(any(row[9:12]) for rows in theirs.values() for row in rows.values())
-            checks.fact(f"{name}, {title}: touches", touching > 50, str(touching))
-            checks.at_most(f"{name}, {title}: as fix wall/gran/region",
-                           lmp.largest_difference(theirs, ours), 1e-10)
+            fact(f"{name}, {title}: touches", touching > 50, str(touching))
+            at_most(f"{name}, {title}: as fix wall/gran/region",
+                    lmp.largest_difference(theirs, ours), 1e-10)
 
 
 def apart(box, law, title_words, scene):
@@ -116,32 +121,32 @@ def apart(box, law, title_words, scene):
     return [[a - b for a, b in zip(ours[step][1][:3], theirs[step][1][:3])] for step in sorted(ours)]
 
 
-def compare_turning(checks, box):
+def test_compare_turning(box):
     """Where no velocity counts both agree; where it does they differ by the half step that LAMMPS's
     wall is ahead of the sphere, and by half as much with half the step. Springs: see host_defects()."""
     def largest(rows):
         return max(abs(x) for row in rows for x in row)
 
     for title, *words in turning():
-        checks.at_most(f"frictionless, {title}: as fix wall/gran/region",
-                       largest(apart(box, "hooke 1e4 NULL 0 NULL 0 1", words, THROWN)), 1e-10)
+        at_most(f"frictionless, {title}: as fix wall/gran/region",
+                largest(apart(box, "hooke 1e4 NULL 0 NULL 0 1", words, THROWN)), 1e-10)
         for name in ("hooke", "granular"):
             whole, half = (apart(box, LAWS[name], words, scene) for scene in (BOUNCE, HALF))
-            checks.fact(f"{name}, {title}: differs by a half step", largest(whole) > 1e-6)
+            fact(f"{name}, {title}: differs by a half step", largest(whole) > 1e-6)
             left = [[2 * b - a for a, b in zip(*rows)] for rows in zip(whole, half)]
-            checks.at_most(f"{name}, {title}: by half as much with half the step",
-                           largest(left) / largest(whole), 0.01)
+            at_most(f"{name}, {title}: by half as much with half the step",
+                    largest(left) / largest(whole), 0.01)
 
 
-def host_defects(checks, box):
+def test_host_defects(box):
     """What both versions of LAMMPS have wrong with a region that moves, and we do not."""
     # The velocity is taken with the axis as it is given, and not its direction.
     law = LAWS["hooke"]
     one, long = (box.theirs(law, f"rotate v_turn {POINT} {axis}", TURN) for axis in (UNIT, "2 -2 1"))
-    checks.fact("LAMMPS turns faster about a longer axis", lmp.largest_difference(one, long) > 0.01)
+    fact("LAMMPS turns faster about a longer axis", lmp.largest_difference(one, long) > 0.01)
     one, long = (box.ours(law, f"motion rotate {POINT} {axis} {PERIOD}") for axis in (UNIT, "2 -2 1"))
     # Directions that are rounded differ by 1e-16.
-    checks.at_most("here only its direction counts", lmp.largest_difference(one, long), 1e-10)
+    at_most("here only its direction counts", lmp.largest_difference(one, long), 1e-10)
 
     # A sphere that does not spin is carried by a turntable. Its spring, stretched by m w^2 r/k_t away
     # from the axis, has to turn with it. Where it keeps its direction in the box, the sphere has to slip by w
@@ -158,27 +163,7 @@ def host_defects(checks, box):
     slip = 2 * math.pi * mass * w**2 / 2857
     theirs = ahead(box.theirs(law, "rotate v_turn 0 0 0 0 0 1", TURN, carried))
     # Its spring is stretched after the first tenth of the time, during which it slips less.
-    checks.at_most("LAMMPS: springs do not turn with the wall", abs(theirs / slip - 1), 0.1)
+    at_most("LAMMPS: springs do not turn with the wall", abs(theirs / slip - 1), 0.1)
     ours = ahead(box.ours(law, f"motion rotate 0 0 0 0 0 1 {PERIOD}", "", carried))
     # LAMMPS's velocities of half a step shift it by w dt/2 of the stretch over r, 3e-7.
-    checks.at_most("here they do", abs(ours), slip / 1000)
-
-
-def main():
-    checks, folder = lmp.Checks(), lmp.scratch()
-    write_box(folder / "box.stl")
-    load = ""
-    if sys.argv[1:] == ["host"]:
-        if not lmp.TEST_HOST:
-            print("SKIPPED: no LAMMPS 4Jul2026 (tests/lammps/hosts/build_host.sh)")
-            sys.exit(77)
-        load, lmp.LMP = f"plugin load {lmp.TEST_HOST_PLUGIN}", lmp.TEST_HOST
-    box = Box(folder, load)
-    compare(checks, box)
-    compare_turning(checks, box)
-    host_defects(checks, box)
-    checks.done(folder)
-
-
-if __name__ == "__main__":
-    main()
+    at_most("here they do", abs(ours), slip / 1000)

@@ -1,14 +1,13 @@
-#!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 LSDCD contributors
 # SPDX-License-Identifier: GPL-2.0-only
 
 """Meshes whose nodes are atoms: strings and membranes in closed form, momentum, ranks, restart, errors."""
 
 import math
-import sys
 
 import lmp
 import stl
+from facts import at_most, fact
 
 BEGIN = """\
 units           lj
@@ -101,7 +100,7 @@ fix             go loose nve
 """
 
 
-def sags(checks, folder):
+def test_sags(folder):
     """A weight in the middle of a string sags by W L/(4 T)."""
     wanted, found = WEIGHT * SPAN / (4 * TENSION), []
     for n in (5, 10):
@@ -110,12 +109,12 @@ def sags(checks, folder):
         lmp.run_well(begin(1e-3, 0.5, coefficients) + FALL + "run 4000\nrun 1000\n"
                      f"print \"$(z[{middle}]:%.17g) $(f_w[3]:%.17g)\" file out.txt screen no\n", folder)
         found.append(rows_of(folder / "out.txt")[0])
-    checks.at_most("a string sags by W L/(4 T)", abs(-found[1][0] - wanted), 0.01 * wanted)
-    checks.at_most("it carries the weight", abs(-found[1][1] - WEIGHT), 1e-4)
-    checks.at_most("with half as many nodes, too", abs(-found[0][0] - wanted), 0.01 * wanted)
+    at_most("a string sags by W L/(4 T)", abs(-found[1][0] - wanted), 0.01 * wanted)
+    at_most("it carries the weight", abs(-found[1][1] - WEIGHT), 1e-4)
+    at_most("with half as many nodes, too", abs(-found[0][0] - wanted), 0.01 * wanted)
 
 
-def on_processes(checks, folder):
+def test_on_processes(folder):
     """Places of all after 400 steps: on 1, 2 and 4 processes, with sorted atoms, and with a restart in the middle."""
     _, _, coefficients = string(folder, 5)
     dump = "dump out all custom 400 {0} id x y z vx vy vz\ndump_modify out sort id format float %.17g first no\n"
@@ -128,7 +127,7 @@ def on_processes(checks, folder):
         found[name] = places(name)
     for name in ("two", "four", "sorted"):
         worst = max(abs(a - b) for a, b in zip(found["one"], found[name]))
-        checks.at_most(f"places and velocities, {name}", worst, 1e-11)
+        at_most(f"places and velocities, {name}", worst, 1e-11)
     # The set-up of a run gives fix viscous the velocities of the whole step.
     head = begin(1e-3, 0.5, coefficients)
     lmp.run_well(head + FALL + dump.format("halves") + "run 200\nrun 200\n", folder, 2)
@@ -136,7 +135,7 @@ def on_processes(checks, folder):
     again = head.replace("read_data       in.data", "read_restart half.restart")
     lmp.run_well(again + FALL + dump.format("again") + "run 200\n", folder, 2)
     worst = max(abs(a - b) for a, b in zip(places("halves"), places("again")))
-    checks.at_most("restarted in the middle", worst, 1e-11)
+    at_most("restarted in the middle", worst, 1e-11)
 
 
 # ---- a membrane under a pressure -----------------------------------------------------------
@@ -173,7 +172,7 @@ def membrane(folder, n, tension):
     return coefficients
 
 
-def bulges(checks, folder):
+def test_bulges(folder):
     """A circular membrane of tension T and radius a bulges by p a^2/(4 T), to the square of the mesh."""
     pressure, tension, off = 0.4, 10.0, []
     wanted = pressure / (4 * tension)
@@ -185,13 +184,13 @@ def bulges(checks, folder):
                      "fix slow all viscous 0.3\nfix hold held setforce 0 0 0\nfix go loose nve\nrun 4000\n"
                      "print \"$(z[1]:%.17g)\" file out.txt screen no\n", folder)
         off.append(rows_of(folder / "out.txt")[0][0] / wanted - 1)
-    checks.at_most("a membrane of 6 rings bulges by p a^2/(4 T)", abs(off[1]), 0.01)
-    checks.at_most("and of 3 rings", abs(off[0]), 0.03)
+    at_most("a membrane of 6 rings bulges by p a^2/(4 T)", abs(off[1]), 0.01)
+    at_most("and of 3 rings", abs(off[0]), 0.03)
 
 
 # ---- momentum --------------------------------------------------------------------------------
 
-def impact(checks, folder):
+def test_impact(folder):
     """A sphere on a free plate of nodes: all momentum is kept."""
     net = Net((-2, -2, -2), (2, 2, 2))
     rows = [[net.node(i - 1, j - 1, 0, False, 0.3) for i in range(3)] for j in range(3)]
@@ -210,18 +209,18 @@ def impact(checks, folder):
                  "run 300\n", folder)
     rows = rows_of(folder / "out.txt")
     worst = max(max(abs(row[0] - 0.2), abs(row[1] + 1)) for row in rows)
-    checks.at_most("an impact keeps momentum", worst, 1e-12)
-    checks.fact("and it was one", max(-row[2] for row in rows) > 10)
+    at_most("an impact keeps momentum", worst, 1e-12)
+    fact("and it was one", max(-row[2] for row in rows) > 10)
 
 
 # ---- errors ----------------------------------------------------------------------------------
 
-def refused(checks, folder):
+def test_refused(folder):
     net, _, coefficients = string(folder, 3)
     head = begin(1e-3, 0.8, coefficients)
     def fails(name, text, says):
         done = lmp.run(head + text + "run 1\n", folder)
-        checks.fact(name, done.returncode != 0 and says in " ".join(done.stdout.split()))
+        fact(name, done.returncode != 0 and says in " ".join(done.stdout.split()))
     wall = "fix w {group} wall/lsdcd hooke 2e4 0 0 0 0 0 mesh sheet.stl nodes {nodes} {more}\n"
     fails("nodes in the group of the fix", wall.format(group="all", nodes="nodes", more=""), "and also in the group of the fix")
     fails("a group that is not there", wall.format(group="grains", nodes="noes", more=""), "there is no group 'noes'")
@@ -233,8 +232,8 @@ def refused(checks, folder):
                               ("by types", "neigh_modify exclude type 3 1 exclude type 1 2\n", False),
                               ("excluded", "neigh_modify exclude group nodes grains\n", False)):
         done = lmp.run(soft + line + wall.format(group="grains", nodes="nodes", more="") + "run 1\n", folder)
-        checks.fact(f"a pair style between nodes and grains, {name}",
-                    done.returncode == 0 and ("pair_style soft also acts between" in " ".join(done.stdout.split())) == warns)
+        fact(f"a pair style between nodes and grains, {name}",
+             done.returncode == 0 and ("pair_style soft also acts between" in " ".join(done.stdout.split())) == warns)
     bonds, net.bonds = net.bonds, []
     net.write(folder, coefficients, skip=(3, 5))
     fails("vertices without an atom", wall.format(group="grains", nodes="nodes", more=""),
@@ -246,7 +245,7 @@ def refused(checks, folder):
     lost = head + wall.format(group="grains", nodes="nodes", more="") + "thermo_modify lost ignore\nrun 1\n" \
         "group one id 3\ndelete_atoms group one bond yes\nrun 1\n"
     done = lmp.run(lost, folder)
-    checks.fact("a lost node", done.returncode != 0 and "atom 3, a node of mesh 'sheet.stl', is lost" in " ".join(done.stdout.split()))
+    fact("a lost node", done.returncode != 0 and "atom 3, a node of mesh 'sheet.stl', is lost" in " ".join(done.stdout.split()))
 
 
 # ---- atoms that get other IDs, another mesh --------------------------------------------------
@@ -295,7 +294,7 @@ def sheet(folder):
     return create + "set type 2 diameter 0.01 density 1e9\nset type 1 diameter 0.5 density 15"
 
 
-def renumbered(checks, folder):
+def test_renumbered(folder):
     """Commands between runs give the nodes other IDs: a grain 0.01 deep has its force still, or the run is refused."""
     head = SHEET.format(create=sheet(folder), mesh="sheet.stl") + "run 1\n"
     def force(text, z=0.24, ranks=1):
@@ -303,30 +302,30 @@ def renumbered(checks, folder):
         return rows_of(folder / "out.txt")[0][0]
     for name, text, ranks in (("delete_atoms", "delete_atoms group grains\n", 1),
                               ("reset_atom_ids on two processes", "delete_atoms group grains compress no\nreset_atom_ids\n", 2)):
-        checks.at_most(f"nodes that have other IDs after {name}", abs(force(text, ranks=ranks) + 20), 1e-9)
+        at_most(f"nodes that have other IDs after {name}", abs(force(text, ranks=ranks) + 20), 1e-9)
     keep = "delete_atoms group grains compress no\n"
     moved = force(keep + "displace_atoms nodes move 0 0 0.3\n", 0.54)
-    checks.at_most("nodes that were displaced between runs", abs(moved + 20), 1e-9)
+    at_most("nodes that were displaced between runs", abs(moved + 20), 1e-9)
     for text, says in (("delete_atoms group grains\n", "a node of mesh 'sheet.stl', is lost"),
                        ("reset_atom_ids sort yes\n", "other atoms may have these IDs now")):
         done = lmp.run(head + text + "displace_atoms nodes move 0 0 0.3\nrun 0\n", folder)
         out = " ".join(done.stdout.split())
-        checks.fact(f"nodes that were displaced after {text.strip()}: {says}", done.returncode != 0 and says in out and
-                    "delete_atoms and reset_atom_ids give atoms other IDs" in out)
+        fact(f"nodes that were displaced after {text.strip()}: {says}", done.returncode != 0 and says in out and
+             "delete_atoms and reset_atom_ids give atoms other IDs" in out)
     # Without a setup LAMMPS says nothing of the commands before it.
     lmp.run_well(head + "delete_atoms group grains\nrun 1 pre no\n" + PRESS.format(z=0.24), folder)
-    checks.at_most("and after a run without setup", abs(rows_of(folder / "out.txt")[0][0] + 20), 1e-9)
+    at_most("and after a run without setup", abs(rows_of(folder / "out.txt")[0][0] + 20), 1e-9)
 
 
-def another_mesh(checks, folder):
+def test_another_mesh(folder):
     """A restart file names the nodes of its mesh: those of another one are found by their places."""
     lmp.run_well(SHEET.format(create=sheet(folder), mesh="sheet.stl") + "delete_atoms group grains compress no\n"
                  "run 1\nwrite_restart one.restart\n", folder)
     for mesh in ("sheet", "turned", "coarse"):
         out = lmp.run_well(SHEET.format(create="read_restart one.restart", mesh=mesh + ".stl") + PRESS.format(z=0.24), folder)
-        checks.at_most(f"restart with {mesh}.stl", abs(rows_of(folder / "out.txt")[0][0] + 20), 1e-9)
-        checks.fact(f"and a warning, {mesh}.stl",
-                    ("was written with another mesh" in " ".join(out.split())) == (mesh != "sheet"))
+        at_most(f"restart with {mesh}.stl", abs(rows_of(folder / "out.txt")[0][0] + 20), 1e-9)
+        fact(f"and a warning, {mesh}.stl",
+             ("was written with another mesh" in " ".join(out.split())) == (mesh != "sheet"))
 
 
 # ---- nodes that fix move moves -------------------------------------------------------------
@@ -343,14 +342,14 @@ print           "$(xcm(grains,x):%.17g) $(xcm(grains,y):%.17g)" file out.txt scr
 """
 
 
-def turntable(checks, folder):
+def test_turntable(folder):
     """A grain on a turntable stays there for a turn. The springs of friction hold w^2 r m with 1e-3 of r."""
     create = sheet(folder).replace("single -1.5 -1.5 -0.5", "single 0.6 0 0.2499")
     law = "hooke/history 1e5 3e4 50 20 0.9 1"
     text = SHEET.format(create=create, mesh="sheet.stl").replace("hooke 2000 NULL 0 NULL 0 1", law)
     lmp.run_well(text + TURNTABLE.replace("3.14159265358979", str(0.6 * math.pi)), folder)
     x, y = rows_of(folder / "out.txt")[0]
-    checks.at_most("a grain stays on a turntable that fix move turns", math.hypot(x - 0.6, y), 1e-3 * 0.6)
+    at_most("a grain stays on a turntable that fix move turns", math.hypot(x - 0.6, y), 1e-3 * 0.6)
 
 
 # ---- with Kokkos -------------------------------------------------------------------------
@@ -384,7 +383,8 @@ run             1000
 """
 
 
-def beside_plain(checks, folder):
+@lmp.of_kokkos
+def test_beside_plain(folder):
     """wall/lsdcd/kk and the plain fix in the LAMMPS with Kokkos: heavy nodes, on which grains fall, roll and bounce."""
     n = 6
     at = [(2 * i / n - 1, 2 * j / n - 1, 0.05 * ((i + j) % 3)) for j in range(n + 1) for i in range(n + 1)]
@@ -398,25 +398,12 @@ def beside_plain(checks, folder):
     atoms += "".join(f"create_atoms 1 single {x} {y} {z}\n"
                      for x, y, z in ((-0.6, -0.5, 0.4), (0.1, -0.55, 0.45), (-0.4, 0.3, 0.5), (0.35, 0.3, 0.4), (0, 0, 1.1)))
     found = {}
-    for name, style, flags in (("plain", "wall/lsdcd", ()), ("kk", "wall/lsdcd/kk", lmp.KOKKOS)):
+    for name, style, flags in (("plain", "wall/lsdcd", ()), ("kk", "wall/lsdcd/kk", lmp.FLAGS)):
         lmp.run_well(FREE.format(atoms=atoms, style=style, style_name=name), folder, flags=flags)
         rows = (folder / name).read_text().split("ITEM: ATOMS")[-1].split("\n")[1:]
         found[name] = [[float(w) for w in row.split()] for row in rows if row]
-    checks.fact("all are there", len(found["plain"]) == len(found["kk"]) == len(at) + 5)
+    fact("all are there", len(found["plain"]) == len(found["kk"]) == len(at) + 5)
     worst = max(abs(a - b) for p, k in zip(found["plain"], found["kk"]) for a, b in zip(p, k))
     # Other fixes may round in their own way with Kokkos.
-    checks.at_most("places and velocities with wall/lsdcd/kk, as with the plain fix", worst, 1e-10)
-    checks.fact("grains have pushed nodes", max(abs(row[3] - x[2]) for row, x in zip(found["kk"], at)) > 1e-3)
-
-
-def main():
-    checks = lmp.Checks()
-    folder = lmp.scratch()
-    tests = {f.__name__: f for f in (sags, on_processes, bulges, impact, refused, renumbered, another_mesh, turntable) + lmp.ON_KOKKOS * (beside_plain,)}
-    for name in sys.argv[1:] or tests:
-        tests[name](checks, folder)
-    checks.done(folder)
-
-
-if __name__ == "__main__":
-    main()
+    at_most("places and velocities with wall/lsdcd/kk, as with the plain fix", worst, 1e-10)
+    fact("grains have pushed nodes", max(abs(row[3] - x[2]) for row, x in zip(found["kk"], at)) > 1e-3)

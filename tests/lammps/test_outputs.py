@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 LSDCD contributors
 # SPDX-License-Identifier: GPL-2.0-only
 
@@ -6,9 +5,11 @@
 
 import math
 
+import pytest
+
 import lmp
-import scene
 import stl
+from facts import at_most, fact
 
 HEAD = """\
 units           lj
@@ -62,7 +63,13 @@ def close(a, b):
     return math.isclose(a, b, rel_tol=1e-13, abs_tol=1e-13)    # a few roundings
 
 
-def in_commands(checks, folder):
+@pytest.fixture(scope="module")
+def folder(folder):
+    (folder / "floor.stl").write_bytes((lmp.HERE / "scripts" / "floor.stl").read_bytes())
+    return folder
+
+
+def test_in_commands(folder):
     """How the manual says that commands read the array: overlaps 0.01 and 0.05, kn 1e4."""
     letter = lmp.column()
     _, _, text = go(folder, extra=f"""\
@@ -73,14 +80,14 @@ fix             h all ave/histo 1 1 1 0 1000 2 v_push mode vector
 thermo_style    custom step c_sum c_same f_h[1] f_h[2] f_h[3] f_h[4]
 thermo_modify   format float %.17g norm no""", steps=1)
     row = lmp.read_thermo(text)[0]
-    checks.fact(f"an atom-style variable reads a column as {letter}_ID[4]", close(row[1], 600), str(row[1]))
-    checks.fact("compute reduce reads a column as f_ID[4]", close(row[2], 600), str(row[2]))
+    fact(f"an atom-style variable reads a column as {letter}_ID[4]", close(row[1], 600), str(row[1]))
+    fact("compute reduce reads a column as f_ID[4]", close(row[2], 600), str(row[2]))
     last = lmp.read_thermo(text)[-1]    # both, none outside, least, most; after a step of 1e-4
-    checks.fact("fix ave/histo reads the variable", last[3:5] == [2, 0] and
-                abs(last[5] - 100) < 0.1 and abs(last[6] - 500) < 0.1, str(last[3:]))
+    fact("fix ave/histo reads the variable", last[3:5] == [2, 0] and
+         abs(last[5] - 100) < 0.1 and abs(last[6] - 500) < 0.1, str(last[3:]))
 
 
-def in_minimization(checks, folder):
+def test_in_minimization(folder):
     """After a run in which both spheres touch. In a minimization the wall does not act."""
     columns = " ".join(f"f_wall[{k}]" for k in range(1, 12))
     rows, _, text = go(folder, extra=f"""\
@@ -94,12 +101,12 @@ write_dump      all custom minimized id {CONTACTS} modify sort id
 """)
     rows_in = next(iter(lmp.read_dump(folder / "minimized").values()))
     there = lmp.read_thermo(text.split("Minimization stats")[0])
-    checks.fact("before and after a minimization there are energy, virial and vector",
-                all(row[1] > 0 and row[2] > 0 and row[8] < 0 for row in rows), str(rows[0]))
-    checks.fact("in a minimization they are 0", len(there) > 0 and not any(any(row[1:]) for row in there),
-                str(there))
-    checks.fact("in a minimization rows of contacts are 0",
-                not any(any(row) for row in rows_in.values()), str(rows_in))
+    fact("before and after a minimization there are energy, virial and vector",
+         all(row[1] > 0 and row[2] > 0 and row[8] < 0 for row in rows), str(rows[0]))
+    fact("in a minimization they are 0", len(there) > 0 and not any(any(row[1:]) for row in there),
+         str(there))
+    fact("in a minimization rows of contacts are 0",
+         not any(any(row) for row in rows_in.values()), str(rows_in))
 
 
 def local_rows(path):
@@ -108,7 +115,7 @@ def local_rows(path):
     return sorted([float(word) for word in row.split()] for row in rows)
 
 
-def each_contact(checks, folder):
+def test_each_contact(folder):
     """Atom 2 touches the floor at z = 0 and a wall that goes along x from -1.45 on at 0.1, where it is after 10 steps
     of 1e-4; atom 1 touches the floor."""
     entries = " ".join(f"f_wall[{k}]" for k in range(1, 10))
@@ -118,69 +125,66 @@ dump            l all local 10 local {entries}
 dump_modify     l format float %.17g""", columns=CONTACTS + " x y z",
                              more="each_contact contacts mesh floor.stl rotate 0 1 0 90 move -1.45 0 0 motion linear 0.1 0 0")
         rows, atoms, on = local_rows(folder / "local"), dump[10], f"on {ranks} ranks"
-        checks.fact(f"each_contact {on}: a row for each", [row[:2] for row in rows] == [[1, 1], [2, 1], [2, 2]], str(rows))
+        fact(f"each_contact {on}: a row for each", [row[:2] for row in rows] == [[1, 1], [2, 1], [2, 2]], str(rows))
         at = [atoms[row[0]][14:] for row in rows]
         feet = [[at[0][0], at[0][1], 0], [at[1][0], at[1][1], 0], [-1.45 + 0.1 * 1e-3, *at[2][1:]]]
-        checks.fact(f"each_contact {on}: points", all(
+        fact(f"each_contact {on}: points", all(
             abs(a - b) < 1e-12 for row, foot in zip(rows, feet) for a, b in zip(row[5:8], foot)), str(rows))
         overlaps = [0.5 - math.dist(x, foot) for x, foot in zip(at, feet)]
-        checks.fact(f"each_contact {on}: overlaps", all(abs(row[8] - o) < 1e-12 for row, o in zip(rows, overlaps)),
-                    str((rows, overlaps)))
+        fact(f"each_contact {on}: overlaps", all(abs(row[8] - o) < 1e-12 for row, o in zip(rows, overlaps)),
+             str((rows, overlaps)))
         pushes = (rows[0][4], rows[1][4], rows[2][2])
-        checks.fact(f"each_contact {on}: normal forces are 1e4 overlaps",
-                    all(abs(f / (1e4 * o) - 1) < 1e-9 for f, o in zip(pushes, overlaps)), str((pushes, overlaps)))
+        fact(f"each_contact {on}: normal forces are 1e4 overlaps",
+             all(abs(f / (1e4 * o) - 1) < 1e-9 for f, o in zip(pushes, overlaps)), str((pushes, overlaps)))
         for i in (1, 2):
             total = [sum(row[2 + d] for row in rows if row[0] == i) for d in range(3)]
-            checks.fact(f"each_contact {on}: forces on atom {i} add up to its force in contacts", all(
+            fact(f"each_contact {on}: forces on atom {i} add up to its force in contacts", all(
                 abs(a - b) < 1e-10 for a, b in zip(total, atoms[i][7:10])), str((total, atoms[i])))
 
 
-def main():
-    checks, folder = lmp.Checks(), lmp.scratch()
-    (folder / "floor.stl").write_bytes((lmp.HERE / "scripts" / "floor.stl").read_bytes())
-
+def test_outputs(folder):
     for ranks in (1, 2):
         # Overlaps 0.01 and 0.05: forces 100 and 500, energies 0.5 and 12.5.
         thermo, dump, _ = go(folder, ranks=ranks)
         row, on = thermo[0], f"on {ranks} rank{'s' if ranks > 1 else ''}"
-        checks.fact(f"step 0 {on}: energy", close(row[1], 13.0), str(row[1]))
-        checks.fact(f"step 0 {on}: force on the mesh",
-                    row[2] == 0 and row[3] == 0 and close(row[4], -600), str(row[2:5]))
+        fact(f"step 0 {on}: energy", close(row[1], 13.0), str(row[1]))
+        fact(f"step 0 {on}: force on the mesh",
+             row[2] == 0 and row[3] == 0 and close(row[4], -600), str(row[2:5]))
         # r x F with F = -100 z at (1, 0.5) and -500 z at (-1, 0.25)
-        checks.fact(f"step 0 {on}: torque on the mesh about the origin",
-                    close(row[5], -175) and close(row[6], -400) and close(row[7], 0), str(row[5:8]))
-        checks.fact(f"step 0 {on}: contacts", row[8] == 2, str(row[8]))
-        checks.fact(f"step 0 {on}: largest overlap", close(row[9], 0.1), str(row[9]))
-        checks.fact(f"step 0 {on}: all certified", row[10] == 0, str(row[10]))
+        fact(f"step 0 {on}: torque on the mesh about the origin",
+             close(row[5], -175) and close(row[6], -400) and close(row[7], 0), str(row[5:8]))
+        fact(f"step 0 {on}: contacts", row[8] == 2, str(row[8]))
+        fact(f"step 0 {on}: largest overlap", close(row[9], 0.1), str(row[9]))
+        fact(f"step 0 {on}: all certified", row[10] == 0, str(row[10]))
         one = dump[0][2]
-        checks.fact(f"step 0 {on}: contacts array",
-                    one[6] == 1 and close(one[9], 500) and close(one[10], -1) and
-                    close(one[11], 0.25) and close(one[12], 0) and one[13] == 0.5, str(one[6:]))
+        fact(f"step 0 {on}: contacts array",
+             one[6] == 1 and close(one[9], 500) and close(one[10], -1) and
+             close(one[11], 0.25) and close(one[12], 0) and one[13] == 0.5, str(one[6:]))
 
     # From (1, 0.5) the one force has no arm, and the other's is (-2, -0.25).
     thermo, _, _ = go(folder, more="contacts torque_about 1 0.5 7")
-    checks.fact("torque_about: of a point of the box", close(thermo[0][5], 125) and
-                close(thermo[0][6], -1000) and close(thermo[0][7], 0), str(thermo[0][5:8]))
+    fact("torque_about: of a point of the box", close(thermo[0][5], 125) and
+         close(thermo[0][6], -1000) and close(thermo[0][7], 0), str(thermo[0][5:8]))
     thermo, _, _ = go(folder, extra="thermo_style custom step f_wall[10] f_wall[11]")
-    checks.fact("a wall at rest without wear: no work, no volume", thermo[0][1:] == [0, 0], str(thermo[0]))
+    fact("a wall at rest without wear: no work, no volume", thermo[0][1:] == [0, 0], str(thermo[0]))
 
     thermo, dump, _ = go(folder, group="some", atoms=TWO + "group some type 1\n")
-    checks.fact("group: only its spheres feel the wall",
-                thermo[0][8] == 1 and dump[0][2][2] == 0, str(thermo[0][8]))
+    fact("group: only its spheres feel the wall",
+         thermo[0][8] == 1 and dump[0][2][2] == 0, str(thermo[0][8]))
 
     thermo, dump, text = go(folder, atoms="", steps=2)
-    checks.fact("no atoms: runs, totals are zero", not any(thermo[0][1:]))
+    fact("no atoms: runs, totals are zero", not any(thermo[0][1:]))
 
     late = ("run 5\ncreate_atoms 1 single 0 0 0.49 units box\n" + SPHERES +
             "run 2\ncreate_atoms 1 single 2 0 0.78 units box\nset atom 2 diameter 1.6 density 2.0")
     thermo, dump, text = go(folder, atoms="", extra=late)
-    checks.fact("atoms that come later find the wall", thermo[-1][8] == 2, str(thermo[-1][8]))
-    checks.fact("a larger atom rebuilds the grid, with a line in the log",
-                "grid rebuilt for radius 0.88" in text)
+    fact("atoms that come later find the wall", thermo[-1][8] == 2, str(thermo[-1][8]))
+    fact("a larger atom rebuilds the grid, with a line in the log",
+         "grid rebuilt for radius 0.88" in text)
 
     thermo, _, _ = go(folder, extra="fix_modify wall energy yes")
-    checks.fact("fix_modify energy adds the elastic energy", close(thermo[0][11], 13.0),
-                str(thermo[0][11]))
+    fact("fix_modify energy adds the elastic energy", close(thermo[0][11], 13.0),
+         str(thermo[0][11]))
 
     # A bounce without friction or damping: kinetic + elastic energy stays.
     thermo, _, _ = go(folder, law="hertz/history 1e5 NULL 0 NULL 0 0",
@@ -189,11 +193,11 @@ def main():
                             "thermo_style custom step v_e f_wall pe\nthermo 10\n"
                             "thermo_modify format float %.17g norm no", steps=2500)
     energies = [row[1] for row in thermo]
-    checks.fact("the bounce happens", max(row[2] for row in thermo) > 0.4)
+    fact("the bounce happens", max(row[2] for row in thermo) > 0.4)
     # Velocity Verlet: (omega dt)^2 / 4 with omega^2 = 1.5 kn sqrt(R d) / m at the deepest
     # overlap d = 0.0128: 2.9e-5.
-    checks.at_most("elastic energy is the integral of the force",
-                   (max(energies) - min(energies)) / max(energies), 3e-5)
+    at_most("elastic energy is the integral of the force",
+            (max(energies) - min(energies)) / max(energies), 3e-5)
 
     # LAMMPS averages f_wall[1] to f_wall[6] itself, over the same steps.
     thermo, _, _ = go(folder, law="hertz/history 1e5 NULL 0 NULL 0.5 0", more="contacts average 20",
@@ -202,18 +206,18 @@ def main():
                             "\nthermo_style custom step " + " ".join(f"f_by_lammps[{k}] f_wall[{k + 41}]" for k in range(1, 7)) +
                             "\nthermo 20\nthermo_modify format float %.17g norm no", steps=200)
     off = max(abs(row[k] - row[k + 1]) for row in thermo[1:] for k in range(1, 13, 2))
-    checks.fact("means are those that LAMMPS makes of the force and torque of each step",
-                len(thermo) == 11 and max(abs(row[5]) for row in thermo) > 10 and off < 1e-10, f"{off} {thermo[-1]}")
+    fact("means are those that LAMMPS makes of the force and torque of each step",
+         len(thermo) == 11 and max(abs(row[5]) for row in thermo) > 10 and off < 1e-10, f"{off} {thermo[-1]}")
 
     _, _, text = go(folder, extra="timestep 0.1", steps=0)
-    checks.fact("a timestep above a tenth of the contact time is warned of",
-                "wall/lsdcd: timestep 0.1 is more than a tenth" in text)
+    fact("a timestep above a tenth of the contact time is warned of",
+         "wall/lsdcd: timestep 0.1 is more than a tenth" in text)
     # Dropped at speed 10 the sphere sinks v sqrt(m/k) = 0.1, a fifth of its radius.
     fast = "create_atoms 1 single 0 0 0.51 units box\n" + SPHERES + "velocity all set 0 0 -10\n"
     _, _, text = go(folder, atoms=fast, steps=400)
-    checks.fact("a large overlap is warned of once", text.count("sank into the wall by") == 1)
-    checks.fact("hooke stores nothing per atom", "nothing stored, exchanged or restarted" in
-                go(folder, more="", columns="")[2])
+    fact("a large overlap is warned of once", text.count("sank into the wall by") == 1)
+    fact("hooke stores nothing per atom", "nothing stored, exchanged or restarted" in
+         go(folder, more="", columns="")[2])
 
     # A centre 0.1 below the bottom of the cube: inside it belongs 0.6 higher, outside 0.4 lower.
     low = "create_atoms 1 single 0.3 0.1 -0.1 units box\n" + SPHERES
@@ -221,21 +225,21 @@ def main():
         write_cube(folder / "cube.stl", inward)
         for side, force in (("in", 6000), ("out", -4000)):
             thermo, _, text = go(folder, atoms=low, mesh="cube.stl", more=f"side {side} contacts")
-            checks.fact(f"side {side}: a centre past the wall is asked about",
-                        ("centre is past the wall" in text) == (side == "in"))
-            checks.fact(f"side {side}, wound {'in' if inward else 'out'}wards: back to its side",
-                        close(thermo[0][4], -force), str(thermo[0][4]))
+            fact(f"side {side}: a centre past the wall is asked about",
+                 ("centre is past the wall" in text) == (side == "in"))
+            fact(f"side {side}, wound {'in' if inward else 'out'}wards: back to its side",
+                 close(thermo[0][4], -force), str(thermo[0][4]))
 
     # In a corner of the cube: three walls, of which the nearest triangle is one.
     corner = "create_atoms 1 single 1.55 1.56 0.43 units box\n" + SPHERES
     thermo, _, text = go(folder, atoms=corner, mesh="cube.stl", more="nearest 1 grid 0.1 contacts")
-    checks.fact("nearest 1: contacts are missed and the sphere is counted",
-                thermo[0][8] == 1 and thermo[0][10] == 1, str(thermo[0][8:11]))
-    checks.fact("nearest 1: the log says how many were not certified",
-                "nearest 1: 1 answers were not certified exact" in text)
+    fact("nearest 1: contacts are missed and the sphere is counted",
+         thermo[0][8] == 1 and thermo[0][10] == 1, str(thermo[0][8:11]))
+    fact("nearest 1: the log says how many were not certified",
+         "nearest 1: 1 answers were not certified exact" in text)
     thermo, _, _ = go(folder, atoms=corner, mesh="cube.stl", more="nearest all grid 0.1 contacts")
-    checks.fact("nearest all: all three, all certified",
-                thermo[0][8] == 3 and thermo[0][10] == 0, str(thermo[0][8:11]))
+    fact("nearest all: all three, all certified",
+         thermo[0][8] == 3 and thermo[0][10] == 0, str(thermo[0][8:11]))
     # dump image takes the diameter of lines, or 1 for filled triangles, from the same word.
     for what, flags in (("edges", "0.05 0"), ("faces 2", "1 0"), ("contours", "0.05 0"),
                         ("faces cut 1 0 0 0", "1 0")):
@@ -244,12 +248,4 @@ def main():
             go(folder, more="contacts draw " + what,
                extra=f"dump pic all image 1 wall.*.ppm type type {wall} view 60 30 size 200 200\n")
             pictures.append((folder / "wall.0.ppm").read_bytes())
-        checks.fact(f"dump image shows the mesh: draw {what}", pictures[0] != pictures[1])
-    in_commands(checks, folder)
-    each_contact(checks, folder)
-    in_minimization(checks, folder)
-    checks.done(folder)
-
-
-if __name__ == "__main__":
-    main()
+        fact(f"dump image shows the mesh: draw {what}", pictures[0] != pictures[1])

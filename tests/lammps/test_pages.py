@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 LSDCD contributors
 # SPDX-License-Identifier: GPL-2.0-only
 
@@ -15,6 +14,7 @@ import sys
 
 import lmp
 import stl
+from facts import fact
 
 sys.path.insert(0, str(lmp.HERE.parent / "tool"))
 from pages import ROOT, all_pages    # noqa: E402
@@ -118,8 +118,8 @@ def whole_script(page, block, folder):
     return re.sub(r"^run +\d+", "run 0", block.text, flags=re.M)
 
 
-def main():
-    checks, folder, known = lmp.Checks(), lmp.scratch(), keywords()
+def test_blocks(folder):
+    known = keywords()
     (folder / "grain_atoms.txt").write_text("".join("%g %g %g\n" % place for place in PLACES))
     (folder / "arm.txt").write_text("0 0 0 0 0 0 0\n0.25 0.1 0 0.05 0 0.3 0\n")
     (folder / "cam.csv").write_text("0, 0\n0.1, 12.5\n0.2, 0\n")
@@ -133,10 +133,5 @@ def main():
             script = whole_script(page, block, folder) if whole else script_of(block, folder, known)
             done = run(script, folder)
             error = re.search(r"^ERROR.*(?:\n.*)?", done.stdout, re.M)
-            checks.fact(f"{block} runs", done.returncode == 0, error[0] if error else "")
-    checks.fact("there are blocks", count > 5)
-    checks.done(folder)
-
-
-if __name__ == "__main__":
-    main()
+            fact(f"{block} runs", done.returncode == 0, error[0] if error else "")
+    fact("there are blocks", count > 5)

@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 LSDCD contributors
 # SPDX-License-Identifier: GPL-2.0-only
 
@@ -9,7 +8,10 @@ Both codes evaluate the same formulas in another order. Rounding differences of
 10^4 operations. fix wall/gran checks the style hooke/history of 29Sep2021.
 """
 
+import pytest
+
 import lmp
+from facts import at_most, fact
 
 CASES = {
     "hooke": "hooke 1e4 NULL 5 NULL 0.5 1",
@@ -29,7 +31,13 @@ CASES = {
 REAL = {"hertz_history_in_real_units": "hertz/history 1e7 NULL 10 NULL 0.5 1"}
 
 
-def compare(checks, folder, name, law, scene="in.one_sphere", **settings):
+@pytest.fixture(scope="module")
+def folder(folder):
+    (folder / "floor.stl").write_bytes((lmp.HERE / "scripts" / "floor.stl").read_bytes())
+    return folder
+
+
+def compare(folder, name, law, scene="in.one_sphere", **settings):
     dumps = []
     for wall in (f"wall/gran {law} zplane 0.0 NULL", f"wall/lsdcd {law} mesh floor.stl"):
         dumps.append(folder / f"{name}.{len(dumps)}")
@@ -37,23 +45,24 @@ def compare(checks, folder, name, law, scene="in.one_sphere", **settings):
                      out=dumps[-1].name, **settings)
     a, b = (lmp.read_dump(d) for d in dumps)
     touched = sum(abs(row[1][11]) > 0 for row in a.values())
-    checks.fact(f"{name}: the sphere touches the floor", touched > 20, f"{touched} steps")
-    checks.at_most(f"{name}: trajectory as with wall/gran", lmp.largest_difference(a, b), 1e-12)
+    fact(f"{name}: the sphere touches the floor", touched > 20, f"{touched} steps")
+    at_most(f"{name}: trajectory as with wall/gran", lmp.largest_difference(a, b), 1e-12)
 
 
-def main():
-    checks, folder = lmp.Checks(), lmp.scratch()
-    (folder / "floor.stl").write_bytes((lmp.HERE / "scripts" / "floor.stl").read_bytes())
-    for name, law in CASES.items():
-        compare(checks, folder, name, law, unit="lj", kick=1, dt=1e-4, steps=1000, style="verlet")
-    for name, law in REAL.items():
-        compare(checks, folder, name, law, unit="real", kick=1e-2, dt=0.01, steps=2000, style="verlet")
-    compare(checks, folder, "hooke_history_respa", CASES["hooke_history"], unit="lj", kick=1, dt=2e-4,
-            steps=600, style="respa 2 2 pair 2")
-    for name in ("hooke_history", "hertz_history"):
-        compare(checks, folder, f"{name}_rigid_body", CASES[name], "in.rigid")
-    checks.done(folder)
+@pytest.mark.parametrize("name", CASES)
+def test_trajectory(folder, name):
+    compare(folder, name, CASES[name], unit="lj", kick=1, dt=1e-4, steps=1000, style="verlet")
 
 
-if __name__ == "__main__":
-    main()
+@pytest.mark.parametrize("name", REAL)
+def test_units_real(folder, name):
+    compare(folder, name, REAL[name], unit="real", kick=1e-2, dt=0.01, steps=2000, style="verlet")
+
+
+def test_respa(folder):
+    compare(folder, "hooke_history_respa", CASES["hooke_history"], unit="lj", kick=1, dt=2e-4, steps=600, style="respa 2 2 pair 2")
+
+
+@pytest.mark.parametrize("name", ("hooke_history", "hertz_history"))
+def test_rigid_body(folder, name):
+    compare(folder, f"{name}_rigid_body", CASES[name], "in.rigid")

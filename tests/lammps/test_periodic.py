@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 LSDCD contributors
 # SPDX-License-Identifier: GPL-2.0-only
 
@@ -13,6 +12,7 @@ leaves room for 1e5 roundings.
 
 import lmp
 import stl
+from facts import at_most, fact
 
 
 WALL = stl.quad((0, -20, -20), (0, 20, -20), (0, 20, 20), (0, -20, 20))    # x = 0, across the box
@@ -28,6 +28,9 @@ def scene(wall, x, v, box="0 10 0 10 -1 10", boundary="p f f", skin=0.3, steps=2
           out="moves"):
     """One sphere; dumps unwrapped places."""
     pull = f"fix pull all gravity {gravity} vector 0 0 -1" if gravity else ""
+    lines = f"fix wall all {wall}\n"
+    if wall.startswith("wall/gran"):
+        lines = lmp.flat_walls(lines)
     return f"""\
 units           lj
 atom_style      sphere
@@ -47,8 +50,7 @@ neighbor        {skin} bin
 neigh_modify    {neigh}
 fix             move all nve/sphere
 {pull}
-fix             wall all {wall}
-timestep        {dt}
+{lines}timestep        {dt}
 {more}
 dump            d all custom {every} {out} id xu yu zu vx vy vz omegax omegay omegaz
 dump_modify     d format float %.17g
@@ -73,22 +75,22 @@ ELASTIC = "wall/lsdcd hooke 2e4 NULL 0 NULL 0 0 mesh"
 ROUGH = "hooke/history 2e3 NULL 20 NULL 0.4 1"
 
 
-def near_a_face(checks, folder):
+def test_near_a_face(folder):
     """The wall is a radius and a bit inside one face; the sphere meets it through the other."""
     stl.write(folder / "wall.stl", WALL)
     for skin in (0.1, 0.3):
         here, _ = go(folder, f"{ELASTIC} wall.stl move 9.4995 0 0", (0.29, 5, 5), (-3, 0, 0), skin=skin, steps=600)
         there, _ = go(folder, f"{ELASTIC} wall.stl move 4.4995 0 0", (5.29, 5, 5), (-3, 0, 0), skin=skin, steps=600)
-        checks.fact(f"skin {skin}: the sphere comes back", here[600][1][3] > 2.9, f"{here[600][1][3]:.6f}")
-        checks.at_most(f"skin {skin}: a wall near a face, as in the middle of the box",
-                       apart(here, moved(there, (-5, 0, 0)), 10), 1e-10)
+        fact(f"skin {skin}: the sphere comes back", here[600][1][3] > 2.9, f"{here[600][1][3]:.6f}")
+        at_most(f"skin {skin}: a wall near a face, as in the middle of the box",
+                apart(here, moved(there, (-5, 0, 0)), 10), 1e-10)
     # Where nothing is checked between two reneighbourings, and spheres go far.
     many, text = go(folder, f"{ELASTIC} wall.stl move 9.4995 0 0", (0.29, 5, 5), (-3, 2.9, 0), skin=0.05,
                     steps=3000, boundary="p p f", neigh="delay 0 every 400 check no")
-    checks.fact("spheres far past a face are warned of", "past a periodic face before it was wrapped" in text)
+    fact("spheres far past a face are warned of", "past a periodic face before it was wrapped" in text)
 
 
-def over_the_seam(checks, folder):
+def test_over_the_seam(folder):
     """A sphere slides and rolls from one end of a floor on to its image, and on."""
     for name, ends, cells in (("ends at the faces", (0, 10), 1), ("ends at the faces, 200 triangles", (0, 10), 10),
                               ("reaches past both", (-0.05, 10.05), 1), ("reaches far past", (-7, 16), 3),
@@ -99,22 +101,22 @@ def over_the_seam(checks, folder):
                           steps=4000, dt=2e-4, omega=(3, -5, 7), every=50)
             mesh, text = go(folder, f"wall/lsdcd {law} mesh floor.stl periodic", **kwargs)
             flat, _ = go(folder, f"wall/gran {law} zplane 0.0 NULL", **kwargs)
-            checks.at_most(f"floor {name}, {law.split()[0]}: as zplane", apart(mesh, flat, 10), 1e-11)
-            checks.fact(f"floor {name}: no warning of its ends", "periodic boundary" not in text)
+            at_most(f"floor {name}, {law.split()[0]}: as zplane", apart(mesh, flat, 10), 1e-11)
+            fact(f"floor {name}: no warning of its ends", "periodic boundary" not in text)
 
 
-def larger_spheres(checks, folder):
+def test_larger_spheres(folder):
     """A larger sphere comes to a floor that reaches past the faces by its radius and no more."""
     stl.write(folder / "floor.stl", floor(-0.5, 10.5, -0.5, 10.5))
     done = lmp.run(scene(f"wall/lsdcd {ROUGH} mesh floor.stl periodic", (3, 3, 0.45), (0, 0, 0), radius=0.45,
                          boundary="p p f", gravity=9.81, steps=100,
                          more="run 10\ncreate_atoms 1 single 9.9 7 0.5 units box\nset atom 2 diameter 1 density 2"),
                    folder)
-    checks.fact("the grid is built anew for a larger sphere, whatever reaches past the faces",
-                done.returncode == 0 and "larger particles, grid rebuilt for radius 0.55" in done.stdout)
+    fact("the grid is built anew for a larger sphere, whatever reaches past the faces",
+         done.returncode == 0 and "larger particles, grid rebuilt for radius 0.55" in done.stdout)
 
 
-def hills(checks, folder):
+def test_hills(folder):
     """A wavy floor as long as the box, and the same three boxes long in a box that it fits."""
     import math
 
@@ -135,11 +137,11 @@ def hills(checks, folder):
     for law in (ROUGH, "hooke/history 2e3 NULL 20 NULL 5.0 1"):
         here, _ = go(folder, f"wall/lsdcd {law} mesh one.stl", boundary="p f f", **kwargs)
         there, _ = go(folder, f"wall/lsdcd {law} mesh three.stl", boundary="f f f", box="-10 20 0 10 -1 10", **kwargs)
-        checks.fact("the sphere crosses the face", here[6000][1][0] > 10.5)
-        checks.at_most(f"springs cross a bent seam, xmu {law.split()[5]}", apart(here, there, 10), 1e-9)
+        fact("the sphere crosses the face", here[6000][1][0] > 10.5)
+        at_most(f"springs cross a bent seam, xmu {law.split()[5]}", apart(here, there, 10), 1e-9)
 
 
-def tilted(checks, folder):
+def test_tilted(folder):
     """The wall of a tilted box, met across the face that leans."""
     stl.write(folder / "wall.stl", stl.quad((0, 0, -1), (0, 10, -1), (0, 10, 10), (0, 0, 10)))
     for y in (0.6, 4.0, 8.7):
@@ -147,32 +149,32 @@ def tilted(checks, folder):
                         box="0 10 0 10 -1 10 4.9 0 0", prism=True, boundary="p p f")
         there, _ = go(folder, f"{ELASTIC} wall.stl move 12 0 0", (8, y, 5), (3, 0, 0), steps=3000,
                       box="-20 40 -5 15 -1 10", boundary="f f f")
-        checks.fact(f"tilted box, y = {y}: the sphere comes back", here[3000][1][3] < 0)
-        checks.at_most(f"tilted box, y = {y}: as without periodicity", apart(here, there, 10), 1e-10)
-    checks.fact("a mesh past a face is warned of", "reaches past the periodic boundary in x" in text)
+        fact(f"tilted box, y = {y}: the sphere comes back", here[3000][1][3] < 0)
+        at_most(f"tilted box, y = {y}: as without periodicity", apart(here, there, 10), 1e-10)
+    fact("a mesh past a face is warned of", "reaches past the periodic boundary in x" in text)
 
 
-def belts(checks, folder):
+def test_belts(folder):
     """Ends that meet, that do not, and a screen whose holes lie across the face."""
     run = dict(x=(5, 5, 3), v=(0, 0, 0), steps=0, radius=0.02)
     stl.write(folder / "belt.stl", floor(0.005, 9.995, 4, 6, 4))
     _, text = go(folder, f"{ELASTIC} belt.stl", **run)
-    checks.fact("ends 1 cm apart are named", "ends of the mesh do not meet across the periodic boundary in x, "
-                "where its open edges face a gap of 0.01;" in text)
+    fact("ends 1 cm apart are named", "ends of the mesh do not meet across the periodic boundary in x, "
+         "where its open edges face a gap of 0.01;" in text)
     stl.write(folder / "belt.stl", floor(0, 10, 4, 6, 4))
     _, text = go(folder, f"{ELASTIC} belt.stl", **run)
-    checks.fact("ends that meet are not", "do not meet" not in text)
+    fact("ends that meet are not", "do not meet" not in text)
     stl.write(folder / "belt.stl", floor(-0.3, 10.1, 4, 6, 4))
     _, text = go(folder, f"{ELASTIC} belt.stl periodic", **run)
-    checks.fact("ends that overlap are not", "do not meet" not in text)
+    fact("ends that overlap are not", "do not meet" not in text)
     screen = [t for i in range(20) for j in range(20)
               if (i % 4, j % 4) != (0, 0) for t in floor(i / 2 - 0.25, i / 2 + 0.25, j / 2, j / 2 + 0.5)]
     stl.write(folder / "screen.stl", screen)
     _, text = go(folder, f"{ELASTIC} screen.stl periodic", **run)
-    checks.fact("a screen with holes across the face has no loose ends", "do not meet" not in text)
+    fact("a screen with holes across the face has no loose ends", "do not meet" not in text)
 
 
-def box_changes(checks, folder):
+def test_box_changes(folder):
     """The walls of a box that changes in a run."""
     stl.write(folder / "wall.stl", WALL)
     # The face comes in past the wall at 9 to x = 8: what is met is its image at 1.
@@ -182,59 +184,48 @@ def box_changes(checks, folder):
     # Unwrapped places count the last box: the image at 1 is at 9 there; it gives by v sqrt(m/k).
     # Images follow the box to 1e-4 of the radius; a turn is seen to 2e-5 in steps of 1e-3.
     give = (2 * 0.5235987755982988 / 2e4) ** 0.5
-    checks.at_most("a wall past a shrunk box acts by its image", abs(turn - (9 - 0.5 + give)), 1e-4)
-    checks.fact("the log tells of it", "the box has changed, grid rebuilt at step" in text)
+    at_most("a wall past a shrunk box acts by its image", abs(turn - (9 - 0.5 + give)), 1e-4)
+    fact("the log tells of it", "the box has changed, grid rebuilt at step" in text)
     # The box outgrows its floor.
     stl.write(folder / "floor.stl", floor(0, 10, 0, 10, 2))
     done = lmp.run(scene("wall/lsdcd hooke 2e4 NULL 20 NULL 0 0 mesh floor.stl periodic", (5, 5, 0.5), (0, 0, 0),
                          gravity=9.81, more="fix grow all deform 1 x final -1 11 remap none"), folder)
-    checks.fact("a box that outgrows its periodic floor stops the run", done.returncode != 0
-                and "ends of the mesh do not meet across the periodic boundary in x" in done.stdout)
+    fact("a box that outgrows its periodic floor stops the run", done.returncode != 0
+         and "ends of the mesh do not meet across the periodic boundary in x" in done.stdout)
     # change_box between runs, the wall in the way of the new face.
     here, _ = go(folder, f"{ELASTIC} wall.stl move 9.7 0 0", (5, 5, 5), (-2, 0, 0), steps=3000, every=1,
                  more="run 100\nchange_box all x final 0 9.4 boundary p f f")
     far = min(row[1][0] for row in here.values())
-    checks.at_most("change_box: the wall acts by its image", abs(far - (0.3 + 0.5 - 2 * give)), 1e-4)
+    at_most("change_box: the wall acts by its image", abs(far - (0.3 + 0.5 - 2 * give)), 1e-4)
 
 
-def large_meshes(checks, folder):
+def test_large_meshes(folder):
     """The grid is there where spheres can be, and no further."""
     for wide in (1e3, 1e6):
         stl.write(folder / "floor.stl", floor(-wide, wide, -wide, wide))
         kwargs = dict(x=(5, 5, 0.6), v=(1, 0.3, 0), gravity=9.81, omega=(3, -5, 7), boundary="f f f")
         mesh, text = go(folder, f"wall/lsdcd {ROUGH} mesh floor.stl", **kwargs)
         flat, _ = go(folder, f"wall/gran {ROUGH} zplane 0.0 NULL", **kwargs)
-        checks.at_most(f"floor {2 * wide:g} wide: as zplane", apart(mesh, flat, 10), 1e-10)
+        at_most(f"floor {2 * wide:g} wide: as zplane", apart(mesh, flat, 10), 1e-10)
         line = next(row for row in text.split("\n") if "built in" in row)
         size = float(line.split()[0]) * {"kB,": 1e-3, "MB,": 1}[line.split()[1]]
-        checks.at_most(f"floor {2 * wide:g} wide: MB", size, 2)
+        at_most(f"floor {2 * wide:g} wide: MB", size, 2)
     # Spheres fly past what a shrink-wrapped box was at first.
     stl.write(folder / "wall.stl", WALL)
     far = [tuple(tuple(1e3 * c for c in p) for p in t) for t in stl.quad((0, -1, -1), (0, 1, -1), (0, 1, 1), (0, -1, 1))]
     stl.write(folder / "far.stl", far + [tuple((p[0] + 400, p[1], p[2]) for p in t) for t in far])
     here, text = go(folder, f"{ELASTIC} far.stl move -200 0 0", (5, 5, 5), (30, 0, 0), boundary="m m m", steps=8000)
-    checks.fact("a far wall is met", max(r[1][0] for r in here.values()) < 200 and here[8000][1][3] < 0)
-    checks.fact("the grid follows a shrink-wrapped box", "the box has changed" in text)
+    fact("a far wall is met", max(r[1][0] for r in here.values()) < 200 and here[8000][1][3] < 0)
+    fact("the grid follows a shrink-wrapped box", "the box has changed" in text)
 
 
-def scales(checks, folder):
+def test_scales(folder):
     """A mesh in millimetres in a box in metres."""
     hundred = floor(-50, 50, -50, 50, z=-50) + floor(-50, 50, -50, 50, z=50)
     stl.write(folder / "vessel.stl", hundred)
     done = lmp.run(scene(f"{ELASTIC} vessel.stl", (0, 0, 0), (0, 0, 0), box="-.06 .06 -.06 .06 -.06 .06", radius=0.001,
                          boundary="f f f", steps=1), folder)
-    checks.fact("a forgotten scale is named", "far larger than the box" in done.stdout
-                and "add scale 0.001" in done.stdout)
-    checks.fact("what no particle can touch stops the run",
-                done.returncode != 0 and "no particle in the box can touch the mesh" in done.stdout)
-
-
-def main():
-    checks, folder = lmp.Checks(), lmp.scratch()
-    for part in (near_a_face, over_the_seam, larger_spheres, hills, tilted, belts, box_changes, large_meshes, scales):
-        part(checks, folder)
-    checks.done(folder)
-
-
-if __name__ == "__main__":
-    main()
+    fact("a forgotten scale is named", "far larger than the box" in done.stdout
+         and "add scale 0.001" in done.stdout)
+    fact("what no particle can touch stops the run",
+         done.returncode != 0 and "no particle in the box can touch the mesh" in done.stdout)

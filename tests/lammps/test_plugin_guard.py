@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 LSDCD contributors
 # SPDX-License-Identifier: GPL-2.0-only
 
@@ -15,6 +14,7 @@ import shutil
 import subprocess
 
 import lmp
+from facts import fact
 
 PLUGIN = lmp.LIB / "lsdcdplugin.so"
 # host PLUGIN VERSION MPI TAGINT BIGINT RANK
@@ -82,18 +82,16 @@ def load(host, libraries, version, sizes, mpi=1, rank=0, plugin=PLUGIN):
     return done.returncode, done.stdout
 
 
-def main():
-    checks, folder = lmp.Checks(), lmp.scratch()
+def test_refusals(folder):
     host = compile_c(HOST, folder / "host", "-rdynamic")
     libraries = {name: compile_c(LIBRARY, folder / (name.replace(" ", "") + ".so"), "-shared", "-fPIC",
                                  f"-DMARK={mark}", f'-DSAYS="{says}"') for name, (mark, says) in LIBRARIES.items()}
-
-    def refused(fact, *words, **told):
+    def refused(name, *words, **told):
         status, text = load(host, **told)
         lines = text.splitlines()
-        checks.fact(fact, status == 0 and len(lines) == 1 and
-                    lines[0].startswith("lsdcd plugin not loaded: it was built for LAMMPS version ") and
-                    all(word in text for word in words), f"exit status {status}, {text.strip()}")
+        fact(name, status == 0 and len(lines) == 1 and
+             lines[0].startswith("lsdcd plugin not loaded: it was built for LAMMPS version ") and
+             all(word in text for word in words), f"exit status {status}, {text.strip()}")
         return text
 
     text = refused("another version is refused", "this is version 20380119 with Open MPI v4.1.4 and",
@@ -101,7 +99,7 @@ def main():
                    sizes="LAMMPS_SMALLBIG")
     built = re.search(r"built for LAMMPS version (\d+) with (.+) and integers (\w+), this", text)
     if not built:
-        checks.done(folder)
+        return
     version, mpi, sizes = built.groups()
     other_mpi = "MPICH" if mpi == "Open MPI" else "Open MPI"
     same = {"libraries": [libraries[mpi]], "version": version, "sizes": sizes}
@@ -123,7 +121,7 @@ def main():
             "-D LSDCD_HOST_SIZES=LAMMPS_BIGBIG -D MPI_CXX_COMPILER=", libraries=[libraries[other_mpi]],
             version=20380119, sizes="LAMMPS_BIGBIG")
     status, text = load(host, **{**same, "version": 20380119}, rank=1)
-    checks.fact("other processes than the first are silent", (status, text) == (0, ""), text)
+    fact("other processes than the first are silent", (status, text) == (0, ""), text)
     refused("a host that says it fits and has other classes is refused", "undefined symbol", "Rebuild it", **same)
     alone = folder / "alone" / "lsdcdplugin.so"
     alone.parent.mkdir()
@@ -138,8 +136,3 @@ def main():
     for name, library in libraries.items():
         refused(f"a plugin without MPI refuses a LAMMPS with {name}", "with no MPI and integers", f"with {name} ",
                 "-D LSDCD_HOST_MPI=ON -D MPI_CXX_COMPILER=", libraries=[library], **serial)
-    checks.done(folder)
-
-
-if __name__ == "__main__":
-    main()

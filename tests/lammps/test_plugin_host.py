@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 LSDCD contributors
 # SPDX-License-Identifier: GPL-2.0-only
 
@@ -6,34 +5,34 @@
 
 LSDCD_PLUGIN_HOST names that LAMMPS, of the version that the plugin is built for; without
 it the one that hosts/build_host.sh built is taken, with a plugin of its own. Without
-either there is nothing to run (exit status 77).
+either there is nothing to run.
 """
 
 import os
+import pathlib
 import re
 import subprocess
-import sys
+
+import pytest
 
 import lmp
 import scene
+from facts import at_most, fact
 
 HOST = os.environ.get("LSDCD_PLUGIN_HOST", "")
 PLUGIN = lmp.LIB / "lsdcdplugin.so"
 if not HOST:
-    HOST, PLUGIN = lmp.TEST_HOST, lmp.TEST_HOST_PLUGIN
+    HOST, PLUGIN = lmp.HOST, pathlib.Path(lmp.PLUGIN)
 LAW = "hooke/history 1e4 NULL 120 NULL 0.4 1"
 
 
-def main():
-    if not HOST:
-        print("SKIPPED: no LAMMPS with PLUGIN (LSDCD_PLUGIN_HOST, tests/lammps/hosts/build_host.sh)")
-        sys.exit(77)
-    checks, folder = lmp.Checks(), lmp.scratch()
+@pytest.mark.skipif(not HOST, reason="no LAMMPS with PLUGIN (LSDCD_PLUGIN_HOST, tests/lammps/hosts/build_host.sh)")
+def test_plugin_host(folder):
     # Their names differ from one installation to another; the program that opens the plugin has them.
     linked = [line for file in (PLUGIN, PLUGIN.with_name(PLUGIN.stem + "-styles.so")) for line in
               subprocess.run(["readelf", "-d", file], check=True, capture_output=True, text=True).stdout.splitlines()
               if "(NEEDED)" in line]
-    checks.fact("the plugin links neither LAMMPS nor MPI", linked and not any(re.search("lib(mpi|lammps)", line) for line in linked))
+    fact("the plugin links neither LAMMPS nor MPI", linked and not any(re.search("lib(mpi|lammps)", line) for line in linked))
     scene.write_floor(folder / "floor.stl")
     own, moves = lmp.LMP, []
     body = scene.CREATE + scene.forces(LAW) + scene.dump("moves", 100) + "run 1000\n"
@@ -42,7 +41,7 @@ def main():
         lmp.run_well(load + body, folder)
         moves.append(lmp.read_dump(folder / "moves"))
     # Another compiler or flags may round the integrator otherwise.
-    checks.at_most("same trajectory", lmp.largest_difference(*moves), 1e-9)
+    at_most("same trajectory", lmp.largest_difference(*moves), 1e-9)
 
     lmp.LMP = HOST
     text = lmp.run_well(f"plugin load {PLUGIN}\nplugin list\n" + body +
@@ -52,7 +51,7 @@ def main():
                         "plugin unload region mesh/lsdcd\nplugin list\nrun 10\n", folder)
     # Newer hosts keep their plugins through clear.
     came = text.count("Loading plugin: fix wall/lsdcd") + text.count("Restoring plugin: fix wall/lsdcd")
-    checks.fact("load, clear, load, unload", came == 2 and "loaded plugins: 0" in text)
+    fact("load, clear, load, unload", came == 2 and "loaded plugins: 0" in text)
     # The second time the file is found by a path from another folder, and is in memory already.
     own = folder / "own"
     own.mkdir()
@@ -62,13 +61,8 @@ def main():
                      ("fix wall", "fix massflow", "fix insert", "region mesh"))
     text = lmp.run_well("plugin load own/lsdcdplugin.so\n" + unload + "plugin unload compute lsdcd/collide\n"
                         "shell cd own\nplugin load ./lsdcdplugin.so\nshell cd ..\n" + body, folder)
-    checks.fact("loaded by another relative path after it was unloaded",
-                text.count("Loading plugin: fix wall/lsdcd") == 2)
+    fact("loaded by another relative path after it was unloaded",
+         text.count("Loading plugin: fix wall/lsdcd") == 2)
     text = lmp.run_well(body, folder, env={"LAMMPS_PLUGIN_PATH": str(own)})
-    checks.fact("LAMMPS_PLUGIN_PATH counts its two files as one plugin", f"Loaded 1 plugins from {own}" in text)
-    checks.fact("on 2 ranks", "Loop time" in lmp.run_well(f"plugin load {PLUGIN}\n" + body, folder, 2))
-    checks.done(folder)
-
-
-if __name__ == "__main__":
-    main()
+    fact("LAMMPS_PLUGIN_PATH counts its two files as one plugin", f"Loaded 1 plugins from {own}" in text)
+    fact("on 2 ranks", "Loop time" in lmp.run_well(f"plugin load {PLUGIN}\n" + body, folder, 2))

@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 LSDCD contributors
 # SPDX-License-Identifier: GPL-2.0-only
 
@@ -7,6 +6,7 @@
 import math
 
 import lmp
+from facts import at_most, fact
 from test_moving import write_drum, write_plane
 
 SCRIPT = lmp.SMALL_BOX + """\
@@ -52,7 +52,7 @@ def torque_about(rows, point):
     return total
 
 
-def piston(checks, folder):
+def test_piston(folder):
     """It hits a sphere at rest without friction, which leaves at twice its speed."""
     write_plane(folder / "plane.stl", 2, 2.0)
     speed, dt, mass, kn = 0.8, 1e-5, 2 * math.pi / 6, 1e4
@@ -60,14 +60,14 @@ def piston(checks, folder):
                        atoms=ONE, more="")
     last = spheres[6000][1]
     # Velocity Verlet is off by (omega dt)^2 = kn/m dt^2 of 1e-6, and so is the time of contact.
-    checks.at_most("the sphere leaves at twice the speed", abs(last[5] / (2 * speed) - 1), 1e-6)
+    at_most("the sphere leaves at twice the speed", abs(last[5] / (2 * speed) - 1), 1e-6)
     work = sum(row[7] for row in rows) * dt
-    checks.at_most("work of the piston is the energy of the sphere",
-                   abs(work / (mass * (2 * speed)**2 / 2) - 1), 1e-6)
-    checks.fact("force times velocity in every step", all(row[7] == -row[3] * speed for row in rows))
+    at_most("work of the piston is the energy of the sphere",
+            abs(work / (mass * (2 * speed)**2 / 2) - 1), 1e-6)
+    fact("force times velocity in every step", all(row[7] == -row[3] * speed for row in rows))
 
 
-def drum(checks, folder):
+def test_drum(folder):
     """It turns about an axis that moves; torque is asked for about a point of the axis, of the drum,
     and of the box."""
     write_drum(folder / "drum.stl", 0, 4)
@@ -94,19 +94,8 @@ def drum(checks, folder):
             works = -dot(row[1:4], speed) - rate * dot(axis, torque_about(here, on_axis))
             torque, power = max(torque, abs(row[7] - works)), max(power, abs(works))
         # Sums of a few products of numbers up to 3 times as large.
-        checks.at_most(f"torque about {about}", off / size, 1e-13)
-        checks.at_most("power is F v + T w about the axis", torque / power, 1e-13)
+        at_most(f"torque about {about}", off / size, 1e-13)
+        at_most("power is F v + T w about the axis", torque / power, 1e-13)
     two, _ = go(folder, LAW + motion + "torque_about mesh", dt, steps, ranks=2)
     # Sums over processes in another order.
-    checks.at_most("the same on 2 ranks", max(abs(a[7] - b[7]) for a, b in zip(rows, two)) / power, 1e-12)
-
-
-def main():
-    checks, folder = lmp.Checks(), lmp.scratch()
-    piston(checks, folder)
-    drum(checks, folder)
-    checks.done(folder)
-
-
-if __name__ == "__main__":
-    main()
+    at_most("the same on 2 ranks", max(abs(a[7] - b[7]) for a, b in zip(rows, two)) / power, 1e-12)

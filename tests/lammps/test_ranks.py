@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 LSDCD contributors
 # SPDX-License-Identifier: GPL-2.0-only
 
@@ -9,8 +8,11 @@ the numbers are equal to the last bit, through migration and sorting. Fix balanc
 takes positions to box coordinates and back, which rounds them. LSDCD_QUICK=1 takes one law.
 """
 
+import pytest
+
 import lmp
 import scene
+from facts import at_most, fact
 
 LAWS = {"hooke": "hooke 1e4 NULL 120 NULL 0.4 1",
         "hooke_history": "hooke/history 1e4 NULL 120 NULL 0.4 1",
@@ -27,28 +29,27 @@ def go(law, folder, ranks, more="", steps=2000):
     return lmp.read_dump(folder / "moves"), lmp.read_thermo(text), text
 
 
-def main():
-    checks, folder = lmp.Checks(), lmp.scratch()
+@pytest.fixture(scope="module")
+def folder(folder):
     scene.write_floor(folder / "floor.stl")
     # The order of create_atoms and the sums of velocity depend on the ranks.
     lmp.run_well(scene.CREATE + "write_data start.data\n", folder)
+    return folder
+
+
+def test_ranks(folder):
     for name, law in lmp.sample(LAWS).items():
         one, sums, _ = go(law, folder, 1)
-        checks.fact(f"{name}: spheres touch", max(row[8] for row in sums) > 20)
+        fact(f"{name}: spheres touch", max(row[8] for row in sums) > 20)
         for ranks, more in ((2, ""), (4, ""), (4, BALANCE)):
             many, many_sums, text = go(law, folder, ranks, more)
             where = f"{name}: {ranks} ranks{' balanced' if more else ''}"
             # Roundings of 1e-16 grow where spheres hop from bump to bump: 1e6 in 2000 steps.
-            checks.at_most(f"{where}: same trajectory", lmp.largest_difference(one, many),
-                           1e-9 if more else 0)
+            at_most(f"{where}: same trajectory", lmp.largest_difference(one, many),
+                    1e-9 if more else 0)
             # Totals are added in another order.
             size = [max(abs(row[k]) for row in sums) or 1 for k in range(len(sums[0]))]
             apart = max(abs(a - b) / s for u, v in zip(sums, many_sums)
                         for a, b, s in zip(u, v, size))
-            checks.at_most(f"{where}: same totals", apart, 1e-9 if more else 1e-12)
-            checks.fact(f"{where}: one grid per node", "one copy per node" in text)
-    checks.done(folder)
-
-
-if __name__ == "__main__":
-    main()
+            at_most(f"{where}: same totals", apart, 1e-9 if more else 1e-12)
+            fact(f"{where}: one grid per node", "one copy per node" in text)

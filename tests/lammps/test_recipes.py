@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 LSDCD contributors
 # SPDX-License-Identifier: GPL-2.0-only
 
@@ -21,6 +20,7 @@ import subprocess
 import sys
 
 import lmp
+from facts import fact
 
 sys.path.insert(0, str(lmp.HERE.parent / "tool"))
 from pages import ROOT, Page    # noqa: E402
@@ -33,11 +33,11 @@ def words_of(line):
     return NUMBER.sub("#", line)
 
 
-def compare(checks, page, wanted, printed, within):
+def compare(page, wanted, printed, within):
     """Lines with the same words, whose numbers are nearly the same."""
     lines = printed.split("\n")
-    checks.fact(f"{page.path} prints {len(wanted)} lines", [words_of(a) for a in wanted] ==
-                [words_of(line) for line in lines if words_of(line) in {words_of(a) for a in wanted}], "" if set(map(words_of, wanted)) <= set(map(words_of, lines)) else printed[-1500:])
+    fact(f"{page.path} prints {len(wanted)} lines", [words_of(a) for a in wanted] ==
+         [words_of(line) for line in lines if words_of(line) in {words_of(a) for a in wanted}], "" if set(map(words_of, wanted)) <= set(map(words_of, lines)) else printed[-1500:])
     rest = lines
     for line in wanted:
         found = next((other for other in rest if words_of(other) == words_of(line)), None)
@@ -46,12 +46,12 @@ def compare(checks, page, wanted, printed, within):
         rest = rest[rest.index(found) + 1:]
         near = [abs(float(a[0]) - float(b[0])) <= (10 if line[a.end():].startswith(" %") else within * abs(float(a[0])))
                 for a, b in zip(NUMBER.finditer(line), NUMBER.finditer(found))]
-        checks.fact(f"{page.path}: {line}", all(near), found)
+        fact(f"{page.path}: {line}", all(near), found)
 
 
-def run_page(checks, path, within=None):
+def run_page(folder, path, within=None):
     """Without `within` short runs, whose numbers are not compared."""
-    page, folder = Page(path), lmp.scratch()
+    page = Page(path)
     for block in page.blocks:
         name = re.match(r"# (in\.\w+)\n", block.text)
         if block.language == "lammps" and name:
@@ -63,20 +63,23 @@ def run_page(checks, path, within=None):
     environment["PATH"] = f"{pathlib.Path(lmp.LMP).parent}:{environment['PATH']}"
     done = subprocess.run(["bash", "-ec", shell], cwd=folder, env=environment, text=True, stdin=subprocess.DEVNULL,
                           stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
-    checks.fact(f"every command of {path} ends well", done.returncode == 0, done.stdout[-1500:] if done.returncode else "")
+    fact(f"every command of {path} ends well", done.returncode == 0, done.stdout[-1500:] if done.returncode else "")
     wanted = [line for block in page.blocks if block.language == "text" and NUMBER.search(block.text) and ":" in block.text
               for line in block.text.strip().split("\n")]
     if within:
-        compare(checks, page, wanted, done.stdout, within)
-    if checks.failed:
-        print("files are in", folder)
-    else:
-        shutil.rmtree(folder)
+        compare(page, wanted, done.stdout, within)
 
 
-def explain_log(checks):
+def test_recipes(folder):
+    run_page(folder, "doc/recipes.md", None if lmp.QUICK else 0.5)
+
+
+def test_choosing(folder):
+    run_page(folder, "doc/choosing.md", 0.01)
+
+
+def test_explain_log(folder):
     """The script of README in fewer steps: each line of the page is in its log, with other numbers."""
-    folder = lmp.scratch()
     readme, page = Page("README.md"), Page("doc/log.md")
     script = next(block.text for block in readme.blocks if block.language == "lammps" and block.text.startswith("units"))
     tool = re.search(r"`\S*(lsdcd generate [^`]*)`", readme.text)[1].split()
@@ -85,15 +88,14 @@ def explain_log(checks):
     printed = {" ".join(words_of(line).split()) for line in done.stdout.split("\n")}
     for block in page.blocks:
         missing = [line for line in block.text.strip().split("\n") if " ".join(words_of(line).split()) not in printed]
-        checks.fact(f"{block}: the log has these lines", block.language == "text" and not missing, "; ".join(missing))
+        fact(f"{block}: the log has these lines", block.language == "text" and not missing, "; ".join(missing))
 
 
-def stress(checks):
+def test_stress(tmp_path):
     """stress.py tells of files that it cannot use, and of facets that no grain has touched."""
-    folder = lmp.scratch()
 
     def write(name, fields):
-        (folder / name).write_text("".join(
+        (tmp_path / name).write_text("".join(
             f'<DataArray type="{kind}" Name="{field}">{base64.b64encode(struct.pack(form, 0, *values)).decode()}</DataArray>\n'
             for field, kind, form, values in fields))
 
@@ -102,19 +104,5 @@ def stress(checks):
     write("bare.vtp", places)
     for words, code, told in ((["a_10.vtp"], 0, "a_10.vtp: 1 facets, all untouched\n"), (["a_10.vtp", "--below", "0.5"], 0, "a_10.vtp: no facet below 0.5\n"),
                               (["a_20.vtp"], 2, "a_20.vtp is not there; . has a_10.vtp, bare.vtp\n"), (["bare.vtp"], 2, "no file of mesh_fields\n")):
-        done = subprocess.run([sys.executable, ROOT / "examples" / "tutorial" / "stress.py", *words], cwd=folder, text=True, capture_output=True)
-        checks.fact(f"stress.py {' '.join(words)}", done.returncode == code and (done.stdout + done.stderr).endswith(told), done.stdout + done.stderr)
-    shutil.rmtree(folder)
-
-
-def main():
-    checks = lmp.Checks()
-    stress(checks)
-    explain_log(checks)
-    run_page(checks, "doc/recipes.md", None if lmp.QUICK else 0.5)
-    run_page(checks, "doc/choosing.md", 0.01)
-    checks.done()
-
-
-if __name__ == "__main__":
-    main()
+        done = subprocess.run([sys.executable, ROOT / "examples" / "tutorial" / "stress.py", *words], cwd=tmp_path, text=True, capture_output=True)
+        fact(f"stress.py {' '.join(words)}", done.returncode == code and (done.stdout + done.stderr).endswith(told), done.stdout + done.stderr)

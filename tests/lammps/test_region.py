@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 LSDCD contributors
 # SPDX-License-Identifier: GPL-2.0-only
 
@@ -11,10 +10,11 @@ usage: test_region.py [host]: under the LAMMPS of hosts/build_host.sh
 """
 
 import math
-import sys
+import pytest
 
 import lmp
 import stl
+from facts import fact
 
 LO, HI = (-1.25, -0.75, -1.0), (1.0, 1.5, 0.5)    # of the block
 RADIUS, HALF, SIDES = 1.1, 1.3, 90                # of the cylinder about z
@@ -73,7 +73,7 @@ def differing(text, folder, pairs):
     return [(int(float(rest)), int(float(inside))) for rest, inside in rows]
 
 
-def expect_equal(checks, folder, cases, before):
+def expect_equal(folder, cases, before):
     """Rows of a name, the words of our region and LAMMPS's region, all in one script."""
     pairs = []
     for k, (_, mesh, own) in enumerate(cases):
@@ -82,15 +82,21 @@ def expect_equal(checks, folder, cases, before):
     found = differing(before, folder, pairs)
     for k, (name, _, _) in enumerate(cases):
         ours, theirs = found[2 * k:2 * k + 2]
-        checks.fact(name, ours[0] == theirs[0] == 0 and 100 < ours[1] < ATOMS - 100, f"{ours}, {theirs}")
+        fact(name, ours[0] == theirs[0] == 0 and 100 < ours[1] < ATOMS - 100, f"{ours}, {theirs}")
 
 
 MOVES = "variable a equal 0.3\nvariable b equal -0.7\nvariable c equal 0.45\nvariable turn equal 0.8\n"
 BY = "move v_a v_b v_c rotate v_turn 0.2 -0.1 0.3 1 2 -1"
 
 
-def check_block(checks, folder):
-    expect_equal(checks, folder, [
+@pytest.fixture(scope="module")
+def folder(folder):
+    write_meshes(folder)
+    return folder
+
+
+def test_block(folder):
+    expect_equal(folder, [
         ("a box has the atoms of a block", "box.stl", block()),
         ("side out", "box.stl side out", block("side out")),
         ("moved", "box.stl move v_a NULL v_c", block("move v_a NULL v_c")),
@@ -102,11 +108,11 @@ def check_block(checks, folder):
         ("gap", "box.stl gap 0.2", "block -1.05 0.8 -0.55 1.3 -0.8 0.3 units box"),
     ], CLOUD + MOVES)
     scaled = "lattice sc 0.125\nregion half block -0.625 0.5 -0.375 0.75 -0.5 0.25 units lattice\n"
-    expect_equal(checks, folder, [("units lattice", "box.stl scale 0.5 units lattice", "intersect 2 half half")],
+    expect_equal(folder, [("units lattice", "box.stl scale 0.5 units lattice", "intersect 2 half half")],
                  CLOUD + scaled)
 
 
-def check_cylinder(checks, folder):
+def test_cylinder(folder):
     inner = RADIUS * math.cos(math.pi / SIDES) * (1 - 1e-12)
     text, pairs = CLOUD + MOVES, []
     for k, words in enumerate(("", BY)):
@@ -117,11 +123,11 @@ def check_cylinder(checks, folder):
     found = differing(text, folder, pairs)
     for k, name in enumerate(("at rest", "moving")):
         missing, extra = found[2 * k:2 * k + 2]
-        checks.fact(f"a cylinder {name} is between two of LAMMPS",
-                    missing[0] == extra[0] == 0 and missing[1] > 100, f"{missing}, {extra}")
+        fact(f"a cylinder {name} is between two of LAMMPS",
+             missing[0] == extra[0] == 0 and missing[1] > 100, f"{missing}, {extra}")
 
 
-def check_commands(checks, folder):
+def test_commands(folder):
     """What takes a region, with ours and with LAMMPS's."""
     results = []
     for region in ("mesh/lsdcd box.stl", block()):
@@ -140,8 +146,8 @@ print           "left $(atoms)"
 """
         out = lmp.run_well(text, folder)
         results.append((lmp.read_dump(folder / "dump"), [line for line in out.split("\n") if line.startswith("left")]))
-    checks.fact("compute reduce/region, dump, delete_atoms and fix deposit give what they give with a block",
-                results[0] == results[1] and len(results[0][0][0]) > 100, str(results[0][1]) + str(results[1][1]))
+    fact("compute reduce/region, dump, delete_atoms and fix deposit give what they give with a block",
+         results[0] == results[1] and len(results[0][0][0]) > 100, str(results[0][1]) + str(results[1][1]))
 
 
 FILL = START + """\
@@ -161,46 +167,23 @@ run             0
 """
 
 
-def check_gap(checks, folder):
+def test_gap(folder):
     atoms = {}
     for ranks in (1, 2, 4):
         last = lmp.read_thermo(lmp.run_well(FILL.format(gap="gap 0.1"), folder, ranks))[-1]
         atoms[ranks] = sorted(lmp.read_dump(folder / "dump")[0].values())
-        checks.fact(f"with a gap of a radius no grain touches the wall, {ranks} ranks",
-                    last[1] == 1000 and last[2] == last[3] == 0, str(last))
-    checks.fact("1, 2 and 4 ranks make the same grains", atoms[1] == atoms[2] == atoms[4])
+        fact(f"with a gap of a radius no grain touches the wall, {ranks} ranks",
+             last[1] == 1000 and last[2] == last[3] == 0, str(last))
+    fact("1, 2 and 4 ranks make the same grains", atoms[1] == atoms[2] == atoms[4])
     last = lmp.read_thermo(lmp.run_well(FILL.format(gap=""), folder))[-1]
-    checks.fact("without it some do", last[2] > 0, str(last))
+    fact("without it some do", last[2] > 0, str(last))
 
 
-def check_scale(checks, folder):
+def test_scale(folder):
     told = "WARNING: Region part mesh/lsdcd: the mesh is far larger than the box: it spans", "add scale 0.001"
     region = "region part mesh/lsdcd box.stl {}\ngroup part region part\nrun 0\nrun 0\n"
     text = lmp.run_well(CLOUD + region.format("scale 1000"), folder, 2)
     found = [line for line in text.split("\n") if all(words in line for words in told)]
-    checks.fact("a mesh in other units is told once, with its scale", len(found) == 1, text[-600:])
+    fact("a mesh in other units is told once, with its scale", len(found) == 1, text[-600:])
     text = lmp.run_well(CLOUD + region.format(""), folder)
-    checks.fact("a mesh of the script's units is not", "WARNING: Region" not in text)
-
-
-def on_host():
-    if not lmp.TEST_HOST:
-        print("SKIPPED: no LAMMPS of hosts/build_host.sh (LSDCD_TEST_HOST)")
-        sys.exit(77)
-    global CLOUD, FILL
-    load = f"plugin load {lmp.TEST_HOST_PLUGIN}\n"
-    CLOUD, FILL = load + CLOUD, load + FILL
-    lmp.LMP = lmp.TEST_HOST
-
-
-def main():
-    if "host" in sys.argv[1:]:
-        on_host()
-    checks, folder = lmp.Checks(), lmp.scratch()
-    write_meshes(folder)
-    for check in (check_block, check_cylinder, check_commands, check_gap, check_scale):
-        check(checks, folder)
-    checks.done(folder)
-
-
-main()
+    fact("a mesh of the script's units is not", "WARNING: Region" not in text)

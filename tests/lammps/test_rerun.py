@@ -1,11 +1,13 @@
-#!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 LSDCD contributors
 # SPDX-License-Identifier: GPL-2.0-only
 
 """The command rerun: what follows from positions and time is as in the run that was dumped, what
 adds up from step to step is refused or told of."""
 
+import pytest
+
 import lmp
+from facts import at_most, fact
 
 SMOOTH = "hooke 1e3 NULL 0 0 0 0"    # forces follow from positions alone
 HISTORY = "hooke/history 1e4 NULL 20 NULL 0.4 1"
@@ -45,35 +47,41 @@ def apart(a, b):
     return max(abs(a[step][k] - row[k]) / (size[k] or 1) for step, row in b.items() for k in range(10))
 
 
-def same(checks, folder):
+@pytest.fixture(scope="module")
+def folder(folder):
+    (folder / "floor.stl").write_bytes((lmp.HERE / "scripts" / "floor.stl").read_bytes())
+    return folder
+
+
+def test_same(folder):
     for name, words in (("at rest", ""), ("that moves", MOVES)):
         one = lmp.run_well(dumped(words), folder)
         run = rows_of(one)
-        checks.fact(f"a mesh {name}: touches", sum(row[7] > 0 for row in run.values()) > 3)
+        fact(f"a mesh {name}: touches", sum(row[7] > 0 for row in run.values()) > 3)
         for title, steps, number in (("a fresh script", "", 11), ("one snapshot", "first 120 last 120", 1),
                                      ("from the middle", "first 100", 6)):
             rows = rows_of(lmp.run_well(text(words) + RERUN.format(steps), folder))
-            checks.fact(f"a mesh {name}, {title}: {number} snapshots", len(rows) == number, str(len(rows)))
-            checks.at_most(f"a mesh {name}, {title}: as in the run", apart(run, rows), 1e-12)
+            fact(f"a mesh {name}, {title}: {number} snapshots", len(rows) == number, str(len(rows)))
+            at_most(f"a mesh {name}, {title}: as in the run", apart(run, rows), 1e-12)
         # The steps of the rerun are those of the run before it.
         rows = rows_of(lmp.run_well(dumped(words) + RERUN.format("first 0 last 200"), folder))
-        checks.at_most(f"a mesh {name}, rerun by the script that ran: as in the run", apart(run, rows), 1e-12)
+        at_most(f"a mesh {name}, rerun by the script that ran: as in the run", apart(run, rows), 1e-12)
 
 
-def springs(checks, folder):
+def test_springs(folder):
     short = dumped("", HISTORY).replace("run 200", "run 20")    # they touch in its last step
     lmp.run_well(short, folder)
     fresh = lmp.run_well(text("", HISTORY) + RERUN.format(""), folder)
     still = "set group all omega 0 0 0\n"    # which no dump brings back
     after = lmp.run_well(short + still + RERUN.format(""), folder)
-    checks.fact("springs: told once", fresh.count("a rerun does not know the springs") == 1)
-    checks.at_most("springs: those of a run before it are not those of snapshots",
-                   apart(rows_of(fresh), rows_of(after)), 1e-12)
-    checks.fact("springs: not told of where there are none", "does not know the springs" not in
-                lmp.run_well(text("") + RERUN.format(""), folder))
+    fact("springs: told once", fresh.count("a rerun does not know the springs") == 1)
+    at_most("springs: those of a run before it are not those of snapshots",
+            apart(rows_of(fresh), rows_of(after)), 1e-12)
+    fact("springs: not told of where there are none", "does not know the springs" not in
+         lmp.run_well(text("") + RERUN.format(""), folder))
 
 
-def files(checks, folder):
+def test_files(folder):
     words = MOVES + " mesh_fields f_*.vtp every 20 mesh_stl s_*.stl every 20"
     lmp.run_well(dumped(words), folder)
     before = {p.name: p.read_bytes() for p in folder.glob("[fs]_*")}
@@ -82,16 +90,16 @@ def files(checks, folder):
     output = lmp.run_well(text(words) + RERUN.format("first 20"), folder)
     after = {p.name: p.read_bytes() for p in folder.glob("[fs]_*")}
     vtp, stl = ({k: v for k, v in before.items() if k.startswith(c)} for c in "fs")
-    checks.fact("mesh_fields of the run stay as they were", len(vtp) == 11 and
-                all(after.get(k) == v for k, v in vtp.items()))
-    checks.fact("mesh_fields: told once", output.count("no mesh_fields are written") == 1)
-    checks.fact("mesh_stl: the mesh where it was", len(stl) == 10 and
-                all(after.get(k) == v for k, v in stl.items()))
+    fact("mesh_fields of the run stay as they were", len(vtp) == 11 and
+         all(after.get(k) == v for k, v in vtp.items()))
+    fact("mesh_fields: told once", output.count("no mesh_fields are written") == 1)
+    fact("mesh_stl: the mesh where it was", len(stl) == 10 and
+         all(after.get(k) == v for k, v in stl.items()))
     lmp.run_well(text(words) + RERUN.format("first 20") + "run 20 pre no\n", folder)
-    checks.fact("mesh_fields of a run after a rerun are written", (folder / "f_220.vtp").exists())
+    fact("mesh_fields of a run after a rerun are written", (folder / "f_220.vtp").exists())
 
 
-def refused(checks, folder):
+def test_refused(folder):
     lmp.run_well(dumped(""), folder)
     lines = "variable dz equal -0.01*step*dt\n"
     for name, script_text, told in (
@@ -103,10 +111,10 @@ def refused(checks, folder):
             ("massflow", text("") + "fix m all massflow/lsdcd mesh floor.stl\n",
              "massflow/lsdcd: a rerun has no steps")):
         done = lmp.run(script_text + RERUN.format(""), folder)
-        checks.fact(f"{name}: refused", done.returncode != 0 and told in done.stdout, done.stdout[-200:])
+        fact(f"{name}: refused", done.returncode != 0 and told in done.stdout, done.stdout[-200:])
 
 
-def no_rerun(checks, folder):
+def test_no_rerun(folder):
     """Commands that initialise fixes between runs and within them."""
     servo = text("servo force z -10 vmax 0.1 mesh_fields f_*.vtp every 20") + \
         "fix m all massflow/lsdcd mesh floor.stl\n"
@@ -124,19 +132,4 @@ run 20 pre no
 run 0
 run 20
 """, folder)
-    checks.fact("no run is taken for a rerun", "rerun" not in output)
-
-
-PARTS = [same, springs, files, refused, no_rerun]
-
-
-def main():
-    checks, folder = lmp.Checks(), lmp.scratch()
-    (folder / "floor.stl").write_bytes((lmp.HERE / "scripts" / "floor.stl").read_bytes())
-    for part in PARTS:
-        part(checks, folder)
-    checks.done(folder)
-
-
-if __name__ == "__main__":
-    main()
+    fact("no run is taken for a rerun", "rerun" not in output)

@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 LSDCD contributors
 # SPDX-License-Identifier: GPL-2.0-only
 
@@ -10,8 +9,11 @@ two pieces through a file (equal to the last bit), and a run in one piece only
 without damping (equal but for rounding of the repeated evaluation).
 """
 
+import pytest
+
 import lmp
 import scene
+from facts import at_most, fact
 
 LAWS = {"hooke_history": "hooke/history 1e4 NULL 120 NULL 0.4 1",
         "hertz_history": "hertz/history 1e5 NULL 1500 NULL 0.4 1",
@@ -47,84 +49,87 @@ def proceed(law, folder, ranks=1, restart="two.restart", name="continued", **mor
     return lmp.read_dump(folder / name), text
 
 
-def rows(checks, folder):
+@pytest.fixture(scope="module")
+def folder(folder):
+    scene.write_floor(folder / "floor.stl")
+    return folder
+
+
+def test_rows(folder):
     """Rows of restart data are as wide as the atom with most contacts on any process needs."""
     law = LAWS["hooke_history"]
     two = write(law, folder, 2, "few", FEW)
     touching = {atom for atom, row in two[FIRST].items() if row[9] > 0}
-    checks.fact("rows: only the second process has contacts", touching and 1 not in touching, str(touching))
+    fact("rows: only the second process has contacts", touching and 1 not in touching, str(touching))
     for ranks in (1, 2):
         continued = proceed(law, folder, ranks, "few.restart")[0]
-        checks.at_most(f"rows: written so on 2 ranks, read on {ranks}",
-                       lmp.largest_difference(two, continued), 0)
+        at_most(f"rows: written so on 2 ranks, read on {ranks}",
+                lmp.largest_difference(two, continued), 0)
 
 
-def kinds(checks, folder):
+def test_kinds(folder):
     """Springs go on where their numbers are what they were."""
     def law(tangential):
         return f"granular hertz 1e5 700 tangential {tangential} 1e4 0.6 0.4"
 
     write(law("mindlin/force"), folder, name="kind", create=FEW)
     text = proceed(law("mindlin"), folder, restart="kind.restart")[1]
-    checks.fact("kinds: a force is not taken for a displacement", "6 atoms lose their springs: the restart "
-                "file was written with another contact law" in text)
+    fact("kinds: a force is not taken for a displacement", "6 atoms lose their springs: the restart "
+         "file was written with another contact law" in text)
     write(law("mindlin"), folder, name="kind", create=FEW)
     text = proceed(law("linear_history"), folder, restart="kind.restart")[1]
-    checks.fact("kinds: a displacement is one in any law", "lose their springs" not in text)
+    fact("kinds: a displacement is one in any law", "lose their springs" not in text)
 
 
-def meshes(checks, folder):
+def test_meshes(folder):
     """A mesh is that of the file where all of it is, however often it has as many triangles."""
     law = LAWS["hooke_history"]
     write(law, folder, name="mesh", create=FEW)
     scene.write_floor(folder / "floor.stl", side=6.49)
     text = proceed(law, folder, restart="mesh.restart")[1]
-    checks.fact("meshes: springs of another one with as many triangles are dropped", "6 atoms lose their "
-                "springs: the restart file was written with another mesh" in text)
+    fact("meshes: springs of another one with as many triangles are dropped", "6 atoms lose their "
+         "springs: the restart file was written with another mesh" in text)
     scene.write_floor(folder / "floor.stl")
 
 
-def main():
-    checks, folder = lmp.Checks(), lmp.scratch()
-    scene.write_floor(folder / "floor.stl")
-    for name, law in LAWS.items():
-        two = write(law, folder)
-        touching = sum(row[9] > 0 for row in two[FIRST].values())
-        checks.fact(f"{name}: spheres touch where it breaks", touching > 20, str(touching))
-        continued, text = proceed(law, folder)
-        checks.at_most(f"{name}: continued as in one input", lmp.largest_difference(two, continued),
-                       0)
-        # LAMMPS says so when it hands restart data to a fix.
-        checks.fact(f"{name}: springs in the file only where there are any",
-                    ("Resetting peratom fix info" in text) == (name != "hooke"))
+@pytest.mark.parametrize("name", LAWS)
+def test_continued(folder, name):
+    two = write(LAWS[name], folder)
+    touching = sum(row[9] > 0 for row in two[FIRST].values())
+    fact("spheres touch where it breaks", touching > 20, str(touching))
+    continued, text = proceed(LAWS[name], folder)
+    at_most("continued as in one input", lmp.largest_difference(two, continued), 0)
+    # LAMMPS says so when it hands restart data to a fix.
+    fact("springs in the file only where there are any", ("Resetting peratom fix info" in text) == (name != "hooke"))
+
+
+def test_other_ranks_laws_and_meshes(folder):
     law = LAWS["hooke_history"]
     two = write(law, folder)
     for ranks in (2, 4):
-        checks.at_most(f"written on 1 rank, read on {ranks}",
-                       lmp.largest_difference(two, proceed(law, folder, ranks)[0]), 0)
+        at_most(f"written on 1 rank, read on {ranks}",
+                lmp.largest_difference(two, proceed(law, folder, ranks)[0]), 0)
     spread = write(law, folder, 4, "spread")
-    checks.at_most("written on 4 ranks, read on 1",
-                   lmp.largest_difference(spread, proceed(law, folder, 1, "spread.restart")[0]), 0)
+    at_most("written on 4 ranks, read on 1",
+            lmp.largest_difference(spread, proceed(law, folder, 1, "spread.restart")[0]), 0)
 
     text = proceed(LAWS["hooke"], folder)[1]
-    checks.fact("springs in the file do not disturb a style without them", "ERROR" not in text)
+    fact("springs in the file do not disturb a style without them", "ERROR" not in text)
 
     text = proceed(scene.GRANULAR, folder)[1]
-    checks.fact("another law: what it does not know is dropped with a warning",
-                "lose their springs: the restart file was written with another contact law" in text)
+    fact("another law: what it does not know is dropped with a warning",
+         "lose their springs: the restart file was written with another contact law" in text)
 
     # Springs of another mesh are dropped with a warning, not followed.
     scene.write_floor(folder / "floor.stl", cells=4)
     text = proceed(law, folder)[1]
-    checks.fact("another mesh: springs are dropped with a warning", "lose their springs" in text)
-
+    fact("another mesh: springs are dropped with a warning", "lose their springs" in text)
     scene.write_floor(folder / "floor.stl")
-    rows(checks, folder)
-    kinds(checks, folder)
-    meshes(checks, folder)
 
-    # Settled with damping, then without it: in one piece, and in two through a file.
-    write(law, folder)
+
+def test_undamped(folder):
+    """Settled with damping, then without it: in one piece, and in two through a file."""
+    write(LAWS["hooke_history"], folder)
     begin = scene.SETTINGS + "read_restart two.restart\n" + scene.forces(UNDAMPED, sides=UNDAMPED_SIDES)
     lmp.run_well(begin + scene.dump("one", 50) + f"run {FIRST + SECOND}\n", folder)
     # With the same dump: LAMMPS 4Jul2026 with Kokkos rounds a step without output otherwise.
@@ -133,11 +138,6 @@ def main():
     continued = proceed(UNDAMPED, folder, restart="later.restart", sides=UNDAMPED_SIDES)[0]
     one = {s: rows for s, rows in lmp.read_dump(folder / "one").items() if s >= 2 * FIRST}
     touching = sum(row[9] > 0 for row in one[2 * FIRST].values())
-    checks.fact("undamped: spheres touch where it breaks", touching > 20, str(touching))
+    fact("undamped: spheres touch where it breaks", touching > 20, str(touching))
     # 800 steps of contacts that part neighbouring paths: a factor of 1e4 on 1e-16 at most.
-    checks.at_most("undamped: continued as unbroken", lmp.largest_difference(one, continued), 1e-11)
-    checks.done(folder)
-
-
-if __name__ == "__main__":
-    main()
+    at_most("undamped: continued as unbroken", lmp.largest_difference(one, continued), 1e-11)

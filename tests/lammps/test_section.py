@@ -1,16 +1,15 @@
-#!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 LSDCD contributors
 # SPDX-License-Identifier: GPL-2.0-only
 
 """What examples/vessel/section.py draws is what LAMMPS draws of the same grains and wall."""
 
-import pathlib
 import subprocess
 import sys
 
 from PIL import Image
 
 import lmp
+from facts import at_most, fact
 
 VESSEL = lmp.HERE.parent.parent / "examples" / "vessel"
 
@@ -37,8 +36,7 @@ def hue(r, g, b):
     return min(HUES, key=lambda name: min((angle - HUES[name]) % 360, (HUES[name] - angle) % 360))
 
 
-def main():
-    checks, folder = lmp.Checks(), lmp.scratch()
+def test_picture(folder):
     # The vessel a fifth full, once for LAMMPS and once for the script.
     text = (VESSEL / "in.vessel").read_text()
     small = {"dir": VESSEL, "fill": 1500, "quiet": 1, "measure": 1, "drain": 100, "frame": 50}
@@ -46,13 +44,13 @@ def main():
     lmp.run_well(text.replace(drawn, drawn + " draw faces 1 cut 0 -1 0 0") + IMAGE, folder, **small)
     done = subprocess.run([sys.executable, VESSEL / "section.py", "section.dump", VESSEL / "vessel.stl",
                            "vessel.png", "--movie", "vessel.gif"], cwd=folder)
-    checks.fact("section.py draws", done.returncode == 0)
+    fact("section.py draws", done.returncode == 0)
     with Image.open(folder / "vessel.gif") as movie:
-        checks.fact("a frame when the outlet opens, and every 50 steps", movie.n_frames == 3, str(movie.n_frames))
+        fact("a frame when the outlet opens, and every 50 steps", movie.n_frames == 3, str(movie.n_frames))
 
     host = Image.open(folder / "host.ppm")
     own = Image.open(folder / "vessel.png").convert("RGB")
-    checks.fact("same height", host.height == own.height and host.width < own.width, f"{host.size} and {own.size}")
+    fact("same height", host.height == own.height and host.width < own.width, f"{host.size} and {own.size}")
     width = 560    # the key begins there
     host, own = (picture.crop((0, 0, width, picture.height)).tobytes() for picture in (host, own))
     counts = {}
@@ -62,13 +60,8 @@ def main():
     total = sum(counts.values())
     # LAMMPS leaves pixels between its triangles white, and its light is another.
     apart = sum(n for (a, b), n in counts.items() if (a == "white") != (b == "white")) / total
-    checks.at_most("background and the rest", apart, 0.03)
+    at_most("background and the rest", apart, 0.03)
     for colour in ("white", "grey", *HUES):
         there = sum(n for (a, _), n in counts.items() if a == colour)
         same = counts.get((colour, colour), 0)
-        checks.fact(f"{colour} where LAMMPS has it", there and same > 0.85 * there, f"{same} of {there} pixels")
-    checks.done(folder)
-
-
-if __name__ == "__main__":
-    main()
+        fact(f"{colour} where LAMMPS has it", there and same > 0.85 * there, f"{same} of {there} pixels")

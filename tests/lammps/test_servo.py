@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 LSDCD contributors
 # SPDX-License-Identifier: GPL-2.0-only
 
@@ -6,10 +5,12 @@
 
 import math
 import re
-import sys
+
+import pytest
 
 import lmp
 import stl
+from facts import at_most, fact
 
 # dt is a tenth of the contact's time where it is not given: pi sqrt(m/k) for a sphere of mass pi/3
 # and k = 1e4 is 0.0321, with damping a little more.
@@ -46,7 +47,7 @@ $(f_wall[9]) $(f_wall[12]:%.17g) $(f_wall[13]:%.17g) $(f_wall[14]:%.17g) {more}"
 COUNT, DEPTH, PLACE, SPEED, PUSH, MORE = 7, 8, 10, 11, 12, 13
 
 ONE = "create_atoms 1 single 0.3 0.2 0.5 units box\n"
-FLOOR = "fix floor all wall/gran {law} zplane 0 NULL\n"
+FLOOR = lmp.flat_walls("fix floor all wall/gran {law} zplane 0 NULL")
 
 
 def write_plate(path, side):
@@ -72,20 +73,27 @@ def rows_of(path):
             if line and line[0] != "#"]
 
 
-def settles(checks, name, rows, target, limit=1e-3):
+def settles(name, rows, target, limit=1e-3):
     """The load comes to the target, and never strays farther from it than it did before."""
     first = next(k for k, row in enumerate(rows) if row[COUNT] > 0)
     off = [abs(row[PUSH] - target) / abs(target) for row in rows[first:]]
-    checks.at_most(f"{name}: load at the target", off[-1], limit)
+    at_most(f"{name}: load at the target", off[-1], limit)
     n = len(off) // 4
     quarters = [max(off[k * n:(k + 1) * n]) for k in range(4)]
     # 1e-12: rounding of a load that has settled.
-    checks.fact(f"{name}: no growing oscillation",
-                all(b <= a + 1e-12 for a, b in zip(quarters, quarters[1:])),
-                " ".join(f"{q:.2g}" for q in quarters))
+    fact(f"{name}: no growing oscillation",
+         all(b <= a + 1e-12 for a, b in zip(quarters, quarters[1:])),
+         " ".join(f"{q:.2g}" for q in quarters))
 
 
-def one_sphere(checks, folder):
+@pytest.fixture(scope="module")
+def folder(folder):
+    write_plate(folder / "plate.stl", 6.0)
+    write_plate(folder / "lever.stl", 1.5)
+    return folder
+
+
+def test_one_sphere(folder):
     """The piston comes down by the gap and two equal overlaps: F/k, or (F/(k sqrt(R)))^(2/3)."""
     # Loads are as exact as rounding of the overlap lets them be; 1e-3 is what is asked.
     cases = {"hooke": (HOOKE, 50 / 1e4), "undamped": (UNDAMPED, 50 / 1e4),
@@ -96,22 +104,21 @@ def one_sphere(checks, folder):
     for name, (law, overlap) in cases.items():
         floor = FLOOR
         if law.startswith("granular"):
-            floor = "fix floor all wall/gran granular hertz 1e5 20 tangential linear_history 1e4 1.0 0.5 " \
-                    "zplane 0 NULL\n"
+            floor = lmp.flat_walls("fix floor all wall/gran granular hertz 1e5 20 tangential linear_history 1e4 1.0 0.5 zplane 0 NULL")
         rows, log = go(folder, "servo force z -50 vmax 0.05", law, floor=floor, steps=6000)
-        settles(checks, name, rows, -50)
-        checks.at_most(f"{name}: overlap", abs(rows[-1][DEPTH] * 0.5 / overlap - 1), 1e-3)
-        checks.at_most(f"{name}: travel", abs(rows[-1][PLACE] / -(0.05 + 2 * overlap) - 1), 1e-3)
-        checks.fact(f"{name}: comes at vmax", rows[5][SPEED] == -0.05 and rows[5][COUNT] == 0)
-        checks.fact(f"{name}: the log tells of it", "servo       force z -50 vmax 0.05" in log)
+        settles(name, rows, -50)
+        at_most(f"{name}: overlap", abs(rows[-1][DEPTH] * 0.5 / overlap - 1), 1e-3)
+        at_most(f"{name}: travel", abs(rows[-1][PLACE] / -(0.05 + 2 * overlap) - 1), 1e-3)
+        fact(f"{name}: comes at vmax", rows[5][SPEED] == -0.05 and rows[5][COUNT] == 0)
+        fact(f"{name}: the log tells of it", "servo       force z -50 vmax 0.05" in log)
     # Upwards from below, along an axis that is no unit vector.
-    rows, _ = go(folder, "servo force axis 0 0 3 20 vmax 0.5", floor="fix lid all wall/gran {law} zplane "
-                 "NULL 1\n", at=-0.03)
-    settles(checks, "from below", rows, 20)
-    checks.at_most("from below: travel", abs(rows[-1][PLACE] / (0.03 + 2 * 20 / 1e4) - 1), 1e-3)
+    rows, _ = go(folder, "servo force axis 0 0 3 20 vmax 0.5", floor=lmp.flat_walls("fix lid all wall/gran {law} zplane NULL 1"),
+                 at=-0.03)
+    settles("from below", rows, 20)
+    at_most("from below: travel", abs(rows[-1][PLACE] / (0.03 + 2 * 20 / 1e4) - 1), 1e-3)
 
 
-def many(checks, folder):
+def test_many(folder):
     """A column, and 100 spheres side by side."""
     column = "".join(f"create_atoms 1 single 0.3 0.2 {0.5 + k} units box\n" for k in range(10))
     # A column buckles: it is held in line.
@@ -119,28 +126,28 @@ def many(checks, folder):
     for name, law in (("damped", HOOKE), ("lightly damped", "hooke 1e4 NULL 2 NULL 0 0")):
         rows, _ = go(folder, "servo force z -50 vmax 0.5", law, column, pair="gran/" + law, at=10.05,
                      after=line, steps=20000)
-        settles(checks, f"column, {name}", rows, -50)
+        settles(f"column, {name}", rows, -50)
         # Contacts between spheres have half the overlap of the radii's sum: 50/k each of 9, and 2 of walls.
-        checks.at_most(f"column, {name}: travel", abs(rows[-1][PLACE] / -(0.05 + 11 * 50 / 1e4) - 1), 1e-3)
+        at_most(f"column, {name}: travel", abs(rows[-1][PLACE] / -(0.05 + 11 * 50 / 1e4) - 1), 1e-3)
     side = "".join(f"create_atoms 1 single {-5 + 1.1 * i:.1f} {-5 + 1.1 * j:.1f} 0.5 units box\n"
                    for i in range(10) for j in range(10))
     for name, law in (("damped", HOOKE), ("undamped", UNDAMPED)):
         rows, log = go(folder, "servo force z -5000 vmax 0.5", law, side)
-        checks.fact(f"100 side by side, {name}: all touch", rows[-1][COUNT] == 100)
-        settles(checks, f"100 side by side, {name}", rows, -5000)
-        checks.at_most(f"100 side by side, {name}: travel",
-                       abs(rows[-1][PLACE] / -(0.05 + 2 * 50 / 1e4) - 1), 1e-3)
-        checks.fact("nothing to warn of", "would not be stable" not in log)
+        fact(f"100 side by side, {name}: all touch", rows[-1][COUNT] == 100)
+        settles(f"100 side by side, {name}", rows, -5000)
+        at_most(f"100 side by side, {name}: travel",
+                abs(rows[-1][PLACE] / -(0.05 + 2 * 50 / 1e4) - 1), 1e-3)
+        fact("nothing to warn of", "would not be stable" not in log)
     # What one undamped contact bears, 1/(k dt) = 0.031, 100 do not.
     rows, log = go(folder, "servo force z -5000 vmax 0.5 gain 0.03", UNDAMPED, side)
-    settles(checks, "a gain for one contact is lowered for 100", rows, -5000)
-    checks.fact("and warned of", "a servo's gain of 0.03 would not be stable with 100 contacts" in log)
+    settles("a gain for one contact is lowered for 100", rows, -5000)
+    fact("and warned of", "a servo's gain of 0.03 would not be stable with 100 contacts" in log)
     # A low gain is kept: v = 1e-4 (target - load), on its way.
     rows, log = go(folder, "servo force z -50 vmax 0.5 gain 1e-4", UNDAMPED, steps=200)
-    checks.at_most("a low gain is kept", abs(rows[10][SPEED] / (-50 * 1e-4) - 1), 1e-15)
+    at_most("a low gain is kept", abs(rows[10][SPEED] / (-50 * 1e-4) - 1), 1e-15)
 
 
-def work(checks, folder):
+def test_work(folder):
     """Without losses the work of the piston is what the contacts and the spheres hold."""
     side = "".join(f"create_atoms 1 single {-5 + 1.1 * i:.1f} {-5 + 1.1 * j:.1f} 0.5 units box\n"
                    for i in range(10) for j in range(10))
@@ -152,34 +159,34 @@ def work(checks, folder):
                  more="$(f_wall+f_floor+c_ke*count(all)^0:%.17g)")
     done = sum(0.5 * (a[PUSH] + b[PUSH]) * (b[PLACE] - a[PLACE]) for a, b in zip(rows, rows[1:]))
     most = max(row[MORE] for row in rows)
-    checks.at_most("work of the piston", abs(done - rows[-1][MORE]) / most, 1e-3)
+    at_most("work of the piston", abs(done - rows[-1][MORE]) / most, 1e-3)
     # F^2/(2 k) in each of 200.
-    checks.at_most("is what the springs hold", abs(rows[-1][MORE] / (100 * 50**2 / 1e4) - 1), 1e-2)
+    at_most("is what the springs hold", abs(rows[-1][MORE] / (100 * 50**2 / 1e4) - 1), 1e-2)
 
 
-def lever(checks, folder):
+def test_lever(folder):
     """A plate hinged at (-1, 0, 1.02), about y, pressed on a sphere in line with z: 1.3 from it."""
     target, k = 30.0, 1e4
     rows, _ = go(folder, f"servo torque y through -1 0 1.02 {target} vmax 0.3",
                  "hooke 1e4 NULL 20 NULL 0 0", at=1.02,
                  after="fix line all setforce 0 0 NULL\nvariable z equal z[1]\n", more="$(v_z:%.17g)",
                  steps=6000, mesh="lever.stl")
-    settles(checks, "lever", rows, target)
+    settles("lever", rows, target)
     last = rows[-1]
     turn, x, z = last[PLACE], 1.3, last[MORE] - 1.02    # of the centre, from the hinge
     # Right-handed about y: what is at +x goes down. The plate's force is square to it, at this arm.
     arm = x * math.cos(turn) - z * math.sin(turn)
-    checks.fact("the lever has turned down", 0.01 < turn < 0.1, f"{turn:.4g}")
-    checks.at_most("the floor bears the torque over the arm",
-                   abs(k * (0.5 - last[MORE]) / (target / arm * math.cos(turn)) - 1), 1e-3)
+    fact("the lever has turned down", 0.01 < turn < 0.1, f"{turn:.4g}")
+    at_most("the floor bears the torque over the arm",
+            abs(k * (0.5 - last[MORE]) / (target / arm * math.cos(turn)) - 1), 1e-3)
     below = -(x * math.sin(turn) + z * math.cos(turn))    # of the centre, from the plate
-    checks.at_most("and the plate", abs(k * (0.5 - below) / (target / arm) - 1), 1e-3)
+    at_most("and the plate", abs(k * (0.5 - below) / (target / arm) - 1), 1e-3)
     # f_wall[4..6] is about the origin: T = about the hinge + hinge x F.
     hinge = -1 * 0 + 1.02 * last[1] - (-1) * last[3]
-    checks.at_most("the load is the torque about the hinge", abs(-(last[5] - hinge) / last[PUSH] - 1), 1e-12)
+    at_most("the load is the torque about the hinge", abs(-(last[5] - hinge) / last[PUSH] - 1), 1e-12)
 
 
-def ramp(checks, folder):
+def test_ramp(folder):
     """A load that grows at the rate q: behind by q over gain x stiffness of the two contacts."""
     rate, dt = 40.0, 0.001
     rows, _ = go(folder, "servo force z v_load vmax 0.5", dt=dt, steps=4000, at=1.0,
@@ -188,28 +195,28 @@ def ramp(checks, folder):
     behind = 4 * rate * (dt + 2 * 20 * (math.pi / 3) / 1e4)
     off = rows[-1][PUSH] - rows[-1][MORE]
     # The load is of the step before: rate dt = 0.04, 5 % of it; and the speed damps, 2 c/k rate/2, 2 %.
-    checks.at_most("a ramp is followed", abs(off / behind - 1), 0.1)
-    checks.at_most("to 1e-2 of the load", abs(off / rows[-1][MORE]), 1e-2)
+    at_most("a ramp is followed", abs(off / behind - 1), 0.1)
+    at_most("to 1e-2 of the load", abs(off / rows[-1][MORE]), 1e-2)
     # The load as a function of its own place: a spring of 500 before the piston.
     rows, _ = go(folder, "servo force z v_load vmax 0.5",
                  before="variable load equal -50-500*f_wall[12]\n", steps=6000)
     # 50 - 500 s = k (s - 0.05)/2
     s = (50 + 0.05 * 1e4 / 2) / (1e4 / 2 + 500)
-    checks.at_most("a spring before the piston", abs(rows[-1][PLACE] / -s - 1), 1e-3)
+    at_most("a spring before the piston", abs(rows[-1][PLACE] / -s - 1), 1e-3)
 
 
-def limits(checks, folder):
+def test_limits(folder):
     rows, log = go(folder, "servo force z -50 vmax 0.5 limits -0.055 0", steps=3000,
                    end="fix_modify wall servo force z 5 vmax 0.5 limits -0.055 0\nrun 1000\n")
     told = [line for line in log.split("\n") if "the servo is at its limit" in line]
     stop = rows[3000]
-    checks.fact("it stops at its limit", stop[PLACE] == -0.055 and stop[SPEED] == 0)
+    fact("it stops at its limit", stop[PLACE] == -0.055 and stop[SPEED] == 0)
     # 0.005 shared by two contacts of 1e4.
-    checks.at_most("where it pushes with k overlap/2", abs(stop[PUSH] / -25 - 1), 1e-3)
-    checks.fact("the log says so once a servo", len(told) == 2 and "-0.055" in told[0] and
-                "instead of -50" in told[0] and "limit 0 at" in told[1], str(told))
-    checks.fact("and it comes back with another target, to the other limit", rows[-1][PLACE] == 0)
-    checks.fact("never past them", all(-0.055 <= row[PLACE] <= 0 for row in rows))
+    at_most("where it pushes with k overlap/2", abs(stop[PUSH] / -25 - 1), 1e-3)
+    fact("the log says so once a servo", len(told) == 2 and "-0.055" in told[0] and
+         "instead of -50" in told[0] and "limit 0 at" in told[1], str(told))
+    fact("and it comes back with another target, to the other limit", rows[-1][PLACE] == 0)
+    fact("never past them", all(-0.055 <= row[PLACE] <= 0 for row in rows))
 
 
 BED = """\
@@ -228,30 +235,30 @@ def bed(law, servo, top=6.2):
                      "set group all density 2.0\n"
                      "velocity all create 1.0 4711 loop geom")
             .replace("atom_modify     map array sort 0 0", "atom_modify     map array")
-            + f"fix floor all wall/gran {law} zplane 0 NULL\n"
-            "fix sides all wall/gran hooke 1e4 NULL 20 NULL 0 0 xplane -2.7 2.7\n"
-            "fix sides2 all wall/gran hooke 1e4 NULL 20 NULL 0 0 yplane -2.7 2.7\n"
-            "fix pull all gravity 8.0 vector 0 0 -1\n" + wall(law, servo, top))
+            + lmp.flat_walls(f"fix floor all wall/gran {law} zplane 0 NULL\n"
+                             "fix sides all wall/gran hooke 1e4 NULL 20 NULL 0 0 xplane -2.7 2.7\n"
+                             "fix sides2 all wall/gran hooke 1e4 NULL 20 NULL 0 0 yplane -2.7 2.7")
+            + "fix pull all gravity 8.0 vector 0 0 -1\n" + wall(law, servo, top))
 
 
-def confined_bed(checks, folder):
+def test_confined_bed(folder):
     """Smooth sides carry nothing: the floor bears the piston and the weight."""
     text = bed(HISTORY, "servo force z -200 vmax 2.0")
     lmp.run_well(text + OUTPUTS.format(dt=0.002, more="$(mass(all):%.17g)") + "run 20000\n"
                  "write_dump all custom at.txt id z radius modify format float %.17g sort id\n", folder)
     rows = rows_of(folder / "out.txt")
     off = [abs(row[PUSH] / -200 - 1) for row in rows[-1000:]]
-    checks.at_most("bed: load held", max(off), 1e-3)
-    checks.fact("bed: several contacts", rows[-1][COUNT] > 3, str(rows[-1][COUNT]))
+    at_most("bed: load held", max(off), 1e-3)
+    fact("bed: several contacts", rows[-1][COUNT] > 3, str(rows[-1][COUNT]))
     carried = 0.0
     for row in lmp.read_dump(folder / "at.txt")[20000].values():
         carried += 1e4 * max(0.0, row[1] - row[0])
     weight = 8.0 * rows[-1][MORE]
     # Both loads are held to 1e-3; the bed moves no more.
-    checks.at_most("bed: the floor bears load and weight", abs(carried / (200 + weight) - 1), 1e-3)
+    at_most("bed: the floor bears load and weight", abs(carried / (200 + weight) - 1), 1e-3)
 
 
-def restart(checks, folder):
+def test_restart(folder):
     """In the middle of a compression, bit for bit; then with other words."""
     def head(text):
         return text[:text.index("region          box")]
@@ -272,8 +279,8 @@ def restart(checks, folder):
             lmp.run_well(rest + names + "timestep 0.002\n" + dump.format("b") + "run 1500\n", folder, ranks)
             a, b = lmp.read_dump(folder / "a"), lmp.read_dump(folder / "b")
             travelled = abs(a[3000][1][6] - a[1500][1][6])
-            checks.fact(f"{motion}{ranks} ranks: the piston moves", travelled > 0.01, f"{travelled:.3g}")
-            checks.at_most(f"{motion}{ranks} ranks: continued to the bit", lmp.largest_difference(a, b), 0)
+            fact(f"{motion}{ranks} ranks: the piston moves", travelled > 0.01, f"{travelled:.3g}")
+            at_most(f"{motion}{ranks} ranks: continued to the bit", lmp.largest_difference(a, b), 0)
 
     def go_on(words, more="run 0\n", start=lmp.run_well):
         rest = head(text) + "read_restart r.restart\n" + text[text.index("pair_style"):].replace(servo, words)
@@ -283,11 +290,11 @@ def restart(checks, folder):
     lmp.run_well(text + "timestep 0.002\nrun 1500\nvariable p equal f_wall[12]\nprint 'place $(v_p:%.17g)'\n"
                  "write_restart r.restart\n", folder)
     log = go_on("servo force z -10 vmax 0.1")
-    checks.fact("another target goes on from there", "another line" not in log and
-                lmp.read_thermo(log)[-1][1] < -0.1, str(lmp.read_thermo(log)))
+    fact("another target goes on from there", "another line" not in log and
+         lmp.read_thermo(log)[-1][1] < -0.1, str(lmp.read_thermo(log)))
     done = go_on("servo force z -10 vmax 0.1 limits -0.01 0", start=lmp.run)
-    checks.fact("narrower limits are refused", done.returncode != 0 and
-                "outside the limits -0.01 0" in done.stdout.replace("\n", " "), done.stdout[-300:])
+    fact("narrower limits are refused", done.returncode != 0 and
+         "outside the limits -0.01 0" in done.stdout.replace("\n", " "), done.stdout[-300:])
     # Where it was stopped it is still, until it is told to go on; also one that a motion then took along.
     at = "print 'at $(f_wall[12]:%.17g)'\n"
 
@@ -299,16 +306,16 @@ def restart(checks, folder):
                                   "run 100\n" + at + "write_restart r.restart\n", folder))
         log = go_on(servo, f"run 200\n{at}fix_modify wall {servo}\nrun 200\n{at}")
         then = told(log)
-        checks.fact("a servo that was stopped stays so", len(then) == 2 and first == then[:1], f"{first}, {then}")
-        checks.fact("and a warning tells of it", "the servo was stopped when" in log)
-        checks.fact("until fix_modify lets it go on", then[-1] < then[0], str(then))
+        fact("a servo that was stopped stays so", len(then) == 2 and first == then[:1], f"{first}, {then}")
+        fact("and a warning tells of it", "the servo was stopped when" in log)
+        fact("until fix_modify lets it go on", then[-1] < then[0], str(then))
     lmp.run_well(text + "timestep 0.002\nrun 1500\nwrite_restart r.restart\n", folder)
     log = go_on("servo force x 10 vmax 0.1")
-    checks.fact("another line is told of, and begins at 0", "with a servo along another line" in log and
-                lmp.read_thermo(log)[-1][1] == 0)
+    fact("another line is told of, and begins at 0", "with a servo along another line" in log and
+         lmp.read_thermo(log)[-1][1] == 0)
 
 
-def ranks(checks, folder):
+def test_ranks(folder):
     """Sums over processes round in another order: 1e-16 of the load, which settles."""
     side = "".join(f"create_atoms 1 single {-5 + 1.1 * i:.1f} {-5 + 1.1 * j:.1f} {0.5 + 0.001 * (i - j)} "
                    "units box\n" for i in range(10) for j in range(10))
@@ -316,12 +323,12 @@ def ranks(checks, folder):
     for n in (2, 4):
         rows = go(folder, "servo force z -5000 vmax 0.5", HISTORY, side, steps=1000, ranks=n)[0]
         apart = max(abs(a[PUSH] - b[PUSH]) for a, b in zip(first, rows)) / 5000
-        checks.at_most(f"{n} ranks as one: load", apart, 1e-12)
+        at_most(f"{n} ranks as one: load", apart, 1e-12)
         apart = max(abs(a[PLACE] - b[PLACE]) for a, b in zip(first, rows))
-        checks.at_most(f"{n} ranks as one: place", apart, 1e-14)
+        at_most(f"{n} ranks as one: place", apart, 1e-14)
 
 
-def modified(checks, folder):
+def test_modified(folder):
     rows, log = go(folder, "servo force z -50 vmax 0.5", steps=2000,
                    end="fix_modify wall servo none\nrun 500\n"
                    "fix_modify wall servo force z -80 vmax 0.5\nrun 2000\n"
@@ -329,17 +336,17 @@ def modified(checks, folder):
                    "fix_modify wall motion none\n"
                    "fix_modify wall servo torque z 0 vmax 1\nrun 10\n")
     at = {int(row[0]): row for row in reversed(rows)}    # the end of one run, not where the next begins
-    checks.fact("servo none: it stays", at[2000][PLACE] == at[2500][PLACE] and at[2500][SPEED] == 0)
-    checks.at_most("another target: load", abs(at[4500][PUSH] / -80 - 1), 1e-3)
-    checks.at_most("another target: the place goes on", abs(at[4500][PLACE] / -(0.05 + 2 * 80 / 1e4) - 1), 1e-3)
-    checks.at_most("a motion begins where it stays", abs(at[4600][3] / 80 - 1), 1e-3)
-    checks.fact("the log tells of each", "servo force z -80 vmax 0.5" in log and "servo none" in log)
+    fact("servo none: it stays", at[2000][PLACE] == at[2500][PLACE] and at[2500][SPEED] == 0)
+    at_most("another target: load", abs(at[4500][PUSH] / -80 - 1), 1e-3)
+    at_most("another target: the place goes on", abs(at[4500][PLACE] / -(0.05 + 2 * 80 / 1e4) - 1), 1e-3)
+    at_most("a motion begins where it stays", abs(at[4600][3] / 80 - 1), 1e-3)
+    fact("the log tells of each", "servo force z -80 vmax 0.5" in log and "servo none" in log)
     # With a mesh at rest at first: another engine.
     text = (BEGIN.format(create=ONE, pair="zero 1.2") + FLOOR.format(law=HISTORY) + wall(HISTORY, "") +
             f"timestep {DT}\nrun 10\nfix_modify wall servo force z -50 vmax 0.5\n" +
             OUTPUTS.format(dt=DT, more="") + "run 2000\n")
     lmp.run_well(text, folder)
-    settles(checks, "given later", rows_of(folder / "out.txt"), -50)
+    settles("given later", rows_of(folder / "out.txt"), -50)
     # Beside a motion along the axis, which it takes back, and wear, whose output comes first.
     text = (BEGIN.format(create=ONE, pair="zero 1.2") + FLOOR.format(law=HOOKE) +
             wall(HOOKE, "motion linear 0.2 0 -0.1 servo force z -50 vmax 0.5 wear archard 1e-9 1") +
@@ -347,15 +354,15 @@ def modified(checks, folder):
             "print 'ends $(f_wall[10]:%.6g) $(f_wall[12]:%.6g) $(f_wall[13]:%.6g) $(f_wall[14]:%.6g)'\n")
     words = [line for line in lmp.run_well(text, folder).split("\n") if line.startswith("ends ")][0].split()
     worn, place, speed, push = (float(w) for w in words[1:])
-    checks.fact("beside a motion: wear comes first", 0 < worn < 1e-6, words[1])
-    checks.at_most("it takes the motion's speed back", abs(speed / 0.1 - 1), 1e-3)
+    fact("beside a motion: wear comes first", 0 < worn < 1e-6, words[1])
+    at_most("it takes the motion's speed back", abs(speed / 0.1 - 1), 1e-3)
     # v = gain (target - push) must be 0.1: behind by 0.1/gain, gain = 1/2 of 1/(k dt + 2 c).
     behind = 0.1 * 2 * (1e4 * DT + 2 * 20 * math.pi / 3)
-    checks.at_most("with the error that its speed needs", abs((push + 50 + behind) / 50), 1e-3)
-    checks.at_most("and the mesh stays", abs((place - 0.1 * 1500 * DT) / (-0.05 + 2 * push / 1e4) - 1), 1e-3)
+    at_most("with the error that its speed needs", abs((push + 50 + behind) / 50), 1e-3)
+    at_most("and the mesh stays", abs((place - 0.1 * 1500 * DT) / (-0.05 + 2 * push / 1e4) - 1), 1e-3)
 
 
-def refused(checks, folder):
+def test_refused(folder):
     text = BEGIN.format(create=ONE, pair="zero 1.2") + FLOOR.format(law=HOOKE)
     run = "run 0\n"
     good = wall(HOOKE, "servo force z -50 vmax 0.5")
@@ -381,21 +388,6 @@ def refused(checks, folder):
         else:
             done = lmp.run(text + words, folder)
         found = done.returncode != 0 and says in done.stdout.replace("\n", " ")
-        checks.fact(f"{name} is refused", found, "" if found else done.stdout[-500:])
+        fact(f"{name} is refused", found, "" if found else done.stdout[-500:])
 
 
-PARTS = {"one": one_sphere, "many": many, "work": work, "lever": lever, "ramp": ramp, "limits": limits,
-         "bed": confined_bed, "restart": restart, "ranks": ranks, "modified": modified, "refused": refused}
-
-
-def main():
-    checks, folder = lmp.Checks(), lmp.scratch()
-    write_plate(folder / "plate.stl", 6.0)
-    write_plate(folder / "lever.stl", 1.5)
-    for name in sys.argv[1:] or PARTS:
-        PARTS[name](checks, folder)
-    checks.done(folder)
-
-
-if __name__ == "__main__":
-    main()

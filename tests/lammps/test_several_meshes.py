@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 LSDCD contributors
 # SPDX-License-Identifier: GPL-2.0-only
 
@@ -10,8 +9,11 @@ test_parity.py. LSDCD_QUICK=1 takes one law.
 
 import math
 
+import pytest
+
 import lmp
 from plates import LAWS, SIDE, SMOOTH, go, planes, six, write_box, write_plate
+from facts import at_most, fact
 
 
 def among_sides(dump):
@@ -20,23 +22,30 @@ def among_sides(dump):
     return sum(n > 1 for n in near), sum(n > 2 for n in near)
 
 
-def compare_with_planes(checks, folder):
+@pytest.fixture(scope="module")
+def folder(folder):
+    write_box(folder)
+    write_halves(folder)
+    return folder
+
+
+def test_compare_with_planes(folder):
     """In a corner of a box plates meet at right angles, and their forces add."""
     for name, law in lmp.sample(LAWS).items():
         theirs = go(folder, planes(law), "a", 3000, every=10)[0]
         ours = go(folder, six(law), "b", 3000, every=10)[0]
-        checks.at_most(f"{name}: six plates are six planes", lmp.largest_difference(theirs, ours),
-                       1e-12)
+        at_most(f"{name}: six plates are six planes", lmp.largest_difference(theirs, ours),
+                1e-12)
         rubs = "wiggle z 0.02 0.1"
         theirs = go(folder, planes(law, rubs), "a", 3000, every=10)[0]
         ours = go(folder, six(law, {"zlo": rubs}), "b", 3000, every=10)[0]
-        checks.at_most(f"{name}: one of them wiggles", lmp.largest_difference(theirs, ours), 1e-12)
+        at_most(f"{name}: one of them wiggles", lmp.largest_difference(theirs, ours), 1e-12)
     edges, corners = among_sides(ours)
-    checks.fact("spheres are in edges and corners of the box", edges > 20 and corners > 0,
-                f"{edges}, {corners} times")
+    fact("spheres are in edges and corners of the box", edges > 20 and corners > 0,
+         f"{edges}, {corners} times")
     theirs = go(folder, planes(LAWS["hooke_history"], "shear x 2.0"), "a", 3000, every=10)[0]
     ours = go(folder, six(LAWS["hooke_history"], {"zlo": "shear x 2.0"}), "b", 3000, every=10)[0]
-    checks.at_most("one of them is a belt", lmp.largest_difference(theirs, ours), 1e-12)
+    at_most("one of them is a belt", lmp.largest_difference(theirs, ours), 1e-12)
 
 
 # Two plates of a floor whose rims coincide along x = 0.
@@ -52,19 +61,19 @@ ROLL = {"atoms": "create_atoms 1 single -0.6 0.11 0.499 units box",
         "more": "fix pull all gravity 20.0 vector 0 0 -1"}
 
 
-def check_seam(checks, folder):
+def test_seam(folder):
     """The bounds are those of seams of one mesh (tests/physics/test_seams.cpp): every force is that
     of the plane to 1e-12, and so is a path that crosses once, without chaos."""
     for name, law in [*lmp.sample(LAWS).items(), ("smooth", SMOOTH)]:
         one = go(folder, f"fix wall all wall/lsdcd {law} mesh whole.stl", "a", 3000, **ROLL)[0]
         two = go(folder, f"fix wall all wall/lsdcd {law} {HALVES}", "b", 3000, **ROLL)[0]
         last = max(one)
-        checks.fact(f"seam, {name}: it rolls over", one[0][1][0] < -0.5 and one[last][1][0] > 0.5)
-        checks.at_most(f"seam, {name}: two plates are one", lmp.largest_difference(one, two), 1e-11)
+        fact(f"seam, {name}: it rolls over", one[0][1][0] < -0.5 and one[last][1][0] > 0.5)
+        at_most(f"seam, {name}: two plates are one", lmp.largest_difference(one, two), 1e-11)
         moved = go(folder, f"fix wall all wall/lsdcd {law} {HALVES} motion linear 0 0 0", "b", 3000,
                    **ROLL)[0]
-        checks.at_most(f"seam, {name}: one of them could move", lmp.largest_difference(one, moved),
-                       1e-11)
+        at_most(f"seam, {name}: one of them could move", lmp.largest_difference(one, moved),
+                1e-11)
     at = {"atoms": "create_atoms 1 single 0 0.11 0.499 units box", "kick": "", "dt": 1e-9}
     force = {}
     for name, walls in {"one": f"fix wall all wall/lsdcd {SMOOTH} {HALVES}",
@@ -75,18 +84,18 @@ def check_seam(checks, folder):
     beside = dict(at, atoms="create_atoms 1 single 1e-6 0.11 0.499 units box")
     for name, meshes, times in (("two", HALVES, 2), ("one", "mesh whole.stl", 1)):
         dump, text = go(folder, f"fix wall all wall/lsdcd {SMOOTH} {meshes} corner sum", "b", 0, **beside)
-        checks.at_most(f"seam: corner sum of {name}, {times} times the force",
-                       abs(dump[0][1][11] / (times * 1e4 * 0.001) - 1), 1e-8)
-        checks.fact(f"seam: corner sum of {name}, warned of {times - 1} times",
-                    text.count("with corner sum both meshes push a sphere over a seam") == times - 1)
+        at_most(f"seam: corner sum of {name}, {times} times the force",
+                abs(dump[0][1][11] / (times * 1e4 * 0.001) - 1), 1e-8)
+        fact(f"seam: corner sum of {name}, warned of {times - 1} times",
+             text.count("with corner sum both meshes push a sphere over a seam") == times - 1)
     text = go(folder, f"fix wall all wall/lsdcd {SMOOTH} {HALVES}", "b", 0, **beside)[1]
-    checks.fact("seam: corner blend is not warned of", "with corner sum" not in text)
+    fact("seam: corner blend is not warned of", "with corner sum" not in text)
     # k (R - h), with R and h of order 1 and their difference 1e-3: 1e-13 of the force.
-    checks.at_most("seam: over it the force is the plane's", abs(force["one"] / (1e4 * 0.001) - 1), 1e-12)
-    checks.at_most("seam: two fixes feel it twice", abs(force["two"] / (2 * 1e4 * 0.001) - 1), 1e-12)
+    at_most("seam: over it the force is the plane's", abs(force["one"] / (1e4 * 0.001) - 1), 1e-12)
+    at_most("seam: two fixes feel it twice", abs(force["two"] / (2 * 1e4 * 0.001) - 1), 1e-12)
 
 
-def check_gate(checks, folder):
+def test_gate(folder):
     """The right half slides away in its own plane."""
     away = "motion linear 3.0 0 0"
     walls = f"fix wall all wall/lsdcd {{}} {HALVES} {away}"
@@ -95,15 +104,15 @@ def check_gate(checks, folder):
              "more": ROLL["more"]}
     one = go(folder, f"fix wall all wall/lsdcd {SMOOTH} mesh whole.stl", "a", 2000, **still)[0]
     two = go(folder, walls.format(SMOOTH), "b", 2000, **still)[0]
-    checks.at_most("gate: a smooth sphere beside its rim feels nothing",
-                   lmp.largest_difference(one, two), 1e-11)
+    at_most("gate: a smooth sphere beside its rim feels nothing",
+            lmp.largest_difference(one, two), 1e-11)
     # Over the gate it is carried along: a plane of wall/gran with the same speed.
     for name, law in lmp.sample(LAWS).items():
         on = dict(still, atoms="create_atoms 1 single 1.0 0.11 0.499 units box")
-        theirs = go(folder, f"fix wall all wall/gran {law} zplane 0 NULL shear x 3.0", "a", 2000, **on)[0]
+        theirs = go(folder, lmp.flat_walls(f"fix wall all wall/gran {law} zplane 0 NULL shear x 3.0"), "a", 2000, **on)[0]
         ours = go(folder, walls.format(law), "b", 2000, **on)[0]
-        checks.at_most(f"gate, {name}: what lies on it is carried along",
-                       lmp.largest_difference(theirs, ours), 1e-12)
+        at_most(f"gate, {name}: what lies on it is carried along",
+                lmp.largest_difference(theirs, ours), 1e-12)
     # Sliding all the while, a = mu g and R domega/dt = 5/2 mu g at a constant load. The sphere is put
     # down where its weight is its overlap, and stays there, as nothing damps or excites it.
     mass = 2.0 * math.pi / 6
@@ -112,15 +121,15 @@ def check_gate(checks, folder):
     on = dict(still, atoms=f"create_atoms 1 single 1.0 0.11 {0.5 - sink!r} units box")
     path = go(folder, walls.format("hooke 1e4 NULL 0 1e4 0.1 1"), "b", 2000, **on)[0]
     t = 2000 * 1e-4
-    checks.at_most("gate: friction gives mu g", abs(path[2000][1][3] / (0.1 * 20.0 * t) - 1), 1e-3)
-    checks.at_most("gate: and turns it", abs(path[2000][1][7] / (-2.5 * 0.1 * 20.0 * t / 0.5) - 1), 1e-3)
+    at_most("gate: friction gives mu g", abs(path[2000][1][3] / (0.1 * 20.0 * t) - 1), 1e-3)
+    at_most("gate: and turns it", abs(path[2000][1][7] / (-2.5 * 0.1 * 20.0 * t / 0.5) - 1), 1e-3)
     # When the rim passes it falls: x = 1 + a t^2/2 is met by 3 t at t = 0.349. Later it is falling freely.
     path = go(folder, walls.format("hooke 1e4 NULL 0 1e4 0.1 1"), "b", 8000, every=1000, **on)[0]
-    checks.at_most("gate: it falls where the gate is gone",
-                   abs((path[8000][1][5] - path[7000][1][5]) / (-20.0 * 0.1) - 1), 1e-9)
+    at_most("gate: it falls where the gate is gone",
+            abs((path[8000][1][5] - path[7000][1][5]) / (-20.0 * 0.1) - 1), 1e-9)
 
 
-def check_periodic(checks, folder):
+def test_periodic(folder):
     """A floor that repeats at rest, and a paddle that moves above it, away from the faces."""
     write_plate(folder / "paddle.stl", 0, 0.0, (-1.0, 0.2), (1.0, 2.0))
     box, law = "-3 3 -3 3 -1 5", LAWS["hooke_history"]
@@ -128,29 +137,14 @@ def check_periodic(checks, folder):
              "atoms": "create_atoms 1 single 2.0 0.11 1.0 units box\n"
                       "create_atoms 1 single 2.0 2.2 1.2 units box"}
     floor = "mesh zlo.stl move 0 0 3"
-    theirs = go(folder, f"fix wall all wall/gran {law} zplane 0 NULL", "a", 5500, **where)[0]
+    theirs = go(folder, lmp.flat_walls(f"fix wall all wall/gran {law} zplane 0 NULL"), "a", 5500, **where)[0]
     ours = go(folder, f"fix wall all wall/lsdcd {law} {floor} mesh paddle.stl "
                       "motion rotate 0 0 0 0 0 1 0.8", "b", 5500, **where)[0]
     hit = [step for step in ours if max(abs(ours[step][1][k] - theirs[step][1][k]) for k in range(3)) > 1e-9]
-    checks.fact("periodic: the paddle hits", bool(hit))
+    fact("periodic: the paddle hits", bool(hit))
     before = {s: rows for s, rows in ours.items() if not hit or s < hit[0] - 200}
-    checks.fact("periodic: spheres cross before it",
-                any(abs(before[s][1][0] - before[s - 1][1][0]) > 1 for s in before if s - 1 in before))
+    fact("periodic: spheres cross before it",
+         any(abs(before[s][1][0] - before[s - 1][1][0]) > 1 for s in before if s - 1 in before))
     theirs = {s: theirs[s] for s in before}
-    checks.at_most("periodic: and roll on the floor until then", lmp.largest_difference(theirs, before),
-                   1e-12)
-
-
-def main():
-    checks, folder = lmp.Checks(), lmp.scratch()
-    write_box(folder)
-    write_halves(folder)
-    compare_with_planes(checks, folder)
-    check_periodic(checks, folder)
-    check_seam(checks, folder)
-    check_gate(checks, folder)
-    checks.done(folder)
-
-
-if __name__ == "__main__":
-    main()
+    at_most("periodic: and roll on the floor until then", lmp.largest_difference(theirs, before),
+            1e-12)

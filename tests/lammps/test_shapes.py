@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 LSDCD contributors
 # SPDX-License-Identifier: GPL-2.0-only
 
@@ -7,9 +6,12 @@ processes that continue it from a restart file. One that comes down leaves as a 
 
 import math
 
+import pytest
+
 import lmp
 import scene
 import stl
+from facts import at_most, fact
 
 FIRST, SECOND = 350, 150
 LAW = "hooke/history 1e4 NULL 120 NULL 0.4 1"
@@ -76,7 +78,13 @@ def proceed(folder, restart, name, ranks):
     return lmp.read_dump(folder / name)
 
 
-def impact(checks, folder):
+@pytest.fixture(scope="module")
+def folder(folder):
+    write_meshes(folder)
+    return folder
+
+
+def test_impact(folder):
     """Half-axes 2, 1, 1, mass 1, long axis at 45 degrees, speed 1, no friction."""
     stl.write(folder / "plane.stl", stl.quad((-6, -6, 0), (6, -6, 0), (6, 6, 0), (-6, 6, 0)))
     text = lmp.run_well("""\
@@ -107,14 +115,12 @@ thermo_modify   format float %.17g
 run             2000
 """, folder)
     _, v, spin = lmp.read_thermo(text)[-1]
-    checks.at_most("impact: velocity upwards", abs(v - 0.052632), 5e-5)
+    at_most("impact: velocity upwards", abs(v - 0.052632), 5e-5)
     # The inertia about y is 1/5 m (2^2 + 1^2) = 1.
-    checks.at_most("impact: angular velocity", abs(abs(spin) - 0.998614), 1e-4)
+    at_most("impact: angular velocity", abs(abs(spin) - 0.998614), 1e-4)
 
 
-def main():
-    checks, folder = lmp.Checks(), lmp.scratch()
-    write_meshes(folder)
+def test_balls(folder):
     spheres = go(folder, "spheres", "sphere", SPHERES, "nve/sphere", "omegax omegay omegaz")
     balls = go(folder, "balls", "ellipsoid", BALLS, "nve/asphere", "angmomx angmomy angmomz")
     inertia = 0.4 * (2.0 * math.pi / 6) * 0.5**2
@@ -122,19 +128,15 @@ def main():
         for row in rows.values():
             row[6:9] = [number / inertia for number in row[6:9]]
     touching = sum(row[-1] > 0 for row in spheres[FIRST].values())
-    checks.fact("balls: some touch", touching > 20, str(touching))
+    fact("balls: some touch", touching > 20, str(touching))
     # 500 steps of contacts that part neighbouring paths: a factor of 1e5 on 1e-15 at most.
-    checks.at_most("balls: they go as spheres do", lmp.largest_difference(spheres, balls), 1e-10)
+    at_most("balls: they go as spheres do", lmp.largest_difference(spheres, balls), 1e-10)
 
+
+def test_ellipsoids(folder):
     one = go(folder, "one", "ellipsoid", ELLIPSOIDS, "nve/asphere", "angmomx angmomy angmomz")
     touching = sum(row[-1] > 0 for row in one[FIRST].values())
-    checks.fact("ellipsoids: some touch where it breaks", touching > 20, str(touching))
+    fact("ellipsoids: some touch where it breaks", touching > 20, str(touching))
     for ranks in (1, 4):
-        checks.at_most(f"ellipsoids: continued from a restart file on {ranks} ranks",
-                       lmp.largest_difference(one, proceed(folder, "one.restart", f"again{ranks}", ranks)), 0)
-    impact(checks, folder)
-    checks.done(folder)
-
-
-if __name__ == "__main__":
-    main()
+        at_most(f"ellipsoids: continued from a restart file on {ranks} ranks",
+                lmp.largest_difference(one, proceed(folder, "one.restart", f"again{ranks}", ranks)), 0)

@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 LSDCD contributors
 # SPDX-License-Identifier: GPL-2.0-only
 
@@ -13,8 +12,11 @@ takes one law.
 import math
 import re
 
+import pytest
+
 import lmp
 import stl
+from facts import at_most, fact
 
 # In contact laws of 29Sep2021 and later alike.
 LAWS = {
@@ -39,7 +41,6 @@ def write_outline(path, points, closed=False, half=0.6, parts=1):
 
 
 HEAD = """\
-{load}
 units           lj
 dimension       2
 atom_style      sphere
@@ -90,31 +91,31 @@ fix             ins all pour 60 1 4711 vol 0.5 500 diam range 0.8 1.0 dens 2.0 2
 """
 
 
-def move(folder, out, particles, walls, law, load="", boundary="f f", steps=1000, dt=1e-3, every=1):
-    text = lmp.run_well(HEAD.format(load=load, boundary=boundary) + particles +
+def move(folder, out, particles, walls, law, host, boundary="f f", steps=1000, dt=1e-3, every=1):
+    text = lmp.run_well(HEAD.format(boundary=boundary) + particles +
                         TAIL.format(law=law, walls=walls, dt=dt, every=every, out=out, steps=steps),
-                        folder)
+                        folder, host=host, flags=())
     return lmp.read_dump(folder / out), text
 
 
-def alone(checks, folder, name, particles, hosts, mesh, law, load, **more):
-    theirs, _ = move(folder, "theirs", particles, hosts, law, load, **more)
-    ours, text = move(folder, "ours", particles, f"fix w all wall/lsdcd {law} {mesh}", law, load, **more)
+def alone(folder, name, particles, hosts, mesh, law, host, **more):
+    theirs, _ = move(folder, "theirs", particles, hosts, law, host, **more)
+    ours, text = move(folder, "ours", particles, f"fix w all wall/lsdcd {law} {mesh}", law, host, **more)
     touched = sum(any(row[7] != 0 for row in rows.values()) for rows in ours.values())
-    checks.fact(f"{name}: discs touch the wall", touched > 20, f"{touched} steps")
-    checks.at_most(f"{name}: trajectory as with wall/gran", lmp.largest_difference(theirs, ours), 1e-12)
-    checks.fact(f"{name}: no word of faces that lean", "lean" not in text)
+    fact(f"{name}: discs touch the wall", touched > 20, f"{touched} steps")
+    at_most(f"{name}: trajectory as with wall/gran", lmp.largest_difference(theirs, ours), 1e-12)
+    fact(f"{name}: no word of faces that lean", "lean" not in text)
 
 
-def poured(checks, folder, name, hosts, mesh, law, load):
+def poured(folder, name, hosts, mesh, law, host):
     def pour(wall, gravity="3.0", out="ours"):
-        return move(folder, out, MANY.format(gravity=gravity), wall, law, load, steps=2000, every=100, dt=2e-3)[0]
+        return move(folder, out, MANY.format(gravity=gravity), wall, law, host, steps=2000, every=100, dt=2e-3)[0]
     one, two = pour(hosts, out="one"), pour(hosts, "3.0000000000000004", out="two")
     ours = pour(f"fix w all wall/lsdcd {law} {mesh}")
-    checks.fact(f"{name}: discs are poured", len(ours[2000]) == 60, f"{len(ours[2000])}")
+    fact(f"{name}: discs are poured", len(ours[2000]) == 60, f"{len(ours[2000])}")
     rounding, apart = growth(one, two), growth(one, ours)
     worst = max(a / max(r, 1e-15) for a, r in zip(apart, rounding))
-    checks.at_most(f"{name}: apart over what gravity's last digit does", worst, 10)
+    at_most(f"{name}: apart over what gravity's last digit does", worst, 10)
 
 
 def growth(a, b):
@@ -126,51 +127,54 @@ def growth(a, b):
     return far
 
 
-def words(checks, folder, load):
+def words(folder, host):
     """What cannot be meant in two dimensions is said."""
     def text_of(points, mesh, half=0.6):
         write_outline(folder / "said.stl", points, half=half)
-        return lmp.run(HEAD.format(load=load, boundary="f f") + ONE +
+        return lmp.run(HEAD.format(boundary="f f") + ONE +
                        TAIL.format(law=LAWS["hooke"], dt=1e-3, every=1, out="d", steps=0,
-                                   walls=f"fix w all wall/lsdcd {LAWS['hooke']} mesh said.stl {mesh}"), folder).stdout
+                                   walls=f"fix w all wall/lsdcd {LAWS['hooke']} mesh said.stl {mesh}"), folder, host=host, flags=()).stdout
     floor = [(-1.0, 0.0), (21.0, 0.0)]
     text = text_of(floor, "move 0 0 0.7")
     refused = re.search(r"which the mesh does not cut: .*move 0 0 \S*\)", text)
-    checks.fact("a mesh beside the plane is refused", bool(refused) and "from 0.1 to 1.3" in refused[0] and
-                "(move 0 0 -0.7)" in refused[0], refused[0] if refused else text[-300:])
+    fact("a mesh beside the plane is refused", bool(refused) and "from 0.1 to 1.3" in refused[0] and
+         "(move 0 0 -0.7)" in refused[0], refused[0] if refused else text[-300:])
     text = text_of(floor, "rotate 1 0 0 30")
     warned = re.search(r"\d+ faces lean .* degrees", text)
-    checks.fact("faces that lean are told of", bool(warned) and warned[0][:2] == "2 " and
-                warned[0].endswith("by up to 30 degrees"), warned[0] if warned else text[-300:])
+    fact("faces that lean are told of", bool(warned) and warned[0][:2] == "2 " and
+         warned[0].endswith("by up to 30 degrees"), warned[0] if warned else text[-300:])
     text = text_of(floor, "", half=500)
-    checks.fact("an outline may be drawn out far past the box", not re.search("ERROR|WARNING", text))
+    fact("an outline may be drawn out far past the box", not re.search("ERROR|WARNING", text))
 
 
-def main():
-    checks, folder = lmp.Checks(), lmp.scratch()
+@pytest.fixture(scope="module")
+def folder(folder):
     write_outline(folder / "corner.stl", [(0, 22), (0, 0), (22, 0)], parts=7)
     write_outline(folder / "floor.stl", [(-1.5, 0), (21.5, 0)], parts=46)
     write_outline(folder / "vessel.stl", [(0, 22), (0, 0), (20, 0), (20, 22)], parts=20)
-    hosts = {"": lmp.LMP}
-    if lmp.TEST_HOST:
-        hosts[f"plugin load {lmp.TEST_HOST_PLUGIN}"] = lmp.TEST_HOST
-    for load, lmp.LMP in hosts.items():
-        of = ", 4Jul2026" if load else ""
-        for name, law in lmp.sample(LAWS).items():
-            gran = f"fix {{}} all wall/gran {law} {{}}"
-            xplane, yplane = (gran.format(f"w{p[0]}", p) for p in ("xplane 0 NULL", "yplane 0 NULL"))
-            alone(checks, folder, f"{name}, corner{of}", ONE, f"{xplane}\n{yplane}", "mesh corner.stl", law, load,
-                  steps=2000)
-            alone(checks, folder, f"{name}, chute{of}", THREE, yplane, "mesh floor.stl periodic", law, load,
-                  boundary="p f", steps=2000)
-            alone(checks, folder, f"{name}, moving floor{of}", THREE, f"{yplane} shear x 6.0",
-                  "mesh floor.stl periodic surface_vel 6 0 0", law, load, boundary="p f", steps=2000)
-        law = LAWS["hooke_history"]
-        poured(checks, folder, f"pour{of}", f"fix w1 all wall/gran {law} xplane 0 20\n"
-               f"fix w2 all wall/gran {law} yplane 0 NULL", "mesh vessel.stl", law, load)
-        words(checks, folder, load)
-    checks.done(folder)
+    return folder
 
 
-if __name__ == "__main__":
-    main()
+BOTH = pytest.mark.parametrize("host", (False, pytest.param(True, marks=lmp.needs_host)))
+
+
+@BOTH
+def test_alone(folder, host):
+    for name, law in lmp.sample(LAWS).items():
+        gran = f"fix {{}} all wall/gran {law} {{}}"
+        xplane, yplane = (gran.format(f"w{p[0]}", p) for p in ("xplane 0 NULL", "yplane 0 NULL"))
+        alone(folder, f"{name}, corner", ONE, f"{xplane}\n{yplane}", "mesh corner.stl", law, host, steps=2000)
+        alone(folder, f"{name}, chute", THREE, yplane, "mesh floor.stl periodic", law, host, boundary="p f", steps=2000)
+        alone(folder, f"{name}, moving floor", THREE, f"{yplane} shear x 6.0", "mesh floor.stl periodic surface_vel 6 0 0", law, host,
+              boundary="p f", steps=2000)
+
+
+@BOTH
+def test_poured(folder, host):
+    law = LAWS["hooke_history"]
+    poured(folder, "pour", f"fix w1 all wall/gran {law} xplane 0 20\nfix w2 all wall/gran {law} yplane 0 NULL", "mesh vessel.stl", law, host)
+
+
+@BOTH
+def test_words(folder, host):
+    words(folder, host)

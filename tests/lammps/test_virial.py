@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 LSDCD contributors
 # SPDX-License-Identifier: GPL-2.0-only
 
@@ -6,7 +5,10 @@
 
 import math
 
+import pytest
+
 import lmp
+from facts import at_most, fact
 from test_moving import write_plane
 
 SCRIPT = lmp.SMALL_BOX + """\
@@ -41,19 +43,25 @@ def largest(a, b):
     return max(abs(u - v) for row, other in zip(a, b) for u, v in zip(row[1:], other[1:]))
 
 
-def on_a_floor(checks, folder):
+@pytest.fixture(scope="module")
+def folder(folder):
+    write_plane(folder / "plane.stl", 2)
+    return folder
+
+
+def test_on_a_floor(folder):
     """The arm is (0, 0, z) over a floor at z = 0."""
     friction = MESH.format(law=FRICTION, more="")
     for ranks in (1, 2):
         thermo, dump = go(folder, friction, ranks=ranks)
         expected = [[row[0], 0, 0, sum(s[2] * s[5] for s in dump[int(row[0])].values()) / VOLUME, 0, 0, 0]
                     for row in thermo]
-        checks.fact(f"spheres push the wall, {ranks} ranks", min(row[3] for row in expected) > 0.01)
+        fact(f"spheres push the wall, {ranks} ranks", min(row[3] for row in expected) > 0.01)
         # Pressures of size 1.
-        checks.at_most(f"arm times force on a floor, {ranks} ranks", largest(thermo, expected), 1e-12)
+        at_most(f"arm times force on a floor, {ranks} ranks", largest(thermo, expected), 1e-12)
 
 
-def against_flat_wall(checks, folder):
+def test_against_flat_wall(folder):
     """A spring of kn is LAMMPS's harmonic wall with kn / 2: the same trajectory, so that pressures of
     size 1 differ by roundings."""
     if lmp.ON_KOKKOS:
@@ -61,11 +69,11 @@ def against_flat_wall(checks, folder):
         return
     flat, _ = go(folder, FLAT)
     mesh, _ = go(folder, MESH.format(law="hooke 1e4 NULL 0 NULL 0 0", more=""))
-    checks.fact("spheres push LAMMPS's wall", min(row[3] for row in flat) > 0.01)
-    checks.at_most("pressure as of fix wall/harmonic", largest(mesh, flat), 1e-12)
+    fact("spheres push LAMMPS's wall", min(row[3] for row in flat) > 0.01)
+    at_most("pressure as of fix wall/harmonic", largest(mesh, flat), 1e-12)
 
 
-def of_a_wall_that_turns(checks, folder):
+def test_of_a_wall_that_turns(folder):
     """Arm h n, n being the wall's normal, times the force that the dump has."""
     period, atom = 5, "create_atoms 1 single -0.4 0.3 0.49 units box\nvelocity all set 1 2 0"
     thermo, dump = go(folder, MESH.format(
@@ -80,31 +88,17 @@ def of_a_wall_that_turns(checks, folder):
         expected = [r[0] * f[0], r[1] * f[1], r[2] * f[2], r[0] * f[1], r[0] * f[2], r[1] * f[2]]
         worst = max([worst] + [abs(p - e / VOLUME) for p, e in zip(row[1:], expected)])
         shear = max(shear, abs(row[4]))
-    checks.fact("friction gives shear", shear > 1e-3)
+    fact("friction gives shear", shear > 1e-3)
     # Forces of 100 are rounded to 1e-14, from heights to 1e-16 times the stiffness: 1e-12.
-    checks.at_most("arm times force where the wall turns", worst, 1e-12)
+    at_most("arm times force where the wall turns", worst, 1e-12)
 
 
-def is_asked_for(checks, folder):
+def test_is_asked_for(folder):
     quiet = MESH.format(law=FRICTION, more="").split("\n")[0]
     thermo, _ = go(folder, quiet, steps=3)
-    checks.at_most("no part of it where it is not asked for", max(abs(v) for row in thermo for v in row[1:]), 0)
+    at_most("no part of it where it is not asked for", max(abs(v) for row in thermo for v in row[1:]), 0)
     asked = "fix_modify wall virial yes\n"
     late = SCRIPT.format(walls=quiet, atoms=BED, steps=10) + asked + "run 10\n"
     early = SCRIPT.format(walls=quiet + "\n" + asked, atoms=BED, steps=10) + "run 10\n"
     rows = [lmp.read_thermo(lmp.run_well(text, folder)) for text in (late, early)]
-    checks.at_most("asked for between runs, the same bits", largest(*rows), 0)
-
-
-def main():
-    checks, folder = lmp.Checks(), lmp.scratch()
-    write_plane(folder / "plane.stl", 2)
-    on_a_floor(checks, folder)
-    against_flat_wall(checks, folder)
-    of_a_wall_that_turns(checks, folder)
-    is_asked_for(checks, folder)
-    checks.done(folder)
-
-
-if __name__ == "__main__":
-    main()
+    at_most("asked for between runs, the same bits", largest(*rows), 0)

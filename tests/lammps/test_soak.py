@@ -1,20 +1,20 @@
-#!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 LSDCD contributors
 # SPDX-License-Identifier: GPL-2.0-only
 
 """Many steps of a small rotating drum: memory stays what it was and energies are bounded.
 
-usage: soak.py [STEPS], 1e6 unless given (some minutes); LSDCD_LMP as for the tests
+LSDCD_STEPS: how many, 1e6 unless given (some minutes).
 """
 
+import os
 import pathlib
 import subprocess
-import sys
 import time
 
 import lmp
 import drum
 import stl
+from facts import at_most, fact
 
 ROOM = 1.0    # MB: pages that malloc keeps
 PARTS = 20    # of the run, each with its highest kinetic energy
@@ -43,35 +43,29 @@ def watch(folder, steps):
         time.sleep(0.05)
     text = (folder / "out").read_text()
     if run.returncode:
-        sys.exit(text[-4000:])
+        raise AssertionError(text[-4000:])
     return text, seen
 
 
-def main():
-    steps = int(float(sys.argv[1])) if len(sys.argv) > 1 else 1000000
-    checks, folder = lmp.Checks(), lmp.scratch()
+def test_drum(folder):
+    steps = int(os.environ.get("LSDCD_STEPS", "1000000"))
     stl.write(folder / "drum.stl", drum.triangles())
     n = drum.write_data(folder / "drum.data")
     text, seen = watch(folder, steps)
     rows = lmp.read_thermo(text)
-    checks.fact(f"{steps} steps: no sphere is lost", {row[1] for row in rows} == {n}, str(n))
+    fact(f"{steps} steps: no sphere is lost", {row[1] for row in rows} == {n}, str(n))
     # The first half has the start, whatever share of a short run that is.
     end = seen[-1][0]
     early = max(mb for at, mb in seen if at < 0.5 * end)
     late = max(mb for at, mb in seen if at > 0.9 * end)
-    checks.at_most(f"memory of {early:.1f} MB grows by, in MB", late - early, ROOM)
+    at_most(f"memory of {early:.1f} MB grows by, in MB", late - early, ROOM)
     energies = [row[2] for row in rows]
     cuts = [k * len(energies) // PARTS for k in range(PARTS + 1)]
     parts = [max(energies[a:b]) for a, b in zip(cuts, cuts[1:])]
     print("highest kinetic energy of each twentieth: " + " ".join(f"{e:.3g}" for e in parts))
     # All that there is to fall through, by spheres of density 2 and a diameter of 0.7 at most.
     fall = n * 2.0 * 0.18 * 9.81 * 2 * drum.RADIUS
-    checks.at_most("kinetic energy over that of a fall through the drum", max(energies) / fall, 1)
+    at_most("kinetic energy over that of a fall through the drum", max(energies) / fall, 1)
     # A bed that is carried round has the drum's speed, and slides: no more than the first fall has.
-    checks.at_most("and in the second half over that in the first", max(parts[PARTS // 2:]) / max(parts[:PARTS // 2]), 1)
+    at_most("and in the second half over that in the first", max(parts[PARTS // 2:]) / max(parts[:PARTS // 2]), 1)
     print(f"{seen[-1][0]:.0f} s, {max(mb for _, mb in seen):.1f} MB at most")
-    checks.done(folder)
-
-
-if __name__ == "__main__":
-    main()

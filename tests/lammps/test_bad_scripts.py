@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 LSDCD contributors
 # SPDX-License-Identifier: GPL-2.0-only
 
@@ -10,6 +9,7 @@ import concurrent.futures
 import bad_scripts
 import lmp
 import stl
+from facts import fact
 
 CRASHES = ("Segmentation", "signal", "Backtrace", "backtrace", "terminate called", "Aborted")
 
@@ -17,17 +17,17 @@ CRASHES = ("Segmentation", "signal", "Backtrace", "backtrace", "terminate called
 AT_ONCE = 3    # others are tested beside
 
 
-def check(checks, case, ranks, done):
+def check(case, ranks, done):
     name = f"{case} on {ranks} rank{'s' if ranks > 1 else ''}"
     errors = [line for line in done.stdout.split("\n") if line.startswith("ERROR")]
     message = errors[0] if errors else done.stdout[-500:]
-    checks.fact(f"{name}: stops", done.returncode != 0)
-    checks.fact(f"{name}: one error", len(errors) == 1, message)
+    fact(f"{name}: stops", done.returncode != 0)
+    fact(f"{name}: one error", len(errors) == 1, message)
     for words in bad_scripts.CASES[case][1]:
-        checks.fact(f"{name}: says '{words}'", words in message)
+        fact(f"{name}: says '{words}'", words in message)
     for crash in CRASHES:
         if crash in done.stdout:
-            checks.fact(f"{name}: does not crash", False, crash)
+            fact(f"{name}: does not crash", False, crash)
 
 
 def tetrahedra(*shells):
@@ -47,8 +47,7 @@ def knot():
     return [t for face in faces for t in stl.quad(*(p[k] for k in face))]
 
 
-def main():
-    checks, folder = lmp.Checks(), lmp.scratch()
+def test_one_error(folder):
     floor = (lmp.HERE / "scripts" / "floor.stl").read_bytes()
     for name in ("floor.stl", "lid.stl"):
         (folder / name).write_bytes(floor)
@@ -70,9 +69,4 @@ def main():
         runs = [some.submit(lmp.run, folder / f"in.{case}", folder, ranks=ranks, timeout=120)
                 for case, ranks in scripts]
         for (case, ranks), run in zip(scripts, runs):
-            check(checks, case, ranks, run.result())
-    checks.done(folder)
-
-
-if __name__ == "__main__":
-    main()
+            check(case, ranks, run.result())

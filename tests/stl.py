@@ -1,16 +1,31 @@
 # SPDX-FileCopyrightText: 2026 LSDCD contributors
-# SPDX-License-Identifier: GPL-2.0-only
+# SPDX-License-Identifier: BSD-3-Clause
 
-"""Meshes for input scripts. A triangle has three points (x, y, z)."""
+"""Meshes of tests, in STL files. A triangle has three points (x, y, z)."""
+import pathlib
+import struct
 
 
 def write(path, triangles):
+    """As text, in all digits."""
     with open(path, "w") as stl:
         stl.write("solid mesh\n")
         for t in triangles:
             stl.write("facet normal 0 0 0\nouter loop\n" + "".join("vertex %.17g %.17g %.17g\n" % tuple(p) for p in t) +
                       "endloop\nendfacet\n")
         stl.write("endsolid mesh\n")
+
+
+def read(path):
+    """Triangles of a binary file, in floats."""
+    data = pathlib.Path(path).read_bytes()
+    assert len(data) == 84 + 50 * struct.unpack_from("<I", data, 80)[0]
+    return [(r[:3], r[3:6], r[6:]) for r in struct.iter_unpack("<12x9f2x", data[84:])]
+
+
+def points(path):
+    """The corners of a binary file, one number after the other."""
+    return [x for t in read(path) for p in t for x in p]
 
 
 def quad(a, b, c, d):
