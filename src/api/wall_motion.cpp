@@ -115,7 +115,7 @@ int lsdcd_wall_get_body(lsdcd_wall *wall, int mesh, lsdcd_body_state *state)
     lsdcd_body_state out = checked(state, "lsdcd_body_state");
     check_is_body(*wall, mesh);
     tell_late(*wall);
-    const MeshBody &of = *wall->in->body(mesh);
+    const BodyMover &of = *wall->in->body(mesh);
     const RigidBody &body = of.body();
     const Wrench reaction = of.reaction();
     const auto put = [](const Vec3 &v, double *to) {

@@ -738,7 +738,7 @@ double FixWallLsdcd::servo_output(int mesh, int i)
 // Centre, velocity, quaternion, angular velocity; force and torque of the joint; coordinate, energy; force of a stop.
 double FixWallLsdcd::body_output(int mesh, int i)
 {
-  const lsdcd::MeshBody *of = wall->body(mesh);
+  const lsdcd::BodyMover *of = wall->body(mesh);
   if (!of) return 0;
   const lsdcd::RigidBody &b = of->body();
   const lsdcd::Quaternion &q = b.turn();

@@ -4,12 +4,12 @@
 // One mesh of a wall: its spec and grid, and where it is.
 #pragma once
 
-#include "wall/mesh_body.h"
+#include "wall/move/body_mover.h"
 #include "wall/mesh_grid.h"
-#include "wall/mesh_motion.h"
+#include "wall/move/mesh_motion.h"
 #include "wall/mesh_nodes.h"
 #include "wall/mesh_wear.h"
-#include "wall/servo_controller.h"
+#include "wall/move/servo_controller.h"
 
 #include <memory>
 
@@ -30,7 +30,7 @@ struct MeshPart {
   MeshGrid grid;
   MeshMotion motion;
   ServoController servo_controller;
-  std::unique_ptr<MeshBody> body;    // null: it is none
+  std::unique_ptr<BodyMover> body;    // null: it is none
   std::unique_ptr<MeshWear> wear;    // null: it does not recede
 
   bool springs_are_foreign = false;    // those of a saved state are of another mesh

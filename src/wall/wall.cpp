@@ -106,7 +106,7 @@ Wall::Wall(Host &host, WallSpec spec, const WallUnits &units, WallBackend backen
 void Wall::make_body(MeshPart &m, Real force)
 {
   has_bodies_ = true;
-  m.body = std::make_unique<MeshBody>(host_, spec_, laws_, m.index, m.grid, force);
+  m.body = std::make_unique<BodyMover>(host_, spec_, laws_, m.index, m.grid, force);
   m.spec.motion.begin_posed();
   follow_body(m);
 }
@@ -424,7 +424,7 @@ bool Wall::any_body_asks_for_contacts() const
                      [](const MeshPart &m) { return m.body && m.body->asks_for_contacts(); });
 }
 
-const MeshBody *Wall::body(int mesh)
+const BodyMover *Wall::body(int mesh)
 {
   if (has_bodies_) complete_bodies();
   return meshes_[mesh].body.get();

@@ -135,7 +135,7 @@ class Wall {
   // Returns the force, or the torque, of the mesh on the spheres along the axis of its servo.
   Real servo_push(int mesh);
   // Returns the body that a mesh is, with velocities of the whole step, or null if it is none.
-  const MeshBody *body(int mesh);
+  const BodyMover *body(int mesh);
   MeshNodes &nodes(int mesh) { return *meshes_[mesh].nodes; }    // of a mesh that has_nodes
   // Returns the forces of the last step on the nodes of a mesh that has_nodes, x y z, node after node: those of contacts and of
   // its pressure, summed over all processes.

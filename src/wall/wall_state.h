@@ -6,8 +6,8 @@
 
 #include "base/state_blocks.h"
 #include "wall/mean_loads.h"
-#include "wall/mesh_body.h"
-#include "wall/mesh_motion.h"
+#include "wall/move/body_mover.h"
+#include "wall/move/mesh_motion.h"
 #include "wall/mesh_nodes.h"
 #include "wall/mesh_wear.h"
 

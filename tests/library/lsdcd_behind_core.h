@@ -6,7 +6,7 @@
 #pragma once
 
 #include "support/fake_host.h"
-#include "wall/mesh_motion.h"
+#include "wall/move/mesh_motion.h"
 #include "wall/wall_state.h"
 
 #include "lsdcd.hpp"

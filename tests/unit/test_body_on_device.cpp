@@ -150,7 +150,7 @@ struct Scene : WallScene {
       put(totals.mesh(m.index).force);
       put(totals.mesh(m.index).torque);
       all.push_back(totals.mesh(m.index).energy);
-      const MeshBody *body = wall->body(m.index);
+      const BodyMover *body = wall->body(m.index);
       if (!body) continue;
       const RigidBody &b = body->body();
       put(b.centre());

@@ -5,7 +5,7 @@
 #include "base/input_error.h"
 #include "support/fake_host.h"
 #include "support/temp_dir.h"
-#include "wall/mesh_motion.h"
+#include "wall/move/mesh_motion.h"
 
 #include <gtest/gtest.h>
 

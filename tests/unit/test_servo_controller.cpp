@@ -3,7 +3,7 @@
 
 // A servo's velocity from the load of the last step, on two processes.
 #include "support/fake_host.h"
-#include "wall/servo_controller.h"
+#include "wall/move/servo_controller.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "wall/mesh_body.h"
+#include "wall/move/body_mover.h"
 
 #include "base/input_error.h"
 #include "base/input_words.h"
@@ -61,7 +61,7 @@ Real largest_in(const Mobility &m, const Box &box)
 
 }    // namespace
 
-MeshBody::MeshBody(Host &host, WallSpec &wall, const LawTable &laws, int mesh, const MeshGrid &grid,
+BodyMover::BodyMover(Host &host, WallSpec &wall, const LawTable &laws, int mesh, const MeshGrid &grid,
                    Real force) :
     host_(host),
     wall_(wall), laws_(laws), mesh_(mesh), grid_(grid), force_(force)
@@ -82,7 +82,7 @@ MeshBody::MeshBody(Host &host, WallSpec &wall, const LawTable &laws, int mesh, c
   ask_about_degrees();
 }
 
-void MeshBody::check(const BodySpec &to, const RigidBody &as) const
+void BodyMover::check(const BodySpec &to, const RigidBody &as) const
 {
   try {
     check_body(to, as.coordinate());
@@ -91,7 +91,7 @@ void MeshBody::check(const BodySpec &to, const RigidBody &as) const
   }
 }
 
-void MeshBody::go_on(const BodySpec &to, const RigidBody &as)
+void BodyMover::go_on(const BodySpec &to, const RigidBody &as)
 {
   check(to, as);
   wall_.meshes[mesh_].body = to;
@@ -105,7 +105,7 @@ void MeshBody::go_on(const BodySpec &to, const RigidBody &as)
   host_.max(&most_mobility_, 1);
 }
 
-void MeshBody::set(const BodySpec &to)
+void BodyMover::set(const BodySpec &to)
 {
   const BodySpec was = spec();
   BodySpec now = was;
@@ -128,7 +128,7 @@ void MeshBody::set(const BodySpec &to)
 }
 
 // Degrees are mostly whole or half; a number of turns, as 62.83, is not.
-void MeshBody::ask_about_degrees() const
+void BodyMover::ask_about_degrees() const
 {
   const Joint &joint = spec().joint;
   const Real lo = spec().drive.lo, hi = spec().drive.hi, turns = (hi - lo) / (2 * kPi);
@@ -142,25 +142,25 @@ void MeshBody::ask_about_degrees() const
                    " " + number_text(hi * kPi / 180)));
 }
 
-std::string MeshBody::named(const std::string &text) const
+std::string BodyMover::named(const std::string &text) const
 {
   return with_mesh_name(wall_, mesh_, text);
 }
 
-Real MeshBody::spring_and_kinetic_energy() const
+Real BodyMover::spring_and_kinetic_energy() const
 {
   return body_.kinetic_energy() + body_.spring_energy();
 }
 
 // ---- a step ------------------------------------------------------------------------------
 
-void MeshBody::advance(Real dt)
+void BodyMover::advance(Real dt)
 {
   body_.kick(dt / 2, load_);
   body_.drift(dt);
 }
 
-Pose MeshBody::pose_in(Real dt) const
+Pose BodyMover::pose_in(Real dt) const
 {
   RigidBody next = body_;
   next.kick(dt / 2, load_);
@@ -168,13 +168,13 @@ Pose MeshBody::pose_in(Real dt) const
   return next.pose();
 }
 
-void MeshBody::note_step(Real dt)
+void BodyMover::note_step(Real dt)
 {
   dt_ = dt;
   pending_ = true;
 }
 
-void MeshBody::complete(const MeshTotals &contacts, const Vec3 &gravity)
+void BodyMover::complete(const MeshTotals &contacts, const Vec3 &gravity)
 {
   if (!pending_) return;
   pending_ = false;
@@ -188,7 +188,7 @@ void MeshBody::complete(const MeshTotals &contacts, const Vec3 &gravity)
 
 // ---- the timestep ------------------------------------------------------------------------
 
-ContactSum MeshBody::spring() const
+ContactSum BodyMover::spring() const
 {
   ContactSum sum;
   if (!body_.joint().has_coordinate()) return sum;
@@ -199,7 +199,7 @@ ContactSum MeshBody::spring() const
 }
 
 // A bound: all contacts as stiff as any can be, where the body gives way most.
-ModeRates MeshBody::of_spheres(const MeshTotals &contacts, const SphereRange &spheres) const
+ModeRates BodyMover::of_spheres(const MeshTotals &contacts, const SphereRange &spheres) const
 {
   ContactSlope one;
   for (int kind = 0; kind < laws_.kinds && contacts.contacts > 0; kind++) {
@@ -214,7 +214,7 @@ ModeRates MeshBody::of_spheres(const MeshTotals &contacts, const SphereRange &sp
   return {of_all * one.stiffness, of_all * one.damping};
 }
 
-ModeRates MeshBody::rates(const MeshTotals &contacts, const SphereRange &spheres,
+ModeRates BodyMover::rates(const MeshTotals &contacts, const SphereRange &spheres,
                           const CoatLoad &coat, bool of_coat) const
 {
   ModeRates all = of_spheres(contacts, spheres);
@@ -232,7 +232,7 @@ ModeRates MeshBody::rates(const MeshTotals &contacts, const SphereRange &spheres
 
 // Bounds first. A contact of two bodies, the squared rates of whose modes are a and b on their own, makes none faster
 // than a + b: k (p + q)^2 <= k (1 + b/a) p^2 + k (1 + a/b) q^2 for the parts p and q of its overlap.
-void MeshBody::check_step(const MeshTotals &contacts, const SphereRange &spheres,
+void BodyMover::check_step(const MeshTotals &contacts, const SphereRange &spheres,
                           const CoatLoad &coat,
                           const std::function<ModeRates(bool of_coat)> &of_others)
 {
@@ -269,7 +269,7 @@ void MeshBody::check_step(const MeshTotals &contacts, const SphereRange &spheres
   if (dt_ >= longest) fail_step(longest, contacts.contacts + coat.contacts);
 }
 
-void MeshBody::sum_contacts(const StepResults &results)
+void BodyMover::sum_contacts(const StepResults &results)
 {
   has_contacts_ = true;
   stiffness_ = damping_ = ContactSum();
@@ -305,7 +305,7 @@ void MeshBody::sum_contacts(const StepResults &results)
   }
 }
 
-void MeshBody::fail_step(Real longest, Real contacts) const
+void BodyMover::fail_step(Real longest, Real contacts) const
 {
   throw InputError(named("the timestep " + number_text(dt_) + " is not below " +
                          number_text(longest) + ", with which the body of mass " +
@@ -316,7 +316,7 @@ void MeshBody::fail_step(Real longest, Real contacts) const
 
 // ---- the log and restarts ----------------------------------------------------------------
 
-std::string MeshBody::text() const
+std::string BodyMover::text() const
 {
   const MassProperties &p = spec().mass;
   const SymmetricMatrix &i = p.inertia;
@@ -329,12 +329,12 @@ std::string MeshBody::text() const
   return t;
 }
 
-BodyState MeshBody::state() const
+BodyState BodyMover::state() const
 {
   return {true, spec().mass, spec().joint, body_.state(), load_};
 }
 
-RigidBody MeshBody::continued(const BodyState &was) const
+RigidBody BodyMover::continued(const BodyState &was) const
 {
   RigidBody body(body_.mass(), spec().joint);
   if (is_same(was)) {
@@ -347,12 +347,12 @@ RigidBody MeshBody::continued(const BodyState &was) const
   return body;
 }
 
-void MeshBody::check(const BodyState &was) const
+void BodyMover::check(const BodyState &was) const
 {
   if (was.present) check(spec(), continued(was));
 }
 
-void MeshBody::restore(const BodyState &was)
+void BodyMover::restore(const BodyState &was)
 {
   pending_ = false;
   const std::string saved = host_.names().saved;
@@ -371,7 +371,7 @@ void MeshBody::restore(const BodyState &was)
                      (was.joint == spec().joint ? "" : ", and its coordinate starts at 0 there")));
 }
 
-bool MeshBody::is_same(const BodyState &was) const
+bool BodyMover::is_same(const BodyState &was) const
 {
   return are_same(was.mass, spec().mass) && was.joint == spec().joint;
 }

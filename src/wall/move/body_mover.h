@@ -35,11 +35,11 @@ struct BodyState {
 // In the order of a step: advance() takes it to where contacts are computed, note_step() tells that they are, and
 // complete() gives it their load, whenever somebody asks for its velocities or the next step begins. Velocities are
 // those of half a step before complete(), and of the whole step after it.
-class MeshBody {
+class BodyMover {
  public:
   // Makes the body of the mesh with this number of the wall, from 0, with its `body` there. `force`: of the wall's units, in mass length /
   // time^2. Host, wall and laws must outlive it. Throws InputError on all processes. Collective.
-  MeshBody(Host &host, WallSpec &wall, const LawTable &laws, int mesh, const MeshGrid &grid,
+  BodyMover(Host &host, WallSpec &wall, const LawTable &laws, int mesh, const MeshGrid &grid,
            Real force);
 
   const RigidBody &body() const { return body_; }

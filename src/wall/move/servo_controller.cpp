@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "wall/servo_controller.h"
+#include "wall/move/servo_controller.h"
 
 #include "base/input_words.h"
 #include "law/contact_slope.h"
