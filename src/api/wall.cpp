@@ -184,7 +184,7 @@ int lsdcd_wall_get_pose(lsdcd_wall *wall, int mesh, double *matrix)
   return guard_wall(wall, [&] {
     need(matrix, "matrix");
     check_mesh(*wall, mesh, 0);
-    const Pose &pose = wall->in->meshes()[mesh].motion.pose();
+    const Pose &pose = wall->in->meshes()[mesh].pose();
     for (int k = 0; k < 3; k++)
       for (int d = 0; d < 4; d++) matrix[4 * k + d] = d < 3 ? pose.row[k][d] : pose.shift[k];
   });

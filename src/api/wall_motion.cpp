@@ -116,7 +116,7 @@ int lsdcd_wall_get_body(lsdcd_wall *wall, int mesh, lsdcd_body_state *state)
     check_is_body(*wall, mesh);
     tell_late(*wall);
     const BodyMover &of = *wall->in->body(mesh);
-    const RigidBody &body = of.body();
+    const RigidBody &body = of.rigid();
     const Wrench reaction = of.reaction();
     const auto put = [](const Vec3 &v, double *to) {
       for (int k = 0; k < 3; k++) to[k] = v[k];

@@ -238,7 +238,7 @@ int lsdcd_wall_get_nodes(lsdcd_wall *wall, int mesh, double *positions)
     const bool on_gpu = is_on_gpu(*wall, positions, "positions");
     std::vector<Vec3> at = part.mesh()->vertices;
     if (!part.nodes)
-      for (Vec3 &x : at) x = part.motion.pose().to_box(x);
+      for (Vec3 &x : at) x = part.pose().to_box(x);
     in_order_of_rows(*wall, &at[0].x, node_rows(*wall, mesh), OfRows::places, positions, on_gpu);
   });
 }

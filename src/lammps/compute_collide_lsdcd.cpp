@@ -186,7 +186,7 @@ void ComputeCollideLsdcd::collide(int body, const BodyPose &pose, const FixWallL
                                   const lsdcd::PeriodicBox &box)
 {
   for (std::size_t m = 0; m < meshes.size(); m++) {
-    const lsdcd::Pose &wall = fix.meshes()[m].motion.pose();
+    const lsdcd::Pose &wall = fix.meshes()[m].pose();
     std::vector<lsdcd::BodyPair> pairs;
     for_images(pose, wall, meshes[m].bounds, box, [&](const Vec3 &shift) {
       const lsdcd::Collision meets =

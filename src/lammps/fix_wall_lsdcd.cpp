@@ -740,7 +740,7 @@ double FixWallLsdcd::body_output(int mesh, int i)
 {
   const lsdcd::BodyMover *of = wall->body(mesh);
   if (!of) return 0;
-  const lsdcd::RigidBody &b = of->body();
+  const lsdcd::RigidBody &b = of->rigid();
   const lsdcd::Quaternion &q = b.turn();
   if (i < 3) return b.centre()[i];
   if (i < 6) return b.velocity()[i - 3];

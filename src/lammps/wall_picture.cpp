@@ -28,7 +28,7 @@ int WallPicture::draw(const lsdcd::Wall &wall, int *&kinds, double **&rows)
       if (!first && m.changes_shape()) objects[m.index] = lsdcd::draw_mesh(*m.mesh(), spec.draw);
       for (lsdcd::ImageObject one : objects[m.index]) {
         lsdcd::Vec3 centre = {0, 0, 0};
-        for (lsdcd::Vec3 &c : one.corner) c = m.motion.pose().to_box(c);
+        for (lsdcd::Vec3 &c : one.corner) c = m.pose().to_box(c);
         for (int k = 0; k < corners; k++) centre += (1.0 / corners) * one.corner[k];
         if (spec.cut && dot(spec.cut_normal, centre) > spec.cut_offset) continue;
         data.push_back(spec.type);

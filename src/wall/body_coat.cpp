@@ -68,7 +68,7 @@ Pose seen_from(const Pose &other, const Pose &own)
 // n.K n of a body at a place of the box, by the normal out of it.
 Real gives_way(const MeshPart &m, const Mobility &mobility, const Vec3 &at, const Vec3 &normal)
 {
-  const Pose &pose = m.motion.pose();
+  const Pose &pose = m.pose();
   return mobility.along(pose.to_mesh(at), pose.turn_to_mesh(normal));
 }
 
@@ -78,7 +78,7 @@ struct Yield {
 
   Yield(const CoatPushes::Push &push, const MeshPart &m, const Mobility &mobility)
   {
-    const Pose &pose = m.motion.pose();
+    const Pose &pose = m.pose();
     point = pose.to_box(mobility.point);
     const Vec3 force = pose.turn_to_mesh(push.force),
                torque = pose.turn_to_mesh(push.torque_at_origin - cross(point, push.force));
@@ -215,10 +215,10 @@ Spheres BodyCoat::spheres()
 // half a step ago that is due to turning, where both surfaces turn.
 SurfaceMotion BodyCoat::surface_against(const MeshPart &own, const MeshPart &other) const
 {
-  const SurfaceMotion &mine = own.motion.surface();
-  SurfaceMotion s = other.motion.surface();
+  const SurfaceMotion &mine = own.mover->surface();
+  SurfaceMotion s = other.mover->surface();
   if (!mine.moves()) return s;
-  const Pose &from = own.motion.pose(), &to = other.motion.pose();
+  const Pose &from = own.pose(), &to = other.pose();
   const auto turned = [&](const Vec3 &a) { return to.turn_to_mesh(from.turn_to_box(a)); };
   const Vec3 angular = turned(mine.angular), centre = to.to_mesh(from.to_box(mine.centre));
   if (norm_sq(s.angular) == 0) s.centre = centre;
@@ -235,7 +235,7 @@ StepSettings BodyCoat::settings(const std::deque<MeshPart> &meshes, const Step &
   for (const int k : others_) {
     const MeshPart &m = meshes[k];
     surfaces_.push_back(surface_against(own, m));
-    mobilities_.push_back(turned(own.body->mobility(), own.motion.pose(), m.motion.pose()));
+    mobilities_.push_back(turned(own.mover->mobility(), own.pose(), m.pose()));
   }
   StepSettings s;
   s.dt = step.dt;
@@ -250,7 +250,7 @@ StepSettings BodyCoat::settings(const std::deque<MeshPart> &meshes, const Step &
 void BodyCoat::put(const std::deque<MeshPart> &meshes, Real share, Real back)
 {
   const auto pose = [&](int mesh) {
-    const MeshMotion &m = meshes[mesh].motion;
+    const Mover &m = *meshes[mesh].mover;
     return share < 1 ? between(m.pose_before(), m.pose(), share) : m.pose();
   };
   for (std::size_t k = 0; k < others_.size(); k++)
@@ -317,8 +317,8 @@ void BodyCoat::check_way(const std::deque<MeshPart> &meshes, const Step &step)
   Real way = 0;
   for (const int k : others_) {
     const MeshPart &other = meshes[k];
-    const Pose before = seen_from(other.motion.pose_before(), own.motion.pose_before()),
-               now = seen_from(other.motion.pose(), own.motion.pose());
+    const Pose before = seen_from(other.mover->pose_before(), own.mover->pose_before()),
+               now = seen_from(other.pose(), own.pose());
     const Real far = farthest_between(before, now, own.bounds(0));
     if (far <= longest) continue;
     const Box swept = swept_bounds(before, now, own.bounds(radius_ + far));
@@ -361,7 +361,7 @@ void BodyCoat::find_contacts(const std::deque<MeshPart> &meshes, CoatPushes &pus
         strongest = contact;
     if (!strongest) continue;    // the point lies on the mesh
     const int other = others_[strongest->mesh];
-    const Vec3 arm = meshes[other].motion.pose().turn_to_box(strongest->arm);
+    const Vec3 arm = meshes[other].pose().turn_to_box(strongest->arm);
     const PointContact c = {i, other, x_[i] - arm, 1 / norm(arm) * arm};
     contacts_.push_back(c);
     pushes.add(other, mesh_, c.at, c.normal);
@@ -381,15 +381,16 @@ void BodyCoat::take_masses(const std::deque<MeshPart> &meshes, const CoatPushes 
   std::vector<Mobility> mobility(meshes.size());
   std::vector<std::vector<Yield>> yields(meshes.size());
   for (const MeshPart &m : meshes) {
-    if (!m.body) continue;
-    mobility[m.index] = m.body->mobility();
+    if (!m.mover->is_pushed()) continue;
+    mobility[m.index] = m.mover->mobility();
     for (int by = 0; by < n; by++)
       if (pushes.on(m.index, by).contacts > 0)
         yields[m.index].emplace_back(pushes.on(m.index, by), m, mobility[m.index]);
   }
   for (const PointContact &c : contacts_) {
     const auto alone = [&](int mesh, const Vec3 &out) {
-      return meshes[mesh].body ? gives_way(meshes[mesh], mobility[mesh], c.at, out) : 0;
+      return meshes[mesh].mover->is_pushed() ? gives_way(meshes[mesh], mobility[mesh], c.at, out)
+                                             : 0;
     };
     const auto together = [&](int mesh, const Vec3 &normal) {
       Real sum = 0;
@@ -424,7 +425,7 @@ void BodyCoat::add_loads(const std::deque<MeshPart> &meshes, std::vector<CoatLoa
       load->overlap = std::max(load->overlap, t.largest_overlap_ratio);
       load->radius = std::max(load->radius, radius_);
     }
-    if (!meshes[others_[k]].body) continue;
+    if (!meshes[others_[k]].mover->is_pushed()) continue;
     own.bodies |= std::uint32_t(1) << others_[k];
     other.bodies |= std::uint32_t(1) << mesh_;
   }
@@ -434,7 +435,7 @@ void BodyCoat::add_loads(const std::deque<MeshPart> &meshes, std::vector<CoatLoa
 void BodyCoat::add_stiffness(const std::deque<MeshPart> &meshes, std::vector<CoatLoad> &loads) const
 {
   const MeshPart &own = meshes[mesh_];
-  const Mobility own_gives = own.body->mobility();
+  const Mobility own_gives = own.mover->mobility();
   const StepContact *contact = engine_->results().contacts().data();
   for (const TouchingSphere &t : engine_->results().touching()) {
     const int i = t.sphere;
@@ -442,15 +443,15 @@ void BodyCoat::add_stiffness(const std::deque<MeshPart> &meshes, std::vector<Coa
       const MeshPart &other = meshes[others_[contact->mesh]];
       const Real distance = norm(contact->arm);
       if (!(distance > 0)) continue;    // the point lies on the mesh
-      const Pose &pose = other.motion.pose();
+      const Pose &pose = other.pose();
       const Vec3 arm = pose.turn_to_box(contact->arm), normal = 1 / distance * arm,
                  along = any_perpendicular(normal), at = x_[i] - arm;
       const Real mass = 1 / (1 / masses_[i] + gives_way(own, own_gives, at, -normal));
       const ContactSlopes slope = contact_slopes(
           laws_[contact->mesh], std::max<Real>(0, radius_ - distance), radius_, mass);
       const auto add = [&](const MeshPart &m, const Vec3 &direction, const ContactSlope &of) {
-        const Mobility &mobility = m.body->mobility_to_forces();
-        const Pose &p = m.motion.pose();
+        const Mobility &mobility = m.mover->body()->mobility_to_forces();
+        const Pose &p = m.pose();
         const Vec3 x = p.to_mesh(at), d = p.turn_to_mesh(direction);
         CoatLoad &load = loads[m.index];
         load.stiffness.add(mobility, x, d, of.stiffness);
@@ -460,7 +461,7 @@ void BodyCoat::add_stiffness(const std::deque<MeshPart> &meshes, std::vector<Coa
       };
       for (const MeshPart *m : {&own, &other}) {
         loads[m->index].mass = std::max(loads[m->index].mass, mass);
-        if (!m->body) continue;
+        if (!m->mover->is_pushed()) continue;
         add(*m, normal, slope.normal);
         add(*m, along, slope.tangential);
         add(*m, cross(normal, along), slope.tangential);

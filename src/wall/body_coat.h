@@ -22,7 +22,7 @@ namespace lsdcd {
 // processes there are.
 class BodyCoat {
  public:
-  // `mesh`: the body's; `engine`: the settings of the wall's engine; `force`: as in BodyMover. Host and wall must outlive
+  // `mesh`: the body's; `engine`: the settings of the wall's engine; `force`: as of BodyMover. Host and wall must outlive
   // it. Throws InputError on all processes. Collective.
   BodyCoat(Host &host, const WallSpec &wall, int mesh, const MeshGrid &grid, EngineSettings engine,
            Real force);

@@ -142,7 +142,7 @@ void BoxChecks::check_gone(const PeriodicBox &box, Real cutoff, std::int64_t ste
   for (const MeshPart &m : meshes_) {
     Warned &warned_of_mesh = warned_[m.index];
     if (!m.moves() || warned_of_mesh.gone_warned) continue;
-    const Box now = placed_bounds(m.motion.pose(), m.bounds(0));
+    const Box now = placed_bounds(m.pose(), m.bounds(0));
     const bool in_box = outside_box(now, box, cutoff).empty();
     warned_of_mesh.was_in_box |= in_box;
     if (in_box || !warned_of_mesh.was_in_box) continue;
@@ -207,9 +207,9 @@ void BoxChecks::look_ahead(const MeshPart &m, const PeriodicBox &box, Real cutof
 {
   constexpr int kSamples = 64;    // points of a turn are missed by a thousandth of its radius
   constexpr Real kPast = 1e-3;    // of the box: a drum that fits it turns within it
-  const Real period = m.spec.motion.longest_period();
-  if (m.nodes || period <= 0 || m.motion.has_inputs()) return;
-  const auto pose = [&](int i) { return m.motion.pose_in(period * i / kSamples); };
+  const Real period = m.mover->known_period();
+  if (period <= 0) return;
+  const auto pose = [&](int i) { return m.mover->pose_in(period * i / kSamples); };
   for (int i = 1; i < kSamples; i++) check_pose(m, pose(i), box, cutoff, "");
 
   bool &warned = warned_[m.index].turning_out_warned;
@@ -239,7 +239,7 @@ void BoxChecks::check_moving(const PeriodicBox &box, Real cutoff, const Step &no
 {
   for (const MeshPart &m : meshes_) {
     if (!m.moves()) continue;
-    check_pose(m, m.motion.pose(), box, cutoff, " at step " + std::to_string(now.number));
+    check_pose(m, m.pose(), box, cutoff, " at step " + std::to_string(now.number));
     if (now.kind != Step::step) look_ahead(m, box, cutoff);
   }
 }

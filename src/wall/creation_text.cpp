@@ -38,9 +38,9 @@ std::string mesh_lines(const WallSpec &wall, const MeshPart &m, const std::deque
     const char *label;
     std::string text;
   } lines[] = {{"placement   ", placement_text(m.spec.placement)},
-               {"motion      ", m.motion.text(m.bounds(0))},
-               {"servo       ", servo_text(m.servo(), wall.inputs)},
-               {"body        ", m.body ? m.body->text() : ""},
+               {"motion      ", m.mover->text(m.bounds(0))},
+               {"servo       ", m.mover->servo_text()},
+               {"body        ", m.mover->body_text()},
                {"coat        ", coat},
                {"nodes       ", m.nodes ? std::to_string(m.nodes->count()) + ", which move" : ""},
                {"wear        ", wear == 1 ? "" : number_text(wear) + " times as fast"},

@@ -10,7 +10,6 @@
 #include "mesh/plane_cut.h"
 #include "mesh/split_faces.h"
 #include "wall/mesh_name.h"
-#include "wall/spec_text.h"
 
 namespace lsdcd {
 
@@ -131,34 +130,13 @@ void check_stays_closed(Host &host, const WallSpec &settings, const MeshPart &m)
                     "move apart, a gap opens there"));
 }
 
-void check_motion(const Host &host, const WallSpec &settings, const MeshPart &m)
-{
-  const RigidMotion &motion = m.spec.motion;
-  if (host.box().dimension == 3) return;
-  const BodySpec &body = m.spec.body;
-  if (body.present && !body.joint.keeps({0, 0, 1}))
-    throw InputError(
-        with_mesh_name(settings, m.index,
-                       "in two dimensions a body needs a joint that keeps it in the "
-                       "plane z = 0: hinge or planar along z, or slider in the plane"));
-  if (body.present || !motion.any() || motion.keeps({0, 0, 1})) return;
-  std::string text = motion_text(motion.terms(), settings.inputs);
-  if (m.servo().present)
-    text += (text.empty() ? "servo " : " servo ") + servo_text(m.servo(), settings.inputs);
-  throw InputError(with_mesh_name(
-      settings, m.index,
-      "in two dimensions a mesh must move in the plane z = 0 and turn about z, not by '" + text +
-          "'"));
-}
-
 void check_way(Host &host, const WallSpec &settings, MeshPart &m, const Step &step, Real radius,
                const SpheresOnCpu &spheres)
 {
-  const Pose &from = m.motion.pose_before(), &to = m.motion.pose();
+  const Pose &from = m.mover->pose_before(), &to = m.pose();
   const Real way = farthest_between(from, to, m.bounds(0));
   const bool passes = way > 2 * radius;
-  const bool is_of_program = m.spec.motion.is_posed() && !m.body;    // which may put it anywhere
-  const bool stops = passes && !is_of_program;
+  const bool stops = passes && !m.mover->may_jump();
   if (way <= radius || (m.way_warned && !stops)) return;
   const Box swept = swept_bounds(from, to, m.bounds(radius));
   const HostSpheres s = spheres.all();
@@ -175,7 +153,7 @@ void check_way(Host &host, const WallSpec &settings, MeshPart &m, const Step &st
           ", more than the largest " + (passes ? "diameter " : "radius ") +
           number_text(passes ? 2 * radius : radius) +
           ": it may have passed through a sphere; use a shorter timestep" +
-          (m.body ? "" : ", or a motion without jumps"));
+          (m.mover->is_pushed() ? "" : ", or a motion without jumps"));
   if (stops) throw InputError(text);
   m.way_warned = true;
   host.warn(text + ". Shown once");

@@ -28,9 +28,6 @@ void check_plane(Host &host, const WallSpec &settings, const MeshPart &m);
 // that wear moves, which keeps their corners, and of vertices on open edges. After both are made.
 void check_stays_closed(Host &host, const WallSpec &settings, const MeshPart &m);
 
-// Throws InputError where a mesh would leave the plane of a run in two dimensions.
-void check_motion(const Host &host, const WallSpec &settings, const MeshPart &m);
-
 // Warns once where a mesh has gone farther in a step than `radius`, that of the largest sphere, and spheres are where it
 // went. Throws InputError where it has gone farther than the diameter, as it may have jumped over one, and it is not the
 // program that puts it there. Collective.

@@ -12,21 +12,13 @@
 #include "engine/nodes_in_place.h"
 #include "grid/flat_grid.h"
 #include "host/host.h"
+#include "wall/mesh_state.h"
 #include "wall/wall_spec.h"
 
 #include <memory>
 #include <vector>
 
 namespace lsdcd {
-
-// The nodes of a mesh in a saved state, in the order of its vertices.
-struct NodeState {
-  std::vector<Real> names;    // of the particles of the host that are nodes; empty: it has none
-  std::vector<Real>
-      places;    // x y z of each (length); empty: no nodes, or a state without their places
-  // x y z of each (length/time); empty: 0, and of nodes that a host sets before each step.
-  std::vector<Real> velocities;
-};
 
 class MeshNodes {
  public:

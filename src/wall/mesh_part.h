@@ -4,23 +4,23 @@
 // One mesh of a wall: its spec and grid, and where it is.
 #pragma once
 
-#include "wall/move/body_mover.h"
 #include "wall/mesh_grid.h"
-#include "wall/move/mesh_motion.h"
 #include "wall/mesh_nodes.h"
 #include "wall/mesh_wear.h"
-#include "wall/move/servo_controller.h"
+#include "wall/move/body_mover.h"
 
 #include <memory>
 
 namespace lsdcd {
 
 struct MeshPart {
-  // The mesh with this number of the wall, from 0. Reads its file. Host, wall and laws must outlive
-  // it. Throws InputError on all processes. Collective.
-  MeshPart(Host &host, WallSpec &wall, const LawTable &laws, int index, const Step &now) :
-      index(index), spec(wall.meshes[index]), grid(host, wall, spec),
-      motion(host, wall, index, now), servo_controller(host, wall, laws, index), host_(host)
+  // The mesh with this number of the wall, from 0. Reads its file. `force`: as of make_mover(). Host, wall and laws must
+  // outlive it. Throws InputError on all processes. Collective.
+  MeshPart(Host &host, WallSpec &wall, const LawTable &laws, int index, Real force,
+           const Step &now) :
+      index(index),
+      spec(wall.meshes[index]), grid(host, wall, spec),
+      mover(make_mover(host, wall, laws, index, grid, force, now)), host_(host)
   {
   }
 
@@ -28,9 +28,7 @@ struct MeshPart {
   MeshSpec &spec;                      // in that of the wall; its motion may change later
   std::unique_ptr<MeshNodes> nodes;    // null: they do not move
   MeshGrid grid;
-  MeshMotion motion;
-  ServoController servo_controller;
-  std::unique_ptr<BodyMover> body;    // null: it is none
+  const std::unique_ptr<Mover> mover;
   std::unique_ptr<MeshWear> wear;    // null: it does not recede
 
   bool springs_are_foreign = false;    // those of a saved state are of another mesh
@@ -38,13 +36,11 @@ struct MeshPart {
   bool coat_feels_it = false;          // the coat of a body, which may be outside of the box
 
   const Servo &servo() const { return spec.motion.servo(); }
-  bool moves() const { return nodes || spec.motion.any(); }    // or was moved
-  bool changes_shape() const { return nodes || wear; }         // from step to step
-  bool has_coat() const { return body && spec.body.coat.present; }
+  bool moves() const { return nodes || mover->moves(); }    // or was moved
+  bool changes_shape() const { return nodes || wear; }      // from step to step
+  bool has_coat() const { return spec.body.present && spec.body.coat.present; }
 
-  // Returns where it is that much time from now. A servo stays; of a body the step that comes, once the last one is
-  // complete.
-  Pose pose_in(Real later) const { return body ? body->pose_in(later) : motion.pose_in(later); }
+  const Pose &pose() const { return mover->pose(); }    // in this step
 
   // In its own frame, in this step; null but on one process per node, where its nodes do not move.
   const WeldedMesh *mesh() const { return nodes ? &nodes->mesh() : grid.mesh(); }

@@ -8,6 +8,7 @@
 #include "engine/results.h"
 #include "host/host.h"
 #include "mesh/welded_mesh.h"
+#include "wall/mesh_state.h"
 #include "wall/wall_spec.h"
 
 #include <array>
@@ -15,14 +16,6 @@
 #include <vector>
 
 namespace lsdcd {
-
-// The shape of a mesh in a saved state.
-struct ShapeState {
-  std::vector<Real> vertices;    // x y z of each; empty: the mesh has no such wear
-  std::vector<Real> pending;     // four numbers of each: see MeshWear
-  std::vector<Real> held;        // of each: 1 where it stays
-  Real removed = 0, held_back = 0, carried = 0;    // length^3
-};
 
 class MeshWear {
  public:

@@ -11,8 +11,9 @@
 
 namespace lsdcd {
 
-void TimestepCheck::add_body(int mesh, Real mobility)
+void TimestepCheck::set_mobility(int mesh, Real mobility)
 {
+  if (mobility == 0 && static_cast<std::size_t>(mesh) >= mobility_.size()) return;
   mobility_.resize(std::max(mobility_.size(), static_cast<std::size_t>(mesh) + 1));
   mobility_[mesh] = mobility;
 }

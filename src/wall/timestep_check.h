@@ -21,8 +21,8 @@ class TimestepCheck {
   {
   }
 
-  // The mesh with this number, from 0, is a rigid body, with the largest n.K n of Mobility.
-  void add_body(int mesh, Real mobility);
+  // Sets the largest n.K n of Mobility of the mesh with this number, from 0; 0: it does not give way.
+  void set_mobility(int mesh, Real mobility);
 
   // `s` is in memory of the CPU. Warns where `dt` (time) is more than a tenth of the shortest contact time of the spheres, and again
   // where it is a tenth worse than what was warned of. Collective.

@@ -60,9 +60,8 @@ Wall::Wall(Host &host, WallSpec spec, const WallUnits &units, WallBackend backen
     grids_(host, spec_, laws_, meshes_, box_checks_, history_, times_)
 {
   for (std::size_t k = 0; k < spec_.meshes.size(); k++) {
-    MeshPart &m = meshes_.emplace_back(host_, spec_, laws_, static_cast<int>(k),
+    MeshPart &m = meshes_.emplace_back(host_, spec_, laws_, static_cast<int>(k), units.velocity,
                                        Step{clock.last_step, clock.dt});
-    if (m.spec.body.present) make_body(m, units.velocity);
     if (m.spec.has_nodes) {
       has_nodes_ = true;
       run_collectively(host_, true, [&] {
@@ -76,7 +75,7 @@ Wall::Wall(Host &host, WallSpec spec, const WallUnits &units, WallBackend backen
     check_pressure(spec_, m);
     check_plane(host_, spec_, m);
     check_stays_closed(host_, spec_, m);
-    check_motion(host_, spec_, m);
+    mover_is_new(m);
   }
   // Where the spheres are says it in place, and records of nodes that move stay with their engine.
   const bool is_fixed = backend_.in_place || has_nodes_;
@@ -103,22 +102,6 @@ Wall::Wall(Host &host, WallSpec spec, const WallUnits &units, WallBackend backen
                "blend, or one mesh of all triangles");
 }
 
-void Wall::make_body(MeshPart &m, Real force)
-{
-  has_bodies_ = true;
-  m.body = std::make_unique<BodyMover>(host_, spec_, laws_, m.index, m.grid, force);
-  m.spec.motion.begin_posed();
-  follow_body(m);
-}
-
-// What is made of a body's place and mobility, when it begins, changes or is restored.
-void Wall::follow_body(MeshPart &m)
-{
-  timestep_.add_body(m.index, m.body->most_mobility());
-  m.spec.motion.set_pose(m.body->body().pose());
-  m.motion.place();
-}
-
 void Wall::make_coats(Real force)
 {
   for (const MeshPart &m : meshes_) {
@@ -143,7 +126,7 @@ std::vector<int> Wall::inputs_read() const
 {
   std::vector<int> all;
   for (const MeshPart &m : meshes_)
-    for (const int input : m.motion.inputs()) all.push_back(input);
+    for (const int input : m.mover->inputs()) all.push_back(input);
   for (const MeshPart &m : meshes_)
     if (m.spec.temperature_input != kNoInput) all.push_back(m.spec.temperature_input);
   for (const MeshPart &m : meshes_)
@@ -171,11 +154,11 @@ EngineSettings Wall::engine_settings() const
   want.meshes = static_cast<int>(meshes_.size());
   want.moves = meshes_.size() > 1;
   for (const MeshPart &m : meshes_) {
-    want.moves |= m.nodes || m.motion.moves_or_varies();
+    want.moves |= m.nodes || m.mover->moves_or_varies();
     if (!want.surface.moves()) want.surface = m.spec.surface;
   }
   want.contacts = spec_.has_loads() || spec_.each_contact || virial_;
-  want.bodies = has_bodies_;
+  want.bodies = any_pushed_;
   want.nodes = has_nodes_;
   want.wear = spec_.wear.model;
   want.device = device_.device();
@@ -262,7 +245,7 @@ void Wall::begin(const HostSpheres &spheres, const StepInput &input)
   box_checks_.check_moving(grids_.box(), cutoff(), step);
   box_checks_.check_gone(grids_.box(), cutoff(), step.number);
   for (const MeshPart &m : meshes_)
-    if (engine_moves_) engine_->set_pose(m.motion.pose(), m.index);
+    if (engine_moves_) engine_->set_pose(m.pose(), m.index);
   if (input.new_spheres) {
     if (cutoff() > 0) timestep_.check(step.dt, on_cpu(spheres).all());
     look_at_range(spheres);
@@ -278,7 +261,7 @@ void Wall::begin_snapshot(int n, const Step &step)
 {
   const std::string a_replay = std::string("a ") + host_.names().replay;
   for (const MeshPart &m : meshes_) {
-    m.motion.check_snapshot(step);
+    m.mover->check_snapshot(step);
     if (m.wear)
       throw InputError(
           named(m, "in " + a_replay +
@@ -314,21 +297,14 @@ void Wall::check_history(int n)
 // Poses last: what servos ask for is of where meshes were.
 void Wall::move(const HostSpheres &spheres, const Step &step)
 {
-  if (has_bodies_) {
-    if (!range_is_known_) look_at_range(spheres);
-    complete_bodies();
-  }
-  for (MeshPart &m : meshes_) {
-    if (!m.motion.moves_or_varies()) continue;
-    const Real passed = m.motion.advance(step, input_.inputs);
-    if (step.kind != Step::step || passed == 0 || !m.servo_controller.acts()) continue;
-    if (!range_is_known_) look_at_range(spheres);
-    m.servo_controller.advance(servo_load(m.index), m.motion.pose_without_servo(), passed,
-                               step.number);
-  }
-  if (has_bodies_) advance_bodies(step);
+  if (any_pushed_ && !range_is_known_) look_at_range(spheres);
+  complete_movers();
   for (MeshPart &m : meshes_)
-    if (m.motion.moves_or_varies()) m.motion.place();
+    m.mover->advance(step, input_.inputs, [&] {
+      if (!range_is_known_) look_at_range(spheres);
+      return servo_load(m.index);
+    });
+  for (MeshPart &m : meshes_) m.mover->place();
   for (MeshPart &m : meshes_) {
     if (m.nodes)
       m.nodes->begin_step(step, cutoff());
@@ -352,22 +328,25 @@ void Wall::choose_device()
             std::to_string(device_.least_for_gpu()) + " on");
 }
 
-// Inputs still have the values of the step before.
-void Wall::complete_bodies()
+// Gives bodies the second half of the last step, before others ask for it. Inputs still have its values.
+void Wall::complete_movers()
 {
-  const auto pending = [](const MeshPart &m) { return m.body && !m.body->is_complete(); };
-  if (std::none_of(meshes_.begin(), meshes_.end(), pending)) return;
+  if (!any_pushed_ || std::none_of(meshes_.begin(), meshes_.end(),
+                                   [](const MeshPart &m) { return m.mover->is_half_done(); }))
+    return;
   const Real *g = input_.gravity;
   const Vec3 gravity = g ? Vec3{g[0], g[1], g[2]} : Vec3{0, 0, 0};
   for (MeshPart &m : meshes_) {
-    if (!m.body) continue;
-    m.body->complete(sums().mesh(m.index), gravity);
-    totals_.set_power(m.index, m.body->body().pose());
+    if (!m.mover->is_half_done()) continue;
+    totals_.set_power(m.index, m.mover->complete(sums().mesh(m.index), gravity));
   }
   for (MeshPart &m : meshes_)
-    if (m.body)
-      m.body->check_step(sums().mesh(m.index), range_, coat_load(m.index),
-                         [&](bool of_coat) { return rates_of_touched(m, of_coat); });
+    m.mover->check_step(touch(m), [&](bool of_coat) { return rates_of_touched(m, of_coat); });
+}
+
+Touch Wall::touch(const MeshPart &m)
+{
+  return {sums().mesh(m.index), range_, coat_load(m.index)};
 }
 
 // The largest of the bodies that the mesh's coat touches, or whose coats touch it.
@@ -376,8 +355,7 @@ ModeRates Wall::rates_of_touched(const MeshPart &m, bool of_coat)
   ModeRates most;
   for (const MeshPart &other : meshes_) {
     if (!(coat_load(m.index).bodies >> other.index & 1)) continue;
-    const ModeRates of =
-        other.body->rates(sums().mesh(other.index), range_, coat_load(other.index), of_coat);
+    const ModeRates of = other.mover->rates(touch(other), of_coat);
     most = {std::max(most.stiffness, of.stiffness), std::max(most.damping, of.damping)};
   }
   return most;
@@ -393,41 +371,22 @@ void Wall::step_coats(const Step &step)
   times_.end(TimeReport::forces);
 }
 
-void Wall::advance_bodies(const Step &step)
-{
-  for (MeshPart &m : meshes_) {
-    if (!m.body) continue;
-    if (step.kind == Step::step) m.body->advance(step.dt);
-    m.spec.motion.set_pose(m.body->body().pose());
-  }
-}
-
-// Notes the loads of this process: sums over all are made when they are asked for.
-void Wall::note_step_of_bodies(const Step &step)
-{
-  for (MeshPart &m : meshes_) {
-    if (!m.body) continue;
-    m.body->note_step(step.kind == Step::step ? step.dt : 0);
-    if (cutoff() > 0 && m.body->asks_for_contacts()) m.body->sum_contacts(engine_->results());
-  }
-}
-
 bool Wall::any_servo_acts() const
 {
   return std::any_of(meshes_.begin(), meshes_.end(),
-                     [](const MeshPart &m) { return m.servo_controller.acts(); });
+                     [](const MeshPart &m) { return m.mover->servo_acts(); });
 }
 
-bool Wall::any_body_asks_for_contacts() const
+bool Wall::any_mover_asks_for_contacts() const
 {
   return std::any_of(meshes_.begin(), meshes_.end(),
-                     [](const MeshPart &m) { return m.body && m.body->asks_for_contacts(); });
+                     [](const MeshPart &m) { return m.mover->asks_for_contacts(); });
 }
 
 const BodyMover *Wall::body(int mesh)
 {
-  if (has_bodies_) complete_bodies();
-  return meshes_[mesh].body.get();
+  complete_movers();
+  return meshes_[mesh].mover->body();
 }
 
 void Wall::look_at_spheres(const HostSpheres &spheres, std::int64_t step)
@@ -461,8 +420,8 @@ void Wall::check_points(const HostSpheres &spheres)
 // The range of spheres that can touch.
 void Wall::look_at_range(const HostSpheres &spheres)
 {
-  if (!has_bodies_ && std::none_of(meshes_.begin(), meshes_.end(),
-                                   [](const MeshPart &m) { return m.servo().present; }))
+  if (std::none_of(meshes_.begin(), meshes_.end(),
+                   [](const MeshPart &m) { return m.mover->is_pushed() || m.mover->has_servo(); }))
     return;
   const HostSpheres s = on_cpu(spheres).all();
   Real most[3] = {0, 0, -INFINITY};
@@ -497,20 +456,19 @@ StepSettings Wall::step_settings()
   step.dt = input_.step.dt;
   step.update_history = input_.step.kind == Step::step;
   step.synchronous = input_.step.synchronous;
-  const bool asked = has_bodies_ && any_body_asks_for_contacts();
+  const bool asked = any_mover_asks_for_contacts();
   step.per_sphere = spec_.contacts || spec_.each_contact || asked;
   step.contacts = spec_.has_loads() || spec_.each_contact || input_.virial || asked;
-  step.totals = has_bodies_ || any_servo_acts() || spec_.average_every > 0;
+  step.totals = any_pushed_ || any_servo_acts() || spec_.average_every > 0;
   const bool several = meshes_.size() > 1;
   if (several || spec_.meshes.front().surface_varies()) {
     surfaces_.clear();
-    for (const MeshPart &m : meshes_) surfaces_.push_back(m.motion.surface());
+    for (const MeshPart &m : meshes_) surfaces_.push_back(m.mover->surface());
     step.surface = surfaces_.data();
   }
-  if (has_bodies_) {
+  if (any_pushed_) {
     mobilities_.clear();
-    for (const MeshPart &m : meshes_)
-      mobilities_.push_back(m.body ? m.body->mobility() : Mobility());
+    for (const MeshPart &m : meshes_) mobilities_.push_back(m.mover->mobility());
     step.mobility = mobilities_.data();
   }
   if (has_nodes_) {
@@ -538,7 +496,7 @@ void Wall::choose_if_due(const Spheres &spheres)
   }
   std::vector<MovingMesh> moving;
   for (const MeshPart &m : meshes_)
-    if (m.moves() && !m.nodes) moving.push_back({m.motion.pose(), m.bounds(cutoff())});
+    if (m.moves() && !m.nodes) moving.push_back({m.pose(), m.bounds(cutoff())});
   if (!engine_->choose_if_due(spheres, input_.drift, moving)) return;
   for (MeshPart &m : meshes_)
     if (m.nodes) m.nodes->note_choice();
@@ -667,7 +625,7 @@ void Wall::collect(const HostSpheres &spheres)
     search_.count_step(step.kind != Step::step);
   }
   totals_.expire();
-  if (has_bodies_) note_step_of_bodies(step);
+  for (MeshPart &m : meshes_) m.mover->end(step, cutoff() > 0 ? &engine_->results() : nullptr);
   if (has_nodes_) sum_node_forces(spheres);
 }
 
@@ -739,7 +697,7 @@ void Wall::check_new_spheres(const HostSpheres &spheres)
 
 void Wall::end_run(const HostSpheres &spheres, bool far, const std::string &advice, Real loop)
 {
-  if (has_bodies_) complete_bodies();
+  complete_movers();
   poll_diagnostics(spheres);
   Real worst = overlaps_.worst();
   host_.max(&worst, 1);
@@ -756,7 +714,7 @@ void Wall::end_run(const HostSpheres &spheres, bool far, const std::string &advi
 
 const StepTotals &Wall::totals()
 {
-  if (has_bodies_) complete_bodies();
+  complete_movers();
   return sums();
 }
 
@@ -772,7 +730,7 @@ const StepTotals &Wall::sums()
 std::vector<Pose> Wall::poses() const
 {
   std::vector<Pose> all;
-  for (const MeshPart &m : meshes_) all.push_back(m.motion.pose());
+  for (const MeshPart &m : meshes_) all.push_back(m.pose());
   return all;
 }
 
@@ -788,7 +746,7 @@ std::vector<NodeLoad> Wall::node_loads()
 
 Real Wall::servo_push(int mesh)
 {
-  return meshes_[mesh].servo_controller.push(servo_load(mesh));
+  return meshes_[mesh].mover->servo_push(servo_load(mesh));
 }
 
 // The arm goes from the wall's closest point to the sphere's centre.
@@ -796,7 +754,7 @@ void Wall::add_virial(Real *virial) const
 {
   if (cutoff() == 0) return;
   for (const StepContact &contact : engine_->results().contacts()) {
-    const Pose &pose = meshes_[contact.mesh].motion.pose();
+    const Pose &pose = meshes_[contact.mesh].pose();
     const Vec3 r = pose.turn_to_box(contact.arm), f = -pose.turn_to_box(contact.force);
     const Real part[6] = {r.x * f.x, r.y * f.y, r.z * f.z, r.x * f.y, r.x * f.z, r.y * f.z};
     for (int c = 0; c < 6; c++) virial[c] += part[c];
@@ -819,7 +777,7 @@ void Wall::for_contacts(const std::function<void(const WallContact &)> &found) c
   const StepContact *contact = engine_->results().contacts().data();
   for (const TouchingSphere &t : engine_->results().touching())
     for (int n = 0; n < t.n_contacts; n++, contact++) {
-      const Pose &pose = meshes_[contact->mesh].motion.pose();
+      const Pose &pose = meshes_[contact->mesh].pose();
       const Vec3 arm = pose.turn_to_box(contact->arm);
       found({t.sphere, static_cast<int>(contact->mesh), -pose.turn_to_box(contact->force),
              t.x - arm, t.radius - norm(arm)});
@@ -830,7 +788,7 @@ void Wall::write_due_files()
 {
   times_.begin();
   std::vector<PosedMesh> meshes;
-  for (const MeshPart &m : meshes_) meshes.push_back({m.mesh(), m.motion.pose()});
+  for (const MeshPart &m : meshes_) meshes.push_back({m.mesh(), m.pose()});
   const bool has_loads = input_.step.kind != Step::snapshot;
   files_.write_due(input_.step.number, static_cast<double>(clock_.now()), meshes,
                    has_loads ? &loads_ : nullptr);
@@ -847,63 +805,28 @@ void Wall::set_inputs(const InputNames &inputs)
 void Wall::set_motion(int mesh, const RigidMotion &motion, const Step &now)
 {
   MeshPart &m = meshes_[mesh];
-  check_may_move(m);
-  m.motion.set(motion, now);
-  motion_has_changed(m);
-  log_change(m, "motion " + (motion.moves() ? m.motion.text(m.bounds(0)) : "none"));
-}
-
-std::string Wall::why_it_takes_no_motion(int mesh) const
-{
-  const MeshPart &m = meshes_[mesh];
-  if (m.body)
-    return "a body moves by what acts on it, so it cannot have a motion, a servo or a pose";
-  if (m.nodes)
-    return "its nodes alone move this mesh, so it cannot have a motion, a servo or a pose";
-  return "";
-}
-
-void Wall::check_may_move(const MeshPart &m) const
-{
-  const std::string why = why_it_takes_no_motion(m.index);
-  if (!why.empty()) throw InputError(named(m, why));
-}
-
-void Wall::check_is_body(int mesh) const
-{
-  const MeshPart &m = meshes_[mesh];
-  if (!m.body)
-    throw InputError(named(m, "the mesh is not a body, and cannot become one later: make it a body "
-                              "when the wall is made"));
+  m.mover->set_motion(motion, now);
+  mover_has_changed(m);
+  log_change(m, "motion " + (motion.moves() ? m.mover->text(m.bounds(0)) : "none"));
 }
 
 void Wall::set_body(int mesh, const BodySpec &to)
 {
-  check_is_body(mesh);
   MeshPart &m = meshes_[mesh];
-  complete_bodies();
-  m.body->set(to);
-  follow_body(m);
-  motion_has_changed(m);
-  log_change(m, "body " + m.body->text());
-}
-
-void Wall::set_pose(int mesh, const Pose &pose)
-{
-  MeshPart &m = meshes_[mesh];
-  check_may_move(m);
-  m.spec.motion.set_pose(pose);
+  m.mover->check_is_body();
+  complete_movers();
+  m.mover->set_body(to);
+  mover_has_changed(m);
+  log_change(m, "body " + m.mover->body_text());
 }
 
 void Wall::set_servo(int mesh, const Servo &servo)
 {
   MeshPart &m = meshes_[mesh];
-  check_may_move(m);
-  m.motion.set(servo);
-  m.servo_controller.begin_anew();
+  m.mover->set_servo(servo);
   range_is_known_ = false;    // a run without setup looks then
-  motion_has_changed(m);
-  log_change(m, "servo " + (servo.present ? servo_text(servo, spec_.inputs) : "none"));
+  mover_has_changed(m);
+  log_change(m, "servo " + (servo.present ? m.mover->servo_text() : "none"));
 }
 
 void Wall::log_change(const MeshPart &m, const std::string &text)
@@ -911,11 +834,19 @@ void Wall::log_change(const MeshPart &m, const std::string &text)
   if (!spec_.brief) host_.log(named(m, text));
 }
 
-// Laws for a wall at rest do not know where it is.
-void Wall::motion_has_changed(const MeshPart &m)
+// Checks and notes what is so of a mover that was made, changed or restored.
+void Wall::mover_is_new(const MeshPart &m)
 {
+  if (host_.box().dimension == 2) m.mover->check_plane();
+  any_pushed_ |= m.mover->is_pushed();
+  timestep_.set_mobility(m.index, m.mover->most_mobility());
+}
+
+// Laws for a wall at rest do not know where it is.
+void Wall::mover_has_changed(const MeshPart &m)
+{
+  mover_is_new(m);
   engine_->expire_choice();
-  check_motion(host_, spec_, m);
   if (any_moves() && !engine_moves_) make_engine_anew();
 }
 
@@ -939,21 +870,19 @@ MeshIdentity Wall::identity_of(const MeshPart &m)
 
 WallState Wall::save()
 {
-  if (has_bodies_) complete_bodies();
+  complete_movers();
   WallState all;
   all.history_kind = static_cast<Real>(spec_.law().history_kind());
   all.time = clock_.now();
   for (const MeshPart &m : meshes_) {
     const MeshLoads loads = loads_.gathered(m.index);
-    all.meshes.push_back({identity_of(m),
-                          m.motion.state(),
-                          {loads.time(), loads.packed()},
-                          m.body ? m.body->state() : BodyState(),
-                          m.nodes ? m.nodes->save() : NodeState(),
-                          {},
-                          m.wear ? m.wear->save(m.grid.mesh()) : ShapeState(),
-                          {},
-                          {{sums().mesh(m.index), coat_load(m.index)}}});
+    MeshState &to = all.meshes.emplace_back();
+    to.mesh = identity_of(m);
+    to.loads = {loads.time(), loads.packed()};
+    if (m.nodes) to.nodes = m.nodes->save();
+    if (m.wear) to.shape = m.wear->save(m.grid.mesh());
+    to.last = {{sums().mesh(m.index), coat_load(m.index)}};
+    m.mover->save(to);
   }
   if (spec_.average_every > 0) {
     const std::vector<MeanLoadState> means = means_.save();
@@ -971,10 +900,7 @@ void Wall::restore(const WallState &was, const Step &now)
   const bool one_of_many = here > 1 || there > 1;
   const std::string saved = host_.names().saved;
   for (std::size_t k = 0; k < std::min(there, here); k++)
-    if (is_restored(meshes_[k], was.meshes[k], one_of_many)) {
-      meshes_[k].motion.check(was.meshes[k].motion);
-      if (meshes_[k].body) meshes_[k].body->check(was.meshes[k].body);
-    }
+    if (is_restored(meshes_[k], was.meshes[k], one_of_many)) meshes_[k].mover->check(was.meshes[k]);
   continued_ = true;
   files_.continue_lists();
   history_.set_kind_of_file(was.history_kind);
@@ -1023,23 +949,8 @@ bool Wall::is_restored(const MeshPart &m, const MeshState &was, bool one_of_many
 
 void Wall::restore_mesh(MeshPart &m, const MeshState &was, const Step &now)
 {
-  const std::string saved = host_.names().saved;
-  if (!m.nodes) m.motion.restore(was.motion, now);
+  m.mover->restore(was, now);
   restore_nodes(m, was.nodes);
-  if (m.body) {
-    m.body->restore(was.body);
-    follow_body(m);
-  } else if (m.nodes) {
-    if (!is_same_place(was.motion.last, Pose()))
-      host_.warn(named(m, "the " + saved +
-                              " was written when something else moved this mesh, and now its nodes "
-                              "do: they begin at the vertices of its file"));
-  } else if (was.body.present || (was.motion.was_posed() && !m.spec.motion.is_posed())) {
-    host_.warn(named(m, "the " + saved +
-                            (was.body.present ? " has a body" : " has a pose of the program") +
-                            " for this mesh, and " + host_.names().wall +
-                            " has none: the mesh goes on from where it was"));
-  }
   for (BodyCoat &coat : coats_)
     if (coat.mesh() == m.index) coat.restore(was.coat);
   restore_shape(m, was.shape);
@@ -1048,7 +959,7 @@ void Wall::restore_mesh(MeshPart &m, const MeshState &was, const Step &now)
     totals_.restore(m.index, was.last.front().totals);
     coat_loads_[m.index] = was.last.front().coat;
   }
-  motion_has_changed(m);
+  mover_has_changed(m);
   if (!spec_.has_loads(m.spec)) return;
   if (m.springs_are_foreign)
     host_.warn("loads and wear begin at zero: the " + std::string(host_.names().saved) +

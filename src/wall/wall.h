@@ -162,7 +162,10 @@ class Wall {
   // Sets the names of inputs, which begin with those that there are.
   void set_inputs(const InputNames &inputs);
   // Returns why this mesh takes no motion, servo or pose, or an empty text if it takes them. Local.
-  std::string why_it_takes_no_motion(int mesh) const;
+  std::string why_it_takes_no_motion(int mesh) const
+  {
+    return meshes_[mesh].mover->why_no_motion();
+  }
   // Moves a mesh by another motion from where it is, or stops it by a motion without terms. Its servo goes on; the servo of
   // `motion` is not read.
   void set_motion(int mesh, const RigidMotion &motion, const Step &now);
@@ -173,10 +176,11 @@ class Wall {
   // where the body is, without a jump. With another joint its coordinate begins at 0 there, and what the joint allows
   // of its velocity goes on. The rest of `to` is not looked at.
   void set_body(int mesh, const BodySpec &to);
-  void check_is_body(int mesh) const;    // throws InputError. Local.
+  // Throws InputError where it is none. Local.
+  void check_is_body(int mesh) const { meshes_[mesh].mover->check_is_body(); }
   // Sets the pose, for the next step and those after it, of a mesh whose motion is_posed(), and that is no body and has no
   // nodes. Local.
-  void set_pose(int mesh, const Pose &pose);
+  void set_pose(int mesh, const Pose &pose) { meshes_[mesh].mover->set_pose(pose); }
   // Sets places (length) and velocities (length/time) of the nodes of a mesh that has_nodes, x y z, node after node, for the
   // next step and those after it. Velocities are of the same time as those of spheres, or all 0 where `v` is null. All
   // processes give the same numbers. Local.
@@ -204,8 +208,6 @@ class Wall {
  private:
   EngineSettings engine_settings() const;
   void make_engine();
-  void make_body(MeshPart &m, Real force);
-  void follow_body(MeshPart &m);
   void make_coats(Real force);
   void make_engine_anew();
   void log_creation(const std::string &material, const WallBackend &backend) const;
@@ -227,9 +229,9 @@ class Wall {
   void look_at_range(const HostSpheres &spheres);
   ServoLoad servo_load(int mesh);
   bool any_servo_acts() const;
-  bool any_body_asks_for_contacts() const;
-  void complete_bodies();
-  void advance_bodies(const Step &step);
+  bool any_mover_asks_for_contacts() const;
+  void complete_movers();
+  Touch touch(const MeshPart &m);    // in the last step
   void build_node_grids();
   void turn_springs(int n);
   void collect(const HostSpheres &spheres);
@@ -238,7 +240,6 @@ class Wall {
   std::vector<Pose> poses() const;
   std::vector<NodeLoad> node_loads();
   Real pressure(int mesh) const;    // in this step, in units of forces
-  void note_step_of_bodies(const Step &step);
   void step_coats(const Step &step);
   // On this mesh in the last step.
   const CoatLoad &coat_load(int mesh) const { return coat_loads_[mesh]; }
@@ -250,9 +251,9 @@ class Wall {
   StepDiagnostics read_diagnostics(const HostSpheres &spheres);
   void check_new_spheres(const HostSpheres &spheres);
 
-  void check_may_move(const MeshPart &m) const;
   void log_change(const MeshPart &m, const std::string &text);
-  void motion_has_changed(const MeshPart &m);
+  void mover_is_new(const MeshPart &m);
+  void mover_has_changed(const MeshPart &m);
   static MeshIdentity identity_of(const MeshPart &m);
   bool is_restored(const MeshPart &m, const MeshState &was, bool one_of_many) const;
   void restore_mesh(MeshPart &m, const MeshState &was, const Step &now);
@@ -267,7 +268,7 @@ class Wall {
   StepClock clock_;
   Real pressure_unit_;             // of inputs
   std::deque<MeshPart> meshes_;    // where each stays; there is one at least
-  bool has_bodies_ = false, has_nodes_ = false;
+  bool any_pushed_ = false, has_nodes_ = false;
   std::deque<BodyCoat> coats_;          // of bodies that have one
   std::vector<CoatLoad> coat_loads_;    // of each mesh, in the last step; all 0 without coats
   DeviceChoice device_;

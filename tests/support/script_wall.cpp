@@ -87,7 +87,7 @@ double ScriptWall::removed(int mesh) const
 
 std::vector<double> ScriptWall::body(int mesh)
 {
-  const RigidBody &body = in_->wall->body(mesh)->body();
+  const RigidBody &body = in_->wall->body(mesh)->rigid();
   std::vector<double> all;
   const auto put = [&](const Vec3 &v) { all.insert(all.end(), {v.x, v.y, v.z}); };
   put(body.centre());

@@ -84,7 +84,7 @@ WallSpec wall_of(std::vector<MeshSpec> meshes)
 struct Scene : WallScene {
   using WallScene::WallScene;
 
-  const RigidBody &body(int mesh) { return wall->body(mesh)->body(); }
+  const RigidBody &body(int mesh) { return wall->body(mesh)->rigid(); }
   // Kinetic, of the height and of contacts.
   Real energy(int mesh)
   {

@@ -152,7 +152,7 @@ struct Scene : WallScene {
       all.push_back(totals.mesh(m.index).energy);
       const BodyMover *body = wall->body(m.index);
       if (!body) continue;
-      const RigidBody &b = body->body();
+      const RigidBody &b = body->rigid();
       put(b.centre());
       put(b.velocity());
       put(b.omega());
@@ -176,7 +176,7 @@ void expect_same_bits(FakeHost &host, const WallSpec &spec, int steps)
 {
   FakeHost &other_host = host;
   Scene cpu(host, spec, WallBackend()), device(other_host, spec, tested());
-  const Pose begins = cpu.wall->body(spec.meshes.size() - 1)->body().pose();
+  const Pose begins = cpu.wall->body(spec.meshes.size() - 1)->rigid().pose();
   cpu.set_up();
   device.set_up();
   for (int k = 0; k < steps; k += 100) {
@@ -186,7 +186,7 @@ void expect_same_bits(FakeHost &host, const WallSpec &spec, int steps)
     ASSERT_TRUE(same_bits(a, b)) << "by step " << k + 100;
   }
   EXPECT_GT(cpu.n_pushed, steps / 10);    // spheres times steps
-  const Pose ends = cpu.wall->body(spec.meshes.size() - 1)->body().pose();
+  const Pose ends = cpu.wall->body(spec.meshes.size() - 1)->rigid().pose();
   EXPECT_GT(norm(ends.row[0] - begins.row[0]) + norm(ends.row[1] - begins.row[1]), 0.01);
 }
 

@@ -42,7 +42,7 @@ WallSpec cube(const Joint &joint = Joint())
 struct Scene : WallScene {
   using WallScene::WallScene;
 
-  const RigidBody &body() { return wall->body(0)->body(); }
+  const RigidBody &body() { return wall->body(0)->rigid(); }
 };
 
 // Light, and pressed by a motor: what pushes down on it pushes it into its stop. A hinge that is not above it has the other
@@ -291,7 +291,7 @@ TEST(mesh_body, leaves_its_mesh_where_it_was_where_it_is_none_after_a_restart)
   spec.meshes[0].body = BodySpec();
   Scene second(other, spec);
   second.wall->restore(first.wall->save(), {first.now, kDt});
-  EXPECT_NEAR(second.wall->meshes()[0].motion.pose().to_box({0, 0, 0}).x, 0.5, 1e-14);
+  EXPECT_NEAR(second.wall->meshes()[0].pose().to_box({0, 0, 0}).x, 0.5, 1e-14);
   ASSERT_EQ(other.warnings.size(), 1u);
   EXPECT_NE(other.warnings[0].find("has a body for this mesh"), std::string::npos);
 }

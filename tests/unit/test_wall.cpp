@@ -322,7 +322,7 @@ TEST(Wall, moves_its_mesh_by_the_inputs_of_a_step)
   scene.inputs = {0.02, 0.5, 7};
   scene.set_up();
   EXPECT_NEAR(scene.grains.force[0].z, kN * 0.03, kN * kRounding);
-  EXPECT_EQ(scene.wall->meshes()[0].motion.pose().velocity.z, 0.5);
+  EXPECT_EQ(scene.wall->meshes()[0].pose().velocity.z, 0.5);
 }
 
 TEST(Wall, takes_no_words_but_its_own)

@@ -7,7 +7,6 @@
 #include "base/input_words.h"
 #include "base/vector_text.h"
 #include "law/contact_slope.h"
-#include "wall/mesh_name.h"
 
 #include <algorithm>
 #include <cmath>
@@ -61,12 +60,12 @@ Real largest_in(const Mobility &m, const Box &box)
 
 }    // namespace
 
-BodyMover::BodyMover(Host &host, WallSpec &wall, const LawTable &laws, int mesh, const MeshGrid &grid,
-                   Real force) :
-    host_(host),
-    wall_(wall), laws_(laws), mesh_(mesh), grid_(grid), force_(force)
+BodyMover::BodyMover(Host &host, WallSpec &wall, const LawTable &laws, int mesh,
+                     const MeshGrid &grid, Real force, const Step &now) :
+    Mover(host, wall, mesh, now),
+    laws_(laws), grid_(grid), force_(force)
 {
-  BodySpec &s = wall_.meshes[mesh].body;
+  BodySpec &s = spec().body;
   if (s.density > 0) {
     run_collectively(host, host.rank() == 0,
                      [&] { s.mass = mass_properties(*grid.mesh(), s.density); });
@@ -78,11 +77,12 @@ BodyMover::BodyMover(Host &host, WallSpec &wall, const LawTable &laws, int mesh,
   } catch (const InputError &e) {
     throw InputError(named(e.what()));
   }
+  motion().begin_posed();
   go_on(s, body);
   ask_about_degrees();
 }
 
-void BodyMover::check(const BodySpec &to, const RigidBody &as) const
+void BodyMover::check_as(const BodySpec &to, const RigidBody &as) const
 {
   try {
     check_body(to, as.coordinate());
@@ -93,8 +93,8 @@ void BodyMover::check(const BodySpec &to, const RigidBody &as) const
 
 void BodyMover::go_on(const BodySpec &to, const RigidBody &as)
 {
-  check(to, as);
-  wall_.meshes[mesh_].body = to;
+  check_as(to, as);
+  spec().body = to;
   body_ = as;
   body_.drive = to.drive;
   body_.hold_at_stop();
@@ -103,11 +103,13 @@ void BodyMover::go_on(const BodySpec &to, const RigidBody &as)
   bound_of_mobility_ = largest_in(mobility_, {r.lo, r.hi});
   most_mobility_ = grid_.mesh() ? largest_on_faces(mobility_, *grid_.mesh()) : 0;
   host_.max(&most_mobility_, 1);
+  motion().set_pose(body_.pose());
+  place();
 }
 
-void BodyMover::set(const BodySpec &to)
+void BodyMover::set_body(const BodySpec &to)
 {
-  const BodySpec was = spec();
+  const BodySpec was = body_spec();
   BodySpec now = was;
   now.joint = to.joint;
   now.drive = to.drive;
@@ -130,8 +132,8 @@ void BodyMover::set(const BodySpec &to)
 // Degrees are mostly whole or half; a number of turns, as 62.83, is not.
 void BodyMover::ask_about_degrees() const
 {
-  const Joint &joint = spec().joint;
-  const Real lo = spec().drive.lo, hi = spec().drive.hi, turns = (hi - lo) / (2 * kPi);
+  const Joint &joint = body_spec().joint;
+  const Real lo = body_spec().drive.lo, hi = body_spec().drive.hi, turns = (hi - lo) / (2 * kPi);
   const auto may_be_degrees = [](Real limit) { return 2 * limit == std::floor(2 * limit); };
   if (joint.kind != JointKind::hinge || !std::isfinite(turns) || !(turns > 1) ||
       !may_be_degrees(lo) || !may_be_degrees(hi))
@@ -142,11 +144,6 @@ void BodyMover::ask_about_degrees() const
                    " " + number_text(hi * kPi / 180)));
 }
 
-std::string BodyMover::named(const std::string &text) const
-{
-  return with_mesh_name(wall_, mesh_, text);
-}
-
 Real BodyMover::spring_and_kinetic_energy() const
 {
   return body_.kinetic_energy() + body_.spring_energy();
@@ -154,36 +151,42 @@ Real BodyMover::spring_and_kinetic_energy() const
 
 // ---- a step ------------------------------------------------------------------------------
 
-void BodyMover::advance(Real dt)
+void BodyMover::advance(const Step &to, const std::vector<Real> &inputs,
+                        const LastLoad & /* load */)
 {
-  body_.kick(dt / 2, load_);
-  body_.drift(dt);
+  motion_.advance(to, inputs);
+  if (to.kind == Step::step) {
+    body_.kick(to.dt / 2, load_);
+    body_.drift(to.dt);
+  }
+  motion().set_pose(body_.pose());
 }
 
-Pose BodyMover::pose_in(Real dt) const
+Pose BodyMover::pose_in(Real later) const
 {
   RigidBody next = body_;
-  next.kick(dt / 2, load_);
-  next.drift(dt);
+  next.kick(later / 2, load_);
+  next.drift(later);
   return next.pose();
 }
 
-void BodyMover::note_step(Real dt)
+void BodyMover::end(const Step &step, const StepResults *results)
 {
-  dt_ = dt;
+  dt_ = step.kind == Step::step ? step.dt : 0;    // no time passes where a run is set up
   pending_ = true;
+  if (results && asks_for_contacts_) sum_contacts(*results);
 }
 
-void BodyMover::complete(const MeshTotals &contacts, const Vec3 &gravity)
+Pose BodyMover::complete(const MeshTotals &contacts, const Vec3 &gravity)
 {
-  if (!pending_) return;
   pending_ = false;
-  const BodySpec &s = spec();
+  const BodySpec &s = body_spec();
   body_.drive.motor = s.drive.motor;
   const Vec3 at_centre = s.load + s.mass.mass * (s.has_gravity ? s.gravity : gravity);
   load_.force = contacts.force + at_centre;
   load_.torque = contacts.torque_at_origin + cross(body_.centre(), at_centre) + s.moment;
   body_.kick(dt_ / 2, load_);
+  return body_.pose();
 }
 
 // ---- the timestep ------------------------------------------------------------------------
@@ -199,8 +202,10 @@ ContactSum BodyMover::spring() const
 }
 
 // A bound: all contacts as stiff as any can be, where the body gives way most.
-ModeRates BodyMover::of_spheres(const MeshTotals &contacts, const SphereRange &spheres) const
+ModeRates BodyMover::of_spheres(const Touch &touch) const
 {
+  const MeshTotals &contacts = touch.contacts;
+  const SphereRange &spheres = touch.spheres;
   ContactSlope one;
   for (int kind = 0; kind < laws_.kinds && contacts.contacts > 0; kind++) {
     const ContactSlope of =
@@ -214,33 +219,32 @@ ModeRates BodyMover::of_spheres(const MeshTotals &contacts, const SphereRange &s
   return {of_all * one.stiffness, of_all * one.damping};
 }
 
-ModeRates BodyMover::rates(const MeshTotals &contacts, const SphereRange &spheres,
-                          const CoatLoad &coat, bool of_coat) const
+ModeRates BodyMover::rates(const Touch &touch, bool of_coat) const
 {
-  ModeRates all = of_spheres(contacts, spheres);
+  ModeRates all = of_spheres(touch);
   if (is_held()) return all;
   ContactSum stiffness = spring();
   if (!of_coat) {
     all.stiffness += stiffness.largest(mobility_);
-    all += coat.most;
+    all += touch.coat.most;
     return all;
   }
-  stiffness += coat.stiffness;
-  all += {stiffness.largest(mobility_), coat.damping.largest(mobility_)};
+  stiffness += touch.coat.stiffness;
+  all += {stiffness.largest(mobility_), touch.coat.damping.largest(mobility_)};
   return all;
 }
 
 // Bounds first. A contact of two bodies, the squared rates of whose modes are a and b on their own, makes none faster
 // than a + b: k (p + q)^2 <= k (1 + b/a) p^2 + k (1 + a/b) q^2 for the parts p and q of its overlap.
-void BodyMover::check_step(const MeshTotals &contacts, const SphereRange &spheres,
-                          const CoatLoad &coat,
-                          const std::function<ModeRates(bool of_coat)> &of_others)
+void BodyMover::check_step(const Touch &touch, const RatesOfOthers &of_others)
 {
+  const MeshTotals &contacts = touch.contacts;
+  const CoatLoad &coat = touch.coat;
   const bool has_contacts = has_contacts_;
   has_contacts_ = asks_for_contacts_ = false;
   if (dt_ == 0) return;
   for (const bool of_coat : {false, true}) {
-    ModeRates bound = rates(contacts, spheres, coat, of_coat);
+    ModeRates bound = rates(touch, of_coat);
     bound += of_others(of_coat);
     if (dt_ < longest_step(bound)) return;
   }
@@ -309,18 +313,18 @@ void BodyMover::fail_step(Real longest, Real contacts) const
 {
   throw InputError(named("the timestep " + number_text(dt_) + " is not below " +
                          number_text(longest) + ", with which the body of mass " +
-                         number_text(spec().mass.mass) + " on " + number_text(contacts) +
+                         number_text(body_spec().mass.mass) + " on " + number_text(contacts) +
                          " contacts would be stable: make the timestep shorter, the body heavier, "
                          "or contacts and spring softer"));
 }
 
 // ---- the log and restarts ----------------------------------------------------------------
 
-std::string BodyMover::text() const
+std::string BodyMover::body_text() const
 {
-  const MassProperties &p = spec().mass;
+  const MassProperties &p = body_spec().mass;
   const SymmetricMatrix &i = p.inertia;
-  const Joint &j = spec().joint;
+  const Joint &j = body_spec().joint;
   std::string t = "mass " + number_text(p.mass) + " com " + vector_text(p.centre) + " inertia " +
                   vector_text({i.xx, i.yy, i.zz}) + " " + vector_text({i.xy, i.xz, i.yz}) +
                   ", joint " + kJointNames[static_cast<int>(j.kind)];
@@ -329,14 +333,31 @@ std::string BodyMover::text() const
   return t;
 }
 
-BodyState BodyMover::state() const
+void BodyMover::check_plane() const
 {
-  return {true, spec().mass, spec().joint, body_.state(), load_};
+  if (!body_spec().joint.keeps({0, 0, 1}))
+    throw InputError(
+        named("in two dimensions a body needs a joint that keeps it in the plane z = 0: "
+              "hinge or planar along z, or slider in the plane"));
+}
+
+void BodyMover::check_snapshot(const Step & /* at */) const
+{
+  throw InputError(
+      named("in a " + std::string(host_.names().replay) +
+            " the position of a body is not known, because it follows from the loads of all steps "
+            "before: leave body out, and give its positions by motion variable"));
+}
+
+void BodyMover::save(MeshState &to) const
+{
+  Mover::save(to);
+  to.body = {true, body_spec().mass, body_spec().joint, body_.state(), load_};
 }
 
 RigidBody BodyMover::continued(const BodyState &was) const
 {
-  RigidBody body(body_.mass(), spec().joint);
+  RigidBody body(body_.mass(), body_spec().joint);
   if (is_same(was)) {
     body.set_state(was.state);
     return body;
@@ -347,33 +368,38 @@ RigidBody BodyMover::continued(const BodyState &was) const
   return body;
 }
 
-void BodyMover::check(const BodyState &was) const
+void BodyMover::check(const MeshState &was) const
 {
-  if (was.present) check(spec(), continued(was));
+  motion_.check(was.motion);
+  if (was.body.present) check_as(body_spec(), continued(was.body));
 }
 
-void BodyMover::restore(const BodyState &was)
+void BodyMover::restore(const MeshState &of, const Step &now)
 {
+  const BodyState &was = of.body;
+  motion_.restore(of.motion, now);
   pending_ = false;
   const std::string saved = host_.names().saved;
   if (!was.present) {
     host_.warn(named("the " + saved +
                      " has no body for this mesh: the body starts at its initial position with its "
                      "initial velocity"));
+    go_on(body_spec(), body_);
     return;
   }
-  go_on(spec(), continued(was));
+  go_on(body_spec(), continued(was));
   load_ = was.load;
   if (!is_same(was))
-    host_.warn(named("the " + saved +
-                     " was written with another mass or joint of this body: the body continues "
-                     "from where it was, with the part of its velocity that its joint allows" +
-                     (was.joint == spec().joint ? "" : ", and its coordinate starts at 0 there")));
+    host_.warn(
+        named("the " + saved +
+              " was written with another mass or joint of this body: the body continues "
+              "from where it was, with the part of its velocity that its joint allows" +
+              (was.joint == body_spec().joint ? "" : ", and its coordinate starts at 0 there")));
 }
 
 bool BodyMover::is_same(const BodyState &was) const
 {
-  return are_same(was.mass, spec().mass) && was.joint == spec().joint;
+  return are_same(was.mass, body_spec().mass) && was.joint == body_spec().joint;
 }
 
 }    // namespace lsdcd

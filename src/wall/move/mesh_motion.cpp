@@ -197,10 +197,6 @@ void MeshMotion::check_limits(const Servo &s, Real position) const
 void MeshMotion::check_snapshot(const Step &at) const
 {
   const std::string in_replay = std::string("in a ") + host_.names().replay + " ";
-  if (spec().body.present)
-    throw InputError(named(
-        in_replay + "the position of a body is not known, because it follows from the loads of all "
-                    "steps before: leave body out, and give its positions by motion variable"));
   if (servo().present && !servo().holds)
     throw InputError(
         named(in_replay +
@@ -228,7 +224,6 @@ void MeshMotion::check_snapshot(const Step &at) const
 std::string MeshMotion::text(const Box &bounds) const
 {
   const RigidMotion &motion = spec().motion;
-  if (spec().body.present) return "";
   if (motion.is_posed()) return "by poses of the caller";
   if (!motion.moves()) return motion.start().placed ? "none; the mesh stays where it is" : "";
   constexpr int kSamples = 64;

@@ -6,29 +6,13 @@
 
 #include "host/host.h"
 #include "motion/step_clock.h"
+#include "wall/mesh_state.h"
 #include "wall/wall_spec.h"
 
 #include <string>
 #include <vector>
 
 namespace lsdcd {
-
-// The sums of a motion, for a saved state.
-struct MotionState {
-  StepClock clock;
-  Pose start;     // that the terms act on
-  Pose placed;    // in the last step, without the servo
-  Pose last;      // with it
-  Servo servo;    // its line, position and velocity
-  // That move the mesh or, where `stopped`, that were stopped.
-  std::vector<MotionTerm> terms;
-  bool stopped = false;
-  InputNames inputs;    // of the terms
-
-  bool moves() const { return !terms.empty() && !stopped; }
-  // Was it where a body or the program put it? At rest it would be where it began.
-  bool was_posed() const { return !moves() && !is_same_place(start, placed); }
-};
 
 // Functions throw InputError, the same on all processes, with a text that names the mesh.
 class MeshMotion {
