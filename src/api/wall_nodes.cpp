@@ -25,7 +25,7 @@ const MeshPart &part_with_nodes(const lsdcd_wall &wall, int mesh)
 {
   check_mesh(wall, mesh, 0);
   const MeshPart &part = wall.in->meshes()[static_cast<std::size_t>(mesh)];
-  if (part.nodes) return part;
+  if (part.nodes()) return part;
   throw ApiError(
       LSDCD_ERROR_ARGUMENT,
       "mesh " + std::to_string(mesh) + ", '" + part.spec.name +
@@ -38,7 +38,7 @@ const MeshPart &part_that_deforms(const lsdcd_wall &wall, int mesh)
 {
   check_mesh(wall, mesh, 0);
   const MeshPart &part = wall.in->meshes()[static_cast<std::size_t>(mesh)];
-  return part.wear && part.spec.mesh ? part : part_with_nodes(wall, mesh);
+  return part.shape->recedes() && part.spec.mesh ? part : part_with_nodes(wall, mesh);
 }
 
 // The wall's mesh was welded once more.
@@ -181,10 +181,10 @@ void note_vertices(lsdcd_wall &wall)
 {
   wall.node_rows.resize(wall.in->meshes().size());
   for (const MeshPart &part : wall.in->meshes()) {
-    if (!part.wear && !part.nodes) continue;
+    if (!part.shape->changes()) continue;
     NodeRows &rows = wall.node_rows[static_cast<std::size_t>(part.index)];
     rows = node_rows_of(part);
-    if (part.nodes) part.nodes->rows = rows.first_row;
+    if (part.nodes()) part.nodes()->rows = rows.first_row;
   }
 }
 
@@ -237,7 +237,7 @@ int lsdcd_wall_get_nodes(lsdcd_wall *wall, int mesh, double *positions)
     const MeshPart &part = part_that_deforms(*wall, mesh);
     const bool on_gpu = is_on_gpu(*wall, positions, "positions");
     std::vector<Vec3> at = part.mesh()->vertices;
-    if (!part.nodes)
+    if (!part.nodes())
       for (Vec3 &x : at) x = part.pose().to_box(x);
     in_order_of_rows(*wall, &at[0].x, node_rows(*wall, mesh), OfRows::places, positions, on_gpu);
   });

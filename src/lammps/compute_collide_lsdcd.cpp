@@ -131,9 +131,9 @@ void ComputeCollideLsdcd::make_collisions(const lsdcd::WeldedMesh &body)
 void ComputeCollideLsdcd::check_shapes(const FixWallLsdcd &fix) const
 {
   for (const lsdcd::MeshPart &part : fix.meshes())
-    if (part.changes_shape())
+    if (part.shape->changes())
       fatal("fix " + settings.wall + " has a mesh " +
-            (part.nodes ? "whose nodes move" : "that wear moves (deform)") +
+            (part.nodes() ? "whose nodes move" : "that wear moves (deform)") +
             ", and bodies collide with rigid meshes only");
 }
 

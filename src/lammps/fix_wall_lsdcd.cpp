@@ -218,7 +218,7 @@ void FixWallLsdcd::init_nodes()
 {
   if (node_atoms.empty())
     for (const lsdcd::MeshPart &m : meshes())
-      if (m.nodes) node_atoms.emplace_back(lmp, m.index);
+      if (m.nodes()) node_atoms.emplace_back(lmp, m.index);
   if (!node_atoms.empty() && update->whichflag == 2)
     throw lsdcd::InputError(
         "the wall has no effect in a minimization, and its nodes would move without it: unfix the "
@@ -271,7 +271,7 @@ void FixWallLsdcd::warn_of_pairs()
   bool meet = !neighbor->exclude;
   if (!meet) need_nodes();
   for (const lsdcd::MeshPart &m : meshes())
-    if (m.nodes && !meet)
+    if (m.nodes() && !meet)
       meet = lsdcd::pairs_act_between(*neighbor, *atom, groupbit,
                                       group->bitmask[group->find(m.spec.node_group.c_str())], host);
   if (!meet) return;

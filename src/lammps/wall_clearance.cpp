@@ -38,7 +38,7 @@ void WallClearance::begin_step()
   for (LAMMPS_NS::FixWallLsdcd *wall : walls_) {
     wall->prepare_meshes();
     for (const MeshPart &part : wall->meshes())
-      nodes_.push_back(part.nodes ? wall->places_of_nodes(part.index) : std::vector<Vec3>());
+      nodes_.push_back(part.nodes() ? wall->places_of_nodes(part.index) : std::vector<Vec3>());
   }
 }
 
@@ -47,7 +47,7 @@ void WallClearance::place(Real dt)
   std::size_t n = 0;
   for (const LAMMPS_NS::FixWallLsdcd *wall : walls_)
     for (const MeshPart &part : wall->meshes()) {
-      const std::vector<Vec3> &at = part.nodes ? nodes_[n] : part.grid.mesh()->vertices;
+      const std::vector<Vec3> &at = part.nodes() ? nodes_[n] : part.grid.mesh()->vertices;
       surfaces_[n++].place(at, part, dt);
     }
 }
@@ -60,7 +60,7 @@ void WallClearance::Surface::place(const std::vector<Vec3> &vertices, const Mesh
     search.reset();
   }
   pose = part.mover->pose_in(dt);
-  moves = part.moves() || part.wear;
+  moves = part.moves() || part.shape->recedes();
   bounds = placed_bounds(pose, {mesh.report.lo, mesh.report.hi});
 }
 

@@ -161,7 +161,7 @@ bool BoxChecks::is_still_clear(const MeshPart &m, const Pose &at, const Periodic
                                Real depth) const
 {
   const Clear &last = warned_[m.index].clear[k];
-  if (m.changes_shape() || last.clear <= 0 || depth > last.depth) return false;
+  if (m.shape->changes() || last.clear <= 0 || depth > last.depth) return false;
   bool same = norm_sq(box.corner - last.box.corner) == 0;
   for (int j = 0; j < 3; j++) same &= norm_sq(box.edge[j] - last.box.edge[j]) == 0;
   if (!same) return false;
@@ -191,15 +191,15 @@ void BoxChecks::check_pose(const MeshPart &m, const Pose &at, const PeriodicBox 
       throw InputError(named(m, "the coat of the body comes to the periodic face in " + axis +
                                     ", through which coats do not act: leave the coat out, make "
                                     "the boundary fixed, or the box larger"));
-    throw InputError(
-        named(m, "the moving mesh " + std::string(when.empty() ? "will reach" : "reaches") +
-                     " the periodic face in " + axis + when + ": it goes from " + number_text(lo) +
-                     " to " + number_text(hi) + " of the box and must stay " + number_text(depth) +
-                     " away from 0 and 1. " +
-                     (m.nodes ? "A mesh whose nodes move acts through no periodic face"
-                              : "A mesh acts through a periodic face only where it moves across " +
-                                    axis + " and turns about nothing but " + axis) +
-                     ": make the boundary fixed, or the box larger"));
+    throw InputError(named(
+        m, "the moving mesh " + std::string(when.empty() ? "will reach" : "reaches") +
+               " the periodic face in " + axis + when + ": it goes from " + number_text(lo) +
+               " to " + number_text(hi) + " of the box and must stay " + number_text(depth) +
+               " away from 0 and 1. " +
+               (m.nodes() ? "A mesh whose nodes move acts through no periodic face"
+                          : "A mesh acts through a periodic face only where it moves across " +
+                                axis + " and turns about nothing but " + axis) +
+               ": make the boundary fixed, or the box larger"));
   }
 }
 

@@ -23,28 +23,25 @@ std::string in_a_line(const WallSpec &settings, const std::deque<MeshPart> &mesh
 }
 
 // In the columns of the mesh report.
-std::string mesh_lines(const WallSpec &wall, const MeshPart &m, const std::deque<BodyCoat> &coats)
+std::string mesh_lines(const MeshPart &m, const std::deque<BodyCoat> &coats)
 {
   std::string coat;
   for (const BodyCoat &one : coats)
     if (one.mesh() == m.index) coat = one.text();
   std::string t = m.grid.mesh_text();
   const Real wear = m.spec.wear_factor;
-  std::string recedes;
-  if (m.wear)
-    recedes = "every " + std::to_string(wall.wear_shape.every) + " steps by " +
-              number_text(wall.wear_shape.factor) + " times what has worn";
   const struct {
     const char *label;
     std::string text;
-  } lines[] = {{"placement   ", placement_text(m.spec.placement)},
-               {"motion      ", m.mover->text(m.bounds(0))},
-               {"servo       ", m.mover->servo_text()},
-               {"body        ", m.mover->body_text()},
-               {"coat        ", coat},
-               {"nodes       ", m.nodes ? std::to_string(m.nodes->count()) + ", which move" : ""},
-               {"wear        ", wear == 1 ? "" : number_text(wear) + " times as fast"},
-               {"recedes     ", recedes}};
+  } lines[] = {
+      {"placement   ", placement_text(m.spec.placement)},
+      {"motion      ", m.mover->text(m.bounds(0))},
+      {"servo       ", m.mover->servo_text()},
+      {"body        ", m.mover->body_text()},
+      {"coat        ", coat},
+      {"nodes       ", m.nodes() ? std::to_string(m.nodes()->count()) + ", which move" : ""},
+      {"wear        ", wear == 1 ? "" : number_text(wear) + " times as fast"},
+      {"recedes     ", m.shape->recedes_text()}};
   for (const auto &line : lines)
     if (!line.text.empty()) t += "\n  " + (line.label + line.text);
   return t;
@@ -125,7 +122,7 @@ std::string creation_text(const HostNames &names, const WallSpec &settings,
 {
   if (settings.brief) return in_a_line(settings, meshes, device);
   std::string t;
-  for (const MeshPart &m : meshes) t += (t.empty() ? "" : "\n") + mesh_lines(settings, m, coats);
+  for (const MeshPart &m : meshes) t += (t.empty() ? "" : "\n") + mesh_lines(m, coats);
   if (!material.empty()) t += "\n" + material;
   return t + contact_lines(settings) + effect_lines(names, settings, engine) +
          search_lines(settings) + "\n  device      " + device + "\n  version     " + version();

@@ -30,7 +30,7 @@ void GridManager::set_engine(WallEngine &engine)
 {
   engine_ = &engine;
   for (const MeshPart &m : meshes_) {
-    if (cutoff() == 0 || m.nodes) continue;    // the next step builds those of nodes
+    if (cutoff() == 0 || m.nodes()) continue;    // the next step builds those of nodes
     run_collectively(host_, true, [&] { put_grid(m); });
   }
 }
@@ -111,7 +111,7 @@ void GridManager::rebuild(Real wanted, std::int64_t step)
   for (MeshPart *m : anew) {
     m->grid.progress = progress(*m);
     m->grid.build(wanted, m->effective_box(box()));
-    if (!m->nodes) run_collectively(host_, true, [&] { put_grid(*m); });
+    if (!m->nodes()) run_collectively(host_, true, [&] { put_grid(*m); });
     if (coats_)
       for (BodyCoat &coat : *coats_) coat.set_grid(*m);
   }
@@ -160,13 +160,13 @@ void GridManager::log_build(const MeshPart &m, Real old_cutoff, std::int64_t ste
   std::string t = with_mesh_name(settings_, m.index, "");
   if (!again)
     t += "grid for radius " + number_text(grid.cutoff()) +
-         (m.nodes ? ", made again as nodes move" : "\n" + grid.grid_text());
+         (m.nodes() ? ", made again as nodes move" : "\n" + grid.grid_text());
   else if (grid.cutoff() > old_cutoff)
     t += "larger particles, grid rebuilt for radius " + number_text(grid.cutoff());
   else
     t += "the box has changed, grid rebuilt at step " + std::to_string(step) +
          " (more of these in this run are counted at its end)";
-  if (!again && host_.ranks().node_size > 1 && !m.nodes)
+  if (!again && host_.ranks().node_size > 1 && !m.nodes())
     t += grid.is_shared() ? "\n  one copy per node" : "\n  one copy per process";
   if (!grid.cache_text().empty()) t += "\n  " + grid.cache_text();
   const bool one_of_many = again && grid.cutoff() == old_cutoff && box_rebuilds_ > 1;

@@ -59,20 +59,7 @@ void check_weld(Host &host, const WallSpec &settings, const MeshPart &m)
 void check_plane(Host &host, const WallSpec &settings, const MeshPart &m)
 {
   if (host.box().dimension == 3) return;
-  const std::string spheres = std::string(host.names().sphere) + "s";
-  if (m.spec.has_nodes)
-    throw InputError(with_mesh_name(
-        settings, m.index,
-        "in two dimensions a mesh cannot have nodes, because its vertices lie off the plane z = 0, "
-        "in which all " +
-            spheres + " are: make the box three-dimensional and hold the " + spheres +
-            " in the plane, or leave nodes out"));
-  if (m.wear)
-    throw InputError(with_mesh_name(
-        settings, m.index,
-        "in two dimensions wear cannot move a mesh, because what comes off one of the two "
-        "triangles behind a piece of the outline would let the outline lean: leave deform out, or "
-        "give the mesh wear_factor 0"));
+  m.shape->check_plane();
   const MeshReport &r = m.grid.report();
   if (!(r.lo.z < 0 && r.hi.z > 0))
     throw InputError(with_mesh_name(
@@ -101,14 +88,14 @@ void check_plane(Host &host, const WallSpec &settings, const MeshPart &m)
 void check_stays_closed(Host &host, const WallSpec &settings, const MeshPart &m)
 {
   const WeldedMesh *mesh = m.mesh();
-  if (!(m.nodes || m.wear) || !mesh) return;
+  if (!m.shape->changes() || !mesh) return;
   const auto named = [&](const std::string &text) {
     return with_mesh_name(settings, m.index,
                           text + ": make the triangles on both sides share their edges, for "
                                  "example by lsdcd repair");
   };
   const std::vector<std::array<int, 3>> lines = facets_without_area(*mesh);
-  if (m.nodes && !lines.empty()) {
+  if (m.nodes() && !lines.empty()) {
     const auto [a, b, c] = lines.front();
     const std::vector<Vec3> &x = mesh->vertices;
     throw InputError(named("the facet with the corners " + vector_text(x[a]) + ", " +

@@ -343,6 +343,14 @@ void MeshNodes::clear_forces()
   are_sums_there_ = are_forces_old_ = is_power_old_ = is_range_new_ = false;
 }
 
+void MeshNodes::have_no_forces()
+{
+  clear_forces();
+  sums_.assign(of_contacts_.size(), 0);
+  range_.shares = {0, kNotFinite};
+  are_summed_ = false;
+}
+
 void MeshNodes::see_forces(WallEngine &engine)
 {
   summing_ = &engine;

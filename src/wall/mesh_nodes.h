@@ -79,6 +79,8 @@ class MeshNodes {
   // Then adds up what was seen.
   void add_forces(const SummandRange &of_all);
   void clear_forces();
+  // In place of see_forces() and add_forces() on a process whose step has failed: it takes part in the sums of all with 0.
+  void have_no_forces();
   // Sums over all processes, x y z, node after node (force): of contacts, and of `pressure` (force/area), which pushes
   // to where the normals of faces point by their winding, and outward on a closed mesh. Collective, once a step.
   const std::vector<Real> &forces(Real pressure);

@@ -4,10 +4,8 @@
 // One mesh of a wall: its spec and grid, and where it is.
 #pragma once
 
-#include "wall/mesh_grid.h"
-#include "wall/mesh_nodes.h"
-#include "wall/mesh_wear.h"
 #include "wall/move/body_mover.h"
+#include "wall/shape/shape.h"
 
 #include <memory>
 
@@ -19,34 +17,33 @@ struct MeshPart {
   MeshPart(Host &host, WallSpec &wall, const LawTable &laws, int index, Real force,
            const Step &now) :
       index(index),
-      spec(wall.meshes[index]), grid(host, wall, spec),
+      spec(wall.meshes[index]), grid(host, wall, spec), shape(make_shape(host, wall, index, grid)),
       mover(make_mover(host, wall, laws, index, grid, force, now)), host_(host)
   {
   }
 
   const int index;
-  MeshSpec &spec;                      // in that of the wall; its motion may change later
-  std::unique_ptr<MeshNodes> nodes;    // null: they do not move
-  MeshGrid grid;
+  MeshSpec &spec;    // in that of the wall; its motion may change later
+  MeshGrid grid;     // as it was read, and as a shape without nodes is
+  const std::unique_ptr<Shape> shape;
   const std::unique_ptr<Mover> mover;
-  std::unique_ptr<MeshWear> wear;    // null: it does not recede
 
   bool springs_are_foreign = false;    // those of a saved state are of another mesh
   bool way_warned = false;             // that it goes far in a step
   bool coat_feels_it = false;          // the coat of a body, which may be outside of the box
 
+  MeshNodes *nodes() const { return shape->nodes(); }    // null: they do not move
   const Servo &servo() const { return spec.motion.servo(); }
-  bool moves() const { return nodes || mover->moves(); }    // or was moved
-  bool changes_shape() const { return nodes || wear; }      // from step to step
+  bool moves() const { return nodes() || mover->moves(); }    // or was moved
   bool has_coat() const { return spec.body.present && spec.body.coat.present; }
 
   const Pose &pose() const { return mover->pose(); }    // in this step
 
   // In its own frame, in this step; null but on one process per node, where its nodes do not move.
-  const WeldedMesh *mesh() const { return nodes ? &nodes->mesh() : grid.mesh(); }
+  const WeldedMesh *mesh() const { return shape->mesh(); }
   GridView view() const { return grid.view(); }    // where its nodes do not move
   // Of its features. Where nodes move on a GPU, they may be those of an earlier step.
-  MeshFeaturesView records() const { return nodes ? nodes->records() : grid.view().wall; }
+  MeshFeaturesView records() const { return shape->records(); }
 
   Box bounds(Real past) const;    // in its own frame, and `past` (length) beyond
   // Does it go, at a pose, to less than `depth` (a part of the box) from one of the faces that edge k of the box joins? Then lo

@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 namespace lsdcd {
@@ -57,19 +58,12 @@ Wall::Wall(Host &host, WallSpec spec, const WallUnits &units, WallBackend backen
     means_(host, spec_), loads_(host, spec_), files_(host, spec_, units.pressure),
     overlaps_(host, spec_), search_(host), times_(host), timestep_(host, laws_, units.velocity),
     box_checks_(host, spec_, meshes_),
-    grids_(host, spec_, laws_, meshes_, box_checks_, history_, times_)
+    grids_(host, spec_, laws_, meshes_, box_checks_, history_, times_), nodes_(host)
 {
   for (std::size_t k = 0; k < spec_.meshes.size(); k++) {
     MeshPart &m = meshes_.emplace_back(host_, spec_, laws_, static_cast<int>(k), units.velocity,
                                        Step{clock.last_step, clock.dt});
-    if (m.spec.has_nodes) {
-      has_nodes_ = true;
-      run_collectively(host_, true, [&] {
-        m.nodes = std::make_unique<MeshNodes>(host_, spec_, m.index, *m.grid.mesh());
-      });
-    }
-    if (spec_.recedes(m.spec))
-      m.wear = std::make_unique<MeshWear>(host_, spec_, m.index, m.grid.report(), m.grid.mesh());
+    nodes_.add(m.nodes());
     check_weld(host_, spec_, m);
     check_side(spec_, m);
     check_pressure(spec_, m);
@@ -78,7 +72,7 @@ Wall::Wall(Host &host, WallSpec spec, const WallUnits &units, WallBackend backen
     mover_is_new(m);
   }
   // Where the spheres are says it in place, and records of nodes that move stay with their engine.
-  const bool is_fixed = backend_.in_place || has_nodes_;
+  const bool is_fixed = backend_.in_place || nodes_.any();
   device_ = DeviceChoice(spec_.device, is_fixed ? 0 : cuda_devices(), host_.ranks().node_size);
   coat_loads_.resize(meshes_.size());
   make_coats(units.velocity);
@@ -137,8 +131,7 @@ std::vector<int> Wall::inputs_read() const
 std::size_t Wall::bytes() const
 {
   std::size_t bytes = engine_->bytes() + loads_.bytes() + history_.bytes();
-  for (const MeshPart &m : meshes_)
-    bytes += m.grid.bytes() + (m.nodes ? m.nodes->bytes() : 0) + (m.wear ? m.wear->bytes() : 0);
+  for (const MeshPart &m : meshes_) bytes += m.grid.bytes() + m.shape->bytes();
   for (const BodyCoat &coat : coats_) bytes += coat.bytes();
   return bytes;
 }
@@ -154,12 +147,12 @@ EngineSettings Wall::engine_settings() const
   want.meshes = static_cast<int>(meshes_.size());
   want.moves = meshes_.size() > 1;
   for (const MeshPart &m : meshes_) {
-    want.moves |= m.nodes || m.mover->moves_or_varies();
+    want.moves |= m.nodes() || m.mover->moves_or_varies();
     if (!want.surface.moves()) want.surface = m.spec.surface;
   }
   want.contacts = spec_.has_loads() || spec_.each_contact || virial_;
   want.bodies = any_pushed_;
-  want.nodes = has_nodes_;
+  want.nodes = nodes_.any();
   want.wear = spec_.wear.model;
   want.device = device_.device();
   want.device_rank = host_.ranks().node_rank;
@@ -172,8 +165,7 @@ void Wall::make_engine()
   const EngineSettings want = engine_settings();
   engine_moves_ = want.moves;
   engine_contacts_ = want.contacts || want.bodies || want.nodes;
-  for (MeshPart &m : meshes_)
-    if (m.nodes && engine_) m.nodes->leave_engine();
+  if (engine_) nodes_.leave_engine();
   run_collectively(host_, true, [&] { engine_ = backend_.make_engine(want); });
   history_.set_engine(*engine_, backend_.in_place);
   grids_.set_engine(*engine_);
@@ -262,12 +254,7 @@ void Wall::begin_snapshot(int n, const Step &step)
   const std::string a_replay = std::string("a ") + host_.names().replay;
   for (const MeshPart &m : meshes_) {
     m.mover->check_snapshot(step);
-    if (m.wear)
-      throw InputError(
-          named(m, "in " + a_replay +
-                       " the shape of a mesh that wear moves is not known, because it "
-                       "follows from the contacts of all steps before: leave deform out, "
-                       "and give the mesh of that time, which mesh_stl writes"));
+    m.shape->check_snapshot();
   }
   for (int i = 0; history_.is_on() && i < n; i++) history_.on_cpu().clear(i);
   if (snapshot_warned_) return;
@@ -306,10 +293,8 @@ void Wall::move(const HostSpheres &spheres, const Step &step)
     });
   for (MeshPart &m : meshes_) m.mover->place();
   for (MeshPart &m : meshes_) {
-    if (m.nodes)
-      m.nodes->begin_step(step, cutoff());
-    else if (largest_radius_ > 0)
-      check_way(host_, spec_, m, step, largest_radius_, on_cpu(spheres));
+    m.shape->begin(step, cutoff());
+    if (largest_radius_ > 0) check_way(host_, spec_, m, step, largest_radius_, on_cpu(spheres));
   }
 }
 
@@ -471,12 +456,7 @@ StepSettings Wall::step_settings()
     for (const MeshPart &m : meshes_) mobilities_.push_back(m.mover->mobility());
     step.mobility = mobilities_.data();
   }
-  if (has_nodes_) {
-    node_fields_.clear();
-    for (const MeshPart &m : meshes_)
-      node_fields_.push_back(m.nodes ? m.nodes->field(cutoff()) : NodeField());
-    step.nodes = node_fields_.data();
-  }
+  step.nodes = nodes_.fields(cutoff());
   if (!spec_.law().has_heat()) return step;
   temperatures_.clear();
   for (const MeshSpec &m : spec_.meshes)
@@ -490,16 +470,12 @@ StepSettings Wall::step_settings()
 
 void Wall::choose_if_due(const Spheres &spheres)
 {
-  if (has_nodes_) {
-    build_node_grids();
-    turn_springs(spheres.n);
-  }
+  nodes_.begin_choice(*engine_, cutoff(), spheres.n);
   std::vector<MovingMesh> moving;
   for (const MeshPart &m : meshes_)
-    if (m.moves() && !m.nodes) moving.push_back({m.pose(), m.bounds(cutoff())});
+    if (m.mover->moves()) moving.push_back({m.pose(), m.bounds(cutoff())});
   if (!engine_->choose_if_due(spheres, input_.drift, moving)) return;
-  for (MeshPart &m : meshes_)
-    if (m.nodes) m.nodes->note_choice();
+  nodes_.note_choice();
   search_.count_update();
 }
 
@@ -507,69 +483,10 @@ void Wall::choose_if_due(const Spheres &spheres)
 void Wall::recede(const Step &step)
 {
   for (MeshPart &m : meshes_) {
-    if (!m.wear || !m.wear->is_due(step)) continue;
-    if (cutoff() > 0 && m.grid.has_images())
-      throw InputError(
-          named(m, "wear cannot move a mesh that has periodic images, because its ends would come "
-                   "apart: keep it away from periodic faces by the largest radius"));
-    std::vector<Vec3> at;
-    if (!m.wear->recede(m.grid.mesh(), step.number, at)) continue;
-    m.grid.move_vertices(at);
+    if (!m.shape->recede(step, cutoff())) continue;
     grids_.follow_shape(m);
     engine_->expire_choice();
   }
-}
-
-// Each process has all nodes, and comes to the same grids.
-void Wall::build_node_grids()
-{
-  for (MeshPart &m : meshes_) {
-    if (!m.nodes) continue;
-    if (m.nodes->needs_choice(cutoff())) engine_->expire_choice();
-    if (!m.nodes->needs_grid(cutoff())) continue;
-    m.nodes->build_grid(cutoff(), *engine_);
-  }
-}
-
-void Wall::turn_springs(int n)
-{
-  for (MeshPart &m : meshes_)
-    if (m.nodes) m.nodes->turn_springs(*engine_, n);
-}
-
-void Wall::sum_node_forces(const HostSpheres &spheres)
-{
-  const bool any = cutoff() > 0;
-  on_this_process(spheres, [&] {
-    for (MeshPart &m : meshes_) {
-      if (!m.nodes) continue;
-      if (any)
-        m.nodes->see_forces(*engine_);
-      else
-        m.nodes->clear_forces();
-    }
-  });
-  if (any && host_.processes() > 1) agree_on_node_forces(false);
-}
-
-// Gives the forces on nodes the range of all processes, by one message for all meshes. Collective. `failed`: this process
-// has none, as its step failed; then there are none on the others, which do not wait for it.
-void Wall::agree_on_node_forces(bool failed)
-{
-  std::vector<MeshNodes *> all;
-  std::vector<Real> counts, exponents;
-  for (const MeshPart &m : meshes_) {
-    if (!m.nodes) continue;
-    all.push_back(m.nodes.get());
-    const SummandRange mine = failed ? SummandRange{0, kNotFinite} : m.nodes->range();
-    counts.push_back(static_cast<Real>(mine.count));
-    exponents.push_back(static_cast<Real>(mine.exponent));
-  }
-  const int n = static_cast<int>(all.size());
-  host_.sum_and_max(counts.data(), n, exponents.data(), n);
-  for (int k = 0; k < n && !failed; k++)
-    all[k]->add_forces(
-        {static_cast<std::uint64_t>(counts[k]), static_cast<std::uint64_t>(exponents[k])});
 }
 
 Real Wall::pressure(int mesh) const
@@ -582,19 +499,18 @@ Real Wall::pressure(int mesh) const
 
 const std::vector<Real> &Wall::node_forces(int mesh)
 {
-  return meshes_[mesh].nodes->forces(pressure(mesh));
+  return nodes(mesh).forces(pressure(mesh));
 }
 
 bool Wall::put_node_forces(int mesh, Real *to, const std::vector<int> &node_of_row)
 {
-  return meshes_[mesh].nodes->put_forces(pressure(mesh), to, node_of_row);
+  return nodes(mesh).put_forces(pressure(mesh), to, node_of_row);
 }
 
 void Wall::clear_totals()
 {
   totals_.clear();
-  for (MeshPart &m : meshes_)
-    if (m.nodes) m.nodes->clear_forces();
+  nodes_.clear_forces();
 }
 
 void Wall::submit(const HostSpheres &spheres)
@@ -610,47 +526,65 @@ void Wall::submit(const HostSpheres &spheres)
   });
 }
 
-// Local, but for the range of forces on nodes.
 void Wall::collect(const HostSpheres &spheres)
 {
-  const Step &step = input_.step;
-  submit(spheres);
-  if (!coats_.empty()) step_coats(step);
   if (step_state() == StepState::submitted) {
     const bool waits = engine_->is_under_way();
     times_.begin();
     on_this_process(spheres, [&] { engine_->collect(); });
     times_.end(waits ? TimeReport::waiting : TimeReport::forces);
     history_.set_spheres_of_engine(spheres.n);
-    search_.count_step(step.kind != Step::step);
+    search_.count_step(input_.step.kind != Step::step);
   }
-  totals_.expire();
-  for (MeshPart &m : meshes_) m.mover->end(step, cutoff() > 0 ? &engine_->results() : nullptr);
-  if (has_nodes_) sum_node_forces(spheres);
+  if (cutoff() > 0)
+    on_this_process(spheres, [&] { nodes_.see_forces(*engine_); });
+  else
+    nodes_.clear_forces();
 }
 
+// A process whose step has failed takes part in what all processes do together, with no contacts: they do not wait for it.
 void Wall::finish(const HostSpheres &spheres)
 {
+  std::optional<InputError> failure;
+  const auto try_here = [&](auto &&work) {
+    try {
+      if (!failure) work();
+    } catch (const InputError &e) {
+      if (!e.is_local || host_.processes() == 1) throw;
+      failure = e;
+    }
+  };
+  try_here([&] { submit(spheres); });
+  if (!coats_.empty()) step_coats(input_.step);
+  try_here([&] { collect(spheres); });
+  step_failed_ = failure.has_value();
+  totals_.expire();
+  for (MeshPart &m : meshes_) m.mover->end(input_.step, results());
+  if (cutoff() > 0) nodes_.agree_on_forces(step_failed_);
+  note_step(spheres);
+  if (failure) throw *failure;
+}
+
+// Returns what the last step left on this process, or null where there is none.
+StepResults *Wall::results() const
+{
+  return cutoff() > 0 && !step_failed_ ? &engine_->results() : nullptr;
+}
+
+// Adds a step to all that goes over steps.
+void Wall::note_step(const HostSpheres &spheres)
+{
   const Step &step = input_.step;
-  try {
-    collect(spheres);
-  } catch (const InputError &e) {
-    if (e.is_local && has_nodes_ && cutoff() > 0 && host_.processes() > 1)
-      agree_on_node_forces(true);
-    throw;
-  }
+  static const std::vector<StepContact> none;
+  StepResults *const left = results();
   if (spec_.average_every > 0 && step.kind == Step::step)
-    means_.add(step, cutoff() > 0 ? &engine_->results() : nullptr, poses(), node_loads(),
-               coats_.empty() ? nullptr : &coat_loads_);
-  if (spec_.has_loads() && step.kind == Step::step) {    // what sets a run up has no duration
-    const bool any = cutoff() > 0;
+    means_.add(step, left, poses(), nodes_.loads(), coats_.empty() ? nullptr : &coat_loads_);
+  if (spec_.has_loads() && step.kind == Step::step)    // what sets a run up has no duration
     for (const MeshPart &m : meshes_)
-      loads_.add(m.index, any ? engine_->results().contacts() : std::vector<StepContact>(), step.dt,
-                 any ? m.records() : MeshFeaturesView());
-  }
-  if (step.kind == Step::step && cutoff() > 0)
-    for (const MeshPart &m : meshes_)
-      if (m.wear) m.wear->add(engine_->results().contacts(), step.dt, m.records());
+      loads_.add(m.index, left ? left->contacts() : none, step.dt,
+                 left ? m.records() : MeshFeaturesView());
+  for (const MeshPart &m : meshes_)
+    if (left) m.shape->end(*left, step);
   if (input_.new_spheres) check_new_spheres(spheres);
   if (step.kind == Step::setup) log_new_springs(step);
   if (step.kind == Step::setup) times_.begin_run();    // as the host's loop time
@@ -722,8 +656,7 @@ const StepTotals &Wall::totals()
 const StepTotals &Wall::sums()
 {
   if (totals_.are_made()) return totals_;
-  totals_.reduce(cutoff() > 0 ? &engine_->results() : nullptr, poses(), node_loads(),
-                 coats_.empty() ? nullptr : &coat_loads_);
+  totals_.reduce(results(), poses(), nodes_.loads(), coats_.empty() ? nullptr : &coat_loads_);
   return totals_;
 }
 
@@ -731,16 +664,6 @@ std::vector<Pose> Wall::poses() const
 {
   std::vector<Pose> all;
   for (const MeshPart &m : meshes_) all.push_back(m.pose());
-  return all;
-}
-
-// Empty where no mesh has nodes. Collective.
-std::vector<NodeLoad> Wall::node_loads()
-{
-  std::vector<NodeLoad> all;
-  for (MeshPart &m : meshes_)
-    if (has_nodes_)
-      all.push_back(m.nodes ? NodeLoad{true, m.nodes->power(), m.nodes->moment()} : NodeLoad());
   return all;
 }
 
@@ -879,9 +802,8 @@ WallState Wall::save()
     MeshState &to = all.meshes.emplace_back();
     to.mesh = identity_of(m);
     to.loads = {loads.time(), loads.packed()};
-    if (m.nodes) to.nodes = m.nodes->save();
-    if (m.wear) to.shape = m.wear->save(m.grid.mesh());
     to.last = {{sums().mesh(m.index), coat_load(m.index)}};
+    m.shape->save(to);
     m.mover->save(to);
   }
   if (spec_.average_every > 0) {
@@ -950,10 +872,9 @@ bool Wall::is_restored(const MeshPart &m, const MeshState &was, bool one_of_many
 void Wall::restore_mesh(MeshPart &m, const MeshState &was, const Step &now)
 {
   m.mover->restore(was, now);
-  restore_nodes(m, was.nodes);
+  if (m.shape->restore(was, !m.springs_are_foreign)) grids_.follow_shape(m);
   for (BodyCoat &coat : coats_)
     if (coat.mesh() == m.index) coat.restore(was.coat);
-  restore_shape(m, was.shape);
   if (!was.mean.empty()) means_.restore(m.index, was.mean.front());
   if (!was.last.empty()) {
     totals_.restore(m.index, was.last.front().totals);
@@ -966,41 +887,6 @@ void Wall::restore_mesh(MeshPart &m, const MeshState &was, const Step &now)
                " was written with another mesh");
   else
     loads_.restore(m.index, was.loads.time, was.loads.rows);
-}
-
-// Those of another mesh are in another order, and as many as it has vertices.
-void Wall::restore_nodes(MeshPart &m, const NodeState &was)
-{
-  const std::string saved = host_.names().saved;
-  if (m.nodes && !m.springs_are_foreign) {
-    m.nodes->restore(was);
-  } else if (m.nodes && !was.places.empty()) {
-    host_.warn(named(m, "the " + saved +
-                            " was written with another mesh: the nodes begin at the vertices of "
-                            "this one, whatever they were there"));
-  } else if (!was.places.empty()) {
-    host_.warn(
-        named(m, "the " + saved +
-                     " has nodes of this mesh that had moved, and here it has none: the mesh "
-                     "has the shape of its file"));
-  }
-}
-
-void Wall::restore_shape(MeshPart &m, const ShapeState &was)
-{
-  if (was.vertices.empty() || m.springs_are_foreign) return;
-  if (!m.wear) {
-    host_.warn(named(m, "the " + std::string(host_.names().saved) +
-                            " has a worn shape of this mesh, and the wear of this wall moves no "
-                            "mesh (deform): the mesh has the shape of its file"));
-    return;
-  }
-  std::vector<Vec3> at;
-  for (std::size_t k = 0; k < was.vertices.size(); k += 3)
-    at.push_back({was.vertices[k], was.vertices[k + 1], was.vertices[k + 2]});
-  m.wear->restore(was);
-  m.grid.move_vertices(at);
-  grids_.follow_shape(m);
 }
 
 }    // namespace lsdcd

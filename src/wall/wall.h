@@ -13,6 +13,7 @@
 #include "wall/mean_loads.h"
 #include "wall/overlap_monitor.h"
 #include "wall/search_report.h"
+#include "wall/shape/node_meshes.h"
 #include "wall/step_totals.h"
 #include "wall/timestep_check.h"
 #include "wall/wall_files.h"
@@ -126,17 +127,14 @@ class Wall {
   const StepTotals &totals();
   MeanLoads &means() { return means_; }    // of spec().average_every steps
   // Return the volume by which wear has moved a mesh back, and the volume that is worn but held back, see MeshWear. 0 of others.
-  Real removed(int mesh) const { return meshes_[mesh].wear ? meshes_[mesh].wear->removed() : 0; }
-  Real held_back(int mesh) const
-  {
-    return meshes_[mesh].wear ? meshes_[mesh].wear->held_back() : 0;
-  }
+  Real removed(int mesh) const { return meshes_[mesh].shape->removed(); }
+  Real held_back(int mesh) const { return meshes_[mesh].shape->held_back(); }
   Real worn(int mesh) const { return spec_.wears() ? loads_.worn(mesh) : 0; }    // volume
   // Returns the force, or the torque, of the mesh on the spheres along the axis of its servo.
   Real servo_push(int mesh);
   // Returns the body that a mesh is, with velocities of the whole step, or null if it is none.
   const BodyMover *body(int mesh);
-  MeshNodes &nodes(int mesh) { return *meshes_[mesh].nodes; }    // of a mesh that has_nodes
+  MeshNodes &nodes(int mesh) { return *meshes_[mesh].nodes(); }    // of a mesh that has_nodes
   // Returns the forces of the last step on the nodes of a mesh that has_nodes, x y z, node after node: those of contacts and of
   // its pressure, summed over all processes.
   const std::vector<Real> &node_forces(int mesh);
@@ -184,12 +182,12 @@ class Wall {
   // Sets places (length) and velocities (length/time) of the nodes of a mesh that has_nodes, x y z, node after node, for the
   // next step and those after it. Velocities are of the same time as those of spheres, or all 0 where `v` is null. All
   // processes give the same numbers. Local.
-  void set_nodes(int mesh, const Real *x, const Real *v) { meshes_[mesh].nodes->set(x, v); }
+  void set_nodes(int mesh, const Real *x, const Real *v) { nodes(mesh).set(x, v); }
   // Sets places and velocities of nodes from arrays that lie where the wall computes, as MeshNodes::set_in_place() says.
   bool set_nodes_in_place(int mesh, const Real *x, const Real *v,
                           const std::vector<int> &node_of_row)
   {
-    return meshes_[mesh].nodes->set_in_place(x, v, node_of_row);
+    return nodes(mesh).set_in_place(x, v, node_of_row);
   }
 
   // Writes the history of a sphere for a saved state, with names of features that hold in any run. Returns how many numbers it
@@ -232,13 +230,10 @@ class Wall {
   bool any_mover_asks_for_contacts() const;
   void complete_movers();
   Touch touch(const MeshPart &m);    // in the last step
-  void build_node_grids();
-  void turn_springs(int n);
   void collect(const HostSpheres &spheres);
-  void sum_node_forces(const HostSpheres &spheres);
-  void agree_on_node_forces(bool failed);
+  StepResults *results() const;
+  void note_step(const HostSpheres &spheres);
   std::vector<Pose> poses() const;
-  std::vector<NodeLoad> node_loads();
   Real pressure(int mesh) const;    // in this step, in units of forces
   void step_coats(const Step &step);
   // On this mesh in the last step.
@@ -257,8 +252,6 @@ class Wall {
   static MeshIdentity identity_of(const MeshPart &m);
   bool is_restored(const MeshPart &m, const MeshState &was, bool one_of_many) const;
   void restore_mesh(MeshPart &m, const MeshState &was, const Step &now);
-  void restore_nodes(MeshPart &m, const NodeState &was);
-  void restore_shape(MeshPart &m, const ShapeState &was);
 
   Host &host_;
   WallSpec spec_;    // motions change later
@@ -268,7 +261,7 @@ class Wall {
   StepClock clock_;
   Real pressure_unit_;             // of inputs
   std::deque<MeshPart> meshes_;    // where each stays; there is one at least
-  bool any_pushed_ = false, has_nodes_ = false;
+  bool any_pushed_ = false;
   std::deque<BodyCoat> coats_;          // of bodies that have one
   std::vector<CoatLoad> coat_loads_;    // of each mesh, in the last step; all 0 without coats
   DeviceChoice device_;
@@ -289,9 +282,11 @@ class Wall {
   TimestepCheck timestep_;
   BoxChecks box_checks_;
   GridManager grids_;
+  NodeMeshes nodes_;
 
-  StepInput input_;           // of the last begin()
-  bool continued_ = false;    // from a saved state
+  StepInput input_;             // of the last begin()
+  bool step_failed_ = false;    // the last one, on this process
+  bool continued_ = false;      // from a saved state
   bool springs_told_ = false;
   bool points_warned_ = false, snapshot_warned_ = false;
   SphereRange range_;    // for gains of servos and the timestep of bodies
@@ -301,7 +296,6 @@ class Wall {
   std::vector<SurfaceMotion> surfaces_;
   std::vector<Real> temperatures_;
   std::vector<Mobility> mobilities_;
-  std::vector<NodeField> node_fields_;
 };
 
 }    // namespace lsdcd

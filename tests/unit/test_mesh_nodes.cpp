@@ -1271,23 +1271,28 @@ TEST(mesh_nodes, that_get_a_force_that_is_not_finite_are_an_error)
       }
     }
 }
-// The other processes do not wait for one whose step has failed. They have no forces, until a program ends or tells all
-// of them.
+// The other processes do not wait for one whose step has failed, in this step and where sums are asked for after it. They
+// have no forces, until a program ends or tells all of them.
 TEST(mesh_nodes, of_processes_one_of_which_fails_go_on)
 {
-  on_processes(2, [&](FakeHost &host) {
-    const auto mesh = welded(floor_mesh(2, 1));
-    Scene scene(host, nodes_of(hooke(1000, 20).law(), mesh));
-    scene.add({-0.4, 0.3, kRadius - 0.01});
-    scene.set_up();
-    if (host.rank() == 1) {
-      scene.v[0].z = HUGE_VAL;
-      EXPECT_THROW(scene.next(), InputError);
-    } else {
-      scene.next();
-    }
-    EXPECT_TRUE(std::isnan(scene.node_force(0).z));
-  });
+  for (const int every : {0, 1})
+    on_processes(2, [&](FakeHost &host) {
+      const auto mesh = welded(floor_mesh(2, 1));
+      WallSpec spec = nodes_of(hooke(1000, 20).law(), mesh);
+      spec.average_every = every;
+      Scene scene(host, spec);
+      scene.add({-0.4, 0.3, kRadius - 0.01});
+      scene.set_up();
+      if (host.rank() == 1) {
+        scene.v[0].z = HUGE_VAL;
+        EXPECT_THROW(scene.next(), InputError);
+      } else {
+        scene.next();
+      }
+      EXPECT_TRUE(std::isnan(scene.node_force(0).z));
+      EXPECT_EQ(scene.wall->totals().mesh(0).contacts, 1);    // of the other process
+      if (every > 0) EXPECT_TRUE(std::isnan(scene.wall->means().mesh(0).torque.x));
+    });
 }
 // Where nodes are set in place nothing waits for their forces: these are no numbers, and the next step is the error.
 TEST(mesh_nodes, that_got_a_force_in_place_that_is_not_finite_are_an_error_in_the_next_step)

@@ -7,7 +7,7 @@
 #include "support/fake_host.h"
 #include "support/meshes.h"
 #include "support/random.h"
-#include "wall/mesh_wear.h"
+#include "wall/shape/mesh_wear.h"
 
 #include <gtest/gtest.h>
 

@@ -174,7 +174,7 @@ void BodyMover::end(const Step &step, const StepResults *results)
 {
   dt_ = step.kind == Step::step ? step.dt : 0;    // no time passes where a run is set up
   pending_ = true;
-  if (results && asks_for_contacts_) sum_contacts(*results);
+  if (asks_for_contacts_) sum_contacts(results);
 }
 
 Pose BodyMover::complete(const MeshTotals &contacts, const Vec3 &gravity)
@@ -273,15 +273,16 @@ void BodyMover::check_step(const Touch &touch, const RatesOfOthers &of_others)
   if (dt_ >= longest) fail_step(longest, contacts.contacts + coat.contacts);
 }
 
-void BodyMover::sum_contacts(const StepResults &results)
+void BodyMover::sum_contacts(const StepResults *results)
 {
   has_contacts_ = true;
   stiffness_ = damping_ = ContactSum();
   most_of_sphere_[0] = most_of_sphere_[1] = 0;
-  const StepContact *contact = results.contacts().data();
+  if (!results) return;
+  const StepContact *contact = results->contacts().data();
   const Pose pose = body_.pose();
   const Mobility mobility = body_.mobility();
-  for (const TouchingSphere &sphere : results.touching()) {
+  for (const TouchingSphere &sphere : results->touching()) {
     const SphereKinds kinds = {laws_.kinds > 1 ? &sphere.type : nullptr, laws_.kind_of_type.data(),
                                static_cast<int>(laws_.kind_of_type.size()) - 1};
     const ContactLaw &law = law_of(laws_, mesh_, kinds[0]);

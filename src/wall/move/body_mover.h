@@ -5,8 +5,8 @@
 #pragma once
 
 #include "rigid/rigid_body.h"
-#include "wall/mesh_grid.h"
 #include "wall/move/mover.h"
+#include "wall/shape/mesh_grid.h"
 
 #include <string>
 
@@ -76,7 +76,7 @@ class BodyMover final : public Mover {
   // Returns whether it is pressed into a stop by the load of the step. It has no modes then.
   bool is_held() const { return body_.is_held(load_); }
   ContactSum spring() const;
-  void sum_contacts(const StepResults &results);
+  void sum_contacts(const StepResults *results);
   ModeRates of_spheres(const Touch &touch) const;
   [[noreturn]] void fail_step(Real longest, Real contacts) const;
 

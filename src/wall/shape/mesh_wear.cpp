@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "wall/mesh_wear.h"
+#include "wall/shape/mesh_wear.h"
 
 #include "base/input_error.h"
 #include "base/input_words.h"

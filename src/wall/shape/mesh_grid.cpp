@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "wall/mesh_grid.h"
+#include "wall/shape/mesh_grid.h"
 
+#include "backend/cuda_available.h"
 #include "base/give_back_memory.h"
 #include "base/input_words.h"
 #include "grid/cache/load_or_build.h"

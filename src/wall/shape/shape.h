@@ -1,0 +1,80 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// The surface of a mesh in its own frame: as it was read, receding by its wear, or of nodes that move.
+#pragma once
+
+#include "wall/mesh_nodes.h"
+#include "wall/mesh_state.h"
+#include "wall/shape/mesh_grid.h"
+
+#include <memory>
+#include <string>
+
+namespace lsdcd {
+
+// In each step: recede(), begin(), and end() once contacts are computed. Errors are InputError, the same on all
+// processes, with a text that names the mesh.
+class Shape {
+ public:
+  // A shape that stays as `grid` has read it. Host, wall and grid must outlive it.
+  Shape(Host &host, const WallSpec &wall, int mesh, MeshGrid &grid) :
+      host_(host), wall_(wall), index_(mesh), grid_(grid)
+  {
+  }
+  virtual ~Shape() = default;
+
+  // Returns the mesh in this step; null but on one process per node, where it has no nodes that move.
+  virtual const WeldedMesh *mesh() const { return grid_.mesh(); }
+  // Returns the records of its features. Where nodes move on a GPU, they may be those of an earlier step.
+  virtual MeshFeaturesView records() const { return grid_.view().wall; }
+  virtual Box bounds() const { return {grid_.report().lo, grid_.report().hi}; }
+  virtual bool changes() const { return false; }    // from step to step
+  // Returns its nodes where these move, or null.
+  virtual MeshNodes *nodes() const { return nullptr; }
+  // Returns whether wear moves it; then the volume that was removed, and that which is worn but held back, see MeshWear.
+  virtual bool recedes() const { return false; }
+  virtual Real removed() const { return 0; }
+  virtual Real held_back() const { return 0; }
+
+  // Throws where the mesh cannot change in two dimensions.
+  virtual void check_plane() const {}
+  // Throws where it is not known in a snapshot.
+  virtual void check_snapshot() const {}
+
+  // Moves vertices by what has worn, where that is due. Returns whether it did: then the grid is to be built anew. `cutoff`: 0
+  // while there are no spheres. Collective.
+  virtual bool recede(const Step & /* step */, Real /* cutoff */) { return false; }
+  // Begins a step.
+  virtual void begin(const Step & /* step */, Real /* cutoff */) {}
+  // Notes what the contacts of a step with spheres do to it.
+  virtual void end(const StepResults & /* results */, const Step & /* step */) {}
+
+  // Returns the line of the log on it; empty: there is nothing to say.
+  virtual std::string recedes_text() const { return ""; }
+
+  // Writes what it needs to go on into a saved state. restore() takes it again where check() does not throw, as far as that is
+  // of this shape and, if not `same`, of another mesh; the first process warns of what it leaves out. Returns whether
+  // vertices have moved: then the grid is to be built anew. Both are collective.
+  virtual void save(MeshState & /* to */) const {}
+  virtual void check(const MeshState & /* was */) const {}
+  virtual bool restore(const MeshState &was, bool same);
+
+  virtual std::size_t bytes() const { return 0; }    // beside the grid's
+
+ protected:
+  const MeshSpec &spec() const { return wall_.meshes[index_]; }
+  std::string named(const std::string &text) const;
+  void warn_of_nodes(const MeshState &was) const;
+  void warn_of_wear(const MeshState &was, bool same) const;
+
+  Host &host_;
+  const WallSpec &wall_;
+  int index_;
+  MeshGrid &grid_;
+};
+
+// Makes what the spec of a mesh says. Host, wall and grid must outlive it. Throws InputError on all processes. Collective.
+std::unique_ptr<Shape> make_shape(Host &host, const WallSpec &wall, int mesh, MeshGrid &grid);
+
+}    // namespace lsdcd
