@@ -534,6 +534,22 @@ TEST(MeshMotion, rests_after_a_restart_where_poses_had_it)
   EXPECT_EQ(where_it_goes_on(before, after), (Vec3{3, 0, 0}));
 }
 
+TEST(MeshMotion, has_the_pose_after_a_restart_that_it_got_since_its_last_step)
+{
+  Wall before, after;
+  before.mesh().motion.begin_posed();
+  after.mesh().motion.begin_posed();
+  MeshMotion first(before.host, before.settings, 0, step(0)),
+      second(after.host, after.settings, 0, step(3));
+  run(first, before, 1, 3);
+  Pose pose;
+  pose.placed = true;
+  pose.shift = {3, 0, 0};
+  before.mesh().motion.set_pose(pose);
+  second.restore(first.state(), step(3));
+  EXPECT_EQ(where(second), (Vec3{3, 0, 0}));
+}
+
 TEST(MeshMotion, that_was_stopped_stays_so_after_a_restart)
 {
   Wall before, after;

@@ -282,9 +282,15 @@ void MeshMotion::restore(const MotionState &was, const Step &now)
   check(was);
   RigidMotion &motion = spec().motion;
   if (motion.is_posed()) {    // it rests there until the caller poses it
-    Pose last = was.last.still();
-    last.placed = true;
-    motion.set_pose(last);
+    if (was.moves() || was.servo.present)
+      host_.warn(
+          named("the " + std::string(host_.names().saved) +
+                " was written with a motion or a servo of this mesh, and now poses move it: it "
+                "rests where it was until it gets one"));
+    // The last one that it got, in which it may not have been yet.
+    Pose there = (was.was_posed() ? was.placed : was.last).still();
+    there.placed = true;
+    motion.set_pose(there);
     begin(now);
     clock_ = was.clock;
     return;

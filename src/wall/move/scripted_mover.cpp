@@ -3,6 +3,7 @@
 
 #include "wall/move/scripted_mover.h"
 
+#include "base/input_error.h"
 #include "wall/spec_text.h"
 
 namespace lsdcd {
@@ -15,8 +16,30 @@ void ScriptedMover::advance(const Step &to, const std::vector<Real> &inputs, con
     controller_.advance(load(), motion_.pose_without_servo(), passed, to.number);
 }
 
+void ScriptedMover::check_posed(bool posed) const
+{
+  if (motion().is_posed() == posed) return;
+  throw InputError(
+      named(posed ? "the mesh is not one that poses move, and cannot become one later: "
+                    "make it so when the wall is made"
+                  : "poses alone move this mesh, so it cannot have a motion or a servo"));
+}
+
+void ScriptedMover::set_motion(const RigidMotion &to, const Step &now)
+{
+  check_posed(false);
+  motion_.set(to, now);
+}
+
+void ScriptedMover::set_pose(const Pose &pose)
+{
+  check_posed(true);
+  motion().set_pose(pose);
+}
+
 void ScriptedMover::set_servo(const Servo &to)
 {
+  check_posed(false);
   motion_.set(to);
   controller_.begin_anew();
 }

@@ -23,9 +23,11 @@ class ScriptedMover final : public Mover {
   bool servo_acts() const override { return controller_.acts(); }
 
   std::string why_no_motion() const override { return ""; }
-  void set_motion(const RigidMotion &to, const Step &now) override { motion_.set(to, now); }
+  // Throw where the host poses the mesh.
+  void set_motion(const RigidMotion &to, const Step &now) override;
   void set_servo(const Servo &to) override;
-  void set_pose(const Pose &pose) override { motion().set_pose(pose); }
+  // Throws where the host does not pose it.
+  void set_pose(const Pose &pose) override;
 
   std::string servo_text() const override;
 
@@ -33,6 +35,8 @@ class ScriptedMover final : public Mover {
   void restore(const MeshState &was, const Step &now) override;
 
  private:
+  void check_posed(bool posed) const;
+
   ServoController controller_;
 };
 
