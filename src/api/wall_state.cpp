@@ -84,7 +84,8 @@ void read_saved(const Real *numbers, std::size_t n, WallState &state, SphereHist
 void restore(lsdcd_wall &wall, const double *numbers, std::size_t count, bool what_fits)
 {
   need(numbers, "numbers");
-  if (wall.begun) throw ApiError(LSDCD_ERROR_ARGUMENT, "a wall is restored before its first step");
+  if (wall.in->has_begun())
+    throw ApiError(LSDCD_ERROR_ARGUMENT, "a wall is restored before its first step");
   WallState state;
   SphereHistories spheres;
   std::int64_t step = 0;

@@ -219,6 +219,7 @@ void Wall::begin_run(std::int64_t step, bool virial)
 void Wall::begin(const HostSpheres &spheres, const StepInput &input)
 {
   input_ = input;
+  has_begun_ = true;
   const Step &step = input.step;
   if (step.kind == Step::snapshot) begin_snapshot(spheres.n, step);
   if (input.look) {

@@ -196,8 +196,9 @@ class Wall {
   // Returns what the wall keeps beside the histories of spheres, for a saved state. The loads of all processes are on the first
   // one alone.
   WallState save();
-  // Restores what this or another wall has saved; all processes give the same state. Throws InputError, with nothing changed,
-  // where a servo would be outside its limits.
+  // Restores what another wall has saved, before the first step; all processes give the same state. Throws InputError, with
+  // nothing changed, where a servo or a body would be outside of its limits.
+  bool has_begun() const { return has_begun_; }    // a step. Local.
   void restore(const WallState &was, const Step &now);
   // Restores the history of the spheres of this process after restore(), each as pack_saved() wrote it. Warns of what does not
   // fit.
@@ -285,6 +286,7 @@ class Wall {
   NodeMeshes nodes_;
 
   StepInput input_;             // of the last begin()
+  bool has_begun_ = false;      // a step
   bool step_failed_ = false;    // the last one, on this process
   bool continued_ = false;      // from a saved state
   bool springs_told_ = false;

@@ -634,6 +634,12 @@ TEST_F(wall, says_what_is_wrong_with_a_call)
       {[](C &c) { return lsdcd_wall_restore(c.wall, nullptr, 5); }, "`numbers` is null"},
       {[](C &c) { return lsdcd_wall_restore(c.wall, c.numbers, 5); },
        "a wall is restored before its first step"},
+      {[](C &c) {
+         const std::ptrdiff_t same[] = {0, 1};
+         lsdcd_wall_renumber(c.wall, same, 2);
+         return lsdcd_wall_restore(c.wall, c.numbers, 5);
+       },
+       "a wall is restored before its first step"},
       // Walls.
       {[](C &c) { return lsdcd_wall_from_spec(c.spec, nullptr, nullptr); }, "`wall` is null"},
       {[](C &c) { return c.spec = nullptr, c.make(); }, "`lsdcd_wall_spec` is null"},

@@ -43,7 +43,7 @@ MotionTerm some_term(Random &random)
   } else {
     term.kind = MotionKind::rotate;
     term.axis = random_unit(random);
-    term.period = uniform(random, 2, 4);
+    term.period = uniform(random, 40, 80);
   }
   return term;
 }
@@ -57,17 +57,18 @@ Servo some_servo(Random &random)
   return servo;
 }
 
-Joint some_joint(Random &random)
+// About a point, where it has one.
+Joint some_joint(Random &random, const Vec3 &point)
 {
   Joint joint;
   joint.kind = static_cast<JointKind>(static_cast<int>(uniform(random, 0, 5)));
   joint.axis = {0, 0, 1};
-  joint.point = {0, 0, 1};
+  joint.point = point;
   return joint;
 }
 
 // A mesh on which spheres lie: a floor, or a cube whose top is in its place.
-MeshSpec mesh_of(Kind kind, Random &random)
+MeshSpec mesh_of(Kind kind, Real x, Random &random)
 {
   MeshSpec mesh;
   mesh.name = kNames[static_cast<int>(kind)];
@@ -80,7 +81,7 @@ MeshSpec mesh_of(Kind kind, Random &random)
   if (!is_body) return mesh;
   mesh.body.present = true;
   mesh.body.density = 2;
-  mesh.body.joint = some_joint(random);
+  mesh.body.joint = some_joint(random, {x, 0, 1});
   mesh.body.velocity = mesh.body.joint.kind == JointKind::free ? Vec3{0.1, 0, 0} : Vec3{0, 0, 0};
   if (kind == Kind::coated) mesh.body.coat = {true, 0.7, 0.1};
   return mesh;
@@ -98,10 +99,10 @@ WallSpec wall_of(const std::vector<Kind> &kinds, Random &random)
   if (wears) wall.wear_shape = {5, 3};
   Real x = 0;
   for (const Kind kind : kinds) {
-    wall.meshes.push_back(mesh_of(kind, random));
+    wall.meshes.push_back(mesh_of(kind, x, random));
     wall.meshes.back().placement.move({x, 0, 0});
     if (kind == Kind::coated) {
-      wall.meshes.push_back(mesh_of(Kind::rests, random));
+      wall.meshes.push_back(mesh_of(Kind::rests, x, random));
       wall.meshes.back().placement.move({x, 0, -2.095});
     }
     x += 6;
@@ -287,7 +288,7 @@ void change(World &world, std::size_t mesh, Random random)
   if (words.body.present) {
     BodySpec to = words.body;
     if (ends) {
-      to.joint = some_joint(random);
+      to.joint = some_joint(random, to.joint.point);
       to.velocity = {0, 0, 0};
     }
     to.load = uniform(random, {-5, -5, -5}, {5, 5, 5});
@@ -305,7 +306,7 @@ void change(World &world, std::size_t mesh, Random random)
   }
 }
 
-void try_sequence(unsigned seed)
+void try_sequence(unsigned seed, std::string &text)
 {
   Random random(seed);
   std::vector<Kind> kinds;
@@ -317,7 +318,7 @@ void try_sequence(unsigned seed)
                no_coat = kind == Kind::coated && has(Kind::nodes);
     if (!no_nodes && !no_coat) kinds.push_back(kind);    // a coat and nodes refuse each other
   }
-  std::string text = "seed " + std::to_string(seed) + ":";
+  text = "seed " + std::to_string(seed) + ":";
   for (const Kind kind : kinds) text += std::string(" ") + kNames[static_cast<int>(kind)];
   const WallSpec spec = wall_of(kinds, random);
   FakeHost host;
@@ -378,10 +379,11 @@ TEST(wall_sequences, go_on_from_saved_states_to_the_bit_or_say_why_not)
   const char *const given = std::getenv("LSDCD_SEQUENCES");
   const unsigned n = given ? static_cast<unsigned>(std::atoi(given)) : 40;
   for (unsigned seed = 1; seed <= n && !HasFatalFailure(); seed++) {
+    std::string text;
     try {
-      try_sequence(seed);
+      try_sequence(seed, text);
     } catch (const InputError &e) {
-      ADD_FAILURE() << "seed " << seed << ": " << e.what();
+      ADD_FAILURE() << text << ": " << e.what();
     }
   }
 }

@@ -53,11 +53,10 @@ class Shape {
   // Returns the line of the log on it; empty: there is nothing to say.
   virtual std::string recedes_text() const { return ""; }
 
-  // Writes what it needs to go on into a saved state. restore() takes it again where check() does not throw, as far as that is
-  // of this shape and, if not `same`, of another mesh; the first process warns of what it leaves out. Returns whether
-  // vertices have moved: then the grid is to be built anew. Both are collective.
+  // Writes what it needs to go on into a saved state. restore() takes it again as far as that is of this shape; not
+  // `same`: it is of another mesh. The first process warns of what is left out. Returns whether vertices have moved: then
+  // the grid is to be built anew. Both are collective.
   virtual void save(MeshState & /* to */) const {}
-  virtual void check(const MeshState & /* was */) const {}
   virtual bool restore(const MeshState &was, bool same);
 
   virtual std::size_t bytes() const { return 0; }    // beside the grid's
