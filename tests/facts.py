@@ -7,9 +7,10 @@ failed = []
 
 
 def fact(name, holds, detail=""):
-    print(f"{'PASS' if holds else 'FAIL'} {name}{f': {detail}' if detail != '' else ''}")
+    said = f"{name}: {detail}" if str(detail) else str(name)
+    print("PASS" if holds else "FAIL", said)
     if not holds:
-        failed.append(f"{name}: {detail}" if detail != "" else name)
+        failed.append(said)
 
 
 def at_most(name, value, limit):

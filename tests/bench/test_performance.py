@@ -1,12 +1,10 @@
-#!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 LSDCD contributors
 # SPDX-License-Identifier: BSD-3-Clause
 
 """The benchmark driver keeps rows by program, case, sizes and order, the pages hold what
 the rows of doc/data say, and every program prints rows of the one format.
 
-usage: test_performance.py [comparisons]
-  comparisons: only that those with other walls and with LIGGGHTS run, which takes minutes
+Comparisons with other walls and with LIGGGHTS take minutes.
 """
 
 import os
@@ -21,14 +19,8 @@ BUILD = os.environ["LSDCD_BUILD"]
 sys.path.insert(0, str(ROOT / "bench"))
 import pages  # noqa: E402
 import rows as kept  # noqa: E402
+from facts import fact  # noqa: E402
 
-failed = 0
-
-
-def fact(name, holds, detail=""):
-    global failed
-    print(f"{'PASS' if holds else 'FAIL'} {name}{': ' + detail if detail else ''}")
-    failed += not holds
 
 
 def row(program, case, median, order="random"):
@@ -74,14 +66,14 @@ def test_programs():
                                             float(r["bytes"]) - 1) > 1e-3]    # digits printed
         fact("the floor is the bytes over that speed", with_bytes and not off, str(off[:1]))
         fact("a table is made of them", "| 960 |" in pages.point_costs(rows))
-        test_near_and_far(rows)
+        near_and_far(rows)
         wrong = subprocess.run([os.path.join(BUILD, "bin", "bench_query"), "--spheres", "none"],
                                stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
         fact("a word that makes no sense ends a program with a line that says so",
              wrong.returncode == 2 and "--spheres" in wrong.stdout, wrong.stdout)
 
 
-def test_near_and_far(rows):
+def near_and_far(rows):
     near, far, anywhere = ([r for r in rows if r["case"].startswith(place)] for place in ("near, ", "far, ", "any, "))
     fact("points near the mesh are all found, on one core, in both orders",
          {r["order"] for r in near} == {"random", "sorted"} and
@@ -122,12 +114,3 @@ def test_comparisons():
             # Both laws are the same; folds of 5.6 degrees, where a sphere is at two sides, differ.
             fact("liggghts: both codes sum the same forces, to a hundredth",
                  all(abs(r - 1) < 0.01 for r in ratios), str(sorted(set(ratios))))
-
-
-if sys.argv[1:] == ["comparisons"]:
-    test_comparisons()
-else:
-    test_rows()
-    test_document()
-    test_programs()
-sys.exit(1 if failed else 0)

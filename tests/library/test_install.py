@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 LSDCD contributors
 # SPDX-License-Identifier: BSD-3-Clause
 
@@ -13,12 +12,14 @@ import re
 import shutil
 import subprocess
 import sys
-import tempfile
+
+import pytest
+
+from facts import fact
 
 ROOT, BUILD = os.environ["LSDCD_ROOT"], os.environ["LSDCD_BUILD"]
 CUDA = os.environ["LSDCD_CUDA"] == "ON"
 PYTHON = sys.executable
-failed = 0
 
 # A cube of side 2 about the origin. Of the example's points the first is its middle, 1 from all
 # faces, where nothing is nearer than the cutoff 1; the second is 0.25 above its top.
@@ -60,12 +61,6 @@ endforeach()
 """
 
 
-def fact(name, true, detail=""):
-    global failed
-    failed += not true
-    print(f"{'PASS' if true else 'FAIL'} {name}{'' if true else ': ' + str(detail)}", flush=True)
-
-
 def run(*words, folder, **environment):
     done = subprocess.run([str(w) for w in words], cwd=folder, text=True, stdout=subprocess.PIPE,
                           stderr=subprocess.STDOUT, env={**os.environ, **environment})
@@ -94,7 +89,8 @@ def find(prefix, name):
     return found[0]
 
 
-def check_symbols(prefix, library):
+def test_symbols(libraries):
+    library = os.path.join(libraries, "liblsdcd.so.0")
     with open(os.path.join(prefix, "include", "lsdcd.h"), encoding="utf-8") as f:
         declared = set(re.findall(r"^LSDCD_API[^;]*?\b(lsdcd_\w+)\(", f.read(), re.M))
     _, text = run("nm", "-D", "--defined-only", library, folder=prefix)
@@ -107,7 +103,7 @@ def check_symbols(prefix, library):
     fact("it has no path of the build", "RUNPATH" not in text and "RPATH" not in text, text)
 
 
-def check_builds(prefix, work, libraries):
+def test_builds(prefix, work, libraries):
     examples = os.path.join(ROOT, "examples", "library")
     there = {"LD_LIBRARY_PATH": libraries}
     compile_c = "{} -std=c99 -Wall -Wextra -Werror -pedantic {} -o c $(pkg-config --cflags --libs lsdcd)"
@@ -146,7 +142,7 @@ def check_builds(prefix, work, libraries):
     fact("an error has its text", code != 0 and "nowhere.stl" in text, text)
 
 
-def check_static(prefix, work, libraries):
+def test_static(prefix, work, libraries):
     """The example in C with the library in it: without the shared one it runs."""
     if CUDA:
         print("skipped: the static library (a build with CUDA has none)")
@@ -172,7 +168,7 @@ def check_static(prefix, work, libraries):
     fact("and it does not need the shared one", "liblsdcd" not in text, text)
 
 
-def check_cuda(prefix, work):
+def test_cuda(prefix, work):
     if not CUDA:
         print("skipped: the examples in CUDA (this build has none)")
         return
@@ -196,7 +192,7 @@ def check_cuda(prefix, work):
         print("skipped: running the examples in CUDA (no GPU)")
 
 
-def check_python(prefix, work):
+def test_python(prefix, work):
     path = os.path.dirname(find(prefix, "py.typed"))
     gives("the example in Python gives the distances", WANTED, PYTHON,
           os.path.join(ROOT, "examples", "library", "distance.py"), "cube.stl", folder=work, PYTHONPATH=path)
@@ -206,7 +202,7 @@ def check_python(prefix, work):
           os.path.join(ROOT, "tests", "library", "use_module.py"), folder=work, PYTHONPATH=path)
 
 
-def check_wheel(work):
+def test_wheel(work):
     """pip's wheel of the build, in a virtual environment that has numpy only."""
     code, text = run(PYTHON, "-c", "import pip, venv", folder=work)
     if code != 0:
@@ -232,7 +228,7 @@ def check_wheel(work):
     fact("pip takes it away again, whole", not left, left)
 
 
-def check_tool(prefix, work):
+def test_tool(prefix, work):
     tool = os.path.join(prefix, "bin", "lsdcd")
     if not os.path.exists(tool):
         print("skipped: the tool is not built")
@@ -263,7 +259,7 @@ print "wall built"
           OMPI_MCA_ess_singleton_isolated="1", OMP_NUM_THREADS="1")
 
 
-def check_documents(prefix):
+def test_documents(prefix):
     """Pages lie so that their links lead to what is installed."""
     sys.path.insert(0, os.path.join(ROOT, "tests", "tool"))
     import pages
@@ -274,31 +270,29 @@ def check_documents(prefix):
     fact("links of the installed pages lead to what is installed", len(read) > 20 and not missing, (len(read), sorted(missing)))
 
 
-def main():
-    with tempfile.TemporaryDirectory(prefix="lsdcd-install-") as top:
-        installed, prefix, work = (os.path.join(top, name) for name in ("at_first", "prefix", "work"))
-        os.mkdir(work)
-        code, text = run(os.environ["LSDCD_CMAKE"], "--install", BUILD, "--prefix", installed, folder=top)
-        fact("the build installs", code == 0, text)
-        if code != 0:
-            return 1
-        os.rename(installed, prefix)
-        write_cube(os.path.join(work, "cube.stl"))
-        with open(os.path.join(work, "floor.stl"), "w", encoding="ascii") as f:
-            f.write(FLOOR)
-        libraries = find(prefix, "liblsdcd.so.0")
-        check_symbols(prefix, os.path.join(libraries, "liblsdcd.so.0"))
-        check_builds(prefix, work, libraries)
-        check_static(prefix, work, libraries)
-        check_cuda(prefix, work)
-        check_python(prefix, work)
-        check_wheel(work)
-        check_tool(prefix, work)
-        check_documents(prefix)
-        for name in ("LICENSE", "CITATION.cff", "library.md", "distance.cpp"):
-            find(prefix, name)
-    return 1 if failed else 0
+@pytest.fixture(scope="module")
+def work(folder):
+    """Where programs are made. The build is installed beside it, and moved."""
+    work = folder / "work"
+    work.mkdir()
+    code, text = run(os.environ["LSDCD_CMAKE"], "--install", BUILD, "--prefix", folder / "at_first", folder=folder)
+    assert code == 0, text
+    (folder / "at_first").rename(folder / "prefix")
+    write_cube(work / "cube.stl")
+    (work / "floor.stl").write_text(FLOOR, encoding="ascii")
+    return str(work)
 
 
-if __name__ == "__main__":
-    sys.exit(main())
+@pytest.fixture(scope="module")
+def prefix(folder, work):
+    return str(folder / "prefix")
+
+
+@pytest.fixture(scope="module")
+def libraries(prefix):
+    return find(prefix, "liblsdcd.so.0")
+
+
+def test_files(prefix):
+    for name in ("LICENSE", "CITATION.cff", "library.md", "distance.cpp"):
+        find(prefix, name)

@@ -1,15 +1,14 @@
-#!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 LSDCD contributors
 # SPDX-License-Identifier: BSD-3-Clause
 
 """Misuses of the Python package's walls, by a table: a call, a wrong value, and a part of the message that refuses it. 1 s.
 
 PYTHONPATH and LSDCD_LIBRARY name the package and its library."""
-import sys
 
 import numpy as np
 
 import lsdcd
+from facts import fact
 from lsdcd import Law, Motion, RigidBody, Servo, SubModel
 
 NAN, INF = float("nan"), float("inf")
@@ -284,11 +283,9 @@ def misuses():
         yield from table()
 
 
-def main():
-    count, failed = 0, 0
+def test_misuses():
     for name, call, rows in misuses():
         for value, part in rows:
-            count += 1
             try:
                 call(value)
                 told = "it is accepted"
@@ -298,11 +295,4 @@ def main():
                     continue
             except Exception as error:    # of no kind that a user expects
                 told = repr(error)
-            failed += 1
-            print(f"FAIL {name} as {value!r}: not {part!r} but: {told}")
-    print(f"{count} misuses, {failed} not refused as they should be")
-    return 1 if failed else 0
-
-
-if __name__ == "__main__":
-    sys.exit(main())
+            fact(f"{name} as {value!r} is refused", False, f"not {part!r} but: {told}")

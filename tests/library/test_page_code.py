@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 LSDCD contributors
 # SPDX-License-Identifier: BSD-3-Clause
 
@@ -12,7 +11,8 @@ import pathlib
 import re
 import subprocess
 import sys
-import tempfile
+
+from facts import fact
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 sys.path.insert(0, str(ROOT / "tests" / "tool"))
@@ -69,26 +69,16 @@ def wanted_of(block):
     return next(other.text for other in blocks[blocks.index(block):] if other.language == "text")
 
 
-def main():
-    failed = count = 0
-    with tempfile.TemporaryDirectory() as folder:
-        for page in all_pages().values():
-            for block in page.blocks:
-                if block.form or block.language not in ("python", *COMPILERS):
-                    continue
-                count += 1
-                problem = problem_of(block, folder)
-                print(f"{'FAIL' if problem else 'PASS'} {block}: {block.language} compiles{': ' + problem if problem else ''}")
-                failed += bool(problem)
-                if not block.run:
-                    continue
-                printed, wanted = output_of(block, folder), wanted_of(block)
-                print(f"{'PASS' if printed == wanted else 'FAIL'} {block}: prints what the page has"
-                      f"{'' if printed == wanted else ': ' + printed}")
-                failed += printed != wanted
-    print(f"{count} blocks")
-    sys.exit(1 if failed or not count else 0)
-
-
-if __name__ == "__main__":
-    main()
+def test_blocks(folder):
+    count = 0
+    for page in all_pages().values():
+        for block in page.blocks:
+            if block.form or block.language not in ("python", *COMPILERS):
+                continue
+            count += 1
+            problem = problem_of(block, folder)
+            fact(f"{block}: {block.language} compiles", not problem, problem or "")
+            if block.run:
+                printed = output_of(block, folder)
+                fact(f"{block}: prints what the page has", printed == wanted_of(block), printed)
+    fact("there are blocks", count > 0)

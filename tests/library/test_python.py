@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 LSDCD contributors
 # SPDX-License-Identifier: BSD-3-Clause
 
@@ -13,7 +12,6 @@ import copy
 import ctypes
 import gc
 import importlib.util
-import math
 import multiprocessing
 import os
 import pathlib
@@ -29,16 +27,10 @@ import threading
 import numpy as np
 
 import lsdcd
+from facts import fact
 from lsdcd import _arrays, _c
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-failed = 0
-
-
-def fact(name, true, detail=""):
-    global failed
-    failed += not true
-    print(f"{'PASS' if true else 'FAIL'} {name}{'' if true else f': {detail}'}", flush=True)
 
 
 def refused(name, says, call, kind=TypeError):
@@ -83,7 +75,7 @@ class OfHost(_arrays._Offered):
         return 1, 0
 
 
-def check_reading():
+def test_reading():
     layouts = np.arange(48.0).reshape(2, 8, 3)
     for name, values, steps in (("packed", layouts, (3, 1)), ("every second", layouts[:, ::2], (6, 1)),
                                 ("backwards", layouts[0, ::-1], (-3, 1)), ("columns apart", layouts[0].T.copy().T, (1, 8)),
@@ -129,7 +121,7 @@ def check_reading():
     fact("and that the default one is 1", lent.words == {"stream": 1}, lent.words)
 
 
-def check_queries():
+def test_queries():
     """Arrays of others, asked of a floor at z = 0."""
     grid = lsdcd.Mesh([[[-9, -9, 0], [9, -9, 0], [0, 9, 0]]]).grid(cutoff=2)
     z = np.arange(6, dtype=np.float32).reshape(2, 3) / 4
@@ -199,7 +191,7 @@ class FakeDriver:
         del self.memory[address]
 
 
-def check_shapes():
+def test_shapes():
     grid = lsdcd.Mesh(np.array([[[-9, -9, 0], [9, -9, 0], [0, 9, 0]]], float)).grid()
     turned = np.array([np.cos(np.pi / 4), 0, np.sin(np.pi / 4), 0])    # a quarter about y: the long axis is upright
     centres = np.array([[0, 0, 0.95], [1, 0, 1.9], [0, 0, 3]])
@@ -223,7 +215,7 @@ def check_shapes():
             lsdcd.Error)
 
 
-def check_device_path():
+def test_device_path():
     """The way of a query to a device, whose functions answer here on the host."""
     lib, driver, opened, asked = lsdcd._lib, FakeDriver(), [], []
     real = lib.lsdcd_stream_open, lib.lsdcd_query_stream, _arrays.driver
@@ -321,7 +313,7 @@ def check_copied_arrays(wall, given):
     fact("arrays of the last step can be resized", x.shape == (2, 3))
 
 
-def check_specs():
+def test_specs():
     """Specs print and are pickled as the call that made them, a mesh has arrays, a wall's meshes have names, and `with` closes."""
     square = np.array([[-5, -5, 0], [5, -5, 0], [5, 5, 0], [-5, 5, 0]], float)
     mesh = lsdcd.Mesh(square, [[0, 1, 2], [0, 2, 3]])
@@ -368,7 +360,7 @@ def check_specs():
             ValueError)
 
 
-def check_processes():
+def test_processes():
     """A sphere that slides on a floor at z = 0 goes to another process; the wall of each is in a thread."""
     spec = on_floor("hooke/history", kt=300, xmu=0.5)
     dt, speed, packed, told = 1e-3, 0.1, [], [None, None]
@@ -417,7 +409,7 @@ def check_processes():
     refused("what a host raises is raised", "no network", lambda: lsdcd.Wall(spec, host=Breaks(0, None, None)), KeyError)
 
 
-def check_wall_specs():
+def test_wall_specs():
     """A pose and totals in closed form, and what is refused. wall_against_lammps.py has walls against those of scripts."""
     square = np.array([[-5, -5, 0], [5, -5, 0], [5, 5, 0], [-5, 5, 0]], float)
     mesh = lsdcd.Mesh(square, [[0, 1, 2], [0, 2, 3]])
@@ -562,7 +554,7 @@ def check_wall_specs():
     fact("sub-models are listed", {("style", "hooke/history"), ("tangential", "mindlin"), ("rolling", "cdt")} <= names, names)
 
 
-def check_wall_arrays():
+def test_wall_arrays():
     """Arrays of spheres of other libraries, and what a wall refuses of them."""
     spec = on_floor()
     wall = lsdcd.Wall(spec)
@@ -636,7 +628,7 @@ def saved_walls():
         yield name, lambda: lsdcd.Wall(lsdcd.WallSpec(law, meshes, rmax=0.2, **words)), tell
 
 
-def check_saved_states():
+def test_saved_states():
     """A wall that was restored has all that the other one has, and goes on as it does, bit for bit."""
     dt, n = 5e-4, 5
 
@@ -670,7 +662,7 @@ def check_saved_states():
              and (wall.pose() == again.pose()).all())
 
 
-def check_given_values():
+def test_given_values():
     """What is no number, no whole number or no text of C is refused, and never read as another one."""
     triangle = np.array([[[-9.0, -9, 0], [9, -9, 0], [0, 9, 0]]])
     vertices, faces, points = triangle[0], np.array([[0, 1, 2]]), np.array([[0, 0, 0.5]])
@@ -724,7 +716,7 @@ def check_given_values():
     fact("totals too", wall.totals() == wall.totals())
 
 
-def check_values_that_c_reads_otherwise():
+def test_values_that_c_reads_otherwise():
     """Numbers that stand for something else in C, texts as truth, None as a number, and a name that belongs to another law."""
     sub, style = lsdcd.SubModel, {"kn": 1e4, "gamman": 20, "gammat": 7, "xmu": 0.5, "dampflag": 1}
     mesh = lsdcd.Mesh(np.array([[-1, -1, 0], [1, -1, 0], [1, 1, 0], [-1, 1, 0]], float), [[0, 1, 2], [0, 2, 3]])
@@ -791,7 +783,7 @@ def missing_mesh(name):
     lsdcd.Mesh(name)
 
 
-def check_errors():
+def test_errors():
     """Errors that go to another process, that quote what is no UTF-8, and Ctrl-C as a callback begins."""
     try:
         missing_mesh("/nowhere.stl")
@@ -835,7 +827,7 @@ def check_errors():
     fact("the handler is the old one", signal.getsignal(signal.SIGINT) is before)
 
 
-def check_box():
+def test_box():
     """The box of a wall's spheres, by its two corners."""
     spec = on_floor()
     refused("lo needs hi", "give both, or neither", lambda: lsdcd.Wall(spec, lo=(-5, -5, -5)), ValueError)
@@ -844,7 +836,7 @@ def check_box():
     refused("a time is finite", "time nan", lambda: lsdcd.Wall(spec, time=np.nan), lsdcd.Error)
 
 
-def check_fork():
+def test_fork():
     """multiprocessing forks by default: its processes ask with threads, as this one has before. 0.3 s."""
     grid = lsdcd.Mesh(np.eye(3), [[0, 1, 2]]).grid()
     points = np.random.default_rng(1).uniform(-1, 2, (20000, 3))
@@ -872,7 +864,7 @@ NONSENSE = (None, "x", b"x", -1, 1.5, float("nan"), float("inf"), 2**40, -2**70,
             np.array([[1, 2, 3]], object), np.full((1, 3), np.nan))
 
 
-def check_nonsense():
+def test_nonsense():
     """What each argument of the package makes of it: an answer, a ValueError (Error is one) or a TypeError."""
     corners = np.array([[[-9.0, -9, 0], [9, -9, 0], [0, 9, 0]]])
     mesh = lsdcd.Mesh(corners)
@@ -915,7 +907,7 @@ def check_nonsense():
         fact(f"{name}: nonsense is a ValueError or a TypeError", not other, other)
 
 
-def check_wheel():
+def test_wheel():
     """What LSDCD_BUILD may name."""
     spec = importlib.util.spec_from_file_location("make_wheel", ROOT / "cmake" / "make_wheel.py")
     make_wheel = importlib.util.module_from_spec(spec)
@@ -959,7 +951,7 @@ def in_c():
     return "\n".join([*lines, "  (void) i, (void) d, (void) n, (void) text, (void) p;", "}", ""])
 
 
-def check_layouts():
+def test_layouts():
     """Structs and functions of the package against the header, by a compiler."""
     compiler = os.environ.get("LSDCD_C")
     if not compiler or not os.path.exists(compiler):
@@ -978,7 +970,7 @@ def check_layouts():
         fact(f"{name} is found", other != program and says(other) != "", was)
 
 
-def check_types():
+def test_types():
     mypy = shutil.which("mypy")
     if not mypy:
         print("skipped: no mypy")
@@ -1002,25 +994,3 @@ lsdcd.Body(grid, grid)
 """)
         lines = [int(line.split(":")[1]) for line in text.splitlines() if ": error:" in line]
         fact("a user's types are checked: wrong ones found, right ones not", sorted(set(lines)) == [5, 6, 7], text)
-
-
-if __name__ == "__main__":
-    check_reading()
-    check_queries()
-    check_shapes()
-    check_device_path()
-    check_processes()
-    check_wall_specs()
-    check_specs()
-    check_wall_arrays()
-    check_saved_states()
-    check_given_values()
-    check_values_that_c_reads_otherwise()
-    check_errors()
-    check_box()
-    check_wheel()
-    check_fork()
-    check_nonsense()
-    check_layouts()
-    check_types()
-    sys.exit(1 if failed else 0)

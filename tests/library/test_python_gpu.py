@@ -1,36 +1,28 @@
-#!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 LSDCD contributors
 # SPDX-License-Identifier: BSD-3-Clause
 
 """Queries of the Python package with arrays of PyTorch, CuPy and JAX on a GPU, against heights over a floor; walls with
 arrays of PyTorch and CuPy against arrays of numpy.
 
-    PYTHONPATH=src/api LSDCD_LIBRARY=build/lib/liblsdcd.so.0 python3 tests/library/test_python_gpu.py
+    PYTHONPATH=src/api LSDCD_LIBRARY=build/lib/liblsdcd.so.0 python3 -m pytest -c tests/pytest.ini tests/library/test_python_gpu.py
 
 Needs a library built with CUDA, a GPU, and one of the three; what is missing is skipped by its name, and with all
-missing the exit code is 77. Heights are multiples of 1/1024, so that distances in float32 and float64 are off by no
+missing all are skipped. Heights are multiples of 1/1024, so that distances in float32 and float64 are off by no
 more than 3e-6 of the cutoff.
 """
 import importlib
-import os
-import sys
-import tempfile
 
 import numpy as np
+import pytest
 
 import lsdcd
+import stl
+from facts import fact
 from lsdcd import _arrays
 
 CUTOFF, N = 2.0, 200000
 TETRAHEDRON = np.array([[0, 0, 0], [90, 0, 0], [0, 90, 0], [0, 0, 90]])[[[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]]]
 WANT = "distance closest normal triangle status"
-failed = 0
-
-
-def fact(name, true, detail=""):
-    global failed
-    failed += not true
-    print(f"{'PASS' if true else 'FAIL'} {name}{'' if true else f': {detail}'}", flush=True)
 
 
 def refused(name, says, call):
@@ -265,29 +257,16 @@ def check_wall(library, floor):
     fact(say("a wall keeps the order of its stream"), (found == first["force"]).all())
 
 
-def main():
+@pytest.mark.parametrize("kind", (Torch, Cupy, Jax), ids=lambda kind: kind.name)
+def test_arrays(kind, folder):
     if not lsdcd._lib.lsdcd_has_cuda():
-        print("skipped: Python with a GPU:", lsdcd._lib.lsdcd_last_error().decode())
-        return 77
-    grid = lsdcd.Mesh([[[-9, -9, 0], [9, -9, 0], [0, 9, 0]]]).grid(cutoff=CUTOFF)
-    ran = 0
-    for kind in (Torch, Cupy, Jax):
-        try:
-            library = kind()
-        except ImportError as error:
-            print(f"skipped: {kind.name}: {error}")
-            continue
-        ran += 1
-        check(library, grid)
-        if library.own:
-            with tempfile.TemporaryDirectory() as folder:
-                floor = os.path.join(folder, "floor.stl")
-                with open(floor, "w", encoding="ascii") as f:
-                    f.write("solid f\nfacet normal 0 0 1\nouter loop\nvertex -9 -9 0\nvertex 9 -9 0\nvertex 0 9 0\nendloop\n"
-                            "endfacet\nendsolid f\n")
-                check_wall(library, floor)
-    return 1 if failed else 0 if ran else 77
-
-
-if __name__ == "__main__":
-    sys.exit(main())
+        pytest.skip(lsdcd._lib.lsdcd_last_error().decode())
+    try:
+        library = kind()
+    except ImportError as error:
+        pytest.skip(str(error))
+    triangles = [[[-9, -9, 0], [9, -9, 0], [0, 9, 0]]]
+    check(library, lsdcd.Mesh(triangles).grid(cutoff=CUTOFF))
+    if library.own:
+        stl.write(folder / "floor.stl", triangles)
+        check_wall(library, str(folder / "floor.stl"))

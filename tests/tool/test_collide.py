@@ -1,18 +1,17 @@
-#!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 LSDCD contributors
 # SPDX-License-Identifier: BSD-3-Clause
 
 """lsdcd collide against closed forms: a cube through a floor of squares, counted by hand, and blades that
 each cut one triangle; what files hold; and what is refused."""
-import base64
 import math
-import pathlib
 import re
-import tempfile
 
 import numpy as np
 
-from tool_test import end, fact, refused, run, told, write_ascii_stl
+import stl
+import vtp
+from command import refused, run, told
+from facts import fact
 
 
 def floor(n, half):
@@ -47,20 +46,15 @@ def read_pairs(path):
 
 
 def read_vtp(path):
-    text = path.read_text()
-    kinds = {"Int64": np.int64, "Float64": np.float64}
-    arrays = {}
-    for kind, name, data in re.findall(r'type="(\w+)" Name="(\w+)"[^>]*>([^<]*)<', text):
-        raw = base64.b64decode(data)
-        assert np.frombuffer(raw[:8], np.uint64)[0] == len(raw) - 8
-        arrays[name] = np.frombuffer(raw[8:], kinds[kind])
-    return arrays, dict(re.findall(r'(NumberOf\w+)="(\d+)"', text))
+    """Its arrays, and the numbers that its head has."""
+    arrays = {name: np.array(numbers) for name, numbers in vtp.read(path).items()}
+    return arrays, dict(re.findall(r'(NumberOf\w+)="(\d+)"', path.read_text()))
 
 
-def check_cube(folder):
+def test_cube(folder):
     """In the middle of a triangle of a floor of two the cube's four upright sides have 2 triangles each."""
-    write_ascii_stl(folder / "floor.stl", floor(1, 4))
-    write_ascii_stl(folder / "cube.stl", cube(0.5))
+    stl.write(folder / "floor.stl", floor(1, 4))
+    stl.write(folder / "cube.stl", cube(0.5))
     words = "collide", "floor.stl", "cube.stl"
     middle = "2", "-2"
     for device in ("auto", "cpu"):
@@ -90,14 +84,14 @@ def check_cube(folder):
     fact("nearest lists say that they may miss pairs", not near["exact"] and near["uncertain_pieces"] > 0, near)
 
 
-def check_many(folder):
+def test_many(folder):
     """A small blade through the middle of each triangle; it sinks in ten poses, and comes out below."""
     triangles = floor(12, 3)
-    write_ascii_stl(folder / "squares.stl", triangles)
+    stl.write(folder / "squares.stl", triangles)
     a = 0.01
     middle = np.mean(triangles, axis=1)
     blades = [[m + (-a, 0, -a), m + (a, 0, -a), m + (0, 0, a)] for m in middle]
-    write_ascii_stl(folder / "blades.stl", blades)
+    stl.write(folder / "blades.stl", blades)
     heights = np.linspace(0.05, -0.05, 10)
     (folder / "path.txt").write_text("x,y,z,qw,qx,qy,qz\n# sinks\n\n" + "".join(f"0,0,{z!r},1,0,0,0\n" for z in heights))
     said = told(folder, "collide", "squares.stl", "blades.stl", "--poses", "path.txt", "-o", "pairs.csv",
@@ -139,7 +133,7 @@ def check_many(folder):
          and len(read_vtp(folder / "flat.vtp")[0]["points"]) == 0)
 
 
-def check_refused(folder):
+def test_refused(folder):
     words = ("collide", "floor.stl", "cube.stl")
     refused(folder, [*words, "--pose", 1, 2, 3, 4], "has 4 numbers", "x y z qw qx qy qz", code=2)
     refused(folder, [*words, "--pose", 0, 0, 0, 1, 1, 0, 0], "length 1.41", "unit", code=2)
@@ -168,15 +162,3 @@ def check_refused(folder):
         refused(folder, [*words, "--poses", "bad.txt", "-o", "left.csv"], *says)
     done = run(folder, "collide", "--help")
     fact("--help has an example", done.returncode == 0 and "lsdcd collide wall.stl body.stl --pose" in done.stdout)
-
-
-def main():
-    folder = pathlib.Path(tempfile.mkdtemp(prefix="lsdcd-"))
-    check_cube(folder)
-    check_many(folder)
-    check_refused(folder)
-    end()
-
-
-if __name__ == "__main__":
-    main()

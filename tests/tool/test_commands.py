@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 LSDCD contributors
 # SPDX-License-Identifier: BSD-3-Clause
 
@@ -7,13 +6,13 @@ taken and others refused, and a table of good and bad uses does what it should. 
 row in NEEDS and in GOOD. LSDCD_QUICK=1 has another example of `accuracy`, whose own makes fine grids for 35 s."""
 import json
 import os
-import pathlib
 import re
 import shlex
 import subprocess
-import tempfile
 
-from tool_test import TOOL, end, fact, refused, run, write_ascii_stl
+import stl
+from command import TOOL, refused, run
+from facts import fact
 from triangles import cube
 
 # What is missing where a command stands alone.
@@ -142,23 +141,21 @@ def same(value, wanted):
     return abs(value - wanted) <= 1e-6 * abs(wanted) if isinstance(wanted, float) else value == wanted
 
 
-def scene():
-    folder = pathlib.Path(tempfile.mkdtemp(prefix="lsdcd-"))
+def scene(folder):
     box = cube()
     for name in ("wall.stl", "body.stl"):
-        write_ascii_stl(folder / name, box)
-    write_ascii_stl(folder / "two.stl", [*box, *cube(at=(3, 0, 0))[:, ::-1]])    # the second inside out
-    write_ascii_stl(folder / "cut.stl", [*box, *cube(at=(0.5, 0.5, 0.5))])
+        stl.write(folder / name, box)
+    stl.write(folder / "two.stl", [*box, *cube(at=(3, 0, 0))[:, ::-1]])    # the second inside out
+    stl.write(folder / "cut.stl", [*box, *cube(at=(0.5, 0.5, 0.5))])
     knot = box.copy()
     knot[(knot == 0).all(axis=2)] = (2, 0.5, 0.25)    # a corner, through the face across
-    write_ascii_stl(folder / "knot.stl", knot)
+    stl.write(folder / "knot.stl", knot)
     box[0, 0] += (0.003, 0.004, 0)
-    write_ascii_stl(folder / "apart.stl", box)
-    write_ascii_stl(folder / "line.stl", [[(0, 0, 0), (1, 0, 0), (2, 0, 0)]])
+    stl.write(folder / "apart.stl", box)
+    stl.write(folder / "line.stl", [[(0, 0, 0), (1, 0, 0), (2, 0, 0)]])
     (folder / "points.csv").write_text("0.5,0.5,1.25\n9,9,9\n")
     (folder / "text.stl").write_text("no mesh at all\n")
     run(folder, "convert", "wall.stl", "-o", "wall.obj")
-    return folder
 
 
 def check_full_output(folder, commands):
@@ -184,8 +181,8 @@ def check_json(folder, commands):
     fact("and the words for a script are the same", " ".join(json.loads(both[1])["words"]) in both[0], both[1])
 
 
-def main():
-    folder = scene()
+def test_commands(folder):
+    scene(folder)
     said = run(folder, "--help").stdout
     commands = re.findall(r"^  ([a-z]+)  ", said.split("Subcommands:")[1], re.M)
     fact("every command has a row here", set(commands) == set(NEEDS) == {g[0].split()[0] for g in GOOD},
@@ -199,7 +196,10 @@ def main():
              (examples[0] + " ").startswith(command + " "), examples)
         words = (examples[0] + " " + QUICK.get(command, "")).strip()
         if words not in [FINE_GRIDS, *(row[0] for row in GOOD)]:    # those are run below
-            done = run(scene(), *shlex.split(words))
+            alone = folder / f"of-{command}"
+            alone.mkdir()
+            scene(alone)
+            done = run(alone, *shlex.split(words))
             fact(f"and it works: {words}", done.returncode == 0, done.stderr[-300:])
         if NEEDS[command]:
             refused(folder, [command], NEEDS[command], code=2)
@@ -217,8 +217,3 @@ def main():
         refused(folder, words.split(), *wanted, code=code)
     check_full_output(folder, commands)
     check_json(folder, commands)
-    end()
-
-
-if __name__ == "__main__":
-    main()

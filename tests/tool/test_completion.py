@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 LSDCD contributors
 # SPDX-License-Identifier: BSD-3-Clause
 
@@ -6,7 +5,8 @@
 import pathlib
 import subprocess
 
-from tool_test import TOOL, end, fact
+from command import TOOL
+from facts import fact
 
 SCRIPT = pathlib.Path(__file__).resolve().parents[2] / "src" / "tool" / "lsdcd.bash"
 
@@ -20,7 +20,7 @@ def completed(*words):
     return done.stdout.split()
 
 
-def main():
+def test_completion():
     fact("commands", {"inspect", "repair", "convert", "generate", "distance", "material"} <= set(completed("")),
          completed(""))
     fact("commands by their beginning", completed("dist") == ["distance"], completed("dist"))
@@ -34,8 +34,3 @@ def main():
     fact("devices", completed("distance", "a", "b", "--device", "cu") == ["cuda"])
     fact("units", completed("convert", "a", "--units", "m") == ["m", "mm"])
     fact("files are left to bash", completed("inspect", "wall") == [])
-    end()
-
-
-if __name__ == "__main__":
-    main()

@@ -1,18 +1,16 @@
-#!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 LSDCD contributors
 # SPDX-License-Identifier: BSD-3-Clause
 
 """lsdcd convert: what it writes, read here; what it reads, written here."""
-import pathlib
 import struct
-import tempfile
 
 import numpy as np
 
-from tool_test import end, fact, read_stl, refused, run, told, write_ascii_stl
+import stl
+from command import refused, run, told
+from facts import fact
 from triangles import sphere
 
-FOLDER = pathlib.Path(tempfile.mkdtemp(prefix="lsdcd-"))
 DOUBLES = sphere(3) / 3 + 1e-3
 FLOATS = DOUBLES.astype(np.float32).astype(float)
 
@@ -51,60 +49,60 @@ def read_stl_text(data):
     return np.array(rows, float).reshape(-1, 3, 3)
 
 
-def written():
-    write_ascii_stl(FOLDER / "doubles.stl", DOUBLES)
-    write_ascii_stl(FOLDER / "floats.stl", FLOATS)
+def test_written(folder):
+    stl.write(folder / "doubles.stl", DOUBLES)
+    stl.write(folder / "floats.stl", FLOATS)
     vertices = len(np.unique(DOUBLES.reshape(-1, 3), axis=0))
     for name, wanted in (("doubles", DOUBLES), ("floats", FLOATS)):
         for ending, read in (("obj", read_obj), ("off", read_off), ("ply", read_ply)):
-            said = told(FOLDER, "convert", f"{name}.stl", "-o", f"{name}.{ending}")
-            got = read((FOLDER / f"{name}.{ending}").read_bytes())
+            said = told(folder, "convert", f"{name}.stl", "-o", f"{name}.{ending}")
+            got = read((folder / f"{name}.{ending}").read_bytes())
             fact(f"{name} in {ending} are the same bits", np.array_equal(got[0], wanted) and
                  said["facets"] == len(wanted))
             fact(f"{name} in {ending}: each vertex once", got[1] == vertices, (got[1], vertices))
         fact(f"{name} in ply", got[2] == ("<f8" if name == "doubles" else "<f4"), got[2])
-        told(FOLDER, "convert", f"{name}.stl", "-o", "out.STL")
-        data = (FOLDER / "out.STL").read_bytes()
+        told(folder, "convert", f"{name}.stl", "-o", "out.STL")
+        data = (folder / "out.STL").read_bytes()
         fact(f"{name} in STL are {'text' if name == 'doubles' else 'binary'}",
              data.startswith(b"solid") == (name == "doubles"))
-        got = read_stl_text(data) if name == "doubles" else np.array(read_stl(FOLDER / "out.STL"))
+        got = read_stl_text(data) if name == "doubles" else np.array(stl.read(folder / "out.STL"))
         fact(f"{name} in STL are the same bits", np.array_equal(got, wanted))
     # The data of this plane in PLY begin with a line's end, 0A.
-    told(FOLDER, "generate", "plane", "--width", 0.04, "--depth", 0.04, "-o", "plane.stl")
-    told(FOLDER, "convert", "plane.stl", "-o", "plane.ply")
+    told(folder, "generate", "plane", "--width", 0.04, "--depth", 0.04, "-o", "plane.stl")
+    told(folder, "convert", "plane.stl", "-o", "plane.ply")
     for name in ("plane", "floats", "doubles"):
-        told(FOLDER, "convert", f"{name}.stl", "-o", "there.stl")
-        told(FOLDER, "convert", f"{name}.ply", "-o", "back.stl")
+        told(folder, "convert", f"{name}.stl", "-o", "there.stl")
+        told(folder, "convert", f"{name}.ply", "-o", "back.stl")
         fact(f"{name} there and back by PLY are the same bits",
-             (FOLDER / "there.stl").read_bytes() == (FOLDER / "back.stl").read_bytes())
-    told(FOLDER, "convert", "doubles.stl", "-o", "out.stl", "--float")
-    fact("--float rounds them", np.array_equal(np.array(read_stl(FOLDER / "out.stl")), FLOATS))
+             (folder / "there.stl").read_bytes() == (folder / "back.stl").read_bytes())
+    told(folder, "convert", "doubles.stl", "-o", "out.stl", "--float")
+    fact("--float rounds them", np.array_equal(np.array(stl.read(folder / "out.stl")), FLOATS))
 
     for words, by in ((["--units", "mm"], 1e-3), (["--units", "in"], 0.0254), (["--scale", "2"], 2),
                       (["--scale", "2", "3", "4"], np.array([2, 3, 4])), ([], 1)):
-        said = told(FOLDER, "convert", "doubles.stl", "-o", "out.obj", *words)
+        said = told(folder, "convert", "doubles.stl", "-o", "out.obj", *words)
         # A product is off by a bit.
-        fact(f"{' '.join(words)} scales", np.abs(read_obj((FOLDER / "out.obj").read_bytes())[0] - DOUBLES * by).max()
+        fact(f"{' '.join(words)} scales", np.abs(read_obj((folder / "out.obj").read_bytes())[0] - DOUBLES * by).max()
              <= 2e-16 and np.allclose(said["hi"], (DOUBLES * by).max(axis=(0, 1)), rtol=1e-15))
-    told(FOLDER, "convert", "doubles.stl", "-o", "mirror.obj", "--scale", -1, 1, 1)
-    got = read_obj((FOLDER / "mirror.obj").read_bytes())[0]
+    told(folder, "convert", "doubles.stl", "-o", "mirror.obj", "--scale", -1, 1, 1)
+    got = read_obj((folder / "mirror.obj").read_bytes())[0]
     normals = np.cross(got[:, 1] - got[:, 0], got[:, 2] - got[:, 0])
     fact("a mirror keeps normals out", np.all(np.einsum("ij,ij->i", normals, got.mean(axis=1)) > 0))
 
-    done = run(FOLDER, "convert", "floats.stl", "-o", "out.ply")
+    done = run(folder, "convert", "floats.stl", "-o", "out.ply")
     fact("people get a line", done.returncode == 0 and f"out.ply: {len(FLOATS)} facets from (-0.3" in done.stdout,
          done.stdout)
-    refused(FOLDER, "convert floats.stl -o out.step".split(), "'out.step'", ".stl, .obj, .ply or .off")
-    refused(FOLDER, "convert floats.vtk -o out.stl".split(), "floats.vtk", ".stl, .obj, .ply, .off")
-    refused(FOLDER, "convert floats.stl -o no/out.stl".split(), "no/out.stl")
-    refused(FOLDER, "convert nowhere.stl -o out2.stl".split(), "nowhere.stl")
-    refused(FOLDER, "convert floats.stl -o out2.stl --units km".split(), "--units", "km", "mm", code=2)
-    refused(FOLDER, "convert floats.stl -o out2.stl --units mm --scale 2".split(), "--units", "--scale", code=2)
-    refused(FOLDER, "convert floats.stl -o out2.stl --scale 0".split(), "--scale", "0", code=2)
+    refused(folder, "convert floats.stl -o out.step".split(), "'out.step'", ".stl, .obj, .ply or .off")
+    refused(folder, "convert floats.vtk -o out.stl".split(), "floats.vtk", ".stl, .obj, .ply, .off")
+    refused(folder, "convert floats.stl -o no/out.stl".split(), "no/out.stl")
+    refused(folder, "convert nowhere.stl -o out2.stl".split(), "nowhere.stl")
+    refused(folder, "convert floats.stl -o out2.stl --units km".split(), "--units", "km", "mm", code=2)
+    refused(folder, "convert floats.stl -o out2.stl --units mm --scale 2".split(), "--units", "--scale", code=2)
+    refused(folder, "convert floats.stl -o out2.stl --scale 0".split(), "--scale", "0", code=2)
     # What no command would read again.
-    refused(FOLDER, "convert floats.stl -o out2.stl --scale 1e300".split(), "coordinate", "beyond 1e100", "smaller scale")
-    refused(FOLDER, "convert floats.stl -o out2.stl --scale 1e60 --float".split(), "inf, beyond 1e100", "smaller scale")
-    refused(FOLDER, "convert floats.stl -o out2.off --scale 1e-200".split(), "across", "larger scale")
+    refused(folder, "convert floats.stl -o out2.stl --scale 1e300".split(), "coordinate", "beyond 1e100", "smaller scale")
+    refused(folder, "convert floats.stl -o out2.stl --scale 1e60 --float".split(), "inf, beyond 1e100", "smaller scale")
+    refused(folder, "convert floats.stl -o out2.off --scale 1e-200".split(), "across", "larger scale")
 
 
 # A roof over a square of one polygon with four corners.
@@ -113,67 +111,57 @@ SIDES = [(0, 1, 4), (1, 2, 4), (2, 3, 4), (3, 0, 4)]
 FLOOR = (3, 2, 1, 0)
 
 
-def check_roof(name):
-    told(FOLDER, "convert", name, "-o", "roof.stl")
-    got = read_stl(FOLDER / "roof.stl")
+def check_roof(folder, name):
+    told(folder, "convert", name, "-o", "roof.stl")
+    got = stl.read(folder / "roof.stl")
     fact(f"{name}: sides as they are", {tuple(map(tuple, ROOF[list(s)])) for s in SIDES} <= set(got), got)
-    seen = told(FOLDER, "inspect", "roof.stl")
+    seen = told(folder, "inspect", "roof.stl")
     fact(f"{name}: the floor in two, wound alike", len(got) == 6 and seen["closed"] and seen["clean"]
          and abs(seen["volume"] - 0.25) < 1e-15, seen)
 
 
-def read():
+def test_read(folder):
     v = "".join("v {} {} {}\n".format(*x) for x in ROOF)
     sides = "".join("f {}/1/1 {}/1/1 {}//1\n".format(*(k + 1 for k in s)) for s in SIDES[:2])
-    (FOLDER / "roof.obj").write_text("# roof\nmtllib none.mtl\no a\n" + v + "vt 0 0\nvn 0 0 1\n"
+    (folder / "roof.obj").write_text("# roof\nmtllib none.mtl\no a\n" + v + "vt 0 0\nvn 0 0 1\n"
                                      + sides.replace("//", "/1/") + "g b\nf -3 -2 -1\nf 4 1 5\nusemtl c\nf 4 3 2 1\n")
-    check_roof("roof.obj")
+    check_roof(folder, "roof.obj")
     faces = "".join(f"{len(f)} {' '.join(map(str, f))}\n" for f in [*SIDES, FLOOR])
     points = "".join("{} {} {}\n".format(*x) for x in ROOF)
-    (FOLDER / "roof.off").write_text("OFF\n# roof\n5 5 0\n" + points + faces)
-    check_roof("roof.off")
+    (folder / "roof.off").write_text("OFF\n# roof\n5 5 0\n" + points + faces)
+    check_roof(folder, "roof.off")
     head = ("ply\nformat {} 1.0\nelement vertex 5\nproperty {t} x\nproperty {t} y\nproperty {t} z\n"
             "element face 5\nproperty list uchar int vertex_indices\nend_header\n")
-    (FOLDER / "text.ply").write_text(head.format("ascii", t="float") + points + faces)
-    check_roof("text.ply")
+    (folder / "text.ply").write_text(head.format("ascii", t="float") + points + faces)
+    check_roof(folder, "text.ply")
     for order, sign in (("little", "<"), ("big", ">")):
         for kind, letter in (("float", "f"), ("double", "d")):
             body = b"".join(struct.pack(f"{sign}3{letter}", *x) for x in ROOF)
             body += b"".join(struct.pack(f"{sign}B{len(f)}i", len(f), *f) for f in [*SIDES, FLOOR])
             name = f"{order}_{kind}.ply"
-            (FOLDER / name).write_bytes(head.format(f"binary_{order}_endian", t=kind).encode() + body)
-            check_roof(name)
+            (folder / name).write_bytes(head.format(f"binary_{order}_endian", t=kind).encode() + body)
+            check_roof(folder, name)
 
-    write_ascii_stl(FOLDER / "doubles.stl", DOUBLES)
+    stl.write(folder / "doubles.stl", DOUBLES)
     for ending in ("ply", "obj", "off"):
-        told(FOLDER, "convert", "doubles.stl", "-o", f"there.{ending}")
-        told(FOLDER, "convert", f"there.{ending}", "-o", "back.stl")
+        told(folder, "convert", "doubles.stl", "-o", f"there.{ending}")
+        told(folder, "convert", f"there.{ending}", "-o", "back.stl")
         fact(f"there and back by {ending} are the same bits",
-             np.array_equal(read_stl_text((FOLDER / "back.stl").read_bytes()), DOUBLES))
-        told(FOLDER, "convert", f"there.{ending}", "-o", "again.stl", "--units", "cm")
-        fact("and in centimetres", abs(told(FOLDER, "inspect", "again.stl")["volume"] /
-             told(FOLDER, "inspect", "doubles.stl")["volume"] / 1e-6 - 1) < 1e-12)
+             np.array_equal(read_stl_text((folder / "back.stl").read_bytes()), DOUBLES))
+        told(folder, "convert", f"there.{ending}", "-o", "again.stl", "--units", "cm")
+        fact("and in centimetres", abs(told(folder, "inspect", "again.stl")["volume"] /
+             told(folder, "inspect", "doubles.stl")["volume"] / 1e-6 - 1) < 1e-12)
 
-    (FOLDER / "lines.obj").write_text(v + "f 1 2 5\nl 1 2\np 3\n")
-    said = told(FOLDER, "convert", "lines.obj", "-o", "lines.stl")
+    (folder / "lines.obj").write_text(v + "f 1 2 5\nl 1 2\np 3\n")
+    said = told(folder, "convert", "lines.obj", "-o", "lines.stl")
     fact("points and lines are left out, and told", said["facets"] == 1 and said["left_out"] == 2, said)
-    (FOLDER / "empty.obj").write_text(v)
-    (FOLDER / "broken.ply").write_text("ply\nformat ascii 1.0\nelement vertex 9\nend_header\n1 2\n")
-    (FOLDER / "text.off").write_text("this is no mesh")
-    (FOLDER / "far.off").write_text("OFF\n3 1 0\n0 0 0\n1e400 0 0\n0 1 0\n3 0 1 2\n")
-    (FOLDER / "index.off").write_text("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 7\n")
-    (FOLDER / "index.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n")
-    (FOLDER / "index.ply").write_text((FOLDER / "text.ply").read_text().replace("3 0 1 4", "3 0 1 9"))
+    (folder / "empty.obj").write_text(v)
+    (folder / "broken.ply").write_text("ply\nformat ascii 1.0\nelement vertex 9\nend_header\n1 2\n")
+    (folder / "text.off").write_text("this is no mesh")
+    (folder / "far.off").write_text("OFF\n3 1 0\n0 0 0\n1e400 0 0\n0 1 0\n3 0 1 2\n")
+    (folder / "index.off").write_text("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 7\n")
+    (folder / "index.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n")
+    (folder / "index.ply").write_text((folder / "text.ply").read_text().replace("3 0 1 4", "3 0 1 9"))
     for name in ("empty.obj", "index.obj", "index.ply", "broken.ply", "text.off", "far.off", "index.off",
                  "nowhere.obj"):
-        refused(FOLDER, f"convert {name} -o none.stl".split(), name)
-
-
-def main():
-    written()
-    read()
-    end()
-
-
-if __name__ == "__main__":
-    main()
+        refused(folder, f"convert {name} -o none.stl".split(), name)

@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 LSDCD contributors
 # SPDX-License-Identifier: BSD-3-Clause
 
@@ -6,14 +5,14 @@
 same answers for points in CSV, .npy and LAMMPS dumps; and memory that does not grow with the points."""
 import math
 import os
-import pathlib
 import subprocess
 import sys
-import tempfile
 
 import numpy as np
 
-from tool_test import TOOL, end, fact, refused, run, told, write_ascii_stl
+import stl
+from command import TOOL, refused, run, told
+from facts import fact
 from triangles import closest_on_triangle
 
 DIAGONAL = math.sqrt(14)
@@ -58,8 +57,7 @@ def peak_memory(folder, *words):
     return map(int, done.stdout.split())
 
 
-def main():
-    folder = pathlib.Path(tempfile.mkdtemp(prefix="lsdcd-"))
+def test_distance(folder):
     dice = np.random.default_rng(1)
     told(folder, "generate", "box", "--width", 1, "--depth", 2, "--height", 3, "-o", "box.stl")
     hi = np.array([1., 2, 3])
@@ -87,7 +85,7 @@ def main():
 
     # A heap of random triangles: no two share anything, so that features are the triangle's own.
     triangles = dice.uniform(0, 1, (40, 1, 3)) * hi + dice.uniform(-.4, .4, (40, 3, 3))
-    write_ascii_stl(folder / "heap.stl", triangles)
+    stl.write(folder / "heap.stl", triangles)
     said = told(folder, "distance", "heap.stl", "points.csv", "--cutoff", RADIUS, "-o", "heap.npy")
     heap = np.load(folder / "heap.npy")
     each, feet = brute_force(points, triangles)
@@ -281,8 +279,3 @@ def main():
     refused(folder, ["distance", "box.stl", "empty.csv", "--radius", 1, "-o", "none.npy"], "empty.csv", "no point")
     help_text = run(folder, "distance", "--help").stdout
     fact("--help has an example", "lsdcd distance wall.stl points.csv --radius 0.01 -o" in help_text)
-    end()
-
-
-if __name__ == "__main__":
-    main()

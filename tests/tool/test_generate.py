@@ -1,14 +1,13 @@
-#!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 LSDCD contributors
 # SPDX-License-Identifier: BSD-3-Clause
 
 """lsdcd generate writes shapes that lsdcd inspect calls clean, closed where they are, with areas and
 volumes of closed forms."""
 import math
-import pathlib
-import tempfile
 
-from tool_test import end, fact, read_stl, refused, run, told
+import stl
+from command import refused, run, told
+from facts import fact
 
 # Corners are floats, each off by 2^-24 of itself; a volume or an area, of the third or second degree in
 # them, by some three times as much, and cancellation in sums over a shape of size 1 costs no more than
@@ -90,8 +89,7 @@ def check_economy(folder):
                      (mesh["problems"], mesh["volume"], volume))
 
 
-def main():
-    folder = pathlib.Path(tempfile.mkdtemp(prefix="lsdcd-"))
+def test_generate(folder):
     end_area = drum_end(1, 5, 0.2, 0.1, 96)
     shapes = {    # words, closed, area, volume
         "plane": ("--width 2 --depth 3", False, 6, None),
@@ -144,14 +142,14 @@ def main():
              (mesh["volume"], volume, skew))
     # Right-handed: as the angle from z to x grows, the blade's rim moves along +y.
     told(folder, "generate", "screw", *words.split(), "-o", "screw.stl")
-    rim = sorted({(p[1], p[0], p[2]) for t in read_stl(folder / "screw.stl") for p in t
+    rim = sorted({(p[1], p[0], p[2]) for t in stl.read(folder / "screw.stl") for p in t
                   if math.hypot(p[0], p[2]) > 0.99})
     y, x, z = rim[0]
     fact("the screw's blade begins at z", abs(x) < 1e-6 and z > 0.99 and close(y, 0.08))
     after = [p for p in rim if abs(math.atan2(p[1], p[2]) - 2 * math.pi / 40) < 1e-3][0]
     fact("and is right-handed", close(after[0], 0.08 + 0.8 / 40), after)
 
-    knuckle = read_stl(folder / "vessel.stl")    # the last one, with knuckles
+    knuckle = stl.read(folder / "vessel.stl")    # the last one, with knuckles
     centre = (1 - 0.2, None)
     turn = math.atan2(0.7, 1) / 2    # half of the bend from the cone to the cylinder
     centre = (0.8, 1.6 + 0.2 * math.tan(turn))
@@ -191,8 +189,3 @@ def main():
         example = [l.split() for l in done.stdout.splitlines() if l.startswith("  lsdcd generate")]
         fact(f"--help {shape} has an example that works", len(example) == 1 and
              run(folder, *example[0][1:]).returncode == 0, example)
-    end()
-
-
-if __name__ == "__main__":
-    main()

@@ -1,14 +1,12 @@
-#!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 LSDCD contributors
 # SPDX-License-Identifier: BSD-3-Clause
 
 """No command of lsdcd writes over a file that it reads, under whatever name, over another that it writes,
 or to a name that says another format."""
 import os
-import pathlib
-import tempfile
 
-from tool_test import end, fact, refused, run
+from command import refused, run
+from facts import fact
 
 QUICK = " --spheres 100 --moving 2 --repeats 1 --seconds 1 --device cpu"    # should one go on
 READS = [    # what is read, words that would write over it
@@ -29,8 +27,7 @@ ENDINGS = [    # words, what is said
 ]
 
 
-def main():
-    folder = pathlib.Path(tempfile.mkdtemp(prefix="lsdcd-"))
+def test_outputs(folder):
     (folder / "folder").mkdir()
     for name in ("wall.stl", "body.stl"):
         run(folder, *"generate box --width 1 --depth 1 --height 1 -o".split(), name)
@@ -46,8 +43,3 @@ def main():
         refused(folder, words.split(), "the same file")
     for words, said in ENDINGS:
         refused(folder, words.split(), said)
-    end()
-
-
-if __name__ == "__main__":
-    main()

@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 LSDCD contributors
 # SPDX-License-Identifier: BSD-3-Clause
 
@@ -13,11 +12,14 @@ import pathlib
 import re
 import shlex
 import subprocess
+import sys
 import tempfile
 
 from pages import ROOT, all_pages
 from test_commands import QUICK
-from tool_test import TOOL, end, fact, run, write_ascii_stl
+import stl
+from command import TOOL, run
+from facts import fact
 from triangles import cube
 
 # Programs of the system, which are not ours to check.
@@ -29,6 +31,7 @@ BUILD_FILES = "\n".join(path.read_text() for path in [
     ROOT / "CMakeLists.txt", ROOT / "CMakePresets.json", *ROOT.glob("cmake/*.cmake"),
     *(path for folder in ("src", "tests", "bench", "kokkos") for path in (ROOT / folder).rglob("CMakeLists.txt"))])
 RUN_HELP = subprocess.run([ROOT / "run", "help"], stdout=subprocess.PIPE, text=True).stdout
+BENCHMARKS = subprocess.run([sys.executable, ROOT / "bench" / "run.py", "--help"], stdout=subprocess.PIPE, text=True).stdout
 
 problems, helps = [], {}
 
@@ -61,8 +64,8 @@ def check_run(words):
     if not re.search(rf"^  \./run {re.escape(words[0])}\b", RUN_HELP, re.M) and words[0] != "help":
         return f"./run {words[0]}: not in ./run help"
     if words[0] == "bench" and len(words) > 1 and not re.match(r"-|[A-Z]+$", words[1]) and \
-            words[1] not in RUN_HELP and words[1] not in ("build", "cache", "step"):
-        return f"./run bench {words[1]}: not in ./run help"
+            not re.search(rf"^  {re.escape(words[1])} ", BENCHMARKS, re.M):
+        return f"./run bench {words[1]}: not in ./run bench --help"
     text = RUN_HELP + (ROOT / "bench" / "run.py").read_text() + "".join(p.read_text() for p in (ROOT / "bench").glob("*.py"))
     bad = [word for word in words if word.startswith("--") and word.rstrip(",") not in text]
     return f"./run {words[0]} has no {' '.join(bad)}" if bad else ""
@@ -130,7 +133,7 @@ def check(page, words):
     if name in ("lmp-lsdcd", "lmp"):
         return check_lammps(page, words[1:])
     if name in ("python3", "python"):
-        return "" if len(words) == 1 or words[1] == "-c" else check_script(page, words[1], words[2:])
+        return "" if len(words) == 1 or words[1] in ("-c", "-m") else check_script(page, words[1], words[2:])
     if name == "yade":    # its own options come before the script
         at = next(k for k, word in enumerate(words) if word.endswith(".py"))
         return check_script(page, words[at], words[at + 1:])
@@ -179,14 +182,14 @@ def quick(words):
 
 
 def prepare(folder):
-    write_ascii_stl(folder / "wall.stl", cube(1))
-    write_ascii_stl(folder / "body.stl", cube(1, size=0.5))
+    stl.write(folder / "wall.stl", cube(1))
+    stl.write(folder / "body.stl", cube(1, size=0.5))
     run(folder, "convert", "wall.stl", "-o", "wall.obj")
     (folder / "points.csv").write_text("x,y,z\n0.5,0.5,1.05\n3,3,3\n")
     (folder / "path.txt").write_text("0.5 0.5 0.5\n3 0 0\n")
 
 
-def main():
+def test_page_commands():
     os.environ["LSDCD_POTENTIALS"] = str(ROOT / "potentials")
     inline = 0
     for page in all_pages().values():
@@ -220,8 +223,3 @@ def main():
         if wrong:
             fact(f"{page.path}: commands between words", False, "; ".join(wrong))
     fact("commands between words have their words", inline > 20, inline)
-    end()
-
-
-if __name__ == "__main__":
-    main()

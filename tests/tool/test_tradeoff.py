@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 LSDCD contributors
 # SPDX-License-Identifier: BSD-3-Clause
 
@@ -12,20 +11,12 @@ import re
 import resource
 import shutil
 import subprocess
-import sys
-import tempfile
+
+from facts import fact
 
 TOOL = os.environ["LSDCD_TOOL"]
 FLOOR = pathlib.Path(__file__).resolve().parent.parent / "lammps" / "scripts" / "floor.stl"
 FAST = ["--spheres", "300", "--moving", "2", "--repeats", "9", "--device", "cpu"]
-
-failed = 0
-
-
-def fact(name, holds, detail=""):
-    global failed
-    print(f"{'PASS' if holds else 'FAIL'} {name}{': ' + detail if detail else ''}")
-    failed += not holds
 
 
 def run(folder, *words, tool=TOOL):
@@ -38,8 +29,7 @@ def rows(path):
         return list(csv.DictReader(f))
 
 
-def main():
-    folder = pathlib.Path(tempfile.mkdtemp(prefix="lsdcd-"))
+def test_tradeoff(folder):
     done = run(folder, str(FLOOR), "--radius", "0.4", "0.5", *FAST, "--plot", "none", "--below", "1e-12")
     fact("the rows are written", done.returncode == 0 and (folder / "tradeoff.csv").exists(),
          done.stdout[-300:])
@@ -112,9 +102,3 @@ def main():
              done.stdout[-200:].strip())
     help_text = run(folder, "--help").stdout
     fact("help explains the columns", all(w in help_text for w in ("bounce_drift", "front", "force_mean")))
-    shutil.rmtree(folder)
-    sys.exit(1 if failed else 0)
-
-
-if __name__ == "__main__":
-    main()

@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 LSDCD contributors
 # SPDX-License-Identifier: BSD-3-Clause
 
@@ -9,20 +8,13 @@ import pathlib
 import re
 import resource
 import subprocess
-import sys
 import tempfile
+
+from facts import fact
 
 TOOL = os.environ["LSDCD_TOOL"]
 MAN_PAGE = pathlib.Path(__file__).resolve().parents[2] / "src" / "tool" / "lsdcd.1"
 FLOOR = str(pathlib.Path(__file__).resolve().parent.parent / "lammps" / "scripts" / "floor.stl")
-
-failed = 0
-
-
-def fact(name, holds, detail=""):
-    global failed
-    print(f"{'PASS' if holds else 'FAIL'} {name}{': ' + detail if detail else ''}")
-    failed += not holds
 
 
 # A sanitizer takes all addresses for itself.
@@ -38,7 +30,7 @@ def run(*words):
                           text=True, preexec_fn=at_most_a_gigabyte)
 
 
-def main():
+def test_words():
     done = run("bogus", FLOOR)
     fact("an unknown command is named, and the known ones",
          done.returncode != 0 and "'bogus' is not a command" in done.stdout
@@ -56,8 +48,3 @@ def main():
         done = run("inspect", zeros.name)
         fact("64 GB of zeros are refused in less memory",
              done.returncode == 1 and "not an STL" in done.stdout, done.stdout[-200:])
-    sys.exit(1 if failed else 0)
-
-
-if __name__ == "__main__":
-    main()

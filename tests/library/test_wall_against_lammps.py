@@ -7,15 +7,17 @@ its library."""
 import math
 import os
 import subprocess
-import sys
-import tempfile
 
 import numpy as np
+import pytest
 
 import lsdcd
+import stl
+from facts import at_most, fact
 
 N, STEPS, DT, GRAVITY = 40, 10000, 4e-5, 9.81
-SKIPPED = 77
+LMP = os.environ.get("LSDCD_LMP", "")
+pytestmark = pytest.mark.skipif(not os.path.exists(LMP), reason="no lmp-lsdcd (LSDCD_LMP)")
 
 # The same numbers in both, though in another order: forces are sums of gravity and of one or two contacts, so that a
 # step differs by a few roundings, 1e-16 of a force. Over 1e4 steps of contacts that do not part trajectories (a drum
@@ -33,14 +35,7 @@ def drum(name):
         low, high = rim - up / 2, rim + up / 2
         facets += [(low[i], low[j], high[j]), (low[i], high[j], high[i]), (low[i], low[j], -up / 2),
                    (high[i], up / 2, high[j])]
-    with open(name, "w", encoding="utf-8") as f:
-        f.write("solid drum\n")
-        for facet in facets:
-            f.write("facet normal 0 0 0\nouter loop\n")
-            for corner in facet:
-                f.write("vertex " + " ".join(repr(float(c)) for c in corner) + "\n")
-            f.write("endloop\nendfacet\n")
-        f.write("endsolid drum\n")
+    stl.write(name, facets)
 
 
 def grains():
@@ -57,7 +52,7 @@ def run(lmp, folder, script):
     done = subprocess.run([lmp, "-in", "in.script", "-log", "none"], cwd=folder, stdin=subprocess.DEVNULL,
                           capture_output=True, text=True, check=False)
     if done.returncode:
-        sys.exit(done.stdout[-2000:] + done.stderr[-2000:])
+        raise AssertionError(done.stdout[-2000:] + done.stderr[-2000:])
 
 
 def by_lammps(lmp, folder, x, radius):
@@ -206,31 +201,17 @@ write_dump all custom {k}.dump id fx fy fz tqx tqy tqz modify sort id format flo
     return [np.loadtxt(os.path.join(folder, f"{k}.dump"), skiprows=9)[:, 1:] for k in range(len(walls))]
 
 
-def all_have_the_same_bits(lmp, folder):
-    names, walls, made = zip(*specs(folder))
-    good = True
-    for name, spec, wanted in zip(names, made, forces_by_lammps(lmp, folder, walls)):
+def test_bits_of_a_script(folder):
+    names, walls, made = zip(*specs(str(folder)))
+    for name, spec, wanted in zip(names, made, forces_by_lammps(LMP, str(folder), walls)):
         found = forces_by_library(spec)
-        good &= bool((found == wanted).all()) and bool(wanted[:, 2].any())
-        print(f"{name}: {'the bits' if (found == wanted).all() else f'{found - wanted} off those'} of the script")
-    return good
+        fact(f"{name}: the bits of the script", (found == wanted).all() and wanted[:, 2].any(), found - wanted)
 
 
-def main():
-    lmp = os.environ.get("LSDCD_LMP")
-    if not lmp or not os.path.exists(lmp):
-        print("skipped: no lmp-lsdcd (LSDCD_LMP)")
-        return SKIPPED
-    with tempfile.TemporaryDirectory(prefix="lsdcd-") as folder:
-        drum(f"{folder}/drum.stl")
-        x, radius = grains()
-        theirs = by_lammps(lmp, folder, x, radius)
-        ours, contacts = by_library(folder, x.copy(), radius)
-        good = all_have_the_same_bits(lmp, folder)
-    apart = np.abs(ours[:, :3] - theirs[:, :3]).max()
-    print(f"places are {apart:.3g} apart, bound {BOUND:.3g}; {contacts:.0f} contacts in {STEPS} steps")
-    return 0 if good and apart <= BOUND and contacts > STEPS else 1    # one in each step at least, or nothing is shown
-
-
-if __name__ == "__main__":
-    sys.exit(main())
+def test_trajectory(folder):
+    drum(folder / "drum.stl")
+    x, radius = grains()
+    theirs = by_lammps(LMP, str(folder), x, radius)
+    ours, contacts = by_library(str(folder), x.copy(), radius)
+    at_most("places are apart", np.abs(ours[:, :3] - theirs[:, :3]).max(), BOUND)
+    fact("one contact in each step at least, or nothing is shown", contacts > STEPS, contacts)
