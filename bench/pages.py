@@ -273,7 +273,7 @@ def bodies(rows):
             table(rows, ["what", "words", "ns", "more than without", "without is", "B in restart files"], cells))
 
 
-# ---- the table of hard_cases.md ------------------------------------------------------------
+# ---- the table of hard-cases.md ------------------------------------------------------------
 
 # Theme of the rows: its title on the page; what its lines of the table are called, and which numbers they hold.
 HARD_CASES = {
@@ -449,9 +449,9 @@ def tables():
                            "liggghts": liggghts(rows_of("liggghts_cpu.csv")), "floor": floor(rows_of("floor_cpu.csv"))},
         "notes/performance.md": {"kokkos-scaling": scaling(kokkos_cuda)},
         "library.md": {"point-costs": point_costs(cpu)},
-        "effects.md": {"costs": costs(*(rows_of(f"effects_{device}.csv", ";") for device in DEVICES)),
-                       "bodies": bodies(rows_of("effects_bodies_cpu.csv", ";"))},
-        "hard_cases.md": {"numbers": hard_cases(*(rows_of(f"hard_cases_{device}.tsv") for device in DEVICES))},
+        "effects.md": {"costs": costs(*(rows_of(f"effects_{device}.csv", ";") for device in DEVICES))},
+        "notes/effects.md": {"bodies": bodies(rows_of("effects_bodies_cpu.csv", ";"))},
+        "notes/hard-cases.md": {"numbers": hard_cases(*(rows_of(f"hard_cases_{device}.tsv") for device in DEVICES))},
         "accuracy.md": {"settings": settings([r for d in DEVICES for r in rows_of(f"tradeoff_vessel_{d}.csv")])},
         "notes/paper.md": {"paper-cylinder": paper_cylinder(*study), "finer-cylinders": finer_cylinders(study[1])},
     }
