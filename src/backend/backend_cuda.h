@@ -39,7 +39,7 @@ __global__ void cuda_for_each(std::size_t n, const __grid_constant__ F f)
 
 // Calls f(i) as cuda_for_each() does, by all threads of a warp together. They wait for memory: 80 registers for each
 // leave room for more of them.
-constexpr unsigned kInWarpsBlock = 128, kInWarpsBlocks = 6;
+constexpr unsigned kInWarpsBlocks = 6;
 template <class F>
 __global__ void __launch_bounds__(kInWarpsBlock, kInWarpsBlocks)
     cuda_for_each_in_warps(std::size_t most, const std::uint32_t *n_at, const __grid_constant__ F f)

@@ -8,11 +8,14 @@
 #include "backend/bits.h"
 #include "base/vec3.h"
 
+#include <cstddef>
 #include <cstdint>
 
 namespace lsdcd {
 
 constexpr unsigned kWarpSize = 32;
+// Threads of a block of a GPU that for_each_in_warps() starts.
+constexpr unsigned kInWarpsBlock = 128;
 
 // kSize: 1, kWarpSize for all threads of a warp, or a power of two for so many neighbours, beside which others
 // may do something else. All kSize threads must call its functions together.
@@ -209,6 +212,84 @@ struct WorkSplit {
     own = busy & bit ? (warp.kAll >> (kSize - size)) << before * size : 0;
   }
 };
+
+// A row that each thread of a warp makes for its place in memory, behind that of the thread before. On a CPU it is made in
+// that place.
+template <unsigned kSize, class Row>
+class RowOf {
+ public:
+  static_assert(kSize == 1, "on a CPU");
+  // `to`: the place.
+  LSDCD_FN explicit RowOf(Row *to) : to_(to) {}
+  LSDCD_FN Row &operator*() { return *to_; }
+  // Writes the words of the row that have a bit in `words`, and no others; see words_of().
+  LSDCD_FN void put(std::uint32_t /*words*/) {}
+
+ private:
+  Row *to_;
+};
+
+// Bits of words [begin, end) of a row, by their bytes.
+LSDCD_FN std::uint32_t words_of(std::size_t begin, std::size_t end)
+{
+  constexpr std::size_t kWord = sizeof(std::uint64_t);
+  return (std::uint32_t(1) << end / kWord) - (std::uint32_t(1) << begin / kWord);
+}
+
+#if defined(__CUDACC__)
+// On a GPU it is made beside, and a warp writes whole lines of memory. In for_each_in_warps(), by whole warps; the first
+// thread has a row.
+template <class Row>
+class RowOf<kWarpSize, Row> {
+ public:
+  LSDCD_FN explicit RowOf(Row *to) : to_(to) {}
+  LSDCD_FN Row &operator*() { return row_; }
+  LSDCD_FN void put([[maybe_unused]] std::uint32_t words)
+  {
+#if LSDCD_ON_GPU()
+    using Word = unsigned long long;
+    constexpr Warp<kWarpSize> warp;
+    constexpr unsigned kWords = sizeof(Row) / sizeof(Word),
+                       kApart = kWords | 1;    // odd, so that rows lie in different banks
+    static_assert(sizeof(Row) % sizeof(Word) == 0 && kWords < 32, "a bit for each word");
+    __shared__ Word of_block[kInWarpsBlock * kApart];
+    Word *const rows = of_block + threadIdx.x / kWarpSize * kWarpSize * kApart,
+                *const to = reinterpret_cast<Word *>(warp.of(reinterpret_cast<Word>(to_), 0));
+    Word mine[kWords];
+    memcpy(mine, &row_, sizeof row_);
+    warp.wait();    // until the rows before these are written
+#pragma unroll
+    for (unsigned k = 0; k < kWords; k++) rows[warp.rank() * kApart + k] = mine[k];
+    warp.wait();
+#pragma unroll
+    for (unsigned k = 0; k < kWords; k++) {
+      const unsigned at = k * kWarpSize + warp.rank(), its = at / kWords, word = at % kWords;
+      if (warp.of(words, its) >> word & 1) to[at] = rows[its * kApart + word];
+    }
+#endif
+  }
+
+ private:
+  Row *to_;
+  Row row_;
+};
+#endif
+
+// Calls f(rank, k) for each number k in [first, end) of the thread of this rank. The numbers of a thread follow those of the
+// thread before; on a GPU threads that are side by side get numbers that are.
+template <unsigned kSize, class F>
+LSDCD_FN void for_each_side_by_side(const Warp<kSize> &warp, std::uint32_t first, std::uint32_t end,
+                                    const F &f)
+{
+  const std::uint32_t last = warp.of(end, kSize - 1);
+  for (std::uint32_t from = warp.of(first, 0); from < last; from += kSize) {
+    const std::uint32_t k = from + warp.rank();
+    unsigned owner = 0;    // the last that begins at k or before
+    for (unsigned half = kSize / 2; half > 0; half /= 2)
+      if (warp.of(first, owner + half) <= k) owner += half;
+    if (k < last) f(owner, k);
+  }
+}
 
 // Calls f(mine, value), all threads together, for each value that any of them has; `mine`: has this one?
 template <unsigned kSize, class F>

@@ -105,6 +105,60 @@ struct LookAtNodes {
   }
 };
 
+// Make the records anew, in this order. A face or edge that a CPU has to make is put into left[].
+
+struct MoveFaces {
+  MovedMesh moved;
+  FeatureCode *left;
+  NodesSeen *seen;
+
+  template <unsigned kSize>
+  LSDCD_FN void operator()(const Warp<kSize> &warp, bool mine, std::size_t f) const
+  {
+    MovedMesh mesh = moved;
+    mesh.far = seen->far();
+    if (!move_face(warp, mine, mesh, static_cast<std::uint32_t>(f)))
+      left[fetch_add(&seen->n_left, 1)] =
+          feature_code(FeatureKind::face, static_cast<std::uint32_t>(f));
+  }
+};
+
+struct MoveEdges {
+  MovedMesh moved;
+  FeatureCode *left;
+  NodesSeen *seen;
+
+  template <unsigned kSize>
+  LSDCD_FN void operator()(const Warp<kSize> &warp, bool mine, std::size_t i) const
+  {
+    if (!move_edge(warp, mine, moved, static_cast<std::uint32_t>(i)))
+      left[fetch_add(&seen->n_left, 1)] =
+          feature_code(FeatureKind::edge, static_cast<std::uint32_t>(i));
+  }
+};
+
+struct MoveVertices {
+  MovedMesh moved;
+
+  template <unsigned kSize>
+  LSDCD_FN void operator()(const Warp<kSize> &warp, bool mine, std::size_t i) const
+  {
+    move_vertex(warp, mine, moved, static_cast<std::uint32_t>(i));
+  }
+};
+
+struct PutParts {
+  MovedMesh moved;
+  NodesSeen *seen;
+
+  template <unsigned kSize>
+  LSDCD_FN void operator()(const Warp<kSize> &warp, bool mine, std::size_t f) const
+  {
+    if (mine && f == 0) *seen = NodesSeen();    // for the next step; the CPU has it
+    put_parts(warp, mine, moved, static_cast<std::uint32_t>(f));
+  }
+};
+
 template <class B>
 class MovingNodes {
   template <class T>
@@ -234,7 +288,8 @@ class MovingNodes {
   {
     look(b);
     const MovedMesh moved = moved_mesh(records);
-    move_planes(b, moved);
+    b.for_each_in_warps(moved.mesh.n_faces, MoveFaces{moved, left_.data(), seen_.data()});
+    move_edges(b, moved);
     b.copy_out(seen_.data(), seen_on_cpu_.data(), 1);
     seen_is_there_.record(b);
     move_rest(b, moved);
@@ -261,20 +316,15 @@ class MovingNodes {
                                                velocity_.data(), n, n_threads, seen_.data()});
   }
 
+  void move_edges(B &b, const MovedMesh &moved)
+  {
+    b.for_each_in_warps(moved.mesh.n_edges, MoveEdges{moved, left_.data(), seen_.data()});
+  }
+
   void move_rest(B &b, const MovedMesh &moved)
   {
-    const MeshTopologyView &of = topology_;
-    b.for_each(of.n_edges, [=] LSDCD_LAMBDA(std::size_t i) {
-      put_faces_of_edge(moved, static_cast<std::uint32_t>(i));
-    });
-    b.for_each(of.n_vertices, [=] LSDCD_LAMBDA(std::size_t i) {
-      move_vertex(moved, static_cast<std::uint32_t>(i));
-    });
-    NodesSeen *seen = seen_.data();
-    b.for_each(of.n_faces, [=] LSDCD_LAMBDA(std::size_t f) {
-      if (f == 0) *seen = NodesSeen();    // for the next step; the CPU has it
-      put_parts(moved, static_cast<std::uint32_t>(f));
-    });
+    b.for_each_in_warps(moved.mesh.n_vertices, MoveVertices{moved});
+    b.for_each_in_warps(moved.mesh.n_faces, PutParts{moved, seen_.data()});
   }
 
   // The faces of a node in the order of their numbers, as a CPU adds them.
@@ -292,25 +342,6 @@ class MovingNodes {
         weight += of.size;
       }
       spin[i] = weight > 0 ? (1 / weight) * sum : sum;
-    });
-  }
-
-  // Faces and segments that are left to the CPU are put into left_.
-  void move_planes(B &b, const MovedMesh &moved)
-  {
-    FeatureCode *left = left_.data();
-    NodesSeen *seen = seen_.data();
-    const std::uint32_t n_faces = topology_.n_faces;
-    b.for_each(std::size_t(n_faces) + topology_.n_edges, [=] LSDCD_LAMBDA(std::size_t k) {
-      const auto i = static_cast<std::uint32_t>(k);
-      if (i < n_faces) {
-        MovedMesh mesh = moved;
-        mesh.far = seen->far();
-        if (!move_face(mesh, i))
-          left[fetch_add(&seen->n_left, 1)] = feature_code(FeatureKind::face, i);
-      } else if (!move_segment(moved, i - n_faces)) {
-        left[fetch_add(&seen->n_left, 1)] = feature_code(FeatureKind::edge, i - n_faces);
-      }
     });
   }
 
@@ -347,6 +378,7 @@ class MovingNodes {
       }
     });
     b.wait();    // before code and record are freed
+    move_edges(b, moved);
     move_rest(b, moved);
   }
 

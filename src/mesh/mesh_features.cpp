@@ -384,7 +384,7 @@ void update_features(const WeldedMesh &mesh, const std::vector<Vec3> &before, bo
   {
 #pragma omp for schedule(static) reduction(min : thin)
     for (std::int64_t f = 0; f < n_faces; f++) {
-      if (move_face(moved, static_cast<std::uint32_t>(f))) continue;
+      if (move_face(Warp<1>(), true, moved, static_cast<std::uint32_t>(f))) continue;
       const auto &c = mesh.faces[f];
       const Vec3 &a = mesh.vertices[c[0]], &b = mesh.vertices[c[1]], &d = mesh.vertices[c[2]];
       out.faces[f] = make_face_record(a, b, d);
@@ -392,20 +392,20 @@ void update_features(const WeldedMesh &mesh, const std::vector<Vec3> &before, bo
     }
 #pragma omp for schedule(static) reduction(+ : acting)
     for (std::int64_t i = 0; i < n_edges; i++) {
-      if (!move_segment(moved, static_cast<std::uint32_t>(i)))
+      if (!move_edge(Warp<1>(), true, moved, static_cast<std::uint32_t>(i)))
         put_far_segment(mesh, i, out.edges[i]);
-      put_faces_of_edge(moved, static_cast<std::uint32_t>(i));
       acting += edge_acts[i];
     }
 #pragma omp for schedule(static) reduction(+ : acting)
     for (std::int64_t i = 0; i < n_vertices; i++) {
-      move_vertex(moved, static_cast<std::uint32_t>(i));
+      move_vertex(Warp<1>(), true, moved, static_cast<std::uint32_t>(i));
       acting += vertex_acts[i];
     }
     // Where all act, as in most meshes that have moved, the parts are those of the last step.
     if (acting < n_edges + n_vertices || !out.all_parts_act) {
 #pragma omp for schedule(static)
-      for (std::int64_t f = 0; f < n_faces; f++) put_parts(moved, static_cast<std::uint32_t>(f));
+      for (std::int64_t f = 0; f < n_faces; f++)
+        put_parts(Warp<1>(), true, moved, static_cast<std::uint32_t>(f));
     }
   }
   out.all_parts_act = acting == n_edges + n_vertices;

@@ -5,11 +5,15 @@
 // by the formulas of make_features() in Real where that keeps the digits of a normal. A face or edge that has only been
 // shifted keeps its record to the last bit.
 //
-// In this order, each for all its items: move_face() and move_segment(), put_faces_of_edge(), move_vertex(), put_parts().
+// In this order, each for all its items: move_face(), move_edge(), move_vertex(), put_parts(). They are for all threads of a
+// warp together, which write records side by side: each has an item of its own, behind that of the thread before, or none where
+// it is not `mine`.
 #pragma once
 
+#include "backend/warp.h"
 #include "geometry/wall_records.h"
 
+#include <cstddef>
 #include <cstdint>
 
 namespace lsdcd {
@@ -100,16 +104,21 @@ LSDCD_FN std::uint32_t n_edges_at(const MeshTopologyView &mesh, std::uint32_t ve
   return static_cast<std::uint32_t>(mesh.vertex_first[vertex + 1] - mesh.vertex_first[vertex]);
 }
 
+// Returns the unit direction of an edge at vertex i, away from it.
+LSDCD_FN Vec3 direction_at(const MeshTopologyView &mesh, const EdgeRecord *edges, int edge,
+                           std::uint32_t i)
+{
+  // Without a branch, which would be a guess.
+  const int begins = static_cast<int>(mesh.edges[2 * edge] == static_cast<int>(i));
+  return Real(2 * begins - 1) * edges[edge].direction;
+}
+
 // The unit directions of the edges at vertex i, away from it.
 LSDCD_FN void put_directions(const MeshTopologyView &mesh, const EdgeRecord *edges, std::uint32_t i,
                              Vec3 *to)
 {
-  for (int k = mesh.vertex_first[i]; k < mesh.vertex_first[i + 1]; k++) {
-    const int edge = mesh.vertex_edge[k];
-    // Without a branch, which would be a guess.
-    const int begins = static_cast<int>(mesh.edges[2 * edge] == static_cast<int>(i));
-    *to++ = Real(2 * begins - 1) * edges[edge].direction;
-  }
+  for (int k = mesh.vertex_first[i]; k < mesh.vertex_first[i + 1]; k++)
+    *to++ = direction_at(mesh, edges, mesh.vertex_edge[k], i);
 }
 
 // Do other features cover vertex i? A vertex inside a plane is covered by its faces.
@@ -199,24 +208,30 @@ LSDCD_FN bool keeps(const MovedMesh &m, int from, int to)
 }
 
 // False: the face is too thin for Real, its record has to be made by make_thin_face_record().
-LSDCD_FN bool move_face(const MovedMesh &m, std::uint32_t f)
+template <unsigned kSize>
+LSDCD_FN bool move_face(const Warp<kSize> &, bool mine, const MovedMesh &m, std::uint32_t f)
 {
-  const int *c = m.mesh.faces + 3 * std::size_t(f);
-  if (keeps(m, c[0], c[1]) && keeps(m, c[0], c[2])) {
-    m.to.faces[f].anchor = m.at[c[0]];
-    return true;
+  RowOf<kSize, FaceRecord> face(m.to.faces + f);
+  bool is_made = true;
+  std::uint32_t words = 0;
+  if (mine) {
+    const int *c = m.mesh.faces + 3 * std::size_t(f);
+    if (keeps(m, c[0], c[1]) && keeps(m, c[0], c[2])) {
+      (*face).anchor = m.at[c[0]];
+      words = words_of(0, sizeof(Vec3));
+    } else {
+      is_made = put_thick_face(m.at[c[0]], m.at[c[1]], m.at[c[2]], m.far, *face);
+      if (is_made) words = words_of(0, sizeof(FaceRecord));
+    }
   }
-  return put_thick_face(m.at[c[0]], m.at[c[1]], m.at[c[2]], m.far, m.to.faces[f]);
+  face.put(words);
+  return is_made;
 }
 
-// False: the squares of an edge leave the range of Real, its direction and length have to be those of put_far_segment().
-LSDCD_FN bool move_segment(const MovedMesh &m, std::uint32_t i)
+// Makes direction and length of an edge. False: its squares leave the range of Real.
+LSDCD_FN bool put_segment(const Vec3 &from, const Vec3 &to, EdgeRecord &e)
 {
-  const int from = m.mesh.edges[2 * std::size_t(i)], to = m.mesh.edges[2 * std::size_t(i) + 1];
-  EdgeRecord &e = m.to.edges[i];
-  e.anchor = m.at[from];
-  if (keeps(m, from, to)) return true;
-  const Vec3 d = m.at[to] - m.at[from];
+  const Vec3 d = to - from;
   const Real sq = norm_sq(d);
   if (!(sq > 1e-200 && sq < 1e200)) return false;
   e.length = sqrt(sq);
@@ -224,28 +239,62 @@ LSDCD_FN bool move_segment(const MovedMesh &m, std::uint32_t i)
   return true;
 }
 
-// What an edge has of its faces.
-LSDCD_FN void put_faces_of_edge(const MovedMesh &m, std::uint32_t i)
+// False: direction and length have to be those of put_far_segment().
+template <unsigned kSize>
+LSDCD_FN bool move_edge(const Warp<kSize> &, bool mine, const MovedMesh &m, std::uint32_t i)
 {
-  EdgeRecord &e = m.to.edges[i];
-  put_inward(m.mesh, m.to.faces, i, e, m.to.edge_inward + e.more);
-  if (m.to.edge_out) m.to.edge_out[i] = outward_of_edge(m.mesh, m.to.faces, i);
-  m.to.edge_acts[i] = !is_flat(e);
+  const std::uint32_t all = words_of(0, sizeof(EdgeRecord)),
+                      of_segment =
+                          words_of(offsetof(EdgeRecord, direction), offsetof(EdgeRecord, inward));
+  RowOf<kSize, EdgeRecord> edge(m.to.edges + i);
+  bool is_made = true;
+  std::uint32_t words = 0;
+  if (mine) {
+    EdgeRecord &e = *edge;
+    const int from = m.mesh.edges[2 * std::size_t(i)], to = m.mesh.edges[2 * std::size_t(i) + 1];
+    const bool is_kept = keeps(m, from, to);
+    e.anchor = m.at[from];
+    e.more = m.to.edges[i].more;
+    is_made = is_kept || put_segment(e.anchor, m.at[to], e);
+    put_inward(m.mesh, m.to.faces, i, e, m.to.edge_inward + e.more);
+    if (m.to.edge_out) m.to.edge_out[i] = outward_of_edge(m.mesh, m.to.faces, i);
+    m.to.edge_acts[i] = !is_flat(e);
+    words = is_kept || !is_made ? all & ~of_segment : all;
+  }
+  edge.put(words);
+  return is_made;
 }
 
-LSDCD_FN void move_vertex(const MovedMesh &m, std::uint32_t i)
+template <unsigned kSize>
+LSDCD_FN void move_vertex(const Warp<kSize> &warp, bool mine, const MovedMesh &m, std::uint32_t i)
 {
-  const auto first = static_cast<std::uint32_t>(m.mesh.vertex_first[i]);
-  Vec3 *direction = m.to.vertex_direction + first;
-  put_directions(m.mesh, m.to.edges, i, direction);
-  m.to.vertices[i] = {m.at[i], first, n_edges_at(m.mesh, i)};
-  m.to.vertex_acts[i] = !is_covered(m.mesh, m.to.edges, i, direction);
-  if (m.to.vertex_out) m.to.vertex_out[i] = outward_of_vertex(m.mesh, m.at, m.to.faces, i);
+  const std::uint32_t begins = warp.of(i, 0);
+  const auto first_of = [&](std::uint32_t vertex) {
+    return static_cast<std::uint32_t>(m.mesh.vertex_first[vertex]);
+  };
+  // One that is not there has no edges, behind all.
+  const std::uint32_t first = first_of(mine ? i : m.mesh.n_vertices),
+                      end = mine ? first_of(i + 1) : first;
+  for_each_side_by_side(warp, first, end, [&](unsigned rank, std::uint32_t k) {
+    m.to.vertex_direction[k] =
+        direction_at(m.mesh, m.to.edges, m.mesh.vertex_edge[k], begins + rank);
+  });
+  warp.wait();    // directions are others'
+  RowOf<kSize, VertexRecord> vertex(m.to.vertices + i);
+  if (mine) {
+    *vertex = {m.at[i], first, end - first};
+    m.to.vertex_acts[i] = !is_covered(m.mesh, m.to.edges, i, m.to.vertex_direction + first);
+    if (m.to.vertex_out) m.to.vertex_out[i] = outward_of_vertex(m.mesh, m.at, m.to.faces, i);
+  }
+  vertex.put(mine ? words_of(0, sizeof(VertexRecord)) : 0);
 }
 
-LSDCD_FN void put_parts(const MovedMesh &m, std::uint32_t f)
+template <unsigned kSize>
+LSDCD_FN void put_parts(const Warp<kSize> &, bool mine, const MovedMesh &m, std::uint32_t f)
 {
-  m.to.face_parts[f] = parts_of(m.mesh, f, m.to.edge_acts, m.to.vertex_acts);
+  RowOf<kSize, FaceParts> parts(m.to.face_parts + f);
+  if (mine) *parts = parts_of(m.mesh, f, m.to.edge_acts, m.to.vertex_acts);
+  parts.put(mine ? words_of(0, sizeof(FaceParts)) : 0);
 }
 
 }    // namespace lsdcd
