@@ -88,7 +88,7 @@ def machines(rows):
     return "\n".join(lines)
 
 
-# ---- tables of performance.md and library.md -----------------------------------------------
+# ---- tables of performance.md and library-queries.md -----------------------------------------------
 
 def point_costs(cpu):
     """Distances of points in random order by the library, Embree and CGAL, in microseconds."""
@@ -448,7 +448,7 @@ def tables():
         "performance.md": {"cost": cost(kokkos_cuda + kokkos_cpu), "set-up": set_up(cpu, cuda),
                            "liggghts": liggghts(rows_of("liggghts_cpu.csv")), "floor": floor(rows_of("floor_cpu.csv"))},
         "notes/performance.md": {"kokkos-scaling": scaling(kokkos_cuda)},
-        "library.md": {"point-costs": point_costs(cpu)},
+        "library-queries.md": {"point-costs": point_costs(cpu)},
         "effects.md": {"costs": costs(*(rows_of(f"effects_{device}.csv", ";") for device in DEVICES))},
         "notes/effects.md": {"bodies": bodies(rows_of("effects_bodies_cpu.csv", ";"))},
         "notes/hard-cases.md": {"numbers": hard_cases(*(rows_of(f"hard_cases_{device}.tsv") for device in DEVICES))},

@@ -16,7 +16,7 @@ from facts import fact
 from triangles import closest_on_triangle
 
 DIAGONAL = math.sqrt(14)
-# Distances are right to 4e-13 of the cutoff and 4e-15 of the diagonal (doc/library.md), and the
+# Distances are right to 4e-13 of the cutoff and 4e-15 of the diagonal (doc/library-queries.md), and the
 # oracle's own rounding is some 1e-15 of the diagonal.
 RADIUS = 1.0
 DISTANCE = 4e-13 * RADIUS + 8e-15 * DIAGONAL
