@@ -22,13 +22,13 @@ arm64_packages=(
 )
 
 # test_all [OPTION...]: options of ctest choose tests. Without a GPU CUDA code is for the one that
-# bench.test_kernel_sizes has sizes for, and kernels of moving walls take their turn.
+# bench.test_kernel_sizes has sizes for, and kernels of moving walls are for a release.
 test_all() {
-  local folder=build/all kinds=() text hosts=() options=(-D LSDCD_TESTS=ON -D LSDCD_TURN="$turn") laws='on_wall|plain'
+  local folder=build/all kinds=() text hosts=() options=(-D LSDCD_TESTS=ON -D LSDCD_RELEASE="$whole") laws='on_wall|plain'
   need_each "${test_all_packages[@]}"
-  case $turn in 0 | 1) laws='^plain$' ;; esac
+  if [ $whole = OFF ]; then laws='^plain$'; fi
   have_gpu || options+=(-D CMAKE_CUDA_ARCHITECTURES=90 -D LSDCD_MACHINE_LAWS="$laws")
-  say "configure${turn:+: of what takes long, turn $turn of 0 to 2 (doc/testing.md)}"
+  say "configure"
   configure cuda $folder "${options[@]}" || { fail "configure"; return; }
   if wanted $folder -L host "$@"; then
     if [[ "$*" != *release* ]]; then kinds=(kinds); fi
@@ -45,10 +45,10 @@ test_all() {
 
 # The tests of every day under sanitizers: random meshes stand for real ones, tests of the tool's commands one by one for
 # its examples in a row. Sampling tests take a tenth of their samples: the same code runs, and a sanitizer makes each
-# several times as slow. Rooms take turns.
+# several times as slow.
 test_sanitized() {
-  say "sanitizers: configure and build${turn:+ a third}"
-  configure sanitize build/sanitize -D LSDCD_TURN="$turn" || { fail "configure with sanitizers"; return; }
+  say "sanitizers: configure and build"
+  configure sanitize build/sanitize -D LSDCD_RELEASE="$whole" || { fail "configure with sanitizers"; return; }
   wanted build/sanitize -LE 'full|release' || return 0
   compile build/sanitize quick || { fail "build with sanitizers"; return; }
   say "sanitizers: tests"
@@ -79,19 +79,17 @@ test_arm64() {
   LSDCD_QUICK=1 LSDCD_PAIRS=1e5 run_ctest build/arm64 -LE full --timeout 3600 -E '^(bits|library|tool)[.]'
 }
 
-# test_full all|sanitized|arm64 [PATTERN]: what only a release asks for is left out unless a pattern names it. Tests that take
-# long take turns: of three parts the commit chooses one, each commit another, so that all have their turn.
+# test_full all|sanitized|arm64 [PATTERN]: what only a release asks for is left out of `all` unless a pattern names it.
 test_full() {
-  local commit chosen=()
-  turn=""
+  local chosen=()
+  whole=ON
   [ $# -le 2 ] || die "test $1 takes one pattern: ${*:2}"
   pattern=${2:-.}
   need_to "the build needs" "${build_packages[@]}"
   need_each "${test_packages[@]}"
   if [ "$*" = all ] && [ -z "${release:-}" ]; then
     chosen=(-LE release)
-    commit=$(git rev-parse HEAD 2>/dev/null) || commit=0
-    turn=$((16#${commit:0:7} % 3))
+    whole=OFF
   fi
   "test_$1" "${chosen[@]}"
   if [ "$1" = all ]; then test_sanitized; fi

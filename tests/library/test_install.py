@@ -15,6 +15,7 @@ import sys
 
 import pytest
 
+from cube import CUBE_FACES
 from facts import fact
 
 ROOT, BUILD = os.environ["LSDCD_ROOT"], os.environ["LSDCD_BUILD"]
@@ -23,8 +24,6 @@ PYTHON = sys.executable
 
 # A cube of side 2 about the origin. Of the example's points the first is its middle, 1 from all
 # faces, where nothing is nearer than the cutoff 1; the second is 0.25 above its top.
-CUBE_FACES = [(0, 2, 1), (1, 2, 3), (4, 5, 6), (5, 7, 6), (0, 1, 4), (1, 5, 4), (2, 6, 3), (3, 6, 7),
-              (0, 4, 2), (2, 4, 6), (1, 3, 5), (3, 7, 5)]
 WANTED = "inf 0.25\n"
 # Two heights above a floor of one large triangle; then its four upright sides, of two triangles each, in it.
 WANTED_PAIRS = "0 0 8 \n"
@@ -89,7 +88,7 @@ def find(prefix, name):
     return found[0]
 
 
-def test_symbols(libraries):
+def test_symbols(prefix, libraries):
     library = os.path.join(libraries, "liblsdcd.so.0")
     with open(os.path.join(prefix, "include", "lsdcd.h"), encoding="utf-8") as f:
         declared = set(re.findall(r"^LSDCD_API[^;]*?\b(lsdcd_\w+)\(", f.read(), re.M))

@@ -14,7 +14,7 @@ import numpy as np
 import lsdcd
 
 sys.path.insert(0, __file__.rsplit("/", 1)[0])
-from test_install import CUBE_FACES    # noqa: E402
+from cube import CUBE_FACES    # noqa: E402
 
 CUTOFF = 0.5
 vertices = np.array([[1.0 if v >> k & 1 else -1.0 for k in range(3)] for v in range(8)])

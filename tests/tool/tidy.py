@@ -5,9 +5,8 @@
 """Runs clang-tidy, with the checks of .clang-tidy, over the sources of src that a build folder compiles, some
 together as they are compiled there. Left out is src/lammps, whose names follow LAMMPS.
 
-usage: tidy.py BUILD [PATTERN | --third]
+usage: tidy.py BUILD [PATTERN]
   PATTERN   only sources that have a file whose path in the repository has a match
-  --third   only a third of them, which the commit chooses: each commit another, so that all have their turn
 
 Ends with 1 where there is a finding, with 77 where clang-tidy 14 is missing.
 """
@@ -44,13 +43,6 @@ def commands(build, pattern):
     return chosen, len(seen)
 
 
-def turn():
-    """0 to 2, by the commit; 0 outside of a checkout."""
-    commit = subprocess.run(["git", "rev-parse", "HEAD"], cwd=ROOT, stdout=subprocess.PIPE,
-                            stderr=subprocess.DEVNULL, text=True, check=False).stdout.strip()
-    return int(commit or "0", 16) % 3
-
-
 def findings(tidy, folder, path):
     """What clang-tidy says of a source; empty: nothing."""
     run = subprocess.run([tidy, "-p", folder, "--config-file=" + os.path.join(ROOT, ".clang-tidy"),
@@ -67,10 +59,7 @@ def main():
     if "version 14." not in version:
         print("skipped: clang-tidy 14 is missing, install clang-tidy")
         sys.exit(77)
-    third = sys.argv[2:] == ["--third"]
-    entries, n_files = commands(sys.argv[1], sys.argv[2] if len(sys.argv) > 2 and not third else "")
-    if third:
-        entries = entries[turn()::3]
+    entries, n_files = commands(sys.argv[1], sys.argv[2] if len(sys.argv) > 2 else "")
     with tempfile.TemporaryDirectory() as folder:
         with open(os.path.join(folder, "compile_commands.json"), "w", encoding="utf-8") as f:
             json.dump(entries, f)
@@ -79,7 +68,7 @@ def main():
     for text in filter(None, said):
         print(text)
     n_bad = sum(map(bool, said))
-    print(f"{n_bad} of {len(entries)} sources{' (a third)' if third else f' of {n_files} files'} with findings")
+    print(f"{n_bad} of {len(entries)} sources of {n_files} files with findings")
     sys.exit(n_bad > 0 or not entries)
 
 
