@@ -446,8 +446,8 @@ def tables():
     study = [rows_of(f"accuracy_{device}.csv") for device in DEVICES]
     return {
         "performance.md": {"cost": cost(kokkos_cuda + kokkos_cpu), "set-up": set_up(cpu, cuda),
-                           "liggghts": liggghts(rows_of("liggghts_cpu.csv")), "floor": floor(rows_of("floor_cpu.csv"))},
-        "notes/performance.md": {"kokkos-scaling": scaling(kokkos_cuda)},
+                           "liggghts": liggghts(rows_of("liggghts_cpu.csv"))},
+        "notes/performance.md": {"kokkos-scaling": scaling(kokkos_cuda), "floor": floor(rows_of("floor_cpu.csv"))},
         "library-queries.md": {"point-costs": point_costs(cpu)},
         "effects.md": {"costs": costs(*(rows_of(f"effects_{device}.csv", ";") for device in DEVICES))},
         "notes/effects.md": {"bodies": bodies(rows_of("effects_bodies_cpu.csv", ";"))},
