@@ -23,8 +23,8 @@ from facts import fact
 from triangles import cube
 
 # Programs of the system, which are not ours to check.
-OTHERS = {"apt", "c++", "cd", "clang-format", "cp", "ctest", "docker", "echo", "export", "git", "grep", "head",
-          "mkdir", "module", "mpicxx", "nvidia-smi", "paraview", "pip", "pkg-config", "printf", "source", "sudo",
+OTHERS = {"apt", "c++", "cat", "cd", "clang-format", "cp", "ctest", "docker", "echo", "export", "git", "gmsh", "grep", "head",
+          "mkdir", "module", "mpicxx", "nvidia-smi", "paraview", "pip", "pkg-config", "printf", "source", "sudo", "surfaceMeshExtract",
           "tail", "[", "reuse", "tar", "unzip", "nproc"}
 LAMMPS_OPTIONS = {"-in", "-i", "-var", "-v", "-k", "-kokkos", "-sf", "-suffix", "-pk", "-log", "-h", "-nocite", "-screen"}
 BUILD_FILES = "\n".join(path.read_text() for path in [
@@ -149,6 +149,7 @@ def check(page, words):
 def commands_of(text):
     """Lists of words, of each command of a shell script."""
     text = re.sub(r"\\\n", " ", text)
+    text = re.sub(r"(<<'?(\w+)'?.*)\n(?:.*\n)*?\2$", r"\1", text, flags=re.M)    # a file that is written here
     inner = re.findall(r"\$\(([^()]*)\)", text)
     text = re.sub(r"\$\([^()]*\)", "ANSWER", text)
     for line in inner + text.split("\n"):
@@ -214,7 +215,7 @@ def test_page_commands():
             continue
         prose = re.sub(r"^```.*?^```", "", page.text, flags=re.M | re.S)
         wrong = []
-        for code in re.findall(r"(?<!`)``?((?:\S*/)?(?:lsdcd|run|lmp-lsdcd) [^`\n]+)``?", prose):
+        for code in re.findall(r"(?<!`)``?((?:\S*/)?(?:lsdcd|lmp-lsdcd) [^`\n]+|\./run [^`\n]+)``?", prose):
             inline += 1
             try:
                 wrong += [f"{code}: {why}" for words in commands_of(code) for why in [check(page, words)] if why]
