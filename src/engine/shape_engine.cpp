@@ -108,7 +108,14 @@ class ShapeEngine : public EngineOn<CpuBackend> {
       throw InputError(static_cast<int>(kNoSphere - unsure),
                        "has a nearest point that was not found to rounding: please report its "
                        "shape and how it lies");
-    return EngineOn::read_diagnostics();
+    StepDiagnostics seen = EngineOn::read_diagnostics();
+    const std::uint64_t sharpest = std::exchange(shapes_->work.sharpest, 0);
+    if (sharpest == 0) return seen;
+    seen.sharpest =
+        from_ascending_bits(static_cast<std::uint32_t>(sharpest >> DeepestOverlap::kRatioAt));
+    seen.sharpest_grain = static_cast<int>(sharpest & DeepestOverlap::kRest) - 1;
+    seen.sharpest_curvature = shapes_->work.shape[seen.sharpest_grain].rho;
+    return seen;
   }
 
  private:

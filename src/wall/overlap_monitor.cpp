@@ -43,6 +43,8 @@ void OverlapMonitor::note_of_run(const StepDiagnostics &seen, const SpheresOnCpu
 void OverlapMonitor::note(const StepDiagnostics &seen, const SpheresOnCpu &spheres)
 {
   note_of_run(seen, spheres);
+  if (seen.sharpest > sharpest_.ratio)
+    sharpest_ = {seen.sharpest, seen.sharpest_curvature, spheres.tag(seen.sharpest_grain)};
   if (seen.deepest <= kLarge) placed_ = 0;
   if (seen.deepest <= kWorse * placed_) {
     placed_ = std::min(placed_, seen.deepest);
@@ -84,8 +86,8 @@ std::string OverlapMonitor::overlap_text(Real overlap, std::int64_t tag,
 {
   Real radius = spheres.all().radius_of(tag);
   host_.max(&radius, 1);
-  return number_text(100 * overlap) + " % of its radius" +
-         (radius > 0 ? " " + number_text(radius) : "");
+  return number_text(100 * overlap) + " % of its " + length() +
+         (radius > 0 && !wall_.shapes ? " " + number_text(radius) : "");
 }
 
 // Not of spheres that have been named.
@@ -113,6 +115,21 @@ void OverlapMonitor::check_sunk(Real worst, Real timestep_ratio, const SpheresOn
              sunk_remedy(seen.overlap, timestep_ratio) + comes_again);
 }
 
+void OverlapMonitor::check_sharp()
+{
+  if (!wall_.shapes || sharp_warned_) return;
+  Real most = sharpest_.ratio;
+  host_.max(&most, 1);
+  if (most <= kSharp) return;
+  sharp_warned_ = true;
+  Sharpest seen = sharpest_;
+  host_.broadcast(&seen, sizeof seen, lowest_rank(host_, seen.ratio == most));
+  host_.warn(host_.sphere_text(seen.tag) + " overlaps the wall by " + number_text(seen.ratio) +
+             " times its least radius of curvature " + number_text(seen.curvature) +
+             ": above a half contacts that end at folds may jump; use a stiffer contact (a larger "
+             "kn), or smaller exponents. This warning is shown once");
+}
+
 void OverlapMonitor::end_run(bool brief)
 {
   Real most = of_run_.overlap;
@@ -120,8 +137,8 @@ void OverlapMonitor::end_run(bool brief)
   const Deepest mine = std::exchange(of_run_, {});
   if (brief || most == 0) return;
   const Deepest deepest = deepest_of_all(mine, most);
-  host_.log("the deepest overlap of this run is " + number_text(100 * most) + " % of the radius" +
-            (deepest.tag > 0 ? " of " + host_.sphere_text(deepest.tag) : "") + ", at " +
+  host_.log("the deepest overlap of this run is " + number_text(100 * most) + " % of the " +
+            length() + (deepest.tag > 0 ? " of " + host_.sphere_text(deepest.tag) : "") + ", at " +
             name(deepest.mesh) + " in step " + std::to_string(deepest.step));
 }
 

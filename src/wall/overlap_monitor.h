@@ -36,6 +36,9 @@ class OverlapMonitor {
   // still. Collective.
   void check_sunk(Real worst, Real timestep_ratio, const SpheresOnCpu &spheres);
 
+  // Warns once of a grain that is no sphere and overlaps by more than half of its least radius of curvature. Collective.
+  void check_sharp();
+
   // Logs the deepest overlap noted since the last call, unless `brief`. Collective.
   void end_run(bool brief);
 
@@ -52,6 +55,10 @@ class OverlapMonitor {
     std::int64_t tag = 0, step = 0;    // tag 0: not looked up
     std::uint32_t mesh = 0, meshes = 0;
   };
+  struct Sharpest {
+    Real ratio = 0, curvature = 0;    // overlap / least radius of curvature, and that radius
+    std::int64_t tag = 0;
+  };
   static Deepest deepest_of(const StepDiagnostics &seen, std::int64_t tag)
   {
     return {seen.deepest, tag, seen.deepest_step, static_cast<std::uint32_t>(seen.deepest_mesh),
@@ -64,7 +71,13 @@ class OverlapMonitor {
   std::string overlap_text(Real overlap, std::int64_t tag, const SpheresOnCpu &spheres);
   bool is_named(std::int64_t tag) const;
 
+  const char *length() const
+  {
+    return wall_.shapes ? "least half-axis" : "radius";
+  }    // of overlaps
+
   static constexpr Real kLarge = 0.1;
+  static constexpr Real kSharp = 0.5;
   static constexpr Real kWorse = 1.1;    // times an overlap that was warned of: warned of again
   // A centre that is so near may be on the other side in the next step.
   static constexpr Real kThrough = 0.95;
@@ -76,8 +89,10 @@ class OverlapMonitor {
   const WallSpec &wall_;
   // On this process.
   Deepest worst_, of_run_;
+  Sharpest sharpest_;
   // On all processes.
-  Real warned_from_ = kLarge;          // overlaps above it are warned of
+  Real warned_from_ = kLarge;    // overlaps above it are warned of
+  bool sharp_warned_ = false;
   std::vector<std::int64_t> named_;    // tags of spheres whose centres came to the wall
   std::int64_t highest_tag_ = -1;      // of spheres that are not new; -1: before the first look
   Real worst_new_ = kLarge;            // a new sphere that overlaps by more is warned of

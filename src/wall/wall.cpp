@@ -382,6 +382,7 @@ void Wall::look_at_spheres(const HostSpheres &spheres, std::int64_t step)
   Real most[2] = {engine_->largest_radius(s), overlaps_.worst()};
   host_.max(most, 2);
   overlaps_.check_sunk(most[1], timestep_.worst_ratio(), on_cpu(spheres));
+  overlaps_.check_sharp();
   largest_radius_ = most[0];
   if (most[0] == 0) check_points(spheres);
   if ((most[0] > 0 || !coats_.empty()) && grids_.fit_spheres(most[0], on_cpu(spheres), step))
@@ -637,6 +638,7 @@ void Wall::end_run(const HostSpheres &spheres, bool far, const std::string &advi
   Real worst = overlaps_.worst();
   host_.max(&worst, 1);
   overlaps_.check_sunk(worst, timestep_.worst_ratio(), on_cpu(spheres));
+  overlaps_.check_sharp();
   overlaps_.end_run(spec_.brief);
   if (far) grids_.check_wrapping(spheres);
   grids_.end_run();
