@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: GPL-2.0-only
 
 """Ellipsoids at a bumpy floor that turns, in a tray that rests: balls go as spheres do, and a run is the same on any number of
-processes that continue it from a restart file. One that comes down leaves as a closed form has it."""
+processes that continue it from a restart file. One that comes down leaves as a closed form has it. Under
+the LAMMPS of hosts/build_host.sh superellipsoids, too."""
 
 import math
 
@@ -34,7 +35,9 @@ create_atoms    1 region fill
 """
 SPHERES = "set group all diameter 1.0\nset group all density 2.0\n"
 BALLS = "set group all shape 1 1 1\nset group all density 2.0\n"
-ELLIPSOIDS = "set group all shape 1.4 0.9 0.7\nset group all density 2.0\nset group all quat/random 7331\n"
+WITH_BLOCK = "set group all block {} {}\n"
+# The mass first: LAMMPS 4Jul2026 makes the inertia of superellipsoids of it when it sets their shape.
+ELLIPSOIDS = "set group all mass 0.9\nset group all shape 1.4 0.9 0.7\nset group all quat/random 7331\n"
 START = "velocity all create 4.0 4711 loop geom\nvelocity all set NULL NULL -2.0 sum yes\n"
 
 
@@ -72,8 +75,8 @@ def go(folder, name, style, atoms, integrator, spin):
     return lmp.read_dump(folder / name)
 
 
-def proceed(folder, restart, name, ranks):
-    lmp.run_well(SETTINGS.format(style="ellipsoid") + f"read_restart {restart}\n" + forces("nve/asphere") +
+def proceed(folder, restart, name, ranks, style="ellipsoid"):
+    lmp.run_well(SETTINGS.format(style=style) + f"read_restart {restart}\n" + forces("nve/asphere") +
                  dump(name, "angmomx angmomy angmomz") + f"run {SECOND}\n", folder, ranks)
     return lmp.read_dump(folder / name)
 
@@ -140,3 +143,16 @@ def test_ellipsoids(folder):
     for ranks in (1, 4):
         at_most(f"ellipsoids: continued from a restart file on {ranks} ranks",
                 lmp.largest_difference(one, proceed(folder, "one.restart", f"again{ranks}", ranks)), 0)
+
+
+@lmp.of_host
+def test_superellipsoids(folder):
+    style, spin = "ellipsoid superellipsoid", "angmomx angmomy angmomz"
+    plain = go(folder, "plain", "ellipsoid", ELLIPSOIDS, "nve/asphere", spin)
+    twos = go(folder, "twos", style, ELLIPSOIDS + WITH_BLOCK.format(2, 2), "nve/asphere", spin)
+    at_most("exponents of 2: they go as ellipsoids do", lmp.largest_difference(plain, twos), 1e-10)
+    tablets = go(folder, "tablets", style, ELLIPSOIDS + WITH_BLOCK.format(4, 8), "nve/asphere", spin)
+    touching = sum(row[-1] > 0 for row in tablets[FIRST].values())
+    fact("exponents of 4 and 8: some touch where it breaks", touching > 20, str(touching))
+    at_most("exponents of 4 and 8: continued from a restart file",
+            lmp.largest_difference(tablets, proceed(folder, "tablets.restart", "again", 1, style)), 0)
