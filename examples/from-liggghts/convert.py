@@ -1215,6 +1215,11 @@ class Script:
         self.put(f"# NOTE {self.at(line)}: {text}")
 
     def leave(self, line, why, do, nearest=""):
+        # Where no number waits for a choice, --nearest takes the nearest commands.
+        if nearest and self.options.nearest and " K " not in nearest:
+            self.note(line, f"--nearest: {why}")
+            self.put(nearest)
+            return
         self.left.append(f"{self.at(line)}: {why}; do: {do}")
         self.put(f"# LEFT {self.left[-1]}")
         self.put("\n".join("# " + t for t in line.text.splitlines()))
@@ -2489,6 +2494,7 @@ def main():
     p.add_argument("--radius", type=float, help="of a grain, where the script does not tell (model hooke)")
     p.add_argument("--density", type=float, help="of a grain")
     p.add_argument("--pfm", action="store_true", help="with the defaults of LIGGGHTS-PFM: tangential no_history, units lattice")
+    p.add_argument("--nearest", action="store_true", help="take the nearest commands, which else are comments with #:")
     p.add_argument("--converted-restart", action="store_true", help="read_restart reads a file that a converted script has written")
     p.add_argument("--var", nargs=2, action="append", metavar=("NAME", "VALUE"), help="value of a variable")
     a = p.parse_args()

@@ -29,7 +29,7 @@ def scripts(folder):
 
 def swept(path, converted_restart=False, pfm=False):
     """Commands of a script, and the reasons of those that are left; the error in place of them where nothing can be written."""
-    options = types.SimpleNamespace(radius=None, density=None, var=None, converted_restart=converted_restart, pfm=pfm)
+    options = types.SimpleNamespace(radius=None, density=None, var=None, converted_restart=converted_restart, pfm=pfm, nearest=False)
     try:
         script = convert.Script(path, options)
         script.convert()

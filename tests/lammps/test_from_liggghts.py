@@ -768,6 +768,10 @@ def test_nearest(folder):
     said, turning = convert(folder, "variable coh equal 0\n" + drum)
     fact("of a drum with cdt and a cohesion of 0 the laws are left, and both meshes turn", "commands left: 2" in said.stderr and turning.endswith(
         "\nfix_modify      w mesh 1 motion rotate 0 0 0 0 1 0 1.33\nfix_modify      w mesh 2 motion rotate 0 0 0 0 1 0 1.33\n"), turning)
+    said, taken = convert(folder, "variable coh equal 0\n" + drum, more=["--nearest"])
+    fact("--nearest takes its laws", "commands left: 0" in said.stderr and taken.count("# NOTE") == turning.count("# NOTE") + 2 and
+         [line.removeprefix("#: ") for line in turning.split("\n") if line.startswith("#: ")] ==
+         [line for line in taken.split("\n") if f"#: {line}" in turning.split("\n")] and "#:" not in taken, taken)
     fact("the motion and the output of its mesh stay", "\nfix_modify      w motion linear 1 0 0\nthermo_style custom step f_w[3]\nunfix w\n" in out, out)
 
 
