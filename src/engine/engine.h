@@ -28,7 +28,7 @@ namespace lsdcd {
 // A step is begun, submitted and collected.
 enum class StepState { none, begun, submitted };
 
-class NodesInPlace;           // engine/nodes_in_place.h
+class NodesInPlace;           // engine/nodes/nodes_in_place.h
 struct MovingGridSettings;    // grid/build/moving_grid.h
 class TriangleTree;           // tree/triangle_tree.h
 

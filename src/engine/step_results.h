@@ -6,7 +6,7 @@
 #pragma once
 
 #include "engine/broad_phase/candidate_slots.h"
-#include "engine/node_forces.h"
+#include "engine/nodes/node_forces.h"
 #include "engine/results/results.h"
 #include "engine/step/step_job.h"
 

@@ -4,12 +4,12 @@
 // A mesh whose nodes, its welded vertices, are where the caller puts them in each step: its records, its grid, and
 // the forces of contacts on its nodes. Every process has all nodes.
 //
-// Lists, of cells (grid/build/moving_grid.h) and of spheres (engine/lists/node_list.h), go by distance alone, as a region
+// Lists, of cells (grid/build/moving_grid.h) and of spheres (engine/nodes/node_list.h), go by distance alone, as a region
 // that a list left out may turn towards the sphere.
 #pragma once
 
 #include "engine/engine.h"
-#include "engine/nodes_in_place.h"
+#include "engine/nodes/nodes_in_place.h"
 #include "grid/flat_grid.h"
 #include "host/host.h"
 #include "wall/mesh_state.h"

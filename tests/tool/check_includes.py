@@ -35,7 +35,7 @@ FOLDERS = {
     "grid": [".", "lookup", "plan", "build", "cache"],
     "law": ["contact.h", "submodels", "."],
     "engine": ["candidate_schedule.h", "sum_unit.h", "settings.h", "grains.h", "results.h", "springs.h",
-               "engine.h", "results", "lists", "broad_phase", "step", "."],
+               "engine.h", "results", "lists", "nodes", "broad_phase", "step", "."],
     "wall": ["wall_spec.h", "mesh_name.h", "spec_text.h", "coat_load.h", "step_totals.h", "mean_loads.h", "mesh_state.h", "mesh_nodes.h",
              "shape", "move", "."],
     "lammps": [".", "launcher"],

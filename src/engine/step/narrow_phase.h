@@ -8,7 +8,7 @@
 #include "contact/corner.h"
 #include "contact/history.h"
 #include "engine/lists/feature_list.h"
-#include "engine/lists/node_list.h"
+#include "engine/nodes/node_list.h"
 #include "engine/settings.h"
 
 namespace lsdcd {
