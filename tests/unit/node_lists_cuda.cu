@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Lists of a mesh whose nodes move, built on a GPU.
+// Lists and records of a mesh whose nodes move, made on a GPU.
+#include "support/moved_records.h"
 #include "support/node_lists.h"
 
 #include "backend/backend_cuda.h"
@@ -11,6 +12,11 @@ namespace lsdcd {
 NodeLists node_lists_on_cuda(const WeldedMesh &mesh, const MovingGridSettings &settings)
 {
   return node_lists_by(CudaBackend(), mesh, settings);
+}
+
+MeshFeatures moved_records_on_cuda(const WeldedMesh &mesh, const WeldedMesh &after)
+{
+  return moved_records_by(CudaBackend(), mesh, after);
 }
 
 }    // namespace lsdcd

@@ -1,10 +1,11 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Cells of a mesh whose nodes move, against the distances of another method, and between backends.
+// Cells of a mesh whose nodes move, against the distances of another method, and cells and records between backends.
 #include "backend/backend_cpu.h"
 #include "support/device.h"
 #include "support/meshes.h"
+#include "support/moved_records.h"
 #include "support/node_lists.h"
 #include "support/query_oracle.h"
 #include "support/random.h"
@@ -23,9 +24,9 @@ namespace {
 constexpr Real kCutoff = 0.5, kAllowance = 0.1;
 
 // Waves, with triangles of one size.
-WeldedMesh waves()
+WeldedMesh waves(int n = 16)
 {
-  WeldedMesh mesh = weld(floor_mesh(16, 8, 3), -1);
+  WeldedMesh mesh = weld(floor_mesh(n, 8, 3), -1);
   for (Vec3 &x : mesh.vertices) x.z = std::sin(x.x) * std::cos(2 * x.y);
   return mesh;
 }
@@ -140,16 +141,19 @@ struct BackwardBackend : CpuBackend {
   }
 };
 
+template <class Row>
+void expect_same_bytes(const std::vector<Row> &a, const std::vector<Row> &b)
+{
+  ASSERT_EQ(a.size(), b.size());
+  EXPECT_EQ(0, std::memcmp(static_cast<const void *>(a.data()), static_cast<const void *>(b.data()),
+                           a.size() * sizeof(Row)));
+}
+
 void expect_same(const NodeLists &a, const NodeLists &b)
 {
   EXPECT_EQ(a.scalars.length, b.scalars.length);
   EXPECT_TRUE(a.scalars.origin == b.scalars.origin);
   EXPECT_EQ(a.scalars.tolerance, b.scalars.tolerance);
-  const auto expect_same_bytes = [](const auto &x, const auto &y) {
-    ASSERT_EQ(x.size(), y.size());
-    EXPECT_EQ(0, std::memcmp(static_cast<const void *>(x.data()),
-                             static_cast<const void *>(y.data()), x.size() * sizeof x[0]));
-  };
   expect_same_bytes(a.brick_of, b.brick_of);
   expect_same_bytes(a.bricks, b.bricks);
   expect_same_bytes(a.cells, b.cells);
@@ -170,6 +174,53 @@ TEST(node_grid, a_GPU_builds_the_same_lists)
   for (const WeldedMesh &mesh : {waves(), cone(), large_box()})
     expect_same(node_lists_by(CpuBackend(), mesh, settings_of(mesh)),
                 node_lists_on_cuda(mesh, settings_of(mesh)));
+}
+#endif
+
+// Records that steps make anew have the bytes of those that a CPU makes for a wall that has them: of faces that bend, that are
+// only shifted, that are too thin for Real. The number of faces is no multiple of a
+// warp.
+using MovedBy = MeshFeatures (*)(const WeldedMesh &, const WeldedMesh &);
+void expect_records_of_cpu(MovedBy moved_by)
+{
+  const WeldedMesh mesh = waves(13);
+  WeldedMesh after = mesh;
+  for (Vec3 &x : after.vertices)
+    x = x.x < 0 ? x + Vec3{0.25, -0.5, 0.125} : Vec3{x.x, x.y, x.z + 0.1 * std::sin(3 * x.y)};
+  const auto &thin = mesh.faces.back();
+  after.vertices[thin[2]] =
+      Real(0.5) * (after.vertices[thin[0]] + after.vertices[thin[1]]) + Vec3{0, 0, 1e-3};
+  MeshFeatures expected = make_moving_features(mesh, true);
+  update_features(after, mesh.vertices, true, expected);
+  const MeshFeatures found = moved_by(mesh, after);
+  EXPECT_NE(mesh.faces.size() % 32, 0u);
+  expect_same_bytes(expected.faces, found.faces);
+  expect_same_bytes(expected.edges, found.edges);
+  expect_same_bytes(expected.edge_inward, found.edge_inward);
+  expect_same_bytes(expected.vertex_direction, found.vertex_direction);
+  expect_same_bytes(expected.edge_out, found.edge_out);
+  expect_same_bytes(expected.vertex_out, found.vertex_out);
+  expect_same_bytes(expected.face_parts, found.face_parts);
+  ASSERT_EQ(expected.vertices.size(), found.vertices.size());
+  for (std::size_t i = 0; i < found.vertices.size(); i++) {
+    EXPECT_TRUE(expected.vertices[i].position == found.vertices[i].position);
+    EXPECT_EQ(expected.vertices[i].first, found.vertices[i].first);
+    EXPECT_EQ(expected.vertices[i].count, found.vertices[i].count);
+  }
+}
+
+TEST(moving_nodes, have_the_records_of_a_mesh_that_was_made_anew)
+{
+  expect_records_of_cpu([](const WeldedMesh &mesh, const WeldedMesh &after) {
+    return moved_records_by(CpuBackend(), mesh, after);
+  });
+}
+
+#if defined(LSDCD_HAVE_CUDA)
+TEST(moving_nodes, have_the_records_of_a_CPU_on_a_GPU)
+{
+  if (!test_on_cuda()) GTEST_SKIP() << "for a GPU";
+  expect_records_of_cpu(moved_records_on_cuda);
 }
 #endif
 
