@@ -13,7 +13,7 @@
 
 namespace lsdcd {
 
-// Lists of meshes whose nodes move are made in steps (lists/node_list.h): there is none yet of slot k.
+// Lists of meshes whose nodes move are made in steps (nodes/node_list.h): there is none yet of slot k.
 struct LeaveOut {
   const PosedGrid *meshes;
   const int *mesh;
