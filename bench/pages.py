@@ -13,7 +13,6 @@ all else of a page is written by hand. `./run bench NAME --keep` measures the ro
 import argparse
 import csv
 import math
-import os
 import pathlib
 import re
 import sys
