@@ -6,8 +6,8 @@
 
 #include "api/lsdcd.h"
 #include "backend/gpu_arrays.h"
+#include "box/periodic_box.h"
 #include "engine/engine.h"
-#include "mesh/periodic_box.h"
 
 #include <cstddef>
 #include <string>

@@ -8,7 +8,7 @@
 #include "api/wall_handle.h"
 #include "base/input_words.h"
 #include "base/vector_text.h"
-#include "mesh/outside_box.h"
+#include "box/outside_box.h"
 
 #include <algorithm>
 #include <cmath>

@@ -5,6 +5,7 @@
 #pragma once
 
 #include "backend/cuda_available.h"
+#include "box/periodic_box.h"
 #include "contact/contact_history.h"
 #include "contact/feature_turn.h"
 #include "engine/candidate_schedule.h"
@@ -13,7 +14,6 @@
 #include "engine/settings.h"
 #include "engine/springs.h"
 #include "grid/triangle_grid.h"
-#include "mesh/periodic_box.h"
 #include "motion/pose.h"
 
 #include <cstddef>

@@ -5,7 +5,7 @@
 #pragma once
 
 #include "base/vec3.h"
-#include "mesh/periodic_box.h"
+#include "box/periodic_box.h"
 
 namespace lsdcd {
 

@@ -8,9 +8,9 @@
 
 #include "base/progress.h"
 #include "base/vec3.h"
+#include "box/periodic_box.h"
 #include "grid/brick_records.h"
 #include "mesh/mesh_features.h"
-#include "mesh/periodic_box.h"
 
 #include <cstddef>
 #include <cstdint>

@@ -6,8 +6,8 @@
 
 #include "base/error_text.h"
 #include "base/real.h"
+#include "box/periodic_box.h"
 #include "host/host_names.h"
-#include "mesh/periodic_box.h"
 
 #include <cstddef>
 #include <cstdint>

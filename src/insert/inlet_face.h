@@ -4,8 +4,8 @@
 // A flat mesh through which grains come.
 #pragma once
 
+#include "box/periodic_box.h"
 #include "insert/random_stream.h"
-#include "mesh/periodic_box.h"
 #include "mesh/welded_mesh.h"
 
 #include <array>

@@ -4,7 +4,7 @@
 // Spheres where grains are put, and whether another one overlaps any of them.
 #pragma once
 
-#include "mesh/periodic_box.h"
+#include "box/periodic_box.h"
 
 #include <cstdint>
 #include <unordered_map>

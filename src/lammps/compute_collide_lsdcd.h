@@ -9,9 +9,9 @@
 
 #include "bodies/fit_pose.h"
 #include "bodies/mesh_collision.h"
+#include "box/periodic_box.h"
 #include "input/collide_settings.h"
 #include "lammps/own_messages.h"
-#include "mesh/periodic_box.h"
 
 #include <cstdint>
 #include <memory>

@@ -5,6 +5,8 @@
 
 #include "base/input_words.h"
 #include "base/vector_text.h"
+#include "box/likely_scale.h"
+#include "box/outside_box.h"
 #include "lammps/fix_wall_lsdcd.h"
 #include "lammps/host_atom_vec.h"
 #include "lammps/host_atoms.h"
@@ -12,8 +14,6 @@
 #include "lammps/mpi_host.h"
 #include "lammps/mpi_mesh.h"
 #include "lammps/restart_data.h"
-#include "mesh/likely_scale.h"
-#include "mesh/outside_box.h"
 
 #include "atom.h"
 #include "comm.h"

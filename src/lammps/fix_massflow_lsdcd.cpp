@@ -4,11 +4,11 @@
 #include "lammps/fix_massflow_lsdcd.h"
 
 #include "base/input_words.h"
+#include "box/likely_scale.h"
+#include "box/outside_box.h"
 #include "lammps/host_box.h"
 #include "lammps/mpi_host.h"
 #include "lammps/mpi_mesh.h"
-#include "mesh/likely_scale.h"
-#include "mesh/outside_box.h"
 
 #include "atom.h"
 #if __has_include("atom_masks.h")

@@ -5,7 +5,7 @@
 #ifndef LSDCD_HOST_BOX_H
 #define LSDCD_HOST_BOX_H
 
-#include "mesh/periodic_box.h"
+#include "box/periodic_box.h"
 
 namespace LAMMPS_NS {
 class Domain;

@@ -4,10 +4,10 @@
 #include "lammps/region_mesh_lsdcd.h"
 
 #include "base/input_error.h"
+#include "box/likely_scale.h"
 #include "lammps/host_box.h"
 #include "lammps/mpi_host.h"
 #include "lammps/mpi_mesh.h"
-#include "mesh/likely_scale.h"
 
 #include "comm.h"
 #include "domain.h"

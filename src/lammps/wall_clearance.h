@@ -5,8 +5,8 @@
 #ifndef LSDCD_WALL_CLEARANCE_H
 #define LSDCD_WALL_CLEARANCE_H
 
+#include "box/periodic_box.h"
 #include "insert/packing.h"
-#include "mesh/periodic_box.h"
 #include "motion/motion.h"
 #include "tree/triangle_tree.h"
 #include "wall/mesh_part.h"

@@ -4,7 +4,7 @@
 // A tree of boxes around things. A search tests the box around many things before each of them.
 #pragma once
 
-#include "mesh/periodic_box.h"
+#include "mesh/box.h"
 
 #include <algorithm>
 #include <cstddef>

@@ -3,8 +3,8 @@
 
 #include "mesh/cracks.h"
 
+#include "mesh/box.h"
 #include "mesh/hash_index.h"
-#include "mesh/periodic_box.h"
 #include "mesh/union_find.h"
 
 #include <algorithm>

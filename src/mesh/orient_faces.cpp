@@ -4,10 +4,10 @@
 #include "mesh/orient_faces.h"
 
 #include "geometry/solid_angle.h"
+#include "mesh/box.h"
 #include "mesh/box_tree.h"
 #include "mesh/face_plane.h"
 #include "mesh/measure_mesh.h"
-#include "mesh/periodic_box.h"
 
 #include <algorithm>
 #include <cmath>

@@ -4,10 +4,10 @@
 #include "mesh/placement.h"
 
 #include "base/input_error.h"
+#include "base/vector_text.h"
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <string>
 #include <utility>
 
@@ -17,13 +17,6 @@ namespace {
 bool is_finite(const Vec3 &a)
 {
   return std::isfinite(a.x) && std::isfinite(a.y) && std::isfinite(a.z);
-}
-
-std::string text(const Vec3 &a)
-{
-  char buffer[96];
-  std::snprintf(buffer, sizeof buffer, "%g %g %g", a.x, a.y, a.z);
-  return buffer;
 }
 
 // Quarter turns are exact, so that a box turned by 90 degrees stays a box.
@@ -58,7 +51,7 @@ bool is_mirror(const Vec3 *row)
 void Placement::scale(const Vec3 &factors)
 {
   if (!is_finite(factors) || factors.x == 0 || factors.y == 0 || factors.z == 0)
-    throw InputError("scale " + text(factors) +
+    throw InputError("scale " + vector_text(factors) +
                      ": a factor is zero or not finite; give three finite factors, none zero");
   for (int i = 0; i < 3; ++i) {
     row_[i] = factors[i] * row_[i];
@@ -71,7 +64,7 @@ void Placement::rotate(const Vec3 &axis, Real degrees)
 {
   const Real largest = std::max({std::fabs(axis.x), std::fabs(axis.y), std::fabs(axis.z)});
   if (!is_finite(axis) || largest == 0)
-    throw InputError("rotate about " + text(axis) +
+    throw InputError("rotate about " + vector_text(axis) +
                      ": the axis is zero or not finite; give a direction such as 0 0 1");
   if (!std::isfinite(degrees))
     throw InputError("rotate by " + std::to_string(degrees) +
@@ -99,7 +92,8 @@ void Placement::rotate(const Vec3 &axis, Real degrees)
 void Placement::move(const Vec3 &shift)
 {
   if (!is_finite(shift))
-    throw InputError("move " + text(shift) + ": a component is not finite; give three lengths");
+    throw InputError("move " + vector_text(shift) +
+                     ": a component is not finite; give three lengths");
   shift_ += shift;
   steps_.push_back({PlacementStep::move, shift});
 }
@@ -136,7 +130,7 @@ void Placement::apply(TriangleSoup &soup) const
     const Vec3 placed = apply(soup.corners[i]);
     if (!is_finite(placed))
       throw InputError(soup.source + ", facet " + std::to_string(i / 3 + 1) + ": the corner " +
-                       text(soup.corners[i]) +
+                       vector_text(soup.corners[i]) +
                        " overflows when it is placed; use a smaller scale or shift");
     soup.corners[i] = placed;
   }

@@ -3,8 +3,8 @@
 
 #include "mesh/weld_points.h"
 
+#include "mesh/box.h"
 #include "mesh/hash_index.h"
-#include "mesh/periodic_box.h"
 
 #include <algorithm>
 #include <cmath>

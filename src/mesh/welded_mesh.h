@@ -50,7 +50,7 @@ struct MeshReport {
   std::size_t feature_edges = 0;    // folds above 30 degrees
 };
 
-// The parts of a mesh that are periodic images (mesh/periodic_images.h): those with numbers from
+// The parts of a mesh that are periodic images (box/periodic_images.h): those with numbers from
 // n_faces, n_edges and n_vertices on. Empty if there are none.
 struct PeriodicImages {
   std::size_t n_faces = 0, n_edges = 0, n_vertices = 0;    // of the mesh itself

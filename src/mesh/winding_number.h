@@ -6,8 +6,8 @@
 
 #include "base/progress.h"
 #include "geometry/triangles_meet.h"
+#include "mesh/box.h"
 #include "mesh/box_tree.h"
-#include "mesh/periodic_box.h"
 #include "mesh/welded_mesh.h"
 
 #include <array>

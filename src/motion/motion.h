@@ -5,7 +5,7 @@
 // result of those before it, and last a servo.
 #pragma once
 
-#include "mesh/periodic_box.h"
+#include "box/periodic_box.h"
 #include "motion/inputs.h"
 #include "motion/motion_table.h"
 #include "motion/pose.h"

@@ -5,10 +5,10 @@
 #pragma once
 
 #include "wall/body_coat.h"
-#include "wall/box_checks.h"
+#include "wall/checks/box_checks.h"
 #include "wall/history_exchange.h"
 #include "wall/host_spheres.h"
-#include "wall/time_report.h"
+#include "wall/reports/time_report.h"
 
 #include <cstdint>
 #include <deque>

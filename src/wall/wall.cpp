@@ -5,9 +5,9 @@
 
 #include "base/input_error.h"
 #include "base/input_words.h"
-#include "wall/creation_text.h"
-#include "wall/mesh_checks.h"
+#include "wall/checks/mesh_checks.h"
 #include "wall/mesh_name.h"
+#include "wall/reports/creation_text.h"
 #include "wall/spec_check.h"
 #include "wall/spec_text.h"
 
@@ -675,39 +675,19 @@ Real Wall::servo_push(int mesh)
   return meshes_[mesh].mover->servo_push(servo_load(mesh));
 }
 
-// The arm goes from the wall's closest point to the sphere's centre.
 void Wall::add_virial(Real *virial) const
 {
-  if (cutoff() == 0) return;
-  for (const StepContact &contact : engine_->results().contacts()) {
-    const Pose &pose = meshes_[contact.mesh].pose();
-    const Vec3 r = pose.turn_to_box(contact.arm), f = -pose.turn_to_box(contact.force);
-    const Real part[6] = {r.x * f.x, r.y * f.y, r.z * f.z, r.x * f.y, r.x * f.z, r.y * f.z};
-    for (int c = 0; c < 6; c++) virial[c] += part[c];
-  }
+  if (cutoff() > 0) lsdcd::add_virial(engine_->results(), meshes_, virial);
 }
 
 void Wall::for_contact_rows(const std::function<void(int, const Real *)> &row) const
 {
-  if (cutoff() == 0) return;
-  for (const TouchingSphere &t : engine_->results().touching()) {
-    const Real numbers[9] = {Real(t.n_contacts), t.force.x, t.force.y, t.force.z, t.point.x,
-                             t.point.y,          t.point.z, t.radius,  t.heat};
-    row(t.sphere, numbers);
-  }
+  if (cutoff() > 0) lsdcd::for_contact_rows(engine_->results(), row);
 }
 
 void Wall::for_contacts(const std::function<void(const WallContact &)> &found) const
 {
-  if (cutoff() == 0) return;
-  const StepContact *contact = engine_->results().contacts().data();
-  for (const TouchingSphere &t : engine_->results().touching())
-    for (int n = 0; n < t.n_contacts; n++, contact++) {
-      const Pose &pose = meshes_[contact->mesh].pose();
-      const Vec3 arm = pose.turn_to_box(contact->arm);
-      found({t.sphere, static_cast<int>(contact->mesh), -pose.turn_to_box(contact->force),
-             t.x - arm, t.radius - norm(arm)});
-    }
+  if (cutoff() > 0) lsdcd::for_contacts(engine_->results(), meshes_, found);
 }
 
 void Wall::write_due_files()

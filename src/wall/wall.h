@@ -6,16 +6,17 @@
 #pragma once
 
 #include "wall/body_coat.h"
+#include "wall/checks/overlap_monitor.h"
+#include "wall/checks/timestep_check.h"
 #include "wall/device_choice.h"
 #include "wall/grid_manager.h"
 #include "wall/host_spheres.h"
 #include "wall/load_recorder.h"
 #include "wall/mean_loads.h"
-#include "wall/overlap_monitor.h"
-#include "wall/search_report.h"
+#include "wall/reports/contact_rows.h"
+#include "wall/reports/search_report.h"
 #include "wall/shape/node_meshes.h"
 #include "wall/step_totals.h"
-#include "wall/timestep_check.h"
 #include "wall/wall_files.h"
 #include "wall/wall_state.h"
 
@@ -57,14 +58,6 @@ struct StepInput {
   std::vector<Real> inputs;
   // Acceleration of spheres by the host, three numbers (force/mass) that may change until the next step; null: none.
   const Real *gravity = nullptr;
-};
-
-// A contact of a sphere with a mesh. Forces are those of a step, places those that it began with.
-struct WallContact {
-  int sphere, mesh;
-  Vec3 force;      // on the sphere
-  Vec3 point;      // of the mesh, the closest to the sphere's centre
-  Real overlap;    // length
 };
 
 // In each step: begin(), submit(), finish(). Places, velocities and radii must not change between begin()

@@ -5,7 +5,7 @@
 // engines can be compared to the bit.
 #pragma once
 
-#include "mesh/periodic_images.h"
+#include "box/periodic_images.h"
 #include "support/meshes.h"
 
 #include <cstring>

@@ -4,7 +4,7 @@
 // Spheres of a process, and a box for them, where the program that has the wall is a test.
 #pragma once
 
-#include "mesh/periodic_box.h"
+#include "box/periodic_box.h"
 #include "wall/host_spheres.h"
 
 #include <cstdint>

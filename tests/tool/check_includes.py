@@ -26,7 +26,7 @@ import os
 import re
 import sys
 
-FLOORS = [["base"], ["backend"], ["geometry", "shape"], ["mesh"], ["host"], ["motion"], ["grid", "rigid", "tree"], ["contact"], ["law"], ["engine"],
+FLOORS = [["base"], ["backend"], ["geometry", "shape"], ["mesh"], ["box"], ["host"], ["motion"], ["grid", "rigid", "tree"], ["contact"], ["law"], ["engine"],
           ["bodies", "query", "effects", "output", "material", "flow", "insert"],
           ["study"], ["wall"], ["input"], ["lammps", "tool", "api"], ["kokkos"]]
 # Of each room with folders. "." stands for the files that lie in none, but for those that are named.
@@ -37,7 +37,7 @@ FOLDERS = {
     "engine": ["candidate_schedule.h", "sum_unit.h", "settings.h", "grains.h", "results.h", "springs.h",
                "engine.h", "results", "lists", "nodes", "broad_phase", "step", "."],
     "wall": ["wall_spec.h", "mesh_name.h", "spec_text.h", "coat_load.h", "step_totals.h", "mean_loads.h", "mesh_state.h", "mesh_nodes.h",
-             "shape", "move", "."],
+             "shape", "move", "mesh_part.h", "body_coat.h", "host_spheres.h", "checks", "reports", "."],
     "lammps": [".", "launcher"],
 }
 INPUT_ROOM = "input"

@@ -3,8 +3,8 @@
 
 // The faces that a moving surface pushes along their normals: none of a belt, a roll or a
 // turntable; lifters and screws by their closed forms.
-#include "contact/faces_pushed.h"
 #include "support/meshes.h"
+#include "wall/checks/faces_pushed.h"
 
 #include <gtest/gtest.h>
 

@@ -3,7 +3,7 @@
 
 // Warnings of spheres that are deep in the wall, on two processes.
 #include "support/fake_host.h"
-#include "wall/overlap_monitor.h"
+#include "wall/checks/overlap_monitor.h"
 
 #include <gtest/gtest.h>
 

@@ -3,14 +3,14 @@
 
 // A mesh with the images of its triangles across periodic faces.
 
-#include "mesh/periodic_images.h"
+#include "box/periodic_images.h"
 
 #include "base/input_error.h"
+#include "box/likely_scale.h"
+#include "box/loose_ends.h"
 #include "contact/find_contacts.h"
 #include "contact/history.h"
-#include "grid/loose_ends.h"
 #include "grid/triangle_grid.h"
-#include "mesh/likely_scale.h"
 #include "output/mesh_loads.h"
 #include "support/brute_force_long.h"
 #include "support/meshes.h"

@@ -3,7 +3,7 @@
 
 // Lines of the log about the search for contacts, from two processes.
 #include "support/fake_host.h"
-#include "wall/search_report.h"
+#include "wall/reports/search_report.h"
 
 #include <gtest/gtest.h>
 

@@ -3,7 +3,7 @@
 
 // The table of a run's times, from two processes whose clocks the tests turn.
 #include "support/fake_host.h"
-#include "wall/time_report.h"
+#include "wall/reports/time_report.h"
 
 #include <gtest/gtest.h>
 

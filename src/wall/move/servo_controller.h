@@ -4,8 +4,8 @@
 // The velocity of a servo in each step, from the load of the last one.
 #pragma once
 
+#include "box/periodic_box.h"
 #include "host/host.h"
-#include "mesh/periodic_box.h"
 #include "wall/wall_spec.h"
 
 #include <cstdint>

@@ -4,9 +4,9 @@
 // A mesh of a wall and its grid, made once per node and read by all.
 #pragma once
 
+#include "box/periodic_images.h"
 #include "grid/triangle_grid.h"
 #include "host/host.h"
-#include "mesh/periodic_images.h"
 #include "mesh/welded_mesh.h"
 #include "tree/triangle_tree.h"
 #include "wall/wall_spec.h"

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "wall/time_report.h"
+#include "wall/reports/time_report.h"
 
 #include <algorithm>
 #include <chrono>

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "contact/faces_pushed.h"
+#include "wall/checks/faces_pushed.h"
 
 #include "mesh/face_plane.h"
 

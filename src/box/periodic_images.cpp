@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "mesh/periodic_images.h"
+#include "box/periodic_images.h"
 
+#include "box/images_in_reach.h"
 #include "mesh/assemble.h"
-#include "mesh/images_in_reach.h"
 #include "mesh/union_find.h"
 #include "mesh/weld_points.h"
 

@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "wall/box_checks.h"
+#include "wall/checks/box_checks.h"
 
 #include "base/input_error.h"
 #include "base/input_words.h"
-#include "mesh/likely_scale.h"
-#include "mesh/outside_box.h"
+#include "box/likely_scale.h"
+#include "box/outside_box.h"
 #include "wall/mesh_name.h"
 #include "wall/spec_text.h"
 

@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "mesh/likely_scale.h"
+#include "box/likely_scale.h"
 
 #include "base/input_words.h"
-#include "mesh/outside_box.h"
+#include "box/outside_box.h"
 
 #include <algorithm>
 #include <cmath>

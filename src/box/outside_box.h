@@ -4,7 +4,7 @@
 // Is a mesh where spheres can be? Texts for messages.
 #pragma once
 
-#include "mesh/periodic_box.h"
+#include "box/periodic_box.h"
 
 #include <string>
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "wall/timestep_check.h"
+#include "wall/checks/timestep_check.h"
 
 #include "base/input_words.h"
 #include "law/contact_time.h"

@@ -4,7 +4,7 @@
 // The images of the facets of a mesh that come near a periodic box.
 #pragma once
 
-#include "mesh/periodic_box.h"
+#include "box/periodic_box.h"
 #include "mesh/welded_mesh.h"
 
 #include <array>

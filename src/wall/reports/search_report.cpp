@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "wall/search_report.h"
+#include "wall/reports/search_report.h"
 
 #include "base/input_words.h"
 

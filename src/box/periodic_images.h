@@ -4,7 +4,7 @@
 // A wall that acts through the periodic faces of a box, by images of its triangles.
 #pragma once
 
-#include "mesh/periodic_box.h"
+#include "box/periodic_box.h"
 #include "mesh/welded_mesh.h"
 
 namespace lsdcd {

@@ -4,8 +4,8 @@
 // Ends of a mesh that face each other across a periodic face of the box and do not meet.
 #pragma once
 
+#include "box/periodic_box.h"
 #include "mesh/mesh_features.h"
-#include "mesh/periodic_box.h"
 
 namespace lsdcd {
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "wall/creation_text.h"
+#include "wall/reports/creation_text.h"
 
 #include "base/input_words.h"
 #include "base/version.h"

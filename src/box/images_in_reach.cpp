@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "mesh/images_in_reach.h"
+#include "box/images_in_reach.h"
 
 #include "base/input_error.h"
 #include "base/input_words.h"

@@ -4,7 +4,7 @@
 // The factor that a mesh file in other units than the script's was probably meant to have.
 #pragma once
 
-#include "mesh/periodic_box.h"
+#include "box/periodic_box.h"
 
 #include <string>
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "mesh/periodic_box.h"
+#include "box/periodic_box.h"
 
 namespace lsdcd {
 

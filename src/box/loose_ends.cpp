@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "grid/loose_ends.h"
+#include "box/loose_ends.h"
 
 #include "mesh/union_find.h"
 

@@ -1,14 +1,14 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "wall/mesh_checks.h"
+#include "wall/checks/mesh_checks.h"
 
 #include "base/input_error.h"
 #include "base/input_words.h"
 #include "base/vector_text.h"
-#include "contact/faces_pushed.h"
 #include "mesh/plane_cut.h"
 #include "mesh/split_faces.h"
+#include "wall/checks/faces_pushed.h"
 #include "wall/mesh_name.h"
 
 namespace lsdcd {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "mesh/outside_box.h"
+#include "box/outside_box.h"
 
 #include "base/input_words.h"
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "wall/overlap_monitor.h"
+#include "wall/checks/overlap_monitor.h"
 
 #include "base/input_words.h"
 

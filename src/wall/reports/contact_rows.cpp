@@ -1,0 +1,41 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "wall/reports/contact_rows.h"
+
+namespace lsdcd {
+
+// The arm goes from the wall's closest point to the sphere's centre.
+void add_virial(const StepResults &results, const std::deque<MeshPart> &meshes, Real *virial)
+{
+  for (const StepContact &contact : results.contacts()) {
+    const Pose &pose = meshes[contact.mesh].pose();
+    const Vec3 r = pose.turn_to_box(contact.arm), f = -pose.turn_to_box(contact.force);
+    const Real part[6] = {r.x * f.x, r.y * f.y, r.z * f.z, r.x * f.y, r.x * f.z, r.y * f.z};
+    for (int c = 0; c < 6; c++) virial[c] += part[c];
+  }
+}
+
+void for_contact_rows(const StepResults &results, const std::function<void(int, const Real *)> &row)
+{
+  for (const TouchingSphere &t : results.touching()) {
+    const Real numbers[9] = {Real(t.n_contacts), t.force.x, t.force.y, t.force.z, t.point.x,
+                             t.point.y,          t.point.z, t.radius,  t.heat};
+    row(t.sphere, numbers);
+  }
+}
+
+void for_contacts(const StepResults &results, const std::deque<MeshPart> &meshes,
+                  const std::function<void(const WallContact &)> &found)
+{
+  const StepContact *contact = results.contacts().data();
+  for (const TouchingSphere &t : results.touching())
+    for (int n = 0; n < t.n_contacts; n++, contact++) {
+      const Pose &pose = meshes[contact->mesh].pose();
+      const Vec3 arm = pose.turn_to_box(contact->arm);
+      found({t.sphere, static_cast<int>(contact->mesh), -pose.turn_to_box(contact->force),
+             t.x - arm, t.radius - norm(arm)});
+    }
+}
+
+}    // namespace lsdcd

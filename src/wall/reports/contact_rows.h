@@ -1,0 +1,30 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// What the contacts of a step on this process say to a host.
+#pragma once
+
+#include "engine/results.h"
+#include "wall/mesh_part.h"
+
+#include <deque>
+#include <functional>
+
+namespace lsdcd {
+
+// A contact of a sphere with a mesh. Forces are those of a step, places those that it began with.
+struct WallContact {
+  int sphere, mesh;
+  Vec3 force;      // on the sphere
+  Vec3 point;      // of the mesh, the closest to the sphere's centre
+  Real overlap;    // length
+};
+
+// See the functions of Wall with these names. `meshes`: where they are in this step.
+void add_virial(const StepResults &results, const std::deque<MeshPart> &meshes, Real *virial);
+void for_contact_rows(const StepResults &results,
+                      const std::function<void(int, const Real *)> &row);
+void for_contacts(const StepResults &results, const std::deque<MeshPart> &meshes,
+                  const std::function<void(const WallContact &)> &found);
+
+}    // namespace lsdcd
