@@ -11,8 +11,8 @@
 #include "lammps/host_box.h"
 #include "lammps/other_fixes.h"
 #include "lammps/own_wall_gran.h"
-#include "lammps/restart_data.h"
 #include "wall/spec_text.h"
+#include "wall/wall_outputs.h"
 
 #include "atom.h"
 #if __has_include("atom_masks.h")
@@ -38,7 +38,8 @@ using namespace LAMMPS_NS;
 using namespace FixConst;
 
 // LAMMPS does not install respa.h. These two functions have had this name since
-// 2005 and no data of the class is touched.
+// 2005 and no data of the class is touched. It may go when the oldest host that is
+// built against (29Sep2021) installs respa.h with its other headers.
 namespace LAMMPS_NS {
 class Respa {
  public:
@@ -106,16 +107,17 @@ FixWallLsdcd::FixWallLsdcd(LAMMPS *lmp, int narg, char **arg, const lsdcd::WallB
   scalar_flag = vector_flag = 1;
   array_flag =
       meshes().size() > 1;    // F_ID[1] of an atom-style variable is its column in 29Sep2021
-  size_vector = size_array_cols = kVector;
+  size_vector = size_array_cols = lsdcd::n_outputs(spec());
   size_array_rows = static_cast<int>(meshes().size());
   global_freq = 1;
   extscalar = 1;
   extvector = -1;
   extarray = 0;
-  extlist = new int[kMean + kOfMean];
-  std::fill(extlist, extlist + kMean + kOfMean, 1);
-  extlist[7] = 0;    // the largest overlap is not a sum
-  size_outputs();
+  std::vector<int> adds_up;
+  for (const lsdcd::WallOutput &row : lsdcd::wall_outputs())
+    adds_up.insert(adds_up.end(), row.n, row.adds_up);
+  extlist = new int[adds_up.size()];
+  std::copy(adds_up.begin(), adds_up.end(), extlist);
   energy_global_flag = 1;
   virial_global_flag = 1;
   if (contacts) {
@@ -576,124 +578,6 @@ void FixWallLsdcd::fill_masses()
   }
 }
 
-// ---- history and rows follow their atoms --------------------------------------------------
-
-void FixWallLsdcd::grow_arrays(int nmax)
-{
-  wall->history().grow(nmax);
-  if (spec().contacts)
-    memory->grow(array_atom, nmax, size_peratom_cols, "fix_wall_lsdcd:array_atom");
-}
-
-// A fix may read the contacts array before this one writes it anew, and a dump after atoms
-// were deleted or displaced.
-void FixWallLsdcd::copy_arrays(int i, int j, int /*delflag*/)
-{
-  if (has_history()) history_on_cpu().copy(i, j);
-  if (spec().contacts) std::copy_n(array_atom[i], size_peratom_cols, array_atom[j]);
-}
-
-void FixWallLsdcd::set_arrays(int i)
-{
-  if (has_history()) history_on_cpu().clear(i);
-  if (spec().contacts) std::fill(array_atom[i], array_atom[i] + size_peratom_cols, 0.0);
-}
-
-int FixWallLsdcd::pack_exchange(int i, double *buf)
-{
-  const int n = has_history() ? history_on_cpu().pack(i, buf) : 0;
-  if (spec().contacts) std::copy_n(array_atom[i], size_peratom_cols, buf + n);
-  return n + row_size();
-}
-
-int FixWallLsdcd::unpack_exchange(int i, double *buf)
-{
-  const int n = has_history() ? history_on_cpu().unpack(i, buf) : 0;
-  if (spec().contacts) std::copy_n(buf + n, size_peratom_cols, array_atom[i]);
-  return n + row_size();
-}
-
-// An atom that arrives may leave again in the next direction: room for the
-// largest of all processes.
-void FixWallLsdcd::make_exchange_room()
-{
-  int largest = history_on_cpu().largest_packed_size();
-  MPI_Allreduce(MPI_IN_PLACE, &largest, 1, MPI_INT, MPI_MAX, world);
-  ask_for_room(1 + largest);    // and its offset, which messages of Kokkos tell
-}
-
-// `history_takes`: numbers that the history of one atom takes at most. LAMMPS's Irregular has room
-// for what the fix with the largest maxexchange packs and not for all of them, so each
-// wall asks for the room of all.
-void FixWallLsdcd::ask_for_room(int history_takes)
-{
-  room = history_takes + row_size();
-  int all = room;
-  std::vector<FixWallLsdcd *> walls = {this};
-  for (int k = 0; k < modify->nfix; k++) {
-    Fix *fix = modify->fix[k];
-    if (!fix || fix == this) continue;    // LAMMPS replaces one by this
-    FixWallLsdcd *other = dynamic_cast<FixWallLsdcd *>(fix);
-    if (other) walls.push_back(other);
-    all += other ? other->room : fix->maxexchange;
-  }
-  for (FixWallLsdcd *one : walls) one->maxexchange = all;
-}
-
-// For atoms that LAMMPS moves to other processes whenever it likes: outside of runs, and in
-// the pre_exchange() of a fix before this one. No sphere has more contacts than this.
-void FixWallLsdcd::ask_for_most_room()
-{
-  ask_for_room(has_history() ? 1 + wall->history().max_packed_size() : 0);
-}
-
-// ---- restart files -----------------------------------------------------------------------
-
-// In restart files the first number is the size, by which other fixes skip it.
-int FixWallLsdcd::size_restart(int i)
-{
-  return 1 + history_on_cpu().packed_size(i);
-}
-
-// The largest size of all processes: LAMMPS takes the first one's, and makes rows that wide. Collective.
-int FixWallLsdcd::maxsize_restart()
-{
-  int largest = 1 + history_on_cpu().largest_packed_size();
-  MPI_Allreduce(MPI_IN_PLACE, &largest, 1, MPI_INT, MPI_MAX, world);
-  return largest;
-}
-
-int FixWallLsdcd::pack_restart(int i, double *buf)
-{
-  buf[0] = 1 + wall->pack_saved(i, buf + 1);
-  return static_cast<int>(buf[0]);
-}
-
-void FixWallLsdcd::unpack_restart(int i, int nth)
-{
-  const double *extra = atom->extra[i];
-  for (int n = 0; n < nth; n++) extra += static_cast<int>(extra[0]);
-  history_on_cpu();
-  wall->history().unpack_saved(i, extra + 1, static_cast<int>(extra[0]) - 1);
-}
-
-void FixWallLsdcd::write_restart(FILE *file)
-{
-  const lsdcd::WallState all = wall->save();
-  if (comm->me == 0) write_state(file, all.blocks());
-}
-
-void FixWallLsdcd::restart(char *buffer)
-{
-  try {
-    const lsdcd::State state(lsdcd::WallState::kKind, reinterpret_cast<const double *>(buffer),
-                             kAllNumbers);
-    wall->restore(lsdcd::WallState::from(state), step_now());
-  } catch (const lsdcd::StateError &e) {
-    throw lsdcd::InputError(unusable_state(e, "springs, motion, loads and wear"));
-  }
-}
-
 // ---- outputs -----------------------------------------------------------------------------
 
 double FixWallLsdcd::compute_scalar()
@@ -701,121 +585,14 @@ double FixWallLsdcd::compute_scalar()
   return wall->totals().of_all().energy;
 }
 
-// In the columns of the vector.
-static double column(const lsdcd::MeshTotals &t, int i)
-{
-  const double after_torque[] = {t.contacts, t.overlap, t.uncertified};
-  return i < 3 ? t.force[i] : i < 6 ? t.torque[i - 3] : after_torque[i - 6];
-}
-
-static double mean_column(const lsdcd::MeanLoad &mean, int i)
-{
-  return i < 3 ? mean.force[i] : mean.torque[i - 3];
-}
-
-// Output i of one mesh. Collective.
-double FixWallLsdcd::mesh_output(int mesh, int i)
-{
-  if (i >= kMean) return mean_column(wall->means().mesh(mesh), i - kMean);
-  if (i == kWorn) return wall->worn(mesh);
-  const lsdcd::MeshTotals &t = wall->totals().mesh(mesh);
-  if (i < kTotals) return column(t, i);
-  if (i == kPower) return t.power;
-  if (i == kStop) return body_output(mesh, kOfBody);
-  if (i >= kNodes) return t.couple[i - kNodes];
-  if (i >= kShape) return i == kShape ? wall->removed(mesh) : wall->held_back(mesh);
-  if (i >= kBody) return body_output(mesh, i - kBody);
-  return meshes()[mesh].servo().present ? servo_output(mesh, i - kVector) : 0;
-}
-
-// Position, velocity, push.
-double FixWallLsdcd::servo_output(int mesh, int i)
-{
-  const lsdcd::Servo &s = meshes()[mesh].servo();
-  return i == 0 ? s.position : i == 1 ? s.velocity : wall->servo_push(mesh);
-}
-
-// Centre, velocity, quaternion, angular velocity; force and torque of the joint; coordinate, energy; force of a stop.
-double FixWallLsdcd::body_output(int mesh, int i)
-{
-  const lsdcd::BodyMover *of = wall->body(mesh);
-  if (!of) return 0;
-  const lsdcd::RigidBody &b = of->rigid();
-  const lsdcd::Quaternion &q = b.turn();
-  if (i < 3) return b.centre()[i];
-  if (i < 6) return b.velocity()[i - 3];
-  if (i < 10) return i == 6 ? q.w : q.v[i - 7];
-  if (i < 13) return b.omega()[i - 10];
-  if (i < 16) return of->reaction().force[i - 13];
-  if (i < 19) return of->reaction().torque[i - 16];
-  if (i == 19) return b.coordinate();
-  return i == 20 ? of->spring_and_kinetic_energy() : of->stop_force();
-}
-
 double FixWallLsdcd::compute_array(int mesh, int i)
 {
-  return mesh_output(mesh, i);
+  return lsdcd::output_of_mesh(*wall, mesh, i);
 }
 
-static bool has_servo(const lsdcd::MeshPart &m)
-{
-  return m.servo().present;
-}
-
-static bool is_body(const lsdcd::MeshPart &m)
-{
-  return m.spec.body.present;
-}
-
-// Outputs of all meshes together; and of the one servo and the one body, if there is one.
 double FixWallLsdcd::compute_vector(int i)
 {
-  if (i >= kMean) return mean_column(wall->means().of_all(), i - kMean);
-  if (i >= kShape && i < kStop) {
-    double sum = 0;
-    for (const lsdcd::MeshPart &m : meshes()) sum += mesh_output(m.index, i);
-    return sum;
-  }
-  if (i >= kVector) {
-    const int mesh = only_mesh_with(i < kBody ? has_servo : is_body);
-    return mesh < 0 ? 0 : mesh_output(mesh, i);
-  }
-  if (i == kWorn) {
-    double worn = 0;
-    for (const lsdcd::MeshPart &m : meshes()) worn += wall->worn(m.index);
-    return worn;
-  }
-  const lsdcd::MeshTotals all = wall->totals().of_all();
-  return i == kPower ? all.power : column(all, i);
-}
-
-// The mesh that has it; -1 where several have it, or none.
-int FixWallLsdcd::only_mesh_with(bool (*has)(const lsdcd::MeshPart &)) const
-{
-  int only = -1;
-  for (const lsdcd::MeshPart &m : meshes()) {
-    if (!has(m)) continue;
-    if (only >= 0) return -1;
-    only = m.index;
-  }
-  return only;
-}
-
-// A wall with a servo has its outputs after the others, and one with a body has its behind these, with those of wear and
-// nodes before its last.
-void FixWallLsdcd::size_outputs()
-{
-  const auto any = [this](bool (*has)(const lsdcd::MeshPart &)) {
-    return std::any_of(meshes().begin(), meshes().end(), has);
-  };
-  if (any(has_servo)) size_vector = size_array_cols = kBody;
-  if (spec().wear_shape.every > 0) size_vector = size_array_cols = kNodes;
-  if (spec().has_nodes()) size_vector = size_array_cols = kStop;
-  if (any(is_body)) size_vector = size_array_cols = kMean;
-  if (spec().average_every > 0) size_vector = size_array_cols = kMean + kOfMean;
-  // Places and speeds are no sums.
-  extlist[kVector] = extlist[kVector + 1] = extlist[kBody + 19] = 0;
-  std::fill(extlist + kBody, extlist + kBody + 13, 0);
+  return lsdcd::output_of_wall(*wall, i);
 }
 
 void FixWallLsdcd::fill_contacts()
@@ -866,6 +643,6 @@ int FixWallLsdcd::modify_param(int narg, char **arg)
 {
   const int taken =
       lsdcd::change_wall(*wall, std::vector<std::string>(arg, arg + narg), step_now());
-  size_outputs();
+  size_vector = size_array_cols = lsdcd::n_outputs(spec());
   return taken;
 }

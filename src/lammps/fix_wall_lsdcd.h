@@ -100,15 +100,6 @@ class FixWallLsdcd : public Fix, protected OwnMessages {
   std::vector<std::array<double, 9>> contact_rows;    // of the local array
   std::vector<double *> contact_row_at;
 
-  // Parts of the vector: force, torque, contacts, largest overlap, uncertified; volume worn off, power; with a
-  // servo three more, and with a body those and what body_output() has; where wear moves meshes all of these, the
-  // removed volume and that held back; with nodes all of these, and the couple that no node gets; with a body all of
-  // these, and the force of its stop; with means all of these, and the mean force and torque.
-  static constexpr int kTotals = 9, kWorn = kTotals, kPower = kTotals + 1, kVector = kTotals + 2,
-                       kServo = 3, kBody = kVector + kServo, kOfBody = 21, kShape = kBody + kOfBody,
-                       kOfShape = 2, kNodes = kShape + kOfShape, kOfNodes = 3,
-                       kStop = kNodes + kOfNodes, kMean = kStop + 1, kOfMean = 6;
-
   // wall/lsdcd/kk does these in its own way.
   virtual void begin_step(lsdcd::StepInput &);
   virtual void finish_step();
@@ -138,12 +129,6 @@ class FixWallLsdcd : public Fix, protected OwnMessages {
   int row_size() const { return spec().contacts ? size_peratom_cols : 0; }
   void ask_for_room(int);
   void ask_for_most_room();
-
-  double mesh_output(int, int);
-  double servo_output(int, int);
-  double body_output(int, int);
-  int only_mesh_with(bool (*has)(const lsdcd::MeshPart &)) const;
-  void size_outputs();
 
   void check_atoms() const;
   void check_heat() const;

@@ -417,5 +417,27 @@ TEST(wall_sequences, say_what_of_a_saved_state_another_wall_does_not_have)
     }
 }
 
+// All parts are checked before any is restored.
+TEST(wall_sequences, change_nothing_where_one_mesh_refuses_a_saved_state)
+{
+  Random random(1);
+  FakeHost host, other_host;
+  World from(host, wall_of({Kind::moves, Kind::servo}, random));
+  add_spheres(from, 2, random);
+  from.take_step(Step::setup);
+  from.go(20);
+  WallSpec words = from.words;
+  Servo &servo = words.meshes[1].motion.servo();
+  const Real at = from.wall->meshes()[1].servo().position;
+  ASSERT_NE(at, 0);
+  servo.lo = std::min<Real>(at / 2, -1e-9);
+  servo.hi = std::max<Real>(at / 2, 1e-9);
+  World to(other_host, words);
+  const std::vector<Real> before = to.wall->save().blocks().numbers();
+  EXPECT_THROW(to.wall->restore(from.wall->save(), {from.now, kDt}), InputError);
+  EXPECT_EQ(to.wall->save().blocks().numbers(), before);
+  EXPECT_TRUE(other_host.warnings.empty());
+}
+
 }    // namespace
 }    // namespace lsdcd::test_wall_sequences

@@ -33,7 +33,8 @@ using namespace LAMMPS_NS;
 
 // LAMMPS calls this on itself when its style maps are new: at the end of the
 // constructor and of the clear command. Defined in the executable, it takes the
-// place of the library's, does the same, and adds the plugins.
+// place of the library's, does the same, and adds the plugins. It may go when every
+// host that the launcher starts loads plugins by itself, from LAMMPS_PLUGIN_PATH.
 void LAMMPS::post_create()
 {
   using Original = void(LAMMPS *);

@@ -1,0 +1,251 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "wall/wall_outputs.h"
+
+#include <algorithm>
+
+namespace lsdcd {
+
+namespace {
+
+template <Vec3 MeshTotals::*member>
+Real vector_of(Wall &wall, int mesh, int d)
+{
+  return (wall.totals().mesh(mesh).*member)[d];
+}
+template <Real MeshTotals::*member>
+Real number_of(Wall &wall, int mesh, int /* d */)
+{
+  return wall.totals().mesh(mesh).*member;
+}
+template <Vec3 MeshTotals::*member>
+Real vector_of_all(Wall &wall, int d)
+{
+  return (wall.totals().of_all().*member)[d];
+}
+template <Real MeshTotals::*member>
+Real number_of_all(Wall &wall, int /* d */)
+{
+  return wall.totals().of_all().*member;
+}
+template <Vec3 MeanLoad::*member>
+Real mean_of(Wall &wall, int mesh, int d)
+{
+  return (wall.means().mesh(mesh).*member)[d];
+}
+template <Vec3 MeanLoad::*member>
+Real mean_of_all(Wall &wall, int d)
+{
+  return (wall.means().of_all().*member)[d];
+}
+
+// Of a mesh that is a body; 0 of others.
+template <Real (*get)(const BodyMover &, int)>
+Real of_body(Wall &wall, int mesh, int d)
+{
+  const BodyMover *body = wall.body(mesh);
+  return body ? get(*body, d) : 0;
+}
+Real centre(const BodyMover &b, int d)
+{
+  return b.rigid().centre()[d];
+}
+Real velocity(const BodyMover &b, int d)
+{
+  return b.rigid().velocity()[d];
+}
+Real turn(const BodyMover &b, int d)
+{
+  const Quaternion &q = b.rigid().turn();
+  return d == 0 ? q.w : q.v[d - 1];
+}
+Real omega(const BodyMover &b, int d)
+{
+  return b.rigid().omega()[d];
+}
+Real reaction_force(const BodyMover &b, int d)
+{
+  return b.reaction().force[d];
+}
+Real reaction_torque(const BodyMover &b, int d)
+{
+  return b.reaction().torque[d];
+}
+Real coordinate(const BodyMover &b, int /* d */)
+{
+  return b.rigid().coordinate();
+}
+Real energy(const BodyMover &b, int /* d */)
+{
+  return b.spring_and_kinetic_energy();
+}
+Real stop_force(const BodyMover &b, int /* d */)
+{
+  return b.stop_force();
+}
+
+// Position, velocity, push.
+template <int which>
+Real of_servo(Wall &wall, int mesh, int /* d */)
+{
+  const Servo &s = wall.meshes()[mesh].servo();
+  if (!s.present) return 0;
+  return which == 0 ? s.position : which == 1 ? s.velocity : wall.servo_push(mesh);
+}
+
+Real worn(Wall &wall, int mesh, int /* d */)
+{
+  return wall.worn(mesh);
+}
+Real removed(Wall &wall, int mesh, int /* d */)
+{
+  return wall.removed(mesh);
+}
+Real held_back(Wall &wall, int mesh, int /* d */)
+{
+  return wall.held_back(mesh);
+}
+
+bool has_servo(const MeshSpec &m)
+{
+  return m.motion.servo().present;
+}
+bool is_body(const MeshSpec &m)
+{
+  return m.body.present;
+}
+
+bool has(const WallSpec &wall, OutputPart part)
+{
+  const auto any = [&](bool (*of)(const MeshSpec &)) {
+    return std::any_of(wall.meshes.begin(), wall.meshes.end(), of);
+  };
+  switch (part) {
+    case OutputPart::servo:
+      return any(has_servo);
+    case OutputPart::body:
+      return any(is_body);
+    case OutputPart::wear:
+      return wall.wear_shape.every > 0;
+    case OutputPart::nodes:
+      return wall.has_nodes();
+    case OutputPart::means:
+      return wall.average_every > 0;
+    default:
+      return true;
+  }
+}
+
+// Returns the only mesh that has it, or -1 where several have it, or none.
+int only_mesh_with(const WallSpec &wall, bool (*has)(const MeshSpec &))
+{
+  int only = -1;
+  for (std::size_t k = 0; k < wall.meshes.size(); k++) {
+    if (!has(wall.meshes[k])) continue;
+    if (only >= 0) return -1;
+    only = static_cast<int>(k);
+  }
+  return only;
+}
+
+}    // namespace
+
+const std::vector<WallOutput> &wall_outputs()
+{
+  using P = OutputPart;
+  using T = MeshTotals;
+  constexpr bool adds_up = true, is_one = false;
+  static const std::vector<WallOutput> all = {
+      {3, "force on the mesh, x y z", "force units", adds_up, P::every_wall, vector_of<&T::force>,
+       vector_of_all<&T::force>},
+      {3, "torque on the mesh about the point of *torque_about*, x y z", "torque units", adds_up,
+       P::every_wall, vector_of<&T::torque>, vector_of_all<&T::torque>},
+      {1, "number of contacts that carry a force", "", adds_up, P::every_wall,
+       number_of<&T::contacts>, number_of_all<&T::contacts>},
+      {1, "largest overlap divided by the radius", "", is_one, P::every_wall,
+       number_of<&T::overlap>, number_of_all<&T::overlap>},
+      {1, "number of spheres whose contacts are not certified exact; 0 except with *nearest N*", "",
+       adds_up, P::every_wall, number_of<&T::uncertified>, number_of_all<&T::uncertified>},
+      {1, "volume worn off since the beginning; 0 without *wear*", "volume units", adds_up,
+       P::every_wall, worn, nullptr},
+      {1, "power of the moving mesh on the spheres", "energy/time units", adds_up, P::every_wall,
+       number_of<&T::power>, number_of_all<&T::power>},
+      {1, "position of the servo; 0 without one", "distance units; with *torque* radians", is_one,
+       P::servo, of_servo<0>, nullptr},
+      {1, "its speed", "velocity units; with *torque* radians/time", is_one, P::servo, of_servo<1>,
+       nullptr},
+      {1, "its push on the spheres", "force units; with *torque* torque units", adds_up, P::servo,
+       of_servo<2>, nullptr},
+      {3, "centre of mass of the body, x y z", "distance units", is_one, P::body, of_body<centre>,
+       nullptr},
+      {3, "its velocity, x y z", "velocity units", is_one, P::body, of_body<velocity>, nullptr},
+      {4, "its rotation since the start, a quaternion w x y z", "", is_one, P::body, of_body<turn>,
+       nullptr},
+      {3, "its angular velocity, x y z", "radians/time", is_one, P::body, of_body<omega>, nullptr},
+      {3, "force that the joint exerts on the body to hold it, x y z", "force units", adds_up,
+       P::body, of_body<reaction_force>, nullptr},
+      {3,
+       "torque that it exerts, x y z, about the joint's point or, for *slider* and *planar*, the "
+       "centre",
+       "torque units", adds_up, P::body, of_body<reaction_torque>, nullptr},
+      {1, "coordinate of *hinge* or *slider*; 0 with another joint",
+       "radians; with *slider* distance units", is_one, P::body, of_body<coordinate>, nullptr},
+      {1, "kinetic energy of the body, with that of its spring", "energy units", adds_up, P::body,
+       of_body<energy>, nullptr},
+      {1, "volume by which *wear ... deform* has moved the mesh", "volume units", adds_up, P::wear,
+       removed, nullptr},
+      {1, "volume that it has held back, because triangles would fold over or meet", "volume units",
+       adds_up, P::wear, held_back, nullptr},
+      {3, "torque on a mesh with *nodes* that none of its nodes gets, x y z", "torque units",
+       adds_up, P::nodes, vector_of<&T::couple>, nullptr},
+      {1,
+       "force of a stop (*limits*) on the body along the axis of its *slider*, or torque about "
+       "that "
+       "of its *hinge*; 0 where the body is at none",
+       "force or torque units", adds_up, P::body, of_body<stop_force>, nullptr},
+      {3, "with *average N* the mean of 1-3 over N steps, x y z", "force units", adds_up, P::means,
+       mean_of<&MeanLoad::force>, mean_of_all<&MeanLoad::force>},
+      {3, "likewise of 4-6", "torque units", adds_up, P::means, mean_of<&MeanLoad::torque>,
+       mean_of_all<&MeanLoad::torque>}};
+  return all;
+}
+
+int n_outputs(const WallSpec &wall)
+{
+  int n = 0, columns = 0;
+  for (const WallOutput &row : wall_outputs()) {
+    n += row.n;
+    if (has(wall, row.part)) columns = n;
+  }
+  return columns;
+}
+
+// Returns the row of a column, which becomes one of the row's own.
+static const WallOutput &output_row(int &column)
+{
+  const WallOutput *row = wall_outputs().data();
+  for (; column >= row->n; row++) column -= row->n;
+  return *row;
+}
+
+Real output_of_mesh(Wall &wall, int mesh, int column)
+{
+  return output_row(column).of_mesh(wall, mesh, column);
+}
+
+Real output_of_wall(Wall &wall, int column)
+{
+  const WallOutput &row = output_row(column);
+  if (row.of_all) return row.of_all(wall, column);
+  const bool is_servo = row.part == OutputPart::servo;
+  if (is_servo || row.part == OutputPart::body) {
+    const int mesh = only_mesh_with(wall.spec(), is_servo ? has_servo : is_body);
+    return mesh < 0 ? 0 : row.of_mesh(wall, mesh, column);
+  }
+  Real sum = 0;
+  for (const MeshPart &m : wall.meshes()) sum += row.of_mesh(wall, m.index, column);
+  return sum;
+}
+
+}    // namespace lsdcd
