@@ -377,7 +377,7 @@ void try_sequence(unsigned seed, std::string &text)
 TEST(wall_sequences, go_on_from_saved_states_to_the_bit_or_say_why_not)
 {
   const char *const given = std::getenv("LSDCD_SEQUENCES");
-  const unsigned n = given ? static_cast<unsigned>(std::atoi(given)) : 40;
+  const unsigned n = given ? static_cast<unsigned>(std::atoi(given)) : 20;
   for (unsigned seed = 1; seed <= n && !HasFatalFailure(); seed++) {
     std::string text;
     try {
