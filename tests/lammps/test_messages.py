@@ -6,6 +6,8 @@
 import math
 import re
 
+import pytest
+
 import lmp
 import stl
 from facts import at_most, fact
@@ -56,7 +58,8 @@ def lines(text, *words):
     return [line for line in text.split("\n") if all(w in line for w in words)]
 
 
-def test_messages(folder):
+@pytest.fixture(scope="module")
+def folder(folder):
     (folder / "floor.stl").write_bytes((lmp.HERE / "scripts" / "floor.stl").read_bytes())
     stl.write(folder / "in_mm.stl", [((-50, -50, 0), (50, -50, 0), (50, 50, 0)), ((-50, -50, 0), (50, 50, 0), (-50, 50, 0)),
                                      ((-50, -50, 0), (50, -50, 0), (0, -50, 80))])
@@ -64,8 +67,12 @@ def test_messages(folder):
     stl.write(folder / "lifters.stl", drum(4))
     o, x, y, z = (0, 0, 0), (2, 0, 0), (0, 2, 0), (0, 0, 2)
     stl.write(folder / "corner.stl", [(o, x, y), (o, y, z), (o, z, x)])
+    return folder
+
+
+def test_surfaces_that_push(folder):
+    """Along their normals."""
     turning = "surface_angvel 0 0 3"
-    # Surfaces that push along their normals.
     for ranks in (1, 2):
         text = lmp.run_well(BOX + fix(turning, mesh="lifters.stl") + "run 1\n", folder, ranks)
         told = lines(text, "WARNING: Fix w wall/lsdcd:", "push 8 of 80 faces")
@@ -81,7 +88,9 @@ def test_messages(folder):
     text = lmp.run_well(BOX + fix("surface_vel 1 0 0") + "run 1\n", folder)
     fact("nor a belt", "along their normals" not in text)
 
-    # Whose warning, and of which atom.
+
+def test_whose_warning(folder):
+    """Whose warning, and of which atom."""
     deep = "set group all z 0.3\n"
     text = lmp.run_well(BOX + deep + fix(name="base") + "run 1\nminimize 0 0 1 1\n", folder)
     fact("a warning names the fix and the atom",
@@ -98,8 +107,10 @@ def test_messages(folder):
          done.returncode != 0 and "Fix w wall/lsdcd: " in message and "atom 2 " in message,
          message)
 
-    # nearest: after the first run, and when ten times as many answers were not certified; here
-    # one in every step and one at every start.
+
+def test_uncertified(folder):
+    """nearest: after the first run, and when ten times as many answers were not certified; here
+    one in every step and one at every start."""
     every = (BOX + "unfix move\nset group all x 0.45 y 0.44 z 0.43\n" +
              fix("nearest 1 grid 0.1", mesh="corner.stl") + "run {} every 2 NULL\n")
     for steps, times in ((2, 1), (10, 1), (100, 2)):
@@ -107,7 +118,9 @@ def test_messages(folder):
         fact(f"nearest is told {times} times in {steps} steps, two a part",
              len(told) == times, "\n".join(told))
 
-    # Other units than the script's. The floor is 4 wide and flat, its spheres have radius 0.5.
+
+def test_other_units(folder):
+    """Other units than the script's. The floor is 4 wide and flat, its spheres have radius 0.5."""
     text = lmp.run_well(BOX + fix("scale 1000") + "run 0\n", folder)
     fact("a flat floor in millimetres is told, and its scale",
          lines(text, "WARNING: Fix w", "far larger than the box", "add scale 0.001"))
@@ -123,12 +136,16 @@ def test_messages(folder):
             fact(f"{name} tells {told} times of a mesh with scale {scale}", told == len(lines(
                 text, f"WARNING: {name}", "far larger than the box", "add scale 0.001")), text[-600:])
 
-    # A turn is 6.28 radians.
+
+def test_radians(folder):
+    """A turn is 6.28 radians."""
     for limits, told in (("0 90", 1), ("-3 3", 0)):
         text = lmp.run_well(BOX + fix("body mass 1 com 0 0 0 inertia 1 1 1 0 0 0 joint hinge 0 0 0 0 1 0 limits " + limits) + "run 0\n", folder)
         fact(f"limits {limits} of a hinge are told {told} times", told == len(lines(text, "WARNING: Fix w", "of its hinge", "in radians")), text[-600:])
 
-    # Atoms without a diameter have radius 0.5: the box and the mesh are small beside them.
+
+def test_forgotten_diameters(folder):
+    """Atoms without a diameter have radius 0.5: the box and the mesh are small beside them."""
     small = BOX.replace("block -3 3 -3 3 -1 5", "block -.06 .06 -.06 .06 -.02 .1").replace("2 2 4", "0 0 .02")
     small = small.replace("0.3 0.2 0.48", "0 0 .05").replace("set             group all diameter 1.0 density 2.0\n", "")
     for what, more in (("a mesh of the right scale", "scale 0.001"), ("a mesh in millimetres", "")):
@@ -141,20 +158,26 @@ def test_messages(folder):
     text = lmp.run_well(small + fix("scale 0.001", mesh="in_mm.stl") + "run 0\n", folder)
     fact("spheres that fit the box are not told", not lines(text, "no such sphere fits"))
 
-    # A contact with k = 1e4 and a mass of pi/3 lasts pi sqrt(m/k) = 0.032. The sphere sinks by 0.2 in its first step.
+
+def test_long_timesteps(folder):
+    """A contact with k = 1e4 and a mass of pi/3 lasts pi sqrt(m/k) = 0.032. The sphere sinks by 0.2 in its first step."""
     fast = BOX + "set group all z 0.6\nvelocity all set 0 0 -3\ntimestep 0.1\n" + fix() + "thermo_modify lost ignore\nrun 3\n"
     text = lmp.run_well(fast, folder)
     fact("a sphere that sank in a step too long is told to shorten it",
          lines(text, "sank into the wall", "use a shorter one first") and not lines(text, "stiffer contact (a larger kn)"), text[-900:])
 
-    # A plate goes down through the floor, with a sphere in between.
+
+def test_squeezed_through(folder):
+    """A plate goes down through the floor, with a sphere in between."""
     text = lmp.run(BOX + "set group all x 0 y 0 z 0.5\n" + fix("mesh floor.stl move 0 0 1 motion linear 0 0 -3") +
                    "thermo 100\nrun 3000\n", folder, ranks=2).stdout
     through = "sank into the wall by 99.9705 % of its radius 0.5 in step 332, pressed by mesh 1 'floor.stl' and mesh 2 'floor.stl'"
     fact("a sphere that is squeezed through a mesh is named with both before it is lost", len(lines(
         text.split("ERROR: Lost atoms")[0], "WARNING: Fix w", "atom 2", through)) == 1 and "Lost atoms" in text, text[-2000:])
 
-    # Walls that act on nothing.
+
+def test_acts_on_nothing(folder):
+    """Walls that act on nothing."""
     text = lmp.run_well(BOX + "unfix move\nset group all diameter 0\n" + fix() + "run 0\nrun 0\n", folder)
     fact("a group of points is told once",
          len(lines(text, "WARNING: Fix w", "all 1 atoms of group all have radius 0", "set diameter")) == 1)
@@ -164,7 +187,9 @@ def test_messages(folder):
     text = lmp.run_well(BOX + fix("move 0 0 9 motion linear 0 0 -450") + "run 8\n", folder)
     fact("one that has yet to come in is not", not lines(text, "has moved out of"))
 
-    # The floor is 10 across in a box from -1 to 5 in z: turned about y, it reaches from -5 to 5.
+
+def test_turns_out_of_the_box(folder):
+    """The floor is 10 across in a box from -1 to 5 in z: turned about y, it reaches from -5 to 5."""
     turned = "motion rotate 0 0 0 {} 1"
     told = "WARNING: Fix w", "will turn out of the box", "in z"
     text = lmp.run_well(BOX + fix(turned.format("0 1 0")) + "run 0\nrun 0\n", folder)
@@ -172,7 +197,9 @@ def test_messages(folder):
     text = lmp.run_well(BOX + fix(turned.format("0 0 1")) + "run 0\n", folder)
     fact("one that turns within it is not", not lines(text, "will turn out of"))
 
-    # The same wall in two fixes.
+
+def test_one_mesh_in_two_fixes(folder):
+    """The same wall in two fixes."""
     twice = "WARNING: Fix lid", "'floor.stl' is at the same place in fix w", "twice"
     both = BOX + "group one id 2\ngroup none empty\n" + fix()
     text = lmp.run_well(both + fix(name="lid") + "run 0\nrun 0\n", folder, 2)
@@ -185,24 +212,33 @@ def test_messages(folder):
                         "run 0\n", folder)
     fact("in groups that share none it is not", not lines(text, *twice))
 
-    # Costs are those of another machine: doc/effects.md has them, with its name.
+
+def test_effects_without_times(folder):
+    """Costs are those of another machine: doc/effects.md has them, with its name."""
     text = lmp.run_well(BOX + fix() + "run 0\n", folder)
     fact("the log lists effects without times",
          lines(text, "  effects     normal spring, normal damping") and not lines(text, " ns"))
 
-    # Laws that LAMMPS's own fix wall/gran computes otherwise, in every version that was tried.
+
+def test_laws_of_wall_gran(folder):
+    """Laws that LAMMPS's own fix wall/gran computes otherwise, in every version that was tried."""
     other = "fix wall/gran of this LAMMPS gives other forces for this law: "
     text = lmp.run_well(BOX + fix(law="granular hertz 1e6 0.5 tangential mindlin 1e6 1 0.3 damping tsuji") + "run 0\n", folder)
     fact("the log names what fix wall/gran computes otherwise", lines(text, other, "damping tsuji lacks a factor of sqrt(2)"))
     text = lmp.run_well(BOX + fix(law="hertz/history 1e6 NULL 5 NULL 0.5 1") + "run 0\n", folder)
     fact("and nothing where that agrees", not lines(text, other), text[:900])
 
-    # Words that say the default.
+
+def test_default_words(folder):
+    """Words that say the default."""
     text = lmp.run_well(BOX + fix("grid auto rmax auto memory 1024 cache none nearest all corner blend "
                                   "side both device auto log full draw edges 1") + "run 0\n", folder)
     fact("words that say the default are taken without a word", not lines(text, "WARNING"), text[-300:])
 
-    # Why there is no CUDA, as the build was configured.
+
+def test_why_no_cuda(folder):
+    """Why there is no CUDA, as the build was configured."""
+    text = lmp.run_well(BOX + fix() + "run 0\n", folder)
     cache = lmp.LIB.parent / "CMakeCache.txt"
     left_out = "LSDCD_CUDA:BOOL=OFF" in cache.read_text() if cache.exists() else None
     if left_out is not None:
@@ -214,14 +250,18 @@ def test_messages(folder):
     release = re.search(r"^project\(lsdcd VERSION (\S+)", (lmp.HERE.parents[1] / "CMakeLists.txt").read_text(), re.M)[1]
     fact("the log has the version", lines(text, "  version     ") == ["  version     " + release])
 
-    # What a run did: its steps, and how often lists were made.
+
+def test_what_a_run_did(folder):
+    """What a run did: its steps, and how often lists were made."""
     text = lmp.run_well(BOX + fix() + "run 1\nrun 4 pre no\n", folder)
     fact("a run has as many steps as were asked for",
          lines(text, "Fix w wall/lsdcd: 1 step and the setup: atoms near the wall chosen 1 time, "
                "wall neighbor lists made 1 time, 1.00 mesh features each"))
     fact("and no setup where it had none", lines(text, "Fix w wall/lsdcd: 4 steps: atoms near"))
 
-    # Where its time went; radii grow, and with them the grid.
+
+def test_times(folder):
+    """Where its time went; radii grow, and with them the grid."""
     grow = "variable d equal 1.0+0.4*(step>2)\nfix grow all adapt 1 atom diameter v_d\n"
     timed = BOX.replace("sphere\n", "sphere 1\n", 1) + grow + fix("mesh_stl timed_*.stl every 2 {}") + "run {}\n"
 
@@ -244,12 +284,16 @@ def test_messages(folder):
     for what, more, steps in (("log brief", "log brief", 10), ("a run of 0 steps", "", 0)):
         fact(f"{what} has no such times", table(more, steps) == ([], []))
 
-    # A quiet log.
+
+def test_quiet_log(folder):
+    """A quiet log."""
     text = lmp.run_well(BOX + fix("log brief nearest 3") + "run 4\n", folder)
     fact("log brief is one line", len(lines(text, "wall/lsdcd:")) == 1 and
          "candidates" not in text, "\n".join(lines(text, "lsdcd")))
 
-    # Files of fields: before the run, and nothing is left by the look.
+
+def test_files_of_fields(folder):
+    """Files of fields: before the run, and nothing is left by the look."""
     done = lmp.run(BOX + fix("mesh_fields no/such.vtp every 1000") + "print ran\nrun 1\n", folder)
     fact("mesh_fields into a missing folder stops before the run",
          done.returncode != 0 and "no/such.vtp" in done.stdout and
@@ -259,7 +303,9 @@ def test_messages(folder):
     lmp.run_well(BOX + fix("mesh_fields out/f_*.vtp every 1000") + "run 1\n", folder)
     fact("the look at the folder leaves nothing", not list((folder / "out").iterdir()))
 
-    # Lines of diameter 0.
+
+def test_lines_of_diameter_0(folder):
+    """Lines of diameter 0."""
     text = lmp.run_well(BOX + fix() + "dump p all image 1 p.*.ppm type type fix w type 0 0 "
                         "size 64 64\nrun 2\n", folder)
     fact("the log tells once why lines may not be seen",
