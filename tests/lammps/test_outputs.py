@@ -142,7 +142,7 @@ dump_modify     l format float %.17g""", columns=CONTACTS + " x y z",
                 abs(a - b) < 1e-10 for a, b in zip(total, atoms[i][7:10])), str((total, atoms[i])))
 
 
-def test_outputs(folder):
+def test_step_0(folder):
     for ranks in (1, 2):
         # Overlaps 0.01 and 0.05: forces 100 and 500, energies 0.5 and 12.5.
         thermo, dump, _ = go(folder, ranks=ranks)
@@ -161,20 +161,28 @@ def test_outputs(folder):
              one[6] == 1 and close(one[9], 500) and close(one[10], -1) and
              close(one[11], 0.25) and close(one[12], 0) and one[13] == 0.5, str(one[6:]))
 
-    # From (1, 0.5) the one force has no arm, and the other's is (-2, -0.25).
+
+def test_torque_about_a_point(folder):
+    """From (1, 0.5) the one force has no arm, and the other's is (-2, -0.25)."""
     thermo, _, _ = go(folder, more="contacts torque_about 1 0.5 7")
     fact("torque_about: of a point of the box", close(thermo[0][5], 125) and
          close(thermo[0][6], -1000) and close(thermo[0][7], 0), str(thermo[0][5:8]))
     thermo, _, _ = go(folder, extra="thermo_style custom step f_wall[10] f_wall[11]")
     fact("a wall at rest without wear: no work, no volume", thermo[0][1:] == [0, 0], str(thermo[0]))
 
+
+def test_group(folder):
     thermo, dump, _ = go(folder, group="some", atoms=TWO + "group some type 1\n")
     fact("group: only its spheres feel the wall",
          thermo[0][8] == 1 and dump[0][2][2] == 0, str(thermo[0][8]))
 
+
+def test_no_atoms(folder):
     thermo, dump, text = go(folder, atoms="", steps=2)
     fact("no atoms: runs, totals are zero", not any(thermo[0][1:]))
 
+
+def test_atoms_that_come_later(folder):
     late = ("run 5\ncreate_atoms 1 single 0 0 0.49 units box\n" + SPHERES +
             "run 2\ncreate_atoms 1 single 2 0 0.78 units box\nset atom 2 diameter 1.6 density 2.0")
     thermo, dump, text = go(folder, atoms="", extra=late)
@@ -182,11 +190,15 @@ def test_outputs(folder):
     fact("a larger atom rebuilds the grid, with a line in the log",
          "grid rebuilt for radius 0.88" in text)
 
+
+def test_fix_modify_energy(folder):
     thermo, _, _ = go(folder, extra="fix_modify wall energy yes")
     fact("fix_modify energy adds the elastic energy", close(thermo[0][11], 13.0),
          str(thermo[0][11]))
 
-    # A bounce without friction or damping: kinetic + elastic energy stays.
+
+def test_energy_of_a_bounce(folder):
+    """A bounce without friction or damping: kinetic + elastic energy stays."""
     thermo, _, _ = go(folder, law="hertz/history 1e5 NULL 0 NULL 0 0",
                       atoms="create_atoms 1 single 0 0 0.6 units box\n" + SPHERES + "velocity all set 0.3 0 -1.0\n",
                       extra="fix_modify wall energy yes\nvariable e equal pe+0.5*mass(all)*vcm(all,z)^2\n"
@@ -199,7 +211,9 @@ def test_outputs(folder):
     at_most("elastic energy is the integral of the force",
             (max(energies) - min(energies)) / max(energies), 3e-5)
 
-    # LAMMPS averages f_wall[1] to f_wall[6] itself, over the same steps.
+
+def test_means(folder):
+    """LAMMPS averages f_wall[1] to f_wall[6] itself, over the same steps."""
     thermo, _, _ = go(folder, law="hertz/history 1e5 NULL 0 NULL 0.5 0", more="contacts average 20",
                       atoms="create_atoms 1 single 0.3 0 0.51 units box\n" + SPHERES + "velocity all set 0.3 0 -1.0\n",
                       extra="fix by_lammps all ave/time 1 20 20 " + " ".join(f"f_wall[{k}]" for k in range(1, 7)) +
@@ -209,6 +223,8 @@ def test_outputs(folder):
     fact("means are those that LAMMPS makes of the force and torque of each step",
          len(thermo) == 11 and max(abs(row[5]) for row in thermo) > 10 and off < 1e-10, f"{off} {thermo[-1]}")
 
+
+def test_warnings(folder):
     _, _, text = go(folder, extra="timestep 0.1", steps=0)
     fact("a timestep above a tenth of the contact time is warned of",
          "wall/lsdcd: timestep 0.1 is more than a tenth" in text)
@@ -219,7 +235,9 @@ def test_outputs(folder):
     fact("hooke stores nothing per atom", "nothing stored, exchanged or restarted" in
          go(folder, more="", columns="")[2])
 
-    # A centre 0.1 below the bottom of the cube: inside it belongs 0.6 higher, outside 0.4 lower.
+
+def test_side(folder):
+    """A centre 0.1 below the bottom of the cube: inside it belongs 0.6 higher, outside 0.4 lower."""
     low = "create_atoms 1 single 0.3 0.1 -0.1 units box\n" + SPHERES
     for inward in (False, True):
         write_cube(folder / "cube.stl", inward)
@@ -230,7 +248,10 @@ def test_outputs(folder):
             fact(f"side {side}, wound {'in' if inward else 'out'}wards: back to its side",
                  close(thermo[0][4], -force), str(thermo[0][4]))
 
-    # In a corner of the cube: three walls, of which the nearest triangle is one.
+
+def test_corner_of_a_cube(folder):
+    """In a corner of the cube: three walls, of which the nearest triangle is one."""
+    write_cube(folder / "cube.stl")
     corner = "create_atoms 1 single 1.55 1.56 0.43 units box\n" + SPHERES
     thermo, _, text = go(folder, atoms=corner, mesh="cube.stl", more="nearest 1 grid 0.1 contacts")
     fact("nearest 1: contacts are missed and the sphere is counted",
@@ -240,7 +261,10 @@ def test_outputs(folder):
     thermo, _, _ = go(folder, atoms=corner, mesh="cube.stl", more="nearest all grid 0.1 contacts")
     fact("nearest all: all three, all certified",
          thermo[0][8] == 3 and thermo[0][10] == 0, str(thermo[0][8:11]))
-    # dump image takes the diameter of lines, or 1 for filled triangles, from the same word.
+
+
+def test_pictures(folder):
+    """dump image takes the diameter of lines, or 1 for filled triangles, from the same word."""
     for what, flags in (("edges", "0.05 0"), ("faces 2", "1 0"), ("contours", "0.05 0"),
                         ("faces cut 1 0 0 0", "1 0")):
         pictures = []
