@@ -711,6 +711,7 @@ typedef struct lsdcd_wall_spec {
   /* Steps of each mean of force and torque in lsdcd_wall_totals, as a solver of a fluid samples them; 0: there are none */
   int average_every;
   int each_contact; /* 1: lsdcd_wall_get_contacts() will be called */
+  int shapes; /* 1: grains may be no spheres: steps read half_axes to inertia of lsdcd_spheres. On a CPU */
 } lsdcd_wall_spec;
 /* `options` may be null: all defaults. All that the structs point to is copied or shared. LSDCD_ERROR_ARGUMENT names
  * the field that makes no sense, its value and what to give. Any. */
@@ -734,6 +735,13 @@ typedef struct lsdcd_spheres {
   const double *temperature; /* for a law with heat; else null */
   double *heat;              /* power into the sphere, added to; likewise */
   const int *type;           /* from 1, for laws by type; else null */
+  /* Of a wall with shapes, rows without gaps; else null. The body is that of lsdcd_shape_get_facts(), and torques are about
+   * its centre. A grain whose half-axes are all 0 is a sphere; the radius of others is not read. */
+  const double *half_axes; /* 3 each, length */
+  const double *exponents; /* n1 and n2 each, 2 to 20; null: all are 2, ellipsoids */
+  const double
+      *quaternions; /* w i j k each, of any length above 0, from the axes of the grain to the box */
+  const double *inertia; /* 3 each, about its axes, mass length^2, > 0 but for spheres */
 } lsdcd_spheres;
 
 typedef struct lsdcd_wall_step {

@@ -881,6 +881,7 @@ struct WallSpec {
   bool periodic_ends = false, brief = false;
   int average_every = 0;        // steps
   bool each_contact = false;    // Wall::contacts() will be called
+  bool shapes = false;          // grains may be no spheres
 };
 
 namespace c {
@@ -975,6 +976,7 @@ class Spec {
     spec_.brief = from.brief;
     spec_.average_every = from.average_every;
     spec_.each_contact = from.each_contact;
+    spec_.shapes = from.shapes;
   }
   Spec(const Spec &) = delete;
   Spec &operator=(const Spec &) = delete;

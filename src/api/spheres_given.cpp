@@ -7,6 +7,7 @@
 #include "api/device_memory.h"
 #include "base/input_words.h"
 #include "base/vector_text.h"
+#include "shape/superellipsoid.h"
 
 #include <algorithm>
 #include <cmath>
@@ -128,6 +129,52 @@ Spheres spheres_of(const lsdcd_spheres &s, bool has_heat, bool has_types)
   out.heat_flow = s.heat;
   out.type = s.type;
   return out;
+}
+
+void GrainRows::put(const lsdcd_spheres &given, Spheres &s)
+{
+  if (s.n == 0) return;
+  need(given.half_axes, "half_axes");
+  need(given.quaternions, "quaternions");
+  need(given.inertia, "inertia");
+  shapes_.assign(s.n, GrainShape());
+  radius_.assign(s.radius, s.radius + s.n);
+  for (int i = 0; i < s.n; i++) {
+    const std::size_t at = static_cast<std::size_t>(i);
+    const double *half = given.half_axes + 3 * at, *q = given.quaternions + 4 * at,
+                 *inertia = given.inertia + 3 * at;
+    GrainShape &row = shapes_[i];
+    row.half = {half[0], half[1], half[2]};
+    if (norm_sq(row.half) == 0) continue;
+    if (given.exponents) {
+      row.n1 = given.exponents[2 * at];
+      row.n2 = given.exponents[2 * at + 1];
+    }
+    try {
+      check_shape(row.half, row.n1, row.n2);
+    } catch (const InputError &e) {
+      throw ApiError(LSDCD_ERROR_ARGUMENT, "grain " + std::to_string(i) + ": " + e.what());
+    }
+    const Real size = q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3];
+    if (!(size > 0) || !std::isfinite(size))
+      refuse_sphere("quaternions", i, "0 or no number; it is w i j k of a rotation");
+    row.turn = normalised({q[0], {q[1], q[2], q[3]}});
+    row.inertia = {inertia[0], inertia[1], inertia[2]};
+    for (int k = 0; k < 3; k++)
+      if (!(inertia[k] > 0) || !std::isfinite(inertia[k]))
+        refuse_sphere("inertia", i, vector_text(row.inertia) + "; moments are above 0, and finite");
+    radius_[i] = circumscribed_radius(row.half, row.n1, row.n2);
+  }
+  s.shapes = shapes_.data();
+  s.radius = radius_.data();
+}
+
+void refuse_shapes(const lsdcd_spheres &given)
+{
+  if (given.half_axes || given.exponents || given.quaternions || given.inertia)
+    throw ApiError(LSDCD_ERROR_ARGUMENT,
+                   "`half_axes` to `inertia` are of a wall whose spec has `shapes`: leave them "
+                   "null, or make such a wall");
 }
 
 void check_types(const Spheres &s)

@@ -11,6 +11,7 @@
 
 #include <cstddef>
 #include <string>
+#include <vector>
 
 namespace lsdcd {
 
@@ -18,6 +19,19 @@ namespace lsdcd {
 void check_positions(const lsdcd_spheres &spheres, const GpuArrays *gpu);
 // `has_heat`, `has_types`: of the law, which then needs these arrays.
 Spheres spheres_of(const lsdcd_spheres &spheres, bool has_heat, bool has_types);
+
+// The rows of grains that may be no spheres, and radii of spheres around them, for Spheres of a wall with shapes.
+class GrainRows {
+ public:
+  // Makes `spheres`, which are of `given`, read them. They hold until the next call.
+  void put(const lsdcd_spheres &given, Spheres &spheres);
+
+ private:
+  std::vector<GrainShape> shapes_;
+  std::vector<Real> radius_;
+};
+// Refuses arrays that a wall without shapes does not read.
+void refuse_shapes(const lsdcd_spheres &given);
 
 // Checks of arrays of the host:
 void check_types(const Spheres &spheres);

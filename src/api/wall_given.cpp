@@ -298,6 +298,10 @@ void read_search(const lsdcd_wall_spec &given, bool on_device, WallSpec &wall)
   wall.periodic = checked_flag(given.periodic_ends, "periodic_ends");
   wall.brief = checked_flag(given.brief, "brief");
   wall.each_contact = checked_flag(given.each_contact, "each_contact");
+  wall.shapes = checked_flag(given.shapes, "shapes");
+  if (wall.shapes && on_device)
+    refuse_field("shapes", "1",
+                 "grains that are no spheres have walls for arrays of the host alone; leave it 0");
   wall.average_every = given.average_every;
   if (given.average_every < 0)
     refuse_field("average_every", std::to_string(given.average_every),

@@ -7,6 +7,7 @@
 #include "wall/wall.h"
 
 #include "api/c_border.h"
+#include "api/spheres_given.h"
 #include "api/wall_caller.h"
 #include "api/wall_parts.h"
 #include "backend/gpu_arrays.h"
@@ -76,6 +77,7 @@ struct lsdcd_wall {
   lsdcd::WallCaller caller;
   std::unique_ptr<lsdcd::GpuArrays> gpu;    // that has the arrays of spheres; null: the host has
   int threads;
+  lsdcd::GrainRows grains;
   std::int64_t number = 0;    // of the last step
   lsdcd::Real dt = 0;
   bool begun = false;                // since spheres were numbered anew, too

@@ -73,6 +73,10 @@ StepWanted step_wanted(lsdcd_wall &wall, const lsdcd_spheres *spheres, const lsd
   const bool has_types = wall.in->laws().kinds > 1;
   want.spheres = spheres_of(given, wall.in->spec().law().has_heat(), has_types);
   if (given.n > 0) check_positions(given, wall.gpu.get());
+  if (wall.in->spec().shapes)
+    wall.grains.put(given, want.spheres);
+  else
+    refuse_shapes(given);
   wall.caller.set_spheres(want.spheres);
   const bool came = given.n > wall.caller.tags.size();
   want.look = !wall.begun || came || want.step.setup || want.step.changed;

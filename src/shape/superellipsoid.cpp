@@ -95,7 +95,9 @@ class LargestCurvature {
   const Superellipsoid &s_;
 };
 
-void check(const Vec3 &half, Real n1, Real n2)
+}    // namespace
+
+void check_shape(const Vec3 &half, Real n1, Real n2)
 {
   for (int k = 0; k < 3; k++)
     if (!(half[k] >= kLeastHalf && half[k] <= kMostHalf))
@@ -107,11 +109,9 @@ void check(const Vec3 &half, Real n1, Real n2)
                        ": exponents are from 2, an ellipsoid, to 20");
 }
 
-}    // namespace
-
 Superellipsoid make_superellipsoid(const Vec3 &half, Real n1, Real n2)
 {
-  check(half, n1, n2);
+  check_shape(half, n1, n2);
   const Real least = std::min({half.x, half.y, half.z}), most = std::max({half.x, half.y, half.z});
   Superellipsoid s = {half, n1, n2, 0, 0, least};
   s.farthest = circumscribed_radius(half, n1, n2);

@@ -20,7 +20,9 @@ struct Superellipsoid {
   LSDCD_FN bool is_ellipsoid() const { return n1 == 2 && n2 == 2; }
 };
 
-// Returns the shape; throws InputError for numbers that make none.
+// Throws InputError for numbers that make no shape.
+void check_shape(const Vec3 &half, Real n1, Real n2);
+// Returns the shape, as checked.
 Superellipsoid make_superellipsoid(const Vec3 &half, Real n1, Real n2);
 
 // Returns the radius of the circumscribed sphere, length.

@@ -12,6 +12,7 @@ import copy
 import ctypes
 import gc
 import importlib.util
+import math
 import multiprocessing
 import os
 import pathlib
@@ -212,6 +213,41 @@ def test_shapes():
     refused("quaternions of another number are refused", "quaternions has the shape (4,), not (3, 4)",
             lambda: grid.shape_contacts(centres, (1, 1, 1), quaternions=turned), ValueError)
     refused("an exponent below 2 is refused", "an exponent of a shape is 1.5", lambda: lsdcd.shape_facts((1, 1, 1), (1.5, 2)),
+            lsdcd.Error)
+
+
+def test_shapes_at_walls():
+    """An ellipsoid whose long axis is at 45 degrees to a plane, and a sphere beside it, each 0.01 deep."""
+    square = np.array([[-9, -9, 0], [9, -9, 0], [9, 9, 0], [-9, 9, 0]], float)
+    law = lsdcd.Law("hooke", kn=1000, kt=0, gamman=0, gammat=0, xmu=0, dampflag=0)
+    meshes = [lsdcd.WallMesh(lsdcd.Mesh(square, [[0, 1, 2], [0, 2, 3]]))]
+    height = math.sqrt(2.5)    # of the support function
+    x, still, mass = np.array([[0, 0, height - 0.01], [5, 0, 0.49]]), np.zeros((2, 3)), np.ones(2)
+    shapes = {"half_axes": np.array([[2.0, 1, 1], [0, 0, 0]]), "inertia": np.array([[0.4, 1, 1], [0, 0, 0]]),
+              "quaternions": np.array([[math.cos(math.pi / 8), 0, math.sin(math.pi / 8), 0], [1, 0, 0, 0]])}
+
+    def step(wall, **more):
+        force, torque = np.zeros((2, 3)), np.zeros((2, 3))
+        wall.step(x, still, still, np.array([0, 0.5]), mass, force, torque, dt=1e-3, **more)
+        return force, torque
+
+    def wall_of(**more):
+        return lsdcd.Wall(lsdcd.WallSpec(law, meshes, **more))
+
+    force, torque = step(wall_of(shapes=True), **shapes)
+    fact("a wall pushes an ellipsoid at its lowest point, and a sphere beside it", np.allclose(force, [[0, 0, 10]] * 2, rtol=0, atol=1e-11) and
+         np.allclose(torque, [[0, -10 * 1.5 / height, 0], [0, 0, 0]], rtol=0, atol=1e-11), (force, torque))
+    fact("exponents of 2 are those of an ellipsoid",
+         np.array_equal(step(wall_of(shapes=True), **shapes, exponents=np.full((2, 2), 2.0)), (force, torque)))
+    refused("shapes at a wall without them", "`half_axes` to `inertia` are of a wall whose spec has `shapes`",
+            lambda: step(wall_of(), **shapes), lsdcd.Error)
+    refused("a wall of shapes whose step has none", "`half_axes` is null", lambda: step(wall_of(shapes=True)), lsdcd.Error)
+    refused("a quaternion of 0", "quaternions[0] is 0 or no number",
+            lambda: step(wall_of(shapes=True), **{**shapes, "quaternions": np.zeros((2, 4))}), lsdcd.Error)
+    refused("an inertia of 0", "inertia[0] is 0 0 0", lambda: step(wall_of(shapes=True), **{**shapes, "inertia": np.zeros((2, 3))}), lsdcd.Error)
+    refused("a half-axis below 0", "grain 0: a half-axis of a shape is -1",
+            lambda: step(wall_of(shapes=True), **{**shapes, "half_axes": np.array([[2.0, -1, 1], [0, 0, 0]])}), lsdcd.Error)
+    refused("shapes with one side", "`side`: ellipsoids have a wall with both sides alone", lambda: wall_of(shapes=True, side="out"),
             lsdcd.Error)
 
 

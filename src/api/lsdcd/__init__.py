@@ -735,12 +735,17 @@ class Wall(_Owner):
 
     def step(self, x: Any, v: Any, omega: Any, radius: Any, mass: Any, force: Any, torque: Any, dt: float,
              setup: bool = False, changed: bool = False, reach: float = 0.0, temperature: Any = None, heat: Any = None,
-             type: Any = None, synchronous: bool = False) -> None:
+             type: Any = None, synchronous: bool = False, half_axes: Any = None, exponents: Any = None,
+             quaternions: Any = None, inertia: Any = None) -> None:
         """Adds to `force` and `torque`, (n, 3), and with a law of heat to `heat`, (n,), what the wall does in a
         step of `dt`. Arrays are of numpy or with `__dlpack__` or `__cuda_array_interface__`, where the wall was made for. Contiguous
         float64 is used in place; on the host others, as columns of a larger array or float32, are copied. `setup`: the forces with which a run begins; `changed`: radii grew since the last
         step. New spheres are at the end. `type`: int32, for laws by type. `synchronous`: velocities of spheres, poses and nodes are of
         the time of their places; else of half a step before, as velocity Verlet has them when it asks for forces.
+
+        Of a wall with shapes `half_axes`, (n, 3), `exponents`, (n, 2), None: all are 2, `quaternions`, (n, 4), w i j k from the axes of
+        a grain to the box, and `inertia`, (n, 3), about its axes, make grains superellipsoids; one with half-axes of 0 is a sphere,
+        and the radius of others is not read.
 
         On a device arrays are read, and forces are added, in the order of the wall's stream. There, and with a `host`,
         an error of a sphere is raised by the next call; until then the wall keeps the arrays.
@@ -752,7 +757,9 @@ class Wall(_Owner):
         numbers = {"radius": radius, "mass": mass, "temperature": temperature, "heat": heat, "type": type}
         given = {name: (array, (*n, 3)) for name, array in vectors.items()}
         given |= {name: (array, n) for name, array in numbers.items()}
-        optional = ("temperature", "heat", "type")
+        given |= {"half_axes": (half_axes, (*n, 3)), "exponents": (exponents, (*n, 2)), "quaternions": (quaternions, (*n, 4)),
+                  "inertia": (inertia, (*n, 3))}
+        optional = ("temperature", "heat", "type", "half_axes", "exponents", "quaternions", "inertia")
         added: list[tuple[Any, Any]] = []    # arrays of the caller, and what comes to them
         arrays = {name: self._array(array, name, shape, added) for name, (array, shape) in given.items()
                   if array is not None or name not in optional}
