@@ -75,8 +75,8 @@ def go(folder, name, style, atoms, integrator, spin):
     return lmp.read_dump(folder / name)
 
 
-def proceed(folder, restart, name, ranks, style="ellipsoid"):
-    lmp.run_well(SETTINGS.format(style=style) + f"read_restart {restart}\n" + forces("nve/asphere") +
+def proceed(folder, restart, name, ranks, style="ellipsoid", more=""):
+    lmp.run_well(SETTINGS.format(style=style) + f"read_restart {restart}\n" + forces("nve/asphere", more=more) +
                  dump(name, "angmomx angmomy angmomz") + f"run {SECOND}\n", folder, ranks)
     return lmp.read_dump(folder / name)
 
@@ -143,6 +143,16 @@ def test_ellipsoids(folder):
     for ranks in (1, 4):
         at_most(f"ellipsoids: continued from a restart file on {ranks} ranks",
                 lmp.largest_difference(one, proceed(folder, "one.restart", f"again{ranks}", ranks)), 0)
+
+
+def test_receding(folder):
+    """Each process has the shape of a floor that wears."""
+    one = go(folder, "worn", "ellipsoid", ELLIPSOIDS, "nve/asphere", "angmomx angmomy angmomz")
+    wear = "wear archard 2e-2 50 deform every 20 factor 1"
+    paths = [proceed(folder, "worn.restart", f"worn{ranks}", ranks, more=wear) for ranks in (1, 4)]
+    fact("a floor that recedes: it does so", lmp.largest_difference(one, paths[0]) > 1e-6)
+    # What wears is summed over processes in another order.
+    at_most("a floor that recedes: the same on 4 ranks", lmp.largest_difference(*paths), 1e-10)
 
 
 @lmp.of_host

@@ -280,7 +280,8 @@ bool MeshWear::recede(const WeldedMesh *mesh, std::int64_t step, std::vector<Vec
   report_.clear();
   if (!moves) return false;
   at.resize(pending_.size() / kPerVertex);
-  host_.broadcast(at.data(), at.size() * sizeof(Vec3), 0, Receivers::that_fill_memory);
+  host_.broadcast(at.data(), at.size() * sizeof(Vec3), 0,
+                  wall_.shapes ? Receivers::all : Receivers::that_fill_memory);
   return true;
 }
 
