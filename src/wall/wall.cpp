@@ -8,8 +8,7 @@
 #include "wall/checks/mesh_checks.h"
 #include "wall/mesh_name.h"
 #include "wall/reports/creation_text.h"
-#include "wall/spec_check.h"
-#include "wall/spec_text.h"
+#include "wall/spec_units.h"
 
 #include <algorithm>
 #include <cmath>
@@ -19,28 +18,6 @@
 namespace lsdcd {
 
 namespace {
-
-// A spec that has been checked, with forces per area in place of pressures.
-WallSpec in_units(WallSpec spec, const WallUnits &units)
-{
-  check_spec(spec);
-  const auto convert = [&](ContactLaw &law) {
-    if (law.is_classic() && law.is(NormalModel::hertz)) {
-      law.k_normal /= units.pressure;
-      law.k_tangent /= units.pressure;
-    }
-    law.cohesion.numbers[0] /= units.pressure;    // sjkr's
-    law.for_shapes = spec.shapes;
-  };
-  for (LawOfTypes &row : spec.laws) convert(row.law);
-  for (MeshSpec &mesh : spec.meshes) {
-    for (LawOfTypes &row : mesh.laws) convert(row.law);
-    mesh.pressure /= units.pressure;
-  }
-  spec.wear.per_work *= units.pressure;
-  if (spec.shapes) spec.device = Device::cpu;
-  return spec;
-}
 
 // The part that fits a double, exactly.
 Real number_of(std::uint64_t fingerprint)
@@ -53,11 +30,11 @@ Real number_of(std::uint64_t fingerprint)
 Wall::Wall(Host &host, WallSpec spec, const WallUnits &units, WallBackend backend,
            const std::string &material, const StepClock &clock, const HostSpheres &there) :
     host_(host),
-    spec_(in_units(std::move(spec), units)), laws_(law_table(spec_)), backend_(std::move(backend)),
-    clock_(clock), pressure_unit_(units.pressure), history_(host, spec_), totals_(host, spec_),
-    means_(host, spec_), loads_(host, spec_), files_(host, spec_, units.pressure),
-    overlaps_(host, spec_), search_(host), times_(host), timestep_(host, laws_, units.velocity),
-    box_checks_(host, spec_, meshes_),
+    spec_(in_units(std::move(spec), units.pressure)), laws_(law_table(spec_)),
+    backend_(std::move(backend)), clock_(clock), pressure_unit_(units.pressure),
+    history_(host, spec_), totals_(host, spec_), means_(host, spec_), loads_(host, spec_),
+    files_(host, spec_, units.pressure), overlaps_(host, spec_), search_(host), times_(host),
+    timestep_(host, laws_, units.velocity), box_checks_(host, spec_, meshes_),
     grids_(host, spec_, laws_, meshes_, box_checks_, history_, times_), nodes_(host)
 {
   for (std::size_t k = 0; k < spec_.meshes.size(); k++) {
@@ -384,42 +361,18 @@ void Wall::look_at_spheres(const HostSpheres &spheres, std::int64_t step)
   overlaps_.check_sunk(most[1], timestep_.worst_ratio(), on_cpu(spheres));
   overlaps_.check_sharp();
   largest_radius_ = most[0];
-  if (most[0] == 0) check_points(spheres);
+  if (most[0] == 0 && !points_warned_) points_warned_ = warn_of_points(host_, on_cpu(spheres));
   if ((most[0] > 0 || !coats_.empty()) && grids_.fit_spheres(most[0], on_cpu(spheres), step))
     engine_->expire_choice();
 }
 
-// A group of points feels no wall.
-void Wall::check_points(const HostSpheres &spheres)
-{
-  if (points_warned_) return;
-  const HostSpheres s = on_cpu(spheres).all();
-  Real count = 0;
-  for (int i = 0; i < s.n; i++) count += s.is_in_group(i);
-  host_.sum(&count, 1);
-  if (count == 0) return;
-  points_warned_ = true;
-  host_.warn("all " + std::to_string(static_cast<std::int64_t>(count)) + " " +
-             host_.names().sphere + "s" + (s.group ? std::string(" of group ") + s.group : "") +
-             " have radius 0: the wall acts on none; " + host_.names().give_radii);
-}
-
-// The range of spheres that can touch.
+// For gains of servos and the timestep of bodies.
 void Wall::look_at_range(const HostSpheres &spheres)
 {
   if (std::none_of(meshes_.begin(), meshes_.end(),
                    [](const MeshPart &m) { return m.mover->is_pushed() || m.mover->has_servo(); }))
     return;
-  const HostSpheres s = on_cpu(spheres).all();
-  Real most[3] = {0, 0, -INFINITY};
-  for (int i = 0; i < s.n; i++) {
-    if (!s.may_be_in_group(i)) continue;
-    most[0] = std::max(most[0], s.radius[i]);
-    most[1] = std::max(most[1], s.mass[i]);
-    most[2] = std::max(most[2], -s.mass[i]);
-  }
-  host_.max(most, 3);
-  range_ = {most[0], most[1], most[1] > 0 ? -most[2] : 0};
+  range_ = range_of(host_, on_cpu(spheres));
   range_is_known_ = true;
 }
 

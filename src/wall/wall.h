@@ -217,7 +217,6 @@ class Wall {
   void choose_device();
   void move(const HostSpheres &spheres, const Step &step);
   void look_at_spheres(const HostSpheres &spheres, std::int64_t step);
-  void check_points(const HostSpheres &s);
   void look_at_range(const HostSpheres &spheres);
   ServoLoad servo_load(int mesh);
   bool any_servo_acts() const;

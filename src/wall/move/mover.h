@@ -11,6 +11,7 @@
 #include "wall/mesh_state.h"
 #include "wall/move/mesh_motion.h"
 #include "wall/move/servo_controller.h"
+#include "wall/sphere_range.h"
 #include "wall/step_totals.h"
 
 #include <functional>
@@ -22,12 +23,6 @@ namespace lsdcd {
 
 class BodyMover;
 class MeshGrid;
-
-// The spheres that can touch a wall, now or later.
-struct SphereRange {
-  Real radius = 0;                // the largest
-  Real mass = 0, lightest = 0;    // the largest and smallest; 0: there is none
-};
 
 // What touched a mesh in the last step.
 struct Touch {
