@@ -145,6 +145,46 @@ def test_ellipsoids(folder):
                 lmp.largest_difference(one, proceed(folder, "one.restart", f"again{ranks}", ranks)), 0)
 
 
+def test_body(folder):
+    """An ellipsoid hits a free cube beside its middle, with friction: momentum and angular momentum of both stay."""
+    a, b, c, d, e, f, g, h = [(x, y, z) for z in (-1, 1) for y in (-1, 1) for x in (-1, 1)]
+    faces = ((a, c, d, b), (e, f, h, g), (a, b, f, e), (c, g, h, d), (a, e, g, c), (b, d, h, f))
+    stl.write(folder / "cube.stl", [t for face in faces for t in stl.quad(*face)])
+    mass = 2    # of the cube, with the inertia 1 about each axis
+    shown = "x[1] y[1] z[1] vx[1] vy[1] vz[1] " + " ".join(f"c_spin[1][{k}]" for k in (1, 2, 3))
+    shown += "".join(f" f_wall[{k}]" for k in (15, 16, 17, 18, 19, 20, 25, 26, 27))    # centre, velocity, angular velocity
+    lmp.run_well(SETTINGS.format(style="ellipsoid") + f"""\
+region          box block -6 6 -6 6 -6 6
+create_box      1 box
+create_atoms    1 single -0.4 0.3 1.6
+set             atom 1 shape 1.0 0.5 0.5
+set             atom 1 mass 1
+set             atom 1 quat 1 1 0 30
+velocity        all set 0.4 0.1 -1
+pair_style      zero 2.0
+pair_coeff      * *
+fix             move all nve/asphere
+fix             wall all wall/lsdcd hooke/history 1e4 7e3 5 0 0.5 1 mesh cube.stl body mass {mass} com 0 0 0 inertia 1 1 1 0 0 0 gravity 0 0 0
+compute         spin all property/atom angmomx angmomy angmomz
+timestep        5e-4
+fix             out all print 100 "{' '.join(f'$({word}:%.17g)' for word in shown.split())}" file out.txt screen no
+run             2000
+""", folder)
+    rows = [[float(w) for w in line.split()] for line in (folder / "out.txt").read_text().split("\n") if line and line[0] != "#"]
+
+    def cross(u, v):
+        return [u[(k + 1) % 3] * v[(k + 2) % 3] - u[(k + 2) % 3] * v[(k + 1) % 3] for k in range(3)]
+
+    def books(row):
+        x, v, spin, at, speed, omega = (row[k:k + 3] for k in range(0, 18, 3))
+        of_grain, of_cube = cross(x, v), cross(at, speed)
+        return [v[k] + mass * speed[k] for k in range(3)] + [of_grain[k] + spin[k] + mass * of_cube[k] + omega[k] for k in range(3)]
+
+    fact("a free cube: the ellipsoid turns it", max(map(abs, rows[-1][15:])) > 0.05, str(rows[-1][15:]))
+    off = max(abs(u - v) for row in rows for u, v in zip(books(row), books(rows[0])))
+    at_most("a free cube: momentum and angular momentum stay", off, 1e-12)
+
+
 def test_receding(folder):
     """Each process has the shape of a floor that wears."""
     one = go(folder, "worn", "ellipsoid", ELLIPSOIDS, "nve/asphere", "angmomx angmomy angmomz")
