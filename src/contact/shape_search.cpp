@@ -55,6 +55,29 @@ void ShapeSearch::contacts(const PlacedGrain &grain, std::vector<ShapeContact> &
   visit(grain, grain.shape.farthest, [&](std::uint32_t primitive) {
     if (!is_beside(grain, primitive)) add(minimum_of(grain, primitive, 0), primitive);
   });
+  find_contacts(grain, found);
+}
+
+void ShapeSearch::contacts(const PlacedGrain &grain, const std::vector<std::uint32_t> &among,
+                           std::vector<ShapeContact> &found)
+{
+  if (!is_near_anything(grain)) return;
+  minima_.clear();
+  for (const std::uint32_t primitive : among)
+    if (!is_beside(grain, primitive)) add(minimum_of(grain, primitive, 0), primitive);
+  find_contacts(grain, found);
+}
+
+void ShapeSearch::find_near(const PlacedGrain &grain, Real radius, std::vector<std::uint32_t> &near)
+{
+  near.clear();
+  if (!is_near_anything(grain)) return;
+  visit(grain, radius, [&](std::uint32_t primitive) { near.push_back(primitive); });
+}
+
+// Of the minima of primitives.
+void ShapeSearch::find_contacts(const PlacedGrain &grain, std::vector<ShapeContact> &found)
+{
   std::sort(minima_.begin(), minima_.end(), [](const Minimum &a, const Minimum &b) {
     return a.feature != b.feature           ? a.feature < b.feature
            : a.at.distance != b.at.distance ? a.at.distance < b.at.distance

@@ -43,6 +43,11 @@ class ShapeSearch {
 
   // Adds the contacts of a grain to `found`, in the order of their features.
   void contacts(const PlacedGrain &grain, std::vector<ShapeContact> &found);
+  // The same, where all that the sphere around the grain reaches is `among` these primitives of the tree.
+  void contacts(const PlacedGrain &grain, const std::vector<std::uint32_t> &among,
+                std::vector<ShapeContact> &found);
+  // Makes `near` the primitives within `radius` of a grain's centre.
+  void find_near(const PlacedGrain &grain, Real radius, std::vector<std::uint32_t> &near);
   // Returns the nearest place of the mesh; of no feature where the grain's centre is no number.
   ShapeContact nearest(const PlacedGrain &grain);
 
@@ -54,6 +59,7 @@ class ShapeSearch {
     std::uint32_t primitive;
   };
 
+  void find_contacts(const PlacedGrain &grain, std::vector<ShapeContact> &found);
   template <class Found>
   void visit(const PlacedGrain &grain, Real radius, const Found &found);
   template <class Visit>

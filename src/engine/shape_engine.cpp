@@ -95,9 +95,16 @@ class ShapeEngine : public EngineOn<CpuBackend> {
   void set_tree(const TriangleTree &tree, int mesh) override
   {
     shapes_->work.trees.at(mesh) = &tree;
+    shapes_->work.near.clear();
+  }
+  void choose(const Spheres &spheres, Real margin, bool watch) override
+  {
+    shapes_->work.near.clear();
+    EngineOn::choose(spheres, margin, watch);
   }
   void submit(const Spheres &spheres, const StepSettings &step) override
   {
+    shapes_->work.near.resize(static_cast<std::size_t>(n_candidates()));
     shapes_->prepare(spheres, candidates(), n_candidates());
     EngineOn::submit(spheres, step);
   }

@@ -16,11 +16,22 @@
 
 namespace lsdcd {
 
-// Shapes and trees for steps.
+// The primitives within `reach` (length) of where a candidate's centre was when the list was made, in the frame of the mesh.
+struct NearPrimitives {
+  Vec3 from = {0, 0, 0};
+  Real reach = -1;    // below 0: there is no list
+  std::vector<std::uint32_t> list;
+
+  // Does it have all within `radius` of x?
+  bool holds(const Vec3 &x, Real radius) const { return norm(x - from) + radius <= reach; }
+};
+
+// Shapes, trees and lists for steps.
 struct ShapeWork {
   const GrainShape *rows = nullptr;           // of all grains of the step; null: all are spheres
   std::vector<Superellipsoid> shape;          // of each candidate that is no sphere, by its index
   std::vector<const TriangleTree *> trees;    // of each mesh
+  std::vector<NearPrimitives> near;           // of each slot
   // kNoSphere less the index of the first grain whose contacts were not found to rounding, or 0: an error.
   std::uint64_t unsure = 0;
   // The largest overlap / least radius of curvature as DeepestOverlap::ratio(), and the index of the grain + 1.

@@ -131,7 +131,7 @@ struct ShapeMemory {
 template <class Law, class Sphere>
 class ShapeAtMeshes {
  public:
-  ShapeAtMeshes(const StepJob &job, const Sphere &sphere, const ShapeWork &work, int *ends,
+  ShapeAtMeshes(const StepJob &job, const Sphere &sphere, ShapeWork &work, int *ends,
                 ShapeMemory &memory) :
       job_(job),
       sphere_(sphere), work_(work), row_(work.rows[sphere.i]), shape_(work.shape[sphere.i]),
@@ -184,7 +184,13 @@ class ShapeAtMeshes {
     std::unique_ptr<ShapeSearch> &search = memory_.search[of.mesh];
     if (!search) search = std::make_unique<ShapeSearch>(*work_.trees[of.mesh]);
     memory_.found.clear();
-    search->contacts(grain, memory_.found);
+    NearPrimitives &near = work_.near[job_.first_slot + sphere_.begin() + m];
+    if (!near.holds(grain.centre, shape_.farthest)) {
+      near.from = grain.centre;
+      near.reach = (1 + kWay) * shape_.farthest;
+      search->find_near(grain, near.reach, near.list);
+    }
+    search->contacts(grain, near.list, memory_.found);
     for (const ShapeContact &c : memory_.found) {
       const Vec3 arm = c.of_grain - grain.centre;
       add({c.feature, c.normal, -c.distance, arm, c.point, metric.direction(c.normal, arm),
@@ -241,9 +247,12 @@ class ShapeAtMeshes {
     rule.solve(set, shape_.farthest, memory_.weight.data(), tolerance_);
   }
 
+  // Of the radius around the grain: how far it goes until its list is made anew.
+  static constexpr Real kWay = 0.2;
+
   const StepJob &job_;
   const Sphere &sphere_;
-  const ShapeWork &work_;
+  ShapeWork &work_;
   const GrainShape &row_;
   const Superellipsoid &shape_;
   const Vec3 centre_;    // in the box
