@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The springs of a process's spheres between two steps, on the host.
+// The springs of a process's spheres in memory of the CPU, while a host moves spheres.
 #pragma once
 
 #include "contact/spring.h"

@@ -76,8 +76,8 @@ class WallEngine {
   // of the last choice. Spheres that cannot touch it may have gone any distance.
   virtual bool has_moved(const Spheres &spheres) = 0;
 
-  // Begins a step, which does its work `when` it says: what it reads of spheres is final, in place once the host's stream has
-  // done its work. Until collect() the host must not change x, v, omega or radii, and may change force and torque. A step that
+  // Begins a step, which does its work `when` it says. From now on until collect() the host must not change x, v, omega or radii;
+  // in place on a GPU its stream may still be writing them, and the step waits for it. Force and torque may change. A step that
   // was begun before and not collected is dropped.
   virtual void begin(When when = When::in_turn) = 0;
 

@@ -81,7 +81,7 @@ class EngineOn : public WallEngine, public NodesInPlace {
 
   Real largest_radius(const Spheres &host) override
   {
-    const Spheres spheres = mirror_.with_radii(b_, host);
+    const Spheres spheres = mirror_.bring_radii(b_, host);
     return b_.template largest<Real>(spheres.n, [=] LSDCD_LAMBDA(std::size_t i) -> Real {
       return !spheres.mask || (spheres.mask[i] & spheres.group_bit) ? spheres.radius[i] : 0;
     });
@@ -89,7 +89,7 @@ class EngineOn : public WallEngine, public NodesInPlace {
 
   Real farthest_past(const Spheres &host, const PeriodicFaces &faces) override
   {
-    const Spheres spheres = mirror_.with_places(b_, host);
+    const Spheres spheres = mirror_.bring_places(b_, host);
     return b_.template largest<Real>(spheres.n, [=] LSDCD_LAMBDA(std::size_t i) -> Real {
       const bool is_in_group = !spheres.mask || (spheres.mask[i] & spheres.group_bit);
       return is_in_group ? faces.past(spheres.x[i]) : 0;
@@ -99,11 +99,11 @@ class EngineOn : public WallEngine, public NodesInPlace {
   void choose(const Spheres &host, Real margin, bool watch = false) override
   {
     where_step_runs([&] {
-      const Spheres spheres = mirror_.for_choice(b_, host);
+      const Spheres spheres = mirror_.bring_for_choice(b_, host);
       results_.detach_from_candidates(b_);
       springs_.grow(spheres.n);
-      use(spheres, broad_phase_.choose(b_, spheres, margin, counts_, springs_.count()));
-      mirror_.use(b_, broad_phase_, spheres.n);
+      make_room(spheres, broad_phase_.choose(b_, spheres, margin, counts_, springs_.count()));
+      mirror_.make_room(b_, broad_phase_, spheres.n);
       forget_far_meshes();
       if (watch) broad_phase_.store_positions(b_, spheres, margin);
     });
@@ -112,13 +112,14 @@ class EngineOn : public WallEngine, public NodesInPlace {
   bool has_moved(const Spheres &spheres) override
   {
     bool has = false;
-    where_step_runs([&] { has = broad_phase_.has_moved(b_, mirror_.with_places(b_, spheres)); });
+    where_step_runs([&] { has = broad_phase_.has_moved(b_, mirror_.bring_places(b_, spheres)); });
     return has;
   }
 
   void begin(When when = When::in_turn) override
   {
-    when_ = mirror_.is_apart() ? When::in_turn : when;    // its stream is no one else's
+    when_ = mirror_.is_apart() ? When::in_turn
+                               : when;    // its own stream is beside the host's work anyway
     if (when_ != When::in_turn) beside_.ready(b_);
     state_ = StepState::begun;
   }
@@ -261,7 +262,7 @@ class EngineOn : public WallEngine, public NodesInPlace {
   }
 
  protected:
-  // Returns the sphere of each candidate, or null where all are.
+  // Returns the sphere of each candidate.
   const int *candidates() const { return broad_phase_.candidates(); }
 
  private:
@@ -353,12 +354,12 @@ class EngineOn : public WallEngine, public NodesInPlace {
     beside_.end(b_);
   }
 
-  // The work of the step, without waiting for it. `adds_later`: forces are left to the results.
+  // Does the work of the step, without waiting for it. `adds_later`: forces are left to the results.
   void compute(ResultsOn<B> &results, bool adds_later)
   {
     const std::size_t n = broad_phase_.n();
     const bool several = broad_phase_.uses_slots();
-    spheres_ = mirror_.for_step(b_, spheres_);
+    spheres_ = mirror_.bring_candidates(b_, spheres_);
     results.begin(law_.traits, step_, spheres_, broad_phase_.candidates(), n,
                   may_miss_any(broad_phase_.mesh(0).grid.view), adds_later,
                   several ? &broad_phase_.slots() : nullptr);
@@ -376,7 +377,8 @@ class EngineOn : public WallEngine, public NodesInPlace {
                DeepestOverlap::kRest;
     job.pool = springs_.next(results.first_contact());
     job.overflow = overflow_.data();
-    // The last step cleared the counts of this one, if it wrote to the other pool.
+    // A step clears the counter of the pool that it does not write. After one that moves no springs, as in setup, the same pool
+    // is written again.
     if (job.pool.which == pool_written_) clear_counts(job.pool.which);
     pool_written_ = job.pool.which;
     if (several)
@@ -387,8 +389,8 @@ class EngineOn : public WallEngine, public NodesInPlace {
     if (step_.totals && !B::kOnCpu) results.start_sums(b_);
   }
 
-  // After a choice.
-  void use(const Spheres &spheres, const StepCounts &seen)
+  // Makes room for steps over the candidates of a choice. Throws where a sphere was too large for it.
+  void make_room(const Spheres &spheres, const StepCounts &seen)
   {
     if (seen.too_large) throw_for(spheres, seen);
     springs_.make_room(broad_phase_.n(), seen);

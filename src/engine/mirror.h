@@ -129,7 +129,7 @@ class SphereMirror {
   bool is_apart() const { return arrays_ == HostArrays::apart; }
 
   // Each of these returns the engine's spheres: with places, with radii, or with all that a choice reads.
-  Spheres with_places(B &b, const Spheres &host)
+  Spheres bring_places(B &b, const Spheres &host)
   {
     if (arrays_ == HostArrays::in_place) return host;
     Spheres s = members(b, host);
@@ -142,7 +142,7 @@ class SphereMirror {
     s.x = x_.data();
     return s;
   }
-  Spheres with_radii(B &b, const Spheres &host)
+  Spheres bring_radii(B &b, const Spheres &host)
   {
     if (arrays_ == HostArrays::in_place) return host;
     Spheres s = members(b, host);
@@ -150,10 +150,10 @@ class SphereMirror {
     s.radius = radius_.data();
     return s;
   }
-  Spheres for_choice(B &b, const Spheres &host)
+  Spheres bring_for_choice(B &b, const Spheres &host)
   {
     if (arrays_ == HostArrays::in_place) return host;
-    Spheres s = with_places(b, host);
+    Spheres s = bring_places(b, host);
     put_radii(b, host);
     s.radius = radius_.data();
     if (is_apart() && host.type) {
@@ -165,12 +165,12 @@ class SphereMirror {
   }
 
   // Makes room for steps over the candidates of a choice among n spheres.
-  void use(B &b, const BroadPhase<B> &chosen, std::size_t n)
+  void make_room(B &b, const BroadPhase<B> &chosen, std::size_t n)
   {
     if (arrays_ == HostArrays::in_place) return;
     index_ = chosen.candidates();
     n_ = chosen.n();
-    if (chosen.uses_slots()) choose_once(b, chosen.slots());
+    if (chosen.uses_slots()) list_each_once(b, chosen.slots());
     for (Array<Real> *vectors : {&v_, &omega_, &force_, &torque_}) vectors->reserve(3 * n);
     mass_.reserve(n);
     if (heat_) temperature_.reserve(n);
@@ -186,7 +186,7 @@ class SphereMirror {
   }
 
   // Returns the engine's spheres with what a step reads of the candidates. Does not wait.
-  Spheres for_step(B &b, const Spheres &host)
+  Spheres bring_candidates(B &b, const Spheres &host)
   {
     if (arrays_ == HostArrays::in_place) return host;
     host_ = host;
@@ -235,10 +235,10 @@ class SphereMirror {
     add_responses();
   }
 
-  // Returns the radius of sphere i of the last step (length), or 0 where the host's arrays are used in place.
+  // Returns the radius of sphere i of the last step (length) of a host with arrays in float, else 0.
   Real radius_of(B &b, int i)
   {
-    return arrays_ == HostArrays::in_place || i < 0 ? 0 : read_one(b, radius_.data() + i);
+    return arrays_ != HostArrays::in_float || i < 0 ? 0 : read_one(b, radius_.data() + i);
   }
 
   std::size_t bytes() const
@@ -295,7 +295,7 @@ class SphereMirror {
   }
 
   // Candidates near several meshes have a slot for each: forces come back once.
-  void choose_once(B &b, const CandidateSlots<B> &slots)
+  void list_each_once(B &b, const CandidateSlots<B> &slots)
   {
     const std::size_t n = slots.n_spheres();
     flags_.reserve(n);

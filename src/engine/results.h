@@ -60,10 +60,10 @@ struct StepContact {
 
 // Counts of the steps since the host last read them.
 struct StepDiagnostics {
-  Real deepest = 0;           // largest overlap / radius
-  int deepest_sphere = -1;    // its index in the step that it was in
-  Real deepest_radius = 0;    // its radius (length), where the engine has arrays of its own
-  int deepest_mesh = 0;       // of the wall's
+  Real deepest = 0;                    // largest overlap / radius
+  int deepest_sphere = -1;             // its index in the step that it was in
+  Real deepest_radius = 0;             // its radius (length), of a host with arrays in float
+  int deepest_mesh = 0;                // of the wall's
   std::uint32_t deepest_meshes = 0;    // a bit for each mesh that this sphere touched then
   std::int64_t deepest_step = 0;       // StepSettings::number
   std::int64_t uncertified = 0;

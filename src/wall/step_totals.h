@@ -52,7 +52,7 @@ class StepTotals {
   void restore(int mesh, const MeshTotals &was) { meshes_[mesh] = was; }
 
   bool are_made() const { return reduced_; }    // of the last step
-  // Makes the sums, once a step. `engine`: null while there are no spheres. `poses`: of the meshes in
+  // Makes the sums, once a step. `results`: null while there are no spheres. `poses`: of the meshes in
   // this step. `nodes`: of each mesh; empty: none have nodes. `coats`: of each
   // mesh, the same on all processes; null: there are none. Collective.
   void reduce(StepResults *results, const std::vector<Pose> &poses,

@@ -540,16 +540,17 @@ void Wall::note_step(const HostSpheres &spheres)
                  left ? m.records() : MeshFeaturesView());
   for (const MeshPart &m : meshes_)
     if (left) m.shape->end(*left, step);
-  if (input_.new_spheres) check_new_spheres(spheres);
   if (step.kind == Step::setup) log_new_springs(step);
-  if (step.kind == Step::setup) times_.begin_run();    // as the host's loop time
+  if (input_.new_spheres) check_new_spheres(spheres);    // throws on one process alone
+  if (step.kind == Step::setup) times_.begin_run();      // as the host's loop time
 }
 
 // Where a wall comes, or comes anew, among spheres that rest on it.
 void Wall::log_new_springs(const Step &step)
 {
-  if (continued_ || springs_told_ || step.number == 0 || !history_.is_on()) return;
+  if (springs_told_) return;
   springs_told_ = true;
+  if (continued_ || step.number == 0 || !history_.is_on()) return;
   const auto contacts = static_cast<std::int64_t>(totals().of_all().contacts);
   if (contacts == 0 || spec_.brief) return;
   host_.log(

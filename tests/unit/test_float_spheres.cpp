@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// FloatAtomsEngine with arrays as a LAMMPS has them in KOKKOS_PREC mixed and single, against the engine that it uses,
-// which gets the same positions in double. The sums of forces that it leaves must be those of that engine, rounded once.
+// An engine for arrays in float, as a LAMMPS has them with KOKKOS_PREC mixed and single, against one that gets the same
+// positions in double. The sums of forces that it leaves must be those of that engine, rounded once.
 #include "engine/engine.h"
 
 #include "grid/flat_grid.h"

@@ -691,6 +691,20 @@ TEST(Wall, that_begins_among_spheres_at_rest_tells_that_their_springs_are_new)
   EXPECT_EQ(told(5, 0.49, true), 0);
 }
 
+// Its springs go on in the next run, as in a script with two lines `run`.
+TEST(Wall, that_began_in_step_0_tells_of_no_new_springs_in_its_second_run)
+{
+  const Floor floor;
+  FakeHost host;
+  Scene scene(host, floor.wall());
+  scene.grains.add({0.3, 0.2, 0.49});
+  scene.set_up();
+  scene.run(5);
+  scene.set_up();
+  for (const std::string &line : host.lines)
+    EXPECT_EQ(line.find("contacts already"), std::string::npos) << line;
+}
+
 // Its shape follows from the contacts of all steps before.
 TEST(Wall, whose_mesh_recedes_has_no_snapshots)
 {

@@ -22,7 +22,8 @@ class CandidateSelector {
   const int *data() const { return candidates_.data(); }
 
   // Selects the spheres that could touch the mesh after moving by up to `margin`: by its cells and, where cells list
-  // all within the cutoff, by the features of these. Kernels put the number into `counts`. `n_springs`: of each sphere, or null; becomes 0 for spheres that are no candidates.
+  // all within the cutoff, by the features of these. Kernels put the number into `counts`. `n_springs`: of each sphere, or
+  // null; becomes 0 for spheres that are no candidates.
   void choose(B &b, const EngineMesh<B> &mesh, const Spheres &spheres, Real margin, Real pull_off,
               StepCounts *counts, int *n_springs)
   {

@@ -197,7 +197,6 @@ class MovingNodes {
     keep_places(b);
     return grid_.view(records);
   }
-  const MovingGrid<B> &grid() const { return grid_; }
 
   // By memory that copies without a wait, which the last step's copy has left: move() waits for it.
   void give(B &b, const Vec3 *x, const Vec3 *v)

@@ -10,7 +10,7 @@
 
 namespace lsdcd {
 
-// Result of one sphere, in the frame of a mesh. force, torque: of the wall on the sphere. n_contacts: contacts that
+// The result of one sphere: in the frame of a mesh until to_box(). force, torque: of the wall on the sphere. n_contacts: contacts that
 // bear, and springs.
 struct alignas(16) SphereResult {
   Vec3 force, torque;

@@ -45,7 +45,7 @@ struct ForceSettings {
   Real wall_temperature;    // read only where the law has heat
   SurfaceMotion surface;    // read only where the surface moves
   bool surface_moves;       // in itself; else `surface` is left out, which changes no bit
-  Pose pose;                // likewise
+  Pose pose;                // read only by laws for walls that move
   // Velocities of spheres are those of half a step ago: `back` is dt / 2, and 0 in a setup (time). The velocity
   // of a wall that turns is taken at that time, too. Else a sphere at rest on a turntable would seem to slip
   // outward, and friction would draw it in.

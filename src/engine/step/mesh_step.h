@@ -352,7 +352,7 @@ struct MeshStep {
 
   bool has_fast_path() const { return job.lists.n; }
   LSDCD_FN void begin() const { clear_next(job); }
-  // Sphere k where it has one contact or none, as nearly all have: with room for one nothing is indexed
+  // Does candidate k where it has one contact or none, as nearly all have: with room for one nothing is indexed
   // and all is in registers. False, and nothing done, where it has more or no list that holds.
   LSDCD_FN bool fast_path(std::size_t k) const
   {

@@ -82,7 +82,8 @@ struct StepJob {
   GridView grid = {};
   ForceSettings settings = {};
   const int *candidates = nullptr;    // sphere of each k
-  int first_slot = 0;                 // in the pool, of k = 0; read only where the wall can move
+  int first_slot =
+      0;    // in the pool, of k = 0; read only by laws for walls that move or have several meshes
   MultiMeshSpheres multi_mesh = {};
   FeatureLists lists = {};    // of each k; none: cells are searched
   StridedView<const Real> x, v, omega;

@@ -282,7 +282,7 @@ void MeshMotion::restore(const MotionState &was, const Step &now)
   check(was);
   RigidMotion &motion = spec().motion;
   if (motion.is_posed()) {    // it rests there until the caller poses it
-    if (was.moves() || was.servo.present)
+    if (!spec().body.present && (was.moves() || was.servo.present))
       host_.warn(
           named("the " + std::string(host_.names().saved) +
                 " was written with a motion or a servo of this mesh, and now poses move it: it "

@@ -62,7 +62,6 @@ class Shape {
   virtual std::size_t bytes() const { return 0; }    // beside the grid's
 
  protected:
-  const MeshSpec &spec() const { return wall_.meshes[index_]; }
   std::string named(const std::string &text) const;
   void warn_of_nodes(const MeshState &was) const;
   void warn_of_wear(const MeshState &was, bool same) const;
