@@ -22,10 +22,11 @@ constexpr std::size_t kMostCoatPoints = 1000000;
 // to the next is seen where it goes through a mesh.
 constexpr Real kDeep = 0.5, kThrough = 0.9, kBetweenLooks = 2 * (1 - kThrough);
 
-// A law without what only spheres have.
+// Returns the law of a coat's points, which are spheres without heat whatever grains are.
 ContactLaw law_of_coat(ContactLaw law)
 {
   law.heat = HeatModel::none;
+  law.for_shapes = false;
   return law;
 }
 

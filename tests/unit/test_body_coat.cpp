@@ -749,9 +749,13 @@ TEST(body_coat, lies_on_what_is_outside_of_the_box)
   }
 }
 
-TEST(body_coat, slides_and_sticks_with_the_same_bits_after_a_saved_state)
+// The points of a coat are spheres, also of a wall whose grains may be none.
+class BodyCoatSaved : public testing::TestWithParam<bool> {};
+
+TEST_P(BodyCoatSaved, slides_and_sticks_with_the_same_bits_after_it)
 {
   WallSpec spec = wall_of({floor_at_0(), cube({0, 0, kSide / 2 + kRadius - 0.005}, {1, 0.3, 0})});
+  spec.shapes = GetParam();
   // Without damping the set-up of a run computes the load that the last step had.
   spec.laws.front().law = frictional();
   spec.laws.front().law.eta = 0;
@@ -772,6 +776,8 @@ TEST(body_coat, slides_and_sticks_with_the_same_bits_after_a_saved_state)
   EXPECT_TRUE(a.shift == b.shift && a.velocity == b.velocity && a.angular == b.angular);
   EXPECT_TRUE(other.warnings.empty());
 }
+INSTANTIATE_TEST_SUITE_P(wall_of, BodyCoatSaved, testing::Values(false, true),
+                         [](const auto &of) { return of.param ? "shapes" : "spheres"; });
 
 // The floor goes over a periodic face, and the cube is on what comes in at the other side: on images, whose numbers are
 // others where a larger sphere asks for more of them. Saved springs are on what the images are of.
