@@ -121,6 +121,29 @@ TEST(OverlapMonitor, tells_once_of_the_sphere_that_sank_deepest_on_all_processes
       "which needs a shorter timestep, or lower the speeds; this warning comes again past 50 %");
 }
 
+// An old grain that overlaps its sharpest part, in the look in which a new one is the deepest.
+TEST(OverlapMonitor, tells_of_a_sharp_grain_beside_a_new_one)
+{
+  FakeHost host;
+  WallSpec spec = wall();
+  spec.shapes = true;
+  OverlapMonitor monitor(host, spec);
+  Named named = spheres_of(host);
+  monitor.check_new({}, named.get(), 0, true);
+  named.tags[1] = 9;
+  StepDiagnostics seen = deepest(0.2, 1);
+  seen.sharpest = 0.75;
+  seen.sharpest_curvature = 0.1;
+  seen.sharpest_grain = 0;
+  monitor.check_new(seen, named.get(), 100, true);
+  host.warnings.clear();
+  monitor.check_sharp();
+  ASSERT_EQ(host.warnings.size(), 1);
+  EXPECT_NE(host.warnings[0].find("sphere 1 overlaps the wall by 0.75 times its least radius"),
+            std::string::npos)
+      << host.warnings[0];
+}
+
 TEST(OverlapMonitor, blames_a_timestep_that_is_too_long_before_the_stiffness)
 {
   const std::vector<std::string> told = warned_of_sunk({0.2, 0.15, 0.25, 0.12}, 12.5);

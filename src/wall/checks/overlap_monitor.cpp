@@ -35,6 +35,8 @@ std::string sunk_remedy(Real overlap, Real timestep_ratio)
 
 void OverlapMonitor::note_of_run(const StepDiagnostics &seen, const SpheresOnCpu &spheres)
 {
+  if (seen.sharpest > sharpest_.ratio)
+    sharpest_ = {seen.sharpest, seen.sharpest_curvature, spheres.tag(seen.sharpest_grain)};
   if (seen.deepest <= of_run_.overlap) return;
   const bool has_tag = spheres.are_there() || seen.deepest > kWorthATag;
   of_run_ = deepest_of(seen, has_tag ? spheres.tag(seen.deepest_sphere) : 0);
@@ -43,8 +45,6 @@ void OverlapMonitor::note_of_run(const StepDiagnostics &seen, const SpheresOnCpu
 void OverlapMonitor::note(const StepDiagnostics &seen, const SpheresOnCpu &spheres)
 {
   note_of_run(seen, spheres);
-  if (seen.sharpest > sharpest_.ratio)
-    sharpest_ = {seen.sharpest, seen.sharpest_curvature, spheres.tag(seen.sharpest_grain)};
   if (seen.deepest <= kLarge) placed_ = 0;
   if (seen.deepest <= kWorse * placed_) {
     placed_ = std::min(placed_, seen.deepest);
