@@ -165,6 +165,11 @@ TEST(wall_spec, what_does_not_go_together_is_refused_by_keyword_and_by_field)
          w.nearest = 2;
        },
        "nodes", "nodes_by_caller", "a mesh whose nodes move has no lists of the nearest"},
+      {[](Wall &w, Mesh &) {
+         w.shapes = true;
+         w.nearest = 2;
+       },
+       "nearest", ".nearest", "contacts of ellipsoids are found without lists"},
       {[&](Wall &w, Mesh &m) {
          m.has_nodes = true;
          wear(w);
