@@ -159,10 +159,11 @@ void GrainRows::put(const lsdcd_spheres &given, Spheres &s)
     if (!(size > 0) || !std::isfinite(size))
       refuse_sphere("quaternions", i, "0 or no number; it is w i j k of a rotation");
     row.turn = normalised({q[0], {q[1], q[2], q[3]}});
-    row.inertia = {inertia[0], inertia[1], inertia[2]};
+    const Vec3 moments = {inertia[0], inertia[1], inertia[2]};
     for (int k = 0; k < 3; k++)
       if (!(inertia[k] > 0) || !std::isfinite(inertia[k]))
-        refuse_sphere("inertia", i, vector_text(row.inertia) + "; moments are above 0, and finite");
+        refuse_sphere("inertia", i, vector_text(moments) + "; moments are above 0, and finite");
+    row.inertia_over_mass = (1 / s.mass[i]) * moments;
     radius_[i] = circumscribed_radius(row.half, row.n1, row.n2);
   }
   s.shapes = shapes_.data();

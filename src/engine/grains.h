@@ -24,10 +24,11 @@ struct FloatSpheres {
 
 // A grain that may be no sphere: a superellipsoid (shape/superellipsoid.h) and how it lies.
 struct GrainShape {
-  Vec3 half = {0, 0, 0};       // half-axes, length; all 0: it is a sphere
-  Real n1 = 2, n2 = 2;         // exponents
-  Quaternion turn;             // from its axes to the box
-  Vec3 inertia = {0, 0, 0};    // about its axes, mass length^2
+  Vec3 half = {0, 0, 0};    // half-axes, length; all 0: it is a sphere
+  Real n1 = 2, n2 = 2;      // exponents
+  Quaternion turn;          // from its axes to the box
+  // About its axes, by its own mass, also where Spheres::mass is that of a rigid body; length^2.
+  Vec3 inertia_over_mass = {0, 0, 0};
 
   bool is_sphere() const { return half.x == 0; }
 };

@@ -26,7 +26,8 @@ class Shapes {
   {
     work.rows = spheres.shapes;
     if (!work.rows) return;
-    work.shape.resize(spheres.n);
+    // It never shrinks: a look asks for a grain of a step that may have had more.
+    if (work.shape.size() < static_cast<std::size_t>(spheres.n)) work.shape.resize(spheres.n);
     for (int k = 0; k < n; k++) {
       const int i = candidates[k];
       if (!work.rows[i].is_sphere()) prepare_one(work.rows[i], spheres.radius[i], i);
@@ -41,7 +42,7 @@ class Shapes {
       if (!(row.half == shape.half && row.n1 == shape.n1 && row.n2 == shape.n2))
         shape = made_.get(row.half, row.n1, row.n2);
       for (int k = 0; k < 3; k++)
-        if (!(row.inertia[k] > 0))
+        if (!(row.inertia_over_mass[k] > 0))
           throw InputError("a moment of inertia of a shape is not above 0");
     } catch (const InputError &e) {
       throw InputError(i, std::string("has a shape that cannot be: ") + e.what());

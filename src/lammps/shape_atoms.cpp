@@ -86,18 +86,21 @@ void ShapeAtoms::put(lsdcd::HostSpheres &to)
     lsdcd::GrainShape &row = rows_[i];
     row.half = {at[0] / 2, at[1] / 2, at[2] / 2};    // LAMMPS gives diameters
     row.turn = {at[3], {at[4], at[5], at[6]}};
+    const double mass = atom->rmass[i];
+    lsdcd::Vec3 inertia;
     if (super) {
       row.n1 = at[7];
       row.n2 = at[8];
-      row.inertia = {at[9], at[10], at[11]};
+      inertia = {at[9], at[10], at[11]};
     } else {
-      row.inertia = inertia_of_ellipsoid(atom->rmass[i], row.half);
+      inertia = inertia_of_ellipsoid(mass, row.half);
     }
+    row.inertia_over_mass = (1 / mass) * inertia;
     radius_[i] = lsdcd::circumscribed_radius(row.half, row.n1, row.n2);
     const double *m = atom->angmom[i];
     const lsdcd::Vec3 own = rotate(inverse(row.turn), {m[0], m[1], m[2]});
     const lsdcd::Vec3 omega =
-        rotate(row.turn, {own.x / row.inertia.x, own.y / row.inertia.y, own.z / row.inertia.z});
+        rotate(row.turn, {own.x / inertia.x, own.y / inertia.y, own.z / inertia.z});
     for (int k = 0; k < 3; k++) omega_[3 * i + k] = omega[k];
   }
   to.shapes = rows_.data();

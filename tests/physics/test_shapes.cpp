@@ -53,7 +53,7 @@ class ShapeScene {
     row.half = half;
     row.n1 = n1;
     row.n2 = n2;
-    row.inertia = m * inertia_over_mass(s);
+    row.inertia_over_mass = inertia_over_mass(s);
     shapes.push_back(row);
     x.push_back(at);
     for (auto *rest : {&v, &momentum, &omega, &force, &torque}) rest->push_back({0, 0, 0});
@@ -63,6 +63,42 @@ class ShapeScene {
     return static_cast<int>(x.size()) - 1;
   }
   void compute(Real dt, bool update = true)
+  {
+    step_once(*engine, prepared(), settings_of(dt, update),
+              springs.n_extra() > 0 ? &springs : nullptr);
+  }
+  // With the candidates of the last step.
+  void step_as_chosen(Real dt) { engine->step(prepared(), settings_of(dt, true)); }
+  // As velocity Verlet.
+  void step(Real dt, const Vec3 &gravity = {0, 0, 0})
+  {
+    kick(dt / 2, gravity);
+    for (std::size_t i = 0; i < x.size(); i++) {
+      x[i] += dt * v[i];
+      turn(i, dt);
+    }
+    compute(dt);
+    kick(dt / 2, gravity);
+  }
+  Vec3 inertia_of(std::size_t i) const { return mass[i] * shapes[i].inertia_over_mass; }
+  Vec3 omega_of(std::size_t i) const
+  {
+    const Vec3 own = rotate(inverse(shapes[i].turn), momentum[i]), I = inertia_of(i);
+    return rotate(shapes[i].turn, {own.x / I.x, own.y / I.y, own.z / I.z});
+  }
+  void spin(std::size_t i, const Vec3 &to)
+  {
+    const Vec3 own = rotate(inverse(shapes[i].turn), to), I = inertia_of(i);
+    momentum[i] = rotate(shapes[i].turn, {own.x * I.x, own.y * I.y, own.z * I.z});
+  }
+  Real energy(std::size_t i) const
+  {
+    return 0.5 * mass[i] * norm_sq(v[i]) + 0.5 * dot(momentum[i], omega_of(i)) +
+           engine->results().totals().energy;
+  }
+
+ private:
+  Spheres prepared()
   {
     for (Vec3 &f : force) f = {0, 0, 0};
     for (Vec3 &t : torque) t = {0, 0, 0};
@@ -77,39 +113,15 @@ class ShapeScene {
     s.radius = radius.data();
     s.mass = mass.data();
     s.shapes = shapes.data();
+    return s;
+  }
+  static StepSettings settings_of(Real dt, bool update)
+  {
     StepSettings step;
     step.dt = dt;
     step.update_history = update;
-    step_once(*engine, s, step, springs.n_extra() > 0 ? &springs : nullptr);
+    return step;
   }
-  // As velocity Verlet.
-  void step(Real dt, const Vec3 &gravity = {0, 0, 0})
-  {
-    kick(dt / 2, gravity);
-    for (std::size_t i = 0; i < x.size(); i++) {
-      x[i] += dt * v[i];
-      turn(i, dt);
-    }
-    compute(dt);
-    kick(dt / 2, gravity);
-  }
-  Vec3 omega_of(std::size_t i) const
-  {
-    const Vec3 own = rotate(inverse(shapes[i].turn), momentum[i]), &I = shapes[i].inertia;
-    return rotate(shapes[i].turn, {own.x / I.x, own.y / I.y, own.z / I.z});
-  }
-  void spin(std::size_t i, const Vec3 &to)
-  {
-    const Vec3 own = rotate(inverse(shapes[i].turn), to), &I = shapes[i].inertia;
-    momentum[i] = rotate(shapes[i].turn, {own.x * I.x, own.y * I.y, own.z * I.z});
-  }
-  Real energy(std::size_t i) const
-  {
-    return 0.5 * mass[i] * norm_sq(v[i]) + 0.5 * dot(momentum[i], omega_of(i)) +
-           engine->results().totals().energy;
-  }
-
- private:
   void kick(Real dt, const Vec3 &gravity)
   {
     for (std::size_t i = 0; i < x.size(); i++) {
@@ -126,7 +138,7 @@ class ShapeScene {
       const int a = axis[k];
       Vec3 own = {0, 0, 0};
       own[a] = 1;
-      const Real rate = rotate(inverse(s.turn), momentum[i])[a] / s.inertia[a];
+      const Real rate = rotate(inverse(s.turn), momentum[i])[a] / inertia_of(i)[a];
       s.turn = s.turn * rotation_about(own, part[k] * dt * rate);
     }
     s.turn = normalised(s.turn);
@@ -142,6 +154,13 @@ constexpr Real kStiff = 1e5;    // weight 1 sinks by 1e-5
 const EngineSettings kRough = hooke_history(kStiff, kStiff, 200, 100, 0.5);
 
 // ---- balls ---------------------------------------------------------------------------------
+
+Real wear_power_of(WallEngine &engine)
+{
+  Real sum = 0;
+  for (const StepContact &c : engine.results().contacts()) sum += c.wear_power;
+  return sum;
+}
 
 // One grain and one sphere that are moved alike through a mesh.
 struct Pair {
@@ -166,6 +185,10 @@ struct Pair {
     grain.compute(kDt);
     sphere.compute(kDt);
     return norm(grain.force[0] - sphere.force(0)) + norm(grain.torque[0] - sphere.torque(0));
+  }
+  Real wear_differs()
+  {
+    return std::fabs(wear_power_of(*grain.engine) - wear_power_of(*sphere.engine));
   }
   static constexpr Real kDt = 1e-3;
 };
@@ -192,9 +215,13 @@ TEST(shapes, of_equal_axes_have_the_forces_of_spheres)
   laws.back().law().k_tangent = 600;
   laws.back().law().xgammat = 0.5;
   laws.back().law().mu = 0.4;
+  for (std::size_t k = 0; k < laws.size(); k++) {
+    laws[k].contacts = true;
+    laws[k].wear = k % 2 ? WearModel::archard : WearModel::finnie;
+  }
   std::mt19937_64 random(7);
   std::uniform_real_distribution<Real> in(-1, 1);
-  int touched = 0;
+  int touched = 0, wore = 0;
   for (std::size_t m = 0; m < meshes.size(); m++) {
     for (const EngineSettings &law : laws) {
       Pair pair(meshes[m], kRadius, law);
@@ -210,7 +237,9 @@ TEST(shapes, of_equal_axes_have_the_forces_of_spheres)
         }
         x += 0.02 * v;
         worst = std::fmax(worst, pair.differ(x, v, 3 * Vec3{in(random), in(random), in(random)}));
+        worst = std::fmax(worst, pair.wear_differs());
         touched += norm_sq(pair.sphere.force(0)) > 0;
+        wore += wear_power_of(*pair.sphere.engine) > 0;
       }
       // Forces are to 1e3; feet and normals are right to some 1e-15 of the radius, and a normal over an edge that is
       // almost in the surface by that over the overlap.
@@ -218,6 +247,7 @@ TEST(shapes, of_equal_axes_have_the_forces_of_spheres)
     }
   }
   EXPECT_GT(touched, 2000);
+  EXPECT_GT(wore, 1000);
 }
 
 // ---- on a plane ----------------------------------------------------------------------------
@@ -491,6 +521,47 @@ Real energy_change(const Vec3 &half, Real part)
     worst = std::fmax(worst, std::fabs(scene.energy(0) / begin - 1));
   }
   return worst;
+}
+
+// The mass that damping sees is that of all of a rigid body, and the moments of inertia are the grain's own.
+TEST(shapes, share_a_corner_alike_in_a_body_of_any_mass)
+{
+  Vec3 force[2], torque[2];
+  for (int k = 0; k < 2; k++) {
+    ShapeScene scene(hinge_mesh(40, 3), 3, for_shapes(hooke(kStiff)));
+    const int i = scene.add({0, 0, 0}, {2, 1, 0.6});
+    scene.shapes[i].turn = rotation_about({0.6, 0, 0.8}, 0.7);
+    scene.mass[i] = k ? 100 : 1;
+    // Down the bisector of the fold, and a little farther than where it touches both sides.
+    const Vec3 up = {std::cos(110 * kPi / 180), 0, std::sin(110 * kPi / 180)};
+    Real height = 3;
+    for (int left = 20; left > 0 && height > 0; height -= 1e-3) {
+      scene.x[i] = height * up + Vec3{0, 0.2, 0};
+      scene.compute(1e-6);
+      if (scene.engine->results().totals().contacts == 2) left--;
+    }
+    EXPECT_EQ(scene.engine->results().totals().contacts, 2) << k;
+    force[k] = scene.force[i];
+    torque[k] = scene.torque[i];
+  }
+  EXPECT_EQ(norm(force[1] - force[0]), 0);
+  EXPECT_EQ(norm(torque[1] - torque[0]), 0);
+}
+
+// Grains that become larger than candidates were chosen for, within the reach of the grid and past it.
+TEST(shapes, that_grow_after_the_choice_are_an_error_at_the_next_look)
+{
+  for (const Real half : {1., 1.2, 2.}) {
+    ShapeScene scene(floor_mesh(1, 8), 1.5, for_shapes(hooke(kStiff)));
+    const int i = scene.add({0, 0, 0.9}, {1, 0.6, 0.6});
+    scene.compute(1e-6);
+    scene.shapes[i].half.x = scene.radius[i] = half;
+    scene.step_as_chosen(1e-6);
+    if (half == 1)
+      EXPECT_NO_THROW(scene.engine->read_diagnostics());
+    else
+      EXPECT_THROW(scene.engine->read_diagnostics(), InputError) << half;
+  }
 }
 
 TEST(shapes, keep_their_energy_as_balls_do)

@@ -68,6 +68,7 @@ void add_contacts(const GridView &, const Law &law, const ForceSettings &setting
       const Vec3 turning = cross(settings.wall_angular, at.foot);
       v -= settings.wall_velocity + turning - settings.back * cross(settings.wall_angular, turning);
     }
+    const Vec3 of_centre = v;
     v += cross(s.omega, at.arm);
     Contact c;
     c.normal = n;
@@ -78,9 +79,12 @@ void add_contacts(const GridView &, const Law &law, const ForceSettings &setting
     c.mass = s.mass;
     if (settings.gives_way) c.mass = 1 / (1 / s.mass + settings.mobility.along(at.foot, n));
     c.v_normal = dot(v, n);
-    Vec3 along = v - c.v_normal * n;
-    if (settings.surface_moves) along -= settings.surface.along(at.foot, n, settings.back);
-    c.v_tangent = along;
+    c.v_tangent = v - c.v_normal * n;
+    Vec3 surface = {0, 0, 0};
+    if (settings.surface_moves) {
+      surface = settings.surface.along(at.foot, n, settings.back);
+      c.v_tangent -= surface;
+    }
     c.dt = settings.dt;
     c.update = settings.update;
 
@@ -96,9 +100,11 @@ void add_contacts(const GridView &, const Law &law, const ForceSettings &setting
     const Vec3 force = normal * n + tangential;
     StepContact &kept = sink.contacts[out.n_contacts];
     kept = {at.feature, settings.mesh, normal, norm(tangential), 0, -force, s.x - at.foot};
-    if (settings.wear != WearModel::none)
-      kept.wear_power =
-          wear_power(settings.wear, pressing, norm(c.v_tangent), c.v_normal, norm(along));
+    if (settings.wear != WearModel::none) {
+      const Real away = dot(of_centre, n);
+      kept.wear_power = wear_power(settings.wear, pressing, norm(c.v_tangent), away,
+                                   norm(of_centre - away * n - surface));
+    }
     out.n_contacts++;
     out.force += force;
     out.torque += cross(at.arm, force);
@@ -176,7 +182,7 @@ class ShapeAtMeshes {
     for (int k = 0; k < 3; k++) {
       const Vec3 axis = of.pose.turn_to_mesh({row[0][k], row[1][k], row[2][k]});
       for (int j = 0; j < 3; j++) metric.row[j][k] = axis[j];
-      metric.scale[k] = std::sqrt(job_.mass[sphere_.i] / row_.inertia[k]);
+      metric.scale[k] = std::sqrt(1 / row_.inertia_over_mass[k]);
     }
     const PlacedGrain grain = {
         shape_, of.pose.to_mesh(centre_), {metric.row[0], metric.row[1], metric.row[2]}};
@@ -298,15 +304,24 @@ struct ShapeStep {
     if (job().multi_mesh.meshes) {
       const MultiMeshSphere s = multi_mesh_sphere<false>(job(), k);
       for (int slot = s.begin; slot < s.end; slot++) job().result.n_contacts[slot] = 0;
+      check_radius(s.begin, s.i, s.radius);
       run(AtMeshes<Law>{job(), s, ends, s.i, s.radius}, ends, memory.of_shapes);
     } else {
       const std::size_t i = sphere_of(job(), k);
+      check_radius(k, i, job().radius[i]);
       run(OneMeshSphere<Law>{law, job(), k, i, centre_of<Law>(job(), i), job().radius[i]}, ends,
           memory.of_shapes);
     }
   }
 
  private:
+  // Notes that the grain of a slot is larger than what the grid reaches, or than it was when candidates were chosen.
+  void check_radius(std::size_t slot, std::size_t i, Real radius) const
+  {
+    check_cutoff(job(), i, radius);
+    if (job().lists.n && radius > job().lists.cutoff(slot))
+      raise_to(&job().counts->grown, kNoSphere - i);
+  }
   template <class Sphere>
   void run(const Sphere &sphere, int *ends, ShapeMemory &memory) const
   {

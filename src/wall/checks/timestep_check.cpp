@@ -35,8 +35,9 @@ Real TimestepCheck::mass_of(Real sphere, std::size_t law) const
 static Real least_mass(const GrainShape &shape, Real mass, Real radius)
 {
   const Real height = std::min({shape.half.x, shape.half.y, shape.half.z}),
-             inertia = std::min({shape.inertia.x, shape.inertia.y, shape.inertia.z});
-  return 1 / (1 / mass + std::max(radius * radius - height * height, Real(0)) / inertia);
+             inertia = std::min(
+                 {shape.inertia_over_mass.x, shape.inertia_over_mass.y, shape.inertia_over_mass.z});
+  return mass / (1 + std::max(radius * radius - height * height, Real(0)) / inertia);
 }
 
 // Returns the radius of a sphere whose hertz contact is as stiff as the stiffest of this grain, at an overlap of 1 % of its
