@@ -54,7 +54,8 @@ ContactSlopes slopes_of(const ContactLaw &law, Real overlap, Real radius, Real m
 
 ContactSlope contact_slope(const ContactLaw &law, Real overlap, Real radius, Real mass)
 {
-  const ContactSlopes s = slopes_of(law, overlap, radius, mass);
+  const Real flattest = law.for_shapes && overlap > 0 ? radius * (radius / overlap) : radius;
+  const ContactSlopes s = slopes_of(law, overlap, std::max(radius, flattest), mass);
   return {std::max(s.normal.stiffness, s.tangential.stiffness),
           std::max(s.normal.damping, s.tangential.damping)};
 }

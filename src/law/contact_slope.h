@@ -13,6 +13,8 @@ struct ContactSlope {
   Real stiffness = 0;    // force/length
   Real damping = 0;      // force/velocity
 };
+// `radius`: of a sphere, or of the sphere around a grain where the law is for shapes. Then the bound is of a flat side, too,
+// whose contact is as wide as the grain.
 ContactSlope contact_slope(const ContactLaw &law, Real overlap, Real radius, Real mass);
 
 // Bounds of the change of one contact's force along the normal, and in the plane, where it is 0 without friction.

@@ -402,6 +402,27 @@ TEST(mesh_body, refuses_a_timestep_at_which_sphere_and_body_would_be_unstable)
   }
 }
 
+// Beside grains that may be no spheres there is a bound alone: it warns, and never takes a good run for an unstable one.
+TEST(mesh_body, warns_once_of_a_timestep_that_contacts_of_ellipsoids_may_make_unstable)
+{
+  const Real longest = 2 / std::sqrt(kStiffness * (1 + 1 / 8.));
+  for (const Real share : {0.5, 1.01}) {
+    FakeHost host;
+    WallSpec spec = cube();
+    spec.shapes = true;
+    Scene scene(host, spec);
+    scene.add({0, 0, kSide / 2 + kRadius - 1e-6});
+    scene.set_up();
+    host.warnings.clear();
+    EXPECT_EQ(error_of_run(scene, share * longest), "");
+    const std::ptrdiff_t warned =
+        std::count_if(host.warnings.begin(), host.warnings.end(), [](const std::string &w) {
+          return w.find("may be too long for the body") != std::string::npos;
+        });
+    EXPECT_EQ(warned, share > 1) << share;
+  }
+}
+
 // Leapfrog on a spring K of mass M is stable below 2 sqrt(M / K).
 TEST(mesh_body, refuses_a_timestep_at_which_its_spring_would_be_unstable)
 {

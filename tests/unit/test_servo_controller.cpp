@@ -62,6 +62,19 @@ TEST(ServoController, moves_by_what_is_missing_of_its_push)
   EXPECT_NEAR(moved.position, moved.velocity * kDt, 1e-15);
 }
 
+// A flat side is as stiff as its hertz contact is wide, which is no more than the sphere around the grain.
+TEST(ServoController, takes_the_flattest_side_of_grains_that_are_no_spheres)
+{
+  WallSpec spec = wall();
+  spec.laws[0].law = classic_law(NormalModel::hertz, false);
+  spec.laws[0].law.k_normal = 1e4;
+  spec.laws[0].law.for_shapes = spec.shapes = true;
+  spec.meshes[0].motion.servo().max_speed = 1;
+  ServoLoad load = pressed(60, 1);
+  load.overlap = 1e-3;
+  EXPECT_NEAR(after(spec, load).velocity, 40 / (2 * 1.5 * 1e4 * load.radius * kDt), 1e-12);
+}
+
 TEST(ServoController, is_slower_the_more_contacts_there_are)
 {
   EXPECT_NEAR(after(wall(), pressed(60, 8)).velocity, 40 / (2 * 8 * 1e4 * kDt), 1e-14);

@@ -243,17 +243,21 @@ void BodyMover::check_step(const Touch &touch, const RatesOfOthers &of_others)
   const bool has_contacts = has_contacts_;
   has_contacts_ = asks_for_contacts_ = false;
   if (dt_ == 0) return;
+  Real bound = 0;
   for (const bool of_coat : {false, true}) {
-    ModeRates bound = rates(touch, of_coat);
-    bound += of_others(of_coat);
-    if (dt_ < longest_step(bound)) return;
+    ModeRates all = rates(touch, of_coat);
+    all += of_others(of_coat);
+    bound = longest_step(all);
+    if (dt_ < bound) return;
   }
-  asks_for_contacts_ = contacts.contacts > 0;
-  if (contacts.contacts > 0 && !has_contacts) return;    // the next step brings them
+  // Contacts of grains that are no spheres do not tell their overlaps and normals: there is no better than the bound.
+  const bool sums_contacts = contacts.contacts > 0 && !wall_.shapes;
+  asks_for_contacts_ = sums_contacts;
+  if (sums_contacts && !has_contacts) return;    // the next step brings them
 
   ContactSum sums[2];
   Real most_of_sphere[2] = {0, 0};
-  if (contacts.contacts > 0) {
+  if (sums_contacts) {
     constexpr int kNumbers = ContactSum::kNumbers;
     Real both[2 * kNumbers];
     std::copy_n(stiffness_.number, kNumbers, both);
@@ -271,6 +275,7 @@ void BodyMover::check_step(const Touch &touch, const RatesOfOthers &of_others)
       longest_step(sums[0].largest(gives) + std::max(most_of_sphere[0], others.stiffness),
                    sums[1].largest(gives) + std::max(most_of_sphere[1], others.damping));
   if (dt_ >= longest) fail_step(longest, contacts.contacts + coat.contacts);
+  if (contacts.contacts > 0 && wall_.shapes) warn_of_step(bound, contacts.contacts);
 }
 
 void BodyMover::sum_contacts(const StepResults *results)
@@ -317,6 +322,18 @@ void BodyMover::fail_step(Real longest, Real contacts) const
                          number_text(body_spec().mass.mass) + " on " + number_text(contacts) +
                          " contacts would be stable: make the timestep shorter, the body heavier, "
                          "or contacts and spring softer"));
+}
+
+void BodyMover::warn_of_step(Real longest, Real contacts)
+{
+  if (step_warned_) return;
+  step_warned_ = true;
+  host_.warn(named("the timestep " + number_text(dt_) + " may be too long for the body of mass " +
+                   number_text(body_spec().mass.mass) + " on " + number_text(contacts) +
+                   " contacts of ellipsoids: were all of them as stiff as any can be, " +
+                   number_text(longest) +
+                   " would be the longest; where body or grains rattle, make the timestep shorter, "
+                   "the body heavier, or contacts softer. This warning is shown once"));
 }
 
 // ---- the log and restarts ----------------------------------------------------------------

@@ -79,6 +79,7 @@ class BodyMover final : public Mover {
   void sum_contacts(const StepResults *results);
   ModeRates of_spheres(const Touch &touch) const;
   [[noreturn]] void fail_step(Real longest, Real contacts) const;
+  void warn_of_step(Real longest, Real contacts);
 
   const LawTable &laws_;
   const MeshGrid &grid_;
@@ -90,7 +91,7 @@ class BodyMover final : public Mover {
   bool pending_ = false;
   Real dt_ = 0;    // of the step that is pending
 
-  bool asks_for_contacts_ = false, has_contacts_ = false;
+  bool asks_for_contacts_ = false, has_contacts_ = false, step_warned_ = false;
   ContactSum stiffness_, damping_;
   Real most_of_sphere_[2] = {0, 0};    // stiffness and damping over the mass of a sphere
 };
