@@ -22,6 +22,15 @@ class Shapes {
  public:
   ShapeWork work;
 
+  // Without shapes made, which are few.
+  std::size_t bytes() const
+  {
+    std::size_t lists = work.near.capacity() * sizeof(NearPrimitives);
+    for (const NearPrimitives &near : work.near)
+      lists += near.list.capacity() * sizeof(std::uint32_t);
+    return lists + work.shape.capacity() * sizeof(Superellipsoid);
+  }
+
   void prepare(const Spheres &spheres, const int *candidates, int n)
   {
     work.rows = spheres.shapes;
@@ -109,6 +118,7 @@ class ShapeEngine : public EngineOn<CpuBackend> {
     shapes_->prepare(spheres, candidates(), n_candidates());
     EngineOn::submit(spheres, step);
   }
+  std::size_t bytes() const override { return EngineOn::bytes() + shapes_->bytes(); }
   StepDiagnostics read_diagnostics() override
   {
     const std::uint64_t unsure = std::exchange(shapes_->work.unsure, 0);

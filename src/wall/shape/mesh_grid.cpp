@@ -230,13 +230,17 @@ bool MeshGrid::has(FeatureCode feature) const
   return false;
 }
 
+static std::size_t bytes_of(const WeldedMesh &mesh)
+{
+  return mesh.vertices.size() * sizeof(Vec3) + mesh.faces.size() * 7 * sizeof(int) +
+         mesh.edges.size() * 5 * sizeof(int);
+}
+
 std::size_t MeshGrid::bytes() const
 {
-  std::size_t mesh = 0;
-  if (mesh_)
-    mesh = mesh_->vertices.size() * sizeof(Vec3) + mesh_->faces.size() * 7 * sizeof(int) +
-           mesh_->edges.size() * 5 * sizeof(int);
-  return mesh + (host_.ranks().fills_memory || !memory_.is_shared ? memory_.bytes : 0);
+  const std::size_t mesh = mesh_ ? bytes_of(*mesh_) : 0,
+                    tree = tree_ ? bytes_of(tree_->mesh) + tree_->tree.bytes() : 0;
+  return mesh + tree + (host_.ranks().fills_memory || !memory_.is_shared ? memory_.bytes : 0);
 }
 
 }    // namespace lsdcd
