@@ -97,7 +97,8 @@ struct GrainCornerSet {
   }
 };
 
-// As of spheres, with the height of the centre for the distance.
+// Does contact i lie in the plane of contact k, under the part of the grain that has passed it? The height of the centre there
+// stands for the distance of a sphere.
 template <int kMost>
 bool lies_in_plane(const GrainCornerSet<kMost> &set, Real radius, int i, int k, Real tolerance)
 {
@@ -135,8 +136,9 @@ bool is_left(const GrainContactsView &set, int i, const OldGrainContacts<Springs
   return true;
 }
 
-// As transfer_of() of spheres, but for two things. A contact that has moved need not be next to where it was: under a flat
-// side it may jump over many triangles in one step. And of several springs that were left it takes over the most alike one.
+// Returns which old spring contact i goes on with, as for spheres but for two things. A contact that has moved need not be next
+// to where it was: under a flat side it may jump over many triangles in one step. And of several springs that were left it takes
+// over the most alike one.
 template <class Springs>
 Transfer transfer_of(const GrainContactsView &set, int i, const OldGrainContacts<Springs> &old)
 {

@@ -75,7 +75,7 @@ void ShapeSearch::find_near(const PlacedGrain &grain, Real radius, std::vector<s
   visit(grain, radius, [&](std::uint32_t primitive) { near.push_back(primitive); });
 }
 
-// Of the minima of primitives.
+// Adds those minima of primitives that are contacts.
 void ShapeSearch::find_contacts(const PlacedGrain &grain, std::vector<ShapeContact> &found)
 {
   std::sort(minima_.begin(), minima_.end(), [](const Minimum &a, const Minimum &b) {
@@ -107,7 +107,6 @@ ShapeContact ShapeSearch::nearest(const PlacedGrain &grain)
   return contact_of(grain, best);
 }
 
-
 template <class Found>
 void ShapeSearch::visit(const PlacedGrain &grain, Real radius, const Found &found)
 {
@@ -117,10 +116,12 @@ void ShapeSearch::visit(const PlacedGrain &grain, Real radius, const Found &foun
   else
     visit_within<TreeBoundsDouble>(view_, grain.centre, radius, stack, found);
 }
+
 Vec3 ShapeSearch::corner_of(const PlacedGrain &grain, const TreePrimitive &p, int k) const
 {
   return grain.own_point(view_.vertices[p.vertex[k]]);
 }
+
 // Is the primitive on the outer side of one of the faces of the box around the grain?
 bool ShapeSearch::is_beside(const PlacedGrain &grain, std::uint32_t primitive) const
 {
@@ -152,6 +153,7 @@ ShapeMinimum ShapeSearch::minimum_of(const PlacedGrain &grain, std::uint32_t pri
   if (!(m.distance < below)) m = no_minimum();
   return sure(m);
 }
+
 FeatureCode ShapeSearch::feature_of(const ShapeMinimum &m, const TreePrimitive &p) const
 {
   const FeatureKind kind = feature_kind(p.code);
@@ -160,14 +162,17 @@ FeatureCode ShapeSearch::feature_of(const ShapeMinimum &m, const TreePrimitive &
     return feature_code(FeatureKind::edge, p.edge[m.k]);
   return p.code;
 }
+
 ShapeSearch::Minimum ShapeSearch::made(const ShapeMinimum &m, std::uint32_t primitive) const
 {
   return {m, feature_of(m, view_.primitives[primitive]), primitive};
 }
+
 void ShapeSearch::add(const ShapeMinimum &m, std::uint32_t primitive)
 {
   if (m.distance < 0) minima_.push_back(made(m, primitive));
 }
+
 ShapeContact ShapeSearch::contact_of(const PlacedGrain &grain, const Minimum &m)
 {
   const Vec3 of_grain = m.at.foot - m.at.distance * m.at.normal;
@@ -195,7 +200,8 @@ bool ShapeSearch::is_local(const PlacedGrain &grain, const Minimum &m) const
   if (feature_kind(m.feature) == FeatureKind::face) return true;
   return m.at.is_smooth ? rises_around(grain, m) : none_is_deeper(grain, m);
 }
-// By the gradient, which is the normal.
+
+// Does the distance rise in all directions on the faces around a minimum, by its gradient there, which is the normal?
 bool ShapeSearch::rises_around(const PlacedGrain &grain, const Minimum &m) const
 {
   const Vec3 n = grain.turned(m.at.normal);
@@ -217,7 +223,9 @@ bool ShapeSearch::rises_around(const PlacedGrain &grain, const Minimum &m) const
   }
   return rises;
 }
-// Deeper than the least radius of curvature there may be several gradients: by the minima of all faces around.
+
+// Is no minimum of the faces around a minimum deeper? For overlaps above the least radius of curvature, where there may be
+// several gradients.
 bool ShapeSearch::none_is_deeper(const PlacedGrain &grain, const Minimum &m) const
 {
   const Real least = m.at.distance - kSameDeepDistance * grain.shape.farthest;
@@ -248,6 +256,7 @@ void ShapeSearch::merge(const PlacedGrain &grain)
     }
   }
 }
+
 bool ShapeSearch::are_same(const PlacedGrain &grain, const Minimum &a, const Minimum &b) const
 {
   const Real size = grain.shape.farthest, apart = std::fabs(a.at.distance - b.at.distance);
@@ -257,6 +266,7 @@ bool ShapeSearch::are_same(const PlacedGrain &grain, const Minimum &a, const Min
            (way <= kSameFoot * size || are_neighbours(a.feature, b.feature));
   return apart <= kSameDeepDistance * size && way <= kSameDeepFoot * size;
 }
+
 // Do the triangles around two features share a vertex?
 bool ShapeSearch::are_neighbours(FeatureCode a, FeatureCode b) const
 {

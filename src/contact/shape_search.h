@@ -35,7 +35,6 @@ struct ShapeContact {
   Real distance = std::numeric_limits<Real>::infinity();    // signed; -distance is the overlap
 };
 
-
 // Searches a mesh for one grain after the other.
 class ShapeSearch {
  public:

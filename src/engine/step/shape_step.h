@@ -16,7 +16,8 @@
 
 namespace lsdcd {
 
-// Memory of contact i at the start of the step, as begin_memory() of spheres.
+// Returns the memory of contact i at the start of the step: that of the last step, turned with the normal, and about it
+// with a surface that turns.
 template <class Law, class Springs>
 auto begin_memory(const Law &law, const ForceSettings &settings, const GrainContactsView &set,
                   int i, const SphereStateWith<Springs> &s)
@@ -205,7 +206,8 @@ class ShapeAtMeshes {
     }
   }
 
-  // Two contacts of different meshes at the same place are one, as add_mesh() has it for spheres.
+  // Adds a contact of mesh m. One of another mesh at the same place is the same: the deeper of both stays, of equal ones that
+  // of the lower kind of feature.
   void add(const GrainContact &c, int m)
   {
     const Pose &pose = settings(m).pose;
@@ -267,15 +269,15 @@ class ShapeAtMeshes {
   Real tolerance_ = 0;
 };
 
-// Spheres is a MeshStep or a MultiMeshStep, which does the grains that are spheres.
-template <class Law, class Spheres>
+// StepOfSpheres is a MeshStep or a MultiMeshStep, which does the grains that are spheres.
+template <class Law, class StepOfSpheres>
 struct ShapeStep {
   const Law &law;
-  Spheres spheres;
+  StepOfSpheres spheres;
 
   static constexpr bool kFastPath = false;
   struct Memory {
-    typename Spheres::Memory of_spheres;
+    typename StepOfSpheres::Memory of_spheres;
     ShapeMemory of_shapes;
   };
 
@@ -334,7 +336,7 @@ struct ShapeStep {
   }
 };
 
-// As run_compiled_law().
+// Runs a step of n candidates by the law with these bytes, for the engine.
 template <class Law, class Backend>
 void run_shape_law(const LawBytes &bytes, const StepJob &job, std::size_t n, Backend &backend)
 {
