@@ -195,6 +195,46 @@ def test_receding(folder):
     at_most("a floor that recedes: the same on 4 ranks", lmp.largest_difference(*paths), 1e-10)
 
 
+def test_hybrid(folder):
+    """A sphere, a ball and an ellipsoid, each 0.01 in a plane; a region and a flow go by their centres."""
+    stl.write(folder / "plane.stl", stl.quad((-6, -6, 0), (6, -6, 0), (6, 6, 0), (-6, 6, 0)))
+    stl.write(folder / "gate.stl", stl.quad((-6, -6, 0.4), (6, -6, 0.4), (6, 6, 0.4), (-6, 6, 0.4)))
+    lo, hi = [stl.quad((-5, -5, z), (5, -5, z), (5, 5, z), (-5, 5, z)) for z in (0.4, 5)]
+    sides = [stl.quad((*a, 0.4), (*b, 0.4), (*b, 5), (*a, 5))
+             for a, b in (((-5, -5), (5, -5)), ((5, -5), (5, 5)), ((5, 5), (-5, 5)), ((-5, 5), (-5, -5)))]
+    stl.write(folder / "upper.stl", [t[::-1] for t in lo] + hi + sum(sides, []))
+    text = lmp.run_well(SETTINGS.format(style="hybrid sphere ellipsoid") + """\
+region          box block -6 6 -6 6 -1.5 8
+create_box      1 box
+create_atoms    1 single -2 0.3 0.49
+create_atoms    1 single 2 0.3 0.49
+create_atoms    1 single 0 3 0.29
+set             group all diameter 1
+set             group all density 2
+set             atom 2 shape 1 1 1
+set             atom 3 shape 1.4 0.9 0.6
+velocity        all set 0 0 0.2
+pair_style      zero 1.5
+pair_coeff      * *
+fix             move all nve
+fix             wall all wall/lsdcd hooke 1e4 NULL 0 NULL 0 0 mesh plane.stl
+fix             flow all massflow/lsdcd mesh gate.stl
+region          upper mesh/lsdcd upper.stl
+variable        above equal count(all,upper)
+compute         push all reduce min fz
+compute         most all reduce max fz
+timestep        0.001
+thermo_style    custom step c_push c_most v_above f_flow[1]
+thermo          800
+thermo_modify   format float %.17g
+run             800
+""", folder)
+    rows = lmp.read_thermo(text)
+    at_most("hybrid: each has the push of its overlap", max(abs(rows[0][k] - 100) for k in (1, 2)), 1e-9)
+    fact("hybrid: a region has atoms by their centres", [row[3] for row in rows] == [2, 3], str(rows))
+    fact("hybrid: a flow counts the centre that passes", rows[-1][4] == 1, str(rows))
+
+
 @lmp.of_host
 def test_superellipsoids(folder):
     style, spin = "ellipsoid superellipsoid", "angmomx angmomy angmomz"
