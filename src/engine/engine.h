@@ -28,9 +28,8 @@ namespace lsdcd {
 // A step is begun, submitted and collected.
 enum class StepState { none, begun, submitted };
 
-class NodesInPlace;           // engine/nodes/nodes_in_place.h
-struct MovingGridSettings;    // grid/build/moving_grid.h
-class TriangleTree;           // tree/triangle_tree.h
+class NodeEngine;      // engine/nodes/node_engine.h
+class TriangleTree;    // tree/triangle_tree.h
 
 // Computes wall forces for the spheres of one process: in every step begin(), choose_if_due(), submit() and
 // collect(). Springs stay with the engine between steps and follow the spheres'
@@ -113,38 +112,12 @@ class WallEngine {
   virtual StepResults &results() = 0;
   // Returns the springs of the spheres, which steps read and replace.
   virtual Springs &springs() = 0;
+  // Returns what it does for meshes whose nodes move; null where the settings have no nodes.
+  virtual NodeEngine *nodes() { return nullptr; }
 
   // Returns what steps have counted since the last call, and counts anew. Throws InputError if a step had to leave out a sphere
   // that is too large or has more contacts than there is memory for, or if one grew after the choice.
   virtual StepDiagnostics read_diagnostics() = 0;
-
-  // The following is for meshes whose nodes move, where the settings have nodes.
-
-  // Returns the nodes in the engine's own memory, where it has copies of the records of meshes, as on a GPU; else null.
-  virtual NodesInPlace *nodes_in_place() { return nullptr; }
-  // Builds the grid of a mesh from where its nodes are now, to use from now on, by grid/build/moving_grid.h, in an engine with
-  // nodes_in_place(). The next choose_if_due() chooses.
-  void build_node_grid(int mesh, const MovingGridSettings &settings)
-  {
-    expire_choice();
-    build_grid_of_nodes(mesh, settings);
-  }
-  // Turns the springs of the spheres [0, n) on a mesh with their features, before a step, in the frame of the mesh. An engine with
-  // nodes_in_place() knows where nodes were before, and reads nothing of `turning`.
-  virtual void turn_springs(int n, int mesh, const TurningMesh &turning) = 0;
-  // The forces of the contacts of the last step on the nodes of a mesh, in fixed point. step.contacts need not be set. An
-  // engine with nodes_in_place() reads nothing of `now` and `wall`. All follow each other after a step: what they read of
-  // spheres and nodes is as in collect().
-  //
-  // Sees the contacts on this process. Does not wait.
-  virtual void see_node_forces(int mesh, const NodesNow &now, const MeshFeaturesView &wall) = 0;
-  // Returns the range of what was seen. Waits.
-  virtual NodeForceRange node_force_range(int mesh) = 0;
-  // Adds up what was seen, in units of the range of all processes, or of this one's own where it is null. Does not wait.
-  virtual void add_node_forces(int mesh, const NodeForceRange *of_all) = 0;
-  // Copies the sums in units of SumUnit(range.shares), x y z, node after node, if `sums` is not null; none are made
-  // where a force is not finite. Returns the power of the nodes on the spheres. Waits.
-  virtual Real fetch_node_forces(int mesh, std::int64_t *sums) = 0;
 
   // Returns how many candidates the last choice left.
   virtual int n_candidates() const = 0;
@@ -157,9 +130,8 @@ class WallEngine {
     if (state_ != state)
       throw std::logic_error("a step is begun, submitted and collected, in this order");
   }
-  // Do the work of set_grid() and build_node_grid(), which have asked for a choice.
+  // Does the work of set_grid(), which has asked for a choice.
   virtual void put_grid(const GridView &grid, int mesh) = 0;
-  virtual void build_grid_of_nodes(int mesh, const MovingGridSettings &settings) = 0;
 
   StepState state_ = StepState::none;
 

@@ -9,14 +9,12 @@
 #include "base/input_error.h"
 #include "engine/broad_phase/broad_phase.h"
 #include "engine/mirror.h"
-#include "engine/nodes/moving_nodes.h"
-#include "engine/nodes/node_forces.h"
+#include "engine/nodes/nodes_on.h"
 #include "engine/resident_springs.h"
 #include "engine/results/step_errors.h"
 #include "engine/step/compiled_law.h"
 #include "engine/step_results.h"
 #include "engine/work_list_store.h"
-#include "mesh/face_pressure.h"
 
 #include <algorithm>
 #include <string>
@@ -25,30 +23,8 @@
 
 namespace lsdcd {
 
-// The force on the node of row k: of contacts, and of faces that push it in the order of their numbers, as on a host.
-struct ForceOfNode {
-  const int *faces, *first, *around;
-  const Vec3 *at;
-  const std::int64_t *sums;
-  const NodeForceRange *range;
-  const int *node_of_row;
-  Real sixth;
-  Real *to;
-
-  LSDCD_FN void operator()(std::size_t k) const
-  {
-    const int i = node_of_row[k];
-    const SumUnit unit(range->shares);
-    Vec3 sum;
-    for (int d = 0; d < 3; d++) sum[d] = unit.value(sums[3 * i + d]);
-    for (int m = first[i]; sixth != 0 && m < first[i + 1]; m++)
-      sum += corner_share_of_pressure(faces + 3 * std::size_t(around[m]), at, sixth);
-    for (int d = 0; d < 3; d++) to[3 * k + d] = sum[d];
-  }
-};
-
 template <class B>
-class EngineOn : public WallEngine, public NodesInPlace {
+class EngineOn : public WallEngine {
   template <class T>
   using Array = typename B::template Array<T>;
 
@@ -58,8 +34,6 @@ class EngineOn : public WallEngine, public NodesInPlace {
       mirror_(settings.arrays, law.traits.heat), counts_(1),
       springs_(b_, law.traits, counts_.data()), overflow_(kOverflowScratches)
   {
-    if (has_copies()) nodes_ = std::vector<MovingNodes<B>>(settings.meshes);
-    if (settings.nodes) node_forces_ = std::vector<NodeForces<B>>(settings.meshes);
     clear_diagnostics(StepCounts());
     unlock_scratches();
     if (broad_phase_.uses_slots()) put_laws();
@@ -169,95 +143,13 @@ class EngineOn : public WallEngine, public NodesInPlace {
     return diagnostics;
   }
 
-  NodesInPlace *nodes_in_place() override { return has_copies() ? this : nullptr; }
-  void build_grid_of_nodes(int mesh, const MovingGridSettings &settings) override
-  {
-    where_step_runs([&] {
-      broad_phase_.set_lists(b_, nodes_.at(mesh).build_grid(b_, settings, records_of(mesh)), mesh);
-    });
-  }
-  void start_nodes(int mesh, const NodesNow &now) override { nodes_.at(mesh).start(b_, now); }
-  void give_nodes(int mesh, const Vec3 *x, const Vec3 *v) override
-  {
-    nodes_.at(mesh).give(b_, x, v);
-  }
-  void give_nodes_in_place(int mesh, const Real *x, const Real *v,
-                           const std::vector<int> &node_of_row) override
-  {
-    nodes_.at(mesh).give_in_place(b_, x, v, node_of_row);
-  }
-  NodesGone move_nodes(int mesh, bool with_spins, Real back) override
-  {
-    return nodes_.at(mesh).move(b_, records_of(mesh), with_spins, back);
-  }
-  NodesGone move_nodes_back(int mesh, bool with_spins, Real back) override
-  {
-    return nodes_.at(mesh).move_back(b_, records_of(mesh), with_spins, back);
-  }
-  void make_left(int mesh, const WeldedMesh &now) override
-  {
-    nodes_.at(mesh).make_left(b_, records_of(mesh), now);
-  }
-  void fetch_nodes(int mesh, NodesAt when, Vec3 *x, Vec3 *v) override
-  {
-    nodes_.at(mesh).fetch(b_, when, x, v);
-  }
-  void fetch_records(int mesh, MeshFeatures &to) override
-  {
-    const MeshFeaturesView &from = records_of(mesh);
-    const auto fetch = [&](const auto *from, auto &rows) {
-      b_.copy_out(from, rows.data(), rows.size());
-    };
-    fetch(from.faces, to.faces);
-    fetch(from.edges, to.edges);
-    fetch(from.vertices, to.vertices);
-    fetch(from.edge_inward, to.edge_inward);
-    fetch(from.vertex_direction, to.vertex_direction);
-    fetch(from.face_parts, to.face_parts);
-    fetch(from.edge_out, to.edge_out);
-    fetch(from.vertex_out, to.vertex_out);
-    b_.wait();
-  }
-  void turn_springs(int n, int mesh, const TurningMesh &turning) override
-  {
-    where_step_runs([&] {
-      springs_.grow(n);
-      springs_.turn(n, static_cast<std::uint32_t>(mesh),
-                    has_copies() ? nodes_[mesh].turning(records_of(mesh)) : turning);
-    });
-  }
-  void see_node_forces(int mesh, const NodesNow &now, const MeshFeaturesView &wall) override
-  {
-    const bool copies = has_copies();
-    const Vec3 *velocity = copies ? nodes_[mesh].field(0).velocity : now.velocity;
-    const NodeContacts in = results_.node_contacts(springs_.contacts(step_.update_history), mesh,
-                                                   copies ? records_of(mesh) : wall, velocity);
-    node_forces_.at(mesh).see(b_, in, copies ? nodes_[mesh].n() : now.mesh->vertices.size());
-  }
-  NodeForceRange node_force_range(int mesh) override { return node_forces_.at(mesh).range(); }
-  void add_node_forces(int mesh, const NodeForceRange *of_all) override
-  {
-    node_forces_.at(mesh).add(b_, of_all);
-  }
-  Real fetch_node_forces(int mesh, std::int64_t *sums) override
-  {
-    return node_forces_.at(mesh).fetch(b_, sums);
-  }
-  void put_node_forces(int mesh, Real sixth, Real *to, const std::vector<int> &node_of_row) override
-  {
-    MovingNodes<B> &nodes = nodes_.at(mesh);
-    const int *rows = nodes.rows(b_, node_of_row);
-    b_.for_each(node_of_row.size(),
-                ForceOfNode{nodes.faces(), nodes.face_first(), nodes.faces_around(), nodes.at(),
-                            node_forces_[mesh].sums(), node_forces_[mesh].range_in_place(), rows,
-                            sixth, to});
-  }
+  NodeEngine *nodes() override { return settings_.nodes ? &nodes_ : nullptr; }
   std::size_t bytes() const override
   {
     return broad_phase_.bytes() + mirror_.bytes() + springs_.bytes() + results_.bytes() +
            next_results_.bytes() + overflow_.size() * sizeof(OverflowScratch) +
            work_lists_.bytes() + works_.size() * sizeof(MeshWork) +
-           laws_.size() * sizeof(LawEntry) + bytes_of_nodes() + b_.scratch_bytes() +
+           laws_.size() * sizeof(LawEntry) + nodes_.bytes() + b_.scratch_bytes() +
            beside_.scratch_bytes();
   }
 
@@ -318,27 +210,14 @@ class EngineOn : public WallEngine, public NodesInPlace {
     are_counts_clear_ = true;
   }
 
-  bool has_copies() const { return settings_.nodes && (!B::kOnCpu || settings_.copies_records); }
   MeshWork mesh_work(int m) const
   {
     const EngineMesh<B> &mesh = broad_phase_.mesh(m);
     MeshWork work = {mesh.grid.view, force_settings(settings_, step_, mesh.pose, m)};
     NodeField &nodes = work.settings.nodes;
-    if (nodes.velocity && has_copies()) nodes = nodes_[m].field(nodes.going);
+    if (nodes.velocity && nodes_.keeps_nodes()) nodes = nodes_.field(m, nodes.going);
     return work;
   }
-  std::size_t bytes_of_nodes() const
-  {
-    std::size_t bytes = 0;
-    for (const MovingNodes<B> &nodes : nodes_) bytes += nodes.bytes();
-    for (const NodeForces<B> &forces : node_forces_) bytes += forces.bytes();
-    return bytes;
-  }
-  const MeshFeaturesView &records_of(int mesh) const
-  {
-    return broad_phase_.mesh(mesh).grid.view.wall;
-  }
-
   // Does this part of a step where the step runs: of one that was begun beside the host's work on the engine's own stream.
   template <class Work>
   void where_step_runs(const Work &work)
@@ -466,10 +345,10 @@ class EngineOn : public WallEngine, public NodesInPlace {
 
   ResultsOn<B> results_{b_}, next_results_{b_};    // of the last step, and of one submitted beside
   WorkListStore<B> work_lists_;
-  std::vector<MovingNodes<B>> nodes_;         // of each mesh, where it has copies of records
-  std::vector<NodeForces<B>> node_forces_;    // likewise
-  Array<MeshWork> works_;                     // of all meshes
-  Array<LawEntry> laws_;                      // of all meshes
+  friend class NodesOn<B>;
+  NodesOn<B> nodes_{*this};
+  Array<MeshWork> works_;    // of all meshes
+  Array<LawEntry> laws_;     // of all meshes
 
   int pool_written_ = -1;
   Array<OverflowScratch> overflow_;

@@ -93,7 +93,7 @@ void MeshNodes::set(const Real *x, const Real *v)
 bool MeshNodes::set_in_place(const Real *x, const Real *v, const std::vector<int> &node_of_row)
 {
   if (!engine_) return false;
-  engine_->give_nodes_in_place(index_, x, v, node_of_row);
+  engine_->give_in_place(index_, x, v, node_of_row);
   are_given_there_ = true;
   next_.clear();
   return true;
@@ -157,22 +157,22 @@ void MeshNodes::move_here(const Step &step, Real cutoff)
 
 void MeshNodes::move_in_place(const Step &step, Real cutoff)
 {
-  if (!are_given_there_) engine_->give_nodes(index_, next_.data(), next_velocity_.data());
-  const NodesGone gone = engine_->move_nodes(index_, with_spins_, back_);
+  if (!are_given_there_) engine_->give(index_, next_.data(), next_velocity_.data());
+  const NodesGone gone = engine_->move(index_, with_spins_, back_);
   are_records_old_ = true;
   const bool pushed_well = take_range();
   if (!pushed_well || !std::isfinite(gone.most + gone.speed) ||
       (cutoff > 0 && gone.most > cutoff)) {
     std::vector<Vec3> to(mesh_.vertices.size()), v(to.size());
-    engine_->fetch_nodes(index_, NodesAt::now, to.data(), v.data());
-    engine_->fetch_nodes(index_, NodesAt::before, mesh_.vertices.data(), velocity_.data());
+    engine_->fetch(index_, NodesAt::now, to.data(), v.data());
+    engine_->fetch(index_, NodesAt::before, mesh_.vertices.data(), velocity_.data());
     are_places_old_ = false;
     try {
       if (!pushed_well) fail_force();
       check_way(step, cutoff, gone.most, mesh_.vertices, to);
       check_velocities(v);
     } catch (...) {
-      const NodesGone back = engine_->move_nodes_back(index_, with_spins_, back_);
+      const NodesGone back = engine_->move_back(index_, with_spins_, back_);
       if (back.any_left) engine_->make_left(index_, mesh_);
       next_.clear();
       are_given_there_ = false;
@@ -208,7 +208,7 @@ void MeshNodes::fetch_records()
 void MeshNodes::fetch_places() const
 {
   if (are_places_old_)
-    engine_->fetch_nodes(index_, NodesAt::now, mesh_.vertices.data(), velocity_.data());
+    engine_->fetch(index_, NodesAt::now, mesh_.vertices.data(), velocity_.data());
   are_places_old_ = false;
 }
 
@@ -222,7 +222,7 @@ void MeshNodes::leave_engine()
   if (are_given_there_) {
     next_.resize(mesh_.vertices.size());
     next_velocity_.resize(next_.size());
-    engine_->fetch_nodes(index_, NodesAt::given, next_.data(), next_velocity_.data());
+    engine_->fetch(index_, NodesAt::given, next_.data(), next_velocity_.data());
   }
   are_given_there_ = are_sums_there_ = false;
   records_ = FlatGrid();
@@ -271,9 +271,10 @@ void MeshNodes::build_grid(Real cutoff, WallEngine &engine)
 {
   const MovingGridSettings settings = {
       cutoff, kAllowance * cutoff, Real(mesh_.report.volume < 0 ? -1 : 1), bounds(), mesh_.source};
-  if (!engine_ && engine.nodes_in_place()) give_nodes(engine);
+  if (!engine_ && engine.nodes()->keeps_nodes()) give_nodes(engine);
   if (engine_) {
-    engine.build_node_grid(index_, settings);
+    engine_->build_grid(index_, settings);
+    engine.expire_choice();
   } else {
     CpuBackend cpu;
     if (!grid_) grid_ = std::make_unique<CpuGrid>();
@@ -295,8 +296,8 @@ void MeshNodes::give_nodes(WallEngine &engine)
   records_ = FlatGrid(GridParts{features_, CellLists(), BrickRecords(), view});
   grid_.reset();
   engine.set_grid(records_.view(), index_);
-  engine_ = engine.nodes_in_place();
-  engine_->start_nodes(index_, now());
+  engine_ = engine.nodes();
+  engine_->start(index_, now());
 }
 
 // ---- saved states ------------------------------------------------------------------------
@@ -327,7 +328,7 @@ void MeshNodes::restore(const NodeState &was)
 void MeshNodes::turn_springs(WallEngine &engine, int n)
 {
   if (have_moved_ && !springs_are_new_)
-    engine.turn_springs(
+    engine.nodes()->turn_springs(
         n, index_,
         {topology_of(mesh_), features_.faces.data(), turned_from_.data(), mesh_.vertices.data()});
   have_moved_ = springs_are_new_ = false;
@@ -353,13 +354,13 @@ void MeshNodes::have_no_forces()
 
 void MeshNodes::see_forces(WallEngine &engine)
 {
-  summing_ = &engine;
-  engine.see_node_forces(index_, now(), features_.view());
+  summing_ = engine.nodes();
+  summing_->see_forces(index_, now(), features_.view());
   is_range_new_ = are_forces_old_ = is_power_old_ = true;
   are_summed_ = false;
   are_sums_there_ = engine_ != nullptr;
   const bool is_alone = host_.processes() == 1;
-  if (is_alone) engine.add_node_forces(index_, nullptr);
+  if (is_alone) summing_->add_forces(index_, nullptr);
   // What is set in place is asked for there: nothing waits for it.
   if ((!is_alone || !are_places_old_) && !take_range()) fail_force();
 }
@@ -367,14 +368,14 @@ void MeshNodes::see_forces(WallEngine &engine)
 void MeshNodes::add_forces(const SummandRange &of_all)
 {
   range_.shares = of_all;
-  summing_->add_node_forces(index_, &range_);
+  summing_->add_forces(index_, &range_);
 }
 
 // Returns whether the forces of the last step are finite, the first time that it is called after one.
 bool MeshNodes::take_range()
 {
   if (!is_range_new_) return true;
-  range_ = summing_->node_force_range(index_);
+  range_ = summing_->force_range(index_);
   is_range_new_ = false;
   return range_.not_finite == 0;
 }
@@ -392,7 +393,7 @@ void MeshNodes::fetch_forces()
   if (!are_forces_old_) return;
   if (!take_range()) fail_force();
   sums_.resize(of_contacts_.size());
-  power_ = summing_->fetch_node_forces(index_, sums_.data());
+  power_ = summing_->fetch_forces(index_, sums_.data());
   are_forces_old_ = is_power_old_ = false;
 }
 
@@ -409,7 +410,7 @@ void MeshNodes::sum_forces()
 
 void MeshNodes::fetch_power() const
 {
-  if (is_power_old_) power_ = summing_->fetch_node_forces(index_, nullptr);
+  if (is_power_old_) power_ = summing_->fetch_forces(index_, nullptr);
   is_power_old_ = false;
 }
 
@@ -447,7 +448,7 @@ Vec3 MeshNodes::moment()
 bool MeshNodes::put_forces(Real pressure, Real *to, const std::vector<int> &node_of_row)
 {
   if (!are_sums_there_) return false;
-  engine_->put_node_forces(index_, sixth_of(pressure), to, node_of_row);
+  engine_->put_forces(index_, sixth_of(pressure), to, node_of_row);
   return true;
 }
 

@@ -9,7 +9,7 @@
 #pragma once
 
 #include "engine/engine.h"
-#include "engine/nodes/nodes_in_place.h"
+#include "engine/nodes/node_engine.h"
 #include "grid/flat_grid.h"
 #include "host/host.h"
 #include "wall/mesh_state.h"
@@ -128,7 +128,7 @@ class MeshNodes {
   const WallSpec &wall_;
   int index_;
   bool with_sides_, with_spins_;
-  NodesInPlace *engine_ = nullptr;    // the engine, where it has the nodes, from its first grid on
+  NodeEngine *engine_ = nullptr;    // the engine, where it has the nodes, from its first grid on
   mutable WeldedMesh mesh_;
   MeshFeatures features_;
   mutable std::vector<Vec3> velocity_;
@@ -149,7 +149,7 @@ class MeshNodes {
   bool are_records_old_ = false, are_given_there_ = false, are_forces_old_ = false;
   mutable bool are_places_old_ = false, is_power_old_ = false;
   bool are_sums_there_ = false;      // engine_ has forces of the last step
-  WallEngine *summing_ = nullptr;    // the engine that has the forces of the last step
+  NodeEngine *summing_ = nullptr;    // the engine that has the forces of the last step
   NodeForceRange range_ = {};
   bool is_range_new_ = false;         // summing_ has a range that nobody has looked at
   std::vector<std::int64_t> sums_;    // of contacts, in units of range_

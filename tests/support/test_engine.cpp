@@ -5,7 +5,6 @@
 
 #include "support/device.h"
 #include "support/device_memory.h"
-#include "support/forwarding_engine.h"
 
 namespace lsdcd {
 
@@ -14,13 +13,23 @@ namespace {
 // Copies a host's spheres to the memory of an engine, and forces back. Vectors are x x x y y y z z z in
 // one step and x y z x y z in the next. Two of four steps run beside the host's work, and one of these
 // adds forces at once.
-class InPlaceForHost : public ForwardingEngine {
+class InPlaceForHost : public WallEngine {
  public:
   InPlaceForHost(std::unique_ptr<WallEngine> engine, bool cuda) :
-      ForwardingEngine(std::move(engine)), x_(cuda), v_(cuda), omega_(cuda), force_(cuda),
-      torque_(cuda), radius_(cuda), mass_(cuda), temperature_(cuda), heat_(cuda), mask_(cuda)
+      engine_(std::move(engine)), x_(cuda), v_(cuda), omega_(cuda), force_(cuda), torque_(cuda),
+      radius_(cuda), mass_(cuda), temperature_(cuda), heat_(cuda), mask_(cuda)
   {
   }
+
+  std::string backend() const override { return engine_->backend(); }
+  void set_pose(const Pose &pose, int mesh) override { engine_->set_pose(pose, mesh); }
+  bool is_under_way() const override { return engine_->is_under_way(); }
+  StepResults &results() override { return engine_->results(); }
+  Springs &springs() override { return engine_->springs(); }
+  NodeEngine *nodes() override { return engine_->nodes(); }
+  StepDiagnostics read_diagnostics() override { return engine_->read_diagnostics(); }
+  int n_candidates() const override { return engine_->n_candidates(); }
+  std::size_t bytes() const override { return engine_->bytes(); }
 
   Real largest_radius(const Spheres &s) override { return engine_->largest_radius(places(s)); }
   Real farthest_past(const Spheres &s, const PeriodicFaces &faces) override
@@ -57,7 +66,6 @@ class InPlaceForHost : public ForwardingEngine {
     state_ = StepState::submitted;
   }
 
-
   void collect() override
   {
     require(StepState::submitted);
@@ -70,6 +78,9 @@ class InPlaceForHost : public ForwardingEngine {
     const std::vector<Real> heat = heat_.get(n);
     for (std::size_t i = 0; i < n; i++) host_.heat_flow[i] = heat[i];
   }
+
+ protected:
+  void put_grid(const GridView &grid, int mesh) override { engine_->set_grid(grid, mesh); }
 
  private:
   // The arrays that a choice reads.
@@ -107,6 +118,7 @@ class InPlaceForHost : public ForwardingEngine {
     for (std::size_t i = 0; i < n; i++) to.add(i, rows[i]);
   }
 
+  std::unique_ptr<WallEngine> engine_;
   int turn_ = 0;
   Spheres host_;
   DeviceArray<Real> x_, v_, omega_, force_, torque_, radius_, mass_, temperature_, heat_;

@@ -9,7 +9,7 @@
 #include "backend/atomic.h"
 #include "backend/backend.h"
 #include "backend/warp.h"
-#include "engine/nodes/nodes_in_place.h"
+#include "engine/nodes/node_engine.h"
 #include "grid/build/moving_grid.h"
 #include "mesh/mesh_features.h"
 #include "mesh/node_spin.h"
