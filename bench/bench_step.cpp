@@ -54,8 +54,7 @@ double bytes_of_touching(const Style &style, double contacts)
   return contacts * ((7 + 2 * 6) * sizeof(Real) + spring);
 }
 
-void fill(BenchRow &row, const std::string &what, const WallEngine &engine, const GridView &grid,
-          int n)
+void fill(BenchRow &row, const std::string &what, WallEngine &engine, const GridView &grid, int n)
 {
   row.what = what;
   row.length = grid.length;
