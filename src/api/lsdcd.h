@@ -741,8 +741,8 @@ typedef struct lsdcd_spheres {
   const double *exponents; /* n1 and n2 each, 2 to 20; null: all are 2, ellipsoids */
   const double
       *quaternions; /* w i j k each, of any length above 0, from the axes of the grain to the box */
-  const double *
-      inertia; /* 3 each, about its axes, mass length^2, of a grain of `mass`; > 0 but for spheres */
+  /* 3 each, about its axes, mass length^2, of a grain of `mass`; > 0 but for spheres */
+  const double *inertia;
 } lsdcd_spheres;
 
 typedef struct lsdcd_wall_step {

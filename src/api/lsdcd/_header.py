@@ -41,7 +41,7 @@ class Header:
         kind, names = re.match(r"((?:const )?\w+) (.*)", line).groups()    # type: ignore[union-attr]
         found = []
         for given in names.split(","):
-            star, name, count = re.match(r" ?(\*?)(\w+) ?(?:\[(\d+)\])?$", given).groups()    # type: ignore[union-attr]
+            star, name, count = re.match(r" ?(\*?) ?(\w+) ?(?:\[(\d+)\])?$", given).groups()    # type: ignore[union-attr]
             one = self._callbacks.get(kind) or _pointer(kind) if star else _KINDS.get(kind) or self.structs[kind]
             found.append((name, one * int(count) if count else one))
         return found
