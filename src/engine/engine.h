@@ -77,7 +77,7 @@ class WallEngine {
 
   // Begins a step, which does its work `when` it says. From now on until collect() the host must not change x, v, omega or radii;
   // in place on a GPU its stream may still be writing them, and the step waits for it. Force and torque may change. A step that
-  // was begun before and not collected is dropped.
+  // was begun before and not collected is dropped; where its work had begun its springs have moved.
   virtual void begin(When when = When::in_turn) = 0;
 
   // Chooses spheres where the last choice does not hold for this step any more, which the engine knows from how far spheres

@@ -125,7 +125,7 @@ class SphereMirror {
   {
   }
 
-  // Must the work of a step begin when it is submitted, as forces come back by a copy?
+  // Returns whether forces come back by a copy, so that the work of a step has to begin when it is submitted.
   bool is_apart() const { return arrays_ == HostArrays::apart; }
 
   // Each of these returns the engine's spheres: with places, with radii, or with all that a choice reads.
@@ -217,7 +217,7 @@ class SphereMirror {
     return s;
   }
 
-  // Forces go back: start_back() does not wait, and collect() adds those that come by a copy.
+  // Starts to bring forces back, behind the work of the step. Does not wait.
   void start_back(B &b)
   {
     if (arrays_ == HostArrays::in_place || n_ == 0) return;
@@ -228,6 +228,7 @@ class SphereMirror {
       b.for_each(n_, AddToFloats{arrays(), index_, *host_.in_float});
     }
   }
+  // Waits for forces that come by a copy, and adds them to the host's.
   void collect(B &b)
   {
     if (!is_apart() || n_ == 0) return;
@@ -294,7 +295,7 @@ class SphereMirror {
     b.wait();
   }
 
-  // Candidates near several meshes have a slot for each: forces come back once.
+  // Lists each candidate once, as those near several meshes have a slot for each: forces come back once.
   void list_each_once(B &b, const CandidateSlots<B> &slots)
   {
     const std::size_t n = slots.n_spheres();
@@ -306,7 +307,7 @@ class SphereMirror {
     index_ = once_.data();
   }
 
-  // Rows of candidates are far apart in the host's memory: they are asked for ahead of their turn.
+  // Fills the rows of candidates, which are far apart in the host's memory, so that they are asked for ahead of their turn.
   void pack(const Spheres &s)
   {
     constexpr int kAhead = 16;
@@ -324,7 +325,7 @@ class SphereMirror {
       to[k] = {s.x[i], s.v[i], s.omega[i], s.radius[i], s.mass[i], heat_ ? s.temperature[i] : 0};
     }
   }
-  // Leaves spheres alone that feel nothing, which are most.
+  // Adds forces that have come to the host's, and leaves spheres alone that feel nothing, which are most.
   void add_responses()
   {
     const int n = static_cast<int>(n_), *index = index_on_cpu_.data();

@@ -5,6 +5,7 @@
 #include "engine/shape_engine.h"
 #include "grid/flat_grid.h"
 #include "shape/superellipsoid.h"
+#include "support/grains.h"
 #include "support/hard_case.h"
 #include "support/laws.h"
 #include "support/meshes.h"
@@ -26,11 +27,10 @@ EngineSettings for_shapes(EngineSettings settings)
 }
 
 // Grains and a wall. Grains turn by rotations about their own axes in turn, which keeps their angular momentum.
-class ShapeScene {
+class ShapeScene : public Grains {
  public:
-  std::vector<Vec3> x, v, momentum, omega, force, torque;
+  std::vector<Vec3> momentum;
   std::vector<GrainShape> shapes;
-  std::vector<Real> radius, mass;
   std::unique_ptr<WallEngine> engine;
   ContactHistory springs;
 
@@ -55,10 +55,9 @@ class ShapeScene {
     row.n2 = n2;
     row.inertia_over_mass = inertia_over_mass(s);
     shapes.push_back(row);
-    x.push_back(at);
-    for (auto *rest : {&v, &momentum, &omega, &force, &torque}) rest->push_back({0, 0, 0});
-    radius.push_back(s.farthest);
-    mass.push_back(m);
+    Grains::add(at, s.farthest);
+    mass.back() = m;
+    momentum.push_back({0, 0, 0});
     springs.grow(static_cast<int>(x.size()));
     return static_cast<int>(x.size()) - 1;
   }
@@ -103,15 +102,7 @@ class ShapeScene {
     for (Vec3 &f : force) f = {0, 0, 0};
     for (Vec3 &t : torque) t = {0, 0, 0};
     for (std::size_t i = 0; i < x.size(); i++) omega[i] = omega_of(i);
-    Spheres s;
-    s.n = static_cast<int>(x.size());
-    s.x = &x[0].x;
-    s.v = &v[0].x;
-    s.omega = &omega[0].x;
-    s.force = &force[0].x;
-    s.torque = &torque[0].x;
-    s.radius = radius.data();
-    s.mass = mass.data();
+    Spheres s = spheres();
     s.shapes = shapes.data();
     return s;
   }

@@ -8,6 +8,7 @@
 #include "grid/flat_grid.h"
 #include "grid/triangle_grid.h"
 #include "mesh/welded_mesh.h"
+#include "support/sphere_arrays.h"
 
 #include <cmath>
 #include <gtest/gtest.h>
@@ -69,37 +70,23 @@ T &component(const StridedView<T> &rows, int i, int d)
   return rows.of(i)[d * rows.column];
 }
 
-// The arrays that the other engine gets.
-struct Doubles {
-  std::vector<Real> x, v, omega, radius, mass, force, torque;
-
-  template <class Sum>
-  explicit Doubles(HostFloats<Sum> &a) :
-      radius(a.size.begin(), a.size.begin() + a.n), mass(a.weight.begin(), a.weight.begin() + a.n)
-  {
-    for (int i = 0; i < a.n; i++)
-      for (int d = 0; d < 3; d++) {
-        x.push_back(Real(component(a.x(), i, d)));
-        v.push_back(Real(component(a.v(), i, d)));
-        omega.push_back(Real(component(a.omega(), i, d)));
-        force.push_back(Real(component(a.force(), i, d)));
-        torque.push_back(Real(component(a.torque(), i, d)));
-      }
+// Returns the arrays that the other engine gets.
+template <class Sum>
+SphereArrays in_double(HostFloats<Sum> &a)
+{
+  const auto vector = [](const auto &rows, int i) {
+    return Vec3{Real(component(rows, i, 0)), Real(component(rows, i, 1)),
+                Real(component(rows, i, 2))};
+  };
+  SphereArrays doubles;
+  for (int i = 0; i < a.n; i++) {
+    doubles.add(vector(a.x(), i), Real(a.size[i]), Real(a.weight[i]), vector(a.v(), i),
+                vector(a.omega(), i));
+    put_vector(doubles.force, i, vector(a.force(), i));
+    put_vector(doubles.torque, i, vector(a.torque(), i));
   }
-  Spheres spheres()
-  {
-    Spheres s;
-    s.n = static_cast<int>(radius.size());
-    s.x = x.data();
-    s.v = v.data();
-    s.omega = omega.data();
-    s.radius = radius.data();
-    s.mass = mass.data();
-    s.force = force.data();
-    s.torque = torque.data();
-    return s;
-  }
-};
+  return doubles;
+}
 
 // A bumpy floor over [-1, 1]^2, `up` above z = 0.
 FlatGrid grid_of_floor(Real up)
@@ -174,7 +161,7 @@ void walk(int meshes, When when)
         component(host.force(), i, d) = static_cast<Sum>(any(-1, 1));
         component(host.torque(), i, d) = static_cast<Sum>(any(-1, 1));
       }
-    Doubles doubles(host);
+    SphereArrays doubles = in_double(host);
     const Spheres given = doubles.spheres();
     const FloatSpheres floats = host.floats();
     StepSettings settings;
