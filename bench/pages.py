@@ -12,7 +12,6 @@ all else of a page is written by hand. `./run bench NAME --keep` measures the ro
 """
 import argparse
 import csv
-import math
 import pathlib
 import re
 import sys
@@ -22,17 +21,13 @@ DOC = ROOT / "doc"
 DATA = DOC / "data"
 IMAGES = DOC / "img"
 DEVICES = ("cpu", "cuda")
-OF_TESTS = ("theme", "id", "what", "backend", "precision", "relation", "answer", "ours", "tolerance", "derivation", "holds")
 
 
 # ---- rows and cells ----------------------------------------------------------------------
 
 def rows_of(name, delimiter=","):
-    """Rows of doc/data/NAME as dicts. A .tsv is what tests/support/hard_case.h writes, with notes that begin with #."""
-    lines = (DATA / name).read_text().splitlines()
-    if name.endswith(".tsv"):
-        return [dict(zip(OF_TESTS, line.split("\t"))) for line in lines if not line.startswith("# ")]
-    return list(csv.DictReader(lines, delimiter=delimiter))
+    """Rows of doc/data/NAME as dicts."""
+    return list(csv.DictReader((DATA / name).read_text().splitlines(), delimiter=delimiter))
 
 
 def table(rows, heads, cells):
@@ -62,15 +57,6 @@ def count(text):
 
 def short(text, digits=4):
     return f"{float(text):.{digits}g}" if text else ""
-
-
-def ms(row):
-    """Median, and from least to most."""
-    if not row:
-        return ""
-    if row["min_ms"] == row["max_ms"]:
-        return number(row["median_ms"])
-    return f"{number(row['median_ms'])} ({number(row['min_ms'])} to {number(row['max_ms'])})"
 
 
 def ratio(a, b):
@@ -167,26 +153,6 @@ def cost(rows):
             "\n".join(f"* {name}: commit {commit}." for name, commit in commits.items()))
 
 
-def scaling(rows):
-    pairs = []
-    for r in rows:
-        ranks = int(facts(r)["ranks"])
-        if r["case"] in BEDS and ranks > 1:
-            one = find(rows, case=r["case"], triangles=r["triangles"], order=r["order"],
-                       spheres=int(r["spheres"]) // ranks, host=facts(r)["host"], ranks=1)
-            pairs += [(r, one)] if one else []
-
-    def cells(pair):
-        r, one = pair
-        without, one_without = (beside(rows, x, NO_WALL) for x in pair)
-        with_wall, no_wall = ratio(one, r), ratio(one_without, without)
-        return [r["case"], count(one["spheres"]), facts(r)["ranks"], r["order"], r["device"], facts(r)["host"], ms(r),
-                ms(without), f"{with_wall:.2f}", f"{no_wall:.2f}", f"{with_wall / no_wall:.3f}"]
-
-    return table(pairs, ["bed", "atoms per process", "processes", "order", "device", "LAMMPS", "with the wall, ms",
-                         "without, ms", "efficiency with", "without", "ratio"], cells)
-
-
 LIGGGHTS_CASES = {"at the wall": "all at the wall, fixed", "turning": "all at the wall, fixed; the cylinder turns",
                   "in bulk": "in bulk, moving", "in bulk late": "in bulk, moving; `neigh_modify delay 10`",
                   "in bulk unchecked": "in bulk, moving; `neigh_modify every 20 check no`"}
@@ -218,19 +184,6 @@ def liggghts(rows):
                       machines(rows)])
 
 
-def floor(rows):
-    large = ", large triangle added"
-
-    def cells(r):
-        plane = find(rows, case="wall/gran zplane", order=r["order"])
-        return [count(r["case"].split()[1]), number(plane["median_ms"]), number(r["median_ms"]), facts(r)["over_plane"],
-                facts(find(rows, case=r["case"] + large, order=r["order"]))["over_plane"]]
-
-    mine = [r for r in rows if r["case"].startswith("floor") and not r["case"].endswith(large) and r["order"] == "sorted"]
-    return table(mine, ["triangles", "flat plane, ms", "mesh, ms", "mesh / plane", "large triangle added / plane"],
-                 cells) + "\n\n" + machines(rows)
-
-
 # ---- tables of effects.md ------------------------------------------------------------------
 
 def costs(cpu, cuda):
@@ -259,112 +212,7 @@ def costs(cpu, cuda):
                         table(several, [heads[k] for k in shown], lambda r: [cells(r)[k] for k in shown])])
 
 
-def bodies(rows):
-    def whole(value):
-        return f"{value:.0f}" if value >= 100 else f"{value:.3g}"
-
-    def cells(r):    # bytes are for each body, and for each contact of a coat
-        least, stored = float(r["min_ns"]), int(r["saved_bytes"])
-        return [r["name"], f"`{r['words']}`", whole(least) if least else "", "+" + whole(float(r["over_ns"])) if r["over"] else "",
-                r["over"], str(stored) if stored and (r["each"] == "1" or not least) else ""]
-
-    return (f"One core, commit {rows[0]['commit']}, {rows[0]['compiler']}, least of {rows[0]['repeats']} rounds.\n\n" +
-            table(rows, ["what", "words", "ns", "more than without", "without is", "B in restart files"], cells))
-
-
-# ---- the table of hard-cases.md ------------------------------------------------------------
-
-# Theme of the rows: its title on the page; what its lines of the table are called, and which numbers they hold.
-HARD_CASES = {
-    "Seams of a plane": ("Seams of a plane", [
-        ("normal force, one plane", r"^(?!.*(1e-7|4e-7)).*F/F0 - 1"), ("force along it", r"^(?!.*(1e-7|4e-7)).*Ft"),
-        ("normal force, gaps and steps of 1e-7", r"F/F0 - 1"), ("force along it, the same", r"Ft")]),
-    "Convex edges, corners and tips": ("Convex edges, corners and tips", [
-        ("contacts", "contacts"), ("direction after a drop / speed", "mirrored"), ("force / F", "F/F0")]),
-    "Nearly flat": ("Shallow folds", [("change of force / that of one wall", r"\|dF\|"), ("sum of two or three walls", r"F/")]),
-    "Funnels and cones": ("Funnels and cones", [
-        ("jump of the force / F", "of a step"), ("the same, a plane moved by 2e-12 R", "moved"), ("energy, bouncing", "bounces")]),
-    "Drum": ("A drum of flat segments", [
-        ("force / that of the polygon", "F_polygon"), ("roughness", "rms"), ("energy, sliding, 1/s", "sliding"),
-        ("energy lost by rolling, beyond the polygon", "polygon's own"), ("beyond a smooth drum", "smooth cylinder's"),
-        ("the same with `corner sum`", "corner sum")]),
-    "History": ("Springs across seams", [
-        ("same bits after a break", "difference"), ("jump of the spring", "jump"), ("friction, round a drum of segments", "drum"),
-        ("friction below its limit", "kt|two springs"), ("friction at its limit", "mu F_n")]),
-    "Rolling": ("Rolling", [
-        ("lift and drift / R", "lift|drift aside"), ("contacts on a tip", "contacts"), ("energy over a tip", "energy"),
-        ("slip to roll", "^slip"), ("acceleration", "acceleration")]),
-    "Bouncing": ("Bouncing", [
-        ("heights in a train", "height"), ("way to the side / R", "way"), ("slip", "^gross"), ("restitution, stick", "^(restit|stick)")]),
-    "Belt": ("A moving belt", [("speed", "speed over"), ("time, way", "time|way")]),
-    "Energy": ("Energy", [("energy, 1e6 steps", "billiard"), ("bed: energy, weight, moment", "drum")]),
-    "Time step": ("Time step", [
-        ("`corner sum`: growth", "corner sum"), ("swing below the limit", "excursion"), ("growth above it", "growth")]),
-    "Fast and thin": ("Fast spheres, thin walls", [
-        ("speed or step that passes", "goes through|unseen"), ("spheres lost, `side both`", ">="), ("spheres lost, `side in`", "lost"),
-        ("plate of 1e-3 R", "plate")]),
-    "Bad meshes, against exact arithmetic": ("Bad meshes", [
-        ("missed", "missed"), ("contacts", "most"), ("distance / its tolerance, past tips", "tips"),
-        ("distance, force / R", r"exact\||F - k d"), ("length of normals", r"\|n\|")]),
-    "Random meshes and spheres": ("Random meshes and spheres", [
-        ("distance / its tolerance", "/ tolerance"), ("missed, doubled, wrong", "=")]),
-}
-
-
-def used(row):
-    """The share of its tolerance that a number takes; more than 1 fails."""
-    ours, answer, tolerance = (float(row[k]) for k in ("ours", "answer", "tolerance"))
-    if row["relation"] == "<=":
-        return ours / answer
-    if row["relation"] == ">=":
-        return answer / ours
-    off = abs(ours - answer)
-    return off / tolerance if tolerance else (0 if off == 0 else math.inf)
-
-
-def deviation(row):
-    if row is None:
-        return "not run"
-    off = float(row["ours"])
-    off = f"{abs(off - float(row['answer'])) if row['relation'] == '=' else off:.2g}"
-    return off if row["holds"] == "holds" else f"**{off} FAILS**"
-
-
-def allowed(row):
-    if row["relation"] == ">=":
-        return f"at least {float(row['answer']):.2g}"
-    return f"{float(row['tolerance' if row['relation'] == '=' else 'answer']):.2g}"
-
-
-def group_of(row):
-    """The line of the table that holds a number; what no pattern knows has one of its own."""
-    for name, pattern in HARD_CASES[row["theme"]][1]:
-        if re.search(pattern, row["what"]) or re.search(pattern, row["relation"]):
-            return name
-    return row["what"].rsplit(": ", 1)[-1]
-
-
-def hard_cases(cpu, cuda):
-    """A line for each kind of number: the one that is nearest to its tolerance."""
-    known = {(r["theme"], r["id"], r["what"]) for r in cpu}
-    groups = {}
-    for r in cpu + cuda:
-        if (r["theme"], r["id"], r["what"]) in known:
-            at = groups.setdefault((r["theme"], group_of(r)), {})
-            at.setdefault((r["id"], r["what"]), {}).setdefault(r["backend"], r)
-    order, above, lines = list(HARD_CASES), "", []
-    for (theme, name), cases in sorted(groups.items(), key=lambda g: order.index(g[0][0])):
-        worst = max(cases.values(), key=lambda case: max(used(r) for r in case.values()))
-        on_cpu, on_cuda = deviation(worst.get("cpu")), deviation(worst.get("cuda"))
-        result = on_cpu if on_cpu == on_cuda else f"{on_cpu} (CPU)" if on_cuda == "not run" else f"{on_cpu}; {on_cuda}"
-        title = HARD_CASES[theme][0]
-        cells = ["" if title == above else title, name, str(len(cases)), result, allowed(next(iter(worst.values())))]
-        above = title
-        lines.append([c.replace("|", "\\|") for c in cells])
-    return table(lines, ["case", "number", "of them", "result", "allowed"], lambda cells: cells)
-
-
-# ---- tables of accuracy.md and notes/paper.md ----------------------------------------------------
+# ---- table of accuracy.md ----------------------------------------------------
 
 def settings(rows):
     """What settings buy and cost, a line each: those that were measured on the CPU."""
@@ -400,59 +248,18 @@ def settings(rows):
     return table(lines, heads, cells)
 
 
-def of_study(rows, name):
-    return [r for r in rows if r["table"] == name and r["order"] == "random"]
-
-
-def paper_cylinder(cpu, cuda):
-    """The paper's table 2 at L = 0.2."""
-    cpu, cuda = ([r for r in of_study(rows, "table2") if r["length"] == "0.2"] for rows in (cpu, cuda))
-
-    def query_ms(rows, like):
-        return short(find(rows, lists=like["lists"], spheres=like["spheres"])["query_ms"])
-
-    def cells(r):
-        name = r["lists"].replace("complete", "all, the default").replace("every triangle", "every triangle tried")
-        paper = r["lists"] != "complete"
-        return [name, f"{float(r['accuracy']):.6f}", r["paper_accuracy"] * paper, f"{abs(float(r['error_percent'])):.4f}",
-                f"{float(r['paper_error_percent']):.4f}" * paper, r["missed"], query_ms(cuda, r), query_ms(cpu, r),
-                short(r["paper_query_ms"], 6) * paper]
-
-    return table(cuda, ["N", "accuracy", "in the paper", "error, %", "in the paper", "missed contacts", "ms, GPU", "ms, CPU",
-                        "ms, in the paper"], cells)
-
-
-def finer_cylinders(rows):
-    """Missed contacts and time by N, two columns for each mesh."""
-    rows = of_study(rows, "mesh")
-    meshes = sorted({r["triangles"] for r in rows}, key=int)[1:]
-
-    def cells(lists):
-        found = [find(rows, triangles=m, lists=lists) for m in meshes]
-        return [lists.replace("complete", "all")] + [
-            cell for r in found for cell in (short(100 * int(r["missed"]) / int(r["touching"]), 2) or "0", short(r["query_ms"]))]
-
-    heads = ["N"] + [head for m in meshes for head in (count(m) + " triangles, %", "ms")]
-    return table(dict.fromkeys(r["lists"] for r in rows), heads, cells)
-
-
 # ---- pages ---------------------------------------------------------------------------------
 
 def tables():
     """Page: name of the markers: table."""
     cpu, cuda = (rows_of(f"performance_{device}.csv") for device in DEVICES)
     kokkos_cpu, kokkos_cuda = (rows_of(f"kokkos_{device}.csv") for device in DEVICES)
-    study = [rows_of(f"accuracy_{device}.csv") for device in DEVICES]
     return {
         "performance.md": {"cost": cost(kokkos_cuda + kokkos_cpu), "set-up": set_up(cpu, cuda),
                            "liggghts": liggghts(rows_of("liggghts_cpu.csv"))},
-        "notes/performance.md": {"kokkos-scaling": scaling(kokkos_cuda), "floor": floor(rows_of("floor_cpu.csv"))},
         "library-queries.md": {"point-costs": point_costs(cpu)},
         "effects.md": {"costs": costs(*(rows_of(f"effects_{device}.csv", ";") for device in DEVICES))},
-        "notes/effects.md": {"bodies": bodies(rows_of("effects_bodies_cpu.csv", ";"))},
-        "notes/hard-cases.md": {"numbers": hard_cases(*(rows_of(f"hard_cases_{device}.tsv") for device in DEVICES))},
         "accuracy.md": {"settings": settings([r for d in DEVICES for r in rows_of(f"tradeoff_vessel_{d}.csv")])},
-        "notes/paper.md": {"paper-cylinder": paper_cylinder(*study), "finer-cylinders": finer_cylinders(study[1])},
     }
 
 

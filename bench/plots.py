@@ -9,7 +9,7 @@ import matplotlib
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt    # noqa: E402
 
-from pages import DATA, DEVICES, IMAGES, ROOT, facts, find, of_study, rows_of    # noqa: E402
+from pages import DATA, DEVICES, IMAGES, ROOT, facts, find, rows_of    # noqa: E402
 
 sys.path.insert(0, str(ROOT / "src" / "tool"))
 import plot_tradeoff    # noqa: E402
@@ -141,6 +141,10 @@ def draw_effects(cpu, cuda):
 
 
 # ---- notes/paper.md ------------------------------------------------------------------------------
+
+def of_study(rows, name):
+    return [r for r in rows if r["table"] == name and r["order"] == "random"]
+
 
 def draw_question(rows, steps):
     """Errors against the time of a query: those of the paper and ours, and what shorter lists miss. Below the break of an

@@ -6,7 +6,7 @@
 
   sweep.py LIGGGHTS-PFM/examples LIGGGHTS-INL/examples
 
-Nothing is written beside the scripts. doc/notes/liggghts-scripts.md has the table of these two folders.
+Nothing is written beside the scripts. doc/notes/liggghts-scripts.md says what came out.
 """
 import argparse
 import collections

@@ -16,7 +16,7 @@
 
 namespace lsdcd {
 
-// A row of doc/data/hard_cases_DEVICE.tsv, of which bench/pages.py makes a table. `theme` is its section in
+// A row of doc/data/hard_cases_DEVICE.tsv. `theme` is its section in
 // doc/hard_cases.md; `id` tells cases apart (text, as "11" or "6a"). `what` names the case and what is
 // measured.
 struct HardCase {
