@@ -66,7 +66,6 @@ void MeshGrid::move_vertices(const std::vector<Vec3> &at)
     report_ = mesh_->report;
   });
   host_.broadcast(&report_, sizeof report_, 0);
-  shape_++;
 }
 
 // Where centres of spheres can be, with room for a box that grows, so that not every step of a

@@ -61,7 +61,6 @@ class MeshGrid {
   // The vertices go to other places, in its frame (length), given on processes that fill memory; the grid is not
   // built anew by that. Collective.
   void move_vertices(const std::vector<Vec3> &at);
-  int shape() const { return shape_; }    // how often that was
 
   // Null but on one process per node, and on all where grains may be no spheres.
   const WeldedMesh *mesh() const { return mesh_.get(); }
@@ -105,7 +104,6 @@ class MeshGrid {
   PeriodicBox box_;                                          // of the last build
   Box within_ = kNoLimit;
   std::uint64_t cells_ = 0;
-  int shape_ = 0;
   int cutoffs_ = 0;    // that there were builds for
   Real cutoff_ = 0;
 };
