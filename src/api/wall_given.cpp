@@ -261,7 +261,7 @@ void read_wear(const lsdcd_wall_spec &given, WallSpec &wall)
   else
     check_zero(&given.hardness, 1, "hardness",
                model == LSDCD_FINNIE ? "LSDCD_FINNIE" : "LSDCD_NO_WEAR");
-  wall.wear_shape.every = given.wear_deform_every;
+  wall.wear_deform.every = given.wear_deform_every;
   if (given.wear_deform_every < 0)
     refuse_field("wear_deform_every", std::to_string(given.wear_deform_every),
                  "it is a number of steps, or 0: wear moves no mesh");
@@ -269,7 +269,7 @@ void read_wear(const lsdcd_wall_spec &given, WallSpec &wall)
     check_zero(&given.wear_deform_factor, 1, "wear_deform_factor",
                "a wall without wear_deform_every");
   else if (given.wear_deform_factor != 0)
-    wall.wear_shape.factor =
+    wall.wear_deform.factor =
         checked_number(given.wear_deform_factor, "wear_deform_factor", kAboveZero);
 }
 

@@ -38,7 +38,7 @@ const MeshPart &part_that_deforms(const lsdcd_wall &wall, int mesh)
 {
   check_mesh(wall, mesh, 0);
   const MeshPart &part = wall.in->meshes()[static_cast<std::size_t>(mesh)];
-  return part.shape->recedes() && part.spec.mesh ? part : part_with_nodes(wall, mesh);
+  return part.surface->recedes() && part.spec.mesh ? part : part_with_nodes(wall, mesh);
 }
 
 // The wall's mesh was welded once more.
@@ -181,7 +181,7 @@ void note_vertices(lsdcd_wall &wall)
 {
   wall.node_rows.resize(wall.in->meshes().size());
   for (const MeshPart &part : wall.in->meshes()) {
-    if (!part.shape->changes()) continue;
+    if (!part.surface->changes()) continue;
     NodeRows &rows = wall.node_rows[static_cast<std::size_t>(part.index)];
     rows = node_rows_of(part);
     if (part.nodes()) part.nodes()->rows = rows.first_row;

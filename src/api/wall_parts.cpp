@@ -97,8 +97,8 @@ std::string wear_of(const WallSpec &wall)
 {
   const char *const models[] = {"none", "archard", "finnie"};
   return models[static_cast<int>(wall.wear.model)] + (" " + exact_text(wall.wear.per_work)) +
-         (wall.wear_shape.every > 0 ? ", moves vertices " + exact_text(wall.wear_shape.factor)
-                                    : "");
+         (wall.wear_deform.every > 0 ? ", moves vertices " + exact_text(wall.wear_deform.factor)
+                                     : "");
 }
 
 }    // namespace

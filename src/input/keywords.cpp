@@ -103,10 +103,10 @@ void read_wear(Tokens &w, WallCommand &s)
   if (w.done() || w.peek() != "deform") return;
   w.take();
   if (w.done() || w.take() != "every") w.fail("'every N' is missing");
-  s.wall.wear_shape.every = static_cast<int>(w.whole("N", 1, 2147483647));
+  s.wall.wear_deform.every = static_cast<int>(w.whole("N", 1, 2147483647));
   if (w.done() || w.peek() != "factor") return;
   w.take();
-  s.wall.wear_shape.factor = w.number("F", kAboveZero);
+  s.wall.wear_deform.factor = w.number("F", kAboveZero);
 }
 
 FileEvery read_file_every(Tokens &w, const std::string &end)

@@ -131,7 +131,7 @@ void ComputeCollideLsdcd::make_collisions(const lsdcd::WeldedMesh &body)
 void ComputeCollideLsdcd::check_shapes(const FixWallLsdcd &fix) const
 {
   for (const lsdcd::MeshPart &part : fix.meshes())
-    if (part.shape->changes())
+    if (part.surface->changes())
       fatal("fix " + settings.wall + " has a mesh " +
             (part.nodes() ? "whose nodes move" : "that wear moves (deform)") +
             ", and bodies collide with rigid meshes only");

@@ -18,14 +18,14 @@ int WallPicture::draw(const lsdcd::Wall &wall, int *&kinds, double **&rows)
 #endif
   constexpr int kRow = 10;
   const bool faces = spec.draw == lsdcd::Draw::faces, first = !is_drawn();
-  const auto changes = [](const lsdcd::MeshPart &m) { return m.moves() || m.shape->changes(); };
+  const auto changes = [](const lsdcd::MeshPart &m) { return m.moves() || m.surface->changes(); };
   if (first || std::any_of(wall.meshes().begin(), wall.meshes().end(), changes)) {
     const int corners = faces ? 3 : 2;
     data.clear();
     row.clear();
     for (const lsdcd::MeshPart &m : wall.meshes()) {
       if (first) objects.push_back(lsdcd::draw_mesh(*m.mesh(), spec.draw));
-      if (!first && m.shape->changes()) objects[m.index] = lsdcd::draw_mesh(*m.mesh(), spec.draw);
+      if (!first && m.surface->changes()) objects[m.index] = lsdcd::draw_mesh(*m.mesh(), spec.draw);
       for (lsdcd::ImageObject one : objects[m.index]) {
         lsdcd::Vec3 centre = {0, 0, 0};
         for (lsdcd::Vec3 &c : one.corner) c = m.pose().to_box(c);

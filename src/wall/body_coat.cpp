@@ -216,8 +216,8 @@ Spheres BodyCoat::spheres()
 // half a step ago that is due to turning, where both surfaces turn.
 SurfaceMotion BodyCoat::surface_against(const MeshPart &own, const MeshPart &other) const
 {
-  const SurfaceMotion &mine = own.mover->surface();
-  SurfaceMotion s = other.mover->surface();
+  const SurfaceMotion &mine = own.mover->surface_motion();
+  SurfaceMotion s = other.mover->surface_motion();
   if (!mine.moves()) return s;
   const Pose &from = own.pose(), &to = other.pose();
   const auto turned = [&](const Vec3 &a) { return to.turn_to_mesh(from.turn_to_box(a)); };

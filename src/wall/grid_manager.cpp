@@ -126,7 +126,7 @@ void GridManager::rebuild(Real wanted, std::int64_t step)
 
 // Features keep their names, and springs theirs: a contact sees another place of the surface, as one does whose sphere
 // has moved.
-void GridManager::follow_shape(MeshPart &m)
+void GridManager::follow_surface(MeshPart &m)
 {
   if (cutoff() == 0) return;
   times_.begin();

@@ -48,7 +48,7 @@ class GridManager {
   bool fit_box(std::int64_t step);
 
   // The grid of a mesh whose vertices have moved. Does nothing before there are spheres.
-  void follow_shape(MeshPart &m);
+  void follow_surface(MeshPart &m);
 
   // Looks how far spheres are past periodic faces, before they are wrapped. Where they went farther than
   // the grid was made for, contacts may have been missed: warns, and the grid reaches that far from then on.

@@ -10,7 +10,7 @@ namespace lsdcd {
 
 Box MeshPart::bounds(Real past) const
 {
-  const Box box = shape->bounds();
+  const Box box = surface->bounds();
   const Vec3 more = {past, past, past};
   return {box.lo - more, box.hi + more};
 }

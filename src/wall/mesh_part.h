@@ -5,7 +5,7 @@
 #pragma once
 
 #include "wall/move/body_mover.h"
-#include "wall/shape/shape.h"
+#include "wall/surface/mesh_surface.h"
 
 #include <memory>
 
@@ -17,22 +17,23 @@ struct MeshPart {
   MeshPart(Host &host, WallSpec &wall, const LawTable &laws, int index, Real force,
            const Step &now) :
       index(index),
-      spec(wall.meshes[index]), grid(host, wall, spec), shape(make_shape(host, wall, index, grid)),
+      spec(wall.meshes[index]), grid(host, wall, spec),
+      surface(make_surface(host, wall, index, grid)),
       mover(make_mover(host, wall, laws, index, grid, force, now)), host_(host)
   {
   }
 
   const int index;
   MeshSpec &spec;    // in that of the wall; its motion may change later
-  MeshGrid grid;     // as it was read, and as a shape without nodes is
-  const std::unique_ptr<Shape> shape;
+  MeshGrid grid;     // as it was read, and as a surface without nodes is
+  const std::unique_ptr<MeshSurface> surface;
   const std::unique_ptr<Mover> mover;
 
   bool springs_are_foreign = false;    // those of a saved state are of another mesh
   bool way_warned = false;             // that it goes far in a step
   bool coat_feels_it = false;          // the coat of a body, which may be outside of the box
 
-  MeshNodes *nodes() const { return shape->nodes(); }    // null: they do not move
+  MeshNodes *nodes() const { return surface->nodes(); }    // null: they do not move
   const Servo &servo() const { return spec.motion.servo(); }
   bool moves() const { return nodes() || mover->moves(); }    // or was moved
   bool has_coat() const { return spec.body.present && spec.body.coat.present; }
@@ -40,10 +41,10 @@ struct MeshPart {
   const Pose &pose() const { return mover->pose(); }    // in this step
 
   // In its own frame, in this step; null but on one process per node, where its nodes do not move.
-  const WeldedMesh *mesh() const { return shape->mesh(); }
+  const WeldedMesh *mesh() const { return surface->mesh(); }
   GridView view() const { return grid.view(); }    // where its nodes do not move
   // Of its features. Where nodes move on a GPU, they may be those of an earlier step.
-  MeshFeaturesView records() const { return shape->records(); }
+  MeshFeaturesView records() const { return surface->records(); }
 
   Box bounds(Real past) const;    // in its own frame, and `past` (length) beyond
   // Does it go, at a pose, to less than `depth` (a part of the box) from one of the faces that edge k of the box joins? Then lo

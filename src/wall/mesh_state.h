@@ -49,8 +49,8 @@ struct NodeState {
   std::vector<Real> velocities;
 };
 
-// The shape of a mesh in a saved state.
-struct ShapeState {
+// The surface of a mesh in a saved state.
+struct SurfaceState {
   std::vector<Real> vertices;    // x y z of each; empty: the mesh has no such wear
   std::vector<Real> pending;     // four numbers of each: see MeshWear
   std::vector<Real> held;        // of each: 1 where it stays
@@ -87,7 +87,7 @@ struct MeshState {
   BodyState body;
   NodeState nodes;
   std::vector<Real> coat;             // of BodyCoat::save()
-  ShapeState shape;                   // of a mesh that recedes by its wear
+  SurfaceState surface;               // of a mesh that recedes by its wear
   std::vector<MeanLoadState> mean;    // one, or none where there are no means
   std::vector<StepLoad> last;         // one; none: data without it
 };

@@ -30,7 +30,7 @@ constexpr Member kMeshes = {"n_meshes", "mesh"}, kMesh = {"mesh", "mesh"}, kLaw 
                  kSurface = {"surface_velocity", "surface_vel"},
                  kTemperature = {"temperature", "temperature"},
                  kWearFactor = {"wear_factor", "wear_factor"},
-                 kWearShape = {"wear_deform_every", "wear"}, kCache = {"cache", "cache"},
+                 kWearDeform = {"wear_deform_every", "wear"}, kCache = {"cache", "cache"},
                  kFields = {"fields", "mesh_fields"}, kStl = {"stl", "mesh_stl"},
                  kNearest = {"nearest", "nearest"}, kSide = {"side", "side"},
                  kDevice = {"device", "device"}, kEach = {"each_contact", "each_contact"},
@@ -156,8 +156,8 @@ class SpecCheck {
     if (wall_.laws.empty() || !wall_.laws.front().is_of_all())
       refuse(kLaw, "the wall's first law is not of all types; give a law of all types first");
     check_mesh_count(wall_.meshes.size(), names_);
-    if (wall_.wear_shape.every > 0 && !wall_.wears())
-      refuse(kWearShape,
+    if (wall_.wear_deform.every > 0 && !wall_.wears())
+      refuse(kWearDeform,
              "wear should move the meshes, but nothing wears: leave that out, or give the wall a "
              "model of wear");
     if (wall_.shapes) check_shapes();

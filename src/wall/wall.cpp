@@ -66,7 +66,7 @@ Wall::Wall(Host &host, WallSpec spec, const WallUnits &units, WallBackend backen
     box_checks_.check_scale(m, grids_.box());
     box_checks_.check_periodic(m, grids_.box());
     if (radius > 0) box_checks_.check_outside(m, grids_.box(), cutoff_of(laws_, radius));
-    check_surface(host_, spec_, m);
+    check_surface_motion(host_, spec_, m);
   }
   if (meshes_.size() > 1 && spec_.corner == Corner::sum)
     host_.warn("with corner sum both meshes push a sphere over a seam where they meet: use corner "
@@ -108,7 +108,7 @@ std::vector<int> Wall::inputs_read() const
 std::size_t Wall::bytes() const
 {
   std::size_t bytes = engine_->bytes() + loads_.bytes() + history_.bytes();
-  for (const MeshPart &m : meshes_) bytes += m.grid.bytes() + m.shape->bytes();
+  for (const MeshPart &m : meshes_) bytes += m.grid.bytes() + m.surface->bytes();
   for (const BodyCoat &coat : coats_) bytes += coat.bytes();
   return bytes;
 }
@@ -232,7 +232,7 @@ void Wall::begin_snapshot(int n, const Step &step)
   const std::string a_replay = std::string("a ") + host_.names().replay;
   for (const MeshPart &m : meshes_) {
     m.mover->check_snapshot(step);
-    m.shape->check_snapshot();
+    m.surface->check_snapshot();
   }
   for (int i = 0; history_.is_on() && i < n; i++) history_.on_cpu().clear(i);
   if (snapshot_warned_) return;
@@ -271,7 +271,7 @@ void Wall::move(const HostSpheres &spheres, const Step &step)
     });
   for (MeshPart &m : meshes_) m.mover->place();
   for (MeshPart &m : meshes_) {
-    m.shape->begin(step, cutoff());
+    m.surface->begin(step, cutoff());
     if (largest_radius_ > 0) check_way(host_, spec_, m, step, largest_radius_, on_cpu(spheres));
   }
 }
@@ -403,7 +403,7 @@ StepSettings Wall::step_settings()
   const bool several = meshes_.size() > 1;
   if (several || spec_.meshes.front().surface_varies()) {
     surfaces_.clear();
-    for (const MeshPart &m : meshes_) surfaces_.push_back(m.mover->surface());
+    for (const MeshPart &m : meshes_) surfaces_.push_back(m.mover->surface_motion());
     step.surface = surfaces_.data();
   }
   if (any_pushed_) {
@@ -434,12 +434,12 @@ void Wall::choose_if_due(const Spheres &spheres)
   search_.count_update();
 }
 
-// Before the meshes move, so that the step is all of the new shape.
+// Before the meshes move, so that the step is all of the new surface.
 void Wall::recede(const Step &step)
 {
   for (MeshPart &m : meshes_) {
-    if (!m.shape->recede(step, cutoff())) continue;
-    grids_.follow_shape(m);
+    if (!m.surface->recede(step, cutoff())) continue;
+    grids_.follow_surface(m);
     engine_->expire_choice();
   }
 }
@@ -539,7 +539,7 @@ void Wall::note_step(const HostSpheres &spheres)
       loads_.add(m.index, left ? left->contacts() : none, step.dt,
                  left ? m.records() : MeshFeaturesView());
   for (const MeshPart &m : meshes_)
-    if (left) m.shape->end(*left, step);
+    if (left) m.surface->end(*left, step);
   if (step.kind == Step::setup) log_new_springs(step);
   if (input_.new_spheres) check_new_spheres(spheres);    // throws on one process alone
   if (step.kind == Step::setup) times_.begin_run();      // as the host's loop time
@@ -740,7 +740,7 @@ WallState Wall::save()
     to.mesh = identity_of(m);
     to.loads = {loads.time(), loads.packed()};
     to.last = {{sums().mesh(m.index), coat_load(m.index)}};
-    m.shape->save(to);
+    m.surface->save(to);
     m.mover->save(to);
   }
   if (spec_.average_every > 0) {
@@ -809,7 +809,7 @@ bool Wall::is_restored(const MeshPart &m, const MeshState &was, bool one_of_many
 void Wall::restore_mesh(MeshPart &m, const MeshState &was, const Step &now)
 {
   m.mover->restore(was, now);
-  if (m.shape->restore(was, !m.springs_are_foreign)) grids_.follow_shape(m);
+  if (m.surface->restore(was, !m.springs_are_foreign)) grids_.follow_surface(m);
   for (BodyCoat &coat : coats_)
     if (coat.mesh() == m.index) coat.restore(was.coat);
   if (!was.mean.empty()) means_.restore(m.index, was.mean.front());

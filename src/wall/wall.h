@@ -15,8 +15,8 @@
 #include "wall/mean_loads.h"
 #include "wall/reports/contact_rows.h"
 #include "wall/reports/search_report.h"
-#include "wall/shape/node_meshes.h"
 #include "wall/step_totals.h"
+#include "wall/surface/node_meshes.h"
 #include "wall/wall_files.h"
 #include "wall/wall_state.h"
 
@@ -90,7 +90,7 @@ class Wall {
   // Begins a step: advances the clock, moves the meshes, and builds grids where they do not fit any more. Where spheres are in
   // the memory of a GPU, what the step reads of them must be there once the host's stream has done its work so far.
   void begin(const HostSpheres &spheres, const StepInput &input);
-  // Moves the vertices of meshes that recede by wear, where that is due in this step. A host that reads the shape before begin()
+  // Moves the vertices of meshes that recede by wear, where that is due in this step. A host that reads the surface before begin()
   // calls it; otherwise begin() does.
   void recede(const Step &step);
   // Chooses the spheres near the wall where that is due, and starts the step where the engine can work beside the host.
@@ -120,8 +120,8 @@ class Wall {
   const StepTotals &totals();
   MeanLoads &means() { return means_; }    // of spec().average_every steps
   // Return the volume by which wear has moved a mesh back, and the volume that is worn but held back, see MeshWear. 0 of others.
-  Real removed(int mesh) const { return meshes_[mesh].shape->removed(); }
-  Real held_back(int mesh) const { return meshes_[mesh].shape->held_back(); }
+  Real removed(int mesh) const { return meshes_[mesh].surface->removed(); }
+  Real held_back(int mesh) const { return meshes_[mesh].surface->held_back(); }
   Real worn(int mesh) const { return spec_.wears() ? loads_.worn(mesh) : 0; }    // volume
   // Returns the force, or the torque, of the mesh on the spheres along the axis of its servo.
   Real servo_push(int mesh);

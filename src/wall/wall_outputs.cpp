@@ -127,7 +127,7 @@ bool has(const WallSpec &wall, OutputPart part)
     case OutputPart::body:
       return any(is_body);
     case OutputPart::wear:
-      return wall.wear_shape.every > 0;
+      return wall.wear_deform.every > 0;
     case OutputPart::nodes:
       return wall.has_nodes();
     case OutputPart::means:

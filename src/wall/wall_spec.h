@@ -75,7 +75,7 @@ struct MeshSpec {
 };
 
 // How wear moves the vertices of meshes.
-struct WearShape {
+struct WearDeform {
   int every = 0;      // steps; 0: they stay
   Real factor = 1;    // so many times the worn volume is removed
 };
@@ -96,7 +96,7 @@ struct WallSpec {
   int nearest = 0;         // primitives of wall per cell; 0: all
   std::size_t memory_budget = GridSettings().memory_budget;    // bytes, for each mesh
   Wear wear;                                                   // K and H in pressure units
-  WearShape wear_shape;                                        // of meshes that recede
+  WearDeform wear_deform;                                      // of meshes that recede
   int average_every = 0;        // steps of each mean of MeanLoads; 0: there is none
   bool contacts = false;        // for_contact_rows() will be called
   bool each_contact = false;    // for_contacts() will be called
@@ -112,7 +112,7 @@ struct WallSpec {
   // Does wear move its vertices?
   bool recedes(const MeshSpec &mesh) const
   {
-    return wears() && wear_shape.every > 0 && mesh.wear_factor > 0;
+    return wears() && wear_deform.every > 0 && mesh.wear_factor > 0;
   }
   bool has_loads(const MeshSpec &mesh) const { return wears() || mesh.fields.every > 0; }
   bool has_loads() const;

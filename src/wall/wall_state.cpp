@@ -96,7 +96,7 @@ void each_number(Numbers &numbers, NodeState &n)
 }
 
 template <class Numbers>
-void each_number(Numbers &numbers, ShapeState &s)
+void each_number(Numbers &numbers, SurfaceState &s)
 {
   numbers(s.vertices, s.pending, s.held, s.removed, s.held_back, s.carried);
 }
@@ -190,7 +190,7 @@ State WallState::blocks() const
     if (!m.nodes.places.empty()) mesh.add("places of nodes", 1, m.nodes.places);
     if (!m.nodes.velocities.empty()) mesh.add("velocities of nodes", 1, m.nodes.velocities);
     if (!m.coat.empty()) mesh.add("coat", 1, m.coat);
-    if (!m.shape.vertices.empty()) mesh.add("shape", 1, m.shape);
+    if (!m.surface.vertices.empty()) mesh.add("shape", 1, m.surface);
     if (!m.mean.empty()) mesh.add("mean", 1, m.mean);
     if (!m.last.empty()) mesh.add("last step", 1, m.last);
     all.add("mesh", 1, mesh);
@@ -221,7 +221,7 @@ WallState WallState::from(const State &state)
     mesh.find("places of nodes", 1, m.nodes.places);
     mesh.find("velocities of nodes", 1, m.nodes.velocities);
     mesh.find("coat", 1, m.coat);
-    mesh.find("shape", 1, m.shape);
+    mesh.find("shape", 1, m.surface);
     mesh.find("mean", 1, m.mean);
     mesh.find("last step", 1, m.last);
     const std::size_t n = static_cast<std::size_t>(std::max<std::int64_t>(0, m.mesh.vertices));
@@ -229,7 +229,7 @@ WallState WallState::from(const State &state)
         (!m.nodes.places.empty() && m.nodes.places.size() != 3 * n) ||
         (!m.nodes.velocities.empty() && m.nodes.velocities.size() != 3 * n))
       throw StateError("the nodes in the data of the wall are not those of the mesh's vertices");
-    const ShapeState &s = m.shape;
+    const SurfaceState &s = m.surface;
     if (!s.vertices.empty() &&
         (s.vertices.size() != 3 * n || s.pending.size() != 4 * n || s.held.size() != n))
       throw StateError("the worn shape in the data of the wall is not that of the mesh's vertices");

@@ -313,8 +313,8 @@ TEST(MeshMotion, gives_variables_to_the_surface_and_the_servo)
   MeshMotion motion(wall.host, wall.settings, 0, step(0));
   run(motion, wall, 1, 1);
   EXPECT_EQ(wall.servo().target, 5);
-  EXPECT_EQ(motion.surface().velocity, (Vec3{0, 6, 0}));
-  EXPECT_EQ(motion.surface().angular, (Vec3{0, 0, 7}));
+  EXPECT_EQ(motion.surface_motion().velocity, (Vec3{0, 6, 0}));
+  EXPECT_EQ(motion.surface_motion().angular, (Vec3{0, 0, 7}));
 }
 
 TEST(MeshMotion, names_its_inputs_in_the_order_in_which_they_are_read)

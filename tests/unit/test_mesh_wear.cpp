@@ -7,7 +7,7 @@
 #include "support/fake_host.h"
 #include "support/meshes.h"
 #include "support/random.h"
-#include "wall/shape/mesh_wear.h"
+#include "wall/surface/mesh_wear.h"
 
 #include <gtest/gtest.h>
 
@@ -26,7 +26,7 @@ WallSpec wearing()
   wall.meshes.resize(1);
   wall.meshes.front().name = "can";
   wall.wear = {WearModel::archard, kPerWork};
-  wall.wear_shape = {10, kFactor};
+  wall.wear_deform = {10, kFactor};
   return wall;
 }
 
@@ -178,7 +178,7 @@ TEST(mesh_wear, goes_on_from_a_saved_state)
     c->recede();
     wear_off(*c, 2);    // not yet removed
   }
-  const ShapeState saved = first.wear.save(&first.mesh);
+  const SurfaceState saved = first.wear.save(&first.mesh);
   second.wear.restore(saved);
   for (std::size_t v = 0; v < second.mesh.vertices.size(); v++)
     second.mesh.vertices[v] = {saved.vertices[3 * v], saved.vertices[3 * v + 1],

@@ -739,7 +739,7 @@ TEST(Wall, whose_mesh_recedes_is_refused_in_two_dimensions)
     Wall(host, wall, WallUnits(), WallBackend(), "", StepClock{0, 0, 0, kDt});
   };
   EXPECT_NO_THROW(make(upright));
-  upright.wear_shape.every = 10;
+  upright.wear_deform.every = 10;
   try {
     make(upright);
     ADD_FAILURE() << "no error";

@@ -42,7 +42,7 @@ TEST(wall_outputs, go_up_to_the_last_that_a_wall_has)
   EXPECT_EQ(n_outputs(wall), 11);
   wall.meshes[1].motion.servo().present = true;
   EXPECT_EQ(n_outputs(wall), 14);
-  wall.wear_shape.every = 5;
+  wall.wear_deform.every = 5;
   EXPECT_EQ(n_outputs(wall), 37);
   wall.meshes[1].has_nodes = true;
   EXPECT_EQ(n_outputs(wall), 40);

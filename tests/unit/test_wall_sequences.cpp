@@ -96,7 +96,7 @@ WallSpec wall_of(const std::vector<Kind> &kinds, Random &random)
   wall.average_every = 7;
   const bool wears = std::count(kinds.begin(), kinds.end(), Kind::wears) > 0;
   wall.wear = {wears ? WearModel::archard : WearModel::none, wears ? 1e-4 : 0.};
-  if (wears) wall.wear_shape = {5, 3};
+  if (wears) wall.wear_deform = {5, 3};
   Real x = 0;
   for (const Kind kind : kinds) {
     wall.meshes.push_back(mesh_of(kind, x, random));

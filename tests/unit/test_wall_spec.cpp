@@ -112,7 +112,7 @@ TEST(wall_spec, what_does_not_go_together_is_refused_by_keyword_and_by_field)
 {
   const auto wear = [](WallSpec &w) {
     w.wear.model = WearModel::archard;
-    w.wear_shape.every = 5;
+    w.wear_deform.every = 5;
   };
   const auto body = [](MeshSpec &m) {
     m.body.present = true;
@@ -133,7 +133,7 @@ TEST(wall_spec, what_does_not_go_together_is_refused_by_keyword_and_by_field)
        "temperature", "temperature", "the temperature is missing, which the sub-model heat needs"},
       {[](Wall &, Mesh &m) { m.wear_factor = 2; }, "wear_factor", "wear_factor",
        "a factor is given, but nothing wears"},
-      {[](Wall &w, Mesh &) { w.wear_shape.every = 5; }, "wear", ".wear_deform_every",
+      {[](Wall &w, Mesh &) { w.wear_deform.every = 5; }, "wear", ".wear_deform_every",
        "wear should move the meshes, but nothing wears"},
       {[](Wall &, Mesh &m) { m.pressure = 1; }, "pressure", "pressure",
        "it acts on nodes, and the mesh has none"},

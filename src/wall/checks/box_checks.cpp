@@ -161,7 +161,7 @@ bool BoxChecks::is_still_clear(const MeshPart &m, const Pose &at, const Periodic
                                Real depth) const
 {
   const Clear &last = warned_[m.index].clear[k];
-  if (m.shape->changes() || last.clear <= 0 || depth > last.depth) return false;
+  if (m.surface->changes() || last.clear <= 0 || depth > last.depth) return false;
   bool same = norm_sq(box.corner - last.box.corner) == 0;
   for (int j = 0; j < 3; j++) same &= norm_sq(box.edge[j] - last.box.edge[j]) == 0;
   if (!same) return false;

@@ -59,7 +59,7 @@ void check_weld(Host &host, const WallSpec &settings, const MeshPart &m)
 void check_plane(Host &host, const WallSpec &settings, const MeshPart &m)
 {
   if (host.box().dimension == 3) return;
-  m.shape->check_plane();
+  m.surface->check_plane();
   const MeshReport &r = m.grid.report();
   if (!(r.lo.z < 0 && r.hi.z > 0))
     throw InputError(with_mesh_name(
@@ -88,7 +88,7 @@ void check_plane(Host &host, const WallSpec &settings, const MeshPart &m)
 void check_stays_closed(Host &host, const WallSpec &settings, const MeshPart &m)
 {
   const WeldedMesh *mesh = m.mesh();
-  if (!m.shape->changes() || !mesh) return;
+  if (!m.surface->changes() || !mesh) return;
   const auto named = [&](const std::string &text) {
     return with_mesh_name(settings, m.index,
                           text + ": make the triangles on both sides share their edges, for "
@@ -146,7 +146,7 @@ void check_way(Host &host, const WallSpec &settings, MeshPart &m, const Step &st
   host.warn(text + ". Shown once");
 }
 
-void check_surface(Host &host, const WallSpec &settings, const MeshPart &m)
+void check_surface_motion(Host &host, const WallSpec &settings, const MeshPart &m)
 {
   if (!host.is_first()) return;    // the first process has the mesh
   const PushReport push = faces_pushed(*m.grid.mesh(), m.spec.surface);

@@ -35,6 +35,6 @@ void check_way(Host &host, const WallSpec &settings, MeshPart &m, const Step &st
                const SpheresOnCpu &spheres);
 
 // Warns of a surface motion that pushes faces along their normals.
-void check_surface(Host &host, const WallSpec &settings, const MeshPart &m);
+void check_surface_motion(Host &host, const WallSpec &settings, const MeshPart &m);
 
 }    // namespace lsdcd

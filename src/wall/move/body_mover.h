@@ -6,7 +6,7 @@
 
 #include "rigid/rigid_body.h"
 #include "wall/move/mover.h"
-#include "wall/shape/mesh_grid.h"
+#include "wall/surface/mesh_grid.h"
 
 #include <string>
 

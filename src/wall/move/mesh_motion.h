@@ -24,7 +24,7 @@ class MeshMotion {
   const Pose &pose() const { return pose_; }    // in this step
   // In the step before; in a step that no time has passed to, that of this step.
   const Pose &pose_before() const { return has_before_ ? before_ : pose_; }
-  const SurfaceMotion &surface() const { return surface_; }    // in this step
+  const SurfaceMotion &surface_motion() const { return surface_; }    // in this step
 
   bool moves_or_varies() const;    // does the engine see a motion?
   bool has_inputs() const;

@@ -50,7 +50,7 @@ class Mover {
   // Where the mesh is, in this step and the one before, and how its surface moves in its frame.
   const Pose &pose() const { return motion_.pose(); }
   const Pose &pose_before() const { return motion_.pose_before(); }
-  const SurfaceMotion &surface() const { return motion_.surface(); }
+  const SurfaceMotion &surface_motion() const { return motion_.surface_motion(); }
   // Returns where it is that much time from now. A servo stays; of a body the step that comes, once the last one is
   // complete.
   virtual Pose pose_in(Real later) const { return motion_.pose_in(later); }

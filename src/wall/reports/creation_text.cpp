@@ -41,7 +41,7 @@ std::string mesh_lines(const MeshPart &m, const std::deque<BodyCoat> &coats)
       {"coat        ", coat},
       {"nodes       ", m.nodes() ? std::to_string(m.nodes()->count()) + ", which move" : ""},
       {"wear        ", wear == 1 ? "" : number_text(wear) + " times as fast"},
-      {"recedes     ", m.shape->recedes_text()}};
+      {"recedes     ", m.surface->recedes_text()}};
   for (const auto &line : lines)
     if (!line.text.empty()) t += "\n  " + (line.label + line.text);
   return t;

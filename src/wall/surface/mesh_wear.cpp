@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "wall/shape/mesh_wear.h"
+#include "wall/surface/mesh_wear.h"
 
 #include "base/input_error.h"
 #include "base/input_words.h"
@@ -196,7 +196,7 @@ bool MeshWear::hold_meeting(const WeldedMesh &mesh, const WeldedMesh &moved, std
 // How many parts a move has, so that in each no vertex goes farther than a share of its shortest edge.
 int MeshWear::parts(const WeldedMesh &mesh, std::int64_t step)
 {
-  const Move to = plan(mesh, wall_.wear_shape.factor, step);
+  const Move to = plan(mesh, wall_.wear_deform.factor, step);
   Real most = 0;
   for (const auto &edge : mesh.edges) {
     const Real length = norm(mesh.vertices[edge[1]] - mesh.vertices[edge[0]]);
@@ -215,7 +215,7 @@ int MeshWear::parts(const WeldedMesh &mesh, std::int64_t step)
 // volume exact: it differs from 1 by the second order. Whatever would fold or meet is held, and all begins anew without it.
 bool MeshWear::move(WeldedMesh &mesh, int n, std::int64_t step)
 {
-  const Real factor = wall_.wear_shape.factor / n;
+  const Real factor = wall_.wear_deform.factor / n;
   WeldedMesh moved = mesh;
   for (;;) {
     const Move to = plan(mesh, factor, step);
@@ -266,7 +266,7 @@ bool MeshWear::recede(const WeldedMesh *mesh, std::int64_t step, std::vector<Vec
     for (int i = 0; i < n; i++) {
       moves |= static_cast<int>(move(now, n, step));
       for (std::size_t v = 0; v < held_.size(); v++)
-        if (held_[v]) held_back_ += wall_.wear_shape.factor / n * pending_[kPerVertex * v];
+        if (held_[v]) held_back_ += wall_.wear_deform.factor / n * pending_[kPerVertex * v];
     }
     at = std::move(now.vertices);
   });
@@ -285,9 +285,9 @@ bool MeshWear::recede(const WeldedMesh *mesh, std::int64_t step, std::vector<Vec
   return true;
 }
 
-ShapeState MeshWear::save(const WeldedMesh *mesh) const
+SurfaceState MeshWear::save(const WeldedMesh *mesh) const
 {
-  ShapeState all;
+  SurfaceState all;
   all.pending = pending_;
   host_.sum(all.pending.data(), static_cast<int>(all.pending.size()));
   if (!host_.is_first()) return all;
@@ -299,7 +299,7 @@ ShapeState MeshWear::save(const WeldedMesh *mesh) const
   return all;
 }
 
-void MeshWear::restore(const ShapeState &was)
+void MeshWear::restore(const SurfaceState &was)
 {
   removed_ = was.removed;
   held_back_ = was.held_back;

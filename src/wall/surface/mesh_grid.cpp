@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "wall/shape/mesh_grid.h"
+#include "wall/surface/mesh_grid.h"
 
 #include "backend/cuda_available.h"
 #include "base/give_back_memory.h"

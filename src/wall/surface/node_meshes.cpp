@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "wall/shape/node_meshes.h"
+#include "wall/surface/node_meshes.h"
 
 #include <cstdint>
 

@@ -6,7 +6,7 @@
 
 #include "wall/mesh_nodes.h"
 #include "wall/mesh_state.h"
-#include "wall/shape/mesh_grid.h"
+#include "wall/surface/mesh_grid.h"
 
 #include <memory>
 #include <string>
@@ -15,14 +15,14 @@ namespace lsdcd {
 
 // In each step: recede(), begin(), and end() once contacts are computed. Errors are InputError, the same on all
 // processes, with a text that names the mesh.
-class Shape {
+class MeshSurface {
  public:
-  // A shape that stays as `grid` has read it. Host, wall and grid must outlive it.
-  Shape(Host &host, const WallSpec &wall, int mesh, MeshGrid &grid) :
+  // A surface that stays as `grid` has read it. Host, wall and grid must outlive it.
+  MeshSurface(Host &host, const WallSpec &wall, int mesh, MeshGrid &grid) :
       host_(host), wall_(wall), index_(mesh), grid_(grid)
   {
   }
-  virtual ~Shape() = default;
+  virtual ~MeshSurface() = default;
 
   // Returns the mesh in this step; null but on one process per node, where it has no nodes that move.
   virtual const WeldedMesh *mesh() const { return grid_.mesh(); }
@@ -53,7 +53,7 @@ class Shape {
   // Returns the line of the log on it; empty: there is nothing to say.
   virtual std::string recedes_text() const { return ""; }
 
-  // Writes what it needs to go on into a saved state. restore() takes it again as far as that is of this shape; not
+  // Writes what it needs to go on into a saved state. restore() takes it again as far as that is of this surface; not
   // `same`: it is of another mesh. The first process warns of what is left out. Returns whether vertices have moved: then
   // the grid is to be built anew. Both are collective.
   virtual void save(MeshState & /* to */) const {}
@@ -73,6 +73,7 @@ class Shape {
 };
 
 // Makes what the spec of a mesh says. Host, wall and grid must outlive it. Throws InputError on all processes. Collective.
-std::unique_ptr<Shape> make_shape(Host &host, const WallSpec &wall, int mesh, MeshGrid &grid);
+std::unique_ptr<MeshSurface> make_surface(Host &host, const WallSpec &wall, int mesh,
+                                          MeshGrid &grid);
 
 }    // namespace lsdcd

@@ -27,7 +27,7 @@ class MeshWear {
   // Is this a step that begins with moved vertices?
   bool is_due(const Step &step) const
   {
-    return step.kind == Step::step && step.number % wall_.wear_shape.every == 0;
+    return step.kind == Step::step && step.number % wall_.wear_deform.every == 0;
   }
 
   // A step of duration dt (time): what contacts of this process have worn off. `features`: of the mesh.
@@ -44,9 +44,9 @@ class MeshWear {
   Real held_back() const { return held_back_; }
 
   // `mesh` as above. The state is whole on the first process only. Collective.
-  ShapeState save(const WeldedMesh *mesh) const;
+  SurfaceState save(const WeldedMesh *mesh) const;
   // The same on all processes.
-  void restore(const ShapeState &was);
+  void restore(const SurfaceState &was);
 
   std::size_t bytes() const;
 

@@ -1,21 +1,21 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "wall/shape/shape.h"
+#include "wall/surface/mesh_surface.h"
 
 #include "base/input_error.h"
 #include "base/input_words.h"
 #include "wall/mesh_name.h"
-#include "wall/shape/mesh_wear.h"
+#include "wall/surface/mesh_wear.h"
 
 namespace lsdcd {
 
 namespace {
 
-class RecedingShape final : public Shape {
+class RecedingSurface final : public MeshSurface {
  public:
-  RecedingShape(Host &host, const WallSpec &wall, int mesh, MeshGrid &grid) :
-      Shape(host, wall, mesh, grid), wear_(host, wall, mesh, grid.report(), grid.mesh())
+  RecedingSurface(Host &host, const WallSpec &wall, int mesh, MeshGrid &grid) :
+      MeshSurface(host, wall, mesh, grid), wear_(host, wall, mesh, grid.report(), grid.mesh())
   {
   }
 
@@ -60,20 +60,20 @@ class RecedingShape final : public Shape {
 
   std::string recedes_text() const override
   {
-    return "every " + std::to_string(wall_.wear_shape.every) + " steps by " +
-           number_text(wall_.wear_shape.factor) + " times what has worn";
+    return "every " + std::to_string(wall_.wear_deform.every) + " steps by " +
+           number_text(wall_.wear_deform.factor) + " times what has worn";
   }
 
-  void save(MeshState &to) const override { to.shape = wear_.save(grid_.mesh()); }
+  void save(MeshState &to) const override { to.surface = wear_.save(grid_.mesh()); }
 
   bool restore(const MeshState &was, bool same) override
   {
     warn_of_nodes(was);
-    if (was.shape.vertices.empty() || !same) return false;
-    const std::vector<Real> &x = was.shape.vertices;
+    if (was.surface.vertices.empty() || !same) return false;
+    const std::vector<Real> &x = was.surface.vertices;
     std::vector<Vec3> at;
     for (std::size_t k = 0; k < x.size(); k += 3) at.push_back({x[k], x[k + 1], x[k + 2]});
-    wear_.restore(was.shape);
+    wear_.restore(was.surface);
     grid_.move_vertices(at);
     return true;
   }
@@ -84,11 +84,11 @@ class RecedingShape final : public Shape {
   MeshWear wear_;
 };
 
-class NodeShape final : public Shape {
+class NodeSurface final : public MeshSurface {
  public:
   // Each process has the whole mesh of `grid`.
-  NodeShape(Host &host, const WallSpec &wall, int mesh, MeshGrid &grid) :
-      Shape(host, wall, mesh, grid)
+  NodeSurface(Host &host, const WallSpec &wall, int mesh, MeshGrid &grid) :
+      MeshSurface(host, wall, mesh, grid)
   {
     run_collectively(host, true,
                      [&] { nodes_ = std::make_unique<MeshNodes>(host, wall, mesh, *grid.mesh()); });
@@ -135,27 +135,28 @@ class NodeShape final : public Shape {
 
 }    // namespace
 
-std::unique_ptr<Shape> make_shape(Host &host, const WallSpec &wall, int mesh, MeshGrid &grid)
+std::unique_ptr<MeshSurface> make_surface(Host &host, const WallSpec &wall, int mesh,
+                                          MeshGrid &grid)
 {
   const MeshSpec &spec = wall.meshes[mesh];
-  if (spec.has_nodes) return std::make_unique<NodeShape>(host, wall, mesh, grid);
-  if (wall.recedes(spec)) return std::make_unique<RecedingShape>(host, wall, mesh, grid);
-  return std::make_unique<Shape>(host, wall, mesh, grid);
+  if (spec.has_nodes) return std::make_unique<NodeSurface>(host, wall, mesh, grid);
+  if (wall.recedes(spec)) return std::make_unique<RecedingSurface>(host, wall, mesh, grid);
+  return std::make_unique<MeshSurface>(host, wall, mesh, grid);
 }
 
-std::string Shape::named(const std::string &text) const
+std::string MeshSurface::named(const std::string &text) const
 {
   return with_mesh_name(wall_, index_, text);
 }
 
-bool Shape::restore(const MeshState &was, bool same)
+bool MeshSurface::restore(const MeshState &was, bool same)
 {
   warn_of_nodes(was);
   warn_of_wear(was, same);
   return false;
 }
 
-void Shape::warn_of_nodes(const MeshState &was) const
+void MeshSurface::warn_of_nodes(const MeshState &was) const
 {
   if (!was.nodes.places.empty())
     host_.warn(named("the " + std::string(host_.names().saved) +
@@ -163,9 +164,9 @@ void Shape::warn_of_nodes(const MeshState &was) const
                      "the shape of its file"));
 }
 
-void Shape::warn_of_wear(const MeshState &was, bool same) const
+void MeshSurface::warn_of_wear(const MeshState &was, bool same) const
 {
-  if (!was.shape.vertices.empty() && same)
+  if (!was.surface.vertices.empty() && same)
     host_.warn(named("the " + std::string(host_.names().saved) +
                      " has a worn shape of this mesh, and the wear of this wall moves no mesh "
                      "(deform): the mesh has the shape of its file"));
