@@ -3,7 +3,7 @@
 
 // The cost of a step of the wall: contacts, forces, springs; with the arrays of a CPU LAMMPS, and
 // with particles that lie where the engine computes. Candidate spheres and their neighbour lists
-// are used again, or made anew in each step.
+// are used again, or made again in each step.
 #include "bench.h"
 
 #include "engine/engine.h"

@@ -5,7 +5,7 @@
 // about its axis, with spheres that it carries along and with spheres that stay behind.
 //
 // Rows differ in the wall and in what slides, and in nothing else. In each of them the places are other
-// memory in each step, as those that a host code has integrated anew are; spheres that are carried along
+// memory in each step, as those that a host code has just integrated are; spheres that are carried along
 // have the wall's velocity. Choices of near spheres are not in the times but in a fact: a host code makes
 // them for whatever moves, and not for the wall alone. Runs of the rows take turns, so that what else the
 // machine does is in all of them.
@@ -22,7 +22,7 @@ namespace {
 
 constexpr int kSteps = 100;
 constexpr Real kRadius = 50, kWay = 1e-3;    // of the wall at its radius, in a step
-// Half the skin is 0.1 here: after 100 steps a turning wall makes the fix choose anew.
+// Half the skin is 0.1 here: after 100 steps a turning wall makes the fix choose again.
 constexpr Real kMargin = Real(0.1) + kSteps * kWay;
 
 Pose turned(int step, Real dt)
@@ -99,7 +99,7 @@ class Drum {
     spheres_.torque = at + 11 * n;
   }
 
-  // Near spheres, anew.
+  // Chooses the near spheres.
   void choose()
   {
     if (case_.turns) engine_->set_pose(turned(0, kDt));
@@ -119,7 +119,7 @@ class Drum {
     lists_ = static_cast<double>(engine_->read_diagnostics().lists);
   }
   std::int64_t contacts() const { return engine_->results().totals().contacts; }
-  // Made anew in a step, of each sphere.
+  // Made in a step, of each sphere.
   double lists() const { return lists_ / kSteps / spheres_.n; }
 
  private:

@@ -41,7 +41,7 @@ class CylinderBed {
   CylinderBed(const EvenCylinder &wall, const BedSpheres &spheres, const ContactLaw &law,
               Device device);
 
-  void choose();        // near spheres, anew
+  void choose();        // the near spheres
   void steps(int n);    // with the near spheres as they are; waits at the end
   std::int64_t contacts() const { return engine_->results().totals().contacts; }
   int n_candidates() const { return engine_->n_candidates(); }

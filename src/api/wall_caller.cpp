@@ -15,7 +15,7 @@ namespace lsdcd {
 
 namespace {
 
-// A callback that fails has left the processes apart: nothing can be agreed on any more.
+// A callback that fails has left the processes apart: nothing can be agreed on.
 void check_call(int code, const char *callback)
 {
   if (code != 0)

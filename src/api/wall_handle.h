@@ -80,7 +80,7 @@ struct lsdcd_wall {
   lsdcd::GrainRows grains;
   std::int64_t number = 0;    // of the last step
   lsdcd::Real dt = 0;
-  bool begun = false;                // since spheres were numbered anew, too
+  bool begun = false;                // since spheres were renumbered, too
   lsdcd::Real largest_radius = 0;    // of this process, in the last step that looked
   lsdcd::Failure late;               // of this process, which the next call reports to all
   lsdcd::WallParts parts;            // of the spec that it was made of

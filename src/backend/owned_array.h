@@ -9,7 +9,7 @@
 
 namespace lsdcd {
 
-// Returns n and an eighth more: an array that grows little by little is then seldom made anew.
+// Returns n and an eighth more: an array that grows little by little is then seldom made again.
 constexpr std::size_t with_spare(std::size_t n)
 {
   return n + n / 8;
@@ -38,7 +38,7 @@ class OwnedArray {
   OwnedArray(const OwnedArray &) = delete;
   OwnedArray &operator=(const OwnedArray &) = delete;
 
-  // Makes it anew, with_spare(n) long, where it is shorter than n: its contents are lost then.
+  // Allocates it again, with_spare(n) long, where it is shorter than n: its contents are lost then.
   void reserve(std::size_t n)
   {
     if (n_ < n) *this = OwnedArray(with_spare(n));

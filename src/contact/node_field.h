@@ -12,7 +12,7 @@ namespace lsdcd {
 struct NodeField {
   const Vec3 *velocity = nullptr;    // length/time; null: the nodes of this mesh do not move
   const Vec3 *spin = nullptr;        // 1/time
-  Real going = 0;    // length; how far the nodes go before candidates are chosen anew
+  Real going = 0;    // length; how far the nodes go before candidates are chosen again
 };
 
 // The nodes of a feature and their shares in a point of it. The shares add up to 1, and the nodes' places with

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// When the spheres near the wall are chosen anew.
+// When the spheres near the wall are chosen.
 #pragma once
 
 #include "base/vec3.h"

@@ -80,7 +80,7 @@ class WallEngine {
   // was begun before and not collected is dropped; where its work had begun its springs have moved.
   virtual void begin(When when = When::in_turn) = 0;
 
-  // Chooses spheres where the last choice does not hold for this step any more, which the engine knows from how far spheres
+  // Chooses spheres where the last choice does not hold for this step, which the engine knows from how far spheres
   // and meshes have gone. `moving`: the meshes that move, always in the same order. Returns whether it has chosen. Throws as
   // choose(); the step stays begun.
   bool choose_if_due(const Spheres &spheres, const SphereDrift &drift,
@@ -115,7 +115,7 @@ class WallEngine {
   // Returns what it does for meshes whose nodes move; null where the settings have no nodes.
   virtual NodeEngine *nodes() { return nullptr; }
 
-  // Returns what steps have counted since the last call, and counts anew. Throws InputError if a step had to leave out a sphere
+  // Returns what steps have counted since the last call, and counts from 0 again. Throws InputError if a step had to leave out a sphere
   // that is too large or has more contacts than there is memory for, or if one grew after the choice.
   virtual StepDiagnostics read_diagnostics() = 0;
 

@@ -208,7 +208,7 @@ bool Insertion::restore(const Real *numbers, std::size_t n, std::int64_t step)
     retry_step_ = step + g.retry_in;
     for (const std::int64_t number : g.owed) owed_.push_back(source_.grain(number));
   } else {
-    // Grains without a place are drawn anew.
+    // Grains without a place are drawn again.
     drawn_ = g.inserted;
     not_drawn_ = {};
     const FeedSettings::Kind kind = plan_.feed.kind;

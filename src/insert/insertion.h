@@ -83,7 +83,7 @@ class Insertion {
   State state(std::int64_t step) const;
   // Goes on in this step, whatever the number of the step was before. Takes at most n numbers of State. False: the amounts
   // or the grains of the plan are others. The grains that are in then stay, and the amount that the former plan has given;
-  // those without a place are drawn anew. Throws StateError, and nothing has changed.
+  // those without a place are drawn again. Throws StateError, and nothing has changed.
   bool restore(const Real *numbers, std::size_t n, std::int64_t step);
 
  private:

@@ -143,7 +143,7 @@ void ComputeCollideLsdcd::find_bodies()
                        " atoms, and " + name_of(0) + " " + std::to_string(sizes[0]) +
                        ": bodies of one compute are copies of the first; use a compute for each "
                        "kind, with groups");
-  // The others are where rigid motions put them, now already.
+  // The others are where rigid motions put them.
   const std::vector<double> sums = gather_sums();
   for (std::size_t b = 0; b < bodies.size(); b++) pose_of(static_cast<int>(b), sums);
 }

@@ -29,7 +29,7 @@ void FixWallLsdcd::grow_arrays(int nmax)
     memory->grow(array_atom, nmax, size_peratom_cols, "fix_wall_lsdcd:array_atom");
 }
 
-// A fix may read the contacts array before this one writes it anew, and a dump after atoms
+// A fix may read the contacts array before this one writes it again, and a dump after atoms
 // were deleted or displaced.
 void FixWallLsdcd::copy_arrays(int i, int j, int /*delflag*/)
 {

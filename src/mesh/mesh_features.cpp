@@ -84,7 +84,7 @@ FaceRecord face_record(const Vec3 &a, const Vec3 &b, const Vec3 &c)
   return f;
 }
 
-// Thinner than this, long double's spare bits no longer cover the loss.
+// Thinner than this, long double's spare bits do not cover the loss.
 constexpr Real kSliver = 1e-3;
 
 // Vertices that hold no contact share this direction: no point is on the right side of it. Most

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The records of a mesh whose vertices move, made anew from where they are: one source for the CPU and for devices,
+// The records of a mesh whose vertices move, made again from where they are: one source for the CPU and for devices,
 // by the formulas of make_features() in Real where that keeps the digits of a normal. A face or edge that has only been
 // shifted keeps its record to the last bit.
 //

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The triangles of a mesh without their neighbours, to be placed or sent, and welded anew.
+// The triangles of a mesh without their neighbours, to be placed or sent, and welded again.
 #pragma once
 
 #include "mesh/welded_mesh.h"

@@ -15,7 +15,7 @@ namespace lsdcd {
 // ("not a knot"); two pieces alone are one parabola.
 std::vector<Real> spline_slopes(const std::vector<Real> &length, const std::vector<Real> &mean);
 
-// Returns the n slopes of n pieces after which all begins anew, at the beginnings of pieces.
+// Returns the n slopes of n pieces after which all begins again, at the beginnings of pieces.
 std::vector<Real> periodic_spline_slopes(std::vector<Real> length, std::vector<Real> mean);
 
 }    // namespace lsdcd

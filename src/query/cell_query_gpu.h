@@ -173,7 +173,7 @@ class CellQuery {
  private:
   static constexpr std::size_t kRun = std::size_t(1) << 24;    // spheres of a turn of kernels
 
-  // Threads read the lists of any more.
+  // So many long lists at most are read by warps, and any more by threads.
   static constexpr unsigned kMaxLong = 1 << 16;
 
   template <class S>

@@ -42,9 +42,9 @@ class GridManager {
   // The coats of bodies, before there are grids; they must outlive it.
   void set_coats(std::deque<BodyCoat> &coats) { coats_ = &coats; }
 
-  // For spheres of up to this radius (length, 0: there are none) and for coats in today's box. Returns whether grids were built.
+  // For spheres of up to this radius (length, 0: there are none) and for coats in the box of this step. Returns whether grids were built.
   bool fit_spheres(Real radius, const SpheresOnCpu &spheres, std::int64_t step);
-  // For today's box. Does nothing before there are spheres.
+  // For the box of this step. Does nothing before there are spheres.
   bool fit_box(std::int64_t step);
 
   // The grid of a mesh whose vertices have moved. Does nothing before there are spheres.
@@ -54,7 +54,7 @@ class GridManager {
   // the grid was made for, contacts may have been missed: warns, and the grid reaches that far from then on.
   void check_wrapping(const Spheres &spheres);
 
-  // Logs how many grids were built for other boxes in this run, and counts anew.
+  // Logs how many grids were built for other boxes in this run, and counts from 0 again.
   void end_run();
 
   // A feature that is no image: that of which `feature` is an image, or itself.

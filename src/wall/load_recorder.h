@@ -30,7 +30,7 @@ class LoadRecorder {
   // Loads of all processes, on the first one; elsewhere only their time. Collective.
   MeshLoads gathered(int mesh) const;
 
-  // The average begins anew; what has worn off stays.
+  // The average begins again; what has worn off stays.
   void begin_average(int mesh) { loads_[mesh].begin_average(); }
 
   // Restores data of a saved state, before the first step: the time of the average and rows as of

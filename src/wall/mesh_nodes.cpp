@@ -24,8 +24,8 @@ namespace lsdcd {
 
 namespace {
 
-// As shares of the cutoff: how far nodes may go before the grid is built anew, and before lists of spheres are made
-// anew. More makes lists longer, less makes them more frequent. A cell has all that a list of a sphere in it
+// As shares of the cutoff: how far nodes may go before the grid is built again, and before lists of spheres are made
+// again. More makes lists longer, less makes them more frequent. A cell has all that a list of a sphere in it
 // may name, which are farther by the way of nodes and by that of the sphere, and by rounding.
 constexpr Real kOfGrid = 0.15, kOfLists = 0.05,
                kAllowance = kOfGrid + kOfLists + kSkinFraction + 1e-3;

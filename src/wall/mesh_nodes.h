@@ -51,7 +51,7 @@ class MeshNodes {
   Box bounds() const { return {mesh_.report.lo, mesh_.report.hi}; }    // of them
   NodeField field(Real cutoff) const;
 
-  // Does the grid hold no longer, as it is for another cutoff or a node has gone too far?
+  // Is another grid needed, as it is for another cutoff or a node has gone too far?
   bool needs_grid(Real cutoff);
   // Have nodes gone so far since candidates were chosen that the lists of spheres are no longer complete?
   bool needs_choice(Real cutoff) const;

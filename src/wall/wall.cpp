@@ -545,7 +545,7 @@ void Wall::note_step(const HostSpheres &spheres)
   if (step.kind == Step::setup) times_.begin_run();      // as the host's loop time
 }
 
-// Where a wall comes, or comes anew, among spheres that rest on it.
+// Where a wall comes, or comes again, among spheres that rest on it.
 void Wall::log_new_springs(const Step &step)
 {
   if (springs_told_) return;

@@ -87,7 +87,7 @@ class Wall {
   // Before each run. `virial`: add_virial() may be called in it.
   void begin_run(std::int64_t step, bool virial);
 
-  // Begins a step: advances the clock, moves the meshes, and builds grids where they do not fit any more. Where spheres are in
+  // Begins a step: advances the clock, moves the meshes, and builds grids where they do not fit. Where spheres are in
   // the memory of a GPU, what the step reads of them must be there once the host's stream has done its work so far.
   void begin(const HostSpheres &spheres, const StepInput &input);
   // Moves the vertices of meshes that recede by wear, where that is due in this step. A host that reads the surface before begin()
@@ -250,7 +250,7 @@ class Wall {
   WallSpec spec_;    // motions change later
   LawTable laws_;    // of the spec
   WallBackend backend_;
-  // The time of the spheres; the host's time begins anew in some runs from a saved state.
+  // The time of the spheres; the host's time begins again in some runs from a saved state.
   StepClock clock_;
   Real pressure_unit_;             // of inputs
   std::deque<MeshPart> meshes_;    // where each stays; there is one at least

@@ -15,7 +15,7 @@ def skip(why):
 
 def compare(path, compiler, found, room, unit):
     """How many numbers of `found` are above the kept ones by more than `room`, or gone; new ones are
-    only shown. With --keep the rows of this compiler are written anew; without rows the test is
+    only shown. With --keep the rows of this compiler are written again; without rows the test is
     skipped by name."""
     with open(path, newline="") as f:
         rows = list(csv.DictReader(f))

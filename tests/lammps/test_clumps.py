@@ -133,7 +133,7 @@ def test_among_others(folder):
 
 
 def test_restart(folder):
-    """In two pieces through a file, and without one. The bodies are found anew in both, from atoms in another order."""
+    """In two pieces through a file, and without one. The bodies are found again in both, from atoms in another order."""
     first, second = 2500, 1500
     begin = create(FEW, THROWN) + forces(ours())
     # The dump begins in the second piece, with the step that both repeat.

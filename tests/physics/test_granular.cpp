@@ -689,7 +689,7 @@ TEST(granular, parameters_and_compiled_laws_agree_on_what_is_kept)
 
 TEST(granular, setup_moves_nothing)
 {
-  // LAMMPS computes forces anew before every run; what is kept must not change by that.
+  // LAMMPS computes forces again before every run; what is kept must not change by that.
   const EngineSettings law = all_of_granular(NormalModel::jkr);
   OneSphere s(law);
   s.scene.set_v(0, {6, 4, 0});

@@ -18,7 +18,7 @@ struct WallScene : Grains {
   Real dt;
   Real gravity[3] = {0, 0, 0};
   std::int64_t now = 0;
-  // Steps after which spheres are looked at anew, as they go less than 0.05 in between; 0: all are watched.
+  // Steps after which spheres are looked at again, as they go less than 0.05 in between; 0: all are watched.
   int look_every = 0;
   std::unique_ptr<Wall> wall;
 

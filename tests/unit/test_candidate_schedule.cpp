@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// When near spheres are chosen anew: whatever moves, none comes to the wall unseen.
+// When near spheres are chosen: whatever moves, none comes to the wall unseen.
 #include "engine/candidate_schedule.h"
 
 #include <gtest/gtest.h>

@@ -177,7 +177,7 @@ TEST(node_grid, a_GPU_builds_the_same_lists)
 }
 #endif
 
-// Records that steps make anew have the bytes of those that a CPU makes for a wall that has them: of faces that bend, that are
+// Records that steps make again have the bytes of those that a CPU makes for a wall that has them: of faces that bend, that are
 // only shifted, that are too thin for Real. The number of faces is no multiple of a
 // warp.
 using MovedBy = MeshFeatures (*)(const WeldedMesh &, const WeldedMesh &);

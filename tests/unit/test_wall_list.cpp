@@ -452,7 +452,7 @@ TEST(wall_list, a_sphere_that_shrinks_may_grow_to_what_it_was_at_the_choice)
   bed.add({0.31, 0.17, 0.49}, 0.5);
   bed.choose(0.2);
   bed.step();
-  // Past the margin of its list, which is made anew while it is smaller.
+  // Past the margin of its list, which is made again while it is smaller.
   bed.radius[0] = 0.495;
   bed.put(0, {0.37, 0.17, 0.49});
   bed.step();

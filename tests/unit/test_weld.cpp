@@ -596,7 +596,7 @@ TEST(weld, cracks_as_wide_as_the_steps_of_floats_close)
   EXPECT_EQ(lsdcd::weld(floats(cracked_plate()), -1).vertices.size(), 9u);
 }
 
-// Placed corners are no floats any more.
+// Placed corners are no floats.
 TEST(weld, cracks_as_wide_as_the_steps_of_floats_close_where_the_mesh_is_placed)
 {
   TriangleSoup soup = floats(cracked_plate());

@@ -344,7 +344,7 @@ def _drop_capsule(capsule: int) -> None:
 
 
 _forget, _drop = _Deleter(_forget_tensor), _Deleter(_drop_capsule)
-# The capsule is being collected: Python must not count references to it any more.
+# The capsule is being collected: Python must not count references to it.
 _raw_is = ctypes.PYFUNCTYPE(ctypes.c_int, ctypes.c_void_p, ctypes.c_char_p)(("PyCapsule_IsValid", ctypes.pythonapi))
 _raw_pointer = ctypes.PYFUNCTYPE(ctypes.c_void_p, ctypes.c_void_p, ctypes.c_char_p)(("PyCapsule_GetPointer", ctypes.pythonapi))
 

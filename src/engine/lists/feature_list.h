@@ -83,7 +83,7 @@ struct ListedFeatures {
   std::size_t k;
 };
 
-// How far a sphere may go before its list is made anew, as a share of its radius. Far enough that
+// How far a sphere may go before its list is made again, as a share of its radius. Far enough that
 // lists last hundreds of steps, near enough that most have one or two features.
 constexpr Real kSkinFraction = 0.05;
 // Where a list is too long its margin is divided by kShrink, up to kMaxShrinks times.
@@ -164,7 +164,7 @@ LSDCD_FN bool touches_more_than_one(const GridView &grid, const QuerySphere &s,
   return n > 1;
 }
 
-// Makes the list of a sphere anew, for a way of up to `margin` at most, or for less where that list is too long;
+// Makes a new list of a sphere, for a way of up to `margin` at most, or for less where that list is too long;
 // false: it has none, its cell has to be searched.
 template <unsigned kSize>
 LSDCD_NOINLINE bool gather(const Warp<kSize> &warp, bool mine, const GridView &grid,

@@ -30,7 +30,7 @@ class CellsInBall {
     k_ = lo_[2];
   }
   LSDCD_FN void close() { open_ = false; }
-  // False: there is none any more.
+  // False: there is none left.
   LSDCD_FN bool next(const GridView &grid, Cell &cell)
   {
     while (open_ && step()) {

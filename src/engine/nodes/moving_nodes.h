@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // The nodes of a mesh in the memory of an engine that has copies of its records, as on a GPU: in a step the records are
-// made anew by the source that a host has (mesh/moving_records.h), and a small record of how far nodes have gone is all
+// made again by the source that a host has (mesh/moving_records.h), and a small record of how far nodes have gone is all
 // that the CPU waits for. Faces that are too thin for the digits of Real come back to the CPU, which has wider ones.
 #pragma once
 
@@ -105,7 +105,7 @@ struct LookAtNodes {
   }
 };
 
-// Make the records anew, in this order. A face or edge that a CPU has to make is put into left[].
+// Make the records again, in this order. A face or edge that a CPU has to make is put into left[].
 
 struct MoveFaces {
   MovedMesh moved;
@@ -213,7 +213,7 @@ class MovingNodes {
     b.copy_in(v, next_velocity_.data(), n);
   }
 
-  // Makes `records`, which are in the memory of the backend, anew where nodes were given.
+  // Updates `records`, which are in the memory of the backend, where nodes were given.
   NodesGone move(B &b, const MeshFeaturesView &records, bool with_spins, Real back)
   {
     std::swap(at_, before_);

@@ -62,7 +62,7 @@ class NodeEngine {
   // is the same in each call of a mesh. `v` null: all are 0.
   virtual void give_in_place(int mesh, const Real *x, const Real *v,
                              const std::vector<int> &node_of_row) = 0;
-  // Moves nodes to where they were given, and makes their records anew (mesh/moving_records.h). Before begin(). Waits
+  // Moves nodes to where they were given, and makes their records again (mesh/moving_records.h). Before begin(). Waits
   // for what it returns only.
   virtual NodesGone move(int mesh, bool with_spins, Real back) = 0;
   // Makes the records that move() has left to the CPU. Throws InputError where a face has no area.

@@ -8,7 +8,7 @@
 //   cutoff + margin of the list + NodeField::going
 //
 // is complete while the sphere is within the margin and no node has gone farther than `going`; then the host chooses
-// candidates, and with them all lists, anew.
+// candidates, and with them all lists, again.
 #pragma once
 
 #include "contact/node_field.h"

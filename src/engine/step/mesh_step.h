@@ -271,7 +271,7 @@ LSDCD_FN QuerySphere query_sphere_of_candidate(const Law &law, const StepJob &jo
                          pull_off_of(law));
 }
 
-// Does the list of candidate k hold no longer?
+// Returns whether candidate k needs a new list.
 template <class Law>
 LSDCD_FN bool needs_list(const Law &law, const StepJob &job, std::size_t k)
 {
@@ -280,7 +280,7 @@ LSDCD_FN bool needs_list(const Law &law, const StepJob &job, std::size_t k)
   return !job.lists.holds(k, s.x, s.cutoff);
 }
 
-// Makes the list of slot k, whose sphere is s, anew: for no less than at the choice, as a sphere that
+// Makes a new list of slot k, whose sphere is s: for no less than at the choice, as a sphere that
 // has shrunk may grow to that again. A function of its own, so that its list is not on the stack of the rest.
 template <unsigned kSize>
 LSDCD_NOINLINE void put_list(const StepJob &job, const Warp<kSize> &warp, bool mine,

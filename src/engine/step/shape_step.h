@@ -255,7 +255,7 @@ class ShapeAtMeshes {
     rule.solve(set, shape_.farthest, memory_.weight.data(), tolerance_);
   }
 
-  // Of the radius around the grain: how far it goes until its list is made anew.
+  // Of the radius around the grain: how far it goes until its list is made again.
   static constexpr Real kWay = 0.2;
 
   const StepJob &job_;

@@ -18,7 +18,7 @@ namespace lsdcd {
 
 struct MovingGridSettings {
   Real cutoff;           // of spheres' centres (length, > 0)
-  Real allowance;        // how far nodes may go until it is built anew (length)
+  Real allowance;        // how far nodes may go until it is built again (length)
   Real outside;          // as in GridView
   Box bounds;            // of the nodes
   std::string source;    // the name of the mesh, for messages

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // The cells of a primitive that moves: its bounds alone decide, a box and the plane of a face, as its normals turn so that
-// no region does. The margin of the plan is how far its nodes may go before the lists are built anew:
+// no region does. The margin of the plan is how far its nodes may go before the lists are built again:
 //
 //   distance of a point of the cell to the primitive now <= cutoff
 //   => the same distance when the lists were built <= cutoff + way of its nodes <= cutoff + margin

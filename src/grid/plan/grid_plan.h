@@ -13,7 +13,7 @@
 namespace lsdcd {
 
 // Margin of complete lists. With it, one cell nearly always has all that a sphere can touch until
-// its list of the wall is made anew.
+// its list of the wall is made again.
 constexpr Real cell_margin(Real cutoff)
 {
   return Real(0.05) * cutoff;

@@ -21,7 +21,7 @@ class SearchReport {
   // Adds what the engine has counted since the last call.
   void add(const StepDiagnostics &seen);
 
-  // Logs the counts of a run, and counts anew. Logs nothing if `brief`, or after a run without a step and a setup.
+  // Logs the counts of a run, and counts from 0 again. Logs nothing if `brief`, or after a run without a step and a setup.
   // `advice` follows the number of choices. Collective.
   void end_run(bool brief, const std::string &advice);
 

@@ -32,10 +32,10 @@ class TimeReport {
     last_ = now;
   }
 
-  // Counts anew.
+  // Counts from 0 again.
   void begin_run();
 
-  // Logs the times of a run, and counts anew. `loop`: seconds of the whole
+  // Logs the times of a run, and counts from 0 again. `loop`: seconds of the whole
   // run; 0: not known. Sections without time are left out. Nothing is logged with `brief`, or if no
   // section has time. Collective.
   void end_run(bool brief, Real loop);

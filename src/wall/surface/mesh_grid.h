@@ -59,7 +59,7 @@ class MeshGrid {
   bool has(FeatureCode feature) const;
 
   // The vertices go to other places, in its frame (length), given on processes that fill memory; the grid is not
-  // built anew by that. Collective.
+  // built again by that. Collective.
   void move_vertices(const std::vector<Vec3> &at);
 
   // Null but on one process per node, and on all where grains may be no spheres.

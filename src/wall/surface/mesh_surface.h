@@ -42,7 +42,7 @@ class MeshSurface {
   // Throws where it is not known in a snapshot.
   virtual void check_snapshot() const {}
 
-  // Moves vertices by what has worn, where that is due. Returns whether it did: then the grid is to be built anew. `cutoff`: 0
+  // Moves vertices by what has worn, where that is due. Returns whether it did: then the grid is to be built again. `cutoff`: 0
   // while there are no spheres. Collective.
   virtual bool recede(const Step & /* step */, Real /* cutoff */) { return false; }
   // Begins a step.
@@ -55,7 +55,7 @@ class MeshSurface {
 
   // Writes what it needs to go on into a saved state. restore() takes it again as far as that is of this surface; not
   // `same`: it is of another mesh. The first process warns of what is left out. Returns whether vertices have moved: then
-  // the grid is to be built anew. Both are collective.
+  // the grid is to be built again. Both are collective.
   virtual void save(MeshState & /* to */) const {}
   virtual bool restore(const MeshState &was, bool same);
 

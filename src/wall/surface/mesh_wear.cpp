@@ -212,7 +212,7 @@ int MeshWear::parts(const WeldedMesh &mesh, std::int64_t step)
 }
 
 // Removes the part 1/n of what has worn; `mesh` is where that leaves it. All ways are multiplied by the number that makes the
-// volume exact: it differs from 1 by the second order. Whatever would fold or meet is held, and all begins anew without it.
+// volume exact: it differs from 1 by the second order. Whatever would fold or meet is held, and all begins again without it.
 bool MeshWear::move(WeldedMesh &mesh, int n, std::int64_t step)
 {
   const Real factor = wall_.wear_deform.factor / n;

@@ -38,7 +38,7 @@ class MeshWear {
   // InputError where too much has worn for one move. Collective.
   bool recede(const WeldedMesh *mesh, std::int64_t step, std::vector<Vec3> &at);
 
-  // Volumes (length^3), the same on all processes. Removed: between the first surface and that of today. Held back: worn by
+  // Volumes (length^3), the same on all processes. Removed: between the first surface and that of this step. Held back: worn by
   // factor, and not removed as vertices stay.
   Real removed() const { return removed_; }
   Real held_back() const { return held_back_; }
