@@ -751,7 +751,7 @@ typedef struct lsdcd_wall_step {
   int setup; /* 1: no time has passed, and springs do not move: the forces with which a run begins */
   int changed; /* 1: spheres came at the end, or radii grew since the last step. The first step and those
                     with `setup` look at that anyway */
-  double reach; /* length; near spheres are chosen again when one has gone farther; 0: a tenth of the
+  double reach; /* length; near spheres are chosen when one has gone farther; 0: a tenth of the
                     largest radius of the last step that looked */
   int synchronous; /* 1: the velocities of spheres, poses and nodes are of the time of their places; 0: of half a step
                     before, as velocity Verlet has them when it asks for forces. Not beside bodies */
