@@ -134,8 +134,8 @@ void expect_no_jump(const std::string &name, const std::vector<std::vector<Plane
 
 TEST(cone, of_equal_planes_has_a_continuous_force)
 {
-  // Before 0.10.0 seven planes at 80 and 60 degrees jumped by 24 and 9 % with both, twelve at 45 degrees by 11 % with
-  // hertz. Four jump where an offset decides which three bear: below.
+  // A rule with several local solutions jumps by 24 and 9 % with seven planes at 80 and 60 degrees, and by 11 % with twelve at
+  // 45 degrees and hertz. For four an offset decides which three bear: below.
   for (auto [n, degrees] :
        std::vector<std::pair<int, Real>>{{4, 27}, {4, 45}, {7, 80}, {7, 60}, {12, 45}, {12, 60}})
     expect_no_jump(std::to_string(n) + " planes at " + std::to_string(int(degrees)) + " degrees",
@@ -212,8 +212,8 @@ TEST(funnel, keeps_the_energy_of_a_sphere_that_bounces)
 {
   // As the billiard of test_energy: a touch that begins or ends within a step changes the energy of motion by
   // w^2 / sqrt(90) at random, and bounces add up as their root. Seven planes all round are more than a convex problem
-  // has room for; what they do there is no gradient (doc/theory.md), here 0.2 % a bounce at most, at random. Before
-  // 0.10.0 it was 13 % after 800 bounces in the last funnel, and grew.
+  // has room for; what they do there is no gradient (doc/theory.md), here 0.2 % a bounce at most, at random. A rule
+  // that jumps gains 13 % in 800 bounces of the last funnel, and more later.
   const Real w = 0.0307;
   const int n_steps = std::getenv("LSDCD_QUICK") ? 20000 : 400000;
   struct Funnel {

@@ -413,7 +413,7 @@ TEST(corner, concave_edge_has_the_weights_of_the_closed_form)
                rounding = 8 * kRoundoff / (a * a) + 8 * kRoundoff;
     EXPECT_NEAR(s.weight[0] + s.weight[1], 2 * each, 16 * kRoundoff);
     EXPECT_NEAR(s.weight[0], each, rounding);
-    // Versions before 0.10.0 gave this.
+    // With the cosine itself for the cover.
     EXPECT_NEAR(each, 1 / (1 + std::cos(a)), kLessCovered);
   }
 }
