@@ -59,6 +59,11 @@ function(lsdcd_kokkos_plugin name folder)
     return()
   endif()
 
+  if(LSDCD_HOST_VERSION LESS 20230802)
+    message(STATUS "Kokkos plugin ${name}: no (${folder} is LAMMPS ${LSDCD_HOST_VERSION}, and fixes for Kokkos need 2Aug2023 or later)")
+    return()
+  endif()
+
   set(kokkos ${PROJECT_SOURCE_DIR}/kokkos)
   set(sources ${kokkos}/lsdcdkkplugin.cpp ${kokkos}/fix_wall_lsdcd_kokkos.cpp
     ${kokkos}/fix_wall_lsdcd_kokkos_exchange.cpp)
@@ -70,8 +75,6 @@ function(lsdcd_kokkos_plugin name folder)
   endif()
   if(facts MATCHES "CXX20" AND LSDCD_HOST_KOKKOS_STANDARD LESS 20)
     set(LSDCD_HOST_KOKKOS_STANDARD 20)
-  elseif(LSDCD_HOST_KOKKOS_STANDARD LESS 17)
-    set(LSDCD_HOST_KOKKOS_STANDARD 17)
   endif()
   # Each takes long by itself, and they compile side by side. g++ 12 warns of kernels: it loses count of Kokkos's shared
   # pointers.

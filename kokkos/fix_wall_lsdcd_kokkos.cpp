@@ -54,9 +54,7 @@ FixWallLsdcdKokkos<DeviceType>::FixWallLsdcdKokkos(LAMMPS *lmp, int narg, char *
   // Each place names what it reads and changes.
   datamask_read = EMPTY_MASK;
   datamask_modify = EMPTY_MASK;
-#if LSDCD_DEVICE_EXCHANGE
   exchange_comm_device = sort_device = std::is_same<DeviceType, LMPDeviceType>::value;
-#endif
 }
 
 // Called by the constructor of the plain fix, too, before members of this one are there.
@@ -93,7 +91,6 @@ lsdcd::HostSpheres FixWallLsdcdKokkos<DeviceType>::to_cpu(lsdcd::CpuArrays array
 template <class DeviceType>
 void FixWallLsdcdKokkos<DeviceType>::make_exchange_room()
 {
-#if LSDCD_DEVICE_EXCHANGE
   if (wall->history().is_with_engine()) {
     // One more for the offset of an atom's numbers in the message. A process on its own packs
     // hardly any atom, those that leave a fixed box, and need not look at all of them.
@@ -105,7 +102,6 @@ void FixWallLsdcdKokkos<DeviceType>::make_exchange_room()
     ask_for_room(largest);
     return;
   }
-#endif
   FixWallLsdcd::make_exchange_room();
 }
 

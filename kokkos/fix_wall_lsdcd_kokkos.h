@@ -23,14 +23,12 @@ class FixWallLsdcdKokkos : public FixWallLsdcd, public KokkosBase {
   void pre_reverse(int, int) override;
   void post_run() override;
 
-#if LSDCD_DEVICE_EXCHANGE
   // springs on the device
   int pack_exchange_kokkos(const int &, lsdcd::ExchangeBuffer &, DAT::tdual_int_1d,
                            DAT::tdual_int_1d, ExecutionSpace) override;
   void unpack_exchange_kokkos(lsdcd::ExchangeBuffer &, DAT::tdual_int_1d &, int, int, int,
                               ExecutionSpace) override;
   void sort_kokkos(Kokkos::BinSort<KeyViewType, BinOp> &) override;
-#endif
 
  protected:
   void begin_step(lsdcd::StepInput &) override;

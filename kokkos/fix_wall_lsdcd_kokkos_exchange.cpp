@@ -1,15 +1,13 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: GPL-2.0-only
 
-// Histories of contacts follow their atoms on the device where the host moves atoms there. Rows of the contacts
+// Histories of contacts follow their atoms on the device. Rows of the contacts
 // array stay on the host, as do their
 // readers, and go from and to it where messages are on the device.
 
 #include "fix_wall_lsdcd_kokkos.h"
 
 using namespace LAMMPS_NS;
-
-#if LSDCD_DEVICE_EXCHANGE
 
 // Atoms on a GPU whose messages leave from the host.
 template <class DeviceType>
@@ -131,8 +129,6 @@ void FixWallLsdcdKokkos<DeviceType>::sort_kokkos(Kokkos::BinSort<KeyViewType, Bi
   sorter.sort(LMPDeviceType(), Ints(springs.first(), atom->nlocal));
   sorter.sort(LMPDeviceType(), Ints(springs.count(), atom->nlocal));
 }
-
-#endif
 
 template class LAMMPS_NS::FixWallLsdcdKokkos<LMPDeviceType>;
 #if defined(LMP_KOKKOS_GPU)

@@ -18,7 +18,6 @@ class GuardedFixKokkos : public GuardedFix<FixWallLsdcdKokkos<DeviceType>> {
  public:
   GuardedFixKokkos(class LAMMPS *lmp, int narg, char **arg) : GuardedFix<Style>(lmp, narg, arg) {}
 
-#if LSDCD_DEVICE_EXCHANGE
   // On one process, whatever the others do.
   int pack_exchange_kokkos(const int &n, lsdcd::ExchangeBuffer &buffer, DAT::tdual_int_1d which,
                            DAT::tdual_int_1d from, ExecutionSpace space) override
@@ -36,7 +35,6 @@ class GuardedFixKokkos : public GuardedFix<FixWallLsdcdKokkos<DeviceType>> {
   {
     this->run_core_here([&] { Style::sort_kokkos(sorter); });
   }
-#endif
 };
 
 }    // namespace LAMMPS_NS

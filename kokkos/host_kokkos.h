@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: GPL-2.0-only
 
-// The Kokkos of the host: what differs between LAMMPS of 2021, 2025 and 2026, and which of
+// The Kokkos of the host: what differs between LAMMPS of 2023, 2025 and 2026, and which of
 // our backends shares memory with a Kokkos device.
 #pragma once
 
@@ -20,11 +20,7 @@
 
 namespace lsdcd {
 
-// LAMMPS packs and sorts data of fixes on the device since 2 Aug 2023.
-#define LSDCD_DEVICE_EXCHANGE (LSDCD_HOST_VERSION >= 20230802)
-
-#if LSDCD_DEVICE_EXCHANGE
-// Its buffer type has had three names.
+// LAMMPS packs and sorts data of fixes on the device, in a buffer whose type has had three names.
 template <class>
 struct SecondArgument;
 template <class R, class C, class A, class B, class... More>
@@ -33,7 +29,6 @@ struct SecondArgument<R (C::*)(A, B, More...)> {
 };
 using ExchangeBuffer =
     typename SecondArgument<decltype(&LAMMPS_NS::KokkosBase::pack_exchange_kokkos)>::type;
-#endif
 
 // A view of LAMMPS as rows, of whatever layout it is.
 template <class View>

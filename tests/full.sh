@@ -8,7 +8,6 @@ test_all_packages=(
   libcgal-dev libcgal-demo             # an independent distance oracle, and real meshes to try
   libsimbody-dev                       # a multibody code, whose wheel an example drives over grains
   libbullet-dev                        # a physics engine, whose crates an example drops on grains
-  libtrilinos-kokkos-dev               # Kokkos 3.4, for a LAMMPS 29Sep2021 with KOKKOS
   mmdebstrap                           # newer Debians, to install packages on
   valgrind                             # counts instructions of a step
   lintian                              # Debian's rules for packages

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-2.0-only
 
 """A LAMMPS without PLUGIN that has the styles compiled in, by cmake/packaging/lammps: it lists all of them, and moves spheres as
-lmp-lsdcd does. The host is that of hosts/build_host.sh 20260704 package, which LSDCD_HOST names."""
+lmp-lsdcd does. The host is that of hosts/build_host.sh package, which LSDCD_HOST names."""
 
 import re
 

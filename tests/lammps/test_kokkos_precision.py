@@ -30,7 +30,7 @@ DOUBLE = (os.environ.get("LSDCD_DOUBLE_HOST", "") and os.environ["LSDCD_DOUBLE_H
           os.environ.get("LSDCD_DOUBLE_PLUGIN", ""))
 FLOAT = (lmp.HOST, lmp.PLUGIN)
 pytestmark = pytest.mark.skipif(not (all(FLOAT) and all(DOUBLE)), reason="no LAMMPS with Kokkos in float beside one in double "
-                                "(tests/lammps/hosts/build_host.sh 20260704 single)")
+                                "(tests/lammps/hosts/build_host.sh single)")
 HISTORY = "hooke/history 1e4 NULL 120 NULL 0.4 1"
 # A share of the largest value of each column. The plain fix has radii and masses in double, 6e-8 of them apart, and contacts make
 # such differences larger: up to 4e-5 was seen.

@@ -227,8 +227,7 @@ create_atoms    1 region fill
 
 
 def bed(law, servo, top=6.2):
-    """Spheres in a box of LAMMPS's walls under a piston. Without history in contacts of spheres, which
-    29Sep2021 does not continue with Kokkos."""
+    """Spheres in a box of LAMMPS's walls under a piston. Contacts of spheres keep no springs."""
     return (BEGIN.format(create=BED, pair="gran/" + HOOKE)
             .replace("set             group all diameter 1.0 density 2.0",
                      "variable size atom 0.9+0.2*random(0,1,9)\nset group all diameter v_size\n"

@@ -3,10 +3,8 @@
 # SPDX-License-Identifier: GPL-2.0-only
 
 # Builds a LAMMPS to test against, from Debian's parts and outside the tree.
-#   build_host.sh [VERSION [KIND]]  builds it unless it is there; the last line is its folder
-#   VERSION 20260704         (default) 4Jul2026 of Debian's sid, whose granular walls ours are
-#                            checked against, with a Kokkos of its own
-#   VERSION 20210929         29Sep2021 of bookworm on bookworm's Kokkos 3.4
+#   build_host.sh [KIND]     builds it unless it is there; the last line is its folder. Without a KIND it is 4Jul2026 of Debian's sid,
+#                            whose granular walls ours are checked against, with a Kokkos of its own
 #   KIND mpich               with MPICH instead of the machine's own MPI
 #   KIND serial              without MPI
 #   KIND package             without MPI and PLUGIN, with the styles of this tree compiled in (cmake/packaging/lammps)
@@ -15,11 +13,11 @@
 #   LSDCD_HOSTS              where (default ${XDG_CACHE_HOME:-~/.cache}/lsdcd/hosts)
 #   LSDCD_HOST_JOBS          compilers at once (default: one per core)
 # All have the packages GRANULAR and, but for KIND package, PLUGIN; those whose KIND is not one of MPI also KOKKOS (Serial and double where
-# KIND does not say otherwise), GRAPHICS and fix rigid/small, these two not in float. The folder, VERSION or
-# VERSION-KIND, then holds
+# KIND does not say otherwise), GRAPHICS and fix rigid/small, these two not in float. The folder, 20260704 or
+# 20260704-KIND, then holds
 #   lmp, liblammps.so.0      the program; both resolve their libraries from the folder itself
 #   src/                     headers of LAMMPS, those of its package KOKKOS in src/KOKKOS
-#   kokkos/                  include/ and lib/ of Kokkos, where Debian has none to install
+#   kokkos/                  include/ and lib/ of Kokkos
 #   host.cmake               what a plugin for it is compiled with, as CMake variables: its KIND, its
 #                            Kokkos ("" without), includes, definitions, least C++ standard; with another MPI
 #                            the folders of mpi.h
@@ -32,35 +30,17 @@ set -euo pipefail
 skip() { echo "skipped: $*"; exit 77; }
 die() { echo "build_host.sh: $*" >&2; exit 1; }
 
-version=${1:-20260704}
-# Pool paths and checksums are those of Debian's source packages. top: the folder that the
-# archive wraps around the source. kokkos_source is empty where a Debian package does.
-case $version in
-  20260704)
-    source=lammps/lammps_20260704+dfsg.orig.tar.gz
-    sha256=cddbc45a047416bd48a4a0b87f24a5b61b3446982b74d18cafe619c22b17eb62
-    top=
-    # LAMMPS asks for 5.1, but needs nothing that 5.0 lacks, and 5.0.2 is what the pool has.
-    kokkos=5.0.2
-    kokkos_source=kokkos/kokkos_5.0.2.orig.tar.gz
-    kokkos_sha256=188817bb452ca805ee8701f1c5adbbb4fb83dc8d1c50624566a18a719ba0fa5e
-    kokkos_include='${CMAKE_CURRENT_LIST_DIR}/kokkos/include'
-    standard=20
-    defines="LMP_KOKKOS LMP_KOKKOS_LAYOUT_LEGACY"
-    ;;
-  20210929)
-    source=lammps/lammps_20220106.git7586adbb6a+ds1.orig.tar.xz
-    sha256=65146c615ad24d8b8bc64f4e05e86226a7f1fdb45c0b5ea9416562b9f3863082
-    top=lammps-0~20220106.git7586adbb6a/
-    kokkos=3.4.1
-    kokkos_source=
-    kokkos_include=/usr/include/trilinos
-    standard=14
-    defines="LMP_KOKKOS"
-    ;;
-  *) die "no such version: $version (20260704 or 20210929)" ;;
-esac
-kind=${2:-} mpi="" backend=SERIAL precision=double build_mpi=on mpicxx=mpicxx mpi_options=()
+# 4Jul2026. Pool paths and checksums are those of Debian's source packages.
+version=20260704
+source=lammps/lammps_20260704+dfsg.orig.tar.gz
+sha256=cddbc45a047416bd48a4a0b87f24a5b61b3446982b74d18cafe619c22b17eb62
+# LAMMPS asks for 5.1, but needs nothing that 5.0 lacks, and 5.0.2 is what the pool has.
+kokkos=5.0.2
+kokkos_source=kokkos/kokkos_5.0.2.orig.tar.gz
+kokkos_sha256=188817bb452ca805ee8701f1c5adbbb4fb83dc8d1c50624566a18a719ba0fa5e
+standard=20
+defines="LMP_KOKKOS LMP_KOKKOS_LAYOUT_LEGACY"
+kind=${1:-} mpi="" backend=SERIAL precision=double build_mpi=on mpicxx=mpicxx mpi_options=()
 case $kind in
   "") ;;
   mpich) mpi=mpich mpicxx=mpicxx.mpich mpi_options=(-D MPI_C_COMPILER=mpicc.mpich -D MPI_CXX_COMPILER=mpicxx.mpich) ;;
@@ -69,9 +49,6 @@ case $kind in
   openmp) backend=OPENMP ;;
   *) die "no such kind: $kind (mpich, serial, package, mixed, single or openmp)" ;;
 esac
-if [ "$version" = 20210929 ] && [ $precision$backend != doubleSERIAL ]; then
-  die "29Sep2021 is built with Kokkos's backend Serial in double precision only"
-fi
 
 # -O1 compiles in two thirds of the time of -O2, and the scripts are small. No contraction:
 # our own build has none, and the two are compared to the last bits.
@@ -86,7 +63,7 @@ if [ -n "$mpi" ] || [ $precision != double ]; then    # what a plugin is tried w
   options=("${options[@]/PKG_GRAPHICS=on/PKG_GRAPHICS=off}")
   options=("${options[@]/PKG_RIGID=on/PKG_RIGID=off}")
 fi
-if [ -n "$mpi" ]; then kokkos= kokkos_source=; fi
+if [ -n "$mpi" ]; then kokkos=; fi
 ours=    # the sources that are compiled in
 if [ "$kind" = package ]; then
   tree=$(cd "$(dirname "${BASH_SOURCE[0]}")/../../.." && pwd)
@@ -116,9 +93,6 @@ jobs=${LSDCD_HOST_JOBS:-$(nproc)}
 for tool in cmake c++ $mpicxx flock sha256sum tar; do
   command -v $tool >/dev/null || skip "no $tool on this machine"
 done
-if [ -n "$kokkos" ] && [ -z "$kokkos_source" ] && ! grep -qs 'KOKKOS_VERSION 30401' $kokkos_include/KokkosCore_config.h; then
-  skip "no Kokkos $kokkos on this machine (bookworm's libtrilinos-kokkos-dev)"
-fi
 mkdir -p "$folder"
 
 # Two runs at once: the second waits, and then finds everything there.
@@ -168,7 +142,7 @@ trap 'rm -rf "$work"' EXIT
 # ---- Kokkos ------------------------------------------------------------------------------
 
 stamp="1 $kokkos $flags ${kokkos_options[*]} $tools"
-if [ -n "$kokkos_source" ] && [ "$(cat "$folder/kokkos/stamp" 2>/dev/null)" != "$stamp" ]; then
+if [ -n "$kokkos" ] && [ "$(cat "$folder/kokkos/stamp" 2>/dev/null)" != "$stamp" ]; then
   rm -rf "$folder/kokkos"
   if fetch "$kokkos_source" "$kokkos_sha256"; then
     mkdir "$work/kokkos"
@@ -194,7 +168,7 @@ if [ -x "$folder/lmp" ] && [ "$(cat "$folder/stamp" 2>/dev/null)" = "$stamp" ]; 
 fi
 rm -rf "$folder"/{stamp,host.cmake,src,lmp} "$folder"/liblammps.so*
 fetch "$source" "$sha256" || skip "$why"
-tar -xf "$work/${source##*/}" -C "$work" ${top:+--strip-components=1} "$top"{cmake,src,lib,LICENSE} ||
+tar -xf "$work/${source##*/}" -C "$work" cmake src lib LICENSE ||
   die "cannot unpack $source"
 rm "$work/${source##*/}"
 # Styles of molecules, thermostats and the like take half of the time, and no script needs them.
@@ -225,26 +199,14 @@ fi
 if [ -n "$small" ]; then rm -f "$work"/src/{pair_soft,compute_reduce_region,fix_ave_histo}[._]*; fi
 find "$work/src/RIGID" -type f ! -name 'fix_rigid_small.*' ! -name rigid_const.h -delete
 
-# The package files of Kokkos: Debian's names a folder that is not there, and LAMMPS asks for
-# a later version than the pool has. What is compiled against either decides.
+# LAMMPS asks for a later version than the pool has. What is compiled against it decides.
 if [ -n "$kokkos" ]; then
   cat >"$work/KokkosConfigVersion.cmake" <<TEXT
 set(PACKAGE_VERSION $kokkos)
 set(PACKAGE_VERSION_COMPATIBLE TRUE)
 TEXT
-  if [ -n "$kokkos_source" ]; then
-    options+=(-D CMAKE_EXE_LINKER_FLAGS="-Wl,-rpath-link,$folder/kokkos/lib")
-    echo "include($folder/kokkos/lib/cmake/Kokkos/KokkosConfig.cmake)" >"$work/KokkosConfig.cmake"
-  else
-    cat >"$work/KokkosConfig.cmake" <<TEXT
-add_library(Kokkos::kokkos INTERFACE IMPORTED)
-set_target_properties(Kokkos::kokkos PROPERTIES
-  INTERFACE_INCLUDE_DIRECTORIES $kokkos_include
-  INTERFACE_COMPILE_FEATURES cxx_std_$standard
-  INTERFACE_LINK_LIBRARIES "trilinos_kokkoscore;trilinos_kokkoscontainers;\${CMAKE_DL_LIBS}")
-TEXT
-  fi
-  options+=(-D Kokkos_DIR="$work")
+  echo "include($folder/kokkos/lib/cmake/Kokkos/KokkosConfig.cmake)" >"$work/KokkosConfig.cmake"
+  options+=(-D CMAKE_EXE_LINKER_FLAGS="-Wl,-rpath-link,$folder/kokkos/lib" -D Kokkos_DIR="$work")
 fi
 # To parse the same headers takes most of the time that a file is compiled: that is done once.
 {
@@ -271,7 +233,7 @@ mkdir "$folder/src"
   esac
   echo "set(LSDCD_HOST_KOKKOS \"$kokkos\")"
   if [ -n "$kokkos" ]; then
-    echo "set(LSDCD_HOST_KOKKOS_INCLUDES \"\${CMAKE_CURRENT_LIST_DIR}/src/KOKKOS\" \"$kokkos_include\")"
+    echo "set(LSDCD_HOST_KOKKOS_INCLUDES \"\${CMAKE_CURRENT_LIST_DIR}/src/KOKKOS\" \"\${CMAKE_CURRENT_LIST_DIR}/kokkos/include\")"
     echo "set(LSDCD_HOST_KOKKOS_DEFINITIONS $defines)"
     echo "set(LSDCD_HOST_KOKKOS_STANDARD $standard)"
   fi
