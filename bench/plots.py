@@ -2,17 +2,12 @@
 # SPDX-License-Identifier: BSD-3-Clause
 
 """The pictures of pages.py: plots of doc/data."""
-import sys
-
 import matplotlib
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt    # noqa: E402
 
-from pages import DATA, DEVICES, IMAGES, ROOT, facts, find, rows_of    # noqa: E402
-
-sys.path.insert(0, str(ROOT / "src" / "tool"))
-import plot_tradeoff    # noqa: E402
+from pages import DEVICES, IMAGES, facts, rows_of    # noqa: E402
 
 # By colour and by marker, so that a print in grey or a colour-blind reader tells them apart.
 STYLES = {"cpu": dict(color="#0072B2", marker="o"), "cuda": dict(color="#D55E00", marker="^")}
@@ -140,75 +135,84 @@ def draw_effects(cpu, cuda):
     write_image(figure, "effects.png", dpi=90)
 
 
-# ---- notes/paper.md ------------------------------------------------------------------------------
+# ---- accuracy.md ---------------------------------------------------------------------------
 
-def of_study(rows, name):
-    return [r for r in rows if r["table"] == name and r["order"] == "random"]
+def broken_axes(figure, grid, ratio=(6, 1)):
+    """Two axes over each other, with a break between them: the lower one has what is 0 on the logarithmic upper one."""
+    high, low = grid.subgridspec(2, 1, height_ratios=ratio, hspace=0.06).subplots(sharex=True)
+    low.set(ylim=(-0.8, 0.8))
+    low.set_yticks([0], ["0"])
+    high.spines.bottom.set_visible(False)
+    low.spines.top.set_visible(False)
+    high.tick_params(bottom=False, which="both")
+    broken = dict(marker=[(-1, -0.6), (1, 0.6)], markersize=11, linestyle="none", color="k", mec="k", clip_on=False)
+    high.plot([0, 1], [0, 0], transform=high.transAxes, **broken)
+    low.plot([0, 1], [1, 1], transform=low.transAxes, **broken)
+    for axis in (high, low):
+        axis.grid(True, alpha=0.3)
+        axis.tick_params(labelsize=FONT - 1)
+    return high, low
 
 
-def draw_question(rows, steps):
-    """Errors against the time of a query: those of the paper and ours, and what shorter lists miss. Below the break of an
-    axis are the measurements without any error."""
-    figure, axes = plt.subplots(2, 2, figsize=(12, 6.4), sharex="col", height_ratios=(5, 1), gridspec_kw={"hspace": 0.06})
-    blue, red, green, black = "#0072B2", "#D55E00", "#009E73", "black"
+def draw_accuracy(rows_by_device):
+    """Error of a force against the time of a step: the default, which is exact, and shorter lists."""
+    figure = plt.figure(figsize=(12, 5.4))
+    grid = figure.add_gridspec(1, 2, left=0.08, right=0.99, top=0.92, bottom=0.13, wspace=0.12)
+    for column, (device, rows) in enumerate(rows_by_device.items()):
+        high, low = broken_axes(figure, grid[column])
+        default = next(r for r in rows if r["default"] == "1")
+        colour = STYLES[device]["color"]
+        its = sorted((int(r["nearest"]), float(r["ns_per_sphere"]), float(r["force_mean"])) for r in rows
+                     if r["nearest"] != "all" and (r["grid"], r["corner"]) == (default["grid"], default["corner"]))
+        high.plot([x for _, x, _ in its], [y for _, _, y in its], "-", color=colour, linewidth=1, alpha=0.5)
+        for n, x, y in its:
+            high.plot(x, y, STYLES[device]["marker"], color=colour, markersize=9)
+            high.annotate(f"nearest {n}", (x, y), (10, -5), textcoords="offset points", fontsize=FONT - 1)
+        own = float(default["ns_per_sphere"])
+        low.plot(own, 0, "*", color="black", markersize=20)
+        # On the CPU no setting at all is faster by more than noise; on the GPU cells of half the length are, for twice the memory.
+        fastest = all(float(r["ns_per_sphere"]) > 0.94 * own for r in rows)
+        low.annotate("default: exact and fastest" if fastest else "default: exact, and faster than these", (own, 0), (14, -5), textcoords="offset points", fontsize=FONT, weight="bold")
+        high.set(xscale="log", yscale="log", ylim=(1e-4, 1))
+        high.set_xlim(own / 1.3, 2.6 * max(x for _, x, _ in its))
+        high.set_title("one CPU core" if device == "cpu" else label(rows), fontsize=FONT)
+        low.set_xlabel("time of a step for each grain near the wall, ns", fontsize=FONT)
+        ticks = [t for t in (10, 12, 15, 20, 30, 50, 100, 200, 400) if own / 1.3 <= t <= high.get_xlim()[1]]
+        low.set_xticks(ticks, [str(t) for t in ticks])
+        low.minorticks_off()
+        if column == 0:
+            high.set_ylabel("mean error of a force / mean force", fontsize=FONT)
+    write_image(figure, "accuracy_time.png", dpi=90)
 
-    def point(column, x, y, look, words="", away=(8, 6), **more):
-        at = axes[0 if y > 0 else 1][column]
-        at.plot(x, y if y > 0 else 0, look, markersize=9, **more)
-        if words:
-            at.annotate(words, (x, y if y > 0 else 0), away, textcoords="offset points", fontsize=14, color=more["color"])
 
-    for r in of_study(rows, "table2"):
-        if r["length"] != "0.2":
-            continue
-        every = r["lists"] == "every triangle"
-        words = {"every triangle": "every triangle", "complete": "all", "1": "N = 1"}.get(r["lists"], r["lists"])
-        if r["lists"] != "complete":
-            point(0, float(r["paper_query_ms"]), float(r["paper_error_percent"]), "s", words, (-106, 8) if every else (8, 6),
-                  color=black, fillstyle="none")
-        if r["lists"] in ("1", "complete"):
-            point(0, float(r["query_ms"]), max(0.0, float(r["error_percent"])), "o", words, color=blue)
-    axes[0][0].text(5e2, 12, "the paper, on a K40", fontsize=14, ha="center")
-    axes[0][0].text(0.17, 8e-4, "LSDCD, on an H200", fontsize=14, color=blue)
-    for triangles, look, colour in (("10000", "o", blue), ("100000", "s", red), ("1000000", "^", green)):
-        its = [(r["lists"], float(r["query_ms"]), 100 * float(r["missed"]) / float(r["touching"]))
-               for r in of_study(rows, "mesh") if r["triangles"] == triangles]
-        above = [(x, y) for _, x, y in its if y > 0]
-        axes[0][1].plot(*zip(*above), color=colour, linewidth=1)
-        axes[0][1].plot([], [], look + "-", color=colour, label=f"{int(triangles):,} triangles".replace(",", " "))
-        for lists, x, y in its:
-            point(1, x, y, look, "all" if lists == "complete" else "" if y <= 0 else "N = 1" if lists == "1" and triangles == "10000"
-                  else lists, (-9, 9) if y <= 0 else (8, 2), color=colour)
-    for column, least, title, error in ((0, 3e-5, "The paper's cylinder of 156 triangles, cells of 0.2", "error, % (formula 7)"),
-                                        (1, 1e-4, "Finer cylinders, cells of 0.4, on an H200", "missed contacts, %")):
-        high, low = axes[0][column], axes[1][column]
-        high.set(xscale="log", yscale="log", ylim=(least, 50))
-        high.set_title(title, fontsize=14)
-        high.set_ylabel(error, fontsize=14)
-        low.set(ylim=(-0.5, 1.2), xscale="log")
-        low.set_yticks([0], ["0"])
-        low.set_xlabel("time for 10 000 000 spheres, ms", fontsize=14)
-        high.spines.bottom.set_visible(False)
-        low.spines.top.set_visible(False)
-        high.tick_params(bottom=False, which="both")
-        broken = dict(marker=[(-1, -0.6), (1, 0.6)], markersize=11, linestyle="none", color="k", mec="k", clip_on=False)
-        high.plot([0, 1], [0, 0], transform=high.transAxes, **broken)
-        low.plot([0, 1], [1, 1], transform=low.transAxes, **broken)
-        for a in (high, low):
-            a.grid(True, alpha=0.3)
-            a.tick_params(labelsize=13)
-    axes[0][0].set_xlim(0.1, 2e5)
-    axes[0][1].set_xlim(0.1, 2.6)
-    axes[0][1].legend(loc="upper right", fontsize=14)
-    axes[1][1].set_xticks([0.1, 0.2, 0.5, 1, 2], ["0.1", "0.2", "0.5", "1", "2"])
-    axes[1][1].minorticks_off()
-    own = float(steps["median_ms"])
-    for a in (axes[0][1], axes[1][1]):
-        a.axvline(own, color=black, linewidth=1)
-    axes[0][1].annotate("a step of the wall,\n10 000 triangles", (own, 2e-4), (-4, 0), textcoords="offset points", fontsize=13, ha="right",
-                        rotation=90, va="bottom")
-    figure.subplots_adjust(left=0.08, right=0.99, top=0.94, bottom=0.1, wspace=0.2)
-    write_image(figure, "paper_question.png", dpi=90)
+# ---- hard_cases.md -------------------------------------------------------------------------
+
+def draw_hard_curves(rows):
+    """A fold and a bowl, beside LIGGGHTS."""
+    colours = {"LSDCD": "#0072B2", "LIGGGHTS 3.8": "#D55E00"}
+
+    def points(curve, wall):
+        return list(zip(*((float(r["x"]), float(r["value"])) for r in rows if (r["curve"], r["wall"]) == (curve, wall))))
+
+    figure, (fold, bowl) = plt.subplots(1, 2, figsize=(12, 5), layout="constrained")
+    for wall, colour in colours.items():
+        fold.plot(*points("fold", wall), "-", color=colour, linewidth=2.5)
+        steps, apart = points("bowl", wall)
+        bowl.plot(steps, [max(y, 1e-16) for y in apart], "-", color=colour, linewidth=2.5)
+        steps, shifted = points("shift", wall)
+        bowl.plot(steps, shifted, ":", color=colour, linewidth=1.5)
+        end = f"{wall}: {apart[-1]:.2g} diameters" if apart[-1] > 0.01 else f"{wall}: {apart[-1]:.0e} diameters"
+        bowl.annotate(end, (steps[-1], apart[-1]), (-6, 12 if apart[-1] > 0.01 else -22), textcoords="offset points", ha="right",
+                      color=colour, fontsize=FONT, weight="bold")
+    fold.annotate("LIGGGHTS 3.8", (0.03, 1.66), (10, 0), textcoords="offset points", color=colours["LIGGGHTS 3.8"], fontsize=FONT, weight="bold")
+    fold.annotate("LSDCD", (0.15, 1.0), (0, 8), textcoords="offset points", color=colours["LSDCD"], fontsize=FONT, weight="bold")
+    fold.set(ylim=(0.9, 2.1), xlabel="place over the fold, in radii", ylabel="force / force on a face", title="A sphere over a fold of 5 degrees")
+    bowl.set(yscale="log", ylim=(1e-16, 300), xlabel="step", ylabel="largest distance, in diameters",
+             title="The same bowl cut two ways: 144 grains, two runs")
+    bowl.annotate("dotted: one mesh, start moved by 1e-12 m", (0.98, 0.03), xycoords="axes fraction", ha="right", fontsize=FONT - 1)
+    for axis in (fold, bowl):
+        legible(axis)
+    write_image(figure, "hard_curves.png", dpi=90)
 
 
 def draw_all():
@@ -217,8 +221,5 @@ def draw_all():
     draw_build(performance)
     draw_mesh_size(both("mesh-size"))
     draw_effects(*(rows_of(f"effects_{device}.csv", ";") for device in DEVICES))
-    # A step that reads lists of the wall, on the same spheres, nothing copied.
-    step = find(performance["cuda"], case="hertz/history, in place", triangles=10000, spheres=10000000, order="random")
-    draw_question(rows_of("accuracy_cuda.csv"), step)
-    vessel = [row for device in DEVICES for row in plot_tradeoff.read(DATA / f"tradeoff_vessel_{device}.csv")]
-    plot_tradeoff.draw(vessel, str(IMAGES / "tradeoff_vessel.png"), others=False)
+    draw_accuracy(both("tradeoff_vessel"))
+    draw_hard_curves(rows_of("hard_curves_cpu.csv"))

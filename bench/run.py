@@ -31,6 +31,7 @@ BENCHMARKS = {
     "bodies": ("effects_bodies", CPU, "{bin}/bench_rigid 5000 61 {commit}", "what meshes that are rigid bodies cost"),
     "kokkos": ("kokkos", CPU, SCRIPT + "kokkos.py " + COMMON, "steps of a LAMMPS with Kokkos, on its own device"),
     "liggghts": ("liggghts", CPU, SCRIPT + "liggghts.py " + COMMON, "our wall beside LIGGGHTS's"),
+    "hard-curves": ("hard_curves", CPU, SCRIPT + "hard_curves.py " + COMMON, "two hard cases beside LIGGGHTS, as curves"),
     "floor": ("floor", CPU, SCRIPT + "floor.py " + COMMON, "a mesh beside a flat plane"),
     "region": ("region", CPU, SCRIPT + "region.py " + COMMON, "a mesh beside fix wall/gran/region"),
     "sides": ("sides", BOTH, "{bin}/bench_sides " + COMMON, "on which side of a closed mesh points are"),
