@@ -7,7 +7,7 @@ import matplotlib
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt    # noqa: E402
 
-from pages import DEVICES, IMAGES, facts, rows_of    # noqa: E402
+from pages import DEVICES, IMAGES, facts, find, rows_of    # noqa: E402
 
 # By colour and by marker, so that a print in grey or a colour-blind reader tells them apart.
 STYLES = {"cpu": dict(color="#0072B2", marker="o"), "cuda": dict(color="#D55E00", marker="^")}
@@ -215,11 +215,85 @@ def draw_hard_curves(rows):
     write_image(figure, "hard_curves.png", dpi=90)
 
 
+# ---- notes/paper.md ------------------------------------------------------------------------------
+
+def of_study(rows, name):
+    return [r for r in rows if r["table"] == name and r["order"] == "random"]
+
+
+def draw_question(rows, steps):
+    """Errors against the time of a query: those of the paper and ours, and what shorter lists miss. Below the break of an
+    axis are the measurements without any error."""
+    figure, axes = plt.subplots(2, 2, figsize=(12, 6.4), sharex="col", height_ratios=(5, 1), gridspec_kw={"hspace": 0.06})
+    blue, red, green, black = "#0072B2", "#D55E00", "#009E73", "black"
+
+    def point(column, x, y, look, words="", away=(8, 6), **more):
+        at = axes[0 if y > 0 else 1][column]
+        at.plot(x, y if y > 0 else 0, look, markersize=9, **more)
+        if words:
+            at.annotate(words, (x, y if y > 0 else 0), away, textcoords="offset points", fontsize=14, color=more["color"])
+
+    for r in of_study(rows, "table2"):
+        if r["length"] != "0.2":
+            continue
+        every = r["lists"] == "every triangle"
+        words = {"every triangle": "every triangle", "complete": "all", "1": "N = 1"}.get(r["lists"], r["lists"])
+        if r["lists"] != "complete":
+            point(0, float(r["paper_query_ms"]), float(r["paper_error_percent"]), "s", words, (-106, 8) if every else (8, 6),
+                  color=black, fillstyle="none")
+        if r["lists"] in ("1", "complete"):
+            point(0, float(r["query_ms"]), max(0.0, float(r["error_percent"])), "o", words, color=blue)
+    axes[0][0].text(5e2, 12, "the paper, on a K40", fontsize=14, ha="center")
+    axes[0][0].text(0.17, 8e-4, "LSDCD, on an H200", fontsize=14, color=blue)
+    for triangles, look, colour in (("10000", "o", blue), ("100000", "s", red), ("1000000", "^", green)):
+        its = [(r["lists"], float(r["query_ms"]), 100 * float(r["missed"]) / float(r["touching"]))
+               for r in of_study(rows, "mesh") if r["triangles"] == triangles]
+        above = [(x, y) for _, x, y in its if y > 0]
+        axes[0][1].plot(*zip(*above), color=colour, linewidth=1)
+        axes[0][1].plot([], [], look + "-", color=colour, label=f"{int(triangles):,} triangles".replace(",", " "))
+        for lists, x, y in its:
+            point(1, x, y, look, "all" if lists == "complete" else "" if y <= 0 else "N = 1" if lists == "1" and triangles == "10000"
+                  else lists, (-9, 9) if y <= 0 else (8, 2), color=colour)
+    for column, least, title, error in ((0, 3e-5, "The paper's cylinder of 156 triangles, cells of 0.2", "error, % (formula 7)"),
+                                        (1, 1e-4, "Finer cylinders, cells of 0.4, on an H200", "missed contacts, %")):
+        high, low = axes[0][column], axes[1][column]
+        high.set(xscale="log", yscale="log", ylim=(least, 50))
+        high.set_title(title, fontsize=14)
+        high.set_ylabel(error, fontsize=14)
+        low.set(ylim=(-0.5, 1.2), xscale="log")
+        low.set_yticks([0], ["0"])
+        low.set_xlabel("time for 10 000 000 spheres, ms", fontsize=14)
+        high.spines.bottom.set_visible(False)
+        low.spines.top.set_visible(False)
+        high.tick_params(bottom=False, which="both")
+        broken = dict(marker=[(-1, -0.6), (1, 0.6)], markersize=11, linestyle="none", color="k", mec="k", clip_on=False)
+        high.plot([0, 1], [0, 0], transform=high.transAxes, **broken)
+        low.plot([0, 1], [1, 1], transform=low.transAxes, **broken)
+        for a in (high, low):
+            a.grid(True, alpha=0.3)
+            a.tick_params(labelsize=13)
+    axes[0][0].set_xlim(0.1, 2e5)
+    axes[0][1].set_xlim(0.1, 2.6)
+    axes[0][1].legend(loc="upper right", fontsize=14)
+    axes[1][1].set_xticks([0.1, 0.2, 0.5, 1, 2], ["0.1", "0.2", "0.5", "1", "2"])
+    axes[1][1].minorticks_off()
+    own = float(steps["median_ms"])
+    for a in (axes[0][1], axes[1][1]):
+        a.axvline(own, color=black, linewidth=1)
+    axes[0][1].annotate("a step of the wall,\n10 000 triangles", (own, 2e-4), (-4, 0), textcoords="offset points", fontsize=13, ha="right",
+                        rotation=90, va="bottom")
+    figure.subplots_adjust(left=0.08, right=0.99, top=0.94, bottom=0.1, wspace=0.2)
+    write_image(figure, "paper_question.png", dpi=90)
+
+
 def draw_all():
     performance = both("performance")
     draw_query(performance)
     draw_build(performance)
     draw_mesh_size(both("mesh-size"))
     draw_effects(*(rows_of(f"effects_{device}.csv", ";") for device in DEVICES))
+    # A step that reads lists of the wall, on the same spheres, nothing copied.
+    step = find(performance["cuda"], case="hertz/history, in place", triangles=10000, spheres=10000000, order="random")
+    draw_question(rows_of("accuracy_cuda.csv"), step)
     draw_accuracy(both("tradeoff_vessel"))
     draw_hard_curves(rows_of("hard_curves_cpu.csv"))

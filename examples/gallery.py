@@ -43,7 +43,7 @@ class Scene:
     stop: str = ".*write_dump"    # the line of the script that is the moment of the picture; "": its end
     edits: list = ()      # of the script: what, with what
     group: str = "all"    # of the atoms that are drawn
-    make: tuple = ()      # a script in its folder that writes what it needs into --work, and its words
+    make: tuple = ()      # a script in its folder, or lsdcd, that writes what it needs into --work, and its words
 
 
 def circle(centre, radius, first, last, y=0.0):
@@ -60,6 +60,9 @@ def scenes():
     return {
         "drum": Scene((90, -90), (-11, 11, 0, 5, -11, 11.8), five, ("√(g d), speed", 0, 5), [solid],
                       arrows=[circle((0, 0), 11, -35, 35)]),
+        "first": Scene((80, -65), (-0.101, 0.101, 0, 0.06, -0.101, 0.109), (0.05, "50 mm"), ("m/s, speed", 0, 0.8), [dict(GLASS)],
+                       script="tutorial/in.first", stop="", time="t = {:.2f} s", arrows=[circle((0, 0), 0.101, -35, 35)],
+                       make=("lsdcd", "generate", "drum", "--radius", "100", "--length", "60", "--lifters", "8", "-o", "drum.stl")),
         "hopper": Scene((75, -80), (-8.5, 12.5, -8.5, 8.5, -8, 20), five,
                         [(ORANGE, ""), (BLUE, "layers of 3 d at the start")],
                         [{"cut": ((0, 0, 0), (0, 1, 0))}, solid], cut=((0, 0, 0), (0, 1, 0))),
@@ -140,6 +143,8 @@ def run(a, name, scene):
     example = original.parent
     if name in TUTORIALS:
         runs.make_meshes(example / "make_meshes.py", a.work)
+    elif scene.make[:1] == ("lsdcd",):
+        subprocess.run([Path(a.lmp).resolve().parent / "lsdcd", *scene.make[1:]], cwd=a.work, check=True, stdout=subprocess.DEVNULL)
     elif scene.make:
         subprocess.run([sys.executable, example / scene.make[0], *scene.make[1:]], cwd=a.work, check=True)
     script = a.work / f"in.{name}"
