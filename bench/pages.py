@@ -103,6 +103,23 @@ def set_up(cpu, cuda):
     return table(rows[0], heads, lambda r: [count(r["triangles"]), number(r["length"], 2), *[seconds(r["triangles"], each) for each in rows]])
 
 
+def hours(cpu, cuda):
+    """Hours of 1 000 000 steps, from the time of a grain and step that two beds took with their walls."""
+    core = find(cpu, case="bumpy floor", triangles=20022, spheres=20000, order="sorted", host="4Jul2026", ranks=1)
+    card = find(cuda, case="closed box, granular", spheres=1000000, order="sorted", ranks=1)
+    core_ns, card_ns = (1e6 * float(r["median_ms"]) / int(r["spheres"]) for r in (core, card))
+
+    def of(grains, ns, cores=1):
+        value = grains * 1e6 * ns * 1e-9 / 3600 / cores
+        return f"{value:.0f}" if value >= 10 else f"{value:.1g}" if value < 0.1 else f"{value:.2g}"
+
+    made = table((10000, 100000, 1000000, 10000000), ["grains", "one core", "4 cores", "16 cores", "one H200"],
+                 lambda n: [count(n), *[of(n, core_ns, cores) for cores in (1, 4, 16)], of(n, card_ns) if n >= int(card["spheres"]) else ""])
+    return (f"{made}\n\n* A grain and step, wall included: {core_ns:.0f} ns on one core ({core['device']}, `gran/hooke/history/kk` over a floor of "
+            f"{count(core['triangles'])} triangles, commit {core['commit']}); {card_ns:.1f} ns on the H200 (`granular` with hertz/material, mindlin, "
+            f"sds and marshall in a box of {count(card['triangles'])} triangles, commit {card['commit']}).")
+
+
 NO_WALL = ", no wall"
 MONTHS = ("Jan", "Feb", "Mar", "Apr", "May", "Jun", "Jul", "Aug", "Sep", "Oct", "Nov", "Dec")
 BEDS = ("flat floor", "closed box", "closed box, check yes", "closed box, granular", "bumpy floor")
@@ -255,7 +272,7 @@ def tables():
     cpu, cuda = (rows_of(f"performance_{device}.csv") for device in DEVICES)
     kokkos_cpu, kokkos_cuda = (rows_of(f"kokkos_{device}.csv") for device in DEVICES)
     return {
-        "performance.md": {"cost": cost(kokkos_cuda + kokkos_cpu), "set-up": set_up(cpu, cuda),
+        "performance.md": {"hours": hours(kokkos_cpu, kokkos_cuda), "cost": cost(kokkos_cuda + kokkos_cpu), "set-up": set_up(cpu, cuda),
                            "liggghts": liggghts(rows_of("liggghts_cpu.csv"))},
         "library-queries.md": {"point-costs": point_costs(cpu)},
         "effects.md": {"costs": costs(*(rows_of(f"effects_{device}.csv", ";") for device in DEVICES))},
