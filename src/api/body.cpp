@@ -62,10 +62,9 @@ lsdcd_body *with_same_wall(const lsdcd_mesh *wall, const lsdcd_mesh &mesh,
                            const lsdcd_body_options &o)
 {
   if (wall || o.cell != 0 || o.nearest != 0 || o.memory != 0 || o.device != 0)
-    refuse_option(
-        "lsdcd_body_options",
-        "same_wall is given, so that wall, cell, nearest, memory and device are that body's: "
-        "leave them out");
+    refuse_option("lsdcd_body_options",
+                  "same_wall is given, so wall, cell, nearest, memory and device are that body's: "
+                  "leave them out");
   check_gpu(*o.same_wall);
   return new lsdcd_body{MeshCollision(o.same_wall->in, mesh.in->mesh), o.same_wall->nearest,
                         o.same_wall->device, o.same_wall->gpu};

@@ -23,7 +23,7 @@ void check_sides(const ApiGrid &grid, bool on_cpu)
 {
   if (!grid.has_sides)
     throw ApiError(LSDCD_ERROR_SIDE,
-                   "the mesh is not closed and oriented, so that it has no side: " +
+                   "the mesh is not closed and oriented, so it has no side: " +
                        why_no_inside(grid.mesh->mesh) +
                        "; `estimate_sides` gives those of the winding number, on the host");
   if (!on_cpu && !grid.sides_by_normals())

@@ -54,7 +54,7 @@ void check_can_go_on(const lsdcd_wall &wall)
   if (!wall.failed.empty())
     throw ApiError(
         LSDCD_ERROR_INPUT,
-        "a step of this wall failed half-way, so that it cannot go on: " + wall.failed +
+        "a step of this wall failed half-way, so it cannot go on: " + wall.failed +
             ". Free it and make another one, which may go on from what was saved before");
 }
 

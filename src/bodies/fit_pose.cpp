@@ -74,7 +74,7 @@ PosePoints::PosePoints(const std::vector<Vec3> &points)
   }
   constexpr Real kThin = 1e-4;    // of widths
   if (!(minors > kThin * kThin * trace * trace))
-    throw InputError("its atoms are on a line, so that they do not define how it is turned");
+    throw InputError("its atoms are on a line, so they do not define how it is turned");
   radius_ = std::sqrt(trace / static_cast<Real>(points.size()));
 }
 

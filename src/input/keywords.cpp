@@ -189,7 +189,7 @@ const Keyword kKeywords[] = {
      "a cell lists everything that a sphere can touch, or the N triangles nearest to its centre",
      [](Tokens &w, WallCommand &s) { s.wall.nearest = read_nearest(w); }},
     {"cache", "FILE | none", "", "", "none",
-     "file that keeps the grid, so that the next start need not build it", nullptr, read_cache},
+     "file that keeps the grid, so the next start need not build it", nullptr, read_cache},
     {"corner", "blend | sum", "", "", "blend",
      "contacts at one place share their overlap, or their forces simply add",
      [](Tokens &w, WallCommand &s) {

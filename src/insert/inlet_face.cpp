@@ -24,7 +24,7 @@ InletFace::InletFace(const WeldedMesh &mesh, Real depth) : depth_(depth)
   if (mesh.report.two_sided_faces > 0)
     throw InputError(mesh.source + ": " + std::to_string(mesh.report.two_sided_faces) + " of " +
                      std::to_string(mesh.faces.size()) +
-                     " facets are there in both windings, so that the side of the inlet is not "
+                     " facets are there in both windings, so the side of the inlet is not "
                      "known: keep one of each pair");
   Real area = 0;
   for (const std::array<int, 3> &f : mesh.faces) {
@@ -62,7 +62,7 @@ void InletFace::check_flat(const WeldedMesh &mesh) const
     }
     if (dot(cross(t[1] - t[0], t[2] - t[0]), normal_) < 0)
       throw InputError(facet +
-                       " is wound against the others, so that the side of the inlet is not known: "
+                       " is wound against the others, so the side of the inlet is not known: "
                        "turn it over");
   }
 }

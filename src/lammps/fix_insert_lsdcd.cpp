@@ -437,7 +437,7 @@ std::string FixInsertLsdcd::no_room_text(double radius, int tries) const
   return "of " + std::to_string(tries) + " places " +
          (face ? "on " + settings.face.file : "in region " + settings.region) +
          " none is clear of the walls for a grain of diameter " + number_text(2 * radius) +
-         ", even without other grains, so that it would hold back all that come after it: give "
+         ", even without other grains, so it would hold back all that come after it: give "
          "smaller grains in 'diam' or a larger " +
          (face ? "mesh" : "region") +
          ", move it away from the walls, or name by wall ID only the walls that grains must avoid";

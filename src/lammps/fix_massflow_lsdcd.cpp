@@ -98,7 +98,7 @@ lsdcd::WeldedMesh FixMassflowLsdcd::read_mesh()
   lsdcd::WeldedMesh mesh = lsdcd::read_together(mpi, settings.surface);
   if (mesh.faces.empty())
     throw lsdcd::InputError(settings.surface.file +
-                            ": none of its triangles has an area, so that nothing can pass; "
+                            ": none of its triangles has an area, so nothing can pass; "
                             "check the file, or make weld smaller");
   return mesh;
 }

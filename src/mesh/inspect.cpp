@@ -31,7 +31,7 @@ std::string two_sided(const MeshReport &report)
       (are_all ? "each facet is" : counted(report.two_sided_faces, "facet is", "facets are")) +
       " there in both windings";
   if (are_all) text += ", as in a double-sided export";
-  if (report.closed && report.sheet_faces == faces) text += ", so that the mesh encloses nothing";
+  if (report.closed && report.sheet_faces == faces) text += ", so the mesh encloses nothing";
   if (report.closed || are_all) text += "; lsdcd repair keeps one of each pair";
   return text;
 }

@@ -120,7 +120,7 @@ void check_has_area(const WeldedMesh &mesh)
 {
   if (!mesh.faces.empty()) return;
   throw InputError(mesh.source + ": none of its " + std::to_string(mesh.report.facets) +
-                   " facets has an area, so that there is no wall; export the mesh again, or, "
+                   " facets has an area, so there is no wall; export the mesh again, or, "
                    "where facets are small, give a smaller weld tolerance");
 }
 

@@ -164,7 +164,7 @@ RepairedMesh repair(const TriangleSoup &soup, Real tolerance,
   }
   if (mesh.faces.empty())
     throw InputError(soup.source + ": none of its " + std::to_string(soup.n_triangles()) +
-                     " facets has an area, so that nothing is left; give a smaller --weld");
+                     " facets has an area, so nothing is left; give a smaller --weld");
   mesh.source = soup.source;
   if (report.degenerate_facets > 0) {
     connect_vertices(mesh);

@@ -85,7 +85,7 @@ std::string why_no_inside(const WeldedMesh &mesh)
   const std::string both_ways = " there in both windings, as in a double-sided export",
                     remedy = ": lsdcd repair keeps one of each pair";
   if (counted.facets.empty())
-    return "each of its facets is" + both_ways + ", so that it encloses nothing" + remedy;
+    return "each of its facets is" + both_ways + ", so it encloses nothing" + remedy;
   std::string some;
   if (!counted.sheets.empty())
     some = std::to_string(counted.sheets.size()) + " of " + std::to_string(mesh.faces.size()) +
@@ -94,7 +94,7 @@ std::string why_no_inside(const WeldedMesh &mesh)
     return enclose(mesh, counted.sheets)
                ? some + ", and what they enclose is neither inside nor outside" + remedy
                : "";
-  if (!some.empty()) some += ", so that neither winding counts; ";
+  if (!some.empty()) some += ", so neither winding counts; ";
   const std::size_t open = std::count_if(counted.loose.begin(), counted.loose.end(),
                                          [](const LooseEdge &e) { return e.facets == 1; });
   const LooseEdge &first = counted.loose[0];

@@ -107,7 +107,7 @@ void MotionTable::read(const PlaceOf &place_of)
   }
   if (!rows_.options.repeats && times_.back() <= 0)
     throw InputError(place_of(n - 1) + ": the last row is at time " + number_text(times_.back()) +
-                     ", and the motion begins at time 0, so that the mesh would rest where that "
+                     ", and the motion begins at time 0, so the mesh would rest where that "
                      "row has it: give times from 0 on, or let the table repeat");
 }
 

@@ -27,10 +27,10 @@ std::string place_text(const Vec3 &a)
     places += (shown++ ? "; " : "") + place_text(mesh.vertices[mesh.edges[e][0]]) + " to " +
               place_text(mesh.vertices[mesh.edges[e][1]]);
   }
-  throw InputError(
-      mesh.source + " does not bound a volume: it has " + std::to_string(mesh.report.open_edges) +
-      " open edges (" + places + (mesh.report.open_edges > shown ? "; ..." : "") +
-      "), so that a density gives no mass: close it, or give mass, centre and inertia");
+  throw InputError(mesh.source + " does not bound a volume: it has " +
+                   std::to_string(mesh.report.open_edges) + " open edges (" + places +
+                   (mesh.report.open_edges > shown ? "; ..." : "") +
+                   "), so a density gives no mass: close it, or give mass, centre and inertia");
 }
 
 }    // namespace

@@ -90,7 +90,7 @@ void add_convert_command(Command &program)
               "what a length of 1 is in the file: m, cm, mm, um, in or ft; written in metres")
       .check(known_unit)
       .excludes(scale);
-  command.flag("--float", o->floats, "round corners to float, so that STL is binary");
+  command.flag("--float", o->floats, "round corners to float, for a binary STL");
   command.flag("--json", o->json, "print JSON");
   command.runs([o] { run(*o); });
 }

@@ -92,7 +92,7 @@ void run(const MaterialOptions &o)
   std::printf("grains on one another, with pair_style granular of LAMMPS 29Sep2021 and later:\n");
   std::printf("  pair_coeff * * %s\n", old.c_str());
   if (old == recent) return;
-  std::printf("the same in the wall's words, which 29Sep2021 does not know:\n");
+  std::printf("the same in the wall's form, which 29Sep2021 does not know:\n");
   std::printf("  pair_coeff * * %s\n", recent.c_str());
 }
 

@@ -221,7 +221,7 @@ void add_tradeoff_command(Command &program)
       .check(above_zero);
   command
       .option("--below", o->below,
-              "print the words for an input script: the fastest setting with missed contacts / "
+              "print the keywords for an input script: the fastest setting with missed contacts / "
               "contacts "
               "and all errors of forces below this")
       .check(above_zero);

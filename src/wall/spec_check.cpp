@@ -224,7 +224,7 @@ class SpecCheck {
     if (are_one_mesh(wall_, one, wall_, other))
       refuse(k, kMesh,
              "it is that of " + name_of(i) +
-                 " at the same place, so that every contact would count twice: leave one out, or "
+                 " at the same place, so every contact would count twice: leave one out, or "
                  "move it");
     const struct {
       Member member;
@@ -236,7 +236,7 @@ class SpecCheck {
       if (!file.name.empty() && file.name == file.of_other)
         refuse(k, file.member,
                name_of(i) + " has the same file '" + file.name +
-                   "', so that one would overwrite the other: give each a name of its own");
+                   "', so one would overwrite the other: give each a name of its own");
   }
 
   const WallSpec &wall_;

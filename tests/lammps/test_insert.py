@@ -381,7 +381,7 @@ def test_recovers(folder):
     fails = lmp.run(text.replace(spots, "").format(150) + wall + "run 3\n", folder, 2)
     fact("a grain that fits nowhere beside a wall at rest is an error", fails.returncode != 0 and
          "of 100000 places on unit.stl none is clear of the walls for a grain of diameter 0.2, even without other grains, "
-         "so that it would hold back all that come after it: give smaller grains in 'diam'" in fails.stdout)
+         "so it would hold back all that come after it: give smaller grains in 'diam'" in fails.stdout)
 
 
 def test_huge(folder):

@@ -444,9 +444,9 @@ TEST_F(wall, refuses_all_calls_after_a_step_that_failed_half_way)
       [&] { wall.set_motion(0, {}); }};
   for (const std::function<void()> &call : calls) {
     EXPECT_EQ(code_of(call), LSDCD_ERROR_INPUT);
-    EXPECT_EQ(text_of(call).rfind(
-                  "a step of this wall failed half-way, so that it cannot go on: " + first, 0),
-              0u)
+    EXPECT_EQ(
+        text_of(call).rfind("a step of this wall failed half-way, so it cannot go on: " + first, 0),
+        0u)
         << text_of(call);
   }
 }

@@ -1541,7 +1541,7 @@ TEST_F(wall_spec, names_the_field_its_value_and_the_remedy)
       {[&](Wrong &w) { w.meshes[1].size = 16; }, "`meshes[1]`: size is 16, and should be sizeof("},
       {[&](Wrong &w) { w.meshes[1].mesh = nullptr; }, "`meshes[1].mesh` is null: give a mesh"},
       {[&](Wrong &w) { w.meshes[1].placement[11] = 0; },
-       "`meshes[1].mesh`: it is that of meshes[0] at the same place, so that every contact would"},
+       "`meshes[1].mesh`: it is that of meshes[0] at the same place, so every contact would"},
       {[&](Wrong &w) { w.meshes[1].placement[3] = HUGE_VAL; },
        "`meshes[1].placement[3]` is inf: give a finite number"},
       {[&](Wrong &w) { w.meshes[1].placement[0] = 0; },

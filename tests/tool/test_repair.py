@@ -150,7 +150,7 @@ def test_repair(folder):
               {"duplicate_facets": len(ball), "turned_facets": to_turn, "shells": 1}, {}, 0, solid)
     stl.write(folder / "in.stl", np.concatenate([box, turned(box)]))
     seen = run(folder, "inspect", "in.stl").stdout
-    fact("inspect names them", "closed, but each facet is there in both windings, as in a double-sided export, so that "
+    fact("inspect names them", "closed, but each facet is there in both windings, as in a double-sided export, so "
          "the mesh encloses nothing; lsdcd repair" in seen and "no: 12 duplicate facets, 12 facets in both" in seen, seen)
     flat = np.concatenate([box, [box[0, [0, 0, 1]], box[0, [0, 0, 0]],
                                  (box[0, 0], (box[0, 0] + box[0, 1]) / 2, box[0, 1])]])

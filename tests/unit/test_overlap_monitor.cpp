@@ -202,7 +202,7 @@ TEST(OverlapMonitor, warns_again_past_a_quarter_and_a_half_and_where_a_centre_co
   has(2, "sphere 3 sank into the wall by 60 %");
   has(2, "comes again where a centre comes to the wall");
   has(3, "sphere 2 sank into the wall by 96 % of its radius 2 in step 88, pressed by mesh 2 "
-         "'vane.stl' and mesh 3 'inlet.stl': its centre came to the wall, so that it may come out");
+         "'vane.stl' and mesh 3 'inlet.stl': its centre came to the wall, so it may come out");
   has(4, "sphere 3 sank into the wall by 120 % of its radius 3 in step 99, pressed by mesh 3 "
          "'inlet.stl': its centre is past the wall");
 }

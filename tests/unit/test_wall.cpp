@@ -646,10 +646,9 @@ TEST(Wall, has_the_ways_out_of_its_host_in_errors_of_the_engine)
     scene.wall->poll_diagnostics(scene.grains.spheres());
     ADD_FAILURE() << "no error";
   } catch (const InputError &e) {
-    EXPECT_STREQ(
-        e.what(),
-        "sphere 1 has grown since the spheres near the wall were selected, so that others may "
-        "have been missed; tell of it");
+    EXPECT_STREQ(e.what(),
+                 "sphere 1 has grown since the spheres near the wall were selected, so others may "
+                 "have been missed; tell of it");
   }
 }
 

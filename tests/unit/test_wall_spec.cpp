@@ -236,8 +236,7 @@ TEST(wall_spec, another_mesh_is_named_as_its_maker_does)
   WallSpec wall = good();
   wall.meshes[0].name = "lid";
   wall.meshes[0].stl.name = wall.meshes[1].stl.name = "a.stl";
-  expect_error(wall,
-               "of mesh 2 'blade': mesh 1 'lid' has the same file 'a.stl', so that one would");
+  expect_error(wall, "of mesh 2 'blade': mesh 1 'lid' has the same file 'a.stl', so one would");
   EXPECT_EQ(refusal_of(wall, SpecNames::fields)
                 .rfind("`meshes[1].stl`: meshes[0] has the same file 'a.stl'", 0),
             0u);

@@ -391,7 +391,7 @@ TEST(winding_number, is_refused_where_each_facet_is_there_in_both_windings)
     EXPECT_FALSE(mesh.report.oriented);
     EXPECT_FALSE(has_inside(mesh));
     EXPECT_EQ(why_no_inside(mesh), "each of its facets is there in both windings, as in a "
-                                   "double-sided export, so that it encloses nothing: lsdcd repair "
+                                   "double-sided export, so it encloses nothing: lsdcd repair "
                                    "keeps one of each pair");
   }
 }

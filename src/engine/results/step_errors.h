@@ -40,10 +40,9 @@ namespace lsdcd {
 
 [[noreturn]] inline void throw_has_grown(int i, const HostNames &names)
 {
-  throw InputError(i,
-                   std::string("has grown since the spheres near the wall were selected, so that "
-                               "others may have been missed; ") +
-                       names.announce_growth);
+  throw InputError(i, std::string("has grown since the spheres near the wall were selected, so "
+                                  "others may have been missed; ") +
+                          names.announce_growth);
 }
 
 }    // namespace lsdcd

@@ -46,7 +46,7 @@ void check_pressure(const WallSpec &settings, const MeshPart &m)
           std::to_string(r.misoriented_edges) + " misoriented edges, " +
           std::to_string(r.two_sided_faces) + " faces in both windings and " +
           std::to_string(r.inverted_facets) +
-          " facets of closed shells that are wound against the others, so that it would push to "
+          " facets of closed shells that are wound against the others, so it would push to "
           "both sides: wind all alike, for example by lsdcd repair"));
 }
 
@@ -100,7 +100,7 @@ void check_stays_closed(Host &host, const WallSpec &settings, const MeshPart &m)
     const std::vector<Vec3> &x = mesh->vertices;
     throw InputError(named("the facet with the corners " + vector_text(x[a]) + ", " +
                            vector_text(x[b]) + " and " + vector_text(x[c]) + " of '" + m.spec.name +
-                           "' has no area, so that the wall has no triangle there, and a hole "
+                           "' has no area, so the wall has no triangle there, and a hole "
                            "would open where its nodes move apart"));
   }
   if (!host.is_first()) return;

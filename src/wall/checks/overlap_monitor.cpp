@@ -18,7 +18,7 @@ const char *const kWrongSide =
     "or should it be both?";
 
 const char *const kCameThrough =
-    "its centre came to the wall, so that it may come out on the other side and be lost: ";
+    "its centre came to the wall, so it may come out on the other side and be lost: ";
 
 std::string sunk_remedy(Real overlap, Real timestep_ratio)
 {
