@@ -101,7 +101,7 @@ void restore(lsdcd_wall &wall, const double *numbers, std::size_t count, bool wh
   const std::string differ = differences(wall.parts, parts);
   if (!what_fits && !differ.empty())
     throw ApiError(LSDCD_ERROR_ARGUMENT,
-                   "these are numbers of another wall: " + differ +
+                   "these are numbers of a different wall: " + differ +
                        ". Make the wall of the spec that it had, or take what fits by "
                        "lsdcd_wall_restore_what_fits()");
   wall.in->restore(state, {step, wall.dt});

@@ -88,7 +88,8 @@ void StateReader::take(std::string &text)
 State::State(const std::string &kind, const Real *numbers, std::size_t n) : kind_(kind)
 {
   const std::string data = "the data of the " + kind;
-  if (n == 0 || numbers[0] != kMark) throw StateError(data + " are of another program or version");
+  if (n == 0 || numbers[0] != kMark)
+    throw StateError(data + " are of a different program or version");
   StateReader head(numbers + 1, n - 1, data);
   const std::int64_t format = head.next<std::int64_t>();
   if (format != kFormat)

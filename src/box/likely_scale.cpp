@@ -68,7 +68,7 @@ std::string likely_scale_text(const Vec3 &mesh, const PeriodicBox &box)
   }
   std::string text;
   for (const Unit &u : likely_units(extents, room))
-    text += (text.empty() ? "; the file is probably in other units: add scale " : ", or ") +
+    text += (text.empty() ? "; the file is probably in different units: add scale " : ", or ") +
             number_text(u.factor) + " if they are " + u.name;
   return text;
 }

@@ -15,11 +15,11 @@ namespace lsdcd {
 // which the mesh fits into the box; from inches where nothing else fits.
 Real likely_scale(const Vec3 &mesh, const Vec3 &box);
 
-// Returns the end of a message, "; the file is probably in other units: add scale 0.001 if they are millimetres". Empty
+// Returns the end of a message, "; the file is probably in different units: add scale 0.001 if they are millimetres". Empty
 // where the scale is likely right, and where a box that follows its spheres says nothing of it. `mesh`: extents.
 std::string likely_scale_text(const Vec3 &mesh, const PeriodicBox &box);
 
-// A message about a mesh that is far larger than the box and probably in other units; empty for others.
+// A message about a mesh that is far larger than the box and probably in different units; empty for others.
 // `spans`: where the mesh is in the box.
 std::string too_large_text(const Vec3 &mesh, const Box &spans, const PeriodicBox &box);
 

@@ -40,7 +40,7 @@ struct HostNames {
   const char *make_room = "give a smaller reach, so that they are selected more often, or restore "
                           "a saved state, which makes room for them";
   // radii grew between two choices of candidates
-  const char *announce_growth = "set `changed` in a step with other radii";
+  const char *announce_growth = "set `changed` in a step with different radii";
   // a motion was stopped
   const char *begin_motion = "start another motion, which begins where the mesh is";
   // a servo was stopped

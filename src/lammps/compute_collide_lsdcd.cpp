@@ -145,7 +145,7 @@ void ComputeCollideLsdcd::check_wall(const FixWallLsdcd &fix) const
     same = fix.meshes()[m].grid.mesh_fingerprint() == meshes[m].fingerprint;
   if (!same)
     fatal("fix " + settings.wall +
-          " has other meshes than when the compute was defined: define the compute again");
+          " has different meshes than when the compute was defined: define the compute again");
 }
 
 void ComputeCollideLsdcd::init()

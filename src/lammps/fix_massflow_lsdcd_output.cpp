@@ -81,7 +81,8 @@ void FixMassflowLsdcd::restart(char *buffer)
     fatal(unusable_state(e, "what has passed"));
   }
   if (there.size() != mine.size()) {
-    warn("totals begin at zero: the restart file was written with another number of atom types");
+    warn(
+        "totals begin at zero: the restart file was written with a different number of atom types");
     return;
   }
   window = then;

@@ -93,7 +93,7 @@ FixWallLsdcd::FixWallLsdcd(LAMMPS *lmp, int narg, char **arg, const lsdcd::WallB
     const std::string differs =
         lsdcd::wall_gran_difference(LSDCD_HOST_VERSION, spec.laws.front().name, spec.law());
     if (!differs.empty() && !spec.brief)
-      log("fix wall/gran of this LAMMPS gives other forces for this law: " + differs);
+      log("fix wall/gran of this LAMMPS gives different forces for this law: " + differs);
   });
 
   const bool contacts = spec().contacts;

@@ -167,12 +167,12 @@ std::string NodeAtoms::check_tags(lsdcd::Wall &wall)
     set_tags(near.tag);
     wall.nodes(mesh).names.assign(tag_of.begin(), tag_of.end());
     return "the nodes of mesh '" + part.spec.name +
-           "' have other atom IDs than before: the fix has found them where they were";
+           "' have different atom IDs than before: the fix has found them where they were";
   }
   const std::string why =
-      ". delete_atoms and reset_atom_ids give atoms other IDs, and the fix finds nodes by their "
-      "places "
-      "only where they have not moved since: use delete_atoms with compress no, or run 0 between "
+      ". delete_atoms and reset_atom_ids give atoms different IDs, and the fix finds nodes by "
+      "their places only where they have not moved since: use delete_atoms with compress no, or "
+      "run 0 between "
       "commands that give IDs and commands that move nodes";
   if (lost_one >= 0) fail_lost(wall, lost_one, why);
   if (may_be_others(*part.mesh()))

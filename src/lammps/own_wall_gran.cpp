@@ -65,7 +65,7 @@ const Difference kDifferences[] = {
      "radius"},
     {20230328, kNewest, is_undamped, "its forces are not a number where gamma_n is 0"},
     {0, 20230208, has_modulus,
-     "its modulus is E/(2(1 - nu)) where E/(2(1 - nu^2)) is right, and NULL for kt is another "
+     "its modulus is E/(2(1 - nu)) where E/(2(1 - nu^2)) is right, and NULL for kt is a different "
      "number"},
     {0, kNewest, is_tsuji,
      "its damping tsuji lacks a factor of sqrt(2): it returns 0.62 for a restitution of 0.5"},

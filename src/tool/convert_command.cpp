@@ -77,7 +77,7 @@ void add_convert_command(Command &program)
 {
   const auto o = std::make_shared<ConvertOptions>();
   Command command = program.command(
-      "convert", "writes a mesh in another format or other units: STL, OBJ, PLY, OFF");
+      "convert", "writes a mesh in a different format or different units: STL, OBJ, PLY, OFF");
   command.footer(
       "Coordinates keep all their digits. Polygons are cut into triangles. STL is binary if "
       "all\ncorners are floats, else text; PLY is binary, of floats or else of doubles.\n"

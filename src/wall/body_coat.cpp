@@ -539,7 +539,7 @@ void BodyCoat::restore(const std::vector<Real> &saved)
   else
     host_.warn(named("the springs of its coat start from zero: the " +
                      std::string(host_.names().saved) +
-                     " was written with another coat or contact law"));
+                     " was written with a different coat or contact law"));
 }
 
 void BodyCoat::take_restored(const std::deque<MeshPart> &meshes)
@@ -574,7 +574,7 @@ void BodyCoat::take_restored(const std::deque<MeshPart> &meshes)
   engine_->springs().from_store(springs, n);
   if (lost)
     host_.warn(named("points of its coat lose their springs: the " +
-                     std::string(host_.names().saved) + " was written with another mesh"));
+                     std::string(host_.names().saved) + " was written with a different mesh"));
 }
 
 std::size_t BodyCoat::bytes() const

@@ -84,8 +84,8 @@ void HistoryExchange::check_restored(int n, const std::function<bool(const Sprin
         break;
       }
   host_.sum(lost, 2);
-  const char *const file[] = {"was written with another mesh",
-                              "was written with another contact law"};
+  const char *const file[] = {"was written with a different mesh",
+                              "was written with a different contact law"};
   for (int k = 0; k < 2; k++)
     if (lost[k] > 0)
       host_.warn(std::to_string(static_cast<std::int64_t>(lost[k])) + " " + host_.names().sphere +

@@ -772,7 +772,7 @@ void Wall::restore(const WallState &was, const Step &now)
       restore_mesh(m, was.meshes[k], now);
     else
       host_.warn(named(m, "springs, motion, loads and wear start from zero: the " + saved +
-                              " was written with another mesh in this place"));
+                              " was written with a different mesh in this place"));
   }
   if (!was.unread.empty())
     host_.warn("the " + saved + " has " + was.unread +
@@ -821,7 +821,7 @@ void Wall::restore_mesh(MeshPart &m, const MeshState &was, const Step &now)
   if (!spec_.has_loads(m.spec)) return;
   if (m.springs_are_foreign)
     host_.warn("loads and wear begin at zero: the " + std::string(host_.names().saved) +
-               " was written with another mesh");
+               " was written with a different mesh");
   else
     loads_.restore(m.index, was.loads.time, was.loads.rows);
 }

@@ -380,7 +380,7 @@ TABLES = [
          "unfix           wall\n"
          "fix             wall all wall/lsdcd hooke 1e4 NULL 20 NULL 0.1 1 mesh floor.stl scale 2\n"
          "thermo_style    custom step c_c",
-         "fix wall has other meshes than when the compute was defined"),
+         "fix wall has different meshes than when the compute was defined"),
         ("collide_short_cells", "wall mesh floor.stl grid 1e-7", "cell"),
         ("collide_twice", "wall mesh floor.stl grid 1 grid 2", "the keyword 'grid' is given twice"),
         ("collide_unknown_keyword", "wall mesh floor.stl bodie one", "'bodie' is not a keyword", "bodies one"),

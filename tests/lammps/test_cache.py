@@ -96,7 +96,7 @@ def test_start(folder, ranks):
         fact(f"{where}, {name}: replaced", cache.read_bytes()[64:] == good[64:] or
              go(folder, "cache cache", ranks).read == 1)
 
-    for words, told in (("grid 0.3", "belongs to other settings"), ("move 0 0 1e-9", "belongs to another mesh")):
+    for words, told in (("grid 0.3", "belongs to different settings"), ("move 0 0 1e-9", "belongs to a different mesh")):
         run = go(folder, f"{words} cache cache", ranks)
         same(folder, f"{where}, {words}", run, go(folder, words, ranks), written=1, warnings=1)
         fact(f"{where}, {words}: told", told in run.warnings[0], run.warnings[0])

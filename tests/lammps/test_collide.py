@@ -236,7 +236,7 @@ def test_other_wall(folder):
 
     done = lmp.run(first + again.format("other") + "run 0\n", folder, 2)
     fact("a wall with another mesh of the same size is refused", done.returncode != 0 and
-         "fix wall has other meshes than when the compute was defined" in done.stdout,
+         "fix wall has different meshes than when the compute was defined" in done.stdout,
          str(lmp.read_thermo(done.stdout)))
     worn = again.format("half").replace("mesh half.stl", "mesh half.stl wear archard 1 50 deform every 10")
     for name, text in (("made again", first + worn), ("from the beginning", first.replace(compute, worn + compute))):

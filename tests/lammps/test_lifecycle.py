@@ -174,7 +174,7 @@ def test_read_without_atoms(folder):
     springs = sum(row[9] > 0 for row in two[200].values())
     text = lmp.run_well(scene.SETTINGS + "read_restart few.restart\n" + scene.forces(HOOKE, BUMPS) +
                         "run 0\n", folder, 2)
-    found = re.search(r"(\d+) atoms lose their springs: the restart file was written with another "
+    found = re.search(r"(\d+) atoms lose their springs: the restart file was written with a different "
                       "contact law", text)
     fact("a law without springs: says how many atoms lose theirs",
          found and int(found.group(1)) == springs > 0, f"{springs} touch, " +

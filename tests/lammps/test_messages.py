@@ -222,7 +222,7 @@ def test_effects_without_times(folder):
 
 def test_laws_of_wall_gran(folder):
     """Laws that LAMMPS's own fix wall/gran computes otherwise, in every version that was tried."""
-    other = "fix wall/gran of this LAMMPS gives other forces for this law: "
+    other = "fix wall/gran of this LAMMPS gives different forces for this law: "
     text = lmp.run_well(BOX + fix(law="granular hertz 1e6 0.5 tangential mindlin 1e6 1 0.3 damping tsuji") + "run 0\n", folder)
     fact("the log names what fix wall/gran computes otherwise", lines(text, other, "damping tsuji lacks a factor of sqrt(2)"))
     text = lmp.run_well(BOX + fix(law="hertz/history 1e6 NULL 5 NULL 0.5 1") + "run 0\n", folder)

@@ -311,7 +311,7 @@ def test_renumbered(folder):
         done = lmp.run(head + text + "displace_atoms nodes move 0 0 0.3\nrun 0\n", folder)
         out = " ".join(done.stdout.split())
         fact(f"nodes that were displaced after {text.strip()}: {says}", done.returncode != 0 and says in out and
-             "delete_atoms and reset_atom_ids give atoms other IDs" in out)
+             "delete_atoms and reset_atom_ids give atoms different IDs" in out)
     # Without a setup LAMMPS says nothing of the commands before it.
     lmp.run_well(head + "delete_atoms group grains\nrun 1 pre no\n" + PRESS.format(z=0.24), folder)
     at_most("and after a run without setup", abs(rows_of(folder / "out.txt")[0][0] + 20), 1e-9)
@@ -325,7 +325,7 @@ def test_another_mesh(folder):
         out = lmp.run_well(SHEET.format(create="read_restart one.restart", mesh=mesh + ".stl") + PRESS.format(z=0.24), folder)
         at_most(f"restart with {mesh}.stl", abs(rows_of(folder / "out.txt")[0][0] + 20), 1e-9)
         fact(f"and a warning, {mesh}.stl",
-             ("was written with another mesh" in " ".join(out.split())) == (mesh != "sheet"))
+             ("was written with a different mesh" in " ".join(out.split())) == (mesh != "sheet"))
 
 
 # ---- nodes that fix move moves -------------------------------------------------------------

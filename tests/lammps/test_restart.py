@@ -75,7 +75,7 @@ def test_kinds(folder):
     write(law("mindlin/force"), folder, name="kind", create=FEW)
     text = proceed(law("mindlin"), folder, restart="kind.restart")[1]
     fact("kinds: a force is not taken for a displacement", "6 atoms lose their springs: the restart "
-         "file was written with another contact law" in text)
+         "file was written with a different contact law" in text)
     write(law("mindlin"), folder, name="kind", create=FEW)
     text = proceed(law("linear_history"), folder, restart="kind.restart")[1]
     fact("kinds: a displacement is one in any law", "lose their springs" not in text)
@@ -88,7 +88,7 @@ def test_meshes(folder):
     scene.write_floor(folder / "floor.stl", side=6.49)
     text = proceed(law, folder, restart="mesh.restart")[1]
     fact("meshes: springs of another one with as many triangles are dropped", "6 atoms lose their "
-         "springs: the restart file was written with another mesh" in text)
+         "springs: the restart file was written with a different mesh" in text)
     scene.write_floor(folder / "floor.stl")
 
 
@@ -118,7 +118,7 @@ def test_other_ranks_laws_and_meshes(folder):
 
     text = proceed(scene.GRANULAR, folder)[1]
     fact("another law: what it does not know is dropped with a warning",
-         "lose their springs: the restart file was written with another contact law" in text)
+         "lose their springs: the restart file was written with a different contact law" in text)
 
     # Springs of another mesh are dropped with a warning, not followed.
     scene.write_floor(folder / "floor.stl", cells=4)

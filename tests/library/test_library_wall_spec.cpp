@@ -852,7 +852,7 @@ TEST_F(wall_spec, takes_saved_data_of_a_wall_of_the_same_spec_alone)
       EXPECT_EQ(text, "");
       continue;
     }
-    EXPECT_EQ(text.rfind("these are numbers of another wall: the ", 0), 0u)
+    EXPECT_EQ(text.rfind("these are numbers of a different wall: the ", 0), 0u)
         << text << ", for " << row.text;
     EXPECT_NE(text.find(row.text), std::string::npos) << text << ", not " << row.text;
     EXPECT_EQ(code_of([&] { here.restore(saved); }), LSDCD_ERROR_ARGUMENT);

@@ -105,8 +105,9 @@ TEST(HistoryExchange, of_another_law_is_not_taken_and_told_once)
     EXPECT_EQ(read.on_cpu().count(1), 0);
     read.check_restored(2, is_face);
     ASSERT_EQ(host.warnings.size(), 1u);
-    EXPECT_EQ(host.warnings[0],
-              "2 spheres lose their springs: the saved state was written with another contact law");
+    EXPECT_EQ(
+        host.warnings[0],
+        "2 spheres lose their springs: the saved state was written with a different contact law");
   });
 }
 
@@ -121,7 +122,7 @@ TEST(HistoryExchange, of_features_that_are_not_there_is_dropped_and_told)
     EXPECT_EQ(history.on_cpu().count(1), host.rank() == 0 ? 1 : 0);
     ASSERT_EQ(host.warnings.size(), 1u);
     EXPECT_EQ(host.warnings[0],
-              "1 spheres lose their springs: the saved state was written with another mesh");
+              "1 spheres lose their springs: the saved state was written with a different mesh");
   });
 }
 

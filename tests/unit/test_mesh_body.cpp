@@ -180,7 +180,7 @@ TEST(mesh_body, goes_on_from_where_it_was_in_another_joint)
   EXPECT_NEAR(second.body().omega().z, 3, 1e-14);
   EXPECT_EQ(second.body().coordinate(), 0);
   ASSERT_EQ(other.warnings.size(), 1u);
-  EXPECT_NE(other.warnings[0].find("another mass or joint"), std::string::npos);
+  EXPECT_NE(other.warnings[0].find("a different mass or joint"), std::string::npos);
 }
 
 // A free cube that has moved and turned gets a joint, whose point is then elsewhere in the body than in the mesh's file.

@@ -1192,7 +1192,7 @@ TEST(mesh_nodes, of_another_mesh_are_not_those_of_a_saved_state)
   EXPECT_TRUE(second.wall->nodes(0).names.empty());
   EXPECT_EQ(second.nodes(), other->vertices);
   ASSERT_EQ(other_host.warnings.size(), 1u);
-  EXPECT_NE(other_host.warnings[0].find("was written with another mesh"), std::string::npos);
+  EXPECT_NE(other_host.warnings[0].find("was written with a different mesh"), std::string::npos);
 }
 
 // What moved a rigid mesh does not move nodes, and nodes do not move a rigid mesh: the log says where it is.

@@ -361,14 +361,14 @@ TEST(likely_scale, centimetres_in_a_box_of_metres)
   PeriodicBox box = box_of({0.2, 0.2, 0.32});
   EXPECT_EQ(likely_scale({10, 10, 20}, {0.2, 0.2, 0.32}), 1e-2);
   EXPECT_EQ(likely_scale_text({10, 10, 20}, box),
-            "; the file is probably in other units: add scale 0.01 if they are centimetres");
+            "; the file is probably in different units: add scale 0.01 if they are centimetres");
 }
 
 // A mesh of 8 to 12 inches, or of centimetres, for a box of 30 cm.
 TEST(likely_scale, names_inches_where_both_may_be)
 {
   EXPECT_EQ(likely_scale_text({8, 8, 12}, box_of({0.3, 0.3, 0.3})),
-            "; the file is probably in other units: add scale 0.01 if they are centimetres, or "
+            "; the file is probably in different units: add scale 0.01 if they are centimetres, or "
             "0.0254 if they are inches");
 }
 

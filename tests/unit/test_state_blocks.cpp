@@ -149,7 +149,8 @@ TEST(State, of_another_kind_is_refused_with_both_names)
 
 TEST(State, tells_numbers_that_are_none)
 {
-  EXPECT_EQ(problem_of({-6, 1, 2, 3}), "the data of the thing are of another program or version");
+  EXPECT_EQ(problem_of({-6, 1, 2, 3}),
+            "the data of the thing are of a different program or version");
 }
 
 TEST(State, refuses_a_block_of_a_later_version)

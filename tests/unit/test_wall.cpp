@@ -399,7 +399,7 @@ TEST(Wall, drops_histories_where_the_mesh_is_another)
   EXPECT_EQ(second.grains.force[0].x, 0);
   ASSERT_EQ(other_host.warnings.size(), 1u);
   EXPECT_EQ(other_host.warnings[0],
-            "1 spheres lose their springs: the saved state was written with another mesh");
+            "1 spheres lose their springs: the saved state was written with a different mesh");
 }
 
 TEST(Wall, reaches_through_a_periodic_face_that_comes_nearer)

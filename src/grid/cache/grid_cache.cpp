@@ -90,10 +90,11 @@ void CachedGrid::open_and_check(const std::string &path, const GridKey &wanted)
   GridKey key = {};
   take(key);
   if (front.format != kFormat || !(key.version == wanted.version))
-    return refuse(CacheState::other_version, "was written by another version of LSDCD");
-  if (!(key.mesh == wanted.mesh)) return refuse(CacheState::other_mesh, "belongs to another mesh");
+    return refuse(CacheState::other_version, "was written by a different version of LSDCD");
+  if (!(key.mesh == wanted.mesh))
+    return refuse(CacheState::other_mesh, "belongs to a different mesh");
   if (!(key.settings == wanted.settings))
-    return refuse(CacheState::other_settings, "belongs to other settings or radii");
+    return refuse(CacheState::other_settings, "belongs to different settings or radii");
 
   std::uint64_t block_bytes = 0;
   take(block_bytes);

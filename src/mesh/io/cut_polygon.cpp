@@ -44,7 +44,7 @@ class Cutter {
     if (stuck >= 0) return crosses_near(corners_[stuck]);
     const int doubled = is_simple() ? -1 : corner_of_overlap();
     if (doubled >= 0) return crosses_near(corners_[doubled]);
-    if (!has_area_of_polygon()) return "its triangles have another area than it has";
+    if (!has_area_of_polygon()) return "its triangles have a different area than it has";
     for (const Triple &t : cut_) append(t);
     return "";
   }

@@ -95,7 +95,7 @@ void BoxChecks::check_small(const MeshPart &m, const PeriodicBox &box, Real radi
   const bool is_scaled = std::any_of(steps.begin(), steps.end(), [](const PlacementStep &step) {
     return step.kind == PlacementStep::scale;
   });
-  const std::string units = !is_scaled ? "the file is probably in other units: add a scale"
+  const std::string units = !is_scaled ? "the file is probably in different units: add a scale"
                                        : std::string("the file is probably in ") +
                                              host_.names().units + ", and the scale in '" +
                                              placement_text(m.spec.placement) + "' is not needed";

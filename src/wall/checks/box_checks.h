@@ -24,7 +24,7 @@ class BoxChecks {
 
   // Before the first grid is built.
 
-  // Warns of a mesh that is far larger than the box: its file is probably in other units.
+  // Warns of a mesh that is far larger than the box: its file is probably in different units.
   void check_scale(const MeshPart &m, const PeriodicBox &box) const;
   // Warns where periodic images act inside the box, which the mesh may not have been drawn for.
   void check_periodic(const MeshPart &m, const PeriodicBox &box) const;

@@ -410,7 +410,7 @@ void BodyMover::restore(const MeshState &of, const Step &now)
   if (!is_same(was))
     host_.warn(
         named("the " + saved +
-              " was written with another mass or joint of this body: the body continues "
+              " was written with a different mass or joint of this body: the body continues "
               "from where it was, with the part of its velocity that its joint allows" +
               (was.joint == body_spec().joint ? "" : ", and its coordinate starts at 0 there")));
 }

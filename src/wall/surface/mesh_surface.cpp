@@ -120,9 +120,10 @@ class NodeSurface final : public MeshSurface {
     if (same)
       nodes_->restore(was.nodes);
     else if (!was.nodes.places.empty())
-      host_.warn(named("the " + std::string(host_.names().saved) +
-                       " was written with another mesh: the nodes begin at the vertices of this "
-                       "one, whatever they were there"));
+      host_.warn(
+          named("the " + std::string(host_.names().saved) +
+                " was written with a different mesh: the nodes begin at the vertices of this "
+                "one, whatever they were there"));
     warn_of_wear(was, same);
     return false;
   }
