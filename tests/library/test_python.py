@@ -446,7 +446,7 @@ def test_processes():
 
 
 def test_wall_specs():
-    """A pose and totals in closed form, and what is refused. wall_against_lammps.py has walls against those of scripts."""
+    """A pose and totals in closed form, and what is refused. test_wall_against_lammps.py has walls against those of scripts."""
     square = np.array([[-5, -5, 0], [5, -5, 0], [5, 5, 0], [-5, 5, 0]], float)
     mesh = lsdcd.Mesh(square, [[0, 1, 2], [0, 2, 3]])
     x, radius, mass = np.array([[0.3, 0.2, 0.49], [1.5, -1, 0.48]]), np.full(2, 0.5), np.ones(2)

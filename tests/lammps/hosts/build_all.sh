@@ -3,7 +3,7 @@
 # SPDX-License-Identifier: GPL-2.0-only
 
 # Builds what build_host.sh has to test against, and prints options of CMake that name the folders.
-#   build_all.sh [kinds] [mpi]   4Jul2026 with KOKKOS, whose own granular walls are the oracle of lammps.test_granular_host
+#   build_all.sh [kinds] [mpi]   4Jul2026 with KOKKOS, whose own granular walls are the oracle of lammps.host.test_granular
 #   kinds                        also with KOKKOS for threads and with atoms in float
 #   mpi                          also 4Jul2026 with MPICH, without MPI, and without MPI and PLUGIN, LSDCD compiled in
 # What it says goes to the standard error. What cannot be had is left out, and its tests say so; ends with 1 where a build fails.
