@@ -12,7 +12,7 @@ import csv
 import os
 import sys
 
-ZERO = 1e-9    # where errors of 0, and of rounding, are drawn
+ZERO, BREAK = 1e-9, 3e-8    # where errors of 0, and of rounding, are drawn, and the break of the axis above them
 # Settings with a name: what differs from the default, marker, colour. All others are grey dots.
 NAMED = [("the default", {}, "*", "#000000"), ("nearest 8", {"nearest": "8"}, "D", "#009E73"),
          ("nearest 4", {"nearest": "4"}, "v", "#CC79A7"), ("nearest 1", {"nearest": "1"}, "X", "#E69F00")]
@@ -23,14 +23,13 @@ def shown(error):
     return max(error, ZERO)
 
 
-def panel(axes, rows, key, scale, label, others):
-    """Errors against one column. Rows are of one device; `others` says whether settings without a name are shown."""
+def panel(axes, rows, key, scale, label):
+    """Errors against one column, of rows of one device. The axis is broken between the errors and 0."""
     from matplotlib.ticker import FixedLocator, FuncFormatter, LogLocator, NullFormatter
     default = next((r for r in rows if r["default"] == "1"), None)
     named = [{**{k: default[k] for k in SETTING}, **other} for _, other, _, _ in NAMED] if default else []
-    if others:
-        axes.plot([r[key] * scale for r in rows], [shown(r["force_mean"]) for r in rows], "o", color="#999999",
-                  markersize=4, linestyle="none", zorder=1)
+    axes.plot([r[key] * scale for r in rows], [shown(r["force_mean"]) for r in rows], "o", color="#999999",
+              markersize=4, linestyle="none", zorder=1)
     for (name, _, marker, colour), wanted in zip(NAMED, named):
         row = next((r for r in rows if all(r[k] == v for k, v in wanted.items())), None)
         if row:
@@ -39,6 +38,8 @@ def panel(axes, rows, key, scale, label, others):
     axes.set_xscale("log")
     axes.set_yscale("log")
     axes.set_ylim(ZERO / 4, 4)
+    axes.plot([0, 1], [BREAK, BREAK], marker=[(-1, -0.6), (1, 0.6)], markersize=11, linestyle="none", color="k", clip_on=False,
+              transform=axes.get_yaxis_transform())
     axes.yaxis.set_major_locator(FixedLocator([ZERO, 1e-6, 1e-4, 1e-2, 1]))
     axes.yaxis.set_major_formatter(FuncFormatter(lambda y, _: "0" if y <= ZERO else f"{y:g}"))
     axes.yaxis.set_minor_formatter(NullFormatter())
@@ -50,7 +51,7 @@ def panel(axes, rows, key, scale, label, others):
     axes.grid(alpha=0.3)
 
 
-def draw(rows, picture, others=True):
+def draw(rows, picture):
     """Error against time on the CPU and on a GPU; where one of them was measured, against time and memory."""
     try:
         import matplotlib
@@ -62,14 +63,13 @@ def draw(rows, picture, others=True):
     figure, axes = plt.subplots(1, 2, figsize=(11, 5.6), sharey=True)
     for at, kind in zip(axes, kinds):
         its = [r for r in rows if r["kind"] == kind]
-        panel(at, its, "ns_per_sphere", 1, "time of a step per sphere near the wall, ns", others)
+        panel(at, its, "ns_per_sphere", 1, "time of a step per sphere near the wall, ns")
         at.set_title({"cpu": "one core of the CPU", "cuda": its[0]["device"].replace("CUDA, ", "")}[kind], fontsize=13)
     if len(kinds) == 1:
-        panel(axes[1], [r for r in rows if r["kind"] == kinds[0]], "bytes", 1e-6, "memory of the grid, MB", others)
+        panel(axes[1], [r for r in rows if r["kind"] == kinds[0]], "bytes", 1e-6, "memory of the grid, MB")
         axes[1].set_title("memory", fontsize=13)
     axes[0].set_ylabel("mean error of a force / mean force", fontsize=14)
-    if others:
-        axes[0].plot([], [], "o", color="#999999", markersize=4, linestyle="none", label="other settings")
+    axes[0].plot([], [], "o", color="#999999", markersize=4, linestyle="none", label="further settings")
     first = rows[0]
     figure.suptitle(f"{first['mesh']}, {first['triangles']} triangles, radii "
                     f"{first['least_radius']} to {first['largest_radius']}", fontsize=13)
