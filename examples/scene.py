@@ -13,7 +13,6 @@ from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray,
 from vtkmodules.vtkCommonCore import vtkPoints
 from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPlane, vtkPolyData
 from vtkmodules.vtkFiltersCore import vtkCleanPolyData, vtkClipPolyData, vtkFeatureEdges, vtkPolyDataNormals
-from vtkmodules.vtkFiltersSources import vtkOutlineSource
 from vtkmodules.vtkIOGeometry import vtkSTLReader
 from vtkmodules.vtkRenderingCore import (vtkActor, vtkLight, vtkPolyDataMapper, vtkRenderer, vtkRenderWindow,
                                          vtkWindowToImageFilter)
@@ -25,6 +24,7 @@ FONT = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf"
 TEXT = 27     # pixels: read at half of a width of 640
 INK = (30, 30, 30)
 MARGIN = 12    # pixels
+EDGE = 10    # pixels that bar, key and time stay clear of the left and right edge
 
 # Okabe and Ito: told apart by every kind of colour vision.
 ORANGE, BLUE, SKY, GREEN, YELLOW, VERMILION = ("#E69F00", "#0072B2", "#56B4E9", "#009E73", "#F0E442", "#D55E00")
@@ -107,18 +107,6 @@ def mesh(path, colour=STEEL, opacity=1.0, cut=None, shift=(0, 0, 0)):
     for one in (surface, lines):
         one.SetPosition(*shift)
     return [surface, lines]
-
-
-def frame(box):
-    """The edges of a box."""
-    outline, mapper = vtkOutlineSource(), vtkPolyDataMapper()
-    outline.SetBounds(box)
-    mapper.SetInputConnection(outline.GetOutputPort())
-    lines = actor(mapper)
-    lines.GetProperty().SetColor(rgb(DARK))
-    lines.GetProperty().SetLineWidth(FINER)
-    lines.GetProperty().LightingOff()
-    return [lines]
 
 
 def actor(mapper, ambient=1.0, diffuse=0.0, specular=0.0):
@@ -227,7 +215,7 @@ def below(picture, scale, bar, time, key):
             pieces.append((32 + font.getlength(words) if words else 12, dot))
     lines, x = [[]], 0    # as many pieces a line as it has room for
     for wide, paint in pieces:
-        if x and x + wide > width:
+        if x and x + wide > width - 2 * EDGE:
             lines.append([])
             x = 0
         lines[-1].append((x, paint))
@@ -236,16 +224,16 @@ def below(picture, scale, bar, time, key):
     whole.paste(picture, (0, 0))
     draw, y = ImageDraw.Draw(whole), picture.height + MARGIN
     length = bar[0] * scale
-    draw.line((2, y + 16, 2 + length, y + 16), fill=INK, width=5)
-    for x in (2, 2 + length):
+    draw.line((EDGE, y + 16, EDGE + length, y + 16), fill=INK, width=5)
+    for x in (EDGE, EDGE + length):
         draw.line((x, y + 6, x, y + 26), fill=INK, width=3)
-    draw.text((length + 16, y), bar[1], INK, font)
+    draw.text((EDGE + length + 14, y), bar[1], INK, font)
     if time:
-        draw.text((width - font.getlength(time) - 2, y), time, INK, font)
-    if time and length + 16 + font.getlength(bar[1]) + 20 > width - font.getlength(time):
+        draw.text((width - font.getlength(time) - EDGE, y), time, INK, font)
+    if time and length + 14 + font.getlength(bar[1]) + 20 > width - 2 * EDGE - font.getlength(time):
         raise SystemExit(f"'{bar[1]}' and '{time}' do not fit beside each other")
     for line in lines if pieces else ():
         y += high
         for x, paint in line:
-            paint(draw, x, y)
+            paint(draw, EDGE + x, y)
     return whole
