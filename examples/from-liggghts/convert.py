@@ -21,7 +21,7 @@ what is needed here as a number, is left (or give --var NAME VALUE).
 The radius and the density of the grains, which the model hooke needs, come from particletemplate/sphere, from set, from
 the file of read_data, or from --radius and --density. Files are looked for beside the script.
 A script that goes on from the restart file of another converted one is converted with --converted-restart.
-doc/from-liggghts.md has a table of all commands.
+doc/from-liggghts.md has what you must know or decide.
 """
 import argparse
 import collections
@@ -88,7 +88,7 @@ def options(words, known):
         if isinstance(n, dict):
             n = n.get(words[0])
         if n is None:
-            raise Left(f"the word {key}", "doc/from-liggghts.md has most words; or the line without it, if it does not matter")
+            raise Left(f"the keyword {key}", "doc/from-liggghts.md has most keywords; or the line without it, if it does not matter")
         values[key] = [words.pop(0) for _ in range(n)]
     return values
 
@@ -498,7 +498,7 @@ class Mesh:
             elif key in GONE_MESH_WORDS:
                 take(GONE_MESH_WORDS[key])
             else:
-                raise Left(f"the word {key} of a mesh", "fix_wall_lsdcd.rst")
+                raise Left(f"the keyword {key} of a mesh", "fix_wall_lsdcd.rst")
         if self.file is None or not self.file.lower().endswith((".stl", ".obj", ".ply", ".off")):
             raise Left(f"the file {self.file}", "write it as STL")
         self.path = script.folder / expand(self.file, self.line.scope)
@@ -781,7 +781,7 @@ class Model:
         while words:
             w, value = words.pop(0), words.pop(0) if words else None
             if w not in self.HANDLED + self.OTHERS or value not in ("on", "off") or (value == "on" and w in self.OTHERS):
-                raise Left(f"the word {w} of {of}", "see fix_wall_lsdcd.rst and the manual of LAMMPS")
+                raise Left(f"the keyword {w} of {of}", "see fix_wall_lsdcd.rst and the manual of LAMMPS")
             (self.on.add if value == "on" else self.on.discard)(w)
 
     @property
@@ -1654,7 +1654,7 @@ class Script:
                       "Traps")
         if not model.tangential and "tangential" not in line.words and not self.noted:
             self.noted = True
-            self.note(line, "without the word tangential LIGGGHTS 3.8 has no friction; LIGGGHTS-PFM has no_history: --pfm")
+            self.note(line, "without the keyword tangential LIGGGHTS 3.8 has no friction; LIGGGHTS-PFM has no_history: --pfm")
 
     def fix(self, line):
         w = line.words

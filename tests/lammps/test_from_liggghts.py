@@ -240,15 +240,15 @@ LEFT = {
     "a model that is off": (MESH.format("") + WALL.replace("model hertz tangential history ", ""), "model off"),
     "a word of the model in another place": (
         MESH.format("") + WALL.replace("hertz tangential history", "hertz cohesion sjkr tangential history"),
-        "the word tangential of wall/gran"),
-    "a setting that is not known": (MESH.format("") + WALL.replace("\n", " torsionTorque on\n"), "the word torsionTorque"),
+        "the keyword tangential of wall/gran"),
+    "a setting that is not known": (MESH.format("") + WALL.replace("\n", " torsionTorque on\n"), "the keyword torsionTorque"),
     "a second dump of a mesh": (MESH.format("") + WALL + "dump c all mesh/stl 30 c*.stl\ndump d all mesh/stl 300 dump*.stl cad\n",
                                 "a second dump of a mesh"),
     "a dump of a mesh that is in no wall": (MESH.format("") + "dump d all mesh/stl 300 dump*.stl cad\n", "the dump of cad"),
     "hooke of grains that differ": (
         "fix m5 all property/global characteristicVelocity scalar 2\nset group a diameter 0.02 density 2500\n"
         "set group b diameter 0.03 density 2500\npair_style gran model hooke\n", "model hooke has a stiffness for each mass"),
-    "words of set that LAMMPS does not have": ("set group all property/atom Temp 300\n", "the word property/atom"),
+    "words of set that LAMMPS does not have": ("set group all property/atom Temp 300\n", "the keyword property/atom"),
     "a variable of what is not there": (MESH.format("") + "variable f equal c_a[1]\n", "c_a, which is not here"),
     "atom vectors that LAMMPS does not have": ("variable f equal 2*density[1]\n", "density[...] in a variable"),
     "a mass before the diameter": ("create_atoms 1 single 0 0 0\nset group all mass 0.1 diameter 0.02\n", "set mass before diameter"),
@@ -363,7 +363,7 @@ LEFT.update({
     "grains that may overlap": (PACK.format("", "overlapcheck no"), "overlapcheck no"),
     "a yes or no that is not known": (PACK.format("variable a index yes no\n", "all_in ${a}"), "all_in ${a}"),
     "grains that spin": (PACK.format("", "omega constant 0 0 5"), "insertion with a spin"),
-    "a word of an insertion that is not known": (PACK.format("", "set_property T 300"), "the word set_property"),
+    "a word of an insertion that is not known": (PACK.format("", "set_property T 300"), "the keyword set_property"),
     "all_in of a region that cannot be made smaller": (
         PACK.format("", "all_in yes").replace("block 0 1 0 1 0 1", "cone z 0 0 1 2 0 1"), "all_in yes with region r"),
     "a pack of a mass where grains are already": (
