@@ -20,18 +20,19 @@ namespace {
 std::string answer_to(const std::string &word, bool granular)
 {
   const char *const kMoves =
-      "the words are motion wiggle Ax Ay Az period, and wiggle x|y|z amplitude period";
-  const char *const kServo = "the words are servo force|torque x|y|z|axis ax ay az TARGET vmax V";
+      "the keywords are motion wiggle Ax Ay Az period, and wiggle x|y|z amplitude period";
+  const char *const kServo =
+      "the keywords are servo force|torque x|y|z|axis ax ay az TARGET vmax V";
   const char *const kJoint =
       "it goes with body: body density D joint hinge px py pz ax ay az, and so on";
   const char *const kFlat =
       "the wall is a mesh: write mesh FILE in its place, or use fix wall/gran";
   const char *const kBelt =
-      "the words are surface_vel vx vy vz and surface_angvel wx wy wz [cx cy cz]";
+      "the keywords are surface_vel vx vy vz and surface_angvel wx wy wz [cx cy cz]";
   const char *const kSpeed = "it is not needed: folds are measured, and all of them are walls";
   const char *const kReport =
       "the fix always inspects the mesh and writes the result to the log: leave it out";
-  const char *const kWeld = "the word for joining corners is weld tol";
+  const char *const kWeld = "the keyword for joining corners is weld tol";
   const char *const kDouble =
       "all steps compute in double: delete precision and its value; LIGGGHTS's is weld tol here";
   const char *const kLoads = "see mesh_fields FILE every N, and force and torque in f_ID[1] to "
@@ -51,7 +52,7 @@ std::string answer_to(const std::string &word, bool granular)
       {"vel_max", kServo},
       {"ctrlPV", kServo},
       {"vibrate", kMoves},
-      {"move/mesh", "the words are motion linear, rotate, wiggle, transrot and variable"},
+      {"move/mesh", "the keywords are motion linear, rotate, wiggle, transrot and variable"},
       {"hinge", kJoint},
       {"slider", kJoint},
       {"planar", kJoint},
@@ -75,15 +76,15 @@ std::string answer_to(const std::string &word, bool granular)
       {"min_feature_length", kWeld},
       {"precision", kDouble},
       {"stress", kLoads},
-      {"reference_point", "the words are torque_about x y z"},
+      {"reference_point", "the keywords are torque_about x y z"},
       {"type", kNumbers},
       {"types", kTypes},
       {"on", kTypes},
       {"with", kTypes},
       {"material", "it goes with granular material FILE PARTICLE, after mesh FILE"},
       {"model", kNumbers},
-      {"file", "the word is mesh FILE"},
-      {"rolling_friction", "the words are rolling cdt MU and rolling epsd2 MU"},
+      {"file", "the keyword is mesh FILE"},
+      {"rolling_friction", "the keywords are rolling cdt MU and rolling epsd2 MU"},
   };
   for (const auto &row : foreign)
     if (word == row.word) return row.answer;

@@ -105,9 +105,8 @@ class LawFiller {
   {
     const Property *p = find_property(o.key);
     if (p && !p->of_pair && !same_ && o.of.empty() && particle_.find(o.key) && wall_.find(o.key))
-      fail("'" + o.key +
-           "' of both materials is in the file: write which one you mean, for example " + with_ +
-           c_.wall + " " + o.key + " VALUE'");
+      fail("'" + o.key + "' of both materials is in the file: write which one you mean, as in " +
+           with_ + c_.wall + " " + o.key + " VALUE'");
   }
 
   const Real *override_of(const std::string &key, const std::string &of = "") const

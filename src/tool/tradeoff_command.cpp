@@ -46,11 +46,12 @@ const char *const kHelp =
     "                  pulled along its face's normal. One that leaves the wall counts with what\n"
     "                  it had gained or lost until then; one that goes through it 1\n"
     "  roll_drift      the same for spheres that roll without slip over five radii\n"
-    "  ns_per_sphere   of a step, on one core with caches filled by other work; or on the GPU. It\n"
+    "  ns_per_sphere   of a step, on one core with caches filled by different work; or on the GPU. "
+    "It\n"
     "                  searches cells with nearest N, and reads lists made before with all\n"
     "  status_ns       of asking whether a sphere touches, which searches cells with either\n"
     "  bytes           of the grid\n"
-    "  front           1 where no other setting on the device is better in time or mean force\n"
+    "  front           1 where no setting on the device is better in time or mean force\n"
     "                  error and as good in the other\n"
     "  default         1 for what the fix does by itself\n"
     "--below E takes nearest N only where all its answers are certified, and of settings within a\n"
@@ -230,7 +231,7 @@ void add_tradeoff_command(Command &program)
   command
       .option("--memory", o->memory,
               "memory budget of a grid in MB, also while it is built; the default grid becomes as "
-              "coarse as this needs, other settings above it are left out")
+              "coarse as this needs, further settings above it are left out")
       .shows_default()
       .check(above_zero);
   command

@@ -372,7 +372,7 @@ def test_refused(folder):
              ("two of one word", wall(HOOKE, "servo force z 1 vmax 1 vmax 2"), "vmax is given twice"),
              ("through of a force", wall(HOOKE, "servo force z through 0 0 0 1 vmax 1"), "through is for servo torque only"),
              ("too many numbers", wall(HOOKE, "servo force z 1 2 vmax 1"), "'2' is one more than expected"),
-             ("words of LIGGGHTS", wall(HOOKE, "vel_max 1"), "the words are servo force|torque"),
+             ("words of LIGGGHTS", wall(HOOKE, "vel_max 1"), "the keywords are servo force|torque"),
              ("limits behind it", good + "run 50\nfix_modify wall servo force z 1 vmax 1 limits -1e-6 0\n",
               "outside the limits"),
              ("fix_modify without a word", good + "fix_modify wall servo\n", "its value is missing"),

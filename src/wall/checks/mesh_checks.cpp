@@ -47,7 +47,7 @@ void check_pressure(const WallSpec &settings, const MeshPart &m)
           std::to_string(r.two_sided_faces) + " faces in both windings and " +
           std::to_string(r.inverted_facets) +
           " facets of closed shells that are wound against the others, so it would push to "
-          "both sides: wind all alike, for example by lsdcd repair"));
+          "both sides: wind all alike with lsdcd repair"));
 }
 
 void check_weld(Host &host, const WallSpec &settings, const MeshPart &m)
