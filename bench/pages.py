@@ -197,7 +197,7 @@ def liggghts(rows):
                   key=lambda r: (list(LIGGGHTS_CASES).index(case_of(r)), int(r["triangles"])))
     heads = ["spheres", "triangles", "wall/lsdcd, ms", "LIGGGHTS, ms", "LIGGGHTS / wall/lsdcd", "the same, random order"]
     return "\n".join([table(mine, heads, cells), "",
-                      f"* Set-up and memory: {'. '.join(set_up(r) for r in mine if r['case'] == mine[0]['case'])}.",
+                      f"* Set-up and memory, with cells for these grains: {'. '.join(set_up(r) for r in mine if r['case'] == mine[0]['case'])}.",
                       machines(rows)])
 
 

@@ -91,17 +91,15 @@ def draw_build(rows_by_device):
 
 def draw_mesh_size(rows_by_device):
     panels = [("time per contact in a step, ns", lambda r: float(facts(r)["ns_per_contact"])),
-              ("set-up: weld and build, s", lambda r: float(facts(r)["build_ms"]) / 1e3),
               ("memory of the grid, MB", lambda r: float(facts(r)["grid_mb"]))]
-    figure, all_axes = plt.subplots(1, 3, figsize=(14, 4.8))
+    figure, all_axes = plt.subplots(1, 2, figsize=(11, 4.8))
     for axis, (name, value) in zip(all_axes, panels):
         for device, rows in rows_by_device.items():
             points = sorted((float(r["triangles"]), value(r)) for r in rows
                             if r["case"] == "hertz/history, kept" and r["order"] == "sorted")
             axis.plot(*zip(*points), **STYLES[device])
-            if axis is all_axes[0]:
-                axis.annotate(label(rows).split(",")[0], points[0], (4, 10), textcoords="offset points",
-                              color=STYLES[device]["color"], fontsize=FONT + 2)
+            axis.annotate(label(rows).split(",")[0], points[0], (4, 18), textcoords="offset points",
+                          color=STYLES[device]["color"], fontsize=FONT + 2)
         axis.set(xscale="log", yscale="log", xlabel="number of triangles", ylabel=name)
         legible(axis)
     figure.tight_layout()
