@@ -30,6 +30,7 @@ BENCHMARKS = {
     "effects": ("effects", BOTH, "{bin}/bench_effects {device} {effects} {commit}", "what each effect of a wall costs"),
     "bodies": ("effects_bodies", CPU, "{bin}/bench_rigid 5000 61 {commit}", "what meshes that are rigid bodies cost"),
     "kokkos": ("kokkos", CPU, SCRIPT + "kokkos.py " + COMMON, "steps of a LAMMPS with Kokkos, on its own device"),
+    "scale": ("scale", CPU, SCRIPT + "scale.py " + COMMON, "how many grains LAMMPS with Kokkos holds in a mesh, and what the wall costs then"),
     "liggghts": ("liggghts", CPU, SCRIPT + "liggghts.py " + COMMON, "our wall beside LIGGGHTS's"),
     "hard-curves": ("hard_curves", CPU, SCRIPT + "hard_curves.py " + COMMON, "two hard cases beside LIGGGHTS, as curves"),
     "floor": ("floor", CPU, SCRIPT + "floor.py " + COMMON, "a mesh beside a flat plane"),

@@ -51,7 +51,7 @@ def circle(centre, radius, first, last, y=0.0):
 
 
 def scenes():
-    from scene import BLUE, DARK, ORANGE, SKY, VERMILION
+    from look import BLUE, DARK, ORANGE, SKY, VERMILION
     glass, solid = dict(GLASS), {}
     five = (5, "50 mm")
     return {
@@ -117,6 +117,7 @@ def run(a, name, scene):
 def draw(a, name, scene):
     import numpy as np
 
+    import look
     import scene as vtk
     atoms = vtk.read_atoms(a.work / f"{name}.atoms")
     centres = np.stack([atoms["x"], atoms["y"], atoms["z"]], axis=1)
@@ -128,19 +129,19 @@ def draw(a, name, scene):
     if isinstance(scene.key, tuple):
         speed = np.sqrt(atoms["vx"] ** 2 + atoms["vy"] ** 2 + atoms["vz"] ** 2) * (math.sqrt(GRAVITY * scene.d) if scene.d else 1)
         _, least, most = scene.key
-        colours = vtk.viridis((speed - least) / (most - least))
+        colours = look.viridis((speed - least) / (most - least))
     else:
         kinds = np.unique(atoms["radius"].round(6), return_inverse=True)[1] if scene.of_size else atoms["type"].astype(int) - 1
-        colours = np.array([vtk.rgb(scene.key[kind % len(scene.key)][0]) for kind in kinds])
+        colours = np.array([look.rgb(scene.key[kind % len(scene.key)][0]) for kind in kinds])
     actors = vtk.spheres(centres[shown], atoms["radius"][shown], colours[shown])
-    for k, look in enumerate(scene.meshes, 1):
-        actors += vtk.mesh(a.work / f"{name}_{k}.stl", **look)
+    for k, drawn in enumerate(scene.meshes, 1):
+        actors += vtk.mesh(a.work / f"{name}_{k}.stl", **drawn)
     camera = vtk.Camera(scene.view, scene.box, WIDTH)
     picture = camera.draw(actors)
     for points in scene.arrows:
-        vtk.arrow(picture, camera, points)
+        look.arrow(picture, camera, points)
     time = float((a.work / f"{name}.time").read_text()) * (math.sqrt(scene.d / GRAVITY) if scene.d else 1)
-    return len(centres), vtk.below(picture, camera.scale, scene.bar, f"t = {time:.2f} s", scene.key)
+    return len(centres), look.below(picture, camera.scale, scene.bar, f"t = {time:.2f} s", scene.key)
 
 
 def main():
