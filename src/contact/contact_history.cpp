@@ -3,6 +3,8 @@
 
 #include "contact/contact_history.h"
 
+#include "base/countable.h"
+
 #include <algorithm>
 
 namespace lsdcd {
@@ -16,7 +18,7 @@ void ContactHistory::grow(int n_spheres)
 
 void ContactHistory::set(int i, const Spring *springs, const Real *extra, int n)
 {
-  first_[i] = static_cast<int>(pool_.size());
+  first_[i] = countable(pool_.size(), "springs in one process", "use more processes");
   count_[i] = n;
   pool_.insert(pool_.end(), springs, springs + n);
   extra_.insert(extra_.end(), extra, extra + n * n_extra_);

@@ -6,6 +6,7 @@
 #pragma once
 
 #include "backend/backend.h"
+#include "base/countable.h"
 #include "contact/contact_history.h"
 #include "contact/feature_turn.h"
 #include "engine/springs.h"
@@ -249,7 +250,7 @@ class ResidentSprings : public Springs {
       }
     });
     b_.wait();
-    return n + total;
+    return numbered(std::int64_t(n) + numbered(total));
   }
 
   void unpack(int n, const int *to, const double *buffer, int n_first, int second) override
@@ -260,7 +261,7 @@ class ResidentSprings : public Springs {
     b_.for_each(n, [=] LSDCD_LAMBDA(std::size_t k) {
       at[k] = to[k] < 0 ? 0 : static_cast<int>(buffer[place_of(buffer, k, n_first, second)]);
     });
-    const std::size_t total = b_.exclusive_scan(at, n);
+    const std::size_t total = numbered(b_.exclusive_scan(at, n));
     extend(end_ + total);
     Pool &pool = pool_[now_];
     Spring *springs = pool.springs.data();
@@ -298,6 +299,10 @@ class ResidentSprings : public Springs {
   static constexpr std::size_t kUnknown = ~std::size_t(0);
   static constexpr std::size_t kSparePlaces = 65536;
 
+  static int numbered(std::int64_t n)
+  {
+    return countable(n, "numbers of springs in one process", "use more processes");
+  }
   int per_spring() const
   {
     return 7 + traits_.n_extra;
@@ -313,7 +318,7 @@ class ResidentSprings : public Springs {
   std::size_t offsets(std::size_t n, int *to)
   {
     copy_all(b_, count_.data(), to, n);
-    return b_.exclusive_scan(to, n);
+    return numbered(b_.exclusive_scan(to, n));
   }
 
   // Room for n springs, keeping those that are there.
@@ -328,8 +333,10 @@ class ResidentSprings : public Springs {
     pool = std::move(wider);
   }
 
+  // A place is an int.
   Pool make(std::size_t n)
   {
+    numbered(n);
     Pool pool;
     if (traits_.history) pool.springs = Array<Spring>(n);
     pool.extra = Array<Real>(traits_.history ? n * traits_.n_extra : 0);

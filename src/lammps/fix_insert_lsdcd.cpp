@@ -490,7 +490,7 @@ double FixInsertLsdcd::compute_vector(int i)
 
 void FixInsertLsdcd::write_restart(FILE *file)
 {
-  if (comm->me == 0) write_state(file, insertion->state(update->ntimestep));
+  if (comm->me == 0) run_core_here([&] { write_state(file, insertion->state(update->ntimestep)); });
 }
 
 void FixInsertLsdcd::restart(char *buffer)

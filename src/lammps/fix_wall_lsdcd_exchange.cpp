@@ -124,7 +124,7 @@ void FixWallLsdcd::unpack_restart(int i, int nth)
 void FixWallLsdcd::write_restart(FILE *file)
 {
   const lsdcd::WallState all = wall->save();
-  if (comm->me == 0) write_state(file, all.blocks());
+  if (comm->me == 0) run_core_here([&] { write_state(file, all.blocks()); });
 }
 
 void FixWallLsdcd::restart(char *buffer)

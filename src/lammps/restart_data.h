@@ -5,6 +5,7 @@
 #ifndef LMP_LSDCD_RESTART_DATA_H
 #define LMP_LSDCD_RESTART_DATA_H
 
+#include "base/countable.h"
 #include "base/state_blocks.h"
 
 #include <cstddef>
@@ -17,11 +18,13 @@ namespace LAMMPS_NS {
 // LAMMPS hands the same numbers to every process, and does not say how many.
 constexpr std::size_t kAllNumbers = std::size_t(1) << 40;
 
-// The first process calls it.
+// The first process calls it. Throws where LAMMPS's file has no room for so many.
 inline void write_state(FILE *file, const lsdcd::State &state)
 {
   const std::vector<double> numbers = state.numbers();
-  const int bytes = static_cast<int>(numbers.size() * sizeof(double));
+  const int bytes =
+      lsdcd::countable(numbers.size() * sizeof(double), "bytes of a fix in a restart file",
+                       "LAMMPS has no room for more; use a coarser mesh");
   fwrite(&bytes, sizeof bytes, 1, file);
   fwrite(numbers.data(), sizeof(double), numbers.size(), file);
 }

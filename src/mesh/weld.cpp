@@ -3,6 +3,7 @@
 
 #include "mesh/welded_mesh.h"
 
+#include "base/countable.h"
 #include "base/input_error.h"
 #include "base/input_words.h"
 #include "mesh/assemble.h"
@@ -224,6 +225,7 @@ void measure_collapsed(const TriangleSoup &soup, const std::vector<int> &corner_
 WeldedMesh join(const TriangleSoup &soup, Real tolerance, std::vector<int> &corner_vertex,
                 std::vector<FacePlane> &plane)
 {
+  countable(soup.corners.size(), "corners of triangles of " + soup.source, "use a coarser mesh");
   const Real diagonal = checked_diagonal(soup);
   const bool by_default = tolerance < 0;
   if (!by_default) check_tolerance(tolerance, diagonal, soup.source);

@@ -4,6 +4,8 @@
 // Numbers in blocks with names and versions: what was written comes back, and nothing else is taken for it.
 #include "base/state_blocks.h"
 
+#include "base/countable.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -205,6 +207,25 @@ TEST(State, passes_over_blocks_that_nobody_asks_for_and_names_them)
   Part part;
   back.read("part", 1, part);
   EXPECT_EQ(back.unread(), "'of a later version'");
+}
+
+// A restart file of LAMMPS has the number of bytes of a fix as an int, which 2^28 doubles pass.
+TEST(Countable, is_an_int_or_an_error_that_tells_limit_and_remedy)
+{
+  EXPECT_EQ(countable((std::int64_t(1) << 31) - 1, "bytes", "use less"), 2147483647);
+  const auto error = [](std::int64_t n) {
+    try {
+      countable(n, "bytes", "use less");
+    } catch (const InputError &e) {
+      return std::string(e.what());
+    }
+    return std::string();
+  };
+  EXPECT_EQ(error((std::int64_t(1) << 28) * sizeof(double)),
+            "2147483648 bytes are more than the 2147483647 that can be numbered: use less");
+  // A sum of ints that has passed the limit.
+  EXPECT_EQ(error(std::int32_t(2000000000u + 2000000000u)),
+            "more bytes than the 2147483647 that can be numbered: use less");
 }
 
 }    // namespace

@@ -6,6 +6,7 @@
 // candidates of more than one mesh, with a slot for each (sphere, mesh).
 #pragma once
 
+#include "base/countable.h"
 #include "engine/settings.h"
 
 #include <cstdint>
@@ -140,7 +141,7 @@ class CandidateSlots {
       b.for_each(n, FlagMultiMesh{found, set_.data(), static_cast<int>(m), flags_.data()});
       n_multi_mesh_ += compact(b, found, n, multi_mesh_.data() + n_multi_mesh_);
     }
-    n_slots_ = begin_.back();
+    n_slots_ = numbered(begin_.back());
     if (n_multi_mesh_ > 0) make_multi_mesh_slots(b);
   }
 
@@ -176,14 +177,20 @@ class CandidateSlots {
     found_ = std::move(wider);
   }
 
+  static int numbered(std::int64_t n)
+  {
+    return countable(n, "pairs of a sphere and a mesh near it in one process",
+                     "use more processes");
+  }
+
   void make_multi_mesh_slots(B &b)
   {
     const std::size_t n = n_multi_mesh_;
     const MultiMeshSlots slots = {multi_mesh_.data(), set_.data(), first_.data(), sphere_.data(),
                                   mesh_.data()};
     b.for_each(n, CountMeshes{slots});
-    const int begin = static_cast<int>(n_slots_), total = b.exclusive_scan(first_.data(), n);
-    n_slots_ += total;
+    const int begin = numbered(n_slots_), total = numbered(b.exclusive_scan(first_.data(), n));
+    n_slots_ = numbered(std::int64_t(begin) + total);
     b.for_each(n, PutSlots{slots, begin});
     put_one(b, first_.data() + n, begin + total);
   }
