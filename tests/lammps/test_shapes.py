@@ -3,7 +3,8 @@
 
 """Ellipsoids at a bumpy floor that turns, in a tray that rests: balls go as spheres do, and a run is the same on any number of
 processes that continue it from a restart file. One that comes down leaves as a closed form has it. Under
-the LAMMPS of hosts/build_host.sh superellipsoids, too."""
+the LAMMPS of hosts/build_host.sh superellipsoids, too, beside LAMMPS's own contact of two grains, of which one is so large
+that it is a plane."""
 
 import math
 
@@ -185,6 +186,39 @@ run             2000
     at_most("a free cube: momentum and angular momentum stay", off, 1e-12)
 
 
+def test_rigid(folder):
+    """Two balls that fix rigid/small joins, which damps by the mass of both, go as two spheres do."""
+    stl.write(folder / "plane.stl", stl.quad((-6, -6, 0), (6, -6, 0), (6, 6, 0), (-6, 6, 0)))
+    paths = []
+    for style, sizes in (("sphere", "diameter 1"), ("ellipsoid", "shape 1 1 1")):
+        lmp.run_well(SETTINGS.format(style=style) + f"""\
+region          box block -6 6 -6 6 -1.5 8
+create_box      1 box
+create_atoms    1 single 0 0 0.7
+create_atoms    1 single 0.8 0.3 1.0
+set             group all {sizes}
+set             group all density 2
+velocity        all set 0.3 0.1 -1
+pair_style      zero 2
+pair_coeff      * *
+fix             body all property/atom mol
+set             group all mol 1
+fix             move all rigid/small molecule
+fix             pull all gravity 8 vector 0.2 0 -1
+fix             wall all wall/lsdcd hooke/history 1e4 NULL 50 NULL 0.5 1 mesh plane.stl
+timestep        5e-4
+thermo_style    custom step
+dump            {style} all custom 10 {style} id x y z vx vy vz fx fy fz tqx tqy tqz
+dump_modify     {style} sort id format float %.17g
+run             2000
+""", folder)
+        paths.append(lmp.read_dump(folder / style))
+    torque = max(abs(row[10]) for rows in paths[0].values() for row in rows.values())
+    fact("a body of balls: friction turns it", torque > 1, str(torque))
+    # A tumble with several impacts parts neighbouring paths: a factor of 1e5 on 1e-15 at most.
+    at_most("a body of balls: it goes as one of spheres", lmp.largest_difference(*paths), 1e-10)
+
+
 def test_receding(folder):
     """Each process has the shape of a floor that wears."""
     one = go(folder, "worn", "ellipsoid", ELLIPSOIDS, "nve/asphere", "angmomx angmomy angmomz")
@@ -246,3 +280,65 @@ def test_superellipsoids(folder):
     fact("exponents of 4 and 8: some touch where it breaks", touching > 20, str(touching))
     at_most("exponents of 4 and 8: continued from a restart file",
             lmp.largest_difference(tablets, proceed(folder, "tablets.restart", "again", 1, style)), 0)
+
+
+def grain_on(folder, floor, law, grain, run):
+    """One grain above z = 0: a mesh (floor 0), or a ball of that radius. Rows of x, v, angular momentum and force."""
+    stl.write(folder / "plane.stl", stl.quad((-9, -9, 0), (9, -9, 0), (9, 9, 0), (-9, 9, 0)))
+    ball = f"create_atoms 2 single 0 0 -{floor}\n"
+    lmp.run_well(SETTINGS.format(style="ellipsoid superellipsoid") + f"""\
+region          box block -9 9 -9 9 -{1.5 * floor + 1} 9
+create_box      2 box
+create_atoms    1 single {grain["at"]}
+{ball if floor else ""}
+group           grain type 1
+set             type 1 mass 1
+set             type 1 shape {grain["shape"]}
+set             type 1 block {grain["block"]}
+set             type 1 quat 1 2 0.5 {grain.get("angle", 0)}
+set             type 2 mass 1e18
+set             type 2 shape {2 * floor} {2 * floor} {2 * floor}
+set             type 2 block {grain.get("floor", "2 2")}
+velocity        grain set 0.3 0.1 -1
+pair_style      granular/superellipsoid
+pair_coeff      * * {law}
+neighbor        0.5 nsq
+neigh_modify    delay 0 every 1 check yes
+fix             move grain nve/asphere
+{"" if floor else f"fix wall grain wall/lsdcd granular {law} mesh plane.stl"}
+timestep        4e-5
+dump            out grain custom 50 out id x y z vx vy vz angmomx angmomy angmomz fx fy fz
+dump_modify     out format float %.17g
+run             {run}
+""", folder)
+    return [rows[1] for _, rows in sorted(lmp.read_dump(folder / "out").items())]
+
+
+@lmp.of_host
+@pytest.mark.parametrize("law", ["hooke 1e5 30 tangential linear_history 7e4 0.5 0.4 damping mass_velocity",
+                                 "hertz 1e5 30 tangential linear_history 7e4 0.5 0.4 damping viscoelastic"])
+def test_beside_their_contact(folder, law):
+    """It comes down obliquely, slips and leaves. Beside a ball of radius R a plane lacks a sag and a curvature of 1/R: what
+    is apart falls as 1/R, by the same laws of force, friction and damping."""
+    grain = {"at": "0.2 0.1 0.8", "shape": "1.4 0.9 0.7", "block": "4 8", "angle": 25}
+    name = law.split()[0]
+    mesh = grain_on(folder, 0, law, grain, 5000)
+    fact(f"{name}: it leaves", mesh[-1][5] > 0.5 and mesh[-1][11] == 0, str(mesh[-1]))
+    apart = []
+    for floor in (1e5, 1e6):
+        rows = grain_on(folder, floor, law, grain, 5000)
+        apart.append(max(abs(u - v) for one, other in zip(mesh, rows) for u, v in zip(one[:9], other[:9])))
+    # The sag of 1/R x 2^2 / 2 times the rate sqrt(k / m) = 316 of the contact.
+    at_most(f"{name}: beside a ball of radius 1e6", apart[1], 2e-6 * 316)
+    fact(f"{name}: what is apart falls as 1/R", 7 < apart[0] / apart[1] < 14, str(apart))
+
+
+@lmp.of_host
+def test_flat_side_is_finite(folder):
+    """A flat side on a flat side under hertz has no radius of curvature; the wall's contact radius is at most that around the grain."""
+    grain = {"at": "0 0 0.69", "shape": "1.4 1.4 1.4", "block": "4 4", "floor": "4 4"}
+    law = "hertz 1e5 30 tangential linear_history 7e4 0.5 0.4"
+    theirs = grain_on(folder, 20, law, grain, 0)[0][11]
+    fact("a flat side: the force of two grains is not finite in LAMMPS 4Jul2026", not math.isfinite(theirs), str(theirs))
+    around = 0.7 * 3**(1 / 4)    # the corner (x, x, x) of 3 (x / 0.7)^4 = 1
+    at_most("a flat side: force of the wall", abs(grain_on(folder, 0, law, grain, 0)[0][11] / ((1e5 * 0.01 + 30 * 1) * around) - 1), 1e-10)
