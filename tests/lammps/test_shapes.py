@@ -7,6 +7,9 @@ the LAMMPS of hosts/build_host.sh superellipsoids, too, beside LAMMPS's own cont
 that it is a plane."""
 
 import math
+import re
+import subprocess
+import sys
 
 import pytest
 
@@ -14,6 +17,9 @@ import lmp
 import scene
 import stl
 from facts import at_most, fact
+
+sys.path.insert(0, str(lmp.HERE.parent / "tool"))
+from pages import Page    # noqa: E402
 
 FIRST, SECOND = 350, 150
 LAW = "hooke/history 1e4 NULL 120 NULL 0.4 1"
@@ -152,7 +158,8 @@ def test_body(folder):
     faces = ((a, c, d, b), (e, f, h, g), (a, b, f, e), (c, g, h, d), (a, e, g, c), (b, d, h, f))
     stl.write(folder / "cube.stl", [t for face in faces for t in stl.quad(*face)])
     mass = 2    # of the cube, with the inertia 1 about each axis
-    shown = "x[1] y[1] z[1] vx[1] vy[1] vz[1] " + " ".join(f"c_spin[1][{k}]" for k in (1, 2, 3))
+    spin = "C_spin" if lmp.ON_HOST else "c_spin"    # values of one atom are those of a capital letter since 2025
+    shown = "x[1] y[1] z[1] vx[1] vy[1] vz[1] " + " ".join(f"{spin}[1][{k}]" for k in (1, 2, 3))
     shown += "".join(f" f_wall[{k}]" for k in (15, 16, 17, 18, 19, 20, 25, 26, 27))    # centre, velocity, angular velocity
     lmp.run_well(SETTINGS.format(style="ellipsoid") + f"""\
 region          box block -6 6 -6 6 -6 6
@@ -342,3 +349,17 @@ def test_flat_side_is_finite(folder):
     fact("a flat side: the force of two grains is not finite in LAMMPS 4Jul2026", not math.isfinite(theirs), str(theirs))
     around = 0.7 * 3**(1 / 4)    # the corner (x, x, x) of 3 (x / 0.7)^4 = 1
     at_most("a flat side: force of the wall", abs(grain_on(folder, 0, law, grain, 0)[0][11] / ((1e5 * 0.01 + 30 * 1) * around) - 1), 1e-10)
+
+
+@lmp.of_host
+def test_script_of_the_page(folder):
+    """As it stands, but for the place of the plugin and 50 times fewer steps; no tablet is lost."""
+    page = Page("doc/fix_wall_lsdcd.rst")
+    script = next(block.text for block in page.blocks if re.search("^atom_style +ellipsoid superellipsoid", block.text, re.M))
+    tool = lmp.pathlib.Path(lmp.LMP).parent / "lsdcd"
+    command = re.search(r"`lsdcd (generate cylinder [^`]*)`", page.text)[1]
+    subprocess.run([tool, *command.split()], cwd=folder, check=True, stdout=subprocess.DEVNULL)
+    script = re.sub(r"^plugin .*|", "", re.sub(r"^run .*", "run 200", script, flags=re.M), flags=re.M)
+    text = lmp.run_well(script + "\nprint 'left $(atoms)'\n", folder)
+    atoms = int(re.search(r"Created (\d+) atoms", text)[1])
+    fact("the page's tablets stay in their can", atoms > 300 and f"left {atoms}" in text, str(atoms))

@@ -13,8 +13,8 @@
 #   LSDCD_HOSTS              where (default ${XDG_CACHE_HOME:-~/.cache}/lsdcd/hosts)
 #   LSDCD_HOST_JOBS          compilers at once (default: one per core)
 # All have the packages GRANULAR and, but for KIND package, PLUGIN; those whose KIND is not one of MPI also KOKKOS (Serial and double where
-# KIND does not say otherwise), GRAPHICS and fix rigid/small, these two not in float. The folder, 20260704 or
-# 20260704-KIND, then holds
+# KIND does not say otherwise), GRAPHICS, fix rigid/small and what superellipsoids need of ASPHERE, these three not in float. The
+# folder, 20260704 or 20260704-KIND, then holds
 #   lmp, liblammps.so.0      the program; both resolve their libraries from the folder itself
 #   src/                     headers of LAMMPS, those of its package KOKKOS in src/KOKKOS
 #   kokkos/                  include/ and lib/ of Kokkos
@@ -63,6 +63,7 @@ if [ -n "$mpi" ] || [ $precision != double ]; then    # what a plugin is tried w
   options=("${options[@]/PKG_GRAPHICS=on/PKG_GRAPHICS=off}")
   options=("${options[@]/PKG_RIGID=on/PKG_RIGID=off}")
 fi
+if [ -z "$small" ]; then options+=(-D PKG_ASPHERE=on); fi
 if [ -n "$mpi" ]; then kokkos=; fi
 ours=    # the sources that are compiled in
 if [ "$kind" = package ]; then
@@ -198,6 +199,7 @@ if [ -n "$small" ] || [ $backend != SERIAL ]; then
 fi
 if [ -n "$small" ]; then rm -f "$work"/src/{pair_soft,compute_reduce_region,fix_ave_histo}[._]*; fi
 find "$work/src/RIGID" -type f ! -name 'fix_rigid_small.*' ! -name rigid_const.h -delete
+find "$work/src/ASPHERE" -type f ! -name 'fix_nve_asphere.*' ! -name '*superellipsoid*' ! -name 'compute_erotate_*' -delete
 
 # LAMMPS asks for a later version than the pool has. What is compiled against it decides.
 if [ -n "$kokkos" ]; then
