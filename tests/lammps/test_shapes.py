@@ -130,6 +130,29 @@ run             2000
     at_most("impact: angular velocity", abs(abs(spin) - 0.998614), 1e-4)
 
 
+def test_timestep(folder):
+    """The warning has the contact time of a rod (5, 1, 1) that meets a plane where its arm is longest, or at most 0.4 less."""
+    stl.write(folder / "plane.stl", stl.quad((-9, -9, 0), (9, -9, 0), (9, 9, 0), (-9, 9, 0)))
+    text = lmp.run_well(SETTINGS.format(style="ellipsoid") + """\
+region          box block -9 9 -9 9 -1 9
+create_box      1 box
+create_atoms    1 single 0 0 6
+set             atom 1 shape 10 2 2
+set             atom 1 mass 1
+pair_style      zero 11
+pair_coeff      * *
+fix             move all nve/asphere
+fix             wall all wall/lsdcd hooke 100 NULL 0 NULL 0 0 mesh plane.stl
+timestep        1
+run             0
+""", folder)
+    # The longest arm of an ellipse is the difference of its half-axes.
+    mass = 1 / (1 + (5 - 1)**2 / (0.2 * (5**2 + 1**2)))
+    said = float(re.search(r"a tenth of the shortest contact time (\S+):", text)[1])
+    share = said / (math.pi * math.sqrt(mass / 100))
+    fact("timestep: the contact time of a rod", 0.6 < share <= 1, str(share))
+
+
 def test_balls(folder):
     spheres = go(folder, "spheres", "sphere", SPHERES, "nve/sphere", "omegax omegay omegaz")
     balls = go(folder, "balls", "ellipsoid", BALLS, "nve/asphere", "angmomx angmomy angmomz")

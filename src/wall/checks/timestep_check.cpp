@@ -5,6 +5,7 @@
 
 #include "base/input_words.h"
 #include "law/contact_time.h"
+#include "shape/superellipsoid.h"
 
 #include <algorithm>
 #include <cmath>
@@ -30,14 +31,28 @@ Real TimestepCheck::mass_of(Real sphere, std::size_t law) const
   return 1 / (1 / sphere + mobility);
 }
 
-// Returns the least mass with which a point of a grain that is no sphere meets a plane: 1/m and the turning of the farthest point
-// that has the least height.
+// Returns the square of the largest arm about an axis of a grain, of which its shadow along that axis has these half-axes.
+static Real arm_squared(Real across, Real along, Real farthest)
+{
+  const Real least = std::min(across, along);
+  return std::max(farthest * farthest - least * least, Real(0));
+}
+
+// Returns a mass below that with which any point of a grain that is no sphere meets a plane, at most 4 times less: 1/m and the
+// turning by the largest arm about each axis, or that of the farthest point about the axis of the least inertia.
 static Real least_mass(const GrainShape &shape, Real mass, Real radius)
 {
-  const Real height = std::min({shape.half.x, shape.half.y, shape.half.z}),
-             inertia = std::min(
-                 {shape.inertia_over_mass.x, shape.inertia_over_mass.y, shape.inertia_over_mass.z});
-  return mass / (1 + std::max(radius * radius - height * height, Real(0)) / inertia);
+  const auto &[a, b, c] = shape.half;
+  const Vec3 &inertia = shape.inertia_over_mass;
+  const auto farthest = [&shape](Real x, Real y, Real z) {
+    return circumscribed_radius({x, y, z}, shape.n1, shape.n2);
+  };
+  const Real of_axes = arm_squared(b, c, farthest(0, b, c)) / inertia.x +
+                       arm_squared(c, a, farthest(a, 0, c)) / inertia.y +
+                       arm_squared(a, b, farthest(a, b, 0)) / inertia.z;
+  const Real of_point =
+      arm_squared(std::min(a, b), c, radius) / std::min({inertia.x, inertia.y, inertia.z});
+  return mass / (1 + std::min(of_axes, of_point));
 }
 
 // Returns the radius of a sphere whose hertz contact is as stiff as the stiffest of this grain, at an overlap of 1 % of its
