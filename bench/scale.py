@@ -89,37 +89,52 @@ def memory(path):
         return None
 
 
+def script(host, bed, options):
+    return SCRIPT.format(plugin=host.plugin, processors=bed.processors(), lattice=bed.lattice, box=bed.box, region=bed.region,
+                         dense=6 / math.pi, law=bed.law, skin=runs.SKIN, neighbours=bed.neighbours, gravity=bed.gravity, dt=runs.DT,
+                         warm=runs.WARM, chunks=f"run {options.steps}\n" * options.chunks, memory=MEMORY if host.on_gpu else "true",
+                         mesh=bed.mesh)
+
+
+def rows(host, bed, options, output, work):
+    """Without the wall and with it, from what the script has printed."""
+    before, wall, after = times(output)
+    ratio = statistics.median(wall) / statistics.median(before + after)
+    grains, made, alone = re.search(r"^made (\d+) grains in (\S+) s, set up in (\S+) s", output, re.M).groups()
+    wall_s, touching = re.search(r"^wall set up in (\S+) s, touching (\d+)", output, re.M).groups()
+    device = gpu() if host.on_gpu else f"CPU, 1 thread, {cpu()}"
+
+    def row(name, ms, **found):
+        found = {k: v for k, v in found.items() if v is not None}
+        return timed("scale", "closed box" + name, options.commit, bed.triangles, int(grains), "sorted", ms, device=device,
+                     compiler=host.compiler, host=host.version.replace(" ", ""), ranks=bed.ranks, steps=options.steps, **found,
+                     flags=host.flags.format(ranks=bed.ranks).replace(" ", "_"))
+
+    return [row(", no wall", before + after, make_s=f"{float(made):.3g}", setup_s=f"{float(alone):.3g}", mib=memory(work / "memory.alone")),
+            row("", wall, setup_s=f"{float(wall_s):.3g}", touching=touching, mib=memory(work / "memory.wall"), over_no_wall=f"{ratio:.4g}")]
+
+
+def bed_of(ranks, cells, side, work):
+    """As many spheres for each process, and a mesh of 12 cells^2 triangles."""
+    bed = kokkos_beds.Bed("box", ranks * side**3, ranks, work)
+    triangles = kokkos_beds.box(bed.side, cells)
+    bed.triangles = len(triangles)
+    write_stl(bed.mesh, triangles, "a closed box")
+    return bed
+
+
 def measure(host, options, place):
     found = []
     for ranks in options.ranks:
         for cells in options.cells:
             work = place / f"{ranks}-{cells}"
             work.mkdir(parents=True, exist_ok=True)
-            bed = kokkos_beds.Bed("box", ranks * options.side**3, ranks, work)
-            triangles = kokkos_beds.box(bed.side, cells)
-            write_stl(bed.mesh, triangles, "a closed box")
-            text = SCRIPT.format(plugin=host.plugin, processors=bed.processors(), lattice=bed.lattice, box=bed.box, region=bed.region,
-                                 dense=6 / math.pi, law=bed.law, skin=runs.SKIN, neighbours=bed.neighbours, gravity=bed.gravity,
-                                 dt=runs.DT, warm=runs.WARM, chunks=f"run {options.steps}\n" * options.chunks,
-                                 memory=MEMORY if host.on_gpu else "true", mesh=bed.mesh)
-            output, well = host.run(text, work, ranks)
-            if not well:
+            bed = bed_of(ranks, cells, options.side, work)
+            output, well = host.run(script(host, bed, options), work, ranks)
+            if well:
+                found += rows(host, bed, options, output, work)
+            else:
                 say(f"{ranks} processes failed:\n{output[-1500:]}")
-                continue
-            before, wall, after = times(output)
-            ratio = statistics.median(wall) / statistics.median(before + after)
-            grains, made, alone = re.search(r"^made (\d+) grains in (\S+) s, set up in (\S+) s", output, re.M).groups()
-            wall_s, touching = re.search(r"^wall set up in (\S+) s, touching (\d+)", output, re.M).groups()
-            device = gpu() if host.on_gpu else f"CPU, 1 thread, {cpu()}"
-            shared = {"host": host.version.replace(" ", ""), "ranks": ranks}
-            flags = host.flags.format(ranks=ranks).replace(" ", "_")
-            for name, ms, facts in ((", no wall", before + after, {"make_s": f"{float(made):.3g}", "setup_s": f"{float(alone):.3g}",
-                                                                   "mib": memory(work / "memory.alone")}),
-                                    ("", wall, {"setup_s": f"{float(wall_s):.3g}", "touching": touching, "mib": memory(work / "memory.wall"),
-                                                "over_no_wall": f"{ratio:.4g}"})):
-                facts = {k: v for k, v in facts.items() if v is not None}
-                found.append(timed("scale", "closed box" + name, options.commit, len(triangles), int(grains), "sorted", ms, device=device,
-                                   compiler=host.compiler, **shared, steps=options.steps, **facts, flags=flags))
             if not options.scripts_to:
                 shutil.rmtree(work)
     return found

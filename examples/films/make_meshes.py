@@ -57,6 +57,16 @@ def star(hub, tip, paddles, thickness, y0, y1):
     return triangles
 
 
+def tray(x0, x1, z0, z1, y0, y1):
+    """A floor at z0 and walls to z1 around it, those across y only where these are not the period's ends."""
+    triangles = extruded([(x0, z1), (x0, z0), (x1, z0), (x1, z1)], y0, y1)
+    if y0 < 0:
+        for side, turn in ((y0, 1), (y1, -1)):
+            corner = [(x0, side, z0), (x0, side, z1), (x1, side, z1), (x1, side, z0)][::turn]
+            triangles += quad(*corner)
+    return triangles
+
+
 def other_example(script, out, *words):
     subprocess.run([sys.executable, HERE.parent / script, "--out", out, *map(str, words)], check=True)
 
@@ -74,6 +84,11 @@ def main():
     housing = [(-0.15, 0.42), (-0.15, 0.18)] + arc(radius, 135, 225, 30), arc(radius, -45, 45, 30) + [(0.15, 0.18), (0.15, 0.42)]
     write_stl(out / "valve.stl", [t for line in housing for t in extruded(line, 0, length)], "a hopper and the housing of its valve, m")
     write_stl(out / "rotor.stl", star(0.025, radius - 0.0015, 8, 0.004, 0.0003, length - 0.0003), "rotor of a valve, m")
+
+    # Trays catch the grains: LAMMPS 4Jul2026 on one GPU fails where grains leave the box.
+    write_stl(out / "valve_tray.stl", tray(-0.19, 0.19, -0.34, 0.44, 0, length), "a tray, m")
+    write_stl(out / "wheel_tray.stl", tray(-0.29, 0.34, -0.36, 0.56, 0, length), "a tray, m")
+    write_stl(out / "chute_tray.stl", tray(-0.05, 0.6, -0.42, 0.34, -0.11, 0.11), "a tray, m")
 
     other_example("wearing-chute/make_chute.py", out, "--length", 0.42, "--width", 0.17, "--thickness", 0.012, "--slope", 38,
                   "--cell", a.cell, "--side", 0.05)
