@@ -98,7 +98,7 @@ def near_and_far(rows):
 def test_comparisons():
     names = ["mesh-size"]
     if os.path.exists(os.path.join(BUILD, "bin", "lmp-lsdcd")):
-        names += ["floor", "region"] + ["liggghts"] * bool(shutil.which("liggghts"))
+        names += ["floor", "region"] + ["liggghts", "hard-curves"] * bool(shutil.which("liggghts"))
     with tempfile.TemporaryDirectory() as folder:
         for name in names:
             done = subprocess.run([sys.executable, str(ROOT / "bench" / "run.py"), "--build", BUILD,
@@ -114,3 +114,7 @@ def test_comparisons():
             # Both laws are the same; folds of 5.6 degrees, where a sphere is at two sides, differ.
             fact("liggghts: both codes sum the same forces, to a hundredth",
                  all(abs(r - 1) < 0.01 for r in ratios), str(sorted(set(ratios))))
+            curves = kept.read(folder, "hard_curves")
+            # Of a face that leans by 2.5 degrees the force along z is 1 - cos = 1e-3 less.
+            fact("hard-curves: over the fold the force is that of a face, to 1e-3",
+                 [abs(float(r["value"]) - 1) < 1e-3 for r in curves if r["wall"] == "LSDCD"] == 5 * [True], str(curves))
