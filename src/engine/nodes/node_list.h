@@ -41,40 +41,117 @@ struct OverFace {
   }
 };
 
-// The list of a sphere for a margin, from its cell, which lists what is so near; false: it is too long.
-LSDCD_FN bool gather_primitives(const GridView &grid, const QuerySphere &s, Real margin, Real going,
-                                FeatureList &list)
-{
-  begin_list(list, s.x, s.cutoff, margin);
-  CellAddress at;
-  Cell cell;
-  if (!find_cell(grid, s.x, at, cell)) return true;
-  // As long as lists hold; see FeatureLists::put().
-  const Real within = (1 + Real(2e-6)) * s.cutoff + margin + going + grid.tolerance;
-  const auto add = [&](FeatureCode code) {
-    if (feature_kind(code) == FeatureKind::face &&
-        OverFace(grid.wall.faces[feature_index(code)], s.x).is_past(within))
-      return true;
-    return !(primitive_distance(grid.wall, code, s.x) <= within) || insert_code(list, code);
-  };
-  if (cell.count == 1) return add(cell.first);
-  const Real enough = within + norm(at.from_centre);
-  for (std::uint32_t i = cell.first; i < cell.first + cell.count; i++) {
-    const CellEntry entry = grid.lists.entries[i];
-    if (entry.bound > enough) break;
-    if (!add(entry.feature)) return false;
+// A list of primitives that is made from those of a cell, one after the other. It is for a way of a share of the sphere's
+// radius, or for less, as soon as it has no room for what is near on that way.
+class NodeListMaker {
+ public:
+  LSDCD_FN NodeListMaker(const GridView &grid, const QuerySphere &s, Real going,
+                         FeatureList &list) :
+      list_(list),
+      beside_margin_(going + grid.tolerance), cutoff_((1 + Real(2e-6)) * s.cutoff)
+  {
+    begin_list(list, s.x, s.cutoff, kSkinFraction * s.radius);
   }
-  return true;
+
+  // Returns the distance of primitives that belong to it. Lists hold as long as FeatureLists::put() says.
+  LSDCD_FN Real within() const { return cutoff_ + list_.margin + beside_margin_; }
+
+  // Adds a primitive at this distance where it belongs. Returns false where there is no list for any way.
+  LSDCD_FN bool add(FeatureCode code, Real distance)
+  {
+    int at = list_.n;
+    while (at > 0 && list_.code[at - 1] > code) at--;
+    if (at > 0 && list_.code[at - 1] == code) return true;
+    while (list_.n == FeatureList::kMax && distance <= within())
+      if (!shorten()) return false;
+    if (!(distance <= within())) return true;
+    at = list_.n++;
+    for (; at > 0 && list_.code[at - 1] > code; at--) {
+      list_.code[at] = list_.code[at - 1];
+      distance_[at] = distance_[at - 1];
+    }
+    list_.code[at] = code;
+    distance_[at] = distance;
+    return true;
+  }
+
+ private:
+  LSDCD_FN bool shorten()
+  {
+    if (shrinks_++ == kMaxShrinks) {
+      begin_list(list_, list_.x, list_.cutoff, -1);
+      return false;
+    }
+    list_.margin /= kShrink;
+    const Real now = within();
+    int n = 0;
+    for (int i = 0; i < list_.n; i++) {
+      if (!(distance_[i] <= now)) continue;
+      list_.code[n] = list_.code[i];
+      distance_[n++] = distance_[i];
+    }
+    list_.n = n;
+    return true;
+  }
+
+  FeatureList &list_;
+  Real distance_[FeatureList::kMax];    // of what is listed
+  const Real beside_margin_, cutoff_;
+  int shrinks_ = 0;
+};
+
+// Is the primitive within this distance of q? Gives its distance where it is.
+LSDCD_FN bool is_primitive_within(const GridView &grid, FeatureCode code, const Vec3 &q,
+                                  Real within, Real &distance)
+{
+  if (feature_kind(code) == FeatureKind::face &&
+      OverFace(grid.wall.faces[feature_index(code)], q).is_past(within))
+    return false;
+  distance = primitive_distance(grid.wall, code, q);
+  return distance <= within;
 }
 
-// For a way of a share of its radius, or less where that is too long.
-LSDCD_FN void gather_nodes(const GridView &grid, const QuerySphere &s, Real going,
-                           FeatureList &list)
+// Makes the list of a sphere from its cell, which lists what is near. Each thread of a warp has a sphere, or none where it
+// is not `mine`; the threads share the entries of their cells.
+template <unsigned kSize>
+LSDCD_FN void gather_nodes(const Warp<kSize> &warp, bool mine, const GridView &grid,
+                           const QuerySphere &s, Real going, FeatureList &list)
 {
-  Real margin = kSkinFraction * s.radius;
-  for (int i = 0; i <= kMaxShrinks; i++, margin /= kShrink)
-    if (gather_primitives(grid, s, margin, going, list)) return;
-  begin_list(list, s.x, s.cutoff, -1);
+  NodeListMaker made(grid, s, going, list);
+  CellAddress in_cell = {};
+  Cell cell = {};
+  std::uint32_t at = 0, end = 0;    // of the cell's entries those that are left
+  if (mine && find_cell(grid, s.x, in_cell, cell)) end = cell.count;
+  const Real away = norm(in_cell.from_centre);
+  for (unsigned busy = warp.vote(at < end); busy != 0; busy = warp.vote(at < end)) {
+    const WorkSplit<kSize> split(warp, busy);
+    const Vec3 q = warp.of(s.x, split.owner);
+    const Real within = warp.of(made.within(), split.owner),
+               enough = within + warp.of(away, split.owner);
+    const std::uint32_t first = warp.of(cell.first, split.owner),
+                        count = warp.of(cell.count, split.owner),
+                        its_end = warp.of(end, split.owner),
+                        c = warp.of(at, split.owner) + split.turn;
+    // A cell has a single entry inline. Others ascend in their bounds on the distance from its centre.
+    bool near = split.helps && c < its_end;
+    CellEntry entry = {first, 0};
+    if (near && count > 1) entry = grid.lists.entries[first + c];
+    near = near && !(entry.bound > enough);
+    Real distance = 0;
+    unsigned hits =
+        warp.vote(near && is_primitive_within(grid, entry.feature, q, within, distance)) &
+        split.own;
+    const bool all_near = (warp.vote(near) & split.own) == split.own;
+    if (at < end) at = all_near ? at + split.size : end;
+    for (; warp.vote(hits != 0); hits &= hits - 1) {
+      const unsigned from = warp.first(hits);
+      const FeatureCode code = warp.of(entry.feature, from);
+      const Real its_distance = warp.of(distance, from);
+      if (hits == 0 || made.add(code, its_distance)) continue;
+      at = end;
+      hits = 0;
+    }
+  }
 }
 
 // What of a face at whose rim or past which q is can have a contact, by the point over the face alone: bit k is edge k, bit

@@ -299,10 +299,13 @@ LSDCD_NOINLINE void put_list(const StepJob &job, const Warp<kSize> &warp, bool m
 }
 
 // The same where the nodes of the mesh move. Candidates have no list yet when they are chosen.
-LSDCD_FN void put_node_list(const StepJob &job, const QuerySphere &s, std::size_t k)
+template <unsigned kSize>
+LSDCD_NOINLINE void put_node_list(const StepJob &job, const Warp<kSize> &warp, bool mine,
+                                  const QuerySphere &s, std::size_t k)
 {
   FeatureList made;
-  gather_nodes(job.grid, s, job.settings.nodes.going, made);
+  gather_nodes(warp, mine, job.grid, s, job.settings.nodes.going, made);
+  if (!mine) return;
   count_one(&job.counts->lists);
   add_to(&job.counts->listed, made.n);
   job.lists.put(k, made, job.grid.wall);
@@ -375,7 +378,7 @@ struct MeshStep {
   {
     if constexpr (Law::kNodes)
       if (job.settings.search.at_nodes) {
-        if (mine) put_node_list(job, query_sphere_of_candidate(law, job, k), k);
+        put_node_list(job, warp, mine, query_sphere_of_candidate(law, job, k), k);
         return;
       }
     put_list(job, warp, mine, job.grid, query_sphere_of_candidate(law, job, k), k);
