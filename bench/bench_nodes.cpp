@@ -165,8 +165,9 @@ class Bed {
       arrays_[8].put(&velocity_[0].x, n);
     }
     const double start = clock_ms();
-    if (has_nodes_ &&
-        !(in_place_ && wall_->set_nodes_in_place(0, arrays_[7].data(), arrays_[8].data(), order_)))
+    if (has_nodes_ && in_place_)
+      wall_->set_nodes_in_place(0, arrays_[7].data(), arrays_[8].data(), order_);
+    else if (has_nodes_)
       wall_->set_nodes(0, &nodes_[0].x, &velocity_[0].x);
     wall_->history().grow(static_cast<int>(grains_.x.size()));
     StepInput input;

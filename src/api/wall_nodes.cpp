@@ -204,9 +204,10 @@ int lsdcd_wall_set_nodes(lsdcd_wall *wall, int mesh, const double *positions,
                      "`positions` and `velocities` are in different memory: one is on the host, "
                      "the other on a GPU");
     const bool is_alone = wall->caller.is_alone();
-    if (on_gpu && is_alone && rows.are_one_each &&
-        wall->in->set_nodes_in_place(mesh, positions, velocities, rows.node))
+    if (on_gpu && is_alone && rows.are_one_each) {
+      wall->in->set_nodes_in_place(mesh, positions, velocities, rows.node);
       return;
+    }
     std::vector<double> copies[2];
     const auto ordered = [&](const double *given, const char *name, std::vector<double> &copy) {
       return in_order_of_nodes(on_cpu(*wall, given, on_gpu, 3 * rows.node.size(), copy), rows,

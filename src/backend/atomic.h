@@ -67,14 +67,21 @@ LSDCD_FN void count_one(std::uint64_t *at)
   add_to(at, 1);
 }
 
+// Puts a value that is the same of all threads that put one.
+template <class T>
+LSDCD_FN void put_same(T *at, T value)
+{
+#if LSDCD_ON_GPU()
+  *static_cast<volatile T *>(at) = value;
+#else
+  __atomic_store_n(at, value, __ATOMIC_RELAXED);
+#endif
+}
+
 // Sets a flag that any thread may set.
 LSDCD_FN void set_flag(int *flag)
 {
-#if LSDCD_ON_GPU()
-  *static_cast<volatile int *>(flag) = 1;
-#else
-  __atomic_store_n(flag, 1, __ATOMIC_RELAXED);
-#endif
+  put_same(flag, 1);
 }
 
 // A lock is 0 while it is free. Threads of a GPU's warp wait for each other one by one.

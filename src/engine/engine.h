@@ -7,7 +7,6 @@
 #include "backend/cuda_available.h"
 #include "box/periodic_box.h"
 #include "contact/contact_history.h"
-#include "contact/feature_turn.h"
 #include "engine/candidate_schedule.h"
 #include "engine/grains.h"
 #include "engine/results.h"

@@ -213,10 +213,7 @@ class EngineOn : public WallEngine {
   MeshWork mesh_work(int m) const
   {
     const EngineMesh<B> &mesh = broad_phase_.mesh(m);
-    MeshWork work = {mesh.grid.view, force_settings(settings_, step_, mesh.pose, m)};
-    NodeField &nodes = work.settings.nodes;
-    if (nodes.velocity && nodes_.keeps_nodes()) nodes = nodes_.field(m, nodes.going);
-    return work;
+    return {mesh.grid.view, force_settings(settings_, step_, mesh.pose, nodes_.field(m), m)};
   }
   // Does this part of a step where the step runs: of one that was begun beside the host's work on the engine's own stream.
   template <class Work>
@@ -308,7 +305,7 @@ class EngineOn : public WallEngine {
     if (slots.n_multi_mesh() == 0) return;
     StepJob multi_mesh = job;
     // Lists for more than one mesh name features, and these do not hold while nodes move.
-    if (step_.nodes) multi_mesh.lists = FeatureLists();
+    if (settings_.nodes) multi_mesh.lists = FeatureLists();
     multi_mesh.multi_mesh = {put_works(), slots.first(), slots.mesh()};
     multi_mesh.multi_mesh.laws = {laws_.data(), settings_.laws.of_mesh(),
                                   broad_phase_.kinds_of(b_, spheres_)};

@@ -7,10 +7,6 @@
 #include "base/quaternion.h"
 #include "base/strided_view.h"
 #include "base/vec3.h"
-#include "geometry/feature_code.h"
-#include "mesh/welded_mesh.h"
-
-#include <vector>
 
 namespace lsdcd {
 
@@ -52,15 +48,6 @@ struct Spheres {
   const FloatSpheres *in_float = nullptr;
   // Where laws are for shapes; null: all are spheres. The radius of another grain is that of a sphere around it.
   const GrainShape *shapes = nullptr;
-};
-
-// A mesh whose nodes move, as its host has it in this step.
-struct NodesNow {
-  const WeldedMesh *mesh;    // its vertices are where the nodes are
-  const std::vector<FeatureCode> *primitives;
-  const Vec3 *velocity;    // as in NodeField
-  bool with_spins;         // else no law reads spins
-  Real back;               // how long ago velocities are of (time)
 };
 
 }    // namespace lsdcd

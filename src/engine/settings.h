@@ -4,7 +4,6 @@
 // What an engine is made for, and what a step is told.
 #pragma once
 
-#include "contact/node_field.h"
 #include "host/host_names.h"
 #include "law/contact_law.h"
 #include "law/law_table.h"
@@ -36,9 +35,7 @@ struct EngineSettings {
   bool moves = false;       // set_pose() or StepSettings::surface will be used
   bool contacts = false;    // keep what every contact does to the wall
   bool bodies = false;      // StepSettings::mobility will be used; contacts are kept, too
-  bool nodes = false;       // StepSettings::nodes will be used; likewise
-  // The engine has copies of the records of meshes whose nodes move, as on a GPU, where this is so in any case.
-  bool copies_records = false;
+  bool nodes = false;       // WallEngine::nodes() will be used; likewise
   WearModel wear = WearModel::none;    // where contacts are kept
   HostArrays arrays = HostArrays::in_place;
   Device device = Device::automatic;
@@ -71,8 +68,6 @@ struct StepSettings {
   const SurfaceMotion *surface = nullptr;
   // Likewise, where a mesh is a rigid body: how it gives way, which is 0 of others.
   const Mobility *mobility = nullptr;
-  // Likewise, where the nodes of a mesh move: their velocities, which are null of others.
-  const NodeField *nodes = nullptr;
 };
 
 // When a step does its work, and where.

@@ -3,7 +3,6 @@
 
 #include "mesh/mesh_features.h"
 
-#include "backend/threads.h"
 #include "base/array_list.h"
 #include "base/input_error.h"
 #include "base/quad.h"
@@ -99,16 +98,6 @@ std::size_t n_past_second(const WeldedMesh &mesh, std::size_t edge)
   return n > 2 ? static_cast<std::size_t>(n - 2) : 0;
 }
 
-EdgeRecord make_segment(const Vec3 &a, const Vec3 &b)
-{
-  const Wide<long double> d = difference<long double>(b, a);
-  EdgeRecord e = {};
-  e.anchor = a;
-  e.direction = narrow(unit(d));
-  e.length = static_cast<Real>(root<long double>(dot(d, d)));
-  return e;
-}
-
 // `others` gets the inward normals of faces past the second; `more` of the record is left to the caller.
 EdgeRecord edge_record(const WeldedMesh &mesh, const std::vector<FaceRecord> &faces, std::size_t i,
                        Vec3 *others)
@@ -163,29 +152,6 @@ void check_numbers(const WeldedMesh &mesh)
                      " that can be used; use a coarser mesh");
 }
 
-// Has a face with these corners an area? Thinner than the rounding of its corners it has no normal. Welding makes the
-// same test.
-bool has_area(const Vec3 &a, const Vec3 &b, const Vec3 &c)
-{
-  Real most = 0;
-  for (const Vec3 *x : {&a, &b, &c})
-    for (int d = 0; d < 3; d++) most = std::fmax(most, std::fabs((*x)[d]));
-  const Real longest =
-      std::sqrt(std::fmax(norm_sq(b - a), std::fmax(norm_sq(c - b), norm_sq(a - c))));
-  return norm(cross(b - a, c - a)) > std::fmax(8 * kRoundoff * most, 1e-14 * longest) * longest;
-}
-
-[[noreturn]] void throw_without_area(const WeldedMesh &mesh, std::size_t face)
-{
-  const auto &c = mesh.faces[face];
-  throw InputError(
-      "face " + std::to_string(face) + " of '" + mesh.source + "', with the nodes " +
-      std::to_string(c[0]) + ", " + std::to_string(c[1]) + " and " + std::to_string(c[2]) +
-      " (all from 0), has no area any more: its nodes lie in a line or are no numbers, "
-      "and it has no normal; give the nodes more stiffness or damping, or a shorter "
-      "timestep");
-}
-
 }    // namespace
 
 MeshTopologyView topology_of(const WeldedMesh &mesh)
@@ -203,13 +169,14 @@ MeshTopologyView topology_of(const WeldedMesh &mesh)
           static_cast<std::uint32_t>(mesh.vertices.size())};
 }
 
-void put_far_segment(const WeldedMesh &mesh, std::size_t edge, EdgeRecord &e)
+EdgeRecord make_segment(const Vec3 &a, const Vec3 &b)
 {
-  const auto &ends = mesh.edges[edge];
-  const EdgeRecord made = make_segment(mesh.vertices[ends[0]], mesh.vertices[ends[1]]);
-  e.anchor = made.anchor;
-  e.direction = made.direction;
-  e.length = made.length;
+  const Wide<long double> d = difference<long double>(b, a);
+  EdgeRecord e = {};
+  e.anchor = a;
+  e.direction = narrow(unit(d));
+  e.length = static_cast<Real>(root<long double>(dot(d, d)));
+  return e;
 }
 
 FaceRecord make_face_record(const Vec3 &a, const Vec3 &b, const Vec3 &c)
@@ -297,6 +264,28 @@ MeshFeatures make_features(const WeldedMesh &mesh, bool with_sides, bool with_pr
   return out;
 }
 
+// Thinner than the rounding of its corners a face has no normal. Welding makes the same test.
+bool has_area(const Vec3 &a, const Vec3 &b, const Vec3 &c)
+{
+  Real most = 0;
+  for (const Vec3 *x : {&a, &b, &c})
+    for (int d = 0; d < 3; d++) most = std::fmax(most, std::fabs((*x)[d]));
+  const Real longest =
+      std::sqrt(std::fmax(norm_sq(b - a), std::fmax(norm_sq(c - b), norm_sq(a - c))));
+  return norm(cross(b - a, c - a)) > std::fmax(8 * kRoundoff * most, 1e-14 * longest) * longest;
+}
+
+void throw_without_area(const WeldedMesh &mesh, int face)
+{
+  const auto &c = mesh.faces[face];
+  throw InputError(
+      "face " + std::to_string(face) + " of '" + mesh.source + "', with the nodes " +
+      std::to_string(c[0]) + ", " + std::to_string(c[1]) + " and " + std::to_string(c[2]) +
+      " (all from 0), has no area any more: its nodes lie in a line or are no numbers, "
+      "and it has no normal; give the nodes more stiffness or damping, or a shorter "
+      "timestep");
+}
+
 MeshFeatures make_moving_features(const WeldedMesh &mesh, bool with_sides)
 {
   MeshFeatures out;
@@ -335,11 +324,20 @@ MeshFeatures make_moving_features(const WeldedMesh &mesh, bool with_sides)
   for (std::size_t i = 0; i < n_vertices; i++)
     if (!has_face[i])
       out.primitives.push_back(feature_code(FeatureKind::vertex, static_cast<std::uint32_t>(i)));
-  update_features(mesh, mesh.vertices, with_sides, out);
+  // The rest as when nodes move, but here none does.
+  std::vector<char> edge_acts(n_edges), vertex_acts(n_vertices);
+  std::uint32_t n_parts = 0;
+  const MovedMesh moved = {
+      topology_of(mesh), moving_records(out.view(), edge_acts.data(), vertex_acts.data(), &n_parts),
+      mesh.vertices.data(), mesh.vertices.data(), 0};
+  for (std::uint32_t i = 0; i < n_edges; i++) move_edge(Warp<1>(), true, moved, i);
+  for (std::uint32_t i = 0; i < n_vertices; i++) move_vertex(Warp<1>(), true, moved, i);
+  for (std::uint32_t f = 0; f < n_faces; f++) put_parts(Warp<1>(), true, moved, f);
   return out;
 }
 
-MovingRecords moving_records(const MeshFeaturesView &of, char *edge_acts, char *vertex_acts)
+MovingRecords moving_records(const MeshFeaturesView &of, char *edge_acts, char *vertex_acts,
+                             std::uint32_t *n_parts)
 {
   const auto own = [](const auto *records) {
     return const_cast<std::decay_t<decltype(*records)> *>(records);
@@ -353,63 +351,8 @@ MovingRecords moving_records(const MeshFeaturesView &of, char *edge_acts, char *
           own(of.edge_out),
           own(of.vertex_out),
           edge_acts,
-          vertex_acts};
-}
-
-FaceRecord make_thin_face_record(const WeldedMesh &mesh, std::size_t face)
-{
-  const auto &c = mesh.faces[face];
-  const Vec3 &a = mesh.vertices[c[0]], &b = mesh.vertices[c[1]], &d = mesh.vertices[c[2]];
-  if (!has_area(a, b, d)) throw_without_area(mesh, face);
-  return make_face_record(a, b, d);
-}
-
-void update_features(const WeldedMesh &mesh, const std::vector<Vec3> &before, bool with_sides,
-                     MeshFeatures &out)
-{
-  const auto n_faces = static_cast<std::int64_t>(mesh.faces.size()),
-             n_edges = static_cast<std::int64_t>(mesh.edges.size()),
-             n_vertices = static_cast<std::int64_t>(mesh.vertices.size());
-  std::int64_t thin = n_faces;    // the first face without area
-  std::int64_t acting = 0;        // edges and vertices that can hold a contact
-  std::vector<char> edge_acts(n_edges), vertex_acts(n_vertices);
-  Real far = 0;    // the largest coordinate
-  for (const Vec3 &x : mesh.vertices)
-    far = std::max({far, std::fabs(x.x), std::fabs(x.y), std::fabs(x.z)});
-  MovedMesh moved = {topology_of(mesh),
-                     moving_records(out.view(), edge_acts.data(), vertex_acts.data()),
-                     mesh.vertices.data(), before.data(), far};
-  if (!with_sides) moved.to.edge_out = moved.to.vertex_out = nullptr;
-#pragma omp parallel num_threads(threads()) if (n_faces > 1024)
-  {
-#pragma omp for schedule(static) reduction(min : thin)
-    for (std::int64_t f = 0; f < n_faces; f++) {
-      if (move_face(Warp<1>(), true, moved, static_cast<std::uint32_t>(f))) continue;
-      const auto &c = mesh.faces[f];
-      const Vec3 &a = mesh.vertices[c[0]], &b = mesh.vertices[c[1]], &d = mesh.vertices[c[2]];
-      out.faces[f] = make_face_record(a, b, d);
-      if (!has_area(a, b, d)) thin = std::min(thin, f);
-    }
-#pragma omp for schedule(static) reduction(+ : acting)
-    for (std::int64_t i = 0; i < n_edges; i++) {
-      if (!move_edge(Warp<1>(), true, moved, static_cast<std::uint32_t>(i)))
-        put_far_segment(mesh, i, out.edges[i]);
-      acting += edge_acts[i];
-    }
-#pragma omp for schedule(static) reduction(+ : acting)
-    for (std::int64_t i = 0; i < n_vertices; i++) {
-      move_vertex(Warp<1>(), true, moved, static_cast<std::uint32_t>(i));
-      acting += vertex_acts[i];
-    }
-    // Where all act, as in most meshes that have moved, the parts are those of the last step.
-    if (acting < n_edges + n_vertices || !out.all_parts_act) {
-#pragma omp for schedule(static)
-      for (std::int64_t f = 0; f < n_faces; f++)
-        put_parts(Warp<1>(), true, moved, static_cast<std::uint32_t>(f));
-    }
-  }
-  out.all_parts_act = acting == n_edges + n_vertices;
-  if (thin < n_faces) throw_without_area(mesh, thin);
+          vertex_acts,
+          n_parts};
 }
 
 }    // namespace lsdcd

@@ -29,8 +29,6 @@ struct MeshFeatures {
   // The primitives of the wall: the faces, each for its edges and vertices, too, and the
   // edges and vertices without a face.
   std::vector<FeatureCode> primitives;
-  // Of a mesh that moves: face_parts name all edges and vertices. False where others than update_features() wrote them.
-  bool all_parts_act = false;
 
   MeshFeaturesView view() const;
 };
@@ -46,20 +44,15 @@ MeshFeatures make_features(const WeldedMesh &mesh, bool with_sides, bool with_pr
 // later. Which do now, face_parts says, and grids sort `primitives`.
 MeshFeatures make_moving_features(const WeldedMesh &mesh, bool with_sides);
 
-// Updates the records of make_moving_features() for vertices that have moved, and that were at `before` at the last
-// call. A face or edge that has only been shifted keeps its record to the last bit; the others get theirs by the
-// formulas of make_features() in Real, where that keeps the digits of a normal. Throws InputError where a face has no
-// area.
-void update_features(const WeldedMesh &mesh, const std::vector<Vec3> &before, bool with_sides,
-                     MeshFeatures &features);
+// Returns the parts of it, for who moves them (mesh/moving_records.h).
 
-// Returns the parts of it, for an engine that has records of its own (mesh/moving_records.h).
-
-// Returns the records of a view to be written, and flags of its edges and vertices.
-MovingRecords moving_records(const MeshFeaturesView &of, char *edge_acts, char *vertex_acts);
-// The record of a face that is too thin for Real. Throws InputError where it has no area.
-FaceRecord make_thin_face_record(const WeldedMesh &mesh, std::size_t face);
-// Place, direction and length of an edge whose squares leave the range of Real.
-void put_far_segment(const WeldedMesh &mesh, std::size_t edge, EdgeRecord &e);
+// Returns the records of a view to be written, with flags of its edges and vertices.
+MovingRecords moving_records(const MeshFeaturesView &of, char *edge_acts, char *vertex_acts,
+                             std::uint32_t *n_parts);
+// Returns whether a face is so far from a line that it has a normal.
+bool has_area(const Vec3 &a, const Vec3 &b, const Vec3 &c);
+// Returns place, direction and length of an edge.
+EdgeRecord make_segment(const Vec3 &a, const Vec3 &b);
+[[noreturn]] void throw_without_area(const WeldedMesh &mesh, int face);
 
 }    // namespace lsdcd

@@ -10,6 +10,7 @@
 // it is not `mine`.
 #pragma once
 
+#include "backend/atomic.h"
 #include "backend/warp.h"
 #include "geometry/wall_records.h"
 
@@ -27,7 +28,8 @@ struct MeshTopologyView {
 };
 MeshTopologyView topology_of(const WeldedMesh &mesh);
 
-// Records to be written, as those of MeshFeaturesView, and for each edge and vertex whether it can hold a contact now.
+// Records to be written, as those of MeshFeaturesView, and for each edge and vertex whether it can hold a contact now. Where
+// that has changed, n_parts becomes the number of faces: then their parts are to be put.
 struct MovingRecords {
   FaceRecord *faces;
   EdgeRecord *edges;
@@ -36,6 +38,7 @@ struct MovingRecords {
   FaceParts *face_parts;
   Vec3 *edge_out, *vertex_out;    // null: without sides
   char *edge_acts, *vertex_acts;
+  std::uint32_t *n_parts;
 };
 
 struct MovedMesh {
@@ -44,6 +47,14 @@ struct MovedMesh {
   const Vec3 *at, *before;    // places of vertices, now and when the records were made last
   Real far;                   // the largest coordinate, without its sign
 };
+
+// Notes whether an edge or vertex can hold a contact.
+LSDCD_FN void put_acts(const MovedMesh &m, char &to, bool acts)
+{
+  if (to == static_cast<char>(acts)) return;
+  to = static_cast<char>(acts);
+  put_same(m.to.n_parts, m.mesh.n_faces);
+}
 
 // If two faces lie in one plane, the region of the edge between them is no wider than this
 // angle. The grid's tolerance is four times wider.
@@ -189,7 +200,7 @@ LSDCD_FN bool put_thick_face(const Vec3 &a, const Vec3 &b, const Vec3 &c, Real f
              longer_sq = sq[1] < sq[2] ? sq[2] : sq[1],
              longest_sq = sq[0] < longer_sq ? longer_sq : sq[0], area_sq = norm_sq(area);
   constexpr Real kTiny = 1e-200, kHuge = 1e200;
-  // It has an area, too, as update_features() asks for: the second test is that its height is above 8 kRoundoff far.
+  // It has an area, too, as has_area() asks for: the second test is that its height is above 8 kRoundoff far.
   if (!(area_sq >= kThick * kThick * (longest_sq * longest_sq) &&
         area_sq >= 64 * kRoundoff * kRoundoff * (far * far) * longest_sq && area_sq > kTiny &&
         area_sq < kHuge))
@@ -207,7 +218,7 @@ LSDCD_FN bool keeps(const MovedMesh &m, int from, int to)
   return m.at[to] - m.at[from] == m.before[to] - m.before[from];
 }
 
-// False: the face is too thin for Real, its record has to be made by make_thin_face_record().
+// False: the face is too thin for Real, its record has to be made by make_face_record().
 template <unsigned kSize>
 LSDCD_FN bool move_face(const Warp<kSize> &, bool mine, const MovedMesh &m, std::uint32_t f)
 {
@@ -239,7 +250,7 @@ LSDCD_FN bool put_segment(const Vec3 &from, const Vec3 &to, EdgeRecord &e)
   return true;
 }
 
-// False: direction and length have to be those of put_far_segment().
+// False: direction and length have to be those of make_segment().
 template <unsigned kSize>
 LSDCD_FN bool move_edge(const Warp<kSize> &, bool mine, const MovedMesh &m, std::uint32_t i)
 {
@@ -258,7 +269,7 @@ LSDCD_FN bool move_edge(const Warp<kSize> &, bool mine, const MovedMesh &m, std:
     is_made = is_kept || put_segment(e.anchor, m.at[to], e);
     put_inward(m.mesh, m.to.faces, i, e, m.to.edge_inward + e.more);
     if (m.to.edge_out) m.to.edge_out[i] = outward_of_edge(m.mesh, m.to.faces, i);
-    m.to.edge_acts[i] = !is_flat(e);
+    put_acts(m, m.to.edge_acts[i], !is_flat(e));
     words = is_kept || !is_made ? all & ~of_segment : all;
   }
   edge.put(words);
@@ -283,7 +294,8 @@ LSDCD_FN void move_vertex(const Warp<kSize> &warp, bool mine, const MovedMesh &m
   RowOf<kSize, VertexRecord> vertex(m.to.vertices + i);
   if (mine) {
     *vertex = {m.at[i], first, end - first};
-    m.to.vertex_acts[i] = !is_covered(m.mesh, m.to.edges, i, m.to.vertex_direction + first);
+    put_acts(m, m.to.vertex_acts[i],
+             !is_covered(m.mesh, m.to.edges, i, m.to.vertex_direction + first));
     if (m.to.vertex_out) m.to.vertex_out[i] = outward_of_vertex(m.mesh, m.at, m.to.faces, i);
   }
   vertex.put(mine ? words_of(0, sizeof(VertexRecord)) : 0);

@@ -43,7 +43,7 @@ struct MeshPart {
   // In its own frame, in this step; null but on one process per node, where its nodes do not move.
   const WeldedMesh *mesh() const { return surface->mesh(); }
   GridView view() const { return grid.view(); }    // where its nodes do not move
-  // Of its features. Where nodes move on a GPU, they may be those of an earlier step.
+  // Of its features; none where its nodes move.
   MeshFeaturesView records() const { return surface->records(); }
 
   Box bounds(Real past) const;    // in its own frame, and `past` (length) beyond

@@ -48,7 +48,7 @@ Wall::Wall(Host &host, WallSpec spec, const WallUnits &units, WallBackend backen
     check_stays_closed(host_, spec_, m);
     mover_is_new(m);
   }
-  // Where the spheres are says it in place, and records of nodes that move stay with their engine.
+  // Where the spheres are says it in place, and nodes that move stay on their device.
   const bool is_fixed = backend_.in_place || nodes_.any();
   device_ = DeviceChoice(spec_.device, is_fixed ? 0 : cuda_devices(), host_.ranks().node_size);
   coat_loads_.resize(meshes_.size());
@@ -142,8 +142,10 @@ void Wall::make_engine()
   const EngineSettings want = engine_settings();
   engine_moves_ = want.moves;
   engine_contacts_ = want.contacts || want.bodies || want.nodes;
-  if (engine_) nodes_.leave_engine();
-  run_collectively(host_, true, [&] { engine_ = backend_.make_engine(want); });
+  std::unique_ptr<WallEngine> made;
+  run_collectively(host_, true, [&] { made = backend_.make_engine(want); });
+  nodes_.set_engine(*made);
+  engine_ = std::move(made);
   history_.set_engine(*engine_, backend_.in_place);
   grids_.set_engine(*engine_);
 }
@@ -411,7 +413,6 @@ StepSettings Wall::step_settings()
     for (const MeshPart &m : meshes_) mobilities_.push_back(m.mover->mobility());
     step.mobility = mobilities_.data();
   }
-  step.nodes = nodes_.fields(cutoff());
   if (!spec_.law().has_heat()) return step;
   temperatures_.clear();
   for (const MeshSpec &m : spec_.meshes)
@@ -425,7 +426,7 @@ StepSettings Wall::step_settings()
 
 void Wall::choose_if_due(const Spheres &spheres)
 {
-  nodes_.begin_choice(*engine_, cutoff(), spheres.n);
+  nodes_.begin_choice(cutoff(), spheres.n);
   std::vector<MovingMesh> moving;
   for (const MeshPart &m : meshes_)
     if (m.mover->moves()) moving.push_back({m.pose(), m.bounds(cutoff())});
@@ -492,7 +493,7 @@ void Wall::collect(const HostSpheres &spheres)
     search_.count_step(input_.step.kind != Step::step);
   }
   if (cutoff() > 0)
-    on_this_process(spheres, [&] { nodes_.see_forces(*engine_); });
+    on_this_process(spheres, [&] { nodes_.see_forces(); });
   else
     nodes_.clear_forces();
 }

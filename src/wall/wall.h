@@ -177,10 +177,10 @@ class Wall {
   // processes give the same numbers. Local.
   void set_nodes(int mesh, const Real *x, const Real *v) { nodes(mesh).set(x, v); }
   // Sets places and velocities of nodes from arrays that lie where the wall computes, as MeshNodes::set_in_place() says.
-  bool set_nodes_in_place(int mesh, const Real *x, const Real *v,
+  void set_nodes_in_place(int mesh, const Real *x, const Real *v,
                           const std::vector<int> &node_of_row)
   {
-    return nodes(mesh).set_in_place(x, v, node_of_row);
+    nodes(mesh).set_in_place(x, v, node_of_row);
   }
 
   // Writes the history of a sphere for a saved state, with names of features that hold in any run. Returns how many numbers it

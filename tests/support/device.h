@@ -11,7 +11,7 @@
 
 namespace lsdcd {
 
-// LSDCD_TEST_DEVICE: cpu (or nothing), cuda, cpu_in_place, cuda_in_place; cpu_copies: see test_engine.h.
+// LSDCD_TEST_DEVICE: cpu (or nothing), cuda, cpu_in_place, cuda_in_place.
 inline bool test_device_has(const char *word)
 {
   const char *device = std::getenv("LSDCD_TEST_DEVICE");

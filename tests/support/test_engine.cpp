@@ -138,7 +138,6 @@ std::unique_ptr<WallEngine> make_test_engine(EngineSettings settings)
 {
   if (test_in_place()) return in_place(settings);
   settings.device = test_device();
-  settings.copies_records = test_device_has("copies");
   return make_engine(settings);
 }
 

@@ -10,7 +10,7 @@
 
 namespace lsdcd {
 
-// By LSDCD_TEST_DEVICE: cpu; cpu_copies, which has copies of records as a GPU has; cuda, which takes a host's particles;
+// By LSDCD_TEST_DEVICE: cpu; cuda, which takes a host's particles;
 // cuda_in_place, for particles in the GPU's memory, where this brings those of the test.
 std::unique_ptr<WallEngine> make_test_engine(EngineSettings settings);
 

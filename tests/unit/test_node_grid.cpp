@@ -177,52 +177,160 @@ TEST(node_grid, a_GPU_builds_the_same_lists)
 }
 #endif
 
-// Records that steps make again have the bytes of those that a CPU makes for a wall that has them: of faces that bend, that are
-// only shifted, that are too thin for Real. The number of faces is no multiple of a
-// warp.
-using MovedBy = MeshFeatures (*)(const WeldedMesh &, const WeldedMesh &);
-void expect_records_of_cpu(MovedBy moved_by)
+// Waves before and after a move in which some faces bend, some are only shifted, and one becomes too thin for Real. The number of
+// faces is no multiple of a warp.
+struct MovedWaves {
+  WeldedMesh mesh = waves(13), after = mesh;
+
+  MovedWaves()
+  {
+    for (Vec3 &x : after.vertices)
+      x = x.x < 0 ? x + Vec3{0.25, -0.5, 0.125} : Vec3{x.x, x.y, x.z + 0.1 * std::sin(3 * x.y)};
+    const auto &thin = mesh.faces.back();
+    after.vertices[thin[2]] =
+        Real(0.5) * (after.vertices[thin[0]] + after.vertices[thin[1]]) + Vec3{0, 0, 1e-3};
+  }
+};
+
+// That mesh has its records by long double. Normals of faces that are not thin are right to 4 kRoundoff/0.05 = 2e-14, as are
+// what follows from them; places are up to 8.
+TEST(moving_nodes, have_the_records_of_a_mesh_that_is_made_where_they_are)
 {
-  const WeldedMesh mesh = waves(13);
-  WeldedMesh after = mesh;
-  for (Vec3 &x : after.vertices)
-    x = x.x < 0 ? x + Vec3{0.25, -0.5, 0.125} : Vec3{x.x, x.y, x.z + 0.1 * std::sin(3 * x.y)};
-  const auto &thin = mesh.faces.back();
-  after.vertices[thin[2]] =
-      Real(0.5) * (after.vertices[thin[0]] + after.vertices[thin[1]]) + Vec3{0, 0, 1e-3};
-  MeshFeatures expected = make_moving_features(mesh, true);
-  update_features(after, mesh.vertices, true, expected);
-  const MeshFeatures found = moved_by(mesh, after);
-  EXPECT_NE(mesh.faces.size() % 32, 0u);
-  expect_same_bytes(expected.faces, found.faces);
-  expect_same_bytes(expected.edges, found.edges);
-  expect_same_bytes(expected.edge_inward, found.edge_inward);
-  expect_same_bytes(expected.vertex_direction, found.vertex_direction);
-  expect_same_bytes(expected.edge_out, found.edge_out);
-  expect_same_bytes(expected.vertex_out, found.vertex_out);
-  expect_same_bytes(expected.face_parts, found.face_parts);
-  ASSERT_EQ(expected.vertices.size(), found.vertices.size());
+  const MovedWaves waves;
+  const MeshFeatures expected = make_moving_features(waves.after, true),
+                     found = moved_records_by(CpuBackend(), waves.mesh, waves.after);
+  constexpr Real kNear = 1e-13;
+  const auto expect_near = [&](const std::vector<Vec3> &a, const std::vector<Vec3> &b) {
+    ASSERT_EQ(a.size(), b.size());
+    for (std::size_t i = 0; i < a.size(); i++) EXPECT_LE(norm(a[i] - b[i]), 10 * kNear) << i;
+  };
+  for (std::size_t f = 0; f < found.faces.size(); f++) {
+    const FaceRecord &a = expected.faces[f], &b = found.faces[f];
+    EXPECT_TRUE(a.anchor == b.anchor);
+    EXPECT_LE(norm(a.normal - b.normal), kNear) << f;
+    for (int k = 0; k < 3; k++) EXPECT_LE(norm(a.inward[k] - b.inward[k]), kNear) << f;
+    EXPECT_LE(std::fabs(a.height - b.height), 10 * kNear) << f;
+  }
+  for (std::size_t i = 0; i < found.edges.size(); i++) {
+    const EdgeRecord &a = expected.edges[i], &b = found.edges[i];
+    EXPECT_TRUE(a.anchor == b.anchor);
+    EXPECT_LE(norm(a.direction - b.direction), kNear) << i;
+    EXPECT_LE(std::fabs(a.length - b.length), 10 * kNear) << i;
+    ASSERT_EQ(a.n_faces, b.n_faces);
+    for (std::uint32_t k = 0; k < std::min(2u, b.n_faces); k++)
+      EXPECT_LE(norm(a.inward[k] - b.inward[k]), kNear) << i;
+  }
   for (std::size_t i = 0; i < found.vertices.size(); i++) {
     EXPECT_TRUE(expected.vertices[i].position == found.vertices[i].position);
     EXPECT_EQ(expected.vertices[i].first, found.vertices[i].first);
     EXPECT_EQ(expected.vertices[i].count, found.vertices[i].count);
   }
+  expect_near(expected.edge_inward, found.edge_inward);
+  expect_near(expected.vertex_direction, found.vertex_direction);
+  expect_near(expected.edge_out, found.edge_out);
+  expect_near(expected.vertex_out, found.vertex_out);
+  expect_same_bytes(expected.face_parts, found.face_parts);
 }
 
-TEST(moving_nodes, have_the_records_of_a_mesh_that_was_made_anew)
+void expect_records_of_cpu(const MeshFeatures &found)
 {
-  expect_records_of_cpu([](const WeldedMesh &mesh, const WeldedMesh &after) {
-    return moved_records_by(CpuBackend(), mesh, after);
-  });
+  const MovedWaves waves;
+  EXPECT_NE(waves.mesh.faces.size() % 32, 0u);
+  const MeshFeatures expected = moved_records_by(CpuBackend(), waves.mesh, waves.after);
+  expect_same_bytes(expected.faces, found.faces);
+  expect_same_bytes(expected.edges, found.edges);
+  expect_same_bytes(expected.vertices, found.vertices);
+  expect_same_bytes(expected.edge_inward, found.edge_inward);
+  expect_same_bytes(expected.vertex_direction, found.vertex_direction);
+  expect_same_bytes(expected.edge_out, found.edge_out);
+  expect_same_bytes(expected.vertex_out, found.vertex_out);
+  expect_same_bytes(expected.face_parts, found.face_parts);
+}
+
+// Does what an engine on a GPU does, in the memory of the CPU: what is left to the CPU is made after the rest.
+struct ApartBackend : CpuBackend {
+  static constexpr bool kOnCpu = false;
+};
+
+TEST(moving_nodes, have_the_records_of_a_CPU_in_memory_apart)
+{
+  const MovedWaves waves;
+  expect_records_of_cpu(moved_records_by(ApartBackend(), waves.mesh, waves.after));
 }
 
 #if defined(LSDCD_HAVE_CUDA)
 TEST(moving_nodes, have_the_records_of_a_CPU_on_a_GPU)
 {
   if (!test_on_cuda()) GTEST_SKIP() << "for a GPU";
-  expect_records_of_cpu(moved_records_on_cuda);
+  const MovedWaves waves;
+  expect_records_of_cpu(moved_records_on_cuda(waves.mesh, waves.after));
 }
 #endif
+
+// Of a plane no edge inside acts, of what it is bent to all do; what has not changed is not written.
+TEST(moving_nodes, name_the_parts_of_a_plate_that_is_bent_and_flat_again)
+{
+  const WeldedMesh flat = weld(floor_mesh(4, 1), -1);
+  WeldedMesh bent = flat;
+  for (Vec3 &x : bent.vertices) x.z = 0.25 * x.x * x.x + 0.125 * x.x * x.y;
+  CpuBackend b;
+  MovingNodes<CpuBackend> nodes;
+  nodes.start(b, flat, true, false);
+  for (const bool bends : {true, true, false, false, true}) {
+    const WeldedMesh &to = bends ? bent : flat;
+    nodes.give(b, to.vertices.data(), nullptr);
+    nodes.move(b, 0);
+    expect_same_bytes(make_moving_features(to, true).face_parts,
+                      records_on_cpu(b, nodes, flat).face_parts);
+  }
+}
+
+// Springs turn from where they were turned to last, however often nodes move until then, and none turns the first time; moves
+// that are taken back do not count.
+TEST(moving_nodes, turn_springs_from_where_they_were_turned_last)
+{
+  const WeldedMesh mesh = weld(floor_mesh(2, 1), -1);
+  const auto at = [&](Real z) {
+    std::vector<Vec3> all = mesh.vertices;
+    for (Vec3 &x : all) x.z = z;
+    return all;
+  };
+  CpuBackend b;
+  MovingNodes<CpuBackend> nodes;
+  nodes.start(b, mesh, false, false);
+  const auto move = [&](Real z) {
+    nodes.give(b, at(z).data(), nullptr);
+    nodes.move(b, 0);
+  };
+  const auto expect_turn = [&](Real from, Real to) {
+    TurningMesh turning;
+    ASSERT_TRUE(nodes.turn(turning));
+    EXPECT_EQ(turning.from[0].z, from);
+    EXPECT_EQ(turning.to[0].z, to);
+    EXPECT_FALSE(nodes.turn(turning));
+  };
+  TurningMesh turning;
+  move(1);
+  EXPECT_FALSE(nodes.turn(turning));
+  move(2);
+  expect_turn(1, 2);
+  move(3);
+  move(4);
+  move(5);
+  expect_turn(2, 5);
+  move(6);
+  nodes.move_back(b);
+  EXPECT_FALSE(nodes.turn(turning));
+  move(7);
+  move(8);
+  nodes.move_back(b);
+  expect_turn(5, 7);
+  move(9);
+  const std::vector<Vec3> none(mesh.vertices.size(), Vec3{0, 0, 0});
+  nodes.put(b, at(10).data(), none.data());
+  move(11);
+  expect_turn(10, 11);
+}
 
 }    // namespace
 }    // namespace lsdcd::test_node_grid

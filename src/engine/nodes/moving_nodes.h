@@ -1,16 +1,19 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The nodes of a mesh in the memory of an engine that has copies of its records, as on a GPU: in a step the records are
-// made again by the source that a host has (mesh/moving_records.h), and a small record of how far nodes have gone is all
-// that the CPU waits for. Faces that are too thin for the digits of Real come back to the CPU, which has wider ones.
+// The nodes of a mesh in the memory of an engine: in a step the records are made again (mesh/moving_records.h), and a small
+// record of how far nodes have gone is all that the CPU waits for. Faces that are too thin for the digits of Real are made
+// by the CPU, which has wider ones.
 #pragma once
 
 #include "backend/atomic.h"
 #include "backend/backend.h"
 #include "backend/warp.h"
+#include "contact/feature_turn.h"
+#include "contact/node_field.h"
 #include "engine/nodes/node_engine.h"
 #include "grid/build/moving_grid.h"
+#include "grid/lookup/grid_on.h"
 #include "mesh/mesh_features.h"
 #include "mesh/node_spin.h"
 
@@ -41,67 +44,69 @@ LSDCD_FN Real from_ascending_number(std::uint64_t bits)
   return value;
 }
 
-// What a step finds of the nodes: maxima as ascending bits.
+// What a step finds of the nodes: maxima as ascending bits, which are no numbers where a place or velocity is none.
 struct NodesSeen {
   std::uint64_t way_sq, way_sq_of_grid, speed_sq;
+  std::uint64_t far;    // the largest coordinate, without its sign
   std::uint64_t hi[3], minus_lo[3];
   int n_left, pad;
-
-  // Returns the largest coordinate, without its sign.
-  LSDCD_FN Real far() const
-  {
-    std::uint64_t most = hi[0];
-    for (int d = 0; d < 3; d++) {
-      if (hi[d] > most) most = hi[d];
-      if (minus_lo[d] > most) most = minus_lo[d];
-    }
-    return from_ascending_number(most);
-  }
 };
 
-// Looks at all nodes, in one pass: a thread at several of them, and a warp raises each number once, so that few wait for
-// each other.
-constexpr std::size_t kMostLooking = 1 << 15;
+// Looks at all nodes, in one pass. A thread of a GPU looks at several, and a warp raises each number once, so that few wait
+// for each other; one of a CPU looks at some that lie side by side.
+constexpr std::size_t kMostLooking = 1 << 15, kSideBySide = 64;
 struct LookAtNodes {
   const Vec3 *at, *before, *built_at, *velocity;
   std::size_t n, n_threads;
   NodesSeen *seen;
+  std::uint32_t *n_parts;
 
   template <unsigned kSize>
   LSDCD_FN void operator()(const Warp<kSize> &warp, bool mine, std::size_t t) const
   {
-    NodesSeen of = {};
-    for (std::size_t i = t; mine && i < n; i += n_threads) {
+    constexpr bool kIsCpu = kSize == 1;
+    const std::size_t first = kIsCpu ? t * kSideBySide : t, step = kIsCpu ? 1 : n_threads,
+                      end = kIsCpu && first + kSideBySide < n ? first + kSideBySide : n;
+    Real way_sq = 0, way_sq_of_grid = 0, speed_sq = 0;
+    Vec3 hi = {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL}, minus_lo = hi;
+    bool are_places = true, are_velocities = true;
+    for (std::size_t i = first; mine && i < end; i += step) {
       const Vec3 x = at[i];
-      raise(of.way_sq, norm_sq(x - before[i]));
-      raise(of.way_sq_of_grid, norm_sq(x - built_at[i]));
-      raise(of.speed_sq, norm_sq(velocity[i]));
+      const Real way = norm_sq(x - before[i]), of_grid = norm_sq(x - built_at[i]),
+                 speed = norm_sq(velocity[i]);
+      are_places = are_places && way == way;
+      are_velocities = are_velocities && speed == speed;
+      raise(way_sq, way);
+      raise(way_sq_of_grid, of_grid);
+      raise(speed_sq, speed);
       for (int d = 0; d < 3; d++) {
-        raise(of.hi[d], x[d]);
-        raise(of.minus_lo[d], -x[d]);
+        raise(hi[d], x[d]);
+        raise(minus_lo[d], -x[d]);
       }
     }
-    raise_in_warp(warp, &seen->way_sq, of.way_sq);
-    raise_in_warp(warp, &seen->way_sq_of_grid, of.way_sq_of_grid);
-    raise_in_warp(warp, &seen->speed_sq, of.speed_sq);
+    if (!are_places) way_sq = way_sq_of_grid = NAN;
+    if (!are_velocities) speed_sq = NAN;
+    Real far = hi.x;
     for (int d = 0; d < 3; d++) {
-      raise_in_warp(warp, &seen->hi[d], of.hi[d]);
-      raise_in_warp(warp, &seen->minus_lo[d], of.minus_lo[d]);
+      raise(far, hi[d]);
+      raise(far, minus_lo[d]);
+      raise_in_warp(warp, &seen->hi[d], hi[d]);
+      raise_in_warp(warp, &seen->minus_lo[d], minus_lo[d]);
     }
+    raise_in_warp(warp, &seen->way_sq, way_sq);
+    raise_in_warp(warp, &seen->way_sq_of_grid, way_sq_of_grid);
+    raise_in_warp(warp, &seen->speed_sq, speed_sq);
+    raise_in_warp(warp, &seen->far, far);
+    if (t == 0) *n_parts = 0;
   }
 
  private:
-  LSDCD_FN static void raise(std::uint64_t &to, Real value)
-  {
-    const std::uint64_t bits = ascending_number(value);
-    if (bits > to) to = bits;
-  }
+  LSDCD_FN static void raise(Real &to, Real value) { to = value > to ? value : to; }
   template <unsigned kSize>
-  LSDCD_FN static void raise_in_warp(const Warp<kSize> &warp, std::uint64_t *to,
-                                     std::uint64_t value)
+  LSDCD_FN static void raise_in_warp(const Warp<kSize> &warp, std::uint64_t *to, Real value)
   {
-    value = warp.largest(value);
-    if (warp.rank() == 0) raise_to(to, value);
+    const std::uint64_t most = warp.largest(ascending_number(value));
+    if (warp.rank() == 0) raise_to(to, most);
   }
 };
 
@@ -116,7 +121,7 @@ struct MoveFaces {
   LSDCD_FN void operator()(const Warp<kSize> &warp, bool mine, std::size_t f) const
   {
     MovedMesh mesh = moved;
-    mesh.far = seen->far();
+    mesh.far = from_ascending_number(seen->far);
     if (!move_face(warp, mine, mesh, static_cast<std::uint32_t>(f)))
       left[fetch_add(&seen->n_left, 1)] =
           feature_code(FeatureKind::face, static_cast<std::uint32_t>(f));
@@ -139,25 +144,29 @@ struct MoveEdges {
 
 struct MoveVertices {
   MovedMesh moved;
+  NodesSeen *seen;
 
   template <unsigned kSize>
   LSDCD_FN void operator()(const Warp<kSize> &warp, bool mine, std::size_t i) const
   {
+    if (mine && i == 0) *seen = NodesSeen();    // for the next step; the CPU has it
     move_vertex(warp, mine, moved, static_cast<std::uint32_t>(i));
   }
 };
 
 struct PutParts {
   MovedMesh moved;
-  NodesSeen *seen;
 
   template <unsigned kSize>
   LSDCD_FN void operator()(const Warp<kSize> &warp, bool mine, std::size_t f) const
   {
-    if (mine && f == 0) *seen = NodesSeen();    // for the next step; the CPU has it
     put_parts(warp, mine, moved, static_cast<std::uint32_t>(f));
   }
 };
+
+// Where nodes were when springs turned last: there were none, where they are, where they were before the last move, or
+// earlier.
+enum class SpringsAt { nowhere, now, before, earlier };
 
 template <class B>
 class MovingNodes {
@@ -165,85 +174,119 @@ class MovingNodes {
   using Array = typename B::template Array<T>;
 
  public:
-  // The records of the mesh are those of the host.
-  void start(B &b, const NodesNow &now)
+  // Makes the records of a mesh whose nodes are at rest at its vertices.
+  void start(B &b, const WeldedMesh &mesh, bool with_sides, bool with_spins)
   {
-    const WeldedMesh &mesh = *now.mesh;
-    const std::size_t n = mesh.vertices.size();
+    with_spins_ = with_spins;
+    const MeshFeatures features = make_moving_features(mesh, with_sides);
+    GridView view = {};
+    view.wall = features.view();
+    view.list_kind = ListKind::every();
+    records_ = GridOn<B>(b, FlatGrid(GridParts{features, CellLists(), BrickRecords(), view}));
     put_topology(b, topology_of(mesh), mesh);
     put_faces_around(b, mesh);
-    primitives_ = from_cpu(b, *now.primitives);
+    const std::size_t n = mesh.vertices.size();
+    const std::vector<Vec3> none(n, Vec3{0, 0, 0});
+    primitives_ = from_cpu(b, features.primitives);
     at_ = from_cpu(b, mesh.vertices);
-    before_ = from_cpu(b, mesh.vertices);
+    built_at_ = from_cpu(b, mesh.vertices);
+    before_ = Array<Vec3>(n);
+    earlier_ = Array<Vec3>(n);
     next_ = Array<Vec3>(n);
-    built_at_ = Array<Vec3>(n);
-    velocity_ = Array<Vec3>(n);
     next_velocity_ = Array<Vec3>(n);
-    b.copy_in(now.velocity, velocity_.data(), n);
-    spin_ = from_cpu(b, std::vector<Vec3>(n, Vec3{0, 0, 0}));
-    edge_acts_ = Array<char>(mesh.edges.size());
-    vertex_acts_ = Array<char>(n);
+    velocity_ = from_cpu(b, none);
+    spin_ = from_cpu(b, none);
+    // Neither yes nor no: the first move puts all parts.
+    edge_acts_ = from_cpu(b, std::vector<char>(mesh.edges.size(), 2));
+    vertex_acts_ = from_cpu(b, std::vector<char>(n, 2));
+    n_parts_ = from_cpu(b, std::vector<std::uint32_t>(1, 0));
     left_ = Array<FeatureCode>(mesh.faces.size() + mesh.edges.size());
     seen_ = from_cpu(b, std::vector<NodesSeen>(1, NodesSeen()));
     seen_on_cpu_ = typename B::template CpuArray<NodesSeen>(1);
-    if (now.with_spins) find_spins(b, now.back);
     b.wait();
   }
 
-  // From where nodes are. What it returns lies in memory of this, until the next call.
-  GridView build_grid(B &b, const MovingGridSettings &settings, const MeshFeaturesView &records)
+  // From where nodes are, which go by up to `going` until candidates are chosen. What it returns lies in memory of
+  // this, until the next call.
+  GridView build_grid(B &b, const MovingGridSettings &settings, Real going)
   {
-    grid_.build(b, records, {primitives_.data(), primitives_.size()}, settings);
+    grid_.build(b, records(), {primitives_.data(), primitives_.size()}, settings);
     keep_places(b);
-    return grid_.view(records);
+    going_ = going;
+    return grid_.view(records());
   }
 
-  // By memory that copies without a wait, which the last step's copy has left: move() waits for it.
+  // By memory that copies without a wait.
   void give(B &b, const Vec3 *x, const Vec3 *v)
   {
     const std::size_t n = at_.size();
     if constexpr (!B::kOnCpu) {
       if (staged_.size() == 0) staged_ = typename B::template CpuArray<Vec3>(2 * n);
-      std::copy_n(x, n, staged_.data());
-      std::copy_n(v, n, staged_.data() + n);
-      x = staged_.data();
-      v = x + n;
+      is_copied_.wait();
+      x = std::copy_n(x, n, staged_.data()) - n;
+      if (v) v = std::copy_n(v, n, staged_.data() + n) - n;
     }
     b.copy_in(x, next_.data(), n);
-    b.copy_in(v, next_velocity_.data(), n);
+    if (v)
+      b.copy_in(v, next_velocity_.data(), n);
+    else
+      put_all(b, next_velocity_.data(), n, Vec3{0, 0, 0});
+    is_copied_.record(b);
   }
 
-  // Updates `records`, which are in the memory of the backend, where nodes were given.
-  NodesGone move(B &b, const MeshFeaturesView &records, bool with_spins, Real back)
+  // Makes the records again where nodes were given.
+  NodesGone move(B &b, Real back)
   {
+    back_ = back;
+    if (springs_ == SpringsAt::before) {
+      std::swap(before_, earlier_);
+      springs_ = SpringsAt::earlier;
+    }
+    if (springs_ == SpringsAt::now) springs_ = SpringsAt::before;
     std::swap(at_, before_);
     std::swap(at_, next_);
     std::swap(velocity_, next_velocity_);
-    return remake(b, records, with_spins, back);
+    return remake(b);
   }
   // The last move is taken back.
-  NodesGone move_back(B &b, const MeshFeaturesView &records, bool with_spins, Real back)
+  void move_back(B &b)
   {
+    if (springs_ == SpringsAt::before) springs_ = SpringsAt::now;
     std::swap(at_, before_);
     std::swap(velocity_, next_velocity_);
-    return remake(b, records, with_spins, back);
+    remake(b);
+  }
+  // Springs belong to where it puts nodes. Those that were given stay given.
+  NodesGone put(B &b, const Vec3 *x, const Vec3 *v)
+  {
+    const std::size_t n = at_.size();
+    std::swap(at_, before_);
+    b.copy_in(x, at_.data(), n);
+    b.copy_in(v, velocity_.data(), n);
+    springs_ = SpringsAt::now;
+    return remake(b);
   }
 
-  // The same field where the backend computes.
-  NodeField field(Real going) const { return {velocity_.data(), spin_.data(), going}; }
-  TurningMesh turning(const MeshFeaturesView &records) const
+  // Returns what turns springs to where nodes are, once. Returns false where none has to turn.
+  bool turn(TurningMesh &turning)
   {
-    return {topology_, records.faces, before_.data(), at_.data()};
+    const SpringsAt was = std::exchange(springs_, SpringsAt::now);
+    turning = {topology_, records().faces, (was == SpringsAt::earlier ? earlier_ : before_).data(),
+               at_.data()};
+    return was == SpringsAt::before || was == SpringsAt::earlier;
   }
 
   void fetch(B &b, NodesAt when, Vec3 *x, Vec3 *v) const
   {
     const bool is_now = when == NodesAt::now;
-    const Array<Vec3> &at = is_now ? at_ : when == NodesAt::before ? before_ : next_;
-    b.copy_out(at.data(), x, at.size());
-    b.copy_out((is_now ? velocity_ : next_velocity_).data(), v, at.size());
+    b.copy_out((is_now ? at_ : before_).data(), x, at_.size());
+    if (v) b.copy_out(velocity_.data(), v, at_.size());
     b.wait();
   }
+
+  // Where the backend computes.
+  const MeshFeaturesView &records() const { return records_.view.wall; }
+  NodeField field() const { return {velocity_.data(), spin_.data(), going_}; }
 
   // Returns the faces around node i, in the order of their numbers: around[first[i]] to around[first[i + 1] - 1].
   const int *face_first() const { return face_first_.data(); }
@@ -260,8 +303,9 @@ class MovingNodes {
 
   std::size_t bytes() const
   {
-    return 7 * at_.size() * sizeof(Vec3) + edge_acts_.size() + vertex_acts_.size() +
-           (left_.size() + primitives_.size()) * sizeof(FeatureCode) + grid_.bytes() +
+    return 8 * at_.size() * sizeof(Vec3) + edge_acts_.size() + vertex_acts_.size() +
+           (left_.size() + primitives_.size()) * sizeof(FeatureCode) + records_.bytes() +
+           grid_.bytes() +
            (topology_numbers_.size() + face_first_.size() + face_around_.size() +
             node_of_row_.size()) *
                sizeof(int);
@@ -283,24 +327,31 @@ class MovingNodes {
   }
 
   // The CPU waits until it has what was seen, while the rest goes on.
-  NodesGone remake(B &b, const MeshFeaturesView &records, bool with_spins, Real back)
+  NodesGone remake(B &b)
   {
     look(b);
-    const MovedMesh moved = moved_mesh(records);
+    const MovedMesh moved = moved_mesh();
     b.for_each_in_warps(moved.mesh.n_faces, MoveFaces{moved, left_.data(), seen_.data()});
+    int without_area = -1;
+    if constexpr (B::kOnCpu)    // no count has to come to it first
+      without_area = make_left(b, moved, std::exchange(seen_.data()->n_left, 0));
     move_edges(b, moved);
     b.copy_out(seen_.data(), seen_on_cpu_.data(), 1);
     seen_is_there_.record(b);
     move_rest(b, moved);
-    if (with_spins) find_spins(b, back);
     seen_is_there_.wait();
     const NodesSeen &seen = *seen_on_cpu_.data();
+    if (seen.n_left > 0) {
+      without_area = std::max(without_area, make_left(b, moved, seen.n_left));
+      move_edges(b, moved);
+      move_rest(b, moved);
+    }
     const auto way = [](std::uint64_t bits) {
       const Real sq = from_ascending_number(bits);
       return sq >= 0 ? std::sqrt(sq) : HUGE_VAL;
     };
     NodesGone gone = {way(seen.way_sq), way(seen.way_sq_of_grid), way(seen.speed_sq), {}, {},
-                      seen.n_left > 0};
+                      without_area};
     for (int d = 0; d < 3; d++) {
       gone.lo[d] = -from_ascending_number(seen.minus_lo[d]);
       gone.hi[d] = from_ascending_number(seen.hi[d]);
@@ -310,9 +361,11 @@ class MovingNodes {
 
   void look(B &b)
   {
-    const std::size_t n = at_.size(), n_threads = std::min(n, kMostLooking);
-    b.for_each_in_warps(n_threads, LookAtNodes{at_.data(), before_.data(), built_at_.data(),
-                                               velocity_.data(), n, n_threads, seen_.data()});
+    const std::size_t n = at_.size(), n_threads = B::kOnCpu ? (n + kSideBySide - 1) / kSideBySide
+                                                            : std::min(n, kMostLooking);
+    b.for_each_in_warps(n_threads,
+                        LookAtNodes{at_.data(), before_.data(), built_at_.data(), velocity_.data(),
+                                    n, n_threads, seen_.data(), n_parts_.data()});
   }
 
   void move_edges(B &b, const MovedMesh &moved)
@@ -322,13 +375,15 @@ class MovingNodes {
 
   void move_rest(B &b, const MovedMesh &moved)
   {
-    b.for_each_in_warps(moved.mesh.n_vertices, MoveVertices{moved});
-    b.for_each_in_warps(moved.mesh.n_faces, PutParts{moved, seen_.data()});
+    b.for_each_in_warps(moved.mesh.n_vertices, MoveVertices{moved, seen_.data()});
+    b.for_each_in_warps(moved.mesh.n_faces, PutParts{moved}, n_parts_.data());
+    if (with_spins_) find_spins(b);
   }
 
   // The faces of a node in the order of their numbers, as a CPU adds them.
-  void find_spins(B &b, Real back)
+  void find_spins(B &b)
   {
+    const Real back = back_;
     const int *faces = topology_.faces, *first = face_first_.data(), *around = face_around_.data();
     const Vec3 *at = at_.data(), *velocity = velocity_.data();
     Vec3 *spin = spin_.data();
@@ -344,30 +399,41 @@ class MovingNodes {
     });
   }
 
-  // In the order of their numbers, so that the first face without area is the error.
-  void make_left(B &b, const MeshFeaturesView &records, const WeldedMesh &mesh)
+  // Makes the first n of left_. Returns the first face that has no area, or -1.
+  int make_left(B &b, const MovedMesh &moved, int n)
   {
-    const MovedMesh moved = moved_mesh(records);
-    const int n = seen_on_cpu_.data()->n_left;
+    if (n == 0) return -1;
     std::vector<FeatureCode> codes(n);
     b.copy_out(left_.data(), codes.data(), n);
     b.wait();
     std::sort(codes.begin(), codes.end());
-    std::vector<FeatureRecord> made(n);
-    for (int k = 0; k < n; k++) {
-      const std::uint32_t i = feature_index(codes[k]);
-      if (feature_kind(codes[k]) == FeatureKind::face)
-        made[k].face = make_thin_face_record(mesh, i);
-      else
-        put_far_segment(mesh, i, made[k].edge);
-    }
     const Array<FeatureCode> code = from_cpu(b, codes);
+    const FeatureCode *of = code.data();
+    Array<Vec3> corner(3 * codes.size());
+    Vec3 *to = corner.data();
+    b.for_each(n, [=] LSDCD_LAMBDA(std::size_t k) {
+      const std::size_t i = feature_index(of[k]);
+      const bool is_face = feature_kind(of[k]) == FeatureKind::face;
+      const int *c = is_face ? moved.mesh.faces + 3 * i : moved.mesh.edges + 2 * i;
+      for (int d = 0; d < (is_face ? 3 : 2); d++) to[3 * k + d] = moved.at[c[d]];
+    });
+    std::vector<Vec3> corners = to_cpu(b, corner, corner.size());
+    std::vector<FeatureRecord> made(n);
+    int without_area = -1;
+    for (int k = n - 1; k >= 0; k--) {
+      const Vec3 *c = corners.data() + 3 * std::size_t(k);
+      if (feature_kind(codes[k]) == FeatureKind::face) {
+        made[k].face = make_face_record(c[0], c[1], c[2]);
+        if (!has_area(c[0], c[1], c[2])) without_area = static_cast<int>(feature_index(codes[k]));
+      } else {
+        made[k].edge = make_segment(c[0], c[1]);
+      }
+    }
     const Array<FeatureRecord> record = from_cpu(b, made);
-    const FeatureCode *from_code = code.data();
     const FeatureRecord *from = record.data();
     b.for_each(n, [=] LSDCD_LAMBDA(std::size_t k) {
-      const std::uint32_t i = feature_index(from_code[k]);
-      if (feature_kind(from_code[k]) == FeatureKind::face) {
+      const std::uint32_t i = feature_index(of[k]);
+      if (feature_kind(of[k]) == FeatureKind::face) {
         moved.to.faces[i] = from[k].face;
       } else {
         EdgeRecord &e = moved.to.edges[i];
@@ -377,16 +443,16 @@ class MovingNodes {
       }
     });
     b.wait();    // before code and record are freed
-    move_edges(b, moved);
-    move_rest(b, moved);
+    return without_area;
   }
 
  private:
   // `far` is where the backend has seen it.
-  MovedMesh moved_mesh(const MeshFeaturesView &records)
+  MovedMesh moved_mesh()
   {
-    return {topology_, moving_records(records, edge_acts_.data(), vertex_acts_.data()), at_.data(),
-            before_.data(), 0};
+    return {topology_,
+            moving_records(records(), edge_acts_.data(), vertex_acts_.data(), n_parts_.data()),
+            at_.data(), before_.data(), 0};
   }
 
   void put_topology(B &b, const MeshTopologyView &on_cpu, const WeldedMesh &mesh)
@@ -423,13 +489,20 @@ class MovingNodes {
     face_around_ = from_cpu(b, around);
   }
 
+  bool with_spins_ = false;
+  Real back_ = 0;     // how long ago velocities are of (time)
+  Real going_ = 0;    // see build_grid()
   Array<int> topology_numbers_;
   Array<int> face_first_, face_around_;    // the faces around each vertex
   MeshTopologyView topology_ = {};
   Array<int> node_of_row_;    // of arrays of a caller
-  Array<Vec3> at_, before_, next_, built_at_, velocity_, next_velocity_, spin_;
+  Array<Vec3> at_, before_, earlier_, next_, built_at_, velocity_, next_velocity_, spin_;
+  SpringsAt springs_ = SpringsAt::nowhere;
   typename B::template CpuArray<Vec3> staged_;
+  typename B::Event is_copied_;    // from staged_
+  GridOn<B> records_;              // a grid without cells
   Array<char> edge_acts_, vertex_acts_;
+  Array<std::uint32_t> n_parts_;    // how many faces get their parts in a step: all or none
   Array<FeatureCode> primitives_, left_;
   MovingGrid<B> grid_;
   Array<NodesSeen> seen_;

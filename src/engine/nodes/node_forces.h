@@ -187,7 +187,7 @@ class NodeForces {
                         AddNodeForces{in_, range_now(), sums_.data(), B::kOnCpu && threads() == 1});
   }
 
-  // Copies the last sums to the CPU, in units, if `sums` is not null, and returns the power on the spheres. Waits.
+  // Copies the last sums to the CPU, in units, and returns the power on the spheres. Waits.
   Real fetch(B &b, std::int64_t *sums)
   {
     const std::size_t n = in_.n, n_blocks = blocks_of(n), n_groups = blocks_of(n_blocks);
@@ -197,7 +197,7 @@ class NodeForces {
     b.for_each(n_blocks, SumBlocks{of_one, n, of_block});
     b.for_each(n_groups, SumBlocks{of_block, n_blocks, power_.data()});
     b.copy_out(power_.data(), power_on_cpu_.data(), n_groups);
-    if (sums) b.copy_out(sums_.data(), sums, n_sums_);
+    b.copy_out(sums_.data(), sums, n_sums_);
     b.wait();
     Real power = 0;
     for (std::size_t k = 0; k < n_groups; k++) power += power_on_cpu_.data()[k];

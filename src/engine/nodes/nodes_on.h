@@ -44,30 +44,61 @@ class NodesOn : public NodeEngine {
   // The engine must outlive it, and has its settings already.
   explicit NodesOn(EngineOn<B> &engine) : e_(engine)
   {
-    const EngineSettings &s = e_.settings_;
-    if (s.nodes) forces_ = std::vector<NodeForces<B>>(s.meshes);
-    if (s.nodes && (!B::kOnCpu || s.copies_records)) nodes_ = std::vector<MovingNodes<B>>(s.meshes);
+    if (!e_.settings_.nodes) return;
+    nodes_ = std::vector<MovingNodes<B>>(e_.settings_.meshes);
+    forces_ = std::vector<NodeForces<B>>(e_.settings_.meshes);
   }
 
-  bool keeps_nodes() const override { return !nodes_.empty(); }
+  void start(int mesh, const WeldedMesh &at_rest) override
+  {
+    const EngineSettings &s = e_.settings_;
+    nodes_.at(mesh).start(e_.b_, at_rest, s.side != Side::both,
+                          s.law().rolling.is_on() || s.law().twisting.is_on());
+  }
+  void take_over(NodeEngine &from) override
+  {
+    auto &other = dynamic_cast<NodesOn &>(from);
+    other.e_.b_.wait();
+    nodes_.swap(other.nodes_);
+    forces_.swap(other.forces_);
+  }
 
-  void turn_springs(int n, int mesh, const TurningMesh &turning) override
+  void give(int mesh, const Vec3 *x, const Vec3 *v) override { nodes_.at(mesh).give(e_.b_, x, v); }
+  void give_in_place(int mesh, const Real *x, const Real *v,
+                     const std::vector<int> &node_of_row) override
+  {
+    nodes_.at(mesh).give_in_place(e_.b_, x, v, node_of_row);
+  }
+  NodesGone move(int mesh, Real back) override { return nodes_.at(mesh).move(e_.b_, back); }
+  void move_back(int mesh) override { nodes_.at(mesh).move_back(e_.b_); }
+  NodesGone put(int mesh, const Vec3 *x, const Vec3 *v) override
+  {
+    return nodes_.at(mesh).put(e_.b_, x, v);
+  }
+  void build_grid(int mesh, const MovingGridSettings &settings, Real going) override
   {
     e_.where_step_runs([&] {
-      e_.springs_.grow(n);
-      e_.springs_.turn(n, static_cast<std::uint32_t>(mesh),
-                       keeps_nodes() ? nodes_[mesh].turning(records_of(mesh)) : turning);
+      e_.broad_phase_.set_lists(e_.b_, nodes_.at(mesh).build_grid(e_.b_, settings, going), mesh);
     });
   }
 
-  void see_forces(int mesh, const NodesNow &now, const MeshFeaturesView &wall) override
+  void turn_springs(int n, int mesh) override
   {
-    const bool keeps = keeps_nodes();
-    const Vec3 *velocity = keeps ? nodes_[mesh].field(0).velocity : now.velocity;
-    const NodeContacts in =
-        e_.results_.node_contacts(e_.springs_.contacts(e_.step_.update_history), mesh,
-                                  keeps ? records_of(mesh) : wall, velocity);
-    forces_.at(mesh).see(e_.b_, in, keeps ? nodes_[mesh].n() : now.mesh->vertices.size());
+    TurningMesh turning;
+    if (!nodes_.at(mesh).turn(turning)) return;
+    e_.where_step_runs([&] {
+      e_.springs_.grow(n);
+      e_.springs_.turn(n, static_cast<std::uint32_t>(mesh), turning);
+    });
+  }
+
+  void see_forces(int mesh) override
+  {
+    const MovingNodes<B> &nodes = nodes_.at(mesh);
+    forces_.at(mesh).see(e_.b_,
+                         e_.results_.node_contacts(e_.springs_.contacts(e_.step_.update_history),
+                                                   mesh, nodes.records(), nodes.field().velocity),
+                         nodes.n());
   }
   NodeForceRange force_range(int mesh) override { return forces_.at(mesh).range(); }
   void add_forces(int mesh, const NodeForceRange *of_all) override
@@ -77,54 +108,6 @@ class NodesOn : public NodeEngine {
   Real fetch_forces(int mesh, std::int64_t *sums) override
   {
     return forces_.at(mesh).fetch(e_.b_, sums);
-  }
-
-  void start(int mesh, const NodesNow &now) override { nodes_.at(mesh).start(e_.b_, now); }
-  void give(int mesh, const Vec3 *x, const Vec3 *v) override { nodes_.at(mesh).give(e_.b_, x, v); }
-  void give_in_place(int mesh, const Real *x, const Real *v,
-                     const std::vector<int> &node_of_row) override
-  {
-    nodes_.at(mesh).give_in_place(e_.b_, x, v, node_of_row);
-  }
-  NodesGone move(int mesh, bool with_spins, Real back) override
-  {
-    return nodes_.at(mesh).move(e_.b_, records_of(mesh), with_spins, back);
-  }
-  NodesGone move_back(int mesh, bool with_spins, Real back) override
-  {
-    return nodes_.at(mesh).move_back(e_.b_, records_of(mesh), with_spins, back);
-  }
-  void make_left(int mesh, const WeldedMesh &now) override
-  {
-    nodes_.at(mesh).make_left(e_.b_, records_of(mesh), now);
-  }
-  void build_grid(int mesh, const MovingGridSettings &settings) override
-  {
-    e_.where_step_runs([&] {
-      const GridView lists = nodes_.at(mesh).build_grid(e_.b_, settings, records_of(mesh));
-      e_.broad_phase_.set_lists(e_.b_, lists, mesh);
-    });
-  }
-
-  void fetch(int mesh, NodesAt when, Vec3 *x, Vec3 *v) override
-  {
-    nodes_.at(mesh).fetch(e_.b_, when, x, v);
-  }
-  void fetch_records(int mesh, MeshFeatures &to) override
-  {
-    const MeshFeaturesView &from = records_of(mesh);
-    const auto fetch = [&](const auto *from, auto &rows) {
-      e_.b_.copy_out(from, rows.data(), rows.size());
-    };
-    fetch(from.faces, to.faces);
-    fetch(from.edges, to.edges);
-    fetch(from.vertices, to.vertices);
-    fetch(from.edge_inward, to.edge_inward);
-    fetch(from.vertex_direction, to.vertex_direction);
-    fetch(from.face_parts, to.face_parts);
-    fetch(from.edge_out, to.edge_out);
-    fetch(from.vertex_out, to.vertex_out);
-    e_.b_.wait();
   }
   void put_forces(int mesh, Real sixth, Real *to, const std::vector<int> &node_of_row) override
   {
@@ -136,8 +119,13 @@ class NodesOn : public NodeEngine {
                                to});
   }
 
-  // Returns what steps read of the nodes of a mesh that it keeps.
-  NodeField field(int mesh, Real going) const { return nodes_[mesh].field(going); }
+  void fetch(int mesh, NodesAt when, Vec3 *x, Vec3 *v) override
+  {
+    nodes_.at(mesh).fetch(e_.b_, when, x, v);
+  }
+
+  // Returns what steps read of the nodes of a mesh; nothing of one that has none.
+  NodeField field(int mesh) const { return nodes_.empty() ? NodeField() : nodes_[mesh].field(); }
   std::size_t bytes() const
   {
     std::size_t bytes = 0;
@@ -147,14 +135,9 @@ class NodesOn : public NodeEngine {
   }
 
  private:
-  const MeshFeaturesView &records_of(int mesh) const
-  {
-    return e_.broad_phase_.mesh(mesh).grid.view.wall;
-  }
-
   EngineOn<B> &e_;
-  std::vector<MovingNodes<B>> nodes_;    // of each mesh, where it keeps them
-  std::vector<NodeForces<B>> forces_;    // of each mesh
+  std::vector<MovingNodes<B>> nodes_;    // of each mesh
+  std::vector<NodeForces<B>> forces_;    // likewise
 };
 
 }    // namespace lsdcd

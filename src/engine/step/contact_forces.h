@@ -59,7 +59,7 @@ struct ForceSettings {
 
 // Returns the settings of one mesh.
 inline ForceSettings force_settings(const EngineSettings &engine, const StepSettings &step,
-                                    const Pose &pose, int mesh)
+                                    const Pose &pose, const NodeField &nodes, int mesh)
 {
   ForceSettings s;
   s.mesh = static_cast<std::uint32_t>(mesh);
@@ -77,7 +77,7 @@ inline ForceSettings force_settings(const EngineSettings &engine, const StepSett
   s.wear = engine.wear;
   s.mobility = step.mobility ? step.mobility[mesh] : Mobility();
   s.gives_way = s.mobility.any();
-  s.nodes = step.nodes ? step.nodes[mesh] : NodeField();
+  s.nodes = nodes;
   s.search.at_nodes = s.nodes.velocity;
   return s;
 }

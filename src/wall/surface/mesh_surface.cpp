@@ -88,14 +88,13 @@ class NodeSurface final : public MeshSurface {
  public:
   // Each process has the whole mesh of `grid`.
   NodeSurface(Host &host, const WallSpec &wall, int mesh, MeshGrid &grid) :
-      MeshSurface(host, wall, mesh, grid)
+      MeshSurface(host, wall, mesh, grid),
+      nodes_(std::make_unique<MeshNodes>(host, wall, mesh, *grid.mesh()))
   {
-    run_collectively(host, true,
-                     [&] { nodes_ = std::make_unique<MeshNodes>(host, wall, mesh, *grid.mesh()); });
   }
 
   const WeldedMesh *mesh() const override { return &nodes_->mesh(); }
-  MeshFeaturesView records() const override { return nodes_->records(); }
+  MeshFeaturesView records() const override { return {}; }
   Box bounds() const override { return nodes_->bounds(); }
   bool changes() const override { return true; }
   MeshNodes *nodes() const override { return nodes_.get(); }
@@ -131,7 +130,7 @@ class NodeSurface final : public MeshSurface {
   std::size_t bytes() const override { return nodes_->bytes(); }
 
  private:
-  std::unique_ptr<MeshNodes> nodes_;
+  const std::unique_ptr<MeshNodes> nodes_;
 };
 
 }    // namespace

@@ -26,7 +26,7 @@ class MeshSurface {
 
   // Returns the mesh in this step; null but on one process per node, where it has no nodes that move.
   virtual const WeldedMesh *mesh() const { return grid_.mesh(); }
-  // Returns the records of its features. Where nodes move on a GPU, they may be those of an earlier step.
+  // Returns the records of its features. Where nodes move the engine alone has them, and there are none.
   virtual MeshFeaturesView records() const { return grid_.view().wall; }
   virtual Box bounds() const { return {grid_.report().lo, grid_.report().hi}; }
   virtual bool changes() const { return false; }    // from step to step

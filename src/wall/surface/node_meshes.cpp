@@ -13,18 +13,28 @@ void NodeMeshes::add(MeshNodes *nodes)
   if (nodes) all_.push_back(nodes);
 }
 
-void NodeMeshes::leave_engine()
+void NodeMeshes::set_engine(WallEngine &engine)
 {
-  for (MeshNodes *nodes : all_) nodes->leave_engine();
+  if (!any()) return;
+  if (engine_) {
+    engine.nodes()->take_over(*engine_->nodes());
+    for (MeshNodes *nodes : all_) nodes->set_engine(*engine.nodes());
+  } else {
+    run_collectively(host_, true, [&] {
+      for (MeshNodes *nodes : all_) nodes->start(*engine.nodes());
+    });
+  }
+  engine_ = &engine;
 }
 
-void NodeMeshes::begin_choice(WallEngine &engine, Real cutoff, int n)
+void NodeMeshes::begin_choice(Real cutoff, int n)
 {
   for (MeshNodes *nodes : all_) {
-    if (nodes->needs_choice(cutoff)) engine.expire_choice();
-    if (nodes->needs_grid(cutoff)) nodes->build_grid(cutoff, engine);
+    const bool is_grid_due = nodes->needs_grid(cutoff);
+    if (is_grid_due) nodes->build_grid(cutoff);
+    if (is_grid_due || nodes->needs_choice(cutoff)) engine_->expire_choice();
   }
-  for (MeshNodes *nodes : all_) nodes->turn_springs(engine, n);
+  for (MeshNodes *nodes : all_) nodes->turn_springs(n);
 }
 
 void NodeMeshes::note_choice()
@@ -32,18 +42,9 @@ void NodeMeshes::note_choice()
   for (MeshNodes *nodes : all_) nodes->note_choice();
 }
 
-const NodeField *NodeMeshes::fields(Real cutoff)
+void NodeMeshes::see_forces()
 {
-  if (!any()) return nullptr;
-  fields_.clear();
-  for (const MeshNodes *nodes : of_mesh_)
-    fields_.push_back(nodes ? nodes->field(cutoff) : NodeField());
-  return fields_.data();
-}
-
-void NodeMeshes::see_forces(WallEngine &engine)
-{
-  for (MeshNodes *nodes : all_) nodes->see_forces(engine);
+  for (MeshNodes *nodes : all_) nodes->see_forces();
 }
 
 void NodeMeshes::agree_on_forces(bool failed)

@@ -22,17 +22,15 @@ class NodeMeshes {
   void add(MeshNodes *nodes);
   bool any() const { return !all_.empty(); }
 
-  // Before the engine is another one.
-  void leave_engine();
+  // Gives the nodes to the first engine; another one gets them from the last, which must be there still. Collective.
+  void set_engine(WallEngine &engine);
   // Before spheres are chosen: makes the grids that are due, and turns the springs of spheres [0, n) with their features.
   // Each process has all nodes, and comes to the same grids. Local.
-  void begin_choice(WallEngine &engine, Real cutoff, int n);
+  void begin_choice(Real cutoff, int n);
   void note_choice();
-  // Returns the field of each mesh of the wall, until the next call; null where none has nodes.
-  const NodeField *fields(Real cutoff);
 
   // After a step: sees what its contacts do to the nodes. Local.
-  void see_forces(WallEngine &engine);
+  void see_forces();
   // Gives the forces the range of all processes where these are several, by one message. Collective. `failed`: this process has
   // none, as its step failed; then there are none on the others, which do not wait for it.
   void agree_on_forces(bool failed);
@@ -44,7 +42,7 @@ class NodeMeshes {
   Host &host_;
   std::vector<MeshNodes *> of_mesh_;    // null: it has none
   std::vector<MeshNodes *> all_;
-  std::vector<NodeField> fields_;
+  WallEngine *engine_ = nullptr;
 };
 
 }    // namespace lsdcd
