@@ -26,7 +26,11 @@ LSDCD_FN int count_bits(std::uint64_t word)
 #if LSDCD_ON_GPU()
   return __popcll(word);
 #else
-  return __builtin_popcountll(word);
+  // Of pairs, of fours, of bytes, of all; what a compiler has for it is a call where it may not use the instruction.
+  word -= word >> 1 & 0x5555555555555555;
+  word = (word & 0x3333333333333333) + (word >> 2 & 0x3333333333333333);
+  word = (word + (word >> 4)) & 0x0f0f0f0f0f0f0f0f;
+  return static_cast<int>(word * 0x0101010101010101 >> 56);
 #endif
 }
 LSDCD_FN int count_bits(std::uint32_t word)
@@ -34,7 +38,7 @@ LSDCD_FN int count_bits(std::uint32_t word)
 #if LSDCD_ON_GPU()
   return __popc(word);
 #else
-  return __builtin_popcount(word);
+  return count_bits(std::uint64_t(word));
 #endif
 }
 

@@ -27,7 +27,7 @@ LSDCD_FN std::uint32_t number_on_curve(const Vec3 &share, int bits)
   std::uint32_t place = 0;
   const Real n = static_cast<Real>(1 << bits);
   for (int a = 0; a < 3; a++)
-    place |= spread_bits(static_cast<std::uint32_t>(fmin(fmax(Real(0), share[a] * n), n - 1))) << a;
+    place |= spread_bits(static_cast<std::uint32_t>(smaller(larger(share[a] * n, 0), n - 1))) << a;
   return place;
 }
 

@@ -26,6 +26,17 @@ using std::fmax;
 using std::fmin;
 using std::sqrt;
 
+// Return the larger and the smaller of two numbers; b where a is none. On a CPU these are an instruction, and fmax() and fmin()
+// are calls.
+LSDCD_FN Real larger(Real a, Real b)
+{
+  return a > b ? a : b;
+}
+LSDCD_FN Real smaller(Real a, Real b)
+{
+  return a < b ? a : b;
+}
+
 constexpr Real kPi = 3.14159265358979323846;
 
 // Unit round-off of Real, for tolerances that are derived from it.

@@ -13,7 +13,7 @@ LSDCD_FN CellEntry make_entry(FeatureCode feature, Real distance)
   // Rounded down, so that a query that trusts the bound never stops early.
   constexpr Real kLargest = 3e38, kRounding = 1e-6;    // a float has no more
   const Real bound = distance * (distance < 0 ? 1 + kRounding : 1 - kRounding);
-  return {feature, static_cast<float>(fmin(bound, kLargest))};
+  return {feature, static_cast<float>(smaller(bound, kLargest))};
 }
 
 LSDCD_FN bool comes_before(const CellEntry &a, const CellEntry &b)

@@ -49,9 +49,6 @@ struct PrimitiveBounds {
   // below 0.
   LSDCD_FN Real least_distance(const GridPlan &plan, const Vec3 &c) const
   {
-    const auto larger = [](Real a, Real b) {
-      return a > b ? a : b;
-    };            // inline, which fmax() is not
     Vec3 past;    // the box
     for (int d = 0; d < 3; d++) past[d] = larger(larger(lo[d] - c[d], c[d] - hi[d]), 0);
     const Real bound = larger(off_plane(c), norm(past));

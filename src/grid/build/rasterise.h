@@ -74,8 +74,8 @@ LSDCD_FN BrickBox brick_box(const BuildView &b, FeatureCode feature)
     // The grid may be cut off where no sphere can be.
     const Real from = (lo[k] - margin - plan.origin[k]) * inv,
                to = (hi[k] + margin - plan.origin[k]) * inv, n = plan.n_bricks[k];
-    box.first[k] = static_cast<std::int32_t>(fmin(fmax(Real(0), from), n));
-    const std::int32_t last = static_cast<std::int32_t>(fmin(fmax(Real(-1), to), n - 1));
+    box.first[k] = static_cast<std::int32_t>(smaller(larger(from, 0), n));
+    const std::int32_t last = static_cast<std::int32_t>(smaller(larger(to, -1), n - 1));
     box.n[k] = to >= 0 && last >= box.first[k] ? last - box.first[k] + 1 : 0;
   }
   return box;
