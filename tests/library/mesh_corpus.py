@@ -3,8 +3,9 @@
 
 """Mesh files as programs and people write them, and what each means: its triangles, or the words of the error.
 
-    mesh_corpus.py FOLDER    writes them all, to try them with another program
+    mesh_corpus.py FOLDER    writes them all, to try them with another program, and to begin a fuzzer with
 """
+import math
 import pathlib
 import struct
 import sys
@@ -291,20 +292,10 @@ PLY = {
     "stanford": (ply("ascii", Q, TWO, face="list uchar int vertex_indices", comment="comment zipper output\nobj_info num_cols 512\n"),
                  SQUARE),
     "vertex_index": (ply(LITTLE, Q, TWO, face="list uchar int vertex_index"), SQUARE),
-    "lists_of_ints": (ply(BIG, Q, TWO, face="list int uint vertex_indices"), SQUARE),
-    "lists_of_shorts": (ply(LITTLE, Q, TWO, face="list ushort ushort vertex_indices"), SQUARE),
-    "whole_coordinates": (ply(BIG, Q, TWO, "short x y z"), SQUARE),
-    "order_z_y_x": (ply(LITTLE, [(0, 0, 0), (0, 0, 1), (0, 1, 0)], [(0, 1, 2)], "float z y x"), ONE),
-    "camera_first": ("ply\nformat ascii 1.0\nelement camera 1\nproperty float focus\nelement vertex 3\nproperty float x\n"
-                     "property float y\nproperty float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n"
-                     "5\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n", ONE),
     "strip": ("ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\nelement tristrips 1\n"
               "property list int int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n1 1 0\n4 0 1 2 3\n", [(A, B, D), (D, B, C)]),
     "windows": (HEAD.replace("\n", "\r\n") + "0 0 0\r\n1 0 0\r\n0 1 0\r\n3 0 1 2\r\n", ONE),
     "first_byte_is_a_line_end": (ply(LITTLE, [(LINE_END, 0, 0), B, D], [(0, 1, 2)]), [((LINE_END, 0, 0), B, D)]),
-    "first_bytes_are_0a": (b"ply\nformat binary_little_endian 1.0\nelement vertex 3\nproperty uchar x\nproperty uchar y\n"
-                           b"property uchar z\nelement face 1\nproperty list uchar uchar vertex_indices\nend_header\n"
-                           b"\n\r\n\r\n\n\n\n\r\3\0\1\2", [((10, 13, 10), (13, 10, 10), (10, 10, 13))]),
     "fortran_d": (HEAD + "0 0 0\n0.1D+01 0 0\n0 1 0\n3 0 1 2\n", Error("line 11", "'0.1D+01'", "Fortran")),
     "decimal_comma": (HEAD + "0 0 0\n1,5 0 0\n0 1 0\n3 0 1 2\n", Error("line 11", "'1,5'", "decimal point")),
     "cut_text": ("ply\nformat ascii 1.0\nelement vertex 6\nproperty float x\nproperty float y\nproperty float z\nelement face 4\n"
@@ -323,11 +314,75 @@ PLY = {
     "map_text": (ply("ascii", MAP, [(0, 1, 2)], "double x y z"), [tuple(MAP)]),
     "map_binary": (ply(LITTLE, MAP, [(0, 1, 2)], "double x y z"), [tuple(MAP)]),
 }
+
+
+def facet(*corners, normal="0 0 0"):
+    return f"facet normal {normal}\nouter loop\n" + "".join(f"vertex {x}\n" for x in corners) + "endloop\nendfacet\n"
+
+
+def solid(*facets):
+    return "solid name\n" + "".join(facets) + "endsolid name\n"
+
+
+def record(*corners, normal=0.0):
+    return struct.pack("<12fH", normal, normal, normal, *corners, 0)
+
+
+def binary(count, *records, header=b""):
+    return header.ljust(80) + struct.pack("<I", count) + b"".join(records)
+
+
+P = "0 0 0", "1 0 0", "0 1 0"
+FACET, RECORD = facet(*P), record(0, 0, 0, 1, 0, 0, 0, 1, 0)
+THIRD, THIRD_RECORD = facet("3 0 0", "4 0 0", "5 1 0"), record(3, 0, 0, 4, 0, 0, 5, 1, 0)
+WITH_THIRD = ONE + [((3, 0, 0), (4, 0, 0), (5, 1, 0))]
+BARE = "facet {}outer loop vertex 0 0 0 vertex 1 0 0 vertex 0 1 0 endloop endfacet\n"
 STL = {
-    "map_text": ("solid a\nfacet normal 0 0 1\nouter loop\n" + "".join(f"vertex {numbers(*x)}\n" for x in MAP) +
-                 "endloop\nendfacet\nendsolid\n", [tuple(MAP)]),
-    "fortran_d": ("solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 0.1D+01 0 0\nvertex 0 1 0\nendloop\nendfacet\n"
-                  "endsolid\n", Error("line 5", "'0.1D+01'", "Fortran")),
+    "map_text": (solid(facet(*(numbers(*x) for x in MAP))), [tuple(MAP)]),
+    "all_digits": (solid(facet("0.1 -2.718281828459045 1e-300", *P[1:])), [((0.1, -2.718281828459045, 1e-300), B, D)]),
+    "two_facets": (solid(FACET, THIRD), WITH_THIRD),
+    "windows": (solid(FACET).replace("\n", "\r\n"), ONE),
+    "old_mac": (solid(FACET).replace("\n", "\r"), ONE),
+    "capitals": (solid(FACET).upper(), ONE),
+    "numbers_without_zeros": (solid(facet("+1.5e+2 -2.E-1 +.5", *P[1:])), [((150, -.2, .5), B, D)]),
+    "tiny_number": (solid(facet("1e-400 0 0", *P[1:])), ONE),
+    "tiny_by_digits_and_exponent": (solid(facet(f"-0.{'0' * 400}1e+50 0 0", *P[1:])), ONE),
+    "two_solids": (solid(FACET) + solid(THIRD, FACET), WITH_THIRD),
+    "text_behind": (solid(FACET) + "written by hand\n\x1a", ONE),
+    "no_name": ("solid\n" + FACET + "endsolid", ONE),
+    "called_facet": ("solid facet vertex\n" + FACET + "endsolid facet", ONE),
+    "byte_order_mark": (b"\xef\xbb\xbf \n\t\n" + solid(FACET).encode(), ONE),
+    "normal_of_no_numbers": (solid(BARE.format("normal nan -1.#IND x ")), ONE),
+    "no_normal": (solid(BARE.format("")), ONE),
+    "binary_normal_nan": (binary(1, record(0, 0, 0, 1, 0, 0, 0, 1, 0, normal=math.nan)), ONE),
+    "binary": (binary(1, record(.5, -2, 3.25, 4, 5, 6, 7, 8, 10)), [((.5, -2, 3.25), (4, 5, 6), (7, 8, 10))]),
+    "binary_begins_with_solid": (binary(2, RECORD, THIRD_RECORD, header=b"solid part\nfacet normal"), WITH_THIRD),
+    "fortran_d": (solid(facet("0 0 0", "0.1D+01 0 0", "0 1 0")), Error("line 5", "'0.1D+01'", "Fortran")),
+    "two_signs": (solid(facet("+-1 0 0", *P[1:])), Error("'+-1'")),
+    "huge_whatever_its_exponent": (solid(facet(f"1{'0' * 700}e-100 0 0", *P[1:])), Error("not a finite number")),
+    "not_finite": (solid(FACET, facet(*P[:2], "0 0 1e999")), Error("line 13 (facet 2)", "'1e999', not a finite number", "correct the line or export")),
+    "nan": (solid(facet("nan 0 0", *P[1:])), Error("'nan', not a finite number")),
+    "infinity": (solid(facet("-Infinity 0 0", *P[1:])), Error("'-Infinity', not a finite number")),
+    "not_a_number": (solid(FACET, facet(P[0], "1 zero 0", P[2])), Error("line 12 (facet 2)", "coordinate y of vertex 2 is 'zero', not a number")),
+    "decimal_comma": (solid(facet(P[0], "1,5 0 0", P[2])), Error("line 5 (facet 1)", "'1,5'", "write a decimal point")),
+    "missing_coordinate": (solid(facet("0 0", *P[1:])), Error("line 4 (facet 1)", "coordinate z of vertex 1 is missing", "complete the line")),
+    "two_vertices": (solid(FACET, facet(*P[:2])), Error("line 13 (facet 2)", "has 2 vertices", "complete it")),
+    "four_vertices": (solid(facet(*P, "0 0 1")), Error("line 7 (facet 1)", "more than 3 vertices", "triangulate the mesh")),
+    "windows_error": ("solid a\r\nfacet normal 0 0 0\r\nouter loop\r\nvertex 0 0 q\r\n", Error("line 4 (facet 1)")),
+    "control_characters": (solid(facet("0\x01\x1b[31m 0 0", *P[1:])), Error("'0??[31m'")),
+    "facet_behind_its_solid": (solid(FACET) + FACET, Error("line 10 (facet 2)")),
+    "truncated": ("solid name\n" + FACET + FACET[:FACET.index("1 0 0") + 1], Error("line 12 (facet 2)", "the file ends", "truncated: copy or export it again")),
+    "no_facets": (solid(), Error("facet 1", "no facets", "export the mesh again")),
+    "an_off": ("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n", Error("line 1", "'OFF'", "export the mesh as STL")),
+    "empty": ("", Error("the file is empty")),
+    "binary_truncated": (binary(4, RECORD, RECORD, RECORD[:49]), Error("facet 3", "4 facets promised", "truncated or not an STL: copy or export")),
+    "solid_truncated": (binary(4, RECORD, RECORD[:20], header=b"solid part"), Error("facet 2", "truncated")),
+    "binary_header_truncated": (bytes(50), Error("truncated")),
+    "binary_count_too_large": (binary(0xffffffff, RECORD), Error("4294967295 facets promised")),
+    "binary_count_too_small": (binary(1, RECORD, RECORD), Error("facet 2", "50 bytes follow", "correct the count")),
+    "binary_no_facets": (binary(0), Error("no facets")),
+    "binary_not_finite": (binary(2, RECORD, record(0, 0, 0, 1, 0, 0, 0, math.nan, 0)), Error("facet 2", "coordinate y of vertex 3 is nan", "repair or export")),
+    "binary_infinite": (binary(2, RECORD, record(0, 0, 0, 1, 0, math.inf, 0, 1, 0)), Error("facet 2: coordinate z of vertex 2 is inf")),
 }
 
 
