@@ -26,7 +26,7 @@ CLOUD = START + """\
 lattice         sc 64.0
 create_atoms    1 box
 create_atoms    1 random 5000 4711 box
-pair_style      zero 1.0
+pair_style      zero 0.1
 pair_coeff      * *
 set             group all diameter 0.1
 fix             move all nve/sphere

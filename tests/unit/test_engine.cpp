@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // Engines for particles in place, in other layouts and behind a mirror against the CPU's: one
-// source, so the same bits. LSDCD_QUICK=1 tries a tenth of the spheres for other searches, not on
-// the largest mesh.
+// source, so the same bits. LSDCD_QUICK=1 tries a tenth of the spheres for other searches and
+// for effects, the searches not on the largest mesh.
 #include "support/test_engine.h"
 #include "backend/backend_cpu.h"
 #include "contact/contact_history.h"
@@ -158,6 +158,11 @@ ContactLaw history()
   return classic(NormalModel::hertz, true);
 }
 
+int effect_spheres()
+{
+  return std::getenv("LSDCD_QUICK") ? 200 : 2000;
+}
+
 TEST(engine, gives_what_every_effect_gives_on_the_host)
 {
   std::vector<Case> walls = cases();
@@ -168,9 +173,11 @@ TEST(engine, gives_what_every_effect_gives_on_the_host)
       if (effect.name.size() % walls.size() != w) continue;
       const Case &c = walls[w];
       const EngineSettings &s = effect.settings;
-      const Outcome cpu = run_steps(c, s.law(), on_cpu, 2000, kComplete, s);
-      expect_same(cpu, run_steps(c, s.law(), in_place, 2000, kComplete, s), effect.name);
-      expect_same(cpu, run_steps(c, s.law(), with_mirror, 2000, kComplete, s), effect.name);
+      const Outcome cpu = run_steps(c, s.law(), on_cpu, effect_spheres(), kComplete, s);
+      expect_same(cpu, run_steps(c, s.law(), in_place, effect_spheres(), kComplete, s),
+                  effect.name);
+      expect_same(cpu, run_steps(c, s.law(), with_mirror, effect_spheres(), kComplete, s),
+                  effect.name);
     }
 }
 
@@ -835,8 +842,8 @@ TEST(engine, with_two_kernels_gives_what_one_pass_gives_beyond_contact_and_with_
     s.law() = everything(NormalModel::jkr);
     s.contacts = true;
     s.surface.velocity = {1, 0, 0};
-    expect_same(run_steps(c, s.law(), on_cpu, 2000, kComplete, s),
-                run_steps(c, s.law(), by_two_kernels, 2000, kComplete, s), c.name);
+    expect_same(run_steps(c, s.law(), on_cpu, effect_spheres(), kComplete, s),
+                run_steps(c, s.law(), by_two_kernels, effect_spheres(), kComplete, s), c.name);
   }
 }
 

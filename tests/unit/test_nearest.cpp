@@ -143,17 +143,14 @@ Shares compare_with_complete(int nearest)
 
 TEST(certificates, are_never_wrong)
 {
-  for (int n = 1; n <= 8; n++) {
+  for (int n : {1, 3, 8}) {
     const Shares s = compare_with_complete(n);
     EXPECT_GT(s.certified, 100) << n;
+    EXPECT_GT(s.uncertified, s.differ) << n;
+    if (n == 1) {    // contacts are missed, and no certificate is given
+      EXPECT_GT(s.differ, 100);
+    }
   }
-}
-
-TEST(certificates, are_refused_where_contacts_are_missed)
-{
-  const Shares s = compare_with_complete(1);
-  EXPECT_GT(s.differ, 100);
-  EXPECT_GT(s.uncertified, s.differ);
 }
 
 // A facet with no area leaves its edges; they stand for themselves.

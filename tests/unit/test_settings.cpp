@@ -553,6 +553,31 @@ TEST(settings, wrong_motions_are_refused)
   for (const auto &c : cases) EXPECT_TRUE(names(error_with(c.first), c.second)) << c.first;
 }
 
+TEST(settings, wrong_servos_are_refused)
+{
+  const std::vector<std::pair<std::string, std::string>> cases = {
+      {"servo press z 100 vmax 1", "'press' is not one of its values"},
+      {"servo force z", "the target (number or v_NAME) is missing"},
+      {"servo force z vmax 1", "the target (number or v_NAME)"},
+      {"servo force z 100", "vmax is missing"},
+      {"servo force z 100 speed 1",
+       "vmax is missing, the speed at which the mesh moves up to the spheres; "
+       "'speed' is not a word of a servo"},
+      {"servo force z 100 vmax 0", "vmax = 0 is out of range"},
+      {"servo force axis 0 0 0 100 vmax 1", "the axis ax ay az must not be 0 0 0"},
+      {"servo force z 100 vmax 1 limits 0.1 0.2", "the limits 0.1 0.2 do not contain 0"},
+      {"servo force z 100 vmax 1 limits 0.1 -0.1", "the limits 0.1 -0.1 are reversed"},
+      {"servo torque y through 0 0 1 100 vmax 1 gain -1", "the gain = -1 is out of range"},
+      {"servo force z 100 vmax 1 servo torque z 1 vmax 1", "the keyword is given twice"}};
+  for (const auto &c : cases) EXPECT_TRUE(names(error_with(c.first), c.second)) << c.first;
+}
+
+TEST(settings, words_common_to_all_meshes_are_given_once)
+{
+  EXPECT_TRUE(names(error_with("corner sum mesh b.stl move 0 0 1 corner sum"),
+                    "the keyword is given twice"));
+}
+
 TEST(settings, fix_modify_reads_motions_or_none)
 {
   InputNames inputs;
