@@ -24,7 +24,7 @@
 //
 // kOnCpu says whether its memory is the CPU's. A GPU's has for_each_block() beside these, for what is written for
 // blocks of threads (block.h), Limits, which says how many of them it holds, and sort_in(), which sorts in memory that
-// the caller keeps. tests/tool/check_backends.py holds each backend to this list.
+// the caller keeps.
 #pragma once
 
 #include "backend/owned_array.h"

@@ -12,6 +12,7 @@ usage: check_includes.py [ROOT]
 * The words of scripts (INPUT_ROOM) are for the rooms INPUT_USERS.
 * The study is for STUDY_ROOMS, bench/ and tests: what it measures is no part of a plugin or the library.
 * Only LAMMPS_ROOMS include headers of LAMMPS, which have no room in their name, and of MPI.
+* Outside of src/backend headers of CUDA's backend are for sources of nvcc (.cu), and what a GPU's blocks have (block.h) for files *_gpu.h.
 * A header of ONLY_IN, which is slow to compile, is included by its one file.
 * HOST_FREE_ROOMS name no host in texts: neither LAMMPS nor its commands (HOST_WORDS). A host has
   its words and remedies in messages by Host::names().
@@ -50,6 +51,7 @@ HOST_WORDS = re.compile(
 LAMMPS_ROOMS = {"lammps", "kokkos"}
 GENERATED = {"grid": "lsdcd_grid_sources.h"}
 ONLY_IN = {"CLI/CLI.hpp": "src/tool/command.cpp"}
+OF_CUDA = re.compile(r"backend/(backend_cuda|cuda_(?!available)\w+)\.h")
 
 FLOOR = {room: floor for floor, rooms in enumerate(FLOORS) for room in rooms}
 SOURCE = re.compile(r"\.(h|cuh|cpp|cu)(\.in)?$")
@@ -111,6 +113,17 @@ def wrong_input(room, path, included):
     return "knows the words of scripts, which are for " + ", ".join(sorted(INPUT_USERS))
 
 
+def wrong_backend(room, path, included):
+    """Why this file may not include a header of src/backend; None: it may, or it is none."""
+    if room == "backend":
+        return None
+    if OF_CUDA.fullmatch(included) and not path.endswith(".cu"):
+        return "is of CUDA's backend, for sources that nvcc compiles"
+    if included == "backend/block.h" and not path.endswith("_gpu.h"):
+        return "has the blocks of a GPU, for files *_gpu.h"
+    return None
+
+
 def circles(root):
     """The includes of src and kokkos that lead back to the file they began in, a list of files each."""
     files = {path: path.split("/", 1)[1] if path.startswith("src/") else path for path in sources(root)}
@@ -166,7 +179,8 @@ def violations(root):
             continue
         for number, line in enumerate(lines, 1):
             include = INCLUDE.match(line)
-            why = include and (wrong_include(room, path, include[1]) or wrong_input(room, path, include[1]))
+            why = include and (wrong_include(room, path, include[1]) or wrong_input(room, path, include[1])
+                               or wrong_backend(room, path, include[1]))
             if why:
                 yield f"{path}:{number}: {include[1]} {why}"
             word = room in HOST_FREE_ROOMS and not line.lstrip().startswith("#") and HOST_WORDS.search(" ".join(TEXT.findall(line)))
