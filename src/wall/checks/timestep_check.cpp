@@ -31,11 +31,13 @@ Real TimestepCheck::mass_of(Real sphere, std::size_t law) const
   return 1 / (1 / sphere + mobility);
 }
 
-// Returns the square of the largest arm about an axis of a grain, of which its shadow along that axis has these half-axes.
+// Returns the square of the largest arm about an axis of a grain, of which its shadow along that axis has these half-axes: exact for
+// an ellipse, where the farthest point is one of them, and a bound for others.
 static Real arm_squared(Real across, Real along, Real farthest)
 {
-  const Real least = std::min(across, along);
-  return std::max(farthest * farthest - least * least, Real(0));
+  const Real least = std::min(across, along), most = std::max(across, along);
+  if (farthest <= most) return (most - least) * (most - least);
+  return farthest * farthest - least * least;
 }
 
 // Returns a mass below that with which any point of a grain that is no sphere meets a plane, at most 4 times less: 1/m and the
@@ -50,8 +52,8 @@ static Real least_mass(const GrainShape &shape, Real mass, Real radius)
   const Real of_axes = arm_squared(b, c, farthest(0, b, c)) / inertia.x +
                        arm_squared(c, a, farthest(a, 0, c)) / inertia.y +
                        arm_squared(a, b, farthest(a, b, 0)) / inertia.z;
-  const Real of_point =
-      arm_squared(std::min(a, b), c, radius) / std::min({inertia.x, inertia.y, inertia.z});
+  const Real of_point = (radius * radius - std::pow(std::min({a, b, c}), Real(2))) /
+                        std::min({inertia.x, inertia.y, inertia.z});
   return mass / (1 + std::min(of_axes, of_point));
 }
 
