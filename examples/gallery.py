@@ -5,7 +5,8 @@
 """Run examples and draw their pictures into doc/img/gallery: gallery.py [NAME ...]
 
 Each example runs to the moment of its picture and writes its grains and meshes into --work; scene.py draws them. With
---draw-only nothing runs, and what an earlier run has written is drawn. Needs Debian's python3-paraview (or python3-vtk9),
+--draw-only nothing runs, and what an earlier run has written is drawn. rice, tablet and rice-drum are drawn where they are named: they
+need --lmp, a LAMMPS with superellipsoids, which finds the plugin by LAMMPS_PLUGIN_PATH. Needs Debian's python3-paraview (or python3-vtk9),
 xvfb and python3-pil.
 """
 import dataclasses
@@ -40,6 +41,8 @@ class Scene:
     script: str = ""      # from examples/, if it is not NAME/in.NAME
     stop: str = ".*write_dump"    # the line of the script that is the moment of the picture; "": its end
     group: str = "all"    # of the atoms that are drawn
+    words: tuple = ()     # of the command line
+    shaped: bool = False  # the grains are superellipsoids: --lmp is a LAMMPS that has them
     make: tuple = ()      # words of lsdcd, which writes what it needs into --work
 
 
@@ -54,6 +57,12 @@ def scenes():
     from look import BLUE, DARK, ORANGE, SKY, VERMILION
     glass, solid = dict(GLASS), {}
     five = (5, "50 mm")
+
+    def shaped(grain):
+        return Scene((80, -75), (-0.018, 0.028, -0.018, 0.018, -0.0265, 0.024), (0.01, "10 mm"),
+                     [(ORANGE, ""), (BLUE, "layers of 5 mm at the start")], [glass, solid, solid], d=0, script="rice/in.rice",
+                     stop="variable +flown", words=("-var", "grain", grain), shaped=True)
+
     return {
         "first": Scene((80, -65), (-0.101, 0.101, 0, 0.06, -0.101, 0.109), (0.05, "50 mm"), ("m/s, speed", 0, 0.8), [glass],
                        d=0, script="tutorial/in.first", stop="", arrows=[circle((0, 0), 0.101, -35, 35)],
@@ -74,6 +83,10 @@ def scenes():
                               group="grains", arrows=[[(-4, -6, -4), (6, -6, -4)]]),
         "feed": Scene((75, -75), (-5, 5, -5, 5, -1, 9), (2, "20 mm"), [(BLUE, "7 mm"), (ORANGE, "10 mm")], [glass],
                       of_size=True, stop='print +"feed'),
+        "rice": shaped("rice"),
+        "tablet": shaped("tablet"),
+        "rice-drum": Scene((90, -90), (-0.061, 0.061, 0, 0.02, -0.061, 0.0645), (0.02, "20 mm"), ("m/s, speed", 0, 0.3), [solid], d=0,
+                           script="rice/in.rice-drum", stop="fix +mean", shaped=True, arrows=[circle((0, 0), 0.061, -35, 35)]),
     }
 
 
@@ -88,8 +101,11 @@ def state_script(text, name, scene):
 
     for line in re.sub(r"&\s*\n\s*", " ", text).split("\n") + [""]:
         if re.match(scene.stop or "$", line) and (scene.stop or "run             ${steps}" in lines):
-            return "\n".join(lines + [f"run $({EVERY}-step%{EVERY})",
-                                      f"write_dump {scene.group} custom {name}.atoms id type x y z radius vx vy vz",
+            columns = "id type x y z radius vx vy vz"
+            if scene.shaped:
+                lines.append("compute shape all property/atom shapex shapey shapez block1 block2 quatw quati quatj quatk")
+                columns += " c_shape[*]"
+            return "\n".join(lines + [f"run $({EVERY}-step%{EVERY})", f"write_dump {scene.group} custom {name}.atoms {columns}",
                                       f'print "$(time)" file {name}.time', "quit", ""])
         if re.match(r"[^#]*\bwall/lsdcd\b", line):
             line = re.sub(r"\bmesh \S+\.stl", written, line)
@@ -104,7 +120,7 @@ def run(a, name, scene):
         subprocess.run([Path(a.lmp).resolve().parent / "lsdcd", *scene.make], cwd=a.work, check=True, stdout=subprocess.DEVNULL)
     script = a.work / f"in.{name}"
     script.write_text(state_script(original.read_text(), name, scene))
-    command = [Path(a.lmp).resolve(), "-in", script.name, "-log", "none", "-var", "dir", original.parent]
+    command = [Path(a.lmp).resolve(), "-in", script.name, "-log", "none", "-var", "dir", original.parent, *scene.words]
     before = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime
     with runs.environment() as env:
         done = subprocess.run(command, cwd=a.work, env=env, text=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
@@ -133,7 +149,11 @@ def draw(a, name, scene):
     else:
         kinds = np.unique(atoms["radius"].round(6), return_inverse=True)[1] if scene.of_size else atoms["type"].astype(int) - 1
         colours = np.array([look.rgb(scene.key[kind % len(scene.key)][0]) for kind in kinds])
-    actors = vtk.spheres(centres[shown], atoms["radius"][shown], colours[shown])
+    if scene.shaped:
+        shape = np.stack([atoms[f"c_shape[{k}]"] for k in range(1, 10)], axis=1)[shown]
+        actors = vtk.superellipsoids(centres[shown], shape[:, :3] / 2, shape[:, 3:5], shape[:, 5:], colours[shown])
+    else:
+        actors = vtk.spheres(centres[shown], atoms["radius"][shown], colours[shown])
     for k, drawn in enumerate(scene.meshes, 1):
         actors += vtk.mesh(a.work / f"{name}_{k}.stl", **drawn)
     camera = vtk.Camera(scene.view, scene.box, WIDTH)
@@ -156,7 +176,7 @@ def main():
     a.work.mkdir(parents=True, exist_ok=True)
     known = scenes()
     folder = runs.ROOT / "doc" / "img" / "gallery"
-    for name in a.names or known:
+    for name in a.names or [name for name in known if not known[name].shaped]:
         seconds = 0 if a.draw_only else run(a, name, known[name])
         grains, picture = draw(a, name, known[name])
         picture.quantize(256, kmeans=2).save(folder / f"{name}.png", optimize=True)

@@ -1,7 +1,11 @@
 # SPDX-FileCopyrightText: 2026 LSDCD contributors
 # SPDX-License-Identifier: BSD-3-Clause
 
-"""Draw spheres and meshes with VTK. Needs VTK (Debian's python3-paraview or python3-vtk9), a display, which xvfb-run makes, and PIL."""
+"""Draw spheres, superellipsoids and meshes with VTK.
+
+Needs VTK (Debian's python3-paraview or python3-vtk9), a display, which xvfb-run makes, and PIL."""
+import math
+
 import numpy as np
 from PIL import Image
 from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray, vtk_to_numpy
@@ -41,6 +45,52 @@ def spheres(centres, radii, colours):
     mapper = vtkOpenGLSphereMapper()
     mapper.SetInputData(data)
     mapper.SetScaleArray("radius")
+    return [actor(mapper, ambient=0.25, diffuse=0.8, specular=0.25)]
+
+
+def surface(half, exponents, rings, sides):
+    """Points and outward normals of superellipsoids, of normals on rings about the third axis from pole to pole: arrays of
+    grains, points, 3. Where the surface bends most, the points are densest."""
+    tilt, turn = np.meshgrid(np.linspace(0, math.pi, rings), np.linspace(0, 2 * math.pi, sides, endpoint=False), indexing="ij")
+    normals = np.stack([np.sin(tilt) * np.cos(turn), np.sin(tilt) * np.sin(turn), np.cos(tilt)], axis=-1).reshape(-1, 3)
+    q1, q2 = (n[:, None] / (n[:, None] - 1) for n in np.asarray(exponents, float).T)
+    scaled = np.asarray(half, float)[:, None, :] * normals
+    x, y, z = np.moveaxis(np.maximum(np.abs(scaled), 1e-30), -1, 0)
+    around = x**q2 + y**q2
+    support = (around**(q1 / q2) + z**q1)**(1 / q1)
+    out = around**(q1 / q2 - 1)
+    points = np.stack([out * x**(q2 - 1), out * y**(q2 - 1), z**(q1 - 1)], axis=-1) * (support**(1 - q1))[..., None]
+    return points * np.sign(scaled) * np.asarray(half, float)[:, None, :], normals
+
+
+def turned(quaternions, vectors):
+    """Vectors (grains, points, 3) in the frames of grains, by quaternions w, x, y, z."""
+    w, axis = quaternions[:, None, :1], quaternions[:, None, 1:]
+    across = 2 * np.cross(axis, vectors)
+    return vectors + w * across + np.cross(axis, across)
+
+
+def superellipsoids(centres, half, exponents, quaternions, colours):
+    """Half-axes, the exponents n1 and n2 and the quaternion of each, as LAMMPS has them."""
+    count = len(centres)
+    rings, sides = (17, 24) if count < 5000 else (11, 14)
+    points, normals = surface(half, exponents, rings, sides)
+    points = turned(quaternions, points) + np.asarray(centres)[:, None, :]
+    normals = turned(quaternions, np.broadcast_to(normals, points.shape))
+    ring, side = np.meshgrid(np.arange(rings - 1), np.arange(sides), indexing="ij")
+    corners = np.stack([ring * sides + side, (ring + 1) * sides + side, (ring + 1) * sides + (side + 1) % sides,
+                        ring * sides + (side + 1) % sides], axis=-1).reshape(1, -1, 4)
+    ids = (corners + (np.arange(count) * rings * sides)[:, None, None]).reshape(-1, 4)
+    data, place, cells = vtkPolyData(), vtkPoints(), vtkCellArray()
+    place.SetData(numpy_to_vtk(np.ascontiguousarray(points.reshape(-1, 3), np.float32), deep=1))
+    data.SetPoints(place)
+    cells.SetCells(len(ids), numpy_to_vtkIdTypeArray(np.insert(ids, 0, 4, axis=1).astype(np.int64).ravel(), deep=1))
+    data.SetPolys(cells)
+    data.GetPointData().SetNormals(numpy_to_vtk(np.ascontiguousarray(normals.reshape(-1, 3), np.float32), deep=1))
+    of_points = np.repeat(np.asarray(colours) * 255, rings * sides, axis=0)
+    data.GetPointData().SetScalars(numpy_to_vtk(np.ascontiguousarray(of_points, np.uint8), deep=1))
+    mapper = vtkPolyDataMapper()
+    mapper.SetInputData(data)
     return [actor(mapper, ambient=0.25, diffuse=0.8, specular=0.25)]
 
 

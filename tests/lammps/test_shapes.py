@@ -16,7 +16,7 @@ import lmp
 import scene
 import stl
 from facts import at_most, fact
-from pages import Page
+from pages import ROOT, Page
 
 FIRST, SECOND = 350, 150
 LAW = "hooke/history 1e4 NULL 120 NULL 0.4 1"
@@ -383,3 +383,18 @@ def test_script_of_the_page(folder):
     text = lmp.run_well(script + "\nprint 'left $(atoms)'\n", folder)
     atoms = int(re.search(r"Created (\d+) atoms", text)[1])
     fact("the page's tablets stay in their can", atoms > 300 and f"left {atoms}" in text, str(atoms))
+
+
+@lmp.of_host
+@pytest.mark.parametrize("grain", ["rice", "tablet", "sphere"])
+def test_examples(folder, grain):
+    """The hopper and the drum of examples/rice, with fewer grains and steps: no grain is lost, and all is finite."""
+    for script, words in (("in.rice", "number 100 fill 0.005 begin 0.0122 flow 0.0004 end 0.0004"),
+                          ("in.rice-drum", "number 200 fill 0.005 begin 0.001 measure 0.001")):
+        place = ROOT / "examples" / "rice"
+        set_ = "".join(f"variable {name} index {value}\n" for name, value in zip(words.split()[::2], words.split()[1::2]))
+        text = lmp.run_well(f"variable dir index {place}\nvariable grain index {grain}\n{set_}" + (place / script).read_text(), folder)
+        line = re.search(rf"^{script[3:]} grains (\d+) (.*)", text, re.M)
+        fact(f"{script} of {grain}: it prints its numbers", line and int(line[1]) >= 100 and "nan" not in line[2], str(line and line[0]))
+        rows = [row.split() for row in re.findall(r"^ +\d+(?: +[-+.e\d]+){8,} *$", text, re.M)]
+        fact(f"{script} of {grain}: no grain is lost", {row[2] for row in rows} == {line[1]}, str(rows[-1]))
