@@ -12,6 +12,7 @@
 #include "contact/feature_turn.h"
 #include "contact/node_field.h"
 #include "engine/nodes/node_engine.h"
+#include "engine/nodes/shared_items.h"
 #include "grid/build/moving_grid.h"
 #include "grid/lookup/grid_on.h"
 #include "mesh/mesh_features.h"
@@ -52,9 +53,9 @@ struct NodesSeen {
   int n_left, pad;
 };
 
-// Looks at all nodes, in one pass. A thread of a GPU looks at several, and a warp raises each number once, so that few wait
-// for each other; one of a CPU looks at some that lie side by side.
-constexpr std::size_t kMostLooking = 1 << 15, kSideBySide = 64;
+// Looks at all nodes, in one pass. A thread looks at several, and a warp raises each number once, so that few wait for
+// each other.
+constexpr std::size_t kMostLooking = 1 << 15;
 struct LookAtNodes {
   const Vec3 *at, *before, *built_at, *velocity;
   std::size_t n, n_threads;
@@ -64,13 +65,10 @@ struct LookAtNodes {
   template <unsigned kSize>
   LSDCD_FN void operator()(const Warp<kSize> &warp, bool mine, std::size_t t) const
   {
-    constexpr bool kIsCpu = kSize == 1;
-    const std::size_t first = kIsCpu ? t * kSideBySide : t, step = kIsCpu ? 1 : n_threads,
-                      end = kIsCpu && first + kSideBySide < n ? first + kSideBySide : n;
     Real way_sq = 0, way_sq_of_grid = 0, speed_sq = 0;
     Vec3 hi = {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL}, minus_lo = hi;
     bool are_places = true, are_velocities = true;
-    for (std::size_t i = first; mine && i < end; i += step) {
+    for_each_of_thread(warp, t, n_threads, mine ? n : 0, [&](std::size_t i) {
       const Vec3 x = at[i];
       const Real way = norm_sq(x - before[i]), of_grid = norm_sq(x - built_at[i]),
                  speed = norm_sq(velocity[i]);
@@ -83,7 +81,7 @@ struct LookAtNodes {
         raise(hi[d], x[d]);
         raise(minus_lo[d], -x[d]);
       }
-    }
+    });
     if (!are_places) way_sq = way_sq_of_grid = NAN;
     if (!are_velocities) speed_sq = NAN;
     Real far = hi.x;
@@ -361,8 +359,7 @@ class MovingNodes {
 
   void look(B &b)
   {
-    const std::size_t n = at_.size(), n_threads = B::kOnCpu ? (n + kSideBySide - 1) / kSideBySide
-                                                            : std::min(n, kMostLooking);
+    const std::size_t n = at_.size(), n_threads = threads_for<B>(n, kMostLooking);
     b.for_each_in_warps(n_threads,
                         LookAtNodes{at_.data(), before_.data(), built_at_.data(), velocity_.data(),
                                     n, n_threads, seen_.data(), n_parts_.data()});

@@ -12,6 +12,7 @@
 #include "backend/threads.h"
 #include "backend/warp.h"
 #include "contact/node_field.h"
+#include "engine/nodes/shared_items.h"
 #include "engine/results/results.h"
 #include "engine/results/step_counts.h"
 #include "engine/sum_unit.h"
@@ -60,14 +61,14 @@ struct SeeNodeForces {
     if (mine && t == 0) *next_range = NodeForceRange();
     std::uint32_t contacts = 0;
     unsigned exponent = 0;
-    for (std::size_t k = t; mine && k < n_sums; k += n_threads) sums[k] = 0;
-    for (std::size_t k = t; mine && k < in.n; k += n_threads) {
+    for_each_of_thread(warp, t, n_threads, mine ? n_sums : 0, [&](std::size_t k) { sums[k] = 0; });
+    for_each_of_thread(warp, t, n_threads, mine ? in.n : 0, [&](std::size_t k) {
       Real power = 0;
       const int n = in.count(k);
       for (int c = 0; c < n; c++) see(k, in.contacts[in.first_contact[k] + c], exponent, power);
       powers[k] = power;
       contacts += n;
-    }
+    });
     if (contacts > 0) add_to(&range->shares.count, contacts);
     exponent = warp.largest(exponent);
     if (warp.rank() == 0) raise_to(&range->shares.exponent, exponent);
@@ -165,7 +166,7 @@ class NodeForces {
     n_sums_ = 3 * n_nodes;
     sums_.reserve(n_sums_);
     powers_.reserve(in.n + blocks_of(in.n));
-    const std::size_t n = std::min(std::max(in.n, n_sums_), kMostThreads);
+    const std::size_t n = threads_for<B>(std::max(in.n, n_sums_), kMostThreads);
     b.for_each_in_warps(n, SeeNodeForces{in, n, n_sums_, powers_.data(), sums_.data(), range_now(),
                                          ranges_.data() + 1 - now_});
     b.copy_out(range_now(), range_on_cpu_.data(), 1);
