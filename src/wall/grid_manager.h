@@ -4,8 +4,8 @@
 // When the grids of a wall's meshes are built: for the first spheres, for larger ones, for another box.
 #pragma once
 
-#include "wall/body_coat.h"
 #include "wall/checks/box_checks.h"
+#include "wall/coat/body_coat.h"
 #include "wall/history_exchange.h"
 #include "wall/host_spheres.h"
 #include "wall/reports/time_report.h"

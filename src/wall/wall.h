@@ -5,9 +5,9 @@
 // its force and torque.
 #pragma once
 
-#include "wall/body_coat.h"
 #include "wall/checks/overlap_monitor.h"
 #include "wall/checks/timestep_check.h"
+#include "wall/coat/body_coat.h"
 #include "wall/device_choice.h"
 #include "wall/grid_manager.h"
 #include "wall/host_spheres.h"
@@ -15,10 +15,10 @@
 #include "wall/mean_loads.h"
 #include "wall/reports/contact_rows.h"
 #include "wall/reports/search_report.h"
+#include "wall/saved/wall_state.h"
 #include "wall/step_totals.h"
 #include "wall/surface/node_meshes.h"
 #include "wall/wall_files.h"
-#include "wall/wall_state.h"
 
 #include <cstdint>
 #include <deque>

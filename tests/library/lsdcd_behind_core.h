@@ -7,7 +7,7 @@
 
 #include "support/fake_host.h"
 #include "wall/move/mesh_motion.h"
-#include "wall/wall_state.h"
+#include "wall/saved/wall_state.h"
 
 #include "lsdcd.hpp"
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // The state of a wall in a restart file: blocks that come back.
-#include "wall/wall_state.h"
+#include "wall/saved/wall_state.h"
 
 #include <gtest/gtest.h>
 

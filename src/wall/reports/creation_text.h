@@ -4,7 +4,7 @@
 // The lines of the log on a wall that is made.
 #pragma once
 
-#include "wall/body_coat.h"
+#include "wall/coat/body_coat.h"
 
 #include <deque>
 #include <string>

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "wall/wall_state.h"
+#include "wall/saved/wall_state.h"
 
 #include "output/mesh_loads.h"
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "wall/body_coat.h"
+#include "wall/coat/body_coat.h"
 
 #include "base/input_error.h"
 #include "base/input_words.h"
