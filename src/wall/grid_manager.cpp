@@ -56,10 +56,7 @@ bool GridManager::fit_spheres(Real radius, const SpheresOnCpu &spheres, std::int
 
 Real GridManager::cutoff_of_coats() const
 {
-  Real most = 0;
-  if (coats_)
-    for (const BodyCoat &coat : *coats_) most = std::max(most, cutoff_of(laws_, coat.radius()));
-  return most;
+  return coats_.any() ? cutoff_of(laws_, coats_.largest_radius()) : 0;
 }
 
 void GridManager::check_rmax(Real radius, const SpheresOnCpu &spheres) const
@@ -103,8 +100,7 @@ void GridManager::rebuild(Real wanted, std::int64_t step)
         return mesh == m->index ? without_image(mesh, f) : f;
       };
       history_.rename_features(name);
-      if (coats_ && m->grid.has_images())
-        for (BodyCoat &coat : *coats_) coat.rename_features(name);
+      if (m->grid.has_images()) coats_.rename_features(name);
     }
   }
   for (const MeshPart *m : anew) checks_.check_outside(*m, box(), wanted);
@@ -112,8 +108,7 @@ void GridManager::rebuild(Real wanted, std::int64_t step)
     m->grid.progress = progress(*m);
     m->grid.build(wanted, m->effective_box(box()));
     if (!m->nodes()) run_collectively(host_, true, [&] { put_grid(*m); });
-    if (coats_)
-      for (BodyCoat &coat : *coats_) coat.set_grid(*m);
+    coats_.set_grid(*m);
   }
   times_.end(TimeReport::grids);
   if (wanted == old) box_rebuilds_++;
@@ -133,8 +128,7 @@ void GridManager::follow_surface(MeshPart &m)
   m.grid.progress = progress(m);
   m.grid.build(cutoff(), m.effective_box(box()));
   run_collectively(host_, true, [&] { put_grid(m); });
-  if (coats_)
-    for (BodyCoat &coat : *coats_) coat.set_grid(m);
+  coats_.set_grid(m);
   times_.end(TimeReport::grids);
 }
 

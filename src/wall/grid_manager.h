@@ -5,7 +5,7 @@
 #pragma once
 
 #include "wall/checks/box_checks.h"
-#include "wall/coat/body_coat.h"
+#include "wall/coat/body_coats.h"
 #include "wall/history_exchange.h"
 #include "wall/host_spheres.h"
 #include "wall/reports/time_report.h"
@@ -22,11 +22,11 @@ class GridManager {
  public:
   // All must outlive it.
   GridManager(Host &host, const WallSpec &settings, const LawTable &laws,
-              std::deque<MeshPart> &meshes, BoxChecks &checks, HistoryExchange &history,
-              TimeReport &times) :
+              std::deque<MeshPart> &meshes, BodyCoats &coats, BoxChecks &checks,
+              HistoryExchange &history, TimeReport &times) :
       host_(host),
-      settings_(settings), laws_(laws), meshes_(meshes), checks_(checks), history_(history),
-      times_(times)
+      settings_(settings), laws_(laws), meshes_(meshes), coats_(coats), checks_(checks),
+      history_(history), times_(times)
   {
   }
 
@@ -39,8 +39,6 @@ class GridManager {
 
   // The engine of the steps from now on; it gets the grids that there are.
   void set_engine(WallEngine &engine);
-  // The coats of bodies, before there are grids; they must outlive it.
-  void set_coats(std::deque<BodyCoat> &coats) { coats_ = &coats; }
 
   // For spheres of up to this radius (length, 0: there are none) and for coats in the box of this step. Returns whether grids were built.
   bool fit_spheres(Real radius, const SpheresOnCpu &spheres, std::int64_t step);
@@ -73,11 +71,11 @@ class GridManager {
   const WallSpec &settings_;
   const LawTable &laws_;
   std::deque<MeshPart> &meshes_;
+  BodyCoats &coats_;
   BoxChecks &checks_;
   HistoryExchange &history_;
   TimeReport &times_;
   WallEngine *engine_ = nullptr;
-  std::deque<BodyCoat> *coats_ = nullptr;
   Real farthest_out_ = 0;    // length; past a periodic face that spheres were seen to go, and more
   bool out_warned_ = false;
   std::int64_t box_rebuilds_ = 0;    // in this run

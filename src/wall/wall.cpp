@@ -32,10 +32,10 @@ Wall::Wall(Host &host, WallSpec spec, const WallUnits &units, WallBackend backen
     host_(host),
     spec_(in_units(std::move(spec), units.pressure)), laws_(law_table(spec_)),
     backend_(std::move(backend)), clock_(clock), pressure_unit_(units.pressure),
-    history_(host, spec_), totals_(host, spec_), means_(host, spec_), loads_(host, spec_),
-    files_(host, spec_, units.pressure), overlaps_(host, spec_), search_(host), times_(host),
-    timestep_(host, laws_, units.velocity), box_checks_(host, spec_, meshes_),
-    grids_(host, spec_, laws_, meshes_, box_checks_, history_, times_), nodes_(host)
+    coats_(host, spec_, meshes_), history_(host, spec_), totals_(host, spec_), means_(host, spec_),
+    loads_(host, spec_), files_(host, spec_, units.pressure), overlaps_(host, spec_), search_(host),
+    times_(host), timestep_(host, laws_, units.velocity), box_checks_(host, spec_, meshes_),
+    grids_(host, spec_, laws_, meshes_, coats_, box_checks_, history_, times_), nodes_(host)
 {
   for (std::size_t k = 0; k < spec_.meshes.size(); k++) {
     MeshPart &m = meshes_.emplace_back(host_, spec_, laws_, static_cast<int>(k), units.velocity,
@@ -51,8 +51,7 @@ Wall::Wall(Host &host, WallSpec spec, const WallUnits &units, WallBackend backen
   // Where the spheres are says it in place, and nodes that move stay on their device.
   const bool is_fixed = backend_.in_place || nodes_.any();
   device_ = DeviceChoice(spec_.device, is_fixed ? 0 : cuda_devices(), host_.ranks().node_size);
-  coat_loads_.resize(meshes_.size());
-  make_coats(units.velocity);
+  coats_.make(engine_settings(), units.velocity);
   make_engine();
   log_creation(material, backend_);
 
@@ -71,16 +70,6 @@ Wall::Wall(Host &host, WallSpec spec, const WallUnits &units, WallBackend backen
   if (meshes_.size() > 1 && spec_.corner == Corner::sum)
     host_.warn("with corner sum both meshes push a sphere over a seam where they meet: use corner "
                "blend, or one mesh of all triangles");
-}
-
-void Wall::make_coats(Real force)
-{
-  for (const MeshPart &m : meshes_) {
-    if (!m.has_coat()) continue;
-    coats_.emplace_back(host_, spec_, m.index, m.grid, engine_settings(), force);
-    for (MeshPart &other : meshes_) other.coat_feels_it |= other.index != m.index;
-  }
-  grids_.set_coats(coats_);
 }
 
 std::string Wall::named(const MeshPart &m, const std::string &text) const
@@ -107,9 +96,8 @@ std::vector<int> Wall::inputs_read() const
 
 std::size_t Wall::bytes() const
 {
-  std::size_t bytes = engine_->bytes() + loads_.bytes() + history_.bytes();
+  std::size_t bytes = engine_->bytes() + loads_.bytes() + history_.bytes() + coats_.bytes();
   for (const MeshPart &m : meshes_) bytes += m.grid.bytes() + m.surface->bytes();
-  for (const BodyCoat &coat : coats_) bytes += coat.bytes();
   return bytes;
 }
 
@@ -306,34 +294,16 @@ void Wall::complete_movers()
     totals_.set_power(m.index, m.mover->complete(sums().mesh(m.index), gravity));
   }
   for (MeshPart &m : meshes_)
-    m.mover->check_step(touch(m), [&](bool of_coat) { return rates_of_touched(m, of_coat); });
+    m.mover->check_step(touch(m), [&](bool of_coat) {
+      return coats_.fastest_touched(m.index, [&](const MeshPart &other) {
+        return other.mover->rates(touch(other), of_coat);
+      });
+    });
 }
 
 Touch Wall::touch(const MeshPart &m)
 {
-  return {sums().mesh(m.index), range_, coat_load(m.index)};
-}
-
-// The largest of the bodies that the mesh's coat touches, or whose coats touch it.
-ModeRates Wall::rates_of_touched(const MeshPart &m, bool of_coat)
-{
-  ModeRates most;
-  for (const MeshPart &other : meshes_) {
-    if (!(coat_load(m.index).bodies >> other.index & 1)) continue;
-    const ModeRates of = other.mover->rates(touch(other), of_coat);
-    most = {std::max(most.stiffness, of.stiffness), std::max(most.damping, of.damping)};
-  }
-  return most;
-}
-
-void Wall::step_coats(const Step &step)
-{
-  coat_loads_.assign(meshes_.size(), CoatLoad());
-  times_.begin();
-  CoatPushes pushes(meshes_.size());
-  for (BodyCoat &coat : coats_) coat.begin(meshes_, step, pushes);
-  for (BodyCoat &coat : coats_) coat.finish(meshes_, step, pushes, coat_loads_);
-  times_.end(TimeReport::forces);
+  return {sums().mesh(m.index), range_, coats_.load(m.index)};
 }
 
 bool Wall::any_servo_acts() const
@@ -364,7 +334,7 @@ void Wall::look_at_spheres(const HostSpheres &spheres, std::int64_t step)
   overlaps_.check_sharp();
   largest_radius_ = most[0];
   if (most[0] == 0 && !points_warned_) points_warned_ = warn_of_points(host_, on_cpu(spheres));
-  if ((most[0] > 0 || !coats_.empty()) && grids_.fit_spheres(most[0], on_cpu(spheres), step))
+  if ((most[0] > 0 || coats_.any()) && grids_.fit_spheres(most[0], on_cpu(spheres), step))
     engine_->expire_choice();
 }
 
@@ -381,7 +351,7 @@ void Wall::look_at_range(const HostSpheres &spheres)
 ServoLoad Wall::servo_load(int mesh)
 {
   const MeshTotals &t = sums().mesh(mesh);
-  const CoatLoad &coat = coat_load(mesh);
+  const CoatLoad &coat = coats_.load(mesh);
   return {t.force,
           t.torque_at_origin,
           t.contacts + coat.contacts,
@@ -511,7 +481,11 @@ void Wall::finish(const HostSpheres &spheres)
     }
   };
   try_here([&] { submit(spheres); });
-  if (!coats_.empty()) step_coats(input_.step);
+  if (coats_.any()) {
+    times_.begin();
+    coats_.step(input_.step);
+    times_.end(TimeReport::forces);
+  }
   try_here([&] { collect(spheres); });
   step_failed_ = failure.has_value();
   totals_.expire();
@@ -534,7 +508,7 @@ void Wall::note_step(const HostSpheres &spheres)
   static const std::vector<StepContact> none;
   StepResults *const left = results();
   if (spec_.average_every > 0 && step.kind == Step::step)
-    means_.add(step, left, poses(), nodes_.loads(), coats_.empty() ? nullptr : &coat_loads_);
+    means_.add(step, left, poses(), nodes_.loads(), coats_.loads());
   if (spec_.has_loads() && step.kind == Step::step)    // what sets a run up has no duration
     for (const MeshPart &m : meshes_)
       loads_.add(m.index, left ? left->contacts() : none, step.dt,
@@ -614,7 +588,7 @@ const StepTotals &Wall::totals()
 const StepTotals &Wall::sums()
 {
   if (totals_.are_made()) return totals_;
-  totals_.reduce(results(), poses(), nodes_.loads(), coats_.empty() ? nullptr : &coat_loads_);
+  totals_.reduce(results(), poses(), nodes_.loads(), coats_.loads());
   return totals_;
 }
 
@@ -740,17 +714,17 @@ WallState Wall::save()
     MeshState &to = all.meshes.emplace_back();
     to.mesh = identity_of(m);
     to.loads = {loads.time(), loads.packed()};
-    to.last = {{sums().mesh(m.index), coat_load(m.index)}};
+    to.last = {{sums().mesh(m.index), coats_.load(m.index)}};
     m.surface->save(to);
     m.mover->save(to);
+    coats_.save(m.index, to, [this](int mesh, FeatureCode feature) {
+      return grids_.without_image(mesh, feature);
+    });
   }
   if (spec_.average_every > 0) {
     const std::vector<MeanLoadState> means = means_.save();
     for (std::size_t k = 0; k < means.size(); k++) all.meshes[k].mean = {means[k]};
   }
-  for (BodyCoat &coat : coats_)
-    all.meshes[coat.mesh()].coat = coat.save(
-        [this](int mesh, FeatureCode feature) { return grids_.without_image(mesh, feature); });
   return all;
 }
 
@@ -811,13 +785,9 @@ void Wall::restore_mesh(MeshPart &m, const MeshState &was, const Step &now)
 {
   m.mover->restore(was, now);
   if (m.surface->restore(was, !m.springs_are_foreign)) grids_.follow_surface(m);
-  for (BodyCoat &coat : coats_)
-    if (coat.mesh() == m.index) coat.restore(was.coat);
+  coats_.restore(m.index, was);
   if (!was.mean.empty()) means_.restore(m.index, was.mean.front());
-  if (!was.last.empty()) {
-    totals_.restore(m.index, was.last.front().totals);
-    coat_loads_[m.index] = was.last.front().coat;
-  }
+  if (!was.last.empty()) totals_.restore(m.index, was.last.front().totals);
   mover_has_changed(m);
   if (!spec_.has_loads(m.spec)) return;
   if (m.springs_are_foreign)

@@ -7,7 +7,7 @@
 
 #include "wall/checks/overlap_monitor.h"
 #include "wall/checks/timestep_check.h"
-#include "wall/coat/body_coat.h"
+#include "wall/coat/body_coats.h"
 #include "wall/device_choice.h"
 #include "wall/grid_manager.h"
 #include "wall/host_spheres.h"
@@ -200,7 +200,6 @@ class Wall {
  private:
   EngineSettings engine_settings() const;
   void make_engine();
-  void make_coats(Real force);
   void make_engine_anew();
   void log_creation(const std::string &material, const WallBackend &backend) const;
   std::string named(const MeshPart &m, const std::string &text) const;
@@ -228,10 +227,6 @@ class Wall {
   void note_step(const HostSpheres &spheres);
   std::vector<Pose> poses() const;
   Real pressure(int mesh) const;    // in this step, in units of forces
-  void step_coats(const Step &step);
-  // On this mesh in the last step.
-  const CoatLoad &coat_load(int mesh) const { return coat_loads_[mesh]; }
-  ModeRates rates_of_touched(const MeshPart &m, bool of_coat);
 
   StepSettings step_settings();
   void choose_if_due(const Spheres &spheres);
@@ -255,8 +250,7 @@ class Wall {
   Real pressure_unit_;             // of inputs
   std::deque<MeshPart> meshes_;    // where each stays; there is one at least
   bool any_pushed_ = false;
-  std::deque<BodyCoat> coats_;          // of bodies that have one
-  std::vector<CoatLoad> coat_loads_;    // of each mesh, in the last step; all 0 without coats
+  BodyCoats coats_;
   DeviceChoice device_;
   bool is_set_up_ = false;    // the last step set a run up
   std::unique_ptr<WallEngine> engine_;

@@ -23,11 +23,8 @@ std::string in_a_line(const WallSpec &settings, const std::deque<MeshPart> &mesh
 }
 
 // In the columns of the mesh report.
-std::string mesh_lines(const MeshPart &m, const std::deque<BodyCoat> &coats)
+std::string mesh_lines(const MeshPart &m, const BodyCoats &coats)
 {
-  std::string coat;
-  for (const BodyCoat &one : coats)
-    if (one.mesh() == m.index) coat = one.text();
   std::string t = m.grid.mesh_text();
   const Real wear = m.spec.wear_factor;
   const struct {
@@ -38,7 +35,7 @@ std::string mesh_lines(const MeshPart &m, const std::deque<BodyCoat> &coats)
       {"motion      ", m.mover->text(m.bounds(0))},
       {"servo       ", m.mover->servo_text()},
       {"body        ", m.mover->body_text()},
-      {"coat        ", coat},
+      {"coat        ", coats.text(m.index)},
       {"nodes       ", m.nodes() ? std::to_string(m.nodes()->count()) + ", which move" : ""},
       {"wear        ", wear == 1 ? "" : number_text(wear) + " times as fast"},
       {"recedes     ", m.surface->recedes_text()}};
@@ -116,7 +113,7 @@ std::string search_lines(const WallSpec &settings)
 }    // namespace
 
 std::string creation_text(const HostNames &names, const WallSpec &settings,
-                          const std::deque<MeshPart> &meshes, const std::deque<BodyCoat> &coats,
+                          const std::deque<MeshPart> &meshes, const BodyCoats &coats,
                           const EngineSettings &engine, const std::string &material,
                           const std::string &device)
 {

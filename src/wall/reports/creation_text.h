@@ -4,7 +4,7 @@
 // The lines of the log on a wall that is made.
 #pragma once
 
-#include "wall/coat/body_coat.h"
+#include "wall/coat/body_coats.h"
 
 #include <deque>
 #include <string>
@@ -14,7 +14,7 @@ namespace lsdcd {
 // `material`: what a material file filled in, in lines; else empty. `device`: of the engine, with why it
 // is no other. Called by the first process, which has the reports of the meshes.
 std::string creation_text(const HostNames &names, const WallSpec &settings,
-                          const std::deque<MeshPart> &meshes, const std::deque<BodyCoat> &coats,
+                          const std::deque<MeshPart> &meshes, const BodyCoats &coats,
                           const EngineSettings &engine, const std::string &material,
                           const std::string &device);
 

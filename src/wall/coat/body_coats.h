@@ -1,0 +1,65 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// All coats of the bodies of a wall, and what they did to its meshes in the last step.
+#pragma once
+
+#include "wall/coat/body_coat.h"
+
+#include <deque>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace lsdcd {
+
+// Errors are InputError, the same on all processes.
+class BodyCoats {
+ public:
+  // Host, wall and meshes must outlive it; meshes may come until make().
+  BodyCoats(Host &host, const WallSpec &wall, std::deque<MeshPart> &meshes) :
+      host_(host), wall_(wall), meshes_(meshes)
+  {
+  }
+
+  // Makes those that the spec of the wall has, before there are grids. `engine`: the settings of the wall's engine; `force`: as of
+  // BodyMover. Collective.
+  void make(const EngineSettings &engine, Real force);
+  bool any() const { return !coats_.empty(); }
+  Real largest_radius() const;         // length; 0 where there are none
+  std::string text(int mesh) const;    // line of the log; empty: the mesh has none
+
+  // Renames the features of springs, before the grid of a mesh is another one.
+  void rename_features(const BodyCoat::FeatureName &name);
+  // Takes the grid of a mesh from now on.
+  void set_grid(const MeshPart &m);
+
+  // Makes a step, in which all meshes are where they are now.
+  void step(const Step &step);
+
+  // Returns the loads on each mesh in the last step, the same on all processes, or null where there are no coats.
+  const std::vector<CoatLoad> *loads() const { return any() ? &loads_ : nullptr; }
+  // Returns the load on a mesh, which is 0 where there are no coats.
+  const CoatLoad &load(int mesh) const;
+  // Returns the largest rates of the bodies that a coat of this mesh touched, or whose coats touched it.
+  ModeRates fastest_touched(int mesh,
+                            const std::function<ModeRates(const MeshPart &)> &rates) const;
+
+  // Writes what the coat of a mesh keeps into a saved state, with the names that `name` gives to features, and takes it again, before
+  // a step. The first process warns where it is of another law or another coat.
+  void save(int mesh, MeshState &to, const BodyCoat::FeatureName &name);
+  void restore(int mesh, const MeshState &was);
+
+  std::size_t bytes() const;
+
+ private:
+  BodyCoat *of(int mesh);
+
+  Host &host_;
+  const WallSpec &wall_;
+  std::deque<MeshPart> &meshes_;
+  std::deque<BodyCoat> coats_;
+  std::vector<CoatLoad> loads_;    // of each mesh
+};
+
+}    // namespace lsdcd
