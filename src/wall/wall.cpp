@@ -17,16 +17,6 @@
 
 namespace lsdcd {
 
-namespace {
-
-// The part that fits a double, exactly.
-Real number_of(std::uint64_t fingerprint)
-{
-  return static_cast<Real>(fingerprint >> 11);
-}
-
-}    // namespace
-
 Wall::Wall(Host &host, WallSpec spec, const WallUnits &units, WallBackend backend,
            const std::string &material, const StepClock &clock, const HostSpheres &there) :
     host_(host),
@@ -35,7 +25,8 @@ Wall::Wall(Host &host, WallSpec spec, const WallUnits &units, WallBackend backen
     coats_(host, spec_, meshes_), history_(host, spec_), totals_(host, spec_), means_(host, spec_),
     loads_(host, spec_), files_(host, spec_, units.pressure), overlaps_(host, spec_), search_(host),
     times_(host), timestep_(host, laws_, units.velocity), box_checks_(host, spec_, meshes_),
-    grids_(host, spec_, laws_, meshes_, coats_, box_checks_, history_, times_), nodes_(host)
+    grids_(host, spec_, laws_, meshes_, coats_, box_checks_, history_, times_), nodes_(host),
+    keeper_(host, spec_, {meshes_, coats_, grids_, totals_, means_, loads_})
 {
   for (std::size_t k = 0; k < spec_.meshes.size(); k++) {
     MeshPart &m = meshes_.emplace_back(host_, spec_, laws_, static_cast<int>(k), units.velocity,
@@ -696,72 +687,23 @@ int Wall::pack_saved(int sphere, Real *buffer)
   });
 }
 
-MeshIdentity Wall::identity_of(const MeshPart &m)
-{
-  const MeshReport &r = m.grid.report();
-  return {static_cast<std::int64_t>(r.facets), static_cast<std::int64_t>(r.edges),
-          static_cast<std::int64_t>(r.vertices), number_of(m.grid.mesh_fingerprint())};
-}
-
 WallState Wall::save()
 {
   complete_movers();
-  WallState all;
-  all.history_kind = static_cast<Real>(spec_.law().history_kind());
-  all.time = clock_.now();
-  for (const MeshPart &m : meshes_) {
-    const MeshLoads loads = loads_.gathered(m.index);
-    MeshState &to = all.meshes.emplace_back();
-    to.mesh = identity_of(m);
-    to.loads = {loads.time(), loads.packed()};
-    to.last = {{sums().mesh(m.index), coats_.load(m.index)}};
-    m.surface->save(to);
-    m.mover->save(to);
-    coats_.save(m.index, to, [this](int mesh, FeatureCode feature) {
-      return grids_.without_image(mesh, feature);
-    });
-  }
-  if (spec_.average_every > 0) {
-    const std::vector<MeanLoadState> means = means_.save();
-    for (std::size_t k = 0; k < means.size(); k++) all.meshes[k].mean = {means[k]};
-  }
-  return all;
+  sums();
+  return keeper_.save(clock_.now());
 }
 
 void Wall::restore(const WallState &was, const Step &now)
 {
-  const std::size_t here = meshes_.size(), there = was.meshes.size();
-  const bool one_of_many = here > 1 || there > 1;
-  const std::string saved = host_.names().saved;
-  for (std::size_t k = 0; k < std::min(there, here); k++)
-    if (is_restored(meshes_[k], was.meshes[k], one_of_many)) meshes_[k].mover->check(was.meshes[k]);
+  keeper_.check(was);
   continued_ = true;
   files_.continue_lists();
   history_.set_kind_of_file(was.history_kind);
   clock_.base = was.time;
   clear_totals();
-  for (std::size_t k = 0; k < std::min(there, here); k++) {
-    MeshPart &m = meshes_[k];
-    m.springs_are_foreign = !(was.meshes[k].mesh == identity_of(m));
-    if (is_restored(m, was.meshes[k], one_of_many))
-      restore_mesh(m, was.meshes[k], now);
-    else
-      host_.warn(named(m, "springs, motion, loads and wear start from zero: the " + saved +
-                              " was written with a different mesh in this place"));
-  }
-  if (!was.unread.empty())
-    host_.warn("the " + saved + " has " + was.unread +
-               ", which this version does not know and ignores");
-  if (there == here) return;
-  const auto meshes = [](std::size_t n) {
-    return std::to_string(n) + (n == 1 ? " mesh" : " meshes");
-  };
-  host_.warn("the " + saved + " was written with " + meshes(there) + " and " + host_.names().wall +
-             " has " + std::to_string(here) + ": " +
-             (there > here ? "springs, motion, loads and wear of those after mesh " +
-                                 std::to_string(here) + " are not carried over"
-                           : "those after mesh " + std::to_string(there) +
-                                 " start without springs, motion, loads and wear"));
+  keeper_.restore(was, now);
+  for (const MeshPart &m : meshes_) mover_has_changed(m);
 }
 
 void Wall::restore_springs(const std::vector<std::vector<Real>> &spheres)
@@ -773,28 +715,6 @@ void Wall::restore_springs(const std::vector<std::vector<Real>> &spheres)
   for (int i = 0; i < n; i++)
     history_.unpack_saved(i, spheres[i].data(), static_cast<int>(spheres[i].size()));
   check_history(n);
-}
-
-// `one_of_many`: springs tell which mesh they are of by its number alone.
-bool Wall::is_restored(const MeshPart &m, const MeshState &was, bool one_of_many) const
-{
-  return !one_of_many || was.mesh == identity_of(m);
-}
-
-void Wall::restore_mesh(MeshPart &m, const MeshState &was, const Step &now)
-{
-  m.mover->restore(was, now);
-  if (m.surface->restore(was, !m.springs_are_foreign)) grids_.follow_surface(m);
-  coats_.restore(m.index, was);
-  if (!was.mean.empty()) means_.restore(m.index, was.mean.front());
-  if (!was.last.empty()) totals_.restore(m.index, was.last.front().totals);
-  mover_has_changed(m);
-  if (!spec_.has_loads(m.spec)) return;
-  if (m.springs_are_foreign)
-    host_.warn("loads and wear begin at zero: the " + std::string(host_.names().saved) +
-               " was written with a different mesh");
-  else
-    loads_.restore(m.index, was.loads.time, was.loads.rows);
 }
 
 }    // namespace lsdcd

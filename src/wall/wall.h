@@ -15,7 +15,7 @@
 #include "wall/mean_loads.h"
 #include "wall/reports/contact_rows.h"
 #include "wall/reports/search_report.h"
-#include "wall/saved/wall_state.h"
+#include "wall/saved/state_keeper.h"
 #include "wall/step_totals.h"
 #include "wall/surface/node_meshes.h"
 #include "wall/wall_files.h"
@@ -237,9 +237,6 @@ class Wall {
   void log_change(const MeshPart &m, const std::string &text);
   void mover_is_new(const MeshPart &m);
   void mover_has_changed(const MeshPart &m);
-  static MeshIdentity identity_of(const MeshPart &m);
-  bool is_restored(const MeshPart &m, const MeshState &was, bool one_of_many) const;
-  void restore_mesh(MeshPart &m, const MeshState &was, const Step &now);
 
   Host &host_;
   WallSpec spec_;    // motions change later
@@ -270,6 +267,7 @@ class Wall {
   BoxChecks box_checks_;
   GridManager grids_;
   NodeMeshes nodes_;
+  StateKeeper keeper_;
 
   StepInput input_;             // of the last begin()
   bool has_begun_ = false;      // a step

@@ -1,0 +1,112 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "wall/saved/state_keeper.h"
+
+#include "wall/mesh_name.h"
+
+#include <algorithm>
+#include <string>
+
+namespace lsdcd {
+
+namespace {
+
+// The part that fits a double, exactly.
+Real number_of(std::uint64_t fingerprint)
+{
+  return static_cast<Real>(fingerprint >> 11);
+}
+
+MeshIdentity identity_of(const MeshPart &m)
+{
+  const MeshReport &r = m.grid.report();
+  return {static_cast<std::int64_t>(r.facets), static_cast<std::int64_t>(r.edges),
+          static_cast<std::int64_t>(r.vertices), number_of(m.grid.mesh_fingerprint())};
+}
+
+}    // namespace
+
+WallState StateKeeper::save(Time time)
+{
+  WallState all;
+  all.history_kind = static_cast<Real>(wall_.law().history_kind());
+  all.time = time;
+  for (const MeshPart &m : of_.meshes) {
+    const MeshLoads loads = of_.loads.gathered(m.index);
+    MeshState &to = all.meshes.emplace_back();
+    to.mesh = identity_of(m);
+    to.loads = {loads.time(), loads.packed()};
+    to.last = {{of_.totals.mesh(m.index), of_.coats.load(m.index)}};
+    m.surface->save(to);
+    m.mover->save(to);
+    of_.coats.save(m.index, to, [this](int mesh, FeatureCode feature) {
+      return of_.grids.without_image(mesh, feature);
+    });
+  }
+  if (wall_.average_every > 0) {
+    const std::vector<MeanLoadState> means = of_.means.save();
+    for (std::size_t k = 0; k < means.size(); k++) all.meshes[k].mean = {means[k]};
+  }
+  return all;
+}
+
+// The springs of several meshes tell which mesh they are of by its number alone.
+bool StateKeeper::is_restored(const MeshPart &m, const WallState &was) const
+{
+  const std::size_t k = static_cast<std::size_t>(m.index), there = was.meshes.size();
+  const bool one_of_many = of_.meshes.size() > 1 || there > 1;
+  return k < there && (!one_of_many || was.meshes[k].mesh == identity_of(m));
+}
+
+void StateKeeper::check(const WallState &was) const
+{
+  for (const MeshPart &m : of_.meshes)
+    if (is_restored(m, was)) m.mover->check(was.meshes[static_cast<std::size_t>(m.index)]);
+}
+
+void StateKeeper::restore(const WallState &was, const Step &now)
+{
+  const std::size_t here = of_.meshes.size(), there = was.meshes.size();
+  const std::string saved = host_.names().saved;
+  for (std::size_t k = 0; k < std::min(there, here); k++) {
+    MeshPart &m = of_.meshes[k];
+    m.springs_are_foreign = !(was.meshes[k].mesh == identity_of(m));
+    if (is_restored(m, was))
+      restore_mesh(m, was.meshes[k], now);
+    else
+      host_.warn(with_mesh_name(wall_, m.index,
+                                "springs, motion, loads and wear start from zero: the " + saved +
+                                    " was written with a different mesh in this place"));
+  }
+  if (!was.unread.empty())
+    host_.warn("the " + saved + " has " + was.unread +
+               ", which this version does not know and ignores");
+  if (there == here) return;
+  const auto meshes = [](std::size_t n) {
+    return std::to_string(n) + (n == 1 ? " mesh" : " meshes");
+  };
+  host_.warn("the " + saved + " was written with " + meshes(there) + " and " + host_.names().wall +
+             " has " + std::to_string(here) + ": " +
+             (there > here ? "springs, motion, loads and wear of those after mesh " +
+                                 std::to_string(here) + " are not carried over"
+                           : "those after mesh " + std::to_string(there) +
+                                 " start without springs, motion, loads and wear"));
+}
+
+void StateKeeper::restore_mesh(MeshPart &m, const MeshState &was, const Step &now)
+{
+  m.mover->restore(was, now);
+  if (m.surface->restore(was, !m.springs_are_foreign)) of_.grids.follow_surface(m);
+  of_.coats.restore(m.index, was);
+  if (!was.mean.empty()) of_.means.restore(m.index, was.mean.front());
+  if (!was.last.empty()) of_.totals.restore(m.index, was.last.front().totals);
+  if (!wall_.has_loads(m.spec)) return;
+  if (m.springs_are_foreign)
+    host_.warn("loads and wear begin at zero: the " + std::string(host_.names().saved) +
+               " was written with a different mesh");
+  else
+    of_.loads.restore(m.index, was.loads.time, was.loads.rows);
+}
+
+}    // namespace lsdcd

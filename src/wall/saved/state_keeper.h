@@ -1,0 +1,55 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// What of a wall goes into a saved state, and what of a saved state goes into a wall.
+#pragma once
+
+#include "wall/coat/body_coats.h"
+#include "wall/grid_manager.h"
+#include "wall/load_recorder.h"
+#include "wall/mean_loads.h"
+#include "wall/saved/wall_state.h"
+#include "wall/step_totals.h"
+
+#include <deque>
+
+namespace lsdcd {
+
+// Each part of a wall saves, checks and restores what it keeps; this says in which order, of which meshes, and what is told of what
+// is left out. The springs of spheres are HistoryExchange's.
+class StateKeeper {
+ public:
+  // What is saved. All must outlive the keeper.
+  struct Parts {
+    std::deque<MeshPart> &meshes;
+    BodyCoats &coats;
+    GridManager &grids;
+    StepTotals &totals;
+    MeanLoads &means;
+    LoadRecorder &loads;
+  };
+
+  StateKeeper(Host &host, const WallSpec &wall, const Parts &of) : host_(host), wall_(wall), of_(of)
+  {
+  }
+
+  // Returns the state after a step that is complete, and whose sums are made; `time`: of the spheres. The loads of all processes are
+  // on the first one alone. Collective.
+  WallState save(Time time);
+
+  // Throws InputError, the same on all processes, where restore() would put a mesh where it may not be.
+  void check(const WallState &was) const;
+  // Takes a state that was checked, the same on all processes. The first process warns of what
+  // does not fit. Collective.
+  void restore(const WallState &was, const Step &now);
+
+ private:
+  bool is_restored(const MeshPart &m, const WallState &was) const;
+  void restore_mesh(MeshPart &m, const MeshState &was, const Step &now);
+
+  Host &host_;
+  const WallSpec &wall_;
+  Parts of_;
+};
+
+}    // namespace lsdcd
