@@ -40,6 +40,9 @@ struct MeshPart {
 
   const Pose &pose() const { return mover->pose(); }    // in this step
 
+  // Returns whether a spring may name this feature of it.
+  bool has(FeatureCode feature) const { return !springs_are_foreign && grid.has(feature); }
+
   // In its own frame, in this step; null but on one process per node, where its nodes do not move.
   const WeldedMesh *mesh() const { return surface->mesh(); }
   GridView view() const { return grid.view(); }    // where its nodes do not move

@@ -178,6 +178,7 @@ void Wall::begin(const HostSpheres &spheres, const StepInput &input)
 {
   input_ = input;
   has_begun_ = true;
+  keeper_.end_restoring();
   const Step &step = input.step;
   if (step.kind == Step::snapshot) begin_snapshot(spheres.n, step);
   if (input.look) {
@@ -235,8 +236,7 @@ void Wall::check_history(int n)
   if (history_.is_checked()) return;
   history_.on_cpu();
   history_.check_restored(n, [this](const Spring &s) {
-    return s.mesh < meshes_.size() && !meshes_[s.mesh].springs_are_foreign &&
-           meshes_[s.mesh].grid.has(s.feature);
+    return s.mesh < meshes_.size() && meshes_[s.mesh].has(s.feature);
   });
 }
 

@@ -214,8 +214,10 @@ Saved saved(World &from)
   return all;
 }
 
-// Another wall of these words that goes on from there, with the spheres of this process: each of as many as there are.
-std::unique_ptr<World> restored(const Saved &from, FakeHost &host, const WallSpec &words)
+// Another wall of these words that goes on from there, with the spheres of this process: each of as many as there are. `before`: a
+// state that it gets first, of which nothing may stay; null: it gets none.
+std::unique_ptr<World> restored(const Saved &from, FakeHost &host, const WallSpec &words,
+                                const Saved *before = nullptr)
 {
   auto to = std::make_unique<World>(host, words);
   to->now = from.now;
@@ -231,19 +233,24 @@ std::unique_ptr<World> restored(const Saved &from, FakeHost &host, const WallSpe
     to->torque.back() = all.torque[i];
     springs.push_back(from.springs[i]);
   }
-  to->wall->restore(
-      WallState::from(State(WallState::kKind, from.numbers.data(), from.numbers.size())),
-      {from.now, kDt});
+  for (const Saved *state : {before, &from}) {
+    if (!state) continue;
+    host.warnings.clear();
+    to->wall->restore(
+        WallState::from(State(WallState::kKind, state->numbers.data(), state->numbers.size())),
+        {state->now, kDt});
+  }
   to->wall->restore_springs(springs);
   return to;
 }
 
 // Goes on with two processes, and with one again. Returns the places of spheres by their tags.
-std::vector<Vec3> on_others(const Saved &from, const WallSpec &words, int steps)
+std::vector<Vec3> on_others(const Saved &from, const WallSpec &words, const Saved *before,
+                            int steps)
 {
   std::vector<Saved> parts(2);
   on_processes(2, [&](FakeHost &host) {
-    const std::unique_ptr<World> world = restored(from, host, words);
+    const std::unique_ptr<World> world = restored(from, host, words, before);
     world->go(steps);
     parts[static_cast<std::size_t>(host.rank())] = saved(*world);
   });
@@ -328,6 +335,7 @@ void try_sequence(unsigned seed, std::string &text)
   whole.take_step(Step::setup);
   std::vector<std::unique_ptr<FakeHost>> hosts;
   std::unique_ptr<World> other;    // that is saved and restored
+  std::vector<Saved> states;
   for (int k = 0; k < 5; k++) {
     const Real what = uniform(random, 0, 1);
     if (!other || what < 0.3) {
@@ -358,7 +366,11 @@ void try_sequence(unsigned seed, std::string &text)
       text += " restore";
       World &from = other ? *other : whole;
       hosts.push_back(std::make_unique<FakeHost>());
-      std::unique_ptr<World> next = restored(saved(from), *hosts.back(), from.words);
+      states.push_back(saved(from));
+      const std::size_t before =
+          static_cast<std::size_t>(uniform(random, 0, 2 * static_cast<Real>(states.size()) - 0.01));
+      std::unique_ptr<World> next = restored(states.back(), *hosts.back(), from.words,
+                                             before < states.size() ? &states[before] : nullptr);
       other = std::move(next);
       for (const std::string &warning : hosts.back()->warnings)
         if (warning.find("was written with") != std::string::npos) return;    // it says why not
@@ -367,7 +379,7 @@ void try_sequence(unsigned seed, std::string &text)
   whole.go(10);
   other->go(10);
   ASSERT_EQ(whole.numbers(), other->numbers()) << text;
-  const std::vector<Vec3> there = on_others(saved(whole), whole.words, 5);
+  const std::vector<Vec3> there = on_others(saved(whole), whole.words, &states.front(), 5);
   whole.go(10);
   // Sums of processes round otherwise.
   for (std::size_t i = 0; i < there.size(); i++)
@@ -384,6 +396,42 @@ TEST(wall_sequences, go_on_from_saved_states_to_the_bit_or_say_why_not)
       try_sequence(seed, text);
     } catch (const InputError &e) {
       ADD_FAILURE() << text << ": " << e.what();
+    }
+  }
+}
+
+// Those of the same words, and of others.
+TEST(wall_sequences, keep_nothing_of_a_state_that_another_one_replaces)
+{
+  std::vector<Saved> states;
+  std::vector<WallSpec> words;
+  for (int kind = 0; kind < kKinds; kind++) {
+    Random random(1);
+    FakeHost host;
+    words.push_back(wall_of({static_cast<Kind>(kind)}, random));
+    World world(host, words.back());
+    add_spheres(world, 1, random);
+    world.take_step(Step::setup);
+    world.go(20);
+    states.push_back(saved(world));
+    if (static_cast<Kind>(kind) != Kind::moves) continue;
+    world.wall->set_motion(0, RigidMotion(), {world.now, kDt});
+    world.go(5);
+    states.push_back(saved(world));
+  }
+  for (std::size_t kind = 0; kind < words.size(); kind++) {
+    const Saved &state = states[kind + (kind > static_cast<std::size_t>(Kind::moves))];
+    FakeHost host;
+    const std::unique_ptr<World> once = restored(state, host, words[kind]);
+    once->go(8);
+    for (std::size_t before = 0; before < states.size(); before++) {
+      FakeHost other_host;
+      const std::unique_ptr<World> twice =
+          restored(state, other_host, words[kind], &states[before]);
+      twice->go(8);
+      EXPECT_EQ(once->numbers(), twice->numbers())
+          << kNames[kind] << " after state " << before << " of " << states.size();
+      EXPECT_EQ(host.warnings, other_host.warnings) << kNames[kind] << " after state " << before;
     }
   }
 }

@@ -561,9 +561,7 @@ void BodyCoat::take_restored(const std::deque<MeshPart> &meshes)
     at += size;
     for (int k = 0; k < springs.count(i); k++) {
       const Spring &s = springs.of(i)[k];
-      const bool is_there = s.mesh < others_.size() &&
-                            !meshes[others_[s.mesh]].springs_are_foreign &&
-                            meshes[others_[s.mesh]].grid.has(s.feature);
+      const bool is_there = s.mesh < others_.size() && meshes[others_[s.mesh]].has(s.feature);
       if (is_there) continue;
       lost = true;
       springs.clear(i);

@@ -6,7 +6,9 @@
 #include "wall/mesh_name.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <string>
+#include <vector>
 
 namespace lsdcd {
 
@@ -23,6 +25,17 @@ MeshIdentity identity_of(const MeshPart &m)
   const MeshReport &r = m.grid.report();
   return {static_cast<std::int64_t>(r.facets), static_cast<std::int64_t>(r.edges),
           static_cast<std::int64_t>(r.vertices), number_of(m.grid.mesh_fingerprint())};
+}
+
+// Returns a state that save() has made as all processes are to give it.
+WallState on_all(Host &host, const WallState &saved)
+{
+  std::vector<double> numbers = saved.blocks().numbers();
+  std::uint64_t n = numbers.size();
+  host.broadcast(&n, sizeof n, 0);
+  numbers.resize(n);
+  host.broadcast(numbers.data(), n * sizeof(double), 0);
+  return WallState::from(State(WallState::kKind, numbers.data(), n));
 }
 
 }    // namespace
@@ -69,6 +82,7 @@ void StateKeeper::restore(const WallState &was, const Step &now)
 {
   const std::size_t here = of_.meshes.size(), there = was.meshes.size();
   const std::string saved = host_.names().saved;
+  go_back(now);
   for (std::size_t k = 0; k < std::min(there, here); k++) {
     MeshPart &m = of_.meshes[k];
     m.springs_are_foreign = !(was.meshes[k].mesh == identity_of(m));
@@ -92,6 +106,22 @@ void StateKeeper::restore(const WallState &was, const Step &now)
                                  std::to_string(here) + " are not carried over"
                            : "those after mesh " + std::to_string(there) +
                                  " start without springs, motion, loads and wear"));
+}
+
+// What the last state had, and the next one has not, must not stay.
+void StateKeeper::go_back(const Step &now)
+{
+  if (!made_) {
+    made_ = std::make_unique<Made>(Made{on_all(host_, save(0)), {}});
+    for (const MeshPart &m : of_.meshes) made_->motions.push_back(m.spec.motion);
+    return;
+  }
+  for (MeshPart &m : of_.meshes) {
+    const std::size_t k = static_cast<std::size_t>(m.index);
+    m.springs_are_foreign = false;
+    m.spec.motion = made_->motions[k];
+    restore_mesh(m, made_->state.meshes[k], now);
+  }
 }
 
 void StateKeeper::restore_mesh(MeshPart &m, const MeshState &was, const Step &now)

@@ -12,6 +12,8 @@
 #include "wall/step_totals.h"
 
 #include <deque>
+#include <memory>
+#include <vector>
 
 namespace lsdcd {
 
@@ -39,17 +41,27 @@ class StateKeeper {
 
   // Throws InputError, the same on all processes, where restore() would put a mesh where it may not be.
   void check(const WallState &was) const;
-  // Takes a state that was checked, the same on all processes. The first process warns of what
+  // Takes a state that was checked, the same on all processes, in place of any that was restored before. The first process warns of what
   // does not fit. Collective.
   void restore(const WallState &was, const Step &now);
+  // Nothing is restored from now on.
+  void end_restoring() { made_.reset(); }
 
  private:
+  // A wall to which nothing was restored.
+  struct Made {
+    WallState state;
+    std::vector<RigidMotion> motions;    // a saved state may have stopped them
+  };
+
+  void go_back(const Step &now);
   bool is_restored(const MeshPart &m, const WallState &was) const;
   void restore_mesh(MeshPart &m, const MeshState &was, const Step &now);
 
   Host &host_;
   const WallSpec &wall_;
   Parts of_;
+  std::unique_ptr<Made> made_;    // null: nothing was restored
 };
 
 }    // namespace lsdcd

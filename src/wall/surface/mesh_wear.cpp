@@ -307,9 +307,10 @@ void MeshWear::restore(const SurfaceState &was)
   if (!host_.is_first()) return;
   pending_ = was.pending;
   carried_ = was.carried;
+  is_reported_ = false;
   for (std::size_t v = 0; v < held_.size(); v++) {
     is_reported_ |= was.held[v] != 0 && !held_[v];
-    held_[v] |= was.held[v] != 0;
+    held_[v] = was.held[v] != 0;
   }
 }
 
