@@ -214,6 +214,16 @@ Saved saved(World &from)
   return all;
 }
 
+// Returns what meshes keep beside what shows: springs of coats, and wear that moves no vertex yet.
+std::vector<Real> kept(Wall &wall)
+{
+  std::vector<Real> all;
+  for (const MeshState &mesh : wall.save().meshes)
+    for (const std::vector<Real> *of : {&mesh.coat, &mesh.surface.pending, &mesh.surface.held})
+      all.insert(all.end(), of->begin(), of->end());
+  return all;
+}
+
 // Another wall of these words that goes on from there, with the spheres of this process: each of as many as there are. `before`: a
 // state that it gets first, of which nothing may stay; null: it gets none.
 std::unique_ptr<World> restored(const Saved &from, FakeHost &host, const WallSpec &words,
@@ -379,6 +389,7 @@ void try_sequence(unsigned seed, std::string &text)
   whole.go(10);
   other->go(10);
   ASSERT_EQ(whole.numbers(), other->numbers()) << text;
+  ASSERT_EQ(kept(*whole.wall), kept(*other->wall)) << text;
   const std::vector<Vec3> there = on_others(saved(whole), whole.words, &states.front(), 5);
   whole.go(10);
   // Sums of processes round otherwise.
@@ -398,6 +409,40 @@ TEST(wall_sequences, go_on_from_saved_states_to_the_bit_or_say_why_not)
       ADD_FAILURE() << text << ": " << e.what();
     }
   }
+}
+
+// Springs of coats are in the saved state. A coat and nodes refuse each other.
+TEST(wall_sequences, coats_go_on_beside_all_other_meshes_and_by_all_joints)
+{
+  for (int joint = 0; joint < 5; joint++)
+    for (const Kind kind :
+         {Kind::moves, Kind::servo, Kind::posed, Kind::body, Kind::coated, Kind::wears}) {
+      Random random(static_cast<unsigned>(joint));
+      WallSpec words = wall_of({Kind::coated, kind}, random);
+      for (MeshSpec &mesh : words.meshes)
+        if (mesh.body.present) mesh.body.joint.kind = static_cast<JointKind>(joint);
+      for (MeshSpec &mesh : words.meshes)
+        if (mesh.body.present) mesh.body.velocity = joint == 0 ? Vec3{0.1, 0, 0} : Vec3{0, 0, 0};
+      FakeHost host, other_host;
+      World whole(host, words);
+      add_spheres(whole, 2, random);
+      whole.take_step(Step::setup);
+      whole.go(15);
+      const Saved state = saved(whole);
+      const std::string text =
+          "joint " + std::to_string(joint) + " beside " + kNames[static_cast<int>(kind)];
+      const std::unique_ptr<World> other = restored(state, other_host, words);
+      EXPECT_TRUE(other_host.warnings.empty()) << text << ": " << other_host.warnings.front();
+      EXPECT_GT(whole.wall->save().meshes[0].coat.size(), 2u) << text << ": no springs";
+      whole.go(10);
+      other->go(10);
+      EXPECT_EQ(whole.numbers(), other->numbers()) << text;
+      EXPECT_EQ(kept(*whole.wall), kept(*other->wall)) << text;
+      if (joint != static_cast<int>(kind) % 5) continue;    // enough of them
+      const std::vector<Vec3> there = on_others(state, words, nullptr, 5);
+      for (std::size_t i = 0; i < there.size(); i++)
+        EXPECT_NEAR(norm(there[i] - whole.x[i]), 0, 1e-10) << text;
+    }
 }
 
 // Those of the same words, and of others.
