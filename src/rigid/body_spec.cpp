@@ -55,22 +55,18 @@ void check_has_coordinate(const BodySpec &body)
                        " works only with a joint hinge or slider, and this body has neither");
 }
 
-void check_limits(const JointDrive &d, Real coordinate)
+std::string limits_text(const JointDrive &d)
 {
-  const std::string limits = "the limits " + number_text(d.lo) + " " + number_text(d.hi);
-  if (std::isnan(d.lo) || std::isnan(d.hi)) throw InputError(limits + " are not numbers");
-  if (d.lo > d.hi) throw InputError(limits + " are reversed: the lower one comes first");
-  if (d.lo > coordinate || d.hi < coordinate)
-    throw InputError(limits + " do not contain " + number_text(coordinate) +
-                     ", which is where the body " + (coordinate == 0 ? "begins" : "is"));
+  return "the limits " + number_text(d.lo) + " " + number_text(d.hi);
 }
 
-void check_drive(const JointDrive &d, Real coordinate)
+void check_drive(const JointDrive &d)
 {
   check_not_below_0("the stiffness", d.stiffness);
   check_not_below_0("the damping", d.damping);
   check_finite("rest of the spring and the motor", {d.rest, d.motor, 0});
-  check_limits(d, coordinate);
+  if (std::isnan(d.lo) || std::isnan(d.hi)) throw InputError(limits_text(d) + " are not numbers");
+  if (d.lo > d.hi) throw InputError(limits_text(d) + " are reversed: the lower one comes first");
 }
 
 void check_mass(const BodySpec &body)
@@ -86,7 +82,7 @@ void check_mass(const BodySpec &body)
 
 }    // namespace
 
-void check_body(const BodySpec &body, Real coordinate)
+void check_body(const BodySpec &body)
 {
   if (!body.present) return;
   const int kind = static_cast<int>(body.joint.kind);
@@ -96,7 +92,7 @@ void check_body(const BodySpec &body, Real coordinate)
   if (body.joint.has_point()) check_finite("the joint's point", body.joint.point);
   check_axis(body.joint);
   check_has_coordinate(body);
-  check_drive(body.drive, coordinate);
+  check_drive(body.drive);
   check_finite("the load", body.load);
   check_finite("the moment", body.moment);
   check_finite("the velocity", body.velocity);
@@ -104,6 +100,13 @@ void check_body(const BodySpec &body, Real coordinate)
   check_finite("gravity", body.gravity);
   check_not_below_0("the spacing of the coat", body.coat.spacing);
   check_not_below_0("the radius of the coat", body.coat.radius);
+}
+
+void check_limits(const JointDrive &drive, Real coordinate)
+{
+  if (drive.lo <= coordinate && coordinate <= drive.hi) return;
+  throw InputError(limits_text(drive) + " do not contain " + number_text(coordinate) +
+                   ", which is where the body " + (coordinate == 0 ? "begins" : "is"));
 }
 
 }    // namespace lsdcd

@@ -35,8 +35,9 @@ struct BodySpec {
 };
 
 // Throws InputError where no body is so: a moment of inertia, a direction, a range or a word that its joint does not
-// have. Parsers and callers without one get the same sentences. Density 0: `mass` is checked. `coordinate`: of the
-// joint, now.
-void check_body(const BodySpec &body, Real coordinate = 0);
+// have. Parsers and callers without one get the same sentences. Density 0: `mass` is checked.
+void check_body(const BodySpec &body);
+// Throws InputError where the coordinate of the joint is outside of these limits.
+void check_limits(const JointDrive &drive, Real coordinate);
 
 }    // namespace lsdcd

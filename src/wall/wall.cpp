@@ -660,10 +660,9 @@ void Wall::log_change(const MeshPart &m, const std::string &text)
   if (!spec_.brief) host_.log(named(m, text));
 }
 
-// Checks and notes what is so of a mover that was made, changed or restored.
+// Notes what is so of a mover that was made, changed or restored.
 void Wall::mover_is_new(const MeshPart &m)
 {
-  if (host_.box().dimension == 2) m.mover->check_plane();
   any_pushed_ |= m.mover->is_pushed();
   timestep_.set_mobility(m.index, m.mover->most_mobility());
 }

@@ -463,6 +463,16 @@ def test_restart(folder):
         after, _ = go(folder, go_on + "run 150\n")
         fact(f"{joint}: it goes on from a restart file", after[-1] == whole[-1],
              str([k for k, (a, b) in enumerate(zip(after[-1], whole[-1])) if a != b]))
+        if "limits" not in words:
+            continue
+        # The coordinate has left 0: one of these has it, and neither has 0.
+        narrow = [go_on.replace("limits -1 1", limits) + "run 150\n" for limits in ("limits -1 -1e-9", "limits 1e-9 1")]
+        done = [lmp.run(one, folder) for one in narrow]
+        holds = [one.returncode == 0 for one in done]
+        fact(f"{joint}: limits without 0 that hold the coordinate go on, and others are refused", sorted(holds) == [False, True] and
+             "do not contain" in done[holds.index(False)].stdout.replace("\n", " "), done[0].stdout[-300:])
+        after, _ = go(folder, narrow[holds.index(True)])
+        fact(f"{joint}: with such limits the bits are the same", after[-1] == whole[-1])
 
 
 def test_changes(folder):

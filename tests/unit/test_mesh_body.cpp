@@ -236,6 +236,52 @@ TEST(mesh_body, gives_way_as_another_joint_of_a_restart_allows)
   EXPECT_NEAR(gives.along({1, 0, 0}, {1, 0, 0}), 0, 1e-12);
 }
 
+// Only a step says that no saved state gives it another place.
+TEST(mesh_body, begins_outside_of_its_limits_only_with_a_saved_state)
+{
+  FakeHost host, other, third;
+  WallSpec spec = cube({JointKind::slider, {0, 0, 0}, {1, 0, 0}});
+  spec.meshes[0].body.velocity = {1, 0, 0};
+  Scene first(host, spec);
+  first.set_up();
+  first.run(500);
+  spec.meshes[0].body.drive.lo = 0.4;
+  Scene second(other, spec), alone(third, spec);
+  second.wall->restore(first.wall->save(), {first.now, kDt});
+  second.now = first.now;
+  second.set_up();
+  second.run(1);
+  first.run(1);
+  EXPECT_EQ(second.body().centre(), first.body().centre());
+  try {
+    alone.set_up();
+    ADD_FAILURE();
+  } catch (const InputError &e) {
+    EXPECT_NE(std::string(e.what()).find("do not contain 0, which is where the body begins"),
+              std::string::npos)
+        << e.what();
+  }
+}
+
+// A change that takes it out of its limits is refused, and so is one that takes it out of the plane.
+TEST(mesh_body, keeps_what_it_was_where_a_change_is_refused)
+{
+  FakeHost host;
+  Scene scene(host, cube({JointKind::slider, {0, 0, 0}, {1, 0, 0}}));
+  host.simulation.dimension = 2;
+  scene.set_up();
+  scene.run(10);
+  const BodySpec was = scene.wall->meshes()[0].spec.body;
+  BodySpec leaves = was, outside = was;
+  leaves.joint.axis = {0, 0, 1};
+  outside.drive.lo = 1;
+  for (const BodySpec &to : {leaves, outside}) {
+    EXPECT_THROW(scene.wall->set_body(0, to), InputError);
+    EXPECT_TRUE(scene.wall->meshes()[0].spec.body.joint == was.joint);
+    EXPECT_EQ(scene.wall->meshes()[0].spec.body.drive.lo, was.drive.lo);
+  }
+}
+
 // It was at 0.5. One that is refused changes nothing.
 TEST(mesh_body, is_not_restored_outside_of_its_limits)
 {

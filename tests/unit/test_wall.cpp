@@ -749,6 +749,37 @@ TEST(Wall, whose_mesh_recedes_is_refused_in_two_dimensions)
   }
 }
 
+// A motion or servo that leaves the plane z = 0 changes nothing.
+TEST(Wall, keeps_its_motion_where_another_one_leaves_the_plane)
+{
+  FakeHost host;
+  host.simulation = wide_box();
+  host.simulation.dimension = 2;
+  WallSpec upright;
+  upright.meshes.resize(1);
+  upright.meshes.front().mesh =
+      std::make_shared<WeldedMesh>(weld(box_mesh({-1, -1, -1}, {1, 1, 1}), -1));
+  Wall wall(host, upright, WallUnits(), WallBackend(), "", StepClock{0, 0, 0, kDt});
+  MotionTerm term;
+  term.kind = MotionKind::wiggle;
+  term.amplitude = {0.1, 0, 0};
+  term.period = 1;
+  RigidMotion along, out;
+  along.add(term);
+  term.amplitude = {0, 0, 0.1};
+  out.add(term);
+  wall.set_motion(0, along, {0, kDt});
+  EXPECT_THROW(wall.set_motion(0, out, {0, kDt}), InputError);
+  ASSERT_EQ(wall.meshes().front().spec.motion.terms().size(), 1u);
+  EXPECT_EQ(wall.meshes().front().spec.motion.terms().front().amplitude.x, 0.1);
+  wall.set_motion(0, RigidMotion(), {0, kDt});
+  Servo up;
+  up.present = true;
+  up.axis = {0, 0, 1};
+  EXPECT_THROW(wall.set_servo(0, up), InputError);
+  EXPECT_FALSE(wall.meshes().front().servo().present);
+}
+
 TEST(Wall, has_a_mesh_from_the_first_process_on_all)
 {
   const Floor floor;

@@ -60,6 +60,7 @@ void check_plane(Host &host, const WallSpec &settings, const MeshPart &m)
 {
   if (host.box().dimension == 3) return;
   m.surface->check_plane();
+  m.mover->check_plane();
   const MeshReport &r = m.grid.report();
   if (!(r.lo.z < 0 && r.hi.z > 0))
     throw InputError(with_mesh_name(

@@ -19,7 +19,7 @@ void check_pressure(const WallSpec &settings, const MeshPart &m);
 void check_weld(Host &host, const WallSpec &settings, const MeshPart &m);
 
 // In two dimensions spheres feel the mesh where it cuts the plane z = 0. Throws InputError where it
-// does not cut it, and where it has nodes or wear moves its vertices; warns of faces that lean there.
+// does not cut it, where it has nodes or wear moves its vertices, and where it would leave that plane; warns of faces that lean there.
 // Collective.
 void check_plane(Host &host, const WallSpec &settings, const MeshPart &m);
 

@@ -78,14 +78,24 @@ BodyMover::BodyMover(Host &host, WallSpec &wall, const LawTable &laws, int mesh,
     throw InputError(named(e.what()));
   }
   motion().begin_posed();
+  check_spec(s);
   go_on(s, body);
   ask_about_degrees();
 }
 
-void BodyMover::check_as(const BodySpec &to, const RigidBody &as) const
+void BodyMover::check_spec(const BodySpec &to) const
 {
   try {
-    check_body(to, as.coordinate());
+    check_body(to);
+  } catch (const InputError &e) {
+    throw InputError(named(e.what()));
+  }
+}
+
+void BodyMover::check_limits(const BodySpec &to, const RigidBody &as) const
+{
+  try {
+    lsdcd::check_limits(to.drive, as.coordinate());
   } catch (const InputError &e) {
     throw InputError(named(e.what()));
   }
@@ -93,11 +103,11 @@ void BodyMover::check_as(const BodySpec &to, const RigidBody &as) const
 
 void BodyMover::go_on(const BodySpec &to, const RigidBody &as)
 {
-  check_as(to, as);
   spec().body = to;
   body_ = as;
   body_.drive = to.drive;
-  body_.hold_at_stop();
+  const Real at = body_.coordinate();
+  if (to.drive.lo <= at && at <= to.drive.hi) body_.hold_at_stop();
   mobility_ = body_.free_mobility();
   const MeshReport &r = grid_.report();
   bound_of_mobility_ = largest_in(mobility_, {r.lo, r.hi});
@@ -120,11 +130,14 @@ void BodyMover::set_body(const BodySpec &to)
   std::copy_n(to.moment_input, 3, now.moment_input);
   now.has_gravity = to.has_gravity;
   now.gravity = to.gravity;
+  check_spec(now);
+  check_keeps_plane(now.joint);
   RigidBody as = body_;
   if (!(now.joint == was.joint)) {
     as = RigidBody(body_.mass(), now.joint);
     as.begin_from(body_);
   }
+  if (place_is_known_) check_limits(now, as);
   go_on(now, as);
   if (now.drive.lo != was.drive.lo || now.drive.hi != was.drive.hi) ask_about_degrees();
 }
@@ -151,9 +164,17 @@ Real BodyMover::spring_and_kinetic_energy() const
 
 // ---- a step ------------------------------------------------------------------------------
 
+// A body without a saved state begins where it was made.
+void BodyMover::begin()
+{
+  check_limits(body_spec(), body_);
+  place_is_known_ = true;
+}
+
 void BodyMover::advance(const Step &to, const std::vector<Real> &inputs,
                         const LastLoad & /* load */)
 {
+  if (!place_is_known_) begin();
   motion_.advance(to, inputs);
   if (to.kind == Step::step) {
     body_.kick(to.dt / 2, load_);
@@ -351,9 +372,9 @@ std::string BodyMover::body_text() const
   return t;
 }
 
-void BodyMover::check_plane() const
+void BodyMover::check_keeps_plane(const Joint &joint) const
 {
-  if (!body_spec().joint.keeps({0, 0, 1}))
+  if (host_.box().dimension == 2 && !joint.keeps({0, 0, 1}))
     throw InputError(
         named("in two dimensions a body needs a joint that keeps it in the plane z = 0: "
               "hinge or planar along z, or slider in the plane"));
@@ -389,7 +410,7 @@ RigidBody BodyMover::continued(const BodyState &was) const
 void BodyMover::check(const MeshState &was) const
 {
   motion_.check(was.motion);
-  if (was.body.present) check_as(body_spec(), continued(was.body));
+  if (was.body.present) check_limits(body_spec(), continued(was.body));
 }
 
 void BodyMover::restore(const MeshState &of, const Step &now)
@@ -405,6 +426,7 @@ void BodyMover::restore(const MeshState &of, const Step &now)
     go_on(body_spec(), body_);
     return;
   }
+  place_is_known_ = true;
   go_on(body_spec(), continued(was));
   load_ = was.load;
   if (!is_same(was))

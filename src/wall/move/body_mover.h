@@ -35,7 +35,7 @@ class BodyMover final : public Mover {
   bool may_jump() const override { return false; }
   const BodyMover *body() const override { return this; }
 
-  void check_plane() const override;
+  void check_plane() const override { check_keeps_plane(body_spec().joint); }
   void check_snapshot(const Step &at) const override;
 
   bool is_half_done() const override { return pending_; }
@@ -66,10 +66,12 @@ class BodyMover final : public Mover {
 
  private:
   const BodySpec &body_spec() const { return spec().body; }
-  // Checks what becomes of it, takes it, and makes all that follows from it: for a new body, other words and a saved state.
-  // Throws InputError, and then nothing has changed. Collective.
+  // Takes what becomes of it, and makes all that follows: for a new body, other words and a saved state. Collective.
   void go_on(const BodySpec &to, const RigidBody &as);
-  void check_as(const BodySpec &to, const RigidBody &as) const;
+  void check_keeps_plane(const Joint &joint) const;
+  void check_spec(const BodySpec &to) const;
+  void check_limits(const BodySpec &to, const RigidBody &as) const;
+  void begin();
   void ask_about_degrees() const;
   bool is_same(const BodyState &was) const;
   RigidBody continued(const BodyState &was) const;
@@ -88,6 +90,7 @@ class BodyMover final : public Mover {
   Mobility mobility_;
   Real most_mobility_ = 0, bound_of_mobility_ = 0;    // of faces; of any point
   Wrench load_;
+  bool place_is_known_ = false;    // by a step or a saved state; a new body may get one yet
   bool pending_ = false;
   Real dt_ = 0;    // of the step that is pending
 

@@ -59,13 +59,12 @@ Real Mover::known_period() const
   return motion_.has_inputs() ? 0 : motion().longest_period();
 }
 
-void Mover::check_plane() const
+void Mover::check_keeps_plane(const RigidMotion &motion) const
 {
-  if (!motion().any() || motion().keeps({0, 0, 1})) return;
-  std::string text = motion_text(motion().terms(), wall_.inputs);
-  if (has_servo())
-    text +=
-        (text.empty() ? "servo " : " servo ") + lsdcd::servo_text(motion().servo(), wall_.inputs);
+  if (host_.box().dimension != 2 || !motion.any() || motion.keeps({0, 0, 1})) return;
+  std::string text = motion_text(motion.terms(), wall_.inputs);
+  if (motion.servo().present)
+    text += (text.empty() ? "servo " : " servo ") + lsdcd::servo_text(motion.servo(), wall_.inputs);
   throw InputError(
       named("in two dimensions a mesh must move in the plane z = 0 and turn about z, not by '" +
             text + "'"));

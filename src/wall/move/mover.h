@@ -72,8 +72,8 @@ class Mover {
   // Returns the body that it is, or null.
   virtual const BodyMover *body() const { return nullptr; }
 
-  // Throws where a mesh would leave the plane of a run in two dimensions.
-  virtual void check_plane() const;
+  // Throws where the mesh would leave the plane of a run in two dimensions.
+  virtual void check_plane() const { check_keeps_plane(motion()); }
   // Throws where the pose or velocities in a snapshot are not known from its time alone.
   virtual void check_snapshot(const Step &at) const { motion_.check_snapshot(at); }
 
@@ -127,6 +127,8 @@ class Mover {
   MeshSpec &spec() const { return wall_.meshes[mesh_]; }
   RigidMotion &motion() const { return spec().motion; }
   std::string named(const std::string &text) const;
+  // Throws where this motion would take the mesh out of the plane of a run in two dimensions.
+  void check_keeps_plane(const RigidMotion &motion) const;
 
   Host &host_;
   WallSpec &wall_;

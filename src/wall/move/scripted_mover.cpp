@@ -28,6 +28,9 @@ void ScriptedMover::check_posed(bool posed) const
 void ScriptedMover::set_motion(const RigidMotion &to, const Step &now)
 {
   check_posed(false);
+  RigidMotion next = to;
+  next.servo() = motion().servo();
+  check_keeps_plane(next);
   motion_.set(to, now);
 }
 
@@ -40,6 +43,9 @@ void ScriptedMover::set_pose(const Pose &pose)
 void ScriptedMover::set_servo(const Servo &to)
 {
   check_posed(false);
+  RigidMotion next = motion();
+  next.servo() = to;
+  check_keeps_plane(next);
   motion_.set(to);
   controller_.begin_anew();
 }
