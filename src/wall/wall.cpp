@@ -12,7 +12,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <utility>
 
 namespace lsdcd {
@@ -202,9 +201,14 @@ void Wall::begin(const HostSpheres &spheres, const StepInput &input)
     if (cutoff() > 0) timestep_.check(step.dt, on_cpu(spheres).all());
     look_at_range(spheres);
   }
+  failure_.reset();    // that of the last step is asked for until here
   if (cutoff() == 0) return;
-  on_this_process(spheres, [&] { history_.to_engine(spheres.n); });
-  engine_->begin(input.when);
+  try_here([&] {
+    on_this_process(spheres, [&] {
+      history_.to_engine(spheres.n);
+      engine_->begin(input.when);
+    });
+  });
 }
 
 // In a snapshot, quantities that follow from the time alone are right; those that are added up from step to
@@ -432,7 +436,7 @@ void Wall::clear_totals()
 
 void Wall::submit(const HostSpheres &spheres)
 {
-  if (step_state() != StepState::begun) return;
+  if (step_state() != StepState::begun || failure_) return;
   const StepSettings step = step_settings();
   on_this_process(spheres, [&] {
     times_.begin();
@@ -459,18 +463,21 @@ void Wall::collect(const HostSpheres &spheres)
     nodes_.clear_forces();
 }
 
-// A process whose step has failed takes part in what all processes do together, with no contacts: they do not wait for it.
+// Runs a part of a step. A process whose step has failed takes part in what all processes do together, with no contacts: they do
+// not wait for it, and finish() throws what it was.
+template <class Work>
+void Wall::try_here(Work &&work)
+{
+  try {
+    if (!failure_) work();
+  } catch (const InputError &e) {
+    if (!e.is_local || host_.processes() == 1) throw;
+    failure_ = e;
+  }
+}
+
 void Wall::finish(const HostSpheres &spheres)
 {
-  std::optional<InputError> failure;
-  const auto try_here = [&](auto &&work) {
-    try {
-      if (!failure) work();
-    } catch (const InputError &e) {
-      if (!e.is_local || host_.processes() == 1) throw;
-      failure = e;
-    }
-  };
   try_here([&] { submit(spheres); });
   if (coats_.any()) {
     times_.begin();
@@ -478,18 +485,17 @@ void Wall::finish(const HostSpheres &spheres)
     times_.end(TimeReport::forces);
   }
   try_here([&] { collect(spheres); });
-  step_failed_ = failure.has_value();
   totals_.expire();
   for (MeshPart &m : meshes_) m.mover->end(input_.step, results());
-  if (cutoff() > 0) nodes_.agree_on_forces(step_failed_);
+  if (cutoff() > 0) nodes_.agree_on_forces(failure_.has_value());
   note_step(spheres);
-  if (failure) throw *failure;
+  if (failure_) throw *failure_;
 }
 
 // Returns what the last step left on this process, or null where there is none.
 StepResults *Wall::results() const
 {
-  return cutoff() > 0 && !step_failed_ ? &engine_->results() : nullptr;
+  return cutoff() > 0 && !failure_ ? &engine_->results() : nullptr;
 }
 
 // Adds a step to all that goes over steps.

@@ -5,6 +5,7 @@
 // its force and torque.
 #pragma once
 
+#include "base/input_error.h"
 #include "wall/checks/overlap_monitor.h"
 #include "wall/checks/timestep_check.h"
 #include "wall/coat/body_coats.h"
@@ -24,6 +25,7 @@
 #include <deque>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -88,7 +90,8 @@ class Wall {
   void begin_run(std::int64_t step, bool virial);
 
   // Begins a step: advances the clock, moves the meshes, and builds grids where they do not fit. Where spheres are in
-  // the memory of a GPU, what the step reads of them must be there once the host's stream has done its work so far.
+  // the memory of a GPU, what the step reads of them must be there once the host's stream has done its work so far. What one of several
+  // processes cannot do alone finish() throws there, once all have come to it.
   void begin(const HostSpheres &spheres, const StepInput &input);
   // Moves the vertices of meshes that recede by wear, where that is due in this step. A host that reads the surface before begin()
   // calls it; otherwise begin() does.
@@ -209,6 +212,8 @@ class Wall {
   }
   template <class Work>
   void on_this_process(const HostSpheres &spheres, Work &&work);
+  template <class Work>
+  void try_here(Work &&work);
 
   void begin_snapshot(int n, const Step &step);
   void check_history(int n);
@@ -269,10 +274,10 @@ class Wall {
   NodeMeshes nodes_;
   StateKeeper keeper_;
 
-  StepInput input_;             // of the last begin()
-  bool has_begun_ = false;      // a step
-  bool step_failed_ = false;    // the last one, on this process
-  bool continued_ = false;      // from a saved state
+  StepInput input_;                      // of the last begin()
+  bool has_begun_ = false;               // a step
+  std::optional<InputError> failure_;    // of the last step on this process, where there are others
+  bool continued_ = false;               // from a saved state
   bool springs_told_ = false;
   bool points_warned_ = false, snapshot_warned_ = false;
   SphereRange range_;    // for gains of servos and the timestep of bodies

@@ -15,9 +15,11 @@ namespace {
 // adds forces at once.
 class InPlaceForHost : public WallEngine {
  public:
-  InPlaceForHost(std::unique_ptr<WallEngine> engine, bool cuda) :
-      engine_(std::move(engine)), x_(cuda), v_(cuda), omega_(cuda), force_(cuda), torque_(cuda),
-      radius_(cuda), mass_(cuda), temperature_(cuda), heat_(cuda), mask_(cuda)
+  InPlaceForHost(std::unique_ptr<WallEngine> engine, bool cuda,
+                 std::function<void()> before_begin) :
+      engine_(std::move(engine)),
+      before_begin_(std::move(before_begin)), x_(cuda), v_(cuda), omega_(cuda), force_(cuda),
+      torque_(cuda), radius_(cuda), mass_(cuda), temperature_(cuda), heat_(cuda), mask_(cuda)
   {
   }
 
@@ -42,7 +44,11 @@ class InPlaceForHost : public WallEngine {
   }
   bool has_moved(const Spheres &s) override { return engine_->has_moved(places(s)); }
 
-  void begin(When /*when*/) override { state_ = StepState::begun; }
+  void begin(When /*when*/) override
+  {
+    if (before_begin_) before_begin_();
+    state_ = StepState::begun;
+  }
 
   void submit(const Spheres &host, const StepSettings &step) override
   {
@@ -119,6 +125,7 @@ class InPlaceForHost : public WallEngine {
   }
 
   std::unique_ptr<WallEngine> engine_;
+  std::function<void()> before_begin_;
   int turn_ = 0;
   Spheres host_;
   DeviceArray<Real> x_, v_, omega_, force_, torque_, radius_, mass_, temperature_, heat_;
@@ -127,11 +134,12 @@ class InPlaceForHost : public WallEngine {
 
 }    // namespace
 
-std::unique_ptr<WallEngine> in_place(EngineSettings settings)
+std::unique_ptr<WallEngine> in_place(EngineSettings settings, std::function<void()> before_begin)
 {
   const bool cuda = test_on_cuda();
-  return std::make_unique<InPlaceForHost>(
-      cuda ? make_cuda_engine_in_place(settings, 0, nullptr) : make_cpu_engine(settings), cuda);
+  return std::make_unique<InPlaceForHost>(cuda ? make_cuda_engine_in_place(settings, 0, nullptr)
+                                               : make_cpu_engine(settings),
+                                          cuda, std::move(before_begin));
 }
 
 std::unique_ptr<WallEngine> make_test_engine(EngineSettings settings)

@@ -6,6 +6,7 @@
 
 #include "engine/engine.h"
 
+#include <functional>
 #include <memory>
 
 namespace lsdcd {
@@ -17,7 +18,9 @@ std::unique_ptr<WallEngine> make_test_engine(EngineSettings settings);
 // Engines to compare with: that of the CPU, and one for particles in the memory of the tested device, with
 // other layouts.
 std::unique_ptr<WallEngine> on_cpu(EngineSettings settings);
-std::unique_ptr<WallEngine> in_place(EngineSettings settings);
+// `before_begin`: called by its begin(), where it may throw.
+std::unique_ptr<WallEngine> in_place(EngineSettings settings,
+                                     std::function<void()> before_begin = {});
 // One on the CPU that copies as if it were on a GPU.
 std::unique_ptr<WallEngine> with_mirror(EngineSettings settings);
 

@@ -10,6 +10,8 @@
 #include "support/fake_host.h"
 #include "support/grains.h"
 #include "support/meshes.h"
+#include "support/test_engine.h"
+#include "support/wall_scene.h"
 #include "wall/wall.h"
 
 #include <gtest/gtest.h>
@@ -788,6 +790,36 @@ TEST(Wall, has_a_mesh_from_the_first_process_on_all)
     EXPECT_EQ(scene.wall->meshes().front().grid.report().facets, 2u);
     ASSERT_NE(scene.wall->meshes().front().grid.mesh(), nullptr);
     EXPECT_EQ(scene.wall->meshes().front().grid.mesh()->vertices.size(), 4u);
+  });
+}
+
+// Sums of servos, bodies and outputs, in that step and after it, are those of the others.
+TEST(Wall, goes_on_with_a_process_that_cannot_begin_a_step)
+{
+  const Floor floor;
+  on_processes(2, [&](FakeHost &host) {
+    bool is_full = false;
+    WallBackend backend;
+    backend.make_engine = [&](const EngineSettings &settings) {
+      return in_place(settings, [&] {
+        if (is_full) throw InputError("there is no memory");
+      });
+    };
+    WallSpec wall = floor.wall();
+    wall.average_every = 1;
+    WallScene scene(host, wall, WallUnits(), kDt, backend);
+    scene.add({0.3, 0.2, 0.49}, 0.5);
+    scene.set_up();
+    scene.run(1);
+    is_full = host.rank() == 1;
+    if (host.rank() == 1)
+      EXPECT_THROW(scene.run(1), InputError);
+    else
+      scene.run(1);
+    EXPECT_EQ(scene.wall->totals().mesh(0).contacts, 1);
+    is_full = false;
+    scene.run(1);
+    EXPECT_EQ(scene.wall->totals().mesh(0).contacts, 2);
   });
 }
 
