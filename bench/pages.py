@@ -170,6 +170,27 @@ def cost(rows):
             "\n".join(f"* {name}: commit {commit}." for name, commit in commits.items()))
 
 
+def scale(rows):
+    """Of a closed box full of grains on several GPUs."""
+    walls = sorted((r for r in rows if r["case"] == "closed box"), key=lambda r: (int(r["triangles"]), int(r["spheres"])))
+
+    def without(r):
+        return find(rows, case="closed box, no wall", triangles=r["triangles"], spheres=r["spheres"])
+
+    def cells(r):
+        one = find(walls, ranks=1) or r
+        alone, f = without(r), facts(r)
+        each = int(r["spheres"]) / int(f["ranks"])
+        speed_up = float(one["median_ms"]) / float(r["median_ms"]) * each / int(one["spheres"]) * int(facts(one)["ranks"])
+        return [f["ranks"], count(r["spheres"]), count(r["triangles"]), number(alone["median_ms"]), number(r["median_ms"]),
+                f"{100 * (float(f['over_no_wall']) - 1):.1f}", f"{speed_up:.2f}", number(f"{int(f['mib']) / 1024:.3g}"),
+                f"{int(f['mib']) * 1024**2 / each:.0f}", number(facts(alone)["make_s"]), number(f["setup_s"])]
+
+    heads = ["GPUs", "grains", "triangles", "step without a wall, ms", "with it, ms", "adds, %", "efficiency", "memory of a card, GiB",
+             "bytes a grain", "grains are made in, s", "the wall is set up in, s"]
+    return table(walls, heads, cells) + "\n\n" + machines(rows)
+
+
 LIGGGHTS_CASES = {"at the wall": "all at the wall, fixed", "turning": "all at the wall, fixed; the cylinder turns",
                   "in bulk": "in bulk, moving", "in bulk late": "in bulk, moving; `neigh_modify delay 10`",
                   "in bulk unchecked": "in bulk, moving; `neigh_modify every 20 check no`"}
@@ -273,7 +294,7 @@ def tables():
     kokkos_cpu, kokkos_cuda = (rows_of(f"kokkos_{device}.csv") for device in DEVICES)
     return {
         "performance.md": {"hours": hours(kokkos_cpu, kokkos_cuda), "cost": cost(kokkos_cuda + kokkos_cpu), "set-up": set_up(cpu, cuda),
-                           "liggghts": liggghts(rows_of("liggghts_cpu.csv"))},
+                           "liggghts": liggghts(rows_of("liggghts_cpu.csv")), "scale": scale(rows_of("scale_cuda.csv"))},
         "library-queries.md": {"point-costs": point_costs(cpu)},
         "effects.md": {"costs": costs(*(rows_of(f"effects_{device}.csv", ";") for device in DEVICES))},
         "accuracy.md": {"settings": settings([r for d in DEVICES for r in rows_of(f"tradeoff_vessel_{d}.csv")])},

@@ -92,7 +92,7 @@ def memory(path):
 def script(host, bed, options):
     return SCRIPT.format(plugin=host.plugin, processors=bed.processors(), lattice=bed.lattice, box=bed.box, region=bed.region,
                          dense=6 / math.pi, law=bed.law, skin=runs.SKIN, neighbours=bed.neighbours, gravity=bed.gravity, dt=runs.DT,
-                         warm=runs.WARM, chunks=f"run {options.steps}\n" * options.chunks, memory=MEMORY if host.on_gpu else "true",
+                         warm=runs.WARM, chunks=f"run {options.steps} pre no\n" * options.chunks, memory=MEMORY if host.on_gpu else "true",
                          mesh=bed.mesh)
 
 

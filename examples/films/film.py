@@ -47,8 +47,8 @@ FILMS = {
     "drum": Film("drum", (84, -78), (-0.215, 0.215, 0, 0.12, -0.215, 0.215), (0.1, "0.1 m"), ("m/s, speed", 0, 2), ["drum_*.stl"], "speed"),
     "valve": Film("valve", (84, -78), (-0.16, 0.16, 0, 0.12, -0.2, 0.3), (0.05, "50 mm"), [(ORANGE, ""), (BLUE, "layers of 40 mm")],
                   ["valve.stl", "rotor_*.stl"]),
-    "chute": Film("chute", (60, -62), (-0.02, 0.32, -0.09, 0.09, -0.3, 0.17), (0.05, "50 mm"), ("nm, worn depth", 0, 120),
-                  ["plate_*.vtp", "chute_sides.stl", "bin.stl"], "none", 1.2e-7, 0.0, ("chute_sides.stl", "bin.stl")),
+    "chute": Film("chute", (60, -62), (-0.02, 0.32, -0.09, 0.09, -0.3, 0.17), (0.05, "50 mm"), ("nm, worn depth", 0, 20),
+                  ["plate_*.vtp", "chute_sides.stl", "bin.stl"], "none", 2e-8, 0.0, ("chute_sides.stl", "bin.stl")),
     "wheel": Film("wheel", (84, -78), (-0.26, 0.26, 0, 0.12, -0.22, 0.45), (0.1, "0.1 m"), ("m/s, speed", 0, 2.5),
                   ["tank.stl", "wheel_*.stl"], "speed"),
 }
