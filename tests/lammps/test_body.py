@@ -245,7 +245,7 @@ compute l all reduce sum v_lx v_ly v_lz
 BOOK = "$(v_px:%.17g) $(v_py:%.17g) $(v_pz:%.17g) $(c_l[1]:%.17g) $(c_l[2]:%.17g) $(c_l[3]:%.17g)"
 
 
-def test_momentum(folder, steps=20000):
+def test_momentum(folder, steps=5000 if lmp.QUICK else 20000):
     """A free box, and spheres that hit it from inside and each other: momentum and angular momentum of all together."""
     side, mass, moment = 2.0, 5.0, (4.0, 5.0, 6.0)
     box(folder / "cut2.stl", (-side / 2,) * 3, (side / 2,) * 3, 2)
