@@ -14,7 +14,9 @@ namespace lsdcd {
 enum class OutputPart { every_wall, servo, body, wear, nodes, means };
 
 struct WallOutput {
-  int n;               // columns
+  int n;    // columns
+  const char
+      *name;    // the member of the library's lsdcd_wall_totals or, of a body, lsdcd_body_state
   const char *text;    // what they are, for the manual (doc/wall_output.rst)
   const char *unit;    // the kind of unit; empty: none
   bool adds_up;        // with the size of a system

@@ -7,6 +7,8 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <map>
+#include <regex>
 #include <sstream>
 #include <string>
 
@@ -33,6 +35,38 @@ TEST(wall_outputs, are_in_the_manual)
   EXPECT_NE(page.str().find("\n\n" + table + "\n"), std::string::npos)
       << "the list of the page is to be:\n"
       << table;
+}
+
+// How many numbers each double of a struct in the library's header has, by its name.
+std::map<std::string, int> members_of(const std::string &name)
+{
+  std::ifstream file(LSDCD_TEST_DIR "/../src/api/lsdcd.h");
+  std::stringstream read;
+  read << file.rdbuf();
+  const std::string header = read.str(), begins = "typedef struct " + name + " {";
+  const std::size_t at = header.find(begins), end = header.find("\n} " + name + ";");
+  std::map<std::string, int> members;
+  if (at == std::string::npos || end == std::string::npos) return members;
+  const std::regex comment("/\\*[^]*?\\*/"), line("double ([^;]*);"),
+      one("(\\w+)(?:\\[(\\d+)\\])?");
+  const std::string text = std::regex_replace(header.substr(at, end - at), comment, "");
+  for (std::sregex_iterator l(text.begin(), text.end(), line), none; l != none; ++l) {
+    const std::string names = (*l)[1];
+    for (std::sregex_iterator m(names.begin(), names.end(), one); m != none; ++m)
+      members[(*m)[1]] = (*m)[2].matched ? std::stoi((*m)[2]) : 1;
+  }
+  return members;
+}
+
+// Python reads its structs from the header. The elastic energy has no column.
+TEST(wall_outputs, are_in_the_structs_of_the_library)
+{
+  std::map<std::string, int> totals, body;
+  for (const WallOutput &row : wall_outputs())
+    (row.part == OutputPart::body ? body : totals)[row.name] += row.n;
+  totals["energy"] = 1;
+  EXPECT_EQ(members_of("lsdcd_wall_totals"), totals);
+  EXPECT_EQ(members_of("lsdcd_body_state"), body);
 }
 
 TEST(wall_outputs, go_up_to_the_last_that_a_wall_has)
