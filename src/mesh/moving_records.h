@@ -89,7 +89,8 @@ LSDCD_FN int side_of(const MeshTopologyView &mesh, int face, std::uint32_t i)
   return static_cast<int>(edge[1] == is) + 2 * static_cast<int>(edge[2] == is);
 }
 
-// The inward normals of the faces of edge i; `others` gets those of the faces past the second.
+// Puts the inward normals of the faces of edge i, and zeros in place of those that it has not; `others` gets those of the faces
+// past the second.
 LSDCD_FN void put_inward(const MeshTopologyView &mesh, const FaceRecord *faces, std::uint32_t i,
                          EdgeRecord &e, Vec3 *others)
 {
@@ -98,6 +99,7 @@ LSDCD_FN void put_inward(const MeshTopologyView &mesh, const FaceRecord *faces, 
     const int face = mesh.edge_face[first + k];
     (k < 2 ? e.inward[k] : others[k - 2]) = faces[face].inward[side_of(mesh, face, i)];
   }
+  for (int k = n; k < 2; k++) e.inward[k] = {0, 0, 0};
   e.n_faces = static_cast<std::uint32_t>(n);
 }
 

@@ -6,8 +6,59 @@
 
 #include "engine/nodes/moving_nodes.h"
 #include "mesh/mesh_features.h"
+#include "mesh/welded_mesh.h"
+#include "support/meshes.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <vector>
 
 namespace lsdcd {
+
+// Waves, with triangles of one size.
+inline WeldedMesh waves(int n = 16)
+{
+  WeldedMesh mesh = weld(floor_mesh(n, 8, 3), -1);
+  for (Vec3 &x : mesh.vertices) x.z = std::sin(x.x) * std::cos(2 * x.y);
+  return mesh;
+}
+// Waves before and after a move in which some faces bend, some are only shifted, and one becomes too thin for Real. The number of
+// faces is no multiple of a warp.
+struct MovedWaves {
+  WeldedMesh mesh = waves(13), after = mesh;
+
+  MovedWaves()
+  {
+    for (Vec3 &x : after.vertices)
+      x = x.x < 0 ? x + Vec3{0.25, -0.5, 0.125} : Vec3{x.x, x.y, x.z + 0.1 * std::sin(3 * x.y)};
+    const auto &thin = mesh.faces.back();
+    after.vertices[thin[2]] =
+        Real(0.5) * (after.vertices[thin[0]] + after.vertices[thin[1]]) + Vec3{0, 0, 1e-3};
+  }
+};
+
+template <class Row>
+void expect_same_bytes(const std::vector<Row> &a, const std::vector<Row> &b)
+{
+  ASSERT_EQ(a.size(), b.size());
+  EXPECT_EQ(0, std::memcmp(static_cast<const void *>(a.data()), static_cast<const void *>(b.data()),
+                           a.size() * sizeof(Row)));
+}
+
+// All records that a step reads.
+inline void expect_same_records(const MeshFeatures &a, const MeshFeatures &b)
+{
+  expect_same_bytes(a.faces, b.faces);
+  expect_same_bytes(a.edges, b.edges);
+  expect_same_bytes(a.vertices, b.vertices);
+  expect_same_bytes(a.edge_inward, b.edge_inward);
+  expect_same_bytes(a.vertex_direction, b.vertex_direction);
+  expect_same_bytes(a.edge_out, b.edge_out);
+  expect_same_bytes(a.vertex_out, b.vertex_out);
+  expect_same_bytes(a.face_parts, b.face_parts);
+}
 
 template <class B>
 MeshFeatures records_on_cpu(B &b, const MovingNodes<B> &nodes, const WeldedMesh &mesh)

@@ -23,13 +23,6 @@ namespace {
 
 constexpr Real kCutoff = 0.5, kAllowance = 0.1;
 
-// Waves, with triangles of one size.
-WeldedMesh waves(int n = 16)
-{
-  WeldedMesh mesh = weld(floor_mesh(n, 8, 3), -1);
-  for (Vec3 &x : mesh.vertices) x.z = std::sin(x.x) * std::cos(2 * x.y);
-  return mesh;
-}
 // Many triangles have one corner, so that lists are long.
 WeldedMesh cone()
 {
@@ -141,14 +134,6 @@ struct BackwardBackend : CpuBackend {
   }
 };
 
-template <class Row>
-void expect_same_bytes(const std::vector<Row> &a, const std::vector<Row> &b)
-{
-  ASSERT_EQ(a.size(), b.size());
-  EXPECT_EQ(0, std::memcmp(static_cast<const void *>(a.data()), static_cast<const void *>(b.data()),
-                           a.size() * sizeof(Row)));
-}
-
 void expect_same(const NodeLists &a, const NodeLists &b)
 {
   EXPECT_EQ(a.scalars.length, b.scalars.length);
@@ -176,21 +161,6 @@ TEST(node_grid, a_GPU_builds_the_same_lists)
                 node_lists_on_cuda(mesh, settings_of(mesh)));
 }
 #endif
-
-// Waves before and after a move in which some faces bend, some are only shifted, and one becomes too thin for Real. The number of
-// faces is no multiple of a warp.
-struct MovedWaves {
-  WeldedMesh mesh = waves(13), after = mesh;
-
-  MovedWaves()
-  {
-    for (Vec3 &x : after.vertices)
-      x = x.x < 0 ? x + Vec3{0.25, -0.5, 0.125} : Vec3{x.x, x.y, x.z + 0.1 * std::sin(3 * x.y)};
-    const auto &thin = mesh.faces.back();
-    after.vertices[thin[2]] =
-        Real(0.5) * (after.vertices[thin[0]] + after.vertices[thin[1]]) + Vec3{0, 0, 1e-3};
-  }
-};
 
 // That mesh has its records by long double. Normals of faces that are not thin are right to 4 kRoundoff/0.05 = 2e-14, as are
 // what follows from them; places are up to 8.
@@ -236,15 +206,7 @@ void expect_records_of_cpu(const MeshFeatures &found)
 {
   const MovedWaves waves;
   EXPECT_NE(waves.mesh.faces.size() % 32, 0u);
-  const MeshFeatures expected = moved_records_by(CpuBackend(), waves.mesh, waves.after);
-  expect_same_bytes(expected.faces, found.faces);
-  expect_same_bytes(expected.edges, found.edges);
-  expect_same_bytes(expected.vertices, found.vertices);
-  expect_same_bytes(expected.edge_inward, found.edge_inward);
-  expect_same_bytes(expected.vertex_direction, found.vertex_direction);
-  expect_same_bytes(expected.edge_out, found.edge_out);
-  expect_same_bytes(expected.vertex_out, found.vertex_out);
-  expect_same_bytes(expected.face_parts, found.face_parts);
+  expect_same_records(moved_records_by(CpuBackend(), waves.mesh, waves.after), found);
 }
 
 // Does what an engine on a GPU does, in the memory of the CPU: what is left to the CPU is made after the rest.

@@ -1,0 +1,126 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// What warps of a GPU do for meshes whose nodes move, by threads of a CPU: the bits of a CPU.
+#include "support/warp_on_cpu.h"
+
+#include "backend/backend_cpu.h"
+#include "engine/nodes/node_list.h"
+#include "support/meshes.h"
+#include "support/moved_records.h"
+#include "support/random.h"
+
+#include <gtest/gtest.h>
+
+namespace lsdcd::test_warps {
+namespace {
+
+using GpuWarp = Warp<kWarpSize>;
+
+// The memory is that of the CPU, and kernels for warps run on 32 threads, warp after warp.
+struct WarpBackend : CpuBackend {
+  static constexpr bool kOnCpu = false;
+
+  template <class F>
+  void for_each_in_warps(std::size_t n, const F &f, const std::uint32_t *n_at = nullptr)
+  {
+    if (n_at) n = *n_at <= n ? *n_at : 0;
+    for (std::size_t first = 0; first < n; first += kWarpSize)
+      warp_on_cpu::run([&] {
+        const std::size_t i = first + threadIdx.x;
+        f(GpuWarp(), i < n, i < n ? i : 0);
+      });
+  }
+};
+
+TEST(warps, that_leave_out_a_call_are_an_error)
+{
+  EXPECT_THROW(warp_on_cpu::run([] {
+                 const GpuWarp warp;
+                 const bool is_first = warp.rank() == 0 && warp.any(true);
+                 EXPECT_EQ(warp.vote(is_first), 1u);
+               }),
+               std::logic_error);
+}
+
+TEST(warps, make_the_records_of_a_CPU)
+{
+  const MovedWaves waves;
+  ASSERT_NE(waves.mesh.faces.size() % kWarpSize, 0u);
+  expect_same_records(moved_records_by(CpuBackend(), waves.mesh, waves.after),
+                      moved_records_by(WarpBackend(), waves.mesh, waves.after));
+}
+
+// Spheres near the triangles of a mesh.
+struct Spheres {
+  std::vector<QuerySphere> all;
+
+  Spheres(const WeldedMesh &mesh, int n, Real radius)
+  {
+    Random random(17);
+    for (int k = 0; k < n; k++) {
+      const auto &face =
+          mesh.faces[static_cast<std::size_t>(uniform(random, 0, 1) * double(mesh.faces.size()))];
+      Vec3 x = {0, 0, 0};
+      for (const int v : face) x += Real(1) / 3 * mesh.vertices[v];
+      for (int d = 0; d < 3; d++) x[d] += uniform(random, -radius, radius);
+      all.push_back({x, radius, radius, nullptr, 0});
+    }
+  }
+};
+
+void expect_same_list(const FeatureList &a, const FeatureList &b)
+{
+  EXPECT_TRUE(a.x == b.x);
+  EXPECT_EQ(a.margin, b.margin);
+  EXPECT_EQ(a.cutoff, b.cutoff);
+  ASSERT_EQ(a.n, b.n);
+  for (int i = 0; i < a.n; i++) EXPECT_EQ(a.code[i], b.code[i]);
+}
+
+// By all threads of a warp, and by some. `has_full`: are there lists that have no room for the whole way?
+void expect_lists(const WeldedMesh &mesh, Real radius, bool has_full)
+{
+  constexpr Real kGoing = 0.02;
+  Box box = {mesh.vertices.front(), mesh.vertices.front()};
+  for (const Vec3 &x : mesh.vertices) extend(box, x);
+  CpuBackend b;
+  const MeshFeatures features = make_moving_features(mesh, false);
+  const MeshFeaturesView records = features.view();
+  MovingGrid<CpuBackend> grid;
+  grid.build(b, records, {features.primitives.data(), features.primitives.size()},
+             {radius, 2 * kGoing, 1, box, "mesh"});
+  const GridView view = grid.view(records);
+  const Spheres spheres(mesh, 4 * kWarpSize, radius);
+  int n_shorter = 0, n_none = 0, n_long = 0;
+  for (std::size_t first = 0; first < spheres.all.size(); first += kWarpSize) {
+    const std::uint32_t patterns[] = {~0u, 1u << 9, 0x80100401, 0x00f0f00f};
+    const std::uint32_t mine = patterns[first / kWarpSize];
+    FeatureList lists[kWarpSize];
+    warp_on_cpu::run([&] {
+      const unsigned k = threadIdx.x;
+      gather_nodes(GpuWarp(), mine >> k & 1, view, spheres.all[first + k], kGoing, lists[k]);
+    });
+    for (unsigned k = 0; k < kWarpSize; k++) {
+      if (!(mine >> k & 1)) continue;
+      FeatureList expected;
+      gather_nodes(Warp<1>(), true, view, spheres.all[first + k], kGoing, expected);
+      expect_same_list(expected, lists[k]);
+      n_shorter += expected.margin >= 0 && expected.margin < kSkinFraction * radius;
+      n_none += expected.margin < 0;
+      n_long += expected.n > 3;
+    }
+  }
+  EXPECT_GT(n_long, 0);
+  EXPECT_EQ(n_shorter + n_none > 0, has_full);
+}
+
+TEST(warps, list_what_a_thread_lists)
+{
+  expect_lists(waves(), 0.5, true);
+  expect_lists(weld(cone_mesh(300, 6, 4), -1), 0.5, true);
+  expect_lists(weld(box_mesh({0, 0, 0}, {2, 2, 2}), -1), 0.5, false);
+}
+
+}    // namespace
+}    // namespace lsdcd::test_warps
