@@ -38,7 +38,7 @@ const MeshPart &part_that_deforms(const lsdcd_wall &wall, int mesh)
 {
   check_mesh(wall, mesh, 0);
   const MeshPart &part = wall.in->meshes()[static_cast<std::size_t>(mesh)];
-  return part.surface->recedes() && part.spec.mesh ? part : part_with_nodes(wall, mesh);
+  return part.surface->changes() && part.spec.mesh ? part : part_with_nodes(wall, mesh);
 }
 
 // The wall's mesh was welded once more.

@@ -248,7 +248,7 @@ void FixWallLsdcd::note(const std::string &text)
 void FixWallLsdcd::prepare_meshes()
 {
   run_core([&] {
-    wall->recede(step_now());
+    wall->change_surfaces(step_now());
     if (spec().has_bodies()) wall->body(0);    // completes the last step of all
   });
 }

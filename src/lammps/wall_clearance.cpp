@@ -60,7 +60,7 @@ void WallClearance::Surface::place(const std::vector<Vec3> &vertices, const Mesh
     search.reset();
   }
   pose = part.mover->pose_in(dt);
-  moves = part.moves() || part.surface->recedes();
+  moves = part.moves() || part.surface->changes();
   bounds = placed_bounds(pose, {mesh.report.lo, mesh.report.hi});
 }
 

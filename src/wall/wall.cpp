@@ -187,7 +187,7 @@ void Wall::begin(const HostSpheres &spheres, const StepInput &input)
   clock_.advance(step);
   if (device_.is_open() && step.kind == Step::step && (input.look || is_set_up_)) choose_device();
   is_set_up_ = step.kind == Step::setup;
-  recede(step);
+  change_surfaces(step);
   move(spheres, step);
   if (input.look)
     look_at_spheres(spheres, step.number);
@@ -401,10 +401,10 @@ void Wall::choose_if_due(const Spheres &spheres)
 }
 
 // Before the meshes move, so that the step is all of the new surface.
-void Wall::recede(const Step &step)
+void Wall::change_surfaces(const Step &step)
 {
   for (MeshPart &m : meshes_) {
-    if (!m.surface->recede(step, cutoff())) continue;
+    if (!m.surface->change(step, cutoff())) continue;
     grids_.follow_surface(m);
     engine_->expire_choice();
   }

@@ -93,9 +93,9 @@ class Wall {
   // the memory of a GPU, what the step reads of them must be there once the host's stream has done its work so far. What one of several
   // processes cannot do alone finish() throws there, once all have come to it.
   void begin(const HostSpheres &spheres, const StepInput &input);
-  // Moves the vertices of meshes that recede by wear, where that is due in this step. A host that reads the surface before begin()
+  // Moves the vertices of meshes that change by themselves, as by wear, where that is due in this step. A host that reads the surface before begin()
   // calls it; otherwise begin() does.
-  void recede(const Step &step);
+  void change_surfaces(const Step &step);
   // Chooses the spheres near the wall where that is due, and starts the step where the engine can work beside the host.
   // Local.
   void submit(const HostSpheres &spheres);

@@ -20,7 +20,6 @@ class RecedingSurface final : public MeshSurface {
   }
 
   bool changes() const override { return true; }
-  bool recedes() const override { return true; }
   Real removed() const override { return wear_.removed(); }
   Real held_back() const override { return wear_.held_back(); }
 
@@ -40,7 +39,7 @@ class RecedingSurface final : public MeshSurface {
                            "mesh of that time, which mesh_stl writes"));
   }
 
-  bool recede(const Step &step, Real cutoff) override
+  bool change(const Step &step, Real cutoff) override
   {
     if (!wear_.is_due(step)) return false;
     if (cutoff > 0 && grid_.has_images())

@@ -13,7 +13,7 @@
 
 namespace lsdcd {
 
-// In each step: recede(), begin(), and end() once contacts are computed. Errors are InputError, the same on all
+// In each step: change(), begin(), and end() once contacts are computed. Errors are InputError, the same on all
 // processes, with a text that names the mesh.
 class MeshSurface {
  public:
@@ -32,8 +32,7 @@ class MeshSurface {
   virtual bool changes() const { return false; }    // from step to step
   // Returns its nodes where these move, or null.
   virtual MeshNodes *nodes() const { return nullptr; }
-  // Returns whether wear moves it; then the volume that was removed, and that which is worn but held back, see MeshWear.
-  virtual bool recedes() const { return false; }
+  // Return the volume that wear has removed, and that which is worn but held back, see MeshWear.
   virtual Real removed() const { return 0; }
   virtual Real held_back() const { return 0; }
 
@@ -42,9 +41,9 @@ class MeshSurface {
   // Throws where it is not known in a snapshot.
   virtual void check_snapshot() const {}
 
-  // Moves vertices by what has worn, where that is due. Returns whether it did: then the grid is to be built again. `cutoff`: 0
+  // Moves vertices where that is due, but nodes. Returns whether it did: then the grid is to be built again. `cutoff`: 0
   // while there are no spheres. Collective.
-  virtual bool recede(const Step & /* step */, Real /* cutoff */) { return false; }
+  virtual bool change(const Step & /* step */, Real /* cutoff */) { return false; }
   // Begins a step.
   virtual void begin(const Step & /* step */, Real /* cutoff */) {}
   // Notes what the contacts of a step with spheres do to it.
