@@ -35,6 +35,7 @@ BENCHMARKS = {
     "hard-curves": ("hard_curves", CPU, SCRIPT + "hard_curves.py " + COMMON, "two hard cases beside LIGGGHTS, as curves"),
     "floor": ("floor", CPU, SCRIPT + "floor.py " + COMMON, "a mesh beside a flat plane"),
     "region": ("region", CPU, SCRIPT + "region.py " + COMMON, "a mesh beside fix wall/gran/region"),
+    "shapes": ("shapes", CPU, "{bin}/bench_shapes " + COMMON, "spheres, ellipsoids and superellipsoids at faces and edges"),
     "sides": ("sides", BOTH, "{bin}/bench_sides " + COMMON, "on which side of a closed mesh points are"),
     "nodes": ("nodes", BOTH, "{bin}/bench_nodes " + COMMON, "a rigid sheet and one whose nodes move"),
     "turning": ("turning", BOTH, "{bin}/bench_turning " + COMMON, "spheres at the wall of a drum at rest, and turning"),
@@ -42,7 +43,7 @@ BENCHMARKS = {
     "decomposition": ("decomposition", CPU, SCRIPT + "decomposition.py " + COMMON, "how 1e3 GPUs would share a vessel; computed"),
 }
 DEFAULT = ("query", "build", "step", "cache")
-ON_ONE_CORE = ("mesh-size", "effects", "bodies", "nodes")
+ON_ONE_CORE = ("mesh-size", "effects", "bodies", "nodes", "shapes")
 EFFECTS = {"cpu": "5000 401", "cuda": "200000 31"}    # spheres, rounds
 
 

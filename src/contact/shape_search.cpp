@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 
 namespace lsdcd {
 namespace {
@@ -22,6 +23,8 @@ constexpr Real kSameNormal = 1e-9, kSameDistance = 1e-12, kSameFoot = 1e-9;
 // The same where the overlap is more than the least radius of curvature.
 constexpr Real kSameDeepDistance = 1e-11, kSameDeepFoot = 1e-4;
 constexpr Real kFarthestCentre = 1e100;
+// How sure the foot of a plane is, in radii of the sphere around the grain; an ellipsoid's to this by the square of how slender it is.
+constexpr Real kUnsureFoot = 1e-2, kRounding = 64 * kRoundoff;
 
 bool is_near_anything(const PlacedGrain &grain)
 {
@@ -40,6 +43,46 @@ ShapeMinimum sure(const ShapeMinimum &m)
       std::to_string(m.distance) + ": please report its numbers");
 }
 
+// Can a point be within the grain? By its box, and an ellipsoid as a ball.
+bool may_hold(const Superellipsoid &s, const Vec3 &y)
+{
+  const Vec3 u = {y.x / s.half.x, y.y / s.half.y, y.z / s.half.z};
+  if (s.is_ellipsoid()) return norm_sq(u) < 1;
+  return (std::fabs(u.x) < 1) & (std::fabs(u.y) < 1) & (std::fabs(u.z) < 1);
+}
+
+// Can a segment cut the grain? By its box, and an ellipsoid as a ball.
+bool may_cut(const Superellipsoid &s, const Vec3 &from, const Vec3 &to)
+{
+  for (int k = 0; k < 3; k++)
+    if (std::fmin(from[k], to[k]) >= s.half[k] || std::fmax(from[k], to[k]) <= -s.half[k])
+      return false;
+  if (!s.is_ellipsoid()) return true;
+  Vec3 u, along;
+  for (int k = 0; k < 3; k++) {
+    u[k] = from[k] / s.half[k];
+    along[k] = to[k] / s.half[k] - u[k];
+  }
+  const Real at = std::fmin(std::fmax(-dot(u, along) / norm_sq(along), 0), 1);
+  return norm_sq(u + at * along) < 1;
+}
+
+// Returns the place of a number in an ascending list, its size where it is not there.
+template <class List, class NumberOf>
+std::uint32_t place_in(const List &list, std::uint32_t number, const NumberOf &number_of)
+{
+  const auto at =
+      std::lower_bound(list.begin(), list.end(), number,
+                       [&](const auto &a, std::uint32_t b) { return number_of(a) < b; });
+  return static_cast<std::uint32_t>(at != list.end() && number_of(*at) == number
+                                        ? at - list.begin()
+                                        : static_cast<std::ptrdiff_t>(list.size()));
+}
+
+struct SameNumber {
+  std::uint32_t operator()(std::uint32_t i) const { return i; }
+};
+
 int n_corners(FeatureCode primitive)
 {
   const FeatureKind kind = feature_kind(primitive);
@@ -50,34 +93,444 @@ int n_corners(FeatureCode primitive)
 
 void ShapeSearch::contacts(const PlacedGrain &grain, std::vector<ShapeContact> &found)
 {
-  if (!is_near_anything(grain)) return;
-  minima_.clear();
-  visit(grain, grain.shape.farthest, [&](std::uint32_t primitive) {
-    if (!is_beside(grain, primitive)) add(minimum_of(grain, primitive, 0), primitive);
-  });
-  find_contacts(grain, found);
+  find_near(grain, grain.shape.farthest, near_);
+  contacts(grain, near_, found);
 }
 
-void ShapeSearch::contacts(const PlacedGrain &grain, const std::vector<std::uint32_t> &among,
+void ShapeSearch::contacts(const PlacedGrain &grain, NearFeatures &near,
                            std::vector<ShapeContact> &found)
 {
   if (!is_near_anything(grain)) return;
-  minima_.clear();
-  for (const std::uint32_t primitive : among)
-    if (!is_beside(grain, primitive)) add(minimum_of(grain, primitive, 0), primitive);
-  find_contacts(grain, found);
+  if (!find_by_owner(grain, near)) find_by_triangle(grain, near);
+  add_contacts(grain, found);
 }
 
-void ShapeSearch::find_near(const PlacedGrain &grain, Real radius, std::vector<std::uint32_t> &near)
+// Is an edge within a flat patch, with a face on either side?
+bool ShapeSearch::is_flat(std::uint32_t edge) const
+{
+  const int first = view_.edge_first[edge];
+  if (view_.edge_first[edge + 1] - first != 2) return false;
+  std::uint32_t of[2];
+  Vec3 inward[2];
+  for (int k = 0; k < 2; k++) {
+    of[k] = view_.face_primitive[view_.edge_face[first + k]];
+    const TreePrimitive &p = view_.primitives[of[k]];
+    for (int side = 0; side < 3; side++)
+      if (p.edge[side] == edge) inward[k] = p.inward[side];
+  }
+  return patches_[of[0]] == patches_[of[1]] && dot(inward[0], inward[1]) < 0;
+}
+
+void ShapeSearch::find_near(const PlacedGrain &grain, Real radius, NearFeatures &near)
 {
   near.clear();
   if (!is_near_anything(grain)) return;
-  visit(grain, radius, [&](std::uint32_t primitive) { near.push_back(primitive); });
+  faces_.clear();
+  numbers_.clear();
+  visit(grain, radius, [&](std::uint32_t primitive) {
+    const TreePrimitive &p = view_.primitives[primitive];
+    near.vertices.insert(near.vertices.end(), p.vertex, p.vertex + n_corners(p.code));
+    if (feature_kind(p.code) == FeatureKind::vertex) return near.bare.push_back(primitive);
+    numbers_.insert(numbers_.end(), p.edge, p.edge + (n_corners(p.code) == 3 ? 3 : 1));
+    if (feature_kind(p.code) == FeatureKind::edge) return near.bare.push_back(primitive);
+    faces_.push_back(primitive);
+  });
+  list_edges(near);
+  for (const std::uint32_t primitive : faces_) list_face(near, primitive);
+  std::sort(near.rim.begin(), near.rim.end(), [&](const auto &a, const auto &b) {
+    return std::make_pair(patches_[a.primitive], a.primitive) <
+           std::make_pair(patches_[b.primitive], b.primitive);
+  });
+  std::sort(near.inner.begin(), near.inner.end(), [&](std::uint32_t a, std::uint32_t b) {
+    return std::make_pair(patches_[a], a) < std::make_pair(patches_[b], b);
+  });
+  std::uint32_t rim = 0, inner = 0;
+  while (rim < near.rim.size() || inner < near.inner.size()) {
+    std::uint32_t patch = kNoPrimitive;
+    if (rim < near.rim.size()) patch = patches_[near.rim[rim].primitive];
+    if (inner < near.inner.size()) patch = std::min(patch, patches_[near.inner[inner]]);
+    NearFeatures::Plane plane = {view_.primitives[patch].normal,
+                                 {0, 0, 0},
+                                 {HUGE_VAL, HUGE_VAL, HUGE_VAL},
+                                 {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL},
+                                 0,
+                                 0,
+                                 kNoPrimitive};
+    const auto take_in = [&](std::uint32_t face) {
+      plane.likely = face;
+      for (const std::uint32_t v : view_.primitives[face].vertex) {
+        plane.point = view_.vertices[v];
+        for (int k = 0; k < 3; k++) {
+          plane.lo[k] = std::fmin(plane.lo[k], plane.point[k]);
+          plane.hi[k] = std::fmax(plane.hi[k], plane.point[k]);
+        }
+      }
+    };
+    while (rim < near.rim.size() && patches_[near.rim[rim].primitive] == patch)
+      take_in(near.rim[rim++].primitive);
+    while (inner < near.inner.size() && patches_[near.inner[inner]] == patch)
+      take_in(near.inner[inner++]);
+    plane.rim_end = rim;
+    plane.inner_end = inner;
+    near.planes.push_back(plane);
+  }
 }
 
-// Adds those minima of primitives that are contacts.
-void ShapeSearch::find_contacts(const PlacedGrain &grain, std::vector<ShapeContact> &found)
+// Lists those edges of numbers_, and those vertices, that are whole and not within a flat patch.
+void ShapeSearch::list_edges(NearFeatures &near)
 {
+  std::sort(numbers_.begin(), numbers_.end());
+  std::sort(near.vertices.begin(), near.vertices.end());
+  near.vertices.erase(std::unique(near.vertices.begin(), near.vertices.end()), near.vertices.end());
+  // Of a vertex: all edges are near; one of them is not flat.
+  whole_.clear();
+  for (std::size_t i = 0, next; i < numbers_.size(); i = next) {
+    const std::uint32_t e = numbers_[i];
+    for (next = i; next < numbers_.size() && numbers_[next] == e; next++) {
+    }
+    const int n_faces = view_.edge_first[e + 1] - view_.edge_first[e];
+    if (static_cast<int>(next - i) < n_faces) continue;
+    whole_.push_back(e);
+    if (!is_flat(e)) near.edges.push_back({e, {0, 0}});
+  }
+  const auto is_left_out = [&](std::uint32_t v) {
+    const int *begin = view_.vertex_edge + view_.vertex_first[v],
+              *end = view_.vertex_edge + view_.vertex_first[v + 1];
+    bool is_flat_here = begin != end;
+    for (const int *e = begin; e != end; e++) {
+      if (!std::binary_search(whole_.begin(), whole_.end(), static_cast<std::uint32_t>(*e)))
+        return true;
+      is_flat_here &= is_flat(static_cast<std::uint32_t>(*e));
+    }
+    return is_flat_here;
+  };
+  near.vertices.erase(std::remove_if(near.vertices.begin(), near.vertices.end(), is_left_out),
+                      near.vertices.end());
+  for (NearFeatures::Edge &edge : near.edges)
+    for (int k = 0; k < 2; k++)
+      edge.vertex[k] = place_in(near.vertices, view_.edges[2 * edge.edge + k], SameNumber());
+}
+
+void ShapeSearch::list_face(NearFeatures &near, std::uint32_t primitive)
+{
+  const TreePrimitive &p = view_.primitives[primitive];
+  NearFeatures::RimFace face = {primitive, {0, 0, 0}, {0, 0, 0}};
+  bool has_any = false;
+  for (int k = 0; k < 3; k++) {
+    face.edge[k] = place_in(near.edges, p.edge[k], [](const auto &e) { return e.edge; });
+    face.vertex[k] = place_in(near.vertices, p.vertex[k], SameNumber());
+    has_any |= face.edge[k] < near.edges.size() || face.vertex[k] < near.vertices.size();
+  }
+  if (has_any)
+    near.rim.push_back(face);
+  else
+    near.inner.push_back(primitive);
+}
+
+// Finds the contacts by the minimum over the plane of each face, which shows which of its features can be one: the distance
+// is convex on a plane, so that from all places of a face it falls towards that minimum. Where it is inside it is the one
+// contact of the face and its sides; no side and no corner is one from which it is inwards. What remains is looked at. Returns
+// false where an overlap that is not less than the least radius of curvature is left over, which has to be found by triangles.
+bool ShapeSearch::find_by_owner(const PlacedGrain &grain, NearFeatures &near)
+{
+  local_.clear();
+  deep_.clear();
+  list_cut(grain, near);
+  // A foot is sure to this, but for rounding the same for all faces of a patch. Under a flat side it goes far by the rounding of
+  // a normal.
+  const Superellipsoid &s = grain.shape;
+  const Real slender = s.farthest / s.nearest;
+  const Real unsure =
+      s.farthest *
+      (s.is_ellipsoid() ? std::fmax(kSameFoot, kRounding * slender * slender) : kUnsureFoot);
+  std::uint32_t rim = 0, inner = 0;
+  for (NearFeatures::Plane &plane : near.planes) {
+    look_at_plane(grain, near, plane, rim, inner, unsure);
+    rim = plane.rim_end;
+    inner = plane.inner_end;
+  }
+  bool has_deep = false;
+  for (std::uint32_t i = 0; i < near.vertices.size(); i++) {
+    if (vertex_[i] == State::may_be) look_at_vertex(grain, near, i);
+    has_deep |= vertex_[i] == State::is_deep;
+  }
+  lines_.clear();
+  for (std::uint32_t i = 0; i < near.edges.size(); i++) {
+    if (edge_[i] == State::may_be) look_at_edge(grain, near, i);
+    has_deep |= edge_[i] == State::is_deep;
+  }
+  return deep_are_passed(grain, near, has_deep);
+}
+
+void ShapeSearch::look_at_plane(const PlacedGrain &grain, const NearFeatures &near,
+                                NearFeatures::Plane &plane, std::uint32_t rim, std::uint32_t inner,
+                                Real unsure)
+{
+  const Superellipsoid &s = grain.shape;
+  const Real height = dot(plane.normal, plane.point - grain.centre), side = height < 0 ? -1 : 1;
+  const Vec3 normal = side * plane.normal;
+  Vec3 arm = {0, 0, 0};
+  Real overlap = s.farthest - std::fabs(height);
+  if (overlap > 0) {
+    const SupportPlane tangent = support(s, grain.to_own(normal));
+    overlap = tangent.height - std::fabs(height);
+    arm = grain.turned(tangent.point);
+  }
+  if (!(overlap > 0)) {
+    for (; rim < plane.rim_end; rim++) rule_out(near.rim[rim]);
+    return;
+  }
+  if (!(overlap < s.rho)) {
+    for (; rim < plane.rim_end; rim++)
+      if (is_beside(grain, near.rim[rim].primitive))
+        rule_out(near.rim[rim]);
+      else
+        deep_.push_back({near.rim[rim].primitive, &plane, &near.rim[rim]});
+    for (; inner < plane.inner_end; inner++)
+      if (!is_beside(grain, near.inner[inner]))
+        deep_.push_back({near.inner[inner], &plane, nullptr});
+    return;
+  }
+  const Vec3 point = grain.centre + arm;
+  const Real same = kSameFoot * s.farthest;
+  const std::uint32_t first_rim = rim;
+  bool has_foot = false;
+  for (; rim < plane.rim_end; rim++) {
+    const NearFeatures::RimFace &face = near.rim[rim];
+    if (!may_be_at(face)) continue;
+    const Inwards in = inwards_of(face.primitive, point);
+    if (is_inside(near, face, in, same)) {
+      add_face(grain, face.primitive, side, arm);
+      rule_out(face);
+      has_foot = true;
+      continue;
+    }
+    // Without branches, which no processor could foresee.
+    const int past[3] = {in[0] < unsure, in[1] < unsure, in[2] < unsure};
+    leave(edge_[face.edge[0]], past[0]);
+    leave(edge_[face.edge[1]], past[1]);
+    leave(edge_[face.edge[2]], past[2]);
+    leave(vertex_[face.vertex[0]], past[0] | past[2]);
+    leave(vertex_[face.vertex[1]], past[1] | past[0]);
+    leave(vertex_[face.vertex[2]], past[2] | past[1]);
+  }
+  if (has_foot || is_outside(plane, point - overlap * normal, same)) return;
+  const Inwards likely = inwards_of(plane.likely, point);
+  if ((likely[0] > same) & (likely[1] > same) & (likely[2] > same))
+    return add_face(grain, plane.likely, side, arm);
+  for (rim = first_rim; rim < plane.rim_end; rim++) {
+    const NearFeatures::RimFace &face = near.rim[rim];
+    if (may_be_at(face) || !is_inside(near, face, inwards_of(face.primitive, point), same))
+      continue;
+    add_face(grain, face.primitive, side, arm);
+    plane.likely = face.primitive;
+  }
+  for (; inner < plane.inner_end; inner++) {
+    const Inwards in = inwards_of(near.inner[inner], point);
+    if (!((in[0] >= -same) & (in[1] >= -same) & (in[2] >= -same))) continue;
+    add_face(grain, near.inner[inner], side, arm);
+    plane.likely = near.inner[inner];
+  }
+}
+
+// Is a foot outside the box around the faces of a plane?
+bool ShapeSearch::is_outside(const NearFeatures::Plane &plane, const Vec3 &foot, Real same)
+{
+  bool is = false;
+  for (int k = 0; k < 3; k++) is |= (foot[k] < plane.lo[k] - same) | (foot[k] > plane.hi[k] + same);
+  return is;
+}
+
+// Is a foot inside a face of the rim? On a side within a flat patch faces of the patch share it.
+bool ShapeSearch::is_inside(const NearFeatures &near, const NearFeatures::RimFace &face,
+                            const Inwards &in, Real same)
+{
+  const auto least = [&](int k) { return face.edge[k] == near.edges.size() ? -same : Real(0); };
+  return (in[0] >= least(0)) & (in[1] >= least(1)) & (in[2] >= least(2));
+}
+
+// Can a feature of a face be a contact?
+bool ShapeSearch::may_be_at(const NearFeatures::RimFace &face) const
+{
+  constexpr int kMay = static_cast<int>(State::may_be);
+  int may = 0;
+  for (int k = 0; k < 3; k++)
+    may |= static_cast<int>(edge_[face.edge[k]]) | static_cast<int>(vertex_[face.vertex[k]]);
+  return may & kMay;
+}
+
+// Begins with those edges and vertices that the grain may cut.
+void ShapeSearch::list_cut(const PlacedGrain &grain, const NearFeatures &near)
+{
+  edge_.resize(near.edges.size() + 1);
+  vertex_.resize(near.vertices.size() + 1);
+  edge_.back() = vertex_.back() = State::cannot_be;
+  for (std::size_t i = 0; i < near.vertices.size(); i++)
+    vertex_[i] = may_hold(grain.shape, grain.own_point(view_.vertices[near.vertices[i]]))
+                     ? State::may_be
+                     : State::cannot_be;
+  for (std::size_t i = 0; i < near.edges.size(); i++) {
+    const int *ends = view_.edges + 2 * near.edges[i].edge;
+    edge_[i] = may_cut(grain.shape, grain.own_point(view_.vertices[ends[0]]),
+                       grain.own_point(view_.vertices[ends[1]]))
+                   ? State::may_be
+                   : State::cannot_be;
+  }
+}
+
+// Returns how far a point is from the sides of a face, inwards.
+ShapeSearch::Inwards ShapeSearch::inwards_of(std::uint32_t face, const Vec3 &point) const
+{
+  const TreePrimitive &p = view_.primitives[face];
+  const Vec3 at = point - view_.vertices[p.vertex[0]];
+  return {dot(p.inward[0], at), dot(p.inward[1], at) + p.height, dot(p.inward[2], at)};
+}
+
+// Adds the minimum inside a face, where the grain's point is `arm` from its centre.
+void ShapeSearch::add_face(const PlacedGrain &grain, std::uint32_t face, Real side, const Vec3 &arm)
+{
+  const TreePrimitive &p = view_.primitives[face];
+  const Vec3 out = side * p.normal;
+  const Real distance = dot(out, view_.vertices[p.vertex[0]] - grain.centre - arm);
+  const Vec3 normal = grain.to_own(out), foot = grain.to_own(arm) + distance * normal;
+  local_.push_back(
+      {{distance, normal, normal, foot, TrianglePart::face, 0, true, true}, p.code, face});
+}
+
+// Is each place where the overlap is not less than the least radius of curvature at a face that has its minimum elsewhere?
+bool ShapeSearch::deep_are_passed(const PlacedGrain &grain, const NearFeatures &near, bool has_deep)
+{
+  for (const DeepFace &face : deep_)
+    if (!(face.rim && has_minimum(*face.rim)) && !is_passed(grain, near, face)) return false;
+  if (!has_deep) return true;
+  for (const NearFeatures::RimFace &face : near.rim) {
+    if (!has_minimum(face)) continue;
+    for (int k = 0; k < 3; k++) {
+      if (edge_[face.edge[k]] == State::is_deep) edge_[face.edge[k]] = State::cannot_be;
+      if (vertex_[face.vertex[k]] == State::is_deep) vertex_[face.vertex[k]] = State::cannot_be;
+    }
+  }
+  return std::find(edge_.begin(), edge_.end(), State::is_deep) == edge_.end() &&
+         std::find(vertex_.begin(), vertex_.end(), State::is_deep) == vertex_.end();
+}
+
+// Is a minimum in the plane of a deep face one from which the distance does not fall towards the face? Then that of the plane
+// is not in the face.
+bool ShapeSearch::is_passed(const PlacedGrain &grain, const NearFeatures &near,
+                            const DeepFace &deep) const
+{
+  const std::size_t plane = deep.plane - near.planes.data();
+  const TreePrimitive &p = view_.primitives[deep.primitive];
+  for (std::uint32_t i = plane > 0 ? deep.plane[-1].rim_end : 0; i < deep.plane->rim_end; i++) {
+    const NearFeatures::RimFace &face = near.rim[i];
+    if (!has_minimum(face)) continue;
+    for (const Minimum &m : local_) {
+      bool is_here = false;
+      for (int k = 0; k < 3; k++)
+        is_here |= m.feature ==
+                       feature_code(FeatureKind::edge, view_.primitives[face.primitive].edge[k]) ||
+                   m.feature == feature_code(FeatureKind::vertex,
+                                             view_.primitives[face.primitive].vertex[k]);
+      for (int k = 0; k < 3 && is_here; k++)
+        is_here =
+            dot(m.at.normal, corner_of(grain, p, k) - m.at.foot) >= -kLevel * grain.shape.farthest;
+      if (is_here) return true;
+    }
+  }
+  return false;
+}
+
+bool ShapeSearch::has_minimum(const NearFeatures::RimFace &face) const
+{
+  bool has = false;
+  for (int k = 0; k < 3; k++)
+    has |= edge_[face.edge[k]] == State::is || vertex_[face.vertex[k]] == State::is;
+  return has;
+}
+
+void ShapeSearch::rule_out(const NearFeatures::RimFace &face)
+{
+  for (int k = 0; k < 3; k++) edge_[face.edge[k]] = vertex_[face.vertex[k]] = State::cannot_be;
+}
+
+void ShapeSearch::look_at_vertex(const PlacedGrain &grain, const NearFeatures &near,
+                                 std::uint32_t i)
+{
+  vertex_[i] = State::cannot_be;
+  const Vec3 y = grain.own_point(view_.vertices[near.vertices[i]]);
+  if (!(gauge_value(grain.shape, y) < 1)) return;
+  const SurfacePoint p = nearest_on_surface(grain.shape, y);
+  if (!(p.distance < 0)) return;
+  if (!p.is_sure || !(-p.distance < grain.shape.rho)) {
+    vertex_[i] = State::is_deep;
+    return;
+  }
+  const Minimum m = {{p.distance, p.normal, p.normal, y, TrianglePart::corner, 0, true, true},
+                     feature_code(FeatureKind::vertex, near.vertices[i]),
+                     kNoPrimitive};
+  if (!rises_around(grain, m)) return;
+  vertex_[i] = State::is;
+  local_.push_back(m);
+}
+
+void ShapeSearch::look_at_edge(const PlacedGrain &grain, const NearFeatures &near, std::uint32_t i)
+{
+  const NearFeatures::Edge &edge = near.edges[i];
+  const Superellipsoid &s = grain.shape;
+  edge_[i] = State::cannot_be;
+  if (vertex_[edge.vertex[0]] == State::is || vertex_[edge.vertex[1]] == State::is) return;
+  const int *ends = view_.edges + 2 * edge.edge;
+  const Vec3 from = grain.own_point(view_.vertices[ends[0]]),
+             to = grain.own_point(view_.vertices[ends[1]]);
+  if (is_off_a_line(s, from, to)) return;
+  const Real length = norm(to - from);
+  const Vec3 along = (1 / length) * (to - from);
+  const TangentMinimum line = TangentAboutLine(s, from, along).find();
+  if (!(line.distance < 0)) return;
+  if (!line.is_highest || !(-line.distance < s.rho)) {
+    edge_[i] = State::is_deep;
+    return;
+  }
+  lines_.push_back({from, along, line.foot});
+  const Real at = dot(line.foot - from, along);
+  if (!(at > 0 && at < length)) return;
+  const Minimum m = {
+      {line.distance, line.normal, line.normal, line.foot, TrianglePart::edge, 0, true, true},
+      feature_code(FeatureKind::edge, edge.edge),
+      kNoPrimitive};
+  if (!rises_around(grain, m)) return;
+  edge_[i] = State::is;
+  local_.push_back(m);
+}
+
+// Does a segment lie on a line of which the minimum is known, and not there?
+bool ShapeSearch::is_off_a_line(const Superellipsoid &s, const Vec3 &from, const Vec3 &to) const
+{
+  constexpr Real kSameLine = 1e-13;
+  const Real unsure = kUnsureFoot * s.farthest;
+  for (const Line &line : lines_) {
+    const Vec3 begin = from - line.from, end = to - line.from;
+    const Real at = dot(begin, line.along), to_at = dot(end, line.along);
+    const Real apart = kSameLine * s.farthest;
+    if (norm_sq(begin - at * line.along) > apart * apart ||
+        norm_sq(end - to_at * line.along) > apart * apart)
+      continue;
+    const Real foot = dot(line.foot - line.from, line.along);
+    if (foot < std::fmin(at, to_at) - unsure || foot > std::fmax(at, to_at) + unsure) return true;
+  }
+  return false;
+}
+
+// Finds the contacts by the minimum of each triangle.
+void ShapeSearch::find_by_triangle(const PlacedGrain &grain, const NearFeatures &near)
+{
+  minima_.clear();
+  const auto look_at = [&](std::uint32_t primitive) {
+    if (!is_beside(grain, primitive)) add(minimum_of(grain, primitive, 0), primitive);
+  };
+  for (const NearFeatures::RimFace &face : near.rim) look_at(face.primitive);
+  for (const std::uint32_t primitive : near.inner) look_at(primitive);
+  for (const std::uint32_t primitive : near.bare) look_at(primitive);
   std::sort(minima_.begin(), minima_.end(), [](const Minimum &a, const Minimum &b) {
     return a.feature != b.feature           ? a.feature < b.feature
            : a.at.distance != b.at.distance ? a.at.distance < b.at.distance
@@ -87,6 +540,13 @@ void ShapeSearch::find_contacts(const PlacedGrain &grain, std::vector<ShapeConta
   for (std::size_t i = 0; i < minima_.size(); i++)
     if ((i == 0 || minima_[i].feature != minima_[i - 1].feature) && is_local(grain, minima_[i]))
       local_.push_back(minima_[i]);
+}
+
+// Adds the local minima to `found`, in the order of their features.
+void ShapeSearch::add_contacts(const PlacedGrain &grain, std::vector<ShapeContact> &found)
+{
+  std::sort(local_.begin(), local_.end(),
+            [](const Minimum &a, const Minimum &b) { return a.feature < b.feature; });
   merge(grain);
   for (std::size_t i = 0; i < local_.size(); i++)
     if (same_as_[i] == i) found.push_back(contact_of(grain, local_[i]));

@@ -5,11 +5,13 @@
 // distance from the grain over the surface.
 #pragma once
 
+#include "contact/near_features.h"
 #include "geometry/feature_code.h"
 #include "shape/superellipsoid.h"
 #include "shape/triangle_minimum.h"
 #include "tree/triangle_tree.h"
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -38,15 +40,17 @@ struct ShapeContact {
 // Searches a mesh for one grain after the other.
 class ShapeSearch {
  public:
-  explicit ShapeSearch(const TriangleTree &tree) : tree_(tree), view_(tree.view()) {}
+  explicit ShapeSearch(const TriangleTree &tree) :
+      tree_(tree), view_(tree.view()), patches_(tree.flat_patches())
+  {
+  }
 
   // Adds the contacts of a grain to `found`, in the order of their features.
   void contacts(const PlacedGrain &grain, std::vector<ShapeContact> &found);
-  // The same, where all that the sphere around the grain reaches is `among` these primitives of the tree.
-  void contacts(const PlacedGrain &grain, const std::vector<std::uint32_t> &among,
-                std::vector<ShapeContact> &found);
-  // Makes `near` the primitives within `radius` of a grain's centre.
-  void find_near(const PlacedGrain &grain, Real radius, std::vector<std::uint32_t> &near);
+  // The same, where all that the sphere around the grain reaches is `near`.
+  void contacts(const PlacedGrain &grain, NearFeatures &near, std::vector<ShapeContact> &found);
+  // Makes `near` what is within `radius` of a grain's centre.
+  void find_near(const PlacedGrain &grain, Real radius, NearFeatures &near);
   // Returns the nearest place of the mesh; of no feature where the grain's centre is no number.
   ShapeContact nearest(const PlacedGrain &grain);
 
@@ -58,7 +62,45 @@ class ShapeSearch {
     std::uint32_t primitive;
   };
 
-  void find_contacts(const PlacedGrain &grain, std::vector<ShapeContact> &found);
+  // Can a feature of a list be a contact, is it one, or has it to be found by triangles unless a face at it has another?
+  enum class State : char { cannot_be, may_be, is, is_deep };
+  using Inwards = std::array<Real, 3>;
+  // A face of which the tangent plane need not be the minimum.
+  struct DeepFace {
+    std::uint32_t primitive;
+    const NearFeatures::Plane *plane;
+    const NearFeatures::RimFace *rim;    // null: it is none
+  };
+  struct Line {
+    Vec3 from, along, foot;    // of its minimum
+  };
+
+  bool is_flat(std::uint32_t edge) const;
+  void list_cut(const PlacedGrain &grain, const NearFeatures &near);
+  void list_edges(NearFeatures &near);
+  void list_face(NearFeatures &near, std::uint32_t primitive);
+  bool find_by_owner(const PlacedGrain &grain, NearFeatures &near);
+  void look_at_plane(const PlacedGrain &grain, const NearFeatures &near, NearFeatures::Plane &plane,
+                     std::uint32_t rim, std::uint32_t inner, Real unsure);
+  Inwards inwards_of(std::uint32_t face, const Vec3 &point) const;
+  static bool is_outside(const NearFeatures::Plane &plane, const Vec3 &foot, Real same);
+  static bool is_inside(const NearFeatures &near, const NearFeatures::RimFace &face,
+                        const Inwards &in, Real same);
+  bool may_be_at(const NearFeatures::RimFace &face) const;
+  void add_face(const PlacedGrain &grain, std::uint32_t face, Real side, const Vec3 &arm);
+  void look_at_edge(const PlacedGrain &grain, const NearFeatures &near, std::uint32_t i);
+  void look_at_vertex(const PlacedGrain &grain, const NearFeatures &near, std::uint32_t i);
+  bool is_off_a_line(const Superellipsoid &s, const Vec3 &from, const Vec3 &to) const;
+  bool deep_are_passed(const PlacedGrain &grain, const NearFeatures &near, bool has_deep);
+  bool is_passed(const PlacedGrain &grain, const NearFeatures &near, const DeepFace &deep) const;
+  bool has_minimum(const NearFeatures::RimFace &face) const;
+  void rule_out(const NearFeatures::RimFace &face);
+  // Leaves a state that says `may_be` as it is if `may`, which is 0 or 1.
+  static void leave(State &state, int may)
+  {
+    state = static_cast<State>(static_cast<int>(state) & may);
+  }
+  void find_by_triangle(const PlacedGrain &grain, const NearFeatures &near);
   template <class Found>
   void visit(const PlacedGrain &grain, Real radius, const Found &found);
   template <class Visit>
@@ -73,12 +115,19 @@ class ShapeSearch {
   bool is_local(const PlacedGrain &grain, const Minimum &m) const;
   bool rises_around(const PlacedGrain &grain, const Minimum &m) const;
   bool none_is_deeper(const PlacedGrain &grain, const Minimum &m) const;
+  void add_contacts(const PlacedGrain &grain, std::vector<ShapeContact> &found);
   void merge(const PlacedGrain &grain);
   bool are_same(const PlacedGrain &grain, const Minimum &a, const Minimum &b) const;
   bool are_neighbours(FeatureCode a, FeatureCode b) const;
 
   const TriangleTree &tree_;
   const TreeView &view_;
+  const std::vector<std::uint32_t> &patches_;
+  NearFeatures near_;
+  std::vector<std::uint32_t> faces_, numbers_, whole_;    // of a list that is made
+  std::vector<State> edge_, vertex_;
+  std::vector<DeepFace> deep_;
+  std::vector<Line> lines_;
   std::vector<Minimum> minima_, local_;
   std::vector<std::size_t> same_as_;    // of local_
   mutable std::vector<int> around_;

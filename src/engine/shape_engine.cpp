@@ -25,9 +25,8 @@ class Shapes {
   // Without shapes made, which are few.
   std::size_t bytes() const
   {
-    std::size_t lists = work.near.capacity() * sizeof(NearPrimitives);
-    for (const NearPrimitives &near : work.near)
-      lists += near.list.capacity() * sizeof(std::uint32_t);
+    std::size_t lists = work.near.capacity() * sizeof(NearList);
+    for (const NearList &near : work.near) lists += near.features.bytes();
     return lists + work.shape.capacity() * sizeof(Superellipsoid);
   }
 

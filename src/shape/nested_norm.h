@@ -14,6 +14,18 @@ struct TwoNorm {
   Real value, dx, dy;
 };
 
+// Returns x^p, x >= 0; by products where p is a whole number, as most exponents of shapes are.
+LSDCD_FN Real power_of(Real x, Real p)
+{
+  constexpr int kMost = 32;
+  const int whole = p <= kMost ? static_cast<int>(p) : 0;
+  if (whole != p) return pow(x, p);
+  Real power = 1;
+  for (int left = whole; left > 0; left >>= 1, x *= x)
+    if (left & 1) power *= x;
+  return power;
+}
+
 // Only ratios are raised to powers, so that nothing leaves the range of Real. p >= 1.
 LSDCD_FN TwoNorm two_norm(Real x, Real y, Real p)
 {
@@ -28,7 +40,7 @@ LSDCD_FN TwoNorm two_norm(Real x, Real y, Real p)
     d_large = 1 / root;
     d_small = ratio / root;
   } else {
-    const Real power = pow(ratio, p), root = pow(1 + power, 1 / p);
+    const Real power = power_of(ratio, p), root = pow(1 + power, 1 / p);
     value = large * root;
     d_large = root / (1 + power);
     d_small = ratio > 0 ? power / ratio * d_large : 0;

@@ -73,53 +73,95 @@ class TangentAboutLine {
 
   LSDCD_FN TangentMinimum find()
   {
-    if (s_.is_ellipsoid())
+    if (s_.is_ellipsoid()) {
       start_at_shadow();
-    else
+      if (polish()) return tangent(true);
+    } else {
       start_at_gauge();
-    const bool converged = refine();
-    // The foot is on the line: along it it is under the point of the surface.
-    return {-depth_, normal_, y_ + dot(along_, point_) * along_, converged};
+    }
+    return tangent(refine());
   }
 
  private:
+  LSDCD_FN TangentMinimum tangent(bool is_highest) const
+  {
+    // The foot is on the line: along it it is under the point of the surface.
+    return {-depth_, normal_, y_ + dot(along_, point_) * along_, is_highest};
+  }
   // The shadow of an ellipsoid along the line is an ellipse.
   LSDCD_FN void start_at_shadow()
   {
-    Real p = 0, q = 0, r = 0;
+    Real p = 0, q = 0, r = 0, product = 0;
     for (int k = 0; k < 3; k++) {
       const Real square = s_.half[k] * s_.half[k];
       p += square * one_[k] * one_[k];
       q += square * one_[k] * two_[k];
       r += square * two_[k] * two_[k];
+      const Real others = s_.half[k == 0 ? 1 : 0] * s_.half[k == 2 ? 1 : 2] * along_[k];
+      product += others * others;    // of the squares of its half-axes
     }
-    const Real angle = 0.5 * atan2(2 * q, p - r);
-    const Real middle = (p + r) / 2, spread = sqrt((p - r) * (p - r) / 4 + q * q);
-    const Real large = sqrt(middle + spread), small = sqrt(fmax(middle - spread, Real(0)));
-    turn_axes(angle);
+    const Real spread = hypot_of(Real(0.5) * (p - r), q), square = (p + r) / 2 + spread;
+    const Real large = sqrt(square), small = sqrt(product) / large;
+    // The direction of the larger one: of two forms the one without cancellation.
+    const Real u = p >= r ? Real(0.5) * (p - r) + spread : q,
+               v = p >= r ? q : Real(0.5) * (r - p) + spread;
+    turn_axes(u, v);
     if (!(small > 0)) return;
     const Vec3 n =
         nearest_on_ellipsoid({large, small, large}, {dot(one_, y_), dot(two_, y_), 0}).normal;
-    turn_axes(atan2(n.y, n.x));
+    turn_axes(n.x, n.y);
   }
-  // The normal of the gauge at the point of the line that is nearest in the metric of the half-axes.
-  LSDCD_FN void start_at_gauge()
+  // Takes Newton's steps where they are as short as the rounding of a start; returns false where they are not.
+  LSDCD_FN bool polish()
+  {
+    constexpr int kMostSteps = 3;
+    constexpr Real kLongest = 1e-6, kSmallest = 8 * kRoundoff;
+    for (int i = 0; i < kMostSteps; i++) {
+      normal_ = one_;
+      turn_ = two_;
+      const SupportPlane plane = support(s_, normal_);
+      point_ = plane.point;
+      depth_ = plane.height - dot(normal_, y_);
+      slope_ = dot(turn_, point_ - y_);
+      Real square = 0;
+      for (int k = 0; k < 3; k++) square += s_.half[k] * turn_[k] * (s_.half[k] * turn_[k]);
+      const Real along = dot(turn_, point_);
+      bend_ = (square - along * along) / plane.height - depth_;
+      const Real step = -slope_ / bend_;
+      if (!(bend_ > 0) || !(fabs(step) <= kLongest)) return false;
+      if (fabs(step) <= kSmallest) return true;
+      turn_axes(1, step);
+    }
+    return true;
+  }
+  // Returns the point of the line that is nearest in the metric of the half-axes.
+  LSDCD_FN Vec3 nearest_in_metric() const
   {
     Real across = 0, size = 0;
     for (int k = 0; k < 3; k++) {
       across += along_[k] / s_.half[k] * (y_[k] / s_.half[k]);
       size += along_[k] / s_.half[k] * (along_[k] / s_.half[k]);
     }
-    const Vec3 n = gauge(s_, y_ - (across / size) * along_).slope;
-    const Real u = dot(one_, n), v = dot(two_, n);
-    if (u - u == 0 && v - v == 0 && u * u + v * v > 0) turn_axes(atan2(v, u));
+    return y_ - (across / size) * along_;
   }
-  LSDCD_FN void turn_axes(Real angle)
+  // The normal of the gauge at the point of the line that is nearest in the metric of the half-axes.
+  LSDCD_FN void start_at_gauge()
   {
-    const Vec3 turned = cos(angle) * one_ + sin(angle) * two_;
-    two_ = cos(angle) * two_ - sin(angle) * one_;
+    const Vec3 n = gauge(s_, nearest_in_metric()).slope;
+    const Real u = dot(one_, n), v = dot(two_, n);
+    if (u - u == 0 && v - v == 0) turn_axes(u, v);
+  }
+  // Turns the axes so that (u, v) is along the first.
+  LSDCD_FN void turn_axes(Real u, Real v)
+  {
+    const Real size = hypot_of(u, v);
+    if (!(size > 0)) return;
+    const Real c = u / size, s = v / size;
+    const Vec3 turned = c * one_ + s * two_;
+    two_ = c * two_ - s * one_;
     one_ = turned;
   }
+  LSDCD_FN static Real hypot_of(Real u, Real v) { return sqrt(u * u + v * v); }
   LSDCD_FN void evaluate(Real angle)
   {
     normal_ = cos(angle) * one_ + sin(angle) * two_;

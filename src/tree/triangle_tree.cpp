@@ -265,12 +265,46 @@ void TriangleTree::make_leaf(const Item *first, const Item *last, std::uint32_t 
   leaf.size = above(size);
 }
 
+const std::vector<std::uint32_t> &TriangleTree::flat_patches() const
+{
+  std::call_once(has_patches_, [&] { find_flat_patches(); });
+  return patches_;
+}
+
+// Goes over edges from the first face of a patch, as long as normals are that of the first one but for rounding.
+void TriangleTree::find_flat_patches() const
+{
+  constexpr Real kFlat = 1e-13;    // an angle
+  const TreePrimitive *primitives = primitives_.data();
+  patches_.assign(view_.n_primitives, kNoPrimitive);
+  std::vector<std::uint32_t> waiting;
+  for (const std::uint32_t first : face_primitive_) {
+    if (patches_[first] != kNoPrimitive) continue;
+    patches_[first] = first;
+    waiting.assign(1, first);
+    while (!waiting.empty()) {
+      const TreePrimitive &from = primitives[waiting.back()];
+      waiting.pop_back();
+      for (const std::uint32_t e : from.edge)
+        for (int k = view_.edge_first[e]; k < view_.edge_first[e + 1]; k++) {
+          const std::uint32_t next = face_primitive_[view_.edge_face[k]];
+          const Vec3 turn = primitives[next].normal - primitives[first].normal;
+          if (patches_[next] != kNoPrimitive || !(norm_sq(turn) <= kFlat * kFlat)) continue;
+          patches_[next] = first;
+          waiting.push_back(next);
+        }
+    }
+  }
+  for (std::uint32_t i = 0; i < view_.n_primitives; i++)
+    if (patches_[i] == kNoPrimitive) patches_[i] = i;
+}
+
 std::size_t TriangleTree::bytes() const
 {
   return nodes_.capacity() * sizeof(TreeNode) +
          leaves_.size() * (sizeof(TreeLeaf) + sizeof(TreeSides)) +
          view_.n_primitives * sizeof(TreePrimitive) +
-         face_primitive_.size() * sizeof face_primitive_[0];
+         (face_primitive_.size() + patches_.size()) * sizeof face_primitive_[0];
 }
 
 }    // namespace lsdcd

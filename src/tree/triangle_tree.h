@@ -14,6 +14,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <mutex>
 #include <vector>
 
 namespace lsdcd {
@@ -51,6 +52,9 @@ class TriangleTree {
   const WeldedMesh &mesh() const { return mesh_; }
   // As long as the tree, its mesh and its names are.
   const TreeView &view() const { return view_; }
+  // Returns for each primitive the one whose normal stands for the normals of all triangles of a flat patch; for all others
+  // itself. It depends on the mesh alone, and is made when it is asked for first.
+  const std::vector<std::uint32_t> &flat_patches() const;
   std::size_t bytes() const;
 
  private:
@@ -66,6 +70,7 @@ class TriangleTree {
                       const ProgressListener &progress);
   void make_leaf(const Item *first, const Item *last, std::uint32_t start, Bounds &bounds);
   FeatureCode primitive_code(std::uint32_t number) const;
+  void find_flat_patches() const;
 
   void search_leaf(std::uint32_t number, const Vec3 &q, const Vec3 &at, FloatBound &bound,
                    TreeAnswer &best) const;
@@ -81,6 +86,8 @@ class TriangleTree {
   OwnedArray<TreeSides, LargeMemory> sides_;
   OwnedArray<TreePrimitive, LargeMemory> primitives_;
   std::vector<std::uint32_t> face_primitive_;
+  mutable std::once_flag has_patches_;
+  mutable std::vector<std::uint32_t> patches_;
   TreeView view_ = {};    // of all these
 };
 

@@ -5,6 +5,7 @@
 #pragma once
 
 #include "backend/atomic.h"
+#include "contact/near_features.h"
 #include "engine/grains.h"
 #include "engine/results/step_counts.h"
 #include "law/contact_model.h"
@@ -16,11 +17,11 @@
 
 namespace lsdcd {
 
-// The primitives within `reach` (length) of where a candidate's centre was when the list was made, in the frame of the mesh.
-struct NearPrimitives {
+// What is within `reach` (length) of where a candidate's centre was when the list was made, in the frame of the mesh.
+struct NearList {
   Vec3 from = {0, 0, 0};
   Real reach = -1;    // below 0: there is no list
-  std::vector<std::uint32_t> list;
+  NearFeatures features;
 
   // Does it have all within `radius` of x?
   bool holds(const Vec3 &x, Real radius) const { return norm(x - from) + radius <= reach; }
@@ -31,7 +32,7 @@ struct ShapeWork {
   const GrainShape *rows = nullptr;           // of all grains of the step; null: all are spheres
   std::vector<Superellipsoid> shape;          // of each candidate that is no sphere, by its index
   std::vector<const TriangleTree *> trees;    // of each mesh
-  std::vector<NearPrimitives> near;           // of each slot
+  std::vector<NearList> near;                 // of each slot
   // kNoSphere less the index of the first grain whose contacts were not found to rounding, or 0: an error.
   std::uint64_t unsure = 0;
   // The largest overlap / least radius of curvature as DeepestOverlap::ratio(), and the index of the grain + 1.

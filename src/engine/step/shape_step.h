@@ -191,13 +191,13 @@ class ShapeAtMeshes {
     std::unique_ptr<ShapeSearch> &search = memory_.search[of.mesh];
     if (!search) search = std::make_unique<ShapeSearch>(*work_.trees[of.mesh]);
     memory_.found.clear();
-    NearPrimitives &near = work_.near[job_.first_slot + sphere_.begin() + m];
+    NearList &near = work_.near[job_.first_slot + sphere_.begin() + m];
     if (!near.holds(grain.centre, shape_.farthest)) {
       near.from = grain.centre;
       near.reach = (1 + kWay) * shape_.farthest;
-      search->find_near(grain, near.reach, near.list);
+      search->find_near(grain, near.reach, near.features);
     }
-    search->contacts(grain, near.list, memory_.found);
+    search->contacts(grain, near.features, memory_.found);
     for (const ShapeContact &c : memory_.found) {
       const Vec3 arm = c.of_grain - grain.centre;
       add({c.feature, c.normal, -c.distance, arm, c.point, metric.direction(c.normal, arm),
