@@ -251,6 +251,34 @@ TEST(shape_query, finds_one_contact_of_a_flat_side_whose_middle_is_on_a_corner_o
     }
 }
 
+TEST(shape_query, finds_the_rim_of_a_table_alone_where_the_centre_is_below_the_top)
+{
+  const std::vector<Vec3> table = {{-9, -9, 0}, {0, -9, 0}, {0, 9, 0},  {-9, -9, 0},
+                                   {0, 9, 0},   {-9, 9, 0}, {0, -9, 0}, {0, -9, -9},
+                                   {0, 9, -9},  {0, -9, 0}, {0, 9, -9}, {0, 9, 0}};
+  const Superellipsoid rod = make_superellipsoid({5, 1, 1}, 2, 2);
+  constexpr Real kDepth = 0.01, kLean = 25 * kPi / 180, kOff = 0.1;
+  // From where it touches: a point of the rim, and the normal there; the long axis is across it but for kOff.
+  const Vec3 normal = {std::cos(kLean), 0, std::sin(kLean)}, up = {-normal.z, 0, normal.x};
+  const Vec3 axis = std::sqrt(1 - kOff * kOff) * up - kOff * normal;
+  const Quaternion turn = rotation_about({0, 1, 0}, -std::atan2(axis.z, axis.x));
+  const Vec3 arm = rotate(turn, support(rod, rotate(inverse(turn), -normal)).point);
+  const Vec3 rim = {0, 0.3, 0}, centre = rim - kDepth * normal - arm;
+  ASSERT_LT(centre.z, -1);
+  Grains grains;
+  const Quaternion q = kTurn * turn;
+  grains.add(placed(centre), rod.half, 2, 2, {q.w, q.v.x, q.v.y, q.v.z});
+  for (int pieces : {1, 7, kMostPieces}) {
+    const TreeCase at(cut(table, pieces));
+    const ShapeContacts c = find_shape_contacts(at.tree, grains.given());
+    ASSERT_EQ(c.found.size(), 1u) << pieces;
+    // Roundings of lengths of 9, over the grain's size.
+    EXPECT_NEAR(c.found[0].distance, -kDepth, 1e-13) << pieces;
+    EXPECT_LT(norm(c.found[0].normal - rotate(kTurn, normal)), 1e-12) << pieces;
+    EXPECT_LT(norm(c.found[0].point - placed(rim)), 1e-12) << pieces;
+  }
+}
+
 TEST(shape_query, finds_one_contact_on_an_edge_whose_sides_are_apart_by_rounding)
 {
   // Two triangles that are not welded, as the ends of their common edge differ by rounding.
