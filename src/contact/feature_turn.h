@@ -93,6 +93,18 @@ LSDCD_FN Vec3 direction_of_edge(const TurningMesh &m, int edge, const Vec3 *at)
   return (1 / norm(along)) * along;
 }
 
+// On a CPU: prefetches what turns a spring whose turn comes soon.
+LSDCD_FN void prefetch_turn([[maybe_unused]] const TurningMesh &m,
+                            [[maybe_unused]] const Spring &spring)
+{
+#if !LSDCD_ON_GPU()
+  if (feature_kind(spring.feature) != FeatureKind::face) return;
+  const std::size_t i = feature_index(spring.feature);
+  __builtin_prefetch(m.mesh.faces + 3 * i);
+  __builtin_prefetch(&m.faces[i].normal);
+#endif
+}
+
 // Turns a spring and the n_vectors vectors beside it with its feature. On a face it keeps the face's normal, to the last
 // bit. An edge and a vertex turn by the mean of the rotations of their faces, keeping lengths: the faces around a vertex
 // count twice, as each is beside two of its edges. An edge without a face turns by the smallest turn of its direction.

@@ -124,7 +124,9 @@ class ResidentSprings : public Springs {
     Spring *springs = pool.springs.data();
     Real *all_extra = pool.extra.data();
     const int n_extra = traits_.n_extra, n_vectors = traits_.n_vectors;
+    constexpr std::size_t kAhead = 8;
     b_.for_each(n, [=] LSDCD_LAMBDA(std::size_t i) {
+      if (i + kAhead < n && count[i + kAhead] > 0) prefetch_turn(with, springs[first[i + kAhead]]);
       for (int c = 0; c < count[i]; c++) {
         const std::size_t at = std::size_t(first[i]) + c;
         if (springs[at].mesh != mesh) continue;
