@@ -257,7 +257,7 @@ void Wall::move(const HostSpheres &spheres, const Step &step)
   for (MeshPart &m : meshes_) m.mover->place();
   for (MeshPart &m : meshes_) {
     m.surface->begin(step, cutoff());
-    if (largest_radius_ > 0) check_way(host_, spec_, m, step, largest_radius_, on_cpu(spheres));
+    if (largest_within_ > 0) check_way(host_, spec_, m, step, largest_within_, on_cpu(spheres));
   }
 }
 
@@ -323,11 +323,12 @@ void Wall::look_at_spheres(const HostSpheres &spheres, std::int64_t step)
 {
   Spheres s = spheres;
   if (spheres.group_changes) s.mask = nullptr;    // others may join between two looks
-  Real most[2] = {engine_->largest_radius(s), overlaps_.worst()};
-  host_.max(most, 2);
+  Real most[3] = {engine_->largest_radius(s), overlaps_.worst(), 0};
+  most[2] = spheres.shapes ? largest_within(spheres) : most[0];
+  host_.max(most, 3);
   overlaps_.check_sunk(most[1], timestep_.worst_ratio(), on_cpu(spheres));
   overlaps_.check_sharp();
-  largest_radius_ = most[0];
+  largest_within_ = most[2];
   if (most[0] == 0 && !points_warned_) points_warned_ = warn_of_points(host_, on_cpu(spheres));
   if ((most[0] > 0 || coats_.any()) && grids_.fit_spheres(most[0], on_cpu(spheres), step))
     engine_->expire_choice();

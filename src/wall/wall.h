@@ -282,7 +282,8 @@ class Wall {
   bool points_warned_ = false, snapshot_warned_ = false;
   SphereRange range_;    // for gains of servos and the timestep of bodies
   bool range_is_known_ = false;
-  Real largest_radius_ = 0;    // of spheres, when they were looked at last (length)
+  Real largest_within_ =
+      0;    // radius of the largest ball in a grain, when they were looked at last (length)
   // The surface motion of each mesh, for the engine in this step.
   std::vector<SurfaceMotion> surfaces_;
   std::vector<Real> temperatures_;

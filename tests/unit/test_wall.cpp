@@ -65,6 +65,7 @@ struct Floor {
 struct Scene {
   FakeHost &host;
   Grains grains;
+  std::vector<GrainShape> shapes;    // of the grains; none: they are spheres
   std::unique_ptr<Wall> wall;
   std::int64_t now = 0;
   Real dt = kDt;
@@ -90,9 +91,11 @@ struct Scene {
     input.inputs = inputs;
     input.drift.kind = SphereDrift::watched;
     input.drift.distance = 0.05;
-    wall->begin(grains.spheres(), input);
-    wall->submit(grains.spheres());
-    wall->finish(grains.spheres());
+    HostSpheres spheres = grains.spheres();
+    if (!shapes.empty()) spheres.shapes = shapes.data();
+    wall->begin(spheres, input);
+    wall->submit(spheres);
+    wall->finish(spheres);
   }
   void set_up()
   {
@@ -159,6 +162,37 @@ TEST(Wall, stops_where_a_mesh_jumps_over_spheres)
           << row.jump << error;
       EXPECT_EQ(host.warnings.size() - before, row.warns) << row.jump << is_body;
     }
+}
+
+// A disc 0.3 of its radius thick: the sphere around it is larger than the jump.
+TEST(Wall, stops_where_a_mesh_jumps_over_a_thin_ellipsoid)
+{
+  constexpr Real kThick = 0.15 * kRadius;
+  for (const Real jump : {1.9 * kThick, 2.2 * kThick}) {
+    const Floor floor;
+    FakeHost host;
+    WallSpec spec =
+        floor.wall({"motion", "variable", "NULL", "NULL", "v_jump", "NULL", "NULL", "NULL"});
+    spec.shapes = true;
+    Scene scene(host, spec);
+    scene.grains.add({0.3, 0.2, 1.01 * kThick});
+    GrainShape disc;
+    disc.half = {kRadius, kRadius, kThick};
+    disc.inertia_over_mass = {0.1, 0.1, 0.1};
+    scene.shapes.push_back(disc);
+    scene.inputs = {0};
+    scene.set_up();
+    scene.inputs = {jump};
+    std::string error;
+    try {
+      scene.run(1);
+    } catch (const InputError &e) {
+      error = e.what();
+    }
+    EXPECT_EQ(error.find("it may have passed through a sphere") != std::string::npos,
+              jump > 2 * kThick)
+        << jump << error;
+  }
 }
 
 TEST(Wall, warns_once_where_its_program_puts_a_mesh_past_spheres)

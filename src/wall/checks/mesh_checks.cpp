@@ -11,6 +11,8 @@
 #include "wall/checks/faces_pushed.h"
 #include "wall/mesh_name.h"
 
+#include <algorithm>
+
 namespace lsdcd {
 
 void check_side(const WallSpec &settings, const MeshPart &m)
@@ -116,6 +118,18 @@ void check_stays_closed(Host &host, const WallSpec &settings, const MeshPart &m)
     host.warn(named(std::to_string(junctions - lines.size()) + " vertices of '" + m.spec.name +
                     "' lie on open edges of other triangles, between the ends of these: where they "
                     "move apart, a gap opens there"));
+}
+
+Real largest_within(const HostSpheres &spheres)
+{
+  Real most = 0;
+  for (int i = 0; i < spheres.n; i++) {
+    if (!spheres.may_be_in_group(i)) continue;
+    const GrainShape &shape = spheres.shapes[i];
+    most = std::max(most, shape.is_sphere() ? spheres.radius[i]
+                                            : std::min({shape.half.x, shape.half.y, shape.half.z}));
+  }
+  return most;
 }
 
 void check_way(Host &host, const WallSpec &settings, MeshPart &m, const Step &step, Real radius,

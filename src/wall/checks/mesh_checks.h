@@ -28,7 +28,11 @@ void check_plane(Host &host, const WallSpec &settings, const MeshPart &m);
 // that wear moves, which keeps their corners, and of vertices on open edges. After both are made.
 void check_stays_closed(Host &host, const WallSpec &settings, const MeshPart &m);
 
-// Warns once where a mesh has gone farther in a step than `radius`, that of the largest sphere, and spheres are where it
+// Returns the radius of the largest ball that is in a grain of the group: of a sphere its own, of another grain its shortest
+// half-axis (length). A mesh that goes farther in a step may leave a grain behind.
+Real largest_within(const HostSpheres &spheres);
+
+// Warns once where a mesh has gone farther in a step than `radius`, that of the largest ball, and grains are where it
 // went. Throws InputError where it has gone farther than the diameter, as it may have jumped over one, and it is not the
 // program that puts it there. Collective.
 void check_way(Host &host, const WallSpec &settings, MeshPart &m, const Step &step, Real radius,
