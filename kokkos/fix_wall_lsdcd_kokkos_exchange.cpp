@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: GPL-2.0-only
 
-// Histories of contacts follow their atoms on the device. Rows of the contacts
-// array stay on the host, as do their
+// Histories of contacts follow their atoms on the device. Rows of the contacts array stay in memory of the CPU, as do their
 // readers, and go from and to it where messages are on the device.
 
 #include "fix_wall_lsdcd_kokkos.h"

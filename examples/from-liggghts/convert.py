@@ -88,7 +88,7 @@ def options(words, known):
         if isinstance(n, dict):
             n = n.get(words[0])
         if n is None:
-            raise Left(f"the keyword {key}", "doc/from-liggghts.md has most keywords; or the line without it, if it does not matter")
+            raise Left(f"the keyword {key}", "doc/from-liggghts.md has what you must decide, doc/fix_wall_lsdcd.rst all keywords; or write the line without it, if it does not matter")
         values[key] = [words.pop(0) for _ in range(n)]
     return values
 

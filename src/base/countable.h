@@ -20,8 +20,19 @@ inline int countable(std::int64_t n, const std::string &things, const std::strin
   constexpr int kMost = std::numeric_limits<int>::max();
   if (n >= 0 && n <= kMost) return static_cast<int>(n);
   const std::string many = n < 0 ? "more " : std::to_string(n) + " ";
-  throw InputError(many + things + (n < 0 ? " than the " : " are more than the ") +
-                   std::to_string(kMost) + " that can be numbered: " + remedy);
+  throw InputError(many + things + (n < 0 ? " than " : " are more than ") + "an int counts, " +
+                   std::to_string(kMost) + ": " + remedy);
+}
+
+// The same for what only this process has: others do not know of the error.
+inline int countable_here(std::int64_t n, const std::string &things, const std::string &remedy)
+{
+  try {
+    return countable(n, things, remedy);
+  } catch (InputError &e) {
+    e.is_local = true;
+    throw;
+  }
 }
 
 }    // namespace lsdcd

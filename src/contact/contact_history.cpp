@@ -18,7 +18,7 @@ void ContactHistory::grow(int n_spheres)
 
 void ContactHistory::set(int i, const Spring *springs, const Real *extra, int n)
 {
-  first_[i] = countable(pool_.size(), "springs in one process", "use more processes");
+  first_[i] = countable_here(pool_.size(), "springs in one process", "use more processes");
   count_[i] = n;
   pool_.insert(pool_.end(), springs, springs + n);
   extra_.insert(extra_.end(), extra, extra + n * n_extra_);

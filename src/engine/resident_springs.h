@@ -231,7 +231,7 @@ class ResidentSprings : public Springs {
     const SpringsView springs = view();
     const int per_spring = this->per_spring(), n_extra = traits_.n_extra;
     b_.for_each(n, [=] LSDCD_LAMBDA(std::size_t k) { at[k] = 1 + per_spring * count[which[k]]; });
-    const int total = b_.exclusive_scan(at, n);
+    const int total = numbered(std::int64_t(n) + numbered(b_.exclusive_scan(at, n)));
     b_.for_each(n, [=] LSDCD_LAMBDA(std::size_t k) {
       const int i = which[k];
       int m = n + at[k];
@@ -252,7 +252,7 @@ class ResidentSprings : public Springs {
       }
     });
     b_.wait();
-    return numbered(std::int64_t(n) + numbered(total));
+    return total;
   }
 
   void unpack(int n, const int *to, const double *buffer, int n_first, int second) override
@@ -303,7 +303,7 @@ class ResidentSprings : public Springs {
 
   static int numbered(std::int64_t n)
   {
-    return countable(n, "numbers of springs in one process", "use more processes");
+    return countable_here(n, "numbers of springs in one process", "use more processes");
   }
   int per_spring() const
   {

@@ -159,8 +159,8 @@ BodySpec read_modified_body(Tokens &w, const BodySpec &body, InputNames &inputs)
       w, {"joint", "spring", "limits", "motor", "load", "moment", "gravity"}, to, inputs);
   const auto has = [&](const char *word) { return std::count(seen.begin(), seen.end(), word) > 0; };
   if (seen.empty())
-    w.fail(w.done() ? "nothing is given to change: write at least one of the words"
-                    : "'" + w.peek() + "' is not a word of a body, or cannot change");
+    w.fail(w.done() ? "nothing is given to change: write at least one of the keywords"
+                    : "'" + w.peek() + "' is not a keyword of a body, or cannot change");
   if (!has("joint")) return to;
   const JointDrive none, all = to.drive;
   to.drive = none;

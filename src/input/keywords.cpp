@@ -207,8 +207,8 @@ const Keyword kKeywords[] = {
      "the mesh moves as fix wall/gran's: by A - A cos(2 pi t/period)", nullptr, read_wiggle},
     {"servo", kServoSyntax, "force or torque, velocity or 1/time, length or radians",
      "vmax > 0, gain > 0, lo <= 0 <= hi", "none",
-     "the mesh moves along or turns about an axis until it pushes the spheres with TARGET, a "
-     "number or v_NAME",
+     "the mesh moves along or turns about an axis to push the spheres with TARGET, a number or "
+     "v_NAME",
      nullptr, read_servo},
     {"body", kBodySyntax,
      "mass/volume; mass, length, mass length^2; force/length and force time/length, or torque and "

@@ -83,7 +83,7 @@ void read_table(Tokens &w, MotionTerm &m)
     if (kind != "axis" && kind != "linear" && kind != "repeat" && kind != "degrees") return;
     w.take();
     if (std::find(given.begin(), given.end(), kind) != given.end())
-      w.fail("the word '" + word + "' is given twice, or together with a word that contradicts it");
+      w.fail("the keyword '" + word + "' is given twice, or together with one that contradicts it");
     given.push_back(kind);
     if (word == "axis") {
       read_axis(w, m);

@@ -61,7 +61,7 @@ Servo read_one_servo(Tokens &w, InputNames &inputs)
   if (w.number_follows()) w.fail("the number '" + w.peek() + "' is one more than expected");
   if (s.max_speed == 0)
     w.fail("vmax is missing, the speed at which the mesh moves up to the spheres" +
-           (w.done() ? "" : "; '" + w.peek() + "' is not a word of a servo"));
+           (w.done() ? "" : "; '" + w.peek() + "' is not a keyword of a servo"));
   return s;
 }
 

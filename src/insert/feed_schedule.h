@@ -25,7 +25,7 @@ struct GrainTotals {
   Real mass = 0;
 };
 
-// For a restart file. Steps are counted from the step of the file, so that they hold where steps are counted from another number.
+// For a restart file. Steps are counted from the step of the file, so that they hold where the host counts steps from another number, too.
 struct FeedState {
   Real base = 0;    // mass or number that was given by the step of base_before
   std::int64_t base_before = 0, first_before = 0;    // steps

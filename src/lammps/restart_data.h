@@ -24,7 +24,7 @@ inline void write_state(FILE *file, const lsdcd::State &state)
   const std::vector<double> numbers = state.numbers();
   const int bytes =
       lsdcd::countable(numbers.size() * sizeof(double), "bytes of a fix in a restart file",
-                       "LAMMPS has no room for more; use a coarser mesh");
+                       "LAMMPS has no room for more");
   fwrite(&bytes, sizeof bytes, 1, file);
   fwrite(numbers.data(), sizeof(double), numbers.size(), file);
 }

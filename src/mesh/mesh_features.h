@@ -44,8 +44,6 @@ MeshFeatures make_features(const WeldedMesh &mesh, bool with_sides, bool with_pr
 // later. Which do now, face_parts says, and grids sort `primitives`.
 MeshFeatures make_moving_features(const WeldedMesh &mesh, bool with_sides);
 
-// Returns the parts of it, for who moves them (mesh/moving_records.h).
-
 // Returns the records of a view to be written, with flags of its edges and vertices.
 MovingRecords moving_records(const MeshFeaturesView &of, char *edge_acts, char *vertex_acts,
                              std::uint32_t *n_parts);

@@ -69,7 +69,7 @@ def draw(rows, picture):
         panel(axes[1], [r for r in rows if r["kind"] == kinds[0]], "bytes", 1e-6, "memory of the grid, MB")
         axes[1].set_title("memory", fontsize=13)
     axes[0].set_ylabel("mean error of a force / mean force", fontsize=14)
-    axes[0].plot([], [], "o", color="#999999", markersize=4, linestyle="none", label="further settings")
+    axes[0].plot([], [], "o", color="#999999", markersize=4, linestyle="none", label="all settings")
     first = rows[0]
     figure.suptitle(f"{first['mesh']}, {first['triangles']} triangles, radii "
                     f"{first['least_radius']} to {first['largest_radius']}", fontsize=13)

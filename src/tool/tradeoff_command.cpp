@@ -46,7 +46,7 @@ const char *const kHelp =
     "                  pulled along its face's normal. One that leaves the wall counts with what\n"
     "                  it had gained or lost until then; one that goes through it 1\n"
     "  roll_drift      the same for spheres that roll without slip over five radii\n"
-    "  ns_per_sphere   of a step, on one core with caches filled by different work; or on the GPU. "
+    "  ns_per_sphere   of a step, on one core with caches filled by something else; or on the GPU. "
     "It\n"
     "                  searches cells with nearest N, and reads lists made before with all\n"
     "  status_ns       of asking whether a sphere touches, which searches cells with either\n"
@@ -231,7 +231,7 @@ void add_tradeoff_command(Command &program)
   command
       .option("--memory", o->memory,
               "memory budget of a grid in MB, also while it is built; the default grid becomes as "
-              "coarse as this needs, further settings above it are left out")
+              "coarse as this needs, all other settings above it are left out")
       .shows_default()
       .check(above_zero);
   command

@@ -49,7 +49,7 @@ class MeshNodes {
   const WeldedMesh &mesh() const;
   Box bounds() const { return {mesh_.report.lo, mesh_.report.hi}; }    // of them
 
-  // Does the grid hold no longer, as it is for another cutoff or a node has gone too far?
+  // Is a new grid needed, because this one is for another cutoff or a node has gone too far?
   bool needs_grid(Real cutoff) const;
   // Have nodes gone so far since candidates were chosen that the lists of spheres are no longer complete?
   bool needs_choice(Real cutoff) const;

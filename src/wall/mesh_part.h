@@ -43,7 +43,7 @@ struct MeshPart {
   // Returns whether a spring may name this feature of it.
   bool has(FeatureCode feature) const { return !springs_are_foreign && grid.has(feature); }
 
-  // In its own frame, in this step; null but on one process per node, where its nodes do not move.
+  // In its own frame, in this step; null on processes that do not have it (mesh_surface.h).
   const WeldedMesh *mesh() const { return surface->mesh(); }
   GridView view() const { return grid.view(); }    // where its nodes do not move
   // Of its features; none where its nodes move.

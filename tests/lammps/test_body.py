@@ -345,7 +345,7 @@ def test_coats(folder):
     # The load bears its weight of 6.2784 twice; the motor adds 1: acceleration g + 1.
     speed = -g * 0.1 + (g + 1) * 0.1
     at_most("fix_modify body: the new load and motor act", abs(rows[-1][SPEED + 2] - speed), 1e-4)
-    for words, says in (("density 3", "is not a word of a body, or cannot change"), ("spring 1 1", "hinge or slider"),
+    for words, says in (("density 3", "is not a keyword of a body, or cannot change"), ("spring 1 1", "hinge or slider"),
                         ("", "nothing is given to change")):
         done = lmp.run(text + f"fix_modify w mesh 2 body {words}\n", folder)
         fact(f"refused: fix_modify body {words}", done.returncode != 0 and says in done.stdout.replace("\n", " "),

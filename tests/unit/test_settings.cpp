@@ -562,7 +562,7 @@ TEST(settings, wrong_servos_are_refused)
       {"servo force z 100", "vmax is missing"},
       {"servo force z 100 speed 1",
        "vmax is missing, the speed at which the mesh moves up to the spheres; "
-       "'speed' is not a word of a servo"},
+       "'speed' is not a keyword of a servo"},
       {"servo force z 100 vmax 0", "vmax = 0 is out of range"},
       {"servo force axis 0 0 0 100 vmax 1", "the axis ax ay az must not be 0 0 0"},
       {"servo force z 100 vmax 1 limits 0.1 0.2", "the limits 0.1 0.2 do not contain 0"},

@@ -222,10 +222,10 @@ TEST(Countable, is_an_int_or_an_error_that_tells_limit_and_remedy)
     return std::string();
   };
   EXPECT_EQ(error((std::int64_t(1) << 28) * sizeof(double)),
-            "2147483648 bytes are more than the 2147483647 that can be numbered: use less");
+            "2147483648 bytes are more than an int counts, 2147483647: use less");
   // A sum of ints that has passed the limit.
   EXPECT_EQ(error(std::int32_t(2000000000u + 2000000000u)),
-            "more bytes than the 2147483647 that can be numbered: use less");
+            "more bytes than an int counts, 2147483647: use less");
 }
 
 }    // namespace

@@ -135,7 +135,7 @@ bool sort_into_octants(B &b, const BuildView &view, std::size_t n_features,
   typename Pairs::template Scratch<std::uint32_t> count(most);
   typename Pairs::template Scratch<std::uint8_t> met(most);    // octants of each part
 
-  // With one run the counts are used again; with more runs they are made again.
+  // With one run the counts are kept; with more they are made once more.
   std::uint64_t n = 0;
   for (const PartRun &run : runs) {
     progress.tell("counting bricks", double(run.first) / double(n_parts + 1));

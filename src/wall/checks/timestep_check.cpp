@@ -31,8 +31,8 @@ Real TimestepCheck::mass_of(Real sphere, std::size_t law) const
   return 1 / (1 / sphere + mobility);
 }
 
-// Returns the square of the largest arm about an axis of a grain, of which its shadow along that axis has these half-axes: exact for
-// an ellipse, where the farthest point is one of them, and a bound for others.
+// Returns the square of the largest arm of a grain about one of its axes: exact for an ellipse, where the farthest point is a
+// half-axis, and a bound for others. `across`, `along`: the half-axes of its shadow along that axis.
 static Real arm_squared(Real across, Real along, Real farthest)
 {
   const Real least = std::min(across, along), most = std::max(across, along);

@@ -58,7 +58,7 @@ class MeshGrid {
   // False where a spring names a feature that this mesh does not have.
   bool has(FeatureCode feature) const;
 
-  // The vertices go to other places, in its frame (length), given on processes that fill memory; the grid is not
+  // The vertices go to other places, in its frame (length), given on processes that have the mesh; the grid is not
   // built again by that. Collective.
   void move_vertices(const std::vector<Vec3> &at);
 
@@ -87,8 +87,9 @@ class MeshGrid {
   Host &host_;
   const WallSpec &wall_;
   const MeshSpec &spec_;
-  NodeMemory memory_;                   // after the first build
-  std::unique_ptr<WeldedMesh> mesh_;    // on processes that fill memory
+  NodeMemory memory_;    // after the first build
+  std::unique_ptr<WeldedMesh>
+      mesh_;    // on one process per node, and on all where grains may be no spheres
   struct MeshTree {
     WeldedMesh mesh;
     TriangleTable names;

@@ -24,7 +24,8 @@ class MeshSurface {
   }
   virtual ~MeshSurface() = default;
 
-  // Returns the mesh in this step; null but on one process per node, where it has no nodes that move.
+  // Returns the mesh in this step; null on processes that do not have it: all have it where nodes move or grains may be
+  // no spheres, else one per node.
   virtual const WeldedMesh *mesh() const { return grid_.mesh(); }
   // Returns the records of its features. Where nodes move the engine alone has them, and there are none.
   virtual MeshFeaturesView records() const { return grid_.view().wall; }

@@ -64,8 +64,8 @@ MeshWear::MeshWear(Host &host, const WallSpec &wall, int index, const MeshReport
 {
   if (report.misoriented_edges > 0 || report.two_sided_faces > 0)
     throw InputError(named(
-        "wear cannot move this mesh, because neighbouring triangles are wound in opposite ways, so "
-        "that its vertices have no side to move to: wind them alike with lsdcd repair"));
+        "wear cannot move this mesh, because neighbouring triangles are wound in opposite ways: "
+        "its vertices have no side to move to; wind them alike with lsdcd repair"));
   run_collectively(host_, host_.is_first(), [&] {
     held_.assign(report.vertices, 0);
     // A hole would open between their corners.

@@ -34,7 +34,7 @@ class MeshWear {
   void add(const std::vector<StepContact> &contacts, Real dt, const MeshFeaturesView &features);
 
   // Removes what has worn since the last time. Returns whether vertices move; then `at` has their new places on all
-  // processes that fill memory. `mesh`: as above, where it is now. Logs once where nodes stay from now on. Throws
+  // processes that have the mesh. `mesh`: as above, where it is now. Logs once where nodes stay from now on. Throws
   // InputError where too much has worn for one move. Collective.
   bool recede(const WeldedMesh *mesh, std::int64_t step, std::vector<Vec3> &at);
 
