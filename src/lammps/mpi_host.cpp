@@ -5,6 +5,7 @@
 
 #ifndef MPI_STUBS    // a host without MPI needs none of this
 
+#include "base/countable.h"
 #include "base/large_memory.h"
 
 #include <algorithm>
@@ -110,6 +111,9 @@ void MpiHost::broadcast(void *data, std::size_t bytes, int from, Receivers /*to*
 
 std::vector<double> MpiHost::gather(const std::vector<double> &mine)
 {
+  std::int64_t total = static_cast<std::int64_t>(mine.size());
+  MPI_Allreduce(MPI_IN_PLACE, &total, 1, MPI_INT64_T, MPI_SUM, world_);
+  countable(total, "numbers that the first process gathers", "use a coarser mesh");
   const int n = static_cast<int>(mine.size());
   std::vector<int> count(processes()), first(processes());
   MPI_Gather(&n, 1, MPI_INT, count.data(), 1, MPI_INT, 0, world_);

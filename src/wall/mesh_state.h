@@ -38,6 +38,8 @@ struct BodyState {
   Joint joint;
   RigidState state;
   Wrench load;    // of the last step, by which the next one begins
+  bool has_begun =
+      true;    // false: it is where it was made, which its first step asks about; not in files
 };
 
 // The nodes of a mesh in a saved state, in the order of its vertices.

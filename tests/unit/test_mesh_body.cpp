@@ -263,6 +263,24 @@ TEST(mesh_body, begins_outside_of_its_limits_only_with_a_saved_state)
   }
 }
 
+TEST(mesh_body, begins_outside_of_its_limits_no_more_where_a_second_state_has_no_place_for_it)
+{
+  FakeHost host, other, third;
+  WallSpec spec = cube({JointKind::slider, {0, 0, 0}, {1, 0, 0}});
+  WallSpec rests = spec;
+  rests.meshes[0].body = BodySpec();
+  spec.meshes[0].body.velocity = {1, 0, 0};
+  Scene first(host, spec), without(other, rests);
+  first.set_up();
+  first.run(500);
+  without.set_up();
+  spec.meshes[0].body.drive.lo = 0.4;
+  Scene second(third, spec);
+  second.wall->restore(first.wall->save(), {first.now, kDt});
+  second.wall->restore(without.wall->save(), {without.now, kDt});
+  EXPECT_THROW(second.set_up(), InputError);
+}
+
 // A change that takes it out of its limits is refused, and so is one that takes it out of the plane.
 TEST(mesh_body, keeps_what_it_was_where_a_change_is_refused)
 {

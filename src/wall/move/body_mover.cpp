@@ -426,7 +426,7 @@ void BodyMover::restore(const MeshState &of, const Step &now)
     go_on(body_spec(), body_);
     return;
   }
-  place_is_known_ = true;
+  place_is_known_ = was.has_begun;
   go_on(body_spec(), continued(was));
   load_ = was.load;
   if (!is_same(was))

@@ -114,6 +114,7 @@ void StateKeeper::go_back(const Step &now)
   if (!made_) {
     made_ = std::make_unique<Made>(Made{on_all(host_, save(0)), {}});
     for (const MeshPart &m : of_.meshes) made_->motions.push_back(m.spec.motion);
+    for (MeshState &m : made_->state.meshes) m.body.has_begun = false;
     return;
   }
   for (MeshPart &m : of_.meshes) {
