@@ -134,7 +134,13 @@ class InPlaceForHost : public WallEngine {
 
 }    // namespace
 
-std::unique_ptr<WallEngine> in_place(EngineSettings settings, std::function<void()> before_begin)
+std::unique_ptr<WallEngine> in_place(EngineSettings settings)
+{
+  return in_place_after(std::move(settings), {});
+}
+
+std::unique_ptr<WallEngine> in_place_after(EngineSettings settings,
+                                           std::function<void()> before_begin)
 {
   const bool cuda = test_on_cuda();
   return std::make_unique<InPlaceForHost>(cuda ? make_cuda_engine_in_place(settings, 0, nullptr)

@@ -18,9 +18,10 @@ std::unique_ptr<WallEngine> make_test_engine(EngineSettings settings);
 // Engines to compare with: that of the CPU, and one for particles in the memory of the tested device, with
 // other layouts.
 std::unique_ptr<WallEngine> on_cpu(EngineSettings settings);
-// `before_begin`: called by its begin(), where it may throw.
-std::unique_ptr<WallEngine> in_place(EngineSettings settings,
-                                     std::function<void()> before_begin = {});
+std::unique_ptr<WallEngine> in_place(EngineSettings settings);
+// Its begin() calls `before_begin` first, which may throw.
+std::unique_ptr<WallEngine> in_place_after(EngineSettings settings,
+                                           std::function<void()> before_begin);
 // One on the CPU that copies as if it were on a GPU.
 std::unique_ptr<WallEngine> with_mirror(EngineSettings settings);
 

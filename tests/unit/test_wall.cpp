@@ -835,7 +835,7 @@ TEST(Wall, goes_on_with_a_process_that_cannot_begin_a_step)
     bool is_full = false;
     WallBackend backend;
     backend.make_engine = [&](const EngineSettings &settings) {
-      return in_place(settings, [&] {
+      return in_place_after(settings, [&] {
         if (is_full) throw InputError("there is no memory");
       });
     };
