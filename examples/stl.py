@@ -49,6 +49,11 @@ def strip(one, other):
     return [t for a, b, c, d in zip(one, one[1:], other[1:], other) for t in quad(a, b, c, d)]
 
 
+def extruded(line, y0, y1):
+    """Between a line of points (x, z) at y0 and at y1."""
+    return strip([(x, y0, z) for x, z in line], [(x, y1, z) for x, z in line])
+
+
 def side(ring, lo, hi):
     """Of the cylinder over a closed ring of points (x, y)."""
     ring = ring + ring[:1]

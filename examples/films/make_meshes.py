@@ -14,12 +14,7 @@ from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent))
-from stl import options, quad, strip, write_stl    # noqa: E402
-
-
-def extruded(line, y0, y1):
-    """The strip between a line of points (x, z) at y0 and at y1."""
-    return strip([(x, y0, z) for x, z in line], [(x, y1, z) for x, z in line])
+from stl import extruded, options, quad, write_stl    # noqa: E402
 
 
 def arc(radius, first, last, pieces):

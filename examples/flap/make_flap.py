@@ -12,7 +12,7 @@ import sys
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
-from stl import box, options, strip, write_stl    # noqa: E402
+from stl import box, extruded, options, write_stl    # noqa: E402
 
 
 def main():
@@ -27,10 +27,9 @@ def main():
     rise = a.depth * math.tan(math.radians(a.slope))
     line = [(0, 0), (-a.depth, rise), (-a.depth, a.top)]
     front = [(0, a.height), (0, a.top)]
-    extruded = [t for part in (line, front)
-                for t in strip([(x, 0, z) for x, z in part], [(x, a.length, z) for x, z in part])]
+    walls = extruded(line, 0, a.length) + extruded(front, 0, a.length)
     out = Path(a.out)
-    write_stl(out / "bin.stl", extruded, "bin")
+    write_stl(out / "bin.stl", walls, "bin")
     # Its inner face lies on the outlet; it ends a little above the foot, and within the period.
     write_stl(out / "flap.stl", box((0, 0.05, 0.1), (a.thickness, a.length - 0.05, a.height)), "flap")
 

@@ -10,7 +10,7 @@ import sys
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
-from stl import box, options, strip, write_stl    # noqa: E402
+from stl import box, extruded, options, write_stl    # noqa: E402
 
 
 def main():
@@ -24,7 +24,7 @@ def main():
     half = a.width / 2
     line = [(half, a.height), (half, 0), (-half, 0), (-half, a.height)]
     out = Path(a.out)
-    write_stl(out / "box.stl", strip([(x, 0, z) for x, z in line], [(x, a.length, z) for x, z in line]), "box")
+    write_stl(out / "box.stl", extruded(line, 0, a.length), "box")
     lid = box((-half + a.gap, a.gap / 2, 0), (half - a.gap, a.length - a.gap / 2, a.thickness))
     write_stl(out / "lid.stl", lid, "lid")
 

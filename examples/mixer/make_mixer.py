@@ -12,11 +12,7 @@ import sys
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
-from stl import options, strip, write_stl    # noqa: E402
-
-
-def extruded(line, length):
-    return strip([(x, 0, z) for x, z in line], [(x, length, z) for x, z in line])
+from stl import extruded, options, write_stl    # noqa: E402
 
 
 def main():
@@ -40,8 +36,8 @@ def main():
     cross = [(-tip, -t), (-s, -t), (-s, -s), (s, -s), (s, -t), (tip, -t),
              (tip, t), (s, t), (s, s), (-s, s), (-s, t), (-tip, t)]
     out = Path(a.out)
-    write_stl(out / "trough.stl", extruded(line, a.length), "trough")
-    write_stl(out / "blade.stl", extruded(cross + cross[:1], a.length), "blade")
+    write_stl(out / "trough.stl", extruded(line, 0, a.length), "trough")
+    write_stl(out / "blade.stl", extruded(cross + cross[:1], 0, a.length), "blade")
 
 
 if __name__ == "__main__":

@@ -11,7 +11,7 @@ import sys
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
-from stl import options, strip, write_stl    # noqa: E402
+from stl import extruded, options, write_stl    # noqa: E402
 
 
 def cap(outline, y):
@@ -32,7 +32,7 @@ def main():
     turns = [2 * math.pi * k / a.segments for k in range(a.segments)]
     ring = [(a.radius * math.cos(t), a.radius * math.sin(t)) for t in turns]
     ring.append(ring[0])
-    drum = strip([(x, 0, z) for x, z in ring], [(x, a.length, z) for x, z in ring])
+    drum = extruded(ring, 0, a.length)
     s, t, tip = a.shaft, a.thickness / 2, a.radius - a.gap
     arm = [(s, -s), (s, -t), (tip, -t), (tip, t), (s, t)]    # the next corner is that of the next arm
     outline = []
@@ -41,7 +41,7 @@ def main():
         outline += [(c * x - d * z, d * x + c * z) for x, z in arm]
     lo, hi = 0.05, a.length - 0.05
     loop = outline + outline[:1]
-    side = strip([(x, lo, z) for x, z in loop], [(x, hi, z) for x, z in loop])
+    side = extruded(loop, lo, hi)
     paddle = [t[::-1] for t in side] + cap(outline, lo) + [t[::-1] for t in cap(outline, hi)]
     out = Path(a.out)
     write_stl(out / "drum.stl", drum, "drum")

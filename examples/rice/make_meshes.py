@@ -12,7 +12,7 @@ import sys
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
-from stl import box, circle, disc, options, quad, side, strip, write_stl    # noqa: E402
+from stl import box, circle, disc, extruded, options, quad, side, strip, write_stl    # noqa: E402
 
 
 def main():
@@ -39,9 +39,8 @@ def main():
     r = a.radius
     # Wound so that down is forward.
     write_stl(out / "section.stl", quad((-r, -r, -0.003), (-r, r, -0.003), (r, r, -0.003), (r, -r, -0.003)), "section, in metres")
-    round_y = [(x, 0, z) for x, z in circle(a.drum, 96)]
-    far = [(x, a.length, z) for x, _, z in round_y]
-    write_stl(out / "drum.stl", strip(round_y + round_y[:1], far + far[:1]), "drum, in metres")
+    drum = circle(a.drum, 96)
+    write_stl(out / "drum.stl", extruded(drum + drum[:1], 0, a.length), "drum, in metres")
 
 
 if __name__ == "__main__":

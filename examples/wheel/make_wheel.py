@@ -8,7 +8,7 @@ import sys
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
-from stl import options, strip, write_stl    # noqa: E402
+from stl import extruded, options, write_stl    # noqa: E402
 
 
 def main():
@@ -22,7 +22,7 @@ def main():
     a = p.parse_args()
     line = [(a.length, a.depth), (a.length, 0), (0, 0), (0, a.depth)]
     out = Path(a.out)
-    write_stl(out / "bed.stl", strip([(x, 0, z) for x, z in line], [(x, a.period, z) for x, z in line]), "bed")
+    write_stl(out / "bed.stl", extruded(line, 0, a.period), "bed")
 
     # Going round the y axis from z to x, so that faces look outwards.
     rim, outline = a.radius - a.lug, []
@@ -35,7 +35,7 @@ def main():
         outline.append((rim * math.sin(between), rim * math.cos(between)))
     loop = outline + outline[:1]
     lo, hi = 0.05, a.period - 0.05
-    wheel = strip([(x, lo, z) for x, z in loop], [(x, hi, z) for x, z in loop])
+    wheel = extruded(loop, lo, hi)
     for (x1, z1), (x2, z2) in zip(loop, loop[1:]):
         wheel.append(((0, lo, 0), (x2, lo, z2), (x1, lo, z1)))
         wheel.append(((0, hi, 0), (x1, hi, z1), (x2, hi, z2)))
