@@ -135,10 +135,8 @@ def draw_effects(cpu, cuda):
 
 # ---- accuracy.md ---------------------------------------------------------------------------
 
-def broken_axes(figure, grid, ratio=(6, 1)):
-    """Two axes over each other, with a break between them: the lower one has what is 0 on the logarithmic upper one."""
-    high, low = grid.subgridspec(2, 1, height_ratios=ratio, hspace=0.06).subplots(sharex=True)
-    low.set(ylim=(-0.8, 0.8))
+def break_between(high, low):
+    """Draws the break between two axes over each other, of which the lower one has 0 alone."""
     low.set_yticks([0], ["0"])
     high.spines.bottom.set_visible(False)
     low.spines.top.set_visible(False)
@@ -149,6 +147,13 @@ def broken_axes(figure, grid, ratio=(6, 1)):
     for axis in (high, low):
         axis.grid(True, alpha=0.3)
         axis.tick_params(labelsize=FONT - 1)
+
+
+def broken_axes(grid, ratio=(6, 1)):
+    """Two axes over each other, with a break between them: the lower one has what is 0 on the logarithmic upper one."""
+    high, low = grid.subgridspec(2, 1, height_ratios=ratio, hspace=0.06).subplots(sharex=True)
+    low.set(ylim=(-0.8, 0.8))
+    break_between(high, low)
     return high, low
 
 
@@ -157,7 +162,7 @@ def draw_accuracy(rows_by_device):
     figure = plt.figure(figsize=(12, 5.4))
     grid = figure.add_gridspec(1, 2, left=0.08, right=0.99, top=0.92, bottom=0.13, wspace=0.12)
     for column, (device, rows) in enumerate(rows_by_device.items()):
-        high, low = broken_axes(figure, grid[column])
+        high, low = broken_axes(grid[column])
         default = next(r for r in rows if r["default"] == "1")
         colour = STYLES[device]["color"]
         its = sorted((int(r["nearest"]), float(r["ns_per_sphere"]), float(r["force_mean"])) for r in rows
@@ -259,17 +264,8 @@ def draw_question(rows, steps):
         high.set_title(title, fontsize=14)
         high.set_ylabel(error, fontsize=14)
         low.set(ylim=(-0.5, 1.2), xscale="log")
-        low.set_yticks([0], ["0"])
         low.set_xlabel("time for 10 000 000 spheres, ms", fontsize=14)
-        high.spines.bottom.set_visible(False)
-        low.spines.top.set_visible(False)
-        high.tick_params(bottom=False, which="both")
-        broken = dict(marker=[(-1, -0.6), (1, 0.6)], markersize=11, linestyle="none", color="k", mec="k", clip_on=False)
-        high.plot([0, 1], [0, 0], transform=high.transAxes, **broken)
-        low.plot([0, 1], [1, 1], transform=low.transAxes, **broken)
-        for a in (high, low):
-            a.grid(True, alpha=0.3)
-            a.tick_params(labelsize=13)
+        break_between(high, low)
     axes[0][0].set_xlim(0.1, 2e5)
     axes[0][1].set_xlim(0.1, 2.6)
     axes[0][1].legend(loc="upper right", fontsize=14)
