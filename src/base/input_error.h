@@ -24,4 +24,12 @@ struct InputError : std::runtime_error {
   bool is_local = false;    // only this process knows of it
 };
 
+// Throws an InputError that is local: the other processes go on until the program ends them.
+[[noreturn]] inline void fail_here(const std::string &error)
+{
+  InputError here(error);
+  here.is_local = true;
+  throw here;
+}
+
 }    // namespace lsdcd

@@ -37,13 +37,6 @@ NodeMemory Host::node_memory(std::size_t bytes)
   return memory;
 }
 
-void fail_here(const std::string &error)
-{
-  InputError here(error);
-  here.is_local = true;
-  throw here;
-}
-
 int lowest_rank(Host &host, bool here)
 {
   Real first = here ? host.processes() - host.rank() : 0;

@@ -93,9 +93,6 @@ class Host {
   HostNames names_;
 };
 
-// Throws an InputError that is local: the other processes go on until the program ends them. Not collective.
-[[noreturn]] void fail_here(const std::string &error);
-
 // The functions below are collective: all processes call them together.
 
 // Returns the lowest rank where `here`; the number of processes where there is none.
