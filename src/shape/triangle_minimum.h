@@ -134,20 +134,15 @@ class TangentAboutLine {
     }
     return true;
   }
-  // Returns the point of the line that is nearest in the metric of the half-axes.
-  LSDCD_FN Vec3 nearest_in_metric() const
+  // The normal of the gauge at the point of the line that is nearest in the metric of the half-axes.
+  LSDCD_FN void start_at_gauge()
   {
     Real across = 0, size = 0;
     for (int k = 0; k < 3; k++) {
       across += along_[k] / s_.half[k] * (y_[k] / s_.half[k]);
       size += along_[k] / s_.half[k] * (along_[k] / s_.half[k]);
     }
-    return y_ - (across / size) * along_;
-  }
-  // The normal of the gauge at the point of the line that is nearest in the metric of the half-axes.
-  LSDCD_FN void start_at_gauge()
-  {
-    const Vec3 n = gauge(s_, nearest_in_metric()).slope;
+    const Vec3 n = gauge(s_, y_ - (across / size) * along_).slope;
     const Real u = dot(one_, n), v = dot(two_, n);
     if (u - u == 0 && v - v == 0) turn_axes(u, v);
   }
