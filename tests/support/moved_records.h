@@ -13,6 +13,7 @@
 
 #include <cmath>
 #include <cstring>
+#include <string>
 #include <vector>
 
 namespace lsdcd {
@@ -47,35 +48,30 @@ void expect_same_bytes(const std::vector<Row> &a, const std::vector<Row> &b)
                            a.size() * sizeof(Row)));
 }
 
-// All records that a step reads.
 inline void expect_same_records(const MeshFeatures &a, const MeshFeatures &b)
 {
-  expect_same_bytes(a.faces, b.faces);
-  expect_same_bytes(a.edges, b.edges);
-  expect_same_bytes(a.vertices, b.vertices);
-  expect_same_bytes(a.edge_inward, b.edge_inward);
-  expect_same_bytes(a.vertex_direction, b.vertex_direction);
-  expect_same_bytes(a.edge_out, b.edge_out);
-  expect_same_bytes(a.vertex_out, b.vertex_out);
-  expect_same_bytes(a.face_parts, b.face_parts);
+  const auto bytes_of = [](const MeshFeatures &records) {
+    std::vector<std::string> all;
+    MeshFeaturesView::each_array(records, [&](const auto &rows) {
+      all.emplace_back(reinterpret_cast<const char *>(rows.data()), rows.size() * sizeof rows[0]);
+    });
+    return all;
+  };
+  const std::vector<std::string> of_a = bytes_of(a), of_b = bytes_of(b);
+  for (std::size_t k = 0; k < of_a.size(); k++) EXPECT_TRUE(of_a[k] == of_b[k]) << "array " << k;
 }
 
 template <class B>
 MeshFeatures records_on_cpu(B &b, const MovingNodes<B> &nodes, const WeldedMesh &mesh)
 {
-  const MeshFeaturesView &from = nodes.records();
+  std::vector<const void *> from;
+  MeshFeaturesView::each_array(nodes.records(), [&](const auto *rows) { from.push_back(rows); });
   MeshFeatures to = make_moving_features(mesh, true);
-  const auto fetch = [&](const auto *records, auto &rows) {
-    b.copy_out(records, rows.data(), rows.size());
-  };
-  fetch(from.faces, to.faces);
-  fetch(from.edges, to.edges);
-  fetch(from.vertices, to.vertices);
-  fetch(from.edge_inward, to.edge_inward);
-  fetch(from.vertex_direction, to.vertex_direction);
-  fetch(from.face_parts, to.face_parts);
-  fetch(from.edge_out, to.edge_out);
-  fetch(from.vertex_out, to.vertex_out);
+  auto its = from.begin();
+  MeshFeaturesView::each_array(to, [&](auto &rows) {
+    b.copy_out(static_cast<decltype(rows.data())>(const_cast<void *>(*its++)), rows.data(),
+               rows.size());
+  });
   b.wait();
   return to;
 }

@@ -759,16 +759,23 @@ TEST(Wall, whose_mesh_recedes_has_no_snapshots)
   }
 }
 
+// Returns a wall of a box with upright sides, and gives the host two dimensions.
+WallSpec upright_in_two_dimensions(FakeHost &host)
+{
+  host.simulation = wide_box();
+  host.simulation.dimension = 2;
+  WallSpec wall;
+  wall.meshes.resize(1);
+  wall.meshes.front().mesh =
+      std::make_shared<WeldedMesh>(weld(box_mesh({-1, -1, -1}, {1, 1, 1}), -1));
+  return wall;
+}
+
 // A contact wears the corners of one triangle of an outline's strip, which would lean.
 TEST(Wall, whose_mesh_recedes_is_refused_in_two_dimensions)
 {
   FakeHost host;
-  host.simulation = wide_box();
-  host.simulation.dimension = 2;
-  WallSpec upright;
-  upright.meshes.resize(1);
-  upright.meshes.front().mesh =
-      std::make_shared<WeldedMesh>(weld(box_mesh({-1, -1, -1}, {1, 1, 1}), -1));
+  WallSpec upright = upright_in_two_dimensions(host);
   upright.wear = {WearModel::archard, 1e-4};
   const auto make = [&](const WallSpec &wall) {
     Wall(host, wall, WallUnits(), WallBackend(), "", StepClock{0, 0, 0, kDt});
@@ -789,12 +796,7 @@ TEST(Wall, whose_mesh_recedes_is_refused_in_two_dimensions)
 TEST(Wall, keeps_its_motion_where_another_one_leaves_the_plane)
 {
   FakeHost host;
-  host.simulation = wide_box();
-  host.simulation.dimension = 2;
-  WallSpec upright;
-  upright.meshes.resize(1);
-  upright.meshes.front().mesh =
-      std::make_shared<WeldedMesh>(weld(box_mesh({-1, -1, -1}, {1, 1, 1}), -1));
+  WallSpec upright = upright_in_two_dimensions(host);
   Wall wall(host, upright, WallUnits(), WallBackend(), "", StepClock{0, 0, 0, kDt});
   MotionTerm term;
   term.kind = MotionKind::wiggle;

@@ -12,6 +12,8 @@
 
 #include <gtest/gtest.h>
 
+#include <map>
+
 namespace lsdcd::test_warps {
 namespace {
 
@@ -41,6 +43,35 @@ TEST(warps, that_leave_out_a_call_are_an_error)
                  EXPECT_EQ(warp.vote(is_first), 1u);
                }),
                std::logic_error);
+}
+
+TEST(warps, add_up_what_has_the_same_key_once)
+{
+  Random random(3);
+  for (const int n_keys : {1, 3, 40}) {
+    int key[kWarpSize];
+    bool mine[kWarpSize], has_sum[kWarpSize];
+    std::int64_t sums[kWarpSize][2];
+    std::map<int, std::int64_t> expected;
+    for (unsigned k = 0; k < kWarpSize; k++) {
+      key[k] = static_cast<int>(uniform(random, 0, n_keys));
+      mine[k] = uniform(random, 0, 1) < 0.8;
+      sums[k][0] = static_cast<std::int64_t>(uniform(random, -1e17, 1e17));
+      sums[k][1] = -sums[k][0];
+      if (mine[k]) expected[key[k]] += sums[k][0];
+    }
+    warp_on_cpu::run([&] {
+      const unsigned k = threadIdx.x;
+      has_sum[k] = GpuWarp::sum_by_key(mine[k], key[k], sums[k]);
+    });
+    std::map<int, std::int64_t> found;
+    for (unsigned k = 0; k < kWarpSize; k++) {
+      if (!has_sum[k]) continue;
+      EXPECT_TRUE(found.emplace(key[k], sums[k][0]).second) << "key " << key[k];
+      EXPECT_EQ(sums[k][1], -sums[k][0]);
+    }
+    EXPECT_EQ(found, expected);
+  }
 }
 
 TEST(warps, make_the_records_of_a_CPU)
