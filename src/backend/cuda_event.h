@@ -26,12 +26,15 @@ class CudaEvent {
       cuda_check(cudaEventCreateWithFlags(&event_, cudaEventDisableTiming), "creating an event");
     cuda_check(cudaEventRecord(event_, stream), "recording an event");
   }
-  // Work that `stream` gets from now on runs once this event is reached.
+  // Work that `stream` gets from now on runs once this event is reached. One that was never recorded is.
   void hold(cudaStream_t stream) const
   {
-    cuda_check(cudaStreamWaitEvent(stream, event_, 0), "ordering two streams");
+    if (event_) cuda_check(cudaStreamWaitEvent(stream, event_, 0), "ordering two streams");
   }
-  void wait() const { cuda_check(cudaEventSynchronize(event_), "running on the device"); }
+  void wait() const
+  {
+    if (event_) cuda_check(cudaEventSynchronize(event_), "running on the device");
+  }
 
  private:
   cudaEvent_t event_ = nullptr;
