@@ -198,10 +198,12 @@ def frame(film, folder, meshes, step, width, finer, text, key):
     return below(canvas.picture(finer), View(film.view, film.box, width).scale, film.bar, words, key, text)
 
 
-def small(frames, most, path, milliseconds):
-    """Writes a GIF with as many colours as keep it below `most` bytes, the same for all frames."""
-    sheet = Image.new("RGB", (frames[0].width, frames[0].height * len(frames[::8])))
-    for k, one in enumerate(frames[::8]):
+def small(frames, most, path, milliseconds, samples=None):
+    """Writes a GIF with as many colours as keep it below `most` bytes, the same for all frames: those of `samples`, or of every
+    eighth frame."""
+    samples = samples or frames[::8]
+    sheet = Image.new("RGB", (samples[0].width, samples[0].height * len(samples)))
+    for k, one in enumerate(samples):
         sheet.paste(one, (0, k * one.height))
     for colours in (128, 96, 64, 48, 32, 24, 16, 12):
         palette = sheet.quantize(colours, kmeans=2)
