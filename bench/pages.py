@@ -133,8 +133,8 @@ def beside(rows, row, more):
 
 
 def cost(rows):
-    """What the wall adds to a step, in per cent: a line for each bed and its size. Of several LAMMPS the newest that was
-    timed in sorted order, and those in which LAMMPS's own wall was timed on the GPU."""
+    """What the wall adds to a step, in per cent: a line for each bed and its size, of the newest LAMMPS that was timed in sorted
+    order; and what LAMMPS's own wall adds on the GPU."""
     beds = {}
     for r in rows:
         if r["case"] in BEDS and facts(r)["ranks"] == "1":
@@ -151,8 +151,8 @@ def cost(rows):
         return int(parts[2]), MONTHS.index(parts[1]), int(parts[0])
 
     newest = {bed[:4]: bed for bed in sorted((b for b in beds if "sorted" in beds[b]), key=day)}
-    beds = {b: orders for b, orders in beds.items()
-            if b[1] not in LEFT_OUT and (b in newest.values() or added(orders.get("sorted"), ", wall/gran/kk"))}
+    own = next(o["sorted"] for b, o in beds.items() if "CPU" not in b[0] and added(o.get("sorted"), ", wall/gran/kk"))
+    beds = {b: orders for b, orders in beds.items() if b[1] not in LEFT_OUT and b in newest.values()}
     used = [r for b in sorted(beds) for r in beds[b].values()]
     commits = {name: ", ".join(dict.fromkeys(r["commit"] for r in used if r["device"] == name))
                for name in dict.fromkeys(r["device"] for r in used)}
@@ -161,12 +161,12 @@ def cost(rows):
         orders, r = beds[bed], next(iter(beds[bed].values()))
         share = f"{100 * int(facts(r)['touching']) / int(r['spheres']):.2g}"
         return [r["device"], facts(r)["host"], r["case"], count(r["triangles"]), count(r["spheres"]), share,
-                *[added(orders.get(order)) for order in ("sorted", "random")],
-                *[added(orders.get("sorted"), ", " + style) for style in ("wall/gran", "wall/gran/kk")]]
+                *[added(orders.get(order)) for order in ("sorted", "random")]]
 
-    heads = ["device", "LAMMPS", "bed", "triangles", "atoms", "at the wall, %", "wall/lsdcd adds, %, sorted", "random",
-             "wall/gran, %, sorted", "wall/gran/kk, %, sorted"]
+    heads = ["device", "LAMMPS", "bed", "triangles", "atoms", "at the wall, %", "adds, %, sorted", "random"]
     return (table(sorted(beds, key=lambda bed: (bed[0], bed[1], int(bed[2]), int(bed[3]), day(bed))), heads, cells) + "\n\n" +
+            f"* LAMMPS's own flat walls in LAMMPS {facts(own)['host']} on the {own['device']}, {own['case']} of {count(own['spheres'])} atoms: `wall/gran` "
+            f"adds {added(own, ', wall/gran')} %, `wall/gran/kk` {added(own, ', wall/gran/kk')} %, `wall/lsdcd` {added(own)} %.\n" +
             "\n".join(f"* {name}: commit {commit}." for name, commit in commits.items()))
 
 
@@ -205,9 +205,7 @@ def liggghts(rows):
 
     def cells(r):
         theirs = of("LIGGGHTS", r)
-        pairs = ((r, theirs), [of(program, r, "random") for program in ("lsdcd", "LIGGGHTS")])
-        return [LIGGGHTS_CASES[case_of(r)], count(r["triangles"]), number(r["median_ms"]),
-                number(theirs["median_ms"] if theirs else ""), *[f"{ratio(b, a):.1f}" if a and b else "" for a, b in pairs]]
+        return [LIGGGHTS_CASES[case_of(r)], count(r["triangles"]), number(r["median_ms"]), number(theirs["median_ms"]), f"{ratio(theirs, r):.1f}"]
 
     def set_up(r):
         f, g = facts(r), facts(of("LIGGGHTS", r))
@@ -216,8 +214,9 @@ def liggghts(rows):
 
     mine = sorted((r for r in rows if r["case"].endswith(", lsdcd") and r["order"] == "sorted"),
                   key=lambda r: (list(LIGGGHTS_CASES).index(case_of(r)), int(r["triangles"])))
-    heads = ["spheres", "triangles", "wall/lsdcd, ms", "LIGGGHTS, ms", "LIGGGHTS / wall/lsdcd", "the same, random order"]
-    return "\n".join([table(mine, heads, cells), "",
+    random = [ratio(*(of(program, r, "random") for program in ("LIGGGHTS", "lsdcd"))) for r in mine]
+    heads = ["spheres", "triangles", "wall/lsdcd, ms", "LIGGGHTS, ms", "LIGGGHTS / wall/lsdcd"]
+    return "\n".join([table(mine, heads, cells), "", f"* With spheres in random order LIGGGHTS takes {min(random):.1f} to {max(random):.1f} times as long.",
                       f"* Set-up and memory, with cells for these grains: {'. '.join(set_up(r) for r in mine if r['case'] == mine[0]['case'])}.",
                       machines(rows)])
 
@@ -226,10 +225,9 @@ def liggghts(rows):
 
 def costs(cpu, cuda):
     first, on_gpu = cpu[0], cuda[0]
-    told = (f"The CPU's times are the least of {first['repeats']} rounds with {first['contacts']} contacts on one core "
-            f"(commit {first['commit']}, {first['compiler']}). The GPU's are the least of {on_gpu['repeats']} rounds with "
-            f"{on_gpu['contacts']} contacts on an {on_gpu['device'].replace('CUDA, ', '')} (commit {on_gpu['commit']}). "
-            "They include the copies to and from it and the host's part of a step.")
+    told = (f"The CPU's times are of {first['contacts']} contacts on one core, the least of {first['repeats']} rounds "
+            f"(commit {first['commit']}, {first['compiler']}). The GPU's are of {on_gpu['contacts']} contacts on an "
+            f"{on_gpu['device'].replace('CUDA, ', '')}, the least of {on_gpu['repeats']} (commit {on_gpu['commit']}), with the copies to and from it.")
 
     def ns(row):
         return short(row["min_ns"], 3) if row else ""
@@ -237,16 +235,19 @@ def costs(cpu, cuda):
     def over(row):
         return f"{float(row['over_ns']):+.1f}" if row and row["over"] else ""
 
+    def words(row):
+        return f"`{row['words']}`" if row else ""
+
     def cells(r):
         g = find(cuda, name=r["name"])
-        return [r["name"], f"`{r['words']}`", ns(r), over(r), ns(g), over(g), r["over"], r["bytes_per_atom"], r["bytes_per_contact"]]
+        without = re.sub(r"(,| \.\.\.).*`", "`", words(find(cpu, name=r["over"])))    # of several words the first
+        return [words(r), ns(r), over(r), ns(g), over(g), without, r["bytes_per_contact"]]
 
-    heads = ["effect", "turned on by", "CPU, ns", "more than without", "GPU, ns", "more than without", "without is", "B/atom",
-             "B/contact"]
+    heads = ["turned on by", "CPU, ns", "more than without", "GPU, ns", "more than without", "without is", "B/contact"]
     shown = [k for k, head in enumerate(heads) if "without" not in head]    # a combination is over none
     alone = [r for r in cpu if r["over"] or r["name"] == "hooke"]
     several = [r for r in cpu if r not in alone]
-    return "\n\n".join([told, "This table has each effect alone:", table(alone, heads, cells), "This one has common combinations:",
+    return "\n\n".join([told, table(alone, heads, cells), "Common combinations:",
                         table(several, [heads[k] for k in shown], lambda r: [cells(r)[k] for k in shown])])
 
 
@@ -278,11 +279,10 @@ def settings(rows):
         name, at, wanted = line
         cpu, gpu = (find(rows, kind=device, grid=at[device], **wanted) for device in DEVICES)
         return [name, percent(cpu["missed"]), error(cpu["force_mean"]), error(cpu["force_largest"]), error(cpu["bounce_drift"]),
-                error(cpu["roll_drift"]), f"{float(cpu['ns_per_sphere']):.0f}", short(gpu["ns_per_sphere"], 3),
-                short(cpu["status_ns"], 3), short(gpu["status_ns"], 3), f"{float(cpu['bytes']) / 1e6:.3g}"]
+                error(cpu["roll_drift"]), f"{float(cpu['ns_per_sphere']):.0f}", short(gpu["ns_per_sphere"], 3), f"{float(cpu['bytes']) / 1e6:.3g}"]
 
     heads = ["setting", "missed contacts", "force error, mean", "largest", "energy drift: bouncing", "rolling",
-             "ns a step, CPU core", "GPU", "ns a query, CPU core", "GPU", "MB"]
+             "ns a step, CPU core", "GPU", "MB"]
     return table(lines, heads, cells)
 
 
