@@ -860,7 +860,7 @@ typedef struct lsdcd_wall_contacts {
   ptrdiff_t *sphere; /* its place in the arrays of that step, from 0 */
   int *mesh;         /* from 0 */
   double *force;     /* 3 numbers each, on the sphere */
-  double *point;     /* 3 numbers each, of the mesh, the closest to the centre */
+  double *point;     /* 3 numbers each, of the mesh, where it is closest, of an ellipsoid deepest */
   double *overlap;   /* length, at the begin of the step, as is the point */
   size_t
       contacts; /* answer: all there are, so the room that all take; with less room no array is written */

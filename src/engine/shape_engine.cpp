@@ -9,6 +9,7 @@
 #include "engine/engine_on.h"
 #include "engine/step/compile_law.h"
 #include "engine/step/shape_step.h"
+#include "shape/nearest_on_surface.h"
 
 #include <string>
 #include <utility>
@@ -27,7 +28,8 @@ class Shapes {
   {
     std::size_t lists = work.near.capacity() * sizeof(NearList);
     for (const NearList &near : work.near) lists += near.features.bytes();
-    return lists + work.shape.capacity() * sizeof(Superellipsoid);
+    return lists + work.shape.capacity() * sizeof(Superellipsoid) +
+           work.turn.capacity() * sizeof(Quaternion);
   }
 
   void prepare(const Spheres &spheres, const int *candidates, int n)
@@ -35,11 +37,28 @@ class Shapes {
     work.rows = spheres.shapes;
     if (!work.rows) return;
     // It never shrinks: a look asks for a grain of a step that may have had more.
-    if (work.shape.size() < static_cast<std::size_t>(spheres.n)) work.shape.resize(spheres.n);
+    if (work.shape.size() < static_cast<std::size_t>(spheres.n)) {
+      work.shape.resize(spheres.n);
+      work.turn.resize(spheres.n);
+    }
     for (int k = 0; k < n; k++) {
       const int i = candidates[k];
-      if (!work.rows[i].is_sphere()) prepare_one(work.rows[i], spheres.radius[i], i);
+      if (work.rows[i].is_sphere())
+        work.shape[i].half = {0, 0, 0};
+      else
+        prepare_one(work.rows[i], spheres.radius[i], i);
     }
+  }
+
+  // Returns the overlap of a contact of the last step: the depth of the wall's point in the grain. Where that was not found to
+  // rounding, the next read of the diagnostics is an error.
+  Real overlap(const TouchingSphere &of, const Vec3 &arm)
+  {
+    const Superellipsoid &shape = work.shape[of.sphere];
+    const Vec3 in_grain = rotate(inverse(work.turn[of.sphere]), -arm);
+    const SurfacePoint nearest = nearest_on_surface(shape, in_grain);
+    if (!nearest.is_sure) raise_to(&work.unsure, kNoSphere - of.sphere);
+    return -nearest.distance;
   }
 
  private:
@@ -55,6 +74,7 @@ class Shapes {
     } catch (const InputError &e) {
       throw InputError(i, std::string("has a shape that cannot be: ") + e.what());
     }
+    work.turn[i] = row.turn;
     if (radius < shape.farthest * (1 - kRadiusRounding))
       throw std::logic_error("the radius of a grain must be that of a sphere around it");
   }
@@ -116,6 +136,11 @@ class ShapeEngine : public EngineOn<CpuBackend> {
     shapes_->work.near.resize(static_cast<std::size_t>(n_candidates()));
     shapes_->prepare(spheres, candidates(), n_candidates());
     EngineOn::submit(spheres, step);
+  }
+  Real overlap(const TouchingSphere &of, const Vec3 &arm) override
+  {
+    const bool is_sphere = !shapes_->work.rows || shapes_->work.shape[of.sphere].half.x == 0;
+    return is_sphere ? EngineOn::overlap(of, arm) : shapes_->overlap(of, arm);
   }
   std::size_t bytes() const override { return EngineOn::bytes() + shapes_->bytes(); }
   StepDiagnostics read_diagnostics() override

@@ -33,7 +33,7 @@ constexpr Member kMeshes = {"n_meshes", "mesh"}, kMesh = {"mesh", "mesh"}, kLaw 
                  kWearDeform = {"wear_deform_every", "wear"}, kCache = {"cache", "cache"},
                  kFields = {"fields", "mesh_fields"}, kStl = {"stl", "mesh_stl"},
                  kNearest = {"nearest", "nearest"}, kSide = {"side", "side"},
-                 kDevice = {"device", "device"}, kEach = {"each_contact", "each_contact"},
+                 kDevice = {"device", "device"},
                  kTorquePoint = {"torque_about_moves", "torque_about"};
 
 // What of a mesh does not go with the rest of its wall. The text is about the member, and says what to do.
@@ -172,7 +172,6 @@ class SpecCheck {
       refuse(kSide, "ellipsoids have a wall with both sides alone: leave it out");
     if (wall_.device == Device::cuda)
       refuse(kDevice, "the wall has ellipsoids on a CPU alone: use cpu or auto");
-    if (wall_.each_contact) refuse(kEach, "the wall lists contacts of spheres alone: leave it out");
     if (wall_.nearest > 0)
       refuse(kNearest,
              "contacts of ellipsoids are found without lists, and none is missed: leave it out");

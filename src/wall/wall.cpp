@@ -614,7 +614,7 @@ void Wall::for_contact_rows(const std::function<void(int, const Real *)> &row) c
 
 void Wall::for_contacts(const std::function<void(const WallContact &)> &found) const
 {
-  if (cutoff() > 0) lsdcd::for_contacts(engine_->results(), meshes_, found);
+  if (cutoff() > 0) lsdcd::for_contacts(*engine_, meshes_, found);
 }
 
 void Wall::write_due_files()

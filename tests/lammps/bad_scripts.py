@@ -175,7 +175,6 @@ TABLES = [
          "in 'law', rolling resistance: the wall has it for spheres alone"),
         ("ellipsoids_with_a_side", "hooke 1e4 NULL 20 NULL 0.1 1 side out", "in 'side', ellipsoids have a wall with both sides alone"),
         ("ellipsoids_with_nearest", "hooke 1e4 NULL 20 NULL 0.1 1 nearest 4", "in 'nearest', contacts of ellipsoids are found without lists"),
-        ("ellipsoids_each_contact", "hooke 1e4 NULL 20 NULL 0.1 1 each_contact", "the wall lists contacts of spheres alone"),
         ("ellipsoids_on_a_gpu", "hooke 1e4 NULL 20 NULL 0.1 1 device cuda", "the wall has ellipsoids on a CPU alone"),
     ]),
     (NO_RADIUS + HOOKE + "mesh {}\n" + RUN, [

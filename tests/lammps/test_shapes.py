@@ -172,6 +172,45 @@ def test_ellipsoids(folder):
                 lmp.largest_difference(one, proceed(folder, "one.restart", f"again{ranks}", ranks)), 0)
 
 
+def contacts_of(folder, name):
+    """The rows of each_contact, by atom: mesh, force, point, overlap."""
+    rows = {}
+    for line in (folder / name).read_text().split("ENTRIES")[-1].splitlines()[1:]:
+        atom, *row = map(float, line.split())
+        rows.setdefault(atom, []).append(row)
+    return {atom: sorted(of_atom) for atom, of_atom in rows.items()}
+
+
+@pytest.mark.parametrize("exponents", [None, pytest.param("4 8", marks=lmp.of_host)])
+def test_each_contact(folder, exponents):
+    """Without friction and damping a contact that is the only one of its grain bears kn times its overlap."""
+    style = "ellipsoid superellipsoid" if exponents else "ellipsoid"
+    atoms = ELLIPSOIDS + (WITH_BLOCK.format(*exponents.split()) if exponents else "")
+    wall = forces("nve/asphere", "hooke/history 1e3 NULL 0 NULL 0 1", "each_contact")
+    columns = " ".join(f"f_wall[{k}]" for k in range(1, 10))
+    last = "".join(f"""\
+dump            {{name}}{kind} all {kind} 20 {{name}}.{kind} {what}
+dump_modify     {{name}}{kind} format float %.17g
+""" for kind, what in (("local", columns), ("custom", "id f_wall[1] f_wall[2] f_wall[3] f_wall[4]"))) + "run 20\n"
+    lmp.run_well(SETTINGS.format(style=style) + CREATE + atoms + START + wall +
+                 "run 280\nwrite_restart each.restart\n" + last.format(name="one"), folder)
+    found, bears = contacts_of(folder, "one.local"), lmp.read_dump(folder / "one.custom")[300]
+    alone = [rows[0] for rows in found.values() if len(rows) == 1]
+    fact("each contact: many grains have one, and some have more", 10 < len(alone) < len(found), str(len(found)))
+    # The foot and the support of the grain are rounded, at sizes of 1 and 8.
+    at_most("each contact: the force is kn times the overlap",
+            max(abs(math.hypot(*row[1:4]) - 1e3 * row[7]) for row in alone), 1e3 * 1e-13)
+    fact("each contact: all of each grain are there", {i: len(rows) for i, rows in found.items()} ==
+         {i: row[0] for i, row in bears.items() if row[0] > 0}, str(len(found)))
+    at_most("each contact: the forces add up to that on the grain",
+            max(abs(sum(row[1 + k] for row in rows) - bears[i][1 + k]) / max(map(abs, bears[i][1:4] + [1]))
+                for i, rows in found.items() for k in range(3)), 1e-12)
+    for ranks in (1, 2, 4):
+        lmp.run_well(SETTINGS.format(style=style) + "read_restart each.restart\n" + wall + last.format(name=f"on{ranks}"), folder, ranks)
+        fact(f"each contact: continued from a restart file the same on {ranks} ranks",
+             contacts_of(folder, f"on{ranks}.local") == found, "")
+
+
 def test_body(folder):
     """An ellipsoid hits a free cube beside its middle, with friction: momentum and angular momentum of both stay."""
     a, b, c, d, e, f, g, h = [(x, y, z) for z in (-1, 1) for y in (-1, 1) for x in (-1, 1)]

@@ -239,6 +239,15 @@ def test_shapes_at_walls():
          np.allclose(torque, [[0, -10 * 1.5 / height, 0], [0, 0, 0]], rtol=0, atol=1e-11), (force, torque))
     fact("exponents of 2 are those of an ellipsoid",
          np.array_equal(step(wall_of(shapes=True), **shapes, exponents=np.full((2, 2), 2.0)), (force, torque)))
+    each = wall_of(shapes=True, each_contact=True)
+    step(each, **shapes)
+    wrong = {"half_axes": np.array([[2.0, 1, 1], [-1, 1, 1]]), "quaternions": np.array([[1, 0, 0, 0]] * 2), "inertia": np.ones((2, 3))}
+    refused("a wrong shape behind one that lies otherwise", "grain 1: a half-axis", lambda: step(each, **wrong), lsdcd.Error)
+    found = each.contacts()
+    # At 45 degrees the lowest point is (a^2 - c^2)/(2 h) beside the centre, for half-axes a and c.
+    fact("contacts have the point of the plane under an ellipsoid's lowest, and its overlap, that of the last step",
+         found.sphere.tolist() == [0, 1] and np.allclose(found.point, [[1.5 / height, 0, 0], [5, 0, 0]], rtol=0, atol=1e-14) and
+         np.allclose(found.overlap, 0.01, rtol=0, atol=1e-14) and np.array_equal(found.force, force), found)
     refused("shapes at a wall without them", "`half_axes` to `inertia` are of a wall whose spec has `shapes`",
             lambda: step(wall_of(), **shapes), lsdcd.Error)
     refused("a wall of shapes whose step has none", "`half_axes` is null", lambda: step(wall_of(shapes=True)), lsdcd.Error)

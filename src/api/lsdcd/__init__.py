@@ -624,7 +624,7 @@ class WallContacts(_Record):
     sphere: NDArray[np.intp]       # (n,) its place in the arrays of the step, from 0
     mesh: NDArray[np.int32]        # (n,) from 0
     force: NDArray[np.float64]     # (n, 3) on the sphere
-    point: NDArray[np.float64]     # (n, 3) of the mesh, the closest to the centre when the step began
+    point: NDArray[np.float64]     # (n, 3) of the mesh, the closest to the centre, or the deepest in an ellipsoid, when the step began
     overlap: NDArray[np.float64]   # (n,) length, then
 
 

@@ -29,11 +29,12 @@ struct NearList {
 
 // Shapes, trees and lists for steps.
 struct ShapeWork {
-  const GrainShape *rows = nullptr;           // of all grains of the step; null: all are spheres
-  std::vector<Superellipsoid> shape;          // of each candidate that is no sphere, by its index
+  const GrainShape *rows = nullptr;     // of all grains of the step; null: all are spheres
+  std::vector<Superellipsoid> shape;    // of each candidate, by its index; half-axes 0: a sphere
+  std::vector<Quaternion> turn;         // of each of them that is no sphere, as in rows
   std::vector<const TriangleTree *> trees;    // of each mesh
   std::vector<NearList> near;                 // of each slot
-  // kNoSphere less the index of the first grain whose contacts were not found to rounding, or 0: an error.
+  // kNoSphere less the index of the first grain whose nearest points were not found to rounding, or 0: an error.
   std::uint64_t unsure = 0;
   // The largest overlap / least radius of curvature as DeepestOverlap::ratio(), and the index of the grain + 1.
   std::uint64_t sharpest = 0;

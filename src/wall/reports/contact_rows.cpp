@@ -25,16 +25,17 @@ void for_contact_rows(const StepResults &results, const std::function<void(int, 
   }
 }
 
-void for_contacts(const StepResults &results, const std::deque<MeshPart> &meshes,
+void for_contacts(WallEngine &engine, const std::deque<MeshPart> &meshes,
                   const std::function<void(const WallContact &)> &found)
 {
+  const StepResults &results = engine.results();
   const StepContact *contact = results.contacts().data();
   for (const TouchingSphere &t : results.touching())
     for (int n = 0; n < t.n_contacts; n++, contact++) {
       const Pose &pose = meshes[contact->mesh].pose();
       const Vec3 arm = pose.turn_to_box(contact->arm);
       found({t.sphere, static_cast<int>(contact->mesh), -pose.turn_to_box(contact->force),
-             t.x - arm, t.radius - norm(arm)});
+             t.x - arm, engine.overlap(t, arm)});
     }
 }
 

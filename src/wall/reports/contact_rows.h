@@ -4,7 +4,7 @@
 // What the contacts of a step on this process say to a host.
 #pragma once
 
-#include "engine/results.h"
+#include "engine/engine.h"
 #include "wall/mesh_part.h"
 
 #include <deque>
@@ -15,8 +15,9 @@ namespace lsdcd {
 // A contact of a sphere with a mesh. Forces are those of a step, places those that it began with.
 struct WallContact {
   int sphere, mesh;
-  Vec3 force;      // on the sphere
-  Vec3 point;      // of the mesh, the closest to the sphere's centre
+  Vec3 force;    // on the sphere
+  Vec3
+      point;    // of the mesh: the closest to the sphere's centre, or the deepest in a grain of another shape
   Real overlap;    // length
 };
 
@@ -24,7 +25,7 @@ struct WallContact {
 void add_virial(const StepResults &results, const std::deque<MeshPart> &meshes, Real *virial);
 void for_contact_rows(const StepResults &results,
                       const std::function<void(int, const Real *)> &row);
-void for_contacts(const StepResults &results, const std::deque<MeshPart> &meshes,
+void for_contacts(WallEngine &engine, const std::deque<MeshPart> &meshes,
                   const std::function<void(const WallContact &)> &found);
 
 }    // namespace lsdcd
