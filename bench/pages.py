@@ -63,16 +63,6 @@ def ratio(a, b):
     return float(a["median_ms"]) / float(b["median_ms"])
 
 
-def machines(rows):
-    """Which machines and commits the rows of a table are from."""
-    lines = []
-    for device in dict.fromkeys(r["device"] for r in rows):
-        mine = [r for r in rows if r["device"] == device]
-        commits, repeats = (", ".join(dict.fromkeys(r[k] for r in mine)) for k in ("commit", "repeats"))
-        lines.append(f"* {device}: commit {commits}; medians of {repeats} (least to most).")
-    return "\n".join(lines)
-
-
 # ---- tables of performance.md and library-queries.md -----------------------------------------------
 
 def point_costs(cpu):
@@ -116,8 +106,8 @@ def hours(cpu, cuda):
     made = table((10000, 100000, 1000000, 10000000), ["grains", "one core", "4 cores", "16 cores", "one H200"],
                  lambda n: [count(n), *[of(n, core_ns, cores) for cores in (1, 4, 16)], of(n, card_ns) if n >= int(card["spheres"]) else ""])
     return (f"{made}\n\n* A grain and step, wall included: {core_ns:.0f} ns on one core ({core['device']}, `gran/hooke/history/kk` over a floor of "
-            f"{count(core['triangles'])} triangles, commit {core['commit']}); {card_ns:.1f} ns on the H200 (`granular` with hertz/material, mindlin, "
-            f"sds and marshall in a box of {count(card['triangles'])} triangles, commit {card['commit']}).")
+            f"{count(core['triangles'])} triangles); {card_ns:.1f} ns on the H200 (`granular` with hertz/material, mindlin, "
+            f"sds and marshall in a box of {count(card['triangles'])} triangles).")
 
 
 NO_WALL = ", no wall"
@@ -153,9 +143,6 @@ def cost(rows):
     newest = {bed[:4]: bed for bed in sorted((b for b in beds if "sorted" in beds[b]), key=day)}
     own = next(o["sorted"] for b, o in beds.items() if "CPU" not in b[0] and added(o.get("sorted"), ", wall/gran/kk"))
     beds = {b: orders for b, orders in beds.items() if b[1] not in LEFT_OUT and b in newest.values()}
-    used = [r for b in sorted(beds) for r in beds[b].values()]
-    commits = {name: ", ".join(dict.fromkeys(r["commit"] for r in used if r["device"] == name))
-               for name in dict.fromkeys(r["device"] for r in used)}
 
     def cells(bed):
         orders, r = beds[bed], next(iter(beds[bed].values()))
@@ -166,8 +153,7 @@ def cost(rows):
     heads = ["device", "LAMMPS", "bed", "triangles", "atoms", "at the wall, %", "adds, %, sorted", "random"]
     return (table(sorted(beds, key=lambda bed: (bed[0], bed[1], int(bed[2]), int(bed[3]), day(bed))), heads, cells) + "\n\n" +
             f"* LAMMPS's own flat walls in LAMMPS {facts(own)['host']} on the {own['device']}, {own['case']} of {count(own['spheres'])} atoms: `wall/gran` "
-            f"adds {added(own, ', wall/gran')} %, `wall/gran/kk` {added(own, ', wall/gran/kk')} %, `wall/lsdcd` {added(own)} %.\n" +
-            "\n".join(f"* {name}: commit {commit}." for name, commit in commits.items()))
+            f"adds {added(own, ', wall/gran')} %, `wall/gran/kk` {added(own, ', wall/gran/kk')} %, `wall/lsdcd` {added(own)} %.")
 
 
 def scale(rows):
@@ -186,9 +172,9 @@ def scale(rows):
                 f"{100 * (float(f['over_no_wall']) - 1):.1f}", f"{speed_up:.2f}", number(f"{int(f['mib']) / 1024:.3g}"),
                 f"{int(f['mib']) * 1024**2 / each:.0f}", number(facts(alone)["make_s"]), number(f["setup_s"])]
 
-    heads = ["GPUs", "grains", "triangles", "step without a wall, ms", "with it, ms", "adds, %", "efficiency", "memory of a card, GiB",
+    heads = [f"GPUs ({walls[0]['device']})", "grains", "triangles", "step without a wall, ms", "with it, ms", "adds, %", "efficiency", "memory of a card, GiB",
              "bytes a grain", "grains are made in, s", "the wall is set up in, s"]
-    return table(walls, heads, cells) + "\n\n" + machines(rows)
+    return table(walls, heads, cells)
 
 
 LIGGGHTS_CASES = {"at the wall": "all at the wall, fixed", "turning": "all at the wall, fixed; the cylinder turns",
@@ -218,7 +204,7 @@ def liggghts(rows):
     heads = ["spheres", "triangles", "wall/lsdcd, ms", "LIGGGHTS, ms", "LIGGGHTS / wall/lsdcd"]
     return "\n".join([table(mine, heads, cells), "", f"* With spheres in random order LIGGGHTS takes {min(random):.1f} to {max(random):.1f} times as long.",
                       f"* Set-up and memory, with cells for these grains: {'. '.join(set_up(r) for r in mine if r['case'] == mine[0]['case'])}.",
-                      machines(rows)])
+                      f"* Devices: {'; '.join(dict.fromkeys(r['device'] for r in rows))}."])
 
 
 # ---- tables of effects.md ------------------------------------------------------------------
@@ -226,8 +212,8 @@ def liggghts(rows):
 def costs(cpu, cuda):
     first, on_gpu = cpu[0], cuda[0]
     told = (f"The CPU's times are of {first['contacts']} contacts on one core, the least of {first['repeats']} rounds "
-            f"(commit {first['commit']}, {first['compiler']}). The GPU's are of {on_gpu['contacts']} contacts on an "
-            f"{on_gpu['device'].replace('CUDA, ', '')}, the least of {on_gpu['repeats']} (commit {on_gpu['commit']}), with the copies to and from it.")
+            f"({first['compiler']}). The GPU's are of {on_gpu['contacts']} contacts on an "
+            f"{on_gpu['device'].replace('CUDA, ', '')}, the least of {on_gpu['repeats']}, with the copies to and from it.")
 
     def ns(row):
         return short(row["min_ns"], 3) if row else ""

@@ -27,6 +27,8 @@ PYTHON = sys.executable
 WANTED = "inf 0.25\n"
 # Two heights above a floor of one large triangle; then its four upright sides, of two triangles each, in it.
 WANTED_PAIRS = "0 0 8 \n"
+# The force of a spring of 2e4 at an overlap of 0.01, and the damping 20 times mass times speed, each 1.
+WANTED_LID = "on the sphere -220, on the lid 220, about x -220\n"
 FLOOR = "solid floor\nfacet normal 0 0 1\nouter loop\nvertex -20 -20 0\nvertex 20 -20 0\nvertex 0 30 0\nendloop\nendfacet\nendsolid\n"
 
 PROJECT = """cmake_minimum_required(VERSION 3.22)
@@ -37,9 +39,11 @@ target_link_libraries(in_c lsdcd::core)
 add_executable(in_cpp distance.cpp)
 set_target_properties(in_cpp PROPERTIES CXX_STANDARD 17)
 target_link_libraries(in_cpp lsdcd::{last})
-add_executable(collide collide.cpp)
-set_target_properties(collide PROPERTIES CXX_STANDARD 17)
-target_link_libraries(collide lsdcd::{last})
+foreach(example collide lid)
+  add_executable(${{example}} ${{example}}.cpp)
+  set_target_properties(${{example}} PROPERTIES CXX_STANDARD 17)
+  target_link_libraries(${{example}} lsdcd::{last})
+endforeach()
 """
 
 STATIC_PROJECT = """cmake_minimum_required(VERSION 3.22)
@@ -117,7 +121,7 @@ def test_builds(prefix, work, libraries):
                          PKG_CONFIG_PATH=os.path.join(libraries, "pkgconfig"))
         fact(f"{os.path.basename(compiler)} has no warning of conversions in lsdcd.hpp", code == 0, text)
 
-    for example in ("distance.c", "distance.cpp", "collide.cpp"):
+    for example in ("distance.c", "distance.cpp", "collide.cpp", "lid.cpp"):
         os.symlink(os.path.join(examples, example), os.path.join(work, example))
     for components in (["core"], ["core", "cuda"]):
         build = os.path.join(work, "build_" + components[-1])
@@ -137,6 +141,7 @@ def test_builds(prefix, work, libraries):
             gives(f"and {program} gives the distances", WANTED, os.path.join(build, program), "cube.stl",
                   folder=work)
         gives("and collide the pairs", WANTED_PAIRS, os.path.join(build, "collide"), "floor.stl", "cube.stl", folder=work)
+        gives("and lid the forces", WANTED_LID, os.path.join(build, "lid"), folder=work)
     code, text = run(os.path.join(work, "c"), "nowhere.stl", folder=work, **there)
     fact("an error has its text", code != 0 and "nowhere.stl" in text, text)
 
