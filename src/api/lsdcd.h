@@ -791,7 +791,7 @@ typedef struct lsdcd_wall_totals {
   size_t size;                /* of this struct; set by the caller */
   double force[3], torque[3]; /* of the spheres on the mesh; the torque about the point asked for */
   double contacts;
-  double overlap;     /* the largest overlap / radius */
+  double overlap;     /* the largest overlap / radius, or least half-axis */
   double uncertified; /* spheres whose answer was not certified exact; see `nearest` */
   double power;       /* of the mesh on the spheres, by its motion */
   double energy;      /* elastic */

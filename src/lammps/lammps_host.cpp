@@ -25,7 +25,7 @@ LammpsHost::LammpsHost(FixWallLsdcd &fix) : MpiNodeHost(fix.world), fix(fix)
   names_.wrap_sooner = "use neigh_modify delay 0 every 1 check yes";
   names_.put_clear = "keep what inserts or creates atoms a radius away from the mesh";
   names_.stay_in_plane = "fix enforce2d throws away what they push along z";
-  names_.give_radii = "set diameter";
+  names_.give_radii = "set diameter, or shape of ellipsoids";
   names_.give_other_radii = "write 'set group all diameter D'";
   names_.set_radii =
       "write 'set group all diameter D': atoms have radius 0.5 until a diameter is set";

@@ -211,6 +211,69 @@ dump_modify     {{name}}{kind} format float %.17g
              contacts_of(folder, f"on{ranks}.local") == found, "")
 
 
+def test_periodic(folder):
+    """An ellipsoid on the face of a periodic box, and where the waves that it rolls on go on."""
+    def waves(name, first, last):
+        n = 12    # squares of half a unit in a period
+        def at(i, j):
+            return i / 2 - 3, j / 2 - 3, -0.25 * math.cos(2 * math.pi * (i % n) / n) + 0.2 * math.cos(4 * math.pi * (j % n) / n)
+        squares = [stl.quad(at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)) for i in range(first, last) for j in range(first, last)]
+        stl.write(folder / name, sum(squares, []))
+
+    waves("period.stl", 0, 12)
+    waves("periods.stl", -12, 24)
+    paths = []
+    for mesh, edge, side in (("period.stl", "p", 3), ("periods.stl", "f", 9)):
+        lmp.run_well(SETTINGS.format(style="ellipsoid").replace("f f f", f"{edge} {edge} f") + f"""\
+region          box block -{side} {side} -{side} {side} -6 6
+create_box      1 box
+create_atoms    1 single 2.9 0.1 0.9
+set             atom 1 mass 1
+set             atom 1 shape 2 1 1.6
+set             atom 1 quat 1 2 0.5 40
+velocity        all set 1.0 0.3 -1
+pair_style      zero 2.0
+pair_coeff      * *
+neighbor        0.3 bin
+neigh_modify    delay 0 every 1 check yes
+fix             move all nve/asphere
+fix             pull all gravity 8 vector 0 0 -1
+fix             wall all wall/lsdcd hooke/history 1e3 NULL 20 NULL 0.5 1 mesh {mesh} contacts
+timestep        1e-3
+dump            out all custom 20 out id xu yu z vx vy vz angmomx angmomy angmomz f_wall[1]
+dump_modify     out format float %.17g
+run             1000
+""", folder)
+        paths.append(lmp.read_dump(folder / "out"))
+    beyond = sum(rows[1][0] > 3 and rows[1][-1] > 0 for rows in paths[0].values())
+    fact("a periodic box: it touches on both sides of a face", beyond > 3 and paths[0][0][1][0] < 3, str(beyond))
+    # Places beyond the face are rounded otherwise; a few bounces part them by a factor of 1e3 at most.
+    at_most("a periodic box: it goes as on three periods", lmp.largest_difference(*paths), 1e-11)
+
+
+def test_rerun(folder):
+    """LAMMPS reads no orientation from a dump: the grains would lie as they did before."""
+    stl.write(folder / "plane.stl", stl.quad((-6, -6, 0), (6, -6, 0), (6, 6, 0), (-6, 6, 0)))
+    done = lmp.run(SETTINGS.format(style="ellipsoid") + """\
+region          box block -6 6 -6 6 -6 6
+create_box      1 box
+create_atoms    1 single 0 0 0.95
+set             atom 1 shape 1 1 2
+set             atom 1 mass 1
+pair_style      zero 2.0
+pair_coeff      * *
+fix             move all nve/asphere
+fix             wall all wall/lsdcd hooke 1e4 NULL 0 NULL 0 0 mesh plane.stl
+dump            out all custom 1 out id type x y z vx vy vz
+run             1
+undump          out
+set             atom 1 quat 1 0 0 90
+rerun           out dump x y z vx vy vz
+""", folder)
+    fact("a rerun with ellipsoids: refused", done.returncode != 0 and
+         "a rerun has no orientations of ellipsoids, because no dump gives them back" in done.stdout, done.stdout[-300:])
+
+
 def test_body(folder):
     """An ellipsoid hits a free cube beside its middle, with friction: momentum and angular momentum of both stay."""
     a, b, c, d, e, f, g, h = [(x, y, z) for z in (-1, 1) for y in (-1, 1) for x in (-1, 1)]

@@ -231,6 +231,41 @@ TEST(wall_spec, what_does_not_go_together_is_refused_by_keyword_and_by_field)
   }
 }
 
+TEST(wall_spec, what_grains_of_other_shapes_do_not_have_is_refused)
+{
+  const struct {
+    void (*spoil)(WallSpec &, ContactLaw &);
+    const char *keyword, *text;
+  } rows[] = {
+      {[](WallSpec &w, ContactLaw &) { w.side = Side::out; }, "side", "both sides alone"},
+      {[](WallSpec &w, ContactLaw &) { w.device = Device::cuda; }, "device", "on a CPU alone"},
+      {[](WallSpec &w, ContactLaw &) { w.meshes[0].has_nodes = true; }, "nodes", "nodes move"},
+      {[](WallSpec &, ContactLaw &law) { law.normal = NormalModel::jkr; }, "law", "adhesion"},
+      {[](WallSpec &, ContactLaw &law) { law.normal = NormalModel::dmt; }, "law", "adhesion"},
+      {[](WallSpec &, ContactLaw &law) { law.cohesion = CohesionModel::sjkr; }, "law", "cohesion"},
+      {[](WallSpec &, ContactLaw &law) { law.rolling = RollingModel::sds; }, "law", "rolling"},
+      {[](WallSpec &, ContactLaw &law) { law.twisting = TwistingModel::sds; }, "law", "twisting"},
+      {[](WallSpec &w, ContactLaw &law) {
+         law.heat = HeatModel::radius;
+         for (MeshSpec &mesh : w.meshes) mesh.has_temperature = true;
+       },
+       "law", "heat"},
+      {[](WallSpec &, ContactLaw &law) { law.tangential = TangentialModel::mindlin_rescale; },
+       "law", "rescaled"},
+  };
+  for (const auto &row : rows) {
+    WallSpec wall = good();
+    wall.shapes = true;
+    EXPECT_EQ(refusal_of(wall), "");
+    row.spoil(wall, wall.laws[0].law);
+    const std::string error = refusal_of(wall);
+    EXPECT_EQ(error.find("in '" + std::string(row.keyword) + "', "), 0u) << error;
+    EXPECT_NE(error.find(row.text), std::string::npos) << error;
+    wall.shapes = false;
+    EXPECT_EQ(refusal_of(wall), "") << row.text;    // of spheres alone it is taken
+  }
+}
+
 TEST(wall_spec, another_mesh_is_named_as_its_maker_does)
 {
   WallSpec wall = good();
