@@ -163,18 +163,15 @@ def scale(rows):
     def without(r):
         return find(rows, case="closed box, no wall", triangles=r["triangles"], spheres=r["spheres"])
 
-    def cells(r):
-        one = find(walls, ranks=1) or r
+    def line(r):
         alone, f = without(r), facts(r)
         each = int(r["spheres"]) / int(f["ranks"])
-        speed_up = float(one["median_ms"]) / float(r["median_ms"]) * each / int(one["spheres"]) * int(facts(one)["ranks"])
-        return [f["ranks"], count(r["spheres"]), count(r["triangles"]), number(alone["median_ms"]), number(r["median_ms"]),
-                f"{100 * (float(f['over_no_wall']) - 1):.1f}", f"{speed_up:.2f}", number(f"{int(f['mib']) / 1024:.3g}"),
-                f"{int(f['mib']) * 1024**2 / each:.0f}", number(facts(alone)["make_s"]), number(f["setup_s"])]
+        return (f"* {count(r['spheres'])} grains and {count(r['triangles'])} triangles on {f['ranks']} {r['device']}: {number(alone['median_ms'])} ms a step "
+                f"without the wall, {number(r['median_ms'])} with it, {100 * (float(f['over_no_wall']) - 1):.1f} % more; "
+                f"{int(f['mib']) / 1024:.3g} GiB of a card, {int(f['mib']) * 1024**2 / each:.0f} bytes a grain; "
+                f"grains made in {number(facts(alone)['make_s'])} s, the wall set up in {number(f['setup_s'])} s")
 
-    heads = [f"GPUs ({walls[0]['device']})", "grains", "triangles", "step without a wall, ms", "with it, ms", "adds, %", "efficiency", "memory of a card, GiB",
-             "bytes a grain", "grains are made in, s", "the wall is set up in, s"]
-    return table(walls, heads, cells)
+    return "\n".join(map(line, walls))
 
 
 LIGGGHTS_CASES = {"at the wall": "all at the wall, fixed", "turning": "all at the wall, fixed; the cylinder turns",
