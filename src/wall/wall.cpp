@@ -217,10 +217,10 @@ void Wall::begin_snapshot(int n, const Step &step)
 {
   const std::string a_replay = std::string("a ") + host_.names().replay;
   if (spec_.shapes)
-    throw InputError(a_replay + " has no orientations of ellipsoids, because no " +
-                     host_.names().record +
-                     " gives them back, so contacts would be those of grains that lie otherwise: "
-                     "write restart files, and read each and run 0 steps");
+    throw InputError(
+        a_replay + " has no orientations of ellipsoids, because no " + host_.names().record +
+        " gives them back, so contacts would be those of grains that lie otherwise: write a " +
+        host_.names().saved + " in their place, and run 0 steps from it");
   for (const MeshPart &m : meshes_) {
     m.mover->check_snapshot(step);
     m.surface->check_snapshot();
