@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 LSDCD contributors
 # SPDX-License-Identifier: BSD-3-Clause
 
-"""Grains and two meshes, each in its colour: xvfb-run -a pvpython look.py"""
+"""Grains and two meshes, each in its colour: xvfb-run -a -s -noreset pvpython look.py"""
 from paraview.simple import *
 
 view = CreateView("RenderView")
