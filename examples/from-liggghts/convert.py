@@ -13,7 +13,8 @@ insert/lsdcd; what both programs know stays as it is, but for names such as atom
 A line is converted with the defaults of LIGGGHTS 3.8, or with --pfm of LIGGGHTS-PFM, or it is left: "commands left: 0"
 means the same physics. A line that is left stays as a comment below a line
   # LEFT in.chute:34: why; do: what to do
-and the same list is printed. A line with NOTE is converted, and says what to look at. The script is written
+and so does a line that needs what it makes. The same list is printed, and the exit code is 3; it is 0 where nothing is left, and 1
+where nothing was written. A line with NOTE is converted, and says what to look at. The script is written
 whole or, after an error, not at all. It reads the script from top to bottom as a program: a variable, an ID or a region is what it
 is at that line, the lines of include stand in place of it, and loops and ifs stay as they are. What a loop or an if may change, and
 what is needed here as a number, is left (or give --var NAME VALUE).
@@ -64,6 +65,9 @@ SET_WORDS = {**dict.fromkeys("charge density diameter mass mol type vx vy vz x y
 GONE_MESH_WORDS = {"heal": 1, "curvature": 1, "curvature_tolerant": 1, "verbose": 1, "precision": 1,
                    "min_feature_length": 1, "element_exclusion_list": 2, "stress": 1}
 FORCE, TORQUE = (1, 2, 3), (4, 5, 6)
+MAKERS = ("fix", "compute", "variable", "dump")
+KINDS = {name[0]: name for name in MAKERS}
+ENDERS = {"unfix": "f", "fix_modify": "f", "uncompute": "c", "compute_modify": "c", "undump": "d", "dump_modify": "d"}
 
 
 class CannotConvert(Exception):
@@ -99,6 +103,12 @@ def is_yes(values, key, default):
     if value not in ("yes", "no"):
         raise Left(f"{key} {value}", "yes or no in its place")
     return value == "yes"
+
+
+def needed_by(words):
+    """The fixes, computes, variables and dumps that a command needs: f_ID, c_ID, v_ID and d_ID."""
+    needed = {m[0] or f"v_{m[1]}" for m in re.findall(r"\b([fcv]_\w+)|\$\{(\w+)\}", " ".join(words))}
+    return needed | {f"{ENDERS[words[0]]}_{words[1]}"} if words[0] in ENDERS and len(words) > 1 else needed
 
 
 class Line:
@@ -973,6 +983,7 @@ class Script:
         # What is known at a line, in the order of the script.
         self.out, self.left, self.left_variables = [], [], set()
         self.noted, self.noted_dashpot, self.units = False, False, "lattice" if options.pfm else "box"
+        self.waiting = set()    # what lines with #: make: f_ID of fixes, and so on with c_, v_ and, of dumps, d_
         self.early, self.later = set(), {}    # meshes that are named before their wall, and its ID and place
         self.ran = 0
         self.clear()
@@ -1215,16 +1226,18 @@ class Script:
         self.put(f"# NOTE {self.at(line)}: {text}")
 
     def leave(self, line, why, do, nearest=""):
+        """Makes a line a comment. Returns whether the nearest commands wait below it."""
         # Where no number waits for a choice, --nearest takes the nearest commands.
         if nearest and self.options.nearest and " K " not in nearest:
             self.note(line, f"--nearest: {why}")
             self.put(nearest)
-            return
+            return False
         self.left.append(f"{self.at(line)}: {why}; do: {do}")
         self.put(f"# LEFT {self.left[-1]}")
         self.put("\n".join("# " + t for t in line.text.splitlines()))
         for text in nearest.splitlines():
             self.put(f"#: {text}")
+        return bool(nearest)
 
     @staticmethod
     def grows(w):
@@ -1250,7 +1263,7 @@ class Script:
             if not line.words:
                 self.put(line.text)
                 continue
-            before, moved = len(self.out), None
+            before, moved, waits = len(self.out), None, False
             if line.words[0] in ("fix", "dump", "compute") and len(line.words) > 1:
                 moved = self.moves.get(line.words[1])
                 self.gone.pop(line.words[1], None)
@@ -1261,7 +1274,7 @@ class Script:
                 raise CannotConvert(f"{self.at(line)}: words are missing or wrong: {line.text.strip()}") from None
             except Left as left:
                 del self.out[before:]
-                self.leave(line, left.why, left.do, left.nearest)
+                waits = self.leave(line, left.why, left.do, left.nearest)
                 if line.words[0] == "fix":
                     self.end_replaced(line, moved)
                 if line.words[0] in ("fix", "dump", "compute") and not left.nearest:
@@ -1272,7 +1285,36 @@ class Script:
                 made = rf"fix +{re.escape(line.words[1])} " if line.words[0] == "fix" else None
                 if made and any(isinstance(text, str) and re.match(made, text) for text in self.out[before:]):
                     self.alive.add(line.words[1])
+            self.hold(line, before)
+            if waits and line.words[0] in MAKERS:
+                self.waiting.add(f"{line.words[0][0]}_{line.words[1]}")
         return "\n".join(text if isinstance(text, str) else self.mesh_dump(text) for text in self.out) + "\n"
+
+    def hold(self, line, before):
+        """Makes commands of a line wait, as comments with #:, that need what waits."""
+        commands, waits, needs = self.out[before:], [], set()
+        del self.out[before:]
+        for text in commands:
+            w = words_of(text) if isinstance(text, str) else []
+            needed = self.waiting.intersection(needed_by(w)) if w else set()
+            made = f"{w[0][0]}_{w[1]}" if w and w[0] in MAKERS else ""
+            if w[:1] == ["clear"]:
+                self.waiting.clear()
+            if needed:
+                waits.append(text)
+                needs |= needed
+                self.waiting |= {made} - {""}
+                rest = [x for x in w if not self.waiting.intersection(needed_by([x]))]
+                text = " ".join(rest) if w[0] == "thermo_style" and len(rest) > 2 else None
+            else:
+                self.waiting.discard(made)
+            if text is not None:
+                self.put(text)
+            if w and w[0] in ENDERS and w[0].startswith("un") and not line.skips:
+                self.waiting.discard(f"{ENDERS[w[0]]}_{w[1]}")
+        if waits:
+            of = ", ".join(f"{KINDS[name[0]]} {name[2:]}" for name in sorted(needs))
+            self.leave(line, f"{of}, which waits above as a comment", "take both without #:, or leave both", "\n".join(waits))
 
     def end_replaced(self, line, moved):
         """Ends what a fix with the same ID has made, where the one that would replace it is left."""
@@ -2513,6 +2555,7 @@ def main():
     for left in script.left:
         print(f"left: {left}", file=sys.stderr)
     print(f"commands left: {len(script.left)}" + (f", see LEFT in {a.out}" if a.out and script.left else ""), file=sys.stderr)
+    sys.exit(3 if script.left else 0)
 
 
 if __name__ == "__main__":
