@@ -104,6 +104,7 @@ void restore(lsdcd_wall &wall, const double *numbers, std::size_t count, bool wh
                    "these are numbers of a different wall: " + differ +
                        ". Make the wall of the spec that it had, or take what fits by "
                        "lsdcd_wall_restore_what_fits()");
+  wall.in->keep_made();
   wall.in->restore(state, {step, wall.dt});
   wall.number = step;
   wall.in->restore_springs(spheres);

@@ -125,23 +125,45 @@ void MeshNodes::check(const NodesGone &gone, const Step &step, Real cutoff) cons
     engine_->fetch(index_, NodesAt::before, from.data(), nullptr);
     engine_->fetch(index_, NodesAt::now, to.data(), v.data());
     const std::size_t node = farthest(from, to);
-    if (!std::isfinite(norm(to[node])))
-      throw InputError(
-          named(node_text(node) +
-                " has a position that is not finite: the motion of the nodes is unstable, "
-                "or a node was lost; use a shorter timestep or more damping"));
+    check_place(node, to[node]);
     if (is_too_far)
       throw InputError(named(node_text(node) + " has moved by " + number_text(gone.most) +
                              " in step " + std::to_string(step.number) +
                              ", more than the largest radius " + number_text(cutoff) +
                              ": it may have passed through a sphere; use a shorter timestep"));
-    for (std::size_t i = 0; i < v.size(); i++)
-      for (int d = 0; d < 3; d++)
-        if (!std::isfinite(v[i][d]))
-          throw InputError(named("the velocity of " + node_text(i) + " is " + number_text(v[i][d]) +
-                                 ", which is not finite"));
+    for (std::size_t i = 0; i < v.size(); i++) check_velocity(i, v[i]);
   }
   if (gone.without_area >= 0) throw_without_area(mesh_, gone.without_area);
+}
+
+void MeshNodes::check_place(std::size_t node, const Vec3 &x) const
+{
+  if (!std::isfinite(norm(x)))
+    throw InputError(named(node_text(node) +
+                           " has a position that is not finite: the motion of the nodes is "
+                           "unstable, or a node was lost; use a shorter timestep or more damping"));
+}
+
+void MeshNodes::check_velocity(std::size_t node, const Vec3 &v) const
+{
+  for (int d = 0; d < 3; d++)
+    if (!std::isfinite(v[d]))
+      throw InputError(named("the velocity of " + node_text(node) + " is " + number_text(v[d]) +
+                             ", which is not finite"));
+}
+
+void MeshNodes::check(const NodeState &was) const
+{
+  const auto *x = reinterpret_cast<const Vec3 *>(was.places.data());
+  const auto *v = reinterpret_cast<const Vec3 *>(was.velocities.data());
+  for (std::size_t i = 0; i < was.places.size() / 3; i++) check_place(i, x[i]);
+  for (std::size_t i = 0; i < was.velocities.size() / 3; i++) check_velocity(i, v[i]);
+  if (was.places.empty()) return;
+  for (std::size_t f = 0; f < mesh_.faces.size(); f++) {
+    const auto &corner = mesh_.faces[f];
+    if (!has_area(x[corner[0]], x[corner[1]], x[corner[2]]))
+      throw_without_area(mesh_, static_cast<int>(f));
+  }
 }
 
 const WeldedMesh &MeshNodes::mesh() const
@@ -192,10 +214,8 @@ void MeshNodes::restore(const NodeState &was)
   if (was.places.empty()) return;
   std::vector<Real> velocities = was.velocities;
   velocities.resize(was.places.size(), 0);
-  const NodesGone gone = engine_->put(index_, reinterpret_cast<const Vec3 *>(was.places.data()),
-                                      reinterpret_cast<const Vec3 *>(velocities.data()));
-  note(gone);
-  check(gone, {0, 0, Step::setup}, 0);
+  note(engine_->put(index_, reinterpret_cast<const Vec3 *>(was.places.data()),
+                    reinterpret_cast<const Vec3 *>(velocities.data())));
 }
 
 // ---- forces ------------------------------------------------------------------------------

@@ -60,7 +60,9 @@ class MeshNodes {
   void turn_springs(int n) { engine_->turn_springs(n, index_); }
   // For a saved state: where the nodes are, and their names.
   NodeState save() const;
-  // Before the first step: nodes are where they were saved, to which springs belong, until the next step begins. A state
+  // Throws InputError, which names the node or face, where restore() would put one at no finite place or without area.
+  void check(const NodeState &was) const;
+  // Takes a state that was checked, before the first step: nodes are where they were saved, to which springs belong, until the next step begins. A state
   // without places has springs of the step that comes.
   void restore(const NodeState &was);
 
@@ -96,6 +98,8 @@ class MeshNodes {
   std::string named(const std::string &text) const;
   std::string node_text(std::size_t i) const;
   void check(const NodesGone &gone, const Step &step, Real cutoff) const;
+  void check_place(std::size_t node, const Vec3 &x) const;
+  void check_velocity(std::size_t node, const Vec3 &v) const;
   void note(const NodesGone &gone);
   void check_range();
   void fetch_forces();

@@ -705,6 +705,11 @@ WallState Wall::save()
   return keeper_.save(clock_.now());
 }
 
+void Wall::keep_made()
+{
+  keeper_.keep_made();
+}
+
 void Wall::restore(const WallState &was, const Step &now)
 {
   keeper_.check(was);

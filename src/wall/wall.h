@@ -192,9 +192,12 @@ class Wall {
   // Returns what the wall keeps beside the histories of spheres, for a saved state. The loads of all processes are on the first
   // one alone.
   WallState save();
+  bool has_begun() const { return has_begun_; }    // a step. Local.
+  // Keeps what the wall was made as until the first step, for a host that may call restore() more than once. It takes as much
+  // memory as a saved state, on each process.
+  void keep_made();
   // Restores what another wall has saved, before the first step; all processes give the same state. Throws InputError, with
   // nothing changed, where a servo or a body would be outside of its limits.
-  bool has_begun() const { return has_begun_; }    // a step. Local.
   void restore(const WallState &was, const Step &now);
   // Restores the history of the spheres of this process after restore(), each as pack_saved() wrote it. Warns of what does not
   // fit.

@@ -276,9 +276,30 @@ TEST(mesh_body, begins_outside_of_its_limits_no_more_where_a_second_state_has_no
   without.set_up();
   spec.meshes[0].body.drive.lo = 0.4;
   Scene second(third, spec);
+  second.wall->keep_made();
   second.wall->restore(first.wall->save(), {first.now, kDt});
   second.wall->restore(without.wall->save(), {without.now, kDt});
   EXPECT_THROW(second.set_up(), InputError);
+}
+
+// Broadcasts that a host of one process was asked for.
+struct CountingHost : FakeHost {
+  int broadcasts = 0;
+
+  void broadcast(void *, std::size_t, int, Receivers) override { broadcasts++; }
+};
+
+TEST(mesh_body, takes_a_state_without_one_of_its_own_where_no_other_may_follow)
+{
+  FakeHost host;
+  CountingHost other;
+  const WallSpec spec = cube({JointKind::slider, {0, 0, 0}, {1, 0, 0}});
+  Scene first(host, spec), second(other, spec);
+  first.set_up();
+  const int before = other.broadcasts;
+  second.wall->restore(first.wall->save(), {first.now, kDt});
+  EXPECT_EQ(other.broadcasts, before);
+  EXPECT_THROW(second.wall->restore(first.wall->save(), {first.now, kDt}), std::logic_error);
 }
 
 // A change that takes it out of its limits is refused, and so is one that takes it out of the plane.

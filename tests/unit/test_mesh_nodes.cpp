@@ -1171,6 +1171,29 @@ TEST(mesh_nodes, go_on_from_a_saved_state_with_the_same_bits)
   EXPECT_EQ(second.torque[0], first.torque[0]);
 }
 
+TEST(mesh_nodes, stay_where_they_are_where_a_saved_state_is_refused)
+{
+  const auto mesh = welded(floor_mesh(2, 1));
+  FakeHost host;
+  Scene scene(host, nodes_of(hooke(1000).law(), mesh));
+  const std::vector<Vec3> before = scene.nodes();
+  const Box bounds = scene.wall->nodes(0).bounds();
+  WallState lifted = scene.wall->save(), flat;
+  std::vector<Real> &x = lifted.meshes[0].nodes.places;
+  ASSERT_EQ(x.size(), 3 * before.size());
+  for (std::size_t k = 2; k < x.size(); k += 3) x[k] += 1;
+  flat = lifted;
+  for (std::size_t k = 0; k < x.size(); k += 3) flat.meshes[0].nodes.places[k] = 0;
+  EXPECT_THROW(scene.wall->restore(flat, {0, kDt}), InputError);
+  flat = lifted;
+  flat.meshes[0].nodes.places[4] = std::nan("");
+  EXPECT_THROW(scene.wall->restore(flat, {0, kDt}), InputError);
+  EXPECT_EQ(scene.nodes(), before);
+  EXPECT_EQ(scene.wall->nodes(0).bounds().hi, bounds.hi);
+  scene.wall->restore(lifted, {0, kDt});
+  EXPECT_EQ(scene.wall->nodes(0).bounds().hi.z, bounds.hi.z + 1);
+}
+
 TEST(mesh_nodes, of_another_mesh_are_not_those_of_a_saved_state)
 {
   const auto mesh = welded(floor_mesh(2, 1)), other = welded(floor_mesh(3, 1));

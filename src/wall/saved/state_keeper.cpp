@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -74,15 +75,20 @@ bool StateKeeper::is_restored(const MeshPart &m, const WallState &was) const
 
 void StateKeeper::check(const WallState &was) const
 {
-  for (const MeshPart &m : of_.meshes)
-    if (is_restored(m, was)) m.mover->check(was.meshes[static_cast<std::size_t>(m.index)]);
+  for (const MeshPart &m : of_.meshes) {
+    if (!is_restored(m, was)) continue;
+    const MeshState &of_mesh = was.meshes[static_cast<std::size_t>(m.index)];
+    m.mover->check(of_mesh);
+    m.surface->check(of_mesh, of_mesh.mesh == identity_of(m));
+  }
 }
 
 void StateKeeper::restore(const WallState &was, const Step &now)
 {
   const std::size_t here = of_.meshes.size(), there = was.meshes.size();
   const std::string saved = host_.names().saved;
-  go_back(now);
+  if (is_restored_) go_back(now);
+  is_restored_ = true;
   for (std::size_t k = 0; k < std::min(there, here); k++) {
     MeshPart &m = of_.meshes[k];
     m.springs_are_foreign = !(was.meshes[k].mesh == identity_of(m));
@@ -108,15 +114,18 @@ void StateKeeper::restore(const WallState &was, const Step &now)
                                  " start without springs, motion, loads and wear"));
 }
 
+void StateKeeper::keep_made()
+{
+  if (is_restored_ || made_) return;
+  made_ = std::make_unique<Made>(Made{on_all(host_, save(0)), {}});
+  for (const MeshPart &m : of_.meshes) made_->motions.push_back(m.spec.motion);
+  for (MeshState &m : made_->state.meshes) m.body.has_begun = false;
+}
+
 // What the last state had, and the next one has not, must not stay.
 void StateKeeper::go_back(const Step &now)
 {
-  if (!made_) {
-    made_ = std::make_unique<Made>(Made{on_all(host_, save(0)), {}});
-    for (const MeshPart &m : of_.meshes) made_->motions.push_back(m.spec.motion);
-    for (MeshState &m : made_->state.meshes) m.body.has_begun = false;
-    return;
-  }
+  if (!made_) throw std::logic_error("a wall that is restored again has to keep_made() before");
   for (MeshPart &m : of_.meshes) {
     const std::size_t k = static_cast<std::size_t>(m.index);
     m.springs_are_foreign = false;

@@ -41,6 +41,9 @@ class StateKeeper {
 
   // Throws InputError, the same on all processes, where restore() would put a mesh where it may not be.
   void check(const WallState &was) const;
+  // Keeps what the wall was made as, which takes as much memory as a state, so that restore() may be called more than once.
+  // Collective.
+  void keep_made();
   // Takes a state that was checked, the same on all processes, in place of any that was restored before. The first process warns of what
   // does not fit. Collective.
   void restore(const WallState &was, const Step &now);
@@ -61,7 +64,8 @@ class StateKeeper {
   Host &host_;
   const WallSpec &wall_;
   Parts of_;
-  std::unique_ptr<Made> made_;    // null: nothing was restored
+  bool is_restored_ = false;
+  std::unique_ptr<Made> made_;    // null: it was not kept
 };
 
 }    // namespace lsdcd

@@ -112,6 +112,11 @@ class NodeSurface final : public MeshSurface {
 
   void save(MeshState &to) const override { to.nodes = nodes_->save(); }
 
+  void check(const MeshState &was, bool same) const override
+  {
+    if (same) nodes_->check(was.nodes);
+  }
+
   // Those of another mesh are in another order, and as many as it has vertices.
   bool restore(const MeshState &was, bool same) override
   {

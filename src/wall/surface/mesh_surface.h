@@ -57,6 +57,8 @@ class MeshSurface {
   // `same`: it is of another mesh. The first process warns of what is left out. Returns whether vertices have moved: then
   // the grid is to be built again. Both are collective.
   virtual void save(MeshState & /* to */) const {}
+  // Throws InputError, the same on all processes, where restore() would make a mesh that cannot be.
+  virtual void check(const MeshState & /* was */, bool /* same */) const {}
   virtual bool restore(const MeshState &was, bool same);
 
   virtual std::size_t bytes() const { return 0; }    // beside the grid's
