@@ -155,20 +155,31 @@ LSDCD_FN void gather_nodes(const Warp<kSize> &warp, bool mine, const GridView &g
 }
 
 // What of a face at whose rim or past which q is can have a contact, by the point over the face alone: bit k is edge k, bit
-// 3 + k vertex k, bit 6 the face. An edge has one only where q is past its side; twice the tolerance covers the rounding
-// between the two tests. A vertex is at least as far as the lines of its two edges.
-LSDCD_FN unsigned parts_in_reach(const OverFace &over, Real cutoff, Real tolerance)
+// 3 + k vertex k, bit 6 the face. A vertex is at least as far as the lines of its two edges. An edge has a contact only where q is
+// past its side and between its ends, a vertex only where q is behind it along both edges; some tolerances cover the
+// rounding between these tests and those of closest_point.h.
+LSDCD_FN unsigned parts_in_reach(const FaceRecord &face, const OverFace &over, Real cutoff,
+                                 Real tolerance)
 {
-  const Real within = cutoff + tolerance,
+  const Real within = cutoff + tolerance, some = 4 * tolerance,
              beside_sq = (1 + Real(1e-9)) * (within * within) - over.height * over.height;
-  unsigned parts = over.least >= -tolerance ? 64 : 0;
-  bool is_near[3];
+  bool is_near[3], before[3], behind[3], is_at[3];
   for (int k = 0; k < 3; k++) {
-    parts |= static_cast<unsigned>(over.side[k] <= 2 * tolerance) << k;
+    const int last = (k + 2) % 3;    // the edge that ends at vertex k, where edge k begins
+    const Real c = dot(face.inward[k], face.inward[last]),
+               // How far q is from vertex k along these edges, times the sine of their angle.
+        along = over.side[last] - c * over.side[k], along_last = over.side[k] - c * over.side[last];
     is_near[k] = over.side[k] * over.side[k] <= beside_sq;
+    before[k] = along < -some;
+    behind[last] = along_last < -some;
+    is_at[k] = along <= some && along_last <= some;
   }
-  for (int k = 0; k < 3; k++)
-    parts |= static_cast<unsigned>(is_near[k] & is_near[(k + 2) % 3]) << (3 + k);
+  unsigned parts = over.least >= -tolerance ? 64 : 0;
+  for (int k = 0; k < 3; k++) {
+    const bool edge = over.side[k] <= 2 * tolerance && !before[k] && !behind[k],
+               vertex = is_near[k] && is_near[(k + 2) % 3] && is_at[k];
+    parts |= static_cast<unsigned>(edge) << k | static_cast<unsigned>(vertex) << (3 + k);
+  }
   return parts;
 }
 
@@ -233,7 +244,8 @@ LSDCD_FN void find_in_node_list(const GridView &grid, const ListedFeatures &list
     if (!(distance < cutoff) || over.is_past(cutoff)) continue;
     if (!(over.least >= grid.tolerance)) {
       rim[n_rim] = code;
-      in_reach[n_rim++] = parts_in_reach(over, cutoff, grid.tolerance);
+      in_reach[n_rim] = parts_in_reach(face, over, cutoff, grid.tolerance);
+      n_rim += in_reach[n_rim] != 0;
       continue;
     }
     if (over.least >= 2 * grid.tolerance) inside = code;
