@@ -9,89 +9,11 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <cuda_runtime.h>
 #include <lsdcd.hpp>
 #include <string>
 #include <vector>
 
-void check(cudaError_t status)
-{
-  if (status != cudaSuccess) throw std::runtime_error(cudaGetErrorString(status));
-}
-
-template <class T>
-struct OnGpu {
-  T *at = nullptr;
-  explicit OnGpu(const std::vector<T> &values)
-  {
-    check(cudaMalloc(&at, values.size() * sizeof(T)));
-    check(cudaMemcpy(at, values.data(), values.size() * sizeof(T), cudaMemcpyHostToDevice));
-  }
-  ~OnGpu() { cudaFree(at); }
-  OnGpu(const OnGpu &) = delete;
-  OnGpu &operator=(const OnGpu &) = delete;
-};
-
-// Grains of one size, x y z x y z; cells as wide as a grain, each with a list of its grains.
-struct Scene {
-  int n, cells[3];
-  double radius, mass, stiffness, damping, dt, lo[3];
-  double *x, *v, *omega, *force, *torque;
-  int *head, *next;    // the first grain of a cell, the next one of a grain; -1: none
-
-  __device__ int cell(int i, int k) const
-  {
-    const int c = static_cast<int>((x[3 * i + k] - lo[k]) / (2 * radius));
-    return min(max(c, 0), cells[k] - 1);
-  }
-};
-
-__global__ void kick_and_drift(Scene s, bool drifts)
-{
-  const int k = blockIdx.x * blockDim.x + threadIdx.x;
-  if (k >= 3 * s.n) return;
-  s.v[k] += 0.5 * s.dt * s.force[k] / s.mass;
-  s.omega[k] += 0.5 * s.dt * s.torque[k] / (0.4 * s.mass * s.radius * s.radius);
-  if (drifts) s.x[k] += s.dt * s.v[k];
-}
-
-__global__ void list(Scene s)
-{
-  const int i = blockIdx.x * blockDim.x + threadIdx.x;
-  if (i >= s.n) return;
-  const int c = (s.cell(i, 2) * s.cells[1] + s.cell(i, 1)) * s.cells[0] + s.cell(i, 0);
-  s.next[i] = atomicExch(s.head + c, i);
-}
-
-__global__ void push_each_other(Scene s)
-{
-  const int i = blockIdx.x * blockDim.x + threadIdx.x;
-  if (i >= s.n) return;
-  double f[3] = {0, 0, -s.mass};    // gravity
-  for (int near = 0; near < 27; near++) {
-    const int at[3] = {s.cell(i, 0) + near % 3 - 1, s.cell(i, 1) + near / 3 % 3 - 1,
-                       s.cell(i, 2) + near / 9 - 1};
-    bool inside = true;
-    for (int k = 0; k < 3; k++) inside &= at[k] >= 0 && at[k] < s.cells[k];
-    if (!inside) continue;
-    for (int j = s.head[(at[2] * s.cells[1] + at[1]) * s.cells[0] + at[0]]; j >= 0; j = s.next[j]) {
-      double d[3], square = 0, approach = 0;
-      for (int k = 0; k < 3; k++) {
-        d[k] = s.x[3 * i + k] - s.x[3 * j + k];
-        square += d[k] * d[k];
-        approach -= d[k] * (s.v[3 * i + k] - s.v[3 * j + k]);
-      }
-      if (i == j || square >= 4 * s.radius * s.radius) continue;
-      const double distance = sqrt(square);
-      const double push = s.stiffness * (2 * s.radius - distance) + s.damping * approach / distance;
-      for (int k = 0; k < 3; k++) f[k] += fmax(push, 0.) * d[k] / distance;
-    }
-  }
-  for (int k = 0; k < 3; k++) {
-    s.force[3 * i + k] = f[k];
-    s.torque[3 * i + k] = 0;
-  }
-}
+#include "grains.cuh"
 
 // Places of a lattice that are inside the mesh, clear of it by `gap`.
 std::vector<double> inside(const lsdcd::Grid &grid, const std::vector<double> &places, double gap)
@@ -122,6 +44,7 @@ try {
   Scene s = {};
   s.radius = 0.01 * diagonal;
   s.mass = 1;
+  s.gravity = 1;
   s.stiffness = 2e4 * s.mass / s.radius;    // a hundred layers press a grain by 1/200 of its radius
   const double frequency = std::sqrt(s.stiffness / s.mass);
   s.damping = 0.4 * s.mass * frequency;
@@ -136,12 +59,7 @@ try {
   s.n = static_cast<int>(x.size() / 3);
   if (s.n == 0) throw std::runtime_error(file + ": no grain has room in it");
 
-  int n_cells = 1;
-  for (int k = 0; k < 3; k++) {
-    s.lo[k] = facts.lo[k];
-    s.cells[k] = 1 + static_cast<int>((facts.hi[k] - facts.lo[k]) / (2 * s.radius));
-    n_cells *= s.cells[k];
-  }
+  const int n_cells = set_cells(s, facts.lo, facts.hi);
   const std::vector<double> zeros(3 * s.n, 0.);
   const OnGpu<double> places(x), v(zeros), omega(zeros), force(zeros), torque(zeros);
   const OnGpu<double> radius{std::vector<double>(s.n, s.radius)},
@@ -170,17 +88,12 @@ try {
   step.size = sizeof step;
   step.dt = s.dt;
 
-  constexpr int kThreads = 128;
-  const int blocks = (s.n + kThreads - 1) / kThreads,
-            blocks_of_3 = (3 * s.n + kThreads - 1) / kThreads;
   for (int k = 0; k <= steps; k++) {
-    if (k > 0) kick_and_drift<<<blocks_of_3, kThreads, 0, stream>>>(s, true);
-    check(cudaMemsetAsync(s.head, -1, n_cells * sizeof(int), stream));
-    list<<<blocks, kThreads, 0, stream>>>(s);
-    push_each_other<<<blocks, kThreads, 0, stream>>>(s);
+    if (k > 0) start_kick(s, true, stream);
+    start_forces(s, stream);
     step.setup = k == 0;    // the forces with which it begins
     wall.step(spheres, step);
-    if (k > 0) kick_and_drift<<<blocks_of_3, kThreads, 0, stream>>>(s, false);
+    if (k > 0) start_kick(s, false, stream);
   }
   const lsdcd_wall_totals totals = wall.totals();
   check(cudaMemcpyAsync(x.data(), s.x, x.size() * sizeof(double), cudaMemcpyDeviceToHost, stream));

@@ -56,7 +56,7 @@ target_link_libraries(in_c lsdcd::static)
 CUDA_PROJECT = """cmake_minimum_required(VERSION 3.22)
 project(user LANGUAGES CXX CUDA)
 find_package(lsdcd 0.10 REQUIRED COMPONENTS core cuda)
-foreach(example distance fall)
+foreach(example distance fall wheel)
   add_executable(${example} ${example}.cu)
   set_target_properties(${example} PROPERTIES CUDA_STANDARD 17 CUDA_ARCHITECTURES OFF)
   target_link_libraries(${example} lsdcd::cuda)
@@ -178,7 +178,7 @@ def test_cuda(prefix, work):
         return
     folder = os.path.join(work, "cuda")
     os.mkdir(folder)
-    for name in ("distance.cu", "fall.cu"):
+    for name in ("distance.cu", "fall.cu", "wheel.cu", "grains.cuh"):
         os.symlink(os.path.join(ROOT, "examples", "library", name), os.path.join(folder, name))
     with open(os.path.join(folder, "CMakeLists.txt"), "w", encoding="utf-8") as f:
         f.write(CUDA_PROJECT)
