@@ -166,8 +166,9 @@ def scale(rows):
     def line(r):
         alone, f = without(r), facts(r)
         each = int(r["spheres"]) / int(f["ranks"])
+        more = 100 * (float(f["over_no_wall"]) - 1)
         return (f"* {count(r['spheres'])} grains and {count(r['triangles'])} triangles on {f['ranks']} {r['device']}: {number(alone['median_ms'])} ms a step "
-                f"without the wall, {number(r['median_ms'])} with it, {100 * (float(f['over_no_wall']) - 1):.1f} % more; "
+                f"without the wall, {number(r['median_ms'])} with it, {abs(more):.1f} % {'more' if more > 0 else 'less'}; "
                 f"{int(f['mib']) / 1024:.3g} GiB of a card, {int(f['mib']) * 1024**2 / each:.0f} bytes a grain; "
                 f"grains made in {number(facts(alone)['make_s'])} s, the wall set up in {number(f['setup_s'])} s")
 
