@@ -31,8 +31,8 @@ Real TimestepCheck::mass_of(Real sphere, std::size_t law) const
   return 1 / (1 / sphere + mobility);
 }
 
-// Returns the square of the largest arm of a grain about one of its axes: exact for an ellipse, where the farthest point is a
-// half-axis, and a bound for others. `across`, `along`: the half-axes of its shadow along that axis.
+// Returns the square of the largest arm about one axis of a grain: exact for an ellipse, where the farthest point is a half-axis,
+// and a bound for others. `across`, `along`: the half-axes of the grain's shadow along the axis.
 static Real arm_squared(Real across, Real along, Real farthest)
 {
   const Real least = std::min(across, along), most = std::max(across, along);
