@@ -7,6 +7,7 @@
 #include "shape/superellipsoid.h"
 #include "shape/triangle_minimum.h"
 #include "support/random.h"
+#include "support/shape_oracle.h"
 
 #include <gtest/gtest.h>
 
@@ -19,133 +20,6 @@
 
 namespace lsdcd::test_shape {
 namespace {
-
-using Long = long double;
-using LongVec = Vec3Of<Long>;
-
-constexpr Long kQuarter = 1.57079632679489661923L;
-constexpr int kCloud = 48;    // steps of a quarter turn
-
-Long length(const LongVec &a)
-{
-  return std::sqrt(dot(a, a));
-}
-
-// The shape by its support function and its surface in two angles, in long double.
-class Oracle {
- public:
-  explicit Oracle(const Superellipsoid &s) :
-      a_(s.half.x), b_(s.half.y), c_(s.half.z), n1_(s.n1), n2_(s.n2)
-  {
-    for (int i = 0; i <= kCloud; i++)
-      for (int j = 0; j <= kCloud; j++)
-        cloud_[i * (kCloud + 1) + j] = surface(Real(i * kStep), Real(j * kStep));
-  }
-
-  Long support(const LongVec &n) const
-  {
-    const Long q1 = n1_ / (n1_ - 1), q2 = n2_ / (n2_ - 1);
-    const auto power = [](Long x, Long p) { return std::pow(std::fabs(x), p); };
-    const Long plane = std::pow(power(a_ * n.x, q2) + power(b_ * n.y, q2), q1 / q2);
-    return std::pow(plane + power(c_ * n.z, q1), 1 / q1);
-  }
-  template <class T>
-  T gauge(const Vec3Of<T> &x) const
-  {
-    const auto power = [](T y, Long p) { return std::pow(std::fabs(y), T(p)); };
-    return std::pow(std::pow(power(x.x / T(a_), n2_) + power(x.y / T(b_), n2_), T(n1_ / n2_)) +
-                        power(x.z / T(c_), n1_),
-                    T(1 / n1_));
-  }
-  // A point of the surface in the first octant, on a ray by its angles.
-  template <class T>
-  Vec3Of<T> surface(T up, T round) const
-  {
-    // The cosine of a quarter is 0 here.
-    const auto cosine = [](T x) { return x > T(kQuarter - 1e-15L) ? 0 : std::cos(x); };
-    const Vec3Of<T> x = {T(a_) * cosine(up) * cosine(round), T(b_) * cosine(up) * std::sin(round),
-                         T(c_) * std::sin(up)};
-    return (1 / gauge(x)) * x;
-  }
-  // How far a point is from the surface: from all points of a cloud, and from there downhill.
-  Long distance(const Vec3 &y) const
-  {
-    const Vec3 at = {std::fabs(y.x), std::fabs(y.y), std::fabs(y.z)};
-    int best = 0;
-    for (int i = 1; i < int(cloud_.size()); i++)
-      if (norm_sq(cloud_[i] - at) < norm_sq(cloud_[best] - at)) best = i;
-    return downhill(best, vec_cast<Long>(at));
-  }
-  Real distance_from_cloud(const Vec3 &y) const
-  {
-    const Vec3 at = {std::fabs(y.x), std::fabs(y.y), std::fabs(y.z)};
-    Real least = HUGE_VAL;
-    for (const Vec3 &x : cloud_) least = std::fmin(least, norm_sq(x - at));
-    return std::sqrt(least);
-  }
-  // The signed distance, also where several points of the surface are nearly the nearest; to rounding of Real.
-  Real signed_distance(const Vec3 &y) const
-  {
-    const Vec3 at = {std::fabs(y.x), std::fabs(y.y), std::fabs(y.z)};
-    Real least = HUGE_VAL;
-    for (int i = 0; i <= kCloud; i++)
-      for (int j = 0; j <= kCloud; j++) {
-        const auto here = [&](int k, int l) {
-          k = std::clamp(k, 0, kCloud), l = std::clamp(l, 0, kCloud);
-          return norm(cloud_[k * (kCloud + 1) + l] - at);
-        };
-        const Real middle = here(i, j);
-        if (middle <= std::min({here(i - 1, j), here(i + 1, j), here(i, j - 1), here(i, j + 1)}))
-          least = std::min(least, downhill(i * (kCloud + 1) + j, at));
-      }
-    return gauge(at) < 1 ? -least : least;
-  }
-
- private:
-  static constexpr Long kStep = kQuarter / kCloud;
-
-  template <class T>
-  T downhill(int from, const Vec3Of<T> &at) const
-  {
-    const auto f = [&](T up, T round) { return std::sqrt(norm_sq(surface(up, round) - at)); };
-    constexpr T kEnd = T(kQuarter);
-    T up = from / (kCloud + 1) * T(kStep), round = from % (kCloud + 1) * T(kStep),
-      best = f(up, round);
-    for (T by = T(kStep); by > T(1e-8);) {
-      bool better = false;
-      constexpr int kWays[8][2] = {{1, 0}, {-1, 0}, {0, 1},  {0, -1},
-                                   {1, 1}, {1, -1}, {-1, 1}, {-1, -1}};
-      for (const auto &way : kWays) {
-        const T u = std::clamp<T>(up + way[0] * by, 0, kEnd),
-                r = std::clamp<T>(round + way[1] * by, 0, kEnd);
-        const T here = f(u, r);
-        if (!(here < best * (1 - T(1e-16)))) continue;
-        best = here, up = u, round = r, better = true;
-        break;
-      }
-      if (!better) by /= 2;
-    }
-    // Narrow valleys: Newton's steps by differences.
-    for (int i = 0; i < 6; i++) {
-      const T h = sizeof(T) > sizeof(Real) ? T(1e-5L) : T(1e-4L), h2 = h * h;
-      const T o = f(up, round), e = f(up + h, round), w = f(up - h, round), n = f(up, round + h),
-              s = f(up, round - h);
-      const T fu = (e - w) / (2 * h), fr = (n - s) / (2 * h), fuu = (e - 2 * o + w) / h2,
-              frr = (n - 2 * o + s) / h2,
-              fur = (f(up + h, round + h) - f(up + h, round - h) - f(up - h, round + h) +
-                     f(up - h, round - h)) /
-                    (4 * h2);
-      const T det = fuu * frr - fur * fur;
-      const T u = up - (frr * fu - fur * fr) / det, r = round - (fuu * fr - fur * fu) / det;
-      if (!(u > 0 && r > 0 && u < kEnd && r < kEnd && f(u, r) < best)) break;
-      best = f(u, r), up = u, round = r;
-    }
-    return best;
-  }
-
-  const Long a_, b_, c_, n1_, n2_;
-  std::array<Vec3, (kCloud + 1) * (kCloud + 1)> cloud_;
-};
 
 Superellipsoid random_shape(Random &random, Real most_exponent)
 {
@@ -211,7 +85,7 @@ struct Wrong {
   Long below = 0;    // how much the answer may be above the minimum
   Long foot = 0;     // distance of the foot from the triangle
 };
-Wrong wrong_by(const Oracle &oracle, const Triangle &t, const ShapeMinimum &m)
+Wrong wrong_by(const ShapeOracle &oracle, const Triangle &t, const ShapeMinimum &m)
 {
   const LongVec n = vec_cast<Long>(m.normal), unit_n = (1 / length(n)) * n;
   Long least = HUGE_VAL;
@@ -260,7 +134,7 @@ TEST(shape, touches_its_support_planes_at_points_of_its_surface)
   Random random(1);
   for (int i = 0; i < 60; i++) {
     const Superellipsoid s = random_shape(random, 20);
-    const Oracle oracle(s);
+    const ShapeOracle oracle(s);
     for (int j = 0; j < 20; j++) {
       Vec3 n = random_unit(random);
       if (j < 3) n = unit(Vec3{j == 0 ? 0.0 : n.x, j == 1 ? 0.0 : n.y, j == 2 ? 0.0 : n.z});
@@ -284,7 +158,7 @@ TEST(shape, lies_between_its_inscribed_and_circumscribed_spheres_and_reaches_bot
   Random random(2);
   for (int i = 0; i < 12; i++) {
     const Superellipsoid s = random_shape(random, 20);
-    const Oracle oracle(s);
+    const ShapeOracle oracle(s);
     Real least = HUGE_VAL, most = 0;
     constexpr int kSteps = 300;
     for (int j = 0; j <= kSteps; j++)
@@ -306,7 +180,7 @@ TEST(shape, has_the_curvature_with_which_its_normals_turn)
   Random random(3);
   for (int i = 0; i < 100; i++) {
     const Superellipsoid s = random_shape(random, 20);
-    const Oracle oracle(s);
+    const ShapeOracle oracle(s);
     const LongVec x = oracle.surface<Long>(uniform(random, 0.05, 1.5), uniform(random, 0.05, 1.5));
     const auto normal = [&](const LongVec &at) {
       constexpr Long kStep = 1e-5L;
@@ -351,7 +225,7 @@ TEST(shape, lets_a_ball_of_its_least_radius_of_curvature_roll_inside_and_no_larg
   EXPECT_NEAR(make_superellipsoid({5, 5, 1}, 2, 8).rho, 0.154, 5e-4);
   for (int i = 0; i < 10; i++) {
     const Superellipsoid s = random_shape(random, 20);
-    const Oracle oracle(s);
+    const ShapeOracle oracle(s);
     bool larger_fits = true;
     for (int j = 0; j <= 60; j++)
       for (int k = 0; k <= 60; k++) {
@@ -370,7 +244,7 @@ TEST(shape, finds_the_point_of_its_surface_from_which_a_point_was_made)
   Random random(5);
   for (int i = 0; i < 100; i++) {
     const Superellipsoid s = random_shape(random, 20);
-    const Oracle oracle(s);
+    const ShapeOracle oracle(s);
     for (int j = 0; j < 200; j++) {
       Vec3 x = oracle.surface<Real>(uniform(random, 0, kQuarter), uniform(random, 0, kQuarter));
       for (int k = 0; k < 3; k++)
@@ -395,7 +269,7 @@ TEST(shape, is_found_by_random_triangles_as_deep_as_the_oracle_says)
   Long worst_below = 0, worst_foot = 0, worst_above = 0;
   for (int i = 0; i < n_shapes; i++) {
     const Superellipsoid s = random_shape(random, i % 10 == 0 ? 20 : 8);
-    const Oracle oracle(s);
+    const ShapeOracle oracle(s);
     const Long size = s.farthest;
     for (int j = 0; j < n_each; j++) {
       Triangle t = random_triangle(random, s);
@@ -437,7 +311,7 @@ TEST(shape, lies_in_triangles_through_its_middle_no_deeper_anywhere_around_the_f
   int parts[3] = {0, 0, 0};
   for (int i = 0, n = static_cast<int>(pairs(2e4) / 1000); i < n; i++) {
     const Superellipsoid s = random_shape(random, 8);
-    const Oracle oracle(s);
+    const ShapeOracle oracle(s);
     Triangle t = random_triangle(random, s);
     const Vec3 middle = (1.0 / 3) * (t.corner[0] + t.corner[1] + t.corner[2]);
     t.move(uniform(random, 0, 0.5) * s.nearest * random_unit(random) - middle);
@@ -468,7 +342,7 @@ TEST(shape, has_two_nearest_points_where_a_point_is_in_the_middle_of_an_ellipsoi
     Vec3 y = uniform(random, -0.3 * half, 0.3 * half);
     y[i % 3] = 0;
     const SurfacePoint p = nearest_on_surface(s, y);
-    EXPECT_NEAR(p.distance, Oracle(s).signed_distance(y), 1e-11);
+    EXPECT_NEAR(p.distance, ShapeOracle(s).signed_distance(y), 1e-11);
     EXPECT_NEAR(gauge_value(s, p.point), 1, 1e-14);
     EXPECT_LT(norm(p.point + p.distance * p.normal - y), 1e-13);
   }
@@ -502,14 +376,14 @@ TEST(shape, lies_in_a_triangle_deepest_inside_where_a_side_has_two_gradients)
                        {0.014962583691412235, -0.27320371564405477, 2.5048645195478398},
                        {0.71415911873487481, 1.3104450192844785, -1.3215293238608457}}};
   const Vec3 inside = {0.38768708628525678, 7.4113376238344231e-05, -1.0180167533257831};
-  EXPECT_LE(find(s, t).distance, Oracle(s).signed_distance(inside) + 1e-11);
+  EXPECT_LE(find(s, t).distance, ShapeOracle(s).signed_distance(inside) + 1e-11);
 }
 
 TEST(shape, touches_the_rim_of_a_table_below_its_top_by_the_edge)
 {
   // The long axis leans on the rim, where the top ends; the centre is outside and below the top.
   const Superellipsoid s = make_superellipsoid({5, 1, 1}, 2, 2);
-  const Oracle oracle(s);
+  const ShapeOracle oracle(s);
   const Real lean = 1.0;    // angle of the long axis over the top
   const Vec3 up = {std::sin(lean), std::cos(lean), 0},
              inwards = {std::cos(lean), -std::sin(lean), 0};

@@ -3,9 +3,9 @@
 
 // Contacts and distances of superellipsoids at meshes: closed forms, the same surface cut in other ways, and all triangles of a
 // mesh one by one.
-#include "base/quaternion.h"
 #include "query/shape_query.h"
 #include "shape/triangle_minimum.h"
+#include "support/cut_surface.h"
 #include "support/random.h"
 #include "support/tree_case.h"
 
@@ -50,59 +50,6 @@ std::array<Real, 4> random_turn(Random &random)
 {
   std::normal_distribution<Real> normal;
   return {normal(random), normal(random), normal(random), normal(random)};
-}
-
-// Turns and moves a surface to where coordinates are rounded.
-const Quaternion kTurn = normalised({0.6, {0.31, -0.52, 0.4}});
-Vec3 placed(const Vec3 &p)
-{
-  return rotate(kTurn, p) + Vec3{0.17, -0.29, 0.11};
-}
-
-// Each triangle of a surface in pieces * pieces triangles of it.
-TriangleSoup cut(const std::vector<Vec3> &corners, int pieces)
-{
-  TriangleSoup soup;
-  for (std::size_t t = 0; t < corners.size(); t += 3) {
-    const auto at = [&](int i, int j) {
-      return placed((1.0 / pieces) *
-                    ((pieces - i - j) * corners[t] + i * corners[t + 1] + j * corners[t + 2]));
-    };
-    for (int i = 0; i < pieces; i++)
-      for (int j = 0; i + j < pieces; j++) {
-        soup.corners.insert(soup.corners.end(), {at(i, j), at(i + 1, j), at(i, j + 1)});
-        if (i + j + 1 < pieces)
-          soup.corners.insert(soup.corners.end(), {at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)});
-      }
-  }
-  return soup;
-}
-
-// A strip from x = 0, along y, in the direction of an angle over the plane z = 0.
-std::vector<Vec3> half_plane(Real degrees)
-{
-  const Vec3 out = {10 * std::cos(degrees * kPi / 180), 0, 10 * std::sin(degrees * kPi / 180)},
-             side = {0, 10, 0};
-  return {-side, out - side, side, out - side, out + side, side};
-}
-
-std::vector<Vec3> fold(Real degrees)
-{
-  std::vector<Vec3> corners = half_plane(180);
-  const std::vector<Vec3> other = half_plane(degrees);
-  corners.insert(corners.end(), other.begin(), other.end());
-  return corners;
-}
-
-// A pyramid that opens upwards, of n faces.
-std::vector<Vec3> bowl(int n)
-{
-  std::vector<Vec3> corners;
-  const auto rim = [n](int k) {
-    return Vec3{6 * std::cos(2 * kPi * k / n), 6 * std::sin(2 * kPi * k / n), 4};
-  };
-  for (int k = 0; k < n; k++) corners.insert(corners.end(), {{0, 0, 0}, rim(k), rim(k + 1)});
-  return corners;
 }
 
 // Grains that touch a surface by up to rho/2: moved towards it until their distance is what it should be.
@@ -166,7 +113,8 @@ Differences compare(const ShapeContacts &a, const ShapeContacts &b)
 }
 
 void expect_the_same_in_all_pieces(const std::vector<Vec3> &surface, Real most_exponent,
-                                   Real tolerance_of_points)
+                                   Real tolerance_of_points,
+                                   const std::vector<int> &all_pieces = {2, 7, kMostPieces})
 {
   Random random(1);
   const Grains grains =
@@ -174,7 +122,7 @@ void expect_the_same_in_all_pieces(const std::vector<Vec3> &surface, Real most_e
   const TreeCase whole(cut(surface, 1));
   const ShapeContacts expected = find_shape_contacts(whole.tree, grains.given());
   EXPECT_GE(expected.found.size(), grains.n() - 1);
-  for (int pieces : {2, 7, kMostPieces}) {
+  for (int pieces : all_pieces) {
     const TreeCase other(cut(surface, pieces));
     const Differences d = compare(expected, find_shape_contacts(other.tree, grains.given()));
     EXPECT_EQ(d.other_number, 0u) << pieces;
@@ -198,6 +146,21 @@ TEST(shape_query, finds_the_same_contacts_on_folds_however_they_are_cut)
 TEST(shape_query, finds_the_same_contacts_in_a_bowl_however_it_is_cut)
 {
   expect_the_same_in_all_pieces(bowl(5), 2, 1e-10);
+}
+TEST(shape_query, finds_the_same_contacts_in_a_drum_however_it_is_cut)
+{
+  expect_the_same_in_all_pieces(drum(24), 2, 1e-10, {2, 7, 25});
+}
+// Of 4, 4, 48 and 5 triangles, and of 2e5.
+TEST(shape_query, finds_the_same_contacts_on_surfaces_of_200000_triangles)
+{
+  for (Real most_exponent : {2, 8}) {
+    const Real of_points = most_exponent > 2 ? 1e-7 : 1e-10;
+    expect_the_same_in_all_pieces(fold(0), most_exponent, of_points, {224});
+    expect_the_same_in_all_pieces(fold(60), most_exponent, of_points, {224});
+    expect_the_same_in_all_pieces(drum(24), most_exponent, of_points, {65});
+    expect_the_same_in_all_pieces(bowl(5), most_exponent, of_points, {200});
+  }
 }
 TEST(shape_query, finds_the_same_contacts_of_shapes_with_flat_sides_however_a_surface_is_cut)
 {
