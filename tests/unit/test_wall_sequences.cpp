@@ -243,6 +243,7 @@ std::unique_ptr<World> restored(const Saved &from, FakeHost &host, const WallSpe
     to->torque.back() = all.torque[i];
     springs.push_back(from.springs[i]);
   }
+  if (before) to->wall->keep_made();
   for (const Saved *state : {before, &from}) {
     if (!state) continue;
     host.warnings.clear();
