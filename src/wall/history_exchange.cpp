@@ -30,6 +30,13 @@ ContactHistory &HistoryExchange::on_cpu()
   return springs_;
 }
 
+void HistoryExchange::clear()
+{
+  if (!is_on()) return;
+  on_cpu();
+  for (int i = 0; i < room_; i++) springs_.clear(i);
+}
+
 void HistoryExchange::to_engine(int n)
 {
   if (with_engine_ || !is_on()) return;

@@ -40,6 +40,8 @@ class HistoryExchange {
   int room() const { return room_; }
   // Returns the history of this process's spheres, on the host from now on.
   ContactHistory &on_cpu();
+  // Forgets all springs, if there are any; the history is on the host from now on.
+  void clear();
   // Gives the history of the n spheres of this process to the engine, if it is not there.
   void to_engine(int n);
   // Gives the history to the engine as to_engine() does, and returns it, for a host that moves spheres where the engine

@@ -21,9 +21,11 @@ Wall::Wall(Host &host, WallSpec spec, const WallUnits &units, WallBackend backen
     host_(host),
     spec_(in_units(std::move(spec), units.pressure)), laws_(law_table(spec_)),
     backend_(std::move(backend)), clock_(clock), pressure_unit_(units.pressure),
-    coats_(host, spec_, meshes_), history_(host, spec_), totals_(host, spec_), means_(host, spec_),
-    loads_(host, spec_), files_(host, spec_, units.pressure), overlaps_(host, spec_), search_(host),
-    times_(host), timestep_(host, laws_, units.velocity), box_checks_(host, spec_, meshes_),
+    engine_input_(host, spec_, laws_, meshes_), coats_(host, spec_, meshes_), history_(host, spec_),
+    totals_(host, spec_), means_(host, spec_), loads_(host, spec_),
+    files_(host, spec_, units.pressure), overlaps_(host, spec_), search_(host), times_(host),
+    timestep_(host, laws_, units.velocity), snapshots_(host, spec_),
+    box_checks_(host, spec_, meshes_),
     grids_(host, spec_, laws_, meshes_, coats_, box_checks_, history_, times_), nodes_(host),
     keeper_(host, spec_, {meshes_, coats_, grids_, totals_, means_, loads_})
 {
@@ -93,28 +95,6 @@ std::size_t Wall::bytes() const
 
 // ---- the engine --------------------------------------------------------------------------
 
-EngineSettings Wall::engine_settings() const
-{
-  EngineSettings want;
-  want.laws = laws_;
-  want.corner = spec_.corner;
-  want.side = spec_.side;
-  want.meshes = static_cast<int>(meshes_.size());
-  want.moves = meshes_.size() > 1;
-  for (const MeshPart &m : meshes_) {
-    want.moves |= m.nodes() || m.mover->moves_or_varies();
-    if (!want.surface.moves()) want.surface = m.spec.surface;
-  }
-  want.contacts = spec_.has_loads() || spec_.each_contact || virial_;
-  want.bodies = any_pushed_;
-  want.nodes = nodes_.any();
-  want.wear = spec_.wear.model;
-  want.device = device_.device();
-  want.device_rank = host_.ranks().node_rank;
-  want.names = host_.names();
-  return want;
-}
-
 void Wall::make_engine()
 {
   const EngineSettings want = engine_settings();
@@ -179,7 +159,10 @@ void Wall::begin(const HostSpheres &spheres, const StepInput &input)
   has_begun_ = true;
   keeper_.end_restoring();
   const Step &step = input.step;
-  if (step.kind == Step::snapshot) begin_snapshot(spheres.n, step);
+  if (step.kind == Step::snapshot) {
+    snapshots_.check(meshes_, step);
+    history_.clear();
+  }
   if (input.look) {
     engine_->expire_choice();
     check_history(spheres.n);
@@ -209,34 +192,6 @@ void Wall::begin(const HostSpheres &spheres, const StepInput &input)
       engine_->begin(input.when);
     });
   });
-}
-
-// In a snapshot, quantities that follow from the time alone are right; those that are added up from step to
-// step are not known.
-void Wall::begin_snapshot(int n, const Step &step)
-{
-  const std::string a_replay = std::string("a ") + host_.names().replay;
-  if (spec_.shapes)
-    throw InputError(
-        a_replay + " has no orientations of ellipsoids, because no " + host_.names().record +
-        " gives them back, so contacts would be those of grains that lie otherwise: write a " +
-        host_.names().saved + " in their place, and run 0 steps from it");
-  for (const MeshPart &m : meshes_) {
-    m.mover->check_snapshot(step);
-    m.surface->check_snapshot();
-  }
-  for (int i = 0; history_.is_on() && i < n; i++) history_.on_cpu().clear(i);
-  if (snapshot_warned_) return;
-  snapshot_warned_ = true;
-  if (history_.is_on())
-    host_.warn(a_replay + " does not know the springs of contacts, because no " +
-               host_.names().record +
-               " contains them: friction, rolling, twisting and adhesion past touch begin at 0 in "
-               "each snapshot");
-  if (spec_.has_loads())
-    host_.warn(a_replay +
-               " has no steps over which loads and wear add up: no wear is counted and no "
-               "mesh_fields are written");
 }
 
 // A restored history names features of the old mesh and has numbers of the old law: drops what does not fit.
@@ -306,18 +261,6 @@ Touch Wall::touch(const MeshPart &m)
   return {sums().mesh(m.index), range_, coats_.load(m.index)};
 }
 
-bool Wall::any_servo_acts() const
-{
-  return std::any_of(meshes_.begin(), meshes_.end(),
-                     [](const MeshPart &m) { return m.mover->servo_acts(); });
-}
-
-bool Wall::any_mover_asks_for_contacts() const
-{
-  return std::any_of(meshes_.begin(), meshes_.end(),
-                     [](const MeshPart &m) { return m.mover->asks_for_contacts(); });
-}
-
 const BodyMover *Wall::body(int mesh)
 {
   complete_movers();
@@ -360,39 +303,6 @@ ServoLoad Wall::servo_load(int mesh)
           std::max(range_.radius, coat.radius),
           std::max(range_.mass, coat.mass),
           meshes_[mesh].bounds(0)};
-}
-
-StepSettings Wall::step_settings()
-{
-  StepSettings step;
-  step.number = input_.step.number;
-  step.dt = input_.step.dt;
-  step.update_history = input_.step.kind == Step::step;
-  step.synchronous = input_.step.synchronous;
-  const bool asked = any_mover_asks_for_contacts();
-  step.per_sphere = spec_.contacts || spec_.each_contact || asked;
-  step.contacts = spec_.has_loads() || spec_.each_contact || input_.virial || asked;
-  step.totals = any_pushed_ || any_servo_acts() || spec_.average_every > 0;
-  const bool several = meshes_.size() > 1;
-  if (several || spec_.meshes.front().surface_varies()) {
-    surfaces_.clear();
-    for (const MeshPart &m : meshes_) surfaces_.push_back(m.mover->surface_motion());
-    step.surface = surfaces_.data();
-  }
-  if (any_pushed_) {
-    mobilities_.clear();
-    for (const MeshPart &m : meshes_) mobilities_.push_back(m.mover->mobility());
-    step.mobility = mobilities_.data();
-  }
-  if (!spec_.law().has_heat()) return step;
-  temperatures_.clear();
-  for (const MeshSpec &m : spec_.meshes)
-    temperatures_.push_back(m.temperature_input == kNoInput
-                                ? m.temperature
-                                : input_.inputs.at(static_cast<std::size_t>(m.temperature_input)));
-  step.wall_temperature = temperatures_.front();
-  if (several) step.mesh_temperature = temperatures_.data();
-  return step;
 }
 
 void Wall::choose_if_due(const Spheres &spheres)
@@ -443,7 +353,7 @@ void Wall::clear_totals()
 void Wall::submit(const HostSpheres &spheres)
 {
   if (step_state() != StepState::begun || failure_) return;
-  const StepSettings step = step_settings();
+  const StepSettings step = engine_input_.step(input_, any_pushed_);
   on_this_process(spheres, [&] {
     times_.begin();
     choose_if_due(spheres);
@@ -726,8 +636,7 @@ void Wall::restore_springs(const std::vector<std::vector<Real>> &spheres)
 {
   const int n = static_cast<int>(spheres.size());
   history_.grow(std::max(history_.room(), n));
-  ContactHistory &springs = history_.on_cpu();
-  for (int i = 0; history_.is_on() && i < history_.room(); i++) springs.clear(i);
+  history_.clear();
   for (int i = 0; i < n; i++)
     history_.unpack_saved(i, spheres[i].data(), static_cast<int>(spheres[i].size()));
   check_history(n);

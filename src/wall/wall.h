@@ -7,9 +7,11 @@
 
 #include "base/input_error.h"
 #include "wall/checks/overlap_monitor.h"
+#include "wall/checks/snapshot_check.h"
 #include "wall/checks/timestep_check.h"
 #include "wall/coat/body_coats.h"
 #include "wall/device_choice.h"
+#include "wall/engine_input.h"
 #include "wall/grid_manager.h"
 #include "wall/host_spheres.h"
 #include "wall/load_recorder.h"
@@ -44,22 +46,6 @@ struct WallBackend {
 struct WallUnits {
   Real pressure = 1;    // a force per area of 1, in the unit of pressure
   Real velocity = 1;    // a force times time over a mass, in the unit of velocity
-};
-
-// The input of a step.
-struct StepInput {
-  Step step;
-  bool look = false;           // spheres may be others, or have other radii, since the last step
-  bool new_spheres = false;    // spheres may have come: the timestep and their overlaps are checked
-  bool box_changes = false;    // the box may have changed since the last step
-  SphereDrift drift;
-  When when = When::in_turn;    // its work is done
-  bool virial = false;          // add_virial() will be called
-  // The values of spec().inputs in this step, the same on all processes; of those that inputs_read() leaves out
-  // any number.
-  std::vector<Real> inputs;
-  // Acceleration of spheres by the host, three numbers (force/mass) that may change until the next step; null: none.
-  const Real *gravity = nullptr;
 };
 
 // In each step: begin(), submit(), finish(). Places, velocities and radii must not change between begin()
@@ -204,7 +190,10 @@ class Wall {
   void restore_springs(const std::vector<std::vector<Real>> &spheres);
 
  private:
-  EngineSettings engine_settings() const;
+  EngineSettings engine_settings() const
+  {
+    return engine_input_.settings(device_.device(), virial_, any_pushed_);
+  }
   void make_engine();
   void make_engine_anew();
   void log_creation(const std::string &material, const WallBackend &backend) const;
@@ -218,7 +207,6 @@ class Wall {
   template <class Work>
   void try_here(Work &&work);
 
-  void begin_snapshot(int n, const Step &step);
   void check_history(int n);
   const StepTotals &sums();
   void choose_device();
@@ -226,8 +214,6 @@ class Wall {
   void look_at_spheres(const HostSpheres &spheres, std::int64_t step);
   void look_at_range(const HostSpheres &spheres);
   ServoLoad servo_load(int mesh);
-  bool any_servo_acts() const;
-  bool any_mover_asks_for_contacts() const;
   void complete_movers();
   Touch touch(const MeshPart &m);    // in the last step
   void collect(const HostSpheres &spheres);
@@ -236,7 +222,6 @@ class Wall {
   std::vector<Pose> poses() const;
   Real pressure(int mesh) const;    // in this step, in units of forces
 
-  StepSettings step_settings();
   void choose_if_due(const Spheres &spheres);
   void log_new_springs(const Step &step);
   StepDiagnostics read_diagnostics(const HostSpheres &spheres);
@@ -254,6 +239,7 @@ class Wall {
   StepClock clock_;
   Real pressure_unit_;             // of inputs
   std::deque<MeshPart> meshes_;    // where each stays; there is one at least
+  EngineInput engine_input_;
   bool any_pushed_ = false;
   BodyCoats coats_;
   DeviceChoice device_;
@@ -272,6 +258,7 @@ class Wall {
   Real deepest_overlap_ = 0;
   TimeReport times_;
   TimestepCheck timestep_;
+  SnapshotCheck snapshots_;
   BoxChecks box_checks_;
   GridManager grids_;
   NodeMeshes nodes_;
@@ -282,15 +269,11 @@ class Wall {
   std::optional<InputError> failure_;    // of the last step on this process, where there are others
   bool continued_ = false;               // from a saved state
   bool springs_told_ = false;
-  bool points_warned_ = false, snapshot_warned_ = false;
+  bool points_warned_ = false;
   SphereRange range_;    // for gains of servos and the timestep of bodies
   bool range_is_known_ = false;
   Real largest_within_ =
       0;    // radius of the largest ball in a grain, when they were looked at last (length)
-  // The surface motion of each mesh, for the engine in this step.
-  std::vector<SurfaceMotion> surfaces_;
-  std::vector<Real> temperatures_;
-  std::vector<Mobility> mobilities_;
 };
 
 }    // namespace lsdcd

@@ -1,0 +1,41 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// What a wall asks of its engine: as it is made, and in each step.
+#pragma once
+
+#include "wall/mesh_part.h"
+#include "wall/step_input.h"
+
+#include <deque>
+#include <vector>
+
+namespace lsdcd {
+
+class EngineInput {
+ public:
+  // All must outlive it.
+  EngineInput(const Host &host, const WallSpec &wall, const LawTable &laws,
+              const std::deque<MeshPart> &meshes) :
+      host_(host),
+      wall_(wall), laws_(laws), meshes_(meshes)
+  {
+  }
+
+  // Returns the settings of an engine on this device. `virial`: contacts will be asked for. `pushed`: a mesh is, or was, moved by its loads.
+  EngineSettings settings(Device device, bool virial, bool pushed) const;
+  // Returns the settings of a step, which hold until the next call.
+  StepSettings step(const StepInput &input, bool pushed);
+
+ private:
+  const Host &host_;
+  const WallSpec &wall_;
+  const LawTable &laws_;
+  const std::deque<MeshPart> &meshes_;
+  // Of each mesh in this step.
+  std::vector<SurfaceMotion> surfaces_;
+  std::vector<Real> temperatures_;
+  std::vector<Mobility> mobilities_;
+};
+
+}    // namespace lsdcd
