@@ -475,7 +475,8 @@ def test_flat_side_is_finite(folder):
 
 @lmp.of_host
 def test_script_of_the_page(folder):
-    """As it stands, but for the place of the plugin, and for 1 m/s downwards, so that the lowest layer is back from the bottom in 10 ms."""
+    """As it stands, but for the place of the plugin, and for 1 m/s downwards, so that the lowest layer is back from the bottom after a
+    tenth of the steps."""
     page = Page("doc/fix_wall_lsdcd.rst")
     script = next(block.text for block in page.blocks if re.search("^atom_style +ellipsoid superellipsoid", block.text, re.M))
     tool = lmp.pathlib.Path(lmp.LMP).parent / "lsdcd"
