@@ -392,6 +392,7 @@ void ShapeSearch::add_face(const PlacedGrain &grain, std::uint32_t face, Real si
   const TreePrimitive &p = view_.primitives[face];
   const Vec3 out = side * p.normal;
   const Real distance = dot(out, view_.vertices[p.vertex[0]] - grain.centre - arm);
+  if (!(distance < 0)) return;    // by another rounding than that of the plane
   const Vec3 normal = grain.to_own(out), foot = grain.to_own(arm) + distance * normal;
   local_.push_back(
       {{distance, normal, normal, foot, TrianglePart::face, 0, true, true}, p.code, face});

@@ -829,6 +829,7 @@ Real least_mass_of_a_contact(const Vec3 &half, Real n)
 struct EnergyChange {
   Real most = 0, trend = 0, each = 0;    // each: root mean square from one flight to the next
   int bounces = 0;
+  Real overlap = 0;    // mean of the deepest of each bounce, over the least half-axis
 };
 EnergyChange energy_change(const EngineSettings &law, const Vec3 &half, Real n, Real dt,
                            int n_steps)
@@ -840,7 +841,7 @@ EnergyChange energy_change(const EngineSettings &law, const Vec3 &half, Real n, 
   scene.compute(dt, false);
   const Real begin = scene.energy(0);
   EnergyChange change;
-  Real first = 0, last = 0, square = 0, flight = begin;
+  Real first = 0, last = 0, square = 0, flight = begin, deepest = 0;
   int n_first = 0, n_last = 0;
   bool touched = false;
   for (int k = 0; k < n_steps; k++) {
@@ -849,8 +850,11 @@ EnergyChange energy_change(const EngineSettings &law, const Vec3 &half, Real n, 
     change.most = std::fmax(change.most, std::fabs(energy / begin - 1));
     // Flights alone: in a contact the energy of velocity Verlet swings by the square of the step.
     const bool touches = scene.engine->results().totals().contacts > 0;
+    deepest = std::fmax(deepest, scene.engine->results().totals().largest_overlap_ratio);
     if (touched && !touches) {
       change.bounces++;
+      change.overlap += deepest;
+      deepest = 0;
       square += (energy / flight - 1) * (energy / flight - 1);
       flight = energy;
     }
@@ -859,6 +863,7 @@ EnergyChange energy_change(const EngineSettings &law, const Vec3 &half, Real n, 
     if (k < n_steps / 10) first += energy, n_first++;
     if (k >= n_steps - n_steps / 10) last += energy, n_last++;
   }
+  change.overlap /= change.bounces;
   change.each = std::sqrt(square / change.bounces);
   change.trend = last / n_last / (first / n_first) - 1;
   return change;

@@ -214,6 +214,27 @@ TEST(shape_query, finds_one_contact_of_a_flat_side_whose_middle_is_on_a_corner_o
     }
 }
 
+TEST(shape_query, finds_no_contact_that_has_no_overlap)
+{
+  // Heights over a tilted plane at which the overlap is 0 to rounding.
+  Random random(4);
+  std::size_t found = 0;
+  for (Real n : {2.0, 8.0}) {
+    const TreeCase plane(cut(fold(0), 5));
+    Grains grains;
+    for (int i = 0; i < 300; i++) {
+      const Vec3 half = uniform(random, {0.3, 0.3, 0.3}, {1.5, 1.5, 1.5});
+      grains.add(placed({uniform(random, -2, 2), uniform(random, -2, 2), half.z}), half, n, n,
+                 {kTurn.w, kTurn.v.x, kTurn.v.y, kTurn.v.z});
+    }
+    for (const ShapeContact &c : find_shape_contacts(plane.tree, grains.given()).found) {
+      EXPECT_LT(c.distance, 0) << n;
+      found++;
+    }
+  }
+  EXPECT_GT(found, 100u);    // about half of them
+}
+
 TEST(shape_query, finds_the_rim_of_a_table_alone_where_the_centre_is_below_the_top)
 {
   const std::vector<Vec3> table = {{-9, -9, 0}, {0, -9, 0}, {0, 9, 0},  {-9, -9, 0},
