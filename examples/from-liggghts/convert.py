@@ -107,7 +107,7 @@ def is_yes(values, key, default):
 
 def needed_by(words):
     """The fixes, computes, variables and dumps that a command needs: f_ID, c_ID, v_ID and d_ID."""
-    needed = {m[0] or f"v_{m[1]}" for m in re.findall(r"\b([fcv]_\w+)|\$\{(\w+)\}", " ".join(words))}
+    needed = {m[0] or f"v_{m[1] or m[2]}" for m in re.findall(r"\b([fcv]_\w+)|\$\{(\w+)\}|\$([a-zA-Z])", " ".join(words))}
     return needed | {f"{ENDERS[words[0]]}_{words[1]}"} if words[0] in ENDERS and len(words) > 1 else needed
 
 
@@ -1225,10 +1225,10 @@ class Script:
     def note(self, line, text):
         self.put(f"# NOTE {self.at(line)}: {text}")
 
-    def leave(self, line, why, do, nearest=""):
-        """Makes a line a comment. Returns whether the nearest commands wait below it."""
+    def leave(self, line, why, do, nearest="", takes=True):
+        """Makes a line a comment. Returns whether the nearest commands wait below it. `takes`: they may be taken."""
         # Where no number waits for a choice, --nearest takes the nearest commands.
-        if nearest and self.options.nearest and " K " not in nearest:
+        if nearest and takes and self.options.nearest and " K " not in nearest:
             self.note(line, f"--nearest: {why}")
             self.put(nearest)
             return False
@@ -1291,7 +1291,7 @@ class Script:
         return "\n".join(text if isinstance(text, str) else self.mesh_dump(text) for text in self.out) + "\n"
 
     def hold(self, line, before):
-        """Makes commands of a line wait, as comments with #:, that need what waits."""
+        """Makes commands of a line that need what waits wait, too, as comments with #:."""
         commands, waits, needs = self.out[before:], [], set()
         del self.out[before:]
         for text in commands:
@@ -1314,7 +1314,7 @@ class Script:
                 self.waiting.discard(f"{ENDERS[w[0]]}_{w[1]}")
         if waits:
             of = ", ".join(f"{KINDS[name[0]]} {name[2:]}" for name in sorted(needs))
-            self.leave(line, f"{of}, which waits above as a comment", "take both without #:, or leave both", "\n".join(waits))
+            self.leave(line, f"{of}, which waits above as a comment", "take both without #:, or leave both", "\n".join(waits), takes=False)
 
     def end_replaced(self, line, moved):
         """Ends what a fix with the same ID has made, where the one that would replace it is left."""

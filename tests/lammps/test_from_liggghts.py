@@ -782,6 +782,10 @@ def test_nearest(folder):
          [line for line in taken.split("\n") if f"#: {line}" in turning.split("\n")] and "#:" not in taken, taken)
     done, out = convert(folder, text, more=["--nearest"])
     fact("--nearest takes the motion and the outputs, too", all(f"\n{x}\n" in out for x in waiting) and done.returncode == 0, out)
+    bare = text.replace("set group all diameter 0.02 density 2500\n", "").replace("${up}", "$u").replace("v_up", "v_u").replace("variable up", "variable u")
+    done, out = convert(folder, bare, more=["--nearest"])
+    fact("... but not where the law waits for a number", " rolling sds K 0 0.1" in out and done.returncode == 3 and not re.search(
+        r"^(fix_modify|unfix|variable u equal 2|[^#\n].*f_w)", out, re.M) and out.count('#: print "$u"') == 1, out)
 
 
 def test_sweeping(folder):
