@@ -77,6 +77,8 @@ def test_springs(folder):
     fact("springs: told once", fresh.count("a rerun does not know the springs") == 1)
     at_most("springs: those of a run before it are not those of snapshots",
             apart(rows_of(fresh), rows_of(after)), 1e-12)
+    fact("spins: told once", fresh.count("a rerun does not know how fast atoms spin") == 1)
+    fact("spins: not told of where nothing rubs", "how fast atoms spin" not in lmp.run_well(text("") + RERUN.format(""), folder))
     fact("springs: not told of where there are none", "does not know the springs" not in
          lmp.run_well(text("") + RERUN.format(""), folder))
 

@@ -699,8 +699,9 @@ TEST(Wall, does_not_move_springs_in_a_snapshot)
   scene.run(10);
   scene.step(Step::snapshot, true);
   EXPECT_EQ(scene.grains.force[0].x, 0);
-  ASSERT_EQ(host.warnings.size(), 1u);
+  ASSERT_EQ(host.warnings.size(), 2u);
   EXPECT_EQ(host.warnings[0].rfind("a replay does not know the springs", 0), 0u);
+  EXPECT_EQ(host.warnings[1].rfind("a replay does not know how fast spheres spin", 0), 0u);
 }
 
 // As after `unfix` and another `fix`, when a gate is taken out: what rests on it slips a little.

@@ -5,9 +5,21 @@
 
 #include "base/input_error.h"
 
+#include <algorithm>
 #include <string>
+#include <vector>
 
 namespace lsdcd {
+
+static bool has_friction(const WallSpec &wall)
+{
+  const auto some = [](const std::vector<LawOfTypes> &rows) {
+    return std::any_of(rows.begin(), rows.end(),
+                       [](const LawOfTypes &row) { return row.law.mu > 0; });
+  };
+  return some(wall.laws) || std::any_of(wall.meshes.begin(), wall.meshes.end(),
+                                        [&some](const MeshSpec &mesh) { return some(mesh.laws); });
+}
 
 void SnapshotCheck::check(const std::deque<MeshPart> &meshes, const Step &step)
 {
@@ -28,6 +40,10 @@ void SnapshotCheck::check(const std::deque<MeshPart> &meshes, const Step &step)
                host_.names().record +
                " contains them: friction, rolling, twisting and adhesion past touch begin at 0 in "
                "each snapshot");
+  if (has_friction(wall_))
+    host_.warn(a_replay + " does not know how fast " + host_.names().sphere +
+               "s spin, because no " + host_.names().record +
+               " gives that back: friction is that of the spin that they had before");
   if (wall_.has_loads())
     host_.warn(a_replay +
                " has no steps over which loads and wear add up: no wear is counted and no "
