@@ -106,7 +106,7 @@ def is_yes(values, key, default):
 
 
 def needed_by(words):
-    """The fixes, computes, variables and dumps that a command needs: f_ID, c_ID, v_ID and d_ID."""
+    """Returns the fixes, computes, variables and dumps that a command needs: f_ID, c_ID, v_ID and d_ID."""
     needed = {m[0] or f"v_{m[1] or m[2]}" for m in re.findall(r"\b([fcv]_\w+)|\$\{(\w+)\}|\$([a-zA-Z])", " ".join(words))}
     return needed | {f"{ENDERS[words[0]]}_{words[1]}"} if words[0] in ENDERS and len(words) > 1 else needed
 

@@ -110,7 +110,7 @@ __global__ void push_each_other(Scene s)
   }
 }
 
-// Cells of the box from `lo` to `hi`; their number.
+// Makes cells in the box from `lo` to `hi`, and returns their number.
 inline int set_cells(Scene &s, const double *lo, const double *hi)
 {
   int n = 1;
@@ -122,7 +122,7 @@ inline int set_cells(Scene &s, const double *lo, const double *hi)
   return n;
 }
 
-// Of grains that push each other and have weight, in the order of a stream.
+// Starts the kernels that set the forces of the grains on each other and their weight.
 inline void start_forces(const Scene &s, cudaStream_t stream)
 {
   const int blocks = (s.n + kThreads - 1) / kThreads;
@@ -132,6 +132,7 @@ inline void start_forces(const Scene &s, cudaStream_t stream)
   push_each_other<<<blocks, kThreads, 0, stream>>>(s);
 }
 
+// Starts the kernel of half a step of velocities, and, if it `drifts`, of a step of places.
 inline void start_kick(const Scene &s, bool drifts, cudaStream_t stream)
 {
   kick_and_drift<<<(3 * s.n + kThreads - 1) / kThreads, kThreads, 0, stream>>>(s, drifts);

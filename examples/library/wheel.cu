@@ -18,7 +18,7 @@
 
 #include "grains.cuh"
 
-// A box without a lid.
+// Returns the corners of the triangles of a box without a lid.
 std::vector<double> tray(double x, double y, double z)
 {
   const double corner[8][3] = {{0, 0, 0}, {x, 0, 0}, {x, y, 0}, {0, y, 0},
@@ -48,7 +48,7 @@ try {
   s.friction = 0.5;
   s.gravity = kGravity;
   s.dt = 0.12 / frequency;
-  // Three times as long as wide, a third as deep as wide.
+  // The bed is three times as long as wide, and a third as deep as wide.
   const double gap = 2.02 * s.radius;
   const int deep = std::max(4, static_cast<int>(std::cbrt(wanted / 27.))), wide = 3 * deep,
             along = wanted / (wide * deep);

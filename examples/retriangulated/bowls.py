@@ -28,6 +28,7 @@ EVERY = 3        # frames of the dump that one of the film stands for
 
 
 def empty_bowl(view):
+    """Returns a canvas with the bowl alone."""
     canvas = Canvas(view, FINER)
     corners = np.array(bowl(), float)
     canvas.triangles(corners, np.tile(rgb(STEEL), (len(corners), 1)))
@@ -35,7 +36,7 @@ def empty_bowl(view):
 
 
 def panel(canvas, one, other, words, time):
-    """A program's grains at one time, in both bowls."""
+    """Draws a program's grains at one time, in both bowls."""
     canvas, view = copy.deepcopy(canvas), canvas.view
     sizes = np.full(len(one), DIAMETER / 2)
     canvas.spheres(one, sizes, np.tile(rgb(BLUE), (len(one), 1)))

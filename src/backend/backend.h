@@ -13,7 +13,7 @@
 //   exclusive_scan               numbers become the sums of those before them; returns the total; waits
 //   sort_pairs                   by key, stable, up to the bits of the largest key
 //   compact                      what is flagged of an array, or of the numbers [0, n), in order
-//   Event                        a point in what was started: record() and wait() for it; one that was never recorded is reached
+//   Event                        a point in what was started: record() and wait() for it; one that was never recorded counts as reached
 //   SideStream                   what is started between begin() and end() waits for what came before ready() only
 //   milliseconds                 that f() takes
 //   scratch_bytes                of the memory that these need meanwhile

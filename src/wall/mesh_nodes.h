@@ -62,8 +62,8 @@ class MeshNodes {
   NodeState save() const;
   // Throws InputError, which names the node or face, where restore() would put one at no finite place or without area.
   void check(const NodeState &was) const;
-  // Takes a state that was checked, before the first step: nodes are where they were saved, to which springs belong, until the next step begins. A state
-  // without places has springs of the step that comes.
+  // Takes a state that was checked, before the first step: nodes are where they were saved, to which springs belong, until the
+  // next step begins. A state without places has springs of the step that comes.
   void restore(const NodeState &was);
 
   // After a step: sees what its contacts do to the nodes, on this process. Throws InputError, which names the sphere, where a force is

@@ -606,7 +606,7 @@ class WallTotals(_Record):
     force: NDArray[np.float64]     # (3,) on the mesh
     torque: NDArray[np.float64]    # (3,) on the mesh, about the point asked for
     contacts: float
-    overlap: float        # the largest, of the radius
+    overlap: float        # the largest, of the radius or least half-axis
     uncertified: float    # spheres whose answer is not certified; see `nearest`
     power: float          # of the mesh on the spheres, by its motion
     energy: float         # elastic

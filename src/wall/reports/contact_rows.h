@@ -17,7 +17,7 @@ struct WallContact {
   int sphere, mesh;
   Vec3 force;    // on the sphere
   Vec3
-      point;    // of the mesh: the closest to the sphere's centre, or the deepest in a grain of another shape
+      point;    // of the mesh: the closest to the centre, or the deepest in a grain that is no sphere
   Real overlap;    // length
 };
 
