@@ -79,6 +79,8 @@ def test_springs(folder):
             apart(rows_of(fresh), rows_of(after)), 1e-12)
     fact("spins: told once", fresh.count("a rerun does not know how fast atoms spin") == 1)
     fact("spins: not told of where nothing rubs", "how fast atoms spin" not in lmp.run_well(text("") + RERUN.format(""), folder))
+    fact("spins: told of where it only rolls", "how fast atoms spin" in
+         lmp.run_well(text("rolling cdt 0.1") + RERUN.format(""), folder))
     fact("springs: not told of where there are none", "does not know the springs" not in
          lmp.run_well(text("") + RERUN.format(""), folder))
 

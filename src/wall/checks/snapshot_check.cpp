@@ -11,8 +11,10 @@
 
 namespace lsdcd {
 
-static bool has_friction(const WallSpec &wall)
+// Does a force or torque of a wall depend on how fast spheres spin?
+static bool reads_spin(const WallSpec &wall)
 {
+  if (wall.law().rolling.is_on() || wall.law().twisting.is_on()) return true;
   const auto some = [](const std::vector<LawOfTypes> &rows) {
     return std::any_of(rows.begin(), rows.end(),
                        [](const LawOfTypes &row) { return row.law.mu > 0; });
@@ -40,10 +42,11 @@ void SnapshotCheck::check(const std::deque<MeshPart> &meshes, const Step &step)
                host_.names().record +
                " contains them: friction, rolling, twisting and adhesion past touch begin at 0 in "
                "each snapshot");
-  if (has_friction(wall_))
+  if (reads_spin(wall_))
     host_.warn(a_replay + " does not know how fast " + host_.names().sphere +
                "s spin, because no " + host_.names().record +
-               " gives that back: friction is that of the spin that they had before");
+               " gives that back: friction, rolling and twisting are those of the spin that they "
+               "had before");
   if (wall_.has_loads())
     host_.warn(a_replay +
                " has no steps over which loads and wear add up: no wear is counted and no "

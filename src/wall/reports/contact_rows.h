@@ -15,9 +15,8 @@ namespace lsdcd {
 // A contact of a sphere with a mesh. Forces are those of a step, places those that it began with.
 struct WallContact {
   int sphere, mesh;
-  Vec3 force;    // on the sphere
-  Vec3
-      point;    // of the mesh: the closest to the centre, or the deepest in a grain that is no sphere
+  Vec3 force;      // on the sphere
+  Vec3 point;      // of the mesh: the closest to the centre, or the deepest in a grain of shape
   Real overlap;    // length
 };
 
