@@ -33,20 +33,32 @@ std::string place_text(const Vec3 &a)
                    "), so a density gives no mass: close it, or give mass, centre and inertia");
 }
 
+[[noreturn]] void fail_not_oriented(const WeldedMesh &mesh)
+{
+  const MeshReport &r = mesh.report;
+  const std::string begin = mesh.source + " does not bound a volume: it has ",
+                    pairs = std::to_string(r.meeting_pairs) + " pairs of facets that ",
+                    other = "give mass, centre and inertia";
+  // No repair unites parts that run into each other, such as paddles that begin in their shaft.
+  if (r.nonmanifold_edges + r.misoriented_edges + r.inverted_facets + r.two_sided_faces == 0)
+    throw InputError(begin + pairs +
+                     "cut or touch each other: unite overlapping parts where you make the mesh (a "
+                     "Boolean union), or " +
+                     other);
+  throw InputError(begin + std::to_string(r.nonmanifold_edges) + " non-manifold and " +
+                   std::to_string(r.misoriented_edges) + " misoriented edges, " +
+                   std::to_string(r.inverted_facets) + " facets wound against the others, " +
+                   std::to_string(r.two_sided_faces) + " two-sided ones, and " + pairs +
+                   "meet: repair it, or " + other);
+}
+
 }    // namespace
 
 MassProperties mass_properties(const WeldedMesh &mesh, Real density)
 {
   const MeshReport &r = mesh.report;
   if (r.open_edges > 0) fail_open(mesh);
-  if (!r.oriented)
-    throw InputError(mesh.source + " does not bound a volume: it has " +
-                     std::to_string(r.nonmanifold_edges) + " non-manifold and " +
-                     std::to_string(r.misoriented_edges) + " misoriented edges, " +
-                     std::to_string(r.inverted_facets) + " facets wound against the others, " +
-                     std::to_string(r.two_sided_faces) + " two-sided ones, and " +
-                     std::to_string(r.meeting_pairs) +
-                     " pairs of facets that meet: repair it, or give mass, centre and inertia");
+  if (!r.oriented) fail_not_oriented(mesh);
   // From the middle of the box: far from the origin the terms would be large and cancel.
   const Vec3 middle = 0.5 * r.lo + 0.5 * r.hi;
   long double volume = 0, first[3] = {},

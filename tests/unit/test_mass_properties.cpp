@@ -48,7 +48,7 @@ void expect_inertia(const SymmetricMatrix &is, const SymmetricMatrix &want, Real
   EXPECT_NEAR(is.yz, want.yz, kExact * scale);
 }
 
-std::string error_of_open(const TriangleSoup &soup)
+std::string error_of(const TriangleSoup &soup)
 {
   try {
     of(soup, 1);
@@ -106,10 +106,20 @@ TEST(mass_properties, of_an_open_mesh_are_refused_with_its_open_edges)
 {
   TriangleSoup soup = box_mesh({0, 0, 0}, {1, 2, 3});
   soup.corners.resize(soup.corners.size() - 3);    // one of the 12 triangles
-  const std::string error = error_of_open(soup);
+  const std::string error = error_of(soup);
   EXPECT_NE(error.find("it has 3 open edges ("), std::string::npos) << error;
   // The places of all three: each is between two corners of the triangle that was taken off.
   EXPECT_EQ(std::count(error.begin(), error.end(), ';'), 2) << error;
+}
+
+// A paddle that begins in its shaft: two closed boxes that cut each other.
+TEST(mass_properties, of_parts_that_overlap_are_refused_with_a_remedy)
+{
+  TriangleSoup soup = box_mesh({0, 0, 0}, {1, 1, 4});
+  append(soup, box_mesh({0.5, 0.25, 1}, {3, 0.75, 2}));
+  const std::string error = error_of(soup);
+  EXPECT_NE(error.find("cut or touch each other: unite overlapping parts"), std::string::npos)
+      << error;
 }
 
 TEST(mass_properties, take_a_lamina_and_refuse_what_no_body_has)
