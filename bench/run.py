@@ -36,11 +36,8 @@ BENCHMARKS = {
     "floor": ("floor", CPU, SCRIPT + "floor.py " + COMMON, "a mesh beside a flat plane"),
     "region": ("region", CPU, SCRIPT + "region.py " + COMMON, "a mesh beside fix wall/gran/region"),
     "shapes": ("shapes", CPU, "{bin}/bench_shapes " + COMMON, "spheres, ellipsoids and superellipsoids at faces and edges"),
-    "sides": ("sides", BOTH, "{bin}/bench_sides " + COMMON, "on which side of a closed mesh points are"),
     "nodes": ("nodes", BOTH, "{bin}/bench_nodes " + COMMON, "a rigid sheet and one whose nodes move"),
-    "turning": ("turning", BOTH, "{bin}/bench_turning " + COMMON, "spheres at the wall of a drum at rest, and turning"),
     "device": ("device", CPU, SCRIPT + "device.py " + COMMON, "steps of a LAMMPS without Kokkos on a core and on a GPU"),
-    "decomposition": ("decomposition", CPU, SCRIPT + "decomposition.py " + COMMON, "how 1e3 GPUs would share a vessel; computed"),
 }
 DEFAULT = ("query", "build", "step", "cache")
 ON_ONE_CORE = ("mesh-size", "effects", "bodies", "nodes", "shapes")
