@@ -154,76 +154,6 @@ def test_plate(folder):
              " ".join(w for w in done.stdout.split("\n") if "ERROR" in w)[:300])
 
 
-def test_hinge(folder):
-    """A flap under fix gravity: its period, and the weights that the hinge bears."""
-    side, thick, g = 0.2, 0.002, 9.81
-    box(folder / "flap.stl", (-thick / 2, -side / 2, -side), (thick / 2, side / 2, 0))
-    inertia = side**2 / 3 + thick**2 / 12    # over the mass
-    far = "create_atoms 1 single 1 1 1 units box\nset group all diameter 0.01 density 1\n"
-    law = "hooke 1e3 NULL 0 NULL 0 0 mesh flap.stl body density 1000 joint hinge 0 0 0 0 1 0 "
-    more = f"fix g all gravity {g} vector 0 0 -1\n"
-    dt = 5e-4
-    start = 0.02
-    rows, _ = go(folder, script(law + f"omega 0 {start} 0", far, dt, move="", more=more) + "run 3000\n")
-    period = 2 * math.pi * math.sqrt(inertia / (g * side / 2))
-    swing = start * period / (2 * math.pi)
-    off = max(abs(r[COORDINATE] - swing * math.sin(2 * math.pi * r[0] * dt / period)) for r in rows)
-    at_most("hinge: swings by the closed form", off / swing, 1e-3)
-    # From the bottom with the speed of a release at 90 degrees.
-    fast = math.sqrt(g * side / inertia)
-    rows, _ = go(folder, script(law + f"omega 0 {fast:.17g} 0", far, dt, move="", more=more) + "run 500\n")
-    mass = side * side * thick * 1000
-    at_most("hinge: 2.5 weights at the bottom", abs(rows[0][REACTION + 2] / (mass * g) - 2.5), 1e-4)
-    at_most("hinge: comes to 90 degrees", abs(max(r[COORDINATE] for r in rows) / (math.pi / 2) - 1), 1e-4)
-    potential = [r[ENERGY] + mass * g * r[CENTRE + 2] for r in rows]
-    at_most("hinge: energy", (max(potential) - min(potential)) / (mass * g * side), 1e-4)
-
-
-def test_motor(folder):
-    """A motor with a variable, and a damper: I w' = T - c w, exactly for a constant T."""
-    box(folder / "rotor.stl", (-0.3, -0.1, -0.1), (0.3, 0.1, 0.1))
-    far = "create_atoms 1 single 1 1 1 units box\nset group all diameter 0.01 density 1\n"
-    inertia, torque, damping, dt = 2.0, 0.7, 0.4, 0.01
-    law = f"hooke 1e3 NULL 0 NULL 0 0 mesh rotor.stl body mass 3 com 0 0 0 inertia 1 1.5 {inertia} 0 0 0 " \
-          f"joint hinge 0 0 0 0 0 2 spring 0 {damping} motor v_torque"
-    torque_is = f"variable torque equal {torque}\nfix w"
-    rows, _ = go(folder, script(law, far, dt, move="").replace("fix w", torque_is, 1) + "run 500\n")
-    off = max(abs(r[OMEGA + 2] - torque / damping * (1 - math.exp(-damping * r[0] * dt / inertia))) for r in rows)
-    at_most("motor and damper", off, 1e-12)
-    # Another timestep later, between two runs and in one.
-    rows, _ = go(folder, script(law, far, dt, move="", also="$(time:%.17g)").replace("fix w", torque_is, 1) +
-                 "run 100\ntimestep 0.002\nrun 100\nfix less all dt/reset 50 0.001 0.0011 1 units box\nrun 200\n")
-    off = max(abs(r[OMEGA + 2] - torque / damping * (1 - math.exp(-damping * r[-1] / inertia))) for r in rows)
-    at_most("motor and damper with another timestep", off, 1e-12)
-    fact("the timestep changed in a run", abs(rows[-1][-1] - (1 + 0.2 + 0.1 + 0.165)) < 0.06,
-         f"time {rows[-1][-1]:.6g}")
-
-
-def test_stops(folder):
-    """A flap that a motor holds at its stop, and a sphere that hits it there: outputs as of a mesh at rest, and the stop's torque."""
-    side, thick, torque, upper, dt, radius = 0.2, 0.02, 5.0, 0.3, 1e-3, 0.05
-    box(folder / "flap.stl", (-thick / 2, -side / 2, -side), (thick / 2, side / 2, 0))
-    far = "create_atoms 1 single 1 1 1 units box\nset group all diameter 0.01 density 1\n"
-    law = "granular hooke 1e4 0.3 damping coeff_restitution tangential linear_nohistory 0 0 mesh flap.stl "
-    body = f"body density 100 joint hinge 0 0 0 0 1 0 motor {torque} limits 0 {upper} gravity 0 0 0"
-    rows, _ = go(folder, script(law + body, far, dt, move="", columns=range(1, 42)) +
-                 "run 200\nfix_modify w body motor 0 limits 0 1\nrun 200\n")
-    held, loose = [r for r in rows if r[0] == 200]
-    for name, row in (("held", held), ("let go", loose), ("200 steps later", rows[-1])):
-        fact(f"stop: at rest, {name}", row[COORDINATE] == upper and not any(row[OMEGA:OMEGA + 3]) and row[ENERGY] == 0)
-    at_most("stop: it bears the motor", abs(held[STOP] + torque), 1e-14)
-    fact("stop: it bears nothing more", loose[STOP] == 0 and not any(held[36:41]))
-
-    hit = sphere(-thick / 2 - radius - 1e-4, 0, -0.7 * side, radius, 1, (1, 0, 0))
-    speeds = []
-    for fix in (law, law + body.replace(f"0 {upper}", "0 1").replace(f"motor {torque}", "motor -100")):
-        rows, _ = go(folder, script(fix, hit, 1e-4, columns=(POWER,), also=ATOM) + "run 400\n")
-        speeds.append([r[-3] for r in rows])
-        fact("stop: no power", not any(r[1] for r in rows))
-    fact("stop: a sphere rebounds as from a mesh at rest", speeds[0] == speeds[1] and speeds[0][-1] < -0.2,
-         f"{speeds[0][-1]}, {speeds[1][-1]}")
-
-
 def crowd(cells=3, apart=0.5):
     """Spheres of diameter 0.3 on a grid about the origin, with any velocities, whose sum is 0."""
     at = [apart * (k - (cells - 1) / 2) for k in range(cells)]
@@ -243,45 +173,6 @@ variable lz atom "mass * (x*vy - y*vx) + 0.4 * mass * c_p[1]^2 * c_p[4]"
 compute l all reduce sum v_lx v_ly v_lz
 """
 BOOK = "$(v_px:%.17g) $(v_py:%.17g) $(v_pz:%.17g) $(c_l[1]:%.17g) $(c_l[2]:%.17g) $(c_l[3]:%.17g)"
-
-
-def test_momentum(folder, steps=5000 if lmp.QUICK else 20000):
-    """A free box, and spheres that hit it from inside and each other: momentum and angular momentum of all together."""
-    side, mass, moment = 2.0, 5.0, (4.0, 5.0, 6.0)
-    box(folder / "cut2.stl", (-side / 2,) * 3, (side / 2,) * 3, 2)
-    box(folder / "cut5.stl", (-side / 2,) * 3, (side / 2,) * 3, 5)
-
-    def turned(q, a):
-        w, u = q[0], q[1:]
-        t = [2 * (u[(k + 1) % 3] * a[(k + 2) % 3] - u[(k + 2) % 3] * a[(k + 1) % 3]) for k in range(3)]
-        return [a[k] + w * t[k] + u[(k + 1) % 3] * t[(k + 2) % 3] - u[(k + 2) % 3] * t[(k + 1) % 3] for k in range(3)]
-
-    def books(row):
-        """The sums, and sizes of what they are made of."""
-        p, angular = row[36:39], row[39:42]
-        x, v, w, q = row[CENTRE:CENTRE + 3], row[SPEED:SPEED + 3], row[OMEGA:OMEGA + 3], row[TURN:TURN + 4]
-        spin = turned(q, [moment[k] * a for k, a in enumerate(turned([q[0], -q[1], -q[2], -q[3]], w))])
-        return ([p[k] + mass * v[k] for k in range(3)],
-                [angular[k] + spin[k] + mass * (x[(k + 1) % 3] * v[(k + 2) % 3] - x[(k + 2) % 3] * v[(k + 1) % 3])
-                 for k in range(3)], mass * max(map(abs, v)), max(map(abs, spin)))
-
-    # With friction LAMMPS's pairs of spheres do not keep angular momentum: their torques take whole radii. The wall's keep it.
-    early = {}
-    for mesh, ranks in (("cut2", 1), ("cut2", 2), ("cut2", 4), ("cut5", 1)):
-        text = script(f"{COLLIDE} mesh {mesh}.stl body mass {mass} com 0 0 0 inertia {moment[0]} {moment[1]} {moment[2]} "
-                      "0 0 0 omega 0.1 0.2 -0.1", crowd(), 5e-4, box="-3 3 -3 3 -3 3", pair="gran/hooke 1e4 0 0 0 0 0", more=BOOKS,
-                      every=1000, also=BOOK)
-        rows, _ = go(folder, text + f"run {steps}\n", ranks)
-        all_books = [books(row) for row in rows]
-        for k, what in enumerate(("momentum", "angular momentum")):
-            size = max(b[2 + k] for b in all_books)
-            off = max(abs(u - v) for b in all_books for u, v in zip(b[k], all_books[0][k]))
-            at_most(f"{mesh}, {ranks} processes: {what} in {steps} steps", off / size, 1e-12)
-        early[mesh, ranks] = rows[2][CENTRE:ENERGY + 1]
-        fact(f"{mesh}, {ranks} processes: spheres hit the body", abs(rows[-1][OMEGA] - 0.1) > 0.01)
-    for key in (("cut2", 2), ("cut2", 4), ("cut5", 1)):
-        at_most(f"{key[0]}, {key[1]} processes: the same motion for 3000 steps",
-                max(abs(a - b) for a, b in zip(early[key], early["cut2", 1])), 1e-10)
 
 
 def test_two_bodies(folder, steps=5000):

@@ -80,12 +80,6 @@ def run(folder, wall, units="si", ranks=1, env=None):
     return lmp.read_dump(folder / "out"), re.search(r"^  contact     (granular .*)", text, re.M)[1], text
 
 
-def contact_numbers(e1, nu1, e2, nu2):
-    """E* and G* of two materials."""
-    return (1 / ((1 - nu1**2) / e1 + (1 - nu2**2) / e2),
-            1 / (2 * (2 - nu1) * (1 + nu1) / e1 + 2 * (2 - nu2) * (1 + nu2) / e2))
-
-
 @pytest.fixture(scope="module")
 def folder(folder):
     (folder / "grains.lsdcd").write_text(FILE)
@@ -111,32 +105,6 @@ def test_same_bits(folder):
         fact(f"{words}: moves as with the numbers written out", filled == plain)
     turns = filled[20000][1][6:9]
     fact("the grain was turned by friction", turns != filled[0][1][6:9], str(turns))
-
-
-def test_by_mesh_and_type(folder):
-    """Where one pair meets, its numbers are all that counts."""
-    alone = run(folder, "granular material grains.lsdcd glass on steel mesh floor.stl")[0]
-    for words in ("glass mesh floor.stl material steel", "glass types 1 steel mesh floor.stl",
-                  "glass mesh floor.stl move 0 0 -0.005 material glass mesh floor.stl material steel"):
-        got, _, text = run(folder, f"granular material grains.lsdcd {words}")
-        # Several meshes are computed in another order.
-        at_most(f"{words}: as glass on steel", lmp.largest_difference(alone, got), 1e-12)
-        fact(f"{words}: the log says so", re.search("material    (glass on steel|steel on glass), ", text))
-
-
-def test_two_materials(folder):
-    filled, words, text = run(folder, "granular material grains.lsdcd glass on steel mesh floor.stl")
-    e, restitution, nu = (float(word) for word in words.split()[2:5])
-    young, shear = contact_numbers(70e6, 0.22, 210e6, 0.3)
-    # Ten operations in each of two codes.
-    at_most("glass on steel: E*", abs(e / (2 * (1 - nu**2)) / young - 1), 4e-15)
-    at_most("glass on steel: G*", abs(e / (4 * (2 - nu) * (1 + nu)) / shear - 1), 4e-15)
-    fact("glass on steel: restitution", restitution == 0.7)
-    fact("glass on steel: same bits with the words of the log",
-         filled == run(folder, f"{words} mesh floor.stl")[0])
-    for what in ("glass on steel", "grains.lsdcd, in units si", "7e+07 Pa, grains.lsdcd line 3",
-                 "soft, so that steps are long", "grains.lsdcd line 15"):
-        fact(f"the log says '{what}'", what in text)
 
 
 def test_systems_of_units(folder):

@@ -190,29 +190,6 @@ def test_bulges(folder):
 
 # ---- momentum --------------------------------------------------------------------------------
 
-def test_impact(folder):
-    """A sphere on a free plate of nodes: all momentum is kept."""
-    net = Net((-2, -2, -2), (2, 2, 2))
-    rows = [[net.node(i - 1, j - 1, 0, False, 0.3) for i in range(3)] for j in range(3)]
-    for i in range(2):
-        for j in range(2):
-            a, b, c, d = rows[j][i], rows[j][i + 1], rows[j + 1][i + 1], rows[j + 1][i]
-            net.faces += [(a, b, c), (a, c, d)]
-            net.bonds += [(1, a, b), (1, b, c), (1, c, d), (1, d, a), (1, a, c)]
-    net.grains.append((0.2, 0.1, 0.21, 0.2, 1.0))
-    net.write(folder, [30.0])
-    lmp.run_well(begin(1e-3, 1.5, [30.0]) +
-                 "fix w grains wall/lsdcd hooke/history 2e3 5e2 3 2 0.4 1 mesh sheet.stl nodes nodes\n"
-                 "velocity grains set 0.2 0.1 -1\nfix turn grains nve/sphere\nfix go nodes nve\n"
-                 "variable px equal vcm(all,x)*mass(all)\nvariable pz equal vcm(all,z)*mass(all)\n"
-                 "fix out all print 1 \"$(v_px:%.17g) $(v_pz:%.17g) $(f_w[3]:%.17g)\" file out.txt screen no\n"
-                 "run 300\n", folder)
-    rows = rows_of(folder / "out.txt")
-    worst = max(max(abs(row[0] - 0.2), abs(row[1] + 1)) for row in rows)
-    at_most("an impact keeps momentum", worst, 1e-12)
-    fact("and it was one", max(-row[2] for row in rows) > 10)
-
-
 # ---- errors ----------------------------------------------------------------------------------
 
 def test_refused(folder):
@@ -329,28 +306,6 @@ def test_another_mesh(folder):
 
 
 # ---- nodes that fix move moves -------------------------------------------------------------
-
-TURNTABLE = """\
-group           held type 2
-velocity        grains set 0 3.14159265358979 0
-fix             pull grains gravity 20 vector 0 0 -1
-fix             turn grains nve
-fix             go nodes move rotate 0 0 0 0 0 1 2.0
-timestep        2e-3
-run             1000
-print           "$(xcm(grains,x):%.17g) $(xcm(grains,y):%.17g)" file out.txt screen no
-"""
-
-
-def test_turntable(folder):
-    """A grain on a turntable stays there for a turn. The springs of friction hold w^2 r m with 1e-3 of r."""
-    create = sheet(folder).replace("single -1.5 -1.5 -0.5", "single 0.6 0 0.2499")
-    law = "hooke/history 1e5 3e4 50 20 0.9 1"
-    text = SHEET.format(create=create, mesh="sheet.stl").replace("hooke 2000 NULL 0 NULL 0 1", law)
-    lmp.run_well(text + TURNTABLE.replace("3.14159265358979", str(0.6 * math.pi)), folder)
-    x, y = rows_of(folder / "out.txt")[0]
-    at_most("a grain stays on a turntable that fix move turns", math.hypot(x - 0.6, y), 1e-3 * 0.6)
-
 
 # ---- with Kokkos -------------------------------------------------------------------------
 

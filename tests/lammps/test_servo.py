@@ -240,23 +240,6 @@ def bed(law, servo, top=6.2):
             + "fix pull all gravity 8.0 vector 0 0 -1\n" + wall(law, servo, top))
 
 
-def test_confined_bed(folder):
-    """Smooth sides carry nothing: the floor bears the piston and the weight."""
-    text = bed(HISTORY, "servo force z -200 vmax 2.0")
-    lmp.run_well(text + OUTPUTS.format(dt=0.002, more="$(mass(all):%.17g)") + "run 20000\n"
-                 "write_dump all custom at.txt id z radius modify format float %.17g sort id\n", folder)
-    rows = rows_of(folder / "out.txt")
-    off = [abs(row[PUSH] / -200 - 1) for row in rows[-1000:]]
-    at_most("bed: load held", max(off), 1e-3)
-    fact("bed: several contacts", rows[-1][COUNT] > 3, str(rows[-1][COUNT]))
-    carried = 0.0
-    for row in lmp.read_dump(folder / "at.txt")[20000].values():
-        carried += 1e4 * max(0.0, row[1] - row[0])
-    weight = 8.0 * rows[-1][MORE]
-    # Both loads are held to 1e-3; the bed moves no more.
-    at_most("bed: the floor bears load and weight", abs(carried / (200 + weight) - 1), 1e-3)
-
-
 def test_restart(folder):
     """In the middle of a compression, bit for bit; then with other words."""
     def head(text):

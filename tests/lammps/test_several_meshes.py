@@ -61,40 +61,6 @@ ROLL = {"atoms": "create_atoms 1 single -0.6 0.11 0.499 units box",
         "more": "fix pull all gravity 20.0 vector 0 0 -1"}
 
 
-def test_seam(folder):
-    """The bounds are those of seams of one mesh (tests/physics/test_seams.cpp): every force is that
-    of the plane to 1e-12, and so is a path that crosses once, without chaos."""
-    for name, law in [*lmp.sample(LAWS).items(), ("smooth", SMOOTH)]:
-        one = go(folder, f"fix wall all wall/lsdcd {law} mesh whole.stl", "a", 3000, **ROLL)[0]
-        two = go(folder, f"fix wall all wall/lsdcd {law} {HALVES}", "b", 3000, **ROLL)[0]
-        last = max(one)
-        fact(f"seam, {name}: it rolls over", one[0][1][0] < -0.5 and one[last][1][0] > 0.5)
-        at_most(f"seam, {name}: two plates are one", lmp.largest_difference(one, two), 1e-11)
-        moved = go(folder, f"fix wall all wall/lsdcd {law} {HALVES} motion linear 0 0 0", "b", 3000,
-                   **ROLL)[0]
-        at_most(f"seam, {name}: one of them could move", lmp.largest_difference(one, moved),
-                1e-11)
-    at = {"atoms": "create_atoms 1 single 0 0.11 0.499 units box", "kick": "", "dt": 1e-9}
-    force = {}
-    for name, walls in {"one": f"fix wall all wall/lsdcd {SMOOTH} {HALVES}",
-                        "two": f"fix wall all wall/lsdcd {SMOOTH} mesh left.stl\n"
-                               f"fix other all wall/lsdcd {SMOOTH} mesh right.stl"}.items():
-        force[name] = go(folder, walls, "a", 0, **at)[0][0][1][11]
-    # Beside the rim its overlap is less by x^2/(2 h), 1e-12 of 1e-3.
-    beside = dict(at, atoms="create_atoms 1 single 1e-6 0.11 0.499 units box")
-    for name, meshes, times in (("two", HALVES, 2), ("one", "mesh whole.stl", 1)):
-        dump, text = go(folder, f"fix wall all wall/lsdcd {SMOOTH} {meshes} corner sum", "b", 0, **beside)
-        at_most(f"seam: corner sum of {name}, {times} times the force",
-                abs(dump[0][1][11] / (times * 1e4 * 0.001) - 1), 1e-8)
-        fact(f"seam: corner sum of {name}, warned of {times - 1} times",
-             text.count("with corner sum both meshes push a sphere over a seam") == times - 1)
-    text = go(folder, f"fix wall all wall/lsdcd {SMOOTH} {HALVES}", "b", 0, **beside)[1]
-    fact("seam: corner blend is not warned of", "with corner sum" not in text)
-    # k (R - h), with R and h of order 1 and their difference 1e-3: 1e-13 of the force.
-    at_most("seam: over it the force is the plane's", abs(force["one"] / (1e4 * 0.001) - 1), 1e-12)
-    at_most("seam: two fixes feel it twice", abs(force["two"] / (2 * 1e4 * 0.001) - 1), 1e-12)
-
-
 def test_gate(folder):
     """The right half slides away in its own plane."""
     away = "motion linear 3.0 0 0"

@@ -17,6 +17,7 @@
 #include <atomic>
 #include <cmath>
 #include <cstring>
+#include <functional>
 #include <random>
 #include <thread>
 
@@ -255,46 +256,6 @@ TEST(library, the_side_is_that_of_the_box)
     }
 }
 
-TEST(library, the_side_at_a_triangle_without_area_is_that_of_the_others)
-{
-  TriangleSoup soup = lsdcd::box_mesh({-1, -1, -1}, {1, 1, 1});
-  soup.corners.insert(soup.corners.end(), {{0, 0, -0.1}, {0, 0, 0.1}, {0, 0, 0}});
-  const All<double> a(grid_of(soup), {0.1, 0, 0, 0, 0, 0.2, 0.9, 0, 0}, true);
-  EXPECT_EQ(a.status[0], LSDCD_FOUND | LSDCD_CERTIFIED);
-  EXPECT_EQ(a.side[0], -1);    // its edge is nearest
-  EXPECT_EQ(a.side[1], -1);    // its corner
-  EXPECT_EQ(a.side[2], -1);    // the box
-}
-
-TEST(library, normals_that_point_in_do_not_change_the_side)
-{
-  TriangleSoup box = lsdcd::box_mesh({-1, -1, -1}, {1, 1, 1});
-  for (std::size_t t = 0; t < box.n_triangles(); t++)
-    std::swap(box.corners[3 * t], box.corners[3 * t + 1]);
-  const All<double> a(grid_of(box), {0.9, 0, 0, 1.1, 0, 0, 1, 0, 0}, true);
-  EXPECT_EQ(a.side[0], -1);
-  EXPECT_EQ(a.side[1], 1);
-  EXPECT_EQ(a.side[2], 1);    // on it
-}
-
-// At (0.95, 1.5, 1.5), inside of the first, a face of the second is nearest, which says outside.
-TEST(library, closed_shells_that_cut_each_other_have_the_sides_of_their_union)
-{
-  TriangleSoup soup = lsdcd::box_mesh({0, 0, 0}, {2, 2, 2});
-  lsdcd::append(soup, lsdcd::box_mesh({1, 1, 1}, {3, 3, 3}));
-  const lsdcd::Mesh mesh(numbers(soup));
-  EXPECT_GT(mesh.facts().meeting_pairs, 0u);
-  EXPECT_TRUE(mesh.facts().closed);
-  EXPECT_FALSE(mesh.facts().oriented);
-  EXPECT_NE(mesh.report().find("cuts or touches itself"), std::string::npos) << mesh.report();
-  const lsdcd::Grid grid(mesh, kCutoff);
-  EXPECT_TRUE(grid.facts().has_sides);
-  const std::vector<double> at = {0.95, 1.5, 1.5, 1.5, 1.5, 1.5, 2.5, 2.5,
-                                  2.5,  2.5, 1,   0.5, 2,   2.5, 1.5};
-  const All<double> a(grid, at, true);
-  EXPECT_EQ(a.side, (std::vector<std::int8_t>{-1, -1, -1, 1, -1}));
-}
-
 TEST(library, sides_are_known_where_nothing_is_found)
 {
   const lsdcd::Grid grid(lsdcd::Mesh(numbers(lsdcd::box_mesh({0, 0, 0}, {9, 9, 9}))), 0.1);
@@ -302,18 +263,6 @@ TEST(library, sides_are_known_where_nothing_is_found)
   const All<double> a(grid, {4, 4, 4, 4, 4, 12, 1e30, 4, 4, no, 4, 4}, true);
   EXPECT_EQ(a.side, (std::vector<std::int8_t>{-1, 1, 1, 0}));
   EXPECT_EQ(a.status[0] & LSDCD_FOUND, 0);
-}
-
-TEST(library, boxes_that_share_an_edge_or_a_face_have_sides)
-{
-  for (const Vec3 &by : {Vec3{1, 1, 0}, Vec3{1, 0, 0}, Vec3{1, 0.25, 0.25}}) {
-    TriangleSoup soup = lsdcd::box_mesh({0, 0, 0}, {1, 1, 1});
-    lsdcd::append(soup, lsdcd::box_mesh(by, by + Vec3{1, 1, 1}));
-    const lsdcd::Grid grid(lsdcd::Mesh(numbers(soup)), kCutoff);
-    const All<double> a(grid, {0.9, 0.5, 0.5, by.x + 0.1, by.y + 0.5, by.z + 0.5, 0.5, 0.5, 1.1},
-                        true);
-    EXPECT_EQ(a.side, (std::vector<std::int8_t>{-1, -1, 1}));
-  }
 }
 
 TEST(library, a_shell_that_cuts_itself_has_sides_from_a_cache_too)
@@ -337,52 +286,6 @@ TEST(library, a_shell_that_cuts_itself_has_sides_from_a_cache_too)
     const All<double> a(grid, {0.9, 0.9, 0.9, 0.05, 0.05, 0.05, 1.1, 0.45, 0.25, 1.5, 0.9, 0.9},
                         true);
     EXPECT_EQ(a.side, (std::vector<std::int8_t>{-1, 1, -1, 1}));
-  }
-}
-
-// One answer by the tree and by all kinds of cells.
-TEST(library, a_mesh_with_each_facet_in_both_windings_has_no_sides)
-{
-  const TriangleSoup box = lsdcd::box_mesh({-1, -1, -1}, {1, 1, 1});
-  for (const bool out_first : {true, false}) {
-    TriangleSoup in = box;
-    for (std::size_t t = 0; t < in.corners.size(); t += 3)
-      std::swap(in.corners[t], in.corners[t + 1]);
-    TriangleSoup both = out_first ? box : in;
-    lsdcd::append(both, out_first ? in : box);
-    const lsdcd::Mesh mesh(numbers(both));
-    EXPECT_TRUE(mesh.facts().closed);
-    EXPECT_FALSE(mesh.facts().oriented);
-    EXPECT_NE(mesh.report().find("each facet is there in both windings"), std::string::npos)
-        << mesh.report();
-    std::vector<lsdcd::Grid> grids;
-    grids.emplace_back(mesh);
-    grids.emplace_back(mesh, kCutoff);
-    grids.push_back(grid_of(both, 4));
-    grids.push_back(grid_of(both, 0, LSDCD_FLOAT));
-    for (const lsdcd::Grid &grid : grids) {
-      EXPECT_FALSE(grid.facts().has_sides);
-      const std::vector<double> at = {0.9, 0, 0, 1.1, 0, 0};
-      const auto ask = [&] { All<double>(grid, at, true); };
-      try {
-        ask();
-        ADD_FAILURE() << "not refused";
-      } catch (const lsdcd::Error &e) {
-        EXPECT_EQ(e.code(), LSDCD_ERROR_SIDE);
-        EXPECT_NE(std::strstr(e.what(), "encloses nothing: lsdcd repair"), nullptr) << e.what();
-      }
-      double winding[2];
-      std::int8_t side[2];
-      lsdcd::Query<double> q(at.data(), 2);
-      q.winding = winding;
-      q.side = side;
-      q.estimate_sides = true;
-      grid.query(q);
-      for (int i = 0; i < 2; i++) {
-        EXPECT_EQ(winding[i], 0);
-        EXPECT_EQ(side[i], 1);
-      }
-    }
   }
 }
 
@@ -469,25 +372,6 @@ TEST(library, sides_of_a_closed_mesh_are_never_estimated)
     EXPECT_NEAR(winding[i], wanted[i], 1e-15);
     EXPECT_EQ(side[i], i == 0 ? -1 : 1);
     EXPECT_FALSE(status[i] & LSDCD_SIDE_ESTIMATED);
-  }
-}
-
-TEST(library, a_cavity_has_the_side_of_what_is_round_it)
-{
-  TriangleSoup soup = lsdcd::box_mesh({-1, -1, -1}, {1, 1, 1}),
-               cavity = lsdcd::box_mesh({-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5});
-  for (std::size_t i = 0; i < cavity.corners.size(); i += 3)
-    std::swap(cavity.corners[i], cavity.corners[i + 1]);
-  lsdcd::append(soup, cavity);
-  const lsdcd::Grid grid(lsdcd::Mesh(numbers(soup)), kCutoff);
-  const std::vector<double> points = random_points<double>(2000);
-  const All<double> a(grid, points, true);
-  for (std::size_t i = 0; i < a.side.size(); i++) {
-    const Vec3 q = point(points, i);
-    const double half = std::max({std::fabs(q.x), std::fabs(q.y), std::fabs(q.z)});
-    if (a.status[i] & LSDCD_FOUND) {
-      EXPECT_EQ(a.side[i], half > 0.5 && half < 1 ? -1 : 1) << i;
-    }
   }
 }
 
@@ -612,47 +496,6 @@ TEST_F(Ties, give_the_same_closest_point_whatever_the_cutoff)
                  !(point(near.normal, i) == point(far.normal, i));
     }
     EXPECT_EQ(wrong, 0u) << cutoff;
-  }
-}
-
-// Users of other libraries report this as wrong: a sound tetrahedron, and points in the planes of its faces.
-// On halves of whole numbers its inside is known without rounding.
-TEST(library, a_tetrahedron_is_right_in_the_planes_of_its_faces)
-{
-  const Vec3 corner[4] = {{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {0, 0, 4}};
-  TriangleSoup soup;
-  for (const auto &f : {std::array<int, 3>{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}})
-    for (const int k : f) soup.corners.push_back(corner[k]);
-  std::vector<double> points;
-  for (int x = -8; x <= 16; x++)
-    for (int y = -8; y <= 16; y++)
-      for (int z = -8; z <= 16; z++) points.insert(points.end(), {x / 2., y / 2., z / 2.});
-  const All<double> a(lsdcd::Grid(lsdcd::Mesh(numbers(soup))), points, true);
-  std::size_t wrong_sides = 0, wrong = 0;
-  for (std::size_t i = 0; i < a.side.size(); i++) {
-    const Vec3 q = point(points, i);
-    const bool inside = q.x > 0 && q.y > 0 && q.z > 0 && q.x + q.y + q.z < 4;
-    wrong_sides += a.side[i] != (inside ? -1 : 1);
-    wrong +=
-        !(std::fabs(a.distance[i] - brute(soup, q)) <= 1e-14);    // some units of lengths up to 14
-  }
-  EXPECT_EQ(wrong_sides, 0u);
-  EXPECT_EQ(wrong, 0u);
-}
-
-// Another report: triangles that are nearly lines are left out, so that distances are too large.
-TEST(library, a_triangle_that_is_nearly_a_line_counts)
-{
-  for (const double height : {1e-3, 1e-6, 1e-9, 1e-12}) {
-    TriangleSoup soup;
-    soup.corners = {{0, 0, 0}, {1, 0, 0}, {0.5, height, 0}, {0, 0, 5}, {1, 0, 5}, {0, 1, 5}};
-    const std::vector<double> points = {0.5, height / 2, 1, 0.25, 0, 2, 2, 0, 0, 0.5, -1, 0};
-    const All<double> a(lsdcd::Grid(lsdcd::Mesh(numbers(soup), 0)), points);
-    const double wanted[] = {1, 2, 1, 1};
-    for (int i = 0; i < 4; i++) {
-      EXPECT_NEAR(a.distance[i], wanted[i], 1e-15) << height;
-      EXPECT_EQ(a.triangle[i], 0u) << height;
-    }
   }
 }
 
@@ -1330,23 +1173,6 @@ TEST_F(Wrong, no_points_are_no_error)
   EXPECT_EQ(lsdcd_query_host(grid.get(), &q), LSDCD_OK);
 }
 
-// An element before the vertices, a promise without faces, a header without an end.
-TEST_F(Wrong, a_damaged_ply_is_an_error_with_its_line)
-{
-  const lsdcd::TempDir dir;
-  const std::string header = "ply\nformat ascii 1.0\nelement camera 1\nproperty float focus\n"
-                             "element vertex 3\nproperty float x\nproperty float y\n"
-                             "property float z\nelement face 2\n"
-                             "property list uchar int vertex_indices\n";
-  const std::string data = "5\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
-  lsdcd_mesh *m = nullptr;
-  expect(lsdcd_mesh_read(dir.write("a.ply", header + "end_header\n" + data).c_str(), -1, &m),
-         LSDCD_ERROR_INPUT, "a.ply, line 17 (face 2): the file ends");
-  expect(lsdcd_mesh_read(dir.write("b.ply", header + data).c_str(), -1, &m), LSDCD_ERROR_INPUT,
-         "b.ply, line 11: '5' found where 'element', 'property' or 'end_header' is expected");
-  EXPECT_EQ(m, nullptr);
-}
-
 TEST_F(Wrong, an_empty_batch_is_no_error_in_cpp)
 {
   EXPECT_TRUE(grid.distances(std::vector<double>()).empty());
@@ -1366,70 +1192,34 @@ TEST_F(Wrong, points_and_corners_with_numbers_left_over)
   EXPECT_EQ(code_of([&] { lsdcd::Mesh(std::vector<double>(10)); }), LSDCD_ERROR_ARGUMENT);
 }
 
-TEST_F(Wrong, a_radius_beyond_the_cutoff)
+TEST_F(Wrong, numbers_of_a_query)
 {
-  q.radius = std::nextafter(kCutoff, 1);
-  refused(LSDCD_ERROR_CUTOFF, "more than the grid's cutoff");
-}
-
-TEST_F(Wrong, one_of_many_radii_beyond_the_cutoff)
-{
-  const double radii[2] = {0.1, std::nextafter(kCutoff, 1)};
-  q.radii = radii;
-  expect(lsdcd_query_host(grid.get(), &q), LSDCD_ERROR_CUTOFF, "point 1 has radius 0.4");
-}
-
-TEST_F(Wrong, one_of_many_radii_below_0_or_not_a_number)
-{
-  for (double bad : {-0.1, double(NAN)}) {
-    const double radii[2] = {0, bad};
-    q.radii = radii;
-    expect(lsdcd_query_host(grid.get(), &q), LSDCD_ERROR_ARGUMENT, "point 1 has radius");
+  const double beyond[] = {0.1, std::nextafter(kCutoff, 1)}, below[] = {0, -0.1}, none[] = {0, NAN};
+  const struct {
+    std::function<void(lsdcd_query &)> spoil;
+    const char *says;
+    int code = LSDCD_ERROR_ARGUMENT;
+  } rows[] = {
+      {[&](auto &w) { w.radius = beyond[1]; }, "more than the grid's cutoff", LSDCD_ERROR_CUTOFF},
+      {[&](auto &w) { w.radii = beyond; }, "point 1 has radius 0.4", LSDCD_ERROR_CUTOFF},
+      {[&](auto &w) { w.radii = below; }, "point 1 has radius"},
+      {[&](auto &w) { w.radii = none; }, "point 1 has radius"},
+      {[](auto &w) { w.radius = -2e-9; }, "`radius` is -2e-09"},
+      {[](auto &w) { w.radius = NAN; }, "`radius` is"},
+      {[&](auto &w) { w.radius = 0.1, w.radii = at; }, "both given"},
+      {[](auto &w) { w.size = 0; }, "size is 0"},
+      {[](auto &w) { w.size += 8; }, "size is"},
+      {[](auto &w) { w.type = 7; }, "`type`"},
+      {[](auto &w) { w.distance = nullptr; }, "nothing is asked for"},
+      {[](auto &w) { w.estimate_sides = 2; }, "`estimate_sides` is 2: it is 0 or 1"},
+      {[](auto &w) { w.threads = 50000; }, "`threads` is 50000"},
+  };
+  const lsdcd_query right = q;
+  for (const auto &row : rows) {
+    q = right;
+    row.spoil(q);
+    expect(lsdcd_query_host(grid.get(), &q), row.code, row.says);
   }
-}
-
-TEST_F(Wrong, a_radius_below_0_or_not_a_number)
-{
-  for (double bad : {-0.1, double(NAN)}) {
-    q.radius = bad;
-    refused(LSDCD_ERROR_ARGUMENT, "`radius` is");
-  }
-}
-
-TEST_F(Wrong, a_radius_in_nanometres_is_told_with_its_digits)
-{
-  q.radius = -2e-9;
-  refused(LSDCD_ERROR_ARGUMENT, "`radius` is -2e-09");
-}
-
-TEST_F(Wrong, radius_and_radii_together)
-{
-  q.radius = 0.1;
-  q.radii = at;
-  refused(LSDCD_ERROR_ARGUMENT, "both given");
-}
-
-TEST_F(Wrong, a_struct_of_another_size)
-{
-  q.size = 0;
-  refused(LSDCD_ERROR_ARGUMENT, "size is 0");
-  q.size = sizeof q + 8;
-  refused(LSDCD_ERROR_ARGUMENT, "size is");
-}
-
-TEST_F(Wrong, an_unknown_type)
-{
-  q.type = 7;
-  refused(LSDCD_ERROR_ARGUMENT, "`type`");
-}
-
-TEST_F(Wrong, nothing_asked_for)
-{
-  q.distance = nullptr;
-  refused(LSDCD_ERROR_ARGUMENT, "nothing is asked for");
-  q.estimate_sides = 2;
-  refused(LSDCD_ERROR_ARGUMENT, "`estimate_sides` is 2: it is 0 or 1");
-  q.estimate_sides = 0;
 }
 
 TEST_F(Wrong, the_side_of_an_open_mesh)
@@ -1517,12 +1307,6 @@ TEST_F(Wrong, a_cell_that_would_take_too_long)
   o.cell = 8e-3;
   lsdcd_grid *g = nullptr;
   expect(lsdcd_grid_build(mesh.get(), &o, &g), LSDCD_ERROR_INPUT, "`cell` 0.008 is too fine");
-}
-
-TEST_F(Wrong, more_threads_than_a_process_can_have)
-{
-  q.threads = 50000;
-  refused(LSDCD_ERROR_ARGUMENT, "`threads` is 50000");
 }
 
 #if !defined(LSDCD_HAVE_CUDA)
