@@ -28,7 +28,7 @@ timestep        {dt}
 {move}
 """
 # Columns of the fix's vector, from 1.
-FORCE, POWER, CENTRE, SPEED, TURN, OMEGA, REACTION, COUPLE, COORDINATE, ENERGY, STOP = 1, 11, 15, 18, 21, 25, 28, 31, 34, 35, 41
+FORCE, CENTRE, SPEED, TURN, OMEGA, COUPLE, COORDINATE, ENERGY = 1, 15, 18, 21, 25, 31, 34, 35
 
 
 def box(path, lo, hi, cells=1):

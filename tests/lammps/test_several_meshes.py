@@ -61,6 +61,17 @@ ROLL = {"atoms": "create_atoms 1 single -0.6 0.11 0.499 units box",
         "more": "fix pull all gravity 20.0 vector 0 0 -1"}
 
 
+def test_corner_sum_at_a_seam(folder):
+    """A sphere beside the common rim of two plates: with corner sum both push, which the log tells of."""
+    beside = {"atoms": "create_atoms 1 single 1e-6 0.11 0.499 units box", "kick": "", "dt": 1e-9}
+    # Beside the rim its overlap is less by x^2/(2 h), 1e-12 of 1e-3.
+    for words, times in ((f"{HALVES} corner sum", 2), ("mesh whole.stl corner sum", 1), (HALVES, 1)):
+        dump, text = go(folder, f"fix wall all wall/lsdcd {SMOOTH} {words}", "b", 0, **beside)
+        at_most(f"{words}: {times} times the force", abs(dump[0][1][11] / (times * 1e4 * 0.001) - 1), 1e-8)
+        fact(f"{words}: warned of {times - 1} times",
+             text.count("with corner sum both meshes push a sphere over a seam") == times - 1)
+
+
 def test_gate(folder):
     """The right half slides away in its own plane."""
     away = "motion linear 3.0 0 0"
