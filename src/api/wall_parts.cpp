@@ -4,10 +4,10 @@
 #include "api/wall_parts.h"
 
 #include "api/refusals.h"
+#include "base/number_words.h"
 #include "law/sub_models.h"
 #include "wall/spec_text.h"
 
-#include <charconv>
 #include <cstddef>
 #include <initializer_list>
 
@@ -15,39 +15,35 @@ namespace lsdcd {
 
 namespace {
 
-// The shortest text that is this number alone.
-std::string exact_text(Real value)
+std::string text_of(Real value)
 {
-  char buffer[32];
-  const auto end = std::to_chars(buffer, buffer + sizeof buffer, value + 0.);    // not -0
-  return {buffer, end.ptr};
+  return exact_text(value + 0.);    // not -0
 }
 
-std::string exact_text(std::initializer_list<Real> values)
+std::string text_of(std::initializer_list<Real> values)
 {
   std::string text;
-  for (const Real value : values) text += (text.empty() ? "" : " ") + exact_text(value);
+  for (const Real value : values) text += (text.empty() ? "" : " ") + text_of(value);
   return text;
 }
 
-std::string exact_text(const Vec3 &v)
+std::string text_of(const Vec3 &v)
 {
-  return exact_text({v.x, v.y, v.z});
+  return text_of({v.x, v.y, v.z});
 }
 
 template <class Model>
 std::string numbers_of(const Chosen<Model> &chosen)
 {
-  return chosen.is_on()
-             ? ", " + exact_text({chosen.numbers[0], chosen.numbers[1], chosen.numbers[2]})
-             : "";
+  return chosen.is_on() ? ", " + text_of({chosen.numbers[0], chosen.numbers[1], chosen.numbers[2]})
+                        : "";
 }
 
 std::string text_of(const ContactLaw &law)
 {
   return sub_models_text(law) + " with " +
-         exact_text({law.k_normal, law.surface_energy, law.eta, law.k_tangent, law.gamma_tangent,
-                     law.xgammat, law.mu}) +
+         text_of({law.k_normal, law.surface_energy, law.eta, law.k_tangent, law.gamma_tangent,
+                  law.xgammat, law.mu}) +
          numbers_of(law.rolling) + numbers_of(law.twisting) + numbers_of(law.heat) +
          numbers_of(law.cohesion) + (law.limit_damping ? ", limit_damping" : "");
 }
@@ -67,8 +63,7 @@ std::string text_of(const Placement &placement)
 {
   std::string text;
   for (int k = 0; k < 3; k++)
-    text +=
-        exact_text(placement.row(k)) + " " + exact_text(placement.shift()[k]) + (k < 2 ? ", " : "");
+    text += text_of(placement.row(k)) + " " + text_of(placement.shift()[k]) + (k < 2 ? ", " : "");
   return text;
 }
 
@@ -76,10 +71,10 @@ std::string text_of(const BodySpec &body)
 {
   const SymmetricMatrix &i = body.mass.inertia;
   return std::string("a body, ") + kJointNames[static_cast<int>(body.joint.kind)] + " " +
-         exact_text(body.joint.point) + " " + exact_text(body.joint.axis) + ", of density " +
-         exact_text(body.density) + ", mass " + exact_text(body.mass.mass) + ", centre " +
-         exact_text(body.mass.centre) + " and inertia " +
-         exact_text({i.xx, i.yy, i.zz, i.xy, i.xz, i.yz});
+         text_of(body.joint.point) + " " + text_of(body.joint.axis) + ", of density " +
+         text_of(body.density) + ", mass " + text_of(body.mass.mass) + ", centre " +
+         text_of(body.mass.centre) + " and inertia " +
+         text_of({i.xx, i.yy, i.zz, i.xy, i.xz, i.yz});
 }
 
 std::string mover_of(const MeshSpec &mesh, const InputNames &inputs)
@@ -96,9 +91,8 @@ std::string mover_of(const MeshSpec &mesh, const InputNames &inputs)
 std::string wear_of(const WallSpec &wall)
 {
   const char *const models[] = {"none", "archard", "finnie"};
-  return models[static_cast<int>(wall.wear.model)] + (" " + exact_text(wall.wear.per_work)) +
-         (wall.wear_deform.every > 0 ? ", moves vertices " + exact_text(wall.wear_deform.factor)
-                                     : "");
+  return models[static_cast<int>(wall.wear.model)] + (" " + text_of(wall.wear.per_work)) +
+         (wall.wear_deform.every > 0 ? ", moves vertices " + text_of(wall.wear_deform.factor) : "");
 }
 
 }    // namespace
@@ -118,7 +112,7 @@ WallParts parts_of(const Wall &wall)
     parts.push_back({"motion" + of, mover_of(mesh, spec.inputs)});
     parts.push_back({"placement" + of, text_of(mesh.placement)});
     parts.push_back({"law" + of, text_of(mesh.laws)});
-    if (spec.wears()) parts.push_back({"wear_factor" + of, exact_text(mesh.wear_factor)});
+    if (spec.wears()) parts.push_back({"wear_factor" + of, text_of(mesh.wear_factor)});
   }
   for (const MeshPart &mesh : wall.meshes()) {
     const MeshReport &report = mesh.grid.report();

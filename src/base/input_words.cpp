@@ -4,26 +4,9 @@
 #include "base/input_words.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
-#include <cstdio>
 
 namespace lsdcd {
-
-bool is_number(const std::string &word, Real *value)
-{
-  const char *begin = word.data(), *const all = begin + word.size();
-  if (word.size() > 1 && word[0] == '+' && word[1] != '-') begin++;
-  const auto [end, error] = std::from_chars(begin, all, *value);
-  return error == std::errc() && end == all && std::isfinite(*value);
-}
-
-std::string number_text(Real value)
-{
-  char buffer[32];
-  std::snprintf(buffer, sizeof buffer, "%g", value);
-  return buffer;
-}
 
 namespace {
 

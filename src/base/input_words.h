@@ -5,6 +5,7 @@
 #pragma once
 
 #include "base/input_error.h"
+#include "base/number_words.h"
 #include "base/real.h"
 
 #include <cstdint>
@@ -12,10 +13,6 @@
 #include <vector>
 
 namespace lsdcd {
-
-bool is_number(const std::string &word, Real *value);    // finite, nothing after it
-
-std::string number_text(Real value);    // "0.001", six digits
 
 constexpr Real kAboveZero = 1e-300;    // the lower end of a range without 0
 

@@ -10,19 +10,11 @@
 #include "material/material_file.h"
 #include "material/material_units.h"
 
-#include <charconv>
 #include <cmath>
 
 namespace lsdcd {
 
 namespace {
-
-// With the fewest digits that read back as the same number.
-std::string exact_text(Real value)
-{
-  char buffer[40];
-  return std::string(buffer, std::to_chars(buffer, buffer + sizeof buffer, value).ptr);
-}
 
 // The number that tsuji in a pair style of LAMMPS needs for the restitution e. The fit is for the mass
 // of one of two equal spheres; LAMMPS uses the effective mass, half of that. The damping falls as the

@@ -4,10 +4,10 @@
 #include "output/file_series.h"
 
 #include "base/atomic_file.h"
+#include "base/number_words.h"
 
 #include <algorithm>
-#include <cstdio>
-#include <cstdlib>
+#include <charconv>
 #include <fstream>
 
 namespace lsdcd {
@@ -67,8 +67,9 @@ void FileSeries::read()
     const std::size_t file = line.find(kFile);
     if (line.compare(0, kTime.size(), kTime) != 0 || file == std::string::npos) continue;
     const std::size_t at = file + kFile.size();
-    entries_.push_back({std::strtod(line.c_str() + kTime.size(), nullptr),
-                        line.substr(at, line.rfind(kEnd) - at)});
+    double time = 0;
+    if (read_real(line.substr(kTime.size(), file - kTime.size()), time))
+      entries_.push_back({time, line.substr(at, line.rfind(kEnd) - at)});
   }
 }
 
@@ -86,8 +87,9 @@ void FileSeries::write() const
                      "<VTKFile type=\"Collection\" version=\"0.1\">\n<Collection>\n";
   for (const Entry &e : entries_) {
     char time[32];
-    std::snprintf(time, sizeof time, "%.17g", e.time);
-    text += kTime + time + kFile + e.file + kEnd + "\n";
+    const auto end =
+        std::to_chars(time, time + sizeof time, e.time, std::chars_format::general, 17).ptr;
+    text += kTime + std::string(time, end) + kFile + e.file + kEnd + "\n";
   }
   text += "</Collection>\n</VTKFile>\n";
   write_whole_file(path_, text);

@@ -4,10 +4,12 @@
 // Lines of fields: CSV, or words between blanks. The first line may name the fields.
 #pragma once
 
+#include "base/number_words.h"
 #include "tool/input_file.h"
 
 #include <algorithm>
-#include <charconv>
+#include <cmath>
+#include <cstdint>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -15,13 +17,15 @@
 
 namespace lsdcd {
 
-// The whole word must be a number, with a point in every locale.
-template <class T>
-bool read_number(std::string_view word, T &value)
+// Infinite is a word that says so, and not one with too many digits before its point.
+inline bool read_number(std::string_view word, Real &value)
 {
-  if (word.size() > 1 && word[0] == '+') word.remove_prefix(1);
-  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-  return error == std::errc() && end == word.data() + word.size();
+  return read_real(word, value) &&
+         (std::isfinite(value) || word.find_first_of("0123456789") == word.npos);
+}
+inline bool read_number(std::string_view word, std::int64_t &value)
+{
+  return read_integer(word, value);
 }
 
 // Returns the number in a column of the last line read.

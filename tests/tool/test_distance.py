@@ -235,6 +235,14 @@ def test_distance(folder):
         path.unlink()
     words = ["distance", "box.stl", "points.csv", "-o", "new.csv"]
     refused(folder, [*words, "--radius", 0], "--radius", "0 is not a number above 0", code=2)
+    for wrong in ("+-0.5", "1e400"):
+        (folder / "wrong.csv").write_text(f"0,0,0\n{wrong},0,0\n")
+        refused(folder, ["distance", "box.stl", "wrong.csv", "-o", "new.csv"], "line 2", f"'{wrong}'", "not a number")
+    for name, x in ("tiny", "-1e-400"), ("zero", "0"):
+        (folder / f"{name}.csv").write_text(f"{x},0,0\n")
+        told(folder, "distance", "box.stl", f"{name}.csv", "-o", f"{name}_far.csv")
+    fact("a number nearer to 0 than any other is 0",
+         (folder / "tiny_far.csv").read_text().replace("-0,", "0,") == (folder / "zero_far.csv").read_text())
     refused(folder, [*words[:-1], "new.txt", "--radius", 1], "new.txt", ".csv", ".npy")
     refused(folder, [*words[:-1], "no/new.csv", "--radius", 1], "no/new.csv")
     refused(folder, ["distance", "none.stl", *words[2:], "--radius", 1], "none.stl")

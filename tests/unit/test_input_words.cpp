@@ -30,6 +30,25 @@ TEST(input_words, are_numbers_with_a_plus_before_them)
     EXPECT_FALSE(is_number(word, &value)) << word;
 }
 
+// As in meshes, and as LAMMPS reads them.
+TEST(input_words, are_0_where_they_are_nearer_to_it_than_any_number)
+{
+  for (const char *word : {"1e-400", "-0.0001e-330", "1e-99999999999999999999"}) {
+    Real value = 7;
+    const bool is_one = is_number(word, &value);
+    EXPECT_TRUE(is_one) << word;
+    EXPECT_EQ(value, 0) << word;
+  }
+}
+
+TEST(input_words, are_written_with_a_point_in_any_locale)
+{
+  const CommaLocale commas;
+  if (!commas.works()) GTEST_SKIP() << "this C library takes no locale of ours";
+  EXPECT_EQ(number_text(0.25), "0.25");
+  EXPECT_EQ(range_text(0.25, 0.5), "from 0.25 to 0.5");
+}
+
 // One table says what may be given twice.
 TEST(input_words, repeat_as_the_keywords_do)
 {

@@ -4,6 +4,7 @@
 // Loads and wear of the parts of a wall, and their file.
 #include "output/file_series.h"
 #include "output/mesh_fields.h"
+#include "support/comma_locale.h"
 #include "support/laws.h"
 #include "support/meshes.h"
 #include "support/temp_dir.h"
@@ -212,6 +213,30 @@ TEST(file_series, lists_files_with_times_and_reads_its_own_list)
             "<DataSet timestep=\"0.10000000000000001\" part=\"0\" file=\"a&amp;b_1.vtp\"/>\n"
             "<DataSet timestep=\"0.25\" part=\"0\" file=\"a&amp;b_2.vtp\"/>\n"
             "</Collection>\n</VTKFile>\n");
+}
+
+// ParaView reads a list with points alone, and so does a run that goes on in another locale.
+TEST(file_series, has_times_with_a_point_in_any_locale)
+{
+  const CommaLocale commas;
+  if (!commas.works()) GTEST_SKIP() << "this C library takes no locale of ours";
+  const TempDir dir;
+  FileSeries first(dir.path("wall_*.vtp"));
+  first.add(1, 0.25);
+  first.write();
+  FileSeries next(dir.path("wall_*.vtp"));
+  next.read();
+  next.add(2, 0.125);    // before step 1, which is to come
+  next.add(3, 0.5);
+  next.write();
+  std::ifstream file(next.path());
+  std::stringstream text;
+  text << file.rdbuf();
+  EXPECT_EQ(text.str(), "<?xml version=\"1.0\"?>\n"
+                        "<VTKFile type=\"Collection\" version=\"0.1\">\n<Collection>\n"
+                        "<DataSet timestep=\"0.125\" part=\"0\" file=\"wall_2.vtp\"/>\n"
+                        "<DataSet timestep=\"0.5\" part=\"0\" file=\"wall_3.vtp\"/>\n"
+                        "</Collection>\n</VTKFile>\n");
 }
 
 }    // namespace

@@ -4,6 +4,7 @@
 // Wavefront OBJ: the vertices and polygons of its text. A face may name vertices that come after it, and
 // negative numbers count back from where it stands. So vertices are read first, then faces.
 #include "base/input_error.h"
+#include "base/number_words.h"
 #include "mesh/io/cut_polygon.h"
 #include "mesh/io/read_mesh.h"
 #include "mesh/io/text_words.h"

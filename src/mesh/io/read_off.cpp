@@ -3,6 +3,7 @@
 
 // OFF, Geomview's Object File Format, as text: a header with counts, a line for each vertex, a line for each face.
 #include "base/input_error.h"
+#include "base/number_words.h"
 #include "mesh/io/cut_polygon.h"
 #include "mesh/io/read_mesh.h"
 #include "mesh/io/text_words.h"

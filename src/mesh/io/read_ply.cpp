@@ -4,6 +4,7 @@
 // PLY, text and binary: polygons, and triangle strips as the files of 3D scanners have. Elements and
 // properties that are no part of a surface are passed over.
 #include "base/input_error.h"
+#include "base/number_words.h"
 #include "mesh/io/cut_polygon.h"
 #include "mesh/io/read_mesh.h"
 #include "mesh/io/read_ply_header.h"
@@ -11,7 +12,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <cstring>
 #include <type_traits>
@@ -26,12 +26,6 @@ constexpr const char *kCorrect = "correct it or export the mesh again";
 std::string promise(const PlyElement &element)
 {
   return "with " + quoted(element.line) + " promised by the header";
-}
-
-std::string shortest(double x)
-{
-  char digits[32];
-  return {digits, std::to_chars(digits, digits + sizeof digits, x).ptr};
 }
 
 // The values of an element, one after another. Each has to be on a line of its own, as the programs
@@ -258,7 +252,7 @@ class PlyReader {
   {
     const double size = values_.number(list, *list.count);
     if (!(size >= 0 && size <= 4294967295. && size == std::floor(size)))
-      values_.fail("the list " + quoted(list.name) + " begins with " + shortest(size) +
+      values_.fail("the list " + quoted(list.name) + " begins with " + exact_text(size) +
                        ", which should be the number of its values",
                    kCorrect);
     return static_cast<std::uint64_t>(size);
@@ -304,7 +298,7 @@ class PlyReader {
         const PlyProperty &property = element.properties[i];
         const double value = x[axis_of[i]] = values_.number(property, property.type);
         if (!std::isfinite(value))
-          values_.fail("the value of " + quoted(property.name) + " is " + shortest(value) +
+          values_.fail("the value of " + quoted(property.name) + " is " + exact_text(value) +
                            ", not a finite number",
                        kCorrect);
       }
@@ -343,7 +337,7 @@ class PlyReader {
   {
     if (!(index >= 0 && index < static_cast<double>(vertices_.size()) &&
           index == std::floor(index)))
-      values_.fail("a corner is vertex " + shortest(index) + ", but the file has " +
+      values_.fail("a corner is vertex " + exact_text(index) + ", but the file has " +
                        std::to_string(vertices_.size()) + ", counted from 0",
                    kCorrect);
     return static_cast<std::size_t>(index);

@@ -4,11 +4,10 @@
 #include "mesh/io/text_words.h"
 
 #include "base/input_error.h"
+#include "base/number_words.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
-#include <system_error>
 #include <utility>
 
 namespace lsdcd {
@@ -29,30 +28,6 @@ bool is_space(char c)
 bool is_digit(char c)
 {
   return c >= '0' && c <= '9';
-}
-
-// Without a plus sign, which from_chars() does not take.
-std::string_view without_plus(std::string_view word)
-{
-  if (word.size() > 1 && word[0] == '+' && word[1] != '-') word.remove_prefix(1);
-  return word;
-}
-
-// from_chars reports 1e-400 and 1e400 alike. The first is zero, the second is infinite: the power of
-// ten of the first digit that is not 0 tells.
-bool is_underflow(std::string_view number)
-{
-  const auto e = std::min(number.find_first_of("eE"), number.size());
-  const auto digits = number.substr(0, e), exponent = number.substr(std::min(e + 1, number.size()));
-  const auto first = digits.find_first_of("123456789"), point = std::min(digits.find('.'), e);
-  if (first == digits.npos) return true;
-  long long power = 0;
-  const char *sign = exponent.data();
-  const auto *begin = sign + (!exponent.empty() && *sign == '+');
-  const auto read = std::from_chars(begin, exponent.data() + exponent.size(), power);
-  if (read.ec == std::errc::result_out_of_range) return *begin == '-';
-  power = std::clamp<long long>(power, -1000000000000, 1000000000000);    // as far as files go
-  return power + static_cast<long long>(point) < static_cast<long long>(first);
 }
 
 const char *remedy_for(std::string_view word)
@@ -87,24 +62,10 @@ std::string quoted(std::string_view word)
 
 ReadNumber read_number(std::string_view word)
 {
-  const auto digits = without_plus(word);
   ReadNumber number;
-  const auto end = digits.data() + digits.size();
-  const auto parsed = std::from_chars(digits.data(), end, number.value);
-  if (parsed.ec == std::errc::invalid_argument || parsed.ptr != end)
-    return {0, "not a number", remedy_for(word)};
-  if (parsed.ec == std::errc::result_out_of_range)
-    number.value = is_underflow(digits) ? 0 : HUGE_VAL;
+  if (!read_real(word, number.value)) return {0, "not a number", remedy_for(word)};
   if (!std::isfinite(number.value)) return {0, "not a finite number", remedy_for(word)};
   return number;
-}
-
-bool read_integer(std::string_view word, std::int64_t &value)
-{
-  const auto digits = without_plus(word);
-  const auto end = digits.data() + digits.size();
-  const auto parsed = std::from_chars(digits.data(), end, value);
-  return parsed.ec == std::errc() && parsed.ptr == end;
 }
 
 TextWords::TextWords(const char *bytes, std::size_t size, std::string source, TextStyle style) :

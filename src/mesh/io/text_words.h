@@ -19,17 +19,13 @@ bool same_word(std::string_view word, std::string_view keyword);
 // A word as it may appear in a message: in quotes, short, without control characters.
 std::string quoted(std::string_view word);
 
-// A word as a number: digits with a decimal point, an exponent after e or E, a sign. A number nearer to
-// 0 than any Real is 0. Anything else has a problem and a remedy, for a message.
+// A finite number of read_real(). Anything else has a problem and a remedy, for a message.
 struct ReadNumber {
   Real value = 0;
   const char *problem = nullptr;    // nullptr: none
   const char *remedy = nullptr;
 };
 ReadNumber read_number(std::string_view word);
-
-// Digits with a sign or without, and no more. False: it is something else, or beyond 64 bits.
-bool read_integer(std::string_view word, std::int64_t &value);
 
 struct TextStyle {
   char comment = 0;          // begins a comment, which ends with its line; 0: there are none
