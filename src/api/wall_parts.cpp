@@ -5,6 +5,7 @@
 
 #include "api/refusals.h"
 #include "base/number_words.h"
+#include "base/state_blocks.h"
 #include "law/sub_models.h"
 #include "wall/spec_text.h"
 
@@ -74,7 +75,32 @@ std::string text_of(const BodySpec &body)
          text_of(body.joint.point) + " " + text_of(body.joint.axis) + ", of density " +
          text_of(body.density) + ", mass " + text_of(body.mass.mass) + ", centre " +
          text_of(body.mass.centre) + " and inertia " +
-         text_of({i.xx, i.yy, i.zz, i.xy, i.xz, i.yz});
+         text_of({i.xx, i.yy, i.zz, i.xy, i.xz, i.yz}) +
+         (body.coat.present ? ", with a coat of the spacing " + text_of(body.coat.spacing) +
+                                  " and radius " + text_of(body.coat.radius)
+                            : "");
+}
+
+// Of all kinds of terms, as unused ones are 0. Inputs are in the text of the motion.
+std::string numbers_of(const MotionTerm &m)
+{
+  std::string text = text_of(m.velocity) + " " + text_of(m.amplitude) + " " + text_of(m.point) +
+                     " " + text_of(m.axis) + " " + text_of({m.period, m.angle});
+  if (!m.table) return text;
+  const std::vector<Real> &rows = m.table->rows().numbers;
+  return text + " and " + std::to_string(m.table->rows().count()) + " rows with the number " +
+         std::to_string(checksum(rows.data(), rows.size()));
+}
+
+// The texts of motions and servos have six digits of each number, and no rows of tables.
+std::string numbers_of(const RigidMotion &motion)
+{
+  std::string text;
+  for (const MotionTerm &m : motion.terms()) text += (text.empty() ? "" : ", ") + numbers_of(m);
+  const Servo &s = motion.servo();
+  if (!s.present) return text;
+  return text + (text.empty() ? "" : ", ") + text_of(s.point) + " " + text_of(s.axis) + " " +
+         text_of({s.target, s.max_speed, s.max_gain, s.lo, s.hi});
 }
 
 std::string mover_of(const MeshSpec &mesh, const InputNames &inputs)
@@ -109,7 +135,9 @@ WallParts parts_of(const Wall &wall)
   for (std::size_t k = 0; k < spec.meshes.size(); k++) {
     const MeshSpec &mesh = spec.meshes[k];
     const std::string of = " of " + element("meshes", k);
-    parts.push_back({"motion" + of, mover_of(mesh, spec.inputs)});
+    const std::string mover = mover_of(mesh, spec.inputs), numbers = numbers_of(mesh.motion);
+    parts.push_back({"motion" + of, mover});
+    if (!numbers.empty()) parts.push_back({"exact motion '" + mover + "'" + of, numbers});
     parts.push_back({"placement" + of, text_of(mesh.placement)});
     parts.push_back({"law" + of, text_of(mesh.laws)});
     if (spec.wears()) parts.push_back({"wear_factor" + of, text_of(mesh.wear_factor)});

@@ -20,13 +20,12 @@ std::size_t numbers_for(std::size_t bytes)
   return (bytes + kBytes - 1) / kBytes;
 }
 
-// Returns the upper 53 bits of the 64-bit XXH3 of the numbers' bytes, so that a number holds it exactly.
+}    // namespace
+
 std::uint64_t checksum(const Real *numbers, std::size_t n)
 {
   return XXH3_64bits(numbers, n * sizeof(Real)) >> 11;
 }
-
-}    // namespace
 
 const Real State::kMark = -0x4c5344434453;    // "LSDCDS"
 

@@ -20,6 +20,9 @@
 
 namespace lsdcd {
 
+// Returns the upper 53 bits of the 64-bit XXH3 of the numbers' bytes, so that a number holds it exactly.
+std::uint64_t checksum(const Real *numbers, std::size_t n);
+
 // The data end early, are damaged, of something else or of another version. Hosts add what to do.
 struct StateError : InputError {
   using InputError::InputError;

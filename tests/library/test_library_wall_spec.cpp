@@ -836,6 +836,10 @@ TEST_F(wall_spec, takes_saved_data_of_a_wall_of_the_same_spec_alone)
        "the placement of meshes[0] is 1 0 0 0, 0 1 0 0, 0 0 1 0.1 and was"},
       {[](Spec &s) { s.meshes[1].motions = {}; },
        "the motion of meshes[1] is rest and was linear 0 0 1"},
+      {[](Spec &s) {
+         s.meshes[1].motions = {api::Motion::linear({0, 0, 1 + 1e-15})};
+       },
+       "the exact motion 'linear 0 0 1' of meshes[1] is 0 0 1.00"},
       {[](Spec &s) { s.meshes[0].posed_by_caller = true; },
        "the motion of meshes[0] is poses of the program and was rest"},
       {[](Spec &s) { s.meshes[0].nodes_by_caller = true; }, "is nodes of the program and was rest"},
@@ -861,6 +865,56 @@ TEST_F(wall_spec, takes_saved_data_of_a_wall_of_the_same_spec_alone)
   lsdcd::Wall stiffer(two);
   stiffer.restore(saved, true);
   EXPECT_EQ(stiffer.pose(1), wall.pose(1));
+}
+
+// Rows of tables and numbers of servos, which no text of a motion has in full.
+TEST_F(wall_spec, takes_no_saved_data_of_a_wall_with_another_table_or_servo)
+{
+  const api::Mesh mesh(file_);
+  const std::vector<double> rows = {0, 0, 0, 0, 1, 0, 0, 0.5}, others = {0, 0, 0, 0, 1, 0, 0, 0.25};
+  const auto save = [&](const api::WallSpec &spec) { return lsdcd::Wall(spec).save(); };
+  api::WallSpec table = floor_of(hooke_history(), mesh), other_table = table;
+  table.meshes[0].motions = {api::Motion::table(rows, 4)};
+  other_table.meshes[0].motions = {api::Motion::table(others, 4)};
+  lsdcd::Wall same(table), other(other_table);
+  const std::vector<double> saved = save(table);
+  EXPECT_EQ(text_of([&] { same.restore(saved); }), "");
+  EXPECT_NE(text_of([&] {
+              other.restore(saved);
+            }).find("the exact motion 'table of rows' of meshes[0] is "),
+            std::string::npos);
+
+  api::WallSpec pushed = floor_of(hooke_history(), mesh);
+  pushed.meshes[0].servo.emplace();
+  pushed.meshes[0].servo->axis[2] = 1;
+  pushed.meshes[0].servo->target = 2;
+  pushed.meshes[0].servo->max_speed = 0.5;
+  api::WallSpec harder = pushed;
+  harder.meshes[0].servo->target = 2 + 1e-9;
+  lsdcd::Wall push(harder);
+  EXPECT_NE(text_of([&] {
+              push.restore(save(pushed));
+            }).find("the exact motion 'force z 2 vmax 0.5' of meshes[0] is "),
+            std::string::npos);
+}
+
+TEST_F(wall_spec, takes_no_saved_data_of_a_body_with_another_coat)
+{
+  const api::Mesh mesh(file_), other(std::vector<double>{-9, -9, 9, 9, -9, 9, 0, 9, 9}, {0, 1, 2});
+  api::WallSpec coated = floor_of(hooke_history(), mesh);
+  coated.meshes.emplace_back(other, "lid");
+  coated.meshes[1].body = api::RigidBody(2, {0, 0, 9}, {1, 1, 2, 0, 0, 0});
+  coated.meshes[1].body->coat = 1;
+  coated.meshes[1].body->coat_spacing = coated.meshes[1].body->coat_radius = 2;
+  api::WallSpec finer = coated;
+  finer.meshes[1].body->coat_spacing = 1;
+  lsdcd::Wall wall(coated), same(coated), fine(finer);
+  const std::vector<double> saved = wall.save();
+  EXPECT_EQ(text_of([&] { same.restore(saved); }), "");
+  EXPECT_NE(text_of([&] {
+              fine.restore(saved);
+            }).find("a coat of the spacing 1 and radius 2 and was a body"),
+            std::string::npos);
 }
 
 // A motion that was set later is in the data.
