@@ -1550,6 +1550,12 @@ TEST_F(wall_spec, names_the_field_its_value_and_the_remedy)
       {[&](Wrong &w) { w.law.limit_damping = 2; }, "`law.limit_damping` is 2: it is 0 or 1"},
       {[&](Wrong &w) { with_granular(w).tangential.name = nullptr; },
        "`law.tangential.name` is null: beside a normal sub-model give one of linear_nohistory|"},
+      {[&](Wrong &w) { w.law.normal.name = "hertz"; },
+       "`law.normal.name` is \"hertz\": there is the style \"hooke/history\", too; give one"},
+      {[&](Wrong &w) {
+         with_granular(w).tangential = {"mindlin", {LSDCD_DERIVED, 1, 0.5}};
+       },
+       "`law.tangential.numbers[0]` is LSDCD_DERIVED: kt of \"mindlin\" is derived from E and nu"},
       {[&](Wrong &w) { w.spec.meshes = nullptr; }, "`meshes` is null: give an array of 2"},
       {[&](Wrong &w) { w.meshes[0].size = 16; }, "`meshes[0]`: size is 16, and should be sizeof("},
       {[&](Wrong &w) { w.meshes[1].size = 16; }, "`meshes[1]`: size is 16, and should be sizeof("},
@@ -1586,6 +1592,8 @@ TEST_F(wall_spec, names_the_field_its_value_and_the_remedy)
        "`meshes[0].motions[0].period` is 1: LSDCD_TABLE does not use it"},
       {[&](Wrong &w) { with_motion(w).period = 1; },
        "`meshes[0].motions[0].period` is 1: LSDCD_LINEAR does not use it"},
+      {[&](Wrong &w) { w.meshes[0].fields = "a.vtp"; },
+       "`meshes[0].fields_every` is 0: it is a number of steps, 1 or more"},
       {[&](Wrong &w) { w.meshes[1].stl_every = 3; },
        "`meshes[1].stl_every` is 3: `meshes[1].stl` has no file"},
       {[&](Wrong &w) {
