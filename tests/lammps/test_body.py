@@ -28,7 +28,7 @@ timestep        {dt}
 {move}
 """
 # Columns of the fix's vector, from 1.
-FORCE, CENTRE, SPEED, TURN, OMEGA, COUPLE, COORDINATE, ENERGY = 1, 15, 18, 21, 25, 31, 34, 35
+FORCE, POWER, CENTRE, SPEED, TURN, OMEGA, REACTION, COUPLE, COORDINATE, ENERGY, STOP = 1, 11, 15, 18, 21, 25, 28, 31, 34, 35, 41
 
 
 def box(path, lo, hi, cells=1):
@@ -152,6 +152,76 @@ def test_plate(folder):
         done = lmp.run(script(law + f"joint {joint}", create, 1.02 * limit, **place) + "run 2000\n", folder)
         fact(f"plate {joint}: refused above it", done.returncode != 0 and "is not below" in done.stdout,
              " ".join(w for w in done.stdout.split("\n") if "ERROR" in w)[:300])
+
+
+def test_hinge(folder):
+    """A flap under fix gravity: its period, and the weights that the hinge bears."""
+    side, thick, g = 0.2, 0.002, 9.81
+    box(folder / "flap.stl", (-thick / 2, -side / 2, -side), (thick / 2, side / 2, 0))
+    inertia = side**2 / 3 + thick**2 / 12    # over the mass
+    far = "create_atoms 1 single 1 1 1 units box\nset group all diameter 0.01 density 1\n"
+    law = "hooke 1e3 NULL 0 NULL 0 0 mesh flap.stl body density 1000 joint hinge 0 0 0 0 1 0 "
+    more = f"fix g all gravity {g} vector 0 0 -1\n"
+    dt = 5e-4
+    start = 0.02
+    rows, _ = go(folder, script(law + f"omega 0 {start} 0", far, dt, move="", more=more) + "run 3000\n")
+    period = 2 * math.pi * math.sqrt(inertia / (g * side / 2))
+    swing = start * period / (2 * math.pi)
+    off = max(abs(r[COORDINATE] - swing * math.sin(2 * math.pi * r[0] * dt / period)) for r in rows)
+    at_most("hinge: swings by the closed form", off / swing, 1e-3)
+    # From the bottom with the speed of a release at 90 degrees.
+    fast = math.sqrt(g * side / inertia)
+    rows, _ = go(folder, script(law + f"omega 0 {fast:.17g} 0", far, dt, move="", more=more) + "run 500\n")
+    mass = side * side * thick * 1000
+    at_most("hinge: 2.5 weights at the bottom", abs(rows[0][REACTION + 2] / (mass * g) - 2.5), 1e-4)
+    at_most("hinge: comes to 90 degrees", abs(max(r[COORDINATE] for r in rows) / (math.pi / 2) - 1), 1e-4)
+    potential = [r[ENERGY] + mass * g * r[CENTRE + 2] for r in rows]
+    at_most("hinge: energy", (max(potential) - min(potential)) / (mass * g * side), 1e-4)
+
+
+def test_motor(folder):
+    """A motor with a variable, and a damper: I w' = T - c w, exactly for a constant T."""
+    box(folder / "rotor.stl", (-0.3, -0.1, -0.1), (0.3, 0.1, 0.1))
+    far = "create_atoms 1 single 1 1 1 units box\nset group all diameter 0.01 density 1\n"
+    inertia, torque, damping, dt = 2.0, 0.7, 0.4, 0.01
+    law = f"hooke 1e3 NULL 0 NULL 0 0 mesh rotor.stl body mass 3 com 0 0 0 inertia 1 1.5 {inertia} 0 0 0 " \
+          f"joint hinge 0 0 0 0 0 2 spring 0 {damping} motor v_torque"
+    torque_is = f"variable torque equal {torque}\nfix w"
+    rows, _ = go(folder, script(law, far, dt, move="").replace("fix w", torque_is, 1) + "run 500\n")
+    off = max(abs(r[OMEGA + 2] - torque / damping * (1 - math.exp(-damping * r[0] * dt / inertia))) for r in rows)
+    at_most("motor and damper", off, 1e-12)
+    # Another timestep later, between two runs and in one.
+    rows, _ = go(folder, script(law, far, dt, move="", also="$(time:%.17g)").replace("fix w", torque_is, 1) +
+                 "run 100\ntimestep 0.002\nrun 100\nfix less all dt/reset 50 0.001 0.0011 1 units box\nrun 200\n")
+    off = max(abs(r[OMEGA + 2] - torque / damping * (1 - math.exp(-damping * r[-1] / inertia))) for r in rows)
+    at_most("motor and damper with another timestep", off, 1e-12)
+    fact("the timestep changed in a run", abs(rows[-1][-1] - (1 + 0.2 + 0.1 + 0.165)) < 0.06,
+         f"time {rows[-1][-1]:.6g}")
+
+
+def test_stops(folder):
+    """A flap that a motor holds at its stop, and a sphere that hits it there: outputs as of a mesh at rest, and the stop's torque."""
+    side, thick, torque, upper, dt, radius = 0.2, 0.02, 5.0, 0.3, 1e-3, 0.05
+    box(folder / "flap.stl", (-thick / 2, -side / 2, -side), (thick / 2, side / 2, 0))
+    far = "create_atoms 1 single 1 1 1 units box\nset group all diameter 0.01 density 1\n"
+    law = "granular hooke 1e4 0.3 damping coeff_restitution tangential linear_nohistory 0 0 mesh flap.stl "
+    body = f"body density 100 joint hinge 0 0 0 0 1 0 motor {torque} limits 0 {upper} gravity 0 0 0"
+    rows, _ = go(folder, script(law + body, far, dt, move="", columns=range(1, 42)) +
+                 "run 200\nfix_modify w body motor 0 limits 0 1\nrun 200\n")
+    held, loose = [r for r in rows if r[0] == 200]
+    for name, row in (("held", held), ("let go", loose), ("200 steps later", rows[-1])):
+        fact(f"stop: at rest, {name}", row[COORDINATE] == upper and not any(row[OMEGA:OMEGA + 3]) and row[ENERGY] == 0)
+    at_most("stop: it bears the motor", abs(held[STOP] + torque), 1e-14)
+    fact("stop: it bears nothing more", loose[STOP] == 0 and not any(held[36:41]))
+
+    hit = sphere(-thick / 2 - radius - 1e-4, 0, -0.7 * side, radius, 1, (1, 0, 0))
+    speeds = []
+    for fix in (law, law + body.replace(f"0 {upper}", "0 1").replace(f"motor {torque}", "motor -100")):
+        rows, _ = go(folder, script(fix, hit, 1e-4, columns=(POWER,), also=ATOM) + "run 400\n")
+        speeds.append([r[-3] for r in rows])
+        fact("stop: no power", not any(r[1] for r in rows))
+    fact("stop: a sphere rebounds as from a mesh at rest", speeds[0] == speeds[1] and speeds[0][-1] < -0.2,
+         f"{speeds[0][-1]}, {speeds[1][-1]}")
 
 
 def crowd(cells=3, apart=0.5):
