@@ -192,6 +192,11 @@ def test_cuda(prefix, work):
     if os.path.exists("/dev/nvidia0"):
         gives("and distance gives the distances", WANTED, os.path.join(programs, "distance"), cube, folder=work)
         gives("and fall keeps its grains", "inside after 3000 steps", os.path.join(programs, "fall"), cube, "3000", folder=work)
+        make_wheel = os.path.join(ROOT, "examples", "wheel", "make_wheel.py")
+        code, text = run(PYTHON, make_wheel, "--radius", "0.15", "--lug", "0.015", "--period", "0.12", folder=work)
+        fact("the wheel's mesh is written", code == 0, text)
+        gives("and wheel ends with its times", "real time /", os.path.join(programs, "wheel"), os.path.join(work, "wheel.stl"), "1000",
+              "200", folder=work)
     else:
         print("skipped: running the examples in CUDA (no GPU)")
 
