@@ -265,6 +265,14 @@ TEST(library, sides_are_known_where_nothing_is_found)
   EXPECT_EQ(a.status[0] & LSDCD_FOUND, 0);
 }
 
+TEST(library, facts_tell_of_shells_that_cut_each_other)
+{
+  TriangleSoup soup = lsdcd::box_mesh({0, 0, 0}, {2, 2, 2});
+  EXPECT_EQ(lsdcd::Mesh(numbers(soup)).facts().meeting_pairs, 0u);
+  lsdcd::append(soup, lsdcd::box_mesh({1, 1, 1}, {3, 3, 3}));
+  EXPECT_GT(lsdcd::Mesh(numbers(soup)).facts().meeting_pairs, 0u);
+}
+
 TEST(library, a_shell_that_cuts_itself_has_sides_from_a_cache_too)
 {
   TriangleSoup soup = lsdcd::box_mesh({0, 0, 0}, {1, 1, 1});
@@ -1228,6 +1236,18 @@ TEST_F(Wrong, the_side_of_an_open_mesh)
   std::int8_t side[2];
   q.side = side;
   expect(lsdcd_query_host(open.get(), &q), LSDCD_ERROR_SIDE, "not closed");
+}
+
+TEST_F(Wrong, the_side_of_a_mesh_with_each_facet_in_both_windings)
+{
+  TriangleSoup both = lsdcd::box_mesh({-1, -1, -1}, {1, 1, 1}), in = both;
+  for (std::size_t k = 0; k < in.corners.size(); k += 3)
+    std::swap(in.corners[k], in.corners[k + 1]);
+  lsdcd::append(both, in);
+  const lsdcd::Grid grid(lsdcd::Mesh(numbers(both)), kCutoff);
+  std::int8_t side[2];
+  q.side = side;
+  expect(lsdcd_query_host(grid.get(), &q), LSDCD_ERROR_SIDE, "encloses nothing: lsdcd repair");
 }
 
 TEST_F(Wrong, a_file_that_is_not_there)

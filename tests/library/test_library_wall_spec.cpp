@@ -1436,6 +1436,8 @@ class Wrong {
     types = {sizeof types, 1, 2, &law};
     motion = {};
     motion.size = sizeof motion;
+    body = {};
+    body.size = sizeof body;
     for (lsdcd_wall_mesh &m : meshes) {
       m = {};
       m.size = sizeof m;
@@ -1464,6 +1466,7 @@ class Wrong {
   lsdcd_law law, granular;
   lsdcd_type_law types;
   lsdcd_motion motion;
+  lsdcd_rigid_body body;
   lsdcd_wall_mesh meshes[2];
   lsdcd_wall_spec spec;
 };
@@ -1563,6 +1566,12 @@ TEST_F(wall_spec, names_the_field_its_value_and_the_remedy)
       {[&](Wrong &w) { with_types(w).law = nullptr; }, "`meshes[1].type_laws[0].law` is null"},
       {[&](Wrong &w) { w.meshes[0].posed_by_caller = 3; },
        "`meshes[0].posed_by_caller` is 3: it is 0 or 1"},
+      {[](Wrong &w) {
+         w.meshes[0].body = &w.body;
+         w.body.density = 1;
+         w.body.joint = 5;
+       },
+       "`meshes[0].body.joint` is 5: it is LSDCD_FREE"},
       {[&](Wrong &w) { with_motion(w).kind = 7; },
        "`meshes[0].motions[0].kind` is 7: it is LSDCD_LINEAR"},
       {[&](Wrong &w) { with_motion(w).angle = 1; },
