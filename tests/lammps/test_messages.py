@@ -110,11 +110,14 @@ def test_whose_warning(folder):
 
 def test_uncertified(folder):
     """nearest: after the first run, and when ten times as many answers were not certified; here
-    one in every step and one at every start."""
+    one in every step and one at every start. f_ID[9] has how many there are now."""
     every = (BOX + "unfix move\nset group all x 0.45 y 0.44 z 0.43\n" +
-             fix("nearest 1 grid 0.1", mesh="corner.stl") + "run {} every 2 NULL\n")
+             fix("nearest 1 grid 0.1", mesh="corner.stl") +
+             "run {} every 2 NULL\nprint 'not certified now: $(f_w[9])'\n")
     for steps, times in ((2, 1), (10, 1), (100, 2)):
-        told = lines(lmp.run_well(every.format(steps), folder), "not certified exact")
+        text = lmp.run_well(every.format(steps), folder)
+        fact("f_ID[9] counts the answer", len(lines(text, "not certified now: 1")) == 1)
+        told = lines(text, "not certified exact")
         fact(f"nearest is told {times} times in {steps} steps, two a part",
              len(told) == times, "\n".join(told))
 

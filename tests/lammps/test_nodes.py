@@ -188,8 +188,6 @@ def test_bulges(folder):
     at_most("and of 3 rings", abs(off[0]), 0.03)
 
 
-# ---- momentum --------------------------------------------------------------------------------
-
 # ---- errors ----------------------------------------------------------------------------------
 
 def test_refused(folder):
@@ -306,6 +304,24 @@ def test_another_mesh(folder):
 
 
 # ---- nodes that fix move moves -------------------------------------------------------------
+
+def test_turntable(folder):
+    """A grain on a turntable stays there for a turn. The springs of friction hold w^2 r m with 1e-3 of r."""
+    create = sheet(folder).replace("single -1.5 -1.5 -0.5", "single 0.6 0 0.2499")
+    law = "hooke/history 1e5 3e4 50 20 0.9 1"
+    text = SHEET.format(create=create, mesh="sheet.stl").replace("hooke 2000 NULL 0 NULL 0 1", law)
+    lmp.run_well(text + f"""\
+velocity        grains set 0 {0.6 * math.pi} 0
+fix             pull grains gravity 20 vector 0 0 -1
+fix             turn grains nve
+fix             go nodes move rotate 0 0 0 0 0 1 2.0
+timestep        2e-3
+run             1000
+print           "$(xcm(grains,x):%.17g) $(xcm(grains,y):%.17g)" file out.txt screen no
+""", folder)
+    x, y = rows_of(folder / "out.txt")[0]
+    at_most("a grain stays on a turntable that fix move turns", math.hypot(x - 0.6, y), 1e-3 * 0.6)
+
 
 # ---- with Kokkos -------------------------------------------------------------------------
 
