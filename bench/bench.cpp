@@ -5,9 +5,7 @@
 
 #include "backend/backend_cpu.h"
 #include "backend/threads.h"
-#include "base/atomic_file.h"
 #include "on_cuda.h"
-#include "query/point_query.h"
 #include "support/meshes.h"
 
 #include <chrono>
@@ -17,7 +15,6 @@
 #include <ctime>
 #include <exception>
 #include <fstream>
-#include <iterator>
 
 namespace lsdcd {
 
@@ -39,11 +36,7 @@ const char *kWords =
     "  --most-triangles N    leave larger meshes out\n"
     "  --length L            of cells\n"
     "  --repeats N           timed runs after one to warm up\n"
-    "  --brute-limit TESTS   measure a brute force of up to so many tests whole\n"
-    "  --part NAME           of the queries: status, distance, near-and-far or calls alone;\n"
-    "                        of the nodes: host or in-place\n"
     "  --quick               small sizes, to see that all runs\n"
-    "  --csv FILE            write the rows there too\n"
     "  --commit NAME         what was built\n";
 
 [[noreturn]] void stop(const std::string &why)
@@ -133,22 +126,12 @@ BenchOptions read_options(int argc, char **argv, const char *about)
       o.length = number(word, value);
     else if (word == "--repeats")
       o.repeats = static_cast<int>(number(word, value));
-    else if (word == "--brute-limit")
-      o.brute_limit = number(word, value);
-    else if (word == "--part")
-      o.part = value;
-    else if (word == "--csv")
-      o.csv = value;
     else if (word == "--commit")
       o.commit = value;
     else
       stop("no such option: " + word);
   }
   if (!device.empty() && device != "cpu" && device != "cuda") stop("no such device: " + device);
-  const char *const parts[] = {"",      "status", "distance", "near-and-far",
-                               "calls", "tree",   "host",     "in-place"};
-  if (std::find(std::begin(parts), std::end(parts), o.part) == std::end(parts))
-    stop("no such part: " + o.part);
   std::string why;
   const bool cuda = cuda_available(&why);
   if (device == "cuda" && !cuda) stop("device cuda: " + why);
@@ -198,11 +181,12 @@ std::vector<TriangleSoup> cylinders(const BenchOptions &options, double most)
   return all;
 }
 
-BenchRows::BenchRows(const char *program, const BenchOptions &options) :
-    program_(program), csv_(options.csv), commit_(options.commit)
+BenchRows::BenchRows(const char *program, const std::string &commit) :
+    program_(program), commit_(commit)
 {
-  put("program,case,device,commit,compiler,triangles,spheres,length,order,repeats,median_ms,min_ms,"
-      "max_ms,bytes,copy_gb_s,floor_ms,ratio,facts\n");
+  std::puts(
+      "program,case,device,commit,compiler,triangles,spheres,length,order,repeats,median_ms,min_ms,"
+      "max_ms,bytes,copy_gb_s,floor_ms,ratio,facts");
 }
 
 void BenchRows::begin(Device device)
@@ -218,30 +202,28 @@ void BenchRows::begin(Device device)
 void BenchRows::add(const BenchRow &r)
 {
   const double floor_ms = r.bytes / copy_gb_s_ / 1e6;
-  put(program_ + ',' + quoted(r.what) + ',' + quoted(device_) + ',' + quoted(commit_) + ',' +
-      quoted(compiler()) +
-      format(",%zu,%zu,%.6g,%s,%d,%.5g,%.5g,%.5g,", r.triangles, r.spheres, r.length,
-             r.order.c_str(), r.timing.repeats, r.timing.median_ms, r.timing.min_ms,
-             r.timing.max_ms) +
-      (r.bytes > 0 ? format("%.6g,%.5g,%.4g,%.4g,", r.bytes, copy_gb_s_, floor_ms,
-                            r.timing.median_ms / floor_ms)
-                   : format(",%.5g,,,", copy_gb_s_)) +
-      quoted(r.facts) + '\n');
-}
-
-void BenchRows::put(const std::string &line)
-{
-  text_ += line;
-  std::fputs(line.c_str(), stdout);
+  const std::string line = program_ + ',' + quoted(r.what) + ',' + quoted(device_) + ',' +
+                           quoted(commit_) + ',' + quoted(compiler()) +
+                           format(",%zu,%zu,%.6g,%s,%d,%.5g,%.5g,%.5g,", r.triangles, r.spheres,
+                                  r.length, r.order.c_str(), r.timing.repeats, r.timing.median_ms,
+                                  r.timing.min_ms, r.timing.max_ms) +
+                           (r.bytes > 0 ? format("%.6g,%.5g,%.4g,%.4g,", r.bytes, copy_gb_s_,
+                                                 floor_ms, r.timing.median_ms / floor_ms)
+                                        : format(",%.5g,,,", copy_gb_s_)) +
+                           quoted(r.facts);
+  std::puts(line.c_str());
   std::fflush(stdout);
 }
 
-void BenchRows::end() const
+ContactLaw usual_law(NormalModel normal, bool has_history)
 {
-  if (csv_.empty()) return;
-  AtomicFile file(csv_);
-  file.write_at(0, text_.data(), text_.size());
-  file.commit();
+  ContactLaw law = classic_law(normal, has_history);
+  law.k_normal = 1e5;
+  law.k_tangent = 3e4;
+  law.eta = 50;
+  law.gamma_tangent = 25;
+  law.mu = 0.5;
+  return law;
 }
 
 int run_bench(int argc, char **argv, const char *program, const char *about,
@@ -249,9 +231,8 @@ int run_bench(int argc, char **argv, const char *program, const char *about,
 {
   const BenchOptions options = read_options(argc, argv, about);
   try {
-    BenchRows rows(program, options);
+    BenchRows rows(program, options.commit);
     measure(options, rows);
-    rows.end();
     return 0;
   } catch (const std::exception &e) {
     std::fprintf(stderr, "%s\n", e.what());

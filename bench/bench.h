@@ -21,10 +21,8 @@ struct BenchOptions {
   // 0: the program's own numbers.
   double spheres = 0, most_triangles = 0, length = 0;
   int repeats = 0;
-  double brute_limit = 0;    // tests of a brute force that is measured whole
-  bool quick = false;        // small sizes, to see that all runs
-  std::string part;          // of bench_query and bench_nodes, this alone
-  std::string csv, commit;
+  bool quick = false;    // small sizes, to see that all runs
+  std::string commit;
 };
 
 struct Timing {
@@ -39,16 +37,16 @@ Timing timing_of(std::vector<double> ms);
 // not count.
 double clock_ms();
 
-// Runs f once to warm up, then `repeats` times.
+// Runs f once to warm up, then `repeats` times. The time is that of each of the n that f does.
 template <class F>
-Timing time_it(int repeats, F f)
+Timing time_it(int repeats, F f, int n = 1)
 {
   f();
   std::vector<double> ms;
   for (int i = 0; i < repeats; i++) {
     const double start = clock_ms();
     f();
-    ms.push_back(clock_ms() - start);
+    ms.push_back((clock_ms() - start) / n);
   }
   return timing_of(std::move(ms));
 }
@@ -67,27 +65,26 @@ struct BenchRow {
   std::string facts;    // more numbers, name=value and spaces
 };
 
-// BenchRows of one program as CSV: on stdout, and in a file where the options name one, which is
-// written whole or not at all.
+// Rows of one program as CSV on stdout.
 class BenchRows {
  public:
-  BenchRows(const char *program, const BenchOptions &options);
+  BenchRows(const char *program, const std::string &commit);
   // From now on rows are of this device: measures its copy.
   void begin(Device device);
   void add(const BenchRow &row);
-  void end() const;    // writes the file
 
  private:
-  void put(const std::string &line);
-
-  std::string program_, csv_, commit_, device_, text_;
+  std::string program_, commit_, device_;
   double copy_gb_s_ = 0;
 };
 
-// main() of a program: reads the words of the command line, measures, writes the file, says
-// what went wrong.
+// main() of a program: reads the words of the command line, measures, says what went
+// wrong.
 int run_bench(int argc, char **argv, const char *program, const char *about,
               void (*measure)(const BenchOptions &options, BenchRows &rows));
+
+// A law with stiffnesses, damping and friction that all programs take.
+ContactLaw usual_law(NormalModel normal, bool has_history);
 
 // printf into a string.
 std::string format(const char *how, ...) __attribute__((format(printf, 1, 2)));

@@ -22,15 +22,13 @@ void measure(const BenchOptions &o, BenchRows &rows)
     for (double size = 100; size <= most; size *= 10)
       for (bool sorted : {false, true}) {
         const EvenCylinder wall(size);
-        const BedSpheres spheres(wall, n, sorted);
-        CylinderBed bed(wall, spheres, classic_law(NormalModel::hertz, true), device);
+        const SphereArrays spheres = bed_spheres(wall, n, sorted);
+        CylinderBed bed(wall, spheres, usual_law(NormalModel::hertz, true), device);
         BenchRow row;
         row.triangles = bed.triangles;
         row.spheres = n;
         row.order = sorted ? "sorted" : "random";
-        const auto add = [&](const char *what, int steps) {
-          for (double *ms : {&row.timing.median_ms, &row.timing.min_ms, &row.timing.max_ms})
-            *ms /= steps;
+        const auto add = [&](const char *what) {
           row.what = what;
           row.facts = format(
               "cell=%.3g near=%d contacts=%lld ns_per_contact=%.2f build_ms=%.4g grid_mb=%.1f "
@@ -40,13 +38,14 @@ void measure(const BenchOptions &o, BenchRows &rows)
               bed.grid_mb(), bed.engine_mb());
           rows.add(row);
         };
-        row.timing = time_it(repeats, [&] { bed.steps(n_steps); });
-        add("hertz/history, kept", n_steps);
+        row.timing = time_it(
+            repeats, [&] { bed.steps(n_steps); }, n_steps);
+        add("hertz/history, kept");
         row.timing = time_it(std::min(3, repeats), [&] {
           bed.choose();
           bed.steps(1);
         });
-        add("hertz/history, chosen anew", 1);
+        add("hertz/history, chosen anew");
       }
   }
 }

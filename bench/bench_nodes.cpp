@@ -6,8 +6,7 @@
 //
 // Spheres go where the sheet goes, and slide along it in both cases. A step is that of a host program: places and
 // velocities of nodes are given, forces of nodes are asked for. Steps of both walls take turns, so that what else
-// the machine does is in both; the least times are nearest to the truth. --part host or in-place: spheres in the memory of
-// the host alone, or in that of a GPU.
+// the machine does is in both; the least times are nearest to the truth. *In place*: spheres are in the memory of a GPU.
 #include "bench.h"
 
 #include "support/device_memory.h"
@@ -61,13 +60,7 @@ class Bed {
   {
     WallSpec spec;
     spec.device = device;
-    ContactLaw &law = spec.laws.front().law;
-    law = classic_law(NormalModel::hertz, true);
-    law.k_normal = 1e5;
-    law.k_tangent = 3e4;
-    law.eta = 50;
-    law.gamma_tangent = 25;
-    law.mu = 0.5;
+    spec.laws.front().law = usual_law(NormalModel::hertz, true);
     spec.meshes.resize(1);
     spec.meshes.front().name = "sheet";
     spec.meshes.front().has_nodes = has_nodes;
@@ -256,10 +249,9 @@ void measure_on(Device device, bool in_place, const BenchOptions &o, BenchRows &
 
 void measure(const BenchOptions &o, BenchRows &rows)
 {
-  const auto asks_for = [&](const char *part) { return o.part.empty() || o.part == part; };
   for (const Device device : o.devices) {
-    if (asks_for("host")) measure_on(device, false, o, rows);
-    if (device == Device::cuda && asks_for("in-place")) measure_on(device, true, o, rows);
+    measure_on(device, false, o, rows);
+    if (device == Device::cuda) measure_on(device, true, o, rows);
   }
 }
 

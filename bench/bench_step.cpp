@@ -71,11 +71,6 @@ EngineSettings engine_settings(const Style &style, Device device)
   EngineSettings e;
   e.device = device;
   e.law() = style.law;
-  e.law().k_normal = 1e5;
-  e.law().k_tangent = 3e4;
-  e.law().eta = 50;
-  e.law().gamma_tangent = 25;
-  e.law().mu = 0.5;
   return e;
 }
 
@@ -88,15 +83,16 @@ void measure_kept_and_anew(WallEngine &engine, const Spheres &s, const Style &st
   const int n_steps = waits ? 1 : 20;    // between two looks, which wait
   for (bool anew : {false, true}) {
     engine.choose(s, 0);
-    row.timing = time_it(repeats, [&] {
-      for (int k = 0; k < n_steps; k++) {
-        if (anew) engine.choose(s, 0);
-        engine.step(s, step);
-      }
-      engine.read_diagnostics();
-    });
-    for (double *ms : {&row.timing.median_ms, &row.timing.min_ms, &row.timing.max_ms})
-      *ms /= n_steps;
+    row.timing = time_it(
+        repeats,
+        [&] {
+          for (int k = 0; k < n_steps; k++) {
+            if (anew) engine.choose(s, 0);
+            engine.step(s, step);
+          }
+          engine.read_diagnostics();
+        },
+        n_steps);
     fill(row, std::string(style.name) + where + (anew ? ", chosen anew" : ""), engine, grid, s.n);
     // The near ones are known by their numbers.
     row.bytes =
@@ -144,8 +140,8 @@ void measure(const BenchOptions &o, BenchRows &rows)
   };
   const int n = number(1e6), n_in_place = number(1e7);
   const int repeats = o.repeats > 0 ? o.repeats : o.quick ? 3 : 9;
-  const Style styles[] = {{classic_law(NormalModel::hooke, false), "hooke"},
-                          {classic_law(NormalModel::hertz, true), "hertz/history"}};
+  const Style styles[] = {{usual_law(NormalModel::hooke, false), "hooke"},
+                          {usual_law(NormalModel::hertz, true), "hertz/history"}};
   for (Device device : o.devices) {
     rows.begin(device);
     for (Order order : {Order::random, Order::sorted}) {

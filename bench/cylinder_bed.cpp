@@ -83,7 +83,7 @@ TriangleSoup EvenCylinder::mesh() const
   return soup;
 }
 
-BedSpheres::BedSpheres(const EvenCylinder &wall, int n, bool sorted)
+SphereArrays bed_spheres(const EvenCylinder &wall, int n, bool sorted)
 {
   std::mt19937_64 random(7);
   // Standard distributions differ between libraries, these numbers do not.
@@ -118,22 +118,21 @@ BedSpheres::BedSpheres(const EvenCylinder &wall, int n, bool sorted)
     std::stable_sort(all.begin(), all.end(),
                      [&](const One &a, const One &b) { return cube(a) < cube(b); });
   }
+  SphereArrays spheres;
   for (const One &s : all) {
-    x.insert(x.end(), {s.x, s.y, s.z});
+    Vec3 v, omega;
     for (int k = 0; k < 3; k++) {
-      v.push_back(between(-1, 1));
-      omega.push_back(between(-1, 1));
+      v[k] = between(-1, 1);
+      omega[k] = between(-1, 1);
     }
-    radius.push_back(s.r);
-    mass.push_back(1);
+    spheres.add({s.x, s.y, s.z}, s.r, 1, v, omega);
   }
+  return spheres;
 }
 
-CylinderBed::CylinderBed(const EvenCylinder &wall, const BedSpheres &b, const ContactLaw &law,
-                         Device device) :
-    x_(device == Device::cuda),
-    v_(device == Device::cuda), omega_(device == Device::cuda), radius_(device == Device::cuda),
-    mass_(device == Device::cuda), force_(device == Device::cuda), torque_(device == Device::cuda)
+CylinderBed::CylinderBed(const EvenCylinder &wall, const SphereArrays &spheres,
+                         const ContactLaw &law, Device device) :
+    arrays_(device == Device::cuda)
 {
   const bool cuda = device == Device::cuda;
   const TriangleSoup soup = wall.mesh();
@@ -150,23 +149,9 @@ CylinderBed::CylinderBed(const EvenCylinder &wall, const BedSpheres &b, const Co
   EngineSettings e;
   e.device = device;
   e.law() = law;
-  e.law().k_normal = 1e5;
-  e.law().k_tangent = 3e4;
-  e.law().eta = 50;
-  e.law().gamma_tangent = 25;
-  e.law().mu = Real(0.5);
   engine_ = cuda ? make_cuda_engine_in_place(e, 0, nullptr) : make_cpu_engine(e);
   engine_->set_grid(grid_.view());
-  const int n = static_cast<int>(b.radius.size());
-  const std::vector<Real> zero(b.x.size(), 0);
-  spheres_.n = n;
-  spheres_.x = x_.put(b.x);
-  spheres_.v = v_.put(b.v);
-  spheres_.omega = omega_.put(b.omega);
-  spheres_.radius = radius_.put(b.radius);
-  spheres_.mass = mass_.put(b.mass);
-  spheres_.force = force_.put(zero);
-  spheres_.torque = torque_.put(zero);
+  spheres_ = arrays_.put(spheres);
   choose();
 }
 
@@ -179,9 +164,7 @@ void CylinderBed::steps(int n)
 {
   StepSettings step;
   step.dt = Real(1e-6);
-  for (int k = 0; k < n; k++) {
-    engine_->step(spheres_, step);
-  }
+  for (int k = 0; k < n; k++) engine_->step(spheres_, step);
   engine_->read_diagnostics();
 }
 

@@ -8,7 +8,7 @@
 #include "engine/engine.h"
 #include "grid/flat_grid.h"
 #include "mesh/triangle_soup.h"
-#include "support/device_memory.h"
+#include "support/sphere_arrays.h"
 
 #include <cstdint>
 #include <memory>
@@ -31,14 +31,11 @@ class EvenCylinder {
 
 // n spheres of radius 0.35 to 1, mass 1, each of which overlaps a side or a cap by 1 to 5 % of its
 // radius; in random order or sorted by cubes of edge 3.
-struct BedSpheres {
-  BedSpheres(const EvenCylinder &wall, int n, bool sorted);
-  std::vector<Real> x, v, omega, radius, mass;
-};
+SphereArrays bed_spheres(const EvenCylinder &wall, int n, bool sorted);
 
 class CylinderBed {
  public:
-  CylinderBed(const EvenCylinder &wall, const BedSpheres &spheres, const ContactLaw &law,
+  CylinderBed(const EvenCylinder &wall, const SphereArrays &spheres, const ContactLaw &law,
               Device device);
 
   void choose();        // the near spheres
@@ -55,7 +52,7 @@ class CylinderBed {
  private:
   FlatGrid grid_;
   std::unique_ptr<WallEngine> engine_;
-  DeviceArray<Real> x_, v_, omega_, radius_, mass_, force_, torque_;
+  SphereArraysOn arrays_;
   Spheres spheres_;
 };
 

@@ -8,19 +8,12 @@ spheres and at the wall. The whole step with `device cpu` and with `device cuda`
 processes that share the GPU: what `device auto` is decided by (src/wall/device_choice.cpp).
 """
 import math
-import os
-import re
-import subprocess
-import sys
 
-import lammps_runs
 import rows
+from kokkos_beds import LAW, sheet
+from lammps import Program, bench
+from stl import write_stl
 
-sys.path.insert(0, str(rows.ROOT / "examples"))
-from stl import write_stl    # noqa: E402
-
-LAW = "hooke/history 4000 NULL 100 NULL 0.5 1"
-CELLS = 100    # of the floor, along x and y
 SCRIPT = """\
 units           lj
 atom_style      sphere
@@ -51,58 +44,37 @@ run             {steps}
 run             {steps}
 run             {steps}
 """
-DEVICES = ("cpu", "cuda")
 
 
-def write_floor(path, side):
-    def point(i, j):
-        x, y = ((side + 4) * k / CELLS - 2 for k in (i, j))
-        return x, y, 0.05 * math.sin(x / 3) * math.cos(y / 3)
-
-    corners = [[point(i, j) for j in range(CELLS + 1)] for i in range(CELLS + 1)]
-    write_stl(path, [t for i in range(CELLS) for j in range(CELLS)
-                     for a, b, c, d in [(corners[i][j], corners[i + 1][j], corners[i + 1][j + 1], corners[i][j + 1])]
-                     for t in ((a, b, c), (a, c, d))], "a wavy floor")
-
-
-def step_ms(options, folder, device, side, ranks):
-    """The least of three timed runs."""
+def least_ms(options, folder, device, side, ranks):
     steps = max(20, min(300, 3000000 // (side * side * options.layers)))
     plugin = f"plugin load {options.plugin}" if options.plugin else ""
-    (folder / "in.device").write_text(SCRIPT.format(side=side, top=options.layers + 2, layers=options.layers,
-                                                    law=LAW, plugin=plugin, device=device, steps=steps))
-    command = [options.lmp, "-in", "in.device", "-log", "none", "-nocite"]
-    if ranks > 1:
-        command = ["mpirun", "-np", str(ranks)] + command
-    done = subprocess.run(command, cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
-                          env={"OMP_NUM_THREADS": "1", **os.environ})
-    loops = re.findall(r"^Loop time of (\S+) on .* for (\d+) steps", done.stdout, re.M)[1:]
-    if done.returncode != 0 or len(loops) != 3:
-        raise SystemExit(f"{options.lmp} failed:\n{done.stdout[-3000:]}")
-    return min(1e3 * float(t) / int(n) for t, n in loops)
+    run = Program(options.lmp).run(SCRIPT.format(side=side, top=options.layers + 2, layers=options.layers, law=LAW, plugin=plugin,
+                                                 device=device, steps=steps), folder, ranks)
+    return f"{min(run.step_ms()[1:]):.4g}"
 
 
-def main():
-    p = lammps_runs.parser("device", __doc__)
-    p.add_argument("--plugin", metavar="FILE", help="lsdcdplugin.so for it")
-    p.add_argument("--sides", type=int, nargs="+", default=[10, 30, 100, 316, 1000], metavar="N",
-                   help="spheres along x and y (default: %(default)s)")
-    p.add_argument("--layers", type=int, default=1, metavar="N", help="of spheres (default 1)")
-    p.add_argument("--ranks", type=int, nargs="+", default=[1, 2, 4, 8, 16], metavar="N",
-                   help="processes on one GPU (default: %(default)s)")
-    options = p.parse_args()
-    options.lmp = os.path.abspath(options.lmp)
-    print("processes,layers,spheres_near_the_wall_in_one,cpu_ms,cuda_ms,gpu,cpu,commit")
-    with lammps_runs.work_folder(options.scripts_to) as folder:
-        for ranks in options.ranks:
-            for side in options.sides:
-                if side * side < 50 * ranks:
-                    continue
-                write_floor(folder / "floor.stl", side)
-                ms = [step_ms(options, folder, device, side, ranks) for device in DEVICES]
-                print(f"{ranks},{options.layers},{side * side // ranks},{ms[0]:.4g},{ms[1]:.4g},{rows.gpu()},{rows.cpu()},"
-                      f"{options.commit}", flush=True)
+def measure(options, folder):
+    found = []
+    for ranks in options.ranks:
+        for side in options.sides:
+            if side * side < 50 * ranks:
+                continue
+            wavy = sheet(lambda x, y: 0.05 * math.sin(x / 3) * math.cos(y / 3), (side + 4, side + 4), 100, 100)
+            write_stl(folder / "floor.stl", wavy, "a wavy floor")
+            found.append({"processes": ranks, "layers": options.layers, "spheres_near_the_wall_in_one": side * side // ranks,
+                          **{f"{device}_ms": least_ms(options, folder, device, side, ranks) for device in options.devices},
+                          "gpu": rows.gpu(), "cpu": rows.cpu(), "commit": options.commit})
+            rows.say(", ".join(map(str, found[-1].values())))
+    return found
 
 
 if __name__ == "__main__":
-    main()
+    bench("device", __doc__, measure, quick={"sides": [10], "ranks": [1]}, words=[
+        ("--plugin", dict(metavar="FILE", help="lsdcdplugin.so for it")),
+        ("--devices", dict(nargs="+", choices=("cpu", "cuda"), default=("cpu", "cuda"))),
+        ("--sides", dict(type=int, nargs="+", default=[10, 30, 100, 316, 1000], metavar="N",
+                         help="spheres along x and y (default: %(default)s)")),
+        ("--layers", dict(type=int, default=1, metavar="N", help="of spheres (default 1)")),
+        ("--ranks", dict(type=int, nargs="+", default=[1, 2, 4, 8, 16], metavar="N",
+                         help="processes on one GPU (default: %(default)s)"))])

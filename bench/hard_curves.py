@@ -9,18 +9,17 @@ largest distance between the two runs in diameters, against the step. *shift*: t
 1e-12 m, which is how far round-off grows.
 """
 import argparse
-import contextlib
 import math
 import os
 import shutil
 import subprocess
 import sys
 
-import lammps_runs
 import rows
+from lammps import bench
 
 EXAMPLES = rows.ROOT / "examples"
-sys.path[:0] = [str(EXAMPLES), str(EXAMPLES / "retriangulated"), str(EXAMPLES / "from-liggghts")]    # both have a compare.py
+sys.path[:0] = [str(EXAMPLES / "retriangulated"), str(EXAMPLES / "from-liggghts")]    # both have a compare.py
 import compare    # noqa: E402
 import traps      # noqa: E402
 
@@ -51,16 +50,14 @@ def bowl(work):
             yield from ((curve, wall, step, value) for step, value in zip(steps, apart))
 
 
-def main():
-    options = lammps_runs.parser("hard-curves", __doc__).parse_args()
+def measure(options, folder):
     if not shutil.which("liggghts"):
         raise SystemExit("hard-curves needs LIGGGHTS: Debian's package is liggghts")
-    with lammps_runs.work_folder(options.scripts_to) as folder, contextlib.redirect_stdout(sys.stderr):
-        work = argparse.Namespace(lmp=os.path.abspath(options.lmp), work=folder)
-        found = [*fold(work, 5 if options.quick else 41), *(() if options.quick else bowl(work))]
-    print(rows.as_csv([{"curve": curve, "wall": wall, "x": f"{x:.6g}", "value": f"{value:.6g}", "commit": options.commit}
-                       for curve, wall, x, value in found]), end="")
+    work = argparse.Namespace(lmp=os.path.abspath(options.lmp), work=folder)
+    found = [*fold(work, 5 if options.quick else 41), *(() if options.quick else bowl(work))]
+    return [{"curve": curve, "wall": wall, "x": f"{x:.6g}", "value": f"{value:.6g}", "commit": options.commit}
+            for curve, wall, x, value in found]
 
 
 if __name__ == "__main__":
-    main()
+    bench("hard-curves", __doc__, measure)

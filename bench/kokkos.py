@@ -1,183 +1,335 @@
 # SPDX-FileCopyrightText: 2026 LSDCD contributors
 # SPDX-License-Identifier: BSD-3-Clause
 
-"""What a wall costs a step of a LAMMPS with Kokkos: `./run bench kokkos`.
+"""What a wall costs a step of a LAMMPS with Kokkos: `./run bench kokkos`, and with how many grains: `./run bench scale`.
 
-Beds of spheres (gran/hooke/history/kk) on a flat floor of 2 triangles, in a closed box of
-six walls of 20 172 triangles (by hooke/history and by granular mindlin, sds, marshall) and on
-a bumpy floor of 1 000 000, timed with fix wall/lsdcd/kk and without any wall from one prepared
-state (kokkos_beds.py, kokkos_runs.py).
+*kokkos*: beds of spheres (gran/hooke/history/kk) on a flat floor of 2 triangles, in a closed box of six walls of 20 172 triangles (by
+hooke/history and by granular mindlin, sds, marshall) and on a bumpy floor of 1 000 000, timed with fix wall/lsdcd/kk and without any
+wall from one prepared state. Three scripts make a measurement. The first fills a lattice and, where runs want it, gives the atoms a
+random order in memory, without Kokkos: they are put to random places, sorted there by LAMMPS, and put back. The second lets them settle
+on our wall and sets them in motion along it. The third begins from what the second has written, with a wall or without, and is timed.
+
+*scale*: the closed box, as many spheres for each process, each with a GPU of its own: steps without the wall, with it and without it
+again, in one run; memory of a card; times of setting up.
 
 With a LAMMPS of one's own:
   ./run bench kokkos --lmp FILE --plugin build/lib/lsdcdkkplugin.so --flags "-k on g 1 -sf kk"
+  ./run bench scale --lmp FILE --plugin build/lib/lsdcdkkplugin.so --ranks "1 2 4" --side 292 \\
+    --flags "-k on g {ranks} -sf kk -pk kokkos newton off neigh half gpu/aware on comm device"
 Without --lmp: those of LSDCD_KOKKOS_HOSTS, as the build knows them.
 """
+import math
 import os
 import pathlib
 import re
-import shlex
 import shutil
 import statistics
 import subprocess
+import sys
 
-import kokkos_runs as runs
-import lammps_runs
-from kokkos_beds import Bed
-from rows import as_csv, cpu, gpu, say, timed
+from kokkos_beds import LAW, WALL_CELLS, Bed
+from lammps import Program, bench, in_turn, loop_ms
+from rows import cpu, gpu, say, timed
 
 CASES = {"flat": "flat floor", "box": "closed box", "checked": "closed box, check yes",
          "granular": "closed box, granular", "million": "bumpy floor"}
-ORDERS = ("random", "sorted")
-COPIES = ", copies"
+ORDERS = {"random": "0 0", "sorted": "1000 0.0"}    # and how LAMMPS sorts atoms then
 NO_WALL = ", no wall"
+WARM = 20    # steps before those that are timed
+# Short steps, so that little is heard of a missing floor while they are timed; at SPEED 50 of them are half the skin.
+SETTLE_DT, DT = 1e-3, 5e-5
+
+START = """\
+units           lj
+atom_style      sphere
+boundary        {bed.boundary}
+newton          off
+comm_modify     vel yes cutoff 2.0
+lattice         {bed.lattice}
+region          box block {bed.box} units box
+create_box      1 box
+{bed.region}
+create_atoms    1 region bed
+group           surplus id > {bed.atoms}
+delete_atoms    group surplus compress no
+variable        diameter atom {bed.diameters}
+set             group all diameter v_diameter
+set             group all density {dense!r}
+variable        count equal atoms
+print           "bed of $(v_count:%.0f) atoms"
+"""
+
+# Velocities keep the places while LAMMPS sorts.
+SHUFFLE = """\
+variable        x atom x
+variable        y atom y
+variable        z atom z
+velocity        all set v_x v_y v_z units box
+variable        rx atom random(xlo,xhi,11)
+variable        ry atom random(ylo,yhi,12)
+variable        rz atom random(zlo,zhi,13)
+set             group all x v_rx y v_ry z v_rz
+atom_modify     sort 1 {bin!r}
+run             0
+variable        x atom vx
+variable        y atom vy
+variable        z atom vz
+set             group all x v_x y v_y z v_z
+velocity        all set 0 0 0
+"""
+
+PLUGIN = """\
+plugin          load {plugin}
+newton          off
+comm_modify     vel yes
+{processors}
+"""
+
+FORCES = """\
+atom_modify     sort {sort}
+pair_style      gran/{law}
+pair_coeff      * *
+neighbor        0.1 bin
+neigh_modify    {bed.neighbours}
+fix             move all nve/sphere
+fix             pull all gravity {bed.gravity} vector 0 0 -1
+"""
+
+# Four times from no motion: the swinging of a tall bed goes.
+SETTLED = """\
+variable        carried equal -f_wall[3]/(mass(all)*{bed.gravity})
+variable        touching equal f_wall[7]
+thermo_style    custom step atoms ke v_carried v_touching
+thermo          {settle}
+timestep        {settle_dt}
+run             {half}
+{still}
+print           "settled: carried $(v_carried:%.4f) touching $(v_touching:%.0f)"
+{bed.motion}
+timestep        {dt}
+run             200
+unfix           wall
+pair_style      none
+write_restart   bed.restart
+"""
+
+TIMED = """\
+thermo_style    custom step atoms
+thermo          100000000
+timestep        {dt}
+run             {warm}
+"""
 
 
-# ---- measuring ---------------------------------------------------------------------------
+class Host(Program):
+    """A LAMMPS with Kokkos, and the plugin for it."""
 
-class Rows:
-    """Of one bed on one host."""
+    def __init__(self, lmp, plugin, flags, mpi):
+        super().__init__(lmp, flags, mpi, threads=os.environ.get("OMP_NUM_THREADS", "1"))
+        self.plugin = os.path.abspath(plugin)
+        for path in (self.path, self.plugin):
+            if not os.path.exists(path):
+                raise SystemExit(f"there is no {path}")
+        text = subprocess.run([self.path, "-help"], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, env=self.env).stdout
+        backend = re.search(r"KOKKOS package API:\s*(.*)", text)
+        if not backend:
+            raise SystemExit(f"{lmp} has no KOKKOS package:\n{text[:500]}")
+        on_gpu = "CUDA" in backend.group(1) and re.search(r"\bg(pus)? ", flags) is not None
+        n = self.env["OMP_NUM_THREADS"]
+        self.on_gpu, self.device = on_gpu, gpu() if on_gpu else f"CPU, {n} thread{'s' * (n != '1')}, {cpu()}"
+        self.version = re.search(r"- (\d+ \w+ \d+)", text).group(1).replace(" ", "")
+        self.compiler = re.search(r"Compiler:\s*(.*?)( with OpenMP|$)", text, re.M).group(1)
+        self.flat_kk = "wall/gran/kk" in text
 
-    def __init__(self, host, bed, named):
-        self.host, self.bed = host, bed
-        n = os.environ.get("OMP_NUM_THREADS", "1")
-        self.device = gpu() if host.on_gpu else f"CPU, {n} thread{'s' * (n != '1')}, {cpu()}"
-        self.commit = named
-        self.rows = []
-
-    def add(self, more, order, times=None, **what):
-        what = {"host": self.host.version.replace(" ", ""), "ranks": self.bed.ranks, **what,
-                "flags": self.host.flags.format(ranks=self.bed.ranks).replace(" ", "_")}
-        self.rows.append(timed("kokkos", CASES[self.bed.name] + more, self.commit, self.bed.triangles, self.bed.atoms, order,
-                               times or [], device=self.device, compiler=self.host.compiler, **what))
+    def row(self, program, case, bed, commit, order, times=(), **what):
+        what = {"host": self.version, "ranks": bed.ranks, **what, "flags": self.flags.format(ranks=bed.ranks).replace(" ", "_")}
+        return timed(program, case, commit, bed.triangles, bed.atoms, order, list(times), device=self.device, compiler=self.compiler,
+                     **{name: value for name, value in what.items() if value is not None})
 
 
-def time_steps(host, bed, folder, order, options, settled, rows):
-    """With the wall and without in turn, so that what else a machine does meets both."""
-    seen = {True: [], False: []}
-    for _ in range(options.rounds):
-        for wall in seen:
-            script = runs.timed_script(host, bed, order, bed.wall() if wall else "", options.steps,
-                                       options.chunks)
-            seen[wall].append(runs.read_times(host.run_well(script, folder, bed.ranks)))
+# ---- kokkos: beds with and without a wall ----------------------------------------------------------
+
+def first_script(bed):
+    return START.format(bed=bed, dense=6 / math.pi)    # mass 1 at diameter 1
+
+
+def plugin_script(host, bed):
+    return PLUGIN.format(plugin=host.plugin, processors=bed.processors())
+
+
+def script_from(host, bed, file, wall, sort="0 0"):
+    return plugin_script(host, bed) + f"read_restart {file}\n" + FORCES.format(bed=bed, sort=sort, law=LAW) + wall + "\n"
+
+
+def prepare(host, bed, folder, settle, shuffled):
+    """Leaves bed.restart in the folder; returns what the wall carries of the bed's weight when it has settled, and contacts with it.
+    Without `shuffled`, for runs in which LAMMPS sorts its atoms, it spares the time that a random order takes."""
+    shuffle = SHUFFLE.format(bin=(bed.volume / bed.atoms)**(1 / 3)) if shuffled else ""
+    output = host.run(first_script(bed) + shuffle + "write_restart lattice.restart\n", folder, plain=True).output
+    made = int(re.search(r"^bed of (\d+) atoms", output, re.M).group(1))
+    if made != bed.atoms:
+        raise SystemExit(f"{bed.name}: the lattice has {made} sites for {bed.atoms} atoms")
+    still = f"velocity all set 0 0 0\nrun {settle // 8}\n" * 4
+    output = host.run(script_from(host, bed, "lattice.restart", bed.wall()) +
+                      SETTLED.format(bed=bed, settle=settle, settle_dt=SETTLE_DT, half=settle // 2, still=still, dt=DT),
+                      folder, bed.ranks).output
+    (folder / "lattice.restart").unlink()
+    carried, touching = re.search(r"^settled: carried (\S+) touching (\S+)", output, re.M).groups()
+    return {"carried": f"{float(carried):.3g}", "touching": touching}
+
+
+def timed_script(host, bed, order, wall, steps, chunks, warm=WARM):
+    return script_from(host, bed, "bed.restart", wall, ORDERS[order]) + TIMED.format(dt=DT, warm=warm) + f"run {steps}\n" * chunks
+
+
+def read_times(output):
+    """Of the timed runs, without the first: ms per step of each, of which pairs, builds of neighbour lists; steps and choices of near
+    atoms that our fix says."""
+    steps = [int(n) for n in re.findall(r"^Loop time of \S+ on .* for (\d+) steps", output, re.M)[1:]]
+    pair = re.findall(r"^Pair\s*\|\s*\S+\s*\|\s*(\S+)", output, re.M)[1:]
+    builds = re.findall(r"^Neighbor list builds = (\d+)", output, re.M)[1:]
+    lists = re.findall(r": (\d+) steps?( and the setup)?: atoms near the wall chosen (\d+) time", output)[1:]
+    return {"ms": loop_ms(output)[1:], "pair": [1e3 * float(p) / n for p, n in zip(pair, steps)], "builds": sum(map(int, builds)),
+            "wall_steps": sum(int(steps) + bool(setup) for steps, setup, _ in lists), "lists": sum(int(chosen) for _, _, chosen in lists)}
+
+
+def time_steps(host, bed, folder, order, options, settled):
+    seen = in_turn(options.rounds, (bed.wall(), ""), lambda wall: [read_times(host.run(
+        timed_script(host, bed, order, wall, options.steps, options.chunks), folder, bed.ranks).output)])
     times = {wall: [t for s in each for t in s["ms"]] for wall, each in seen.items()}
-    ratio = statistics.median(times[True]) / statistics.median(times[False])
+    with_wall, without = map(statistics.median, times.values())
+    found = []
     for wall, each in seen.items():
         what = {"steps": options.steps, "builds": sum(s["builds"] for s in each),
                 "pair_ms": f"{statistics.median([t for s in each for t in s['pair']]):.4g}"}
         if wall:
-            what.update(carried=f"{settled[0]:.3g}", touching=settled[1],
-                        wall_steps=sum(s["wall_steps"] for s in each),
-                        lists=sum(s["lists"] for s in each), over_no_wall=f"{ratio:.4g}")
-        rows.add("" if wall else NO_WALL, order, times[wall], **what)
+            what.update(settled, wall_steps=sum(s["wall_steps"] for s in each), lists=sum(s["lists"] for s in each),
+                        over_no_wall=f"{with_wall / without:.4g}")
+        found.append(host.row("kokkos", CASES[bed.name] + NO_WALL * (not wall), bed, options.commit, order, times[wall], **what))
+    return found
 
 
-def time_bodies(host, bed, folder, order, options, rows):
+def time_bodies(host, bed, folder, order, options):
     """Walls without and with a body in turn; prints what a body adds to a step, by the least times."""
     walls = bed.walls_with_body()
-    times = {name: [] for name in walls}
-    for _ in range(options.rounds):
-        for name, wall in walls.items():
-            script = runs.timed_script(host, bed, order, wall, options.steps, options.chunks)
-            times[name] += runs.read_times(host.run_well(script, folder, bed.ranks))["ms"]
+    times = in_turn(options.rounds, walls, lambda name: read_times(host.run(
+        timed_script(host, bed, order, walls[name], options.steps, options.chunks), folder, bed.ranks).output)["ms"])
     for name in walls:
-        rows.add(name, order, times[name], steps=options.steps)
-    for name in walls:
-        if not name.endswith("body"):
-            continue
-        for other in ("at rest", "moves"):
+        for other in ("at rest", "moves") * name.endswith("body"):
             more = min(times[name]) - min(times[name.replace("body", other)])
             say(f"{CASES[bed.name]}{name}: {1e3 * more:.1f} us a step more than {other}")
+    return [host.row("kokkos", CASES[bed.name] + name, bed, options.commit, order, ms, steps=options.steps)
+            for name, ms in times.items()]
 
 
-def time_lammps_walls(host, bed, folder, order, options, rows):
+def time_lammps_walls(host, bed, folder, order, options):
     """LAMMPS's own walls: some are tens of times as slow, so there are fewer steps."""
-    steps = max(10, options.steps // 5)
+    steps, found = max(10, options.steps // 5), []
     for style in ("wall/gran", "wall/gran/kk"):
-        if style == "wall/gran/kk" and not host.flat_kk:
-            rows.add(", " + style, order, steps=steps, result="not_there")
-            continue
-        script = runs.timed_script(host, bed, order, bed.wall(style), steps, options.chunks, warm=5)
-        output, well = host.run(script, folder, bed.ranks)
-        if well:
-            rows.add(", " + style, order, runs.read_times(output)["ms"], steps=steps)
-        else:
-            why = re.search(r"^.*(?:ERROR|error|abort|terminat|Concurrent).*$", output, re.M)
-            rows.add(", " + style, order, steps=steps, result="aborts")
-            say(f"  {style}: {why.group(0).strip() if why else output[-300:]}")
+        times, result = [], "not_there"
+        if style == "wall/gran" or host.flat_kk:
+            run = host.run(timed_script(host, bed, order, bed.wall(style), steps, options.chunks, warm=5), folder, bed.ranks, may_fail=True)
+            times, result = ([], "aborts") if run.failed else (run.step_ms()[1:], None)
+            if run.failed:
+                say(f"  {style}: {run.output[-300:]}")
+        found.append(host.row("kokkos", CASES[bed.name] + ", " + style, bed, options.commit, order, times, steps=steps, result=result))
+    return found
 
 
-def count_copies(host, bed, folder, order, options, rows):
-    """Of steps without output: those that are not the last of a run."""
-    library = folder / "count_copies.so"
-    if not library.exists():
-        source = pathlib.Path(__file__).with_name("count_copies.cpp")
-        subprocess.run([os.environ.get("CXX", "c++"), "-std=c++17", "-O2", "-shared", "-fPIC", "-o",
-                        library, source], check=True)
-    for wall in (True, False):
-        script = runs.timed_script(host, bed, order, bed.wall() if wall else "", options.steps, 1)
-        env = {"KOKKOS_TOOLS_LIBS": str(library), "KOKKOS_PROFILE_LIBRARY": str(library),
-               "LSDCD_COPIES": str(folder / "copies")}
-        host.run_well(script, folder, bed.ranks, env=env)
-        steps, seen = [], 0
-        for path in folder.glob("copies.*"):
-            counts = [tuple(map(int, line.split())) for line in path.read_text().splitlines()]
-            steps += counts[1 + runs.WARM:-1]
-            seen += sum(s[1] + s[4] for s in counts)
-            path.unlink()
-        plain, lists = ([s for s in steps if s[0] == k] for k in (0, 1))
-        if not plain or not seen:
-            say("no copy was seen: this Kokkos was built without its tools interface")
-            return
-
-        def mean(rows_, column):
-            return f"{sum(s[column] for s in rows_) / len(rows_):.4g}" if rows_ else "none"
-
-        rows.add(("" if wall else NO_WALL) + COPIES, order, steps=len(plain),
-                 copies=mean(plain, 1), bytes=mean(plain, 2), largest=max(s[3] for s in plain),
-                 within=mean(plain, 4), seen=seen, fused=sum(s[6] for s in steps),
-                 list_steps=len(lists),
-                 list_copies=mean(lists, 1), list_bytes=mean(lists, 2),
-                 list_largest=max((s[3] for s in lists), default=0))
-
-
-def say_profiler(host, bed, folder, options):
-    """Copies that do not go through Kokkos, our engine's among them."""
-    for name, wall in (("wall", bed.wall()), ("no_wall", "")):
-        (folder / f"in.{name}").write_text(
-            runs.timed_script(host, bed, options.orders[0], wall, options.steps, 1))
-        say(f"every copy by CUDA, {name} (with --scripts-to DIR and nsys in PATH): cd {folder} && nsys "
-            f"profile -t cuda -o {name} {shlex.join(host.command(f'in.{name}', bed.ranks))} && "
-            f"nsys stats -r cuda_gpu_mem_time_sum,cuda_gpu_mem_size_sum {name}.nsys-rep")
-
-
-def measure(host, options, place):
+def measure_beds(host, options, place):
     """Rows of one LAMMPS; beds are made in the folder `place`."""
-    say(f"{host.lmp}, LAMMPS {host.version}, {host.flags}")
     found = []
     for each in options.atoms or ([1e6, 8e6] if host.on_gpu else [20000]):
         for ranks in options.ranks:
             for name in options.cases:
-                work = place / f"{host.version.replace(' ', '')}-{name}-{each:.0f}-{ranks}"
+                work = place / f"{host.version}-{name}-{each:.0f}-{ranks}"
                 work.mkdir(parents=True, exist_ok=True)
                 bed = Bed(name, int(each) * ranks, ranks, work, options.triangles)
-                settled = runs.prepare(host, bed, work, options.settle,
-                                       "random" in options.orders)
+                settled = prepare(host, bed, work, options.settle, "random" in options.orders)
                 for order in options.orders:
-                    rows = Rows(host, bed, options.commit)
-                    time_steps(host, bed, work, order, options, settled, rows)
+                    found += time_steps(host, bed, work, order, options, settled)
                     if options.bodies and name == "box":
-                        time_bodies(host, bed, work, order, options, rows)
+                        found += time_bodies(host, bed, work, order, options)
                     if options.against and name == "flat":
-                        time_lammps_walls(host, bed, work, order, options, rows)
-                    if options.copies:
-                        count_copies(host, bed, work, order, options, rows)
-                    found += rows.rows
-                if options.copies and shutil.which("nsys"):
-                    say_profiler(host, bed, work, options)
+                        found += time_lammps_walls(host, bed, work, order, options)
                 if not options.scripts_to:
                     shutil.rmtree(work)
     return found
 
+
+# ---- scale: a closed box without a wall, with it and without it -------------------------------------
+
+BOX = """\
+variable        made timer
+run             0
+variable        alone timer
+print           "made in $(v_made-v_began) s, set up in $(v_alone-v_made) s"
+run             {warm}
+{chunks}
+shell           {memory} > memory.alone
+print           "with the wall"
+variable        before timer
+{wall}
+run             0
+variable        after timer
+variable        touching equal f_wall[7]
+thermo_style    custom step atoms v_touching
+run             {warm}
+print           "wall set up in $(v_after-v_before) s, touching $(v_touching:%.0f)"
+thermo_style    custom step atoms
+{chunks}
+shell           {memory} > memory.wall
+print           "without"
+unfix           wall
+run             {warm}
+{chunks}
+"""
+
+
+def memory(path):
+    """MiB of the fullest card, or nothing."""
+    try:
+        return max(int(word) for word in path.read_text().split())
+    except (OSError, ValueError):
+        return None
+
+
+def time_box(host, bed, options, work):
+    """Without the wall and with it."""
+    ask = "nvidia-smi --query-gpu=memory.used --format=csv,noheader,nounits" if host.on_gpu else "true"
+    quiet = f"thermo_style custom step atoms\nthermo 100000000\ntimestep {DT}\n"
+    run = host.run(plugin_script(host, bed) + "variable began timer\n" + first_script(bed) +
+                   FORCES.format(bed=bed, sort=ORDERS["sorted"], law=LAW) + quiet +
+                   BOX.format(warm=WARM, chunks=f"run {options.steps} pre no\n" * options.chunks, memory=ask, wall=bed.wall()),
+                   work, bed.ranks, may_fail=True)
+    if run.failed:
+        say(f"{bed.ranks} processes failed:\n{run.output[-1500:]}")
+        return []
+    before, wall, after = (loop_ms(part)[1:] for part in re.split(r"^with the wall$|^without$", run.output, flags=re.M))
+    made, alone = re.search(r"^made in (\S+) s, set up in (\S+) s", run.output, re.M).groups()
+    wall_s, touching = re.search(r"^wall set up in (\S+) s, touching (\d+)", run.output, re.M).groups()
+
+    def row(name, ms, **what):
+        return host.row("scale", "closed box" + name, bed, options.commit, "sorted", ms, steps=options.steps, **what)
+
+    return [row(NO_WALL, before + after, make_s=f"{float(made):.3g}", setup_s=f"{float(alone):.3g}", mib=memory(work / "memory.alone")),
+            row("", wall, setup_s=f"{float(wall_s):.3g}", touching=touching, mib=memory(work / "memory.wall"),
+                over_no_wall=f"{statistics.median(wall) / statistics.median(before + after):.4g}")]
+
+
+def measure_scale(host, options, place):
+    found = []
+    for ranks in options.ranks:
+        for cells in options.cells:
+            work = place / f"{ranks}-{cells}"
+            work.mkdir(parents=True, exist_ok=True)
+            found += time_box(host, Bed("box", ranks * options.side**3, ranks, work, cells=cells), options, work)
+            if not options.scripts_to:
+                shutil.rmtree(work)
+    return found
+
+
+# ---- words ------------------------------------------------------------------------------
 
 def built_hosts(build):
     """Folders of LAMMPS that the build has a plugin for, each with that plugin."""
@@ -193,57 +345,43 @@ def built_hosts(build):
         name = re.search(r"LSDCD_HOST_VERSION \"?(\d+)", text).group(1)
         kind = re.search(r"LSDCD_HOST_KIND \"(\w+)\"", text)
         name += f"-{kind.group(1)}" if kind else ""
-        plugin = pathlib.Path(build, "lib", f"lsdcdkkplugin-{name}.so").resolve()
-        yield os.path.join(folder, "lmp"), str(plugin)
+        yield os.path.join(folder, "lmp"), os.path.join(build, "lib", f"lsdcdkkplugin-{name}.so")
 
 
-# ---- words ------------------------------------------------------------------------------
-
-def read_options(words=None):
-    p = lammps_runs.parser("kokkos", __doc__)
-    p.set_defaults(lmp=None)
-    p.add_argument("--plugin", metavar="FILE", help="lsdcdkkplugin.so for it")
-    p.add_argument("--flags", default="-k on -sf kk", metavar="WORDS",
-                   help="of LAMMPS; {ranks} is the number of processes (default: %(default)s)")
-    p.add_argument("--mpi", default="mpirun -np {ranks}", metavar="WORDS",
-                   help="what starts several processes (default: %(default)s)")
-    p.add_argument("--atoms", type=float, nargs="+", metavar="N",
-                   help="per process (default: 1e6 and 8e6 on a GPU, 20000 on a CPU)")
-    p.add_argument("--cases", nargs="+", choices=CASES, default=list(CASES))
-    p.add_argument("--orders", nargs="+", choices=ORDERS, default=list(ORDERS))
-    p.add_argument("--triangles", type=int, default=1000000, metavar="N", help="of the bumpy floor")
-    p.add_argument("--steps", type=int, default=100, metavar="N", help="timed as one (default 100)")
-    p.add_argument("--chunks", type=int, default=3, metavar="N",
-                   help="of these in a run (default 3)")
-    p.add_argument("--rounds", type=int, default=2, metavar="N",
-                   help="of a run with the wall and one without (default 2)")
-    p.add_argument("--settle", type=int, default=3000, metavar="N",
-                   help="steps before (default 3000)")
-    p.add_argument("--against", action="store_true",
-                   help="time LAMMPS's own flat walls on the flat floor, too")
-    p.add_argument("--bodies", action="store_true",
-                   help="time the closed box, and its floor, as a rigid body, too")
-    p.add_argument("--ranks", default="1", metavar="LIST",
-                   help='numbers of processes, as "1 2 4": weak scaling')
-    p.add_argument("--copies", action="store_true",
-                   help="count what Kokkos copies between host and device in a step")
-    options = p.parse_args(words)
-    options.ranks = [int(word) for word in options.ranks.replace(",", " ").split()]
-    if bool(options.lmp) != bool(options.plugin):
-        p.error("--lmp and --plugin belong together")
-    return options
+def on_hosts(measure):
+    """What bench() wants of a function that measures one LAMMPS."""
+    def all_hosts(options, place):
+        options.ranks = [int(word) for word in options.ranks.replace(",", " ").split()]
+        hosts = [(options.lmp, options.plugin)] if options.plugin else built_hosts(os.environ.get("LSDCD_BUILD", "build"))
+        return [row for lmp, plugin in hosts for row in measure(Host(lmp, plugin, options.flags, options.mpi), options, place)]
+    return all_hosts
 
 
-def main():
-    options = read_options()
-    if options.quick:
-        options.atoms, options.triangles, options.settle = options.atoms or [4000], 20000, 500
-    build = os.environ.get("LSDCD_BUILD", "build")
-    hosts = [(options.lmp, os.path.abspath(options.plugin))] if options.lmp else built_hosts(build)
-    with lammps_runs.work_folder(options.scripts_to) as place:
-        print(as_csv([row for lmp, plugin in hosts
-                      for row in measure(runs.Host(os.path.abspath(lmp), plugin, options.flags, options.mpi), options, place)]), end="")
-
+WORDS = [
+    ("--plugin", dict(metavar="FILE", help="lsdcdkkplugin.so for the LAMMPS of --lmp")),
+    ("--flags", dict(default="-k on -sf kk", metavar="WORDS",
+                     help="of LAMMPS; {ranks} is the number of processes (default: %(default)s)")),
+    ("--mpi", dict(default="mpirun -np {ranks}", metavar="WORDS", help="what starts several processes (default: %(default)s)")),
+    ("--ranks", dict(default="1", metavar="LIST", help='numbers of processes, as "1 2 4": weak scaling')),
+    ("--chunks", dict(type=int, default=3, metavar="N", help="timed in a run (default %(default)s)"))]
+OF_BEDS = [
+    ("--steps", dict(type=int, default=100, metavar="N", help="timed as one (default %(default)s)")),
+    ("--atoms", dict(type=float, nargs="+", metavar="N", help="per process (default: 1e6 and 8e6 on a GPU, 20000 on a CPU)")),
+    ("--cases", dict(nargs="+", choices=CASES, default=list(CASES))),
+    ("--orders", dict(nargs="+", choices=ORDERS, default=list(ORDERS))),
+    ("--triangles", dict(type=int, default=1000000, metavar="N", help="of the bumpy floor")),
+    ("--rounds", dict(type=int, default=2, metavar="N", help="of a run with the wall and one without (default %(default)s)")),
+    ("--settle", dict(type=int, default=3000, metavar="N", help="steps before (default %(default)s)")),
+    ("--against", dict(action="store_true", help="time LAMMPS's own flat walls on the flat floor, too")),
+    ("--bodies", dict(action="store_true", help="time the closed box, and its floor, as a rigid body, too"))]
+OF_SCALE = [
+    ("--steps", dict(type=int, default=50, metavar="N", help="timed as one (default %(default)s)")),
+    ("--side", dict(type=int, default=292, metavar="N", help="N^3 spheres for each process (default %(default)s)")),
+    ("--cells", dict(type=int, nargs="+", default=[WALL_CELLS], metavar="N",
+                     help="the mesh has 12 N^2 triangles (default: %(default)s)"))]
 
 if __name__ == "__main__":
-    main()
+    if sys.argv.pop(1) == "scale":
+        bench("scale", __doc__, on_hosts(measure_scale), WORDS + OF_SCALE, quick={"side": 16})
+    else:
+        bench("kokkos", __doc__, on_hosts(measure_beds), WORDS + OF_BEDS, quick={"atoms": [4000], "triangles": 20000, "settle": 500})

@@ -3,12 +3,9 @@
 
 """Beds of spheres for kokkos.py: what a script says of them, and their meshes."""
 import math
-import sys
 
-import rows
-
-sys.path.insert(0, str(rows.ROOT / "examples"))
-from stl import write_stl    # noqa: E402
+import lammps    # noqa: F401, by which stl.py is found
+from stl import write_stl
 
 LAW = "hooke/history 4000 NULL 100 NULL 0.5 1"
 # As stiff as LAW where the closed box is compressed.
@@ -29,14 +26,18 @@ def near_square(ranks):
 
 
 class Bed:
-    """A bed of `atoms` spheres, its mesh in a file of `folder`, for `ranks` processes."""
+    """A bed of `atoms` spheres, its mesh in a file of `folder`, for `ranks` processes. `million`: triangles of a bumpy floor; `cells`:
+    along and across each wall of a closed box."""
 
-    def __init__(self, name, atoms, ranks, folder, million=1000000):
+    def __init__(self, name, atoms, ranks, folder, million=1000000, cells=WALL_CELLS):
         self.name, self.atoms, self.ranks = name, atoms, ranks
         self.mesh = folder / "wall.stl"
         self.split = near_square(ranks)
         self.law = GRANULAR if name == "granular" else LAW    # of our wall
-        (self.closed_box if name in ("box", "checked", "granular") else self.floor)(million)
+        if name in ("box", "checked", "granular"):
+            self.closed_box(cells)
+        else:
+            self.floor(million)
 
     def floor(self, million):
         (px, py), each = self.split, self.atoms / self.ranks
@@ -63,7 +64,7 @@ class Bed:
         self.region = f"region bed block INF INF INF INF 0.4 {height + 0.4 - 1e-6!r} units box"
         self.motion = f"velocity all set {SPEED} 0 0 sum yes units box"
 
-    def closed_box(self, _):
+    def closed_box(self, cells):
         """A simple cubic lattice pushes against all six walls: the outer spheres overlap them by as much
         as their neighbours. It does not move, so neighbour lists are built every 50 steps; "checked" is
         the same as most scripts have it, where LAMMPS looks in each step whether they need to be."""
@@ -72,7 +73,7 @@ class Bed:
         sites = [px * along, py * along, math.ceil(self.atoms / (px * py * along**2))]
         side = [SPACING * n - (1 - SPACING) for n in sites]
         self.side = side
-        triangles = box(side, WALL_CELLS)
+        triangles = box(side, cells)
         self.triangles = len(triangles)
         write_stl(self.mesh, triangles, "a closed box")
         first = (SPACING - 0.5) / SPACING

@@ -15,18 +15,14 @@ Set-up and memory are those of a run of 0 steps with the wall less those of one 
 programs read the same spheres and the same mesh, LIGGGHTS as text.
 """
 import math
-import os
 import random
 import re
 import shutil
 import statistics
-import sys
 
-import lammps_runs
 import rows
-
-sys.path.insert(0, str(rows.ROOT / "examples"))
-from stl import write_stl    # noqa: E402
+from lammps import Program, bench, in_turn, processor_clock
+from stl import write_stl
 
 RADIUS, HEIGHT = 50.0, 100.0
 SMALLEST, LARGEST = 0.35, 1.0
@@ -119,7 +115,7 @@ def in_bulk(dice, r, n_round):
 
 
 def write_spheres(folder, case, order, n, n_round):
-    """spheres.data, and still.data with the same spheres at rest."""
+    """still.data, and moving.data with the same spheres and velocities."""
     dice = random.Random(7)
     place = in_bulk if case.startswith("in bulk") else at_the_wall
     spheres = []
@@ -135,7 +131,7 @@ def write_spheres(folder, case, order, n, n_round):
                     for k, (r, x, y, z) in enumerate(spheres, 1))
     (folder / "still.data").write_text(text)
     speeds = (" ".join(f"{dice.uniform(-SPEED, SPEED):.6g}" for _ in range(6)) for _ in spheres)
-    (folder / "spheres.data").write_text(
+    (folder / "moving.data").write_text(
         text + "\nVelocities\n\n" + "".join(f"{k} {v}\n" for k, v in enumerate(speeds, 1)))
 
 
@@ -148,7 +144,7 @@ atom_modify     map array sort 0 0
 boundary        f f f
 newton          off
 comm_modify     vel yes cutoff 2.5
-read_data       spheres.data
+read_data       moving.data
 pair_style      none
 neighbor        {SKIN} bin
 neigh_modify    delay 0 every 1 check yes
@@ -164,7 +160,7 @@ atom_modify     map array sort 0 0
 boundary        f f f
 newton          off
 communicate     single vel yes
-read_data       spheres.data
+read_data       moving.data
 neighbor        {SKIN} bin
 neigh_modify    delay 0 every 1 check yes exclude type 1 1
 fix             m1 all property/global youngsModulus peratomtype {YOUNG}
@@ -215,7 +211,7 @@ def start_script(program, with_wall):
 def force_script(program):
     """Forces of spheres without velocity: elastic normal forces alone."""
     start, wall, _ = PROGRAMS[program]
-    return (start.replace("spheres.data", "still.data") + wall + QUIET +
+    return (start.replace("moving.data", "still.data") + wall + QUIET +
             "dump d all custom 1 force.dump id fx fy fz\nrun 0\n")
 
 
@@ -227,22 +223,22 @@ def forces(path):
     return {int(w[0]): math.sqrt(sum(float(x)**2 for x in w[1:4])) for w in map(str.split, lines)}
 
 
-def same_work(executables, folder):
+def same_work(programs, folder):
     """Sum of the forces over LIGGGHTS's, and the share of spheres whose force differs by over 1 %."""
     found = {}
-    for program, executable in executables.items():
-        lammps_runs.Run(executable, force_script(program), folder)
-        found[program] = forces(folder / "force.dump")
+    for name, program in programs.items():
+        program.run(force_script(name), folder)
+        found[name] = forces(folder / "force.dump")
     ours, theirs = found["lsdcd"], found["LIGGGHTS"]
     off = sum(abs(f - theirs[k]) > 0.01 * max(f, theirs[k]) for k, f in ours.items())
     return {"force_ratio": f"{sum(ours.values()) / sum(theirs.values()):.5f}",
             "force_differs": f"{off / len(ours):.4f}", "touching": sum(f > 0 for f in ours.values())}
 
 
-def start_costs(executable, program, folder, repeats):
+def start_costs(program, name, folder, repeats):
     """Set-up seconds and peak memory, MB, that the wall adds to a run of 0 steps: medians over pairs of
     runs with it and without, one after the other, as the first runs of a machine at rest are slow."""
-    pairs = [[lammps_runs.Run(executable, start_script(program, w), folder) for w in (True, False)]
+    pairs = [[program.run(start_script(name, w), folder) for w in (True, False)]
              for _ in range(repeats)]
 
     def added(what):
@@ -264,9 +260,14 @@ def own_ms(program, output, runs, steps):
     return [1e3 * s / steps for s in seconds[1:1 + runs]]
 
 
-def compare(options, executables, folder):
+def compare(options, folder):
+    theirs = shutil.which(options.liggghts)
+    if not theirs:
+        raise SystemExit("there is no liggghts (Debian package liggghts)")
+    clock = processor_clock(folder)
+    programs = {"lsdcd": Program(options.lmp), "LIGGGHTS": Program(theirs)}
+    timed_programs = {"lsdcd": Program(options.lmp, clock=clock), "LIGGGHTS": Program(theirs, clock=clock)}
     found = []
-    clock = lammps_runs.processor_clock(folder)
     for triangles in options.triangles:
         n_round, n_along = MESHES[triangles]
         write_mesh(folder, n_round, n_along)
@@ -275,54 +276,32 @@ def compare(options, executables, folder):
             for order in options.orders:
                 write_spheres(folder, case, order, options.spheres, n_round)
                 if start is None:
-                    start = {p: start_costs(e, p, folder, 5)
-                             for p, e in executables.items()}
-                check = same_work(executables, folder)
+                    start = {name: start_costs(p, name, folder, 5) for name, p in programs.items()}
+                check = same_work(programs, folder)
                 steps = options.steps * (10 if case.startswith("in bulk") else 1)
-                parts = {p: [] for p in executables}
-                plain = {p: [] for p in executables}
-                own = {p: [] for p in executables}
-                builds = {p: 0 for p in executables}
-                for _ in range(options.repeats):    # in turn, so that other load meets both
-                    for program, executable in executables.items():
-                        run = lammps_runs.Run(executable, timed_script(program, case, steps, options.chunks), folder, clock)
-                        ms = run.step_ms()
-                        half = len(ms) // 2
-                        builds[program] += sum(run.builds()[1:half])
-                        plain[program] += ms[half + 1:]
-                        own[program] += own_ms(program, run.output, half - 1, steps)
-                        parts[program] += [a - b for a, b in zip(ms[1:half], ms[half + 1:])]
-                for program in executables:
-                    found.append(rows.timed("liggghts", f"{case}, {program}", options.commit, triangles,
-                                            options.spheres, order, parts[program], steps=steps,
-                                            builds=builds[program],
-                                            no_wall_ms=f"{statistics.median(plain[program]):.4g}",
-                                            own_ms=f"{statistics.median(own[program]):.4g}",
-                                            own_least=f"{min(own[program]):.4g}", own_most=f"{max(own[program]):.4g}",
-                                            **start[program], **check))
+                script = {name: timed_script(name, case, steps, options.chunks) for name in programs}
+                runs = in_turn(options.repeats, programs, lambda name: [timed_programs[name].run(script[name], folder)])
+                for name, mine in runs.items():
+                    wall, plain = ([t for r in mine for t in r.step_ms()[part]]
+                                   for part in (slice(1, 1 + options.chunks), slice(2 + options.chunks, None)))
+                    own = [t for r in mine for t in own_ms(name, r.output, options.chunks, steps)]
+                    found.append(rows.timed("liggghts", f"{case}, {name}", options.commit, triangles, options.spheres, order,
+                                            [a - b for a, b in zip(wall, plain)], steps=steps,
+                                            builds=sum(b for r in mine for b in r.builds()[1:1 + options.chunks]),
+                                            no_wall_ms=f"{statistics.median(plain):.4g}",
+                                            own_ms=f"{statistics.median(own):.4g}",
+                                            own_least=f"{min(own):.4g}", own_most=f"{max(own):.4g}",
+                                            **start[name], **check))
     return found
 
 
 def main():
-    p = lammps_runs.parser("liggghts", __doc__)
-    p.add_argument("--liggghts", default="liggghts", metavar="FILE", help="the program (default: in PATH)")
-    p.add_argument("--triangles", type=int, nargs="+", choices=MESHES, default=list(MESHES))
-    p.add_argument("--cases", nargs="+", choices=CASES, default=list(CASES))
-    p.add_argument("--orders", nargs="+", choices=ORDERS, default=list(ORDERS))
-    p.add_argument("--spheres", type=int, default=SPHERES, metavar="N")
-    p.add_argument("--steps", type=int, default=20, metavar="N",
-                   help="timed as one; ten times as many in bulk (default 20)")
-    p.add_argument("--chunks", type=int, default=3, metavar="N", help="of these in a run (default 3)")
-    p.add_argument("--repeats", type=int, default=3, metavar="N", help="of each run (default 3)")
-    options = p.parse_args()
-    if options.quick:
-        options.triangles, options.spheres, options.repeats = [2560], 5000, 1
-    theirs = shutil.which(options.liggghts)
-    if not theirs:
-        raise SystemExit("there is no liggghts (Debian package liggghts)")
-    executables = {"lsdcd": os.path.abspath(options.lmp), "LIGGGHTS": theirs}
-    with lammps_runs.work_folder(options.scripts_to) as folder:
-        print(rows.as_csv(compare(options, executables, folder)), end="")
+    bench("liggghts", __doc__, compare, steps=20, quick={"triangles": [2560], "spheres": 5000, "repeats": 1}, words=[
+        ("--liggghts", dict(default="liggghts", metavar="FILE", help="the program (default: in PATH)")),
+        ("--triangles", dict(type=int, nargs="+", choices=MESHES, default=list(MESHES))),
+        ("--cases", dict(nargs="+", choices=CASES, default=list(CASES), help="in bulk steps are ten times as many")),
+        ("--orders", dict(nargs="+", choices=ORDERS, default=list(ORDERS))),
+        ("--spheres", dict(type=int, default=SPHERES, metavar="N"))])
 
 
 if __name__ == "__main__":

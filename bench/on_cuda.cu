@@ -4,7 +4,6 @@
 #include "on_cuda.h"
 
 #include "backend/backend_cuda.h"
-#include "query/point_query.h"
 
 #include "lsdcd.h"
 
@@ -30,59 +29,26 @@ double cuda_copy_gb_s()
   return 2 * double(kBytes) / least / 1e6;
 }
 
-std::vector<double> cuda_tree_ms(const TriangleTree &tree, const std::vector<Sphere> &points,
-                                 int repeats, std::vector<double> &distance)
+double cuda_query_ms(const lsdcd_grid *grid, lsdcd_query q)
 {
   CudaBackend b;
-  const auto on_gpu = from_cpu(b, points);
-  CudaBackend::Array<double> out(points.size());
-  PointArrays<double> io;
-  io.n = points.size();
-  io.points = {&on_gpu.data()->x, 4, 1};
-  io.radius = points[0].r;
-  io.distance = {out.data(), 1};
-  const auto query = copy_to_cuda(tree)->query_on(nullptr);
-  query->enqueue(io);    // warms up
-  std::vector<double> ms;
-  for (int k = 0; k < repeats; k++) ms.push_back(b.milliseconds([&] { query->enqueue(io); }));
-  distance = to_cpu(b, out, points.size());
-  return ms;
-}
-
-std::vector<double> cuda_query_ms(const lsdcd_grid *grid, lsdcd_query q, std::size_t bytes,
-                                  int repeats)
-{
-  CudaBackend b;
-  const std::size_t n = q.n;
-  CudaBackend::Array<char> points(4 * n * bytes), distance(q.distance ? n * bytes : 0);
-  CudaBackend::Array<std::uint8_t> status(n);
-  b.copy_in(static_cast<const char *>(q.points), points.data(), points.size());
-  char *const on_cpu = static_cast<char *>(q.distance);
-  std::uint8_t *const status_on_cpu = q.status;
+  CudaBackend::Array<double> points(4 * q.n), distance(q.n);
+  double *const on_cpu = static_cast<double *>(q.distance);
+  b.copy_in(static_cast<const double *>(q.points), points.data(), points.size());
   q.points = points.data();
-  if (q.radii) q.radii = points.data() + 3 * bytes;
-  if (q.distance) q.distance = distance.data();
-  q.status = status.data();
+  q.distance = distance.data();
   lsdcd_stream *stream = nullptr;
   const auto check = [](int code) {
     if (code != LSDCD_OK) throw std::runtime_error(lsdcd_last_error());
   };
   check(lsdcd_stream_open(grid, b.stream, &stream));
   const std::unique_ptr<lsdcd_stream, void (*)(lsdcd_stream *)> owned(stream, lsdcd_stream_free);
-  check(lsdcd_query_stream(stream, &q));    // warms up
-  std::vector<double> ms;
-  for (int k = 0; k < repeats; k++)
-    ms.push_back(b.milliseconds([&] { check(lsdcd_query_stream(stream, &q)); }));
-  if (on_cpu) b.copy_out(distance.data(), on_cpu, distance.size());
-  b.copy_out(status.data(), status_on_cpu, n);
+  const auto ask = [&] { check(lsdcd_query_stream(stream, &q)); };
+  ask();
+  const double ms = b.milliseconds(ask);
+  b.copy_out(distance.data(), on_cpu, distance.size());
   b.wait();
   return ms;
-}
-
-double cuda_brute_force_ms(const TriangleGrid &grid, std::size_t n, std::size_t stride)
-{
-  CudaBackend b;
-  return brute_force_ms(b, grid, n, stride);
 }
 
 }    // namespace lsdcd

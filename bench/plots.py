@@ -38,57 +38,6 @@ def both(name):
 
 # ---- performance.md ------------------------------------------------------------------------
 
-def axes(title, ylabel, limits):
-    figure, axis = plt.subplots(figsize=(8, 6))
-    axis.set(xscale="log", yscale="log", ylim=limits, xlabel="number of triangles", ylabel=ylabel, title=title)
-    return figure, axis
-
-
-def curve(rows, program, case, order=""):
-    return sorted((float(r["triangles"]), r) for r in rows if (r["program"], r["case"], r["order"]) == (program, case, order))
-
-
-def at_end(axis, points, words, colour, above=0):
-    """The name of a curve, at its last point."""
-    axis.annotate(words, points[-1], (-4, 8 + above), textcoords="offset points", ha="right", color=colour, fontsize=FONT)
-
-
-def finish(figure, axis, name):
-    legible(axis)
-    figure.tight_layout()
-    write_image(figure, name)
-
-
-def draw_query(rows_by_device):
-    """Time of a distance by the size of the mesh, on a CPU core and on a GPU."""
-    case = "distance, complete, float"
-    figure, axis = axes("Distance to the wall up to 1 radius, in float", "time per sphere, ns", (3e-3, 200))
-    for device, rows in rows_by_device.items():
-        for name in dict.fromkeys(r["device"] for r in rows if r["case"] == case):
-            its = [r for r in rows if r["device"] == name]
-            for order, style in (("random", "-"), ("sorted", "--")):
-                points = [(x, float(r["median_ms"]) * 1e6 / float(r["spheres"])) for x, r in curve(its, "query", case, order)]
-                if len(points) < 2:    # one mesh is a point and no curve
-                    continue
-                axis.plot(*zip(*points), linestyle=style, **STYLES[device])
-                below = 0 if order == "random" else -34 if device == "cpu" else -62    # clear of the curves
-                at_end(axis, points, f"{label(its).split(',')[0]}, {order} order", STYLES[device]["color"], below)
-    finish(figure, axis, "performance_query.png")
-
-
-def draw_build(rows_by_device):
-    figure, axis = axes("Building a grid of cells of 0.2 for spheres of radius 1", "build time, s", (1e-3, 1e8))
-    for device, rows in rows_by_device.items():
-        for case, style, name in (("given cell, without copies", "-", "grid"), ("given cell, brute force", ":", "brute force")):
-            points = [(x, float(r["median_ms"]) / 1e3) for x, r in curve(rows, "build", case)]
-            if points:
-                guessed = ["estimated" in r["facts"] for _, r in curve(rows, "build", case)]
-                guess = " (estimated)" if all(guessed) else " (partly)" if any(guessed) else ""
-                axis.plot(*zip(*points), linestyle=style, **STYLES[device])
-                at_end(axis, points, f"{name}, {label(rows).split(',')[0]}{guess}", STYLES[device]["color"])
-    finish(figure, axis, "performance_build.png")
-
-
 def draw_mesh_size(rows_by_device):
     panels = [("time per contact in a step, ns", lambda r: float(facts(r)["ns_per_contact"])),
               ("memory of the grid, MB", lambda r: float(facts(r)["grid_mb"]))]
@@ -281,13 +230,10 @@ def draw_question(rows, steps):
 
 
 def draw_all():
-    performance = both("performance")
-    draw_query(performance)
-    draw_build(performance)
     draw_mesh_size(both("mesh-size"))
     draw_effects(*(rows_of(f"effects_{device}.csv", ";") for device in DEVICES))
     # A step that reads lists of the wall, on the same spheres, nothing copied.
-    step = find(performance["cuda"], case="hertz/history, in place", triangles=10000, spheres=10000000, order="random")
+    step = find(rows_of("performance_cuda.csv"), case="hertz/history, in place", triangles=10000, spheres=10000000, order="random")
     draw_question(rows_of("accuracy_cuda.csv"), step)
     draw_accuracy(both("tradeoff_vessel"))
     draw_hard_curves(rows_of("hard_curves_cpu.csv"))

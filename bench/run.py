@@ -23,23 +23,22 @@ COMMON = "--device {device} --commit {commit} {quick}"
 SCRIPT = "{python} {bench}/"
 BENCHMARKS = {
     "query": ("performance", BOTH, "{bin}/bench_query " + COMMON, "distances by the library, Embree and CGAL"),
-    "build": ("performance", BOTH, "{bin}/bench_build " + COMMON, "building of grids"),
+    "build": ("performance", BOTH, "{bin}/bench_build " + COMMON, "building of grids, and their cache files"),
     "step": ("performance", BOTH, "{bin}/bench_step " + COMMON, "steps of the engine"),
-    "cache": ("performance", CPU, "{bin}/bench_cache " + COMMON, "files of grids"),
     "mesh-size": ("mesh-size", BOTH, "{bin}/bench_mesh_size " + COMMON, "the same contacts with 1e2 to 1e7 triangles"),
     "effects": ("effects", BOTH, "{bin}/bench_effects {device} {effects} {commit}", "what each effect of a wall costs"),
-    "bodies": ("effects_bodies", CPU, "{bin}/bench_rigid 5000 61 {commit}", "what meshes that are rigid bodies cost"),
-    "kokkos": ("kokkos", CPU, SCRIPT + "kokkos.py " + COMMON, "steps of a LAMMPS with Kokkos, on its own device"),
-    "scale": ("scale", CPU, SCRIPT + "scale.py " + COMMON, "how many grains LAMMPS with Kokkos holds in a mesh, and what the wall costs then"),
+    "bodies": ("effects_bodies", CPU, "{bin}/bench_effects bodies 5000 61 {commit}", "what meshes that are rigid bodies cost"),
+    "kokkos": ("kokkos", CPU, SCRIPT + "kokkos.py kokkos " + COMMON, "steps of a LAMMPS with Kokkos, on its own device"),
+    "scale": ("scale", CPU, SCRIPT + "kokkos.py scale " + COMMON, "how many grains LAMMPS with Kokkos holds in a mesh, and what the wall costs then"),
     "liggghts": ("liggghts", CPU, SCRIPT + "liggghts.py " + COMMON, "our wall beside LIGGGHTS's"),
     "hard-curves": ("hard_curves", CPU, SCRIPT + "hard_curves.py " + COMMON, "two hard cases beside LIGGGHTS, as curves"),
-    "floor": ("floor", CPU, SCRIPT + "floor.py " + COMMON, "a mesh beside a flat plane"),
-    "region": ("region", CPU, SCRIPT + "region.py " + COMMON, "a mesh beside fix wall/gran/region"),
+    "floor": ("floor", CPU, SCRIPT + "own_walls.py floor " + COMMON, "a mesh beside a flat plane"),
+    "region": ("region", CPU, SCRIPT + "own_walls.py region " + COMMON, "a mesh beside fix wall/gran/region"),
     "shapes": ("shapes", CPU, "{bin}/bench_shapes " + COMMON, "spheres, ellipsoids and superellipsoids at faces and edges"),
     "nodes": ("nodes", BOTH, "{bin}/bench_nodes " + COMMON, "a rigid sheet and one whose nodes move"),
     "device": ("device", CPU, SCRIPT + "device.py " + COMMON, "steps of a LAMMPS without Kokkos on a core and on a GPU"),
 }
-DEFAULT = ("query", "build", "step", "cache")
+DEFAULT = ("query", "build", "step")
 ON_ONE_CORE = ("mesh-size", "effects", "bodies", "nodes", "shapes")
 EFFECTS = {"cpu": "5000 401", "cuda": "200000 31"}    # spheres, rounds
 

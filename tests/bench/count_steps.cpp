@@ -3,6 +3,7 @@
 
 // A fixed scene whose steps valgrind counts (test_instructions.py): 2000 spheres at a closed cylinder
 // of about 1000 triangles. argv: hooke or hertz/history, kept or anew.
+#include "bench.h"
 #include "cylinder_bed.h"
 
 #include <cstdio>
@@ -28,9 +29,10 @@ int main(int argc, char **argv)
   if (argc != 3) return 2;
   using namespace lsdcd;
   const EvenCylinder wall(1000);
-  const BedSpheres spheres(wall, kSpheres, true);
+  const SphereArrays spheres = bed_spheres(wall, kSpheres, true);
   const bool history = std::strcmp(argv[1], "hertz/history") == 0;
-  CylinderBed bed(wall, spheres, history ? classic_law(NormalModel::hertz, true) : ContactLaw(),
+  CylinderBed bed(wall, spheres,
+                  usual_law(history ? NormalModel::hertz : NormalModel::hooke, history),
                   Device::cpu);
   bed.steps(2);    // memory is taken and contacts are known
   counted_steps(&bed, std::strcmp(argv[2], "anew") == 0);

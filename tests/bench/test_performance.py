@@ -85,7 +85,7 @@ def near_and_far(rows):
     # and a closest point that is found from them, all below 2, are each off by up to sqrt(3) 2^-24: 3.1e-7; a
     # distance up to 2.5 is rounded by as much again.
     radius, diagonal = 0.005 * 12**0.5, 12**0.5
-    for name, limit in (("CGAL", 2 * (4e-13 * radius + 4e-15 * diagonal)), ("Embree", 6e-7), ("library, float", 4e-7)):
+    for name, limit in (("CGAL", 2 * (4e-13 * radius + 4e-15 * diagonal)), ("Embree", 6e-7)):
         its = [kept.facts(r) for r in near + far + anywhere if name in r["case"]]
         if not its:
             print(f"skipped: distances by {name} (not installed)")
