@@ -87,8 +87,9 @@ std::unique_ptr<ApiCells> make_cells(const std::string &cache, const ApiMesh &fr
 std::string text_of(const TriangleTree &tree, Real cutoff, double seconds)
 {
   char text[128];
-  std::snprintf(text, sizeof text, "%s: %zu triangles, %.1f MB, built in %.3f s",
-                cutoff > 0 ? (", cutoff " + number_text(cutoff)).c_str() : "", tree.n_primitives(),
+  std::snprintf(text, sizeof text, "%s: %s, %.1f MB, built in %.3f s",
+                cutoff > 0 ? (", cutoff " + number_text(cutoff)).c_str() : "",
+                counted(tree.n_primitives(), "triangle").c_str(),
                 static_cast<double>(tree.bytes()) / 1e6, seconds);
   return std::string("  tree") + text;
 }

@@ -5,6 +5,7 @@
 #include "api/law_given.h"
 
 #include "api/refusals.h"
+#include "base/number_words.h"
 #include "law/make_law.h"
 #include "material/material_law.h"
 
@@ -69,7 +70,7 @@ void check_unused(const lsdcd_sub_model &given, std::size_t n, const std::string
   for (std::size_t k = n; k < kRoom; k++)
     if (given.numbers[k] != 0)
       refuse_field(element(field + ".numbers", k), given.numbers[k],
-                   what + " has " + (n == 0 ? "no numbers" : std::to_string(n) + " numbers") +
+                   what + " has " + (n == 0 ? "no numbers" : counted(n, "number")) +
                        ", and the others stay 0");
 }
 

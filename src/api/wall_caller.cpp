@@ -61,8 +61,9 @@ lsdcd_host host_of(const lsdcd_wall_options &o)
   host = checked(o.host, "lsdcd_host");
   if (host.processes < 1 || host.rank < 0 || host.rank >= host.processes || host.node_rank < 0)
     refuse_option("lsdcd_host", "rank is " + std::to_string(host.rank) + " of " +
-                                    std::to_string(host.processes) + " processes, node_rank " +
-                                    std::to_string(host.node_rank) + "; ranks count from 0");
+                                    counted(host.processes, "process", "processes") +
+                                    ", node_rank " + std::to_string(host.node_rank) +
+                                    "; ranks count from 0");
   const struct {
     bool is_there;
     const char *name;

@@ -9,6 +9,7 @@
 #include "backend/owned_array.h"
 #include "backend/threads.h"
 #include "backend/warp.h"
+#include "base/number_words.h"
 #include "base/strided_view.h"
 
 #include <algorithm>
@@ -132,7 +133,7 @@ struct CpuBackend {
   std::string name() const
   {
     const int n = threads();
-    return "CPU, " + std::to_string(n) + (n == 1 ? " thread" : " threads");
+    return "CPU, " + counted(n, "thread");
   }
 
  private:

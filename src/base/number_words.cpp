@@ -73,4 +73,11 @@ std::string exact_text(Real value)
   return {buffer, std::to_chars(buffer, buffer + sizeof buffer, value).ptr};
 }
 
+std::string counted(std::int64_t n, std::string_view one, std::string_view many)
+{
+  std::string text = std::to_string(n) + " ";
+  text += n == 1 || many.empty() ? one : many;
+  return n == 1 || !many.empty() ? text : text + "s";
+}
+
 }    // namespace lsdcd

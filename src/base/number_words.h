@@ -26,4 +26,7 @@ bool read_integer(std::string_view word, std::int64_t &value);
 std::string number_text(Real value);    // "0.001", six digits
 std::string exact_text(Real value);     // with the fewest digits that read back as the same number
 
+// "1 vertex", "2 vertices"; without `many` it is `one` with an s.
+std::string counted(std::int64_t n, std::string_view one, std::string_view many = {});
+
 }    // namespace lsdcd

@@ -5,6 +5,7 @@
 
 #include "base/array_list.h"
 #include "base/give_back_memory.h"
+#include "base/number_words.h"
 
 #include <cstdio>
 #include <cstring>
@@ -196,9 +197,9 @@ std::string describe(const GridReport &r)
     n += std::snprintf(text + n, sizeof text - n, "the nearest %u and a bound, ",
                        r.list_kind.most());
   const ListReport &l = r.lists;
-  n += std::snprintf(text + n, sizeof text - n,
-                     "%zu bricks, %zu cells, %zu entries, lists %.2f on average, %zu at most",
-                     l.bricks, l.cells, l.entries, l.mean, l.longest);
+  n += std::snprintf(text + n, sizeof text - n, "%s, %s, %s, lists %.2f on average, %zu at most",
+                     counted(l.bricks, "brick").c_str(), counted(l.cells, "cell").c_str(),
+                     counted(l.entries, "entry", "entries").c_str(), l.mean, l.longest);
   if (r.records > 0)
     n += std::snprintf(text + n, sizeof text - n, "\n  %zu features in float, by brick, %s",
                        r.records, amount(double(r.record_bytes)).c_str());

@@ -5,6 +5,7 @@
 
 #include "base/input_error.h"
 
+#include "base/number_words.h"
 #include "lammps/fix_wall_lsdcd.h"
 #include "lammps/host_box.h"
 #include "lammps/mpi_host.h"
@@ -276,16 +277,17 @@ double ComputeCollideLsdcd::memory_usage()
 void ComputeCollideLsdcd::log_mesh(const lsdcd::WeldedMesh &mesh) const
 {
   if (comm->me != 0) return;
-  std::string text = std::to_string(bodies.size()) + (bodies.size() == 1 ? " body" : " bodies") +
-                     " of " + std::to_string(points->size()) + " atoms and " +
-                     std::to_string(mesh.faces.size()) + " triangles";
+  std::string text = lsdcd::counted(bodies.size(), "body", "bodies") + " of " +
+                     lsdcd::counted(points->size(), "atom") + " and " +
+                     lsdcd::counted(mesh.faces.size(), "triangle");
   for (std::size_t m = 0; m < meshes.size(); m++) {
     const Against &one = meshes[m];
     char line[160];
-    std::snprintf(
-        line, sizeof line, "\n  against %zu triangles of fix %s: %zu pieces, cells of %g, %.3g MB",
-        wall().meshes()[m].grid.report().facets, settings.wall.c_str(), one.collision->n_pieces(),
-        one.collision->grid().length, 1e-6 * static_cast<double>(one.collision->grid().bytes));
+    std::snprintf(line, sizeof line, "\n  against %s of fix %s: %s, cells of %g, %.3g MB",
+                  lsdcd::counted(wall().meshes()[m].grid.report().facets, "triangle").c_str(),
+                  settings.wall.c_str(), lsdcd::counted(one.collision->n_pieces(), "piece").c_str(),
+                  one.collision->grid().length,
+                  1e-6 * static_cast<double>(one.collision->grid().bytes));
     if (!settings.brief) text += line;
   }
   if (!settings.brief) {

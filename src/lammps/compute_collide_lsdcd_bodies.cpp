@@ -50,8 +50,8 @@ std::vector<ComputeCollideLsdcd::Member> ComputeCollideLsdcd::gather_members() c
   constexpr double kMax = 2e9 / sizeof(Member);
   if (n_all == 0) throw InputError("the group has no atoms: create them before the compute");
   if (n_all > kMax)
-    throw InputError("the group has " + std::to_string(n_all) + " atoms, more than " +
-                     std::to_string(kMax) + ": use several groups");
+    throw InputError("the group has " + lsdcd::number_text(n_all) + " atoms, more than " +
+                     lsdcd::number_text(kMax) + ": use several groups");
   int bytes = static_cast<int>(mine.size() * sizeof(Member));
   std::vector<int> sizes(comm->nprocs), begins(comm->nprocs, 0);
   MPI_Allgather(&bytes, 1, MPI_INT, sizes.data(), 1, MPI_INT, world);
@@ -92,7 +92,7 @@ std::vector<Vec3> ComputeCollideLsdcd::read_points() const
                            "'; give x y z of an atom a line");
       if (n == 1 || n == 2)
         throw InputError("file " + name + ": line " + std::to_string(number) + " has " +
-                         std::to_string(n) + " numbers; give x y z of an atom a line");
+                         lsdcd::counted(n, "number") + "; give x y z of an atom a line");
       if (n == 3) all.push_back(x);
     }
   });

@@ -178,7 +178,7 @@ void FixInsertLsdcd::read_face()
         settings.face.file + ": no place on the face is " + number_text(radius) +
         ", the largest radius, away from its edges: make the face wider, or its scale larger");
   velocity = settings.along_normal ? settings.speed * face->normal() : settings.velocity;
-  log(std::to_string(mesh.faces.size()) + " triangles, area " + number_text(face->area()) +
+  log(lsdcd::counted(mesh.faces.size(), "triangle") + ", area " + number_text(face->area()) +
       ", normal " + lsdcd::vector_text(face->normal()));
 }
 
@@ -426,10 +426,10 @@ std::string FixInsertLsdcd::late_text(const std::string &when, const lsdcd::Refu
   add(refused.walls, "met a wall");
   add(refused.no_place, face ? "found no point of the face off its edges and in the box"
                              : "found no point of the region in the box");
-  if (!why.empty()) why = "; of " + std::to_string(refused.all()) + " places tried " + why;
+  if (!why.empty()) why = "; of " + lsdcd::counted(refused.all(), "place") + " tried " + why;
   const lsdcd::GrainTotals late = insertion->late();
-  return when + ", " + std::to_string(late.number) + " grains of mass " + number_text(late.mass) +
-         " are due and have found no place" + why;
+  return when + ", " + lsdcd::counted(late.number, "grain") + " of mass " + number_text(late.mass) +
+         (late.number == 1 ? " is due and has" : " are due and have") + " found no place" + why;
 }
 
 std::string FixInsertLsdcd::no_room_text(double radius, int tries) const
@@ -464,18 +464,23 @@ std::string FixInsertLsdcd::remedy(const lsdcd::Refused &refused) const
          ", a higher velocity or a smaller rate. A little can also be gained by " + attempts;
 }
 
+std::string FixInsertLsdcd::inserted_text() const
+{
+  const std::int64_t n = insertion->inserted();
+  return lsdcd::counted(n, "grain") + " of mass " + number_text(insertion->inserted_mass()) +
+         (n == 1 ? " has" : " have") + " been inserted";
+}
+
 void FixInsertLsdcd::post_run()
 {
   const std::int64_t came = insertion->inserted() - inserted_before;
-  if (came != 0)
-    log(std::to_string(insertion->inserted()) + " grains of mass " +
-        number_text(insertion->inserted_mass()) + " have been inserted");
+  if (came != 0) log(inserted_text());
   if (insertion->owed().empty()) return;
   const lsdcd::Refused &all = insertion->refused();
   const lsdcd::Refused in_run = {all.no_place - refused_seen.no_place,
                                  all.grains - refused_seen.grains, all.walls - refused_seen.walls};
-  warn(late_text("at the end", in_run) + "; this run inserted " + std::to_string(came) +
-       (came == 1 ? " grain" : " grains") + ". " + remedy(in_run));
+  warn(late_text("at the end", in_run) + "; this run inserted " + lsdcd::counted(came, "grain") +
+       ". " + remedy(in_run));
 }
 
 double FixInsertLsdcd::compute_vector(int i)
@@ -502,8 +507,7 @@ void FixInsertLsdcd::restart(char *buffer)
   } catch (const lsdcd::StateError &e) {
     fatal(unusable_state(e, "what was inserted"));
   }
-  const std::string in = std::to_string(insertion->inserted()) + " grains of mass " +
-                         number_text(insertion->inserted_mass()) + " have been inserted";
+  const std::string in = inserted_text();
   if (insertion->is_past_total())
     warn(in + ", which is more than the total of this fix: it inserts no more");
   else if (!is_same)

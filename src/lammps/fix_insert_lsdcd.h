@@ -65,6 +65,7 @@ class FixInsertLsdcd : public Fix, protected OwnMessages {
   bool owns(double *) const;
   void follow_schedule();
   std::string late_text(const std::string &, const lsdcd::Refused &) const;
+  std::string inserted_text() const;
   std::string no_room_text(double radius, int tries) const;
   std::string remedy(const lsdcd::Refused &) const;
 };

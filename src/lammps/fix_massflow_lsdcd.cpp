@@ -34,13 +34,13 @@ FixMassflowLsdcd::FixMassflowLsdcd(LAMMPS *lmp, int narg, char **arg) :
     settings = lsdcd::parse_massflow(std::vector<std::string>(arg + 3, arg + narg));
     const lsdcd::WeldedMesh mesh = read_mesh();
     surface = std::make_unique<lsdcd::FlowSurface>(mesh);
-    log(settings.brief ? std::to_string(mesh.faces.size()) + " triangles"
+    log(settings.brief ? lsdcd::counted(mesh.faces.size(), "triangle")
                        : describe(mesh.report, settings.surface.file));
     if (mesh.report.misoriented_edges > 0)
-      warn(
-          std::to_string(mesh.report.misoriented_edges) +
-          " edges of the mesh join facets that are wound in opposite ways: forward is not the same "
-          "side everywhere; turn the facets over");
+      warn(lsdcd::counted(mesh.report.misoriented_edges, "edge of the mesh joins",
+                          "edges of the mesh join") +
+           " facets that are wound in opposite ways: forward is not the same "
+           "side everywhere; turn the facets over");
     if (mesh.report.two_sided_faces > 0)
       warn(std::to_string(mesh.report.two_sided_faces) + " of " +
            std::to_string(mesh.faces.size()) +

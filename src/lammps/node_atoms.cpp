@@ -78,9 +78,9 @@ std::string NodeAtoms::init(lsdcd::Wall &wall, int wall_bit, bool keeps_tags)
     both += atom.mask[i] & wall_bit && node_of.count(atom.tag[i]);
   MPI_Allreduce(MPI_IN_PLACE, &both, 1, MPI_LMP_BIGINT, MPI_SUM, lmp->world);
   if (both > 0)
-    throw InputError(std::to_string(both) + " atoms are nodes of mesh '" +
+    throw InputError(lsdcd::counted(both, "atom is a node", "atoms are nodes") + " of mesh '" +
                      wall.spec().meshes[mesh].name +
-                     "' and also in the group of the fix: they would touch the triangles whose "
+                     "' and also in the group of the fix: nodes would touch the triangles whose "
                      "corners they are; give the fix a group without them");
   send(wall, true, kAtRest);
   return note;

@@ -4,6 +4,7 @@
 #include "lammps/region_mesh_lsdcd.h"
 
 #include "base/input_error.h"
+#include "base/number_words.h"
 #include "box/likely_scale.h"
 #include "lammps/host_box.h"
 #include "lammps/mpi_host.h"
@@ -151,7 +152,8 @@ void RegionMeshLsdcd::log_mesh(const lsdcd::WeldedMesh &mesh) const
   if (comm->me != 0) return;
   char text[160];
   std::snprintf(
-      text, sizeof text, "%zu triangles, %.3g MB on each process", mesh.faces.size(),
+      text, sizeof text, "%s, %.3g MB on each process",
+      lsdcd::counted(mesh.faces.size(), "triangle").c_str(),
       1e-6 * static_cast<double>(winding->bytes() + (distances ? distances->tree.bytes() : 0)));
   log(text);
 }

@@ -16,11 +16,6 @@ std::string text(const Vec3 &a)
   return "(" + number_text(a.x) + ", " + number_text(a.y) + ", " + number_text(a.z) + ")";
 }
 
-std::string counted(std::size_t n, const char *one, const char *many)
-{
-  return std::to_string(n) + " " + (n == 1 ? one : many);
-}
-
 // A line on facets that the file has in both windings; empty where there is none.
 std::string two_sided(const MeshReport &report)
 {
@@ -40,7 +35,7 @@ std::string two_sided(const MeshReport &report)
 std::string coarse(const MeshReport &report)
 {
   return "the coordinates have steps of " + number_text(report.coordinate_step) + " where " +
-         counted(report.coarse_corners, "corner", "corners") +
+         counted(report.coarse_corners, "corner") +
          " on open edges have shorter edges than four of these: cracks between them stay";
 }
 
@@ -62,7 +57,7 @@ std::string surface(const MeshReport &report)
   const std::string touching =
       report.nonmanifold_edges == 0
           ? ""
-          : "; solids touch along " + counted(report.nonmanifold_edges, "edge", "edges");
+          : "; solids touch along " + counted(report.nonmanifold_edges, "edge");
   return (report.volume > 0 ? "closed, normals point out" : "closed, normals point in") + touching;
 }
 
@@ -84,16 +79,16 @@ std::string describe(const MeshReport &report, const std::string &source)
     block += label + value;
   };
   line("facets", std::to_string(report.facets) + ", " + std::to_string(report.degenerate_facets) +
-                     " degenerate and " +
-                     counted(report.duplicate_facets, "duplicate", "duplicates") + " dropped");
+                     " degenerate and " + counted(report.duplicate_facets, "duplicate") +
+                     " dropped");
   line("vertices", std::to_string(report.vertices) + ", welded from " +
-                       counted(report.corners, "corner", "corners") + " (tolerance " +
+                       counted(report.corners, "corner") + " (tolerance " +
                        number_text(report.weld_tolerance) + ")");
   if (report.closed_cracks > 0)
-    line("cracks", "closed at " + counted(report.closed_cracks, "corner", "corners") +
+    line("cracks", "closed at " + counted(report.closed_cracks, "corner") +
                        ", which moved by up to " + number_text(report.widest_crack));
   if (report.collapsed_facets > 0)
-    line("collapsed", counted(report.collapsed_facets, "facet", "facets") +
+    line("collapsed", counted(report.collapsed_facets, "facet") +
                           " of the degenerate ones, with an area of " +
                           number_text(report.collapsed_area));
   if (report.coarse_corners > 0) line("rounding", coarse(report));
@@ -109,7 +104,7 @@ std::string describe(const MeshReport &report, const std::string &source)
                           number_text(report.largest_edge) + " largest");
   line("thinnest", "face " + number_text(report.smallest_height) + " high");
   line("folds", number_text(report.largest_fold) + " degrees at most, " +
-                    counted(report.feature_edges, "edge", "edges") + " above 30");
+                    counted(report.feature_edges, "edge") + " above 30");
   return block;
 }
 

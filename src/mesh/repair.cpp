@@ -4,6 +4,7 @@
 #include "mesh/repair.h"
 
 #include "base/input_error.h"
+#include "base/number_words.h"
 #include "mesh/assemble.h"
 #include "mesh/corners_on_edge.h"
 #include "mesh/face_plane.h"
@@ -163,8 +164,8 @@ RepairedMesh repair(const TriangleSoup &soup, Real tolerance,
     report.duplicate_facets += mesh.report.duplicate_facets;
   }
   if (mesh.faces.empty())
-    throw InputError(soup.source + ": none of its " + std::to_string(soup.n_triangles()) +
-                     " facets has an area, so nothing is left; give a smaller --weld");
+    throw InputError(soup.source + ": none of its " + counted(soup.n_triangles(), "facet") +
+                     " has an area, so nothing is left; give a smaller --weld");
   mesh.source = soup.source;
   if (report.degenerate_facets > 0) {
     connect_vertices(mesh);

@@ -4,6 +4,7 @@
 #include "mesh/winding_number.h"
 
 #include "base/input_error.h"
+#include "base/number_words.h"
 #include "base/vector_text.h"
 #include "geometry/orientation.h"
 #include "mesh/counted_facets.h"
@@ -81,25 +82,25 @@ std::string why_no_inside(const WeldedMesh &mesh)
 {
   if (is_known_closed(mesh)) return "";
   if (mesh.faces.empty()) return "it has no facets with an area";
-  const CountedFacets counted(mesh);
+  const CountedFacets facets(mesh);
   const std::string both_ways = " there in both windings, as in a double-sided export",
                     remedy = ": lsdcd repair keeps one of each pair";
-  if (counted.facets.empty())
+  if (facets.facets.empty())
     return "each of its facets is" + both_ways + ", so it encloses nothing" + remedy;
   std::string some;
-  if (!counted.sheets.empty())
-    some = std::to_string(counted.sheets.size()) + " of " + std::to_string(mesh.faces.size()) +
-           " facets are" + both_ways;
-  if (counted.loose.empty())
-    return enclose(mesh, counted.sheets)
+  if (!facets.sheets.empty())
+    some = std::to_string(facets.sheets.size()) + " of " + counted(mesh.faces.size(), "facet") +
+           (facets.sheets.size() == 1 ? " is" : " are") + both_ways;
+  if (facets.loose.empty())
+    return enclose(mesh, facets.sheets)
                ? some + ", and what they enclose is neither inside nor outside" + remedy
                : "";
   if (!some.empty()) some += ", so neither winding counts; ";
-  const std::size_t open = std::count_if(counted.loose.begin(), counted.loose.end(),
+  const std::size_t open = std::count_if(facets.loose.begin(), facets.loose.end(),
                                          [](const LooseEdge &e) { return e.facets == 1; });
-  const LooseEdge &first = counted.loose[0];
-  return some + std::to_string(open) + " edges are open, and along " +
-         std::to_string(counted.loose.size() - open) +
+  const LooseEdge &first = facets.loose[0];
+  return some + counted(open, "edge is", "edges are") + " open, and along " +
+         std::to_string(facets.loose.size() - open) +
          " more facets are wound against each other; the first goes from " +
          vector_text(mesh.vertices[std::min(first.from, first.to)]) + " to " +
          vector_text(mesh.vertices[std::max(first.from, first.to)]) +

@@ -63,7 +63,8 @@ void check_columns(const TableRows &rows, const std::string &place)
 {
   const int n = rows.columns;
   if (n != 2 && n != 4 && n != 5 && n != 7 && n != 8)
-    throw InputError(place + ": there are " + std::to_string(n) + " numbers in a row: " + kColumns);
+    throw InputError(place + ": there " + (n == 1 ? "is " : "are ") + counted(n, "number") +
+                     " in a row: " + kColumns);
   const bool has_angle = n == 2 || n == 5;
   if (has_angle && !rows.options.has_axis)
     throw InputError(place + ": rows of " + std::to_string(n) +

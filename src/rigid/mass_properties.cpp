@@ -28,7 +28,7 @@ std::string place_text(const Vec3 &a)
               place_text(mesh.vertices[mesh.edges[e][1]]);
   }
   throw InputError(mesh.source + " does not bound a volume: it has " +
-                   std::to_string(mesh.report.open_edges) + " open edges (" + places +
+                   counted(mesh.report.open_edges, "open edge") + " (" + places +
                    (mesh.report.open_edges > shown ? "; ..." : "") +
                    "), so a density gives no mass: close it, or give mass, centre and inertia");
 }
@@ -37,7 +37,8 @@ std::string place_text(const Vec3 &a)
 {
   const MeshReport &r = mesh.report;
   const std::string begin = mesh.source + " does not bound a volume: it has ",
-                    pairs = std::to_string(r.meeting_pairs) + " pairs of facets that ",
+                    pairs =
+                        counted(r.meeting_pairs, "pair of facets", "pairs of facets") + " that ",
                     other = "give mass, centre and inertia";
   // No repair unites parts that run into each other, such as paddles that begin in their shaft.
   if (r.nonmanifold_edges + r.misoriented_edges + r.inverted_facets + r.two_sided_faces == 0)
@@ -46,9 +47,9 @@ std::string place_text(const Vec3 &a)
                      "Boolean union), or " +
                      other);
   throw InputError(begin + std::to_string(r.nonmanifold_edges) + " non-manifold and " +
-                   std::to_string(r.misoriented_edges) + " misoriented edges, " +
-                   std::to_string(r.inverted_facets) + " facets wound against the others, " +
-                   std::to_string(r.two_sided_faces) + " two-sided ones, and " + pairs +
+                   counted(r.misoriented_edges, "misoriented edge") + ", " +
+                   counted(r.inverted_facets, "facet") + " wound against the others, " +
+                   counted(r.two_sided_faces, "two-sided one") + ", and " + pairs +
                    "meet: repair it, or " + other);
 }
 

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
+#include "base/number_words.h"
 #include "tool/commands.h"
 
 #include "backend/threads.h"
@@ -49,7 +50,8 @@ struct CollideTotals {
 std::string text_of(const CollideTotals &t, double share)
 {
   char text[96];
-  std::snprintf(text, sizeof text, "%zu poses, %.0f%%, %.3g a second", t.pairs.size(), 100 * share,
+  std::snprintf(text, sizeof text, "%s, %.0f%%, %.3g a second",
+                counted(t.pairs.size(), "pose").c_str(), 100 * share,
                 static_cast<double>(t.pairs.size()) / t.seconds);
   return text;
 }
@@ -124,12 +126,12 @@ void print(const CollideOptions &o, const CollideTotals &t, const MeshCollision 
                 "  pairs       %zu in all, most in pose %zu: %zu\n",
                 t.colliding, n, t.first, t.all, t.most, t.pairs[t.most]);
   if (o.nearest > 0)
-    std::printf("  certain     %s: %llu pieces in cells with more than %d triangles\n",
-                t.uncertain > 0 ? "no" : "yes", static_cast<unsigned long long>(t.uncertain),
-                o.nearest);
-  std::printf("  body        %zu triangles in %zu pieces, for cells of %g\n"
+    std::printf("  certain     %s: %s in cells with more than %s\n", t.uncertain > 0 ? "no" : "yes",
+                counted(t.uncertain, "piece").c_str(), counted(o.nearest, "triangle").c_str());
+  std::printf("  body        %s in %s, for cells of %g\n"
               "  time        %.3g ms a pose; grid %.3g s, %.3g MB; %s\n",
-              collision.n_triangles(), collision.n_pieces(), grid.length, ms, grid.seconds,
+              counted(collision.n_triangles(), "triangle").c_str(),
+              counted(collision.n_pieces(), "piece").c_str(), grid.length, ms, grid.seconds,
               1e-6 * static_cast<double>(grid.bytes), collision.device().c_str());
 }
 

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
+#include "base/number_words.h"
 #include "tool/commands.h"
 
 #include "mesh/io/read_mesh.h"
@@ -64,11 +65,12 @@ void run(const ConvertOptions &o)
     std::printf("%s\n", all.dump(2).c_str());
     return;
   }
-  std::printf("%s: %zu facets from (%g, %g, %g) to (%g, %g, %g)\n", o.output.c_str(),
-              soup.n_triangles(), lo.x, lo.y, lo.z, hi.x, hi.y, hi.z);
+  std::printf("%s: %s from (%g, %g, %g) to (%g, %g, %g)\n", o.output.c_str(),
+              counted(soup.n_triangles(), "facet").c_str(), lo.x, lo.y, lo.z, hi.x, hi.y, hi.z);
   if (read.left_out > 0)
-    std::printf("%zu points and lines of %s are not facets, and were left out\n", read.left_out,
-                o.file.c_str());
+    std::printf("%s of %s %s left out\n",
+                counted(read.left_out, "point or line", "points and lines").c_str(), o.file.c_str(),
+                read.left_out == 1 ? "is not a facet, and was" : "are not facets, and were");
 }
 
 }    // namespace

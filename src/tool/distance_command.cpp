@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
+#include "base/number_words.h"
 #include "tool/commands.h"
 
 #include "backend/threads.h"
@@ -55,8 +56,8 @@ struct DistanceTotals {
 std::string text_of(const DistanceTotals &t, double share, double seconds)
 {
   char text[96];
-  std::snprintf(text, sizeof text, "%zu points, %.0f%%, %.2f million/s", t.points, 100 * share,
-                1e-6 * static_cast<double>(t.points) / seconds);
+  std::snprintf(text, sizeof text, "%s, %.0f%%, %.2f million/s", counted(t.points, "point").c_str(),
+                100 * share, 1e-6 * static_cast<double>(t.points) / seconds);
   return text;
 }
 
@@ -126,7 +127,8 @@ void print(const DistanceOptions &o, const DistanceTotals &t, const PointAnswers
     std::fprintf(to, "%s\n", j.dump(2).c_str());
     return;
   }
-  std::fprintf(to, "%s: %zu points\n  found       %zu", o.output.c_str(), t.points, t.found);
+  std::fprintf(to, "%s: %s\n  found       %zu", o.output.c_str(),
+               counted(t.points, "point").c_str(), t.found);
   if (o.radius > 0) std::fprintf(to, " nearer than %g", o.radius);
   std::fprintf(to, "\n");
   if (t.found > 0) std::fprintf(to, "  distances   %g to %g\n", t.nearest, t.farthest);

@@ -76,7 +76,7 @@ class FieldLines {
         named_at_ = file_.line_number();
       }
       if (named_ > 0 && fields_.size() != named_)
-        fail("has " + std::to_string(fields_.size()) + " columns, and line " +
+        fail("has " + counted(fields_.size(), "column") + ", and line " +
              std::to_string(named_at_) + " names " + std::to_string(named_) +
              ": give each line a value for each name, with '.' in decimals");
       return true;

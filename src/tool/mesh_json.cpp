@@ -3,6 +3,8 @@
 
 #include "tool/mesh_json.h"
 
+#include "base/number_words.h"
+
 namespace lsdcd {
 
 nlohmann::json as_json(const Vec3 &v)
@@ -50,7 +52,7 @@ std::vector<std::string> problems_of(const MeshReport &report)
 {
   std::vector<std::string> found;
   const auto count = [&](std::size_t n, const char *one, const char *many) {
-    if (n > 0) found.push_back(std::to_string(n) + " " + (n == 1 ? one : many));
+    if (n > 0) found.push_back(counted(n, one, many));
   };
   count(report.degenerate_facets, "degenerate facet", "degenerate facets");
   count(report.duplicate_facets, "duplicate facet", "duplicate facets");

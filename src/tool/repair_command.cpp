@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
+#include "base/number_words.h"
 #include "tool/commands.h"
 
 #include "mesh/io/read_mesh.h"
@@ -56,11 +57,6 @@ void print(const char *name, const std::string &text)
   std::printf("  %-12s%s\n", name, text.c_str());
 }
 
-std::string count_of(std::size_t n, const std::string &one, const std::string &many)
-{
-  return std::to_string(n) + " " + (n == 1 ? one : many);
-}
-
 std::string number(Real x)
 {
   char text[32];
@@ -71,25 +67,22 @@ std::string number(Real x)
 void print(const RepairOptions &o, const RepairReport &r)
 {
   std::printf("repair %s\n", o.file.c_str());
-  print("welded", count_of(r.welded_corners, "corner", "corners") + " to another's place, " +
+  print("welded", counted(r.welded_corners, "corner") + " to another's place, " +
                       number(r.welding_moved) + " away at most (tolerance " + number(r.tolerance) +
                       ")");
-  print("dropped", count_of(r.degenerate_facets, "degenerate facet", "degenerate facets") + ", " +
-                       count_of(r.duplicate_facets, "duplicate", "duplicates"));
+  print("dropped", counted(r.degenerate_facets, "degenerate facet", "degenerate facets") + ", " +
+                       counted(r.duplicate_facets, "duplicate"));
   if (r.lost_facets > 0)
-    print("", count_of(r.lost_facets, "line", "lines") +
-                  " of these that no facet follows any more, " + number(r.dropping_moved) +
-                  " from what is left at most");
-  print("cut", count_of(r.split_facets, "facet", "facets") + " at " +
-                   count_of(r.junctions, "corner", "corners") + " of neighbours, " +
-                   number(r.splitting_moved) + " away at most");
-  print("turned", count_of(r.turned_facets, "facet", "facets") + "; " +
-                      count_of(r.shells, "closed shell", "closed shells") + ", " +
-                      count_of(r.cavities, "of them a cavity", "of them cavities"));
+    print("", counted(r.lost_facets, "line") + " of these that no facet follows any more, " +
+                  number(r.dropping_moved) + " from what is left at most");
+  print("cut", counted(r.split_facets, "facet") + " at " + counted(r.junctions, "corner") +
+                   " of neighbours, " + number(r.splitting_moved) + " away at most");
+  print("turned", counted(r.turned_facets, "facet") + "; " + counted(r.shells, "closed shell") +
+                      ", " + counted(r.cavities, "of them a cavity", "of them cavities"));
   print("moved", number(r.moved()) + " at most: no point of the old surface or the new is farther "
                                      "from the other");
   for (const Unmended &u : r.left) {
-    const std::string boundaries = " in " + count_of(r.boundaries, "boundary", "boundaries");
+    const std::string boundaries = " in " + counted(r.boundaries, "boundary", "boundaries");
     print("left", std::to_string(u.count) + " " + u.what +
                       (u.what == kOpenEdges ? boundaries : "") + ", the first at (" +
                       number(u.place.x) + ", " + number(u.place.y) + ", " + number(u.place.z) +

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
+#include "base/number_words.h"
 #include "tool/commands.h"
 
 #include "base/atomic_file.h"
@@ -171,7 +172,7 @@ void tradeoff(TradeoffOptions &o)
                 {o.file});
   const WeldedMesh mesh = load_wall(o.file, o.scale, o.weld);
   AtomicFile file(o.csv);    // now, rather than fail when all is done
-  std::printf("%s, %zu triangles\n", o.file.c_str(), mesh.faces.size());
+  std::printf("%s, %s\n", o.file.c_str(), counted(mesh.faces.size(), "triangle").c_str());
   std::printf("      grid  nearest  corner  device   missed %%  force error: mean  "
               "largest  bounce    roll  ns/sphere   status        MB\n");
   const Tradeoff result = measure_tradeoff(mesh, o.settings, [](const TradeoffRow &r) {

@@ -113,7 +113,7 @@ def motions():
             ("axis", lambda b: Motion.table([[0, 0], [1, 1]], axis=b), [((0, 0, 0), "is 0 0 0: give a direction")]),
             ("axis", lambda b: Motion.table([[0, 0, 0, 0], [1, 1, 1, 1]], axis=b), [((0, 0, 1), "a table without angles about an axis")]),
             ("rows", lambda b: Motion.table(b), [
-                (None, "not real numbers"), (5, "has the shape ()"), ([], "has the shape (0,)"), ([[0]], "there are 1 numbers in a row"),
+                (None, "not real numbers"), (5, "has the shape ()"), ([], "has the shape (0,)"), ([[0]], "there is 1 number in a row"),
                 (np.zeros((2, 3)), "there are 3 numbers in a row"), ([[0, 0, 0, 0]], "there is one row, and a motion needs two or more"),
                 ([[1, 0, 0, 0], [0, 1, 1, 1]], "row 1: the time 0 is not after"),
                 ([[0, 0, 0, NAN], [1, 0, 0, 0]], "row 0: "), ([["a", 0, 0, 0], [1, 0, 0, 0]], "not real numbers"),

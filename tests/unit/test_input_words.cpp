@@ -58,5 +58,14 @@ TEST(input_words, repeat_as_the_keywords_do)
   }
 }
 
+TEST(number_words, one_thing_is_singular)
+{
+  EXPECT_EQ(counted(1, "edge"), "1 edge");
+  EXPECT_EQ(counted(0, "edge"), "0 edges");
+  EXPECT_EQ(counted(2, "edge"), "2 edges");
+  EXPECT_EQ(counted(1, "pair of facets", "pairs of facets"), "1 pair of facets");
+  EXPECT_EQ(counted(-3, "vertex", "vertices"), "-3 vertices");
+}
+
 }    // namespace
 }    // namespace lsdcd::test_input_words

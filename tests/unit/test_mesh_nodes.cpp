@@ -1386,7 +1386,7 @@ TEST(mesh_nodes, that_lie_on_open_edges_are_warned_of)
   FakeHost host;
   Scene scene(host, nodes_of(hooke(1000).law(), welded(mesh_with_junction(false))));
   ASSERT_EQ(host.warnings.size(), 1u);
-  EXPECT_NE(host.warnings[0].find("1 vertices of 'sheet' lie on open edges"), std::string::npos);
+  EXPECT_NE(host.warnings[0].find("1 vertex of 'sheet' lies on open edges"), std::string::npos);
 }
 
 TEST(mesh_nodes, in_two_dimensions_are_an_error)

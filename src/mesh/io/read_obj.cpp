@@ -128,7 +128,7 @@ class ObjReader {
       });
     }
     if (n < 3 || n == 5 || n > kMost)
-      fail_line(last, "it has " + std::to_string(n) + " numbers, not 3, 4, 6 or 7",
+      fail_line(last, "it has " + counted(n, "number") + ", not 3, 4, 6 or 7",
                 "correct the line or export the mesh again", vertex());
     // Programs differ in what a weight means for polygons: nothing, or a divisor.
     if (n == 4 && number[3] != 1)
@@ -173,17 +173,16 @@ class ObjReader {
       last = word;
       polygon_.push_back(vertices_[read_corner(word)]);
     }
-    const std::string corners = std::to_string(polygon_.size());
+    const std::string corners = counted(polygon_.size(), "corner");
     if (polygon_.empty() || (polygon_.size() < 3 && words_.file_ends_with(last)))
-      fail_line(last, "it has " + corners + " corners, not 3 or more", "complete or remove it",
-                face());
+      fail_line(last, "it has " + corners + ", not 3 or more", "complete or remove it", face());
     if (polygon_.size() < 3) {    // a point or a line
       read_.left_out++;
       return;
     }
     const std::string problem = cutter_.cut(polygon_, read_.soup.corners);
     if (!problem.empty())
-      words_.fail(keyword, "its " + corners + " corners cannot be cut into triangles: " + problem,
+      words_.fail(keyword, "its " + corners + " cannot be cut into triangles: " + problem,
                   kTriangulate, face());
   }
 

@@ -79,8 +79,8 @@ class OffReader {
  private:
   std::string promised() const
   {
-    return std::to_string(n_vertices_) + " vertices and " + std::to_string(n_faces_) +
-           " faces that the header promises";
+    return counted(n_vertices_, "vertex", "vertices") + " and " + counted(n_faces_, "face") +
+           " that the header promises";
   }
 
   [[noreturn]] void fail_ended(std::string_view word, const std::string &where,
@@ -164,7 +164,7 @@ class OffReader {
         3 + (header_.weight ? 1 : 0) + (header_.normal ? 3 : 0) + (header_.texture ? 2 : 0);
     const std::size_t more = n - least;
     if (n < least || !(more == 0 || more == 3 || more == 4 || (more == 1 && header_.colour))) {
-      const std::string what = "it has " + std::to_string(n) + " numbers in its line, not " +
+      const std::string what = "it has " + counted(n, "number") + " in its line, not " +
                                std::to_string(least) + " and perhaps a colour";
       if (words_.file_ends_with(last)) fail_ended(last, place(), what);
       words_.fail(last, what, "correct the line, or the counts in the header", place());
@@ -196,7 +196,7 @@ class OffReader {
       const auto word = words_.word_in_line();
       if (word.empty()) {
         const std::string what =
-            "it has " + std::to_string(corner - 1) + " corners, not " + quoted(first);
+            "it has " + counted(corner - 1, "corner") + ", not " + quoted(first);
         if (words_.file_ends_with(last)) fail_ended(last, face(), what);
         words_.fail(last, what, "correct the line or export the mesh again", face());
       }
@@ -210,8 +210,8 @@ class OffReader {
     }
     if (more == 2 || more > 4)
       words_.fail(last,
-                  std::to_string(more) + " numbers follow its " + std::to_string(n) +
-                      " corners, where a colour has 1, 3 or 4",
+                  std::to_string(more) + " numbers follow its " + counted(n, "corner") +
+                      ", where a colour has 1, 3 or 4",
                   "correct the line or export the mesh again", face());
     if (n < 3) {    // a point or a line
       read_.left_out++;

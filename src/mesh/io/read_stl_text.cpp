@@ -3,6 +3,7 @@
 
 #include "mesh/io/read_stl_text.h"
 
+#include "base/number_words.h"
 #include "mesh/io/text_words.h"
 
 #include <string>
@@ -65,7 +66,7 @@ class Reader {
     for (int corner = 1; corner <= 3; ++corner) {
       word = words_.next_word();
       if (same_word(word, "endloop"))
-        fail(word, "the facet has " + std::to_string(corner - 1) + " vertices, not 3",
+        fail(word, "the facet has " + counted(corner - 1, "vertex", "vertices") + ", not 3",
              "remove or complete it, or export the mesh again");
       if (!same_word(word, "vertex")) fail_word(word, "'vertex'");
       Vec3 x;

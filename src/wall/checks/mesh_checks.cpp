@@ -45,10 +45,10 @@ void check_pressure(const WallSpec &settings, const MeshPart &m)
   throw InputError(with_mesh_name(
       settings, m.index,
       "a pressure acts along the normals of faces by their winding, and this mesh has " +
-          std::to_string(r.misoriented_edges) + " misoriented edges, " +
-          std::to_string(r.two_sided_faces) + " faces in both windings and " +
-          std::to_string(r.inverted_facets) +
-          " facets of closed shells that are wound against the others, so it would push to "
+          counted(r.misoriented_edges, "misoriented edge") + ", " +
+          counted(r.two_sided_faces, "face") + " in both windings and " +
+          counted(r.inverted_facets, "facet") +
+          " of closed shells wound against the others, so it would push to "
           "both sides: wind all alike with lsdcd repair"));
 }
 
@@ -108,15 +108,16 @@ void check_stays_closed(Host &host, const WallSpec &settings, const MeshPart &m)
   }
   if (!host.is_first()) return;
   if (!lines.empty())
-    host.warn(named("wear does not move the corners of " + std::to_string(lines.size()) +
-                    " facets of '" + m.spec.name +
-                    "' that have no area, because a hole would open there"));
+    host.warn(named("wear does not move the corners of " + counted(lines.size(), "facet") +
+                    " of '" + m.spec.name + "' without area, because a hole would open there"));
   if (mesh->report.open_edges == 0) return;
   CutBefore none;
-  const std::size_t junctions = split_faces(*mesh, mesh->report.weld_tolerance, none).junctions;
-  if (junctions > lines.size())
-    host.warn(named(std::to_string(junctions - lines.size()) + " vertices of '" + m.spec.name +
-                    "' lie on open edges of other triangles, between the ends of these: where they "
+  const std::size_t junctions = split_faces(*mesh, mesh->report.weld_tolerance, none).junctions,
+                    open = junctions - std::min(junctions, lines.size());
+  if (open > 0)
+    host.warn(named(counted(open, "vertex", "vertices") + " of '" + m.spec.name + "' " +
+                    (open == 1 ? "lies" : "lie") +
+                    " on open edges of other triangles, between the ends of these: where they "
                     "move apart, a gap opens there"));
 }
 

@@ -147,10 +147,9 @@ std::string BodyCoat::named(const std::string &text) const
 std::string BodyCoat::text() const
 {
   const Real gap_sq = apart_ * apart_ / 3;
-  const std::string n = std::to_string(points_.size());
-  std::string t = n + " points at most " + number_text(apart_) + " apart, of radius " +
-                  number_text(radius_) + ": other meshes feel the body " + number_text(radius_) +
-                  " outside of its surface; ";
+  std::string t = counted(points_.size(), "point") + " at most " + number_text(apart_) +
+                  " apart, of radius " + number_text(radius_) + ": other meshes feel the body " +
+                  number_text(radius_) + " outside of its surface; ";
   if (radius_ * radius_ <= gap_sq)
     return t + "their edges and corners pass between the points, which are more than 1.73 radii "
                "apart";

@@ -45,8 +45,8 @@ void ServoController::advance(const ServoLoad &load, const Pose &placed, Real dt
     host_.warn(with_mesh_name(
         wall_, mesh_,
         "a servo's gain of " + number_text(s.max_gain) + " would not be stable with " +
-            number_text(load.contacts) + " contacts at the timestep " + number_text(dt) + ": " +
-            number_text(gain) +
+            counted(static_cast<std::int64_t>(load.contacts), "contact") + " at the timestep " +
+            number_text(dt) + ": " + number_text(gain) +
             " is used instead, and a smaller one with more contacts; this warning is shown once"));
   }
   if (!s.advance(pushes, gain, dt) || limit_warned_) return;

@@ -11,15 +11,6 @@
 
 namespace lsdcd {
 
-namespace {
-
-std::string counted(std::int64_t n, const std::string &what)
-{
-  return std::to_string(n) + " " + what + (n == 1 ? "" : "s");
-}
-
-}    // namespace
-
 void SearchReport::add(const StepDiagnostics &seen)
 {
   uncertified_ += seen.uncertified;
@@ -62,8 +53,8 @@ void SearchReport::log_uncertified(int nearest, bool brief)
   uncertain_due_ = worst > 0 ? 2 * worst : HUGE_VAL;
   if (brief && sum == 0) return;
   std::string t = "nearest " + std::to_string(nearest) + ": " +
-                  std::to_string(static_cast<std::int64_t>(sum)) +
-                  " answers were not certified exact";
+                  counted(static_cast<std::int64_t>(sum), "answer was", "answers were") +
+                  " not certified exact";
   if (sum > 0)
     t += "; contacts overlapping by up to " + number_text(100 * worst) +
          " % of a radius may have been missed (nearest all misses none). This warning comes again "

@@ -3,6 +3,7 @@
 
 #include "wall/saved/state_keeper.h"
 
+#include "base/number_words.h"
 #include "wall/mesh_name.h"
 
 #include <algorithm>
@@ -103,9 +104,7 @@ void StateKeeper::restore(const WallState &was, const Step &now)
     host_.warn("the " + saved + " has " + was.unread +
                ", which this version does not know and ignores");
   if (there == here) return;
-  const auto meshes = [](std::size_t n) {
-    return std::to_string(n) + (n == 1 ? " mesh" : " meshes");
-  };
+  const auto meshes = [](std::size_t n) { return counted(n, "mesh", "meshes"); };
   host_.warn("the " + saved + " was written with " + meshes(there) + " and " + host_.names().wall +
              " has " + std::to_string(here) + ": " +
              (there > here ? "springs, motion, loads and wear of those after mesh " +

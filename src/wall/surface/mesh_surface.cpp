@@ -59,7 +59,7 @@ class RecedingSurface final : public MeshSurface {
 
   std::string recedes_text() const override
   {
-    return "every " + std::to_string(wall_.wear_deform.every) + " steps by " +
+    return "every " + counted(wall_.wear_deform.every, "step") + " by " +
            number_text(wall_.wear_deform.factor) + " times what has worn";
   }
 
