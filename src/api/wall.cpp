@@ -99,7 +99,7 @@ int lsdcd_wall_from_spec(const lsdcd_wall_spec *spec, const lsdcd_wall_options *
     made->in =
         std::make_unique<Wall>(made->caller, wall_spec_of(spec, made->gpu != nullptr), WallUnits(),
                                backend_of(o, *made), "", StepClock{o.time, 0, 0, 0});
-    made->parts = parts_of(*made->in);
+    made->made = made_parts(*made->in);
     note_vertices(*made);
     made->in->begin_run(0, false);
     made->caller.tell_what_show_threw();

@@ -83,7 +83,7 @@ struct lsdcd_wall {
   bool begun = false;                // since spheres were renumbered, too
   lsdcd::Real largest_radius = 0;    // of this process, in the last step that looked
   lsdcd::Failure late;               // of this process, which the next call reports to all
-  lsdcd::WallParts parts;            // of the spec that it was made of
+  lsdcd::WallParts made;             // made_parts()
   std::string failed;                // why a step failed half-way; empty: none did
   bool is_restored = false;          // until the first step
   bool outside_warned = false;

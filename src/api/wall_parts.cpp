@@ -9,8 +9,8 @@
 #include "law/sub_models.h"
 #include "wall/spec_text.h"
 
+#include <cmath>
 #include <cstddef>
-#include <initializer_list>
 
 namespace lsdcd {
 
@@ -21,32 +21,51 @@ std::string text_of(Real value)
   return exact_text(value + 0.);    // not -0
 }
 
-std::string text_of(std::initializer_list<Real> values)
+std::string text_of(const Vec3 &v)
+{
+  return text_of(v.x) + " " + text_of(v.y) + " " + text_of(v.z);
+}
+
+// "1 2 0 0 1", of numbers and vectors.
+template <class... Values>
+std::string row_of(const Values &...values)
 {
   std::string text;
-  for (const Real value : values) text += (text.empty() ? "" : " ") + text_of(value);
+  for (const std::string &one : {text_of(values)...}) text += (text.empty() ? "" : " ") + one;
   return text;
 }
 
-std::string text_of(const Vec3 &v)
+std::string value_text(Real value, int input, const InputNames &inputs)
 {
-  return text_of({v.x, v.y, v.z});
+  return input == kNoInput ? text_of(value) : "v_" + inputs[static_cast<std::size_t>(input)];
 }
+
+std::string value_text(const Vec3 &values, const int *input, const InputNames &inputs)
+{
+  return value_text(values.x, input[0], inputs) + " " + value_text(values.y, input[1], inputs) +
+         " " + value_text(values.z, input[2], inputs);
+}
+
+// What follows takes structs apart by the names of all their members: one that is new does not compile before it is decided
+// here whether saved data are of a wall with another one.
 
 template <class Model>
 std::string numbers_of(const Chosen<Model> &chosen)
 {
-  return chosen.is_on() ? ", " + text_of({chosen.numbers[0], chosen.numbers[1], chosen.numbers[2]})
+  return chosen.is_on() ? ", " + row_of(chosen.numbers[0], chosen.numbers[1], chosen.numbers[2])
                         : "";
 }
 
+// `modulus` is 3/4 k_normal, and `for_shapes` is the wall's.
 std::string text_of(const ContactLaw &law)
 {
+  const auto &[normal, k_normal, modulus, surface_energy, damping, eta, tangential, k_tangent,
+               gamma_tangent, xgammat, mu, rolling, twisting, heat, cohesion, limit_damping,
+               for_shapes] = law;
   return sub_models_text(law) + " with " +
-         text_of({law.k_normal, law.surface_energy, law.eta, law.k_tangent, law.gamma_tangent,
-                  law.xgammat, law.mu}) +
-         numbers_of(law.rolling) + numbers_of(law.twisting) + numbers_of(law.heat) +
-         numbers_of(law.cohesion) + (law.limit_damping ? ", limit_damping" : "");
+         row_of(k_normal, surface_energy, eta, k_tangent, gamma_tangent, xgammat, mu) +
+         numbers_of(rolling) + numbers_of(twisting) + numbers_of(heat) + numbers_of(cohesion) +
+         (limit_damping ? ", limit_damping" : "");
 }
 
 std::string text_of(const std::vector<LawOfTypes> &laws)
@@ -64,90 +83,157 @@ std::string text_of(const Placement &placement)
 {
   std::string text;
   for (int k = 0; k < 3; k++)
-    text += text_of(placement.row(k)) + " " + text_of(placement.shift()[k]) + (k < 2 ? ", " : "");
+    text += row_of(placement.row(k), placement.shift()[k]) + (k < 2 ? ", " : "");
   return text;
 }
 
-std::string text_of(const BodySpec &body)
+std::string text_of(const JointDrive &drive, int motor_input, const InputNames &inputs)
 {
-  const SymmetricMatrix &i = body.mass.inertia;
-  return std::string("a body, ") + kJointNames[static_cast<int>(body.joint.kind)] + " " +
-         text_of(body.joint.point) + " " + text_of(body.joint.axis) + ", of density " +
-         text_of(body.density) + ", mass " + text_of(body.mass.mass) + ", centre " +
-         text_of(body.mass.centre) + " and inertia " +
-         text_of({i.xx, i.yy, i.zz, i.xy, i.xz, i.yz}) +
-         (body.coat.present ? ", with a coat of the spacing " + text_of(body.coat.spacing) +
-                                  " and radius " + text_of(body.coat.radius)
-                            : "");
+  const auto &[stiffness, damping, rest, lo, hi, motor] = drive;
+  std::string text;
+  if (stiffness != 0) text += ", spring " + row_of(stiffness, rest);
+  if (damping != 0) text += ", damping " + text_of(damping);
+  if (std::isfinite(lo) || std::isfinite(hi)) text += ", limits " + row_of(lo, hi);
+  if (motor != 0 || motor_input != kNoInput)
+    text += ", motor " + value_text(motor, motor_input, inputs);
+  return text;
 }
 
-// Of all kinds of terms, as unused ones are 0. Inputs are in the text of the motion.
-std::string numbers_of(const MotionTerm &m)
+// The data have its velocities, which it has at the start alone.
+std::string text_of(const BodySpec &body, const InputNames &inputs)
 {
-  std::string text = text_of(m.velocity) + " " + text_of(m.amplitude) + " " + text_of(m.point) +
-                     " " + text_of(m.axis) + " " + text_of({m.period, m.angle});
-  if (!m.table) return text;
-  const std::vector<Real> &rows = m.table->rows().numbers;
-  return text + " and " + std::to_string(m.table->rows().count()) + " rows with the number " +
+  const auto &[present, density, mass, joint, drive, load, moment, motor_input, load_input,
+               moment_input, velocity, omega, has_gravity, gravity, coat] = body;
+  if (!present) return "none";
+  const SymmetricMatrix &i = mass.inertia;
+  return std::string(kJointNames[static_cast<int>(joint.kind)]) + " " +
+         row_of(joint.point, joint.axis) + ", of density " + text_of(density) + ", mass " +
+         text_of(mass.mass) + ", centre " + text_of(mass.centre) + " and inertia " +
+         row_of(i.xx, i.yy, i.zz, i.xy, i.xz, i.yz) + text_of(drive, motor_input, inputs) +
+         ", load " + value_text(load, load_input, inputs) + ", moment " +
+         value_text(moment, moment_input, inputs) +
+         (has_gravity ? ", gravity " + text_of(gravity) : "") +
+         (coat.present ? ", with a coat of the spacing " + text_of(coat.spacing) + " and radius " +
+                             text_of(coat.radius)
+                       : "");
+}
+
+std::string text_of(const SurfaceMotion &surface, const int *input, const InputNames &inputs)
+{
+  const auto &[velocity, angular, centre] = surface;
+  return value_text(velocity, input, inputs) + ", turning " +
+         value_text(angular, input + 3, inputs) + " about " + text_of(centre);
+}
+
+// Of all kinds of terms, as unused numbers are 0. Kind and inputs, of which displacement and speed are values, are in the
+// text of the motion, as is the table's file, whose rows count.
+std::string numbers_of(const MotionTerm &term)
+{
+  const auto &[kind, velocity, amplitude, point, axis, period, angle, input, displacement, speed,
+               table_file, table_options, table] = term;
+  const std::string text = row_of(velocity, amplitude, point, axis, period, angle);
+  if (!table) return text;
+  const std::vector<Real> &rows = table->rows().numbers;
+  return text + " and " + std::to_string(table->rows().count()) + " rows with the number " +
          std::to_string(checksum(rows.data(), rows.size()));
 }
 
-// The texts of motions and servos have six digits of each number, and no rows of tables.
-std::string numbers_of(const RigidMotion &motion)
+std::string numbers_of(const std::vector<MotionTerm> &terms)
 {
   std::string text;
-  for (const MotionTerm &m : motion.terms()) text += (text.empty() ? "" : ", ") + numbers_of(m);
-  const Servo &s = motion.servo();
-  if (!s.present) return text;
-  return text + (text.empty() ? "" : ", ") + text_of(s.point) + " " + text_of(s.axis) + " " +
-         text_of({s.target, s.max_speed, s.max_gain, s.lo, s.hi});
+  for (const MotionTerm &m : terms) text += (text.empty() ? "" : ", ") + numbers_of(m);
+  return text;
 }
 
-std::string mover_of(const MeshSpec &mesh, const InputNames &inputs)
+// The data have its position and velocity, and whether it holds.
+std::string numbers_of(const Servo &servo)
+{
+  const auto &[present, holds, turns, axis, point, target, target_input, max_gain, max_speed, lo,
+               hi, position, velocity] = servo;
+  return present ? row_of(point, axis, target, max_speed, max_gain, lo, hi) : "";
+}
+
+std::string motion_of(const MeshSpec &mesh, const InputNames &inputs)
 {
   if (mesh.has_nodes) return "nodes of the program";
-  if (mesh.body.present) return text_of(mesh.body);    // which is posed, too
+  if (mesh.body.present) return "that of a body";    // which is posed, too
   if (mesh.motion.is_posed()) return "poses of the program";
-  const std::string motions = motion_text(mesh.motion.terms(), inputs),
-                    servo = servo_text(mesh.motion.servo(), inputs);
-  if (motions.empty() && servo.empty()) return "rest";
-  return motions + (motions.empty() || servo.empty() ? "" : ", ") + servo;
+  return mesh.motion.moves() ? motion_text(mesh.motion.terms(), inputs) : "rest";
 }
 
-std::string wear_of(const WallSpec &wall)
+std::string text_of(const Wear &wear, const WearDeform &deform)
 {
+  const auto &[model, per_work] = wear;
+  const auto &[every, factor] = deform;
   const char *const models[] = {"none", "archard", "finnie"};
-  return models[static_cast<int>(wall.wear.model)] + (" " + text_of(wall.wear.per_work)) +
-         (wall.wear_deform.every > 0 ? ", moves vertices " + text_of(wall.wear_deform.factor) : "");
+  return models[static_cast<int>(model)] + (" " + text_of(per_work)) +
+         (every > 0
+              ? ", every " + std::to_string(every) + " steps moves vertices " + text_of(factor)
+              : "");
+}
+
+// Adds a text, and where it does not have all digits `numbers`, which have.
+void add(const std::string &name, const std::string &of, const std::string &text,
+         const std::string &numbers, WallParts &to)
+{
+  to.push_back({name + of, text});
+  if (!numbers.empty()) to.push_back({"exact " + name + " '" + text + "'" + of, numbers});
+}
+
+// What `mesh` and its name, file and files are is not here: the mesh counts that they make. What is only written may differ.
+void add_made(const WallSpec &wall, std::size_t k, WallParts &parts)
+{
+  const auto &[name, file, mesh, welded_vertex, placement, weld, laws, motion, body, has_nodes,
+               node_group, pressure, pressure_input, surface, surface_input, has_temperature,
+               temperature, temperature_input, wear_factor, torque_about_mesh, torque_about, stl,
+               fields, cache_file] = wall.meshes[k];
+  const std::string of = " of " + element("meshes", k);
+  add("motion", of, motion_of(wall.meshes[k], wall.inputs), numbers_of(motion.terms()), parts);
+  parts.push_back({"placement" + of, text_of(placement)});
+  parts.push_back({"law" + of, text_of(laws)});
+  parts.push_back({"surface velocity" + of, text_of(surface, surface_input, wall.inputs)});
+  if (has_nodes)
+    parts.push_back({"pressure" + of, value_text(pressure, pressure_input, wall.inputs)});
+  if (has_temperature)
+    parts.push_back({"temperature" + of, value_text(temperature, temperature_input, wall.inputs)});
+  if (wall.wears()) parts.push_back({"wear_factor" + of, text_of(wear_factor)});
 }
 
 }    // namespace
 
-WallParts parts_of(const Wall &wall)
+WallParts made_parts(const Wall &wall)
 {
-  const WallSpec &spec = wall.spec();
+  // How it searches, and what it writes, may differ.
+  const auto &[laws, meshes, inputs, corner, side, device, grid_length, rmax, nearest,
+               memory_budget, wear, wear_deform, average_every, contacts, each_contact, shapes,
+               periodic, brief] = wall.spec();
   const char *const corners[] = {"blend", "sum"}, *const sides[] = {"both", "in", "out"};
-  WallParts parts = {{"number of meshes", std::to_string(spec.meshes.size())},
-                     {"law", text_of(spec.laws)},
-                     {"corner", corners[static_cast<int>(spec.corner)]},
-                     {"side", sides[static_cast<int>(spec.side)]},
-                     {"wear", wear_of(spec)}};
-  for (std::size_t k = 0; k < spec.meshes.size(); k++) {
-    const MeshSpec &mesh = spec.meshes[k];
-    const std::string of = " of " + element("meshes", k);
-    const std::string mover = mover_of(mesh, spec.inputs), numbers = numbers_of(mesh.motion);
-    parts.push_back({"motion" + of, mover});
-    if (!numbers.empty()) parts.push_back({"exact motion '" + mover + "'" + of, numbers});
-    parts.push_back({"placement" + of, text_of(mesh.placement)});
-    parts.push_back({"law" + of, text_of(mesh.laws)});
-    if (spec.wears()) parts.push_back({"wear_factor" + of, text_of(mesh.wear_factor)});
-  }
+  WallParts parts = {{"number of meshes", std::to_string(meshes.size())},
+                     {"law", text_of(laws)},
+                     {"corner", corners[static_cast<int>(corner)]},
+                     {"side", sides[static_cast<int>(side)]},
+                     {"wear", text_of(wear, wear_deform)}};
+  for (std::size_t k = 0; k < meshes.size(); k++) add_made(wall.spec(), k, parts);
   for (const MeshPart &mesh : wall.meshes()) {
     const MeshReport &report = mesh.grid.report();
     parts.push_back({"mesh of " + element("meshes", static_cast<std::size_t>(mesh.index)),
-                     std::to_string(report.facets) + " triangles with " +
-                         std::to_string(report.vertices) + " vertices and the number " +
+                     counted(report.facets, "triangle", "triangles") + " with " +
+                         counted(report.vertices, "vertex", "vertices") + " and the number " +
                          std::to_string(mesh.grid.mesh_fingerprint())});
+  }
+  return parts;
+}
+
+WallParts set_parts(const Wall &wall)
+{
+  const WallSpec &spec = wall.spec();
+  WallParts parts;
+  for (std::size_t k = 0; k < spec.meshes.size(); k++) {
+    const Servo &servo = spec.meshes[k].motion.servo();
+    const std::string of = " of " + element("meshes", k);
+    add("servo", of, servo.present ? servo_text(servo, spec.inputs) : "none", numbers_of(servo),
+        parts);
+    parts.push_back({"body" + of, text_of(spec.meshes[k].body, spec.inputs)});
   }
   return parts;
 }

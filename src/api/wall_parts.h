@@ -11,10 +11,13 @@
 
 namespace lsdcd {
 
-// Names and texts of what decides the springs, places and wear of a wall: {"law", "hooke/history 10000 ..."}. Numbers are
-// exact. Search, files and names are left out: they may differ.
+// Names and texts of what a wall's steps depend on: {"law", "hooke/history 10000 ..."}. Numbers are exact. How it searches
+// and what it writes are left out: they may differ.
 using WallParts = std::vector<std::vector<std::string>>;
-WallParts parts_of(const Wall &wall);
+// What it was made of. A motion that is set later is in the data.
+WallParts made_parts(const Wall &wall);
+// What may be set later and is not in the data: servos, and bodies with what holds and drives them.
+WallParts set_parts(const Wall &wall);
 
 // "the law is X and was Y; ..."; empty: they are of such a wall.
 std::string differences(const WallParts &is, const WallParts &was);

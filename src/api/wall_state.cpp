@@ -60,11 +60,18 @@ std::vector<const double *> packed_spheres(const lsdcd_wall &wall, std::size_t n
   if (!good || at != count)
     throw ApiError(LSDCD_ERROR_ARGUMENT,
                    "these are not the numbers that lsdcd_wall_pack() wrote for " +
-                       std::to_string(n) + " spheres of such a wall");
+                       counted(n, "sphere") + " of such a wall");
   return spheres;
 }
 
 constexpr const char *kSpheres = "springs of spheres", *kStep = "step", *kParts = "parts";
+
+WallParts parts_of(const lsdcd_wall &wall)
+{
+  WallParts parts = wall.made;
+  for (const std::vector<std::string> &part : set_parts(*wall.in)) parts.push_back(part);
+  return parts;
+}
 
 // Reads what lsdcd_wall_save() wrote. Throws StateError.
 void read_saved(const Real *numbers, std::size_t n, WallState &state, SphereHistories &spheres,
@@ -98,12 +105,12 @@ void restore(lsdcd_wall &wall, const double *numbers, std::size_t count, bool wh
                                "them: ") +
                        e.what());
   }
-  const std::string differ = differences(wall.parts, parts);
+  const std::string differ = differences(parts_of(wall), parts);
   if (!what_fits && !differ.empty())
-    throw ApiError(LSDCD_ERROR_ARGUMENT,
-                   "these are numbers of a different wall: " + differ +
-                       ". Make the wall of the spec that it had, or take what fits by "
-                       "lsdcd_wall_restore_what_fits()");
+    throw ApiError(LSDCD_ERROR_ARGUMENT, "these are numbers of a different wall: " + differ +
+                                             ". Make the wall of the spec that it had, with the "
+                                             "servo or body that was set later, or "
+                                             "take what fits by lsdcd_wall_restore_what_fits()");
   wall.in->keep_made();
   wall.in->restore(state, {step, wall.dt});
   wall.number = step;
@@ -171,7 +178,7 @@ int lsdcd_wall_save(lsdcd_wall *wall, double *numbers, size_t room, size_t *coun
     State state = wall->in->save().blocks();
     state.add(kSpheres, 1, spheres);
     state.add(kStep, 1, wall->number);
-    state.add(kParts, 1, wall->parts);
+    state.add(kParts, 1, parts_of(*wall));
     const std::vector<Real> all = state.numbers();
     *count = all.size();
     std::copy_n(all.begin(), std::min(room, all.size()), numbers);

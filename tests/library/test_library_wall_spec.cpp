@@ -831,7 +831,7 @@ TEST_F(wall_spec, takes_saved_data_of_a_wall_of_the_same_spec_alone)
       {[](Spec &s) { std::swap(s.meshes[0], s.meshes[1]); },
        "the motion of meshes[0] is linear 0 0 1 and was rest"},
       {[&](Spec &s) { s.meshes[0].mesh = other.get(); },
-       "the mesh of meshes[0] is 1 triangles with 3 vertices"},
+       "the mesh of meshes[0] is 1 triangle with 3 vertices"},
       {[](Spec &s) { s.meshes[0].placement.move(0, 0, 0.1); },
        "the placement of meshes[0] is 1 0 0 0, 0 1 0 0, 0 0 1 0.1 and was"},
       {[](Spec &s) { s.meshes[1].motions = {}; },
@@ -846,7 +846,16 @@ TEST_F(wall_spec, takes_saved_data_of_a_wall_of_the_same_spec_alone)
       {[](Spec &s) {
          s.meshes[0].body = api::RigidBody(2, {0, 0, 0}, {1, 1, 2, 0, 0, 0});
        },
-       "is a body, free "}};
+       "the body of meshes[0] is free "},
+      {[](Spec &s) {
+         s.meshes[0].surface_velocity = {1e-9, 0, 0};
+       },
+       "the surface velocity of meshes[0] is 1e-09 0 0, turning 0 0 0 about 0 0 "
+       "0"},
+      {[](Spec &s) {
+         s.meshes[1].surface_angular_velocity = {0, 0, 3};
+       },
+       "the surface velocity of meshes[1] is 0 0 0, turning 0 0 3 about 0 0 0 and was"}};
   for (const auto &row : rows) {
     Spec spec = two;
     row.change(spec);
@@ -894,7 +903,7 @@ TEST_F(wall_spec, takes_no_saved_data_of_a_wall_with_another_table_or_servo)
   lsdcd::Wall push(harder);
   EXPECT_NE(text_of([&] {
               push.restore(save(pushed));
-            }).find("the exact motion 'force z 2 vmax 0.5' of meshes[0] is "),
+            }).find("the exact servo 'force z 2 vmax 0.5' of meshes[0] is "),
             std::string::npos);
 }
 
@@ -913,8 +922,71 @@ TEST_F(wall_spec, takes_no_saved_data_of_a_body_with_another_coat)
   EXPECT_EQ(text_of([&] { same.restore(saved); }), "");
   EXPECT_NE(text_of([&] {
               fine.restore(saved);
-            }).find("a coat of the spacing 1 and radius 2 and was a body"),
+            }).find("a coat of the spacing 1 and radius 2 and was free "),
             std::string::npos);
+}
+
+TEST_F(wall_spec, takes_no_saved_data_of_a_body_with_another_drive)
+{
+  const api::Mesh mesh(file_);
+  api::WallSpec spec = floor_of(hooke_history(), mesh);
+  api::RigidBody slider(2, {0, 0, 0}, {1, 1, 2, 0, 0, 0});
+  spec.meshes[0].body = slider.slider({0, 0, 1});
+  const std::vector<double> saved = lsdcd::Wall(spec).save();
+  using Body = api::RigidBody;
+  const struct {
+    std::function<void(Body &)> change;
+    const char *text;    // empty: it may differ
+  } rows[] = {{[](Body &) {}, ""},
+              {[](Body &b) { b.velocity[2] = 1; }, ""},
+              {[](Body &b) { b.stiffness = 30; }, ", spring 30 0, load "},
+              {[](Body &b) { b.damping = 2; }, ", damping 2, load "},
+              {[](Body &b) { b.hi = 1; }, ", limits 0 1, load "},
+              {[](Body &b) { b.motor = 4; }, ", motor 4, load "},
+              {[](Body &b) { b.load[0] = 5; }, ", load 5 0 0, moment "},
+              {[](Body &b) { b.moment[1] = 6; }, ", moment 0 6 0, gravity "},
+              {[](Body &b) { b.gravity[2] = -9.81; }, ", gravity 0 0 -9.81"},
+              {[](Body &b) {
+                 b.slider({1, 0, 0});
+               },
+               "slider 0 0 0 1 0 0"}};
+  for (const auto &row : rows) {
+    row.change(*spec.meshes[0].body);
+    lsdcd::Wall here(spec);
+    const std::string text = text_of([&] { here.restore(saved); });
+    if (*row.text)
+      EXPECT_NE(text.find(row.text), std::string::npos) << text << ", not " << row.text;
+    else
+      EXPECT_EQ(text, "");
+    spec.meshes[0].body = slider;
+  }
+}
+
+// The data do not have them, unlike motions: without a word the old ones would push.
+TEST_F(wall_spec, takes_saved_data_with_the_servo_and_body_that_were_set_later)
+{
+  const api::Mesh mesh(file_);
+  api::WallSpec spec = floor_of(hooke_history(), mesh);
+  spec.meshes.push_back(spec.meshes[0]);
+  spec.meshes[1].body = api::RigidBody(2, {0, 0, 0}, {1, 1, 2, 0, 0, 0}).slider({0, 0, 1});
+  api::RigidBody sprung = *spec.meshes[1].body;
+  sprung.stiffness = 30;
+  api::Servo servo;
+  servo.axis[2] = 1;
+  servo.target = 2;
+  servo.max_speed = 0.5;
+  const std::function<void(lsdcd::Wall &)> changes[] = {
+      [&](lsdcd::Wall &wall) { wall.set_body(1, sprung); },
+      [&](lsdcd::Wall &wall) { wall.set_servo(0, servo); }};
+  for (const auto &change : changes) {
+    lsdcd::Wall wall(spec), bare(spec), same(spec);
+    change(wall);
+    const std::vector<double> saved = wall.save();
+    EXPECT_EQ(code_of([&] { bare.restore(saved); }), LSDCD_ERROR_ARGUMENT);
+    change(same);
+    EXPECT_EQ(text_of([&] { same.restore(saved); }), "");
+    EXPECT_EQ(same.save(), saved);
+  }
 }
 
 // A motion that was set later is in the data.
