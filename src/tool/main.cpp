@@ -21,7 +21,7 @@ int run(int argc, char **argv)
 {
   Program program(
       "lsdcd: meshes of DEM walls, their grids, distances to them, bodies in them, and materials",
-      std::string("lsdcd ") + version() + " (" LSDCD_COMMIT ")");
+      std::string("lsdcd ") + version() + (*LSDCD_COMMIT ? " (" LSDCD_COMMIT ")" : ""));
   program.footer("lsdcd COMMAND --help shows its options and an example.\n"
                  "Exit codes: 0: done; 1: a file or mesh cannot be used; 2: wrong arguments;\n"
                  "3: repair has written what it cannot mend in full.");

@@ -30,4 +30,15 @@ quiet() { "$@" >"$work/log" 2>&1 || { tail -20 "$work/log"; false; }; }
 fact "it configures" quiet "$cmake" -S . -B build -D LSDCD_TESTS=OFF -D LSDCD_LAMMPS=OFF -D LSDCD_CUDA=OFF
 commit=$(git -C "$top" rev-parse HEAD)
 fact "what is built of it will name the commit" grep -rqF "LSDCD_COMMIT=\\\"${commit:0:10}\\\"" build --include=flags.make --include=build.ninja
+
+# commit_of FOLDER: what a build of the sources there would name.
+printf 'include(%s/cmake/Commit.cmake)\nmessage(STATUS "[${LSDCD_COMMIT}]")\n' "$top" >"$work/commit.cmake"
+commit_of() { "$cmake" -D PROJECT_SOURCE_DIR="$1" -P "$work/commit.cmake" | sed 's/.*\[\(.*\)\].*/\1/'; }
+git init -q "$work/other"
+git -C "$work/other" -c user.name=me -c user.email=me@here commit -q --allow-empty -m first
+mkdir "$work/other/lsdcd"
+fact "a copy without git names no commit of the checkout around it" test -z "$(commit_of "$work/other/lsdcd")"
+short=$(git -C "$work/other" describe --always)
+fact "a checkout of another user names its commit" \
+  test "$(GIT_TEST_ASSUME_DIFFERENT_OWNER=1 commit_of "$work/other")" = "$short"
 exit $status

@@ -78,7 +78,7 @@ def check_packaging():
 
 
 def check_programs(version, build):
-    for words, wanted in ((("bin/lsdcd", "--version"), f"lsdcd {version} "),
+    for words, wanted in ((("bin/lsdcd", "--version"), f"lsdcd {version}"),
                           (("bin/lmp-lsdcd", "-h"), f"lmp-lsdcd {version}:")):
         program = build / words[0]
         if program.exists():

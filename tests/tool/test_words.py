@@ -37,7 +37,7 @@ def test_words():
          and "inspect" in done.stdout and "tradeoff" in done.stdout, done.stdout)
     done = run("--version")
     fact("--version is a number", done.returncode == 0
-         and re.match(r"lsdcd \d+\.\d+\.\d+ ", done.stdout) is not None, done.stdout)
+         and re.fullmatch(r"lsdcd \d+\.\d+\.\d+( \([^()]+\))?\n", done.stdout) is not None, done.stdout)
     commands = re.findall(r"^  (\w+) {3,}(.*)$", run("--help").stdout.split("Subcommands:")[1], re.M)
     fact("the man page has the commands with what they are for",
          len(commands) > 10 and re.findall(r"^\.TP\n\.B ([a-z]+)\n(\w.*)$", MAN_PAGE.read_text(), re.M) == commands)
