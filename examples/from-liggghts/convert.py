@@ -1950,8 +1950,7 @@ class Script:
             self.put("compute_modify  thermo_temp dynamic/dof yes")    # else ke is 0 while grains come
         self.put(text)
         if form == "pack" and self.is_dense(line, v, kinds, bounds):
-            self.note(line, "LIGGGHTS gives up on grains without a place after maxattempt, here they come later, and fewer with attempts 1000: "
-                      "count the grains of both")
+            self.note(line, "LIGGGHTS gives up on grains without a place after maxattempt, here they come later: count the grains of both")
         if form != "stream" and whole and max(radii) > min(radii):
             self.note(line, "all grains stay the largest radius off the region's edge; in LIGGGHTS each its own")
         if form == "stream":

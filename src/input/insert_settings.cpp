@@ -13,6 +13,9 @@ namespace lsdcd {
 
 namespace {
 
+// Grains that come all at once find the last places of a dense pack by chance alone; a rate brings few in a step.
+constexpr int kAttemptsAtOnce = 1000;
+
 const char *const kInsertSyntax =
     "fix ID group insert/lsdcd mesh FILE [scale s | sx sy sz] [rotate ax ay az degrees] [move x y "
     "z] [weld tol] [depth D] | region ID, with diam one D | range LO HI | poly N D1 F1 ... | mass "
@@ -176,6 +179,9 @@ InsertSettings parse_insert(const std::vector<std::string> &tokens)
       w.fail("'" + word + "' is not a keyword");
   }
   check(w, settings);
+  const bool tells_attempts = std::find(seen.begin(), seen.end(), "attempts") != seen.end();
+  if (settings.plan.feed.kind == FeedSettings::at_once && !tells_attempts)
+    settings.plan.attempts = kAttemptsAtOnce;
   return settings;
 }
 

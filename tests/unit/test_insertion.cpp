@@ -613,6 +613,17 @@ TEST(inlet, a_face_that_is_not_flat_or_wound_both_ways_is_refused_by_facet)
       << error_of(both);
 }
 
+TEST(insert_settings, grains_that_come_all_at_once_have_more_attempts)
+{
+  const auto attempts_of = [](std::vector<std::string> words) {
+    words.insert(words.end(), {"mesh", "a.stl", "dens", "1", "diam", "one", "1", "number", "9"});
+    return parse_insert(words).plan.attempts;
+  };
+  EXPECT_EQ(attempts_of({}), 1000);
+  EXPECT_EQ(attempts_of({"numberrate", "1"}), 100);
+  EXPECT_EQ(attempts_of({"attempts", "7"}), 7);
+}
+
 TEST(insert_settings, fractions_that_do_not_add_up_are_refused_with_their_sum)
 {
   try {
