@@ -44,6 +44,28 @@ inline double checked_number(double value, const std::string &field, double leas
   return value;
 }
 
+inline double checked_number(double value, const std::string &field, const NumberRange &in)
+{
+  return checked_number(value, field, in.least, in.most);
+}
+// As this, or `otherwise` where it is 0.
+inline double number_or(double otherwise, double value, const std::string &field,
+                        const NumberRange &in)
+{
+  if (value == 0) return otherwise;
+  if (std::isfinite(value) && !(value >= in.least && value <= in.most))
+    refuse_field(field, value, "it is " + range_text(in.least, in.most) + ", or 0 for the default");
+  return checked_number(value, field);
+}
+// Returns a number of steps; 0 is `none`, as "there are no means".
+inline int steps_or_none(int value, const std::string &field, const std::string &none,
+                         const NumberRange &in)
+{
+  if (value != 0 && value < in.least)
+    refuse_field(field, std::to_string(value), "it is a number of steps, or 0: " + none);
+  return value;
+}
+
 // Three finite numbers.
 inline Vec3 checked_vector(const double *values, const std::string &field)
 {

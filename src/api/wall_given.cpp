@@ -10,6 +10,7 @@
 #include "law/sub_models.h"
 #include "output/file_series.h"
 #include "wall/spec_check.h"
+#include "wall/spec_ranges.h"
 
 #include <cmath>
 #include <limits>
@@ -161,7 +162,7 @@ MotionTerm motion_of(const lsdcd_motion &given, const std::string &field)
   if (kind.kind == MotionKind::linear)
     check_zero(&given.period, 1, field + ".period", kind.name);
   else
-    term.period = checked_number(given.period, field + ".period", kAboveZero);
+    term.period = checked_number(given.period, field + ".period", kPeriodRange);
   return term;
 }
 
@@ -215,7 +216,7 @@ FileEvery file_of(const char *name, int every, const std::string &field, const c
   }
   const std::string wrong = wrong_series_name(name, end);
   if (!wrong.empty()) refuse_field(field, in_quotes(name), wrong);
-  if (every < 1)
+  if (every < kStepsRange.least)
     refuse_field(field + "_every", std::to_string(every), "it is a number of steps, 1 or more");
   return {name, every};
 }
@@ -239,7 +240,7 @@ MeshSpec mesh_spec_of(const lsdcd_wall_mesh &given, std::size_t k, const WallSpe
   mesh.torque_about_mesh = checked_flag(given.torque_about_moves, field + ".torque_about_moves");
   const double factor = given.wear_factor;
   if (factor != -1 && factor != 0)
-    mesh.wear_factor = checked_number(factor, field + ".wear_factor", 0);
+    mesh.wear_factor = checked_number(factor, field + ".wear_factor", kWearFactorRange);
   if (factor == -1) mesh.wear_factor = 0;
   mesh.fields = file_of(given.fields, given.fields_every, field + ".fields", ".vtp");
   mesh.stl = file_of(given.stl, given.stl_every, field + ".stl", ".stl");
@@ -253,24 +254,23 @@ void read_wear(const lsdcd_wall_spec &given, WallSpec &wall)
       checked_choice(given.wear, "wear", 3, "LSDCD_NO_WEAR, LSDCD_ARCHARD or LSDCD_FINNIE");
   const WearModel models[] = {WearModel::none, WearModel::archard, WearModel::finnie};
   wall.wear.model = models[model];
-  wall.wear.per_work = checked_number(given.wear_coefficient, "wear_coefficient", 0);
+  wall.wear.per_work =
+      checked_number(given.wear_coefficient, "wear_coefficient", kWearCoefficientRange);
   if (model == LSDCD_NO_WEAR)
     check_zero(&given.wear_coefficient, 1, "wear_coefficient", "LSDCD_NO_WEAR");
   if (model == LSDCD_ARCHARD)
-    wall.wear.per_work /= checked_number(given.hardness, "hardness", kAboveZero);
+    wall.wear.per_work /= checked_number(given.hardness, "hardness", kHardnessRange);
   else
     check_zero(&given.hardness, 1, "hardness",
                model == LSDCD_FINNIE ? "LSDCD_FINNIE" : "LSDCD_NO_WEAR");
-  wall.wear_deform.every = given.wear_deform_every;
-  if (given.wear_deform_every < 0)
-    refuse_field("wear_deform_every", std::to_string(given.wear_deform_every),
-                 "it is a number of steps, or 0: wear moves no mesh");
+  wall.wear_deform.every = steps_or_none(given.wear_deform_every, "wear_deform_every",
+                                         "wear moves no mesh", kStepsRange);
   if (given.wear_deform_every == 0)
     check_zero(&given.wear_deform_factor, 1, "wear_deform_factor",
                "a wall without wear_deform_every");
-  else if (given.wear_deform_factor != 0)
-    wall.wear_deform.factor =
-        checked_number(given.wear_deform_factor, "wear_deform_factor", kAboveZero);
+  else
+    wall.wear_deform.factor = number_or(wall.wear_deform.factor, given.wear_deform_factor,
+                                        "wear_deform_factor", kWearDeformFactorRange);
 }
 
 void read_search(const lsdcd_wall_spec &given, bool on_device, WallSpec &wall)
@@ -282,8 +282,8 @@ void read_search(const lsdcd_wall_spec &given, bool on_device, WallSpec &wall)
                                    "LSDCD_BOTH_SIDES, LSDCD_INSIDE or LSDCD_OUTSIDE")];
   wall.nearest = checked_choice(given.nearest, "nearest", kMaxNearest + 1,
                                 "0 for all, or 1 to " + std::to_string(kMaxNearest));
-  wall.grid_length = checked_number(given.cell, "cell", 0);
-  wall.rmax = checked_number(given.rmax, "rmax", 0);
+  wall.grid_length = number_or(0, given.cell, "cell", kCellRange);
+  wall.rmax = number_or(0, given.rmax, "rmax", kLargestRadiusRange);
   const double bytes = checked_number(given.memory, "memory", 0, 1e15);
   if (bytes > 0) wall.memory_budget = static_cast<std::size_t>(bytes);
   const int device =
@@ -302,10 +302,8 @@ void read_search(const lsdcd_wall_spec &given, bool on_device, WallSpec &wall)
   if (wall.shapes && on_device)
     refuse_field("shapes", "1",
                  "grains that are no spheres have walls for arrays of the host alone; leave it 0");
-  wall.average_every = given.average_every;
-  if (given.average_every < 0)
-    refuse_field("average_every", std::to_string(given.average_every),
-                 "it is a number of steps, or 0: there are no means");
+  wall.average_every =
+      steps_or_none(given.average_every, "average_every", "there are no means", kStepsRange);
 }
 
 WallSpec read_spec(const lsdcd_wall_spec *pointer, bool on_device)
@@ -381,12 +379,11 @@ Servo servo_of(const lsdcd_servo *pointer, const std::string &field)
   else
     check_zero(given.point, 3, field + ".point", "a servo that does not turn");
   servo.target = checked_number(given.target, field + ".target");
-  servo.max_speed = checked_number(given.max_speed, field + ".max_speed", kAboveZero);
-  if (given.max_gain != 0)
-    servo.max_gain = checked_number(given.max_gain, field + ".max_gain", kAboveZero);
+  servo.max_speed = checked_number(given.max_speed, field + ".max_speed", kServoSpeedRange);
+  servo.max_gain = number_or(servo.max_gain, given.max_gain, field + ".max_gain", kServoGainRange);
   if (given.lo == 0 && given.hi == 0) return servo;
-  servo.lo = checked_number(given.lo, field + ".lo", -Tokens::kHuge, 0);
-  servo.hi = checked_number(given.hi, field + ".hi", 0);
+  servo.lo = checked_number(given.lo, field + ".lo", kServoLoRange);
+  servo.hi = checked_number(given.hi, field + ".hi", kServoHiRange);
   return servo;
 }
 

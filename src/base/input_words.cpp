@@ -116,9 +116,9 @@ std::int64_t Tokens::whole(const char *what, Real low, Real high)
   return static_cast<std::int64_t>(n);
 }
 
-Real Tokens::number_or(const char *instead, Real otherwise, const char *what, Real low, Real high)
+Real Tokens::number_or(const char *instead, Real otherwise, const char *what, const NumberRange &in)
 {
-  if (done() || peek() != instead) return number(what, low, high);
+  if (done() || peek() != instead) return number(what, in);
   ++at_;
   return otherwise;
 }

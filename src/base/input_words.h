@@ -19,6 +19,11 @@ constexpr Real kAboveZero = 1e-300;    // the lower end of a range without 0
 // "from 0 to 1", or "above 0" for kAboveZero.
 std::string range_text(Real low, Real high);
 
+// From `least` to `most`, both in it.
+struct NumberRange {
+  Real least, most;
+};
+
 // Returns the name that takes the fewest inserted, deleted, changed or swapped letters.
 std::string nearest(const std::string &word, const std::vector<std::string> &names);
 // Returns whether it is near enough to be suggested. At most two letters differ, and not all.
@@ -48,11 +53,15 @@ class Tokens {
 
   // Returns a number in [low, high]; `what` is its name in messages.
   Real number(const char *what, Real low = -kHuge, Real high = kHuge);
+  Real number(const char *what, const NumberRange &in) { return number(what, in.least, in.most); }
   // A whole number in [low, high]; `what` is its name in messages.
   std::int64_t whole(const char *what, Real low, Real high);
+  std::int64_t whole(const char *what, const NumberRange &in)
+  {
+    return whole(what, in.least, in.most);
+  }
   // As number(), or `otherwise` if the word is `instead`.
-  Real number_or(const char *instead, Real otherwise, const char *what, Real low,
-                 Real high = kHuge);
+  Real number_or(const char *instead, Real otherwise, const char *what, const NumberRange &in);
   // Returns the index of the word among `choices`.
   int choice(const std::vector<std::string> &choices);
 

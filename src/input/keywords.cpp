@@ -10,6 +10,7 @@
 #include "input/servo_words.h"
 #include "input/value_words.h"
 #include "output/file_series.h"
+#include "wall/spec_ranges.h"
 
 #include <algorithm>
 #include <cmath>
@@ -98,15 +99,16 @@ const BesideClassic kRolling(Family::rolling), kCohesion(Family::cohesion);
 void read_wear(Tokens &w, WallCommand &s)
 {
   s.wall.wear.model = static_cast<WearModel>(1 + w.choice({"archard", "finnie"}));
-  s.wall.wear.per_work = w.number("K", 0);
-  if (s.wall.wear.model == WearModel::archard) s.wall.wear.per_work /= w.number("H", kAboveZero);
+  s.wall.wear.per_work = w.number("K", kWearCoefficientRange);
+  if (s.wall.wear.model == WearModel::archard)
+    s.wall.wear.per_work /= w.number("H", kHardnessRange);
   if (w.done() || w.peek() != "deform") return;
   w.take();
   if (w.done() || w.take() != "every") w.fail("'every N' is missing");
-  s.wall.wear_deform.every = static_cast<int>(w.whole("N", 1, 2147483647));
+  s.wall.wear_deform.every = static_cast<int>(w.whole("N", kStepsRange));
   if (w.done() || w.peek() != "factor") return;
   w.take();
-  s.wall.wear_deform.factor = w.number("F", kAboveZero);
+  s.wall.wear_deform.factor = w.number("F", kWearDeformFactorRange);
 }
 
 FileEvery read_file_every(Tokens &w, const std::string &end)
@@ -117,7 +119,7 @@ FileEvery read_file_every(Tokens &w, const std::string &end)
   const std::string wrong = wrong_series_name(file.name, end);
   if (!wrong.empty()) w.fail(wrong);
   if (w.done() || w.take() != "every") w.fail("'every N' is missing");
-  file.every = static_cast<int>(w.whole("N", 1, 2147483647));
+  file.every = static_cast<int>(w.whole("N", kStepsRange));
   return file;
 }
 
@@ -177,11 +179,13 @@ const Keyword kKeywords[] = {
      [](Tokens &w, MeshSpec &s, InputNames &) { s.weld = w.number("the tolerance", 0); }},
     {"grid", "L | auto", "length", "> 0", "auto", "cell edge of the limit-space grid",
      [](Tokens &w, WallCommand &s) {
-       s.wall.grid_length = w.number_or("auto", 0, "L", kAboveZero);
+       s.wall.grid_length = w.number_or("auto", 0, "L", kCellRange);
      }},
     {"rmax", "R | auto", "length", "> 0", "auto: the largest radius in the group",
      "largest particle radius that the grid is built for",
-     [](Tokens &w, WallCommand &s) { s.wall.rmax = w.number_or("auto", 0, "R", kAboveZero); }},
+     [](Tokens &w, WallCommand &s) {
+       s.wall.rmax = w.number_or("auto", 0, "R", kLargestRadiusRange);
+     }},
     {"memory", "MB", "MiB", ">= 1", "1024 beside the mesh's own records",
      "budget for the grid of each mesh",
      [](Tokens &w, WallCommand &s) { s.wall.memory_budget = read_memory(w); }},
@@ -251,7 +255,7 @@ const Keyword kKeywords[] = {
      read_wear},
     {"wear_factor", "F", "", ">= 0", "1",
      "this mesh wears F times as fast as wear says; 0: it does not", nullptr,
-     [](Tokens &w, MeshSpec &s, InputNames &) { s.wear_factor = w.number("F", 0); }},
+     [](Tokens &w, MeshSpec &s, InputNames &) { s.wear_factor = w.number("F", kWearFactorRange); }},
     {"mesh_fields", "FILE every N", "", "*.vtp, N >= 1", "none",
      "stress, contacts and wear of every triangle every N steps, for ParaView; * is the step, and "
      "a .pvd file lists them all",
@@ -278,7 +282,7 @@ const Keyword kKeywords[] = {
     {"average", "N", "steps", "N >= 1", "off",
      "means of force and torque over N steps, as more numbers of the vector",
      [](Tokens &w, WallCommand &s) {
-       s.wall.average_every = static_cast<int>(w.whole("N", 1, 2147483647));
+       s.wall.average_every = static_cast<int>(w.whole("N", kStepsRange));
      }},
     {"periodic", "", "", "", "off",
      "no warning if the mesh reaches past periodic faces, or does not continue there; it acts "
@@ -318,7 +322,7 @@ std::string syntax_of(const Keyword &row)
 
 int read_nearest(Tokens &w)
 {
-  const Real n = w.number_or("all", 0, "N", 1, kMaxNearest);
+  const Real n = w.number_or("all", 0, "N", kNearestRange);
   if (std::floor(n) != n) w.fail("N must be a whole number");
   return static_cast<int>(n);
 }

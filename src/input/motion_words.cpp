@@ -4,6 +4,7 @@
 #include "input/motion_words.h"
 
 #include "input/value_words.h"
+#include "wall/spec_ranges.h"
 
 #include <algorithm>
 
@@ -18,7 +19,8 @@ const char *const kMotionSyntax =
 
 namespace {
 
-Real fixed_number(Tokens &w, const char *what, Real low = -Tokens::kHuge)
+Real fixed_number(Tokens &w, const char *what,
+                  const NumberRange &in = {-Tokens::kHuge, Tokens::kHuge})
 {
   if (variable_follows(w))
     w.fail(std::string(what) + " must be a number, not the variable '" + w.peek() +
@@ -26,7 +28,7 @@ Real fixed_number(Tokens &w, const char *what, Real low = -Tokens::kHuge)
            "variables are "
            "the displacement and its velocity in each step, or motion rotate Px Py Pz Rx Ry Rz "
            "variable v_angle v_speed");
-  return w.number(what, low);
+  return w.number(what, in);
 }
 
 Vec3 fixed_vector(Tokens &w, const char *x, const char *y, const char *z)
@@ -115,7 +117,7 @@ MotionTerm read_motion_term(Tokens &w, InputNames &inputs)
     m.angle = fixed_number(w, "the amplitude in degrees") * (kPi / 180);
   const bool has_period = m.turns() && m.kind != MotionKind::variable_turn;
   if (has_period || m.kind == MotionKind::wiggle)
-    m.period = fixed_number(w, "the period", kAboveZero);
+    m.period = fixed_number(w, "the period", kPeriodRange);
   if (m.kind == MotionKind::variable) read_variables(w, m, inputs);
   if (m.kind == MotionKind::table) read_table(w, m);
   if (m.is_by_inputs() && std::all_of(m.input, m.input + 6, [](int i) { return i == kNoInput; }))
@@ -134,7 +136,7 @@ MotionTerm read_wiggle_term(Tokens &w)
   m.kind = MotionKind::cosine;
   const int dim = w.choice({"x", "y", "z"});
   m.amplitude[dim] = fixed_number(w, "the amplitude");
-  m.period = fixed_number(w, "the period", kAboveZero);
+  m.period = fixed_number(w, "the period", kPeriodRange);
   return m;
 }
 

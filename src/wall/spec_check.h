@@ -14,7 +14,7 @@ namespace lsdcd {
 enum class SpecNames { keywords, fields };
 
 // Throws InputError, which names the mesh and the member, where a wall cannot be made of this. That each number is in its own
-// range is for those who read it.
+// range (spec_ranges.h) is for those who read it.
 void check_spec(const WallSpec &wall, SpecNames names = SpecNames::keywords);
 // The part of it that a program's array of meshes is read after.
 void check_mesh_count(std::size_t n, SpecNames names);
