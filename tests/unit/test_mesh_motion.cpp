@@ -4,6 +4,7 @@
 // Where a mesh is in each step: by its clock, by inputs, after changes and restarts.
 #include "base/input_error.h"
 #include "support/fake_host.h"
+#include "support/says.h"
 #include "support/temp_dir.h"
 #include "wall/move/mesh_motion.h"
 
@@ -261,12 +262,8 @@ TEST(MeshMotion, refuses_a_wrong_table_on_all_processes)
   on_processes(3, [&](FakeHost &host) {
     Wall wall;
     follow(wall, file);
-    try {
-      const MeshMotion motion(host, wall.settings, 0, step(0));
-      ADD_FAILURE();
-    } catch (const InputError &e) {
-      EXPECT_NE(std::string(e.what()).find("arm.txt' line 2"), std::string::npos) << e.what();
-    }
+    EXPECT_TRUE(fails_with("arm.txt' line 2",
+                           [&] { const MeshMotion motion(host, wall.settings, 0, step(0)); }));
   });
 }
 
@@ -431,13 +428,10 @@ TEST(MeshMotion, refuses_another_line_while_a_motion_moves_it)
 
 TEST_F(AlongX, refuses_a_first_servo_without_talk_of_another)
 {
-  try {
-    motion.set(servo_along({1, 0, 0}, -1, 1));
-    ADD_FAILURE() << "no error";
-  } catch (const InputError &e) {
-    EXPECT_EQ(std::string(e.what()).rfind("a servo cannot begin while the motion 'linear", 0), 0u)
-        << e.what();
-  }
+  EXPECT_TRUE(begins(error_of([&] {
+                       motion.set(servo_along({1, 0, 0}, -1, 1));
+                     }),
+                     "a servo cannot begin while the motion 'linear"));
 }
 
 // rerun
@@ -445,12 +439,7 @@ TEST_F(AlongX, refuses_a_first_servo_without_talk_of_another)
 void expect_refused(Wall &wall, const Step &at, const std::string &why)
 {
   const MeshMotion motion(wall.host, wall.settings, 0, step(0));
-  try {
-    motion.check_snapshot(at);
-    ADD_FAILURE() << "not refused: " << why;
-  } catch (const InputError &e) {
-    EXPECT_NE(std::string(e.what()).find(why), std::string::npos) << e.what();
-  }
+  EXPECT_TRUE(fails_with(why, [&] { motion.check_snapshot(at); }));
 }
 
 TEST_F(AlongX, is_known_in_a_snapshot_from_its_time)
@@ -519,7 +508,7 @@ TEST(MeshMotion, begins_another_motion_after_a_restart_from_where_it_was)
   after.linear({0, 3, 0});
   EXPECT_EQ(where_it_goes_on(before, after), (Vec3{3, 3, 0}));
   ASSERT_EQ(after.host.warnings.size(), 1);
-  EXPECT_NE(after.host.warnings[0].find("the phase is lost"), std::string::npos);
+  EXPECT_TRUE(has(after.host.warnings[0], "the phase is lost"));
 }
 
 // As the program of a library puts a mesh, by poses, where neither before nor after a motion moves it.
@@ -563,8 +552,7 @@ TEST(MeshMotion, that_was_stopped_stays_so_after_a_restart)
   run(second, after, 4, 5);
   EXPECT_EQ(where(second), (Vec3{3, 0, 0}));
   ASSERT_EQ(after.host.warnings.size(), 1);
-  EXPECT_NE(after.host.warnings[0].find("was stopped when the saved state was written"),
-            std::string::npos);
+  EXPECT_TRUE(has(after.host.warnings[0], "was stopped when the saved state was written"));
 }
 
 TEST(MeshMotion, servo_is_where_it_was_after_a_restart)
@@ -593,8 +581,7 @@ TEST(MeshMotion, is_where_a_servo_had_it_that_is_not_there_after_a_restart)
   before.servo().position = 5;
   EXPECT_EQ(where_it_goes_on(before, after), (Vec3{0, 0, 5}));
   ASSERT_EQ(after.host.warnings.size(), 1);
-  EXPECT_NE(after.host.warnings[0].find("no other servo takes over its position and speed"),
-            std::string::npos);
+  EXPECT_TRUE(has(after.host.warnings[0], "no other servo takes over its position and speed"));
 }
 
 TEST(MeshMotion, has_the_values_of_variables_after_a_restart)

@@ -3,6 +3,7 @@
 
 // Warnings of spheres that are deep in the wall, on two processes.
 #include "support/fake_host.h"
+#include "support/says.h"
 #include "wall/checks/overlap_monitor.h"
 
 #include <gtest/gtest.h>
@@ -139,9 +140,7 @@ TEST(OverlapMonitor, tells_of_a_sharp_grain_beside_a_new_one)
   host.warnings.clear();
   monitor.check_sharp();
   ASSERT_EQ(host.warnings.size(), 1);
-  EXPECT_NE(host.warnings[0].find("sphere 1 overlaps the wall by 0.75 times its least radius"),
-            std::string::npos)
-      << host.warnings[0];
+  EXPECT_TRUE(has(host.warnings[0], "sphere 1 overlaps the wall by 0.75 times its least radius"));
 }
 
 TEST(OverlapMonitor, blames_a_timestep_that_is_too_long_before_the_stiffness)
@@ -165,7 +164,7 @@ TEST(OverlapMonitor, names_the_side_where_a_centre_is_past_the_wall)
 {
   const std::vector<std::string> told = warned_of_sunk({1.01, 0, 0, 0});
   ASSERT_EQ(told.size(), 1);
-  EXPECT_NE(told[0].find("its centre is past the wall"), std::string::npos);
+  EXPECT_TRUE(has(told[0], "its centre is past the wall"));
 }
 
 // The warnings of the first process where one of the spheres 1 to 4 overlaps so in each step, looked at after each.
@@ -192,19 +191,19 @@ TEST(OverlapMonitor, warns_again_past_a_quarter_and_a_half_and_where_a_centre_co
        deepest(0.6, 2), deepest(0.94, 2), deepest(0.96, 1, 88, 1, 6), deepest(0.97, 1),
        deepest(1.2, 2, 99, 2, 4)});
   ASSERT_EQ(told.size(), 5U);
-  const auto has = [&](int k, const char *text) {
-    EXPECT_NE(told[k].find(text), std::string::npos) << told[k];
-  };
-  has(0, "sphere 1 sank into the wall by 11 %");
-  has(0, "comes again past 25 %");
-  has(1, "sphere 4 sank into the wall by 26 %");
-  has(1, "comes again past 50 %");
-  has(2, "sphere 3 sank into the wall by 60 %");
-  has(2, "comes again where a centre comes to the wall");
-  has(3, "sphere 2 sank into the wall by 96 % of its radius 2 in step 88, pressed by mesh 2 "
-         "'vane.stl' and mesh 3 'inlet.stl': its centre came to the wall, so it may come out");
-  has(4, "sphere 3 sank into the wall by 120 % of its radius 3 in step 99, pressed by mesh 3 "
-         "'inlet.stl': its centre is past the wall");
+  EXPECT_TRUE(has(told[0], "sphere 1 sank into the wall by 11 %"));
+  EXPECT_TRUE(has(told[0], "comes again past 25 %"));
+  EXPECT_TRUE(has(told[1], "sphere 4 sank into the wall by 26 %"));
+  EXPECT_TRUE(has(told[1], "comes again past 50 %"));
+  EXPECT_TRUE(has(told[2], "sphere 3 sank into the wall by 60 %"));
+  EXPECT_TRUE(has(told[2], "comes again where a centre comes to the wall"));
+  EXPECT_TRUE(
+      has(told[3],
+          "sphere 2 sank into the wall by 96 % of its radius 2 in step 88, pressed by mesh 2 "
+          "'vane.stl' and mesh 3 'inlet.stl': its centre came to the wall, so it may come out"));
+  EXPECT_TRUE(has(
+      told[4], "sphere 3 sank into the wall by 120 % of its radius 3 in step 99, pressed by mesh 3 "
+               "'inlet.stl': its centre is past the wall"));
 }
 
 TEST(OverlapMonitor, names_both_of_two_spheres_whose_centres_come_to_the_wall_at_once)
@@ -218,8 +217,8 @@ TEST(OverlapMonitor, names_both_of_two_spheres_whose_centres_come_to_the_wall_at
     if (host.rank() == 0) warnings = host.warnings;
   });
   ASSERT_EQ(warnings.size(), 2U);
-  EXPECT_EQ(warnings[0].find("sphere 3 sank into the wall by 97 %"), 0U);
-  EXPECT_EQ(warnings[1].find("sphere 1 sank into the wall by 96 %"), 0U);
+  EXPECT_TRUE(begins(warnings[0], "sphere 3 sank into the wall by 97 %"));
+  EXPECT_TRUE(begins(warnings[1], "sphere 1 sank into the wall by 96 %"));
 }
 
 TEST(OverlapMonitor, names_no_more_than_ten)
@@ -276,17 +275,16 @@ TEST(OverlapMonitor, tells_of_a_new_sphere_that_was_put_into_the_wall)
 {
   const std::vector<std::string> told = warned_of_new(5, {0.5});
   ASSERT_EQ(told.size(), 1);
-  EXPECT_EQ(
-      told[0].find("sphere 5 appeared inside the wall, which it overlaps by 50 % of its radius "
-                   "4 in step 100: it will be thrown out"),
-      0);
+  EXPECT_TRUE(begins(told[0],
+                     "sphere 5 appeared inside the wall, which it overlaps by 50 % of its radius "
+                     "4 in step 100: it will be thrown out"));
 }
 
 TEST(OverlapMonitor, takes_a_sphere_that_was_there_before_for_one_that_sank)
 {
   const std::vector<std::string> told = warned_of_new(4, {0.5});
   ASSERT_EQ(told.size(), 1);
-  EXPECT_EQ(told[0].find("sphere 4 sank"), 0);
+  EXPECT_TRUE(begins(told[0], "sphere 4 sank"));
 }
 
 TEST(OverlapMonitor, does_not_tell_again_of_a_new_sphere_that_is_on_its_way_out)
@@ -298,14 +296,14 @@ TEST(OverlapMonitor, tells_of_a_new_sphere_that_sinks_deeper)
 {
   const std::vector<std::string> told = warned_of_new(5, {0.5, 0.56});
   ASSERT_EQ(told.size(), 2);
-  EXPECT_EQ(told[1].find("sphere 5 sank into the wall by 56 %"), 0);
+  EXPECT_TRUE(begins(told[1], "sphere 5 sank into the wall by 56 %"));
 }
 
 TEST(OverlapMonitor, tells_of_a_new_sphere_that_was_out_and_sank_again)
 {
   const std::vector<std::string> told = warned_of_new(5, {0.5, 0.1, 0.2});
   ASSERT_EQ(told.size(), 2);
-  EXPECT_EQ(told[1].find("sphere 5 sank into the wall by 20 %"), 0);
+  EXPECT_TRUE(begins(told[1], "sphere 5 sank into the wall by 20 %"));
 }
 
 // The warnings of the first process where spheres come one after the other and overlap so.
@@ -331,7 +329,7 @@ TEST(OverlapMonitor, tells_again_of_new_spheres_that_are_a_tenth_deeper)
 {
   const std::vector<std::string> told = warned_of_coming({0.5, 0.54, 0.56}, false);
   ASSERT_EQ(told.size(), 2);
-  EXPECT_EQ(told[1].find("sphere 6 appeared inside the wall, which it overlaps by 56 %"), 0);
+  EXPECT_TRUE(begins(told[1], "sphere 6 appeared inside the wall, which it overlaps by 56 %"));
 }
 
 TEST(OverlapMonitor, takes_the_first_spheres_of_a_run_that_goes_on_for_old_ones)

@@ -3,6 +3,7 @@
 
 // The table of a run's times, from two processes whose clocks the tests turn.
 #include "support/fake_host.h"
+#include "support/says.h"
 #include "wall/reports/time_report.h"
 
 #include <gtest/gtest.h>
@@ -78,9 +79,7 @@ TEST(TimeReport, has_no_share_of_a_loop_time_that_is_not_known)
 TEST(TimeReport, keeps_a_section_of_one_process)
 {
   const std::string text = table({{TimeReport::files, {0, 2}}}, 0);
-  EXPECT_NE(text.find("\n  Files   | 0          | 1          | 2          | 100.0 |100.00"),
-            std::string::npos)
-      << text;
+  EXPECT_TRUE(has(text, "\n  Files   | 0          | 1          | 2          | 100.0 |100.00"));
 }
 
 TEST(TimeReport, has_shares_that_add_up_to_100)
@@ -109,8 +108,8 @@ TEST(TimeReport, counts_from_the_end_of_one_section_to_that_of_the_next)
     report.end(TimeReport::forces);
     report.end_run(false, 0);
     ASSERT_EQ(host.lines.size(), 1);
-    EXPECT_NE(host.lines[0].find("Choice  | 1          | 1 "), std::string::npos) << host.lines[0];
-    EXPECT_NE(host.lines[0].find("Forces  | 3          | 3 "), std::string::npos) << host.lines[0];
+    EXPECT_TRUE(has(host.lines[0], "Choice  | 1          | 1 "));
+    EXPECT_TRUE(has(host.lines[0], "Forces  | 3          | 3 "));
   });
 }
 

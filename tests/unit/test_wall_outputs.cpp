@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // The columns of a wall: how many there are, and that the manual has them.
+#include "support/says.h"
 #include "wall/wall_outputs.h"
 
 #include <gtest/gtest.h>
@@ -32,9 +33,8 @@ TEST(wall_outputs, are_in_the_manual)
              (*row.unit ? " (" + std::string(row.unit) + ")" : "") + "\n";
     column += row.n;
   }
-  EXPECT_NE(page.str().find("\n\n" + table + "\n"), std::string::npos)
-      << "the list of the page is to be:\n"
-      << table;
+  EXPECT_TRUE(has(page.str(), "\n\n" + table + "\n")) << "the list of the page is to be:\n"
+                                                      << table;
 }
 
 // How many numbers each double of a struct in the library's header has, by its name.

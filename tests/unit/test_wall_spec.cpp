@@ -4,6 +4,7 @@
 // A wall's data: what a wall cannot be made of is refused, by the keywords of a script or by the fields of a program.
 #include "base/input_error.h"
 #include "support/fake_host.h"
+#include "support/says.h"
 #include "wall/spec_check.h"
 #include "wall/wall.h"
 
@@ -29,18 +30,13 @@ WallSpec good()
 // The text of the error; empty: there is none.
 std::string refusal_of(const WallSpec &wall, SpecNames names = SpecNames::keywords)
 {
-  try {
-    check_spec(wall, names);
-  } catch (const InputError &e) {
-    return e.what();
-  }
-  return "";
+  return lsdcd::error_of([&] { check_spec(wall, names); });
 }
 
 void expect_error(const WallSpec &wall, const std::string &text)
 {
   const std::string error = refusal_of(wall);
-  EXPECT_NE(error.find(text), std::string::npos) << error;
+  EXPECT_TRUE(has(error, text));
 }
 
 TEST(wall_spec, a_wall_of_two_meshes_is_taken)
@@ -259,8 +255,8 @@ TEST(wall_spec, what_grains_of_other_shapes_do_not_have_is_refused)
     EXPECT_EQ(refusal_of(wall), "");
     row.spoil(wall, wall.laws[0].law);
     const std::string error = refusal_of(wall);
-    EXPECT_EQ(error.find("in '" + std::string(row.keyword) + "', "), 0u) << error;
-    EXPECT_NE(error.find(row.text), std::string::npos) << error;
+    EXPECT_TRUE(begins(error, "in '" + std::string(row.keyword) + "', "));
+    EXPECT_TRUE(has(error, row.text));
     wall.shapes = false;
     EXPECT_EQ(refusal_of(wall), "") << row.text;    // of spheres alone it is taken
   }
@@ -272,9 +268,8 @@ TEST(wall_spec, another_mesh_is_named_as_its_maker_does)
   wall.meshes[0].name = "lid";
   wall.meshes[0].stl.name = wall.meshes[1].stl.name = "a.stl";
   expect_error(wall, "of mesh 2 'blade': mesh 1 'lid' has the same file 'a.stl', so one would");
-  EXPECT_EQ(refusal_of(wall, SpecNames::fields)
-                .rfind("`meshes[1].stl`: meshes[0] has the same file 'a.stl'", 0),
-            0u);
+  EXPECT_TRUE(begins(refusal_of(wall, SpecNames::fields),
+                     "`meshes[1].stl`: meshes[0] has the same file 'a.stl'"));
 }
 
 // With one mesh no error says which.
