@@ -5,6 +5,7 @@
 #pragma once
 
 #include "lsdcd_behind_core.h"
+#include "support/says.h"
 
 #include <gtest/gtest.h>
 
@@ -48,7 +49,7 @@ class FloorTest : public testing::Test {
     spec.meshes.emplace_back(mesh, "floor");
     return spec;
   }
-  api::WallSpec floor() const { return floor_of(hooke_history(), *mesh_); }
+  api::WallSpec floor(const api::Law &law = hooke_history()) const { return floor_of(law, *mesh_); }
   api::WallSpec floor_that_moves(const api::Motion &motion) const
   {
     api::WallSpec spec = floor();
@@ -70,8 +71,42 @@ class FloorTest : public testing::Test {
   std::optional<api::Mesh> mesh_;    // of the file
 };
 
+// Keeps the lines and warnings that walls of these options show.
+struct Shown : lsdcd::WallOptions {
+  std::vector<std::string> lines, warnings;
+
+  Shown(const Shown &) = delete;    // it points to itself
+  Shown()
+  {
+    data = this;
+    show = [](void *shown, int warning, const char *text) {
+      Shown &to = *static_cast<Shown *>(shown);
+      (warning ? to.warnings : to.lines).push_back(text);
+    };
+  }
+};
+
+// Gives a wall a box about the origin, periodic along z or nowhere.
+inline void set_box(lsdcd::WallOptions &options, double half, bool periodic = true)
+{
+  for (int k = 0; k < 3; k++) options.hi[k] = -(options.lo[k] = -half);
+  options.periodic[2] = periodic;
+  if (periodic) options.margin = 0.1;
+}
+
+inline lsdcd_wall_step step_of(double dt = kDt)
+{
+  lsdcd_wall_step step = {};
+  step.size = sizeof step;
+  step.dt = dt;
+  return step;
+}
+
 struct Grains {
   std::vector<double> x, v, omega, radius, mass, force, torque;
+
+  Grains() = default;
+  Grains(double px, double py, double pz, double vx = 0) { add(px, py, pz, vx); }    // one
 
   void add(double px, double py, double pz, double vx = 0)
   {
@@ -104,9 +139,7 @@ struct Grains {
     for (int i = 0; i < n; i++) {
       force.assign(x.size(), 0);
       torque.assign(x.size(), 0);
-      lsdcd_wall_step step = {};
-      step.size = sizeof step;
-      step.dt = kDt;
+      lsdcd_wall_step step = step_of();
       step.setup = setup;
       wall.step(spheres(), step);
     }
@@ -132,3 +165,13 @@ inline std::string text_of(const std::function<void()> &work)
     return e.what();
   }
 }
+
+// Does `work` throw an Error of the library that says `part`?
+inline testing::AssertionResult is_refused(const std::string &part,
+                                           const std::function<void()> &work)
+{
+  return lsdcd::has(text_of(work), part);
+}
+
+using lsdcd::begins;
+using lsdcd::has;

@@ -3,8 +3,7 @@
 
 // Barycentric coordinates and signed distances of the library, in quad precision and closed forms.
 #include "base/quad.h"
-#include "lsdcd_behind_core.h"
-#include "support/meshes.h"
+#include "points_and_meshes.h"
 
 #include <gtest/gtest.h>
 
@@ -24,13 +23,6 @@ using lsdcd::TriangleSoup;
 using lsdcd::Vec3;
 
 constexpr double kUnit = 2.220446049250313e-16;    // twice the rounding of numbers of order 1
-
-std::vector<double> numbers(const TriangleSoup &soup)
-{
-  std::vector<double> out;
-  for (const Vec3 &p : soup.corners) out.insert(out.end(), {p.x, p.y, p.z});
-  return out;
-}
 
 struct QuadVec {
   Quad x, y, z;
@@ -129,22 +121,6 @@ std::vector<T> points_near(const TriangleSoup &soup, std::size_t n)
 }
 
 template <class T>
-std::vector<T> points_in_cube(double half, std::size_t n)
-{
-  std::mt19937 r(4);
-  std::uniform_real_distribution<double> at(-half, half);
-  std::vector<T> points(3 * n);
-  for (T &x : points) x = static_cast<T>(at(r));
-  return points;
-}
-
-template <class T>
-Vec3 point(const std::vector<T> &points, std::size_t i)
-{
-  return {double(points[3 * i]), double(points[3 * i + 1]), double(points[3 * i + 2])};
-}
-
-template <class T>
 struct Shares {
   std::vector<T> closest, barycentric;
   std::vector<std::uint32_t> triangle, feature;
@@ -161,14 +137,6 @@ struct Shares {
     grid.query(q);
   }
 };
-
-// A wall whose triangles share edges and vertices.
-TriangleSoup box_and_cylinder()
-{
-  TriangleSoup soup = lsdcd::box_mesh({-1, -1, -1}, {1, 1, 1});
-  lsdcd::append(soup, lsdcd::cylinder_mesh(24, 5, 0.5, 0.6));
-  return soup;
-}
 
 // How far the point of each answer's shares is from its closest point, at most. Shares are from 0 to 1, and their sum
 // is 1 up to a rounding of each.
@@ -226,7 +194,7 @@ TEST(barycentric, of_a_face_is_that_of_the_foot_of_the_point)
 TEST(barycentric, is_0_for_corners_that_the_closest_edge_or_vertex_does_not_have)
 {
   const TriangleSoup soup = box_and_cylinder();
-  const std::vector<double> points = points_in_cube<double>(1.5, 4000);
+  const std::vector<double> points = random_points<double>(4000);
   const Shares<double> s(lsdcd::Grid(lsdcd::Mesh(numbers(soup))), points);
   std::array<int, 3> seen = {};
   for (std::size_t i = 0; i < s.triangle.size(); i++) {
@@ -301,7 +269,7 @@ template <class T>
 void expect_box(const lsdcd::GridOptions &options, double tolerance)
 {
   const lsdcd::Grid grid(lsdcd::Mesh(numbers(kBox)), options);
-  const std::vector<T> points = points_in_cube<T>(2, 5000);
+  const std::vector<T> points = random_points<T>(5000, 2);
   const std::vector<T> found = grid.signed_distances(points);
   const double cutoff = options.cutoff > 0 ? options.cutoff : HUGE_VAL;
   for (std::size_t i = 0; i < found.size(); i++) {
@@ -331,7 +299,7 @@ TEST(signed_distance, is_that_of_a_box_negative_inside)
 TEST(signed_distance, is_the_distance_with_the_sign_of_the_side)
 {
   const lsdcd::Grid grid(lsdcd::Mesh(numbers(box_and_cylinder())));
-  const std::vector<double> points = points_in_cube<double>(1.5, 2000);
+  const std::vector<double> points = random_points<double>(2000);
   const std::size_t n = points.size() / 3;
   std::vector<double> distance(n), together(2 * n, 7);
   std::vector<std::int8_t> side(n);
@@ -380,7 +348,7 @@ TEST(signed_distance, of_an_open_mesh_is_refused_or_estimated)
     FAIL();
   } catch (const lsdcd::Error &e) {
     EXPECT_EQ(e.code(), LSDCD_ERROR_SIDE);
-    EXPECT_NE(std::string(e.what()).find("estimate_sides"), std::string::npos);
+    EXPECT_TRUE(lsdcd::has(e.what(), "estimate_sides"));
   }
   const std::vector<double> found = grid.signed_distances(points, 0, true);
   EXPECT_EQ(found[0], -HUGE_VAL);

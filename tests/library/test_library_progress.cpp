@@ -2,8 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // Long calls of the library tell how far they are, and end where that is asked for.
-#include "lsdcd_behind_core.h"
-#include "support/meshes.h"
+#include "points_and_meshes.h"
 #include "support/temp_dir.h"
 
 #include <gtest/gtest.h>
@@ -12,7 +11,6 @@
 #include <cmath>
 #include <cstring>
 #include <filesystem>
-#include <random>
 #include <set>
 #include <stdexcept>
 #include <string>
@@ -21,12 +19,6 @@
 namespace test_library_progress {
 namespace {
 
-std::vector<double> numbers(const lsdcd::TriangleSoup &soup)
-{
-  std::vector<double> corners;
-  for (const lsdcd::Vec3 &p : soup.corners) corners.insert(corners.end(), {p.x, p.y, p.z});
-  return corners;
-}
 // 24 000 triangles, so that a tree tells more than once.
 lsdcd::Mesh cylinder()
 {
@@ -35,16 +27,6 @@ lsdcd::Mesh cylinder()
 lsdcd::Mesh box()
 {
   return lsdcd::Mesh(numbers(lsdcd::box_mesh({-1, -1, -1}, {1, 1, 1})));
-}
-
-template <class T>
-std::vector<T> random_points(std::size_t n)
-{
-  std::mt19937_64 dice(1);
-  std::uniform_real_distribution<T> at(T(-1.5), T(1.5));
-  std::vector<T> points(3 * n);
-  for (T &x : points) x = at(dice);
-  return points;
 }
 
 // The reports of calls that nobody ends, as shares from 0 to 1.
@@ -79,8 +61,7 @@ void expect_cancelled(const Call &call, std::size_t fewest)
       ADD_FAILURE() << "not cancelled at " << at;
     } catch (const lsdcd::Error &e) {
       EXPECT_EQ(e.code(), LSDCD_ERROR_CANCELLED);
-      EXPECT_NE(std::string(e.what()).find("cancelled the call, at: " + at), std::string::npos)
-          << e.what();
+      EXPECT_TRUE(lsdcd::has(e.what(), "cancelled the call, at: " + at));
     }
     // An exception of it comes out.
     EXPECT_THROW(call([&](const char *what, double) -> bool {
@@ -263,14 +244,12 @@ TEST(progress, an_error_of_a_later_part_has_the_number_of_its_point)
       call();
       FAIL();
     } catch (const lsdcd::Error &e) {
-      EXPECT_EQ(std::string(e.what()).find(std::string(of) + " 17000 has radius 0.4"), 0u)
-          << e.what();
+      EXPECT_TRUE(lsdcd::begins(e.what(), std::string(of) + " 17000 has radius 0.4"));
     }
   };
   expect("point", [&] { grid.query(q, never); });
   expect("sphere", [&] { grid.contacts(points, radii, 1, never); });
 }
 
-// Structs as an older header has them.
 }    // namespace
 }    // namespace test_library_progress

@@ -21,8 +21,7 @@ class wall : public FloorTest {};
 TEST_F(wall, adds_the_force_of_an_overlap)
 {
   lsdcd::Wall wall(floor());
-  Grains grains;
-  grains.add(0.3, 0.2, 0.49);
+  Grains grains(0.3, 0.2, 0.49);
   grains.step(wall);
   EXPECT_NEAR(grains.force[2], kN * 0.01, kN * kRounding);
 }
@@ -30,8 +29,7 @@ TEST_F(wall, adds_the_force_of_an_overlap)
 TEST_F(wall, moves_springs_in_steps_only)
 {
   lsdcd::Wall wall(floor());
-  Grains grains;
-  grains.add(0.3, 0.2, 0.49, 0.1);
+  Grains grains(0.3, 0.2, 0.49, 0.1);
   grains.step(wall, 1, true);
   EXPECT_EQ(grains.force[0], 0);
   grains.step(wall, 10);
@@ -58,8 +56,7 @@ TEST_F(wall, goes_on_from_what_was_saved)
 {
   const api::WallSpec spec = floor_that_moves(api::Motion::linear({0.01, 0, 0}));
   lsdcd::Wall first(spec), second(spec);
-  Grains grains;
-  grains.add(0.3, 0.2, 0.49, 0.1);
+  Grains grains(0.3, 0.2, 0.49, 0.1);
   grains.step(first, 10);
   Grains same = grains;
   second.restore(first.save());
@@ -72,8 +69,7 @@ TEST_F(wall, goes_on_with_its_servo)
 {
   const api::WallSpec servo = floor_that_pushes(25, 0.5);
   lsdcd::Wall first(servo), second(servo);
-  Grains grains;
-  grains.add(0.3, 0.2, 0.49, 0.1);
+  Grains grains(0.3, 0.2, 0.49, 0.1);
   grains.step(first, 10);
   Grains same = grains;
   second.restore(first.save());
@@ -87,8 +83,7 @@ TEST_F(wall, goes_on_with_its_servo)
 TEST_F(wall, has_totals_of_a_mesh_that_moves)
 {
   lsdcd::Wall wall(floor_that_moves(api::Motion::linear({0, 0, 2})));
-  Grains grains;
-  grains.add(3, 0, 0.49);
+  Grains grains(3, 0, 0.49);
   grains.step(wall);
   const lsdcd_wall_totals totals = wall.totals(0);
   const double force = kN * (0.01 + 2 * kDt);
@@ -103,23 +98,19 @@ TEST_F(wall, has_totals_of_a_mesh_that_moves)
 TEST_F(wall, has_the_pose_of_a_mesh_that_turns)
 {
   lsdcd::Wall wall(floor_that_moves(api::Motion::rotate({1, 0, 0}, {0, 1, 0}, 2)));
-  Grains grains;
-  grains.add(0, 0, 5);
+  Grains grains(0, 0, 5);
   grains.step(wall, 100);
   const double angle = std::acos(-1.) * 100 * kDt, c = std::cos(angle), s = std::sin(angle);
   const std::array<double, 12> wanted = {c, 0, s, 1 - c, 0, 1, 0, 0, -s, 0, c, s};
   const std::array<double, 12> pose = wall.pose();
   // Time is a sum of 100 steps, each rounded.
   for (int k = 0; k < 12; k++) EXPECT_NEAR(pose[k], wanted[k], 100 * kRounding) << k;
-  EXPECT_EQ(code_of([&] { wall.pose(1); }), LSDCD_ERROR_ARGUMENT);
-  EXPECT_EQ(code_of([&] { wall.pose(-1); }), LSDCD_ERROR_ARGUMENT);
 }
 
 TEST_F(wall, changes_its_motion)
 {
   lsdcd::Wall wall(floor());
-  Grains grains;
-  grains.add(0, 0, 0.49);
+  Grains grains(0, 0, 0.49);
   grains.step(wall);
   wall.set_motion(0, {api::Motion::linear({0, 0, 1})});
   grains.step(wall, 5);
@@ -128,67 +119,32 @@ TEST_F(wall, changes_its_motion)
 
 TEST_F(wall, shows_its_log_and_warnings)
 {
-  std::vector<std::string> shown[2];
-  lsdcd::WallOptions options;
-  options.data = shown;
-  options.show = [](void *data, int warning, const char *text) {
-    static_cast<std::vector<std::string> *>(data)[warning].push_back(text);
-  };
-  lsdcd::Wall wall(floor(), &options);
-  ASSERT_EQ(shown[0].size(), 1u);
-  EXPECT_NE(shown[0][0].find("hooke/history"), std::string::npos);
-  Grains grains;
-  grains.add(0, 0, 0.3);    // deep in the wall
+  Shown shown;
+  lsdcd::Wall wall(floor(), &shown);
+  ASSERT_EQ(shown.lines.size(), 1u);
+  EXPECT_TRUE(has(shown.lines[0], "floor"));
+  EXPECT_TRUE(has(shown.lines[0], "contact     hooke/history, kn 1000, kt 300"));
+  Grains grains(0, 0, 0.3);    // deep in the wall
   grains.step(wall, 1, true);
-  EXPECT_EQ(shown[1].size(), 1u);
+  EXPECT_EQ(shown.warnings.size(), 1u);
 }
 
 TEST_F(wall, acts_through_a_periodic_face)
 {
   lsdcd::WallOptions options;
-  for (int k = 0; k < 3; k++) {
-    options.lo[k] = -20;
-    options.hi[k] = 20;
-  }
-  options.periodic[2] = 1;
-  options.margin = 0.1;
+  set_box(options, 20);
   api::WallSpec spec = floor();
   spec.meshes[0].placement.move(0, 0, -19.6);
   lsdcd::Wall wall(spec, &options);
-  Grains grains;
-  grains.add(0, 0, 19.92);    // the image of the floor is at z = 20.4
+  Grains grains(0, 0, 19.92);    // the image of the floor is at z = 20.4
   grains.step(wall);
   EXPECT_NEAR(grains.force[2], -kN * 0.02, kN * 1e-13);
-}
-
-TEST_F(wall, refuses_fewer_spheres_without_a_word)
-{
-  lsdcd::Wall wall(floor());
-  Grains grains;
-  grains.add(0, 0, 0.49);
-  grains.add(1, 0, 0.49);
-  grains.step(wall);
-  Grains fewer;
-  fewer.add(0, 0, 0.49);
-  EXPECT_EQ(code_of([&] { fewer.step(wall); }), LSDCD_ERROR_ARGUMENT);
-}
-
-TEST_F(wall, refuses_numbers_that_are_no_spheres)
-{
-  lsdcd::Wall wall(floor());
-  Grains grains;
-  grains.add(0, 0, 0.49);
-  grains.add(1, 0, 0.49);
-  grains.step(wall);
-  EXPECT_EQ(code_of([&] { wall.renumber({0, 0}); }), LSDCD_ERROR_ARGUMENT);
-  EXPECT_EQ(code_of([&] { wall.renumber({2}); }), LSDCD_ERROR_ARGUMENT);
 }
 
 TEST_F(wall, refuses_numbers_that_it_did_not_save)
 {
   lsdcd::Wall wall(floor()), other(floor());
-  Grains grains;
-  grains.add(0, 0, 0.49, 0.1);
+  Grains grains(0, 0, 0.49, 0.1);
   grains.step(wall);
   std::vector<double> saved = wall.save();
   while (!saved.empty()) {
@@ -209,16 +165,9 @@ TEST_F(wall, needs_a_GPU_for_arrays_on_one)
   options.device = LSDCD_CUDA;
   const std::string told = text_of([&] { lsdcd::Wall wall(floor(), &options); }),
                     remedy = "; use LSDCD_CPU, with arrays of the host";
-  EXPECT_EQ(told.rfind("CUDA: ", 0), 0u) << told;
+  EXPECT_TRUE(begins(told, "CUDA: "));
   EXPECT_EQ(told.substr(told.size() - remedy.size()), remedy);
   EXPECT_EQ(code_of([&] { lsdcd::Wall wall(floor(), &options); }), LSDCD_ERROR_DEVICE);
-}
-
-TEST_F(wall, takes_no_stream_without_a_device)
-{
-  lsdcd::WallOptions options;
-  options.stream = &options;
-  EXPECT_EQ(code_of([&] { lsdcd::Wall wall(floor(), &options); }), LSDCD_ERROR_ARGUMENT);
 }
 
 // In a process of its own: a driver stays.
@@ -227,8 +176,7 @@ TEST_F(wall, refuses_arrays_that_only_a_GPU_can_read)
   if (dlopen("libcuda.so.1", RTLD_NOLOAD | RTLD_LAZY)) GTEST_SKIP() << "a driver is loaded";
   const auto step_with_a_driver = [&] {
     lsdcd::Wall wall(floor());
-    Grains grains;
-    grains.add(0, 0, 0.49);
+    Grains grains(0, 0, 0.49);
     if (!dlopen(LSDCD_FAKE_CUDA, RTLD_NOW)) std::_Exit(-1);
     std::_Exit(code_of([&] { grains.step(wall); }) + 100 * (grains.force[2] != 0));
   };
@@ -246,11 +194,11 @@ TEST_F(wall, refuses_spheres_without_a_place_a_size_or_a_mass)
     return text_of([&] { grains.step(wall); });
   };
   for (const double x : {nan, inf, -inf})
-    EXPECT_EQ(told([&](Grains &g) { g.x[5] = x; }).rfind("x[1] is 1 0 ", 0), 0u) << x;
+    EXPECT_TRUE(begins(told([&](Grains &g) { g.x[5] = x; }), "x[1] is 1 0 ")) << x;
   for (const double r : {nan, inf, -0.1})
-    EXPECT_EQ(told([&](Grains &g) { g.radius[2] = r; }).rfind("radius[2] is ", 0), 0u) << r;
+    EXPECT_TRUE(begins(told([&](Grains &g) { g.radius[2] = r; }), "radius[2] is ")) << r;
   for (const double m : {nan, inf, -1., 0.})
-    EXPECT_EQ(told([&](Grains &g) { g.mass[0] = m; }).rfind("mass[0] is ", 0), 0u) << m;
+    EXPECT_TRUE(begins(told([&](Grains &g) { g.mass[0] = m; }), "mass[0] is ")) << m;
   EXPECT_EQ(told([](Grains &g) { g.radius[2] = 0; }), "");
 }
 
@@ -261,8 +209,7 @@ TEST_F(wall, refuses_a_place_that_is_no_number_in_each_step)
   for (int i = 0; i < 3; i++) grains.add(i, 0, 0.49);
   grains.step(wall, 2);
   grains.x[3] = std::nan("");
-  EXPECT_EQ(text_of([&] { grains.step(wall); }).rfind("x[1] is nan 0 0.49, which is not finite", 0),
-            0u);
+  EXPECT_TRUE(is_refused("x[1] is nan 0 0.49, which is not finite", [&] { grains.step(wall); }));
 }
 
 TEST_F(wall, refuses_a_velocity_that_is_not_finite)
@@ -282,35 +229,20 @@ TEST_F(wall, refuses_a_velocity_that_is_not_finite)
 // Along z the box repeats, and nothing is outside.
 TEST_F(wall, warns_once_of_spheres_outside_of_its_box)
 {
-  std::vector<std::string> warnings;
-  lsdcd::WallOptions options;
-  options.data = &warnings;
-  options.show = [](void *data, int warning, const char *text) {
-    if (warning) static_cast<std::vector<std::string> *>(data)->push_back(text);
-  };
-  for (int k = 0; k < 3; k++) {
-    options.lo[k] = -5;
-    options.hi[k] = 5;
-  }
-  options.periodic[2] = 1;
-  options.margin = 0.1;
-  lsdcd::Wall wall(floor(), &options);
-  Grains grains;
-  grains.add(5, 5, 0.49);
+  Shown shown;
+  set_box(shown, 5);
+  lsdcd::Wall wall(floor(), &shown);
+  Grains grains(5, 5, 0.49);
   grains.add(-5, 0, 0.49);
   grains.add(0, 0, 5.05);
   grains.step(wall, 2);
-  EXPECT_EQ(warnings.size(), 0u);
+  EXPECT_EQ(shown.warnings.size(), 0u);
   grains.x[4] = 5.5;
   grains.x[0] = 6;
   grains.step(wall, 2);
-  ASSERT_EQ(warnings.size(), 1u);
-  EXPECT_EQ(warnings[0].rfind("2 spheres are outside of the box, where the wall may not reach: the "
-                              "first, x[0], is at 6 5 "
-                              "0.49",
-                              0),
-            0u)
-      << warnings[0];
+  ASSERT_EQ(shown.warnings.size(), 1u);
+  EXPECT_TRUE(begins(shown.warnings[0], "2 spheres are outside of the box, where the wall may not "
+                                        "reach: the first, x[0], is at 6 5 0.49"));
 }
 
 // Without a box nothing is outside, so that the second call has nothing to show.
@@ -320,10 +252,7 @@ TEST_F(wall, tells_what_its_show_has_thrown_after_a_whole_step)
   options.show = [](void *, int warning, const char *) {
     if (warning) throw std::runtime_error("no more lines");
   };
-  for (int k = 0; k < 3; k++) {
-    options.lo[k] = -5;
-    options.hi[k] = 5;
-  }
+  set_box(options, 5, false);
   lsdcd::Wall wall(floor(), &options), quiet(floor());
   Grains grains, same;
   for (Grains *g : {&grains, &same}) {
@@ -347,21 +276,6 @@ TEST_F(wall, is_not_made_where_its_show_throws)
             "`show` has thrown: not a std::exception");
 }
 
-TEST_F(wall, refuses_rows_that_overlap)
-{
-  lsdcd::Wall wall(floor());
-  Grains grains;
-  grains.add(0, 0, 0.49);
-  grains.add(1, 0, 0.49);
-  lsdcd_spheres s = grains.spheres();
-  s.row = 2;
-  lsdcd_wall_step step = {};
-  step.size = sizeof step;
-  step.dt = kDt;
-  EXPECT_EQ(text_of([&] { wall.step(s, step); }),
-            "row is 2: vectors of 3 numbers need 3 or more, 0 is 3");
-}
-
 TEST_F(wall, takes_vectors_that_lie_between_each_other_and_refuses_those_that_overlap)
 {
   lsdcd::Wall wall(floor());
@@ -380,9 +294,7 @@ TEST_F(wall, takes_vectors_that_lie_between_each_other_and_refuses_those_that_ov
   s.torque = all.data() + 12;
   s.radius = radii.data();
   s.mass = ones.data();
-  lsdcd_wall_step step = {};
-  step.size = sizeof step;
-  step.dt = kDt;
+  lsdcd_wall_step step = step_of();
   wall.step(s, step);
   for (int i = 0; i < kSpheres; i++) EXPECT_GT(all[i * kRow + 11], 0) << i;
   const auto says = [&] { return text_of([&] { wall.step(s, step); }); };
@@ -403,13 +315,7 @@ TEST_F(wall, names_a_sphere_that_outgrew_its_grid)
   grains.add(0, 0, 0.49);
   grains.step(wall);
   grains.radius[1] = 0.51;    // without `changed`
-  try {
-    grains.step(wall);
-    ADD_FAILURE() << "no error";
-  } catch (const lsdcd::Error &e) {
-    EXPECT_EQ(e.code(), LSDCD_ERROR_INPUT);
-    EXPECT_EQ(std::string(e.what()).rfind("sphere 1 (from 0) has", 0), 0u) << e.what();
-  }
+  EXPECT_TRUE(begins(text_of([&] { grains.step(wall); }), "sphere 1 (from 0) has"));
 }
 
 TEST_F(wall, names_a_sphere_by_its_place_in_the_arrays_after_they_were_sorted)
@@ -423,8 +329,7 @@ TEST_F(wall, names_a_sphere_by_its_place_in_the_arrays_after_they_were_sorted)
   wall.renumber({2, 0, 1});
   grains.step(wall);
   grains.radius[2] = 0.51;
-  const std::string told = text_of([&] { grains.step(wall); });
-  EXPECT_EQ(told.rfind("sphere 2 (from 0) has radius 0.51", 0), 0u) << told;
+  EXPECT_TRUE(begins(text_of([&] { grains.step(wall); }), "sphere 2 (from 0) has radius 0.51"));
 }
 
 // A sphere that outgrew its grid is found when the springs of the step have moved.
@@ -444,10 +349,8 @@ TEST_F(wall, refuses_all_calls_after_a_step_that_failed_half_way)
       [&] { wall.set_motion(0, {}); }};
   for (const std::function<void()> &call : calls) {
     EXPECT_EQ(code_of(call), LSDCD_ERROR_INPUT);
-    EXPECT_EQ(
-        text_of(call).rfind("a step of this wall failed half-way, so it cannot go on: " + first, 0),
-        0u)
-        << text_of(call);
+    EXPECT_TRUE(
+        begins(text_of(call), "a step of this wall failed half-way, so it cannot go on: " + first));
   }
 }
 
@@ -535,7 +438,7 @@ TEST_F(wall, says_what_is_wrong_with_a_call)
       {[](C &c) { return c.spheres.torque = c.spheres.force, c.take_step(); },
        "`force` and `torque` share memory"},
       {[](C &c) { return c.spheres.row = 1, c.take_step(); },
-       "row is 1: vectors of 3 numbers need 3"},
+       "row is 1: vectors of 3 numbers need 3 or more, 0 is 3"},
       {[](C &c) { return c.spheres.row = -3, c.take_step(); },
        "row is -3: vectors of 3 numbers need 3"},
       {[](C &c) { return c.spheres.n = 1, c.take_step(); }, "there are 1 spheres and there were 2"},
@@ -574,7 +477,8 @@ TEST_F(wall, says_what_is_wrong_with_a_call)
       {[](C &c) { return c.contacts.size = 0, lsdcd_wall_get_contacts(c.wall, &c.contacts); },
        "`lsdcd_wall_contacts`: size is 0"},
       {[](C &c) { return lsdcd_wall_get_contacts(c.wall, &c.contacts); },
-       "this wall does not keep its contacts"},
+       "this wall does not keep its contacts: set each_contact in its lsdcd_wall_spec when the "
+       "wall is made"},
       {[](C &c) { return lsdcd_wall_get_body(c.wall, 0, nullptr); }, "`lsdcd_body_state` is null"},
       {[](C &c) { return lsdcd_wall_get_body(c.wall, 0, &c.body); },
        "mesh 0, 'floor', is not a body"},
@@ -669,7 +573,9 @@ TEST_F(wall, says_what_is_wrong_with_a_call)
       {[](C &c) { return c.make_for([](lsdcd_host &h) { h.processes = 0; }); }, "`lsdcd_host`: "},
       {[](C &c) { return c.make_for([](lsdcd_host &h) { h.node_rank = -1; }); }, "`lsdcd_host`: "},
       {[](C &c) { return c.make_for([](lsdcd_host &h) { h.sum = nullptr; }); },
-       "`lsdcd_host`: `sum` is null"},
+       "`lsdcd_host`: `sum` is null: give all three, or no host for one process"},
+      {[](C &c) { return c.make_for([](lsdcd_host &h) { h.max = nullptr; }); },
+       "`lsdcd_host`: `max` is null"},
       {[](C &c) { return c.make_for([](lsdcd_host &h) { h.broadcast = nullptr; }); },
        "`lsdcd_host`: `broadcast` is null"},
       // Placements.
@@ -696,9 +602,7 @@ TEST_F(wall, says_what_is_wrong_with_a_call)
   for (const auto &row : rows) {
     Calls calls(wall.get(), spec.get());
     EXPECT_EQ(row.call(calls), row.code) << row.text;
-    const std::string said = lsdcd_last_error();
-    EXPECT_EQ(said.substr(0, std::strlen(row.text)), row.text);
-    EXPECT_FALSE(said.empty());
+    EXPECT_TRUE(begins(lsdcd_last_error(), row.text));
     for (const double f : calls.grains.force) EXPECT_EQ(f, 0) << row.text;
   }
   EXPECT_EQ(wall.save(), before);    // none has changed anything
@@ -707,8 +611,7 @@ TEST_F(wall, says_what_is_wrong_with_a_call)
 TEST_F(wall, goes_on_after_a_step_that_was_refused_before_it_began)
 {
   lsdcd::Wall wall(floor()), unbroken(floor());
-  Grains grains;
-  grains.add(0, 0, 0.49, 0.1);
+  Grains grains(0, 0, 0.49, 0.1);
   Grains same = grains;
   grains.step(wall, 3);
   same.step(unbroken, 3);

@@ -102,11 +102,9 @@ struct Rain {
   }
 };
 
-lsdcd_wall_step step_of(bool setup = false, bool changed = false)
+lsdcd_wall_step step_with(bool setup, bool changed = false)
 {
-  lsdcd_wall_step step = {};
-  step.size = sizeof step;
-  step.dt = kDt;
+  lsdcd_wall_step step = step_of();
   step.setup = setup;
   step.changed = changed;
   return step;
@@ -192,8 +190,8 @@ TEST_F(wall_gpu, gives_arrays_on_a_device_the_forces_of_arrays_of_the_host)
     Copies on_gpu(true), on_cpu(false);
     double contacts = 0;
     for (int k = 0; k <= kSteps; k++) {
-      on_cpu.step(host, here, step_of(k == 0));
-      on_gpu.step(device, there, step_of(k == 0));
+      on_cpu.step(host, here, step_with(k == 0));
+      on_gpu.step(device, there, step_with(k == 0));
       ASSERT_TRUE(same_bytes(there.force, here.force)) << text << ", step " << k;
       ASSERT_TRUE(same_bytes(there.torque, here.torque)) << text << ", step " << k;
       ASSERT_TRUE(same_bytes(there.heat, here.heat)) << text << ", step " << k;
@@ -238,8 +236,8 @@ TEST_F(wall_gpu, moves_a_body_on_a_device_as_on_the_host)
     Copies on_gpu(true), on_cpu(false);
     lsdcd::Wall *wall = &device;
     for (int k = 0; k <= kSteps; k++) {
-      on_cpu.step(host, here, step_of(k == 0, true));
-      on_gpu.step(*wall, there, step_of(k == 0, true));
+      on_cpu.step(host, here, step_with(k == 0, true));
+      on_gpu.step(*wall, there, step_with(k == 0, true));
       double size = 0;
       for (const double f : here.force) size = std::max(size, std::abs(f));
       for (std::size_t i = 0; i < here.force.size(); i++) {
@@ -249,7 +247,7 @@ TEST_F(wall_gpu, moves_a_body_on_a_device_as_on_the_host)
       if (k == kSteps / 2) {
         const std::vector<double> before = there.force;
         restored.restore(device.save());
-        on_gpu.step(restored, there, step_of(true));
+        on_gpu.step(restored, there, step_with(true));
         for (std::size_t i = 0; i < before.size(); i++)
           ASSERT_NEAR(there.force[i], before[i], kApart * size) << body.joint;
         wall = &restored;
@@ -294,8 +292,8 @@ TEST_F(wall_gpu, takes_poses_of_the_caller_on_a_device_as_on_the_host)
     pose.angular_velocity = {0.2, 0, 0};
     host.set_pose(1, pose);
     device.set_pose(1, pose);
-    on_cpu.step(host, here, step_of(k == 0));
-    on_gpu.step(device, there, step_of(k == 0));
+    on_cpu.step(host, here, step_with(k == 0));
+    on_gpu.step(device, there, step_with(k == 0));
     for (std::size_t i = 0; i < here.force.size(); i++) {
       ASSERT_NEAR(there.force[i], here.force[i], kRounding) << "step " << k;
       ASSERT_NEAR(there.torque[i], here.torque[i], kRounding) << "step " << k;    // arms < 1
@@ -347,8 +345,8 @@ TEST_F(wall_gpu, takes_nodes_in_arrays_of_the_device_as_those_of_the_host)
       host.set_nodes(0, x, v);
       device.set_nodes(0, at.put(x), k % 10 == 9 ? nullptr : speed.put(v));
       if (k % 10 == 9) host.set_nodes(0, x);
-      on_cpu.step(host, here, step_of(k == 0));
-      on_gpu.step(device, there, step_of(k == 0));
+      on_cpu.step(host, here, step_with(k == 0));
+      on_gpu.step(device, there, step_with(k == 0));
       device.node_forces(0, forces.put(rest));
       const std::vector<double> of_nodes = host.node_forces(0);
       ASSERT_TRUE(same_bytes(there.force, here.force)) << "step " << k;
@@ -382,7 +380,7 @@ TEST_F(wall_gpu, tells_of_nodes_in_arrays_of_the_device_in_the_next_step)
   lsdcd::Wall wall(spec, &options), host(spec);
   Rain rain(50);
   Copies on_gpu(true);
-  on_gpu.step(wall, rain, step_of(true));
+  on_gpu.step(wall, rain, step_with(true));
   const std::vector<double> rest = wall.nodes(0);
   Copies::Numbers at{true}, speed{true};
   const auto has = [](const std::string &text, const char *part) {
@@ -391,7 +389,7 @@ TEST_F(wall_gpu, tells_of_nodes_in_arrays_of_the_device_in_the_next_step)
   // A step has then failed half-way, and the wall takes no other one.
   const auto error = [&](std::size_t which, double x, double v) {
     lsdcd::Wall failing(spec, &options);
-    on_gpu.step(failing, rain, step_of(true));
+    on_gpu.step(failing, rain, step_with(true));
     std::vector<double> to = rest, fast(rest.size(), 0);
     to[which] += x;
     fast[which] += v;
@@ -431,9 +429,9 @@ TEST_F(wall_gpu, wear_moves_a_mesh_on_a_device_as_on_the_host)
   Rain here(kSpheres), there = here, beside = here;
   Copies on_gpu(true), on_cpu(false);
   for (int k = 0; k <= kSteps; k++) {
-    on_cpu.step(host, here, step_of(k == 0));
-    on_cpu.step(copies, beside, step_of(k == 0));
-    on_gpu.step(device, there, step_of(k == 0));
+    on_cpu.step(host, here, step_with(k == 0));
+    on_cpu.step(copies, beside, step_with(k == 0));
+    on_gpu.step(device, there, step_with(k == 0));
     for (std::size_t i = 0; i < here.force.size(); i++) {
       ASSERT_NEAR(there.force[i], here.force[i], kRounding) << "step " << k;
       ASSERT_NEAR(beside.force[i], here.force[i], kRounding) << "step " << k;
@@ -467,8 +465,8 @@ TEST_F(wall_gpu, gives_each_of_two_processes_the_forces_of_arrays_of_the_host)
     Copies on_cuda(true), on_cpu(false);
     int apart = 0, touching = 0;
     for (int k = 0; k <= kSteps; k++) {
-      on_cpu.step(host, here, step_of(k == 0));
-      on_cuda.step(device, there, step_of(k == 0));
+      on_cpu.step(host, here, step_with(k == 0));
+      on_cuda.step(device, there, step_with(k == 0));
       apart += !same_bytes(there.force, here.force) || !same_bytes(there.torque, here.torque);
       for (std::size_t i = 2; i < here.force.size(); i += 3) touching += here.force[i] != 0;
       apart += device.totals().contacts != host.totals().contacts;
@@ -581,7 +579,7 @@ TEST_F(wall_gpu, takes_radii_that_have_grown)
   copies.step(wall, rain, step_of());
   EXPECT_EQ(rain.force[2], 0);
   rain.radius = {0.5};
-  copies.step(wall, rain, step_of(false, true));
+  copies.step(wall, rain, step_with(false, true));
   EXPECT_NEAR(rain.force[2], 1000 * 0.2, 1000 * kRounding);
 }
 
@@ -595,7 +593,7 @@ TEST_F(wall_gpu, checks_types_in_steps_that_look)
   Copies copies(true);
   copies.step(wall, rain, step_of());
   rain.type[1] = -1;
-  EXPECT_EQ(text_of([&] { copies.step(wall, rain, step_of(false, true)); }),
+  EXPECT_EQ(text_of([&] { copies.step(wall, rain, step_with(false, true)); }),
             "type[1] is -1, below 1");
 }
 
