@@ -4,11 +4,11 @@
 // The words of a rigid body become what it is.
 #include "base/input_error.h"
 #include "input/body_words.h"
+#include "support/says.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <sstream>
 #include <string>
 #include <vector>
 
@@ -23,25 +23,13 @@ struct Read {
 
 Read read(const std::string &line)
 {
-  std::istringstream in(line);
-  std::vector<std::string> words;
-  for (std::string word; in >> word;) words.push_back(word);
-  Tokens tokens(words);
+  const std::vector<std::string> all = words(line);
+  Tokens tokens(all);
   tokens.set_context("body", "body");
   Read r;
   read_body(tokens, r.mesh, r.inputs);
   if (!tokens.done()) r.rest = tokens.peek();
   return r;
-}
-
-std::string error_of_words(const std::string &line)
-{
-  try {
-    read(line);
-  } catch (const InputError &e) {
-    return e.what();
-  }
-  return "";
 }
 
 }    // namespace
@@ -112,10 +100,8 @@ TEST(body_words, change_what_they_name_and_nothing_else)
   const Read before =
       read("density 2 joint hinge 0 0 0 0 0 1 spring 10 0.5 0.1 limits -1 2 motor v_t load 1 2 3");
   const auto changed = [&](const std::string &line, InputNames &inputs) {
-    std::istringstream in("body " + line);
-    std::vector<std::string> words;
-    for (std::string word; in >> word;) words.push_back(word);
-    Tokens tokens(words);
+    const std::vector<std::string> all = words("body " + line);
+    Tokens tokens(all);
     return read_modified_body(tokens, before.mesh.body, inputs);
   };
   InputNames inputs = before.inputs;
@@ -165,9 +151,7 @@ TEST(body_words, are_refused_with_what_is_wrong)
       {"density 1 2", "one more than expected"},
       {"density 1 load 1 v_ 3", "name is missing"},
   };
-  for (const auto &c : cases)
-    EXPECT_NE(error_of_words(c.words).find(c.message), std::string::npos)
-        << c.words << ": " << error_of_words(c.words);
+  for (const auto &c : cases) EXPECT_TRUE(fails_with(c.message, [&] { read(c.words); })) << c.words;
 }
 
 }    // namespace lsdcd::test_body_words

@@ -7,6 +7,7 @@
 #include "grid/build/estimate_lists.h"
 #include "grid/triangle_grid.h"
 #include "support/meshes.h"
+#include "support/says.h"
 
 #include <gtest/gtest.h>
 
@@ -103,8 +104,8 @@ TEST(BuildEstimate, a_given_cell_that_cannot_fit_is_refused_before_anything_is_b
     FAIL() << "it was built";
   } catch (const InputError &e) {
     const std::string why = e.what();
-    EXPECT_NE(why.find("grid 0.5 takes "), why.npos) << why;
-    EXPECT_NE(why.find("leave grid out"), why.npos) << why;
+    EXPECT_TRUE(has(why, "grid 0.5 takes "));
+    EXPECT_TRUE(has(why, "leave grid out"));
   }
   EXPECT_TRUE(told.empty()) << told.front();
 }
@@ -119,11 +120,11 @@ TEST(BuildEstimate, a_chosen_cell_is_not_built_where_it_cannot_fit)
   const TriangleGrid grid = build_grid(slivers(2000), settings);
   EXPECT_GT(grid.length, 0.7);    // not the first
   ASSERT_FALSE(told.empty());
-  EXPECT_EQ(told.front().find("grid 0.5:"), std::string::npos) << told.front();
+  EXPECT_FALSE(has(told.front(), "grid 0.5:"));
   // The last cell that was tried is the one that was taken.
   char name[40];
   std::snprintf(name, sizeof name, "grid %.6g:", double(grid.length));
-  EXPECT_EQ(told.back().find(name), 0u) << told.back();
+  EXPECT_TRUE(begins(told.back(), name));
 }
 
 TEST(BuildEstimate, the_smallest_cutoffs_take_a_coarser_cell_and_say_so)
@@ -139,19 +140,13 @@ TEST(BuildEstimate, the_smallest_cutoffs_take_a_coarser_cell_and_say_so)
     // The limit is of entries of 8 bytes or of the table, whichever are more; and a brick's 128
     // bytes have 64 entries and more, or a quarter.
     EXPECT_LT(double(grid.report.bytes), 2.25 * BuildLimit(1).bytes);
-    EXPECT_NE(describe(grid.report).find("takes too much time or memory"), std::string::npos)
-        << describe(grid.report);
+    EXPECT_TRUE(has(describe(grid.report), "takes too much time or memory"));
   }
 }
 
 std::string why_refused(const GridSettings &settings)
 {
-  try {
-    build_grid(slivers(500), settings);
-  } catch (const InputError &e) {
-    return e.what();
-  }
-  return "";
+  return lsdcd::error_of([&] { build_grid(slivers(500), settings); });
 }
 
 TEST(BuildEstimate, a_given_cell_over_the_limit_is_refused_where_no_budget_lifts_it)
@@ -159,9 +154,9 @@ TEST(BuildEstimate, a_given_cell_over_the_limit_is_refused_where_no_budget_lifts
   GridSettings settings;
   settings.limited = true;
   settings.cutoff = settings.length = 0.1;
-  EXPECT_NE(why_refused(settings).find("grid 0.1 is too fine"), std::string::npos);
+  EXPECT_TRUE(has(why_refused(settings), "grid 0.1 is too fine"));
   settings.memory_budget = std::size_t(20) << 20;
-  EXPECT_NE(why_refused(settings).find("budget is 20 MB"), std::string::npos);
+  EXPECT_TRUE(has(why_refused(settings), "budget is 20 MB"));
 }
 
 TEST(BuildEstimate, progress_names_each_part_of_a_build)

@@ -12,6 +12,7 @@
 #include "support/device.h"
 #include "support/meshes.h"
 #include "support/random.h"
+#include "support/says.h"
 
 #include <gtest/gtest.h>
 
@@ -122,40 +123,6 @@ void expect_complete(const TriangleSoup &soup, Real cutoff, Real length, int n, 
   EXPECT_GT(found, n / 4) << "the points tried nothing";
 }
 
-TEST(grid, is_complete_on_a_floor_of_two_triangles)
-{
-  expect_complete(floor_mesh(1, 2), 0.3, 0, 20000, 1);
-}
-
-TEST(grid, is_complete_on_a_shuffled_floor)
-{
-  expect_complete(floor_mesh(10, 1, 7), 0.3, 0, 20000, 2);
-}
-
-TEST(grid, is_complete_on_a_cylinder)
-{
-  expect_complete(cylinder_mesh(40, 3, 1, 1.5), 0.25, 0, 20000, 3);
-}
-
-TEST(grid, is_complete_on_a_box)
-{
-  expect_complete(box_mesh({0, 0, 0}, {1, 2, 3}), 0.4, 0, 20000, 4);
-}
-
-TEST(grid, is_complete_on_hinges_of_all_angles)
-{
-  for (Real degrees : {-170., -90., -1., -1e-6, 1e-9, 1e-6, 1., 30., 90., 150., 179.})
-    expect_complete(hinge_mesh(degrees, 1), 0.4, 0, 4000, 5);
-}
-
-TEST(grid, is_complete_on_a_tangle_with_free_and_nonmanifold_edges)
-{
-  const TriangleSoup soup = tangle(14, 40, 6);
-  ASSERT_GT(weld(soup, -1).report.nonmanifold_edges, 0u);
-  ASSERT_GT(weld(soup, -1).report.open_edges, 0u);
-  expect_complete(soup, 0.3, 0, 20000, 6);
-}
-
 // Needles of length 1 round a point, 1e-3 to 1e-6 thick, folded up and down.
 TriangleSoup needles()
 {
@@ -172,9 +139,48 @@ TriangleSoup needles()
   return soup;
 }
 
-TEST(grid, is_complete_on_needles)
+TEST(grid, is_complete)
 {
-  for (Real length : {0., 0.02, 0.3}) expect_complete(needles(), 0.3, length, 10000, 14);
+  const TriangleSoup cylinder = cylinder_mesh(40, 3, 1, 1.5), cube = box_mesh({0, 0, 0}, {1, 1, 1}),
+                     free_and_nonmanifold = tangle(14, 40, 6);
+  const Vec3 a_million_radii = {1e6 * 0.25, -0.7e6 * 0.25, 0.3e6 * 0.25};
+  ASSERT_GT(weld(free_and_nonmanifold, -1).report.nonmanifold_edges, 0u);
+  ASSERT_GT(weld(free_and_nonmanifold, -1).report.open_edges, 0u);
+  const struct {
+    const char *what;
+    TriangleSoup soup;
+    Real cutoff;
+    std::vector<Real> lengths;    // of cells; 0: that of the grid
+    int n;                        // spheres
+  } rows[] = {
+      {"a floor of two triangles", floor_mesh(1, 2), 0.3, {0}, 20000},
+      {"a shuffled floor", floor_mesh(10, 1, 7), 0.3, {0}, 20000},
+      {"a cylinder", cylinder, 0.25, {0}, 20000},
+      {"a box", box_mesh({0, 0, 0}, {1, 2, 3}), 0.4, {0}, 20000},
+      {"free and non-manifold edges", free_and_nonmanifold, 0.3, {0}, 20000},
+      {"needles", needles(), 0.3, {0, 0.02, 0.3}, 10000},
+      {"cells of any length", tangle(12, 20, 8), 0.2, {0.013, 0.05, 0.1, 0.29, 0.6, 3}, 4000},
+      {"cells of any length on a cylinder",
+       cylinder_mesh(24, 2, 0.5, 0.6),
+       0.2,
+       {0.013, 0.05, 0.1, 0.29, 0.6, 3},
+       4000},
+      {"spheres much larger than the mesh", cube, 30, {0}, 10000},
+      {"spheres much smaller than the triangles", cube, 0.01, {0}, 10000},
+      {"a cylinder far away", moved(cylinder, a_million_radii), 0.25, {0}, 20000},
+      {"a floor far away", moved(floor_mesh(10, 1, 7), a_million_radii), 0.25, {0.04}, 20000},
+  };
+  for (const auto &row : rows)
+    for (const Real length : row.lengths) {
+      SCOPED_TRACE(row.what);
+      expect_complete(row.soup, row.cutoff, length, row.n, 4);
+    }
+}
+
+TEST(grid, is_complete_on_hinges_of_all_angles)
+{
+  for (Real degrees : {-170., -90., -1., -1e-6, 1e-9, 1e-6, 1., 30., 90., 150., 179.})
+    expect_complete(hinge_mesh(degrees, 1), 0.4, 0, 4000, 5);
 }
 
 // A cube has records of its twelve edges, and none of its six diagonals.
@@ -275,32 +281,6 @@ TEST(grid, cells_of_a_face_at_once_are_those_found_one_by_one)
       }
     }
   EXPECT_GT(cells, 100000u);
-}
-
-TEST(grid, is_complete_at_every_cell_length)
-{
-  for (Real length : {0.013, 0.05, 0.1, 0.29, 0.6, 3.0}) {
-    expect_complete(tangle(12, 20, 8), 0.2, length, 4000, 8);
-    expect_complete(cylinder_mesh(24, 2, 0.5, 0.6), 0.2, length, 4000, 9);
-  }
-}
-
-TEST(grid, is_complete_for_spheres_much_larger_than_the_mesh)
-{
-  expect_complete(box_mesh({0, 0, 0}, {1, 1, 1}), 30, 0, 10000, 10);
-}
-
-TEST(grid, is_complete_for_spheres_much_smaller_than_the_triangles)
-{
-  expect_complete(box_mesh({0, 0, 0}, {1, 1, 1}), 0.01, 0, 10000, 11);
-}
-
-TEST(grid, is_complete_a_million_radii_from_the_origin)
-{
-  const Real cutoff = 0.25;
-  const Vec3 away = {1e6 * cutoff, -0.7e6 * cutoff, 0.3e6 * cutoff};
-  expect_complete(moved(cylinder_mesh(40, 3, 1, 1.5), away), cutoff, 0, 20000, 12);
-  expect_complete(moved(floor_mesh(10, 1, 7), away), cutoff, 0.04, 20000, 13);
 }
 
 TEST(grid, lists_ascend_and_bounds_lie_below_the_true_distance)
@@ -579,12 +559,7 @@ TEST(grid, one_and_two_threads_build_the_same_bytes)
 
 std::string build_error(const WeldedMesh &mesh, const GridSettings &settings)
 {
-  try {
-    build_grid(mesh, settings, test_on_cuda());
-  } catch (const InputError &e) {
-    return e.what();
-  }
-  return "";
+  return lsdcd::error_of([&] { build_grid(mesh, settings, test_on_cuda()); });
 }
 
 // The number before " MB" that follows `before`, in bytes.
@@ -605,7 +580,7 @@ TEST(grid, a_given_length_over_the_budget_is_refused_with_what_it_takes)
     settings.memory_budget = budget;
     const std::string message = build_error(mesh, settings);
     EXPECT_GT(named_bytes(message, "grid 0.004 takes "), budget) << message;
-    EXPECT_NE(message.find("leave grid out"), std::string::npos) << message;
+    EXPECT_TRUE(has(message, "leave grid out"));
     settings.length = 0;
     EXPECT_LE(flat_bytes(build_grid(mesh, settings, test_on_cuda())), budget);
   }

@@ -6,6 +6,7 @@
 #include "input/insert_settings.h"
 #include "insert/inlet_face.h"
 #include "insert/insertion.h"
+#include "support/says.h"
 
 #include <gtest/gtest.h>
 
@@ -587,30 +588,21 @@ TEST(inlet, places_are_uniform_a_radius_off_the_edges_and_within_the_depth)
 
 std::string error_of(const TriangleSoup &soup)
 {
-  try {
-    InletFace(weld(soup, 0), 0);
-  } catch (const InputError &e) {
-    return e.what();
-  }
-  return "";
+  return lsdcd::error_of([&] { InletFace(weld(soup, 0), 0); });
 }
 
 TEST(inlet, a_face_that_is_not_flat_or_wound_both_ways_is_refused_by_facet)
 {
   TriangleSoup bent = rectangle(3, 2);
   bent.corners[5].z = 0.3;
-  EXPECT_NE(error_of(bent).find("face.stl: facet 1 has a corner"), std::string::npos)
-      << error_of(bent);
+  EXPECT_TRUE(has(error_of(bent), "face.stl: facet 1 has a corner"));
   TriangleSoup mixed = rectangle(3, 2);
   mixed.corners[2].y = 1;    // of another area, so that one side is the larger
   std::swap(mixed.corners[1], mixed.corners[2]);
-  EXPECT_NE(error_of(mixed).find("face.stl: facet 1 is wound against"), std::string::npos)
-      << error_of(mixed);
+  EXPECT_TRUE(has(error_of(mixed), "face.stl: facet 1 is wound against"));
   TriangleSoup both = rectangle(3, 2);
   for (const int k : {0, 2, 1}) both.corners.push_back(Vec3(both.corners[k]));
-  EXPECT_NE(error_of(both).find("face.stl: 1 of 2 facets are there in both windings"),
-            std::string::npos)
-      << error_of(both);
+  EXPECT_TRUE(has(error_of(both), "face.stl: 1 of 2 facets are there in both windings"));
 }
 
 TEST(insert_settings, grains_that_come_all_at_once_have_more_attempts)
@@ -631,7 +623,7 @@ TEST(insert_settings, fractions_that_do_not_add_up_are_refused_with_their_sum)
                   "2", "0.4"});
     FAIL();
   } catch (const InputError &e) {
-    EXPECT_NE(std::string(e.what()).find("add up to 0.9, not to 1"), std::string::npos) << e.what();
+    EXPECT_TRUE(has(e.what(), "add up to 0.9, not to 1"));
   }
 }
 

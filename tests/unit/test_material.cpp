@@ -6,6 +6,7 @@
 #include "material/contact_moduli.h"
 #include "material/material_file.h"
 #include "material/material_units.h"
+#include "support/says.h"
 #include "support/temp_dir.h"
 
 #include <gtest/gtest.h>
@@ -36,33 +37,16 @@ struct MaterialFiles : ::testing::Test {
   MaterialFile read(const std::string &text) { return read_materials(write("m.lsdcd", text)); }
   std::string error_of(const std::string &text)
   {
-    try {
-      read(text);
-    } catch (const InputError &e) {
-      return e.what();
-    }
-    return "";
+    return lsdcd::error_of([&] { read(text); });
   }
   // The error of a file that is good up to one more line, the third.
   std::string error_with(const std::string &line)
   {
     return error_of("units si\nmaterial glass\n" + line + "\n");
   }
-  std::string error_in_pair(const std::string &line)
-  {
-    return error_of("units si\nmaterial glass\npair glass glass\n" + line + "\n");
-  }
 };
 
 using material_file = MaterialFiles;
-
-::testing::AssertionResult says(const std::string &message, const std::vector<std::string> &tokens)
-{
-  for (const std::string &word : tokens)
-    if (message.find(word) == std::string::npos)
-      return ::testing::AssertionFailure() << "'" << message << "' does not say '" << word << "'";
-  return ::testing::AssertionSuccess();
-}
 
 TEST_F(material_file, values_keep_their_source_and_line)
 {
@@ -101,99 +85,65 @@ TEST_F(material_file, files_may_include_one_another)
   EXPECT_EQ(read("units si\ninclude other.lsdcd\nmaterial glass\n").materials.size(), 2u);
 }
 
-TEST_F(material_file, an_included_file_that_is_missing_is_named_with_the_line)
-{
-  EXPECT_TRUE(says(error_of("units si\ninclude stele.lsdcd\n"), {"m.lsdcd line 2", "stele.lsdcd"}));
-}
-
-TEST_F(material_file, errors_in_an_included_file_name_that_file)
-{
-  write("steel.lsdcd", "units si\nmaterial steel\nyoungs_modulus big Pa\n");
-  EXPECT_TRUE(says(error_of("units si\ninclude steel.lsdcd\n"), {"steel.lsdcd line 3", "'big'"}));
-}
-
-TEST_F(material_file, values_after_an_include_need_a_material_of_this_file)
+TEST_F(material_file, what_is_wrong_is_named_with_its_file_and_line)
 {
   write("steel.lsdcd", "units si\nmaterial steel\n");
-  EXPECT_TRUE(says(error_of("units si\nmaterial glass\ninclude steel.lsdcd\ndensity 1 kg/m3\n"),
-                   {"line 4", "no material"}));
+  write("bad.lsdcd", "units si\nmaterial steel\nyoungs_modulus big Pa\n");
+  const struct {
+    const char *text;
+    std::vector<std::string> told;
+  } rows[] = {
+      {"units si\ninclude stele.lsdcd\n", {"m.lsdcd line 2", "stele.lsdcd"}},
+      {"units si\ninclude bad.lsdcd\n", {"bad.lsdcd line 3", "'big'"}},
+      {"units si\nmaterial glass\ninclude steel.lsdcd\ndensity 1 kg/m3\n",
+       {"line 4", "no material"}},
+      {"material glass\n", {"line 1", "'material'", "units si"}},
+      {"# text\nunits cgs\n", {"line 2", "'units cgs'", "units si"}},
+      {"# nothing\n", {"m.lsdcd", "units si"}},
+      {"units si\ndensity 1 kg/m3\n", {"line 2", "material NAME"}},
+      {"units si\nmaterial a\nmaterial b\npair a b\npair b a\n", {"line 5", "line 4"}},
+  };
+  for (const auto &row : rows) EXPECT_TRUE(says(error_of(row.text), row.told)) << row.text;
 }
 
-TEST_F(material_file, units_come_first_and_are_si)
+TEST_F(material_file, a_wrong_line_is_named_with_the_remedy)
 {
-  EXPECT_TRUE(says(error_of("material glass\n"), {"line 1", "'material'", "units si"}));
-  EXPECT_TRUE(says(error_of("# text\nunits cgs\n"), {"line 2", "'units cgs'", "units si"}));
-  EXPECT_TRUE(says(error_of("# nothing\n"), {"m.lsdcd", "units si"}));
-}
-
-TEST_F(material_file, a_word_for_a_number_names_line_value_and_remedy)
-{
-  EXPECT_TRUE(says(error_with("density heavy kg/m3"),
-                   {"m.lsdcd line 3", "'heavy'", "density VALUE kg/m3"}));
-  EXPECT_TRUE(says(error_with("density 2,5 kg/m3"), {"line 3", "'2,5'"}));
-  EXPECT_TRUE(says(error_with("density nan kg/m3"), {"line 3", "'nan'"}));
-  EXPECT_TRUE(says(error_with("density inf kg/m3"), {"line 3", "'inf'"}));
-}
-
-TEST_F(material_file, another_unit_is_refused_with_the_right_one)
-{
-  EXPECT_TRUE(says(error_with("youngs_modulus 69 GPa"), {"line 3", "'GPa'", "VALUE Pa"}));
-}
-
-TEST_F(material_file, a_missing_unit_is_asked_for)
-{
-  EXPECT_TRUE(says(error_with("youngs_modulus 69e9"), {"line 3", "unit", "VALUE Pa"}));
-  EXPECT_TRUE(says(error_with("youngs_modulus 69e9 Pa more"), {"line 3", "VALUE Pa"}));
-}
-
-TEST_F(material_file, a_misspelt_property_names_the_nearest)
-{
-  EXPECT_TRUE(says(error_with("young_modulus 69e9 Pa"), {"line 3", "'youngs_modulus'"}));
-}
-
-TEST_F(material_file, values_out_of_range_are_refused)
-{
-  for (const char *line : {"youngs_modulus 0 Pa", "youngs_modulus -1 Pa", "poissons_ratio 0.51 1",
-                           "poissons_ratio -1 1", "density -2500 kg/m3", "surface_energy 0 J/m2"})
-    EXPECT_TRUE(says(error_with(line), {"line 3", "out of range"})) << line;
-  for (const char *line : {"restitution 1.01 1", "restitution 0 1", "sliding_friction -0.1 1"})
-    EXPECT_TRUE(says(error_in_pair(line), {"line 4", "out of range"})) << line;
-}
-
-TEST_F(material_file, properties_stand_under_what_they_are_of)
-{
-  EXPECT_TRUE(says(error_with("restitution 0.9 1"), {"line 3", "pair glass glass"}));
-  EXPECT_TRUE(says(error_in_pair("density 1 kg/m3"), {"line 4", "material glass"}));
-  EXPECT_TRUE(says(error_of("units si\ndensity 1 kg/m3\n"), {"line 2", "material NAME"}));
-}
-
-TEST_F(material_file, what_is_said_twice_names_both_places)
-{
-  EXPECT_TRUE(says(error_with("density 1 kg/m3\ndensity 2 kg/m3"), {"line 4", "line 3"}));
-  EXPECT_TRUE(says(error_with("material glass"), {"line 3", "line 2"}));
-  EXPECT_TRUE(says(error_of("units si\nmaterial a\nmaterial b\npair a b\npair b a\n"),
-                   {"line 5", "line 4"}));
-}
-
-TEST_F(material_file, pairs_are_of_materials_of_the_file)
-{
-  EXPECT_TRUE(says(error_with("pair glass steel"), {"line 3", "'steel'"}));
-}
-
-TEST_F(material_file, sections_need_their_names)
-{
-  EXPECT_TRUE(says(error_with("material"), {"line 3", "material NAME"}));
-  EXPECT_TRUE(says(error_with("pair glass"), {"line 3", "pair NAME NAME"}));
+  const struct {
+    const char *line;
+    std::vector<std::string> told;
+  } rows[] = {
+      {"density heavy kg/m3", {"m.lsdcd line 3", "'heavy'", "density VALUE kg/m3"}},
+      {"density 2,5 kg/m3", {"line 3", "'2,5'"}},
+      {"density nan kg/m3", {"line 3", "'nan'"}},
+      {"density inf kg/m3", {"line 3", "'inf'"}},
+      {"youngs_modulus 69 GPa", {"line 3", "'GPa'", "VALUE Pa"}},
+      {"youngs_modulus 69e9", {"line 3", "unit", "VALUE Pa"}},
+      {"youngs_modulus 69e9 Pa more", {"line 3", "VALUE Pa"}},
+      {"young_modulus 69e9 Pa", {"line 3", "'youngs_modulus'"}},
+      {"youngs_modulus 0 Pa", {"line 3", "out of range"}},
+      {"youngs_modulus -1 Pa", {"line 3", "out of range"}},
+      {"poissons_ratio 0.51 1", {"line 3", "out of range"}},
+      {"poissons_ratio -1 1", {"line 3", "out of range"}},
+      {"density -2500 kg/m3", {"line 3", "out of range"}},
+      {"surface_energy 0 J/m2", {"line 3", "out of range"}},
+      {"restitution 0.9 1", {"line 3", "pair glass glass"}},
+      {"density 1 kg/m3\ndensity 2 kg/m3", {"line 4", "line 3"}},
+      {"material glass", {"line 3", "line 2"}},
+      {"pair glass steel", {"line 3", "'steel'"}},
+      {"material", {"line 3", "material NAME"}},
+      {"pair glass", {"line 3", "pair NAME NAME"}},
+      {"pair glass glass\nrestitution 1.01 1", {"line 4", "out of range"}},
+      {"pair glass glass\nrestitution 0 1", {"line 4", "out of range"}},
+      {"pair glass glass\nsliding_friction -0.1 1", {"line 4", "out of range"}},
+      {"pair glass glass\ndensity 1 kg/m3", {"line 4", "material glass"}},
+  };
+  for (const auto &row : rows) EXPECT_TRUE(says(error_with(row.line), row.told)) << row.line;
 }
 
 TEST_F(material_file, an_unknown_material_names_the_nearest)
 {
-  try {
-    read(kGood).material("galss");
-    FAIL();
-  } catch (const InputError &e) {
-    EXPECT_TRUE(says(e.what(), {"'galss'", "m.lsdcd", "'glass'"}));
-  }
+  EXPECT_TRUE(says(lsdcd::error_of([&] { read(kGood).material("galss"); }),
+                   {"'galss'", "m.lsdcd", "'glass'"}));
 }
 
 TEST_F(material_file, a_cut_file_is_read_or_refused)
@@ -210,11 +160,11 @@ TEST_F(material_file, is_found_as_given_then_in_the_folders_of_the_environment)
   unsetenv("LAMMPS_POTENTIALS");
   EXPECT_THROW(find_material_file("m.lsdcd"), InputError);
   setenv("LAMMPS_POTENTIALS", folder.path("").c_str(), 1);
-  EXPECT_NE(find_material_file("m.lsdcd").find("m.lsdcd"), std::string::npos);
+  EXPECT_TRUE(has(find_material_file("m.lsdcd"), "m.lsdcd"));
   const std::string other = write("other.lsdcd", kGood);
   setenv("LSDCD_POTENTIALS", ("/nowhere:" + folder.path("")).c_str(), 1);
   setenv("LAMMPS_POTENTIALS", "/nowhere", 1);
-  EXPECT_NE(find_material_file("other.lsdcd").find("other.lsdcd"), std::string::npos);
+  EXPECT_TRUE(has(find_material_file("other.lsdcd"), "other.lsdcd"));
   unsetenv("LSDCD_POTENTIALS");
   unsetenv("LAMMPS_POTENTIALS");
 }
@@ -222,13 +172,8 @@ TEST_F(material_file, is_found_as_given_then_in_the_folders_of_the_environment)
 TEST_F(material_file, that_is_nowhere_tells_where_it_was_looked_for)
 {
   setenv("LSDCD_POTENTIALS", "/nowhere", 1);
-  try {
-    find_material_file("glas.lsdcd");
-    FAIL();
-  } catch (const InputError &e) {
-    EXPECT_TRUE(says(e.what(),
-                     {"glas.lsdcd", "LSDCD_POTENTIALS", "share/lsdcd/potentials", "glass.lsdcd"}));
-  }
+  EXPECT_TRUE(says(lsdcd::error_of([] { find_material_file("glas.lsdcd"); }),
+                   {"glas.lsdcd", "LSDCD_POTENTIALS", "share/lsdcd/potentials", "glass.lsdcd"}));
   unsetenv("LSDCD_POTENTIALS");
 }
 
@@ -277,14 +222,9 @@ TEST(material_units, ratios_stay)
 
 TEST(material_units, without_a_scale_are_refused)
 {
-  for (const std::string units : {"lj", "real", "metal", "electron", "parsec"}) {
-    try {
-      convert(1, "density", units.c_str());
-      FAIL() << units;
-    } catch (const InputError &e) {
-      EXPECT_TRUE(says(e.what(), {"units " + units, "'cgs'", "'nano'"}));
-    }
-  }
+  for (const std::string units : {"lj", "real", "metal", "electron", "parsec"})
+    EXPECT_TRUE(says(error_of([&] { convert(1, "density", units.c_str()); }),
+                     {"units " + units, "'cgs'", "'nano'"}));
 }
 
 // The modulus of fix wall/gran granular for one E and nu of a wall.

@@ -4,13 +4,12 @@
 // `material` in a script's words gives the laws of the numbers that could have stood there.
 #include "base/input_error.h"
 #include "input/wall_command.h"
+#include "support/says.h"
 #include "support/temp_dir.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <iterator>
-#include <sstream>
 
 namespace lsdcd::test_material_words {
 namespace {
@@ -43,11 +42,10 @@ struct MaterialWordsTest : ::testing::Test {
   // FILE stands for the file above. A line without a mesh gets one.
   WallSpec wall(const std::string &line, const std::string &units = "si")
   {
-    std::istringstream stream(line);
-    std::vector<std::string> words;
-    for (std::string word; stream >> word;) words.push_back(word == "FILE" ? file : word);
+    std::vector<std::string> tokens = words(line);
+    std::replace(tokens.begin(), tokens.end(), std::string("FILE"), file);
     report.clear();
-    return parse_wall(words,
+    return parse_wall(tokens,
                       [&](const WallMaterials &materials, const std::vector<MaterialPair> &pairs) {
                         return read_laws(materials, pairs, units, report);
                       })
@@ -61,29 +59,15 @@ struct MaterialWordsTest : ::testing::Test {
   }
   std::vector<std::string> fill(const std::string &line, const std::string &units = "si")
   {
-    std::istringstream stream(filled(line, units));
-    return {std::istream_iterator<std::string>(stream), {}};
+    return words(filled(line, units));
   }
   std::string error_of(const std::string &line, const std::string &units = "si")
   {
-    try {
-      wall(line, units);
-    } catch (const InputError &e) {
-      return e.what();
-    }
-    return "";
+    return lsdcd::error_of([&] { wall(line, units); });
   }
 };
 
 using material_words = MaterialWordsTest;
-
-::testing::AssertionResult says(const std::string &message, const std::vector<std::string> &tokens)
-{
-  for (const std::string &word : tokens)
-    if (message.find(word) == std::string::npos)
-      return ::testing::AssertionFailure() << "'" << message << "' does not say '" << word << "'";
-  return ::testing::AssertionSuccess();
-}
 
 TEST_F(material_words, are_a_whole_granular_style)
 {
@@ -126,25 +110,9 @@ TEST_F(material_words, of_meshes_and_types_become_laws)
 }
 
 // Steel on steel is not in the file.
-TEST_F(material_words, ask_for_pairs_that_meet)
+TEST_F(material_words, ask_for_no_pair_that_does_not_meet)
 {
   EXPECT_EQ(error_of("granular material FILE steel mesh a.stl material glass"), "");
-  EXPECT_TRUE(says(error_of("granular material FILE steel mesh a.stl material glass mesh b.stl"),
-                   {"has no restitution of steel on steel"}));
-  EXPECT_TRUE(says(error_of("granular material FILE glass types 2 steel mesh a.stl material steel"),
-                   {"has no restitution of steel on steel"}));
-}
-
-TEST_F(material_words, of_meshes_stand_behind_their_files)
-{
-  EXPECT_TRUE(says(error_of("granular material FILE glass material steel mesh a.stl"),
-                   {"after its mesh FILE"}));
-  EXPECT_TRUE(
-      says(error_of("granular material FILE glass mesh a.stl material steel material glass"),
-           {"two materials"}));
-  EXPECT_TRUE(says(error_of("granular material FILE glass types steel mesh a.stl"), {"2 coal"}));
-  EXPECT_EQ(wall("granular material FILE glass mesh material cache material").meshes[0].cache_file,
-            "material");
 }
 
 TEST_F(material_words, may_name_the_normal_model)
@@ -202,12 +170,9 @@ TEST_F(material_words, keep_the_damping_of_the_script)
 
 TEST_F(material_words, with_a_damping_of_another_kind_need_its_number)
 {
-  EXPECT_TRUE(says(error_of("granular material FILE glass damping velocity mesh a"),
-                   {"'damping velocity'", "with eta VALUE", "tsuji"}));
   EXPECT_TRUE(says(error_of("granular jkr material FILE glass damping tsuji mesh a"),
                    {"'damping tsuji' with jkr", "with eta VALUE"}));
   EXPECT_EQ(fill("granular jkr material FILE glass with eta 3 damping velocity mesh a")[3], "3");
-  EXPECT_TRUE(says(error_of("granular material FILE glass with eta 3 mesh a"), {"name it"}));
 }
 
 TEST_F(material_words, keep_the_tangential_model_of_the_script)
@@ -242,6 +207,8 @@ TEST_F(material_words, leave_the_words_of_the_fix_alone)
   const MeshSpec mesh = wall("granular material FILE glass mesh rolling cache sds").meshes[0];
   EXPECT_EQ(mesh.file, "rolling");
   EXPECT_EQ(mesh.cache_file, "sds");
+  EXPECT_EQ(wall("granular material FILE glass mesh material cache material").meshes[0].cache_file,
+            "material");
 }
 
 TEST_F(material_words, with_overrides_take_the_numbers_of_the_script_as_they_are)
@@ -252,25 +219,6 @@ TEST_F(material_words, with_overrides_take_the_numbers_of_the_script_as_they_are
             "granular hertz/material 5e+07 0.5 0.23 damping coeff_restitution "
             "tangential mindlin NULL 1 0.1");
   EXPECT_TRUE(says(report, {"youngs_modulus 5e+07, as the input script says"}));
-}
-
-TEST_F(material_words, with_overrides_that_cannot_be_meant_are_refused)
-{
-  EXPECT_TRUE(says(error_of("granular material FILE glass with density 2 mesh a"), {"density"}));
-  EXPECT_TRUE(says(error_of("granular material FILE glass with mesh a"), {"'with' needs"}));
-  EXPECT_TRUE(says(error_of("granular material FILE glass with restitution 1.1 mesh a"),
-                   {"restitution = 1.1", "out of range"}));
-  EXPECT_TRUE(says(error_of("granular material FILE glass with restitution high mesh a"),
-                   {"restitution", "'high'"}));
-  EXPECT_TRUE(says(error_of("granular material FILE glass with eta 1 eta 2 damping tsuji mesh a"),
-                   {"twice"}));
-  EXPECT_TRUE(says(error_of("granular material FILE glass on steel with youngs_modulus 1 mesh a"),
-                   {"'youngs_modulus' of both", "with steel youngs_modulus VALUE"}));
-  EXPECT_TRUE(
-      says(error_of("granular material FILE glass on steel with steel restitution 1 mesh a"),
-           {"'restitution' is not a property of steel alone"}));
-  EXPECT_TRUE(says(error_of("granular material FILE glass on steel with steel mesh a"),
-                   {"after 'with steel' write a property"}));
 }
 
 TEST_F(material_words, with_a_misspelt_property_name_it_and_the_nearest)
@@ -295,12 +243,9 @@ TEST_F(material_words, are_called_what_the_caller_calls_them)
   MaterialPair pair;
   pair.file = file;
   pair.particle = pair.wall = "steel";
-  try {
+  EXPECT_TRUE(fails_with("'--with restitution VALUE'", [&] {
     law_of_materials(pair, "si", {"--on", "--with", "TOOL", "as given"});
-    FAIL();
-  } catch (const InputError &e) {
-    EXPECT_TRUE(says(e.what(), {"'--with restitution VALUE'"}));
-  }
+  }));
 }
 
 // The wall's numbers given, where the file has none: as with a file that has them.
@@ -330,12 +275,6 @@ TEST_F(material_words, with_overrides_may_name_whose_number_they_replace)
                                                                             "0.02 (0.02 J/m2"}));
 }
 
-TEST_F(material_words, that_one_partner_lacks_are_asked_for_by_its_name)
-{
-  EXPECT_TRUE(says(error_of("granular material FILE glass on bare mesh a"),
-                   {"'bare' has no youngs_modulus", "with bare youngs_modulus VALUE"}));
-}
-
 TEST_F(material_words, of_29sep2021_have_the_damping_that_it_knows)
 {
   MaterialPair pair;
@@ -354,10 +293,6 @@ TEST_F(material_words, that_are_missing_are_asked_for)
 {
   EXPECT_TRUE(says(error_of("granular material"), {"file name", "Syntax: granular"}));
   EXPECT_TRUE(says(error_of("granular material FILE"), {"material's name", "Syntax: granular"}));
-  EXPECT_TRUE(says(error_of("granular material FILE glass on"), {"wall's material"}));
-  EXPECT_TRUE(
-      says(error_of("granular material FILE glass on mesh floor.stl"),
-           {"after 'on' the wall's material is missing", "the word 'mesh' was found instead"}));
   for (const std::string before :
        {"", "glass types 2 ", "glass on ", "glass types 2 steel 3 ", "glass mesh a.stl material "})
     for (const std::string word : {"mesh b.stl", "types 1 glass mesh b.stl", "on steel mesh b.stl"})
@@ -407,35 +342,52 @@ TEST_F(material_words, and_a_law_of_one_mesh_are_refused)
   EXPECT_EQ(error_of(wall + " material steel" + types), "");
 }
 
-TEST_F(material_words, with_an_unknown_material_name_the_nearest)
-{
-  EXPECT_TRUE(says(error_of("granular material FILE gloss mesh a"), {"'gloss'", "'glass'"}));
-  EXPECT_TRUE(
-      says(error_of("granular material FILE glass on steal mesh a"), {"'steal'", "'steel'"}));
-}
-
-TEST_F(material_words, with_a_material_like_none_list_them)
-{
-  EXPECT_TRUE(says(error_of("granular material FILE glass on copper mesh a"),
-                   {"'copper'", "those are glass, steel, bare"}));
-}
-
-TEST_F(material_words, with_two_names_in_a_row_are_told_of_on)
-{
-  EXPECT_TRUE(says(error_of("granular material FILE glass steel mesh a"), {"'on steel'"}));
-}
-
 TEST_F(material_words, that_the_file_does_not_know_can_be_given)
 {
-  EXPECT_TRUE(
-      says(error_of("granular material FILE steel mesh a"),
-           {"restitution of steel on steel", "with restitution VALUE", "pair steel steel"}));
-  EXPECT_TRUE(says(error_of("granular material FILE bare mesh a"),
-                   {"line 12", "'bare' has no youngs_modulus", "with youngs_modulus VALUE"}));
   EXPECT_EQ(filled("granular material FILE bare with youngs_modulus 1 poissons_ratio 0.1 "
                    "restitution 1 sliding_friction 2 mesh a"),
             "granular hertz/material 1 1 0.1 damping coeff_restitution "
             "tangential mindlin NULL 1 2");
+}
+
+TEST_F(material_words, wrong_ones_are_told_what_is_right)
+{
+  const struct {
+    const char *words;
+    std::vector<std::string> told;
+  } rows[] = {
+      {"glass material steel mesh a.stl", {"after its mesh FILE"}},
+      {"glass mesh a.stl material steel material glass", {"two materials"}},
+      {"glass types steel mesh a.stl", {"2 coal"}},
+      {"glass damping velocity mesh a", {"'damping velocity'", "with eta VALUE", "tsuji"}},
+      {"glass with eta 3 mesh a", {"name it"}},
+      {"glass with density 2 mesh a", {"density"}},
+      {"glass with mesh a", {"'with' needs"}},
+      {"glass with restitution 1.1 mesh a", {"restitution = 1.1", "out of range"}},
+      {"glass with restitution high mesh a", {"restitution", "'high'"}},
+      {"glass with eta 1 eta 2 damping tsuji mesh a", {"twice"}},
+      {"glass on steel with youngs_modulus 1 mesh a",
+       {"'youngs_modulus' of both", "with steel youngs_modulus VALUE"}},
+      {"glass on steel with steel restitution 1 mesh a",
+       {"'restitution' is not a property of steel alone"}},
+      {"glass on steel with steel mesh a", {"after 'with steel' write a property"}},
+      {"glass on bare mesh a", {"'bare' has no youngs_modulus", "with bare youngs_modulus VALUE"}},
+      {"glass on", {"wall's material"}},
+      {"glass on mesh floor.stl",
+       {"after 'on' the wall's material is missing", "the word 'mesh' was found instead"}},
+      {"gloss mesh a", {"'gloss'", "'glass'"}},
+      {"glass on steal mesh a", {"'steal'", "'steel'"}},
+      {"glass on copper mesh a", {"'copper'", "those are glass, steel, bare"}},
+      {"glass steel mesh a", {"'on steel'"}},
+      {"steel mesh a",
+       {"restitution of steel on steel", "with restitution VALUE", "pair steel steel"}},
+      {"bare mesh a", {"line 12", "'bare' has no youngs_modulus", "with youngs_modulus VALUE"}},
+      {"steel mesh a.stl material glass mesh b.stl", {"has no restitution of steel on steel"}},
+      {"glass types 2 steel mesh a.stl material steel", {"has no restitution of steel on steel"}},
+  };
+  for (const auto &row : rows)
+    EXPECT_TRUE(says(error_of(std::string("granular material FILE ") + row.words), row.told))
+        << row.words;
 }
 
 TEST_F(material_words, of_other_normal_models_are_refused)

@@ -4,6 +4,7 @@
 // Motions that are tables, against closed forms.
 #include "base/input_error.h"
 #include "motion/motion.h"
+#include "support/says.h"
 #include "support/temp_dir.h"
 
 #include <gtest/gtest.h>
@@ -413,8 +414,8 @@ std::string error_of(const std::vector<Row> &rows, const TableOptions &o = {})
 
 void expect_error(const std::string &error, const std::string &place, const std::string &why)
 {
-  EXPECT_NE(error.find(place), std::string::npos) << error;
-  EXPECT_NE(error.find(why), std::string::npos) << error;
+  EXPECT_TRUE(has(error, place));
+  EXPECT_TRUE(has(error, why));
 }
 
 TEST(motion_table, refuses_rows_with_their_place_and_a_remedy)

@@ -5,6 +5,7 @@
 #include "mesh/io/read_mesh.h"
 #include "output/mesh_file.h"
 #include "support/random.h"
+#include "support/says.h"
 #include "support/temp_dir.h"
 
 #include <gtest/gtest.h>
@@ -24,17 +25,7 @@ ReadMesh read(const std::string &bytes)
 
 std::string error_of(const std::string &bytes)
 {
-  try {
-    read(bytes);
-  } catch (const InputError &error) {
-    return error.what();
-  }
-  return "accepted";
-}
-
-bool contains(const std::string &text, const std::string &part)
-{
-  return text.find(part) != std::string::npos;
+  return lsdcd::error_of([&] { read(bytes); });
 }
 
 std::string with_line_ends(const std::string &text, const std::string &end)
@@ -367,17 +358,8 @@ TEST(read_ply, every_cut_header_is_an_error)
   for (const char *format : kFormats) {
     const std::string bytes = triangle(format).bytes();
     for (std::size_t size = 1; size < bytes.find("end_header") + 11; ++size)
-      EXPECT_NE(error_of(bytes.substr(0, size)), "accepted") << size;
+      EXPECT_NE(error_of(bytes.substr(0, size)), "") << size;
   }
-}
-
-TEST(read_ply, a_header_without_end_header_is_an_error)
-{
-  const auto error =
-      error_of("ply\nformat ascii 1.0\n" + kVertices + kFaces + kPoints + "3 0 1 2\n");
-  EXPECT_TRUE(contains(error, "line 9: '0' found where") && contains(error, "end_header")) << error;
-  const auto shorter = error_of("ply\nformat ascii 1.0\n" + kVertices + kFaces);
-  EXPECT_TRUE(contains(shorter, "without 'end_header'") && contains(shorter, "truncated"));
 }
 
 // But inside the last number, and the line's end behind it: such a file cannot be told from a whole one.
@@ -387,22 +369,8 @@ TEST(read_ply, every_cut_of_the_data_is_an_error)
     const std::string bytes = triangle(format).bytes();
     const std::size_t whole = format == kFormats[0] ? bytes.size() - 2 : bytes.size();
     for (std::size_t size = bytes.find("end_header") + 11; size < whole; ++size)
-      EXPECT_TRUE(contains(error_of(bytes.substr(0, size)), "truncated")) << size;
+      EXPECT_TRUE(has(error_of(bytes.substr(0, size)), "truncated")) << size;
   }
-}
-
-TEST(read_ply, values_too_many_or_too_few_in_a_line_are_an_error_in_that_line)
-{
-  EXPECT_TRUE(contains(error_of(face("3 0 1 2 2")), "line 13 (face 1): '2' follows all values"));
-  const auto error = error_of(text(kVertices + kFaces, "0 0 0\n1 0\n0 0 1 0\n3 0 1 2\n"));
-  EXPECT_TRUE(contains(error, "line 11 (vertex 2): the line ends before")) << error;
-}
-
-TEST(read_ply, data_after_the_last_element_are_an_error)
-{
-  EXPECT_TRUE(contains(error_of(kText + "\n3 0 1 2\n"), "line 15: '3' follows the last element"));
-  const auto error = error_of(triangle("binary_little_endian").bytes() + "\n");
-  EXPECT_TRUE(contains(error, "1 bytes follow the last element")) << error;
 }
 
 // To reserve room for as many would throw something else.
@@ -414,7 +382,7 @@ TEST(read_ply, a_huge_promise_allocates_nothing)
       std::string bytes = triangle(format).bytes();
       bytes.insert(bytes.find(element) + element.size(), "000000000000000000");
       if (bytes.back() == '\n') bytes.erase(bytes.find("3 0 1 2"));
-      EXPECT_TRUE(contains(error_of(bytes), "truncated")) << error_of(bytes);
+      EXPECT_TRUE(has(error_of(bytes), "truncated"));
     }
   std::string bytes = Ply("binary_little_endian")
                           .vertices(0)
@@ -423,7 +391,7 @@ TEST(read_ply, a_huge_promise_allocates_nothing)
                           .put("uint", {4e9})
                           .put("int", {1, 2, 3})
                           .bytes();
-  EXPECT_TRUE(contains(error_of(bytes), "byte ")) << error_of(bytes);
+  EXPECT_TRUE(has(error_of(bytes), "byte "));
 }
 
 TEST(read_ply, a_count_that_no_number_can_be_is_an_error)
@@ -431,7 +399,7 @@ TEST(read_ply, a_count_that_no_number_can_be_is_an_error)
   for (const char *count : {"-3", "3.0", "99999999999999999999", "x", "3 3", ""}) {
     std::string bytes = kText;
     bytes.replace(bytes.find("vertex 3") + 7, 1, count);
-    EXPECT_TRUE(contains(error_of(bytes), "line 3: 'element vertex")) << error_of(bytes);
+    EXPECT_TRUE(has(error_of(bytes), "line 3: 'element vertex"));
   }
 }
 
@@ -439,32 +407,38 @@ TEST(read_ply, an_index_without_a_vertex_names_the_face)
 {
   for (const char *index : {"3", "-1", "4294967295", "1.5", "1e+300"}) {
     const auto error = error_of(face("3 0 1 " + std::string(index)));
-    EXPECT_TRUE(contains(error, "line 13 (face 1): a corner is vertex " + std::string(index) +
-                                    ", but the file has 3, counted from 0"))
-        << error;
+    EXPECT_TRUE(has(error, "line 13 (face 1): a corner is vertex " + std::string(index) +
+                               ", but the file has 3, counted from 0"));
   }
 }
 
-TEST(read_ply, a_face_without_corners_is_an_error)
+TEST(read_ply, a_wrong_row_is_named_by_its_line_and_element)
 {
-  EXPECT_TRUE(contains(error_of(face("0")), "line 13 (face 1): the face has no corners"));
-}
-
-TEST(read_ply, a_list_whose_first_number_counts_nothing_is_an_error)
-{
-  for (const char *count : {"-1", "2.5", "1e+30"})
-    EXPECT_TRUE(
-        contains(error_of(face(std::string(count) + " 0 1 2")),
-                 "line 13 (face 1): the list 'vertex_indices' begins with " + std::string(count)));
+  const std::string list = "line 13 (face 1): the list 'vertex_indices' begins with ";
+  const std::pair<std::string, std::string> rows[] = {
+      {face("0"), "line 13 (face 1): the face has no corners"},
+      {face("-1 0 1 2"), list + "-1"},
+      {face("2.5 0 1 2"), list + "2.5"},
+      {face("1e+30 0 1 2"), list + "1e+30"},
+      {face("3 0 1 2 2"), "line 13 (face 1): '2' follows all values"},
+      {text(kVertices + kFaces, "0 0 0\n1 0\n0 0 1 0\n3 0 1 2\n"),
+       "line 11 (vertex 2): the line ends before"},
+      {kText + "\n3 0 1 2\n", "line 15: '3' follows the last element"},
+      {triangle("binary_little_endian").bytes() + "\n", "1 bytes follow the last element"},
+      {Ply("binary_big_endian").vertices(1).faces(1).end_header().vertex(0, 0, NAN).bytes(),
+       "(vertex 1): the value of 'z' is nan, not a finite number"},
+      // Control characters do not reach a message.
+      {face("3 0 1 \x1b[31m"), "'?[31m'"},
+  };
+  for (const auto &[bytes, words] : rows) EXPECT_TRUE(has(error_of(bytes), words));
 }
 
 TEST(read_ply, words_that_are_no_numbers_name_the_vertex)
 {
   for (const char *word : {"0.2D+01", "1,5", "x", "+-1", "0x10", "1.#IND"}) {
     const auto error = error_of(text(kVertices + kFaces, "0 0 0\n1 " + std::string(word) + " 0\n"));
-    EXPECT_TRUE(contains(error, "line 11 (vertex 2): the value of 'y' is '" + std::string(word) +
-                                    "', not a number"))
-        << error;
+    EXPECT_TRUE(has(error, "line 11 (vertex 2): the value of 'y' is '" + std::string(word) +
+                               "', not a number"));
   }
 }
 
@@ -472,13 +446,9 @@ TEST(read_ply, coordinates_that_are_not_finite_name_the_vertex)
 {
   for (const char *word : {"nan", "-inf", "1e400"}) {
     const auto error = error_of(text(kVertices + kFaces, "0 0 0\n1 " + std::string(word) + " 0\n"));
-    EXPECT_TRUE(contains(error, "line 11 (vertex 2): the value of 'y' is '" + std::string(word) +
-                                    "', not a finite number"))
-        << error;
+    EXPECT_TRUE(has(error, "line 11 (vertex 2): the value of 'y' is '" + std::string(word) +
+                               "', not a finite number"));
   }
-  const auto error = error_of(
-      Ply("binary_big_endian").vertices(1).faces(1).end_header().vertex(0, 0, NAN).bytes());
-  EXPECT_TRUE(contains(error, "(vertex 1): the value of 'z' is nan, not a finite number")) << error;
 }
 
 TEST(read_ply, a_header_that_gives_no_mesh_says_what_is_missing)
@@ -504,10 +474,13 @@ TEST(read_ply, a_header_that_gives_no_mesh_says_what_is_missing)
       {"ply\nformat ascii 2.0\n", "line 2: 'format ascii 2.0' is not 'format ascii 1.0'"},
       {"solid a\n", "line 1: 'solid' found where 'ply' is expected; this is not a PLY file"},
       {"ply\nformat ascii 1.0\nmade by hand\n", "line 3: 'made' found"},
+      {"ply\n\x1b[31m\n", "'?[31m'"},
+      {"ply\nformat ascii 1.0\n" + kVertices + kFaces + kPoints + "3 0 1 2\n",
+       "line 9: '0' found where"},
+      {"ply\nformat ascii 1.0\n" + kVertices + kFaces, "without 'end_header'"},
       {"\xFF\xFEp", "line 1: the text is in UTF-16"},
       {"", "line 1: the file is empty"}};
-  for (const auto &[bytes, words] : cases)
-    EXPECT_TRUE(contains(error_of(bytes), words)) << error_of(bytes);
+  for (const auto &[bytes, words] : cases) EXPECT_TRUE(has(error_of(bytes), words));
 }
 
 // Far larger than memory, though it takes no room on the disk.
@@ -516,18 +489,8 @@ TEST(read_ply, a_file_of_another_kind_is_refused_by_its_beginning)
   const TempDir dir;
   const std::string path = dir.write("other.ply", "solid a\n");
   std::filesystem::resize_file(path, std::uintmax_t(1) << 42);
-  try {
-    read_mesh(path);
-    FAIL() << "accepted";
-  } catch (const InputError &error) {
-    EXPECT_TRUE(contains(error.what(), "other.ply, line 1: 'solid' found where 'ply' is expected"));
-  }
-}
-
-TEST(read_ply, control_characters_do_not_reach_a_message)
-{
-  EXPECT_TRUE(contains(error_of("ply\n\x1b[31m\n"), "'?[31m'"));
-  EXPECT_TRUE(contains(error_of(face("3 0 1 \x1b[31m")), "'?[31m'"));
+  EXPECT_TRUE(fails_with("other.ply, line 1: 'solid' found where 'ply' is expected",
+                         [&] { read_mesh(path); }));
 }
 
 TEST(read_ply, what_we_write_is_read_back_to_the_bit)

@@ -9,6 +9,7 @@
 #include "support/crowd.h"
 #include "support/laws.h"
 #include "support/random_mesh.h"
+#include "support/sphere_arrays.h"
 #include "support/test_engine.h"
 
 #include <gtest/gtest.h>
@@ -229,36 +230,29 @@ TEST(wall_list, at_the_rim_of_the_grid_has_what_is_inside)
 // ---- in an engine ------------------------------------------------------------------------------
 
 // Spheres on a wall and an engine that keeps its lists from step to step.
-class Bed {
- public:
+struct Bed : SphereArrays {
+  std::unique_ptr<WallEngine> engine;
+
   Bed(const Wall &wall, const EngineSettings &settings) : engine(on_cpu(settings))
   {
     engine->set_grid(wall.view());
   }
   void add(const Vec3 &at, Real r)
   {
-    x.insert(x.end(), {at.x, at.y, at.z});
-    radius.push_back(r);
-    v.resize(x.size(), 0.1);
-    mass.push_back(1);
+    SphereArrays::add(at, r, 1, {0.1, 0.1, 0.1}, {0.1, 0.1, 0.1});
   }
-  Vec3 centre(int i) const { return {x[3 * i], x[3 * i + 1], x[3 * i + 2]}; }
-  void put(int i, const Vec3 &at)
-  {
-    for (int d = 0; d < 3; d++) x[3 * i + d] = at[d];
-  }
-  int n() const { return static_cast<int>(radius.size()); }
+  Vec3 centre(int i) const { return vector_at(x, i); }
+  void put(int i, const Vec3 &at) { put_vector(x, i, at); }
 
   void choose(Real margin) { engine->choose(spheres(), margin); }
   void step()
   {
-    force.assign(x.size(), 0);
-    torque.assign(x.size(), 0);
+    clear_forces();
     StepSettings s;
     s.dt = 1e-4;
     engine->step(spheres(), s);
   }
-  Vec3 force_on(int i) const { return {force[3 * i], force[3 * i + 1], force[3 * i + 2]}; }
+  Vec3 force_on(int i) const { return vector_at(force, i); }
   std::vector<Spring> springs()
   {
     ContactHistory store;
@@ -266,26 +260,6 @@ class Bed {
     std::vector<Spring> all;
     for (int i = 0; i < n(); i++) all.insert(all.end(), store.of(i), store.of(i) + store.count(i));
     return all;
-  }
-
-  std::unique_ptr<WallEngine> engine;
-  std::vector<Real> x, v, radius, mass, force, torque;
-
- private:
-  Spheres spheres()
-  {
-    force.resize(x.size());
-    torque.resize(x.size());
-    Spheres s;
-    s.n = n();
-    s.x = x.data();
-    s.v = v.data();
-    s.omega = v.data();
-    s.radius = radius.data();
-    s.mass = mass.data();
-    s.force = force.data();
-    s.torque = torque.data();
-    return s;
   }
 };
 
