@@ -92,8 +92,6 @@ TABLES = [
          "grid 0.01 takes", "at least", "memory budget is 1 MB", "leave grid out"),
         ("law_of_no_type", "floor.stl law types 1*3 hooke 1e4 NULL 5 NULL 0.5 1",
          "Fix wall wall/lsdcd", "in 'types 1*3', there is no atom type 3: there are 1"),
-        ("law_of_material", "floor.stl law types 1 granular material glass.lsdcd glass",
-         "Fix wall wall/lsdcd", "numbers are expected, not a material", "'material NAME' after mesh FILE", "'types I NAME'"),
         ("mesh_fields_of_two_fixes", "floor.stl mesh_fields a.vtp every 5\n"
          "fix             lid all wall/lsdcd hooke 1e4 NULL 5 NULL 0.5 1 mesh floor.stl move 0 0 3 "
          "mesh_fields a.vtp every 5",
@@ -107,17 +105,10 @@ TABLES = [
          "Fix wall wall/lsdcd", "in 'mesh_stl', 'floor.stl' is the mesh file that fix count reads",
          "name another file"),
         ("meshes_missing_file", "floor.stl mesh nowhere.stl", "Fix wall wall/lsdcd", "nowhere.stl"),
-        ("meshes_of_mesh_twice", "floor.stl weld 0 mesh floor.stl move 0 0 1 weld 0 weld 1e-6",
-         "Fix wall wall/lsdcd", "'weld'", "the keyword is given twice"),
-        ("meshes_one_file", "floor.stl mesh_stl a_*.stl every 5 mesh floor.stl move 0 0 3 mesh_stl a_*.stl every 7",
-         "Fix wall wall/lsdcd", "'mesh_stl'", "has the same file 'a_*.stl'", "give each a name of its own"),
         ("meshes_outside_box", "floor.stl mesh floor.stl move 0 0 300",
          "Fix wall wall/lsdcd", "mesh 2 'floor.stl': the mesh is outside the box"),
         ("meshes_side_of_open", "floor.stl mesh floor.stl move 0 0 3 side in",
          "Fix wall wall/lsdcd", "side in and side out need a closed", "'floor.stl'"),
-        ("meshes_twice", "floor.stl corner sum mesh floor.stl scale 1 surface_vel 1 0 0",
-         "Fix wall wall/lsdcd", "of mesh 2 'floor.stl': it is that of mesh 1 'floor.stl' at the same place",
-         "leave one out"),
         ("missing_file", "no_such_file.stl", "no_such_file.stl"),
         ("missing_file_of_no_format", "wall.vtk",
          "wall.vtk", "its name does not end with one of .stl, .obj, .ply, .off"),
@@ -129,8 +120,6 @@ TABLES = [
          "Fix wall wall/lsdcd", "cannot read the table 'no/such/table' of a motion"),
         ("motion_table_no_table", "floor.stl motion table floor.stl",
          "Fix wall wall/lsdcd", "table 'floor.stl' line 1: 'solid' is not a number; begin a line of text with #"),
-        ("motion_turn_no_variable", "floor.stl motion rotate 0 0 0 0 0 1 variable NULL v_u",
-         "Fix wall wall/lsdcd", "there is no variable 'u', which the wall reads"),
         ("no_area", "line.stl", "line.stl", "none of its 1 facet has an area"),
         ("outside_box", "floor.stl move 0 0 100", "outside the box", "z from 100 to 100", "scale", "move"),
         ("rmax_too_small", "floor.stl rmax 0.4", "Fix wall wall/lsdcd: atom 1 has radius 0.5", "rmax 0.4"),
@@ -171,11 +160,6 @@ TABLES = [
      "fix             wall all wall/lsdcd {} mesh floor.stl\n" + RUN, [
         ("ellipsoids_with_adhesion", "granular jkr 1e5 700 0.3 0.3 tangential mindlin NULL 0.6 0.4",
          "in 'law', adhesion: the wall has it for spheres alone"),
-        ("ellipsoids_with_rolling", "granular hooke 1e5 700 tangential linear_history 1e4 0.6 0.4 rolling sds 2e3 5 0.1",
-         "in 'law', rolling resistance: the wall has it for spheres alone"),
-        ("ellipsoids_with_a_side", "hooke 1e4 NULL 20 NULL 0.1 1 side out", "in 'side', ellipsoids have a wall with both sides alone"),
-        ("ellipsoids_with_nearest", "hooke 1e4 NULL 20 NULL 0.1 1 nearest 4", "in 'nearest', contacts of ellipsoids are found without lists"),
-        ("ellipsoids_on_a_gpu", "hooke 1e4 NULL 20 NULL 0.1 1 device cuda", "the wall has ellipsoids on a CPU alone"),
     ]),
     (NO_RADIUS + HOOKE + "mesh {}\n" + RUN, [
         ("no_radius", "floor.stl", "radius", "atom_style sphere"),
@@ -188,10 +172,6 @@ TABLES = [
          "the sub-model heat needs a LAMMPS with fix heat/flow"),
         ("material_units", "granular material glass.lsdcd glass mesh floor.stl",
          "the input script is in units lj", "'units si'"),
-        ("meshes_no_temperature",
-         "granular hertz 1e4 5 tangential linear_nohistory 0 0 heat radius 0.7 "
-         "mesh floor.stl temperature 300 mesh floor.stl move 0 0 3",
-         "Fix wall wall/lsdcd", "of mesh 2 'floor.stl': the temperature is missing"),
         ("negative_kn", "hooke -1e4 NULL 5 NULL 0.5 1 mesh floor.stl",
          "kn = -1e4 is out of range: it must be 0 or more"),
     ]),
@@ -204,14 +184,8 @@ TABLES = [
          "in 'law' of mesh 'floor.stl', numbers are expected, not a material", "'types I NAME'"),
         ("material_missing_file", "granular material glas.lsdcd glass",
          "'glas.lsdcd'", "LSDCD_POTENTIALS", "glass.lsdcd"),
-        ("material_on_before_types", "granular material glass.lsdcd glass on steel types 1 steel",
-         "'types' must come earlier: the order is PARTICLE, types, on, with, sub-models, mesh"),
         ("material_types_of_no_type", "granular material glass.lsdcd glass types 5 glass",
          "in 'types 5', there is no atom type 5: there are 1"),
-        ("material_types_without_name", "granular material glass.lsdcd glass types 2",
-         "the material of atom types 2 is missing: the word 'mesh' was found instead", "types I PARTICLE"),
-        ("material_unknown", "granular material glass.lsdcd gloss",
-         "'gloss' is not a material", "the nearest is 'glass'"),
     ]),
     (WALL + HOOKE + "mesh floor.stl mesh floor.stl move 0 0 3\nfix_modify wall {}\n", [
         ("modify_mesh_alone", "mesh 2",
@@ -226,14 +200,11 @@ TABLES = [
 
     # fix massflow/lsdcd
     (FLOW + "fix             m all massflow/lsdcd mesh {}\n" + RUN, [
-        ("massflow_every", "floor.stl every 0", "N = 0 is out of range", "Syntax: every N"),
         ("massflow_missing_file", "nothere.stl", "Fix m massflow/lsdcd", "nothere.stl"),
         ("massflow_missing_file_of_no_format", "wall.vtk",
          "wall.vtk", "its name does not end with one of .stl, .obj, .ply, .off"),
         ("massflow_outside_box", "floor.stl move 0 0 100",
          "Fix m massflow/lsdcd", "the mesh is outside the box", "z from 100 to 100", "scale", "move"),
-        ("massflow_unknown_keyword", "floor.stl cuont once",
-         "Fix m massflow/lsdcd", "'cuont' is not a keyword", "count each | once"),
     ]),
     (changed(FLOW, ("sphere", "hybrid sphere bond"), ("set             atom 1 diameter 1.0 density 2.0\n", ""))
      + "fix             m all massflow/lsdcd mesh {}\n" + RUN, [
@@ -248,8 +219,6 @@ TABLES = [
         ("insert_amount", "mesh floor.stl diam one 0.2 dens 1", "Fix in insert/lsdcd", "the amount is missing",
          "massrate, numberrate, mass or number"),
         ("insert_closed_face", "mesh two.stl diam one 0.2 dens 1 number 5", "Fix in insert/lsdcd", "two.stl: the triangles have no common side"),
-        ("insert_fractions", "mesh floor.stl diam mass 2 0.1 0.5 0.2 0.4 dens 1 number 5", "Fix in insert/lsdcd", "'diam'",
-         "the fractions add up to 0.9, not to 1"),
         ("insert_mass_zero", "region box diam one 1e-110 dens 1 massrate 1", "Fix in insert/lsdcd",
          "diam and dens give the grains masses from 0 to 0: write both in the units of the script"),
         ("insert_mass_infinite", "region box diam range 1 1e110 dens 1 number 5", "masses from 0.523599 to inf"),
