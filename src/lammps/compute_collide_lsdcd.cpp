@@ -4,7 +4,6 @@
 #include "lammps/compute_collide_lsdcd.h"
 
 #include "base/input_error.h"
-
 #include "base/number_words.h"
 #include "lammps/fix_wall_lsdcd.h"
 #include "lammps/host_box.h"

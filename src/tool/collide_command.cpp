@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "base/number_words.h"
 #include "tool/commands.h"
 
 #include "backend/threads.h"
 #include "base/input_error.h"
+#include "base/number_words.h"
 #include "tool/load_mesh.h"
 #include "tool/mesh_json.h"
 #include "tool/number_options.h"

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "base/number_words.h"
 #include "tool/commands.h"
 
+#include "base/number_words.h"
 #include "mesh/io/read_mesh.h"
 #include "output/mesh_file.h"
 #include "output/mesh_stl.h"

@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "base/number_words.h"
 #include "tool/commands.h"
 
 #include "backend/threads.h"
+#include "base/number_words.h"
 #include "mesh/winding_number.h"
 #include "tool/answer_writer.h"
 #include "tool/load_mesh.h"
