@@ -8,6 +8,7 @@
 #include "base/state_blocks.h"
 #include "law/sub_models.h"
 #include "wall/spec_text.h"
+#include "wall/spec_words.h"
 
 #include <cmath>
 #include <cstddef>
@@ -165,8 +166,7 @@ std::string text_of(const Wear &wear, const WearDeform &deform)
 {
   const auto &[model, per_work] = wear;
   const auto &[every, factor] = deform;
-  const char *const models[] = {"none", "archard", "finnie"};
-  return models[static_cast<int>(model)] + (" " + text_of(per_work)) +
+  return word_of(model, kWearWords) + (" " + text_of(per_work)) +
          (every > 0
               ? ", every " + std::to_string(every) + " steps moves vertices " + text_of(factor)
               : "");
@@ -207,11 +207,10 @@ WallParts made_parts(const Wall &wall)
   const auto &[laws, meshes, inputs, corner, side, device, grid_length, rmax, nearest,
                memory_budget, wear, wear_deform, average_every, contacts, each_contact, shapes,
                periodic, brief] = wall.spec();
-  const char *const corners[] = {"blend", "sum"}, *const sides[] = {"both", "in", "out"};
   WallParts parts = {{"number of meshes", std::to_string(meshes.size())},
                      {"law", text_of(laws)},
-                     {"corner", corners[static_cast<int>(corner)]},
-                     {"side", sides[static_cast<int>(side)]},
+                     {"corner", word_of(corner, kCornerWords)},
+                     {"side", word_of(side, kSideWords)},
                      {"wear", text_of(wear, wear_deform)}};
   for (std::size_t k = 0; k < meshes.size(); k++) add_made(wall.spec(), k, parts);
   for (const MeshPart &mesh : wall.meshes()) {

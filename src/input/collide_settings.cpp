@@ -6,6 +6,7 @@
 #include "base/input_words.h"
 #include "input/keywords.h"
 #include "wall/spec_ranges.h"
+#include "wall/spec_words.h"
 
 namespace lsdcd {
 
@@ -39,8 +40,7 @@ bool read_word(const std::string &word, Tokens &w, CollideSettings &s)
     s.memory = read_memory(w);
   } else if (word == "device") {
     w.set_context("device", "device cpu | cuda | auto");
-    const Device devices[] = {Device::cpu, Device::cuda, Device::automatic};
-    s.device = devices[w.choice({"cpu", "cuda", "auto"})];
+    s.device = static_cast<Device>(w.choice(all_words(kDeviceWords)));
   } else if (word == "log") {
     w.set_context("log", "log full | brief");
     s.brief = w.choice({"full", "brief"}) == 1;

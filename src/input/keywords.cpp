@@ -11,6 +11,7 @@
 #include "input/value_words.h"
 #include "output/file_series.h"
 #include "wall/spec_ranges.h"
+#include "wall/spec_words.h"
 
 #include <algorithm>
 #include <cmath>
@@ -98,7 +99,8 @@ const BesideClassic kRolling(Family::rolling), kCohesion(Family::cohesion);
 
 void read_wear(Tokens &w, WallCommand &s)
 {
-  s.wall.wear.model = static_cast<WearModel>(1 + w.choice({"archard", "finnie"}));
+  s.wall.wear.model =
+      static_cast<WearModel>(1 + w.choice({std::begin(kWearWords) + 1, std::end(kWearWords)}));
   s.wall.wear.per_work = w.number("K", kWearCoefficientRange);
   if (s.wall.wear.model == WearModel::archard)
     s.wall.wear.per_work /= w.number("H", kHardnessRange);
@@ -197,12 +199,12 @@ const Keyword kKeywords[] = {
     {"corner", "blend | sum", "", "", "blend",
      "contacts at one place share their overlap, or their forces simply add",
      [](Tokens &w, WallCommand &s) {
-       s.wall.corner = static_cast<Corner>(w.choice({"blend", "sum"}));
+       s.wall.corner = static_cast<Corner>(w.choice(all_words(kCornerWords)));
      }},
     {"side", "both | in | out", "", "", "both",
      "where particles belong; in and out need a closed, oriented mesh",
      [](Tokens &w, WallCommand &s) {
-       s.wall.side = static_cast<Side>(w.choice({"both", "in", "out"}));
+       s.wall.side = static_cast<Side>(w.choice(all_words(kSideWords)));
      }},
     {"motion", kMotionSyntax, "velocity, length, time", "period > 0", "none",
      "moves the mesh, with the syntax of fix move and more; later motions carry earlier ones",
@@ -269,7 +271,7 @@ const Keyword kKeywords[] = {
      nullptr, read_torque_about},
     {"device", "auto | cpu | cuda", "", "", "auto", "where wall forces are computed",
      [](Tokens &w, WallCommand &s) {
-       s.wall.device = static_cast<Device>(w.choice({"auto", "cpu", "cuda"}));
+       s.wall.device = static_cast<Device>(w.choice(all_words(kDeviceWords)));
      }},
     {"temperature", "T | v_NAME", "temperature", "", "none",
      "of the wall, for the sub-model heat; v_NAME: an equal-style variable", nullptr,

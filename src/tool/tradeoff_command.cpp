@@ -1,17 +1,18 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "base/number_words.h"
 #include "tool/commands.h"
 
 #include "base/atomic_file.h"
 #include "base/input_error.h"
+#include "base/number_words.h"
 #include "base/shared_files.h"
 #include "study/tradeoff.h"
 #include "tool/csv_file.h"
 #include "tool/load_mesh.h"
 #include "tool/number_options.h"
 #include "tool/output_file.h"
+#include "wall/spec_words.h"
 
 #include <cmath>
 #include <cstdio>
@@ -99,7 +100,7 @@ std::string csv_of(const Tradeoff &tradeoff, const WeldedMesh &mesh,
                                              csv_quoted(device_name(r)),
                                              number(r.choice.length),
                                              nearest_word(r.choice),
-                                             r.corner == Corner::blend ? "blend" : "sum",
+                                             word_of(r.corner, kCornerWords),
                                              number(r.error.missed_share()),
                                              number(double(r.error.uncertified) / r.checked),
                                              number(r.error.median),
@@ -178,11 +179,10 @@ void tradeoff(TradeoffOptions &o)
   const Tradeoff result = measure_tradeoff(mesh, o.settings, [](const TradeoffRow &r) {
     std::printf("%10.4g  %-7s  %-6s  %-6s  %8.3g  %17.2g  %7.2g  %6.1g  %6.1g  %9.1f  %7.1f  "
                 "%8.3g%s\n",
-                r.choice.length, nearest_word(r.choice).c_str(),
-                r.corner == Corner::blend ? "blend" : "sum", r.on_cuda ? "cuda" : "cpu",
-                100 * r.error.missed_share(), r.error.mean, r.error.largest, r.bounce_drift,
-                r.roll_drift, r.ns_per_sphere, r.status_ns, r.bytes / 1e6,
-                r.is_default ? "  default" : "");
+                r.choice.length, nearest_word(r.choice).c_str(), word_of(r.corner, kCornerWords),
+                r.on_cuda ? "cuda" : "cpu", 100 * r.error.missed_share(), r.error.mean,
+                r.error.largest, r.bounce_drift, r.roll_drift, r.ns_per_sphere, r.status_ns,
+                r.bytes / 1e6, r.is_default ? "  default" : "");
     std::fflush(stdout);
   });
   for (const std::string &what : result.left_out)

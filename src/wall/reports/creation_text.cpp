@@ -8,6 +8,7 @@
 #include "effects/effects.h"
 #include "law/sub_models.h"
 #include "wall/spec_text.h"
+#include "wall/spec_words.h"
 
 namespace lsdcd {
 
@@ -102,12 +103,11 @@ std::string effect_lines(const HostNames &names, const WallSpec &settings,
 
 std::string search_lines(const WallSpec &settings)
 {
-  const char *const sides[] = {"both", "in", "out"};
   return "\n  search      " +
          (settings.nearest > 0 ? "nearest " + std::to_string(settings.nearest)
                                : std::string("all that can touch")) +
-         "\n  corners     " + (settings.corner == Corner::blend ? "blend" : "sum") + ", side " +
-         sides[static_cast<int>(settings.side)];
+         "\n  corners     " + word_of(settings.corner, kCornerWords) + ", side " +
+         word_of(settings.side, kSideWords);
 }
 
 }    // namespace
