@@ -54,16 +54,16 @@ bool may_hold(const Superellipsoid &s, const Vec3 &y)
 // Can a segment cut the grain? By its box, and an ellipsoid as a ball.
 bool may_cut(const Superellipsoid &s, const Vec3 &from, const Vec3 &to)
 {
-  for (int k = 0; k < 3; k++)
-    if (std::fmin(from[k], to[k]) >= s.half[k] || std::fmax(from[k], to[k]) <= -s.half[k])
-      return false;
+  const auto is_beside = [](Real a, Real b, Real half) {
+    return (smaller(a, b) >= half) | (larger(a, b) <= -half);
+  };
+  if (is_beside(from.x, to.x, s.half.x) | is_beside(from.y, to.y, s.half.y) |
+      is_beside(from.z, to.z, s.half.z))
+    return false;
   if (!s.is_ellipsoid()) return true;
-  Vec3 u, along;
-  for (int k = 0; k < 3; k++) {
-    u[k] = from[k] / s.half[k];
-    along[k] = to[k] / s.half[k] - u[k];
-  }
-  const Real at = std::fmin(std::fmax(-dot(u, along) / norm_sq(along), 0), 1);
+  const Vec3 u = {from.x / s.half.x, from.y / s.half.y, from.z / s.half.z};
+  const Vec3 along = {to.x / s.half.x - u.x, to.y / s.half.y - u.y, to.z / s.half.z - u.z};
+  const Real at = smaller(larger(-dot(u, along) / norm_sq(along), 0), 1);
   return norm_sq(u + at * along) < 1;
 }
 
@@ -590,7 +590,7 @@ bool ShapeSearch::is_beside(const PlacedGrain &grain, std::uint32_t primitive) c
   Vec3 lo = corner_of(grain, p, 0), hi = lo;
   for (int k = 1; k < n_corners(p.code); k++) {
     const Vec3 c = corner_of(grain, p, k);
-    for (int a = 0; a < 3; a++) lo[a] = std::fmin(lo[a], c[a]), hi[a] = std::fmax(hi[a], c[a]);
+    for (int a = 0; a < 3; a++) lo[a] = smaller(lo[a], c[a]), hi[a] = larger(hi[a], c[a]);
   }
   for (int a = 0; a < 3; a++)
     if (lo[a] > grain.shape.half[a] || hi[a] < -grain.shape.half[a]) return true;

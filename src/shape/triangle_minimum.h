@@ -74,9 +74,11 @@ class TangentAboutLine {
   LSDCD_FN TangentMinimum find()
   {
     if (s_.is_ellipsoid()) {
+      if (follow_shadow() && polish() && is_only()) return tangent(true);
       start_at_shadow();
       if (polish()) return tangent(true);
     } else {
+      if (follow_gauge() && is_only()) return tangent(true);
       start_at_gauge();
     }
     return tangent(refine());
@@ -111,11 +113,16 @@ class TangentAboutLine {
         nearest_on_ellipsoid({large, small, large}, {dot(one_, y_), dot(two_, y_), 0}).normal;
     turn_axes(n.x, n.y);
   }
-  // Takes Newton's steps where they are as short as the rounding of a start; returns false where they are not.
+  // Is the tangent that was found the highest because its overlap is less than rho? A shadow has no smaller radii of curvature
+  // than its body, so that there is one such tangent, as there is one nearest point of that depth.
+  LSDCD_FN bool is_only() const { return depth_ < s_.rho; }
+
+  // Takes Newton's steps where they are as short as the rounding of a start, the last one without another plane; returns false
+  // where they are longer.
   LSDCD_FN bool polish()
   {
-    constexpr int kMostSteps = 3;
-    constexpr Real kLongest = 1e-6, kSmallest = 8 * kRoundoff;
+    constexpr int kMostSteps = 4;
+    constexpr Real kLongest = 1e-6, kLast = 1e-9;
     for (int i = 0; i < kMostSteps; i++) {
       normal_ = one_;
       turn_ = two_;
@@ -123,20 +130,221 @@ class TangentAboutLine {
       point_ = plane.point;
       depth_ = plane.height - dot(normal_, y_);
       slope_ = dot(turn_, point_ - y_);
-      Real square = 0;
-      for (int k = 0; k < 3; k++) square += s_.half[k] * turn_[k] * (s_.half[k] * turn_[k]);
-      const Real along = dot(turn_, point_);
-      bend_ = (square - along * along) / plane.height - depth_;
+      const Vec3 u = {s_.half.x * turn_.x, s_.half.y * turn_.y, s_.half.z * turn_.z};
+      const Real along = dot(turn_, point_), over = 1 / plane.height;
+      bend_ = (norm_sq(u) - along * along) * over - depth_;
       const Real step = -slope_ / bend_;
       if (!(bend_ > 0) || !(fabs(step) <= kLongest)) return false;
-      if (fabs(step) <= kSmallest) return true;
+      if (fabs(step) <= kLast * (s_.nearest / s_.farthest)) {
+        const Vec3 way = {s_.half.x * u.x, s_.half.y * u.y, s_.half.z * u.z};
+        normal_ += step * turn_;
+        point_ += (step * over) * (way - along * point_);
+        return true;
+      }
       turn_axes(1, step);
     }
     return true;
   }
+  // Follows the angle downhill on the shadow of an ellipsoid, an ellipse with the matrix (p, q; q, r), from its normal under
+  // the line; returns false where that is not found soon.
+  LSDCD_FN bool follow_shadow()
+  {
+    constexpr int kMostSteps = 6;
+    constexpr Real kShort = 1e-4;    // the square of the next step is below its rounding
+    Real p = 0, q = 0, r = 0, det = 0;
+    for (int k = 0; k < 3; k++) {
+      const Real u = s_.half[k] * one_[k], v = s_.half[k] * two_[k];
+      p += u * u;
+      q += u * v;
+      r += v * v;
+      const Real others = s_.half[k == 0 ? 1 : 0] * s_.half[k == 2 ? 1 : 2] * along_[k];
+      det += others * others;
+    }
+    const Real y = dot(one_, y_), z = dot(two_, y_);
+    // Over p + r, whose square is in the range of Real.
+    const Real less = 1 / (p + r);
+    Real c = less * r * y - less * q * z, s = less * p * z - less * q * y;
+    const Real size = hypot_of(c, s);
+    if (!(size > 0)) return false;
+    const Real scale = 1 / size;
+    c *= scale;
+    s *= scale;
+    for (int i = 0; i < kMostSteps; i++) {
+      const Real a = p * c + q * s, b = q * c + r * s, square = c * a + s * b;
+      const Real over = 1 / sqrt(square);
+      const Real slope = (c * b - s * a) * over - (c * z - s * y),
+                 depth = square * over - (c * y + s * z);
+      const Real bend = det * (over * over * over) - depth, step = -slope / bend;
+      if (!(bend > 0) || !(fabs(step) <= kLongestTurn)) return false;
+      const Turn by(step);
+      const Real turned = c * by.cosine - s * by.sine;
+      s = s * by.cosine + c * by.sine;
+      c = turned;
+      if (fabs(step) <= kShort) {
+        turn_axes(c, s);
+        return true;
+      }
+    }
+    return false;
+  }
+
+  // A turn by an angle up to kLongestTurn; its lengths are right to 2e-9.
+  struct Turn {
+    Real cosine, sine;
+    LSDCD_FN explicit Turn(Real angle)
+    {
+      const Real square = angle * angle;
+      cosine = 1 - square / 2 * (1 - square / 12 * (1 - square / 30));
+      sine = angle * (1 - square / 6 * (1 - square / 20 * (1 - square / 42)));
+    }
+  };
+  static constexpr Real kLongestTurn = 0.3;
+
+  // Returns (1 + x)^a for 0 < a <= 1.
+  LSDCD_FN static Real power_near_one(Real x, Real a)
+  {
+    constexpr Real kSmall = 0.03;    // the ninth power of it is below rounding
+    if (!(fabs(x) < kSmall)) return pow(1 + x, a);
+    Real sum = 1;
+    for (int k = 7; k > 0; k--) sum = 1 + (a - k) * (Real(1) / (k + 1)) * x * sum;
+    return 1 + a * x * sum;
+  }
+
+  // Follows the angle downhill from the normal that the gauge has where it is least on the line. There the point of the surface
+  // with that normal is known. A turn changes the numbers whose roots are its coordinates by little, so that the
+  // roots follow without powers. Returns false where they do not, as beside a flat side.
+  LSDCD_FN bool follow_gauge()
+  {
+    constexpr int kMostTurns = 12;
+    constexpr Real kLast = 1e-8;    // a change of numbers, of which the square is below rounding
+    const Real root1 = 1 / (s_.n1 - 1), root2 = 1 / (s_.n2 - 1);
+    Vec3 x, u;    // the point over the half-axes; the normal times them, of any length
+    if (!least_gauge(x, u)) return false;
+    one_ = {u.x / s_.half.x, u.y / s_.half.y, u.z / s_.half.z};
+    const Real size = norm(one_);
+    u = (1 / size) * u;
+    one_ = (1 / size) * one_;
+    one_ -= dot(one_, along_) * along_;
+    one_ = (1 / norm(one_)) * one_;
+    two_ = cross(along_, one_);
+    Vec3 inverse = {1 / u.x, 1 / u.y, 1 / u.z};
+    bool is_last = false;
+    for (int i = 0; i < kMostTurns; i++) {
+      const Vec3 now = scaled(one_);
+      const Vec3 change = {change_of(now.x, u.x, inverse.x), change_of(now.y, u.y, inverse.y),
+                           change_of(now.z, u.z, inverse.z)};
+      constexpr Real kMostChange = 0.9;
+      if (!(fabs(change.x) < kMostChange && fabs(change.y) < kMostChange &&
+            fabs(change.z) < kMostChange))
+        return false;
+      is_last = i > 0 && fabs(change.x) < kLast && fabs(change.y) < kLast && fabs(change.z) < kLast;
+      const Real before = dot(u, x);
+      const Vec3 root = {power_near_one(change.x, root2), power_near_one(change.y, root2),
+                         power_near_one(change.z, root1)};
+      if (s_.n1 == s_.n2) {
+        x = {root.x * x.x, root.y * x.y, root.z * x.z};
+      } else {
+        const Real plane_before = u.x * x.x + u.y * x.y;
+        x.x *= root.x;
+        x.y *= root.y;
+        const Real grown = (now.x * x.x + now.y * x.y) / plane_before - 1,
+                   less = 1 / power_near_one(grown, 1 / s_.n2),
+                   scale = less * power_near_one((grown + 1) * less - 1, root1);
+        x = {scale * x.x, scale * x.y, root.z * x.z};
+      }
+      x = (1 / power_near_one(dot(now, x) / before - 1, 1 / s_.n1)) * x;
+      u = now;
+      normal_ = one_;
+      point_ = scaled(x);
+      const Real height = dot(u, x);
+      depth_ = height - dot(normal_, y_);
+      if (is_last) {
+        const Real length = norm(normal_);
+        normal_ = (1 / length) * normal_;
+        depth_ /= length;
+        return true;
+      }
+      inverse = {1 / u.x, 1 / u.y, 1 / u.z};
+      turn_ = two_;
+      slope_ = dot(turn_, point_ - y_);
+      const Vec3 turn = scaled(turn_);
+      const Real plane = u.x * x.x + u.y * x.y, in_plane = turn.x * x.x + turn.y * x.y,
+                 all = in_plane + turn.z * x.z;
+      const Real share = plane > 0 ? in_plane * in_plane / plane : 0;
+      bend_ = root1 * (share + bend_of(turn.z, x.z, inverse.z) - all * all / height) +
+              root2 * (bend_of(turn.x, x.x, inverse.x) + bend_of(turn.y, x.y, inverse.y) - share) -
+              depth_;
+      const Real step = -slope_ / bend_;
+      if (!(bend_ > 0 && fabs(step) <= kLongestTurn)) return false;
+      const Turn by(step);
+      one_ = by.cosine * normal_ + by.sine * turn_;
+      two_ = by.cosine * turn_ - by.sine * normal_;
+    }
+    return false;
+  }
+  // Returns by what share a number changes; one that is 0 may not.
+  LSDCD_FN static Real change_of(Real now, Real before, Real inverse)
+  {
+    return now == before ? 0 : (now - before) * inverse;
+  }
+  LSDCD_FN static Real bend_of(Real turn, Real x, Real inverse)
+  {
+    return x == 0 ? 0 : turn * turn * (x * inverse);
+  }
+  LSDCD_FN Vec3 scaled(const Vec3 &v) const
+  {
+    return {s_.half.x * v.x, s_.half.y * v.y, s_.half.z * v.z};
+  }
+
+  // Finds about where the gauge is least on the line, and gives the point of the surface over it and the slope there, both over
+  // the half-axes and the slope of any length; returns false where that is not found soon.
+  LSDCD_FN bool least_gauge(Vec3 &x, Vec3 &slope) const
+  {
+    constexpr int kMostSteps = 12;
+    constexpr Real kClose = 1e-2;
+    const Real n1 = s_.n1, n2 = s_.n2, ratio = n1 / n2;
+    const Vec3 inverse = {1 / s_.half.x, 1 / s_.half.y, 1 / s_.half.z};
+    const Vec3 y = {inverse.x * y_.x, inverse.y * y_.y, inverse.z * y_.z},
+               d = {inverse.x * along_.x, inverse.y * along_.y, inverse.z * along_.z};
+    const Vec3 square = {d.x * d.x, d.y * d.y, d.z * d.z};
+    Real t = -dot(y, d) / norm_sq(d);
+    for (int i = 0; i < kMostSteps; i++) {
+      x = y + t * d;
+      const Vec3 p = {power_of(fabs(x.x), n2 - 2), power_of(fabs(x.y), n2 - 2),
+                      power_of(fabs(x.z), n1 - 2)};
+      slope = {p.x * x.x, p.y * x.y, p.z * x.z};
+      const Real across = slope.x * x.x + slope.y * x.y;
+      Real fall = d.x * slope.x + d.y * slope.y, bend = square.x * p.x + square.y * p.y;
+      // The gauge to the power n1, and its derivatives over n1.
+      Real power = across;
+      if (n1 == n2) {
+        bend *= n1 - 1;
+      } else {
+        const Real scale = power_of(across, ratio - 1);
+        bend = scale * ((n1 - n2) * (fall * fall) / across + (n2 - 1) * bend);
+        fall *= scale;
+        power *= scale;
+        slope.x *= scale;
+        slope.y *= scale;
+      }
+      power += slope.z * x.z;
+      fall += d.z * slope.z;
+      bend += (n1 - 1) * (square.z * p.z);
+      const Real step = -fall / bend;
+      if (!(fabs(step) <= s_.farthest)) return false;
+      if (fabs(step) <= kClose * s_.nearest) {
+        x = (1 / power_near_one(power - 1, 1 / n1)) * x;
+        return true;
+      }
+      t += step;
+    }
+    return false;
+  }
   // The normal of the gauge at the point of the line that is nearest in the metric of the half-axes.
   LSDCD_FN void start_at_gauge()
   {
+    one_ = any_perpendicular(along_);
+    two_ = cross(along_, one_);
     Real across = 0, size = 0;
     for (int k = 0; k < 3; k++) {
       across += along_[k] / s_.half[k] * (y_[k] / s_.half[k]);
