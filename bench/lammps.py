@@ -105,9 +105,10 @@ def work_folder(given):
             shutil.rmtree(folder)
 
 
-def bench(name, about, measure, words=(), steps=0, chunks=3, repeats=3, quick=()):
+def bench(name, about, measure, words=(), steps=0, chunks=3, repeats=3, quick={}):
     """The main of a benchmark: prints the rows that measure(options, folder) returns. `words`: more of the command line, (name, how
-    argparse takes it). `steps`: how many are timed as one, where the words of times are wanted; `quick`: what --quick sets."""
+    argparse takes it). `steps`: how many are timed as one, where the words of times are wanted; `quick`: what --quick sets where the command
+    line does not."""
     p = argparse.ArgumentParser(prog=f"./run bench {name}", description=about, allow_abbrev=False,
                                 formatter_class=argparse.RawDescriptionHelpFormatter)
     p.add_argument("--device", default="cpu", help=argparse.SUPPRESS)
@@ -124,7 +125,7 @@ def bench(name, about, measure, words=(), steps=0, chunks=3, repeats=3, quick=()
         p.add_argument(word, **how)
     options = p.parse_args()
     if options.quick:
-        vars(options).update(quick)
+        vars(options).update({name: value for name, value in quick.items() if getattr(options, name) == p.get_default(name)})
     with work_folder(options.scripts_to) as folder, contextlib.redirect_stdout(sys.stderr):
         found = measure(options, folder)
     print(rows.as_csv(found), end="")
