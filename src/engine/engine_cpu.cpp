@@ -8,6 +8,8 @@
 
 namespace lsdcd {
 
+template class EngineOn<CpuBackend>;
+
 std::unique_ptr<WallEngine> make_cpu_engine(const EngineSettings &settings)
 {
   return std::make_unique<EngineOn<CpuBackend>>(settings, law_for<CpuBackend>(settings),

@@ -16,6 +16,8 @@
 
 namespace lsdcd {
 
+extern template class EngineOn<CpuBackend>;    // compiled in engine_cpu.cpp
+
 namespace {
 
 // Shapes of all candidates, before a step.
