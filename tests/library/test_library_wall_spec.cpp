@@ -386,6 +386,16 @@ TEST_F(wall_spec, has_the_bits_of_words_for_laws_of_meshes_and_types)
                      spec);
 }
 
+TEST_F(wall_spec, has_laws_for_types_from_1)
+{
+  api::WallSpec spec = floor();
+  spec.meshes[0].type_laws = {{2, 2, hooke_history(2 * kN)}};
+  lsdcd::Wall wall(spec);
+  Pile pile;
+  pile.type[3] = 0;
+  EXPECT_EQ(text_of([&] { pile.go(wall, 1); }), "type[3] is 0, below 1");
+}
+
 TEST_F(wall_spec, has_the_bits_of_words_for_placements_and_surfaces)
 {
   api::WallSpec spec = floor();

@@ -1122,6 +1122,8 @@ TEST(mesh_nodes, go_on_from_a_saved_state_with_the_same_bits)
   Scene second(nodes_of(all_motions(), mesh));
   second.restore_with_spheres(first);
   EXPECT_EQ(second.nodes(), first.nodes());
+  EXPECT_EQ(second.wall->save().meshes[0].nodes.velocities,
+            first.wall->save().meshes[0].nodes.velocities);
   second.set_up();
   turn_sheet(first, *mesh, 11);
   turn_sheet(second, *mesh, 11);
