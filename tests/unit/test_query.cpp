@@ -225,7 +225,7 @@ TEST(query, answers_on_10000_triangles_are_right)
   const Case c(cylinder_mesh(100, 49, 50, 100), 1, 0, 300, 6);
   for (const int n : {0, 3}) {
     const TriangleGrid grid = c.grid(n);
-    expect_right(c, ask(c, grid, c.spheres), c.tolerance(grid), true, std::to_string(n));
+    expect_right(c, ask(c, grid, c.spheres), c.tolerance(grid), n > 0, std::to_string(n));
   }
 }
 
