@@ -119,8 +119,9 @@ void note_meetings(WeldedMesh &mesh, const SelfMeetings &meetings)
 void check_has_area(const WeldedMesh &mesh)
 {
   if (!mesh.faces.empty()) return;
-  throw InputError(mesh.source + ": none of its " + counted(mesh.report.facets, "facet") +
-                   " has an area, so there is no wall; export the mesh again, or, "
+  throw InputError(mesh.source + ": its " +
+                   counted(mesh.report.facets, "facet has", "facets have") +
+                   " no area, so there is no wall; export the mesh again, or, "
                    "where facets are small, give a smaller weld tolerance");
 }
 

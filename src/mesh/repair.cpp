@@ -164,8 +164,9 @@ RepairedMesh repair(const TriangleSoup &soup, Real tolerance,
     report.duplicate_facets += mesh.report.duplicate_facets;
   }
   if (mesh.faces.empty())
-    throw InputError(soup.source + ": none of its " + counted(soup.n_triangles(), "facet") +
-                     " has an area, so nothing is left; give a smaller --weld");
+    throw InputError(soup.source + ": its " +
+                     counted(soup.n_triangles(), "facet has", "facets have") +
+                     " no area, so nothing is left; give a smaller --weld");
   mesh.source = soup.source;
   if (report.degenerate_facets > 0) {
     connect_vertices(mesh);

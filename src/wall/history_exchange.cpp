@@ -3,6 +3,7 @@
 
 #include "wall/history_exchange.h"
 
+#include "base/number_words.h"
 #include "contact/contact_set.h"
 
 #include <algorithm>
@@ -91,12 +92,14 @@ void HistoryExchange::check_restored(int n, const std::function<bool(const Sprin
         break;
       }
   host_.sum(lost, 2);
+  const std::string sphere = host_.names().sphere;
   const char *const file[] = {"was written with a different mesh",
                               "was written with a different contact law"};
   for (int k = 0; k < 2; k++)
     if (lost[k] > 0)
-      host_.warn(std::to_string(static_cast<std::int64_t>(lost[k])) + " " + host_.names().sphere +
-                 "s lose their springs: the " + host_.names().saved + " " + file[k]);
+      host_.warn(counted(static_cast<std::int64_t>(lost[k]), sphere + " loses its springs",
+                         sphere + "s lose their springs") +
+                 ": the " + host_.names().saved + " " + file[k]);
 }
 
 void HistoryExchange::rename_features(const FeatureName &name)

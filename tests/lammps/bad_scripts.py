@@ -120,7 +120,7 @@ TABLES = [
          "Fix wall wall/lsdcd", "cannot read the table 'no/such/table' of a motion"),
         ("motion_table_no_table", "floor.stl motion table floor.stl",
          "Fix wall wall/lsdcd", "table 'floor.stl' line 1: 'solid' is not a number; begin a line of text with #"),
-        ("no_area", "line.stl", "line.stl", "none of its 1 facet has an area"),
+        ("no_area", "line.stl", "line.stl", "its 1 facet has no area"),
         ("outside_box", "floor.stl move 0 0 100", "outside the box", "z from 100 to 100", "scale", "move"),
         ("rmax_too_small", "floor.stl rmax 0.4", "Fix wall wall/lsdcd: atom 1 has radius 0.5", "rmax 0.4"),
         ("side_of_double_sided_mesh", "both.stl side out", "side in and side out need facets of one winding; 4 of",

@@ -129,7 +129,7 @@ BAD += [(f"{command.format(mesh)} {words}", code, said) for mesh, words, code, s
     ("nowhere.stl", "", 1, ["nowhere.stl", NO_FILE], OF_A_MESH),
     ("text.stl", "", 1, ["text.stl", "not an STL"], OF_A_MESH),
     ("/dev/zero", "", 1, ["/dev/zero", "it is a device"], OF_A_MESH[:1]),
-    ("line.stl", "", 1, ["line.stl", "none of its 1 facet has an area"], OF_A_MESH[1:6]),
+    ("line.stl", "", 1, ["line.stl", "its 1 facet has no area"], OF_A_MESH[1:6]),
     ("wall.stl", "--scale 1 2", 2, ["one factor or three"], OF_A_MESH[:4] + OF_A_MESH[5:]),
     ("wall.stl", "--scale 0", 2, ["--scale", "0 is not a number other than 0"], OF_A_MESH[:4] + OF_A_MESH[5:]),
     ("wall.stl", "--weld -1", 2, ["--weld", "-1"], OF_A_MESH[:6]),

@@ -122,7 +122,7 @@ TEST(HistoryExchange, of_features_that_are_not_there_is_dropped_and_told)
     EXPECT_EQ(history.on_cpu().count(1), host.rank() == 0 ? 1 : 0);
     ASSERT_EQ(host.warnings.size(), 1u);
     EXPECT_EQ(host.warnings[0],
-              "1 spheres lose their springs: the saved state was written with a different mesh");
+              "1 sphere loses its springs: the saved state was written with a different mesh");
   });
 }
 

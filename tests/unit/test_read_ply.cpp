@@ -424,7 +424,7 @@ TEST(read_ply, a_wrong_row_is_named_by_its_line_and_element)
       {text(kVertices + kFaces, "0 0 0\n1 0\n0 0 1 0\n3 0 1 2\n"),
        "line 11 (vertex 2): the line ends before"},
       {kText + "\n3 0 1 2\n", "line 15: '3' follows the last element"},
-      {triangle("binary_little_endian").bytes() + "\n", "1 bytes follow the last element"},
+      {triangle("binary_little_endian").bytes() + "\n", "1 byte follows the last element"},
       {Ply("binary_big_endian").vertices(1).faces(1).end_header().vertex(0, 0, NAN).bytes(),
        "(vertex 1): the value of 'z' is nan, not a finite number"},
       // Control characters do not reach a message.

@@ -312,7 +312,7 @@ TEST_F(wall, drops_histories_where_the_mesh_is_another)
   EXPECT_EQ(second.force[0].x, 0);
   ASSERT_EQ(second.host.warnings.size(), 1u);
   EXPECT_EQ(second.host.warnings[0],
-            "1 spheres lose their springs: the saved state was written with a different mesh");
+            "1 sphere loses its springs: the saved state was written with a different mesh");
 }
 
 TEST_F(wall, reaches_through_a_periodic_face_that_comes_nearer)

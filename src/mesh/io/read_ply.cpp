@@ -152,8 +152,8 @@ class BinaryValues {
   {
     if (at_ != end_)
       throw InputError(source_ + ", byte " + std::to_string(at_ - begin_ + 1) + ": " +
-                       std::to_string(bytes_left()) +
-                       " bytes follow the last element that the header promises; copy or export "
+                       counted(bytes_left(), "byte follows", "bytes follow") +
+                       " the last element that the header promises; copy or export "
                        "the file again");
   }
 

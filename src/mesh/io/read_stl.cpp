@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include "base/input_error.h"
+#include "base/number_words.h"
 #include "mesh/io/read_stl_text.h"
 #include "mesh/io/whole_file.h"
 #include "mesh/triangle_soup.h"
@@ -73,8 +74,9 @@ void check_binary_size(const char *bytes, std::size_t size, const std::string &s
   const std::uint64_t extra = size - kHeaderBytes - kFacetBytes * promised;
   if (extra > 0)
     throw InputError(source + ", facet " + std::to_string(promised + 1) + ": " + count +
-                     " by the header, but " + std::to_string(extra) +
-                     " bytes follow them; correct the count (bytes 81 to 84) or, if it is not "
+                     " by the header, but " +
+                     counted(static_cast<std::int64_t>(extra), "byte follows", "bytes follow") +
+                     " them; correct the count (bytes 81 to 84) or, if it is not "
                      "an STL, export the mesh again");
 }
 
