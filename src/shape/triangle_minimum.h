@@ -203,7 +203,8 @@ class TangentAboutLine {
   // Returns (1 + x)^a for 0 < a <= 1.
   LSDCD_FN static Real power_near_one(Real x, Real a)
   {
-    constexpr Real kSmall = 0.03;    // the ninth power of it is below rounding
+    // The series lacks its ninth power times a factor below 0.014, which is a rounding.
+    constexpr Real kSmall = 0.03;
     if (!(fabs(x) < kSmall)) return pow(1 + x, a);
     Real sum = 1;
     for (int k = 7; k > 0; k--) sum = 1 + (a - k) * (Real(1) / (k + 1)) * x * sum;

@@ -968,8 +968,8 @@ class Wall(_Owner):
         return numbers
 
     def restore(self, numbers: ArrayLike, what_fits: bool = False) -> None:
-        """Before the first step of a wall of the same spec. Raises Error for numbers of another wall, with what differs; with
-        `what_fits` it takes of them what fits, and `show` is told what does not."""
+        """Before the first step of a wall of the same spec, with the servo or body that was set later. Raises Error for numbers of
+        another wall, with what differs; with `what_fits` it takes of them what fits, and `show` is told what does not."""
         saved = _in_a_row(_as_floats(numbers, "numbers"), "numbers", np.float64)
         call = _lib.lsdcd_wall_restore_what_fits if _flag(what_fits, "what_fits") else _lib.lsdcd_wall_restore
         self._do(call, self._handle, saved.ctypes.data, saved.size)
