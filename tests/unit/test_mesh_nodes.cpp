@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // Walls whose nodes move, against rigid walls, brute force and laws of conservation.
-//   LSDCD_PAIRS  steps of spheres over nodes that move at random, a tenth of it; 1e7 unless given
+//   LSDCD_PAIRS  steps of spheres over nodes that move at random, a tenth of it; 1e6 unless given
 //   LSDCD_SEED   the first seed of these, so that several processes can share a large sample; 1 unless given
 #include "base/input_error.h"
 #include "engine/sum_unit.h"
@@ -217,7 +217,7 @@ int steps_on_devices()
 double pairs()
 {
   const char *text = std::getenv("LSDCD_PAIRS");
-  return text ? std::atof(text) : 1e7;
+  return text ? std::atof(text) : 1e6;
 }
 
 }    // namespace
