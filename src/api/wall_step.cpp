@@ -32,8 +32,8 @@ void check_count(const lsdcd_wall &wall, std::size_t n)
   if (n > 0x7fffffffu)
     throw ApiError(LSDCD_ERROR_ARGUMENT, "n is " + std::to_string(n) + ", more than an int counts");
   if (n < before)
-    throw ApiError(LSDCD_ERROR_ARGUMENT, "there are " + std::to_string(n) +
-                                             " spheres and there were " + std::to_string(before) +
+    throw ApiError(LSDCD_ERROR_ARGUMENT, "n is " + std::to_string(n) + ", and it was " +
+                                             std::to_string(before) +
                                              ": tell by lsdcd_wall_renumber() which ones are left");
 }
 

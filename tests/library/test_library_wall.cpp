@@ -441,7 +441,7 @@ TEST_F(wall, says_what_is_wrong_with_a_call)
        "row is 1: vectors of 3 numbers need 3 or more, 0 is 3"},
       {[](C &c) { return c.spheres.row = -3, c.take_step(); },
        "row is -3: vectors of 3 numbers need 3"},
-      {[](C &c) { return c.spheres.n = 1, c.take_step(); }, "there are 1 spheres and there were 2"},
+      {[](C &c) { return c.spheres.n = 1, c.take_step(); }, "n is 1, and it was 2"},
       {[](C &c) { return c.spheres.n = std::size_t(1) << 31, c.take_step(); },
        "n is 2147483648, more than"},
       {[](C &c) { return c.step.dt = 0, c.take_step(); }, "dt is 0, not above 0"},

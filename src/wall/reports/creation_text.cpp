@@ -4,6 +4,7 @@
 #include "wall/reports/creation_text.h"
 
 #include "base/input_words.h"
+#include "base/number_words.h"
 #include "base/version.h"
 #include "effects/effects.h"
 #include "law/sub_models.h"
@@ -19,7 +20,7 @@ std::string in_a_line(const WallSpec &settings, const std::deque<MeshPart> &mesh
 {
   std::string t;
   for (const MeshPart &m : meshes)
-    t += "mesh " + m.spec.name + " of " + std::to_string(m.grid.report().facets) + " facets, ";
+    t += "mesh " + m.spec.name + " of " + counted(m.grid.report().facets, "facet") + ", ";
   return t + law_name(settings.laws.front()) + ", " + device;
 }
 
