@@ -6,6 +6,7 @@
 #include "backend/backend_cpu.h"
 #include "backend/threads.h"
 #include "on_cuda.h"
+#include "query/point_query.h"
 #include "support/meshes.h"
 
 #include <chrono>
