@@ -111,10 +111,8 @@ Mesh mesh_of(const TriangleSoup &soup)
 Way library_way(const TriangleSoup &soup, Device device)
 {
   const Mesh mesh = mesh_of(soup);
-  GridOptions options;
-  options.device = device == Device::cuda ? LSDCD_CUDA : LSDCD_CPU;
   const double start = clock_ms();
-  const auto grid = std::make_shared<Grid>(mesh, options);
+  const auto grid = std::make_shared<Grid>(mesh);
   const auto time = [=](const std::vector<Sphere> &points, std::vector<double> &distance) {
     Query<double> q(&points[0].x, points.size());
     q.points_row = 4;
