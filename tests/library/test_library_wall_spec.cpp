@@ -855,7 +855,7 @@ TEST_F(wall_spec, takes_no_saved_data_of_a_wall_with_another_table_servo_or_coat
       {by_table(far), by_table(far), ""},
       {by_table(far), by_table(near), "the exact motion 'table of rows' of meshes[0] is "},
       {floor_that_pushes(2, 0.5), floor_that_pushes(2 + 1e-9, 0.5),
-       "the exact motion 'force z 2 vmax 0.5' of meshes[0] is "},
+       "the exact servo 'force z 2 vmax 0.5' of meshes[0] is "},
       {coated(2), coated(2), ""},
       {coated(2), coated(1), "a coat of the spacing 1 and radius 2 and was free "},
   };

@@ -131,7 +131,7 @@ TEST(ServoController, warns_once_of_a_gain_that_would_not_be_stable)
   settings.meshes[0].motion.servo().max_gain = 1;
   const Moved moved = after(settings, pressed(60, 1), 2);
   ASSERT_EQ(moved.warnings.size(), 1);
-  EXPECT_EQ(moved.warnings[0].find("a servo's gain of 1 would not be stable with 1 contacts at the "
+  EXPECT_EQ(moved.warnings[0].find("a servo's gain of 1 would not be stable with 1 contact at the "
                                    "timestep 0.01: 0.005 is used instead"),
             0);
 }
