@@ -92,14 +92,16 @@ void HistoryExchange::check_restored(int n, const std::function<bool(const Sprin
         break;
       }
   host_.sum(lost, 2);
-  const std::string sphere = host_.names().sphere;
   const char *const file[] = {"was written with a different mesh",
                               "was written with a different contact law"};
-  for (int k = 0; k < 2; k++)
-    if (lost[k] > 0)
-      host_.warn(counted(static_cast<std::int64_t>(lost[k]), sphere + " loses its springs",
-                         sphere + "s lose their springs") +
-                 ": the " + host_.names().saved + " " + file[k]);
+  for (int k = 0; k < 2; k++) {
+    if (!(lost[k] > 0)) continue;
+    const std::int64_t n = static_cast<std::int64_t>(lost[k]);
+    const std::string who = counted(n, host_.names().sphere);
+    host_.warn((n == 1 ? who + " loses its springs: the " + host_.names().saved + " "
+                       : who + " lose their springs: the " + host_.names().saved + " ") +
+               file[k]);
+  }
 }
 
 void HistoryExchange::rename_features(const FeatureName &name)
