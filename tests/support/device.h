@@ -30,4 +30,11 @@ inline Device test_device()
   return test_on_cuda() ? Device::cuda : Device::cpu;
 }
 
+// LSDCD_PAIRS: how many pairs a test of random ones takes, 1e6 unless given, or 1e7 on a GPU.
+inline double random_pairs()
+{
+  const char *text = std::getenv("LSDCD_PAIRS");
+  return text && *text ? std::atof(text) : test_on_cuda() ? 1e7 : 1e6;
+}
+
 }    // namespace lsdcd

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // Walls whose nodes move, against rigid walls, brute force and laws of conservation.
-//   LSDCD_PAIRS  steps of spheres over nodes that move at random, a tenth of it; 1e6 unless given
+//   LSDCD_PAIRS  steps of spheres over nodes that move at random, a tenth of it; 1e6 unless given, or 1e7 on a GPU
 //   LSDCD_SEED   the first seed of these, so that several processes can share a large sample; 1 unless given
 #include "base/input_error.h"
 #include "engine/sum_unit.h"
@@ -212,12 +212,6 @@ bool tests_the_cpu()
 int steps_on_devices()
 {
   return std::getenv("LSDCD_QUICK") ? 300 : 2000;
-}
-
-double pairs()
-{
-  const char *text = std::getenv("LSDCD_PAIRS");
-  return text ? std::atof(text) : 1e6;
 }
 
 }    // namespace
@@ -505,7 +499,7 @@ TEST(mesh_nodes, that_bear_many_spheres_have_the_sum_of_all)
 // all by trying each feature.
 TEST(mesh_nodes, miss_no_contact_while_they_move_at_random)
 {
-  const double wanted = pairs() / 10;
+  const double wanted = random_pairs() / 10;
   double n_done = 0, n_touching = 0;
   const char *first = std::getenv("LSDCD_SEED");
   const int n_spheres =

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // Random meshes x random spheres x random grids against trying every triangle.
-//   LSDCD_PAIRS  sphere-mesh pairs, and steps of walks, 1e6 unless given (1e9 takes minutes on a GPU)
+//   LSDCD_PAIRS  sphere-mesh pairs, and steps of walks, 1e6 unless given, or 1e7 on a GPU (1e9 takes minutes there)
 //   LSDCD_SEED   first seed, 1 unless given
 //   LSDCD_MESH   only the mesh of this number: what a failure prints
 // On CUDA the grid, the contacts and the oracle all run there (properties_cuda.cu).
@@ -125,7 +125,7 @@ double now()
 
 TEST(property, the_nearest_contact_is_the_distance_to_all_triangles)
 {
-  const double n_pairs = setting("LSDCD_PAIRS", 1e6), start = now();
+  const double n_pairs = random_pairs(), start = now();
   PairTotals totals;
   if (test_on_cuda()) {
 #if defined(LSDCD_HAVE_CUDA)
@@ -224,7 +224,7 @@ Walks walk(double n_steps, Real gathered, std::string &first)
 
 TEST(property, a_list_holds_every_contact_inside_of_its_margin)
 {
-  const double n_steps = setting("LSDCD_PAIRS", 1e6);
+  const double n_steps = random_pairs();
   std::string where;
   const double start = now();
   const Walks t = walk(n_steps, 1, where);
@@ -415,7 +415,7 @@ class Minima {
 TEST(property, contacts_are_the_local_minima)
 {
   if (test_on_cuda()) GTEST_SKIP() << "the CPU's contacts are compared; forces are below";
-  const long n_meshes = static_cast<long>(setting("LSDCD_PAIRS", 1e6) / 1e4);
+  const long n_meshes = static_cast<long>(random_pairs() / 1e4);
   constexpr long kPerMesh = 100;
   long missing = 0, extra = 0, doubled = 0, sure = 0, first = -1;
   for_meshes(n_meshes, true, [&](long i) {
@@ -479,7 +479,7 @@ TEST(property, contacts_are_the_local_minima)
 // The engine that is tested and the CPU's, on the same spheres: the same bits.
 TEST(property, forces_are_finite_and_those_of_the_cpu)
 {
-  const long n_meshes = static_cast<long>(std::fmin(setting("LSDCD_PAIRS", 1e6) / 2e4, 5000));
+  const long n_meshes = static_cast<long>(std::fmin(random_pairs() / 2e4, 5000));
   constexpr int kPerMesh = 500;
   long not_finite = 0, differ = 0, touching = 0, first = -1;
   for_meshes(n_meshes, !test_on_cuda(), [&](long i) {
