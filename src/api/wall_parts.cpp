@@ -36,19 +36,8 @@ std::string row_of(const Values &...values)
   return text;
 }
 
-std::string value_text(Real value, int input, const InputNames &inputs)
-{
-  return input == kNoInput ? text_of(value) : "v_" + inputs[static_cast<std::size_t>(input)];
-}
-
-std::string value_text(const Vec3 &values, const int *input, const InputNames &inputs)
-{
-  return value_text(values.x, input[0], inputs) + " " + value_text(values.y, input[1], inputs) +
-         " " + value_text(values.z, input[2], inputs);
-}
-
 // What follows takes structs apart by the names of all their members: one that is new does not compile before it is decided
-// here whether saved data are of a wall with another one.
+// here whether saved data are of a wall with another one. A program's wall has no variables as inputs.
 
 template <class Model>
 std::string numbers_of(const Chosen<Model> &chosen)
@@ -88,20 +77,19 @@ std::string text_of(const Placement &placement)
   return text;
 }
 
-std::string text_of(const JointDrive &drive, int motor_input, const InputNames &inputs)
+std::string text_of(const JointDrive &drive)
 {
   const auto &[stiffness, damping, rest, lo, hi, motor] = drive;
   std::string text;
   if (stiffness != 0) text += ", spring " + row_of(stiffness, rest);
   if (damping != 0) text += ", damping " + text_of(damping);
   if (std::isfinite(lo) || std::isfinite(hi)) text += ", limits " + row_of(lo, hi);
-  if (motor != 0 || motor_input != kNoInput)
-    text += ", motor " + value_text(motor, motor_input, inputs);
+  if (motor != 0) text += ", motor " + text_of(motor);
   return text;
 }
 
 // The data have its velocities, which it has at the start alone.
-std::string text_of(const BodySpec &body, const InputNames &inputs)
+std::string text_of(const BodySpec &body)
 {
   const auto &[present, density, mass, joint, drive, load, moment, motor_input, load_input,
                moment_input, velocity, omega, has_gravity, gravity, coat] = body;
@@ -110,20 +98,17 @@ std::string text_of(const BodySpec &body, const InputNames &inputs)
   return std::string(kJointNames[static_cast<int>(joint.kind)]) + " " +
          row_of(joint.point, joint.axis) + ", of density " + text_of(density) + ", mass " +
          text_of(mass.mass) + ", centre " + text_of(mass.centre) + " and inertia " +
-         row_of(i.xx, i.yy, i.zz, i.xy, i.xz, i.yz) + text_of(drive, motor_input, inputs) +
-         ", load " + value_text(load, load_input, inputs) + ", moment " +
-         value_text(moment, moment_input, inputs) +
-         (has_gravity ? ", gravity " + text_of(gravity) : "") +
+         row_of(i.xx, i.yy, i.zz, i.xy, i.xz, i.yz) + text_of(drive) + ", load " + text_of(load) +
+         ", moment " + text_of(moment) + (has_gravity ? ", gravity " + text_of(gravity) : "") +
          (coat.present ? ", with a coat of the spacing " + text_of(coat.spacing) + " and radius " +
                              text_of(coat.radius)
                        : "");
 }
 
-std::string text_of(const SurfaceMotion &surface, const int *input, const InputNames &inputs)
+std::string text_of(const SurfaceMotion &surface)
 {
   const auto &[velocity, angular, centre] = surface;
-  return value_text(velocity, input, inputs) + ", turning " +
-         value_text(angular, input + 3, inputs) + " about " + text_of(centre);
+  return text_of(velocity) + ", turning " + text_of(angular) + " about " + text_of(centre);
 }
 
 // Of all kinds of terms, as unused numbers are 0. Kind and inputs, of which displacement and speed are values, are in the
@@ -191,11 +176,9 @@ void add_made(const WallSpec &wall, std::size_t k, WallParts &parts)
   add("motion", of, motion_of(wall.meshes[k], wall.inputs), numbers_of(motion.terms()), parts);
   parts.push_back({"placement" + of, text_of(placement)});
   parts.push_back({"law" + of, text_of(laws)});
-  parts.push_back({"surface velocity" + of, text_of(surface, surface_input, wall.inputs)});
-  if (has_nodes)
-    parts.push_back({"pressure" + of, value_text(pressure, pressure_input, wall.inputs)});
-  if (has_temperature)
-    parts.push_back({"temperature" + of, value_text(temperature, temperature_input, wall.inputs)});
+  parts.push_back({"surface velocity" + of, text_of(surface)});
+  if (has_nodes) parts.push_back({"pressure" + of, text_of(pressure)});
+  if (has_temperature) parts.push_back({"temperature" + of, text_of(temperature)});
   if (wall.wears()) parts.push_back({"wear_factor" + of, text_of(wear_factor)});
 }
 
@@ -216,7 +199,7 @@ WallParts made_parts(const Wall &wall)
   for (const MeshPart &mesh : wall.meshes()) {
     const MeshReport &report = mesh.grid.report();
     parts.push_back({"mesh of " + element("meshes", static_cast<std::size_t>(mesh.index)),
-                     counted(report.facets, "triangle", "triangles") + " with " +
+                     counted(report.facets, "triangle") + " with " +
                          counted(report.vertices, "vertex", "vertices") + " and the number " +
                          std::to_string(mesh.grid.mesh_fingerprint())});
   }
@@ -232,7 +215,7 @@ WallParts set_parts(const Wall &wall)
     const std::string of = " of " + element("meshes", k);
     add("servo", of, servo.present ? servo_text(servo, spec.inputs) : "none", numbers_of(servo),
         parts);
-    parts.push_back({"body" + of, text_of(spec.meshes[k].body, spec.inputs)});
+    parts.push_back({"body" + of, text_of(spec.meshes[k].body)});
   }
   return parts;
 }
