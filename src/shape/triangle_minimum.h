@@ -130,13 +130,13 @@ class TangentAboutLine {
       point_ = plane.point;
       depth_ = plane.height - dot(normal_, y_);
       slope_ = dot(turn_, point_ - y_);
-      const Vec3 u = {s_.half.x * turn_.x, s_.half.y * turn_.y, s_.half.z * turn_.z};
+      const Vec3 u = scaled(turn_);
       const Real along = dot(turn_, point_), over = 1 / plane.height;
       bend_ = (norm_sq(u) - along * along) * over - depth_;
       const Real step = -slope_ / bend_;
       if (!(bend_ > 0) || !(fabs(step) <= kLongest)) return false;
       if (fabs(step) <= kLast * (s_.nearest / s_.farthest)) {
-        const Vec3 way = {s_.half.x * u.x, s_.half.y * u.y, s_.half.z * u.z};
+        const Vec3 way = scaled(u);
         normal_ += step * turn_;
         point_ += (step * over) * (way - along * point_);
         return true;
@@ -229,7 +229,6 @@ class TangentAboutLine {
     one_ = (1 / norm(one_)) * one_;
     two_ = cross(along_, one_);
     Vec3 inverse = {1 / u.x, 1 / u.y, 1 / u.z};
-    bool is_last = false;
     for (int i = 0; i < kMostTurns; i++) {
       const Vec3 now = scaled(one_);
       const Vec3 change = {change_of(now.x, u.x, inverse.x), change_of(now.y, u.y, inverse.y),
@@ -238,7 +237,8 @@ class TangentAboutLine {
       if (!(fabs(change.x) < kMostChange && fabs(change.y) < kMostChange &&
             fabs(change.z) < kMostChange))
         return false;
-      is_last = i > 0 && fabs(change.x) < kLast && fabs(change.y) < kLast && fabs(change.z) < kLast;
+      const bool is_last =
+          i > 0 && fabs(change.x) < kLast && fabs(change.y) < kLast && fabs(change.z) < kLast;
       const Real before = dot(u, x);
       const Vec3 root = {power_near_one(change.x, root2), power_near_one(change.y, root2),
                          power_near_one(change.z, root1)};
@@ -370,12 +370,12 @@ class TangentAboutLine {
   {
     normal_ = cos(angle) * one_ + sin(angle) * two_;
     turn_ = cos(angle) * two_ - sin(angle) * one_;
-    const Vec3 u = {s_.half.x * normal_.x, s_.half.y * normal_.y, s_.half.z * normal_.z};
+    const Vec3 u = scaled(normal_);
     const NestedNorm h = nested_norm(u, s_.n1 / (s_.n1 - 1), s_.n2 / (s_.n2 - 1));
-    point_ = {s_.half.x * h.slope.x, s_.half.y * h.slope.y, s_.half.z * h.slope.z};
+    point_ = scaled(h.slope);
     depth_ = h.value - dot(normal_, y_);
     slope_ = dot(turn_, point_ - y_);
-    const Vec3 turned = {s_.half.x * turn_.x, s_.half.y * turn_.y, s_.half.z * turn_.z};
+    const Vec3 turned = scaled(turn_);
     bend_ = -depth_;
     for (int k = 0; k < 2; k++) {
       const Real part = dot(h.along[k], turned);

@@ -70,7 +70,7 @@ void print(const RepairOptions &o, const RepairReport &r)
   print("welded", counted(r.welded_corners, "corner") + " to another's place, " +
                       number(r.welding_moved) + " away at most (tolerance " + number(r.tolerance) +
                       ")");
-  print("dropped", counted(r.degenerate_facets, "degenerate facet", "degenerate facets") + ", " +
+  print("dropped", counted(r.degenerate_facets, "degenerate facet") + ", " +
                        counted(r.duplicate_facets, "duplicate"));
   if (r.lost_facets > 0)
     print("", counted(r.lost_facets, "line") + " of these that no facet follows any more, " +
