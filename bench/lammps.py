@@ -125,7 +125,8 @@ def bench(name, about, measure, words=(), steps=0, chunks=3, repeats=3, quick={}
         p.add_argument(word, **how)
     options = p.parse_args()
     if options.quick:
-        vars(options).update({name: value for name, value in quick.items() if getattr(options, name) == p.get_default(name)})
+        p.set_defaults(**quick)
+        options = p.parse_args()
     with work_folder(options.scripts_to) as folder, contextlib.redirect_stdout(sys.stderr):
         found = measure(options, folder)
     print(rows.as_csv(found), end="")
