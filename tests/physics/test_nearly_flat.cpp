@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // Folds of all angles: the force is as smooth in position and in angle as one wall's.
-// (test_corners: the closed form at each angle, and that steps shrink.)
+// (test_corners: the closed form at each angle.)
 #include "support/hard_case.h"
 #include "support/laws.h"
 #include "support/meshes.h"
