@@ -164,21 +164,25 @@ TEST(bounce, has_one_restitution_on_faces_edges_and_vertices)
   }
 }
 
+// Of a floor.
+struct Place {
+  const char *name;
+  Vec3 p;
+};
+const Place kPlaces[] = {
+    {"a face", {0.3, 0.1, 0}}, {"an edge", {0.5, 0, 0}}, {"a vertex", {0, 0, 0}}};
+
 TEST(oblique, gross_slip_takes_mu_times_the_normal_impulse)
 {
   const Real mu = 0.2, v = 0.1, u = 1;
   const Real w = std::sqrt(kStiffness / kMass), dt = kPi / w / 2000;
-  const TriangleSoup soup = floor_mesh(4, 2);
-  struct {
-    const char *name;
-    Vec3 p;
-  } places[] = {{"a face", {0.3, 0.1, 0}}, {"an edge", {0.5, 0, 0}}, {"a vertex", {0, 0, 0}}};
   for (const bool history : {true, false})
-    for (const auto &place : places) {
+    for (const Place &place : kPlaces) {
       EngineSettings law = history ? hooke_history(kStiffness, 10 * kStiffness, 30, 0, mu)
                                    : hooke(kStiffness, 30, 1e9, mu);
       law.law().limit_damping = true;    // F_n does not pull: its impulse is m (1 + e) v_n
-      const Oblique o = oblique(soup, place.p, {0, 0, 1}, unit({1, 0.3, 0}), law, v, u, dt);
+      const Oblique o =
+          oblique(floor_mesh(4, 2), place.p, {0, 0, 1}, unit({1, 0.3, 0}), law, v, u, dt);
       const std::string where =
           std::string("gross slip on ") + place.name + (history ? ", history" : ", no history");
       const Real e = o.v_normal / v;
@@ -196,13 +200,8 @@ TEST(oblique, stick_with_two_sevenths_of_the_stiffness_turns_the_slip_round)
 {
   const Real v = 0.1, u = 0.02;
   const Real w = std::sqrt(kStiffness / kMass), dt = kPi / w / 2000;
-  const TriangleSoup soup = floor_mesh(4, 2);
-  struct {
-    const char *name;
-    Vec3 p;
-  } places[] = {{"a face", {0.3, 0.1, 0}}, {"an edge", {0.5, 0, 0}}, {"a vertex", {0, 0, 0}}};
-  for (const auto &place : places) {
-    const Oblique o = oblique(soup, place.p, {0, 0, 1}, unit({1, 0.3, 0}),
+  for (const Place &place : kPlaces) {
+    const Oblique o = oblique(floor_mesh(4, 2), place.p, {0, 0, 1}, unit({1, 0.3, 0}),
                               hooke_history(kStiffness, 2 * kStiffness / 7, 0, 0, 1e9), v, u, dt);
     expect_answer(
         {"Bouncing", "14c",

@@ -649,24 +649,6 @@ TEST(granular, two_sheets_at_one_place_bear_heat_and_couples_once)
   EXPECT_NEAR(twice.heat(0), once.scene.heat(0), 1e-11);
 }
 
-TEST(granular, what_a_law_keeps_is_what_its_effects_need)
-{
-  EngineSettings law = granular(NormalModel::hertz, kK);
-  EXPECT_FALSE(law.law().has_history());
-  EXPECT_EQ(law.law().n_extra(), 0);
-  law.law().tangential = TangentialModel::mindlin_force;
-  EXPECT_TRUE(law.law().has_history());
-  EXPECT_EQ(law.law().n_extra(), 0);
-  law.law().tangential = TangentialModel::mindlin_rescale;
-  EXPECT_EQ(law.law().n_extra(), 1);
-  law.law().twisting = TwistingModel::sds;
-  EXPECT_EQ(law.law().n_extra(), 2);
-  law.law().rolling = RollingModel::sds;
-  EXPECT_EQ(law.law().n_extra(), 5);
-  EXPECT_TRUE(granular(NormalModel::jkr, kK, 1).law().has_history());
-  EXPECT_EQ(granular(NormalModel::jkr, kK, 1).law().n_extra(), 0);
-}
-
 TEST(granular, parameters_and_compiled_laws_agree_on_what_is_kept)
 {
   const int first = static_cast<int>(TangentialModel::linear_nohistory);

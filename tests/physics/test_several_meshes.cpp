@@ -110,34 +110,26 @@ TEST(several_meshes, the_deepest_overlap_is_told_with_its_mesh_and_all_that_its_
     SphereArrays spheres;
     const Vec3 begin[] = {{0, 0, 0.3}, {1, 1, 0.8}, {20, 0, 0.35}};    // 40 and 20 %, 80 %, 30 %
     for (const Vec3 &x : begin) spheres.add(x, kRadius);
-    const auto compute = [&] {
+    const struct {
+      int sphere;
+      Vec3 to;    // it goes there
+      Real deepest;
+      int of_sphere, mesh;
+      std::uint32_t meshes;
+    } rows[] = {{0, begin[0], 0.8, 1, 1, 2},
+                {1, {1, 1, 5}, 0.4, 0, 0, 3},
+                {0, {0, 0, 0.45}, 0.5, 0, 1, 3},    // 10 % and 50 %
+                {0, {0, 0, 5}, 0.3, 2, 2, 4}};
+    for (const auto &row : rows) {
+      put_vector(spheres.x, row.sphere, row.to);
       engine.choose(spheres.spheres(), 0);
       engine.step(spheres.spheres(), StepSettings());
-      return engine.read_diagnostics();
-    };
-    const auto put = [&](int i, const Vec3 &x) { put_vector(spheres.x, i, x); };
-    StepDiagnostics seen = compute();
-    EXPECT_NEAR(seen.deepest, 0.8, 1e-6);    // in float
-    EXPECT_EQ(seen.deepest_sphere, 1);
-    EXPECT_EQ(seen.deepest_mesh, 1);
-    EXPECT_EQ(seen.deepest_meshes, 2U);
-    put(1, {1, 1, 5});
-    seen = compute();
-    EXPECT_NEAR(seen.deepest, 0.4, 1e-6);
-    EXPECT_EQ(seen.deepest_sphere, 0);
-    EXPECT_EQ(seen.deepest_mesh, 0);
-    EXPECT_EQ(seen.deepest_meshes, 3U);
-    put(0, {0, 0, 0.45});    // 10 % and 50 %
-    seen = compute();
-    EXPECT_NEAR(seen.deepest, 0.5, 1e-6);
-    EXPECT_EQ(seen.deepest_mesh, 1);
-    EXPECT_EQ(seen.deepest_meshes, 3U);
-    put(0, {0, 0, 5});
-    seen = compute();
-    EXPECT_NEAR(seen.deepest, 0.3, 1e-6);
-    EXPECT_EQ(seen.deepest_sphere, 2);
-    EXPECT_EQ(seen.deepest_mesh, 2);
-    EXPECT_EQ(seen.deepest_meshes, 4U);
+      const StepDiagnostics seen = engine.read_diagnostics();
+      EXPECT_NEAR(seen.deepest, row.deepest, 1e-6);    // in float
+      EXPECT_EQ(seen.deepest_sphere, row.of_sphere);
+      EXPECT_EQ(seen.deepest_mesh, row.mesh);
+      EXPECT_EQ(seen.deepest_meshes, row.meshes);
+    }
   }
 }
 
@@ -424,23 +416,6 @@ TEST(several_meshes, keep_springs_across_choices)
     ASSERT_NEAR(got.force[c], expected.force[c], 1e-5);
 }
 
-// Sums are over the same spheres in the same order.
-TEST(several_meshes, act_the_same_through_a_mirror)
-{
-  EngineSettings s = hooke_history(kStiffness, 3e4, 50, 20, 0.4);
-  const Wall wall(dealt(random_soup(600, 5), 7), kRadius, s, true);
-  s.meshes = 7;
-  const auto mirrored = with_mirror(s);
-  const auto direct = on_cpu(s);
-  wall.put_into(*mirrored);
-  wall.put_into(*direct);
-  const Crossing expected(*direct), got(*mirrored);
-  EXPECT_TRUE(same_bytes(got.force, expected.force));
-  EXPECT_EQ(got.joint, expected.joint);
-  EXPECT_GT(norm(expected.on_mesh), 0);
-  EXPECT_EQ(got.on_mesh, expected.on_mesh);
-}
-
 // Types 1 and 3 are of kind 0, type 2 is of kind 1; each of 7 meshes has laws of its own.
 EngineSettings with_laws(bool differ)
 {
@@ -453,17 +428,23 @@ EngineSettings with_laws(bool differ)
   return s;
 }
 
-TEST(several_meshes, with_laws_through_a_mirror_act_the_same)
+// Sums are over the same spheres in the same order.
+TEST(several_meshes, act_the_same_through_a_mirror)
 {
-  const EngineSettings s = with_laws(true);
-  const Wall wall(dealt(random_soup(600, 5), 7), kRadius, s, true);
-  const auto mirrored = with_mirror(s);
-  const auto direct = on_cpu(s);
-  wall.put_into(*mirrored);
-  wall.put_into(*direct);
-  const Crossing expected(*direct), got(*mirrored);
-  EXPECT_TRUE(same_bytes(got.force, expected.force));
-  EXPECT_GT(expected.joint, 20);
+  EngineSettings one_law = hooke_history(kStiffness, 3e4, 50, 20, 0.4);
+  one_law.meshes = 7;
+  for (const EngineSettings &s : {one_law, with_laws(true)}) {
+    const Wall wall(dealt(random_soup(600, 5), 7), kRadius, s, true);
+    const auto mirrored = with_mirror(s), direct = on_cpu(s);
+    wall.put_into(*mirrored);
+    wall.put_into(*direct);
+    const Crossing expected(*direct), got(*mirrored);
+    EXPECT_TRUE(same_bytes(got.force, expected.force));
+    EXPECT_EQ(got.joint, expected.joint);
+    EXPECT_GT(expected.joint, 20);
+    EXPECT_GT(norm(expected.on_mesh), 0);
+    EXPECT_EQ(got.on_mesh, expected.on_mesh);
+  }
 }
 
 TEST(several_meshes, with_equal_laws_act_as_with_one)

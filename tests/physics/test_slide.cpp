@@ -31,10 +31,12 @@ struct Slid {
   Real contacts;     // most
 };
 
-// Moves a sphere along a path without turning it: its spring is as long as the way.
-Slid slide(const TriangleSoup &soup, const Path &path, Real length, int n, Real mu)
+// Moves a sphere along a path without turning it: its spring is as long as the way. `scale`: of the spring's stiffness, at this
+// overlap.
+Slid slide(const TriangleSoup &soup, const Path &path, Real length, int n,
+           const EngineSettings &law, Real scale = 1)
 {
-  Scene scene(soup, kRadius, hooke_history(kStiffness, kTangent, 0, 0, mu));
+  Scene scene(soup, kRadius, law);
   const Real ds = length / n, v = ds / kDt;
   scene.add_sphere(path(0).x, kRadius, kMass);
   Slid out = {0, 0, 0, 0, 0};
@@ -46,11 +48,12 @@ Slid slide(const TriangleSoup &soup, const Path &path, Real length, int n, Real 
     scene.set_v(0, v * p.along);
     scene.compute(kDt, true, true);
     const Vec3 f = scene.force(0), t = f - dot(f, p.normal) * p.normal;
-    const Real off = norm(t + kTangent * s * p.along) / kTangent;
+    const Real off = norm(t + scale * kTangent * s * p.along) / (scale * kTangent);
     out.off = std::fmax(out.off, off / s);
     out.off_whole = std::fmax(out.off_whole, off / length);
     const Real normal = dot(f, p.normal);
-    if (i > n / 10) out.limit = std::fmax(out.limit, std::fabs(norm(t) / (mu * normal) - 1));
+    if (i > n / 10)
+      out.limit = std::fmax(out.limit, std::fabs(norm(t) / (law.law().mu * normal) - 1));
     if (scene.engine->results().n_touching() != 1) {
       ADD_FAILURE() << "no contact at " << s;
       break;
@@ -127,10 +130,15 @@ const char *kSum =
     "the stretch is a sum of up to 5000 steps, one rounding each, and is turned with "
     "the normal";
 
+EngineSettings history(Real mu)
+{
+  return hooke_history(kStiffness, kTangent, 0, 0, mu);
+}
+
 TEST(slide, below_the_limit_stretches_the_spring_by_the_way)
 {
   for (const Course &c : courses()) {
-    const Slid s = slide(c.soup, c.path, c.length, 5000, 1e6);
+    const Slid s = slide(c.soup, c.path, c.length, 5000, history(1e6));
     expect_at_most(
         {"History", c.id,
          std::string(c.name) + ", below the limit: largest jump of the spring, of its length"},
@@ -139,13 +147,18 @@ TEST(slide, below_the_limit_stretches_the_spring_by_the_way)
         {"History", c.id, std::string(c.name) + ", below the limit: |F_t - kt s| over kt s"}, s.off,
         1e-10, kSum);
     EXPECT_EQ(s.contacts, 1);
+    const Slid hertz =
+        slide(c.soup, c.path, c.length, 5000, hertz_history(kStiffness, kTangent, 0, 0, 1e6),
+              std::sqrt(kOverlap * kRadius));
+    EXPECT_LE(hertz.jump, 1e-10) << c.name;
+    EXPECT_LE(hertz.off, 1e-10) << c.name;
   }
 }
 
 TEST(slide, above_the_limit_drags_with_mu_times_the_normal_force)
 {
   for (const Course &c : courses()) {
-    const Slid s = slide(c.soup, c.path, c.length, 5000, 0.3);
+    const Slid s = slide(c.soup, c.path, c.length, 5000, history(0.3));
     expect_at_most(
         {"History", c.id, std::string(c.name) + ", above the limit: |F_t / (mu F_n) - 1|"}, s.limit,
         1e-11, "overlaps round by 1e-14 of themselves, coordinates of 4 by 1e-15 of 0.01");
@@ -157,7 +170,7 @@ TEST(slide, back_from_the_limit_begins_with_a_spring_that_is_cut_to_it)
   // Forth 1 m over seams, slipping, then back: from mu F_n at once with slope kt to the
   // other limit, and there it stays.
   const Real mu = 0.3, limit = mu * kStiffness * kOverlap, ds = 1e-4;
-  Scene scene(floor_mesh(40, 2, 5), kRadius, hooke_history(kStiffness, kTangent, 0, 0, mu));
+  Scene scene(floor_mesh(40, 2, 5), kRadius, history(mu));
   const Vec3 u = {0.8, 0.6, 0}, from = {-1.4, -0.9, kAt};
   scene.add_sphere(from, kRadius, kMass);
   Real off = 0;
@@ -180,8 +193,7 @@ TEST(slide, back_from_the_limit_begins_with_a_spring_that_is_cut_to_it)
 
 TEST(slide, into_the_corner_of_two_walls_and_along_it_keeps_two_springs)
 {
-  Scene scene(box_mesh({0, 0, 0}, {4, 4, 4}), kRadius,
-              hooke_history(kStiffness, kTangent, 0, 0, 1e6));
+  Scene scene(box_mesh({0, 0, 0}, {4, 4, 4}), kRadius, history(1e6));
   const int n = 1000;
   const Real ds = 1e-3, v = ds / kDt;
   const Vec3 start = {kAt + n * ds, 1, kAt};
@@ -210,8 +222,7 @@ TEST(slide, into_the_corner_of_two_walls_and_along_it_keeps_two_springs)
 TEST(slide, into_the_corner_of_two_walls_above_the_limit_drags_on_both)
 {
   const Real mu = 0.4;
-  Scene scene(box_mesh({0, 0, 0}, {4, 4, 4}), kRadius,
-              hooke_history(kStiffness, kTangent, 0, 0, mu));
+  Scene scene(box_mesh({0, 0, 0}, {4, 4, 4}), kRadius, history(mu));
   const Real ds = 1e-3, v = ds / kDt;
   scene.add_sphere({kAt, 1, kAt}, kRadius, kMass, {0, v, 0});
   Real off = 0;
@@ -243,7 +254,7 @@ TEST(slide, round_a_drum_is_continuous)
     const Real length = rho * kPi / 2;
     const TriangleSoup drum = cylinder_mesh(n, 1, kDrum, 2);
     const std::string name = "a quarter round a drum of " + std::to_string(n) + " segments";
-    const Slid below = slide(drum, path, length, 20000, 1e6);
+    const Slid below = slide(drum, path, length, 20000, history(1e6));
     expect_at_most(
         {"History", "17i", name + ", below the limit: |F_t - kt s| over kt times the way"},
         below.off_whole,
@@ -255,7 +266,7 @@ TEST(slide, round_a_drum_is_continuous)
 
 TEST(slide, spring_acts_but_does_not_move_where_a_run_is_set_up)
 {
-  Scene scene(floor_mesh(40, 2, 5), kRadius, hooke_history(kStiffness, kTangent, 0, 0, 1e6));
+  Scene scene(floor_mesh(40, 2, 5), kRadius, history(1e6));
   scene.add_sphere({0.1, 0.2, kAt}, kRadius, kMass, {1, 0.5, 0}, {0, 3, 1});
   for (int i = 0; i < 20; i++) scene.compute(kDt);
   const Vec3 force = scene.force(0), torque = scene.torque(0);
