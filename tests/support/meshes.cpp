@@ -181,6 +181,30 @@ void append(TriangleSoup &soup, const TriangleSoup &more)
   soup.corners.insert(soup.corners.end(), more.corners.begin(), more.corners.end());
 }
 
+TriangleSoup joined(TriangleSoup one, const TriangleSoup &other)
+{
+  append(one, other);
+  return one;
+}
+
+TriangleSoup moved(TriangleSoup soup, const Vec3 &by)
+{
+  for (Vec3 &x : soup.corners) x += by;
+  return soup;
+}
+
+TriangleSoup inverted(TriangleSoup soup)
+{
+  for (std::size_t t = 0; t < soup.corners.size(); t += 3)
+    std::swap(soup.corners[t], soup.corners[t + 1]);
+  return soup;
+}
+
+std::shared_ptr<const WeldedMesh> welded(const TriangleSoup &soup)
+{
+  return std::make_shared<WeldedMesh>(weld(soup, -1));
+}
+
 Scene::Scene(const TriangleSoup &soup, Real cutoff, EngineSettings settings, Real grid_length,
              Real weld_tolerance, int nearest) :
     mesh(weld(soup, weld_tolerance)),

@@ -52,6 +52,13 @@ TriangleSoup faces_all_round(int n);
 TriangleSoup crumpled_torus(const std::vector<Vec3> &x, int n);
 
 void append(TriangleSoup &soup, const TriangleSoup &more);
+TriangleSoup joined(TriangleSoup one, const TriangleSoup &other);
+TriangleSoup moved(TriangleSoup soup, const Vec3 &by);
+// Every facet wound the other way.
+TriangleSoup inverted(TriangleSoup soup);
+
+// With the tolerance that a wall takes by itself.
+std::shared_ptr<const WeldedMesh> welded(const TriangleSoup &soup);
 
 // A wall with an engine, ready for steps with one or more spheres.
 class Scene {

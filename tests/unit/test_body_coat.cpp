@@ -24,11 +24,6 @@ namespace {
 
 constexpr Real kStiffness = 1000, kSide = 2, kRadius = 0.1, kGravity = 10;
 
-std::shared_ptr<const WeldedMesh> welded(const TriangleSoup &soup)
-{
-  return std::make_shared<WeldedMesh>(weld(soup, -1));
-}
-
 TriangleSoup cube_soup()
 {
   const Real half = kSide / 2;
@@ -64,6 +59,17 @@ MeshSpec cube(const Vec3 &at, const Vec3 &velocity = {0, 0, 0})
 }
 constexpr int kPointsOfFace = 13;
 constexpr Real kMass = kSide * kSide * kSide;
+
+// An octahedron of this mass, whose 6 points are its corners.
+MeshSpec octahedron_of(Real mass, const Vec3 &at, const Vec3 &velocity = {0, 0, 0})
+{
+  MeshSpec mesh = cube(at, velocity);
+  mesh.mesh = welded(octahedron());
+  mesh.body.coat.spacing = 5;
+  mesh.body.density = 0;
+  mesh.body.mass = {mass, at, {mass, mass, mass, 0, 0, 0}};
+  return mesh;
+}
 
 MeshSpec floor_at_0(Real half = 10)
 {
@@ -119,6 +125,15 @@ Vec3 angular_momentum_of(Scene &scene, const std::vector<int> &meshes)
   return sum;
 }
 
+ContactLaw with_restitution(Real e, Real stiffness = kStiffness)
+{
+  ContactLaw law = granular_law(NormalModel::hooke);
+  law.k_normal = stiffness;
+  law.damping = DampingModel::stiffness;
+  law.eta = restitution_damping(NormalModel::hooke, e);
+  return law;
+}
+
 ContactLaw frictional()
 {
   ContactLaw law = classic_law(NormalModel::hooke, true);
@@ -159,21 +174,25 @@ TEST(body_coat, is_pressed_steadily_by_a_servo)
   }
 }
 
-// N springs of stiffness k bear M g: the centre is half a side and a radius above the floor, less M g / (N k).
+// N springs of stiffness k, which is that of the mesh under it, bear M g: the centre is half a side and a radius above the
+// floor, less M g / (N k).
 TEST(body_coat, a_cube_comes_to_rest_level_at_the_height_that_its_weight_asks_for)
 {
-  WallSpec spec = wall_of({floor_at_0(), cube({0.3, 0.2, kSide / 2 + kRadius + 0.01})});
-  spec.laws.front().law.eta = 10;
-  Scene scene(spec);
+  MeshSpec below = floor_at_0(), soft = floor_at_0();
+  below.placement.move({0, 0, -3});
+  soft.laws.resize(1);
+  soft.laws[0].law.k_normal = kStiffness / 2;
+  soft.laws[0].law.eta = 10;
+  Scene scene(wall_of({below, soft, cube({0.3, 0.2, kSide / 2 + kRadius + 0.01})}));
   scene.gravity[2] = -kGravity;
   scene.go(6000);
-  const RigidBody &b = scene.body(1);
-  const Real sinks = kMass * kGravity / (kPointsOfFace * kStiffness);
+  const RigidBody &b = scene.body(2);
+  const Real sinks = kMass * kGravity / (kPointsOfFace * kStiffness / 2);
   EXPECT_NEAR(b.centre().z, kSide / 2 + kRadius - sinks, 1e-9);
   EXPECT_LT(norm(rotate(b.turn(), {0, 0, 1}) - Vec3{0, 0, 1}), 1e-12);
   EXPECT_LT(norm(b.velocity()), 1e-8);
-  EXPECT_NEAR(scene.wall->totals().mesh(0).force.z, -kMass * kGravity, 1e-5);
-  EXPECT_NEAR(scene.wall->totals().mesh(1).force.z, kMass * kGravity, 1e-5);
+  EXPECT_NEAR(scene.wall->totals().mesh(1).force.z, -kMass * kGravity, 1e-5);
+  EXPECT_NEAR(scene.wall->totals().mesh(2).force.z, kMass * kGravity, 1e-5);
 }
 
 // Its points are closer to its own faces than their radius.
@@ -185,24 +204,6 @@ TEST(body_coat, does_not_feel_the_mesh_that_it_is_of)
   scene.go(100);
   EXPECT_EQ(norm(scene.body(1).velocity()), 0);
   EXPECT_NEAR(scene.body(1).omega().z, 1, 1e-14);
-}
-
-TEST(body_coat, two_free_cubes_collide_and_keep_their_momentum)
-{
-  WallSpec spec = wall_of({cube({0, 0, 0}), cube({0.6, 0.4, 2.4}, {0.2, 0, -2})});
-  spec.laws.front().law = frictional();
-  spec.meshes[0].body.density = 3;
-  spec.meshes[1].body.omega = {0.3, 0.2, 0.1};
-  Scene scene(spec);
-  scene.set_up();
-  const std::vector<int> both = {0, 1};
-  const Vec3 momentum = momentum_of(scene, both), angular = angular_momentum_of(scene, both);
-  scene.run(1000);
-  EXPECT_GT(scene.body(0).velocity().z, -10);
-  EXPECT_LT(scene.body(0).velocity().z, -0.1);    // it was hit
-  const Real size = kMass * 2, turning = size * 2.4;
-  EXPECT_LT(norm(momentum_of(scene, both) - momentum), 1e-12 * size);
-  EXPECT_LT(norm(angular_momentum_of(scene, both) - angular), 1e-12 * turning);
 }
 
 // Momentum and angular momentum of bodies and spheres, less the impulse and the moment of gravity and of the fixed floor. A
@@ -320,19 +321,10 @@ TEST(body_coat, two_bodies_have_the_restitution_that_is_set_whatever_their_masse
 {
   const Real e = 0.6;
   for (const Real mass : {1e-3, 1., 1e3}) {
-    WallSpec spec = wall_of({cube({0, 0, -kSide / 2}), cube({0, 0, 1 + kRadius + 0.001})});
-    ContactLaw &law = spec.laws.front().law;
-    law = granular_law(NormalModel::hooke);
-    law.k_normal = kStiffness;
-    law.damping = DampingModel::stiffness;
-    law.eta = restitution_damping(NormalModel::hooke, e);
-    BodySpec &big = spec.meshes[0].body, &small = spec.meshes[1].body;
-    big.coat = CoatSpec();
-    spec.meshes[1].mesh = welded(octahedron());
-    small.coat = {true, 5, kRadius};
-    small.density = 0;
-    small.mass = {mass, {0, 0, 1 + kRadius + 0.001}, {mass, mass, mass, 0, 0, 0}};
-    small.velocity = {0, 0, -1};
+    WallSpec spec = wall_of(
+        {cube({0, 0, -kSide / 2}), octahedron_of(mass, {0, 0, 1 + kRadius + 0.001}, {0, 0, -1})});
+    spec.laws.front().law = with_restitution(e);
+    spec.meshes[0].body.coat = CoatSpec();
     Scene scene(spec);
     const Real reduced = 1 / (1 / mass + 1 / kMass);
     scene.dt = 0.01 * std::sqrt(reduced / kStiffness);
@@ -362,11 +354,7 @@ TEST(body_coat, has_the_restitution_that_is_set_however_many_points_touch)
     WallSpec spec = wall_of({row.free ? cube({0, 0, -kSide / 2}) : floor_at_0(), upper});
     if (!row.both) spec.meshes[0].body.coat = CoatSpec();
     spec.meshes[0].body.density = 3;
-    ContactLaw &law = spec.laws.front().law;
-    law = granular_law(NormalModel::hooke);
-    law.k_normal = 100 * kStiffness;
-    law.damping = DampingModel::stiffness;
-    law.eta = restitution_damping(NormalModel::hooke, e);
+    spec.laws.front().law = with_restitution(e, 100 * kStiffness);
     Scene scene(spec);
     scene.dt = 1e-4;
     scene.go(1500);
@@ -391,13 +379,9 @@ TEST(body_coat, a_timestep_at_which_its_contacts_would_be_unstable_is_refused)
     MeshSpec under = cube({0, 0, -kSide / 2});
     under.body.coat = CoatSpec();
     under.body.present = free;
-    WallSpec spec = wall_of({under, cube({0, 0, 1 + kRadius - 1e-6})});
+    WallSpec spec = wall_of({under, octahedron_of(1, {0, 0, 1 + kRadius - 1e-6})});
     spec.laws.front().law.eta = eta;
-    spec.meshes[1].mesh = welded(octahedron());
     BodySpec &body = spec.meshes[1].body;
-    body.coat = {true, 5, kRadius};
-    body.density = 0;
-    body.mass = {1, {0, 0, 1 + kRadius}, {1, 1, 1, 0, 0, 0}};
     body.load = {0, 0, -1};    // it stays in contact
     body.joint = {JointKind::slider, {0, 0, 0}, {0, 0, 1}};
     spec.meshes[0].body.joint = body.joint;
@@ -429,14 +413,6 @@ TEST(body_coat, a_timestep_at_which_its_sliding_would_be_unstable_is_refused)
     const std::string error = error_of([&] { scene.run(2); });
     EXPECT_EQ(error.empty(), share < 1) << error;
   }
-}
-
-TEST(body_coat, is_refused_where_it_is_pressed_through_a_mesh)
-{
-  Scene scene(wall_of({floor_at_0(), cube({0, 0, kSide / 2 + kRadius + 0.01}, {0, 0, -20})}));
-  scene.set_up();
-  const std::string error = error_of([&] { scene.run(100); });
-  EXPECT_TRUE(has(error, "goes through the other mesh"));
 }
 
 // It comes to rest by M v^2 / 2 = N k d^2 / 2 after 0.6 of the radius.
@@ -498,41 +474,15 @@ TEST(body_coat, goes_as_fast_as_it_likes_where_nothing_is_on_its_way)
   EXPECT_EQ(scene.body(2).velocity(), (Vec3{500, 0, 0}));
 }
 
-TEST(body_coat, feels_each_mesh_by_the_law_of_that_mesh)
-{
-  MeshSpec below = floor_at_0(), soft = floor_at_0();
-  below.placement.move({0, 0, -3});
-  soft.laws.resize(1);
-  soft.laws[0].law.k_normal = kStiffness / 2;
-  soft.laws[0].law.eta = 10;
-  WallSpec spec = wall_of({below, soft, cube({0.3, 0.2, kSide / 2 + kRadius + 0.01})});
-  spec.laws.front().law.eta = 10;
-  Scene scene(spec);
-  scene.gravity[2] = -kGravity;
-  scene.go(6000);
-  const Real sinks = kMass * kGravity / (kPointsOfFace * kStiffness / 2);
-  EXPECT_NEAR(scene.body(2).centre().z, kSide / 2 + kRadius - sinks, 1e-9);
-}
-
 // A floor that has gone as far as its coat's arm is long: the mobility is that at the point where the contact is now.
 TEST(body_coat, has_the_restitution_that_is_set_on_a_mesh_that_has_moved)
 {
   const Real e = 0.6, drop = 0.3;
-  WallSpec spec = wall_of({floor_at_0(), cube({0, 0, 1 + kRadius + drop})});
-  ContactLaw &law = spec.laws.front().law;
-  law = granular_law(NormalModel::hooke);
-  law.k_normal = kStiffness;
-  law.damping = DampingModel::stiffness;
-  law.eta = restitution_damping(NormalModel::hooke, e);
+  WallSpec spec = wall_of({floor_at_0(), octahedron_of(1, {0, 0, 1 + kRadius + drop}, {0, 0, -1})});
+  spec.laws.front().law = with_restitution(e);
   MotionTerm term;
   term.velocity = {10, 0, 0};
   spec.meshes[0].motion.add(term);
-  spec.meshes[1].mesh = welded(octahedron());
-  BodySpec &body = spec.meshes[1].body;
-  body.coat = {true, 5, kRadius};
-  body.density = 0;
-  body.mass = {1, {0, 0, 1 + kRadius + drop}, {1, 1, 1, 0, 0, 0}};
-  body.velocity = {0, 0, -1};
   Scene scene(spec);
   scene.dt = 0.01 / std::sqrt(kStiffness);
   scene.go(static_cast<int>(drop / scene.dt) + 1000);
@@ -699,32 +649,9 @@ TEST(body_coat, lies_on_what_is_outside_of_the_box)
   }
 }
 
-// The points of a coat are spheres, also of a wall whose grains may be none.
-class BodyCoatSaved : public testing::TestWithParam<bool> {};
-
-TEST_P(BodyCoatSaved, slides_and_sticks_with_the_same_bits_after_it)
-{
-  WallSpec spec = wall_of({floor_at_0(), cube({0, 0, kSide / 2 + kRadius - 0.005}, {1, 0.3, 0})});
-  spec.shapes = GetParam();
-  // Without damping the set-up of a run computes the load that the last step had.
-  spec.laws.front().law = frictional();
-  spec.laws.front().law.eta = 0;
-  Scene whole(spec), second(spec);
-  whole.gravity[2] = second.gravity[2] = -kGravity;
-  whole.go(300);
-  EXPECT_GT(whole.wall->save().meshes[1].coat.size(), 20u);
-  second.restore(whole);
-  whole.run(300);
-  EXPECT_LT(norm(whole.body(1).velocity()), 0.9);    // friction acts
-  second.go(300);
-  EXPECT_TRUE(is_same_pose(whole.body(1).pose(), second.body(1).pose()));
-  EXPECT_TRUE(second.host.warnings.empty());
-}
-INSTANTIATE_TEST_SUITE_P(wall_of, BodyCoatSaved, testing::Values(false, true),
-                         [](const auto &of) { return of.param ? "shapes" : "spheres"; });
-
 // The floor goes over a periodic face, and the cube is on what comes in at the other side: on images, whose numbers are
-// others where a larger sphere asks for more of them. Saved springs are on what the images are of.
+// others where a larger sphere asks for more of them. Saved springs are on what the images are of. The points of a coat are
+// spheres, also of a wall whose grains may be none.
 TEST(body_coat, keeps_its_springs_on_images_whose_numbers_change)
 {
   FakeHost host, other;
@@ -735,6 +662,7 @@ TEST(body_coat, keeps_its_springs_on_images_whose_numbers_change)
   MeshSpec across = floor_at_0();
   across.placement.move({50, 0, 0});
   WallSpec spec = wall_of({across, cube({-45, 0, kSide / 2 + kRadius - 0.005}, {1, 0.3, 0})});
+  spec.shapes = true;
   spec.laws.front().law = frictional();
   spec.laws.front().law.eta = 0;
   Scene whole(host, spec), second(other, spec);
@@ -799,28 +727,6 @@ TEST(body_coat, has_the_same_bits_on_any_number_of_processes)
   ASSERT_EQ(poses.size(), 14u);
   for (std::size_t i = 2; i < poses.size(); i++)
     EXPECT_TRUE(is_same_pose(poses[i % 2], poses[i])) << i;
-}
-
-// A servo's plate, or a motion's, pushes a body as it pushes spheres; the load on the floor is that of all.
-TEST(body_coat, takes_the_velocity_of_a_mesh_that_moves)
-{
-  WallSpec spec = wall_of({floor_at_0(), cube({0, 0, kSide / 2 + kRadius - 0.01})});
-  spec.laws.front().law = frictional();
-  spec.laws.front().law.gamma_tangent = 20;
-  MotionTerm term;
-  term.kind = MotionKind::linear;
-  term.velocity = {0.5, 0, 0};
-  spec.meshes[0].motion.add(term);
-  Scene scene(spec);
-  scene.gravity[2] = -kGravity;
-  scene.go(3000);
-  EXPECT_NEAR(scene.body(1).velocity().x, 0.5, 0.05);
-}
-
-TEST(body_coat, needs_another_mesh)
-{
-  FakeHost host;
-  EXPECT_THROW(Scene(host, wall_of({cube({0, 0, 0})})), InputError);
 }
 
 TEST(body_coat, tells_its_points_and_its_errors_in_the_log)

@@ -34,7 +34,7 @@ MeshSpec mesh_of(const char *name, const TriangleSoup &soup)
 {
   MeshSpec mesh;
   mesh.name = name;
-  mesh.mesh = std::make_shared<WeldedMesh>(weld(soup, -1));
+  mesh.mesh = welded(soup);
   return mesh;
 }
 
@@ -121,24 +121,6 @@ struct Scene : WallScene {
     }
   }
 
-  // What a restart file keeps, to another wall with the same grains.
-  void hand_on(Scene &to)
-  {
-    const WallState saved = WallState::from(wall->save().blocks());
-    to.x = x;
-    to.v = v;
-    to.omega = omega;
-    to.now = now;
-    to.wall->restore(saved, {now, dt});
-    std::vector<Real> buffer(wall->history().max_packed_size() + 1);
-    to.wall->history().grow(static_cast<int>(x.size()));
-    for (int i = 0; i < static_cast<int>(x.size()); i++) {
-      const int n = wall->pack_saved(i, buffer.data());
-      to.wall->history().unpack_saved(i, buffer.data(), n);
-    }
-    to.set_up();
-  }
-
   // All that moves, number by number.
   std::vector<Real> state()
   {
@@ -221,7 +203,8 @@ TEST(body_on_device, goes_on_in_mid_swing_with_the_same_bits)
     first.set_up();
     whole.go(700);
     first.go(700);
-    first.hand_on(second);
+    second.restore_with_spheres(first);
+    second.set_up();
     whole.go(700);
     second.go(700);
     EXPECT_TRUE(same_bits(whole.state(), second.state())) << spec.meshes.back().name;

@@ -67,25 +67,19 @@ TEST(CandidateSchedule, choice_holds_until_it_expires)
   EXPECT_TRUE(schedule.next(drift(SphereDrift::bounded), {}, never_asked).is_due);
 }
 
-TEST(CandidateSchedule, margin_is_how_far_spheres_go)
+TEST(CandidateSchedule,
+     margin_is_how_far_spheres_go_once_more_where_they_have_moved_and_for_a_wall_that_moves)
 {
-  const CandidateUpdate choice =
-      CandidateSchedule().next(drift(SphereDrift::bounded), {}, never_asked);
-  EXPECT_EQ(choice.margin, kDistance);
-  EXPECT_FALSE(choice.watch);
-}
-
-TEST(CandidateSchedule, margin_is_twice_as_much_once_spheres_have_moved)
-{
-  EXPECT_EQ(CandidateSchedule().next(drift(SphereDrift::bounded, true), {}, never_asked).margin,
-            2 * kDistance);
-}
-
-TEST(CandidateSchedule, wall_that_moves_has_a_margin_of_its_own)
-{
-  const std::vector<MovingMesh> wall = {moved_by({0, 0, 0})};
-  EXPECT_EQ(CandidateSchedule().next(drift(SphereDrift::bounded, true), wall, never_asked).margin,
-            3 * kDistance);
+  const std::vector<MovingMesh> moves = {moved_by({0, 0, 0})};
+  const auto choice = [](const SphereDrift &of, const std::vector<MovingMesh> &wall) {
+    return CandidateSchedule().next(of, wall, never_asked);
+  };
+  EXPECT_FALSE(choice(drift(SphereDrift::bounded), {}).watch);
+  EXPECT_EQ(choice(drift(SphereDrift::bounded), {}).margin, kDistance);
+  EXPECT_EQ(choice(drift(SphereDrift::bounded, true), {}).margin, 2 * kDistance);
+  EXPECT_EQ(choice(drift(SphereDrift::bounded, true), moves).margin, 3 * kDistance);
+  EXPECT_EQ(choice(drift(SphereDrift::watched, true), {}).margin,
+            kDistance);    // what they went is seen
 }
 
 TEST(CandidateSchedule, is_due_once_the_wall_has_gone_its_margin)
@@ -128,12 +122,6 @@ TEST(CandidateSchedule, asks_the_engine_where_spheres_go_any_distance)
   EXPECT_TRUE(choice.is_due);
   EXPECT_TRUE(choice.watch);
   EXPECT_EQ(choice.margin, kDistance);
-}
-
-TEST(CandidateSchedule, watched_margin_does_not_grow_with_what_spheres_have_gone)
-{
-  EXPECT_EQ(CandidateSchedule().next(drift(SphereDrift::watched, true), {}, never_asked).margin,
-            kDistance);
 }
 
 // The host has seen that none has gone the distance since it counted from 0, where the choice was made.

@@ -33,13 +33,6 @@ void expect_springs(const ContactHistory &store, int i, const std::vector<Spring
 const std::vector<Spring> kTwo = {spring(0.1, 7), spring(-2, feature_code(FeatureKind::edge, 3))};
 const std::vector<Spring> kThree = {spring(1, 1), spring(2, 2), spring(3, 3)};
 
-TEST(contact_history, new_spheres_have_none)
-{
-  ContactHistory store;
-  store.grow(5);
-  for (int i = 0; i < 5; i++) EXPECT_EQ(store.count(i), 0);
-}
-
 TEST(contact_history, growing_keeps_what_is_there)
 {
   ContactHistory store;
@@ -134,27 +127,6 @@ TEST(contact_history, unpacking_into_a_sphere_leaves_its_copies_alone)
   store.unpack(0, buffer.data());
   expect_springs(store, 0, kThree);
   expect_springs(store, 1, kTwo);
-}
-
-TEST(contact_history, clear_takes_the_springs_of_one_sphere)
-{
-  ContactHistory store;
-  store.grow(2);
-  store.set(0, kTwo.data(), nullptr, 2);
-  store.set(1, kThree.data(), nullptr, 3);
-  store.clear(0);
-  expect_springs(store, 0, {});
-  expect_springs(store, 1, kThree);
-}
-
-TEST(contact_history, knows_the_largest_packed_size)
-{
-  ContactHistory store;
-  store.grow(4);
-  EXPECT_EQ(store.largest_packed_size(), 1);
-  store.set(0, kTwo.data(), nullptr, 2);
-  store.set(3, kThree.data(), nullptr, 3);
-  EXPECT_EQ(store.largest_packed_size(), 1 + 3 * ContactHistory().doubles_per_spring());
 }
 
 // ---- numbers beside the springs ------------------------------------------------------

@@ -70,53 +70,32 @@ TEST(cuda_grid, has_the_same_nearest_lists_and_float_records_as_the_cpu_grid)
   }
 }
 
-TEST(cuda_engine, gives_the_forces_of_the_cpu_engine)
+// Same source, no contraction, IEEE division and root on both: no tolerance.
+void expect_same(const Outcome &cpu, const Outcome &cuda, const std::string &name)
 {
-  // Same source, no contraction, IEEE division and root on both: no tolerance.
+  expect_same_rows(cpu, cuda, name);
+  EXPECT_EQ(cpu.totals.contacts, cuda.totals.contacts) << name;
+  EXPECT_EQ(cpu.totals.uncertified, cuda.totals.uncertified) << name;
+  EXPECT_EQ(cpu.totals.energy, cuda.totals.energy) << name;
+  EXPECT_TRUE(cpu.totals.force == cuda.totals.force) << name;
+  EXPECT_TRUE(cpu.totals.torque == cuda.totals.torque) << name;
+  EXPECT_GT(cpu.totals.contacts, 0) << name;
+}
+
+TEST(cuda_engine, gives_what_classic_styles_give_on_the_cpu)
+{
   for (const Case &c : cases())
-    for (const ContactLaw &law : kStyles) {
-      const Outcome cpu = run_on(Device::cpu, c, law);
-      const Outcome cuda = run_on(Device::cuda, c, law);
-      EXPECT_TRUE(same_bytes(cpu.force, cuda.force)) << c.name;
-      EXPECT_TRUE(same_bytes(cpu.torque, cuda.torque)) << c.name;
-      EXPECT_GT(cpu.totals.contacts, 0) << c.name;
-    }
+    for (const ContactLaw &law : kStyles)
+      expect_same(run_on(Device::cpu, c, law), run_on(Device::cuda, c, law), c.name);
 }
 
-TEST(cuda_engine, gives_the_forces_of_the_cpu_engine_however_it_searches)
+TEST(cuda_engine, gives_what_the_cpu_gives_however_it_searches)
 {
+  const ContactLaw law = classic(NormalModel::hertz, true);
   for (const Search &search : other_searches())
-    for (const Case &c : cases()) {
-      const Outcome cpu = run_on(Device::cpu, c, classic(NormalModel::hertz, true), search);
-      const Outcome cuda = run_on(Device::cuda, c, classic(NormalModel::hertz, true), search);
-      EXPECT_TRUE(same_bytes(cpu.force, cuda.force)) << c.name << ", " << search.name;
-      EXPECT_TRUE(same_bytes(cpu.springs, cuda.springs)) << c.name << ", " << search.name;
-      EXPECT_EQ(cpu.totals.uncertified, cuda.totals.uncertified) << c.name << ", " << search.name;
-      EXPECT_GT(cpu.totals.contacts, 0) << c.name << ", " << search.name;
-    }
-}
-
-TEST(cuda_engine, gives_the_springs_of_the_cpu_engine)
-{
-  for (const Case &c : cases()) {
-    const Outcome cpu = run_on(Device::cpu, c, classic(NormalModel::hertz, true));
-    const Outcome cuda = run_on(Device::cuda, c, classic(NormalModel::hertz, true));
-    EXPECT_TRUE(same_bytes(cpu.springs, cuda.springs)) << c.name;
-    EXPECT_GT(cpu.springs.size(), 0u) << c.name;
-  }
-}
-
-TEST(cuda_engine, gives_the_totals_and_outputs_of_the_cpu_engine)
-{
-  for (const Case &c : cases()) {
-    const Outcome cpu = run_on(Device::cpu, c, classic(NormalModel::hooke, true));
-    const Outcome cuda = run_on(Device::cuda, c, classic(NormalModel::hooke, true));
-    EXPECT_EQ(cpu.totals.contacts, cuda.totals.contacts) << c.name;
-    EXPECT_EQ(cpu.totals.energy, cuda.totals.energy) << c.name;
-    EXPECT_TRUE(cpu.totals.force == cuda.totals.force) << c.name;
-    EXPECT_TRUE(cpu.totals.torque == cuda.totals.torque) << c.name;
-    EXPECT_TRUE(same_bytes(cpu.outputs, cuda.outputs)) << c.name;
-  }
+    for (const Case &c : cases())
+      expect_same(run_on(Device::cpu, c, law, search), run_on(Device::cuda, c, law, search),
+                  std::string(c.name) + ", " + search.name);
 }
 
 TEST(cuda_engine, gives_what_granular_laws_give_on_the_cpu)
@@ -126,12 +105,7 @@ TEST(cuda_engine, gives_what_granular_laws_give_on_the_cpu)
          {NormalModel::hooke, NormalModel::hertz, NormalModel::dmt, NormalModel::jkr}) {
       const Outcome cpu = run_on(Device::cpu, c, everything(normal));
       const Outcome cuda = run_on(Device::cuda, c, everything(normal));
-      EXPECT_TRUE(same_bytes(cpu.force, cuda.force)) << c.name;
-      EXPECT_TRUE(same_bytes(cpu.torque, cuda.torque)) << c.name;
-      EXPECT_TRUE(same_bytes(cpu.springs, cuda.springs)) << c.name;
-      EXPECT_TRUE(same_bytes(cpu.extra, cuda.extra)) << c.name;
-      EXPECT_TRUE(same_bytes(cpu.heat, cuda.heat)) << c.name;
-      EXPECT_TRUE(same_bytes(cpu.outputs, cuda.outputs)) << c.name;
+      expect_same(cpu, cuda, c.name);
       EXPECT_GT(cpu.extra.size(), 0u) << c.name;
     }
 }
@@ -144,23 +118,9 @@ TEST(cuda_engine, gives_what_every_effect_gives_on_the_cpu)
     const EngineSettings &s = effect.settings;
     const Outcome cpu = run_on(Device::cpu, c, s.law(), kComplete, s);
     const Outcome cuda = run_on(Device::cuda, c, s.law(), kComplete, s);
-    EXPECT_TRUE(same_bytes(cpu.force, cuda.force)) << effect.name << ", " << c.name;
-    EXPECT_TRUE(same_bytes(cpu.torque, cuda.torque)) << effect.name << ", " << c.name;
-    EXPECT_TRUE(same_bytes(cpu.springs, cuda.springs)) << effect.name << ", " << c.name;
-    EXPECT_TRUE(same_bytes(cpu.extra, cuda.extra)) << effect.name << ", " << c.name;
-    EXPECT_TRUE(same_bytes(cpu.contacts, cuda.contacts)) << effect.name << ", " << c.name;
+    expect_same(cpu, cuda, effect.name + ", " + c.name);
     EXPECT_EQ(cpu.contacts.empty(), !s.contacts && !s.bodies) << effect.name << ", " << c.name;
   }
-}
-
-TEST(cuda_engine, gives_the_same_bits_twice)
-{
-  const Case c = cases()[5];
-  const Outcome once = run_on(Device::cuda, c, classic(NormalModel::hertz, true));
-  const Outcome twice = run_on(Device::cuda, c, classic(NormalModel::hertz, true));
-  EXPECT_TRUE(same_bytes(once.force, twice.force));
-  EXPECT_TRUE(same_bytes(once.springs, twice.springs));
-  EXPECT_EQ(once.totals.energy, twice.totals.energy);
 }
 
 // A wall of one triangle under n spheres, which it steps as LAMMPS would; they lie 1e-3 deep and slide.
@@ -179,7 +139,7 @@ struct Floor {
     spec.meshes.resize(1);
     TriangleSoup soup;
     soup.corners = {{-40, -40, 0}, {40, -40, 0}, {0, 40, 0}};
-    spec.meshes[0].mesh = std::make_shared<const WeldedMesh>(weld(soup, -1));
+    spec.meshes[0].mesh = welded(soup);
     wall = std::make_unique<Wall>(host, spec, WallUnits(), WallBackend(), "",
                                   StepClock{0, 0, 0, 1e-3});
     for (int i = 0; i < n; i++) {

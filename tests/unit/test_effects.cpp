@@ -54,15 +54,6 @@ std::vector<std::string> names_of(const EngineSettings &settings)
   return names;
 }
 
-TEST(effects, of_a_wall_keep_what_its_law_keeps)
-{
-  for (const EffectCase &c : effect_cases()) {
-    int bytes = 0;
-    for (const Effect &e : effects_of(c.settings)) bytes += e.bytes_per_contact;
-    EXPECT_EQ(bytes, 8 * c.settings.law().n_extra()) << c.name;
-  }
-}
-
 TEST(effects, that_a_wall_has_more_than_another_are_named_in_its_log)
 {
   const std::vector<EffectCase> cases = effect_cases();

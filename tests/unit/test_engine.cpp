@@ -300,12 +300,12 @@ bool same_springs(const ContactHistory &a, int i, const ContactHistory &b, int j
 }
 
 // `now`: to what the host has put there by submit(), and not by collect().
-void add_forces_found_beside(bool now)
+TEST(engine, adds_forces_found_beside_to_what_the_host_has_put_there)
 {
   const int n = 3000;
   const Real of_host = 3;
   Particles beside(with_history(), n, 0.5), after(with_history(), n, 0.5);
-  for (int k = 0; k < 3; k++) {
+  for (const bool now : {false, true, false}) {
     const Spheres a = beside.spheres(), b = after.spheres();
     const std::vector<Real> others(3 * n, of_host);
     beside.engine->begin(now ? When::beside_adding_early : When::beside);
@@ -321,14 +321,6 @@ void add_forces_found_beside(bool now)
     EXPECT_TRUE(same_bytes(beside.torque(), after.torque()));
     EXPECT_NE(beside.force(), others);
   }
-}
-TEST(engine, adds_forces_found_beside_to_what_the_host_has_put_there)
-{
-  add_forces_found_beside(false);
-}
-TEST(engine, adds_forces_found_beside_at_once_where_asked)
-{
-  add_forces_found_beside(true);
 }
 
 TEST(engine, a_list_that_is_kept_gives_the_same_bits)
@@ -461,34 +453,6 @@ TEST(engine, a_selection_by_flags_leaves_the_spheres_that_one_by_blocks_leaves)
     EXPECT_LT(total[0], 10000u);
     EXPECT_EQ(counts.too_large, 0u);
   }
-}
-
-// Spheres jump about where no wall is, and now and then one comes down to it.
-TEST(engine, a_choice_holds_until_a_sphere_that_has_gone_far_is_at_the_wall)
-{
-  const int n = 2000, n_steps = 60;
-  Particles kept(with_history(), n, 0.5), anew(with_history(), n, 0.5);
-  kept.engine->choose(kept.spheres(), 0.05, true);
-  std::mt19937_64 random(6);
-  std::uniform_int_distribution<int> any(0, n - 1);
-  std::uniform_real_distribution<Real> far(3, 9);
-  int held = 0, chosen = 0, same = 0;
-  for (int k = 0; k < n_steps; k++) {
-    const bool comes_down = k % 5 == 4;
-    for (int jump = 0; jump < 20; jump++) {
-      const int i = 3 * any(random) + 2;
-      kept.host.x[i] = anew.host.x[i] = comes_down && jump == 0 ? 0.2 : far(random);
-    }
-    const bool moved = kept.engine->has_moved(kept.spheres());
-    EXPECT_EQ(moved, comes_down);
-    if (moved) kept.engine->choose(kept.spheres(), 0.05, true);
-    (moved ? chosen : held)++;
-    kept.step(0);
-    anew.step(0, Particles::Candidates::now);
-    same += same_bytes(kept.force(), anew.force());
-  }
-  EXPECT_EQ(same, n_steps);
-  EXPECT_EQ(held, 4 * chosen);
 }
 
 // Spheres walk from far away to the wall, each step shorter than the margin, so that a look that compares them with a
@@ -674,12 +638,7 @@ TEST(engine, a_sphere_larger_than_the_reach_is_an_error)
   Particles p(with_history(), 100, 0.5);
   p.host.radius[7] = 0.6;
   p.host.radius[70] = 0.7;
-  try {
-    p.engine->choose(p.spheres(), 0);
-    FAIL();
-  } catch (const std::exception &e) {
-    EXPECT_TRUE(has(e.what(), "sphere 7 has radius 0.6"));
-  }
+  EXPECT_TRUE(fails_with("sphere 7 has radius 0.6", [&] { p.engine->choose(p.spheres(), 0); }));
 }
 
 TEST(engine, a_sphere_that_is_pulled_from_past_the_reach_is_named)
@@ -700,12 +659,8 @@ TEST(engine, a_sphere_that_is_pulled_from_past_the_reach_is_named)
     for (Real &radius : p.host.radius) radius = fits * (1 - 1e-9);
     EXPECT_NO_THROW(p.engine->choose(p.spheres(), 0)) << effect.name;
     p.host.radius[7] = too_large * (1 + 1e-9);
-    try {
-      p.engine->choose(p.spheres(), 0);
-      FAIL() << effect.name;
-    } catch (const std::exception &e) {
-      EXPECT_TRUE(has(e.what(), "sphere 7 has radius"));
-    }
+    EXPECT_TRUE(fails_with("sphere 7 has radius", [&] { p.engine->choose(p.spheres(), 0); }))
+        << effect.name;
   }
   EXPECT_GT(tried, 0);
 }
@@ -996,33 +951,27 @@ TEST(engine, takes_no_places_from_the_next_step)
 }
 
 // A variable of another fix may ask for a wall's force between the forces of atoms and the wall's.
-void keep_the_totals_of_the_last_step(bool beside)
+TEST(engine, keeps_the_totals_of_the_last_step_until_the_next_one_is_collected)
 {
-  AllTouching all;
-  const auto submit = [&] {
-    all.engine->begin(beside ? When::beside : When::in_turn);
-    all.choose();
-    all.engine->submit(all.spheres, all.step);
-  };
-  const std::vector<Real> x = all.host.x;
-  for (int i = 0; i < all.n; i += 2) all.host.x[3 * i] += 100;
-  submit();
-  all.engine->collect();
-  // More spheres than there was memory for before, and other columns.
-  all.host.x = x;
-  all.step.per_sphere = true;
-  submit();
-  EXPECT_EQ(all.engine->results().totals().contacts, all.n / 2 * kAllRound);
-  all.engine->collect();
-  EXPECT_EQ(all.engine->results().totals().contacts, all.n * kAllRound);
-}
-TEST(engine, keeps_the_totals_of_the_last_step_through_a_choice)
-{
-  keep_the_totals_of_the_last_step(false);
-}
-TEST(engine, keeps_the_totals_of_the_last_step_through_a_step_beside)
-{
-  keep_the_totals_of_the_last_step(true);
+  for (const When when : {When::in_turn, When::beside}) {
+    AllTouching all;
+    const auto submit = [&] {
+      all.engine->begin(when);
+      all.choose();
+      all.engine->submit(all.spheres, all.step);
+    };
+    const std::vector<Real> x = all.host.x;
+    for (int i = 0; i < all.n; i += 2) all.host.x[3 * i] += 100;
+    submit();
+    all.engine->collect();
+    // More spheres than there was memory for before, and other columns.
+    all.host.x = x;
+    all.step.per_sphere = true;
+    submit();
+    EXPECT_EQ(all.engine->results().totals().contacts, all.n / 2 * kAllRound);
+    all.engine->collect();
+    EXPECT_EQ(all.engine->results().totals().contacts, all.n * kAllRound);
+  }
 }
 
 // One state says where a step is, also where the choice before it fails.

@@ -15,16 +15,6 @@
 namespace lsdcd::test_fake_host {
 namespace {
 
-TEST(FakeHost, sums_the_numbers_of_all_processes)
-{
-  on_processes(2, [](FakeHost &host) {
-    Real numbers[2] = {host.rank() + 1.0, 4};
-    host.sum(numbers, 2);
-    EXPECT_EQ(numbers[0], 3);
-    EXPECT_EQ(numbers[1], 8);
-  });
-}
-
 // Whole numbers of 64 bits, which a sum of doubles would round, of both signs and up to the ends of their range.
 TEST(FakeHost, sums_whole_numbers_exactly)
 {
@@ -41,39 +31,11 @@ TEST(FakeHost, sums_whole_numbers_exactly)
   });
 }
 
-TEST(FakeHost, finds_the_largest_numbers_of_all_processes)
-{
-  on_processes(2, [](FakeHost &host) {
-    Real numbers[2] = {host.rank() == 0 ? 1.0 : 2.0, host.rank() == 0 ? -3.0 : -4.0};
-    host.max(numbers, 2);
-    EXPECT_EQ(numbers[0], 2);
-    EXPECT_EQ(numbers[1], -3);
-  });
-}
-
 TEST(FakeHost, names_the_lowest_rank_of_those_that_have_something)
 {
   on_processes(3, [](FakeHost &host) {
     EXPECT_EQ(lowest_rank(host, host.rank() > 0), 1);
     EXPECT_EQ(lowest_rank(host, false), 3);
-  });
-}
-
-TEST(FakeHost, hands_over_what_one_process_has)
-{
-  on_processes(2, [](FakeHost &host) {
-    int number = host.rank();
-    host.broadcast(&number, sizeof number, 1);
-    EXPECT_EQ(number, 1);
-  });
-}
-
-TEST(FakeHost, gathers_numbers_on_the_first_process)
-{
-  on_processes(2, [](FakeHost &host) {
-    const std::vector<Real> mine(host.rank() + 1, host.rank());
-    const std::vector<Real> all = {0, 1, 1};
-    EXPECT_EQ(host.gather(mine), host.rank() == 0 ? all : std::vector<Real>());
   });
 }
 
@@ -88,11 +50,6 @@ TEST(FakeHost, throws_an_error_of_one_process_on_all)
       EXPECT_STREQ(e.what(), "no room");
     }
   });
-}
-
-TEST(FakeHost, throws_nothing_where_all_is_well)
-{
-  on_processes(2, [](FakeHost &host) { run_collectively(host, true, [] {}); });
 }
 
 TEST(FakeHost, refuses_a_call_that_one_process_does_not_make)

@@ -130,12 +130,5 @@ TEST(filter_side, turns_the_nearest_contact_and_drops_the_others_on_the_wrong_si
   }
 }
 
-TEST(filter_side, leaves_an_empty_set_empty)
-{
-  ContactSet<8> set;
-  filter_side(MeshFeaturesView{}, 1, set);
-  EXPECT_EQ(set.n, 0);
-}
-
 }    // namespace
 }    // namespace lsdcd::test_find_contacts

@@ -52,12 +52,6 @@ TriangleSoup tangle(int n_points, int n_triangles, unsigned seed)
   return soup;
 }
 
-TriangleSoup moved(TriangleSoup soup, const Vec3 &by)
-{
-  for (Vec3 &x : soup.corners) x += by;
-  return soup;
-}
-
 TriangleGrid grid_of(const TriangleSoup &soup, Real cutoff, Real length = 0)
 {
   GridSettings settings;
@@ -205,25 +199,13 @@ Real chosen_for_gpu(int n, Real cutoff, int nearest, Real given)
   return plan_grid(weld(floor_mesh(n, 1), -1), settings).length / cutoff;
 }
 
-TEST(grid, for_a_gpu_a_cell_is_half_of_the_cutoff_where_triangles_are_large)
+// Edges of 0.02, and of 0.02 sqrt(2): the median is one of the former.
+TEST(grid, for_a_gpu_a_cell_goes_with_the_edges_from_a_quarter_to_a_half_of_the_cutoff)
 {
   EXPECT_EQ(chosen_for_gpu(2, 0.25, 0, 0), 0.5);
-}
-
-TEST(grid, for_a_gpu_a_cell_goes_with_the_edges_of_small_triangles)
-{
-  // Edges of 0.02, and of 0.02 sqrt(2): the median is one of the former.
   EXPECT_NEAR(chosen_for_gpu(100, 0.1, 0, 0), 2 * 0.02 / 0.1, 1e-12);
-}
-
-TEST(grid, for_a_gpu_a_cell_is_a_quarter_of_the_cutoff_at_least)
-{
   EXPECT_EQ(chosen_for_gpu(100, 0.5, 0, 0), 0.25);
-}
-
-TEST(grid, for_a_gpu_a_given_cell_stays)
-{
-  EXPECT_NEAR(chosen_for_gpu(2, 0.25, 0, 0.2), 0.8, 1e-15);
+  EXPECT_NEAR(chosen_for_gpu(2, 0.25, 0, 0.2), 0.8, 1e-15);    // that is given
 }
 
 // Points read a list each: two edges, from a tenth of the cutoff to all of it.
@@ -706,31 +688,21 @@ TEST(grid, reach_that_is_not_a_length_is_refused)
   }
 }
 
-TEST(grid, points_outside_its_box_touch_nothing)
+TEST(grid, points_outside_its_box_and_at_no_number_touch_nothing)
 {
   const TriangleGrid grid = grid_of(box_mesh({0, 0, 0}, {1, 1, 1}), 0.3);
   const Real inf = std::numeric_limits<Real>::infinity();
-  for (Real far : {1.35, 2.0, 10.0, 1e6, 1e12, 1e300, inf})
+  for (Real far : {1.35, 2.0, 10.0, 1e6, 1e12, 1e300, inf, std::nan("")})
     for (int k = 0; k < 6; k++) {
       Vec3 q = {0.5, 0.5, 0.5};
       q[k / 2] = k % 2 ? far : 1 - far;
       ContactSet<kMost> set;
       find_contacts(grid.view(), q, 0.3, set);
       EXPECT_EQ(set.n, 0);
+      if (std::isnan(far)) {
+        EXPECT_FALSE(locate(grid.view(), q).brick);
+      }
     }
-}
-
-TEST(grid, position_that_is_not_a_number_touches_nothing)
-{
-  const TriangleGrid grid = grid_of(box_mesh({0, 0, 0}, {1, 1, 1}), 0.3);
-  for (int k = 0; k < 3; k++) {
-    Vec3 q = {0.5, 0.5, 1.1};
-    q[k] = std::nan("");
-    ContactSet<kMost> set;
-    find_contacts(grid.view(), q, 0.3, set);
-    EXPECT_EQ(set.n, 0);
-    EXPECT_FALSE(locate(grid.view(), q).brick);
-  }
 }
 
 TEST(grid_length, that_may_coarsen_does_where_the_budget_asks_for_it)

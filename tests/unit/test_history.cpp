@@ -59,17 +59,6 @@ TEST(transport, to_an_equal_normal_changes_no_bit)
   }
 }
 
-TEST(transport, there_and_back_is_the_identity)
-{
-  Random random(4);
-  for (int i = 0; i < 1000; i++) {
-    const Vec3 from = random_unit(random), to = random_unit(random), h = tangent_to(from, random);
-    if (dot(from, to) < -0.9) continue;
-    const Vec3 back = transport(transport(h, from, to), to, from);
-    ASSERT_LE(norm(back - h), 0.01 * 32 * kRoundoff / (1 + dot(from, to)));
-  }
-}
-
 TEST(transport, quarter_turn_takes_the_old_normal_to_the_opposite_side)
 {
   const Vec3 h = transport({1, 0, 0}, {0, 0, 1}, {1, 0, 0});
@@ -107,7 +96,7 @@ const Vec3 kUp = {0, 0, 1}, kShear = {0.01, -0.02, 0};
 Vec3 transferred_shear(const MeshFeaturesView &wall, const ContactSet<8> &set, int i,
                        const Spring *old, int n_old)
 {
-  const Transfer in = transfer_of(wall, set.view(), i, old, n_old);
+  const Transfer in = lsdcd::transfer_of(wall, set.view(), i, old, n_old);
   return in.from < 0 ? Vec3{0, 0, 0} : handed_on(old[in.from].shear, in, old, set.normal[i]);
 }
 
@@ -125,24 +114,28 @@ TEST(features, of_a_cube_are_adjacent_where_they_share_a_vertex)
   EXPECT_FALSE(are_adjacent(cube.view, kFar, e));
 }
 
-TEST(transfer_of, without_old_springs_starts_at_zero)
-{
+// A sphere had one spring, on kHere.
+class transfer_of : public testing::Test {
+ protected:
   const Cube cube;
+  const Spring old = {kShear, kUp, kHere, 0};
+  const FeatureCode v =
+      feature_code(FeatureKind::vertex, cube.f.face_vertex[0].v[1]);    // of kHere
+};
+
+TEST_F(transfer_of, without_old_springs_starts_at_zero)
+{
   const Vec3 h = transferred_shear(cube.view, contacts({{kHere, kUp}}), 0, nullptr, 0);
   EXPECT_EQ(h, (Vec3{0, 0, 0}));
 }
 
-TEST(transfer_of, of_the_same_feature_is_the_whole_spring)
+TEST_F(transfer_of, of_the_same_feature_is_the_whole_spring)
 {
-  const Cube cube;
-  const Spring old = {kShear, kUp, kHere, 0};
   EXPECT_EQ(transferred_shear(cube.view, contacts({{kHere, kUp}}), 0, &old, 1), kShear);
 }
 
-TEST(transfer_of, of_the_same_feature_turns_with_the_normal)
+TEST_F(transfer_of, of_the_same_feature_turns_with_the_normal)
 {
-  const Cube cube;
-  const Spring old = {kShear, kUp, kHere, 0};
   const Vec3 n = leaning(40);
   const Vec3 h = transferred_shear(cube.view, contacts({{kHere, n}}), 0, &old, 1);
   EXPECT_NEAR(norm(h), norm(kShear), 1e-16);
@@ -150,25 +143,20 @@ TEST(transfer_of, of_the_same_feature_turns_with_the_normal)
   EXPECT_EQ(h.y, kShear.y);
 }
 
-TEST(transfer_of, of_the_same_feature_goes_before_a_better_aligned_one)
+TEST_F(transfer_of, of_the_same_feature_goes_before_a_better_aligned_one)
 {
-  const Cube cube;
-  const Spring old[2] = {{{1, 0, 0}, kUp, kNext, 0}, {kShear, leaning(30), kHere, 0}};
-  const Vec3 h = transferred_shear(cube.view, contacts({{kHere, kUp}}), 0, old, 2);
+  const Spring both[2] = {{{1, 0, 0}, kUp, kNext, 0}, {kShear, leaning(30), kHere, 0}};
+  const Vec3 h = transferred_shear(cube.view, contacts({{kHere, kUp}}), 0, both, 2);
   EXPECT_NEAR(norm(h), norm(kShear), 1e-16);
 }
 
-TEST(transfer_of, of_the_same_feature_ends_where_the_centre_crossed_to_the_other_side)
+TEST_F(transfer_of, of_the_same_feature_ends_where_the_centre_crossed_to_the_other_side)
 {
-  const Cube cube;
-  const Spring old = {kShear, kUp, kHere, 0};
   EXPECT_EQ(transferred_shear(cube.view, contacts({{kHere, -kUp}}), 0, &old, 1), (Vec3{0, 0, 0}));
 }
 
-TEST(transfer_of, across_a_seam_is_the_whole_spring)
+TEST_F(transfer_of, across_a_seam_is_the_whole_spring)
 {
-  const Cube cube;
-  const Spring old = {kShear, kUp, kHere, 0};
   // Aligned or leaning, the length stays: the contact moved, it was not born.
   for (Real degrees : {0., 1e-3, 10., 40.}) {
     const Vec3 h = transferred_shear(cube.view, contacts({{kNext, leaning(degrees)}}), 0, &old, 1);
@@ -176,17 +164,13 @@ TEST(transfer_of, across_a_seam_is_the_whole_spring)
   }
 }
 
-TEST(transfer_of, across_a_seam_to_the_next_feature_changes_no_bit_on_a_plane)
+TEST_F(transfer_of, across_a_seam_to_the_next_feature_changes_no_bit_on_a_plane)
 {
-  const Cube cube;
-  const Spring old = {kShear, kUp, kHere, 0};
   EXPECT_EQ(transferred_shear(cube.view, contacts({{kNext, kUp}}), 0, &old, 1), kShear);
 }
 
-TEST(transfer_of, of_a_contact_born_beside_one_that_stays_is_the_cosine_of_its_spring)
+TEST_F(transfer_of, of_a_contact_born_beside_one_that_stays_is_the_cosine_of_its_spring)
 {
-  const Cube cube;
-  const Spring old = {kShear, kUp, kHere, 0};
   for (Real degrees : {0., 20., 44., 46., 60., 89.}) {
     const Vec3 n = leaning(degrees);
     const Vec3 h = transferred_shear(cube.view, contacts({{kHere, kUp}, {kNext, n}}), 1, &old, 1);
@@ -197,60 +181,47 @@ TEST(transfer_of, of_a_contact_born_beside_one_that_stays_is_the_cosine_of_its_s
 
 // A plane that is cut in two between kHere and kNext: the sphere crosses the cut while a contact begins at a vertex
 // of kHere.
-TEST(transfer_of, of_a_contact_born_while_the_old_one_crosses_a_cut_is_the_cosine_of_its_spring)
+TEST_F(transfer_of, of_a_contact_born_while_the_old_one_crosses_a_cut_is_the_cosine_of_its_spring)
 {
-  const Cube cube;
-  const Spring old = {kShear, kUp, kHere, 0};
-  const FeatureCode v = feature_code(FeatureKind::vertex, cube.f.face_vertex[0].v[1]);
   const Vec3 h =
       transferred_shear(cube.view, contacts({{kNext, kUp}, {v, leaning(30)}}), 1, &old, 1);
   EXPECT_NEAR(norm(h), std::cos(30 * kPi / 180) * norm(kShear), 1e-16);
 }
 
-TEST(transfer_of, across_a_cut_is_the_whole_spring_where_another_contact_is_born)
+TEST_F(transfer_of, across_a_cut_is_the_whole_spring_where_another_contact_is_born)
 {
-  const Cube cube;
-  const Spring old = {kShear, kUp, kHere, 0};
-  const FeatureCode v = feature_code(FeatureKind::vertex, cube.f.face_vertex[0].v[1]);
   EXPECT_EQ(transferred_shear(cube.view, contacts({{kNext, kUp}, {v, leaning(30)}}), 0, &old, 1),
             kShear);
 }
 
 // Two sheets in one place: the sphere crosses the same line of both, and neither may take the hold from the other.
-TEST(is_held, goes_on_across_a_cut_where_two_contacts_lie_in_its_direction)
+TEST_F(transfer_of, holds_what_goes_on_across_a_cut_where_two_contacts_lie_in_its_direction)
 {
-  const Cube cube;
-  const Spring old = {kShear, kUp, kHere, 0};
-  const FeatureCode v = feature_code(FeatureKind::vertex, cube.f.face_vertex[0].v[1]);
   const ContactSet<8> set = contacts({{kNext, kUp}, {v, kUp}});
   for (int i = 0; i < 2; i++) EXPECT_TRUE(is_held(cube.view, set.view(), i, false, &old, 1)) << i;
 }
 
-TEST(transfer_of, in_a_right_angled_corner_is_nothing)
+TEST_F(transfer_of, in_a_right_angled_corner_is_nothing)
 {
-  const Cube cube;
-  const Spring old = {kShear, kUp, kHere, 0};
   const Vec3 across = {1, 0, 0}, under = {0.6, 0, -0.8};
   for (const Vec3 &n : {across, under})
     EXPECT_EQ(transferred_shear(cube.view, contacts({{kHere, kUp}, {kNext, n}}), 1, &old, 1),
               (Vec3{0, 0, 0}));
 }
 
-TEST(transfer_of, from_a_feature_far_away_is_the_cosine_of_its_spring)
+TEST_F(transfer_of, from_a_feature_far_away_is_the_cosine_of_its_spring)
 {
-  const Cube cube;
-  const Spring old = {kShear, kUp, kFar, 0};
-  const Vec3 h = transferred_shear(cube.view, contacts({{kHere, leaning(20)}}), 0, &old, 1);
+  const Spring far = {kShear, kUp, kFar, 0};
+  const Vec3 h = transferred_shear(cube.view, contacts({{kHere, leaning(20)}}), 0, &far, 1);
   EXPECT_NEAR(norm(h), std::cos(20 * kPi / 180) * norm(kShear), 1e-16);
 }
 
-TEST(transfer_of, takes_the_best_aligned_spring)
+TEST_F(transfer_of, takes_the_best_aligned_spring)
 {
-  const Cube cube;
-  const Spring old[3] = {{{1, 0, 0}, leaning(50), kFar, 0},
-                         {kShear, leaning(10), kFar + 1, 0},
-                         {{2, 0, 0}, leaning(-30), kFar, 0}};
-  const Vec3 h = transferred_shear(cube.view, contacts({{kHere, kUp}}), 0, old, 3);
+  const Spring three[3] = {{{1, 0, 0}, leaning(50), kFar, 0},
+                           {kShear, leaning(10), kFar + 1, 0},
+                           {{2, 0, 0}, leaning(-30), kFar, 0}};
+  const Vec3 h = transferred_shear(cube.view, contacts({{kHere, kUp}}), 0, three, 3);
   EXPECT_NEAR(norm(h), std::cos(10 * kPi / 180) * norm(kShear), 1e-16);
 }
 

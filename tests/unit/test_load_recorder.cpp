@@ -32,17 +32,6 @@ void add_step(LoadRecorder &loads, int rank)
   for (int mesh : {0, 1}) loads.add(mesh, contacts, 2, {});
 }
 
-TEST(LoadRecorder, adds_up_wear_of_all_processes)
-{
-  on_processes(2, [](FakeHost &host) {
-    const WallSpec settings = wall();
-    LoadRecorder loads(host, settings);
-    add_step(loads, host.rank());
-    EXPECT_EQ(loads.worn(0), 2 * 10);    // 0.5 x 10 x 2 on each process
-    EXPECT_EQ(loads.worn(1), 2 * 100);
-  });
-}
-
 TEST(LoadRecorder, gathers_loads_of_all_processes_on_the_first)
 {
   on_processes(2, [](FakeHost &host) {
@@ -62,17 +51,6 @@ TEST(LoadRecorder, gathers_loads_of_all_processes_on_the_first)
     // One row of the face that both have pressed.
     ASSERT_EQ(common.size(), MeshLoads::kPackedLoad);
     EXPECT_EQ(common[1], 2 * 4 * 2);
-  });
-}
-
-TEST(LoadRecorder, tells_the_time_of_an_average_on_all_processes)
-{
-  on_processes(2, [](FakeHost &host) {
-    const WallSpec settings = wall();
-    LoadRecorder loads(host, settings);
-    add_step(loads, host.rank());
-    add_step(loads, host.rank());
-    EXPECT_EQ(loads.gathered(0).time(), 4);
   });
 }
 

@@ -71,9 +71,19 @@ using material_words = MaterialWordsTest;
 
 TEST_F(material_words, are_a_whole_granular_style)
 {
-  EXPECT_EQ(filled("granular material FILE glass mesh a.stl scale 2"),
-            "granular hertz/material 6.9e+10 0.97 0.23 damping coeff_restitution "
-            "tangential mindlin NULL 1 0.092");
+  const std::string glass = "granular hertz/material 6.9e+10 0.97 0.23 ",
+                    restitution = "damping coeff_restitution ",
+                    mindlin = "tangential mindlin NULL 1 ";
+  const std::pair<const char *, std::string> rows[] = {
+      {"glass mesh a.stl scale 2", glass + restitution + mindlin + "0.092"},
+      {"glass damping tsuji mesh a.stl", glass + mindlin + "0.092 damping tsuji"},
+      {"glass tangential linear_history 1e5 0.5 0.3 mesh a",
+       glass + restitution + "tangential linear_history 1e+05 0.5 0.3"},
+      {"bare with youngs_modulus 1 poissons_ratio 0.1 restitution 1 sliding_friction 2 mesh a",
+       "granular hertz/material 1 1 0.1 " + restitution + mindlin + "2"}};
+  for (const auto &[words, style] : rows)
+    EXPECT_EQ(filled(std::string("granular material FILE ") + words), style);
+  EXPECT_EQ(fill("granular material FILE glass damping none mesh a.stl")[3], "0");
 }
 
 // The law of each pair alone, and that of numbers in its place.
@@ -160,26 +170,11 @@ TEST_F(material_words, of_adhesive_models_have_no_damping_by_default)
   EXPECT_TRUE(says(report, {"no damping"}));
 }
 
-TEST_F(material_words, keep_the_damping_of_the_script)
-{
-  EXPECT_EQ(filled("granular material FILE glass damping tsuji mesh a.stl"),
-            "granular hertz/material 6.9e+10 0.97 0.23 tangential mindlin NULL 1 0.092 "
-            "damping tsuji");
-  EXPECT_EQ(fill("granular material FILE glass damping none mesh a.stl")[3], "0");
-}
-
 TEST_F(material_words, with_a_damping_of_another_kind_need_its_number)
 {
   EXPECT_TRUE(says(error_of("granular jkr material FILE glass damping tsuji mesh a"),
                    {"'damping tsuji' with jkr", "with eta VALUE"}));
   EXPECT_EQ(fill("granular jkr material FILE glass with eta 3 damping velocity mesh a")[3], "3");
-}
-
-TEST_F(material_words, keep_the_tangential_model_of_the_script)
-{
-  EXPECT_EQ(filled("granular material FILE glass tangential linear_history 1e5 0.5 0.3 mesh a"),
-            "granular hertz/material 6.9e+10 0.97 0.23 damping coeff_restitution "
-            "tangential linear_history 1e+05 0.5 0.3");
 }
 
 TEST_F(material_words, fill_the_nulls_that_are_of_the_materials)
@@ -342,14 +337,6 @@ TEST_F(material_words, and_a_law_of_one_mesh_are_refused)
   EXPECT_EQ(error_of(wall + " material steel" + types), "");
 }
 
-TEST_F(material_words, that_the_file_does_not_know_can_be_given)
-{
-  EXPECT_EQ(filled("granular material FILE bare with youngs_modulus 1 poissons_ratio 0.1 "
-                   "restitution 1 sliding_friction 2 mesh a"),
-            "granular hertz/material 1 1 0.1 damping coeff_restitution "
-            "tangential mindlin NULL 1 2");
-}
-
 TEST_F(material_words, wrong_ones_are_told_what_is_right)
 {
   const struct {
@@ -390,17 +377,13 @@ TEST_F(material_words, wrong_ones_are_told_what_is_right)
         << row.words;
 }
 
-TEST_F(material_words, of_other_normal_models_are_refused)
-{
-  EXPECT_TRUE(says(error_of("granular hooke material FILE glass mesh a"), {"'hooke'", "jkr"}));
-}
-
 // kn = 4/3 E*, kt = 8 G*: with E = 69e9, nu = 0.23, 4.856932e10 and 6.338707e10.
 TEST_F(material_words, of_classic_styles_are_refused_with_what_can_be_said)
 {
   const std::string error = error_of("hertz/history material FILE glass mesh a");
   EXPECT_TRUE(says(error, {"hertz/history", "granular material", "kn 4856931", "kt 6338707"}));
   EXPECT_TRUE(says(error_of("hooke material FILE glass mesh a"), {"hooke", "granular material"}));
+  EXPECT_TRUE(says(error_of("granular hooke material FILE glass mesh a"), {"'hooke'", "jkr"}));
 }
 
 TEST_F(material_words, are_reported_with_unit_source_and_line)

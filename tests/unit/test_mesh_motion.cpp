@@ -109,12 +109,6 @@ class ServoAtFive : public testing::Test {
   MeshMotion motion{wall.host, wall.settings, 0, step(0)};
 };
 
-TEST_F(AlongX, moves_with_time)
-{
-  run(motion, wall, 1, 3);
-  EXPECT_EQ(where(motion), (Vec3{3, 0, 0}));
-}
-
 TEST(MeshMotion, tells_how_much_time_has_passed)
 {
   Wall wall;
@@ -436,10 +430,27 @@ TEST_F(AlongX, refuses_a_first_servo_without_talk_of_another)
 
 // rerun
 
-void expect_refused(Wall &wall, const Step &at, const std::string &why)
+TEST(MeshMotion, is_not_known_in_a_snapshot_by_what_the_steps_before_it_decide)
 {
-  const MeshMotion motion(wall.host, wall.settings, 0, step(0));
-  EXPECT_TRUE(fails_with(why, [&] { motion.check_snapshot(at); }));
+  Wall moves, servo, differences;
+  WallThatTurns adds_up;
+  moves.linear({2, 0, 0});
+  servo.servo_along_z();
+  differences.by_variable(false);
+  const struct {
+    Wall &wall;
+    int step;
+    const char *why;
+  } rows[] = {{moves, -1, "snapshot of step 99 is before step 100"},
+              {servo, 1, "in a replay the position of a servo is not known"},
+              {differences, 1, "give velocities as well"},
+              {adds_up, 1, "give displacements as well"}};
+  for (const auto &row : rows) {
+    const MeshMotion motion(row.wall.host, row.wall.settings, 0, step(0));
+    EXPECT_TRUE(fails_with(row.why, [&] {
+      motion.check_snapshot({kFirst + row.step, kDt, Step::snapshot});
+    }));
+  }
 }
 
 TEST_F(AlongX, is_known_in_a_snapshot_from_its_time)
@@ -449,34 +460,6 @@ TEST_F(AlongX, is_known_in_a_snapshot_from_its_time)
   motion.advance(at, {});
   motion.place();
   EXPECT_EQ(where(motion), (Vec3{6, 0, 0}));
-}
-
-TEST(MeshMotion, is_not_known_in_a_snapshot_before_it_began)
-{
-  Wall wall;
-  wall.linear({2, 0, 0});
-  expect_refused(wall, {kFirst - 1, kDt, Step::snapshot}, "snapshot of step 99 is before step 100");
-}
-
-TEST(MeshMotion, is_not_known_in_a_snapshot_with_a_servo)
-{
-  Wall wall;
-  wall.servo_along_z();
-  expect_refused(wall, {kFirst + 1, kDt, Step::snapshot},
-                 "in a replay the position of a servo is not known");
-}
-
-TEST(MeshMotion, has_no_differences_in_a_snapshot)
-{
-  Wall wall;
-  wall.by_variable(false);
-  expect_refused(wall, {kFirst + 1, kDt, Step::snapshot}, "give velocities as well");
-}
-
-TEST(MeshMotion, has_added_up_nothing_in_a_snapshot)
-{
-  WallThatTurns wall;
-  expect_refused(wall, {kFirst + 1, kDt, Step::snapshot}, "give displacements as well");
 }
 
 // restart files
@@ -490,15 +473,6 @@ Vec3 where_it_goes_on(Wall &before, Wall &after)
   second.restore(first.state(), step(3));
   run(second, after, 4, 5);
   return where(second);
-}
-
-TEST(MeshMotion, goes_on_after_a_restart)
-{
-  Wall before, after;
-  before.linear({2, 0, 0});
-  after.linear({2, 0, 0});
-  EXPECT_EQ(where_it_goes_on(before, after), (Vec3{5, 0, 0}));
-  EXPECT_TRUE(after.host.warnings.empty());
 }
 
 TEST(MeshMotion, begins_another_motion_after_a_restart_from_where_it_was)
@@ -555,16 +529,6 @@ TEST(MeshMotion, that_was_stopped_stays_so_after_a_restart)
   EXPECT_TRUE(has(after.host.warnings[0], "was stopped when the saved state was written"));
 }
 
-TEST(MeshMotion, servo_is_where_it_was_after_a_restart)
-{
-  Wall before, after;
-  before.servo_along_z();
-  before.servo().position = 5;
-  after.servo_along_z();
-  EXPECT_EQ(where_it_goes_on(before, after), (Vec3{0, 0, 5}));
-  EXPECT_EQ(after.servo().position, 5);
-}
-
 TEST(MeshMotion, refuses_a_servo_that_is_past_its_limits_after_a_restart)
 {
   Wall before, after;
@@ -611,15 +575,6 @@ TEST(MeshMotion, tells_the_rows_of_a_table_and_its_speed)
   EXPECT_EQ(motion.text({{0, 0, 0}, {1, 1, 1}}),
             "table " + folder.path("arm.txt") +
                 " linear; 4 rows from 0 to 9; corners of its bounds move at up to 8");
-}
-
-TEST(MeshMotion, tells_how_fast_its_corners_go)
-{
-  Wall wall;
-  wall.linear({3, 4, 0});
-  const MeshMotion motion(wall.host, wall.settings, 0, step(0));
-  EXPECT_EQ(motion.text({{0, 0, 0}, {1, 1, 1}}),
-            "linear 3 4 0; corners of its bounds move at up to 5");
 }
 
 }    // namespace

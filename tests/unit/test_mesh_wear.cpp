@@ -168,30 +168,6 @@ TEST(mesh_wear, is_summed_over_processes)
   }
 }
 
-TEST(mesh_wear, goes_on_from_a_saved_state)
-{
-  FakeHost host;
-  Case whole(host), first(host), second(host);
-  const auto wear_off = [](Case &c, unsigned seed) { c.wear_off(contacts(can(), 100, 1, seed)); };
-  for (Case *c : {&whole, &first}) {
-    wear_off(*c, 1);
-    c->recede();
-    wear_off(*c, 2);    // not yet removed
-  }
-  const SurfaceState saved = first.wear.save(&first.mesh);
-  second.wear.restore(saved);
-  for (std::size_t v = 0; v < second.mesh.vertices.size(); v++)
-    second.mesh.vertices[v] = {saved.vertices[3 * v], saved.vertices[3 * v + 1],
-                               saved.vertices[3 * v + 2]};
-  for (Case *c : {&whole, &second}) {
-    wear_off(*c, 3);
-    c->recede();
-  }
-  EXPECT_EQ(whole.wear.removed(), second.wear.removed());
-  for (std::size_t v = 0; v < whole.mesh.vertices.size(); v++)
-    EXPECT_EQ(whole.mesh.vertices[v], second.mesh.vertices[v]);
-}
-
 // One lid is worn until it would come through the other: its corners stay, it is said once, and nothing is lost without
 // a word.
 TEST(mesh_wear, holds_back_what_would_come_through)

@@ -204,25 +204,17 @@ TEST(mirror, says_that_a_sphere_at_no_number_has_moved)
 }
 
 // Other fixes ask for the last step's totals when spheres are chosen already.
-TEST(mirror, totals_of_the_last_step_name_its_sphere_after_another_choice)
+TEST(mirror, totals_of_the_last_step_name_its_sphere_after_another_choice_or_grid)
 {
-  Pair p;
-  p.place(0b1100, 3);
-  p.choose();
-  p.step();
-  p.place(0b0011, 0);
-  p.choose();
-  for (WallEngine *e : p.both()) EXPECT_EQ(e->results().totals().largest_overlap_sphere, 3);
-}
-
-TEST(mirror, totals_of_the_last_step_name_its_sphere_after_another_grid)
-{
-  Pair p;
-  p.place(0b1100, 3);
-  p.choose();
-  p.step();
-  p.set_grid();
-  for (WallEngine *e : p.both()) EXPECT_EQ(e->results().totals().largest_overlap_sphere, 3);
+  for (const bool grid : {false, true}) {
+    Pair p;
+    p.place(0b1100, 3);
+    p.choose();
+    p.step();
+    p.place(0b0011, 0);
+    grid ? p.set_grid() : p.choose();
+    for (WallEngine *e : p.both()) EXPECT_EQ(e->results().totals().largest_overlap_sphere, 3);
+  }
 }
 
 TEST(mirror, notes_name_the_sphere_of_the_deepest_overlap_after_another_choice)

@@ -404,47 +404,37 @@ TEST(motion_table, knows_which_directions_it_keeps)
 
 std::string error_of(const std::vector<Row> &rows, const TableOptions &o = {})
 {
-  try {
-    table(rows, o);
-  } catch (const InputError &e) {
-    return e.what();
-  }
-  return "none";
-}
-
-void expect_error(const std::string &error, const std::string &place, const std::string &why)
-{
-  EXPECT_TRUE(has(error, place));
-  EXPECT_TRUE(has(error, why));
+  return lsdcd::error_of([&] { table(rows, o); });
 }
 
 TEST(motion_table, refuses_rows_with_their_place_and_a_remedy)
 {
   const Row still = {0, 0, 0, 0};
-  expect_error(error_of({{0, 1, 2}}), "row 0", "there are 3 numbers in a row: a row is a time and");
-  expect_error(error_of({{0, 1}, {1, 1}}), "row 0", "give its axis, by axis Px Py Pz");
-  expect_error(error_of({still, {1, 0, 0, 0}}, with_axis()), "row 0", "leave the axis out");
-  expect_error(error_of({still}), "row 0", "needs two or more");
-  expect_error(error_of({still, {1, 0, 0, 0}, {1, 0, 0, 0}}), "row 2",
-               "the time 1 is not after that of the row before, 1");
-  expect_error(error_of({still, {1, 0, HUGE_VAL, 0}}), "row 1",
-               "number 3 of the row is not finite");
-  expect_error(error_of({{0, 0, 0, 0, 0, 0, 3}, {1, 0, 0, 0, 0, 0, -3}}), "row 1",
-               "is 343.775 degrees from that of the row before");
-  expect_error(error_of({{0, 0, 0, 0, 1, 0, 0, 0}, {1, 0, 0, 0, 0.5, 0, 0, 0}}), "row 1",
-               "has the length 0.5, and must have 1 to 1e-3");
-  expect_error(error_of({{0, 0, 0, 0, 1, 0, 0, 0}, {1, 0, 0, 0, 0, 1, 0, 0}}), "row 1",
-               "give a row between them");
+  EXPECT_TRUE(
+      says(error_of({{0, 1, 2}}), {"row 0", "there are 3 numbers in a row: a row is a time and"}));
+  EXPECT_TRUE(says(error_of({{0, 1}, {1, 1}}), {"row 0", "give its axis, by axis Px Py Pz"}));
+  EXPECT_TRUE(says(error_of({still, {1, 0, 0, 0}}, with_axis()), {"row 0", "leave the axis out"}));
+  EXPECT_TRUE(says(error_of({still}), {"row 0", "needs two or more"}));
+  EXPECT_TRUE(says(error_of({still, {1, 0, 0, 0}, {1, 0, 0, 0}}),
+                   {"row 2", "the time 1 is not after that of the row before, 1"}));
+  EXPECT_TRUE(
+      says(error_of({still, {1, 0, HUGE_VAL, 0}}), {"row 1", "number 3 of the row is not finite"}));
+  EXPECT_TRUE(says(error_of({{0, 0, 0, 0, 0, 0, 3}, {1, 0, 0, 0, 0, 0, -3}}),
+                   {"row 1", "is 343.775 degrees from that of the row before"}));
+  EXPECT_TRUE(says(error_of({{0, 0, 0, 0, 1, 0, 0, 0}, {1, 0, 0, 0, 0.5, 0, 0, 0}}),
+                   {"row 1", "has the length 0.5, and must have 1 to 1e-3"}));
+  EXPECT_TRUE(says(error_of({{0, 0, 0, 0, 1, 0, 0, 0}, {1, 0, 0, 0, 0, 1, 0, 0}}),
+                   {"row 1", "give a row between them"}));
 }
 
 TEST(motion_table, that_repeats_must_end_where_it_begins)
 {
   const char *const why = "the table repeats, but its last row is not its first";
-  expect_error(error_of({{0, 0, 0, 0}, {1, 0, 0, 1}, {2, 0, 0, 0.1}}, options(false, true)),
-               "row 2", why);
-  expect_error(error_of({{0, 0}, {1, 6.2}}, with_axis(false, true)), "row 1", why);
-  expect_error(error_of({{0, 0, 0, 0, 0, 0, 0}, {1, 0, 0, 0, 0, 0, 1}}, options(false, true)),
-               "row 1", why);
+  EXPECT_TRUE(says(error_of({{0, 0, 0, 0}, {1, 0, 0, 1}, {2, 0, 0, 0.1}}, options(false, true)),
+                   {"row 2", why}));
+  EXPECT_TRUE(says(error_of({{0, 0}, {1, 6.2}}, with_axis(false, true)), {"row 1", why}));
+  EXPECT_TRUE(says(error_of({{0, 0, 0, 0, 0, 0, 0}, {1, 0, 0, 0, 0, 0, 1}}, options(false, true)),
+                   {"row 1", why}));
 }
 
 // Files
@@ -452,25 +442,20 @@ TEST(motion_table, that_repeats_must_end_where_it_begins)
 std::string error_of_file(const std::string &text, const TableOptions &o = {})
 {
   const TempDir folder;
-  std::ofstream(folder.path("arm.txt")) << text;
-  try {
-    read_motion_table(folder.path("arm.txt"), o);
-  } catch (const InputError &e) {
-    return e.what();
-  }
-  return "none";
+  const std::string file = folder.write("arm.txt", text);
+  return lsdcd::error_of([&] { read_motion_table(file, o); });
 }
 
 // The motion begins at time 0, where the last row has no velocity any more.
 TEST(motion_table, that_ends_before_it_begins_is_an_error)
 {
   for (const char *rows : {"-2 0 0 0\n-1 1 0 0\n", "-2 0 0 0\n0 1 0 0\n"})
-    expect_error(error_of_file(rows), "arm.txt' line 2", "and the motion begins at time 0");
+    EXPECT_TRUE(says(error_of_file(rows), {"arm.txt' line 2", "and the motion begins at time 0"}));
   TableOptions repeats;
   repeats.repeats = repeats.linear = true;
   EXPECT_NO_THROW(MotionTable(rows_of({{-2, 0, 0, 0}, {-1.5, 1, 0, 0}, {-1, 0, 0, 0}}, repeats),
                               [](std::size_t) { return ""; }));
-  EXPECT_EQ(error_of_file("-2 0 0 0\n1e-9 1 0 0\n"), "none");
+  EXPECT_EQ(error_of_file("-2 0 0 0\n1e-9 1 0 0\n"), "");
 }
 
 TEST(motion_table, reads_a_file_with_comments_and_commas)
@@ -483,19 +468,16 @@ TEST(motion_table, reads_a_file_with_comments_and_commas)
 
 TEST(motion_table, names_the_line_of_a_file_that_is_wrong)
 {
-  expect_error(error_of_file("t x y z\n0 0 0 0\n"), "arm.txt' line 1",
-               "'t' is not a number; begin a line of text with #");
-  expect_error(error_of_file("# t x\n\n0 0 0 0\n1 2 3\n"), "arm.txt' line 4",
-               "the row has 3 numbers, and that of line 3 has 4");
-  expect_error(error_of_file("0 0 0 0\n# half way\n1 0 0 0\n0.5 0 0 0\n"), "arm.txt' line 4",
-               "the time 0.5 is not after that of the row before, 1: times must ascend");
-  expect_error(error_of_file("# nothing\n"), "arm.txt'", "has no rows");
-  try {
-    read_motion_table("no/such/table", {});
-    ADD_FAILURE();
-  } catch (const InputError &e) {
-    expect_error(e.what(), "'no/such/table'", "cannot read the table");
-  }
+  EXPECT_TRUE(says(error_of_file("t x y z\n0 0 0 0\n"),
+                   {"arm.txt' line 1", "'t' is not a number; begin a line of text with #"}));
+  EXPECT_TRUE(says(error_of_file("# t x\n\n0 0 0 0\n1 2 3\n"),
+                   {"arm.txt' line 4", "the row has 3 numbers, and that of line 3 has 4"}));
+  EXPECT_TRUE(says(error_of_file("0 0 0 0\n# half way\n1 0 0 0\n0.5 0 0 0\n"),
+                   {"arm.txt' line 4",
+                    "the time 0.5 is not after that of the row before, 1: times must ascend"}));
+  EXPECT_TRUE(says(error_of_file("# nothing\n"), {"arm.txt'", "has no rows"}));
+  EXPECT_TRUE(says(lsdcd::error_of([] { read_motion_table("no/such/table", {}); }),
+                   {"'no/such/table'", "cannot read the table"}));
 }
 
 }    // namespace

@@ -112,14 +112,25 @@ std::vector<std::string> warned_of_new(std::int64_t tag, const std::vector<Real>
 
 TEST(OverlapMonitor, tells_once_of_the_sphere_that_sank_deepest_on_all_processes)
 {
-  const std::vector<std::string> told = warned_of_sunk({0.2, 0.15, 0.25, 0.12});
-  ASSERT_EQ(told.size(), 1);
+  const std::string sank =
+      "sphere 3 sank into the wall by 25 % of its radius 3 in step 7, at mesh 1 'floor.stl': ";
+  const std::vector<Real> overlaps = {0.2, 0.15, 0.25, 0.12};
   EXPECT_EQ(
-      told[0],
-      "sphere 3 sank into the wall by 25 % of its radius 3 in step 7, at mesh 1 'floor.stl': the "
-      "contact "
-      "is too soft for this load or speed: use a stiffer contact (a larger kn), "
-      "which needs a shorter timestep, or lower the speeds; this warning comes again past 50 %");
+      warned_of_sunk(overlaps),
+      std::vector<std::string>{
+          sank +
+          "the contact is too soft for this load or speed: use a stiffer contact (a larger kn), "
+          "which needs a shorter timestep, or lower the speeds; this warning comes again past 50 "
+          "%"});
+  EXPECT_EQ(warned_of_sunk(overlaps, 12.5),
+            std::vector<std::string>{
+                sank +
+                "the timestep is 12.5 times the longest that resolves a contact: use a shorter one "
+                "first. A stiffer "
+                "contact would need an even shorter one; this warning comes again past 50 %"});
+  const std::vector<std::string> past = warned_of_sunk({1.01, 0, 0, 0});
+  ASSERT_EQ(past.size(), 1);
+  EXPECT_TRUE(has(past[0], "its centre is past the wall"));
 }
 
 // An old grain that overlaps its sharpest part, in the look in which a new one is the deepest.
@@ -143,28 +154,9 @@ TEST(OverlapMonitor, tells_of_a_sharp_grain_beside_a_new_one)
   EXPECT_TRUE(has(host.warnings[0], "sphere 1 overlaps the wall by 0.75 times its least radius"));
 }
 
-TEST(OverlapMonitor, blames_a_timestep_that_is_too_long_before_the_stiffness)
-{
-  const std::vector<std::string> told = warned_of_sunk({0.2, 0.15, 0.25, 0.12}, 12.5);
-  ASSERT_EQ(told.size(), 1);
-  EXPECT_EQ(
-      told[0],
-      "sphere 3 sank into the wall by 25 % of its radius 3 in step 7, at mesh 1 'floor.stl': the "
-      "timestep is 12.5 times "
-      "the longest that resolves a contact: use a shorter one first. A stiffer contact would need "
-      "an even shorter one; this warning comes again past 50 %");
-}
-
 TEST(OverlapMonitor, is_silent_up_to_a_tenth_of_the_radius)
 {
   EXPECT_TRUE(warned_of_sunk({0.1, 0.05, 0.1, 0}).empty());
-}
-
-TEST(OverlapMonitor, names_the_side_where_a_centre_is_past_the_wall)
-{
-  const std::vector<std::string> told = warned_of_sunk({1.01, 0, 0, 0});
-  ASSERT_EQ(told.size(), 1);
-  EXPECT_TRUE(has(told[0], "its centre is past the wall"));
 }
 
 // The warnings of the first process where one of the spheres 1 to 4 overlaps so in each step, looked at after each.
@@ -271,39 +263,26 @@ TEST(OverlapMonitor, tells_the_deepest_overlap_of_each_run)
   EXPECT_TRUE(told_after_runs(runs, true).empty());
 }
 
-TEST(OverlapMonitor, tells_of_a_new_sphere_that_was_put_into_the_wall)
+TEST(OverlapMonitor, tells_of_a_new_sphere_that_is_put_into_the_wall_and_again_only_where_it_sinks)
 {
-  const std::vector<std::string> told = warned_of_new(5, {0.5});
-  ASSERT_EQ(told.size(), 1);
-  EXPECT_TRUE(begins(told[0],
-                     "sphere 5 appeared inside the wall, which it overlaps by 50 % of its radius "
-                     "4 in step 100: it will be thrown out"));
-}
-
-TEST(OverlapMonitor, takes_a_sphere_that_was_there_before_for_one_that_sank)
-{
-  const std::vector<std::string> told = warned_of_new(4, {0.5});
-  ASSERT_EQ(told.size(), 1);
-  EXPECT_TRUE(begins(told[0], "sphere 4 sank"));
-}
-
-TEST(OverlapMonitor, does_not_tell_again_of_a_new_sphere_that_is_on_its_way_out)
-{
-  EXPECT_EQ(warned_of_new(5, {0.5, 0.54, 0.4, 0.2}).size(), 1);
-}
-
-TEST(OverlapMonitor, tells_of_a_new_sphere_that_sinks_deeper)
-{
-  const std::vector<std::string> told = warned_of_new(5, {0.5, 0.56});
-  ASSERT_EQ(told.size(), 2);
-  EXPECT_TRUE(begins(told[1], "sphere 5 sank into the wall by 56 %"));
-}
-
-TEST(OverlapMonitor, tells_of_a_new_sphere_that_was_out_and_sank_again)
-{
-  const std::vector<std::string> told = warned_of_new(5, {0.5, 0.1, 0.2});
-  ASSERT_EQ(told.size(), 2);
-  EXPECT_TRUE(begins(told[1], "sphere 5 sank into the wall by 20 %"));
+  const std::string appeared =
+      "sphere 5 appeared inside the wall, which it overlaps by 50 % of its "
+      "radius 4 in step 100: it will be thrown out";
+  const struct {
+    const char *what;
+    std::int64_t tag;
+    std::vector<Real> overlaps;
+    std::vector<std::string> told;
+  } rows[] = {
+      {"it goes out", 5, {0.5, 0.54, 0.4, 0.2}, {appeared}},
+      {"it sinks deeper", 5, {0.5, 0.56}, {appeared, "sphere 5 sank into the wall by 56 %"}},
+      {"it was out", 5, {0.5, 0.1, 0.2}, {appeared, "sphere 5 sank into the wall by 20 %"}},
+      {"it was there before", 4, {0.5}, {"sphere 4 sank"}}};
+  for (const auto &row : rows) {
+    const std::vector<std::string> told = warned_of_new(row.tag, row.overlaps);
+    ASSERT_EQ(told.size(), row.told.size()) << row.what;
+    for (std::size_t i = 0; i < told.size(); i++) EXPECT_TRUE(begins(told[i], row.told[i]));
+  }
 }
 
 // The warnings of the first process where spheres come one after the other and overlap so.

@@ -239,12 +239,9 @@ TEST(periodic_images, a_mesh_too_far_away_for_images_is_refused_with_its_distanc
 {
   TriangleSoup soup = box_mesh({0, 0, 0}, {1, 1, 1});
   for (Vec3 &x : soup.corners) x += Vec3{4e6, 0, 0};
-  try {
+  EXPECT_TRUE(fails_with("reaches 2e+06 box lengths", [&] {
     with_images(weld(soup, -1), box_of({2, 2, 2}), 0.1);
-    FAIL() << "not refused";
-  } catch (const InputError &e) {
-    EXPECT_TRUE(has(e.what(), "reaches 2e+06 box lengths"));
-  }
+  }));
 }
 
 TEST(periodic_images, more_images_than_can_be_numbered_are_refused_before_they_are_made)
@@ -351,40 +348,29 @@ TEST(loose_ends, ends_that_meet_or_overlap_are_none)
   }
 }
 
-TEST(likely_scale, millimetres_in_a_box_of_metres)
+TEST(likely_scale, is_of_the_unit_in_which_a_mesh_is_as_large_as_the_box)
 {
-  EXPECT_EQ(likely_scale({100, 80, 120}, {0.12, 0.12, 0.12}), 1e-3);
-}
-
-TEST(likely_scale, centimetres_in_a_box_of_metres)
-{
-  PeriodicBox box = box_of({0.2, 0.2, 0.32});
-  EXPECT_EQ(likely_scale({10, 10, 20}, {0.2, 0.2, 0.32}), 1e-2);
-  EXPECT_EQ(likely_scale_text({10, 10, 20}, box),
-            "; the file is probably in different units: add scale 0.01 if they are centimetres");
-}
-
-// A mesh of 8 to 12 inches, or of centimetres, for a box of 30 cm.
-TEST(likely_scale, names_inches_where_both_may_be)
-{
+  const struct {
+    const char *what;
+    Vec3 mesh, box;
+    Real scale;
+  } rows[] = {
+      {"millimetres in a box of metres", {100, 80, 120}, {0.12, 0.12, 0.12}, 1e-3},
+      {"centimetres in a box of metres", {10, 10, 20}, {0.2, 0.2, 0.32}, 1e-2},
+      {"a flat floor in millimetres in a box of metres", {80, 80, 0}, {0.1, 0.1, 0.06}, 1e-3},
+      {"a floor wider than the box", {2000, 2000, 0}, {10, 10, 10}, 1}};
+  for (const auto &row : rows) EXPECT_EQ(likely_scale(row.mesh, row.box), row.scale) << row.what;
+  const std::string text =
+      "; the file is probably in different units: add scale 0.01 if they are centimetres";
+  EXPECT_EQ(likely_scale_text({10, 10, 20}, box_of({0.2, 0.2, 0.32})), text);
+  // A mesh of 8 to 12 inches, or of centimetres, for a box of 30 cm.
   EXPECT_EQ(likely_scale_text({8, 8, 12}, box_of({0.3, 0.3, 0.3})),
-            "; the file is probably in different units: add scale 0.01 if they are centimetres, or "
-            "0.0254 if they are inches");
+            text + ", or 0.0254 if they are inches");
 }
 
 TEST(likely_scale, is_never_without_a_unit_where_a_mesh_is_far_too_large)
 {
   for (Real size = 25; size < 1e9; size *= 1.7)
     EXPECT_LT(likely_scale({size, size, size}, {1, 1, 1}), 1) << size;
-}
-
-TEST(likely_scale, a_flat_floor_in_millimetres_in_a_box_of_metres)
-{
-  EXPECT_EQ(likely_scale({80, 80, 0}, {0.1, 0.1, 0.06}), 1e-3);
-}
-
-TEST(likely_scale, a_floor_wider_than_the_box_is_none)
-{
-  EXPECT_EQ(likely_scale({2000, 2000, 0}, {10, 10, 10}), 1);
 }
 }    // namespace lsdcd::test_periodic_images

@@ -242,21 +242,6 @@ TEST(query, a_list_cut_off_can_only_lose_contacts)
     }
 }
 
-TEST(query, some_answers_of_short_lists_are_wrong_and_none_of_these_certified)
-{
-  std::size_t wrong = 0;
-  for (const Case &c : all_cases()) {
-    const TriangleGrid grid = c.grid(1);
-    const Answers a = ask(c, grid, c.spheres);
-    for (std::size_t i = 0; i < c.spheres.size(); i++)
-      if (fault(c, a, i, c.tolerance(grid))) {
-        wrong++;
-        EXPECT_FALSE(a.certified(i));
-      }
-  }
-  EXPECT_GT(wrong, 1000u);
-}
-
 TEST(query, longer_lists_of_one_grid_are_those_of_another)
 {
   // The first N entries of a longer list, and the next as a bound, are the list of N.
@@ -838,27 +823,6 @@ TEST(query, gives_the_same_bits_on_both_devices_of_a_table_of_millions)
     return i % 3 == 0 ? 300 * r.in_box() : Vec3{at, at, at} + 1.5 * r.in_box();
   });
   expect_same_bits_of_all_kinds(c, spheres, "large table");
-}
-
-TEST(query, bits_of_bricks_give_the_list_that_their_table_gives)
-{
-  for (const Case &c : all_cases()) {
-    const TriangleGrid grid = c.grid(0);
-    const GridView view = grid.view();
-    const std::vector<BrickWord> words = brick_words(view);
-    std::size_t occupied = 0;
-    for (const Sphere &s : c.spheres) {
-      const Vec3 x = s.centre();
-      CellAddress at;
-      Cell cell = {0, 0};
-      find_cell(view, x, at, cell);
-      const Cell by_words = cell_by_words(view, BrickTable(words, words.data()), x);
-      EXPECT_EQ(by_words.first, cell.first) << c.soup.source;
-      EXPECT_EQ(by_words.count, cell.count) << c.soup.source;
-      occupied += cell.count > 0;
-    }
-    EXPECT_GT(occupied, 0u) << c.soup.source;
-  }
 }
 
 TEST(query, float_spheres_are_answered_as_double_ones_in_the_same_places)

@@ -161,21 +161,11 @@ TEST(read_stl, a_pipe_without_end_is_refused_at_once)
   EXPECT_LT(written, std::size_t(1) << 20);    // and what the pipe itself holds, 64 kB
 }
 
-TEST(read_stl, a_device_is_not_a_mesh)
+TEST(read_stl, what_is_no_file_is_told)
 {
+  TempDir dir;
   EXPECT_TRUE(has(path_error("/dev/zero"), "it is a device"));
-}
-
-TEST(read_stl, missing_file_is_named)
-{
-  TempDir dir;
-  const auto error = path_error(dir.path("none.stl"));
-  EXPECT_TRUE(says(error, {"none.stl", "No such file"}));
-}
-
-TEST(read_stl, a_directory_is_not_a_mesh)
-{
-  TempDir dir;
+  EXPECT_TRUE(says(path_error(dir.path("none.stl")), {"none.stl", "No such file"}));
   EXPECT_TRUE(has(path_error(dir.path("")), "it is a directory"));
 }
 

@@ -220,14 +220,14 @@ TEST(rigid_body, keeps_energy_torque_free_and_its_error_falls_as_dt_squared)
   for (int k = 0; k < 2; k++) {
     RigidBody body = lamina();
     const Real dt = k == 0 ? 0.005 : 0.0025, energy = body.kinetic_energy();
-    const int steps = 1000000;
+    const int steps = 200000;
     Real early = 0;
     for (int n = 0; n < steps; n++) {
       step(body, dt, nothing);
       error[k] = std::max(error[k], std::fabs(body.kinetic_energy() / energy - 1));
       if (n == steps / 10) early = error[k];
     }
-    // 128 (64) periods: the first tenth has seen all of one.
+    // 25 (12) periods: the first tenth has seen all of one.
     EXPECT_LT(error[k], 1.001 * early + 1e-12);
     EXPECT_LT(error[k], 1e-4);
   }
@@ -250,20 +250,7 @@ TEST(rigid_body, keeps_angular_momentum_in_space_torque_free)
   EXPECT_LT(worst, 1e-12);
 }
 
-TEST(hinge, swings_with_the_period_of_a_small_swing)
-{
-  RigidBody body = released_at(1e-3);
-  const Real dt = 1e-4, period = period_of(
-                            [&] {
-                              step(body, dt, weight);
-                              return body.coordinate();
-                            },
-                            dt, 10);
-  EXPECT_NEAR(period, 2 * kPi * std::sqrt(kFlapInertia / (kG * kSide / 2)), 1e-6);
-  EXPECT_NEAR(period, 0.73251, 2e-5);
-}
-
-// 2/pi K(sin 45 degrees) = 1.180341 times that.
+// 2/pi K(sin 45 degrees) = 1.180341 times 2 pi sqrt(I / (m g s/2)) = 0.73251, the period of a small swing.
 TEST(hinge, swings_with_the_period_of_a_swing_from_90_degrees)
 {
   RigidBody body = released_at(kPi / 2);
@@ -274,19 +261,6 @@ TEST(hinge, swings_with_the_period_of_a_swing_from_90_degrees)
                             },
                             dt, 10);
   EXPECT_NEAR(period, 0.86461, 2e-5);
-}
-
-TEST(hinge, bears_two_and_a_half_weights_at_the_bottom)
-{
-  RigidBody body = released_at(kPi / 2);
-  Real most = 0;
-  for (int n = 0; n < 10000; n++) {
-    step(body, 1e-4, weight);
-    most = std::max(most, body.reaction(weight(body)).force.z);
-  }
-  const Real arm = kSide / 2;
-  EXPECT_NEAR(most / kG, 1 + 2 * arm * arm / kFlapInertia, 1e-6);
-  EXPECT_NEAR(most / kG, 2.5, 1e-4);
 }
 
 // Free of its hinge it would fall as the reaction says: F + reaction = M a, from differences of velocities. Spring, damper
@@ -587,15 +561,6 @@ TEST(pose_of_a_body, has_the_derivatives_of_its_places)
   }
 }
 
-TEST(rigid_body, is_at_first_where_its_mesh_is)
-{
-  for (const Joint &joint : kJoints) {
-    const Pose pose = RigidBody(moving(joint).mass(), joint).pose();
-    EXPECT_EQ(norm(pose.shift), 0);
-    for (int k = 0; k < 3; k++) EXPECT_EQ(pose.row[k][k], 1);
-  }
-}
-
 // All joints of a body that turns about an axis through its centre and moves along that: nothing is lost.
 TEST(rigid_body, goes_on_in_another_joint_without_a_jump)
 {
@@ -705,16 +670,6 @@ TEST(rigid_body, keeps_its_coordinate_in_the_same_joint_with_another_mass)
     next.drift(-next.coordinate() / next.rate());
     EXPECT_LT(norm(next.pose().shift), 1e-14) << name_of(joint);
     EXPECT_LT(norm(next.pose().row[0] - Vec3{1, 0, 0}), 1e-14) << name_of(joint);
-  }
-}
-
-TEST(rigid_body, has_a_coordinate_only_where_its_joint_has_one)
-{
-  for (const Joint &joint : kJoints) {
-    RigidBody body = moving(joint);
-    body.drift(0.1);
-    EXPECT_EQ(body.coordinate() != 0, joint.has_coordinate()) << name_of(joint);
-    EXPECT_EQ(body.rate() != 0, joint.has_coordinate()) << name_of(joint);
   }
 }
 

@@ -7,6 +7,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+
 namespace lsdcd::test_servo_controller {
 namespace {
 
@@ -54,12 +57,14 @@ Moved after(WallSpec settings, const ServoLoad &load, int steps = 1)
   return {s.velocity, s.position, host.lines, host.warnings};
 }
 
-// The gain is a quarter of what is stable: 1/(2 k dt).
-TEST(ServoController, moves_by_what_is_missing_of_its_push)
+// The gain is a quarter of what is stable: 1/(2 k dt) of one contact, which it takes none for, too.
+TEST(ServoController, moves_by_what_is_missing_of_its_push_and_slower_the_more_contacts_there_are)
 {
-  const Moved moved = after(wall(), pressed(60, 1));
-  EXPECT_NEAR(moved.velocity, (100 - 60) / (2 * 1e4 * kDt), 1e-13);
-  EXPECT_NEAR(moved.position, moved.velocity * kDt, 1e-15);
+  for (const int contacts : {0, 1, 8}) {
+    const Moved moved = after(wall(), pressed(60, contacts));
+    EXPECT_NEAR(moved.velocity, (100 - 60) / (2 * std::max(1, contacts) * 1e4 * kDt), 1e-13);
+    EXPECT_NEAR(moved.position, moved.velocity * kDt, 1e-15);
+  }
 }
 
 // A flat side is as stiff as its hertz contact is wide, which is no more than the sphere around the grain.
@@ -75,43 +80,19 @@ TEST(ServoController, takes_the_flattest_side_of_grains_that_are_no_spheres)
   EXPECT_NEAR(after(spec, load).velocity, 40 / (2 * 1.5 * 1e4 * load.radius * kDt), 1e-12);
 }
 
-TEST(ServoController, is_slower_the_more_contacts_there_are)
-{
-  EXPECT_NEAR(after(wall(), pressed(60, 8)).velocity, 40 / (2 * 8 * 1e4 * kDt), 1e-14);
-}
-
-TEST(ServoController, takes_no_contact_for_one)
-{
-  EXPECT_NEAR(after(wall(), pressed(0, 0)).velocity, 100 / (2 * 1e4 * kDt), 1e-13);
-}
-
-// A torque by the arm squared: the farthest corner of the mesh and a sphere's radius is
-// 1.5 sqrt(2) from the axis.
+// A torque by the arm squared: the farthest corner of the mesh, which wear may have moved, and a sphere's radius is
+// sqrt(2) (half + 0.5) from the axis.
 TEST(ServoController, counts_the_arm_of_contacts_where_it_turns)
 {
   WallSpec settings = wall();
   settings.meshes[0].motion.servo().turns = true;
   ServoLoad load = pressed(0, 1);
   load.torque = {0, 0, -60};
-  EXPECT_NEAR(after(settings, load).velocity, 40 / (2 * 4.5 * 1e4 * kDt), 1e-14);
-}
-
-// As wear moves its vertices: the arm is that of the mesh as it is.
-TEST(ServoController, counts_the_arm_of_a_mesh_that_has_grown)
-{
-  WallSpec settings = wall();
-  settings.meshes[0].motion.servo().turns = true;
-  ServoLoad load = pressed(0, 1);
-  load.torque = {0, 0, -60};
-  load.extents = {{-2, -2, -2}, {2, 2, 2}};    // and a sphere: 2.5 sqrt(2)
-  EXPECT_NEAR(after(settings, load).velocity, 40 / (2 * 12.5 * 1e4 * kDt), 1e-14);
-}
-
-TEST(ServoController, pushes_against_what_spheres_exert)
-{
-  WallSpec settings = wall();
-  FakeHost host;
-  EXPECT_EQ(ServoController(host, settings, law_table(settings), 0).push(pressed(60, 1)), 60);
+  for (const Real half : {1., 2.}) {
+    load.extents = {{-half, -half, -half}, {half, half, half}};
+    EXPECT_NEAR(after(settings, load).velocity, 40 / (2 * 2 * std::pow(half + 0.5, 2) * 1e4 * kDt),
+                1e-14);
+  }
 }
 
 TEST(ServoController, does_not_act_where_it_holds)

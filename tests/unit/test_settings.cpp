@@ -44,131 +44,68 @@ std::string error_with(const std::string &more)
   return error_of("hooke 1e5 NULL 50 NULL 0.5 1 mesh a.stl " + more);
 }
 
-TEST(settings, kt_null_is_two_sevenths_of_kn)
+TEST(settings, classic_styles_have_the_defaults_of_lammps)
 {
-  EXPECT_EQ(parse("hooke 7e4 NULL 50 NULL 0.5 1 mesh a.stl").law().k_tangent, 2e4);
-}
-
-TEST(settings, gammat_null_is_half_of_gamman)
-{
-  EXPECT_EQ(parse("hooke 1e5 NULL 50 NULL 0.5 1 mesh a.stl").law().gamma_tangent, 25);
-}
-
-TEST(settings, dampflag_zero_switches_tangential_damping_off)
-{
+  EXPECT_EQ(parse("hooke 7e4 NULL 50 NULL 0.5 1 mesh a.stl").law().k_tangent, 2e4);    // 2/7 kn
+  EXPECT_EQ(with("").law().gamma_tangent, 25);                                         // gamman / 2
   EXPECT_EQ(parse("hooke 1e5 NULL 50 20 0.5 0 mesh a.stl").law().gamma_tangent, 0);
-}
-
-TEST(settings, limit_damping_follows_the_numbers)
-{
   EXPECT_TRUE(parse("hooke 1 1 1 1 0.5 1 limit_damping mesh a.stl").law().limit_damping);
+  for (const std::string style : {"hooke", "hooke/history", "hertz/history"})
+    EXPECT_EQ(parse(style + " 1 1 1 1 0.5 1 mesh a.stl").law().has_history(), style != "hooke");
 }
 
-TEST(settings, styles_keep_history_but_hooke)
+// Angles are right-handed, and an axis may have any length.
+TEST(settings, placements_act_in_the_order_given)
 {
-  EXPECT_FALSE(parse("hooke 1 1 1 1 0.5 1 mesh a.stl").law().has_history());
-  EXPECT_TRUE(parse("hooke/history 1 1 1 1 0.5 1 mesh a.stl").law().has_history());
-  EXPECT_TRUE(parse("hertz/history 1 1 1 1 0.5 1 mesh a.stl").law().has_history());
+  const struct {
+    const char *words;
+    Vec3 from, to;
+  } rows[] = {{"scale 2 contacts", {1, 1, 1}, {2, 2, 2}},
+              {"scale 2 3 4 contacts", {1, 1, 1}, {2, 3, 4}},
+              {"scale 2 move 1 0 0", {1, 0, 0}, {3, 0, 0}},
+              {"move 1 0 0 scale 2", {1, 0, 0}, {4, 0, 0}},
+              {"move 1 0 0 move 1 0 0", {0, 0, 0}, {2, 0, 0}},
+              {"rotate 0 0 1 90", {1, 0, 0}, {0, 1, 0}},
+              {"rotate 1e200 0 1e200 180", {1, 0, 0}, {0, 0, 1}},
+              {"rotate 1e-200 0 1e-200 180", {1, 0, 0}, {0, 0, 1}}};
+  for (const auto &row : rows)
+    for (int k = 0; k < 3;
+         k++)    // a few roundings of numbers up to 1, and of small whole ones none
+      EXPECT_NEAR(with(row.words).meshes[0].placement.apply(row.from)[k], row.to[k], 1e-15)
+          << row.words;
 }
 
-TEST(settings, defaults_hold_where_nothing_is_said)
+TEST(settings, choices_and_values_are_read)
 {
-  const WallSpec s = with("");
-  EXPECT_LT(s.meshes[0].weld, 0);
-  EXPECT_EQ(s.grid_length, 0);
-  EXPECT_EQ(s.rmax, 0);
-  EXPECT_EQ(s.memory_budget, GridSettings().memory_budget);
-  EXPECT_EQ(s.corner, Corner::blend);
-  EXPECT_EQ(s.side, Side::both);
-  EXPECT_EQ(s.device, Device::automatic);
-  EXPECT_FALSE(s.contacts);
-  EXPECT_FALSE(s.periodic);
+  EXPECT_EQ(with("grid auto").grid_length, 0);    // chosen by the grid
+  EXPECT_EQ(with("rmax auto").rmax, 0);
+  EXPECT_EQ(with("memory 2").memory_budget, std::size_t(2) * 1024 * 1024);
+  EXPECT_EQ(with("").corner, Corner::blend);
+  EXPECT_EQ(with("corner sum").corner, Corner::sum);
+  EXPECT_EQ(with("").side, Side::both);
+  EXPECT_EQ(with("side in").side, Side::in);
+  EXPECT_EQ(with("side out").side, Side::out);
+  EXPECT_EQ(with("").device, Device::automatic);
+  EXPECT_EQ(with("device cpu").device, Device::cpu);
+  EXPECT_EQ(with("device cuda").device, Device::cuda);
+  EXPECT_FALSE(with("log full").brief);
+  EXPECT_TRUE(with("log brief").brief);
+  EXPECT_EQ(with("cache none").meshes[0].cache_file, "");
+  EXPECT_EQ(with("cache vessel.grid").meshes[0].cache_file, "vessel.grid");
+  EXPECT_EQ(picture("draw faces").draw, Draw::faces);
+  EXPECT_EQ(picture("draw contours").draw, Draw::contours);
+  EXPECT_EQ(picture("draw edges 2 contacts").type, 2);    // of atoms, whose colour it is
   EXPECT_FALSE(picture("").cut);
-}
-
-TEST(settings, scale_takes_one_factor)
-{
-  const Vec3 x = with("scale 2 contacts").meshes[0].placement.apply({1, 1, 1});
-  EXPECT_EQ(x.x, 2);
-  EXPECT_EQ(x.z, 2);
-}
-
-TEST(settings, scale_takes_three_factors)
-{
-  const Vec3 x = with("scale 2 3 4 contacts").meshes[0].placement.apply({1, 1, 1});
-  EXPECT_EQ(x.x, 2);
-  EXPECT_EQ(x.y, 3);
-  EXPECT_EQ(x.z, 4);
-}
-
-TEST(settings, scale_refuses_two_factors)
-{
-  EXPECT_TRUE(has(error_with("scale 2 3 contacts"), "one factor or three"));
-}
-
-TEST(settings, scale_and_move_act_in_the_order_given)
-{
-  EXPECT_EQ(with("scale 2 move 1 0 0").meshes[0].placement.apply({1, 0, 0}).x, 3);
-  EXPECT_EQ(with("move 1 0 0 scale 2").meshes[0].placement.apply({1, 0, 0}).x, 4);
-}
-
-TEST(settings, placement_words_may_repeat)
-{
-  EXPECT_EQ(with("move 1 0 0 move 1 0 0").meshes[0].placement.apply({0, 0, 0}).x, 2);
+  const PictureSpec cut = picture("cut 0 1 0 0.5");
+  EXPECT_TRUE(cut.cut);
+  EXPECT_EQ(cut.cut_normal.y, 1);
+  EXPECT_EQ(cut.cut_offset, 0.5);
 }
 
 TEST(settings, the_placement_is_shown_step_by_step)
 {
   EXPECT_EQ(placement_text(with("scale 0.001 move 0 0 1 rotate 0 0 2 90").meshes[0].placement),
             "scale 0.001, move 0 0 1, rotate 0 0 2 90");
-}
-
-TEST(settings, rotate_turns_right_handed)
-{
-  const Vec3 x = with("rotate 0 0 1 90").meshes[0].placement.apply({1, 0, 0});
-  EXPECT_NEAR(x.x, 0, 1e-15);    // a few roundings of numbers up to 1
-  EXPECT_NEAR(x.y, 1, 1e-15);
-}
-
-TEST(settings, rotate_refuses_a_zero_axis)
-{
-  EXPECT_TRUE(has(error_with("rotate 0 0 0 90"), "axis"));
-}
-
-TEST(settings, auto_means_chosen_by_the_grid)
-{
-  const WallSpec s = with("grid auto rmax auto");
-  EXPECT_EQ(s.grid_length, 0);
-  EXPECT_EQ(s.rmax, 0);
-}
-
-TEST(settings, memory_is_given_in_mebibytes)
-{
-  EXPECT_EQ(with("memory 2").memory_budget, std::size_t(2) * 1024 * 1024);
-}
-
-TEST(settings, every_choice_is_read)
-{
-  EXPECT_EQ(with("corner sum").corner, Corner::sum);
-  EXPECT_EQ(with("side in").side, Side::in);
-  EXPECT_EQ(with("side out").side, Side::out);
-  EXPECT_EQ(with("device cpu").device, Device::cpu);
-  EXPECT_EQ(with("device cuda").device, Device::cuda);
-  EXPECT_EQ(picture("draw faces").draw, Draw::faces);
-  EXPECT_EQ(picture("draw contours").draw, Draw::contours);
-}
-
-TEST(settings, draw_takes_the_colour_of_an_atom_type)
-{
-  EXPECT_EQ(picture("draw edges 2 contacts").type, 2);
-}
-
-TEST(settings, cut_takes_a_plane)
-{
-  const PictureSpec s = picture("cut 0 1 0 0.5");
-  EXPECT_TRUE(s.cut);
-  EXPECT_EQ(s.cut_normal.y, 1);
-  EXPECT_EQ(s.cut_offset, 0.5);
 }
 
 TEST(settings, an_unknown_keyword_names_the_nearest)
@@ -220,22 +157,6 @@ TEST(settings, out_of_range_gives_the_range)
                   "nu = -1 is out of range: it must be above -1 to 0.5."));
 }
 
-TEST(settings, rotate_takes_an_axis_of_any_length)
-{
-  for (const char *length : {"1e200", "1e-200"}) {
-    const std::string l = length;
-    const Vec3 x = with("rotate " + l + " 0 " + l + " 180").meshes[0].placement.apply({1, 0, 0});
-    EXPECT_NEAR(x.x, 0, 1e-15) << l;    // a few roundings of numbers up to 1
-    EXPECT_NEAR(x.z, 1, 1e-15) << l;
-  }
-}
-
-TEST(settings, log_is_full_or_brief)
-{
-  EXPECT_FALSE(with("log full").brief);
-  EXPECT_TRUE(with("log brief").brief);
-}
-
 TEST(settings, wrong_words_are_named_with_what_is_right)
 {
   const std::string law = "hooke 1e5 NULL 50 NULL 0.5 1 mesh a.stl ";
@@ -260,19 +181,12 @@ TEST(settings, wrong_words_are_named_with_what_is_right)
       {"a wrong choice of logs", law + "log none", "log full | brief"},
       {"a cache without a name", law + "cache", "the file name is missing"},
       {"a keyword twice", law + "rmax 1 rmax 2", "twice"},
+      {"one of all meshes twice", law + "corner sum mesh b.stl corner sum", "is given twice"},
+      {"two factors", law + "scale 2 3 contacts", "one factor or three"},
+      {"a zero axis", law + "rotate 0 0 0 90", "axis"},
       {"a cut without a normal", law + "cut 0 0 0 1", "the normal must not be 0 0 0"},
   };
   for (const auto &c : cases) EXPECT_TRUE(has(error_of(c.line), c.told)) << c.what;
-}
-
-TEST(settings, cache_none_is_no_cache)
-{
-  EXPECT_EQ(with("cache none").meshes[0].cache_file, "");
-}
-
-TEST(settings, a_cache_has_the_name_of_its_file)
-{
-  EXPECT_EQ(with("cache vessel.grid").meshes[0].cache_file, "vessel.grid");
 }
 
 TEST(settings, keywords_of_a_mesh_are_of_the_one_before_them)
@@ -390,14 +304,6 @@ TEST(settings, laws_of_other_sub_models_are_refused)
     EXPECT_TRUE(has(error_with("law types " + std::string(types) + " hooke 1 NULL 1 NULL 1 1"),
                     "not a range of atom types"));
   EXPECT_TRUE(has(error_with("material steel"), "granular material FILE"));
-}
-
-TEST(settings, help_lists_every_keyword)
-{
-  for (const char *name :
-       {"mesh", "scale", "rotate", "move", "weld", "grid", "rmax", "memory", "cache", "corner",
-        "side", "device", "contacts", "periodic", "draw", "cut"})
-    EXPECT_TRUE(has(wall_help(), std::string("\n  ") + name));
 }
 
 TEST(settings, surfaces_move_and_turn)
@@ -549,12 +455,6 @@ TEST(settings, wrong_servos_are_refused)
   for (const auto &c : cases) EXPECT_TRUE(has(error_with(c.first), c.second)) << c.first;
 }
 
-TEST(settings, words_common_to_all_meshes_are_given_once)
-{
-  EXPECT_TRUE(
-      has(error_with("corner sum mesh b.stl move 0 0 1 corner sum"), "the keyword is given twice"));
-}
-
 TEST(settings, fix_modify_reads_motions_or_none)
 {
   InputNames inputs;
@@ -702,6 +602,8 @@ TEST(settings, granular_reads_every_normal_sub_model)
   EXPECT_EQ(law_of("hooke 7e4 3" + kSlip).normal, NormalModel::hooke);
   EXPECT_EQ(law_of("hooke 7e4 3" + kSlip).k_normal, 7e4);
   EXPECT_EQ(law_of("hertz 7e4 3" + kSlip).normal, NormalModel::hertz);
+  EXPECT_EQ(law_of("hertz 7e4 3" + kSlip).damping, DampingModel::viscoelastic);
+  EXPECT_EQ(law_of("hertz 7e4 3" + kSlip + " damping none").damping, DampingModel::none);
   EXPECT_EQ(law_of("dmt 7e4 3 0.3 2" + kSlip).normal, NormalModel::dmt);
   EXPECT_EQ(law_of("jkr 7e4 3 0.3 2" + kSlip).normal, NormalModel::jkr);
   EXPECT_EQ(law_of("jkr 7e4 3 0.3 2" + kSlip).surface_energy, 2);
@@ -720,12 +622,6 @@ TEST(settings, granular_kt_null_is_eight_times_the_shear_modulus_of_the_contact)
   const ContactLaw g = law_of("hertz/material 1e5 3 0.25 tangential mindlin NULL 1 0.5");
   EXPECT_NEAR(g.k_tangent, 8e5 / (4 * 1.75 * 1.25), 1e-9);
   EXPECT_TRUE(has(granular_error("hertz 1e5 3 tangential mindlin NULL 1 0.5"), "E and nu"));
-}
-
-TEST(settings, granular_damping_is_viscoelastic_where_nothing_is_said)
-{
-  EXPECT_EQ(law_of("hertz 1e5 3" + kSlip).damping, DampingModel::viscoelastic);
-  EXPECT_EQ(law_of("hertz 1e5 3" + kSlip).eta, 3);
 }
 
 TEST(settings, granular_takes_a_restitution_for_tsuji_and_coeff_restitution)
@@ -755,16 +651,6 @@ TEST(settings, granular_words_come_in_any_order_and_end_at_the_first_keyword)
   EXPECT_EQ(s.law().n_extra(), 5);
   EXPECT_TRUE(has(s.laws[0].name, "granular hertz 1e5 3 limit_damping twisting"));
   EXPECT_FALSE(has(s.laws[0].name, "temperature"));
-}
-
-TEST(settings, granular_none_turns_nothing_on)
-{
-  const WallSpec s = parse(
-      "granular hooke 1e5 3 tangential linear_nohistory 0 0 rolling none twisting none heat none "
-      "damping none mesh a.stl");
-  EXPECT_FALSE(s.law().has_history());
-  EXPECT_FALSE(s.law().has_heat());
-  EXPECT_EQ(s.law().damping, DampingModel::none);
 }
 
 TEST(settings, granular_errors_name_the_word_and_show_the_syntax)
@@ -821,13 +707,6 @@ TEST(settings, effects_name_what_a_law_turns_on_and_what_that_keeps)
   for (const char *name : {"jkr adhesion", "normal damping", "tangential spring", "rescaling",
                            "sliding limit", "rolling", "twisting", "heat"})
     EXPECT_TRUE(has(all, name));
-}
-
-TEST(settings, help_lists_every_granular_sub_model)
-{
-  for (const char *tokens : {"hertz/material E eta|e nu", "tangential mindlin/force kt|NULL",
-                             "rolling sds k gamma mu", "twisting marshall", "heat area h"})
-    EXPECT_TRUE(has(wall_help(), tokens));
 }
 
 }    // namespace

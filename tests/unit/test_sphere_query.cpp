@@ -211,63 +211,6 @@ TEST(sphere_query, gives_the_same_bits_on_both_devices)
 
 // ---- the paper's test ---------------------------------------------------------------
 
-Answers ask_one_triangle(const Vec3 &a, const Vec3 &b, const Vec3 &c, const Vec3 &q, Real radius,
-                         InsideTest inside, bool every_face)
-{
-  const Wall wall = triangle(a, b, c, radius);
-  QuerySettings settings;
-  settings.inside = inside;
-  settings.every_face = every_face;
-  return ask(wall, wall.grid(1), {{q.x, q.y, q.z, radius}}, settings);
-}
-
-TEST(formula_five, takes_a_point_outside_for_inside)
-{
-  // All six products are at or above 0, yet O lies 0.577 below the side A B.
-  for (const bool every_face : {false, true}) {
-    const auto at = [&](InsideTest inside) {
-      return ask_one_triangle({0, 0, 0}, {2, 0, 0}, {1, 1.732, 0}, {1, -0.577, 0}, 1, inside,
-                              every_face)
-          .distance[0];
-    };
-    EXPECT_EQ(at(InsideTest::formula_five), 0);
-    EXPECT_NEAR(at(InsideTest::exact), 0.577, 1e-15);
-  }
-}
-
-TEST(formula_five, takes_a_point_inside_for_outside)
-{
-  // O is inside, but A O . A B < 0: the answer is the nearest side, sqrt(2) in the plane.
-  const Vec3 a = {0, 0, 0}, b = {20, 0, 0}, c = {-20, 20, 0}, o = {-11, 13, 0.25};
-  ASSERT_LT(dot(o - a, b - a), 0);
-  for (const bool every_face : {false, true}) {
-    const auto at = [&](InsideTest inside) {
-      return ask_one_triangle(a, b, c, o, 8, inside, every_face).distance[0];
-    };
-    EXPECT_NEAR(at(InsideTest::exact), 0.25, 1e-15);
-    // The line B C: x + 2 y = 20; A C: x + y = 0, nearer here.
-    EXPECT_NEAR(at(InsideTest::formula_five), std::sqrt(0.25 * 0.25 + std::fmin(4 / 2., 25. / 5)),
-                1e-14);
-  }
-}
-
-TEST(formula_five, is_right_over_the_inside_of_acute_triangles)
-{
-  Numbers r(8);
-  const Vec3 a = {0, 0, 0}, b = {2, 0, 0}, c = {1, 1.8, 0};
-  std::vector<Sphere> spheres;
-  for (int i = 0; i < 2000; i++) {
-    Real u = r.in(0, 1), v = r.in(0, 1);
-    if (u + v > 1) u = 1 - u, v = 1 - v;
-    const Vec3 q = a + u * (b - a) + v * (c - a) + Vec3{0, 0, r.in(-1, 1)};
-    spheres.push_back({q.x, q.y, q.z, 2});
-  }
-  const Wall wall = triangle(a, b, c, 2);
-  const Answers answers = ask(wall, wall.grid(1), spheres, paper());
-  for (std::size_t i = 0; i < spheres.size(); i++)
-    ASSERT_NEAR(answers.distance[i], std::fabs(spheres[i].z), 1e-15);
-}
-
 TEST(formula_five, is_six_products_then_a_plane_or_three_sides)
 {
   Numbers r(9);

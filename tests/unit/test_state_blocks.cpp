@@ -5,6 +5,7 @@
 #include "base/state_blocks.h"
 
 #include "base/countable.h"
+#include "support/says.h"
 
 #include <gtest/gtest.h>
 
@@ -82,12 +83,7 @@ TEST(State, packs_six_letters_in_a_number)
 
 std::string problem_of(const std::vector<Real> &numbers)
 {
-  try {
-    part_of(numbers);
-  } catch (const StateError &e) {
-    return e.what();
-  }
-  return "";
+  return error_of([&] { part_of(numbers); });
 }
 
 TEST(State, that_is_cut_anywhere_is_refused)
@@ -214,12 +210,7 @@ TEST(Countable, is_an_int_or_an_error_that_tells_limit_and_remedy)
 {
   EXPECT_EQ(countable((std::int64_t(1) << 31) - 1, "bytes", "use less"), 2147483647);
   const auto error = [](std::int64_t n) {
-    try {
-      countable(n, "bytes", "use less");
-    } catch (const InputError &e) {
-      return std::string(e.what());
-    }
-    return std::string();
+    return error_of([&] { countable(n, "bytes", "use less"); });
   };
   EXPECT_EQ(error((std::int64_t(1) << 28) * sizeof(double)),
             "2147483648 bytes are more than an int counts, 2147483647: use less");

@@ -98,16 +98,6 @@ TEST(StepTotals, are_sums_over_the_processes)
   });
 }
 
-TEST(StepTotals, have_the_largest_overlap_of_all_processes)
-{
-  on_processes(2, [](FakeHost &host) {
-    const WallSpec settings = wall(1);
-    Floors f(host, settings);
-    f.step(0, 0.1 * (1 + host.rank()));
-    EXPECT_NEAR(f.of(0).overlap, 0.2 / kRadius, kRounding);
-  });
-}
-
 TEST(StepTotals, have_the_torque_about_a_point_of_the_box)
 {
   FakeHost host;

@@ -44,23 +44,6 @@ TEST(spheres, every_number_is_uniform_and_so_are_pairs)
   }
 }
 
-TEST(spheres, seeds_give_numbers_of_their_own)
-{
-  // The correlation of 4e5 pairs is off zero by 1/sqrt(4e5) of a variance.
-  Real sum = 0;
-  for (std::size_t i = 0; i < kMany; i++)
-    sum += (uniform(1, i) - 0.5) * (uniform(2, i) - 0.5) * 12 / kMany;
-  EXPECT_NEAR(sum, 0, 5 / std::sqrt(Real(kMany)));
-}
-
-TEST(spheres, numbers_are_above_zero_and_at_most_one)
-{
-  for (std::size_t i = 0; i < kMany; i++) {
-    ASSERT_GT(uniform(3, i), 0);
-    ASSERT_LE(uniform(3, i), 1);
-  }
-}
-
 TEST(spheres, are_in_their_box_and_no_larger_than_the_largest)
 {
   const SphereBox box = {{-3, 5, 100}, {-1, 9, 101}, 0.25, 4};
@@ -100,14 +83,6 @@ TEST(spheres, sorted_ones_are_the_same_closer_to_each_other)
   EXPECT_TRUE(std::equal(random.begin(), random.end(), sorted.begin(), same));
 }
 
-TEST(spheres, fewer_are_the_first_of_more)
-{
-  const SphereBox box = {{0, 0, 0}, {1, 1, 1}, 1, 9};
-  const auto few = make_spheres(box, 100, Order::random),
-             more = make_spheres(box, 1000, Order::random);
-  EXPECT_TRUE(std::equal(few.begin(), few.end(), more.begin(), same));
-}
-
 // ---- the cylinder -------------------------------------------------------------------
 
 // In the half-plane (rho, z) the surface is three segments.
@@ -131,19 +106,6 @@ TEST(function_three, is_the_distance_to_three_segments_of_a_profile)
     const Vec3 q = {r.in(-80, 80), r.in(-80, 80), r.in(-40, 140)};
     ASSERT_NEAR(cylinder_distance(q, 50, 100), profile_distance(q, 50, 100), 1e-13);
   }
-}
-
-TEST(function_three, has_the_values_one_knows)
-{
-  EXPECT_EQ(cylinder_distance({0, 0, 50}, 50, 100), 50);
-  EXPECT_EQ(cylinder_distance({0, 0, 1}, 50, 100), 1);
-  EXPECT_EQ(cylinder_distance({0, 0, 98}, 50, 100), 2);
-  EXPECT_EQ(cylinder_distance({48, 0, 50}, 50, 100), 2);
-  EXPECT_EQ(cylinder_distance({0, -53, 50}, 50, 100), 3);
-  EXPECT_EQ(cylinder_distance({3, 4, -2}, 50, 100), 2);
-  EXPECT_EQ(cylinder_distance({3, 4, 103}, 50, 100), 3);
-  EXPECT_EQ(cylinder_distance({53, 0, -4}, 50, 100), 5);
-  EXPECT_EQ(cylinder_distance({0, 54, 103}, 50, 100), 5);
 }
 
 CylinderMesh shape_of(int segments, int along, int slant, Caps caps)
@@ -312,17 +274,6 @@ TEST(study, one_triangle_of_the_paper_scores_as_no_contact_at_all)
       std::find_if(std::begin(kPaperTable2), std::end(kPaperTable2),
                    [](const PaperAccuracy &row) { return row.n == 1 && row.length == finest(); });
   EXPECT_NEAR(guesses[1].accuracy, paper->accuracy, 3 * std::sqrt(0.037 * 0.963 / kMany));
-}
-
-TEST(study, order_of_the_spheres_changes_no_count)
-{
-  AccuracyStudy random = study_of(CylinderMesh(), 100, 100000),
-                sorted = study_of(CylinderMesh(), 100, 100000, InsideTest::exact, Order::sorted);
-  const StudyRow a = random.measure(lists_of(1, 0.5)), b = sorted.measure(lists_of(1, 0.5));
-  EXPECT_EQ(a.accuracy, b.accuracy);
-  EXPECT_EQ(a.missed, b.missed);
-  EXPECT_EQ(a.certified, b.certified);
-  EXPECT_EQ(a.median_force_error, b.median_force_error);
 }
 
 TEST(study, formula_five_costs_nothing_without_obtuse_triangles_and_much_with_them)

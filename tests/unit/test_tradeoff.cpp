@@ -170,23 +170,15 @@ TEST(drift_starts, touch_the_wall_where_they_stand_and_nowhere_else)
   EXPECT_LT(inside, 50);
 }
 
-// Ten bounces off a plane: velocity Verlet with 100 steps per contact errs by less than
-// (pi / 100)^2 / 4 at each impact.
-TEST(bounce, keeps_its_energy_on_a_plane_whatever_its_triangles)
+// Ten bounces: velocity Verlet with 100 steps per contact errs by less than (pi / 100)^2 / 4 at each impact. Rolling on a
+// plane is steady motion at constant overlap: rounding only.
+TEST(drift, is_none_on_a_plane_whatever_its_triangles)
 {
   for (int n : {1, 30}) {
     const Wall floor(floor_mesh(n, 30, n), 1);
-    const Real drift = bounce_drift(floor.grid.view(), EngineSettings(), floor.starts(1, 20));
-    EXPECT_LT(drift, 2.5e-3);
-  }
-}
-
-// Rolling on a plane is steady motion at constant overlap: rounding only.
-TEST(roll, keeps_its_energy_on_a_plane_whatever_its_triangles)
-{
-  for (int n : {1, 30}) {
-    const Wall floor(floor_mesh(n, 30, n), 1);
-    EXPECT_LT(roll_drift(floor.grid.view(), EngineSettings(), floor.starts(1, 20)), 1e-9);
+    const DriftStarts starts = floor.starts(1, 20);
+    EXPECT_LT(bounce_drift(floor.grid.view(), EngineSettings(), starts), 2.5e-3);
+    EXPECT_LT(roll_drift(floor.grid.view(), EngineSettings(), starts), 1e-9);
   }
 }
 
@@ -242,28 +234,14 @@ DriftStarts starts_outside(const Wall &ball)
 }
 
 // The integrator's error, as on a plane; impacts after a slide are faster, but few.
-TEST(bounce, keeps_its_energy_on_a_convex_wall_that_spheres_slide_off)
+TEST(drift, is_small_on_a_convex_wall_that_spheres_leave_but_where_contacts_are_missed)
 {
-  const Wall ball(ball_mesh(8), 1);
-  EXPECT_LT(bounce_drift(ball.grid.view(), EngineSettings(), starts_outside(ball)), 2.5e-3);
-}
-
-TEST(bounce, gains_energy_on_a_convex_wall_whose_contacts_are_missed)
-{
-  const Wall ball(ball_mesh(8), 1, 1);
-  EXPECT_GT(bounce_drift(ball.grid.view(), EngineSettings(), starts_outside(ball)), 0.1);
-}
-
-TEST(roll, keeps_its_energy_on_a_convex_wall_that_spheres_roll_off)
-{
-  const Wall ball(ball_mesh(8), 1);
-  EXPECT_LT(roll_drift(ball.grid.view(), EngineSettings(), starts_outside(ball)), 0.01);
-}
-
-TEST(roll, gains_energy_on_a_convex_wall_whose_contacts_are_missed)
-{
-  const Wall ball(ball_mesh(8), 1, 1);
-  EXPECT_GT(roll_drift(ball.grid.view(), EngineSettings(), starts_outside(ball)), 0.1);
+  const Wall ball(ball_mesh(8), 1), short_lists(ball_mesh(8), 1, 1);
+  const DriftStarts starts = starts_outside(ball);
+  EXPECT_LT(bounce_drift(ball.grid.view(), EngineSettings(), starts), 2.5e-3);
+  EXPECT_LT(roll_drift(ball.grid.view(), EngineSettings(), starts), 0.01);
+  EXPECT_GT(bounce_drift(short_lists.grid.view(), EngineSettings(), starts), 0.1);
+  EXPECT_GT(roll_drift(short_lists.grid.view(), EngineSettings(), starts), 0.1);
 }
 
 TEST(drift, is_none_of_spheres_that_fall_off_an_edge)

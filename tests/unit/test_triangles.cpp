@@ -34,28 +34,20 @@ bool meet(const Triangle &a, const Triangle &b)
   EXPECT_TRUE(yes == 0 || no == 0) << yes << " of " << yes + no;
   return yes > 0;
 }
-
-TEST(triangles, one_through_another_meets_it)
+TEST(triangles, meet_where_one_goes_through_the_other_or_touches_it)
 {
-  EXPECT_TRUE(meet(kFlat, {{{1, 1, -1}, {1, 1, 1}, {1, 2, 1}}}));
-}
-TEST(triangles, one_through_the_plane_beside_another_does_not)
-{
-  EXPECT_FALSE(meet(kFlat, {{{3, 3, -1}, {3, 3, 1}, {3, 4, 1}}}));
-}
-TEST(triangles, corner_on_a_face_a_side_or_a_corner_touches)
-{
-  EXPECT_TRUE(meet(kFlat, {{{1, 1, 0}, {1, 2, 1}, {2, 1, 1}}}));
-  EXPECT_TRUE(meet(kFlat, {{{2, 2, 0}, {4, 5, 1}, {5, 4, 1}}}));
-  EXPECT_TRUE(meet(kFlat, {{{4, 0, 0}, {5, 0, 1}, {5, 1, 1}}}));
-}
-TEST(triangles, sides_that_cross_at_one_point_touch)
-{
-  EXPECT_TRUE(meet(kFlat, {{{2, 0, 1}, {2, 0, -1}, {2, -1, 0}}}));
-}
-TEST(triangles, neighbours_that_share_a_side_meet)
-{
-  EXPECT_TRUE(meet(kFlat, {{{0, 0, 0}, {4, 0, 0}, {1, -1, 3}}}));
+  const struct {
+    const char *what;
+    Triangle other;
+    bool meets;
+  } rows[] = {{"through it", {{{1, 1, -1}, {1, 1, 1}, {1, 2, 1}}}, true},
+              {"through the plane beside it", {{{3, 3, -1}, {3, 3, 1}, {3, 4, 1}}}, false},
+              {"a corner on the face", {{{1, 1, 0}, {1, 2, 1}, {2, 1, 1}}}, true},
+              {"a corner on a side", {{{2, 2, 0}, {4, 5, 1}, {5, 4, 1}}}, true},
+              {"a corner on a corner", {{{4, 0, 0}, {5, 0, 1}, {5, 1, 1}}}, true},
+              {"sides that cross", {{{2, 0, 1}, {2, 0, -1}, {2, -1, 0}}}, true},
+              {"a side in common", {{{0, 0, 0}, {4, 0, 0}, {1, -1, 3}}}, true}};
+  for (const auto &row : rows) EXPECT_EQ(meet(kFlat, row.other), row.meets) << row.what;
 }
 TEST(triangles, one_digit_decides)
 {

@@ -79,15 +79,6 @@ Scene slid_on(const WallSpec &floor)
 // Sums of a few products of doubles of order one: some hundred roundings.
 constexpr Real kRounding = 1e-13;
 
-TEST_F(wall, pushes_a_sphere_by_its_overlap)
-{
-  Scene scene(floor.wall());
-  scene.add({0.3, 0.2, 0.49});
-  scene.set_up();
-  EXPECT_NEAR(scene.force[0].z, kN * 0.01, kN * kRounding);
-  EXPECT_EQ(scene.force[0].x, 0);
-}
-
 // In radii. A mesh that goes less sees the sphere in front of it; one that goes more may leave it behind.
 TEST_F(wall, stops_where_a_mesh_jumps_over_spheres)
 {
@@ -163,8 +154,7 @@ TEST_F(wall, has_the_same_bits_from_a_mesh_as_from_its_file)
   const WallSpec from_file = floor.wall("scale 0.7 rotate 1 2 3 11 move 0 0 0.1");
   WallSpec from_mesh = from_file;
   from_mesh.meshes[0].file.clear();
-  from_mesh.meshes[0].mesh =
-      std::make_shared<const WeldedMesh>(weld(read_mesh(floor.name).soup, -1));
+  from_mesh.meshes[0].mesh = welded(read_mesh(floor.name).soup);
   Vec3 force[2];
   std::uint64_t fingerprint[2];
   for (const bool by_mesh : {false, true}) {
@@ -177,12 +167,6 @@ TEST_F(wall, has_the_same_bits_from_a_mesh_as_from_its_file)
   EXPECT_GT(norm(force[0]), 0);
   EXPECT_EQ(force[0], force[1]);
   EXPECT_EQ(fingerprint[0], fingerprint[1]);
-}
-
-TEST_F(wall, keeps_the_spring_of_a_contact_that_slides)
-{
-  Scene scene = slid_on(floor.wall());    // held where it is: 10 steps of the same slip
-  EXPECT_NEAR(scene.force[0].x, -kT * 10 * 0.1 * kDt, kT * kRounding);
 }
 
 TEST_F(wall, has_no_grid_before_there_are_spheres)
@@ -263,6 +247,18 @@ TEST_F(wall, moves_its_mesh_by_words_given_later)
   EXPECT_NEAR(scene.force[0].z, kN * (0.01 + 10 * kDt), kN * 1e-13);
 }
 
+TEST_F(wall, takes_no_words_but_those_of_its_meshes)
+{
+  Scene scene(floor.wall());
+  const auto change = [&](const char *line) {
+    return change_wall(*scene.wall, words(line), {0, kDt});
+  };
+  EXPECT_EQ(change("energy yes"), 0);
+  EXPECT_EQ(
+      error_of([&] { change("mesh 2 motion none"); }),
+      "fix_modify mesh K motion|servo|body ...: K is the number of a mesh, from 1 to 1, not '2'");
+}
+
 // Inputs 0 and 1 are the height of the mesh and its speed; input 2 is of no mesh.
 TEST_F(wall, moves_its_mesh_by_the_inputs_of_a_step)
 {
@@ -275,33 +271,6 @@ TEST_F(wall, moves_its_mesh_by_the_inputs_of_a_step)
   scene.set_up();
   EXPECT_NEAR(scene.force[0].z, kN * 0.03, kN * kRounding);
   EXPECT_EQ(scene.wall->meshes()[0].pose().velocity.z, 0.5);
-}
-
-TEST_F(wall, takes_no_words_but_its_own)
-{
-  Scene scene(floor.wall());
-  EXPECT_EQ(change_wall(*scene.wall, words("energy yes"), {0, kDt}), 0);
-}
-
-TEST_F(wall, refuses_words_for_a_mesh_that_it_has_not)
-{
-  Scene scene(floor.wall());
-  EXPECT_EQ(
-      error_of([&] {
-        change_wall(*scene.wall, words("mesh 2 motion none"), {0, kDt});
-      }),
-      "fix_modify mesh K motion|servo|body ...: K is the number of a mesh, from 1 to 1, not '2'");
-}
-
-TEST_F(wall, goes_on_from_its_state_and_the_histories_of_its_spheres)
-{
-  Scene first = slid_on(floor.wall()), second(floor.wall());
-  second.restore_with_spheres(first);
-  second.set_up();
-  first.run(1);
-  second.run(1);
-  EXPECT_EQ(second.force[0], first.force[0]);
-  EXPECT_TRUE(second.host.warnings.empty());
 }
 
 TEST_F(wall, drops_histories_where_the_mesh_is_another)
@@ -486,29 +455,6 @@ TEST_F(wall, weights_a_mean_by_the_time_of_its_steps)
               -kN * kRadius * (overlap_in(1, 0) + 3 * overlap_in(2, 0)) / 4, 1e-11);
 }
 
-TEST_F(wall, goes_on_with_a_mean_from_a_saved_state)
-{
-  on_processes(2, [&](FakeHost &host) {
-    const auto begin = [&](Scene &scene, std::int64_t now) {
-      scene.add({2, 1, 0.4});
-      scene.now = now;
-    };
-    Scene first(host, floor.wall("average 4")), next(host, floor.wall("average 4"));
-    begin(first, 0);
-    first.set_up();
-    press(first, 6);
-    WallState state = first.wall->save();
-    const std::vector<Real> numbers = state.blocks().numbers();
-    begin(next, 6);
-    next.wall->restore(WallState::from(State(WallState::kKind, numbers.data(), numbers.size())),
-                       {6, kDt});
-    next.set_up();
-    EXPECT_NEAR(next.wall->means().mesh(0).force.z, mean_push(1, 4), 1e-11);
-    press(next, 2);
-    EXPECT_NEAR(next.wall->means().mesh(0).force.z, mean_push(5, 8), 1e-11);
-  });
-}
-
 TEST_F(wall, of_one_process_that_fails_names_its_sphere)
 {
   Scene scene(floor.wall());
@@ -599,8 +545,7 @@ WallSpec upright_in_two_dimensions(FakeHost &host)
   host.simulation.dimension = 2;
   WallSpec wall;
   wall.meshes.resize(1);
-  wall.meshes.front().mesh =
-      std::make_shared<WeldedMesh>(weld(box_mesh({-1, -1, -1}, {1, 1, 1}), -1));
+  wall.meshes.front().mesh = welded(box_mesh({-1, -1, -1}, {1, 1, 1}));
   return wall;
 }
 
@@ -642,16 +587,6 @@ TEST_F(wall, keeps_its_motion_where_another_one_leaves_the_plane)
   up.axis = {0, 0, 1};
   EXPECT_THROW(wall.set_servo(0, up), InputError);
   EXPECT_FALSE(wall.meshes().front().servo().present);
-}
-
-TEST_F(wall, has_a_mesh_from_the_first_process_on_all)
-{
-  on_processes(2, [&](FakeHost &host) {
-    Scene scene(host, floor.wall());
-    EXPECT_EQ(scene.wall->meshes().front().grid.report().facets, 2u);
-    ASSERT_NE(scene.wall->meshes().front().grid.mesh(), nullptr);
-    EXPECT_EQ(scene.wall->meshes().front().grid.mesh()->vertices.size(), 4u);
-  });
 }
 
 // Sums of servos, bodies and outputs, in that step and after it, are those of the others.

@@ -397,28 +397,6 @@ TEST(wall_list, a_sphere_that_cannot_touch_anything_by_its_own_radius_is_not_nea
   EXPECT_EQ(bed.engine->n_candidates(), 1);
 }
 
-TEST(wall_list, a_sphere_that_grows_after_the_choice_is_felt_and_then_an_error)
-{
-  const Wall wall(floor_mesh(10, 5, 3), 0.5);
-  Bed bed(wall, hooke(1e3));
-  bed.add({0.31, 0.17, 4}, 0.3);    // far
-  bed.add({0.31, 0.17, 0.4}, 0.3);
-  bed.choose(0.2);
-  bed.step();
-  EXPECT_EQ(bed.engine->results().totals().contacts, 0);
-  bed.engine->read_diagnostics();
-  bed.radius[1] = 0.5;
-  bed.step();
-  EXPECT_EQ(bed.engine->results().totals().contacts, 1);
-  try {
-    bed.engine->read_diagnostics();
-    ADD_FAILURE() << "nothing is said";
-  } catch (const InputError &e) {
-    EXPECT_EQ(e.sphere, 1);
-    EXPECT_NE(e.problem.find("has grown"), std::string::npos);
-  }
-}
-
 TEST(wall_list, a_sphere_that_shrinks_may_grow_to_what_it_was_at_the_choice)
 {
   const Wall wall(floor_mesh(10, 5, 3), 0.5);

@@ -28,11 +28,6 @@ constexpr int kKinds = 8;
 constexpr const char *kNames[kKinds] = {"rests", "moves",  "servo", "posed",
                                         "body",  "coated", "nodes", "wears"};
 
-std::shared_ptr<const WeldedMesh> welded(const TriangleSoup &soup)
-{
-  return std::make_shared<WeldedMesh>(weld(soup, -1));
-}
-
 MotionTerm some_term(Random &random)
 {
   MotionTerm term;

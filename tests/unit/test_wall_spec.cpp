@@ -39,19 +39,11 @@ void expect_error(const WallSpec &wall, const std::string &text)
   EXPECT_TRUE(has(error, text));
 }
 
-TEST(wall_spec, a_wall_of_two_meshes_is_taken)
-{
-  EXPECT_EQ(refusal_of(good()), "");
-}
-
-TEST(wall_spec, a_wall_without_a_mesh_is_refused)
+TEST(wall_spec, a_wall_has_as_many_meshes_as_it_can_have)
 {
   expect_error(WallSpec(), "in 'mesh', there are 0 meshes, and a wall has 1 to 32");
-}
-
-TEST(wall_spec, more_meshes_than_a_wall_can_have_are_refused)
-{
   WallSpec wall = good();
+  EXPECT_EQ(refusal_of(wall), "");
   const auto add = [&] { wall.meshes.emplace_back().file = std::to_string(wall.meshes.size()); };
   while (wall.meshes.size() < kMaxMeshes) add();
   EXPECT_EQ(refusal_of(wall), "");
@@ -70,33 +62,31 @@ TEST(wall_spec, a_wall_without_a_law_of_all_types_is_refused)
 
 TEST(wall_spec, an_input_that_is_not_there_is_refused)
 {
-  for (const int input : {1, -2}) {
-    const std::string text =
-        "there is no input " + std::to_string(input) + ", as the wall has 1, which count from 0";
-    WallSpec wall = good();
-    MotionTerm term;
-    term.input[5] = input;
-    wall.meshes[1].motion.add(term);
-    expect_error(wall, "in 'motion', of mesh 2 'blade': " + text);
-    wall = good();
-    wall.meshes[0].motion.servo().target_input = input;
-    expect_error(wall, "in 'servo', of mesh 1: " + text);
-    wall = good();
-    wall.meshes[0].surface_input[0] = input;
-    expect_error(wall, "in 'surface_vel', of mesh 1: " + text);
-    wall = good();
-    wall.meshes[0].temperature_input = input;
-    expect_error(wall, "in 'temperature', of mesh 1: " + text);
-    wall = good();
-    wall.meshes[0].body.motor_input = input;
-    expect_error(wall, "in 'body', of mesh 1: " + text);
-    wall = good();
-    wall.meshes[0].body.load_input[2] = input;
-    expect_error(wall, "in 'body', of mesh 1: " + text);
-    wall = good();
-    wall.meshes[0].body.moment_input[1] = input;
-    expect_error(wall, "in 'body', of mesh 1: " + text);
-  }
+  const struct {
+    const char *keyword;
+    void (*take)(MeshSpec &, int input);
+  } rows[] = {
+      {"motion",
+       [](MeshSpec &m, int input) {
+         MotionTerm term;
+         term.input[5] = input;
+         m.motion.add(term);
+       }},
+      {"servo", [](MeshSpec &m, int input) { m.motion.servo().target_input = input; }},
+      {"surface_vel", [](MeshSpec &m, int input) { m.surface_input[0] = input; }},
+      {"temperature", [](MeshSpec &m, int input) { m.temperature_input = input; }},
+      {"body", [](MeshSpec &m, int input) { m.body.motor_input = input; }},
+      {"body", [](MeshSpec &m, int input) { m.body.load_input[2] = input; }},
+      {"body", [](MeshSpec &m, int input) { m.body.moment_input[1] = input; }},
+  };
+  for (const auto &row : rows)
+    for (const int input : {1, -2}) {
+      WallSpec wall = good();
+      row.take(wall.meshes[1], input);
+      expect_error(wall, "in '" + std::string(row.keyword) +
+                             "', of mesh 2 'blade': there is no input " + std::to_string(input) +
+                             ", as the wall has 1, which count from 0");
+    }
   WallSpec wall = good();
   wall.meshes[0].surface_input[0] = 0;
   EXPECT_EQ(refusal_of(wall), "");

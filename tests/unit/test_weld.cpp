@@ -66,22 +66,6 @@ Triangles joined(Triangles a, const Triangles &b)
 const Triangles kCube = box({0, 0, 0}, {1, 1, 1});
 const Vec3 kA = {0, 0, 0}, kB = {1, 0, 0}, kC = {0, 1, 0}, kD = {0, 0, 1};
 
-TEST(weld, cube_has_8_vertices_18_edges_12_faces)
-{
-  const auto mesh = weld(kCube);
-  EXPECT_EQ(mesh.vertices.size(), 8u);
-  EXPECT_EQ(mesh.edges.size(), 18u);
-  EXPECT_EQ(mesh.faces.size(), 12u);
-}
-
-TEST(weld, cube_is_closed_and_oriented)
-{
-  const auto report = weld(kCube).report;
-  EXPECT_TRUE(report.closed);
-  EXPECT_TRUE(report.oriented);
-  EXPECT_EQ(report.open_edges + report.nonmanifold_edges + report.misoriented_edges, 0u);
-}
-
 TEST(weld, seam_of_a_rounding_error_is_closed_by_default)
 {
   Triangles cube = kCube;
@@ -113,50 +97,11 @@ TEST(weld, default_tolerance_is_a_millionth_of_the_diagonal)
   EXPECT_DOUBLE_EQ(weld(kCube).report.weld_tolerance, 1e-6 * std::sqrt(3.));
 }
 
-TEST(weld, a_vertex_keeps_the_coordinates_of_its_first_corner)
-{
-  const Vec3 first = {0.1, 0.2, 0.3}, second = {0.1 + 1e-9, 0.2, 0.3};
-  const auto mesh = weld({{first, kB, kC}, {second, kC, kD}}, 1e-6);
-  EXPECT_EQ(mesh.vertices.size(), 4u);
-  EXPECT_EQ(mesh.vertices[0], first);
-}
-
 TEST(weld, a_distance_equal_to_the_tolerance_is_welded)
 {
   const Triangles pair = {{kA, kB, kC}, {Vec3{0, 0, -0.25}, kC, kB}};
   EXPECT_EQ(weld(pair, 0.25).vertices.size(), 3u);
   EXPECT_EQ(weld(pair, 0.2499).vertices.size(), 4u);
-}
-
-TEST(weld, a_chain_of_close_corners_does_not_collapse)
-{
-  Triangles chain;
-  for (int i = 0; i < 100; ++i) chain.push_back({Vec3{0.01 * i, 0, 0}, {0, 9, 0}, {9, 9, 0}});
-  const auto mesh = weld(chain, 0.015);
-  EXPECT_EQ(mesh.vertices.size(), 52u);    // every second link, and the two others
-}
-
-TEST(weld, a_corner_goes_to_the_nearest_point)
-{
-  // The middle one comes before the right one, to which it is nearer.
-  const auto mesh =
-      weld({{kA, {0.8, 0, 0}, {5, 0, 5}}, {Vec3{1.5, 0, 0}, {5, 0, 5}, {5, 5, 5}}}, 1);
-  EXPECT_EQ(mesh.report.degenerate_facets, 0u);
-  EXPECT_EQ(mesh.faces[0][1], mesh.faces[1][0]);
-}
-
-TEST(weld, a_large_sheet_has_no_vertex_twice)
-{
-  Triangles sheet;
-  const int n = 100;
-  for (int i = 0; i < n; ++i)
-    for (int j = 0; j < n; ++j) {
-      const Real x = i, y = j;
-      sheet.push_back({Vec3{x, y, 0}, {x + 1, y, 0}, {x, y + 1, 0}});
-      sheet.push_back({Vec3{x + 1, y + 1, 1e-5}, {x, y + 1, 0}, {x + 1, y, 1e-5}});
-    }
-  EXPECT_EQ(weld(sheet).vertices.size(), 101u * 101u);
-  EXPECT_EQ(weld(sheet).report.open_edges, 4u * n);
 }
 
 // Clusters of corners at random places, against a search of all pairs.
@@ -187,27 +132,6 @@ TEST(weld, points_of_a_random_cloud_agree_with_a_search_of_all_pairs)
       for (int v = 0; v < static_cast<int>(points.size()); ++v)
         EXPECT_LE(distance(c, mesh.faces[f][k]), distance(c, v));
     }
-}
-
-TEST(weld, counts_do_not_depend_on_the_order_of_facets)
-{
-  std::mt19937 random(3);
-  std::uniform_real_distribution<Real> jitter(-1e-7, 1e-7);
-  Triangles cubes = kCube;
-  for (int i = 1; i < 20; ++i) {
-    const auto next = box({1. * i, 0, 0}, {i + 1., 1, 1});
-    cubes.insert(cubes.end(), next.begin(), next.end());
-  }
-  for (auto &t : cubes)
-    for (auto &c : t) c += Vec3{jitter(random), jitter(random), jitter(random)};
-  const auto sorted = weld(cubes).report;
-  std::shuffle(cubes.begin(), cubes.end(), random);
-  const auto shuffled = weld(cubes).report;
-  EXPECT_EQ(sorted.vertices, 84u);
-  EXPECT_EQ(shuffled.vertices, sorted.vertices);
-  EXPECT_EQ(shuffled.edges, sorted.edges);
-  EXPECT_EQ(shuffled.nonmanifold_edges, sorted.nonmanifold_edges);
-  EXPECT_EQ(shuffled.duplicate_facets, sorted.duplicate_facets);
 }
 
 TEST(weld, facet_with_two_equal_corners_leaves_its_edge)
@@ -458,13 +382,6 @@ TEST(weld, edges_of_a_vertex_are_those_that_end_there)
   }
 }
 
-TEST(weld, no_edge_is_listed_twice)
-{
-  auto edges = tangled_mesh().edges;
-  std::sort(edges.begin(), edges.end());
-  EXPECT_EQ(std::adjacent_find(edges.begin(), edges.end()), edges.end());
-}
-
 // The diagonals of a cube's sides, whichever way their facets are wound.
 TEST(weld, edges_that_look_flat_have_the_last_numbers)
 {
@@ -478,11 +395,13 @@ TEST(weld, edges_that_look_flat_have_the_last_numbers)
   }
 }
 
-TEST(weld, area_and_volume_of_a_box)
+TEST(weld, area_volume_and_bounds_of_a_box)
 {
   const auto report = weld(box({-1, 0, 2}, {1, 3, 6})).report;
   EXPECT_DOUBLE_EQ(report.area, 2 * (2 * 3 + 3 * 4 + 4 * 2));
   EXPECT_DOUBLE_EQ(report.volume, 24);
+  EXPECT_EQ(report.lo, (Vec3{-1, 0, 2}));
+  EXPECT_EQ(report.hi, (Vec3{1, 3, 6}));
 }
 
 TEST(weld, volume_is_negative_when_normals_point_in)
@@ -496,20 +415,6 @@ TEST(weld, volume_far_from_the_origin_keeps_its_digits)
 {
   const Real far = 1 << 30;    // corners are exact there
   EXPECT_DOUBLE_EQ(weld(box({far, far, far}, {far + 1, far + 1, far + 1}), 0).report.volume, 1);
-}
-
-TEST(weld, bounding_box_encloses_the_vertices)
-{
-  const auto report = weld(box({-1, 0, 2}, {1, 3, 6})).report;
-  EXPECT_EQ(report.lo, (Vec3{-1, 0, 2}));
-  EXPECT_EQ(report.hi, (Vec3{1, 3, 6}));
-}
-
-TEST(weld, cube_folds_at_twelve_edges)
-{
-  const auto report = weld(kCube).report;
-  EXPECT_EQ(report.feature_edges, 12u);
-  EXPECT_DOUBLE_EQ(report.largest_fold, 90);
 }
 
 TEST(weld, fold_is_the_angle_between_face_planes_whatever_the_winding)
@@ -590,11 +495,6 @@ Triangles cracked_plate()
         c[i] = side(random) ? x : std::nextafter(x, 200.f);
       }
   return cracked;
-}
-
-TEST(weld, cracks_as_wide_as_the_steps_of_floats_close)
-{
-  EXPECT_EQ(lsdcd::weld(floats(cracked_plate()), -1).vertices.size(), 9u);
 }
 
 // Placed corners are no floats.
@@ -714,12 +614,7 @@ TEST(weld, three_facets_at_an_edge_are_not_closed)
 
 std::string error_of(const Triangles &triangles, Real tolerance = -1)
 {
-  try {
-    weld(triangles, tolerance);
-  } catch (const InputError &error) {
-    return error.what();
-  }
-  return "accepted";
+  return lsdcd::error_of([&] { weld(triangles, tolerance); });
 }
 
 TEST(weld, a_mesh_without_facets_is_refused)
@@ -730,7 +625,7 @@ TEST(weld, a_mesh_without_facets_is_refused)
 TEST(weld, a_tolerance_that_swallows_the_mesh_is_refused)
 {
   EXPECT_TRUE(has(error_of(kCube, 2), "weld tolerance of 2"));
-  EXPECT_NE(error_of(kCube, NAN), "accepted");
+  EXPECT_NE(error_of(kCube, NAN), "");
 }
 
 TEST(weld, a_tolerance_that_takes_away_a_part_of_the_area_is_refused)
@@ -796,14 +691,10 @@ TEST(inspect, an_open_mesh_shows_no_volume)
   EXPECT_FALSE(has(block, "volume"));
 }
 
-TEST(fingerprint, is_the_same_for_the_same_triangles)
-{
-  EXPECT_EQ(fingerprint(weld(kCube)), fingerprint(weld(kCube)));
-}
-
 TEST(fingerprint, sees_the_last_bit_of_a_vertex)
 {
   const std::uint64_t whole = fingerprint(weld(kCube));
+  EXPECT_EQ(fingerprint(weld(kCube)), whole);
   WeldedMesh cube = weld(kCube);
   for (Vec3 &v : cube.vertices)
     for (int d = 0; d < 3; d++) {

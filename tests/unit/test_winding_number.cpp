@@ -42,25 +42,6 @@ long double by_solid_angles(const TriangleSoup &soup, const Vec3 &q)
   return sum / (2 * 3.14159265358979323846L);
 }
 
-TriangleSoup inverted(TriangleSoup soup)
-{
-  for (std::size_t t = 0; t < soup.corners.size(); t += 3)
-    std::swap(soup.corners[t], soup.corners[t + 1]);
-  return soup;
-}
-
-TriangleSoup joined(TriangleSoup a, const TriangleSoup &b)
-{
-  append(a, b);
-  return a;
-}
-
-TriangleSoup moved(TriangleSoup soup, const Vec3 &by)
-{
-  for (Vec3 &x : soup.corners) x += by;
-  return soup;
-}
-
 Vec3 random_point(std::mt19937_64 &dice, Real lo, Real hi)
 {
   std::uniform_real_distribution<Real> in(lo, hi);
@@ -221,26 +202,23 @@ void expect_boxes(const std::vector<BoxOf> &boxes, int lo, int hi)
   });
 }
 
-TEST(winding_number, counts_boxes_that_cut_each_other)
+TEST(winding_number, is_the_sum_of_those_of_boxes)
 {
-  expect_boxes({{{0, 0, 0}, {2, 2, 2}}, {{1, 1, 1}, {3, 3, 3}}}, -1, 4);
-}
-
-TEST(winding_number, counts_boxes_that_share_an_edge)
-{
-  expect_boxes({{{0, 0, 0}, {1, 1, 1}}, {{1, 1, 0}, {2, 2, 1}}}, -1, 3);
-}
-
-TEST(winding_number, counts_boxes_that_share_a_part_of_a_face)
-{
-  expect_boxes({{{0, 0, 0}, {1, 2, 2}}, {{1, 1, 1}, {2, 3, 3}}}, -1, 3);
-}
-
-TEST(winding_number, takes_the_box_in_a_box_for_a_cavity_where_it_is_wound_against_it)
-{
-  expect_boxes({{{0, 0, 0}, {3, 3, 3}}, {{1, 1, 1}, {2, 2, 2}, -1}}, -1, 4);
-  expect_boxes({{{0, 0, 0}, {3, 3, 3}}, {{1, 1, 1}, {2, 2, 2}}}, -1, 4);
-  expect_boxes({{{0, 0, 0}, {3, 3, 3}, -1}}, -1, 4);
+  const BoxOf small = {{1, 1, 1}, {2, 2, 2}}, cavity = {{1, 1, 1}, {2, 2, 2}, -1},
+              large = {{0, 0, 0}, {3, 3, 3}}, inwards = {{0, 0, 0}, {3, 3, 3}, -1};
+  const struct {
+    const char *what;
+    std::vector<BoxOf> boxes;
+  } rows[] = {{"cut each other", {{{0, 0, 0}, {2, 2, 2}}, {{1, 1, 1}, {3, 3, 3}}}},
+              {"share an edge", {{{0, 0, 0}, {1, 1, 1}}, {{1, 1, 0}, {2, 2, 1}}}},
+              {"share a part of a face", {{{0, 0, 0}, {1, 2, 2}}, {{1, 1, 1}, {2, 3, 3}}}},
+              {"one in another", {large, small}},
+              {"one wound against the other that it is in", {large, cavity}},
+              {"wound inside out", {inwards}}};
+  for (const auto &row : rows) {
+    SCOPED_TRACE(row.what);
+    expect_boxes(row.boxes, -1, 4);
+  }
 }
 
 // Welded they have one face in common, a sheet: both sides of it are inside, and it is surface.
@@ -356,28 +334,17 @@ TEST(winding_number, is_0_at_any_distance_outside_and_where_a_point_is_no_number
   }
 }
 
-TEST(winding_number, is_refused_with_the_open_edges)
+TEST(winding_number, is_refused_with_the_open_edges_or_those_of_facets_wound_against_others)
 {
   TriangleSoup soup = box_mesh({0, 0, 0}, {1, 1, 1});
   soup.corners.resize(soup.corners.size() - 3);
   const WeldedMesh mesh = weld(soup, 0);
   EXPECT_FALSE(has_inside(mesh));
-  try {
-    WindingNumber winding(mesh);
-    FAIL();
-  } catch (const InputError &e) {
-    const std::string text = e.what();
-    EXPECT_TRUE(has(text, "3 edges are open"));
-    EXPECT_TRUE(has(text, "the first goes from"));
-    EXPECT_TRUE(has(text, "lsdcd repair"));
-  }
-}
-
-TEST(winding_number, is_refused_where_facets_are_wound_against_each_other)
-{
-  TriangleSoup soup = box_mesh({0, 0, 0}, {1, 1, 1});
-  std::swap(soup.corners[0], soup.corners[1]);
-  EXPECT_TRUE(has(why_no_inside(weld(soup, 0)), "along 3 more facets"));
+  EXPECT_TRUE(says(error_of([&] { WindingNumber winding(mesh); }),
+                   {"3 edges are open", "the first goes from", "lsdcd repair"}));
+  TriangleSoup turned = box_mesh({0, 0, 0}, {1, 1, 1});
+  std::swap(turned.corners[0], turned.corners[1]);
+  EXPECT_TRUE(has(why_no_inside(weld(turned, 0)), "along 3 more facets"));
 }
 
 // All answers are the same, whichever winding comes first.

@@ -129,12 +129,6 @@ TriangleSoup real(const std::string &name)
   return soup;
 }
 
-TriangleSoup moved(TriangleSoup soup, const Vec3 &by)
-{
-  for (Vec3 &x : soup.corners) x += by;
-  return soup;
-}
-
 class RealMesh : public testing::TestWithParam<const char *> {};
 
 TEST_P(RealMesh, has_the_sides_of_CGAL)
