@@ -613,16 +613,6 @@ TEST_F(wall_spec, gives_each_contact_of_the_last_step)
   EXPECT_EQ(spheres[0], -7);    // too little room: nothing is written
 }
 
-// Of six spheres near it no GPU is quicker.
-TEST_F(wall_spec, chooses_where_it_computes)
-{
-  api::WallSpec spec = floor();
-  api::Wall on_cpu(spec);
-  spec.device = LSDCD_AUTO;
-  api::Wall chosen(spec);
-  EXPECT_EQ(Pile().go(chosen), Pile().go(on_cpu));
-}
-
 // ---- wear that moves the wall ----------------------------------------------------------------
 
 api::WallSpec receding(api::WallSpec spec)
@@ -693,26 +683,6 @@ TEST_F(wall_spec, the_worn_volume_is_between_the_old_vertices_and_the_new)
   }
 }
 
-TEST_F(wall_spec, a_saved_wall_has_the_shape_that_wear_gave_it)
-{
-  const api::WallSpec spec = receding(floor());
-  api::Wall wall(spec), again(spec);
-  Grains grains = slider();
-  grains.step(wall, 6);
-  EXPECT_NE(wall.nodes(0), again.nodes(0));
-  again.restore(wall.save());
-  EXPECT_EQ(again.nodes(0), wall.nodes(0));
-  for (int k = 7; k <= 12; k++) {
-    const std::vector<double> before = wall.nodes(0);
-    grains.step(wall);
-    EXPECT_EQ(wall.nodes(0) != before, k % 4 == 0) << k;
-    const std::vector<double> force = grains.force;
-    grains.step(again);
-    EXPECT_EQ(grains.force, force) << k;
-    EXPECT_EQ(again.nodes(0), wall.nodes(0)) << k;
-  }
-}
-
 // Saved after step 5, in which no file is due. The mesh rises, so that each file is another one.
 TEST_F(wall_spec, a_saved_wall_writes_the_files_that_are_due)
 {
@@ -747,157 +717,121 @@ TEST_F(wall_spec, a_saved_wall_writes_the_files_that_are_due)
     std::remove(name_of(run, "series.pvd").c_str());
 }
 
+// Rows of tables and numbers of servos count too, which no text of a motion has in full.
 TEST_F(wall_spec, takes_saved_data_of_a_wall_of_the_same_spec_alone)
 {
+  using Spec = api::WallSpec;
+  using Body = api::RigidBody;
   const api::Mesh other(std::vector<double>{-9, -9, 0, 9, -9, 0, 0, 9, 0}, {0, 1, 2});
-  api::WallSpec two = floor();
+  Spec two = floor(), slides = floor(), coated = floor();
   two.meshes.emplace_back(other, "ramp").placement.move(0, 0, 9);
   two.meshes[1].motions = {api::Motion::linear({0, 0, 1})};
-  lsdcd::Wall wall(two);
-  Grains grains = slider();
-  grains.step(wall, 3);
-  const std::vector<double> saved = wall.save();
-  using Spec = api::WallSpec;
+  const std::vector<double> far = {0, 0, 0, 0, 1, 0, 0, 0.5}, near = {0, 0, 0, 0, 1, 0, 0, 0.25};
+  const Spec by_table = floor_that_moves(api::Motion::table(far, 4)),
+             pushes = floor_that_pushes(2, 0.5);
+  slides.meshes[0].body = Body(2, {0, 0, 0}, {1, 1, 2, 0, 0, 0}).slider({0, 0, 1});
+  Body coat(2, {0, 0, 9}, {1, 1, 2, 0, 0, 0});
+  coat.coat = 1;
+  coat.coat_spacing = coat.coat_radius = 2;
+  coated.meshes.emplace_back(other, "lid").placement.move(0, 0, 9);
+  coated.meshes[1].body = coat;
+  const auto body = [](const std::function<void(Body &)> &change) {
+    return [change](Spec &s) { change(*s.meshes.back().body); };
+  };
   const struct {
+    const Spec &was;
     std::function<void(Spec &)> change;
     const char *text;    // empty: it may differ
   } rows[] = {
-      {[](Spec &) {}, ""},
-      {[](Spec &s) { s.meshes[0].name = "lid"; }, ""},
-      {[](Spec &s) { s.rmax = 1; }, ""},
-      {[](Spec &s) { s.law.style.numbers[0] *= 1 + 1e-15; }, "the law is hooke/history with "},
-      {[](Spec &s) { s.law.style.name = "hertz/history"; }, "the law is hertz/history with "},
-      {[](Spec &s) { s.law.style.name = "hooke"; }, "the law is hooke with "},
-      {[](Spec &s) {
+      {two, [](Spec &) {}, ""},
+      {two, [](Spec &s) { s.meshes[0].name = "lid"; }, ""},
+      {two, [](Spec &s) { s.rmax = 1; }, ""},
+      {two, [](Spec &s) { s.law.style.numbers[0] *= 1 + 1e-15; }, "the law is hooke/history with "},
+      {two, [](Spec &s) { s.law.style.name = "hertz/history"; }, "the law is hertz/history with "},
+      {two, [](Spec &s) { s.law.style.name = "hooke"; }, "the law is hooke with "},
+      {two,
+       [](Spec &s) {
          s.law.rolling = {"cdt", {0.1}};
        },
        ", rolling cdt with "},
-      {[](Spec &s) {
+      {two,
+       [](Spec &s) {
          s.law = api::Law::granular({"hertz", {1, 0}}, {"mindlin", {1, 1, 0.5}});
        },
        "the law is "},
-      {[](Spec &s) { s.meshes[0].law = hooke_history(1); }, "the law of meshes[0] is "},
-      {[](Spec &s) { s.corner = LSDCD_SUM; }, "the corner is sum and was blend"},
-      {[](Spec &s) {
+      {two, [](Spec &s) { s.meshes[0].law = hooke_history(1); }, "the law of meshes[0] is "},
+      {two, [](Spec &s) { s.corner = LSDCD_SUM; }, "the corner is sum and was blend"},
+      {two,
+       [](Spec &s) {
          s.wear = LSDCD_FINNIE;
          s.wear_coefficient = 1;
        },
        "the wear is finnie 1 and was none 0"},
-      {[](Spec &s) { s.meshes.pop_back(); }, "the number of meshes is 1 and was 2"},
-      {[](Spec &s) { std::swap(s.meshes[0], s.meshes[1]); },
+      {two, [](Spec &s) { s.meshes.pop_back(); }, "the number of meshes is 1 and was 2"},
+      {two, [](Spec &s) { std::swap(s.meshes[0], s.meshes[1]); },
        "the motion of meshes[0] is linear 0 0 1 and was rest"},
-      {[&](Spec &s) { s.meshes[0].mesh = other.get(); },
+      {two, [&](Spec &s) { s.meshes[0].mesh = other.get(); },
        "the mesh of meshes[0] is 1 triangle with 3 vertices"},
-      {[](Spec &s) { s.meshes[0].placement.move(0, 0, 0.1); },
+      {two, [](Spec &s) { s.meshes[0].placement.move(0, 0, 0.1); },
        "the placement of meshes[0] is 1 0 0 0, 0 1 0 0, 0 0 1 0.1 and was"},
-      {[](Spec &s) { s.meshes[1].motions = {}; },
+      {two, [](Spec &s) { s.meshes[1].motions = {}; },
        "the motion of meshes[1] is rest and was linear 0 0 1"},
-      {[](Spec &s) {
+      {two,
+       [](Spec &s) {
          s.meshes[1].motions = {api::Motion::linear({0, 0, 1 + 1e-15})};
        },
        "the exact motion 'linear 0 0 1' of meshes[1] is 0 0 1.00"},
-      {[](Spec &s) { s.meshes[0].posed_by_caller = true; },
+      {two, [](Spec &s) { s.meshes[0].posed_by_caller = true; },
        "the motion of meshes[0] is poses of the program and was rest"},
-      {[](Spec &s) { s.meshes[0].nodes_by_caller = true; }, "is nodes of the program and was rest"},
-      {[](Spec &s) {
-         s.meshes[0].body = api::RigidBody(2, {0, 0, 0}, {1, 1, 2, 0, 0, 0});
+      {two, [](Spec &s) { s.meshes[0].nodes_by_caller = true; },
+       "is nodes of the program and was rest"},
+      {two,
+       [](Spec &s) {
+         s.meshes[0].body = Body(2, {0, 0, 0}, {1, 1, 2, 0, 0, 0});
        },
        "the body of meshes[0] is free "},
-      {[](Spec &s) {
-         s.meshes[0].surface_velocity = {1e-9, 0, 0};
-       },
-       "the surface velocity of meshes[0] is 1e-09 0 0, turning 0 0 0 about 0 0 "
-       "0"},
-      {[](Spec &s) {
-         s.meshes[1].surface_angular_velocity = {0, 0, 3};
-       },
-       "the surface velocity of meshes[1] is 0 0 0, turning 0 0 3 about 0 0 0 and was"}};
+      {two, [](Spec &s) { s.meshes[0].surface_velocity[0] = 1e-9; },
+       "the surface velocity of meshes[0] is 1e-09 0 0, turning 0 0 0 about 0 0 0"},
+      {two, [](Spec &s) { s.meshes[1].surface_angular_velocity[2] = 3; },
+       "the surface velocity of meshes[1] is 0 0 0, turning 0 0 3 about 0 0 0 and was"},
+      {by_table, [](Spec &) {}, ""},
+      {by_table, [&](Spec &s) { s.meshes[0].motions = {api::Motion::table(near, 4)}; },
+       "the exact motion 'table of rows' of meshes[0] is "},
+      {pushes, [](Spec &s) { s.meshes[0].servo->target += 1e-9; },
+       "the exact servo 'force z 2 vmax 0.5' of meshes[0] is "},
+      {coated, [](Spec &) {}, ""},
+      {coated, body([](Body &b) { b.coat_spacing = 1; }),
+       "a coat of the spacing 1 and radius 2 and was free "},
+      {slides, body([](Body &b) { b.velocity[2] = 1; }), ""},
+      {slides, body([](Body &b) { b.stiffness = 30; }), ", spring 30 0, load "},
+      {slides, body([](Body &b) { b.damping = 2; }), ", damping 2, load "},
+      {slides, body([](Body &b) { b.hi = 1; }), ", limits 0 1, load "},
+      {slides, body([](Body &b) { b.motor = 4; }), ", motor 4, load "},
+      {slides, body([](Body &b) { b.load[0] = 5; }), ", load 5 0 0, moment "},
+      {slides, body([](Body &b) { b.moment[1] = 6; }), ", moment 0 6 0, gravity "},
+      {slides, body([](Body &b) { b.gravity[2] = -9.81; }), ", gravity 0 0 -9.81"},
+      {slides, body([](Body &b) {
+         b.slider({1, 0, 0});
+       }),
+       "slider 0 0 0 1 0 0"}};
   for (const auto &row : rows) {
-    Spec spec = two;
-    row.change(spec);
-    lsdcd::Wall here(spec);
-    const std::string text = text_of([&] { here.restore(saved); });
-    if (!*row.text) {
-      EXPECT_EQ(text, "");
-      continue;
-    }
+    Spec changed = row.was;
+    row.change(changed);
+    lsdcd::Wall was(row.was), is(changed);
+    const std::vector<double> saved = was.save();
+    const std::string text = text_of([&] { is.restore(saved); });
+    EXPECT_EQ(text.empty(), !*row.text) << text << row.text;
+    if (!*row.text) continue;
     EXPECT_TRUE(begins(text, "these are numbers of a different wall: the ")) << row.text;
     EXPECT_TRUE(has(text, row.text));
-    EXPECT_EQ(code_of([&] { here.restore(saved); }), LSDCD_ERROR_ARGUMENT);
+    EXPECT_EQ(code_of([&] { is.restore(saved); }), LSDCD_ERROR_ARGUMENT);
   }
-  two.law.style.numbers[0] *= 2;
-  lsdcd::Wall stiffer(two);
-  stiffer.restore(saved, true);
+  Spec stiff = two;
+  stiff.law.style.numbers[0] *= 2;
+  lsdcd::Wall wall(two), stiffer(stiff);
+  slider().step(wall, 3);
+  stiffer.restore(wall.save(), true);
   EXPECT_EQ(stiffer.pose(1), wall.pose(1));
-}
-
-// Rows of tables and numbers of servos, which no text of a motion has in full, and coats.
-TEST_F(wall_spec, takes_no_saved_data_of_a_wall_with_another_table_servo_or_coat)
-{
-  const auto by_table = [&](const std::vector<double> &up) {
-    return floor_that_moves(api::Motion::table(up, 4));
-  };
-  const api::Mesh lid(std::vector<double>{-9, -9, 9, 9, -9, 9, 0, 9, 9}, {0, 1, 2});
-  const auto coated = [&](double spacing) {
-    api::WallSpec spec = floor();
-    api::RigidBody body(2, {0, 0, 9}, {1, 1, 2, 0, 0, 0});
-    body.coat = 1;
-    body.coat_spacing = spacing;
-    body.coat_radius = 2;
-    spec.meshes.emplace_back(lid, "lid").body = body;
-    return spec;
-  };
-  const std::vector<double> far = {0, 0, 0, 0, 1, 0, 0, 0.5}, near = {0, 0, 0, 0, 1, 0, 0, 0.25};
-  const struct {
-    api::WallSpec was, is;
-    const char *text;
-  } rows[] = {
-      {by_table(far), by_table(far), ""},
-      {by_table(far), by_table(near), "the exact motion 'table of rows' of meshes[0] is "},
-      {floor_that_pushes(2, 0.5), floor_that_pushes(2 + 1e-9, 0.5),
-       "the exact servo 'force z 2 vmax 0.5' of meshes[0] is "},
-      {coated(2), coated(2), ""},
-      {coated(2), coated(1), "a coat of the spacing 1 and radius 2 and was free "},
-  };
-  for (const auto &row : rows) {
-    lsdcd::Wall was(row.was), is(row.is);
-    const std::string text = text_of([&] { is.restore(was.save()); });
-    EXPECT_TRUE(has(text, row.text));
-    EXPECT_EQ(text.empty(), !*row.text) << text;
-  }
-}
-
-TEST_F(wall_spec, takes_no_saved_data_of_a_body_with_another_drive)
-{
-  api::WallSpec spec = floor();
-  api::RigidBody slider(2, {0, 0, 0}, {1, 1, 2, 0, 0, 0});
-  spec.meshes[0].body = slider.slider({0, 0, 1});
-  const std::vector<double> saved = lsdcd::Wall(spec).save();
-  using Body = api::RigidBody;
-  const struct {
-    std::function<void(Body &)> change;
-    const char *text;    // empty: it may differ
-  } rows[] = {{[](Body &) {}, ""},
-              {[](Body &b) { b.velocity[2] = 1; }, ""},
-              {[](Body &b) { b.stiffness = 30; }, ", spring 30 0, load "},
-              {[](Body &b) { b.damping = 2; }, ", damping 2, load "},
-              {[](Body &b) { b.hi = 1; }, ", limits 0 1, load "},
-              {[](Body &b) { b.motor = 4; }, ", motor 4, load "},
-              {[](Body &b) { b.load[0] = 5; }, ", load 5 0 0, moment "},
-              {[](Body &b) { b.moment[1] = 6; }, ", moment 0 6 0, gravity "},
-              {[](Body &b) { b.gravity[2] = -9.81; }, ", gravity 0 0 -9.81"},
-              {[](Body &b) {
-                 b.slider({1, 0, 0});
-               },
-               "slider 0 0 0 1 0 0"}};
-  for (const auto &row : rows) {
-    row.change(*spec.meshes[0].body);
-    lsdcd::Wall here(spec);
-    const std::string text = text_of([&] { here.restore(saved); });
-    EXPECT_TRUE(has(text, row.text));
-    EXPECT_EQ(text.empty(), !*row.text) << text;
-    spec.meshes[0].body = slider;
-  }
 }
 
 // The data do not have them, unlike motions: without a word the old ones would push.
@@ -1038,29 +972,6 @@ TEST_F(wall_spec, set_pose_turns_a_mesh_as_a_rotation_does)
     EXPECT_NEAR(found[i], wanted[i], 20 * 4 * 1e-15 * kN) << i;
 }
 
-// hooke: kn overlap, and 20 times the mass times how fast they come together; half of it against a sliding plate.
-TEST_F(wall_spec, set_pose_lifts_a_plate_with_the_force_of_its_overlap_and_velocity)
-{
-  api::WallSpec spec = floor(api::Law::classic({"hooke", {kN, 0, 20, 10, 100, 1}}));
-  spec.meshes[0].posed_by_caller = true;
-  lsdcd::Wall wall(spec);
-  Grains grains(0.3, 0.2, 0.5);
-  grains.v[2] = -0.25;
-  api::Pose pose;
-  pose.position = {0, 0, 0.01};
-  pose.velocity = {0.125, 0, 0.5};
-  wall.set_pose(0, pose);
-  grains.step(wall);
-  EXPECT_NEAR(grains.force[2], kN * 0.01 + 20 * (0.5 + 0.25), kN * kRounding);
-  EXPECT_NEAR(grains.force[0], 10 * 0.125, kN * kRounding);
-  EXPECT_NEAR(wall.totals(0).power, 0.5 * (kN * 0.01 + 20 * 0.75) + 0.125 * 10 * 0.125,
-              kN * kRounding);
-  // It stays where it was posed, with its velocities.
-  const double force = grains.force[2];
-  grains.step(wall);
-  EXPECT_EQ(grains.force[2], force);
-}
-
 // A sphere whose velocity is that of the plate below it, at the same time, feels no friction; half a step before, the plate below was
 // turned by angle = omega dt / 2, and its velocity differs by omega x angle to first order: 10 times that, to a relative angle.
 TEST_F(wall_spec, takes_velocities_of_the_time_of_places_in_synchronous_steps)
@@ -1107,23 +1018,6 @@ TEST_F(wall_spec, rests_where_it_was_placed_until_it_is_posed)
   const auto nothing = [](int) { return std::nullopt; };
   EXPECT_EQ(go_posed(posed, 5, nothing), go_posed(still, 5, nothing));
   EXPECT_EQ(posed.pose(0), still.pose(0));
-}
-
-TEST_F(wall_spec, goes_on_from_where_it_was_posed)
-{
-  api::WallSpec spec = floor();
-  spec.meshes[0].posed_by_caller = true;
-  lsdcd::Wall first(spec), second(spec);
-  api::Pose pose;
-  pose.position = {0.01, 0, 0.02};
-  pose.quaternion = {std::cos(0.01), std::sin(0.01), 0, 0};
-  Pile pile;
-  first.set_pose(0, pose);
-  pile.go(first, 5);
-  Pile same = pile;
-  second.restore(first.save());
-  EXPECT_EQ(same.go(second, 5), pile.go(first, 5));
-  EXPECT_EQ(second.pose(0), first.pose(0));
 }
 
 // ---- nodes -----------------------------------------------------------------------------------
@@ -1279,48 +1173,6 @@ TEST_F(wall_spec, finds_all_contacts_where_a_pose_jumps)
     }
     EXPECT_GT(contacts, 60 * 20);
   }
-}
-
-// Action = reaction. A contact's force acts on a sphere at its point, so that the sphere's torque about any point is
-// that about its centre and the one of the force there.
-TEST_F(wall_spec, totals_about_any_point_are_those_of_the_spheres_reversed)
-{
-  api::WallSpec spec = floor(with_damping());
-  spec.meshes.emplace_back(*mesh_, "slope");
-  spec.meshes[1].placement.rotate({0, 1, 0}, 80);
-  spec.meshes[1].posed_by_caller = true;
-  lsdcd::Wall wall(spec);
-  Pile pile;
-  api::Pose pose;
-  pose.position = {0.05, 0, 0};
-  pose.velocity = {0.1, 0, 0};
-  wall.set_pose(1, pose);
-  pile.go(wall, 5);
-  for (std::size_t i = 0; i < pile.x.size(); i++)
-    pile.x[i] -= kStep * pile.v[i];    // as the wall saw them
-  const Vector about = {3, -2, 7};
-  Vector force = {0, 0, 0}, torque = {0, 0, 0};
-  double size = 0;
-  for (std::size_t i = 0; i < pile.radius.size(); i++) {
-    const double *x = &pile.x[3 * i], *f = &pile.force[3 * i], *t = &pile.torque[3 * i];
-    for (int k = 0; k < 3; k++) {
-      const int a = (k + 1) % 3, b = (k + 2) % 3;
-      force[k] += f[k];
-      torque[k] += t[k] + (x[a] - about[a]) * f[b] - (x[b] - about[b]) * f[a];
-      size += std::fabs(f[k]);
-    }
-  }
-  ASSERT_GT(size, 10);
-  const lsdcd_wall_totals all = wall.totals(-1, about), one = wall.totals(0, about),
-                          other = wall.totals(1, about);
-  for (int k = 0; k < 3; k++) {
-    // Sums of some 20 numbers, whose arms are up to 10.
-    EXPECT_NEAR(all.force[k], -force[k], size * kRounding);
-    EXPECT_NEAR(all.torque[k], -torque[k], 10 * size * kRounding);
-    EXPECT_NEAR(one.force[k] + other.force[k], all.force[k], size * kRounding);
-    EXPECT_NEAR(one.torque[k] + other.torque[k], all.torque[k], 10 * size * kRounding);
-  }
-  EXPECT_NE(other.force[0], 0);
 }
 
 // ---- several processes -----------------------------------------------------------------------
@@ -1544,12 +1396,6 @@ TEST_F(wall_spec, names_the_field_its_value_and_the_remedy)
        "`meshes[0].motions[0].rows` is null: give an array of 3"},
       {[&](Wrong &w) { with_table(w).columns = 9; },
        "`meshes[0].motions[0].columns` is 9: it is 2, 4, 5, 7 or 8"},
-      {[&](Wrong &w) { with_table(w).columns = 3; },
-       "`meshes[0].motions[0].rows`, row 0: there are 3 numbers in a row"},
-      {[&](Wrong &w) { with_table(w).columns = 2; },
-       "`meshes[0].motions[0].axis` is 0 0 0: give a direction"},
-      {[&](Wrong &w) { with_table(w).axis[0] = 1; },
-       "`meshes[0].motions[0].axis[0]` is 1: a table without angles"},
       {[&](Wrong &w) { with_table(w).period = 1; },
        "`meshes[0].motions[0].period` is 1: LSDCD_TABLE does not use it"},
       {[&](Wrong &w) { with_motion(w).period = 1; },
@@ -1558,13 +1404,6 @@ TEST_F(wall_spec, names_the_field_its_value_and_the_remedy)
        "`meshes[0].fields_every` is 0: it is a number of steps, 1 or more"},
       {[&](Wrong &w) { w.meshes[1].stl_every = 3; },
        "`meshes[1].stl_every` is 3: `meshes[1].stl` has no file"},
-      {[&](Wrong &w) {
-         for (lsdcd_wall_mesh &m : w.meshes) {
-           m.stl = "same.stl";
-           m.stl_every = 1;
-         }
-       },
-       "`meshes[1].stl`: meshes[0] has the same file 'same.stl'"},
       {[&](Wrong &w) { w.spec.corner = 2; }, "`corner` is 2: it is LSDCD_BLEND or LSDCD_SUM"},
       {[&](Wrong &w) { w.spec.side = -1; }, "`side` is -1: it is LSDCD_BOTH_SIDES"},
       {[&](Wrong &w) { w.spec.device = 3; },
@@ -1582,14 +1421,6 @@ TEST_F(wall_spec, names_the_field_its_value_and_the_remedy)
          w.spec.wear_deform_factor = -2;
        },
        "`wear_deform_factor` is -2: it is above 0"},
-      {[&](Wrong &w) {
-         w.spec.wear = LSDCD_FINNIE;
-         w.spec.wear_deform_every = 10;
-         w.meshes[1].nodes_by_caller = 1;
-       },
-       "`meshes[1].nodes_by_caller`: wear moves this mesh"},
-      {[&](Wrong &w) { w.meshes[0].nodes_by_caller = w.meshes[0].posed_by_caller = 1; },
-       "`meshes[0].nodes_by_caller`: its nodes alone"},
       {[&](Wrong &w) { w.meshes[0].pressure = 2; }, "`meshes[0].pressure`: it acts on nodes"},
   };
   EXPECT_EQ(Wrong(*mesh_).text(), "");
@@ -1643,31 +1474,7 @@ TEST_F(wall_spec, a_body_has_the_bits_of_its_words)
               1e-12);
 }
 
-TEST_F(wall_spec, a_body_takes_another_joint_and_load_from_where_it_is)
-{
-  api::WallSpec spec = floor();
-  api::RigidBody body(2, {0, 0, 0}, {1, 1, 2, 0, 0, 0});
-  body.velocity[0] = 3;
-  body.velocity[2] = 1;
-  spec.meshes[0].body = body;
-  api::Wall wall(spec);
-  Grains grains(0.3, 0.2, 5);
-  for (int k = 0; k < 10; k++) grains.step(wall);
-  const api::BodyState was = wall.body(0);
-  api::RigidBody held(1);
-  held.slider({0, 0, 1});
-  held.load[2] = 4;
-  wall.set_body(0, held);
-  const api::BodyState is = wall.body(0);
-  EXPECT_EQ(is.centre[0], was.centre[0]);
-  EXPECT_EQ(is.velocity[0], 0);
-  EXPECT_EQ(is.velocity[2], 1);
-  EXPECT_EQ(is.coordinate, 0);
-  grains.step(wall);
-  EXPECT_GT(wall.body(0).velocity[2], 1);
-}
-
-TEST_F(wall_spec, a_body_tells_the_force_of_its_stop)
+TEST_F(wall_spec, a_body_tells_the_forces_of_its_stop_and_joint)
 {
   api::WallSpec spec = floor();
   api::RigidBody body(2, {0, 0, 0}, {1, 1, 2, 0, 0, 0});
@@ -1675,22 +1482,18 @@ TEST_F(wall_spec, a_body_tells_the_force_of_its_stop)
   body.lo = 0;
   body.hi = 1;
   body.load[2] = -4;
+  body.load[0] = 3;
+  body.moment[1] = -2;
   spec.meshes[0].body = body;
   api::Wall wall(spec);
   Grains grains(0.3, 0.2, 5);
   for (int k = 0; k < 10; k++) grains.step(wall);
-  EXPECT_EQ(wall.body(0).stop_force, 4);
-  EXPECT_EQ(wall.body(0).energy, 0);
-}
-
-TEST_F(wall_spec, takes_no_pose_for_a_body)
-{
-  api::WallSpec spec = floor();
-  spec.meshes[0].body = api::RigidBody(1, {0, 0, 0}, {1, 1, 1, 0, 0, 0});
-  lsdcd::Wall wall(spec);
-  EXPECT_TRUE(is_refused(
-      "': a body moves by what acts on it, so it cannot have a motion, a servo or a pose",
-      [&] { wall.set_pose(0, api::Pose()); }));
+  const api::BodyState state = wall.body(0);
+  EXPECT_EQ(state.stop_force, 4);
+  EXPECT_EQ(state.energy, 0);
+  // The joint bears what the body may not follow.
+  EXPECT_EQ(state.reaction_force[0], -3);
+  EXPECT_EQ(state.reaction_torque[1], 2);
 }
 
 TEST_F(wall_spec, refuses_poses_that_are_none)

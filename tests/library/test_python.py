@@ -534,9 +534,10 @@ def test_wall_specs():
     fact("a plate that is posed has the force in closed form", np.allclose(force[:2, 2], wanted, rtol=0, atol=1e-10), force)
     fact("and the pose", posed.pose(0)[2, 3] == 0.01, posed.pose(0))
     about = np.array([3, -2, 1])
-    total, torque = posed.totals(0, about=about), (np.cross(x - about, force[:2]) + force[2:]).sum(axis=0)
+    total, torque = posed.totals(about=about), (np.cross(x - about, force[:2]) + force[2:]).sum(axis=0)
     fact("force and torque are those of the spheres reversed", np.allclose(total.force, -force[:2].sum(axis=0), rtol=0, atol=1e-10) and
          np.allclose(total.torque, -torque, rtol=0, atol=1e-9), (total, torque))
+    fact("it stays there, with its velocities", np.allclose(forces(posed, 1)[:2, 2], wanted, rtol=0, atol=1e-10))
 
     lifted = lsdcd.Wall(lsdcd.WallSpec(hooke, [lsdcd.WallMesh(mesh, "sheet", nodes_by_caller=True)]))
     nodes = lifted.nodes(0)
