@@ -78,21 +78,6 @@ TEST(library_bodies, a_cube_that_stands_on_the_floor_touches_it)
     EXPECT_EQ(std::isnan(found.segments[6 * i]), found.body[i] / 2 == 4) << i;    // one plane
 }
 
-// Corners are 0.5 and 0.25 from 1: nothing is rounded but the cut of the diagonals.
-TEST(library_bodies, segments_go_round_the_cube_in_the_floor)
-{
-  lsdcd::Body body = cube_on_floor();
-  const lsdcd::BodyPairs found = body.collide(kThrough, nullptr, true);
-  double length = 0;
-  for (std::size_t i = 0; i < found.wall.size(); i++) {
-    const double *s = &found.segments[6 * i];
-    EXPECT_EQ(s[2], 0);
-    EXPECT_EQ(s[5], 0);
-    length += std::hypot(s[3] - s[0], s[4] - s[1]);
-  }
-  EXPECT_NEAR(length, 4, 64 * std::numeric_limits<double>::epsilon());
-}
-
 // A turn by 90 degrees about x takes y to z: the sides in z and x are upright then.
 TEST(library_bodies, a_quaternion_and_a_matrix_turn_the_body_alike)
 {
@@ -112,16 +97,6 @@ TEST(library_bodies, a_quaternion_and_a_matrix_turn_the_body_alike)
   ASSERT_EQ(lsdcd_collide(body.get(), &c), LSDCD_OK) << lsdcd_last_error();
   EXPECT_EQ(c.collides, 1);
   EXPECT_EQ(std::vector<std::uint32_t>(triangles, triangles + 8), upright);
-}
-
-// Rounded to float each of its numbers is off by up to 2^-25, 3e-8, so products of rows by up to
-// 2 sqrt(3) times that, 1e-7.
-TEST(library_bodies, a_rotation_of_floats_is_taken)
-{
-  const float c = std::cos(0.7f), s = std::sin(0.7f);
-  const double matrix[12] = {c, -s, 0, 1, s, c, 0, -1, 0, 0, 1, 0.25};
-  EXPECT_NE(c * double(c) + s * double(s), 1);
-  expect_upright_sides(cube_on_floor().collide(lsdcd::Matrix{matrix}));
 }
 
 // The bottom of the cube, at half of what a row stretches, is 1.5e-7 above the floor once it is not stretched

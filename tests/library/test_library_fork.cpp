@@ -3,13 +3,12 @@
 
 // Calls with threads in a child of fork(), whose parent has used threads before: the answers are the parent's.
 #include "floor_and_grains.h"
-#include "support/meshes.h"
+#include "points_and_meshes.h"
 
 #include <dirent.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <random>
 #include <thread>
 
 namespace test_library_fork {
@@ -17,26 +16,10 @@ namespace {
 
 constexpr int kThreads = 3;
 
-std::vector<double> numbers(const lsdcd::TriangleSoup &soup)
-{
-  std::vector<double> out;
-  for (const lsdcd::Vec3 &p : soup.corners) out.insert(out.end(), {p.x, p.y, p.z});
-  return out;
-}
-
 const lsdcd::Mesh &cylinder()
 {
   static const lsdcd::Mesh mesh(numbers(lsdcd::cylinder_mesh(40, 20, 1, 2)));
   return mesh;
-}
-
-std::vector<double> points(std::size_t n)
-{
-  std::mt19937 r(1);
-  std::uniform_real_distribution<double> at(-1.5, 2.5);
-  std::vector<double> out(3 * n);
-  for (double &x : out) x = at(r);
-  return out;
 }
 
 // Is answer() in a child equal to that of this process? A child that hangs is killed after 20 s.
@@ -56,7 +39,7 @@ bool is_the_same_in_a_child(const Answer &answer)
 
 std::vector<double> distances_and_sides(const lsdcd::Grid &grid)
 {
-  const std::vector<double> at = points(20000);
+  const std::vector<double> at = random_points<double>(20000, 2.5);
   std::vector<double> answers(at.size() / 3);
   std::vector<std::int8_t> sides(answers.size());
   lsdcd::Query<double> q(at.data(), answers.size());
@@ -118,7 +101,7 @@ TEST(fork, leaves_a_child_grids_and_contacts)
     options.cell = 0.05;
     options.threads = kThreads;
     const lsdcd::Grid grid(cylinder(), options);
-    const std::vector<double> at = points(5000);
+    const std::vector<double> at = random_points<double>(5000, 2.5);
     std::vector<std::size_t> first(at.size() / 3 + 1);
     lsdcd_contacts c = {};
     c.size = sizeof c;

@@ -84,20 +84,30 @@ TEST_F(processes, give_a_sphere_that_changes_process_the_trajectory_of_one_proce
   });
 }
 
+// Of two grains on the floor, one over each triangle.
+Grains grain_of(int process)
+{
+  const double at = process == 0 ? 3 : -3;
+  return {at, -at, process == 0 ? 0.49 : 0.495};
+}
+Grains both_grains()
+{
+  Grains all = grain_of(0);
+  all.add(-3, 3, 0.495);
+  return all;
+}
+
 TEST_F(processes, feed_a_servo_with_the_forces_of_all)
 {
   const api::WallSpec servo = floor_that_pushes(25, 0.5);
   lsdcd::Wall alone(servo);
-  Grains all;
-  all.add(3, -3, 0.49);
-  all.add(-3, 3, 0.495);
+  Grains all = both_grains();
   all.step(alone, 50);
   const lsdcd_wall_totals one = alone.totals(0);    // here, as a wall serves one thread at a time
   lsdcd::on_processes(2, [&](lsdcd::FakeHost &host) {
     const Process process(host);
     lsdcd::Wall wall(servo, &process.options);
-    Grains mine(host.rank() == 0 ? 3 : -3, host.rank() == 0 ? -3 : 3,
-                host.rank() == 0 ? 0.49 : 0.495);
+    Grains mine = grain_of(host.rank());
     mine.step(wall, 50);
     // A sum of two numbers, in either order: the same bits.
     const lsdcd_wall_totals both = wall.totals(0);
@@ -146,15 +156,12 @@ TEST_F(processes, write_the_files_of_one_process)
     return spec;
   };
   lsdcd::Wall alone(with_fields(0));
-  Grains all;
-  all.add(3, -3, 0.49);
-  all.add(-3, 3, 0.495);
+  Grains all = both_grains();
   all.step(alone, 10);
   lsdcd::on_processes(2, [&](lsdcd::FakeHost &host) {
     const Process process(host);
     lsdcd::Wall wall(with_fields(1), &process.options);
-    Grains mine(host.rank() == 0 ? 3 : -3, host.rank() == 0 ? -3 : 3,
-                host.rank() == 0 ? 0.49 : 0.495);
+    Grains mine = grain_of(host.rank());
     mine.step(wall, 10);
   });
   EXPECT_FALSE(bytes_of(name[0]).empty());

@@ -2,8 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // Ellipsoids and superellipsoids through the library: beside its spheres, and what is refused.
-#include "lsdcd_behind_core.h"
-#include "support/meshes.h"
+#include "points_and_meshes.h"
 
 #include <gtest/gtest.h>
 
@@ -19,20 +18,9 @@ namespace {
 
 constexpr double kCutoff = 0.4;
 
-// A cylinder in a box, as corners.
-std::vector<double> corners()
-{
-  std::vector<double> out;
-  for (const lsdcd::TriangleSoup &soup :
-       {lsdcd::box_mesh({-1, -1, -1}, {1, 1, 1}), lsdcd::cylinder_mesh(12, 3, 0.5, 0.7)})
-    for (const lsdcd::Vec3 &x : soup.corners) out.insert(out.end(), {x.x, x.y, x.z});
-  return out;
-}
-
-}    // namespace
-
-struct Shape : ::testing::Test {
-  const lsdcd::Mesh mesh{corners()};
+class Shape : public ::testing::Test {
+ protected:
+  const lsdcd::Mesh mesh{::numbers(box_and_cylinder())};
   const lsdcd::Grid grid{mesh, kCutoff};
   std::mt19937 random{3};
 
@@ -172,4 +160,5 @@ TEST_F(Shape, is_infinitely_far_where_its_centre_is_no_number)
   EXPECT_EQ(grid.shape_contacts(g).overlap.size(), 0u);
 }
 
+}    // namespace
 }    // namespace test_library_shapes

@@ -823,28 +823,6 @@ def test_errors():
     fact("the handler is the old one", signal.getsignal(signal.SIGINT) is before)
 
 
-def test_fork():
-    """multiprocessing forks by default: its processes ask with threads, as this one has before. 0.3 s."""
-    grid = lsdcd.Mesh(np.eye(3), [[0, 1, 2]]).grid()
-    points = np.random.default_rng(1).uniform(-1, 2, (20000, 3))
-
-    def ask(queue=None):
-        answer = grid.query(points, threads=2).distance
-        return queue.put(answer) if queue else answer
-
-    wanted = ask()
-    context = multiprocessing.get_context("fork")
-    queue = context.Queue()
-    child = context.Process(target=ask, args=(queue,))
-    child.start()
-    try:
-        fact("a forked process gets the answers of its parent", np.array_equal(queue.get(timeout=30), wanted))
-    except Exception as error:    # queue.Empty: it hangs
-        fact("a forked process gets the answers of its parent", False, repr(error))
-    child.kill()
-    child.join()
-
-
 # Of all types, and values beyond their ranges.
 NONSENSE = (None, "x", b"x", -1, 1.5, float("nan"), float("inf"), 2**40, -2**70, 10**400, [], [[1, 2], [3]], {}, {1}, object(), True, 1j,
             "\0", np.array([1, 2]), np.datetime64("2020-01-01"), np.ma.array([1.0, 2, 3], mask=[0, 1, 0]), np.array("a"), [None] * 3,
