@@ -6,40 +6,17 @@
 Each table has one script and a row per case: its name, the words that replace {} in the script, and the
 parts that the message must have.
 """
+import lmp
 
-WALL = """\
-units           lj
-atom_style      sphere
-boundary        f f f
-newton          off
-comm_modify     vel yes
-region          box block -3 3 -3 3 -1 5
-create_box      1 box
-create_atoms    1 single 0.3 0.2 1.5 units box
-set             atom 1 diameter 1.0 density 2.0
+ONE_ATOM = "create_atoms    1 single 0.3 0.2 1.5 units box\n"
+ONE_SPHERE = lmp.head("-3 3 -3 3 -1 5", modify="") + ONE_ATOM + "set             atom 1 diameter 1.0 density 2.0\n"
+WALL = ONE_SPHERE + """\
 pair_style      gran/hooke 1000 NULL 50 NULL 0.5 0
 pair_coeff      * *
 fix             move all nve/sphere
 """
-FLOW = """\
-units           lj
-atom_style      sphere
-boundary        f f f
-region          box block -3 3 -3 3 -1 5
-create_box      1 box
-create_atoms    1 single 0.3 0.2 1.5 units box
-set             atom 1 diameter 1.0 density 2.0
-pair_style      zero 1.0
-pair_coeff      * *
-"""
-NO_RADIUS = """\
-units           lj
-atom_style      atomic
-boundary        f f f
-newton          off
-region          box block -3 3 -3 3 -1 5
-create_box      1 box
-create_atoms    1 single 0.3 0.2 1.5 units box
+FLOW = ONE_SPHERE + "pair_style      zero 1.0\npair_coeff      * *\n"
+NO_RADIUS = lmp.head("-3 3 -3 3 -1 5", style="atomic", modify="") + ONE_ATOM + """\
 pair_style      lj/cut 1.0
 pair_coeff      * * 1 1
 mass            1 1.0
@@ -62,12 +39,7 @@ def atoms(*places):
 
 def body(made):
     """The script of a wall and a rigid body, whose atoms are made by the lines `made`."""
-    return f"""\
-units           lj
-atom_style      sphere
-boundary        f f f
-region          box block -3 3 -3 3 -1 5
-create_box      1 box
+    return lmp.head("-3 3 -3 3 -1 5", modify="") + f"""\
 {made}set             type 1 diameter 0.2 density 2.0
 pair_style      zero 1.0
 pair_coeff      * *

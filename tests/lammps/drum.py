@@ -9,6 +9,8 @@ import random
 
 import numpy
 
+import lmp
+
 RADIUS, LENGTH, SIDES, LIFTERS, LIFT = 4.0, 6.0, 16, 4, 0.8
 PERIOD, DT = 8.0, 5e-4
 STIFFNESS = 2e4
@@ -54,18 +56,7 @@ def write_data(path, spacing=0.72):
     return len(rows)
 
 
-BEGIN = f"""\
-units           lj
-atom_style      sphere
-boundary        f f f
-newton          off
-comm_modify     vel yes
-comm_style      brick
-read_data       drum.data
-pair_style      gran/hooke/history {STIFFNESS} NULL 60 NULL 0.5 1
-pair_coeff      * *
-neighbor        0.1 bin
-neigh_modify    delay 0 every 1 check yes
+BEGIN = lmp.head(more="comm_style brick\nread_data drum.data\n") + lmp.pairs(f"gran/hooke/history {STIFFNESS} NULL 60 NULL 0.5 1", 0.1) + f"""\
 timestep        {DT}
 fix             move all nve/sphere
 fix             pull all gravity 9.81 vector 0 0 -1

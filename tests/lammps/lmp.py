@@ -38,16 +38,26 @@ of_host = pytest.mark.skipif(not ON_HOST, reason="no other LAMMPS (tests/lammps/
 needs_host = pytest.mark.skipif(not HOST, reason="no other LAMMPS (tests/lammps/hosts/build_host.sh)")
 of_kokkos = pytest.mark.skipif(not ON_KOKKOS, reason="no LAMMPS with Kokkos (tests/lammps/hosts/build_host.sh)")
 
+
+def lines(**commands):
+    """Lines of a script, each a command and its words; a command without words is left out."""
+    return "".join(f"{name:15} {words}\n" for name, words in commands.items() if words)
+
+
+def head(box="", boundary="f f f", style="sphere", modify="map array", newton="off", comm="vel yes", types=1, more=""):
+    """The first lines of a script, to where a box is made, if one is given: a block, or by nine numbers a prism. `more`: before that."""
+    shape = "prism" if len(box.split()) == 9 else "block"
+    return lines(units="lj", atom_style=style, atom_modify=modify, boundary=boundary, newton=newton, comm_modify=comm) + more + \
+        lines(region=box and f"box {shape} {box}", create_box=box and f"{types} box")
+
+
+def pairs(style="zero 1.2", skin=0.3, neigh="delay 0 every 1 check yes"):
+    """Pairs of spheres, which feel nothing of each other if no other style is given, and the neighbour lists."""
+    return lines(pair_style=style, pair_coeff="* *", neighbor=f"{skin} bin", neigh_modify=neigh)
+
+
 # Spheres of diameter 1 in a box of side 6: with nothing that moves them, and with it.
-SMALL_BOX_AT_REST = """\
-units           lj
-atom_style      sphere
-atom_modify     map array
-boundary        f f f
-newton          off
-comm_modify     vel yes
-region          box block -3 3 -3 3 -1 5
-create_box      1 box
+SMALL_BOX_AT_REST = head("-3 3 -3 3 -1 5") + """\
 {atoms}
 set             group all diameter 1.0 density 2.0
 pair_style      zero 1.2
@@ -68,6 +78,8 @@ def environment():
     env.update(OMPI_MCA_ess_singleton_isolated="1")
     # All processes are on one machine: looking for networks takes 0.2 s of each start.
     env.update(OMPI_MCA_pml="ob1")
+    # No test asks for the machine's cards and displays, whose search takes a quarter of each start.
+    env.update(HWLOC_COMPONENTS="-pci,-linuxio", HWLOC_PLUGINS_PATH="/")
     # After an error it gives the others a second or two to end by themselves.
     env.update(OMPI_MCA_odls_base_sigkill_timeout="0")
     # All such processes give their folder the same name and remove it when they end. Each gets a

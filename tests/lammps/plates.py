@@ -14,26 +14,12 @@ SMOOTH = "hooke 1e4 NULL 0 0 0 0"
 FACES = {f"{'xyz'[d]}{side}": (d, (-1 if side == "lo" else 1) * SIDE)
          for d in range(3) for side in ("lo", "hi")}
 
-SETTINGS = """\
-units           lj
-atom_style      sphere
-atom_modify     map array
-boundary        {boundary}
-newton          off
-comm_modify     vel yes
-"""
-CREATE = SETTINGS + """\
-region          box block {box}
-create_box      {types} box
+CREATE = lmp.head("{box}", boundary="{boundary}", types="{types}") + """\
 {atoms}
 set             group all diameter 1.0 density 2.0
 {kick}
 """
-FORCES = """\
-pair_style      zero 1.2
-pair_coeff      * *
-neighbor        0.3 bin
-neigh_modify    delay 0 every 1 check yes
+FORCES = lmp.pairs() + """\
 fix             move all nve/sphere
 {walls}
 timestep        {dt}

@@ -32,14 +32,7 @@ def write_floor(path, side=6.5, cells=26):
 GRANULAR = ("granular jkr 1e5 700 0.3 0.3 tangential mindlin_rescale/force NULL 0.6 0.4 "
             "rolling sds 2e3 5 0.1 twisting marshall")
 
-SETTINGS = """\
-units           lj
-atom_style      sphere
-atom_modify     map array sort 40 1.5
-boundary        f f f
-newton          off
-comm_modify     vel yes
-"""
+SETTINGS = lmp.head(modify="map array sort 40 1.5")
 
 # Sizes differ, so that exchange sees springs of some and none of others.
 CREATE = SETTINGS + f"""\
@@ -65,11 +58,7 @@ def forces(law, mesh="mesh floor.stl", pair=False, more="", sides="hooke 1e4 NUL
     box = "".join(f"fix {name} all wall/gran {sides} {plane} {lo} {hi}\n" for name, plane, lo, hi in SIDES)
     if lmp.DEVICE_MOVES:
         box = "".join(f"fix {name} all wall/reflect {plane[0]}lo {lo} {plane[0]}hi {hi} units box\n" for name, plane, lo, hi in SIDES)
-    return f"""\
-pair_style      {pair_style}
-pair_coeff      * *
-neighbor        0.3 bin
-neigh_modify    delay 0 every 1 check yes
+    return lmp.pairs(pair_style) + f"""\
 fix             move all nve/sphere
 fix             pull all gravity 8.0 vector 0.5 0.2 -1.0
 fix             wall all wall/lsdcd {law} {mesh} contacts

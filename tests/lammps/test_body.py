@@ -10,20 +10,9 @@ import stl
 import vtp
 from facts import at_most, fact
 
-BEGIN = """\
-units           lj
-atom_style      sphere
-atom_modify     map array sort 0 0
-boundary        f f f
-newton          off
-comm_modify     vel yes
-region          box block {box}
-create_box      1 box
+BEGIN = lmp.head("{box}", modify="map array sort 0 0") + """\
 {create}
-pair_style      {pair}
-pair_coeff      * *
-neighbor        {skin} bin
-neigh_modify    delay 0 every 1 check yes
+""" + lmp.pairs("{pair}", "{skin}") + """\
 timestep        {dt}
 {move}
 """

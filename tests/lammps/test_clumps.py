@@ -27,20 +27,9 @@ CLUMPS = {"pair": [(0.35, 0, 0), (-0.35, 0, 0)],
           "three": [(0.4 * math.cos(a), 0.4 * math.sin(a), 0) for a in (0, 2 * math.pi / 3, 4 * math.pi / 3)],
           "four": [(0.2 * x, 0.2 * y, 0.2 * z) for x, y, z in ((1, 1, 1), (1, -1, -1), (-1, 1, -1), (-1, -1, 1))]}
 
-SETTINGS = """\
-units           lj
-atom_style      sphere
-atom_modify     map array sort 40 1.5
-boundary        f f f
-newton          off
-comm_modify     vel yes cutoff 3.0
-"""
+SETTINGS = lmp.head(modify="map array sort 40 1.5", comm="vel yes cutoff 3.0")
 # Bodies come after the forces on their spheres: else the first half step of a run lacks these.
-FORCES = """\
-pair_style      zero 1.2
-pair_coeff      * *
-neighbor        0.3 bin
-neigh_modify    delay 0 every 1 check yes exclude molecule/intra all
+FORCES = lmp.pairs(neigh="delay 0 every 1 check yes exclude molecule/intra all") + """\
 fix             pull all gravity {gravity}
 fix             wall all {wall}
 fix             bodies all rigid/small molecule

@@ -18,13 +18,7 @@ HALF = 0.5    # of a cube
 CORNERS = 0.3 * np.array([[1, 1, 1], [1, -1, -1], [-1, 1, -1], [-1, -1, 1]])    # its atoms
 FLOOR = [[(-40, -40, 0), (40, -40, 0), (0, 60, 0)]]
 
-SETTINGS = """\
-units           lj
-atom_style      sphere
-atom_modify     map array
-newton          off
-comm_modify     vel yes cutoff 2.5
-"""
+SETTINGS = lmp.head(comm="vel yes cutoff 2.5")
 FORCES = """\
 pair_style      zero 0.5
 pair_coeff      * *
@@ -117,7 +111,7 @@ WALL = "fix wall dust wall/lsdcd hooke 1e4 NULL 20 0 0 0 mesh floor.stl"
 
 
 def begin(boundary="f f f"):
-    return SETTINGS + f"boundary {boundary}\nfix mol all property/atom mol ghost yes\nread_data cubes.data fix mol NULL Molecules\n" + FORCES
+    return SETTINGS.replace("f f f", boundary) + f"fix mol all property/atom mol ghost yes\nread_data cubes.data fix mol NULL Molecules\n" + FORCES
 
 
 @pytest.fixture(scope="module")

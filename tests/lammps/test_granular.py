@@ -98,16 +98,7 @@ def laws():
     return every
 
 
-SETTINGS = """\
-units           lj
-atom_style      sphere
-atom_modify     map array
-boundary        f f f
-newton          off
-comm_modify     vel yes
-region          box block -20 20 -20 20 -2 12
-create_box      1 box
-"""
+SETTINGS = lmp.head("-20 20 -20 20 -2 12")
 
 ONE = SETTINGS + """\
 create_atoms    1 single 0.3 0.2 0.52 units box

@@ -20,14 +20,7 @@ from facts import at_most, fact
 
 RATE, DENSITY, SPEED = 0.05, 2.0, 1.0
 SIZES = {0.1: 0.5, 0.16: 0.3, 0.2: 0.2}    # shares of mass
-START = "units lj\natom_style sphere\natom_modify map array\nnewton off\ncomm_modify vel yes\n"
-END = """\
-pair_style      zero 0.1
-pair_coeff      * *
-neighbor        0.05 bin
-neigh_modify    every 1 delay 0 check yes
-fix             move all nve/sphere
-"""
+END = lmp.pairs("zero 0.1", 0.05) + "fix             move all nve/sphere\n"
 DUMP = "dump d all custom {} grains id radius mass x y z vx vy vz\ndump_modify d sort id format float %.17g\n"
 
 
@@ -59,11 +52,7 @@ def overlaps(grains, edges=None):
 
 
 SIZE_WORDS = f"diam mass {len(SIZES)} " + " ".join(f"{d} {share}" for d, share in SIZES.items()) + f" dens {DENSITY}"
-FACE = START + """\
-boundary        f f f
-region          box block -1 1 -1 1 -9 3 units box
-create_box      2 box
-""" + END + "timestep 0.008\n"
+FACE = lmp.head("-1 1 -1 1 -9 3", types=2) + END + "timestep 0.008\n"
 INLET = f"fix in all insert/lsdcd mesh inlet.stl move 0.1 -0.1 0 massrate {RATE} {SIZE_WORDS} type 2 vel normal {SPEED} seed 11\n"
 
 
@@ -99,7 +88,7 @@ def test_face(folder):
         lmp.run_well(text, folder, ranks)
         fact(f"the same grains, with the same IDs, on {ranks} ranks", lmp.read_dump(folder / "grains") == there)
     lmp.run_well(FACE + INLET + "run 586\nwrite_restart half.restart\n", folder)
-    lmp.run_well(START + "read_restart half.restart\n" + END + "timestep 0.008\n" + INLET + DUMP.format(1250) + "run 664\n",
+    lmp.run_well(lmp.head() + "read_restart half.restart\n" + END + "timestep 0.008\n" + INLET + DUMP.format(1250) + "run 664\n",
                  folder, 2)
     fact("after a restart in the middle the same grains, to the last bit",
          last(lmp.read_dump(folder / "grains")) == grains)
@@ -120,11 +109,7 @@ def test_radii(folder):
          "ghost atom cutoff = 0.25" in out)
 
 
-TILTED = START + """\
-boundary        p p p
-region          box prism 0 2 0 1.5 0 1.2 0.7 0.3 -0.4 units box
-create_box      1 box
-""" + END + "timestep 0.001\n"
+TILTED = lmp.head("0 2 0 1.5 0 1.2 0.7 0.3 -0.4", "p p p") + END + "timestep 0.001\n"
 EDGES = ((2, 0, 0), (0.7, 1.5, 0), (0.3, -0.4, 1.2))
 
 
@@ -145,11 +130,7 @@ def test_periodic(folder):
     fact("and the same on 4 ranks", lmp.read_dump(folder / "grains") == there)
 
 
-VESSEL = START + """\
-boundary        f f f
-region          box block -2 2 -2 2 -2 2 units box
-create_box      1 box
-""" + END + "timestep 0.01\nregion fill block -1.2 1.2 -1.2 1.2 -1.2 1.2 units box\n"
+VESSEL = lmp.head("-2 2 -2 2 -2 2") + END + "timestep 0.01\nregion fill block -1.2 1.2 -1.2 1.2 -1.2 1.2 units box\n"
 WALL = "hooke/history 100 NULL 1 NULL 0.5 1 "
 FILL = "fix in all insert/lsdcd region fill numberrate 1000 diam range 0.1 0.2 dens 1 number 300 "
 
@@ -304,7 +285,7 @@ def test_debt(folder):
     lmp.run_well(text + fill.format("attempts 3") + DUMP.format(100) + "run 100\n", folder)
     whole = last(lmp.read_dump(folder / "grains"))
     lmp.run_well(text + fill.format("attempts 3") + "run 33\nwrite_restart owed.restart\n", folder)
-    lmp.run_well(START + "read_restart owed.restart\n" + END + VESSEL.split(END)[1] + fill.format("attempts 3") +
+    lmp.run_well(lmp.head() + "read_restart owed.restart\n" + END + VESSEL.split(END)[1] + fill.format("attempts 3") +
                  DUMP.format(100) + "run 67\n", folder, 2)
     fact("a restart with owed grains gives the same", last(lmp.read_dump(folder / "grains")) == whole and
          len(whole) < 40, str(len(whole)))
@@ -338,7 +319,7 @@ def test_other_plan(folder):
                 ("no total", f"{grains} numberrate 20", "", 60),
                 ("no total, from step 0", f"{grains} numberrate 20", "reset_timestep 0", 60),
                 ("no total, from step 10000", f"{grains} numberrate 20", "reset_timestep 10000", 60)))):
-        text += "clear\n" + START + begin + STREAM.format(words) + "run 200\nwrite_restart other.restart\n"
+        text += "clear\n" + lmp.head() + begin + STREAM.format(words) + "run 200\nwrite_restart other.restart\n"
         for other, new_words, before, count in cases:
             text += f"clear\nread_restart other.restart\n{before}\n{STREAM.format(new_words)}run 100\n" + \
                 'print "row $(f_in[1]) $(f_in[3])"\n'
@@ -358,7 +339,7 @@ def test_recovers(folder):
     stl.write(folder / "unit.stl", stl.quad((0, 0, 0), (0, 1, 0), (1, 1, 0), (1, 0, 0)))
     spots = "".join(f"create_atoms 1 single {x} {y} 0 units box\n" for x in (0.2, 0.5, 0.8) for y in (0.2, 0.5, 0.8)) + \
         "set group all diameter 0.29 density 2\nvelocity all set 0 0 -5\n"
-    text = START + "boundary f f f\nregion box block -1 2 -1 2 -60 2 units box\ncreate_box 1 box\n" + spots + \
+    text = lmp.head("-1 2 -1 2 -60 2") + spots + \
         END + "timestep 0.01\n" + \
         "fix in all insert/lsdcd mesh unit.stl numberrate {} diam one 0.2 dens 2 vel normal 5\nthermo 10\n" + \
         "thermo_style custom step f_in[1] f_in[3]\nthermo_modify norm no\n"
@@ -386,8 +367,7 @@ def test_recovers(folder):
 
 def test_huge(folder):
     """1e9 grains are due at once, of which some 2000 have room, in 1.5 GB of addresses."""
-    text = START + "boundary f f f\nregion box block -3 3 -3 3 -20 3 units box\ncreate_box 1 box\n" + \
-        STREAM.format("number 1000000000 diam one 0.2") + 'run 3\nprint "row $(f_in[1]+f_in[3]) $(f_in[1])"\n'
+    text = lmp.head("-3 3 -3 3 -20 3") + STREAM.format("number 1000000000 diam one 0.2") + 'run 3\nprint "row $(f_in[1]+f_in[3]) $(f_in[1])"\n'
     before = resource.getrlimit(resource.RLIMIT_AS)
     resource.setrlimit(resource.RLIMIT_AS, (1536000000, before[1]))
     out = lmp.run(text, folder).stdout

@@ -142,14 +142,7 @@ def test_as_the_plain_fix(folder):
 
 
 # A sphere of mass 1 falls on a plane at z = 0, in a box that reaches to 8 from 0. It was put 1e-4 above it.
-ONE_SPHERE = """\
-units           lj
-atom_style      sphere
-boundary        f f f
-newton          off
-comm_modify     vel yes
-region          box block -3 3 -3 3 -1 8
-create_box      1 box
+ONE_SPHERE = lmp.head("-3 3 -3 3 -1 8") + """\
 create_atoms    1 single 0.3 0.2 0.5001 units box
 set             atom 1 diameter 1.0 density 1.9098593171027443
 velocity        all set 0 0 -{speed}

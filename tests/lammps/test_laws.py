@@ -172,10 +172,7 @@ def test_restart(folder):
 newton          off
 comm_modify     vel yes
 read_restart    half
-pair_style      zero 1.2
-pair_coeff      * *
-neighbor        0.3 bin
-neigh_modify    delay 0 every 1 check yes
+""" + lmp.pairs() + f"""\
 fix             move all nve/sphere
 {walls}
 timestep        1e-4

@@ -18,23 +18,7 @@ import scene
 import stl
 from facts import at_most, fact
 
-HEAD = """\
-units           lj
-atom_style      sphere {vary}
-atom_modify     map array sort 0 0
-boundary        f f f
-newton          off
-comm_modify     vel yes
-processors      * 1 1
-region          box block -4 4 -4 4 -1 5
-create_box      2 box
-"""
-FORCES = """\
-pair_style      zero 1.2
-pair_coeff      * *
-neighbor        0.3 bin
-neigh_modify    delay 0 every 1 check yes
-"""
+FORCES = lmp.pairs()
 HOOKE = "hooke 1e4 NULL 20 NULL 0.1 1"
 HISTORY = "hooke/history 1e4 NULL 20 NULL 0.4 1"
 BUMPS = "mesh bumps.stl"
@@ -45,7 +29,7 @@ ROWS = f"write_dump all custom {{}} id {COLUMNS} modify format float %.17g sort 
 
 
 def head(vary=""):
-    return HEAD.format(vary=vary)
+    return lmp.head("-4 4 -4 4 -1 5", style=f"sphere {vary}", modify="map array sort 0 0", types=2, more="processors * 1 1\n")
 
 
 def rows_of(folder, name):

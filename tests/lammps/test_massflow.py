@@ -40,26 +40,16 @@ def write_data(path, some, box=3):
             data.write(f"{number} {kind} 0 {MASS[kind]} {x} {y} {z}\n")
 
 
-SETTINGS = """\
-units           lj
-atom_style      sphere
-atom_modify     map array sort 20 1.5
-newton          off
-comm_modify     vel yes
-"""
+SETTINGS = lmp.head(modify="map array sort 20 1.5")
 
 
 def begin(boundary="f f f", velocity="0 0 -1"):
-    return SETTINGS + f"boundary {boundary}\nread_data spheres.data\nvelocity all set {velocity}\n"
+    return SETTINGS.replace("f f f", boundary) + f"read_data spheres.data\nvelocity all set {velocity}\n"
 
 
 def forces(words="", neigh="delay 0 every 1 check yes"):
     """The plate turned over, so that down is forward."""
-    return f"""\
-pair_style      zero 0.5
-pair_coeff      * *
-neighbor        0.3 bin
-neigh_modify    {neigh}
+    return lmp.pairs("zero 0.5", neigh=neigh) + f"""\
 comm_modify     cutoff 1.0
 fix             move all nve
 timestep        {1 / STEPS_PER_LENGTH}
@@ -218,17 +208,13 @@ def test_delete(folder):
          f"{rows[38]} {rows[68]}")
 
 
-GRAIN_SETTINGS = SETTINGS + """\
-boundary        f f f
-region          box block -3 3 -3 3 -2 4
-create_box      2 box
-"""
+GRAINS = SETTINGS + "region box block -3 3 -3 3 -2 4\ncreate_box 2 box\n"
 
 
 def test_springs(folder):
     """Grains that slide on a floor go on as if nothing was deleted around them."""
     def text(words):
-        return GRAIN_SETTINGS + f"""\
+        return GRAINS + f"""\
 lattice         sc 1.0
 region          low block -2.5 2.5 -2.5 2.5 -1.6 -1.5 units box
 region          high block -2.5 2.5 -2.5 2.5 0.5 2.5 units box
@@ -240,10 +226,7 @@ group           low type 1
 group           high type 2
 velocity        low set 0.3 0.2 0
 velocity        high set 0 0 -4
-pair_style      zero 1.0
-pair_coeff      * *
-neighbor        0.3 bin
-neigh_modify    delay 0 every 1 check yes
+""" + lmp.pairs("zero 1.0") + f"""\
 fix             move all nve/sphere
 fix             pull low gravity 1.0 vector 0 0 -1
 fix             floor low wall/lsdcd hooke/history 1e3 NULL 5 NULL 0.5 1 mesh plate.stl scale 1.5 1.5 1 move 0 0 -2
@@ -271,7 +254,7 @@ run             600
 
 def test_bounce(folder):
     """A sphere that bounces below the plate, counted from its heights in every step."""
-    text = GRAIN_SETTINGS + """\
+    text = GRAINS + """\
 create_atoms    1 single 0.1 0.2 1.0 units box
 set             group all diameter 1.0 density 1.0
 pair_style      zero 1.0
@@ -299,11 +282,7 @@ run             4000
 
 def test_deposit(folder):
     """Spheres come in above and are deleted below: none is lost, none is counted twice."""
-    text = GRAIN_SETTINGS + """\
-pair_style      zero 1.0
-pair_coeff      * *
-neighbor        0.3 bin
-neigh_modify    delay 0 every 1 check yes
+    text = GRAINS + lmp.pairs("zero 1.0") + """\
 region          slot block -1.5 1.5 -1.5 1.5 2 3 units box
 fix             move all nve/sphere
 fix             in all deposit 100 1 10 4711 region slot near 0.1 vz -4 -2

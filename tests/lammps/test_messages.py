@@ -12,23 +12,13 @@ import lmp
 import stl
 from facts import at_most, fact
 
-BOX = """\
-units           lj
-atom_style      sphere
-boundary        f f f
-newton          off
-comm_modify     vel yes
-region          box block -3 3 -3 3 -1 5
-create_box      1 box
+BOX = lmp.head("-3 3 -3 3 -1 5") + """\
 create_atoms    1 single 2 2 4 units box
 create_atoms    1 single 0.3 0.2 0.48 units box
 group           spare id 1
 delete_atoms    group spare compress no
 set             group all diameter 1.0 density 2.0
-pair_style      zero 1.2
-pair_coeff      * *
-neighbor        0.3 bin
-neigh_modify    delay 0 every 1 check yes
+""" + lmp.pairs() + """\
 fix             move all nve/sphere
 timestep        0.001
 """

@@ -128,20 +128,10 @@ def test_variables(folder, flat_floor):
     at_most("shear by a variable", lmp.largest_difference(plain, lmp.read_dump(folder / "v")), 0)
 
 
-RESTING = """\
-units           lj
-atom_style      sphere
-boundary        f f f
-newton          off
-comm_modify     vel yes
-region          box block -3 3 -3 3 -1 9
-create_box      1 box
+RESTING = lmp.head("-3 3 -3 3 -1 9") + """\
 create_atoms    1 single 0.3 0.2 2.0 units box
 set             group all diameter 1.0 density 2.0
-pair_style      zero 1.2
-pair_coeff      * *
-neighbor        {skin} bin
-neigh_modify    {neigh}
+""" + lmp.pairs(skin="{skin}", neigh="{neigh}") + """\
 fix             move all nve/sphere
 fix             wall all wall/lsdcd {law} mesh floor.stl motion linear 0 0 {v}
 timestep        0.0001
@@ -354,22 +344,12 @@ def test_stopped(folder, hilly_floor):
     at_most("motion may be given later, and springs stay", lmp.largest_difference(*dumps), 1e-12)
 
 
-DRUM = """\
-units           lj
-atom_style      sphere
-boundary        f f {bc}
-newton          off
-comm_modify     vel yes
-region          box block -3 3 -3 3 {lo} {hi}
-create_box      1 box
+DRUM = lmp.head("-3 3 -3 3 {lo} {hi}", boundary="f f {bc}") + """\
 create_atoms    1 single 0.7 -1.3 0.2 units box
 create_atoms    1 single -0.5 -1.2 3.8 units box
 set             group all diameter 1.0 density 2.0
 velocity        all set 0 0 0.5
-pair_style      zero 1.2
-pair_coeff      * *
-neighbor        0.3 bin
-neigh_modify    delay 0 every 1 check yes
+""" + lmp.pairs() + """\
 fix             move all nve/sphere
 fix             wall all wall/lsdcd {law} mesh {mesh} {motion}
 fix             pull all gravity 8.0 vector 0 -1 0

@@ -31,22 +31,12 @@ LAWS = {"hooke": "hooke 1e4 NULL 5 NULL 0.5 1",
         "granular": "granular hooke 1e4 5 tangential linear_nohistory 0.5 0.5 damping mass_velocity",
         "granular, history":
             "granular hooke 1e4 5 tangential linear_history 2857 0.5 0.5 damping mass_velocity"}
-SCENE = """\
-units           lj
-atom_style      sphere
-boundary        f f f
-newton          off
-comm_modify     vel yes
-region          box block -9 9 -9 9 -9 9
-create_box      1 box
+SCENE = lmp.head("-9 9 -9 9 -9 9") + """\
 create_atoms    1 single {at} units box
 set             atom 1 diameter 1.0 density 2.0
 velocity        all set {v}
 set             atom 1 omega {omega}
-pair_style      zero 1.2
-pair_coeff      * *
-neighbor        0.3 bin
-neigh_modify    delay 0 every 1 check yes
+""" + lmp.pairs() + """\
 fix             move all {move}
 fix             pull all gravity 8.0 vector {down}
 timestep        {dt}

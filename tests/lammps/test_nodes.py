@@ -9,22 +9,13 @@ import lmp
 import stl
 from facts import at_most, fact
 
-BEGIN = """\
-units           lj
-atom_style      hybrid sphere bond
-atom_modify     map array sort {sort} 0.5
-boundary        f f f
-newton          on
-comm_modify     vel yes cutoff {reach}
+BEGIN = lmp.head(style="hybrid sphere bond", modify="map array sort {sort} 0.5", newton="on", comm="vel yes cutoff {reach}") + """\
 read_data       in.data
 group           nodes type 2 3
 group           grains type 1
 group           held type 3
 group           loose type 2
-pair_style      zero {reach}
-pair_coeff      * *
-neighbor        0.1 bin
-neigh_modify    delay 0 every 1 check yes
+""" + lmp.pairs("zero {reach}", 0.1) + """\
 bond_style      {bonds}
 special_bonds   lj 1 1 1
 timestep        {dt}
@@ -225,13 +216,7 @@ def test_refused(folder):
 
 # ---- atoms that get other IDs, another mesh --------------------------------------------------
 
-SHEET = """\
-units           lj
-newton          off
-atom_style      sphere
-atom_modify     map array
-boundary        f f f
-comm_modify     vel yes cutoff 1.0
+SHEET = lmp.head(comm="vel yes cutoff 1.0") + """\
 {create}
 group           nodes type 2
 group           grains type 1
@@ -325,24 +310,13 @@ print           "$(xcm(grains,x):%.17g) $(xcm(grains,y):%.17g)" file out.txt scr
 
 # ---- with Kokkos -------------------------------------------------------------------------
 
-FREE = """\
-units           lj
-newton          off
-atom_style      sphere
-atom_modify     map array
-boundary        f f f
-comm_modify     vel yes cutoff 1.0
-region          box block -2 2 -2 2 -1 2
-create_box      2 box
+FREE = lmp.head("-2 2 -2 2 -1 2", comm="vel yes cutoff 1.0", types=2) + """\
 {atoms}
 set             type 2 diameter 0.01 density 2e7
 set             type 1 diameter 0.5 density 3
 group           nodes type 2
 group           grains type 1
-pair_style      gran/hooke/history 2e4 NULL 50 NULL 0.5 1
-pair_coeff      * *
-neighbor        0.1 bin
-neigh_modify    delay 0 every 1 check yes exclude group nodes grains
+""" + lmp.pairs("gran/hooke/history 2e4 NULL 50 NULL 0.5 1", 0.1, neigh="delay 0 every 1 check yes exclude group nodes grains") + """\
 timestep        1e-3
 fix             w grains {style} hooke/history 2e4 NULL 50 NULL 0.5 1 mesh sheet.stl nodes nodes
 fix             down grains gravity 1 vector 0.3 0.1 -1

@@ -11,15 +11,7 @@ import lmp
 import stl
 from facts import fact
 
-HEAD = """\
-units           lj
-atom_style      sphere
-boundary        f f f
-newton          off
-comm_modify     vel yes
-region          box block -3 3 -3 3 -1 5
-create_box      2 box
-"""
+HEAD = lmp.head("-3 3 -3 3 -1 5", types=2)
 SPHERES = "set group all diameter 1.0 density 2.0\n"
 TAIL = """\
 pair_style      zero 1.2

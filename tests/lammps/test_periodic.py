@@ -24,30 +24,19 @@ def floor(x0, x1, y0, y1, cells=1, z=0.0):
 
 
 def scene(wall, x, v, box="0 10 0 10 -1 10", boundary="p f f", skin=0.3, steps=2000, dt=1e-3, radius=0.5,
-          gravity=0, neigh="delay 0 every 1 check yes", prism=False, more="", omega=(0, 0, 0), every=20,
+          gravity=0, neigh="delay 0 every 1 check yes", more="", omega=(0, 0, 0), every=20,
           out="moves"):
     """One sphere; dumps unwrapped places."""
     pull = f"fix pull all gravity {gravity} vector 0 0 -1" if gravity else ""
     lines = f"fix wall all {wall}\n"
     if wall.startswith("wall/gran"):
         lines = lmp.flat_walls(lines)
-    return f"""\
-units           lj
-atom_style      sphere
-atom_modify     map array
-boundary        {boundary}
-newton          off
-comm_modify     vel yes
-region          box {'prism' if prism else 'block'} {box}
-create_box      1 box
+    return lmp.head(box, boundary) + f"""\
 create_atoms    1 single {x[0]} {x[1]} {x[2]} units box
 set             atom 1 diameter {2 * radius} density 2.0
 velocity        all set {v[0]} {v[1]} {v[2]}
 set             atom 1 omega {omega[0]} {omega[1]} {omega[2]}
-pair_style      zero {2 * radius}
-pair_coeff      * *
-neighbor        {skin} bin
-neigh_modify    {neigh}
+""" + lmp.pairs(f"zero {2 * radius}", skin, neigh=neigh) + f"""\
 fix             move all nve/sphere
 {pull}
 {lines}timestep        {dt}
@@ -146,7 +135,7 @@ def test_tilted(folder):
     stl.write(folder / "wall.stl", stl.quad((0, 0, -1), (0, 10, -1), (0, 10, 10), (0, 0, 10)))
     for y in (0.6, 4.0, 8.7):
         here, text = go(folder, f"{ELASTIC} wall.stl move 12 0 0", (8, y, 5), (3, 0, 0), steps=3000,
-                        box="0 10 0 10 -1 10 4.9 0 0", prism=True, boundary="p p f")
+                        box="0 10 0 10 -1 10 4.9 0 0", boundary="p p f")
         there, _ = go(folder, f"{ELASTIC} wall.stl move 12 0 0", (8, y, 5), (3, 0, 0), steps=3000,
                       box="-20 40 -5 15 -1 10", boundary="f f f")
         fact(f"tilted box, y = {y}: the sphere comes back", here[3000][1][3] < 0)

@@ -18,8 +18,7 @@ from facts import fact
 
 LO, HI = (-1.25, -0.75, -1.0), (1.0, 1.5, 0.5)    # of the block
 RADIUS, HALF, SIDES = 1.1, 1.3, 90                # of the cylinder about z
-BOX = "region box block -3 3 -3 3 -3 3 units box\ncreate_box 1 box\n"
-START = "units lj\natom_style sphere\natom_modify map array\nboundary f f f\nnewton off\ncomm_modify vel yes\n" + BOX
+START = lmp.head("-3 3 -3 3 -3 3")
 ATOMS = 24 ** 3 + 5000
 # A lattice with atoms on the block's faces, edges and corners, and atoms at random.
 CLOUD = START + """\

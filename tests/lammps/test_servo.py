@@ -20,21 +20,10 @@ HOOKE = "hooke 1e4 NULL 20 NULL 0.5 1"
 UNDAMPED = "hooke 1e4 NULL 1e-12 NULL 0 0"
 HISTORY = "hooke/history 1e4 NULL 20 NULL 0.5 1"
 
-BEGIN = """\
-units           lj
-atom_style      sphere
-atom_modify     map array sort 0 0
-boundary        f f f
-newton          off
-comm_modify     vel yes
-region          box block -8 8 -8 8 -1 16
-create_box      1 box
+BEGIN = lmp.head("-8 8 -8 8 -1 16", modify="map array sort 0 0") + """\
 {create}
 set             group all diameter 1.0 density 2.0
-pair_style      {pair}
-pair_coeff      * *
-neighbor        0.3 bin
-neigh_modify    delay 0 every 1 check yes
+""" + lmp.pairs("{pair}") + """\
 fix             move all nve/sphere
 """
 OUTPUTS = """\

@@ -10,7 +10,7 @@ import pytest
 
 import lmp
 import vtp
-from plates import DUMP, FACES, FORCES, LAWS, SETTINGS, SIDE, build, go, six, thermo, write_box, write_plate
+from plates import DUMP, FACES, FORCES, LAWS, SIDE, build, go, six, thermo, write_box, write_plate
 from facts import at_most, fact
 
 PRESS = {"zhi": "servo force z -40 vmax 2", "zlo": "wiggle z 0.1 0.05",
@@ -157,7 +157,7 @@ def test_servo(folder):
 
 
 def proceed(folder, walls, restart, name, steps, ranks=1):
-    text = lmp.run_well(SETTINGS.format(boundary="f f f") + f"read_restart {restart}\n" +
+    text = lmp.run_well(lmp.head() + f"read_restart {restart}\n" +
                         FORCES.format(walls=walls, dt=1e-4, more="") +
                         DUMP.format(every=20, name=name) + f"run {steps}\n", folder, ranks)
     return lmp.read_dump(folder / name), text

@@ -22,14 +22,7 @@ FIRST, SECOND = 350, 150
 LAW = "hooke/history 1e4 NULL 120 NULL 0.4 1"
 DUMP = "x y z vx vy vz {} fx fy fz tqx tqy tqz f_wall[1]"
 
-SETTINGS = """\
-units           lj
-atom_style      {style}
-atom_modify     map array sort 40 1.5
-boundary        f f f
-newton          off
-comm_modify     vel yes
-"""
+SETTINGS = lmp.head(style="{style}", modify="map array sort 40 1.5")
 CREATE = """\
 region          box block -6 6 -6 6 -1.5 8
 create_box      1 box
@@ -46,11 +39,7 @@ START = "velocity all create 4.0 4711 loop geom\nvelocity all set NULL NULL -2.0
 
 
 def forces(integrator, law=LAW, more=""):
-    return f"""\
-pair_style      zero 1.5
-pair_coeff      * *
-neighbor        0.3 bin
-neigh_modify    delay 0 every 1 check yes
+    return lmp.pairs("zero 1.5") + f"""\
 fix             move all {integrator}
 fix             pull all gravity 8.0 vector 0.5 0.2 -1.0
 fix             wall all wall/lsdcd {law} mesh floor.stl motion rotate 0 0 0 0 0 1 20 mesh tray.stl contacts {more}
@@ -94,14 +83,7 @@ def folder(folder):
 def test_impact(folder):
     """Half-axes 2, 1, 1, mass 1, long axis at 45 degrees, speed 1, no friction."""
     stl.write(folder / "plane.stl", stl.quad((-6, -6, 0), (6, -6, 0), (6, 6, 0), (-6, 6, 0)))
-    text = lmp.run_well("""\
-units           lj
-atom_style      ellipsoid
-boundary        f f f
-newton          off
-comm_modify     vel yes
-region          box block -6 6 -6 6 -1 8
-create_box      1 box
+    text = lmp.run_well(lmp.head("-6 6 -6 6 -1 8", style="ellipsoid") + """\
 create_atoms    1 single 0 0 1.5811398
 set             atom 1 shape 4 2 2
 set             atom 1 quat 0 1 0 45
@@ -232,10 +214,7 @@ set             atom 1 mass 1
 set             atom 1 shape 2 1 1.6
 set             atom 1 quat 1 2 0.5 40
 velocity        all set 1.0 0.3 -1
-pair_style      zero 2.0
-pair_coeff      * *
-neighbor        0.3 bin
-neigh_modify    delay 0 every 1 check yes
+""" + lmp.pairs("zero 2.0") + f"""\
 fix             move all nve/asphere
 fix             pull all gravity 8 vector 0 0 -1
 fix             wall all wall/lsdcd hooke/history 1e3 NULL 20 NULL 0.5 1 mesh {mesh} contacts

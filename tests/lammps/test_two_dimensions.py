@@ -40,21 +40,9 @@ def write_outline(path, points, closed=False, half=0.6, parts=1):
     stl.write(path, triangles)
 
 
-HEAD = """\
-units           lj
-dimension       2
-atom_style      sphere
-boundary        {boundary} p
-newton          off
-comm_modify     vel yes
-region          box block 0 20 0 20 -0.5 0.5
-create_box      1 box
-"""
-TAIL = """\
-pair_style      gran/{law}
-pair_coeff      * *
-neighbor        0.2 bin
-neigh_modify    delay 0 every 1 check yes
+# Without a map, with which fix pour of LAMMPS 29Sep2021 crashes in an empty box.
+HEAD = lmp.head("0 20 0 20 -0.5 0.5", "{boundary} p", modify="", more="dimension 2\n")
+TAIL = lmp.pairs("gran/{law}", 0.2) + """\
 {walls}
 fix             flat all enforce2d
 timestep        {dt}
