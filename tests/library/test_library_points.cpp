@@ -162,19 +162,12 @@ double farthest(const TriangleSoup &soup, const Shares<T> &s, double rounding)
 // them, the shares. These are some eight roundings, also in triangles of 1e11 : 1.
 constexpr double kOfSums = 8 * kUnit;
 
-TEST(barycentric, times_the_corners_of_the_triangle_is_the_closest_point)
+TEST(barycentric, times_the_corners_is_the_closest_point_and_on_a_face_the_foot_of_the_point)
 {
   const TriangleSoup soup = random_triangles(400);
   const std::vector<double> points = points_near<double>(soup, 20000);
   const Shares<double> s(lsdcd::Grid(lsdcd::Mesh(numbers(soup), 0)), points);
   EXPECT_LE(farthest(soup, s, kUnit / 2), kOfSums);
-}
-
-TEST(barycentric, of_a_face_is_that_of_the_foot_of_the_point)
-{
-  const TriangleSoup soup = random_triangles(400);
-  const std::vector<double> points = points_near<double>(soup, 20000);
-  const Shares<double> s(lsdcd::Grid(lsdcd::Mesh(numbers(soup), 0)), points);
   int faces = 0, thin = 0;
   for (std::size_t i = 0; i < s.triangle.size(); i++) {
     if (LSDCD_FEATURE_KIND(s.feature[i]) != 0) continue;
@@ -317,23 +310,15 @@ TEST(signed_distance, is_the_distance_with_the_sign_of_the_side)
   }
 }
 
-TEST(signed_distance, is_0_without_a_sign_on_the_mesh)
+TEST(signed_distance, is_0_without_a_sign_on_the_mesh_and_none_of_what_is_no_number)
 {
-  for (const double cutoff : {0., 0.4})
-    for (const double d : lsdcd::Grid(lsdcd::Mesh(numbers(kBox)), cutoff)
-                              .signed_distances<double>({1, 0, 0, 1, 1, 0.5, -1, -1, -1})) {
+  for (const double cutoff : {0., 0.4}) {
+    const lsdcd::Grid grid(lsdcd::Mesh(numbers(kBox)), cutoff);
+    for (const double d : grid.signed_distances<double>({1, 0, 0, 1, 1, 0.5, -1, -1, -1})) {
       EXPECT_EQ(d, 0);
       EXPECT_FALSE(std::signbit(d));
     }
-}
-
-TEST(signed_distance, of_a_point_that_is_no_number_is_none)
-{
-  const lsdcd::Mesh mesh(numbers(kBox));
-  for (const double cutoff : {0., 0.4}) {
-    const std::vector<double> found =
-        lsdcd::Grid(mesh, cutoff).signed_distances<double>({NAN, 0, 0});
-    EXPECT_TRUE(std::isnan(found[0])) << cutoff;
+    EXPECT_TRUE(std::isnan(grid.signed_distances<double>({NAN, 0, 0})[0])) << cutoff;
   }
 }
 
