@@ -12,7 +12,7 @@ import stl
 from facts import at_most, fact
 
 RANKS = (1, 4) if lmp.QUICK else (1, 2, 4, 8)
-STEPS, EVERY = 2500 if lmp.QUICK else 4000, 100
+STEPS, EVERY = 2300 if lmp.QUICK else 4000, 100
 # Spheres fall for 1000 steps. Then every impact parts neighbouring paths by 1 + path / radius, at
 # most 10: in 400 steps there are 6 at most. 10 for the sums of many.
 ALIKE, GROWTH = 1400, 1e-16 * 10**6 * 10

@@ -18,10 +18,10 @@ from facts import fact
 
 LAW = "hooke/history 1e4 NULL 120 NULL 0.4 1"
 TOTALS = ("thermo_style custom step ke f_wall f_wall[1] f_wall[2] f_wall[3] f_wall[4] f_wall[5] f_wall[6] "
-          "f_wall[7] f_wall[8] f_wall[9]\nthermo_modify format float %.17g norm no\nthermo 50\n")
-RUN = "run 300\n"
+          "f_wall[7] f_wall[8] f_wall[9]\nthermo_modify format float %.17g norm no\nthermo 10\n")
+RUN = "run 100\n"
 # Some spheres grow in the middle: the grid is made again.
-GROWTH = "run 100\nset type 2 diameter 1.2\nrun 100\n"
+GROWTH = "run 20\nset type 2 diameter 1.2\nrun 20\n"
 
 
 def text_of(words, run=RUN):
@@ -47,7 +47,7 @@ def folder(folder):
     scene.write_floor(folder / "floor.stl")
     if "this build has no grid cache" in lmp.run(scene.CREATE + f"fix w all wall/lsdcd {LAW} mesh floor.stl cache c\n", folder).stdout:
         pytest.skip("the build has no grid cache")
-    lmp.run_well(scene.CREATE + "write_data start.data\n", folder)
+    lmp.run_well(scene.CREATE + scene.forces(LAW) + "run 200\nwrite_data start.data nocoeff\n", folder)
     return folder
 
 
@@ -56,7 +56,7 @@ def test_box_changes(folder):
     text = lmp.SMALL_BOX.replace("f f f", "p p f", 1).format(atoms="create_atoms 1 single 0 0 0.6 units box") + \
         "fix squeeze all deform 1 x erate -0.05\nthermo 50\n" + \
         f"fix wall all wall/lsdcd {LAW} mesh floor.stl cache box periodic\ntimestep 0.001\n" + \
-        "run 20\nset group all diameter 1.1\nrun 20\n"
+        "run 10\nset group all diameter 1.1\nrun 10\n"
     output = lmp.run_well(text, folder)
     times = [int(n) for n in re.findall(r"the grid was rebuilt (\d+) times", output)]
     files = sorted(p.name for p in folder.glob("box*"))

@@ -25,9 +25,9 @@ def write_plate(path, half, cells):
     stl.write(path, stl.sheet(cells, lambda i, j: (-half + i * step, -half + j * step, 0)))
 
 
-def spheres(n=10):
-    """(type, x, y, z) on multiples of 1/4, n of these to either side."""
-    return [(1 + (i + j) % 2, i / 4, j / 4, z) for z in HEIGHTS
+def spheres(n=5):
+    """(type, x, y, z) on multiples of 1/2, n of these to either side."""
+    return [(1 + (i + j) % 2, i / 2, j / 2, z) for z in HEIGHTS
             for i in range(-n, n + 1) for j in range(-n, n + 1)]
 
 
@@ -85,7 +85,7 @@ def mass_of(some):
 
 @pytest.fixture(scope="module")
 def folder(folder):
-    write_plate(folder / "plate.stl", 2, 8)
+    write_plate(folder / "plate.stl", 2, 4)
     write_data(folder / "spheres.data", spheres())
     return folder
 
@@ -124,8 +124,8 @@ def test_up(folder):
 def test_periodic(folder):
     """The plate is as wide as the box, spheres drift through its sides and fall through its floor
     twice. Box and plate from -2.5: x = 2.5 is x = -2.5 of an image."""
-    write_plate(folder / "plate.stl", 2.5, 10)
-    some = spheres(9)
+    write_plate(folder / "plate.stl", 2.5, 5)
+    some = spheres(4)
     write_data(folder / "spheres.data", some, 2.5)
     wrong = []
     often, seldom = "delay 0 every 1 check yes", "delay 0 every 8 check no"
@@ -137,7 +137,7 @@ def test_periodic(folder):
             if row[FORWARD] != times or row[BACKWARD] != 0:
                 wrong.append((ranks, neigh, step, row[FORWARD], times))
     fact("periodic: each passes once in each lap, on 1, 2 and 4 ranks", not wrong, str(wrong[:1]))
-    write_plate(folder / "plate.stl", 2, 8)
+    write_plate(folder / "plate.stl", 2, 4)
     write_data(folder / "spheres.data", spheres())
 
 

@@ -231,59 +231,46 @@ def bed(law, servo, top=6.2):
 
 def test_restart(folder):
     """In the middle of a compression, bit for bit; then with other words."""
-    def head(text):
-        return text[:text.index("region          box")]
-
-    servo = "servo force z -200 vmax 2.0"
+    servo, at = "servo force z -200 vmax 2.0", "print 'at $(f_wall[12]:%.17g)'\n"
     text = bed(HISTORY, servo)
+    begin = "timestep 0.002\nrun 1000\n"
     dump = ("dump d all custom 100 {0} id x y z vx vy vz v_p v_s v_l\n"
-            "dump_modify d format float %.17g sort id\n")
+            "dump_modify d format float %.17g sort id\nrun 500\n")
     # f_wall[12] in an atom-style variable would be a column in 4Jul2026.
     names = "".join(f"variable {v}q equal f_wall[{k}]\nvariable {v} atom v_{v}q\n"
                     for v, k in (("p", 12), ("s", 13), ("l", 14)))
-    for motion in ("", "motion wiggle 0.02 0 0 0.9 "):
-        for ranks in (1, 2):
-            moved = text.replace(servo, motion + servo)
-            lmp.run_well(moved + names + "timestep 0.002\nrun 1500\nwrite_restart r.restart\n" +
-                         dump.format("a") + "run 1500\n", folder, ranks)
-            rest = head(text) + "read_restart r.restart\n" + moved[moved.index("pair_style"):]
-            lmp.run_well(rest + names + "timestep 0.002\n" + dump.format("b") + "run 1500\n", folder, ranks)
-            a, b = lmp.read_dump(folder / "a"), lmp.read_dump(folder / "b")
-            travelled = abs(a[3000][1][6] - a[1500][1][6])
-            fact(f"{motion}{ranks} ranks: the piston moves", travelled > 0.01, f"{travelled:.3g}")
-            at_most(f"{motion}{ranks} ranks: continued to the bit", lmp.largest_difference(a, b), 0)
 
-    def go_on(words, more="run 0\n", start=lmp.run_well):
-        rest = head(text) + "read_restart r.restart\n" + text[text.index("pair_style"):].replace(servo, words)
-        return start(rest + "thermo_style custom step f_wall[12]\nthermo_modify format float %.17g\n" +
-                     more, folder)
-
-    lmp.run_well(text + "timestep 0.002\nrun 1500\nvariable p equal f_wall[12]\nprint 'place $(v_p:%.17g)'\n"
-                 "write_restart r.restart\n", folder)
-    log = go_on("servo force z -10 vmax 0.1")
-    fact("another target goes on from there", "another line" not in log and
-         lmp.read_thermo(log)[-1][1] < -0.1, str(lmp.read_thermo(log)))
-    done = go_on("servo force z -10 vmax 0.1 limits -0.01 0", start=lmp.run)
-    fact("narrower limits are refused", done.returncode != 0 and
-         "outside the limits -0.01 0" in done.stdout.replace("\n", " "), done.stdout[-300:])
-    # Where it was stopped it is still, until it is told to go on; also one that a motion then took along.
-    at = "print 'at $(f_wall[12]:%.17g)'\n"
+    def go_on(words, more="run 0\n" + at, name="r", start=lmp.run_well, ranks=1):
+        rest = text[:text.index("region          box")] + f"read_restart {name}.restart\n" + text[text.index("pair_style"):]
+        return start(rest.replace(servo, words) + "timestep 0.002\n" + more, folder, ranks)
 
     def told(log):
         return [float(x) for x in re.findall(r"^at (\S+)$", log, re.M)]
 
+    for motion, ranks in (("motion wiggle 0.02 0 0 0.9 ", 1), ("motion wiggle 0.02 0 0 0.9 ", 2), ("", 2), ("", 1)):
+        lmp.run_well(text.replace(servo, motion + servo) + names + begin + "write_restart r.restart\n" + dump.format("a"), folder, ranks)
+        go_on(motion + servo, names + dump.format("b"), ranks=ranks)
+        a, b = lmp.read_dump(folder / "a"), lmp.read_dump(folder / "b")
+        travelled = abs(a[1500][1][6] - a[1000][1][6])
+        fact(f"{motion}{ranks} ranks: the piston moves", travelled > 0.01, f"{travelled:.3g}")
+        at_most(f"{motion}{ranks} ranks: continued to the bit", lmp.largest_difference(a, b), 0)
+
+    log = go_on("servo force z -10 vmax 0.1")
+    fact("another target goes on from there", "another line" not in log and told(log)[-1] < -0.1, str(told(log)))
+    done = go_on("servo force z -10 vmax 0.1 limits -0.01 0", start=lmp.run)
+    fact("narrower limits are refused", done.returncode != 0 and
+         "outside the limits -0.01 0" in done.stdout.replace("\n", " "), done.stdout[-300:])
+    log = go_on("servo force x 10 vmax 0.1")
+    fact("another line is told of, and begins at 0", "with a servo along another line" in log and told(log) == [0])
+    # Where it was stopped it is still, until it is told to go on; also one that a motion then took along.
     for more in ("", "fix_modify wall motion none\n"):
-        first = told(lmp.run_well(text + "timestep 0.002\nrun 1500\nfix_modify wall servo none\n" + more +
-                                  "run 100\n" + at + "write_restart r.restart\n", folder))
-        log = go_on(servo, f"run 200\n{at}fix_modify wall {servo}\nrun 200\n{at}")
+        first = told(lmp.run_well(text + begin + "fix_modify wall servo none\n" + more +
+                                  "run 100\n" + at + "write_restart stopped.restart\n", folder))
+        log = go_on(servo, f"run 200\n{at}fix_modify wall {servo}\nrun 200\n{at}", "stopped")
         then = told(log)
         fact("a servo that was stopped stays so", len(then) == 2 and first == then[:1], f"{first}, {then}")
         fact("and a warning tells of it", "the servo was stopped when" in log)
         fact("until fix_modify lets it go on", then[-1] < then[0], str(then))
-    lmp.run_well(text + "timestep 0.002\nrun 1500\nwrite_restart r.restart\n", folder)
-    log = go_on("servo force x 10 vmax 0.1")
-    fact("another line is told of, and begins at 0", "with a servo along another line" in log and
-         lmp.read_thermo(log)[-1][1] == 0)
 
 
 def test_ranks(folder):

@@ -32,19 +32,19 @@ def folder(folder):
 def test_compare_with_planes(folder):
     """In a corner of a box plates meet at right angles, and their forces add."""
     for name, law in lmp.sample(LAWS).items():
-        theirs = go(folder, planes(law), "a", 3000, every=10)[0]
-        ours = go(folder, six(law), "b", 3000, every=10)[0]
+        theirs = go(folder, planes(law), "a", 3000, every=50)[0]
+        ours = go(folder, six(law), "b", 3000, every=50)[0]
         at_most(f"{name}: six plates are six planes", lmp.largest_difference(theirs, ours),
                 1e-12)
         rubs = "wiggle z 0.02 0.1"
-        theirs = go(folder, planes(law, rubs), "a", 3000, every=10)[0]
-        ours = go(folder, six(law, {"zlo": rubs}), "b", 3000, every=10)[0]
+        theirs = go(folder, planes(law, rubs), "a", 3000, every=20)[0]
+        ours = go(folder, six(law, {"zlo": rubs}), "b", 3000, every=20)[0]
         at_most(f"{name}: one of them wiggles", lmp.largest_difference(theirs, ours), 1e-12)
     edges, corners = among_sides(ours)
     fact("spheres are in edges and corners of the box", edges > 20 and corners > 0,
          f"{edges}, {corners} times")
-    theirs = go(folder, planes(LAWS["hooke_history"], "shear x 2.0"), "a", 3000, every=10)[0]
-    ours = go(folder, six(LAWS["hooke_history"], {"zlo": "shear x 2.0"}), "b", 3000, every=10)[0]
+    theirs = go(folder, planes(LAWS["hooke_history"], "shear x 2.0"), "a", 3000, every=50)[0]
+    ours = go(folder, six(LAWS["hooke_history"], {"zlo": "shear x 2.0"}), "b", 3000, every=50)[0]
     at_most("one of them is a belt", lmp.largest_difference(theirs, ours), 1e-12)
 
 

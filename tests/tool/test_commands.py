@@ -20,7 +20,7 @@ NEEDS = {"inspect": "file is required", "repair": "file is required", "convert":
          "generate": "subcommand is required", "grid": "file is required", "distance": "mesh is required", "collide": "wall is required",
          "material": "file is required", "timestep": "--radius is required", "tradeoff": "file is required", "accuracy": None, "effects": None}
 # Words that make an example quick.
-QUICK = {"tradeoff": "--spheres 100 --moving 2 --repeats 1 --seconds 2 --device cpu --plot none"}
+QUICK = {"tradeoff": "--spheres 100 --moving 2 --repeats 1 --seconds 0.2 --device cpu --plot none"}
 
 FINE_GRIDS = "accuracy table2 --spheres 1e5 --csv table2.csv"    # the example in its help
 ACCURACY = (FINE_GRIDS, ["0.994025", "table2.csv"])
@@ -161,7 +161,7 @@ def scene(folder):
 def check_full_output(folder, commands):
     """Of each command one use that prints a text, one that prints JSON, and its help, on a full disk: 1 s."""
     uses = {(words.split()[0], "--json" in words): words for words, _ in reversed(GOOD)}
-    uses = [words.replace("--seconds 2", "--seconds 0.01").replace(ACCURACY[0], NO_MESH) for words in uses.values()]
+    uses = [words.replace("--seconds 0.2", "--seconds 0.01").replace(ACCURACY[0], NO_MESH) for words in uses.values()]
     with open("/dev/full", "wb") as full:
         for words in [*uses, *(f"{command} --help" for command in commands), "generate box --help", "--help", "--version"]:
             done = subprocess.run([TOOL, *words.split()], cwd=folder, stdout=full, stderr=subprocess.PIPE, text=True)

@@ -33,8 +33,13 @@ def samples(triangles, n):
 
 
 def one_sided(triangles, others, n=3):
-    """How far the points of some triangles are from others at most, of points that are sampled."""
-    points = samples(triangles, n)
+    """How far the points of some triangles are from others at most, of points that are sampled. Those that are among the others, too,
+    however they are wound, are at no distance."""
+    known = {frozenset(map(tuple, t)) for t in np.asarray(others).tolist()}
+    rest = [t for t in np.asarray(triangles).tolist() if frozenset(map(tuple, t)) not in known]
+    if not rest:
+        return 0.
+    points = samples(rest, n)
     least = np.full(len(points), np.inf)
     for t in others:
         near = np.flatnonzero(np.all((points > t.min(axis=0) - least[:, None]) &
