@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Closest points on faces, edges and vertices against closed forms and quad precision.
-#include "base/quad.h"
+// Closest points on faces, edges and vertices against closed forms and long double.
 #include "geometry/closest_point.h"
 #include "mesh/mesh_features.h"
+#include "support/brute_force_long.h"
 #include "support/meshes.h"
 #include "support/random.h"
 
@@ -180,51 +180,7 @@ TEST(vertex, slack_widens_its_cone_by_a_length)
   EXPECT_TRUE(wall.on_vertex({1, 1, 1}, {0.9, 2, 2}, 0.101).found);
 }
 
-// ---- slivers against quad precision ----------------------------------------------------
-
-struct QuadVec {
-  Quad x, y, z;
-};
-QuadVec operator-(const QuadVec &a, const QuadVec &b)
-{
-  return {a.x - b.x, a.y - b.y, a.z - b.z};
-}
-QuadVec plus(const QuadVec &a, Quad t, const QuadVec &d)
-{
-  return {a.x + t * d.x, a.y + t * d.y, a.z + t * d.z};
-}
-Quad dot(const QuadVec &a, const QuadVec &b)
-{
-  return a.x * b.x + a.y * b.y + a.z * b.z;
-}
-QuadVec quad(const Vec3 &a)
-{
-  return {a.x, a.y, a.z};
-}
-Real length(const QuadVec &a)
-{
-  return static_cast<Real>(std::sqrt(static_cast<long double>(dot(a, a))));
-}
-
-// Distance to a triangle: to the plane where the closest point is inside, else to the
-// nearest side.
-Real quad_distance(const Vec3 &a, const Vec3 &b, const Vec3 &c, const Vec3 &q)
-{
-  const QuadVec p[3] = {quad(a), quad(b), quad(c)}, x = quad(q);
-  const QuadVec u = p[1] - p[0], v = p[2] - p[0], w = x - p[0];
-  const Quad uu = dot(u, u), uv = dot(u, v), vv = dot(v, v), wu = dot(w, u), wv = dot(w, v);
-  const Quad det = uu * vv - uv * uv;
-  const Quad s = (vv * wu - uv * wv) / det, t = (uu * wv - uv * wu) / det;
-  if (s >= 0 && t >= 0 && s + t <= 1) return length(x - plus(plus(p[0], s, u), t, v));
-  Real least = HUGE_VAL;
-  for (int k = 0; k < 3; k++) {
-    const QuadVec e = p[(k + 1) % 3] - p[k];
-    Quad at = dot(x - p[k], e) / dot(e, e);
-    at = at < 0 ? Quad(0) : (at > 1 ? Quad(1) : at);
-    least = std::fmin(least, length(x - plus(p[k], at, e)));
-  }
-  return least;
-}
+// ---- slivers against more digits ----------------------------------------------------
 
 // A triangle of length 1 and height 1 / aspect, its apex anywhere along it.
 std::array<Vec3, 3> sliver(Random &random, Real aspect)
@@ -238,7 +194,7 @@ std::array<Vec3, 3> sliver(Random &random, Real aspect)
   return p;
 }
 
-// Distances of slivers are those of quad precision to `tolerance`, the tolerance: a
+// Distances of slivers are those of long double to `tolerance`, the tolerance: a
 // point within it of a region may be answered by the neighbouring one.
 void expect_exact_slivers(Real aspect, Real tolerance)
 {
@@ -247,6 +203,7 @@ void expect_exact_slivers(Real aspect, Real tolerance)
   for (int i = 0; i < 300; i++) {
     const auto p = sliver(random, aspect);
     const Wall wall({p[0], p[1], p[2]});
+    const auto exact = long_triangles<LongReal>({{p[0], p[1], p[2]}, "sliver"});
     ASSERT_EQ(wall.features.faces.size(), 1u);
     for (int k = 0; k < 300; k++) {
       Real s = uniform(random, 0, 1), t = uniform(random, 0, 1);
@@ -255,7 +212,7 @@ void expect_exact_slivers(Real aspect, Real tolerance)
       const Vec3 q = p[0] + s * (p[1] - p[0]) + t * (p[2] - p[0]) + away * random_unit(random);
       const Real d = wall.nearest(q, tolerance / 4);
       ASSERT_LT(d, HUGE_VAL) << "no feature answers";
-      largest = std::fmax(largest, std::fabs(d - quad_distance(p[0], p[1], p[2], q)));
+      largest = std::fmax(largest, std::fabs(d - long_distance(exact.data(), 1, q)));
     }
   }
   std::printf("  aspect %g: largest error %.2g of the length\n", aspect, largest);
@@ -279,9 +236,10 @@ TEST(sliver, of_aspect_1e8_has_a_normal_square_to_its_sides)
     const Vec3 n = wall.features.faces[0].normal;
     EXPECT_NEAR(norm(n), 1, 2 * kRoundoff);
     for (int k = 0; k < 3; k++) {
-      const QuadVec e = quad(p[(k + 1) % 3]) - quad(p[k]);
+      const LongVec3<LongReal> e = from_to<LongReal>(p[k], p[(k + 1) % 3]);
       // The rounding of the normal's own components.
-      EXPECT_LE(std::fabs(static_cast<Real>(dot(quad(n), e))), 2 * kRoundoff * length(e));
+      EXPECT_LE(std::fabs(dot(LongVec3<LongReal>{n.x, n.y, n.z}, e)),
+                2 * kRoundoff * std::sqrt(dot(e, e)));
     }
   }
 }

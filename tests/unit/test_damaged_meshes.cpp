@@ -36,12 +36,6 @@ void PrintTo(const Whole &file, std::ostream *out)
   *out << file.name;
 }
 
-std::string bytes_of(const std::string &path)
-{
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
 // Files that we write, with floats and other numbers, and polygons and strips as others write them.
 std::vector<Whole> whole_files()
 {
@@ -58,7 +52,7 @@ std::vector<Whole> whole_files()
                        Whole{".ply", "", read_ply_bytes}, Whole{".off", "", read_off_bytes}}) {
       file.name.insert(0, floats ? "floats" : "doubles");
       write_mesh_file(dir.path(file.name), soup);
-      file.bytes = bytes_of(dir.path(file.name));
+      file.bytes = content(dir.path(file.name));
       files.push_back(file);
     }
   }

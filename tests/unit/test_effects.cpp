@@ -28,7 +28,7 @@ TEST(effects, keep_the_bytes_of_the_table_and_no_others)
 {
   constexpr int kSpheres = 300;
   for (const EffectCase &c : effect_cases()) {
-    Scene scene(floor_mesh(8, 10), 0.7, c.settings);
+    Scene scene(floor_mesh(8, 10), 0.7, c.settings, 4);    // a small grid: cells of 4
     if (c.settings.law().has_heat()) continue;    // the scene's spheres have no temperature
     for (int i = 0; i < kSpheres; i++)
       scene.add_sphere({-9 + 1.1 * (i % 17), -9 + 1.0 * (i / 17), 0.495}, 0.5, 1, {0.1, 0, 0});
@@ -70,7 +70,7 @@ TEST(effects, that_are_off_take_no_memory_of_the_engine)
   constexpr int kSpheres = 500;
   std::size_t least = 0;    // of the first, which keeps nothing
   for (const EffectCase &c : effect_cases()) {
-    Scene scene(floor_mesh(8, 30), 0.7, c.settings);
+    Scene scene(floor_mesh(8, 30), 0.7, c.settings, 4);
     for (int i = 0; i < kSpheres; i++)
       scene.add_sphere({-20 + 1.1 * (i % 25), -20 + 1.1 * (i / 25), 0.495}, 0.5, 1);
     for (int step = 0; step < 2; step++) scene.compute(1e-7);    // the second pool, too

@@ -416,34 +416,6 @@ TEST(grid, a_list_holds_for_centres_up_to_the_margin_from_its_cell)
   EXPECT_GT(found, 100000);
 }
 
-TEST(grid, flat_view_gives_the_contacts_of_view)
-{
-  const TriangleSoup soup = tangle(14, 40, 6);
-  const TriangleGrid grid = grid_of(soup, 0.3);
-  const FlatGrid flat(grid);
-  const GridView a = grid.view(), b = flat.view();
-  EXPECT_EQ(b.block_bytes, flat_bytes(grid));
-  EXPECT_EQ(a.origin, b.origin);
-  EXPECT_EQ(a.length, b.length);
-  EXPECT_EQ(a.inv_length, b.inv_length);
-  EXPECT_EQ(a.cutoff, b.cutoff);
-  EXPECT_EQ(a.tolerance, b.tolerance);
-  EXPECT_EQ(a.outside, b.outside);
-  Random random(1);
-  for (int i = 0; i < 10000; i++) {
-    const Vec3 q = query_point(random, soup, {-1, -1, -1}, {1, 1, 1}, 0.3);
-    ContactSet<kMost> s, t;
-    find_contacts(a, q, 0.3, s);
-    find_contacts(b, q, 0.3, t);
-    ASSERT_EQ(s.n, t.n);
-    for (int k = 0; k < s.n; k++) {
-      ASSERT_EQ(s.feature[k], t.feature[k]);
-      ASSERT_EQ(s.normal[k], t.normal[k]);
-      ASSERT_EQ(s.distance[k], t.distance[k]);
-    }
-  }
-}
-
 TEST(grid, flat_block_can_be_moved)
 {
   const TriangleGrid grid = grid_of(box_mesh({0, 0, 0}, {1, 1, 1}), 0.3);

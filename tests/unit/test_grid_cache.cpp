@@ -19,7 +19,6 @@
 #include <filesystem>
 #include <fstream>
 #include <random>
-#include <sstream>
 #include <sys/resource.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
@@ -29,14 +28,6 @@ namespace lsdcd::test_grid_cache {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string content(const std::string &path)
-{
-  std::ifstream file(path, std::ios::binary);
-  std::ostringstream text;
-  text << file.rdbuf();
-  return text.str();
-}
 
 GridSettings some_settings()
 {
@@ -178,17 +169,17 @@ void flip_bits(const Made &made, int n)
       ASSERT_EQ(found, CacheState::damaged) << "byte " << at;
   }
   EXPECT_EQ(made.state(dir.path("grid")), CacheState::usable) << "the test itself did damage";
-  EXPECT_LE(harmless, n / 100);
+  EXPECT_LE(harmless, (n + 99) / 100);
 }
 
 TEST(grid_cache, a_flipped_bit_never_gives_a_wrong_grid)
 {
-  flip_bits(box(), std::getenv("LSDCD_QUICK") ? 1000 : 10000);
+  flip_bits(box(), std::getenv("LSDCD_QUICK") ? 300 : 10000);
 }
 
 TEST(grid_cache, a_flipped_bit_in_any_frame_never_gives_a_wrong_grid)
 {
-  flip_bits(cylinder(), 100);
+  flip_bits(cylinder(), std::getenv("LSDCD_QUICK") ? 40 : 100);
 }
 
 TEST(grid_cache, a_file_with_other_bytes_than_were_written_is_damaged)

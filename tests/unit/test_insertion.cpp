@@ -31,6 +31,14 @@ InsertionPlan plan_of(FeedSettings::Kind kind, Real rate)
   return plan;
 }
 
+// So many grains, all of them due at once.
+InsertionPlan at_once(std::int64_t number)
+{
+  InsertionPlan plan = plan_of(FeedSettings::at_once, 0);
+  plan.feed.number = number;
+  return plan;
+}
+
 // Anywhere in a cube, without walls.
 struct Cube : InsertionSite {
   Real side = 100;
@@ -45,37 +53,46 @@ struct Cube : InsertionSite {
   Box zone() const { return {{0, 0, 0}, {side, side, side}}; }
 };
 
-std::size_t insert(Insertion &insertion, std::int64_t step, Cube &site,
-                   std::vector<PackedSphere> &there)
-{
-  insertion.draw_due(step);
-  Packing packing(there, site.zone(), insertion.source().largest_radius(), PeriodicBox());
-  Refused refused;
-  const std::vector<Insertion::Placed> placed = insertion.place(step, site, packing, refused);
-  for (const Insertion::Placed &p : placed)
-    there.push_back({p.at, insertion.owed()[p.index].radius});
-  insertion.accept(step, placed, refused);
-  return placed.size();
-}
+// An insertion into a cube, and the grains that are there.
+template <class Site = Cube>
+struct Feed : Insertion {
+  Site site;
+  std::vector<PackedSphere> there;
+
+  explicit Feed(const InsertionPlan &plan, std::int64_t step = 0, Real dt = 1) :
+      Insertion(plan, step, dt)
+  {
+  }
+  // Returns how many grains come in a step.
+  std::size_t insert(std::int64_t step)
+  {
+    draw_due(step);
+    Packing packing(there, site.zone(), source().largest_radius(), PeriodicBox());
+    Refused refused;
+    const std::vector<Placed> placed = place(step, site, packing, refused);
+    for (const Placed &p : placed) there.push_back({p.at, owed()[p.index].radius});
+    accept(step, placed, refused);
+    return placed.size();
+  }
+  std::size_t insert_next() { return insert(next_step()); }
+};
 
 TEST(insertion, a_grain_comes_in_the_first_step_in_which_the_rate_has_reached_it)
 {
   // Grain k has been reached at (k + 1) / 0.3 time units, that is (k + 1) / 0.03 steps.
   for (const auto kind : {FeedSettings::by_mass, FeedSettings::by_number}) {
-    Insertion insertion(plan_of(kind, 0.3), 7, 0.1);
-    Cube site;
-    std::vector<PackedSphere> there;
+    Feed<> insertion(plan_of(kind, 0.3), 7, 0.1);
     for (int k = 0; k < 200; k++) {
       const auto due = static_cast<std::int64_t>(std::ceil((k + 1) / 0.03L - 1e-6L));
       EXPECT_EQ(insertion.next_step(), 7 + due) << k;
-      EXPECT_EQ(insert(insertion, insertion.next_step(), site, there), 1U);
+      EXPECT_EQ(insertion.insert_next(), 1U);
     }
   }
 }
 
 TEST(insertion, another_timestep_counts_from_where_it_begins)
 {
-  Insertion insertion(plan_of(FeedSettings::by_mass, 1), 0, 0.1);
+  Feed<> insertion(plan_of(FeedSettings::by_mass, 1), 0, 0.1);
   EXPECT_EQ(insertion.next_step(), 10);
   insertion.begin_run(4, 0.3);    // 0.4 is there, 0.6 are two steps
   EXPECT_EQ(insertion.next_step(), 6);
@@ -85,13 +102,11 @@ TEST(insertion, every_n_steps_brings_all_that_is_due_by_then)
 {
   InsertionPlan plan = plan_of(FeedSettings::by_number, 1);
   plan.feed.every = 25;
-  Insertion insertion(plan, 0, 0.1);
-  Cube site;
-  std::vector<PackedSphere> there;
+  Feed<> insertion(plan, 0, 0.1);
   EXPECT_EQ(insertion.next_step(), 25);
-  EXPECT_EQ(insert(insertion, 25, site, there), 2U);
+  EXPECT_EQ(insertion.insert(25), 2U);
   EXPECT_EQ(insertion.next_step(), 50);
-  EXPECT_EQ(insert(insertion, 50, site, there), 3U);
+  EXPECT_EQ(insertion.insert(50), 3U);
 }
 
 TEST(insertion, it_ends_with_the_number_or_mass_asked_for)
@@ -102,10 +117,8 @@ TEST(insertion, it_ends_with_the_number_or_mass_asked_for)
       plan.feed.mass = 10.999;    // the 11th would be past it
     else
       plan.feed.number = 10;
-    Insertion insertion(plan, 0, 1);
-    Cube site;
-    std::vector<PackedSphere> there;
-    EXPECT_EQ(insert(insertion, 1, site, there), 10U);
+    Feed<> insertion(plan);
+    EXPECT_EQ(insertion.insert(1), 10U);
     EXPECT_EQ(insertion.next_step(), FeedSchedule::kNever);
     EXPECT_NEAR(insertion.inserted_mass(), 10, 1e-12);
   }
@@ -143,14 +156,11 @@ TEST(insertion, a_range_is_uniform_by_number)
 
 TEST(insertion, what_finds_no_place_is_owed_and_tried_again)
 {
-  InsertionPlan plan = plan_of(FeedSettings::at_once, 0);
-  plan.feed.number = 5;
-  Insertion insertion(plan, 0, 1);
-  Cube site;
-  site.side = 0.5;    // room for one
-  std::vector<PackedSphere> there;
+  InsertionPlan plan = at_once(5);
+  Feed<> insertion(plan);
+  insertion.site.side = 0.5;    // room for one
   EXPECT_EQ(insertion.next_step(), 1);
-  EXPECT_EQ(insert(insertion, 1, site, there), 1U);
+  EXPECT_EQ(insertion.insert(1), 1U);
   EXPECT_EQ(insertion.late().number, 4);
   EXPECT_NEAR(insertion.late().mass, 4, 1e-12);
   EXPECT_EQ(insertion.refused().grains,
@@ -159,42 +169,39 @@ TEST(insertion, what_finds_no_place_is_owed_and_tried_again)
   std::int64_t step = 1;
   for (const int wait : {1, 2, 4, 8, 16, 20, 20}) {
     EXPECT_EQ(insertion.next_step(), step += wait);
-    EXPECT_EQ(insert(insertion, step, site, there), 0U);
+    EXPECT_EQ(insertion.insert(step), 0U);
   }
-  site.side = 100;
-  EXPECT_EQ(insert(insertion, step + 20, site, there), 4U);
+  insertion.site.side = 100;
+  EXPECT_EQ(insertion.insert(step + 20), 4U);
   EXPECT_EQ(insertion.inserted(), 5);
 }
 
 TEST(insertion, a_grain_without_a_place_does_not_hold_back_those_that_are_due_later)
 {
   InsertionPlan plan = plan_of(FeedSettings::by_number, 1);
-  Insertion insertion(plan, 0, 1);    // a grain a step
-  Cube site;
-  site.side = 0.5;
-  std::vector<PackedSphere> there = {{{0, 0, 0}, 0.5}};
+  Feed<> insertion(plan);    // a grain a step
+  insertion.site.side = 0.5;
+  insertion.there = {{{0, 0, 0}, 0.5}};
   for (int step = 1; step <= 30; step++) {
     ASSERT_EQ(insertion.next_step(), step);
-    insert(insertion, step, site, there);
+    insertion.insert(step);
   }
   EXPECT_EQ(insertion.late().number, 30);
-  site.side = 100;    // now there is room: all that is late comes
-  EXPECT_EQ(insert(insertion, 31, site, there), 31U);
+  insertion.site.side = 100;    // now there is room: all that is late comes
+  EXPECT_EQ(insertion.insert(31), 31U);
   EXPECT_EQ(insertion.late().number, 0);
 }
 
 TEST(insertion, where_late_grains_find_places_the_others_are_tried_in_the_next_step)
 {
-  InsertionPlan plan = plan_of(FeedSettings::at_once, 0);
-  plan.feed.number = 9;
-  Insertion insertion(plan, 0, 1);
-  Cube site;
-  site.side = 0.5;
-  std::vector<PackedSphere> there = {{{0, 0, 0}, 0.5}};
-  for (const int step : {1, 2, 4, 8}) insert(insertion, step, site, there);
+  InsertionPlan plan = at_once(9);
+  Feed<> insertion(plan);
+  insertion.site.side = 0.5;
+  insertion.there = {{{0, 0, 0}, 0.5}};
+  for (const int step : {1, 2, 4, 8}) insertion.insert(step);
   EXPECT_EQ(insertion.next_step(), 16);
-  there.clear();
-  EXPECT_EQ(insert(insertion, 16, site, there), 1U);
+  insertion.there.clear();
+  EXPECT_EQ(insertion.insert(16), 1U);
   EXPECT_EQ(insertion.next_step(), 17);
 }
 
@@ -202,28 +209,25 @@ TEST(insertion, where_late_grains_find_places_the_others_are_tried_in_the_next_s
 // in, by fifths of the range of their diameters.
 std::array<int, 5> sizes_through_a_full_chute(int steps, bool is_poly)
 {
-  InsertionPlan plan = plan_of(FeedSettings::at_once, 0);
-  plan.feed.number = 200 + 2 * steps;
+  InsertionPlan plan = at_once(200 + 2 * steps);
   plan.grains.sizes.clear();
   if (is_poly) plan.grains.sizes = {{4.1, 0.2}, {4.3, 0.2}, {4.5, 0.2}, {4.7, 0.2}, {4.9, 0.2}};
   plan.grains.smallest = 4;
   plan.grains.largest = 5;
   plan.attempts = 30;
-  Insertion insertion(plan, 0, 1);
-  Cube site;
-  site.side = 15;
-  std::vector<PackedSphere> there;
+  Feed<> insertion(plan);
+  insertion.site.side = 15;
   std::array<int, 5> count = {};
   for (int step = 1; step <= steps; step++) {
-    for (PackedSphere &grain : there) grain.at.z -= 0.05;
-    there.erase(std::remove_if(there.begin(), there.end(),
-                               [](const PackedSphere &grain) { return grain.at.z < -5; }),
-                there.end());
+    for (PackedSphere &grain : insertion.there) grain.at.z -= 0.05;
+    insertion.there.erase(std::remove_if(insertion.there.begin(), insertion.there.end(),
+                                         [](const PackedSphere &grain) { return grain.at.z < -5; }),
+                          insertion.there.end());
     if (step != insertion.next_step()) continue;
-    const std::size_t before = there.size();
-    insert(insertion, step, site, there);
-    for (std::size_t i = before; i < there.size(); i++)
-      count[std::min(4, static_cast<int>(5 * (2 * there[i].radius - 4)))]++;
+    const std::size_t before = insertion.there.size();
+    insertion.insert(step);
+    for (std::size_t i = before; i < insertion.there.size(); i++)
+      count[std::min(4, static_cast<int>(5 * (2 * insertion.there[i].radius - 4)))]++;
   }
   EXPECT_GT(insertion.late().number, 100);    // it was full
   return count;
@@ -251,21 +255,18 @@ TEST(insertion, into_a_full_chute_keeps_the_sizes_for_100000_steps)
 
 TEST(insertion, a_grain_without_a_place_holds_back_no_burst_of_1500)
 {
-  InsertionPlan plan = plan_of(FeedSettings::at_once, 0);
-  plan.feed.number = 1500;
+  InsertionPlan plan = at_once(1500);
   plan.grains.sizes.clear();
   plan.grains.smallest = 0.5;
-  Insertion insertion(plan, 0, 1);
-  Cube site;
+  Feed<> insertion(plan);
   insertion.draw_due(1);
   Real largest = 0;
   for (const Grain &grain : insertion.owed()) largest = std::max(largest, grain.radius);
-  site.too_large = largest;
-  std::vector<PackedSphere> there;
-  EXPECT_EQ(insert(insertion, 1, site, there), 1499U);
-  EXPECT_EQ(insert(insertion, insertion.next_step(), site, there), 0U);
-  site.too_large = 1;
-  EXPECT_EQ(insert(insertion, insertion.next_step(), site, there), 1U);
+  insertion.site.too_large = largest;
+  EXPECT_EQ(insertion.insert(1), 1499U);
+  EXPECT_EQ(insertion.insert_next(), 0U);
+  insertion.site.too_large = 1;
+  EXPECT_EQ(insertion.insert_next(), 1U);
   EXPECT_EQ(insertion.next_step(), FeedSchedule::kNever);
 }
 
@@ -274,52 +275,43 @@ TEST(insertion, so_many_as_may_be_passed_over_hold_back_all_that_come_after_them
   InsertionPlan plan = plan_of(FeedSettings::by_number, 1);
   plan.grains.sizes = {{1, 0.5}, {2, 0.5}};
   plan.grains.largest = 2;
-  Insertion insertion(plan, 0, 1);
-  Cube site;
-  site.too_large = 0.7;
-  std::vector<PackedSphere> there;
-  for (int step = 1; step <= 100; step++) insert(insertion, step, site, there);
+  Feed<> insertion(plan);
+  insertion.site.too_large = 0.7;
+  for (int step = 1; step <= 100; step++) insertion.insert(step);
   // Those before the last of them are in, and no other one.
   std::size_t small = 0, large = 0;
   for (std::int64_t k = 0; large <= Insertion::kMostPassedOver; k++)
     (insertion.source().grain(k).radius < 0.7 ? small : large)++;
-  EXPECT_EQ(there.size(), small);
-  site.too_large = 9;
-  insert(insertion, insertion.next_step(), site, there);
+  EXPECT_EQ(insertion.there.size(), small);
+  insertion.site.too_large = 9;
+  insertion.insert_next();
   EXPECT_EQ(insertion.late().number, 0);
 }
 
 TEST(insertion, where_a_grain_has_no_place_it_asks_whether_there_is_room_for_its_radius)
 {
-  InsertionPlan plan = plan_of(FeedSettings::at_once, 0);
-  plan.feed.number = 10;
-  Insertion insertion(plan, 0, 1);
   struct Narrow : Cube {
     void check_has_room(Real radius) override { throw InputError(radius == 0.5 ? "no room" : ""); }
-  } site;
-  std::vector<PackedSphere> there;
-  EXPECT_EQ(insert(insertion, 1, site, there), 10U);
-  Insertion late(plan, 0, 1);
-  site.too_large = 0.5;
-  EXPECT_THROW(insert(late, 1, site, there), InputError);
+  };
+  Feed<Narrow> insertion(at_once(10)), late(at_once(10));
+  EXPECT_EQ(insertion.insert(1), 10U);
+  late.site.too_large = 0.5;
+  EXPECT_TRUE(fails_with("no room", [&] { late.insert(1); }));
 }
 
 TEST(insertion, a_huge_amount_takes_the_memory_of_a_million_grains)
 {
-  InsertionPlan plan = plan_of(FeedSettings::at_once, 0);
-  plan.feed.number = 1000000000;
-  Insertion insertion(plan, 0, 1);
-  Cube site;
-  site.side = 0.5;
-  std::vector<PackedSphere> there;
-  EXPECT_EQ(insert(insertion, 1, site, there), 1U);
+  InsertionPlan plan = at_once(1000000000);
+  Feed<> insertion(plan);
+  insertion.site.side = 0.5;
+  EXPECT_EQ(insertion.insert(1), 1U);
   EXPECT_EQ(insertion.owed().size(), Insertion::kMostDrawn - 1);
   EXPECT_EQ(insertion.late().number, 999999999);
   EXPECT_NEAR(insertion.late().mass, 999999999, 1);    // rounding of 1e6 sums
   EXPECT_FALSE(insertion.has_more(1));
   // In vain: what is not drawn is due, too, and brings no try in each step.
   EXPECT_EQ(insertion.next_step(), 2);
-  EXPECT_EQ(insert(insertion, 2, site, there), 0U);
+  EXPECT_EQ(insertion.insert(2), 0U);
   EXPECT_EQ(insertion.next_step(), 4);
 }
 
@@ -327,7 +319,7 @@ TEST(insertion, more_than_a_million_grains_come_in_one_step_where_all_have_place
 {
   InsertionPlan plan = plan_of(FeedSettings::at_once, 0);
   plan.feed.mass = 2.5 * Insertion::kMostDrawn;
-  Insertion insertion(plan, 0, 1);
+  Feed<> insertion(plan);
   std::int64_t n = 0;
   do {
     insertion.draw_due(1);
@@ -352,38 +344,33 @@ TEST(insertion, goes_on_from_its_state_as_if_it_had_not_ended)
   InsertionPlan plan = plan_of(FeedSettings::by_mass, 3);
   plan.grains.sizes.clear();
   plan.grains.smallest = 0.7;
-  Cube site;
-  site.side = 6;
-  std::vector<PackedSphere> whole, parts;
-  const auto run = [&](Insertion &insertion, std::int64_t to, std::vector<PackedSphere> &there) {
-    while (insertion.next_step() <= to) insert(insertion, insertion.next_step(), site, there);
+  Feed<> one(plan, 0, 0.1), first(plan, 0, 0.1), second(plan, 777, 0.1);
+  const auto run = [](Feed<> &feed, std::int64_t to) {
+    feed.site.side = 6;
+    while (feed.next_step() <= to) feed.insert_next();
   };
-  Insertion one(plan, 0, 0.1);
-  run(one, 2000, whole);
+  run(one, 2000);
   EXPECT_GT(one.owed().size(), 10U);
-  Insertion first(plan, 0, 0.1);
-  run(first, 777, parts);
-  Insertion second(plan, 777, 0.1);
+  run(first, 777);
   restore(second, first.state(777), 777);
-  run(second, 2000, parts);
-  ASSERT_EQ(parts.size(), whole.size());
-  for (std::size_t i = 0; i < whole.size(); i++) {
-    EXPECT_TRUE(parts[i].at == whole[i].at);
-    EXPECT_EQ(parts[i].radius, whole[i].radius);
+  second.there = first.there;
+  run(second, 2000);
+  ASSERT_EQ(second.there.size(), one.there.size());
+  for (std::size_t i = 0; i < one.there.size(); i++) {
+    EXPECT_TRUE(second.there[i].at == one.there[i].at);
+    EXPECT_EQ(second.there[i].radius, one.there[i].radius);
   }
   EXPECT_EQ(second.state(2000).numbers(), one.state(2000).numbers());
 }
 
 // Steps in which grains come from here on, told from here.
-std::vector<std::int64_t> next_steps(Insertion &insertion, std::int64_t now, int n)
+std::vector<std::int64_t> next_steps(Feed<> &insertion, std::int64_t now, int n)
 {
-  Cube site;
-  std::vector<PackedSphere> there;
   std::vector<std::int64_t> steps;
   for (int k = 0; k < n; k++) {
     const std::int64_t step = insertion.next_step();
     steps.push_back(step - now);
-    insert(insertion, step, site, there);
+    insertion.insert(step);
   }
   return steps;
 }
@@ -394,25 +381,25 @@ TEST(insertion, steps_that_are_counted_anew_change_nothing)
   plan.feed.every = 3;
   plan.grains.sizes.clear();
   plan.grains.smallest = 0.5;
-  Insertion first(plan, 5, 0.1);
+  Feed<> first(plan, 5, 0.1);
   next_steps(first, 5, 20);
   const std::int64_t now = first.next_step() - 1;
   const State state = first.state(now);
   const std::vector<std::int64_t> wanted = next_steps(first, now, 20);
   for (const std::int64_t other : {std::int64_t(0), now, std::int64_t(1000000)}) {
-    Insertion second(plan, other, 0.1);
+    Feed<> second(plan, other, 0.1);
     restore(second, state, other);
     EXPECT_EQ(next_steps(second, other, 20), wanted) << other;
   }
 }
 
 // An insertion that goes on by the new plan where 20 grains of mass 1 are in since step 20, and it is step 50.
-Insertion continued(const InsertionPlan &former, const InsertionPlan &plan)
+Feed<> continued(const InsertionPlan &former, const InsertionPlan &plan)
 {
-  Insertion first(former, 0, 1);
+  Feed<> first(former);
   next_steps(first, 0, 20);
   EXPECT_EQ(first.next_step(), FeedSchedule::kNever);
-  Insertion second(plan, 50, 1);
+  Feed<> second(plan, 50, 1);
   restore(second, first.state(50), 50);
   EXPECT_EQ(second.inserted(), 20);
   return second;
@@ -427,7 +414,7 @@ TEST(insertion, with_a_larger_total_after_a_restart_the_rate_goes_on_from_there)
       former.feed.number = by_mass ? 0 : 20;
       plan.feed.mass = by_mass ? 23 : 0;
       plan.feed.number = by_mass ? 0 : 23;
-      Insertion second = continued(former, plan);
+      Feed<> second = continued(former, plan);
       EXPECT_EQ(next_steps(second, 50, 3), (std::vector<std::int64_t>{1, 2, 3}));
       EXPECT_EQ(second.next_step(), FeedSchedule::kNever);
     }
@@ -437,7 +424,7 @@ TEST(insertion, without_a_total_after_a_restart_the_rate_goes_on_from_there)
 {
   InsertionPlan former = plan_of(FeedSettings::by_mass, 1);
   former.feed.number = 20;
-  Insertion second = continued(former, plan_of(FeedSettings::by_mass, 1));
+  Feed<> second = continued(former, plan_of(FeedSettings::by_mass, 1));
   EXPECT_EQ(next_steps(second, 50, 3), (std::vector<std::int64_t>{1, 2, 3}));
 }
 
@@ -445,37 +432,31 @@ TEST(insertion, smaller_grains_after_a_restart_fill_up_what_is_left_of_the_mass)
 {
   InsertionPlan former = plan_of(FeedSettings::at_once, 0);
   former.feed.mass = 20.9;
-  Insertion first(former, 0, 1);
+  Feed<> first(former);
   InsertionPlan plan = former;
   plan.grains.sizes = {{0.5, 1}};    // of mass 1/8
   plan.grains.smallest = plan.grains.largest = 0.5;
-  Insertion second(plan, 50, 1);
-  Cube site;
-  std::vector<PackedSphere> there;
-  EXPECT_EQ(insert(first, 1, site, there), 20U);
+  Feed<> second(plan, 50, 1);
+  EXPECT_EQ(first.insert(1), 20U);
   restore(second, first.state(50), 50);
-  EXPECT_EQ(insert(second, second.next_step(), site, there), 7U);
+  EXPECT_EQ(second.insert_next(), 7U);
   EXPECT_NEAR(second.inserted_mass(), 20.875, 1e-12);
 }
 
 TEST(insertion, grains_without_a_place_are_of_the_new_sizes_after_a_restart)
 {
-  InsertionPlan former = plan_of(FeedSettings::at_once, 0);
-  former.feed.number = 5;
-  Insertion first(former, 0, 1);
-  Cube site;
-  site.side = 0.5;
-  std::vector<PackedSphere> there;
-  EXPECT_EQ(insert(first, 1, site, there), 1U);
+  InsertionPlan former = at_once(5);
+  Feed<> first(former);
+  first.site.side = 0.5;
+  EXPECT_EQ(first.insert(1), 1U);
   InsertionPlan plan = former;
   plan.feed.number = 4;
   plan.grains.sizes = {{0.25, 1}};
   plan.grains.smallest = plan.grains.largest = 0.25;
-  Insertion second(plan, 1, 1);
+  Feed<> second(plan, 1, 1);
   restore(second, first.state(1), 1);
-  site.side = 100;
-  EXPECT_EQ(insert(second, second.next_step(), site, there), 3U);
-  EXPECT_EQ(there.back().radius, 0.125);
+  EXPECT_EQ(second.insert_next(), 3U);
+  EXPECT_EQ(second.there.back().radius, 0.125);
   EXPECT_EQ(second.next_step(), FeedSchedule::kNever);
 }
 
@@ -485,14 +466,14 @@ TEST(insertion, with_a_total_below_what_is_in_nothing_comes_and_it_says_so)
   former.feed.number = 20;
   EXPECT_FALSE(continued(former, former).is_past_total());
   plan.feed.number = 19;
-  const Insertion second = continued(former, plan);
+  const Feed<> second = continued(former, plan);
   EXPECT_TRUE(second.is_past_total());
   EXPECT_EQ(second.next_step(), FeedSchedule::kNever);
 }
 
 TEST(insertion, the_state_of_another_program_is_refused_and_changes_nothing)
 {
-  Insertion insertion(plan_of(FeedSettings::by_mass, 1), 0, 0.1);
+  Feed<> insertion(plan_of(FeedSettings::by_mass, 1), 0, 0.1);
   const std::vector<Real> before = insertion.state(0).numbers();
   for (const Real other : {-3.0, 20.0, 1.0}) {
     const Real numbers[] = {other, 0, 0, 0, 0};
@@ -503,8 +484,8 @@ TEST(insertion, the_state_of_another_program_is_refused_and_changes_nothing)
 
 TEST(insertion, another_rate_after_a_restart_counts_from_there)
 {
-  Insertion first(plan_of(FeedSettings::by_mass, 1), 0, 0.1);
-  Insertion second(plan_of(FeedSettings::by_mass, 2), 4, 0.1);
+  Feed<> first(plan_of(FeedSettings::by_mass, 1), 0, 0.1);
+  Feed<> second(plan_of(FeedSettings::by_mass, 2), 4, 0.1);
   restore(second, first.state(4), 4);
   EXPECT_EQ(second.next_step(), 7);    // 0.4 is there, 0.6 are three steps
 }

@@ -14,8 +14,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <fstream>
-#include <sstream>
 
 namespace lsdcd::test_mesh_loads {
 namespace {
@@ -139,10 +137,7 @@ TEST(mesh_fields, are_written_whole_and_exact)
   loads.add(nullptr, 0, 0.1, 1);
   write_mesh_fields(path, mesh, load_fields(mesh, loads, 1000, true), 77, 0.25);
 
-  std::ifstream file(path);
-  std::stringstream text;
-  text << file.rdbuf();
-  const std::string xml = text.str();
+  const std::string xml = content(path);
   EXPECT_NE(xml.find("NumberOfPolys=\"18\""), std::string::npos);
   EXPECT_EQ(xml.substr(xml.size() - 11), "</VTKFile>\n");
   const auto points = array_in<double>(xml, "points");
@@ -204,10 +199,7 @@ TEST(file_series, lists_files_with_times_and_reads_its_own_list)
   next.read();
   next.add(2, 0.25);    // of this step there is another file now, and step 3 is to come
   next.write();
-  std::ifstream file(next.path());
-  std::stringstream text;
-  text << file.rdbuf();
-  EXPECT_EQ(text.str(),
+  EXPECT_EQ(content(next.path()),
             "<?xml version=\"1.0\"?>\n"
             "<VTKFile type=\"Collection\" version=\"0.1\">\n<Collection>\n"
             "<DataSet timestep=\"0.10000000000000001\" part=\"0\" file=\"a&amp;b_1.vtp\"/>\n"
@@ -229,14 +221,11 @@ TEST(file_series, has_times_with_a_point_in_any_locale)
   next.add(2, 0.125);    // before step 1, which is to come
   next.add(3, 0.5);
   next.write();
-  std::ifstream file(next.path());
-  std::stringstream text;
-  text << file.rdbuf();
-  EXPECT_EQ(text.str(), "<?xml version=\"1.0\"?>\n"
-                        "<VTKFile type=\"Collection\" version=\"0.1\">\n<Collection>\n"
-                        "<DataSet timestep=\"0.125\" part=\"0\" file=\"wall_2.vtp\"/>\n"
-                        "<DataSet timestep=\"0.5\" part=\"0\" file=\"wall_3.vtp\"/>\n"
-                        "</Collection>\n</VTKFile>\n");
+  EXPECT_EQ(content(next.path()), "<?xml version=\"1.0\"?>\n"
+                                  "<VTKFile type=\"Collection\" version=\"0.1\">\n<Collection>\n"
+                                  "<DataSet timestep=\"0.125\" part=\"0\" file=\"wall_2.vtp\"/>\n"
+                                  "<DataSet timestep=\"0.5\" part=\"0\" file=\"wall_3.vtp\"/>\n"
+                                  "</Collection>\n</VTKFile>\n");
 }
 
 }    // namespace

@@ -22,30 +22,19 @@ Real time_after(const std::vector<Step> &steps)
   return static_cast<Real>(c.now());
 }
 
-TEST(StepClock, goes_on_by_dt_in_each_step)
+TEST(StepClock, counts_steps_by_their_dt_and_snapshots_by_their_number)
 {
-  EXPECT_EQ(time_after({{11, 0.5}, {12, 0.5}}), 1);
-}
-
-TEST(StepClock, stands_still_where_a_run_is_set_up)
-{
-  EXPECT_EQ(time_after({{11, 0.5}, {11, 0.5, Step::setup}, {12, 0.5}}), 1);
-}
-
-TEST(StepClock, counts_each_step_with_its_own_dt)
-{
-  EXPECT_EQ(time_after({{11, 0.5}, {12, 0.25}, {13, 0.25}}), 1);
-}
-
-TEST(StepClock, goes_on_whatever_number_a_step_gets)
-{
-  EXPECT_EQ(time_after({{11, 0.5}, {0, 0.5, Step::setup}, {1, 0.5}}), 1);
-}
-
-TEST(StepClock, knows_the_time_of_a_snapshot_by_its_number)
-{
-  EXPECT_EQ(time_after({{14, 0.5, Step::snapshot}}), 2);
-  EXPECT_EQ(time_after({{14, 0.5, Step::snapshot}, {8, 0.5, Step::snapshot}}), -1);
+  const struct {
+    const char *what;
+    std::vector<Step> steps;
+    Real time;
+  } rows[] = {{"steps", {{11, 0.5}, {12, 0.5}}, 1},
+              {"a set-up", {{11, 0.5}, {11, 0.5, Step::setup}, {12, 0.5}}, 1},
+              {"another dt", {{11, 0.5}, {12, 0.25}, {13, 0.25}}, 1},
+              {"another number", {{11, 0.5}, {0, 0.5, Step::setup}, {1, 0.5}}, 1},
+              {"a snapshot", {{14, 0.5, Step::snapshot}}, 2},
+              {"one before", {{14, 0.5, Step::snapshot}, {8, 0.5, Step::snapshot}}, -1}};
+  for (const auto &row : rows) EXPECT_EQ(time_after(row.steps), row.time) << row.what;
 }
 
 // Each addition of 0.1 rounds, a product once.

@@ -5,13 +5,12 @@
 #include "law/sub_models.h"
 
 #include "effects/effects.h"
+#include "support/temp_dir.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <fstream>
 #include <set>
-#include <sstream>
 
 namespace lsdcd::test_sub_models {
 namespace {
@@ -93,11 +92,9 @@ std::string page_table()
 
 TEST(sub_models, are_listed_in_the_page_of_the_fix)
 {
-  std::ifstream file(std::string(LSDCD_TEST_DIR) + "/../doc/contact_laws.rst");
-  std::stringstream page;
-  page << file.rdbuf();
-  ASSERT_FALSE(page.str().empty());
-  EXPECT_NE(page.str().find(page_table()), std::string::npos)
+  const std::string page = content(LSDCD_TEST_DIR "/../doc/contact_laws.rst");
+  ASSERT_FALSE(page.empty());
+  EXPECT_NE(page.find(page_table()), std::string::npos)
       << "the table of sub-models in doc/contact_laws.rst should be\n"
       << page_table();
 }

@@ -4,6 +4,7 @@
 // Do two triangles meet: against CGAL's exact kernel, which knows triangles, segments and points
 // apart. LSDCD_QUICK=1 tries a tenth.
 #include "geometry/triangles_meet.h"
+#include "support/random.h"
 
 #include <CGAL/Exact_predicates_exact_constructions_kernel.h>
 #include <gtest/gtest.h>
@@ -11,7 +12,6 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <random>
 
 namespace lsdcd {
 namespace {
@@ -20,7 +20,6 @@ using Kernel = CGAL::Exact_predicates_exact_constructions_kernel;
 using Point = Kernel::Point_3;
 using Segment = Kernel::Segment_3;
 using Flat = Kernel::Triangle_3;
-using Random = std::mt19937_64;
 
 Point point(const Vec3 &x)
 {
@@ -57,14 +56,9 @@ bool expected(const Triangle &s, const Triangle &t)
   return a.p[0] == b.p[0];
 }
 
-Real uniform(Random &random, Real lo = -1, Real hi = 1)
-{
-  return std::uniform_real_distribution<Real>(lo, hi)(random);
-}
-
 Vec3 anywhere(Random &random)
 {
-  return {uniform(random), uniform(random), uniform(random)};
+  return uniform(random, Vec3{-1, -1, -1}, Vec3{1, 1, 1});
 }
 // A point of few numbers, so that much coincides, lies in one plane or on one line.
 Vec3 whole(Random &random, int n)

@@ -455,6 +455,21 @@ TEST_F(wall, weights_a_mean_by_the_time_of_its_steps)
               -kN * kRadius * (overlap_in(1, 0) + 3 * overlap_in(2, 0)) / 4, 1e-11);
 }
 
+TEST_F(wall, goes_on_with_a_mean_from_a_saved_state)
+{
+  on_processes(2, [&](FakeHost &host) {
+    Scene first(host, floor.wall("average 4")), next(host, floor.wall("average 4"));
+    first.add({2, 1, 0.4});
+    first.set_up();
+    press(first, 6);
+    next.restore_with_spheres(first);
+    next.set_up();
+    EXPECT_NEAR(next.wall->means().mesh(0).force.z, mean_push(1, 4), 1e-11);
+    press(next, 2);
+    EXPECT_NEAR(next.wall->means().mesh(0).force.z, mean_push(5, 8), 1e-11);
+  });
+}
+
 TEST_F(wall, of_one_process_that_fails_names_its_sphere)
 {
   Scene scene(floor.wall());

@@ -440,51 +440,5 @@ TEST(wall_list, of_a_sphere_that_comes_in_from_outside_of_the_grid_is_made_in_ti
   EXPECT_GT(touching, 3);
 }
 
-// Contacts are taken in the order of their numbers, so that forces and springs do not tell when a
-// list was made. In the dense soup some spheres have no list.
-TEST(wall_list, that_is_kept_on_a_long_walk_gives_the_bits_of_choosing_in_each_step)
-{
-  constexpr int kSteps = 1000, kSpheres = 40;
-  const Real cutoff = 0.5, step = 0.3 * kSkinFraction * cutoff;
-  const TriangleSoup soups[] = {floor_mesh(20, 10, 7), box_mesh({0, 0, 0}, {4, 4, 4}),
-                                random_soup(60, 3), random_soup(1000, 3)};
-  for (const TriangleSoup &soup : soups) {
-    const Wall wall(soup, cutoff);
-    EngineSettings s;
-    s.law() = classic(NormalModel::hertz, true);
-    Bed kept(wall, s), anew(wall, s);
-    Numbers r(8);
-    const std::vector<VertexRecord> &vertices = wall.grid.wall.vertices;
-    for (int i = 0; i < kSpheres; i++) {
-      const Vec3 at = vertices[r.next() % vertices.size()].position;
-      const Vec3 q = at + r.in(0.5, 0.9) * cutoff * r.direction();
-      const Real radius = cutoff * r.in(0.8, 1);
-      kept.add(q, radius);
-      anew.add(q, radius);
-    }
-    kept.choose(kSteps * step);    // no walk goes farther
-    std::int64_t contacts = 0, lists = 0;
-    int differ = 0, by_cells = 0;
-    for (int k = 0; k < kSteps; k++) {
-      for (int i = 0; i < kSpheres; i++) kept.put(i, kept.centre(i) + step * r.direction());
-      anew.x = kept.x;
-      kept.step();
-      anew.choose(0);
-      anew.step();
-      contacts += kept.engine->results().totals().contacts;
-      const StepDiagnostics seen = kept.engine->read_diagnostics();
-      lists += seen.lists;
-      by_cells += seen.by_cells > 0;
-      differ += !same_bytes(kept.force, anew.force) || !same_bytes(kept.torque, anew.torque);
-    }
-    const std::string &name = soup.source;
-    EXPECT_EQ(differ, 0) << name;
-    EXPECT_LT(by_cells, kSteps / 4) << name;
-    EXPECT_TRUE(same_bytes(kept.springs(), anew.springs())) << name;
-    EXPECT_GT(contacts, kSteps * kSpheres / 2) << name;
-    EXPECT_LT(lists, kSteps * kSpheres / 4) << name;    // it is kept
-  }
-}
-
 }    // namespace
 }    // namespace lsdcd::test_wall_list

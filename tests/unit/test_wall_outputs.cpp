@@ -3,14 +3,13 @@
 
 // The columns of a wall: how many there are, and that the manual has them.
 #include "support/says.h"
+#include "support/temp_dir.h"
 #include "wall/wall_outputs.h"
 
 #include <gtest/gtest.h>
 
-#include <fstream>
 #include <map>
 #include <regex>
-#include <sstream>
 #include <string>
 
 namespace lsdcd::test_wall_outputs {
@@ -23,9 +22,7 @@ std::string columns(int first, int n)
 
 TEST(wall_outputs, are_in_the_manual)
 {
-  std::ifstream file(LSDCD_TEST_DIR "/../doc/wall_output.rst");
-  std::stringstream page;
-  page << file.rdbuf();
+  const std::string page = content(LSDCD_TEST_DIR "/../doc/wall_output.rst");
   std::string table, ones;
   int column = 1;
   for (const WallOutput &row : wall_outputs()) {
@@ -33,17 +30,14 @@ TEST(wall_outputs, are_in_the_manual)
              (*row.unit ? " (" + std::string(row.unit) + ")" : "") + "\n";
     column += row.n;
   }
-  EXPECT_TRUE(has(page.str(), "\n\n" + table + "\n")) << "the list of the page is to be:\n"
-                                                      << table;
+  EXPECT_TRUE(has(page, "\n\n" + table + "\n")) << "the list of the page is to be:\n" << table;
 }
 
 // How many numbers each double of a struct in the library's header has, by its name.
 std::map<std::string, int> members_of(const std::string &name)
 {
-  std::ifstream file(LSDCD_TEST_DIR "/../src/api/lsdcd.h");
-  std::stringstream read;
-  read << file.rdbuf();
-  const std::string header = read.str(), begins = "typedef struct " + name + " {";
+  const std::string header = content(LSDCD_TEST_DIR "/../src/api/lsdcd.h"),
+                    begins = "typedef struct " + name + " {";
   const std::size_t at = header.find(begins), end = header.find("\n} " + name + ";");
   std::map<std::string, int> members;
   if (at == std::string::npos || end == std::string::npos) return members;

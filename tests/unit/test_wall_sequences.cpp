@@ -16,6 +16,7 @@
 #include <cstdlib>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace lsdcd::test_wall_sequences {
@@ -144,16 +145,7 @@ struct World : WallScene {
   void take_step(Step::Kind kind)
   {
     set_meshes();
-    std::fill(force.begin(), force.end(), Vec3{0, 0, 0});
-    std::fill(torque.begin(), torque.end(), Vec3{0, 0, 0});
-    wall->history().grow(static_cast<int>(x.size()));
-    StepInput input;
-    input.step = {now, dt, kind};
-    input.look = input.new_spheres = look;
-    input.gravity = gravity;
-    look = false;
-    wall->begin(spheres(), input);
-    wall->finish(spheres());
+    step(kind, std::exchange(look, false));
   }
 
   void go(int n)
