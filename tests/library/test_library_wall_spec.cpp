@@ -350,7 +350,6 @@ TEST_F(law_of_materials, says_what_is_wrong)
        {},
        "`materials.overrides[1].key` is \"restitution\": it is given twice",
        LSDCD_ERROR_ARGUMENT},
-      {of("glass", "", {}, "lj"), {}, "units lj", LSDCD_ERROR_INPUT},
       {of("glass"), classic, "`law.style.name` is \"hooke/history\": a style takes no materials",
        LSDCD_ERROR_ARGUMENT},
       {of("glass"), with("hertz", {}), "`law.normal.name` is \"hertz\"", LSDCD_ERROR_ARGUMENT},
@@ -1400,8 +1399,6 @@ TEST_F(wall_spec, names_the_field_its_value_and_the_remedy)
        "`meshes[0].motions[0].period` is 1: LSDCD_TABLE does not use it"},
       {[&](Wrong &w) { with_motion(w).period = 1; },
        "`meshes[0].motions[0].period` is 1: LSDCD_LINEAR does not use it"},
-      {[&](Wrong &w) { w.meshes[0].fields = "a.vtp"; },
-       "`meshes[0].fields_every` is 0: it is a number of steps, 1 or more"},
       {[&](Wrong &w) { w.meshes[1].stl_every = 3; },
        "`meshes[1].stl_every` is 3: `meshes[1].stl` has no file"},
       {[&](Wrong &w) { w.spec.corner = 2; }, "`corner` is 2: it is LSDCD_BLEND or LSDCD_SUM"},
@@ -1421,7 +1418,6 @@ TEST_F(wall_spec, names_the_field_its_value_and_the_remedy)
          w.spec.wear_deform_factor = -2;
        },
        "`wear_deform_factor` is -2: it is above 0"},
-      {[&](Wrong &w) { w.meshes[0].pressure = 2; }, "`meshes[0].pressure`: it acts on nodes"},
   };
   EXPECT_EQ(Wrong(*mesh_).text(), "");
   for (const auto &row : rows) {

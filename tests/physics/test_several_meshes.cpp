@@ -459,12 +459,5 @@ TEST(several_meshes, with_equal_laws_act_as_with_one)
   EXPECT_FALSE(same_bytes(other.force, expected.force));
 }
 
-TEST(several_meshes, with_laws_of_other_sub_models_are_refused)
-{
-  EngineSettings s = with_laws(false);
-  s.laws.laws[3] = ContactLaw();
-  EXPECT_THROW(on_cpu(s), std::logic_error);
-}
-
 }    // namespace
 }    // namespace lsdcd::test_several_meshes
