@@ -64,7 +64,7 @@ constexpr unsigned kTogether = kTreeWidth;
 // Searches for the points of a turn, from the one at `from` on, by `order`.
 template <class T>
 struct SearchPoints {
-  static constexpr unsigned kThreads = 128, kBlocksAtOnce = 4, kPoints = kThreads / kTogether;
+  static constexpr unsigned kThreads = 128, kBlocksAtOnce = 6, kPoints = kThreads / kTogether;
 
   TreeAnswers<T> answers;
   std::size_t from, n;
@@ -78,6 +78,18 @@ struct SearchPoints {
     if (turn >= n) return;
     const std::size_t i = from + (order ? order[turn] : turn);
     const Warp<kTogether> warp;
+    const TreeAnswer best = nearest(i, warp, stacks[mine]);
+    if (warp.rank() != 0) return;
+    answers.check(i);
+    // Read again: kept in registers while it is searched for, the point would leave room for fewer blocks.
+    const Vec3 q = answers.io.points[i];
+    answers.store(i, q, best, answers.tree.times_nearer(q));
+  }
+
+ private:
+  LSDCD_GPU_FN TreeAnswer nearest(std::size_t i, const Warp<kTogether> &warp,
+                                  TreeWaiting *stack) const
+  {
     const TreeView &tree = answers.tree;
     const Vec3 q = answers.io.points[i];
     const Real times = tree.times_nearer(q);
@@ -85,12 +97,10 @@ struct SearchPoints {
     TreeAnswer best = {answers.radius(i, times), kNoFeature, kNoPrimitive};
     const TreeSearch search = tree.search_for(tree.scaled(nearer));
     if (search == TreeSearch::in_float)
-      search_tree<TreeBoundsFloat>(tree, warp, nearer, stacks[mine], best);
+      search_tree<TreeBoundsFloat>(tree, warp, nearer, stack, best);
     else if (search == TreeSearch::in_double)
-      search_tree<TreeBoundsDouble>(tree, warp, nearer, stacks[mine], best);
-    if (warp.rank() != 0) return;
-    answers.check(i);
-    answers.store(i, q, best, times);
+      search_tree<TreeBoundsDouble>(tree, warp, nearer, stack, best);
+    return best;
   }
 };
 
