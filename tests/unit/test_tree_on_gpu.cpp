@@ -17,7 +17,7 @@
 namespace lsdcd {
 namespace {
 
-// Some more are no numbers.
+// Some more are so far that squares of their coordinates overflow, in float infinitely far, or no numbers.
 template <class T>
 std::vector<T> coordinates(const TreeCase &c, std::size_t n)
 {
@@ -25,7 +25,8 @@ std::vector<T> coordinates(const TreeCase &c, std::size_t n)
   for (const std::vector<Vec3> &points : {c.points(n, 7), c.mesh.vertices})
     for (const Vec3 &q : points)
       for (int k = 0; k < 3; k++) out.push_back(static_cast<T>(q[k]));
-  for (const double bad : {std::nan(""), HUGE_VAL}) out.insert(out.end(), {T(bad), 0, 0});
+  for (const double x : {1e151, -3e300, HUGE_VAL, std::nan("")})
+    out.insert(out.end(), {static_cast<T>(x), 1, 0});
   return out;
 }
 
