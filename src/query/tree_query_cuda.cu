@@ -64,7 +64,7 @@ constexpr unsigned kTogether = kTreeWidth;
 // Searches for the points of a turn, from the one at `from` on, by `order`.
 template <class T>
 struct SearchPoints {
-  static constexpr unsigned kThreads = 128, kBlocksAtOnce = 6, kPoints = kThreads / kTogether;
+  static constexpr unsigned kThreads = 128, kBlocksAtOnce = 8, kPoints = kThreads / kTogether;
 
   TreeAnswers<T> answers;
   std::size_t from, n;

@@ -29,6 +29,8 @@ constexpr float kTreeHuge = 1e18f;
 constexpr Real kFarthest = 1e150;
 // Farther than this the rounding of float would leave too many triangles.
 constexpr Real kFarInUnits = 16;
+// Share of the mesh's box that is more than the rounding of share_of_box().
+constexpr Real kBoxMargin = 1e-12;
 constexpr float kNoBox = 3.402823466e+38f;    // both bounds of a child that is not there
 // Room of a search's stack: 7 a level, and 8^12 leaves are more than 32 bits number, so 7 * 12 = 84 is enough.
 constexpr int kTreeStack = 128;
@@ -112,6 +114,14 @@ struct TreeView {
     return {(q.x - lo.x) * inv_size.x, (q.y - lo.y) * inv_size.y, (q.z - lo.z) * inv_size.z};
   }
 
+  // Tells that q is outside of the mesh's box, by more than rounding.
+  LSDCD_FN bool is_outside_box(const Vec3 &q) const
+  {
+    const Vec3 share = share_of_box(q);
+    return fmin(share.x, fmin(share.y, share.z)) < -kBoxMargin ||
+           fmax(share.x, fmax(share.y, share.z)) > 1 + kBoxMargin;
+  }
+
   // An edge has one direction, a < b, so that all its triangles get the same bits.
   LSDCD_FN Real segment(std::uint32_t a, std::uint32_t b, std::uint32_t edge, const Vec3 &q,
                         FeatureCode &feature) const
@@ -186,14 +196,16 @@ struct TreeView {
   // q is on the mesh.
   LSDCD_FN void closest(const TreeAnswer &answer, const Vec3 &q, Vec3 &point, Vec3 &normal) const;
 
-  // On which side of the mesh q is, which must be closed and oriented and must not meet itself: 1 outside
-  // and on it, -1 inside; 0 where an edge or a corner of no face is nearest. `point`, `normal`: of closest().
+  // Returns on which side of the mesh q is, which must be closed and oriented and must not meet itself: 1 outside
+  // and on it, -1 inside; 0 where an edge or a corner of no face is nearest. `point`, `normal`: of closest(). Outside
+  // of the box it does not ask the feature that was found: from far away others are as near, up to rounding.
   LSDCD_FN std::int8_t side(const TreeAnswer &answer, const Vec3 &q, const Vec3 &point,
                             const Vec3 &normal) const
   {
     if (point == q) return 1;
     const Vec3 out = outward(answer);
     if (out == Vec3{0, 0, 0}) return 0;
+    if (is_outside_box(q)) return 1;
     return outside * dot(out, normal) < 0 ? -1 : 1;
   }
 

@@ -171,6 +171,22 @@ TEST(triangle_tree, normals_tell_the_sides_that_winding_numbers_tell)
   EXPECT_GT(inside, 100u);
 }
 
+// From far away all features are as far, up to rounding, so that one of the far side may be found.
+TEST(triangle_tree, points_far_outside_are_outside)
+{
+  for (const Real height : {1., 1e-7}) {
+    const Case c(box_mesh({0, 0, 0}, {1, 2, height}));
+    Numbers r(15);
+    for (int k = 0; k < 20000; k++) {
+      const Vec3 q = r.log_in(10, 1e149) * r.direction();
+      const TreeAnswer a = c.tree.nearest(q, kAnyDistance, kNoHint);
+      Vec3 point, normal;
+      c.tree.closest(a, q, point, normal);
+      ASSERT_EQ(c.tree.view().side(a, q, point, normal), 1) << norm(q);
+    }
+  }
+}
+
 // More than stays in a cache, so that the points are put in order.
 TEST(triangle_tree, many_points_get_what_each_alone_gets)
 {
