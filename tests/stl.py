@@ -36,3 +36,23 @@ def sheet(cells, point):
     """2 cells^2 triangles between `point(i, j)`, where i and j go from 0 to `cells`."""
     return [t for i in range(cells) for j in range(cells)
             for t in quad(point(i, j), point(i + 1, j), point(i + 1, j + 1), point(i, j + 1))]
+
+
+def square(half, z=0):
+    """Across z, wound upwards."""
+    return quad((-half, -half, z), (half, -half, z), (half, half, z), (-half, half, z))
+
+
+def box(lo, hi, cells=1):
+    """Closed, its normals out; each face is cut into 2 cells^2 triangles."""
+    triangles = []
+    for axis in range(3):
+        u, v = (axis + 1) % 3, (axis + 2) % 3
+        for side in (lo, hi):
+            def point(i, j):
+                p = list(side)
+                p[u] = lo[u] + (hi[u] - lo[u]) * i / cells
+                p[v] = lo[v] + (hi[v] - lo[v]) * j / cells
+                return tuple(p)
+            triangles += sheet(cells, point if side is hi else lambda i, j: point(j, i))
+    return triangles

@@ -298,21 +298,15 @@ def keywords():
     return set(re.findall(r"^  ([a-z_]+) ", shown.split("keywords\n")[1].split("\n\n")[0], re.M))
 
 
-def write_cube(path, half, flat=False):
-    corners = [(x, y, z) for x in (-half, half) for y in (-half, half) for z in (-half, half)]
-    faces = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
-    if flat:
-        faces = faces[:1]
-    stl.write(path, [t for face in faces for t in stl.quad(*(corners[k] for k in face))])
-
-
 def with_meshes(line, folder):
     """The line with meshes that are there: one file for each scale."""
     def replace(match):
         scale = re.match(r"(?:(?!\bmesh\b).)*?\bscale (\S+)", line[match.end():])
         name = f"{match[2]}_{scale[1] if scale else 1}.stl"
         half = 0.3 if match[2] == "box" else 1.2    # a box is inside of the others
-        write_cube(folder / name, half / float(scale[1] if scale else 1), flat="insert/lsdcd mesh" in line)
+        half /= float(scale[1] if scale else 1)
+        faces = stl.box((-half,) * 3, (half,) * 3)
+        stl.write(folder / name, faces[:2] if "insert/lsdcd mesh" in line else faces)
         return f"mesh{match[1]} {name}"
     return re.sub(r"\bmesh(/lsdcd|) ([\w-]+)\.(?:stl|obj|ply|off)\b", replace, line)
 

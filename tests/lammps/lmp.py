@@ -11,6 +11,8 @@ import tempfile
 
 import pytest
 
+from facts import fact
+
 CXX = os.environ.get("LSDCD_CXX", "c++")
 HERE = pathlib.Path(__file__).resolve().parent
 LMP = os.environ.get("LSDCD_LMP", str(HERE.parent.parent / "build" / "bin" / "lmp-lsdcd"))
@@ -159,6 +161,18 @@ def read_thermo(output):
         elif re.match(r"^\s*\d+(\s+[-+\d.einaf]+)+\s*$", line):
             rows.append([float(word) for word in line.split()])
     return rows
+
+
+def read_rows(path):
+    """Rows of numbers of what fix print or print wrote."""
+    return [[float(word) for word in line.split()] for line in pathlib.Path(path).read_text().split("\n") if line and line[0] != "#"]
+
+
+def refused(name, text, folder, *says, **more):
+    """A fact: the script ends with an error that says all of this, wherever its lines break."""
+    done = run(text, folder, **more)
+    said = " ".join(done.stdout.split())
+    fact(f"{name}: refused", done.returncode != 0 and all(words in said for words in says), said[-400:])
 
 
 def largest_difference(a, b):

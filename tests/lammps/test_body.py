@@ -20,22 +20,6 @@ timestep        {dt}
 FORCE, POWER, CENTRE, SPEED, TURN, OMEGA, REACTION, COUPLE, COORDINATE, ENERGY, STOP = 1, 11, 15, 18, 21, 25, 28, 31, 34, 35, 41
 
 
-def box(path, lo, hi, cells=1):
-    """A closed box, normals out; each face is cut into 2 cells^2 triangles."""
-    triangles = []
-    for axis in range(3):
-        u, v = (axis + 1) % 3, (axis + 2) % 3
-        for side in (0, 1):
-            def point(i, j):
-                p = [0, 0, 0]
-                p[axis] = (lo, hi)[side][axis]
-                p[u] = lo[u] + (hi[u] - lo[u]) * i / cells
-                p[v] = lo[v] + (hi[v] - lo[v]) * j / cells
-                return tuple(p)
-            triangles += stl.sheet(cells, point if side else lambda i, j: point(j, i))
-    stl.write(path, triangles)
-
-
 def script(fix, create, dt, box="-2 2 -2 2 -2 2", pair="zero 1.0", skin=0.1, move="fix move all nve/sphere", more="",
            every=1, columns=range(1, 36), also=""):
     shown = " ".join(f"$(f_w[{k}]:%.17g)" for k in columns)
@@ -44,13 +28,9 @@ def script(fix, create, dt, box="-2 2 -2 2 -2 2", pair="zero 1.0", skin=0.1, mov
             f"fix out all print {every} \"$(step) {shown} {also}\" file out.txt screen no\n")
 
 
-def rows_of(path):
-    return [[float(w) for w in line.split()] for line in path.read_text().split("\n") if line and line[0] != "#"]
-
-
 def go(folder, text, ranks=1):
     log = lmp.run_well(text, folder, ranks)
-    return rows_of(folder / "out.txt"), log
+    return lmp.read_rows(folder / "out.txt"), log
 
 
 def sphere(x, y, z, radius, mass, velocity):
@@ -66,7 +46,7 @@ ATOM = "$(vx[1]:%.17g) $(vy[1]:%.17g) $(vz[1]:%.17g)"
 def test_impacts(folder):
     """A sphere on the middle of a cube's face: v' = (m - e M) v / (m + M), V' = (1 + e) m v / (m + M)."""
     radius, mass, speed, stiffness, e = 0.1, 1.0, 1.0, 1e6, 0.6
-    box(folder / "cube.stl", (-0.1, -0.1, -0.1), (0.1, 0.1, 0.1))
+    stl.write(folder / "cube.stl", stl.box((-0.1, -0.1, -0.1), (0.1, 0.1, 0.1)))
     for ratio in (1e-3, 0.1, 1, 1e3):
         body = ratio * mass
         reduced = 1 / (1 / mass + 1 / body)
@@ -88,7 +68,7 @@ def test_impacts(folder):
 
 def test_off_centre(folder):
     """Elastic, without friction, 0.05 beside the middle of the cube of side 0.2, M = m: 0.842105 m v."""
-    box(folder / "cube.stl", (-0.1, -0.1, -0.1), (0.1, 0.1, 0.1))
+    stl.write(folder / "cube.stl", stl.box((-0.1, -0.1, -0.1), (0.1, 0.1, 0.1)))
     errors = []
     for stiffness in (1e6, 1e8):
         dt = 0.01 * math.sqrt(0.4 / stiffness)
@@ -108,7 +88,7 @@ def test_off_centre(folder):
 def test_plate(folder):
     """A plate of mass 1 on 100 spheres that stay, as 100 springs."""
     side, mass, stiffness, row = 0.2, 1.0, 1e5, 10
-    box(folder / "plate.stl", (-side / 2, -side / 2, 0), (side / 2, side / 2, 0.002))
+    stl.write(folder / "plate.stl", stl.box((-side / 2, -side / 2, 0), (side / 2, side / 2, 0.002)))
     radius = 0.005
     create, n = "", 0
     for i in range(row):
@@ -138,15 +118,14 @@ def test_plate(folder):
         text = script(law + f"joint {joint}", create, 0.95 * limit, columns=(COORDINATE, CENTRE + 2), **place)
         rows, _ = go(folder, text + "run 2000\n")
         at_most(f"plate {joint}: stable at 0.95 of the limit", max(abs(r[2]) for r in rows), 3 * sinks)
-        done = lmp.run(script(law + f"joint {joint}", create, 1.02 * limit, **place) + "run 2000\n", folder)
-        fact(f"plate {joint}: refused above it", done.returncode != 0 and "is not below" in done.stdout,
-             " ".join(w for w in done.stdout.split("\n") if "ERROR" in w)[:300])
+        lmp.refused(f"plate {joint}: above it", script(law + f"joint {joint}", create, 1.02 * limit, **place) + "run 2000\n", folder,
+                    "is not below")
 
 
 def test_hinge(folder):
     """A flap under fix gravity: its period, and the weights that the hinge bears."""
     side, thick, g = 0.2, 0.002, 9.81
-    box(folder / "flap.stl", (-thick / 2, -side / 2, -side), (thick / 2, side / 2, 0))
+    stl.write(folder / "flap.stl", stl.box((-thick / 2, -side / 2, -side), (thick / 2, side / 2, 0)))
     inertia = side**2 / 3 + thick**2 / 12    # over the mass
     far = "create_atoms 1 single 1 1 1 units box\nset group all diameter 0.01 density 1\n"
     law = "hooke 1e3 NULL 0 NULL 0 0 mesh flap.stl body density 1000 joint hinge 0 0 0 0 1 0 "
@@ -170,7 +149,7 @@ def test_hinge(folder):
 
 def test_motor(folder):
     """A motor with a variable, and a damper: I w' = T - c w, exactly for a constant T."""
-    box(folder / "rotor.stl", (-0.3, -0.1, -0.1), (0.3, 0.1, 0.1))
+    stl.write(folder / "rotor.stl", stl.box((-0.3, -0.1, -0.1), (0.3, 0.1, 0.1)))
     far = "create_atoms 1 single 1 1 1 units box\nset group all diameter 0.01 density 1\n"
     inertia, torque, damping, dt = 2.0, 0.7, 0.4, 0.01
     law = f"hooke 1e3 NULL 0 NULL 0 0 mesh rotor.stl body mass 3 com 0 0 0 inertia 1 1.5 {inertia} 0 0 0 " \
@@ -191,7 +170,7 @@ def test_motor(folder):
 def test_stops(folder):
     """A flap that a motor holds at its stop, and a sphere that hits it there: outputs as of a mesh at rest, and the stop's torque."""
     side, thick, torque, upper, dt, radius = 0.2, 0.02, 5.0, 0.3, 1e-3, 0.05
-    box(folder / "flap.stl", (-thick / 2, -side / 2, -side), (thick / 2, side / 2, 0))
+    stl.write(folder / "flap.stl", stl.box((-thick / 2, -side / 2, -side), (thick / 2, side / 2, 0)))
     far = "create_atoms 1 single 1 1 1 units box\nset group all diameter 0.01 density 1\n"
     law = "granular hooke 1e4 0.3 damping coeff_restitution tangential linear_nohistory 0 0 mesh flap.stl "
     body = f"body density 100 joint hinge 0 0 0 0 1 0 motor {torque} limits 0 {upper} gravity 0 0 0"
@@ -236,8 +215,8 @@ BOOK = "$(v_px:%.17g) $(v_py:%.17g) $(v_pz:%.17g) $(c_l[1]:%.17g) $(c_l[2]:%.17g
 
 def test_two_bodies(folder, steps=5000):
     """A free cube in a free box, with spheres between that touch both at a time: the momentum of all."""
-    box(folder / "outer.stl", (-1.0,) * 3, (1.0,) * 3, 2)
-    box(folder / "inner.stl", (-0.6,) * 3, (0.6,) * 3, 2)
+    stl.write(folder / "outer.stl", stl.box((-1.0,) * 3, (1.0,) * 3, 2))
+    stl.write(folder / "inner.stl", stl.box((-0.6,) * 3, (0.6,) * 3, 2))
     masses = (5.0, 1.5)
     words = [f"mesh {name}.stl body mass {m} com 0 0 0 inertia 1 1 1 0 0 0" for name, m in zip(("outer", "inner"), masses)]
     # In the gap of 0.4: the first sphere is squeezed from the start, and touches both.
@@ -258,8 +237,8 @@ def test_two_bodies(folder, steps=5000):
 
 def test_coats(folder):
     """A cube with a coat on a floor: its height at rest, any number of processes, restart, and changes between runs."""
-    stl.write(folder / "floor.stl", stl.quad((-1, -1, 0), (1, -1, 0), (1, 1, 0), (-1, 1, 0)))
-    box(folder / "cube.stl", (-0.2,) * 3, (0.2,) * 3)
+    stl.write(folder / "floor.stl", stl.square(1))
+    stl.write(folder / "cube.stl", stl.box((-0.2,) * 3, (0.2,) * 3))
     far = "create_atoms 1 single 1 1 1 units box\nset group all diameter 0.01 density 1\n"
     stiffness, radius, mass, g, points = 1e3, 0.05, 0.64, 9.81, 13    # points of a face: see test_body_coat.cpp
 
@@ -297,16 +276,13 @@ def test_coats(folder):
     at_most("fix_modify body: the new load and motor act", abs(rows[-1][SPEED + 2] - speed), 1e-4)
     for words, says in (("density 3", "is not a keyword of a body, or cannot change"), ("spring 1 1", "hinge or slider"),
                         ("", "nothing is given to change")):
-        done = lmp.run(text + f"fix_modify w mesh 2 body {words}\n", folder)
-        fact(f"refused: fix_modify body {words}", done.returncode != 0 and says in done.stdout.replace("\n", " "),
-             " ".join(line for line in done.stdout.split("\n") if "ERROR" in line)[:200])
-    done = lmp.run(text + "fix_modify w mesh 1 body load 0 0 1\n", folder)
-    fact("refused: fix_modify body of a mesh that is none", done.returncode != 0 and "is not a body" in done.stdout)
+        lmp.refused(f"fix_modify body {words}", text + f"fix_modify w mesh 2 body {words}\n", folder, says)
+    lmp.refused("fix_modify body of a mesh that is none", text + "fix_modify w mesh 1 body load 0 0 1\n", folder, "is not a body")
 
 
 def test_weak_points(folder):
     """Where bodies of LIGGGHTS-PFM go wrong, by doc/from-liggghts.md; impacts() has the restitution of light bodies."""
-    box(folder / "block.stl", (-0.1,) * 3, (0.1,) * 3)
+    stl.write(folder / "block.stl", stl.box((-0.1,) * 3, (0.1,) * 3))
     far = "create_atoms 1 single 1 1 1 units box\nset group all diameter 0.01 density 1\n"
     # A spring keeps its rest over runs: the second begins where the block turns round, and the third where it is midway.
     dt, rate, speed = 1e-3, 2 * math.pi, 0.5
@@ -339,7 +315,7 @@ def test_weak_points(folder):
 def test_damped(folder):
     """Where damping acts, the set-up of a run computes forces by the velocities of the whole step, the run by those of half a
     step: in LAMMPS's own walls and pairs, too. So a run that is cut is not the same to the last bit, but by how much is known."""
-    box(folder / "cube.stl", (-0.75,) * 3, (0.75,) * 3, 2)
+    stl.write(folder / "cube.stl", stl.box((-0.75,) * 3, (0.75,) * 3, 2))
     words = "hooke/history 1e4 3e3 50 25 0.3 1 mesh cube.stl body density 2 load 0.1 0.2 0.3 moment 0 0.1 0.2"
     text = script(words, crowd(4, 0.35).replace("0.05 4711", "1 4711"), 5e-4, box="-5 5 -5 5 -5 5")
     whole, _ = go(folder, text + "run 300\n")
@@ -349,7 +325,7 @@ def test_damped(folder):
     # A body on a sphere that stays: the force of the set-up is off by c a dt / 2, and half a step of it acts, which
     # changes the velocity by (c / M) a dt^2 / 4.
     mass, stiffness, gamma, g, radius = 1.0, 1e3, 4.0, 9.81, 0.1
-    box(folder / "block.stl", (-0.1,) * 3, (0.1,) * 3)
+    stl.write(folder / "block.stl", stl.box((-0.1,) * 3, (0.1,) * 3))
     held = sphere(0, 0, -0.1 - radius, radius, 1e9, (0, 0, 0))
     law = (f"hooke {stiffness} NULL {gamma} NULL 0 0 mesh block.stl body mass {mass} com 0 0 0 inertia 1 1 1 0 0 0 "
            f"gravity 0 0 -{g} joint slider 0 0 1")
@@ -371,7 +347,7 @@ def test_damped(folder):
 def test_files(folder):
     """mesh_stl, mesh_fields and dump image have the body where it is, with the force of a sphere that presses on it."""
     half, radius, speed, dt, overlap, stiffness = 0.2, 0.1, 0.5, 1e-3, 1e-3, 1e4
-    box(folder / "cube.stl", (-half,) * 3, (half,) * 3)
+    stl.write(folder / "cube.stl", stl.box((-half,) * 3, (half,) * 3))
     create = sphere(0, 0, half + radius - overlap, radius, 1, (0, 0, 0))
     law = f"hooke {stiffness} NULL 0 NULL 0 0 mesh cube.stl "
     body = (f"body mass 50 com 0 0 0 inertia 1 1 1 0 0 0 gravity 0 0 0 joint slider 1 0 0 velocity {speed} 0 0 "
@@ -395,7 +371,7 @@ def test_files(folder):
 
 def test_restart(folder):
     """Runs that are cut in two, and go on from a restart file, in mid-swing: the same bits."""
-    box(folder / "cube.stl", (-0.75,) * 3, (0.75,) * 3, 2)
+    stl.write(folder / "cube.stl", stl.box((-0.75,) * 3, (0.75,) * 3, 2))
     for joint in ("free", "hinge 0.1 0.2 -0.3 1 2 3", "slider 1 2 2", "planar 1 1 0", "ball 0.1 -0.2 0.5"):
         words = f"{COLLIDE} mesh cube.stl body density 2 joint {joint} load 0.1 0.2 0.3 moment 0 0.1 0.2"
         if joint.split()[0] in ("hinge", "slider"):
@@ -427,15 +403,13 @@ def test_restart(folder):
 
 def test_changes(folder):
     """What a body does not go with ends with a sentence."""
-    box(folder / "cube.stl", (-0.4,) * 3, (0.4,) * 3)
+    stl.write(folder / "cube.stl", stl.box((-0.4,) * 3, (0.4,) * 3))
     stl.write(folder / "open.stl", stl.quad((0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)))
     far = "create_atoms 1 single 1 1 1 units box\nset group all diameter 0.01 density 1\n"
     fix = "hooke 1e3 NULL 0 NULL 0 0 mesh cube.stl body density 1 "
 
-    def refused(name, text, *parts):
-        done = lmp.run(text, folder)
-        fact(f"refused: {name}", done.returncode != 0 and all(p in done.stdout.replace("\n", " ") for p in parts),
-             " ".join(line for line in done.stdout.split("\n") if "ERROR" in line)[:200])
+    def refused(name, text, *says):
+        lmp.refused(name, text, folder, *says)
 
     plain = script(fix, far, 1e-3)
     refused("minimise", plain + "minimize 0 0 10 10\n", "does not move in a minimization")
@@ -470,5 +444,3 @@ def test_changes(folder):
     corners = "".join(f"create_atoms 1 single {x} {y} -1 units box\n" for x in (-1, 1) for y in (-0.41, 0.41))
     coat = script(fix + "coat 0.1 0.075 mesh floor.stl nodes all", corners + "set group all diameter 0.01 density 1\n", 1e-3)
     refused("a coat beside nodes", coat, "its coat cannot feel meshes whose nodes move")
-
-

@@ -15,6 +15,7 @@ import numpy as np
 import stl
 
 HALF = 0.5    # of a cube
+CUBE = np.array(stl.box((-HALF,) * 3, (HALF,) * 3))
 CORNERS = 0.3 * np.array([[1, 1, 1], [1, -1, -1], [-1, 1, -1], [-1, -1, 1]])    # its atoms
 FLOOR = [[(-40, -40, 0), (40, -40, 0), (0, 60, 0)]]
 
@@ -40,20 +41,6 @@ OF_RIGID = () if lmp.ON_HOST else (RIGID, RIGID_SMALL)    # which other hosts ha
 BY_MOVE = "".join(f"group one{k} molecule {k}\nfix go{k} one{k} move rotate {words}\n" for k, words in
                   ((1, "-3 1.6 1 1 0.2 0.1 2.1"), (2, "0.5 -1 0.6 0.3 1 0 1.7"), (3, "2 -0.3 0.4 0 1 0.3 2.9")))
 STEP, COLLIDING, PAIRS, BODIES, UNCERTAIN, FIRST = range(6)
-
-
-def cube():
-    """Triangles of the cube about the origin."""
-    triangles = []
-    for axis in range(3):
-        for side in (-HALF, HALF):
-            corners = []
-            for u, v in ((-1, -1), (1, -1), (1, 1), (-1, 1)):
-                p = [0, 0, 0]
-                p[axis], p[(axis + 1) % 3], p[(axis + 2) % 3] = side, u * HALF, v * HALF
-                corners.append(p)
-            triangles += stl.quad(*corners)
-    return np.array(triangles, dtype=float)
 
 
 def turn(axis, angle):
@@ -86,7 +73,7 @@ def pairs_of(atoms, normal, through):
     x = np.array(atoms)
     centre = x.mean(axis=0)
     matrix = (x - centre).T @ np.linalg.pinv(CORNERS.T)
-    height = (cube() @ matrix.T + centre - through) @ normal
+    height = (CUBE @ matrix.T + centre - through) @ normal
     assert np.abs(height).min() > 1e-9, "a corner is on the plane: choose other numbers"
     return int(((height.min(axis=1) < 0) & (height.max(axis=1) > 0)).sum())
 
@@ -128,7 +115,7 @@ def test_moved(folder, ranks):
     """One body that fix move swings about an axis; its mesh is where the atoms are at first."""
     tilt = turn([1, 2, 3], 0.7)
     write_data(folder / "cubes.data", [([0.3, -0.2, 1.9], tilt, [0, 0, 0], [0, 0, 0])])
-    stl.write(folder / "tilted.stl", cube() @ tilt.T + [0.3, -0.2, 1.9])
+    stl.write(folder / "tilted.stl", CUBE @ tilt.T + [0.3, -0.2, 1.9])
     text = begin() + WALL + """
 fix             go cubes move rotate 0.3 2.3 1.9 1 0.2 0 5.3
 compute         c cubes lsdcd/collide wall mesh tilted.stl
@@ -152,7 +139,7 @@ def three_cubes():
 @pytest.mark.parametrize("drive", (BY_MOVE, *OF_RIGID))
 def test_three(folder, ranks, drive):
     write_data(folder / "cubes.data", three_cubes())
-    stl.write(folder / "cube.stl", cube())
+    stl.write(folder / "cube.stl", CUBE)
     text = begin("p p f") + WALL + f"""
 {drive}
 compute         c cubes lsdcd/collide wall mesh cube.stl move -3 0.1 1.5 bodies molecule grid 0.4 log brief
@@ -166,7 +153,7 @@ compute         c cubes lsdcd/collide wall mesh cube.stl move -3 0.1 1.5 bodies 
 def test_moving_wall(folder, ranks):
     """The floor turns about y, then sinks as well."""
     write_data(folder / "cubes.data", three_cubes())
-    stl.write(folder / "cube.stl", cube())
+    stl.write(folder / "cube.stl", CUBE)
     drive = BY_MOVE if lmp.ON_HOST else RIGID
     text = begin() + WALL + f""" motion rotate 0 0 0 0 1 0 8 motion linear 0 0 -0.2
 {drive}
@@ -181,7 +168,7 @@ def test_image(folder, ranks):
     """A plate near the upper face in x meets the image of a body at the lower one; where that face is
     not periodic it meets nothing."""
     write_data(folder / "cubes.data", [([-5.7, 0, 0], np.eye(3), [0, 0, 0], [0, 0, 0])])
-    stl.write(folder / "cube.stl", cube())
+    stl.write(folder / "cube.stl", CUBE)
     stl.write(folder / "floor.stl", [[(5.9, -3, -3), (5.9, 3, -3), (5.9, 0, 4)]])
     for boundary, expected in (("p f f", [1, 8]), ("f f f", [0, 0])):
         text = begin(boundary) + WALL + """
@@ -197,7 +184,7 @@ run             0
 def test_several(folder):
     """Pairs of all meshes of a wall; between runs atoms may be put elsewhere."""
     write_data(folder / "cubes.data", [([0, 0, 0.2], np.eye(3), [0, 0, 0], [0, 0, 0])])
-    stl.write(folder / "cube.stl", cube())
+    stl.write(folder / "cube.stl", CUBE)
     text = begin() + WALL + """ mesh floor.stl move 0 0 0.4 mesh floor.stl move 0 0 2
 compute         c cubes lsdcd/collide wall mesh cube.stl move 0 0 0.2 grid 0.3
 thermo_style    custom step c_c c_c[1]
@@ -218,7 +205,7 @@ def test_other_wall(folder):
     bounds. The cube stands in the first one, 4 upright sides of 2 triangles, and clear of the other."""
     a, b, c, d = (-3, -3, 0), (3, -3, 0), (3, 3, 0), (-3, 3, 0)
     write_data(folder / "cubes.data", [([-1.5, -1.5, 0.2], np.eye(3), [0, 0, 0], [0, 0, 0])])
-    stl.write(folder / "cube.stl", cube())
+    stl.write(folder / "cube.stl", CUBE)
     stl.write(folder / "half.stl", [(a, b, d)])
     stl.write(folder / "other.stl", [(c, d, b)])
     compute = "compute c cubes lsdcd/collide wall mesh cube.stl move -1.5 -1.5 0.2\n"
@@ -228,15 +215,12 @@ def test_other_wall(folder):
     def pairs(text):
         return lmp.read_thermo(lmp.run_well(first + text + "run 0\n", folder))[-1][1]
 
-    done = lmp.run(first + again.format("other") + "run 0\n", folder, 2)
-    fact("a wall with another mesh of the same size is refused", done.returncode != 0 and
-         "fix wall has different meshes than when the compute was defined" in done.stdout,
-         str(lmp.read_thermo(done.stdout)))
+    lmp.refused("a wall with another mesh of the same size", first + again.format("other") + "run 0\n", folder,
+                "fix wall has different meshes than when the compute was defined", ranks=2)
     worn = again.format("half").replace("mesh half.stl", "mesh half.stl wear archard 1 50 deform every 10")
     for name, text in (("made again", first + worn), ("from the beginning", first.replace(compute, worn + compute))):
-        done = lmp.run(text + "run 0\n", folder)
-        fact(f"a wall that wear moves, {name}, is refused", done.returncode != 0 and
-             "has a mesh that wear moves (deform), and bodies collide with rigid" in " ".join(done.stdout.split()))
+        lmp.refused(f"a wall that wear moves, {name}", text + "run 0\n", folder,
+                    "has a mesh that wear moves (deform), and bodies collide with rigid")
     fact("the compute defined again sees that mesh",
          pairs(again.format("other") + "thermo_style one\nuncompute c\n" + compute +
                "thermo_style custom step c_c[1]\n") == 0)
@@ -246,7 +230,7 @@ def test_other_wall(folder):
 def test_restart(folder):
     """With the places of its atoms in a file a body is found wherever it is: after a restart, too."""
     write_data(folder / "cubes.data", three_cubes())
-    stl.write(folder / "cube.stl", cube())
+    stl.write(folder / "cube.stl", CUBE)
     (folder / "atoms.txt").write_text("# where cube.stl is\n" + "".join("{!r} {!r} {!r}\n".format(*map(float, p)) for p in CORNERS))
     after = WALL + """
 """ + BY_MOVE.replace("group one", "group two").replace(" one", " two") + """

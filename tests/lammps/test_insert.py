@@ -24,11 +24,6 @@ END = lmp.pairs("zero 0.1", 0.05) + "fix             move all nve/sphere\n"
 DUMP = "dump d all custom {} grains id radius mass x y z vx vy vz\ndump_modify d sort id format float %.17g\n"
 
 
-def square(half, z, down=False):
-    corners = [(-half, -half, z), (half, -half, z), (half, half, z), (-half, half, z)]
-    return tuple(corners[::-1] if down else corners)
-
-
 def mass(diameter):
     return math.pi / 6 * diameter ** 3 * DENSITY
 
@@ -58,7 +53,7 @@ INLET = f"fix in all insert/lsdcd mesh inlet.stl move 0.1 -0.1 0 massrate {RATE}
 
 def test_face(folder):
     """10 time units through a square of side 1 with normal -z, at z = 2."""
-    stl.write(folder / "inlet.stl", stl.quad(*square(0.5, 2, down=True)))
+    stl.write(folder / "inlet.stl", [t[::-1] for t in stl.square(0.5, 2)])
     thermo = "thermo 1\nthermo_style custom step time atoms f_in[1] f_in[2] f_in[3]\nthermo_modify format float %.17g norm no\n"
     text = FACE + INLET + thermo + DUMP.format(1250) + "run 1250\n"
     out = lmp.run_well(text, folder)
@@ -135,16 +130,9 @@ WALL = "hooke/history 100 NULL 1 NULL 0.5 1 "
 FILL = "fix in all insert/lsdcd region fill numberrate 1000 diam range 0.1 0.2 dens 1 number 300 "
 
 
-def write_cube(folder):
-    """Of side 2."""
-    faces = [square(1, 1), square(1, -1, down=True)]
-    faces += [tuple((z, x, y) for x, y, z in f) for f in faces] + [tuple((y, z, x) for x, y, z in f) for f in faces]
-    stl.write(folder / "cube.stl", [t for face in faces for t in stl.quad(*face)])
-
-
 def test_wall(folder):
     """A cube in a larger region: grains are inside or outside of it, and touch it from neither side."""
-    write_cube(folder)
+    stl.write(folder / "cube.stl", stl.box((-1,) * 3, (1,) * 3))
     thermo = "thermo 1\nthermo_style custom step f_in[1] f_in[6] f_wall[7] f_wall[8]\nthermo_modify norm no\n"
     # The wall moves as its grains do: what it touches, it was put into.
     for name, motion, velocity in (("at rest", "", ""), ("that moves", "motion linear 0.5 0 0", "vel 0.5 0 0")):
@@ -238,8 +226,8 @@ fix in all insert/lsdcd region below numberrate 100 diam one 0.1 dens 1 seed 3
 def test_kokkos(folder):
     """Beside wall/lsdcd/kk and without Kokkos in the same LAMMPS. Grains keep clear of a cube that moves, and are put
     across a plane at z = 0.3, which must push them at once."""
-    write_cube(folder)
-    stl.write(folder / "plane.stl", stl.quad(*square(2, 0.3)))
+    stl.write(folder / "cube.stl", stl.box((-1,) * 3, (1,) * 3))
+    stl.write(folder / "plane.stl", stl.square(2, 0.3))
     soft = WALL.replace("100", "1")    # nothing is thrown out
     text = VESSEL + f"fix shown all wall/lsdcd {soft} mesh cube.stl motion linear 0.5 0 0\n" + \
         f"fix hidden all wall/lsdcd {soft} mesh plane.stl contacts\n" + FILL + "wall shown\n" + \

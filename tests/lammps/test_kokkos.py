@@ -15,6 +15,7 @@ import pytest
 
 import lmp
 import scene
+import stl
 from facts import at_most, fact
 import test_body
 
@@ -140,8 +141,8 @@ def test_atoms_that_come_and_go(folder):
 @NOT_ON_DEVICE
 def test_bodies(folder):
     """A flap on a hinge and a free cube with a coat, which spheres push: they move as with the plain fix."""
-    test_body.box(folder / "flap.stl", (2.0, -4.0, 0.4), (2.2, 4.0, 3.0), 3)
-    test_body.box(folder / "cube.stl", (-3.0, -3.0, 0.6), (-2.0, -2.0, 1.6))
+    stl.write(folder / "flap.stl", stl.box((2.0, -4.0, 0.4), (2.2, 4.0, 3.0), 3))
+    stl.write(folder / "cube.stl", stl.box((-3.0, -3.0, 0.6), (-2.0, -2.0, 1.6)))
     mesh = ("mesh floor.stl mesh flap.stl body density 0.5 joint hinge 2.1 0 3 0 1 0 spring 20 1 "
             "mesh cube.stl body density 0.5 coat 0.4 0.15")
     shown = " ".join(f"$(f_wall[{m}][{c}]:%.17g)" for m in (2, 3) for c in range(1, test_body.ENERGY + 1))
@@ -151,7 +152,7 @@ def test_bodies(folder):
         moves, rows = [], []
         for flags, script in ((lmp.FLAGS, plain_among_kokkos(text)), (lmp.FLAGS, text)):
             moves.append(go(folder, flags, script, ranks)[0])
-            rows.append(test_body.rows_of(folder / "out.txt"))
+            rows.append(lmp.read_rows(folder / "out.txt"))
         at_most(f"bodies, {ranks} ranks: spheres as with the plain fix", lmp.largest_difference(*moves), 1e-9)
         sizes = [max(1e-9, *(abs(r[k]) for r in rows[0])) for k in range(len(rows[0][0]))]
         at_most(f"bodies, {ranks} ranks: bodies as with the plain fix",

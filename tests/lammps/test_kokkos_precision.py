@@ -86,7 +86,7 @@ def write_spheres(path, side):
 @pytest.fixture(scope="module")
 def folder(folder):
     scene.write_floor(folder / "floor.stl")
-    stl.write(folder / "flat.stl", stl.quad((-4, -4, 0), (4, -4, 0), (4, 4, 0), (-4, 4, 0)))
+    stl.write(folder / "flat.stl", stl.square(4))
     return folder
 
 

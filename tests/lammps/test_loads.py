@@ -92,8 +92,3 @@ def test_loads(folder):
     text = lmp.run_well(scene.SETTINGS + "read_restart half.restart\n" + forces("c_*.vtp") +
                         "run 10\n", folder)
     fact("also of one with as many triangles", "begin at zero" in text)
-
-    done = lmp.run(scene.CREATE + scene.forces(LAW, mesh="mesh floor.stl mesh_fields no/such.vtp every 5")
-                   + "run 10\n", folder)
-    fact("a file that cannot be written is an error that names it",
-         done.returncode != 0 and "no/such.vtp" in done.stdout)

@@ -40,11 +40,6 @@ pair steel glass
 UNITS = {"si": (1, 1, 1), "cgs": (100, 1e3, 1), "micro": (1e6, 1e15, 1e6), "nano": (1e9, 1e21, 1e9)}
 
 
-def write_floor(path, size):
-    """At z = 0."""
-    stl.write(path, stl.quad((-size, -size, 0), (size, -size, 0), (size, size, 0), (-size, size, 0)))
-
-
 def scene(wall, units="si"):
     """A grain of 2 mm that hops, slides and rolls for 20 ms."""
     m, kg, s = UNITS[units]
@@ -83,7 +78,7 @@ def run(folder, wall, units="si", ranks=1, env=None):
 @pytest.fixture(scope="module")
 def folder(folder):
     (folder / "grains.lsdcd").write_text(FILE)
-    write_floor(folder / "floor.stl", 0.015)
+    stl.write(folder / "floor.stl", stl.square(0.015))
     return folder
 
 
@@ -113,7 +108,7 @@ def test_systems_of_units(folder):
     wall = "granular jkr material grains.lsdcd glass mesh floor.stl"
     reference = run(folder, wall)[0]
     for units, (m, _, s) in UNITS.items():
-        write_floor(folder / "scaled.stl", 0.015 * m)
+        stl.write(folder / "scaled.stl", stl.square(0.015 * m))
         moves = run(folder, wall.replace("floor", "scaled"), units)[0]
         si = {step: {1: [x / m for x in rows[1][:3]] + [v * s / m for v in rows[1][3:6]] +
                         [w * s for w in rows[1][6:]]} for step, rows in moves.items()}

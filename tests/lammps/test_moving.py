@@ -390,65 +390,41 @@ def test_between_faces(folder):
     fact("a drum between periodic faces: spheres touch it", touching(dumps[0]) > 50)
     at_most("they move as without these", lmp.largest_difference(*dumps), 0)
     lmp.run_well(drum(2.6, steps=30, end="fix_modify wall motion none\nrun 1\n"), folder, 2)
-    done = lmp.run(drum(2.54), folder, 2)
-    fact("too near to them it is refused", done.returncode != 0 and
-         "reaches the periodic face in x at step 0" in done.stdout, done.stdout[-300:])
+    lmp.refused("too near to them", drum(2.54), folder, "reaches the periodic face in x at step 0", ranks=2)
     # A prism of three sides, its corners 1.73 up and down and 2 once it has turned.
-    done = lmp.run(drum(2.54, "f p", "corner.stl"), folder)
-    fact("one that will be is told of before", done.returncode != 0 and
-         "will reach the periodic face in y" in done.stdout, done.stdout[-300:])
+    lmp.refused("one that will be", drum(2.54, "f p", "corner.stl"), folder, "will reach the periodic face in y")
     # Finite variables that add up to more than a number can be, then turned: 0 times that.
     big = "motion variable NULL v_big NULL NULL NULL NULL "
-    done = lmp.run("variable big equal 1e308\n" + drum(2.6, motion=2 * big + "motion rotate 0 0 0 0 0 1 2"), folder)
-    fact("what is nowhere is not between the faces", done.returncode != 0 and
-         "reaches the periodic face in x" in done.stdout, done.stdout[-300:])
+    lmp.refused("what is nowhere", "variable big equal 1e308\n" + drum(2.6, motion=2 * big + "motion rotate 0 0 0 0 0 1 2"), folder,
+                "reaches the periodic face in x")
 
 
 def test_refused(folder):
     write_plane(folder / "plate.stl", 2, 1.0)
-    cases = [("the periodic face in z", "p", "motion rotate 0 0 0 1 0 0 2",
-              "reaches the periodic face in z at step 0"),
-             ("linear along z", "p", "motion linear 0 0 1", "reaches the periodic face in z"),
-             ("a variable that there is not", "f", "motion variable v_no NULL NULL NULL NULL NULL",
-              "there is no variable 'no'")]
-    for name, bc, words, says in cases:
-        done = lmp.run(DRUM.format(bc=bc, lo=0, hi=4, law=LAW, mesh="short.stl", out="x", steps=1,
-                                   motion=words), folder)
-        fact(f"{name} is refused", done.returncode != 0 and says in done.stdout,
-             "" if says in done.stdout else done.stdout[-400:])
+
+    def drum(motion, bc="p", mesh="short.stl", steps=1, lo=0, hi=4):
+        return DRUM.format(bc=bc, lo=lo, hi=hi, law=LAW, mesh=mesh, out="x", steps=steps, motion=motion)
+
+    lmp.refused("the periodic face in z", drum("motion rotate 0 0 0 1 0 0 2"), folder, "reaches the periodic face in z at step 0")
+    lmp.refused("linear along z", drum("motion linear 0 0 1"), folder, "reaches the periodic face in z")
     # What a motion does not allow is not advised.
     for words, advised in (("", True), ("motion rotate 0 0 0 0 0 1 2", True), ("motion linear 0 0 1", False)):
-        done = lmp.run(DRUM.format(bc="p", lo=0, hi=4, law=LAW, mesh="short.stl move 0 0 0.5", out="x", steps=0,
-                                   motion=words), folder)
+        done = lmp.run(drum(words, mesh="short.stl move 0 0 0.5", steps=0), folder)
         fact(f"past a periodic face, {words or 'at rest'}: periodic is {'' if advised else 'not '}advised",
              ("Add the keyword periodic" in done.stdout) == advised == (done.returncode == 0))
     # In the middle of the box, moving to its face: when it is there; turning: before.
-    # Without gravity, or the spheres fall out of the box.
-    plate = DRUM.replace("mesh {mesh} {motion}", "mesh plate.stl move 0 0 2 {motion}")
-    plate = plate.replace("gravity 8.0", "gravity 0.0")
-    done = lmp.run(plate.format(bc="p", lo=0, hi=4, law=LAW, out="x", steps=3000,
-                                motion="motion linear 0 0 0.5"), folder)
-    # Of the 2 to the face 0.5 and the skin 0.3 are kept free: 1.2 at 0.5.
-    fact("a mesh that moves to a periodic face stops there",
-         done.returncode != 0 and "reaches the periodic face in z at step 24" in done.stdout,
-         done.stdout[-300:])
-    done = lmp.run(plate.format(bc="p", lo=1, hi=3, law=LAW, out="x", steps=1,
-                                motion="motion rotate 0 0 2 1 0 0 10").replace("3.8 units", "2.8 units")
-                   .replace("0.2 units", "1.8 units"), folder)
-    fact("one that will is told of before",
-         done.returncode != 0 and "will reach the periodic face in z:" in done.stdout,
-         done.stdout[-300:])
-    text = DRUM.format(bc="f", lo=0, hi=4, law=LAW, mesh="short.stl", out="x", steps=1, motion="")
+    # Without gravity, or the spheres fall out of the box. Of the 2 to the face 0.5 and the skin 0.3 are kept free: 1.2 at 0.5.
+    plate = "plate.stl move 0 0 2"
+    lmp.refused("a mesh that moves to a periodic face", drum("motion linear 0 0 0.5", mesh=plate, steps=3000)
+                .replace("gravity 8.0", "gravity 0.0"), folder, "reaches the periodic face in z at step 24")
+    lmp.refused("one that will, before", drum("motion rotate 0 0 2 1 0 0 10", mesh=plate, lo=1, hi=3)
+                .replace("3.8 units", "2.8 units").replace("0.2 units", "1.8 units"), folder, "will reach the periodic face in z:")
     for words, says in (("motion linear 1 0", "the value of Vz is missing"),
                         ("motion none motion linear 1 0 0", "none stops all motion"),
                         ("motion variable v_d NULL NULL NULL NULL NULL", "there is no variable 'd'")):
-        done = lmp.run(text + f"fix_modify wall {words}\nrun 1\n", folder)
-        fact(f"fix_modify {words} is refused", done.returncode != 0 and says in done.stdout,
-             "" if says in done.stdout else done.stdout[-400:])
-    done = lmp.run("variable d atom x\n" + text.replace("short.stl", "short.stl motion variable v_d "
-                                                        "NULL NULL NULL NULL NULL"), folder)
-    fact("a variable of another style is refused",
-         "'d', which the wall reads, is not of style equal" in done.stdout)
+        lmp.refused(f"fix_modify {words}", drum("", "f") + f"fix_modify wall {words}\nrun 1\n", folder, says)
+    lmp.refused("a variable of another style", "variable d atom x\n" + drum("motion variable v_d NULL NULL NULL NULL NULL", "f"), folder,
+                "'d', which the wall reads, is not of style equal")
 
 
 def test_no_numbers(folder):

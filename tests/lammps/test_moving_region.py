@@ -52,12 +52,6 @@ THROWN = {"at": "0.31 -0.42 0.25", "v": "1.0 -0.7 -1.3", "omega": "2.1 -3.3 1.7"
 BOUNCE, HALF = dict(THROWN, steps=5000), dict(THROWN, steps=10000, every=20, dt=5e-5)
 
 
-def write_box(path):
-    corners = [(x, y, z) for x in (-SIDE, SIDE) for y in (-SIDE, SIDE) for z in (-SIDE, SIDE)]
-    faces = ((0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3))
-    stl.write(path, [t for face in faces for t in stl.quad(*(corners[k] for k in face))])
-
-
 class Box:
     def __init__(self, folder):
         self.folder = folder
@@ -90,7 +84,7 @@ def turning():
 
 @pytest.fixture(scope="module")
 def box(folder):
-    write_box(folder / "box.stl")
+    stl.write(folder / "box.stl", stl.box((-SIDE,) * 3, (SIDE,) * 3))
     return Box(folder)
 
 

@@ -57,10 +57,6 @@ def begin(dt, reach, coefficients, sort=0):
     return BEGIN.format(dt=dt, reach=reach, bonds=bonds if coefficients else "zero\nbond_coeff *", sort=sort)
 
 
-def rows_of(path):
-    return [[float(w) for w in line.split()] for line in path.read_text().split("\n") if line and line[0] != "#"]
-
-
 # ---- a string under a weight -------------------------------------------------------------
 
 TENSION, SPAN, WEIGHT = 50.0, 2.0, 1.0
@@ -99,7 +95,7 @@ def test_sags(folder):
         middle = rows[0][n] + 1
         lmp.run_well(begin(1e-3, 0.5, coefficients) + FALL + "run 4000\nrun 1000\n"
                      f"print \"$(z[{middle}]:%.17g) $(f_w[3]:%.17g)\" file out.txt screen no\n", folder)
-        found.append(rows_of(folder / "out.txt")[0])
+        found.append(lmp.read_rows(folder / "out.txt")[0])
     at_most("a string sags by W L/(4 T)", abs(-found[1][0] - wanted), 0.01 * wanted)
     at_most("it carries the weight", abs(-found[1][1] - WEIGHT), 1e-4)
     at_most("with half as many nodes, too", abs(-found[0][0] - wanted), 0.01 * wanted)
@@ -174,7 +170,7 @@ def test_bulges(folder):
                      f"variable p equal {pressure}\n"
                      "fix slow all viscous 0.3\nfix hold held setforce 0 0 0\nfix go loose nve\nrun 4000\n"
                      "print \"$(z[1]:%.17g)\" file out.txt screen no\n", folder)
-        off.append(rows_of(folder / "out.txt")[0][0] / wanted - 1)
+        off.append(lmp.read_rows(folder / "out.txt")[0][0] / wanted - 1)
     at_most("a membrane of 6 rings bulges by p a^2/(4 T)", abs(off[1]), 0.01)
     at_most("and of 3 rings", abs(off[0]), 0.03)
 
@@ -185,8 +181,7 @@ def test_refused(folder):
     net, _, coefficients = string(folder, 3)
     head = begin(1e-3, 0.8, coefficients)
     def fails(name, text, says):
-        done = lmp.run(head + text + "run 1\n", folder)
-        fact(name, done.returncode != 0 and says in " ".join(done.stdout.split()))
+        lmp.refused(name, head + text + "run 1\n", folder, says)
     wall = "fix w {group} wall/lsdcd hooke 2e4 0 0 0 0 0 mesh sheet.stl nodes {nodes} {more}\n"
     fails("nodes in the group of the fix", wall.format(group="all", nodes="nodes", more=""), "and also in the group of the fix")
     fails("a group that is not there", wall.format(group="grains", nodes="noes", more=""), "there is no group 'noes'")
@@ -208,10 +203,8 @@ def test_refused(folder):
     fails("two atoms at a vertex", wall.format(group="grains", nodes="nodes", more=""), "2 atoms of group 'nodes' are at the vertex")
     net.bonds = bonds
     net.write(folder, coefficients)
-    lost = head + wall.format(group="grains", nodes="nodes", more="") + "thermo_modify lost ignore\nrun 1\n" \
-        "group one id 3\ndelete_atoms group one bond yes\nrun 1\n"
-    done = lmp.run(lost, folder)
-    fact("a lost node", done.returncode != 0 and "atom 3, a node of mesh 'sheet.stl', is lost" in " ".join(done.stdout.split()))
+    fails("a lost node", wall.format(group="grains", nodes="nodes", more="") + "thermo_modify lost ignore\nrun 1\n"
+          "group one id 3\ndelete_atoms group one bond yes\n", "atom 3, a node of mesh 'sheet.stl', is lost")
 
 
 # ---- atoms that get other IDs, another mesh --------------------------------------------------
@@ -259,7 +252,7 @@ def test_renumbered(folder):
     head = SHEET.format(create=sheet(folder), mesh="sheet.stl") + "run 1\n"
     def force(text, z=0.24, ranks=1):
         lmp.run_well(head + text + PRESS.format(z=z), folder, ranks)
-        return rows_of(folder / "out.txt")[0][0]
+        return lmp.read_rows(folder / "out.txt")[0][0]
     for name, text, ranks in (("delete_atoms", "delete_atoms group grains\n", 1),
                               ("reset_atom_ids on two processes", "delete_atoms group grains compress no\nreset_atom_ids\n", 2)):
         at_most(f"nodes that have other IDs after {name}", abs(force(text, ranks=ranks) + 20), 1e-9)
@@ -268,13 +261,11 @@ def test_renumbered(folder):
     at_most("nodes that were displaced between runs", abs(moved + 20), 1e-9)
     for text, says in (("delete_atoms group grains\n", "a node of mesh 'sheet.stl', is lost"),
                        ("reset_atom_ids sort yes\n", "other atoms may have these IDs now")):
-        done = lmp.run(head + text + "displace_atoms nodes move 0 0 0.3\nrun 0\n", folder)
-        out = " ".join(done.stdout.split())
-        fact(f"nodes that were displaced after {text.strip()}: {says}", done.returncode != 0 and says in out and
-             "delete_atoms and reset_atom_ids give atoms different IDs" in out)
+        lmp.refused(f"nodes that were displaced after {text.strip()}", head + text + "displace_atoms nodes move 0 0 0.3\nrun 0\n", folder,
+                    says, "delete_atoms and reset_atom_ids give atoms different IDs")
     # Without a setup LAMMPS says nothing of the commands before it.
     lmp.run_well(head + "delete_atoms group grains\nrun 1 pre no\n" + PRESS.format(z=0.24), folder)
-    at_most("and after a run without setup", abs(rows_of(folder / "out.txt")[0][0] + 20), 1e-9)
+    at_most("and after a run without setup", abs(lmp.read_rows(folder / "out.txt")[0][0] + 20), 1e-9)
 
 
 def test_another_mesh(folder):
@@ -283,7 +274,7 @@ def test_another_mesh(folder):
                  "run 1\nwrite_restart one.restart\n", folder)
     for mesh in ("sheet", "turned", "coarse"):
         out = lmp.run_well(SHEET.format(create="read_restart one.restart", mesh=mesh + ".stl") + PRESS.format(z=0.24), folder)
-        at_most(f"restart with {mesh}.stl", abs(rows_of(folder / "out.txt")[0][0] + 20), 1e-9)
+        at_most(f"restart with {mesh}.stl", abs(lmp.read_rows(folder / "out.txt")[0][0] + 20), 1e-9)
         fact(f"and a warning, {mesh}.stl",
              ("was written with a different mesh" in " ".join(out.split())) == (mesh != "sheet"))
 
@@ -304,7 +295,7 @@ timestep        2e-3
 run             1000
 print           "$(xcm(grains,x):%.17g) $(xcm(grains,y):%.17g)" file out.txt screen no
 """, folder)
-    x, y = rows_of(folder / "out.txt")[0]
+    x, y = lmp.read_rows(folder / "out.txt")[0]
     at_most("a grain stays on a turntable that fix move turns", math.hypot(x - 0.6, y), 1e-3 * 0.6)
 
 

@@ -43,14 +43,6 @@ def go(folder, atoms=TWO, law="hooke 1e4 NULL 0 NULL 0 0", group="all", more="co
     return lmp.read_thermo(text), lmp.read_dump(folder / "contacts"), text
 
 
-def write_cube(path, inward=False):
-    """The cube from -2 to 2 in x and y and 0 to 4 in z, wound outwards or inwards."""
-    corners = [(x, y, z) for x in (-2, 2) for y in (-2, 2) for z in (0, 4)]
-    quads = ((0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3))
-    triangles = [t for quad in quads for t in stl.quad(*(corners[k] for k in quad))]
-    stl.write(path, [t[::-1] if inward else t for t in triangles])
-
-
 def close(a, b):
     return math.isclose(a, b, rel_tol=1e-13, abs_tol=1e-13)    # a few roundings
 
@@ -217,7 +209,7 @@ def test_side(folder):
     """A centre 0.1 below the bottom of the cube: inside it belongs 0.6 higher, outside 0.4 lower."""
     low = "create_atoms 1 single 0.3 0.1 -0.1 units box\n" + SPHERES
     for inward in (False, True):
-        write_cube(folder / "cube.stl", inward)
+        stl.write(folder / "cube.stl", [t[::-1] if inward else t for t in stl.box((-2, -2, 0), (2, 2, 4))])
         for side, force in (("in", 6000), ("out", -4000)):
             thermo, _, text = go(folder, atoms=low, mesh="cube.stl", more=f"side {side} contacts")
             fact(f"side {side}: a centre past the wall is asked about",

@@ -114,8 +114,7 @@ def test_refused(folder):
              "the snapshot of step 0 is before step 40"),
             ("massflow", text("") + "fix m all massflow/lsdcd mesh floor.stl\n",
              "massflow/lsdcd: a rerun has no steps")):
-        done = lmp.run(script_text + RERUN.format(""), folder)
-        fact(f"{name}: refused", done.returncode != 0 and told in done.stdout, done.stdout[-200:])
+        lmp.refused(name, script_text + RERUN.format(""), folder, told)
 
 
 def test_no_rerun(folder):
