@@ -3,6 +3,7 @@
 
 // A wall through the library's headers: forces in closed form, springs that follow their spheres, wrong use.
 #include "floor_and_grains.h"
+#include "support/random.h"
 
 #include <array>
 #include <cmath>
@@ -82,6 +83,29 @@ TEST_F(wall, has_the_pose_of_a_mesh_that_turns)
   const std::array<double, 12> pose = wall.pose();
   // Time is a sum of 100 steps, each rounded.
   for (int k = 0; k < 12; k++) EXPECT_NEAR(pose[k], wanted[k], 100 * kRounding) << k;
+}
+
+// They stay, go a little and leap, from where no list of the wall has them.
+TEST_F(wall, feels_spheres_wherever_they_go)
+{
+  lsdcd::Wall wall(floor());
+  Grains grains;
+  for (int i = 0; i < 50; i++) grains.add(0, 0, 5);
+  lsdcd::Random random(3);
+  double pushed = 0;
+  for (int step = 0; step < 200; step++) {
+    grains.step(wall);
+    for (std::size_t k = 0; k < grains.x.size(); k += 3) {
+      double *at = &grains.x[k];
+      const double wanted = at[2] < 0.5 ? kN * (0.5 - at[2]) : 0;
+      ASSERT_NEAR(grains.force[k + 2], wanted, kN * kRounding) << step;
+      pushed += wanted > 0;
+      const double size = std::pow(10., lsdcd::uniform(random, -6, 1));
+      for (int d = 0; d < 2; d++) at[d] = std::fmod(at[d] + lsdcd::uniform(random, -size, size), 9);
+      at[2] = 0.3 + std::fabs(std::fmod(at[2] - 0.3 + lsdcd::uniform(random, -size, size), 5));
+    }
+  }
+  EXPECT_GT(pushed, 500);
 }
 
 TEST_F(wall, shows_its_log_and_warnings)

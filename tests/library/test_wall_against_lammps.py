@@ -1,9 +1,8 @@
 # SPDX-FileCopyrightText: 2026 LSDCD contributors
 # SPDX-License-Identifier: BSD-3-Clause
 
-"""Walls in Python with the library against those of scripts in LAMMPS: each kind of spec, to the last bit of forces, and grains in
-a drum that turns, 10 000 steps, the same trajectory. LSDCD_LMP names lmp-lsdcd, PYTHONPATH and LSDCD_LIBRARY the module and
-its library."""
+"""Walls in Python with the library against those of scripts in LAMMPS: each kind of spec, to the last bit of forces.
+LSDCD_LMP names lmp-lsdcd, PYTHONPATH and LSDCD_LIBRARY the module and its library."""
 import math
 import os
 import subprocess
@@ -12,38 +11,10 @@ import numpy as np
 import pytest
 
 import lsdcd
-import stl
-from facts import at_most, fact
+from facts import fact
 
-N, STEPS, DT, GRAVITY = 40, 10000, 4e-5, 9.81
 LMP = os.environ.get("LSDCD_LMP", "")
 pytestmark = pytest.mark.skipif(not os.path.exists(LMP), reason="no lmp-lsdcd (LSDCD_LMP)")
-
-# The same numbers in both, though in another order: forces are sums of gravity and of one or two contacts, so that a
-# step differs by a few roundings, 1e-16 of a force. Over 1e4 steps of contacts that do not part trajectories (a drum
-# brings grains together) they add up to at most 1e4 roundings of places of 0.1.
-BOUND = 1e4 * 1e-16 * 0.1 * 10    # 10: contacts that begin a rounding earlier
-
-
-def drum(name):
-    """A closed cylinder about y of radius 0.1 and length 0.1, from 64 flat sides."""
-    a = 2 * np.pi * np.arange(64) / 64
-    rim = np.stack([0.1 * np.cos(a), 0 * a, 0.1 * np.sin(a)], 1)
-    facets = []
-    for i in range(64):
-        j, up = (i + 1) % 64, np.array([0, 0.1, 0])
-        low, high = rim - up / 2, rim + up / 2
-        facets += [(low[i], low[j], high[j]), (low[i], high[j], high[i]), (low[i], low[j], -up / 2),
-                   (high[i], up / 2, high[j])]
-    stl.write(name, facets)
-
-
-def grains():
-    r = np.random.default_rng(7)
-    x = r.uniform(-0.05, 0.05, (N, 3))
-    x[:, 1] *= 0.6
-    radius = r.uniform(0.004, 0.006, N)
-    return x, radius
 
 
 def run(lmp, folder, script):
@@ -53,64 +24,6 @@ def run(lmp, folder, script):
                           capture_output=True, text=True, check=False)
     if done.returncode:
         raise AssertionError(done.stdout[-2000:] + done.stderr[-2000:])
-
-
-def by_lammps(lmp, folder, x, radius):
-    rows = "".join(f"create_atoms 1 single {' '.join(repr(float(c)) for c in at)} units box\n" for at in x)
-    sizes = "".join(f"set atom {i + 1} diameter {2 * float(r)!r} density 2500\n" for i, r in enumerate(radius))
-    script = f"""units si
-atom_style sphere
-comm_modify vel yes
-atom_modify map yes sort 0 0
-boundary f f f
-region box block -0.2 0.2 -0.2 0.2 -0.2 0.2
-create_box 1 box
-{rows}{sizes}pair_style zero 0.012
-pair_coeff * *
-neighbor 0.002 bin
-neigh_modify delay 0 every 1 check yes exclude type 1 1
-timestep {DT}
-fix move all nve/sphere
-fix down all gravity {GRAVITY} vector 0 0 -1
-fix wall all wall/lsdcd hertz/history 1e5 5e4 1e5 5e4 0.5 1 mesh drum.stl motion rotate 0 0 0 0 1 0 0.5 device cpu
-run {STEPS}
-write_dump all custom end.dump id x y z vx vy vz omegax omegay omegaz modify sort id format float %.17g
-"""
-    run(lmp, folder, script)
-    return np.loadtxt(os.path.join(folder, "end.dump"), skiprows=9)[:, 1:]
-
-
-def by_library(folder, x, radius):
-    """fix nve/sphere: velocity Verlet, with the moment of inertia of a sphere."""
-    mass = 4 * np.pi / 3 * radius**3 * 2500
-    # LAMMPS's factor of pressure, nktv2p, is 1 in si.
-    law = lsdcd.Law("hertz/history", kn=1e5, kt=5e4, gamman=1e5, gammat=5e4, xmu=0.5, dampflag=1)
-    turn = lsdcd.Motion.rotate((0, 0, 0), (0, 1, 0), 0.5)
-    mesh = lsdcd.WallMesh(lsdcd.Mesh(f"{folder}/drum.stl"), "drum", motions=[turn])
-    wall = lsdcd.Wall(lsdcd.WallSpec(law, [mesh]), lo=(-0.2,) * 3, hi=(0.2,) * 3)
-    v, omega = np.zeros((N, 3)), np.zeros((N, 3))
-    force, torque = np.zeros((N, 3)), np.zeros((N, 3))
-    to_v, to_omega = 0.5 * DT / mass[:, None], 0.5 * DT / 0.4 / (radius**2 * mass)[:, None]
-
-    def forces(**words):
-        force[:] = torque[:] = 0
-        force[:, 2] -= GRAVITY * mass
-        wall.step(x, v, omega, radius, mass, force, torque, DT, **words)
-
-    contacts = 0
-    forces(setup=True)
-    for _ in range(STEPS):
-        v[:] += to_v * force
-        x[:] += DT * v
-        omega[:] += to_omega * torque
-        forces()
-        v[:] += to_v * force
-        omega[:] += to_omega * torque
-        contacts += wall.totals().contacts
-    return np.hstack([x, v, omega]), contacts
-
-
-# ---- each kind of spec ---------------------------------------------------------------------------------------------
 
 
 # Spheres of radius 0.5 and mass 1, which nothing moves, on a square at z = 0.
@@ -206,12 +119,3 @@ def test_bits_of_a_script(folder):
     for name, spec, wanted in zip(names, made, forces_by_lammps(LMP, str(folder), walls)):
         found = forces_by_library(spec)
         fact(f"{name}: the bits of the script", (found == wanted).all() and wanted[:, 2].any(), found - wanted)
-
-
-def test_trajectory(folder):
-    drum(folder / "drum.stl")
-    x, radius = grains()
-    theirs = by_lammps(LMP, str(folder), x, radius)
-    ours, contacts = by_library(str(folder), x.copy(), radius)
-    at_most("places are apart", np.abs(ours[:, :3] - theirs[:, :3]).max(), BOUND)
-    fact("one contact in each step at least, or nothing is shown", contacts > STEPS, contacts)
