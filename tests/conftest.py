@@ -41,5 +41,5 @@ def pytest_pyfunc_call(pyfuncitem):
 
 def pytest_sessionfinish(session, exitstatus):
     reports = session.config.pluginmanager.get_plugin("terminalreporter").stats
-    if exitstatus == 0 and reports.get("skipped") and not reports.get("passed"):
+    if exitstatus in (0, pytest.ExitCode.NO_TESTS_COLLECTED) and reports.get("skipped") and not reports.get("passed"):
         session.exitstatus = SKIPPED

@@ -36,6 +36,10 @@ DEVICE_MOVES = "device" in FLAGS
 MPIRUN = os.environ.get("LSDCD_MPIRUN", "mpirun --oversubscribe").split()
 MOST_RANKS = int(os.environ.get("LSDCD_MOST_RANKS", "1000"))
 
+# The test is of another LAMMPS, and there is none.
+if ON_HOST and not HOST:
+    pytest.skip("no LAMMPS 4Jul2026 of this kind (tests/lammps/hosts/build_all.sh)", allow_module_level=True)
+
 of_host = pytest.mark.skipif(not ON_HOST, reason="no other LAMMPS (tests/lammps/hosts/build_host.sh)")
 needs_host = pytest.mark.skipif(not HOST, reason="no other LAMMPS (tests/lammps/hosts/build_host.sh)")
 of_kokkos = pytest.mark.skipif(not ON_KOKKOS, reason="no LAMMPS with Kokkos (tests/lammps/hosts/build_host.sh)")
