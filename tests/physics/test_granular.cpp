@@ -5,6 +5,7 @@
 #include "backend/backend_cpu.h"
 #include "engine/step/compile_law.h"
 #include "law/submodels/normal.h"
+#include "support/crowd.h"
 #include "support/laws.h"
 #include "support/meshes.h"
 
@@ -554,18 +555,10 @@ TEST(heat, flows_by_the_radius_or_the_area_of_the_contact)
 
 EngineSettings all_of_granular(NormalModel normal)
 {
-  EngineSettings law = granular(normal, kK, 2);
-  ContactLaw &p = law.law();
-  p.damping = DampingModel::viscoelastic;
-  p.eta = 40;
-  p.tangential = TangentialModel::mindlin_rescale_force;
-  p.k_tangent = 5e4;
-  p.xgammat = 0.7;
-  p.mu = 0.6;
-  p.rolling = {RollingModel::sds, {3e4, 20, 0.1}};
-  p.twisting = TwistingModel::marshall;
-  p.heat = {HeatModel::area, {3}};
-  return law;
+  EngineSettings settings;
+  settings.law() = everything(normal);
+  settings.law().surface_energy = 2;
+  return settings;
 }
 
 TEST(granular, forces_couples_and_heat_do_not_know_of_the_triangles)
