@@ -1064,18 +1064,6 @@ TEST_F(Wrong, the_side_of_an_open_mesh)
   expect(lsdcd_query_host(open.get(), &q), LSDCD_ERROR_SIDE, "not closed");
 }
 
-TEST_F(Wrong, the_side_of_a_mesh_with_each_facet_in_both_windings)
-{
-  TriangleSoup both = lsdcd::box_mesh({-1, -1, -1}, {1, 1, 1}), in = both;
-  for (std::size_t k = 0; k < in.corners.size(); k += 3)
-    std::swap(in.corners[k], in.corners[k + 1]);
-  lsdcd::append(both, in);
-  const lsdcd::Grid grid(lsdcd::Mesh(numbers(both)), kCutoff);
-  std::int8_t side[2];
-  q.side = side;
-  expect(lsdcd_query_host(grid.get(), &q), LSDCD_ERROR_SIDE, "encloses nothing: lsdcd repair");
-}
-
 TEST_F(Wrong, a_file_that_is_not_there)
 {
   lsdcd_mesh *m = nullptr;

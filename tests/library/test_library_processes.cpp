@@ -7,8 +7,6 @@
 #include "support/fake_host.h"
 
 #include <cmath>
-#include <fstream>
-#include <iterator>
 #include <string>
 #include <vector>
 
@@ -84,30 +82,23 @@ TEST_F(processes, give_a_sphere_that_changes_process_the_trajectory_of_one_proce
   });
 }
 
-// Of two grains on the floor, one over each triangle.
-Grains grain_of(int process)
-{
-  const double at = process == 0 ? 3 : -3;
-  return {at, -at, process == 0 ? 0.49 : 0.495};
-}
-Grains both_grains()
-{
-  Grains all = grain_of(0);
-  all.add(-3, 3, 0.495);
-  return all;
-}
-
 TEST_F(processes, feed_a_servo_with_the_forces_of_all)
 {
   const api::WallSpec servo = floor_that_pushes(25, 0.5);
   lsdcd::Wall alone(servo);
-  Grains all = both_grains();
+  Grains all;
+  all.add(3, -3, 0.49);
+  all.add(-3, 3, 0.495);
   all.step(alone, 50);
   const lsdcd_wall_totals one = alone.totals(0);    // here, as a wall serves one thread at a time
   lsdcd::on_processes(2, [&](lsdcd::FakeHost &host) {
     const Process process(host);
     lsdcd::Wall wall(servo, &process.options);
-    Grains mine = grain_of(host.rank());
+    Grains mine;
+    if (host.rank() == 0)
+      mine.add(3, -3, 0.49);
+    else
+      mine.add(-3, 3, 0.495);
     mine.step(wall, 50);
     // A sum of two numbers, in either order: the same bits.
     const lsdcd_wall_totals both = wall.totals(0);
@@ -137,36 +128,6 @@ TEST_F(processes, are_warned_once_of_spheres_outside_of_the_box)
   ASSERT_EQ(warnings.size(), 1u);
   EXPECT_TRUE(begins(warnings[0], "1 sphere is outside of the box, where the wall may not reach: "
                                   "the first, x[1] of process 1, is at 6 2 0.49"));
-}
-
-std::string bytes_of(const std::string &name)
-{
-  std::ifstream file(name, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
-TEST_F(processes, write_the_files_of_one_process)
-{
-  // A contact on each triangle, so that no sum is in another order.
-  const std::string name[] = {file_ + ".one.vtp", file_ + ".two.vtp"};
-  const auto with_fields = [&](int k) {
-    api::WallSpec spec = floor();
-    spec.meshes[0].fields = name[k];
-    spec.meshes[0].fields_every = 5;
-    return spec;
-  };
-  lsdcd::Wall alone(with_fields(0));
-  Grains all = both_grains();
-  all.step(alone, 10);
-  lsdcd::on_processes(2, [&](lsdcd::FakeHost &host) {
-    const Process process(host);
-    lsdcd::Wall wall(with_fields(1), &process.options);
-    Grains mine = grain_of(host.rank());
-    mine.step(wall, 10);
-  });
-  EXPECT_FALSE(bytes_of(name[0]).empty());
-  EXPECT_TRUE(bytes_of(name[0]) == bytes_of(name[1]));
-  for (const std::string &file : name) std::remove(file.c_str());
 }
 
 TEST_F(processes, go_on_from_what_each_saved)

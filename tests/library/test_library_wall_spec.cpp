@@ -1176,38 +1176,6 @@ TEST_F(wall_spec, finds_all_contacts_where_a_pose_jumps)
 
 // ---- several processes -----------------------------------------------------------------------
 
-TEST_F(wall_spec, is_posed_alike_on_two_processes)
-{
-  api::WallSpec spec = floor(with_damping());
-  spec.meshes[0].posed_by_caller = true;
-  api::Pose pose;
-  pose.position = {0, 0, 0.02};
-  pose.velocity = {0, 0, 0.5};
-  lsdcd::Wall alone(spec);
-  Grains both;
-  both.add(3, -3, 0.49);
-  both.add(-3, 3, 0.495);
-  alone.set_pose(0, pose);
-  both.step(alone);
-  const lsdcd_wall_totals wanted = alone.totals(0, {1, 2, 3});
-  lsdcd::on_processes(2, [&](lsdcd::FakeHost &host) {
-    const Process process(host);
-    lsdcd::Wall wall(spec, &process.options);
-    Grains mine;
-    const int i = host.rank();
-    mine.add(both.x[3 * i], both.x[3 * i + 1], both.x[3 * i + 2]);
-    wall.set_pose(0, pose);
-    mine.step(wall);
-    EXPECT_EQ(mine.force[2], both.force[3 * i + 2]);
-    // A sum of two numbers, in either order: the same bits.
-    const lsdcd_wall_totals totals = wall.totals(0, {1, 2, 3});
-    for (int k = 0; k < 3; k++) {
-      EXPECT_EQ(totals.force[k], wanted.force[k]);
-      EXPECT_EQ(totals.torque[k], wanted.torque[k]);
-    }
-  });
-}
-
 TEST_F(wall_spec, refuses_poses_that_differ_between_processes)
 {
   api::WallSpec spec = floor();
