@@ -33,6 +33,15 @@ def go(folder, text, ranks=1):
     return lmp.read_rows(folder / "out.txt"), log
 
 
+def from_file(text):
+    """The script with what it made read from half.bin instead."""
+    return "atom_style sphere\nnewton off\ncomm_modify vel yes\nread_restart half.bin\n" + text[text.index("pair_style"):]
+
+
+def same(name, row, other):
+    fact(name, row == other, str([k for k, (a, b) in enumerate(zip(row, other)) if a != b]))
+
+
 def sphere(x, y, z, radius, mass, velocity):
     density = mass / (4 / 3 * math.pi * radius**3)
     return (f"create_atoms 1 single {x} {y} {z} units box\n"
@@ -40,6 +49,8 @@ def sphere(x, y, z, radius, mass, velocity):
             f"velocity all set {velocity[0]} {velocity[1]} {velocity[2]}\n")
 
 
+# A grain that touches nothing.
+FAR = "create_atoms 1 single 1 1 1 units box\nset group all diameter 0.01 density 1\n"
 ATOM = "$(vx[1]:%.17g) $(vy[1]:%.17g) $(vz[1]:%.17g)"
 
 
@@ -127,19 +138,18 @@ def test_hinge(folder):
     side, thick, g = 0.2, 0.002, 9.81
     stl.write(folder / "flap.stl", stl.box((-thick / 2, -side / 2, -side), (thick / 2, side / 2, 0)))
     inertia = side**2 / 3 + thick**2 / 12    # over the mass
-    far = "create_atoms 1 single 1 1 1 units box\nset group all diameter 0.01 density 1\n"
     law = "hooke 1e3 NULL 0 NULL 0 0 mesh flap.stl body density 1000 joint hinge 0 0 0 0 1 0 "
     more = f"fix g all gravity {g} vector 0 0 -1\n"
     dt = 5e-4
     start = 0.02
-    rows, _ = go(folder, script(law + f"omega 0 {start} 0", far, dt, move="", more=more) + "run 3000\n")
+    rows, _ = go(folder, script(law + f"omega 0 {start} 0", FAR, dt, move="", more=more) + "run 3000\n")
     period = 2 * math.pi * math.sqrt(inertia / (g * side / 2))
     swing = start * period / (2 * math.pi)
     off = max(abs(r[COORDINATE] - swing * math.sin(2 * math.pi * r[0] * dt / period)) for r in rows)
     at_most("hinge: swings by the closed form", off / swing, 1e-3)
     # From the bottom with the speed of a release at 90 degrees.
     fast = math.sqrt(g * side / inertia)
-    rows, _ = go(folder, script(law + f"omega 0 {fast:.17g} 0", far, dt, move="", more=more) + "run 500\n")
+    rows, _ = go(folder, script(law + f"omega 0 {fast:.17g} 0", FAR, dt, move="", more=more) + "run 500\n")
     mass = side * side * thick * 1000
     at_most("hinge: 2.5 weights at the bottom", abs(rows[0][REACTION + 2] / (mass * g) - 2.5), 1e-4)
     at_most("hinge: comes to 90 degrees", abs(max(r[COORDINATE] for r in rows) / (math.pi / 2) - 1), 1e-4)
@@ -150,16 +160,15 @@ def test_hinge(folder):
 def test_motor(folder):
     """A motor with a variable, and a damper: I w' = T - c w, exactly for a constant T."""
     stl.write(folder / "rotor.stl", stl.box((-0.3, -0.1, -0.1), (0.3, 0.1, 0.1)))
-    far = "create_atoms 1 single 1 1 1 units box\nset group all diameter 0.01 density 1\n"
     inertia, torque, damping, dt = 2.0, 0.7, 0.4, 0.01
     law = f"hooke 1e3 NULL 0 NULL 0 0 mesh rotor.stl body mass 3 com 0 0 0 inertia 1 1.5 {inertia} 0 0 0 " \
           f"joint hinge 0 0 0 0 0 2 spring 0 {damping} motor v_torque"
     torque_is = f"variable torque equal {torque}\nfix w"
-    rows, _ = go(folder, script(law, far, dt, move="").replace("fix w", torque_is, 1) + "run 500\n")
+    rows, _ = go(folder, script(law, FAR, dt, move="").replace("fix w", torque_is, 1) + "run 500\n")
     off = max(abs(r[OMEGA + 2] - torque / damping * (1 - math.exp(-damping * r[0] * dt / inertia))) for r in rows)
     at_most("motor and damper", off, 1e-12)
     # Another timestep later, between two runs and in one.
-    rows, _ = go(folder, script(law, far, dt, move="", also="$(time:%.17g)").replace("fix w", torque_is, 1) +
+    rows, _ = go(folder, script(law, FAR, dt, move="", also="$(time:%.17g)").replace("fix w", torque_is, 1) +
                  "run 100\ntimestep 0.002\nrun 100\nfix less all dt/reset 50 0.001 0.0011 1 units box\nrun 200\n")
     off = max(abs(r[OMEGA + 2] - torque / damping * (1 - math.exp(-damping * r[-1] / inertia))) for r in rows)
     at_most("motor and damper with another timestep", off, 1e-12)
@@ -171,10 +180,9 @@ def test_stops(folder):
     """A flap that a motor holds at its stop, and a sphere that hits it there: outputs as of a mesh at rest, and the stop's torque."""
     side, thick, torque, upper, dt, radius = 0.2, 0.02, 5.0, 0.3, 1e-3, 0.05
     stl.write(folder / "flap.stl", stl.box((-thick / 2, -side / 2, -side), (thick / 2, side / 2, 0)))
-    far = "create_atoms 1 single 1 1 1 units box\nset group all diameter 0.01 density 1\n"
     law = "granular hooke 1e4 0.3 damping coeff_restitution tangential linear_nohistory 0 0 mesh flap.stl "
     body = f"body density 100 joint hinge 0 0 0 0 1 0 motor {torque} limits 0 {upper} gravity 0 0 0"
-    rows, _ = go(folder, script(law + body, far, dt, move="", columns=range(1, 42)) +
+    rows, _ = go(folder, script(law + body, FAR, dt, move="", columns=range(1, 42)) +
                  "run 200\nfix_modify w body motor 0 limits 0 1\nrun 200\n")
     held, loose = [r for r in rows if r[0] == 200]
     for name, row in (("held", held), ("let go", loose), ("200 steps later", rows[-1])):
@@ -239,14 +247,13 @@ def test_coats(folder):
     """A cube with a coat on a floor: its height at rest, any number of processes, restart, and changes between runs."""
     stl.write(folder / "floor.stl", stl.square(1))
     stl.write(folder / "cube.stl", stl.box((-0.2,) * 3, (0.2,) * 3))
-    far = "create_atoms 1 single 1 1 1 units box\nset group all diameter 0.01 density 1\n"
     stiffness, radius, mass, g, points = 1e3, 0.05, 0.64, 9.81, 13    # points of a face: see test_body_coat.cpp
 
     def fix(law, more, height=0.2 + radius + 1e-3):
         return (f"{law} mesh floor.stl mesh cube.stl move 0.1 0.2 {height} body density 10 coat 0.2 {radius} "
                 f"gravity 0 0 -{g} {more}")
 
-    text = script(fix(f"hooke {stiffness} NULL 50 NULL 0 0", ""), far, 1e-3, move="")
+    text = script(fix(f"hooke {stiffness} NULL 50 NULL 0 0", ""), FAR, 1e-3, move="")
     rows, log = go(folder, text + "run 1000\n")
     sinks = mass * g / (points * stiffness)
     at_most("coat: height at rest", abs(rows[-1][CENTRE + 2] - (0.2 + radius - sinks)), 1e-8)
@@ -254,20 +261,16 @@ def test_coats(folder):
     at_most("coat: forces on floor and cube cancel", abs(rows[-1][FORCE + 2]), 1e-12)
     fact("coat: the log tells points and errors", "points at most 0.2 apart, of radius 0.05" in log)
     law = f"hooke/history {stiffness} 300 0 0 0.5 0"
-    text = script(fix(law, "velocity 0.6 0.1 0 omega 0.2 0.1 0.3"), far, 5e-4, move="")
+    text = script(fix(law, "velocity 0.6 0.1 0 omega 0.2 0.1 0.3"), FAR, 5e-4, move="")
     whole, _ = go(folder, text + "run 400\n")
     for ranks in (2, 4):
         rows, _ = go(folder, text + "run 400\n", ranks)
         fact(f"coat: the same bits on {ranks} processes", rows == whole)
     go(folder, text + "run 200\nwrite_restart half.bin\n")
-    lines = text.split("\n")
-    begin = lines.index("pair_style      zero 1.0")
-    go_on = "atom_style sphere\nnewton off\ncomm_modify vel yes\nread_restart half.bin\n" + "\n".join(lines[begin:])
-    after, _ = go(folder, go_on + "run 200\n")
-    fact("coat: it goes on from a restart file", after[-1] == whole[-1],
-         str([k for k, (a, b) in enumerate(zip(after[-1], whole[-1])) if a != b]))
+    after, _ = go(folder, from_file(text) + "run 200\n")
+    same("coat: it goes on from a restart file", after[-1], whole[-1])
 
-    text = script(fix(law, "", 0.9), far, 1e-3, move="")
+    text = script(fix(law, "", 0.9), FAR, 1e-3, move="")
     rows, _ = go(folder, text + "run 100\nfix_modify w mesh 2 body joint slider 0 0 2 load 0 0 12.5568 motor 0.64\nrun 100\n")
     before, after = [r for r in rows if r[0] == 100]
     fact("fix_modify body: it does not jump", before[CENTRE:SPEED + 3] == after[CENTRE:SPEED + 3])
@@ -283,11 +286,10 @@ def test_coats(folder):
 def test_weak_points(folder):
     """Where bodies of LIGGGHTS-PFM go wrong, by doc/from-liggghts.md; impacts() has the restitution of light bodies."""
     stl.write(folder / "block.stl", stl.box((-0.1,) * 3, (0.1,) * 3))
-    far = "create_atoms 1 single 1 1 1 units box\nset group all diameter 0.01 density 1\n"
     # A spring keeps its rest over runs: the second begins where the block turns round, and the third where it is midway.
     dt, rate, speed = 1e-3, 2 * math.pi, 0.5
     law = "hooke 1e3 NULL 0 NULL 0 0 mesh block.stl body mass 1 com 0 0 0 inertia 1 1 1 0 0 0 gravity 0 0 0 "
-    text = script(law + f"joint slider 1 0 0 spring {rate**2:.17g} 0 velocity {speed} 0 0", far, dt, move="")
+    text = script(law + f"joint slider 1 0 0 spring {rate**2:.17g} 0 velocity {speed} 0 0", FAR, dt, move="")
     rows, _ = go(folder, text + "run 250\nrun 125\nrun 625\n")
     # Leapfrog's phase is off by (rate dt)^2 / 24 of it, 1e-5 in the whole period.
     off = max(abs(r[COORDINATE] - speed / rate * math.sin(rate * r[0] * dt)) for r in rows)
@@ -296,7 +298,7 @@ def test_weak_points(folder):
     # A body that is not balanced, whose centre is on the hinge: it stays there, and the hinge bears I_xz omega^2.
     spin, product = 20, 0.3
     law = f"hooke 1e3 NULL 0 NULL 0 0 mesh block.stl body mass 1 com 0 0 0 inertia 1 1.5 2 0 {product} 0 gravity 0 0 0 "
-    rows, _ = go(folder, script(law + f"joint hinge 0 0 0 0 0 1 omega 0 0 {spin}", far, dt, move="") + "run 1000\n")
+    rows, _ = go(folder, script(law + f"joint hinge 0 0 0 0 0 1 omega 0 0 {spin}", FAR, dt, move="") + "run 1000\n")
     at_most("weak points: an unbalanced body stays on its hinge",
             max(abs(r[TURN + k]) for r in rows for k in (1, 2)), 1e-12)
     at_most("weak points: the hinge bears its couple",
@@ -308,7 +310,7 @@ def test_weak_points(folder):
     law = ("hooke 1e4 NULL 0 NULL 0 0 mesh plate.stl "
            f"motion linear {speed} 0 0 "
            "mesh block.stl move 0.13 0 0 body mass 1 com 0.13 0 0 inertia 1 1 1 0 0 0 gravity 0 0 0 joint slider 1 0 0 coat 0.2 0.02 ")
-    rows, _ = go(folder, script(law, far, 1e-4, move="") + "run 1000\n")
+    rows, _ = go(folder, script(law, FAR, 1e-4, move="") + "run 1000\n")
     at_most("weak points: a mesh that moves throws the body", abs(rows[-1][SPEED] / (2 * speed) - 1), 1e-3)
 
 
@@ -333,10 +335,7 @@ def test_damped(folder):
         text = script(law, held, dt, move="")
         whole, _ = go(folder, text + f"run {steps + 1}\n")
         go(folder, text + f"run {steps}\nwrite_restart half.bin\n")
-        lines = text.split("\n")
-        begin = lines.index("pair_style      zero 1.0")
-        go_on = "atom_style sphere\nnewton off\ncomm_modify vel yes\nread_restart half.bin\n" + "\n".join(lines[begin:])
-        after, _ = go(folder, go_on + "run 1\n")
+        after, _ = go(folder, from_file(text) + "run 1\n")
         v = [r[SPEED + 2] for r in whole]
         acceleration = (v[-1] - v[-3]) / (2 * dt)
         # The next order has dt gamma / 2 of it, and as much from the change of the acceleration.
@@ -378,21 +377,15 @@ def test_restart(folder):
             words += " spring 20 0.5 0.1 limits -1 1 motor 0.2"
         # Without damping the set-up of a run computes the forces that the last step had.
         text = script(words, crowd(4, 0.35).replace("0.05 4711", "1 4711"), 5e-4, box="-5 5 -5 5 -5 5")
-        dump = "dump d all custom 300 {} id x y z vx vy vz\ndump_modify d format float %.17g sort id\n"
-        whole, _ = go(folder, text + dump.format("whole.txt") + "run 300\n")
-        cut, _ = go(folder, text + dump.format("cut.txt") + "run 150\nwrite_restart half.bin\nrun 150\n")
-        same = [r for r in whole if r[0] == 300] == [r for r in cut if r[0] == 300][-1:]
-        fact(f"{joint}: run 150 and run 150 are run 300", same)
-        lines = text.split("\n")
-        begin = lines.index("pair_style      zero 1.0")
-        go_on = "atom_style sphere\nnewton off\ncomm_modify vel yes\nread_restart half.bin\n" + "\n".join(lines[begin:])
-        after, _ = go(folder, go_on + "run 150\n")
-        fact(f"{joint}: it goes on from a restart file", after[-1] == whole[-1],
-             str([k for k, (a, b) in enumerate(zip(after[-1], whole[-1])) if a != b]))
+        whole, _ = go(folder, text + "run 300\n")
+        cut, _ = go(folder, text + "run 150\nwrite_restart half.bin\nrun 150\n")
+        same(f"{joint}: run 150 and run 150 are run 300", cut[-1], whole[-1])
+        after, _ = go(folder, from_file(text) + "run 150\n")
+        same(f"{joint}: it goes on from a restart file", after[-1], whole[-1])
         if "limits" not in words:
             continue
         # The coordinate has left 0: one of these has it, and neither has 0.
-        narrow = [go_on.replace("limits -1 1", limits) + "run 150\n" for limits in ("limits -1 -1e-9", "limits 1e-9 1")]
+        narrow = [from_file(text).replace("limits -1 1", limits) + "run 150\n" for limits in ("limits -1 -1e-9", "limits 1e-9 1")]
         done = [lmp.run(one, folder) for one in narrow]
         holds = [one.returncode == 0 for one in done]
         fact(f"{joint}: limits without 0 that hold the coordinate go on, and others are refused", sorted(holds) == [False, True] and
@@ -405,30 +398,29 @@ def test_changes(folder):
     """What a body does not go with ends with a sentence."""
     stl.write(folder / "cube.stl", stl.box((-0.4,) * 3, (0.4,) * 3))
     stl.write(folder / "open.stl", stl.quad((0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)))
-    far = "create_atoms 1 single 1 1 1 units box\nset group all diameter 0.01 density 1\n"
     fix = "hooke 1e3 NULL 0 NULL 0 0 mesh cube.stl body density 1 "
 
     def refused(name, text, *says):
         lmp.refused(name, text, folder, *says)
 
-    plain = script(fix, far, 1e-3)
+    plain = script(fix, FAR, 1e-3)
     refused("minimise", plain + "minimize 0 0 10 10\n", "does not move in a minimization")
     refused("respa", plain + "run_style respa 2 2 pair 1\nrun 1\n", "run_style verlet only")
-    refused("open mesh", script(fix.replace("cube", "open"), far, 1e-3), "4 open edges")
-    refused("motion", script(fix + "motion linear 1 0 0", far, 1e-3), "leave out its motion")
-    refused("servo", script(fix + "servo force z 1 vmax 1", far, 1e-3), "leave out its motion")
+    refused("open mesh", script(fix.replace("cube", "open"), FAR, 1e-3), "4 open edges")
+    refused("motion", script(fix + "motion linear 1 0 0", FAR, 1e-3), "leave out its motion")
+    refused("servo", script(fix + "servo force z 1 vmax 1", FAR, 1e-3), "leave out its motion")
     refused("fix_modify motion", plain + "fix_modify w motion linear 1 0 0\n", "cannot have a motion")
     refused("two fixes gravity", plain + "fix g1 all gravity 1 vector 0 0 1\nfix g2 all gravity 1 vector 0 1 0\nrun 0\n",
             "several fixes gravity")
-    refused("a spring without a coordinate", script(fix + "joint ball 0 0 0 spring 1 1", far, 1e-3), "hinge or slider")
-    refused("a velocity beside the joint", script(fix + "joint slider 1 0 0 velocity 0 1 0", far, 1e-3), "does not allow")
+    refused("a spring without a coordinate", script(fix + "joint ball 0 0 0 spring 1 1", FAR, 1e-3), "hinge or slider")
+    refused("a velocity beside the joint", script(fix + "joint slider 1 0 0 velocity 0 1 0", FAR, 1e-3), "does not allow")
     refused("moments that no body has", script(
-        "hooke 1e3 NULL 0 NULL 0 0 mesh cube.stl body mass 1 com 0 0 0 inertia 1 1 3 0 0 0", far, 1e-3), "no body has")
+        "hooke 1e3 NULL 0 NULL 0 0 mesh cube.stl body mass 1 com 0 0 0 inertia 1 1 3 0 0 0", FAR, 1e-3), "no body has")
     refused("rerun", plain + "dump d all custom 1 d.txt id x y z vx vy vz\nrun 1\nrerun d.txt dump x y z\n", "in a rerun")
     # At 1.01 of 2 / sqrt(K / m). Outputs ask for the body before its next step looks at the timestep.
     refused("an error that an output finds", script(
         fix.replace("density 1", "mass 1 com 0 0 0 inertia 1 1 1 0 0 0 joint slider 0 0 1 spring 4e4 0 velocity 0 0 1"),
-        far, 0.0101) + "thermo_style custom step f_w[34]\nthermo 1\nrun 20\n",
+        FAR, 0.0101) + "thermo_style custom step f_w[34]\nthermo 1\nrun 20\n",
         "ERROR: Fix w wall/lsdcd: the timestep 0.0101 is not below 0.01", "Last ", ": run 20")
     refused("two dimensions", plain.replace("boundary        f f f", "dimension 2\nboundary        f f p").replace(
         "-2 2 -2 2 -2 2", "-2 2 -2 2 -0.1 0.1").replace("single 1 1 1", "single 1 1 0"), "plane z = 0")
@@ -436,7 +428,7 @@ def test_changes(folder):
         "density 1 \n", "density 1 velocity 1 0 0\n") + "run 3000\n", "the periodic face in x")
     # Without its coat this body would be the same across the face.
     stl.write(folder / "floor.stl", stl.quad((-1, -0.41, -1), (1, -0.41, -1), (1, 0.41, -1), (-1, 0.41, -1)))
-    coat = script(fix + "joint slider 0 0 1 mesh floor.stl", far.replace("1 1 1", "1 0 1"), 1e-3, box="-2 2 -0.41 0.41 -2 2").replace(
+    coat = script(fix + "joint slider 0 0 1 mesh floor.stl", FAR.replace("1 1 1", "1 0 1"), 1e-3, box="-2 2 -0.41 0.41 -2 2").replace(
         "boundary        f f f", "boundary        f p f") + "run 1\n"
     lmp.run_well(coat, folder)
     refused("a coat at a periodic face", coat.replace("slider 0 0 1", "slider 0 0 1 coat 0.1 0.075"),
