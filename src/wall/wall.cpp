@@ -5,6 +5,7 @@
 
 #include "base/input_error.h"
 #include "base/input_words.h"
+#include "base/number_words.h"
 #include "wall/checks/mesh_checks.h"
 #include "wall/mesh_name.h"
 #include "wall/reports/creation_text.h"
@@ -442,9 +443,9 @@ void Wall::log_new_springs(const Step &step)
   const auto contacts = static_cast<std::int64_t>(totals().of_all().contacts);
   if (contacts == 0 || spec_.brief) return;
   host_.log(
-      "there are " + std::to_string(contacts) +
-      " contacts already where the wall begins, in step " + std::to_string(step.number) +
-      ": their springs are 0, as a wall that is made again takes over none of the one before it");
+      "the wall begins in step " + std::to_string(step.number) + " with " +
+      counted(contacts, "contact") +
+      ", whose springs are 0, as a wall that is made again takes over none of the one before it");
 }
 
 // The counts of the steps since the last call, for the log.

@@ -524,7 +524,7 @@ TEST_F(wall, that_begins_among_spheres_at_rest_tells_that_their_springs_are_new)
     scene.set_up();
     int lines = 0;
     for (const std::string &line : scene.host.lines)
-      lines += line.rfind("there are 1 contacts already where the wall begins, in step 5", 0) == 0;
+      lines += line.rfind("the wall begins in step 5 with 1 contact, whose springs are 0", 0) == 0;
     return lines;
   };
   EXPECT_EQ(told(5, 0.49, false), 1);
@@ -540,7 +540,7 @@ TEST_F(wall, that_began_in_step_0_tells_of_no_new_springs_in_its_second_run)
   scene.add({0.3, 0.2, 0.49});
   scene.go(5);
   scene.set_up();
-  for (const std::string &line : scene.host.lines) EXPECT_FALSE(has(line, "contacts already"));
+  for (const std::string &line : scene.host.lines) EXPECT_FALSE(has(line, "whose springs are 0"));
 }
 
 // Its shape follows from the contacts of all steps before.
