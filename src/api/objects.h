@@ -50,6 +50,7 @@ class ApiGrid {
   // HUGE_VAL where there is none.
   Real cutoff() const;
   int nearest() const { return int(settings_.list_kind.most()); }
+  bool is_in_floats() const { return settings_.in_floats; }
   bool uses_tree() const { return settings_.list_kind.is_complete() && !settings_.in_floats; }
 
   const TriangleTree &tree(const ProgressListener &progress = {}) const;

@@ -109,7 +109,9 @@ void query_part(const ApiGrid &grid, const lsdcd_query &q)
     query_with_sides(grid.tree(), grid.near(), grid.mesh->sides, grid.cutoff(), io);
   } else {
     const ApiCells &cells = grid.cells();
-    query_with_sides(cells.grid, grid.names, grid.mesh->sides, cells.sides_by_normals, io);
+    // In float the nearest feature may be of the other face of a thin plate.
+    const bool by_normals = cells.sides_by_normals && !grid.is_in_floats();
+    query_with_sides(cells.grid, grid.names, grid.mesh->sides, by_normals, io);
   }
   if (q.winding || estimates)
     estimate_sides(grid.mesh->sides, io.n, io.points,

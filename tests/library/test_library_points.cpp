@@ -289,6 +289,15 @@ TEST(signed_distance, is_that_of_a_box_negative_inside)
   expect_box<float>(lsdcd::GridOptions(0.4), 1e-6);
 }
 
+// The feature that is nearest in float may be of the other face of the plate. No point is inside.
+TEST(signed_distance, in_float_has_the_side_of_a_plate_that_is_thinner_than_its_error)
+{
+  lsdcd::GridOptions options(10);
+  options.precision = LSDCD_FLOAT;
+  const lsdcd::Grid grid(lsdcd::Mesh(numbers(lsdcd::box_mesh({0, 0, 0}, {1, 2, 1e-7}))), options);
+  for (const double x : grid.signed_distances(random_points<double>(20000, 6))) ASSERT_GT(x, 0);
+}
+
 TEST(signed_distance, is_the_distance_with_the_sign_of_the_side)
 {
   const lsdcd::Grid grid(lsdcd::Mesh(numbers(box_and_cylinder())));
