@@ -203,6 +203,8 @@ void walk(int meshes, When when)
 TEST(float_spheres, forces_added_in_float_are_those_in_double_rounded_once)
 {
   walk<float>(1, When::in_turn);
+  walk<float>(1, When::beside);
+  walk<float>(1, When::beside_adding_early);
 }
 
 TEST(float_spheres, forces_added_in_double_are_those_in_double)
@@ -213,16 +215,6 @@ TEST(float_spheres, forces_added_in_double_are_those_in_double)
 TEST(float_spheres, spheres_near_two_meshes_are_added_once)
 {
   walk<float>(2, When::in_turn);
-}
-
-TEST(float_spheres, a_step_that_is_launched_beside_adds_in_finish)
-{
-  walk<float>(1, When::beside);
-}
-
-TEST(float_spheres, a_step_may_add_when_it_is_launched)
-{
-  walk<float>(1, When::beside_adding_early);
 }
 
 }    // namespace

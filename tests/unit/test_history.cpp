@@ -10,6 +10,8 @@
 
 #include <cmath>
 #include <random>
+#include <utility>
+#include <vector>
 
 namespace lsdcd::test_history {
 namespace {
@@ -83,7 +85,7 @@ Vec3 leaning(Real degrees)
 // Adjacent and not: bottom's first triangle with the top's, or with its twin.
 constexpr FeatureCode kHere = 0, kNext = 1, kFar = 2;
 
-ContactSet<8> contacts(std::initializer_list<std::pair<FeatureCode, Vec3>> list)
+ContactSet<8> contacts(const std::vector<std::pair<FeatureCode, Vec3>> &list)
 {
   ContactSet<8> set;
   for (const auto &c : list) set.add(c.first, c.second, 0.9);
@@ -94,10 +96,11 @@ const Vec3 kUp = {0, 0, 1}, kShear = {0.01, -0.02, 0};
 
 // The shear displacement with which contact i begins.
 Vec3 transferred_shear(const MeshFeaturesView &wall, const ContactSet<8> &set, int i,
-                       const Spring *old, int n_old)
+                       const std::vector<Spring> &old)
 {
-  const Transfer in = lsdcd::transfer_of(wall, set.view(), i, old, n_old);
-  return in.from < 0 ? Vec3{0, 0, 0} : handed_on(old[in.from].shear, in, old, set.normal[i]);
+  const int n = static_cast<int>(old.size());
+  const Transfer in = transfer_of(wall, set.view(), i, old.data(), n);
+  return in.from < 0 ? Vec3{0, 0, 0} : handed_on(old[in.from].shear, in, old.data(), set.normal[i]);
 }
 
 TEST(features, of_a_cube_are_adjacent_where_they_share_a_vertex)
@@ -114,115 +117,75 @@ TEST(features, of_a_cube_are_adjacent_where_they_share_a_vertex)
   EXPECT_FALSE(are_adjacent(cube.view, kFar, e));
 }
 
-// A sphere had one spring, on kHere.
-class transfer_of : public testing::Test {
- protected:
+TEST(transfer_of, is_the_whole_spring_where_a_contact_goes_on_and_its_cosine_where_one_is_born)
+{
   const Cube cube;
-  const Spring old = {kShear, kUp, kHere, 0};
   const FeatureCode v =
       feature_code(FeatureKind::vertex, cube.f.face_vertex[0].v[1]);    // of kHere
-};
-
-TEST_F(transfer_of, without_old_springs_starts_at_zero)
-{
-  const Vec3 h = transferred_shear(cube.view, contacts({{kHere, kUp}}), 0, nullptr, 0);
-  EXPECT_EQ(h, (Vec3{0, 0, 0}));
-}
-
-TEST_F(transfer_of, of_the_same_feature_is_the_whole_spring)
-{
-  EXPECT_EQ(transferred_shear(cube.view, contacts({{kHere, kUp}}), 0, &old, 1), kShear);
-}
-
-TEST_F(transfer_of, of_the_same_feature_turns_with_the_normal)
-{
-  const Vec3 n = leaning(40);
-  const Vec3 h = transferred_shear(cube.view, contacts({{kHere, n}}), 0, &old, 1);
-  EXPECT_NEAR(norm(h), norm(kShear), 1e-16);
-  EXPECT_NEAR(dot(h, n), 0, 1e-17);
-  EXPECT_EQ(h.y, kShear.y);
-}
-
-TEST_F(transfer_of, of_the_same_feature_goes_before_a_better_aligned_one)
-{
-  const Spring both[2] = {{{1, 0, 0}, kUp, kNext, 0}, {kShear, leaning(30), kHere, 0}};
-  const Vec3 h = transferred_shear(cube.view, contacts({{kHere, kUp}}), 0, both, 2);
-  EXPECT_NEAR(norm(h), norm(kShear), 1e-16);
-}
-
-TEST_F(transfer_of, of_the_same_feature_ends_where_the_centre_crossed_to_the_other_side)
-{
-  EXPECT_EQ(transferred_shear(cube.view, contacts({{kHere, -kUp}}), 0, &old, 1), (Vec3{0, 0, 0}));
-}
-
-TEST_F(transfer_of, across_a_seam_is_the_whole_spring)
-{
-  // Aligned or leaning, the length stays: the contact moved, it was not born.
-  for (Real degrees : {0., 1e-3, 10., 40.}) {
-    const Vec3 h = transferred_shear(cube.view, contacts({{kNext, leaning(degrees)}}), 0, &old, 1);
-    EXPECT_NEAR(norm(h), norm(kShear), 1e-16) << degrees;
+  const auto cosine = [](Real degrees) { return std::cos(degrees * kPi / 180); };
+  const std::vector<Spring> old = {{kShear, kUp, kHere, 0}};
+  struct Row {
+    const char *what;
+    std::vector<std::pair<FeatureCode, Vec3>> contacts;
+    int i;    // of the contact
+    std::vector<Spring> springs;
+    Real share;    // of the spring, which is turned with the normal
+  };
+  // A plane that is cut in two between kHere and kNext: the sphere crosses the cut while a contact begins at v.
+  const std::vector<std::pair<FeatureCode, Vec3>> cut = {{kNext, kUp}, {v, leaning(30)}};
+  std::vector<Row> rows = {
+      {"no springs", {{kHere, kUp}}, 0, {}, 0},
+      {"the same feature", {{kHere, kUp}}, 0, old, 1},
+      {"the same feature, turned", {{kHere, leaning(40)}}, 0, old, 1},
+      {"the same feature before a better aligned one",
+       {{kHere, kUp}},
+       0,
+       {{{1, 0, 0}, kUp, kNext, 0}, {kShear, leaning(30), kHere, 0}},
+       1},
+      {"the same feature, whose other side the centre is on", {{kHere, -kUp}}, 0, old, 0},
+      {"born where the old one crosses a cut", cut, 1, old, cosine(30)},
+      {"across a cut where another one is born", cut, 0, old, 1},
+      {"in a right-angled corner", {{kHere, kUp}, {kNext, {1, 0, 0}}}, 1, old, 0},
+      {"under it", {{kHere, kUp}, {kNext, {0.6, 0, -0.8}}}, 1, old, 0},
+      {"from a feature far away", {{kHere, leaning(20)}}, 0, {{kShear, kUp, kFar, 0}}, cosine(20)},
+      {"the best aligned spring",
+       {{kHere, kUp}},
+       0,
+       {{{1, 0, 0}, leaning(50), kFar, 0},
+        {kShear, leaning(10), kFar + 1, 0},
+        {{2, 0, 0}, leaning(-30), kFar, 0}},
+       cosine(10)}};
+  // Aligned or leaning, across a seam the length stays: the contact moved, it was not born.
+  for (Real degrees : {0., 1e-3, 10., 40.})
+    rows.push_back({"across a seam", {{kNext, leaning(degrees)}}, 0, old, 1});
+  for (Real degrees : {0., 20., 44., 46., 60., 89.})
+    rows.push_back({"born beside one that stays",
+                    {{kHere, kUp}, {kNext, leaning(degrees)}},
+                    1,
+                    old,
+                    cosine(degrees)});
+  for (const Row &row : rows) {
+    const ContactSet<8> set = contacts(row.contacts);
+    const Vec3 h = transferred_shear(cube.view, set, row.i, row.springs), n = set.normal[row.i];
+    EXPECT_NEAR(norm(h), row.share * norm(kShear), 1e-16) << row.what;
+    EXPECT_NEAR(h.y, row.share * kShear.y, 1e-17) << row.what;    // no normal leans in y
+    if (row.springs.size() == 1) {
+      EXPECT_NEAR(dot(h, n), 0, 1e-17) << row.what;
+    }
+    if (row.share == 1 && n == row.springs.back().normal) {
+      EXPECT_EQ(h, kShear) << row.what;
+    }
   }
-}
-
-TEST_F(transfer_of, across_a_seam_to_the_next_feature_changes_no_bit_on_a_plane)
-{
-  EXPECT_EQ(transferred_shear(cube.view, contacts({{kNext, kUp}}), 0, &old, 1), kShear);
-}
-
-TEST_F(transfer_of, of_a_contact_born_beside_one_that_stays_is_the_cosine_of_its_spring)
-{
-  for (Real degrees : {0., 20., 44., 46., 60., 89.}) {
-    const Vec3 n = leaning(degrees);
-    const Vec3 h = transferred_shear(cube.view, contacts({{kHere, kUp}, {kNext, n}}), 1, &old, 1);
-    EXPECT_NEAR(norm(h), std::cos(degrees * kPi / 180) * norm(kShear), 1e-16) << degrees;
-    EXPECT_NEAR(dot(h, n), 0, 1e-17);
-  }
-}
-
-// A plane that is cut in two between kHere and kNext: the sphere crosses the cut while a contact begins at a vertex
-// of kHere.
-TEST_F(transfer_of, of_a_contact_born_while_the_old_one_crosses_a_cut_is_the_cosine_of_its_spring)
-{
-  const Vec3 h =
-      transferred_shear(cube.view, contacts({{kNext, kUp}, {v, leaning(30)}}), 1, &old, 1);
-  EXPECT_NEAR(norm(h), std::cos(30 * kPi / 180) * norm(kShear), 1e-16);
-}
-
-TEST_F(transfer_of, across_a_cut_is_the_whole_spring_where_another_contact_is_born)
-{
-  EXPECT_EQ(transferred_shear(cube.view, contacts({{kNext, kUp}, {v, leaning(30)}}), 0, &old, 1),
-            kShear);
 }
 
 // Two sheets in one place: the sphere crosses the same line of both, and neither may take the hold from the other.
-TEST_F(transfer_of, holds_what_goes_on_across_a_cut_where_two_contacts_lie_in_its_direction)
+TEST(is_held, goes_on_across_a_cut_where_two_contacts_lie_in_its_direction)
 {
+  const Cube cube;
+  const Spring old = {kShear, kUp, kHere, 0};
+  const FeatureCode v = feature_code(FeatureKind::vertex, cube.f.face_vertex[0].v[1]);
   const ContactSet<8> set = contacts({{kNext, kUp}, {v, kUp}});
   for (int i = 0; i < 2; i++) EXPECT_TRUE(is_held(cube.view, set.view(), i, false, &old, 1)) << i;
-}
-
-TEST_F(transfer_of, in_a_right_angled_corner_is_nothing)
-{
-  const Vec3 across = {1, 0, 0}, under = {0.6, 0, -0.8};
-  for (const Vec3 &n : {across, under})
-    EXPECT_EQ(transferred_shear(cube.view, contacts({{kHere, kUp}, {kNext, n}}), 1, &old, 1),
-              (Vec3{0, 0, 0}));
-}
-
-TEST_F(transfer_of, from_a_feature_far_away_is_the_cosine_of_its_spring)
-{
-  const Spring far = {kShear, kUp, kFar, 0};
-  const Vec3 h = transferred_shear(cube.view, contacts({{kHere, leaning(20)}}), 0, &far, 1);
-  EXPECT_NEAR(norm(h), std::cos(20 * kPi / 180) * norm(kShear), 1e-16);
-}
-
-TEST_F(transfer_of, takes_the_best_aligned_spring)
-{
-  const Spring three[3] = {{{1, 0, 0}, leaning(50), kFar, 0},
-                           {kShear, leaning(10), kFar + 1, 0},
-                           {{2, 0, 0}, leaning(-30), kFar, 0}};
-  const Vec3 h = transferred_shear(cube.view, contacts({{kHere, kUp}}), 0, three, 3);
-  EXPECT_NEAR(norm(h), std::cos(10 * kPi / 180) * norm(kShear), 1e-16);
 }
 
 }    // namespace

@@ -595,12 +595,9 @@ void expect_filter_is_right_wherever_it_is_sure()
   EXPECT_GT(of_usual.sure, of_usual.points * 0.999);
 }
 
-TEST(query, a_brick_told_in_float_is_the_exact_one_where_it_is_sure)
+TEST(query, a_brick_told_by_rounded_numbers_is_the_exact_one_where_it_is_sure)
 {
   expect_filter_is_right_wherever_it_is_sure<float>();
-}
-TEST(query, a_brick_told_in_double_is_the_exact_one_where_it_is_sure)
-{
   expect_filter_is_right_wherever_it_is_sure<double>();
 }
 
@@ -629,12 +626,9 @@ void expect_filter_is_sure_of_no_number_that_is_none()
   EXPECT_GT(count.sure, count.points / 20);
   EXPECT_LT(count.sure, count.points);
 }
-TEST(query, a_brick_told_in_float_is_sure_of_no_number_that_is_none)
+TEST(query, a_brick_told_by_rounded_numbers_is_sure_of_no_number_that_is_none)
 {
   expect_filter_is_sure_of_no_number_that_is_none<float>();
-}
-TEST(query, a_brick_told_in_double_is_sure_of_no_number_that_is_none)
-{
   expect_filter_is_sure_of_no_number_that_is_none<double>();
 }
 
@@ -887,23 +881,15 @@ std::string refusal(const std::vector<std::size_t> &large, Real r)
 }
 
 // The sphere of radius 0.6 overlaps the wall by 0.1, where lists for 0.1 say nothing.
-TEST(query, a_sphere_larger_than_the_reach_is_refused_by_its_index_and_both_lengths)
+TEST(query, a_sphere_larger_than_the_reach_or_of_no_radius_is_refused_by_its_index_and_both_lengths)
 {
   const std::string words =
       "point 600 has radius 0.6, more than the grid's cutoff 0.1: build the grid with a cutoff of "
       "the largest radius";
   EXPECT_EQ(refusal<Sphere>({600, 699}, 0.6), words);
-}
-
-TEST(query, a_radius_in_float_is_held_against_the_reach_in_float)
-{
+  EXPECT_TRUE(has(refusal<Sphere>({5}, std::nan("")), "point 5 has radius nan"));
   EXPECT_EQ(refusal<FloatSphere>({}, 0), "");    // the nearest float to 0.1 is more than 0.1
   EXPECT_TRUE(has(refusal<FloatSphere>({600}, 0.1000001), "point 600 has radius 0.100000"));
-}
-
-TEST(query, a_radius_that_is_no_number_is_refused)
-{
-  EXPECT_TRUE(has(refusal<Sphere>({5}, std::nan("")), "point 5 has radius nan"));
 }
 
 TEST(query, asking_for_the_cell_first_refuses_large_spheres_too)

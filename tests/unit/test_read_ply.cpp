@@ -271,29 +271,19 @@ Vec3 normal(const TriangleSoup &soup, std::size_t t)
   return cross(x[1] - x[0], x[2] - x[0]);
 }
 
-TEST(read_ply, a_triangle_strip_is_its_triangles_all_wound_alike)
+// -1 begins a strip with a winding of its own: of three corners, then four. Corners that are given twice lead from the first
+// square to the one after the next, and make no facets.
+TEST(read_ply, triangle_strips_are_their_triangles_all_wound_alike)
 {
-  for (const char *format : kFormats) {
-    const TriangleSoup soup = read(strip(format, 4, {1, 0, 3, 2, 5, 4, 7, 6}).bytes()).soup;
-    ASSERT_EQ(soup.n_triangles(), 6u) << format;
-    for (std::size_t t = 0; t < 6; ++t) EXPECT_EQ(normal(soup, t), normal(soup, 0)) << t;
-  }
-}
-
-TEST(read_ply, minus_one_begins_a_new_strip_with_a_winding_of_its_own)
-{
-  // Three corners, then four: the winding of the second does not go on where the first ended.
-  const TriangleSoup soup = read(strip("ascii", 4, {1, 0, 3, -1, 3, 2, 5, 4, -1}).bytes()).soup;
-  ASSERT_EQ(soup.n_triangles(), 3u);
-  for (std::size_t t = 0; t < 3; ++t) EXPECT_EQ(normal(soup, t), normal(soup, 0)) << t;
-}
-
-TEST(read_ply, corners_given_twice_join_strips_and_make_no_facets)
-{
-  // 3 and 4 twice lead from the first square to the one after the next.
-  const TriangleSoup soup = read(strip("ascii", 4, {1, 0, 3, 2, 2, 5, 5, 4, 7, 6}).bytes()).soup;
-  ASSERT_EQ(soup.n_triangles(), 4u);
-  for (std::size_t t = 0; t < 4; ++t) EXPECT_EQ(normal(soup, t), normal(soup, 0)) << t;
+  const std::pair<std::vector<double>, std::size_t> rows[] = {{{1, 0, 3, 2, 5, 4, 7, 6}, 6},
+                                                              {{1, 0, 3, -1, 3, 2, 5, 4, -1}, 3},
+                                                              {{1, 0, 3, 2, 2, 5, 5, 4, 7, 6}, 4}};
+  for (const char *format : kFormats)
+    for (const auto &[corners, n] : rows) {
+      const TriangleSoup soup = read(strip(format, 4, corners).bytes()).soup;
+      ASSERT_EQ(soup.n_triangles(), n) << format;
+      for (std::size_t t = 0; t < n; ++t) EXPECT_EQ(normal(soup, t), normal(soup, 0)) << t;
+    }
 }
 
 TEST(read_ply, strips_of_one_or_two_corners_are_counted_as_left_out)

@@ -33,22 +33,15 @@ std::vector<bool> front_of(std::vector<TradeoffRow> rows)
   return front;
 }
 
-TEST(front, holds_what_nothing_else_beats)
+TEST(front, of_each_device_holds_what_nothing_else_beats_and_equals)
 {
+  using Front = std::vector<bool>;
   EXPECT_EQ(front_of({row_of(0, 100), row_of(0, 90), row_of(0.1, 50), row_of(0.1, 60),
                       row_of(0.2, 90), row_of(0.5, 40)}),
-            (std::vector<bool>{false, true, true, false, false, true}));
-}
-
-TEST(front, holds_equals)
-{
-  EXPECT_EQ(front_of({row_of(0, 100), row_of(0, 100)}), (std::vector<bool>{true, true}));
-}
-
-TEST(front, is_of_each_device)
-{
+            (Front{false, true, true, false, false, true}));
+  EXPECT_EQ(front_of({row_of(0, 100), row_of(0, 100)}), (Front{true, true}));
   EXPECT_EQ(front_of({row_of(0, 100), row_of(0, 5, true), row_of(0.1, 6, true)}),
-            (std::vector<bool>{true, true, false}));
+            (Front{true, true, false}));
 }
 
 // ---- the words for a bound -------------------------------------------------------------
@@ -69,45 +62,33 @@ std::string words_below(Real bound, const std::vector<TradeoffRow> &rows)
   return row ? words_of(row->choice) : "none";
 }
 
-const TradeoffRow kExact = setting(0, 0, 100);
-const char *const kExactWords = "grid 0.5 nearest all";
-
-TEST(below, the_fastest_setting_is_taken)
+TEST(below, the_fastest_setting_is_taken_whose_errors_are_below_the_bound)
 {
-  EXPECT_EQ(words_below(1e-3, {kExact, setting(8, 1e-6, 50)}), "grid 0.5 nearest 8");
-}
-
-TEST(below, of_times_a_tenth_apart_the_more_exact_is_taken)
-{
-  EXPECT_EQ(words_below(1e-3, {setting(8, 1e-6, 92), kExact}), kExactWords);
-}
-
-TEST(below, an_error_of_a_force_that_is_not_below_is_refused)
-{
-  EXPECT_EQ(words_below(1e-3, {kExact, setting(8, 1e-3, 50)}), kExactWords);
-}
-
-TEST(below, a_share_of_missed_contacts_that_is_not_below_is_refused)
-{
-  TradeoffRow misses = setting(8, 0, 50);
-  misses.error.missed = 2;
-  EXPECT_EQ(words_below(2e-3, {kExact, misses}), kExactWords);
-  EXPECT_NE(words_below(3e-3, {kExact, misses}), kExactWords);
-}
-
-TEST(below, a_setting_with_uncertified_answers_is_refused)
-{
-  TradeoffRow four = setting(4, 0, 50);
-  EXPECT_EQ(words_below(0.5, {kExact, four}), "grid 0.5 nearest 4");
-  four.error.uncertified = 1;
-  EXPECT_EQ(words_below(0.5, {kExact, four}), kExactWords);
-}
-
-TEST(below, corner_sum_and_another_device_are_passed_over)
-{
-  TradeoffRow sum = setting(0, 0, 50), gpu = sum;
+  const TradeoffRow exact = setting(0, 0, 100);
+  TradeoffRow misses = setting(8, 0, 50), uncertain = setting(8, 0, 50), sum = setting(8, 0, 50),
+              gpu = sum;
+  misses.error.missed = 2;    // of 1000
+  uncertain.error.uncertified = 1;
   sum.corner = Corner::sum;
   gpu.on_cuda = true;
+  const struct {
+    const char *what;
+    Real bound;
+    TradeoffRow other;
+    bool takes_it;
+  } rows[] = {{"the fastest", 1e-3, setting(8, 1e-6, 50), true},
+              {"of times a tenth apart the more exact", 1e-3, setting(8, 1e-6, 92), false},
+              {"an error of a force that is not below", 1e-3, setting(8, 1e-3, 50), false},
+              {"a share of missed contacts that is not below", 2e-3, misses, false},
+              {"one that is", 3e-3, misses, true},
+              {"certified answers", 0.5, setting(8, 0, 50), true},
+              {"uncertified ones", 0.5, uncertain, false},
+              {"corner sum", 1e-3, sum, false},
+              {"another device", 1e-3, gpu, false}};
+  for (const auto &row : rows)
+    EXPECT_EQ(words_below(row.bound, {exact, row.other}),
+              row.takes_it ? "grid 0.5 nearest 8" : "grid 0.5 nearest all")
+        << row.what;
   EXPECT_EQ(words_below(1e-3, {sum, gpu}), "none");
 }
 

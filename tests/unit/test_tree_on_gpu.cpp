@@ -99,20 +99,11 @@ void expect_the_same_answers(Real radius, bool each)
   }
 }
 
-TEST(tree_on_gpu, gives_the_bits_of_the_cpu_at_any_distance)
+TEST(tree_on_gpu, gives_the_bits_of_the_cpu_at_any_distance_and_within_radii)
 {
   expect_the_same_answers<double>(0, false);
-}
-TEST(tree_on_gpu, gives_the_bits_of_the_cpu_within_a_radius)
-{
   expect_the_same_answers<double>(0.1, false);
-}
-TEST(tree_on_gpu, gives_the_bits_of_the_cpu_within_radii)
-{
   expect_the_same_answers<double>(0.1, true);
-}
-TEST(tree_on_gpu, gives_the_bits_of_the_cpu_in_float)
-{
   expect_the_same_answers<float>(0, false);
 }
 

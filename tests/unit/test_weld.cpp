@@ -66,30 +66,18 @@ Triangles joined(Triangles a, const Triangles &b)
 const Triangles kCube = box({0, 0, 0}, {1, 1, 1});
 const Vec3 kA = {0, 0, 0}, kB = {1, 0, 0}, kC = {0, 1, 0}, kD = {0, 0, 1};
 
-TEST(weld, seam_of_a_rounding_error_is_closed_by_default)
-{
-  Triangles cube = kCube;
-  cube[0][0].x += 5e-17;
-  cube[3][1].z -= 1e-16;
-  EXPECT_EQ(weld(cube).vertices.size(), 8u);
-  EXPECT_TRUE(weld(cube).report.closed);
-}
-
-TEST(weld, tolerance_zero_welds_equal_corners_only)
-{
-  Triangles cube = kCube;
-  cube[0][0].x += 5e-17;
-  EXPECT_EQ(weld(kCube, 0).vertices.size(), 8u);
-  EXPECT_EQ(weld(cube, 0).vertices.size(), 9u);
-}
-
-TEST(weld, minus_zero_equals_zero)
+TEST(weld, seam_of_a_rounding_error_is_closed_by_default_and_minus_zero_is_zero)
 {
   Triangles cube = kCube;
   for (auto &c : cube[4])
     for (int i = 0; i < 3; ++i)
       if (c[i] == 0) c[i] = -0.0;
   EXPECT_EQ(weld(cube, 0).vertices.size(), 8u);
+  cube[0][0].x += 5e-17;
+  EXPECT_EQ(weld(cube, 0).vertices.size(), 9u);
+  cube[3][1].z -= 1e-16;
+  EXPECT_EQ(weld(cube).vertices.size(), 8u);
+  EXPECT_TRUE(weld(cube).report.closed);
 }
 
 TEST(weld, default_tolerance_is_a_millionth_of_the_diagonal)
@@ -134,32 +122,33 @@ TEST(weld, points_of_a_random_cloud_agree_with_a_search_of_all_pairs)
     }
 }
 
-TEST(weld, facet_with_two_equal_corners_leaves_its_edge)
+TEST(weld, facets_without_area_leave_edges_and_points_that_no_face_has)
 {
-  const auto mesh = weld({{kA, kB, kB}});
-  EXPECT_EQ(mesh.report.degenerate_facets, 1u);
-  EXPECT_TRUE(mesh.faces.empty());
-  ASSERT_EQ(mesh.edges.size(), 1u);
-  EXPECT_EQ(mesh.vertices.size(), 2u);
-}
-
-TEST(weld, facet_that_is_a_point_leaves_its_vertex)
-{
-  const auto mesh = weld({{kB, kB, kB}});
-  EXPECT_EQ(mesh.vertices.size(), 1u);
-  EXPECT_TRUE(mesh.edges.empty());
-  EXPECT_EQ(mesh.vertex_first, (std::vector<int>{0, 0}));
-}
-
-TEST(weld, isolated_collinear_facet_leaves_three_edges)
-{
-  const auto mesh = weld({{kA, {0.25, 0, 0}, kB}});
-  EXPECT_EQ(mesh.report.degenerate_facets, 1u);
-  EXPECT_EQ(mesh.edges.size(), 3u);
+  const struct {
+    const char *what;
+    Triangles triangles;
+    std::size_t vertices, edges, faces;
+  } rows[] = {{"two points", {{kA, kB, kB}}, 2, 1, 0},
+              {"a point", {{kB, kB, kB}}, 1, 0, 0},
+              {"a line", {{kA, {0.25, 0, 0}, kB}}, 3, 3, 0},
+              {"an edge of a face", {{kA, kB, kC}, {kB, kA, kA}}, 3, 3, 1}};
+  for (const auto &row : rows) {
+    const auto mesh = weld(row.triangles);
+    EXPECT_EQ(mesh.report.degenerate_facets, 1u) << row.what;
+    EXPECT_EQ(mesh.vertices.size(), row.vertices) << row.what;
+    EXPECT_EQ(mesh.edges.size(), row.edges) << row.what;
+    EXPECT_EQ(mesh.faces.size(), row.faces) << row.what;
+    EXPECT_EQ(mesh.report.open_edges, 3 * row.faces) << row.what;
+  }
+  EXPECT_EQ(weld({{kB, kB, kB}}).vertex_first, (std::vector<int>{0, 0}));
 }
 
 TEST(weld, points_on_a_line_up_to_rounding_are_collinear)
 {
+  const Vec3 far = {1000.1, 2000.2, 3000.3}, end = {1001.4, 2000.9, 3000.8};
+  for (int i = 1; i < 100; ++i)
+    EXPECT_EQ(weld({{far, far + 0.01 * i * (end - far), end}}, 0).report.degenerate_facets, 1u)
+        << i;
   std::mt19937 random(11);
   std::uniform_real_distribution<Real> place(-1, 1);
   for (int i = 0; i < 1000; ++i) {
@@ -167,13 +156,6 @@ TEST(weld, points_on_a_line_up_to_rounding_are_collinear)
     const Vec3 b = {place(random), place(random), place(random)};
     EXPECT_EQ(weld({{a, a + 0.3 * (b - a), b}}, 0).report.degenerate_facets, 1u);
   }
-}
-
-TEST(weld, rounding_far_from_the_origin_is_collinear_too)
-{
-  const Vec3 a = {1000.1, 2000.2, 3000.3}, b = {1001.4, 2000.9, 3000.8};
-  for (int i = 1; i < 100; ++i)
-    EXPECT_EQ(weld({{a, a + 0.01 * i * (b - a), b}}, 0).report.degenerate_facets, 1u) << i;
 }
 
 TEST(weld, a_facet_a_billion_times_longer_than_high_is_a_face)
@@ -193,23 +175,6 @@ TEST(weld, a_small_mesh_has_no_absolute_limit)
   EXPECT_DOUBLE_EQ(report.area, 6e-120);
 }
 
-TEST(weld, edge_without_faces_is_neither_open_nor_nonmanifold)
-{
-  auto cube = kCube;
-  cube.push_back({Vec3{5, 5, 5}, {6, 5, 5}, {7, 5, 5}});
-  const auto report = weld(cube).report;
-  EXPECT_EQ(report.edges, 21u);
-  EXPECT_EQ(report.open_edges, 0u);
-  EXPECT_EQ(report.nonmanifold_edges, 0u);
-}
-
-TEST(weld, collapsed_facet_on_an_edge_of_a_face_adds_no_edge)
-{
-  const auto mesh = weld({{kA, kB, kC}, {kB, kA, kA}});
-  EXPECT_EQ(mesh.edges.size(), 3u);
-  EXPECT_EQ(mesh.report.open_edges, 3u);
-}
-
 TEST(weld, duplicates_of_either_winding_are_dropped)
 {
   const auto mesh = weld({{kA, kB, kC}, {kB, kC, kA}, {kC, kB, kA}, {kA, kB, kD}});
@@ -224,54 +189,64 @@ TEST(weld, faces_keep_the_winding_of_the_file)
   EXPECT_EQ(mesh.vertices[mesh.faces[0][1]], kC);
 }
 
-TEST(weld, missing_facet_leaves_three_open_edges)
+// Returns a box of side 1/2 in the middle of the cube.
+Triangles inner()
 {
-  auto cube = kCube;
-  cube.pop_back();
-  const auto report = weld(cube).report;
-  EXPECT_EQ(report.open_edges, 3u);
-  EXPECT_FALSE(report.closed);
-  EXPECT_FALSE(report.oriented);
+  return box({0.25, 0.25, 0.25}, {0.75, 0.75, 0.75});
 }
 
-TEST(weld, turned_facet_leaves_three_misoriented_edges)
+TEST(weld, edges_and_sides_are_those_of_shells)
 {
-  auto cube = kCube;
-  std::swap(cube[5][0], cube[5][1]);
-  const auto report = weld(cube).report;
-  EXPECT_EQ(report.misoriented_edges, 3u);
-  EXPECT_TRUE(report.closed);
-  EXPECT_FALSE(report.oriented);
-}
-
-TEST(weld, a_shell_wound_against_another_leaves_the_mesh_without_sides)
-{
-  const auto report = weld(joined(kCube, turned(box({3, 0, 0}, {4, 1, 1})))).report;
-  EXPECT_EQ(report.misoriented_edges, 0u);
-  EXPECT_EQ(report.inverted_facets, 12u);
-  EXPECT_TRUE(report.closed);
-  EXPECT_FALSE(report.oriented);
-}
-
-TEST(weld, shells_all_wound_inside_out_are_oriented)
-{
-  const auto report = weld(turned(joined(kCube, box({3, 0, 0}, {4, 1, 1})))).report;
-  EXPECT_EQ(report.inverted_facets, 0u);
-  EXPECT_TRUE(report.oriented);
-}
-
-TEST(weld, a_cavity_points_the_other_way)
-{
-  const Triangles inner = box({0.25, 0.25, 0.25}, {0.75, 0.75, 0.75});
-  EXPECT_EQ(weld(joined(kCube, turned(inner))).report.inverted_facets, 0u);
-  EXPECT_EQ(weld(joined(kCube, inner)).report.inverted_facets, 12u);
-}
-
-TEST(weld, a_solid_in_a_cavity_points_out)
-{
-  const Triangles cavity = turned(box({0.25, 0.25, 0.25}, {0.75, 0.75, 0.75}));
-  const Triangles solid = box({0.4, 0.4, 0.4}, {0.6, 0.6, 0.6});
-  EXPECT_TRUE(weld(joined(joined(kCube, cavity), solid)).report.oriented);
+  const Vec3 p = {3, 0, 0}, q = {4, 0, 0}, r = {4, 1, 0}, t = {3, 1, 0};
+  const Triangles sheet = {{p, q, t}, {q, r, t}, {p, r, q}, {p, t, r}};    // closed, without volume
+  const Triangles beside = box({3, 0, 0}, {4, 1, 1}), touching = box({1, 1, 0}, {2, 2, 1});
+  Triangles missing = kCube, facet_turned = kCube;
+  missing.pop_back();
+  std::swap(facet_turned[5][0], facet_turned[5][1]);
+  constexpr std::size_t kAny = 99;
+  const struct {
+    const char *what;
+    Triangles triangles;
+    std::size_t open, nonmanifold, misoriented, inverted;
+    bool closed, oriented;
+  } rows[] = {
+      {"a missing facet", missing, 3, 0, kAny, kAny, false, false},
+      {"a turned facet", facet_turned, 0, 0, 3, kAny, true, false},
+      {"three faces on an edge",
+       {{kA, kB, kC}, {kA, kB, kD}, {kA, kB, {0, -1, 0}}},
+       6,
+       1,
+       kAny,
+       kAny,
+       false,
+       false},
+      {"a bare edge", joined(kCube, {{Vec3{5, 5, 5}, {6, 5, 5}, {7, 5, 5}}}), 0, 0, 0, 0, true,
+       true},
+      {"a shell wound against another", joined(kCube, turned(beside)), 0, 0, 0, 12, true, false},
+      {"shells all inside out", turned(joined(kCube, beside)), 0, 0, 0, 0, true, true},
+      {"a cavity", joined(kCube, turned(inner())), 0, 0, 0, 0, true, true},
+      {"a cavity wound as its solid", joined(kCube, inner()), 0, 0, 0, 12, true, false},
+      {"a solid in a cavity",
+       joined(joined(kCube, turned(inner())), box({0.4, 0.4, 0.4}, {0.6, 0.6, 0.6})), 0, 0, 0, 0,
+       true, true},
+      {"a sheet without volume", joined(kCube, sheet), 0, 0, 0, 0, true, true},
+      {"that of a cube inside out", joined(turned(kCube), sheet), 0, 0, 0, 0, true, true},
+      {"a cube that touches another wound against it", joined(kCube, turned(touching)), 0, 1, 0, 12,
+       true, false},
+  };
+  for (const auto &row : rows) {
+    const auto report = weld(row.triangles).report;
+    EXPECT_EQ(report.open_edges, row.open) << row.what;
+    EXPECT_EQ(report.nonmanifold_edges, row.nonmanifold) << row.what;
+    if (row.misoriented != kAny) {
+      EXPECT_EQ(report.misoriented_edges, row.misoriented) << row.what;
+    }
+    if (row.inverted != kAny) {
+      EXPECT_EQ(report.inverted_facets, row.inverted) << row.what;
+    }
+    EXPECT_EQ(report.closed, row.closed) << row.what;
+    EXPECT_EQ(report.oriented, row.oriented) << row.what;
+  }
 }
 
 TEST(weld, shells_that_cut_or_touch_each_other_leave_the_mesh_without_sides)
@@ -311,21 +286,6 @@ TEST(weld, a_shell_that_cuts_itself_is_found_where_it_is_looked_for)
   note_meetings(mesh, meets_itself(mesh));
   EXPECT_GT(mesh.report.meeting_pairs, 0u);
   EXPECT_FALSE(mesh.report.oriented);
-}
-
-TEST(weld, a_closed_sheet_without_volume_has_no_say)
-{
-  const Vec3 p = {3, 0, 0}, q = {4, 0, 0}, r = {4, 1, 0}, t = {3, 1, 0};
-  const Triangles sheet = {{p, q, t}, {q, r, t}, {p, r, q}, {p, t, r}};
-  EXPECT_TRUE(weld(joined(kCube, sheet)).report.oriented);
-  EXPECT_TRUE(weld(joined(turned(kCube), sheet)).report.oriented);
-}
-
-TEST(weld, three_faces_on_an_edge_are_nonmanifold)
-{
-  const auto report = weld({{kA, kB, kC}, {kA, kB, kD}, {kA, kB, {0, -1, 0}}}).report;
-  EXPECT_EQ(report.nonmanifold_edges, 1u);
-  EXPECT_EQ(report.open_edges, 6u);
 }
 
 // A strip of triangles in random order, with a third sheet and bare edges.
@@ -404,17 +364,11 @@ TEST(weld, area_volume_and_bounds_of_a_box)
   EXPECT_EQ(report.hi, (Vec3{1, 3, 6}));
 }
 
-TEST(weld, volume_is_negative_when_normals_point_in)
-{
-  auto cube = kCube;
-  for (auto &t : cube) std::swap(t[0], t[1]);
-  EXPECT_DOUBLE_EQ(weld(cube).report.volume, -1);
-}
-
 TEST(weld, volume_far_from_the_origin_keeps_its_digits)
 {
   const Real far = 1 << 30;    // corners are exact there
   EXPECT_DOUBLE_EQ(weld(box({far, far, far}, {far + 1, far + 1, far + 1}), 0).report.volume, 1);
+  EXPECT_DOUBLE_EQ(weld(turned(kCube)).report.volume, -1);    // its normals point in
 }
 
 TEST(weld, fold_is_the_angle_between_face_planes_whatever_the_winding)
@@ -579,14 +533,6 @@ TEST(weld, cubes_that_touch_along_all_their_edges_are_closed)
   EXPECT_DOUBLE_EQ(report.volume, 32);
 }
 
-TEST(weld, of_two_cubes_that_touch_one_is_wound_against_the_other)
-{
-  const auto report = weld(joined(kCube, turned(box({1, 1, 0}, {2, 2, 1})))).report;
-  EXPECT_TRUE(report.closed);
-  EXPECT_EQ(report.inverted_facets, 12u);
-  EXPECT_FALSE(report.oriented);
-}
-
 // The inner prism has an edge of the outer one, and slanted ends.
 TEST(weld, solids_that_share_an_edge_and_overlap_have_no_sides)
 {
@@ -617,15 +563,17 @@ std::string error_of(const Triangles &triangles, Real tolerance = -1)
   return lsdcd::error_of([&] { weld(triangles, tolerance); });
 }
 
-TEST(weld, a_mesh_without_facets_is_refused)
+TEST(weld, what_is_no_mesh_is_refused)
 {
   EXPECT_TRUE(has(error_of({}), "part.stl: the mesh has no facets"));
-}
-
-TEST(weld, a_tolerance_that_swallows_the_mesh_is_refused)
-{
   EXPECT_TRUE(has(error_of(kCube, 2), "weld tolerance of 2"));
   EXPECT_NE(error_of(kCube, NAN), "");
+  EXPECT_TRUE(has(error_of({{kA, {1e-200, 0, 0}, {0, 1e-200, 0}}}), "larger scale"));
+  for (const Real bad : {Real(NAN), Real(INFINITY), 1e200}) {
+    auto cube = kCube;
+    cube[3][1].y = bad;
+    EXPECT_TRUE(has(error_of(cube), "part.stl, facet 4: coordinate y"));
+  }
 }
 
 TEST(weld, a_tolerance_that_takes_away_a_part_of_the_area_is_refused)
@@ -647,24 +595,10 @@ TEST(weld, a_sliver_that_a_tolerance_takes_away_is_told)
   EXPECT_TRUE(has(describe(report, ""), "collapsed   1 facet of the degenerate ones"));
 }
 
-TEST(weld, a_coordinate_out_of_range_names_the_facet)
-{
-  for (const Real bad : {Real(NAN), Real(INFINITY), 1e200}) {
-    auto cube = kCube;
-    cube[3][1].y = bad;
-    EXPECT_TRUE(has(error_of(cube), "part.stl, facet 4: coordinate y"));
-  }
-}
-
 TEST(weld, more_edges_than_an_int_numbers_the_ends_of_are_refused)
 {
   EXPECT_NO_THROW(check_edge_number((1u << 30) - 1, "part.stl"));
   EXPECT_THROW(check_edge_number(1u << 30, "part.stl"), InputError);
-}
-
-TEST(weld, a_mesh_too_small_to_square_is_refused)
-{
-  EXPECT_TRUE(has(error_of({{kA, {1e-200, 0, 0}, {0, 1e-200, 0}}}), "larger scale"));
 }
 
 TEST(inspect, description_of_a_cube)
