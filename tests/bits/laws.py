@@ -9,7 +9,12 @@ restart file with the springs. Many go in one LAMMPS process, with `clear` betwe
 
 import itertools
 import math
+import pathlib
 import random
+import sys
+
+sys.path.append(str(pathlib.Path(__file__).resolve().parent.parent))
+import stl
 
 STEPS = 100    # of each of a script's runs: spheres slide and roll over some folds and rims
 
@@ -111,11 +116,10 @@ TURN = "motion rotate 0.3 0.2 0 0.2 0.1 1 9"
 
 
 def effect(words="", wall="", laws=None, boundary="f f f", scene="sheet", before="", after="", between="",
-           files=(), neigh="delay 0 every 1 check yes", columns="", servo=False, settings=""):
+           neigh="delay 0 every 1 check yes", columns="", servo=False, settings=""):
     """words: of the mesh. wall: of the whole wall, at its end. laws: names of those that it takes
     (default: FEW). before, after: lines before and after the fix. between: lines between the two runs."""
-    return dict(words=words, wall=wall, laws=laws, boundary=boundary, scene=scene, before=before, after=after,
-                between=between, files=files, neigh=neigh, columns=columns, servo=servo, settings=settings)
+    return locals()
 
 
 CLASSIC = ("hooke", "hooke_history", "hertz_history")
@@ -199,15 +203,6 @@ RAMP = "variable ramp equal 300+1000*step*dt\n"
 # ---- scenes ------------------------------------------------------------------------------
 
 
-def write_stl(path, triangles):
-    with open(path, "w") as stl:
-        stl.write("solid s\n")
-        for t in triangles:
-            stl.write("facet normal 0 0 0\nouter loop\n" +
-                      "".join("vertex %.17g %.17g %.17g\n" % tuple(p) for p in t) + "endloop\nendfacet\n")
-        stl.write("endsolid s\n")
-
-
 FOLDS = [(-6, 0.0), (-4, 0.0), (-3, 0.2), (-2, 0.0), (-1, 1.0), (-0.2, 0.2), (0.8, 0.2), (1.4, 1.2), (2.0, 0.2),
          (3.0, 0.4), (4.0, 0.0), (6, 0.0)]    # x and z of the sheet, from flat to 60 degrees both ways
 
@@ -244,16 +239,8 @@ def sheet(side=3.6, full=False):
     triangles = []
     for x0, x1 in zip(xs, xs[1:]):
         for y0, y1 in zip(ys, ys[1:]):
-            a, b, c, d = ((x, y, height(x) if abs(x) < 5 else 0.0) for x, y in ((x0, y0), (x1, y0), (x1, y1), (x0, y1)))
-            triangles += [(a, b, c), (a, c, d)]
+            triangles += stl.quad(*((x, y, height(x) if abs(x) < 5 else 0.0) for x, y in ((x0, y0), (x1, y0), (x1, y1), (x0, y1))))
     return triangles
-
-
-def block(lo, hi):
-    """Closed, its normals out of it."""
-    p = [[(lo, hi)[(n >> d) & 1][d] for d in range(3)] for n in range(8)]
-    faces = ((0, 2, 3, 1), (4, 5, 7, 6), (0, 1, 5, 4), (2, 6, 7, 3), (0, 4, 6, 2), (1, 3, 7, 5))
-    return [(p[f[0]], p[f[i]], p[f[i + 1]]) for f in faces for i in (1, 2)]
 
 
 def spheres(scene):
@@ -304,20 +291,18 @@ def write_data(path, scene):
 
 def write_files(folder):
     """All that the scripts read."""
-    write_stl(folder / "sheet.stl", sheet())
-    write_stl(folder / "full.stl", sheet(full=True))
+    stl.write(folder / "sheet.stl", sheet())
+    stl.write(folder / "full.stl", sheet(full=True))
     for name, (lo, hi, z) in {"plate": (-3, 3.2, 0.1), "level": (-5, 5, 0.5)}.items():
-        a, b, c, d = (lo, lo, z), (hi, lo, z), (hi, hi, z), (lo, hi, z)
-        write_stl(folder / f"{name}.stl", [(a, b, c), (a, c, d)])
-    write_stl(folder / "box.stl", block((-4, -4, -0.5), (4, 4, 5)))
-    write_stl(folder / "pillar.stl", block((-2, -2, -1), (2, 2, 4)))
-    write_stl(folder / "paddle.stl", [((-2, 0, -1), (2, 0, -1), (2, 0, 2)), ((-2, 0, -1), (2, 0, 2), (-2, 0, 2))])
+        stl.write(folder / f"{name}.stl", stl.quad((lo, lo, z), (hi, lo, z), (hi, hi, z), (lo, hi, z)))
+    stl.write(folder / "box.stl", stl.box((-4, -4, -0.5), (4, 4, 5)))
+    stl.write(folder / "pillar.stl", stl.box((-2, -2, -1), (2, 2, 4)))
+    stl.write(folder / "paddle.stl", stl.quad((-2, 0, -1), (2, 0, -1), (2, 0, 2), (-2, 0, 2)))
     xs = [-3.6, -3, -2, -1, -0.2, 0.8, 1.4, 2.0, 3.0, 3.6]
     outline = []
     for x0, x1 in zip(xs, xs[1:]):
-        a, b, c, d = ((x, height(x), z) for x, z in ((x0, -0.5), (x1, -0.5), (x1, 0.5), (x0, 0.5)))
-        outline += [(a, b, c), (a, c, d)]
-    write_stl(folder / "outline.stl", outline)
+        outline += stl.quad(*((x, height(x), z) for x, z in ((x0, -0.5), (x1, -0.5), (x1, 0.5), (x0, 0.5))))
+    stl.write(folder / "outline.stl", outline)
     for scene in SCENES:
         write_data(folder / f"{scene}.data", scene)
 
