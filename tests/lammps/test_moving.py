@@ -95,37 +95,28 @@ def test_compare_with_wall_gran(folder, flat_floor):
 
 def test_variables(folder, flat_floor):
     """A motion by variables is the one of the same numbers."""
-    law = LAWS["hooke"]
-    wave = "variable z equal 0.004*(1-cos(2*PI*elapsed*dt/0.02))\n"
-    speed = "variable v equal 0.004*2*PI/0.02*sin(2*PI*elapsed*dt/0.02)\n"
     text = (lmp.HERE / "scripts" / "in.one_sphere").read_text()
 
-    def with_variables(words, law):
-        out = text.replace("fix             wall", wave + speed + "fix             wall")
-        log = lmp.run_well(out, folder, wall=lsdcd(law, words), out="v", unit="lj", kick=1, dt=1e-4,
-                           steps=1000, style="verlet")
-        return lmp.read_dump(folder / "v"), log
+    def apart(variables, words, plain=""):
+        """How far the sphere is from where it is with plain numbers, if any, and the log."""
+        log = lmp.run_well(text.replace("fix             wall", variables + "fix             wall"), folder, wall=lsdcd(LAWS["hooke"], words),
+                           out="v", unit="lj", kick=1, dt=1e-4, steps=1000, style="verlet")
+        dump = lmp.read_dump(folder / "v")
+        return lmp.largest_difference(one_sphere(folder, "a", lsdcd(LAWS["hooke"], plain))[0], dump) if plain else None, log
 
-    plain = one_sphere(folder, "a", lsdcd(law, "wiggle z 0.004 0.02"))[0]
-    varied, log = with_variables("motion variable NULL NULL v_z NULL NULL v_v", law)
-    at_most("variables of place and speed are a wiggle", lmp.largest_difference(plain, varied),
-            1e-12)
+    waves = ("variable z equal 0.004*(1-cos(2*PI*elapsed*dt/0.02))\n"
+             "variable v equal 0.004*2*PI/0.02*sin(2*PI*elapsed*dt/0.02)\n")
+    off, log = apart(waves, "motion variable NULL NULL v_z NULL NULL v_v", "wiggle z 0.004 0.02")
+    at_most("variables of place and speed are a wiggle", off, 1e-12)
     fact("and nothing is said of differences", "differences" not in log)
-    log = with_variables("motion variable NULL NULL v_z NULL NULL NULL", law)[1]
+    log = apart(waves, "motion variable NULL NULL v_z NULL NULL NULL")[1]
     fact("the log says that the speed of a place alone is a difference", "velocities are differences over a step" in log)
     # The sum of 2 pi/0.8 dt has 1e3 roundings.
-    axis = "0.1 0.2 -7 0 1 1"
-    out = text.replace("fix             wall", "variable w equal 2*PI/0.8\nfix             wall")
-    log = lmp.run_well(out, folder, wall=lsdcd(law, f"motion rotate {axis} variable NULL v_w"), out="v", unit="lj", kick=1, dt=1e-4,
-                       steps=1000, style="verlet")
-    plain = one_sphere(folder, "a", lsdcd(law, f"motion rotate {axis} 0.8"))[0]
-    at_most("a turn by a variable of its speed", lmp.largest_difference(plain, lmp.read_dump(folder / "v")), 1e-10)
+    axis = "motion rotate 0.1 0.2 -7 0 1 1"
+    off, log = apart("variable w equal 2*PI/0.8\n", f"{axis} variable NULL v_w", f"{axis} 0.8")
+    at_most("a turn by a variable of its speed", off, 1e-10)
     fact("the log says that speeds are added up", "velocities are added up" in log)
-    out = text.replace("fix             wall", "variable u equal 2.0\nfix             wall")
-    lmp.run_well(out, folder, wall=lsdcd(law, "shear y v_u"), out="v", unit="lj", kick=1, dt=1e-4,
-                 steps=1000, style="verlet")
-    plain = one_sphere(folder, "a", lsdcd(law, "shear y 2.0"))[0]
-    at_most("shear by a variable", lmp.largest_difference(plain, lmp.read_dump(folder / "v")), 0)
+    at_most("shear by a variable", apart("variable u equal 2.0\n", "shear y v_u", "shear y 2.0")[0], 0)
 
 
 RESTING = lmp.head("-3 3 -3 3 -1 9") + """\
@@ -177,67 +168,54 @@ MOVES = "motion wiggle 0.05 0 0.1 0.31 motion rotate 0.5 0.2 0 0 0.1 1 1.7"
 LAW = "hooke/history 1e4 NULL 120 NULL 0.4 1"
 
 
-def test_ranks_and_restart(folder, hilly_floor):
-    first, second = 500, 600
+def touches(what, dump):
+    near = sum(row[9] > 0 for rows in dump.values() for row in rows.values())
+    fact(f"spheres touch {what}", near > 30, str(near))
 
-    def forces(more="", moves=MOVES, law=LAW):
-        return scene.forces(law, mesh=f"mesh floor.stl {moves}", more=more)
+
+def test_ranks_and_restart(folder, hilly_floor):
+    def go(name, ranks=1, moves=MOVES, between="", start="read_data start.data\n", first="run 500\n", second=300):
+        text = lmp.run_well("variable w equal 1+step*0.001\n" + scene.SETTINGS + start + scene.forces(LAW, mesh=f"mesh floor.stl {moves}") +
+                            first + between + scene.dump(name, 25) + f"run {second}\n", folder, ranks)
+        return lmp.read_dump(folder / name), text
+
+    def proceed(ranks=1, moves=MOVES, second=300):
+        return go("c", ranks, moves, start="read_restart two.restart\n", first="", second=second)
 
     # The order of create_atoms and the sums of velocity depend on the ranks.
     lmp.run_well(scene.CREATE + "write_data start.data\n", folder)
-    start = scene.SETTINGS + "read_data start.data\n"
-
-    def go(name, ranks=1, between="", begin=start, **more):
-        text = lmp.run_well(begin + forces(**more) + f"run {first}\n{between}" +
-                            scene.dump(name, 50) + f"run {second}\n", folder, ranks)
-        return lmp.read_dump(folder / name), text
-
-    def proceed(name, ranks=1, moves=MOVES, between="", law=LAW, before=""):
-        text = lmp.run_well(before + scene.SETTINGS + "read_restart two.restart\n" +
-                            forces(moves=moves, law=law) + between + scene.dump(name, 50) +
-                            f"run {second}\n", folder, ranks)
-        return lmp.read_dump(folder / name), text
-
     two = go("two", between="write_restart two.restart\n")[0]
-    near = sum(row[9] > 0 for rows in two.values() for row in rows.values())
-    fact("spheres touch the moving floor", near > 30, str(near))
+    touches("the moving floor", two)
     for ranks in (2, 4):
         at_most(f"{ranks} ranks as one", lmp.largest_difference(two, go("r", ranks)[0]), 0)
     for ranks in (1, 2, 4):
-        continued, text = proceed("c", ranks)
+        continued, text = proceed(ranks)
         at_most(f"continued in mid-motion on {ranks}", lmp.largest_difference(two, continued), 0)
         fact("without a warning", "was written with the motion" not in text)
-    text = proceed("c", moves="motion linear 0 0 0.01")[1]
+    text = proceed(moves="motion linear 0 0 0.01", second=0)[1]
     fact("another motion is told",
          "was written with the motion 'wiggle 0.05 0 0.1 0.31, rotate 0.5 0.2 0 0 0.1 1 1.7'"
          in text and "'linear 0 0 0.01', which begins where the mesh was" in text)
-    text = proceed("c", moves="")[1]
-    fact("none at all is told", "has none: the mesh stays where the mesh was" in text)
+    fact("none at all is told", "has none: the mesh stays where the mesh was" in proceed(moves="", second=0)[1])
+    # The number of a step does not matter.
+    reset = go("reset", between="reset_timestep 10000\n")[0]
+    renamed = {step - 10000 + 500: rows for step, rows in reset.items()}
+    at_most("reset_timestep moves nothing", lmp.largest_difference(two, renamed), 0)
 
     # Rows of a table, in the middle of one of them, and an angle that is added up.
     (folder / "arm.txt").write_text("0 0 0 0 0 0 0\n0.11 0.05 0 0.1 0.02 0.01 0\n0.31 0 0 0 0 0 0\n")
     rows = "motion table arm.txt repeat motion rotate 0.5 0.2 0 0 0.1 1 variable NULL v_w"
-    speed = "variable w equal 1+step*0.001\n"
-    two = go("rows", between="write_restart two.restart\n", begin=speed + start, moves=rows)[0]
-    near = sum(row[9] > 0 for rows in two.values() for row in rows.values())
-    fact("spheres touch a floor that follows a table", near > 30, str(near))
-    at_most("a table on 2 ranks as on one",
-            lmp.largest_difference(two, go("r", 2, begin=speed + start, moves=rows)[0]), 0)
+    two = go("rows", moves=rows, between="write_restart two.restart\n")[0]
+    touches("a floor that follows a table", two)
+    at_most("a table on 2 ranks as on one", lmp.largest_difference(two, go("r", 2, rows)[0]), 0)
     (folder / "arm.txt").rename(folder / "renamed.txt")
     for ranks in (1, 2):
-        continued, text = proceed("c", ranks, moves=rows.replace("arm", "renamed"), before=speed)
+        continued, text = proceed(ranks, rows.replace("arm", "renamed"))
         at_most(f"continued in a table on {ranks}", lmp.largest_difference(two, continued), 0)
         fact("without a warning of the table", "was written with the motion" not in text)
     (folder / "arm.txt").write_text("0 0 0 0 0 0 0\n0.11 0.05 0 0.1 0.02 0.02 0\n0.31 0 0 0 0 0 0\n")
-    text = proceed("c", moves=rows, before=speed)[1]
     fact("other rows are told", "was written with the motion 'table arm.txt repeat, rotate 0.5 0.2 0 0 0.1 1 "
-         "variable NULL v_w' and this fix has 'table arm.txt repeat, " in text)
-
-    # The number of a step does not matter.
-    two = lmp.read_dump(folder / "two")
-    reset = go("reset", between="reset_timestep 10000\n")[0]
-    renamed = {step - 10000 + first: rows for step, rows in reset.items()}
-    at_most("reset_timestep moves nothing", lmp.largest_difference(two, renamed), 0)
+         "variable NULL v_w' and this fix has 'table arm.txt repeat, " in proceed(moves=rows, second=0)[1])
 
 
 def test_searches(folder, hilly_floor):
@@ -250,8 +228,7 @@ def test_searches(folder, hilly_floor):
         return lmp.read_dump(folder / name)
 
     plain = go("plain")
-    near = sum(row[9] > 0 for rows in plain.values() for row in rows.values())
-    fact("spheres touch", near > 30, str(near))
+    touches("the moving floor", plain)
     for name, words in (("a grid for larger spheres", {"more": "rmax 0.7 grid 0.3"}),
                         ("choices by the engine", {"neigh": "delay 10 every 10 check no"}),
                         ("looks by the engine and by LAMMPS", {"neigh": "delay 10 every 1 check yes"}),
