@@ -60,6 +60,94 @@ def folder(folder):
     return folder
 
 
+def twice(script, command="run 0\n"):
+    return script + 2 * command
+
+
+DEEP = BOX + "set group all z 0.3\n"
+# A contact with k = 1e4 and a mass of pi/3 lasts pi sqrt(m/k) = 0.032. The sphere sinks by 0.2 in its first step.
+FAST = BOX + "set group all z 0.6\nvelocity all set 0 0 -3\ntimestep 0.1\n" + fix() + "thermo_modify lost ignore\nrun 3\n"
+# Atoms without a diameter have radius 0.5: the box and the mesh are small beside them.
+SMALL = BOX.replace("block -3 3 -3 3 -1 5", "block -.06 .06 -.06 .06 -.02 .1").replace("2 2 4", "0 0 .02").replace("0.3 0.2 0.48", "0 0 .05")
+FORGOTTEN = SMALL.replace("set             group all diameter 1.0 density 2.0\n", "")
+NO_SUCH = ("WARNING: Fix w", "radius 0.5", "box spans", "no such sphere fits", "set group all diameter", "until a diameter is set")
+LARGE = ("far larger than the box", "add scale 0.001")
+INSERTED = "fix in all insert/lsdcd mesh floor.stl scale {} massrate 1 diam one 0.3 dens 2\n"
+COUNTED = "fix o all massflow/lsdcd mesh floor.stl scale {}\n"
+HINGED = "body mass 1 com 0 0 0 inertia 1 1 1 0 0 0 joint hinge 0 0 0 0 1 0 limits "
+RADIANS = ("WARNING: Fix w", "of its hinge", "in radians")    # a turn is 6.28
+# The floor is 10 across in a box from -1 to 5 in z: turned about y, it reaches from -5 to 5.
+TURNED, OUT = "motion rotate 0 0 0 {} 1", ("WARNING: Fix w", "will turn out of the box", "in z")
+BOTH = BOX + "group one id 2\ngroup none empty\n" + fix()
+TWICE = ("WARNING: Fix lid", "'floor.stl' is at the same place in fix w", "twice")
+OF_ONE = fix(name="lid").replace(" all ", " one ")
+OTHER = "fix wall/gran of this LAMMPS gives different forces for this law: "
+DEFAULTS = ("grid auto rmax auto memory 1024 cache none nearest all corner blend side both device auto log full draw edges 1")
+# What is said: a script, words of a line, and how many lines have them.
+SAID = {
+    "a drum without lifters is not warned of": (BOX + fix("surface_angvel 0 0 3", mesh="drum.stl") + "run 1\n", ["along their normals"], 0),
+    "nor a belt": (BOX + fix("surface_vel 1 0 0") + "run 1\n", ["along their normals"], 0),
+    "a warning names the fix and the atom": (DEEP + fix(name="base") + "run 1\n", ["WARNING: Fix base wall/lsdcd: atom 2 appeared"], 1),
+    "that of a minimization too": (DEEP + fix(name="base") + "minimize 0 0 1 1\n", ["Fix base wall/lsdcd: the wall has no effect"], 1),
+    # The floor is 4 wide and flat, its spheres have radius 0.5.
+    "a flat floor in millimetres is told, and its scale": (BOX + fix("scale 1000") + "run 0\n", ["WARNING: Fix w", *LARGE], 1),
+    "a mesh smaller than a sphere is told once, with its scale": (
+        twice(BOX + fix("scale 0.001")), ["WARNING: Fix w", "spheres have radius 0.5", "'scale 0.001' is not needed"], 1),
+    "a floor of the script's units is not": (BOX + fix() + "run 0\n", ["probably in"], 0),
+    "an inlet in millimetres": (twice(BOX + INSERTED.format(1000)), ["WARNING: Fix in insert/lsdcd", *LARGE], 1),
+    "an inlet of the script's units": (twice(BOX + INSERTED.format(1)), ["WARNING: Fix in insert/lsdcd", *LARGE], 0),
+    "a mass flow in millimetres": (twice(BOX + COUNTED.format(1000)), ["WARNING: Fix o massflow/lsdcd", *LARGE], 1),
+    "a mass flow of the script's units": (twice(BOX + COUNTED.format(1)), ["WARNING: Fix o massflow/lsdcd", *LARGE], 0),
+    "limits of a hinge in degrees": (BOX + fix(HINGED + "0 90") + "run 0\n", RADIANS, 1),
+    "limits of a hinge in radians": (BOX + fix(HINGED + "-3 3") + "run 0\n", RADIANS, 0),
+    "a diameter that was forgotten, beside a mesh of the right scale": (
+        twice(FORGOTTEN + fix("scale 0.001", mesh="in_mm.stl")), NO_SUCH, 1),
+    "... whose scale is not blamed for it": (FORGOTTEN + fix("scale 0.001", mesh="in_mm.stl") + "run 0\n", ["is not needed"], 0),
+    "a diameter that was forgotten, beside a mesh in millimetres": (twice(FORGOTTEN + fix(mesh="in_mm.stl")), NO_SUCH, 1),
+    "... nor is this": (FORGOTTEN + fix(mesh="in_mm.stl") + "run 0\n", ["is not needed"], 0),
+    "spheres that fit the box are not told": (
+        SMALL.replace("diameter 1.0", "diameter 0.12") + fix("scale 0.001", mesh="in_mm.stl") + "run 0\n", ["no such sphere fits"], 0),
+    "a sphere that sank in a step too long is told to shorten it": (FAST, ["sank into the wall", "use a shorter one first"], 1),
+    "... and of no stiffer contact": (FAST, ["stiffer contact (a larger kn)"], 0),
+    "a group of points is told once": (twice(BOX + "unfix move\nset group all diameter 0\n" + fix()),
+                                       ["WARNING: Fix w", "all 1 atoms of group all have radius 0", "set diameter"], 1),
+    "a mesh that leaves the box is told once, with the step": (
+        twice(BOX + fix("motion linear 0 0 -450"), "run 4\n"), ["WARNING: Fix w", "has moved out of the box", "in step 4"], 1),
+    "one that has yet to come in is not": (BOX + fix("move 0 0 9 motion linear 0 0 -450") + "run 8\n", ["has moved out of"], 0),
+    "a mesh that will turn out of the box is told once": (twice(BOX + fix(TURNED.format("0 1 0"))), OUT, 1),
+    "one that turns within it is not": (BOX + fix(TURNED.format("0 0 1")) + "run 0\n", ["will turn out of"], 0),
+    "the same mesh in two fixes is told once": (twice(BOTH + fix(name="lid")), TWICE, 1),
+    "at another place it is not": (BOTH + fix(name="lid", more="move 0 0 1e-3") + "run 0\n", TWICE, 0),
+    "in groups that share an atom it is": (BOTH + OF_ONE + "run 0\n", TWICE, 1),
+    "in groups that share none it is not": (BOTH.replace(" all wall", " none wall") + OF_ONE + "run 0\n", TWICE, 0),
+    # Costs are those of another machine: doc/effects.md has them, with its name.
+    "the log lists effects": (BOX + fix() + "run 0\n", ["  effects     normal spring, normal damping"], 1),
+    "... without times": (BOX + fix() + "run 0\n", [" ns"], 0),
+    # Laws that LAMMPS's own fix wall/gran computes otherwise, in every version that was tried.
+    "the log names what fix wall/gran computes otherwise": (
+        BOX + fix(law="granular hertz 1e6 0.5 tangential mindlin 1e6 1 0.3 damping tsuji") + "run 0\n",
+        [OTHER, "damping tsuji lacks a factor of sqrt(2)"], 1),
+    "and nothing where that agrees": (BOX + fix(law="hertz/history 1e6 NULL 5 NULL 0.5 1") + "run 0\n", [OTHER], 0),
+    "words that say the default are taken without a word": (BOX + fix(DEFAULTS) + "run 0\n", ["WARNING"], 0),
+    "a run has as many steps as were asked for": (
+        BOX + fix() + "run 1\nrun 4 pre no\n", ["Fix w wall/lsdcd: 1 step and the setup: atoms near the wall chosen 1 time, "
+                                                "wall neighbor lists made 1 time, 1.00 mesh features each"], 1),
+    "and no setup where it had none": (BOX + fix() + "run 1\nrun 4 pre no\n", ["Fix w wall/lsdcd: 4 steps: atoms near"], 1),
+    "log brief is one line": (BOX + fix("log brief nearest 3") + "run 4\n", ["wall/lsdcd:"], 1),
+    "... without lists": (BOX + fix("log brief nearest 3") + "run 4\n", ["candidates"], 0),
+    "the log tells once why lines may not be seen": (
+        BOX + fix() + "dump p all image 1 p.*.ppm type type fix w type 0 0 size 64 64\nrun 2\n", ["dump image draws", "diameter is 0"], 1),
+}
+
+
+def test_said(folder):
+    logs = {}    # of scripts that several facts are of
+    for name, (script, words, times) in SAID.items():
+        if script not in logs:
+            logs[script] = lmp.run_well(script, folder)
+        fact(name, len(lines(logs[script], *words)) == times, logs[script][-600:])
+
+
 def test_surfaces_that_push(folder):
     """Along their normals."""
     turning = "surface_angvel 0 0 3"
@@ -73,19 +161,9 @@ def test_surfaces_that_push(folder):
         fact("with the largest speed", f"up to {speed:g} (100 %" in told[0], told[0][:200])
         fact("and what to do", "stays where it is" in told[0] and
              "use the keyword motion" in told[0])
-    text = lmp.run_well(BOX + fix(turning, mesh="drum.stl") + "run 1\n", folder)
-    fact("a drum without lifters is not warned of", "along their normals" not in text)
-    text = lmp.run_well(BOX + fix("surface_vel 1 0 0") + "run 1\n", folder)
-    fact("nor a belt", "along their normals" not in text)
 
 
-def test_whose_warning(folder):
-    """Whose warning, and of which atom."""
-    deep = "set group all z 0.3\n"
-    text = lmp.run_well(BOX + deep + fix(name="base") + "run 1\nminimize 0 0 1 1\n", folder)
-    fact("a warning names the fix and the atom",
-         lines(text, "WARNING: Fix base wall/lsdcd: atom 2 appeared"))
-    fact("that of a minimization too", lines(text, "Fix base wall/lsdcd: the wall has no effect"))
+def test_whose_errors(folder):
     done = lmp.run(BOX + fix(name="base", more="sclae 2") + "run 1\n", folder)
     fact("an error names the fix", "Fix base wall/lsdcd: 'sclae'" in done.stdout)
     grow = ("variable d equal 1.0+0.4*(step>2)\nfix grow all adapt 1 atom diameter v_d\n"
@@ -112,54 +190,6 @@ def test_uncertified(folder):
              len(told) == times, "\n".join(told))
 
 
-def test_other_units(folder):
-    """Other units than the script's. The floor is 4 wide and flat, its spheres have radius 0.5."""
-    text = lmp.run_well(BOX + fix("scale 1000") + "run 0\n", folder)
-    fact("a flat floor in millimetres is told, and its scale",
-         lines(text, "WARNING: Fix w", "far larger than the box", "add scale 0.001"))
-    text = lmp.run_well(BOX + fix("scale 0.001") + "run 0\nrun 0\n", folder)
-    fact("a mesh smaller than a sphere is told once, with its scale",
-         len(lines(text, "WARNING: Fix w", "spheres have radius 0.5", "'scale 0.001' is not needed")) == 1)
-    text = lmp.run_well(BOX + fix() + "run 0\n", folder)
-    fact("a floor of the script's units is not", not lines(text, "probably in"))
-    for name, command in (("Fix in insert/lsdcd", "fix in all insert/lsdcd mesh floor.stl scale {} massrate 1 diam one 0.3 dens 2\n"),
-                          ("Fix o massflow/lsdcd", "fix o all massflow/lsdcd mesh floor.stl scale {}\n")):
-        for scale, told in ((1000, 1), (1, 0)):
-            text = lmp.run_well(BOX + command.format(scale) + "run 0\nrun 0\n", folder)
-            fact(f"{name} tells {told} times of a mesh with scale {scale}", told == len(lines(
-                text, f"WARNING: {name}", "far larger than the box", "add scale 0.001")), text[-600:])
-
-
-def test_radians(folder):
-    """A turn is 6.28 radians."""
-    for limits, told in (("0 90", 1), ("-3 3", 0)):
-        text = lmp.run_well(BOX + fix("body mass 1 com 0 0 0 inertia 1 1 1 0 0 0 joint hinge 0 0 0 0 1 0 limits " + limits) + "run 0\n", folder)
-        fact(f"limits {limits} of a hinge are told {told} times", told == len(lines(text, "WARNING: Fix w", "of its hinge", "in radians")), text[-600:])
-
-
-def test_forgotten_diameters(folder):
-    """Atoms without a diameter have radius 0.5: the box and the mesh are small beside them."""
-    small = BOX.replace("block -3 3 -3 3 -1 5", "block -.06 .06 -.06 .06 -.02 .1").replace("2 2 4", "0 0 .02")
-    small = small.replace("0.3 0.2 0.48", "0 0 .05").replace("set             group all diameter 1.0 density 2.0\n", "")
-    for what, more in (("a mesh of the right scale", "scale 0.001"), ("a mesh in millimetres", "")):
-        text = lmp.run_well(small + fix(more, mesh="in_mm.stl") + "run 0\nrun 0\n", folder)
-        told = lines(text, "WARNING: Fix w", "radius 0.5", "box spans", "no such sphere fits", "set group all diameter",
-                     "until a diameter is set")
-        fact(f"a diameter that was forgotten is named once, beside {what}", len(told) == 1, text[-600:])
-        fact(f"the scale is not blamed for it, beside {what}", not lines(text, "is not needed"))
-    small = small.replace("pair_style", "set group all diameter 0.12\npair_style")
-    text = lmp.run_well(small + fix("scale 0.001", mesh="in_mm.stl") + "run 0\n", folder)
-    fact("spheres that fit the box are not told", not lines(text, "no such sphere fits"))
-
-
-def test_long_timesteps(folder):
-    """A contact with k = 1e4 and a mass of pi/3 lasts pi sqrt(m/k) = 0.032. The sphere sinks by 0.2 in its first step."""
-    fast = BOX + "set group all z 0.6\nvelocity all set 0 0 -3\ntimestep 0.1\n" + fix() + "thermo_modify lost ignore\nrun 3\n"
-    text = lmp.run_well(fast, folder)
-    fact("a sphere that sank in a step too long is told to shorten it",
-         lines(text, "sank into the wall", "use a shorter one first") and not lines(text, "stiffer contact (a larger kn)"), text[-900:])
-
-
 def test_squeezed_through(folder):
     """A plate goes down through the floor, with a sphere in between."""
     text = lmp.run(BOX + "set group all x 0 y 0 z 0.5\n" + fix("mesh floor.stl move 0 0 1 motion linear 0 0 -3") +
@@ -167,66 +197,6 @@ def test_squeezed_through(folder):
     through = "sank into the wall by 99.9705 % of its radius 0.5 in step 332, pressed by mesh 1 'floor.stl' and mesh 2 'floor.stl'"
     fact("a sphere that is squeezed through a mesh is named with both before it is lost", len(lines(
         text.split("ERROR: Lost atoms")[0], "WARNING: Fix w", "atom 2", through)) == 1 and "Lost atoms" in text, text[-2000:])
-
-
-def test_acts_on_nothing(folder):
-    """Walls that act on nothing."""
-    text = lmp.run_well(BOX + "unfix move\nset group all diameter 0\n" + fix() + "run 0\nrun 0\n", folder)
-    fact("a group of points is told once",
-         len(lines(text, "WARNING: Fix w", "all 1 atoms of group all have radius 0", "set diameter")) == 1)
-    text = lmp.run_well(BOX + fix("motion linear 0 0 -450") + "run 4\nrun 4\n", folder)
-    fact("a mesh that leaves the box is told once, with the step",
-         len(lines(text, "WARNING: Fix w", "has moved out of the box", "in step 4")) == 1)
-    text = lmp.run_well(BOX + fix("move 0 0 9 motion linear 0 0 -450") + "run 8\n", folder)
-    fact("one that has yet to come in is not", not lines(text, "has moved out of"))
-
-
-def test_turns_out_of_the_box(folder):
-    """The floor is 10 across in a box from -1 to 5 in z: turned about y, it reaches from -5 to 5."""
-    turned = "motion rotate 0 0 0 {} 1"
-    told = "WARNING: Fix w", "will turn out of the box", "in z"
-    text = lmp.run_well(BOX + fix(turned.format("0 1 0")) + "run 0\nrun 0\n", folder)
-    fact("a mesh that will turn out of the box is told once", len(lines(text, *told)) == 1)
-    text = lmp.run_well(BOX + fix(turned.format("0 0 1")) + "run 0\n", folder)
-    fact("one that turns within it is not", not lines(text, "will turn out of"))
-
-
-def test_one_mesh_in_two_fixes(folder):
-    """The same wall in two fixes."""
-    twice = "WARNING: Fix lid", "'floor.stl' is at the same place in fix w", "twice"
-    both = BOX + "group one id 2\ngroup none empty\n" + fix()
-    text = lmp.run_well(both + fix(name="lid") + "run 0\nrun 0\n", folder, 2)
-    fact("the same mesh in two fixes is told once", len(lines(text, *twice)) == 1)
-    text = lmp.run_well(both + fix(name="lid", more="move 0 0 1e-3") + "run 0\n", folder)
-    fact("at another place it is not", not lines(text, *twice))
-    text = lmp.run_well(both + fix(name="lid").replace(" all ", " one ") + "run 0\n", folder)
-    fact("in groups that share an atom it is", len(lines(text, *twice)) == 1)
-    text = lmp.run_well(both.replace(" all wall", " none wall") + fix(name="lid").replace(" all ", " one ") +
-                        "run 0\n", folder)
-    fact("in groups that share none it is not", not lines(text, *twice))
-
-
-def test_effects_without_times(folder):
-    """Costs are those of another machine: doc/effects.md has them, with its name."""
-    text = lmp.run_well(BOX + fix() + "run 0\n", folder)
-    fact("the log lists effects without times",
-         lines(text, "  effects     normal spring, normal damping") and not lines(text, " ns"))
-
-
-def test_laws_of_wall_gran(folder):
-    """Laws that LAMMPS's own fix wall/gran computes otherwise, in every version that was tried."""
-    other = "fix wall/gran of this LAMMPS gives different forces for this law: "
-    text = lmp.run_well(BOX + fix(law="granular hertz 1e6 0.5 tangential mindlin 1e6 1 0.3 damping tsuji") + "run 0\n", folder)
-    fact("the log names what fix wall/gran computes otherwise", lines(text, other, "damping tsuji lacks a factor of sqrt(2)"))
-    text = lmp.run_well(BOX + fix(law="hertz/history 1e6 NULL 5 NULL 0.5 1") + "run 0\n", folder)
-    fact("and nothing where that agrees", not lines(text, other), text[:900])
-
-
-def test_default_words(folder):
-    """Words that say the default."""
-    text = lmp.run_well(BOX + fix("grid auto rmax auto memory 1024 cache none nearest all corner blend "
-                                  "side both device auto log full draw edges 1") + "run 0\n", folder)
-    fact("words that say the default are taken without a word", not lines(text, "WARNING"), text[-300:])
 
 
 def test_why_no_cuda(folder):
@@ -242,15 +212,6 @@ def test_why_no_cuda(folder):
 
     release = re.search(r"^project\(lsdcd VERSION (\S+)", (lmp.HERE.parents[1] / "CMakeLists.txt").read_text(), re.M)[1]
     fact("the log has the version", lines(text, "  version     ") == ["  version     " + release])
-
-
-def test_what_a_run_did(folder):
-    """What a run did: its steps, and how often lists were made."""
-    text = lmp.run_well(BOX + fix() + "run 1\nrun 4 pre no\n", folder)
-    fact("a run has as many steps as were asked for",
-         lines(text, "Fix w wall/lsdcd: 1 step and the setup: atoms near the wall chosen 1 time, "
-               "wall neighbor lists made 1 time, 1.00 mesh features each"))
-    fact("and no setup where it had none", lines(text, "Fix w wall/lsdcd: 4 steps: atoms near"))
 
 
 def test_times(folder):
@@ -278,13 +239,6 @@ def test_times(folder):
         fact(f"{what} has no such times", table(more, steps) == ([], []))
 
 
-def test_quiet_log(folder):
-    """A quiet log."""
-    text = lmp.run_well(BOX + fix("log brief nearest 3") + "run 4\n", folder)
-    fact("log brief is one line", len(lines(text, "wall/lsdcd:")) == 1 and
-         "candidates" not in text, "\n".join(lines(text, "lsdcd")))
-
-
 def test_files_of_fields(folder):
     """Files of fields: before the run, and nothing is left by the look."""
     done = lmp.run(BOX + fix("mesh_fields no/such.vtp every 1000") + "print ran\nrun 1\n", folder)
@@ -295,11 +249,3 @@ def test_files_of_fields(folder):
     (folder / "out").mkdir()
     lmp.run_well(BOX + fix("mesh_fields out/f_*.vtp every 1000") + "run 1\n", folder)
     fact("the look at the folder leaves nothing", not list((folder / "out").iterdir()))
-
-
-def test_lines_of_diameter_0(folder):
-    """Lines of diameter 0."""
-    text = lmp.run_well(BOX + fix() + "dump p all image 1 p.*.ppm type type fix w type 0 0 "
-                        "size 64 64\nrun 2\n", folder)
-    fact("the log tells once why lines may not be seen",
-         len(lines(text, "dump image draws", "diameter is 0")) == 1)
