@@ -50,10 +50,10 @@ def lines(**commands):
     return "".join(f"{name:15} {words}\n" for name, words in commands.items() if words)
 
 
-def head(box="", boundary="f f f", style="sphere", modify="map array", newton="off", comm="vel yes", types=1, more=""):
+def head(box="", boundary="f f f", style="sphere", modify="map array", newton="off", comm="vel yes", types=1, more="", units="lj"):
     """The first lines of a script, to where a box is made, if one is given: a block, or by nine numbers a prism. `more`: before that."""
     shape = "prism" if len(box.split()) == 9 else "block"
-    return lines(units="lj", atom_style=style, atom_modify=modify, boundary=boundary, newton=newton, comm_modify=comm) + more + \
+    return lines(units=units, atom_style=style, atom_modify=modify, boundary=boundary, newton=newton, comm_modify=comm) + more + \
         lines(region=box and f"box {shape} {box}", create_box=box and f"{types} box")
 
 

@@ -11,15 +11,7 @@ from facts import fact
 RADIUS, DENSITY, FALL, BELT, DT = 0.002, 2500.0, 1.0, 4.5, 1e-6
 YOUNG, E, NU, MU = 5e6, 0.5, 0.25, 0.5
 
-BELT_SCRIPT = f"""\
-units           si
-atom_style      sphere
-atom_modify     map array
-boundary        f f f
-newton          off
-comm_modify     vel yes
-region          box block -0.1 1 -0.05 0.05 0 0.1
-create_box      1 box
+BELT_SCRIPT = lmp.head("-0.1 1 -0.05 0.05 0 0.1", units="si") + f"""\
 create_atoms    1 single 0 0 0.00201
 set             atom 1 diameter {2 * RADIUS} density {DENSITY}
 set             atom 1 vz -{FALL}

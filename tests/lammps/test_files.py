@@ -129,14 +129,7 @@ L_FLOOR = {
     "ply": "ply\nformat ascii 1.0\nelement vertex 6\nproperty float x\nproperty float y\nproperty float z\nelement face 1\n"
            "property list uchar int vertex_indices\nend_header\n0 0 0\n2 0 0\n2 1 0\n1 1 0\n1 2 0\n0 2 0\n6 0 1 2 3 4 5\n",
 }
-ON_L = """\
-units si
-atom_style sphere
-comm_modify vel yes
-boundary f f f
-newton off
-region box block -1 3 -1 3 -1 1
-create_box 1 box
+ON_L = lmp.head("-1 3 -1 3 -1 1", units="si") + """\
 create_atoms 1 single 0.4 0.4 0.095
 create_atoms 1 single 1.25 1.25 0.095
 create_atoms 1 single 1.7 1.7 0.095

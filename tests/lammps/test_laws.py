@@ -11,7 +11,7 @@ import pytest
 
 import lmp
 import stl
-from plates import FACES, LAWS, SIDE, go, planes, six, write_box, write_plate
+from plates import DUMP, FACES, FORCES, LAWS, SIDE, go, planes, six, write_box, write_plate
 from facts import at_most, fact
 
 # Other numbers of the same styles.
@@ -168,18 +168,7 @@ def test_restart(folder):
     more = "run 700\nwrite_restart half"
     words = grains()
     whole = go(folder, walls, "a", 600, every=20, more=more, **words)[0]
-    again = f"""\
-newton          off
-comm_modify     vel yes
-read_restart    half
-""" + lmp.pairs() + f"""\
-fix             move all nve/sphere
-{walls}
-timestep        1e-4
-dump            d all custom 20 b id x y z vx vy vz omegax omegay omegaz fx fy fz tqx tqy tqz
-dump_modify     d format float %.17g sort id
-run             600
-"""
+    again = lmp.head() + "read_restart half\n" + FORCES.format(walls=walls, dt=1e-4, more="") + DUMP.format(every=20, name="b") + "run 600\n"
     text = lmp.run_well(again, folder)
     half = lmp.read_dump(folder / "b")
     fact("restart: the same bits", half == {s: whole[s] for s in half} and len(half) == 31)

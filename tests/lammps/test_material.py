@@ -43,15 +43,8 @@ UNITS = {"si": (1, 1, 1), "cgs": (100, 1e3, 1), "micro": (1e6, 1e15, 1e6), "nano
 def scene(wall, units="si"):
     """A grain of 2 mm that hops, slides and rolls for 20 ms."""
     m, kg, s = UNITS[units]
-    return f"""\
-units           {units}
-atom_style      sphere
-boundary        f f f
-newton          off
-comm_modify     vel yes
-region          box block {-0.02 * m:.17g} {0.02 * m:.17g} {-0.02 * m:.17g} {0.02 * m:.17g} &
-                {-0.01 * m:.17g} {0.02 * m:.17g}
-create_box      1 box
+    box = " ".join(f"{end * m:.17g}" for end in (-0.02, 0.02, -0.02, 0.02, -0.01, 0.02))
+    return lmp.head(box, units=units) + f"""\
 create_atoms    1 single {0.001 * m:.17g} {0.0003 * m:.17g} {0.00101 * m:.17g} units box
 set             group all diameter {0.002 * m:.17g} density {2500 * kg / m**3:.17g}
 velocity        all set {0.2 * m / s:.17g} {0.05 * m / s:.17g} {-0.1 * m / s:.17g}
@@ -135,14 +128,7 @@ def test_ranks(folder):
     fact("2 processes: the same words and motion", words == same and one == two)
 
 
-TWO_GRAINS = """\
-units           si
-atom_style      sphere
-boundary        f f f
-newton          off
-comm_modify     vel yes
-region          box block -0.01 0.01 -0.01 0.01 -0.01 0.01
-create_box      1 box
+TWO_GRAINS = lmp.head("-0.01 0.01 -0.01 0.01 -0.01 0.01", units="si") + """\
 create_atoms    1 single 0.00101 0 0 units box
 create_atoms    1 single -0.00101 0 0 units box
 set             group all diameter 0.002 density 2500

@@ -22,10 +22,13 @@ FIRST, SECOND = 350, 150
 LAW = "hooke/history 1e4 NULL 120 NULL 0.4 1"
 DUMP = "x y z vx vy vz {} fx fy fz tqx tqy tqz f_wall[1]"
 
-SETTINGS = lmp.head(style="{style}", modify="map array sort 40 1.5")
+
+def head(box, style, types=1):
+    return lmp.head(box, style=style, modify="map array sort 40 1.5", types=types)
+
+
+FLOOR_BOX = "-6 6 -6 6 -1.5 8"
 CREATE = """\
-region          box block -6 6 -6 6 -1.5 8
-create_box      1 box
 lattice         sc 0.6
 region          fill block -4 4 -4 4 1.0 1.4 units box
 create_atoms    1 region fill
@@ -63,13 +66,13 @@ def write_meshes(folder):
 
 
 def go(folder, name, style, atoms, integrator, spin):
-    lmp.run_well(SETTINGS.format(style=style) + CREATE + atoms + START + forces(integrator) +
+    lmp.run_well(head(FLOOR_BOX, style) + CREATE + atoms + START + forces(integrator) +
                  f"run {FIRST}\nwrite_restart {name}.restart\n" + dump(name, spin) + f"run {SECOND}\n", folder)
     return lmp.read_dump(folder / name)
 
 
 def proceed(folder, restart, name, ranks, style="ellipsoid", more=""):
-    lmp.run_well(SETTINGS.format(style=style) + f"read_restart {restart}\n" + forces("nve/asphere", more=more) +
+    lmp.run_well(head("", style) + f"read_restart {restart}\n" + forces("nve/asphere", more=more) +
                  dump(name, "angmomx angmomy angmomz") + f"run {SECOND}\n", folder, ranks)
     return lmp.read_dump(folder / name)
 
@@ -83,7 +86,7 @@ def folder(folder):
 def test_impact(folder):
     """Half-axes 2, 1, 1, mass 1, long axis at 45 degrees, speed 1, no friction."""
     stl.write(folder / "plane.stl", stl.square(6))
-    text = lmp.run_well(lmp.head("-6 6 -6 6 -1 8", style="ellipsoid") + """\
+    text = lmp.run_well(head("-6 6 -6 6 -1 8", "ellipsoid") + """\
 create_atoms    1 single 0 0 1.5811398
 set             atom 1 shape 4 2 2
 set             atom 1 quat 0 1 0 45
@@ -112,9 +115,7 @@ run             2000
 def test_timestep(folder):
     """The warning has the contact time of a rod (5, 1, 1) that meets a plane where its arm is longest, or at most 0.3 less."""
     stl.write(folder / "plane.stl", stl.square(9))
-    text = lmp.run_well(SETTINGS.format(style="ellipsoid") + """\
-region          box block -9 9 -9 9 -1 9
-create_box      1 box
+    text = lmp.run_well(head("-9 9 -9 9 -1 9", "ellipsoid") + """\
 create_atoms    1 single 0 0 6
 set             atom 1 shape 10 2 2
 set             atom 1 mass 1
@@ -174,7 +175,7 @@ def test_each_contact(folder, exponents):
 dump            {{name}}{kind} all {kind} 20 {{name}}.{kind} {what}
 dump_modify     {{name}}{kind} format float %.17g
 """ for kind, what in (("local", columns), ("custom", "id f_wall[1] f_wall[2] f_wall[3] f_wall[4]"))) + "run 20\n"
-    lmp.run_well(SETTINGS.format(style=style) + CREATE + atoms + START + wall +
+    lmp.run_well(head(FLOOR_BOX, style) + CREATE + atoms + START + wall +
                  "run 280\nwrite_restart each.restart\n" + last.format(name="one"), folder)
     found, bears = contacts_of(folder, "one.local"), lmp.read_dump(folder / "one.custom")[300]
     alone = [rows[0] for rows in found.values() if len(rows) == 1]
@@ -188,7 +189,7 @@ dump_modify     {{name}}{kind} format float %.17g
             max(abs(sum(row[1 + k] for row in rows) - bears[i][1 + k]) / max(map(abs, bears[i][1:4] + [1]))
                 for i, rows in found.items() for k in range(3)), 1e-12)
     for ranks in (1, 2, 4):
-        lmp.run_well(SETTINGS.format(style=style) + "read_restart each.restart\n" + wall + last.format(name=f"on{ranks}"), folder, ranks)
+        lmp.run_well(head("", style) + "read_restart each.restart\n" + wall + last.format(name=f"on{ranks}"), folder, ranks)
         fact(f"each contact: continued from a restart file the same on {ranks} ranks",
              contacts_of(folder, f"on{ranks}.local") == found, "")
 
@@ -206,9 +207,7 @@ def test_periodic(folder):
     waves("periods.stl", -12, 24)
     paths = []
     for mesh, edge, side in (("period.stl", "p", 3), ("periods.stl", "f", 9)):
-        lmp.run_well(SETTINGS.format(style="ellipsoid").replace("f f f", f"{edge} {edge} f") + f"""\
-region          box block -{side} {side} -{side} {side} -6 6
-create_box      1 box
+        lmp.run_well(lmp.head(f"-{side} {side} -{side} {side} -6 6", f"{edge} {edge} f", "ellipsoid") + f"""\
 create_atoms    1 single 2.9 0.1 0.9
 set             atom 1 mass 1
 set             atom 1 shape 2 1 1.6
@@ -233,9 +232,7 @@ run             1000
 def test_rerun(folder):
     """LAMMPS reads no orientation from a dump: the grains would lie as they did before."""
     stl.write(folder / "plane.stl", stl.square(6))
-    lmp.refused("a rerun with ellipsoids", SETTINGS.format(style="ellipsoid") + """\
-region          box block -6 6 -6 6 -6 6
-create_box      1 box
+    lmp.refused("a rerun with ellipsoids", head("-6 6 -6 6 -6 6", "ellipsoid") + """\
 create_atoms    1 single 0 0 0.95
 set             atom 1 shape 1 1 2
 set             atom 1 mass 1
@@ -258,9 +255,7 @@ def test_body(folder):
     spin = "C_spin" if lmp.ON_HOST else "c_spin"    # values of one atom are those of a capital letter since 2025
     shown = "x[1] y[1] z[1] vx[1] vy[1] vz[1] " + " ".join(f"{spin}[1][{k}]" for k in (1, 2, 3))
     shown += "".join(f" f_wall[{k}]" for k in (15, 16, 17, 18, 19, 20, 25, 26, 27))    # centre, velocity, angular velocity
-    lmp.run_well(SETTINGS.format(style="ellipsoid") + f"""\
-region          box block -6 6 -6 6 -6 6
-create_box      1 box
+    lmp.run_well(head("-6 6 -6 6 -6 6", "ellipsoid") + f"""\
 create_atoms    1 single -0.4 0.3 1.6
 set             atom 1 shape 1.0 0.5 0.5
 set             atom 1 mass 1
@@ -295,9 +290,7 @@ def test_rigid(folder):
     stl.write(folder / "plane.stl", stl.square(6))
     paths = []
     for style, sizes in (("sphere", "diameter 1"), ("ellipsoid", "shape 1 1 1")):
-        lmp.run_well(SETTINGS.format(style=style) + f"""\
-region          box block -6 6 -6 6 -1.5 8
-create_box      1 box
+        lmp.run_well(head(FLOOR_BOX, style) + f"""\
 create_atoms    1 single 0 0 0.7
 create_atoms    1 single 0.8 0.3 1.0
 set             group all {sizes}
@@ -341,9 +334,7 @@ def test_hybrid(folder):
     sides = [stl.quad((*a, 0.4), (*b, 0.4), (*b, 5), (*a, 5))
              for a, b in (((-5, -5), (5, -5)), ((5, -5), (5, 5)), ((5, 5), (-5, 5)), ((-5, 5), (-5, -5)))]
     stl.write(folder / "upper.stl", [t[::-1] for t in lo] + hi + sum(sides, []))
-    text = lmp.run_well(SETTINGS.format(style="hybrid sphere ellipsoid") + """\
-region          box block -6 6 -6 6 -1.5 8
-create_box      1 box
+    text = lmp.run_well(head(FLOOR_BOX, "hybrid sphere ellipsoid") + """\
 create_atoms    1 single -2 0.3 0.49
 create_atoms    1 single 2 0.3 0.49
 create_atoms    1 single 0 3 0.29
@@ -390,9 +381,7 @@ def grain_on(folder, floor, law, grain, run):
     """One grain above z = 0: a mesh (floor 0), or a ball of that radius. Rows of x, v, angular momentum and force."""
     stl.write(folder / "plane.stl", stl.square(9))
     ball = f"create_atoms 2 single 0 0 -{floor}\n"
-    lmp.run_well(SETTINGS.format(style="ellipsoid superellipsoid") + f"""\
-region          box block -9 9 -9 9 -{1.5 * floor + 1} 9
-create_box      2 box
+    lmp.run_well(head(f"-9 9 -9 9 -{1.5 * floor + 1} 9", "ellipsoid superellipsoid", types=2) + f"""\
 create_atoms    1 single {grain["at"]}
 {ball if floor else ""}
 group           grain type 1
