@@ -519,7 +519,12 @@ def test_wall_specs():
     fact("a body is asked for", state.centre.shape == (3,) and state.quaternion.tolist() == [1, 0, 0, 0] and
          state.velocity[2] < 0.5 and state.coordinate == state.centre[2] and state.energy > 0, state)
     falls.set_body(0, lsdcd.RigidBody(joint="ball", point=(0, 0, 0)))
-    fact("a body takes another joint", falls.body(0).velocity.tolist() == [0, 0, 0] and falls.body(0).coordinate == 0)
+    held = falls.body(0)
+    fact("a body takes another joint where it is", held.velocity.tolist() == [0, 0, 0] and held.coordinate == 0 and
+         (held.centre == state.centre).all(), held)
+    falls.set_body(0, lsdcd.RigidBody(joint="slider", axis=(0, 0, 1), load=(0, 0, 400)))
+    forces(falls, 1)
+    fact("and another load", falls.body(0).velocity[2] > 0, falls.body(0))
     posed = lsdcd.Wall(lsdcd.WallSpec(hooke, [lsdcd.WallMesh(mesh, "lid", posed_by_caller=True)]))
     posed.set_pose(0, position=(0, 0, 0.01), velocity=(0, 0, 0.5))
     force = forces(posed, 1)
