@@ -188,7 +188,7 @@ TEST(mesh_fields, files_carry_the_step_where_a_star_is)
   EXPECT_EQ(file_of_step("wall.vtp", 1200), "wall.vtp");
 }
 
-TEST(file_series, lists_files_with_times_and_reads_its_own_list)
+void expect_series()
 {
   const TempDir dir;
   FileSeries first(dir.path("a&b_*.vtp"));
@@ -207,25 +207,17 @@ TEST(file_series, lists_files_with_times_and_reads_its_own_list)
             "</Collection>\n</VTKFile>\n");
 }
 
+TEST(file_series, lists_files_with_times_and_reads_its_own_list)
+{
+  expect_series();
+}
+
 // ParaView reads a list with points alone, and so does a run that goes on in another locale.
 TEST(file_series, has_times_with_a_point_in_any_locale)
 {
   const CommaLocale commas;
   if (!commas.works()) GTEST_SKIP() << "this C library takes no locale of ours";
-  const TempDir dir;
-  FileSeries first(dir.path("wall_*.vtp"));
-  first.add(1, 0.25);
-  first.write();
-  FileSeries next(dir.path("wall_*.vtp"));
-  next.read();
-  next.add(2, 0.125);    // before step 1, which is to come
-  next.add(3, 0.5);
-  next.write();
-  EXPECT_EQ(content(next.path()), "<?xml version=\"1.0\"?>\n"
-                                  "<VTKFile type=\"Collection\" version=\"0.1\">\n<Collection>\n"
-                                  "<DataSet timestep=\"0.125\" part=\"0\" file=\"wall_2.vtp\"/>\n"
-                                  "<DataSet timestep=\"0.5\" part=\"0\" file=\"wall_3.vtp\"/>\n"
-                                  "</Collection>\n</VTKFile>\n");
+  expect_series();
 }
 
 }    // namespace

@@ -119,20 +119,6 @@ MotionTerm turning(Real period)
   return m;
 }
 
-TEST(motion_table, of_two_angles_is_a_rotation)
-{
-  const Real turns = 2.5, end = 2.5 * 1.3;
-  expect_same(table({{0, 0}, {end, 2 * kPi * turns}}, with_axis(true)), motion_of(turning(1.3)),
-              {0, 0.1, 1, 3.2});
-}
-
-TEST(motion_table, may_have_angles_in_degrees)
-{
-  TableOptions degrees = with_axis(true);
-  degrees.degrees = true;
-  expect_same(table({{0, 0}, {2.6, 720}}, degrees), motion_of(turning(1.3)), {0, 0.1, 1, 2.5});
-}
-
 // A rotation vector that grows along an axis, and the quaternions of these turns: more than a turn.
 std::vector<Row> turns_about_axis(int columns, Real period)
 {
@@ -149,19 +135,21 @@ std::vector<Row> turns_about_axis(int columns, Real period)
   return rows;
 }
 
-TEST(motion_table, of_rotation_vectors_turns_at_constant_speed_between_rows)
+TEST(motion_table, of_turns_about_an_axis_is_a_rotation)
 {
-  expect_same(table(turns_about_axis(7, 1.3), options(true)), motion_of(turning(1.3)),
-              {0, 0.1, 0.4, 1, 1.5});
-}
-
-// The quaternion of each other row has the other sign.
-TEST(motion_table, of_quaternions_does_not_depend_on_their_signs)
-{
-  std::vector<Row> rows = turns_about_axis(8, 1.3);
-  for (std::size_t i = 1; i < rows.size(); i += 2)
-    for (int k = 4; k < 8; k++) rows[i][k] = -rows[i][k];
-  expect_same(table(rows, options(true)), motion_of(turning(1.3)), {0, 0.1, 0.4, 1, 1.5});
+  TableOptions degrees = with_axis(true);
+  degrees.degrees = true;
+  std::vector<Row> quaternions = turns_about_axis(8, 1.3);    // the sign of each other one is free
+  for (std::size_t i = 1; i < quaternions.size(); i += 2)
+    for (int k = 4; k < 8; k++) quaternions[i][k] = -quaternions[i][k];
+  for (const RigidMotion &motion :
+       {table({{0, 0}, {1.3 * 2.5, 2 * kPi * 2.5}}, with_axis(true)),
+        table({{0, 0}, {2.6, 720}}, degrees), table(turns_about_axis(7, 1.3), options(true)),
+        table(quaternions, options(true))})
+    expect_same(motion, motion_of(turning(1.3)), {0, 0.1, 0.4, 1, 1.5});
+  // After whole turns a table that repeats goes on.
+  expect_same(table({{0, 0}, {0.65, kPi}, {1.3, 6.283185}}, with_axis(true, true)),
+              motion_of(turning(1.3)), {1.3 + 0.1, 5 * 1.3 + 0.9});
 }
 
 // Cubic
@@ -355,32 +343,26 @@ TEST(motion_table, that_repeats_begins_anew_in_spite_of_a_timesteps_rounding)
                             motion.pose_at(0.25L)));
 }
 
-// By 1e-9 of a period on both sides of the seam, with accelerations below 1e4.
-TEST(motion_table, that_repeats_has_no_jump_of_its_velocity)
-{
-  std::vector<Row> turns;    // once about: the quaternion changes its sign
-  for (int i = 0; i <= 8; i++) turns.push_back({0.125 * i, 0, 0, 0, 0, 0, kPi / 4 * i});
-  for (const RigidMotion &motion :
-       {table(closed_rows(), options(false, true)), table(turns, options(false, true)),
-        table({{0, 0.1}, {0.6, 2}, {1, 0.1 + 4 * kPi}}, with_axis(false, true))})
-    for (const Real seam : {1.0, 1.25})
-      EXPECT_LE(norm(velocity(motion, seam - 1e-9) - velocity(motion, seam + 1e-9)), 2e-9 * 1e4);
-}
-
-// All rows of a steady turn look alike, also that where the quaternion changes its sign.
-TEST(motion_table, that_repeats_turns_as_fast_at_its_seam_as_at_other_rows)
+// The quaternion changes its sign on the way.
+RigidMotion once_about()
 {
   std::vector<Row> turns;
   for (int i = 0; i <= 8; i++) turns.push_back({0.125 * i, 0, 0, 0, 0, 0, kPi / 4 * i});
-  const RigidMotion motion = table(turns, options(false, true));
-  EXPECT_NEAR(motion.pose_at(1).angular.z, motion.pose_at(0.375).angular.z, 100 * kEps);
-  EXPECT_NEAR(motion.pose_at(1).angular.z, 2 * kPi, 0.01);
+  return table(turns, options(false, true));
 }
 
-TEST(motion_table, that_repeats_goes_on_turning_after_whole_turns)
+// By 1e-9 of a period on both sides of the seam, with accelerations below 1e4.
+TEST(motion_table, that_repeats_has_no_jump_of_its_velocity)
 {
-  expect_same(table({{0, 0}, {0.65, kPi}, {1.3, 6.283185}}, with_axis(true, true)),
-              motion_of(turning(1.3)), {1.3 + 0.1, 5 * 1.3 + 0.9});
+  const RigidMotion turns = once_about();
+  for (const RigidMotion &motion :
+       {table(closed_rows(), options(false, true)), turns,
+        table({{0, 0.1}, {0.6, 2}, {1, 0.1 + 4 * kPi}}, with_axis(false, true))})
+    for (const Real seam : {1.0, 1.25})
+      EXPECT_LE(norm(velocity(motion, seam - 1e-9) - velocity(motion, seam + 1e-9)), 2e-9 * 1e4);
+  // All rows of a steady turn look alike, also that at the seam.
+  EXPECT_NEAR(turns.pose_at(1).angular.z, turns.pose_at(0.375).angular.z, 100 * kEps);
+  EXPECT_NEAR(turns.pose_at(1).angular.z, 2 * kPi, 0.01);
 }
 
 // What it keeps

@@ -205,8 +205,8 @@ TEST(periodic_images, what_lies_several_boxes_past_a_face_has_its_image_in_the_b
   const PeriodicBox box = tilted_box();
   const Vec3 lo = box.corner + 0.5 * (box.edge[0] + box.edge[1] + box.edge[2]);
   for (int away = 1; away <= 4; away++) {
-    TriangleSoup soup = box_mesh(lo, lo + Vec3{0.3, 0.3, 0.3});
-    for (Vec3 &x : soup.corners) x += Real(away) * (box.edge[0] - box.edge[1]);
+    const TriangleSoup soup =
+        moved(box_mesh(lo, lo + Vec3{0.3, 0.3, 0.3}), Real(away) * (box.edge[0] - box.edge[1]));
     const WeldedMesh whole = with_images(weld(soup, -1), box, 0.1);
     ASSERT_EQ(whole.images.face_of.size(), 12u) << away;
     for (std::size_t v = 8; v < 16; v++)
@@ -220,8 +220,7 @@ TEST(periodic_images, a_floor_of_many_boxes_has_only_the_nearest_images)
 {
   PeriodicBox box = box_of({2, 2, 2});
   box.periodic[2] = false;
-  TriangleSoup floor = square(2, 400);
-  for (Vec3 &x : floor.corners) x += Vec3{-190, -190, 0};
+  const TriangleSoup floor = moved(square(2, 400), {-190, -190, 0});
   EXPECT_EQ(with_images(weld(floor, -1), box, 0.1).images.face_of.size(), 2u * (8 + 3 + 3 + 1));
 }
 
@@ -237,8 +236,7 @@ TEST(periodic_images, a_leaning_face_of_many_boxes_has_all_that_reach_the_box)
 
 TEST(periodic_images, a_mesh_too_far_away_for_images_is_refused_with_its_distance)
 {
-  TriangleSoup soup = box_mesh({0, 0, 0}, {1, 1, 1});
-  for (Vec3 &x : soup.corners) x += Vec3{4e6, 0, 0};
+  const TriangleSoup soup = box_mesh({4e6, 0, 0}, {4e6 + 1, 1, 1});
   EXPECT_TRUE(fails_with("reaches 2e+06 box lengths", [&] {
     with_images(weld(soup, -1), box_of({2, 2, 2}), 0.1);
   }));

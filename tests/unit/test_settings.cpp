@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include "base/input_error.h"
-#include "effects/effects.h"
 #include "input/granular_words.h"
 #include "input/motion_words.h"
 #include "input/script_files.h"
@@ -688,25 +687,6 @@ TEST(settings, granular_errors_name_the_word_and_show_the_syntax)
   };
   for (const auto &[tokens, told] : cases)
     EXPECT_TRUE(has(granular_error(tokens), told)) << tokens << ": " << granular_error(tokens);
-}
-
-TEST(settings, effects_name_what_a_law_turns_on_and_what_that_keeps)
-{
-  const WallSpec s =
-      parse("granular jkr 1e5 3 0.3 2 tangential mindlin_rescale NULL 1 0.5 rolling sds 1 2 3 "
-            "twisting marshall heat area 1 temperature 300 mesh a.stl");
-  int bytes = 0;
-  std::string all;
-  EngineSettings engine;
-  engine.law() = s.law();
-  for (const Effect &e : effects_of(engine)) {
-    bytes += e.bytes_per_contact;
-    all += e.name + ", ";
-  }
-  EXPECT_EQ(bytes, static_cast<int>(s.law().n_extra() * sizeof(Real)));
-  for (const char *name : {"jkr adhesion", "normal damping", "tangential spring", "rescaling",
-                           "sliding limit", "rolling", "twisting", "heat"})
-    EXPECT_TRUE(has(all, name));
 }
 
 }    // namespace
