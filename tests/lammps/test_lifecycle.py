@@ -100,7 +100,7 @@ def test_rows_are_read(folder):
         body = body.replace("fix             wall ", "fix             push all addforce v_px 0 0\n"
                                                      "fix             wall ")
         body = body.replace("pair_style", f"variable        px atom 0.1*{letter}_wall[2]\npair_style", 1)
-        lmp.run_well(body + scene.dump("moves", 100) + "run 1500\n", folder, ranks)
+        lmp.run_well(body + scene.dump("moves", 100) + "run 1000\n", folder, ranks)
         moves[name] = lmp.read_dump(folder / "moves")
     for name in ("sorted", "spread"):
         at_most(f"a fix that reads contacts rows before the wall: {name} as unsorted",

@@ -23,7 +23,7 @@ TOTALS = ("thermo_style custom step f_wall f_wall[1] f_wall[2] f_wall[3] f_wall[
 BALANCE = "fix even all balance 100 1.02 shift xy 10 1.02\n"
 
 
-def go(law, folder, ranks, more="", steps=2000):
+def go(law, folder, ranks, more="", steps=1200):
     text = lmp.run_well(scene.SETTINGS + "read_data start.data\n" + scene.forces(law, more=more) + TOTALS +
                         scene.dump("moves", 100) + f"run {steps}\n", folder, ranks)
     return lmp.read_dump(folder / "moves"), lmp.read_thermo(text), text
@@ -44,7 +44,7 @@ def test_ranks(folder):
         for ranks, more in ((2, ""), (4, ""), (4, BALANCE)):
             many, many_sums, text = go(law, folder, ranks, more)
             where = f"{name}: {ranks} ranks{' balanced' if more else ''}"
-            # Roundings of 1e-16 grow where spheres hop from bump to bump: 1e6 in 2000 steps.
+            # Roundings of 1e-16 grow where spheres hop from bump to bump: 1e6 in 2000 steps at most.
             at_most(f"{where}: same trajectory", lmp.largest_difference(one, many),
                     1e-9 if more else 0)
             # Totals are added in another order.

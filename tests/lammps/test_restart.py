@@ -22,7 +22,7 @@ LAWS = {"hooke_history": "hooke/history 1e4 NULL 120 NULL 0.4 1",
         "hooke": "hooke 1e4 NULL 120 NULL 0.4 1"}
 UNDAMPED = "hooke/history 1e4 NULL 0 NULL 0.4 0"
 UNDAMPED_SIDES = "hooke 1e4 NULL 1e-300 NULL 0 0"    # 0 is not a number to LAMMPS 4Jul2026
-FIRST, SECOND = 700, 800
+FIRST, SECOND = 700, 400
 
 
 # On two processes the first one has a sphere in the air, and the other one those on the floor.
@@ -43,10 +43,15 @@ def write(law, folder, ranks=1, name="two", create=scene.CREATE, **more):
     return lmp.read_dump(folder / name)
 
 
-def proceed(law, folder, ranks=1, restart="two.restart", name="continued", **more):
+def proceed(law, folder, ranks=1, restart="two.restart", name="continued", steps=SECOND, **more):
     text = lmp.run_well(scene.SETTINGS + f"read_restart {restart}\n" + scene.forces(law, **more) +
-                        scene.dump(name, 50) + f"run {SECOND}\n", folder, ranks)
+                        scene.dump(name, 50) + f"run {steps}\n", folder, ranks)
     return lmp.read_dump(folder / name), text
+
+
+def told(law, folder, restart="two.restart"):
+    """What is said where a run goes on."""
+    return proceed(law, folder, restart=restart, steps=0)[1]
 
 
 @pytest.fixture(scope="module")
@@ -73,11 +78,11 @@ def test_kinds(folder):
         return f"granular hertz 1e5 700 tangential {tangential} 1e4 0.6 0.4"
 
     write(law("mindlin/force"), folder, name="kind", create=FEW)
-    text = proceed(law("mindlin"), folder, restart="kind.restart")[1]
+    text = told(law("mindlin"), folder, "kind.restart")
     fact("kinds: a force is not taken for a displacement", "6 atoms lose their springs: the restart "
          "file was written with a different contact law" in text)
     write(law("mindlin"), folder, name="kind", create=FEW)
-    text = proceed(law("linear_history"), folder, restart="kind.restart")[1]
+    text = told(law("linear_history"), folder, "kind.restart")
     fact("kinds: a displacement is one in any law", "lose their springs" not in text)
 
 
@@ -86,7 +91,7 @@ def test_meshes(folder):
     law = LAWS["hooke_history"]
     write(law, folder, name="mesh", create=FEW)
     scene.write_floor(folder / "floor.stl", side=6.49)
-    text = proceed(law, folder, restart="mesh.restart")[1]
+    text = told(law, folder, "mesh.restart")
     fact("meshes: springs of another one with as many triangles are dropped", "6 atoms lose their "
          "springs: the restart file was written with a different mesh" in text)
     scene.write_floor(folder / "floor.stl")
@@ -113,16 +118,16 @@ def test_other_ranks_laws_and_meshes(folder):
     at_most("written on 4 ranks, read on 1",
             lmp.largest_difference(spread, proceed(law, folder, 1, "spread.restart")[0]), 0)
 
-    text = proceed(LAWS["hooke"], folder)[1]
+    text = told(LAWS["hooke"], folder)
     fact("springs in the file do not disturb a style without them", "ERROR" not in text)
 
-    text = proceed(scene.GRANULAR, folder)[1]
+    text = told(scene.GRANULAR, folder)
     fact("another law: what it does not know is dropped with a warning",
          "lose their springs: the restart file was written with a different contact law" in text)
 
     # Springs of another mesh are dropped with a warning, not followed.
     scene.write_floor(folder / "floor.stl", cells=4)
-    text = proceed(law, folder)[1]
+    text = told(law, folder)
     fact("another mesh: springs are dropped with a warning", "lose their springs" in text)
     scene.write_floor(folder / "floor.stl")
 
@@ -139,5 +144,5 @@ def test_undamped(folder):
     one = {s: rows for s, rows in lmp.read_dump(folder / "one").items() if s >= 2 * FIRST}
     touching = sum(row[9] > 0 for row in one[2 * FIRST].values())
     fact("undamped: spheres touch where it breaks", touching > 20, str(touching))
-    # 800 steps of contacts that part neighbouring paths: a factor of 1e4 on 1e-16 at most.
+    # 400 steps of contacts that part neighbouring paths: a factor of 1e4 on 1e-16 at most.
     at_most("undamped: continued as unbroken", lmp.largest_difference(one, continued), 1e-11)
