@@ -233,14 +233,10 @@ def sheet(folder):
     """A grain, which has the first ID, over 4 x 4 squares; meshes of the same and of other triangles. The begin of scripts."""
     n = 4
     at = [(2 * i / n - 1, 2 * j / n - 1, 0) for j in range(n + 1) for i in range(n + 1)]
-    faces = []
-    for j in range(n):
-        for i in range(n):
-            a = j * (n + 1) + i
-            faces += [(a, a + 1, a + n + 2), (a, a + n + 2, a + n + 1)]
-    stl.write(folder / "sheet.stl", [[at[v] for v in face] for face in faces])
-    stl.write(folder / "turned.stl", [[at[v] for v in face[1:] + face[:1]] for face in faces])
-    stl.write(folder / "coarse.stl", [[at[v] for v in face] for face in ((0, 4, 24), (0, 24, 20))])
+    triangles = stl.sheet(n, lambda i, j: at[j * (n + 1) + i])
+    stl.write(folder / "sheet.stl", triangles)
+    stl.write(folder / "turned.stl", [t[1:] + t[:1] for t in triangles])
+    stl.write(folder / "coarse.stl", stl.square(1))
     create = "region box block -2 2 -2 2 -1 2\ncreate_box 2 box\ncreate_atoms 1 single -1.5 -1.5 -0.5\n"
     # In an order that is not that of places, as of a mesher.
     create += "".join("create_atoms 2 single {} {} {}\n".format(*at[7 * k % len(at)]) for k in range(len(at)))
@@ -324,12 +320,7 @@ def test_beside_plain(folder):
     """wall/lsdcd/kk and the plain fix in the LAMMPS with Kokkos: heavy nodes, on which grains fall, roll and bounce."""
     n = 6
     at = [(2 * i / n - 1, 2 * j / n - 1, 0.05 * ((i + j) % 3)) for j in range(n + 1) for i in range(n + 1)]
-    faces = []
-    for j in range(n):
-        for i in range(n):
-            a = j * (n + 1) + i
-            faces += [(a, a + 1, a + n + 2), (a, a + n + 2, a + n + 1)]
-    stl.write(folder / "sheet.stl", [[at[v] for v in face] for face in faces])
+    stl.write(folder / "sheet.stl", stl.sheet(n, lambda i, j: at[j * (n + 1) + i]))
     atoms = "".join(f"create_atoms 2 single {x:.9g} {y:.9g} {z:.9g}\n" for x, y, z in at)
     atoms += "".join(f"create_atoms 1 single {x} {y} {z}\n"
                      for x, y, z in ((-0.6, -0.5, 0.4), (0.1, -0.55, 0.45), (-0.4, 0.3, 0.5), (0.35, 0.3, 0.4), (0, 0, 1.1)))
