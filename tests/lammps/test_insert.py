@@ -294,7 +294,6 @@ def test_other_plan(folder):
     20 grains at the rate of 20."""
     one = math.pi / 6 * 0.2 ** 3 * 2
     grains, small = "diam one 0.2", "diam one 0.1"    # of an eighth of the mass
-    begin = "boundary f f f\nregion box block -3 3 -3 3 -20 3 units box\ncreate_box 1 box\n"
     text, wanted = "", []
     for name, words, cases in (
             ("a total of 20", f"{grains} numberrate 20 number 20", (
@@ -307,7 +306,7 @@ def test_other_plan(folder):
                 ("no total", f"{grains} numberrate 20", "", 60),
                 ("no total, from step 0", f"{grains} numberrate 20", "reset_timestep 0", 60),
                 ("no total, from step 10000", f"{grains} numberrate 20", "reset_timestep 10000", 60)))):
-        text += "clear\n" + lmp.head() + begin + STREAM.format(words) + "run 200\nwrite_restart other.restart\n"
+        text += "clear\n" + lmp.head("-3 3 -3 3 -20 3") + STREAM.format(words) + "run 200\nwrite_restart other.restart\n"
         for other, new_words, before, count in cases:
             text += f"clear\nread_restart other.restart\n{before}\n{STREAM.format(new_words)}run 100\n" + \
                 'print "row $(f_in[1]) $(f_in[3])"\n'
@@ -327,8 +326,7 @@ def test_recovers(folder):
     stl.write(folder / "unit.stl", stl.quad((0, 0, 0), (0, 1, 0), (1, 1, 0), (1, 0, 0)))
     spots = "".join(f"create_atoms 1 single {x} {y} 0 units box\n" for x in (0.2, 0.5, 0.8) for y in (0.2, 0.5, 0.8)) + \
         "set group all diameter 0.29 density 2\nvelocity all set 0 0 -5\n"
-    text = lmp.head("-1 2 -1 2 -60 2") + spots + \
-        END + "timestep 0.01\n" + \
+    text = lmp.head("-1 2 -1 2 -60 2") + spots + END + "timestep 0.01\n" + \
         "fix in all insert/lsdcd mesh unit.stl numberrate {} diam one 0.2 dens 2 vel normal 5\nthermo 10\n" + \
         "thermo_style custom step f_in[1] f_in[3]\nthermo_modify norm no\n"
     rows = lmp.read_thermo(lmp.run_well(text.format(150) + DUMP.format(200) + "run 200\n", folder))

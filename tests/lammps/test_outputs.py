@@ -194,9 +194,6 @@ def test_means(folder):
 
 
 def test_warnings(folder):
-    _, _, text = go(folder, extra="timestep 0.1", steps=0)
-    fact("a timestep above a tenth of the contact time is warned of",
-         "wall/lsdcd: timestep 0.1 is more than a tenth" in text)
     # Dropped at speed 10 the sphere sinks v sqrt(m/k) = 0.1, a fifth of its radius.
     fast = "create_atoms 1 single 0 0 0.51 units box\n" + SPHERES + "velocity all set 0 0 -10\n"
     _, _, text = go(folder, atoms=fast, steps=400)
