@@ -256,7 +256,7 @@ Tradeoff small(double seconds = 1e9, std::size_t memory = std::size_t(1) << 30)
   settings.memory_budget = memory;
   settings.cpu = !test_on_cuda();
   settings.cuda = test_on_cuda();
-  return measure_tradeoff(weld(cylinder_mesh(40, 6, 5, 6), -1), settings,
+  return measure_tradeoff(weld(cylinder_mesh(24, 4, 3, 4), -1), settings,
                           [](const TradeoffRow &) {});
 }
 
