@@ -73,7 +73,7 @@ def test_drum(folder):
     write_drum(folder / "drum.stl", 0, 4)
     axis, period, start, speed = (0, 0, 1), 2.0, (0.1, -0.2, 0.5), (0.05, -0.1, 0.2)
     rate = 2 * math.pi / period
-    dt, steps = 1e-4, 3000
+    dt, steps = 1e-4, 1500
     motion = " motion transrot {} {} {} {} {} {} 0 0 1 {} ".format(*speed, *start, period)
     still = (0.4, 0.3, -2.0)
     for about, point in (("{} {} {}".format(*still), lambda t: still),
