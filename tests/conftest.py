@@ -17,15 +17,22 @@ SKIPPED = 77    # what CTest takes for a test that could not run
 
 
 @pytest.fixture(scope="module")
-def folder(request):
-    """A folder for the files of a module's tests, which stays if one of them fails."""
-    place = pathlib.Path(tempfile.mkdtemp(prefix="lsdcd-"))
+def place(request):
+    """A folder, which stays if one of the module's tests fails."""
+    made = pathlib.Path(tempfile.mkdtemp(prefix="lsdcd-"))
     before = request.session.testsfailed
-    yield place
+    yield made
     if request.session.testsfailed == before:
-        shutil.rmtree(place)
+        shutil.rmtree(made)
     else:
-        print("files are in", place)
+        print("files are in", made)
+
+
+@pytest.fixture(scope="module")
+def folder(request, place):
+    """That folder with the files of a module's tests, which its prepare() makes, if it has one."""
+    getattr(request.module, "prepare", lambda folder: None)(place)
+    return place
 
 
 @pytest.hookimpl(tryfirst=True)

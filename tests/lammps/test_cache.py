@@ -42,13 +42,11 @@ def go(folder, words, ranks=1, run=RUN, env=None):
     return Run(lmp.run_well(text_of(words, run), folder, ranks, env=env))
 
 
-@pytest.fixture(scope="module")
-def folder(folder):
+def prepare(folder):
     scene.write_floor(folder / "floor.stl")
     if "this build has no grid cache" in lmp.run(scene.CREATE + f"fix w all wall/lsdcd {LAW} mesh floor.stl cache c\n", folder).stdout:
         pytest.skip("the build has no grid cache")
     lmp.run_well(scene.CREATE + scene.forces(LAW) + "run 200\nwrite_data start.data nocoeff\n", folder)
-    return folder
 
 
 def test_box_changes(folder):

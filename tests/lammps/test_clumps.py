@@ -9,8 +9,6 @@ usage: test_clumps.py [PART ...]: these functions only
 
 import math
 
-import pytest
-
 import lmp
 import stl
 from facts import at_most, fact
@@ -92,10 +90,8 @@ def go(folder, name, clumps, kick, steps, wall, ranks=1, every=50, flags=lmp.FLA
     return lmp.read_dump(folder / name), lmp.read_thermo(text)
 
 
-@pytest.fixture(scope="module")
-def folder(folder):
+def prepare(folder):
     write_parts(folder)
-    return folder
 
 
 def test_among_others(folder):

@@ -101,10 +101,8 @@ def begin(boundary="f f f"):
     return SETTINGS.replace("f f f", boundary) + f"fix mol all property/atom mol ghost yes\nread_data cubes.data fix mol NULL Molecules\n" + FORCES
 
 
-@pytest.fixture(scope="module")
-def folder(folder):
+def prepare(folder):
     stl.write(folder / "floor.stl", FLOOR)
-    return folder
 
 
 RANKS = pytest.mark.parametrize("ranks", (1, 3))

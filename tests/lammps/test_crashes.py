@@ -12,8 +12,6 @@ import signal
 import subprocess
 import time
 
-import pytest
-
 import lmp
 import scene
 import stl
@@ -91,11 +89,9 @@ def go_on(folder, mesh="fine.stl"):
     raise AssertionError("neither restart file can be read:\n" + done.stdout[-4000:])
 
 
-@pytest.fixture(scope="module")
-def folder(folder):
+def prepare(folder):
     scene.write_floor(folder / "floor.stl")
     scene.write_floor(folder / "fine.stl", cells=80)    # a run that writes files most of its time
-    return folder
 
 
 def test_kills(folder):

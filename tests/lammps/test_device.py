@@ -27,10 +27,8 @@ def go(law, device, folder, ranks=1):
     return lmp.read_dump(folder / "moves")
 
 
-@pytest.fixture(scope="module")
-def folder(folder):
+def prepare(folder):
     scene.write_floor(folder / "floor.stl")
-    return folder
 
 
 def test_device(folder):

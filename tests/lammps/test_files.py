@@ -7,8 +7,6 @@ written."""
 import math
 import struct
 
-import pytest
-
 import lmp
 import scene
 import stl
@@ -44,10 +42,8 @@ def go(folder, words, run, begin=scene.CREATE, ranks=1):
     return lmp.run_well(begin + scene.forces(law, mesh="mesh floor.stl " + words) + run, folder, ranks)
 
 
-@pytest.fixture(scope="module")
-def folder(folder):
+def prepare(folder):
     scene.write_floor(folder / "floor.stl")
-    return folder
 
 
 def test_series(folder):

@@ -165,10 +165,8 @@ fix             flow all heat/flow constant 0.5
 """
 
 
-@pytest.fixture(scope="module")
-def folder(folder):
+def prepare(folder):
     stl.write(folder / "floor.stl", stl.sheet(40, lambda i, j: (i - 20, j - 20, 0)))
-    return folder
 
 
 @lmp.of_host

@@ -45,10 +45,8 @@ pytestmark = lmp.needs_host
 NOT_ON_DEVICE = pytest.mark.skipif(lmp.DEVICE_MOVES, reason="with fixes that move atoms over the host")
 
 
-@pytest.fixture(scope="module")
-def folder(folder):
+def prepare(folder):
     scene.write_floor(folder / "floor.stl")
-    return folder
 
 
 def go(folder, flags, text, ranks=1, name="moves"):

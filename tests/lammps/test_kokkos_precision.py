@@ -83,11 +83,9 @@ def write_spheres(path, side):
     return 8.0 / side
 
 
-@pytest.fixture(scope="module")
-def folder(folder):
+def prepare(folder):
     scene.write_floor(folder / "floor.stl")
     stl.write(folder / "flat.stl", stl.square(4))
-    return folder
 
 
 def test_same_positions(folder):

@@ -7,8 +7,6 @@ closed forms. Tolerances are those of test_several_meshes.py, where not said oth
 
 import math
 
-import pytest
-
 import lmp
 import stl
 from plates import DUMP, FACES, FORCES, LAWS, SIDE, go, planes, six, write_box, write_plate
@@ -21,11 +19,9 @@ OTHERS = {"hooke": "hooke 4e4 NULL 90 NULL 0.1 1",
 STILL = {"kick": "", "dt": 1e-9}
 
 
-@pytest.fixture(scope="module")
-def folder(folder):
+def prepare(folder):
     write_box(folder)
     write_halves(folder)
-    return folder
 
 
 def test_by_mesh(folder):

@@ -58,11 +58,9 @@ def write_plates(path, n, centre, distance):
     stl.write(path, triangles)
 
 
-@pytest.fixture(scope="module")
-def folder(folder):
+def prepare(folder):
     write_floor(folder)
     scene.write_floor(folder / "bumps.stl")
-    return folder
 
 
 def test_rows_follow(folder):

@@ -83,11 +83,9 @@ def mass_of(some):
     return sum(MASS[s[0]] for s in some)
 
 
-@pytest.fixture(scope="module")
-def folder(folder):
+def prepare(folder):
     write_plate(folder / "plate.stl", 2, 4)
     write_data(folder / "spheres.data", spheres())
-    return folder
 
 
 @pytest.mark.parametrize("ranks", (1, 2, 4))

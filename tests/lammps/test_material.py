@@ -11,8 +11,6 @@ import pathlib
 import re
 import subprocess
 
-import pytest
-
 import lmp
 import stl
 from facts import at_most, fact
@@ -68,11 +66,9 @@ def run(folder, wall, units="si", ranks=1, env=None):
     return lmp.read_dump(folder / "out"), re.search(r"^  contact     (granular .*)", text, re.M)[1], text
 
 
-@pytest.fixture(scope="module")
-def folder(folder):
+def prepare(folder):
     (folder / "grains.lsdcd").write_text(FILE)
     stl.write(folder / "floor.stl", stl.square(0.015))
-    return folder
 
 
 def test_same_bits(folder):

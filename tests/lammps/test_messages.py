@@ -6,8 +6,6 @@
 import math
 import re
 
-import pytest
-
 import lmp
 import stl
 from facts import at_most, fact
@@ -48,8 +46,7 @@ def lines(text, *words):
     return [line for line in text.split("\n") if all(w in line for w in words)]
 
 
-@pytest.fixture(scope="module")
-def folder(folder):
+def prepare(folder):
     (folder / "floor.stl").write_bytes((lmp.HERE / "scripts" / "floor.stl").read_bytes())
     stl.write(folder / "in_mm.stl", [((-50, -50, 0), (50, -50, 0), (50, 50, 0)), ((-50, -50, 0), (50, 50, 0), (-50, 50, 0)),
                                      ((-50, -50, 0), (50, -50, 0), (0, -50, 80))])
@@ -57,7 +54,6 @@ def folder(folder):
     stl.write(folder / "lifters.stl", drum(4))
     o, x, y, z = (0, 0, 0), (2, 0, 0), (0, 2, 0), (0, 0, 2)
     stl.write(folder / "corner.stl", [(o, x, y), (o, y, z), (o, z, x)])
-    return folder
 
 
 def twice(script, command="run 0\n"):

@@ -58,13 +58,11 @@ def write_drum(path, lo, hi, n=24, radius=2.0):
 NOT_KOKKOS = pytest.mark.skipif(lmp.ON_KOKKOS, reason="wall/gran/kk is another code, and there is no respa with Kokkos")
 
 
-@pytest.fixture(scope="module")
-def folder(folder):
+def prepare(folder):
     write_plane(folder / "plane.stl")
     scene.write_floor(folder / "bumps.stl", side=9, cells=36)
     write_drum(folder / "short.stl", 0, 4)
     write_drum(folder / "corner.stl", 0, 2, n=3)
-    return folder
 
 
 @pytest.fixture

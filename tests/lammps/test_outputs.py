@@ -5,8 +5,6 @@
 
 import math
 
-import pytest
-
 import lmp
 import stl
 from facts import fact
@@ -47,10 +45,8 @@ def close(a, b):
     return math.isclose(a, b, rel_tol=1e-13, abs_tol=1e-13)    # a few roundings
 
 
-@pytest.fixture(scope="module")
-def folder(folder):
+def prepare(folder):
     (folder / "floor.stl").write_bytes((lmp.HERE / "scripts" / "floor.stl").read_bytes())
-    return folder
 
 
 def test_in_commands(folder):

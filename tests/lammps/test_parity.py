@@ -31,10 +31,8 @@ CASES = {
 REAL = {"hertz_history_in_real_units": "hertz/history 1e7 NULL 10 NULL 0.5 1"}
 
 
-@pytest.fixture(scope="module")
-def folder(folder):
+def prepare(folder):
     (folder / "floor.stl").write_bytes((lmp.HERE / "scripts" / "floor.stl").read_bytes())
-    return folder
 
 
 def compare(folder, name, law, scene="in.one_sphere", **settings):

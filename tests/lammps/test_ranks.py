@@ -8,8 +8,6 @@ the numbers are equal to the last bit, through migration and sorting. Fix balanc
 takes positions to box coordinates and back, which rounds them. LSDCD_QUICK=1 takes one law.
 """
 
-import pytest
-
 import lmp
 import scene
 from facts import at_most, fact
@@ -29,12 +27,10 @@ def go(law, folder, ranks, more="", steps=1200):
     return lmp.read_dump(folder / "moves"), lmp.read_thermo(text), text
 
 
-@pytest.fixture(scope="module")
-def folder(folder):
+def prepare(folder):
     scene.write_floor(folder / "floor.stl")
     # The order of create_atoms and the sums of velocity depend on the ranks.
     lmp.run_well(scene.CREATE + "write_data start.data\n", folder)
-    return folder
 
 
 def test_ranks(folder):

@@ -10,8 +10,6 @@ usage: test_region.py [host]: under the LAMMPS of hosts/build_host.sh
 """
 
 import math
-import pytest
-
 import lmp
 import stl
 from facts import fact
@@ -88,10 +86,8 @@ MOVES = "variable a equal 0.3\nvariable b equal -0.7\nvariable c equal 0.45\nvar
 BY = "move v_a v_b v_c rotate v_turn 0.2 -0.1 0.3 1 2 -1"
 
 
-@pytest.fixture(scope="module")
-def folder(folder):
+def prepare(folder):
     write_meshes(folder)
-    return folder
 
 
 def test_block(folder):

@@ -4,8 +4,6 @@
 """The command rerun: what follows from positions and time is as in the run that was dumped, what
 adds up from step to step is refused or told of."""
 
-import pytest
-
 import lmp
 from facts import at_most, fact
 
@@ -47,10 +45,8 @@ def apart(a, b):
     return max(abs(a[step][k] - row[k]) / (size[k] or 1) for step, row in b.items() for k in range(10))
 
 
-@pytest.fixture(scope="module")
-def folder(folder):
+def prepare(folder):
     (folder / "floor.stl").write_bytes((lmp.HERE / "scripts" / "floor.stl").read_bytes())
-    return folder
 
 
 def test_same(folder):

@@ -54,10 +54,8 @@ def told(law, folder, restart="two.restart"):
     return proceed(law, folder, restart=restart, steps=0)[1]
 
 
-@pytest.fixture(scope="module")
-def folder(folder):
+def prepare(folder):
     scene.write_floor(folder / "floor.stl")
-    return folder
 
 
 def test_rows(folder):

@@ -6,8 +6,6 @@
 import math
 import re
 
-import pytest
-
 import lmp
 import stl
 from facts import at_most, fact
@@ -66,11 +64,9 @@ def settles(name, rows, target, limit=1e-3):
          " ".join(f"{q:.2g}" for q in quarters))
 
 
-@pytest.fixture(scope="module")
-def folder(folder):
+def prepare(folder):
     stl.write(folder / "plate.stl", stl.square(6.0))
     stl.write(folder / "lever.stl", stl.square(1.5))
-    return folder
 
 
 def test_one_sphere(folder):

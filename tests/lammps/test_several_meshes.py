@@ -9,8 +9,6 @@ test_parity.py. LSDCD_QUICK=1 takes one law.
 
 import math
 
-import pytest
-
 import lmp
 from plates import LAWS, SIDE, SMOOTH, go, planes, six, write_box, write_plate
 from facts import at_most, fact
@@ -22,11 +20,9 @@ def among_sides(dump):
     return sum(n > 1 for n in near), sum(n > 2 for n in near)
 
 
-@pytest.fixture(scope="module")
-def folder(folder):
+def prepare(folder):
     write_box(folder)
     write_halves(folder)
-    return folder
 
 
 def test_compare_with_planes(folder):

@@ -6,8 +6,6 @@
 import re
 import struct
 
-import pytest
-
 import lmp
 import vtp
 from plates import DUMP, FACES, FORCES, LAWS, SIDE, build, go, six, thermo, write_box, write_plate
@@ -35,10 +33,8 @@ def stl_heights(path):
     return [struct.unpack_from("<12f", data, 84 + 50 * k)[5 + 3 * v] for k in range(n) for v in range(3)]
 
 
-@pytest.fixture(scope="module")
-def folder(folder):
+def prepare(folder):
     write_box(folder)
-    return folder
 
 
 def test_outputs(folder):

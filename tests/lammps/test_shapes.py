@@ -77,10 +77,8 @@ def proceed(folder, restart, name, ranks, style="ellipsoid", more=""):
     return lmp.read_dump(folder / name)
 
 
-@pytest.fixture(scope="module")
-def folder(folder):
+def prepare(folder):
     write_meshes(folder)
-    return folder
 
 
 def test_impact(folder):

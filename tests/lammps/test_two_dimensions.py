@@ -135,12 +135,10 @@ def words(folder, host):
     fact("an outline may be drawn out far past the box", not re.search("ERROR|WARNING", text))
 
 
-@pytest.fixture(scope="module")
-def folder(folder):
+def prepare(folder):
     write_outline(folder / "corner.stl", [(0, 22), (0, 0), (22, 0)], parts=7)
     write_outline(folder / "floor.stl", [(-1.5, 0), (21.5, 0)], parts=46)
     write_outline(folder / "vessel.stl", [(0, 22), (0, 0), (20, 0), (20, 22)], parts=20)
-    return folder
 
 
 BOTH = pytest.mark.parametrize("host", (False, pytest.param(True, marks=lmp.needs_host)))

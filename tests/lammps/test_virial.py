@@ -5,8 +5,6 @@
 
 import math
 
-import pytest
-
 import lmp
 from facts import at_most, fact
 from test_moving import write_plane
@@ -43,10 +41,8 @@ def largest(a, b):
     return max(abs(u - v) for row, other in zip(a, b) for u, v in zip(row[1:], other[1:]))
 
 
-@pytest.fixture(scope="module")
-def folder(folder):
+def prepare(folder):
     write_plane(folder / "plane.stl", 2)
-    return folder
 
 
 def test_on_a_floor(folder):
