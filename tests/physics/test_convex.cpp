@@ -166,8 +166,11 @@ TEST(edge_of_a_body, is_one_contact_however_it_is_cut)
       }
       Answer worst;
       spheres.compute(worst);
-      expect_exact("3", "a ridge cut into " + std::to_string(n) + " and " + std::to_string(m),
-                   worst);
+      const std::string what =
+          "a ridge cut into " + std::to_string(n) + " and " + std::to_string(m);
+      expect_at_most({kTheme, "3", what + ": |F/F0 - n|"}, worst.off, kExact,
+                     "roundings: 16 eps R / d");
+      EXPECT_EQ(worst.most, 1) << what;
     }
 }
 
