@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Nearest contacts against CGAL's AABB tree over the bare triangles, in long double. That there is one contact for each local
-// minimum is in test_properties.
+// Contacts against CGAL's AABB tree over the bare triangles, in long double.
 // Its own program: CGAL takes long to compile. LSDCD_QUICK=1 tries a tenth.
 #include "contact/find_contacts.h"
 #include "grid/triangle_grid.h"
@@ -18,9 +17,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <map>
 #include <memory>
 #include <random>
 
@@ -136,6 +137,208 @@ void expect_same_distance(const Case &c)
   EXPECT_GT(touching, n_points(200000) / 10);
 }
 
+// ---- an independent definition of local minima --------------------------------------
+
+struct WideVec {
+  Wide x, y, z;
+};
+WideVec operator-(const WideVec &a, const WideVec &b)
+{
+  return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
+Wide dot(const WideVec &a, const WideVec &b)
+{
+  return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+WideVec along(const WideVec &a, Wide t, const WideVec &d)
+{
+  return {a.x + t * d.x, a.y + t * d.y, a.z + t * d.z};
+}
+WideVec wide(const Vec3 &a)
+{
+  return {a.x, a.y, a.z};
+}
+Wide length(const WideVec &a)
+{
+  return std::sqrt(dot(a, a));
+}
+
+// The closest point of a triangle: the closest point on its plane where that lies inside,
+// else the nearest to it of the three sides' closest points.
+WideVec closest(const WideVec (&p)[3], const WideVec &q)
+{
+  const WideVec u = p[1] - p[0], v = p[2] - p[0], w = q - p[0];
+  const Wide uu = dot(u, u), uv = dot(u, v), vv = dot(v, v), wu = dot(w, u), wv = dot(w, v);
+  const Wide det = uu * vv - uv * uv, s = (vv * wu - uv * wv) / det, t = (uu * wv - uv * wu) / det;
+  const WideVec closest = along(along(p[0], s, u), t, v);
+  if (s >= 0 && t >= 0 && s + t <= 1) return closest;
+  WideVec best = p[0];
+  Wide least = HUGE_VALL;
+  for (int k = 0; k < 3; k++) {
+    const WideVec e = p[(k + 1) % 3] - p[k];
+    Wide at = dot(q - p[k], e) / dot(e, e);
+    at = at < 0 ? 0 : (at > 1 ? 1 : at);
+    const WideVec x = along(p[k], at, e);
+    if (length(closest - x) < least) {    // in the plane: from q, offsets below 1e-10 are lost
+      least = length(closest - x);
+      best = x;
+    }
+  }
+  return best;
+}
+
+struct Minimum {
+  WideVec closest;
+  int seen;    // in how many of the positions tried
+};
+
+// Faces within the radius by CGAL; the closest point on each. It is a local
+// minimum of the wall if it is the closest point of every face that contains it.
+// Position is only good to the tolerance, so the minima of q are those of its corners,
+// a little way off: sure where every one has it, possible where one has.
+class Minima {
+ public:
+  static constexpr int kCorners = 8;
+
+  explicit Minima(const Case &c) : c_(c)
+  {
+    std::map<std::array<Real, 3>, int> number;
+    for (std::size_t i = 0; i < c.soup.corners.size(); i++) {
+      const Vec3 &p = c.soup.corners[i];
+      const int v = number.insert({{p.x, p.y, p.z}, static_cast<int>(number.size())}).first->second;
+      faces_at_.resize(number.size());
+      faces_at_[v].push_back(i / 3);
+      corner_.push_back(v);
+    }
+  }
+
+  // A hundred times the tolerance, and closest points that far apart for faces of any angle.
+  Real shift() const { return 2e-12 * c_.diagonal; }
+  Real close() const { return 1e-10 * c_.diagonal; }
+
+  // By the faces that hold the closest point.
+  using Map = std::map<std::vector<std::size_t>, Minimum>;
+  Map around(const Vec3 &q, Real radius) const
+  {
+    const Wide r = radius + 1e-6 * c_.diagonal;
+    const Kernel::Iso_cuboid_3 box(q.x - r, q.y - r, q.z - r, q.x + r, q.y + r, q.z + r);
+    std::vector<Primitive::Id> boxed;
+    c_.tree->all_intersected_primitives(box, std::back_inserter(boxed));
+    std::vector<std::size_t> near;
+    for (const auto &id : boxed) {
+      const std::size_t face = id - c_.triangles.begin();
+      if (length(wide(q) - closest_on(face, q)) < r) near.push_back(face);
+    }
+    Map out;
+    for (int k = 0; k < kCorners; k++) {
+      const Real s = shift();
+      add_minima(near, q + Vec3{k & 1 ? s : -s, k & 2 ? s : -s, k & 4 ? s : -s},
+                 radius + (k & 1 ? s : -s), out);
+    }
+    return out;
+  }
+
+ private:
+  void add_minima(const std::vector<std::size_t> &near, const Vec3 &q, Real radius, Map &out) const
+  {
+    std::vector<std::vector<std::size_t>> known;
+    for (std::size_t face : near) {
+      const WideVec closest = closest_on(face, q);
+      if (length(wide(q) - closest) >= radius) continue;
+      std::vector<std::size_t> holding = {face};
+      if (!is_minimum(face, q, closest, holding)) continue;
+      std::sort(holding.begin(), holding.end());
+      if (std::find(known.begin(), known.end(), holding) != known.end()) continue;
+      known.push_back(holding);
+      out.insert({holding, {closest, 0}}).first->second.seen++;
+    }
+  }
+  // Adds the other faces that hold the closest point; false at the first that has another.
+  bool is_minimum(std::size_t face, const Vec3 &q, const WideVec &closest,
+                  std::vector<std::size_t> &holding) const
+  {
+    for (int k = 0; k < 3; k++)
+      for (std::size_t other : faces_at_[corner_[3 * face + k]]) {
+        if (std::find(holding.begin(), holding.end(), other) != holding.end()) continue;
+        if (!on_face(other, closest)) continue;
+        if (length(closest_on(other, q) - closest) > round_off()) return false;
+        holding.push_back(other);
+      }
+    return true;
+  }
+  // Long double leaves 1e-19 of the coordinates, times the aspect ratio.
+  Wide round_off() const { return 1e-15L * c_.diagonal; }
+  bool on_face(std::size_t face, const WideVec &x) const
+  {
+    WideVec p[3];
+    corners(face, p);
+    return length(closest(p, x) - x) <= round_off();
+  }
+  void corners(std::size_t face, WideVec (&p)[3]) const
+  {
+    for (int k = 0; k < 3; k++) p[k] = wide(c_.soup.corners[3 * face + k]);
+  }
+  WideVec closest_on(std::size_t face, const Vec3 &q) const
+  {
+    WideVec p[3];
+    corners(face, p);
+    return closest(p, wide(q));
+  }
+  const Case &c_;
+  std::vector<int> corner_;                           // the point of each corner
+  std::vector<std::vector<std::size_t>> faces_at_;    // those of a point
+};
+
+// Our contacts are the local minima: every sure one is there, nothing is that is
+// not one, and none is there twice.
+void expect_same_minima(const Case &c)
+{
+  const Minima minima(c);
+  const GridView view = c.grid.view();
+  long missing = 0, extra = 0, doubled = 0, unsure = 0, sure = 0;
+  Vec3 where = {0, 0, 0};
+  for_points(n_points(30000), 2, [&](Random &random) {
+    const Vec3 q = c.query(random);
+    const Minima::Map expected = minima.around(q, c.cutoff);
+    ContactSet<kMost> set;
+    find_contacts(view, q, c.cutoff, set);
+    long not_there = 0, not_one = 0, twice = 0, n_sure = 0;
+    const auto closest = [&](int k) { return wide(q - set.distance[k] * set.normal[k]); };
+    for (const auto &m : expected) {
+      if (m.second.seen < Minima::kCorners) continue;
+      n_sure++;
+      int ours = 0, possible = 0;
+      for (int k = 0; k < set.n; k++)
+        ours += length(closest(k) - m.second.closest) <= minima.close();
+      for (const auto &o : expected)
+        possible += length(o.second.closest - m.second.closest) <= 2 * minima.close();
+      not_there += ours == 0;
+      twice += ours > possible;
+    }
+    for (int k = 0; k < set.n; k++) {
+      bool is_one = false;
+      for (const auto &m : expected)
+        is_one = is_one || length(closest(k) - m.second.closest) <= minima.close();
+      not_one += !is_one;
+    }
+#pragma omp critical
+    {
+      missing += not_there;
+      extra += not_one;
+      doubled += twice;
+      sure += n_sure;
+      unsure += static_cast<long>(expected.size()) - n_sure;
+      if (not_there || not_one || twice) where = q;
+    }
+  });
+  std::printf("  %zu triangles: %ld minima, %ld more for a shift of 2e-12\n", c.soup.n_triangles(),
+              sure, unsure);
+  EXPECT_EQ(missing, 0) << where.x << " " << where.y << " " << where.z;
+  EXPECT_EQ(extra, 0) << where.x << " " << where.y << " " << where.z;
+  EXPECT_EQ(doubled, 0) << where.x << " " << where.y << " " << where.z;
+  EXPECT_GT(sure, n_points(30000) / 10);
+}
+
 // ---- made meshes -------------------------------------------------------------------
 
 TriangleSoup cylinder_of(int n_triangles)
@@ -150,6 +353,11 @@ TEST(made, cylinders_have_the_distance_that_cgal_finds)
 {
   for (const int n : {160, 10000, 100000}) expect_same_distance(Case(cylinder_of(n)));
 }
+TEST(made, cylinder_and_box_have_a_contact_per_local_minimum)
+{
+  expect_same_minima(Case(cylinder_of(160), 0.1));
+  expect_same_minima(Case(box_mesh({0, 0, 0}, {1, 2, 3}), 0.3));
+}
 
 // ---- real meshes --------------------------------------------------------------------
 
@@ -158,6 +366,10 @@ class RealMesh : public testing::TestWithParam<const char *> {};
 TEST_P(RealMesh, has_the_distance_that_cgal_finds)
 {
   expect_same_distance(Case(read_real_mesh(GetParam(), LSDCD_UNPACKED)));
+}
+TEST_P(RealMesh, has_a_contact_per_local_minimum)
+{
+  expect_same_minima(Case(read_real_mesh(GetParam(), LSDCD_UNPACKED), 0.02));
 }
 INSTANTIATE_TEST_SUITE_P(real, RealMesh, testing::Values("lion", "elephant", "fandisk"));
 
