@@ -13,6 +13,7 @@ Where a host is wrong, the test says so by name: see host_defects().
 
 import math
 import random as random_numbers
+
 import pytest
 
 import lmp

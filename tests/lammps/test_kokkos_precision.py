@@ -16,6 +16,7 @@ import random
 import re
 import struct
 import subprocess
+
 import pytest
 
 import lmp

@@ -15,6 +15,7 @@ Where LAMMPS is wrong the test says so: see host_defects().
 """
 
 import math
+
 import pytest
 
 import lmp

@@ -8,6 +8,7 @@ The hosts are those of hosts/build_host.sh. One that is not there is named; with
 
 import os
 import pathlib
+
 import pytest
 
 import lmp

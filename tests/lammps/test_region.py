@@ -10,6 +10,7 @@ usage: test_region.py [host]: under the LAMMPS of hosts/build_host.sh
 """
 
 import math
+
 import lmp
 import stl
 from facts import fact
