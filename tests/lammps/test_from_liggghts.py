@@ -832,6 +832,13 @@ fix cad all mesh/surface/stress file FILE type 1 WORDS
 fix w all wall/gran model MODEL mesh n_meshes 1 meshes cad
 variable vx equal vx[1]
 """
+ARM = "variable arm equal f_cad[5]/f_cad[3]\nthermo_style custom step f_cad[3] f_cad[5]\n"
+
+
+def slide(speed=0, file="flat.stl", words=""):
+    return SLIDE.replace("SPEED", str(speed)).replace("FILE", file).replace("WORDS", words)
+
+
 POUR = """\
 fix cad all mesh/surface file flat.stl type 1 move 0 0 -0.09
 fix w all wall/gran model MODEL mesh n_meshes 1 meshes cad
@@ -849,8 +856,7 @@ IN_0_1 = [(0.004, 0.096)] * 6
 # name: model, script after BOX, what is printed as "NAME numbers", bounds of each number.
 PHYSICS = {
     # Nothing acts along the floor.
-    **{f"slide_{model}": (model, SLIDE.replace("SPEED", "0.5").replace("FILE", "flat.stl").replace("WORDS", "") + "run 2000\n", "${vx}",
-                          [(0.5, 0.5)]) for model in ("hooke", "hertz")},
+    **{f"slide_{model}": (model, slide(0.5) + "run 2000\n", "${vx}", [(0.5, 0.5)]) for model in ("hooke", "hertz")},
     # A contact of the grains of the mesh's group only, and of all where the wall alone has a group.
     "groups": (HERTZ, "".join(f"create_atoms 1 single {x} 0 0.0105 units box\n" for x in (0, 0.1, 0.2)) + "set group all density 2500\n"
                "set group all diameter 0.02\ngroup a id 1\ngroup b id 2\nvelocity all set 0 0 -1 units box\n"
@@ -861,17 +867,14 @@ PHYSICS = {
                "fix a all adapt 1 atom diameter v_d\nvariable m equal mass(all)\nrun 100\n", "${m}", [(3.375 * MASS - 1e-8, 3.375 * MASS + 1e-8)]),
     # Sliding, then rolling: 2/7 of the belt's speed, which is 0.2 on the slope. The lever is shorter by the overlap, at
     # most 1 % of the radius, which changes 2/7 by less than 2 %.
-    "belt": (HERTZ, SLIDE.replace("SPEED", "0").replace("FILE", "slope.stl").replace("vector 0 0 -1", "vector 1 0 -1").replace(
-        "0 0 0.0099", "-0.0070004 0 0.0070004").replace("WORDS", "surface_vel 0.2 0 0") +
+    "belt": (HERTZ, slide(0, "slope.stl", "surface_vel 0.2 0 0").replace("vector 0 0 -1", "vector 1 0 -1").replace(
+        "0 0 0.0099", "-0.0070004 0 0.0070004") +
         "variable v equal sqrt(vx[1]^2+vz[1]^2)\nrun 4000\n", "${v}", [(0.98 * 0.4 / 7, 1.02 * 0.4 / 7)]),
     # No friction: the grain stays where it is, and after 2000 steps the point of the torque is 0.002 m from it.
-    "torque": ("hertz", SLIDE.replace("SPEED", "0").replace("FILE", "flat.stl").replace("WORDS", "") +
-               "fix t all move/mesh mesh cad linear 0.1 0 0\nvariable arm equal f_cad[5]/f_cad[3]\n"
-               "thermo_style custom step f_cad[3] f_cad[5]\nrun 2000\n", "${arm}", [(0.002 - 1e-6, 0.002 + 1e-6)]),
+    "torque": ("hertz", slide() + MOVE.format("linear 0.1 0 0") + ARM + "run 2000\n", "${arm}", [(0.002 - 1e-6, 0.002 + 1e-6)]),
     # No friction: the force is along the normal of a floor that tilts about y. A sum of speeds at the ends of 2000 steps, as
     # LIGGGHTS has it, is off by half a step of them: by 5e-4 of the angle at most.
-    **{f"tilt_by_{name}": ("hertz", SLIDE.replace("SPEED", "0").replace("FILE", "flat.stl").replace("WORDS", "") +
-                           f"variable w equal 400*step*dt\nfix t all move/mesh mesh cad {motion}\nvariable tilt equal f_cad[1]/f_cad[3]\n"
+    **{f"tilt_by_{name}": ("hertz", slide() + "variable w equal 400*step*dt\n" + MOVE.format(motion) + "variable tilt equal f_cad[1]/f_cad[3]\n"
                            "thermo_style custom step f_cad[1] f_cad[3]\nrun 2000\n", "${tilt}",
                            [(0.999 * math.tan(angle), 1.001 * math.tan(angle))])
        for name, motion, angle in (
@@ -879,24 +882,18 @@ PHYSICS = {
            ("rotate_variable", "rotate/variable origin 0 0 0 axis 0 1 0 omega v_w", 200 * 0.02**2),
            ("vibrot", "vibrot origin 0 0 0 axis 0 1 0 order 2 amplitude 0.1 0.05 phase -1.5707963268 1 period 0.08 0.04", 0.1 * WAVES))},
     # As torque, at a speed of 10 t.
-    "way": ("hertz", SLIDE.replace("SPEED", "0").replace("FILE", "flat.stl").replace("WORDS", "") +
-            "variable v equal 10*step*dt\nvariable o equal 0\nfix t all move/mesh mesh cad linear/variable v_v v_o v_o\n"
-            "variable arm equal f_cad[5]/f_cad[3]\nthermo_style custom step f_cad[3] f_cad[5]\nrun 2000\n", "${arm}",
-            [(0.002 - 2e-6, 0.002 + 2e-6)]),
-    "waves": ("hertz", SLIDE.replace("SPEED", "0").replace("FILE", "flat.stl").replace("WORDS", "") +
-              "fix t all move/mesh mesh cad viblin axis 1 0 0 order 2 amplitude 0.001 0.0005 phase -1.5707963268 1 period 0.08 0.04\n"
-              "variable arm equal f_cad[5]/f_cad[3]\nthermo_style custom step f_cad[3] f_cad[5]\nrun 2000\n", "${arm}",
-              [(0.001 * WAVES - 1e-6, 0.001 * WAVES + 1e-6)]),
+    "way": ("hertz", slide() + "variable v equal 10*step*dt\nvariable o equal 0\n" + MOVE.format("linear/variable v_v v_o v_o") + ARM + "run 2000\n",
+            "${arm}", [(0.002 - 2e-6, 0.002 + 2e-6)]),
+    "waves": ("hertz", slide() + MOVE.format("viblin axis 1 0 0 order 2 amplitude 0.001 0.0005 phase -1.5707963268 1 period 0.08 0.04") + ARM +
+              "run 2000\n", "${arm}", [(0.001 * WAVES - 1e-6, 0.001 * WAVES + 1e-6)]),
     # A script is a program. 0.1 for 500 steps: of a motion that takes the place of another one, by variables that are others at the wall;
     # -0.05 for 500 steps, which takes its place; then a new wall, which has the mesh and the point of its torque where they are, and 0.1,
     # 0.2 and 0.3 for 200 steps each in a loop.
-    "program": ("hertz", "variable h equal 0\nvariable p equal 0.1\n" + SLIDE.replace("SPEED", "0").replace("FILE", "flat.stl").replace(
-        "WORDS", "move 0 0 ${h}").replace("fix w ", "fix t all move/mesh mesh cad linear 0.3 0 0\nfix t all move/mesh mesh cad linear ${p} 0 0\n"
-                                          "variable h equal -0.05\nvariable p equal 0.7\nfix w ") +
-        "variable arm equal f_cad[5]/f_cad[3]\nthermo_style custom step f_cad[3] f_cad[5]\nrun 500\nvariable a string ${arm}\n"
-        "fix t all move/mesh mesh cad linear -0.05 0 0\nrun 500\nvariable b string ${arm}\nunfix t\nunfix w\n"
-        "fix w all wall/gran model MODEL mesh n_meshes 1 meshes cad\nlabel l\nvariable i loop 3\nvariable v equal 0.1*${i}\n"
-        "fix t all move/mesh mesh cad linear ${v} 0 0\nrun 200\nunfix t\nnext i\njump in.there l\nrun 1\n", "${a} ${b} ${arm}",
+    "program": ("hertz", "variable h equal 0\nvariable p equal 0.1\n" + slide(words="move 0 0 ${h}").replace(
+        "fix w ", MOVE.format("linear 0.3 0 0") + MOVE.format("linear ${p} 0 0") + "variable h equal -0.05\nvariable p equal 0.7\nfix w ") +
+        ARM + "run 500\nvariable a string ${arm}\n" + MOVE.format("linear -0.05 0 0") + "run 500\nvariable b string ${arm}\nunfix t\nunfix w\n"
+        "fix w all wall/gran model MODEL mesh n_meshes 1 meshes cad\nlabel l\nvariable i loop 3\nvariable v equal 0.1*${i}\n" +
+        MOVE.format("linear ${v} 0 0") + "run 200\nunfix t\nnext i\njump in.there l\nrun 1\n", "${a} ${b} ${arm}",
         [(0.0005 - 1e-6, 0.0005 + 1e-6), (0.00025 - 1e-6, 0.00025 + 1e-6), (0.00145 - 1e-6, 0.00145 + 1e-6)]),
     # 50000 a second for 400 steps.
     "unfix": (HERTZ, POUR + EDGES + "variable n equal atoms\nregion box1 block 0 0.2 0 0.2 0 0.2 units box\nfix ins all insert/rate/region "
