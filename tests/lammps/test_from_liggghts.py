@@ -16,6 +16,7 @@ import types
 import pytest
 
 import lmp
+import stl
 from facts import at_most, fact
 
 EXAMPLE = lmp.HERE.parent.parent / "examples" / "from-liggghts"
@@ -606,7 +607,7 @@ def test_several_materials(folder):
 
 def test_ids(folder):
     """A name is no keyword: what is written does not hang on it."""
-    write_stl(folder / "flat.stl", FLAT)
+    stl.write(folder / "flat.stl", FLAT)
     text = (ONE + "fix cad all mesh/surface/stress file flat.stl type 1\nfix out all mesh/surface file flat.stl type 1\n" +
             "fix w all wall/gran model hertz tangential no_history mesh n_meshes 1 meshes cad\n"
             "fix t all move/mesh mesh cad linear 1 0 0\nfix flow all massflow/mesh mesh out count multiple vec_side 0 0 1\n"
@@ -627,8 +628,8 @@ def test_ids(folder):
 def test_winding(folder):
     """A mesh that counts is wound along vec_side, against it, or both ways."""
     text = "fix out all mesh/surface file {}.stl type 1\nfix flow all massflow/mesh mesh out vec_side 0 0 {}\nvariable n equal f_flow[{}]\n"
-    write_stl(folder / "flat.stl", FLAT)
-    write_stl(folder / "mixed.stl", [FLAT[0], FLAT[1][::-1]])
+    stl.write(folder / "flat.stl", FLAT)
+    stl.write(folder / "mixed.stl", [FLAT[0], FLAT[1][::-1]])
     for side, number, rate in ((1, 1, "f_flow[6]"), (-1, 3, "(-f_flow[6])")):
         fact(f"vec_side {side}", f"n equal f_flow[{number}]" in convert(folder, text.format("flat", side, 2))[1])
         fact(f"the rate, vec_side {side}", f"n equal {rate}" in convert(folder, text.format("flat", side, 3))[1])
@@ -641,10 +642,10 @@ def test_surfaces(folder):
     up = [[(x, y, x) for x, y, _ in t] for t in FLAT]
     for name, triangles, expected in (("level", FLAT, "surface_vel 2 0 0"), ("slope", up, "surface_vel 1.414213562 0 1.414213562"),
                                       ("roof", FLAT + up, None)):
-        write_stl(folder / "a.stl", triangles)
+        stl.write(folder / "a.stl", triangles)
         _, out = convert(folder, MATERIAL + MESH.format("surface_vel 2 0 0") + WALL)
         fact(f"surface_vel on a {name}", (expected or "# LEFT in.there:5: surface_vel on triangles of several slopes") in out)
-    write_stl(folder / "a.stl", up)
+    stl.write(folder / "a.stl", up)
     _, out = convert(folder, MATERIAL + MESH.format("surface_ang_vel origin 0 0 0 axis 0 0 1 omega 5") + WALL)
     fact("surface_ang_vel on a slope is left", "# LEFT in.there:5: surface_ang_vel on triangles that are inclined" in out)
     (folder / "a.stl").unlink()
@@ -766,7 +767,7 @@ def test_whole_scripts(folder):
         "^# LEFT in.there:11: outputs of cad that lines above take from another wall.*\nfix  .*&\n +mesh a.stl &\n +mesh b.stl$", out, re.M), out)
     flat = "fix out all mesh/surface file flat.stl type 1\n"
     flow = "fix flow all massflow/mesh mesh out vec_side 0 0 {}\n"
-    write_stl(folder / "flat.stl", FLAT)
+    stl.write(folder / "flat.stl", FLAT)
     _, out = convert(folder, flat + flow.format(1) + "thermo_style custom step f_flow[2]\nunfix flow\n" + flow.format(-1) + "unfix flow\nunfix out\n" +
                      MESH.replace("cad", "flow").format("") + "fix w all wall/gran model hertz mesh n_meshes 1 meshes flow\n" + MATERIAL)
     fact("outputs of a mass flow that counts the other way are left", "\n# LEFT in.there:5: outputs of flow that lines above take" in out and
@@ -776,7 +777,7 @@ def test_whole_scripts(folder):
     for more, left in (("", False), ("timestep 1e-4\nrun 1\n", False), ("run 1\ntimestep 1e-4\nrun 1\n", True)):
         _, out = convert(folder, MATERIAL + MESH.format("") + WALL + waves + more)
         fact(f"waves before {' '.join(more.split())}", ("LEFT in.there:7: a motion by waves where the timestep changes" in out) == left, out)
-    write_stl(folder / "a.stl", [[(0, 2, 3), (2, 2, 3), (1, 3, 3)]])
+    stl.write(folder / "a.stl", [[(0, 2, 3), (2, 2, 3), (1, 3, 3)]])
     for radius, noted in ((0.01, True), (1, False)):
         _, out = convert(folder, MATERIAL + f"set group all diameter {2 * radius} density 2500\n" + BALANCED.replace("move 1 2 3 ", "").format("") + WALL)
         # The corners are a distance of 1 from the centre, and the least moment is 3.
@@ -936,14 +937,9 @@ PHYSICS = {
 }
 
 
-def write_stl(path, triangles):
-    path.write_text("solid a\n" + "".join("facet normal 0 0 0\nouter loop\n" + "".join("vertex %r %r %r\n" % p for p in t) +
-                                          "endloop\nendfacet\n" for t in triangles) + "endsolid a\n")
-
-
 def physics(folder, there=False):
-    write_stl(folder / "flat.stl", FLAT)
-    write_stl(folder / "slope.stl", [[(x, y, x) for x, y, _ in t] for t in FLAT])
+    stl.write(folder / "flat.stl", FLAT)
+    stl.write(folder / "slope.stl", [[(x, y, x) for x, y, _ in t] for t in FLAT])
     for name, (model, text, shown, bounds) in PHYSICS.items():
         if there and "6dof" in text:
             continue
