@@ -2,8 +2,9 @@
 # SPDX-FileCopyrightText: 2026 LSDCD contributors
 # SPDX-License-Identifier: BSD-3-Clause
 
-"""The machine code of CUDA kernels is no larger than it was, and their stacks are no larger than what a driver gives
-each program anyhow: read from the compiled files, without a GPU or tools of CUDA's.
+"""The machine code of CUDA kernels is no larger than it was and needs no more registers, of which a processor has 65 536 for all
+threads that it runs at once. Stacks are no larger than what a driver gives each program anyhow. All is read from the compiled files,
+without a GPU or tools of CUDA's.
 
 usage: test_kernel_sizes.py FILE ... [--keep], with LSDCD_COMPILER set. FILE: a library or objects
 
@@ -23,7 +24,9 @@ ROOM = 0.10
 SMALLEST = 8192    # bytes
 EM_CUDA = 190
 SYMBOLS = 2    # the type of a section
-MIN_STACK_SIZE = 0x0412    # in .nv.info: a format, of which 4 has a length, and an attribute
+# In .nv.info: a format, of which 4 has a length, and an attribute.
+MIN_STACK_SIZE = 0x0412
+REGISTERS = 0x042f
 WITH_NODES = "ELb1ELb1ELb1EEE"    # in a name: the wall moves, has records, and its nodes move
 MOST_STACK = 1024    # bytes a thread; a driver sets more aside for every thread that a GPU can hold
 
@@ -55,8 +58,8 @@ def code_sections(data):
                 yield name[len(".text."):], len(sections[k][2])
 
 
-def stacks(data):
-    """Name and bytes of the stack of each kernel."""
+def attributes(data, wanted):
+    """Name and value of an attribute of each kernel."""
     for sections, named in images(data):
         info = sections[named[".nv.info"]][2] if ".nv.info" in named else b""
         _, link, symbols = next(s for s in sections if s[0] == SYMBOLS)
@@ -66,9 +69,9 @@ def stacks(data):
             if kind >> 8 != 4:    # the value is in place of the length
                 at += 4
                 continue
-            if kind == MIN_STACK_SIZE:
-                symbol, size = struct.unpack_from("<II", info, at + 4)
-                yield text_at(sections[link][2], struct.unpack_from("<I", symbols, 24 * symbol)[0]), size
+            if kind == wanted:
+                symbol, value = struct.unpack_from("<II", info, at + 4)
+                yield text_at(sections[link][2], struct.unpack_from("<I", symbols, 24 * symbol)[0]), value
             at += 4 + length
 
 
@@ -84,6 +87,7 @@ files = [a for a in sys.argv[1:] if not a.startswith("--")]
 kernels = [k for f in files for k in code_sections(pathlib.Path(f).read_bytes())]
 if not kernels:
     raise SystemExit(f"FAIL no kernel in {', '.join(files) or 'no file'}")
+registers = {name: n for f in files for name, n in attributes(pathlib.Path(f).read_bytes(), REGISTERS)}
 full = subprocess.run(["c++filt"], input="\n".join(name for name, _ in kernels),
                       stdout=subprocess.PIPE, text=True, check=True).stdout.splitlines()
 found = {}
@@ -91,11 +95,12 @@ for name, (mangled, size) in zip(full, kernels):
     if "lsdcd::" in name and "cub::" not in name and size >= SMALLEST:
         case = case_of(name) + (" at nodes that move" if WITH_NODES in mangled else "")
         found[case] = max(size, found.get(case, 0))
-of_steps = [(size, name) for f in files for name, size in stacks(pathlib.Path(f).read_bytes())
+        found[case + ", registers"] = max(registers[mangled], found.get(case + ", registers", 0))
+of_steps = [(size, name) for f in files for name, size in attributes(pathlib.Path(f).read_bytes(), MIN_STACK_SIZE)
             if "StepPart" in name and WITH_NODES not in name]
 size, name = max(of_steps, default=(0, ""))
 print(f"{len(of_steps)} kernels of a step: stacks of {size} bytes at most, of {MOST_STACK}")
 if size > MOST_STACK:
     raise SystemExit(f"FAIL {name} asks for a stack of {size} bytes")
 sys.exit(kept_numbers.compare(pathlib.Path(__file__).with_name("kernel_sizes.csv"),
-                              os.environ["LSDCD_COMPILER"], found, ROOM, "bytes") > 0)
+                              os.environ["LSDCD_COMPILER"], found, ROOM, "bytes or registers") > 0)
