@@ -153,6 +153,11 @@ bool ApiGrid::sides_by_normals() const
   });
 }
 
+bool ApiGrid::host_sides_by_normals() const
+{
+  return !uses_tree() && !settings_.in_floats && cells().sides_by_normals;
+}
+
 std::size_t ApiGrid::bytes() const
 {
   const ApiCells *cells = cells_.made();

@@ -146,7 +146,8 @@ typedef struct lsdcd_grid lsdcd_grid;
  * `nearest` and contacts. lsdcd_grid_build() makes them where an option from `cell` to `cache`, or `device`, is
  * set; else the first stream or call for contacts does. */
 
-/* Distances of a grid with precision LSDCD_FLOAT are off by at most 3e-6 (cutoff + 14 cell). */
+/* Distances of a grid with precision LSDCD_FLOAT are off by at most 3e-6 (cutoff + 14 cell); on a device sides may be those of the
+ * other face where the mesh is thinner. */
 enum { LSDCD_DOUBLE = 0, LSDCD_FLOAT = 1 };
 enum { LSDCD_CPU = 0, LSDCD_CUDA = 1 };
 /* Of a wall: LSDCD_CUDA in steps with so many spheres near it that a GPU is quicker, and where there is one; else LSDCD_CPU. */
@@ -225,7 +226,7 @@ typedef struct lsdcd_query {
                          area */
   uint32_t *feature;
   int8_t *side; /* 1 outside, and on the mesh; -1 inside; at any distance, but 0 where a coordinate
-                   is no number. On a device 0 also where not found or not certified, and where an
+                   is no number. On a device see LSDCD_FLOAT, and 0 also where not found or not certified, and where an
                    edge or corner of triangles without area is nearest */
   uint8_t *status;
   /* On the host, of any mesh: how often it winds round the point, the solid angle under which it is seen over

@@ -36,7 +36,7 @@ struct ApiCells {
   NodeMemory memory;    // of the flat grid
   CpuGrid grid;
   bool from_cache = false;
-  bool sides_by_normals = false;    // also on a device
+  bool sides_by_normals = false;
   std::string report;
 };
 
@@ -50,7 +50,6 @@ class ApiGrid {
   // HUGE_VAL where there is none.
   Real cutoff() const;
   int nearest() const { return int(settings_.list_kind.most()); }
-  bool is_in_floats() const { return settings_.in_floats; }
   bool uses_tree() const { return settings_.list_kind.is_complete() && !settings_.in_floats; }
 
   const TriangleTree &tree(const ProgressListener &progress = {}) const;
@@ -60,6 +59,9 @@ class ApiGrid {
   const ApiCells *cells_made() const { return cells_.made(); }
   // Can a device give sides?
   bool sides_by_normals() const;
+  // Do normals give sides on the host? Otherwise winding numbers do: with a tree, and in float, where the nearest feature may be
+  // of the other face of a thin plate.
+  bool host_sides_by_normals() const;
   std::size_t bytes() const;    // of what is made
 
   std::shared_ptr<const ApiMesh> mesh;

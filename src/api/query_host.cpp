@@ -108,10 +108,8 @@ void query_part(const ApiGrid &grid, const lsdcd_query &q)
   } else if (grid.uses_tree()) {
     query_with_sides(grid.tree(), grid.near(), grid.mesh->sides, grid.cutoff(), io);
   } else {
-    const ApiCells &cells = grid.cells();
-    // In float the nearest feature may be of the other face of a thin plate.
-    const bool by_normals = cells.sides_by_normals && !grid.is_in_floats();
-    query_with_sides(cells.grid, grid.names, grid.mesh->sides, by_normals, io);
+    query_with_sides(grid.cells().grid, grid.names, grid.mesh->sides, grid.host_sides_by_normals(),
+                     io);
   }
   if (q.winding || estimates)
     estimate_sides(grid.mesh->sides, io.n, io.points,
@@ -131,7 +129,7 @@ void query_in_parts(const ApiGrid &grid, const lsdcd_query &q)
   // These are made before the points, as no part of a point is reported while they are made.
   const bool estimates = needs_estimate(grid, q);
   if (q.progress && (q.winding || estimates)) grid.mesh->sides.generalized(progress.listener());
-  if (q.progress && (q.side || q.signed_distance) && !estimates && grid.uses_tree())
+  if (q.progress && (q.side || q.signed_distance) && !estimates && !grid.host_sides_by_normals())
     grid.mesh->sides.winding(progress.listener());
   progress.in_parts("points", q.n, [&](std::size_t from, std::size_t n) {
     query_part<T>(grid, part_of<T>(q, from, n));

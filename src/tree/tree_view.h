@@ -198,7 +198,7 @@ struct TreeView {
 
   // Returns on which side of the mesh q is, which must be closed and oriented and must not meet itself: 1 outside
   // and on it, -1 inside; 0 where an edge or a corner of no face is nearest. `point`, `normal`: of closest(). Outside
-  // of the box it does not ask the feature that was found: from far away others are as near, up to rounding.
+  // of the box all that counts of the feature is that it has a face: from far away others are as near, up to rounding.
   LSDCD_FN std::int8_t side(const TreeAnswer &answer, const Vec3 &q, const Vec3 &point,
                             const Vec3 &normal) const
   {

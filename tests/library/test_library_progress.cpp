@@ -226,6 +226,23 @@ TEST(progress, first_sides_are_cancelled_and_then_made)
   }
 }
 
+// Winding numbers tell sides of a grid in float, too. What they need takes no part of the points.
+TEST(progress, first_sides_in_float_are_told)
+{
+  lsdcd::GridOptions options(20);
+  options.precision = LSDCD_FLOAT;
+  const lsdcd::Grid grid(box(), options);
+  const std::vector<double> points = {0, 0, 0.3, 9, 9, 9};
+  std::int8_t side[2] = {0, 0};
+  lsdcd::Query<double> q(points.data(), 2);
+  q.side = side;
+  Told first, second;
+  grid.query(q, first.listener());
+  grid.query(q, second.listener());
+  EXPECT_EQ(second.what(), std::set<std::string>{"points"});
+  EXPECT_GT(first.what().size(), 1u);
+}
+
 TEST(progress, an_error_of_a_later_part_has_the_number_of_its_point)
 {
   const lsdcd::Grid grid(box(), 0.3);

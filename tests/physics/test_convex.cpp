@@ -95,7 +95,7 @@ class Overlapping {
 
 void expect_exact(const char *id, const std::string &what, const Answer &a)
 {
-  expect_at_most({kTheme, id, what + ": |F/F0 - n|"}, a.off, kExact, "roundings: 16 eps R / d");
+  expect_at_most({kTheme, id, what + ": |F - k d n|/F0"}, a.off, kExact, "roundings: 16 eps R / d");
   expect_answer({kTheme, id, what + ": most contacts"}, 1, a.most, 0, "one local minimum");
 }
 
@@ -168,7 +168,7 @@ TEST(edge_of_a_body, is_one_contact_however_it_is_cut)
       spheres.compute(worst);
       const std::string what =
           "a ridge cut into " + std::to_string(n) + " and " + std::to_string(m);
-      expect_at_most({kTheme, "3", what + ": |F/F0 - n|"}, worst.off, kExact,
+      expect_at_most({kTheme, "3", what + ": |F - k d n|/F0"}, worst.off, kExact,
                      "roundings: 16 eps R / d");
       EXPECT_EQ(worst.most, 1) << what;
     }
