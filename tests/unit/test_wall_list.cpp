@@ -440,5 +440,46 @@ TEST(wall_list, of_a_sphere_that_comes_in_from_outside_of_the_grid_is_made_in_ti
   EXPECT_GT(touching, 3);
 }
 
+// Contacts are taken in the order of their numbers, so that forces and springs do not tell when a
+// list was made. In a dense soup some spheres have no list and ask their cells.
+TEST(wall_list, that_is_kept_on_a_walk_gives_the_bits_of_choosing_in_each_step)
+{
+  constexpr int kSteps = 200, kSpheres = 40;
+  const Real cutoff = 0.5, step = 0.3 * kSkinFraction * cutoff;
+  const Wall wall(random_soup(2000, 3), cutoff);
+  EngineSettings s;
+  s.law() = classic(NormalModel::hertz, true);
+  Bed kept(wall, s), anew(wall, s);
+  Numbers r(8);
+  const std::vector<VertexRecord> &vertices = wall.grid.wall.vertices;
+  for (int i = 0; i < kSpheres; i++) {
+    const Vec3 at = vertices[r.next() % vertices.size()].position;
+    const Vec3 q = at + r.in(0.5, 0.9) * cutoff * r.direction();
+    const Real radius = cutoff * r.in(0.8, 1);
+    kept.add(q, radius);
+    anew.add(q, radius);
+  }
+  kept.choose(kSteps * step);    // no walk goes farther
+  std::int64_t contacts = 0, lists = 0, by_cells = 0;
+  int differ = 0;
+  for (int k = 0; k < kSteps; k++) {
+    for (int i = 0; i < kSpheres; i++) kept.put(i, kept.centre(i) + step * r.direction());
+    anew.x = kept.x;
+    kept.step();
+    anew.choose(0);
+    anew.step();
+    contacts += kept.engine->results().totals().contacts;
+    const StepDiagnostics seen = kept.engine->read_diagnostics();
+    lists += seen.lists;
+    by_cells += seen.by_cells;
+    differ += !same_bytes(kept.force, anew.force) || !same_bytes(kept.torque, anew.torque);
+  }
+  EXPECT_EQ(differ, 0);
+  EXPECT_TRUE(same_bytes(kept.springs(), anew.springs()));
+  EXPECT_GT(contacts, kSteps * kSpheres / 2);
+  EXPECT_GT(by_cells, kSteps * kSpheres / 20);
+  EXPECT_LT(lists - by_cells, kSteps * kSpheres / 4);    // the others are kept
+}
+
 }    // namespace
 }    // namespace lsdcd::test_wall_list
