@@ -78,7 +78,10 @@ TEST(settings, choices_and_values_are_read)
 {
   EXPECT_EQ(with("grid auto").grid_length, 0);    // chosen by the grid
   EXPECT_EQ(with("rmax auto").rmax, 0);
+  EXPECT_EQ(with("").memory_budget, GridSettings().memory_budget);
   EXPECT_EQ(with("memory 2").memory_budget, std::size_t(2) * 1024 * 1024);
+  EXPECT_TRUE(!with("").contacts && with("contacts").contacts);
+  EXPECT_TRUE(!with("").periodic && with("periodic").periodic);
   EXPECT_EQ(with("").corner, Corner::blend);
   EXPECT_EQ(with("corner sum").corner, Corner::sum);
   EXPECT_EQ(with("").side, Side::both);
@@ -606,6 +609,12 @@ TEST(settings, granular_reads_every_normal_sub_model)
   EXPECT_EQ(law_of("dmt 7e4 3 0.3 2" + kSlip).normal, NormalModel::dmt);
   EXPECT_EQ(law_of("jkr 7e4 3 0.3 2" + kSlip).normal, NormalModel::jkr);
   EXPECT_EQ(law_of("jkr 7e4 3 0.3 2" + kSlip).surface_energy, 2);
+}
+
+TEST(settings, granular_none_turns_nothing_on)
+{
+  const ContactLaw g = law_of("hooke 1e5 3" + kSlip + " rolling none twisting none heat none");
+  EXPECT_FALSE(g.rolling.is_on() || g.twisting.is_on() || g.has_heat() || g.has_history());
 }
 
 TEST(settings, granular_takes_the_modulus_of_a_sphere_and_a_wall_of_one_material)
