@@ -169,6 +169,9 @@ TEST(transfer_of, is_the_whole_spring_where_a_contact_goes_on_and_its_cosine_whe
     const Vec3 h = transferred_shear(cube.view, set, row.i, row.springs), n = set.normal[row.i];
     EXPECT_NEAR(norm(h), row.share * norm(kShear), 1e-16) << row.what;
     EXPECT_NEAR(h.y, row.share * kShear.y, 1e-17) << row.what;    // no normal leans in y
+    if (row.share == 0) {
+      EXPECT_EQ(h, (Vec3{0, 0, 0})) << row.what;
+    }
     if (row.springs.size() == 1) {
       EXPECT_NEAR(dot(h, n), 0, 1e-17) << row.what;
     }
