@@ -323,7 +323,8 @@ TEST(sizes, of_facets_from_1e_6_to_1e6_radii_are_exact)
     }
     char what[60];
     std::snprintf(what, sizeof what, "facets of %g R", size);
-    // A length of its own would fill the budget: 4e12 R^2 of faces, for a minute.
+    // The cell that the grid chooses by itself would fill the memory budget and take a minute,
+    // because the faces have 4e12 R^2.
     expect_exact("5", what, soup, radius, 300, 1, size < 1 ? 0 : 1e4);
   }
 }
