@@ -880,15 +880,25 @@ TEST(contacts, are_on_the_mesh_and_the_nearest_is_among_them)
   expect_places<float>(1e-6);
 }
 
-// Of two walls at 60 degrees that are overlapped alike each bears its overlap over 1 + cover, which is the cosine less 1e-6.
+// Two walls whose normals have the cosine c = 0.5, with the overlaps d = 0.05 and 0.04: l = weight d is what makes l + c l' = d of
+// either wall, so that l = (d - c d')/(1 - c^2). The rule has c less up to 1e-6, which changes a weight by less than 2e-6.
 TEST(contacts, have_weights_that_share_the_overlap)
 {
+  constexpr double kRadius = 0.3, kOnFlat = 0.05, kOnSlope = 0.04, kCosine = 0.5;
   const lsdcd::Grid grid(lsdcd::Mesh(numbers(lsdcd::hinge_mesh(60, 2))), kCutoff);
-  const double up = 0.25, aside = -up * std::tan(std::acos(-1.) / 6);
+  // The slope is at the distance z cos 60 - x sin 60.
+  const double z = kRadius - kOnFlat, sine = std::sqrt(1 - kCosine * kCosine),
+               x = (kCosine * z - (kRadius - kOnSlope)) / sine;
   const lsdcd::Contacts<double> a =
-      grid.contacts(std::vector<double>{aside, 0.1, up}, std::vector<double>{0.3});
+      grid.contacts(std::vector<double>{x, 0.1, z}, std::vector<double>{kRadius});
   ASSERT_EQ(a.weight.size(), 2u);
-  for (const double w : a.weight) EXPECT_NEAR(w, 1 / 1.5, 1e-6);
+  ASSERT_GT(std::abs(a.normal[2] - a.normal[5]), 0.4);
+  for (int k = 0; k < 2; k++) {
+    const bool flat = a.normal[3 * k + 2] > 0.75;
+    const double own = flat ? kOnFlat : kOnSlope, other = flat ? kOnSlope : kOnFlat;
+    EXPECT_NEAR(a.overlap[k], own, 1e-15);
+    EXPECT_NEAR(a.weight[k], (1 - kCosine * other / own) / (1 - kCosine * kCosine), 2e-6) << k;
+  }
 }
 
 TEST(contacts, in_a_cubes_corner_are_its_three_faces_with_all_their_weight)
