@@ -536,6 +536,18 @@ def test_wall_specs():
     fact("force and torque are those of the spheres reversed", np.allclose(total.force, -force[:2].sum(axis=0), rtol=0, atol=1e-10) and
          np.allclose(total.torque, -torque, rtol=0, atol=1e-9), (total, torque))
     fact("it stays there, with its velocities", np.allclose(forces(posed, 1)[:2, 2], wanted, rtol=0, atol=1e-10))
+    # The plane in two meshes that meet at x = 1, with a sphere on each.
+    parts = [lsdcd.Mesh(np.clip(square, (lo, -5, 0), (hi, 5, 0)), [[0, 1, 2], [0, 2, 3]]) for lo, hi in ((-5, 1), (1, 5))]
+    split = lsdcd.Wall(lsdcd.WallSpec(hooke, [lsdcd.WallMesh(part) for part in parts]))
+    force = forces(split, 1)
+    torque = np.cross(x - about, force[:2]) + force[2:]
+    of_each, of_all = [split.totals(k, about=about) for k in (0, 1)], split.totals(about=about)
+    fact("force and torque of one mesh are those of its sphere", all(
+        t.contacts == 1 and np.allclose(t.force, -force[k], rtol=0, atol=1e-10) and np.allclose(t.torque, -torque[k], rtol=0, atol=1e-9)
+        for k, t in enumerate(of_each)), (of_each, torque))
+    fact("those of all are the sums", of_all.contacts == 2 and
+         np.allclose(of_all.force, of_each[0].force + of_each[1].force, rtol=0, atol=1e-10) and
+         np.allclose(of_all.torque, of_each[0].torque + of_each[1].torque, rtol=0, atol=1e-9), (of_all, of_each))
 
     lifted = lsdcd.Wall(lsdcd.WallSpec(hooke, [lsdcd.WallMesh(mesh, "sheet", nodes_by_caller=True)]))
     nodes = lifted.nodes(0)
