@@ -67,6 +67,20 @@ WallSpec flap_over_floor()
   return wall_of({mesh_of("floor", floor_mesh(6, 2)), flap});
 }
 
+// A plate that grains press down against a spring; it slides along a slope.
+WallSpec plate_on_slider()
+{
+  MeshSpec plate = mesh_of("plate", box_mesh({-1.5, -1.5, 0.4}, {1.5, 1.5, 0.6}));
+  plate.body.present = true;
+  plate.body.density = 20;
+  plate.body.joint = {JointKind::slider, {0, 0, 0}, {0.6, 0, 0.8}};
+  plate.body.drive.stiffness = 5000;
+  plate.body.drive.damping = 50;
+  plate.body.drive.lo = -0.2;
+  plate.body.drive.hi = 0.2;
+  return wall_of({mesh_of("floor", floor_mesh(6, 2)), plate});
+}
+
 // A free cube with a coat, which slides over a floor and turns among grains.
 WallSpec coated_cube_on_floor()
 {
@@ -159,7 +173,9 @@ void expect_same_bits(FakeHost &host, const WallSpec &spec, int steps)
 {
   FakeHost &other_host = host;
   Scene cpu(host, spec, WallBackend()), device(other_host, spec, tested());
-  const Pose begins = cpu.wall->body(spec.meshes.size() - 1)->rigid().pose();
+  const RigidBody &body = cpu.wall->body(spec.meshes.size() - 1)->rigid();
+  const Pose begins = body.pose();
+  const Vec3 from = body.centre();
   cpu.set_up();
   device.set_up();
   for (int k = 0; k < steps; k += 100) {
@@ -169,8 +185,9 @@ void expect_same_bits(FakeHost &host, const WallSpec &spec, int steps)
     ASSERT_TRUE(same_bits(a, b)) << "by step " << k + 100;
   }
   EXPECT_GT(cpu.n_pushed, steps / 10);    // spheres times steps
-  const Pose ends = cpu.wall->body(spec.meshes.size() - 1)->rigid().pose();
-  EXPECT_GT(norm(ends.row[0] - begins.row[0]) + norm(ends.row[1] - begins.row[1]), 0.01);
+  const Pose ends = body.pose();
+  const Real turned = norm(ends.row[0] - begins.row[0]) + norm(ends.row[1] - begins.row[1]);
+  EXPECT_GT(turned + norm(body.centre() - from), 0.01);
 }
 
 }    // namespace
@@ -179,6 +196,12 @@ TEST(body_on_device, a_flap_on_a_hinge_has_the_bits_of_the_cpu)
 {
   FakeHost host;
   expect_same_bits(host, flap_over_floor(), 3000);
+}
+
+TEST(body_on_device, a_plate_on_a_slider_has_the_bits_of_the_cpu)
+{
+  FakeHost host;
+  expect_same_bits(host, plate_on_slider(), 2000);
 }
 
 TEST(body_on_device, a_free_body_with_a_coat_has_the_bits_of_the_cpu)
@@ -195,7 +218,8 @@ TEST(body_on_device, a_free_box_has_the_bits_of_the_cpu_on_one_process_and_two)
 
 TEST(body_on_device, goes_on_in_mid_swing_with_the_same_bits)
 {
-  for (const WallSpec &spec : {flap_over_floor(), coated_cube_on_floor(), free_box()}) {
+  for (const WallSpec &spec :
+       {flap_over_floor(), plate_on_slider(), coated_cube_on_floor(), free_box()}) {
     FakeHost host, other;
     Scene whole(host, spec, WallBackend()), first(host, spec, tested()),
         second(other, spec, tested());
