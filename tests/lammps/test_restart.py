@@ -142,5 +142,5 @@ def test_undamped(folder):
     one = {s: rows for s, rows in lmp.read_dump(folder / "one").items() if s >= 2 * FIRST}
     touching = sum(row[9] > 0 for row in one[2 * FIRST].values())
     fact("undamped: spheres touch where it breaks", touching > 20, str(touching))
-    # 400 steps of contacts that part neighbouring paths: a factor of 1e4 on 1e-16 at most.
-    at_most("undamped: continued as unbroken", lmp.largest_difference(one, continued), 1e-11)
+    # 400 steps of contacts that part neighbouring paths: a factor of 1e2 on 1e-16 at most, and ten times as much.
+    at_most("undamped: continued as unbroken", lmp.largest_difference(one, continued), 1e-13)
