@@ -79,7 +79,7 @@ TWICE = ("WARNING: Fix lid", "'floor.stl' is at the same place in fix w", "twice
 OF_ONE = fix(name="lid").replace(" all ", " one ")
 OTHER = "fix wall/gran of this LAMMPS gives different forces for this law: "
 DEFAULTS = ("grid auto rmax auto memory 1024 cache none nearest all corner blend side both device auto log full draw edges 1")
-# What is said: a script, words of a line, and how many lines have them.
+# What is said: a script, words of a line, how many lines have them, and, where these are several, the ranks.
 SAID = {
     "a drum without lifters is not warned of": (BOX + fix("surface_angvel 0 0 3", mesh="drum.stl") + "run 1\n", ["along their normals"], 0),
     "nor a belt": (BOX + fix("surface_vel 1 0 0") + "run 1\n", ["along their normals"], 0),
@@ -112,7 +112,7 @@ SAID = {
     "one that has yet to come in is not": (BOX + fix("move 0 0 9 motion linear 0 0 -450") + "run 8\n", ["has moved out of"], 0),
     "a mesh that will turn out of the box is told once": (twice(BOX + fix(TURNED.format("0 1 0"))), OUT, 1),
     "one that turns within it is not": (BOX + fix(TURNED.format("0 0 1")) + "run 0\n", ["will turn out of"], 0),
-    "the same mesh in two fixes is told once": (twice(BOTH + fix(name="lid")), TWICE, 1),
+    "the same mesh in two fixes is told once": (twice(BOTH + fix(name="lid")), TWICE, 1, 2),
     "at another place it is not": (BOTH + fix(name="lid", more="move 0 0 1e-3") + "run 0\n", TWICE, 0),
     "in groups that share an atom it is": (BOTH + OF_ONE + "run 0\n", TWICE, 1),
     "in groups that share none it is not": (BOTH.replace(" all wall", " none wall") + OF_ONE + "run 0\n", TWICE, 0),
@@ -138,10 +138,11 @@ SAID = {
 
 def test_said(folder):
     logs = {}    # of scripts that several facts are of
-    for name, (script, words, times) in SAID.items():
-        if script not in logs:
-            logs[script] = lmp.run_well(script, folder)
-        fact(name, len(lines(logs[script], *words)) == times, logs[script][-600:])
+    for name, (script, words, times, *ranks) in SAID.items():
+        if (script, *ranks) not in logs:
+            logs[script, *ranks] = lmp.run_well(script, folder, *ranks)
+        log = logs[script, *ranks]
+        fact(name, len(lines(log, *words)) == times, log[-600:])
 
 
 def test_surfaces_that_push(folder):
