@@ -3,8 +3,6 @@
 
 """Clumps, bodies of overlapping spheres that fix rigid/small moves, at a mesh: against LAMMPS's plane, balances of
 momentum and closed forms.
-
-usage: test_clumps.py [PART ...]: these functions only
 """
 
 import math

@@ -1,8 +1,8 @@
 # SPDX-FileCopyrightText: 2026 LSDCD contributors
 # SPDX-License-Identifier: GPL-2.0-only
 
-"""Examples run, the long ones for a part of their time. CMake says which take seconds and are not of every day; each has the fix that
-other scripts test in seconds."""
+"""Examples run, the long ones for a part of their time. CMakeLists.txt names those that run every day; what the others use is tested by
+other scripts, in less time."""
 
 import re
 import subprocess

@@ -5,8 +5,6 @@
 
 All grains of a case have one velocity, so that none that was put clear of the others is in their way later: the
 last dump shows every overlap that there ever was.
-
-usage: test_insert.py [host] [PART ...]: under the LAMMPS of hosts/build_host.sh; these functions only
 """
 
 import math

@@ -5,8 +5,6 @@
 
 A box of triangles has the block's faces without rounding, and LAMMPS moves both alike: the same atoms are
 inside, also those on its faces. A cylinder of N flat sides is between two cylinders of LAMMPS.
-
-usage: test_region.py [host]: under the LAMMPS of hosts/build_host.sh
 """
 
 import math
