@@ -17,22 +17,17 @@ SKIPPED = 77    # what CTest takes for a test that could not run
 
 
 @pytest.fixture(scope="module")
-def place(request):
-    """A folder, which stays if one of the module's tests fails."""
+def folder(request):
+    """A folder, which stays if one of the module's tests fails. A function of the module of the name prepare is called with it first,
+    and writes the files that all tests need."""
     made = pathlib.Path(tempfile.mkdtemp(prefix="lsdcd-"))
     before = request.session.testsfailed
+    getattr(request.module, "prepare", lambda folder: None)(made)
     yield made
     if request.session.testsfailed == before:
         shutil.rmtree(made)
     else:
         print("files are in", made)
-
-
-@pytest.fixture(scope="module")
-def folder(request, place):
-    """That folder with the files of a module's tests, which its prepare() makes, if it has one."""
-    getattr(request.module, "prepare", lambda folder: None)(place)
-    return place
 
 
 @pytest.hookimpl(tryfirst=True)
