@@ -208,6 +208,11 @@ def test_shapes():
     facts = lsdcd.shape_facts((3, 2, 1), (4, 8))
     fact("a shape has a volume and inertia", abs(facts.volume - 41.049289) < 5e-7 and abs(facts.inertia[1] - 2.925070) < 5e-7,
          facts)
+    # The plane cuts the triangle halfway up, along half its base.
+    upright = lsdcd.Mesh(np.array([[[0, 0, -1], [2, 0, -1], [0, 0, 1]]], float))
+    cut = lsdcd.Body(lsdcd.Mesh(np.array([[[-9, -9, 0], [9, -9, 0], [0, 9, 0]]], float)), upright).collide((1, 2, 0), segments=True)
+    fact("a body's segment is where it cuts the plane", cut.segments.shape == (1, 2, 3) and
+         np.allclose(sorted(cut.segments[0].tolist()), [[1, 2, 0], [2, 2, 0]], rtol=0, atol=1e-14), cut)
     refused("half-axes of two grains for three are refused", "half_axes has the shape (2, 3), not (3, 3)",
             lambda: grid.shape_contacts(centres, np.ones((2, 3))), ValueError)
     refused("quaternions of another number are refused", "quaternions has the shape (4,), not (3, 4)",
