@@ -99,6 +99,16 @@ TEST(library_bodies, a_quaternion_and_a_matrix_turn_the_body_alike)
   EXPECT_EQ(std::vector<std::uint32_t>(triangles, triangles + 8), upright);
 }
 
+// Rounded to float each of its numbers is off by up to 2^-25, 3e-8, so products of rows by up to
+// 2 sqrt(3) times that, 1e-7.
+TEST(library_bodies, a_rotation_of_floats_is_taken)
+{
+  const float c = std::cos(0.7f), s = std::sin(0.7f);
+  const double matrix[12] = {c, -s, 0, 1, s, c, 0, -1, 0, 0, 1, 0.25};
+  EXPECT_NE(c * double(c) + s * double(s), 1);
+  expect_upright_sides(cube_on_floor().collide(lsdcd::Matrix{matrix}));
+}
+
 // The bottom of the cube, at half of what a row stretches, is 1.5e-7 above the floor once it is not stretched
 // by 4e-7, and 0.5e-7 below it with that.
 TEST(library_bodies, a_rotation_of_floats_is_made_orthogonal)
