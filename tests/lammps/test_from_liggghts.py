@@ -49,19 +49,24 @@ BALANCED = BODY.replace("1 1 0.5 ", "0 0 0 ")
 ELASTIC = "fix m3 all property/global coefficientRestitution peratomtypepair 1 1\n"
 # What is written, whole or in part, for what.
 WRITTEN = {
-    "placement keeps its order": (MESH.format("move 1 0 0 scale 2 rotate axis 0 0 1 angle 90 heal auto_remove_duplicates curvature 3") + WALL,
+    "placement keeps its order": (
+        MESH.format("move 1 0 0 scale 2 rotate axis 0 0 1 angle 90 heal auto_remove_duplicates curvature 3") + WALL,
         "mesh a.stl move 1 0 0 scale 2 rotate 0 0 1 90\n"),
     "a surface turns with omega along the axis": (MESH.format("surface_ang_vel origin 1 2 3 axis 0 0 2 omega 5") + WALL, "surface_angvel 0 0 5 1 2 3"),
-    "a motion before the wall stands in it": (MESH.format("") + MOVE.format("rotate origin 1 2 3 axis 0 1 0 period 4") + WALL,
+    "a motion before the wall stands in it": (
+        MESH.format("") + MOVE.format("rotate origin 1 2 3 axis 0 1 0 period 4") + WALL,
         "mesh a.stl motion rotate 1 2 3 0 1 0 4"),
-    "a motion after the wall changes it": (ON_MESH + MOVE.format("wiggle amplitude 1 0 0 period 4") + "unfix t\n",
+    "a motion after the wall changes it": (
+        ON_MESH + MOVE.format("wiggle amplitude 1 0 0 period 4") + "unfix t\n",
         "fix_modify      w motion wiggle 1 0 0 4\nfix_modify      w motion none"),
-    "of two motions the first comes last": (ON_MESH + MOVE.format("linear 1 0 0") + THEN.format("rotate origin 1 2 3 axis 0 1 0 period 4"),
+    "of two motions the first comes last": (
+        ON_MESH + MOVE.format("linear 1 0 0") + THEN.format("rotate origin 1 2 3 axis 0 1 0 period 4"),
         "fix_modify      w motion rotate 1 2 3 0 1 0 4 motion linear 1 0 0"),
     "loads get their new names": (ON_MESH + "thermo_style custom step f_cad[3]\n", "step f_w[3]"),
     "wear is doubled": ("fix k all property/global k_finnie peratomtypepair 1 1e-9\n" + MESH.format("wear finnie") + WALL, "wear finnie 2e-09"),
-    "a mesh that does not wear says so": ("fix k all property/global k_finnie peratomtypepair 1 1e-9\n" + MESH.format("wear finnie") + LID +
-        BOTH_WALL, "mesh b.stl wear_factor 0\n"),
+    "a mesh that does not wear says so": (
+        "fix k all property/global k_finnie peratomtypepair 1 1e-9\n" + MESH.format("wear finnie") + LID + BOTH_WALL,
+        "mesh b.stl wear_factor 0\n"),
     "of two materials that wear each has its number": (
         TWO_TYPES + "fix k all property/global k_finnie peratomtypepair 2 4e-9 1e-9 1e-9 0\n" + MESH.format("wear finnie") +
         LID.replace("type 1", "type 2").replace("\n", "wear finnie\n") + BOTH_WALL + ONE_GRAIN,
@@ -77,21 +82,29 @@ WRITTEN = {
         "region b block 0 1 0 1 0 1\ncreate_box 1 b\nfix p all wall/gran model hertz primitive type 1 zplane 0\n",
         "tangential linear_nohistory 0 0 damping"),
     "no word tangential is no friction: grains": ("pair_style gran model hertz\npair_coeff * *\n", "tangential linear_nohistory 0 0 damping"),
-    "tangential off needs no coefficientFriction and keeps its settings": (MESH.format("") + WALL.replace("history", "off").replace("\n",
-        " tangential_damping on limitForce on\n"), "tangential linear_nohistory 0 0 limit_damping"),
-    "two walls with meshes are two fixes": (MESH.format("") + LID + WALL + WALL.replace("fix w", "fix v").replace("meshes cad", "meshes lid"),
+    "tangential off needs no coefficientFriction and keeps its settings": (
+        MESH.format("") + WALL.replace("history", "off").replace("\n", " tangential_damping on limitForce on\n"),
+        "tangential linear_nohistory 0 0 limit_damping"),
+    "two walls with meshes are two fixes": (
+        MESH.format("") + LID + WALL + WALL.replace("fix w", "fix v").replace("meshes cad", "meshes lid"),
         "mesh b.stl"),
-    "a style of OpenMP is the same one": (MESH.format("").replace("stress", "stress/omp") + WALL.replace("wall/gran", "wall/gran/omp") +
-        "fix g all gravity/omp 9.81 vector 0 0 -1\n", "fix g all gravity 9.81 vector 0 0 -1"),
-    "the torque is about a point that moves": (MESH.format("reference_point 1 2 3") + MOVE.format("linear 1 0 0") + WALL +
-        "thermo_style custom step f_cad[5]\n", "motion linear 1 0 0 torque_about mesh 1 2 3\n"),
-    "the torque of a moving mesh is about what was the origin": (MESH.format("") + MOVE.format("linear 1 0 0") + WALL +
-        "thermo_style custom step f_cad[5]\n", "motion linear 1 0 0 torque_about mesh 0 0 0\n"),
-    "a turn to and fro": (MESH.format("") + MOVE.format("riggle origin 1 2 3 axis 0 0 1 period 0.5 amplitude 5") + WALL,
+    "a style of OpenMP is the same one": (
+        MESH.format("").replace("stress", "stress/omp") + WALL.replace("wall/gran", "wall/gran/omp") + "fix g all gravity/omp 9.81 vector 0 0 -1\n",
+        "fix g all gravity 9.81 vector 0 0 -1"),
+    "the torque is about a point that moves": (
+        MESH.format("reference_point 1 2 3") + MOVE.format("linear 1 0 0") + WALL + "thermo_style custom step f_cad[5]\n",
+        "motion linear 1 0 0 torque_about mesh 1 2 3\n"),
+    "the torque of a moving mesh is about what was the origin": (
+        MESH.format("") + MOVE.format("linear 1 0 0") + WALL + "thermo_style custom step f_cad[5]\n",
+        "motion linear 1 0 0 torque_about mesh 0 0 0\n"),
+    "a turn to and fro": (
+        MESH.format("") + MOVE.format("riggle origin 1 2 3 axis 0 0 1 period 0.5 amplitude 5") + WALL,
         "motion riggle 1 2 3 0 0 1 5 0.5"),
-    "a turn at the speed of a variable": (MESH.format("") + "variable w equal 3.5\n" +
-        MOVE.format("rotate/variable origin 1 2 3 axis 0 0 1 omega v_w") + WALL, "motion rotate 1 2 3 0 0 1 variable NULL v_w"),
-    "a way at the speeds of variables": (ON_MESH + "variable a equal 0\nvariable w equal step*dt\n" + MOVE.format("linear/variable v_a v_a v_w"),
+    "a turn at the speed of a variable": (
+        MESH.format("") + "variable w equal 3.5\n" + MOVE.format("rotate/variable origin 1 2 3 axis 0 0 1 omega v_w") + WALL,
+        "motion rotate 1 2 3 0 0 1 variable NULL v_w"),
+    "a way at the speeds of variables": (
+        ON_MESH + "variable a equal 0\nvariable w equal step*dt\n" + MOVE.format("linear/variable v_a v_a v_w"),
         "fix_modify      w motion variable NULL NULL NULL v_a v_a v_w"),
     "regions are in units of the box": ("lattice sc 0.1\nregion r block 0 1 0 1 0 1 # a box\n", "region r block 0 1 0 1 0 1 units box # a box\n"),
     "stress/atom has its word": ("compute s all stress/atom\n", "compute s all stress/atom NULL"),
@@ -99,39 +112,51 @@ WRITTEN = {
     "a variable that stands for a word": (
         "variable m index hertz\nvariable o index limitForce\nvariable s string on\n" + MESH.format("").replace("a.stl", "${f}.stl") +
         WALL.replace("hertz", "${m}").replace("\n", " ${o} ${s}\n"), " 0.4 limit_damping &\n                mesh ${f}.stl"),
-    "two rotations about axes that are parallel": (ON_MESH + MOVE.format("rotate origin 0 0 0 axis 0 0 1 period 4") +
-        THEN.format("rotate origin 1 0 0 axis 0 0 -2 period 5"), "fix_modify      w motion rotate 1 0 0 0 0 -2 5 motion rotate 0 0 0 0 0 1 4"),
-    "rotations whose axes move along, of LIGGGHTS-PFM": (ON_MESH + MOVE.format("rotate/superposable origin 0 0 0 axis 0 0 1 period 4") +
+    "two rotations about axes that are parallel": (
+        ON_MESH + MOVE.format("rotate origin 0 0 0 axis 0 0 1 period 4") + THEN.format("rotate origin 1 0 0 axis 0 0 -2 period 5"),
+        "fix_modify      w motion rotate 1 0 0 0 0 -2 5 motion rotate 0 0 0 0 0 1 4"),
+    "rotations whose axes move along, of LIGGGHTS-PFM": (
+        ON_MESH + MOVE.format("rotate/superposable origin 0 0 0 axis 0 0 1 period 4") +
         THEN.format("rotate/superposable origin 1 0 0 axis 0 1 0 period 5"),
         "fix_modify      w motion rotate 1 0 0 0 1 0 5 motion rotate 0 0 0 0 0 1 4"),
     "a variable of a variable that stands for a word": (
         "variable m index hertz\nvariable n string ${m}\n" + MESH.format("") + WALL.replace("hertz", "${n}"), "granular hertz/material"),
     "no rolling with a coefficient of 0": (
-        "fix m5 all property/global coefficientRollingFriction peratomtypepair 1 0\npair_style gran model hertz tangential history "
-        "rolling_friction epsd2\npair_coeff * *\n" + MESH.format("") + WALL.replace("history", "history rolling_friction cdt"),
+        "fix m5 all property/global coefficientRollingFriction peratomtypepair 1 0\n"
+        "pair_style gran model hertz tangential history rolling_friction epsd2\npair_coeff * *\n" + MESH.format("") +
+        WALL.replace("history", "history rolling_friction cdt"),
         "tangential mindlin_slip NULL 0.907485213 0.4 &\n"),
     "load balancing moves no grain": ("fix lb all balance 9 xy 20 1.1\n", "fix             lb all balance 9 1.1 shift xy 20 1.1\n"),
-    "load balancing in an if": ('if "${n} == 1" then "fix lb all balance 0 ${d} 20 1.1"\n',
-                                'if "${n} == 1" then "fix lb all balance 0 1.1 shift ${d} 20 1.1"\n'),
-    "a picture of the processes goes": ("dump d all decomposition/vtk 9 d*.vtk\ndump_modify d first yes\nundump d\n",
-                                        "# dump d all decomposition/vtk 9 d*.vtk\n# NOTE in.there:5: no picture of what each process has"),
-    "the copies of meshes that processes have": ("dump d all mesh/stl 9 d*.stl ghost\n",
-                                                 "# dump d all mesh/stl 9 d*.stl ghost\n# NOTE in.there:5: no picture of what each process has"),
-    "atom vectors of variables that LAMMPS has as outputs": ("variable f equal omegax[1]+omegax[2]*radius[1]\n",
-        "compute         lsdcd_omegax all property/atom omegax\ncompute         lsdcd_radius all property/atom radius\nvariable f equal "
-        "c_lsdcd_omegax[1]+c_lsdcd_omegax[2]*c_lsdcd_radius[1]\n"),
-    "set of one spin of a grain at rest": ("create_atoms 1 single 0 0 0\nset atom 1 diameter 0.2 omegay 3 vz -1\n",
-                                           "set atom 1 diameter 0.2 density 1 vz -1 omega 0 3 0\n"),
-    "a density before the diameter": ("create_atoms 1 single 0 0 0\nset group all density 2500 diameter 0.02 vx 1\n",
-                                      "set group all diameter 0.02 density 2500 vx 1\n"),
+    "load balancing in an if": (
+        'if "${n} == 1" then "fix lb all balance 0 ${d} 20 1.1"\n',
+        'if "${n} == 1" then "fix lb all balance 0 1.1 shift ${d} 20 1.1"\n'),
+    "a picture of the processes goes": (
+        "dump d all decomposition/vtk 9 d*.vtk\ndump_modify d first yes\nundump d\n",
+        "# dump d all decomposition/vtk 9 d*.vtk\n# NOTE in.there:5: no picture of what each process has"),
+    "the copies of meshes that processes have": (
+        "dump d all mesh/stl 9 d*.stl ghost\n",
+        "# dump d all mesh/stl 9 d*.stl ghost\n# NOTE in.there:5: no picture of what each process has"),
+    "atom vectors of variables that LAMMPS has as outputs": (
+        "variable f equal omegax[1]+omegax[2]*radius[1]\n",
+        "compute         lsdcd_omegax all property/atom omegax\ncompute         lsdcd_radius all property/atom radius\n"
+        "variable f equal c_lsdcd_omegax[1]+c_lsdcd_omegax[2]*c_lsdcd_radius[1]\n"),
+    "set of one spin of a grain at rest": (
+        "create_atoms 1 single 0 0 0\nset atom 1 diameter 0.2 omegay 3 vz -1\n",
+        "set atom 1 diameter 0.2 density 1 vz -1 omega 0 3 0\n"),
+    "a density before the diameter": (
+        "create_atoms 1 single 0 0 0\nset group all density 2500 diameter 0.02 vx 1\n",
+        "set group all diameter 0.02 density 2500 vx 1\n"),
     "a diameter after the density": (ONE_GRAIN + "set group all density 2500\nset group all diameter 0.02\n", SIZE),
-    "a diameter of a group after its density": (ONE_GRAIN + "set group all density 2500\nset group a density 1000\nset group a diameter 0.02\n",
+    "a diameter of a group after its density": (
+        ONE_GRAIN + "set group all density 2500\nset group a density 1000\nset group a diameter 0.02\n",
         "set group a diameter 0.02 density 1000\n"),
-    "a diameter of grains that have the density of create_atoms": ("create_atoms 1 single 0 0 0\nset group all diameter 0.02\n",
-                                                                   "set group all diameter 0.02 density 1\n"),
+    "a diameter of grains that have the density of create_atoms": (
+        "create_atoms 1 single 0 0 0\nset group all diameter 0.02\n",
+        "set group all diameter 0.02 density 1\n"),
     "a diameter, then a mass": (ONE_GRAIN + "set group all diameter 0.02 mass 0.1\n", "set group all diameter 0.02 mass 0.1\n"),
     "the group of a mesh is that of the wall": (MESH.format("").replace("cad all", "cad some") + WALL, "fix             w some wall/lsdcd granular"),
-    "the group of a wall has no effect": (MESH.format("") + WALL.replace("w all", "w some"),
+    "the group of a wall has no effect": (
+        MESH.format("") + WALL.replace("w all", "w some"),
         "# NOTE in.there:6: LIGGGHTS pushes the group of the mesh, which is all, not some\nfix             w all wall/lsdcd granular"),
     "a body that is elastic": (
         # The tensor with rows (3, 1, 1), (1, 4, 0.5), (1, 0.5, 5) times (1, -1, 2).
@@ -150,28 +175,32 @@ WRITTEN = {
         ELASTIC + BODY.format("") + WALL + "run 1\nfix_modify cad 6dof/forceflags 0 0 0 6dof/vel 0 0 0\n",
         "fix_modify      w body joint ball $(f_w[15]:%.17g) $(f_w[16]:%.17g) $(f_w[17]:%.17g)\n"),
     "a body that turns about its centre": (ELASTIC + BODY.format("forceflags 0 0 0") + WALL, "1 1 0.5 joint ball 1 2 3\n"),
-    "forces on a body with its weight, and its torque about its centre": (ELASTIC + "fix g all gravity 9.81 vector 0 0 -2\n" + BODY.format("") +
-        WALL + "thermo_style custom step f_cad[2] f_cad[3] f_cad[5]\n",
-        "torque_about mesh 1 2 3 body mass 40 com 1 2 3 inertia 3 4 5 1 1 0.5\nvariable        cad_3 equal (f_w[3]+40*(-9.81))\nthermo_style custom "
-        "step f_w[2] v_cad_3 f_w[5]\n"),
-    "the quaternion of a body": (ELASTIC + BALANCED.format("") + WALL + "variable q equal f_cad[10]*f_cad[13]\n",
-                                 "variable q equal f_w[21]*f_w[24]\n"),
-    "a way by waves after a run": (ON_MESH + "run 90\n" + MOVE.format("viblin axis 0 0 2 order 2 amplitude 0.1 0.2 phase 0 -1 period 0.5"),
-        "variable        lsdcd_t_t equal 2*PI*(step-90)*dt\nvariable        lsdcd_t_s equal "
-        "(0.1)*(cos(v_lsdcd_t_t*1/(0.5)+(0))-cos(0))+(0.2)*(cos(v_lsdcd_t_t*2/(0.5)+(-1))-cos(-1))\nvariable        lsdcd_t_v equal "
-        "-2*PI*((0.1)*1/(0.5)*sin(v_lsdcd_t_t*1/(0.5)+(0))+(0.2)*2/(0.5)*sin(v_lsdcd_t_t*2/(0.5)+(-1)))\n"),
+    "forces on a body with its weight, and its torque about its centre": (
+        ELASTIC + "fix g all gravity 9.81 vector 0 0 -2\n" + BODY.format("") + WALL + "thermo_style custom step f_cad[2] f_cad[3] f_cad[5]\n",
+        "torque_about mesh 1 2 3 body mass 40 com 1 2 3 inertia 3 4 5 1 1 0.5\nvariable        cad_3 equal (f_w[3]+40*(-9.81))\n"
+        "thermo_style custom step f_w[2] v_cad_3 f_w[5]\n"),
+    "the quaternion of a body": (
+        ELASTIC + BALANCED.format("") + WALL + "variable q equal f_cad[10]*f_cad[13]\n",
+        "variable q equal f_w[21]*f_w[24]\n"),
+    "a way by waves after a run": (
+        ON_MESH + "run 90\n" + MOVE.format("viblin axis 0 0 2 order 2 amplitude 0.1 0.2 phase 0 -1 period 0.5"),
+        "variable        lsdcd_t_t equal 2*PI*(step-90)*dt\n"
+        "variable        lsdcd_t_s equal (0.1)*(cos(v_lsdcd_t_t*1/(0.5)+(0))-cos(0))+(0.2)*(cos(v_lsdcd_t_t*2/(0.5)+(-1))-cos(-1))\n"
+        "variable        lsdcd_t_v equal -2*PI*((0.1)*1/(0.5)*sin(v_lsdcd_t_t*1/(0.5)+(0))+(0.2)*2/(0.5)*sin(v_lsdcd_t_t*2/(0.5)+(-1)))\n"),
     "a variable of a mesh that gets its wall later": (
         MESH.format("") + "variable f equal f_cad[3]\n" + WALL.replace("fix w", "fix late"), "variable f equal f_late[3]\n"),
     "a jump to itself": ("label l\njump in.there l\n", "\njump SELF l\n"),
-    "an if whose commands are the same": ('if "${n} > 1" then "print 1" "jump SELF l" else "variable a delete"\n',
-                                          'then "print 1" "jump SELF l" else'),
+    "an if whose commands are the same": (
+        'if "${n} > 1" then "print 1" "jump SELF l" else "variable a delete"\n',
+        'then "print 1" "jump SELF l" else'),
     "coord/atom has its word": ("compute c all coord/atom 0.1\n", "coord/atom cutoff 0.1"),
     "a dump loses outputs that are not there": ("dump d all custom 9 d.txt id f_force_w[1] c_thermo_temp x\n", "custom 9 d.txt id c_thermo_temp x\n"),
     "what was made text is not binary": ("dump d all custom/vtk 9 d*.vtk id x\ndump_modify d binary yes sort id\n", "dump_modify     d sort id\n"),
     "what was made text and only binary has no dump_modify": (
         "dump d all custom/vtk 9 d*.vtk id x\ndump_modify d binary yes\n", "\n# dump_modify d binary yes\n"),
-    "a formula is read": (MESH.format("") + "variable v equal 2*3\nvariable q equal ${v}+1\nfix t all property/global "
-                          "characteristicVelocity scalar ${q}\n", "characteristicVelocity scalar ${q}"),
+    "a formula is read": (
+        MESH.format("") + "variable v equal 2*3\nvariable q equal ${v}+1\nfix t all property/global characteristicVelocity scalar ${q}\n",
+        "characteristicVelocity scalar ${q}"),
 }
 # Commands that stay, and the reason.
 LEFT = {
@@ -179,36 +208,44 @@ LEFT = {
     "turns at speeds of variables about axes that are not parallel": (
         MESH.format("") + WALL + "variable w equal 1\nfix t all move/mesh mesh cad rotate/variable origin 0 0 0 axis 0 0 1 omega v_w\n"
         "fix u all move/mesh mesh cad rotate/variable origin 0 0 0 axis 0 1 0 omega v_w\n", "a rotation after another about an axis that is not parallel"),
-    "riggle and a motion around it": (ON_MESH + MOVE.format("linear 1 0 0") + THEN.format("riggle origin 0 0 0 axis 0 0 1 period 1 amplitude 5"),
+    "riggle and a motion around it": (
+        ON_MESH + MOVE.format("linear 1 0 0") + THEN.format("riggle origin 0 0 0 axis 0 0 1 period 1 amplitude 5"),
         "riggle beside another motion"),
     "a body whose contacts are damped": (BODY.format("") + WALL, "contacts of cad that are damped"),
-    "a body whose contacts are damped by numbers": ("".join(f"fix n{k} all property/global {name} peratomtypepair 1 {v}\n" for k, (name,
-        v) in enumerate((("kn", 1e5), ("kt", 1e5), ("gamman", 5), ("gammat", 0)))) + BODY.format("") + WALL.replace("hertz", "hooke/stiffness"),
+    "a body whose contacts are damped by numbers": (
+        "".join(f"fix n{k} all property/global {name} peratomtypepair 1 {v}\n"
+                for k, (name, v) in enumerate((("kn", 1e5), ("kt", 1e5), ("gamman", 5), ("gammat", 0)))) +
+        BODY.format("") + WALL.replace("hertz", "hooke/stiffness"),
         "contacts of cad that are damped"),
-    "hooke, whose grains are in a file that is not there": (SPEED + "read_data none.data\n" + MESH.format("") + WALL.replace("hertz", "hooke"),
+    "hooke, whose grains are in a file that is not there": (
+        SPEED + "read_data none.data\n" + MESH.format("") + WALL.replace("hertz", "hooke"),
         "model hooke needs the size of a grain, and none.data is not beside the script"),
     "a body that is held, and goes on with its speed": (
         ELASTIC + BODY.format("") + WALL + "fix_modify cad forceflags 0 0 0\n", "fix_modify forceflags of a mesh with 6dof"),
     "a body that is given a speed": (ELASTIC + BODY.format("") + WALL + "fix_modify cad vel 0 0 0\n", "fix_modify vel of a mesh with 6dof"),
     "a body that is held": (BODY.format("torqueflags 0 1 1"), "forceflags or torqueflags"),
     "a body with a suspension": (BODY.format("suspension k_t 1 c_t 1 k_r 1 c_r 1"), "suspension of a mesh"),
-    "force on a body, which has its suspension": (ELASTIC + BODY.format("forceflags 0 0 1 torqueflags 0 0 0 suspension k_t 1 c_t 2 k_r 3 c_r 4") +
-        WALL + "variable f equal f_cad[3]\n", "element 3 of f_cad"),
+    "force on a body, which has its suspension": (
+        ELASTIC + BODY.format("forceflags 0 0 1 torqueflags 0 0 0 suspension k_t 1 c_t 2 k_r 3 c_r 4") + WALL + "variable f equal f_cad[3]\n",
+        "element 3 of f_cad"),
     "force on a body with a weight that changes": (
         ELASTIC + "fix g all gravity 9.81 vector 0 0 -1\nunfix g\n" + BODY.format("") + WALL + "variable f equal f_cad[3]\n", "element 3 of f_cad"),
     "a quaternion that begins with principal axes": (ELASTIC + BODY.format("") + WALL + "variable f equal f_cad[11]\n", "element 11 of f_cad"),
     "a hinge about an axis that is no principal one": (ELASTIC + BODY.format("forceflags 0 0 0 torqueflags 0 0 1"), "forceflags or torque"),
     "a hinge that turns about another axis, too": (
         ELASTIC + BALANCED.format("forceflags 0 0 0 torqueflags 0 0 1 angmom 1 0 1"), "forceflags or torqueflags"),
-    "a suspension over two runs": ("run 1\nrun 1\n" + BODY.format("forceflags 0 0 1 torqueflags 0 0 0 suspension k_t 1 c_t 2 k_r 3 c_r 4"),
+    "a suspension over two runs": (
+        "run 1\nrun 1\n" + BODY.format("forceflags 0 0 1 torqueflags 0 0 0 suspension k_t 1 c_t 2 k_r 3 c_r 4"),
         "suspension of a mesh with 6dof, whose zero begins anew"),
     "a speed by a variable that was left": (
         MESH.format("") + WALL + "variable v equal f_none[1]\nfix t all move/mesh mesh cad linear/variable v_v v_v v_v\n", "v_v, which is not here"),
-    "rotate, then linear": (MESH.format("") + WALL + "fix t all move/mesh mesh cad rotate origin 0 0 0 axis 0 0 1 period 1\n"
-                            "fix u all move/mesh mesh cad linear 1 0 0\n", "a linear motion after a rotation"),
+    "rotate, then linear": (
+        MESH.format("") + WALL + "fix t all move/mesh mesh cad rotate origin 0 0 0 axis 0 0 1 period 1\nfix u all move/mesh mesh cad linear 1 0 0\n",
+        "a linear motion after a rotation"),
     "a mesh that is generated": ("fix cad all mesh/surface generate cube 0.1 63 type 1\n", "a mesh by generate"),
     "a model that is off": (MESH.format("") + WALL.replace("model hertz tangential history ", ""), "model off"),
-    "a word of the model in another place": (MESH.format("") + WALL.replace("hertz tangential history", "hertz cohesion sjkr tangential history"),
+    "a word of the model in another place": (
+        MESH.format("") + WALL.replace("hertz tangential history", "hertz cohesion sjkr tangential history"),
         "the keyword tangential of wall/gran"),
     "a setting that is not known": (MESH.format("") + WALL.replace("\n", " torsionTorque on\n"), "the keyword torsionTorque"),
     "a second dump of a mesh": (ON_MESH + "dump c all mesh/stl 30 c*.stl\ndump d all mesh/stl 300 dump*.stl cad\n", "a second dump of a mesh"),
@@ -224,18 +261,22 @@ LEFT = {
         "create_atoms 1 single 0 0 0\nset group a density 2500\nset group b density 1000\nset group a diameter 0.02\n", "set diameter of grains"),
     "a diameter of grains of a file": ("read_data a\nset group all diameter 0.02\n", "set diameter of grains"),
     "groups of a wall and of its mesh": (MESH.format("").replace("cad all", "cad some") + WALL.replace("w all", "w some"), "the groups some of a wall"),
-    "meshes of several groups": (MESH.format("") + MESH.replace("cad all", "lid some").replace("a.stl", "b.stl").format("") + BOTH_WALL,
+    "meshes of several groups": (
+        MESH.format("") + MESH.replace("cad all", "lid some").replace("a.stl", "b.stl").format("") + BOTH_WALL,
         "a wall whose meshes have several groups"),
     "a grain that may turn already": (ONE_GRAIN + "run 1\nset group all omegax 5\n", "set omegax of grains that may turn"),
-    "a rotation after one about another axis": (ON_MESH + MOVE.format("rotate origin 0 0 0 axis 0 0 1 period 4") +
-        THEN.format("rotate origin 0.5 0 0 axis 0 1 0 period 4"), "a rotation after another about an axis"),
-    "rotate and rotate/superposable": (ON_MESH + MOVE.format("rotate origin 0 0 0 axis 0 0 1 period 4") +
-        THEN.format("rotate/superposable origin 0.5 0 0 axis 0 0 1 period 4"), "a rotation after another about an axis"),
+    "a rotation after one about another axis": (
+        ON_MESH + MOVE.format("rotate origin 0 0 0 axis 0 0 1 period 4") + THEN.format("rotate origin 0.5 0 0 axis 0 1 0 period 4"),
+        "a rotation after another about an axis"),
+    "rotate and rotate/superposable": (
+        ON_MESH + MOVE.format("rotate origin 0 0 0 axis 0 0 1 period 4") + THEN.format("rotate/superposable origin 0.5 0 0 axis 0 0 1 period 4"),
+        "a rotation after another about an axis"),
     "a jump to another file": ("jump in.other\n", "a jump to another file"),
     "commands in an if": ('if "${n} > 1" then "unfix w"\n', "commands in if"),
     "commands in a run": ('run 9 every 3 "print 1" "dump d all mesh/stl 1 a*.stl"\n', "commands in run"),
-    "a restitution of 0": ("fix m5 all property/global coefficientRestitution peratomtypepair 1 0\npair_style gran model hertz\n",
-                           "a restitution of 0 between the types 1 and 1"),
+    "a restitution of 0": (
+        "fix m5 all property/global coefficientRestitution peratomtypepair 1 0\npair_style gran model hertz\n",
+        "a restitution of 0 between the types 1 and 1"),
     "a restart file": ("read_restart a.restart\n", "a restart file"),
     "superquadrics": ("atom_style superquadric\n", "atom_style superquadric"),
 }
@@ -244,7 +285,8 @@ GRAINS = "".join(f"fix p{k} all particletemplate/sphere {k} atom_type 1 density 
                  for k, r in ((1, 0.002), (2, 0.004)))
 ONE = GRAINS + "fix d all particledistribution/discrete 3 1 p1 1\n"
 WRITTEN.update({
-    "a pack of one size": (ONE + FILL + "vel constant 0 0 -2 particles_in_region 90 region r\n",
+    "a pack of one size": (
+        ONE + FILL + "vel constant 0 0 -2 particles_in_region 90 region r\n",
         "fix             i all insert/lsdcd region r type 1 diam one 0.004 dens 2500 number 90 vel 0 0 -2 seed 7\n"),
     "two types by mass, and all their numbers": (
         # A grain of type 2 has 8 times the mass: 40 and 60 % of the mass are 16 and 3 grains of 19.
@@ -260,8 +302,8 @@ WRITTEN.update({
         "2 p1 0.5 p2 0.5\nregion r block 0 1 0 1 0 1\nfix i all insert/pack seed 7 distributiontemplate d volumefraction_region 0.3 region r\n",
         "diam one 0.004 dens 2500 mass 375 seed 7\nfix             i_2 all insert/lsdcd region r type 1 diam one 0.004 dens 5000 mass 750 seed"),
     "a rate of two sizes by mass": (
-        GRAINS + "fix d all particledistribution/discrete/massbased 3 2 p1 0.5 p2 0.5\nfix i all insert/rate/region seed 7 "
-        "distributiontemplate d nparticles 90 massrate 0.1 insert_every 1000 region r\n",
+        GRAINS + "fix d all particledistribution/discrete/massbased 3 2 p1 0.5 p2 0.5\n"
+        "fix i all insert/rate/region seed 7 distributiontemplate d nparticles 90 massrate 0.1 insert_every 1000 region r\n",
         "insert/lsdcd region r type 1 diam mass 2 0.004 0.5 0.008 0.5 dens 2500 massrate 0.1 number 90 seed 7\n"),
     "a stream through a face": (
         ONE + MESH.format("scale 2") + "fix i all insert/stream seed 7 distributiontemplate d nparticles INF particlerate 20 "
@@ -270,26 +312,30 @@ WRITTEN.update({
 })
 WRITTEN.update({
     "a distribution by number": (
-        GRAINS + "fix d all particledistribution/discrete/numberbased 3 2 p1 0.25 p2 0.75\nfix i all insert/rate/region seed 7 "
-        "distributiontemplate d nparticles 90 massrate 0.1 insert_every 1000 region r\n", "diam poly 2 0.004 0.25 0.008 0.75 dens"),
+        GRAINS + "fix d all particledistribution/discrete/numberbased 3 2 p1 0.25 p2 0.75\n"
+        "fix i all insert/rate/region seed 7 distributiontemplate d nparticles 90 massrate 0.1 insert_every 1000 region r\n",
+        "diam poly 2 0.004 0.25 0.008 0.75 dens"),
     "ke counts grains that come": (ONE + FILL + "particles_in_region 90 region r\n", "compute_modify  thermo_temp dynamic/dof yes\n"),
     "start in the next step is the default": (ONE + "run 90\n" + FILL + "start 91 particles_in_region 90 region r\n", "number 90 seed 7\n"),
     "start after a run up to a step": (ONE + "run 7\nrun 90 upto\n" + FILL + "start 91 particles_in_region 90 region r\n", "number 90 seed 7\n"),
-    "all_in: a cylinder becomes smaller": (ONE + "region r cylinder x 1 2 0.1 0 1\n" + FILL + "all_in yes particles_in_region 9 region r\n",
+    "all_in: a cylinder becomes smaller": (
+        ONE + "region r cylinder x 1 2 0.1 0 1\n" + FILL + "all_in yes particles_in_region 9 region r\n",
         "region          i_whole cylinder x 1 2 0.098 0.002 0.998\n"),
-    "all_in: a sphere becomes smaller, by the largest radius": (GRAINS +
-        "fix d all particledistribution/discrete 3 2 p1 0.5 p2 0.5\nregion r sphere 1 2 3 0.1\n" + FILL +
-        "all_in yes particles_in_region 9 region r\n", "region          i_whole sphere 1 2 3 0.096\n"),
-    "a cylinder that leaves the box is cut there": (ONE +
-        "boundary f p f\nregion b block 0 1 0 1 0 1\ncreate_box 1 b\nregion r cylinder z 0.5 0.5 0.1 0 INF\n" + NINE,
-        "region          i_whole cylinder z 0.5 0.5 0.1 0 INF\nregion          i_whole_box block 0.002 0.998 0 1 0.002 0.998\nregion          "
-        "i_whole_in intersect 2 i_whole i_whole_box\n"),
+    "all_in: a sphere becomes smaller, by the largest radius": (
+        GRAINS + "fix d all particledistribution/discrete 3 2 p1 0.5 p2 0.5\nregion r sphere 1 2 3 0.1\n" + FILL +
+        "all_in yes particles_in_region 9 region r\n",
+        "region          i_whole sphere 1 2 3 0.096\n"),
+    "a cylinder that leaves the box is cut there": (
+        ONE + "boundary f p f\nregion b block 0 1 0 1 0 1\ncreate_box 1 b\nregion r cylinder z 0.5 0.5 0.1 0 INF\n" + NINE,
+        "region          i_whole cylinder z 0.5 0.5 0.1 0 INF\nregion          i_whole_box block 0.002 0.998 0 1 0.002 0.998\n"
+        "region          i_whole_in intersect 2 i_whole i_whole_box\n"),
     "a fraction of a volume is a mass": (
         # 0.3 of 2500 kg/m3 in the whole cylinder.
         ONE + "region r cylinder y 0 0 0.1 0 1\nfix i all insert/pack seed 7 distributiontemplate d all_in yes volumefraction_region 0.3 "
         "region r\n", f"dens 2500 mass {0.3 * 2500 * math.pi * 0.1**2:.10g} seed"),
     "the outlets of f_ins stay": (ONE + NINE + "thermo_style custom step f_i[1]\n", "thermo_style custom step f_i[1]\n"),
-    "two packs apart from each other": (ONE + "region r block 0 1 0 1 0 1\nregion s block 2 3 0 1 0 1\n" +
+    "two packs apart from each other": (
+        ONE + "region r block 0 1 0 1 0 1\nregion s block 2 3 0 1 0 1\n" +
         "".join(f"fix i{r} all insert/pack seed 7 distributiontemplate d particles_in_region 9 region {r}\n" for r in "rs"),
         "fix             is all insert/lsdcd region s "),
 })
@@ -319,23 +365,28 @@ LEFT.update({
     "a word of an insertion that is not known": (PACK.format("", "set_property T 300"), "the keyword set_property"),
     "all_in of a region that cannot be made smaller": (
         PACK.format("", "all_in yes").replace("block 0 1 0 1 0 1", "cone z 0 0 1 2 0 1"), "all_in yes with region r"),
-    "a pack of a mass where grains are already": (PACK.format("create_atoms 1 single 0.5 0.5 0.5\n", "").replace("particles_in_region",
-        "mass_in_region"), "insert/pack into a region that may"),
+    "a pack of a mass where grains are already": (
+        PACK.format("create_atoms 1 single 0.5 0.5 0.5\n", "").replace("particles_in_region", "mass_in_region"),
+        "insert/pack into a region that may"),
     "a pack where grains are already, with outputs": (
         "variable n equal f_i[1]\n" + PACK.format("create_atoms 1 single 0.5 0.5 0.5\n", ""), "insert/pack into a region that may"),
-    "two packs into a region in one step": (PACK.format("fix j all insert/pack seed 7 distributiontemplate d particles_in_region 9 region r\n", ""),
+    "two packs into a region in one step": (
+        PACK.format("fix j all insert/pack seed 7 distributiontemplate d particles_in_region 9 region r\n", ""),
         "insert/pack into a region that another"),
     "a pack where a rate goes on": (
         PACK.format("fix j all insert/rate/region seed 7 distributiontemplate d particlerate 9 nparticles 9 region r\nrun 1\n", ""),
         "insert/pack into a region that another"),
     "grains that a pack before them counts": (PACK.format("", "") + "create_atoms 1 single 0.5 0.5 0.5\n", "grains that are made where"),
     "a pack without a number": (PACK.format("", "").replace(" particles_in_region 9", ""), "insert/pack without its number or mass"),
-    "a fraction of a volume that is not known": (PACK.format("", "").replace("particles_in_region 9",
-        "volumefraction_region 0.3").replace("region r block", "region s block"), "volumefraction_region of region r"),
-    "a pack that is filled up": (ONE + "fix i all insert/pack seed 1 distributiontemplate d region r insert_every 9 "
-                                 "particles_in_region 9\n", "insert/pack that fills up again and again"),
-    "grains that are not known": ("fix i all insert/pack seed 1 distributiontemplate d region r particles_in_region 9\n",
-                                  "insertion of grains that are no spheres"),
+    "a fraction of a volume that is not known": (
+        PACK.format("", "").replace("particles_in_region 9", "volumefraction_region 0.3").replace("region r block", "region s block"),
+        "volumefraction_region of region r"),
+    "a pack that is filled up": (
+        ONE + "fix i all insert/pack seed 1 distributiontemplate d region r insert_every 9 particles_in_region 9\n",
+        "insert/pack that fills up again and again"),
+    "grains that are not known": (
+        "fix i all insert/pack seed 1 distributiontemplate d region r particles_in_region 9\n",
+        "insertion of grains that are no spheres"),
 })
 # A script is a program: a name means what it means at its line.
 LOOP = "label l\nvariable i loop 3\n{}next i\njump SELF l\n"
@@ -346,17 +397,21 @@ WRITTEN.update({
     "a variable that changes between a mesh and its wall": (
         "variable h equal 0.2\n" + MESH.format("move 0 0 ${h} surface_vel ${h} 0 0") + "variable h equal -0.1\n" +
         LID.replace("type 1", "type 1 move 0 0 ${h}") + BOTH_WALL, "mesh a.stl move 0 0 0.2 surface_vel 0.2 0 0 &\n                mesh b.stl move 0 0 -0.1\n"),
-    "a variable that changes between a motion and its wall": ("variable p equal 1.5\n" + MESH.format("") +
-        MOVE.format("wiggle amplitude 0 0 1 period ${p}") + "variable p equal 3\n" + WALL, "mesh a.stl motion wiggle 0 0 1 1.5\n"),
+    "a variable that changes between a motion and its wall": (
+        "variable p equal 1.5\n" + MESH.format("") + MOVE.format("wiggle amplitude 0 0 1 period ${p}") + "variable p equal 3\n" + WALL,
+        "mesh a.stl motion wiggle 0 0 1 1.5\n"),
     "a file name of a string that changes": (
         "variable f string a\n" + MESH.format("").replace("a.stl", "${f}.stl") + "variable f string b\n" + WALL, "mesh a.stl\n"),
-    "a variable whose value is known in a run is kept for the wall": ("variable h equal 2*step\n" + MESH.format("move 0 0 ${h}") +
-        "variable h equal 1\n" + WALL, "\nvariable        lsdcd_cad_h string ${h}\nvariable h equal 1\n"),
-    "a variable that an if may change is kept for the wall": ('variable h equal 1\nif "${c} == 1" then "variable h equal 2"\n' +
-        MESH.format("move 0 0 ${h}") + WALL, "mesh a.stl move 0 0 ${lsdcd_cad_h}\n"),
+    "a variable whose value is known in a run is kept for the wall": (
+        "variable h equal 2*step\n" + MESH.format("move 0 0 ${h}") + "variable h equal 1\n" + WALL,
+        "\nvariable        lsdcd_cad_h string ${h}\nvariable h equal 1\n"),
+    "a variable that an if may change is kept for the wall": (
+        'variable h equal 1\nif "${c} == 1" then "variable h equal 2"\n' + MESH.format("move 0 0 ${h}") + WALL,
+        "mesh a.stl move 0 0 ${lsdcd_cad_h}\n"),
     "a file for each turn of a loop": (
         LOOP.format(MESH.format("").replace("a.stl", "a_${i}.stl") + WALL + "run 1\nunfix w\nunfix cad\n"), "mesh a_${lsdcd_cad_i}.stl\n"),
-    "a speed for each turn of a loop": (ON_MESH + LOOP.format("variable v equal 0.1*${i}\n" + MOVE.format("linear ${v} 0 0") + "run 1\nunfix t\n"),
+    "a speed for each turn of a loop": (
+        ON_MESH + LOOP.format("variable v equal 0.1*${i}\n" + MOVE.format("linear ${v} 0 0") + "run 1\nunfix t\n"),
         "\nvariable        lsdcd_t_v string ${v}\nfix_modify      w motion linear ${lsdcd_t_v} 0 0\nrun 1\nfix_modify      w motion none\n"),
     "the first index of a name stays": (
         "variable h index 1\nvariable h index 2\n" + MESH.format("surface_vel ${h} 0 0") + WALL, "surface_vel 1 0 0\n"),
@@ -365,23 +420,29 @@ WRITTEN.update({
         "variable a equal 1\nvariable b equal v_a*2\nvariable a equal 3\n" + MESH.format("surface_vel ${b} 0 0") + WALL, "surface_vel 6 0 0\n"),
     "a sign is stronger than a power, and powers go from the left": (
         "variable a equal -2^2+2^3^2\n" + MESH.format("surface_ang_vel origin 0 0 0 axis 0 0 1 omega ${a}") + WALL, "surface_angvel 0 0 68 0 0 0\n"),
-    "functions of a formula": ("variable a equal sqrt(16)+floor(2.5)*(1<2)-ceil(PI)\n" +
-        MESH.format("surface_ang_vel origin 0 0 0 axis 0 0 1 omega ${a}") + WALL, "surface_angvel 0 0 2 0 0 0\n"),
+    "functions of a formula": (
+        "variable a equal sqrt(16)+floor(2.5)*(1<2)-ceil(PI)\n" + MESH.format("surface_ang_vel origin 0 0 0 axis 0 0 1 omega ${a}") + WALL,
+        "surface_angvel 0 0 2 0 0 0\n"),
     "a variable in brackets, with a blank": (
         "variable d equal 0.6\nregion b block $(-v_d/2 -0.1) $(v_d/2 +0.1) 0 1 0 1\ncreate_box 1 b\n"
         "fix p all wall/gran model hertz tangential history primitive type 1 xplane 0.4\n", "xplane NULL 0.4\n"),
-    "a variable with a point behind it": ("variable rho equal 1000\nset group all diameter 0.1 density ${rho}.\n",
-                                          "set group all diameter 0.1 density ${rho}.\n"),
+    "a variable with a point behind it": (
+        "variable rho equal 1000\nset group all diameter 0.1 density ${rho}.\n",
+        "set group all diameter 0.1 density ${rho}.\n"),
     "a motion with the ID of another one replaces it": (
         MESH.format("") + MOVE.format("linear 0 0 0.1") + MOVE.format("linear 0 0 0.2") + WALL, "mesh a.stl motion linear 0 0 0.2\n"),
-    "... after a run, too": (ON_MESH + MOVE.format("linear 0 0 0.1") + "run 1\n" + MOVE.format("linear 0 0 0.2"),
+    "... after a run, too": (
+        ON_MESH + MOVE.format("linear 0 0 0.1") + "run 1\n" + MOVE.format("linear 0 0 0.2"),
         "run 1\nfix_modify      w motion linear 0 0 0.2\n"),
-    "... of another mesh, which stands then": (MESH.format("") + LID + BOTH_WALL + MOVE.format("linear 0 0 0.1") + MOVE.replace("cad",
-        "lid").format("linear 0 0 0.2"), "fix_modify      w mesh 1 motion none\nfix_modify      w mesh 2 motion linear 0 0 0.2\n"),
+    "... of another mesh, which stands then": (
+        MESH.format("") + LID + BOTH_WALL + MOVE.format("linear 0 0 0.1") + MOVE.replace("cad", "lid").format("linear 0 0 0.2"),
+        "fix_modify      w mesh 1 motion none\nfix_modify      w mesh 2 motion linear 0 0 0.2\n"),
     "a mesh that has moved at known speeds begins there in a new wall": (
-        "timestep 1e-3\n" + MESH.format("scale 2 reference_point 1 1 1") + MOVE.format("linear 0 1 2") + "run 100\nrun 150 upto\n" + WALL + "run 50\nunfix t\n"
-        "run 1000\nunfix w\n" + WALL, "fix_modify      w motion none\nrun 1000\nunfix w\n# NOTE in.there:15: cad begins where its motions have brought it\nfix "
-        "            w all wall/lsdcd granular hertz/material 10000000 0.5 0.3 damping coeff_restitution tangential mindlin_slip NULL 0.907485213 0.4 &\n"
+        "timestep 1e-3\n" + MESH.format("scale 2 reference_point 1 1 1") + MOVE.format("linear 0 1 2") + "run 100\nrun 150 upto\n" + WALL +
+        "run 50\nunfix t\nrun 1000\nunfix w\n" + WALL,
+        "fix_modify      w motion none\nrun 1000\nunfix w\n# NOTE in.there:15: cad begins where its motions have brought it\n"
+        "fix             w all wall/lsdcd granular hertz/material 10000000 0.5 0.3 damping coeff_restitution "
+        "tangential mindlin_slip NULL 0.907485213 0.4 &\n"
         "                mesh a.stl scale 2 move 0 0.2 0.4 torque_about mesh 1 1.2 1.4\n"),
     "a motion between two walls": (
         MESH.format("") + WALL + "run 1\nunfix w\n" + MOVE.format("linear 0 0 0.1") + WALL.replace("fix w", "fix v"), "mesh a.stl motion linear 0 0 0.1\n"),
@@ -392,14 +453,17 @@ WRITTEN.update({
         ONE + "fix i all insert/pack seed 7 distributiontemplate none particles_in_region 9 region r\nunfix i\n"
         "fix i all insert/pack seed 7 distributiontemplate d particles_in_region 9 region r\nunfix i\n", "count the grains of both\nunfix i\n", 1),
     "a template, a distribution and a region that are used again": (
-        ONE + BEFORE + "fix i all insert/pack seed 7 distributiontemplate d all_in yes particles_in_region 9 region r\nrun 1\nunfix i\nunfix d\nunfix p1\n"
-        "region r delete\n" + ONE.replace("0.002", "0.003") + "region r block 2 3 0 1 0 1\n"
-        "fix i all insert/pack seed 7 distributiontemplate d all_in yes particles_in_region 9 region r\n",
-        "region          i_whole delete\n# unfix d\n# unfix p1\nregion r delete\n# p1: see the fixes that insert grains\n# p2: see the fixes that insert "
-        "grains\n# d: see the fixes that insert grains\nregion r block 2 3 0 1 0 1\nregion          i_whole block 2.003 2.997 0.003 0.997 0.003 0.997\n"),
-    "after clear all begins anew": (ON_MESH + "run 1\nclear\n" + MATERIAL.replace("pair 1 0.4", "pair 1 0.2") + MESH.format("scale 2") + WALL,
+        ONE + BEFORE + "fix i all insert/pack seed 7 distributiontemplate d all_in yes particles_in_region 9 region r\nrun 1\nunfix i\nunfix d\n"
+        "unfix p1\nregion r delete\n" + ONE.replace("0.002", "0.003") +
+        "region r block 2 3 0 1 0 1\nfix i all insert/pack seed 7 distributiontemplate d all_in yes particles_in_region 9 region r\n",
+        "region          i_whole delete\n# unfix d\n# unfix p1\nregion r delete\n# p1: see the fixes that insert grains\n"
+        "# p2: see the fixes that insert grains\n# d: see the fixes that insert grains\nregion r block 2 3 0 1 0 1\n"
+        "region          i_whole block 2.003 2.997 0.003 0.997 0.003 0.997\n"),
+    "after clear all begins anew": (
+        ON_MESH + "run 1\nclear\n" + MATERIAL.replace("pair 1 0.4", "pair 1 0.2") + MESH.format("scale 2") + WALL,
         "0.907485213 0.2 &\n                mesh a.stl scale 2\n"),
-    "the boundary of the box is that of its line": (ONE + BEFORE + "boundary f p f\ncreate_box 1 r\n" + NINE + "clear\nboundary p p p\n",
+    "the boundary of the box is that of its line": (
+        ONE + BEFORE + "boundary f p f\ncreate_box 1 r\n" + NINE + "clear\nboundary p p p\n",
         "region          i_whole block 0.002 0.998 0 1 0.002 0.998\n"),
     "the period of a dump whose variable comes after the wall": (
         MESH.format("") + WALL + "variable n equal round(1e-2/5e-5)\ndump d all mesh/stl ${n} d*.stl\n", "mesh_stl d_cad_*.stl every 200\n"),
@@ -415,8 +479,9 @@ WRITTEN.update({
         BOTH_WALL.replace("hertz tangential history", "hooke tangential history rolling_friction cdt"), " 0.4 1 rolling cdt 0\n"),
 })
 LEFT.update({
-    "a number that is not known": (MESH.format("") + "fix n1 all property/global youngsModulus peratomtype ${young}\n" + WALL,
-                                   "'${young}' of in.there:6 is no number"),
+    "a number that is not known": (
+        MESH.format("") + "fix n1 all property/global youngsModulus peratomtype ${young}\n" + WALL,
+        "'${young}' of in.there:6 is no number"),
     "a variable that an if may change": (
         'variable h equal 1\nif "${c} == 1" then "variable h equal 2"\n' + MESH.format("surface_vel ${h} 0 0"), "surface_vel of a variable"),
     "a formula of itself": ("variable h equal v_h+1\n" + MESH.format("surface_vel ${h} 0 0"), "surface_vel of a variable"),
@@ -434,8 +499,9 @@ LEFT.update({
     "a mesh that has moved before its wall": (MESH.format("") + MOVE.format("linear 0 0 1") + "run 1\n" + WALL, "the mesh cad, which has moved"),
     "a mesh that has turned, in a new wall": (
         "timestep 1e-3\n" + MESH.format("") + WALL + MOVE.format("rotate origin 0 0 0 axis 0 0 1 period 1") + "run 1\nunfix t\n" + WALL, "the mesh cad, which has moved"),
-    "a mesh that has moved with a timestep that an if may change, in a new wall": ('timestep 1e-3\nif "${c} == 1" then "timestep 1e-4"\n' + ON_MESH +
-        MOVE.format("linear 0 0 1") + "run 1\nunfix t\n" + WALL, "the mesh cad, which has moved"),
+    "a mesh that has moved with a timestep that an if may change, in a new wall": (
+        'timestep 1e-3\nif "${c} == 1" then "timestep 1e-4"\n' + ON_MESH + MOVE.format("linear 0 0 1") + "run 1\nunfix t\n" + WALL,
+        "the mesh cad, which has moved"),
     "a mesh that has moved in a loop, in a new wall": (
         "timestep 1e-3\n" + MESH.format("") + WALL + MOVE.format("linear 0 0 1") + LOOP.format("run 1\n") + "unfix t\n" + WALL, "the mesh cad, which has moved"),
     "a servo in a new wall": (SERVO + WALL + "run 1\nunfix w\n" + WALL, "the mesh cad, which has moved"),
@@ -443,21 +509,28 @@ LEFT.update({
         "fix k all property/global k_finnie peratomtypepair 1 1e-9\n" + MESH.format("wear finnie") + WALL + "run 1\n" + WALL, "the mesh cad, which has worn"),
     "a mesh that moves in an if, in a new wall": (
         MESH.format("") + WALL + MOVE.format("linear 0 0 1") + 'if "${c} == 1" then "run 1"\n' + WALL.replace("fix w", "fix v"), "a second wall of a mesh that moves"),
-    "a motion of one of two that goes on": (ON_MESH + MOVE.format("linear 1 0 0") + THEN.format("linear 0 1 0") + MOVE.format("linear 0 0 1"),
+    "a motion of one of two that goes on": (
+        ON_MESH + MOVE.format("linear 1 0 0") + THEN.format("linear 0 1 0") + MOVE.format("linear 0 0 1"),
         "one of several motions of cad is replaced"),
-    "a motion beside one that a jump may skip": (ON_MESH + SKIP.format(MOVE.format("linear 1 0 0")) + THEN.format("linear 0 1 0"),
+    "a motion beside one that a jump may skip": (
+        ON_MESH + SKIP.format(MOVE.format("linear 1 0 0")) + THEN.format("linear 0 1 0"),
         "a motion of cad beside another one"),
     "a mesh that a jump may skip": (SKIP.format(MESH.format("")) + WALL, "fix cad of in.there:6, which a jump may skip"),
     "a material that a jump may skip": (MESH.format("") + SKIP.format(MATERIAL.splitlines()[3] + "\n") + WALL, "fix m4 of in.there:7, which a jump may skip"),
-    "a region that a jump may skip": (ONE + BEFORE + SKIP.format("region r delete\nregion r block 2 3 0 1 0 1\n") + FILL +
-        "all_in yes particles_in_region 9 region r\n", "region r of in.there:11, which a jump may skip"),
-    "a density that a jump may skip": (ONE_GRAIN + "set group all density 2500\n" + SKIP.format("set group all density 1000\n") +
-        "set group all diameter 0.02\n", "set diameter of grains whose density"),
-    "a density of a group that has grown": (ONE_GRAIN +
-        "set group all density 1000\nset group a density 2500\ngroup a id 5\nset group a diameter 0.02\n", "set diameter of grains whose density"),
-    "hooke of diameters in lines of their own": (SPEED + SIZE + "set group a diameter 0.03\npair_style gran model hooke\n",
+    "a region that a jump may skip": (
+        ONE + BEFORE + SKIP.format("region r delete\nregion r block 2 3 0 1 0 1\n") + FILL + "all_in yes particles_in_region 9 region r\n",
+        "region r of in.there:11, which a jump may skip"),
+    "a density that a jump may skip": (
+        ONE_GRAIN + "set group all density 2500\n" + SKIP.format("set group all density 1000\n") + "set group all diameter 0.02\n",
+        "set diameter of grains whose density"),
+    "a density of a group that has grown": (
+        ONE_GRAIN + "set group all density 1000\nset group a density 2500\ngroup a id 5\nset group a diameter 0.02\n",
+        "set diameter of grains whose density"),
+    "hooke of diameters in lines of their own": (
+        SPEED + SIZE + "set group a diameter 0.03\npair_style gran model hooke\n",
         "model hooke has a stiffness for each mass"),
-    "a pack after a change of the box": (ONE + BEFORE + "create_box 1 r\nchange_box all x final 0 2\n" + NINE,
+    "a pack after a change of the box": (
+        ONE + BEFORE + "create_box 1 r\nchange_box all x final 0 2\n" + NINE,
         "insertion into region r after a change of the box"),
     "a template whose radius is not constant now": (
         ONE + "unfix p1\nfix p1 all particletemplate/sphere 1 atom_type 1 radius uniform 0.002 0.003 density constant 2500\n"
