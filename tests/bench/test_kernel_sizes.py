@@ -84,10 +84,11 @@ def case_of(demangled):
 
 
 files = [a for a in sys.argv[1:] if not a.startswith("--")]
-kernels = [k for f in files for k in code_sections(pathlib.Path(f).read_bytes())]
+contents = [pathlib.Path(f).read_bytes() for f in files]
+kernels = [k for data in contents for k in code_sections(data)]
 if not kernels:
     raise SystemExit(f"FAIL no kernel in {', '.join(files) or 'no file'}")
-registers = {name: n for f in files for name, n in attributes(pathlib.Path(f).read_bytes(), REGISTERS)}
+registers = {name: n for data in contents for name, n in attributes(data, REGISTERS)}
 full = subprocess.run(["c++filt"], input="\n".join(name for name, _ in kernels),
                       stdout=subprocess.PIPE, text=True, check=True).stdout.splitlines()
 found = {}
@@ -96,7 +97,7 @@ for name, (mangled, size) in zip(full, kernels):
         case = case_of(name) + (" at nodes that move" if WITH_NODES in mangled else "")
         found[case] = max(size, found.get(case, 0))
         found[case + ", registers"] = max(registers[mangled], found.get(case + ", registers", 0))
-of_steps = [(size, name) for f in files for name, size in attributes(pathlib.Path(f).read_bytes(), MIN_STACK_SIZE)
+of_steps = [(size, name) for data in contents for name, size in attributes(data, MIN_STACK_SIZE)
             if "StepPart" in name and WITH_NODES not in name]
 size, name = max(of_steps, default=(0, ""))
 print(f"{len(of_steps)} kernels of a step: stacks of {size} bytes at most, of {MOST_STACK}")
