@@ -52,45 +52,53 @@ WallSpec wall_of(std::vector<MeshSpec> meshes)
   return wall;
 }
 
+// A body of some density.
+MeshSpec body_of(const char *name, const TriangleSoup &soup)
+{
+  MeshSpec body = mesh_of(name, soup);
+  body.body.present = true;
+  body.body.density = 20;
+  return body;
+}
+
+WallSpec over_floor(const MeshSpec &body)
+{
+  return wall_of({mesh_of("floor", floor_mesh(6, 2)), body});
+}
+
 // A flap that hangs on a hinge with a spring over a floor; it gives way to grains that fall on both.
 WallSpec flap_over_floor()
 {
-  MeshSpec flap = mesh_of("flap", box_mesh({-0.6, -0.05, 0.15}, {0.6, 0.05, 1.2}));
-  flap.body.present = true;
-  flap.body.density = 20;
+  MeshSpec flap = body_of("flap", box_mesh({-0.6, -0.05, 0.15}, {0.6, 0.05, 1.2}));
   flap.body.joint = {JointKind::hinge, {0, 0, 1.2}, {1, 0, 0}};
   flap.body.drive.stiffness = 5;
   flap.body.drive.damping = 0.1;
   flap.body.drive.lo = -1;
   flap.body.drive.hi = 1;
   flap.body.omega = {0.8, 0, 0};
-  return wall_of({mesh_of("floor", floor_mesh(6, 2)), flap});
+  return over_floor(flap);
 }
 
 // A plate that grains press down against a spring; it slides along a slope.
 WallSpec plate_on_slider()
 {
-  MeshSpec plate = mesh_of("plate", box_mesh({-1.5, -1.5, 0.4}, {1.5, 1.5, 0.6}));
-  plate.body.present = true;
-  plate.body.density = 20;
+  MeshSpec plate = body_of("plate", box_mesh({-1.5, -1.5, 0.4}, {1.5, 1.5, 0.6}));
   plate.body.joint = {JointKind::slider, {0, 0, 0}, {0.6, 0, 0.8}};
   plate.body.drive.stiffness = 5000;
   plate.body.drive.damping = 50;
   plate.body.drive.lo = -0.2;
   plate.body.drive.hi = 0.2;
-  return wall_of({mesh_of("floor", floor_mesh(6, 2)), plate});
+  return over_floor(plate);
 }
 
 // A free cube with a coat, which slides over a floor and turns among grains.
 WallSpec coated_cube_on_floor()
 {
-  MeshSpec cube = mesh_of("cube", box_mesh({-0.3, -0.3, 0.06}, {0.3, 0.3, 0.66}));
-  cube.body.present = true;
-  cube.body.density = 20;
+  MeshSpec cube = body_of("cube", box_mesh({-0.3, -0.3, 0.06}, {0.3, 0.3, 0.66}));
   cube.body.velocity = {0.3, 0.1, 0};
   cube.body.omega = {0.1, 0, 0.4};
   cube.body.coat = {true, 0.15, 0.06};
-  return wall_of({mesh_of("floor", floor_mesh(6, 2)), cube});
+  return over_floor(cube);
 }
 
 // A free box with grains inside.
