@@ -85,12 +85,30 @@ class Shapes {
   ShapesMade made_;
 };
 
-// Compiles a law for shapes; all of them have the kernels of walls that move and keep contacts.
+// Does the law read Contact::radius?
+template <class Normal, class Damping, class Tangential>
+bool reads_radius(const ContactModel<Normal, Damping, Tangential> &)
+{
+  return Normal::kUsesContactRadius;
+}
+template <class Normal, bool kHistory>
+bool reads_radius(const GranularModel<Normal, kHistory, false> &law)
+{
+  return law.uses_contact_radius || law.elastic.uses_contact_radius();
+}
+
+// Returns a law for shapes by one of spheres; all of them have the kernels of walls that move and keep contacts.
 template <class Base>
 CompiledLaw<CpuBackend> compiled(const Base &base, ShapeWork &work)
 {
-  using Law = OnWall<ShapeLaw<Base>, true, true>;
-  const Law law = {{base, &work}};
+  static_assert(Base::kExtra == 0 && !Base::kBeyondContact && !Base::kContactTorque,
+                "such laws are not for shapes");
+  using Law = OnWall<ShapeLaw<Base::kHistory>, true, true>;
+  work.laws.emplace_back(base);
+  const auto evaluate = [](const LawBytes &of, const Contact &c, ContactMemory<0> &memory) {
+    return static_cast<ContactForce>(of.as<Base>().evaluate(c, memory));
+  };
+  const Law law = {{&work.laws.back(), evaluate, reads_radius(base), &work}};
   return {traits_of(law), {LawBytes(law)}, run_shape_law<Law, CpuBackend>};
 }
 

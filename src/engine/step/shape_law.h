@@ -8,11 +8,13 @@
 #include "contact/near_features.h"
 #include "engine/grains.h"
 #include "engine/results/step_counts.h"
-#include "law/contact_model.h"
+#include "engine/step/compiled_law.h"
+#include "law/contact.h"
 #include "shape/shapes_made.h"
 #include "tree/triangle_tree.h"
 
 #include <cstdint>
+#include <deque>
 #include <vector>
 
 namespace lsdcd {
@@ -38,20 +40,22 @@ struct ShapeWork {
   std::uint64_t unsure = 0;
   // The largest overlap / least radius of curvature as DeepestOverlap::ratio(), and the index of the grain + 1.
   std::uint64_t sharpest = 0;
+  std::deque<LawBytes> laws;    // of spheres, by which the contacts are
 
   bool is_sphere(std::size_t i) const { return !rows || rows[i].is_sphere(); }
 };
 
-// A law with the arm of a grain beside the spring of each contact.
-template <class Base>
+// A law of spheres, called through a pointer, with the arm of a grain beside the spring of each contact. So steps of shapes are
+// compiled twice, with springs and without, and not for each law.
+template <bool kHistory_>
 struct ShapeLaw {
-  static constexpr bool kHistory = Base::kHistory;
+  static constexpr bool kHistory = kHistory_;
   static constexpr int kVectors = kHistory ? 1 : 0, kScalars = 0, kExtra = 3 * kVectors;
   static constexpr bool kBeyondContact = false, kContactTorque = false, kHeat = false;
-  static_assert(Base::kExtra == 0 && !Base::kBeyondContact && !Base::kContactTorque,
-                "such laws are not for shapes");
 
-  Base base;
+  const LawBytes *base;    // one of work->laws
+  ContactForce (*evaluate_base)(const LawBytes &base, const Contact &, ContactMemory<0> &);
+  bool reads_radius;    // does it read Contact::radius?
   ShapeWork *work;
 
   bool stores(int) const { return true; }
@@ -59,22 +63,10 @@ struct ShapeLaw {
   ContactForce evaluate(const Contact &c, Memory &memory) const
   {
     ContactMemory<0> sliding = {memory.shear};
-    const ContactForce force = base.evaluate(c, sliding);
+    const ContactForce force = evaluate_base(*base, c, sliding);
     memory.shear = sliding.shear;
     return force;
   }
 };
-
-// Does the law read Contact::radius?
-template <class Normal, class Damping, class Tangential>
-bool reads_radius(const ContactModel<Normal, Damping, Tangential> &)
-{
-  return Normal::kUsesContactRadius;
-}
-template <class Normal, bool kHistory>
-bool reads_radius(const GranularModel<Normal, kHistory, false> &law)
-{
-  return law.uses_contact_radius || law.elastic.uses_contact_radius();
-}
 
 }    // namespace lsdcd

@@ -74,7 +74,7 @@ void add_contacts(const GridView &, const Law &law, const ForceSettings &setting
     Contact c;
     c.normal = n;
     c.overlap = at.overlap;
-    c.radius = reads_radius(law.base)
+    c.radius = law.reads_radius
                    ? contact_curvature_radius(shape, at.metric->to_own(at.arm), at.overlap)
                    : s.radius;
     c.mass = s.mass;
