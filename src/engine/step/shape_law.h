@@ -19,6 +19,8 @@
 
 namespace lsdcd {
 
+struct CpuBackend;
+
 // What is within `reach` (length) of where a candidate's centre was when the list was made, in the frame of the mesh.
 struct NearList {
   Vec3 from = {0, 0, 0};
@@ -68,5 +70,8 @@ struct ShapeLaw {
     return force;
   }
 };
+
+// Returns the law of the settings for grains of any shape: InputError where they cannot have it.
+CompiledLaw<CpuBackend> shape_law_for(const EngineSettings &, ShapeWork &);
 
 }    // namespace lsdcd

@@ -1,0 +1,82 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "engine/step/shape_law.h"
+
+#include "backend/backend_cpu.h"
+#include "base/input_error.h"
+#include "engine/shape_engine.h"
+#include "engine/step/compile_law.h"
+#include "engine/step/shape_step.h"
+
+#include <string>
+
+namespace lsdcd {
+namespace {
+
+// Does the law read Contact::radius?
+template <class Normal, class Damping, class Tangential>
+bool reads_radius(const ContactModel<Normal, Damping, Tangential> &)
+{
+  return Normal::kUsesContactRadius;
+}
+template <class Normal, bool kHistory>
+bool reads_radius(const GranularModel<Normal, kHistory, false> &law)
+{
+  return law.uses_contact_radius || law.elastic.uses_contact_radius();
+}
+
+// Returns a law for shapes by one of spheres; all of them have the kernels of walls that move and keep contacts.
+template <class Base>
+CompiledLaw<CpuBackend> compiled(const Base &base, ShapeWork &work)
+{
+  static_assert(Base::kExtra == 0 && !Base::kBeyondContact && !Base::kContactTorque,
+                "such laws are not for shapes");
+  using Law = OnWall<ShapeLaw<Base::kHistory>, true, true>;
+  work.laws.emplace_back(base);
+  const auto evaluate = [](const LawBytes &of, const Contact &c, ContactMemory<0> &memory) {
+    return static_cast<ContactForce>(of.as<Base>().evaluate(c, memory));
+  };
+  const Law law = {{&work.laws.back(), evaluate, reads_radius(base), &work}};
+  return {traits_of(law), {LawBytes(law)}, run_shape_law<Law, CpuBackend>};
+}
+
+CompiledLaw<CpuBackend> compiled_law(const ContactLaw &p, ShapeWork &work)
+{
+  const std::string why = why_not_for_shapes(p);
+  if (!why.empty()) throw InputError(why);
+  if (p.is_classic())
+    return with_classic_law(p, [&](const auto &law) { return compiled(law, work); });
+  const TouchingNormal normal = {p.normal, p.k_normal, 0};
+  return p.has_history() ? compiled(granular_model<true, false>(p, normal), work)
+                         : compiled(granular_model<false, false>(p, normal), work);
+}
+
+}    // namespace
+
+CompiledLaw<CpuBackend> shape_law_for(const EngineSettings &settings, ShapeWork &work)
+{
+  CompiledLaw<CpuBackend> all = compiled_law(settings.law(), work);
+  all.laws.clear();
+  for (const ContactLaw &law : settings.laws.laws)
+    all.laws.push_back(compiled_law(law, work).laws.front());
+  return all;
+}
+
+std::string why_not_for_shapes(const ContactLaw &law)
+{
+  const auto refused = [](const char *what) {
+    return std::string(what) +
+           ": the wall has it for spheres alone; grains of other shapes can have hooke and hertz "
+           "with their damping and sliding friction";
+  };
+  if (law.is(NormalModel::jkr) || law.is(NormalModel::dmt)) return refused("adhesion");
+  if (law.cohesion.is_on()) return refused("cohesion");
+  if (law.rolling.is_on()) return refused("rolling resistance");
+  if (law.twisting.is_on()) return refused("twisting resistance");
+  if (law.has_heat()) return refused("heat");
+  if (law.rescales()) return refused("a tangential spring that is rescaled");
+  return "";
+}
+
+}    // namespace lsdcd
