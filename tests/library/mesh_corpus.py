@@ -3,7 +3,7 @@
 
 """Mesh files as programs and people write them, and what each means: its triangles, or the words of the error.
 
-    mesh_corpus.py FOLDER    writes them all, to try them with another program, and to begin a fuzzer with
+    mesh_corpus.py FOLDER    writes them all, to try them with another program
 """
 import math
 import pathlib

@@ -53,7 +53,7 @@ TEST(cdt, stops_a_rolling_sphere_at_the_analytic_distance)
 // m dv = F, I dw = -R F +- M: with the belt's speed u the slip ends at
 // t1 = u/(mu g + 5/2 (mu - mu_r) g), and rolling friction then takes the sphere along by
 // 5/7 mu_r g until it stands on the belt.
-TEST(cdt, lets_a_belt_carry_a_sphere_to_its_speed)
+TEST(cdt, lets_a_belt_carry_a_sphere_to_its_speed_CPU)
 {
   const Real u = 0.5, mu = 0.3, dt = 1e-5;
   EngineSettings s = with_rolling(hooke(kStiffness, 50, 5000, mu), RollingModel::cdt);
@@ -78,7 +78,7 @@ TEST(cdt, lets_a_belt_carry_a_sphere_to_its_speed)
 
 // The spring takes up to M = mu m g R, over the way x_y = mu m g/k_t; the energy
 // 7/10 m v^2 is M/R (x - x_y/2).
-TEST(epsd2, stops_a_rolling_sphere_at_the_analytic_distance)
+TEST(epsd2, stops_a_rolling_sphere_at_the_analytic_distance_CPU)
 {
   for (const Real k : {300.0, 3e4}) {
     const Real yields = kMuRoll * kMass * kG / k;

@@ -273,7 +273,7 @@ TEST(drum, force_is_the_polygons_and_its_roughness_falls_with_refinement)
 
 // ---- sliding without friction ------------------------------------------------------------------
 
-TEST(drum, frictionless_sliding_keeps_its_energy)
+TEST(drum, frictionless_sliding_keeps_its_energy_CPU_LONG)
 {
   for (const int n : {64, 256, 1024, 4096}) {
     const Real seconds = 2;
@@ -332,7 +332,7 @@ std::string stiffness(Real k)
   return text;
 }
 
-TEST(drum, rolling_loses_what_the_polygon_takes_and_no_more)
+TEST(drum, rolling_loses_what_the_polygon_takes_and_no_more_CPU_LONG)
 {
   for (const Real k : {1e3, 1e5}) {
     const Real smooth = rolling_losses(0, k).exact;
@@ -351,7 +351,7 @@ TEST(drum, rolling_loses_what_the_polygon_takes_and_no_more)
   }
 }
 
-TEST(drum, rolling_of_a_hardly_sunk_sphere_needs_finer_segments)
+TEST(drum, rolling_of_a_hardly_sunk_sphere_needs_finer_segments_CPU_LONG)
 {
   // Sunk by 4 sagittas only, a sphere meets 1024 segments one by one: the polygon
   // itself takes 0.22 %. Where it is 70 sagittas the cylinder's answer is back.
@@ -362,7 +362,7 @@ TEST(drum, rolling_of_a_hardly_sunk_sphere_needs_finer_segments)
       "0.1 % of the energy; with 1024 segments the polygon itself takes 0.22 % at this k");
 }
 
-TEST(drum, rolling_under_the_plain_sum_loses_more)
+TEST(drum, rolling_under_the_plain_sum_loses_more_CPU)
 {
   // Without the corner rule there is a loss, which proves that this test measures it.
   const Real k = 1e3, smooth = rolling_losses(0, k).exact;

@@ -24,7 +24,7 @@ constexpr int kLong = 1000000;
 
 // ---- billiard ----------------------------------------------------------------------------------
 
-TEST(billiard, in_a_mesh_box_keeps_its_energy_for_a_million_steps)
+TEST(billiard, in_a_mesh_box_keeps_its_energy_for_a_million_steps_CPU_LONG)
 {
   // Not a whole part of a contact: else losses and gains at its ends cancel.
   const Real w = 0.0307, dt = w / std::sqrt(kStiffness / kMass);

@@ -208,7 +208,7 @@ Bounces bounce(const std::vector<Plane> &planes, int n_steps, Real w)
   return out;
 }
 
-TEST(funnel, keeps_the_energy_of_a_sphere_that_bounces)
+TEST(funnel, keeps_the_energy_of_a_sphere_that_bounces_CPU)
 {
   // As the billiard of test_energy: a touch that begins or ends within a step changes the energy of motion by
   // w^2 / sqrt(90) at random, and bounces add up as their root. Seven planes all round are more than a convex problem

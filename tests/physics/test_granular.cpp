@@ -172,7 +172,7 @@ TEST(jkr, contact_radius_solves_its_equation_from_no_to_strong_adhesion)
     }
 }
 
-TEST(jkr, sphere_slides_under_a_ceiling_of_triangles_without_falling)
+TEST(jkr, sphere_slides_under_a_ceiling_of_triangles_without_falling_CPU)
 {
   // It hangs by its adhesion past touch, over faces, edges and vertices alike: the weight
   // is 0.9 of the pull-off force. Its springs go along.
@@ -239,7 +239,7 @@ Real restitution(const EngineSettings &law, Real speed, int steps_per_contact)
   return scene.v(0).z / speed;
 }
 
-TEST(damping, coeff_restitution_returns_what_is_set)
+TEST(damping, coeff_restitution_returns_what_is_set_CPU)
 {
   for (NormalModel normal : {NormalModel::hooke, NormalModel::hertz})
     for (Real e : {0.1, 0.3, 0.5, 0.7, 0.9, 1.0}) {
@@ -250,7 +250,7 @@ TEST(damping, coeff_restitution_returns_what_is_set)
     }
 }
 
-TEST(damping, tsuji_returns_what_is_set)
+TEST(damping, tsuji_returns_what_is_set_CPU)
 {
   // The fit itself is off by 1.1e-3 at most (at 0.8).
   for (Real e : {0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0}) {
@@ -460,7 +460,7 @@ TEST(slip, below_the_limit_is_the_model_without_it)
 
 // ---- rolling, twisting, heat ---------------------------------------------------------------------
 
-TEST(rolling, sds_stops_a_rolling_sphere_at_seven_tenths_of_v2_over_mu_g)
+TEST(rolling, sds_stops_a_rolling_sphere_at_seven_tenths_of_v2_over_mu_g_CPU)
 {
   // A contact torque mu_r N R against a sphere that rolls without slipping: 7/5 m v' = -mu_r m g.
   const Real g = 10, mu_roll = 0.05, v = 0.8, dt = 2e-5, k_roll = 2e4;
@@ -488,7 +488,7 @@ TEST(rolling, sds_stops_a_rolling_sphere_at_seven_tenths_of_v2_over_mu_g)
   EXPECT_NEAR(scene.x(0).y, 0.13, 1e-9);
 }
 
-TEST(twisting, stops_a_spinning_sphere_at_the_angle_of_its_limit)
+TEST(twisting, stops_a_spinning_sphere_at_the_angle_of_its_limit_CPU)
 {
   // I w^2/2 = M angle: sds with M = mu N, marshall with M = 2/3 a mu N.
   const Real g = 10, w = 3, dt = 2e-5, mu = 0.3,

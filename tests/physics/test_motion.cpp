@@ -94,7 +94,7 @@ TEST(spring, is_kept_where_the_next_wall_is_first_touched_lightly)
   for (Real degrees : {5., 15.}) expect_kept(roll_over_hinge(degrees, 20000, 0.001), degrees);
 }
 
-TEST(spring, force_is_continuous_over_a_shallow_seam)
+TEST(spring, force_is_continuous_over_a_shallow_seam_CPU)
 {
   for (Real degrees : {1., 5., 15., 30.}) {
     const auto largest = [&](int n) {
@@ -194,7 +194,7 @@ TEST(side_out, ignores_the_far_face_of_a_thin_plate)
 // ---- energy ---------------------------------------------------------------------------------------
 
 // In free flight; test_energy has a box.
-TEST(billiard, in_a_drum_of_flat_facets_keeps_its_energy)
+TEST(billiard, in_a_drum_of_flat_facets_keeps_its_energy_CPU)
 {
   constexpr int kSteps = 200000;
   const Real w = kPi / 100, dt = w / std::sqrt(kStiffness / kMass);

@@ -58,7 +58,7 @@ Rolled let_go(const TriangleSoup &soup, const EngineSettings &settings, const Ve
 
 // ---- incline --------------------------------------------------------------------------------
 
-TEST(incline, is_rolled_down_or_slid_down_as_its_slope_says)
+TEST(incline, is_rolled_down_or_slid_down_as_its_slope_says_CPU)
 {
   const Real mu = 0.3;
   struct {
@@ -199,7 +199,7 @@ TEST(groove, is_rolled_along_on_both_its_walls)
 
 // ---- cone ------------------------------------------------------------------------------------
 
-TEST(cone_tip, is_slid_over_with_one_contact_and_no_loss)
+TEST(cone_tip, is_slid_over_with_one_contact_and_no_loss_CPU)
 {
   for (const int n : {10, 50, 200})
     for (const Real aside : {0., 0.003}) {

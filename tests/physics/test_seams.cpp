@@ -159,13 +159,13 @@ TEST(seams, are_not_felt_however_the_plane_is_cut)
   append(left, right);
   expect_plane("6", "two halves of other triangles, joined along x = 0", left, {}, -1, 0.9 * kHalf);
 }
-TEST(seams, of_20000_triangles_are_not_felt)
+TEST(seams, of_20000_triangles_are_not_felt_LONG)
 {
   expect_plane("3", "20 000 triangles", floor_mesh(100, kHalf), kOneContact);
   expect_plane("3", "20 000 triangles, jittered, shuffled, mixed winding",
                floor_mesh(100, kHalf, 2), kOneContact);
 }
-TEST(seams, of_200000_triangles_are_not_felt)
+TEST(seams, of_200000_triangles_are_not_felt_LONG)
 {
   expect_plane("4", "199 712 triangles, jittered, shuffled, mixed winding",
                floor_mesh(316, kHalf, 3));

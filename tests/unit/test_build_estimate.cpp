@@ -93,7 +93,7 @@ TEST(BuildEstimate, a_given_cell_that_cannot_fit_is_refused_before_anything_is_b
   EXPECT_TRUE(told.empty()) << told.front();
 }
 
-TEST(BuildEstimate, a_chosen_cell_is_not_built_where_it_cannot_fit)
+TEST(BuildEstimate, a_chosen_cell_is_not_built_where_it_cannot_fit_LONG)
 {
   std::vector<std::string> told;
   GridSettings settings;

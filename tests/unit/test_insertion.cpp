@@ -248,7 +248,7 @@ TEST(insertion, into_a_full_chute_keeps_the_sizes)
   expect_a_fifth_each(sizes_through_a_full_chute(2500, true));
 }
 
-TEST(insertion, into_a_full_chute_keeps_the_sizes_for_100000_steps)
+TEST(insertion, into_a_full_chute_keeps_the_sizes_for_100000_steps_LONG)
 {
   expect_a_fifth_each(sizes_through_a_full_chute(100000, false));
 }

@@ -688,7 +688,7 @@ TEST(mesh_nodes, have_the_torque_of_the_forces_on_them)
 // A sphere rocks on a triangle whose corners hang on springs: with one contact the forces on sphere and nodes are the
 // gradient of the elastic energy, so that velocity Verlet, which is symplectic, lets the total oscillate by the square of
 // the step and not drift.
-TEST(mesh_nodes, keep_the_energy_of_an_elastic_contact)
+TEST(mesh_nodes, keep_the_energy_of_an_elastic_contact_CPU)
 {
   const auto mesh = welded(TriangleSoup{{{-1, -1, 0}, {2, -1, 0}, {-1, 2, 0}}, ""});
   const Real stiffness = 1000, spring = 300, node_mass = 0.7, weight = 5;

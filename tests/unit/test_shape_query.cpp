@@ -141,7 +141,7 @@ TEST(shape_query, finds_the_same_contacts_of_ellipsoids_however_a_surface_is_cut
   expect_the_same_in_all_pieces(drum(24), 2, 1e-10, {2, 7, 25});
 }
 // Of 4, 4, 48 and 5 triangles, and of 2e5.
-TEST(shape_query, finds_the_same_contacts_on_surfaces_of_200000_triangles)
+TEST(shape_query, finds_the_same_contacts_on_surfaces_of_200000_triangles_LONG)
 {
   for (Real most_exponent : {2, 8}) {
     const Real of_points = most_exponent > 2 ? 1e-7 : 1e-10;

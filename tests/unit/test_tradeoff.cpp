@@ -260,7 +260,7 @@ Tradeoff small(double seconds = 1e9, std::size_t memory = std::size_t(1) << 30)
                           [](const TradeoffRow &) {});
 }
 
-TEST(tradeoff, has_a_row_for_every_setting_the_default_first)
+TEST(tradeoff, has_a_row_for_every_setting_the_default_first_RELEASE)
 {
   const Tradeoff t = small();
   EXPECT_TRUE(t.left_out.empty());
@@ -287,7 +287,7 @@ TEST(tradeoff, has_a_row_for_every_setting_the_default_first)
   EXPECT_TRUE(std::any_of(t.rows.begin(), t.rows.end(), [](const auto &r) { return r.on_front; }));
 }
 
-TEST(tradeoff, has_the_default_however_little_time_there_is)
+TEST(tradeoff, has_the_default_however_little_time_there_is_RELEASE)
 {
   const Tradeoff t = small(1e-9);
   ASSERT_EQ(t.rows.size(), 2u);    // with both corner rules
@@ -296,7 +296,7 @@ TEST(tradeoff, has_the_default_however_little_time_there_is)
   EXPECT_NE(t.left_out[0].find("no time"), std::string::npos);
 }
 
-TEST(tradeoff, leaves_out_what_is_over_the_budget_and_says_so)
+TEST(tradeoff, leaves_out_what_is_over_the_budget_and_says_so_RELEASE)
 {
   const Tradeoff t = small(1e9, 300000);
   EXPECT_FALSE(t.left_out.empty());
