@@ -1,10 +1,10 @@
 # SPDX-FileCopyrightText: 2026 LSDCD contributors
 # SPDX-License-Identifier: GPL-2.0-only
 
-"""region mesh/lsdcd against LAMMPS's own block and cylinder, at rest and moving, and clear of the wall.
+"""region mesh/lsdcd against LAMMPS's own block, at rest and moving, and clear of the wall.
 
 A box of triangles has the block's faces without rounding, and LAMMPS moves both alike: the same atoms are
-inside, also those on its faces. A cylinder of N flat sides is between two cylinders of LAMMPS.
+inside, also those on its faces.
 """
 
 import math
@@ -104,21 +104,6 @@ def test_block(folder):
     scaled = "lattice sc 0.125\nregion half block -0.625 0.5 -0.375 0.75 -0.5 0.25 units lattice\n"
     expect_equal(folder, [("units lattice", "box.stl scale 0.5 units lattice", "intersect 2 half half")],
                  CLOUD + scaled)
-
-
-def test_cylinder(folder):
-    inner = RADIUS * math.cos(math.pi / SIDES) * (1 - 1e-12)
-    text, pairs = CLOUD + MOVES, []
-    for k, words in enumerate(("", BY)):
-        text += f"region mesh{k} mesh/lsdcd cylinder.stl {words}\n"
-        for kind, r in (("inner", inner), ("outer", RADIUS * (1 + 1e-12))):
-            text += f"region {kind}{k} cylinder z 0 0 {r:.17g} -{HALF} {HALF} units box {words}\n"
-        pairs += [(f"inner{k}", f"mesh{k}"), (f"mesh{k}", f"outer{k}")]
-    found = differing(text, folder, pairs)
-    for k, name in enumerate(("at rest", "moving")):
-        missing, extra = found[2 * k:2 * k + 2]
-        fact(f"a cylinder {name} is between two of LAMMPS",
-             missing[0] == extra[0] == 0 and missing[1] > 100, f"{missing}, {extra}")
 
 
 def test_commands(folder):
