@@ -1,8 +1,7 @@
 # SPDX-FileCopyrightText: 2026 LSDCD contributors
 # SPDX-License-Identifier: GPL-2.0-only
 
-"""A small rotating drum with lifters, full of spheres of two sizes, and all that touches it by brute
-force."""
+"""A small rotating drum with lifters, full of spheres of two sizes."""
 
 import math
 import random
@@ -10,6 +9,7 @@ import random
 import numpy
 
 import lmp
+from triangles import turn
 
 RADIUS, LENGTH, SIDES, LIFTERS, LIFT = 4.0, 6.0, 16, 4, 0.8
 PERIOD, DT = 8.0, 5e-4
@@ -67,32 +67,4 @@ thermo_modify   norm no format float %.17g
 
 
 def turned(time):
-    a = 2 * math.pi * time / PERIOD
-    t, c, s = triangles(), math.cos(a), math.sin(a)
-    # Right-handed about y: z to x.
-    return numpy.stack((c * t[..., 0] + s * t[..., 2], t[..., 1], c * t[..., 2] - s * t[..., 0]), -1)
-
-
-def closest_points(t, x):
-    """Of each triangle to each x: (n_x, n_t, 3). The face where the foot is inside, else the closest
-    of the three edges."""
-    a, b, c = t[:, 0], t[:, 1], t[:, 2]
-    x = x[:, None, :]
-
-    def on_edge(p, q):
-        d = q - p
-        s = numpy.clip(((x - p) * d).sum(-1) / (d * d).sum(-1), 0, 1)
-        return p + s[..., None] * d
-
-    normal = numpy.cross(b - a, c - a)
-    normal /= numpy.linalg.norm(normal, axis=-1)[:, None]
-    foot = x - ((x - a) * normal).sum(-1)[..., None] * normal
-    inside = numpy.ones(foot.shape[:2], bool)
-    for p, q in ((a, b), (b, c), (c, a)):
-        inside &= (numpy.cross(q - p, foot - p) * normal).sum(-1) >= 0
-    best = numpy.where(inside[..., None], foot, on_edge(a, b))
-    for p, q in ((b, c), (c, a)):
-        other = on_edge(p, q)
-        closer = ~inside & (numpy.linalg.norm(other - x, axis=-1) < numpy.linalg.norm(best - x, axis=-1))
-        best = numpy.where(closer[..., None], other, best)
-    return best
+    return triangles() @ turn((0, 1, 0), 2 * math.pi * time / PERIOD).T

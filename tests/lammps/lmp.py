@@ -135,8 +135,8 @@ def run_well(*args, **kwargs):
     return done.stdout
 
 
-def scratch():
-    return pathlib.Path(tempfile.mkdtemp(prefix="lsdcd-"))
+def flat_floor(folder, name="floor.stl"):
+    (folder / name).write_bytes((HERE / "scripts" / "floor.stl").read_bytes())
 
 
 def mesh_warnings(output):

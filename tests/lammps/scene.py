@@ -27,6 +27,10 @@ def write_floor(path, side=6.5, cells=26):
     stl.write(path, stl.sheet(cells, point))
 
 
+def bumpy_floor(folder):
+    write_floor(folder / "floor.stl")
+
+
 # Everything that a contact can keep from step to step: spring, radius, rolling, twist,
 # and adhesion past touch.
 GRANULAR = ("granular jkr 1e5 700 0.3 0.3 tangential mindlin_rescale/force NULL 0.6 0.4 "

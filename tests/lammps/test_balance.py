@@ -10,6 +10,7 @@ import lmp
 import drum
 import stl
 from facts import at_most, fact
+from triangles import closest_on_triangle
 
 RANKS = (1, 4) if lmp.QUICK else (1, 2, 4, 8)
 STEPS, EVERY = 2300 if lmp.QUICK else 4000, 100
@@ -28,7 +29,7 @@ def brute_force(at, rows):
     for step, atoms in rows.items():
         table = numpy.array(list(atoms.values()))
         radius, x, count, force = table[:, 0], table[:, 1:4], table[:, 4], table[:, 5:8]
-        points = drum.closest_points(drum.turned(step * drum.DT), x)
+        points = numpy.stack([closest_on_triangle(x, *t)[0] for t in drum.turned(step * drum.DT)], 1)
         apart = numpy.linalg.norm(points - x[:, None, :], axis=-1)
         nearest = apart.argmin(1)
         least = apart[numpy.arange(len(x)), nearest]

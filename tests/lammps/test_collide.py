@@ -13,6 +13,7 @@ import lmp
 from facts import fact
 import numpy as np
 import stl
+from triangles import turn
 
 HALF = 0.5    # of a cube
 CUBE = np.array(stl.box((-HALF,) * 3, (HALF,) * 3))
@@ -41,13 +42,6 @@ OF_RIGID = () if lmp.ON_HOST else (RIGID, RIGID_SMALL)    # which other hosts ha
 BY_MOVE = "".join(f"group one{k} molecule {k}\nfix go{k} one{k} move rotate {words}\n" for k, words in
                   ((1, "-3 1.6 1 1 0.2 0.1 2.1"), (2, "0.5 -1 0.6 0.3 1 0 1.7"), (3, "2 -0.3 0.4 0 1 0.3 2.9")))
 STEP, COLLIDING, PAIRS, BODIES, UNCERTAIN, FIRST = range(6)
-
-
-def turn(axis, angle):
-    """Rodrigues."""
-    x, y, z = np.array(axis) / np.linalg.norm(axis)
-    k = np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
-    return np.eye(3) + math.sin(angle) * k + (1 - math.cos(angle)) * k @ k
 
 
 def write_data(path, cubes, box=6.0):

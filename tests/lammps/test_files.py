@@ -7,11 +7,14 @@ written."""
 import math
 import struct
 
+import numpy
+
 import lmp
 import scene
 import stl
 import vtp
 from facts import at_most, fact
+from triangles import turn
 
 LAW = "hooke/history 1e4 NULL 120 NULL 0.4 1"
 SOFT = "hooke 1e-9 NULL 0 NULL 0 0"    # spheres do not notice the mesh, however it moves
@@ -19,17 +22,13 @@ TURN = "motion rotate 0.3 0.1 0.7 1 2 2 0.8"
 RATE = 2 * math.pi / 0.8
 FIELDS = "mesh_fields {} every 100"
 
+prepare = scene.bumpy_floor
+
 
 def turned(points, time):
-    """By TURN, with Rodrigues' formula."""
-    a, c, s = (1 / 3, 2 / 3, 2 / 3), math.cos(RATE * time), math.sin(RATE * time)
-    out = []
-    for x, y, z in zip(points[::3], points[1::3], points[2::3]):
-        p = (x - 0.3, y - 0.1, z - 0.7)
-        along = sum(u * v for u, v in zip(a, p)) * (1 - c)
-        across = (a[1] * p[2] - a[2] * p[1], a[2] * p[0] - a[0] * p[2], a[0] * p[1] - a[1] * p[0])
-        out += [o + c * p[i] + s * across[i] + along * a[i] for i, o in enumerate((0.3, 0.1, 0.7))]
-    return out
+    """By TURN."""
+    about = numpy.array((0.3, 0.1, 0.7))
+    return ((numpy.reshape(points, (-1, 3)) - about) @ turn((1, 2, 2), RATE * time).T + about).ravel()
 
 
 def apart(a, b):
@@ -40,10 +39,6 @@ def apart(a, b):
 def go(folder, words, run, begin=scene.CREATE, ranks=1):
     law = SOFT if "motion" in words else LAW
     return lmp.run_well(begin + scene.forces(law, mesh="mesh floor.stl " + words) + run, folder, ranks)
-
-
-def prepare(folder):
-    scene.write_floor(folder / "floor.stl")
 
 
 def test_series(folder):
@@ -100,23 +95,6 @@ def test_continued(folder):
     fact("and one that goes on lists the earlier ones", same(vtp.listed(folder / "c_series.pvd"), whole))
     go(folder, words, "run 100\n")
     fact("a new run begins a new list", same(vtp.listed(folder / "c_series.pvd"), whole[:1]))
-
-
-def write_ply(path, points):
-    """Triangles of these corners, in floats."""
-    n = len(points) // 9
-    head = ("ply\nformat binary_little_endian 1.0\nelement vertex {}\nproperty float x\nproperty float y\n"
-            "property float z\nelement face {}\nproperty list uchar int vertex_indices\nend_header\n")
-    path.write_bytes(head.format(3 * n, n).encode() + struct.pack(f"<{9 * n}f", *points) +
-                     b"".join(struct.pack("<B3i", 3, 3 * t, 3 * t + 1, 3 * t + 2) for t in range(n)))
-
-
-def test_ply(folder):
-    go(folder, "mesh_stl p.stl every 50", "run 50\n")
-    write_ply(folder / "p.ply", stl.points(folder / "p.stl"))
-    done = lmp.run(scene.CREATE + scene.forces(LAW, mesh="mesh p.ply mesh_stl q.stl every 50") + "run 50\n", folder)
-    fact("a mesh from a PLY has the bits of that from an STL", done.returncode == 0 and
-         (folder / "p.stl").read_bytes() == (folder / "q.stl").read_bytes(), done.stdout[-300:])
 
 
 L_FLOOR = {

@@ -11,10 +11,13 @@ import math
 import re
 import resource
 
+import numpy
+
 import lmp
 import stl
 import vtp
 from facts import at_most, fact
+from triangles import closest_on_triangle
 
 RATE, DENSITY, SPEED = 0.05, 2.0, 1.0
 SIZES = {0.1: 0.5, 0.16: 0.3, 0.2: 0.2}    # shares of mass
@@ -171,22 +174,6 @@ def check_brought(folder):
         fact(f"clear of a wall {name}", len(gap) > 40 and -2e-9 < min(gap) < 0.03, f"{len(gap)} {min(gap)}")
 
 
-def from_triangle(x, corners):
-    """The distance of a point: from the plane if its foot is inside, else from the nearest edge."""
-    def minus(a, b):
-        return [p - q for p, q in zip(a, b)]
-    def dot(a, b):
-        return sum(p * q for p, q in zip(a, b))
-    def cross(a, b):
-        return [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
-    normal = cross(minus(corners[1], corners[0]), minus(corners[2], corners[0]))
-    edges = [(corners[k], minus(corners[(k + 1) % 3], corners[k])) for k in range(3)]
-    if all(dot(cross(normal, e), minus(x, a)) >= 0 for a, e in edges):
-        return abs(dot(normal, minus(x, corners[0]))) / math.sqrt(dot(normal, normal))
-    shares = [min(1, max(0, dot(minus(x, a), e) / dot(e, e))) for a, e in edges]
-    return min(math.dist(x, [p + s * q for p, q in zip(a, e)]) for s, (a, e) in zip(shares, edges))
-
-
 def test_worn(folder):
     """A sheet that a ball wears down while grains come from below, at rest: clear of the shape that it has then."""
     stl.write(folder / "sheet.stl", stl.sheet(6, lambda i, j: (i / 3 - 1, j / 3 - 1, 0)))
@@ -212,10 +199,10 @@ fix in all insert/lsdcd region below numberrate 100 diam one 0.1 dens 1 seed 3
         if not new:
             continue
         worn = vtp.read(folder / f"worn_{step}.vtp")
-        points = [worn["points"][3 * k:3 * k + 3] for k in worn["connectivity"]]
-        lowest = min(z for _, _, z in points)
-        for tag in new:
-            gap.append(min(from_triangle(grains[tag][2:5], points[k:k + 3]) for k in range(0, len(points), 3)) - grains[tag][0])
+        triangles = numpy.reshape(worn["points"], (-1, 3))[numpy.reshape(worn["connectivity"], (-1, 3))]
+        lowest = triangles[..., 2].min()
+        came = numpy.array([grains[tag] for tag in new])
+        gap += list(numpy.min([closest_on_triangle(came[:, 2:5], *t)[1] for t in triangles], axis=0) - came[:, 0])
     fact("clear of a wall that wear has moved", len(gap) > 20 and lowest < -0.1 and -1e-9 < min(gap) < 0.05,
          f"{len(gap)} {lowest} {min(gap)}")
 

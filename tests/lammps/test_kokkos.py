@@ -45,8 +45,7 @@ pytestmark = lmp.needs_host
 NOT_ON_DEVICE = pytest.mark.skipif(lmp.DEVICE_MOVES, reason="with fixes that move atoms over the host")
 
 
-def prepare(folder):
-    scene.write_floor(folder / "floor.stl")
+prepare = scene.bumpy_floor
 
 
 def go(folder, flags, text, ranks=1, name="moves"):
@@ -61,7 +60,7 @@ def plain_among_kokkos(text):
 
 
 def test_single_contacts(folder):
-    (folder / "flat.stl").write_bytes((lmp.HERE / "scripts" / "floor.stl").read_bytes())
+    lmp.flat_floor(folder, "flat.stl")
     path = lmp.HERE / "scripts" / "in.one_sphere"
     for name, law in LAWS.items():
         dumps = []

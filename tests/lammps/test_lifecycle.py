@@ -36,10 +36,6 @@ def rows_of(folder, name):
     return next(iter(lmp.read_dump(folder / name).values()))
 
 
-def write_floor(folder):
-    (folder / "floor.stl").write_bytes((lmp.HERE / "scripts" / "floor.stl").read_bytes())
-
-
 def write_plates(path, n, centre, distance):
     """n small triangles around a point, each a place of its own where a sphere there touches."""
     golden = math.pi * (3 - math.sqrt(5))
@@ -59,7 +55,7 @@ def write_plates(path, n, centre, distance):
 
 
 def prepare(folder):
-    write_floor(folder)
+    lmp.flat_floor(folder)
     scene.write_floor(folder / "bumps.stl")
 
 

@@ -47,7 +47,7 @@ def lines(text, *words):
 
 
 def prepare(folder):
-    (folder / "floor.stl").write_bytes((lmp.HERE / "scripts" / "floor.stl").read_bytes())
+    lmp.flat_floor(folder)
     stl.write(folder / "in_mm.stl", [((-50, -50, 0), (50, -50, 0), (50, 50, 0)), ((-50, -50, 0), (50, 50, 0), (-50, 50, 0)),
                                      ((-50, -50, 0), (50, -50, 0), (0, -50, 80))])
     stl.write(folder / "drum.stl", drum(0))

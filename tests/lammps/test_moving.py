@@ -10,6 +10,7 @@ test_parity.py. LSDCD_QUICK=1 takes one law.
 import math
 import re
 
+import numpy
 import pytest
 
 import lmp
@@ -17,6 +18,7 @@ import scene
 import stl
 import vtp
 from facts import at_most, fact
+from triangles import turn
 
 LAWS = {"hooke": "hooke 1e4 NULL 5 NULL 0.5 1",
         "hooke_history": "hooke/history 1e4 NULL 5 NULL 0.5 1",
@@ -65,14 +67,8 @@ def prepare(folder):
     write_drum(folder / "corner.stl", 0, 2, n=3)
 
 
-@pytest.fixture
-def flat_floor(folder):
-    (folder / "floor.stl").write_bytes((lmp.HERE / "scripts" / "floor.stl").read_bytes())
-
-
-@pytest.fixture
-def hilly_floor(folder):
-    scene.write_floor(folder / "floor.stl")
+flat_floor = pytest.fixture(lmp.flat_floor)
+hilly_floor = pytest.fixture(scene.bumpy_floor)
 
 
 @NOT_KOKKOS
@@ -234,7 +230,7 @@ def test_searches(folder, hilly_floor):
         at_most(f"{name}: as plain", lmp.largest_difference(plain, go("other", **words)), 0)
     # fix wall/gran under respa, with time of the outer step.
     if not lmp.ON_KOKKOS:
-        (folder / "flat.stl").write_bytes((lmp.HERE / "scripts" / "floor.stl").read_bytes())
+        lmp.flat_floor(folder, "flat.stl")
         law, words = LAWS["hooke_history"], OF_WALL_GRAN["wiggle_z"]
         respa = {"style": "respa 2 2 pair 2", "dt": 2e-4, "steps": 600}
         theirs = one_sphere(folder, "a", f"wall/gran {law} zplane 0.0 NULL {words}", **respa)[0]
@@ -279,17 +275,13 @@ def test_stopped(folder, hilly_floor):
     log = lmp.run_well(text + "run 100\nfix_modify wall motion none\nrun 100\n"
                        "fix_modify wall motion linear 0 0 1 motion rotate 0 0 0 0 0 1 0.8 energy yes\n"
                        "run 100\ntimestep 0.002\nrun 100\nreset_timestep 10000\nrun 100\n", folder)
-    p = [places(folder, f"f_{k}.vtp") for k in (100, 200, 300, 400, 10100)]
+    p = [numpy.reshape(places(folder, f"f_{k}.vtp"), (-1, 3)) for k in (100, 200, 300, 400, 10100)]
 
-    def moved(points, turn, rise):
-        c, s = math.cos(2 * math.pi * turn), math.sin(2 * math.pi * turn)
-        out = []
-        for x, y, z in zip(points[::3], points[1::3], points[2::3]):
-            out += [c * x - s * y, s * x + c * y, z + rise]
-        return out
+    def moved(points, turns, rise):
+        return points @ turn((0, 0, 1), 2 * math.pi * turns).T + (0, 0, rise)
 
     def apart(a, b):
-        return max(abs(u - v) for u, v in zip(a, b))
+        return numpy.abs(a - b).max()
 
     fact("a quarter turn was made", apart(p[0], moved(p[0], 0.25, 0)) > 1)
     at_most("motion none: it stays where it is", apart(p[0], p[1]), 0)

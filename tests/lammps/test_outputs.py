@@ -45,8 +45,7 @@ def close(a, b):
     return math.isclose(a, b, rel_tol=1e-13, abs_tol=1e-13)    # a few roundings
 
 
-def prepare(folder):
-    (folder / "floor.stl").write_bytes((lmp.HERE / "scripts" / "floor.stl").read_bytes())
+prepare = lmp.flat_floor
 
 
 def test_in_commands(folder):

@@ -31,8 +31,7 @@ CASES = {
 REAL = {"hertz_history_in_real_units": "hertz/history 1e7 NULL 10 NULL 0.5 1"}
 
 
-def prepare(folder):
-    (folder / "floor.stl").write_bytes((lmp.HERE / "scripts" / "floor.stl").read_bytes())
+prepare = lmp.flat_floor
 
 
 def compare(folder, name, law, scene="in.one_sphere", **settings):

@@ -5,9 +5,12 @@
 
 import math
 
+import numpy
+
 import lmp
 from facts import at_most, fact
 from test_moving import write_drum, write_plane
+from triangles import turn
 
 SCRIPT = lmp.SMALL_BOX + """\
 fix             wall all wall/lsdcd {wall} contacts
@@ -31,25 +34,10 @@ def go(folder, wall, dt, steps, atoms=TWO, more=PULL, ranks=1):
     return lmp.read_thermo(text), lmp.read_dump(folder / "spheres")
 
 
-def cross(a, b):
-    return [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
-
-
-def dot(a, b):
-    return sum(u * v for u, v in zip(a, b))
-
-
-def minus(a, b):
-    return [u - v for u, v in zip(a, b)]
-
-
 def torque_about(rows, point):
     """On the mesh; gravity has no torque on a sphere, so that tq is the wall's."""
-    total = [0, 0, 0]
-    for row in rows.values():
-        moment = cross(minus(row[:3], point), row[9:12])
-        total = [t - m - q for t, m, q in zip(total, moment, row[6:9])]
-    return total
+    rows = numpy.array(list(rows.values()))
+    return -(numpy.cross(rows[:, :3] - point, rows[:, 9:12]) + rows[:, 6:9]).sum(axis=0)
 
 
 def test_piston(folder):
@@ -71,27 +59,22 @@ def test_drum(folder):
     """It turns about an axis that moves; torque is asked for about a point of the axis, of the drum,
     and of the box."""
     write_drum(folder / "drum.stl", 0, 4)
-    axis, period, start, speed = (0, 0, 1), 2.0, (0.1, -0.2, 0.5), (0.05, -0.1, 0.2)
+    period, start, speed = 2.0, numpy.array((0.1, -0.2, 0.5)), numpy.array((0.05, -0.1, 0.2))
     rate = 2 * math.pi / period
     dt, steps = 1e-4, 1500
     motion = " motion transrot {} {} {} {} {} {} 0 0 1 {} ".format(*speed, *start, period)
     still = (0.4, 0.3, -2.0)
     for about, point in (("{} {} {}".format(*still), lambda t: still),
-                         ("mesh {} {} {}".format(*start),
-                          lambda t: [s + v * t for s, v in zip(start, speed)]),
-                         ("mesh", lambda t: [start[0] + speed[0] * t - start[0] * math.cos(rate * t)
-                                             + start[1] * math.sin(rate * t),
-                                             start[1] + speed[1] * t - start[0] * math.sin(rate * t)
-                                             - start[1] * math.cos(rate * t), speed[2] * t])):
+                         ("mesh {} {} {}".format(*start), lambda t: start + speed * t),
+                         ("mesh", lambda t: start + speed * t - turn((0, 0, 1), rate * t) @ start)):
         rows, spheres = go(folder, LAW + motion + "torque_about " + about, dt, steps)
         off, size, torque, power = 0, 0, 0, 0
         for row in rows:
             t, here = row[0] * dt, spheres[int(row[0])]
             expected = torque_about(here, point(t))
-            off = max(off, *map(abs, minus(row[4:7], expected)))
-            size = max(size, *map(abs, expected))
-            on_axis = [s + v * t for s, v in zip(start, speed)]
-            works = -dot(row[1:4], speed) - rate * dot(axis, torque_about(here, on_axis))
+            off = max(off, *abs(row[4:7] - expected))
+            size = max(size, *abs(expected))
+            works = -numpy.dot(row[1:4], speed) - rate * torque_about(here, start + speed * t)[2]
             torque, power = max(torque, abs(row[7] - works)), max(power, abs(works))
         # Sums of a few products of numbers up to 3 times as large.
         at_most(f"torque about {about}", off / size, 1e-13)

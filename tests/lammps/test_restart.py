@@ -54,8 +54,7 @@ def told(law, folder, restart="two.restart"):
     return proceed(law, folder, restart=restart, steps=0)[1]
 
 
-def prepare(folder):
-    scene.write_floor(folder / "floor.stl")
+prepare = scene.bumpy_floor
 
 
 def test_rows(folder):

@@ -3,8 +3,16 @@
 
 """Triangles in numpy: distances to every one of them, one by one, and meshes to break."""
 import itertools
+import math
 
 import numpy as np
+
+
+def turn(axis, angle):
+    """A matrix, by Rodrigues' formula."""
+    x, y, z = np.array(axis) / np.linalg.norm(axis)
+    k = np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
+    return np.eye(3) + math.sin(angle) * k + (1 - math.cos(angle)) * k @ k
 
 
 def closest_on_triangle(p, a, b, c):
