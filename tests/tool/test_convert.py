@@ -2,8 +2,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 
 """lsdcd convert: what it writes, read here; what it reads, written here."""
-import struct
-
 import numpy as np
 
 import stl
@@ -67,14 +65,6 @@ def test_written(folder):
              data.startswith(b"solid") == (name == "doubles"))
         got = read_stl_text(data) if name == "doubles" else np.array(stl.read(folder / "out.STL"))
         fact(f"{name} in STL are the same bits", np.array_equal(got, wanted))
-    # The data of this plane in PLY begin with a line's end, 0A.
-    told(folder, "generate", "plane", "--width", 0.04, "--depth", 0.04, "-o", "plane.stl")
-    told(folder, "convert", "plane.stl", "-o", "plane.ply")
-    for name in ("plane", "floats", "doubles"):
-        told(folder, "convert", f"{name}.stl", "-o", "there.stl")
-        told(folder, "convert", f"{name}.ply", "-o", "back.stl")
-        fact(f"{name} there and back by PLY are the same bits",
-             (folder / "there.stl").read_bytes() == (folder / "back.stl").read_bytes())
     told(folder, "convert", "doubles.stl", "-o", "out.stl", "--float")
     fact("--float rounds them", np.array_equal(np.array(stl.read(folder / "out.stl")), FLOATS))
 
@@ -131,14 +121,6 @@ def test_read(folder):
             "element face 5\nproperty list uchar int vertex_indices\nend_header\n")
     (folder / "text.ply").write_text(head.format("ascii", t="float") + points + faces)
     check_roof(folder, "text.ply")
-    for order, sign in (("little", "<"), ("big", ">")):
-        for kind, letter in (("float", "f"), ("double", "d")):
-            body = b"".join(struct.pack(f"{sign}3{letter}", *x) for x in ROOF)
-            body += b"".join(struct.pack(f"{sign}B{len(f)}i", len(f), *f) for f in [*SIDES, FLOOR])
-            name = f"{order}_{kind}.ply"
-            (folder / name).write_bytes(head.format(f"binary_{order}_endian", t=kind).encode() + body)
-            check_roof(folder, name)
-
     stl.write(folder / "doubles.stl", DOUBLES)
     for ending in ("ply", "obj", "off"):
         told(folder, "convert", "doubles.stl", "-o", f"there.{ending}")

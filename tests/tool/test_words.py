@@ -41,8 +41,6 @@ def test_words():
     commands = re.findall(r"^  (\w+) {3,}(.*)$", run("--help").stdout.split("Subcommands:")[1], re.M)
     fact("the man page has the commands with what they are for",
          len(commands) > 10 and re.findall(r"^\.TP\n\.B ([a-z]+)\n(\w.*)$", MAN_PAGE.read_text(), re.M) == commands)
-    for scale in (["2"], ["2", "3", "4"]):
-        fact(f"--scale takes {len(scale)}", run("inspect", FLOOR, "--scale", *scale).returncode == 0)
     with tempfile.NamedTemporaryFile(suffix=".stl") as zeros:
         zeros.truncate(1 << 36)
         done = run("inspect", zeros.name)
