@@ -34,11 +34,11 @@ REAL = {"hertz_history_in_real_units": "hertz/history 1e7 NULL 10 NULL 0.5 1"}
 prepare = lmp.flat_floor
 
 
-def compare(folder, name, law, scene="in.one_sphere", **settings):
+def compare(folder, name, law, **settings):
     dumps = []
     for wall in (f"wall/gran {law} zplane 0.0 NULL", f"wall/lsdcd {law} mesh floor.stl"):
         dumps.append(folder / f"{name}.{len(dumps)}")
-        lmp.run_well(lmp.HERE / "scripts" / scene, folder, wall=wall,
+        lmp.run_well(lmp.HERE / "scripts" / "in.one_sphere", folder, wall=wall,
                      out=dumps[-1].name, **settings)
     a, b = (lmp.read_dump(d) for d in dumps)
     touched = sum(abs(row[1][11]) > 0 for row in a.values())
@@ -54,12 +54,3 @@ def test_trajectory(folder, name):
 @pytest.mark.parametrize("name", REAL)
 def test_units_real(folder, name):
     compare(folder, name, REAL[name], unit="real", kick=1e-2, dt=0.01, steps=2000, style="verlet")
-
-
-def test_respa(folder):
-    compare(folder, "hooke_history_respa", CASES["hooke_history"], unit="lj", kick=1, dt=2e-4, steps=600, style="respa 2 2 pair 2")
-
-
-@pytest.mark.parametrize("name", ("hooke_history", "hertz_history"))
-def test_rigid_body(folder, name):
-    compare(folder, f"{name}_rigid_body", CASES[name], "in.rigid")

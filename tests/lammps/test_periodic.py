@@ -144,18 +144,12 @@ def test_tilted(folder):
 
 
 def test_belts(folder):
-    """Ends that meet, that do not, and a screen whose holes lie across the face."""
+    """Ends that do not meet, and a screen whose holes lie across the face."""
     run = dict(x=(5, 5, 3), v=(0, 0, 0), steps=0, radius=0.02)
     stl.write(folder / "belt.stl", floor(0.005, 9.995, 4, 6, 4))
     _, text = go(folder, f"{ELASTIC} belt.stl", **run)
     fact("ends 1 cm apart are named", "ends of the mesh do not meet across the periodic boundary in x, "
          "where its open edges face a gap of 0.01;" in text)
-    stl.write(folder / "belt.stl", floor(0, 10, 4, 6, 4))
-    _, text = go(folder, f"{ELASTIC} belt.stl", **run)
-    fact("ends that meet are not", "do not meet" not in text)
-    stl.write(folder / "belt.stl", floor(-0.3, 10.1, 4, 6, 4))
-    _, text = go(folder, f"{ELASTIC} belt.stl periodic", **run)
-    fact("ends that overlap are not", "do not meet" not in text)
     screen = [t for i in range(20) for j in range(20)
               if (i % 4, j % 4) != (0, 0) for t in floor(i / 2 - 0.25, i / 2 + 0.25, j / 2, j / 2 + 0.5)]
     stl.write(folder / "screen.stl", screen)
