@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 LSDCD contributors
 # SPDX-License-Identifier: GPL-2.0-only
 
-"""Meshes whose nodes are atoms: strings and membranes in closed form, momentum, ranks, restart, errors."""
+"""Meshes whose nodes are atoms: strings and pressures in closed form, momentum, ranks, restart, errors."""
 
 import math
 
@@ -33,7 +33,7 @@ class Net:
         self.nodes.append((x, y, z, 3 if held else 2, mass))
         return len(self.nodes) - 1
 
-    def write(self, folder, coefficients, skip=(), twice=()):
+    def write(self, folder, skip=(), twice=()):
         """`skip`: nodes without an atom; `twice`: with two."""
         stl.write(folder / "sheet.stl", [[self.nodes[v][:3] for v in face] for face in self.faces])
         atoms = []    # of a node the diameter and density give its mass
@@ -42,8 +42,7 @@ class Net:
                 atoms.append((kind, x, y, z, 0.01, mass / (math.pi / 6 * 0.01**3)))
         for x, y, z, radius, mass in self.grains:
             atoms.append((1, x, y, z, 2 * radius, mass / (4 / 3 * math.pi * radius**3)))
-        text = f"nodes and grains\n\n{len(atoms)} atoms\n3 atom types\n{len(self.bonds)} bonds\n"
-        text += f"{max(1, len(coefficients))} bond types\n"
+        text = f"nodes and grains\n\n{len(atoms)} atoms\n3 atom types\n{len(self.bonds)} bonds\n1 bond types\n"
         text += "".join(f"{self.lo[d]} {self.hi[d]} {'xyz'[d]}lo {'xyz'[d]}hi\n" for d in range(3))
         text += "\nAtoms\n\n" + "".join(f"{i + 1} {kind} {x:.17g} {y:.17g} {z:.17g} {diameter:.17g} {density:.17g} 1\n"
                                         for i, (kind, x, y, z, diameter, density) in enumerate(atoms))
@@ -73,7 +72,7 @@ def string(folder, n):
         net.bonds += [(1, a, b), (1, d, c)]
     net.grains.append((0, 0, 0.06, 0.06, 1.0))
     coefficients = [TENSION / 2 / (SPAN / (2 * n))]
-    net.write(folder, coefficients)
+    net.write(folder)
     return net, rows, coefficients
 
 
@@ -125,56 +124,6 @@ def test_on_processes(folder):
     at_most("restarted in the middle", worst, 1e-11)
 
 
-# ---- a membrane under a pressure -----------------------------------------------------------
-
-def membrane(folder, n, tension):
-    """A disc of n rings. Bonds along the edges with T (cot a + cot b)/2 are the membrane of linear triangles (Pinkall and
-    Polthier 1993)."""
-    net = Net((-1.2, -1.2, -0.5), (1.2, 1.2, 0.5))
-    ring = [[net.node(0, 0, 0, False, 0.02)]]
-    for k in range(1, n + 1):
-        ring.append([net.node(k / n * math.cos(math.pi * j / (3 * k)), k / n * math.sin(math.pi * j / (3 * k)), 0, k == n, 0.02)
-                     for j in range(6 * k)])
-    for k in range(1, n + 1):
-        inner, outer = ring[k - 1], ring[k]
-        for side in range(6):
-            for j in range(k):
-                a, b = outer[side * k + j], outer[(side * k + j + 1) % (6 * k)]
-                c = inner[(side * (k - 1) + j) % len(inner)]
-                net.faces.append((a, b, c))
-                if j < k - 1:
-                    net.faces.append((c, b, inner[(side * (k - 1) + j + 1) % len(inner)]))
-    weight = {}
-    for face in net.faces:
-        for k in range(3):
-            a, b, c = (face[(k + i) % 3] for i in range(3))
-            p, q = ([net.nodes[v][d] - net.nodes[c][d] for d in range(2)] for v in (a, b))
-            cot = (p[0] * q[0] + p[1] * q[1]) / abs(p[0] * q[1] - p[1] * q[0])
-            edge = (min(a, b), max(a, b))
-            weight[edge] = weight.get(edge, 0) + tension * cot / 2
-    coefficients = list(weight.values())
-    net.bonds = [(k + 1, a, b) for k, (a, b) in enumerate(weight)]
-    net.grains.append((0, 0, 0.4, 0.05, 1.0))
-    net.write(folder, coefficients)
-    return coefficients
-
-
-def test_bulges(folder):
-    """A circular membrane of tension T and radius a bulges by p a^2/(4 T), to the square of the mesh."""
-    pressure, tension, off = 0.4, 10.0, []
-    wanted = pressure / (4 * tension)
-    for n in (3, 6):
-        coefficients = membrane(folder, n, tension)
-        lmp.run_well(begin(2e-3, 0.6, coefficients) +
-                     f"fix w grains wall/lsdcd hooke 2e4 0 0 0 0 0 mesh sheet.stl nodes nodes pressure v_p\n"
-                     f"variable p equal {pressure}\n"
-                     "fix slow all viscous 0.3\nfix hold held setforce 0 0 0\nfix go loose nve\nrun 4000\n"
-                     "print \"$(z[1]:%.17g)\" file out.txt screen no\n", folder)
-        off.append(lmp.read_rows(folder / "out.txt")[0][0] / wanted - 1)
-    at_most("a membrane of 6 rings bulges by p a^2/(4 T)", abs(off[1]), 0.01)
-    at_most("and of 3 rings", abs(off[0]), 0.03)
-
-
 # ---- errors ----------------------------------------------------------------------------------
 
 def test_refused(folder):
@@ -196,13 +145,13 @@ def test_refused(folder):
         fact(f"a pair style between nodes and grains, {name}",
              done.returncode == 0 and ("pair_style soft also acts between" in " ".join(done.stdout.split())) == warns)
     bonds, net.bonds = net.bonds, []
-    net.write(folder, coefficients, skip=(3, 5))
+    net.write(folder, skip=(3, 5))
     fails("vertices without an atom", wall.format(group="grains", nodes="nodes", more=""),
           "2 of the 14 vertices of mesh 'sheet.stl' have no atom of group 'nodes'")
-    net.write(folder, coefficients, twice=(2,))
+    net.write(folder, twice=(2,))
     fails("two atoms at a vertex", wall.format(group="grains", nodes="nodes", more=""), "2 atoms of group 'nodes' are at the vertex")
     net.bonds = bonds
-    net.write(folder, coefficients)
+    net.write(folder)
     fails("a lost node", wall.format(group="grains", nodes="nodes", more="") + "thermo_modify lost ignore\nrun 1\n"
           "group one id 3\ndelete_atoms group one bond yes\n", "atom 3, a node of mesh 'sheet.stl', is lost")
 
@@ -241,6 +190,21 @@ def sheet(folder):
     # In an order that is not that of places, as of a mesher.
     create += "".join("create_atoms 2 single {} {} {}\n".format(*at[7 * k % len(at)]) for k in range(len(at)))
     return create + "set type 2 diameter 0.01 density 1e9\nset type 1 diameter 0.5 density 15"
+
+
+def test_pressure(folder):
+    """A pressure by a variable: its number in each step times the area of 4, up."""
+    text = "variable p equal 0.4+step\n" + SHEET.format(create=sheet(folder), mesh="sheet.stl pressure v_p") + """\
+compute         push nodes reduce sum fx fy fz
+thermo_style    custom step c_push[1] c_push[2] c_push[3]
+thermo          1
+thermo_modify   format float %.17g norm no
+run             2
+"""
+    for ranks in (1, 2):
+        rows = lmp.read_thermo(lmp.run_well(text, folder, ranks))
+        off = max(abs(f - wanted) for step, *push in rows for f, wanted in zip(push, (0, 0, 4 * (0.4 + step))))
+        fact(f"a pressure pushes with its number times the area, {ranks} ranks", len(rows) == 3 and off < 1e-12, f"{off} {rows}")
 
 
 def test_renumbered(folder):
