@@ -17,7 +17,7 @@ timestep        {dt}
 {move}
 """
 # Columns of the fix's vector, from 1.
-FORCE, POWER, CENTRE, SPEED, TURN, OMEGA, REACTION, COUPLE, COORDINATE, ENERGY, STOP = 1, 11, 15, 18, 21, 25, 28, 31, 34, 35, 41
+FORCE, POWER, CENTRE, SPEED, TURN, OMEGA, REACTION, COORDINATE, ENERGY, STOP = 1, 11, 15, 18, 21, 25, 28, 34, 35, 41
 
 
 def script(fix, create, dt, box="-2 2 -2 2 -2 2", pair="zero 1.0", skin=0.1, move="fix move all nve/sphere", more="",
@@ -96,43 +96,6 @@ def test_off_centre(folder):
         at_most(f"off centre, k = {stiffness:g}: energy", abs(energy / 0.5 - 1), 1e-3)
 
 
-def test_plate(folder):
-    """A plate of mass 1 on 100 spheres that stay, as 100 springs."""
-    side, mass, stiffness, row = 0.2, 1.0, 1e5, 10
-    stl.write(folder / "plate.stl", stl.box((-side / 2, -side / 2, 0), (side / 2, side / 2, 0.002)))
-    radius = 0.005
-    create, n = "", 0
-    for i in range(row):
-        for j in range(row):
-            n += 1
-            # Along the edges a hair inside: on an edge itself the contact is the edge's.
-            x, y = (0.999999 * side * (k / (row - 1) - 0.5) for k in (i, j))
-            create += f"create_atoms 1 single {x:.17g} {y:.17g} {-radius} units box\n"
-    # As heavy as to be no part of the fastest mode.
-    create += f"set group all diameter {2 * radius} density {1e4 / (4 / 3 * math.pi * radius**3):.17g}\n"
-    law = f"hooke {stiffness} NULL 0 NULL 0 0 mesh plate.stl body mass {mass} com 0 0 0 inertia " \
-          f"{mass * side**2 / 12} {mass * side**2 / 12} {mass * side**2 / 6} 0 0 0 gravity 0 0 -9.81 "
-    place = dict(box="-1 1 -1 1 -1 1", skin=0.01, move="")
-    limits = {"slider 0 0 1": 2 * math.sqrt(mass / (n * stiffness)),
-              "free": 2 * math.sqrt(mass / (n * stiffness * 11 / 9))}
-    sinks = mass * 9.81 / (n * stiffness)
-    dt = 2e-5
-    text = script(law + "joint slider 0 0 1", create, dt, **place)
-    rows, _ = go(folder, text + "run 1000\n")
-    period = 2 * math.pi * math.sqrt(mass / (n * stiffness))
-    z = [r[COORDINATE] for r in rows]
-    at_most("plate: sinks about its depth", abs(min(z) / (-2 * sinks) - 1), 1e-3)
-    # Cosine of the first two periods.
-    off = max(abs(r[COORDINATE] + sinks * (1 - math.cos(2 * math.pi * r[0] * dt / period))) for r in rows)
-    at_most("plate: swings by the closed form", off / sinks, 2e-2)
-    for joint, limit in limits.items():
-        text = script(law + f"joint {joint}", create, 0.95 * limit, columns=(COORDINATE, CENTRE + 2), **place)
-        rows, _ = go(folder, text + "run 2000\n")
-        at_most(f"plate {joint}: stable at 0.95 of the limit", max(abs(r[2]) for r in rows), 3 * sinks)
-        lmp.refused(f"plate {joint}: above it", script(law + f"joint {joint}", create, 1.02 * limit, **place) + "run 2000\n", folder,
-                    "is not below")
-
-
 def test_hinge(folder):
     """A flap under fix gravity: its period, and the weights that the hinge bears."""
     side, thick, g = 0.2, 0.002, 9.81
@@ -164,9 +127,6 @@ def test_motor(folder):
     law = f"hooke 1e3 NULL 0 NULL 0 0 mesh rotor.stl body mass 3 com 0 0 0 inertia 1 1.5 {inertia} 0 0 0 " \
           f"joint hinge 0 0 0 0 0 2 spring 0 {damping} motor v_torque"
     torque_is = f"variable torque equal {torque}\nfix w"
-    rows, _ = go(folder, script(law, FAR, dt, move="").replace("fix w", torque_is, 1) + "run 500\n")
-    off = max(abs(r[OMEGA + 2] - torque / damping * (1 - math.exp(-damping * r[0] * dt / inertia))) for r in rows)
-    at_most("motor and damper", off, 1e-12)
     # Another timestep later, between two runs and in one.
     rows, _ = go(folder, script(law, FAR, dt, move="", also="$(time:%.17g)").replace("fix w", torque_is, 1) +
                  "run 100\ntimestep 0.002\nrun 100\nfix less all dt/reset 50 0.001 0.0011 1 units box\nrun 200\n")
@@ -209,16 +169,11 @@ def crowd(cells=3, apart=0.5):
 
 COLLIDE = "hooke/history 1e4 3e3 0 0 0.3 0"
 BOOKS = """\
-compute p all property/atom radius omegax omegay omegaz
 variable px equal "vcm(all,x) * mass(all)"
 variable py equal "vcm(all,y) * mass(all)"
 variable pz equal "vcm(all,z) * mass(all)"
-variable lx atom "mass * (y*vz - z*vy) + 0.4 * mass * c_p[1]^2 * c_p[2]"
-variable ly atom "mass * (z*vx - x*vz) + 0.4 * mass * c_p[1]^2 * c_p[3]"
-variable lz atom "mass * (x*vy - y*vx) + 0.4 * mass * c_p[1]^2 * c_p[4]"
-compute l all reduce sum v_lx v_ly v_lz
 """
-BOOK = "$(v_px:%.17g) $(v_py:%.17g) $(v_pz:%.17g) $(c_l[1]:%.17g) $(c_l[2]:%.17g) $(c_l[3]:%.17g)"
+BOOK = "$(v_px:%.17g) $(v_py:%.17g) $(v_pz:%.17g)"
 
 
 def test_two_bodies(folder, steps=5000):
@@ -235,12 +190,12 @@ def test_two_bodies(folder, steps=5000):
         text = script(f"{COLLIDE} {' '.join(words)}", create, 5e-4, box="-3 3 -3 3 -3 3",
                       pair="gran/hooke 1e4 0 0 0 0 0", more=BOOKS, every=100, columns=(FORCE,), also=f"{BOOK} {shown}")
         rows, _ = go(folder, text + f"run {steps}\n", ranks)
-        sums = [[r[2 + k] + sum(m * r[8 + 3 * b + k] for b, m in enumerate(masses)) for k in range(3)] for r in rows]
-        size = max(m * abs(r[8 + 3 * b + k]) for r in rows for b, m in enumerate(masses) for k in range(3))
+        sums = [[r[2 + k] + sum(m * r[5 + 3 * b + k] for b, m in enumerate(masses)) for k in range(3)] for r in rows]
+        size = max(m * abs(r[5 + 3 * b + k]) for r in rows for b, m in enumerate(masses) for k in range(3))
         off = max(abs(a - b) for s in sums for a, b in zip(s, sums[0]))
         at_most(f"two bodies, {ranks} processes: momentum in {steps} steps", off / size, 1e-12)
         fact(f"two bodies, {ranks} processes: both are hit", all(
-            max(abs(r[8 + 3 * b + 2]) for r in rows) > 1e-3 for b in (0, 1)))
+            max(abs(r[5 + 3 * b + 2]) for r in rows) > 1e-3 for b in (0, 1)))
 
 
 def test_coats(folder):
@@ -283,35 +238,16 @@ def test_coats(folder):
     lmp.refused("fix_modify body of a mesh that is none", text + "fix_modify w mesh 1 body load 0 0 1\n", folder, "is not a body")
 
 
-def test_weak_points(folder):
-    """Where bodies of LIGGGHTS-PFM go wrong, by doc/from-liggghts.md; impacts() has the restitution of light bodies."""
+def test_spring(folder):
+    """It keeps its rest over runs: the second begins where the block turns round, and the third where it is midway."""
     stl.write(folder / "block.stl", stl.box((-0.1,) * 3, (0.1,) * 3))
-    # A spring keeps its rest over runs: the second begins where the block turns round, and the third where it is midway.
     dt, rate, speed = 1e-3, 2 * math.pi, 0.5
     law = "hooke 1e3 NULL 0 NULL 0 0 mesh block.stl body mass 1 com 0 0 0 inertia 1 1 1 0 0 0 gravity 0 0 0 "
     text = script(law + f"joint slider 1 0 0 spring {rate**2:.17g} 0 velocity {speed} 0 0", FAR, dt, move="")
     rows, _ = go(folder, text + "run 250\nrun 125\nrun 625\n")
     # Leapfrog's phase is off by (rate dt)^2 / 24 of it, 1e-5 in the whole period.
     off = max(abs(r[COORDINATE] - speed / rate * math.sin(rate * r[0] * dt)) for r in rows)
-    at_most("weak points: a spring keeps its rest over runs", off / (speed / rate), 1e-4)
-
-    # A body that is not balanced, whose centre is on the hinge: it stays there, and the hinge bears I_xz omega^2.
-    spin, product = 20, 0.3
-    law = f"hooke 1e3 NULL 0 NULL 0 0 mesh block.stl body mass 1 com 0 0 0 inertia 1 1.5 2 0 {product} 0 gravity 0 0 0 "
-    rows, _ = go(folder, script(law + f"joint hinge 0 0 0 0 0 1 omega 0 0 {spin}", FAR, dt, move="") + "run 1000\n")
-    at_most("weak points: an unbalanced body stays on its hinge",
-            max(abs(r[TURN + k]) for r in rows for k in (1, 2)), 1e-12)
-    at_most("weak points: the hinge bears its couple",
-            max(abs(math.hypot(*r[COUPLE:COUPLE + 3]) / (product * spin**2) - 1) for r in rows), 1e-10)
-    at_most("weak points: it keeps its speed", max(abs(r[OMEGA + 2] / spin - 1) for r in rows), 1e-12)
-
-    # Beside a mesh that moves by itself, which the body feels: pushed by a plate, it has the plate's speed twice at last.
-    stl.write(folder / "plate.stl", stl.quad((0, -1, -1), (0, 1, -1), (0, 1, 1), (0, -1, 1)))
-    law = ("hooke 1e4 NULL 0 NULL 0 0 mesh plate.stl "
-           f"motion linear {speed} 0 0 "
-           "mesh block.stl move 0.13 0 0 body mass 1 com 0.13 0 0 inertia 1 1 1 0 0 0 gravity 0 0 0 joint slider 1 0 0 coat 0.2 0.02 ")
-    rows, _ = go(folder, script(law, FAR, 1e-4, move="") + "run 1000\n")
-    at_most("weak points: a mesh that moves throws the body", abs(rows[-1][SPEED] / (2 * speed) - 1), 1e-3)
+    at_most("a spring keeps its rest over runs", off / (speed / rate), 1e-4)
 
 
 def test_damped(folder):
