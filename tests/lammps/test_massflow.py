@@ -250,34 +250,6 @@ run             600
     fact("springs were at work", turning > 0.05, str(turning))
 
 
-def test_bounce(folder):
-    """A sphere that bounces below the plate, counted from its heights in every step."""
-    text = GRAINS + """\
-create_atoms    1 single 0.1 0.2 1.0 units box
-set             group all diameter 1.0 density 1.0
-pair_style      zero 1.0
-pair_coeff      * *
-fix             move all nve/sphere
-fix             pull all gravity 1.0 vector 0 0 -1
-""" + lmp.flat_walls("fix floor all wall/gran hooke 1e4 NULL 1e-300 NULL 0 0 zplane -1 NULL") + """\
-fix             m all massflow/lsdcd mesh plate.stl rotate 1 0 0 180
-fix             o all massflow/lsdcd mesh plate.stl rotate 1 0 0 180 count once
-timestep        0.002
-thermo          10
-thermo_style    custom step f_m[1] f_m[3] f_o[1] f_o[3]
-dump            d all custom 1 heights id z
-dump_modify     d format float %.17g
-run             4000
-"""
-    rows = lmp.read_thermo(lmp.run_well(text, folder))
-    heights = [row[1][0] for row in lmp.read_dump(folder / "heights").values()]
-    down = [a >= 0 > b for a, b in zip(heights, heights[1:])]
-    up = [a < 0 <= b for a, b in zip(heights, heights[1:])]
-    wrong = [row for row in rows
-             if row[1:] != [sum(down[:int(row[0])]), sum(up[:int(row[0])]), any(down[:int(row[0])]), 0]]
-    fact("a bouncing sphere counts each time, or once", not wrong and sum(down) > 1, str(wrong[:1]))
-
-
 def test_deposit(folder):
     """Spheres come in above and are deleted below: none is lost, none is counted twice."""
     text = GRAINS + lmp.pairs("zero 1.0") + """\

@@ -281,37 +281,6 @@ run             2000
     at_most("a free cube: momentum and angular momentum stay", off, 1e-12)
 
 
-def test_rigid(folder):
-    """Two balls that fix rigid/small joins, which damps by the mass of both, go as two spheres do."""
-    stl.write(folder / "plane.stl", stl.square(6))
-    paths = []
-    for style, sizes in (("sphere", "diameter 1"), ("ellipsoid", "shape 1 1 1")):
-        lmp.run_well(head(FLOOR_BOX, style) + f"""\
-create_atoms    1 single 0 0 0.7
-create_atoms    1 single 0.8 0.3 1.0
-set             group all {sizes}
-set             group all density 2
-velocity        all set 0.3 0.1 -1
-pair_style      zero 2
-pair_coeff      * *
-fix             body all property/atom mol
-set             group all mol 1
-fix             move all rigid/small molecule
-fix             pull all gravity 8 vector 0.2 0 -1
-fix             wall all wall/lsdcd hooke/history 1e4 NULL 50 NULL 0.5 1 mesh plane.stl
-timestep        5e-4
-thermo_style    custom step
-dump            {style} all custom 10 {style} id x y z vx vy vz fx fy fz tqx tqy tqz
-dump_modify     {style} sort id format float %.17g
-run             2000
-""", folder)
-        paths.append(lmp.read_dump(folder / style))
-    torque = max(abs(row[10]) for rows in paths[0].values() for row in rows.values())
-    fact("a body of balls: friction turns it", torque > 1, str(torque))
-    # A tumble with several impacts parts neighbouring paths: a factor of 1e5 on 1e-15 at most.
-    at_most("a body of balls: it goes as one of spheres", lmp.largest_difference(*paths), 1e-10)
-
-
 def test_receding(folder):
     """Each process has the shape of a floor that wears."""
     one = go(folder, "worn", "ellipsoid", ELLIPSOIDS, "nve/asphere", "angmomx angmomy angmomz")
