@@ -105,6 +105,8 @@ def test_refused(folder):
             ("a servo", text("servo force z -10 vmax 0.1"), "in a rerun the position of a servo is not known"),
             ("velocities that are differences", lines + text("motion variable NULL NULL v_dz NULL NULL NULL"),
              "in a rerun there is no step before, from which motion variable"),
+            ("velocities that are added up", lines + text("motion rotate 0 0 0 0 0 1 variable NULL v_dz"),
+             "in a rerun the displacement or angle is not known"),
             ("a motion that begins later", text(MOVES).replace("fix w ", "reset_timestep 40\nfix w "),
              "the snapshot of step 0 is before step 40"),
             ("massflow", text("") + "fix m all massflow/lsdcd mesh floor.stl\n",

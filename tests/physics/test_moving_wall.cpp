@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // A mesh that moves as a rigid body: Galilei's and Newton's answers.
-#include "motion/motion.h"
 #include "support/crowd.h"
 #include "support/meshes.h"
+#include "support/motions.h"
 #include "support/named_laws.h"
 #include "support/test_engine.h"
 
@@ -26,14 +26,7 @@ EngineSettings moving(EngineSettings s)
 
 RigidMotion rotating(const Vec3 &point, const Vec3 &axis, Real period)
 {
-  MotionTerm m;
-  m.kind = MotionKind::rotate;
-  m.point = point;
-  m.axis = unit_vector(axis);
-  m.period = period;
-  RigidMotion motion;
-  motion.add(m);
-  return motion;
+  return motion_of({turning(point, axis, period)});
 }
 
 // Spheres that cross a wall of random triangles, in one scene at rest and in one that is turned

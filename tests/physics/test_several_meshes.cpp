@@ -3,9 +3,9 @@
 
 // A wall of several meshes acts as one: spheres feel each place once, whatever mesh it is of and
 // whatever frame that is in.
-#include "motion/motion.h"
 #include "support/crowd.h"
 #include "support/meshes.h"
+#include "support/motions.h"
 #include "support/named_laws.h"
 #include "support/test_engine.h"
 
@@ -36,13 +36,7 @@ std::vector<TriangleSoup> dealt(const TriangleSoup &soup, int n)
 Pose pose_of(int m, bool turned)
 {
   if (!turned) return {};
-  MotionTerm term;
-  term.kind = MotionKind::rotate;
-  term.point = {0.3 * m, 1, -2};
-  term.axis = unit_vector(Vec3{1, 0.2 * m, -0.5});
-  term.period = 1;
-  RigidMotion motion;
-  motion.add(term);
+  const RigidMotion motion = motion_of({turning({0.3 * m, 1, -2}, {1, 0.2 * m, -0.5}, 1)});
   return motion.pose_at(0.05 + 0.03 * m).still();
 }
 

@@ -4,6 +4,7 @@
 // Bodies that touch bodies and walls by their coats: closed forms, momentum, energy, processes, saved states.
 #include "base/input_error.h"
 #include "support/meshes.h"
+#include "support/motions.h"
 #include "support/says.h"
 #include "support/wall_scene.h"
 
@@ -480,9 +481,7 @@ TEST(body_coat, has_the_restitution_that_is_set_on_a_mesh_that_has_moved)
   const Real e = 0.6, drop = 0.3;
   WallSpec spec = wall_of({floor_at_0(), octahedron_of(1, {0, 0, 1 + kRadius + drop}, {0, 0, -1})});
   spec.laws.front().law = with_restitution(e);
-  MotionTerm term;
-  term.velocity = {10, 0, 0};
-  spec.meshes[0].motion.add(term);
+  spec.meshes[0].motion.add(linear({10, 0, 0}));
   Scene scene(spec);
   scene.dt = 0.01 / std::sqrt(kStiffness);
   scene.go(static_cast<int>(drop / scene.dt) + 1000);
@@ -497,9 +496,7 @@ TEST(body_coat, does_not_give_way_to_a_mesh_that_pushes_it_into_its_stop)
   for (const bool off : {false, true}) {
     MeshSpec plate = floor_at_0(), body = cube({0, 0, 0});
     plate.placement.move({0, 0, 1 + kRadius - overlap});
-    MotionTerm term;
-    term.velocity = {0, 0, -speed};
-    plate.motion.add(term);
+    plate.motion.add(linear({0, 0, -speed}));
     body.mesh = welded(octahedron());
     body.body.coat.spacing = 5;
     body.body.joint = {JointKind::hinge, {-arm, 0, 0}, {0, 1, 0}};
@@ -549,10 +546,7 @@ TEST(body_coat, feels_no_friction_on_a_mesh_that_turns_as_it_does)
   law = classic_law(NormalModel::hooke, true);
   law.k_normal = law.k_tangent = kStiffness;
   law.mu = 0.5;
-  MotionTerm term;
-  term.kind = MotionKind::rotate;
-  term.period = 2 * kPi / speed;
-  spec.meshes[0].motion.add(term);
+  spec.meshes[0].motion.add(turning({0, 0, 0}, {0, 0, 1}, 2 * kPi / speed));
   BodySpec &body = spec.meshes[1].body;
   body.joint = {JointKind::hinge, {0, 0, 0}, {0, 0, 1}};
   body.omega = {0, 0, speed};
@@ -629,11 +623,7 @@ TEST(body_coat, lies_on_what_is_outside_of_the_box)
   for (const int kind : {0, 1, 2}) {
     WallSpec spec = wall_of({floor_at_0(), cube({0, 0, kSide / 2 + kRadius}, {0, 20, 0})});
     spec.laws.front().law.eta = 10;
-    if (kind == 1) {
-      MotionTerm term;
-      term.velocity = {0.5, 0, 0};
-      spec.meshes[0].motion.add(term);
-    }
+    if (kind == 1) spec.meshes[0].motion.add(linear({0.5, 0, 0}));
     Scene scene(spec);
     scene.gravity[2] = -kGravity;
     PeriodicBox &box = scene.host.simulation;

@@ -4,6 +4,7 @@
 // Rigid bodies of a wall whose program is not LAMMPS: gravity, sums over processes, saved states.
 #include "base/input_error.h"
 #include "support/meshes.h"
+#include "support/motions.h"
 #include "support/says.h"
 #include "support/wall_scene.h"
 
@@ -280,9 +281,7 @@ TEST(mesh_body, does_not_move_nodes_after_a_restart)
     moved.meshes[0].body.velocity = {1, 0, 0};
     if (by_motion) {
       moved.meshes[0].body = BodySpec();
-      MotionTerm term;
-      term.velocity = {1, 0, 0};
-      moved.meshes[0].motion.add(term);
+      moved.meshes[0].motion.add(linear({1, 0, 0}));
     }
     Scene first(moved);
     first.go(500);

@@ -4,6 +4,7 @@
 // Where a mesh is in each step: by its clock, by inputs, after changes and restarts.
 #include "base/input_error.h"
 #include "support/fake_host.h"
+#include "support/motions.h"
 #include "support/says.h"
 #include "support/temp_dir.h"
 #include "wall/move/mesh_motion.h"
@@ -34,12 +35,6 @@ struct Wall {
     for (const std::string &name : settings.inputs) all.push_back(values.at(name));
     return all;
   }
-  void linear(const Vec3 &velocity)
-  {
-    MotionTerm term;
-    term.velocity = velocity;
-    mesh().motion.add(term);
-  }
   // Displacement in x by variable `x`; its velocity by `vx`, or by differences.
   void by_variable(bool with_velocity)
   {
@@ -65,15 +60,6 @@ Step step(int n)
   return {kFirst + n, kDt};
 }
 
-RigidMotion along(const Vec3 &velocity)
-{
-  MotionTerm term;
-  term.velocity = velocity;
-  RigidMotion motion;
-  motion.add(term);
-  return motion;
-}
-
 void run(MeshMotion &motion, const Wall &wall, int first, int last)
 {
   for (int n = first; n <= last; n++) {
@@ -89,7 +75,7 @@ Vec3 where(const MeshMotion &motion)
 
 // A mesh that goes along x by 1 a step.
 struct WallAlongX : Wall {
-  WallAlongX() { linear({2, 0, 0}); }
+  WallAlongX() { mesh().motion.add(linear({2, 0, 0})); }
 };
 class AlongX : public testing::Test {
  protected:
@@ -121,17 +107,6 @@ TEST_F(AlongX, knows_where_it_will_be)
 {
   run(motion, wall, 1, 1);
   EXPECT_EQ(motion.pose_in(4).shift, (Vec3{1 + 8, 0, 0}));
-}
-
-TEST(MeshMotion, follows_variables)
-{
-  Wall wall;
-  wall.by_variable(true);
-  wall.values = {{"x", 7}, {"vx", 3}};
-  MeshMotion motion(wall.host, wall.settings, 0, step(0));
-  run(motion, wall, 1, 1);
-  EXPECT_EQ(where(motion), (Vec3{7, 0, 0}));
-  EXPECT_EQ(motion.pose().velocity, (Vec3{3, 0, 0}));
 }
 
 TEST(MeshMotion, takes_differences_for_velocities_that_no_variable_gives)
@@ -214,17 +189,6 @@ TEST(MeshMotion, adds_nothing_up_where_no_time_passes)
   EXPECT_EQ(wall.angle(), 1);
 }
 
-TEST(MeshMotion, goes_on_adding_up_after_a_restart)
-{
-  WallThatTurns before, after;
-  MeshMotion first(before.host, before.settings, 0, step(0));
-  speed_up(before, first, 1, 3);
-  MeshMotion second(after.host, after.settings, 0, step(3));
-  second.restore(first.state(), step(3));
-  speed_up(after, second, 4, 6);
-  EXPECT_EQ(after.angle(), 9);
-}
-
 // Tables
 
 void follow(Wall &wall, const std::string &file)
@@ -272,27 +236,6 @@ TEST(MeshMotion, keeps_its_motion_where_the_table_of_another_is_wrong)
   EXPECT_EQ(where(motion), (Vec3{1, 0, 0}));
 }
 
-TEST(MeshMotion, follows_a_table_on_after_a_restart)
-{
-  const TempDir folder;
-  const std::string rows = "0 0 0 0 0 0 0\n1 2 0 1 0.3 0 1\n2 1 0 3 0.1 1 2\n3 2 2 0 0 1 1\n";
-  for (const bool same : {true, false}) {
-    Wall before, after;
-    follow(before, folder.write("arm.txt", rows));
-    MeshMotion first(before.host, before.settings, 0, step(0));
-    run(first, before, 1, 3);
-    follow(after, folder.write("arm.txt", same ? rows : rows + "4 0 0 0 0 0 0\n"));
-    MeshMotion second(after.host, after.settings, 0, step(3));
-    second.restore(first.state(), step(3));
-    EXPECT_EQ(second.pose().shift, first.pose().shift);
-    run(first, before, 4, 5);
-    run(second, after, 4, 5);
-    EXPECT_EQ(second.pose().shift == first.pose().shift, same);
-    EXPECT_EQ(second.pose().row[0] == first.pose().row[0], same);
-    EXPECT_EQ(after.host.warnings.size(), same ? 0U : 1U);
-  }
-}
-
 TEST(MeshMotion, gives_variables_to_the_surface_and_the_servo)
 {
   Wall wall;
@@ -308,43 +251,12 @@ TEST(MeshMotion, gives_variables_to_the_surface_and_the_servo)
   EXPECT_EQ(motion.surface_motion().angular, (Vec3{0, 0, 7}));
 }
 
-TEST(MeshMotion, names_its_inputs_in_the_order_in_which_they_are_read)
-{
-  Wall wall;
-  wall.by_variable(true);
-  wall.servo().target_input = wall.input("load");
-  wall.mesh().surface_input[0] = wall.input("belt");
-  const MeshMotion motion(wall.host, wall.settings, 0, step(0));
-  InputNames names;
-  for (const int input : motion.inputs())
-    names.push_back(wall.settings.inputs[static_cast<std::size_t>(input)]);
-  EXPECT_EQ(names, (InputNames{"x", "vx", "load", "belt"}));
-}
-
 // Another motion
-
-TEST_F(AlongX, goes_on_with_another_motion_from_where_it_is)
-{
-  run(motion, wall, 1, 2);
-  motion.set(along({0, 3, 0}), step(2));
-  EXPECT_EQ(where(motion), (Vec3{2, 0, 0}));
-  run(motion, wall, 3, 4);
-  EXPECT_EQ(where(motion), (Vec3{2, 3, 0}));
-}
-
-TEST_F(AlongX, stays_where_it_is_without_a_motion)
-{
-  run(motion, wall, 1, 2);
-  motion.set(RigidMotion(), step(2));
-  run(motion, wall, 3, 4);
-  EXPECT_EQ(where(motion), (Vec3{2, 0, 0}));
-  EXPECT_EQ(motion.text({{0, 0, 0}, {1, 1, 1}}), "none; the mesh stays where it is");
-}
 
 TEST_F(ServoAtFive, keeps_what_a_servo_has_added_to_another_motion)
 {
   run(motion, wall, 1, 1);
-  motion.set(along({0, 3, 0}), step(1));
+  motion.set(motion_of({linear({0, 3, 0})}), step(1));
   EXPECT_EQ(where(motion), (Vec3{0, 0, 5}));
   EXPECT_EQ(wall.servo().position, 5);
 }
@@ -392,7 +304,7 @@ TEST_F(ServoAtFive, goes_on_along_its_line_after_servo_and_motion_were_stopped)
 TEST_F(ServoAtFive, that_holds_is_left_behind_by_another_motion)
 {
   motion.set(Servo());
-  motion.set(along({0, 3, 0}), step(0));
+  motion.set(motion_of({linear({0, 3, 0})}), step(0));
   EXPECT_EQ(wall.servo().position, 0);
   EXPECT_EQ(where(motion), (Vec3{0, 0, 5}));
 }
@@ -414,7 +326,7 @@ TEST_F(ServoAtFive, begins_along_another_line_from_where_it_is)
 TEST(MeshMotion, refuses_another_line_while_a_motion_moves_it)
 {
   Wall wall;
-  wall.linear({2, 0, 0});
+  wall.mesh().motion.add(linear({2, 0, 0}));
   wall.servo_along_z();
   MeshMotion motion(wall.host, wall.settings, 0, step(0));
   EXPECT_THROW(motion.set(servo_along({1, 0, 0}, -1, 1)), InputError);
@@ -429,38 +341,6 @@ TEST_F(AlongX, refuses_a_first_servo_without_talk_of_another)
 }
 
 // rerun
-
-TEST(MeshMotion, is_not_known_in_a_snapshot_by_what_the_steps_before_it_decide)
-{
-  Wall moves, servo, differences;
-  WallThatTurns adds_up;
-  moves.linear({2, 0, 0});
-  servo.servo_along_z();
-  differences.by_variable(false);
-  const struct {
-    Wall &wall;
-    int step;
-    const char *why;
-  } rows[] = {{moves, -1, "snapshot of step 99 is before step 100"},
-              {servo, 1, "in a replay the position of a servo is not known"},
-              {differences, 1, "give velocities as well"},
-              {adds_up, 1, "give displacements as well"}};
-  for (const auto &row : rows) {
-    const MeshMotion motion(row.wall.host, row.wall.settings, 0, step(0));
-    EXPECT_TRUE(fails_with(row.why, [&] {
-      motion.check_snapshot({kFirst + row.step, kDt, Step::snapshot});
-    }));
-  }
-}
-
-TEST_F(AlongX, is_known_in_a_snapshot_from_its_time)
-{
-  const Step at = {kFirst + 6, kDt, Step::snapshot};
-  motion.check_snapshot(at);
-  motion.advance(at, {});
-  motion.place();
-  EXPECT_EQ(where(motion), (Vec3{6, 0, 0}));
-}
 
 // restart files
 
@@ -478,8 +358,8 @@ Vec3 where_it_goes_on(Wall &before, Wall &after)
 TEST(MeshMotion, begins_another_motion_after_a_restart_from_where_it_was)
 {
   Wall before, after;
-  before.linear({2, 0, 0});
-  after.linear({0, 3, 0});
+  before.mesh().motion.add(linear({2, 0, 0}));
+  after.mesh().motion.add(linear({0, 3, 0}));
   EXPECT_EQ(where_it_goes_on(before, after), (Vec3{3, 3, 0}));
   ASSERT_EQ(after.host.warnings.size(), 1);
   EXPECT_TRUE(has(after.host.warnings[0], "the phase is lost"));
@@ -516,8 +396,8 @@ TEST(MeshMotion, has_the_pose_after_a_restart_that_it_got_since_its_last_step)
 TEST(MeshMotion, that_was_stopped_stays_so_after_a_restart)
 {
   Wall before, after;
-  before.linear({2, 0, 0});
-  after.linear({2, 0, 0});
+  before.mesh().motion.add(linear({2, 0, 0}));
+  after.mesh().motion.add(linear({2, 0, 0}));
   MeshMotion first(before.host, before.settings, 0, step(0));
   run(first, before, 1, 3);
   first.set(RigidMotion(), step(3));
@@ -527,15 +407,6 @@ TEST(MeshMotion, that_was_stopped_stays_so_after_a_restart)
   EXPECT_EQ(where(second), (Vec3{3, 0, 0}));
   ASSERT_EQ(after.host.warnings.size(), 1);
   EXPECT_TRUE(has(after.host.warnings[0], "was stopped when the saved state was written"));
-}
-
-TEST(MeshMotion, refuses_a_servo_that_is_past_its_limits_after_a_restart)
-{
-  Wall before, after;
-  before.servo_along_z();
-  before.servo().position = 5;
-  after.servo_along_z(0, 4);
-  EXPECT_THROW(where_it_goes_on(before, after), InputError);
 }
 
 TEST(MeshMotion, is_where_a_servo_had_it_that_is_not_there_after_a_restart)

@@ -12,6 +12,7 @@
 #include "support/device.h"
 #include "support/laws.h"
 #include "support/meshes.h"
+#include "support/motions.h"
 #include "support/query_oracle.h"
 #include "support/random.h"
 #include "support/says.h"
@@ -141,8 +142,7 @@ Real worst_difference(const ContactLaw &law, const std::shared_ptr<const WeldedM
 {
   WallSpec moving = wall_of(law, mesh);
   moving.meshes.front().motion.add(term);
-  RigidMotion motion;
-  motion.add(term);
+  const RigidMotion motion = motion_of({term});
   Scene rigid(moving), nodes(nodes_of(law, mesh));
   Random random(7);
   for (const Vec3 &x : places) {
@@ -213,12 +213,7 @@ bool tests_the_cpu()
 TEST(mesh_nodes, that_turn_as_one_give_the_forces_of_a_motion)
 {
   const auto mesh = welded(curved_sheet(6));
-  MotionTerm term;
-  term.kind = MotionKind::transrot;
-  term.velocity = {0.05, -0.1, 0.02};
-  term.point = {0.2, 0.1, 0};
-  term.axis = {1, 2, 3};
-  term.period = 2;
+  const MotionTerm term = turning({0.2, 0.1, 0}, {1, 2, 3}, 2, {0.05, -0.1, 0.02});
   const auto places = places_over(*mesh, 40, 0.01);
   ContactLaw slip = all_motions();
   slip.rolling = RollingModel::none;
@@ -328,9 +323,7 @@ void expect_the_same_bits(const ContactLaw &law, Side side, bool has_box, int n_
     box.has_nodes = false;
     box.name = "box";
     box.mesh = welded(box_mesh({-0.3, -0.4, -0.9}, {0.5, 0.4, -0.1}));
-    MotionTerm term;
-    term.velocity = {0, 0.02, 0.05};
-    box.motion.add(term);
+    box.motion.add(linear({0, 0.02, 0.05}));
   }
   Scene one(spec, kDt, cpu()), other(spec, kDt, tested());
   Random random(13);
@@ -858,12 +851,7 @@ TEST(mesh_nodes, that_come_to_a_periodic_face_are_an_error)
 // A grain that a turning sheet drags along, with springs of friction: step i.
 void turn_sheet(Scene &scene, const WeldedMesh &mesh, int i)
 {
-  MotionTerm turn;
-  turn.kind = MotionKind::rotate;
-  turn.axis = {0.6, 0, 0.8};
-  turn.period = 0.1;
-  RigidMotion motion;
-  motion.add(turn);
+  const RigidMotion motion = motion_of({turning({0, 0, 0}, {0.6, 0, 0.8}, 0.1)});
   const PosedNodes at(mesh, motion.pose_at(i * kDt), i > 0 ? kDt / 2 : 0);
   scene.set_nodes(at.at, at.velocity);
   scene.proceed(i);

@@ -3,7 +3,7 @@
 
 // Motions that are tables, against closed forms.
 #include "base/input_error.h"
-#include "motion/motion.h"
+#include "support/motions.h"
 #include "support/says.h"
 #include "support/temp_dir.h"
 
@@ -45,16 +45,9 @@ MotionTerm table_term(const TableRows &rows)
   return m;
 }
 
-RigidMotion motion_of(const MotionTerm &term)
-{
-  RigidMotion motion;
-  motion.add(term);
-  return motion;
-}
-
 RigidMotion table(const std::vector<Row> &rows, const TableOptions &options = {})
 {
-  return motion_of(table_term(rows_of(rows, options)));
+  return motion_of({table_term(rows_of(rows, options))});
 }
 
 TableOptions with_axis(bool linear = false, bool repeats = false)
@@ -103,20 +96,8 @@ void expect_same(const RigidMotion &a, const RigidMotion &b, const std::vector<R
 
 TEST(motion_table, of_two_places_is_linear)
 {
-  MotionTerm linear;
-  linear.velocity = {1, -2, 0.5};
   expect_same(table({{0, 0, 0, 0}, {0.5, 0.5, -1, 0.25}, {4, 4, -8, 2}}, options(true)),
-              motion_of(linear), {0, 0.1, 0.5, 1.7, 3.9});
-}
-
-MotionTerm turning(Real period)
-{
-  MotionTerm m;
-  m.kind = MotionKind::rotate;
-  m.point = kAxisPoint;
-  m.axis = kAxis;
-  m.period = period;
-  return m;
+              motion_of({linear({1, -2, 0.5})}), {0, 0.1, 0.5, 1.7, 3.9});
 }
 
 // A rotation vector that grows along an axis, and the quaternions of these turns: more than a turn.
@@ -146,10 +127,10 @@ TEST(motion_table, of_turns_about_an_axis_is_a_rotation)
        {table({{0, 0}, {1.3 * 2.5, 2 * kPi * 2.5}}, with_axis(true)),
         table({{0, 0}, {2.6, 720}}, degrees), table(turns_about_axis(7, 1.3), options(true)),
         table(quaternions, options(true))})
-    expect_same(motion, motion_of(turning(1.3)), {0, 0.1, 0.4, 1, 1.5});
+    expect_same(motion, motion_of({turning(kAxisPoint, kAxis, 1.3)}), {0, 0.1, 0.4, 1, 1.5});
   // After whole turns a table that repeats goes on.
   expect_same(table({{0, 0}, {0.65, kPi}, {1.3, 6.283185}}, with_axis(true, true)),
-              motion_of(turning(1.3)), {1.3 + 0.1, 5 * 1.3 + 0.9});
+              motion_of({turning(kAxisPoint, kAxis, 1.3)}), {1.3 + 0.1, 5 * 1.3 + 0.9});
 }
 
 // Cubic
@@ -377,9 +358,9 @@ TEST(motion_table, knows_which_directions_it_keeps)
   EXPECT_TRUE(turn.keeps(z));
   EXPECT_FALSE(turn.keeps(x));
   MotionTerm angle = table_term(rows_of({{0, 0}, {1, 1}}, with_axis()));
-  EXPECT_FALSE(motion_of(angle).keeps(z));
+  EXPECT_FALSE(motion_of({angle}).keeps(z));
   angle.axis = z;
-  EXPECT_TRUE(motion_of(angle).keeps(z));
+  EXPECT_TRUE(motion_of({angle}).keeps(z));
 }
 
 // Errors

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // Poses and velocities of moving meshes against closed forms in long double.
-#include "motion/motion.h"
+#include "support/motions.h"
 
 #include <gtest/gtest.h>
 
@@ -18,12 +18,6 @@ using Wide = long double;
 using WideVec = Vec3Of<Wide>;
 constexpr Wide kWidePi = 3.14159265358979323846264338327950288L;
 
-MotionTerm linear(const Vec3 &v)
-{
-  MotionTerm m;
-  m.velocity = v;
-  return m;
-}
 MotionTerm wave(MotionKind kind, const Vec3 &amplitude, Real period)
 {
   MotionTerm m;
@@ -32,28 +26,12 @@ MotionTerm wave(MotionKind kind, const Vec3 &amplitude, Real period)
   m.period = period;
   return m;
 }
-MotionTerm turning(const Vec3 &point, const Vec3 &axis, Real period, const Vec3 &v = {0, 0, 0})
-{
-  MotionTerm m;
-  m.kind = MotionKind::transrot;
-  m.point = point;
-  m.axis = unit_vector(axis);
-  m.period = period;
-  m.velocity = v;
-  return m;
-}
 MotionTerm swinging(const Vec3 &point, const Vec3 &axis, Real angle, Real period)
 {
   MotionTerm m = turning(point, axis, period);
   m.kind = MotionKind::riggle;
   m.angle = angle;
   return m;
-}
-RigidMotion motion_of(const std::vector<MotionTerm> &terms)
-{
-  RigidMotion motion;
-  for (const MotionTerm &m : terms) motion.add(m);
-  return motion;
 }
 
 // Where the words of fix move put a point, term after term: an axis and an angle (Rodrigues).

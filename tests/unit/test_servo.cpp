@@ -3,7 +3,7 @@
 
 // The loop of a servo: stable on chains of spheres up to the timestep of their contacts.
 #include "law/contact_slope.h"
-#include "motion/motion.h"
+#include "support/motions.h"
 
 #include <gtest/gtest.h>
 
@@ -173,10 +173,7 @@ TEST(Servo, pushes_against_what_spheres_exert)
 // It is outermost: a quarter turn about z through (1, 0, 0) of a mesh that has moved by 2 in x.
 TEST(Servo, acts_on_what_motions_have_placed)
 {
-  RigidMotion motion;
-  MotionTerm term;
-  term.velocity = {2, 0, 0};
-  motion.add(term);
+  RigidMotion motion = motion_of({linear({2, 0, 0})});
   motion.servo() = servo(1, 1);
   motion.servo().turns = true;
   motion.servo().point = {1, 0, 0};
