@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // Files that a run writes of a wall's meshes, on two processes, of which the first has the meshes.
+#include "base/atomic_file.h"
 #include "base/input_error.h"
 #include "mesh/triangle_soup.h"
 #include "support/fake_host.h"
@@ -13,6 +14,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <sys/stat.h>
 #include <utility>
 
 namespace lsdcd::test_wall_files {
@@ -199,6 +201,32 @@ TEST(WallFiles, go_on_with_the_list_of_an_earlier_run_where_that_is_asked_for)
   EXPECT_EQ(run(1, 2, false), 2);
   EXPECT_EQ(run(3, 5, true), 5);
   EXPECT_EQ(run(6, 6, false), 1);
+}
+
+TEST(WallFiles, that_are_pipes_are_refused_and_stay)
+{
+  const TempDir dir;
+  const std::string pipe = dir.path("pipe");
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  EXPECT_TRUE(fails_with("pipe' is not a regular file", [&] { write_whole_file(pipe, "text"); }));
+  struct stat there;
+  ASSERT_EQ(stat(pipe.c_str(), &there), 0);
+  EXPECT_TRUE(S_ISFIFO(there.st_mode));
+}
+
+TEST(WallFiles, need_no_loads_of_a_mesh_without_wear_and_mesh_fields)
+{
+  FakeHost host;
+  Wall wall;
+  wall.settings.meshes.resize(2);
+  wall.settings.meshes[1].fields.every = 10;
+  LoadRecorder loads(host, wall.settings);
+  StepContact contact = {};
+  for (contact.mesh = 0; contact.mesh < 2; contact.mesh++)
+    loads.add(contact.mesh, {contact}, 2, {});
+  EXPECT_TRUE(loads.gathered(0).packed().empty());
+  EXPECT_EQ(loads.gathered(0).time(), 0);
+  EXPECT_EQ(loads.gathered(1).time(), 2);
 }
 
 }    // namespace
