@@ -110,7 +110,7 @@ def test_places(folder):
     (elsewhere / "mine.lsdcd").write_text(FILE.replace("0.9", "0.8"))
     for variable in ("LSDCD_POTENTIALS", "LAMMPS_POTENTIALS"):
         words = run(folder, "granular material mine.lsdcd glass mesh floor.stl",
-                    env={variable: str(elsewhere)})[1]
+                    env={variable: f"/nowhere:{elsewhere}"})[1]
         fact(f"a file in ${variable} is found", words.split()[3] == "0.8")
     words = run(folder, "granular material alumina.lsdcd alumina on glass with sliding_friction 0.2 "
                 "mesh floor.stl")[1]

@@ -199,7 +199,7 @@ Outcome run_steps(const Case &c, const ContactLaw &law, const EngineMaker &make,
   return out;
 }
 
-void expect_same_rows(const Outcome &a, const Outcome &b, const std::string &name)
+void expect_same(const Outcome &a, const Outcome &b, const std::string &name)
 {
   EXPECT_TRUE(same_bytes(a.force, b.force)) << name;
   EXPECT_TRUE(same_bytes(a.torque, b.torque)) << name;
@@ -208,6 +208,13 @@ void expect_same_rows(const Outcome &a, const Outcome &b, const std::string &nam
   EXPECT_TRUE(same_bytes(a.heat, b.heat)) << name;
   EXPECT_TRUE(same_bytes(a.outputs, b.outputs)) << name;
   EXPECT_TRUE(same_bytes(a.contacts, b.contacts)) << name;
+  EXPECT_EQ(a.totals.energy, b.totals.energy) << name;
+  EXPECT_TRUE(a.totals.force == b.totals.force) << name;
+  EXPECT_TRUE(a.totals.torque == b.totals.torque) << name;
+  EXPECT_EQ(a.totals.contacts, b.totals.contacts) << name;
+  EXPECT_EQ(a.totals.uncertified, b.totals.uncertified) << name;
+  EXPECT_EQ(a.totals.largest_overlap_sphere, b.totals.largest_overlap_sphere) << name;
+  EXPECT_GT(a.totals.contacts, 0) << name;
 }
 
 }    // namespace lsdcd

@@ -7,6 +7,7 @@
 #include "support/hard_case.h"
 #include "support/laws.h"
 #include "support/meshes.h"
+#include "support/pair_check.h"
 #include "support/random.h"
 
 #include <CGAL/Gmpq.h>
@@ -103,35 +104,6 @@ bool is_finite(const Vec3 &a)
   return std::isfinite(a.x) && std::isfinite(a.y) && std::isfinite(a.z);
 }
 
-struct Box {
-  Vec3 lo, hi;
-};
-Box bounds(const TriangleSoup &soup)
-{
-  Box b = {soup.corners[0], soup.corners[0]};
-  for (const Vec3 &p : soup.corners)
-    for (int k = 0; k < 3; k++)
-      b.lo[k] = std::fmin(b.lo[k], p[k]), b.hi[k] = std::fmax(b.hi[k], p[k]);
-  return b;
-}
-
-// A face reaches sqrt(2) tolerances past its sides and corners, so that a closest point may be that
-// much nearer than the wall; the dot products round by 8 eps of the lengths in them. A facet thinner
-// than its corners' rounding, or than 1e-14 of its length, has no face of its own:
-// its middle is up to half that height from its edges.
-Real tolerance(const TriangleSoup &soup, const TriangleGrid &grid, const MeshReport &report)
-{
-  const Box b = bounds(soup);
-  Real t = 1.5 * grid.tolerance + 8 * kRoundoff * (norm(b.hi - b.lo) + grid.cutoff);
-  if (report.degenerate_facets > 0) {
-    Real largest = 0;
-    for (int k = 0; k < 3; k++)
-      largest = std::max({largest, std::fabs(b.lo[k]), std::fabs(b.hi[k])});
-    t += std::fmax(4 * kRoundoff * largest, 5e-15 * report.largest_edge);
-  }
-  return t;
-}
-
 // Centres anywhere within the cutoff of a facet, on it, on its edges and corners, and
 // 1e-12 .. 1 radius beside them.
 Vec3 centre(const TriangleSoup &soup, Random &random, Real radius)
@@ -152,7 +124,7 @@ void expect_exact(const char *id, const std::string &what, const TriangleSoup &s
   Scene scene(soup, radius, hooke(1), length, 0);
   const Oracle oracle(soup);
   const GridView view = scene.grid.view();
-  const Real room = tolerance(soup, scene.grid, scene.mesh.report);
+  const Real room = pair_tolerance(scene.mesh.report, scene.grid);
   Random random(seed);
   Real largest = 0;
   long missed = 0, false_ones = 0, bad = 0, touching = 0;
@@ -248,7 +220,7 @@ TEST(sliver, tips_end_where_they_do)
     std::rotate(soup.corners.begin(), soup.corners.begin() + i % 3, soup.corners.end());
     Scene scene(soup, 0.3, hooke(1), 0, 0);
     const Oracle oracle(soup);
-    const Real room = tolerance(soup, scene.grid, scene.mesh.report);
+    const Real room = pair_tolerance(scene.mesh.report, scene.grid);
     for (int k = 0; k < 10; k++) {
       const Vec3 q = tip + log_uniform(random, 0.1, 1e4) * scene.grid.tolerance * axis;
       ContactSet<kMost> set;

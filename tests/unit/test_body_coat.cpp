@@ -576,43 +576,39 @@ TEST(body_coat, slides_on_its_joint_against_dampers_that_take_its_mass)
   EXPECT_NEAR(scene.body(1).velocity().x / 0.1, std::exp(-rate * 1000 * scene.dt), 1e-3);
 }
 
-TEST(body_coat, is_carried_along_by_a_belt)
-{
-  WallSpec spec = wall_of({floor_at_0(), cube({0, 0, kSide / 2 + kRadius - 0.01})});
-  spec.laws.front().law = frictional();
-  spec.laws.front().law.gamma_tangent = 20;
-  spec.meshes[0].surface.velocity = {0.5, 0, 0};
-  Scene scene(spec);
-  scene.gravity[2] = -kGravity;
-  scene.go(3000);
-  EXPECT_NEAR(scene.body(1).velocity().x, 0.5, 0.05);
-}
-
 // A crawler: the belt of its own surface drives it to minus the belt's speed, by mu g until there. So does that of a
-// surface that turns, about the axis of its hinge.
-TEST(body_coat, is_driven_by_its_own_belt)
+// surface that turns, about the axis of its hinge. A belt below carries it along.
+TEST(body_coat, is_driven_by_its_own_belt_and_carried_along_by_that_of_another_mesh)
 {
   const Real mu = 0.2, speed = 0.5;
-  for (const bool turns : {false, true}) {
+  const struct {
+    int mesh;
+    bool turns;
+  } belts[] = {{1, false}, {1, true}, {0, false}};
+  for (const auto &[mesh, turns] : belts) {
+    const int sign = mesh == 1 ? -1 : 1;
     WallSpec spec = wall_of({floor_at_0(), cube({0, 0, kSide / 2 + kRadius - 0.005})});
     spec.laws.front().law = frictional();
     spec.laws.front().law.mu = mu;
     spec.laws.front().law.gamma_tangent = 20;
-    (turns ? spec.meshes[1].surface.angular.z : spec.meshes[1].surface.velocity.x) = speed;
+    SurfaceMotion &belt = spec.meshes[mesh].surface;
+    (turns ? belt.angular.z : belt.velocity.x) = speed;
     BodySpec &body = spec.meshes[1].body;
     body.joint = {turns ? JointKind::hinge : JointKind::slider, {0, 0, 0}, {0, 0, 1}};
     if (!turns) body.joint.axis = {1, 0, 0};
     Scene scene(spec);
     scene.set_up();
-    const auto at = [&] { return turns ? scene.body(1).omega().z : scene.body(1).velocity().x; };
+    const auto at = [&, turns = turns] {
+      return turns ? scene.body(1).omega().z : scene.body(1).velocity().x;
+    };
     const Real pressed = kPointsOfFace * kStiffness * 0.005;
     scene.run(100);
     // Springs of friction need mu F / (kt v) of the time to give way, 2 % of it.
     if (!turns) {
-      EXPECT_NEAR(at(), -mu * pressed / kMass * 0.1, 0.1 * mu * pressed / kMass * 0.1);
+      EXPECT_NEAR(at(), sign * mu * pressed / kMass * 0.1, 0.1 * mu * pressed / kMass * 0.1);
     }
     scene.run(3000);
-    EXPECT_NEAR(at(), -speed, 0.02 * speed) << turns;
+    EXPECT_NEAR(at(), sign * speed, 0.02 * speed) << mesh << turns;
   }
 }
 

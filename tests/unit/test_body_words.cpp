@@ -34,17 +34,6 @@ Read read(const std::string &line)
 
 }    // namespace
 
-TEST(body_words, are_of_a_free_body_at_rest_where_only_its_density_is_given)
-{
-  const BodySpec body = read("density 2.5").mesh.body;
-  EXPECT_TRUE(body.present);
-  EXPECT_EQ(body.density, 2.5);
-  EXPECT_EQ(body.joint.kind, JointKind::free);
-  EXPECT_EQ(norm(body.velocity) + norm(body.omega) + norm(body.load) + norm(body.moment), 0);
-  EXPECT_FALSE(body.has_gravity);
-  EXPECT_TRUE(std::isinf(body.drive.lo) && std::isinf(body.drive.hi));
-}
-
 TEST(body_words, give_mass_centre_and_moments_in_the_order_of_fix_rigid)
 {
   const BodySpec body = read("mass 3 com 1 2 3 inertia 4 5 6 0.1 0.2 0.3").mesh.body;
@@ -125,11 +114,6 @@ TEST(body_words, change_what_they_name_and_nothing_else)
   EXPECT_EQ(to.motor_input, kNoInput);
   for (const char *wrong : {"", "density 3", "velocity 1 0 0", "load 1 2"})
     EXPECT_THROW(changed(wrong, inputs), InputError) << wrong;
-}
-
-TEST(body_words, have_a_spring_that_is_slack_at_0_where_nothing_else_is_said)
-{
-  EXPECT_EQ(read("density 1 joint slider 1 0 0 spring 2 3 limits 0 1").mesh.body.drive.rest, 0);
 }
 
 TEST(body_words, are_refused_with_what_is_wrong)

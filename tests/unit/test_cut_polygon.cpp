@@ -336,25 +336,24 @@ TEST(cut_polygon, what_crosses_itself_is_refused_with_its_place)
   };
   const std::string bowtie = problem({{0, 0}, {4, 4}, {4, 0}, {0, 5}});
   EXPECT_NE(bowtie.find("it crosses itself near ("), bowtie.npos) << bowtie;
-  EXPECT_NE(problem({{0, 0}, {4, 4}, {4, 0}, {0, 4}}), "");                   // of area 0
-  EXPECT_NE(problem({{0, 10}, {-6, -8}, {10, 3}, {-10, 3}, {6, -8}}), "");    // a pentagram
-  EXPECT_NE(problem({{0, 0}, {9, 0}, {9, 9}, {0, 9}, {0, 0}, {9, 0}, {9, 9}, {0, 9}}), "");
-  // A hole that is wound as its rim is; a strip that goes over itself; a loop within a loop.
-  EXPECT_NE(
-      problem({{0, 0}, {9, 0}, {9, 9}, {0, 9}, {0, 0}, {3, 3}, {6, 3}, {6, 6}, {3, 6}, {3, 3}}),
-      "");
-  EXPECT_NE(problem({{0, 0},
-                     {20, 0},
-                     {20, 20},
-                     {10, 20},
-                     {10, -10},
-                     {12, -10},
-                     {12, 18},
-                     {18, 18},
-                     {18, 2},
-                     {0, 2}}),
-            "");
-  EXPECT_NE(problem({{0, 0}, {9, 0}, {9, 9}, {0, 9}, {0, 0}, {5, 1}, {5, 5}, {1, 5}}), "");
+  const Polygon others[] = {
+      {{0, 0}, {4, 4}, {4, 0}, {0, 4}},                   // of area 0
+      {{0, 10}, {-6, -8}, {10, 3}, {-10, 3}, {6, -8}},    // a pentagram
+      {{0, 0}, {9, 0}, {9, 9}, {0, 9}, {0, 0}, {9, 0}, {9, 9}, {0, 9}},
+      // A hole that is wound as its rim is; a strip that goes over itself; a loop within a loop.
+      {{0, 0}, {9, 0}, {9, 9}, {0, 9}, {0, 0}, {3, 3}, {6, 3}, {6, 6}, {3, 6}, {3, 3}},
+      {{0, 0},
+       {20, 0},
+       {20, 20},
+       {10, 20},
+       {10, -10},
+       {12, -10},
+       {12, 18},
+       {18, 18},
+       {18, 2},
+       {0, 2}},
+      {{0, 0}, {9, 0}, {9, 9}, {0, 9}, {0, 0}, {5, 1}, {5, 5}, {1, 5}}};
+  for (const Polygon &other : others) EXPECT_NE(problem(other), "");
 }
 
 TEST(cut_polygon, corners_in_a_line_give_triangles_without_area)

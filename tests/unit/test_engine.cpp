@@ -27,18 +27,6 @@ using namespace lsdcd;
 
 namespace {
 
-void expect_same(const Outcome &a, const Outcome &b, const std::string &name)
-{
-  expect_same_rows(a, b, name);
-  EXPECT_EQ(a.totals.energy, b.totals.energy) << name;
-  EXPECT_TRUE(a.totals.force == b.totals.force) << name;
-  EXPECT_TRUE(a.totals.torque == b.totals.torque) << name;
-  EXPECT_EQ(a.totals.contacts, b.totals.contacts) << name;
-  EXPECT_EQ(a.totals.uncertified, b.totals.uncertified) << name;
-  EXPECT_EQ(a.totals.largest_overlap_sphere, b.totals.largest_overlap_sphere) << name;
-  EXPECT_GT(a.totals.contacts, 0) << name;
-}
-
 // A backend that keeps lists of spheres with several contacts, as a GPU does, and counts what crosses between host
 // and device, and waiting.
 struct CountingBackend : CpuBackend {
@@ -700,18 +688,6 @@ TEST(engine, notes_the_deepest_overlap_of_all_steps_since_the_last_look)
   EXPECT_NEAR(later.deepest, 0.5, 1e-7);
   EXPECT_EQ(later.deepest_step, 1004);
   EXPECT_EQ(p.engine->read_diagnostics().deepest_meshes, 0U);
-}
-
-TEST(engine, many_springs_take_shared_places)
-{
-  // A corner of three walls has more contacts than a sphere has places of its own.
-  const Case corner = {"box", box_mesh({0, 0, 0}, {1.2, 1.2, 1.2}), 0.5, 0};
-  const Outcome a = run_steps(corner, history(), on_cpu, 20000);
-  const Outcome b = run_steps(corner, history(), in_place, 20000);
-  expect_same(a, b, "corner");
-  int three = 0;
-  for (const TouchingSphere &o : a.outputs) three += o.n_contacts >= 3;
-  EXPECT_GT(three, 300);
 }
 
 // They are read by other rules than those of steps.

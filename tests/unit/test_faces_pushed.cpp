@@ -72,11 +72,6 @@ Vec3 round_z(Real r, Real turns, Real z)
   return {r * std::cos(2 * kPi * turns), r * std::sin(2 * kPi * turns), z};
 }
 
-TEST(faces_pushed, a_wall_at_rest_has_none)
-{
-  EXPECT_EQ(report_of(box_mesh({0, 0, 0}, {1, 1, 1}), {}).faces, 0u);
-}
-
 TEST(faces_pushed, a_belt_along_its_velocity_has_none)
 {
   // 30 degrees up, in words of two digits.
@@ -120,23 +115,6 @@ TEST(faces_pushed, surfaces_of_revolution_in_any_triangles_have_none)
     }
     EXPECT_LT(report_of(sheet(n, n, 0.1, ball), turning(3)).area, kSlivers) << n;
   }
-}
-
-// Six radial plates, 0.3 high and 0.1 off the radius, in a drum of radius 1.
-TEST(faces_pushed, lifters_of_a_drum_are_told_and_the_drum_is_not)
-{
-  TriangleSoup drum = cylinder_mesh(60, 4, 1, 2);
-  for (int k = 0; k < 6; k++) {
-    const Vec3 out = round_z(1, k / 6.0, 0), across = {-0.1 * out.y, 0.1 * out.x, 0};
-    const Vec3 a = 0.7 * out + across, b = out + across, up = {0, 0, 2};
-    for (const Vec3 &p : {a, b, b + up, a, b + up, a + up}) drum.corners.push_back(p);
-  }
-  const PushReport push = report_of(drum, turning(5));
-  EXPECT_EQ(push.faces, 12u);
-  EXPECT_GT(push.area, 10 * kSlivers);
-  // At the middle of the triangle with two corners outside, 0.9 from the closest point of the axis.
-  EXPECT_NEAR(push.component, 5 * 0.9, 1e-12);
-  EXPECT_NEAR(push.share, 0.9 / std::hypot(0.9, 0.1), 1e-12);
 }
 
 // A flight from 0.3 to 1 with pitch 1, each quad in two triangles: at r it rises by 1 / (2 pi r)

@@ -63,17 +63,6 @@ TEST(add_once, keeps_walls_on_opposite_sides_apart)
   EXPECT_EQ(added({{1, {true, 0.5, kUp}}, {2, {true, 0.5, -kUp}}}).n, 2);
 }
 
-TEST(contact_set, says_when_it_is_full)
-{
-  ContactSet<2> set;
-  set.add(0, kUp, 0.5);
-  set.add(1, -kUp, 0.5);
-  EXPECT_FALSE(set.overflow);
-  set.add(2, kUp, 0.5);
-  EXPECT_TRUE(set.overflow);
-  EXPECT_EQ(set.n, 2);
-}
-
 // ---- filter_side -------------------------------------------------------------------------
 
 struct Given {

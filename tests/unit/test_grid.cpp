@@ -187,39 +187,33 @@ TEST(grid, flat_edges_have_no_records)
   EXPECT_EQ(cube.contact_features.size(), 12u + 12u + 8u);
 }
 
-// The cell that is chosen for spheres on a GPU, over the cutoff: of a floor of 2 n^2 triangles over
-// [-1, 1]^2.
-Real chosen_for_gpu(int n, Real cutoff, int nearest, Real given)
+// The cell that is chosen, over the cutoff: of a floor of 2 n^2 triangles over [-1, 1]^2.
+Real chosen(int n, Real cutoff, GridSettings settings)
 {
-  GridSettings settings;
   settings.cutoff = cutoff;
-  settings.list_kind = ListKind::of_option(nearest);
-  settings.length = given;
-  settings.for_gpu = true;
   return plan_grid(weld(floor_mesh(n, 1), -1), settings).length / cutoff;
 }
 
 // Edges of 0.02, and of 0.02 sqrt(2): the median is one of the former.
 TEST(grid, for_a_gpu_a_cell_goes_with_the_edges_from_a_quarter_to_a_half_of_the_cutoff)
 {
-  EXPECT_EQ(chosen_for_gpu(2, 0.25, 0, 0), 0.5);
-  EXPECT_NEAR(chosen_for_gpu(100, 0.1, 0, 0), 2 * 0.02 / 0.1, 1e-12);
-  EXPECT_EQ(chosen_for_gpu(100, 0.5, 0, 0), 0.25);
-  EXPECT_NEAR(chosen_for_gpu(2, 0.25, 0, 0.2), 0.8, 1e-15);    // that is given
+  GridSettings settings;
+  settings.for_gpu = true;
+  EXPECT_EQ(chosen(2, 0.25, settings), 0.5);
+  EXPECT_NEAR(chosen(100, 0.1, settings), 2 * 0.02 / 0.1, 1e-12);
+  EXPECT_EQ(chosen(100, 0.5, settings), 0.25);
+  settings.length = 0.2;
+  EXPECT_NEAR(chosen(2, 0.25, settings), 0.8, 1e-15);
 }
 
 // Points read a list each: two edges, from a tenth of the cutoff to all of it.
 TEST(grid, for_points_a_cell_goes_with_the_edges)
 {
-  const auto chosen = [](int n, Real cutoff) {
-    GridSettings settings;
-    settings.cutoff = cutoff;
-    settings.purpose = GridPurpose::points;
-    return plan_grid(weld(floor_mesh(n, 1), -1), settings).length / cutoff;
-  };
-  EXPECT_EQ(chosen(2, 0.25), 1);
-  EXPECT_NEAR(chosen(100, 0.1), 2 * 0.02 / 0.1, 1e-12);
-  EXPECT_EQ(chosen(100, 0.5), 0.1);
+  GridSettings settings;
+  settings.purpose = GridPurpose::points;
+  EXPECT_EQ(chosen(2, 0.25, settings), 1);
+  EXPECT_NEAR(chosen(100, 0.1, settings), 2 * 0.02 / 0.1, 1e-12);
+  EXPECT_EQ(chosen(100, 0.5, settings), 0.1);
 }
 
 TEST(grid, coarser_cells_for_a_gpu_come_to_those_of_a_cpu)
@@ -414,18 +408,6 @@ TEST(grid, a_list_holds_for_centres_up_to_the_margin_from_its_cell)
     }
   }
   EXPECT_GT(found, 100000);
-}
-
-TEST(grid, flat_block_can_be_moved)
-{
-  const TriangleGrid grid = grid_of(box_mesh({0, 0, 0}, {1, 1, 1}), 0.3);
-  FlatGrid first(grid), second(flat_bytes(grid));
-  std::memcpy(second.block(), first.block(), flat_bytes(grid));
-  std::memset(first.block(), 0xff, flat_bytes(grid));
-  ContactSet<kMost> set;
-  find_contacts(second.view(), {0.5, 0.5, 1.2}, 0.3, set);
-  ASSERT_EQ(set.n, 1);
-  EXPECT_NEAR(set.distance[0], 0.2, 1e-15);
 }
 
 // Arrays of some MB, so that they go in several parts.

@@ -122,14 +122,6 @@ TEST(grid_cache, the_report_of_the_build_comes_back)
   EXPECT_EQ(describe(CachedGrid(path, box().key).report()), describe(box().grid.report));
 }
 
-TEST(grid_cache, a_missing_file_is_no_problem)
-{
-  TempDir dir;
-  std::string problem = "?";
-  EXPECT_EQ(box().state(dir.path("none"), &problem), CacheState::missing);
-  EXPECT_EQ(problem, "");
-}
-
 // ---- damage ------------------------------------------------------------------------------
 
 TEST(grid_cache, a_file_cut_off_anywhere_is_damaged)
@@ -301,15 +293,6 @@ bool in_child(Work &&work)
   return WIFEXITED(status) && WEXITSTATUS(status) == 0;
 }
 
-TEST(grid_cache, writing_replaces_a_file_and_leaves_no_other)
-{
-  TempDir dir;
-  const std::string path = dir.write("grid", "damaged");
-  box().write(path);
-  EXPECT_EQ(box().state(path), CacheState::usable);
-  EXPECT_EQ(files_in(dir.path("")), 1);
-}
-
 TEST(grid_cache, a_reader_keeps_the_file_that_it_opened)
 {
   TempDir dir;
@@ -330,15 +313,6 @@ TEST(grid_cache, a_link_stays_and_its_file_is_replaced)
   box().write(dir.path("link"));
   EXPECT_TRUE(fs::is_symlink(dir.path("link")));
   EXPECT_EQ(box().state(path), CacheState::usable);
-}
-
-TEST(grid_cache, a_folder_that_is_not_there_is_an_error)
-{
-  TempDir dir;
-  const std::string path = dir.path("no/grid");
-  const std::string error = error_of_writing(box(), path);
-  EXPECT_TRUE(has(error, path));
-  EXPECT_TRUE(has(error, "No such file or directory"));
 }
 
 TEST(grid_cache, a_read_only_folder_is_an_error_and_stays_as_it_is)

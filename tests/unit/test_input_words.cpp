@@ -10,7 +10,7 @@
 namespace lsdcd::test_input_words {
 namespace {
 
-TEST(input_words, are_numbers_with_a_point_in_any_locale)
+TEST(input_words, are_read_and_written_with_a_point_in_any_locale)
 {
   const CommaLocale commas;
   if (!commas.works()) GTEST_SKIP() << "this C library takes no locale of ours";
@@ -19,6 +19,8 @@ TEST(input_words, are_numbers_with_a_point_in_any_locale)
   EXPECT_TRUE(is_one);
   EXPECT_EQ(value, 0.5);
   EXPECT_FALSE(is_comma);
+  EXPECT_EQ(number_text(0.25), "0.25");
+  EXPECT_EQ(range_text(0.25, 0.5), "from 0.25 to 0.5");
 }
 
 TEST(input_words, are_numbers_with_a_plus_before_them)
@@ -39,14 +41,6 @@ TEST(input_words, are_0_where_they_are_nearer_to_it_than_any_number)
     EXPECT_TRUE(is_one) << word;
     EXPECT_EQ(value, 0) << word;
   }
-}
-
-TEST(input_words, are_written_with_a_point_in_any_locale)
-{
-  const CommaLocale commas;
-  if (!commas.works()) GTEST_SKIP() << "this C library takes no locale of ours";
-  EXPECT_EQ(number_text(0.25), "0.25");
-  EXPECT_EQ(range_text(0.25, 0.5), "from 0.25 to 0.5");
 }
 
 // One table says what may be given twice.

@@ -235,16 +235,6 @@ TEST(mesh_body, keeps_what_it_was_where_a_change_is_refused)
   }
 }
 
-// It was at 0.5. One that is refused changes nothing.
-TEST_F(moved_body, is_not_restored_outside_of_its_limits)
-{
-  spec.meshes[0].body.drive.lo = -0.2;
-  spec.meshes[0].body.drive.hi = 0.2;
-  Scene second(spec);
-  EXPECT_TRUE(fails_with("limits -0.2 0.2 do not contain 0.5", [&] { second.restore(*scene); }));
-  EXPECT_EQ(second.body().centre().x, 0);
-}
-
 // A mass that another machine has rounded otherwise is the same.
 TEST_F(moved_body, keeps_its_coordinate_after_a_restart_with_another_mass)
 {
@@ -411,31 +401,6 @@ TEST(mesh_body, takes_any_timestep_of_a_mesh_at_rest_while_it_is_pressed_into_it
       scene.set_up();
       EXPECT_EQ(error_of_run(scene, 1e-3).empty(), pressed);
     }
-}
-
-// To the last bit, and the mesh does not move.
-TEST(mesh_body, at_its_stop_throws_spheres_back_as_a_mesh_at_rest)
-{
-  for (const JointKind kind : {JointKind::slider, JointKind::hinge}) {
-    WallSpec at_rest = cube(), at_stop = cube_at_its_stop(kind, 0.01);
-    at_rest.meshes[0].body = BodySpec();
-    for (WallSpec *spec : {&at_rest, &at_stop}) spec->laws.front().law.eta = 10;
-    Scene wall(at_rest), scene(at_stop);
-    for (Scene *s : {&wall, &scene}) {
-      s->add({0.2, 0, kSide / 2 + kRadius - 1e-6});
-      s->v[0] = {0, 0, -1};
-      s->set_up();
-    }
-    for (int n = 0; n < 150; n++) {
-      wall.move_spheres();
-      scene.move_spheres();
-      ASSERT_EQ(scene.force[0].z, wall.force[0].z) << n;
-      ASSERT_EQ(scene.body().kinetic_energy(), 0) << n;
-      ASSERT_EQ(scene.wall->totals().of_all().power, 0) << n;
-    }
-    EXPECT_GT(wall.v[0].z, 0.5);
-    EXPECT_EQ(scene.body().coordinate(), 0);
-  }
 }
 
 // The damper takes the mass of the sphere, 1, or that of both, 8/9.

@@ -163,31 +163,6 @@ TEST(mesh_fields, are_written_whole_and_exact)
   EXPECT_EQ(array_in<double>(xml, "normal_stress")[4], 0);
 }
 
-TEST(mesh_fields, forces_turn_with_the_mesh)
-{
-  const WeldedMesh mesh = weld(floor_mesh(1, 1), -1);
-  MeshLoads loads;
-  const StepContact r = on(FeatureKind::face, 1, 6, 2, 0);
-  loads.add(&r, 1, 0.5, 0);
-  loads.add(nullptr, 0, 0.5, 0);
-  Pose pose;    // x to y to z to x
-  pose.row[0] = {0, 0, 1};
-  pose.row[1] = {1, 0, 0};
-  pose.row[2] = {0, 1, 0};
-  pose.shift = {5, 6, 7};
-  pose.placed = true;
-  const FaceField force = load_fields(mesh, loads, 1, false, pose).back();
-  EXPECT_EQ(force.name, "force");
-  EXPECT_EQ(force.n_components, 3);
-  EXPECT_EQ(force.value, (std::vector<double>{0, 0, 0, -3, -1, 0}));
-}
-
-TEST(mesh_fields, files_carry_the_step_where_a_star_is)
-{
-  EXPECT_EQ(file_of_step("a/wall_*.vtp", 1200), "a/wall_1200.vtp");
-  EXPECT_EQ(file_of_step("wall.vtp", 1200), "wall.vtp");
-}
-
 void expect_series()
 {
   const TempDir dir;

@@ -87,34 +87,6 @@ class Pair {
   std::vector<Real> force_[2];    // and torques
 };
 
-TEST(mirror, springs_survive_a_choice_with_other_near_spheres)
-{
-  Pair p;
-  p.place(0b1100, 3);
-  p.choose();
-  for (int k = 0; k < 3; k++) p.step();
-  const Real before = p.shear(0, 3);
-  EXPECT_GT(before, 0);
-  p.place(0b1011, 3);    // sphere 3 is the second near one, then the third
-  p.choose();
-  p.step();
-  EXPECT_TRUE(p.same_forces());
-  EXPECT_GT(p.shear(0, 3), 1.3 * before);    // four steps after three
-  p.expect_same_springs();
-}
-
-TEST(mirror, a_sphere_that_was_far_has_no_spring_of_before)
-{
-  Pair p;
-  for (int touching : {0b0110, 0b0100, 0b0110}) {
-    p.place(touching, 1);
-    p.choose();
-    p.step();
-  }
-  EXPECT_GT(p.shear(1, 2), 2 * p.shear(1, 1));
-  p.expect_same_springs();
-}
-
 TEST(mirror, springs_that_were_asked_for_are_still_there_in_the_next_step)
 {
   Pair p;
