@@ -8,7 +8,6 @@ Numbers are compared as printed with 17 digits: to the last bit.
 
 import os
 import re
-import subprocess
 
 import pytest
 
@@ -137,20 +136,4 @@ def test_two_nodes(folder):
         cache.write_bytes(cache.read_bytes()[:-1])
         same(folder, f"{ranks} ranks on two nodes, damage", go(folder, "cache cache", ranks, env=env),
              plain, written=1, warnings=1)
-        cache.unlink()
-
-
-def test_at_once(folder):
-    """Several runs at once leave one good file, and each has the right numbers."""
-    cache = folder / "cache"
-    plain = go(folder, "")
-    (folder / "in.once").write_text(text_of("cache cache"))
-    for turn in range(3):
-        runs = [subprocess.Popen([lmp.LMP, "-in", "in.once", "-log", "none", "-nocite"], cwd=folder,
-                                 env=lmp.environment(), stdout=subprocess.PIPE, text=True)
-                for _ in range(3)]
-        done = [Run(run.communicate(timeout=300)[0]) for run in runs]
-        fact(f"at once, turn {turn}: same numbers", all(run.rows == plain.rows for run in done))
-        fact(f"at once, turn {turn}: no warnings", not any(run.warnings for run in done))
-        same(folder, f"after them, turn {turn}", go(folder, "cache cache"), plain, read=1)
         cache.unlink()

@@ -72,8 +72,8 @@ def go(folder, name, style, atoms, integrator, spin):
     return lmp.read_dump(folder / name)
 
 
-def proceed(folder, restart, name, ranks, style="ellipsoid", more=""):
-    lmp.run_well(head("", style) + f"read_restart {restart}\n" + forces("nve/asphere", more=more) +
+def proceed(folder, restart, name, ranks, style="ellipsoid"):
+    lmp.run_well(head("", style) + f"read_restart {restart}\n" + forces("nve/asphere") +
                  dump(name, "angmomx angmomy angmomz") + f"run {SECOND}\n", folder, ranks)
     return lmp.read_dump(folder / name)
 
@@ -279,16 +279,6 @@ run             2000
     fact("a free cube: the ellipsoid turns it", max(map(abs, rows[-1][15:])) > 0.05, str(rows[-1][15:]))
     off = max(abs(u - v) for row in rows for u, v in zip(books(row), books(rows[0])))
     at_most("a free cube: momentum and angular momentum stay", off, 1e-12)
-
-
-def test_receding(folder):
-    """Each process has the shape of a floor that wears."""
-    one = go(folder, "worn", "ellipsoid", ELLIPSOIDS, "nve/asphere", "angmomx angmomy angmomz")
-    wear = "wear archard 2e-2 50 deform every 20 factor 1"
-    paths = [proceed(folder, "worn.restart", f"worn{ranks}", ranks, more=wear) for ranks in (1, 4)]
-    fact("a floor that recedes: it does so", lmp.largest_difference(one, paths[0]) > 1e-6)
-    # What wears is summed over processes in another order.
-    at_most("a floor that recedes: the same on 4 ranks", lmp.largest_difference(*paths), 1e-10)
 
 
 def test_hybrid(folder):
