@@ -32,22 +32,9 @@ def test_by_mesh(folder):
         ours = go(folder, six(law, {"zlo": f"law {other}"}), "b", 1500, every=50)[0]
         at_most(f"{name}: a plate with its own numbers is such a plane",
                 lmp.largest_difference(theirs, ours), 1e-12)
-        # Away from seams: between two plates that do not meet. The same formulas in the same order.
-        meshes = {side: f"mesh z{side}.stl" for side in ("lo", "hi")}
-        box = lmp.flat_walls("\n".join(f"fix {axis} all wall/gran {law} {axis}plane {-SIDE} {SIDE}" for axis in "xy"))
-        one = go(folder, f"{box}\nfix w all wall/lsdcd {law} {meshes['hi']} {meshes['lo']} law {other}", "a",
-                 1500, every=50)[0]
-        two = go(folder, f"{box}\nfix hi all wall/lsdcd {law} {meshes['hi']}\n"
-                 f"fix lo all wall/lsdcd {other} {meshes['lo']}", "b", 1500, every=50)[0]
-        at_most(f"{name}: and as a fix of its own", lmp.largest_difference(one, two), 1e-13)
-
-
     same = go(folder, six(law), "c", 1500, every=50)[0]
     differ = go(folder, six(law, {"zlo": f"law {other}"}), "b", 1500, every=50)[0]
     fact("the numbers matter", lmp.largest_difference(same, differ) > 1e-3)
-    ours = go(folder, f"fix w all wall/lsdcd {law} mesh zlo.stl law {other}", "a", 1000, every=50)[0]
-    theirs = go(folder, f"fix w all wall/lsdcd {other} mesh zlo.stl", "b", 1000, every=50)[0]
-    fact("one mesh with its own numbers has these", ours == theirs)
 
 
 def grains():
