@@ -78,10 +78,6 @@ WRITTEN = {
         "region b block 0 1 0 1 0 1\ncreate_box 1 b\nfix p all wall/gran model hertz tangential history primitive type 1 zplane 1\n", "zplane NULL 1"),
     "no word tangential is no friction: hertz": (MESH.format("") + WALL.replace(" tangential history", ""), "tangential linear_nohistory 0 0 &\n"),
     "no word tangential is no friction: hooke": (SPEED + SIZE + MESH.format("") + WALL.replace("hertz tangential history", "hooke"), " 0 0 &\n"),
-    "no word tangential is no friction: a plane": (
-        "region b block 0 1 0 1 0 1\ncreate_box 1 b\nfix p all wall/gran model hertz primitive type 1 zplane 0\n",
-        "tangential linear_nohistory 0 0 damping"),
-    "no word tangential is no friction: grains": ("pair_style gran model hertz\npair_coeff * *\n", "tangential linear_nohistory 0 0 damping"),
     "tangential off needs no coefficientFriction and keeps its settings": (
         MESH.format("") + WALL.replace("history", "off").replace("\n", " tangential_damping on limitForce on\n"),
         "tangential linear_nohistory 0 0 limit_damping"),
@@ -537,7 +533,6 @@ LEFT.update({
         "fix i all insert/pack seed 7 distributiontemplate d particles_in_region 9 region r\n", "insertion of grains that are no spheres"),
     "a mass flow through a mesh that moves": (
         MESH.format("") + WALL + MOVE.format("linear 1 0 0") + "fix flow all massflow/mesh mesh cad vec_side 0 0 1\n", "massflow/mesh of the mesh cad, which moves"),
-    "a jump in an if to another file": ('if "${n} > 1" then "jump in.other l"\n', "a jump to another file"),
 })
 # What stands behind these lines, or with lines below them: the line that is left, and why.
 LEFT_INSIDE = {
