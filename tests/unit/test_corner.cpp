@@ -482,6 +482,49 @@ TEST(corner, sixty_four_contacts_reach_the_minimum)
 
 // ---- continuity ----------------------------------------------------------------------
 
+// `n` planes of a cone around z, all tilted by `degrees`, with overlaps as they come.
+Contacts cone(int n, Real degrees, const std::vector<Real> &overlap)
+{
+  Contacts c;
+  const Real tilt = degrees * kPi / 180;
+  for (int i = 0; i < n; i++) {
+    const Real a = 2 * kPi * i / n;
+    c.normal.push_back(
+        {std::sin(tilt) * std::cos(a), std::sin(tilt) * std::sin(a), std::cos(tilt)});
+    c.overlap.push_back(overlap[i]);
+  }
+  return c;
+}
+
+// The force of Hertz contacts, for the stiffness 1.
+Vec3 hertz_force(const Contacts &c)
+{
+  const Solved s = solve<16>(c);
+  Vec3 f = {0, 0, 0};
+  for (int i = 0; i < c.n(); i++) f += s.weight[i] * std::pow(c.overlap[i], 1.5) * c.normal[i];
+  return f;
+}
+
+TEST(corner, plane_that_passes_through_the_point_of_three_others_changes_no_force_at_once)
+{
+  // Overlaps of four planes through one point add up to 0 with the signs + - + -. An offset of 1e-12
+  // past that point turns this sum's sign; before, the planes that bore the sphere then changed at once.
+  for (Real degrees : {27., 45.}) {
+    const std::vector<Real> at = {0.02, 0.015, 0.01, 0.015};
+    std::vector<Real> less = at, more = at;
+    less[0] -= 1e-12;
+    more[0] += 1e-12;
+    // |dl| <= |dd| / the least eigenvalue of the covers, that of + - + -.
+    const Quad sine = std::sin(degrees * kPi / 180), sine_sq = sine * sine;
+    const Quad least = 1 - 2 * cover_of(1 - sine_sq) + cover_of(1 - 2 * sine_sq);
+    ASSERT_GT(least, 0);
+    const Real moved = 2e-12 / static_cast<Real>(least);
+    const Vec3 a = hertz_force(cone(4, degrees, less)), b = hertz_force(cone(4, degrees, more));
+    EXPECT_LE(norm(a - b), 2 * moved * std::sqrt(0.02)) << degrees;
+    EXPECT_LE(norm(a - b), 1e-4 * norm(a)) << degrees;
+  }
+}
+
 TEST(corner, contact_that_begins_changes_no_weight_of_others_at_once)
 {
   // Random walls, one of which begins to overlap: by d times a number that the others' weights follow.
