@@ -41,7 +41,7 @@ PeriodicBox box_of(const lsdcd_wall_options &o)
     box.edge[k][k] = o.hi[k] - o.lo[k];
     box.periodic[k] = o.periodic[k] != 0;
   }
-  for (int k = 0; k < 3 && !any; k++) box.face_follows[k][0] = box.face_follows[k][1] = true;
+  for (int k = 0; k < 3 && !any; k++) box.make_unlimited(k);
   if (!(o.margin >= 0) || (box.any_periodic() && o.margin == 0))
     refuse_option("lsdcd_wall_options",
                   "margin is " + number_text(o.margin) +

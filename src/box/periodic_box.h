@@ -14,6 +14,8 @@ struct PeriodicBox {
   bool periodic[3] = {false, false, false};            // along each edge
   // Faces that follow the spheres (shrink-wrapped): along each edge the lower and the upper one.
   bool face_follows[3][2] = {{false, false}, {false, false}, {false, false}};
+  // Spheres can be anywhere along an edge: its faces are no limit, and nobody moves them.
+  bool unlimited[3] = {false, false, false};
   Real margin = 0;      // length; how far past a face a sphere may go before it is wrapped
   int dimension = 3;    // 2: spheres stay in the plane z = 0
 
@@ -27,6 +29,11 @@ struct PeriodicBox {
   Box bounds(const Vec3 &past) const;
   bool any_periodic() const { return periodic[0] || periodic[1] || periodic[2]; }
   bool follows(int k) const { return face_follows[k][0] || face_follows[k][1]; }
+  void make_unlimited(int k)
+  {
+    periodic[k] = false;
+    face_follows[k][0] = face_follows[k][1] = unlimited[k] = true;
+  }
   bool any_follows() const { return follows(0) || follows(1) || follows(2); }
 };
 

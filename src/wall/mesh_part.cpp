@@ -71,8 +71,7 @@ PeriodicBox MeshPart::effective_box(const PeriodicBox &real) const
     });
     box.corner += lo * real.edge[k];
     box.edge[k] = (hi - lo) * real.edge[k];
-    box.periodic[k] = false;
-    box.face_follows[k][0] = box.face_follows[k][1] = true;    // no limit for the grid
+    box.make_unlimited(k);
   }
   return box;
 }

@@ -108,6 +108,24 @@ TEST_F(wall, feels_spheres_wherever_they_go)
   EXPECT_GT(pushed, 500);
 }
 
+TEST_F(wall, without_a_box_is_felt_all_over_a_mesh_of_2000_radii)
+{
+  const double half = 500;
+  const std::vector<double> floor = {-half, -half, 0, half, -half, 0, half, half, 0, -half, half, 0};
+  const api::Mesh large(floor, {0, 1, 2, 0, 2, 3});
+  for (const bool moves : {false, true}) {
+    SCOPED_TRACE(moves);
+    api::WallSpec spec = floor_of(hooke_history(), large);
+    if (moves) spec.meshes[0].motions = {api::Motion::linear({1, 0, 0})};
+    lsdcd::Wall wall(spec);
+    Grains grains;
+    for (double x = 1 - half; x < half; x += 2) grains.add(x, x / 2, 0.4);
+    grains.step(wall, 1, true);
+    for (std::size_t k = 0; k < grains.x.size(); k += 3)
+      ASSERT_NEAR(grains.force[k + 2], kN * 0.1, kN * kRounding) << grains.x[k];
+  }
+}
+
 TEST_F(wall, shows_its_log_and_warnings)
 {
   Shown shown;

@@ -81,7 +81,8 @@ Box MeshGrid::within(Real cutoff, const PeriodicBox &box) const
   Box room = box.bounds(past);
   for (int k = 0; k < 3; k++) {
     const Real size = room.hi[k] - room.lo[k];
-    if (!box.follows(k) || report_.hi[k] - report_.lo[k] > kMuchLarger * size) continue;
+    const bool is_cut = !box.follows(k) || report_.hi[k] - report_.lo[k] > kMuchLarger * size;
+    if (is_cut && !box.unlimited[k]) continue;
     room.lo[k] = kNoLimit.lo[k];
     room.hi[k] = kNoLimit.hi[k];
   }
