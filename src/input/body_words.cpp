@@ -55,6 +55,7 @@ void read_mass(Tokens &w, BodySpec &body)
 void read_joint(Tokens &w, BodySpec &body)
 {
   Joint &j = body.joint;
+  j = Joint();
   j.kind = static_cast<JointKind>(w.choice({std::begin(kJointNames), std::end(kJointNames)}));
   if (j.has_point()) j.point = read_vector(w, "px", "py", "pz");
   if (j.has_coordinate()) j.axis = read_direction(w, "ax", "ay", "az");
@@ -161,7 +162,7 @@ BodySpec read_modified_body(Tokens &w, const BodySpec &body, InputNames &inputs)
   if (seen.empty())
     w.fail(w.done() ? "nothing is given to change: write at least one of the keywords"
                     : "'" + w.peek() + "' is not a keyword of a body, or cannot change");
-  if (!has("joint")) return to;
+  if (to.joint == body.joint) return to;
   const JointDrive none, all = to.drive;
   to.drive = none;
   if (has("spring")) {

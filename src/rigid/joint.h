@@ -24,9 +24,12 @@ struct Joint {
   bool has_point() const { return kind == JointKind::hinge || kind == JointKind::ball; }
   // Is its motion one number: a right-handed angle (hinge) or a length (slider), 0 where the body began?
   bool has_coordinate() const { return kind == JointKind::hinge || kind == JointKind::slider; }
+  bool has_axis() const { return has_coordinate() || kind == JointKind::planar; }
+  // What its kind does not have may differ: it stays from a joint of before.
   bool operator==(const Joint &other) const
   {
-    return kind == other.kind && point == other.point && axis == other.axis;
+    return kind == other.kind && (!has_point() || point == other.point) &&
+           (!has_axis() || axis == other.axis);
   }
 
   // Does it leave places along this unit vector as they are, and turn about nothing but it?

@@ -265,6 +265,21 @@ TEST(hinge, swings_with_the_period_of_a_swing_from_90_degrees)
 
 // Free of its hinge it would fall as the reaction says: F + reaction = M a, from differences of velocities. Spring, damper
 // and motor of the joint act beside it.
+// What a kind does not have stays from the joint before it, and its words never give it again.
+TEST(joint, is_told_from_others_by_what_its_kind_has_alone)
+{
+  const Vec3 zero = {0, 0, 0}, one = {1, 2, 3}, x = {1, 0, 0}, z = {0, 0, 1};
+  for (const auto kind : {JointKind::free, JointKind::hinge, JointKind::slider, JointKind::planar,
+                          JointKind::ball}) {
+    const bool has_point = kind == JointKind::hinge || kind == JointKind::ball,
+               has_axis = kind != JointKind::free && kind != JointKind::ball;
+    EXPECT_EQ((Joint{kind, zero, z} == Joint{kind, one, z}), !has_point);
+    EXPECT_EQ((Joint{kind, zero, z} == Joint{kind, zero, x}), !has_axis);
+    EXPECT_FALSE((Joint{kind, zero, z} ==
+                  Joint{has_point ? JointKind::slider : JointKind::hinge, zero, z}));
+  }
+}
+
 TEST(reaction, is_what_keeps_each_joint)
 {
   for (const Joint &joint : kJoints) {
