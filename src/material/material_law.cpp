@@ -11,6 +11,7 @@
 #include "material/material_units.h"
 
 #include <cmath>
+#include <set>
 
 namespace lsdcd {
 
@@ -68,6 +69,10 @@ class LawFiller {
       made.sub_models.push_back(
           {&granular_row(Family::tangential, "mindlin"), {NAN, 1, of_pair("sliding_friction")}});
     for (const GivenSubModel &given : c_.beside) made.sub_models.push_back(filled(given));
+    for (const Override &o : c_.overrides)
+      if (!read_.count(&o))
+        fail(with_ + (o.of.empty() ? "" : o.of + " ") + o.key +
+             "' changes nothing, as no sub-model here takes it: leave it out, or name one that does");
     made.law = law_of(made.sub_models);
     made.name = "granular " + text_of(made.sub_models) + (c_.limit_damping ? " limit_damping" : "");
     made.report = report_;
@@ -103,8 +108,11 @@ class LawFiller {
 
   const Real *override_of(const std::string &key, const std::string &of = "") const
   {
-    for (const Override &o : c_.overrides)
-      if (o.key == key && o.of == of) return &o.value;
+    for (const Override &o : c_.overrides) {
+      if (o.key != key || o.of != of) continue;
+      read_.insert(&o);
+      return &o.value;
+    }
     return nullptr;
   }
 
@@ -196,6 +204,8 @@ class LawFiller {
     return "none";
   }
 
+  bool takes_restitution() const { return damping_ == "tsuji" || damping_ == "coeff_restitution"; }
+
   Real damping_number()
   {
     const bool takes = c_.normal == "hertz/material";    // a restitution
@@ -203,11 +213,15 @@ class LawFiller {
       if (damping_.empty())
         fail(with_ + "eta' is the number of a damping model: name it, such as 'damping "
                      "velocity'");
+      if (damping_ == "none") fail(with_ + "eta' changes nothing beside 'damping none'");
+      if (takes && takes_restitution())
+        fail("'damping " + damping_ + "' takes the material's restitution: write " + with_ +
+             "restitution VALUE' for " + with_ + "eta VALUE'");
       tell("damping " + damping_, "eta", *eta, nullptr);
       return *eta;
     }
     if (damping_ == "none" || (damping_.empty() && !takes)) return 0;
-    if (!takes || (!damping_.empty() && damping_ != "tsuji" && damping_ != "coeff_restitution"))
+    if (!takes || (!damping_.empty() && !takes_restitution()))
       fail("'damping " + damping_ + "' with " + c_.normal +
            " does not take the material's restitution: give its own number as " + with_ +
            "eta VALUE'" + (takes ? ", or use tsuji or coeff_restitution" : ""));
@@ -275,7 +289,8 @@ class LawFiller {
   const MaterialSection &particle_, &wall_;
   const MaterialSection *pair_;
   bool same_;
-  std::string damping_;    // given; empty: none is
+  mutable std::set<const Override *> read_;    // of those of c_
+  std::string damping_;                        // given; empty: none is
   bool has_tangential_ = false;
   ContactModuli contact_;           // SI
   Real modulus_ = 0, ratio_ = 0;    // in the caller's units

@@ -348,6 +348,12 @@ TEST_F(material_words, wrong_ones_are_told_what_is_right)
       {"glass types steel mesh a.stl", {"2 coal"}},
       {"glass damping velocity mesh a", {"'damping velocity'", "with eta VALUE", "tsuji"}},
       {"glass with eta 3 mesh a", {"name it"}},
+      {"glass with eta 0.3 damping tsuji mesh a", {"write 'with restitution VALUE'"}},
+      {"glass with eta 0.3 damping none mesh a", {"'with eta' changes nothing"}},
+      {"glass with rolling_friction 0.3 mesh a", {"'with rolling_friction' changes nothing"}},
+      {"glass with surface_energy 0.5 mesh a", {"'with surface_energy' changes nothing"}},
+      {"glass with sliding_friction 0.5 tangential mindlin NULL 1 0.1 mesh a",
+       {"'with sliding_friction' changes nothing"}},
       {"glass with density 2 mesh a", {"density"}},
       {"glass with mesh a", {"'with' needs"}},
       {"glass with restitution 1.1 mesh a", {"restitution = 1.1", "out of range"}},
@@ -375,6 +381,8 @@ TEST_F(material_words, wrong_ones_are_told_what_is_right)
   for (const auto &row : rows)
     EXPECT_TRUE(says(error_of(std::string("granular material FILE ") + row.words), row.told))
         << row.words;
+  EXPECT_TRUE(says(error_of("granular jkr material FILE glass with restitution 0.5 mesh a"),
+                   {"'with restitution' changes nothing"}));
 }
 
 // kn = 4/3 E*, kt = 8 G*: with E = 69e9, nu = 0.23, 4.856932e10 and 6.338707e10.
