@@ -408,6 +408,7 @@ void FixWallLsdcd::post_run()
           ? ""
           : " (neigh_modify delay 0 every 1 check yes saves looking at all atoms)";
   if (spheres_go_far()) need_positions();
+  set_up_at = -1;
   wall->end_run(spheres(), spheres_go_far(), advice, timer->get_wall(Timer::TOTAL));
 }
 

@@ -196,8 +196,9 @@ def test_radii_grow(folder):
     begin = ONE.format(1.0) + FORCES + "fix move all nve/sphere\n"
     if lmp.DEVICE_MOVES:    # which fix wall/gran does not allow
         return
-    as_wall_gran(folder, "set diameter and run pre no: as with wall/gran", head() +
-                 begin + wall + DUMP + "run 300\nset group all diameter 1.4\nrun 300 pre no\n")
+    for first in ("run 300", "run 0"):    # after run 0 the run begins where that one was set up
+        as_wall_gran(folder, f"{first}, set diameter and run pre no: as with wall/gran", head() +
+                     begin + wall + DUMP + first + "\nset group all diameter 1.4\nrun 300 pre no\n")
     if lmp.ON_KOKKOS:
         return    # Kokkos's atom_style sphere has no radii that vary
     for name, fixes in (("before", grow + wall), ("after", wall + grow)):
