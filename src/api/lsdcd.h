@@ -902,7 +902,7 @@ LSDCD_API int lsdcd_wall_set_body(lsdcd_wall *wall, int mesh, const lsdcd_rigid_
 LSDCD_API int lsdcd_wall_save(lsdcd_wall *wall, double *numbers, size_t room, size_t *count);
 /* Into a wall of the same spec, before its first step, whose spheres then have the same order; process by
  * process. Steps count on from the last one of that wall, for files and wear that come every so many steps. All goes on as if that wall
- * did, bit for bit on as many processes; lsdcd_wall_save() writes the same numbers again. Numbers of a wall with other meshes, placements, motions as it was made,
+ * did, bit for bit on as many processes, but for the last digits of the worn volume in totals; lsdcd_wall_save() writes the same numbers again. Numbers of a wall with other meshes, placements, motions as it was made,
  * surface velocities, laws, corner, side, wear, temperatures or pressures are refused with what differs (LSDCD_ERROR_ARGUMENT), and the wall stays as it is. So are those of a wall
  * with another servo or body, also where it was set later: set it before. Own. */
 LSDCD_API int lsdcd_wall_restore(lsdcd_wall *wall, const double *numbers, size_t count);

@@ -608,6 +608,10 @@ def test_wall_arrays():
     for written, other in (("force", "torque"), ("force", "x"), ("torque", "omega"), ("torque", "v")):
         refused(f"{written} that is {other}, too, is refused", f"`{written}` and `{other}` share memory",
                 lambda written=written, other=other: wall.step(**{**given, written: given[other]}), lsdcd.Error)
+    single = np.zeros((1, 3), np.float32)    # which is copied
+    for written, other in (("force", "torque"), ("force", "x"), ("torque", "v")):
+        refused(f"{written} in float32 that is {other}, too, is refused", f"{written} shares memory with {other}",
+                lambda written=written, other=other: wall.step(**{**given, written: single, other: single}), ValueError)
     both = np.zeros(8)
     many = {k: np.repeat(v, 2, axis=0) if k != "dt" else v for k, v in given.items()}
     for name, kind in (("mass", 1), ("torque", 3)):
@@ -619,6 +623,13 @@ def test_wall_arrays():
             fact("arrays side by side in one are taken", abs(both[2] - 10) < 1e-11, both)
         refused(f"a force of which a part is {name} is refused", f"and `{name}` share memory",
                 lambda: shared.step(**{**many, name: at, "force": both[1:7].reshape(2, 3)}), lsdcd.Error)
+    wide = np.zeros((2, 6))
+    lsdcd.Wall(spec).step(**{**many, "force": wide[:, :3], "torque": wide[:, 3:]})
+    fact("columns side by side in one array are taken", abs(wide[0, 2] - 10) < 1e-11, wide)
+    refused("columns that overlap are refused", "force shares memory with torque",
+            lambda: lsdcd.Wall(spec).step(**{**many, "force": wide[:, :3], "torque": wide[:, 2:5]}), ValueError)
+    refused("one row for all forces is refused", "force has the strides (0, 8)",
+            lambda: lsdcd.Wall(spec).step(**{**many, "force": np.lib.stride_tricks.as_strided(both, (2, 3), (0, 8))}), ValueError)
     if not lsdcd._lib.lsdcd_has_cuda():
         refused("a wall on a device needs one", "use LSDCD_CPU", lambda: lsdcd.Wall(spec, device="cuda"), lsdcd.Error)
     refused("a stream needs a device", "stream is given", lambda: lsdcd.Wall(spec, stream=7), lsdcd.Error)

@@ -750,8 +750,8 @@ class Wall(_Owner):
         On a device arrays are read, and forces are added, in the order of the wall's stream. There, and with a `host`,
         an error of a sphere is raised by the next call; until then the wall keeps the arrays.
 
-        Raises TypeError for arrays of another type or place, ValueError for another shape, layout or what cannot be written,
-        Error for what lsdcd_wall_step_spheres() refuses, as where force, torque or heat shares memory with another array."""
+        Raises TypeError for arrays of another type or place, ValueError for another shape, layout or what cannot be written, Error for
+        what lsdcd_wall_step_spheres() refuses. Either of the two where force, torque or heat shares memory with another array."""
         n = _arrays.read(radius, "radius", _arrays.stream_handle(self._stream)).shape[:1]
         vectors = {"x": x, "v": v, "omega": omega, "force": force, "torque": torque}
         numbers = {"radius": radius, "mass": mass, "temperature": temperature, "heat": heat, "type": type}
@@ -763,6 +763,8 @@ class Wall(_Owner):
         added: list[tuple[Any, Any]] = []    # arrays of the caller, and what comes to them
         arrays = {name: self._array(array, name, shape, added) for name, (array, shape) in given.items()
                   if array is not None or name not in optional}
+        if added:    # of others the library looks
+            _check_apart({name: _arrays.read(array, name).host() for name, (array, _) in given.items() if array is not None})
         spheres = _sized(_Spheres, n=math.prod(n), **{name: array.address for name, array in arrays.items()})
         step = _sized(_WallStep, dt=dt, setup=_flag(setup, "setup"), changed=_flag(changed, "changed"), reach=reach,
                       synchronous=_flag(synchronous, "synchronous"))
@@ -991,6 +993,16 @@ def _copied(array: _arrays.Array, name: str, kind: np.dtype[Any], added: list[tu
     if name == "type" and values.size and not -2**31 <= values.min() <= values.max() < 2**31:
         raise ValueError(f"type goes from {values.min()} to {values.max()}, beyond int32")
     return _arrays.of_numpy(np.ascontiguousarray(values, dtype=kind))
+
+
+def _check_apart(given: dict[str, NDArray[Any]]) -> None:
+    """Raises ValueError where a result of a step shares memory with another of its arrays, or its elements with each other."""
+    for result in ("force", "torque", "heat"):
+        for name, array in given.items() if result in given else ():
+            if name != result and np.shares_memory(given[result], array):
+                raise ValueError(f"{result} shares memory with {name}: give an array of its own")
+            if name == result and any(step == 0 and n > 1 for step, n in zip(array.strides, array.shape)):
+                raise ValueError(f"{name} has the strides {array.strides}: make it contiguous")
 
 
 def _host_struct(host: Host, called: Callable[[Callable[..., object]], Callable[..., int]]) -> Any:
