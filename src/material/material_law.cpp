@@ -72,7 +72,8 @@ class LawFiller {
     for (const Override &o : c_.overrides)
       if (!read_.count(&o))
         fail(with_ + (o.of.empty() ? "" : o.of + " ") + o.key +
-             "' changes nothing, as no sub-model here takes it: leave it out, or name one that does");
+             "' changes nothing, as no sub-model here takes it: leave it out, or name one that "
+             "does");
     made.law = law_of(made.sub_models);
     made.name = "granular " + text_of(made.sub_models) + (c_.limit_damping ? " limit_damping" : "");
     made.report = report_;

@@ -269,14 +269,14 @@ TEST(hinge, swings_with_the_period_of_a_swing_from_90_degrees)
 TEST(joint, is_told_from_others_by_what_its_kind_has_alone)
 {
   const Vec3 zero = {0, 0, 0}, one = {1, 2, 3}, x = {1, 0, 0}, z = {0, 0, 1};
-  for (const auto kind : {JointKind::free, JointKind::hinge, JointKind::slider, JointKind::planar,
-                          JointKind::ball}) {
+  for (const auto kind :
+       {JointKind::free, JointKind::hinge, JointKind::slider, JointKind::planar, JointKind::ball}) {
     const bool has_point = kind == JointKind::hinge || kind == JointKind::ball,
                has_axis = kind != JointKind::free && kind != JointKind::ball;
     EXPECT_EQ((Joint{kind, zero, z} == Joint{kind, one, z}), !has_point);
     EXPECT_EQ((Joint{kind, zero, z} == Joint{kind, zero, x}), !has_axis);
-    EXPECT_FALSE((Joint{kind, zero, z} ==
-                  Joint{has_point ? JointKind::slider : JointKind::hinge, zero, z}));
+    EXPECT_FALSE(
+        (Joint{kind, zero, z} == Joint{has_point ? JointKind::slider : JointKind::hinge, zero, z}));
   }
 }
 
