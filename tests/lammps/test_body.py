@@ -232,8 +232,8 @@ def test_coats(folder):
     # The load bears its weight of 6.2784 twice; the motor adds 1: acceleration g + 1.
     speed = -g * 0.1 + (g + 1) * 0.1
     at_most("fix_modify body: the new load and motor act", abs(rows[-1][SPEED + 2] - speed), 1e-4)
-    text = script(fix("hooke 1000 NULL 0 NULL 0 0", "joint slider 0 0 1 spring 100 0 0.1 velocity 0 0 1"), FAR, 1e-3, move="")
-    again, whole = (go(folder, text + "run 50\n" + words + "run 50\n")[0] for words in ("fix_modify w mesh 2 body joint slider 0 0 1\n", ""))
+    held = script(fix("hooke 1000 NULL 0 NULL 0 0", "joint slider 0 0 1 spring 100 0 0.1 velocity 0 0 1"), FAR, 1e-3, move="")
+    again, whole = (go(folder, held + "run 50\n" + words + "run 50\n")[0] for words in ("fix_modify w mesh 2 body joint slider 0 0 1\n", ""))
     same("fix_modify body: the joint that it has keeps its spring", again[-1], whole[-1])
     for words, says in (("density 3", "is not a keyword of a body, or cannot change"), ("spring 1 1", "hinge or slider"),
                         ("", "nothing is given to change")):
