@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The cost of a step of the wall: contacts, forces, springs; with the arrays of a CPU LAMMPS, and
-// with particles that lie where the engine computes. Candidate spheres and their neighbour lists
-// are used again, or made again in each step.
+// The cost of a step of the wall: contacts, forces, springs, with particles that lie where the
+// engine computes. Candidate spheres and their neighbour lists are used again, or made again in
+// each step.
 #include "bench.h"
 
 #include "engine/engine.h"
@@ -19,16 +19,14 @@ using namespace lsdcd;
 namespace {
 
 constexpr Real kCutoff = 1;
-// The box round the cylinder, and the paper's cube.
-constexpr SphereBox kRoom = {{-51, -51, -1}, {51, 51, 101}, kCutoff, 5},
-                    kCube = {{-50, -50, 0}, {50, 50, 100}, kCutoff, 1};
+constexpr SphereBox kCube = {{-50, -50, 0}, {50, 50, 100}, kCutoff, 1};    // the paper's
 
-SphereArrays make_bodies(const SphereBox &box, int n, Order order)
+SphereArrays make_bodies(int n, Order order)
 {
   std::mt19937_64 random(5);
   std::uniform_real_distribution<Real> speed(-1, 1);
   SphereArrays bodies;
-  for (const Sphere &s : make_spheres(box, n, order)) {
+  for (const Sphere &s : make_spheres(kCube, n, order)) {
     Vec3 v, omega;
     for (int k = 0; k < 3; k++) {
       v[k] = speed(random);
@@ -39,19 +37,13 @@ SphereArrays make_bodies(const SphereBox &box, int n, Order order)
   return bodies;
 }
 
-struct Style {
-  ContactLaw law;
-  const char *name;
-};
-
 // Bytes that a step must move: position and radius of every sphere, or of every
 // candidate; of one that touches v, omega and mass, and force and torque both ways; of a contact
 // its spring both ways.
 constexpr double kPlaceAndRadius = 4 * sizeof(Real);
-double bytes_of_touching(const Style &style, double contacts)
+double bytes_of_touching(double contacts)
 {
-  const double spring = style.law.has_history() ? 2 * sizeof(Spring) : 0;
-  return contacts * ((7 + 2 * 6) * sizeof(Real) + spring);
+  return contacts * ((7 + 2 * 6) * sizeof(Real) + 2 * sizeof(Spring));
 }
 
 void fill(BenchRow &row, const std::string &what, WallEngine &engine, const GridView &grid, int n)
@@ -66,62 +58,40 @@ void fill(BenchRow &row, const std::string &what, WallEngine &engine, const Grid
              grid.block_bytes / 1e6, engine.bytes() / 1e6);
 }
 
-EngineSettings engine_settings(const Style &style, Device device)
+void measure_in_place(const SphereArrays &bodies, const GridView &grid, Device device, int repeats,
+                      BenchRows &rows, BenchRow row)
 {
+  const bool cuda = device == Device::cuda;
   EngineSettings e;
   e.device = device;
-  e.law() = style.law;
-  return e;
-}
-
-void measure_kept_and_anew(WallEngine &engine, const Spheres &s, const Style &style,
-                           const GridView &grid, bool waits, int repeats, const char *where,
-                           BenchRows &rows, BenchRow row)
-{
+  e.law() = usual_law(NormalModel::hertz, true);
+  const auto engine = cuda ? make_cuda_engine_in_place(e, 0, nullptr) : make_cpu_engine(e);
+  engine->set_grid(grid);
+  SphereArraysOn there(cuda);
+  const Spheres s = there.put(bodies);
   StepSettings step;
   step.dt = 1e-6;
-  const int n_steps = waits ? 1 : 20;    // between two looks, which wait
+  const int n_steps = cuda ? 20 : 1;    // between two looks, which wait
   for (bool anew : {false, true}) {
-    engine.choose(s, 0);
+    engine->choose(s, 0);
     row.timing = time_it(
         repeats,
         [&] {
           for (int k = 0; k < n_steps; k++) {
-            if (anew) engine.choose(s, 0);
-            engine.step(s, step);
+            if (anew) engine->choose(s, 0);
+            engine->step(s, step);
           }
-          engine.read_diagnostics();
+          engine->read_diagnostics();
         },
         n_steps);
-    fill(row, std::string(style.name) + where + (anew ? ", chosen anew" : ""), engine, grid, s.n);
+    fill(row, std::string("hertz/history, in place") + (anew ? ", chosen anew" : ""), *engine, grid,
+         s.n);
     // The near ones are known by their numbers.
     row.bytes =
-        bytes_of_touching(style, engine.results().totals().contacts) +
-        (anew ? s.n * kPlaceAndRadius : engine.n_candidates() * (kPlaceAndRadius + sizeof(int)));
+        bytes_of_touching(engine->results().totals().contacts) +
+        (anew ? s.n * kPlaceAndRadius : engine->n_candidates() * (kPlaceAndRadius + sizeof(int)));
     rows.add(row);
   }
-}
-
-// The arrays of a host, whose memory is the CPU's.
-void measure_host(SphereArrays &bodies, const GridView &grid, const Style &style, Device device,
-                  int repeats, BenchRows &rows, const BenchRow &row)
-{
-  const auto engine = make_engine(engine_settings(style, device));
-  engine->set_grid(grid);
-  measure_kept_and_anew(*engine, bodies.spheres(), style, grid, true, repeats, "", rows, row);
-}
-
-// Particles where the engine computes.
-void measure_in_place(const SphereArrays &bodies, const GridView &grid, const Style &style,
-                      Device device, int repeats, BenchRows &rows, const BenchRow &row)
-{
-  const bool cuda = device == Device::cuda;
-  const EngineSettings e = engine_settings(style, device);
-  const auto engine = cuda ? make_cuda_engine_in_place(e, 0, nullptr) : make_cpu_engine(e);
-  engine->set_grid(grid);
-  SphereArraysOn there(cuda);
-  measure_kept_and_anew(*engine, there.put(bodies), style, grid, !cuda, repeats, ", in place", rows,
-                        row);
 }
 
 FlatGrid grid_of(const WeldedMesh &mesh, Real length, Device device)
@@ -135,29 +105,19 @@ FlatGrid grid_of(const WeldedMesh &mesh, Real length, Device device)
 
 void measure(const BenchOptions &o, BenchRows &rows)
 {
-  const auto number = [&](double usual) {
-    return static_cast<int>(o.spheres > 0 ? o.spheres : o.quick ? 1e5 : usual);
-  };
-  const int n = number(1e6), n_in_place = number(1e7);
+  const int n = static_cast<int>(o.spheres > 0 ? o.spheres : o.quick ? 1e5 : 1e7);
   const int repeats = o.repeats > 0 ? o.repeats : o.quick ? 3 : 9;
-  const Style styles[] = {{usual_law(NormalModel::hooke, false), "hooke"},
-                          {usual_law(NormalModel::hertz, true), "hertz/history"}};
   for (Device device : o.devices) {
     rows.begin(device);
     for (Order order : {Order::random, Order::sorted}) {
-      SphereArrays bodies = make_bodies(kRoom, n, order),
-                   in_place = make_bodies(kCube, n_in_place, order);
+      const SphereArrays bodies = make_bodies(n, order);
       for (const TriangleSoup &soup : cylinders(o, 1e5)) {
         const WeldedMesh mesh = weld(soup, -1);
         BenchRow row;
         row.triangles = mesh.faces.size();
         row.order = order == Order::sorted ? "sorted" : "random";
-        const FlatGrid grid = grid_of(mesh, o.length, device),
-                       fine = grid_of(mesh, o.length > 0 ? o.length : 0.2, device);
-        for (const Style &style : styles) {
-          measure_host(bodies, grid.view(), style, device, repeats, rows, row);
-          measure_in_place(in_place, fine.view(), style, device, repeats, rows, row);
-        }
+        const FlatGrid grid = grid_of(mesh, o.length > 0 ? o.length : 0.2, device);
+        measure_in_place(bodies, grid.view(), device, repeats, rows, row);
       }
     }
   }
@@ -168,6 +128,5 @@ void measure(const BenchOptions &o, BenchRows &rows)
 int main(int argc, char **argv)
 {
   return run_bench(argc, argv, "step",
-                   "Steps of the wall, with a CPU host's arrays and with particles in place: CSV.",
-                   measure);
+                   "Steps of the wall, with particles where the engine computes: CSV.", measure);
 }
