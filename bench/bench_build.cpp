@@ -29,7 +29,6 @@ void measure_cache(const WeldedMesh &mesh, const GridSettings &settings, const T
         write_grid_cache(path, grid_key(mesh, settings), grid.report, block.data(), block.size());
   });
   row.bytes = double(block.size() + bytes);
-  row.facts = format("block_mb=%.1f file_mb=%.1f", block.size() / 1e6, bytes / 1e6);
   rows.add(row);
   bool good = true;
   row.what = "read";
@@ -61,15 +60,9 @@ void measure(const BenchOptions &o, BenchRows &rows)
         grid = TriangleGrid();
         grid = build_grid(mesh, settings, on_cuda);
       });
-      const GridReport &r = grid.report;
       row.triangles = mesh.faces.size();
       row.length = grid.length;
-      row.bytes = double(r.bytes);    // the grid, written once
-      row.facts =
-          format("bricks=%zu cells=%zu candidates=%zu mean_list=%.3f longest=%zu tests=%.4g "
-                 "grid_mb=%.1f",
-                 r.lists.bricks, r.lists.cells, r.lists.entries, double(r.lists.mean),
-                 r.lists.longest, double(r.lists.distance_tests), r.bytes / 1e6);
+      row.bytes = double(grid.report.bytes);    // the grid, written once
       rows.add(row);
       if (!on_cuda) measure_cache(mesh, settings, grid, repeats, row, rows);
     }

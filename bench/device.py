@@ -3,7 +3,7 @@
 
 """Which device is faster for a LAMMPS without Kokkos: `./run bench device`.
 
-Spheres of diameter 1 lie in layers on a wavy floor of 20 000 triangles, one core a process; hooke/history among
+Spheres of diameter 1 lie in a layer on a wavy floor of 20 000 triangles, one core a process; hooke/history among
 spheres and at the wall. The whole step with `device cpu` and with `device cuda`, in turn, for numbers of spheres and of
 processes that share the GPU: what `device auto` is decided by (src/wall/device_choice.cpp).
 """
@@ -21,10 +21,10 @@ boundary        p p f
 newton          off
 comm_modify     vel yes
 processors      * * 1
-region          box block 0 {side} 0 {side} -1 {top}
+region          box block 0 {side} 0 {side} -1 3
 create_box      1 box
 lattice         sc 1 origin 0.5 0.5 0.48
-region          bed block 0 {side} 0 {side} 0 {layers}
+region          bed block 0 {side} 0 {side} 0 1
 create_atoms    1 region bed
 set             group all diameter 1
 set             group all density 1.9098593    # mass 1
@@ -47,10 +47,9 @@ run             {steps}
 
 
 def least_ms(options, folder, device, side, ranks):
-    steps = max(20, min(300, 3000000 // (side * side * options.layers)))
+    steps = max(20, min(300, 3000000 // (side * side)))
     plugin = f"plugin load {options.plugin}" if options.plugin else ""
-    run = Program(options.lmp).run(SCRIPT.format(side=side, top=options.layers + 2, layers=options.layers, law=LAW, plugin=plugin,
-                                                 device=device, steps=steps), folder, ranks)
+    run = Program(options.lmp).run(SCRIPT.format(side=side, law=LAW, plugin=plugin, device=device, steps=steps), folder, ranks)
     return f"{min(run.step_ms()[1:]):.4g}"
 
 
@@ -62,7 +61,7 @@ def measure(options, folder):
                 continue
             wavy = sheet(lambda x, y: 0.05 * math.sin(x / 3) * math.cos(y / 3), (side + 4, side + 4), 100, 100)
             write_stl(folder / "floor.stl", wavy, "a wavy floor")
-            found.append({"processes": ranks, "layers": options.layers, "spheres_near_the_wall_in_one": side * side // ranks,
+            found.append({"processes": ranks, "spheres_near_the_wall_in_one": side * side // ranks,
                           **{f"{device}_ms": least_ms(options, folder, device, side, ranks) for device in options.devices},
                           "gpu": rows.gpu(), "cpu": rows.cpu(), "commit": options.commit})
             rows.say(", ".join(map(str, found[-1].values())))
@@ -75,6 +74,5 @@ if __name__ == "__main__":
         ("--devices", dict(nargs="+", choices=("cpu", "cuda"), default=("cpu", "cuda"))),
         ("--sides", dict(type=int, nargs="+", default=[10, 30, 100, 316, 1000], metavar="N",
                          help="spheres along x and y (default: %(default)s)")),
-        ("--layers", dict(type=int, default=1, metavar="N", help="of spheres (default 1)")),
         ("--ranks", dict(type=int, nargs="+", default=[1, 2, 4, 8, 16], metavar="N",
                          help="processes on one GPU (default: %(default)s)"))])

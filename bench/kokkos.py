@@ -182,38 +182,20 @@ def timed_script(host, bed, order, wall, steps, chunks, warm=WARM):
     return script_from(host, bed, "bed.restart", wall, ORDERS[order]) + TIMED.format(dt=DT, warm=warm) + f"run {steps}\n" * chunks
 
 
-def read_times(output):
-    """Of the timed runs, without the first: ms per step of each, of which pairs, builds of neighbour lists; steps and choices of near
-    atoms that our fix says."""
-    steps = [int(n) for n in re.findall(r"^Loop time of \S+ on .* for (\d+) steps", output, re.M)[1:]]
-    pair = re.findall(r"^Pair\s*\|\s*\S+\s*\|\s*(\S+)", output, re.M)[1:]
-    builds = re.findall(r"^Neighbor list builds = (\d+)", output, re.M)[1:]
-    lists = re.findall(r": (\d+) steps?( and the setup)?: atoms near the wall chosen (\d+) time", output)[1:]
-    return {"ms": loop_ms(output)[1:], "pair": [1e3 * float(p) / n for p, n in zip(pair, steps)], "builds": sum(map(int, builds)),
-            "wall_steps": sum(int(steps) + bool(setup) for steps, setup, _ in lists), "lists": sum(int(chosen) for _, _, chosen in lists)}
-
-
 def time_steps(host, bed, folder, order, options, settled):
-    seen = in_turn(options.rounds, (bed.wall(), ""), lambda wall: [read_times(host.run(
-        timed_script(host, bed, order, wall, options.steps, options.chunks), folder, bed.ranks).output)])
-    times = {wall: [t for s in each for t in s["ms"]] for wall, each in seen.items()}
+    times = in_turn(options.rounds, (bed.wall(), ""), lambda wall: loop_ms(host.run(
+        timed_script(host, bed, order, wall, options.steps, options.chunks), folder, bed.ranks).output)[1:])
     with_wall, without = map(statistics.median, times.values())
-    found = []
-    for wall, each in seen.items():
-        what = {"steps": options.steps, "builds": sum(s["builds"] for s in each),
-                "pair_ms": f"{statistics.median([t for s in each for t in s['pair']]):.4g}"}
-        if wall:
-            what.update(settled, wall_steps=sum(s["wall_steps"] for s in each), lists=sum(s["lists"] for s in each),
-                        over_no_wall=f"{with_wall / without:.4g}")
-        found.append(host.row("kokkos", CASES[bed.name] + NO_WALL * (not wall), bed, options.commit, order, times[wall], **what))
-    return found
+    over = {**settled, "over_no_wall": f"{with_wall / without:.4g}"}
+    return [host.row("kokkos", CASES[bed.name] + NO_WALL * (not wall), bed, options.commit, order, ms, steps=options.steps, **(over if wall else {}))
+            for wall, ms in times.items()]
 
 
 def time_bodies(host, bed, folder, order, options):
     """Walls without and with a body in turn; prints what a body adds to a step, by the least times."""
     walls = bed.walls_with_body()
-    times = in_turn(options.rounds, walls, lambda name: read_times(host.run(
-        timed_script(host, bed, order, walls[name], options.steps, options.chunks), folder, bed.ranks).output)["ms"])
+    times = in_turn(options.rounds, walls, lambda name: loop_ms(host.run(
+        timed_script(host, bed, order, walls[name], options.steps, options.chunks), folder, bed.ranks).output)[1:])
     for name in walls:
         for other in ("at rest", "moves") * name.endswith("body"):
             more = min(times[name]) - min(times[name.replace("body", other)])

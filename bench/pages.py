@@ -310,7 +310,6 @@ def main():
             (DOC / page).write_text(text)
     print("\n".join(f"{'stale' if args.check else 'wrote'} {name}" for name in stale) or "all tables are those of doc/data")
     if args.plots:
-        sys.path.insert(0, str(pathlib.Path(__file__).parent))
         import plots
         plots.draw_all()
     return 1 if args.check and stale else 0
