@@ -81,8 +81,6 @@ class FindLinks(SphinxTransform):
                 kind = addnodes.download_reference
             node.replace_self(kind("", *node.children, refdoc=docname, reftarget=uri, reftype="myst",
                                    refdomain=None, refexplicit=True, refwarn=True))
-        if docname.startswith("doc/data/"):    # tables that a page links to
-            self.env.metadata[docname]["orphan"] = ""
         if docname in (root_doc, "examples/README"):
             for section in list(self.document.findall(nodes.section)):
                 self.add_contents(section, docname)
