@@ -7,6 +7,7 @@
 #include "support/laws.h"
 #include "support/meshes.h"
 #include "support/random.h"
+#include "support/says.h"
 #include "support/wall_scene.h"
 
 #include <gtest/gtest.h>
@@ -346,19 +347,9 @@ void try_sequence(unsigned seed, std::string &text)
           uniform(random, 0, static_cast<Real>(spec.meshes.size()) - 0.01));
       text += " change " + std::to_string(mesh);
       const unsigned of = static_cast<unsigned>(uniform(random, 0, 1e9));
-      std::string why[2];
-      try {
-        change(whole, mesh, Random(of));
-      } catch (const InputError &e) {
-        why[0] = e.what();
-      }
-      try {
-        change(*other, mesh, Random(of));
-      } catch (const InputError &e) {
-        why[1] = e.what();
-      }
-      ASSERT_EQ(why[0], why[1]) << text;
-      if (!why[0].empty()) text += " (" + why[0] + ")";
+      const std::string why = error_of([&] { change(whole, mesh, Random(of)); });
+      ASSERT_EQ(why, error_of([&] { change(*other, mesh, Random(of)); })) << text;
+      if (!why.empty()) text += " (" + why + ")";
     }
     if (what >= 0.55 || !other) {
       text += " restore";
