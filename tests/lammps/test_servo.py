@@ -108,7 +108,8 @@ def test_many(folder):
     # What one undamped contact bears, 1/(k dt) = 0.031, 100 do not.
     rows, log = go(folder, "servo force z -5000 vmax 0.5 gain 0.03", UNDAMPED, side)
     settles("a gain for one contact is lowered for 100", rows, -5000)
-    fact("and warned of", "a servo's gain of 0.03 would not be stable with 100 contacts" in log)
+    fact("and warned of once", log.count("would not be stable") == 1 and
+         "a servo's gain of 0.03 would not be stable with 100 contacts" in log)
     # A low gain is kept: v = 1e-4 (target - load), on its way.
     rows, log = go(folder, "servo force z -50 vmax 0.5 gain 1e-4", UNDAMPED, steps=200)
     at_most("a low gain is kept", abs(rows[10][SPEED] / (-50 * 1e-4) - 1), 1e-15)

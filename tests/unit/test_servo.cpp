@@ -148,16 +148,6 @@ TEST(Servo, moves_at_most_at_its_speed_and_stops_at_its_limits)
   EXPECT_NEAR(s.velocity, 0.1, 1e-15);
 }
 
-TEST(Servo, own_gain_is_an_upper_bound)
-{
-  Servo s = servo(1, 10);
-  s.max_gain = 0.25;
-  s.advance(0, 3, 0.01);
-  EXPECT_EQ(s.velocity, 0.25);
-  s.advance(0, 0.125, 0.01);
-  EXPECT_EQ(s.velocity, 0.125);
-}
-
 TEST(Servo, pushes_against_what_spheres_exert)
 {
   Servo s = servo(1, 1);

@@ -43,18 +43,18 @@ ServoLoad pressed(Real force, Real contacts)
 
 struct Moved {
   Real velocity, position;
-  std::vector<std::string> lines, warnings;
+  std::vector<std::string> warnings;
 };
 
-// After `steps` steps with the same load.
-Moved after(WallSpec settings, const ServoLoad &load, int steps = 1)
+// After a step with this load.
+Moved after(WallSpec settings, const ServoLoad &load)
 {
   FakeHost host;
   const LawTable laws = law_table(settings);
   ServoController controller(host, settings, laws, 0);
-  for (int i = 0; i < steps; i++) controller.advance(load, Pose(), kDt, 7);
+  controller.advance(load, Pose(), kDt, 7);
   const Servo &s = settings.meshes[0].motion.servo();
-  return {s.velocity, s.position, host.lines, host.warnings};
+  return {s.velocity, s.position, host.warnings};
 }
 
 // The gain is a quarter of what is stable: 1/(2 k dt) of one contact, which it takes none for, too.
@@ -95,58 +95,11 @@ TEST(ServoController, counts_the_arm_of_contacts_where_it_turns)
   }
 }
 
-TEST(ServoController, does_not_act_where_it_holds)
-{
-  WallSpec settings = wall();
-  FakeHost host;
-  const LawTable laws = law_table(settings);
-  const ServoController controller(host, settings, laws, 0);
-  EXPECT_TRUE(controller.acts());
-  settings.meshes[0].motion.servo().holds = true;
-  EXPECT_FALSE(controller.acts());
-}
-
-TEST(ServoController, warns_once_of_a_gain_that_would_not_be_stable)
-{
-  WallSpec settings = wall();
-  settings.meshes[0].motion.servo().max_gain = 1;
-  const Moved moved = after(settings, pressed(60, 1), 2);
-  ASSERT_EQ(moved.warnings.size(), 1);
-  EXPECT_EQ(moved.warnings[0].find("a servo's gain of 1 would not be stable with 1 contact at the "
-                                   "timestep 0.01: 0.005 is used instead"),
-            0);
-}
-
 TEST(ServoController, does_not_warn_of_a_gain_before_there_are_contacts)
 {
   WallSpec settings = wall();
   settings.meshes[0].motion.servo().max_gain = 1;
   EXPECT_TRUE(after(settings, pressed(0, 0)).warnings.empty());
-}
-
-TEST(ServoController, logs_once_that_a_limit_stops_it)
-{
-  WallSpec settings = wall();
-  settings.meshes[0].motion.servo().hi = 1e-4;
-  const Moved moved = after(settings, pressed(60, 1), 3);
-  EXPECT_EQ(moved.position, 1e-4);
-  ASSERT_EQ(moved.lines.size(), 1);
-  EXPECT_EQ(moved.lines[0],
-            "the servo is at its limit 0.0001 at step 7, where it pushes with 60 instead of 100; "
-            "this message is shown once");
-}
-
-TEST(ServoController, tells_of_another_servo_again)
-{
-  WallSpec settings = wall();
-  settings.meshes[0].motion.servo().hi = 1e-4;
-  FakeHost host;
-  const LawTable laws = law_table(settings);
-  ServoController controller(host, settings, laws, 0);
-  controller.advance(pressed(60, 1), Pose(), kDt, 7);
-  controller.begin_anew();
-  controller.advance(pressed(60, 1), Pose(), kDt, 8);
-  EXPECT_EQ(host.lines.size(), 2);
 }
 
 }    // namespace
