@@ -44,4 +44,16 @@ class FakeHost : public Host {
   Meeting *meeting_ = nullptr;
 };
 
+// The lines or warnings of the first of n processes, after `work` on each.
+inline std::vector<std::string> shown(std::vector<std::string> FakeHost::*what, int n,
+                                      const std::function<void(FakeHost &)> &work)
+{
+  std::vector<std::string> first;
+  on_processes(n, [&](FakeHost &host) {
+    work(host);
+    if (host.rank() == 0) first = host.*what;
+  });
+  return first;
+}
+
 }    // namespace lsdcd

@@ -72,16 +72,13 @@ void check_sunk(FakeHost &host, OverlapMonitor &monitor, Named &named, Real time
 // The warnings of the first process where the spheres 1 to 4 overlap so, in step 7.
 std::vector<std::string> warned_of_sunk(const std::vector<Real> &overlaps, Real timestep_ratio = 1)
 {
-  std::vector<std::string> warnings;
-  on_processes(2, [&](FakeHost &host) {
+  return shown(&FakeHost::warnings, 2, [&](FakeHost &host) {
     Named named = spheres_of(host);
     OverlapMonitor monitor(host, wall());
     for (int i : {0, 1}) monitor.note(deepest(overlaps[2 * host.rank() + i], i), named.get());
     check_sunk(host, monitor, named, timestep_ratio);
     check_sunk(host, monitor, named, timestep_ratio);
-    if (host.rank() == 0) warnings = host.warnings;
   });
-  return warnings;
 }
 
 // Looks at spheres 1 to 4 that the run has, then at one with `tag` in place of 4, on process 1,
@@ -89,8 +86,7 @@ std::vector<std::string> warned_of_sunk(const std::vector<Real> &overlaps, Real 
 std::vector<std::string> warned_of_new(std::int64_t tag, const std::vector<Real> &overlaps,
                                        bool goes_on = true)
 {
-  std::vector<std::string> warnings;
-  on_processes(2, [&](FakeHost &host) {
+  return shown(&FakeHost::warnings, 2, [&](FakeHost &host) {
     Named named = spheres_of(host);
     OverlapMonitor monitor(host, wall());
     monitor.check_new({}, named.get(), 0, goes_on);
@@ -105,9 +101,7 @@ std::vector<std::string> warned_of_new(std::int64_t tag, const std::vector<Real>
       step++;
     }
     check_sunk(host, monitor, named);
-    if (host.rank() == 0) warnings = host.warnings;
   });
-  return warnings;
 }
 
 TEST(OverlapMonitor, tells_once_of_the_sphere_that_sank_deepest_on_all_processes)
@@ -162,8 +156,7 @@ TEST(OverlapMonitor, is_silent_up_to_a_tenth_of_the_radius)
 // The warnings of the first process where one of the spheres 1 to 4 overlaps so in each step, looked at after each.
 std::vector<std::string> warned_step_by_step(const std::vector<StepDiagnostics> &steps)
 {
-  std::vector<std::string> warnings;
-  on_processes(2, [&](FakeHost &host) {
+  return shown(&FakeHost::warnings, 2, [&](FakeHost &host) {
     Named named = spheres_of(host);
     OverlapMonitor monitor(host, wall());
     for (StepDiagnostics seen : steps) {
@@ -171,9 +164,7 @@ std::vector<std::string> warned_step_by_step(const std::vector<StepDiagnostics> 
       if (seen.deepest_sphere == 0 || seen.deepest_sphere == 1) monitor.note(seen, named.get());
       check_sunk(host, monitor, named);
     }
-    if (host.rank() == 0) warnings = host.warnings;
   });
-  return warnings;
 }
 
 TEST(OverlapMonitor, warns_again_past_a_quarter_and_a_half_and_where_a_centre_comes_to_the_wall)
@@ -200,13 +191,11 @@ TEST(OverlapMonitor, warns_again_past_a_quarter_and_a_half_and_where_a_centre_co
 
 TEST(OverlapMonitor, names_both_of_two_spheres_whose_centres_come_to_the_wall_at_once)
 {
-  std::vector<std::string> warnings;
-  on_processes(2, [&](FakeHost &host) {
+  const std::vector<std::string> warnings = shown(&FakeHost::warnings, 2, [&](FakeHost &host) {
     Named named = spheres_of(host);
     OverlapMonitor monitor(host, wall());
     monitor.note(deepest(0.96 + 0.01 * host.rank(), 0), named.get());
     for (int look = 0; look < 3; look++) check_sunk(host, monitor, named);
-    if (host.rank() == 0) warnings = host.warnings;
   });
   ASSERT_EQ(warnings.size(), 2U);
   EXPECT_TRUE(begins(warnings[0], "sphere 3 sank into the wall by 97 %"));
@@ -215,7 +204,6 @@ TEST(OverlapMonitor, names_both_of_two_spheres_whose_centres_come_to_the_wall_at
 
 TEST(OverlapMonitor, names_no_more_than_ten)
 {
-  std::vector<std::string> warnings;
   FakeHost host;
   OverlapMonitor monitor(host, wall());
   Named named;
@@ -232,8 +220,7 @@ TEST(OverlapMonitor, names_no_more_than_ten)
 std::vector<std::string> told_after_runs(const std::vector<std::vector<StepDiagnostics>> &runs,
                                          bool brief = false)
 {
-  std::vector<std::string> lines;
-  on_processes(2, [&](FakeHost &host) {
+  return shown(&FakeHost::lines, 2, [&](FakeHost &host) {
     Named named = spheres_of(host);
     OverlapMonitor monitor(host, wall());
     for (const std::vector<StepDiagnostics> &run : runs) {
@@ -243,9 +230,7 @@ std::vector<std::string> told_after_runs(const std::vector<std::vector<StepDiagn
       }
       monitor.end_run(brief);
     }
-    if (host.rank() == 0) lines = host.lines;
   });
-  return lines;
 }
 
 TEST(OverlapMonitor, tells_the_deepest_overlap_of_each_run)
@@ -288,8 +273,7 @@ TEST(OverlapMonitor, tells_of_a_new_sphere_that_is_put_into_the_wall_and_again_o
 // The warnings of the first process where spheres come one after the other and overlap so.
 std::vector<std::string> warned_of_coming(const std::vector<Real> &overlaps, bool goes_on)
 {
-  std::vector<std::string> warnings;
-  on_processes(2, [&](FakeHost &host) {
+  return shown(&FakeHost::warnings, 2, [&](FakeHost &host) {
     OverlapMonitor monitor(host, wall());
     Named named;
     for (Real overlap : overlaps) {
@@ -299,9 +283,7 @@ std::vector<std::string> warned_of_coming(const std::vector<Real> &overlaps, boo
       monitor.check_new(host.rank() == 1 ? deepest(overlap, n) : StepDiagnostics(), named.get(), n,
                         goes_on);
     }
-    if (host.rank() == 0) warnings = host.warnings;
   });
-  return warnings;
 }
 
 TEST(OverlapMonitor, tells_again_of_new_spheres_that_are_a_tenth_deeper)
