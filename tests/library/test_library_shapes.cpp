@@ -135,13 +135,16 @@ TEST_F(Shape, is_refused_by_a_sentence_where_it_makes_none)
   s.half_axes = half;
   refused(grid.get(), s, LSDCD_ERROR_ARGUMENT, "nothing is asked for");
   s.first = first;
-  refused(grid.get(), s, LSDCD_ERROR_INPUT, "grain 1: a half-axis of a shape is -1");
+  refused(grid.get(), s, LSDCD_ERROR_INPUT,
+          "grain 1: a half-axis of a shape is -1: half-axes are lengths above 0");
   s.one_shape = 1;
   s.quaternions = turns;
-  refused(grid.get(), s, LSDCD_ERROR_INPUT, "grain 1 has a quaternion that is 0");
+  refused(grid.get(), s, LSDCD_ERROR_INPUT,
+          "grain 1 has a quaternion that is 0 or no number: give w i j k of a rotation");
   s.quaternions = nullptr;
   s.exponents = exponents + 2;
-  refused(grid.get(), s, LSDCD_ERROR_INPUT, "grain 0: an exponent of a shape is 30");
+  refused(grid.get(), s, LSDCD_ERROR_INPUT,
+          "grain 0: an exponent of a shape is 30: exponents are from 2, an ellipsoid, to 20");
   lsdcd::GridOptions nearest(kCutoff);
   nearest.nearest = 4;
   s.exponents = nullptr;

@@ -350,26 +350,4 @@ TEST(shape_query, finds_the_nearest_triangle_and_all_local_minima_of_a_look_at_e
   EXPECT_GT(several, 5u);
 }
 
-TEST(shape_query, says_which_grain_makes_no_shape)
-{
-  const TreeCase mesh(box_mesh({-1, -1, -1}, {1, 1, 1}));
-  const auto said = [&](const Vec3 &half, Real n1, const std::array<Real, 4> &q) -> std::string {
-    Grains grains;
-    grains.add({0, 0, 0}, {1, 1, 1}, 2, 2);
-    grains.add({0, 0, 0}, half, n1, 2, q);
-    try {
-      find_shape_contacts(mesh.tree, grains.given());
-      return "nothing";
-    } catch (const InputError &e) {
-      return e.what();
-    }
-  };
-  EXPECT_EQ(said({1, 0, 1}, 2, {1, 0, 0, 0}),
-            "grain 1: a half-axis of a shape is 0: half-axes are lengths above 0");
-  EXPECT_EQ(said({1, 1, 1}, 1.9, {1, 0, 0, 0}),
-            "grain 1: an exponent of a shape is 1.9: exponents are from 2, an ellipsoid, to 20");
-  EXPECT_EQ(said({1, 1, 1}, 2, {0, 0, 0, 0}),
-            "grain 1 has a quaternion that is 0 or no number: give w i j k of a rotation");
-}
-
 }    // namespace lsdcd::test_shape_query
