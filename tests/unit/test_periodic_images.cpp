@@ -68,15 +68,7 @@ TriangleSoup scattered(std::mt19937_64 &random, int n)
 // A flat square of 2 n^2 triangles, a x a, with its lower corner at the origin.
 TriangleSoup square(int n, Real a)
 {
-  TriangleSoup soup;
-  const Real s = a / n;
-  for (int i = 0; i < n; i++)
-    for (int j = 0; j < n; j++) {
-      const Vec3 p = {i * s, j * s, 0}, q = {(i + 1) * s, j * s, 0},
-                 r = {(i + 1) * s, (j + 1) * s, 0}, t = {i * s, (j + 1) * s, 0};
-      soup.corners.insert(soup.corners.end(), {p, q, r, p, r, t});
-    }
-  return soup;
+  return moved(floor_mesh(n, a / 2), {a / 2, a / 2, 0});
 }
 
 }    // namespace

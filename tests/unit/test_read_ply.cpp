@@ -423,22 +423,15 @@ TEST(read_ply, a_wrong_row_is_named_by_its_line_and_element)
   for (const auto &[bytes, words] : rows) EXPECT_TRUE(has(error_of(bytes), words));
 }
 
-TEST(read_ply, words_that_are_no_numbers_name_the_vertex)
+TEST(read_ply, coordinates_that_are_no_finite_numbers_name_the_vertex)
 {
-  for (const char *word : {"0.2D+01", "1,5", "x", "+-1", "0x10", "1.#IND"}) {
-    const auto error = error_of(text(kVertices + kFaces, "0 0 0\n1 " + std::string(word) + " 0\n"));
-    EXPECT_TRUE(has(error, "line 11 (vertex 2): the value of 'y' is '" + std::string(word) +
-                               "', not a number"));
-  }
-}
-
-TEST(read_ply, coordinates_that_are_not_finite_name_the_vertex)
-{
-  for (const char *word : {"nan", "-inf", "1e400"}) {
-    const auto error = error_of(text(kVertices + kFaces, "0 0 0\n1 " + std::string(word) + " 0\n"));
-    EXPECT_TRUE(has(error, "line 11 (vertex 2): the value of 'y' is '" + std::string(word) +
-                               "', not a finite number"));
-  }
+  const std::pair<const char *, std::vector<std::string>> cases[] = {
+      {"not a number", {"0.2D+01", "1,5", "x", "+-1", "0x10", "1.#IND"}},
+      {"not a finite number", {"nan", "-inf", "1e400"}}};
+  for (const auto &[what, words] : cases)
+    for (const std::string &word : words)
+      EXPECT_TRUE(has(error_of(text(kVertices + kFaces, "0 0 0\n1 " + word + " 0\n")),
+                      "line 11 (vertex 2): the value of 'y' is '" + word + "', " + what));
 }
 
 TEST(read_ply, a_header_that_gives_no_mesh_says_what_is_missing)

@@ -98,15 +98,6 @@ TEST(read_stl, every_truncation_of_ascii_is_an_error)
     EXPECT_NE(error_of(whole.substr(0, size)), "") << size;
 }
 
-TEST(read_stl, a_file_is_read_from_disk)
-{
-  TempDir dir;
-  const auto path = dir.write("part.stl", solid(kFacet));
-  const auto soup = read_stl(path);
-  EXPECT_EQ(soup.n_triangles(), 1u);
-  EXPECT_EQ(soup.source, path);
-}
-
 std::string times(int n, const std::string &part)
 {
   std::string all;

@@ -7,6 +7,7 @@
 
 #include "base/input_error.h"
 #include "support/meshes.h"
+#include "support/random.h"
 #include "support/says.h"
 
 #include <gtest/gtest.h>
@@ -42,19 +43,12 @@ long double by_solid_angles(const TriangleSoup &soup, const Vec3 &q)
   return sum / (2 * 3.14159265358979323846L);
 }
 
-Vec3 random_point(std::mt19937_64 &dice, Real lo, Real hi)
-{
-  std::uniform_real_distribution<Real> in(lo, hi);
-  const Real x = in(dice), y = in(dice), z = in(dice);
-  return {x, y, z};
-}
-
 // Shells that cut themselves everywhere; `lattice` > 0: with vertices at whole numbers below it.
 TriangleSoup crumpled(std::mt19937_64 &dice, int n, int lattice)
 {
   std::vector<Vec3> x(n * n);
   for (Vec3 &p : x) {
-    p = random_point(dice, 0, 1);
+    p = uniform(dice, {0, 0, 0}, {1, 1, 1});
     for (int k = 0; lattice > 0 && k < 3; k++) p[k] = std::floor(p[k] * lattice);
   }
   return crumpled_torus(x, n);
@@ -68,9 +62,7 @@ void expect_solid_angles(const TriangleSoup &soup, std::mt19937_64 &dice, int n,
   const WindingNumber winding(weld(soup, 0));
   int compared = 0;
   for (int i = 0; i < n; i++) {
-    const Vec3 share = random_point(dice, 0, 1);
-    Vec3 q;
-    for (int k = 0; k < 3; k++) q[k] = lo[k] + share[k] * (hi[k] - lo[k]);
+    const Vec3 q = uniform(dice, lo, hi);
     const long double sum = by_solid_angles(soup, q);
     const int number = static_cast<int>(std::lround(sum));
     if (std::fabs(sum - number) > 1e-6) continue;
@@ -135,8 +127,8 @@ TEST(winding_number, is_the_sum_of_solid_angles_where_rays_meet_edges_and_vertic
     if (mesh.report.duplicate_facets > 0) continue;
     const WindingNumber winding(mesh);
     for (int i = 0; i < 300; i++) {
-      Vec3 q = random_point(dice, 0, lattice);
-      for (int d = 0; d < 3; d++) q[d] = std::round(2 * q[d]) / 2;
+      Vec3 q;
+      for (int d = 0; d < 3; d++) q[d] = std::round(2 * uniform(dice, 0, lattice)) / 2;
       const long double sum = by_solid_angles(soup, q);
       const WindingNumber::Answer a = winding.at(q);
       // Off the surface, solid angles of a lattice's facets are exact to 1e-15.
@@ -334,62 +326,40 @@ TEST(winding_number, is_0_at_any_distance_outside_and_where_a_point_is_no_number
   }
 }
 
-TEST(winding_number, is_refused_with_the_open_edges_or_those_of_facets_wound_against_others)
+TEST(winding_number, is_refused_with_what_keeps_the_mesh_from_having_an_inside)
 {
-  TriangleSoup soup = box_mesh({0, 0, 0}, {1, 1, 1});
-  soup.corners.resize(soup.corners.size() - 3);
-  const WeldedMesh mesh = weld(soup, 0);
-  EXPECT_FALSE(has_inside(mesh));
-  EXPECT_TRUE(says(error_of([&] { WindingNumber winding(mesh); }),
-                   {"3 edges are open", "the first goes from", "lsdcd repair"}));
-  TriangleSoup turned = box_mesh({0, 0, 0}, {1, 1, 1});
+  const TriangleSoup box = box_mesh({0, 0, 0}, {1, 1, 1}), far = box_mesh({1, 1, 1}, {2, 2, 2}),
+                     twice = joined(far, inverted(far));
+  TriangleSoup open = box, turned = box, two = box;
+  open.corners.resize(box.corners.size() - 3);
   std::swap(turned.corners[0], turned.corners[1]);
-  EXPECT_TRUE(has(why_no_inside(weld(turned, 0)), "along 3 more facets"));
-}
-
-// All answers are the same, whichever winding comes first.
-TEST(winding_number, is_refused_where_each_facet_is_there_in_both_windings)
-{
-  const TriangleSoup box = box_mesh({0, 0, 0}, {1, 1, 1});
-  TriangleSoup plane = box;
-  plane.corners.resize(6);
-  for (const TriangleSoup &one : {box, inverted(box), plane}) {
-    const WeldedMesh mesh = weld(joined(one, inverted(one)), 0);
-    EXPECT_EQ(mesh.report.two_sided_faces, one.n_triangles());
-    EXPECT_FALSE(mesh.report.oriented);
-    EXPECT_FALSE(has_inside(mesh));
-    EXPECT_EQ(why_no_inside(mesh), "each of its facets is there in both windings, as in a "
+  two.corners.resize(6);
+  const std::string double_sided = "each of its facets is there in both windings, as in a "
                                    "double-sided export, so it encloses nothing: lsdcd repair "
-                                   "keeps one of each pair");
-  }
-}
-
-TEST(winding_number, is_refused_where_some_facets_are_there_in_both_windings)
-{
-  const TriangleSoup box = box_mesh({0, 0, 0}, {1, 1, 1});
-  TriangleSoup some = box;
-  some.corners.resize(6);
-  const WeldedMesh mesh = weld(joined(box, inverted(some)), 0);
-  EXPECT_TRUE(mesh.report.closed);
-  EXPECT_FALSE(mesh.report.oriented);
-  EXPECT_FALSE(has_inside(mesh));
-  const std::string why = why_no_inside(mesh);
-  EXPECT_TRUE(begins(why, "2 of 12 facets are there in both windings"));
-  EXPECT_TRUE(has(why, "4 edges are open"));
-}
-
-// The inside of a box that is there in both windings would be outside beside another box, and the cavity of a
-// box in one would be solid.
-TEST(winding_number, is_refused_where_facets_in_both_windings_enclose_a_space)
-{
-  const TriangleSoup box = box_mesh({1, 1, 1}, {2, 2, 2}), twice = joined(box, inverted(box));
-  for (const Vec3 &hi : {Vec3{3, 3, 3}, Vec3{0.5, 0.5, 0.5}}) {
-    const WeldedMesh mesh = weld(joined(box_mesh({0, 0, 0}, hi), twice), 0);
+                                   "keeps one of each pair",
+                    of_24 = "12 of 24 facets are there in both windings";
+  const struct {
+    TriangleSoup soup;
+    std::size_t two_sided;
+    std::vector<std::string> told;
+  } rows[] = {
+      {open, 0, {"3 edges are open", "the first goes from", "lsdcd repair"}},
+      {turned, 0, {"along 3 more facets"}},
+      // All answers are the same, whichever winding comes first.
+      {joined(box, inverted(box)), 12, {double_sided}},
+      {joined(inverted(box), box), 12, {double_sided}},
+      {joined(two, inverted(two)), 2, {double_sided}},
+      {joined(box, inverted(two)), 2, {"2 of 12 facets are there in both windings", "4 edges are"}},
+      // Its inside would be outside beside another box, and the cavity of a box in one solid.
+      {joined(box_mesh({0, 0, 0}, {3, 3, 3}), twice), 12, {of_24, "lsdcd repair"}},
+      {joined(box_mesh({0, 0, 0}, {0.5, 0.5, 0.5}), twice), 12, {of_24, "lsdcd repair"}}};
+  for (const auto &row : rows) {
+    const WeldedMesh mesh = weld(row.soup, 0);
+    EXPECT_EQ(mesh.report.two_sided_faces, row.two_sided);
     EXPECT_FALSE(mesh.report.oriented);
     EXPECT_FALSE(has_inside(mesh));
-    const std::string why = why_no_inside(mesh);
-    EXPECT_TRUE(begins(why, "12 of 24 facets are there in both windings"));
-    EXPECT_TRUE(has(why, "lsdcd repair"));
+    EXPECT_TRUE(says(why_no_inside(mesh), row.told));
+    EXPECT_TRUE(has(error_of([&] { WindingNumber winding(mesh); }), row.told[0]));
   }
 }
 
