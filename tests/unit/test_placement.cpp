@@ -31,17 +31,6 @@ Vec3 normal_of(const TriangleSoup &soup)
   return cross(soup.corners[1] - soup.corners[0], soup.corners[2] - soup.corners[0]);
 }
 
-TEST(placement, later_words_act_on_earlier_results)
-{
-  Placement move_first, scale_first;
-  move_first.move({1, 0, 0});
-  move_first.scale({10, 10, 10});
-  scale_first.scale({10, 10, 10});
-  scale_first.move({1, 0, 0});
-  EXPECT_EQ(move_first.apply(Vec3{1, 0, 0}), (Vec3{20, 0, 0}));
-  EXPECT_EQ(scale_first.apply(Vec3{1, 0, 0}), (Vec3{11, 0, 0}));
-}
-
 TEST(placement, quarter_turns_are_exact)
 {
   const Vec3 axes[3] = {{0.1, 0, 0}, {0, 0.3, 0}, {0, 0, 7}};
@@ -57,22 +46,6 @@ TEST(placement, quarter_turns_are_exact)
           EXPECT_TRUE(image[j] == 0 || image[j] == 1 || image[j] == -1) << image[j];
       }
     }
-}
-
-TEST(placement, four_quarter_turns_are_the_identity)
-{
-  Placement p;
-  for (int i = 0; i < 4; ++i) p.rotate({0, -2, 0}, 90);
-  EXPECT_TRUE(p.is_identity());
-}
-
-TEST(placement, the_length_of_the_axis_does_not_matter)
-{
-  for (const Real length : {1e-200, 0.7, 1e200}) {
-    Placement p;
-    p.rotate({0, 0, length}, 90);
-    EXPECT_EQ(p.apply(Vec3{1, 0, 0}), (Vec3{0, 1, 0}));
-  }
 }
 
 TEST(placement, rotation_about_a_diagonal_permutes_the_axes)

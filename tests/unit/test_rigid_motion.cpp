@@ -150,13 +150,6 @@ TEST(wall_motion, does_not_drift_in_1e9_steps)
             30 * 10 * 2.3e-16 + 2 * kPi * 5 * 1e-13);
 }
 
-TEST(wall_motion, a_later_term_acts_on_what_the_earlier_ones_placed)
-{
-  const MotionTerm shift = linear({1, 0, 0}), turn = turning({0, 0, 0}, {0, 0, 1}, 4);
-  EXPECT_EQ(motion_of({shift, turn}).pose_at(1).to_box({0, 0, 0}), (Vec3{0, 1, 0}));
-  EXPECT_EQ(motion_of({turn, shift}).pose_at(1).to_box({0, 0, 0}), (Vec3{1, 0, 0}));
-}
-
 TEST(wall_motion, begins_from_where_it_stands)
 {
   RigidMotion motion = motion_of({turning({0, 0, 0}, {0, 0, 1}, 4)});
