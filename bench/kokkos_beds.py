@@ -5,7 +5,7 @@
 import math
 
 import lammps    # noqa: F401, by which stl.py is found
-from stl import write_stl
+from stl import strip, write_stl
 
 LAW = "hooke/history 4000 NULL 100 NULL 0.5 1"
 # As stiff as LAW where the closed box is compressed.
@@ -127,12 +127,8 @@ def sheet(z, side, nx, ny):
         y = -2 + side[1] * j / ny
         return [(x, y, z(x, y)) for x in (-2 + side[0] * i / nx for i in range(nx + 1))]
 
-    triangles, above = [], row(0)
-    for j in range(ny):
-        below, above = above, row(j + 1)
-        for a, b, c, d in zip(below, below[1:], above[1:], above):
-            triangles += [(a, b, c), (a, c, d)]
-    return triangles
+    rows = [row(j) for j in range(ny + 1)]
+    return [t for one, other in zip(rows, rows[1:]) for t in strip(one, other)]
 
 
 def box(side, n):
@@ -147,8 +143,6 @@ def box(side, n):
             return tuple(p)
 
         for height in (0.0, side[axis]):
-            for i in range(n):
-                for j in range(n):
-                    a, b, c, d = (at(i + p, j + q, height) for p, q in ((0, 0), (1, 0), (1, 1), (0, 1)))
-                    triangles += [(a, b, c), (a, c, d)]
+            rows = [[at(i, j, height) for i in range(n + 1)] for j in range(n + 1)]
+            triangles += [t for one, other in zip(rows, rows[1:]) for t in strip(one, other)]
     return triangles

@@ -22,7 +22,7 @@ import statistics
 
 import rows
 from lammps import Program, bench, in_turn, processor_clock
-from stl import write_stl
+from stl import strip, write_stl
 
 RADIUS, HEIGHT = 50.0, 100.0
 SMALLEST, LARGEST = 0.35, 1.0
@@ -62,13 +62,8 @@ def closed_cylinder(n_round, n_along):
     edge = [(0, j) for j in range(k)] + [(i, k) for i in range(k)] + \
         [(k, j) for j in range(k, 0, -1)] + [(i, 0) for i in range(k, 0, -1)]
     ring = [disk(i, j) for i, j in edge]
-    for s in range(n_round):
-        (x0, y0), (x1, y1) = ring[s], ring[(s + 1) % n_round]
-        for t in range(n_along):
-            z0, z1 = HEIGHT * t / n_along, HEIGHT * (t + 1) / n_along
-            a, b, c, d = (x0, y0, z0), (x1, y1, z0), (x1, y1, z1), (x0, y0, z1)
-            triangles += [(a, b, c), (a, c, d)]
-    return triangles
+    rings = [[(*p, HEIGHT * t / n_along) for p in ring + ring[:1]] for t in range(n_along + 1)]
+    return triangles + [t for one, other in zip(rings, rings[1:]) for t in strip(one, other)]
 
 
 def write_mesh(folder, n_round, n_along):

@@ -21,7 +21,7 @@ import sys
 import liggghts
 from lammps import Program, bench, in_turn
 from rows import timed
-from stl import write_stl
+from stl import circle, quad, side, write_stl
 
 SIDE = 99    # spheres along x and y
 SPACING, GRAVITY, STIFFNESS, DT = 1.01, 1.0, 4000.0, 1e-3
@@ -61,10 +61,6 @@ def write_spheres(path):
                     f"{-HALF} {HALF} ylo yhi\n-1 22 zlo zhi\n\nAtoms\n\n" +
                     "".join(f"{k} 1 1 1.90985931710274 {x:.15g} {y:.15g} {z!r}\n"    # mass 1
                             for k, (x, y) in enumerate(places, 1)))
-
-
-def quad(a, b, c, d):
-    return [(a, b, c), (a, c, d)]
 
 
 def floor(n, large=False):
@@ -170,11 +166,7 @@ def sheet(rise):
 def forces(lmp, options, folder):
     write_stl(folder / "flat.stl", sheet(0.0), "flat")
     write_stl(folder / "fold.stl", sheet(TILT), "fold")
-    n, side = 2048, []
-    ring = [(2 * math.cos(2 * math.pi * k / n), 2 * math.sin(2 * math.pi * k / n)) for k in range(n)] * 2
-    for a, b in zip(ring[:n], ring[1:n + 1]):
-        side += quad((*a, -4.0), (*b, -4.0), (*b, 4.0), (*a, 4.0))
-    write_stl(folder / "side.stl", side, "side")
+    write_stl(folder / "side.stl", side(circle(2, 2048), -4.0, 4.0), "side")
 
     def one(at, law, wall):
         output = lmp.run(ONE.format(at=at, wall=wall.replace("LAW", law)), folder).output
