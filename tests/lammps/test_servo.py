@@ -74,9 +74,14 @@ def test_one_sphere(folder):
     # Loads are as exact as rounding of the overlap lets them be; 1e-3 is what is asked.
     cases = {"hooke": (HOOKE, 50 / 1e4), "undamped": (UNDAMPED, 50 / 1e4),
              "overdamped": ("hooke 1e4 NULL 140 NULL 0.5 1", 50 / 1e4),
-             "hertz": ("hertz/history 1e5 NULL 50 NULL 0.5 1", (50 / (1e5 * 0.5**0.5))**(2 / 3))}
+             "hertz": ("hertz/history 1e5 NULL 50 NULL 0.5 1", (50 / (1e5 * 0.5**0.5))**(2 / 3)),
+             "granular": ("granular hertz 1e5 20 tangential linear_history 1e4 1.0 0.5",
+                          (50 / (1e5 * 0.5**0.5))**(2 / 3))}
     for name, (law, overlap) in cases.items():
-        rows, log = go(folder, "servo force z -50 vmax 0.05", law, steps=6000)
+        floor = FLOOR
+        if law.startswith("granular"):
+            floor = lmp.flat_walls("fix floor all wall/gran granular hertz 1e5 20 tangential linear_history 1e4 1.0 0.5 zplane 0 NULL")
+        rows, log = go(folder, "servo force z -50 vmax 0.05", law, floor=floor, steps=6000)
         settles(name, rows, -50)
         at_most(f"{name}: overlap", abs(rows[-1][DEPTH] * 0.5 / overlap - 1), 1e-3)
         at_most(f"{name}: travel", abs(rows[-1][PLACE] / -(0.05 + 2 * overlap) - 1), 1e-3)
@@ -283,6 +288,19 @@ def test_modified(folder):
             OUTPUTS.format(dt=DT, more="") + "run 2000\n")
     lmp.run_well(text, folder)
     settles("given later", lmp.read_rows(folder / "out.txt"), -50)
+    # Beside a motion along the axis, which it takes back, and wear, whose output comes first.
+    text = (BEGIN.format(create=ONE, pair="zero 1.2") + FLOOR.format(law=HOOKE) +
+            wall(HOOKE, "motion linear 0.2 0 -0.1 servo force z -50 vmax 0.5 wear archard 1e-9 1") +
+            f"timestep {DT}\nrun 1500\n" +
+            "print 'ends $(f_wall[10]:%.6g) $(f_wall[12]:%.6g) $(f_wall[13]:%.6g) $(f_wall[14]:%.6g)'\n")
+    words = [line for line in lmp.run_well(text, folder).split("\n") if line.startswith("ends ")][0].split()
+    worn, place, speed, push = (float(w) for w in words[1:])
+    fact("beside a motion: wear comes first", 0 < worn < 1e-6, words[1])
+    at_most("it takes the motion's speed back", abs(speed / 0.1 - 1), 1e-3)
+    # v = gain (target - push) must be 0.1: behind by 0.1/gain, gain = 1/2 of 1/(k dt + 2 c).
+    behind = 0.1 * 2 * (1e4 * DT + 2 * 20 * math.pi / 3)
+    at_most("with the error that its speed needs", abs((push + 50 + behind) / 50), 1e-3)
+    at_most("and the mesh stays", abs((place - 0.1 * 1500 * DT) / (-0.05 + 2 * push / 1e4) - 1), 1e-3)
 
 
 def test_refused(folder):
