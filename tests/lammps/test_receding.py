@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 LSDCD contributors
 # SPDX-License-Identifier: GPL-2.0-only
 
-"""Meshes that recede by their wear: volumes, what is held back, ranks, restart, errors."""
+"""Meshes that recede by their wear: Archard's depth, volumes, what is held back, ranks, restart, errors."""
 
 import numpy
 
@@ -29,6 +29,36 @@ def worst_balance(rows, every, factor):
         if row[0] % every == 0:
             most = max(most, abs(row[2] + row[3] - factor * before[1]))
     return most / (factor * rows[-1][1])
+
+
+# ---- Archard -------------------------------------------------------------------------------
+
+FORCE, WIDTH, CELL = 100.0, 0.5, 0.1    # kn 1e4 times an overlap of 0.01
+
+
+def test_archard(folder):
+    """A sphere slides along the middle of a strip: V = K F s/H, and a depth of V over the area that it swept."""
+    n = 40
+    def point(i, j):
+        return (CELL * i - 2, WIDTH * (j - 0.5), 0)
+    triangles = [t for i in range(n) for t in stl.quad(point(i, 0), point(i + 1, 0), point(i + 1, 1), point(i, 1))]
+    for name, wound in (("up", triangles), ("down", [(a, c, b) for a, b, c in triangles])):
+        stl.write(folder / "strip.stl", wound)
+        lmp.run_well(BEGIN.format(x="-1.5005 0 0.49") +
+                     "fix w all wall/lsdcd hooke 1e4 0 0 0 0.3 0 mesh strip.stl wear archard 2.5e-4 50 deform every 3000 &\n"
+                     "factor 2 mesh_fields strip.vtp every 3001\nfix go all move linear 1 0 0 units box\n" +
+                     EACH.format("strip.txt") + "run 3001\n", folder)
+        rows = lmp.read_rows(folder / "strip.txt")
+        worn = 2.5e-4 / 50 * FORCE * 2.999
+        at_most(f"wound {name}: worn is K F s/H", abs(rows[-3][1] / worn - 1), 1e-10)
+        at_most(f"wound {name}: twice that is removed", abs(rows[-2][2] / (2 * rows[-3][1]) - 1), 1e-12)
+        # A step more or less in one of the cells beside a vertex is 1 % of what comes off there.
+        depth = 2 * 2.5e-4 / 50 * FORCE / WIDTH
+        inside = [z for x, _, z in corners(vtp.read(folder / "strip.vtp")) if abs(x) < 1.35]
+        fact(f"wound {name}: there are vertices", len(inside) == 54)
+        at_most(f"wound {name}: the depth is V over the area swept", max(abs(-z / depth - 1) for z in inside), 0.02)
+        apart_at_ends = [z for x, _, z in corners(vtp.read(folder / "strip.vtp")) if abs(x) > 1.75]
+        fact(f"wound {name}: nothing comes off elsewhere", max(map(abs, apart_at_ends)) == 0)
 
 
 # ---- volumes, ranks, restart -------------------------------------------------------------------

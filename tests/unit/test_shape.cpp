@@ -379,6 +379,39 @@ TEST(shape, lies_in_a_triangle_deepest_inside_where_a_side_has_two_gradients)
   EXPECT_LE(find(s, t).distance, ShapeOracle(s).signed_distance(inside) + 1e-11);
 }
 
+TEST(shape, touches_faces_edges_and_corners_along_its_axes_at_the_ends_of_these)
+{
+  for (Real n1 : {2.0, 8.0, 20.0})
+    for (Real n2 : {2.0, 8.0, 20.0}) {
+      const Superellipsoid s = make_superellipsoid({3, 2, 1}, n1, n2);
+      const Real depth = 0.4 * s.rho;
+      for (int axis = 0; axis < 3; axis++)
+        for (Real sign : {-1.0, 1.0}) {
+          Vec3 n = {0, 0, 0}, one = {0, 0, 0}, two = {0, 0, 0};
+          n[axis] = sign, one[(axis + 1) % 3] = 1, two[(axis + 2) % 3] = 1;
+          const Vec3 end = (s.half[axis] - depth) * n;
+          const Vec3 apex = end + 9 * n;
+          const Triangle triangles[] = {
+              {{end - 9 * one - 9 * two, end + 9 * one - 9 * two, end + 9 * two}},
+              {{end - 9 * one, end + 9 * one, apex}},
+              {{end - 9 * two, end + 9 * two, apex}},
+              {{end - 9 * (one + two), end + 9 * (one + two), apex}},
+              {{end, apex + one, apex + two}}};
+          for (int k = 0; k < 5; k++) {
+            const ShapeMinimum m = find(s, triangles[k], 0);
+            EXPECT_EQ(m.part, k == 0  ? TrianglePart::face
+                              : k < 4 ? TrianglePart::edge
+                                      : TrianglePart::corner);
+            EXPECT_NEAR(m.distance, -depth, 1e-14);
+            EXPECT_LT(norm(m.normal - n), 1e-13);
+            EXPECT_TRUE(m.is_smooth);
+            // On a flat side the foot may be where the side is flat to rounding.
+            EXPECT_NEAR(dot(n, m.foot), dot(n, end), 1e-14);
+          }
+        }
+    }
+}
+
 TEST(shape, has_the_same_minimum_at_any_scale_to_the_bit)
 {
   Random random(8);
