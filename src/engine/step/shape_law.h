@@ -42,7 +42,7 @@ struct ShapeWork {
   std::uint64_t unsure = 0;
   // The largest overlap / least radius of curvature as DeepestOverlap::ratio(), and the index of the grain + 1.
   std::uint64_t sharpest = 0;
-  std::deque<LawBytes> laws;    // of spheres, by which the contacts are
+  std::deque<LawBytes> laws;    // of spheres, for ShapeLaw: their addresses stay
 
   bool is_sphere(std::size_t i) const { return !rows || rows[i].is_sphere(); }
 };
