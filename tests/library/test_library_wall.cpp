@@ -111,7 +111,8 @@ TEST_F(wall, feels_spheres_wherever_they_go)
 TEST_F(wall, without_a_box_is_felt_all_over_a_mesh_of_2000_radii)
 {
   const double half = 500;
-  const std::vector<double> floor = {-half, -half, 0, half, -half, 0, half, half, 0, -half, half, 0};
+  const std::vector<double> floor = {-half, -half, 0, half,  -half, 0,
+                                     half,  half,  0, -half, half,  0};
   const api::Mesh large(floor, {0, 1, 2, 0, 2, 3});
   for (const bool moves : {false, true}) {
     SCOPED_TRACE(moves);

@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include "engine/step/shape_law.h"
+#include "engine/shape_engine.h"
 
 #include "backend/backend_cpu.h"
 #include "base/input_error.h"
-#include "engine/shape_engine.h"
 #include "engine/step/compile_law.h"
 #include "engine/step/shape_step.h"
 
