@@ -55,7 +55,6 @@ void read_mass(Tokens &w, BodySpec &body)
 void read_joint(Tokens &w, BodySpec &body)
 {
   Joint &j = body.joint;
-  j = Joint();
   j.kind = static_cast<JointKind>(w.choice({std::begin(kJointNames), std::end(kJointNames)}));
   if (j.has_point()) j.point = read_vector(w, "px", "py", "pz");
   if (j.has_coordinate()) j.axis = read_direction(w, "ax", "ay", "az");

@@ -44,7 +44,7 @@ class FakeHost : public Host {
   Meeting *meeting_ = nullptr;
 };
 
-// The lines or warnings of the first of n processes, after `work` on each.
+// Returns the lines or warnings of the first of n processes, after `work` on each.
 inline std::vector<std::string> shown(std::vector<std::string> FakeHost::*what, int n,
                                       const std::function<void(FakeHost &)> &work)
 {

@@ -52,7 +52,7 @@ WallSpec wall_of(std::vector<MeshSpec> meshes)
   return wall;
 }
 
-// A body of some density.
+// Makes a body of some density.
 MeshSpec body_of(const char *name, const TriangleSoup &soup)
 {
   MeshSpec body = mesh_of(name, soup);

@@ -187,7 +187,7 @@ TEST(grid, flat_edges_have_no_records)
   EXPECT_EQ(cube.contact_features.size(), 12u + 12u + 8u);
 }
 
-// The cell that is chosen, over the cutoff: of a floor of 2 n^2 triangles over [-1, 1]^2.
+// Returns the cell that is chosen, over the cutoff: of a floor of 2 n^2 triangles over [-1, 1]^2.
 Real chosen(int n, Real cutoff, GridSettings settings)
 {
   settings.cutoff = cutoff;

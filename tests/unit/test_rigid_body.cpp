@@ -482,7 +482,7 @@ TEST(planar, stays_in_its_plane)
   EXPECT_LT(tilt, 1e-13);
 }
 
-// What an impulse n at x, both of the mesh, adds to the velocity there along n.
+// Returns what an impulse n at x, both of the mesh, adds to the velocity there along n.
 Real gained(const RigidBody &body, const Vec3 &x, const Vec3 &n)
 {
   const Pose pose = body.pose();

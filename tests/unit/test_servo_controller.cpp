@@ -46,7 +46,7 @@ struct Moved {
   std::vector<std::string> warnings;
 };
 
-// After a step with this load.
+// Returns how it moves after a step with this load.
 Moved after(WallSpec settings, const ServoLoad &load)
 {
   FakeHost host;

@@ -233,8 +233,8 @@ TEST_F(wall, warns_once_where_spheres_of_its_group_went_past_a_periodic_face)
   s.group_bit = 2;
   scene.wall->check_wrapping(s);
   EXPECT_TRUE(scene.host.warnings.empty());
-  s.group_bit =
-      1;    // the first by 0.5, where the margin is 0.1, and then farther than the grid reaches
+  s.group_bit = 1;
+  // The first by 0.5, where the margin is 0.1, and then farther than the grid reaches.
   for (const Real x : {50.5, 51.5}) {
     scene.x[1].x = x;
     scene.wall->check_wrapping(s);
