@@ -14,7 +14,8 @@ import re
 import types
 from pathlib import Path
 
-import convert
+from converter.errors import CannotConvert
+from converter.script import Script
 
 # Endings of files that name meshes but are no input scripts.
 OTHERS = set(".txt .html .pdf .stl .vtk .md .log .py .sh .tex .svg .png .m .cpp .h".split())
@@ -31,9 +32,9 @@ def swept(path, converted_restart=False, pfm=False):
     """Commands of a script, and the reasons of those that are left; the error in place of them where nothing can be written."""
     options = types.SimpleNamespace(radius=None, density=None, var=None, converted_restart=converted_restart, pfm=pfm, nearest=False)
     try:
-        script = convert.Script(path, options)
+        script = Script(path, options)
         script.convert()
-    except convert.CannotConvert as error:
+    except CannotConvert as error:
         return 0, str(error)
     return sum(bool(line.words) for line in script.lines), [re.sub(r"^[^:]*:\d+: |; do: .*", "", left) for left in script.left]
 

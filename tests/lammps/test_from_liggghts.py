@@ -4,7 +4,7 @@
 """examples/from-liggghts/convert.py: what it writes and leaves, and that what it writes has the physics of LIGGGHTS, by closed
 forms; that it gives a port's figures; and that LIGGGHTS has these closed forms too."""
 import contextlib
-import importlib.util
+import importlib
 import io
 import math
 import re
@@ -574,14 +574,8 @@ REFUSED = {
 }
 
 
-def loaded():
-    spec = importlib.util.spec_from_file_location("convert", EXAMPLE / "convert.py")
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module
-
-
-PROGRAM = loaded()
+sys.path.insert(0, str(EXAMPLE))
+PROGRAM = importlib.import_module("convert")
 
 
 def convert(folder, text, name="in.there", more=()):

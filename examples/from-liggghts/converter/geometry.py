@@ -1,0 +1,49 @@
+# SPDX-FileCopyrightText: 2026 LSDCD contributors
+# SPDX-License-Identifier: BSD-3-Clause
+
+"""Vectors and triangles."""
+import math
+import re
+import struct
+
+from .errors import CannotConvert
+
+
+def read_stl(path):
+    """Triangles of a text or binary STL file."""
+    data = path.read_bytes()
+    if len(data) >= 84 and len(data) == 84 + 50 * struct.unpack_from("<I", data, 80)[0]:
+        rows = (struct.unpack_from("<9f", data, 84 + 50 * k + 12) for k in range((len(data) - 84) // 50))
+        return [(r[:3], r[3:6], r[6:]) for r in rows]
+    points = [tuple(map(float, p)) for p in re.findall(r"vertex\s+(\S+)\s+(\S+)\s+(\S+)", data.decode(errors="replace"))]
+    return list(zip(points[::3], points[1::3], points[2::3]))
+
+
+def cross(a, b):
+    return tuple(a[(k + 1) % 3] * b[(k + 2) % 3] - a[(k + 2) % 3] * b[(k + 1) % 3] for k in range(3))
+
+
+def dot(a, b):
+    return sum(x * y for x, y in zip(a, b))
+
+
+def minus(a, b):
+    return tuple(x - y for x, y in zip(a, b))
+
+
+def unit(a):
+    size = math.sqrt(dot(a, a))
+    if size == 0:
+        raise CannotConvert("an axis has length 0")
+    return tuple(x / size for x in a)
+
+
+def turned(p, axis, degrees):
+    """Rodrigues' formula."""
+    t = math.radians(degrees)
+    n, c = cross(axis, p), dot(axis, p) * (1 - math.cos(t))
+    return tuple(x * math.cos(t) + y * math.sin(t) + z * c for x, y, z in zip(p, n, axis))
+
+
+def short(x):
+    return f"{x:.10g}"

@@ -1,0 +1,214 @@
+# SPDX-FileCopyrightText: 2026 LSDCD contributors
+# SPDX-License-Identifier: BSD-3-Clause
+
+"""Contact laws: property/global, the words after model."""
+import functools
+import math
+
+from .errors import Left
+from .geometry import short
+
+
+def tsuji(target):
+    """The restitution whose damping is `target` by the fit of Tsuji, Tanaka and Ishida; it falls from 0 to 1."""
+    def fit(e):
+        return sum(c * e ** k for k, c in enumerate((1.2728, -4.2783, 11.087, -22.348, 27.467, -18.022, 4.8218)))
+    if target > fit(0):
+        return None
+    low, high = 0.0, 1.0
+    for _ in range(60):
+        middle = (low + high) / 2
+        low, high = (middle, high) if fit(middle) > target else (low, middle)
+    return low
+
+
+class Contact:
+    """The numbers of LIGGGHTS between the materials i and j."""
+
+    def __init__(self, script, line, i, j):
+        self.i, self.j, self.get = i, j, functools.partial(script.property, line)
+        radii = [s[0] for s in script.sizes if s]
+        self.radius = min(radii) if radii else None
+
+    def elastic(self):
+        e, n = [self.get("youngsModulus", k) for k in (self.i, self.j)], \
+               [self.get("poissonsRatio", k) for k in (self.i, self.j)]
+        y = 1 / sum((1 - v * v) / x for x, v in zip(e, n))
+        g = 1 / sum(2 * (2 - v) * (1 + v) / x for x, v in zip(e, n))
+        return y, g
+
+    def beta(self):
+        """-ln e / sqrt(ln^2 e + pi^2)."""
+        e = self.get("coefficientRestitution", self.i, self.j)
+        if not 0 < e <= 1:
+            raise Left(f"a restitution of {short(e)} between the types {self.i} and {self.j}", "one above 0, at most 1")
+        return -math.log(e) / math.hypot(math.log(e), math.pi)
+
+    def friction(self):
+        return self.get("coefficientFriction", self.i, self.j)
+
+    def hooke(self, r, m):
+        """Stiffness, and damping per mass."""
+        y, v = self.elastic()[0], self.get("characteristicVelocity")
+        k = 16 / 15 * math.sqrt(r) * y * (15 * m * v * v / (16 * math.sqrt(r) * y)) ** 0.2
+        return k, 2 * self.beta() * math.sqrt(k / m)
+
+    def one_material(self):
+        """E and nu of the one material that, touching itself, is as these two."""
+        y, g = self.elastic()
+        ratio = g / y
+        nu = (1 - 4 * ratio) / (1 - 2 * ratio)
+        return 2 * y * (1 - nu * nu), nu
+
+
+class Model:
+    """The words after model, in pair_style gran and fix wall/gran. Their order is fixed, and a model without its word is
+    off, as in contact_models.cpp of LIGGGHTS 3.8; LIGGGHTS-PFM has no_history."""
+    ORDER = {"model": "normal", "tangential": "tangential", "cohesion": "cohesion", "rolling_friction": "rolling",
+             "surface": "surface"}
+    # Settings that are off without their word, but for tangential_damping. Those that are not handled may be off.
+    HANDLED = ("tangential_damping", "limitForce", "ktToKnUser", "absolute_damping")
+    OTHERS = ("viscous", "computeElasticPotential", "computeDissipatedEnergy", "disableNormalWhenBonded",
+              "disableTangentialWhenBonded", "heating_normal_hooke", "heating_normal_hertz", "heating_tangential_history",
+              "heating_tracking", "tangential_reduce", "torsionTorque", "torsion")
+
+    def __init__(self, words, pfm):
+        self.normal = self.cohesion = self.rolling = None
+        self.nearest = False
+        self.tangential = "no_history" if pfm else None
+        self.surface, self.on, self.rest = "default", {"tangential_damping"}, list(words)
+        for word, name in self.ORDER.items():
+            if self.rest[:1] == [word]:
+                value = self.rest[1]
+                setattr(self, name, None if value == "off" else value)
+                del self.rest[:2]
+
+    def settings(self, words, of):
+        """The words at the end."""
+        while words:
+            w, value = words.pop(0), words.pop(0) if words else None
+            if w not in self.HANDLED + self.OTHERS or value not in ("on", "off") or (value == "on" and w in self.OTHERS):
+                raise Left(f"the keyword {w} of {of}", "see fix_wall_lsdcd.rst and the manual of LAMMPS")
+            (self.on.add if value == "on" else self.on.discard)(w)
+
+    @property
+    def limit(self):
+        return "limitForce" in self.on
+
+    @property
+    def damped(self):
+        return "tangential_damping" in self.on
+
+    def check(self):
+        if self.surface != "default":
+            raise Left(f"surface {self.surface}", "spheres only")
+        if self.normal not in ("hooke", "hertz", "hooke/stiffness", "hertz/stiffness"):
+            raise Left(f"model {self.normal or 'off'}", "hooke or hertz; others are not there")
+        if self.tangential not in ("history", "no_history", None):
+            raise Left(f"tangential {self.tangential}", "history or no_history")
+        if "absolute_damping" in self.on:
+            raise Left("absolute_damping", "write the damping over the mass of a grain as gamman")
+
+    def friction(self, c):
+        """Without a tangential model there is none."""
+        return c.friction() if self.tangential else 0.0
+
+    def extras(self, c, classic):
+        """Rolling and cohesion of the wall, which go with classic styles."""
+        words = ""
+        if self.rolling in ("cdt", "epsd2") and classic:
+            words += f" rolling {self.rolling} {short(c.get('coefficientRollingFriction', c.i, c.j))}"
+        elif self.nearest:
+            words += self.nearest_rolling(c)
+        elif self.rolling:
+            raise self.left_rolling(c)
+        if self.cohesion == "sjkr" and classic:
+            words += f" cohesion sjkr {short(c.get('cohesionEnergyDensity', c.i, c.j))}"
+        elif self.cohesion:
+            raise Left(f"cohesion {self.cohesion} with model {self.normal}", "granular jkr or dmt, or model hooke with sjkr")
+        return words
+
+    def dissipates(self, c):
+        """Whether a contact has a dashpot."""
+        if "stiffness" in self.normal:
+            return any(c.get(name, c.i, c.j) != 0 for name in ("gamman", "gammat"))
+        return c.beta() > 0
+
+    def drop_zeros(self, contacts):
+        """Takes out rolling friction and cohesion whose coefficients are 0 in all contacts: they have no torque, no force. Where one has
+        some, each needs its words, as a law of a mesh without them has those of the wall."""
+        if self.rolling in ("cdt", "epsd2") and not any(c.get("coefficientRollingFriction", c.i, c.j) for c in contacts):
+            self.rolling = None
+        if self.cohesion in ("sjkr", "sjkr2") and not any(c.get("cohesionEnergyDensity", c.i, c.j) for c in contacts):
+            self.cohesion = None
+        # LAMMPS's rolling with a spring is the nearest to these.
+        self.nearest = self.rolling in ("cdt", "epsd2") and self.normal == "hertz"
+
+    @staticmethod
+    def nearest_rolling(c):
+        """The rolling of LAMMPS with the limit mu R F of cdt and epsd2, and the spring of epsd2 at an overlap of 0.1 % of the radius."""
+        k = short(float(f"{8 * c.elastic()[1] * c.radius * math.sqrt(1e-3):.3g}")) if c.radius else "K"
+        return f" rolling sds {k} 0 {short(c.get('coefficientRollingFriction', c.i, c.j))}"
+
+    def left_rolling(self, c, nearest=""):
+        why = f"rolling_friction {self.rolling} with model {self.normal}"
+        do = "pair_style granular with hooke and rolling sds k 0 mu, k the tangential stiffness for epsd2"
+        if self.normal == "hertz" and self.rolling in ("cdt", "epsd2"):
+            # epsd2 has the tangential spring times R^2, and both the limit mu R F.
+            why += {"cdt": ", which is a torque without a spring: LAMMPS has rolling with a spring only",
+                    "epsd2": ", whose spring grows with the overlap: that of LAMMPS does not"}[self.rolling]
+            k = 8 * c.elastic()[1]
+            do = (f"granular with rolling sds k 0 {short(c.get('coefficientRollingFriction', c.i, c.j))}, k = "
+                  f"{short(k)} sqrt(R overlap) at the overlap of most contacts")
+            if c.radius:
+                do += f", which is {k * c.radius * math.sqrt(1e-3):.3g} at an overlap of 0.1 % of R = {short(c.radius)}"
+            do += "; or model hooke with cdt or epsd2 on the wall"
+        if nearest:
+            do = "the lines with #: below are the nearest" + ", with a number for K" * (c.radius is None) + ": " + do
+        return Left(why, do, nearest)
+
+    def classic(self, c, r, m):
+        """Words of a classic style for a contact whose effective radius and mass are r and m."""
+        mu = short(self.friction(c))
+        if self.normal == "hooke":
+            k, g = c.hooke(r, m)
+            kt, gt = (k * 2 / 7 if "ktToKnUser" in self.on else k), g
+        else:
+            k, kt, g, gt = (c.get(n, c.i, c.j) for n in ("kn", "kt", "gamman", "gammat"))
+        style = {"hooke": "hooke", "hertz": "hertz"}[self.normal.split("/")[0]]
+        if self.tangential == "history" or style == "hertz":
+            style += "/history"
+        if style == "hertz/history" and self.tangential == "no_history":
+            raise Left("hertz/stiffness with tangential no_history", "granular hertz with tangential linear_nohistory")
+        return style, f"{short(k)} {short(kt)} {short(g)} {short(gt)} {mu} {int(self.damped and bool(self.tangential))}"
+
+    def hertz(self, c):
+        """Stiffnesses, damping, its share across the normal, friction."""
+        y, g = c.elastic()
+        share = math.sqrt(4 * g / y) if self.damped and self.tangential else 0.0
+        return 4 / 3 * y, 8 * g, math.sqrt(5) * c.beta(), share, self.friction(c)
+
+    def wall(self, c, r, m):
+        self.check()
+        if self.normal != "hertz":
+            style, numbers = self.classic(c, r, m)
+            law = f"{style} {numbers}"
+            extras = self.extras(c, True)
+        else:
+            _, _, _, share, mu = self.hertz(c)
+            e, nu = c.one_material()
+            tangential = "mindlin_slip NULL" if self.tangential == "history" else "linear_nohistory"
+            law = (f"granular hertz/material {short(e)} {short(c.get('coefficientRestitution', c.i, c.j))} {short(nu)} "
+                   f"damping coeff_restitution tangential {tangential} {short(share)} {short(mu)}")
+            extras = self.extras(c, False)
+        return law + " limit_damping" * self.limit + extras
+
+    def granular(self, c):
+        """The words of pair_coeff and of LAMMPS's own wall, which has other moduli in 29Sep2021."""
+        k, kt, damping, share, mu = self.hertz(c)
+        e = tsuji(damping)
+        if e is None:
+            raise Left("a restitution below 0.115", "damping coeff_restitution, from LAMMPS 4Feb2025 on")
+        tangential = f"mindlin {short(kt)}" if self.tangential == "history" else "linear_nohistory"
+        return (f"hertz {short(k)} {short(e)} tangential {tangential} {short(share)} {short(mu)} damping tsuji" +
+                " limit_damping" * self.limit + (self.nearest_rolling(c) if self.nearest else ""))

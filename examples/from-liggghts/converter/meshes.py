@@ -1,0 +1,279 @@
+# SPDX-FileCopyrightText: 2026 LSDCD contributors
+# SPDX-License-Identifier: BSD-3-Clause
+
+"""fix mesh/surface with its modules."""
+import math
+
+from .errors import CannotConvert, Left
+from .formulas import expand
+from .geometry import cross, dot, minus, read_stl, short, turned, unit
+
+GONE_MESH_WORDS = {"heal": 1, "curvature": 1, "curvature_tolerant": 1, "verbose": 1, "precision": 1,
+                   "min_feature_length": 1, "element_exclusion_list": 2, "stress": 1}
+FORCE, TORQUE = (1, 2, 3), (4, 5, 6)
+
+
+class Mesh:
+    """A fix mesh/surface."""
+
+    def __init__(self, script, line):
+        w = line.words
+        self.id, self.group, self.style, self.line = w[1], w[2], script.style(w), line
+        self.file, self.type, self.place, self.words, self.wear = None, 1, [], [], False
+        self.servo, self.moves, self.com, self.axis, self.target = None, [], (0.0, 0.0, 0.0), None, None
+        self.mass, self.moments, self.suspended, self.held = None, None, False, False    # of 6dof
+        self.wall, self.wall_lines, self.index, self.several, self.reference = None, [], None, False, None
+        self.written, self.body = set(), ""    # mesh_stl, mesh_fields; words of 6dof
+        self.before, self.unsure = [], False    # variables that it needs; whether a jump may have changed its motions
+        self.way, self.worn = [0.0, 0.0, 0.0], False    # how runs have moved it, None where that is no known way; whether they wore it
+        self.first, self.wall_at = None, None    # ID of its wall, its place there, whether there are others; the line of its wall now
+        self.parse(script, [script.carry(x, line, self.before) for x in w[4:]])
+
+    def parse(self, script, w):
+        number, values, surface, spin = script.number, {}, None, None
+        while w:
+            key = w.pop(0)
+
+            def take(n, key=key):
+                if len(w) < n:
+                    raise CannotConvert(f"{script.at(self.line)}: {key} has too few values")
+                return [w.pop(0) for _ in range(n)]
+
+            if key == "file":
+                self.file = take(1)[0]
+            elif key in ("generate", "fix", "extrude_planar", "region"):
+                raise Left(f"a mesh by {key}", "make a file of it (lsdcd generate makes boxes, cylinders, planes; dump "
+                           "mesh/stl in LIGGGHTS writes any mesh) and name that")
+            elif key == "type":
+                self.type = int(number(take(1)[0], self.line))
+            elif key in ("scale", "move"):
+                self.place.append((key, take(1 if key == "scale" else 3)))
+            elif key == "rotate":
+                axis, x, y, z, by, angle = take(6)
+                if (axis, by) != ("axis", "angle"):
+                    raise ValueError(key)
+                self.place.append((key, [x, y, z, angle]))
+            elif key == "surface_vel":
+                surface = take(3)
+            elif key == "surface_ang_vel":
+                spin = take(10)
+            elif key == "reference_point":
+                self.reference = take(3)
+            elif key == "wear":
+                value = take(1)[0]
+                if value not in ("finnie", "off"):
+                    raise Left(f"wear {value}", "wear finnie or archard")
+                self.wear = value == "finnie"
+            elif key in ("com", "axis") or (key in ("vel", "angmom", "forceflags", "torqueflags") and self.style.endswith("/6dof")):
+                values[key] = take(3)
+            elif key == "moi" and self.style.endswith("/6dof"):
+                values[key] = take(6)
+            elif key == "mass" and self.style.endswith("/6dof"):
+                values[key] = take(1)[0]
+            elif key == "suspension" and self.style.endswith("/6dof"):
+                values[key] = take(8)
+            elif key == "rot_flip":
+                raise Left(f"{key} of a mesh with 6dof", "limits of a body on a hinge, which stop it without a rebound")
+            elif key in ("ctrlPV", "target_val", "vel_max", "kp", "ki", "kd", "mode", "ratio"):
+                values[key] = take(1)[0]
+            elif key in ("temperature", "mass_temperature"):
+                raise Left(f"{key} of a mesh", "the sub-model heat and the keyword temperature of fix wall/lsdcd")
+            elif key in GONE_MESH_WORDS:
+                take(GONE_MESH_WORDS[key])
+            else:
+                raise Left(f"the keyword {key} of a mesh", "fix_wall_lsdcd.rst")
+        if self.file is None or not self.file.lower().endswith((".stl", ".obj", ".ply", ".off")):
+            raise Left(f"the file {self.file}", "write it as STL")
+        self.path = script.folder / expand(self.file, self.line.scope)
+        if self.path.is_file() and self.path.open("rb").read(1) == b"#":
+            raise Left(f"the file {self.file}, which begins with a comment", "the file without its lines before 'solid'")
+        if self.style.endswith("/stress/servo"):
+            self.add_servo(script, values)
+            self.reference = self.reference or list(self.com)
+        elif self.style.endswith("/stress/6dof"):
+            self.add_body(script, values)
+        elif self.style not in ("mesh/surface", "mesh/surface/planar", "mesh/surface/stress"):
+            raise Left(f"the module of {self.style}", "mesh/surface/stress; others are not there")
+        if surface:
+            self.add_surface_vel(script, surface)
+        if spin:
+            self.add_surface_ang_vel(script, spin)
+
+    def faces(self, script):
+        """Corners and normal of each triangle of the placed mesh; None where the file is not there."""
+        if not self.path.exists():
+            return None
+        found = [(t, cross(minus(t[1], t[0]), minus(t[2], t[0]))) for t in self.triangles(script)]
+        return [(t, unit(n)) for t, n in found if any(n)]
+
+    # LIGGGHTS lays the velocity into each triangle and then gives it its full size again; here it keeps what lies in
+    # the triangle. Both are the same where no triangle is inclined to it. One that it meets head-on has none.
+
+    def add_surface_vel(self, script, words):
+        kept, faces = " ".join(words), self.faces(script)
+        try:
+            v = [script.number(x, self.line) for x in words]
+        except Left:
+            raise Left("surface_vel of a variable", "the keyword surface_vel takes v_NAME too: give it the velocity along "
+                       "the triangles, in the size that LIGGGHTS keeps") from None
+        size = math.sqrt(dot(v, v))
+        if faces is None:
+            script.unchecked.add(self.id)
+        elif size and any(1e-3 * size < abs(dot(v, n)) < (1 - 1e-6) * size for _, n in faces):
+            ways = [None if abs(dot(v, n)) > (1 - 1e-6) * size else unit(minus(v, [dot(v, n) * x for x in n])) for _, n in faces]
+            if None in ways or any(math.dist(way, ways[0]) > 1e-3 for way in ways):
+                raise Left("surface_vel on triangles of several slopes, each of which has its full size in LIGGGHTS",
+                           "cut the mesh into parts of one slope, each with its surface_vel along it")
+            kept = " ".join(short(round(size * x, 9) + 0.0) for x in ways[0])
+        self.words.append(f"surface_vel {kept}")
+
+    def add_surface_ang_vel(self, script, words):
+        origin, ox, oy, oz, along, ax, ay, az, omega_word, omega = words
+        if (origin, along, omega_word) != ("origin", "axis", "omega"):
+            raise ValueError("surface_ang_vel")
+        axis = unit([script.number(v, self.line) for v in (ax, ay, az)])
+        faces = self.faces(script)
+        if faces is None:
+            script.unchecked.add(self.id)
+        else:
+            o = [script.number(v, self.line) for v in (ox, oy, oz)]
+            for t, n in faces:
+                for p in t:
+                    v = cross(axis, minus(p, o))
+                    # 0.2: the sides of a roll of 16 facets, where the two differ by 2 %.
+                    if 0.2 * math.sqrt(dot(v, v)) < abs(dot(v, n)) < (1 - 1e-6) * math.sqrt(dot(v, v)):
+                        raise Left("surface_ang_vel on triangles that are inclined to it, which LIGGGHTS lays into each in its "
+                                   "full size", "motion rotate, if the part turns; or a mesh of revolution")
+        spin = [script.number(omega, self.line) * a for a in axis]
+        self.words.append("surface_angvel " + " ".join(map(short, spin)) + f" {ox} {oy} {oz}")
+
+    def add_body(self, script, v):
+        missing = [k for k in ("com", "mass", "moi") if k not in v]
+        if missing:
+            raise CannotConvert(f"{script.at(self.line)}: 6dof without {missing[0]}")
+        self.com, self.mass, self.moments = v["com"], v["mass"], [script.number(x, self.line) for x in v["moi"]]
+        self.body = f"body mass {self.mass} com {' '.join(self.com)} inertia {' '.join(v['moi'])}"
+        self.body += self.joint(script, v)
+        self.held = "joint" in self.body
+        if "vel" in v:
+            self.body += f" velocity {' '.join(v['vel'])}"
+        if any(script.number(x, self.line) for x in v.get("angmom", [])):
+            xx, yy, zz, xy, xz, yz = (script.number(x, self.line) for x in v["moi"])
+            rows = [(xx, xy, xz), (xy, yy, yz), (xz, yz, zz)]
+            # omega is the inverse of the tensor times the momentum, by Cramer's rule.
+            momentum = [script.number(x, self.line) for x in v["angmom"]]
+            size = dot(rows[0], cross(rows[1], rows[2]))
+            omega = [dot(momentum, cross(rows[(k + 1) % 3], rows[(k + 2) % 3])) / size for k in range(3)]
+            self.body += " omega " + " ".join(map(short, omega))
+
+    def joint(self, script, v):
+        """The joint that has the flags of LIGGGHTS, which drop components of force and torque along x, y and z. They hold a turning
+        body to an axis only where that axis is a principal one."""
+        moves, turns = ([script.number(x, self.line) != 0 for x in v.get(key, "111")] for key in ("forceflags", "torqueflags"))
+        speed, spin = ([script.number(x, self.line) for x in v.get(key, "000")] for key in ("vel", "angmom"))
+        xy, xz, yz = self.moments[3:]
+        principal = (xy == xz == 0, xy == yz == 0, xz == yz == 0)
+        held = not any(x and not free for x, free in zip(speed + spin, moves + turns))
+        axes = ["1 0 0", "0 1 0", "0 0 1"]
+        if all(moves + turns):
+            words, axis = "", None
+        elif held and sum(moves) == 1 and not any(turns):
+            axis = moves.index(True)
+            words = f" joint slider {axes[axis]}"
+        elif held and not any(moves) and sum(turns) == 1 and principal[turns.index(True)]:
+            axis = turns.index(True)
+            words = f" joint hinge {' '.join(self.com)} {axes[axis]}"
+        elif held and sum(moves) == 2 and sum(turns) == 1 and turns.index(True) == moves.index(False) and principal[turns.index(True)]:
+            axis, words = None, f" joint planar {axes[turns.index(True)]}"
+        elif held and not any(moves) and all(turns):
+            axis, words = None, f" joint ball {' '.join(self.com)}"
+        else:
+            raise Left("forceflags or torqueflags of a mesh with 6dof, which hold the body to axes that a turn does not follow",
+                       f"joint slider, planar, hinge or ball after {self.body}")
+        if "suspension" in v:
+            if axis is None:
+                raise Left("suspension of a mesh with 6dof that has more than one way to move", "spring of a body on a hinge or slider")
+            if script.runs() > 1:
+                raise Left("suspension of a mesh with 6dof, whose zero begins anew with each run in LIGGGHTS",
+                           f"{words.strip()} spring with its stiffness, damping and rest; its zero stays where it was")
+            if v["suspension"][::2] != ["k_t", "c_t", "k_r", "c_r"]:
+                raise ValueError("suspension")
+            words += " spring " + " ".join(v["suspension"][1:4:2] if any(moves) else v["suspension"][5::2])
+            self.suspended = True
+        return words
+
+    def mobility(self, script):
+        """The most that a unit impulse changes the velocity of a point of the body along the impulse. None where the file is not there."""
+        faces = self.faces(script)
+        if faces is None:
+            return None
+        com, (xx, yy, zz, xy, xz, yz) = [script.number(x, self.line) for x in self.com], self.moments
+        arm = max(math.dist(p, com) for t, _ in faces for p in t)
+        least = min(xx, yy, zz)
+        if xy or xz or yz:
+            # The product of the larger two moments is at most the square of half the trace.
+            least = dot((xx, xy, xz), cross((xy, yy, yz), (xz, yz, zz))) / ((xx + yy + zz) / 2) ** 2
+        return 1 / script.number(self.mass, self.line) + arm * arm / least
+
+    def add_servo(self, script, v):
+        missing = [k for k in ("com", "ctrlPV", "axis", "target_val", "vel_max") if k not in v]
+        if missing:
+            raise CannotConvert(f"{script.at(self.line)}: a servo without {missing[0]}")
+        self.com, self.target = v["com"], v["target_val"]
+        self.axis = unit([script.number(x, self.line) for x in v["axis"]])
+        along = {(1.0, 0.0, 0.0): "x", (0.0, 1.0, 0.0): "y", (0.0, 0.0, 1.0): "z"}.get(self.axis)
+        along = along or "axis " + " ".join(map(short, self.axis))
+        speed = v["vel_max"]
+        words = f"servo {v['ctrlPV']} {along}"
+        if v["ctrlPV"] == "torque":
+            words += " through " + " ".join(self.com)
+            com = [script.number(x, self.line) for x in self.com]
+            arms = [minus(p, com) for t in self.triangles(script) for p in t]
+            # LIGGGHTS's vel_max is of the corner that is farthest from the axis.
+            speed = short(script.number(speed, self.line) / max(math.sqrt(dot(c, c)) for c in
+                                                               (cross(self.axis, a) for a in arms)))
+        self.servo = f"{words} {self.target} vmax {speed}"
+
+    def placement(self):
+        return "".join(f" {key} {' '.join(values)}" for key, values in self.place)
+
+    def triangles(self, script):
+        """Placed."""
+        if not self.path.exists():
+            raise CannotConvert(f"{script.at(self.line)}: {self.path} is not there, and the mesh is needed to convert this")
+
+        def placed(p):
+            for key, values in self.place:
+                v = [script.number(x, self.line) for x in values]
+                if key == "scale":
+                    p = tuple(v[0] * x for x in p)
+                elif key == "move":
+                    p = tuple(x + y for x, y in zip(p, v))
+                else:
+                    p = turned(p, unit(v[:3]), v[3])
+            return p
+
+        triangles = [tuple(placed(p) for p in t) for t in read_stl(self.path)]
+        if not triangles:
+            raise Left(f"{self.file}, in which no triangle was found", "write it as STL")
+        return triangles
+
+    def output(self, k, script):
+        """What stands for element k of this fix in LAMMPS. Forces of 6dof have the weight and the suspension in them there."""
+        wall, index, several = (self.wall, self.index, self.several) if self.wall else script.later[self.id]
+        each = f"f_{wall}" + f"[{index}]" * several
+        if self.body and k > 6:
+            # The quaternion of LIGGGHTS begins with the principal axes.
+            return f"f_{wall}[{k + 8 if k < 10 else k + 11}]" if k < 10 or (k < 14 and not any(self.moments[3:])) else None
+        if self.suspended:
+            return None
+        if self.body and k in FORCE and script.gravities:
+            g = script.gravities[0]
+            if g is None or len(script.gravities) > 1:
+                return None
+            return f"({each}[{k}]+{self.mass}*({short(g[k - 1])}))" if g[k - 1] else f"{each}[{k}]"
+        if k in FORCE + TORQUE:
+            return f"{each}[{k}]"
+        if k in (7, 8, 9) and self.servo:
+            return self.com[k - 7] if self.axis[k - 7] == 0 else f"({self.com[k - 7]}+({short(self.axis[k - 7])})*{each}[12])"
+        return None
