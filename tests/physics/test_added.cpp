@@ -125,6 +125,8 @@ TEST(epsd2, grows_with_the_contact_radius_of_hertz)
   EXPECT_NEAR(scene.torque(0).x, -contact_torque, 1e-10 * contact_torque);
 }
 
+// Against the whole spin, as LIGGGHTS has it, of which the part across the normal is a torque of rolling: a spin about the
+// normal makes it less.
 TEST(cdt, is_mu_times_the_elastic_force_times_the_radius)
 {
   const Real overlap = 0.01;
@@ -133,10 +135,10 @@ TEST(cdt, is_mu_times_the_elastic_force_times_the_radius)
         hertz ? hertz_history(kStiffness, kTangent, 30, 0, 0) : hooke(kStiffness, 30);
     Scene scene(floor_mesh(4, 2), kRadius, with_rolling(s, RollingModel::cdt));
     // It sinks in, so that damping adds to the force, which cdt does not see.
-    scene.add_sphere({0.1, 0.2, kRadius - overlap}, kRadius, kMass, {0, 0, -1}, {3, -4, 7});
+    scene.add_sphere({0.1, 0.2, kRadius - overlap}, kRadius, kMass, {0, 0, -1}, {3, -4, 12});
     scene.compute(1e-4);
     const Real elastic = kStiffness * overlap * (hertz ? std::sqrt(kRadius * overlap) : 1);
-    const Vec3 contact_torque = (-kMuRoll * elastic * kRadius / 5) * Vec3{3, -4, 0};
+    const Vec3 contact_torque = (-kMuRoll * elastic * kRadius / 13) * Vec3{3, -4, 0};
     EXPECT_LE(norm(scene.torque(0) - contact_torque), 1e-10 * norm(contact_torque));
   }
 }

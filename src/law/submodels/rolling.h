@@ -70,9 +70,10 @@ LSDCD_FN Vec3 rolling_part(const Vec3 &omega, const Vec3 &normal)
   return omega - dot(omega, normal) * normal;
 }
 
-// `cdt` mu, constant directional torque: mu k_n overlap R against the rolling, whatever its
-// speed (Ai et al. 2011, model A). Near rest it changes sign from step to step, as any
-// constant friction does, and the spin stays within a step's change of 0.
+// `cdt` mu, constant directional torque: mu k_n overlap R against the spin, whatever its speed, of which the part
+// across the normal acts (Ai et al. 2011, model A). A sphere that also spins about the normal rolls more freely. Near
+// rest the torque changes sign from step to step, as any constant friction does, and the spin stays within a step's
+// change of 0.
 struct CdtRolling {
   static constexpr RollingModel kModel = RollingModel::cdt;
   static constexpr bool kStoresVector = false;
@@ -81,10 +82,9 @@ struct CdtRolling {
   LSDCD_FN static Vec3 contact_torque(const Real *n, const RollingInput &in, Memory &, int)
   {
     const Contact &c = in.contact;
-    const Vec3 rolls = rolling_part(c.omega, c.normal);
-    const Real rate = norm(rolls);
-    if (!(rate > 0)) return {0, 0, 0};
-    return (-n[0] * in.elastic * c.radius / rate) * rolls;
+    const Real spin = norm(c.omega);
+    if (!(spin > 0)) return {0, 0, 0};
+    return (-n[0] * in.elastic * c.radius / spin) * rolling_part(c.omega, c.normal);
   }
   template <class Memory>
   LSDCD_FN static Real energy(const Real *, const RollingInput &, const Memory &, int)
