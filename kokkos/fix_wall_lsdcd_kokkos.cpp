@@ -7,6 +7,7 @@
 
 #include "backend/owned_array.h"
 #include "base/input_words.h"
+#include "lammps/host_fixes.h"
 
 #include "comm.h"
 #include "domain.h"
@@ -217,10 +218,11 @@ void FixWallLsdcdKokkos<DeviceType>::warn_of_rounding()
 template <class DeviceType>
 bool FixWallLsdcdKokkos<DeviceType>::others_only_add() const
 {
-  for (int k = 0; modify->fix[k] != this; k++) {
-    const std::string style = modify->fix[k]->style;
+  for (Fix *fix : lsdcd::host_fixes(*modify)) {
+    if (fix == this) break;
+    const std::string style = fix->style;
     const bool only_adds = style.rfind("gravity", 0) == 0 || style.rfind("wall/", 0) == 0;
-    if ((modify->fmask[k] & POST_FORCE) && !only_adds) return false;
+    if ((modify->get_fix_mask(fix) & POST_FORCE) && !only_adds) return false;
   }
   return true;
 }

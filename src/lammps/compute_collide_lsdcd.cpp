@@ -7,6 +7,7 @@
 #include "base/number_words.h"
 #include "lammps/fix_wall_lsdcd.h"
 #include "lammps/host_box.h"
+#include "lammps/host_fixes.h"
 #include "lammps/mpi_host.h"
 #include "lammps/mpi_mesh.h"
 
@@ -85,15 +86,15 @@ ComputeCollideLsdcd::~ComputeCollideLsdcd()
 
 const FixWallLsdcd &ComputeCollideLsdcd::wall() const
 {
-  for (int i = 0; i < modify->nfix; i++)
-    if (settings.wall == modify->fix[i]->id) {
-      const auto *fix = dynamic_cast<const FixWallLsdcd *>(modify->fix[i]);
-      if (fix) return *fix;
-      fatal("fix " + settings.wall + " is of style " + modify->fix[i]->style +
-            "; give the ID of a fix wall/lsdcd");
-    }
-  fatal("there is no fix '" + settings.wall +
-        "': give the ID of a fix wall/lsdcd, which is defined before the compute");
+  const Fix *fix = lsdcd::host_fix(*modify, settings.wall);
+  if (!fix)
+    fatal("there is no fix '" + settings.wall +
+          "': give the ID of a fix wall/lsdcd, which is defined before the compute");
+  const auto *wall = dynamic_cast<const FixWallLsdcd *>(fix);
+  if (!wall)
+    fatal("fix " + settings.wall + " is of style " + fix->style +
+          "; give the ID of a fix wall/lsdcd");
+  return *wall;
 }
 
 bool ComputeCollideLsdcd::is_mine(int body) const

@@ -11,6 +11,7 @@
 #include "lammps/host_atom_vec.h"
 #include "lammps/host_atoms.h"
 #include "lammps/host_box.h"
+#include "lammps/host_fixes.h"
 #include "lammps/mpi_host.h"
 #include "lammps/mpi_mesh.h"
 #include "lammps/restart_data.h"
@@ -146,7 +147,7 @@ FixInsertLsdcd::FixInsertLsdcd(LAMMPS *lmp, int narg, char **arg) :
 
 FixInsertLsdcd::~FixInsertLsdcd()
 {
-  if (!radii_id.empty() && modify->find_fix(radii_id) >= 0) modify->delete_fix(radii_id);
+  if (!radii_id.empty() && lsdcd::host_fix(*modify, radii_id)) modify->delete_fix(radii_id);
 }
 
 // Not in the constructor, where LAMMPS has no place for another fix.
@@ -222,27 +223,28 @@ void FixInsertLsdcd::init()
 {
   std::vector<FixWallLsdcd *> found;
   std::vector<std::string> missing = settings.walls;
-  for (int i = 0; i < modify->nfix; i++) {
-    auto *wall = dynamic_cast<FixWallLsdcd *>(modify->fix[i]);
-    const auto named = std::find(missing.begin(), missing.end(), modify->fix[i]->id);
+  const std::vector<Fix *> fixes = lsdcd::host_fixes(*modify);
+  for (Fix *fix : fixes) {
+    auto *wall = dynamic_cast<FixWallLsdcd *>(fix);
+    const auto named = std::find(missing.begin(), missing.end(), fix->id);
     const bool is_named = named != missing.end();
     if (is_named && !wall)
-      fatal("in 'wall', fix " + *named + " is of style " + modify->fix[i]->style +
+      fatal("in 'wall', fix " + *named + " is of style " + fix->style +
             ": give the ID of a fix wall/lsdcd");
     if (is_named) missing.erase(named);
     // Grains are in the group all and in that of this fix.
     if (wall && (is_named || (settings.all_walls && (wall->groupbit & (1 | groupbit)))))
       found.push_back(wall);
     // The first one answers for all.
-    if (LSDCD_HOST_VERSION < 20220601 && std::strcmp(modify->fix[i]->style, "pour") == 0 &&
-        !dynamic_cast<FixInsertRadii *>(modify->fix[i])) {
+    if (LSDCD_HOST_VERSION < 20220601 && std::strcmp(fix->style, "pour") == 0 &&
+        !dynamic_cast<FixInsertRadii *>(fix)) {
       bool before = true;
-      for (int k = 0; k < i; k++)
-        before = before && !dynamic_cast<FixInsertRadii *>(modify->fix[k]);
+      for (std::size_t k = 0; fixes[k] != fix; k++)
+        before = before && !dynamic_cast<FixInsertRadii *>(fixes[k]);
       if (before)
         fatal("this LAMMPS makes neighbour lists for the radii of the first fix that pours only, "
               "which is " +
-              std::string(modify->fix[i]->id) + ": define it after this fix");
+              std::string(fix->id) + ": define it after this fix");
     }
   }
   if (!missing.empty())
@@ -531,13 +533,12 @@ void *FixInsertRadii::extract(const char *what, int &type)
 {
   if (std::strcmp(what, "radius") != 0) return nullptr;
   radius = 0;
-  for (int i = 0; i < modify->nfix; i++)
-    if (const auto *fix = dynamic_cast<const FixInsertLsdcd *>(modify->fix[i]))
-      radius = std::max(radius, fix->largest_radius(type));
-    else if (!dynamic_cast<const FixInsertRadii *>(modify->fix[i]) &&
-             std::strcmp(modify->fix[i]->style, "pour") == 0) {
+  for (Fix *fix : lsdcd::host_fixes(*modify))
+    if (const auto *inlet = dynamic_cast<const FixInsertLsdcd *>(fix))
+      radius = std::max(radius, inlet->largest_radius(type));
+    else if (!dynamic_cast<const FixInsertRadii *>(fix) && std::strcmp(fix->style, "pour") == 0) {
       int of = type;
-      const auto *poured = static_cast<const double *>(modify->fix[i]->extract("radius", of));
+      const auto *poured = static_cast<const double *>(fix->extract("radius", of));
       if (poured) radius = std::max(radius, *poured);
     }
   type = 0;

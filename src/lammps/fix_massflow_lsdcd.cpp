@@ -7,6 +7,7 @@
 #include "box/likely_scale.h"
 #include "box/outside_box.h"
 #include "lammps/host_box.h"
+#include "lammps/host_fixes.h"
 #include "lammps/mpi_host.h"
 #include "lammps/mpi_mesh.h"
 
@@ -128,9 +129,9 @@ int FixMassflowLsdcd::setmask()
 void FixMassflowLsdcd::init()
 {
   watch.init(*update);
-  for (int i = 0; settings.deletes && i < modify->nfix; i++)
-    if (modify->fix[i]->rigid_flag)
-      warn("delete yes removes atoms without telling fix " + std::string(modify->fix[i]->id) +
+  for (const Fix *fix : lsdcd::host_fixes(*modify))
+    if (settings.deletes && fix->rigid_flag)
+      warn("delete yes removes atoms without telling fix " + std::string(fix->id) +
            ", whose rigid bodies they belong to: leave these atoms out of the group");
 }
 

@@ -9,6 +9,7 @@
 #include "input/wall_command.h"
 #include "lammps/host_atoms.h"
 #include "lammps/host_box.h"
+#include "lammps/host_fixes.h"
 #include "lammps/other_fixes.h"
 #include "lammps/own_wall_gran.h"
 #include "wall/spec_text.h"
@@ -202,10 +203,9 @@ void FixWallLsdcd::init_bodies()
   const bool all_have = std::all_of(meshes().begin(), meshes().end(), [](const lsdcd::MeshPart &m) {
     return !m.spec.body.present || m.spec.body.has_gravity;
   });
-  for (int i = 0; i < modify->nfix && !all_have; i++) {
-    Fix *fix = modify->fix[i];
+  for (Fix *fix : lsdcd::host_fixes(*modify)) {
     int dim;
-    if (std::strncmp(fix->style, "gravity", 7) != 0) continue;
+    if (all_have || std::strncmp(fix->style, "gravity", 7) != 0) continue;
     if (gravity)
       fatal("there are several fixes gravity: give the acceleration of a body by gravity gx gy gz");
     gravity = static_cast<const double *>(fix->extract("gvec", dim));
@@ -304,9 +304,9 @@ void FixWallLsdcd::init()
   watch.init(*update);
   nlevels_respa = 0;
   rigid = adapts = false;
-  for (int i = 0; i < modify->nfix; i++) {
-    if (modify->fix[i]->rigid_flag) rigid = true;
-    if (std::strncmp(modify->fix[i]->style, "adapt", 5) == 0) adapts = true;
+  for (const Fix *fix : lsdcd::host_fixes(*modify)) {
+    if (fix->rigid_flag) rigid = true;
+    if (std::strncmp(fix->style, "adapt", 5) == 0) adapts = true;
   }
   if (!rigid) std::vector<double>().swap(damping_mass);
   check_heat();
@@ -567,8 +567,7 @@ void FixWallLsdcd::fill_masses()
   need_on_cpu();
   const int nlocal = atom->nlocal;
   damping_mass.assign(atom->rmass, atom->rmass + nlocal);
-  for (int k = 0; k < modify->nfix; k++) {
-    Fix *fix = modify->fix[k];
+  for (Fix *fix : lsdcd::host_fixes(*modify)) {
     if (!fix->rigid_flag) continue;
     int dim;
     const int *body = (const int *) fix->extract("body", dim);

@@ -6,6 +6,7 @@
 #include "lammps/fix_wall_lsdcd.h"
 
 #include "base/input_error.h"
+#include "lammps/host_fixes.h"
 #include "lammps/restart_data.h"
 
 #include "atom.h"
@@ -74,8 +75,7 @@ void FixWallLsdcd::ask_for_room(int history_takes)
   room = history_takes + row_size();
   int all = room;
   std::vector<FixWallLsdcd *> walls = {this};
-  for (int k = 0; k < modify->nfix; k++) {
-    Fix *fix = modify->fix[k];
+  for (Fix *fix : lsdcd::host_fixes(*modify)) {
     if (!fix || fix == this) continue;    // LAMMPS replaces one by this
     FixWallLsdcd *other = dynamic_cast<FixWallLsdcd *>(fix);
     if (other) walls.push_back(other);

@@ -6,11 +6,11 @@
 #include "base/input_error.h"
 #include "base/input_words.h"
 #include "base/vector_text.h"
+#include "lammps/host_fixes.h"
 #include "wall/mesh_name.h"
 
 #include "atom.h"
 #include "domain.h"
-#include "fix.h"
 #include "group.h"
 #include "lammps.h"
 #include "modify.h"
@@ -90,8 +90,8 @@ std::string NodeAtoms::init(lsdcd::Wall &wall, int wall_bit, bool keeps_tags)
 int NodeAtoms::bit_of_fix_move() const
 {
   int bits = 0;
-  for (int k = 0; k < lmp->modify->nfix; k++)
-    if (std::strcmp(lmp->modify->fix[k]->style, "move") == 0) bits |= lmp->modify->fix[k]->groupbit;
+  for (const Fix *fix : lsdcd::host_fixes(*lmp->modify))
+    if (std::strcmp(fix->style, "move") == 0) bits |= fix->groupbit;
   return bits;
 }
 

@@ -7,6 +7,7 @@
 #include "lammps/fix_insert_lsdcd.h"
 #include "lammps/fix_massflow_lsdcd.h"
 #include "lammps/fix_wall_lsdcd.h"
+#include "lammps/host_fixes.h"
 
 #include "atom.h"
 #include "modify.h"
@@ -55,7 +56,7 @@ bool share_atoms(const Fix &a, const Fix &b, const Atom &atom, MPI_Comm world)
 }    // namespace
 
 // The first process looks, as it writes them.
-void LAMMPS_NS::check_files_apart(const FixWallLsdcd &wall, const Modify &modify, lsdcd::Host &host,
+void LAMMPS_NS::check_files_apart(const FixWallLsdcd &wall, Modify &modify, lsdcd::Host &host,
                                   bigint step)
 {
   lsdcd::run_collectively(host, host.is_first(), [&] {
@@ -63,8 +64,7 @@ void LAMMPS_NS::check_files_apart(const FixWallLsdcd &wall, const Modify &modify
     for (std::size_t i = 0; i < mine.size(); i++)
       for (std::size_t k = 0; k < mine.size(); k++)
         if (i != k) check_apart(mine[i], mine[k], "this fix", step);
-    for (int i = 0; i < modify.nfix; i++) {
-      const Fix *const fix = modify.fix[i];
+    for (const Fix *fix : lsdcd::host_fixes(modify)) {
       if (fix == &wall) continue;
       for (const ScriptFile &file : mine)
         for (const ScriptFile &other : files_of_fix(fix))
@@ -73,11 +73,12 @@ void LAMMPS_NS::check_files_apart(const FixWallLsdcd &wall, const Modify &modify
   });
 }
 
-std::string LAMMPS_NS::doubled_mesh(const FixWallLsdcd &wall, const Modify &modify,
-                                    const Atom &atom, MPI_Comm world)
+std::string LAMMPS_NS::doubled_mesh(const FixWallLsdcd &wall, Modify &modify, const Atom &atom,
+                                    MPI_Comm world)
 {
-  for (int i = 0; i < modify.nfix && modify.fix[i] != &wall; i++) {
-    const auto *other = dynamic_cast<const FixWallLsdcd *>(modify.fix[i]);
+  for (const Fix *fix : lsdcd::host_fixes(modify)) {
+    if (fix == &wall) break;
+    const auto *other = dynamic_cast<const FixWallLsdcd *>(fix);
     if (!other) continue;
     for (const lsdcd::MeshPart &m : wall.meshes()) {
       bool same = false;

@@ -18,13 +18,11 @@ namespace LAMMPS_NS {
 
 // A file that is written must be no other that a fix reads or writes: it would be lost without a word.
 // Throws InputError on all processes. Collective.
-void check_files_apart(const class FixWallLsdcd &, const class Modify &, lsdcd::Host &,
-                       bigint step);
+void check_files_apart(const class FixWallLsdcd &, class Modify &, lsdcd::Host &, bigint step);
 
 // A text where an earlier fix has a mesh of this one, at the same place and for some of its atoms;
 // empty: none has. The later fix warns. Collective.
-std::string doubled_mesh(const class FixWallLsdcd &, const class Modify &, const class Atom &,
-                         MPI_Comm);
+std::string doubled_mesh(const class FixWallLsdcd &, class Modify &, const class Atom &, MPI_Comm);
 
 }    // namespace LAMMPS_NS
 

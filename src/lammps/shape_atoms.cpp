@@ -4,10 +4,10 @@
 #include "lammps/shape_atoms.h"
 
 #include "base/input_error.h"
+#include "lammps/host_fixes.h"
 #include "shape/superellipsoid.h"
 
 #include "atom.h"
-#include "compute.h"
 #include "modify.h"
 #include "update.h"
 
@@ -47,7 +47,7 @@ ShapeAtoms::ShapeAtoms(LAMMPS *lmp, const std::string &fix) :
 // At the end LAMMPS may have deleted it.
 ShapeAtoms::~ShapeAtoms()
 {
-  if (modify && modify->find_compute(id_) >= 0) modify->delete_compute(id_);
+  if (modify && lsdcd::host_compute(*modify, id_)) modify->delete_compute(id_);
 }
 
 std::string ShapeAtoms::why_not(const Atom &atom)
@@ -60,11 +60,11 @@ std::string ShapeAtoms::why_not(const Atom &atom)
 
 LAMMPS_NS::Compute &ShapeAtoms::compute() const
 {
-  const int k = modify->find_compute(id_);
-  if (k < 0)
+  LAMMPS_NS::Compute *found = lsdcd::host_compute(*modify, id_);
+  if (!found)
     throw lsdcd::InputError("the compute " + id_ +
                             ", by which the wall reads shapes, was deleted: leave it there");
-  return *modify->compute[k];
+  return *found;
 }
 
 void ShapeAtoms::put(lsdcd::HostSpheres &to)

@@ -16,6 +16,7 @@ usage: check_includes.py [ROOT]
 * A header of ONLY_IN, which is slow to compile, is included by its one file.
 * HOST_FREE_ROOMS name no host in texts: neither LAMMPS nor its commands (HOST_WORDS). A host has
   its words and remedies in messages by Host::names().
+* The lists of LAMMPS's Modify (MODIFY_LISTS), which LAMMPS 13Nov2026 does not have, are for MODIFY_READER; others ask its functions.
 * No file includes itself by way of others.
 * src itself has no source file: each lies in a room, and each room has a floor.
 * A source that only some builds of the core have is compiled alone (lsdcd_alone of src/CMakeLists.txt), so that the others are
@@ -52,6 +53,8 @@ HOST_WORDS = re.compile(
 LAMMPS_ROOMS = {"lammps", "kokkos"}
 GENERATED = {"grid": "lsdcd_grid_sources.h"}
 ONLY_IN = {"CLI/CLI.hpp": "src/tool/command.cpp"}
+MODIFY_READER = "src/lammps/host_fixes.h"
+MODIFY_LISTS = re.compile(r"\b(nfix|ncompute|fmask|find_(fix|compute)(_by_style)?)\b|\bmodify\s*(->|\.)\s*(fix|compute)\b")
 OF_CUDA = re.compile(r"backend/(backend_cuda|cuda_(?!available)\w+)\.h")
 
 FLOOR = {room: floor for floor, rooms in enumerate(FLOORS) for room in rooms}
@@ -187,6 +190,9 @@ def violations(root):
             word = room in HOST_FREE_ROOMS and not line.lstrip().startswith("#") and HOST_WORDS.search(" ".join(TEXT.findall(line)))
             if word:
                 yield f"{path}:{number}: '{word[0]}' is of a host, which {room} does not know"
+            lists = room in LAMMPS_ROOMS and path != MODIFY_READER and MODIFY_LISTS.search(line)
+            if lists:
+                yield f"{path}:{number}: '{lists[0]}' is not in LAMMPS 13Nov2026: ask {MODIFY_READER}"
             system = SYSTEM_INCLUDE.match(line)
             if system and system[1] == "mpi.h" and room not in LAMMPS_ROOMS:
                 yield f"{path}:{number}: mpi.h is for {', '.join(sorted(LAMMPS_ROOMS))} only"

@@ -4,14 +4,13 @@
 #include "lammps/launcher/plugins.h"
 
 #include "base/atomic_file.h"
+#include "lammps/host_fixes.h"
 #include "lammps/plugin_api.h"
 
 #include "comm.h"
 #include "command.h"
-#include "compute.h"
 #include "domain.h"
 #include "error.h"
-#include "fix.h"
 #include "force.h"
 #include "input.h"
 #include "lammps.h"
@@ -109,13 +108,14 @@ void unload(LAMMPS *lmp, const std::string &style, const std::string &name)
   loaded.erase(plugin);
   Modify *modify = lmp->modify;
   if (style == "fix") {
-    for (int i = modify->nfix - 1; i >= 0; i--)
-      if (name == modify->fix[i]->style) modify->delete_fix(std::string(modify->fix[i]->id));
+    const std::vector<Fix *> fixes = lsdcd::host_fixes(*modify);
+    for (auto fix = fixes.rbegin(); fix != fixes.rend(); ++fix)
+      if (name == (*fix)->style) modify->delete_fix(std::string((*fix)->id));
     modify->fix_map->erase(name);
   } else if (style == "compute") {
-    for (int i = modify->ncompute - 1; i >= 0; i--)
-      if (name == modify->compute[i]->style)
-        modify->delete_compute(std::string(modify->compute[i]->id));
+    const std::vector<Compute *> computes = lsdcd::host_computes(*modify);
+    for (auto compute = computes.rbegin(); compute != computes.rend(); ++compute)
+      if (name == (*compute)->style) modify->delete_compute(std::string((*compute)->id));
     modify->compute_map->erase(name);
   } else if (style == "region") {
     delete_regions(*lmp->domain, name);
