@@ -8,8 +8,10 @@
 
 namespace lsdcd {
 
-// One sphere-wall contact in one step.
+// One contact of a sphere with a wall, or of two spheres, in one step.
 struct Contact {
+  static constexpr bool kPair = false;    // of two spheres?
+
   Vec3 normal;       // unit, wall -> centre
   Real overlap;      // length, > 0 where they touch
   Real radius;       // of the sphere; its effective radius against a wall
@@ -21,6 +23,27 @@ struct Contact {
   Real dt;                        // time
   bool update;                    // false: springs act but do not move (setup)
 };
+
+// A contact of the spheres i and j. It is sphere i's as if j were the wall: the normal points from j to i, velocities are
+// those of i less those of j, forces and torques are on i. `radius` and `mass` are the reduced ones, Ri Rj/(Ri + Rj) and
+// mi mj/(mi + mj). What a contact keeps has not been turned with the normal: the law does so.
+struct PairContact : Contact {
+  static constexpr bool kPair = true;
+  Real radius_i, radius_j, mass_i, mass_j;
+};
+
+// A component of a kept vector along the normal below this share of what limits it is left as it is (LAMMPS).
+constexpr Real kTurnFrom = 1e-10;
+
+// Turns a vector that a pair keeps into the tangent plane; the length stays. `stiff`: what makes a force of it.
+LSDCD_FN Vec3 turned_into_plane(const Vec3 &h, const Vec3 &normal, Real stiff, Real limit)
+{
+  const Real along = dot(h, normal);
+  if (!(fabs(along) * stiff > kTurnFrom * limit)) return h;
+  const Vec3 flat = h - along * normal;
+  const Real length = norm(flat);
+  return length > 0 ? (norm(h) / length) * flat : Vec3{0, 0, 0};
+}
 
 struct ContactForce {
   Real normal;        // force along the normal, < 0 where it pulls

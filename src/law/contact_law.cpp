@@ -26,6 +26,20 @@ int ContactLaw::n_extra() const
   return n;
 }
 
+unsigned ContactLaw::flips() const
+{
+  unsigned bits = has_history() ? 7 : 0;
+  int at = 3;
+  for (const bool vectors : {true, false})
+    for (const SubModel *row : rows_of(*this)) {
+      const int n = row->stored.beside_shear;
+      if ((n == 3) != vectors) continue;
+      if (row->stored.flips) bits |= ((1u << n) - 1) << at;
+      at += n;
+    }
+  return bits;
+}
+
 // FNV-1a, of 31 bits.
 int ContactLaw::history_kind() const
 {

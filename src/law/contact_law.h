@@ -68,6 +68,9 @@ struct ContactLaw {
   bool has_history() const;
   // Numbers of a contact's history beside its shear displacement.
   int n_extra() const;
+  // Returns which of the numbers of a contact's history change sign where the two spheres of a pair change places: bit k is
+  // of the k-th, the shear displacement first, then vectors, then scalars.
+  unsigned flips() const;
   // Returns a number for restart files. It is equal for laws whose histories mean the same.
   int history_kind() const;
 

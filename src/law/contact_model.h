@@ -6,7 +6,8 @@
 //   kVectors, kScalars how many vectors and scalars that has beside the shear displacement
 //   kBeyondContact, pull_off  does it act beyond contact, and up to what distance at radius 1?
 //   kContactTorque, kHeat     does evaluate() also return a contact torque, a heat flow?
-//   evaluate(contact, memory)
+//   kWholeArms         in a pair, is the arm of the tangential force the radius? Else half of the overlap is less.
+//   evaluate(contact, memory)    of a Contact or a PairContact
 // and, with kVectors or kScalars, and with kHeat
 //   stores(k)           is the k-th of these vectors and scalars stored from step to step?
 //   has_heat()         is there a heat flow?
@@ -32,6 +33,7 @@ struct ContactModel {
   static constexpr bool kHistory = Tangential::kHistory;
   static constexpr int kVectors = 0, kScalars = 0, kExtra = 0;
   static constexpr bool kBeyondContact = false, kContactTorque = false, kHeat = false;
+  static constexpr bool kWholeArms = true;
 
   Normal elastic;
   Damping damping;
@@ -74,6 +76,7 @@ struct AddedModel {
   static constexpr bool kHistory = kHistory_;
   static constexpr int kVectors = kHistory ? 1 : 0, kScalars = 0, kExtra = 3 * kVectors;
   static constexpr bool kBeyondContact = false, kContactTorque = true, kHeat = false;
+  static constexpr bool kWholeArms = true;
 
   Base base;
   ClassicRolling rolling;
@@ -82,15 +85,16 @@ struct AddedModel {
 
   LSDCD_FN bool stores(int) const { return rolling.stores_vector(); }
 
-  LSDCD_FN FullForce evaluate(const Contact &c, ContactMemory<kExtra> &memory) const
+  template <class C>
+  LSDCD_FN FullForce evaluate(const C &c, ContactMemory<kExtra> &memory) const
   {
     ContactMemory<0> sliding = {memory.shear};
     FullForce out = {base.evaluate(c, sliding), {0, 0, 0}, 0};
     memory.shear = sliding.shear;
     if (rolling.is_on()) {
       const Real scale = base.scale(c);
-      const RollingInput in = {c, base.elastic.force(c, scale), out.normal, fabs(out.normal),
-                               scale * k_tangent};
+      const RollingInput<C> in = {c, base.elastic.force(c, scale), out.normal, fabs(out.normal),
+                                  scale * k_tangent};
       rolling.act(in, memory, 0, out.contact_torque, out.energy);
     }
     if (cohesion.is_on()) {
@@ -110,6 +114,7 @@ struct GranularModel {
   static constexpr int kExtra = 3 * kVectors + kScalars;
   static constexpr bool kBeyondContact = Normal::kBeyondContact;
   static constexpr bool kContactTorque = kHistory && kFull, kHeat = kFull;
+  static constexpr bool kWholeArms = false;
   static_assert(GranularRolling::kAllStore, "a law without memory has no contact torque");
 
   // Places in ContactMemory::extra.
@@ -130,7 +135,8 @@ struct GranularModel {
   }
   LSDCD_FN bool has_heat() const { return conduction.is_on(); }
 
-  LSDCD_FN FullForce evaluate(const Contact &c, ContactMemory<kExtra> &memory) const
+  template <class C>
+  LSDCD_FN FullForce evaluate(const C &c, ContactMemory<kExtra> &memory) const
   {
     const Real a =
         uses_contact_radius || elastic.uses_contact_radius() ? elastic.contact_radius(c) : 0;
@@ -147,8 +153,8 @@ struct GranularModel {
     out.contact_torque = {0, 0, 0};
     out.heat = 0;
     if constexpr (kContactTorque) {
-      rolling.act({c, f, out.normal, limit, tangential.stiffness(a)}, memory, kRolled,
-                  out.contact_torque, out.energy);
+      rolling.act(RollingInput<C>{c, f, out.normal, limit, tangential.stiffness(a)}, memory,
+                  kRolled, out.contact_torque, out.energy);
       if (twisting.is_on()) {
         const TwistCoefficients t = twisting.coefficients(
             limit, a, tangential.stiffness(a), tangential.xgammat * gamma, tangential.mu);
@@ -162,7 +168,8 @@ struct GranularModel {
   }
 
  private:
-  LSDCD_FN Vec3 friction(const Contact &c, Real a, Real gamma, Real limit,
+  template <class C>
+  LSDCD_FN Vec3 friction(const C &c, Real a, Real gamma, Real limit,
                          ContactMemory<kExtra> &memory) const
   {
     if constexpr (!kHistory) {

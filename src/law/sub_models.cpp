@@ -184,7 +184,7 @@ std::vector<SubModel> make_table()
        "rolling resistance", "spring, dashpot, slider (Luding 2008; Wang et al. 2015)"},
       {F::rolling, "cdt", at(R::cdt), kClassic, {{"MU", "1"}}, copied, kNothing, "rolling cdt",
        "constant torque (LIGGGHTS; Ai et al. 2011)"},
-      {F::rolling, "epsd2", at(R::epsd2), kClassic, {{"MU", "1"}}, copied, {"rolling torque", 3},
+      {F::rolling, "epsd2", at(R::epsd2), kClassic, {{"MU", "1"}}, copied, {"rolling torque", 3, nullptr, true},
        "rolling epsd2", "elastic-plastic spring (LIGGGHTS; Ai et al. 2011)"},
 
       {F::twisting, "none", at(W::none), kGranular, {}, copied, kNothing, "", "none"},

@@ -30,6 +30,8 @@ struct Stored {
   const char *what = nullptr;
   int beside_shear = 0;            // numbers beside the shear displacement
   const char *effect = nullptr;    // the log's name of what they are for; null: the row's
+  // Do these numbers change sign where the two spheres of a pair change places? The shear displacement does.
+  bool flips = false;
 };
 
 // A law while a script is read.

@@ -5,93 +5,12 @@
 #pragma once
 
 #include "engine/step/multi_mesh_step.h"
+#include "law/smallest_model.h"
 
-#include <iterator>
 #include <stdexcept>
 #include <type_traits>
 
 namespace lsdcd {
-
-// The classic styles: calls make(law).
-template <class Make>
-auto with_classic_law(const ContactLaw &p, Make make)
-{
-  const MassVelocityDamping damping = {p.eta};
-  const LinearHistory history = {p.k_tangent, p.gamma_tangent, p.mu};
-  if (p.is(NormalModel::hertz))
-    return make(HertzHistoryLaw{{p.k_normal}, damping, history, p.limit_damping});
-  if (p.tangential == TangentialModel::linear_history_classic)
-    return make(HookeHistoryLaw{{p.k_normal}, damping, history, p.limit_damping});
-  return make(
-      HookeLaw{{p.k_normal}, damping, LinearNoHistory{p.gamma_tangent, p.mu}, p.limit_damping});
-}
-
-// Returns a rolling model with its numbers, among those of one kernel.
-template <class Family, class Model>
-Family family_of(const Chosen<Model> &chosen)
-{
-  Family family = {chosen.model, {}};
-  for (std::size_t k = 0; k < std::size(family.numbers); k++) family.numbers[k] = chosen.numbers[k];
-  if (chosen.is_on() && !family.is_on())
-    throw std::logic_error("no compiled law has this rolling model: name it in rolling.h");
-  return family;
-}
-
-// A classic style with effects of LIGGGHTS beside it: calls make(law).
-template <class Make>
-auto with_added_law(const ContactLaw &p, const Make &make)
-{
-  return with_classic_law(p, [&](const auto &base) {
-    using Base = std::decay_t<decltype(base)>;
-    const auto rolling = family_of<ClassicRolling>(p.rolling);
-    const SjkrCohesion cohesion = {p.cohesion.numbers[0]};
-    if constexpr (!Base::kHistory)
-      if (!p.has_history())
-        return make(AddedModel<Base, false>{base, rolling, cohesion, p.k_tangent});
-    return make(AddedModel<Base, true>{base, rolling, cohesion, p.k_tangent});
-  });
-}
-
-// `granular` with one normal sub-model.
-template <bool kHistory, bool kFull, class Normal>
-GranularModel<Normal, kHistory, kFull> granular_model(const ContactLaw &p, const Normal &normal)
-{
-  const TangentialModel t = p.tangential;
-  const bool spring = t != TangentialModel::linear_nohistory,
-             mindlin = t >= TangentialModel::mindlin;
-  const bool of_force =
-      t == TangentialModel::mindlin_force || t == TangentialModel::mindlin_rescale_force;
-  const bool slip = t == TangentialModel::linear_history_slip || t == TangentialModel::mindlin_slip;
-  const bool uses_contact_radius = p.damping == DampingModel::viscoelastic || mindlin ||
-                                   p.twisting.model == TwistingModel::marshall || p.has_heat();
-  const Real *const twisting = p.twisting.numbers;
-  const GranularFriction friction = {
-      spring ? p.k_tangent : 0, p.xgammat, p.mu, spring, mindlin, of_force, p.rescales(), slip};
-  return {normal,
-          {p.damping, p.eta},
-          friction,
-          family_of<GranularRolling>(p.rolling),
-          {p.twisting.model, twisting[0], twisting[1], twisting[2]},
-          {p.heat.model, p.heat.numbers[0]},
-          uses_contact_radius,
-          p.limit_damping};
-}
-
-// `granular`: calls make(law) with the smallest law that has all that is asked for.
-template <class Make>
-auto with_granular_law(const ContactLaw &p, const Make &make)
-{
-  if (p.is(NormalModel::jkr))
-    return make(granular_model<true, true>(p, JkrNormal(p.modulus, p.surface_energy)));
-  const Real pull = p.is(NormalModel::dmt) ? 4 * kPi * p.surface_energy : 0;
-  const TouchingNormal normal = {p.normal, p.k_normal, pull};
-  const bool full = p.rolling.is_on() || p.twisting.is_on() || p.has_heat() || p.rescales();
-  if (p.has_history())
-    return full ? make(granular_model<true, true>(p, normal))
-                : make(granular_model<true, false>(p, normal));
-  return full ? make(granular_model<false, true>(p, normal))
-              : make(granular_model<false, false>(p, normal));
-}
 
 // For with_..._law(): compiles a law with the effects of the wall.
 template <class B, WallKernels kernels>

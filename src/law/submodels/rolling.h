@@ -14,13 +14,16 @@
 
 #include "law/contact.h"
 
+#include <type_traits>
+
 namespace lsdcd {
 
 enum class RollingModel { none, sds, cdt, epsd2 };
 
-// Arguments of a rolling model.
+// Arguments of a rolling model. C: Contact or PairContact.
+template <class C>
 struct RollingInput {
-  const Contact &contact;
+  const C &contact;
   Real elastic;      // normal force without damping
   Real normal;       // normal force
   Real limit;        // > 0, the force that sliding limits are proportional to
@@ -34,16 +37,19 @@ struct SdsRolling {
   static constexpr RollingModel kModel = RollingModel::sds;
   static constexpr bool kStoresVector = true;
 
-  template <class Memory>
-  LSDCD_FN static Vec3 contact_torque(const Real *n, const RollingInput &in, Memory &m, int at)
+  template <class In, class Memory>
+  LSDCD_FN static Vec3 contact_torque(const Real *n, const In &in, Memory &m, int at)
   {
-    const Contact &c = in.contact;
+    const auto &c = in.contact;
     const Real k = n[0], gamma = n[1], mu = n[2];
     const Vec3 v = c.radius * cross(c.omega, c.normal);
+    const Real limit = mu * in.limit;
     Vec3 rolled = m.vec(at);
+    if constexpr (std::decay_t<decltype(c)>::kPair)
+      if (c.update) rolled = turned_into_plane(rolled, c.normal, k, limit);
     if (c.update) rolled += c.dt * v;
     Vec3 f = -k * rolled - gamma * v;
-    const Real size = norm(f), limit = mu * in.limit;
+    const Real size = norm(f);
     if (size > limit) {
       if (norm_sq(rolled) > 0) {
         f = (limit / size) * f;
@@ -55,8 +61,8 @@ struct SdsRolling {
     m.put(at, rolled);
     return c.radius * cross(c.normal, f);
   }
-  template <class Memory>
-  LSDCD_FN static Real energy(const Real *n, const RollingInput &, const Memory &m, int at)
+  template <class In, class Memory>
+  LSDCD_FN static Real energy(const Real *n, const In &, const Memory &m, int at)
   {
     return 0.5 * n[0] * norm_sq(m.vec(at));
   }
@@ -78,16 +84,16 @@ struct CdtRolling {
   static constexpr RollingModel kModel = RollingModel::cdt;
   static constexpr bool kStoresVector = false;
 
-  template <class Memory>
-  LSDCD_FN static Vec3 contact_torque(const Real *n, const RollingInput &in, Memory &, int)
+  template <class In, class Memory>
+  LSDCD_FN static Vec3 contact_torque(const Real *n, const In &in, Memory &, int)
   {
-    const Contact &c = in.contact;
+    const auto &c = in.contact;
     const Real spin = norm(c.omega);
     if (!(spin > 0)) return {0, 0, 0};
     return (-n[0] * in.elastic * c.radius / spin) * rolling_part(c.omega, c.normal);
   }
-  template <class Memory>
-  LSDCD_FN static Real energy(const Real *, const RollingInput &, const Memory &, int)
+  template <class In, class Memory>
+  LSDCD_FN static Real energy(const Real *, const In &, const Memory &, int)
   {
     return 0;
   }
@@ -100,10 +106,10 @@ struct Epsd2Rolling {
   static constexpr RollingModel kModel = RollingModel::epsd2;
   static constexpr bool kStoresVector = true;
 
-  template <class Memory>
-  LSDCD_FN static Vec3 contact_torque(const Real *n, const RollingInput &in, Memory &m, int at)
+  template <class In, class Memory>
+  LSDCD_FN static Vec3 contact_torque(const Real *n, const In &in, Memory &m, int at)
   {
-    const Contact &c = in.contact;
+    const auto &c = in.contact;
     Vec3 held = m.vec(at);
     if (c.update) {
       const Real stiff = in.k_tangent * c.radius * c.radius;
@@ -115,8 +121,8 @@ struct Epsd2Rolling {
     m.put(at, held);
     return held;
   }
-  template <class Memory>
-  LSDCD_FN static Real energy(const Real *, const RollingInput &in, const Memory &m, int at)
+  template <class In, class Memory>
+  LSDCD_FN static Real energy(const Real *, const In &in, const Memory &m, int at)
   {
     const Real stiff = in.k_tangent * in.contact.radius * in.contact.radius;
     return stiff > 0 ? 0.5 * norm_sq(m.vec(at)) / stiff : 0;
@@ -138,15 +144,15 @@ struct Rolling {
     return ((model == Models::kModel && Models::kStoresVector) || ...);
   }
   // Adds to the contact torque and to the energy; nothing if no model is on.
-  template <class Memory>
-  LSDCD_FN void act(const RollingInput &in, Memory &m, int at, Vec3 &torque, Real &energy) const
+  template <class In, class Memory>
+  LSDCD_FN void act(const In &in, Memory &m, int at, Vec3 &torque, Real &energy) const
   {
     (act_as<Models>(in, m, at, torque, energy), ...);
   }
 
  private:
-  template <class Model, class Memory>
-  LSDCD_FN void act_as(const RollingInput &in, Memory &m, int at, Vec3 &torque, Real &energy) const
+  template <class Model, class In, class Memory>
+  LSDCD_FN void act_as(const In &in, Memory &m, int at, Vec3 &torque, Real &energy) const
   {
     // A kernel without memory is for models without history.
     if constexpr (Memory::kSize > 0 || !Model::kStoresVector)

@@ -95,10 +95,12 @@ struct GranularFriction {
     if (a < m.extra[at]) m.shear = (a / m.extra[at]) * m.shear;
     m.extra[at] = a;
   }
-  template <class Memory>
-  LSDCD_FN Vec3 spring_force(const Contact &c, Real a, Real damping, Real limit, Memory &m) const
+  template <class C, class Memory>
+  LSDCD_FN Vec3 spring_force(const C &c, Real a, Real damping, Real limit, Memory &m) const
   {
     const Real stiff = stiffness(a);
+    if constexpr (C::kPair)
+      if (c.update) m.shear = turned_into_plane(m.shear, c.normal, of_force ? 1 : stiff, limit);
     if (c.update) m.shear += (of_force ? -stiff * c.dt : c.dt) * c.v_tangent;
 
     const Vec3 viscous = (-xgammat * damping) * c.v_tangent;
