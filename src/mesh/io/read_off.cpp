@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// OFF, Geomview's Object File Format, as text: a header with counts, a line for each vertex, a line for each face.
+// OFF, Geomview's Object File Format, as text: a header with counts, then vertices and faces. What follows the numbers of
+// one in its line is its colour.
 #include "base/input_error.h"
 #include "base/number_words.h"
 #include "mesh/io/cut_polygon.h"
@@ -143,6 +144,24 @@ class OffReader {
     return static_cast<std::size_t>(count);
   }
 
+  // Where a vertex or a face goes on in another line: the last word of its first line, and how many it had there.
+  struct LineEnd {
+    std::string_view word;
+    std::size_t n = 0;
+    bool passed() const { return !word.empty(); }
+  };
+
+  // Returns the next word of a vertex or a face, in this line or after it, behind `last`, which is the n-th; empty: the file
+  // ends. Nothing may follow in the line where one ends that goes over several, so that a line that lacks a number is told
+  // from these.
+  std::string_view next_of_record(std::string_view last, std::size_t n, LineEnd &line)
+  {
+    auto word = words_.word_in_line();
+    if (!word.empty()) return word;
+    if (!line.passed()) line = {last, n};
+    return words_.next_word();
+  }
+
   // x y z, what the header's word says, and perhaps a colour of 3 or 4 numbers, or its number in a list.
   void read_vertex()
   {
@@ -150,24 +169,30 @@ class OffReader {
     Real number[kMost];
     std::size_t n = 0;
     const auto place = [&] { return "vertex " + std::to_string(vertices_.size() + 1); };
-    auto last = words_.next_word();
-    if (last.empty()) fail_ended(last, place(), "the file ends");
-    for (auto word = last; !word.empty(); word = words_.word_in_line(), n++) {
-      last = word;
-      if (n >= kMost) continue;
-      number[n] = words_.number(word, [&] {
-        return (n < 3 ? std::string("coordinate ") + "xyz"[n] : "number " + std::to_string(n + 1)) +
-               " of " + place();
-      });
-    }
     const std::size_t least =
         3 + (header_.weight ? 1 : 0) + (header_.normal ? 3 : 0) + (header_.texture ? 2 : 0);
+    auto last = words_.next_word();
+    if (last.empty()) fail_ended(last, place(), "the file ends");
+    LineEnd line;
+    for (auto word = last; !word.empty(); n++) {
+      last = word;
+      if (n < kMost)
+        number[n] = words_.number(word, [&] {
+          return (n < 3 ? std::string("coordinate ") + "xyz"[n]
+                        : "number " + std::to_string(n + 1)) +
+                 " of " + place();
+        });
+      word = n + 1 < least ? next_of_record(last, n + 1, line) : words_.word_in_line();
+    }
     const std::size_t more = n - least;
-    if (n < least || !(more == 0 || more == 3 || more == 4 || (more == 1 && header_.colour))) {
-      const std::string what = "it has " + counted(n, "number") + " in its line, not " +
-                               std::to_string(least) + " and perhaps a colour";
-      if (words_.file_ends_with(last)) fail_ended(last, place(), what);
-      words_.fail(last, what, "correct the line, or the counts in the header", place());
+    if (n < least || (line.passed() && more > 0) ||
+        !(more == 0 || more == 3 || more == 4 || (more == 1 && header_.colour))) {
+      const std::string what = "it has " + counted(line.passed() ? line.n : n, "number") +
+                               " in its line, not " + std::to_string(least) +
+                               " and perhaps a colour";
+      if (n < least) fail_ended(last, place(), what);
+      words_.fail(line.passed() ? line.word : last, what,
+                  "correct the line, or the counts in the header", place());
     }
     const Real weight = header_.weight ? number[3] : 1;
     const Vec3 x = {number[0] / weight, number[1] / weight, number[2] / weight};
@@ -192,22 +217,31 @@ class OffReader {
                   "correct the line or export the mesh again", face());
     polygon_.clear();
     auto last = first;
+    LineEnd line;
+    const auto too_few = [&](std::size_t corners) {
+      return "it has " + counted(static_cast<std::int64_t>(corners), "corner") + ", not " +
+             quoted(first);
+    };
+    // Corners in other lines wait until nothing follows them there.
+    waiting_.clear();
     for (std::int64_t corner = 1; corner <= n; corner++) {
-      const auto word = words_.word_in_line();
-      if (word.empty()) {
-        const std::string what =
-            "it has " + counted(corner - 1, "corner") + ", not " + quoted(first);
-        if (words_.file_ends_with(last)) fail_ended(last, face(), what);
-        words_.fail(last, what, "correct the line or export the mesh again", face());
-      }
+      const auto word = next_of_record(last, polygon_.size() + waiting_.size(), line);
+      if (word.empty()) fail_ended(last, face(), too_few(polygon_.size() + waiting_.size()));
       last = word;
-      polygon_.push_back(vertices_[read_corner(word)]);
+      if (line.passed())
+        waiting_.push_back(word);
+      else
+        polygon_.push_back(vertices_[read_corner(word)]);
     }
     std::size_t more = 0;
     for (auto word = words_.word_in_line(); !word.empty(); word = words_.word_in_line(), more++) {
+      if (line.passed())
+        words_.fail(line.word, too_few(line.n), "correct the line or export the mesh again",
+                    face());
       last = word;
       words_.number(word, [&] { return "the colour of " + face(); });
     }
+    for (const auto word : waiting_) polygon_.push_back(vertices_[read_corner(word)]);
     if (more == 2 || more > 4)
       words_.fail(last,
                   std::to_string(more) + " numbers follow its " + counted(n, "corner") +
@@ -247,6 +281,7 @@ class OffReader {
   OffHeader header_;
   std::size_t n_vertices_ = 0, n_faces_ = 0;
   std::vector<Vec3> vertices_, polygon_;
+  std::vector<std::string_view> waiting_;
   PolygonCutter cutter_;
   std::size_t faces_ = 0;
 };

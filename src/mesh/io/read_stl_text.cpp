@@ -20,6 +20,19 @@ bool is_stl_word(std::string_view word)
   return false;
 }
 
+// Returns the first "solid" that begins a line, in front of which no line begins with another word of STL;
+// empty: there is none.
+std::string_view first_solid(const char *bytes, std::size_t size)
+{
+  TextWords words(bytes, size, "");
+  auto word = words.next_word();
+  for (; !word.empty() && !same_word(word, "solid"); word = words.next_word()) {
+    if (is_stl_word(word)) return {};
+    words.skip_line();
+  }
+  return word;
+}
+
 class Reader {
  public:
   Reader(const char *bytes, std::size_t size, TriangleSoup &soup) :
@@ -32,11 +45,11 @@ class Reader {
     bool in_stl = false;
     for (auto word = words_.next_word(); !word.empty(); word = words_.next_word()) {
       const bool solid = same_word(word, "solid");
-      // Text after an endsolid is ignored, but STL words there are lost facets.
-      if (!solid && (!in_stl || is_stl_word(word))) fail_word(word, "'solid'");
+      // Text before a solid and after an endsolid is ignored, but STL words there are lost facets.
+      if (!solid && (in_stl ? is_stl_word(word) : !is_stl_)) fail_word(word, "'solid'");
       words_.skip_line();
       if (solid) read_solid();
-      in_stl = true;
+      in_stl = in_stl || solid;
     }
   }
 
@@ -126,7 +139,7 @@ class Reader {
 
   TextWords words_;
   TriangleSoup &soup_;
-  bool is_stl_;              // it begins so
+  bool is_stl_;              // it has a solid
   std::size_t facet_ = 1;    // the one being read, for messages
 };
 
@@ -134,13 +147,14 @@ class Reader {
 
 bool begins_with_solid(const char *bytes, std::size_t size)
 {
-  return same_word(TextWords(bytes, size, "").next_word(), "solid");
+  return !first_solid(bytes, size).empty();
 }
 
 bool begins_as_stl_text(const char *bytes, std::size_t size)
 {
-  TextWords words(bytes, size, "");
-  if (!same_word(words.next_word(), "solid")) return false;
+  const auto solid = first_solid(bytes, size);
+  if (solid.empty()) return false;
+  TextWords words(solid.data(), static_cast<std::size_t>(bytes + size - solid.data()), "");
   words.skip_line();
   const auto word = words.next_word();
   return same_word(word, "facet") || same_word(word, "endsolid");
