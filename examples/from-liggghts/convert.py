@@ -48,6 +48,7 @@ def main():
     try:
         script = Script(a.script, a)
         text = script.convert()
+        script.write_files()
     except (CannotConvert, OSError) as error:
         sys.exit(f"convert.py: {error}\nNothing was written.")
     if a.out:

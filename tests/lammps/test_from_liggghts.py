@@ -623,6 +623,159 @@ def test_words(folder):
     fact("--help teaches", all(w in help_text for w in ("LEFT", "NOTE", "--radius", "from-liggghts.md")))
 
 
+# Lines that are converted, with whatever is known of what they name; NAMES, numbers and texts are not words of a command.
+LINES = """\
+units si
+atom_style granular
+atom_modify map array sort 0 0.1
+boundary f p m
+newton off
+processors * 2 1 map xyz
+communicate single vel yes group A
+communicate multi cutoff 0.1
+neighbor 0.1 bin
+neigh_modify delay 0 every 1 check yes exclude group A B one 100 page 1000 binsize 0.1
+dimension 3
+echo both
+log A1 append
+units cgs
+hard_particles yes
+soft_particles yes
+modify_timing on
+package omp 2 force/neigh thread-binding verbose
+partitioner_style zoltan A1 1
+region A block 0 1 0 1 INF EDGE units box side out
+region A cylinder z 0 0 1 0 1 move v_A NULL NULL
+region A union 2 B C side in
+region A delete
+create_box 1 R
+lattice sc 0.1 origin 0 0 0 orient x 1 0 0
+create_atoms 1 region R units box
+create_atoms 1 single 0 0 0 units box remap yes
+create_atoms 1 random 9 1 R
+change_box all x final 0 1 y scale 2 boundary p p f units box
+delete_atoms region R compress yes
+delete_atoms overlap 0.1 A B
+displace_atoms all move 0 0 1 units box
+displace_atoms all random 0 0 1 7 units box
+group A type <= 2
+group A id 1:3 7
+group A subtract B C
+mass 1 2.0
+timestep 1e-5
+thermo 100
+thermo_style custom step atoms ke
+thermo_modify lost ignore norm no flush yes
+run 10 upto
+run 10 start 0 stop 20 pre no post no
+run 10 every 5 "print 'A'"
+reset_timestep 0
+restart 100 A1 A2
+velocity all set 0 NULL 1 sum no units box
+velocity all create 300 7 dist gaussian loop all
+velocity all zero linear
+variable A equal step*dt+sqrt(2)
+variable A equal ke(all)+bound(all,xmin)
+variable A index A1 A2
+variable A loop 1 3 pad
+variable A getenv A1
+print "A" append A1 screen no
+if "1 > 0" then "print A" "run 1 post no"
+set group all type 1 diameter 0.1 density 2500 vx 0 omega 0 0 1
+write_data A1 pair ii
+write_restart A1
+write_dump all custom A1 id x vx
+minimize 1 1 1 1
+replicate 1 1 1
+pair_style gran model hertz tangential history tangential_damping on limitForce on
+fix A all nve/sphere update dipole
+fix A all nve
+fix A all gravity 9.81 vector 0 0 -1
+fix A all gravity 9.81 chute 10
+fix A all freeze
+fix A all viscous 0.1 scale 1 2
+fix A all momentum 10 linear 1 1 0 angular
+fix A all setforce 0 NULL v_A region R
+fix A all addforce 0 0 1 region R
+fix A all aveforce 0 0 v_A region R
+fix A all move linear 0 0 1 units box
+fix A all move wiggle 0 0 1 2
+fix A all adapt 1 atom diameter v_A
+fix A all print 10 "A" file A1 screen no title A
+fix A all ave/time 1 10 10 c_thermo_temp file A1 mode scalar ave running start 10
+fix A all ave/histo 1 10 10 0 1 10 vx mode vector beyond end file A1
+fix A all spring tether 1 0 0 NULL 0.1
+fix A all spring/self 1 xy
+fix A all rigid group 1 A force 1 on on off torque 1 off off on
+fix A all deform 1 x scale 2 y vel 0.1 remap x units box
+fix A all balance 9 xy 20 1.1
+fix A all check/timestep/gran 100 0.1 0.1 warn no error no vmax 1
+fix A all property/global youngsModulus peratomtype 1e7
+fix A all property/global coefficientFriction atomtypepair 1 0.4
+fix A all property/global characteristicVelocity scalar 2
+compute A all ke
+compute A all reduce sum vx fy v_A replace 1 2
+compute A all reduce/region R max x
+compute A all property/atom id omegax
+compute A all coord/atom 0.1
+compute A all msd com yes
+compute_modify A dynamic yes extra 0
+dump A all custom 9 A1 id type x vx omegaz
+dump A all custom/vtk 9 A1 id radius
+dump A all mesh/stl 9 A1*.stl cad local
+dump A all mesh/vtk 9 A1*.vtk id stress output face cad
+dump A all image 9 A1 type radius zoom 2 view 60 30 box no 0
+dump_modify A append yes pad 8 sort id first yes thresh x > 1
+fix A all mesh/surface file A.stl type 1 scale 2 move 0 0 1 rotate axis 0 0 1 angle 30 heal auto_remove_duplicates curvature 1 verbose yes precision 1e-5
+fix A all mesh/surface/stress file A.stl type 1 surface_vel 1 0 0 reference_point 0 0 0 wear off stress on curvature_tolerant yes
+fix A all mesh/surface file A.stl type 1 surface_ang_vel origin 0 0 0 axis 0 0 1 omega 2
+fix A all mesh/surface file A.stl type 1 min_feature_length 0.1 element_exclusion_list write A1
+fix A all mesh/surface/stress/servo file A.stl type 1 com 0 0 0 ctrlPV force axis 0 0 1 target_val 1 vel_max 1 kp 1 ki 0 kd 0 mode auto ratio 0.1
+fix A all wall/gran model hertz tangential history mesh n_meshes 1 meshes cad store_force yes limitForce on
+fix A all wall/gran model hertz tangential history primitive type 1 zplane 0 shear x 1
+fix A all move/mesh mesh cad linear 0 0 1
+fix A all move/mesh mesh cad rotate origin 0 0 0 axis 0 0 1 period 2
+fix A all move/mesh mesh cad riggle origin 0 0 0 axis 0 0 1 period 2 amplitude 5
+fix A all move/mesh mesh cad viblin axis 0 0 1 order 1 amplitude 1 phase 0 period 1
+fix A all massflow/mesh mesh flat vec_side 0 0 1 count once delete_atoms yes screen no writeTime
+fix A all particletemplate/sphere 7 atom_type 1 density constant 2500 radius constant 0.002 volume_limit 1e-12
+fix A all particledistribution/discrete 7 2 p1 0.5 p2 0.5
+fix A all insert/pack seed 7 distributiontemplate d maxattempt 9 insert_every once overlapcheck yes all_in yes vel constant 0 0 1 omega constant 0 0 0 region R particles_in_region 9 verbose no orientation random
+fix A all insert/rate/region seed 7 distributiontemplate d nparticles INF particlerate 9 every 10 vel uniform 0 0 1 0.1 0.1 0.1 region R warn_region no
+fix A all insert/stream seed 7 distributiontemplate d massrate 9 insert_every 10 random_distribute exact insertion_face flat extrude_length 0.1 parallel yes
+"""
+AROUND = MATERIAL + ONE + MESH.format("") + "fix flat all mesh/surface file flat.stl type 1\nregion R block 0 1 0 1 0 1\ncreate_box 1 R\ncompute A all ke\n"
+OPEN = ("group A subtract", "run 10 every", "variable A index", "shell")    # which end in any number of names
+
+
+def test_every_word_is_read(folder):
+    """A command is converted where each of its words was read: one that LIGGGHTS does not have is left, as is its command."""
+    stl.write(folder / "flat.stl", FLAT)
+    n_words, wrong = 0, []
+    for line in LINES.splitlines():
+        around = AROUND + WALL * ("wall/gran" not in line) + "dump A all custom 9 A id\n" * line.startswith("dump_")
+        done, out = convert(folder, around + line + "\n")
+        if out is None or "# LEFT" in out:
+            wrong.append(f"left: {line}: {done.stderr}")
+        words, misspelt = line.split(), []
+        for k, word in enumerate(words):
+            if not re.fullmatch(r"[a-z_/*]{2,}|INF|EDGE|NULL|[a-zA-Z]+Force|ctrlPV|youngs\w+|coeff\w+|charac\w+|n_meshes", word) or word in (
+                    "all", "cad", "flat") or word[:2] in ("v_", "c_"):
+                continue
+            misspelt.append(" ".join(words[:k] + [f"{word}x"] + words[k + 1:]))
+        n_words += len(misspelt)
+        misspelt += [f"{line} more"] * (not line.startswith(OPEN))
+        # All in one script, or, where it is refused, each in its own.
+        first, (done, out) = around.count("\n") + 1, convert(folder, around + "\n".join(misspelt) + "\n")
+        alone = [convert(folder, f"{around}{other}\n")[1] for other in misspelt if done.returncode == 1]
+        for n, other in enumerate(misspelt):
+            text, at = (out, first + n) if done.returncode != 1 else (alone[n], first)
+            if text is not None and f"# LEFT in.there:{at}:" not in text:
+                wrong.append(f"not left: {other}")
+    fact(f"{n_words} words of {len(LINES.splitlines())} lines, each misspelt: the line is left", n_words > 300 and not wrong, "\n".join(wrong))
+    (folder / "flat.stl").unlink()
+
+
 def test_two_materials(folder):
     """Grains of one type on a wall of another: E and nu of the one material whose contact with itself is theirs."""
     both = """\
@@ -791,10 +944,6 @@ def test_whole_scripts(folder):
     done, out = convert(folder, MATERIAL + MESH.format("").replace("a.stl", "a.vtk") + WALL + "timestep 1e-5\n")
     fact("a wall whose only mesh is left is left, and the rest is there", done.returncode == 3 and out.count("\n# LEFT") == 2 and
          "LEFT in.there:6: the mesh cad, which is not converted" in out and "\ntimestep 1e-5\n" in out, done.stderr)
-    (folder / "a.stl").write_text("# a box\nsolid a\nendsolid a\n")
-    _, out = convert(folder, MATERIAL + MESH.format("") + WALL)
-    fact("an STL file that begins with a comment", "LEFT in.there:5: the file a.stl, which begins with a comment" in out)
-    (folder / "a.stl").unlink()
     for what, text, noted in (("with friction and damping", MATERIAL, True), ("that is elastic", MATERIAL.replace("pair 1 0.5", "pair 1 1"), False),
                               ("without friction", MATERIAL.replace("pair 1 0.4", "pair 1 0"), False)):
         _, out = convert(folder, text + MESH.format("") + WALL)
@@ -971,6 +1120,23 @@ PHYSICS = {
                   "set group all diameter 0.008 density 2500\nvariable n equal count(all,box1)\nvariable m equal atoms\n"
                   "region box1 block 0 0.1 0 0.1 0 0.1 units box\nfix ins all insert/pack seed 32452843 distributiontemplate d1 insert_every "
                   "once all_in yes particles_in_region 300 region box1\nrun 1\n", "${n} ${m}", [(300, 300), (301, 301)]),
+    # A class of the size distribution without a share: all grains have the radius of the other.
+    "no_share": (HERTZ, POUR + "fix p2 all particletemplate/sphere 15485867 atom_type 1 density constant 2500 radius constant 0.006\n"
+                 "fix d2 all particledistribution/discrete 32452843 2 p1 1.0 p2 0.0\nregion box1 block 0 0.1 0 0.1 0 0.1 units box\n"
+                 "fix ins all insert/pack seed 32452867 distributiontemplate d2 insert_every once all_in yes particles_in_region 50 region box1\n"
+                 "run 1\nvariable m equal mass(all)/50\n", "${m}", [(MASS * 0.4**3 - 1e-9, MASS * 0.4**3 + 1e-9)]),
+    # The second triangle of the floor is not there: the grain above it falls, the other lies.
+    "excluded": (HERTZ, "create_atoms 1 single 0.2 0 0.0105 units box\ncreate_atoms 1 single 0 0.2 0.0105 units box\nset group all diameter 0.02 density 2500\n"
+                 "fix g all gravity 9.81 vector 0 0 -1\nfix cad all mesh/surface file flat.stl type 1 element_exclusion_list read without.txt\n"
+                 "fix w all wall/gran model MODEL mesh n_meshes 1 meshes cad\nvariable a equal z[1]\nvariable b equal z[2]\nrun 8000\n",
+                 "${a} ${b}", [(0.0099, 0.0101), (0.0105 - 0.0314 - 1e-4, 0.0105 - 0.0314 + 1e-4)]),
+    # Which grains are copied to other processes is no physics.
+    "multi": ("hertz", "communicate multi vel yes\n" + slide(0.5) + "run 2000\n", "${vx}", [(0.5, 0.5)]),
+    # Other words for the kinds of a property: an impact with e = 0.3, and a grain that slides with mu = 0.4.
+    "kinds": (HERTZ, "create_atoms 1 single 0 0 0.0099 units box\ncreate_atoms 1 single 0.2 0 0.0105 units box\nset group all diameter 0.02 density 2500\n"
+              "group a id 1\nvelocity a set 1 0 0 units box\ngroup b id 2\nvelocity b set 0 0 -1 units box\nfix cad all mesh/surface file flat.stl type 1\n"
+              "fix w all wall/gran model MODEL mesh n_meshes 1 meshes cad\nfix g a gravity 9.81 vector 0 0 -1\nvariable v equal vz[2]\nvariable s equal vx[1]\n"
+              "run 2000\n", "${v} ${s}", [(0.29, 0.31), (0.98 * (1 - 0.4 * 9.81 * 0.02), 1.02 * (1 - 0.4 * 9.81 * 0.02))]),
     # Whole grains in the region, and in the box.
     "all_in": (HERTZ, POUR + EDGES + "region box1 block 0 0.1 0 0.1 0 0.1 units box\nfix ins all insert/pack seed 32452843 "
                "distributiontemplate d1 insert_every once all_in yes particles_in_region 300 region box1\nrun 1\n", ALL_EDGES, IN_0_1),
@@ -1002,10 +1168,14 @@ PHYSICS = {
 def physics(folder, there=False):
     stl.write(folder / "flat.stl", FLAT)
     stl.write(folder / "slope.stl", [[(x, y, x) for x, y, _ in t] for t in FLAT])
+    (folder / "without.txt").write_text("9\n")    # the line of the second facet
     for name, (model, text, shown, bounds) in PHYSICS.items():
         if there and "6dof" in text:
             continue
         box = BOX.replace("peratomtypepair 1 0.3", "peratomtypepair 1 1") if "6dof" in text else BOX
+        for old, new in (("peratomtypepair 1 0.3", "atomtypepair 1 0.3"), ("peratomtypepair", "matrix"), ("peratomtype 5e6", "atomtype 5e6"),
+                         ("peratomtype", "vector")) if name == "kinds" else ():
+            box = box.replace(old, new)
         script = (box + text).replace("MODEL", model) + f'print "{name} is {shown}"\n'
         if there:
             (folder / "in.there").write_text(script)

@@ -8,11 +8,20 @@ from pathlib import Path
 from .errors import Left
 
 MESH_DUMPS = {"mesh/stl", "stl", "mesh/vtk", "mesh/vtm", "mesh/gran/VTK"}
-SAME_DUMPS = {"atom", "xyz", "image", "local", "custom", "movie"}
-MESH_FIELDS = set("""aedges area acorners distaa id interpolate nneigh nneighs overlap owner stress stresscomponents temp vel
-wear""".split())    # words of dump mesh/vtk that are no IDs of meshes
+MESH_FIELDS = {"id", "stress", "stresscomponents", "wear"}    # words of dump mesh/vtk that are no IDs of meshes
+GONE_FIELDS = set("""aedges area acorners contact_area contact_area_step distaa face_id nneigh nneighs overlap owner pt1 pt2 pt3 temp vel""".split())
 COLUMNS = set("""angmomx angmomy angmomz diameter element fx fy fz id ix iy iz mass mol mu mux muy muz omegax omegay omegaz proc q
 radius tqx tqy tqz type vx vy vz x xs xsu xu y ys ysu yu z zs zsu zu""".split())    # of dump custom in both
+GONE_COLUMNS = set("""blockiness1 blockiness2 density eradius erforce ervel id_multisphere inertiax inertiay inertiaz p quat1 quat2 quat3 quat4 rho
+roundness1 roundness2 shapex shapey shapez spin thread""".split())    # of LIGGGHTS alone
+OF_PICTURES = f"""(OUTPUT|{'|'.join(sorted(COLUMNS))}) (OUTPUT|{'|'.join(sorted(COLUMNS))}) [adiam NUMBER] [atom|box|axes|shiny|ssao YES|NUMBER NUMBER? NUMBER?] [bond NAME NAME]
+[size COUNT COUNT] [view VALUE VALUE] [center s|d VALUE VALUE VALUE] [up VALUE VALUE VALUE] [zoom VALUE] [persp VALUE]""".replace("\n", " ")
+DUMPS = {"atom": "", "xyz": "", "local": "(index|OUTPUT)+", "image": OF_PICTURES, "movie": OF_PICTURES}
+DUMP_MODIFY = "NAME [append|first|flush|image|scale|unwrap YES] [element NAME+] [every COUNT|VARIABLE] [fileper|nfile|pad COUNT] [label TEXT] [region NAME|none] " \
+              "[sort off|id|COUNT] [thresh NAME <|<=|>|>=|==|!= NUMBER] [thresh none]"
+# Of a dump that becomes text.
+TEXT_DUMP_WORDS = {**dict.fromkeys("append binary first flush unwrap".split(), "YES"), "every": "COUNT|VARIABLE", "sort": "off|id|COUNT", "pad": "COUNT",
+                   "element": "NAME+", "region": "NAME|none", "thresh": "NAME <|<=|>|>=|==|!= NUMBER", "compressor": "NAME"}
 
 
 class Dumps:
@@ -40,8 +49,9 @@ class Dumps:
     def dumped_meshes(line):
         """The IDs that a dump of meshes names; none: all meshes."""
         w = line.words
-        return [x for k, x in enumerate(w[6:], 6) if x not in ("local", "owned", "ghost", "region") and w[k - 1] != "region" and
-                (w[3] in ("mesh/stl", "stl") or x not in MESH_FIELDS)]
+        if w[3] in ("mesh/stl", "stl"):
+            return [x for x in w[6:] if x not in ("all", "binary", "local", "owned", "ghost")]
+        return [x for k, x in enumerate(w[6:], 6) if x != "output" and w[k - 1] != "output" and x not in MESH_FIELDS | GONE_FIELDS]
 
     def mesh_dump(self, line):
         """The text in place of a dump of meshes, when all walls are known."""
@@ -54,12 +64,15 @@ class Dumps:
                 why, do = "a second dump of a mesh", f"one of both: a mesh has one {keyword}"
             self.left.append(f"{self.at(line)}: {why}; do: {do}")
             return f"# LEFT {self.left[-1]}\n" + "\n".join("# " + t for t in line.text.splitlines())
-        return f"# dump {w[1]}: see {'mesh_stl' if 'stl' in w[3] else 'mesh_fields'} of the wall"
+        gone = " ".join(x for x in w[6:] if x in GONE_FIELDS) if "stl" not in w[3] else ""
+        return f"# dump {w[1]}: see {'mesh_stl' if 'stl' in w[3] else 'mesh_fields'} of the wall" + (
+            f"\n# NOTE {self.at(line)}: without {gone}, which is not here" if gone else "")
 
     def dump(self, line):
         w = line.words
         self.texts.discard(w[1])
         if line in self.dumps:
+            self.read_mesh_dump(line)
             self.gone[w[1]] = Left("a file of the wall", "nothing")
             self.put(line)
         elif w[3] in ("custom/vtk", "atom/vtk"):
@@ -70,7 +83,8 @@ class Dumps:
             self.note(line, "text in place of VTK; dump vtk has the same words where LAMMPS has the package VTK")
         elif w[3] == "custom":
             self.put(self.renamed(line, " ".join(w[:6] + self.columns(line, w[6:]))))
-        elif w[3] in SAME_DUMPS:
+        elif w[3] in DUMPS:
+            self.read(line, f"dump {w[3]}", DUMPS[w[3]], 6)
             self.put(self.renamed(line, line.text))
         elif w[3] == "decomposition/vtk" or w[3] in MESH_DUMPS:
             self.plain.add(w[1])
@@ -79,8 +93,21 @@ class Dumps:
         else:
             raise Left(f"dump {w[3]}", "dump custom, or mesh_fields of the wall")
 
+    def read_mesh_dump(self, line):
+        """Raises Left for a word of a dump of meshes that is not known, and for parts of meshes."""
+        w = line.words
+        if w[3] in ("mesh/stl", "stl"):
+            if "region" in w[6:]:
+                raise Left("a dump of the part of a mesh in a region", "mesh_stl of the wall, which writes the whole mesh")
+        else:
+            for k, x in enumerate(w[6:], 6):
+                if w[k - 1] == "output" and x not in ("face", "interpolate", "original"):
+                    raise Left(f"output {x}", "face")
+
     def columns(self, line, words):
         kept = [x for x in words if x in COLUMNS or "$" in x or (x[:2] in ("f_", "c_", "v_") and self.is_here(x))]
         for name in (x for x in words if x not in kept):
+            if name not in GONE_COLUMNS and name[:2] not in ("f_", "c_", "v_", "i_", "d_"):
+                raise Left(f"the word {name} of a dump", "a word that both programs have")
             self.note(line, f"without {name}, which is not here")
         return kept

@@ -4,7 +4,11 @@
 """fix massflow/mesh."""
 from .errors import Left
 from .geometry import cross, dot, minus
-from .lines import is_yes, options
+from .forms import options
+from .lines import is_yes
+
+FLOW_WORDS = {"mesh": "NAME", "vec_side": "NUMBER NUMBER NUMBER", "count": "once|multiple", "delete_atoms": "YES", "file": "FILE", "append": "FILE",
+              "writeTime": "", "screen": "YES", "point_at_outlet": "NUMBER NUMBER NUMBER", "inside_out": ""}
 
 
 class Flows:
@@ -18,8 +22,7 @@ class Flows:
 
     def massflow(self, line):
         w = line.words
-        v = options(w[4:], {"mesh": 1, "vec_side": 3, "count": 1, "delete_atoms": 1, "file": 1, "append": 1, "writeTime": 0,
-                            "screen": 1, "point_at_outlet": 3, "inside_out": 0, "sum_property": 1})
+        v = options(w[4:], FLOW_WORDS)
         mesh = self.meshes.get(v["mesh"][0])
         if mesh is None:
             raise Left("massflow/mesh through a mesh that is not converted", "fix massflow/lsdcd mesh FILE")
@@ -36,10 +39,7 @@ class Flows:
         if delete and not forward:
             raise Left("delete_atoms where the mesh is wound against vec_side",
                        "turn its triangles over: only what passes forward is deleted")
-        count = v.get("count", ["multiple"])[0]
-        if count not in ("once", "multiple"):
-            raise ValueError("count")
-        count = {"once": "once", "multiple": "each"}[count]
+        count = {"once": "once", "multiple": "each"}[v.get("count", ["multiple"])[0]]
         self.put(f"fix             {w[1]} {w[2]} massflow/lsdcd mesh {mesh.file}{mesh.placement()} count {count}" +
                  " delete yes" * delete)
         if not forward:

@@ -9,14 +9,48 @@ import struct
 from .errors import CannotConvert
 
 
-def read_stl(path):
-    """Triangles of a text or binary STL file."""
-    data = path.read_bytes()
-    if len(data) >= 84 and len(data) == 84 + 50 * struct.unpack_from("<I", data, 80)[0]:
+def is_binary_stl(data):
+    return len(data) >= 84 and len(data) == 84 + 50 * struct.unpack_from("<I", data, 80)[0]
+
+
+def read_stl(data):
+    """Triangles of the bytes of a text or binary STL file."""
+    if is_binary_stl(data):
         rows = (struct.unpack_from("<9f", data, 84 + 50 * k + 12) for k in range((len(data) - 84) // 50))
         return [(r[:3], r[3:6], r[6:]) for r in rows]
     points = [tuple(map(float, p)) for p in re.findall(r"vertex\s+(\S+)\s+(\S+)\s+(\S+)", data.decode(errors="replace"))]
     return list(zip(points[::3], points[1::3], points[2::3]))
+
+
+def without_facets(data, numbers):
+    """The bytes of an STL file without the facets that a list of LIGGGHTS names, and how many these are: by the lines of `facet` in
+    text, by the records in binary. Both are passed once, in order: behind a number that names no facet no other is found."""
+    waiting, kept, facet, out = sorted(set(numbers)), [], [], 0
+    if is_binary_stl(data):
+        records = [data[k:k + 50] for k in range(84, len(data), 50)]
+        for count, record in enumerate(records, 1):
+            if waiting[:1] == [count]:
+                waiting.pop(0)
+            else:
+                kept.append(record)
+        return data[:80] + struct.pack("<I", len(kept)) + b"".join(kept), len(records) - len(kept)
+    first = 0
+    for number, line in enumerate(data.splitlines(keepends=True), 1):
+        word = line.split()[:1]
+        if word == [b"facet"]:
+            first = number
+        if not first:
+            kept.append(line)
+            continue
+        facet.append(line)
+        if word == [b"endfacet"]:
+            if waiting[:1] == [first]:
+                waiting.pop(0)
+                out += 1
+            else:
+                kept += facet
+            first, facet = 0, []
+    return b"".join(kept + facet), out
 
 
 def cross(a, b):

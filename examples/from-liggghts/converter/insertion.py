@@ -7,7 +7,12 @@ import re
 
 from .errors import Left
 from .geometry import short
-from .lines import commands_in, is_yes, options
+from .forms import options
+from .lines import commands_in, is_yes
+
+# Whether the numbers of a distribution are shares of the mass or of the number.
+DISTRIBUTIONS = {"particledistribution/discrete": "mass", "particledistribution/discrete/massbased": "mass",
+                 "particledistribution/discrete/numberbased": "poly"}
 
 
 class Insertion:
@@ -24,7 +29,7 @@ class Insertion:
         axis = w[3] if w[2] == "cylinder" else ""
         v = [self.known(x, where) for x in w[3 + len(axis):3 + n]]
         try:
-            rest = options(w[3 + n:], {"units": 1, "side": 1, "seed": 1, "volume_limit": 1})
+            rest = options(w[3 + n:], {"units": "box|lattice", "side": "in|out"})
         except Left:
             return None
         if None in v or rest.get("side", ["in"]) != ["in"] or (rest.get("units", [self.units]) != ["box"] and self.lattice):
@@ -96,7 +101,7 @@ class Insertion:
         found = [(self.templates.get(k), self.number(f, where)) for k, f in zip(parts[::2], parts[1::2])]
         for other in [where, *(t[3] for t, _ in found if t)]:
             self.sure(other, line)
-        found = [(t and t[:3], f) for t, f in found]
+        found = [(t and t[:3], f) for t, f in found if f != 0]    # a class with the share 0 has no grains
         if not found or not all(t for t, _ in found):
             raise Left("insertion of grains that are no spheres of constant radius and density",
                        "fix insert/lsdcd, with diam one, range, poly or mass")
@@ -116,16 +121,18 @@ class Insertion:
         volume = sum(n * t[1] ** 3 for n, (t, _) in zip(by_number, found))
         return grains, sum(by_mass) / volume
 
-    # The number of values of each word.
-    INSERT = {"seed": 1, "distributiontemplate": 1, "maxattempt": 1, "insert_every": 1, "every": 1, "insert_every_time": 1,
-              "start": 1, "overlapcheck": 1, "all_in": 1, "random_distribute": 1, "verbose": 1, "compress_tags": 1, "omega": 4,
-              "vel": {"constant": 4, "uniform": 7, "gaussian": 7}, "orientation": {"random": 1, "template": 1, "constant": 5},
-              "ntry_mc": 1}
-    RATE = {"nparticles": 1, "mass": 1, "massrate": 1, "particlerate": 1}
-    REGION = {"region": 1, "warn_region": 1, "check_dist_from_subdomain_border": 1}
-    INSERT_OF = {"pack": {**REGION, "particles_in_region": 1, "mass_in_region": 1, "volumefraction_region": 1},
+    # The values of each word.
+    INSERT = {"seed": "COUNT", "distributiontemplate": "NAME", "maxattempt": "COUNT", **dict.fromkeys(("insert_every", "every"), "once|COUNT"),
+              "insert_every_time": "once|NUMBER", "start": "COUNT", "random_distribute": "exact|uncorrelated", "omega": "constant NUMBER NUMBER NUMBER",
+              **dict.fromkeys("overlapcheck all_in verbose compress_tags".split(), "YES"), "ntry_mc": "COUNT",
+              "vel": ["constant NUMBER NUMBER NUMBER", "uniform|gaussian NUMBER NUMBER NUMBER NUMBER NUMBER NUMBER"],
+              "orientation": ["random|template", "constant NUMBER NUMBER NUMBER NUMBER"]}
+    RATE = dict.fromkeys("nparticles mass massrate particlerate".split(), "INF|NUMBER")
+    REGION = {"region": "NAME", "warn_region": "YES", "check_dist_from_subdomain_border": "YES"}
+    INSERT_OF = {"pack": {**REGION, "particles_in_region": "NUMBER", "mass_in_region": "NUMBER", "volumefraction_region": "NUMBER"},
                  "rate/region": {**RATE, **REGION},
-                 "stream": {**RATE, "insertion_face": 1, "extrude_length": 1, "duration": 1, "duration_time": 1, "parallel": 1}}
+                 "stream": {**RATE, "insertion_face": "NAME", "extrude_length": "NUMBER", "duration": "COUNT", "duration_time": "NUMBER",
+                            "parallel": "YES"}}
 
     def insert(self, line):
         w = line.words

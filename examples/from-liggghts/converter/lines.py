@@ -12,21 +12,6 @@ KINDS = {name[0]: name for name in MAKERS}
 ENDERS = {"unfix": "f", "fix_modify": "f", "uncompute": "c", "compute_modify": "c", "undump": "d", "dump_modify": "d"}
 
 
-def options(words, known):
-    """{word: its values} from the words of a command. `known` has the number of values of each word, or one number for
-    each first value. A word that is not known ends the command: no word is ever looked for where an ID may stand."""
-    values, words = {}, list(words)
-    while words:
-        key = words.pop(0)
-        n = known.get(key)
-        if isinstance(n, dict):
-            n = n.get(words[0])
-        if n is None:
-            raise Left(f"the keyword {key}", "doc/from-liggghts.md has what you must decide, doc/fix_wall_lsdcd.rst all keywords; or write the line without it, if it does not matter")
-        values[key] = [words.pop(0) for _ in range(n)]
-    return values
-
-
 def is_yes(values, key, default):
     """The value of a word that takes yes or no."""
     value = values.get(key, [default])[0]
@@ -73,9 +58,14 @@ def nested(w):
     return []
 
 
+def unquoted(x):
+    """A word of if or run without its quotes."""
+    return x[1:-1] if x[:1] in ("\"", "'") and x[-1:] == x[0] else x
+
+
 def commands_in(w):
     """Words of a command and of the commands in it."""
-    return [w] + [inner for inner in (words_of(x.strip("\"'")) for x in nested(w)) if inner]
+    return [w] + [inner for inner in (words_of(unquoted(x)) for x in nested(w)) if inner]
 
 
 def read_lines(path):

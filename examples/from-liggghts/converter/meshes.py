@@ -3,13 +3,29 @@
 
 """fix mesh/surface with its modules."""
 import math
+from pathlib import Path
 
 from .errors import CannotConvert, Left
+from .forms import pairs
 from .formulas import expand
-from .geometry import cross, dot, minus, read_stl, short, turned, unit
+from .geometry import cross, dot, minus, read_stl, short, turned, unit, without_facets
 
-GONE_MESH_WORDS = {"heal": 1, "curvature": 1, "curvature_tolerant": 1, "verbose": 1, "precision": 1,
-                   "min_feature_length": 1, "element_exclusion_list": 2, "stress": 1}
+VECTOR = "NUMBER NUMBER NUMBER"
+STYLES = ("mesh/surface", "mesh/surface/planar", "mesh/surface/stress", "mesh/surface/stress/servo", "mesh/surface/stress/6dof")
+# Words that need a decision, and what to do.
+TRANSLATED = {
+    **{x: (f"a mesh by {x}", "make a file of it (lsdcd generate makes boxes, cylinders, planes; dump mesh/stl in LIGGGHTS writes any mesh) and "
+           "name that") for x in ("generate", "fix", "extrude_planar", "region")},
+    "rot_flip": ("rot_flip of a mesh with 6dof", "limits of a body on a hinge, which stop it without a rebound"),
+    **{x: (f"{x} of a mesh", "the sub-model heat and the keyword temperature of fix wall/lsdcd") for x in ("temperature", "mass_temperature")}}
+# The values of each word of a mesh, and those of its modules.
+MESH_WORDS = {"file": "FILE", "type": "COUNT", "scale": "NUMBER", "move": VECTOR, "rotate": f"axis {VECTOR} angle NUMBER", "surface_vel": VECTOR,
+              "surface_ang_vel": f"origin {VECTOR} axis {VECTOR} omega NUMBER", "heal": "auto_remove_duplicates|no", "curvature": "NUMBER",
+              "curvature_tolerant": "YES", "verbose": "YES", "precision": "NUMBER", "min_feature_length": "NUMBER", "element_exclusion_list": "read|write FILE"}
+STRESS_WORDS = {"reference_point": VECTOR, "wear": "off|finnie", "stress": "on|off|yes|no"}
+SERVO_WORDS = {"com": VECTOR, "axis": VECTOR, "ctrlPV": "force|torque", "target_val": "NUMBER|VARIABLE", **dict.fromkeys("vel_max kp ki kd ratio".split(), "NUMBER"), "mode": "auto"}
+BODY_WORDS = {**dict.fromkeys("com vel angmom".split(), VECTOR), **dict.fromkeys(("forceflags", "torqueflags"), "NUMBER NUMBER NUMBER"), "mass": "NUMBER",
+              "moi": f"{VECTOR} {VECTOR}", "suspension": "k_t NUMBER c_t NUMBER k_r NUMBER c_r NUMBER"}
 FORCE, TORQUE = (1, 2, 3), (4, 5, 6)
 
 
@@ -24,84 +40,78 @@ class Mesh:
         self.mass, self.moments, self.suspended, self.held = None, None, False, False    # of 6dof
         self.wall, self.wall_lines, self.index, self.several, self.reference = None, [], None, False, None
         self.written, self.body = set(), ""    # mesh_stl, mesh_fields; words of 6dof
+        self.excluded, self.data, self.said = None, None, ""    # a list of triangles to leave out, the bytes of the mesh without them, a note
         self.before, self.unsure = [], False    # variables that it needs; whether a jump may have changed its motions
         self.way, self.worn = [0.0, 0.0, 0.0], False    # how runs have moved it, None where that is no known way; whether they wore it
         self.first, self.wall_at = None, None    # ID of its wall, its place there, whether there are others; the line of its wall now
         self.parse(script, [script.carry(x, line, self.before) for x in w[4:]])
 
+    def known_words(self):
+        known = {**MESH_WORDS, **{key: Left(*why) for key, why in TRANSLATED.items()}}
+        if self.style.startswith("mesh/surface/stress"):
+            known.update(STRESS_WORDS)
+        known.update({"mesh/surface/stress/servo": SERVO_WORDS, "mesh/surface/stress/6dof": BODY_WORDS}.get(self.style, {}))
+        return known
+
     def parse(self, script, w):
         number, values, surface, spin = script.number, {}, None, None
-        while w:
-            key = w.pop(0)
-
-            def take(n, key=key):
-                if len(w) < n:
-                    raise CannotConvert(f"{script.at(self.line)}: {key} has too few values")
-                return [w.pop(0) for _ in range(n)]
-
+        if self.style not in STYLES:
+            raise Left(f"the module of {self.style}", "mesh/surface/stress; others are not there")
+        for key, v in pairs(w, self.known_words(), " of a mesh"):
             if key == "file":
-                self.file = take(1)[0]
-            elif key in ("generate", "fix", "extrude_planar", "region"):
-                raise Left(f"a mesh by {key}", "make a file of it (lsdcd generate makes boxes, cylinders, planes; dump "
-                           "mesh/stl in LIGGGHTS writes any mesh) and name that")
+                self.file = v[0]
             elif key == "type":
-                self.type = int(number(take(1)[0], self.line))
+                self.type = int(number(v[0], self.line))
             elif key in ("scale", "move"):
-                self.place.append((key, take(1 if key == "scale" else 3)))
+                self.place.append((key, v))
             elif key == "rotate":
-                axis, x, y, z, by, angle = take(6)
-                if (axis, by) != ("axis", "angle"):
-                    raise ValueError(key)
-                self.place.append((key, [x, y, z, angle]))
+                self.place.append((key, [*v[1:4], v[5]]))
             elif key == "surface_vel":
-                surface = take(3)
+                surface = v
             elif key == "surface_ang_vel":
-                spin = take(10)
+                spin = v
             elif key == "reference_point":
-                self.reference = take(3)
+                self.reference = v
             elif key == "wear":
-                value = take(1)[0]
-                if value not in ("finnie", "off"):
-                    raise Left(f"wear {value}", "wear finnie or archard")
-                self.wear = value == "finnie"
-            elif key in ("com", "axis") or (key in ("vel", "angmom", "forceflags", "torqueflags") and self.style.endswith("/6dof")):
-                values[key] = take(3)
-            elif key == "moi" and self.style.endswith("/6dof"):
-                values[key] = take(6)
-            elif key == "mass" and self.style.endswith("/6dof"):
-                values[key] = take(1)[0]
-            elif key == "suspension" and self.style.endswith("/6dof"):
-                values[key] = take(8)
-            elif key == "rot_flip":
-                raise Left(f"{key} of a mesh with 6dof", "limits of a body on a hinge, which stop it without a rebound")
-            elif key in ("ctrlPV", "target_val", "vel_max", "kp", "ki", "kd", "mode", "ratio"):
-                values[key] = take(1)[0]
-            elif key in ("temperature", "mass_temperature"):
-                raise Left(f"{key} of a mesh", "the sub-model heat and the keyword temperature of fix wall/lsdcd")
-            elif key in GONE_MESH_WORDS:
-                take(GONE_MESH_WORDS[key])
+                self.wear = v[0] == "finnie"
+            elif key == "element_exclusion_list" and v[0] == "read":
+                self.excluded = v[1]
             else:
-                raise Left(f"the keyword {key} of a mesh", "fix_wall_lsdcd.rst")
+                values[key] = v if len(v) > 1 else v[0]
         if self.file is None or not self.file.lower().endswith((".stl", ".obj", ".ply", ".off")):
             raise Left(f"the file {self.file}", "write it as STL")
         self.path = script.folder / expand(self.file, self.line.scope)
-        if self.path.is_file() and self.path.open("rb").read(1) == b"#":
-            raise Left(f"the file {self.file}, which begins with a comment", "the file without its lines before 'solid'")
+        if self.excluded:
+            self.leave_out(script)
         if self.style.endswith("/stress/servo"):
             self.add_servo(script, values)
             self.reference = self.reference or list(self.com)
         elif self.style.endswith("/stress/6dof"):
             self.add_body(script, values)
-        elif self.style not in ("mesh/surface", "mesh/surface/planar", "mesh/surface/stress"):
-            raise Left(f"the module of {self.style}", "mesh/surface/stress; others are not there")
         if surface:
             self.add_surface_vel(script, surface)
         if spin:
             self.add_surface_ang_vel(script, spin)
 
+    def leave_out(self, script):
+        """Leaves out the triangles that a list names: the mesh becomes another file."""
+        where = script.folder / expand(self.excluded, self.line.scope)
+        if not self.path.is_file() or not where.is_file() or self.path.suffix.lower() != ".stl":
+            raise Left(f"element_exclusion_list read {self.excluded}, with the mesh {self.file}", "both files beside the script; the mesh as STL")
+        whole = self.path.read_bytes()
+        self.data, n = without_facets(whole, [int(x) for x in where.read_text().split()])
+        scale = math.prod(script.number(values[0], self.line) for key, values in self.place if key == "scale")
+        area = scale ** 2 * sum(math.sqrt(dot(c, c)) / 2 * sign for data, sign in ((whole, 1), (self.data, -1)) for c in (
+            cross(minus(t[1], t[0]), minus(t[2], t[0])) for t in read_stl(data)))
+        kept = Path(expand(self.file, self.line.scope))
+        self.file = str(kept.with_name(f"{kept.stem}_kept.stl"))
+        self.path = script.folder / self.file
+        script.files[self.path] = self.data
+        self.said = f"{self.file} has no triangles of {self.excluded}: {n} with an area of {area:.6g} are left out"
+
     def faces(self, script):
         """Corners and normal of each triangle of the placed mesh; None where the file is not there."""
-        if not self.path.exists():
+        if self.data is None and not self.path.exists():
             return None
         found = [(t, cross(minus(t[1], t[0]), minus(t[2], t[0]))) for t in self.triangles(script)]
         return [(t, unit(n)) for t, n in found if any(n)]
@@ -196,8 +206,6 @@ class Mesh:
             if script.runs() > 1:
                 raise Left("suspension of a mesh with 6dof, whose zero begins anew with each run in LIGGGHTS",
                            f"{words.strip()} spring with its stiffness, damping and rest; its zero stays where it was")
-            if v["suspension"][::2] != ["k_t", "c_t", "k_r", "c_r"]:
-                raise ValueError("suspension")
             words += " spring " + " ".join(v["suspension"][1:4:2] if any(moves) else v["suspension"][5::2])
             self.suspended = True
         return words
@@ -239,7 +247,7 @@ class Mesh:
 
     def triangles(self, script):
         """Placed."""
-        if not self.path.exists():
+        if self.data is None and not self.path.exists():
             raise CannotConvert(f"{script.at(self.line)}: {self.path} is not there, and the mesh is needed to convert this")
 
         def placed(p):
@@ -253,7 +261,7 @@ class Mesh:
                     p = turned(p, unit(v[:3]), v[3])
             return p
 
-        triangles = [tuple(placed(p) for p in t) for t in read_stl(self.path)]
+        triangles = [tuple(placed(p) for p in t) for t in read_stl(self.path.read_bytes() if self.data is None else self.data)]
         if not triangles:
             raise Left(f"{self.file}, in which no triangle was found", "write it as STL")
         return triangles

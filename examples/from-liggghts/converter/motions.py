@@ -69,6 +69,8 @@ class Motions:
 
     def move(self, line):
         before = []
+        if line.words[4] != "mesh":
+            raise Left(f"the word {line.words[4]} of move/mesh", "mesh, and its ID")
         w = line.words[:7] + [self.carry(x, line, before) for x in line.words[7:]]
         self.same_mesh(line, w[5])
         replaced = self.moves.pop(w[1], None)

@@ -8,7 +8,25 @@ import re
 from .errors import CannotConvert, Left
 from .formulas import expand
 from .laws import Contact, Model
-from .lines import options
+from .forms import options
+
+# The same arrays in LIGGGHTS.
+PROPERTY_KINDS = {"scalar": "scalar", **dict.fromkeys(("vector", "peratomtype", "atomtype"), "vector"),
+                  **dict.fromkeys(("matrix", "peratomtypepair", "atomtypepair"), "matrix")}
+# What models and fixes of LIGGGHTS-PUBLIC, -PFM and -INL read.
+PROPERTY_NAMES = set("""abrasiveWearSeverity adhesionExponent artViscAlpha artViscBeta artViscEta attritionLimit betaConstant characteristicVelocity
+coalescenceModelSettings coalescenceModelSwitches coeffFrictionStiffness coefficientAdhesionStiffness coefficientFriction
+coefficientFrictionLubricated coefficientMaxElasticStiffness coefficientPlasticityDepth coefficientRestitution coefficientRestitutionLog
+coefficientRollingFriction coefficientRollingViscousDamping coefficientYieldRatio coeffRollingStiffness cohesionDistanceSettings
+cohesionEnergyDensity cohesionModelSwitches cohesionStrength contactAngle CriticalStokes equilibriumDist erosiveWearSeverity
+fluidViscosity FluidViscosity forceLimit FrictionViscosity gamman gamman_abs gammat gammat_abs hamakerConstant historyIndex
+initialCohesiveStress k_finnie kn kt lbVolumeFraction liquidDensity liquidVolume LoadingStiffness lubricationCutoff maxCohesiveStress
+MaximumRestitution maxLiquidContent maxSeparationDistanceRatio minParticleDist minSeparationDistanceRatio morseConstant
+normalDampingCoefficient overlapExponent poissonsRatio pullOffForce rollingStiffness roughnessAbsolute roughnessRelative sl speedOfSound
+stiffnessRatio surfaceEnergy surfaceLiquidContentInitial surfaceRoughness surfaceTension switchModel tangentialMultiplier
+tangentialStiffness tensCorrDeltaP tensCorrEpsilon thermalCapacity thermalConductivity thermalEmissivity UnloadingStiffness velocityLimit
+youngsModulus youngsModulusOriginal""".split())
+PROPERTY_FAMILIES = re.compile(r"\w+Bond(nonlinear)?|\w+PerUnitArea\w*|[a-z]+Custom|(tortuosity|porosity|pore_diameter|density|k0|Ea)_\w+")    # of bonds and reactions
 
 
 class Properties:
@@ -23,13 +41,15 @@ class Properties:
         later = [d for d in found if d[0].index > line.index]
         where, w = (before + later)[0]
         self.sure(where, line)
-        values = [[expand(x, d[0].scope) for x in d[1]] for d in [(where, w), *later]]
+        if w[0] is None:
+            raise Left(f"{name} of {self.at(where)}, which is left", "one of its kinds: " + ", ".join(PROPERTY_KINDS))
+        values = [[expand(x, d[0].scope) for x in d[1] if x] for d in [(where, w), *later]]
         if any(x != values[0] for x in values):
             raise Left(f"{name}, which changes in the script", "write the law of each stage yourself")
         kind, values = w[0], w[1:]
         if kind == "scalar":
             return self.number(values[0], where)
-        if kind.startswith("peratomtypepair"):
+        if kind == "matrix":
             n, values = int(self.number(values[0], where)), values[1:]
             k = (types[0] - 1) * n + types[1] - 1
         else:
@@ -37,6 +57,17 @@ class Properties:
         if k >= len(values):
             raise CannotConvert(f"{self.at(where)}: {name} has no value for the types {types}")
         return self.number(values[k], where)
+
+    def read_property(self, line):
+        """Raises Left where a fix property/global has a name, a kind or a number of values that LIGGGHTS does not."""
+        name, kind, *values = line.words[4:]
+        if name not in PROPERTY_NAMES and not PROPERTY_FAMILIES.fullmatch(name):
+            raise Left(f"the property {name}", "a name that a model of LIGGGHTS reads")
+        self.read(line, f"property {name}", f"{'|'.join(PROPERTY_KINDS)} NUMBER+", 5)
+        columns = self.known(values[0], line)
+        if (PROPERTY_KINDS[kind] == "scalar" and len(values) != 1) or (
+                PROPERTY_KINDS[kind] == "matrix" and columns and len(values) != 1 + columns * columns):
+            raise Left(f"{name} {kind} with {len(values)} numbers", "one number of a scalar; of pairs the number of types, and a number for each pair")
 
     def add_type(self, kind):
         """A type that grains may have; None where it is not known."""
@@ -49,9 +80,8 @@ class Properties:
         """Type, radius and density of a fix particletemplate/sphere; None where they are not known or not constant."""
         w = line.words
         try:
-            v = options(w[5:], {"atom_type": 1, "volume_limit": 1, "relative": 1,
-                                "radius": {"constant": 2, "uniform": 3, "gaussian": 3},
-                                "density": {"constant": 2, "uniform": 3, "gaussian": 3}})
+            v = options(w[5:], {"atom_type": "COUNT", "volume_limit": "NUMBER", "relative": "YES", **dict.fromkeys(
+                ("radius", "density"), ["constant NUMBER", "uniform NUMBER NUMBER", "gaussian NUMBER NUMBER"])})
         except Left:
             v = {}
         size = [self.known(v[k][1], line) if v.get(k, [""])[0] == "constant" and "relative" not in v else None

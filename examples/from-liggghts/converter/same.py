@@ -4,34 +4,164 @@
 """Commands that both programs have."""
 import re
 
-from .dumps import COLUMNS
+from .dumps import COLUMNS, OF_PICTURES
 from .errors import Left
-from .lines import commands_in, options
+from .formulas import FUNCTIONS, VARIABLE, expand
+from .forms import options, read
+from .lines import commands_in
 
-# Styles of fixes that LAMMPS has too, with the same words.
-SAME_FIXES = set("""adapt addforce ave/atom ave/correlate ave/histo ave/time aveforce deform drag dt/reset efield
-enforce2d external freeze gravity lineforce momentum move nve nve/limit nve/noforce nve/sphere planeforce print rigid
-setforce spring spring/self store/state viscous""".split())
-SAME_COMPUTES = set("""centro/atom cluster/atom cna/atom com coord/atom displace/atom erotate/sphere erotate/sphere/atom
-group/group gyration ke ke/atom msd pe pe/atom pressure property/atom property/local rdf reduce reduce/region stress/atom
-temp contact/atom""".split())
-SAME_COMMANDS = set("""atom_modify boundary change_box clear compute_modify create_atoms create_box delete_atoms
-dielectric dimension displace_atoms dump_modify echo fix_modify group if jump label lattice log mass minimize neigh_modify
-neighbor newton next print processors read_data read_dump region replicate reset_timestep restart run set shell
-thermo thermo_modify thermo_style timestep uncompute undump unfix units variable velocity write_data write_dump
-write_restart quit info""".split())
+UNITS = "[units box|lattice]"
+THERMO = """step|elapsed|elaplong|dt|time|cpu|tpcpu|spcpu|cpuremain|part|atoms|temp|press|pe|ke|etotal|enthalpy|vol|density|lx|ly|lz|xlo|xhi|ylo|yhi|zlo|zhi|
+xy|xz|yz|xlat|ylat|zlat|fmax|fnorm|pxx|pyy|pzz|pxy|pxz|pyz|cella|cellb|cellc|cellalpha|cellbeta|cellgamma""".replace("\n", "")
+GONE_THERMO = {"cu", "erotate", "numbond", "dragtotal"}
+AVERAGES = "[ave one|running] [ave window COUNT] [start COUNT] [file FILE] [overwrite] [title1 TEXT] [title2 TEXT] [title3 TEXT]"
+INPUTS = "(OUTPUT|VARIABLE|x|y|z|vx|vy|vz|fx|fy|fz)+"
+# Words of the commands that both programs have, with the same meaning.
+COMMANDS = {
+    "atom_modify": "[map array|hash] [first NAME] [sort COUNT NUMBER]",
+    "boundary": "SIDES SIDES SIDES",
+    "change_box": f"NAME [x|y|z final|delta NUMBER NUMBER] [x|y|z scale NUMBER] [x|y|z volume] [xy|xz|yz final|delta NUMBER] [boundary SIDES SIDES SIDES] "
+                  f"[ortho] [triclinic] [set] [remap] {UNITS}",
+    "clear": "",
+    "compute_modify": "NAME [extra COUNT] [dynamic YES]",
+    "create_atoms": [f"COUNT box [basis COUNT COUNT] {UNITS}", f"COUNT region NAME [basis COUNT COUNT] {UNITS}",
+                     f"COUNT single NUMBER NUMBER NUMBER [remap YES] {UNITS}", f"COUNT random COUNT COUNT NAME {UNITS}"],
+    "create_box": "COUNT NAME",
+    "delete_atoms": ["group|region NAME [compress YES] [mol YES]", "overlap NUMBER NAME NAME [compress YES] [mol YES]"],
+    "dielectric": "NUMBER",
+    "dimension": "2|3",
+    "displace_atoms": [f"NAME move VALUE VALUE VALUE {UNITS}", f"NAME ramp x|y|z NUMBER NUMBER x|y|z NUMBER NUMBER {UNITS}",
+                       f"NAME random NUMBER NUMBER NUMBER COUNT {UNITS}", f"NAME rotate NUMBER NUMBER NUMBER NUMBER NUMBER NUMBER NUMBER {UNITS}"],
+    "echo": "none|screen|log|both",
+    "fix_modify": "NAME [energy YES] [temp NAME] [press NAME]",
+    "group": ["NAME region|union|intersect NAME+", "NAME subtract NAME NAME+", "NAME delete", "NAME type|id|molecule RANGE+",
+              "NAME type|id|molecule <|>|<=|>=|==|!= COUNT", "NAME type|id|molecule <> COUNT COUNT"],
+    "if": "TEXT then TEXT+",
+    "jump": "FILE NAME?",
+    "label": "NAME",
+    "lattice": ["none NUMBER?", "sc|bcc|fcc|hcp|diamond|sq|sq2|hex|custom NUMBER [origin NUMBER NUMBER NUMBER] [orient x|y|z COUNT COUNT COUNT] [spacing NUMBER NUMBER NUMBER] "
+                "[a1|a2|a3 NUMBER NUMBER NUMBER] [basis NUMBER NUMBER NUMBER]"],
+    "log": "FILE append?",
+    "mass": "TYPES NUMBER",
+    "minimize": "NUMBER NUMBER COUNT COUNT",
+    "neigh_modify": "[delay|every|page|one COUNT] [check|once YES] [binsize NUMBER] [include NAME] [exclude type COUNT COUNT] [exclude group NAME NAME] "
+                    "[exclude molecule NAME] [exclude none]",
+    "neighbor": "NUMBER nsq|bin|multi",
+    "newton": "on|off (on|off)?",
+    "next": "NAME+",
+    "print": "TEXT [append|file FILE] [screen YES]",
+    "processors": "GRID GRID GRID [map MAPPING] [grid onelevel|numa] [grid twolevel COUNT GRID GRID GRID] [grid custom FILE] "
+                  "[part COUNT COUNT multiple] [file FILE]",
+    "read_data": "FILE",
+    "read_dump": "FILE COUNT (x|y|z|vx|vy|vz|q|ix|iy|iz|fx|fy|fz)+ [box|replace|purge|trim|scaled YES] [add YES] [label NAME NAME] [format native|xyz]",
+    "read_restart": "FILE",
+    "region": [f"NAME {shape} [side in|out] {UNITS} [move OR_NULL OR_NULL OR_NULL] [rotate VARIABLE NUMBER NUMBER NUMBER NUMBER NUMBER NUMBER]" for shape in (
+        "block EDGE EDGE EDGE EDGE EDGE EDGE", "sphere NUMBER NUMBER NUMBER NUMBER", "cylinder x|y|z NUMBER NUMBER NUMBER EDGE EDGE",
+        "cone x|y|z NUMBER NUMBER NUMBER NUMBER EDGE EDGE", "plane NUMBER NUMBER NUMBER NUMBER NUMBER NUMBER",
+        "prism EDGE EDGE EDGE EDGE EDGE EDGE NUMBER NUMBER NUMBER", "union|intersect NAMES")] + ["NAME delete"],
+    "replicate": "COUNT COUNT COUNT",
+    "reset_timestep": "COUNT",
+    "restart": "COUNT FILE? FILE?",
+    "run": ["COUNT [upto] [start|stop COUNT] [pre|post YES]", "COUNT [upto] [start|stop COUNT] [pre|post YES] [every COUNT NULL|TEXT+]"],
+    "set": "atom|type|group|region|mol NAME TEXT+",
+    "shell": "TEXT+",
+    "thermo": "COUNT|VARIABLE",
+    "thermo_modify": "[lost ignore|warn|error] [norm|flush YES] [line one|multi] [format int|float|COUNT TEXT] [temp|press NAME]",
+    "thermo_style": ["one|multi", f"custom ({THERMO}|{'|'.join(sorted(GONE_THERMO))}|OUTPUT)+"],
+    "timestep": "NUMBER",
+    "uncompute": "NAME", "undump": "NAME", "unfix": "NAME",
+    "units": "si|cgs|lj|real|metal|electron|micro|nano",
+    "variable": ["NAME delete", "NAME index|world|universe TEXT+", "NAME string TEXT", "NAME loop|uloop COUNT COUNT? pad?", "NAME getenv NAME", "NAME file|atomfile FILE", "NAME equal|atom TEXT"],
+    "velocity": [f"NAME {style} [temp NAME] [sum|mom|rot YES] [dist uniform|gaussian] [loop all|local|geom] {UNITS}" for style in (
+        "create NUMBER COUNT", "set OR_NULL OR_NULL OR_NULL", "scale NUMBER", "ramp vx|vy|vz NUMBER NUMBER x|y|z NUMBER NUMBER", "zero linear|angular")],
+    "write_data": "FILE [pair ii|ij]",
+    "write_dump": ["NAME atom|xyz FILE", f"NAME image FILE {OF_PICTURES}", f"NAME custom FILE ({'|'.join(sorted(COLUMNS))}|OUTPUT)+"],
+    "write_restart": "FILE",
+    "quit": "COUNT?",
+    "info": "(system|computes|dumps|fixes|groups|regions|variables|time|all)*",
+}
+IN_SPACE = "[region NAME] [every COUNT] [energy VARIABLE]"
+BOX_WORDS = "[x|y|z final|delta NUMBER NUMBER] [x|y|z|xy|xz|yz vel|erate|trate NUMBER] [x|y|z scale NUMBER] [x|y|z volume] [xy|xz|yz final|delta NUMBER] " \
+            "[x|y|z|xy|xz|yz wiggle NUMBER NUMBER] [x|y|z|xy|xz|yz variable VARIABLE VARIABLE] [remap x|v|none] [flip YES]"
+FIXES = {
+    "adapt": "COUNT [atom diameter VARIABLE] [reset|scale YES]",
+    "addforce": f"VALUE VALUE VALUE {IN_SPACE}",
+    "ave/atom": f"COUNT COUNT COUNT {INPUTS}",
+    "ave/correlate": "COUNT COUNT COUNT OUTPUT+ [type auto|upper|lower|auto/upper|auto/lower|full] [ave one|running] [start COUNT] [prefactor NUMBER] [file FILE] "
+                     "[overwrite] [title1 TEXT] [title2 TEXT] [title3 TEXT]",
+    "ave/histo": f"COUNT COUNT COUNT NUMBER NUMBER COUNT {INPUTS} [mode scalar|vector] [beyond ignore|end|extra] {AVERAGES}",
+    "ave/time": f"COUNT COUNT COUNT OUTPUT+ [mode scalar|vector] [off COUNT] {AVERAGES}",
+    "aveforce": "OR_NULL OR_NULL OR_NULL [region NAME]",
+    "deform": f"COUNT {BOX_WORDS} {UNITS}",
+    "drag": "OR_NULL OR_NULL OR_NULL NUMBER NUMBER",
+    "dt/reset": f"COUNT OR_NULL OR_NULL NUMBER {UNITS}",
+    "efield": "VALUE VALUE VALUE",
+    "enforce2d": "",
+    "external": ["pf/callback COUNT COUNT", "pf/array COUNT"],
+    "freeze": "",
+    "gravity": ["VALUE vector VALUE VALUE VALUE", "VALUE chute VALUE", "VALUE spherical VALUE VALUE"],
+    "lineforce": "NUMBER NUMBER NUMBER",
+    "momentum": "COUNT [linear 0|1 0|1 0|1] [angular]",
+    "move": [f"linear OR_NULL OR_NULL OR_NULL {UNITS}", f"wiggle OR_NULL OR_NULL OR_NULL NUMBER {UNITS}",
+             f"rotate NUMBER NUMBER NUMBER NUMBER NUMBER NUMBER NUMBER {UNITS}", f"variable OR_NULL OR_NULL OR_NULL OR_NULL OR_NULL OR_NULL {UNITS}"],
+    "nve": "",
+    "nve/limit": "NUMBER",
+    "nve/noforce": "",
+    "nve/sphere": "[update dipole]",
+    "planeforce": "NUMBER NUMBER NUMBER",
+    "print": "COUNT TEXT [append|file FILE] [screen YES] [title TEXT]",
+    "rigid": [f"{bodies} [force TYPES on|off on|off on|off] [torque TYPES on|off on|off on|off]" for bodies in ("single", "molecule", "group NAMES")],
+    "setforce": "OR_NULL OR_NULL OR_NULL [region NAME]",
+    "spring": ["tether NUMBER OR_NULL OR_NULL OR_NULL NUMBER", "couple NAME NUMBER OR_NULL OR_NULL OR_NULL NUMBER"],
+    "spring/self": "NUMBER (xyz|xy|xz|yz|x|y|z)?",
+    "store/state": "COUNT (id|mol|type|mass|x|y|z|xs|ys|zs|xu|yu|zu|ix|iy|iz|vx|vy|vz|fx|fy|fz|q|radius|omegax|omegay|omegaz|tqx|tqy|tqz|OUTPUT)+ [com YES]",
+    "viscous": "NUMBER [scale COUNT NUMBER]",
+}
+BALANCE = "COUNT DIMENSIONS COUNT NUMBER"
+COMPUTES = {
+    "centro/atom": "COUNT|fcc|bcc", "cluster/atom": "NUMBER", "cna/atom": "NUMBER", "com": "", "contact/atom": "", "coord/atom": "cutoff? NUMBER",
+    "displace/atom": "", "erotate/sphere": "", "erotate/sphere/atom": "", "group/group": "NAME", "gyration": "", "ke": "", "ke/atom": "",
+    "msd": "[com YES]", "pe": "", "pe/atom": "", "pressure": "NAME (ke|pair|bond|fix|virial)*",
+    "property/atom": f"({'|'.join(sorted(COLUMNS - {'element'}))})+", "property/local": "(natom1|natom2|patom1|patom2|ntype1|ntype2|ptype1|ptype2|batom1|batom2|btype)+",
+    "rdf": "COUNT (COUNT COUNT)*", "reduce": f"sum|min|max|ave {INPUTS} [replace COUNT COUNT]",
+    "reduce/region": f"NAME sum|min|max|ave {INPUTS} [replace COUNT COUNT]", "stress/atom": "NULL? (ke|pair|bond|fix|virial)*", "temp": "",
+}
 PLAIN_COMMANDS = set("""delete_atoms echo jump log next print quit reset_timestep run shell thermo timestep variable velocity
 write_data write_dump write_restart""".split())    # the same in both, where they stand in if and run
 SPINS = ("omegax", "omegay", "omegaz")
 ATOM_VECTORS = set("fx fy fz id mass mol q type vx vy vz x y z".split())    # of variables in both
-GONE_THERMO = {"cu", "erotate", "numbond", "dragtotal"}
-SET_WORDS = {**dict.fromkeys("charge density diameter mass mol type vx vy vz x y z".split(), 1), "image": 3, "omega": 3,
-             "type/fraction": 3,
-             "omegax": 1, "omegay": 1, "omegaz": 1}
+SET_WORDS = {**dict.fromkeys("charge density diameter mass vx vy vz x y z".split(), "VALUE"), "type": "COUNT", "mol": "COUNT",
+             "image": "COUNT|NULL COUNT|NULL COUNT|NULL", "omega": "VALUE VALUE VALUE", "type/fraction": "COUNT NUMBER COUNT",
+             **dict.fromkeys(SPINS, "VALUE")}
+# What a formula may have in both programs.
+FORMULA_NAMES = {"PI", *FUNCTIONS, *"random normal ramp stagger logfreq stride vdisplace swiggle cwiggle".split(), *THERMO.split("|")}
+OF_GROUPS = "count|mass|charge|xcm|vcm|fcm|bound|gyration|ke|angmom|torque|inertia|omega|sum|min|max|ave|trap|gmask|rmask|grmask|next"
+
+
+def read_formula(text):
+    """Raises Left for a name in a formula that LAMMPS does not have in the same sense."""
+    rest = re.sub(rf"\b({OF_GROUPS})\([^()]*\)", "1", VARIABLE.sub("1", text.strip("\"'")))
+    rest = re.sub(r"\b[fcv]_\w+", "1", rest)
+    for name, bracket in re.findall(r"(?<![\w.])([A-Za-z_]\w*)(\[?)", rest):
+        if not bracket and name not in FORMULA_NAMES and name not in ATOM_VECTORS | COLUMNS:
+            raise Left(f"the word {name} of a formula", "what LAMMPS has in its place: the page of variable in its manual")
 
 
 class Same:
     """Commands that both programs have."""
+
+    @staticmethod
+    def unread(line):
+        """A Left where a word of a command that both programs have, or of one in it, is not one of both; None where each is read."""
+        try:
+            for k, words in enumerate(commands_in(line.words)):
+                w = [expand(x, line.scope) for x in words]
+                read(w[0], COMMANDS[w[0]], w[1:])
+                if w[0] == "variable" and w[2] in ("equal", "atom"):
+                    read_formula(w[3])
+        except Left as left:
+            return left
+        return None
 
     @staticmethod
     def only_balances(w):

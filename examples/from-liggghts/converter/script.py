@@ -5,19 +5,24 @@
 import math
 import re
 
-from .dumps import Dumps, MESH_DUMPS
+from .dumps import DUMP_MODIFY, MESH_DUMPS, TEXT_DUMP_WORDS, Dumps
 from .errors import CannotConvert, Left
 from .flows import Flows
+from .forms import options, read
 from .formulas import VARIABLE, expand, formula, number_of
 from .geometry import short, unit
-from .insertion import Insertion
-from .lines import ENDERS, KINDS, MAKERS, commands_in, needed_by, nested, options, words_of
+from .insertion import DISTRIBUTIONS, Insertion
+from .lines import ENDERS, KINDS, MAKERS, commands_in, needed_by, nested, unquoted, words_of
 from .meshes import Mesh
 from .motions import Motions
 from .program import Program
-from .properties import Properties
-from .same import PLAIN_COMMANDS, SAME_COMMANDS, SAME_COMPUTES, SAME_FIXES, Same
+from .properties import PROPERTY_KINDS, Properties
+from .same import BALANCE, COMMANDS, COMPUTES, FIXES, PLAIN_COMMANDS, Same
 from .walls import Wall, Walls
+
+# Checks of stiffnesses, timings, threads.
+NO_PHYSICS = {"hard_particles": "YES", "soft_particles": "YES", "modify_timing": "on|off|verbose", "partitioner_style": "zoltan (NAME NAME)*",
+              "package": "omp GRID (force|force/neigh|neigh|thread-binding|verbose)*"}
 
 
 class Script(Walls, Motions, Insertion, Flows, Dumps, Properties, Same):
@@ -31,13 +36,14 @@ class Script(Walls, Motions, Insertion, Flows, Dumps, Properties, Same):
         self.missing_data, self.data_boxes = [], {}    # files of read_data; edges of the box in them, by line
         self.meshes, self.mesh_of, self.walls, self.unchecked, self.used = {}, {}, {}, set(), set()    # by line; IDs
         self.dumps, self.dumped, self.lattice = [], {}, False
+        self.files = {}    # bytes of files to write, by their paths
         self.gravity_names, self.gravities = set(), []    # the acceleration of each fix gravity, None where it is not known
         self.names = {"c_thermo_temp", "c_thermo_press", "c_thermo_pe"} | {
             f"{line.words[0][0]}_{line.words[1]}" for line in self.lines if line.words[:1] in (["fix"], ["compute"]) and line.words[1:]}
         for line in self.lines:
             try:
                 self.collect(line)
-            except (IndexError, ValueError):
+            except (IndexError, KeyError, ValueError):
                 raise CannotConvert(f"{self.at(line)}: words are missing or wrong: {line.text.strip()}") from None
         if options.radius and options.density:
             self.sizes = [(options.radius, options.density)]
@@ -145,7 +151,7 @@ class Script(Walls, Motions, Insertion, Flows, Dumps, Properties, Same):
                 self.gravity_names.add(w[1])
                 self.gravities.append([g[0] * x for x in unit(g[1:])] if w[5] == "vector" and None not in g and len(g) == 4 else None)
             elif style == "property/global":
-                self.properties.setdefault(w[4], []).append((line, w[5:]))
+                self.properties.setdefault(w[4], []).append((line, [PROPERTY_KINDS.get(w[5]), *w[6:]]))
             elif style.startswith("mesh/surface"):
                 try:
                     mesh = Mesh(self, line)
@@ -190,7 +196,8 @@ class Script(Walls, Motions, Insertion, Flows, Dumps, Properties, Same):
     @staticmethod
     def style(w):
         """The style of a fix. A style of OpenMP is the same one."""
-        return w[3][:-4] if w[3].endswith("/omp") else w[3]
+        style = w[3][:-4] if w[3].endswith("/omp") else w[3]
+        return "property/global" if style == "custom_property/global" else style
 
     def put(self, text):
         self.out.append(text)
@@ -229,6 +236,14 @@ class Script(Walls, Motions, Insertion, Flows, Dumps, Properties, Same):
             text = self.written()
         return text
 
+    def write_files(self):
+        """Writes the meshes that lack triangles. A file of that name that is another one stays, as an error."""
+        for path, data in self.files.items():
+            if path.exists() and path.read_bytes() != data:
+                raise CannotConvert(f"{path} is there, and is not the mesh without the triangles of a list; move it away")
+        for path, data in self.files.items():
+            path.write_bytes(data)
+
     def written(self):
         self.put(f"# Converted from {self.path.name} by convert.py of LSDCD. Read the lines with LEFT and NOTE.")
         for line in self.lines:
@@ -243,7 +258,7 @@ class Script(Walls, Motions, Insertion, Flows, Dumps, Properties, Same):
                 self.plain.discard(line.words[1])
             try:
                 self.command(line)
-            except (IndexError, ValueError):
+            except (IndexError, KeyError, ValueError):
                 raise CannotConvert(f"{self.at(line)}: words are missing or wrong: {line.text.strip()}") from None
             except Left as left:
                 del self.out[before:]
@@ -333,14 +348,19 @@ class Script(Walls, Motions, Insertion, Flows, Dumps, Properties, Same):
                 raise Left(f"atom_style {' '.join(w[1:])}", "spheres only")
             self.put("atom_style      sphere" + " 1" * any(self.grows(other.words) for other in self.lines))
         elif w[0] == "communicate":
-            self.put("comm_modify     mode " + " ".join(w[1:]))
-        elif w[0] in ("hard_particles", "soft_particles", "modify_timing", "partitioner_style", "package"):
-            self.put(f"# {line.text.strip()}")    # checks of stiffnesses, timings, threads: no physics
+            self.read(line, w[0], "single|multi [group NAME] [cutoff NUMBER] [vel YES]")
+            self.put("comm_modify     mode " + " ".join(["single", *w[2:]]))
+            if w[1] == "multi":
+                self.note(line, "all types of grains have the ghosts of the largest: the mode multi of LAMMPS goes with neighbor multi only")
+        elif w[0] in NO_PHYSICS:
+            self.read(line, w[0], NO_PHYSICS[w[0]])
+            self.put(f"# {line.text.strip()}")
         elif w[0] == "pair_style":
             self.pair_style(line)
         elif w[0] == "pair_coeff":
             if self.pair is None:
                 raise Left("pair_coeff of a pair style that was left", "see there")
+            self.read(line, w[0], "* *")
             for text in self.pair or [f"# {' '.join(w)}"]:
                 self.put(text)
             self.pair = []
@@ -355,15 +375,20 @@ class Script(Walls, Motions, Insertion, Flows, Dumps, Properties, Same):
                        "convert it by itself, and name that; give the values of its variables with --var NAME VALUE")
         elif any(c[0] == "jump" and c[1] not in ("SELF", self.path.name) for c in commands_in(w)):
             raise Left("a jump to another file", "convert that file by itself, and name it here")
-        elif w[0] == "if" and nested(w) and all(self.only_balances(words_of(x.strip("\"'"))) for x in nested(w)):
+        elif w[0] == "if" and nested(w) and all(self.only_balances(words_of(unquoted(x))) for x in nested(w)):
+            for x in nested(w):
+                read("fix balance", BALANCE, [expand(y, line.scope) for y in words_of(unquoted(x))[4:]])
             text = line.text
             for x in nested(w):
-                text = text.replace(x, f'"{" ".join(self.balance(words_of(x.strip(chr(34) + chr(39)))).split())}"')
+                text = text.replace(x, f'"{" ".join(self.balance(words_of(unquoted(x))).split())}"')
             self.put(text)
         elif w[0] in ("if", "run") and any(c[0] not in PLAIN_COMMANDS for c in commands_in(w)[1:]):
             raise Left(f"commands in {w[0]} that are to be converted", "convert them as lines of their own, and put them here")
-        elif w[0] == "compute" and (w[3] not in SAME_COMPUTES or (w[3] == "contact/atom" and len(w) > 4)):
-            raise Left(f"compute {w[3]}", "LAMMPS has no compute of that name with these words")
+        elif w[0] == "compute":
+            if w[3] not in COMPUTES:
+                raise Left(f"compute {w[3]}", "LAMMPS has no compute of that name with these words")
+            self.read(line, f"compute {w[3]}", COMPUTES[w[3]], 4)
+            self.pass_on(line)
         elif w[0] in ("unfix", "undump", "uncompute", "fix_modify", "compute_modify", "dump_modify") and w[1] in self.gone:
             self.put(f"# {' '.join(w)}")
             if w[0].startswith("un") and not line.skips:
@@ -372,8 +397,7 @@ class Script(Walls, Motions, Insertion, Flows, Dumps, Properties, Same):
             self.clear()
             self.put(line.text)
         elif w[0] == "dump_modify" and w[1] in self.texts:
-            kept = options(w[2:], {"binary": 1, "every": 1, "sort": 1, "append": 1, "flush": 1, "first": 1, "pad": 1,
-                                   "element": 0, "region": 1, "thresh": 3, "unwrap": 1, "compressor": 1})
+            kept = options(w[2:], TEXT_DUMP_WORDS)
             kept = [f"{k} {' '.join(v)}" for k, v in kept.items() if k not in ("binary", "compressor")]
             self.put(f"dump_modify     {w[1]} {' '.join(kept)}" if kept else f"# {' '.join(w)}")
         elif w[0] == "unfix" and w[1] in self.moves:
@@ -408,17 +432,32 @@ class Script(Walls, Motions, Insertion, Flows, Dumps, Properties, Same):
                 raise Left("a restart file, which LIGGGHTS writes in another format", "write_data there and read_data here; where "
                            "a converted script has written the file, convert with --converted-restart")
             self.put(line.text)
-        elif w[0] not in SAME_COMMANDS | {"compute"}:
+        elif w[0] == "dump_modify":
+            self.read(line, "dump_modify", DUMP_MODIFY)
+            self.pass_on(line)
+        elif w[0] not in COMMANDS:
             raise Left(f"the command {w[0]}", "see the manual of LAMMPS, or convert the file that it names by itself")
         else:
+            unread = self.unread(line)
+            if unread and w[0] == "region":
+                self.regions.pop(w[1], None)
+                raise unread
             self.count_steps(line)
+            if unread:
+                raise unread
             self.pass_on(line)
+
+    @staticmethod
+    def read(line, name, forms, begin=1):
+        """Raises Left where a word of a line from `begin` on is none of its forms. Variables that are known stand for their values."""
+        read(name, forms, [expand(x, line.scope) for x in line.words[begin:]])
 
     def fix(self, line):
         w = line.words
         name, style = w[1], self.style(w)
         self.mirrored.pop(name, None)
         if style == "property/global":
+            self.read_property(line)
             self.plain.add(name)
             self.put(f"# {line.text.strip()}")
         elif style.startswith("mesh/surface"):
@@ -429,6 +468,8 @@ class Script(Walls, Motions, Insertion, Flows, Dumps, Properties, Same):
             self.put(f"# mesh {name}: see the fixes that use it")
             for text in self.meshes[name].before:
                 self.put(text)
+            if self.meshes[name].said:
+                self.note(line, self.meshes[name].said)
             if name in self.unchecked:
                 self.note(line, f"{self.meshes[name].file} is not there: on triangles inclined to the surface's velocity LIGGGHTS "
                           "keeps its full size")
@@ -442,8 +483,10 @@ class Script(Walls, Motions, Insertion, Flows, Dumps, Properties, Same):
         elif style == "massflow/mesh":
             self.massflow(line)
         elif style == "check/timestep/gran":
+            self.read(line, style, "check_every_time? COUNT NUMBER NUMBER [warn YES] [error YES] [vmax NUMBER]", 4)
             self.plain.add(name)
-            self.note(line, "fix check/timestep/gran has no counterpart; lsdcd timestep names a timestep")
+            self.note(line, "fix check/timestep/gran has no counterpart; lsdcd timestep names a timestep" +
+                      ("; LIGGGHTS stops where the timestep is too long" if ["error", "yes"] in map(list, zip(w, w[1:])) else ""))
         elif style.startswith("insert/"):
             self.insert(line)
         elif style.startswith(("particletemplate", "particledistribution")):
@@ -452,19 +495,23 @@ class Script(Walls, Motions, Insertion, Flows, Dumps, Properties, Same):
             kind, *size = self.template(line) if style == "particletemplate/sphere" else (None, None)
             if kind and None not in size:
                 self.templates[name] = (short(kind), *size, line)
-            if style.startswith("particledistribution/discrete"):
-                law = {"particledistribution/discrete/numberbased": "poly"}.get(style, "mass")
-                self.distributions[name] = (law, w[6:], line)
+            if style in DISTRIBUTIONS:
+                self.read(line, f"fix {style}", "NUMBER COUNT (NAME NUMBER)+", 4)
+                if self.number(w[5], line) != len(w[6:]) / 2:
+                    raise Left(f"{w[5]} templates of {style}, which are {len(w[6:]) / 2:g}", "the number of templates that follow")
+                self.distributions[name] = (DISTRIBUTIONS[style], w[6:], line)
             if name in self.templates or (name in self.distributions and all(k in self.templates for k in w[6::2])):
                 self.plain.add(name)
                 self.put(f"# {name}: see the fixes that insert grains")
                 return
             raise Left(style, "radii and densities go to fix insert/lsdcd (diam, dens), or to set after create_atoms")
         elif style == "balance" and len(w) == 8:
+            self.read(line, "fix balance", BALANCE, 4)
             self.put(self.balance(w))
-        elif style in SAME_FIXES:
+        elif style in FIXES:
             if style == "nve/limit" and w[4] in ("radius_ratio", "absolute"):
                 raise Left(f"nve/limit {w[4]}", "nve/limit of LAMMPS has the largest distance alone")
+            self.read(line, f"fix {style}", FIXES[style], 4)
             if self.grows(w):
                 self.pass_on(line.but(" ".join(w + ["mass yes"])))    # LIGGGHTS keeps the density
                 return

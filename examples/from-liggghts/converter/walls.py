@@ -6,8 +6,11 @@ import math
 import re
 
 from .errors import CannotConvert, Left
+from .forms import read
 from .geometry import short
 from .laws import Contact, Model
+
+STORED = {**dict.fromkeys(("store_force", "store_force_contact", "store_force_contact_stress"), "YES"), "store_force_contact_every": "COUNT"}
 
 
 class Wall:
@@ -36,9 +39,11 @@ class Wall:
                 n_values = 1 if self.shape.endswith("plane") else 3
                 self.place = [w.pop(0) for _ in range(n_values)]
             elif w[0] == "shear":
+                read("shear", "x|y|z NUMBER", w[1:3])
                 self.shear = w[:3]
                 del w[:3]
-            elif w[0] in ("store_force", "store_force_contact", "store_force_contact_every", "store_force_contact_stress"):
+            elif w[0] in STORED:
+                read(w[0], STORED[w[0]], w[1:2])
                 self.stored = self.stored or w[1] != "no"
                 del w[:2]
             else:
