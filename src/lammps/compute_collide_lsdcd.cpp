@@ -54,7 +54,7 @@ ComputeCollideLsdcd::ComputeCollideLsdcd(LAMMPS *lmp, int narg, char **arg) :
     Compute(lmp, narg, arg), OwnMessages(lmp, "Compute", id, "lsdcd/collide")
 {
   run_core([&] {
-    settings = lsdcd::parse_collide(std::vector<std::string>(arg + 3, arg + narg));
+    settings = lsdcd::parse_collide(words_of(arg + 3, arg + narg));
     lsdcd::MpiHost mpi(world);
     const lsdcd::WeldedMesh mesh = lsdcd::read_together(mpi, settings.mesh);
     if (mesh.faces.empty())

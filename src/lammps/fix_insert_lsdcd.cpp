@@ -116,7 +116,7 @@ FixInsertLsdcd::FixInsertLsdcd(LAMMPS *lmp, int narg, char **arg) :
   if (domain->dimension == 2)
     fatal("the simulation has two dimensions: there is no insertion there");
   run_core([&] {
-    settings = lsdcd::parse_insert(std::vector<std::string>(arg + 3, arg + narg));
+    settings = lsdcd::parse_insert(words_of(arg + 3, arg + narg));
     if (settings.type > atom->ntypes)
       throw lsdcd::InputError("in 'type', there is no atom type " + std::to_string(settings.type) +
                               ": there are " + std::to_string(atom->ntypes));

@@ -32,7 +32,7 @@ FixMassflowLsdcd::FixMassflowLsdcd(LAMMPS *lmp, int narg, char **arg) :
     Fix(lmp, narg, arg), OwnMessages(lmp, "Fix", id, "massflow/lsdcd")
 {
   run_core([&] {
-    settings = lsdcd::parse_massflow(std::vector<std::string>(arg + 3, arg + narg));
+    settings = lsdcd::parse_massflow(words_of(arg + 3, arg + narg));
     const lsdcd::WeldedMesh mesh = read_mesh();
     surface = std::make_unique<lsdcd::FlowSurface>(mesh);
     log(settings.brief ? lsdcd::counted(mesh.faces.size(), "triangle")

@@ -69,7 +69,7 @@ FixWallLsdcd::FixWallLsdcd(LAMMPS *lmp, int narg, char **arg, const lsdcd::WallB
   run_core([&] {
     std::string report;
     lsdcd::WallCommand command = lsdcd::parse_wall(
-        std::vector<std::string>(arg + 3, arg + narg),
+        words_of(arg + 3, arg + narg),
         [&](const lsdcd::WallMaterials &materials, const std::vector<lsdcd::MaterialPair> &pairs) {
           return read_laws(host, materials, pairs, update->unit_style, report);
         });
@@ -641,8 +641,7 @@ int FixWallLsdcd::image(int *&kinds, double **&rows)
 
 int FixWallLsdcd::modify_param(int narg, char **arg)
 {
-  const int taken =
-      lsdcd::change_wall(*wall, std::vector<std::string>(arg, arg + narg), step_now());
+  const int taken = lsdcd::change_wall(*wall, words_of(arg, arg + narg), step_now());
   size_vector = size_array_cols = lsdcd::n_outputs(spec());
   return taken;
 }

@@ -12,6 +12,17 @@
 
 using namespace LAMMPS_NS;
 
+std::vector<std::string> OwnMessages::words_of(char **first, char **end)
+{
+  std::vector<std::string> words(first, end);
+  for (const std::string &word : words)
+    if (word == "&" || (&word == &words.back() && !word.empty() && word.back() == '&'))
+      throw lsdcd::InputError("the command ends at '&', because something follows on its line, as "
+                              "a comment: LAMMPS continues a line only if '&' is "
+                              "its last character, so put the comment on a line of its own");
+  return words;
+}
+
 void OwnMessages::log(const std::string &text) const
 {
   if (lammps->comm->me == 0) utils::logmesg(lammps, begin + text + "\n");

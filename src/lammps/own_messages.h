@@ -11,6 +11,7 @@
 #include <new>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 namespace LAMMPS_NS {
 
@@ -23,6 +24,9 @@ class OwnMessages {
       begin(kind + " " + id + " " + style + ": ")
   {
   }
+
+  // Returns the words of a command from `first` on. Throws InputError for an '&' that continues no line.
+  static std::vector<std::string> words_of(char **first, char **end);
 
   // By the first process.
   void log(const std::string &) const;

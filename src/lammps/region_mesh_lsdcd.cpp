@@ -56,7 +56,7 @@ RegionMeshLsdcd::RegionMeshLsdcd(LAMMPS *lmp, int narg, char **arg) :
   cmax = tmax = 0;
   contact = nullptr;
   run_core([&] {
-    settings = lsdcd::parse_region(std::vector<std::string>(arg + 2, arg + narg));
+    settings = lsdcd::parse_region(words_of(arg + 2, arg + narg));
     read_host_words();
     lsdcd::MpiHost mpi(world);
     const lsdcd::WeldedMesh mesh = lsdcd::read_together(mpi, settings.mesh);

@@ -108,6 +108,8 @@ TABLES = [
         ("file_without_mesh", "floor.stl two.STL", "'two.STL' is not a keyword here: write mesh before the file"),
         ("joint_without_body", "floor.stl hinge 0 0 0 0 1 0", "'hinge' is not a keyword here: it goes with body"),
         ("unknown_keyword", "floor.stl sclae 2", "'sclae' is not a keyword", "'scale s | sx sy sz'"),
+        ("continued_behind_a_comment", "floor.stl &  # the floor", "the command ends at '&'", "a comment", "only if '&' is its last character"),
+        ("continued_without_a_space", "floor.stl scale 1&  # the floor", "the command ends at '&'", "a comment", "only if '&' is its last character"),
     ]),
     (changed(WALL, ("f f f", "p p f")) + HOOKE + "mesh {}\n" + RUN, [
         ("meshes_through_periodic", "floor.stl mesh floor.stl move 0 0 1 motion rotate 0 0 0 0 0 1 2",
@@ -160,6 +162,7 @@ TABLES = [
          "in 'types 5', there is no atom type 5: there are 1"),
     ]),
     (WALL + HOOKE + "mesh floor.stl mesh floor.stl move 0 0 3\nfix_modify wall {}\n", [
+        ("change_continued_behind_a_comment", "mesh 2 motion linear 0 0 1 &  # up", "Fix wall wall/lsdcd", "the command ends at '&'", "a comment", "only if '&' is its last character"),
         ("modify_mesh_alone", "mesh 2",
          "Fix wall wall/lsdcd", "fix_modify mesh 2: motion ..., servo ... or body ... must follow ("),
         ("modify_mesh_other_word", "mesh 2 energy yes",
@@ -172,6 +175,7 @@ TABLES = [
 
     # fix massflow/lsdcd
     (FLOW + "fix             m all massflow/lsdcd mesh {}\n" + RUN, [
+        ("massflow_continued_behind_a_comment", "floor.stl &  # the floor", "Fix m massflow/lsdcd", "the command ends at '&'", "a comment", "only if '&' is its last character"),
         ("massflow_missing_file", "nothere.stl", "Fix m massflow/lsdcd", "nothere.stl"),
         ("massflow_missing_file_of_no_format", "wall.vtk",
          "wall.vtk", "its name does not end with one of .stl, .obj, .ply, .off"),
@@ -209,6 +213,7 @@ TABLES = [
          "Fix in insert/lsdcd", "region moves has no bounds, or changes with time"),
         ("insert_two_rates", "region box diam one 0.2 dens 1 massrate 1 numberrate 1", "'numberrate'", "massrate and numberrate are both given"),
         ("insert_unknown_keyword", "region box daim one 0.2", "Fix in insert/lsdcd", "'daim' is not a keyword", "diam one D"),
+        ("insert_continued_behind_a_comment", "region box diam one 0.2 &  # small", "Fix in insert/lsdcd", "the command ends at '&'", "a comment", "only if '&' is its last character"),
         ("insert_wall_of_other_style", "region box diam one 0.2 dens 1 number 5 wall in",
          "in 'wall', fix in is of style insert/lsdcd: give the ID of a fix wall/lsdcd"),
         ("insert_wall_that_is_not", "region box diam one 0.2 dens 1 number 5 wall w",
@@ -259,6 +264,7 @@ TABLES = [
         ("collide_short_cells", "wall mesh floor.stl grid 1e-7", "cell"),
         ("collide_twice", "wall mesh floor.stl grid 1 grid 2", "the keyword 'grid' is given twice"),
         ("collide_unknown_keyword", "wall mesh floor.stl bodie one", "'bodie' is not a keyword", "bodies one"),
+        ("collide_continued_behind_a_comment", "wall mesh floor.stl &  # one", "Compute c lsdcd/collide", "the command ends at '&'", "a comment", "only if '&' is its last character"),
     ]),
     # region mesh/lsdcd
     (WALL + "variable        turn equal step\nregion          r mesh/lsdcd {}\n" + RUN, [
@@ -273,6 +279,7 @@ TABLES = [
         ("region_open", "floor.stl", "Region r mesh/lsdcd", "floor.stl has no inside", "edges are open",
          "the first goes from", "lsdcd repair"),
         ("region_open_face", "two.stl open 1", "Region r mesh/lsdcd", "'open' is not a keyword"),
+        ("region_continued_behind_a_comment", "two.stl &  # two", "Region r mesh/lsdcd", "the command ends at '&'", "a comment", "only if '&' is its last character"),
         ("region_rotate_short", "two.stl rotate v_turn 0 0 0", "Region r mesh/lsdcd", "'rotate' has too few values"),
         ("region_rotating_in_union", "two.stl rotate v_turn 0 0 0 0 0 1\n"
          "region u union 2 box r\ngroup g region u",
