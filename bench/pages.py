@@ -106,7 +106,7 @@ def hours(cpu, cuda):
     made = table((10000, 100000, 1000000, 10000000), ["grains", "one core", "4 cores", "16 cores", "one H200"],
                  lambda n: [count(n), *[of(n, core_ns, cores) for cores in (1, 4, 16)], of(n, card_ns) if n >= int(card["spheres"]) else ""])
     return (f"{made}\n\n* A grain and step, wall included: {core_ns:.0f} ns on one core ({core['device']}, `gran/hooke/history/kk` over a floor of "
-            f"{count(core['triangles'])} triangles); {card_ns:.1f} ns on the H200 (`granular` with hertz/material, mindlin, "
+            f"{count(core['triangles'])} triangles); {card_ns:.1f} ns on the H200 (`gran/hooke/history/kk`, at the wall `granular` with hertz/material, mindlin, "
             f"sds and marshall in a box of {count(card['triangles'])} triangles).")
 
 
@@ -246,6 +246,9 @@ def settings(rows):
         value = float(value)
         return "0" if value < 1e-12 else f"{value:.0f}" if value >= 1 else f"{value:.1g}"
 
+    def megabytes(row):
+        return f"{float(row['bytes']) / 1e6:.3g}"
+
     shares = {}    # of the default length of cells, by which a GPU's cells are compared with a CPU's
     for device in DEVICES:
         mine = [r for r in rows if r["kind"] == device]
@@ -253,6 +256,11 @@ def settings(rows):
         for r in mine:
             shares.setdefault(f"{float(r['grid']) / default:.2g}", {})[device] = r["grid"]
     at_default = shares.pop("1")
+    on_cpu, on_gpu = (at_default[device] for device in DEVICES)
+    coarse = find(rows, kind="cuda", grid=on_cpu, corner="blend", nearest="all")
+    told = (f"* Cells of the default: {1000 * float(on_cpu):.3g} mm on a CPU, and {1000 * float(on_gpu):.3g} mm on a GPU, which chooses near spheres faster "
+            f"with them. With those of the CPU a step takes {short(coarse['ns_per_sphere'], 3)} ns on the GPU, and {megabytes(coarse)} MB. "
+            "What *nearest* misses is with the cells of the CPU.")
     base = dict(corner="blend", nearest="all")
     lines = [("**nothing** (the default)", at_default, base)]
     lines += [(f"`grid` {s} times the default", at, base) for s, at in sorted(shares.items()) if set(at) == set(DEVICES)]
@@ -263,11 +271,11 @@ def settings(rows):
         name, at, wanted = line
         cpu, gpu = (find(rows, kind=device, grid=at[device], **wanted) for device in DEVICES)
         return [name, percent(cpu["missed"]), error(cpu["force_mean"]), error(cpu["force_largest"]), error(cpu["bounce_drift"]),
-                error(cpu["roll_drift"]), f"{float(cpu['ns_per_sphere']):.0f}", short(gpu["ns_per_sphere"], 3), f"{float(cpu['bytes']) / 1e6:.3g}"]
+                error(cpu["roll_drift"]), f"{float(cpu['ns_per_sphere']):.0f}", megabytes(cpu), short(gpu["ns_per_sphere"], 3), megabytes(gpu)]
 
     heads = ["setting", "missed contacts", "force error, mean", "largest", "energy drift: bouncing", "rolling",
-             "ns a step, CPU core", "GPU", "MB"]
-    return table(lines, heads, cells)
+             "CPU core, ns a step", "MB", "GPU, ns a step", "MB"]
+    return table(lines, heads, cells) + "\n\n" + told
 
 
 # ---- pages ---------------------------------------------------------------------------------

@@ -100,7 +100,7 @@ def state_script(text, name, scene):
         return f"{match[0]} mesh_stl {name}_{meshes}.stl every {EVERY}"
 
     for line in re.sub(r"&\s*\n\s*", " ", text).split("\n") + [""]:
-        if re.match(scene.stop or "$", line) and (scene.stop or "run             ${steps}" in lines):
+        if re.match(scene.stop or "$", line) and (scene.stop or any(done.startswith("run ") for done in lines)):
             columns = "id type x y z radius vx vy vz"
             if scene.shaped:
                 lines.append("compute shape all property/atom shapex shapey shapez block1 block2 quatw quati quatj quatk")

@@ -3,10 +3,10 @@
 
 """Reads the pages, Markdown and reStructuredText: their links, images, headings and code blocks.
 
-A code block has a language: ```lammps in Markdown, `.. code-block:: LAMMPS` in reStructuredText. Tests run or parse
-it, unless the second word behind ``` is `form`: a form of syntax, or what another machine needs. A program with the
-second word `run` prints the lines of the first ```text block after it. In
-reStructuredText a form is a parsed-literal, a block with `:class: form`, or one under the heading Syntax. A comment before a block gives
+A code block has a language: ```lammps in Markdown, `.. code-block:: LAMMPS` in reStructuredText. Tests run
+it, unless the second word behind ``` is `form`, in reStructuredText `:class: form`: what another machine needs, which FORMS of
+test_pages.py names with its reason. A program with the second word `run` prints the lines of the first ```text block after it. In
+reStructuredText a parsed-literal and a block under the heading Syntax are syntax, and no code. A comment before a block gives
 lines that a test puts before it: `<!-- before: variable e equal 0.9 -->`, `.. before: variable e equal 0.9`.
 """
 import os
@@ -19,9 +19,9 @@ GLOBS = ("*.md", "doc/*.md", "doc/*.rst", "doc/notes/*.md", "doc/data/*.md", "ex
 
 
 class Block:
-    def __init__(self, page, line, language, text, form=False, before=(), run=False):
+    def __init__(self, page, line, language, text, form=False, before=(), run=False, syntax=False):
         self.page, self.line, self.language, self.form = page, line, language.lower(), form
-        self.text, self.before, self.run = textwrap.dedent(text), list(before), run
+        self.text, self.before, self.run, self.syntax = textwrap.dedent(text), list(before), run, syntax
 
     def __str__(self):
         return f"{self.page.path}:{self.line}"
@@ -124,14 +124,15 @@ class Page:
                                     len(lines[end]) - len(lines[end].lstrip()) > len(match[1])):
             end += 1
         body = lines[at + 1:end]
-        form = section == "Syntax" or not literal and match[2] == "parsed-literal"
+        syntax = section == "Syntax" or not literal and match[2] == "parsed-literal"
+        form = False
         while body and (not body[0].strip() or re.match(r" *:\w+:", body[0])):
             form = form or body[0].strip() == ":class: form"
             body = body[1:]
         language = "" if literal or match[2] == "parsed-literal" else match[3].strip()
         if literal:
             self.indented.append(at + 1)
-        return Block(self, at + 1, language, "\n".join(body).rstrip() + "\n", form, before)
+        return Block(self, at + 1, language, "\n".join(body).rstrip() + "\n", form or syntax, before, syntax=syntax)
 
 
 def all_pages():

@@ -4,11 +4,13 @@
 """The pages: their links, and that all of their code runs. pages.py says what a block is.
 
 links       files, anchors and images of links are there; messages of doc/troubleshooting.md are in the sources
-code        C, C++ and Python compile; programs that say so print what the page has
-commands    commands of `lsdcd` run, in a folder with the files that they read; in a form, or between words, their words are there
+code        Python of user pages runs, other code compiles; programs that say so print what the page has
+commands    of user pages run in their order, as they stand; of others those of `lsdcd`, in a folder with the files that they read; in a
+            form, or between words, their words are there
 scripts     LAMMPS: whole scripts for 0 steps, other lines in a small scene
+host        those of user pages that need a newer LAMMPS, in that of hosts/build_host.sh
 recipes     doc/recipes.md and doc/choosing.md run as they stand, and print what the pages have
-log         the log of README's script has the lines that doc/log.md explains
+log         README's script and commands run as they stand, and the log has the lines that doc/log.md explains
 tutorial    every command of doc/tutorial.md in its order, and (paraview) the script that opens its result
 """
 import base64
@@ -41,14 +43,60 @@ IMAGES = (".png", ".gif", ".svg", ".webp", ".jpg")
 TUTORIAL = ROOT / "examples" / "tutorial"
 
 
+def top_of_sources(folder, *written):
+    """Makes a folder like the top of the sources: build/bin and examples, of which a folder that is `written` to is a copy."""
+    (folder / "build").mkdir(parents=True)
+    (folder / "build" / "bin").symlink_to(pathlib.Path(lmp.LMP).parent)
+    (folder / "examples").mkdir()
+    for path in (ROOT / "examples").iterdir():
+        if path.name in written:
+            shutil.copytree(path, folder / "examples" / path.name)
+        else:
+            (folder / "examples" / path.name).symlink_to(path)
+
+
 def shell(words, folder, **environment):
     return subprocess.run(words, cwd=folder, text=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
                           stdin=subprocess.DEVNULL, env={**lmp.environment(), **environment})
 
 
+DEVELOPERS = {"doc/design.md", "doc/testing.md"}
+# Blocks of user pages that no test runs as they stand, by their first words, and why.
+COMPILES = "compiles this tree, as each test does before"
+NEWER = "needs a newer LAMMPS: test_host runs it"
+NOT_RUN = {
+    ("doc/fix_wall_lsdcd.rst", "units        si\nplugin"): NEWER,
+    ("doc/install.md", "plugin load build-host"): NEWER,
+    ("doc/install.md", "./run build"): COMPILES,
+    ("doc/install.md", "./run package"): "compiles this tree; check_release.py looks into its packages",
+    ("doc/install.md", "./run test"): COMPILES,
+    ("doc/install.md", "cmake -S lammps/cmake -B lammps/build -D BUILD_MPI"): "downloads LAMMPS, which hosts/build_host.sh does",
+    ("doc/install.md", "cmake -B build-host"): "tests/lammps/CMakeLists.txt compiles this plugin",
+    ("doc/install.md", "cmake -B build-kokkos"): "tests/lammps/CMakeLists.txt compiles this plugin",
+    ("doc/install.md", "cmake -S lammps/cmake -B lammps/build -D CMAKE_PROJECT"): "downloads LAMMPS, which hosts/build_host.sh package does",
+    ("doc/install.md", "module load"): "needs a cluster",
+    ("doc/library.md", "cmake --install"): "has a prefix to be chosen; test_install.py installs a build",
+    ("doc/library.md", "find_package"): "is of a CMakeLists.txt; test_install.py builds with such lines",
+    ("doc/other-walls.md", "/usr/bin/python3 examples/flat/differences.py"): "names a LAMMPS; lammps.wall_gran_differences runs it",
+    ("doc/recipes.md", "apt install gmsh"): "installs a program, and has a file of CAD",
+    ("doc/recipes.md", "surfaceMeshExtract"): "needs OpenFOAM",
+    ("doc/tutorial.md", "paraview"): "opens a window; test_paraview runs its script",
+}
+
+
+def is_of_users(page):
+    return page.path == "README.md" or re.fullmatch(r"doc/[\w-]+\.(md|rst)", page.path) and page.path not in DEVELOPERS
+
+
+def why_not_run(block):
+    """A reason, or an empty string."""
+    return next((why for (path, words), why in NOT_RUN.items() if path == block.page.path and block.text.startswith(words)), "")
+
+
 def blocks_of(*languages):
-    """Those that are no forms."""
-    found = [block for page in all_pages().values() for block in page.blocks if block.language in languages and not block.form]
+    """Those that run: of user pages all but those of NOT_RUN, of others those that are no forms."""
+    found = [block for page in all_pages().values() for block in page.blocks if block.language in languages and not block.syntax
+             and not (why_not_run(block) if is_of_users(page) else block.form)]
     fact(f"there are blocks of {languages[0]}", len(found) > 5)
     return found
 
@@ -78,6 +126,22 @@ def test_links():
     nothing("doc/index.md has the pages", [path for path in pages if re.match("doc/(?!data/)", path) and path not in named])
     nothing("code blocks have a language", [f"{page.path}:{line}" for page in pages.values() for line in page.indented] +
             [block for page in pages.values() for block in page.blocks if block.language not in LANGUAGES and not block.form])
+
+
+def test_blocks_of_links():
+    """Each block of code of a user page runs, or is in NOT_RUN, and no block is marked as a form without a reason."""
+    blocks = [block for page in all_pages().values() if is_of_users(page) for block in page.blocks if not block.syntax]
+    reasons = {key for block in blocks for key in NOT_RUN if key[0] == block.page.path and block.text.startswith(key[1])}
+    nothing("reasons of NOT_RUN are of blocks", NOT_RUN.keys() - reasons)
+    nothing("forms have a reason", [block for block in blocks if block.form and not why_not_run(block)])
+    nothing("blocks are of languages that run", [block for block in blocks if block.language not in LANGUAGES and not why_not_run(block)])
+
+
+def test_continued_lines_of_links():
+    """LAMMPS ends a command at a comment behind &."""
+    texts = [(str(block), block.text) for page in all_pages().values() for block in page.blocks if block.language == "lammps"]
+    texts += [(path.relative_to(ROOT), path.read_text(encoding="utf-8")) for path in ROOT.glob("examples/**/in.*") if not path.name.endswith(".liggghts")]
+    nothing("nothing stands behind &", [f"{where}: {line}" for where, text in texts for line in text.split("\n") if re.match(r"[^#]*&[ \t]*#", line)])
 
 
 def test_messages_of_links():
@@ -126,10 +190,10 @@ def problem_of(block, folder):
 
 
 def output_of(block, folder):
-    """Of a program, linked to the library of LSDCD_LIBRARY."""
+    """Of a program, linked to the library of LSDCD_LIBRARY; that of Python may end with an error."""
     library = os.environ["LSDCD_LIBRARY"]
     source = folder / f"run.{block.language}"
-    source.write_text(block.text)
+    source.write_text("\n".join(block.before + [block.text]))
     words = [sys.executable, source]
     if block.language != "python":
         words = [folder / "run"]
@@ -137,16 +201,21 @@ def output_of(block, folder):
                       f"-Wl,-rpath,{os.path.dirname(library)}"], folder)
         if done.stdout:
             return done.stdout
-    return shell(words, folder, PYTHONPATH=str(ROOT / "src" / "api")).stdout
+    return shell(words, folder, PYTHONPATH=str(ROOT / "src" / "api"), LSDCD_POTENTIALS=str(ROOT / "potentials")).stdout
 
 
 def test_code(folder):
+    stl.write(folder / "wall.stl", cube(1))
+    stl.write(folder / "body.stl", cube(1, size=0.5))
     for block in blocks_of("python", *COMPILERS):
         if block.run:
             page = block.page.blocks
             wanted = next(other.text for other in page[page.index(block):] if other.language == "text")
             printed = output_of(block, folder)
             fact(f"{block}: prints what the page has", printed == wanted, printed)
+        elif block.language == "python" and is_of_users(block.page):
+            printed = output_of(block, folder)
+            fact(f"{block}: runs", "Traceback" not in printed, printed[-1500:])
         else:
             problem = problem_of(block, folder)
             fact(f"{block}: {block.language} compiles", not problem, problem)
@@ -216,7 +285,7 @@ def quick(words):
 def test_commands(monkeypatch):
     monkeypatch.setenv("LSDCD_POTENTIALS", str(ROOT / "potentials"))
     for block in blocks_of(*SHELL):
-        if block.page.path in ("doc/tutorial.md", "doc/recipes.md", "doc/choosing.md"):    # run below
+        if is_of_users(block.page):    # they run below
             continue
         with tempfile.TemporaryDirectory() as name:
             place = pathlib.Path(name)
@@ -229,6 +298,29 @@ def test_commands(monkeypatch):
                 done = command.run(place, *quick(words))
                 # repair ends with 3 where something is left, which is no error.
                 fact(f"{block}: lsdcd {' '.join(words)[:60]}", done.returncode in (0, 3), done.stderr[-300:])
+
+
+ALONE = ("README.md", "doc/tutorial.md", "doc/recipes.md", "doc/choosing.md")    # whose commands other tests run
+
+
+def test_commands_of_users(folder):
+    """Each page in a folder of its own, which has the programs and the examples where the top of the sources has them."""
+    chosen = {}
+    for block in blocks_of(*SHELL):
+        if is_of_users(block.page) and block.page.path not in ALONE:
+            chosen.setdefault(block.page.path, []).append(block.text)
+    fact("pages have commands", len(chosen) >= 3, " ".join(chosen))
+    for path, texts in chosen.items():
+        place = folder / pathlib.Path(path).stem
+        top_of_sources(place)
+        shutil.copy(ROOT / "examples" / "from-liggghts" / "in.conveyor.liggghts", place / "in.mine")
+        shell([sys.executable, ROOT / "examples" / "from-liggghts" / "make_meshes.py"], place)
+        text = "".join(texts)
+        if lmp.QUICK:
+            text = re.sub(r"^(lsdcd tradeoff .*) --seconds 20$", rf"\1 {QUICK['tradeoff']}", text, flags=re.M)
+        done = shell(["bash", "-ec", text], place, PATH=f"{pathlib.Path(lmp.LMP).parent}:{os.environ['PATH']}",
+                     LSDCD_POTENTIALS=str(ROOT / "potentials"))
+        fact(f"every command of {path} ends well", done.returncode == 0, done.stdout[-1500:] if done.returncode else "")
 
 
 def test_words_of_commands():
@@ -353,12 +445,28 @@ def test_scripts(folder):
     (folder / "arm.txt").write_text("0 0 0 0 0 0 0\n0.25 0.1 0 0.05 0 0.3 0\n")
     (folder / "cam.csv").write_text("0, 0\n0.1, 12.5\n0.2, 0\n")
     for block in blocks_of("lammps"):
-        if re.match(r"# in\.\w+\n", block.text):    # a file of a recipe
+        if re.match(r"# in\.\w+\n", block.text) or block.page.path == "README.md":    # a file of a recipe, and test_log's
             continue
         whole = re.match(r"units\b", block.text)
         done = run_heat(whole_script(block.page, block, folder) if whole else script_of(block, folder, known), folder)
         error = re.search(r"^ERROR.*(?:\n.*)?", done.stdout, re.M)
         fact(f"{block} runs", done.returncode == 0, error[0] if error else "")
+
+
+@lmp.needs_host
+def test_host(folder):
+    """What needs a newer LAMMPS, as it stands, but for 0 steps."""
+    lib = folder / "build-host" / "lib"
+    lib.mkdir(parents=True)
+    plugin = pathlib.Path(lmp.PLUGIN)
+    for file in (plugin, plugin.with_name(plugin.stem + "-styles.so")):
+        (lib / file.name.replace(plugin.stem, "lsdcdplugin")).symlink_to(file)
+    blocks = [block for page in all_pages().values() for block in page.blocks if why_not_run(block) == NEWER]
+    fact("there are such blocks", len(blocks) == 2, len(blocks))
+    for block in blocks:
+        (folder / "in.host").write_text(whole_script(block.page, block, folder))
+        done = shell([lmp.HOST, "-in", "in.host"], folder)
+        fact(f"{block} runs", done.returncode == 0, done.stdout[-500:])
 
 
 # ---- recipes, log, tutorial --------------------------------------------------------------
@@ -400,7 +508,7 @@ def run_page(folder, path, within=None):
             (folder / name[1]).write_text(block.text if within else STEPS.sub(
                 lambda found: found[1] + str(math.ceil(int(found[2]) / 50)), block.text))
     shutil.copy(TUTORIAL / "stress.py", folder)
-    text = "".join(block.text for block in page.blocks if block.language == "sh" and not block.form)
+    text = "".join(block.text for block in page.blocks if block.language == "sh" and not why_not_run(block))
     done = shell(["bash", "-ec", text], folder, PATH=f"{pathlib.Path(lmp.LMP).parent}:{os.environ['PATH']}")
     fact(f"every command of {path} ends well", done.returncode == 0, done.stdout[-1500:] if done.returncode else "")
     wanted = [line for block in page.blocks if block.language == "text" and NUMBER.search(block.text) and ":" in block.text
@@ -418,20 +526,24 @@ def test_choosing(folder):
 
 
 def test_log(folder):
-    """The script of README has the lines of the front page, and in fewer steps its log has each line of doc/log.md, with other numbers."""
+    """The script of README runs by its commands, and its log has each line of doc/log.md, with other numbers. In the small samples it
+    has fewer steps; else the last line of its table is that of the page, as far as beds are alike."""
     readme, page = Page("README.md"), Page("doc/log.md")
-    script = (TUTORIAL / "in.first").read_text()
-
-    def bare(text):
-        return re.sub(r"\s+", " ", re.sub(r"#.*|&", "", text)).strip()
-
-    shown = next(block.text for block in readme.blocks if block.language == "lammps")
-    lines = [bare(line) for line in re.sub(r"& .*\n", "", shown).strip().split("\n")]
-    fact("the script has the lines of the front page", len(lines) == 5 and all(line in bare(script) for line in lines), str(lines))
-    tool = re.search(r"^\S*(lsdcd generate .*)$", readme.text, re.M)[1].split()
-    fact("the mesh of README is made", command.run(folder, *tool[1:]).returncode == 0)
-    script = re.sub(r"(?m)^variable +steps .*", "variable steps index 1500", script).replace("every 5000", "every 500")
-    done = lmp.run(script, folder, ranks=2)
+    script, told = (next(block.text for block in readme.blocks if block.language == language) for language in ("lammps", "text"))
+    commands = next(block.text for block in readme.blocks if block.language == "sh" and "in.first" in block.text)
+    fact("examples/tutorial/in.first is the script", (TUTORIAL / "in.first").read_text().endswith("\n\n" + script))
+    top_of_sources(folder, "tutorial")
+    if lmp.QUICK:
+        script = script.replace("run             50000", "run 1500").replace("every 5000", "every 500")
+    (folder / "examples" / "tutorial" / "in.first").write_text(script)
+    done = shell(["bash", "-ec", commands], folder)
+    fact("the commands end well", done.returncode == 0, done.stdout[-1500:] if done.returncode else "")
+    if not lmp.QUICK:
+        # The drum carries the weight and the change of momentum of 2718 grains, of which a snapshot has a tenth; drive and power are means
+        # of a bed that sloshes.
+        found = re.search(rf"^ +50000 +2718 +(\S+) +(\S+) +(\S+) *$", done.stdout, re.M)
+        for value, wanted, within in zip(found.groups(), told.split()[2:], (0.2, 0.5, 0.5)):
+            at_most(f"{wanted} of the page", abs(float(value) / float(wanted) - 1), within)
     printed = {" ".join(words_of(line).split()) for line in done.stdout.split("\n")}
     for block in page.blocks:
         missing = [line for line in block.text.strip().split("\n") if " ".join(words_of(line).split()) not in printed]
@@ -456,9 +568,7 @@ def test_stress_of_recipes(tmp_path):
 
 
 def test_tutorial(folder):
-    (folder / "build").mkdir()
-    (folder / "build" / "bin").symlink_to(pathlib.Path(lmp.LMP).parent)
-    (folder / "examples").symlink_to(ROOT / "examples")
+    top_of_sources(folder)
     blocks = re.findall(r"^```sh\n(.*?)^```", (ROOT / "doc" / "tutorial.md").read_text(), re.M | re.S)
     # One heap for each rolling friction is enough to see that the commands work.
     text = "".join(blocks)
