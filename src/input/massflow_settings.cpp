@@ -13,7 +13,7 @@ namespace {
 const char *const kMassflowSyntax =
     "fix ID group massflow/lsdcd mesh FILE [scale s | sx sy sz] [rotate ax ay az degrees] [move x "
     "y "
-    "z] [weld tol] [count each | once] [delete no | yes] [every N] [log full | brief]";
+    "z] [weld tol] [count each | once] [delete no | yes] [every N] [file NAME] [log full | brief]";
 
 }    // namespace
 
@@ -37,6 +37,10 @@ MassflowSettings parse_massflow(const std::vector<std::string> &tokens)
     } else if (word == "delete") {
       w.set_context("delete", "delete no | yes");
       settings.deletes = w.choice({"no", "yes"}) == 1;
+    } else if (word == "file") {
+      w.set_context("file", "file NAME");
+      if (w.done()) w.fail("its name is missing");
+      settings.file = w.take();
     } else if (word == "every") {
       w.set_context("every", "every N");
       settings.every = static_cast<int>(w.whole("N", 1, 2147483647));

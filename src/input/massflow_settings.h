@@ -17,6 +17,7 @@ struct MassflowSettings {
   bool once = false;       // a sphere counts the first time only
   bool deletes = false;    // what has passed forward
   int every = 1000;        // steps over which the rate is an average
+  std::string file;        // of rows of passages; empty: none
 };
 
 // Throws InputError that names the word, what was expected and the syntax.

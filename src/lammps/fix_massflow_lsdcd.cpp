@@ -59,6 +59,7 @@ FixMassflowLsdcd::FixMassflowLsdcd(LAMMPS *lmp, int narg, char **arg) :
   // All that a host with its atoms on a GPU has to bring for counting; deletion takes everything.
   if (!settings.deletes) {
     datamask_read = X_MASK | TYPE_MASK | MASK_MASK | RMASS_MASK | TAG_MASK;
+    if (!settings.file.empty()) datamask_read |= V_MASK | RADIUS_MASK;
     datamask_modify = EMPTY_MASK;
   }
 #endif
@@ -123,12 +124,14 @@ void FixMassflowLsdcd::check_size(const lsdcd::WeldedMesh &mesh) const
 
 int FixMassflowLsdcd::setmask()
 {
-  return END_OF_STEP | (settings.deletes ? PRE_EXCHANGE : 0);
+  return END_OF_STEP | (settings.deletes ? PRE_EXCHANGE : 0) |
+         (settings.file.empty() ? 0 : POST_RUN);
 }
 
 void FixMassflowLsdcd::init()
 {
   watch.init(*update);
+  open_rows();
   for (const Fix *fix : lsdcd::host_fixes(*modify))
     if (settings.deletes && fix->rigid_flag)
       warn("delete yes removes atoms without telling fix " + std::string(fix->id) +
@@ -246,4 +249,5 @@ void FixMassflowLsdcd::count(int i, lsdcd::Passes passes)
   row[kForwardMass] += passes.forward * mass_of(i);
   row[kBackward] += passes.backward;
   row[kBackwardMass] += passes.backward * mass_of(i);
+  if (rows) keep_row(i, passes);
 }

@@ -8,6 +8,7 @@
 #include "fix.h"
 
 #include "flow/flow_surface.h"
+#include "flow/pass_file.h"
 #include "input/massflow_settings.h"
 #include "lammps/own_messages.h"
 #include "lammps/rerun_watch.h"
@@ -28,6 +29,7 @@ class FixMassflowLsdcd : public Fix, protected OwnMessages {
   void init() override;
   void setup(int) override;
   void end_of_step() override;
+  void post_run() override;
 
   // what goes with an atom, and deletion: fix_massflow_lsdcd_atoms.cpp
   void pre_exchange() override;
@@ -90,12 +92,19 @@ class FixMassflowLsdcd : public Fix, protected OwnMessages {
     }
   } window;
   double time_seen = 0;    // LAMMPS's, at the end of the last step
+  // With the keyword file: passages of this process that are not in it yet.
+  std::unique_ptr<lsdcd::PassFile> rows;
+  std::vector<lsdcd::Passage> passages;
+  bool goes_on = false;    // from a restart file
 
   lsdcd::WeldedMesh read_mesh();
   void check_size(const lsdcd::WeldedMesh &) const;
   void follow_box();
   void look(int);
   void count(int, lsdcd::Passes);
+  void open_rows();
+  void keep_row(int, lsdcd::Passes);
+  void write_rows();
   void reduce();
   double net_mass();
   void end_window();

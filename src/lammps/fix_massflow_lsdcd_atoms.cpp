@@ -92,5 +92,6 @@ void FixMassflowLsdcd::pre_exchange()
 
 double FixMassflowLsdcd::memory_usage()
 {
-  return surface->bytes() + tracks.capacity() * sizeof(Track) + near.capacity() * sizeof(int);
+  return surface->bytes() + tracks.capacity() * sizeof(Track) + near.capacity() * sizeof(int) +
+         passages.capacity() * sizeof passages[0];
 }

@@ -5,9 +5,14 @@
 
 #include "lammps/fix_massflow_lsdcd.h"
 
+#include "lammps/host_fixes.h"
+#include "lammps/mpi_host.h"
 #include "lammps/restart_data.h"
 
+#include "atom.h"
 #include "comm.h"
+#include "modify.h"
+#include "update.h"
 
 #include <algorithm>
 
@@ -32,8 +37,66 @@ double FixMassflowLsdcd::net_mass()
   return net;
 }
 
+// Begins the file in the first run.
+void FixMassflowLsdcd::open_rows()
+{
+  if (settings.file.empty() || rows) return;
+  for (const Fix *fix : lsdcd::host_fixes(*modify)) {
+    const auto *other = dynamic_cast<const FixMassflowLsdcd *>(fix);
+    if (other && other != this && other->settings.file == settings.file)
+      fatal("fix " + std::string(other->id) + " has the same file " + settings.file +
+            ": give each its own");
+  }
+  rows = std::make_unique<lsdcd::PassFile>(settings.file);
+  if (comm->me == 0)
+    run_core_here([&] { rows->open(goes_on ? static_cast<std::int64_t>(update->ntimestep) : -1); });
+}
+
+void FixMassflowLsdcd::keep_row(int i, lsdcd::Passes passes)
+{
+  const double *x = atom->x[i], *v = atom->v[i];
+  lsdcd::Passage row = {static_cast<double>(update->ntimestep),
+                        simulated_time(),
+                        static_cast<double>(atom->tag_enable ? atom->tag[i] : 0),
+                        static_cast<double>(atom->type[i]),
+                        atom->radius ? 2 * atom->radius[i] : 0,
+                        {x[0], x[1], x[2]},
+                        {v[0], v[1], v[2]},
+                        1};
+  for (int k = 0; k < passes.forward; k++) passages.push_back(row);
+  row.direction = -1;
+  for (int k = 0; k < passes.backward; k++) passages.push_back(row);
+}
+
+// Collective.
+void FixMassflowLsdcd::write_rows()
+{
+  if (!rows) return;
+  std::vector<double> numbers;
+  for (const lsdcd::Passage &p : passages)
+    numbers.insert(numbers.end(), {p.step, p.time, p.id, p.type, p.diameter, p.x.x, p.x.y, p.x.z,
+                                   p.v.x, p.v.y, p.v.z, p.direction});
+  passages.clear();
+  const std::vector<double> all = lsdcd::MpiHost(world).gather(numbers);
+  std::vector<lsdcd::Passage> written;
+  for (std::size_t k = 0; k + 11 < all.size(); k += 12) {
+    const double *a = &all[k];
+    written.push_back(
+        {a[0], a[1], a[2], a[3], a[4], {a[5], a[6], a[7]}, {a[8], a[9], a[10]}, a[11]});
+  }
+  if (!written.empty() && !rows->add(std::move(written)))
+    fatal_here("the rows of step " + std::to_string(update->ntimestep) +
+               " and before could not be written to " + settings.file + ": make room on its disk");
+}
+
+void FixMassflowLsdcd::post_run()
+{
+  write_rows();
+}
+
 void FixMassflowLsdcd::end_window()
 {
+  write_rows();
   const double net = net_mass();
   window = {0, 0, net, (net - window.start) / window.time};
 }
@@ -57,6 +120,7 @@ double FixMassflowLsdcd::compute_vector(int i)
 
 void FixMassflowLsdcd::write_restart(FILE *file)
 {
+  write_rows();
   reduce();
   if (comm->me != 0) return;
   lsdcd::State state(kKind);
@@ -68,6 +132,7 @@ void FixMassflowLsdcd::write_restart(FILE *file)
 // The first process keeps the totals.
 void FixMassflowLsdcd::restart(char *buffer)
 {
+  goes_on = true;
   const auto *numbers = reinterpret_cast<const double *>(buffer);
   std::vector<double> there;
   Window then;

@@ -114,8 +114,9 @@ def test_up(folder):
     over = over_plate(spheres())
     wrong = [step for step, row in rows.items()
              if row[BACKWARD] != len([s for s in over if step >= s[3] * STEPS_PER_LENGTH])
+             or row[MASS_BACKWARD] != mass_of([s for s in over if step >= s[3] * STEPS_PER_LENGTH])
              or row[FORWARD] != 0 or row[NET] != -row[MASS_BACKWARD]]
-    fact("what comes up counts backward", not wrong and rows[160][BACKWARD] == len(over), str(wrong))
+    fact("what comes up counts backward, with its mass", not wrong and rows[160][BACKWARD] == len(over), str(wrong))
     write_data(folder / "spheres.data", spheres())
 
 
@@ -155,6 +156,54 @@ def test_restart(folder):
     last = rest[204]
     fact("counted once, also through a restart",
          last[FORWARD] == len(first) and last[BACKWARD] == 0, str(last))
+
+
+HEADER = "# step time id type diameter x y z vx vy vz direction"
+
+
+def rows_of(path):
+    """The rows of a file of passages, as numbers."""
+    header, *rows = path.read_text().splitlines()
+    assert header == HEADER
+    return [[float(x) for x in row.split()] for row in rows]
+
+
+def passing(some):
+    """(step, sphere's row) of each, in the order of steps and IDs: down through the plate that is turned over."""
+    rows = []
+    for number, (kind, x, y, z) in enumerate(some, 1):
+        if over_plate([(kind, x, y, z)]):
+            step = int(STEPS_PER_LENGTH * z) + 1
+            rows.append([step, step / STEPS_PER_LENGTH, number, kind, 0.25 if kind == 2 else 0, x, y, z - step / STEPS_PER_LENGTH, 0, 0, -1, 1])
+    return sorted(rows, key=lambda row: (row[0], row[2]))
+
+
+def test_rows(folder):
+    """A row for each passage: where and when it was, whatever the processes."""
+    wide, expected = "set type 2 diameter 0.25\n", passing(spheres())
+    for ranks in (1, 2, 4):
+        lmp.run_well(begin() + wide + forces("every 48 file rows.txt") + "run 100\nrun 60\n", folder, ranks)
+        fact(f"rows are those of the closed form, {ranks} ranks", rows_of(folder / "rows.txt") == expected, str(rows_of(folder / "rows.txt")[:2]))
+    # A restart in the middle of a window, of a run that went on behind it: what it had written there comes again. In 29Sep2021 LAMMPS's
+    # time begins anew then.
+    text = begin() + wide + forces("file rows.txt") + "run 44\nwrite_restart mid.restart\nrun 60\n"
+    lmp.run_well(text, folder, 2)
+    lmp.run_well(SETTINGS + "read_restart mid.restart\n" + forces("file rows.txt") + "run 116\n", folder)
+    fact("a restart goes on in the file", [row[:1] + row[2:] for row in rows_of(folder / "rows.txt")] == [row[:1] + row[2:] for row in expected])
+    lmp.run_well(begin() + wide + forces("file rows.txt") + "run 40\n", folder)
+    fact("without a restart the file begins anew", rows_of(folder / "rows.txt") == [row for row in expected if row[0] <= 40])
+    # Down, up through the plate, and down again; of several only the first pass counts.
+    bounce = "run 40\nvelocity all set 0 0 1\nrun 20\nvelocity all set 0 0 -1\nrun 20\n"
+    first = [row for row in expected if row[0] == 33]
+    for words, ways in (("", [1, -1, 1]), ("count once", [1]), ("delete yes", [1])):
+        out = lmp.run_well(begin() + wide + forces(f"{words} file rows.txt") + bounce, folder)
+        rows = rows_of(folder / "rows.txt")
+        fact(f"directions, {words or 'each'}", [row[-1] for row in rows] == [w for w in ways for _ in first] and
+             [row[2] for row in rows] == [row[2] for row in first] * len(ways), out[-500:])
+    lmp.refused("a folder that is not there", begin() + forces("file there/rows.txt") + "run 1\n", folder, "there/rows.txt: cannot be written")
+    lmp.refused("one file for two", begin() + forces("file r.txt") + "fix n all massflow/lsdcd mesh plate.stl file r.txt\nrun 1\n", folder,
+                "has the same file r.txt: give each its own")
+    lmp.refused("a file without a name", begin() + forces("file"), folder, "its name is missing")
 
 
 def test_window(folder):
