@@ -27,8 +27,8 @@ release = version = re.search(r"project\(lsdcd VERSION (\S+)", (ROOT / "CMakeLis
 
 extensions = ["myst_parser"]
 root_doc = "doc/index"
-include_patterns = ["*.md", "doc/**.md", "doc/**.rst", "examples/**.md", "potentials/**.md"]
-exclude_patterns = [".*", "build*", "demo", "src", "tests", "bench", "kokkos"]
+include_patterns = ["*.md", ".github/*.md", "doc/**.md", "doc/**.rst", "examples/**.md", "potentials/**.md"]
+exclude_patterns = [".git", ".ci", "build*", "demo", "src", "tests", "bench", "kokkos"]
 myst_heading_anchors = 4    # with the names that the web view gives them
 html_theme = "sphinx_rtd_theme"
 html_theme_options = {"navigation_depth": 2, "collapse_navigation": False}

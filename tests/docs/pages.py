@@ -15,7 +15,7 @@ import re
 import textwrap
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
-GLOBS = ("*.md", "doc/*.md", "doc/*.rst", "doc/notes/*.md", "doc/data/*.md", "examples/**/*.md", "potentials/*.md")
+GLOBS = ("*.md", ".github/*.md", "doc/*.md", "doc/*.rst", "doc/notes/*.md", "doc/data/*.md", "examples/**/*.md", "potentials/*.md")
 
 
 class Block:
