@@ -58,8 +58,11 @@ class LargestCurvature {
     std::partial_sort(tops.begin(), tops.begin() + static_cast<std::ptrdiff_t>(n), tops.end(),
                       std::greater<>());
     Real most = 0;
-    for (std::size_t i = 0; i < n; i++)
-      most = std::max(most, uphill(tops[i][1], tops[i][2], tops[i][0]));
+    for (std::size_t i = 0; i < n; i++) {
+      Real up = tops[i][1], round = tops[i][2];
+      const Real top = uphill(up, round, tops[i][0]), along = along_ridge(up, round, top);
+      most = std::max(most, along > top * (1 + kRounding) ? along : top);
+    }
     return most;
   }
 
@@ -67,11 +70,13 @@ class LargestCurvature {
   static constexpr int kSteps = 48;    // rounded edges of exponent 20 are three of them wide
   static constexpr Real kStep = kPi / 2 / kSteps;
 
+  static constexpr Real kSame = 1e-10, kSmallest = 1e-6;    // a top is flat to 1e-12 there
+  static constexpr Real kRounding = 1e-9;                   // of what both ways uphill find
+  static constexpr int kMostRounds = 100;
+
   // Halves the step where none of eight goes uphill.
-  Real uphill(Real up, Real round, Real best) const
+  Real uphill(Real &up, Real &round, Real best) const
   {
-    constexpr Real kSame = 1e-10, kSmallest = 1e-6;    // a top is flat to 1e-12 there
-    constexpr int kMostRounds = 100;
     Real by = kStep / 2;
     for (int i_round = 0; i_round < kMostRounds && by > kSmallest; i_round++) {
       const Real from_up = up, from_round = round, before = best;
@@ -83,6 +88,51 @@ class LargestCurvature {
       if (!(best > before * (1 + kSame))) by /= 2;
     }
     return best;
+  }
+  // Goes on along a narrow ridge between the eight directions, by steps of Newton's method, in which slopes and bends are those
+  // of a cross of nine points and all bends count as downhill. The top may lie on the border of the octant, as across each
+  // of its planes the surface is the same.
+  Real along_ridge(Real up, Real round, Real best) const
+  {
+    Real by = kStep / 64;
+    for (int i_round = 0; i_round < kMostRounds && by > kSmallest; i_round++) {
+      const auto f = [&](int i, int j) { return mirrored(up + i * by, round + j * by); };
+      const Real east = f(0, 1), west = f(0, -1), north = f(1, 0), south = f(-1, 0),
+                 g_up = (north - south) / 2, g_round = (east - west) / 2,
+                 h_up = north + south - 2 * best, h_round = east + west - 2 * best,
+                 h_both = (f(1, 1) - f(1, -1) - f(-1, 1) + f(-1, -1)) / 4;
+      // The principal directions of the bends.
+      const Real angle = std::atan2(2 * h_both, h_up - h_round) / 2, c = std::cos(angle),
+                 s = std::sin(angle);
+      const auto step = [&](Real g, Real h) {
+        constexpr Real kLongest = 16;
+        const Real way = h == 0 ? 0 : g / std::fabs(h);
+        return std::max(-kLongest, std::min(kLongest, way));
+      };
+      const Real mean = (h_up + h_round) / 2,
+                 apart = std::sqrt((h_up - h_round) * (h_up - h_round) / 4 + h_both * h_both),
+                 first = step(c * g_up + s * g_round, mean + apart),
+                 second = step(-s * g_up + c * g_round, mean - apart);
+      const Real before = best;
+      for (Real share = 1; share > 1e-2; share /= 2) {
+        const Real to_up = up + share * by * (c * first - s * second),
+                   to_round = round + share * by * (s * first + c * second),
+                   here = mirrored(to_up, to_round);
+        if (!(here > best)) continue;
+        best = here, up = to_up, round = to_round;
+        break;
+      }
+      if (!(best > before * (1 + kSame))) by /= 4;
+    }
+    return best;
+  }
+  Real mirrored(Real up, Real round) const
+  {
+    const auto in_octant = [](Real angle) {
+      const Real turned = std::fabs(std::remainder(angle, kPi));
+      return std::min(turned, kPi / 2);
+    };
+    return at(in_octant(up), in_octant(round));
   }
   Real at(Real up, Real round) const
   {
