@@ -25,13 +25,13 @@ void check_call(int code, const char *callback)
 
 PeriodicBox box_of(const lsdcd_wall_options &o)
 {
-  PeriodicBox box;
   bool any = false;
   for (int k = 0; k < 3; k++) {
     checked_flag(o.periodic[k],
                  element("lsdcd_wall_options.periodic", static_cast<std::size_t>(k)));
     any |= o.lo[k] != 0 || o.hi[k] != 0 || o.periodic[k] != 0;
   }
+  PeriodicBox box = any ? PeriodicBox() : PeriodicBox::anywhere();
   for (int k = 0; k < 3 && any; k++) {
     if (!(o.lo[k] < o.hi[k]) || !std::isfinite(o.hi[k] - o.lo[k]))
       refuse_option("lsdcd_wall_options",
@@ -41,7 +41,6 @@ PeriodicBox box_of(const lsdcd_wall_options &o)
     box.edge[k][k] = o.hi[k] - o.lo[k];
     box.periodic[k] = o.periodic[k] != 0;
   }
-  for (int k = 0; k < 3 && !any; k++) box.make_unlimited(k);
   if (!(o.margin >= 0) || (box.any_periodic() && o.margin == 0))
     refuse_option("lsdcd_wall_options",
                   "margin is " + number_text(o.margin) +

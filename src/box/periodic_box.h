@@ -34,6 +34,13 @@ struct PeriodicBox {
     periodic[k] = false;
     face_follows[k][0] = face_follows[k][1] = unlimited[k] = true;
   }
+  // Returns a box without any limit: spheres go anywhere.
+  static PeriodicBox anywhere()
+  {
+    PeriodicBox box;
+    for (int k = 0; k < 3; k++) box.make_unlimited(k);
+    return box;
+  }
   bool any_follows() const { return follows(0) || follows(1) || follows(2); }
 };
 

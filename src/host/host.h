@@ -75,7 +75,10 @@ class Host {
 
   // A process may call these on its own.
 
-  virtual PeriodicBox box() const { return PeriodicBox(); }    // the same on all processes
+  virtual PeriodicBox box() const    // the same on all processes
+  {
+    return PeriodicBox::anywhere();
+  }
   void log(const std::string &text) { show(text, false); }
   void warn(const std::string &text) { show(text, true); }
   const HostNames &names() const { return names_; }

@@ -158,6 +158,7 @@ void Wall::begin(const HostSpheres &spheres, const StepInput &input)
 {
   input_ = input;
   has_begun_ = true;
+  if (history_.room() < spheres.n) history_.grow(spheres.n);
   keeper_.end_restoring();
   const Step &step = input.step;
   if (step.kind == Step::snapshot) {

@@ -131,6 +131,34 @@ TEST_F(wall, warns_once_where_its_program_puts_a_mesh_past_spheres)
   EXPECT_EQ(scene.host.warnings.size() - before, 1U);
 }
 
+// A program that only is a Host: its spheres go anywhere, and it makes no room for springs.
+TEST_F(wall, of_a_plain_host_pushes_spheres_anywhere)
+{
+  for (const Real at : {0.5, 3., -9.}) {
+    Host host;
+    Real x[] = {at, at, 0.45}, none[] = {0, 0, 0}, force[] = {0, 0, 0}, torque[] = {0, 0, 0},
+         radius[] = {kRadius}, mass[] = {1};
+    HostSpheres s;
+    s.n = 1;
+    s.x = x;
+    s.v = s.omega = none;
+    s.force = force;
+    s.torque = torque;
+    s.radius = radius;
+    s.mass = mass;
+    Wall wall(host, floor.wall(), WallUnits(), WallBackend(), "", StepClock{0, 0, 0, kDt}, s);
+    wall.begin_run(0, false);
+    StepInput input;
+    input.step = {0, kDt, Step::setup};
+    input.look = input.new_spheres = true;
+    input.drift.kind = SphereDrift::watched;
+    input.drift.distance = 0.1;
+    wall.begin(s, input);
+    wall.finish(s);
+    EXPECT_NEAR(force[2], kN * 0.05, kN * kRounding) << at;
+  }
+}
+
 // Placed askew, so that every coordinate of the mesh is rounded.
 TEST_F(wall, has_the_same_bits_from_a_mesh_as_from_its_file)
 {
