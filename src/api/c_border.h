@@ -85,12 +85,13 @@ inline void check_type(int type)
 }
 
 // Threads of a call; 0: the default. With more, a process may end; the tool has the same limit.
+constexpr int kMostThreads = 4096;
+
 inline void check_threads(int n)
 {
-  constexpr int kMax = 4096;
-  if (n < 0 || n > kMax)
-    throw ApiError(LSDCD_ERROR_ARGUMENT,
-                   "`threads` is " + std::to_string(n) + "; it is 0 to " + std::to_string(kMax));
+  if (n < 0 || n > kMostThreads)
+    throw ApiError(LSDCD_ERROR_ARGUMENT, "`threads` is " + std::to_string(n) + "; it is 0 to " +
+                                             std::to_string(kMostThreads));
 }
 
 // Returns a copy of a caller's struct, which has the size that it has here. `field`: where it is, for errors; empty: it is an

@@ -4,7 +4,10 @@
 // How many threads a call has.
 #pragma once
 
+#include "api/c_border.h"
 #include "backend/threads.h"
+
+#include <string>
 
 #include <pthread.h>
 
@@ -22,7 +25,7 @@ inline void end_threads_before_forks()
 #endif
 
 // While it lives, work of this thread uses n threads; 0: as many as OMP_NUM_THREADS says, or one. Its
-// destructor restores the caller's number.
+// destructor restores the caller's number. Throws ApiError where that is more than a process can have.
 class CallThreads {
 #if defined(_OPENMP)
  public:
@@ -35,6 +38,11 @@ class CallThreads {
       threads_asked_for() = true;
       return before;
     }();
+    if (n == 0 && usual > kMostThreads)
+      throw ApiError(LSDCD_ERROR_ARGUMENT,
+                     "OMP_NUM_THREADS asks for " + std::to_string(usual) + " threads; it is " +
+                         std::to_string(kMostThreads) +
+                         " at most: set it to the number of cores, or give `threads`");
     omp_set_num_threads(n > 0 ? n : usual);
   }
   ~CallThreads()

@@ -19,44 +19,56 @@ namespace lsdcd {
 
 namespace {
 
-// Numbers of spheres: `width` of them in each row.
+// Numbers of spheres: how many bytes from row to row, and how many of these they take.
 struct Rows {
-  const double *at;
+  const void *at;
   const char *name;
   std::ptrdiff_t row, width;
 };
 
-// Do n rows of each have a number in common? Rows of one array may lie between those of another.
+template <class T>
+Rows rows_of(const T *at, const char *name, std::ptrdiff_t row, std::ptrdiff_t width)
+{
+  constexpr std::ptrdiff_t kNumber = sizeof(T);
+  return {at, name, kNumber * row, kNumber * width};
+}
+
+// Do n rows of each have a byte in common? Rows of one array may lie between those of another. Of two with different rows the
+// shorter ones have no gaps.
 bool share_memory(const Rows &a, const Rows &b, std::ptrdiff_t n)
 {
-  constexpr std::ptrdiff_t kNumber = sizeof(double);
+  if (a.row < b.row) return share_memory(b, a, n);
   const auto first = reinterpret_cast<std::intptr_t>(a.at),
              second = reinterpret_cast<std::intptr_t>(b.at);
   if (a.row == b.row) {
-    const std::ptrdiff_t row = kNumber * a.row, apart = second - first;
-    if (apart >= n * row || -apart >= n * row) return false;
-    const std::ptrdiff_t behind = (apart % row + row) % row;
-    return behind < kNumber * a.width || row - behind < kNumber * b.width;
+    // The rows of b begin `behind` after rows of a, and after the one before it.
+    const std::ptrdiff_t apart = second - first, behind = (apart % a.row + a.row) % a.row,
+                         rows = (apart - behind) / a.row;
+    return (behind < a.width && -n < rows && rows < n) ||
+           (a.row - behind < b.width && -n < rows + 1 && rows + 1 < n);
   }
-  if (a.row < b.row) return share_memory(b, a, n);
-  // The numbers of b have no gaps. Which row of a is the first that ends behind where they begin?
-  const std::ptrdiff_t row = kNumber * a.row, width = kNumber * a.width;
-  const std::ptrdiff_t k = second < first + width ? 0 : (second - first - width) / row + 1;
-  return k < n && first + k * row < second + n * kNumber;
+  // Which row of a is the first that ends behind where the numbers of b begin?
+  const std::ptrdiff_t k = second < first + a.width ? 0 : (second - first - a.width) / a.row + 1;
+  return k < n && first + k * a.row < second + n * b.row;
 }
 
 // Arrays that are written have memory of their own: forces that are torques, too, are neither.
 void check_apart(const lsdcd_spheres &s, std::ptrdiff_t row)
 {
-  const Rows all[] = {{s.force, "force", row, 3},
-                      {s.torque, "torque", row, 3},
-                      {s.heat, "heat", 1, 1},
-                      {s.x, "x", row, 3},
-                      {s.v, "v", row, 3},
-                      {s.omega, "omega", row, 3},
-                      {s.radius, "radius", 1, 1},
-                      {s.mass, "mass", 1, 1},
-                      {s.temperature, "temperature", 1, 1}};
+  const Rows all[] = {rows_of(s.force, "force", row, 3),
+                      rows_of(s.torque, "torque", row, 3),
+                      rows_of(s.heat, "heat", 1, 1),
+                      rows_of(s.x, "x", row, 3),
+                      rows_of(s.v, "v", row, 3),
+                      rows_of(s.omega, "omega", row, 3),
+                      rows_of(s.radius, "radius", 1, 1),
+                      rows_of(s.mass, "mass", 1, 1),
+                      rows_of(s.temperature, "temperature", 1, 1),
+                      rows_of(s.type, "type", 1, 1),
+                      rows_of(s.half_axes, "half_axes", 3, 3),
+                      rows_of(s.exponents, "exponents", 2, 2),
+                      rows_of(s.quaternions, "quaternions", 4, 4),
+                      rows_of(s.inertia, "inertia", 3, 3)};
   constexpr std::size_t kWritten = 3, kAll = sizeof all / sizeof all[0];
   for (std::size_t i = 0; i < kWritten; i++)
     for (std::size_t j = i + 1; j < kAll; j++)

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <utility>
 
@@ -314,6 +315,9 @@ bool MotionTable::keeps(const Vec3 &direction, Real rounding) const
 
 MotionTable read_motion_table(const std::string &file, const TableOptions &options)
 {
+  std::error_code failed;
+  if (!std::filesystem::is_regular_file(file, failed))    // a device may have no end
+    throw InputError("cannot read the table '" + file + "' of a motion: there is no such file");
   std::ifstream in(file);
   if (!in) throw InputError("cannot read the table '" + file + "' of a motion");
   TableRows rows;

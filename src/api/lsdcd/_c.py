@@ -69,7 +69,11 @@ def _load() -> Any:
         near = [found for up in ("", "../../..", "../../../*")
                 for found in sorted(glob.glob(os.path.join(here, up, "liblsdcd.so.0")))]
         name = near[0] if near else "liblsdcd.so.0"
-    lib = ctypes.CDLL(name)
+    try:
+        lib = ctypes.CDLL(name)
+    except OSError as e:
+        raise ImportError(f"lsdcd's shared library cannot be loaded: {e}. Build it (cmake --build build --target lsdcd_api) or install it, "
+                          "or let LSDCD_LIBRARY name the file liblsdcd.so.0") from e
     for function, (result, arguments) in _HEADER.functions.items():
         made = getattr(lib, function)
         made.restype, made.argtypes = result, arguments

@@ -10,8 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from . import _arrays
-from ._c import Progress, _check, _lib, _listened, _Record, _ShapeFacts, _Shapes, _sized
+from ._c import Progress, _as_floats, _check, _lib, _listened, _Record, _ShapeFacts, _Shapes, _sized
 
 
 class ShapeContacts(_Record):
@@ -46,7 +45,7 @@ class ShapeFacts(_Record):
 
 
 def _rows(given: ArrayLike, name: str, columns: int) -> NDArray[np.float64]:
-    values = np.ascontiguousarray(_arrays.plain(given, name), dtype=np.float64)
+    values = np.ascontiguousarray(_as_floats(given, name), dtype=np.float64)
     if values.shape[-1:] != (columns,) or values.ndim > 2:
         raise ValueError(f"{name} has the shape {values.shape}, not (n, {columns}) or ({columns},)")
     return values
@@ -67,17 +66,20 @@ def shape_facts(half_axes: ArrayLike, exponents: ArrayLike = (2, 2)) -> ShapeFac
 def _asked(centres: ArrayLike, half_axes: ArrayLike, exponents: ArrayLike | None, quaternions: ArrayLike | None,
            threads: int) -> tuple[Any, list[Any]]:
     """The struct of these grains, and what it points to."""
-    x, half = _rows(centres, "centres", 3), _rows(half_axes, "half_axes", 3)
+    x = _rows(centres, "centres", 3)
     n = 1 if x.ndim == 1 else len(x)
-    ask = _sized(_Shapes, n=n, threads=threads, one_shape=int(half.ndim == 1), centres=x.ctypes.data,
-                 half_axes=half.ctypes.data)
-    kept = [x, half]
-    if half.ndim == 2 and len(half) != n:
-        raise ValueError(f"half_axes has the shape {half.shape}, not ({n}, 3), or (3,) for all grains")
+    shapes = {"half_axes": _rows(half_axes, "half_axes", 3)}
     if exponents is not None:
-        both = np.ascontiguousarray(np.broadcast_to(_rows(exponents, "exponents", 2), (*half.shape[:-1], 2)))
-        ask.exponents = both.ctypes.data
-        kept.append(both)
+        shapes["exponents"] = _rows(exponents, "exponents", 2)
+    for name, rows in shapes.items():
+        if rows.ndim == 2 and len(rows) != n:
+            raise ValueError(f"{name} has the shape {rows.shape}, not ({n}, {rows.shape[-1]}), or ({rows.shape[-1]},) for all grains")
+    is_one = all(rows.ndim == 1 for rows in shapes.values())
+    if not is_one:    # in C both are of all, or of each
+        shapes = {name: np.ascontiguousarray(np.broadcast_to(rows, (n, rows.shape[-1]))) for name, rows in shapes.items()}
+    ask = _sized(_Shapes, n=n, threads=threads, one_shape=int(is_one), centres=x.ctypes.data,
+                 **{name: rows.ctypes.data for name, rows in shapes.items()})
+    kept = [x, *shapes.values()]
     if quaternions is not None:
         turns = _rows(quaternions, "quaternions", 4)
         if turns.shape != (*x.shape[:-1], 4):

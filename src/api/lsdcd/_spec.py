@@ -207,6 +207,9 @@ class Motion(_Spec):
     _struct: Any
     _kept: Any = None    # what the struct points to
 
+    def __init__(self) -> None:
+        raise TypeError("a Motion is made by Motion.linear(), wiggle(), cosine(), rotate(), transrot(), riggle() or table()")
+
     @classmethod
     def _made(cls, kind: int, **fields: ArrayLike) -> Motion:
         motion = cls.__new__(cls)
