@@ -782,7 +782,8 @@ LSDCD_API int lsdcd_wall_renumber(lsdcd_wall *wall, const ptrdiff_t *from, size_
 /* A sphere goes to another process: before lsdcd_wall_renumber() lsdcd_wall_pack() writes what the contacts
  * of the n spheres which[i] keep, and their names, *count doubles. As many as fit in `room` are written; with
  * `room` 0 the array may be null. There lsdcd_wall_unpack() reads them, after lsdcd_wall_renumber() has made room:
- * sphere to[i] has them from then on. Numbers that no wall of this kind packed are refused. Alone. Own. */
+ * sphere to[i] has them from then on. Numbers that no wall of this kind packed are refused, and a sphere that would be
+ * there twice. Alone. Own. */
 LSDCD_API int lsdcd_wall_pack(lsdcd_wall *wall, const ptrdiff_t *which, size_t n, double *numbers,
                               size_t room, size_t *count);
 LSDCD_API int lsdcd_wall_unpack(lsdcd_wall *wall, const ptrdiff_t *to, size_t n,
@@ -866,7 +867,8 @@ typedef struct lsdcd_wall_contacts {
   size_t
       contacts; /* answer: all there are, so the room that all take; with less room no array is written */
 } lsdcd_wall_contacts;
-/* Of a wall with each_contact. Of a sphere in several they come one after the other. Own. */
+/* Of a wall with each_contact. Of a sphere in several they come one after the other. LSDCD_ERROR_ARGUMENT also before the
+ * first step after lsdcd_wall_restore(), as saved numbers have none. Own. */
 LSDCD_API int lsdcd_wall_get_contacts(lsdcd_wall *wall, lsdcd_wall_contacts *contacts);
 /* Other motions for a mesh, from where it is; n 0: it stops there. Not of one with `posed_by_caller`. Own. */
 LSDCD_API int lsdcd_wall_set_motion(lsdcd_wall *wall, int mesh, const lsdcd_motion *motions,
@@ -902,9 +904,11 @@ LSDCD_API int lsdcd_wall_set_body(lsdcd_wall *wall, int mesh, const lsdcd_rigid_
 LSDCD_API int lsdcd_wall_save(lsdcd_wall *wall, double *numbers, size_t room, size_t *count);
 /* Into a wall of the same spec, before its first step, whose spheres then have the same order; process by
  * process. Steps count on from the last one of that wall, for files and wear that come every so many steps. All goes on as if that wall
- * did, bit for bit on as many processes, but for the last digits of the worn volume in totals; lsdcd_wall_save() writes the same numbers again. Numbers of a wall with other meshes, placements, motions as it was made,
- * surface velocities, laws, corner, side, wear, temperatures or pressures are refused with what differs (LSDCD_ERROR_ARGUMENT), and the wall stays as it is. So are those of a wall
- * with another servo or body, also where it was set later: set it before. Own. */
+ * did, bit for bit on as many processes, but for the last digits of the worn volume in totals; lsdcd_wall_save() writes the same numbers again. Totals, poses, bodies, nodes and forces on these are those of its last step; a
+ * pose and nodes that were set for the next one are set. Numbers of a wall that differs in a field on which a number hangs are refused with what differs (LSDCD_ERROR_ARGUMENT), and
+ * the wall stays as it is. These are all but names and files, `device`, `brief`, `each_contact`, `periodic_ends`, `stl_every`, without `nearest` also
+ * `cell`, `memory` and `rmax`, and of lsdcd_wall_options all but the corners of periodic axes. A motion, servo or body that
+ * was set later is set before. Own. */
 LSDCD_API int lsdcd_wall_restore(lsdcd_wall *wall, const double *numbers, size_t count);
 /* Takes from numbers of another wall what fits this one; what does not, `show` tells. Else as lsdcd_wall_restore(). Own. */
 LSDCD_API int lsdcd_wall_restore_what_fits(lsdcd_wall *wall, const double *numbers, size_t count);

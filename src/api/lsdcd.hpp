@@ -1233,7 +1233,7 @@ class Wall {
       return lsdcd_wall_save(get(), to, room, count);
     });
   }
-  // What a wall of the same spec saved, with the servo or body that was set later; with `what_fits` also of another one, as far
+  // What a wall of the same spec saved, with the motion, servo or body that was set later; with `what_fits` also of another one, as far
   // as it goes.
   void restore(const std::vector<double> &numbers, bool what_fits = false)
   {

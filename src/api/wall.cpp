@@ -99,7 +99,7 @@ int lsdcd_wall_from_spec(const lsdcd_wall_spec *spec, const lsdcd_wall_options *
     made->in =
         std::make_unique<Wall>(made->caller, wall_spec_of(spec, made->gpu != nullptr), WallUnits(),
                                backend_of(o, *made), "", StepClock{o.time, 0, 0, 0});
-    made->made = made_parts(*made->in);
+    made->made = made_parts(*made->in, made->caller.box());
     note_vertices(*made);
     made->in->begin_run(0, false);
     made->caller.tell_what_show_threw();
@@ -161,6 +161,10 @@ int lsdcd_wall_get_contacts(lsdcd_wall *wall, lsdcd_wall_contacts *contacts)
       throw ApiError(LSDCD_ERROR_ARGUMENT,
                      "this wall does not keep its contacts: set each_contact in its "
                      "lsdcd_wall_spec when the wall is made");
+    if (wall->is_restored)
+      throw ApiError(LSDCD_ERROR_ARGUMENT,
+                     "the wall has made no step since it was restored, and saved numbers have no "
+                     "contacts: ask after its first step");
     tell_late(*wall);
     std::vector<WallContact> found;
     wall->in->for_contacts([&](const WallContact &c) { found.push_back(c); });

@@ -424,6 +424,11 @@ BodySpec body_of(const lsdcd_rigid_body *pointer, const std::string &field, bool
   body.drive.rest = given.rest;
   body.drive.motor = given.motor;
   if (given.lo != 0 || given.hi != 0) {
+    if (begins && given.lo <= given.hi && (given.lo > 0 || given.hi < 0))
+      refuse_field(
+          field + (given.lo > 0 ? ".lo" : ".hi"), given.lo > 0 ? given.lo : given.hi,
+          "the coordinate begins at 0, which lo <= 0 <= hi hold; lsdcd_wall_set_body() has "
+          "stops for a body that goes on elsewhere");
     body.drive.lo = given.lo;
     body.drive.hi = given.hi;
   }

@@ -165,7 +165,21 @@ void add(const std::string &name, const std::string &of, const std::string &text
   if (!numbers.empty()) to.push_back({"exact " + name + " '" + text + "'" + of, numbers});
 }
 
-// What `mesh` and its name, file and files are is not here: the mesh counts that they make. What is only written may differ.
+// With `nearest` the forces hang on the cells, else not.
+std::string search_text(int nearest, Real cell, Real rmax, std::size_t memory)
+{
+  if (nearest == 0) return "exact";
+  return "the nearest " + std::to_string(nearest) + " of cells with the edge, rmax and memory " +
+         row_of(cell, rmax, static_cast<Real>(memory));
+}
+
+std::string steps_text(int every)
+{
+  return every > 0 ? "over " + std::to_string(every) + " steps" : "none";
+}
+
+// What `mesh` and its name and file are is not here: the mesh counts that they make. Names of files may differ, and how often
+// the mesh is written; the means in `fields` are over the steps between two files.
 void add_made(const WallSpec &wall, std::size_t k, WallParts &parts)
 {
   const auto &[name, file, mesh, welded_vertex, placement, weld, laws, motion, body, has_nodes,
@@ -173,20 +187,33 @@ void add_made(const WallSpec &wall, std::size_t k, WallParts &parts)
                temperature, temperature_input, wear_factor, torque_about_mesh, torque_about, stl,
                fields, cache_file] = wall.meshes[k];
   const std::string of = " of " + element("meshes", k);
-  add("motion", of, motion_of(wall.meshes[k], wall.inputs), numbers_of(motion.terms()), parts);
   parts.push_back({"placement" + of, text_of(placement)});
   parts.push_back({"law" + of, text_of(laws)});
   parts.push_back({"surface velocity" + of, text_of(surface)});
   if (has_nodes) parts.push_back({"pressure" + of, text_of(pressure)});
   if (has_temperature) parts.push_back({"temperature" + of, text_of(temperature)});
   if (wall.wears()) parts.push_back({"wear_factor" + of, text_of(wear_factor)});
+  parts.push_back({"point of the torque" + of,
+                   text_of(torque_about) + (torque_about_mesh ? ", which moves with it" : "")});
+  parts.push_back({"mean of the fields" + of, steps_text(fields.every)});
+}
+
+// Without periodic axes the box says how far spheres go, as rmax does.
+std::string text_of(const PeriodicBox &box)
+{
+  std::string text;
+  for (int k = 0; k < 3; k++)
+    if (box.periodic[k])
+      text += (text.empty() ? "" : ", ") + std::string(1, "xyz"[k]) + " from " +
+              row_of(box.corner[k], box.edge[k][k]);
+  return text.empty() ? "not periodic" : text;
 }
 
 }    // namespace
 
-WallParts made_parts(const Wall &wall)
+WallParts made_parts(const Wall &wall, const PeriodicBox &box)
 {
-  // How it searches, and what it writes, may differ.
+  // Where it computes, what the log has, and whether somebody asks for contacts may differ.
   const auto &[laws, meshes, inputs, corner, side, device, grid_length, rmax, nearest,
                memory_budget, wear, wear_deform, average_every, contacts, each_contact, shapes,
                periodic, brief] = wall.spec();
@@ -194,7 +221,11 @@ WallParts made_parts(const Wall &wall)
                      {"law", text_of(laws)},
                      {"corner", word_of(corner, kCornerWords)},
                      {"side", word_of(side, kSideWords)},
-                     {"wear", text_of(wear, wear_deform)}};
+                     {"wear", text_of(wear, wear_deform)},
+                     {"search", search_text(nearest, grid_length, rmax, memory_budget)},
+                     {"mean", steps_text(average_every)},
+                     {"kind of grains", shapes ? "ellipsoids and spheres" : "spheres"},
+                     {"periodic box", text_of(box)}};
   for (std::size_t k = 0; k < meshes.size(); k++) add_made(wall.spec(), k, parts);
   for (const MeshPart &mesh : wall.meshes()) {
     const MeshReport &report = mesh.grid.report();
@@ -213,6 +244,8 @@ WallParts set_parts(const Wall &wall)
   for (std::size_t k = 0; k < spec.meshes.size(); k++) {
     const Servo &servo = spec.meshes[k].motion.servo();
     const std::string of = " of " + element("meshes", k);
+    add("motion", of, motion_of(spec.meshes[k], spec.inputs),
+        numbers_of(spec.meshes[k].motion.terms()), parts);
     add("servo", of, servo.present ? servo_text(servo, spec.inputs) : "none", numbers_of(servo),
         parts);
     parts.push_back({"body" + of, text_of(spec.meshes[k].body)});

@@ -11,12 +11,12 @@
 
 namespace lsdcd {
 
-// Names and texts of what a wall's steps depend on: {"law", "hooke/history 10000 ..."}. Numbers are exact. How it searches
-// and what it writes are left out: they may differ.
+// Names and texts of what a wall's steps and the means over them depend on: {"law", "hooke/history 10000 ..."}. Numbers are
+// exact. What changes no number is left out.
 using WallParts = std::vector<std::vector<std::string>>;
-// What it was made of. A motion that is set later is in the data.
-WallParts made_parts(const Wall &wall);
-// What may be set later and is not in the data: servos, and bodies with what holds and drives them.
+// What it was made of, in this box.
+WallParts made_parts(const Wall &wall, const PeriodicBox &box);
+// What may be set later: motions and servos, and bodies with what holds and drives them.
 WallParts set_parts(const Wall &wall);
 
 // "the law is X and was Y; ..."; empty: they are of such a wall.

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -64,6 +65,35 @@ std::vector<const double *> packed_spheres(const lsdcd_wall &wall, std::size_t n
   return spheres;
 }
 
+// Throws where two spheres would have one name, so that the springs of one of them would be those of the other.
+void check_names(const lsdcd_wall &wall, const std::ptrdiff_t *to,
+                 const std::vector<const double *> &spheres)
+{
+  std::map<std::int64_t, std::size_t> given;
+  std::vector<char> gets(wall.caller.tags.size(), 0);
+  for (std::size_t i = 0; i < spheres.size(); i++) {
+    const std::string name = "to[" + std::to_string(i) + "] is ";
+    if (gets[to[i]]++)
+      throw ApiError(LSDCD_ERROR_ARGUMENT,
+                     name + std::to_string(to[i]) + ", as one before it: give each sphere once");
+    const auto tag = static_cast<std::int64_t>(spheres[i][0]);
+    const auto [before, is_new] = given.emplace(tag, i);
+    if (tag != 0 && !is_new)
+      throw ApiError(LSDCD_ERROR_ARGUMENT,
+                     name + std::to_string(to[i]) + ", and gets what to[" +
+                         std::to_string(before->second) +
+                         "] gets: `numbers` has one sphere twice; pack each once");
+  }
+  for (std::size_t k = 0; k < gets.size(); k++) {
+    const auto at = given.find(wall.caller.tags[k]);
+    if (gets[k] || at == given.end() || at->first == 0) continue;
+    throw ApiError(LSDCD_ERROR_ARGUMENT,
+                   "to[" + std::to_string(at->second) + "] gets what was packed of sphere " +
+                       std::to_string(k) +
+                       ", which is still there: leave that out by lsdcd_wall_renumber() before");
+  }
+}
+
 constexpr const char *kSpheres = "springs of spheres", *kStep = "step", *kParts = "parts";
 
 WallParts parts_of(const lsdcd_wall &wall)
@@ -87,18 +117,23 @@ void read_saved(const Real *numbers, std::size_t n, WallState &state, SphereHist
     if (sphere.empty()) throw StateError("the data of the wall have a sphere without a number");
 }
 
-// Reads what a wall of the same spec saved; with `what_fits` also what one of another spec did, as far as it goes.
-void restore(lsdcd_wall &wall, const double *numbers, std::size_t count, bool what_fits)
+// What lsdcd_wall_save() has written.
+struct Saved {
+  WallState state;
+  SphereHistories spheres;
+  std::int64_t step = 0;
+};
+
+// Throws ApiError where the numbers are of no wall, or, without `what_fits`, of another one.
+Saved saved_of(const lsdcd_wall &wall, const double *numbers, std::size_t count, bool what_fits)
 {
   need(numbers, "numbers");
   if (wall.in->has_begun())
     throw ApiError(LSDCD_ERROR_ARGUMENT, "a wall is restored before its first step");
-  WallState state;
-  SphereHistories spheres;
-  std::int64_t step = 0;
+  Saved saved;
   WallParts parts;
   try {
-    read_saved(numbers, count, state, spheres, step, parts);
+    read_saved(numbers, count, saved.state, saved.spheres, saved.step, parts);
   } catch (const StateError &e) {
     throw ApiError(LSDCD_ERROR_ARGUMENT,
                    std::string("these are not the numbers that lsdcd_wall_save() wrote, all of "
@@ -109,14 +144,23 @@ void restore(lsdcd_wall &wall, const double *numbers, std::size_t count, bool wh
   if (!what_fits && !differ.empty())
     throw ApiError(LSDCD_ERROR_ARGUMENT, "these are numbers of a different wall: " + differ +
                                              ". Make the wall of the spec that it had, with the "
-                                             "servo or body that was set later, or "
+                                             "motion, servo or body that was set later, or "
                                              "take what fits by lsdcd_wall_restore_what_fits()");
+  return saved;
+}
+
+// Where one process refuses its numbers all do.
+void restore(lsdcd_wall &wall, const double *numbers, std::size_t count, bool what_fits)
+{
+  Saved saved;
+  std::vector<Real> none;
+  wall.caller.agree(failure_of([&] { saved = saved_of(wall, numbers, count, what_fits); }), none);
   wall.in->keep_made();
-  wall.in->restore(state, {step, wall.dt});
-  wall.number = step;
-  wall.in->restore_springs(spheres);
-  wall.caller.tags.assign(wall.in->history().is_on() ? spheres.size() : 0, 0);
-  wall.is_restored = !wall.caller.tags.empty();
+  wall.in->restore(saved.state, {saved.step, wall.dt});
+  wall.number = saved.step;
+  wall.in->restore_springs(saved.spheres);
+  wall.caller.tags.assign(wall.in->history().is_on() ? saved.spheres.size() : 0, 0);
+  wall.is_restored = true;
 }
 
 }    // namespace
@@ -154,6 +198,7 @@ int lsdcd_wall_unpack(lsdcd_wall *wall, const ptrdiff_t *to, size_t n, const dou
     if (n > 0) need(to, "to");
     check_spheres(*wall, to, n, "to");
     const std::vector<const double *> spheres = packed_spheres(*wall, n, numbers, count);
+    check_names(*wall, to, spheres);
     const bool keeps = wall->in->history().is_on();
     ContactHistory &history = wall->in->history().on_cpu();
     for (std::size_t i = 0; i < n; i++) {

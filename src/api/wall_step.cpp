@@ -26,7 +26,7 @@ namespace {
 void check_count(const lsdcd_wall &wall, std::size_t n)
 {
   const std::size_t before = wall.caller.tags.size();
-  if (wall.is_restored && n != before)
+  if (wall.is_restored && before > 0 && n != before)
     throw ApiError(LSDCD_ERROR_ARGUMENT, "what was restored has " + std::to_string(before) +
                                              " spheres, and this step has " + std::to_string(n));
   if (n > 0x7fffffffu)
@@ -65,6 +65,7 @@ StepWanted step_wanted(lsdcd_wall &wall, const lsdcd_spheres *spheres, const lsd
   checked_flag(want.step.setup, "setup");
   checked_flag(want.step.changed, "changed");
   check_synchronous(wall, want.step);
+  if (!wall.in->has_begun()) wall.in->check_start();
   if (!(want.step.dt > 0) || !std::isfinite(want.step.dt))
     throw ApiError(LSDCD_ERROR_ARGUMENT, "dt is " + number_text(want.step.dt) + ", not above 0");
   if (!(want.step.reach >= 0))

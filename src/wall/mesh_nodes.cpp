@@ -84,19 +84,20 @@ void MeshNodes::set(const Real *x, const Real *v)
   static_assert(sizeof(Vec3) == 3 * sizeof(Real), "a row of three numbers is a vector");
   engine_->give(index_, reinterpret_cast<const Vec3 *>(x), reinterpret_cast<const Vec3 *>(v));
   are_set_ = true;
-  are_set_in_place_ = false;
+  are_set_in_place_ = are_restored_ = false;
 }
 
 void MeshNodes::set_in_place(const Real *x, const Real *v, const std::vector<int> &node_of_row)
 {
   engine_->give_in_place(index_, x, v, node_of_row);
   are_set_ = are_set_in_place_ = true;
+  are_restored_ = false;
 }
 
 void MeshNodes::begin_step(const Step &step, Real cutoff)
 {
   if (!are_set_) return;
-  are_set_ = false;
+  are_set_ = are_restored_ = false;
   const NodesGone gone = engine_->move(index_, step.velocities_behind());
   try {
     check_range();
@@ -197,25 +198,44 @@ void MeshNodes::build_grid(Real cutoff)
 
 // ---- saved states ------------------------------------------------------------------------
 
-NodeState MeshNodes::save() const
+NodeState MeshNodes::save()
 {
-  NodeState all = {names, {}, {}};
+  NodeState all;
+  all.names = names;
   std::vector<Vec3> at(mesh_.vertices.size()), velocity(at.size());
+  const auto put = [](const std::vector<Vec3> &from, std::vector<Real> &to) {
+    for (const Vec3 &x : from) to.insert(to.end(), {x.x, x.y, x.z});
+  };
   engine_->fetch(index_, NodesAt::now, at.data(), velocity.data());
-  for (const Vec3 &x : at) all.places.insert(all.places.end(), {x.x, x.y, x.z});
+  put(at, all.places);
   if (!names.empty()) return all;
-  for (const Vec3 &v : velocity) all.velocities.insert(all.velocities.end(), {v.x, v.y, v.z});
+  put(velocity, all.velocities);
+  all.behind = engine_->velocities_behind(index_);
+  if (state_ != Forces::none) all.forces = forces(0);
+  if (!are_set_) return all;
+  engine_->fetch(index_, NodesAt::next, at.data(), velocity.data());
+  put(at, all.next);
+  put(velocity, all.next_velocities);
   return all;
 }
 
 void MeshNodes::restore(const NodeState &was)
 {
   names = was.names;
+  if (!was.forces.empty()) {
+    of_contacts_ = was.forces;
+    state_ = Forces::restored;
+  }
+  if (are_restored_) are_set_ = are_restored_ = false;
+  if (!was.next.empty() && !are_set_) {
+    set(was.next.data(), was.next_velocities.data());
+    are_restored_ = true;
+  }
   if (was.places.empty()) return;
   std::vector<Real> velocities = was.velocities;
   velocities.resize(was.places.size(), 0);
   note(engine_->put(index_, reinterpret_cast<const Vec3 *>(was.places.data()),
-                    reinterpret_cast<const Vec3 *>(velocities.data())));
+                    reinterpret_cast<const Vec3 *>(velocities.data()), was.behind));
 }
 
 // ---- forces ------------------------------------------------------------------------------
@@ -318,7 +338,7 @@ Vec3 MeshNodes::moment()
 
 bool MeshNodes::put_forces(Real pressure, Real *to, const std::vector<int> &node_of_row)
 {
-  if (state_ == Forces::none) return false;
+  if (state_ == Forces::none || state_ == Forces::restored) return false;
   engine_->put_forces(index_, sixth_of(pressure), to, node_of_row);
   return true;
 }

@@ -58,8 +58,8 @@ class MeshNodes {
 
   // Turns the springs of spheres [0, n) with their features since the last step.
   void turn_springs(int n) { engine_->turn_springs(n, index_); }
-  // For a saved state: where the nodes are, and their names.
-  NodeState save() const;
+  // For a saved state: where the nodes are and will be, their names, and the forces on them. Collective.
+  NodeState save();
   // Throws InputError, which names the node or face, where restore() would put one at no finite place or without area.
   void check(const NodeState &was) const;
   // Takes a state that was checked, before the first step: nodes are where they were saved, to which springs belong, until the
@@ -106,8 +106,9 @@ class MeshNodes {
   Real sixth_of(Real pressure) const;
 
   // How far the forces of the last step have come: there are none; the engine has seen them, and nobody has looked at
-  // their range; it has added them up, or will; this process has its sums; it has those of all processes.
-  enum class Forces { none, seen, added, fetched, of_all };
+  // their range; it has added them up, or will; this process has its sums; it has those of all processes; they are those of a
+  // saved state.
+  enum class Forces { none, seen, added, fetched, of_all, restored };
 
   Host &host_;
   const WallSpec &wall_;
@@ -116,6 +117,7 @@ class MeshNodes {
   mutable WeldedMesh mesh_;
   mutable bool are_places_old_ = false;    // the engine has moved the nodes since they were fetched
   bool are_set_ = false, are_set_in_place_ = false;    // for the next step; the last time
+  bool are_restored_ = false;                          // a saved state has set them
   Real cutoff_ = 0;                                    // of the grid; 0: there is none
   Real way_ = 0;            // of the fastest node in each step since the choice
   Real way_of_grid_ = 0;    // how far a node has gone since the grid was built

@@ -25,8 +25,11 @@ struct MotionState {
   std::vector<MotionTerm> terms;
   bool stopped = false;
   InputNames inputs;    // of the terms
+  // Of a mesh that the program poses, in the pose that it got last.
+  Vec3 velocity = {0, 0, 0}, angular = {0, 0, 0};
 
   bool moves() const { return !terms.empty() && !stopped; }
+  bool moves_when_posed() const { return norm_sq(velocity) + norm_sq(angular) > 0; }
   // Was it where a body or the program put it? At rest it would be where it began.
   bool was_posed() const { return !moves() && !is_same_place(start, placed); }
 };
@@ -47,8 +50,11 @@ struct NodeState {
   std::vector<Real> names;    // of the particles of the host that are nodes; empty: it has none
   std::vector<Real>
       places;    // x y z of each (length); empty: no nodes, or a state without their places
-  // x y z of each (length/time); empty: 0, and of nodes that a host sets before each step.
+  // x y z of each (length/time); empty: 0, and of nodes that a host sets before each step, as are the ones that follow.
   std::vector<Real> velocities;
+  Real behind = 0;                            // how long before the places these are of (time)
+  std::vector<Real> next, next_velocities;    // that were set for the next step; empty: none were
+  std::vector<Real> forces;    // of contacts in the last step, x y z of each; empty: there was none
 };
 
 // The surface of a mesh in a saved state.

@@ -179,6 +179,11 @@ class Wall {
   // one alone.
   WallState save();
   bool has_begun() const { return has_begun_; }    // a step. Local.
+  // Throws InputError where the first step could not begin, as it is of bodies outside of their limits. Local.
+  void check_start() const
+  {
+    for (const MeshPart &m : meshes_) m.mover->check_start();
+  }
   // Keeps what the wall was made as until the first step, for a host that may call restore() more than once. It takes as much
   // memory as a saved state, on each process.
   void keep_made();

@@ -146,6 +146,21 @@ TEST_F(processes, go_on_from_what_each_saved)
   });
 }
 
+TEST_F(processes, refuse_together_what_one_has_not_saved)
+{
+  lsdcd::on_processes(2, [&](lsdcd::FakeHost &host) {
+    const Process process(host);
+    lsdcd::Wall first(floor(), &process.options), second(floor(), &process.options);
+    Grains mine(host.rank(), 0, 0.49, 0.1);
+    mine.step(first, 2);
+    std::vector<double> saved = first.save();
+    if (host.rank() == 1) saved.pop_back();
+    EXPECT_TRUE(begins(text_of([&] { second.restore(saved); }),
+                       "these are not the numbers that lsdcd_wall_save() wrote"));
+    second.restore(first.save());
+  });
+}
+
 TEST_F(processes, show_each_line_once)
 {
   std::vector<std::string> shown[2];
@@ -243,6 +258,24 @@ TEST_F(processes, refuse_numbers_that_were_not_packed)
   std::swap(grains.x[0], grains.x[3]);
   grains.step(wall);
   EXPECT_NEAR(grains.force[0], -kT * 4 * 0.2 * kDt, kT * kRounding);
+}
+
+// One of two spheres of a name would lose its springs.
+TEST_F(processes, refuse_a_sphere_that_would_be_there_twice)
+{
+  lsdcd::Wall wall(floor());
+  Grains grains;
+  for (const double x : {0, 2, 4}) grains.add(x, 0, 0.49, 0.1);
+  grains.step(wall, 3);
+  const std::vector<double> one = wall.pack({0}), two = wall.pack({0, 1}), same = wall.pack({0, 0});
+  const auto says = [&](const std::vector<std::ptrdiff_t> &to, const std::vector<double> &numbers) {
+    return text_of([&] { wall.unpack(to, numbers); });
+  };
+  EXPECT_TRUE(has(says({2, 2}, two), "to[1] is 2, as one before it: give each sphere once"));
+  EXPECT_TRUE(has(says({1, 2}, same), "to[1] is 2, and gets what to[0] gets"));
+  EXPECT_TRUE(has(says({2}, one), "to[0] gets what was packed of sphere 0, which is still there"));
+  wall.renumber({1, 2, -1});
+  EXPECT_EQ(says({2}, one), "");
 }
 
 }    // namespace

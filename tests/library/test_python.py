@@ -24,6 +24,7 @@ import subprocess
 import sys
 import tempfile
 import threading
+import weakref
 
 import numpy as np
 
@@ -219,6 +220,19 @@ def test_shapes():
             lambda: grid.shape_contacts(centres, (1, 1, 1), quaternions=turned), ValueError)
     refused("an exponent below 2 is refused", "an exponent of a shape is 1.5", lambda: lsdcd.shape_facts((1, 1, 1), (1.5, 2)),
             lsdcd.Error)
+
+
+def test_one_shape_and_one_of_each():
+    """Half-axes and exponents are of all grains or of each, also the one of these and the other of those."""
+    plate = lsdcd.Mesh(np.array([[-3, -3, 0], [3, -3, 0], [3, 3, 0], [-3, 3, 0]], float), [[0, 1, 2], [0, 2, 3]]).grid()
+    centres, half, exponents = [[0, 0, 0.9], [0, 0, 0.8]], (1, 1, 1), (4, 4)
+    for name, ask in (("contacts", plate.shape_contacts), ("distances", plate.shape_distances)):
+        each = ask(centres, [half] * 2, [(2, 2), exponents])
+        fact(f"{name}: one half_axes with exponents of each", ask(centres, half, [(2, 2), exponents]) == each, each)
+        each = ask(centres, [half, (1, 1, 0.95)], [exponents] * 2)
+        fact(f"{name}: one exponents with half_axes of each", ask(centres, [half, (1, 1, 0.95)], exponents) == each, each)
+        refused(f"{name}: exponents of others", "exponents has the shape (3, 2), not (2, 2), or (2,) for all grains",
+                lambda ask=ask: ask(centres, half, [exponents] * 3), ValueError)
 
 
 def test_shapes_at_walls():
@@ -612,6 +626,7 @@ def test_wall_arrays():
     for written, other in (("force", "torque"), ("force", "x"), ("torque", "v")):
         refused(f"{written} in float32 that is {other}, too, is refused", f"{written} shares memory with {other}",
                 lambda written=written, other=other: wall.step(**{**given, written: single, other: single}), ValueError)
+    check_memory_of_shapes()
     both = np.zeros(8)
     many = {k: np.repeat(v, 2, axis=0) if k != "dt" else v for k, v in given.items()}
     for name, kind in (("mass", 1), ("torque", 3)):
@@ -633,6 +648,26 @@ def test_wall_arrays():
     if not lsdcd._lib.lsdcd_has_cuda():
         refused("a wall on a device needs one", "use LSDCD_CPU", lambda: lsdcd.Wall(spec, device="cuda"), lsdcd.Error)
     refused("a stream needs a device", "stream is given", lambda: lsdcd.Wall(spec, stream=7), lsdcd.Error)
+
+
+def check_memory_of_shapes():
+    """Forces are not added into what makes the grains."""
+    square = np.array([[-3, -3, 0], [3, -3, 0], [3, 3, 0], [-3, 3, 0]], float)
+    law = lsdcd.Law("hooke", kn=2e3, kt=0, gamman=0, gammat=0, xmu=0, dampflag=0)
+    for name, written, start in (("half_axes", "force", 0), ("inertia", "torque", 0), ("exponents", "force", 1), ("quaternions", "force", 1)):
+        wall = lsdcd.Wall(lsdcd.WallSpec(law, [lsdcd.WallMesh(lsdcd.Mesh(square, [[0, 1, 2], [0, 2, 3]]))], shapes=True))
+        given = {key: np.zeros((3, 3)) for key in ("x", "v", "omega", "force", "torque")}
+        given |= {"radius": np.ones(3), "mass": np.ones(3), "half_axes": np.full((3, 3), 0.5), "inertia": np.full((3, 3), 0.1),
+                  "exponents": np.full((3, 2), 2.0), "quaternions": np.tile([1.0, 0, 0, 0], (3, 1))}
+        given["x"][:, 2] = 0.45
+        wall.step(**given, dt=1e-3)
+        memory = np.zeros(12)
+        before = given[name]
+        given[name] = memory[:before.size].reshape(before.shape)
+        given[name][...] = before
+        given[written] = memory[start:start + 9].reshape(3, 3)
+        refused(f"{written} in {name} is refused", f"`{written}` and `{name}` share memory", lambda: wall.step(**given, dt=1e-3), lsdcd.Error)
+        fact(f"{name} stay", (given[name] == before).all(), given[name])
 
 
 def saved_walls():
@@ -714,6 +749,11 @@ def test_given_values():
               "position": lambda given: body.collide(position=given)}
     right = {"points": points, "centres": points, "triangles": triangle, "vertices": vertices, "faces": faces,
              "radius": np.array([1.0]), "radii": np.array([1.0]), "position": np.zeros(3)}
+    for name, columns in (("half_axes", 3), ("exponents", 2), ("quaternions", 4)):
+        right[name] = np.full((1, columns), 2.0)
+        takers[name] = lambda given, name=name: grid.shape_distances(points, **{"half_axes": (2, 2, 2), name: given})
+    takers |= {"centres of shapes": lambda given: grid.shape_contacts(given, (1, 1, 1)), "the shape": lambda given: lsdcd.shape_facts(given)}
+    right |= {"centres of shapes": points, "the shape": np.ones(3)}
     for name, take in takers.items():
         take(right[name])
         take(np.ma.array(right[name], mask=False))
@@ -791,6 +831,61 @@ def test_values_that_c_reads_otherwise():
         moved.step(none, none, none, np.zeros(0), np.zeros(0), none.copy(), none.copy(), 0.01)
     fact("a table of motion is a copy of its rows", abs(moved.pose(0)[2, 3] - 0.1) < 1e-14 and abs(moved.pose(1)[2, 3] - 0.2) < 1e-14,
          (moved.pose(0), moved.pose(1)))
+
+
+def test_walls_are_freed():
+    """What calls a program's functions does not keep a wall alive."""
+    class Host:
+        rank, size = 0, 1
+        sum = max = staticmethod(lambda numbers: None)
+        broadcast = staticmethod(lambda data, source: None)
+
+    gc.collect()
+    gc.disable()
+    try:
+        for words in ({}, {"show": lambda text, warning: None}, {"host": Host()}):
+            wall = lsdcd.Wall(on_floor(), **words)
+            wall.totals()
+            alive = weakref.ref(wall)
+            del wall
+            fact(f"a wall with {list(words) or 'nothing'} is freed with its name", alive() is None)
+    finally:
+        gc.enable()
+
+
+def test_what_begins_wrongly():
+    """Before anything is made: limits, tables, threads, the library itself."""
+    law = lsdcd.Law("hooke", kn=1e4, kt=0, gamman=0, gammat=0, xmu=0, dampflag=0)
+    mesh = lsdcd.Mesh(np.array([[-1, -1, 0], [1, -1, 0], [1, 1, 0], [-1, 1, 0]], float), [[0, 1, 2], [0, 2, 3]])
+
+    def slider(limits):
+        return lsdcd.RigidBody(mass=1, inertia=(1, 1, 1, 0, 0, 0), joint="slider", axis=(0, 0, 1), limits=limits)
+
+    def made(**words):
+        return lsdcd.Wall(lsdcd.WallSpec(law, [lsdcd.WallMesh(mesh, **words)]))
+
+    none, zero = np.zeros((0, 3)), np.zeros(0)
+    for limits, says in (((1, 2), "meshes[0].body.lo` is 1"), ((-2, -1), "meshes[0].body.hi` is -1")):
+        refused(f"limits {limits} do not hold where the body begins", says, lambda: made(body=slider(limits)), lsdcd.Error)
+    wall = made(body=slider((-1, 1)))
+    wall.set_body(0, slider((1, 2)))    # for a state whose body is there
+    refused("a body cannot begin outside of them", "the limits 1 2 do not contain 0", lambda: wall.step(
+        none, none, none, zero, zero, none.copy(), none.copy(), 1e-3), lsdcd.Error)
+    wall.set_body(0, slider((-1, 1)))
+    wall.step(none, none, none, zero, zero, none.copy(), none.copy(), 1e-3)
+    fact("and the wall goes on", wall.body(0).coordinate == 0)
+    for name in ("/dev/zero", "/"):
+        refused(f"a table {name} is no file", "there is no such file", lambda: made(motions=[lsdcd.Motion.table(name)]), lsdcd.Error)
+    refused("a Motion has a kind", "Motion.linear()", lsdcd.Motion)
+
+    def says(code, **environment):
+        return subprocess.run([sys.executable, "-c", code], env={**os.environ, **environment}, text=True, capture_output=True).stderr
+
+    told = says("import lsdcd; lsdcd.Mesh([[[0, 0, 0], [1, 0, 0], [0, 1, 0.]]]).grid().query([[0, 0, 1]])", OMP_NUM_THREADS="99999")
+    fact("99 999 threads are refused", "lsdcd.Error: OMP_NUM_THREADS asks for 99999 threads; it is 4096 at most" in told, told)
+    told = says("import lsdcd", LSDCD_LIBRARY="/nowhere/liblsdcd.so.0")
+    fact("an import without the library says what to do", "ImportError: lsdcd's shared library cannot be loaded" in told
+         and "/nowhere/liblsdcd.so.0" in told and "LSDCD_LIBRARY" in told, told)
 
 
 def missing_mesh(name):

@@ -297,7 +297,7 @@ TEST(moving_nodes, turn_springs_from_where_they_were_turned_last)
   expect_turn(5, 7);
   move(9);
   const std::vector<Vec3> none(mesh.vertices.size(), Vec3{0, 0, 0});
-  nodes.put(b, at(10).data(), none.data());
+  nodes.put(b, at(10).data(), none.data(), 0);
   move(11);
   expect_turn(10, 11);
 }

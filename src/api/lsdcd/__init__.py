@@ -686,7 +686,9 @@ class Wall(_Owner):
         self._names: list[str] = _instance(spec, WallSpec, "spec")._names()
         self._on_device = bool(_chosen("device", device, DEVICES))
         self._stream = stream    # which must live as long as the wall
-        self._told: list[BaseException] = []    # what callbacks raised, which C cannot pass on
+        # What callbacks raised, which C cannot pass on. They know this list, not the wall, so that the wall is freed with its name.
+        self._told: list[BaseException] = []
+        told = self._told
         self._arrays: Any = None    # of the last step, whose errors the library may still have to tell
 
         def called(function: Callable[..., object]) -> Callable[..., int]:
@@ -695,7 +697,7 @@ class Wall(_Owner):
                     function(*arguments)
                     return 0
                 except BaseException as e:
-                    self._told.append(e)
+                    told.append(e)
                     return 1
             return call
 
@@ -827,7 +829,8 @@ class Wall(_Owner):
         return self._numbers(_lib.lsdcd_wall_pack, spheres.ctypes.data, spheres.size)
 
     def unpack(self, to: ArrayLike, numbers: ArrayLike) -> None:
-        """Spheres to[k] get what another process packed, after renumber(). Raises Error for other numbers."""
+        """Spheres to[k] get what another process packed, after renumber(). Raises Error for other numbers, and where a sphere would be
+        there twice."""
         spheres = _in_a_row(_whole_numbers(to, "to"), "to", np.intp)
         packed = _in_a_row(_as_floats(numbers, "numbers"), "numbers", np.float64)
         self._do(_lib.lsdcd_wall_unpack, self._handle, spheres.ctypes.data, spheres.size, packed.ctypes.data,
@@ -890,7 +893,8 @@ class Wall(_Owner):
         self._do(_lib.lsdcd_wall_set_nodes, self._handle, self._mesh(mesh), *places, *[None] * (2 - len(places)))
 
     def contacts(self) -> WallContacts:
-        """Contacts of this process in the last step, of a wall with `each_contact`. Raises Error for another one."""
+        """Contacts of this process in the last step, of a wall with `each_contact`. Raises Error for another one, and before the first
+        step after restore()."""
         ask = _sized(_WallContacts)
         self._do(_lib.lsdcd_wall_get_contacts, self._handle, ctypes.byref(ask))
         n = ask.room = ask.contacts
@@ -970,7 +974,7 @@ class Wall(_Owner):
         return numbers
 
     def restore(self, numbers: ArrayLike, what_fits: bool = False) -> None:
-        """Before the first step of a wall of the same spec, with the servo or body that was set later. Raises Error for numbers of
+        """Before the first step of a wall of the same spec, with the motion, servo or body that was set later. Raises Error for numbers of
         another wall, with what differs; with `what_fits` it takes of them what fits, and `show` is told what does not."""
         saved = _in_a_row(_as_floats(numbers, "numbers"), "numbers", np.float64)
         call = _lib.lsdcd_wall_restore_what_fits if _flag(what_fits, "what_fits") else _lib.lsdcd_wall_restore

@@ -255,9 +255,10 @@ class MovingNodes {
     remake(b);
   }
   // Springs belong to where it puts nodes. Those that were given stay given.
-  NodesGone put(B &b, const Vec3 *x, const Vec3 *v)
+  NodesGone put(B &b, const Vec3 *x, const Vec3 *v, Real back)
   {
     const std::size_t n = at_.size();
+    back_ = back;
     std::swap(at_, before_);
     b.copy_in(x, at_.data(), n);
     b.copy_in(v, velocity_.data(), n);
@@ -276,11 +277,13 @@ class MovingNodes {
 
   void fetch(B &b, NodesAt when, Vec3 *x, Vec3 *v) const
   {
-    const bool is_now = when == NodesAt::now;
-    b.copy_out((is_now ? at_ : before_).data(), x, at_.size());
-    if (v) b.copy_out(velocity_.data(), v, at_.size());
+    const Array<Vec3> *const of[] = {&before_, &at_, &next_};
+    b.copy_out(of[static_cast<int>(when)]->data(), x, at_.size());
+    if (v) b.copy_out((when == NodesAt::next ? next_velocity_ : velocity_).data(), v, at_.size());
     b.wait();
   }
+
+  Real velocities_behind() const { return back_; }
 
   // Where the backend computes.
   const MeshFeaturesView &records() const { return records_.view.wall; }

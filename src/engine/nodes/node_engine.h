@@ -24,8 +24,8 @@ struct NodesGone {
   int without_area;    // the first face that has none any more, or -1
 };
 
-// Before the last move, and after it.
-enum class NodesAt { before, now };
+// Before the last move, after it, and where they were given since.
+enum class NodesAt { before, now, next };
 
 class NodeEngine {
  public:
@@ -48,8 +48,11 @@ class NodeEngine {
   virtual NodesGone move(int mesh, Real back) = 0;
   // Moves nodes back to where they were, after a step that is refused.
   virtual void move_back(int mesh) = 0;
-  // Puts nodes where they were in a saved state, to which springs belong. What was given for the next move stays.
-  virtual NodesGone put(int mesh, const Vec3 *x, const Vec3 *v) = 0;
+  // Puts nodes where they were in a saved state, to which springs belong, with velocities of `back` ago (time). What was given
+  // for the next move stays.
+  virtual NodesGone put(int mesh, const Vec3 *x, const Vec3 *v, Real back) = 0;
+  // Returns how long ago the velocities are of (time).
+  virtual Real velocities_behind(int mesh) const = 0;
   // Builds the grid of a mesh from where its nodes are now, to use from now on, by grid/build/moving_grid.h. Nodes go by up to
   // `going` (length) until candidates are chosen. The host calls WallEngine::expire_choice().
   virtual void build_grid(int mesh, const MovingGridSettings &settings, Real going) = 0;
@@ -75,7 +78,7 @@ class NodeEngine {
   // numbers where a contact's force is not finite. Does not wait.
   virtual void put_forces(int mesh, Real sixth, Real *to, const std::vector<int> &node_of_row) = 0;
 
-  // Copies places and, where `v` is not null, velocities of all nodes; those before the last move are gone. Waits.
+  // Copies places and, where `v` is not null, velocities of all nodes; velocities before the last move are gone. Waits.
   virtual void fetch(int mesh, NodesAt when, Vec3 *x, Vec3 *v) = 0;
 };
 

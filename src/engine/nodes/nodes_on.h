@@ -71,10 +71,11 @@ class NodesOn : public NodeEngine {
   }
   NodesGone move(int mesh, Real back) override { return nodes_.at(mesh).move(e_.b_, back); }
   void move_back(int mesh) override { nodes_.at(mesh).move_back(e_.b_); }
-  NodesGone put(int mesh, const Vec3 *x, const Vec3 *v) override
+  NodesGone put(int mesh, const Vec3 *x, const Vec3 *v, Real back) override
   {
-    return nodes_.at(mesh).put(e_.b_, x, v);
+    return nodes_.at(mesh).put(e_.b_, x, v, back);
   }
+  Real velocities_behind(int mesh) const override { return nodes_.at(mesh).velocities_behind(); }
   void build_grid(int mesh, const MovingGridSettings &settings, Real going) override
   {
     e_.where_step_runs([&] {

@@ -164,17 +164,16 @@ Real BodyMover::spring_and_kinetic_energy() const
 
 // ---- a step ------------------------------------------------------------------------------
 
-// A body without a saved state begins where it was made.
-void BodyMover::begin()
+void BodyMover::check_start() const
 {
-  check_limits(body_spec(), body_);
-  place_is_known_ = true;
+  if (!place_is_known_) check_limits(body_spec(), body_);
 }
 
 void BodyMover::advance(const Step &to, const std::vector<Real> &inputs,
                         const LastLoad & /* load */)
 {
-  if (!place_is_known_) begin();
+  check_start();
+  place_is_known_ = true;
   motion_.advance(to, inputs);
   if (to.kind == Step::step) {
     body_.kick(to.dt / 2, load_);

@@ -36,6 +36,8 @@ class BodyMover final : public Mover {
   const BodyMover *body() const override { return this; }
 
   void check_plane() const override { check_keeps_plane(body_spec().joint); }
+  // A body without a saved state begins where it was made.
+  void check_start() const override;
   void check_snapshot(const Step &at) const override;
 
   bool is_half_done() const override { return pending_; }
@@ -71,7 +73,6 @@ class BodyMover final : public Mover {
   void check_keeps_plane(const Joint &joint) const;
   void check_spec(const BodySpec &to) const;
   void check_limits(const BodySpec &to, const RigidBody &as) const;
-  void begin();
   void ask_about_degrees() const;
   bool is_same(const BodyState &was) const;
   RigidBody continued(const BodyState &was) const;

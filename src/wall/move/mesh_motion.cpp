@@ -264,6 +264,11 @@ MotionState MeshMotion::state() const
   state.servo = servo();
   state.terms = motion.moves() ? motion.terms() : motion.stopped();
   state.stopped = !motion.moves() && !state.terms.empty();
+  if (motion.is_posed() && !spec().body.present) {
+    const Pose given = pose_without_servo();
+    state.velocity = given.velocity;
+    state.angular = given.angular;
+  }
   for (MotionTerm &m : state.terms)
     for (int &input : m.input)
       if (input != kNoInput)
@@ -290,14 +295,18 @@ void MeshMotion::restore(const MotionState &was, const Step &now)
     // The last one that it got, in which it may not have been yet.
     Pose there = (was.was_posed() ? was.placed : was.last).still();
     there.placed = true;
+    there.velocity = was.velocity;
+    there.angular = was.angular;
     motion.set_pose(there);
     begin(now);
+    pose_ = was.last;
     clock_ = was.clock;
     return;
   }
   const bool same_line = was.servo.position == 0 || servo().has_line_of(was.servo),
-             same = same_line && are_same(motion.moves() ? motion.terms() : motion.stopped(),
-                                          wall_.inputs, was.terms, was.inputs);
+             same = same_line && (motion.moves() || !was.moves()) &&
+                    are_same(motion.moves() ? motion.terms() : motion.stopped(), wall_.inputs,
+                             was.terms, was.inputs);
   const std::string own = own_text(), its = motion_text(was.terms, was.inputs);
   motion.begin_from(same && was.moves() ? was.start : same_line ? was.placed : was.last);
   const std::string saved = host_.names().saved;

@@ -74,6 +74,8 @@ class Mover {
 
   // Throws where the mesh would leave the plane of a run in two dimensions.
   virtual void check_plane() const { check_keeps_plane(motion()); }
+  // Throws where it cannot begin where it is, before its first step. Local.
+  virtual void check_start() const {}
   // Throws where the pose or velocities in a snapshot are not known from its time alone.
   virtual void check_snapshot(const Step &at) const { motion_.check_snapshot(at); }
 

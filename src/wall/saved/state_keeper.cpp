@@ -47,6 +47,7 @@ WallState StateKeeper::save(Time time)
   WallState all;
   all.history_kind = static_cast<Real>(wall_.law().history_kind());
   all.time = time;
+  all.average_every = wall_.average_every;
   for (const MeshPart &m : of_.meshes) {
     const MeshLoads loads = of_.loads.gathered(m.index);
     MeshState &to = all.meshes.emplace_back();
@@ -94,12 +95,18 @@ void StateKeeper::restore(const WallState &was, const Step &now)
     MeshPart &m = of_.meshes[k];
     m.springs_are_foreign = !(was.meshes[k].mesh == identity_of(m));
     if (is_restored(m, was))
-      restore_mesh(m, was.meshes[k], now);
+      restore_mesh(m, was, now);
     else
       host_.warn(with_mesh_name(wall_, m.index,
                                 "springs, motion, loads and wear start from zero: the " + saved +
                                     " was written with a different mesh in this place"));
   }
+  if (wall_.average_every > 0 && was.average_every != wall_.average_every)
+    host_.warn("the " + saved + " was written with " +
+               (was.average_every > 0 ? "average " + std::to_string(was.average_every)
+                                      : std::string("no average")) +
+               ", and " + host_.names().wall + " has " + std::to_string(wall_.average_every) +
+               ": the first mean is over the steps from now on");
   if (!was.unread.empty())
     host_.warn("the " + saved + " has " + was.unread +
                ", which this version does not know and ignores");
@@ -129,16 +136,18 @@ void StateKeeper::go_back(const Step &now)
     const std::size_t k = static_cast<std::size_t>(m.index);
     m.springs_are_foreign = false;
     m.spec.motion = made_->motions[k];
-    restore_mesh(m, made_->state.meshes[k], now);
+    restore_mesh(m, made_->state, now);
   }
 }
 
-void StateKeeper::restore_mesh(MeshPart &m, const MeshState &was, const Step &now)
+void StateKeeper::restore_mesh(MeshPart &m, const WallState &all, const Step &now)
 {
+  const MeshState &was = all.meshes[static_cast<std::size_t>(m.index)];
   m.mover->restore(was, now);
   if (m.surface->restore(was, !m.springs_are_foreign)) of_.grids.follow_surface(m);
   of_.coats.restore(m.index, was);
-  if (!was.mean.empty()) of_.means.restore(m.index, was.mean.front());
+  if (!was.mean.empty() && all.average_every == wall_.average_every)
+    of_.means.restore(m.index, was.mean.front());
   if (!was.last.empty()) of_.totals.restore(m.index, was.last.front().totals);
   if (!wall_.has_loads(m.spec)) return;
   if (m.springs_are_foreign)

@@ -59,7 +59,7 @@ class StateKeeper {
 
   void go_back(const Step &now);
   bool is_restored(const MeshPart &m, const WallState &was) const;
-  void restore_mesh(MeshPart &m, const MeshState &was, const Step &now);
+  void restore_mesh(MeshPart &m, const WallState &all, const Step &now);
 
   Host &host_;
   const WallSpec &wall_;

@@ -177,10 +177,15 @@ State WallState::blocks() const
   State all(kKind);
   all.add("history", 1, history_kind);
   all.add("time", 1, time);
+  if (average_every > 0) all.add("average", 1, average_every);
   for (const MeshState &m : meshes) {
     State mesh(kKind);
     mesh.add("identity", 1, m.mesh);
     mesh.add("motion", 1, m.motion);
+    if (m.motion.moves_when_posed()) {
+      mesh.add("velocity of pose", 1, m.motion.velocity);
+      mesh.add("spin of pose", 1, m.motion.angular);
+    }
     const std::vector<TableState> tables = tables_of(m.motion);
     if (!tables.empty()) mesh.add("tables", 1, tables);
     if (m.loads.time > 0 || !m.loads.rows.empty()) mesh.add("loads", 1, m.loads);
@@ -189,6 +194,10 @@ State WallState::blocks() const
     if (!m.nodes.names.empty()) mesh.add("nodes", 1, m.nodes);
     if (!m.nodes.places.empty()) mesh.add("places of nodes", 1, m.nodes.places);
     if (!m.nodes.velocities.empty()) mesh.add("velocities of nodes", 1, m.nodes.velocities);
+    if (m.nodes.behind > 0) mesh.add("velocities are behind", 1, m.nodes.behind);
+    if (!m.nodes.next.empty()) mesh.add("next places of nodes", 1, m.nodes.next);
+    if (!m.nodes.next.empty()) mesh.add("next velocities of nodes", 1, m.nodes.next_velocities);
+    if (!m.nodes.forces.empty()) mesh.add("forces on nodes", 1, m.nodes.forces);
     if (!m.coat.empty()) mesh.add("coat", 1, m.coat);
     if (!m.surface.vertices.empty()) mesh.add("shape", 1, m.surface);
     if (!m.mean.empty()) mesh.add("mean", 1, m.mean);
@@ -203,10 +212,13 @@ WallState WallState::from(const State &state)
   WallState all;
   state.read("history", 1, all.history_kind);
   state.read("time", 1, all.time);
+  state.find("average", 1, all.average_every);
   for (const State &mesh : state.inside("mesh", 1)) {
     MeshState &m = all.meshes.emplace_back();
     mesh.read("identity", 1, m.mesh);
     mesh.read("motion", 1, m.motion);
+    mesh.find("velocity of pose", 1, m.motion.velocity);
+    mesh.find("spin of pose", 1, m.motion.angular);
     std::vector<TableState> tables;
     mesh.find("tables", 1, tables);
     put_tables(tables, m.motion);
@@ -220,14 +232,22 @@ WallState WallState::from(const State &state)
     mesh.find("nodes", 1, m.nodes);
     mesh.find("places of nodes", 1, m.nodes.places);
     mesh.find("velocities of nodes", 1, m.nodes.velocities);
+    mesh.find("velocities are behind", 1, m.nodes.behind);
+    mesh.find("next places of nodes", 1, m.nodes.next);
+    mesh.find("next velocities of nodes", 1, m.nodes.next_velocities);
+    mesh.find("forces on nodes", 1, m.nodes.forces);
     mesh.find("coat", 1, m.coat);
     mesh.find("shape", 1, m.surface);
     mesh.find("mean", 1, m.mean);
     mesh.find("last step", 1, m.last);
     const std::size_t n = static_cast<std::size_t>(std::max<std::int64_t>(0, m.mesh.vertices));
-    if ((!m.nodes.names.empty() && m.nodes.names.size() != n) ||
-        (!m.nodes.places.empty() && m.nodes.places.size() != 3 * n) ||
-        (!m.nodes.velocities.empty() && m.nodes.velocities.size() != 3 * n))
+    const auto is_of_vertices = [n](const std::vector<Real> &numbers) {
+      return numbers.empty() || numbers.size() == 3 * n;
+    };
+    const NodeState &nodes = m.nodes;
+    if ((!nodes.names.empty() && nodes.names.size() != n) || !is_of_vertices(nodes.places) ||
+        !is_of_vertices(nodes.velocities) || !is_of_vertices(nodes.next) ||
+        nodes.next.size() != nodes.next_velocities.size() || !is_of_vertices(nodes.forces))
       throw StateError("the nodes in the data of the wall are not those of the mesh's vertices");
     const SurfaceState &s = m.surface;
     if (!s.vertices.empty() &&

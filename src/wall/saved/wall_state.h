@@ -15,6 +15,7 @@ namespace lsdcd {
 struct WallState {
   Real history_kind = 0;    // of the springs in the file: ContactLaw::history_kind()
   Time time = 0;            // of the spheres
+  int average_every = 0;    // steps of the means; 0: there are none
   std::vector<MeshState> meshes;
   std::string unread;    // blocks of a later version, which are not here; empty: none
 

@@ -1,0 +1,248 @@
+# SPDX-FileCopyrightText: 2026 LSDCD contributors
+# SPDX-License-Identifier: BSD-3-Clause
+
+"""A row for each field of the structs of lsdcd.h that make a wall: another value than in its base wall, as Python has it, and
+what restore() does where the saved wall had the base's value. `undecided()` finds a field without a row."""
+from __future__ import annotations
+
+import atexit
+import pathlib
+import shutil
+import tempfile
+from typing import NamedTuple
+
+import numpy as np
+
+import lsdcd
+from lsdcd import _c
+
+REFUSED = "refused"    # with what differs
+EXACT = "exact"        # the wall goes on as the saved one would
+FOLDER = pathlib.Path(tempfile.mkdtemp())
+atexit.register(shutil.rmtree, FOLDER)
+
+
+class Row(NamedTuple):
+    base: str      # of BASES
+    change: dict   # words of WallMesh ("mesh"), WallSpec ("wall") and Wall ("options") in place of the base's
+    restore: str
+
+
+def plate(size):
+    return lsdcd.Mesh(np.array([[-size, -size, 0], [size, -size, 0], [size, size, 0], [-size, size, 0]], float), [[0, 1, 2], [0, 2, 3]])
+
+
+def box():
+    corners = np.array([[x, y, z] for x in (-4, 4) for y in (-4, 4) for z in (-2, 0)], float)
+    sides = (0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)
+    return lsdcd.Mesh(corners, [t for a, b, c, d in sides for t in ((a, b, c), (a, c, d))])
+
+
+FLOOR, WIDER, BOX = plate(4.0), plate(4.5), box()
+
+
+def law(**words):
+    return lsdcd.Law("hooke/history", **{**dict(kn=1e4, kt=3e3, gamman=5, gammat=None, xmu=0.5, dampflag=1), **words})
+
+
+def warm(**words):
+    numbers = {**dict(e=0.5, xgammat=1, mu=0.4, ks=800), **words}
+    return lsdcd.Law.granular(lsdcd.SubModel("hertz/material", E=5e5, e=numbers["e"], nu=0.3),
+                              lsdcd.SubModel("mindlin", xgammat=numbers["xgammat"], mu=numbers["mu"]), numbers.get("damping", "tsuji"),
+                              rolling=lsdcd.SubModel("sds", k=100, gamma=1, mu=numbers.get("mur", 0.1)),
+                              twisting=lsdcd.SubModel("sds", k=100, gamma=1, mu=numbers.get("mut", 0.1)),
+                              heat=lsdcd.SubModel("area", h=numbers["ks"]))
+
+
+TURN = dict(point=(0.1, 0, 0), axis=(0, 0, 1), period=2.0)
+TABLE = np.array([[0, 0, 0, 0, 0], [0.05, 0.1, 0, 0, 0.002], [0.1, 0.3, 0, 0.01, 0]])
+
+
+def table(rows=TABLE, **words):
+    return {"motions": [lsdcd.Motion.table(rows, **{**dict(axis=(0, 0, 1)), **words})]}
+
+
+def servo(**words):
+    return {"servo": lsdcd.Servo(**{**dict(axis=(0, 0, 1), target=30, max_speed=0.2), **words})}
+
+
+def body(**words):
+    given = dict(mass=20, inertia=(3, 3, 5, 0, 0, 0), joint="slider", axis=(0, 0, 1), gravity=(0, 0, -1))
+    return {"body": lsdcd.RigidBody(**{**given, **words})}
+
+
+def hinge(**words):
+    return body(**{**dict(joint="hinge", point=(0.2, 0, 0), axis=(0, 1, 0)), **words})
+
+
+TYPED = {"type_laws": [(1, 1, law()), (2, None, law(kn=1.2e4))]}
+BELOW = [lsdcd.WallMesh(WIDER, "below", lsdcd.Placement().move(0, 0, -2.05))]
+# Words of the first mesh, of the wall, and of Wall(), and the meshes below.
+BASES = {
+    "floor": {}, "box": {"mesh": {"mesh": BOX}}, "warm": {"wall": {"law": warm()}},
+    "typed": {"mesh": TYPED},
+    "linear": {"mesh": {"motions": [lsdcd.Motion.linear((0, 0, 0.05))]}}, "wiggle": {"mesh": {"motions": [lsdcd.Motion.wiggle((0, 0, 0.01), 0.5)]}},
+    "turn": {"mesh": {"motions": [lsdcd.Motion.rotate(**TURN)]}}, "riggle": {"mesh": {"motions": [lsdcd.Motion.riggle(angle=0.2, **TURN)]}},
+    "table": {"mesh": table()}, "file": {"mesh": table(FOLDER / "one.txt")},
+    "servo": {"mesh": servo()}, "torque": {"mesh": servo(turns=True, target=3)},
+    "slider": {"mesh": {"mesh": BOX, **body()}}, "hinge": {"mesh": {"mesh": BOX, **hinge()}},
+    "dense": {"mesh": {"mesh": BOX, "body": lsdcd.RigidBody(0.5)}}, "above": {"mesh": {"mesh": BOX, **body()}, "below": BELOW}, "coated": {"mesh": {"mesh": BOX, **body(coat=(1.0, 0.1))}, "below": BELOW},
+    "nodes": {"mesh": {"nodes_by_caller": True}}, "posed": {"mesh": {"posed_by_caller": True}},
+    "wears": {"mesh": {"mesh": BOX}, "wall": {"wear": ("archard", 1e-6, 1e5)}},
+    "recedes": {"mesh": {"mesh": BOX}, "wall": {"wear": ("archard", 1e-6, 1e5), "wear_deform": (3, 2.0)}},
+    "fields": {"mesh": {"fields": (str(FOLDER / "a.*.vtp"), 50), "stl": (str(FOLDER / "a.*.stl"), 50)}},
+    "averaged": {"wall": {"average": 8}}, "nearest": {"wall": {"nearest": 2, "cell": 2.0}}, "periodic": {"options": {
+        "lo": (-4, -4, -4), "hi": (4, 4, 4), "periodic": (True, True, False), "margin": 0.5}}}
+for name, rows in (("one", TABLE), ("other", TABLE[:2])):
+    np.savetxt(FOLDER / f"{name}.txt", rows)
+
+
+def spec(change, base="floor"):
+    """Words of a wall: a WallSpec, and those of Wall()."""
+    words = {"wall": {"law": law(), "rmax": 0.6}, "mesh": {"mesh": FLOOR}, "options": {}}
+    for more in (BASES[base], change):
+        for of, given in more.items():
+            words[of] = {**words[of], **given} if of in words else given
+    meshes = words.get("meshes") or [lsdcd.WallMesh(**words["mesh"])] + words.get("below", [])
+    return lsdcd.WallSpec(meshes=meshes, **words["wall"]), words["options"]
+
+
+def of_mesh(base, restore, **words):
+    return Row(base, {"mesh": words}, restore)
+
+
+def of_wall(base, restore, **words):
+    return Row(base, {"wall": words}, restore)
+
+
+def of_options(base, restore, **words):
+    return Row(base, {"options": words}, restore)
+
+
+def of_motion(base, **words):
+    kinds = {"linear": (lsdcd.Motion.linear, {"velocity": (0, 0, 0.05)}), "wiggle": (lsdcd.Motion.wiggle, dict(amplitude=(0, 0, 0.01), period=0.5)),
+             "turn": (lsdcd.Motion.rotate, TURN), "riggle": (lsdcd.Motion.riggle, {**TURN, "angle": 0.2})}
+    make, usual = kinds[base]
+    return Row(base, {"mesh": {"motions": [make(**{**usual, **words})]}}, REFUSED)
+
+
+class OneProcess:
+    rank, size, node_rank = 0, 1, 0
+
+    def sum(self, numbers): pass
+    def max(self, numbers): pass
+    def broadcast(self, data, source): pass
+
+
+SLANTED = lsdcd.Placement().rotate((0, 1, 0), 0.1)
+# Of each struct its fields: rows, or why there is none.
+SIZE = "the library's"
+FIELDS = {
+    "lsdcd_wall_spec": {
+        "size": SIZE, "law": of_wall("floor", REFUSED, law=law(kt=2e3)),
+        "meshes": Row("floor", {"meshes": [lsdcd.WallMesh(WIDER)]}, REFUSED),
+        "n_meshes": Row("floor", {"meshes": [lsdcd.WallMesh(FLOOR), lsdcd.WallMesh(BOX)]}, REFUSED),
+        "corner": of_wall("floor", REFUSED, corner="sum"), "side": of_wall("box", REFUSED, side="out"),
+        "nearest": of_wall("floor", REFUSED, nearest=3), "cell": [of_wall("floor", EXACT, cell=0.7), of_wall("nearest", REFUSED, cell=1.5)],
+        "memory": [of_wall("floor", EXACT, memory=2e8), of_wall("nearest", REFUSED, memory=2e8)],
+        "rmax": [of_wall("floor", EXACT, rmax=0.9), of_wall("nearest", REFUSED, rmax=0.9)], "device": of_wall("floor", EXACT, compute="auto"),
+        "wear": of_wall("wears", REFUSED, wear=("finnie", 1e-6)), "wear_coefficient": of_wall("wears", REFUSED, wear=("archard", 2e-6, 1e5)),
+        "hardness": of_wall("wears", REFUSED, wear=("archard", 1e-6, 2e5)),
+        "wear_deform_every": of_wall("recedes", REFUSED, wear_deform=(4, 2.0)), "wear_deform_factor": of_wall("recedes", REFUSED, wear_deform=(3, 1.0)),
+        "periodic_ends": of_wall("floor", EXACT, periodic_ends=True), "brief": of_wall("floor", EXACT, brief=True),
+        "average_every": [of_wall("averaged", REFUSED, average=7), of_wall("floor", REFUSED, average=8), of_wall("averaged", REFUSED, average=0)],
+        "each_contact": of_wall("floor", EXACT, each_contact=True), "shapes": of_wall("floor", REFUSED, shapes=True)},
+    "lsdcd_wall_mesh": {
+        "size": SIZE, "mesh": of_mesh("floor", REFUSED, mesh=WIDER), "name": of_mesh("floor", EXACT, name="another"),
+        "placement": of_mesh("floor", REFUSED, placement=SLANTED), "law": of_mesh("floor", REFUSED, law=law(xmu=0.4)),
+        "type_laws": of_mesh("floor", REFUSED, **TYPED), "n_type_laws": of_mesh("typed", REFUSED, type_laws=TYPED["type_laws"][:1]),
+        "posed_by_caller": of_mesh("floor", REFUSED, posed_by_caller=True),
+        "motions": of_mesh("floor", REFUSED, motions=[lsdcd.Motion.linear((0.1, 0, 0))]),
+        "n_motions": of_mesh("linear", REFUSED, motions=[lsdcd.Motion.linear((0, 0, 0.05)), lsdcd.Motion.linear((0.1, 0, 0))]),
+        "servo": of_mesh("floor", REFUSED, **servo()), "surface_velocity": of_mesh("floor", REFUSED, surface_velocity=(0.1, 0, 0)),
+        "surface_angular_velocity": of_mesh("floor", REFUSED, surface_angular_velocity=(0, 0, 0.5)),
+        "surface_centre": of_mesh("floor", REFUSED, surface_centre=(0.3, 0, 0)), "temperature": of_mesh("warm", REFUSED, temperature=400.0),
+        "torque_about": of_mesh("floor", REFUSED, torque_about=(0, 0, 0.5)),
+        "torque_about_moves": of_mesh("linear", REFUSED, torque_about_moves=True), "wear_factor": of_mesh("wears", REFUSED, wear_factor=3.0),
+        "cache": of_mesh("floor", EXACT, cache=FOLDER / "grid.bin"), "fields": of_mesh("fields", EXACT, fields=(str(FOLDER / "b.*.vtp"), 50)),
+        "stl": of_mesh("fields", EXACT, stl=(str(FOLDER / "b.*.stl"), 50)),
+        "fields_every": [of_mesh("fields", REFUSED, fields=(str(FOLDER / "a.*.vtp"), 60)),
+                         of_mesh("floor", REFUSED, fields=(str(FOLDER / "a.*.vtp"), 50))],
+        "stl_every": of_mesh("fields", EXACT, stl=(str(FOLDER / "a.*.stl"), 60)),
+        "nodes_by_caller": of_mesh("floor", REFUSED, nodes_by_caller=True), "pressure": of_mesh("nodes", REFUSED, pressure=2.0),
+        "body": of_mesh("box", REFUSED, **body())},
+    "lsdcd_wall_options": {
+        "size": SIZE, "lo": of_options("periodic", REFUSED, lo=(-4.5, -4, -4)), "hi": of_options("periodic", REFUSED, hi=(4, 4.5, 4)),
+        "periodic": [of_options("periodic", REFUSED, periodic=(True, False, False)),
+                     of_options("floor", EXACT, lo=(-4, -4, -4), hi=(4, 4, 4))],
+        "margin": of_options("periodic", EXACT, margin=0.7), "time": of_options("floor", EXACT, time=3.0),
+        "show": of_options("floor", EXACT, show=lambda text, warning: None), "data": "handed to show", "threads": of_options("floor", EXACT, threads=2),
+        "host": of_options("floor", EXACT, host=OneProcess()), "stream": "of a device", "device": "test_python_gpu.py"},
+    "lsdcd_host": dict.fromkeys(("size", "rank", "processes", "node_rank", "data", "sum", "max", "broadcast"),
+                                "test_library_processes.cpp: a state is of a process"),
+    "lsdcd_law": {
+        "size": SIZE, "style": of_wall("floor", REFUSED, law=law(kn=1.1e4)), "normal": of_wall("warm", REFUSED, law=warm(e=0.6)),
+        "tangential": of_wall("warm", REFUSED, law=warm(mu=0.3)), "damping": of_wall("warm", REFUSED, law=warm(damping="coeff_restitution")),
+        "rolling": of_wall("warm", REFUSED, law=warm(mur=0.2)), "twisting": of_wall("warm", REFUSED, law=warm(mut=0.2)),
+        "heat": of_wall("warm", REFUSED, law=warm(ks=900)),
+        "cohesion": of_wall("floor", REFUSED, law=lsdcd.Law("hooke/history", kn=1e4, kt=3e3, gamman=5, xmu=0.5, dampflag=1,
+                                                            cohesion=lsdcd.SubModel("sjkr", K=100.0))),
+        "limit_damping": of_wall("floor", REFUSED, law=law(limit_damping=True))},
+    "lsdcd_sub_model": {"name": of_wall("floor", REFUSED, law=lsdcd.Law("hertz/history", kn=1e4, kt=3e3, gamman=5, xmu=0.5, dampflag=1)),
+                        "numbers": of_wall("floor", REFUSED, law=law(gamman=6))},
+    "lsdcd_type_law": {"size": SIZE, "first_type": of_mesh("typed", REFUSED, type_laws=[TYPED["type_laws"][0], (3, None, law(kn=1.2e4))]),
+                       "last_type": of_mesh("typed", REFUSED, type_laws=[TYPED["type_laws"][0], (2, 3, law(kn=1.2e4))]),
+                       "law": of_mesh("typed", REFUSED, type_laws=[TYPED["type_laws"][0], (2, None, law(kn=1.3e4))])},
+    "lsdcd_motion": {
+        "size": SIZE, "kind": Row("wiggle", {"mesh": {"motions": [lsdcd.Motion.cosine((0, 0, 0.01), 0.5)]}}, REFUSED),
+        "velocity": of_motion("linear", velocity=(0, 0, 0.04)), "amplitude": of_motion("wiggle", amplitude=(0, 0, 0.02)),
+        "point": of_motion("turn", point=(0.2, 0, 0)), "axis": of_motion("turn", axis=(0, 0, -1)), "period": of_motion("turn", period=3.0),
+        "angle": of_motion("riggle", angle=0.3), "rows": Row("table", {"mesh": table(TABLE * 1.5)}, REFUSED),
+        "n_rows": Row("table", {"mesh": table(TABLE[:2])}, REFUSED), "columns": Row("table", {"mesh": table(TABLE[:, :2])}, REFUSED),
+        "straight": Row("table", {"mesh": table(straight=True)}, REFUSED),
+        "repeats": Row("table", {"mesh": table(np.vstack([TABLE, [0.15, 0, 0, 0, 0]]), repeats=True)}, REFUSED),
+        "degrees": Row("table", {"mesh": table(degrees=True)}, REFUSED), "file": Row("file", {"mesh": table(FOLDER / "other.txt")}, REFUSED)},
+    "lsdcd_servo": {
+        "size": SIZE, "turns": Row("servo", {"mesh": servo(turns=True)}, REFUSED), "axis": Row("servo", {"mesh": servo(axis=(0, 0, -1))}, REFUSED),
+        "point": Row("torque", {"mesh": servo(turns=True, target=3, point=(1, 0, 0))}, REFUSED),
+        "target": Row("servo", {"mesh": servo(target=31)}, REFUSED), "max_speed": Row("servo", {"mesh": servo(max_speed=0.3)}, REFUSED),
+        "max_gain": Row("servo", {"mesh": servo(max_gain=1e-3)}, REFUSED), "lo": Row("servo", {"mesh": servo(limits=(-1, 0))}, REFUSED),
+        "hi": Row("servo", {"mesh": servo(limits=(0, 1))}, REFUSED)},
+    "lsdcd_rigid_body": {
+        "size": SIZE, "density": Row("dense", {"mesh": {"body": lsdcd.RigidBody(0.6)}}, REFUSED), "mass": Row("slider", {"mesh": body(mass=21)}, REFUSED),
+        "centre": Row("hinge", {"mesh": hinge(centre=(0, 0, -1))}, REFUSED),
+        "inertia": Row("hinge", {"mesh": hinge(inertia=(3, 4, 5, 0, 0, 0))}, REFUSED),
+        "joint": Row("slider", {"mesh": body(joint="planar")}, REFUSED), "point": Row("hinge", {"mesh": hinge(point=(0, 0, 0))}, REFUSED),
+        "axis": Row("hinge", {"mesh": hinge(axis=(0, -1, 0))}, REFUSED), "stiffness": Row("slider", {"mesh": body(spring=(30, 0, 0))}, REFUSED),
+        "damping": Row("slider", {"mesh": body(spring=(0, 3, 0))}, REFUSED),
+        "rest": Row("slider", {"mesh": body(spring=(30, 0, 0.1))}, REFUSED), "lo": Row("slider", {"mesh": body(limits=(-1, 0))}, REFUSED),
+        "hi": Row("slider", {"mesh": body(limits=(-2, 1))}, REFUSED), "motor": Row("slider", {"mesh": body(motor=4)}, REFUSED),
+        "load": Row("slider", {"mesh": body(load=(0, 0, 5))}, REFUSED), "moment": Row("hinge", {"mesh": hinge(moment=(0, 1, 0))}, REFUSED),
+        # The data have them.
+        "velocity": Row("slider", {"mesh": body(velocity=(0, 0, -0.1))}, EXACT),
+        "angular_velocity": Row("hinge", {"mesh": hinge(angular_velocity=(0, 0.1, 0), velocity=(0, 0, 0.02))}, EXACT),
+        "gravity": Row("slider", {"mesh": body(gravity=(0, 0, -2))}, REFUSED), "coat": Row("above", {"mesh": body(coat=(1.0, 0.1))}, REFUSED),
+        "coat_spacing": Row("coated", {"mesh": body(coat=(1.1, 0.1))}, REFUSED),
+        "coat_radius": Row("coated", {"mesh": body(coat=(1.0, 0.2))}, REFUSED)}}
+# Structs that are given to each step, answers, and what is of no wall.
+OTHERS = {"of each step": ("spheres", "wall_step"), "answers": ("wall_totals", "wall_contacts", "body_state"),
+          "of no wall": ("mesh_facts", "mesh_arrays", "grid_options", "grid_facts", "query", "contacts", "shape_facts", "shapes", "body_options",
+                         "body_facts", "collision", "sub_model_facts", "override", "materials")}
+
+
+def undecided():
+    """Fields and structs of the header without a row, and rows without a field."""
+    header = {name: {field for field, _ in struct._fields_} for name, struct in _c._HEADER.structs.items()}
+    for names in OTHERS.values():
+        for name in names:
+            header.pop("lsdcd_" + name)
+    return {f"{name}.{field}" for name in header.keys() | FIELDS.keys()
+            for field in header.get(name, set()) ^ set(FIELDS.get(name, ()))}
+
+
+def rows():
+    """A name and a row for each of them."""
+    for struct, fields in FIELDS.items():
+        for field, given in fields.items():
+            for row in [] if isinstance(given, str) else [given] if isinstance(given, Row) else given:
+                yield f"{struct[len('lsdcd_'):]}.{field}", row
