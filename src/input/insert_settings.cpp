@@ -20,7 +20,8 @@ const char *const kInsertSyntax =
     "fix ID group insert/lsdcd mesh FILE [scale s | sx sy sz] [rotate ax ay az degrees] [move x y "
     "z] [weld tol] [depth D] | region ID, with diam one D | range LO HI | poly N D1 F1 ... | mass "
     "N D1 F1 ..., dens RHO | LO HI, [massrate R | numberrate R] [mass M | number N] [type T] [vel "
-    "X Y Z | normal V] [jitter V] [wall all | none | ID] [attempts N] [every N] [seed N]";
+    "X Y Z | normal V] [jitter [gaussian] V | X Y Z] [wall all | none | ID] [attempts N] [every N] "
+    "[seed N]";
 
 constexpr Real kMostInt = 2147483647, kMostExact = 9007199254740992;
 
@@ -72,6 +73,18 @@ void read_velocity(Tokens &w, InsertSettings &s)
   s.velocity.z = w.number("Z");
 }
 
+void read_jitter(Tokens &w, GrainRecipe &grains)
+{
+  w.set_context("jitter", "jitter [gaussian] V | X Y Z");
+  grains.gaussian = !w.done() && w.peek() == "gaussian";
+  if (grains.gaussian) w.take();
+  const Real x = w.number("V", 0);
+  grains.jitter = {x, x, x};
+  if (!w.number_follows()) return;
+  grains.jitter.y = w.number("Y", 0);
+  grains.jitter.z = w.number("Z", 0);
+}
+
 void read_wall(Tokens &w, InsertSettings &s)
 {
   w.set_context("wall", "wall all | none | ID");
@@ -117,8 +130,7 @@ bool read_word(const std::string &word, Tokens &w, InsertSettings &s)
   } else if (word == "vel") {
     read_velocity(w, s);
   } else if (word == "jitter") {
-    w.set_context("jitter", "jitter V");
-    s.plan.grains.jitter = w.number("V", 0);
+    read_jitter(w, s.plan.grains);
   } else if (word == "depth") {
     w.set_context("depth", "depth D");
     s.depth = w.number("D", 0);

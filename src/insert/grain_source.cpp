@@ -67,7 +67,9 @@ Vec3 GrainSource::velocity_jitter(std::int64_t number) const
 {
   RandomStream random({seed_, kVelocity, number});
   Vec3 v;
-  for (int k = 0; k < 3; k++) v[k] = random.uniform(-recipe_.jitter, recipe_.jitter);
+  for (int k = 0; k < 3; k++)
+    v[k] = recipe_.gaussian ? recipe_.jitter[k] * random.gaussian()
+                            : random.uniform(-recipe_.jitter[k], recipe_.jitter[k]);
   return v;
 }
 

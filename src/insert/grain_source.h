@@ -25,7 +25,9 @@ struct GrainRecipe {
   std::vector<Size> sizes;           // empty: uniform between the next two
   Real smallest = 0, largest = 0;    // diameters
   Real density_lo = 0, density_hi = 0;
-  Real jitter = 0;    // velocity; the largest change of each component
+  // Velocity: the largest change of each component, or its standard deviation.
+  Vec3 jitter = {0, 0, 0};
+  bool gaussian = false;
 
   // From shares of mass to those of number.
   void set_mass_shares(const std::vector<Size> &by_mass);

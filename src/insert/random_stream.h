@@ -6,6 +6,7 @@
 
 #include "base/split_mix.h"
 
+#include <cmath>
 #include <cstdint>
 #include <initializer_list>
 
@@ -23,6 +24,12 @@ class RandomStream {
   // At least 0 and below 1.
   Real uniform() { return 0x1p-53 * static_cast<Real>(split_mix(state_ += kSplitMixStep) >> 11); }
   Real uniform(Real lo, Real hi) { return lo + (hi - lo) * uniform(); }
+  // Returns a number of the normal distribution with the mean 0 and the standard deviation 1 (Box and Muller 1958).
+  Real gaussian()
+  {
+    const Real r = std::sqrt(-2 * std::log(1 - uniform()));
+    return r * std::cos(2 * kPi * uniform());
+  }
 
  private:
   std::uint64_t state_ = 0;

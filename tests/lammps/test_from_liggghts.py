@@ -284,6 +284,10 @@ WRITTEN.update({
     "a pack of one size": (
         ONE + FILL + "vel constant 0 0 -2 particles_in_region 90 region r\n",
         "fix             i all insert/lsdcd region r type 1 diam one 0.004 dens 2500 number 90 vel 0 0 -2 seed 7\n"),
+    "velocities of the normal distribution": (
+        ONE + FILL + "vel gaussian 0 0 -2 0.1 0.2 0.3 particles_in_region 90 region r\n", "vel 0 0 -2 jitter gaussian 0.1 0.2 0.3 seed 7\n"),
+    "velocities up to a number for each component": (
+        ONE + FILL + "vel uniform 0 0 -2 0.1 0 0.3 particles_in_region 90 region r\n", "vel 0 0 -2 jitter 0.1 0 0.3 seed 7\n"),
     "two types by mass, and all their numbers": (
         # A grain of type 2 has 8 times the mass: 40 and 60 % of the mass are 16 and 3 grains of 19.
         GRAINS.replace("2 atom_type 1", "2 atom_type 2") + "fix d all particledistribution/discrete 3 2 p1 0.4 p2 0.6\nfix i all "
@@ -848,6 +852,11 @@ def test_winding(folder):
     for side, number, rate in ((1, 1, "f_flow[6]"), (-1, 3, "(-f_flow[6])")):
         fact(f"vec_side {side}", f"n equal f_flow[{number}]" in convert(folder, text.format("flat", side, 2))[1])
         fact(f"the rate, vec_side {side}", f"n equal {rate}" in convert(folder, text.format("flat", side, 3))[1])
+    file = "fix out all mesh/surface file flat.stl type 1\nfix flow all massflow/mesh mesh out vec_side 0 0 {} {} post/flow.txt writeTime\n"
+    for side, word, said in ((1, "file", ""), (-1, "file", "the direction -1"), (1, "append", "begins anew")):
+        _, out = convert(folder, file.format(side, word))
+        fact(f"rows of passages, vec_side {side} {word}", "flat.stl count each file post/flow.txt\n" in out and "columns of its own" in out and said in out and
+             "\n# LEFT" not in out, out)
     _, out = convert(folder, text.format("mixed", 1, 2))
     fact("a mesh that is wound both ways is left", "# LEFT in.there:2: mixed.stl has triangles wound along vec_side and others" in out)
 

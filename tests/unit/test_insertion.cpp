@@ -146,6 +146,63 @@ TEST(insertion, a_range_is_uniform_by_number)
   EXPECT_NEAR(mass / kN, 10, 5 * std::sqrt(56.2 / kN));
 }
 
+// Of n draws of a law: bounds of five standard errors, which one law in 1.7 million passes by chance.
+struct Draws {
+  std::vector<Vec3> v;
+  Draws(const Vec3 &jitter, bool gaussian)
+  {
+    InsertionPlan plan = at_once(1);
+    plan.grains.jitter = jitter;
+    plan.grains.gaussian = gaussian;
+    const GrainSource source(plan.grains, 5);
+    for (int i = 0; i < 200000; i++) v.push_back(source.velocity_jitter(i));
+  }
+  template <class F>
+  Real mean(F &&f) const
+  {
+    Real sum = 0;
+    for (const Vec3 &a : v) sum += f(a);
+    return sum / static_cast<Real>(v.size());
+  }
+  Real error(Real variance) const { return 5 * std::sqrt(variance / static_cast<Real>(v.size())); }
+};
+
+TEST(insertion, jitter_is_uniform_up_to_the_number_of_each_component)
+{
+  const Vec3 most = {0.5, 2, 0};
+  const Draws draws(most, false);
+  for (int k = 0; k < 3; k++) {
+    for (const Vec3 &a : draws.v) ASSERT_LE(std::fabs(a[k]), most[k]);
+    const Real second = most[k] * most[k] / 3, fourth = std::pow(most[k], 4) / 5;
+    EXPECT_LE(std::fabs(draws.mean([&](const Vec3 &a) { return a[k]; })), draws.error(second));
+    EXPECT_LE(std::fabs(draws.mean([&](const Vec3 &a) { return a[k] * a[k]; }) - second),
+              draws.error(fourth - second * second));
+  }
+}
+
+TEST(insertion, gaussian_jitter_has_the_moments_of_the_normal_distribution)
+{
+  const Vec3 s = {0.5, 2, 1};
+  const Draws draws(s, true);
+  for (int k = 0; k < 3; k++) {
+    // Moments 1 to 4 are 0, 1, 0, 3, and the error of the m-th is that of the 2m-th: 1, 3, 15, 105.
+    const Real moments[] = {0, 1, 0, 3}, next[] = {1, 3, 15, 105};
+    for (int m = 1; m <= 4; m++)
+      EXPECT_LE(std::fabs(draws.mean([&](const Vec3 &a) { return std::pow(a[k] / s[k], m); }) -
+                          moments[m - 1]),
+                draws.error(next[m - 1] - moments[m - 1] * moments[m - 1]))
+          << "moment " << m << " of component " << k;
+    // Beyond three deviations.
+    const Real far = std::erfc(3 / std::sqrt(Real(2)));
+    EXPECT_LE(
+        std::fabs(draws.mean([&](const Vec3 &a) { return std::fabs(a[k]) > 3 * s[k]; }) - far),
+        draws.error(far * (1 - far)));
+    const int l = (k + 1) % 3;
+    EXPECT_LE(std::fabs(draws.mean([&](const Vec3 &a) { return a[k] * a[l] / (s[k] * s[l]); })),
+              draws.error(1));
+  }
+}
+
 TEST(insertion, what_finds_no_place_is_owed_and_tried_again)
 {
   InsertionPlan plan = at_once(5);
@@ -529,6 +586,22 @@ TEST(insert_settings, grains_that_come_all_at_once_have_more_attempts)
   EXPECT_EQ(attempts_of({}), 1000);
   EXPECT_EQ(attempts_of({"numberrate", "1"}), 100);
   EXPECT_EQ(attempts_of({"attempts", "7"}), 7);
+}
+
+TEST(insert_settings, jitter_has_one_number_or_three)
+{
+  const auto grains = [](const std::vector<std::string> &words) {
+    std::vector<std::string> all = {"region", "r", "diam",   "one", "1",
+                                    "dens",   "1", "number", "1",   "jitter"};
+    all.insert(all.end(), words.begin(), words.end());
+    return parse_insert(all).plan.grains;
+  };
+  EXPECT_EQ(grains({"2"}).jitter, (Vec3{2, 2, 2}));
+  EXPECT_EQ(grains({"1", "2", "3"}).jitter, (Vec3{1, 2, 3}));
+  EXPECT_FALSE(grains({"1", "2", "3"}).gaussian);
+  EXPECT_TRUE(grains({"gaussian", "1", "2", "3"}).gaussian);
+  EXPECT_EQ(grains({"gaussian", "2", "seed", "7"}).jitter, (Vec3{2, 2, 2}));
+  EXPECT_TRUE(fails_with("jitter", [&] { grains({"1", "2"}); }));
 }
 
 TEST(insert_settings, fractions_that_do_not_add_up_are_refused_with_their_sum)

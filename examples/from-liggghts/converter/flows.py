@@ -39,15 +39,22 @@ class Flows:
         if delete and not forward:
             raise Left("delete_atoms where the mesh is wound against vec_side",
                        "turn its triangles over: only what passes forward is deleted")
+        rows = [v[key][0] for key in ("file", "append") if key in v]
+        if len(rows) > 1:
+            raise Left("massflow/mesh with file and append", "one of both")
         count = {"once": "once", "multiple": "each"}[v.get("count", ["multiple"])[0]]
         self.put(f"fix             {w[1]} {w[2]} massflow/lsdcd mesh {mesh.file}{mesh.placement()} count {count}" +
-                 " delete yes" * delete)
+                 " delete yes" * delete + "".join(f" file {name}" for name in rows))
         if not forward:
             self.note(line, f"the mesh is wound against vec_side: f_{w[1]}[4] is the mass and f_{w[1]}[3] the number")
         if count == "once":
             self.note(line, "a grain that passes backward first is not counted when it comes again; in LIGGGHTS it is")
-        if "file" in v or "append" in v or is_yes(v, "screen", "no"):
-            self.note(line, "no file or line with each grain that has passed")
+        if rows:
+            self.note(line, f"{rows[0]} has columns of its own, with all digits" + (
+                "" if forward else ", and what LIGGGHTS counts has the direction -1") + (
+                "; it begins anew, where LIGGGHTS appends to an older file" if "append" in v else ""))
+        if is_yes(v, "screen", "no"):
+            self.note(line, "no line on the screen for each grain that has passed")
         number, mass = (1, 2) if forward else (3, 4)
         rate = f"f_{w[1]}[6]" if forward else f"(-f_{w[1]}[6])"
         self.mirror(line, {1: f"f_{w[1]}[{mass}]", 2: f"f_{w[1]}[{number}]", 3: rate, 5: f"f_{w[1]}[8]", 6: f"f_{w[1]}[7]"})

@@ -167,10 +167,10 @@ class Insertion:
             raise Left("insertion with a spin", "set ... omega of the new grains, as grains come without a spin here")
         velocity = ""
         if "vel" in v:
-            spread = v["vel"][4:]
-            if v["vel"][0] not in ("constant", "uniform") or len(set(spread)) > 1:
-                raise Left(f"velocities of {v['vel'][0]}", "vel and jitter of fix insert/lsdcd")
-            velocity = " vel " + " ".join(v["vel"][1:4]) + "".join(f" jitter {x}" for x in spread[:1])
+            drawn, spread = v["vel"][0], v["vel"][4:]
+            velocity = " vel " + " ".join(v["vel"][1:4])
+            if spread:
+                velocity += " jitter " + "gaussian " * (drawn == "gaussian") + " ".join(spread[:1] if len(set(spread)) == 1 else spread)
         bounds, there = None, False
         if form == "stream":
             mesh = self.meshes.get(v.get("insertion_face"))
