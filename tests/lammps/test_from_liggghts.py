@@ -189,6 +189,12 @@ WRITTEN = {
     "an if whose commands are the same": (
         'if "${n} > 1" then "print 1" "jump SELF l" else "variable a delete"\n',
         'then "print 1" "jump SELF l" else'),
+    "rows of pairs": (
+        "compute p all pair/gran/local id force_normal force_tangential\ndump d all local 9 d.txt c_p[1] c_p[2] c_p[4] c_p[9]\n",
+        "compute         p_id all property/local patom1 patom2 cutoff radius\ncompute         p all pair/local fx fy fz p1 p2 p3 cutoff radius\n"
+        "dump d all local 9 d.txt c_p_id[1] c_p_id[2] c_p[1] c_p[6]\n"),
+    "rows of walls, in their order": (
+        ON_MESH + "compute q all wall/gran/local delta force verbose\ndump d all local 9 d.txt c_q[1] c_q[4]\n", "dump d all local 9 d.txt f_w[3] f_w[9]\n"),
     "coord/atom has its word": ("compute c all coord/atom 0.1\n", "coord/atom cutoff 0.1"),
     "a dump loses outputs that are not there": ("dump d all custom 9 d.txt id f_force_w[1] c_thermo_temp x\n", "custom 9 d.txt id c_thermo_temp x\n"),
     "what was made text is not binary": ("dump d all custom/vtk 9 d*.vtk id x\ndump_modify d binary yes sort id\n", "dump_modify     d sort id\n"),
@@ -200,6 +206,10 @@ WRITTEN = {
 }
 # Commands that stay, and the reason.
 LEFT = {
+    "positions of pairs": ("compute p all pair/gran/local pos id\ndump d all local 9 d.txt c_p[1]\n", "column 1 of compute p pair/gran/local, which is pos"),
+    "what follows the history of pairs": ("compute p all pair/gran/local\ndump d all local 9 d.txt c_p[22]\n", "column 22 of compute p pair/gran/local"),
+    "rows of two walls": (
+        ON_MESH + LID + WALL.replace("fix w", "fix v").replace("meshes cad", "meshes lid") + "compute q all wall/gran/local id\n", "wall/gran/local of a group, or not"),
     "insertion": ("fix i all insert/pack seed 1 distributiontemplate d\n", "insert/pack"),
     "turns at speeds of variables about axes that are not parallel": (
         MESH.format("") + WALL + "variable w equal 1\nfix t all move/mesh mesh cad rotate/variable origin 0 0 0 axis 0 0 1 omega v_w\n"
@@ -723,6 +733,8 @@ compute A all reduce/region R max x
 compute A all property/atom id omegax
 compute A all coord/atom 0.1
 compute A all msd com yes
+compute A all pair/gran/local id force_normal verbose
+compute A all wall/gran/local pos force
 compute_modify A dynamic yes extra 0
 dump A all custom 9 A1 id type x vx omegaz
 dump A all custom/vtk 9 A1 id radius
@@ -757,7 +769,7 @@ def test_every_word_is_read(folder):
     stl.write(folder / "flat.stl", FLAT)
     n_words, wrong = 0, []
     for line in LINES.splitlines():
-        around = AROUND + WALL * ("wall/gran" not in line) + "dump A all custom 9 A id\n" * line.startswith("dump_")
+        around = AROUND + WALL * ("wall/gran model" not in line) + "dump A all custom 9 A id\n" * line.startswith("dump_")
         done, out = convert(folder, around + line + "\n")
         if out is None or "# LEFT" in out:
             wrong.append(f"left: {line}: {done.stderr}")
@@ -1071,6 +1083,7 @@ ALL_EDGES = " ".join(f"${{{a}{end}}}" for a in "xyz" for end in ("min", "max"))
 HERTZ = "hertz tangential history"
 TENTH = 0.1 * math.pi * 0.05**2 * 0.2 / (4 / 3 * math.pi * 0.004**3)
 MASS = 2500 * 4 / 3 * math.pi * 0.01**3
+HERTZ_FORCE = 4 / 3 * 5e6 / (2 * (1 - 0.3**2)) * 1e-4**1.5    # over the square root of the effective radius
 # Waves of 1 and 0.5, after a quarter of the period: cos 0 - cos(-pi/2), and half of cos(pi + 1) - cos 1.
 WAVES = 1 - math.cos(1)
 IN_0_1 = [(0.004, 0.096)] * 6
@@ -1146,6 +1159,20 @@ PHYSICS = {
               "group a id 1\nvelocity a set 1 0 0 units box\ngroup b id 2\nvelocity b set 0 0 -1 units box\nfix cad all mesh/surface file flat.stl type 1\n"
               "fix w all wall/gran model MODEL mesh n_meshes 1 meshes cad\nfix g a gravity 9.81 vector 0 0 -1\nvariable v equal vz[2]\nvariable s equal vx[1]\n"
               "run 2000\n", "${v} ${s}", [(0.29, 0.31), (0.98 * (1 - 0.4 * 9.81 * 0.02), 1.02 * (1 - 0.4 * 9.81 * 0.02))]),
+    # Rows of contacts: Hertz's forces between two grains (overlap 1e-4, effective radius 0.005) and of one on the floor, which rest, and the
+    # overlap; then the second grain has slid down along the first, which it pulls along by mu times the normal force; the line of
+    # their centres has turned by 2e-3, whose square is 4e-6.
+    "rows": (HERTZ, "create_atoms 1 single 0 0 0.0099 units box\ncreate_atoms 1 single 0.0199 0 0.0099 units box\n"
+             "set group all diameter 0.02 density 2500\ngroup b id 2\nfix cad all mesh/surface file flat.stl type 1\n"
+             "fix w all wall/gran model MODEL mesh n_meshes 1 meshes cad\ncompute p all pair/gran/local id force_normal force_tangential\n"
+             "compute q all wall/gran/local pos id force delta\ncompute r all reduce min c_p[4] c_p[9] c_q[12] c_q[13]\n"
+             "compute s all reduce max c_q[9] c_q[3]\n"
+             "variable n equal c_r[1]\nvariable f equal c_r[3]\nvariable o equal c_r[4]\nvariable i equal c_s[1]\nvariable z equal c_s[2]\n"
+             "variable t equal c_r[2]/c_r[1]\nthermo_style custom step c_r[1] c_r[2] c_r[3] c_r[4] c_s[1] c_s[2]\nrun 0\nvariable a string ${n}\n"
+             "variable b string ${f}\nvariable c string ${o}\nvelocity b set 0 0 -0.05 units box\nthermo 20\nrun 80\n",
+             "${a} ${b} ${c} ${i} ${z} ${t}",
+             [(-HERTZ_FORCE * 0.005**0.5 - 1e-7, -HERTZ_FORCE * 0.005**0.5 + 1e-7), (HERTZ_FORCE * 0.1 - 1e-7, HERTZ_FORCE * 0.1 + 1e-7),
+              (1e-4 - 1e-9, 1e-4 + 1e-9), (2, 2), (0, 0), (0.4 - 1e-5, 0.4 + 1e-5)]),
     # Whole grains in the region, and in the box.
     "all_in": (HERTZ, POUR + EDGES + "region box1 block 0 0.1 0 0.1 0 0.1 units box\nfix ins all insert/pack seed 32452843 "
                "distributiontemplate d1 insert_every once all_in yes particles_in_region 300 region box1\nrun 1\n", ALL_EDGES, IN_0_1),
@@ -1181,7 +1208,7 @@ def physics(folder, there=False):
     for name, (model, text, shown, bounds) in PHYSICS.items():
         if there and "6dof" in text:
             continue
-        box = BOX.replace("peratomtypepair 1 0.3", "peratomtypepair 1 1") if "6dof" in text else BOX
+        box = BOX.replace("peratomtypepair 1 0.3", "peratomtypepair 1 1") if "6dof" in text or name == "rows" else BOX
         for old, new in (("peratomtypepair 1 0.3", "atomtypepair 1 0.3"), ("peratomtypepair", "matrix"), ("peratomtype 5e6", "atomtype 5e6"),
                          ("peratomtype", "vector")) if name == "kinds" else ():
             box = box.replace(old, new)

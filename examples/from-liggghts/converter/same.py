@@ -342,6 +342,7 @@ class Same:
             return helper(name, k, value)
 
         text = re.sub(r"\bf_(\w+)\[(\d+)\]", new, text)
+        text = re.sub(r"\bc_(\w+)\[(\d+)\]", lambda m: self.row_column(m[1], int(m[2])) if m[1] in self.rows else m[0], text)
         for name in re.findall(r"\b[fcv]_\w+", text) + [f"v_{x}" for x in re.findall(r"\$\{(\w+)\}", text)]:
             if not self.is_here(name):
                 raise Left(f"{name}, which is not here", "take another output")

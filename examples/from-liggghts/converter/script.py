@@ -5,6 +5,7 @@
 import math
 import re
 
+from .contacts import Contacts
 from .dumps import DUMP_MODIFY, MESH_DUMPS, TEXT_DUMP_WORDS, Dumps
 from .errors import CannotConvert, Left
 from .flows import Flows
@@ -25,7 +26,7 @@ NO_PHYSICS = {"hard_particles": "YES", "soft_particles": "YES", "modify_timing":
               "package": "omp GRID (force|force/neigh|neigh|thread-binding|verbose)*"}
 
 
-class Script(Walls, Motions, Insertion, Flows, Dumps, Properties, Same):
+class Script(Walls, Motions, Insertion, Flows, Dumps, Contacts, Properties, Same):
     def __init__(self, path, options):
         self.path, self.folder, self.options = path, path.parent, options
         self.program = Program(path, options.var or [])
@@ -62,6 +63,7 @@ class Script(Walls, Motions, Insertion, Flows, Dumps, Properties, Same):
         self.regions, self.box, self.box_moves, self.faces, self.pair = {}, {}, False, ["f"] * 6, None
         self.mirrored, self.texts, self.parts, self.feeds, self.helpers = {}, set(), {}, {}, {}
         self.computed, self.spun = set(), False
+        self.rows = {}    # of computes of contacts: style, what stands for each column, its word
         self.named, self.named_flows = {}, {}    # outputs that lines have taken, of meshes and of other fixes
         self.densities = {}    # of set and insertions: of the groups or regions, the last one at the end; None: not known
         self.step, self.timestep, self.sources = 0, None, []    # here, None where it is not known; what has made grains
@@ -255,6 +257,8 @@ class Script(Walls, Motions, Insertion, Flows, Dumps, Properties, Same):
             if line.words[0] in ("fix", "dump", "compute") and len(line.words) > 1:
                 moved = self.moves.get(line.words[1])
                 self.gone.pop(line.words[1], None)
+                if line.words[0] == "compute":
+                    self.rows.pop(line.words[1], None)
                 self.plain.discard(line.words[1])
             try:
                 self.command(line)
@@ -384,6 +388,8 @@ class Script(Walls, Motions, Insertion, Flows, Dumps, Properties, Same):
             self.put(text)
         elif w[0] in ("if", "run") and any(c[0] not in PLAIN_COMMANDS for c in commands_in(w)[1:]):
             raise Left(f"commands in {w[0]} that are to be converted", "convert them as lines of their own, and put them here")
+        elif w[0] == "compute" and w[3] in ("pair/gran/local", "wall/gran/local"):
+            self.contacts(line)
         elif w[0] == "compute":
             if w[3] not in COMPUTES:
                 raise Left(f"compute {w[3]}", "LAMMPS has no compute of that name with these words")

@@ -83,7 +83,7 @@ class Walls:
         # One fix, so that a grain where meshes meet is pushed once; each mesh has its law.
         laws = [self.law_of(line, model, mesh.type) for mesh in meshes]
         first = laws[0][self.grains()[0]]
-        words = [f"fix             {w[1]} {self.group_of(line, meshes)} wall/lsdcd {first}" + self.wear(line, meshes)]
+        words = [f"fix             {w[1]} {self.group_of(line, meshes)} wall/lsdcd {first}" + self.wear(line, meshes) + " each_contact" * self.wants_each_contact(line)]
         for index, (mesh, by_type) in enumerate(zip(meshes, laws), 1):
             mesh.wall, mesh.index, mesh.several = mesh.first = w[1], index, len(meshes) > 1
             mesh.wall_at = line
