@@ -92,7 +92,7 @@ void finish(Tokens &w, LawDraft &d)
 
 }    // namespace
 
-void read_numbers(Tokens &w, const SubModel &row, LawDraft &d)
+std::vector<Real> read_numbers(Tokens &w, const SubModel &row, LawDraft &d)
 {
   std::vector<Real> given;
   for (const Parameter &p : row.parameters) {
@@ -104,6 +104,7 @@ void read_numbers(Tokens &w, const SubModel &row, LawDraft &d)
              d.normal_name + "'");
   }
   add_sub_model(row, given, d);
+  return given;
 }
 
 void read_sub_models_of_materials(Tokens &w, MaterialPair &pair)
@@ -139,15 +140,20 @@ std::string granular_help()
   return help;
 }
 
-ContactLaw read_granular(Tokens &w, std::string &text)
+ContactLaw read_granular(Tokens &w, std::string &text, std::vector<GivenSubModel> *given)
 {
   LawDraft d;
+  const auto read = [&](Family family) {
+    const SubModel &row = read_name(w, family);
+    const std::vector<Real> numbers = read_numbers(w, row, d);
+    if (given) given->push_back({&row, numbers});
+  };
   d.law = granular_law(NormalModel::hooke);
   const std::size_t first = w.at();
-  read_numbers(w, read_name(w, Family::normal), d);
+  read(Family::normal);
   bool has_tangential = false;
   d.law.limit_damping = read_families(w, [&](Family family) {
-    read_numbers(w, read_name(w, family), d);
+    read(family);
     has_tangential |= family == Family::tangential;
   });
   text = "granular " + w.between(first);

@@ -13,12 +13,12 @@
 
 namespace lsdcd {
 
-// Reads the numbers of one sub-model after its name.
-void read_numbers(Tokens &w, const SubModel &row, LawDraft &draft);
+// Reads the numbers of one sub-model after its name, adds them to the draft, and returns them: NaN for NULL.
+std::vector<Real> read_numbers(Tokens &w, const SubModel &row, LawDraft &draft);
 
 // Reads after the word granular, up to the first word that belongs to no sub-model.
-// `text` becomes what was read, for the log.
-ContactLaw read_granular(Tokens &w, std::string &text);
+// `text` becomes what was read, for the log, and `given` the sub-models, the normal one first.
+ContactLaw read_granular(Tokens &w, std::string &text, std::vector<GivenSubModel> *given = nullptr);
 
 // Reads the sub-models beside a normal one that takes its numbers from materials: NULL is one of these, or derived.
 void read_sub_models_of_materials(Tokens &w, MaterialPair &pair);

@@ -8,6 +8,7 @@
 
 #include "compute.h"
 #include "fix.h"
+#include "pair.h"
 #include "region.h"
 
 #include <cstdio>
@@ -71,6 +72,26 @@ class GuardedFix : public Style {
   void end_of_step() override
   {
     this->run_core([&] { Style::end_of_step(); });
+  }
+  void setup_post_neighbor() override
+  {
+    this->run_core([&] { Style::setup_post_neighbor(); });
+  }
+  void post_neighbor() override
+  {
+    this->run_core([&] { Style::post_neighbor(); });
+  }
+  void min_pre_exchange() override
+  {
+    this->run_core([&] { Style::min_pre_exchange(); });
+  }
+  void min_post_neighbor() override
+  {
+    this->run_core([&] { Style::min_post_neighbor(); });
+  }
+  void pre_force_respa(int vflag, int level, int loop) override
+  {
+    this->run_core([&] { Style::pre_force_respa(vflag, level, loop); });
   }
   void post_run() override
   {
@@ -138,6 +159,18 @@ class GuardedFix : public Style {
   {
     return this->run_core_here([&] { return Style::unpack_exchange(nlocal, buffer); });
   }
+  int pack_reverse_comm_size(int n, int first) override
+  {
+    return this->run_core_here([&] { return Style::pack_reverse_comm_size(n, first); });
+  }
+  int pack_reverse_comm(int n, int first, double *buffer) override
+  {
+    return this->run_core_here([&] { return Style::pack_reverse_comm(n, first, buffer); });
+  }
+  void unpack_reverse_comm(int n, int *atoms, double *buffer) override
+  {
+    this->run_core_here([&] { Style::unpack_reverse_comm(n, atoms, buffer); });
+  }
   int pack_restart(int i, double *buffer) override
   {
     return this->run_core_here([&] { return Style::pack_restart(i, buffer); });
@@ -149,6 +182,54 @@ class GuardedFix : public Style {
   int size_restart(int nlocal) override
   {
     return this->run_core_here([&] { return Style::size_restart(nlocal); });
+  }
+};
+
+template <class Style>
+class GuardedPair : public Style {
+ public:
+  using Style::Style;
+
+  void settings(int narg, char **arg) override
+  {
+    this->run_core([&] { Style::settings(narg, arg); });
+  }
+  void coeff(int narg, char **arg) override
+  {
+    this->run_core([&] { Style::coeff(narg, arg); });
+  }
+  void init_style() override
+  {
+    this->run_core([&] { Style::init_style(); });
+  }
+  double init_one(int i, int j) override
+  {
+    return this->run_core([&] { return Style::init_one(i, j); });
+  }
+  void compute(int eflag, int vflag) override
+  {
+    this->run_core([&] { Style::compute(eflag, vflag); });
+  }
+  double memory_usage() override
+  {
+    return this->run_core([&] { return Style::memory_usage(); });
+  }
+
+  // On one process, whatever the others do.
+  double single(int i, int j, int itype, int jtype, double rsq, double factor_coul,
+                double factor_lj, double &fforce) override
+  {
+    return this->run_core_here(
+        [&] { return Style::single(i, j, itype, jtype, rsq, factor_coul, factor_lj, fforce); });
+  }
+  int pack_forward_comm(int n, int *atoms, double *buffer, int pbc_flag, int *pbc) override
+  {
+    return this->run_core_here(
+        [&] { return Style::pack_forward_comm(n, atoms, buffer, pbc_flag, pbc); });
+  }
+  void unpack_forward_comm(int n, int first, double *buffer) override
+  {
+    this->run_core_here([&] { Style::unpack_forward_comm(n, first, buffer); });
   }
 };
 

@@ -6,15 +6,20 @@
 #include "lammps/compute_collide_lsdcd.h"
 #include "lammps/fix_insert_lsdcd.h"
 #include "lammps/fix_massflow_lsdcd.h"
+#include "lammps/fix_springs_lsdcd.h"
 #include "lammps/fix_wall_lsdcd.h"
+#include "lammps/pair_granular_lsdcd.h"
 #include "lammps/region_mesh_lsdcd.h"
 
 #include "lammps.h"
 
 namespace lsdcd {
 
-void add_style(const char *kind, void *lmp, void *handle, void *regfunc, const char *name,
-               const char *info, lammpsplugin_factory2 *create)
+namespace {
+
+// All but its creator.
+lammpsplugin_t described(const char *kind, void *lmp, void *handle, const char *name,
+                         const char *info)
 {
   lammpsplugin_t plugin{};
   plugin.version = static_cast<LAMMPS_NS::LAMMPS *>(lmp)->version;
@@ -22,8 +27,25 @@ void add_style(const char *kind, void *lmp, void *handle, void *regfunc, const c
   plugin.name = name;
   plugin.info = info;
   plugin.author = "the LSDCD authors";
-  plugin.creator.v2 = create;
   plugin.handle = handle;
+  return plugin;
+}
+
+}    // namespace
+
+void add_style(const char *kind, void *lmp, void *handle, void *regfunc, const char *name,
+               const char *info, lammpsplugin_factory2 *create)
+{
+  lammpsplugin_t plugin = described(kind, lmp, handle, name, info);
+  plugin.creator.v2 = create;
+  reinterpret_cast<lammpsplugin_regfunc>(regfunc)(&plugin, lmp);
+}
+
+void add_pair_style(void *lmp, void *handle, void *regfunc, const char *name, const char *info,
+                    lammpsplugin_factory1 *create)
+{
+  lammpsplugin_t plugin = described("pair", lmp, handle, name, info);
+  plugin.creator.v1 = create;
   reinterpret_cast<lammpsplugin_regfunc>(regfunc)(&plugin, lmp);
 }
 
@@ -38,6 +60,12 @@ void add_plain_styles(void *lmp, void *handle, void *regfunc)
   add_style("fix", lmp, handle, regfunc, "insert/lsdcd",
             "fix insert/lsdcd: grains through a flat mesh or into a region",
             create_fix<GuardedFix<FixInsertLsdcd>>);
+  add_style("fix", lmp, handle, regfunc, "SPRINGS/LSDCD",
+            "fix SPRINGS/LSDCD: what pairs of granular/lsdcd keep",
+            create_fix<GuardedFix<FixSpringsLsdcd>>);
+  add_pair_style(lmp, handle, regfunc, "granular/lsdcd",
+                 "pair_style granular/lsdcd: contact laws of the wall between grains",
+                 create_pair<GuardedPair<PairGranularLsdcd>>);
   add_style("compute", lmp, handle, regfunc, "lsdcd/collide",
             "compute lsdcd/collide: rigid bodies against the walls of fix wall/lsdcd",
             create_style<Compute, GuardedCompute<ComputeCollideLsdcd>>);

@@ -12,6 +12,9 @@ namespace lsdcd {
 // Adds a style of a kind, "fix", "compute" or "region".
 void add_style(const char *kind, void *lmp, void *handle, void *regfunc, const char *name,
                const char *info, lammpsplugin_factory2 *create);
+// Adds a pair style.
+void add_pair_style(void *lmp, void *handle, void *regfunc, const char *name, const char *info,
+                    lammpsplugin_factory1 *create);
 
 // As LAMMPS reads it back: a pointer to the kind's own class.
 template <class Base, class Guarded>
@@ -24,6 +27,12 @@ template <class Guarded>
 void *create_fix(void *lmp, int narg, char **arg)
 {
   return create_style<LAMMPS_NS::Fix, Guarded>(lmp, narg, arg);
+}
+template <class Guarded>
+void *create_pair(void *lmp)
+{
+  LAMMPS_NS::Pair *made = new Guarded(static_cast<LAMMPS_NS::LAMMPS *>(lmp));
+  return made;
 }
 
 // All that do not need Kokkos.

@@ -17,10 +17,11 @@ import sys
 
 GUARDS = ("src/lammps/guarded_styles.h", "kokkos/guarded_fix_kokkos.h")
 SITES = {
-    "src/lammps/plugin_styles.cpp": r"(?:create_fix<|create_style<\w+, )(\w+)",
+    "src/lammps/plugin_styles.cpp": r"(?:create_fix<|create_pair<|create_style<\w+, )(\w+)",
     "kokkos/lsdcdkkplugin.cpp": r"create_fix<(\w+)",
     "cmake/packaging/lammps/fix_lsdcd.h": r"FixStyle\([^,]+,(\w+)",
     "cmake/packaging/lammps/compute_lsdcd.h": r"ComputeStyle\([^,]+,(\w+)",
+    "cmake/packaging/lammps/pair_lsdcd.h": r"PairStyle\([^,]+,(\w+)",
     "cmake/packaging/lammps/region_lsdcd.h": r"RegionStyle\([^,]+,(\w+)",
 }
 STYLE = re.compile(r"^class (\w+) : public [^{]*\b(?:OwnMessages|FixWallLsdcd)\b[^{]*\{(.*?)^(?:private|protected| private| protected):",

@@ -30,7 +30,7 @@ import sys
 
 FLOORS = [["base"], ["backend"], ["geometry", "shape"], ["mesh"], ["box"], ["host"], ["motion"], ["grid", "rigid", "tree"], ["contact"], ["law"], ["engine"],
           ["bodies", "query", "effects", "output", "material", "flow", "insert"],
-          ["study"], ["wall"], ["input"], ["lammps", "tool", "api"], ["kokkos"]]
+          ["pair", "study"], ["wall"], ["input"], ["lammps", "tool", "api"], ["kokkos"]]
 # Of each room with folders. "." stands for the files that lie in none, but for those that are named.
 FOLDERS = {
     "mesh": [".", "io"],

@@ -11,6 +11,7 @@ get_filename_component(LSDCD_FOLDER ${CMAKE_CURRENT_LIST_DIR}/../../.. ABSOLUTE)
 
 set_property(GLOBAL APPEND PROPERTY FIX ${CMAKE_CURRENT_LIST_DIR}/fix_lsdcd.h)
 set_property(GLOBAL APPEND PROPERTY COMPUTE ${CMAKE_CURRENT_LIST_DIR}/compute_lsdcd.h)
+set_property(GLOBAL APPEND PROPERTY PAIR ${CMAKE_CURRENT_LIST_DIR}/pair_lsdcd.h)
 set_property(GLOBAL APPEND PROPERTY REGION ${CMAKE_CURRENT_LIST_DIR}/region_lsdcd.h)
 
 function(lsdcd_add_core)

@@ -6,11 +6,13 @@
 // clang-format off
 FixStyle(insert/lsdcd,GuardedFix<FixInsertLsdcd>);
 FixStyle(massflow/lsdcd,GuardedFix<FixMassflowLsdcd>);
+FixStyle(SPRINGS/LSDCD,GuardedFix<FixSpringsLsdcd>);
 FixStyle(wall/lsdcd,GuardedFix<FixWallLsdcd>);
 // clang-format on
 #else
 #include "lammps/fix_insert_lsdcd.h"
 #include "lammps/fix_massflow_lsdcd.h"
+#include "lammps/fix_springs_lsdcd.h"
 #include "lammps/fix_wall_lsdcd.h"
 #include "lammps/guarded_styles.h"
 #endif

@@ -8,6 +8,7 @@
 #include "input/collide_settings.h"
 #include "input/insert_settings.h"
 #include "input/massflow_settings.h"
+#include "input/pair_words.h"
 #include "input/region_settings.h"
 #include "input/wall_command.h"
 #include "lammps/launcher/plugins.h"
@@ -66,10 +67,12 @@ static void show_help(int argc, char **argv)
     if (!std::strcmp(argv[i], "-h") || !std::strcmp(argv[i], "-help")) {
       std::printf(
           "lmp-lsdcd %s: LAMMPS %d with fix wall/lsdcd, fix massflow/lsdcd, "
-          "fix insert/lsdcd, compute lsdcd/collide, region mesh/lsdcd and the plugin "
-          "command\n\n%s\n"
+          "fix insert/lsdcd, pair_style granular/lsdcd, compute lsdcd/collide, region mesh/lsdcd "
+          "and the "
+          "plugin command\n\n%s\n"
           "%s\n  counts, weighs or deletes the spheres that pass a mesh\n\n"
           "%s\n  puts grains through a flat mesh or into a region, clear of the walls\n\n"
+          "pair_style granular/lsdcd [CUTOFF]\n%s\n  the wall's contact laws between grains\n\n"
           "%s\n  counts where rigid bodies with a mesh meet the wall of a fix wall/lsdcd\n\n"
           "%s\n  the inside of a closed mesh; regions of LAMMPS have the last four keywords, "
           "too\n\n"
@@ -77,7 +80,8 @@ static void show_help(int argc, char **argv)
           "  LAMMPS_PLUGIN_PATH lists folders of plugins to load at the start\n",
           lsdcd::version(), LSDCD_HOST_VERSION, lsdcd::wall_help().c_str(),
           syntax_of(lsdcd::parse_massflow).c_str(), syntax_of(lsdcd::parse_insert).c_str(),
-          syntax_of(lsdcd::parse_collide).c_str(), syntax_of(lsdcd::parse_region).c_str());
+          lsdcd::pair_coeff_syntax().c_str(), syntax_of(lsdcd::parse_collide).c_str(),
+          syntax_of(lsdcd::parse_region).c_str());
       std::fflush(stdout);
       return;
     }

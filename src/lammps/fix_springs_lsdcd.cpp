@@ -1,0 +1,254 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: GPL-2.0-only
+
+#include "lammps/fix_springs_lsdcd.h"
+
+#include "base/input_error.h"
+#include "lammps/restart_data.h"
+
+#include "atom.h"
+#include "comm.h"
+#include "force.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <utility>
+
+using namespace LAMMPS_NS;
+using namespace FixConst;
+
+namespace {
+
+const char *const kSpringsOfPairs = "springs of pairs";
+const char *const kWithoutSprings = "give the pair style without the restart file's springs";
+
+}    // namespace
+
+FixSpringsLsdcd::FixSpringsLsdcd(LAMMPS *lmp, int narg, char **arg) :
+    Fix(lmp, narg, arg), OwnMessages(lmp, "Fix", id, "SPRINGS/LSDCD")
+{
+  create_attribute = 1;
+  maxexchange_dynamic = 1;
+  restart_global = restart_peratom = 1;
+  comm_reverse = 1;
+  FixSpringsLsdcd::grow_arrays(atom->nmax);
+  atom->add_callback(Atom::GROW);
+  atom->add_callback(Atom::RESTART);
+}
+
+FixSpringsLsdcd::~FixSpringsLsdcd()
+{
+  atom->delete_callback(id, Atom::GROW);
+  atom->delete_callback(id, Atom::RESTART);
+}
+
+int FixSpringsLsdcd::setmask()
+{
+  return PRE_EXCHANGE | MIN_PRE_EXCHANGE | POST_NEIGHBOR | MIN_POST_NEIGHBOR | POST_RUN |
+         PRE_FORCE_RESPA;
+}
+
+// ---- for the pair style ------------------------------------------------------------------
+
+void FixSpringsLsdcd::set_laws(int width, const std::string &of_laws,
+                               const std::function<unsigned(int, int)> &of_pair)
+{
+  flips = of_pair;
+  if (from_file && (of_laws != kinds || width != partners.width()))
+    throw lsdcd::InputError(
+        "the restart file has springs of other contact laws than pair_coeff gives: give those of "
+        "the run that wrote it, or begin without springs by a data file (write_data)");
+  from_file = false;
+  if (width != partners.width() || of_laws != kinds) {
+    if (partners.largest_packed_size() > 1)
+      warn("the contact laws have changed, and what pairs had kept is gone: contacts begin anew");
+    partners = lsdcd::Partners(width);
+    partners.grow(atom->nmax);
+    in_pairs = false;
+    new_list = true;
+  }
+  kinds = of_laws;
+}
+
+void FixSpringsLsdcd::begin_step(const lsdcd::PairList &of_step)
+{
+  list = of_step;
+  own = atom->nlocal;
+  now = 1 - now;
+  if (new_list)
+    partners.hand_out(list, memory[1 - now],
+                      [this](int i) { return static_cast<lsdcd::Partners::Name>(atom->tag[i]); });
+  new_list = false;
+  in_pairs = true;
+  memory[now].begin(list.rows, partners.width());
+}
+
+const double *FixSpringsLsdcd::numbers_of(int row, int place) const
+{
+  const lsdcd::PairMemory &last = memory[now];
+  if (!in_pairs && !last.rows()) return nullptr;
+  for (std::size_t pair = last.first(row); pair < last.first(row + 1); pair++)
+    if (last.place(pair) == place) return last.numbers(pair);
+  return nullptr;
+}
+
+// ---- from pairs to atoms -----------------------------------------------------------------
+
+// With newton on a pair is computed by one process alone, which tells the owner of the other atom.
+void FixSpringsLsdcd::collect()
+{
+  if (!keeps()) return;
+  if (in_pairs) {
+    const bool newton = force->newton_pair;
+    partners.collect(
+        list, memory[now], newton ? own + atom->nghost : own,
+        [this](int i) { return static_cast<lsdcd::Partners::Name>(atom->tag[i]); },
+        [this](int i, int j) { return flips(atom->type[i], atom->type[j]); });
+    if (newton) {
+#if LSDCD_HOST_VERSION < 20220601
+      comm->reverse_comm_fix_variable(this);
+#else
+      comm->reverse_comm_variable(this);
+#endif
+    }
+    in_pairs = false;
+  }
+  ask_for_room();
+}
+
+// An atom that arrives may leave again in the next direction: room for the largest of all processes.
+void FixSpringsLsdcd::ask_for_room()
+{
+  int largest = partners.largest_packed_size();
+  MPI_Allreduce(MPI_IN_PLACE, &largest, 1, MPI_INT, MPI_MAX, world);
+  maxexchange = 1 + largest;
+}
+
+void FixSpringsLsdcd::pre_exchange()
+{
+  collect();
+}
+
+void FixSpringsLsdcd::post_neighbor()
+{
+  new_list = true;
+}
+
+// Atoms may be deleted between runs.
+void FixSpringsLsdcd::post_run()
+{
+  collect();
+}
+
+int FixSpringsLsdcd::pack_reverse_comm_size(int n, int first)
+{
+  int size = 0;
+  for (int i = first; i < first + n; i++) size += partners.packed_size(i);
+  return size;
+}
+
+int FixSpringsLsdcd::pack_reverse_comm(int n, int first, double *buf)
+{
+  double *const begin = buf;
+  for (int i = first; i < first + n; i++) buf += partners.pack(i, buf);
+  return static_cast<int>(buf - begin);
+}
+
+void FixSpringsLsdcd::unpack_reverse_comm(int n, int *atoms, double *buf)
+{
+  for (int k = 0; k < n; k++) buf += partners.unpack_more(atoms[k], buf);
+}
+
+// ---- atoms move --------------------------------------------------------------------------
+
+void FixSpringsLsdcd::grow_arrays(int nmax)
+{
+  partners.grow(nmax);
+}
+
+void FixSpringsLsdcd::copy_arrays(int i, int j, int /*delflag*/)
+{
+  partners.copy(i, j);
+}
+
+void FixSpringsLsdcd::set_arrays(int i)
+{
+  partners.clear(i);
+}
+
+int FixSpringsLsdcd::pack_exchange(int i, double *buf)
+{
+  return keeps() ? partners.pack(i, buf) : 0;
+}
+
+int FixSpringsLsdcd::unpack_exchange(int i, double *buf)
+{
+  return keeps() ? partners.unpack(i, buf) : 0;
+}
+
+// ---- restart files -----------------------------------------------------------------------
+
+void FixSpringsLsdcd::write_restart(FILE *file)
+{
+  collect();
+  if (comm->me != 0) return;
+  run_core_here([&] {
+    lsdcd::State state(kSpringsOfPairs);
+    const int width = partners.width();
+    state.add("width", 1, width);
+    state.add("laws", 1, kinds);
+    write_state(file, state);
+  });
+}
+
+void FixSpringsLsdcd::restart(char *buffer)
+{
+  try {
+    const lsdcd::State state(kSpringsOfPairs, reinterpret_cast<const double *>(buffer),
+                             kAllNumbers);
+    int width = 0;
+    state.read("width", 1, width);
+    state.read("laws", 1, kinds);
+    partners = lsdcd::Partners(width);
+    partners.grow(atom->nmax);
+    from_file = true;
+  } catch (const lsdcd::StateError &e) {
+    throw lsdcd::InputError(std::string("the restart file cannot be used: ") + e.what() + ": " +
+                            kWithoutSprings);
+  }
+}
+
+// In restart files the first number is the size, by which other fixes skip it.
+int FixSpringsLsdcd::size_restart(int i)
+{
+  return 1 + partners.packed_size(i);
+}
+
+int FixSpringsLsdcd::maxsize_restart()
+{
+  int largest = 1 + partners.largest_packed_size();
+  MPI_Allreduce(MPI_IN_PLACE, &largest, 1, MPI_INT, MPI_MAX, world);
+  return largest;
+}
+
+int FixSpringsLsdcd::pack_restart(int i, double *buf)
+{
+  buf[0] = 1 + partners.pack(i, buf + 1);
+  return static_cast<int>(buf[0]);
+}
+
+void FixSpringsLsdcd::unpack_restart(int i, int nth)
+{
+  const double *extra = atom->extra[i];
+  for (int n = 0; n < nth; n++) extra += static_cast<int>(extra[0]);
+  const int size = static_cast<int>(extra[0]) - 1;
+  if (!from_file || !partners.is_sound(extra + 1, size))
+    throw lsdcd::InputError("the springs of atom " + std::to_string(atom->tag[i]) +
+                            " in the restart file are damaged: " + kWithoutSprings);
+  partners.unpack(i, extra + 1);
+}
+
+double FixSpringsLsdcd::memory_usage()
+{
+  return static_cast<double>(partners.bytes() + memory[0].bytes() + memory[1].bytes());
+}

@@ -1,0 +1,86 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: GPL-2.0-only
+
+// fix SPRINGS/LSDCD: what the pairs of pair_style granular/lsdcd keep, while lists are made anew, between processes and in
+// restart files. The pair style makes and deletes it.
+#ifndef LMP_FIX_SPRINGS_LSDCD_H
+#define LMP_FIX_SPRINGS_LSDCD_H
+
+#include "fix.h"
+
+#include "lammps/own_messages.h"
+#include "pair/partners.h"
+
+#include <functional>
+#include <string>
+
+namespace LAMMPS_NS {
+
+class FixSpringsLsdcd : public Fix, protected OwnMessages {
+ public:
+  FixSpringsLsdcd(class LAMMPS *, int, char **);
+  ~FixSpringsLsdcd() override;
+
+  int setmask() override;
+  void setup_pre_exchange() override { pre_exchange(); }
+  void setup_post_neighbor() override { post_neighbor(); }
+  void pre_exchange() override;
+  void post_neighbor() override;
+  void min_pre_exchange() override { pre_exchange(); }
+  void min_post_neighbor() override { post_neighbor(); }
+  void post_run() override;
+  void setup_pre_force_respa(int, int ilevel) override { level = ilevel; }
+  void pre_force_respa(int, int ilevel, int) override { level = ilevel; }
+
+  void grow_arrays(int) override;
+  void copy_arrays(int, int, int) override;
+  void set_arrays(int) override;
+  int pack_exchange(int, double *) override;
+  int unpack_exchange(int, double *) override;
+  int pack_reverse_comm_size(int, int) override;
+  int pack_reverse_comm(int, int, double *) override;
+  void unpack_reverse_comm(int, int *, double *) override;
+
+  void write_restart(FILE *) override;
+  void restart(char *) override;
+  int size_restart(int) override;
+  int maxsize_restart() override;
+  int pack_restart(int, double *) override;
+  void unpack_restart(int, int) override;
+  double memory_usage() override;
+
+ private:
+  // For the pair style, which is there as long as this is.
+  friend class PairGranularLsdcd;
+  // Before a run. `width`: numbers of a pair, 0: laws keep nothing. `kinds`: equal where the numbers of all pairs of types mean
+  // the same.
+  void set_laws(int width, const std::string &kinds,
+                const std::function<unsigned(int type, int other)> &flips);
+  // Before a step of the pairs in this list.
+  void begin_step(const lsdcd::PairList &list);
+  const lsdcd::PairMemory &old() const { return memory[1 - now]; }
+  lsdcd::PairMemory &next() { return memory[now]; }
+  // Finds what the pair of row and place of the last list keeps; null: it does not touch.
+  const double *numbers_of(int row, int place) const;
+
+  bool keeps() const { return partners.width() > 0; }
+  void collect();
+  void ask_for_room();
+
+  lsdcd::Partners partners;
+  lsdcd::PairMemory memory[2];
+  int now = 0;              // which of them the last step has written
+  lsdcd::PairList list;     // of the last step
+  int own = 0;              // atoms of this process then
+  bool in_pairs = false;    // memory[now] is newer than partners
+  bool new_list = true;     // since the last step
+  int level = 0;            // of run_style respa, whose forces come next
+  std::string kinds;        // of the laws, or of those of a restart file
+  bool from_file =
+      false;    // partners are those of a restart file, whose laws have not been checked
+  std::function<unsigned(int, int)> flips;
+};
+
+}    // namespace LAMMPS_NS
+
+#endif

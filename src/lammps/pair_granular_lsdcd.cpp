@@ -1,0 +1,455 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: GPL-2.0-only
+
+#include "lammps/pair_granular_lsdcd.h"
+
+#include "base/input_words.h"
+#include "input/pair_words.h"
+#include "lammps/fix_springs_lsdcd.h"
+#include "lammps/host_fixes.h"
+#include "lammps/host_pairs.h"
+#include "lammps/mpi_host.h"
+#include "pair/compile_pair.h"
+
+#include "atom.h"
+#include "comm.h"
+#include "error.h"
+#include "force.h"
+#include "memory.h"
+#include "modify.h"
+#include "neigh_list.h"
+#include "neighbor.h"
+#include "update.h"
+#include "utils.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <iterator>
+#include <sstream>
+
+using namespace LAMMPS_NS;
+
+// The first stable LAMMPS with fix heat/flow and what it integrates.
+#define HOST_HAS_HEAT (LSDCD_HOST_VERSION >= 20230802)
+
+namespace {
+
+constexpr int kSingleNumbers = 12;    // of LAMMPS's pair granular
+
+std::string types_text(int i, int j)
+{
+  return std::to_string(i) + " and " + std::to_string(j);
+}
+
+}    // namespace
+
+PairGranularLsdcd::PairGranularLsdcd(LAMMPS *lmp) :
+    Pair(lmp), OwnMessages(lmp, "Pair", "style", "granular/lsdcd")
+{
+  single_enable = 1;
+  restartinfo =
+      0;    // LAMMPS would write the style's name without its suffix, and read it as its own
+  no_virial_fdotr_compute = 1;
+  centroidstressflag = CENTROID_NOTAVAIL;
+  finitecutflag = 1;
+  comm_forward = 1;
+  single_extra = kSingleNumbers;
+  svector = new double[kSingleNumbers];
+
+  // A place before the fixes of the script that delete or add atoms.
+  springs_id = "SPRINGS_LSDCD_" + std::to_string(instance_me);
+  dummy_id = springs_id + "_DUMMY";
+  modify->add_fix(dummy_id + " all DUMMY");
+}
+
+PairGranularLsdcd::~PairGranularLsdcd()
+{
+  modify->delete_fix(springs ? springs_id : dummy_id);
+  delete[] svector;
+  if (!allocated) return;
+  memory->destroy(setflag);
+  memory->destroy(cutsq);
+}
+
+void PairGranularLsdcd::allocate()
+{
+  allocated = 1;
+  n_types = atom->ntypes;
+  const int n = n_types + 1;
+  memory->create(setflag, n, n, "pair:setflag");
+  memory->create(cutsq, n, n, "pair:cutsq");
+  for (int i = 0; i < n; i++)
+    for (int j = 0; j < n; j++) setflag[i][j] = 0;
+  law_of.assign(static_cast<std::size_t>(n) * n, 0);
+}
+
+// ---- what a script gives -----------------------------------------------------------------
+
+void PairGranularLsdcd::settings(int narg, char **arg)
+{
+  const std::vector<std::string> words(arg, arg + narg);
+  lsdcd::Tokens w(words);
+  w.set_context("pair_style granular/lsdcd", "pair_style granular/lsdcd [CUTOFF]");
+  cutoff = w.done() ? -1 : w.number("the cutoff", 0);
+  if (!w.done()) w.fail("'" + w.peek() + "' is not expected");
+}
+
+std::vector<std::string>
+PairGranularLsdcd::words_of_materials(const std::vector<std::string> &words) const
+{
+  lsdcd::MpiHost host(world);
+  std::string text, report;
+  lsdcd::run_collectively(host, comm->me == 0, [&] {
+    for (const std::string &word : lsdcd::read_pair_materials(words, update->unit_style, report))
+      text += word + " ";
+  });
+  lsdcd::broadcast_text(host, text);
+  log("\n" + report);
+  std::istringstream in(text);
+  return {std::istream_iterator<std::string>(in), {}};
+}
+
+void PairGranularLsdcd::coeff(int narg, char **arg)
+{
+  if (narg < 3)
+    throw lsdcd::InputError("pair_coeff needs two atom types and a law, such as 1 1 hertz/material "
+                            "1e7 0.5 0.3 tangential mindlin NULL 1 0.5 damping tsuji");
+  if (!allocated) allocate();
+  int ilo, ihi, jlo, jhi;
+  utils::bounds(FLERR, arg[0], 1, n_types, ilo, ihi, error);
+  utils::bounds(FLERR, arg[1], 1, n_types, jlo, jhi, error);
+  std::vector<std::string> words(arg + 2, arg + narg);
+  if (lsdcd::has_pair_materials(words)) words = words_of_materials(words);
+  lsdcd::PairCoeff coeff = lsdcd::read_pair_coeff(words);
+  int count = 0;
+  for (int i = ilo; i <= ihi; i++)
+    for (int j = std::max(jlo, i); j <= jhi; j++) {
+      given[{i, j}] = coeff;
+      setflag[i][j] = 1;
+      count++;
+    }
+  if (count == 0)
+    throw lsdcd::InputError(std::string("pair_coeff ") + arg[0] + " " + arg[1] +
+                            " is of no pair of types: write the lower type first");
+}
+
+// ---- before a run ------------------------------------------------------------------------
+
+void PairGranularLsdcd::init_style()
+{
+  if (!atom->radius_flag || !atom->rmass_flag || !atom->omega_flag || !atom->torque_flag)
+    fatal("atoms need a radius, omega and torque: use atom_style sphere");
+  if (atom->ellipsoid_flag)
+    fatal("all atoms are taken for spheres, and there are ellipsoids: use atom_style sphere");
+  if (!atom->tag_enable) fatal("atoms need IDs: leave out 'atom_modify id no'");
+  if (comm->ghost_velocity == 0)
+    fatal("forces depend on the velocities of ghost atoms: write 'comm_modify vel yes'");
+  find_fixes();
+  find_radii();
+
+  const int n = n_types + 1;
+  coeffs.clear();
+  numbers.clear();
+  laws.clear();
+  const auto add = [&](const lsdcd::PairCoeff &coeff) {
+    lsdcd::ContactLaw law = lsdcd::law_of(coeff);
+    // The stiffnesses of hertz/history are pressures.
+    if (law.is_classic() && law.is(lsdcd::NormalModel::hertz)) {
+      law.k_normal /= force->nktv2p;
+      law.k_tangent /= force->nktv2p;
+    }
+    coeffs.push_back(coeff);
+    numbers.push_back(law);
+    laws.push_back(lsdcd::pair_law(law));
+    return static_cast<int>(laws.size()) - 1;
+  };
+  for (int i = 1; i < n; i++)
+    for (int j = i; j < n; j++) {
+      const auto own = given.find({i, j});
+      int law;
+      if (own != given.end()) {
+        law = add(own->second);
+      } else {
+        const auto a = given.find({i, i}), b = given.find({j, j});
+        if (a == given.end() || b == given.end()) continue;    // LAMMPS tells what is missing
+        law = add(lsdcd::mixed(a->second, b->second, types_text(i, j)));
+      }
+      law_of[i * n + j] = law_of[j * n + i] = law;
+    }
+  has_heat = std::any_of(numbers.begin(), numbers.end(),
+                         [](const lsdcd::ContactLaw &law) { return law.has_heat(); });
+#if HOST_HAS_HEAT
+  if (has_heat && (!atom->temperature_flag || !atom->heatflow_flag))
+    fatal("the sub-model heat needs a temperature and a heat flow per atom: fix ID all "
+          "property/atom temperature heatflow ghost yes, and fix heat/flow to change them");
+  if (has_heat && force->newton_pair)
+    fatal("the heat of ghost atoms does not go back to their owners: write 'newton off'");
+#else
+  if (has_heat)
+    fatal("the sub-model heat needs a LAMMPS with fix heat/flow, of 2 Aug 2023 or later: that of "
+          "Debian trixie or sid, or one built from source");
+#endif
+  beyond_contact = std::any_of(numbers.begin(), numbers.end(),
+                               [](const lsdcd::ContactLaw &law) { return law.pull_off() > 0; });
+  set_springs();
+  lsdcd::request_half_list(*neighbor, this, instance_me, !beyond_contact);
+  if (!told) tell_laws();
+  told = true;
+}
+
+// LAMMPS's order of fixes is that in which they were made: the springs take the place that was kept for them.
+void PairGranularLsdcd::set_springs()
+{
+  int width = 0;
+  bool any = false;
+  std::string kinds;
+  for (int i = 1; i <= n_types; i++)
+    for (int j = i; j <= n_types; j++) {
+      if (laws.empty()) continue;
+      const lsdcd::ContactLaw &law = numbers[law_index(i, j)];
+      kinds += std::to_string(law.history_kind()) + ";";
+      if (!law.has_history()) continue;
+      any = true;
+      width = std::max(width, 3 + law.n_extra());
+    }
+  if (any && !springs)
+    springs = dynamic_cast<FixSpringsLsdcd *>(
+        modify->replace_fix(dummy_id, springs_id + " all SPRINGS/LSDCD"));
+  else if (springs && lsdcd::host_fix(*modify, springs_id) != springs)
+    fatal("fix " + springs_id + ", which keeps the springs of pairs, is gone: do not unfix it");
+  if (!springs) return;
+  springs->set_laws(width, kinds,
+                    [this](int i, int j) { return numbers[law_index(i, j)].flips(); });
+}
+
+// A grain of fix freeze does not move; damping of an atom in a rigid body reads the mass of the body.
+void PairGranularLsdcd::find_fixes()
+{
+  frozen = 0;
+  rigid = nullptr;
+  for (Fix *fix : lsdcd::host_fixes(*modify)) {
+    if (std::strncmp(fix->style, "freeze", 6) == 0) {
+      if (frozen) fatal("there are two fixes freeze: only one is allowed");
+      frozen = fix->groupbit;
+    }
+    if (fix->rigid_flag) {
+      if (rigid) fatal("there are two rigid fixes: only one is allowed, for all bodies");
+      rigid = fix;
+    }
+  }
+  if (!rigid) std::vector<double>().swap(masses);
+}
+
+void PairGranularLsdcd::find_radii()
+{
+  std::vector<double> largest(2 * (static_cast<std::size_t>(n_types) + 1), 0);
+  for (Fix *fix : lsdcd::host_fixes(*modify)) {
+    if (std::strncmp(fix->style, "pour", 4) != 0 && std::strncmp(fix->style, "deposit", 7) != 0)
+      continue;
+    for (int i = 1; i <= n_types; i++) {
+      int type = i;
+      const auto *radius = static_cast<const double *>(fix->extract("radius", type));
+      if (radius) largest[2 * i] = std::max(largest[2 * i], *radius);
+    }
+  }
+  for (int i = 0; i < atom->nlocal; i++) {
+    double &most = largest[2 * atom->type[i] + (atom->mask[i] & frozen ? 1 : 0)];
+    most = std::max(most, atom->radius[i]);
+  }
+  MPI_Allreduce(MPI_IN_PLACE, largest.data(), static_cast<int>(largest.size()), MPI_DOUBLE, MPI_MAX,
+                world);
+  radii.resize(static_cast<std::size_t>(n_types) + 1);
+  for (int i = 0; i <= n_types; i++) radii[i] = {largest[2 * i], largest[2 * i + 1]};
+}
+
+// Up to which distance two grains may act on each other; 0 where there is one of them only.
+double PairGranularLsdcd::reach(int i, int j, double radius, double other) const
+{
+  if (!(radius > 0) || !(other > 0)) return 0;
+  const double reduced = radius * other / (radius + other);
+  return radius + other + numbers[law_index(i, j)].pull_off() * std::cbrt(reduced);
+}
+
+double PairGranularLsdcd::init_one(int i, int j)
+{
+  const double own = coeffs[law_index(i, j)].cutoff;
+  if (own > 0) return own;
+  if (cutoff > 0) return cutoff;
+  const Radii a = radii[i], b = radii[j];
+  const double most = std::max({reach(i, j, a.moving, b.moving), reach(i, j, a.frozen, b.moving),
+                                reach(i, j, a.moving, b.frozen)});
+  if (most > 0) return most;
+  // Grains of a type that are not there yet: LAMMPS takes the size of bins from the least cutoff.
+  double largest = 0;
+  for (const Radii &r : radii) largest = std::max({largest, 2 * r.moving, 2 * r.frozen});
+  return largest;
+}
+
+double PairGranularLsdcd::atom2cut(int i)
+{
+  return radii2cut(atom->radius[i], atom->radius[i]);
+}
+
+double PairGranularLsdcd::radii2cut(double radius, double other)
+{
+  double pull_off = 0;
+  for (const lsdcd::ContactLaw &law : numbers) pull_off = std::max(pull_off, law.pull_off());
+  const double sum = radius + other;
+  return sum > 0 ? sum + pull_off * std::cbrt(radius * other / sum) : 0;
+}
+
+void PairGranularLsdcd::tell_laws()
+{
+  std::string text;
+  for (int i = 1; i <= n_types; i++)
+    for (int j = i; j <= n_types; j++) {
+      if (laws.empty()) continue;
+      text += "\n  types " + std::to_string(i) + " " + std::to_string(j) + ": " +
+              lsdcd::text_of(coeffs[law_index(i, j)]) + (given.count({i, j}) ? "" : " (mixed)");
+    }
+  log("laws of pairs" + text);
+}
+
+// ---- a step ------------------------------------------------------------------------------
+
+void PairGranularLsdcd::fill_masses()
+{
+  if (!rigid || neighbor->ago > 0) return;
+  int dim;
+  const int *const body = static_cast<const int *>(rigid->extract("body", dim));
+  const double *const mass = static_cast<const double *>(rigid->extract("masstotal", dim));
+  masses.assign(atom->rmass, atom->rmass + atom->nlocal);
+  masses.resize(static_cast<std::size_t>(atom->nlocal) + atom->nghost);
+  for (int i = 0; body && mass && i < atom->nlocal; i++)
+    if (body[i] >= 0 && mass[body[i]] > 0) masses[i] = mass[body[i]];
+#if LSDCD_HOST_VERSION < 20220601
+  comm->forward_comm_pair(this);
+#else
+  comm->forward_comm(this);
+#endif
+}
+
+int PairGranularLsdcd::pack_forward_comm(int n, int *atoms, double *buf, int, int *)
+{
+  for (int k = 0; k < n; k++) buf[k] = masses[atoms[k]];
+  return n;
+}
+
+void PairGranularLsdcd::unpack_forward_comm(int n, int first, double *buf)
+{
+  std::copy_n(buf, n, masses.begin() + first);
+}
+
+double PairGranularLsdcd::time_step() const
+{
+  if (!springs || std::strncmp(update->integrate_style, "respa", 5) != 0) return update->dt;
+  return lsdcd::step_of_level(*update, springs->level);
+}
+
+lsdcd::PairJob PairGranularLsdcd::job()
+{
+  lsdcd::PairJob job = {};
+  job.n_own = atom->nlocal;
+  if (atom->nlocal > 0) {
+    job.x = atom->x[0];
+    job.v = atom->v[0];
+    job.omega = atom->omega[0];
+    job.force = atom->f[0];
+    job.torque = atom->torque[0];
+  }
+  job.radius = atom->radius;
+  job.mass = rigid ? masses.data() : atom->rmass;
+  job.type = atom->type;
+  if (frozen) job.mask = atom->mask;
+  job.frozen = frozen;
+#if HOST_HAS_HEAT
+  if (has_heat) {
+    job.temperature = atom->temperature;
+    job.heat = atom->heatflow;
+  }
+#endif
+  job.both_sides = force->newton_pair != 0;
+  job.list = {list->inum, list->ilist, list->numneigh, list->firstneigh, NEIGHMASK, SBBITS};
+  job.factor = force->special_lj;
+  job.laws = laws.data();
+  job.law_of = law_of.data();
+  job.n_types = n_types + 1;
+  job.dt = time_step();
+  job.update = update->setupflag == 0;
+  return job;
+}
+
+void PairGranularLsdcd::compute(int eflag, int vflag)
+{
+  ev_init(eflag, vflag);
+  fill_masses();
+  lsdcd::PairJob step = job();
+  if (springs && springs->keeps()) {
+    springs->begin_step(step.list);
+    step.old = &springs->old();
+    step.memory = &springs->next();
+  }
+  record.clear();
+  if (evflag) step.record = &record;
+  lsdcd::run_pairs(step, static_cast<int>(laws.size()));
+  for (const lsdcd::RecordedPair &p : record)
+    ev_tally_xyz(p.i, p.j, atom->nlocal, force->newton_pair, p.energy, 0, p.force.x, p.force.y,
+                 p.force.z, p.offset.x, p.offset.y, p.offset.z);
+}
+
+double PairGranularLsdcd::single(int i, int j, int itype, int jtype, double /*rsq*/,
+                                 double /*factor_coul*/, double factor_lj, double &fforce)
+{
+  fforce = 0;
+  std::fill_n(svector, kSingleNumbers, 0.0);
+  if (factor_lj == 0) return 0;
+  if (rigid && masses.size() < static_cast<std::size_t>(std::max(i, j)) + 1)
+    fatal_here("single() is asked for atoms that no step has seen");
+  const lsdcd::PairJob now = job();
+  const lsdcd::PairLaw &law = laws[law_index(itype, jtype)];
+
+  // What the pair keeps: it may be in the row of either.
+  const double *kept = nullptr;
+  bool turned = false;
+  for (const auto &[row_of, other] : {std::make_pair(i, j), std::make_pair(j, i)}) {
+    if (!springs || !springs->keeps() || kept) break;
+    int *const end = list->ilist + list->inum;
+    int *const at = row_of < list->inum && list->ilist[row_of] == row_of
+                        ? list->ilist + row_of
+                        : std::find(list->ilist, end, row_of);
+    if (at == end) continue;
+    for (int place = 0; place < list->numneigh[row_of] && !kept; place++)
+      if ((list->firstneigh[row_of][place] & NEIGHMASK) == other)
+        kept = springs->numbers_of(static_cast<int>(at - list->ilist), place);
+    turned = row_of != i;
+  }
+  std::vector<double> numbers_of_pair(springs ? std::max(3, springs->partners.width()) : 3, 0.0);
+  const unsigned flips = numbers[law_index(itype, jtype)].flips();
+  for (std::size_t k = 0; kept && k < numbers_of_pair.size(); k++)
+    numbers_of_pair[k] = turned && flips >> k & 1 ? -kept[k] : kept[k];
+
+  const lsdcd::GrainPair pair = lsdcd::grain_pair(now, i, j, false);
+  lsdcd::PairForce f;
+  if (!law.evaluate(law.law, pair, kept != nullptr, numbers_of_pair.data(), f)) return 0;
+  const double distance = std::sqrt(pair.distance_sq);
+  fforce = f.push / distance;
+  const double reduced = pair.radius_i * pair.radius_j / (pair.radius_i + pair.radius_j);
+  const lsdcd::Vec3 rolling = (1 / reduced) * cross(f.contact_torque, f.normal);
+  const auto put = [this](int at, const lsdcd::Vec3 &a) {
+    for (int k = 0; k < 3; k++) svector[at + k] = a[k];
+  };
+  put(0, f.friction);
+  svector[3] = norm(f.friction);
+  put(4, rolling);
+  svector[7] = norm(rolling);
+  svector[8] = dot(f.contact_torque, f.normal);
+  put(9, pair.offset);
+  return factor_lj * f.energy;
+}
+
+double PairGranularLsdcd::memory_usage()
+{
+  return Pair::memory_usage() + static_cast<double>(masses.capacity() * sizeof(double) +
+                                                    record.capacity() * sizeof record[0]);
+}

@@ -1,0 +1,77 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: GPL-2.0-only
+
+// pair_style granular/lsdcd: the wall's contact laws between grains. It translates; src/pair does the work.
+#ifndef LMP_PAIR_GRANULAR_LSDCD_H
+#define LMP_PAIR_GRANULAR_LSDCD_H
+
+#include "pair.h"
+
+#include "lammps/own_messages.h"
+#include "pair/pair_coeff.h"
+#include "pair/pair_job.h"
+
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace LAMMPS_NS {
+
+class PairGranularLsdcd : public Pair, protected OwnMessages {
+ public:
+  explicit PairGranularLsdcd(class LAMMPS *);
+  ~PairGranularLsdcd() override;
+
+  void settings(int, char **) override;
+  void coeff(int, char **) override;
+  void init_style() override;
+  double init_one(int, int) override;
+  void compute(int, int) override;
+  double single(int, int, int, int, double, double, double, double &) override;
+  double atom2cut(int);    // virtual in LAMMPS before 2026
+  double radii2cut(double, double);
+
+  int pack_forward_comm(int, int *, double *, int, int *) override;
+  void unpack_forward_comm(int, int, double *) override;
+  double memory_usage() override;
+
+ private:
+  // What an atom type may bring: radii of those that move, and of those of fix freeze.
+  struct Radii {
+    double moving = 0, frozen = 0;
+  };
+
+  void allocate();
+  std::vector<std::string> words_of_materials(const std::vector<std::string> &) const;
+  void find_radii();
+  void find_fixes();
+  void set_springs();
+  int law_index(int i, int j) const { return law_of[i * (n_types + 1) + j]; }
+  double reach(int i, int j, double radius, double other) const;
+  void fill_masses();
+  double time_step() const;
+  lsdcd::PairJob job();
+  void tell_laws();
+
+  int n_types = 0;
+  double cutoff = -1;
+  std::map<std::pair<int, int>, lsdcd::PairCoeff> given;    // i <= j
+  std::vector<lsdcd::PairCoeff> coeffs;                     // of each law
+  std::vector<lsdcd::ContactLaw> numbers;                   // the same
+  std::vector<lsdcd::PairLaw> laws;                         // the same, compiled
+  std::vector<int> law_of;    // of types i and j at i * (n_types + 1) + j
+  std::vector<Radii> radii;
+  bool has_heat = false, told = false;
+
+  std::string springs_id, dummy_id;
+  class FixSpringsLsdcd *springs = nullptr;    // null: no law has kept anything yet
+  class Fix *rigid = nullptr;
+  int frozen = 0;                // bit of the group of fix freeze
+  std::vector<double> masses;    // of atoms, or of the rigid bodies that they are of
+  std::vector<lsdcd::RecordedPair> record;
+};
+
+}    // namespace LAMMPS_NS
+
+#endif

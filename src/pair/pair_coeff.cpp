@@ -1,0 +1,93 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "pair/pair_coeff.h"
+
+#include "base/input_error.h"
+#include "law/make_law.h"
+#include "material/contact_moduli.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstring>
+
+namespace lsdcd {
+
+namespace {
+
+constexpr Family kFamilies[] = {Family::style,      Family::normal,  Family::damping,
+                                Family::tangential, Family::rolling, Family::twisting,
+                                Family::heat,       Family::cohesion};
+
+const GivenSubModel *of_family(const PairCoeff &coeff, Family family)
+{
+  for (const GivenSubModel &given : coeff.sub_models)
+    if (given.row->family == family) return &given;
+  return nullptr;
+}
+
+bool has_materials(const SubModel &row)
+{
+  return row.family == Family::normal && std::strcmp(row.parameters[0].name, "E") == 0;
+}
+
+// sqrt(a b); a number that is derived makes one that is.
+Real geometric(Real a, Real b)
+{
+  return a == b ? a : std::sqrt(a * b);
+}
+
+GivenSubModel mixed(const GivenSubModel &a, const GivenSubModel &b)
+{
+  GivenSubModel made = a;
+  for (std::size_t k = 0; k < made.numbers.size(); k++)
+    made.numbers[k] = geometric(a.numbers[k], b.numbers[k]);
+  if (!has_materials(*a.row)) return made;
+  const Elastic of_a = {a.numbers[0], a.numbers[2]}, of_b = {b.numbers[0], b.numbers[2]};
+  if (of_a.youngs_modulus == of_b.youngs_modulus && of_a.poissons_ratio == of_b.poissons_ratio)
+    return made;
+  const Elastic one = as_one(of_a, of_b);
+  made.numbers[0] = one.youngs_modulus;
+  made.numbers[2] = one.poissons_ratio;
+  return made;
+}
+
+}    // namespace
+
+ContactLaw law_of(const PairCoeff &coeff)
+{
+  LawDraft draft = {granular_law(NormalModel::hooke)};
+  for (const GivenSubModel &given : coeff.sub_models)
+    add_sub_model(*given.row, given.numbers, draft);
+  draft.law.limit_damping = coeff.limit_damping;
+  if (!draft.law.is_classic()) finish_granular(draft);
+  return draft.law;
+}
+
+std::string text_of(const PairCoeff &coeff)
+{
+  return (of_family(coeff, Family::style) ? "" : "granular ") + text_of(coeff.sub_models) +
+         (coeff.limit_damping ? " limit_damping" : "");
+}
+
+PairCoeff mixed(const PairCoeff &a, const PairCoeff &b, const std::string &types)
+{
+  PairCoeff made;
+  for (const Family family : kFamilies) {
+    const GivenSubModel *const of_a = of_family(a, family), *const of_b = of_family(b, family);
+    if (!of_a && !of_b) continue;
+    if (!of_a || !of_b || of_a->row != of_b->row)
+      throw InputError("the laws of types " + types + " cannot be mixed, as one has " +
+                       (of_a ? syntax_of(*of_a->row) : std::string("none")) +
+                       " and the other has " +
+                       (of_b ? syntax_of(*of_b->row) : std::string("none")) +
+                       ": give the law of this pair of types by pair_coeff");
+    made.sub_models.push_back(mixed(*of_a, *of_b));
+  }
+  made.limit_damping = a.limit_damping || b.limit_damping;
+  made.cutoff = std::max(a.cutoff, b.cutoff);
+  return made;
+}
+
+}    // namespace lsdcd

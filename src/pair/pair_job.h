@@ -1,0 +1,180 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// What a step of pairs reads and writes.
+#pragma once
+
+#include "base/vec3.h"
+#include "engine/step/compiled_law.h"
+
+#include <cstddef>
+#include <memory>
+#include <vector>
+
+namespace lsdcd {
+
+// The host's list: rows of neighbours. A neighbour's bits above `mask` choose a factor of the force.
+struct PairList {
+  int rows;
+  const int *grain, *length;    // grain of each row; length[i] and row[i] are of grain i
+  const int *const *row;
+  int mask, factor_shift;
+};
+
+// What touching pairs keep from step to step, in the order of the host's list. Those of its row k are pairs
+// first[k] .. first[k + 1] - 1: place in the row, and `width` numbers as the first grain of the row sees them.
+class PairMemory {
+ public:
+  // Begins to write rows of pairs with `width` numbers each.
+  void begin(int rows, int width)
+  {
+    if (width != this->width()) room_ = size_ = 0;
+    width_ = static_cast<std::size_t>(width);
+    rows_ = 0;
+    size_ = 0;
+    first_.resize(static_cast<std::size_t>(rows) + 1);
+    first_[0] = 0;
+  }
+  // Room for n more pairs.
+  void reserve(int n)
+  {
+    if (size_ + static_cast<std::size_t>(n) > room_) grow(static_cast<std::size_t>(n));
+  }
+  // Appends a pair and returns its numbers. There is room for it.
+  Real *append(int place)
+  {
+    place_[size_] = place;
+    return numbers_.get() + width_ * size_++;
+  }
+  void take_back() { size_--; }    // the pair that was appended last
+  void end_row() { first_[++rows_] = size_; }
+
+  int rows() const { return rows_; }
+  int width() const { return static_cast<int>(width_); }
+  std::size_t size() const { return size_; }
+  std::size_t first(int row) const { return first_[row]; }
+  int place(std::size_t pair) const { return place_[pair]; }
+  const Real *numbers(std::size_t pair) const { return numbers_.get() + width_ * pair; }
+  std::size_t bytes() const
+  {
+    return first_.capacity() * sizeof(std::size_t) + room_ * (sizeof(int) + width_ * sizeof(Real));
+  }
+
+ private:
+  void grow(std::size_t n);
+
+  std::size_t width_ = 0, size_ = 0, room_ = 0;
+  int rows_ = 0;
+  std::vector<std::size_t> first_;
+  std::unique_ptr<int[]> place_;
+  std::unique_ptr<Real[]> numbers_;
+};
+
+// Force, torques and heat of a pair in a step.
+struct PairForce {
+  Vec3 normal;            // unit, from j to i
+  Real push;              // force along it on i, < 0 where it pulls
+  Vec3 friction;          // tangential force on i
+  Vec3 contact_torque;    // on i, beside that of the friction; j has its opposite
+  Real arm_i, arm_j;      // of the friction
+  Real heat;              // power into i
+  Real energy;            // elastic, as ContactForce has it
+
+  Vec3 force() const { return push * normal + friction; }    // on i; j has its opposite
+  Vec3 torque_i() const { return contact_torque - arm_i * cross(normal, friction); }
+  Vec3 torque_j() const { return -arm_j * cross(normal, friction) - contact_torque; }
+};
+
+// A force with its grains, where the host asks for these one by one.
+struct RecordedPair {
+  int i, j;
+  Vec3 offset, force;    // of i less that of j; on i
+  Real energy;
+};
+
+// Two grains, i and j.
+struct GrainPair {
+  Vec3 offset, velocity;    // of i less those of j
+  Vec3 omega_i, omega_j;
+  Real distance_sq, radius_i, radius_j, mass_i, mass_j;
+  Real mass;                      // reduced
+  Real temperature_difference;    // of j less that of i; read only where the law has heat
+  Real dt;
+  bool update;
+};
+
+struct PairJob;
+
+// The law of a pair of types, compiled.
+struct PairLaw {
+  LawBytes law;
+  void (*run)(const PairJob &);    // a step of pairs that all have such laws
+  // Computes one pair: see evaluate_pair() (pair_kernel.h). False: it does not touch, and nothing is changed.
+  bool (*evaluate)(const LawBytes &, const GrainPair &, bool touched, Real *numbers, PairForce &);
+};
+
+struct PairJob {
+  // Grains: three numbers each but for radius, mass and type. Those from n_own on are copies of others.
+  const Real *x, *v, *omega, *radius, *mass;
+  const int *type;    // from 1
+  const int *mask;    // those of `frozen` do not move; null: none is frozen
+  int frozen = 0;
+  Real *force, *torque;                 // added to
+  const Real *temperature = nullptr;    // read where laws have heat
+  Real *heat = nullptr;
+  int n_own;
+  bool both_sides;    // add to copies, too
+
+  PairList list;
+  const Real *factor;    // four of them
+
+  // Laws by types t and u at law_of[t * n_types + u], counted from 1; n_types is one more than there are.
+  const PairLaw *laws;
+  const int *law_of;
+  int n_types;
+
+  const PairMemory *old = nullptr;    // of the last step; null: laws keep nothing
+  PairMemory *memory = nullptr;
+  Real dt;
+  bool update;    // false: springs act but do not move (setup)
+
+  std::vector<RecordedPair> *record = nullptr;    // null: forces are not asked for one by one
+};
+
+LSDCD_FN Vec3 vec_of(const Real *all, int i)
+{
+  return {all[3 * i], all[3 * i + 1], all[3 * i + 2]};
+}
+
+// Fills in velocities and masses. The reduced mass of a grain and one that does not move is that of the first.
+LSDCD_FN void put_velocities(const PairJob &job, int i, int j, GrainPair &p)
+{
+  p.velocity = vec_of(job.v, i) - vec_of(job.v, j);
+  p.omega_i = vec_of(job.omega, i);
+  p.omega_j = vec_of(job.omega, j);
+  p.mass_i = job.mass[i];
+  p.mass_j = job.mass[j];
+  if (job.mask && job.mask[j] & job.frozen)
+    p.mass = p.mass_i;
+  else if (job.mask && job.mask[i] & job.frozen)
+    p.mass = p.mass_j;
+  else
+    p.mass = p.mass_i * p.mass_j / (p.mass_i + p.mass_j);
+}
+
+// Grains i and j of a job.
+inline GrainPair grain_pair(const PairJob &job, int i, int j, bool update)
+{
+  GrainPair p = {};
+  p.offset = vec_of(job.x, i) - vec_of(job.x, j);
+  p.distance_sq = norm_sq(p.offset);
+  p.radius_i = job.radius[i];
+  p.radius_j = job.radius[j];
+  put_velocities(job, i, j, p);
+  if (job.heat) p.temperature_difference = job.temperature[j] - job.temperature[i];
+  p.dt = job.dt;
+  p.update = update;
+  return p;
+}
+
+}    // namespace lsdcd

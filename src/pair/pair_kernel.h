@@ -1,0 +1,225 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Two grains as a contact of the wall's laws, and the loop over pairs.
+#pragma once
+
+#include "law/contact.h"
+#include "law/submodels/normal.h"
+#include "pair/pair_job.h"
+
+#include <algorithm>
+
+namespace lsdcd {
+
+// Do the grains touch, or does adhesion hold them? It holds those that have touched.
+template <class Law>
+LSDCD_FN bool pair_touches(const Law &law, const GrainPair &p, bool touched)
+{
+  const Real sum = p.radius_i + p.radius_j;
+  if (p.distance_sq < sum * sum) return true;
+  if constexpr (Law::kBeyondContact) {
+    if (!touched) return false;
+    const Real reach = sum + law.elastic.pull_off * cube_root(p.radius_i * p.radius_j / sum);
+    return p.distance_sq < reach * reach;
+  }
+  return false;
+}
+
+// What the law keeps: the shear displacement, then vectors and scalars that it stores.
+template <class Law>
+LSDCD_FN ContactMemory<Law::kExtra> read_memory(const Law &law, const Real *from)
+{
+  ContactMemory<Law::kExtra> memory = {};
+  memory.shear = {from[0], from[1], from[2]};
+  if constexpr (Law::kExtra > 0) {
+    from += 3;
+    for (int k = 0; k < Law::kVectors; k++)
+      if (law.stores(k)) {
+        memory.put(3 * k, {from[0], from[1], from[2]});
+        from += 3;
+      }
+    for (int k = 0; k < Law::kScalars; k++)
+      if (law.stores(Law::kVectors + k)) memory.extra[3 * Law::kVectors + k] = *from++;
+  }
+  return memory;
+}
+template <class Law>
+LSDCD_FN void write_memory(const Law &law, const ContactMemory<Law::kExtra> &memory, Real *to)
+{
+  for (int k = 0; k < 3; k++) to[k] = memory.shear[k];
+  if constexpr (Law::kExtra > 0) {
+    to += 3;
+    for (int k = 0; k < Law::kVectors; k++)
+      if (law.stores(k))
+        for (int j = 0; j < 3; j++) *to++ = memory.extra[3 * k + j];
+    for (int k = 0; k < Law::kScalars; k++)
+      if (law.stores(Law::kVectors + k)) *to++ = memory.extra[3 * Law::kVectors + k];
+  }
+}
+
+// Computes a pair that touches. `numbers`: what it keeps, read and written where the law has history.
+template <class Law>
+LSDCD_FN void evaluate_pair(const Law &law, const GrainPair &p, Real *numbers, PairForce &out)
+{
+  const Real sum = p.radius_i + p.radius_j, distance = sqrt(p.distance_sq);
+  PairContact c;
+  c.normal = (1 / distance) * p.offset;
+  c.overlap = sum - distance;
+  c.radius = p.radius_i * p.radius_j / sum;
+  c.mass = p.mass;
+  c.v_normal = dot(p.velocity, c.normal);
+  c.v_tangent = p.velocity - c.v_normal * c.normal -
+                cross(p.radius_i * p.omega_i + p.radius_j * p.omega_j, c.normal);
+  if constexpr (Law::kContactTorque) c.omega = p.omega_i - p.omega_j;
+  if constexpr (Law::kHeat) c.temperature_difference = p.temperature_difference;
+  c.dt = p.dt;
+  c.update = p.update;
+  c.radius_i = p.radius_i;
+  c.radius_j = p.radius_j;
+  c.mass_i = p.mass_i;
+  c.mass_j = p.mass_j;
+
+  ContactMemory<Law::kExtra> memory = {};
+  if constexpr (Law::kHistory) memory = read_memory(law, numbers);
+  const auto f = law.evaluate(c, memory);
+  if constexpr (Law::kHistory) write_memory(law, memory, numbers);
+
+  out.normal = c.normal;
+  out.push = f.normal;
+  out.friction = f.tangential;
+  out.arm_i = Law::kWholeArms ? p.radius_i : p.radius_i - c.overlap / 2;
+  out.arm_j = Law::kWholeArms ? p.radius_j : p.radius_j - c.overlap / 2;
+  out.energy = f.energy;
+  out.contact_torque = {0, 0, 0};
+  out.heat = 0;
+  if constexpr (Law::kContactTorque) out.contact_torque = f.contact_torque;
+  if constexpr (Law::kHeat)
+    if (law.has_heat()) out.heat = f.heat;
+}
+
+// The loop's view of laws that are all compiled from this one.
+template <class Law>
+struct SameLaw {
+  static constexpr bool kBeyondContact = Law::kBeyondContact, kHeat = Law::kHeat;
+  static constexpr bool kHistory = Law::kHistory;
+  static bool touches(const PairLaw &law, const GrainPair &p, bool touched)
+  {
+    return pair_touches(law.law.as<Law>(), p, touched);
+  }
+  static bool evaluate(const PairLaw &law, const GrainPair &p, bool, Real *numbers, PairForce &out)
+  {
+    evaluate_pair(law.law.as<Law>(), p, numbers, out);
+    return true;
+  }
+};
+// Of laws that differ in their sub-models: a call of a function for each pair.
+struct AnyLaw {
+  static constexpr bool kBeyondContact = true, kHeat = true, kHistory = true;
+  static bool touches(const PairLaw &, const GrainPair &, bool) { return true; }
+  static bool evaluate(const PairLaw &law, const GrainPair &p, bool touched, Real *numbers,
+                       PairForce &out)
+  {
+    return law.evaluate(law.law, p, touched, numbers, out);
+  }
+};
+
+LSDCD_FN void add_to(Real *all, int i, const Vec3 &a)
+{
+  for (int k = 0; k < 3; k++) all[3 * i + k] += a[k];
+}
+
+template <class Laws>
+void run_pairs(const PairJob &job)
+{
+  const PairList &list = job.list;
+  const bool keeps = Laws::kHistory && job.memory;
+  const int width = keeps ? job.memory->width() : 0;
+  Real unkept[3];
+  GrainPair p = {};
+  p.dt = job.dt;
+  p.update = job.update;
+  for (int k = 0; k < list.rows; k++) {
+    const int i = list.grain[k], n = list.length[i];
+    const int *const row = list.row[i];
+    const Vec3 x = vec_of(job.x, i);
+    const int *const law_of = job.law_of + job.type[i] * job.n_types;
+    p.radius_i = job.radius[i];
+    Vec3 force = {0, 0, 0}, torque = {0, 0, 0};
+    [[maybe_unused]] Real heat = 0;
+    std::size_t old = 0, end = 0;
+    if (keeps) {
+      job.memory->reserve(n);
+      if (k < job.old->rows()) {
+        old = job.old->first(k);
+        end = job.old->first(k + 1);
+      }
+    }
+    for (int place = 0; place < n; place++) {
+      const int j = row[place] & list.mask;
+      p.offset = x - vec_of(job.x, j);
+      p.distance_sq = norm_sq(p.offset);
+      p.radius_j = job.radius[j];
+      const Real sum = p.radius_i + p.radius_j;
+      const bool overlaps = p.distance_sq < sum * sum;
+      if (!overlaps && !(Laws::kBeyondContact && old < end)) continue;
+      const Real factor = job.factor[row[place] >> list.factor_shift & 3];
+      if (factor == 0) continue;
+      const PairLaw &law = job.laws[law_of[job.type[j]]];
+      bool touched = false;
+      if (keeps) {
+        while (old < end && job.old->place(old) < place) old++;
+        touched = old < end && job.old->place(old) == place;
+      }
+      if (!overlaps && (!touched || !Laws::touches(law, p, touched))) continue;
+
+      put_velocities(job, i, j, p);
+      if constexpr (Laws::kHeat)
+        if (job.heat) p.temperature_difference = job.temperature[j] - job.temperature[i];
+      Real *numbers = unkept;
+      if (keeps) {
+        numbers = job.memory->append(place);
+        if (touched)
+          std::copy_n(job.old->numbers(old), width, numbers);
+        else
+          std::fill_n(numbers, width, 0);
+      }
+      PairForce f;
+      if (!Laws::evaluate(law, p, touched, numbers, f)) {
+        if (keeps) job.memory->take_back();
+        continue;
+      }
+      const Vec3 on_i = factor * f.force();
+      force += on_i;
+      torque += factor * f.torque_i();
+      const bool both = job.both_sides || j < job.n_own;
+      if (both) {
+        add_to(job.force, j, -on_i);
+        add_to(job.torque, j, factor * f.torque_j());
+      }
+      if constexpr (Laws::kHeat)
+        if (job.heat) {
+          heat += f.heat;
+          if (both) job.heat[j] -= f.heat;
+        }
+      if (job.record) job.record->push_back({i, j, p.offset, on_i, factor * f.energy});
+    }
+    add_to(job.force, i, force);
+    add_to(job.torque, i, torque);
+    if constexpr (Laws::kHeat)
+      if (job.heat) job.heat[i] += heat;
+    if (keeps) job.memory->end_row();
+  }
+}
+
+template <class Law>
+bool evaluate_one(const LawBytes &bytes, const GrainPair &p, bool touched, Real *numbers,
+                  PairForce &out)
+{
+  const Law &law = bytes.as<Law>();
+  if (!pair_touches(law, p, touched)) return false;
+  evaluate_pair(law, p, numbers, out);
+  return true;
+}
+
+}    // namespace lsdcd

@@ -1,0 +1,290 @@
+# SPDX-FileCopyrightText: 2026 LSDCD contributors
+# SPDX-License-Identifier: GPL-2.0-only
+
+"""pair_style granular/lsdcd beside LAMMPS's own pair styles where these are right, and beside closed forms.
+
+Grains of a lattice in a periodic box, which touch and part, turn, and go from process to process. Numbers are compared
+while rounding has not grown: it doubles in some 40 steps of such a gas.
+"""
+
+import random
+
+import pytest
+
+import lmp
+from facts import at_most, fact
+
+GRANULAR = "hertz/material 1e4 0.7 0.3 tangential mindlin NULL 0.5 0.4 damping coeff_restitution"
+FULL = "hertz/material 1e4 5 0.3 tangential mindlin_rescale NULL 0.5 0.4 rolling sds 300 2 0.3 twisting sds 30 1 0.3"
+SIDE, DT = 6, 2e-4
+COLUMNS = "id x y z vx vy vz omegax omegay omegaz fx fy fz tqx tqy tqz"
+
+
+def grains(folder, types=1, tilt=0.0, seed=1, name="grains.data"):
+    """Grains of a lattice that overlap in places, with velocities and spins."""
+    rng = random.Random(seed)
+    atoms, velocities = [], []
+    for i in range(SIDE**3):
+        place = [(i // SIDE**k) % SIDE + 0.5 + rng.uniform(-0.05, 0.05) for k in range(3)]
+        place[0] += tilt * place[1] / SIDE
+        atoms.append(f"{i + 1} {1 + i % types} {rng.uniform(0.95, 1.05)} {rng.uniform(1, 2)} {place[0]} {place[1]} {place[2]}")
+        velocities.append(f"{i + 1} " + " ".join(str(rng.uniform(-1, 1)) for _ in range(6)))
+    box = "".join(f"0 {SIDE} {a}lo {a}hi\n" for a in "xyz") + (f"{tilt} 0 0 xy xz yz\n" if tilt else "")
+    (folder / name).write_text(f"grains\n\n{SIDE**3} atoms\n{types} atom types\n\n{box}\nAtoms # sphere\n\n" + "\n".join(atoms) +
+                               "\n\nVelocities\n\n" + "\n".join(velocities) + "\n")
+
+
+def settings(newton="off", units="lj"):
+    return lmp.head(boundary="p p p", newton=newton, units=units) + "neighbor 0.1 bin\nneigh_modify delay 0 every 1 check yes\n"
+
+
+def script(pair, steps=200, every=100, newton="off", more="", name="out", data="grains.data", integrate="fix i all nve/sphere",
+           units="lj"):
+    """`pair`: pair_style and pair_coeff, a line each."""
+    return settings(newton, units) + f"read_data {data}\n{pair}\n{more}\n{integrate}\ntimestep {DT}\n" + dump(name, every) + f"run {steps}\n"
+
+
+def dump(name, every):
+    return f"thermo 100\nthermo_style custom step ke pe press\ndump d all custom {every} {name} {COLUMNS}\ndump_modify d format float %.17g sort id\n"
+
+
+def ours(*coeffs, style="granular/lsdcd"):
+    return f"pair_style {style}\n" + "\n".join(f"pair_coeff {c}" for c in coeffs)
+
+
+def states(folder, *args, ranks=1, **more):
+    lmp.run_well(script(*args, **more), folder, ranks)
+    return lmp.read_dump(folder / more.get("name", "out"))
+
+
+def prepare(folder):
+    grains(folder)
+    grains(folder, 2, name="two.data")
+    grains(folder, tilt=1.5, name="tilted.data")
+
+
+CLASSIC = {"hooke": "hooke 1e4 NULL 30 NULL 0.4 1", "hooke_history": "hooke/history 1e4 NULL 30 NULL 0.4 1",
+           "hertz_history": "hertz/history 1e4 NULL 300 NULL 0.4 1"}
+
+
+@pytest.mark.parametrize("law", CLASSIC)
+def test_classic(folder, law):
+    """The styles before granular are those of LAMMPS, in its log's thermo table, too, but for the elastic energy."""
+    style, numbers = CLASSIC[law].split(" ", 1)
+    theirs = states(folder, f"pair_style gran/{style} {numbers}\npair_coeff * *", name="theirs")
+    own = states(folder, ours(f"* * law {CLASSIC[law]}"))
+    at_most(f"{law}: positions, velocities, forces, torques", lmp.largest_difference(theirs, own), 1e-10)
+
+
+def test_tilted(folder):
+    style, numbers = CLASSIC["hertz_history"].split(" ", 1)
+    theirs = states(folder, f"pair_style gran/{style} {numbers}\npair_coeff * *", name="theirs", data="tilted.data")
+    own = states(folder, ours(f"* * law {CLASSIC['hertz_history']}"), data="tilted.data")
+    at_most("tilted: positions, velocities, forces, torques", lmp.largest_difference(theirs, own), 1e-10)
+
+
+# Of bodies and of grains that do not move: a mass of one side, or of the body.
+@pytest.mark.parametrize("what", ["freeze", "rigid"])
+def test_masses(folder, what):
+    style, numbers = CLASSIC["hooke_history"].split(" ", 1)
+    more = "group some id 1:80\ngroup rest subtract all some\n"
+    if what == "freeze":
+        integrate = more + "fix f some freeze\nfix i rest nve/sphere"
+    else:
+        integrate = more + "fix b some rigid single\nneigh_modify exclude group some some\nfix i rest nve/sphere"
+    if what == "rigid" and lmp.ON_HOST:
+        pytest.skip("that LAMMPS is built without the package RIGID")
+    theirs = states(folder, f"pair_style gran/{style} {numbers}\npair_coeff * *", name="theirs", integrate=integrate)
+    own = states(folder, ours(f"* * law {CLASSIC['hooke_history']}"), integrate=integrate)
+    at_most(f"{what}: positions, velocities, forces, torques", lmp.largest_difference(theirs, own), 1e-10)
+
+
+@pytest.mark.parametrize("newton", ["off", "on"])
+def test_ranks(folder, newton):
+    """What pairs keep goes with the grains: lists are made anew in each tenth step, and grains go to other processes."""
+    one = states(folder, ours("* * " + FULL), steps=400, name="one")
+    for ranks in (1, 4):
+        other = states(folder, ours("* * " + FULL), steps=400, newton=newton, ranks=ranks)
+        at_most(f"newton {newton}, {ranks} ranks", lmp.largest_difference(one, other), 1e-10)
+
+
+def test_mixed(folder):
+    """Two materials without a law of their pair: E* and G* of both, the geometric mean of other numbers. The same law in words."""
+    e, nu = (1e4, 3e4), (0.3, 0.2)
+    star = 1 / sum((1 - n * n) / m for m, n in zip(e, nu))
+    shear = 1 / sum(2 * (2 - n) * (1 + n) / m for m, n in zip(e, nu))
+    laws = [f"{i + 1} {i + 1} hertz/material {e[i]} {(5, 7)[i]} {nu[i]} tangential mindlin NULL {(0.5, 0.2)[i]} {(0.4, 0.9)[i]}"
+            for i in range(2)]
+    both = f"1 2 hertz {4 / 3 * star:.17g} {35**0.5:.17g} tangential mindlin {8 * shear:.17g} {0.1**0.5:.17g} {0.36**0.5:.17g}"
+    mixed = states(folder, ours(*laws), data="two.data", name="mixed")
+    given = states(folder, ours(*laws, both), data="two.data")
+    at_most("mixed", lmp.largest_difference(mixed, given), 1e-10)
+    lmp.refused("laws that differ", script(ours(laws[0], "2 2 hooke 1 1 tangential linear_nohistory 1 1"), data="two.data"), folder,
+                "types 1 and 2 cannot be mixed", "pair_coeff")
+
+
+def test_rolling_and_twisting_across_a_border(folder):
+    """Two grains go through a periodic face side by side, with spins that nothing changes: the torques are k angle + gamma spin, and
+    stay so where the pair changes places."""
+    steps, overlap, spin = 500, 0.02, (0.3, 0.7)
+    law = "hooke 1e4 0 tangential linear_history 0 0 100 damping velocity rolling sds 300 2 1e6 twisting sds 30 1 1e6"
+    for newton in ("off", "on"):
+        lmp.run_well(settings(newton) + f"""\
+region box block 0 4 0 4 0 4
+create_box 1 box
+create_atoms 1 single 1.5 2 2
+create_atoms 1 single {2.5 - overlap} 2 2
+set group all diameter 1 density 1
+set atom 1 omega {spin[0]} {spin[1]} 0
+velocity all set 20 0 0
+{ours("* * " + law)}
+fix i all nve/noforce
+timestep 1e-3
+neigh_modify delay 0 every 1 check no
+{dump("out", 1)}run {steps}
+""", folder)
+        worst = 0
+        for step, rows in lmp.read_dump(folder / "out").items():
+            time = 1e-3 * step
+            # The normal of grain 1 is -x, its twist -spin x; the rolling displacement R_eff w x n, at the arm R_eff.
+            twist = -30 * time * spin[0] - 1 * spin[0]
+            roll = -(0.25**2) * (300 * time * spin[1] + 2 * spin[1])
+            worst = max(worst, abs(rows[1][12] - twist), abs(rows[1][13] - roll), abs(rows[2][12] + twist), abs(rows[2][13] + roll))
+        at_most(f"newton {newton}: torques", worst, 1e-11)
+
+
+def test_restart(folder):
+    """A run that goes on from a file is the run that goes on, to the bit; springs of another law are refused."""
+    for newton in ("off", "on"):
+        lmp.run_well(script(ours("* * " + FULL), newton=newton, name="first") + "write_restart r\nundump d\n" + dump("two", 50) +
+                     "run 200\n", folder, 2)
+        lmp.run_well(settings(newton) + "read_restart r\n" + ours("* * " + FULL) + f"\nfix i all nve/sphere\ntimestep {DT}\n" +
+                     dump("continued", 50) + "run 200\n", folder, 2)
+        at_most(f"newton {newton}: restart", lmp.largest_difference(lmp.read_dump(folder / "two"), lmp.read_dump(folder / "continued")), 0)
+    lmp.refused("springs of another law", settings("on") + "read_restart r\n" + ours("* * " + GRANULAR) + "\nrun 0\n", folder,
+                "springs of other contact laws")
+    text = lmp.run_well(settings("on") + "read_restart r\n" + ours("* * hooke 1e4 1 tangential linear_nohistory 0 0") + "\nrun 0\n", folder)
+    fact("a law without springs: said", "Unused restart file" in text or "unused" in text.lower(), text[-300:])
+
+
+def test_levels_of_respa(folder):
+    """Springs move by the timestep of their level: pairs at the inner level of two are those of half the timestep."""
+    law, more = ours("* * " + FULL), "fix i all nve"
+    lmp.run_well(settings() + f"read_data grains.data\n{law}\n{more}\ntimestep {DT / 2}\n" + dump("half", 100) + "run 200\n", folder)
+    lmp.run_well(settings() + f"read_data grains.data\n{law}\n{more}\nrun_style respa 2 2 pair 1\ntimestep {DT}\n" + dump("levels", 50) +
+                 "run 100\n", folder)
+    half, levels = lmp.read_dump(folder / "half"), lmp.read_dump(folder / "levels")
+    at_most("respa", lmp.largest_difference({k // 2: v for k, v in half.items()}, levels), 1e-10)
+
+
+def test_suffix_and_hybrid(folder):
+    """-sf lsdcd takes the place of granular, and hybrid/overlay adds to it."""
+    plain = states(folder, ours("* * " + GRANULAR), name="plain")
+    lmp.run_well("suffix lsdcd\n" + script("pair_style granular\npair_coeff * * " + GRANULAR), folder)
+    at_most("suffix", lmp.largest_difference(plain, lmp.read_dump(folder / "out")), 0)
+    overlay = states(folder, "pair_style hybrid/overlay zero 0.5 granular/lsdcd\npair_coeff * * zero\npair_coeff * * granular/lsdcd " + GRANULAR)
+    at_most("hybrid/overlay", lmp.largest_difference(plain, overlay), 1e-10)
+
+
+def test_hybrid_of_types(folder):
+    """Each pair of types has its own style: a pair of ours is what it is among pairs of another one."""
+    laws = ["1 1 " + GRANULAR, "2 2 hooke 1e4 0 tangential linear_nohistory 0 0", "1 2 hooke 1e4 0 tangential linear_nohistory 0 0"]
+    plain = states(folder, ours(*laws), name="plain", data="two.data")
+    hybrid = states(folder, "pair_style hybrid granular/lsdcd gran/hooke 1e4 0 0 0 0 0\n" +
+                    f"pair_coeff 1 1 granular/lsdcd {GRANULAR}\npair_coeff 2 2 gran/hooke\npair_coeff 1 2 gran/hooke", data="two.data")
+    at_most("hybrid", lmp.largest_difference(plain, hybrid), 1e-10)
+
+
+def test_excluded(folder):
+    """Pairs that neigh_modify exclude leaves out do not act."""
+    gas = states(folder, ours("* * " + GRANULAR), more="neigh_modify exclude type 1 1")
+    first, last = gas[0], gas[max(gas)]
+    still = max(abs(a - b) for i in first for a, b in zip(first[i][3:6], last[i][3:6]))
+    at_most("excluded: velocities", still, 0)
+
+
+def test_energy(folder):
+    """Grains that nothing damps or rubs keep their energy, of motion and elastic: pe has it."""
+    text = lmp.run_well(script(ours("* * hertz 1e4 0 tangential linear_nohistory 0 0 damping velocity"), steps=2000), folder)
+    rows = lmp.read_thermo(text)
+    total = [row[1] + row[2] for row in rows]
+    at_most("total energy", max(abs(e / total[0] - 1) for e in total), 1e-4)
+
+
+def test_pair_local(folder):
+    """compute pair/local sees each pair: pushes and friction add up to the forces of all grains. It reads velocities of another time
+    than the step does: without dashpots."""
+    law = "hertz/material 1e4 0 0.3 tangential mindlin_rescale NULL 0 0.4 damping velocity rolling sds 300 0 0.3"
+    lmp.run_well(script(ours("* * " + law), steps=100, newton="on", more="""\
+compute p all pair/local dist force p1 p2 p3 p4 p10 p11 p12 cutoff radius
+compute i all property/local patom1 patom2 cutoff radius
+dump p all local 100 pairs index c_i[1] c_i[2] c_p[2] c_p[3] c_p[4] c_p[5] c_p[6] c_p[7] c_p[8] c_p[9]
+dump_modify p format float %.17g"""), folder)
+    forces = lmp.read_dump(folder / "out")[100]
+    sums = {i: [0.0] * 3 for i in forces}
+    lines = (folder / "pairs").read_text().split("ITEM: TIMESTEP")[-1].split("\n")
+    count = 0
+    for line in lines:
+        words = line.split()
+        if len(words) != 11 or words[0] == "ITEM:":
+            continue
+        _, i, j, push, *rest = (float(w) for w in words)
+        dist = sum(a * a for a in rest[4:7])**0.5
+        count += 1
+        for k in range(3):
+            f = push * rest[4 + k] / dist + rest[k]
+            sums[int(i)][k] += f
+            sums[int(j)][k] -= f
+    most = max(abs(a) for row in forces.values() for a in row[9:12])
+    worst = max(abs(a - b) for i in forces for a, b in zip(sums[i], forces[i][9:12]))
+    fact("pairs are listed", count > 100, str(count))
+    at_most("pair/local: forces", worst / most, 1e-12)
+
+
+def test_refusals(folder):
+    for name, coeff, says in (("mdr", "* * mdr 1e4 0.3 1 1 0.5 0.5 tangential linear_nohistory 1 1", "suffix off"),
+                              ("no law", "* *", "two atom types and a law"),
+                              ("bad sub-model", "* * hooke 1 1 tangential mindlyn 1 1 1", "'mindlyn' is not a sub-model")):
+        lmp.refused(name, script(ours(coeff)), folder, says)
+    lmp.refused("no ghost velocities", script(ours("* * " + GRANULAR), more="comm_modify vel no"), folder, "comm_modify vel yes")
+
+
+def test_materials(folder):
+    """A material file gives what its numbers give: those that the log tells."""
+    (folder / "mine.lsdcd").write_text("""\
+units si
+material soft
+  youngs_modulus    1e4  Pa
+  poissons_ratio    0.3  1
+pair soft soft
+  restitution       0.7  1
+  sliding_friction  0.4  1
+""")
+    text = lmp.run_well(script(ours("* * law material mine.lsdcd soft"), name="material", units="si"), folder)
+    lmp.run_well(script(ours("* * " + GRANULAR.replace("NULL 0.5", "NULL 1")), name="numbers", units="si"), folder)
+    told = [line.split(": ", 1)[1] for line in text.split("\n") if line.startswith("  types 1 1: ")]
+    fact("the log has the law", told and told[0].startswith("granular hertz/material "), str(told))
+    at_most("material", lmp.largest_difference(lmp.read_dump(folder / "material"), lmp.read_dump(folder / "numbers")), 1e-10)
+
+
+# ---- LAMMPS 4Jul2026 ------------------------------------------------------------------------
+
+NORMAL = ["hooke 1e4 5", "hertz 1e4 5", "hertz/material 1e4 5 0.3", "dmt 1e4 5 0.3 3", "jkr 1e4 5 0.3 3"]
+DAMPING = ["velocity", "mass_velocity", "viscoelastic"]
+TANGENTIAL = ["linear_nohistory 0.5 0.4", "linear_history 500 0.5 0.4", "mindlin 1e3 0.5 0.4", "mindlin/force 1e3 0.5 0.4",
+              "mindlin_rescale 1e3 0.5 0.4", "mindlin_rescale/force 1e3 0.5 0.4"]
+
+
+@lmp.of_host
+def test_as_granular(folder):
+    """Each combination of sub-models is that of LAMMPS's pair granular, where that is right: tsuji has another mass, and marshall beside
+    mindlin lacks the contact radius."""
+    rng = random.Random(3)
+    combinations = [(n, d, t) for n in NORMAL for d in DAMPING for t in TANGENTIAL]
+    for n, d, t in rng.sample(combinations, 10 if lmp.QUICK else len(combinations)):
+        beside = rng.choice(["", "rolling sds 300 2 0.3", "twisting sds 30 1 0.3", "rolling sds 300 2 0.3 twisting sds 30 1 0.3"])
+        law = f"* * {n} tangential {t} damping {d} {beside}"
+        # A pair that crosses a border has wrong signs there: so short that no list is made anew.
+        theirs = states(folder, ours(law, style="granular"), steps=10, every=5, name="theirs")
+        own = states(folder, ours(law), steps=10, every=5)
+        at_most(law, lmp.largest_difference(theirs, own), 1e-12)

@@ -1,0 +1,396 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Grains under the wall's laws, beside closed forms.
+#include "base/input_error.h"
+#include "input/pair_words.h"
+#include "pair/compile_pair.h"
+#include "pair/partners.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace lsdcd::test_pair {
+
+std::vector<std::string> words_of(const std::string &text)
+{
+  std::istringstream in(text);
+  return {std::istream_iterator<std::string>(in), {}};
+}
+
+ContactLaw law_of_words(const std::string &text)
+{
+  return law_of(read_pair_coeff(words_of(text)));
+}
+
+// A law of each compiled kind, with every sub-model that changes what a pair keeps.
+const std::vector<std::string> kLaws = {
+    "hooke 1000 30 tangential linear_nohistory 1 0.4 damping velocity",
+    "hertz 4e4 0.4 tangential linear_history 500 0.5 0.4 damping tsuji",
+    "hertz/material 1e5 0.4 0.3 tangential mindlin NULL 0.5 0.4 damping coeff_restitution",
+    "hertz/material 1e5 20 0.3 tangential mindlin/force NULL 0.5 0.4",
+    "hertz/material 1e5 20 0.3 tangential mindlin_slip NULL 0.5 0.4 damping mass_velocity",
+    "hertz/material 1e5 20 0.3 tangential mindlin_rescale NULL 0.5 0.4 rolling sds 300 2 0.3 "
+    "twisting marshall",
+    "dmt 1e5 20 0.3 5 tangential mindlin_rescale/force NULL 0.5 0.4 twisting sds 30 2 0.3",
+    "jkr 1e5 20 0.3 50 tangential mindlin NULL 0.5 0.4 rolling sds 300 2 0.3 twisting marshall",
+    "law hooke 1000 NULL 20 NULL 0.4 1",
+    "law hooke/history 1000 NULL 20 NULL 0.4 1 limit_damping",
+    "law hertz/history 4e4 NULL 20 NULL 0.4 1",
+    "law hertz/history 4e4 NULL 20 NULL 0.4 1 rolling epsd2 0.3 cohesion sjkr 200",
+    "law hooke 1000 NULL 20 NULL 0.4 1 rolling cdt 0.3"};
+
+bool has_whole_arms(const std::string &words)
+{
+  return words.compare(0, 4, "law ") == 0;
+}
+
+// Grains, their list, and what a step writes.
+struct Grains {
+  int n;
+  std::vector<Real> x, v, omega, radius, mass, force, torque;
+  std::vector<int> type, rows, length;
+  std::vector<std::vector<int>> neighbours;
+  std::vector<int *> row;
+  std::vector<PairLaw> laws;
+  std::vector<int> law_of;
+  int n_types = 1;
+  PairMemory memory[2];
+  int now = 0;
+  Real dt = 1e-4;
+  Real factor[4] = {1, 1, 1, 1};
+
+  explicit Grains(int n_grains) :
+      n(n_grains), x(3 * n), v(3 * n), omega(3 * n), radius(n, 1), mass(n, 1), force(3 * n),
+      torque(3 * n), type(n, 1), length(n), neighbours(n), row(n)
+  {
+    for (int i = 0; i < n; i++) rows.push_back(i);
+  }
+  void set_law(const ContactLaw &law)
+  {
+    laws = {pair_law(law)};
+    law_of.assign(4, 0);
+    const int width = law.has_history() ? 3 + law.n_extra() : 0;
+    for (PairMemory &m : memory) m.begin(0, width);
+  }
+  // All pairs, each in the row of the lower one, or of the higher one.
+  void set_list(bool swapped = false)
+  {
+    for (int i = 0; i < n; i++) neighbours[i].clear();
+    for (int i = 0; i < n; i++)
+      for (int j = i + 1; j < n; j++) neighbours[swapped ? j : i].push_back(swapped ? i : j);
+    for (int i = 0; i < n; i++) {
+      length[i] = static_cast<int>(neighbours[i].size());
+      row[i] = neighbours[i].data();
+    }
+  }
+  PairList list() const { return {n, rows.data(), length.data(), row.data(), 0x1FFFFFFF, 30}; }
+  void step(bool update = true)
+  {
+    std::fill(force.begin(), force.end(), 0);
+    std::fill(torque.begin(), torque.end(), 0);
+    PairJob job = {};
+    job.x = x.data(), job.v = v.data(), job.omega = omega.data();
+    job.radius = radius.data(), job.mass = mass.data(), job.type = type.data();
+    job.force = force.data(), job.torque = torque.data();
+    job.n_own = n;
+    job.list = list();
+    job.factor = factor;
+    job.laws = laws.data(), job.law_of = law_of.data(), job.n_types = n_types + 1;
+    job.dt = dt, job.update = update;
+    if (memory[0].width() > 0) {
+      now = 1 - now;
+      memory[now].begin(n, memory[now].width());
+      job.old = &memory[1 - now];
+      job.memory = &memory[now];
+    }
+    run_pairs(job, static_cast<int>(laws.size()));
+  }
+};
+
+// n grains of radii 1 to 20 that overlap by some per cent, with velocities and spins.
+Grains random_grains(int n, unsigned seed)
+{
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<Real> unit(-1, 1);
+  Grains g(n);
+  for (int i = 0; i < n; i++) {
+    g.radius[i] = 10.5 + 9.5 * unit(random);
+    g.mass[i] = g.radius[i] * g.radius[i] * g.radius[i];
+    for (int k = 0; k < 3; k++) {
+      g.x[3 * i + k] = 6.0 * std::cbrt(n) * unit(random);
+      g.v[3 * i + k] = unit(random);
+      g.omega[3 * i + k] = 0.1 * unit(random);
+    }
+  }
+  return g;
+}
+
+Real largest(const std::vector<Real> &a)
+{
+  Real most = 0;
+  for (const Real each : a) most = std::max(most, std::fabs(each));
+  return most;
+}
+
+// ---- one pair in closed form ------------------------------------------------------------------
+
+// hooke: F = k d - gamma v_n; friction gamma_t v_t up to mu |F|; torques -(R - d/2) n x F_t.
+TEST(pair, of_hooke_is_its_formula)
+{
+  Grains g(2);
+  g.radius = {1.0, 0.5};
+  g.mass = {2.0, 1.0};
+  g.x = {1.4, 0, 0, 0, 0, 0};    // overlap 0.1, normal (1, 0, 0)
+  g.v = {0.2, 0.3, 0, 0, 0, 0};
+  g.omega = {0, 0, 0.5, 0, 0, 0.25};
+  g.set_law(
+      law_of_words("hooke 1000 30 tangential linear_nohistory 0.5 0.4 damping mass_velocity"));
+  g.set_list();
+  g.step();
+  const Real reduced = 2.0 / 3, damping = 30 * reduced;
+  const Real push = 1000 * 0.1 - damping * 0.2;
+  // The surface of 1 at the contact moves by v + w x (-R n): slip 0.3 - (1.0 0.5 + 0.5 0.25) along y.
+  const Real slip = 0.3 - 0.625, drag = std::min(0.5 * damping * std::fabs(slip), 0.4 * push);
+  const Real friction = slip < 0 ? drag : -drag;
+  EXPECT_NEAR(g.force[0], push, 1e-12);
+  EXPECT_NEAR(g.force[1], friction, 1e-13);
+  EXPECT_NEAR(g.force[3], -push, 1e-12);
+  EXPECT_NEAR(g.torque[2], -(1.0 - 0.05) * friction, 1e-13);
+  EXPECT_NEAR(g.torque[5], -(0.5 - 0.05) * friction, 1e-13);
+}
+
+// hertz of two materials: E* and G* of both; kt 8 G* a.
+TEST(pair, of_two_materials_has_the_moduli_of_both)
+{
+  const Real e1 = 1e7, e2 = 3e6, nu1 = 0.2, nu2 = 0.4;
+  const PairCoeff a = read_pair_coeff(words_of(
+                      "hertz/material 1e7 0.4 0.2 tangential mindlin NULL 0.5 0.4 damping tsuji")),
+                  b = read_pair_coeff(words_of(
+                      "hertz/material 3e6 0.9 0.4 tangential mindlin NULL 0.2 0.9 damping tsuji"));
+  const ContactLaw law = law_of(mixed(a, b, "1 and 2"));
+  const Real e = 1 / ((1 - nu1 * nu1) / e1 + (1 - nu2 * nu2) / e2);
+  const Real g = 1 / (2 * (2 - nu1) * (1 + nu1) / e1 + 2 * (2 - nu2) * (1 + nu2) / e2);
+  EXPECT_NEAR(law.k_normal, 4 * e / 3, 1e-13 * e);
+  EXPECT_NEAR(law.k_tangent, 8 * g, 1e-13 * 8 * g);
+  EXPECT_DOUBLE_EQ(law.eta, tsuji_damping(std::sqrt(0.4 * 0.9)));
+  EXPECT_DOUBLE_EQ(law.xgammat, std::sqrt(0.5 * 0.2));
+  EXPECT_DOUBLE_EQ(law.mu, std::sqrt(0.4 * 0.9));
+}
+
+TEST(pair, of_laws_with_other_sub_models_is_not_mixed)
+{
+  const PairCoeff a = read_pair_coeff(words_of("hooke 1 0 tangential linear_nohistory 0 0")),
+                  b = read_pair_coeff(words_of("hertz 1 0 tangential linear_nohistory 0 0"));
+  EXPECT_THROW(mixed(a, b, "1 and 2"), InputError);
+  EXPECT_NO_THROW(mixed(a, a, "1 and 2"));
+}
+
+// Adhesion holds what has touched, up to 3 pi gamma R: overlap -(3 pi^2 gamma^2 R/(16 E^2))^(1/3).
+TEST(pair, under_jkr_parts_beyond_touch)
+{
+  const Real e = 1e5 / (2 * (1 - 0.09)), gamma = 50, radius = 0.5;
+  const Real reach = std::cbrt(3 * kPi * kPi * gamma * gamma * radius / (16 * e * e));
+  Grains g(2);
+  g.set_law(law_of_words("jkr 1e5 0 0.3 50 tangential linear_nohistory 0 0 damping none"));
+  g.set_list();
+  const auto force_at = [&](Real overlap) {
+    g.x[3] = 2 - overlap;
+    g.step();
+    return g.force[3];
+  };
+  EXPECT_EQ(force_at(-0.5 * reach), 0);    // has not touched
+  EXPECT_NE(force_at(0.01), 0);
+  EXPECT_NEAR(force_at(-reach * (1 - 1e-12)), -3 * kPi * gamma * radius, 1e-3 * gamma);
+  EXPECT_EQ(force_at(-reach * (1 + 1e-9)), 0);
+  EXPECT_EQ(force_at(-0.5 * reach), 0);    // let go
+}
+
+// Two grains that turn as one body keep the length of their spring, which turns with them: after a whole turn it is as it was.
+TEST(pair, that_turns_as_one_body_keeps_its_spring)
+{
+  Grains g(2);
+  g.set_law(law_of_words("hooke 1000 0 tangential linear_history 800 0 10 damping none"));
+  g.set_list();
+  const auto place = [&](Real angle) {
+    const Real c = 0.95 * std::cos(angle), s = 0.95 * std::sin(angle);
+    g.x = {c, s, 0, -c, -s, 0};
+  };
+  place(0);
+  g.v = {0, 1, 0, 0, -1, 0};    // shears along y by 2 dt
+  g.step();
+  const Real first = 800 * 2 * g.dt;
+  EXPECT_NEAR(g.force[1], -first, 1e-12);
+  const int steps = 1000;
+  g.dt = 1e-30;
+  for (int k = 1; k <= steps; k++) {
+    place(2 * kPi * k / steps);
+    g.v = {0, 0, 0, 0, 0, 0};
+    g.omega = {0, 0, 0, 0, 0, 0};
+    g.step();
+  }
+  EXPECT_NEAR(g.force[1], -first, 1e-11);
+  EXPECT_NEAR(g.force[0], 100, 1e-10);
+}
+
+TEST(pair, with_a_grain_that_does_not_move_has_the_mass_of_the_other)
+{
+  PairJob job = {};
+  const Real zero[6] = {}, mass[2] = {2, 3};
+  const int mask[2] = {1, 5};
+  job.v = job.omega = zero;
+  job.mass = mass;
+  job.mask = mask;
+  job.frozen = 4;
+  GrainPair p = {};
+  put_velocities(job, 0, 1, p);
+  EXPECT_EQ(p.mass, 2);
+  put_velocities(job, 1, 0, p);
+  EXPECT_EQ(p.mass, 2);
+  job.frozen = 8;
+  put_velocities(job, 0, 1, p);
+  EXPECT_EQ(p.mass, 1.2);
+}
+
+// ---- all laws -----------------------------------------------------------------------------------
+
+// What an oblique step adds to springs is in the next one's force.
+TEST(pairs, keep_momentum_and_with_arms_to_the_contact_angular_momentum)
+{
+  for (const std::string &words : kLaws) {
+    Grains g = random_grains(200, 1);
+    g.set_law(law_of_words(words));
+    g.set_list();
+    g.step();
+    g.step();
+    Vec3 force = {0, 0, 0}, torque = {0, 0, 0};
+    for (int i = 0; i < g.n; i++) {
+      force += vec_of(g.force.data(), i);
+      torque +=
+          cross(vec_of(g.x.data(), i), vec_of(g.force.data(), i)) + vec_of(g.torque.data(), i);
+    }
+    const Real most = largest(g.force);
+    ASSERT_GT(most, 0) << words;
+    // Sums of some 1000 terms, each rounded to 1e-16 of itself.
+    EXPECT_LT(norm(force), 1e-13 * most * 100) << words;
+    if (!has_whole_arms(words)) {
+      EXPECT_LT(norm(torque), 1e-12 * most * 40 * 100) << words;
+    }
+  }
+}
+
+// A pair that is listed the other way round, with what it keeps as the other grain sees it, has the same forces.
+TEST(pairs, do_not_depend_on_which_grain_comes_first)
+{
+  for (const std::string &words : kLaws) {
+    const ContactLaw law = law_of_words(words);
+    Grains a = random_grains(100, 2), b = random_grains(100, 2);
+    for (Grains *g : {&a, &b}) g->set_law(law);
+    a.set_list();
+    b.set_list();
+    for (int k = 0; k < 3; k++) {
+      a.step();
+      b.step();
+    }
+    const auto name = [](int i) { return Partners::Name(1000 + i); };
+    Partners partners(a.memory[0].width());
+    partners.grow(b.n);
+    if (partners.width() > 0)
+      partners.collect(b.list(), b.memory[b.now], b.n, name, [&](int, int) { return law.flips(); });
+    b.set_list(true);
+    if (partners.width() > 0) partners.hand_out(b.list(), b.memory[b.now], name);
+    a.step();
+    b.step();
+    const Real most = largest(a.force), turning = largest(a.torque);
+    for (int k = 0; k < 3 * a.n; k++) {
+      ASSERT_NEAR(a.force[k], b.force[k], 1e-13 * most) << words;
+      ASSERT_NEAR(a.torque[k], b.torque[k], 1e-13 * turning) << words;
+    }
+  }
+}
+
+// Springs act in a setup, and do not move.
+TEST(pairs, keep_what_they_have_in_a_setup)
+{
+  for (const std::string &words : kLaws) {
+    Grains g = random_grains(60, 3);
+    g.set_law(law_of_words(words));
+    g.set_list();
+    g.step();
+    const std::vector<Real> force = g.force;
+    g.step(false);
+    const std::vector<Real> setup = g.force;
+    g.step(false);
+    for (int k = 0; k < 3 * g.n; k++)
+      ASSERT_NEAR(setup[k], g.force[k], 1e-14 * largest(force)) << words;
+  }
+}
+
+// Laws of types that differ in their sub-models take another path to the same numbers.
+TEST(pairs, of_several_laws_have_each_its_own)
+{
+  const ContactLaw soft = law_of_words(kLaws[1]), hard = law_of_words(kLaws[5]);
+  Grains one = random_grains(100, 4), both = random_grains(100, 4);
+  one.set_law(hard);
+  one.set_list();
+  both.set_list();
+  both.laws = {pair_law(soft), pair_law(hard)};
+  both.n_types = 2;
+  both.law_of.assign(9, 1);
+  both.law_of[4] = 0;    // types 1 and 1
+  for (int i = 0; i < both.n; i++) both.type[i] = 2;
+  for (PairMemory &m : both.memory) m.begin(0, 3 + hard.n_extra());
+  for (int k = 0; k < 3; k++) {
+    one.step();
+    both.step();
+  }
+  EXPECT_EQ(one.force, both.force);
+  EXPECT_EQ(one.torque, both.torque);
+}
+
+TEST(partners, go_in_a_message_as_they_are)
+{
+  Partners a(4), b(4);
+  a.grow(2);
+  b.grow(2);
+  const Real numbers[] = {2, 7, 1, 2, 3, 4, 9, 5, 6, 7, 8};
+  EXPECT_TRUE(a.is_sound(numbers, 11));
+  EXPECT_FALSE(a.is_sound(numbers, 10));
+  EXPECT_EQ(a.unpack(1, numbers), 11);
+  std::vector<Real> buffer(a.packed_size(1));
+  EXPECT_EQ(a.pack(1, buffer.data()), 11);
+  EXPECT_EQ(buffer, std::vector<Real>(numbers, numbers + 11));
+  b.unpack(0, buffer.data());
+  b.unpack_more(0, buffer.data());
+  EXPECT_EQ(b.count(0), 4);
+  EXPECT_EQ(b.name(0, 3), 9);
+  EXPECT_EQ(b.numbers(0, 3)[3], 8);
+}
+
+TEST(pair_coeff, refuses_what_is_not_served_with_a_reason)
+{
+  const auto error = [](const std::string &text) {
+    try {
+      read_pair_coeff(words_of(text));
+    } catch (const InputError &e) {
+      return std::string(e.what());
+    }
+    return std::string();
+  };
+  EXPECT_NE(error("mdr 1 1 1 1 1 1").find("suffix off"), std::string::npos);
+  EXPECT_NE(
+      error("hooke 1 1 tangential linear_history 1 1 1 synchronized_verlet").find("suffix off"),
+      std::string::npos);
+  EXPECT_NE(error("hooke 1 1 tangential linear_history 1 1 1 cutof 2").find("cutof"),
+            std::string::npos);
+  EXPECT_EQ(read_pair_coeff(words_of("hooke 1 1 cutoff 2 tangential linear_history 1 1 1")).cutoff,
+            2);
+}
+
+}    // namespace lsdcd::test_pair
