@@ -4,6 +4,7 @@
 #include "contact/shape_search.h"
 
 #include "base/input_error.h"
+#include "geometry/primitive_distance.h"
 #include "tree/tree_search.h"
 
 #include <algorithm>
@@ -77,6 +78,14 @@ std::uint32_t place_in(const List &list, std::uint32_t number, const NumberOf &n
   return static_cast<std::uint32_t>(at != list.end() && number_of(*at) == number
                                         ? at - list.begin()
                                         : static_cast<std::ptrdiff_t>(list.size()));
+}
+
+// Is what has this distance from the grain's centre surely found for it? What is but for rounding out of the sphere around it has no
+// deep place.
+bool is_in_reach(const PlacedGrain &grain, Real distance)
+{
+  constexpr Real kSure = 1 - 1e-9;
+  return distance < kSure * grain.shape.farthest;
 }
 
 struct SameNumber {
@@ -282,12 +291,12 @@ void ShapeSearch::look_at_plane(const PlacedGrain &grain, const NearFeatures &ne
   }
   if (!(overlap < s.rho)) {
     for (; rim < plane.rim_end; rim++)
-      if (is_beside(grain, near.rim[rim].primitive))
+      if (is_out_of_reach(grain, near.rim[rim].primitive))
         rule_out(near.rim[rim]);
       else
         deep_.push_back({near.rim[rim].primitive, &plane, &near.rim[rim]});
     for (; inner < plane.inner_end; inner++)
-      if (!is_beside(grain, near.inner[inner]))
+      if (!is_out_of_reach(grain, near.inner[inner]))
         deep_.push_back({near.inner[inner], &plane, nullptr});
     return;
   }
@@ -489,7 +498,7 @@ void ShapeSearch::look_at_edge(const PlacedGrain &grain, const NearFeatures &nea
   const TangentMinimum line = TangentAboutLine(s, from, along).find();
   if (!(line.distance < 0)) return;
   if (!line.is_highest || !(-line.distance < s.rho)) {
-    edge_[i] = State::is_deep;
+    if (is_in_reach(grain, segment_distance(from, to, {0, 0, 0}))) edge_[i] = State::is_deep;
     return;
   }
   lines_.push_back({from, along, line.foot});
@@ -595,6 +604,15 @@ bool ShapeSearch::is_beside(const PlacedGrain &grain, std::uint32_t primitive) c
   for (int a = 0; a < 3; a++)
     if (lo[a] > grain.shape.half[a] || hi[a] < -grain.shape.half[a]) return true;
   return false;
+}
+
+// Is it beside the grain, or out of the sphere around it? All that is not is in every list, so that contacts are found in the
+// same way, and to the same bits, whatever else a list has.
+bool ShapeSearch::is_out_of_reach(const PlacedGrain &grain, std::uint32_t primitive) const
+{
+  FeatureCode nearest;
+  return is_beside(grain, primitive) ||
+         !is_in_reach(grain, view_.exact(primitive, grain.centre, nearest));
 }
 
 ShapeMinimum ShapeSearch::minimum_of(const PlacedGrain &grain, std::uint32_t primitive,

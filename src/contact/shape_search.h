@@ -107,6 +107,7 @@ class ShapeSearch {
   void each_face(FeatureCode feature, const Visit &visit) const;
   Vec3 corner_of(const PlacedGrain &grain, const TreePrimitive &p, int k) const;
   bool is_beside(const PlacedGrain &grain, std::uint32_t primitive) const;
+  bool is_out_of_reach(const PlacedGrain &grain, std::uint32_t primitive) const;
   ShapeMinimum minimum_of(const PlacedGrain &grain, std::uint32_t primitive, Real below) const;
   FeatureCode feature_of(const ShapeMinimum &m, const TreePrimitive &p) const;
   Minimum made(const ShapeMinimum &m, std::uint32_t primitive) const;
