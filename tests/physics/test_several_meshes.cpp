@@ -344,20 +344,22 @@ TEST(several_meshes, with_more_contacts_than_a_stack_holds_act_as_one)
   EXPECT_LE(norm(wall.scene->torque(0) - one.torque(0)), 1e-7);
 }
 
-// The forces on spheres that cross a wall in 200 steps, with a choice in every 20th: they come near
+// The forces on spheres that cross a wall in 200 steps, with a choice in every so many of these: they come near
 // meshes and leave them, and their springs with them.
 struct Crossing {
   std::vector<Real> force;
   int joint = 0;               // spheres with several springs at the end
   Vec3 on_mesh = {0, 0, 0};    // the force on mesh 1, summed over steps
 
-  explicit Crossing(WallEngine &engine)
+  explicit Crossing(WallEngine &engine, int choice = 20)
   {
-    constexpr int kSpheres = 400, kSteps = 200, kChoice = 20;
+    constexpr int kSpheres = 400, kSteps = 200;
     std::mt19937_64 random(9);
     std::uniform_real_distribution<Real> place(-4.5, 4.5), speed(-30, 30);
     SphereArrays spheres(kSpheres, kRadius);
     spheres.mass.assign(kSpheres, kMass);
+    spheres.temperature.assign(kSpheres, 300);    // read where the law has heat
+    spheres.heat_flow.assign(kSpheres, 0);
     for (int c = 0; c < 3 * kSpheres; c++) {
       spheres.x[c] = place(random);
       spheres.v[c] = speed(random);
@@ -374,7 +376,7 @@ struct Crossing {
     step.dt = kStep;
     for (int t = 0; t < kSteps; t++) {
       spheres.clear_forces();
-      if (t % kChoice == 0) engine.choose(now(), kChoice * kStep * 60);
+      if (t % choice == 0) engine.choose(now(), choice * kStep * 60);
       engine.step(now(), step);
       on_mesh += engine.results().mesh_totals(1).force;
       force.insert(force.end(), spheres.force.begin(), spheres.force.end());
@@ -398,6 +400,22 @@ TEST(several_meshes, keep_springs_across_choices)
   // Shear displacements add up what places are rounded by, over contacts of up to 200 steps.
   for (std::size_t c = 0; c < expected.force.size(); c++)
     ASSERT_NEAR(got.force[c], expected.force[c], 1e-5);
+}
+
+// A sphere that touches one mesh is a candidate of that mesh alone, or of others too, as it was chosen at one time or another.
+TEST(several_meshes, give_the_same_bits_whenever_spheres_are_chosen)
+{
+  for (NamedLaw &law : laws(kStiffness)) {
+    EngineSettings &s = law.settings;
+    if (!s.law().has_history()) continue;
+    s.meshes = 7;
+    const Wall wall(dealt(random_soup(600, 5), 7), cutoff_of(s.law(), kRadius), s, true);
+    const auto often = make_test_engine(s), seldom = make_test_engine(s);
+    wall.put_into(*often);
+    wall.put_into(*seldom);
+    const Crossing expected(*often, 2), got(*seldom, 40);
+    EXPECT_TRUE(same_bytes(got.force, expected.force)) << law.name;
+  }
 }
 
 // Types 1 and 3 are of kind 0, type 2 is of kind 1; each of 7 meshes has laws of its own.

@@ -109,15 +109,15 @@ LSDCD_FN void remove_contact(ContactSet<kCapacity> &all, int c, int *end, int n)
   }
 }
 
-// Adds the contacts of the n-th mesh to those of the meshes before it, which end at `end`. Two contacts with the
-// same closest point are one. It is the nearer one; if both are equally near, a face before an edge before a
-// vertex; if these are equal, that of the earlier mesh.
-template <int kCapacity>
-LSDCD_FN void add_mesh(const Pose &pose, const ContactSet<kCapacity> &of_mesh, Real tolerance,
+// Adds the contacts of the n-th mesh, whose normals `turn` takes to the frame of the others, to those of the meshes before it,
+// which end at `end`. Two contacts with the same closest point are one. It is the nearer one; if both are equally near, a
+// face before an edge before a vertex; if these are equal, that of the earlier mesh.
+template <int kCapacity, class Turn>
+LSDCD_FN void add_mesh(const Turn &turn, const ContactSet<kCapacity> &of_mesh, Real tolerance,
                        ContactSet<kCapacity> &all, int *end, int n)
 {
   for (int c = 0; c < of_mesh.n; c++) {
-    const Vec3 normal = pose.turn_to_box(of_mesh.normal[c]);
+    const Vec3 normal = turn(of_mesh.normal[c]);
     const Real distance = of_mesh.distance[c];
     bool is_new = true;
     for (int b = n > 0 ? end[n - 1] - 1 : -1; b >= 0 && is_new; b--) {
@@ -135,14 +135,21 @@ LSDCD_FN void add_mesh(const Pose &pose, const ContactSet<kCapacity> &of_mesh, R
 }
 
 // The contacts of the sphere with their weights, mesh after mesh, in the frame of each: those of slot begin + k end at
-// end[k]. A function of its own, so that it is compiled once however many laws there are.
+// end[k]. A function of its own, so that it is compiled once however many laws there are. Where one mesh alone is touched
+// all is computed in its frame, as in a MeshStep: whether the sphere is a candidate of others, too, follows from when it was
+// chosen, and changes no bit.
 template <bool kBeyondContact, class Memory, int kCapacity>
 LSDCD_NOINLINE void narrow_phase_of_meshes(const StepJob &job, const MultiMeshSphere &s,
                                            Memory &memory, WeightedContacts<kCapacity> &all,
                                            int *end)
 {
   WeightedContacts<kCapacity> &of_mesh = memory.of_mesh;
-  Real tolerance = 0;
+  Real tolerance = 0, cutoff = 0;    // the largest of the meshes that are touched
+  int touched = -1;                  // the slot of the first of these
+  bool in_box = false;               // more than one is: normals are in the frame of the box
+  const auto pose_of = [&](int k) -> const Pose & {
+    return job.multi_mesh.meshes[job.multi_mesh.mesh[k]].settings.pose;
+  };
   all.exact_within = kAnyDistance;
   for (int k = s.begin; k < s.end; k++) {
     const MeshWork &mesh = job.multi_mesh.meshes[job.multi_mesh.mesh[k]];
@@ -153,19 +160,28 @@ LSDCD_NOINLINE void narrow_phase_of_meshes(const StepJob &job, const MultiMeshSp
     of_mesh.set.clear();
     find_filtered<kBeyondContact, false>(mesh.grid, mesh.settings.search, seen,
                                          holds ? &list : nullptr, of_mesh);
-    tolerance = fmax(tolerance, mesh.grid.tolerance);
-    if (!of_mesh.set.overflow)
-      add_mesh(mesh.settings.pose, of_mesh.set, tolerance, all.set, end, k - s.begin);
+    if (of_mesh.set.n > 0 && !of_mesh.set.overflow) {
+      tolerance = fmax(tolerance, mesh.grid.tolerance);
+      cutoff = fmax(cutoff, seen.cutoff);
+      if (touched >= 0 && !in_box) {
+        for (int c = 0; c < all.set.n; c++)
+          all.set.normal[c] = pose_of(touched).turn_to_box(all.set.normal[c]);
+        in_box = true;
+      }
+      if (touched < 0) touched = k;
+      const auto turn = [&](const Vec3 &n) { return in_box ? pose_of(k).turn_to_box(n) : n; };
+      add_mesh(turn, of_mesh.set, tolerance, all.set, end, k - s.begin);
+    }
     all.set.overflow |= of_mesh.set.overflow;
     if (all.set.overflow) return;
     if (of_mesh.exact_within < all.exact_within) all.exact_within = of_mesh.exact_within;
     end[k - s.begin] = all.set.n;
   }
-  share_overlap(job.settings.search, s.cutoff, tolerance, memory.rule, all);
-  for (int k = s.begin, c = 0; k < s.end; k++) {
-    const Pose &pose = job.multi_mesh.meshes[job.multi_mesh.mesh[k]].settings.pose;
-    for (; c < end[k - s.begin]; c++) all.set.normal[c] = pose.turn_to_mesh(all.set.normal[c]);
-  }
+  share_overlap(job.settings.search, cutoff, tolerance, memory.rule, all);
+  if (!in_box) return;
+  for (int k = s.begin, c = 0; k < s.end; k++)
+    for (; c < end[k - s.begin]; c++)
+      all.set.normal[c] = pose_of(k).turn_to_mesh(all.set.normal[c]);
 }
 
 // A multi-mesh sphere and its contacts, for apply_law(): those of slot begin + k end at ends[k].
