@@ -7,7 +7,7 @@
 
 #include "engine/broad_phase/candidate_slots.h"
 #include "engine/nodes/node_forces.h"
-#include "engine/results/results.h"
+#include "engine/results/total_sums.h"
 #include "engine/step/step_job.h"
 
 #include <memory>
@@ -134,7 +134,8 @@ class ResultsOn : public StepResults {
            (n_contacts_.size() + first_contact_.size() + stored_candidates_.size()) * sizeof(int) +
            touching_.capacity() * sizeof(TouchingSphere) +
            contacts_.capacity() * sizeof(StepContact) +
-           (block_sums_.size() + group_sums_.size() + sums_on_cpu_.size()) * sizeof(WallTotals);
+           (block_sums_.size() + group_sums_.size() + sums_on_cpu_.size()) * sizeof(UnitTotals) +
+           (ranges_.size() + ranges_on_cpu_.size()) * sizeof(TotalsRange);
   }
 
   // Before other spheres are candidates: totals stay those of the last step.
@@ -245,39 +246,26 @@ class ResultsOn : public StepResults {
   // Of one part, which is all slots, or of as many as there are meshes. Does not wait.
   void sum(B &b, int n_parts)
   {
-    const std::size_t n = n_, n_blocks = (n + kTotalsBlock - 1) / kTotalsBlock,
-                      n_groups = (n_blocks + kTotalsBlock - 1) / kTotalsBlock;
+    const std::size_t n_blocks = (n_ + kTotalsBlock - 1) / kTotalsBlock,
+                      n_groups = (n_blocks + kTotalsBlock - 1) / kTotalsBlock,
+                      parts = static_cast<std::size_t>(n_parts);
     n_parts_ = n_parts;
     n_groups_ = n_groups;
-    const std::size_t parts = static_cast<std::size_t>(n_parts);
+    ranges_.reserve(parts);
     block_sums_.reserve(parts * n_blocks);
     group_sums_.reserve(parts * n_groups);
+    ranges_on_cpu_.reserve(parts);
     sums_on_cpu_.reserve(parts * n_groups);
-    WallTotals *block = block_sums_.data(), *group = group_sums_.data();
-    const ResultColumns result = columns_;
-    const int *candidates = candidates_, *mesh = n_parts > 1 ? slots_->mesh() : nullptr;
-    const Real *uncertain = uncertain_.data();
-    b.for_each(parts * n_blocks, [=] LSDCD_LAMBDA(std::size_t at) {
-      const int part = static_cast<int>(at / n_blocks);
-      const std::size_t begin = at % n_blocks * kTotalsBlock;
-      WallTotals t;
-      for (std::size_t k = begin; k < begin + kTotalsBlock && k < n; k++) {
-        if (mesh && mesh[k] != part) continue;
-        if (uncertain && uncertain[k] > 0) add_uncertain(t, uncertain[k]);
-        if (result.n_contacts[k] == 0) continue;
-        const SphereResult r = result.get(k);
-        add_result(t, r, r.torque, candidates[k]);
-      }
-      block[at] = t;
-    });
-    b.for_each(parts * n_groups, [=] LSDCD_LAMBDA(std::size_t at) {
-      const WallTotals *const blocks = block + at / n_groups * n_blocks;
-      const std::size_t begin = at % n_groups * kTotalsBlock;
-      WallTotals t;
-      for (std::size_t k = begin; k < begin + kTotalsBlock && k < n_blocks; k++)
-        add_block(t, blocks[k]);
-      group[at] = t;
-    });
+    TotalsRange *range = ranges_.data();
+    const TotalsParts in = {
+        columns_,         n_, n_blocks, candidates_, n_parts > 1 ? slots_->mesh() : nullptr,
+        uncertain_.data()};
+    b.for_each(parts, [=] LSDCD_LAMBDA(std::size_t part) { range[part] = TotalsRange(); });
+    b.for_each_in_warps(parts * n_blocks, SeeTotals{in, range});
+    b.for_each(parts * n_blocks, SumTotals{in, range, block_sums_.data()});
+    b.for_each(parts * n_groups,
+               SumTotalsOfBlocks{block_sums_.data(), n_blocks, n_groups, group_sums_.data()});
+    b.copy_out(ranges_.data(), ranges_on_cpu_.data(), parts);
     b.copy_out(group_sums_.data(), sums_on_cpu_.data(), parts * n_groups);
     if (!are_summed_) are_summed_ = std::make_unique<typename B::Event>();
     are_summed_->record(b);
@@ -287,10 +275,10 @@ class ResultsOn : public StepResults {
   WallTotals read_sum(int part) const
   {
     are_summed_->wait();
-    WallTotals total;
-    const WallTotals *const groups = sums_on_cpu_.data() + part * n_groups_;
-    for (std::size_t k = 0; k < n_groups_; k++) add_block(total, groups[k]);
-    return total;
+    UnitTotals total = no_totals();
+    const UnitTotals *const groups = sums_on_cpu_.data() + part * n_groups_;
+    for (std::size_t k = 0; k < n_groups_; k++) total.add(groups[k]);
+    return totals_of(total, ranges_on_cpu_.data()[part]);
   }
 
  private:
@@ -309,8 +297,10 @@ class ResultsOn : public StepResults {
   bool totals_known_ = true;
   int n_parts_ = 0;    // of the sums that were started; 0: none were
   std::size_t n_groups_ = 0;
-  Array<WallTotals> block_sums_, group_sums_;    // part after part
-  typename B::template CpuArray<WallTotals> sums_on_cpu_;
+  Array<TotalsRange> ranges_;                    // of each part
+  Array<UnitTotals> block_sums_, group_sums_;    // part after part
+  typename B::template CpuArray<TotalsRange> ranges_on_cpu_;
+  typename B::template CpuArray<UnitTotals> sums_on_cpu_;
   std::unique_ptr<typename B::Event> are_summed_;
   const CandidateSlots<B> *slots_ = nullptr;    // until their totals are known
   bool has_slots_ = false;

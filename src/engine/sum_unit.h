@@ -18,11 +18,15 @@ namespace lsdcd {
 constexpr int kExponentAt = 52, kFieldOfHalf = 1022;
 constexpr unsigned kNotFinite = 2047;    // of infinity, and of what is no number
 
-LSDCD_FN unsigned exponent_field(Real x)
+LSDCD_FN std::uint64_t bits_of(Real x)
 {
   std::uint64_t bits;
   memcpy(&bits, &x, sizeof bits);
-  return static_cast<unsigned>(bits >> kExponentAt) & kNotFinite;
+  return bits;
+}
+LSDCD_FN unsigned exponent_field(Real x)
+{
+  return static_cast<unsigned>(bits_of(x) >> kExponentAt) & kNotFinite;
 }
 
 // What is to be known of all numbers before the first one is added.

@@ -282,6 +282,33 @@ def test_damped(folder):
                 abs((v[-1] - after[-1][SPEED + 2]) / (gamma * acceleration * dt**2 / 4) - 1), 0.05)
 
 
+def test_heap(folder):
+    """A heap in a can around a block, under a lid: when and in which order spheres are chosen changes no bit of the loads on bodies."""
+    stl.write(folder / "can.stl", [t[::-1] for t in stl.box((-2, -2, -2), (2, 2, 4))])
+    stl.write(folder / "block.stl", stl.box((-0.6, -0.5, -1.4), (0.5, 0.6, -1.0)))
+    stl.write(folder / "lid.stl", stl.box((-1.9, -1.9, 2.5), (1.9, 1.9, 2.7)))
+    create = ("lattice sc 0.485\nregion heap block -1.72 1.72 -1.72 1.72 -0.8 2.2 units box\ncreate_atoms 1 region heap\n"
+              "displace_atoms all random 0.03 0.03 0.03 4711 units box\nvariable d atom 0.3+0.06*random(0,1,4713)\n"
+              "set group all diameter v_d density 100\nvelocity all create 3 4712 loop geom\nset group all omega 0 0 0\n")
+    meshes = ("mesh can.stl mesh block.stl body density 60 load 4.8 0.609 -5.2 coat 0.08 0.06 "
+              "mesh lid.stl body density 60 joint slider 0 0 1")
+    damped, undamped = (
+        script(law, create, 1e-3, box="-4 4 -4 4 -4 6", every=100,
+               move="fix move all nve/sphere\nfix g all gravity 4 vector 0 0 -1")
+        for law in ("granular hooke 4000 0.7 tangential linear_history 1200 1 0.4 damping coeff_restitution " + meshes,
+                    "granular hooke 4000 0 tangential linear_history 1200 0 0.4 damping velocity " + meshes.replace("coat 0.08 0.06 ", "")))
+    atoms = "write_dump all custom {} id x y z vx vy vz omegax omegay omegaz modify sort id format float %.17g\n"
+
+    def same_atoms(what, name, other):
+        fact(f"heap: {what}", (folder / name).read_text() == (folder / other).read_text())
+    go(folder, damped + "run 1500\n" + atoms.format("whole"))
+    go(folder, damped + "run 300\n" + 120 * "run 10 pre no\n" + atoms.format("cut"))
+    same_atoms("with damping, runs without a set-up are one run to the last bit", "cut", "whole")
+    go(folder, undamped + "run 400\nwrite_restart half.bin\nrun 1100\n" + atoms.format("whole"))
+    go(folder, from_file(undamped) + "run 1100\n" + atoms.format("continued"))
+    same_atoms("without damping, a run goes on from a restart file to the last bit", "continued", "whole")
+
+
 def test_files(folder):
     """mesh_stl, mesh_fields and dump image have the body where it is, with the force of a sphere that presses on it."""
     half, radius, speed, dt, overlap, stiffness = 0.2, 0.1, 0.5, 1e-3, 1e-3, 1e4

@@ -415,6 +415,7 @@ TEST(several_meshes, give_the_same_bits_whenever_spheres_are_chosen)
     wall.put_into(*seldom);
     const Crossing expected(*often, 2), got(*seldom, 40);
     EXPECT_TRUE(same_bytes(got.force, expected.force)) << law.name;
+    EXPECT_EQ(got.on_mesh, expected.on_mesh) << law.name;
   }
 }
 

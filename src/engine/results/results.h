@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Results of a step: of one sphere, of all candidate spheres in columns, and the sums of these.
+// Results of a step: of one sphere, and of all candidate spheres in columns.
 #pragma once
 
 #include "base/strided_view.h"
@@ -100,43 +100,7 @@ struct ResultColumns {
   }
 };
 
-// Sums have three levels: 32 spheres to a block, 32 blocks to a group, then the groups, each in order. So the
-// bits do not depend on the number of threads.
+// Sums have three levels: 32 candidates to a block, 32 blocks to a group, then the groups.
 constexpr int kTotalsBlock = 32;
-
-// Adds a sphere whose search may have missed a contact of this overlap / radius > 0.
-LSDCD_FN void add_uncertain(WallTotals &t, Real uncertain)
-{
-  t.uncertified++;
-  t.largest_uncertain = fmax(t.largest_uncertain, uncertain);
-}
-
-// Adds the result of sphere i, which touches; `moment` is that of its force and torque
-// about the origin.
-LSDCD_FN void add_result(WallTotals &t, const SphereResult &r, const Vec3 &moment, int i)
-{
-  t.energy += r.energy;
-  t.force -= r.force;
-  t.torque -= moment;
-  t.contacts += r.n_contacts;
-  if (r.overlap_ratio > t.largest_overlap_ratio) {
-    t.largest_overlap_ratio = r.overlap_ratio;
-    t.largest_overlap_sphere = i;
-  }
-}
-
-LSDCD_FN void add_block(WallTotals &sum, const WallTotals &t)
-{
-  sum.energy += t.energy;
-  sum.force += t.force;
-  sum.torque += t.torque;
-  sum.contacts += t.contacts;
-  sum.uncertified += t.uncertified;
-  sum.largest_uncertain = fmax(sum.largest_uncertain, t.largest_uncertain);
-  if (t.largest_overlap_ratio > sum.largest_overlap_ratio) {
-    sum.largest_overlap_ratio = t.largest_overlap_ratio;
-    sum.largest_overlap_sphere = t.largest_overlap_sphere;
-  }
-}
 
 }    // namespace lsdcd
