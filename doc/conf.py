@@ -26,6 +26,7 @@ copyright = "2026 LSDCD contributors"
 release = version = re.search(r"project\(lsdcd VERSION (\S+)", (ROOT / "CMakeLists.txt").read_text())[1]
 
 extensions = ["myst_parser"]
+myst_enable_extensions = ["html_image"]
 root_doc = "doc/index"
 include_patterns = ["*.md", ".github/*.md", "doc/**.md", "doc/**.rst", "examples/**.md", "potentials/**.md"]
 exclude_patterns = [".git", ".ci", "build*", "demo", "src", "tests", "bench", "kokkos"]

@@ -20,17 +20,35 @@ std::string columns(int first, int n)
   return std::to_string(first) + (n > 1 ? "-" + std::to_string(first + n - 1) : "");
 }
 
+std::string keyword_of(OutputPart part)
+{
+  switch (part) {
+    case OutputPart::servo:
+      return " *servo*";
+    case OutputPart::body:
+      return " *body*";
+    case OutputPart::wear:
+      return " *wear ... deform*";
+    case OutputPart::nodes:
+      return " *nodes*";
+    case OutputPart::means:
+      return " *average*";
+    default:
+      return "";
+  }
+}
+
 TEST(wall_outputs, are_in_the_manual)
 {
   const std::string page = content(LSDCD_TEST_DIR "/../doc/wall_output.rst");
   std::string table, ones;
   int column = 1;
   for (const WallOutput &row : wall_outputs()) {
-    table += "* " + columns(column, row.n) + " = " + row.text +
-             (*row.unit ? " (" + std::string(row.unit) + ")" : "") + "\n";
+    table += "   " + columns(column, row.n) + ", \"" + row.text + "\", \"" + row.unit + "\"," +
+             keyword_of(row.part) + "\n";
     column += row.n;
   }
-  EXPECT_TRUE(has(page, "\n\n" + table + "\n")) << "the list of the page is to be:\n" << table;
+  EXPECT_TRUE(has(page, "\n\n" + table + "\n")) << "the rows of the page are to be:\n" << table;
 }
 
 // How many numbers each double of a struct in the library's header has, by its name.
