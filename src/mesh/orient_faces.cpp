@@ -3,6 +3,7 @@
 
 #include "mesh/orient_faces.h"
 
+#include "geometry/primitive_distance.h"
 #include "geometry/solid_angle.h"
 #include "mesh/box.h"
 #include "mesh/box_tree.h"
@@ -11,6 +12,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace lsdcd {
 
@@ -149,20 +151,42 @@ Real turns_round(const WeldedMesh &mesh, const Part &part, const std::vector<cha
   return sum / (2 * kPi);
 }
 
-// Is one shell inside the other? Its first point that is not on the other decides.
+Real distance(const Triangle &t, const Vec3 &x)
+{
+  const Vec3 normal = cross(t[1] - t[0], t[2] - t[0]);
+  Real least = std::numeric_limits<Real>::max();
+  bool over = true;
+  for (int k = 0; k < 3; k++) {
+    const Vec3 &a = t[k], &b = t[(k + 1) % 3];
+    over = over && dot(cross(normal, b - a), x - a) > 0;
+    least = std::fmin(least, segment_distance(a, b, x));
+  }
+  return over ? std::fabs(dot(normal, x - t[0])) / norm(normal) : least;
+}
+
+// Is a point on a part, but for rounding of coordinates in single precision?
+bool is_on(const WeldedMesh &mesh, const Part &part, const Vec3 &x)
+{
+  const Real near = 1e-6 * diagonal(part.box);
+  return std::any_of(part.faces.begin(), part.faces.end(), [&](int f) {
+    const auto &v = mesh.faces[f];
+    return distance({{mesh.vertices[v[0]], mesh.vertices[v[1]], mesh.vertices[v[2]]}}, x) <= near;
+  });
+}
+
+// Is one shell inside the other? A point of it that is not on the other decides.
 bool is_inside(const WeldedMesh &mesh, const Part &inner, const Part &outer,
                const std::vector<char> &turned)
 {
   if (!holds(outer.box, inner.box)) return false;
-  constexpr std::size_t kTries = 16;    // shells that touch so much enclose nothing between them
-  Real turns = 0;
-  for (std::size_t i = 0; i < std::min(kTries, inner.faces.size()); i++) {
-    const auto &v = mesh.faces[inner.faces[i]];
-    const Vec3 sum = mesh.vertices[v[0]] + mesh.vertices[v[1]] + mesh.vertices[v[2]];
-    turns = std::fabs(turns_round(mesh, outer, turned, (1.0 / 3) * sum));
-    if (std::fabs(turns - 0.5) > 0.25) break;
+  // Shells that touch at so many facets, all over the shell, enclose nothing between them.
+  const std::size_t n = inner.faces.size(), tries = std::min<std::size_t>(n, 16);
+  for (std::size_t i = 0; i < tries; i++) {
+    const auto &v = mesh.faces[inner.faces[i * n / tries]];
+    const Vec3 x = (1.0 / 3) * (mesh.vertices[v[0]] + mesh.vertices[v[1]] + mesh.vertices[v[2]]);
+    if (!is_on(mesh, outer, x)) return std::fabs(turns_round(mesh, outer, turned, x)) > 0.5;
   }
-  return turns > 0.5;
+  return false;
 }
 
 std::vector<Part> parts_of(const WeldedMesh &mesh, std::vector<char> &turned)

@@ -220,3 +220,40 @@ def test_pictures(folder):
                extra=f"dump pic all image 1 wall.*.ppm type type {wall} view 60 30 size 200 200\n")
             pictures.append((folder / "wall.0.ppm").read_bytes())
         fact(f"dump image shows the mesh: draw {what}", pictures[0] != pictures[1])
+
+
+def pixels(folder, draw, flags, mesh):
+    """(column, row from below) of what a picture from above shows of a mesh alone: of no atom, box or axis."""
+    go(folder, more=f"contacts {draw}", mesh=mesh, extra="group none empty\n" +
+       f"dump pic none image 1 wall.*.ppm type type fix wall type {flags} view 0 0 up 0 1 0 size 200 200 zoom 4 box no 0 axes no 0 0\n")
+    data = (folder / "wall.0.ppm").read_bytes()
+    kind, width, height, most, rgb = data.split(maxsplit=3)[:3] + data.split(maxsplit=3)[3].split(b"\n", 1)
+    assert (kind, width, height, most, len(rgb)) == (b"P6", b"200", b"200", b"255", 3 * 200 * 200)
+    return {(k % 200, 199 - k // 200) for k in range(200 * 200) if max(rgb[3 * k:3 * k + 3]) > 0}
+
+
+def spans(some):
+    """First and last columns, first and last rows."""
+    return [f(p[k] for p in some) for k in (0, 1) for f in (min, max)]
+
+
+def test_what_pictures_show(folder):
+    """A plate seen from above, as faces, as edges and cut: which pixels it covers. A corner may be a pixel off."""
+    stl.write(folder / "plate.stl", stl.sheet(8, lambda i, j: (i / 4 - 1, j / 4 - 1, 0)))
+    whole = pixels(folder, "draw faces 2", "1 0", "plate.stl")
+    left, right, low, high = spans(whole)
+    width, height = right - left + 1, high - low + 1
+    # LAMMPS leaves out pixels between triangles.
+    fact("a square is a square, filled", abs(width - height) <= 1 and width > 30 and len(whole) >= 0.9 * width * height, f"{spans(whole)} {len(whole)}")
+    small = pixels(folder, "draw faces 2", "1 0", "plate.stl scale 0.5 move 0.5 -0.25 0")
+    there = [left + 0.5 * width, left + width, low + height / 8, low + 0.625 * height]
+    fact("half as large, moved by half its first half-width and down by a quarter of it", all(
+        abs(a - b) <= 1.5 for a, b in zip(spans(small), there)), f"{spans(small)} {there}")
+    cut = pixels(folder, "draw faces 2 cut 1 0 0 0", "1 0", "plate.stl")
+    fact("cut 1 0 0 0 leaves the half with x < 0", abs(spans(cut)[1] - (left + right) / 2) <= 1.5 and spans(cut)[0] == left and cut <= whole, f"{spans(cut)}")
+    lines = pixels(folder, "draw edges", "0.05 0", "plate.stl")
+    thick = 0.05 / 2 * width
+    fact("the edges of a plate are its rim: lines of that diameter, and nothing in between", all(
+        abs(a - b) <= 1.5 + thick / 2 for a, b in zip(spans(lines), spans(whole))) and not any(
+            left + 2 * thick + 2 < x < right - 2 * thick - 2 and low + 2 * thick + 2 < y < high - 2 * thick - 2 for x, y in lines) and
+        {x for x, y in lines if abs(y - low) <= thick + 2} >= set(range(left + 1, right)), f"{spans(lines)} {len(lines)}")

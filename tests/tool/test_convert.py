@@ -68,7 +68,8 @@ def test_written(folder):
     told(folder, "convert", "doubles.stl", "-o", "out.stl", "--float")
     fact("--float rounds them", np.array_equal(np.array(stl.read(folder / "out.stl")), FLOATS))
 
-    for words, by in ((["--units", "mm"], 1e-3), (["--units", "in"], 0.0254), (["--scale", "2"], 2),
+    for words, by in ((["--units", "m"], 1), (["--units", "cm"], 1e-2), (["--units", "mm"], 1e-3), (["--units", "um"], 1e-6),
+                      (["--units", "in"], 0.0254), (["--units", "ft"], 12 * 0.0254), (["--scale", "2"], 2),
                       (["--scale", "2", "3", "4"], np.array([2, 3, 4])), ([], 1)):
         said = told(folder, "convert", "doubles.stl", "-o", "out.obj", *words)
         # A product is off by a bit.

@@ -239,6 +239,32 @@ TEST(weld, edges_and_sides_are_those_of_shells)
   }
 }
 
+// Its first facets are on a side of the solid: rounding alone would say on which side of that they are.
+TEST(weld, a_cavity_that_touches_a_side_of_its_solid_is_one)
+{
+  for (int k = 0; k < 60; k++) {
+    const int axis = k % 3;
+    const Real side = k / 3 % 2;
+    const Real at = 0.01 * (1 + k);    // of 0.01 to 0.6
+    Vec3 lo = {at, 0.9 * at, 0.8 * at}, hi = {at + 0.3, at + 0.25, at + 0.2};
+    (side == 0 ? lo : hi)[axis] = side;
+    Triangles pit = box(lo, hi);
+    std::stable_partition(pit.begin(), pit.end(), [&](const auto &t) {
+      return t[0][axis] == side && t[1][axis] == side && t[2][axis] == side;
+    });
+    Triangles cube = kCube;
+    const Real c = std::cos(0.1 * k), sn = std::sin(0.1 * k);
+    for (Triangles *some : {&cube, &pit})
+      for (auto &t : *some)
+        for (Vec3 &p : t) {
+          p = {c * p.x - sn * p.y, sn * p.x + c * p.y, p.z};
+          p = {p.x, c * p.y - sn * p.z, sn * p.y + c * p.z};
+        }
+    EXPECT_EQ(weld(joined(cube, pit)).report.inverted_facets, 12u) << k;
+    EXPECT_EQ(weld(joined(cube, turned(pit))).report.inverted_facets, 0u) << k;
+  }
+}
+
 TEST(weld, shells_that_cut_or_touch_each_other_leave_the_mesh_without_sides)
 {
   const Triangles two = box({0, 0, 0}, {2, 2, 2});
