@@ -72,10 +72,10 @@ LSDCD_FN void find_filtered(const GridView &grid, const SearchSettings &settings
   out.set.sort();
 }
 
-// Can a search of this grid miss contacts?
+// Can a search of this grid miss contacts? Lists of every primitive, as those of nodes that move, leave out nothing.
 LSDCD_FN bool may_miss_any(const GridView &grid)
 {
-  return grid.list_kind.has_primitives();
+  return grid.list_kind.has_primitives() && !grid.list_kind.is_every();
 }
 
 // Overlap of the deepest contact that may be missing; 0: certified.
