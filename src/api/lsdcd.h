@@ -795,7 +795,7 @@ typedef struct lsdcd_wall_totals {
   double contacts;
   double overlap;     /* the largest overlap / radius, or least half-axis */
   double uncertified; /* spheres whose answer was not certified exact; see `nearest` */
-  double power;       /* of the mesh on the spheres, by its motion */
+  double power;       /* of the mesh on the spheres, by its motion; of nodes by velocities of half a step before */
   double energy;      /* elastic */
   double worn;        /* volume worn off so far */
   double servo[3];    /* position, velocity, push; 0 without a servo */

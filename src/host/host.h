@@ -12,6 +12,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -72,6 +73,12 @@ class Host {
   // write to the block, before publish(). Throws on all processes where one has no room.
   virtual NodeMemory node_memory(std::size_t bytes);
   virtual void publish(const NodeMemory & /*memory*/) {}
+  // Returns the sum of force times velocity over the nodes of a mesh that are this process's, if the program has their
+  // velocities of the whole step, which they have now; else nothing. `force`: on each node, x y z, node after node.
+  virtual std::optional<Real> power_on_nodes(int /*mesh*/, const std::vector<Real> & /*force*/)
+  {
+    return {};
+  }
 
   // A process may call these on its own.
 

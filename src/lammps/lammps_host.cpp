@@ -53,6 +53,14 @@ lsdcd::PeriodicBox LammpsHost::box() const
   return box;
 }
 
+std::optional<double> LammpsHost::power_on_nodes(int mesh, const std::vector<double> &force)
+{
+  fix.need_nodes();
+  for (NodeAtoms &nodes : fix.node_atoms)
+    if (nodes.is_of(mesh)) return nodes.power(force);
+  return {};
+}
+
 void LammpsHost::show(const std::string &text, bool is_warning)
 {
   if (is_warning)

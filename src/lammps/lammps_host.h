@@ -7,6 +7,9 @@
 
 #include "lammps/mpi_host.h"
 
+#include <optional>
+#include <vector>
+
 namespace LAMMPS_NS {
 
 class LammpsHost : public lsdcd::MpiNodeHost {
@@ -14,6 +17,7 @@ class LammpsHost : public lsdcd::MpiNodeHost {
   explicit LammpsHost(class FixWallLsdcd &);
 
   lsdcd::PeriodicBox box() const override;
+  std::optional<double> power_on_nodes(int mesh, const std::vector<double> &force) override;
 
  private:
   void show(const std::string &, bool) override;

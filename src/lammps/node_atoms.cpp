@@ -281,3 +281,13 @@ void NodeAtoms::add_forces(lsdcd::Wall &wall)
   for (const Local &of : local)
     for (int d = 0; d < 3; d++) f[of.atom][d] += forces[3 * of.node + d];
 }
+
+// Somebody may ask when LAMMPS has given atoms other indices.
+double NodeAtoms::power(const std::vector<double> &force)
+{
+  find_local();
+  double sum = 0;
+  for (const Local &of : local)
+    for (int d = 0; d < 3; d++) sum += force[3 * of.node + d] * lmp->atom->v[of.atom][d];
+  return sum;
+}

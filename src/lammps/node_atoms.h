@@ -41,6 +41,8 @@ class NodeAtoms {
   std::vector<lsdcd::Vec3> places(const lsdcd::Wall &wall);
   // After it: adds the forces on them. Collective.
   void add_forces(lsdcd::Wall &wall);
+  // Returns the sum of force times velocity over the nodes of this process. `force`: x y z, node after node.
+  double power(const std::vector<double> &force);
 
  private:
   // Atoms of the group near places: of each place how many, and the sum of their tags.

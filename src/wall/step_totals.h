@@ -60,6 +60,8 @@ class StepTotals {
               const std::vector<CoatLoad> *coats = nullptr);
   // The power of a mesh that is a body, by its pose with the velocities of the whole step, once these are known.
   void set_power(int mesh, const Pose &pose);
+  // The power of a mesh whose nodes move, once their velocities of the whole step are known.
+  void set_power(int mesh, Real power) { meshes_[mesh].power = power; }
 
   // Returns the sums of the last reduce().
   const MeshTotals &mesh(int k) const { return meshes_[k]; }

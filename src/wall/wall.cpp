@@ -39,6 +39,7 @@ Wall::Wall(Host &host, WallSpec spec, const WallUnits &units, WallBackend backen
     check_pressure(spec_, m);
     check_plane(host_, spec_, m);
     check_stays_closed(host_, spec_, m);
+    poses_.push_back(m.pose());
     mover_is_new(m);
   }
   // Where the spheres are says it in place, and nodes that move stay on their device.
@@ -109,11 +110,20 @@ void Wall::make_engine()
   grids_.set_engine(*engine_);
 }
 
-// For other settings, with the history that there is.
-void Wall::make_engine_anew()
+// Replaces the engine where one for other settings, or on another device, is due. What the last one knows of its step is asked for first.
+void Wall::settle(const HostSpheres &spheres, const StepInput &input)
 {
+  const bool chooses_device =
+      device_.is_open() && input.step.kind == Step::step && (input.look || is_set_up_);
+  const Real near = chooses_device ? most_candidates() : 0;
+  const bool goes_elsewhere = chooses_device && device_.update(static_cast<std::int64_t>(near)),
+             lacks_settings = (any_moves() && !engine_moves_) || (virial_ && !engine_contacts_);
+  if (!goes_elsewhere && !lacks_settings) return;
+  sums();
+  run_collectively(host_, true, [&] { poll_diagnostics(spheres); });
   history_.on_cpu();
   make_engine();
+  if (goes_elsewhere) log_device(near);
 }
 
 void Wall::log_creation(const std::string &material, const WallBackend &backend) const
@@ -149,15 +159,15 @@ void Wall::begin_run(std::int64_t step, bool virial)
   for (const MeshPart &m : meshes_)
     if (cutoff() > 0) box_checks_.check_outside(m, grids_.box(), cutoff());
   virial_ = virial;
-  if (virial && !engine_contacts_) make_engine_anew();
   files_.begin_run(step);
   deepest_overlap_ = 0;
 }
 
 void Wall::begin(const HostSpheres &spheres, const StepInput &input)
 {
+  settle(spheres, input);
   input_ = input;
-  has_begun_ = true;
+  has_begun_ = is_running_ = true;
   if (history_.room() < spheres.n) history_.grow(spheres.n);
   keeper_.end_restoring();
   const Step &step = input.step;
@@ -170,7 +180,6 @@ void Wall::begin(const HostSpheres &spheres, const StepInput &input)
     check_history(spheres.n);
   }
   clock_.advance(step);
-  if (device_.is_open() && step.kind == Step::step && (input.look || is_set_up_)) choose_device();
   is_set_up_ = step.kind == Step::setup;
   change_surfaces(step);
   move(spheres, step);
@@ -223,14 +232,17 @@ void Wall::move(const HostSpheres &spheres, const Step &step)
   }
 }
 
-// By the spheres near the wall in the last step. Engines of both devices give the same bits.
-void Wall::choose_device()
+// Returns how many spheres were near the wall in the last step, on the process that has most.
+Real Wall::most_candidates()
 {
   Real near = engine_->n_candidates();
   host_.max(&near, 1);
-  if (!device_.update(static_cast<std::int64_t>(near))) return;
-  sums();    // of the last step, while its engine is there
-  make_engine_anew();
+  return near;
+}
+
+// Engines of both devices give the same bits.
+void Wall::log_device(Real near)
+{
   if (spec_.brief || !host_.is_first()) return;
   host_.log("on " + engine_->backend() + " from now on, with " +
             std::to_string(static_cast<std::int64_t>(near)) + " " + host_.names().sphere +
@@ -404,6 +416,7 @@ void Wall::finish(const HostSpheres &spheres)
   }
   try_here([&] { collect(spheres); });
   totals_.expire();
+  for (const MeshPart &m : meshes_) poses_[m.index] = m.pose();
   for (MeshPart &m : meshes_) m.mover->end(input_.step, results());
   if (cutoff() > 0) nodes_.agree_on_forces(failure_.has_value());
   note_step(spheres);
@@ -423,7 +436,7 @@ void Wall::note_step(const HostSpheres &spheres)
   static const std::vector<StepContact> none;
   StepResults *const left = results();
   if (spec_.average_every > 0 && step.kind == Step::step)
-    means_.add(step, left, poses(), nodes_.loads(), coats_.loads());
+    means_.add(step, left, poses_, nodes_.loads(), coats_.loads());
   if (spec_.has_loads() && step.kind == Step::step)    // what sets a run up has no duration
     for (const MeshPart &m : meshes_)
       loads_.add(m.index, left ? left->contacts() : none, step.dt,
@@ -477,7 +490,8 @@ void Wall::check_new_spheres(const HostSpheres &spheres)
 
 void Wall::end_run(const HostSpheres &spheres, bool far, const std::string &advice, Real loop)
 {
-  complete_movers();
+  totals_with_power();
+  is_running_ = false;
   poll_diagnostics(spheres);
   Real worst = overlaps_.worst();
   host_.max(&worst, 1);
@@ -499,19 +513,25 @@ const StepTotals &Wall::totals()
   return sums();
 }
 
+const StepTotals &Wall::totals_with_power()
+{
+  totals();
+  for (const MeshPart &m : meshes_) {
+    if (!m.nodes() || !is_running_) continue;
+    std::optional<Real> on_nodes = host_.power_on_nodes(m.index, m.nodes()->forces(0));
+    if (!on_nodes) continue;
+    host_.sum(&*on_nodes, 1);
+    totals_.set_power(m.index, 0 - *on_nodes);    // not -0 at rest
+  }
+  return totals_;
+}
+
 // The sums of contacts, which bodies need for velocities of the whole step.
 const StepTotals &Wall::sums()
 {
   if (totals_.are_made()) return totals_;
-  totals_.reduce(results(), poses(), nodes_.loads(), coats_.loads());
+  totals_.reduce(results(), poses_, nodes_.loads(), coats_.loads());
   return totals_;
-}
-
-std::vector<Pose> Wall::poses() const
-{
-  std::vector<Pose> all;
-  for (const MeshPart &m : meshes_) all.push_back(m.pose());
-  return all;
 }
 
 Real Wall::servo_push(int mesh)
@@ -521,7 +541,7 @@ Real Wall::servo_push(int mesh)
 
 void Wall::add_virial(Real *virial) const
 {
-  if (cutoff() > 0) lsdcd::add_virial(engine_->results(), meshes_, virial);
+  if (cutoff() > 0) lsdcd::add_virial(engine_->results(), poses_, virial);
 }
 
 void Wall::for_contact_rows(const std::function<void(int, const Real *)> &row) const
@@ -531,7 +551,7 @@ void Wall::for_contact_rows(const std::function<void(int, const Real *)> &row) c
 
 void Wall::for_contacts(const std::function<void(const WallContact &)> &found) const
 {
-  if (cutoff() > 0) lsdcd::for_contacts(*engine_, meshes_, found);
+  if (cutoff() > 0) lsdcd::for_contacts(*engine_, poses_, found);
 }
 
 void Wall::write_due_files()
@@ -591,12 +611,10 @@ void Wall::mover_is_new(const MeshPart &m)
   timestep_.set_mobility(m.index, m.mover->most_mobility());
 }
 
-// Laws for a wall at rest do not know where it is.
 void Wall::mover_has_changed(const MeshPart &m)
 {
   mover_is_new(m);
   engine_->expire_choice();
-  if (any_moves() && !engine_moves_) make_engine_anew();
 }
 
 // ---- saved states ------------------------------------------------------------------------
@@ -612,8 +630,7 @@ int Wall::pack_saved(int sphere, Real *buffer)
 
 WallState Wall::save()
 {
-  complete_movers();
-  sums();
+  totals_with_power();
   return keeper_.save(clock_.now());
 }
 

@@ -93,8 +93,7 @@ class Wall {
   // Sets all totals to 0, because the wall acts on nothing until the next step. Local.
   void clear_totals();
   // Reads what steps have noted of these spheres since the last call. Must be called before spheres change their order or
-  // process, and before set_motion() and set_servo(), because notes name spheres by their index. Throws where a step had to leave out
-  // a sphere. Local.
+  // process, because notes name spheres by their index. Throws where a step had to leave out a sphere. Local.
   void poll_diagnostics(const HostSpheres &spheres);
   // Returns the deepest overlap (length) that was read on this process since begin_run(), of a host with arrays in float.
   Real deepest_overlap() const { return deepest_overlap_; }
@@ -107,6 +106,9 @@ class Wall {
 
   // Returns the totals of the last step, summed over all processes.
   const StepTotals &totals();
+  // Returns them with the power of nodes by the velocities of the whole step, which they have now, where the host knows these. After
+  // the end of a run the power stays.
+  const StepTotals &totals_with_power();
   MeanLoads &means() { return means_; }    // of spec().average_every steps
   // Return the volume by which wear has moved a mesh back, and the volume that is worn but held back, see MeshWear. 0 of others.
   Real removed(int mesh) const { return meshes_[mesh].surface->removed(); }
@@ -200,7 +202,7 @@ class Wall {
     return engine_input_.settings(device_.device(), virial_, any_pushed_);
   }
   void make_engine();
-  void make_engine_anew();
+  void settle(const HostSpheres &spheres, const StepInput &input);
   void log_creation(const std::string &material, const WallBackend &backend) const;
   std::string named(const MeshPart &m, const std::string &text) const;
   SpheresOnCpu on_cpu(const HostSpheres &spheres) const
@@ -214,7 +216,8 @@ class Wall {
 
   void check_history(int n);
   const StepTotals &sums();
-  void choose_device();
+  Real most_candidates();
+  void log_device(Real near);
   void move(const HostSpheres &spheres, const Step &step);
   void look_at_spheres(const HostSpheres &spheres, std::int64_t step);
   void look_at_range(const HostSpheres &spheres);
@@ -224,7 +227,6 @@ class Wall {
   void collect(const HostSpheres &spheres);
   StepResults *results() const;
   void note_step(const HostSpheres &spheres);
-  std::vector<Pose> poses() const;
   Real pressure(int mesh) const;    // in this step, in units of forces
 
   void choose_if_due(const Spheres &spheres);
@@ -270,7 +272,9 @@ class Wall {
   StateKeeper keeper_;
 
   StepInput input_;                      // of the last begin()
+  std::vector<Pose> poses_;              // of the meshes in the last step that was finished
   bool has_begun_ = false;               // a step
+  bool is_running_ = false;              // a step, and no run has ended since
   std::optional<InputError> failure_;    // of the last step on this process, where there are others
   bool continued_ = false;               // from a saved state
   bool springs_told_ = false;

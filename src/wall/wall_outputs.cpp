@@ -94,6 +94,15 @@ Real of_servo(Wall &wall, int mesh, int /* d */)
   return which == 0 ? s.position : which == 1 ? s.velocity : wall.servo_push(mesh);
 }
 
+Real power(Wall &wall, int mesh, int /* d */)
+{
+  return wall.totals_with_power().mesh(mesh).power;
+}
+Real power_of_all(Wall &wall, int /* d */)
+{
+  return wall.totals_with_power().of_all().power;
+}
+
 Real worn(Wall &wall, int mesh, int /* d */)
 {
   return wall.worn(mesh);
@@ -172,7 +181,7 @@ const std::vector<WallOutput> &wall_outputs()
       {1, "worn", "volume worn off since the beginning; 0 without *wear*", "volume units", adds_up,
        P::every_wall, worn, nullptr},
       {1, "power", "power of the moving mesh on the spheres", "energy/time units", adds_up,
-       P::every_wall, number_of<&T::power>, number_of_all<&T::power>},
+       P::every_wall, power, power_of_all},
       {1, "servo", "position of the servo; 0 without one", "distance units; with *torque* radians",
        is_one, P::servo, of_servo<0>, nullptr},
       {1, "servo", "its speed", "velocity units; with *torque* radians/time", is_one, P::servo,

@@ -259,6 +259,61 @@ print           "$(xcm(grains,x):%.17g) $(xcm(grains,y):%.17g)" file out.txt scr
     at_most("a grain stays on a turntable that fix move turns", math.hypot(x - 0.6, y), 1e-3 * 0.6)
 
 
+# ---- power -------------------------------------------------------------------------------
+
+SQUARE = lmp.head("-3 3 -3 3 -3 3", types=2) + """\
+create_atoms    1 single 0.2 0.1 -0.21 units box
+create_atoms    2 single -1 -1 0 units box
+create_atoms    2 single  1 -1 0 units box
+create_atoms    2 single  1  1 0 units box
+create_atoms    2 single -1  1 0 units box
+set             type 1 diameter 0.4 density 1
+set             type 2 diameter 0.1
+set             type 2 density 477.46482927568604
+group           nodes type 2
+group           grains type 1
+velocity        nodes set 0 0 -1
+""" + lmp.pairs("zero 1.0") + """\
+timestep        {dt}
+fix             m nodes nve
+fix             w grains wall/lsdcd hooke/history 1e3 NULL 0 NULL 0 0 mesh square.stl nodes nodes
+variable        p atom -fx*vx-fy*vy-fz*vz
+compute         p nodes reduce sum v_p
+variable        a equal f_w[11]
+variable        b equal c_p
+thermo_style    custom step f_w[11] c_p
+thermo_modify   format float %.17g norm no
+thermo          {every}
+fix             sum all ave/time 1 {steps} {steps} v_a v_b
+run             {steps}
+velocity        nodes set 0 0 0
+print           "work $(f_sum[1]*{steps}*dt) $(f_sum[2]*{steps}*dt) power $(f_w[11])"
+"""
+
+
+def test_power_of_a_bounce(folder):
+    """A free square of mass 1 meets a held sphere without loss: the power is that of the forces on the nodes with the
+    velocities of their whole step, and its sum over the bounce is 0 but for dt^2."""
+    stl.write(folder / "square.stl", stl.quad((-1, -1, 0), (1, -1, 0), (1, 1, 0), (-1, 1, 0)))
+    works = []
+    for ranks, dt, steps in ((1, 2e-3, 60), (2, 2e-3, 60), (1, 1e-3, 120)):
+        text = lmp.run_well(SQUARE.format(dt=dt, steps=steps, every=5), folder, ranks)
+        rows = [row for row in lmp.read_thermo(text)]
+        fact("it bounces", max(abs(row[2]) for row in rows) > 5)
+        # Of forces up to 12 and velocities up to 1: some roundings of 1e-16.
+        at_most(f"power, {ranks} processes", max(abs(row[1] - row[2]) for row in rows), 1e-12)
+        words = text.split("\nwork ")[-1].split()
+        works.append(float(words[0]))
+        at_most("work, as of the forces", abs(float(words[0]) - float(words[1])), 1e-12)
+    # Of an energy of 0.5; the mean of velocities at half steps would be 0.036.
+    at_most("work of a bounce", max(map(abs, works)), 1e-3)
+    during = SQUARE.format(dt=2e-3, steps=20, every=20)
+    text = lmp.run_well(during, folder)
+    last = lmp.read_thermo(text)[-1][1]
+    kept = float(text.split("\nwork ")[-1].split()[3])
+    fact("power of the last step, after a command has stopped the nodes", kept == last and kept > 5, f"{kept} {last}")
+
+
 # ---- with Kokkos -------------------------------------------------------------------------
 
 FREE = lmp.head("-2 2 -2 2 -1 2", comm="vel yes cutoff 1.0", types=2) + """\

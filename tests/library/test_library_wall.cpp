@@ -45,6 +45,24 @@ TEST_F(wall, lets_springs_follow_spheres_that_change_their_numbers)
   EXPECT_NEAR(other.force[3], -kT * 11 * 0.3 * kDt, kT * kRounding);
 }
 
+TEST_F(wall, has_the_contacts_and_totals_of_its_last_step_after_a_change_of_motion)
+{
+  for (const bool asks : {false, true}) {
+    api::WallSpec spec = floor();
+    spec.each_contact = true;
+    lsdcd::Wall wall(spec);
+    Grains grains(0.3, 0.2, 0.49, 0.1);
+    grains.step(wall, 1);
+    if (asks) wall.totals(0);
+    wall.set_motion(0, {api::Motion::linear({0, 0, 0.1})});
+    const auto contacts = wall.contacts();
+    ASSERT_EQ(contacts.size(), 1u) << asks;
+    EXPECT_NEAR(contacts[0].force[2], 0.01 * kN, kN * kRounding);
+    EXPECT_NEAR(wall.totals(0).force[2], -0.01 * kN, kN * kRounding);
+    EXPECT_EQ(wall.totals(0).contacts, 1);
+  }
+}
+
 TEST_F(wall, goes_on_from_what_was_saved)
 {
   const api::WallSpec spec = floor_that_moves(api::Motion::linear({0.01, 0, 0}));

@@ -608,7 +608,7 @@ class WallTotals(_Record):
     contacts: float
     overlap: float        # the largest, of the radius or least half-axis
     uncertified: float    # spheres whose answer is not certified; see `nearest`
-    power: float          # of the mesh on the spheres, by its motion
+    power: float          # of the mesh on the spheres, by its motion; of nodes by velocities of half a step before
     energy: float         # elastic
     worn: float           # volume so far
     servo: NDArray[np.float64]    # (3,) position, velocity, push; 0 without a servo

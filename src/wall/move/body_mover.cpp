@@ -138,6 +138,7 @@ void BodyMover::set_body(const BodySpec &to)
     as.begin_from(body_);
   }
   if (place_is_known_) check_limits(now, as);
+  was_held_ = Held{reaction(), stop_force()};
   go_on(now, as);
   if (now.drive.lo != was.drive.lo || now.drive.hi != was.drive.hi) ask_about_degrees();
 }
@@ -174,6 +175,7 @@ void BodyMover::advance(const Step &to, const std::vector<Real> &inputs,
 {
   check_start();
   place_is_known_ = true;
+  was_held_.reset();
   motion_.advance(to, inputs);
   if (to.kind == Step::step) {
     body_.kick(to.dt / 2, load_);
@@ -417,6 +419,7 @@ void BodyMover::restore(const MeshState &of, const Step &now)
   const BodyState &was = of.body;
   motion_.restore(of.motion, now);
   pending_ = false;
+  was_held_.reset();
   const std::string saved = host_.names().saved;
   if (!was.present) {
     host_.warn(named("the " + saved +

@@ -8,6 +8,7 @@
 #include "wall/move/mover.h"
 #include "wall/surface/mesh_grid.h"
 
+#include <optional>
 #include <string>
 
 namespace lsdcd {
@@ -23,8 +24,9 @@ class BodyMover final : public Mover {
   const RigidBody &rigid() const { return body_; }
   // Without stops, and of forces in the wall's units.
   const Mobility &mobility_to_forces() const { return mobility_; }
-  Wrench reaction() const { return body_.reaction(load_); }
-  Real stop_force() const { return body_.stop_force(load_); }
+  // Return what the joint and its stop did in the last step, whatever holds the body from the next one on.
+  Wrench reaction() const { return was_held_ ? was_held_->reaction : body_.reaction(load_); }
+  Real stop_force() const { return was_held_ ? was_held_->stop_force : body_.stop_force(load_); }
   Real spring_and_kinetic_energy() const;
 
   Pose pose_in(Real later) const override;
@@ -91,6 +93,12 @@ class BodyMover final : public Mover {
   Mobility mobility_;
   Real most_mobility_ = 0, bound_of_mobility_ = 0;    // of faces; of any point
   Wrench load_;
+  // In the last step, by a joint that another one has replaced since.
+  struct Held {
+    Wrench reaction;
+    Real stop_force;
+  };
+  std::optional<Held> was_held_;
   bool place_is_known_ = false;    // by a step or a saved state; a new body may get one yet
   bool pending_ = false;
   Real dt_ = 0;    // of the step that is pending

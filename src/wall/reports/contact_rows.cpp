@@ -6,10 +6,10 @@
 namespace lsdcd {
 
 // The arm goes from the wall's closest point to the sphere's centre.
-void add_virial(const StepResults &results, const std::deque<MeshPart> &meshes, Real *virial)
+void add_virial(const StepResults &results, const std::vector<Pose> &poses, Real *virial)
 {
   for (const StepContact &contact : results.contacts()) {
-    const Pose &pose = meshes[contact.mesh].pose();
+    const Pose &pose = poses[contact.mesh];
     const Vec3 r = pose.turn_to_box(contact.arm), f = -pose.turn_to_box(contact.force);
     const Real part[6] = {r.x * f.x, r.y * f.y, r.z * f.z, r.x * f.y, r.x * f.z, r.y * f.z};
     for (int c = 0; c < 6; c++) virial[c] += part[c];
@@ -25,14 +25,14 @@ void for_contact_rows(const StepResults &results, const std::function<void(int, 
   }
 }
 
-void for_contacts(WallEngine &engine, const std::deque<MeshPart> &meshes,
+void for_contacts(WallEngine &engine, const std::vector<Pose> &poses,
                   const std::function<void(const WallContact &)> &found)
 {
   const StepResults &results = engine.results();
   const StepContact *contact = results.contacts().data();
   for (const TouchingSphere &t : results.touching())
     for (int n = 0; n < t.n_contacts; n++, contact++) {
-      const Pose &pose = meshes[contact->mesh].pose();
+      const Pose &pose = poses[contact->mesh];
       const Vec3 arm = pose.turn_to_box(contact->arm);
       found({t.sphere, static_cast<int>(contact->mesh), -pose.turn_to_box(contact->force),
              t.x - arm, engine.overlap(t, arm)});

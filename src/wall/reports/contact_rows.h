@@ -5,10 +5,10 @@
 #pragma once
 
 #include "engine/engine.h"
-#include "wall/mesh_part.h"
+#include "motion/pose.h"
 
-#include <deque>
 #include <functional>
+#include <vector>
 
 namespace lsdcd {
 
@@ -20,11 +20,11 @@ struct WallContact {
   Real overlap;    // length
 };
 
-// See the functions of Wall with these names. `meshes`: where they are in this step.
-void add_virial(const StepResults &results, const std::deque<MeshPart> &meshes, Real *virial);
+// See the functions of Wall with these names. `poses`: of its meshes in the step of the results.
+void add_virial(const StepResults &results, const std::vector<Pose> &poses, Real *virial);
 void for_contact_rows(const StepResults &results,
                       const std::function<void(int, const Real *)> &row);
-void for_contacts(WallEngine &engine, const std::deque<MeshPart> &meshes,
+void for_contacts(WallEngine &engine, const std::vector<Pose> &poses,
                   const std::function<void(const WallContact &)> &found);
 
 }    // namespace lsdcd
