@@ -11,6 +11,7 @@
 #include "output/file_series.h"
 #include "wall/spec_check.h"
 #include "wall/spec_ranges.h"
+#include "wall/spec_text.h"
 
 #include <cmath>
 #include <limits>
@@ -161,6 +162,8 @@ MotionTerm motion_of(const lsdcd_motion &given, const std::string &field)
     check_zero(&given.angle, 1, field + ".angle", kind.name);
   if (kind.kind == MotionKind::linear)
     check_zero(&given.period, 1, field + ".period", kind.name);
+  else if (given.period < 0)
+    refuse_field(field + ".period", given.period, other_way_text(term.kind));
   else
     term.period = checked_number(given.period, field + ".period", kPeriodRange);
   return term;

@@ -19,5 +19,8 @@ struct LooseEnds {
 // has its records.
 LooseEnds loose_ends(const WeldedMesh &mesh, const MeshFeaturesView &wall, const PeriodicBox &box,
                      Real cutoff, Real widest);
+// Finds those that met themselves across a face of the box `before`, and do not in this one, however wide the gap is.
+LooseEnds parted_ends(const WeldedMesh &mesh, const MeshFeaturesView &wall,
+                      const PeriodicBox &before, const PeriodicBox &box);
 
 }    // namespace lsdcd

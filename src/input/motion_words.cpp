@@ -5,6 +5,7 @@
 
 #include "input/value_words.h"
 #include "wall/spec_ranges.h"
+#include "wall/spec_text.h"
 
 #include <algorithm>
 
@@ -29,6 +30,14 @@ Real fixed_number(Tokens &w, const char *what,
            "the displacement and its velocity in each step, or motion rotate Px Py Pz Rx Ry Rz "
            "variable v_angle v_speed");
   return w.number(what, in);
+}
+
+Real read_period(Tokens &w, const MotionTerm &m)
+{
+  Real value = 0;
+  if (!w.done() && is_number(w.peek(), &value) && value < 0)
+    w.fail("the period = " + w.peek() + " is below 0: " + other_way_text(m.kind));
+  return fixed_number(w, "the period", kPeriodRange);
 }
 
 Vec3 fixed_vector(Tokens &w, const char *x, const char *y, const char *z)
@@ -116,8 +125,7 @@ MotionTerm read_motion_term(Tokens &w, InputNames &inputs)
   else if (m.kind == MotionKind::riggle)
     m.angle = fixed_number(w, "the amplitude in degrees") * (kPi / 180);
   const bool has_period = m.turns() && m.kind != MotionKind::variable_turn;
-  if (has_period || m.kind == MotionKind::wiggle)
-    m.period = fixed_number(w, "the period", kPeriodRange);
+  if (has_period || m.kind == MotionKind::wiggle) m.period = read_period(w, m);
   if (m.kind == MotionKind::variable) read_variables(w, m, inputs);
   if (m.kind == MotionKind::table) read_table(w, m);
   if (m.is_by_inputs() && std::all_of(m.input, m.input + 6, [](int i) { return i == kNoInput; }))
@@ -136,7 +144,7 @@ MotionTerm read_wiggle_term(Tokens &w)
   m.kind = MotionKind::cosine;
   const int dim = w.choice({"x", "y", "z"});
   m.amplitude[dim] = fixed_number(w, "the amplitude");
-  m.period = fixed_number(w, "the period", kPeriodRange);
+  m.period = read_period(w, m);
   return m;
 }
 

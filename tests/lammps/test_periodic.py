@@ -181,6 +181,24 @@ def test_box_changes(folder):
     at_most("change_box: the wall acts by its image", abs(far - (0.3 + 0.5 - 2 * give)), 1e-4)
 
 
+def test_parted(folder):
+    """A mesh that met itself and no longer does stops the run, however wide the gap is beside the box; an opening from the
+    beginning on does not."""
+    for name, x0, x1 in (("floor.stl", 0, 10), ("long.stl", 0, 20), ("open.stl", 0, 6)):
+        stl.write(folder / name, floor(x0, x1, -20, 20))
+    wall = "wall/lsdcd hooke 1e4 NULL 0 0 0 0 mesh {} periodic"
+    change = "run 1\nchange_box all x final {}"
+    for gap, to in (("0.9", "0 10.9"), ("10", "0 20"), ("90", "-40 60")):
+        lmp.refused(f"a gap of {gap}", scene(wall.format("floor.stl"), (5, 0, 1), (0, 0, 0), steps=1, more=change.format(to)), folder,
+                    f"the box has changed, and the ends of the mesh do not meet across the periodic boundary in x, where its open "
+                    f"edges face a gap of {gap};")
+    lmp.refused("with larger grains", scene(wall.format("floor.stl"), (5, 0, 1), (0, 0, 0), steps=1,
+                                            more=change.format("0 20") + "\nset group all diameter 1.5"), folder, "face a gap of 10;")
+    for name, to in (("long.stl", "0 20"), ("open.stl", "0 12")):
+        text = lmp.run_well(scene(wall.format(name), (5, 0, 1), (0, 0, 0), steps=1, more=change.format(to)), folder)
+        fact(f"{name}: goes on", "do not meet" not in text)
+
+
 def test_large_meshes(folder):
     """The grid is there where spheres can be, and no further."""
     for wide in (1e3, 1e6):

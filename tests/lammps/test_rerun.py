@@ -102,6 +102,7 @@ def test_refused(folder):
     lmp.run_well(dumped(""), folder)
     lines = "variable dz equal -0.01*step*dt\n"
     for name, script_text, told in (
+            ("means", text("average 20"), "a rerun has no steps between its dump's snapshots, over which average 20"),
             ("a servo", text("servo force z -10 vmax 0.1"), "in a rerun the position of a servo is not known"),
             ("velocities that are differences", lines + text("motion variable NULL NULL v_dz NULL NULL NULL"),
              "in a rerun there is no step before, from which motion variable"),

@@ -43,7 +43,7 @@ ServoLoad pressed(Real force, Real contacts)
 
 struct Moved {
   Real velocity, position;
-  std::vector<std::string> warnings;
+  std::vector<std::string> warnings, lines;
 };
 
 // Returns how it moves after a step with this load.
@@ -54,7 +54,7 @@ Moved after(WallSpec settings, const ServoLoad &load)
   ServoController controller(host, settings, laws, 0);
   controller.advance(load, Pose(), kDt, 7);
   const Servo &s = settings.meshes[0].motion.servo();
-  return {s.velocity, s.position, host.warnings};
+  return {s.velocity, s.position, host.warnings, host.lines};
 }
 
 // The gain is a quarter of what is stable: 1/(2 k dt) of one contact, which it takes none for, too.
@@ -93,6 +93,18 @@ TEST(ServoController, counts_the_arm_of_contacts_where_it_turns)
     EXPECT_NEAR(after(settings, load).velocity, 40 / (2 * 2 * std::pow(half + 0.5, 2) * 1e4 * kDt),
                 1e-14);
   }
+}
+
+TEST(ServoController, logs_the_gain_that_it_has_chosen_once_there_are_contacts)
+{
+  EXPECT_TRUE(after(wall(), pressed(60, 0)).lines.empty());
+  // 1/(2 k dt) of eight contacts.
+  EXPECT_EQ(after(wall(), pressed(60, 8)).lines,
+            std::vector<std::string>{"the servo's gain is 0.000625 with 8 contacts at the timestep "
+                                     "0.01, and smaller with more contacts"});
+  WallSpec brief = wall();
+  brief.brief = true;
+  EXPECT_TRUE(after(brief, pressed(60, 8)).lines.empty());
 }
 
 TEST(ServoController, does_not_warn_of_a_gain_before_there_are_contacts)

@@ -24,6 +24,17 @@ Vec3 extents(const MeshPart &m)
   return bounds.hi - bounds.lo;
 }
 
+// In parts of the box.
+Real extent_along(const MeshPart &m, const PeriodicBox &box, int k)
+{
+  Real lo = HUGE_VAL, hi = -HUGE_VAL;
+  for_corners(m.bounds(0), [&](const Vec3 &corner) {
+    lo = std::min(lo, box.fraction(corner)[k]);
+    hi = std::max(hi, box.fraction(corner)[k]);
+  });
+  return hi - lo;
+}
+
 std::string capital(std::string text)
 {
   text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
@@ -47,7 +58,16 @@ std::string BoxChecks::named(const MeshPart &m, const std::string &text) const
 void BoxChecks::check_scale(const MeshPart &m, const PeriodicBox &box) const
 {
   const std::string wrong = too_large_text(extents(m), m.bounds(0), box);
-  if (!wrong.empty()) host_.warn(named(m, wrong));
+  if (wrong.empty()) return;
+  constexpr Real kFlat = 1e-6;    // images of what is flat are one plane
+  const Vec3 size = extents(m);
+  if (std::min({size.x, size.y, size.z}) <= kFlat * norm(size)) return host_.warn(named(m, wrong));
+  const PeriodicBox of_images = m.effective_box(box);
+  for (int k = 0; k < 3; k++)
+    if (of_images.periodic[k] && extent_along(m, box, k) > 1)
+      throw InputError(named(m, wrong + ". Its periodic images would lie over one another in " +
+                                    std::string(1, "xyz"[k])));
+  host_.warn(named(m, wrong));
 }
 
 // Where its motion allows no images check_moving() refuses it.
@@ -129,9 +149,10 @@ void BoxChecks::check_ends(const MeshPart &m, bool box_changed)
 {
   const std::string &wrong = m.grid.ends_warning();
   bool &warned = warned_[m.index].ends_warned;
-  if (wrong.empty() || warned) return;
-  if (settings_.periodic && box_changed)
+  if (wrong.empty()) return;
+  if (settings_.periodic && (m.grid.has_parted() || (box_changed && !warned)))
     throw InputError(named(m, "the box has changed, and " + wrong));
+  if (warned) return;
   warned = true;
   host_.warn(named(m, wrong));
 }

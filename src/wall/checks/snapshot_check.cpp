@@ -31,6 +31,10 @@ void SnapshotCheck::check(const std::deque<MeshPart> &meshes, const Step &step)
         a_replay + " has no orientations of ellipsoids, because no " + host_.names().record +
         " gives them back, so contacts would be those of grains that lie otherwise: write a " +
         host_.names().saved + " in their place, and run 0 steps from it");
+  if (wall_.average_every > 0)
+    throw InputError(a_replay + " has no steps between its " + host_.names().record +
+                     "'s snapshots, over which average " + std::to_string(wall_.average_every) +
+                     " takes its means: leave average out");
   for (const MeshPart &m : meshes) {
     m.mover->check_snapshot(step);
     m.surface->check_snapshot();

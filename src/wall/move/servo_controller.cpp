@@ -36,19 +36,32 @@ Real ServoController::stable_gain(const ServoLoad &load, const Pose &placed, Rea
   return servo_gain(contacts * arm * arm * one.stiffness, contacts * arm * arm * one.damping, dt);
 }
 
+// Once for a servo: its own gain, or that the one that was given would not be stable.
+void ServoController::log_gain(const ServoLoad &load, Real gain, Real dt)
+{
+  const Real given = servo().max_gain;
+  const bool is_given = std::isfinite(given);
+  if (gain_logged_ || load.contacts == 0 || (is_given ? gain >= given : wall_.brief)) return;
+  gain_logged_ = true;
+  const std::string with = counted(static_cast<std::int64_t>(load.contacts), "contact") +
+                           " at the timestep " + number_text(dt);
+  if (is_given)
+    host_.warn(with_mesh_name(wall_, mesh_,
+                              "a servo's gain of " + number_text(given) +
+                                  " would not be stable with " + with + ": " + number_text(gain) +
+                                  " is used instead, and a smaller one with more contacts; this "
+                                  "warning is shown once"));
+  else
+    host_.log(with_mesh_name(wall_, mesh_,
+                             "the servo's gain is " + number_text(gain) + " with " + with +
+                                 ", and smaller with more contacts"));
+}
+
 void ServoController::advance(const ServoLoad &load, const Pose &placed, Real dt, std::int64_t step)
 {
   Servo &s = servo();
   const Real pushes = push(load), gain = stable_gain(load, placed, dt);
-  if (gain < s.max_gain && std::isfinite(s.max_gain) && load.contacts > 0 && !gain_logged_) {
-    gain_logged_ = true;
-    host_.warn(with_mesh_name(
-        wall_, mesh_,
-        "a servo's gain of " + number_text(s.max_gain) + " would not be stable with " +
-            counted(static_cast<std::int64_t>(load.contacts), "contact") + " at the timestep " +
-            number_text(dt) + ": " + number_text(gain) +
-            " is used instead, and a smaller one with more contacts; this warning is shown once"));
-  }
+  log_gain(load, gain, dt);
   if (!s.advance(pushes, gain, dt) || limit_warned_) return;
   limit_warned_ = true;
   host_.log(with_mesh_name(wall_, mesh_,

@@ -38,8 +38,7 @@ class ServoController {
   Real push(const ServoLoad &load) const { return servo().push(load.force, load.torque); }
 
   // Moves a servo that acts over the time `dt` > 0 up to this step. Without the servo the mesh is where
-  // `placed` has it. Logs, once for a servo, that a gain that is given would not be stable, and that a
-  // limit stops it.
+  // `placed` has it. Logs, once for a servo, its gain or that one that is given would not be stable, and that a limit stops it.
   void advance(const ServoLoad &load, const Pose &placed, Real dt, std::int64_t step);
 
   // The log has all lines again of another servo.
@@ -48,6 +47,7 @@ class ServoController {
  private:
   Servo &servo() const { return wall_.meshes[mesh_].motion.servo(); }
   Real stable_gain(const ServoLoad &load, const Pose &placed, Real dt) const;
+  void log_gain(const ServoLoad &load, Real gain, Real dt);
 
   Host &host_;
   WallSpec &wall_;

@@ -161,12 +161,14 @@ void MeshGrid::build(Real cutoff, const PeriodicBox &box)
     return;
   }
   const GridSettings want = grid_settings(cutoff, box);
+  const PeriodicBox before = cutoff_ > 0 ? box_ : box;
   // A box that changes in many steps would leave a file in each.
   const bool for_box = cutoff == cutoff_;
   cutoffs_ += !for_box;
   std::string cache_file = for_box ? "" : spec_.cache_file;
   if (!cache_file.empty() && cutoffs_ > 1) cache_file += "." + std::to_string(cutoffs_);
   ends_warning_.clear();
+  has_parted_ = false;
   cutoff_ = cutoff;
   box_ = box;
   within_ = want.within;
@@ -189,26 +191,38 @@ void MeshGrid::build(Real cutoff, const PeriodicBox &box)
                      spec_.name +
                      "' cut, overlap or touch each other, see lsdcd inspect: make one shell of "
                      "them (a boolean union), or use side both");
-  run_collectively(host_, host_.is_first(), [&] { note_images(mesh); });
+  run_collectively(host_, host_.is_first(), [&] {
+    note_images(mesh);
+    note_ends(mesh, before);
+  });
   broadcast_text(host_, grid_text_);
   broadcast_text(host_, ends_warning_);
+  host_.broadcast(&has_parted_, sizeof has_parted_, 0);
   host_.broadcast(&cells_, sizeof cells_, 0);
 }
 
-// Writes how many images there are, and where they do not fit the mesh.
+// Writes how many images there are.
 void MeshGrid::note_images(const WeldedMesh &whole)
 {
   const PeriodicImages &images = whole.images;
   if (!images.any()) return;
   grid_text_ += "\n  periodic images of " + std::to_string(images.face_of.size()) +
                 " triangles act through the faces of the box";
-  // A gap that is wide beside the box is an opening; not so where the spec says that the mesh
-  // continues itself.
+}
+
+// Writes where the mesh does not meet its images, or no longer. A gap that is wide beside the box is an opening, but where the mesh met
+// itself in the box before; less so where the spec says that the mesh continues itself.
+void MeshGrid::note_ends(const WeldedMesh &whole, const PeriodicBox &before)
+{
+  if (!box_.any_periodic()) return;
   Real least = HUGE_VAL;
   for (int k = 0; k < 3; k++)
     if (box_.periodic[k]) least = std::min(least, box_.width(k));
   const Real widest = std::max(2 * cutoff_, (wall_.periodic ? 0.25 : 0.05) * least);
-  const LooseEnds loose = loose_ends(whole, view().wall, box_, cutoff_, widest);
+  LooseEnds loose = parted_ends(whole, view().wall, before, box_);
+  has_parted_ = loose.gap > 0;
+  if (!has_parted_ && whole.images.any())
+    loose = loose_ends(whole, view().wall, box_, cutoff_, widest);
   if (loose.gap == 0) return;
   ends_warning_ = "the ends of the mesh do not meet across the periodic boundary in " +
                   std::string(1, "xyz"[loose.axis]) + ", where its open edges face a gap of " +

@@ -51,6 +51,7 @@ class MeshGrid {
   // Ends of the mesh that do not meet across a periodic face, after the last build; on every
   // process.
   const std::string &ends_warning() const { return ends_warning_; }
+  bool has_parted() const { return has_parted_; }    // they met in the box before
   GridView view() const { return flat_view(memory_.block.get()); }
   Real cutoff() const { return cutoff_; }                 // 0 before the first build
   bool is_shared() const { return memory_.is_shared; }    // with the processes of the node
@@ -83,6 +84,7 @@ class MeshGrid {
   Box within(Real cutoff, const PeriodicBox &box) const;
   WeldedMesh whole(Real cutoff, const PeriodicBox &box) const;
   void note_images(const WeldedMesh &whole);
+  void note_ends(const WeldedMesh &whole, const PeriodicBox &before);
 
   Host &host_;
   const WallSpec &wall_;
@@ -102,6 +104,7 @@ class MeshGrid {
   std::uint64_t mesh_fingerprint_ = 0;
   std::string mesh_text_, grid_text_;
   std::string cache_text_, cache_warning_, ends_warning_;    // of the last build
+  bool has_parted_ = false;                                  // in the last build
   PeriodicBox box_;                                          // of the last build
   Box within_ = kNoLimit;
   std::uint64_t cells_ = 0;
