@@ -93,8 +93,10 @@ class FindLinks(SphinxTransform):
             for node in part.findall(addnodes.pending_xref):
                 path, _ = path_of(node, docname)
                 page = path and self.env.path2doc(str(ROOT / path))
+                is_example = page and page.startswith("examples/")
+                # Examples are below their own page.
                 if page in self.env.found_docs and page != docname and \
-                        (docname == root_doc or page.startswith("examples/")):
+                        (page == "examples/README" or not is_example if docname == root_doc else is_example):
                     text = node.astext()
                     pages.setdefault(page, text if "/" in text else text[:1].upper() + text[1:])
         if pages:
