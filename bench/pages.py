@@ -31,7 +31,7 @@ def rows_of(name, delimiter=","):
 
 
 def table(rows, heads, cells):
-    lines = ["| " + " | ".join(heads) + " |", "|" + " --- |" * len(heads)]
+    lines = ["| " + " | ".join(heads) + " |", "|" + "---|" * len(heads)]
     return "\n".join(lines + ["| " + " | ".join(cells(r)) + " |" for r in rows])
 
 
