@@ -152,6 +152,7 @@ void PairGranularLsdcd::init_style()
   coeffs.clear();
   numbers.clear();
   laws.clear();
+  flips_of.clear();
   const auto add = [&](const lsdcd::PairCoeff &coeff) {
     lsdcd::ContactLaw law = lsdcd::law_of(coeff);
     // The stiffnesses of hertz/history are pressures.
@@ -162,6 +163,7 @@ void PairGranularLsdcd::init_style()
     coeffs.push_back(coeff);
     numbers.push_back(law);
     laws.push_back(lsdcd::pair_law(law));
+    flips_of.push_back(law.flips());
     return static_cast<int>(laws.size()) - 1;
   };
   for (int i = 1; i < n; i++)
@@ -219,8 +221,7 @@ void PairGranularLsdcd::set_springs()
   else if (springs && lsdcd::host_fix(*modify, springs_id) != springs)
     fatal("fix " + springs_id + ", which keeps the springs of pairs, is gone: do not unfix it");
   if (!springs) return;
-  springs->set_laws(width, kinds,
-                    [this](int i, int j) { return numbers[law_index(i, j)].flips(); });
+  springs->set_laws(width, kinds, [this](int i, int j) { return flips_of[law_index(i, j)]; });
 }
 
 // A grain of fix freeze does not move; damping of an atom in a rigid body reads the mass of the body.
@@ -373,6 +374,7 @@ lsdcd::PairJob PairGranularLsdcd::job()
   job.list = {list->inum, list->ilist, list->numneigh, list->firstneigh, NEIGHMASK, SBBITS};
   job.factor = force->special_lj;
   job.laws = laws.data();
+  job.n_laws = static_cast<int>(laws.size());
   job.law_of = law_of.data();
   job.n_types = n_types + 1;
   job.dt = time_step();
@@ -392,7 +394,7 @@ void PairGranularLsdcd::compute(int eflag, int vflag)
   }
   record.clear();
   if (evflag) step.record = &record;
-  lsdcd::run_pairs(step, static_cast<int>(laws.size()));
+  lsdcd::run_pairs(step);
   for (const lsdcd::RecordedPair &p : record)
     ev_tally_xyz(p.i, p.j, atom->nlocal, force->newton_pair, p.energy, 0, p.force.x, p.force.y,
                  p.force.z, p.offset.x, p.offset.y, p.offset.z);
@@ -424,14 +426,16 @@ double PairGranularLsdcd::single(int i, int j, int itype, int jtype, double /*rs
         kept = springs->numbers_of(static_cast<int>(at - list->ilist), place);
     turned = row_of != i;
   }
-  std::vector<double> numbers_of_pair(springs ? std::max(3, springs->partners.width()) : 3, 0.0);
-  const unsigned flips = numbers[law_index(itype, jtype)].flips();
-  for (std::size_t k = 0; kept && k < numbers_of_pair.size(); k++)
-    numbers_of_pair[k] = turned && flips >> k & 1 ? -kept[k] : kept[k];
+  const int width = springs ? springs->partners.width() : 0;
+  std::vector<double> old(kept ? width : 0), unused(std::max(3, width));
+  const unsigned flips = flips_of[law_index(itype, jtype)];
+  for (std::size_t k = 0; k < old.size(); k++)
+    old[k] = turned && flips >> k & 1 ? -kept[k] : kept[k];
 
   const lsdcd::GrainPair pair = lsdcd::grain_pair(now, i, j, false);
   lsdcd::PairForce f;
-  if (!law.evaluate(law.law, pair, kept != nullptr, numbers_of_pair.data(), f)) return 0;
+  if (!law.evaluate(law.law, pair, kept != nullptr, kept ? old.data() : nullptr, unused.data(), f))
+    return 0;
   const double distance = std::sqrt(pair.distance_sq);
   fforce = f.push / distance;
   const double reduced = pair.radius_i * pair.radius_j / (pair.radius_i + pair.radius_j);

@@ -60,6 +60,7 @@ class PairGranularLsdcd : public Pair, protected OwnMessages {
   std::vector<lsdcd::PairCoeff> coeffs;                     // of each law
   std::vector<lsdcd::ContactLaw> numbers;                   // the same
   std::vector<lsdcd::PairLaw> laws;                         // the same, compiled
+  std::vector<unsigned> flips_of;                           // the same: see ContactLaw::flips()
   std::vector<int> law_of;    // of types i and j at i * (n_types + 1) + j
   std::vector<Radii> radii;
   bool has_heat = false, told = false;

@@ -16,7 +16,7 @@ PairLaw classic_pair(const ContactLaw &law);
 
 PairLaw pair_law(const ContactLaw &law);
 
-// A step of pairs, whatever the laws of the job are. `n`: how many laws it has.
-void run_pairs(const PairJob &job, int n);
+// A step of pairs, whatever the laws of the job are.
+void run_pairs(const PairJob &job);
 
 }    // namespace lsdcd

@@ -110,7 +110,8 @@ struct PairLaw {
   LawBytes law;
   void (*run)(const PairJob &);    // a step of pairs that all have such laws
   // Computes one pair: see evaluate_pair() (pair_kernel.h). False: it does not touch, and nothing is changed.
-  bool (*evaluate)(const LawBytes &, const GrainPair &, bool touched, Real *numbers, PairForce &);
+  bool (*evaluate)(const LawBytes &, const GrainPair &, bool touched, const Real *old, Real *kept,
+                   PairForce &);
 };
 
 struct PairJob {
@@ -130,6 +131,7 @@ struct PairJob {
 
   // Laws by types t and u at law_of[t * n_types + u], counted from 1; n_types is one more than there are.
   const PairLaw *laws;
+  int n_laws;
   const int *law_of;
   int n_types;
 
@@ -146,20 +148,14 @@ LSDCD_FN Vec3 vec_of(const Real *all, int i)
   return {all[3 * i], all[3 * i + 1], all[3 * i + 2]};
 }
 
-// Fills in velocities and masses. The reduced mass of a grain and one that does not move is that of the first.
-LSDCD_FN void put_velocities(const PairJob &job, int i, int j, GrainPair &p)
+// The reduced mass of a grain and one that does not move is that of the first.
+LSDCD_FN Real reduced_mass(const PairJob &job, int i, int j, Real mass_i, Real mass_j)
 {
-  p.velocity = vec_of(job.v, i) - vec_of(job.v, j);
-  p.omega_i = vec_of(job.omega, i);
-  p.omega_j = vec_of(job.omega, j);
-  p.mass_i = job.mass[i];
-  p.mass_j = job.mass[j];
-  if (job.mask && job.mask[j] & job.frozen)
-    p.mass = p.mass_i;
-  else if (job.mask && job.mask[i] & job.frozen)
-    p.mass = p.mass_j;
-  else
-    p.mass = p.mass_i * p.mass_j / (p.mass_i + p.mass_j);
+  if (job.mask) {
+    if (job.mask[j] & job.frozen) return mass_i;
+    if (job.mask[i] & job.frozen) return mass_j;
+  }
+  return mass_i * mass_j / (mass_i + mass_j);
 }
 
 // Grains i and j of a job.
@@ -170,7 +166,12 @@ inline GrainPair grain_pair(const PairJob &job, int i, int j, bool update)
   p.distance_sq = norm_sq(p.offset);
   p.radius_i = job.radius[i];
   p.radius_j = job.radius[j];
-  put_velocities(job, i, j, p);
+  p.velocity = vec_of(job.v, i) - vec_of(job.v, j);
+  p.omega_i = vec_of(job.omega, i);
+  p.omega_j = vec_of(job.omega, j);
+  p.mass_i = job.mass[i];
+  p.mass_j = job.mass[j];
+  p.mass = reduced_mass(job, i, j, p.mass_i, p.mass_j);
   if (job.heat) p.temperature_difference = job.temperature[j] - job.temperature[i];
   p.dt = job.dt;
   p.update = update;

@@ -29,11 +29,11 @@ PairLaw pair_law(const ContactLaw &law)
   return law.is_extended() ? added_pair(law) : classic_pair(law);
 }
 
-void run_pairs(const PairJob &job, int n)
+void run_pairs(const PairJob &job)
 {
   const auto is_first = [&](const PairLaw &law) { return law.run == job.laws->run; };
-  if (std::all_of(job.laws, job.laws + n, is_first)) return job.laws->run(job);
-  run_pairs<AnyLaw>(job);
+  if (std::all_of(job.laws, job.laws + job.n_laws, is_first)) return job.laws->run(job);
+  add_pairs(job, AnyLaw{job});
 }
 
 }    // namespace lsdcd
