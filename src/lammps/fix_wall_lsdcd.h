@@ -124,13 +124,15 @@ class FixWallLsdcd : public Fix, protected OwnMessages {
   void fill_contacts();
   void fill_each_contact();
 
-  bool has_history() { return wall->history().is_on(); }
+  bool has_history() { return has_springs(); }
+  bool has_springs() const { return spec().law().has_history(); }
   lsdcd::ContactHistory &history_on_cpu() { return wall->history().on_cpu(); }
   int row_size() const { return spec().contacts ? size_peratom_cols : 0; }
   void ask_for_room(int);
   void ask_for_most_room();
 
   void check_atoms() const;
+  void check_suffix() const;
   void check_heat() const;
   void init_bodies();
   void init_nodes();

@@ -16,6 +16,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <cstring>
 #include <string>
 #include <vector>
 
@@ -121,8 +122,25 @@ void FixWallLsdcd::unpack_restart(int i, int nth)
   wall->history().unpack_saved(i, extra + 1, static_cast<int>(extra[0]) - 1);
 }
 
+// LAMMPS since 3Nov2022 writes names without the suffix that is on, and looks for numbers of atoms by whole names: it would not
+// find the springs again.
+void FixWallLsdcd::check_suffix() const
+{
+#if LSDCD_HOST_VERSION >= 20221103
+  const bool cut =
+      lmp->suffix_enable && ((lmp->suffix && std::strcmp(lmp->suffix, "lsdcd") == 0) ||
+                             (lmp->suffix2 && std::strcmp(lmp->suffix2, "lsdcd") == 0));
+  if (cut && has_springs())
+    throw lsdcd::InputError(
+        "with the suffix lsdcd LAMMPS writes the name of this fix into a restart file as 'wall', "
+        "and does not find its springs "
+        "there again: write 'suffix off' before the fix, in the script that goes on, too");
+#endif
+}
+
 void FixWallLsdcd::write_restart(FILE *file)
 {
+  check_suffix();
   const lsdcd::WallState all = wall->save();
   if (comm->me == 0) run_core_here([&] { write_state(file, all.blocks()); });
 }

@@ -9,6 +9,7 @@
 #include "lammps/host_fixes.h"
 #include "lammps/host_pairs.h"
 #include "lammps/mpi_host.h"
+#include "law/contact_time.h"
 #include "pair/compile_pair.h"
 
 #include "atom.h"
@@ -198,6 +199,7 @@ void PairGranularLsdcd::init_style()
   lsdcd::request_half_list(*neighbor, this, instance_me, !beyond_contact);
   if (!told) tell_laws();
   told = true;
+  check_step();
 }
 
 // LAMMPS's order of fixes is that in which they were made: the springs take the place that was kept for them.
@@ -245,6 +247,7 @@ void PairGranularLsdcd::find_fixes()
 void PairGranularLsdcd::find_radii()
 {
   std::vector<double> largest(2 * (static_cast<std::size_t>(n_types) + 1), 0);
+  std::vector<double> least(largest.size(), INFINITY);    // radius and mass
   for (Fix *fix : lsdcd::host_fixes(*modify)) {
     if (std::strncmp(fix->style, "pour", 4) != 0 && std::strncmp(fix->style, "deposit", 7) != 0)
       continue;
@@ -257,11 +260,19 @@ void PairGranularLsdcd::find_radii()
   for (int i = 0; i < atom->nlocal; i++) {
     double &most = largest[2 * atom->type[i] + (atom->mask[i] & frozen ? 1 : 0)];
     most = std::max(most, atom->radius[i]);
+    double *const small = &least[2 * atom->type[i]];
+    small[0] = std::min(small[0], atom->radius[i]);
+    small[1] = std::min(small[1], atom->rmass[i]);
   }
+  MPI_Allreduce(MPI_IN_PLACE, least.data(), static_cast<int>(least.size()), MPI_DOUBLE, MPI_MIN,
+                world);
   MPI_Allreduce(MPI_IN_PLACE, largest.data(), static_cast<int>(largest.size()), MPI_DOUBLE, MPI_MAX,
                 world);
   radii.resize(static_cast<std::size_t>(n_types) + 1);
-  for (int i = 0; i <= n_types; i++) radii[i] = {largest[2 * i], largest[2 * i + 1]};
+  for (int i = 0; i <= n_types; i++) {
+    radii[i] = {largest[2 * i], largest[2 * i + 1], least[2 * i], least[2 * i + 1]};
+    if (!std::isfinite(radii[i].least)) radii[i].least = radii[i].least_mass = 0;
+  }
 }
 
 // Up to which distance two grains may act on each other; 0 where there is one of them only.
@@ -309,7 +320,44 @@ void PairGranularLsdcd::tell_laws()
       text += "\n  types " + std::to_string(i) + " " + std::to_string(j) + ": " +
               lsdcd::text_of(coeffs[law_index(i, j)]) + (given.count({i, j}) ? "" : " (mixed)");
     }
-  log("laws of pairs" + text);
+  const int width = springs ? springs->partners.width() : 0;
+  log("laws of pairs, " +
+      (width ? std::to_string(width * sizeof(double) + sizeof(int)) + " bytes a touching pair"
+             : std::string("which keep nothing")) +
+      text);
+}
+
+// The contact of the smallest grains is the shortest.
+void PairGranularLsdcd::check_step()
+{
+  double shortest = INFINITY;
+  bool hertz = false;
+  std::string of;
+  for (int i = 1; i <= n_types; i++)
+    for (int j = i; j <= n_types; j++) {
+      const Radii a = radii[i], b = radii[j];
+      if (!(a.least > 0 && b.least > 0 && a.least_mass > 0 && b.least_mass > 0) || laws.empty())
+        continue;
+      const lsdcd::ContactLaw &law = numbers[law_index(i, j)];
+      const double time =
+          lsdcd::contact_time(law, a.least_mass * b.least_mass / (a.least_mass + b.least_mass),
+                              a.least * b.least / (a.least + b.least), force->ftm2v);
+      if (!(time < shortest)) continue;
+      shortest = time;
+      hertz = lsdcd::is_hertzian(law);
+      of = types_text(i, j);
+    }
+  if (!std::isfinite(shortest)) return;
+  const double longest = shortest / lsdcd::kStepsPerContact;
+  const std::string how = hertz ? " (hertz, at an overlap of 1 % of the reduced radius)" : "";
+  if (warned_of == 0)
+    log("the shortest contact, of types " + of + ", lasts " + lsdcd::number_text(shortest) + how +
+        ": the timestep should be at most " + lsdcd::number_text(longest));
+  if (update->dt > longest && update->dt > warned_of)
+    warn("timestep " + lsdcd::number_text(update->dt) +
+         " is more than a tenth of the shortest contact time " + lsdcd::number_text(shortest) +
+         how + ": contacts will not be resolved");
+  warned_of = std::max(warned_of, update->dt);
 }
 
 // ---- a step ------------------------------------------------------------------------------

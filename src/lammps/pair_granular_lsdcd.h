@@ -40,6 +40,7 @@ class PairGranularLsdcd : public Pair, protected OwnMessages {
   // What an atom type may bring: radii of those that move, and of those of fix freeze.
   struct Radii {
     double moving = 0, frozen = 0;
+    double least = 0, least_mass = 0;    // of those that are there; 0: none is
   };
 
   void allocate();
@@ -53,6 +54,7 @@ class PairGranularLsdcd : public Pair, protected OwnMessages {
   double time_step() const;
   lsdcd::PairJob job();
   void tell_laws();
+  void check_step();
 
   int n_types = 0;
   double cutoff = -1;
@@ -64,6 +66,7 @@ class PairGranularLsdcd : public Pair, protected OwnMessages {
   std::vector<int> law_of;    // of types i and j at i * (n_types + 1) + j
   std::vector<Radii> radii;
   bool has_heat = false, told = false;
+  double warned_of = 0;    // the timestep that the last warning was about
 
   std::string springs_id, dummy_id;
   class FixSpringsLsdcd *springs = nullptr;    // null: no law has kept anything yet

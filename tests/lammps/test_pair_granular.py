@@ -8,6 +8,7 @@ while rounding has not grown: it doubles in some 40 steps of such a gas.
 """
 
 import random
+import re
 
 import pytest
 
@@ -267,6 +268,21 @@ pair soft soft
     at_most("material", lmp.largest_difference(lmp.read_dump(folder / "material"), lmp.read_dump(folder / "numbers")), 1e-10)
 
 
+def test_timestep(folder):
+    """The log tells the longest timestep that resolves the shortest contact, of the smallest grains, and warns above it: half a period of
+    hooke is pi sqrt(m/2 / k)."""
+    law = ours("* * hooke 1e4 0 tangential linear_nohistory 0 0 damping velocity")
+    small = lmp.head("0 4 0 4 0 4") + "create_atoms 1 single 1 1 1\ncreate_atoms 1 single 3 3 3\nset group all diameter 1 density 2\n" + law + "\n"
+    mass = 2 * 3.141592653589793 / 6
+    longest = 3.141592653589793 * (mass / 2 / 1e4)**0.5 / 10
+    for dt, warns in ((0.99 * longest, False), (1.01 * longest, True)):
+        text = lmp.run_well(small + f"timestep {dt}\nfix i all nve/sphere\nrun 0\n", folder)
+        told = re.search(r"the timestep should be at most ([-+.\de]+)", text)
+        fact("the longest timestep is told", bool(told), text[-500:])
+        at_most("the longest timestep", abs(float(told[1]) / longest - 1), 1e-4)
+        fact(f"timestep {dt}: warned" if warns else f"timestep {dt}: not warned", ("contacts will not be resolved" in text) == warns)
+
+
 # ---- LAMMPS 4Jul2026 ------------------------------------------------------------------------
 
 NORMAL = ["hooke 1e4 5", "hertz 1e4 5", "hertz/material 1e4 5 0.3", "dmt 1e4 5 0.3 3", "jkr 1e4 5 0.3 3"]
@@ -288,3 +304,20 @@ def test_as_granular(folder):
         theirs = states(folder, ours(law, style="granular"), steps=10, every=5, name="theirs")
         own = states(folder, ours(law), steps=10, every=5)
         at_most(law, lmp.largest_difference(theirs, own), 1e-12)
+
+
+@lmp.of_host
+def test_wall_under_the_suffix(folder):
+    """LAMMPS cuts the suffix off the wall's name in restart files, and would lose its springs: the wall refuses to be written."""
+    lmp.flat_floor(folder)
+    text = lmp.head("-3 3 -3 3 -1 5") + """\
+create_atoms 1 single 0 0 0.49
+set group all diameter 1 density 2
+pair_style zero 1.2
+pair_coeff * *
+fix w all wall/lsdcd hooke/history 1e4 NULL 10 NULL 0.5 1 mesh floor.stl
+run 0
+write_restart r
+"""
+    lmp.refused("wall with springs under -sf lsdcd", "suffix lsdcd\n" + text, folder, "suffix off")
+    lmp.run_well("suffix lsdcd\n" + text.replace("hooke/history", "hooke"), folder)
