@@ -949,34 +949,38 @@ inline SubModel model_of(const lsdcd_sub_model &from, const std::string &field)
   return {from.name, {from.numbers, from.numbers + facts.n}};
 }
 
-// A WallSpec as structs of C, which point into it.
+// A WallSpec as structs of C, which point into it. These are filled by the names of all their members: one that is new does not
+// compile before it is here.
 class Spec {
  public:
   explicit Spec(const WallSpec &from)
   {
     for (const WallMesh &mesh : from.meshes) meshes_.push_back(struct_of(mesh));
-    spec_.size = sizeof spec_;
-    spec_.law = add(from.law);
-    spec_.meshes = meshes_.data();
-    spec_.n_meshes = meshes_.size();
-    spec_.corner = from.corner;
-    spec_.side = from.side;
-    spec_.nearest = from.nearest;
-    spec_.cell = from.cell;
-    spec_.memory = from.memory;
-    spec_.rmax = from.rmax;
-    spec_.device = from.device;
-    spec_.wear = from.wear;
-    spec_.wear_coefficient = from.wear_coefficient;
-    spec_.hardness = from.hardness;
-    spec_.wear_deform_every = from.wear_deform_every;
+    auto &[size, law, meshes, n_meshes, corner, side, nearest, cell, memory, rmax, device, wear,
+           wear_coefficient, hardness, wear_deform_every, wear_deform_factor, periodic_ends, brief,
+           average_every, each_contact, shapes] = spec_;
+    size = sizeof spec_;
+    law = add(from.law);
+    meshes = meshes_.data();
+    n_meshes = meshes_.size();
+    corner = from.corner;
+    side = from.side;
+    nearest = from.nearest;
+    cell = from.cell;
+    memory = from.memory;
+    rmax = from.rmax;
+    device = from.device;
+    wear = from.wear;
+    wear_coefficient = from.wear_coefficient;
+    hardness = from.hardness;
+    wear_deform_every = from.wear_deform_every;
     if (from.wear_deform_every != 0 || from.wear_deform_factor != 1)
-      spec_.wear_deform_factor = from.wear_deform_factor;
-    spec_.periodic_ends = from.periodic_ends;
-    spec_.brief = from.brief;
-    spec_.average_every = from.average_every;
-    spec_.each_contact = from.each_contact;
-    spec_.shapes = from.shapes;
+      wear_deform_factor = from.wear_deform_factor;
+    periodic_ends = from.periodic_ends;
+    brief = from.brief;
+    average_every = from.average_every;
+    each_contact = from.each_contact;
+    shapes = from.shapes;
   }
   Spec(const Spec &) = delete;
   Spec &operator=(const Spec &) = delete;
@@ -991,39 +995,43 @@ class Spec {
   lsdcd_wall_mesh struct_of(const WallMesh &from)
   {
     static_assert(sizeof(Motion) == sizeof(lsdcd_motion), "an array of one is one of the other");
-    lsdcd_wall_mesh mesh = {};
-    mesh.size = sizeof mesh;
-    mesh.mesh = from.mesh;
-    if (!from.name.empty()) mesh.name = from.name.c_str();
-    std::copy(from.placement.numbers().begin(), from.placement.numbers().end(), mesh.placement);
-    if (from.law) mesh.law = add(*from.law);
+    lsdcd_wall_mesh made = {};
+    auto &[size, mesh, name, placement, law, type_laws, n_type_laws, posed_by_caller, motions,
+           n_motions, servo, surface_velocity, surface_angular_velocity, surface_centre,
+           temperature, torque_about, torque_about_moves, wear_factor, cache, fields, stl,
+           fields_every, stl_every, nodes_by_caller, pressure, body] = made;
+    size = sizeof made;
+    mesh = from.mesh;
+    if (!from.name.empty()) name = from.name.c_str();
+    std::copy(from.placement.numbers().begin(), from.placement.numbers().end(), placement);
+    if (from.law) law = add(*from.law);
     types_.emplace_back();
     for (const TypeLaw &of : from.type_laws)
       types_.back().push_back({sizeof(lsdcd_type_law), of.first_type, of.last_type, add(of.law)});
-    mesh.type_laws = types_.back().data();
-    mesh.n_type_laws = types_.back().size();
-    mesh.posed_by_caller = from.posed_by_caller;
-    mesh.motions = from.motions.data();
-    mesh.n_motions = from.motions.size();
-    if (from.servo) mesh.servo = &*from.servo;
-    if (from.body) mesh.body = &*from.body;
+    type_laws = types_.back().data();
+    n_type_laws = types_.back().size();
+    posed_by_caller = from.posed_by_caller;
+    motions = from.motions.data();
+    n_motions = from.motions.size();
+    if (from.servo) servo = &*from.servo;
+    if (from.body) body = &*from.body;
     for (std::size_t k = 0; k < 3; k++) {
-      mesh.surface_velocity[k] = from.surface_velocity[k];
-      mesh.surface_angular_velocity[k] = from.surface_angular_velocity[k];
-      mesh.surface_centre[k] = from.surface_centre[k];
-      mesh.torque_about[k] = from.torque_about[k];
+      surface_velocity[k] = from.surface_velocity[k];
+      surface_angular_velocity[k] = from.surface_angular_velocity[k];
+      surface_centre[k] = from.surface_centre[k];
+      torque_about[k] = from.torque_about[k];
     }
-    mesh.temperature = from.temperature;
-    mesh.torque_about_moves = from.torque_about_moves;
-    mesh.wear_factor = from.wear_factor == 0 ? -1 : from.wear_factor;
-    if (!from.cache.empty()) mesh.cache = from.cache.c_str();
-    if (!from.fields.empty()) mesh.fields = from.fields.c_str();
-    if (!from.stl.empty()) mesh.stl = from.stl.c_str();
-    mesh.fields_every = from.fields_every;
-    mesh.stl_every = from.stl_every;
-    mesh.nodes_by_caller = from.nodes_by_caller;
-    mesh.pressure = from.pressure;
-    return mesh;
+    temperature = from.temperature;
+    torque_about_moves = from.torque_about_moves;
+    wear_factor = from.wear_factor == 0 ? -1 : from.wear_factor;
+    if (!from.cache.empty()) cache = from.cache.c_str();
+    if (!from.fields.empty()) fields = from.fields.c_str();
+    if (!from.stl.empty()) stl = from.stl.c_str();
+    fields_every = from.fields_every;
+    stl_every = from.stl_every;
+    nodes_by_caller = from.nodes_by_caller;
+    pressure = from.pressure;
+    return made;
   }
 
   std::deque<lsdcd_law> laws_;                       // where each stays, as pointers go there
