@@ -453,17 +453,6 @@ TEST_F(wall_spec, has_the_bits_of_words_for_motions)
   }
 }
 
-TEST_F(wall_spec, has_the_bits_of_words_for_a_servo)
-{
-  api::WallSpec spec = floor_that_pushes(25, 0.5);
-  spec.meshes[0].servo->lo = -0.1;
-  spec.meshes[0].servo->hi = 0.2;
-  expect_the_bits_of(words("servo force z 25 vmax 0.5 limits -0.1 0.2"), spec);
-  api::Wall wall(spec);
-  Pile().go(wall);
-  EXPECT_NE(wall.totals(0).servo[0], 0);
-}
-
 TEST_F(wall_spec, has_the_bits_of_words_for_changes_of_motion)
 {
   lsdcd::ScriptWall by_words(words());
@@ -478,39 +467,6 @@ TEST_F(wall_spec, has_the_bits_of_words_for_changes_of_motion)
   by_spec.set_motion(0, {});
   EXPECT_EQ(other.go(by_spec), one.go(by_words));
   EXPECT_NE(by_spec.pose(0)[11], 0);
-}
-
-// A tetrahedron, whose slopes spheres touch from outside and from inside.
-TEST_F(wall_spec, has_the_bits_of_words_for_each_setting_of_the_search)
-{
-  const lsdcd::TempDir dir;
-  const std::string file = dir.write("t.off", "OFF\n4 4 0\n-3 -3 0\n3 -3 0\n0 4 0\n0 0 -4\n"
-                                              "3 0 1 2\n3 0 3 1\n3 1 3 2\n3 2 3 0\n");
-  const api::Mesh mesh(file);
-  const struct {
-    const char *words;
-    std::function<void(api::WallSpec &)> set;
-  } rows[] = {{"corner sum", [](api::WallSpec &s) { s.corner = LSDCD_SUM; }},
-              {"side in", [](api::WallSpec &s) { s.side = LSDCD_INSIDE; }},
-              {"side out", [](api::WallSpec &s) { s.side = LSDCD_OUTSIDE; }},
-              {"nearest 1", [](api::WallSpec &s) { s.nearest = 1; }},
-              {"grid 0.2 rmax 0.7 memory 64", [](api::WallSpec &s) {
-                 s.cell = 0.2;
-                 s.rmax = 0.7;
-                 s.memory = 64 * 1024. * 1024;
-               }}};
-  std::set<std::vector<double>> all;
-  for (const auto &row : rows) {
-    SCOPED_TRACE(row.words);
-    api::WallSpec spec = floor_of(hooke_history(), mesh);
-    row.set(spec);
-    expect_the_bits_of(
-        lsdcd::words("hooke/history 1000 300 0 0 0.5 0 mesh " + file + " device cpu " + row.words),
-        spec);
-    api::Wall wall(spec);
-    all.insert(Pile().go(wall));
-  }
-  EXPECT_GE(all.size(), 2u);    // they do not all say the default
 }
 
 std::string bytes_of(const std::string &name)

@@ -38,6 +38,12 @@ def box():
     return lsdcd.Mesh(corners, [t for a, b, c, d in sides for t in ((a, b, c), (a, c, d))])
 
 
+def write_stl(file, mesh):
+    facets = ("facet normal 0 0 0\nouter loop\n" + "".join(f"vertex {x:.17g} {y:.17g} {z:.17g}\n" for x, y, z in corners) + "endloop\nendfacet\n"
+              for corners in mesh.vertices[mesh.faces])
+    file.write_text("solid\n" + "".join(facets) + "endsolid\n")
+
+
 FLOOR, WIDER, BOX = plate(4.0), plate(4.5), box()
 
 
@@ -93,8 +99,47 @@ BASES = {
     "fields": {"mesh": {"fields": (str(FOLDER / "a.*.vtp"), 50), "stl": (str(FOLDER / "a.*.stl"), 50)}},
     "averaged": {"wall": {"average": 8}}, "nearest": {"wall": {"nearest": 2, "cell": 2.0}}, "periodic": {"options": {
         "lo": (-4, -4, -4), "hi": (4, 4, 4), "periodic": (True, True, False), "margin": 0.5}}}
-for name, rows in (("one", TABLE), ("other", TABLE[:2])):
-    np.savetxt(FOLDER / f"{name}.txt", rows)
+for name, numbers in (("one", TABLE), ("other", TABLE[:2])):
+    np.savetxt(FOLDER / f"{name}.txt", numbers)
+for name, mesh in (("floor", FLOOR), ("wider", WIDER), ("box", BOX)):
+    write_stl(FOLDER / f"{name}.stl", mesh)
+
+
+LAW = "hooke/history 1e4 3e3 5 NULL 0.5 1"
+WARM = "granular hertz/material 5e5 0.5 0.3 tangential mindlin NULL 1 0.4 damping tsuji rolling sds 100 1 0.1 twisting sds 100 1 0.1 heat area 800"
+BODY = "mass 20 com 0 0 0 inertia 3 3 5 0 0 0 joint slider 0 0 1 gravity 0 0 -1"
+HINGE = BODY.replace("slider 0 0 1", "hinge 0.2 0 0 0 1 0")
+TYPE_WORDS = f"law types 1 {LAW} law types 2* {LAW.replace('1e4', '1.2e4', 1)}"
+TABLE_WORDS = f"motion table {FOLDER}/one.txt axis 0 0 0 0 0 1"
+BELOW_WORDS = f"mesh {FOLDER}/wider.stl move 0 0 -2.05"
+# The bases in a script: words of the mesh and the wall.
+BASE_WORDS = {
+    "warm": f"{WARM} | temperature 0", "typed": TYPE_WORDS, "linear": "motion linear 0 0 0.05", "wiggle": "motion wiggle 0 0 0.01 0.5",
+    "turn": "motion rotate 0.1 0 0 0 0 1 2", "riggle": f"motion riggle 0.1 0 0 0 0 1 {0.2 * 180 / np.pi:.17g} 2", "table": TABLE_WORDS,
+    "file": TABLE_WORDS, "servo": "servo force z 30 vmax 0.2", "torque": "servo torque z 3 vmax 0.2", "slider": f"body {BODY}", "hinge": f"body {HINGE}",
+    "dense": "body density 0.5", "above": f"body {BODY} {BELOW_WORDS}", "coated": f"body {BODY} coat 1 0.1 {BELOW_WORDS}", "nodes": "nodes some",
+    "wears": "wear archard 1e-6 1e5", "recedes": "wear archard 1e-6 1e5 deform every 3 factor 2",
+    "fields": f"mesh_fields {FOLDER}/a.*.vtp every 50 mesh_stl {FOLDER}/a.*.stl every 50", "averaged": "average 8"}
+ON_BOX = ("box", "slider", "hinge", "dense", "above", "coated", "wears", "recedes")
+
+
+def script(base, words=None):
+    """The words behind wall/lsdcd."""
+    given = BASE_WORDS.get(base, "") if words is None else words
+    law_words, bar, rest = given.partition("|")
+    if not bar:
+        law_words, rest = (WARM if base == "warm" else LAW), given
+    usual = [more for more in ("rmax 0.6", "device cpu") if more.split()[0] not in rest.split()]
+    return f"{law_words} mesh {FOLDER}/{'box' if base in ON_BOX else 'floor'}.stl {' '.join(usual)} {rest}"
+
+
+def warm_words(was, is_):
+    assert was in WARM
+    return f"{WARM.replace(was, is_, 1)} | temperature 0"
+
+
+def numbers_text(numbers):
+    return " ".join(map(repr, np.ravel(numbers).tolist()))
 
 
 def spec(change, base="floor"):
@@ -134,7 +179,6 @@ class OneProcess:
     def broadcast(self, data, source): pass
 
 
-SLANTED = lsdcd.Placement().rotate((0, 1, 0), 0.1)
 # Of each struct its fields: rows, or why there is none.
 SIZE = "the library's"
 FIELDS = {
@@ -144,7 +188,7 @@ FIELDS = {
         "n_meshes": Row("floor", {"meshes": [lsdcd.WallMesh(FLOOR), lsdcd.WallMesh(BOX)]}, REFUSED),
         "corner": of_wall("floor", REFUSED, corner="sum"), "side": of_wall("box", REFUSED, side="out"),
         "nearest": of_wall("floor", REFUSED, nearest=3), "cell": [of_wall("floor", EXACT, cell=0.7), of_wall("nearest", REFUSED, cell=1.5)],
-        "memory": [of_wall("floor", EXACT, memory=2e8), of_wall("nearest", REFUSED, memory=2e8)],
+        "memory": [of_wall("floor", EXACT, memory=2.0**28), of_wall("nearest", REFUSED, memory=2.0**28)],
         "rmax": [of_wall("floor", EXACT, rmax=0.9), of_wall("nearest", REFUSED, rmax=0.9)], "device": of_wall("floor", EXACT, compute="auto"),
         "wear": of_wall("wears", REFUSED, wear=("finnie", 1e-6)), "wear_coefficient": of_wall("wears", REFUSED, wear=("archard", 2e-6, 1e5)),
         "hardness": of_wall("wears", REFUSED, wear=("archard", 1e-6, 2e5)),
@@ -154,7 +198,7 @@ FIELDS = {
         "each_contact": of_wall("floor", EXACT, each_contact=True), "shapes": of_wall("floor", REFUSED, shapes=True)},
     "lsdcd_wall_mesh": {
         "size": SIZE, "mesh": of_mesh("floor", REFUSED, mesh=WIDER), "name": of_mesh("floor", EXACT, name="another"),
-        "placement": of_mesh("floor", REFUSED, placement=SLANTED), "law": of_mesh("floor", REFUSED, law=law(xmu=0.4)),
+        "placement": of_mesh("floor", REFUSED, placement=lsdcd.Placement().scale(1, 1, 2).move(0, 0, 0.25)), "law": of_mesh("floor", REFUSED, law=law(xmu=0.4)),
         "type_laws": of_mesh("floor", REFUSED, **TYPED), "n_type_laws": of_mesh("typed", REFUSED, type_laws=TYPED["type_laws"][:1]),
         "posed_by_caller": of_mesh("floor", REFUSED, posed_by_caller=True),
         "motions": of_mesh("floor", REFUSED, motions=[lsdcd.Motion.linear((0.1, 0, 0))]),
@@ -224,6 +268,93 @@ FIELDS = {
         "gravity": Row("slider", {"mesh": body(gravity=(0, 0, -2))}, REFUSED), "coat": Row("above", {"mesh": body(coat=(1.0, 0.1))}, REFUSED),
         "coat_spacing": Row("coated", {"mesh": body(coat=(1.1, 0.1))}, REFUSED),
         "coat_radius": Row("coated", {"mesh": body(coat=(1.0, 0.2))}, REFUSED)}}
+# What the first row of each field says of Wall::spec() (spec_lines.cpp), "..." where more follows, and the words of a script that say the
+# same: of the mesh and the wall in place of the base's, behind the law's and "|" if that is another one. None: a script has none.
+LINES = {
+    "wall_spec.law": ("law0.k_tangent = 2000", "hooke/history 1e4 2e3 5 NULL 0.5 1 |"),
+    "wall_spec.meshes": ("mesh0.vertices = 4.5", None), "wall_spec.n_meshes": ("meshes = 2; mesh1.placement.row0 = 1 0 0; ...", f"mesh {FOLDER}/box.stl"),
+    "wall_spec.corner": ("corner = 1", "corner sum"), "wall_spec.side": ("side = 2", "side out"), "wall_spec.nearest": ("nearest = 3", "nearest 3"),
+    "wall_spec.cell": ("grid_length = 0.7", "grid 0.7"), "wall_spec.memory": ("memory_budget = 268435456", "memory 256"),
+    "wall_spec.rmax": ("rmax = 0.9", "rmax 0.9"), "wall_spec.device": ("device = 0", "device auto"),
+    "wall_spec.wear": ("wear.model = 2; wear.per_work = 1e-06", "wear finnie 1e-6"),
+    "wall_spec.wear_coefficient": ("wear.per_work = 2e-11", "wear archard 2e-6 1e5"), "wall_spec.hardness": ("wear.per_work = 5e-12", "wear archard 1e-6 2e5"),
+    "wall_spec.wear_deform_every": ("wear_deform.every = 4", "wear archard 1e-6 1e5 deform every 4 factor 2"),
+    "wall_spec.wear_deform_factor": ("wear_deform.factor = 1", "wear archard 1e-6 1e5 deform every 3"),
+    "wall_spec.periodic_ends": ("periodic = 1", "periodic"), "wall_spec.brief": ("brief = 1", "log brief"),
+    "wall_spec.average_every": ("average_every = 7", "average 7"), "wall_spec.each_contact": ("each_contact = 1", "each_contact"),
+    "wall_spec.shapes": ("law0.for_shapes = 1; shapes = 1", None),    # atoms say it
+    "wall_mesh.mesh": ("mesh0.vertices = 4.5", None), "wall_mesh.name": ("mesh0.name = another", None),
+    "wall_mesh.placement": ("mesh0.placement.row2 = 0 0 2; mesh0.placement.shift = 0 0 0.25", "scale 1 1 2 move 0 0 0.25"),
+    "wall_mesh.law": ("mesh0.laws = 1; mesh0.law0.k_normal = 10000; mesh0.law0.mu = 0.4; ...", "law hooke/history 1e4 3e3 5 NULL 0.4 1"),
+    "wall_mesh.type_laws": ("mesh0.laws = 2; mesh0.law0.first_type = 1; mesh0.law0.last_type = 1; mesh0.law1.k_normal = 12000; ...",
+                            f"law types 1 {LAW} law types 2* hooke/history 1.2e4 3e3 5 NULL 0.5 1"),
+    "wall_mesh.n_type_laws": ("mesh0.laws = 1", f"law types 1 {LAW}"), "wall_mesh.posed_by_caller": ("mesh0.posed = 1", None),
+    "wall_mesh.motions": ("mesh0.motions = 1; mesh0.motion0.kind = 0; mesh0.motion0.velocity = 0.1 0 0; ...", "motion linear 0.1 0 0"),
+    "wall_mesh.n_motions": ("mesh0.motions = 2; mesh0.motion1.velocity = 0.1 0 0; ...", "motion linear 0 0 0.05 motion linear 0.1 0 0"),
+    "wall_mesh.servo": ("mesh0.servo.present = 1; mesh0.servo.target = 30; mesh0.servo.max_speed = 0.2", "servo force z 30 vmax 0.2"),
+    "wall_mesh.surface_velocity": ("mesh0.surface.velocity = 0.1 0 0", "surface_vel 0.1 0 0"),
+    "wall_mesh.surface_angular_velocity": ("mesh0.surface.angular = 0 0 0.5", "surface_angvel 0 0 0.5"),
+    "wall_mesh.surface_centre": ("mesh0.surface.centre = 0.3 0 0", "surface_angvel 0 0 0 0.3 0 0"),
+    "wall_mesh.temperature": ("mesh0.temperature = 400", "temperature 400"), "wall_mesh.torque_about": ("mesh0.torque_about = 0 0 0.5", "torque_about 0 0 0.5"),
+    "wall_mesh.torque_about_moves": ("mesh0.torque_about_mesh = 1", "motion linear 0 0 0.05 torque_about mesh"),
+    "wall_mesh.wear_factor": ("mesh0.wear_factor = 3", "wear archard 1e-6 1e5 wear_factor 3"), "wall_mesh.cache": (f"mesh0.cache_file = {FOLDER}/grid.bin", f"cache {FOLDER}/grid.bin"),
+    "wall_mesh.fields": (f"mesh0.fields.name = {FOLDER}/b.*.vtp", f"mesh_fields {FOLDER}/b.*.vtp every 50 mesh_stl {FOLDER}/a.*.stl every 50"),
+    "wall_mesh.stl": (f"mesh0.stl.name = {FOLDER}/b.*.stl", f"mesh_fields {FOLDER}/a.*.vtp every 50 mesh_stl {FOLDER}/b.*.stl every 50"),
+    "wall_mesh.fields_every": ("mesh0.fields.every = 60", f"mesh_fields {FOLDER}/a.*.vtp every 60 mesh_stl {FOLDER}/a.*.stl every 50"),
+    "wall_mesh.stl_every": ("mesh0.stl.every = 60", f"mesh_fields {FOLDER}/a.*.vtp every 50 mesh_stl {FOLDER}/a.*.stl every 60"),
+    "wall_mesh.nodes_by_caller": ("mesh0.has_nodes = 1", None), "wall_mesh.pressure": ("mesh0.pressure = 2", "nodes some pressure 2"),
+    "wall_mesh.body": ("mesh0.body.present = 1; mesh0.body.mass = 20; mesh0.body.moments = 3 3 5; mesh0.body.joint = 2; mesh0.body.has_gravity = 1; "
+                       "mesh0.body.gravity = 0 0 -1; ...", f"body {BODY}"),
+    "wall_options.lo": ("options.corner = -4.5 -4 -4; options.edges = 8.5 8 8", None),
+    "wall_options.hi": ("options.edges = 8 8.5 8", None), "wall_options.periodic": ("options.periodic = 1 0 0", None),
+    "wall_options.margin": ("options.margin = 0.7", None), "wall_options.time": ("", None), "wall_options.show": ("", None),
+    "wall_options.threads": ("options.threads = 2", None), "wall_options.host": ("", None),
+    "law.style": ("law0.k_normal = 11000", "hooke/history 1.1e4 3e3 5 NULL 0.5 1 |"),
+    "law.normal": ("law0.eta = 0.3581784074747588", warm_words("0.5 0.3", "0.6 0.3")), "law.tangential": ("law0.mu = 0.3", warm_words("1 0.4", "1 0.3")),
+    "law.damping": ("law0.eta = 0.4817692577645866", warm_words("tsuji", "coeff_restitution")),
+    "law.rolling": ("law0.rolling.numbers = 100 1 0.2", warm_words("rolling sds 100 1 0.1", "rolling sds 100 1 0.2")),
+    "law.twisting": ("law0.twisting.numbers = 100 1 0.2", warm_words("twisting sds 100 1 0.1", "twisting sds 100 1 0.2")),
+    "law.heat": ("law0.heat.numbers = 900 0 0", warm_words("area 800", "area 900")),
+    "law.cohesion": ("law0.cohesion.model = 1; law0.cohesion.numbers = 100 0 0", "cohesion sjkr 100"),
+    "law.limit_damping": ("law0.limit_damping = 1", f"{LAW} limit_damping |"),
+    "sub_model.name": ("law0.normal = 1", "hertz/history 1e4 3e3 5 NULL 0.5 1 |"),
+    "sub_model.numbers": ("law0.eta = 6; law0.gamma_tangent = 3", "hooke/history 1e4 3e3 6 NULL 0.5 1 |"),
+    "type_law.first_type": ("mesh0.law1.first_type = 3", TYPE_WORDS.replace("2*", "3*")), "type_law.last_type": ("mesh0.law1.last_type = 3", TYPE_WORDS.replace("2*", "2*3")),
+    "type_law.law": ("mesh0.law1.k_normal = 13000", TYPE_WORDS.replace("1.2e4", "1.3e4")),
+    "motion.kind": ("mesh0.motion0.kind = 2", "wiggle z 0.01 0.5"), "motion.velocity": ("mesh0.motion0.velocity = 0 0 0.04", "motion linear 0 0 0.04"),
+    "motion.amplitude": ("mesh0.motion0.amplitude = 0 0 0.02", "motion wiggle 0 0 0.02 0.5"),
+    "motion.point": ("mesh0.motion0.point = 0.2 0 0", "motion rotate 0.2 0 0 0 0 1 2"), "motion.axis": ("mesh0.motion0.axis = 0 0 -1", "motion rotate 0.1 0 0 0 0 -1 2"),
+    "motion.period": ("mesh0.motion0.period = 3", "motion rotate 0.1 0 0 0 0 1 3"),
+    "motion.angle": ("mesh0.motion0.angle = 0.3", f"motion riggle 0.1 0 0 0 0 1 {0.3 * 180 / np.pi:.17g} 2"),
+    "motion.rows": (f"mesh0.motion0.table.rows = {numbers_text(TABLE * 1.5)}", None), "motion.n_rows": (f"mesh0.motion0.table.rows = {numbers_text(TABLE[:2])}", None),
+    "motion.columns": (f"mesh0.motion0.table.columns = 2; mesh0.motion0.table.rows = {numbers_text(TABLE[:, :2])}", None),
+    "motion.straight": ("mesh0.motion0.table.linear = 1", f"{TABLE_WORDS} linear"),
+    "motion.repeats": (f"mesh0.motion0.table.repeats = 1; mesh0.motion0.table.rows = {numbers_text(np.vstack([TABLE, [0.15, 0, 0, 0, 0]]))}", None),
+    "motion.degrees": ("mesh0.motion0.table.degrees = 1", f"{TABLE_WORDS} degrees"),
+    "motion.file": (f"mesh0.motion0.table_file = {FOLDER}/other.txt; ...", TABLE_WORDS.replace("one", "other")),
+    "servo.turns": ("mesh0.servo.turns = 1", "servo torque z 30 vmax 0.2"), "servo.axis": ("mesh0.servo.axis = 0 0 -1", "servo force axis 0 0 -1 30 vmax 0.2"),
+    "servo.point": ("mesh0.servo.point = 1 0 0", "servo torque z through 1 0 0 3 vmax 0.2"), "servo.target": ("mesh0.servo.target = 31", "servo force z 31 vmax 0.2"),
+    "servo.max_speed": ("mesh0.servo.max_speed = 0.3", "servo force z 30 vmax 0.3"), "servo.max_gain": ("mesh0.servo.max_gain = 0.001", "servo force z 30 vmax 0.2 gain 1e-3"),
+    "servo.lo": ("mesh0.servo.lo = -1; mesh0.servo.hi = 0", "servo force z 30 vmax 0.2 limits -1 0"),
+    "servo.hi": ("mesh0.servo.lo = 0; mesh0.servo.hi = 1", "servo force z 30 vmax 0.2 limits 0 1"),
+    # A box 8 x 8 x 2: the mass, and M (8^2 + 2^2)/12 and M (8^2 + 8^2)/12.
+    "rigid_body.density": ("mesh0.body.density = 0.6; ...", "body density 0.6"), "rigid_body.mass": ("mesh0.body.mass = 21", f"body {BODY.replace('20', '21')}"),
+    "rigid_body.centre": ("mesh0.body.centre = 0 0 -1", f"body {HINGE.replace('com 0 0 0', 'com 0 0 -1')}"),
+    "rigid_body.inertia": ("mesh0.body.moments = 3 4 5", f"body {HINGE.replace('3 3 5', '3 4 5')}"),
+    "rigid_body.joint": ("mesh0.body.joint = 3", f"body {BODY.replace('slider', 'planar')}"),
+    "rigid_body.point": ("mesh0.body.point = 0 0 0", f"body {HINGE.replace('0.2 0 0', '0 0 0')}"),
+    "rigid_body.axis": ("mesh0.body.axis = 0 -1 0", f"body {HINGE.replace('0 1 0', '0 -1 0')}"),
+    "rigid_body.stiffness": ("mesh0.body.stiffness = 30", f"body {BODY} spring 30 0"), "rigid_body.damping": ("mesh0.body.damping = 3", f"body {BODY} spring 0 3"),
+    "rigid_body.rest": ("mesh0.body.stiffness = 30; mesh0.body.rest = 0.1", f"body {BODY} spring 30 0 0.1"),
+    "rigid_body.lo": ("mesh0.body.lo = -1; mesh0.body.hi = 0", f"body {BODY} limits -1 0"), "rigid_body.hi": ("mesh0.body.lo = -2; mesh0.body.hi = 1", f"body {BODY} limits -2 1"),
+    "rigid_body.motor": ("mesh0.body.motor = 4", f"body {BODY} motor 4"), "rigid_body.load": ("mesh0.body.load = 0 0 5", f"body {BODY} load 0 0 5"),
+    "rigid_body.moment": ("mesh0.body.moment = 0 1 0", f"body {HINGE} moment 0 1 0"),
+    "rigid_body.velocity": ("mesh0.body.velocity = 0 0 -0.1", f"body {BODY} velocity 0 0 -0.1"),
+    "rigid_body.angular_velocity": ("mesh0.body.velocity = 0 0 0.02; mesh0.body.omega = 0 0.1 0", f"body {HINGE} omega 0 0.1 0 velocity 0 0 0.02"),
+    "rigid_body.gravity": ("mesh0.body.gravity = 0 0 -2", f"body {BODY.replace('0 0 -1', '0 0 -2')}"),
+    "rigid_body.coat": ("mesh0.body.coat = 1; mesh0.body.coat.spacing = 1; mesh0.body.coat.radius = 0.1", f"body {BODY} coat 1 0.1 {BELOW_WORDS}"),
+    "rigid_body.coat_spacing": ("mesh0.body.coat.spacing = 1.1", f"body {BODY} coat 1.1 0.1 {BELOW_WORDS}"),
+    "rigid_body.coat_radius": ("mesh0.body.coat.radius = 0.2", f"body {BODY} coat 1 0.2 {BELOW_WORDS}")}
 # Structs that are given to each step, answers, and what is of no wall.
 OTHERS = {"of each step": ("spheres", "wall_step"), "answers": ("wall_totals", "wall_contacts", "body_state"),
           "of no wall": ("mesh_facts", "mesh_arrays", "grid_options", "grid_facts", "query", "contacts", "shape_facts", "shapes", "body_options",

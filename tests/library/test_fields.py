@@ -1,0 +1,114 @@
+# SPDX-FileCopyrightText: 2026 LSDCD contributors
+# SPDX-License-Identifier: BSD-3-Clause
+
+"""Each field of lsdcd.h that makes a wall goes into it from Python, C, C++ and a script, and comes back from Wall::spec() as one value that
+has changed, and nothing beside it. wall_fields.py has a row for each; LSDCD_SPEC_LINES names the library that tells of a wall."""
+import ctypes
+import math
+import os
+import pathlib
+import re
+
+import lsdcd
+from facts import fact
+from lsdcd import _c
+from wall_fields import LINES, rows, script, spec
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+_lines = ctypes.CDLL(os.environ["LSDCD_SPEC_LINES"])
+for name in ("spec_of_wall", "spec_by_cpp", "spec_by_words", "keyword_lines"):
+    getattr(_lines, name).restype = ctypes.c_char_p
+
+
+def lines(told):
+    text = told.decode()
+    if text.startswith("refused: "):
+        raise ValueError(text)
+    return dict(line.split(" = ", 1) for line in text.splitlines())
+
+
+def by_library(change, base):
+    """Of Python, which gives C the struct, and of C++."""
+    given, options = spec(change, base)
+    wall = lsdcd.Wall(given, **options)
+    return lines(_lines.spec_of_wall(wall._handle)), lines(_lines.spec_by_cpp(ctypes.byref(given._struct)))
+
+
+def by_script(*words):
+    return lines(_lines.spec_by_words(script(*words).encode()))
+
+
+def is_same(one, other):
+    """Texts with the same words; of numbers the last digit may differ, as a product's of degrees."""
+    pairs = list(zip(one.split(" "), other.split(" ")))
+    return len(one.split(" ")) == len(other.split(" ")) and all(a == b or is_number(a) and is_number(b) and math.isclose(
+        float(a), float(b), rel_tol=1e-14) for a, b in pairs)
+
+
+def is_number(text):
+    try:
+        return math.isfinite(float(text))
+    except ValueError:
+        return False
+
+
+def wrong(says, was, is_, mine=""):
+    """What of the changes is not as the row says; names of laws, which tell their numbers, are left out."""
+    changed = {name: value for name, value in is_.items() if was.get(name) != value and not re.search(r"law\d+\.name$", name)
+               and name.startswith(mine)}
+    given = [line for line in says.split("; ") if line]
+    wanted = dict(line.split(" = ", 1) for line in given if line != "...")
+    missing = [f"{name} is {is_.get(name)}, not {value}" for name, value in wanted.items() if not is_same(is_.get(name, ""), value)
+               or name not in changed]
+    return missing + ([] if "..." in given else [f"{name} = {changed[name]}" for name in changed.keys() - wanted.keys()])
+
+
+def first_rows():
+    seen = {}
+    for name, row in rows():
+        seen.setdefault(name, row)
+    return seen
+
+
+def test_each_field_comes_to_the_wall():
+    rows_of_fields = first_rows()
+    fact("each row says what comes to the wall", rows_of_fields.keys() == LINES.keys(), rows_of_fields.keys() ^ LINES.keys())
+    for name, row in rows_of_fields.items():
+        says, words = LINES[name]
+        (c, cpp), (was, was_cpp) = by_library(row.change, row.base), by_library({}, row.base)
+        fact(f"{name} by Python and C", not wrong(says, was, c), wrong(says, was, c))
+        if not name.startswith("wall_options"):
+            fact(f"{name} by C++", not wrong(says, was_cpp, cpp), wrong(says, was_cpp, cpp))
+        if words is not None:
+            told = wrong(says, by_script(row.base), by_script(row.base, words))
+            fact(f"{name} by a script", not told, (told, words))
+
+
+def test_defaults():
+    """A struct of zeros is what Python, C++ and a script leave out."""
+    (c, cpp), words = by_library({"wall": {"rmax": 0.0}}, "floor"), by_script("floor", "rmax auto")
+    told = wrong("", c, cpp)
+    fact("defaults of C++ are those of C", not told, told)
+    mine = ("mesh0.name", "mesh0.file", "mesh0.vertices", "mesh0.welded_vertices", "mesh0.weld")    # a file, and a mesh that is welded
+    told = [line for line in wrong("", c, words) if line.split(" = ")[0] not in mine]
+    fact("defaults of a script are those of C", not told, told)
+
+
+def test_page_has_the_keywords():
+    """The syntax, the default and the meaning of each keyword of a script."""
+    page = (ROOT / "doc/fix_wall_lsdcd.rst").read_text(encoding="utf-8")
+    syntax, rest = page.split("Examples\n\"\"\"", 1)
+    body, defaults = rest.split("Default\n\"\"\"", 1)
+    pages = body + "".join((ROOT / "doc" / name).read_text(encoding="utf-8") for name in (
+        "moving_walls.rst", "bodies.rst", "contact_laws.rst", "wall_output.rst", "deforming_walls.md", "wear.md"))
+    values = dict(re.findall(r"([a-z_]+)\s=\s([^,]+)", " ".join(defaults.split("\n.. _")[0].split())))
+    for line in _lines.keyword_lines().decode().splitlines():
+        name, takes, fallback = line.split("\t")
+        fact(f"{name}: the page has its syntax", re.search(rf"^ *\*?{name}\*? ", syntax, re.MULTILINE) or f"{name} file" in syntax, takes)
+        fact(f"{name}: the pages have its meaning", re.search(rf"[*`]{name}\b", pages), name)
+        if fallback in ("none", "off", "required") or fallback.startswith("the wall's"):
+            fact(f"{name}: the page has its default", name not in values or values[name] == fallback, values.get(name))
+        else:
+            usual = re.split(r":| beside| MB|[.]$", fallback)[0].strip()
+            fact(f"{name}: the page has its default", values.get(name, "").startswith(usual), (fallback, values.get(name)))
+    fact("the rest is off", "All other keywords are off." in defaults)
