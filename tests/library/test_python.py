@@ -347,9 +347,9 @@ class Processes:
     def meet(self, values):
         self.FORMATS.add(memoryview(values).format)
         self.brought[self.rank] = values.copy()
-        self.meeting.wait(10)
+        self.meeting.wait()
         all_of = [values.copy() for values in self.brought]
-        self.meeting.wait(10)    # nobody brings the next before all have read
+        self.meeting.wait()    # nobody brings the next before all have read
         return all_of
 
     def sum(self, numbers):
@@ -444,14 +444,21 @@ def test_processes():
         if rank == 0:
             packed.append(wall.pack([0]))
             wall.renumber([])
-        meeting.wait(10)
+        meeting.wait()
         if rank == 1:
             wall.renumber([-1])
             wall.unpack([0], packed[0])
         force = step(rank)
         told[rank] = force, wall.totals()
 
-    threads = [threading.Thread(target=work, args=(rank,)) for rank in (0, 1)]
+    def work_or_end(rank):
+        try:
+            work(rank)
+        except BaseException:
+            meeting.abort()    # the other one would wait for ever
+            raise
+
+    threads = [threading.Thread(target=work_or_end, args=(rank,)) for rank in (0, 1)]
     for thread in threads:
         thread.start()
     for thread in threads:
