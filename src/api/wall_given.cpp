@@ -9,6 +9,7 @@
 #include "bodies/read_pose.h"
 #include "law/sub_models.h"
 #include "output/file_series.h"
+#include "wall/settings.h"
 #include "wall/spec_check.h"
 #include "wall/spec_ranges.h"
 #include "wall/spec_text.h"
@@ -17,6 +18,7 @@
 #include <limits>
 #include <memory>
 #include <string>
+#include <type_traits>
 
 namespace lsdcd {
 
@@ -169,6 +171,31 @@ MotionTerm motion_of(const lsdcd_motion &given, const std::string &field)
   return term;
 }
 
+// Reads a field as its row in wall/settings.h says.
+template <class Kind, class Given, class T>
+void read_setting(const Kind &kind, Given given, const std::string &field, T &to)
+{
+  if constexpr (std::is_same_v<Kind, WordSetting>) {
+    to = static_cast<T>(checked_choice(given, field, static_cast<int>(kind.n), kind.names));
+  } else if constexpr (std::is_same_v<Kind, FlagSetting>) {
+    to = checked_flag(given, field);
+  } else if constexpr (std::is_same_v<Kind, LengthSetting>) {
+    to = number_or(0, given, field, kAbove0);
+  } else if constexpr (std::is_same_v<Kind, NearestSetting>) {
+    to = checked_choice(given, field, kMaxNearest + 1,
+                        "0 for all, or 1 to " + std::to_string(kMaxNearest));
+  } else if constexpr (std::is_same_v<Kind, MemorySetting>) {
+    const double bytes = checked_number(given, field, 0, 1e15);
+    if (bytes > 0) to = static_cast<std::size_t>(bytes);
+  } else if constexpr (std::is_same_v<Kind, StepsSetting>) {
+    to = steps_or_none(given, field, kind.none, kStepsRange);
+  } else {
+    static_assert(std::is_same_v<Kind, FactorSetting>);
+    if (given != -1 && given != 0) to = checked_number(given, field, kWearFactorRange);
+    if (given == -1) to = 0;
+  }
+}
+
 void add_laws(const lsdcd_wall_mesh &given, const std::string &field, MeshSpec &mesh)
 {
   const auto add = [&](const lsdcd_law *law, const std::string &of, int first, int last) {
@@ -200,7 +227,6 @@ void read_surface(const lsdcd_wall_mesh &given, const std::string &field, MeshSp
 
 void read_motion(const lsdcd_wall_mesh &given, const std::string &field, MeshSpec &mesh)
 {
-  mesh.has_nodes = checked_flag(given.nodes_by_caller, field + ".nodes_by_caller");
   mesh.pressure = checked_number(given.pressure, field + ".pressure");
   if (checked_flag(given.posed_by_caller, field + ".posed_by_caller")) mesh.motion.begin_posed();
   for (const MotionTerm &term : motions_of(given.motions, given.n_motions, field + ".motions"))
@@ -241,10 +267,12 @@ MeshSpec mesh_spec_of(const lsdcd_wall_mesh &given, std::size_t k, const WallSpe
   mesh.has_temperature = wall.law().has_heat() || mesh.temperature != 0;
   mesh.torque_about = checked_vector(given.torque_about, field + ".torque_about");
   mesh.torque_about_mesh = checked_flag(given.torque_about_moves, field + ".torque_about_moves");
-  const double factor = given.wear_factor;
-  if (factor != -1 && factor != 0)
-    mesh.wear_factor = checked_number(factor, field + ".wear_factor", kWearFactorRange);
-  if (factor == -1) mesh.wear_factor = 0;
+#define LSDCD_READ_PLAIN(of_c, member, kind, rule)                                                 \
+  read_setting(kind, given.of_c, field + "." #of_c, mesh.member);
+#define LSDCD_READ(of_c, member, kind, ...) LSDCD_READ_PLAIN(of_c, member, kind, )
+  LSDCD_MESH_SETTINGS(LSDCD_READ, LSDCD_READ_PLAIN)
+#undef LSDCD_READ
+#undef LSDCD_READ_PLAIN
   mesh.fields = file_of(given.fields, given.fields_every, field + ".fields", ".vtp");
   mesh.stl = file_of(given.stl, given.stl_every, field + ".stl", ".stl");
   if (given.cache) mesh.cache_file = given.cache;
@@ -278,17 +306,12 @@ void read_wear(const lsdcd_wall_spec &given, WallSpec &wall)
 
 void read_search(const lsdcd_wall_spec &given, bool on_device, WallSpec &wall)
 {
-  const Corner corners[] = {Corner::blend, Corner::sum};
-  wall.corner = corners[checked_choice(given.corner, "corner", 2, "LSDCD_BLEND or LSDCD_SUM")];
-  const Side sides[] = {Side::both, Side::in, Side::out};
-  wall.side = sides[checked_choice(given.side, "side", 3,
-                                   "LSDCD_BOTH_SIDES, LSDCD_INSIDE or LSDCD_OUTSIDE")];
-  wall.nearest = checked_choice(given.nearest, "nearest", kMaxNearest + 1,
-                                "0 for all, or 1 to " + std::to_string(kMaxNearest));
-  wall.grid_length = number_or(0, given.cell, "cell", kCellRange);
-  wall.rmax = number_or(0, given.rmax, "rmax", kLargestRadiusRange);
-  const double bytes = checked_number(given.memory, "memory", 0, 1e15);
-  if (bytes > 0) wall.memory_budget = static_cast<std::size_t>(bytes);
+#define LSDCD_READ_PLAIN(of_c, member, kind, rule)                                                 \
+  read_setting(kind, given.of_c, #of_c, wall.member);
+#define LSDCD_READ(of_c, member, kind, ...) LSDCD_READ_PLAIN(of_c, member, kind, )
+  LSDCD_WALL_SETTINGS(LSDCD_READ, LSDCD_READ_PLAIN)
+#undef LSDCD_READ
+#undef LSDCD_READ_PLAIN
   const int device =
       checked_choice(given.device, "device", 3, "LSDCD_CPU, LSDCD_CUDA or LSDCD_AUTO");
   if (on_device && device != LSDCD_CPU)
@@ -298,15 +321,9 @@ void read_search(const lsdcd_wall_spec &given, bool on_device, WallSpec &wall)
         "its spheres are");
   const Device devices[] = {Device::cpu, Device::cuda, Device::automatic};
   wall.device = on_device ? Device::automatic : devices[device];
-  wall.periodic = checked_flag(given.periodic_ends, "periodic_ends");
-  wall.brief = checked_flag(given.brief, "brief");
-  wall.each_contact = checked_flag(given.each_contact, "each_contact");
-  wall.shapes = checked_flag(given.shapes, "shapes");
   if (wall.shapes && on_device)
     refuse_field("shapes", "1",
                  "grains that are no spheres have walls for arrays of the host alone; leave it 0");
-  wall.average_every =
-      steps_or_none(given.average_every, "average_every", "there are no means", kStepsRange);
 }
 
 WallSpec read_spec(const lsdcd_wall_spec *pointer, bool on_device)

@@ -7,11 +7,13 @@
 #include "base/number_words.h"
 #include "base/state_blocks.h"
 #include "law/sub_models.h"
+#include "wall/settings.h"
 #include "wall/spec_text.h"
 #include "wall/spec_words.h"
 
 #include <cmath>
 #include <cstddef>
+#include <type_traits>
 
 namespace lsdcd {
 
@@ -37,7 +39,8 @@ std::string row_of(const Values &...values)
 }
 
 // What follows takes structs apart by the names of all their members: one that is new does not compile before it is decided
-// here whether saved data are of a wall with another one. A program's wall has no variables as inputs.
+// here whether saved data are of a wall with another one; members of WallSpec and MeshSpec are in the walk of
+// tests/library/wall_fields.py. A program's wall has no variables as inputs.
 
 template <class Model>
 std::string numbers_of(const Chosen<Model> &chosen)
@@ -165,12 +168,19 @@ void add(const std::string &name, const std::string &of, const std::string &text
   if (!numbers.empty()) to.push_back({"exact " + name + " '" + text + "'" + of, numbers});
 }
 
-// With `nearest` the forces hang on the cells, else not.
-std::string search_text(int nearest, Real cell, Real rmax, std::size_t memory)
+bool is_compared(OfState rule, const WallSpec &wall)
 {
-  if (nearest == 0) return "exact";
-  return "the nearest " + std::to_string(nearest) + " of cells with the edge, rmax and memory " +
-         row_of(cell, rmax, static_cast<Real>(memory));
+  return rule == OfState::compared || (rule == OfState::with_nearest && wall.nearest > 0) ||
+         (rule == OfState::with_wear && wall.wears());
+}
+
+template <class Kind, class T>
+std::string text_of(const Kind &kind, const T &value)
+{
+  if constexpr (std::is_same_v<Kind, WordSetting>)
+    return kind.words[static_cast<std::size_t>(value)];
+  else
+    return text_of(static_cast<Real>(value));
 }
 
 std::string steps_text(int every)
@@ -182,20 +192,23 @@ std::string steps_text(int every)
 // the mesh is written; the means in `fields` are over the steps between two files.
 void add_made(const WallSpec &wall, std::size_t k, WallParts &parts)
 {
-  const auto &[name, file, mesh, welded_vertex, placement, weld, laws, motion, body, has_nodes,
-               node_group, pressure, pressure_input, surface, surface_input, has_temperature,
-               temperature, temperature_input, wear_factor, torque_about_mesh, torque_about, stl,
-               fields, cache_file] = wall.meshes[k];
+  const MeshSpec &mesh = wall.meshes[k];
   const std::string of = " of " + element("meshes", k);
-  parts.push_back({"placement" + of, text_of(placement)});
-  parts.push_back({"law" + of, text_of(laws)});
-  parts.push_back({"surface velocity" + of, text_of(surface)});
-  if (has_nodes) parts.push_back({"pressure" + of, text_of(pressure)});
-  if (has_temperature) parts.push_back({"temperature" + of, text_of(temperature)});
-  if (wall.wears()) parts.push_back({"wear_factor" + of, text_of(wear_factor)});
-  parts.push_back({"point of the torque" + of,
-                   text_of(torque_about) + (torque_about_mesh ? ", which moves with it" : "")});
-  parts.push_back({"mean of the fields" + of, steps_text(fields.every)});
+  parts.push_back({"placement" + of, text_of(mesh.placement)});
+  parts.push_back({"law" + of, text_of(mesh.laws)});
+  parts.push_back({"surface velocity" + of, text_of(mesh.surface)});
+  if (mesh.has_nodes) parts.push_back({"pressure" + of, text_of(mesh.pressure)});
+  if (mesh.has_temperature) parts.push_back({"temperature" + of, text_of(mesh.temperature)});
+  parts.push_back(
+      {"point of the torque" + of,
+       text_of(mesh.torque_about) + (mesh.torque_about_mesh ? ", which moves with it" : "")});
+  parts.push_back({"mean of the fields" + of, steps_text(mesh.fields.every)});
+#define LSDCD_PLAIN_PART(field, member, kind, rule)                                                \
+  if (is_compared(OfState::rule, wall)) parts.push_back({#field + of, text_of(kind, mesh.member)});
+#define LSDCD_PART(field, member, kind, rule, ...) LSDCD_PLAIN_PART(field, member, kind, rule)
+  LSDCD_MESH_SETTINGS(LSDCD_PART, LSDCD_PLAIN_PART)
+#undef LSDCD_PART
+#undef LSDCD_PLAIN_PART
 }
 
 // Without periodic axes the box says how far spheres go, as rmax does.
@@ -213,20 +226,18 @@ std::string text_of(const PeriodicBox &box)
 
 WallParts made_parts(const Wall &wall, const PeriodicBox &box)
 {
-  // Where it computes, what the log has, and whether somebody asks for contacts may differ.
-  const auto &[laws, meshes, inputs, corner, side, device, grid_length, rmax, nearest,
-               memory_budget, wear, wear_deform, average_every, contacts, each_contact, shapes,
-               periodic, brief] = wall.spec();
-  WallParts parts = {{"number of meshes", std::to_string(meshes.size())},
-                     {"law", text_of(laws)},
-                     {"corner", word_of(corner, kCornerWords)},
-                     {"side", word_of(side, kSideWords)},
-                     {"wear", text_of(wear, wear_deform)},
-                     {"search", search_text(nearest, grid_length, rmax, memory_budget)},
-                     {"mean", steps_text(average_every)},
-                     {"kind of grains", shapes ? "ellipsoids and spheres" : "spheres"},
+  const WallSpec &spec = wall.spec();
+  WallParts parts = {{"number of meshes", std::to_string(spec.meshes.size())},
+                     {"law", text_of(spec.laws)},
+                     {"wear", text_of(spec.wear, spec.wear_deform)},
                      {"periodic box", text_of(box)}};
-  for (std::size_t k = 0; k < meshes.size(); k++) add_made(wall.spec(), k, parts);
+#define LSDCD_PLAIN_PART(field, member, kind, rule)                                                \
+  if (is_compared(OfState::rule, spec)) parts.push_back({#field, text_of(kind, spec.member)});
+#define LSDCD_PART(field, member, kind, rule, ...) LSDCD_PLAIN_PART(field, member, kind, rule)
+  LSDCD_WALL_SETTINGS(LSDCD_PART, LSDCD_PLAIN_PART)
+#undef LSDCD_PART
+#undef LSDCD_PLAIN_PART
+  for (std::size_t k = 0; k < spec.meshes.size(); k++) add_made(spec, k, parts);
   for (const MeshPart &mesh : wall.meshes()) {
     const MeshReport &report = mesh.grid.report();
     parts.push_back({"mesh of " + element("meshes", static_cast<std::size_t>(mesh.index)),

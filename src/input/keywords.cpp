@@ -10,11 +10,13 @@
 #include "input/servo_words.h"
 #include "input/value_words.h"
 #include "output/file_series.h"
+#include "wall/settings.h"
 #include "wall/spec_ranges.h"
 #include "wall/spec_words.h"
 
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
 
 namespace lsdcd {
 
@@ -168,6 +170,44 @@ void read_cut(Tokens &w, WallCommand &s)
   s.picture.cut_offset = w.number("the offset");
 }
 
+// Reads the values of a keyword as its row in wall/settings.h says. `what`: what messages call them.
+template <class Kind, class T>
+void read_setting(const Kind &kind, Tokens &w, const std::string &what, T &to)
+{
+  if constexpr (std::is_same_v<Kind, WordSetting>) {
+    to = static_cast<T>(w.choice({kind.words, kind.words + kind.n}));
+  } else if constexpr (std::is_same_v<Kind, FlagSetting>) {
+    to = true;
+  } else if constexpr (std::is_same_v<Kind, LengthSetting>) {
+    to = w.number_or("auto", 0, what.c_str(), kAbove0);
+  } else if constexpr (std::is_same_v<Kind, NearestSetting>) {
+    to = read_nearest(w);
+  } else if constexpr (std::is_same_v<Kind, MemorySetting>) {
+    to = read_memory(w);
+  } else if constexpr (std::is_same_v<Kind, StepsSetting>) {
+    to = static_cast<T>(w.whole(what.c_str(), kStepsRange));
+  } else {
+    static_assert(std::is_same_v<Kind, FactorSetting>);
+    to = w.number(what.c_str(), kWearFactorRange);
+  }
+}
+
+// "L" of "L | auto".
+std::string first_value(const std::string &values)
+{
+  return values.substr(0, values.find(' '));
+}
+
+#define LSDCD_KEYWORD(field, member, kind, rule, name, values, unit, range, fallback, help)        \
+  {name, values, unit, range, fallback, help, [](Tokens &w, WallCommand &s) {                      \
+     read_setting(kind, w, first_value(values), s.wall.member);                                    \
+   }},
+#define LSDCD_MESH_KEYWORD(field, member, kind, rule, name, values, unit, range, fallback, help)   \
+  {name, values, unit, range, fallback, help, nullptr, [](Tokens &w, MeshSpec &s, InputNames &) {  \
+     read_setting(kind, w, first_value(values), s.member);                                         \
+   }},
+#define LSDCD_NO_KEYWORD(...)
+
 const Keyword kKeywords[] = {
     {"mesh", "FILE", "", "STL, OBJ, PLY, OFF", "required",
      "the wall; more of them, each with its own keywords after it", nullptr, read_mesh},
@@ -179,33 +219,8 @@ const Keyword kKeywords[] = {
     {"weld", "tol", "length", ">= 0", "cracks of 1e-6 of a part",
      "corners closer than this are one vertex; 0: only equal ones", nullptr,
      [](Tokens &w, MeshSpec &s, InputNames &) { s.weld = w.number("the tolerance", 0); }},
-    {"grid", "L | auto", "length", "> 0", "auto", "cell edge of the limit-space grid",
-     [](Tokens &w, WallCommand &s) {
-       s.wall.grid_length = w.number_or("auto", 0, "L", kCellRange);
-     }},
-    {"rmax", "R | auto", "length", "> 0", "auto: the largest radius in the group",
-     "largest particle radius that the grid is built for",
-     [](Tokens &w, WallCommand &s) {
-       s.wall.rmax = w.number_or("auto", 0, "R", kLargestRadiusRange);
-     }},
-    {"memory", "MB", "MiB", ">= 1", "1024 beside the mesh's own records",
-     "budget for the grid of each mesh",
-     [](Tokens &w, WallCommand &s) { s.wall.memory_budget = read_memory(w); }},
-    {"nearest", "all | N", "", "1 to 32", "all",
-     "a cell lists everything that a sphere can touch, or the N triangles nearest to its centre",
-     [](Tokens &w, WallCommand &s) { s.wall.nearest = read_nearest(w); }},
     {"cache", "FILE | none", "", "", "none",
      "file that keeps the grid, so the next start need not build it", nullptr, read_cache},
-    {"corner", "blend | sum", "", "", "blend",
-     "contacts at one place share their overlap, or their forces simply add",
-     [](Tokens &w, WallCommand &s) {
-       s.wall.corner = static_cast<Corner>(w.choice(all_words(kCornerWords)));
-     }},
-    {"side", "both | in | out", "", "", "both",
-     "where particles belong; in and out need a closed, oriented mesh",
-     [](Tokens &w, WallCommand &s) {
-       s.wall.side = static_cast<Side>(w.choice(all_words(kSideWords)));
-     }},
     {"motion", kMotionSyntax, "velocity, length, time", "period > 0", "none",
      "moves the mesh, with the syntax of fix move and more; later motions carry earlier ones",
      nullptr, read_motion},
@@ -255,9 +270,6 @@ const Keyword kKeywords[] = {
      "every "
      "N steps F (1) times that is removed from the mesh",
      read_wear},
-    {"wear_factor", "F", "", ">= 0", "1",
-     "this mesh wears F times as fast as wear says; 0: it does not", nullptr,
-     [](Tokens &w, MeshSpec &s, InputNames &) { s.wear_factor = w.number("F", kWearFactorRange); }},
     {"mesh_fields", "FILE every N", "", "*.vtp, N >= 1", "none",
      "stress, contacts and wear of every triangle every N steps, for ParaView; * is the step, and "
      "a .pvd file lists them all",
@@ -278,22 +290,6 @@ const Keyword kKeywords[] = {
      read_temperature},
     {"contacts", "", "", "", "off", "per-atom array of 8 columns (9 with heat), as fix wall/gran's",
      [](Tokens &, WallCommand &s) { s.wall.contacts = true; }},
-    {"each_contact", "", "", "", "off",
-     "local array with a row for each contact: atom, mesh, force, point, overlap",
-     [](Tokens &, WallCommand &s) { s.wall.each_contact = true; }},
-    {"average", "N", "steps", "N >= 1", "off",
-     "means of force and torque over N steps, as more numbers of the vector",
-     [](Tokens &w, WallCommand &s) {
-       s.wall.average_every = static_cast<int>(w.whole("N", kStepsRange));
-     }},
-    {"periodic", "", "", "", "off",
-     "no warning if the mesh reaches past periodic faces, or does not continue there; it acts "
-     "through them in any case",
-     [](Tokens &, WallCommand &s) { s.wall.periodic = true; }},
-    {"log", "full | brief", "", "", "full", "brief: one line instead of the full report",
-     [](Tokens &w, WallCommand &s) {
-       s.wall.brief = w.choice({"full", "brief"}) == 1;
-     }},
     {"draw", "edges | faces | contours [type]", "", "", "edges 1",
      "what dump image shows, in the colour of an atom type: fix ID type DIAMETER 0 for lines, "
      "fix ID type 1 0 for faces",
@@ -302,11 +298,22 @@ const Keyword kKeywords[] = {
      read_cut},
 };
 
+const Keyword kSettings[] = {LSDCD_WALL_SETTINGS(LSDCD_KEYWORD, LSDCD_NO_KEYWORD)
+                                 LSDCD_MESH_SETTINGS(LSDCD_MESH_KEYWORD, LSDCD_NO_KEYWORD)};
+
+#undef LSDCD_KEYWORD
+#undef LSDCD_MESH_KEYWORD
+#undef LSDCD_NO_KEYWORD
+
 }    // namespace
 
 const std::vector<Keyword> &keywords()
 {
-  static const std::vector<Keyword> all(std::begin(kKeywords), std::end(kKeywords));
+  static const std::vector<Keyword> all = [] {
+    std::vector<Keyword> rows(std::begin(kKeywords), std::end(kKeywords));
+    rows.insert(rows.end(), std::begin(kSettings), std::end(kSettings));
+    return rows;
+  }();
   return all;
 }
 
@@ -350,7 +357,7 @@ bool read_mesh_word(const std::string &word, Tokens &w, MeshSpec &mesh)
 
 bool is_twice(const std::string &word, std::vector<std::string> &seen)
 {
-  const bool repeats = std::any_of(std::begin(kKeywords), std::end(kKeywords),
+  const bool repeats = std::any_of(keywords().begin(), keywords().end(),
                                    [&](const Keyword &k) { return word == k.name && k.repeats(); });
   const bool twice = !repeats && std::find(seen.begin(), seen.end(), word) != seen.end();
   seen.push_back(word);

@@ -15,8 +15,7 @@ namespace lsdcd {
 constexpr NumberRange kAbove0 = {kAboveZero, Tokens::kHuge}, kNotBelow0 = {0, Tokens::kHuge};
 
 // Of the search.
-constexpr NumberRange kCellRange = kAbove0, kLargestRadiusRange = kAbove0,
-                      kNearestRange = {1, kMaxNearest};
+constexpr NumberRange kCellRange = kAbove0, kNearestRange = {1, kMaxNearest};
 // Of files, means and worn meshes that are due every so many steps.
 constexpr NumberRange kStepsRange = {1, std::numeric_limits<int>::max()};
 constexpr NumberRange kWearCoefficientRange = kNotBelow0, kHardnessRange = kAbove0,

@@ -329,6 +329,17 @@ TEST_F(wall, takes_vectors_that_lie_between_each_other_and_refuses_those_that_ov
   EXPECT_EQ(says(), "`torque` and `mass` share memory: give each an array of its own");
   s.mass = ones.data();
   EXPECT_EQ(says(), "");
+  // Forces in an array of their own, and torques that begin in what is free of its last row, or one row before.
+  std::vector<double> others(2 * kSpheres * kRow);
+  s.force = others.data();
+  s.torque = others.data() + (kSpheres - 1) * kRow + 15;
+  EXPECT_EQ(says(), "");
+  EXPECT_GT(others[2 * kRow + 2], 0);
+  s.torque -= kRow;
+  EXPECT_EQ(says(), "`force` and `torque` share memory: give each an array of its own");
+  s.force = others.data() + (kSpheres - 1) * kRow + 15;
+  s.torque = others.data();
+  EXPECT_EQ(says(), "");
 }
 
 TEST_F(wall, names_a_sphere_by_its_place_in_the_arrays_after_they_were_sorted)
