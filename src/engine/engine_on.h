@@ -237,8 +237,7 @@ class EngineOn : public WallEngine {
     const bool several = broad_phase_.uses_slots();
     spheres_ = mirror_.bring_candidates(b_, spheres_);
     results.begin(law_.traits, step_, spheres_, broad_phase_.candidates(), n,
-                  // Lists of meshes with nodes name primitives, too, and are complete.
-                  !settings_.nodes && may_miss_any(broad_phase_.mesh(0).grid.view), adds_later,
+                  may_miss_any(broad_phase_.mesh(0).grid.view), adds_later,
                   several ? &broad_phase_.slots() : nullptr);
     if (n == 0) return;
     const MeshWork work = mesh_work(0);
