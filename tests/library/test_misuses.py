@@ -23,6 +23,7 @@ NO_NUMBER = [(None, "is None, not a real number"), ("1", "is '1', not a real num
 NUMBER = [*NO_NUMBER, (NAN, "is nan"), (INF, "is inf"), (-INF, "is -inf")]
 LENGTH = [*NUMBER, (-1, "is -1: it is ")]
 ABOVE_0 = [*LENGTH, (0, "is 0: it is above 0")]
+PERIOD = [*NUMBER, (-1, "is -1: give a period above 0 and, to "), (0, "is 0: it is above 0")]
 DERIVABLE = NUMBER[1:]    # None is derived
 VECTOR = [(None, "is None, not three numbers"), ("0 0 1", "not real numbers"), ((0, 0), "has the shape (2,), not (3,)"),
           ([[0, 0, 1]], "has the shape (1, 3), not (3,)"), (5, "has the shape (1,), not (3,)"), (("a", 0, 0), "not real numbers"),
@@ -102,9 +103,9 @@ def laws():
 def motions():
     for name, call, rows in (
             ("velocity", lambda b: Motion.linear(b), VECTOR), ("amplitude", lambda b: Motion.wiggle(b, 1), VECTOR),
-            ("amplitude", lambda b: Motion.cosine(b, 1), VECTOR), ("period", lambda b: Motion.wiggle((0, 0, 1), b), ABOVE_0),
+            ("amplitude", lambda b: Motion.cosine(b, 1), VECTOR), ("period", lambda b: Motion.wiggle((0, 0, 1), b), PERIOD),
             ("point", lambda b: Motion.rotate(b, (0, 0, 1), 1), VECTOR), ("axis", lambda b: Motion.rotate((0, 0, 0), b, 1), DIRECTION),
-            ("period", lambda b: Motion.rotate((0, 0, 0), (0, 0, 1), b), ABOVE_0),
+            ("period", lambda b: Motion.rotate((0, 0, 0), (0, 0, 1), b), PERIOD),
             ("velocity", lambda b: Motion.transrot(b, (0, 0, 0), (0, 0, 1), 1), VECTOR),
             ("angle", lambda b: Motion.riggle((0, 0, 0), (0, 0, 1), b, 1), NUMBER),
             ("straight", lambda b: Motion.table([[0, 0, 0, 0], [1, 0, 0, 1]], straight=b), FLAG),
