@@ -62,7 +62,7 @@ constexpr const char *kLogWords[] = {"full", "brief"};
           compared, "side", "both | in | out", "", "", "both",                                     \
           "where particles belong; in and out need a closed, oriented mesh")                       \
   SETTING(each_contact, each_contact, FlagSetting{}, free, "each_contact", "", "", "", "off",      \
-          "local array with a row for each contact: sphere, mesh, force, point, overlap")            \
+          "local array with a row for each contact: sphere, mesh, force, point, overlap")          \
   SETTING(average_every, average_every, StepsSetting{"there are no means"}, compared, "average",   \
           "N", "steps", "N >= 1", "off",                                                           \
           "means of force and torque over N steps, as more numbers of the vector")                 \
