@@ -4,83 +4,9 @@
 // From a sphere to its contacts: one for each local minimum of distance.
 #pragma once
 
-#include "contact/contact_set.h"
-#include "contact/mesh_geometry.h"
+#include "contact/primitive_contacts.h"
 
 namespace lsdcd {
-
-// The tolerance lets two features answer at a seam. Their closest points are then at most this
-// many tolerances apart, as each is off by at most two.
-constexpr Real kSamePoint = 4;
-
-// Adds a contact unless the set already has one at the same point of the wall. Then the
-// nearer one stays, or the lower feature, whatever the order. A closest point between two
-// others merges all three.
-template <int kMost>
-LSDCD_FN void add_once(ContactSet<kMost> &set, FeatureCode feature, const ClosestPoint &closest,
-                       Real tolerance)
-{
-  int at = -1;
-  for (int i = 0; i < set.n; i++) {
-    const Vec3 apart = set.distance[i] * set.normal[i] - closest.distance * closest.normal;
-    if (norm_sq(apart) > kSamePoint * kSamePoint * tolerance * tolerance) continue;
-    const Real held = at < 0 ? closest.distance : set.distance[at];
-    const FeatureCode holder = at < 0 ? feature : set.feature[at];
-    const bool better =
-        set.distance[i] < held || (set.distance[i] == held && set.feature[i] < holder);
-    if (at < 0) {
-      at = i;
-      if (better) continue;
-      set.feature[i] = feature;
-      set.normal[i] = closest.normal;
-      set.distance[i] = closest.distance;
-    } else {
-      if (better) {
-        set.feature[at] = set.feature[i];
-        set.normal[at] = set.normal[i];
-        set.distance[at] = set.distance[i];
-      }
-      set.remove(i--);
-    }
-  }
-  if (at < 0) set.add(feature, closest.normal, closest.distance);
-}
-
-// Adds the contact of a feature, if it has one. `copy`: a copy of its record, or null.
-template <int kMost>
-LSDCD_FN void add_feature(const MeshGeometry &geometry, FeatureCode feature, Real radius,
-                          ContactSet<kMost> &set, const FeatureRecord *copy = nullptr)
-{
-  const ClosestPoint closest = geometry.closest_point(feature, radius, copy);
-  if (closest.found && closest.distance < radius)
-    add_once(set, feature, closest, geometry.tolerance());
-}
-
-// Does what add_feature() does, as a function of its own, for searches that few spheres need: the tests of features are
-// long, and would be compiled into each law's kernels many times.
-template <int kMost>
-LSDCD_NOINLINE void add_feature_noinline(const MeshGeometry &geometry, FeatureCode feature,
-                                         Real radius, ContactSet<kMost> &set,
-                                         const FeatureRecord *copy = nullptr)
-{
-  add_feature(geometry, feature, radius, set, copy);
-}
-
-// The contacts of a face and its edges and vertices. Over the inside of a face only the face is near.
-template <int kMost>
-LSDCD_NOINLINE void add_primitive(const MeshGeometry &geometry, FeatureCode primitive, Real radius,
-                                  ContactSet<kMost> &set)
-{
-  if (feature_kind(primitive) == FeatureKind::face) {
-    const FaceRegion over = geometry.over(primitive, radius);
-    if (over == FaceRegion::far) return;
-    if (over != FaceRegion::inside)
-      for (FeatureCode part : geometry.parts(primitive).part)
-        if (part != kNoFeature) add_feature_noinline(geometry, part, radius, set);
-    if (over == FaceRegion::outside) return;
-  }
-  add_feature_noinline(geometry, primitive, radius, set);
-}
 
 template <class Entries, int kMost>
 LSDCD_FN void find_in_complete(const GridView &grid, const Vec3 &q, Real radius,
@@ -114,9 +40,8 @@ LSDCD_FN Real find_in_nearest(const GridView &grid, const Vec3 &q, Real radius,
   CellAddress at;
   Cell cell;
   if (!find_cell(grid, q, at, cell)) return kAnyDistance;
-  const MeshGeometry geometry(grid, q);
   if (cell.count == 1) {
-    add_primitive(geometry, cell.first, radius, set);
+    add_primitive(grid, cell.first, q, radius, set);
     return kAnyDistance;
   }
   const Real off_centre = norm(at.from_centre);
@@ -125,7 +50,7 @@ LSDCD_FN Real find_in_nearest(const GridView &grid, const Vec3 &q, Real radius,
     if (entry.bound > radius + off_centre) break;
     // The tolerance covers the rounding of distances.
     if (k == grid.list_kind.most()) return entry.bound - off_centre - grid.tolerance;
-    add_primitive(geometry, entry.feature, radius, set);
+    add_primitive(grid, entry.feature, q, radius, set);
     if (set.overflow) break;
   }
   return kAnyDistance;

@@ -10,9 +10,6 @@
 
 namespace lsdcd {
 
-// Position of a point over a face: too far from its plane, past a side, within the tolerance of a side, or inside.
-enum class FaceRegion { far, outside, rim, inside };
-
 class MeshGeometry {
  public:
   LSDCD_FN MeshGeometry(const GridView &grid, const Vec3 &q) : grid_(grid), q_(q) {}
@@ -46,15 +43,6 @@ class MeshGeometry {
   LSDCD_FN const FaceParts &parts(FeatureCode face) const
   {
     return grid_.wall.face_parts[feature_index(face)];
-  }
-
-  LSDCD_FN FaceRegion over(FeatureCode face, Real within) const
-  {
-    const FaceRecord &f = grid_.wall.faces[feature_index(face)];
-    if (!(fabs(dot(f.normal, q_ - f.anchor)) <= within)) return FaceRegion::far;
-    bool at_rim = false;
-    if (!closest_on_face(f, q_, grid_.tolerance, within, at_rim).found) return FaceRegion::outside;
-    return at_rim ? FaceRegion::rim : FaceRegion::inside;
   }
 
  private:

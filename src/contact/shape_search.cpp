@@ -610,7 +610,7 @@ bool ShapeSearch::is_beside(const PlacedGrain &grain, std::uint32_t primitive) c
 // same way, and to the same bits, whatever else a list has.
 bool ShapeSearch::is_out_of_reach(const PlacedGrain &grain, std::uint32_t primitive) const
 {
-  FeatureCode nearest;
+  FeatureCode nearest = kNoFeature;
   return is_beside(grain, primitive) ||
          !is_in_reach(grain, view_.exact(primitive, grain.centre, nearest));
 }

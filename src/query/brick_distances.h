@@ -9,6 +9,9 @@
 
 namespace lsdcd {
 
+// Position of a point over a face: too far from its plane, past a side, within the tolerance of a side, or inside.
+enum class FaceRegion { far, outside, rim, inside };
+
 // The tests of closest_point.h on records whose coordinates are small: p is the point in the frame of its brick. A
 // primitive has a distance if the wall has a local minimum of distance on it: past a shared side it is the neighbour
 // that has one.
