@@ -12,8 +12,8 @@
 #include "engine/nodes/nodes_on.h"
 #include "engine/resident_springs.h"
 #include "engine/results/step_errors.h"
+#include "engine/results_on.h"
 #include "engine/step/compiled_law.h"
-#include "engine/step_results.h"
 #include "engine/work_list_store.h"
 
 #include <algorithm>

@@ -16,9 +16,9 @@ namespace lsdcd {
 
 namespace {
 
-constexpr Family kFamilies[] = {Family::style,      Family::normal,  Family::damping,
-                                Family::tangential, Family::rolling, Family::twisting,
-                                Family::heat,       Family::cohesion};
+constexpr Family kPairFamilies[] = {Family::style,      Family::normal,  Family::damping,
+                                    Family::tangential, Family::rolling, Family::twisting,
+                                    Family::heat,       Family::cohesion};
 
 const GivenSubModel *of_family(const PairCoeff &coeff, Family family)
 {
@@ -74,7 +74,7 @@ std::string text_of(const PairCoeff &coeff)
 PairCoeff mixed(const PairCoeff &a, const PairCoeff &b, const std::string &types)
 {
   PairCoeff made;
-  for (const Family family : kFamilies) {
+  for (const Family family : kPairFamilies) {
     const GivenSubModel *const of_a = of_family(a, family), *const of_b = of_family(b, family);
     if (!of_a && !of_b) continue;
     if (!of_a || !of_b || of_a->row != of_b->row)

@@ -13,7 +13,7 @@
 #include "backend/warp.h"
 #include "contact/node_field.h"
 #include "engine/nodes/shared_items.h"
-#include "engine/results/results.h"
+#include "engine/results/result_columns.h"
 #include "engine/results/step_counts.h"
 #include "engine/sum_unit.h"
 
@@ -25,7 +25,7 @@ namespace lsdcd {
 
 // The contacts of a step on one mesh. `first_contact`: the first contact of each candidate that has contacts.
 struct NodeContacts {
-  const int *candidates;    // null: all spheres
+  const int *candidates;    // the sphere of each
   std::size_t n;
   const int *n_contacts, *first_contact;
   const StepContact *contacts;

@@ -29,7 +29,7 @@ struct DeepestOverlap {
   }
 };
 
-// The first three are of one choice or step, the others since the CPU last read them.
+// The counts up to n_multi_contact are of one choice or step, the others since the CPU last read them.
 struct StepCounts {
   std::uint32_t n_candidates;
   int shared_used[2];                    // places, of each pool in the last step that wrote it

@@ -4,7 +4,7 @@
 // From the settings of an engine to its compiled laws: the smallest ones that have all effects asked for.
 #pragma once
 
-#include "engine/step/multi_mesh_step.h"
+#include "engine/step/run_compiled_law.h"
 #include "law/smallest_model.h"
 
 #include <stdexcept>

@@ -6,7 +6,7 @@
 
 #include "contact/node_field.h"
 #include "engine/results.h"
-#include "engine/results/results.h"
+#include "engine/results/result_columns.h"
 #include "engine/settings.h"
 #include "engine/step/narrow_phase.h"
 #include "law/contact.h"

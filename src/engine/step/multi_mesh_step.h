@@ -236,7 +236,7 @@ LSDCD_FN void multi_mesh_contacts(const StepJob &job, std::size_t g, MultiMeshMe
   apply_to_all<Law>(job, sphere, g, s.cutoff, memory, find);
 }
 
-// The work of it for Backend::step(), of sphere g.
+// The multi-mesh spheres, for run_step(): all take general_path().
 template <class Law>
 struct MultiMeshStep {
   StepJob job;
@@ -281,17 +281,5 @@ struct MultiMeshStep {
   }
   LSDCD_FN const WorkLists &work_lists() const { return job.work_lists; }
 };
-
-// Candidates [0, n) of one mesh, or the multi-mesh spheres [0, n).
-template <class Law, class Backend>
-void run_compiled_law(const LawBytes &bytes, const StepJob &job, std::size_t n, Backend &backend)
-{
-  if constexpr (Law::kSurface)
-    if (job.multi_mesh.meshes) {
-      run_step(backend, n, MultiMeshStep<Law>{job});
-      return;
-    }
-  run_step(backend, n, MeshStep<Law>{bytes.as<Law>(), job});
-}
 
 }    // namespace lsdcd

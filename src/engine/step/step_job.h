@@ -6,7 +6,7 @@
 
 #include "backend/atomic.h"
 #include "engine/grains.h"
-#include "engine/results/results.h"
+#include "engine/results/result_columns.h"
 #include "engine/results/step_counts.h"
 #include "engine/step/compiled_law.h"
 #include "engine/step/contact_forces.h"
