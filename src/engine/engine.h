@@ -52,7 +52,7 @@ class WallEngine {
     put_grid(grid, mesh);
   }
 
-  // Sets the tree of the triangles of a mesh's grid, which steps read where laws are for shapes. Borrowed likewise.
+  // Sets the tree of the triangles of a mesh's grid, which steps read where laws are for shapes. It is borrowed, and must outlive its use.
   virtual void set_tree(const TriangleTree &tree, int mesh = 0);
 
   // Sets the pose and velocity of a mesh from now on. At first a mesh is in the frame of its grid. Must not be called between submit()

@@ -35,7 +35,7 @@ struct EngineSettings {
   bool moves = false;       // set_pose() or StepSettings::surface will be used
   bool contacts = false;    // keep what every contact does to the wall
   bool bodies = false;      // StepSettings::mobility will be used; contacts are kept, too
-  bool nodes = false;       // WallEngine::nodes() will be used; likewise
+  bool nodes = false;       // WallEngine::nodes() will be used; contacts are kept, too
   WearModel wear = WearModel::none;    // where contacts are kept
   HostArrays arrays = HostArrays::in_place;
   Device device = Device::automatic;
@@ -66,7 +66,7 @@ struct StepSettings {
   // For each mesh, in place of wall_temperature and of the settings' surface; valid until collect().
   const Real *mesh_temperature = nullptr;
   const SurfaceMotion *surface = nullptr;
-  // Likewise, where a mesh is a rigid body: how it gives way, which is 0 of others.
+  // For each mesh, how it gives way where it is a rigid body, and 0 where it is none; valid until collect().
   const Mobility *mobility = nullptr;
 };
 
@@ -76,7 +76,8 @@ enum class When {
   // In place on a GPU: at once, on a stream of its own, after the host's work on its stream by
   // begin(). collect() adds forces and torques.
   beside,
-  beside_adding_early,    // likewise, but they are added after the host's work by submit()
+  // In place on a GPU: at once, on a stream of its own; submit() adds forces and torques, after the host's work.
+  beside_adding_early,
 };
 
 }    // namespace lsdcd

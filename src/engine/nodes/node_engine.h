@@ -15,11 +15,11 @@ namespace lsdcd {
 struct MovingGridSettings;    // grid/build/moving_grid.h
 struct WeldedMesh;
 
-// How nodes have gone in a step.
+// How nodes have gone in a step. A way, or the speed, is HUGE_VAL where one of its numbers is no number.
 struct NodesGone {
-  Real most;           // how far one has gone, at most (length); HUGE_VAL where one is no number
-  Real since_grid;     // likewise, since the grid was built
-  Real speed;          // the largest (length/time); likewise
+  Real most;           // how far one has gone, at most (length)
+  Real since_grid;     // how far one has gone since the grid was built, at most (length)
+  Real speed;          // the largest (length/time)
   Vec3 lo, hi;         // corners of their bounds
   int without_area;    // the first face that has none any more, or -1
 };

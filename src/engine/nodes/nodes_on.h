@@ -138,7 +138,7 @@ class NodesOn : public NodeEngine {
  private:
   EngineOn<B> &e_;
   std::vector<MovingNodes<B>> nodes_;    // of each mesh
-  std::vector<NodeForces<B>> forces_;    // likewise
+  std::vector<NodeForces<B>> forces_;    // of each mesh
 };
 
 }    // namespace lsdcd

@@ -298,7 +298,7 @@ LSDCD_NOINLINE void put_list(const StepJob &job, const Warp<kSize> &warp, bool m
   job.lists.put(k, made, grid.wall, !has_grown);
 }
 
-// The same where the nodes of the mesh move. Candidates have no list yet when they are chosen.
+// Makes a new list of slot k where the nodes of the mesh move. Candidates have no list yet when they are chosen.
 template <unsigned kSize>
 LSDCD_NOINLINE void put_node_list(const StepJob &job, const Warp<kSize> &warp, bool mine,
                                   const QuerySphere &s, std::size_t k)

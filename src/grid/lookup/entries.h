@@ -29,7 +29,7 @@ class FullEntries {
   const CellEntry *first_;
 };
 
-// The same of a list that is packed.
+// Entries of lists that are packed.
 class PackedEntries {
  public:
   using Entry = PackedEntry;
