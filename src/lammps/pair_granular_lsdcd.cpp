@@ -314,12 +314,15 @@ double PairGranularLsdcd::radii2cut(double radius, double other)
 void PairGranularLsdcd::tell_laws()
 {
   std::string text;
-  for (int i = 1; i <= n_types; i++)
+  bool same = n_types > 1;
+  const auto words = [this](int i, int j) { return lsdcd::text_of(coeffs[law_index(i, j)]); };
+  for (int i = 1; i <= n_types && !laws.empty(); i++)
     for (int j = i; j <= n_types; j++) {
-      if (laws.empty()) continue;
-      text += "\n  types " + std::to_string(i) + " " + std::to_string(j) + ": " +
-              lsdcd::text_of(coeffs[law_index(i, j)]) + (given.count({i, j}) ? "" : " (mixed)");
+      same = same && words(i, j) == words(1, 1);
+      text += "\n  types " + std::to_string(i) + " " + std::to_string(j) + ": " + words(i, j) +
+              (given.count({i, j}) ? "" : " (mixed)");
     }
+  if (same) text = "\n  all types: " + words(1, 1);
   const int width = springs ? springs->partners.width() : 0;
   log("laws of pairs, " +
       (width ? std::to_string(width * sizeof(double) + sizeof(int)) + " bytes a touching pair"

@@ -321,3 +321,33 @@ write_restart r
 """
     lmp.refused("wall with springs under -sf lsdcd", "suffix lsdcd\n" + text, folder, "suffix off")
     lmp.run_well("suffix lsdcd\n" + text.replace("hooke/history", "hooke"), folder)
+
+
+@lmp.of_host
+@pytest.mark.parametrize("law", ["hertz/material 1e4 40 0.3 tangential mindlin 9e3 0.5 0.4 heat area 0.3",
+                                 "jkr 1e4 40 0.3 20 tangential mindlin 9e3 0.5 0.4 heat radius 0.3"])
+def test_heat_stress_and_contacts(folder, law):
+    """Heat flows, temperatures, contacts of each grain and the pressure are those of LAMMPS's pair granular, also where processes share the
+    grains anew."""
+    more = """\
+variable T atom id*0.01
+set group all temperature v_T
+fix h all heat/flow constant 1.0
+compute t all property/atom temperature heatflow
+compute c all contact/atom
+"""
+    read = "fix prop all property/atom temperature heatflow ghost yes\nread_data grains.data fix prop NULL NULL\n"
+
+    def results(style, name, ranks=1, balance=""):
+        text = script(ours("* * " + law, style=style), steps=300, every=100, name=name, more=more + balance)
+        text = text.replace("read_data grains.data\n", read).replace(COLUMNS, COLUMNS + " c_t[1] c_t[2] c_c")
+        text = text.replace("thermo_style custom step ke pe press\n", "thermo_style custom step ke press pxy\nthermo_modify format float %.15g\n")
+        rows = lmp.read_thermo(lmp.run_well(text, folder, ranks))
+        return lmp.read_dump(folder / name), rows
+
+    theirs, pressure = results("granular", "theirs")
+    for ranks, balance in ((1, ""), (4, "fix b all balance 50 1.0 shift xyz 5 1.05\n")):
+        own, own_pressure = results("granular/lsdcd", "out", ranks, balance)
+        at_most(f"{ranks} ranks: grains", lmp.largest_difference(theirs, own), 1e-10)
+        worst = max(abs(a / b - 1) for rows in zip(pressure, own_pressure) for a, b in zip(*rows) if b)
+        at_most(f"{ranks} ranks: motion and stress", worst, 1e-10)
