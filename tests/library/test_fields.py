@@ -12,7 +12,7 @@ import re
 import lsdcd
 from facts import fact
 from lsdcd import _c
-from wall_fields import LINES, rows, script, spec
+from wall_fields import ENCODED, LINES, rows, script, spec
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 _lines = ctypes.CDLL(os.environ["LSDCD_SPEC_LINES"])
@@ -86,6 +86,14 @@ def test_each_field_comes_to_the_wall():
         if words is not None:
             told = wrong(says, by_script(row.base), by_script(row.base, words))
             fact(f"{name} by a script", not told, (told, words))
+
+
+def test_values_that_c_writes_otherwise():
+    for name, (base, change, says, words) in ENCODED.items():
+        (c, cpp), (was, was_cpp) = by_library(change, base), by_library({}, base)
+        for how, told in (("Python and C", wrong(says, was, c)), ("C++", wrong(says, was_cpp, cpp)),
+                          ("a script", wrong(says, by_script(base), by_script(base, words)))):
+            fact(f"{name}, by {how}", not told, told)
 
 
 def test_defaults():

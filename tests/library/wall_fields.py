@@ -355,6 +355,12 @@ LINES = {
     "rigid_body.coat": ("mesh0.body.coat = 1; mesh0.body.coat.spacing = 1; mesh0.body.coat.radius = 0.1", f"body {BODY} coat 1 0.1 {BELOW_WORDS}"),
     "rigid_body.coat_spacing": ("mesh0.body.coat.spacing = 1.1", f"body {BODY} coat 1.1 0.1 {BELOW_WORDS}"),
     "rigid_body.coat_radius": ("mesh0.body.coat.radius = 0.2", f"body {BODY} coat 1 0.2 {BELOW_WORDS}")}
+# Values that C writes otherwise: their base, change, lines and words.
+ENCODED = {
+    "a mesh that never wears": ("wears", {"mesh": {"wear_factor": 0.0}}, "mesh0.wear_factor = 0", "wear archard 1e-6 1e5 wear_factor 0"),
+    "a coat whose lengths are chosen": ("above", {"mesh": body(coat=True)}, "mesh0.body.coat = 1", f"body {BODY} coat auto {BELOW_WORDS}"),
+    "a law of all types from 3 on": ("typed", {"mesh": {"type_laws": [TYPED["type_laws"][0], (3, None, law(kn=1.2e4))]}},
+                                     "mesh0.law1.first_type = 3", TYPE_WORDS.replace("2*", "3*"))}
 # Structs that are given to each step, answers, and what is of no wall.
 OTHERS = {"of each step": ("spheres", "wall_step"), "answers": ("wall_totals", "wall_contacts", "body_state"),
           "of no wall": ("mesh_facts", "mesh_arrays", "grid_options", "grid_facts", "query", "contacts", "shape_facts", "shapes", "body_options",
