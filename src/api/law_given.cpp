@@ -30,21 +30,14 @@ const char *field_of(Family family)
 const SubModel &row_of(Family family, bool is_classic, const std::string &name,
                        const std::string &field)
 {
-  const GoesWith with = is_classic ? GoesWith::classic : GoesWith::granular;
-  std::vector<std::string> names;
-  for (const SubModel &row : sub_models()) {
-    if (row.family != family) continue;
-    if (row.name == name && row.with == with) return row;
-    if (row.name == name)
-      refuse_field(field + ".name", in_quotes(name),
-                   is_classic ? "it goes with a normal sub-model, and `style` is given"
-                              : "it goes with a style, and `normal` is given");
-    if (row.with == with) names.push_back(row.name);
-  }
-  if (names.empty())
+  if (is_classic && family != Family::style && !is_beside_style(family))
     refuse_field(field + ".name", in_quotes(name),
-                 std::string("leave it null, as there is none beside a ") +
-                     (is_classic ? "style" : "normal sub-model"));
+                 "leave it null, as there is none beside a style");
+  std::vector<std::string> names;
+  for (const SubModel *row : sub_models(family)) {
+    if (row->name == name) return *row;
+    names.push_back(row->name);
+  }
   refuse_field(field + ".name", in_quotes(name), nearest_or_all(name, names));
 }
 
@@ -112,9 +105,10 @@ class LawMaker {
     try {
       finish_granular(draft_);
     } catch (const LawError &e) {
-      const bool limits = e.field == "limit_damping";
-      refuse_field(field_ + "." + e.field + (limits ? "" : ".name"),
-                   limits ? "1" : in_quotes(draft_.damping_name), e.what());
+      if (e.field == "limit_damping") refuse_field(field_ + ".limit_damping", "1", e.what());
+      refuse_field(field_ + "." + e.field + ".name",
+                   in_quotes(e.field == "rolling" ? given_.rolling.name : draft_.damping_name),
+                   e.what());
     }
     return {draft_.law, "granular" + text_ + (draft_.law.limit_damping ? " limit_damping" : "")};
   }
@@ -130,12 +124,11 @@ class LawMaker {
     if (is_classic_) return;
     if (!normal)
       refuse_field(field_ + ".style.name", "null",
-                   "give a style, " + names_text(Family::style, GoesWith::classic) +
+                   "give a style, " + names_text(Family::style) +
                        ", or the names of `normal` and `tangential`");
     if (!given_.tangential.name)
       refuse_field(field_ + ".tangential.name", "null",
-                   "beside a normal sub-model give one of " +
-                       names_text(Family::tangential, GoesWith::granular));
+                   "beside a normal sub-model give one of " + names_text(Family::tangential));
   }
 
   void add(Family family, const lsdcd_sub_model &given)
@@ -315,7 +308,7 @@ int lsdcd_sub_model_get_facts(size_t k, lsdcd_sub_model_facts *facts)
     f.field = field_of(row.family);
     f.name = row.name;
     f.source = row.help;
-    f.beside_style = row.with == GoesWith::classic;
+    f.beside_style = row.family == Family::style || is_beside_style(row.family);
     f.n = static_cast<int>(row.parameters.size());
     for (std::size_t i = 0; i < kRoom; i++) {
       const bool is_there = i < row.parameters.size();

@@ -451,24 +451,24 @@ typedef struct lsdcd_law {
   lsdcd_sub_model style;
   lsdcd_sub_model normal, tangential; /* "hertz/material", "mindlin"; null: there is a style */
   lsdcd_sub_model damping;            /* beside normal: "tsuji"; null: viscoelastic */
-  lsdcd_sub_model rolling;            /* "sds" beside normal, "cdt" beside a style; null: none */
+  lsdcd_sub_model rolling;            /* beside normal or a style: "epsd2"; null: none */
   lsdcd_sub_model twisting;           /* beside normal: "marshall"; null: none */
   lsdcd_sub_model heat; /* beside normal: "radius", and spheres have a temperature; null: none */
-  lsdcd_sub_model cohesion; /* beside a style: "sjkr"; null: none */
+  lsdcd_sub_model cohesion; /* beside normal or a style: "sjkr"; null: none */
   /* 1: damping never pulls at a sphere that leaves. The value in the law of a wall holds for all of its meshes. */
   int limit_damping;
 } lsdcd_law;
 
 /* The facts of a sub-model. Texts live as long as the library. */
 typedef struct lsdcd_sub_model_facts {
-  size_t size;           /* of this struct; set by the caller */
-  const char *field;     /* of lsdcd_law: "style", "normal", ... */
-  const char *name;      /* "mindlin" */
-  const char *source;    /* one line: what it is, and where its formula comes from */
-  int beside_style;      /* 1: it goes with a classic style or is one; 0: with a normal sub-model */
-  int n;                 /* how many numbers it has; of number k, from 0: */
-  const char *number[8]; /* its name: "kt" */
-  const char *unit[8];   /* "force/length^2"; "1": none */
+  size_t size;        /* of this struct; set by the caller */
+  const char *field;  /* of lsdcd_law: "style", "normal", ... */
+  const char *name;   /* "mindlin" */
+  const char *source; /* one line: what it is, and where its formula comes from */
+  int beside_style; /* 1: it may stand beside a classic style or is one; 0: beside a normal sub-model alone */
+  int n;            /* how many numbers it has; of number k, from 0: */
+  const char *number[8];    /* its name: "kt" */
+  const char *unit[8];      /* "force/length^2"; "1": none */
   double least[8], most[8]; /* its range */
   int may_be_derived[8];    /* 1: it may be LSDCD_DERIVED */
 } lsdcd_sub_model_facts;
@@ -795,10 +795,11 @@ typedef struct lsdcd_wall_totals {
   double contacts;
   double overlap;     /* the largest overlap / radius, or least half-axis */
   double uncertified; /* spheres whose answer was not certified exact; see `nearest` */
-  double power;       /* of the mesh on the spheres, by its motion; of nodes by velocities of half a step before */
-  double energy;      /* elastic */
-  double worn;        /* volume worn off so far */
-  double servo[3];    /* position, velocity, push; 0 without a servo */
+  double
+      power; /* of the mesh on the spheres, by its motion; of nodes by velocities of half a step before */
+  double energy;   /* elastic */
+  double worn;     /* volume worn off so far */
+  double servo[3]; /* position, velocity, push; 0 without a servo */
   /* With wear_deform_every, volumes times wear_deform_factor: by which wear has moved the mesh so far, and what has worn
    * at vertices that stay, as a triangle would fold over or meet another part of the mesh. */
   double removed, held_back;

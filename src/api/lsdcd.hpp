@@ -887,14 +887,12 @@ struct WallSpec {
 namespace c {
 // Throws where a field of lsdcd_law is given another number of numbers than its sub-model has; in C these would be 0. A
 // name that there is not is left to the library.
-inline void check_numbers(const SubModel &model, const std::string &field, bool beside_style)
+inline void check_numbers(const SubModel &model, const std::string &field)
 {
   lsdcd_sub_model_facts facts = {};
   facts.size = sizeof facts;
   for (std::size_t k = 0; lsdcd_sub_model_get_facts(k, &facts) == LSDCD_OK; k++) {
-    if (field != facts.field || model.name != facts.name ||
-        beside_style != (facts.beside_style != 0))
-      continue;
+    if (field != facts.field || model.name != facts.name) continue;
     const std::size_t n = static_cast<std::size_t>(facts.n);
     if (model.numbers.size() == n) return;
     std::string names;
@@ -907,10 +905,10 @@ inline void check_numbers(const SubModel &model, const std::string &field, bool 
                                           "; kDerived may stand for one that is derived");
   }
 }
-inline lsdcd_sub_model struct_of(const SubModel &model, const std::string &field, bool beside_style)
+inline lsdcd_sub_model struct_of(const SubModel &model, const std::string &field)
 {
   lsdcd_sub_model out = {};
-  check_numbers(model, field, beside_style);
+  check_numbers(model, field);
   constexpr std::size_t kRoom = sizeof out.numbers / sizeof out.numbers[0];
   if (model.numbers.size() > kRoom)
     throw Error(LSDCD_ERROR_ARGUMENT, "lsdcd::SubModel: '" + model.name + "' is given " +
@@ -925,15 +923,14 @@ inline lsdcd_law struct_of(const Law &law)
 {
   lsdcd_law out = {};
   out.size = sizeof out;
-  const bool beside_style = !law.style.name.empty();
-  out.style = struct_of(law.style, "style", beside_style);
-  out.normal = struct_of(law.normal, "normal", beside_style);
-  out.tangential = struct_of(law.tangential, "tangential", beside_style);
-  out.damping = struct_of(law.damping, "damping", beside_style);
-  out.rolling = struct_of(law.rolling, "rolling", beside_style);
-  out.twisting = struct_of(law.twisting, "twisting", beside_style);
-  out.heat = struct_of(law.heat, "heat", beside_style);
-  out.cohesion = struct_of(law.cohesion, "cohesion", beside_style);
+  out.style = struct_of(law.style, "style");
+  out.normal = struct_of(law.normal, "normal");
+  out.tangential = struct_of(law.tangential, "tangential");
+  out.damping = struct_of(law.damping, "damping");
+  out.rolling = struct_of(law.rolling, "rolling");
+  out.twisting = struct_of(law.twisting, "twisting");
+  out.heat = struct_of(law.heat, "heat");
+  out.cohesion = struct_of(law.cohesion, "cohesion");
   out.limit_damping = law.limit_damping;
   return out;
 }
@@ -945,7 +942,7 @@ inline SubModel model_of(const lsdcd_sub_model &from, const std::string &field)
   facts.size = sizeof facts;
   std::size_t k = 0;
   do check(lsdcd_sub_model_get_facts(k++, &facts));
-  while (field != facts.field || std::string(from.name) != facts.name || facts.beside_style != 0);
+  while (field != facts.field || std::string(from.name) != facts.name);
   return {from.name, {from.numbers, from.numbers + facts.n}};
 }
 

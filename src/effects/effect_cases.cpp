@@ -66,6 +66,12 @@ std::vector<EffectCase> effect_cases()
   add("rolling epsd2", "rolling epsd2", "tangential spring", [](EngineSettings &s) {
     s.law().rolling = {RollingModel::epsd2, {0.1}};
   });
+  add("rolling epsd", "rolling epsd", "tangential spring", [](EngineSettings &s) {
+    s.law().rolling = {RollingModel::epsd, {0.1, 0.3}};
+  });
+  add("rolling epsd3", "rolling epsd3", "tangential spring", [](EngineSettings &s) {
+    s.law().rolling = {RollingModel::epsd3, {0.1, 0.3, 1}};
+  });
   add("cohesion sjkr", "cohesion sjkr", "hooke", [](EngineSettings &s) {
     s.law().cohesion = {CohesionModel::sjkr, {1e3}};
   });
@@ -101,11 +107,17 @@ std::vector<EffectCase> effect_cases()
       tangential(TangentialModel::linear_history));
   add("linear_history_slip", "tangential linear_history_slip", "hertz",
       tangential(TangentialModel::linear_history_slip));
+  add("linear_nohistory_liggghts", "tangential linear_nohistory_liggghts", "hertz",
+      tangential(TangentialModel::linear_nohistory_liggghts));
+  add("linear_history_liggghts", "tangential linear_history_liggghts", "hertz",
+      tangential(TangentialModel::linear_history_liggghts));
   add("mindlin", "tangential mindlin", "hertz", tangential(TangentialModel::mindlin));
   add("mindlin/force", "tangential mindlin/force", "hertz",
       tangential(TangentialModel::mindlin_force));
   add("mindlin_slip", "tangential mindlin_slip", "hertz",
       tangential(TangentialModel::mindlin_slip));
+  add("mindlin_liggghts", "tangential mindlin_liggghts", "hertz",
+      tangential(TangentialModel::mindlin_liggghts));
   add("mindlin_rescale", "tangential mindlin_rescale", "mindlin",
       tangential(TangentialModel::mindlin_rescale));
   add("mindlin_rescale/force", "tangential mindlin_rescale/force", "mindlin/force",

@@ -75,6 +75,7 @@ std::string why_not_for_shapes(const ContactLaw &law)
   if (law.rolling.is_on()) return refused("rolling resistance");
   if (law.twisting.is_on()) return refused("twisting resistance");
   if (law.has_heat()) return refused("heat");
+  if (law.is_at_midpoint()) return refused("LIGGGHTS's friction");
   if (law.rescales()) return refused("a tangential spring that is rescaled");
   return "";
 }

@@ -26,17 +26,17 @@ std::string words_of(const SubModel &row)
 // "tangential linear_nohistory|linear_history|..."
 std::string choices_of(Family family)
 {
-  return with_gap(family_word(family), names_text(family, GoesWith::granular));
+  return with_gap(family_word(family), names_text(family));
 }
 
-const Family kFamilies[] = {Family::damping, Family::tangential, Family::rolling, Family::twisting,
-                            Family::heat};
+const Family kFamilies[] = {Family::damping,  Family::tangential, Family::rolling,
+                            Family::twisting, Family::heat,       Family::cohesion};
 
 const SubModel &read_name(Tokens &w, Family family)
 {
   w.set_context(with_gap("granular", family_word(family)), choices_of(family));
   if (w.done()) w.fail("the name of the sub-model is missing");
-  for (const SubModel *row : sub_models(family, GoesWith::granular)) {
+  for (const SubModel *row : sub_models(family)) {
     if (w.peek() != row->name) continue;
     w.take();
     w.set_context(with_gap("granular", with_gap(family_word(family), row->name)), words_of(*row));
@@ -129,14 +129,14 @@ std::string granular_syntax()
 {
   return "granular " + choices_of(Family::normal) +
          " ... tangential MODEL ... [damping MODEL] [rolling MODEL ...] [twisting MODEL ...] "
-         "[heat MODEL ...] [limit_damping] mesh FILE [keywords]";
+         "[heat MODEL ...] [cohesion MODEL ...] [limit_damping] mesh FILE [keywords]";
 }
 
 std::string granular_help()
 {
   std::string help;
   for (const SubModel &row : sub_models())
-    if (row.with == GoesWith::granular) help += "    " + words_of(row) + "\n";
+    if (row.family != Family::style) help += "    " + words_of(row) + "\n";
   return help;
 }
 

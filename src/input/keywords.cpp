@@ -75,12 +75,12 @@ void read_cache(Tokens &w, MeshSpec &s, InputNames &)
 }
 
 // A family's sub-models beside a classic style: "cdt MU | epsd2 MU", and a line about each.
-struct BesideClassic {
+struct BesideStyle {
   std::string syntax, help;
 
-  explicit BesideClassic(Family family)
+  explicit BesideStyle(Family family)
   {
-    for (const SubModel *row : sub_models(family, GoesWith::classic)) {
+    for (const SubModel *row : rows_beside_style(family)) {
       syntax += (syntax.empty() ? "" : " | ") + syntax_of(*row);
       help += (help.empty() ? "" : "; ") + std::string(row->name) + ": " + row->help;
     }
@@ -89,15 +89,15 @@ struct BesideClassic {
 
 void read_rolling(Tokens &w, WallCommand &s)
 {
-  read_beside_classic(w, s.wall.laws.front().law, Family::rolling);
+  read_beside_style(w, s.wall.laws.front().law, Family::rolling);
 }
 
 void read_cohesion(Tokens &w, WallCommand &s)
 {
-  read_beside_classic(w, s.wall.laws.front().law, Family::cohesion);
+  read_beside_style(w, s.wall.laws.front().law, Family::cohesion);
 }
 
-const BesideClassic kRolling(Family::rolling), kCohesion(Family::cohesion);
+const BesideStyle kRolling(Family::rolling), kCohesion(Family::cohesion);
 
 void read_wear(Tokens &w, WallCommand &s)
 {

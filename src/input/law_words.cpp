@@ -59,8 +59,7 @@ void read_types(Tokens &w, LawOfTypes &of)
 
 std::string law_syntax()
 {
-  return names_text(Family::style, GoesWith::classic) + " " +
-         parameters_text(*sub_models(Family::style, GoesWith::classic)[0]) +
+  return names_text(Family::style) + " " + parameters_text(*sub_models(Family::style)[0]) +
          " [limit_damping] mesh FILE [keywords], or granular NORMAL ... mesh FILE [keywords]";
 }
 
@@ -72,7 +71,7 @@ ContactLaw read_law(Tokens &w, std::string &name, const std::string &syntax)
     w.take();
     return read_granular(w, name);
   }
-  for (const SubModel *row : sub_models(Family::style, GoesWith::classic)) {
+  for (const SubModel *row : sub_models(Family::style)) {
     if (name != row->name) continue;
     w.take();
     w.set_context(row->name, syntax);
@@ -87,13 +86,18 @@ ContactLaw read_law(Tokens &w, std::string &name, const std::string &syntax)
   w.fail("'" + name + "' is not a contact style");
 }
 
-void read_beside_classic(Tokens &w, ContactLaw &law, Family family)
+std::vector<const SubModel *> rows_beside_style(Family family)
 {
-  if (!law.is_classic())
-    w.fail(std::string("it works only with the classic styles; granular has ") +
-           (family == Family::rolling ? "'rolling sds' before mesh"
-                                      : "the normal sub-models dmt and jkr"));
-  const std::vector<const SubModel *> rows = sub_models(family, GoesWith::classic);
+  std::vector<const SubModel *> rows = sub_models(family);
+  const auto is_none = [](const SubModel *row) { return row->name == std::string("none"); };
+  rows.erase(std::remove_if(rows.begin(), rows.end(), is_none), rows.end());
+  return rows;
+}
+
+void read_beside_style(Tokens &w, ContactLaw &law, Family family)
+{
+  if (!law.is_classic()) w.fail("beside granular it comes before mesh, as the other sub-models");
+  const std::vector<const SubModel *> rows = rows_beside_style(family);
   std::vector<std::string> names;
   for (const SubModel *row : rows) names.push_back(row->name);
   LawDraft draft;
@@ -126,7 +130,7 @@ void read_law_of_mesh(Tokens &w, MeshSpec &mesh, InputNames &)
     const bool twice = rolls ? of.law.rolling.is_on() : of.law.cohesion.is_on();
     w.set_context("law ... " + w.take(), kLawOfTypesSyntax);
     if (twice) w.fail("it is given twice");
-    read_beside_classic(w, of.law, rolls ? Family::rolling : Family::cohesion);
+    read_beside_style(w, of.law, rolls ? Family::rolling : Family::cohesion);
   }
   mesh.laws.insert(by_type ? mesh.laws.end() : mesh.laws.begin(), of);
 }

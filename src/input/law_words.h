@@ -9,6 +9,7 @@
 #include "wall/wall_spec.h"
 
 #include <string>
+#include <vector>
 
 namespace lsdcd {
 
@@ -16,8 +17,9 @@ namespace lsdcd {
 std::string law_syntax();
 // Returns the style and its numbers. `name`: the style; with `granular`, all its words.
 ContactLaw read_law(Tokens &w, std::string &name, const std::string &syntax);
-// A sub-model of LIGGGHTS beside a classic style: "cdt MU". `instead`: what granular has.
-void read_beside_classic(Tokens &w, ContactLaw &law, Family family);
+// A sub-model beside a classic style: "cdt MU", and those that there are: all of the family but `none`.
+void read_beside_style(Tokens &w, ContactLaw &law, Family family);
+std::vector<const SubModel *> rows_beside_style(Family family);
 
 // [types I] STYLE NUMBERS, after `law`.
 void read_law_of_mesh(Tokens &w, MeshSpec &mesh, InputNames &);

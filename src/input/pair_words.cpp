@@ -19,7 +19,8 @@ namespace {
 
 const char *const kSyntax =
     "pair_coeff I J NORMAL ... tangential MODEL ... [damping MODEL] [rolling MODEL ...] [twisting "
-    "MODEL ...] [heat MODEL ...] [limit_damping] [cutoff C], or pair_coeff I J law STYLE numbers "
+    "MODEL ...] [heat MODEL ...] [cohesion MODEL ...] [limit_damping] [cutoff C], or pair_coeff I "
+    "J law STYLE numbers "
     "[cutoff C], or pair_coeff I J law material FILE A [on B] ... [cutoff C]";
 
 // Words of LAMMPS's pair_style granular that this one does not serve, and why.

@@ -84,7 +84,7 @@ std::string answer_to(const std::string &word, bool granular)
       {"material", "it goes with granular material FILE PARTICLE, after mesh FILE"},
       {"model", kNumbers},
       {"file", "the keyword is mesh FILE"},
-      {"rolling_friction", "the keywords are rolling cdt MU and rolling epsd2 MU"},
+      {"rolling_friction", "the keyword is rolling cdt MU, epsd2 MU, epsd MU damping"},
   };
   for (const auto &row : foreign)
     if (word == row.word) return row.answer;

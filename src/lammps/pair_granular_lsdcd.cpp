@@ -342,9 +342,10 @@ void PairGranularLsdcd::check_step()
       if (!(a.least > 0 && b.least > 0 && a.least_mass > 0 && b.least_mass > 0) || laws.empty())
         continue;
       const lsdcd::ContactLaw &law = numbers[law_index(i, j)];
-      const double time =
-          lsdcd::contact_time(law, a.least_mass * b.least_mass / (a.least_mass + b.least_mass),
-                              a.least * b.least / (a.least + b.least), force->ftm2v);
+      const auto reduced = [](double of_a, double of_b) { return of_a * of_b / (of_a + of_b); };
+      const double time = lsdcd::contact_time(
+          law, reduced(a.least_mass, b.least_mass), reduced(a.least, b.least), force->ftm2v,
+          0.4 * reduced(a.least_mass * a.least * a.least, b.least_mass * b.least * b.least));
       if (!(time < shortest)) continue;
       shortest = time;
       hertz = lsdcd::is_hertzian(law);

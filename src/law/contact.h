@@ -45,6 +45,12 @@ LSDCD_FN Vec3 turned_into_plane(const Vec3 &h, const Vec3 &normal, Real stiff, R
   return length > 0 ? (norm(h) / length) * flat : Vec3{0, 0, 0};
 }
 
+// Is a spring of this size beyond its limit? One that was cut in the last step is there in a setup, to rounding.
+LSDCD_FN bool is_cut(Real size, Real limit, const Contact &c)
+{
+  return c.update ? size > limit : size >= (1 - 1e-9) * limit;
+}
+
 struct ContactForce {
   Real normal;        // force along the normal, < 0 where it pulls
   Vec3 tangential;    // force on the sphere at the contact

@@ -61,8 +61,22 @@ struct ContactLaw {
   bool has_heat() const { return heat.is_on(); }
   // Does the tangential spring shrink as the contact unloads?
   bool rescales() const { return tangential >= TangentialModel::mindlin_rescale; }
-  // Returns whether it has a sub-model of LIGGGHTS beside a classic style.
-  bool is_extended() const { return is_classic() && (rolling.is_on() || cohesion.is_on()); }
+  // Does friction stretch a spring? Of `granular`.
+  bool has_spring() const { return tangential >= TangentialModel::linear_history; }
+  // Is friction that of LIGGGHTS, at the middle of the overlap?
+  bool is_at_midpoint() const
+  {
+    return tangential == TangentialModel::linear_nohistory_liggghts ||
+           tangential == TangentialModel::linear_history_liggghts ||
+           tangential == TangentialModel::mindlin_liggghts;
+  }
+  // Returns whether it has rolling or cohesion beside a classic style, or a sub-model of LIGGGHTS in `granular`. These have
+  // compiled laws of their own.
+  bool is_extended() const
+  {
+    const bool rolls = rolling.is_on() && (is_classic() || rolling.model != RollingModel::sds);
+    return rolls || cohesion.is_on() || is_at_midpoint();
+  }
 
   // Does a contact have a history? With adhesion beyond contact it does: only what touched is held.
   bool has_history() const;

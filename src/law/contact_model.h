@@ -7,6 +7,8 @@
 //   kBeyondContact, pull_off  does it act beyond contact, and up to what distance at radius 1?
 //   kContactTorque, kHeat     does evaluate() also return a contact torque, a heat flow?
 //   kWholeArms         in a pair, is the arm of the tangential force the radius? Else half of the overlap is less.
+//   kMidpoint            may friction be at the middle of the overlap, its slip too, as with is_at_midpoint()? At a wall, else, at
+//                      the radius
 //   evaluate(contact, memory)    of a Contact or a PairContact
 // and, with kVectors or kScalars, and with kHeat
 //   stores(k)           is the k-th of these vectors and scalars stored from step to step?
@@ -25,6 +27,8 @@
 #include "law/submodels/tangential.h"
 #include "law/submodels/twisting.h"
 
+#include <type_traits>
+
 namespace lsdcd {
 
 // The classic styles.
@@ -33,7 +37,7 @@ struct ContactModel {
   static constexpr bool kHistory = Tangential::kHistory;
   static constexpr int kVectors = 0, kScalars = 0, kExtra = 0;
   static constexpr bool kBeyondContact = false, kContactTorque = false, kHeat = false;
-  static constexpr bool kWholeArms = true;
+  static constexpr bool kWholeArms = true, kMidpoint = false;
 
   Normal elastic;
   Damping damping;
@@ -70,16 +74,16 @@ struct FullForce : ContactForce {
   Real heat;              // power into the sphere
 };
 
-// A classic style with sub-models of LIGGGHTS. kHistory_: does a contact have a history?
+// A classic style with rolling resistance and cohesion. kHistory_: does a contact have a history?
 template <class Base, bool kHistory_>
 struct AddedModel {
   static constexpr bool kHistory = kHistory_;
   static constexpr int kVectors = kHistory ? 1 : 0, kScalars = 0, kExtra = 3 * kVectors;
   static constexpr bool kBeyondContact = false, kContactTorque = true, kHeat = false;
-  static constexpr bool kWholeArms = true;
+  static constexpr bool kWholeArms = true, kMidpoint = false;
 
   Base base;
-  ClassicRolling rolling;
+  AnyRolling rolling;
   SjkrCohesion cohesion;
   Real k_tangent;    // per unit of Base::scale()
 
@@ -93,7 +97,7 @@ struct AddedModel {
     memory.shear = sliding.shear;
     if (rolling.is_on()) {
       const Real scale = base.scale(c);
-      const RollingInput<C> in = {c, base.elastic.force(c, scale), out.normal, fabs(out.normal),
+      const RollingInput<C> in = {c, fabs(out.normal), base.elastic.stiffness(scale),
                                   scale * k_tangent};
       rolling.act(in, memory, 0, out.contact_torque, out.energy);
     }
@@ -106,16 +110,18 @@ struct AddedModel {
 };
 
 // The sub-models of `granular`, with the formulas of LAMMPS 4Jul2026. kFull: with those that few scenes
-// use (`mindlin_rescale`, rolling, twisting, heat), each of which may be off.
-template <class Normal, bool kHistory_, bool kFull>
+// use (`mindlin_rescale`, rolling, twisting, heat), each of which may be off. kAll: with those of LIGGGHTS, too.
+template <class Normal, bool kHistory_, bool kFull, bool kAll = false>
 struct GranularModel {
   static constexpr bool kHistory = kHistory_;
   static constexpr int kVectors = kHistory && kFull ? 1 : 0, kScalars = 2 * kVectors;
   static constexpr int kExtra = 3 * kVectors + kScalars;
   static constexpr bool kBeyondContact = Normal::kBeyondContact;
-  static constexpr bool kContactTorque = kHistory && kFull, kHeat = kFull;
-  static constexpr bool kWholeArms = false;
-  static_assert(GranularRolling::kAllStore, "a law without memory has no contact torque");
+  static constexpr bool kContactTorque = (kHistory && kFull) || kAll, kHeat = kFull;
+  static constexpr bool kWholeArms = false, kMidpoint = kAll;
+  using Rolls = std::conditional_t<kAll, AnyRolling, SpringRolling>;
+  static_assert(kFull || !kAll, "all are more than these");
+  static_assert(SpringRolling::kAllStore, "a law without memory has no contact torque");
 
   // Places in ContactMemory::extra.
   static constexpr int kRolled = 0, kRadius = 3, kTwist = 4;
@@ -123,9 +129,10 @@ struct GranularModel {
   Normal elastic;
   GranularDamping damping;
   GranularFriction tangential;
-  GranularRolling rolling;
+  Rolls rolling;
   SpringTwisting twisting;
   Conduction conduction;
+  SjkrCohesion cohesion;
   bool uses_contact_radius;    // does anything, though the normal force may not?
   bool limit_damping;
 
@@ -134,6 +141,7 @@ struct GranularModel {
     return k == 0 ? rolling.stores_vector() : k == 1 ? tangential.rescale : twisting.is_on();
   }
   LSDCD_FN bool has_heat() const { return conduction.is_on(); }
+  LSDCD_FN bool is_at_midpoint() const { return tangential.at_midpoint; }
 
   template <class C>
   LSDCD_FN FullForce evaluate(const C &c, ContactMemory<kExtra> &memory) const
@@ -152,18 +160,23 @@ struct GranularModel {
     if constexpr (kHistory) out.energy += tangential.energy(a, memory);
     out.contact_torque = {0, 0, 0};
     out.heat = 0;
-    if constexpr (kContactTorque) {
-      rolling.act(RollingInput<C>{c, f, out.normal, limit, tangential.stiffness(a)}, memory,
+    if constexpr (kContactTorque)
+      rolling.act(RollingInput<C>{c, limit, elastic.stiffness(a), tangential.stiffness(a)}, memory,
                   kRolled, out.contact_torque, out.energy);
+    if constexpr (kHistory && kFull)
       if (twisting.is_on()) {
         const TwistCoefficients t = twisting.coefficients(
             limit, a, tangential.stiffness(a), tangential.xgammat * gamma, tangential.mu);
         out.contact_torque += twisting.contact_torque(c, t, memory, kTwist) * c.normal;
         out.energy += twisting.energy(t, memory, kTwist);
       }
-    }
     if constexpr (kHeat)
       if (has_heat()) out.heat = conduction.flow(c, a);
+    if constexpr (kAll)
+      if (cohesion.is_on() && c.overlap > 0) {
+        out.normal -= cohesion.pull(c);
+        out.energy += cohesion.energy(c);
+      }
     return out;
   }
 
@@ -179,6 +192,8 @@ struct GranularModel {
         if (!tangential.spring) return tangential.slip_force(c, gamma, limit);
         if (tangential.rescale) tangential.rescale_spring(a, memory, kRadius);
       }
+      if constexpr (kAll)
+        if (tangential.at_midpoint) return tangential.sticking_force(c, a, gamma, limit, memory);
       return tangential.spring_force(c, a, gamma, limit, memory);
     }
   }

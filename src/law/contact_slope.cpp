@@ -18,11 +18,11 @@ constexpr Real kHertzSlope = 1.5;    // tangent stiffness / secant stiffness
 // Tangential stiffness (force/length) where the contact radius is a.
 Real tangential_stiffness(const ContactLaw &law, Real a)
 {
+  if (!law.has_spring()) return 0;
   switch (law.tangential) {
-    case TangentialModel::linear_nohistory:
-      return 0;
     case TangentialModel::linear_history:
     case TangentialModel::linear_history_slip:
+    case TangentialModel::linear_history_liggghts:
       return law.k_tangent;
     default:
       return law.k_tangent * a;
@@ -65,6 +65,25 @@ ContactSlopes contact_slopes(const ContactLaw &law, Real overlap, Real radius, R
   ContactSlopes s = slopes_of(law, overlap, radius, mass);
   if (law.mu == 0) s.tangential = {};
   return s;
+}
+
+Real rolling_stiffness(const ContactLaw &law, Real overlap, Real radius)
+{
+  const Real *const numbers = law.rolling.numbers, mu = numbers[0];
+  const ContactSlopes s = slopes_of(law, overlap, radius, 0);
+  const Real secant = s.normal.stiffness / (law.is(NormalModel::hooke) ? 1 : kHertzSlope);
+  switch (law.rolling.model) {
+    case RollingModel::sds:
+      return numbers[0] * radius * radius;
+    case RollingModel::epsd2:
+      return s.tangential.stiffness * radius * radius;
+    case RollingModel::epsd:
+      return 2.25 * secant * mu * mu * radius * radius;
+    case RollingModel::epsd3:
+      return numbers[2] * secant * mu * mu * radius * radius;
+    default:
+      return 0;
+  }
 }
 
 }    // namespace lsdcd

@@ -23,4 +23,7 @@ struct ContactSlopes {
 };
 ContactSlopes contact_slopes(const ContactLaw &law, Real overlap, Real radius, Real mass);
 
+// Stiffness of the spring that resists rolling, torque/angle; 0: there is none.
+Real rolling_stiffness(const ContactLaw &law, Real overlap, Real radius);
+
 }    // namespace lsdcd

@@ -3,6 +3,9 @@
 
 #include "law/contact_time.h"
 
+#include "law/contact_slope.h"
+
+#include <algorithm>
 #include <cmath>
 
 namespace lsdcd {
@@ -12,7 +15,7 @@ bool is_hertzian(const ContactLaw &law)
   return !law.is(NormalModel::hooke);
 }
 
-Real contact_time(const ContactLaw &law, Real mass, Real radius, Real ftm2v)
+Real contact_time(const ContactLaw &law, Real mass, Real radius, Real ftm2v, Real inertia)
 {
   Real k = law.k_normal, gamma = law.is_classic() ? law.eta : 0;
   if (is_hertzian(law)) {
@@ -22,7 +25,11 @@ Real contact_time(const ContactLaw &law, Real mass, Real radius, Real ftm2v)
   }
   const Real omega_sq = ftm2v * k / mass, half = 0.5 * ftm2v * gamma;
   const Real damped_sq = omega_sq - half * half;
-  return kPi / std::sqrt(damped_sq > 0 ? damped_sq : omega_sq);
+  const Real of_normal = kPi / std::sqrt(damped_sq > 0 ? damped_sq : omega_sq);
+  if (!law.rolling.is_on()) return of_normal;
+  if (inertia == 0) inertia = 0.4 * mass * radius * radius;
+  const Real stiffness = ftm2v * rolling_stiffness(law, 0.01 * radius, radius);
+  return std::min(of_normal, kPi / std::sqrt(stiffness / inertia));
 }
 
 HertzImpact hertz_impact(Real modulus, Real mass, Real radius, Real speed)

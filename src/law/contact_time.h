@@ -15,9 +15,10 @@ constexpr Real kStepsPerContact = 10;
 bool is_hertzian(const ContactLaw &law);
 
 // Duration of a binary contact of a sphere with the wall: half a period of the damped spring (undamped
-// with granular, whose damping may be anything). A Hertz spring is taken at an overlap of 1 % of the
-// radius. `ftm2v`: force per mass to velocity per time, LAMMPS's number of the units.
-Real contact_time(const ContactLaw &law, Real mass, Real radius, Real ftm2v);
+// with granular, whose damping may be anything), or that of the spring that resists its rolling, where
+// that is shorter. A Hertz spring is taken at an overlap of 1 % of the radius. `ftm2v`: force per mass to velocity per time, LAMMPS's number of the units.
+// `inertia`: the moment that rolls, 1/(1/I1 + 1/I2) of two spheres; 0: that of a sphere, 2/5 m R^2.
+Real contact_time(const ContactLaw &law, Real mass, Real radius, Real ftm2v, Real inertia = 0);
 
 // An elastic Hertz impact of two bodies: `modulus` is their E*, `mass` and `radius` the effective ones
 // 1/(1/m1 + 1/m2) and 1/(1/R1 + 1/R2), `speed` > 0 that along the normal. Units of any consistent system.

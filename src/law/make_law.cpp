@@ -39,7 +39,7 @@ void add_sub_model(const SubModel &row, const std::vector<Real> &given, LawDraft
 
 bool can_derive(const SubModel &row, const LawDraft &draft)
 {
-  return row.with == GoesWith::classic || draft.young != 0;
+  return row.family == Family::style || draft.young != 0;
 }
 
 void finish_granular(LawDraft &d)
@@ -49,6 +49,9 @@ void finish_granular(LawDraft &d)
   const std::string normal = "'" + std::string(d.normal_name) + "'";
   if (law.limit_damping && adhesive)
     throw LawError("limit_damping", "the adhesive sub-model " + normal + " must be able to pull");
+  if (law.rolling.model == RollingModel::epsd2 && !law.has_spring())
+    throw LawError("rolling", "epsd2 has the stiffness of the tangential sub-model: take one with "
+                              "a history, or epsd");
   // The damping says what the second number of the normal sub-model is.
   law.eta = d.second;
   if (law.damping != DampingModel::stiffness) return;

@@ -39,13 +39,13 @@ Family family_of(const Chosen<Model> &chosen)
   return family;
 }
 
-// A classic style with effects of LIGGGHTS beside it: calls make(law).
+// A classic style with rolling or cohesion beside it: calls make(law).
 template <class Make>
 auto with_added_law(const ContactLaw &p, const Make &make)
 {
   return with_classic_law(p, [&](const auto &base) {
     using Base = std::decay_t<decltype(base)>;
-    const auto rolling = family_of<ClassicRolling>(p.rolling);
+    const auto rolling = family_of<AnyRolling>(p.rolling);
     const SjkrCohesion cohesion = {p.cohesion.numbers[0]};
     if constexpr (!Base::kHistory)
       if (!p.has_history())
@@ -55,12 +55,13 @@ auto with_added_law(const ContactLaw &p, const Make &make)
 }
 
 // `granular` with one normal sub-model.
-template <bool kHistory, bool kFull, class Normal>
-GranularModel<Normal, kHistory, kFull> granular_model(const ContactLaw &p, const Normal &normal)
+template <bool kHistory, bool kFull, bool kAll = false, class Normal>
+GranularModel<Normal, kHistory, kFull, kAll> granular_model(const ContactLaw &p,
+                                                            const Normal &normal)
 {
+  using Model = GranularModel<Normal, kHistory, kFull, kAll>;
   const TangentialModel t = p.tangential;
-  const bool spring = t != TangentialModel::linear_nohistory,
-             mindlin = t >= TangentialModel::mindlin;
+  const bool spring = p.has_spring(), mindlin = t >= TangentialModel::mindlin;
   const bool of_force =
       t == TangentialModel::mindlin_force || t == TangentialModel::mindlin_rescale_force;
   const bool slip = t == TangentialModel::linear_history_slip || t == TangentialModel::mindlin_slip;
@@ -68,31 +69,48 @@ GranularModel<Normal, kHistory, kFull> granular_model(const ContactLaw &p, const
                                    p.twisting.model == TwistingModel::marshall || p.has_heat();
   const Real *const twisting = p.twisting.numbers;
   const GranularFriction friction = {
-      spring ? p.k_tangent : 0, p.xgammat, p.mu, spring, mindlin, of_force, p.rescales(), slip};
+      spring ? p.k_tangent : 0, p.xgammat, p.mu, spring, mindlin, of_force, p.rescales(), slip,
+      p.is_at_midpoint()};
   return {normal,
           {p.damping, p.eta},
           friction,
-          family_of<GranularRolling>(p.rolling),
+          family_of<typename Model::Rolls>(p.rolling),
           {p.twisting.model, twisting[0], twisting[1], twisting[2]},
           {p.heat.model, p.heat.numbers[0]},
+          {p.cohesion.numbers[0]},
           uses_contact_radius,
           p.limit_damping};
 }
 
-// `granular`: calls make(law) with the smallest law that has all that is asked for.
+inline TouchingNormal touching_normal(const ContactLaw &p)
+{
+  return {p.normal, p.k_normal, p.is(NormalModel::dmt) ? 4 * kPi * p.surface_energy : 0};
+}
+
+// `granular` without sub-models of LIGGGHTS: calls make(law) with the smallest law that has all that is asked for.
 template <class Make>
 auto with_granular_law(const ContactLaw &p, const Make &make)
 {
   if (p.is(NormalModel::jkr))
     return make(granular_model<true, true>(p, JkrNormal(p.modulus, p.surface_energy)));
-  const Real pull = p.is(NormalModel::dmt) ? 4 * kPi * p.surface_energy : 0;
-  const TouchingNormal normal = {p.normal, p.k_normal, pull};
+  const TouchingNormal normal = touching_normal(p);
   const bool full = p.rolling.is_on() || p.twisting.is_on() || p.has_heat() || p.rescales();
   if (p.has_history())
     return full ? make(granular_model<true, true>(p, normal))
                 : make(granular_model<true, false>(p, normal));
   return full ? make(granular_model<false, true>(p, normal))
               : make(granular_model<false, false>(p, normal));
+}
+
+// `granular` with sub-models of LIGGGHTS: calls make(law).
+template <class Make>
+auto with_granular_added_law(const ContactLaw &p, const Make &make)
+{
+  if (p.is(NormalModel::jkr))
+    return make(granular_model<true, true, true>(p, JkrNormal(p.modulus, p.surface_energy)));
+  const TouchingNormal normal = touching_normal(p);
+  return p.has_history() ? make(granular_model<true, true, true>(p, normal))
+                         : make(granular_model<false, true, true>(p, normal));
 }
 
 }    // namespace lsdcd

@@ -22,6 +22,10 @@ constexpr Parameter kSurfaceEnergy = {"gamma", "energy/length^2"};
 constexpr Parameter kXgammat = {"xgammat", "1"};
 constexpr Parameter kMu = {"mu", "1", 0, Tokens::kHuge, false, "sliding_friction"};
 constexpr Parameter kMindlin = {"kt", "force/length^2", 0, Tokens::kHuge, true};
+constexpr Parameter kMindlinDashpot = {"xgammat", "1", 0, Tokens::kHuge, true};
+constexpr Parameter kRollingFriction = {"mu", "1", 0, Tokens::kHuge, false, "rolling_friction"};
+constexpr Parameter kRollingDamping = {"damping", "1", 0, Tokens::kHuge, false, "rolling_damping"};
+constexpr Parameter kMuRolling = {"MU", "1", 0, Tokens::kHuge, false, "rolling_friction"};
 
 std::vector<Parameter> classic_numbers(const char *stiffness, const char *damping)
 {
@@ -72,20 +76,22 @@ void set_damping(const Real *, LawDraft &d)
   d.law.damping = model;
 }
 
+template <TangentialModel model>
 void set_slip(const Real *n, LawDraft &d)
 {
-  d.law.tangential = TangentialModel::linear_nohistory;
+  d.law.tangential = model;
   d.law.xgammat = n[0];
   d.law.mu = n[1];
 }
 
-// NULL: 8 G of the contact of a sphere and a wall of one material.
+// NULL for kt: 8 G of the contact of a sphere and a wall of one material. NULL for xgammat: the ratio of the dashpots
+// of LIGGGHTS, which damp a motion along the contact by the restitution, too.
 template <TangentialModel model>
 void set_spring(const Real *n, LawDraft &d)
 {
   d.law.tangential = model;
   d.law.k_tangent = std::isnan(n[0]) ? 8 * d.young / (4 * (2 - d.poisson) * (1 + d.poisson)) : n[0];
-  d.law.xgammat = n[1];
+  d.law.xgammat = std::isnan(n[1]) ? std::sqrt(d.law.k_tangent / (2 * d.law.modulus)) : n[1];
   d.law.mu = n[2];
 }
 
@@ -98,7 +104,6 @@ constexpr int at(Enum model)
   return static_cast<int>(model);
 }
 
-constexpr GoesWith kClassic = GoesWith::classic, kGranular = GoesWith::granular;
 constexpr Stored kNothing = {};
 constexpr Stored kShear = {"shear displacement"}, kShearForce = {"shear force"};
 
@@ -118,90 +123,105 @@ std::vector<SubModel> make_table()
   // clang-format off
   return {
       // The styles of LAMMPS before `granular`; their formulas are those of 29Sep2021.
-      {F::style, "hooke", Style::hooke, kClassic, classic_numbers("force/length", "1/time"),
+      {F::style, "hooke", Style::hooke, classic_numbers("force/length", "1/time"),
        set_classic<N::hooke, false>, kNothing, "",
        "linear spring, viscous friction (Silbert et al. 2001)"},
-      {F::style, "hooke/history", Style::hooke_history, kClassic, classic_numbers("force/length",
+      {F::style, "hooke/history", Style::hooke_history, classic_numbers("force/length",
        "1/time"), set_classic<N::hooke, true>, kShear, "",
        "linear springs along and across the normal (Silbert et al. 2001)"},
-      {F::style, "hertz/history", Style::hertz_history, kClassic, classic_numbers("pressure",
+      {F::style, "hertz/history", Style::hertz_history, classic_numbers("pressure",
        "1/(time length)"), set_classic<N::hertz, true>, kShear, "hertz stiffness",
        "springs that stiffen with the contact radius (Brilliantov et al. 1996)"},
 
-      {F::normal, "hooke", at(N::hooke), kGranular, {kStiffness, kEta}, set_stiffness<N::hooke>,
+      {F::normal, "hooke", at(N::hooke), {kStiffness, kEta}, set_stiffness<N::hooke>,
        kNothing, "linear spring", "linear spring"},
-      {F::normal, "hertz", at(N::hertz), kGranular, {kHertzStiffness, kEta}, set_stiffness<N::hertz>,
+      {F::normal, "hertz", at(N::hertz), {kHertzStiffness, kEta}, set_stiffness<N::hertz>,
        kNothing, "hertz spring", "elastic sphere on a plane (Hertz 1882)"},
-      {F::normal, "hertz/material", at(N::hertz), kGranular, {kYoung, kEta, kPoisson},
+      {F::normal, "hertz/material", at(N::hertz), {kYoung, kEta, kPoisson},
        set_material<N::hertz>, kNothing, "hertz spring", "hertz of one material"},
-      {F::normal, "dmt", at(N::dmt), kGranular, {kYoung, kEtaAlone, kPoisson, kSurfaceEnergy},
+      {F::normal, "dmt", at(N::dmt), {kYoung, kEtaAlone, kPoisson, kSurfaceEnergy},
        set_material<N::dmt>, kNothing, "dmt adhesion",
        "hertz less a constant pull (Derjaguin, Muller and Toporov 1975)"},
-      {F::normal, "jkr", at(N::jkr), kGranular, {kYoung, kEtaAlone, kPoisson, kSurfaceEnergy},
+      {F::normal, "jkr", at(N::jkr), {kYoung, kEtaAlone, kPoisson, kSurfaceEnergy},
        set_material<N::jkr>, kNothing, "jkr adhesion",
        "adhesion that holds past touch (Johnson, Kendall and Roberts 1971)"},
 
-      {F::damping, "none", at(D::none), kGranular, {}, set_damping<D::none>, kNothing, "", "none"},
-      {F::damping, "velocity", at(D::velocity), kGranular, {}, set_damping<D::velocity>, kNothing,
+      {F::damping, "none", at(D::none), {}, set_damping<D::none>, kNothing, "", "none"},
+      {F::damping, "velocity", at(D::velocity), {}, set_damping<D::velocity>, kNothing,
        "normal damping", "eta v"},
-      {F::damping, "mass_velocity", at(D::mass_velocity), kGranular, {}, set_damping<D::mass_velocity>,
+      {F::damping, "mass_velocity", at(D::mass_velocity), {}, set_damping<D::mass_velocity>,
        kNothing, "normal damping", "eta m v"},
-      {F::damping, "viscoelastic", at(D::viscoelastic), kGranular, {}, set_damping<D::viscoelastic>,
+      {F::damping, "viscoelastic", at(D::viscoelastic), {}, set_damping<D::viscoelastic>,
        kNothing, "normal damping", "eta m a v (Brilliantov et al. 1996)"},
-      {F::damping, "tsuji", at(D::stiffness), kGranular, {}, set_damping<D::stiffness>, kNothing,
+      {F::damping, "tsuji", at(D::stiffness), {}, set_damping<D::stiffness>, kNothing,
        "normal damping", "restitution e, by a fit (Tsuji, Tanaka and Ishida 1992)"},
-      {F::damping, "coeff_restitution", at(D::stiffness), kGranular, {}, set_damping<D::stiffness>,
+      {F::damping, "coeff_restitution", at(D::stiffness), {}, set_damping<D::stiffness>,
        kNothing, "normal damping", "restitution e, exactly (Brilliantov et al. 1996)"},
 
-      {F::tangential, "linear_nohistory", at(T::linear_nohistory), kGranular, {kXgammat, kMu},
-       set_slip, kNothing, "", "viscous friction"},
-      {F::tangential, "linear_history", at(T::linear_history), kGranular, {{"kt", "force/length"},
+      {F::tangential, "linear_nohistory", at(T::linear_nohistory), {kXgammat, kMu},
+       set_slip<T::linear_nohistory>, kNothing, "", "viscous friction"},
+      {F::tangential, "linear_nohistory_liggghts", at(T::linear_nohistory_liggghts), {kXgammat, kMu},
+       set_slip<T::linear_nohistory_liggghts>, kNothing, "midpoint friction",
+       "linear_nohistory at the middle of the overlap (LIGGGHTS)"},
+      {F::tangential, "linear_history", at(T::linear_history), {{"kt", "force/length"},
        kXgammat, kMu}, set_spring<T::linear_history>, kShear, "tangential spring",
        "linear spring (Luding 2008)"},
-      {F::tangential, "linear_history_slip", at(T::linear_history_slip), kGranular, {{"kt",
+      {F::tangential, "linear_history_slip", at(T::linear_history_slip), {{"kt",
        "force/length"}, kXgammat, kMu}, set_spring<T::linear_history_slip>, kShear, "tangential spring",
        "linear_history, its spring cut alone"},
-      {F::tangential, "mindlin", at(T::mindlin), kGranular, {kMindlin, kXgammat, kMu},
+      {F::tangential, "linear_history_liggghts", at(T::linear_history_liggghts), {{"kt", "force/length"},
+       kXgammat, kMu}, set_spring<T::linear_history_liggghts>, kShear, "tangential spring",
+       "linear_history, without its dashpot while it slips (LIGGGHTS)"},
+      {F::tangential, "mindlin", at(T::mindlin), {kMindlin, kXgammat, kMu},
        set_spring<T::mindlin>, kShear, "tangential spring",
        "spring that stiffens with the contact radius (Mindlin 1949)"},
-      {F::tangential, "mindlin/force", at(T::mindlin_force), kGranular, {kMindlin, kXgammat, kMu},
+      {F::tangential, "mindlin/force", at(T::mindlin_force), {kMindlin, kXgammat, kMu},
        set_spring<T::mindlin_force>, kShearForce, "tangential spring",
        "mindlin that keeps the force"},
-      {F::tangential, "mindlin_slip", at(T::mindlin_slip), kGranular, {kMindlin, kXgammat, kMu},
+      {F::tangential, "mindlin_slip", at(T::mindlin_slip), {kMindlin, kXgammat, kMu},
        set_spring<T::mindlin_slip>, kShear, "tangential spring",
        "mindlin, its spring cut alone"},
-      {F::tangential, "mindlin_rescale", at(T::mindlin_rescale), kGranular, {kMindlin, kXgammat, kMu},
+      {F::tangential, "mindlin_liggghts", at(T::mindlin_liggghts), {kMindlin, kMindlinDashpot, kMu},
+       set_spring<T::mindlin_liggghts>, kShear, "tangential spring",
+       "mindlin, without its dashpot while it slips (LIGGGHTS)"},
+      {F::tangential, "mindlin_rescale", at(T::mindlin_rescale), {kMindlin, kXgammat, kMu},
        set_spring<T::mindlin_rescale>, {"shear displacement, contact radius", 1,
        "rescaling on unloading"}, "tangential spring",
        "mindlin that shrinks as the contact unloads (Thornton et al. 2013)"},
-      {F::tangential, "mindlin_rescale/force", at(T::mindlin_rescale_force), kGranular, {kMindlin,
+      {F::tangential, "mindlin_rescale/force", at(T::mindlin_rescale_force), {kMindlin,
        kXgammat, kMu}, set_spring<T::mindlin_rescale_force>, {"shear force, contact radius", 1,
        "rescaling on unloading"}, "tangential spring", "mindlin_rescale that keeps the force"},
 
-      {F::rolling, "none", at(R::none), kGranular, {}, copied, kNothing, "", "none"},
-      {F::rolling, "sds", at(R::sds), kGranular, {{"k", "force/length"}, {"gamma", "mass/time"}, {"mu",
-       "1", 0, Tokens::kHuge, false, "rolling_friction"}}, copied, {"rolling displacement", 3},
+      {F::rolling, "none", at(R::none), {}, copied, kNothing, "", "none"},
+      {F::rolling, "sds", at(R::sds), {{"k", "force/length"}, {"gamma", "mass/time"},
+       kRollingFriction}, copied, {"rolling displacement", 3},
        "rolling resistance", "spring, dashpot, slider (Luding 2008; Wang et al. 2015)"},
-      {F::rolling, "cdt", at(R::cdt), kClassic, {{"MU", "1"}}, copied, kNothing, "rolling cdt",
+      {F::rolling, "cdt", at(R::cdt), {kMuRolling}, copied, kNothing, "rolling cdt",
        "constant torque (LIGGGHTS; Ai et al. 2011)"},
-      {F::rolling, "epsd2", at(R::epsd2), kClassic, {{"MU", "1"}}, copied, {"rolling torque", 3, nullptr, true},
+      {F::rolling, "epsd2", at(R::epsd2), {kMuRolling}, copied, {"rolling torque", 3, nullptr, true},
        "rolling epsd2", "elastic-plastic spring (LIGGGHTS; Ai et al. 2011)"},
+      {F::rolling, "epsd", at(R::epsd), {kMuRolling, kRollingDamping}, copied, {"rolling torque of epsd", 3,
+       nullptr, true}, "rolling epsd", "elastic-plastic spring and dashpot (LIGGGHTS; Ai et al. 2011)"},
+      {F::rolling, "epsd3", at(R::epsd3), {kMuRolling, kRollingDamping, {"stiffness", "1"}}, copied,
+       {"rolling torque of epsd3", 3, nullptr, true}, "rolling epsd3",
+       "epsd with a number for its 2.25 (LIGGGHTS)"},
 
-      {F::twisting, "none", at(W::none), kGranular, {}, copied, kNothing, "", "none"},
-      {F::twisting, "marshall", at(W::marshall), kGranular, {}, copied, {"twist angle of marshall", 1},
+      {F::twisting, "none", at(W::none), {}, copied, kNothing, "", "none"},
+      {F::twisting, "marshall", at(W::marshall), {}, copied, {"twist angle of marshall", 1},
        "twisting resistance", "spring, dashpot, slider by the tangential ones (Marshall 2009)"},
-      {F::twisting, "sds", at(W::sds), kGranular, {{"k", "torque/angle"}, {"gamma",
+      {F::twisting, "sds", at(W::sds), {{"k", "torque/angle"}, {"gamma",
        "torque time/angle"}, {"mu", "length"}}, copied, {"twist angle of sds", 1},
        "twisting resistance", "spring, dashpot, slider (Luding 2008)"},
 
-      {F::heat, "none", at(H::none), kGranular, {}, copied, kNothing, "", "none"},
-      {F::heat, "radius", at(H::radius), kGranular, {{"k", "power/(length temperature)", 0,
+      {F::heat, "none", at(H::none), {}, copied, kNothing, "", "none"},
+      {F::heat, "radius", at(H::radius), {{"k", "power/(length temperature)", 0,
        Tokens::kHuge, false, "thermal_conductivity"}}, copied, kNothing, "heat conduction",
        "2 k a dT (Vargas and McCarthy 2001)"},
-      {F::heat, "area", at(H::area), kGranular, {{"h", "power/(length^2 temperature)"}}, copied,
+      {F::heat, "area", at(H::area), {{"h", "power/(length^2 temperature)"}}, copied,
        kNothing, "heat conduction", "h pi a^2 dT"},
 
-      {F::cohesion, "sjkr", at(C::sjkr), kClassic, {{"K", "energy/volume"}}, copied, kNothing,
+      {F::cohesion, "sjkr", at(C::sjkr), {{"K", "energy/volume", 0, Tokens::kHuge, false,
+       "cohesion_energy_density"}}, copied, kNothing,
        "cohesion sjkr", "K times the area of contact (LIGGGHTS)"},
   };
   // clang-format on
@@ -222,20 +242,25 @@ const std::vector<SubModel> &sub_models()
   return table;
 }
 
-std::vector<const SubModel *> sub_models(Family family, GoesWith with)
+std::vector<const SubModel *> sub_models(Family family)
 {
   std::vector<const SubModel *> rows;
   for (const SubModel &row : sub_models())
-    if (row.family == family && row.with == with) rows.push_back(&row);
+    if (row.family == family) rows.push_back(&row);
   return rows;
 }
 
-std::string names_text(Family family, GoesWith with)
+std::string names_text(Family family)
 {
   std::string names;
-  for (const SubModel *row : sub_models(family, with))
+  for (const SubModel *row : sub_models(family))
     names += (names.empty() ? "" : "|") + std::string(row->name);
   return names;
+}
+
+bool is_beside_style(Family family)
+{
+  return family == Family::rolling || family == Family::cohesion;
 }
 
 const char *family_word(Family family)

@@ -43,14 +43,10 @@ struct LawDraft {
   Real second = 0;    // eta or e, the second number of the normal sub-model
 };
 
-// With which styles a sub-model goes.
-enum class GoesWith { classic, granular };
-
 struct SubModel {
   Family family;
   const char *name;
   int model;    // of the family's enum
-  GoesWith with;
   std::vector<Parameter> parameters;
   // `given`: a number for each parameter, NaN for NULL. Null: the numbers are copied to the Chosen of
   // the family.
@@ -61,10 +57,13 @@ struct SubModel {
 };
 
 const std::vector<SubModel> &sub_models();
-std::vector<const SubModel *> sub_models(Family family, GoesWith with);
+std::vector<const SubModel *> sub_models(Family family);
 
 // Their names: "none|sds".
-std::string names_text(Family family, GoesWith with);
+std::string names_text(Family family);
+
+// Does a sub-model of this family stand beside a classic style, too, whose formulas are whole? All but `style` are of `granular`.
+bool is_beside_style(Family family);
 
 // Returns the words of a family in scripts: "tangential"; empty for style and normal.
 const char *family_word(Family family);

@@ -172,6 +172,8 @@ const std::vector<Property> &properties()
       {"restitution", "1", 0, 0, 0, 0, 1, true},
       {"sliding_friction", "1", 0, 0, 0, 0, kAny, true},
       {"rolling_friction", "1", 0, 0, 0, 0, kAny, true},
+      {"rolling_damping", "1", 0, 0, 0, 0, kAny, true},
+      {"cohesion_energy_density", "J/m3", 1, -1, -2, 0, kAny, true},
   };
   return list;
 }

@@ -33,7 +33,7 @@ Real tsuji_number(Real e)
 
 const SubModel &granular_row(Family family, const std::string &name)
 {
-  for (const SubModel *row : sub_models(family, GoesWith::granular))
+  for (const SubModel *row : sub_models(family))
     if (row->name == name) return *row;
   throw InputError("'" + name + "' is not a sub-model");
 }
@@ -162,7 +162,7 @@ class LawFiller {
     return si;
   }
 
-  // Properties of pairs are numbers without a unit.
+  // In the caller's units.
   Real of_pair(const char *key)
   {
     const Real *number = override_of(key);
@@ -171,7 +171,7 @@ class LawFiller {
       throw InputError("in 'material', " + file_.path + " has no " + key + " of " + both() +
                        ": write " + with_ + key + " VALUE', or add it to the file under 'pair " +
                        c_.particle + " " + c_.wall + "'");
-    const Real value = number ? *number : s->value;
+    const Real value = in_script(key, s ? s->value : 0, number);
     tell(both(), key, value, s);
     return value;
   }

@@ -11,6 +11,7 @@ namespace lsdcd {
 
 // The groups of laws that are compiled together, a source file each (laws/CMakeLists.txt).
 PairLaw granular_pair(const ContactLaw &law);
+PairLaw granular_added_pair(const ContactLaw &law);
 PairLaw added_pair(const ContactLaw &law);
 PairLaw classic_pair(const ContactLaw &law);
 

@@ -73,8 +73,11 @@ LSDCD_FN void evaluate_pair(const Law &law, const GrainPair &p, const Real *old,
   c.radius = p.radius_i * p.radius_j * (per_both * distance);
   c.mass = p.mass;
   c.v_normal = dot(p.velocity, c.normal);
+  Real less = 0;    // of the arms of slip
+  if constexpr (Law::kMidpoint)
+    if (law.is_at_midpoint()) less = c.overlap / 2;
   c.v_tangent = p.velocity - c.v_normal * c.normal -
-                cross(p.radius_i * p.omega_i + p.radius_j * p.omega_j, c.normal);
+                cross((p.radius_i - less) * p.omega_i + (p.radius_j - less) * p.omega_j, c.normal);
   if constexpr (Law::kContactTorque) c.omega = p.omega_i - p.omega_j;
   if constexpr (Law::kHeat) c.temperature_difference = p.temperature_difference;
   c.dt = p.dt;

@@ -25,8 +25,8 @@ void PairMemory::grow(std::size_t n)
 
 PairLaw pair_law(const ContactLaw &law)
 {
-  if (!law.is_classic()) return granular_pair(law);
-  return law.is_extended() ? added_pair(law) : classic_pair(law);
+  if (law.is_classic()) return law.is_extended() ? added_pair(law) : classic_pair(law);
+  return law.is_extended() ? granular_added_pair(law) : granular_pair(law);
 }
 
 void run_pairs(const PairJob &job)

@@ -49,6 +49,7 @@ CLASSICS = {"hooke": "hooke 1e4 NULL 5 NULL 0.5 {damp}",
             "hertz_history": "hertz/history 1e5 NULL 50 NULL 0.5 {damp}"}
 # Of LIGGGHTS; they stand after the mesh.
 ADDED = {"cdt": "rolling cdt 0.1", "epsd2": "rolling epsd2 0.1", "sjkr": "cohesion sjkr 500",
+         "epsd": "rolling epsd 0.1 0.3", "epsd3": "rolling epsd3 0.1 0.3 4",
          "cdt-sjkr": "rolling cdt 0.1 cohesion sjkr 500", "epsd2-sjkr": "rolling epsd2 0.1 cohesion sjkr 500"}
 
 

@@ -158,6 +158,7 @@ std::vector<std::string> words_of(const api::Law &law)
   if (law.style.name.empty()) add_words(words, "rolling", law.rolling);
   add_words(words, "twisting", law.twisting);
   add_words(words, "heat", law.heat);
+  if (law.style.name.empty()) add_words(words, "cohesion", law.cohesion);
   if (law.limit_damping) words.push_back("limit_damping");
   return words;
 }
@@ -172,11 +173,11 @@ std::vector<std::string> keywords_of(const api::Law &law)
 }
 
 // A law with this sub-model, and what it needs beside it.
-api::Law law_with(const lsdcd_sub_model_facts &row)
+api::Law law_with(const lsdcd_sub_model_facts &row, bool beside_style)
 {
   const std::string field = row.field;
   api::Law law;
-  if (row.beside_style)
+  if (beside_style)
     law.style = {"hooke/history", {1000, 300, 20, api::kDerived, 0.5, 1}};
   else {
     law.normal = {"hertz/material", {2000, 0.4, 0.3}};
@@ -194,20 +195,25 @@ api::Law law_with(const lsdcd_sub_model_facts &row)
 TEST_F(wall_spec, has_the_bits_of_words_for_each_sub_model)
 {
   std::set<std::string> fields;
-  for (const lsdcd_sub_model_facts &row : all_sub_models()) {
-    SCOPED_TRACE(std::string(row.field) + " " + row.name);
-    const api::Law law = law_with(row);
-    std::vector<std::string> words = words_of(law);
-    words.insert(words.end(), {"mesh", file_, "device", "cpu"});
-    for (const std::string &word : keywords_of(law)) words.push_back(word);
-    api::WallSpec spec = floor(law);
-    if (!law.heat.name.empty() && law.heat.name != "none") {
-      words.insert(words.end(), {"temperature", "350"});
-      spec.meshes[0].temperature = 350;
+  for (const lsdcd_sub_model_facts &row : all_sub_models())
+    for (const bool beside_style : {true, false}) {
+      const std::string name = std::string(row.field) + " " + row.name;
+      if (beside_style ? !row.beside_style || name == "rolling none"
+                       : row.field == std::string("style"))
+        continue;
+      SCOPED_TRACE(name);
+      const api::Law law = law_with(row, beside_style);
+      std::vector<std::string> words = words_of(law);
+      words.insert(words.end(), {"mesh", file_, "device", "cpu"});
+      for (const std::string &word : keywords_of(law)) words.push_back(word);
+      api::WallSpec spec = floor(law);
+      if (!law.heat.name.empty() && law.heat.name != "none") {
+        words.insert(words.end(), {"temperature", "350"});
+        spec.meshes[0].temperature = 350;
+      }
+      expect_the_bits_of(words, spec);
+      fields.insert(row.field);
     }
-    expect_the_bits_of(words, spec);
-    fields.insert(row.field);
-  }
   EXPECT_EQ(fields.size(), 8u);
 }
 
@@ -315,7 +321,7 @@ TEST_F(law_of_materials, says_what_is_wrong)
     return law;
   };
   api::Law classic = hooke_history(), sticky, stiff;
-  sticky.cohesion = {"sjkr", {50}};
+  sticky.cohesion = {"sjkr", {-50}};
   stiff.rolling = {"sds", {api::kDerived, 1, 0.1}};
   const struct {
     api::Materials materials;
@@ -355,7 +361,7 @@ TEST_F(law_of_materials, says_what_is_wrong)
       {of("glass"), with("hertz", {}), "`law.normal.name` is \"hertz\"", LSDCD_ERROR_ARGUMENT},
       {of("glass"), with("jkr", {"tsuji"}), "does not take the material's restitution",
        LSDCD_ERROR_INPUT},
-      {of("glass"), sticky, "`law.cohesion.name` is \"sjkr\"", LSDCD_ERROR_ARGUMENT},
+      {of("glass"), sticky, "`law.cohesion.numbers[0]` is -50", LSDCD_ERROR_ARGUMENT},
       {of("glass"), stiff, "`law.rolling.numbers[0]` is -1", LSDCD_ERROR_ARGUMENT},
   };
   for (const auto &row : rows) {

@@ -84,7 +84,7 @@ def laws():
     yield "name of a sub-model", lambda b: wall(Law(b, **HOOKE)), [(None, "is None, not a text"), (5, "is 5, not a text")]
     yield "limit_damping", lambda b: wall(Law("hooke/history", limit_damping=b, **HOOKE)), FLAG
     yield "rolling", lambda b: wall(Law("hooke/history", rolling=b, **HOOKE)), [
-        (5, "is 5, not a SubModel"), ("cdt", "is 'cdt', not a SubModel"), (SubModel("sds", k=1, gamma=1, mu=1), "is 'sds'; a style goes"),
+        (5, "is 5, not a SubModel"), ("cdt", "is 'cdt', not a SubModel"), (SubModel("marshall"), "is 'marshall'; a style goes"),
         (SubModel("cdt", MU=-1), "is -1: MU of ")]
     yield "cdt", lambda b: wall(Law("hooke/history", rolling=b, **HOOKE)), [
         (SubModel("cdt"), "needs the number MU"), (SubModel("cdt", mu=1), "needs the number MU"),

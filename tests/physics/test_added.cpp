@@ -1,13 +1,16 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Rolling friction and cohesion as LIGGGHTS has them, against closed forms.
+// Friction, rolling resistance and cohesion as LIGGGHTS has them, against closed forms.
+#include "law/submodels/cohesion.h"
+#include "law/submodels/rolling.h"
 #include "support/laws.h"
 #include "support/meshes.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <vector>
 
 namespace lsdcd::test_added {
 namespace {
@@ -90,26 +93,80 @@ TEST(epsd2, stops_a_rolling_sphere_at_the_analytic_distance_CPU)
   }
 }
 
-TEST(epsd2, holds_a_couple_that_grows_with_the_angle_up_to_its_limit)
+// Returns the factor of the angle by which the springs of LIGGGHTS roll at a wall: (R - overlap/2)/(R - overlap).
+Real lever(Real overlap)
+{
+  return (kRadius - overlap / 2) / (kRadius - overlap);
+}
+
+struct ElasticPlastic {
+  RollingModel model;
+  std::vector<Real> numbers;    // beside mu
+  Real stiffness, damping;      // torque/angle
+};
+
+// epsd2 has k_t R^2, epsd 2.25 k_n mu^2 R^2, and epsd3 a number for the 2.25.
+std::vector<ElasticPlastic> elastic_plastic_models(Real k_normal, Real k_tangent)
+{
+  const Real sq = kRadius * kRadius, of_normal = k_normal * kMuRoll * kMuRoll * sq;
+  return {{RollingModel::epsd2, {}, k_tangent * sq, 0},
+          {RollingModel::epsd, {0.3}, 2.25 * of_normal, 0.3},
+          {RollingModel::epsd, {0}, 2.25 * of_normal, 0},
+          {RollingModel::epsd3, {0.1, 5}, 5 * of_normal, 0.1}};
+}
+
+EngineSettings with_rolling(EngineSettings s, const ElasticPlastic &rolling)
+{
+  s = with_rolling(s, rolling.model);
+  std::copy(rolling.numbers.begin(), rolling.numbers.end(), s.law().rolling.numbers + 1);
+  return s;
+}
+
+// Below its limit it has a dashpot of 2 damping sqrt(I k), I = 7/5 m R^2, too.
+TEST(elastic_plastic_rolling, holds_a_couple_that_grows_with_the_angle_up_to_its_limit)
 {
   const Real overlap = 0.01, dt = 1e-4, limit = kMuRoll * kStiffness * overlap * kRadius;
-  EngineSettings s = with_rolling(hooke(kStiffness), RollingModel::epsd2);
-  s.law().k_tangent = kTangent;
-  Scene scene(floor_mesh(4, 2), kRadius, s);
-  const Vec3 omega = {0.3, -0.2, 5};    // what twists does not roll
-  scene.add_sphere({0.1, 0.2, kRadius - overlap}, kRadius, kMass, {0, 0, 0}, omega);
-  for (int i = 1; i <= 400; i++) {
-    scene.compute(dt);
-    const Real turned = std::hypot(0.3, -0.2) * i * dt;
-    const Real contact_torque = std::min(kTangent * kRadius * kRadius * turned, limit);
-    const Vec3 expected = (-contact_torque / std::hypot(0.3, -0.2)) * Vec3{0.3, -0.2, 0};
-    ASSERT_LE(norm(scene.torque(0) - expected), 1e-9 * limit) << i;
-    ASSERT_EQ(scene.force(0).x, 0);
+  const Real rate = lever(overlap) * std::hypot(0.3, -0.2);
+  for (const ElasticPlastic &rolling : elastic_plastic_models(kStiffness, kTangent)) {
+    EngineSettings s = with_rolling(hooke(kStiffness), rolling);
+    s.law().k_tangent = kTangent;
+    Scene scene(floor_mesh(4, 2), kRadius, s);
+    const Vec3 omega = {0.3, -0.2, 5};    // what twists does not roll
+    scene.add_sphere({0.1, 0.2, kRadius - overlap}, kRadius, kMass, {0, 0, 0}, omega);
+    // It yields within half of the steps.
+    const int steps = static_cast<int>(2 * limit / (rolling.stiffness * rate * dt));
+    const Real dashpot =
+        2 * rolling.damping * std::sqrt(1.4 * kMass * kRadius * kRadius * rolling.stiffness) * rate;
+    for (int i = 1; i <= steps; i++) {
+      scene.compute(dt);
+      const Real held = rolling.stiffness * rate * i * dt;
+      const Real couple = held > limit ? limit : held + dashpot;
+      const Vec3 expected = (-couple / std::hypot(0.3, -0.2)) * Vec3{0.3, -0.2, 0};
+      ASSERT_LE(norm(scene.torque(0) - expected), 1e-9 * (limit + dashpot)) << i;
+      ASSERT_EQ(scene.force(0).x, 0);
+    }
+    // A step of setup moves nothing.
+    const Vec3 held = scene.torque(0);
+    scene.compute(dt, false);
+    EXPECT_LE(norm(scene.torque(0) - held), 1e-14 * norm(held));
   }
-  // A step of setup moves nothing.
-  const Vec3 held = scene.torque(0);
-  scene.compute(dt, false);
-  EXPECT_LE(norm(scene.torque(0) - held), 1e-14 * norm(held));
+}
+
+// What is held is the square of the torque over twice its stiffness; a dashpot holds nothing.
+TEST(elastic_plastic_rolling, holds_the_energy_of_its_spring)
+{
+  const Real overlap = 0.01, dt = 1e-4, of_normal = kStiffness * overlap * overlap / 2;
+  for (const ElasticPlastic &rolling : elastic_plastic_models(kStiffness, kTangent)) {
+    EngineSettings s = with_rolling(hooke(kStiffness), rolling);
+    s.law().k_tangent = kTangent;
+    Scene scene(floor_mesh(4, 2), kRadius, s);
+    scene.add_sphere({0.1, 0.2, kRadius - overlap}, kRadius, kMass, {0, 0, 0}, {0.3, -0.2, 5});
+    for (int i = 0; i < 3; i++) scene.compute(dt);
+    const Real angle = 3 * dt * lever(overlap) * std::hypot(0.3, -0.2);
+    const Real held = rolling.stiffness * angle * angle / 2;
+    EXPECT_NEAR(scene.engine->results().totals().energy - of_normal, held,
+                1e-9 * held + 4e-15 * of_normal);
+  }
 }
 
 // With hertz both limit and stiffness go with the contact: k_t sqrt(R overlap) R^2.
@@ -121,7 +178,7 @@ TEST(epsd2, grows_with_the_contact_radius_of_hertz)
   scene.add_sphere({0.1, 0.2, kRadius - overlap}, kRadius, kMass, {0, 0, 0}, {0.01, 0, 0});
   scene.compute(dt);
   const Real contact_torque =
-      kTangent * std::sqrt(kRadius * overlap) * kRadius * kRadius * 0.01 * dt;
+      kTangent * std::sqrt(kRadius * overlap) * kRadius * kRadius * lever(overlap) * 0.01 * dt;
   EXPECT_NEAR(scene.torque(0).x, -contact_torque, 1e-10 * contact_torque);
 }
 
@@ -141,6 +198,185 @@ TEST(cdt, is_mu_times_the_elastic_force_times_the_radius)
     const Vec3 contact_torque = (-kMuRoll * elastic * kRadius / 13) * Vec3{3, -4, 0};
     EXPECT_LE(norm(scene.torque(0) - contact_torque), 1e-10 * norm(contact_torque));
   }
+}
+
+// A normal sub-model of `granular`, an overlap, and there k_n and the force that friction is proportional to.
+struct Pressed {
+  EngineSettings settings;
+  Real overlap, k_normal, limit;
+};
+
+std::vector<Pressed> pressed()
+{
+  const Real overlap = 0.01, a = std::sqrt(kRadius * overlap), gamma = 3;
+  const Real hertz = kStiffness * a, force = hertz * overlap;
+  // jkr by its contact radius.
+  const Real e = 0.75 * kStiffness, of_jkr = 0.08;
+  const Real sunk = of_jkr * of_jkr / kRadius - 2 * std::sqrt(kPi * gamma * of_jkr / e);
+  const Real pulled = 4 * e * std::pow(of_jkr, 3) / (3 * kRadius) -
+                      4 * std::sqrt(kPi * gamma * e * std::pow(of_jkr, 3));
+  return {{granular(NormalModel::hooke, kStiffness), overlap, kStiffness, kStiffness * overlap},
+          {granular(NormalModel::hertz, kStiffness), overlap, hertz, force},
+          {granular(NormalModel::dmt, kStiffness, gamma), overlap, hertz,
+           force + 4 * kPi * gamma * kRadius},
+          {granular(NormalModel::jkr, kStiffness, gamma), sunk, Real(4) / 3 * e * of_jkr,
+           pulled + 6 * kPi * gamma * kRadius}};
+}
+
+// The torque of two steps at this spin.
+Vec3 torque_after(int steps, const EngineSettings &s, Real overlap, const Vec3 &omega, Real dt)
+{
+  Scene scene(floor_mesh(4, 2), kRadius + s.law().pull_off(), s);
+  scene.add_sphere({0.1, 0.2, kRadius - overlap}, kRadius, kMass, {0, 0, 0}, omega);
+  for (int i = 0; i < steps; i++) scene.compute(dt);
+  return scene.torque(0);
+}
+
+TEST(cdt, goes_with_each_normal_sub_model)
+{
+  for (const Pressed &p : pressed()) {
+    const Vec3 couple =
+        torque_after(1, with_rolling(p.settings, RollingModel::cdt), p.overlap, {3, -4, 12}, 1e-4);
+    const Real size = kMuRoll * p.k_normal * p.overlap * kRadius / 13;
+    EXPECT_LE(norm(couple + size * Vec3{3, -4, 0}), 1e-9 * norm(couple));
+  }
+}
+
+TEST(elastic_plastic_rolling, goes_with_each_normal_sub_model)
+{
+  const Real spin = 0.5, dt = 1e-6;
+  for (const Pressed &p : pressed())
+    for (const ElasticPlastic &rolling : elastic_plastic_models(p.k_normal, kTangent)) {
+      EngineSettings s = with_rolling(p.settings, rolling);
+      s.law().tangential = TangentialModel::linear_history;
+      s.law().k_tangent = kTangent;
+      const Real rate = lever(p.overlap) * spin;
+      const Real dashpot = 2 * rolling.damping *
+                           std::sqrt(1.4 * kMass * kRadius * kRadius * rolling.stiffness) * rate;
+      const Real couple = rolling.stiffness * rate * 2 * dt + dashpot;
+      EXPECT_NEAR(torque_after(2, s, p.overlap, {spin, 0, 0}, dt).x, -couple, 1e-8 * couple);
+      const Real limit = kMuRoll * p.limit * kRadius;
+      EXPECT_NEAR(torque_after(2, s, p.overlap, {1e3 * spin, 0, 0}, 1).x, -limit, 1e-8 * limit);
+    }
+}
+
+// ---- friction ------------------------------------------------------------------------------
+
+// The slip is that of the middle of the overlap, where the force acts. The spring alone is cut by the limit, and the dashpot
+// acts while it is not.
+TEST(liggghts_friction, has_its_dashpot_while_it_sticks)
+{
+  const Real overlap = 0.05, dt = 1e-4, mu = 0.3, ratio = 0.7, damping = 40, spin = 0.2,
+             arm = kRadius - overlap / 2, slip = 0.1 - arm * spin;
+  const Real a = std::sqrt(kRadius * overlap), limit = mu * kStiffness * a * overlap;
+  for (const TangentialModel model :
+       {TangentialModel::linear_nohistory_liggghts, TangentialModel::linear_history_liggghts,
+        TangentialModel::mindlin_liggghts}) {
+    EngineSettings s = granular(NormalModel::hertz, kStiffness);
+    s.law().tangential = model;
+    s.law().k_tangent = model == TangentialModel::linear_history_liggghts ? kTangent : kTangent / a;
+    s.law().xgammat = ratio;
+    s.law().mu = mu;
+    s.law().damping = DampingModel::velocity;
+    s.law().eta = damping;
+    Scene scene(floor_mesh(4, 2), kRadius, s);
+    // It goes along x, and its spin about y takes the contact back.
+    scene.add_sphere({0.1, 0.2, kRadius - overlap}, kRadius, kMass, {0.1, 0, 0}, {0, spin, 0});
+    const bool spring = model != TangentialModel::linear_nohistory_liggghts;
+    const int steps = static_cast<int>(1.5 * limit / (kTangent * slip * dt));
+    for (int i = 1; i <= steps; i++) {
+      scene.compute(dt);
+      const Real stretched = spring ? kTangent * slip * i * dt : 0;
+      const Real force = stretched > limit ? limit : stretched + ratio * damping * slip;
+      ASSERT_NEAR(scene.force(0).x, -force, 1e-9 * limit) << i;
+      ASSERT_NEAR(scene.torque(0).y, force * arm, 1e-9 * limit) << i;
+    }
+    // A step of setup moves nothing, at the limit either.
+    const Real held = scene.force(0).x;
+    scene.compute(dt, false);
+    EXPECT_NEAR(scene.force(0).x, held, 1e-14 * limit);
+  }
+}
+
+// ---- cohesion ------------------------------------------------------------------------------
+
+TEST(sjkr, goes_with_each_normal_sub_model)
+{
+  const Real k = 4e4;
+  for (const Pressed &p : pressed()) {
+    const auto force = [&](Real cohesion) {
+      EngineSettings s = p.settings;
+      if (cohesion > 0) s = with_cohesion(s, cohesion);
+      Scene scene(floor_mesh(4, 2), kRadius + s.law().pull_off(), s);
+      scene.add_sphere({0.1, 0.2, kRadius - p.overlap}, kRadius, kMass);
+      scene.compute(1e-4);
+      return scene.force(0).z;
+    };
+    const Real r = kRadius - p.overlap, pull = k * kPi * (kRadius * kRadius - r * r);
+    EXPECT_NEAR(force(0) - force(k), pull, 1e-9 * pull);
+  }
+}
+
+PairContact two_spheres(Real radius_i, Real radius_j, Real overlap)
+{
+  PairContact c = {};
+  c.normal = {0, 0, 1};
+  c.overlap = overlap;
+  c.radius_i = radius_i;
+  c.radius_j = radius_j;
+  c.radius = radius_i * radius_j / (radius_i + radius_j);
+  return c;
+}
+
+// Two spheres cut each other in a circle of radius h, at x from the centre of the first.
+TEST(sjkr, of_two_spheres_pulls_with_k_times_the_area_of_their_cut)
+{
+  const SjkrCohesion cohesion = {4e4};
+  for (const Real rj : {0.5, 0.05, 7.0})
+    for (const Real overlap : {1e-5, 1e-3, 0.02}) {
+      const Real ri = 0.5, r = ri + rj - overlap, x = (r * r + ri * ri - rj * rj) / (2 * r);
+      const Real area = kPi * (ri - x) * (ri + x);
+      // ri - x is a difference of numbers of 7 whose last digit is 1e-15.
+      EXPECT_NEAR(cohesion.pull(two_spheres(ri, rj, overlap)), 4e4 * area, 4e4 * 1e-13) << rj;
+      EXPECT_EQ(cohesion.pull(two_spheres(ri, rj, overlap)),
+                cohesion.pull(two_spheres(rj, ri, overlap)));
+    }
+  // A wall is a sphere without end.
+  Contact wall = {};
+  wall.overlap = 0.02;
+  wall.radius = 0.5;
+  EXPECT_NEAR(cohesion.pull(two_spheres(0.5, 1e8, 0.02)), cohesion.pull(wall), 1e-7 * 4e4);
+  EXPECT_NEAR(cohesion.energy(two_spheres(0.5, 1e8, 0.02)), cohesion.energy(wall), 1e-7 * 4e4);
+}
+
+TEST(sjkr, of_two_spheres_has_the_energy_of_its_work)
+{
+  const SjkrCohesion cohesion = {4e4};
+  const Real ri = 0.5, rj = 0.2, overlap = 0.05;
+  Real work = 0;    // by the midpoints of 1e4 steps, whose error is 1e-8 of it
+  const int n = 10000;
+  for (int i = 0; i < n; i++)
+    work -= cohesion.pull(two_spheres(ri, rj, (i + 0.5) * overlap / n)) * overlap / n;
+  EXPECT_NEAR(cohesion.energy(two_spheres(ri, rj, overlap)), work, 1e-7 * -work);
+}
+
+// Of two spheres the inertia is the reduced one of m R^2, and the spin is not that of a wall.
+TEST(epsd, of_two_spheres_has_their_reduced_inertia)
+{
+  PairContact c = two_spheres(0.5, 0.2, 0.01);
+  c.mass_i = 2;
+  c.mass_j = 0.3;
+  c.omega = {0.1, 0, 3};
+  c.dt = 1e-3;
+  c.update = true;
+  const Real k = 2.25 * kStiffness * kMuRoll * kMuRoll * c.radius * c.radius;
+  const Real i = 2 * 0.5 * 0.5, j = 0.3 * 0.2 * 0.2, inertia = 1.4 / (1 / i + 1 / j);
+  const Real numbers[] = {kMuRoll, 0.3, 0};
+  ContactMemory<3> memory = {};
+  const RollingInput<PairContact> in = {c, 1e9, kStiffness, kTangent};
+  const Real couple = k * 0.1 * 1e-3 + 2 * 0.3 * std::sqrt(inertia * k) * 0.1;
+  EXPECT_NEAR(EpsdRolling::contact_torque(numbers, in, memory, 0).x, -couple, 1e-12 * couple);
+  EXPECT_NEAR(memory.vec(0).x, -k * 0.1 * 1e-3, 1e-12 * couple);
 }
 
 TEST(sjkr, pulls_with_k_times_the_area_of_the_cut)

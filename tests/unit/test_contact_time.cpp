@@ -50,6 +50,34 @@ TEST(ContactTime, of_a_hertz_impact_is_that_of_its_motion)
   }
 }
 
+// A sphere of m = 0.1 and R = 2 turns on a spring of torque k: half a period is pi sqrt(2/5 m R^2/k) = 0.4 pi/sqrt(k).
+TEST(ContactTime, is_no_longer_than_half_a_period_of_rolling)
+{
+  ContactLaw law = granular_law(NormalModel::hooke);
+  law.k_normal = 1000;
+  law.tangential = TangentialModel::linear_history;
+  law.k_tangent = 900;
+  const double of_normal = contact_time(law, 0.1, 2, 1);
+  const struct {
+    Chosen<RollingModel> rolling;
+    double torque;
+  } rows[] = {{{RollingModel::sds, {3000, 0, 1}}, 3000 * 4},
+              {{RollingModel::epsd2, {0.1}}, 900 * 4},
+              {{RollingModel::epsd, {2, 0}}, 2.25 * 1000 * 4 * 4},
+              {{RollingModel::epsd3, {2, 0, 9}}, 9.0 * 1000 * 4 * 4}};
+  for (const auto &row : rows) {
+    law.rolling = row.rolling;
+    EXPECT_DOUBLE_EQ(contact_time(law, 0.1, 2, 1), 0.4 * kPi / std::sqrt(row.torque));
+    // Of two spheres, by what turns: here a quarter of it.
+    EXPECT_DOUBLE_EQ(contact_time(law, 0.1, 2, 1, 0.04), 0.2 * kPi / std::sqrt(row.torque));
+  }
+  for (const Chosen<RollingModel> &slow :
+       {Chosen<RollingModel>{RollingModel::cdt, {5}}, {RollingModel::epsd, {0.1, 0}}}) {
+    law.rolling = slow;
+    EXPECT_DOUBLE_EQ(contact_time(law, 0.1, 2, 1), of_normal);
+  }
+}
+
 TEST(ContactTime, of_a_linear_spring_is_half_a_period)
 {
   ContactLaw law = classic_law(NormalModel::hooke, false);

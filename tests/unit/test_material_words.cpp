@@ -30,6 +30,8 @@ const char *const kFile = "units si\n"
                           "  restitution 0.97 1 # measured\n"
                           "  sliding_friction 0.092 1\n"
                           "  rolling_friction 0.01 1\n"
+                          "  rolling_damping 0.3 1\n"
+                          "  cohesion_energy_density 5e4 J/m3\n"
                           "pair glass steel\n"
                           "  restitution 0.9 1\n"
                           "  sliding_friction 0.2 1\n";
@@ -185,6 +187,17 @@ TEST_F(material_words, fill_the_nulls_that_are_of_the_materials)
       says(filled("granular material FILE glass limit_damping rolling sds 1e3 2 NULL "
                   "tangential mindlin/force NULL 1 NULL mesh a"),
            {"rolling sds 1000 2 0.01 tangential mindlin/force NULL 1 0.092 limit_damping"}));
+}
+
+// 5e4 J/m3 are 5e5 erg/cm3.
+TEST_F(material_words, fill_the_sub_models_of_liggghts)
+{
+  const std::string law =
+      "granular material FILE glass tangential mindlin_liggghts NULL NULL NULL ";
+  EXPECT_TRUE(says(filled(law + "rolling epsd NULL NULL cohesion sjkr NULL mesh a", "cgs"),
+                   {"tangential mindlin_liggghts NULL NULL 0.092 rolling epsd 0.01 0.3",
+                    "cohesion sjkr 5e+05"}));
+  EXPECT_TRUE(says(filled(law + "rolling cdt NULL mesh a"), {"rolling cdt 0.01"}));
 }
 
 // 2/(1/1.7 + 1/51) = 3.29032258

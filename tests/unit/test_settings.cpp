@@ -531,7 +531,7 @@ TEST(settings, torque_is_about_a_point_of_the_box_or_of_the_mesh)
   EXPECT_TRUE(has(error_with("torque_about axis"), "axis"));
 }
 
-TEST(settings, rolling_and_cohesion_of_liggghts_go_with_classic_styles)
+TEST(settings, rolling_and_cohesion_go_with_classic_styles)
 {
   const WallSpec s = with("rolling epsd2 0.05 cohesion sjkr 3e5");
   EXPECT_EQ(s.law().rolling.model, RollingModel::epsd2);
@@ -540,7 +540,9 @@ TEST(settings, rolling_and_cohesion_of_liggghts_go_with_classic_styles)
   EXPECT_EQ(with("rolling cdt 0.1").law().rolling.model, RollingModel::cdt);
   EXPECT_FALSE(with("").law().is_extended());
   EXPECT_FALSE(with("cohesion sjkr 0").law().is_extended());
-  EXPECT_TRUE(has(error_with("rolling sds 1 1 1"), "epsd2"));
+  EXPECT_EQ(with("rolling sds 1 2 3").law().rolling.model, RollingModel::sds);
+  EXPECT_EQ(with("rolling epsd3 1 2 3").law().rolling.numbers[2], 3);
+  EXPECT_TRUE(has(error_with("rolling none"), "epsd2"));
   EXPECT_TRUE(has(error_with("rolling cdt"), "MU"));
   EXPECT_TRUE(has(error_with("rolling cdt -0.1"), "MU"));
   EXPECT_TRUE(has(error_with("cohesion sjkr -1"), "K"));
@@ -577,6 +579,29 @@ TEST(settings, granular_reads_every_normal_sub_model)
   EXPECT_EQ(law_of("dmt 7e4 3 0.3 2" + kSlip).normal, NormalModel::dmt);
   EXPECT_EQ(law_of("jkr 7e4 3 0.3 2" + kSlip).normal, NormalModel::jkr);
   EXPECT_EQ(law_of("jkr 7e4 3 0.3 2" + kSlip).surface_energy, 2);
+}
+
+TEST(settings, rolling_and_cohesion_of_liggghts_go_with_granular)
+{
+  const ContactLaw g =
+      law_of("hertz 7e4 3 tangential mindlin 1 1 1 rolling epsd 0.1 0.2 cohesion sjkr 5");
+  EXPECT_EQ(g.rolling.model, RollingModel::epsd);
+  EXPECT_EQ(g.rolling.numbers[1], 0.2);
+  EXPECT_EQ(g.cohesion.numbers[0], 5);
+  EXPECT_TRUE(g.is_extended());
+  EXPECT_FALSE(law_of("hertz 7e4 3" + kSlip + " rolling cdt 0.1").has_history());
+  EXPECT_FALSE(law_of("hertz 7e4 3" + kSlip + " cohesion sjkr 0").cohesion.is_on());
+  EXPECT_FALSE(law_of("hertz 7e4 3" + kSlip + " rolling sds 1 2 3").is_extended());
+}
+
+// The dashpots of LIGGGHTS damp by the root of their stiffnesses, 2 E* along the normal and 8 G* across it.
+TEST(settings, granular_xgammat_null_is_that_of_liggghts)
+{
+  const ContactLaw g =
+      law_of("hertz/material 1e5 0.5 0.25 damping tsuji tangential mindlin_liggghts NULL NULL 0.5");
+  const Real normal = 1e5 / (2 * (1 - 0.25 * 0.25)), shear = 1e5 / (4 * 1.75 * 1.25);
+  EXPECT_NEAR(g.xgammat, std::sqrt(8 * shear / (2 * normal)), 1e-14);
+  EXPECT_NEAR(g.k_tangent, 8 * shear, 1e-9);
 }
 
 TEST(settings, granular_none_turns_nothing_on)
@@ -660,6 +685,10 @@ TEST(settings, granular_errors_name_the_word_and_show_the_syntax)
       {"hertz 1e5 3" + kSlip + " heat area 1 temperature v_", "the variable's name is missing"},
       {"hertz 1e5 3" + kSlip + " heat area 1 temperature hot", "T must be a number, not 'hot'"},
       {"dmt 1e5 3 0.3 2 limit_damping" + kSlip, "must be able to pull"},
+      {"hertz 1e5 3" + kSlip + " rolling epsd2 0.1",
+       "in 'granular rolling', epsd2 has the stiffness"},
+      {"hertz 1e5 3" + kSlip + " rolling epsd 0.1", "rolling epsd MU damping"},
+      {"hertz 1e5 3" + kSlip + " mesh a.stl rolling cdt 0.1", "it comes before mesh"},
       {"hertz 1e5 3" + kSlip + " roling sds 1 2 3", "the nearest is 'rolling'"},
   };
   for (const auto &[tokens, told] : cases)

@@ -29,7 +29,7 @@ TEST(sub_models, have_names_and_numbers_of_their_own)
 {
   std::set<std::string> seen;
   for (const SubModel &row : sub_models()) {
-    const char *const style = row.with == GoesWith::classic ? "classic " : "granular ";
+    const char *const style = row.family == Family::style ? "classic " : "granular ";
     EXPECT_TRUE(seen.insert(style + name_of(row)).second) << name_of(row);
     EXPECT_LE(row.parameters.size(), row.set ? 6u : std::size_t(kMaxNumbers)) << name_of(row);
     EXPECT_TRUE(row.help && *row.help) << name_of(row);

@@ -27,7 +27,7 @@ class SubModelFacts(_Record):
     field: str            # of lsdcd_law: "style", "normal", "tangential", ...
     name: str
     source: str           # what it is, and where its formula comes from
-    beside_style: bool    # does it go with a classic style, or is it one? Else it goes with Law.granular()
+    beside_style: bool    # may it stand beside a classic style, or is it one? Else it goes with Law.granular() alone
     numbers: tuple[str, ...]              # their names
     units: tuple[str, ...]                # "1": none
     ranges: tuple[tuple[float, float], ...]
@@ -81,7 +81,8 @@ class Law(_Spec):
     @classmethod
     @_noted
     def granular(cls, normal: SubModel, tangential: SubModel, damping: str | None = None, rolling: SubModel | None = None,
-                 twisting: SubModel | None = None, heat: SubModel | None = None, limit_damping: bool = False) -> Law:
+                 twisting: SubModel | None = None, heat: SubModel | None = None, cohesion: SubModel | None = None,
+                 limit_damping: bool = False) -> Law:
         """A law of sub-models, as LAMMPS's pair style granular has them; `damping` None: viscoelastic. The number eta|e of
         `normal` is e, of restitution, beside tsuji and coeff_restitution, and eta beside the others.
 
@@ -89,7 +90,7 @@ class Law(_Spec):
         law = cls.__new__(cls)
         law._struct = _law_struct({"normal": normal, "tangential": tangential,
                                    "damping": SubModel(damping) if damping is not None else None, "rolling": rolling,
-                                   "twisting": twisting, "heat": heat}, False, limit_damping)
+                                   "twisting": twisting, "heat": heat, "cohesion": cohesion}, False, limit_damping)
         return law
 
 
@@ -98,8 +99,8 @@ class Law(_Spec):
     def from_material(cls, file: str | os.PathLike[str], particle: str, wall: str | None = None, *,
                       normal: str = "hertz/material", tangential: SubModel | None = None, damping: str | None = None,
                       rolling: SubModel | None = None, twisting: SubModel | None = None, heat: SubModel | None = None,
-                      limit_damping: bool = False, overrides: Mapping[str | tuple[str, str], float] | None = None,
-                      units: str = "si") -> Law:
+                      cohesion: SubModel | None = None, limit_damping: bool = False,
+                      overrides: Mapping[str | tuple[str, str], float] | None = None, units: str = "si") -> Law:
         """A law with the numbers of two materials of a file, its path or the name of one that is installed: those of the spheres
         and of the `wall`, None: the same. `normal`: "hertz/material", "jkr" or "dmt". By default damping is by the restitution,
         and `tangential` "mindlin"; numbers of sub-models that are left out are the materials' where the file has such a property.
@@ -111,7 +112,8 @@ class Law(_Spec):
         Raises Error for what the file lacks, and as Law() does."""
         law = cls.__new__(cls)
         law._struct = _law_struct({"tangential": tangential, "damping": SubModel(damping) if damping is not None else None,
-                                   "rolling": rolling, "twisting": twisting, "heat": heat}, False, limit_damping, True)
+                                   "rolling": rolling, "twisting": twisting, "heat": heat, "cohesion": cohesion}, False,
+                                  limit_damping, True)
         law._struct.normal.name = _c_text(normal, "normal")
         rows = []
         for key, value in (overrides or {}).items():
@@ -143,7 +145,7 @@ def _law_struct(given: dict[str, SubModel | None], beside_style: bool, limit_dam
 
 
 def _sub_model_struct(field: str, model: SubModel, beside_style: bool, damping: str, has_materials: bool) -> Any:
-    rows = [row for row in sub_models() if row.field == field and row.beside_style == beside_style]
+    rows = [row for row in sub_models() if row.field == field and (row.beside_style if beside_style else field != "style")]
     row = next((row for row in rows if row.name == model.name), None)
     if row is None:
         raise ValueError(f"{field} is {model.name!r}; {'a style' if beside_style else 'a normal sub-model'} goes with "

@@ -34,6 +34,8 @@ CompiledLaw<B> granular_law(const ContactLaw &law, const WallEffects &effects);
 template <class B>
 CompiledLaw<B> added_law(const ContactLaw &law, const WallEffects &effects);
 template <class B>
+CompiledLaw<B> granular_added_law(const ContactLaw &law, const WallEffects &effects);
+template <class B>
 CompiledLaw<B> on_wall_law(const ContactLaw &law, const WallEffects &effects);
 template <class B>
 CompiledLaw<B> plain_law(const ContactLaw &law, const WallEffects &effects);
@@ -43,8 +45,9 @@ template <class B>
 CompiledLaw<B> law_for(const EngineSettings &settings, const ContactLaw &law)
 {
   const WallEffects effects = wall_effects(settings);
+  if (law.is_extended())
+    return law.is_classic() ? added_law<B>(law, effects) : granular_added_law<B>(law, effects);
   if (!law.is_classic()) return granular_law<B>(law, effects);
-  if (law.is_extended()) return added_law<B>(law, effects);
   if (effects.surface || effects.contacts) return on_wall_law<B>(law, effects);
   return plain_law<B>(law, effects);
 }

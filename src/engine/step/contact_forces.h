@@ -176,7 +176,10 @@ LSDCD_FN void add_contacts(const GridView &grid, const Law &law, const ForceSett
     Vec3 along = v - v_normal * n;
     if constexpr (Law::kSurface)
       if (settings.surface_moves) along -= settings.surface.along(closest, n, settings.back);
-    c.v_tangent = along - s.radius * cross(s.omega, n);
+    Real arm = s.radius;    // of friction
+    if constexpr (Law::kMidpoint)
+      if (law.is_at_midpoint()) arm -= overlap / 2;
+    c.v_tangent = along - arm * cross(s.omega, n);
     c.dt = settings.dt;
     c.update = settings.update;
     if constexpr (Law::kContactTorque) {
@@ -210,7 +213,7 @@ LSDCD_FN void add_contacts(const GridView &grid, const Law &law, const ForceSett
     out.n_contacts++;
 
     out.force += (weight * f.normal) * n + tangential;
-    out.torque -= s.radius * cross(n, tangential);
+    out.torque -= arm * cross(n, tangential);
     out.energy += weight * f.energy;
     if constexpr (Law::kContactTorque) out.torque += weight * f.contact_torque;
     if constexpr (Law::kHeat)

@@ -6,6 +6,7 @@
 //   contact_radius(c)   length
 //   force(c, a)         elastic force, > 0 where it pushes
 //   energy(c, a)        what is held
+//   stiffness(a)        secant stiffness without adhesion, force/length
 // where a is the contact radius, which a law computes only if something needs it.
 #pragma once
 
@@ -32,6 +33,7 @@ struct HookeNormal {
 
   LSDCD_FN Real contact_radius(const Contact &c) const { return sqrt(c.overlap * c.radius); }
   LSDCD_FN Real force(const Contact &c, Real) const { return k * c.overlap; }
+  LSDCD_FN Real stiffness(Real) const { return k; }
   LSDCD_FN Real energy(const Contact &c, Real) const { return 0.5 * k * c.overlap * c.overlap; }
 };
 
@@ -42,6 +44,7 @@ struct HertzNormal {
 
   LSDCD_FN Real contact_radius(const Contact &c) const { return sqrt(c.overlap * c.radius); }
   LSDCD_FN Real force(const Contact &c, Real a) const { return a * k * c.overlap; }
+  LSDCD_FN Real stiffness(Real a) const { return a * k; }
   LSDCD_FN Real energy(const Contact &c, Real a) const
   {
     return 0.4 * k * a * c.overlap * c.overlap;
@@ -69,6 +72,7 @@ struct TouchingNormal {
     if (!uses_contact_radius()) return k * c.overlap;
     return a * k * c.overlap - pull * c.radius;
   }
+  LSDCD_FN Real stiffness(Real a) const { return uses_contact_radius() ? a * k : k; }
   LSDCD_FN Real limit(const Contact &c, Real f, Real normal) const
   {
     return fabs(model == NormalModel::dmt ? f + 2 * pull * c.radius : normal);
@@ -127,6 +131,7 @@ struct JkrNormal {
   {
     return Real(4) / 3 * modulus * a * a * a / c.radius - 4 * root * a * sqrt(a);
   }
+  LSDCD_FN Real stiffness(Real a) const { return Real(4) / 3 * modulus * a; }
   LSDCD_FN Real limit(const Contact &c, Real f, Real) const
   {
     return fabs(f + 6 * kPi * surface_energy * c.radius);

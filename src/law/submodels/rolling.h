@@ -9,7 +9,7 @@
 //   contact_torque(n, in, m, at)     torque on the sphere
 //   energy(n, in, m, at)             what is held
 // where n are its numbers in the order of its row (sub_models.cpp), m is the contact's memory, and `at` the
-// index of its vector there. GranularRolling or ClassicRolling, below, lists it.
+// index of its vector there. AnyRolling, below, lists it.
 #pragma once
 
 #include "law/contact.h"
@@ -18,15 +18,14 @@
 
 namespace lsdcd {
 
-enum class RollingModel { none, sds, cdt, epsd2 };
+enum class RollingModel { none, sds, cdt, epsd2, epsd, epsd3 };
 
 // Arguments of a rolling model. C: Contact or PairContact.
 template <class C>
 struct RollingInput {
   const C &contact;
-  Real elastic;      // normal force without damping
-  Real normal;       // normal force
   Real limit;        // > 0, the force that sliding limits are proportional to
+  Real k_normal;     // secant stiffness without adhesion, force/length
   Real k_tangent;    // tangential stiffness, force/length
 };
 
@@ -70,7 +69,7 @@ struct SdsRolling {
 
 // ---- LIGGGHTS ----------------------------------------------------------------------------
 
-// Returns the rolling part of the sphere's angular velocity.
+// Returns the part of an angular velocity that rolls.
 LSDCD_FN Vec3 rolling_part(const Vec3 &omega, const Vec3 &normal)
 {
   return omega - dot(omega, normal) * normal;
@@ -89,8 +88,8 @@ struct CdtRolling {
   {
     const auto &c = in.contact;
     const Real spin = norm(c.omega);
-    if (!(spin > 0)) return {0, 0, 0};
-    return (-n[0] * in.elastic * c.radius / spin) * rolling_part(c.omega, c.normal);
+    if (!(spin > 0 && c.overlap > 0)) return {0, 0, 0};
+    return (-n[0] * (in.k_normal * c.overlap) * c.radius / spin) * rolling_part(c.omega, c.normal);
   }
   template <class In, class Memory>
   LSDCD_FN static Real energy(const Real *, const In &, const Memory &, int)
@@ -99,34 +98,94 @@ struct CdtRolling {
   }
 };
 
-// `epsd2` mu, elastic-plastic spring: a contact torque that grows by k_t R^2 per angle rolled, up to
-// mu |F_n| R (Iwashita and Oda 1998; Ai et al. 2011, model C without its dashpot). The vector is the
-// contact torque.
-struct Epsd2Rolling {
-  static constexpr RollingModel kModel = RollingModel::epsd2;
+// Returns the angular velocity that the elastic-plastic springs turn by. At a wall LIGGGHTS divides the slip of a spin, at
+// the middle of the overlap, by the distance of the centre.
+template <class C>
+LSDCD_FN Vec3 rolling_velocity(const C &c)
+{
+  const Vec3 rolls = rolling_part(c.omega, c.normal);
+  const Real distance = c.radius - c.overlap;
+  if (C::kPair || !(distance > 0)) return rolls;
+  return ((c.radius - c.overlap / 2) / distance) * rolls;
+}
+
+// Moment of inertia about the contact: 7/5 m R^2 of a sphere at a wall, of two the reduced one.
+template <class C>
+LSDCD_FN Real rolling_inertia(const C &c)
+{
+  if constexpr (C::kPair) {
+    const Real i = c.mass_i * c.radius_i * c.radius_i, j = c.mass_j * c.radius_j * c.radius_j;
+    return 1.4 * i * j / (i + j);
+  } else {
+    return 1.4 * c.mass * c.radius * c.radius;
+  }
+}
+
+// An elastic-plastic spring of rolling (Iwashita and Oda 1998; Ai et al. 2011, model C): a contact torque that grows by
+// Model::stiffness() per angle rolled, up to mu |F_n| R, and while it is below that a dashpot of Model::damping() times the
+// critical one. The vector is the spring's torque.
+template <class Model>
+struct ElasticPlasticRolling {
   static constexpr bool kStoresVector = true;
 
   template <class In, class Memory>
   LSDCD_FN static Vec3 contact_torque(const Real *n, const In &in, Memory &m, int at)
   {
     const auto &c = in.contact;
+    const Vec3 rolls = rolling_velocity(c);
+    const Real stiff = Model::stiffness(n, in), damping = Model::damping(n);
     Vec3 held = m.vec(at);
-    if (c.update) {
-      const Real stiff = in.k_tangent * c.radius * c.radius;
-      held -= (stiff * c.dt) * rolling_part(c.omega, c.normal);
-      held = rolling_part(held, c.normal);
-    }
-    const Real size = norm(held), limit = n[0] * fabs(in.normal) * c.radius;
+    if (c.update) held = rolling_part(held - (stiff * c.dt) * rolls, c.normal);
+    const Real size = norm(held), limit = n[0] * in.limit * c.radius;
     if (size > limit) held = (limit / size) * held;
     m.put(at, held);
-    return held;
+    if (!(damping > 0) || is_cut(size, limit, c)) return held;
+    return held - (2 * damping * sqrt(rolling_inertia(c) * stiff)) * rolls;
   }
   template <class In, class Memory>
-  LSDCD_FN static Real energy(const Real *, const In &in, const Memory &m, int at)
+  LSDCD_FN static Real energy(const Real *n, const In &in, const Memory &m, int at)
   {
-    const Real stiff = in.k_tangent * in.contact.radius * in.contact.radius;
+    const Real stiff = Model::stiffness(n, in);
     return stiff > 0 ? 0.5 * norm_sq(m.vec(at)) / stiff : 0;
   }
+};
+
+// `epsd2` mu: the stiffness k_t R^2, and no dashpot.
+struct Epsd2Rolling : ElasticPlasticRolling<Epsd2Rolling> {
+  static constexpr RollingModel kModel = RollingModel::epsd2;
+
+  template <class In>
+  LSDCD_FN static Real stiffness(const Real *, const In &in)
+  {
+    return in.k_tangent * in.contact.radius * in.contact.radius;
+  }
+  LSDCD_FN static Real damping(const Real *) { return 0; }
+};
+
+// `epsd` mu damping: the stiffness 2.25 k_n mu^2 R^2.
+struct EpsdRolling : ElasticPlasticRolling<EpsdRolling> {
+  static constexpr RollingModel kModel = RollingModel::epsd;
+
+  template <class In>
+  LSDCD_FN static Real stiffness(const Real *n, const In &in)
+  {
+    const Real arm = n[0] * in.contact.radius;
+    return 2.25 * in.k_normal * arm * arm;
+  }
+  LSDCD_FN static Real damping(const Real *n) { return n[1]; }
+};
+
+// `epsd3` mu damping stiffness: epsd with a number in place of 2.25.
+struct Epsd3Rolling : ElasticPlasticRolling<Epsd3Rolling> {
+  static constexpr RollingModel kModel = RollingModel::epsd3;
+
+  template <class In>
+  LSDCD_FN static Real stiffness(const Real *n, const In &in)
+  {
+    const Real arm = n[0] * in.contact.radius;
+    return n[2] * in.k_normal * arm * arm;
+  }
+  LSDCD_FN static Real damping(const Real *n) { return n[1]; }
 };
 
 // ---- the family --------------------------------------------------------------------------
@@ -163,8 +222,8 @@ struct Rolling {
   }
 };
 
-// The models that go with `granular`, and those that go with a classic style.
-using GranularRolling = Rolling<SdsRolling>;
-using ClassicRolling = Rolling<CdtRolling, Epsd2Rolling>;
+// That of LAMMPS, which walls without a sub-model of LIGGGHTS have in their kernels, and all.
+using SpringRolling = Rolling<SdsRolling>;
+using AnyRolling = Rolling<SdsRolling, CdtRolling, Epsd2Rolling, EpsdRolling, Epsd3Rolling>;
 
 }    // namespace lsdcd

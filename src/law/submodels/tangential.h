@@ -12,11 +12,14 @@ enum class TangentialModel {
   linear_nohistory_classic,
   linear_history_classic,
   linear_nohistory,
+  linear_nohistory_liggghts,
   linear_history,
   linear_history_slip,
+  linear_history_liggghts,
   mindlin,
   mindlin_force,
   mindlin_slip,
+  mindlin_liggghts,
   mindlin_rescale,
   mindlin_rescale_force
 };
@@ -78,10 +81,11 @@ struct LinearHistory {
 // `linear_nohistory` without a spring, else `linear_history`, or with `by_radius` `mindlin`, whose
 // stiffness is proportional to the contact radius. `shear` is the displacement or, with `of_force`, the
 // spring's force. With `rescale` it shrinks as the contact unloads (Thornton et al.
-// 2013), for which the radius of the last step is stored. With `slip` it is cut alone.
+// 2013), for which the radius of the last step is stored. With `slip` it is cut alone. With `at_midpoint` the friction is
+// that of LIGGGHTS: slip and force are those of the middle of the overlap, and sticking_force() is that of the spring.
 struct GranularFriction {
   Real k, xgammat, mu;    // k: 0 where there is no spring
-  bool spring, by_radius, of_force, rescale, slip;
+  bool spring, by_radius, of_force, rescale, slip, at_midpoint;
 
   LSDCD_FN Real stiffness(Real a) const { return by_radius ? k * a : k; }
   LSDCD_FN Vec3 slip_force(const Contact &c, Real damping, Real limit) const
@@ -126,6 +130,19 @@ struct GranularFriction {
     const Vec3 f = -stiff * m.shear + viscous;
     const Real size = norm(f);
     return size > limit ? (limit / size) * f : f;
+  }
+  // The limit cuts the spring, and the dashpot acts while it does not (LIGGGHTS, `tangential history`).
+  template <class C, class Memory>
+  LSDCD_FN Vec3 sticking_force(const C &c, Real a, Real damping, Real limit, Memory &m) const
+  {
+    const Real stiff = stiffness(a);
+    if (c.update) m.shear += c.dt * c.v_tangent;
+    if constexpr (C::kPair)
+      if (c.update) m.shear -= dot(m.shear, c.normal) * c.normal;
+    const Real pull = stiff * norm(m.shear);
+    if (pull > limit) m.shear = (limit / pull) * m.shear;
+    const Vec3 f = -stiff * m.shear;
+    return is_cut(pull, limit, c) ? f : f - (xgammat * damping) * c.v_tangent;
   }
   template <class Memory>
   LSDCD_FN Real energy(Real a, const Memory &m) const

@@ -56,10 +56,10 @@ std::string law_text(const LawOfTypes &row)
          number_text(l.mu) + (l.limit_damping ? ", limit_damping" : "");
   if (l.is_classic())
     for (const SubModel *row : rows_of(l)) {
-      const bool rolling = row->family == Family::rolling;
-      if (!rolling && row->family != Family::cohesion) continue;
-      t += ", " + std::string(family_word(row->family)) + " " + row->name + " " +
-           number_text(rolling ? l.rolling.numbers[0] : l.cohesion.numbers[0]);
+      if (!is_beside_style(row->family)) continue;
+      t += ", " + std::string(family_word(row->family)) + " " + row->name;
+      const Real *numbers = row->family == Family::rolling ? l.rolling.numbers : l.cohesion.numbers;
+      for (std::size_t k = 0; k < row->parameters.size(); k++) t += " " + number_text(numbers[k]);
     }
   return t;
 }
