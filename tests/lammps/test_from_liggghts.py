@@ -139,6 +139,8 @@ WRITTEN = {
     "set of one spin of a grain at rest": (
         "create_atoms 1 single 0 0 0\nset atom 1 diameter 0.2 omegay 3 vz -1\n",
         "set atom 1 diameter 0.2 density 1 vz -1 omega 0 3 0\n"),
+    "set of all spins, twice": (
+        ONE_GRAIN + "set atom 1 omegaz 3 omegax 1 omegay 2\nset atom 1 omegax 0 omegay 0 omegaz 0\n", "set atom 1 omega 1 2 3\nset atom 1 omega 0 0 0\n"),
     "a density before the diameter": (
         "create_atoms 1 single 0 0 0\nset group all density 2500 diameter 0.02 vx 1\n",
         "set group all diameter 0.02 density 2500 vx 1\n"),
@@ -902,45 +904,67 @@ def test_included(folder):
         (folder / name).unlink()
 
 
+EXTRA = MATERIAL + ROLLS + """\
+fix m6 all property/global cohesionEnergyDensity peratomtypepair 1 {}
+fix m7 all property/global coefficientRollingViscousDamping peratomtypepair 1 0.3
+fix m8 all property/global coeffRollingStiffness peratomtypepair 1 2.5
+fix m9 all property/global characteristicVelocity scalar 2
+create_atoms 1 single 0 0 0
+pair_style gran model {} tangential history {}
+pair_coeff * *
+""" + MESH.format("")
+
+
+def test_rolling_and_cohesion(folder):
+    """Rolling models and sjkr between grains and at walls, with all normal models: LSDCD's laws have them."""
+    law = "hertz/material 10000000 0.5 0.3 damping coeff_restitution tangential mindlin_liggghts NULL NULL 0.4"
+    for words, expected in (("rolling_friction cdt", " rolling cdt 0.1"), ("rolling_friction epsd2", " rolling epsd2 0.1"),
+                            ("rolling_friction epsd", " rolling epsd 0.1 0.3"), ("rolling_friction epsd3", " rolling epsd3 0.1 0.3 2.5"),
+                            ("cohesion sjkr", " cohesion sjkr 500"), ("cohesion sjkr rolling_friction cdt", " rolling cdt 0.1 cohesion sjkr 500")):
+        said, out = convert(folder, EXTRA.format(500, "hertz", words) + WALL.replace("hertz tangential history", f"hertz tangential history {words}"))
+        fact(f"hertz with {words}", f"\npair_style      granular/lsdcd\npair_coeff      * * law granular {law}{expected}\n" in out and
+             f" wall/lsdcd granular {law}{expected} &\n" in out and "commands left: 0" in said.stderr and "until the spring" not in out, said.stderr + out)
+        said, out = convert(folder, EXTRA.format(500, "hooke", words) + WALL.replace("hertz tangential history", f"hooke tangential history {words}"))
+        fact(f"hooke with {words}", re.search(rf"\npair_coeff      \* \* law hooke/history [^\n]* 0.4 1{expected}\n", out) and
+             re.search(rf" wall/lsdcd hooke/history [^\n]* 0.4 1{expected} &\n", out) and "commands left: 0" in said.stderr, said.stderr + out)
+    said, out = convert(folder, EXTRA.format(0, "hertz", "cohesion sjkr") + WALL)
+    fact("a cohesion of 0 is none", "\npair_style      granular\n" in out and "sjkr" not in out.split("pair_style", 1)[1] and "commands left: 0" in said.stderr, out)
+    said, out = convert(folder, EXTRA.format(500, "hertz", "cohesion sjkr2"))
+    fact("sjkr2 is left", "cohesion sjkr2; do: sjkr" in said.stderr, said.stderr)
+    for tail, expected in (("no_history rolling_friction cdt", "linear_nohistory_liggghts 0.907485213 0.4 rolling cdt"),
+                           ("history rolling_friction cdt tangential_damping off limitForce on", "mindlin_liggghts NULL 0 0.4 limit_damping rolling cdt")):
+        _, out = convert(folder, EXTRA.format(0, "hertz", "").replace("history \n", f"{tail}\n"))
+        fact(f"tangential {tail}", expected in out, out)
+    two = (TWO_TYPES + "fix r all property/global coefficientRollingFriction peratomtypepair 2 0.1 0.2 0.2 0.3\ncreate_atoms 1 single 0 0 0\ncreate_atoms 2 single 1 0 0\n"
+           "pair_style gran model hertz tangential history rolling_friction epsd2\npair_coeff * *\n")
+    _, out = convert(folder, two)
+    fact("each pair of types has its number", [re.search(rf"pair_coeff      {i} {j} .* rolling epsd2 (\S+)\n", out)[1] for i, j in (("\\*", "\\*"), (1, 2), (2, 2))] ==
+         ["0.1", "0.2", "0.3"], out)
+
+
 def test_nearest(folder):
-    """Rolling of LIGGGHTS that LAMMPS does not have: its nearest lines wait as comments, with what needs them."""
-    rolling = "hertz tangential history rolling_friction "
-    text = (MATERIAL + ROLLS + f"pair_style gran model {rolling}epsd2\npair_coeff * *\n" + MESH.format("") +
-            WALL.replace("hertz tangential history", rolling + "cdt") + "region b block 0 1 0 1 0 1\ncreate_box 1 b\n"
-            f"fix p all wall/gran model {rolling}cdt primitive type 1 zplane 0\n" + MOVE.format("linear 1 0 0") +
-            "variable up equal 2*f_cad[3]\nthermo_style custom step f_cad[3] v_up ke\nprint \"${up}\"\nthermo 10\nunfix w\n"
+    """Rolling of LIGGGHTS on LAMMPS's own planes: its nearest lines wait as comments, with what needs them."""
+    text = (MATERIAL + ROLLS + "region b block 0 1 0 1 0 1\ncreate_box 1 b\n"
+            "fix w all wall/gran model hertz tangential history rolling_friction cdt primitive type 1 zplane 0\n"
+            "variable up equal 2*f_w[3]\nthermo_style custom step f_w[3] v_up ke\nprint \"${up}\"\nthermo 10\nunfix w\n"
             "variable up equal step\nprint \"${up}\"\n")
     done, out = convert(folder, text)
     # 8 G* sqrt(R 0.001 R), and 1/G* = 4 (2 - nu) (1 + nu) / E.
     k = f"{8 * 1e7 / (4 * 1.7 * 1.3) * 0.01 * math.sqrt(1e-3):.3g}"
-    sds = f" rolling sds {float(k):.10g} 0 0.1"
-    fact("the nearest pair style, wall and plane stand as comments", "\n#: pair_style      granular\n#: pair_coeff      * * hertz " in out and
-         out.count(sds) == 3 and f"0.4{sds} &\n#:                 mesh a.stl\n" in out and "\n#: fix             p all wall/gran granular" in out and
-         "commands left: 8" in done.stderr and done.returncode == 3, out)
-    waiting = ["fix_modify      w motion linear 1 0 0", "variable up equal 2*f_w[3]", "thermo_style custom step f_w[3] v_up ke",
-               'print "${up}"', "unfix w"]
-    fact("... with the motion and the outputs of the wall, and what needs these", [f"#: {x}" for x in waiting] ==
-         [x for x in out[out.index("#:                 mesh a.stl"):].split("\n") if x[:3] == "#: " and not re.match("#: (fix |    )", x)] and
-         "fix w, variable up, which waits above as a comment; do: " in out, out)
+    plane = f" damping tsuji rolling sds {float(k):.10g} 0 0.1 zplane 0 NULL\n"
+    fact("the nearest plane stands as a comment", "\n#: fix             w all wall/gran granular" in out and plane in out and
+         "commands left: 5" in done.stderr and done.returncode == 3, done.stderr + out)
+    waiting = ["variable up equal 2*f_w[3]", "thermo_style custom step f_w[3] v_up ke", 'print "${up}"', "unfix w"]
+    fact("... with the outputs of the wall, and what needs these", [f"#: {x}" for x in waiting] ==
+         [x for x in out.split("\n") if x[:3] == "#: " and "wall/gran" not in x] and "fix w, variable up, which waits above as a comment; do: " in out, out)
     fact("what does not need the wall goes on", "\nthermo_style custom step ke\n# LEFT" in out and "\nthermo 10\n" in out and
          out.endswith('\nvariable up equal step\nprint "${up}"\n'), out)
-    drum = (MATERIAL + ROLLS + "fix m6 all property/global cohesionEnergyDensity peratomtypepair 1 ${coh}\n" +
-            f"pair_style gran model {rolling.replace('rolling', 'cohesion sjkr rolling')}cdt\npair_coeff * *\n" + MESH.format("") + LID +
-            BOTH_WALL.replace("hertz tangential history", rolling + "cdt") + MOVE.format("rotate origin 0 0 0 axis 0 1 0 period 1.33") +
-            MOVE.replace("t all", "u all").replace("cad", "lid").format("rotate origin 0 0 0 axis 0 1 0 period 1.33"))
-    said, turning = convert(folder, "variable coh equal 0\n" + drum)
-    fact("of a drum with cdt and a cohesion of 0 the laws are left, and both meshes turn", "commands left: 4" in said.stderr and all(
-        f"\n#: fix_modify      w mesh {k} motion rotate 0 0 0 0 1 0 1.33\n" in turning for k in (1, 2)), turning)
-    said, taken = convert(folder, "variable coh equal 0\n" + drum, more=["--nearest"])
-    fact("--nearest takes its laws", "commands left: 0" in said.stderr and taken.count("# NOTE") == turning.count("# NOTE") + 2 and
-         [line.removeprefix("#: ") for line in turning.split("\n") if line.startswith("#: ")] ==
-         [line for line in taken.split("\n") if f"#: {line}" in turning.split("\n")] and "#:" not in taken, taken)
     done, out = convert(folder, text, more=["--nearest"])
-    fact("--nearest takes the motion and the outputs, too", all(f"\n{x}\n" in out for x in waiting) and done.returncode == 0, out)
+    fact("--nearest takes the wall and the outputs", all(f"\n{x}\n" in out for x in waiting) and plane in out and done.returncode == 0, out)
     bare = text.replace("set group all diameter 0.02 density 2500\n", "").replace("${up}", "$u").replace("v_up", "v_u").replace("variable up", "variable u")
     done, out = convert(folder, bare, more=["--nearest"])
     fact("... but not where the law waits for a number", " rolling sds K 0 0.1" in out and done.returncode == 3 and not re.search(
-        r"^(fix_modify|unfix|variable u equal 2|[^#\n].*f_w)", out, re.M) and out.count('#: print "$u"') == 1, out)
+        r"^(unfix|variable u equal 2|[^#\n].*f_w)", out, re.M) and out.count('#: print "$u"') == 1, out)
 
 
 def test_sweeping(folder):
@@ -1020,11 +1044,6 @@ def test_whole_scripts(folder):
     _, out = convert(folder, "variable f equal density[1]\nvariable g equal v_f+1\nprint \"${g}\"\nthermo_style custom step v_g\n")
     fact("what hangs on a variable that was left is left, or goes from thermo", out.count("\n# LEFT") == 3 and
          out.endswith("thermo_style custom step\n"), out)
-    done, _ = convert(folder, MATERIAL + "fix m5 all property/global coefficientRollingFriction peratomtypepair 1 0.1\n" + MESH.format("") +
-                      WALL.replace("history", "history rolling_friction epsd2"))
-    # 8 G*, and 1/G* = 4 (2 - nu) (1 + nu) / E.
-    fact("rolling friction that is left has its numbers", f"rolling sds k 0 0.1, k = {8 * 1e7 / (4 * 1.7 * 1.3):.10g} sqrt(R overlap)"
-         in done.stderr, done.stderr)
     hooke = ("fix m5 all property/global characteristicVelocity scalar 2\nset group a diameter 0.02 density 2500\n"
              "set group b diameter 0.03 density 2500\npair_style gran model hooke\n")
     _, out = convert(folder, MATERIAL + hooke, more=("--radius", "0.01", "--density", "2500"))
@@ -1051,6 +1070,9 @@ fix m2 all property/global poissonsRatio peratomtype 0.3
 fix m3 all property/global coefficientRestitution peratomtypepair 1 0.3
 fix m4 all property/global coefficientFriction peratomtypepair 1 0.4
 fix m5 all property/global characteristicVelocity scalar 2
+fix m6 all property/global coefficientRollingFriction peratomtypepair 1 0.1
+fix m7 all property/global coefficientRollingViscousDamping peratomtypepair 1 0
+fix m8 all property/global cohesionEnergyDensity peratomtypepair 1 5e4
 pair_style gran model MODEL
 pair_coeff * *
 timestep 1e-5
@@ -1084,6 +1106,15 @@ HERTZ = "hertz tangential history"
 TENTH = 0.1 * math.pi * 0.05**2 * 0.2 / (4 / 3 * math.pi * 0.004**3)
 MASS = 2500 * 4 / 3 * math.pi * 0.01**3
 HERTZ_FORCE = 4 / 3 * 5e6 / (2 * (1 - 0.3**2)) * 1e-4**1.5    # over the square root of the effective radius
+# Of a grain that lies on a mesh: its overlap, and how much slower it rolls after 0.02 s, as the rolling torque mu m g R turns 7/5 m R^2.
+LIES = (MASS * 9.81 / (HERTZ_FORCE / 1e-4**1.5 * 0.1)) ** (2 / 3)
+SLOWER = 5 / 7 * 0.1 * 9.81 * 0.02
+ROLL = (f"create_atoms 1 single 0 0 {0.01 - LIES:.15g} units box\nset group all diameter 0.02 density 2500\nset group all vx 0.5\nset group all omegay 50\n"
+        "fix g all gravity 9.81 vector 0 0 -1\nfix cad all mesh/surface file flat.stl type 1\n"
+        "fix w all wall/gran model MODEL mesh n_meshes 1 meshes cad\nvariable vx equal vx[1]\nrun 2000\n")
+TOUCHING = ("create_atoms 1 single 0 0 0.1 units box\ncreate_atoms 1 single 0.0199 0 0.1 units box\nset group all diameter 0.02 density 2500\n")
+# The area in which two equal spheres cut each other.
+CUT = math.pi / 4 * (0.02 - 0.0199) * (0.02 + 0.0199)
 # Waves of 1 and 0.5, after a quarter of the period: cos 0 - cos(-pi/2), and half of cos(pi + 1) - cos 1.
 WAVES = 1 - math.cos(1)
 IN_0_1 = [(0.004, 0.096)] * 6
@@ -1173,6 +1204,16 @@ PHYSICS = {
              "${a} ${b} ${c} ${i} ${z} ${t}",
              [(-HERTZ_FORCE * 0.005**0.5 - 1e-7, -HERTZ_FORCE * 0.005**0.5 + 1e-7), (HERTZ_FORCE * 0.1 - 1e-7, HERTZ_FORCE * 0.1 + 1e-7),
               (1e-4 - 1e-9, 1e-4 + 1e-9), (2, 2), (0, 0), (0.4 - 1e-5, 0.4 + 1e-5)]),
+    # Rolling friction at a wall. The lever of the friction, and how it begins to roll, change 2 %; the spring of epsd needs 40 of the steps to its limit.
+    **{f"roll_{model}": (f"{HERTZ} rolling_friction {model}", ROLL, "${vx}", [(0.5 - (1 + off) * SLOWER, 0.5 - (1 - off) * SLOWER)])
+       for model, off in (("cdt", 0.04), ("epsd2", 0.04), ("epsd", 0.05))},
+    # Of two grains that roll on each other, for 10 steps in which they move apart by 0.2 % of their overlap: mu F R of the reduced radius.
+    "roll_pair": (HERTZ + " rolling_friction cdt", TOUCHING + "set atom 1 omegax 0 omegay 10 omegaz 0\nset atom 2 omegax 0 omegay -10 omegaz 0\nvariable w equal omegay[1]\n"
+                  "thermo_style custom step v_w\nrun 10\n", "${w}",
+                  [tuple(10 - sign * 0.1 * HERTZ_FORCE * 0.005**1.5 * 1e-4 / (0.4 * MASS * 1e-4) for sign in (1.02, 0.98))]),
+    "cohesion_pair": (HERTZ + " cohesion sjkr", TOUCHING + "compute p all pair/gran/local force_normal\ncompute r all reduce min c_p[1]\n"
+                      "variable n equal c_r\nthermo_style custom step c_r\nrun 0\n", "${n}",
+                      [(-HERTZ_FORCE * 0.005**0.5 + 5e4 * CUT - 1e-7, -HERTZ_FORCE * 0.005**0.5 + 5e4 * CUT + 1e-7)]),
     # Whole grains in the region, and in the box.
     "all_in": (HERTZ, POUR + EDGES + "region box1 block 0 0.1 0 0.1 0 0.1 units box\nfix ins all insert/pack seed 32452843 "
                "distributiontemplate d1 insert_every once all_in yes particles_in_region 300 region box1\nrun 1\n", ALL_EDGES, IN_0_1),

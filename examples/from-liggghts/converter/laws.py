@@ -60,6 +60,11 @@ class Contact:
         nu = (1 - 4 * ratio) / (1 - 2 * ratio)
         return 2 * y * (1 - nu * nu), nu
 
+# Properties of the rolling models, in the order of the words of LSDCD.
+ROLLING = {"cdt": ["coefficientRollingFriction"], "epsd2": ["coefficientRollingFriction"],
+           "epsd": ["coefficientRollingFriction", "coefficientRollingViscousDamping"],
+           "epsd3": ["coefficientRollingFriction", "coefficientRollingViscousDamping", "coeffRollingStiffness"]}
+
 
 class Model:
     """The words after model, in pair_style gran and fix wall/gran. Their order is fixed, and a model without its word is
@@ -113,19 +118,22 @@ class Model:
         """Without a tangential model there is none."""
         return c.friction() if self.tangential else 0.0
 
-    def extras(self, c, classic):
-        """Rolling and cohesion of the wall, which go with classic styles."""
+    @property
+    def extra(self):
+        """Whether it has rolling friction or cohesion, which LAMMPS's own styles do not have."""
+        return bool(self.rolling or self.cohesion)
+
+    def extras(self, c):
+        """Words of rolling friction and cohesion."""
         words = ""
-        if self.rolling in ("cdt", "epsd2") and classic:
-            words += f" rolling {self.rolling} {short(c.get('coefficientRollingFriction', c.i, c.j))}"
-        elif self.nearest:
-            words += self.nearest_rolling(c)
-        elif self.rolling:
-            raise self.left_rolling(c)
-        if self.cohesion == "sjkr" and classic:
+        if self.rolling:
+            if self.rolling not in ROLLING:
+                raise Left(f"rolling_friction {self.rolling}", "cdt, epsd2, epsd or epsd3")
+            words += f" rolling {self.rolling} " + " ".join(short(c.get(name, c.i, c.j)) for name in ROLLING[self.rolling])
+        if self.cohesion:
+            if self.cohesion != "sjkr":
+                raise Left(f"cohesion {self.cohesion}", "sjkr, or granular jkr or dmt")
             words += f" cohesion sjkr {short(c.get('cohesionEnergyDensity', c.i, c.j))}"
-        elif self.cohesion:
-            raise Left(f"cohesion {self.cohesion} with model {self.normal}", "granular jkr or dmt, or model hooke with sjkr")
         return words
 
     def dissipates(self, c):
@@ -137,12 +145,12 @@ class Model:
     def drop_zeros(self, contacts):
         """Takes out rolling friction and cohesion whose coefficients are 0 in all contacts: they have no torque, no force. Where one has
         some, each needs its words, as a law of a mesh without them has those of the wall."""
-        if self.rolling in ("cdt", "epsd2") and not any(c.get("coefficientRollingFriction", c.i, c.j) for c in contacts):
+        if self.rolling in ROLLING and not any(c.get("coefficientRollingFriction", c.i, c.j) for c in contacts):
             self.rolling = None
         if self.cohesion in ("sjkr", "sjkr2") and not any(c.get("cohesionEnergyDensity", c.i, c.j) for c in contacts):
             self.cohesion = None
-        # LAMMPS's rolling with a spring is the nearest to these.
-        self.nearest = self.rolling in ("cdt", "epsd2") and self.normal == "hertz"
+        # LAMMPS's rolling with a spring is the nearest to these, on its own walls.
+        self.nearest = self.rolling in ("cdt", "epsd2") and self.normal == "hertz" and not self.cohesion
 
     @staticmethod
     def nearest_rolling(c):
@@ -150,21 +158,12 @@ class Model:
         k = short(float(f"{8 * c.elastic()[1] * c.radius * math.sqrt(1e-3):.3g}")) if c.radius else "K"
         return f" rolling sds {k} 0 {short(c.get('coefficientRollingFriction', c.i, c.j))}"
 
-    def left_rolling(self, c, nearest=""):
-        why = f"rolling_friction {self.rolling} with model {self.normal}"
-        do = "pair_style granular with hooke and rolling sds k 0 mu, k the tangential stiffness for epsd2"
-        if self.normal == "hertz" and self.rolling in ("cdt", "epsd2"):
-            # epsd2 has the tangential spring times R^2, and both the limit mu R F.
-            why += {"cdt": ", which is a torque without a spring: LAMMPS has rolling with a spring only",
-                    "epsd2": ", whose spring grows with the overlap: that of LAMMPS does not"}[self.rolling]
-            k = 8 * c.elastic()[1]
-            do = (f"granular with rolling sds k 0 {short(c.get('coefficientRollingFriction', c.i, c.j))}, k = "
-                  f"{short(k)} sqrt(R overlap) at the overlap of most contacts")
-            if c.radius:
-                do += f", which is {k * c.radius * math.sqrt(1e-3):.3g} at an overlap of 0.1 % of R = {short(c.radius)}"
-            do += "; or model hooke with cdt or epsd2 on the wall"
+    def left_plane(self, c, nearest=""):
+        """A Left for rolling friction or cohesion of LAMMPS's own wall."""
+        why = "rolling friction or cohesion of a plane or cylinder, of which LAMMPS's own wall has others"
+        do = "a mesh of it: lsdcd generate plane or cylinder"
         if nearest:
-            do = "the lines with #: below are the nearest" + ", with a number for K" * (c.radius is None) + ": " + do
+            do = "the lines with #: below are the nearest" + ", with a number for K" * (c.radius is None) + "; or " + do
         return Left(why, do, nearest)
 
     def classic(self, c, r, m):
@@ -188,20 +187,19 @@ class Model:
         share = math.sqrt(4 * g / y) if self.damped and self.tangential else 0.0
         return 4 / 3 * y, 8 * g, math.sqrt(5) * c.beta(), share, self.friction(c)
 
-    def wall(self, c, r, m):
+    def law(self, c, r, m):
+        """Words of a law of LSDCD, which begin with a classic style, or with granular."""
         self.check()
         if self.normal != "hertz":
             style, numbers = self.classic(c, r, m)
-            law = f"{style} {numbers}"
-            extras = self.extras(c, True)
-        else:
-            _, _, _, share, mu = self.hertz(c)
-            e, nu = c.one_material()
-            tangential = "mindlin_slip NULL" if self.tangential == "history" else "linear_nohistory"
-            law = (f"granular hertz/material {short(e)} {short(c.get('coefficientRestitution', c.i, c.j))} {short(nu)} "
-                   f"damping coeff_restitution tangential {tangential} {short(share)} {short(mu)}")
-            extras = self.extras(c, False)
-        return law + " limit_damping" * self.limit + extras
+            return f"{style} {numbers}" + " limit_damping" * self.limit + self.extras(c)
+        _, _, _, share, mu = self.hertz(c)
+        e, nu = c.one_material()
+        tangential = f"mindlin_slip NULL {short(share)}" if self.tangential == "history" else f"linear_nohistory {short(share)}"
+        if self.extra and self.tangential:
+            tangential = f"mindlin_liggghts NULL {'NULL' if share else '0'}" if self.tangential == "history" else f"linear_nohistory_liggghts {short(share)}"
+        return (f"granular hertz/material {short(e)} {short(c.get('coefficientRestitution', c.i, c.j))} {short(nu)} "
+                f"damping coeff_restitution tangential {tangential} {short(mu)}" + " limit_damping" * self.limit + self.extras(c))
 
     def granular(self, c):
         """The words of pair_coeff and of LAMMPS's own wall, which has other moduli in 29Sep2021."""

@@ -253,7 +253,7 @@ class Same:
             values = options(w[3:], SET_WORDS)
             text = self.with_density(line, values, text)
             if values.keys() & SPINS:
-                if any(ran != self.ran for _, ran, _ in self.sources) or self.spun:
+                if not values.keys() >= set(SPINS) and (any(ran != self.ran for _, ran, _ in self.sources) or self.spun):
                     raise Left("set omegax of grains that may turn already", "set ... omega with all three numbers")
                 text = " ".join(w[:3] + [x for key, v in values.items() if key not in SPINS for x in (key, *v)] +
                                 ["omega"] + [values.get(key, ["0"])[0] for key in SPINS])

@@ -61,7 +61,7 @@ class Walls:
     def law_of(self, line, model, wall_type):
         """Words of the wall for each grain type."""
         r, m = self.size(line) if model.normal == "hooke" else (1.0, 1.0)
-        return {i: model.wall(Contact(self, line, wall_type, i), r, m) for i in self.grains()}
+        return {i: model.law(Contact(self, line, wall_type, i), r, m) for i in self.grains()}
 
     def mesh_wall(self, line, wall):
         w, model = line.words, wall.model
@@ -100,10 +100,7 @@ class Walls:
                 self.out.pop()
         for mesh in (m for m in meshes if any(m.way)):
             self.note(line, f"{mesh.id} begins where its motions have brought it")
-        text = " &\n                ".join(words)
-        if model.nearest:
-            raise model.left_rolling(contacts[0], text)
-        self.put(text)
+        self.put(" &\n                ".join(words))
 
     def begins_here(self, mesh, line):
         """Raises Left for a mesh that does not begin at a wall as its line says, or not always."""
@@ -198,12 +195,10 @@ class Walls:
         model.drop_zeros(contacts)
         if model.normal == "hertz":
             laws = {"granular " + model.granular(c) for c in contacts}
-            if model.cohesion or (model.rolling and not model.nearest):
-                model.extras(contacts[0], False)
         else:
             laws = set(self.law_of(line, model, kind).values())
-            if model.rolling or model.cohesion:
-                raise Left("rolling friction or cohesion of a plane", "a mesh of the plane: lsdcd generate plane")
+        if model.extra and not model.nearest:
+            raise model.left_plane(contacts[0])
         self.note_friction(line, model)
         if len(laws) > 1:
             raise Left("a plane that touches grains of several materials", "a fix for the group of each type")
@@ -223,7 +218,7 @@ class Walls:
                        "a mesh: lsdcd generate cylinder, placed by rotate and move")
         text = " ".join([f"fix             {w[1]} {w[2]} wall/gran {laws.pop()} {where}", *shear])
         if model.nearest:
-            raise model.left_rolling(contacts[0], text)
+            raise model.left_plane(contacts[0], text)
         self.put(text)
 
     def end_wall(self, name):
