@@ -50,7 +50,7 @@ void check_synchronous(const lsdcd_wall &wall, const lsdcd_wall_step &step)
 {
   checked_flag(step.synchronous, "synchronous");
   for (const MeshPart &m : wall.in->meshes())
-    if (step.synchronous && m.mover->is_pushed())
+    if (step.synchronous && m.body)
       throw ApiError(
           LSDCD_ERROR_ARGUMENT,
           "synchronous is 1, and " + m.spec.name +

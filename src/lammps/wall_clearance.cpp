@@ -59,7 +59,7 @@ void WallClearance::Surface::place(const std::vector<Vec3> &vertices, const Mesh
     set_bounds(mesh);
     search.reset();
   }
-  pose = part.mover->pose_in(dt);
+  pose = part.mover.pose_in(dt);
   moves = part.moves() || part.surface->changes();
   bounds = placed_bounds(pose, {mesh.report.lo, mesh.report.hi});
 }

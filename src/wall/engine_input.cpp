@@ -3,7 +3,6 @@
 
 #include "wall/engine_input.h"
 
-#include <algorithm>
 #include <cstddef>
 
 namespace lsdcd {
@@ -17,7 +16,7 @@ EngineSettings EngineInput::settings(Device device, bool virial, bool pushed) co
   want.meshes = static_cast<int>(meshes_.size());
   want.moves = meshes_.size() > 1;
   for (const MeshPart &m : meshes_) {
-    want.moves |= m.nodes() || m.mover->moves_or_varies();
+    want.moves |= m.nodes() || m.mover.moves_or_varies();
     want.nodes |= m.nodes() != nullptr;
     if (!want.surface.moves()) want.surface = m.spec.surface;
   }
@@ -30,30 +29,25 @@ EngineSettings EngineInput::settings(Device device, bool virial, bool pushed) co
   return want;
 }
 
-StepSettings EngineInput::step(const StepInput &input, bool pushed)
+StepSettings EngineInput::step(const StepInput &input, const StepAsks &asks)
 {
   StepSettings step;
   step.number = input.step.number;
   step.dt = input.step.dt;
   step.update_history = input.step.kind == Step::step;
   step.synchronous = input.step.synchronous;
-  const auto any_mover = [this](bool (Mover::*has)() const) {
-    return std::any_of(meshes_.begin(), meshes_.end(),
-                       [has](const MeshPart &m) { return (*m.mover.*has)(); });
-  };
-  const bool asked = any_mover(&Mover::asks_for_contacts);
-  step.per_sphere = wall_.contacts || wall_.each_contact || asked;
-  step.contacts = wall_.has_loads() || wall_.each_contact || input.virial || asked;
-  step.totals = pushed || any_mover(&Mover::servo_acts) || wall_.average_every > 0;
+  step.per_sphere = wall_.contacts || wall_.each_contact || asks.contacts;
+  step.contacts = wall_.has_loads() || wall_.each_contact || input.virial || asks.contacts;
+  step.totals = asks.totals || wall_.average_every > 0;
   const bool several = meshes_.size() > 1;
   if (several || wall_.meshes.front().surface_varies()) {
     surfaces_.clear();
-    for (const MeshPart &m : meshes_) surfaces_.push_back(m.mover->surface_motion());
+    for (const MeshPart &m : meshes_) surfaces_.push_back(m.mover.surface_motion());
     step.surface = surfaces_.data();
   }
-  if (pushed) {
+  if (asks.pushed) {
     mobilities_.clear();
-    for (const MeshPart &m : meshes_) mobilities_.push_back(m.mover->mobility());
+    for (const MeshPart &m : meshes_) mobilities_.push_back(m.mobility());
     step.mobility = mobilities_.data();
   }
   if (!wall_.law().has_heat()) return step;

@@ -12,6 +12,13 @@
 
 namespace lsdcd {
 
+// What the meshes of a wall ask of a step.
+struct StepAsks {
+  bool pushed;      // mobilities: one of them is a body
+  bool contacts;    // the contacts themselves
+  bool totals;      // sums, for the next step
+};
+
 class EngineInput {
  public:
   // All must outlive it.
@@ -25,7 +32,7 @@ class EngineInput {
   // Returns the settings of an engine on this device. `virial`: contacts will be asked for. `pushed`: a mesh is, or was, moved by its loads.
   EngineSettings settings(Device device, bool virial, bool pushed) const;
   // Returns the settings of a step, which hold until the next call.
-  StepSettings step(const StepInput &input, bool pushed);
+  StepSettings step(const StepInput &input, const StepAsks &asks);
 
  private:
   const Host &host_;

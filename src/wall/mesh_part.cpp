@@ -50,7 +50,7 @@ bool MeshPart::keeps_edge(const PeriodicBox &box, int k) const
 {
   const Vec3 edge = unit_vector(box.edge[k]),
              across = unit_vector(cross(box.edge[(k + 1) % 3], box.edge[(k + 2) % 3]));
-  return !nodes() && norm(cross(edge, across)) <= 1e-12 && mover->keeps(edge, norm(box.edge[k]));
+  return !nodes() && norm(cross(edge, across)) <= 1e-12 && mover.keeps(edge, norm(box.edge[k]));
 }
 
 // Where its motion keeps an edge, that is the edge, and periodic images are what they are for a

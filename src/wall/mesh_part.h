@@ -4,7 +4,7 @@
 // One mesh of a wall: its spec and grid, and where it is.
 #pragma once
 
-#include "wall/move/body_mover.h"
+#include "wall/move/mover.h"
 #include "wall/surface/mesh_surface.h"
 
 #include <memory>
@@ -12,14 +12,14 @@
 namespace lsdcd {
 
 struct MeshPart {
-  // The mesh with this number of the wall, from 0. Reads its file. `force`: as of make_mover(). Host, wall and laws must
+  // The mesh with this number of the wall, from 0. Reads its file. `force`: as of Mover. Host, wall and laws must
   // outlive it. Throws InputError on all processes. Collective.
   MeshPart(Host &host, WallSpec &wall, const LawTable &laws, int index, Real force,
            const Step &now) :
       index(index),
       spec(wall.meshes[index]), grid(host, wall, spec),
       surface(make_surface(host, wall, index, grid)),
-      mover(make_mover(host, wall, laws, index, grid, force, now)), host_(host)
+      mover(host, wall, laws, index, grid, force, now), body(mover.body()), host_(host)
   {
   }
 
@@ -27,7 +27,8 @@ struct MeshPart {
   MeshSpec &spec;    // in that of the wall; its motion may change later
   MeshGrid grid;     // as it was read, and as a surface without nodes is
   const std::unique_ptr<MeshSurface> surface;
-  const std::unique_ptr<Mover> mover;
+  Mover mover;
+  BodyMover *const body;    // of the mover; null: it is none
 
   bool springs_are_foreign = false;    // those of a saved state are of another mesh
   bool way_warned = false;             // that it goes far in a step
@@ -35,10 +36,12 @@ struct MeshPart {
 
   MeshNodes *nodes() const { return surface->nodes(); }    // null: they do not move
   const Servo &servo() const { return spec.motion.servo(); }
-  bool moves() const { return nodes() || mover->moves(); }    // or was moved
+  bool moves() const { return nodes() || mover.moves(); }    // or was moved
+  // Returns how it gives way to pushes where it is now (1/mass).
+  Mobility mobility() const { return body ? body->mobility() : Mobility(); }
   bool has_coat() const { return spec.body.present && spec.body.coat.present; }
 
-  const Pose &pose() const { return mover->pose(); }    // in this step
+  const Pose &pose() const { return mover.pose(); }    // in this step
 
   // Returns whether a spring may name this feature of it.
   bool has(FeatureCode feature) const { return !springs_are_foreign && grid.has(feature); }

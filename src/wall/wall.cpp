@@ -40,8 +40,9 @@ Wall::Wall(Host &host, WallSpec spec, const WallUnits &units, WallBackend backen
     check_plane(host_, spec_, m);
     check_stays_closed(host_, spec_, m);
     poses_.push_back(m.pose());
-    mover_is_new(m);
+    note_mobility(m);
   }
+  list_meshes();
   // Where the spheres are says it in place, and nodes that move stay on their device.
   const bool is_fixed = backend_.in_place || nodes_.any();
   device_ = DeviceChoice(spec_.device, is_fixed ? 0 : cuda_devices(), host_.ranks().node_size);
@@ -71,16 +72,22 @@ std::string Wall::named(const MeshPart &m, const std::string &text) const
   return with_mesh_name(spec_, m.index, text);
 }
 
-bool Wall::any_moves() const
+void Wall::list_meshes()
 {
-  return std::any_of(meshes_.begin(), meshes_.end(), [](const MeshPart &m) { return m.moves(); });
+  for (std::vector<MeshPart *> *list : {&moving_, &changing_, &bodies_, &servos_}) list->clear();
+  for (MeshPart &m : meshes_) {
+    if (m.moves() || m.spec.surface_varies()) moving_.push_back(&m);
+    if (m.surface->changes()) changing_.push_back(&m);
+    if (m.body) bodies_.push_back(&m);
+    if (m.servo().present) servos_.push_back(&m);
+  }
 }
 
 std::vector<int> Wall::inputs_read() const
 {
   std::vector<int> all;
   for (const MeshPart &m : meshes_)
-    for (const int input : m.mover->inputs()) all.push_back(input);
+    for (const int input : m.mover.inputs()) all.push_back(input);
   for (const MeshPart &m : meshes_)
     if (m.spec.temperature_input != kNoInput) all.push_back(m.spec.temperature_input);
   for (const MeshPart &m : meshes_)
@@ -117,7 +124,8 @@ void Wall::settle(const HostSpheres &spheres, const StepInput &input)
       device_.is_open() && input.step.kind == Step::step && (input.look || is_set_up_);
   const Real near = chooses_device ? most_candidates() : 0;
   const bool goes_elsewhere = chooses_device && device_.update(static_cast<std::int64_t>(near)),
-             lacks_settings = (any_moves() && !engine_moves_) || (virial_ && !engine_contacts_);
+             lacks_settings =
+                 (!moving_.empty() && !engine_moves_) || (virial_ && !engine_contacts_);
   if (!goes_elsewhere && !lacks_settings) return;
   sums();
   run_collectively(host_, true, [&] { poll_diagnostics(spheres); });
@@ -137,19 +145,34 @@ void Wall::log_creation(const std::string &material, const WallBackend &backend)
       creation_text(host_.names(), spec_, meshes_, coats_, engine_settings(), material, device));
 }
 
-// Runs what this process does alone. Throws its errors as local ones, in which a sphere has the name that the host has for it.
+// Runs what this process does alone in a step. A process whose step has failed takes part in what all processes do together, with no
+// contacts: they do not wait for it, and finish() throws what it was.
 template <class Work>
-void Wall::on_this_process(const HostSpheres &spheres, Work &&work)
+void Wall::guard(const HostSpheres &spheres, Work &&work)
 {
-  const std::string error = error_of([&] {
+  if (failure_) return;
+  try {
+    work();
+  } catch (const std::exception &) {
+    const InputError failure = failure_here(spheres);
+    if (host_.processes() == 1) throw failure;
+    failure_ = failure;
+  }
+}
+
+// Returns the exception that was caught as an error of this process, in which a sphere has the name that the host has for it.
+InputError Wall::failure_here(const HostSpheres &spheres) const
+{
+  InputError failure(error_of([&] {
     try {
-      work();
+      throw;
     } catch (const InputError &e) {
       if (e.sphere < 0) throw;
       throw InputError(host_.sphere_text(on_cpu(spheres).tag(e.sphere)) + " " + e.problem);
     }
-  });
-  if (!error.empty()) fail_here(error);
+  }));
+  failure.is_local = true;
+  return failure;
 }
 
 // ---- a step ------------------------------------------------------------------------------
@@ -187,21 +210,20 @@ void Wall::begin(const HostSpheres &spheres, const StepInput &input)
     look_at_spheres(spheres, step.number);
   else if (input.box_changes && grids_.fit_box(step.number))
     engine_->expire_choice();
-  box_checks_.check_moving(grids_.box(), cutoff(), step);
-  box_checks_.check_gone(grids_.box(), cutoff(), step.number);
-  for (const MeshPart &m : meshes_)
-    if (engine_moves_) engine_->set_pose(m.pose(), m.index);
+  if (!moving_.empty()) {
+    box_checks_.check_moving(grids_.box(), cutoff(), step);
+    box_checks_.check_gone(grids_.box(), cutoff(), step.number);
+    for (const MeshPart *m : moving_) engine_->set_pose(m->pose(), m->index);
+  }
   if (input.new_spheres) {
     if (cutoff() > 0) timestep_.check(step.dt, on_cpu(spheres).all());
     look_at_range(spheres);
   }
   failure_.reset();    // that of the last step is asked for until here
   if (cutoff() == 0) return;
-  try_here([&] {
-    on_this_process(spheres, [&] {
-      history_.to_engine(spheres.n);
-      engine_->begin(input.when);
-    });
+  guard(spheres, [&] {
+    history_.to_engine(spheres.n);
+    engine_->begin(input.when);
   });
 }
 
@@ -218,17 +240,17 @@ void Wall::check_history(int n)
 // Poses last: what servos ask for is of where meshes were.
 void Wall::move(const HostSpheres &spheres, const Step &step)
 {
-  if (any_pushed_ && !range_is_known_) look_at_range(spheres);
-  complete_movers();
-  for (MeshPart &m : meshes_)
-    m.mover->advance(step, input_.inputs, [&] {
+  if (!bodies_.empty() && !range_is_known_) look_at_range(spheres);
+  complete_bodies();
+  for (MeshPart *m : moving_)
+    m->mover.advance(step, input_.inputs, [&] {
       if (!range_is_known_) look_at_range(spheres);
-      return servo_load(m.index);
+      return servo_load(m->index);
     });
-  for (MeshPart &m : meshes_) m.mover->place();
-  for (MeshPart &m : meshes_) {
-    m.surface->begin(step, cutoff());
-    if (largest_within_ > 0) check_way(host_, spec_, m, step, largest_within_, on_cpu(spheres));
+  for (MeshPart *m : moving_) m->mover.place();
+  for (MeshPart *m : moving_) {
+    m->surface->begin(step, cutoff());
+    if (largest_within_ > 0) check_way(host_, spec_, *m, step, largest_within_, on_cpu(spheres));
   }
 }
 
@@ -251,21 +273,20 @@ void Wall::log_device(Real near)
 }
 
 // Gives bodies the second half of the last step, before others ask for it. Inputs still have its values.
-void Wall::complete_movers()
+void Wall::complete_bodies()
 {
-  if (!any_pushed_ || std::none_of(meshes_.begin(), meshes_.end(),
-                                   [](const MeshPart &m) { return m.mover->is_half_done(); }))
+  if (std::none_of(bodies_.begin(), bodies_.end(),
+                   [](const MeshPart *m) { return m->body->is_half_done(); }))
     return;
   const Real *g = input_.gravity;
   const Vec3 gravity = g ? Vec3{g[0], g[1], g[2]} : Vec3{0, 0, 0};
-  for (MeshPart &m : meshes_) {
-    if (!m.mover->is_half_done()) continue;
-    totals_.set_power(m.index, m.mover->complete(sums().mesh(m.index), gravity));
-  }
-  for (MeshPart &m : meshes_)
-    m.mover->check_step(touch(m), [&](bool of_coat) {
-      return coats_.fastest_touched(m.index, [&](const MeshPart &other) {
-        return other.mover->rates(touch(other), of_coat);
+  for (MeshPart *m : bodies_)
+    if (m->body->is_half_done())
+      totals_.set_power(m->index, m->body->complete(sums().mesh(m->index), gravity));
+  for (MeshPart *m : bodies_)
+    m->body->check_step(touch(*m), [&](bool of_coat) {
+      return coats_.fastest_touched(m->index, [&](const MeshPart &other) {
+        return other.body ? other.body->rates(touch(other), of_coat) : ModeRates();
       });
     });
 }
@@ -277,8 +298,8 @@ Touch Wall::touch(const MeshPart &m)
 
 const BodyMover *Wall::body(int mesh)
 {
-  complete_movers();
-  return meshes_[mesh].mover->body();
+  complete_bodies();
+  return meshes_[mesh].body;
 }
 
 void Wall::look_at_spheres(const HostSpheres &spheres, std::int64_t step)
@@ -299,9 +320,7 @@ void Wall::look_at_spheres(const HostSpheres &spheres, std::int64_t step)
 // For gains of servos and the timestep of bodies.
 void Wall::look_at_range(const HostSpheres &spheres)
 {
-  if (std::none_of(meshes_.begin(), meshes_.end(),
-                   [](const MeshPart &m) { return m.mover->is_pushed() || m.mover->has_servo(); }))
-    return;
+  if (bodies_.empty() && servos_.empty()) return;
   range_ = range_of(host_, on_cpu(spheres));
   range_is_known_ = true;
 }
@@ -323,8 +342,8 @@ void Wall::choose_if_due(const Spheres &spheres)
 {
   nodes_.begin_choice(cutoff(), spheres.n);
   std::vector<MovingMesh> moving;
-  for (const MeshPart &m : meshes_)
-    if (m.mover->moves()) moving.push_back({m.pose(), m.bounds(cutoff())});
+  for (const MeshPart *m : moving_)
+    if (m->mover.moves()) moving.push_back({m->pose(), m->bounds(cutoff())});
   if (!engine_->choose_if_due(spheres, input_.drift, moving)) return;
   nodes_.note_choice();
   search_.count_update();
@@ -333,9 +352,9 @@ void Wall::choose_if_due(const Spheres &spheres)
 // Before the meshes move, so that the step is all of the new surface.
 void Wall::change_surfaces(const Step &step)
 {
-  for (MeshPart &m : meshes_) {
-    if (!m.surface->change(step, cutoff())) continue;
-    grids_.follow_surface(m);
+  for (MeshPart *m : changing_) {
+    if (!m->surface->change(step, cutoff())) continue;
+    grids_.follow_surface(*m);
     engine_->expire_choice();
   }
 }
@@ -367,8 +386,8 @@ void Wall::clear_totals()
 void Wall::submit(const HostSpheres &spheres)
 {
   if (step_state() != StepState::begun || failure_) return;
-  const StepSettings step = engine_input_.step(input_, any_pushed_);
-  on_this_process(spheres, [&] {
+  guard(spheres, [&] {
+    const StepSettings step = step_settings();
     times_.begin();
     choose_if_due(spheres);
     times_.end(TimeReport::choice);
@@ -377,50 +396,48 @@ void Wall::submit(const HostSpheres &spheres)
   });
 }
 
-void Wall::collect(const HostSpheres &spheres)
+StepSettings Wall::step_settings()
+{
+  const auto any = [](const std::vector<MeshPart *> &list, const auto &has) {
+    return std::any_of(list.begin(), list.end(), has);
+  };
+  const bool asked = any(bodies_, [](const MeshPart *m) { return m->body->asks_for_contacts(); });
+  const bool sums =
+      !bodies_.empty() || any(servos_, [](const MeshPart *m) { return m->mover.servo_acts(); });
+  return engine_input_.step(input_, {!bodies_.empty(), asked, sums});
+}
+
+void Wall::collect(int n)
 {
   if (step_state() == StepState::submitted) {
     const bool waits = engine_->is_under_way();
     times_.begin();
-    on_this_process(spheres, [&] { engine_->collect(); });
+    engine_->collect();
     times_.end(waits ? TimeReport::waiting : TimeReport::forces);
-    history_.set_spheres_of_engine(spheres.n);
+    history_.set_spheres_of_engine(n);
     search_.count_step(input_.step.kind != Step::step);
   }
   if (cutoff() > 0)
-    on_this_process(spheres, [&] { nodes_.see_forces(); });
+    nodes_.see_forces();
   else
     nodes_.clear_forces();
 }
 
-// Runs a part of a step. A process whose step has failed takes part in what all processes do together, with no contacts: they do
-// not wait for it, and finish() throws what it was.
-template <class Work>
-void Wall::try_here(Work &&work)
-{
-  try {
-    if (!failure_) work();
-  } catch (const InputError &e) {
-    if (!e.is_local || host_.processes() == 1) throw;
-    failure_ = e;
-  }
-}
-
 void Wall::finish(const HostSpheres &spheres)
 {
-  try_here([&] { submit(spheres); });
+  submit(spheres);
   if (coats_.any()) {
     times_.begin();
     coats_.step(input_.step);
     times_.end(TimeReport::forces);
   }
-  try_here([&] { collect(spheres); });
+  guard(spheres, [&] { collect(spheres.n); });
   totals_.expire();
-  for (const MeshPart &m : meshes_) poses_[m.index] = m.pose();
-  for (MeshPart &m : meshes_) m.mover->end(input_.step, results());
+  for (const MeshPart *m : moving_) poses_[m->index] = m->pose();
+  for (MeshPart *m : bodies_) m->body->end(input_.step, results());
   if (cutoff() > 0) nodes_.agree_on_forces(failure_.has_value());
   note_step(spheres);
-  if (failure_) throw *failure_;
+  if (failure_) throw InputError(*failure_);
 }
 
 // Returns what the last step left on this process, or null where there is none.
@@ -441,8 +458,8 @@ void Wall::note_step(const HostSpheres &spheres)
     for (const MeshPart &m : meshes_)
       loads_.add(m.index, left ? left->contacts() : none, step.dt,
                  left ? m.records() : MeshFeaturesView());
-  for (const MeshPart &m : meshes_)
-    if (left) m.surface->end(*left, step);
+  for (const MeshPart *m : changing_)
+    if (left) m->surface->end(*left, step);
   if (step.kind == Step::setup) log_new_springs(step);
   if (input_.new_spheres) check_new_spheres(spheres);    // throws on one process alone
   if (step.kind == Step::setup) times_.begin_run();      // as the host's loop time
@@ -467,7 +484,11 @@ StepDiagnostics Wall::read_diagnostics(const HostSpheres &spheres)
 {
   StepDiagnostics seen;
   if (cutoff() == 0) return seen;
-  on_this_process(spheres, [&] { seen = engine_->read_diagnostics(); });
+  try {
+    seen = engine_->read_diagnostics();
+  } catch (const std::exception &) {
+    throw failure_here(spheres);
+  }
   search_.add(seen);
   deepest_overlap_ = std::max(deepest_overlap_, seen.deepest * seen.deepest_radius);
   return seen;
@@ -509,7 +530,7 @@ void Wall::end_run(const HostSpheres &spheres, bool far, const std::string &advi
 
 const StepTotals &Wall::totals()
 {
-  complete_movers();
+  complete_bodies();
   return sums();
 }
 
@@ -536,7 +557,7 @@ const StepTotals &Wall::sums()
 
 Real Wall::servo_push(int mesh)
 {
-  return meshes_[mesh].mover->servo_push(servo_load(mesh));
+  return meshes_[mesh].mover.servo_push(servo_load(mesh));
 }
 
 void Wall::add_virial(Real *virial) const
@@ -575,28 +596,36 @@ void Wall::set_inputs(const InputNames &inputs)
 void Wall::set_motion(int mesh, const RigidMotion &motion, const Step &now)
 {
   MeshPart &m = meshes_[mesh];
-  m.mover->set_motion(motion, now);
+  m.mover.set_motion(motion, now);
   mover_has_changed(m);
-  log_change(m, "motion " + (motion.moves() ? m.mover->text(m.bounds(0)) : "none"));
+  log_change(m, "motion " + (motion.moves() ? m.mover.text(m.bounds(0)) : "none"));
+}
+
+void Wall::check_is_body(int mesh) const
+{
+  const MeshPart &m = meshes_[mesh];
+  if (!m.body)
+    throw InputError(named(m, "the mesh is not a body, and cannot become one later: make it a body "
+                              "when the wall is made"));
 }
 
 void Wall::set_body(int mesh, const BodySpec &to)
 {
   MeshPart &m = meshes_[mesh];
-  m.mover->check_is_body();
-  complete_movers();
-  m.mover->set_body(to);
+  check_is_body(mesh);
+  complete_bodies();
+  m.body->set_body(to);
   mover_has_changed(m);
-  log_change(m, "body " + m.mover->body_text());
+  log_change(m, "body " + m.body->body_text());
 }
 
 void Wall::set_servo(int mesh, const Servo &servo)
 {
   MeshPart &m = meshes_[mesh];
-  m.mover->set_servo(servo);
+  m.mover.set_servo(servo);
   range_is_known_ = false;    // a run without setup looks then
   mover_has_changed(m);
-  log_change(m, "servo " + (servo.present ? m.mover->servo_text() : "none"));
+  log_change(m, "servo " + (servo.present ? m.mover.servo_text() : "none"));
 }
 
 void Wall::log_change(const MeshPart &m, const std::string &text)
@@ -604,16 +633,16 @@ void Wall::log_change(const MeshPart &m, const std::string &text)
   if (!spec_.brief) host_.log(named(m, text));
 }
 
-// Notes what is so of a mover that was made, changed or restored.
-void Wall::mover_is_new(const MeshPart &m)
+void Wall::note_mobility(const MeshPart &m)
 {
-  any_pushed_ |= m.mover->is_pushed();
-  timestep_.set_mobility(m.index, m.mover->most_mobility());
+  timestep_.set_mobility(m.index, m.body ? m.body->most_mobility() : 0);
 }
 
+// Notes what is so of a mover that was changed or restored.
 void Wall::mover_has_changed(const MeshPart &m)
 {
-  mover_is_new(m);
+  note_mobility(m);
+  list_meshes();
   engine_->expire_choice();
 }
 

@@ -65,7 +65,6 @@ class Wall {
   const WallSpec &spec() const { return spec_; }    // pressures are forces per area
   const LawTable &laws() const { return laws_; }
   const std::deque<MeshPart> &meshes() const { return meshes_; }
-  bool any_moves() const;    // or was moved
   // Those of spec().inputs whose values a step reads, by their numbers: of motions first, then temperatures.
   std::vector<int> inputs_read() const;
   Real cutoff() const { return grids_.cutoff(); }    // length; 0: there were no spheres yet
@@ -144,10 +143,7 @@ class Wall {
   // Sets the names of inputs, which begin with those that there are.
   void set_inputs(const InputNames &inputs);
   // Returns why this mesh takes no motion, servo or pose, or an empty text if it takes them. Local.
-  std::string why_it_takes_no_motion(int mesh) const
-  {
-    return meshes_[mesh].mover->why_no_motion();
-  }
+  std::string why_it_takes_no_motion(int mesh) const { return meshes_[mesh].mover.why_no_motion(); }
   // Moves a mesh by another motion from where it is, or stops it by a motion without terms. Its servo goes on; the servo of
   // `motion` is not read.
   void set_motion(int mesh, const RigidMotion &motion, const Step &now);
@@ -159,10 +155,10 @@ class Wall {
   // of its velocity goes on. The rest of `to` is not looked at.
   void set_body(int mesh, const BodySpec &to);
   // Throws InputError where it is none. Local.
-  void check_is_body(int mesh) const { meshes_[mesh].mover->check_is_body(); }
+  void check_is_body(int mesh) const;
   // Sets the pose, for the next step and those after it, of a mesh whose motion is_posed(), and that is no body and has no
   // nodes. Local.
-  void set_pose(int mesh, const Pose &pose) { meshes_[mesh].mover->set_pose(pose); }
+  void set_pose(int mesh, const Pose &pose) { meshes_[mesh].mover.set_pose(pose); }
   // Sets places (length) and velocities (length/time) of the nodes of a mesh that has_nodes, x y z, node after node, for the
   // next step and those after it. Velocities are of the same time as those of spheres, or all 0 where `v` is null. All
   // processes give the same numbers. Local.
@@ -184,7 +180,7 @@ class Wall {
   // Throws InputError where the first step could not begin, as it is of bodies outside of their limits. Local.
   void check_start() const
   {
-    for (const MeshPart &m : meshes_) m.mover->check_start();
+    for (const MeshPart &m : meshes_) m.mover.check_start();
   }
   // Keeps what the wall was made as until the first step, for a host that may call restore() more than once. It takes as much
   // memory as a saved state, on each process.
@@ -199,7 +195,7 @@ class Wall {
  private:
   EngineSettings engine_settings() const
   {
-    return engine_input_.settings(device_.device(), virial_, any_pushed_);
+    return engine_input_.settings(device_.device(), virial_, !bodies_.empty());
   }
   void make_engine();
   void settle(const HostSpheres &spheres, const StepInput &input);
@@ -210,9 +206,8 @@ class Wall {
     return SpheresOnCpu(spheres, backend_.to_cpu);
   }
   template <class Work>
-  void on_this_process(const HostSpheres &spheres, Work &&work);
-  template <class Work>
-  void try_here(Work &&work);
+  void guard(const HostSpheres &spheres, Work &&work);
+  InputError failure_here(const HostSpheres &spheres) const;
 
   void check_history(int n);
   const StepTotals &sums();
@@ -222,9 +217,10 @@ class Wall {
   void look_at_spheres(const HostSpheres &spheres, std::int64_t step);
   void look_at_range(const HostSpheres &spheres);
   ServoLoad servo_load(int mesh);
-  void complete_movers();
+  void complete_bodies();
   Touch touch(const MeshPart &m);    // in the last step
-  void collect(const HostSpheres &spheres);
+  StepSettings step_settings();
+  void collect(int n);
   StepResults *results() const;
   void note_step(const HostSpheres &spheres);
   Real pressure(int mesh) const;    // in this step, in units of forces
@@ -235,7 +231,8 @@ class Wall {
   void check_new_spheres(const HostSpheres &spheres);
 
   void log_change(const MeshPart &m, const std::string &text);
-  void mover_is_new(const MeshPart &m);
+  void list_meshes();
+  void note_mobility(const MeshPart &m);
   void mover_has_changed(const MeshPart &m);
 
   Host &host_;
@@ -246,8 +243,10 @@ class Wall {
   StepClock clock_;
   Real pressure_unit_;             // of inputs
   std::deque<MeshPart> meshes_;    // where each stays; there is one at least
+  // Lists of them, in their order: who has nothing to do in a step is in none. Those that move, or were moved, or have a surface
+  // that moves; whose own shape changes; that are bodies; that have a servo.
+  std::vector<MeshPart *> moving_, changing_, bodies_, servos_;
   EngineInput engine_input_;
-  bool any_pushed_ = false;
   BodyCoats coats_;
   DeviceChoice device_;
   bool is_set_up_ = false;    // the last step set a run up

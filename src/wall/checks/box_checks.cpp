@@ -228,9 +228,9 @@ void BoxChecks::look_ahead(const MeshPart &m, const PeriodicBox &box, Real cutof
 {
   constexpr int kSamples = 64;    // points of a turn are missed by a thousandth of its radius
   constexpr Real kPast = 1e-3;    // of the box: a drum that fits it turns within it
-  const Real period = m.mover->known_period();
+  const Real period = m.mover.known_period();
   if (period <= 0) return;
-  const auto pose = [&](int i) { return m.mover->pose_in(period * i / kSamples); };
+  const auto pose = [&](int i) { return m.mover.pose_in(period * i / kSamples); };
   for (int i = 1; i < kSamples; i++) check_pose(m, pose(i), box, cutoff, "");
 
   bool &warned = warned_[m.index].turning_out_warned;

@@ -62,7 +62,7 @@ void check_plane(Host &host, const WallSpec &settings, const MeshPart &m)
 {
   if (host.box().dimension == 3) return;
   m.surface->check_plane();
-  m.mover->check_plane();
+  m.mover.check_plane();
   const MeshReport &r = m.grid.report();
   if (!(r.lo.z < 0 && r.hi.z > 0))
     throw InputError(with_mesh_name(
@@ -136,10 +136,10 @@ Real largest_within(const HostSpheres &spheres)
 void check_way(Host &host, const WallSpec &settings, MeshPart &m, const Step &step, Real radius,
                const SpheresOnCpu &spheres)
 {
-  const Pose &from = m.mover->pose_before(), &to = m.pose();
+  const Pose &from = m.mover.pose_before(), &to = m.pose();
   const Real way = farthest_between(from, to, m.bounds(0));
   const bool passes = way > 2 * radius;
-  const bool stops = passes && !m.mover->may_jump();
+  const bool stops = passes && !m.mover.may_jump();
   if (way <= radius || (m.way_warned && !stops)) return;
   const Box swept = swept_bounds(from, to, m.bounds(radius));
   const HostSpheres s = spheres.all();
@@ -156,7 +156,7 @@ void check_way(Host &host, const WallSpec &settings, MeshPart &m, const Step &st
           ", more than the largest " + (passes ? "diameter " : "radius ") +
           number_text(passes ? 2 * radius : radius) +
           ": it may have passed through a sphere; use a shorter timestep" +
-          (m.mover->is_pushed() ? "" : ", or a motion without jumps"));
+          (m.body ? "" : ", or a motion without jumps"));
   if (stops) throw InputError(text);
   m.way_warned = true;
   host.warn(text + ". Shown once");

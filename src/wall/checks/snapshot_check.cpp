@@ -36,7 +36,7 @@ void SnapshotCheck::check(const std::deque<MeshPart> &meshes, const Step &step)
                      "'s snapshots, over which average " + std::to_string(wall_.average_every) +
                      " takes its means: leave average out");
   for (const MeshPart &m : meshes) {
-    m.mover->check_snapshot(step);
+    m.mover.check_snapshot(step);
     m.surface->check_snapshot();
   }
   if (warned_) return;

@@ -215,8 +215,8 @@ Spheres BodyCoat::spheres()
 // half a step ago that is due to turning, where both surfaces turn.
 SurfaceMotion BodyCoat::surface_against(const MeshPart &own, const MeshPart &other) const
 {
-  const SurfaceMotion &mine = own.mover->surface_motion();
-  SurfaceMotion s = other.mover->surface_motion();
+  const SurfaceMotion &mine = own.mover.surface_motion();
+  SurfaceMotion s = other.mover.surface_motion();
   if (!mine.moves()) return s;
   const Pose &from = own.pose(), &to = other.pose();
   const auto turned = [&](const Vec3 &a) { return to.turn_to_mesh(from.turn_to_box(a)); };
@@ -235,7 +235,7 @@ StepSettings BodyCoat::settings(const std::deque<MeshPart> &meshes, const Step &
   for (const int k : others_) {
     const MeshPart &m = meshes[k];
     surfaces_.push_back(surface_against(own, m));
-    mobilities_.push_back(turned(own.mover->mobility(), own.pose(), m.pose()));
+    mobilities_.push_back(turned(own.mobility(), own.pose(), m.pose()));
   }
   StepSettings s;
   s.dt = step.dt;
@@ -250,7 +250,7 @@ StepSettings BodyCoat::settings(const std::deque<MeshPart> &meshes, const Step &
 void BodyCoat::put(const std::deque<MeshPart> &meshes, Real share, Real back)
 {
   const auto pose = [&](int mesh) {
-    const Mover &m = *meshes[mesh].mover;
+    const Mover &m = meshes[mesh].mover;
     return share < 1 ? between(m.pose_before(), m.pose(), share) : m.pose();
   };
   for (std::size_t k = 0; k < others_.size(); k++)
@@ -317,7 +317,7 @@ void BodyCoat::check_way(const std::deque<MeshPart> &meshes, const Step &step)
   Real way = 0;
   for (const int k : others_) {
     const MeshPart &other = meshes[k];
-    const Pose before = seen_from(other.mover->pose_before(), own.mover->pose_before()),
+    const Pose before = seen_from(other.mover.pose_before(), own.mover.pose_before()),
                now = seen_from(other.pose(), own.pose());
     const Real far = farthest_between(before, now, own.bounds(0));
     if (far <= longest) continue;
@@ -381,16 +381,15 @@ void BodyCoat::take_masses(const std::deque<MeshPart> &meshes, const CoatPushes 
   std::vector<Mobility> mobility(meshes.size());
   std::vector<std::vector<Yield>> yields(meshes.size());
   for (const MeshPart &m : meshes) {
-    if (!m.mover->is_pushed()) continue;
-    mobility[m.index] = m.mover->mobility();
+    if (!m.body) continue;
+    mobility[m.index] = m.mobility();
     for (int by = 0; by < n; by++)
       if (pushes.on(m.index, by).contacts > 0)
         yields[m.index].emplace_back(pushes.on(m.index, by), m, mobility[m.index]);
   }
   for (const PointContact &c : contacts_) {
     const auto alone = [&](int mesh, const Vec3 &out) {
-      return meshes[mesh].mover->is_pushed() ? gives_way(meshes[mesh], mobility[mesh], c.at, out)
-                                             : 0;
+      return meshes[mesh].body ? gives_way(meshes[mesh], mobility[mesh], c.at, out) : 0;
     };
     const auto together = [&](int mesh, const Vec3 &normal) {
       Real sum = 0;
@@ -425,7 +424,7 @@ void BodyCoat::add_loads(const std::deque<MeshPart> &meshes, std::vector<CoatLoa
       load->overlap = std::max(load->overlap, t.largest_overlap_ratio);
       load->radius = std::max(load->radius, radius_);
     }
-    if (!meshes[others_[k]].mover->is_pushed()) continue;
+    if (!meshes[others_[k]].body) continue;
     own.bodies |= std::uint32_t(1) << others_[k];
     other.bodies |= std::uint32_t(1) << mesh_;
   }
@@ -435,7 +434,7 @@ void BodyCoat::add_loads(const std::deque<MeshPart> &meshes, std::vector<CoatLoa
 void BodyCoat::add_stiffness(const std::deque<MeshPart> &meshes, std::vector<CoatLoad> &loads) const
 {
   const MeshPart &own = meshes[mesh_];
-  const Mobility own_gives = own.mover->mobility();
+  const Mobility own_gives = own.mobility();
   const StepContact *contact = engine_->results().contacts().data();
   for (const TouchingSphere &t : engine_->results().touching()) {
     const int i = t.sphere;
@@ -450,7 +449,7 @@ void BodyCoat::add_stiffness(const std::deque<MeshPart> &meshes, std::vector<Coa
       const ContactSlopes slope = contact_slopes(
           laws_[contact->mesh], std::max<Real>(0, radius_ - distance), radius_, mass);
       const auto add = [&](const MeshPart &m, const Vec3 &direction, const ContactSlope &of) {
-        const Mobility &mobility = m.mover->body()->mobility_to_forces();
+        const Mobility &mobility = m.body->mobility_to_forces();
         const Pose &p = m.pose();
         const Vec3 x = p.to_mesh(at), d = p.turn_to_mesh(direction);
         CoatLoad &load = loads[m.index];
@@ -461,7 +460,7 @@ void BodyCoat::add_stiffness(const std::deque<MeshPart> &meshes, std::vector<Coa
       };
       for (const MeshPart *m : {&own, &other}) {
         loads[m->index].mass = std::max(loads[m->index].mass, mass);
-        if (!m->mover->is_pushed()) continue;
+        if (!m->body) continue;
         add(*m, normal, slope.normal);
         add(*m, along, slope.tangential);
         add(*m, cross(normal, along), slope.tangential);

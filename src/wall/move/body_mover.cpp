@@ -7,6 +7,7 @@
 #include "base/input_words.h"
 #include "base/vector_text.h"
 #include "law/contact_slope.h"
+#include "wall/mesh_name.h"
 
 #include <algorithm>
 #include <cmath>
@@ -61,9 +62,9 @@ Real largest_in(const Mobility &m, const Box &box)
 }    // namespace
 
 BodyMover::BodyMover(Host &host, WallSpec &wall, const LawTable &laws, int mesh,
-                     const MeshGrid &grid, Real force, const Step &now) :
-    Mover(host, wall, mesh, now),
-    laws_(laws), grid_(grid), force_(force)
+                     const MeshGrid &grid, Real force, MeshMotion &motion) :
+    host_(host),
+    wall_(wall), mesh_(mesh), motion_(motion), laws_(laws), grid_(grid), force_(force)
 {
   BodySpec &s = spec().body;
   if (s.density > 0) {
@@ -77,10 +78,15 @@ BodyMover::BodyMover(Host &host, WallSpec &wall, const LawTable &laws, int mesh,
   } catch (const InputError &e) {
     throw InputError(named(e.what()));
   }
-  motion().begin_posed();
+  spec().motion.begin_posed();
   check_spec(s);
   go_on(s, body);
   ask_about_degrees();
+}
+
+std::string BodyMover::named(const std::string &text) const
+{
+  return with_mesh_name(wall_, mesh_, text);
 }
 
 void BodyMover::check_spec(const BodySpec &to) const
@@ -113,8 +119,13 @@ void BodyMover::go_on(const BodySpec &to, const RigidBody &as)
   bound_of_mobility_ = largest_in(mobility_, {r.lo, r.hi});
   most_mobility_ = grid_.mesh() ? largest_on_faces(mobility_, *grid_.mesh()) : 0;
   host_.max(&most_mobility_, 1);
-  motion().set_pose(body_.pose());
   place();
+  motion_.place();
+}
+
+void BodyMover::place()
+{
+  spec().motion.set_pose(body_.pose());
 }
 
 void BodyMover::set_body(const BodySpec &to)
@@ -170,8 +181,7 @@ void BodyMover::check_start() const
   if (!place_is_known_) check_limits(body_spec(), body_);
 }
 
-void BodyMover::advance(const Step &to, const std::vector<Real> &inputs,
-                        const LastLoad & /* load */)
+void BodyMover::advance(const Step &to, const std::vector<Real> &inputs)
 {
   check_start();
   place_is_known_ = true;
@@ -181,7 +191,7 @@ void BodyMover::advance(const Step &to, const std::vector<Real> &inputs,
     body_.kick(to.dt / 2, load_);
     body_.drift(to.dt);
   }
-  motion().set_pose(body_.pose());
+  place();
 }
 
 Pose BodyMover::pose_in(Real later) const
@@ -381,7 +391,7 @@ void BodyMover::check_keeps_plane(const Joint &joint) const
               "hinge or planar along z, or slider in the plane"));
 }
 
-void BodyMover::check_snapshot(const Step & /* at */) const
+void BodyMover::check_snapshot() const
 {
   throw InputError(
       named("in a " + std::string(host_.names().replay) +
@@ -391,7 +401,6 @@ void BodyMover::check_snapshot(const Step & /* at */) const
 
 void BodyMover::save(MeshState &to) const
 {
-  Mover::save(to);
   to.body = {true, body_spec().mass, body_spec().joint, body_.state(), load_};
 }
 
@@ -410,14 +419,11 @@ RigidBody BodyMover::continued(const BodyState &was) const
 
 void BodyMover::check(const MeshState &was) const
 {
-  motion_.check(was.motion);
   if (was.body.present) check_limits(body_spec(), continued(was.body));
 }
 
-void BodyMover::restore(const MeshState &of, const Step &now)
+void BodyMover::restore(const BodyState &was)
 {
-  const BodyState &was = of.body;
-  motion_.restore(of.motion, now);
   pending_ = false;
   was_held_.reset();
   const std::string saved = host_.names().saved;

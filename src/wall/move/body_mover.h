@@ -4,22 +4,41 @@
 // Moves a mesh as a rigid body: what acts on it, its steps, and what they ask of the timestep.
 #pragma once
 
+#include "host/host.h"
+#include "rigid/mobility.h"
 #include "rigid/rigid_body.h"
-#include "wall/move/mover.h"
+#include "rigid/step_limit.h"
+#include "wall/coat_load.h"
+#include "wall/mesh_state.h"
+#include "wall/move/mesh_motion.h"
+#include "wall/sphere_range.h"
+#include "wall/step_totals.h"
 #include "wall/surface/mesh_grid.h"
 
+#include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace lsdcd {
 
-// Velocities are those of half a step before complete(), and of the whole step after it.
-class BodyMover final : public Mover {
+// What touched a mesh in the last step.
+struct Touch {
+  const MeshTotals &contacts;    // with the loads of coats
+  const SphereRange &spheres;
+  const CoatLoad &coat;
+};
+
+// In each step: complete() the last one, advance(), and end() once contacts are computed. Velocities are those of half a step before complete(), and of the whole step after it.
+class BodyMover {
  public:
+  // Returns the largest rates() of the meshes that the coat of this one touches, or whose coats touch it.
+  using RatesOfOthers = std::function<ModeRates(bool of_coat)>;
+
   // Makes the body of the mesh with this number of the wall, from 0, with its `body` there. `force`: of the wall's units, in mass length /
-  // time^2. Host, wall, laws and grid must outlive it. Throws InputError on all processes. Collective.
+  // time^2. `motion`: of the mesh, which it poses. All must outlive it. Throws InputError on all processes. Collective.
   BodyMover(Host &host, WallSpec &wall, const LawTable &laws, int mesh, const MeshGrid &grid,
-            Real force, const Step &now);
+            Real force, MeshMotion &motion);
 
   const RigidBody &rigid() const { return body_; }
   // Without stops, and of forces in the wall's units.
@@ -29,47 +48,51 @@ class BodyMover final : public Mover {
   Real stop_force() const { return was_held_ ? was_held_->stop_force : body_.stop_force(load_); }
   Real spring_and_kinetic_energy() const;
 
-  Pose pose_in(Real later) const override;
-  bool keeps(const Vec3 &edge, Real width) const override { return body_.keeps(edge, width); }
-  Mobility mobility() const override { return 1 / force_ * body_.mobility(); }
-  Real most_mobility() const override { return most_mobility_ / force_; }
-  bool is_pushed() const override { return true; }
-  bool may_jump() const override { return false; }
-  const BodyMover *body() const override { return this; }
+  // Returns where it is in the step that comes, once the last one is complete.
+  Pose pose_in(Real later) const;
+  // Returns whether it goes along this unit vector never, across which the box has this width, and turns about nothing but it.
+  bool keeps(const Vec3 &edge, Real width) const { return body_.keeps(edge, width); }
+  // Return how it gives way to pushes where it is now (1/mass), and the most where a sphere can touch a face.
+  Mobility mobility() const { return 1 / force_ * body_.mobility(); }
+  Real most_mobility() const { return most_mobility_ / force_; }
 
-  void check_plane() const override { check_keeps_plane(body_spec().joint); }
-  // A body without a saved state begins where it was made.
-  void check_start() const override;
-  void check_snapshot(const Step &at) const override;
+  // Throw where the mesh would leave the plane of a run in two dimensions; in a snapshot.
+  void check_plane() const { check_keeps_plane(body_spec().joint); }
+  [[noreturn]] void check_snapshot() const;
+  // Throws where it cannot begin where it is. A body without a saved state begins where it was made. Local.
+  void check_start() const;
 
-  bool is_half_done() const override { return pending_; }
-  Pose complete(const MeshTotals &contacts, const Vec3 &gravity) override;
-  ModeRates rates(const Touch &touch, bool of_coat) const override;
-  void check_step(const Touch &touch, const RatesOfOthers &of_others) override;
+  bool is_half_done() const { return pending_; }    // the last step waits for complete()
+  // Gives the last step its second half, by the loads of its contacts and with the values that inputs had. Returns the
+  // pose with the velocities of the whole step.
+  Pose complete(const MeshTotals &contacts, const Vec3 &gravity);
+  // Returns how fast modes are on what touches the mesh, in the step that was completed. `of_coat`: exactly on coats, and
+  // by a bound on spheres; else by bounds, which cost nothing.
+  ModeRates rates(const Touch &touch, bool of_coat) const;
+  // Throws where the timestep of the step that was completed is too long for what touches the mesh.
+  void check_step(const Touch &touch, const RatesOfOthers &of_others);
   // Half a step by the load of the last one, and the way. Inputs may change before.
-  void advance(const Step &to, const std::vector<Real> &inputs, const LastLoad &load) override;
+  void advance(const Step &to, const std::vector<Real> &inputs);
   // Notes the loads of this process: sums over all are made when they are asked for.
-  void end(const Step &step, const StepResults *results) override;
+  void end(const Step &step, const StepResults *results);
   // Where the number of contacts allows no judgement of the timestep.
-  bool asks_for_contacts() const override { return asks_for_contacts_; }
+  bool asks_for_contacts() const { return asks_for_contacts_; }
 
-  std::string why_no_motion() const override
-  {
-    return "a body moves by what acts on it, so it cannot have a motion, a servo or a pose";
-  }
-  void set_body(const BodySpec &to) override;
-  void check_is_body() const override {}
+  void set_body(const BodySpec &to);
 
-  std::string text(const Box &) const override { return ""; }
-  std::string body_text() const override;
+  std::string body_text() const;
 
-  void save(MeshState &to) const override;
+  void save(MeshState &to) const;
   // Throws where restore() would begin as no body may, as outside of its limits.
-  void check(const MeshState &was) const override;
-  void restore(const MeshState &was, const Step &now) override;
+  void check(const MeshState &was) const;
+  // Goes on as this one, after its motion.
+  void restore(const BodyState &was);
 
  private:
+  MeshSpec &spec() const { return wall_.meshes[mesh_]; }
   const BodySpec &body_spec() const { return spec().body; }
+  std::string named(const std::string &text) const;
+  void place();
   // Takes what becomes of it, and makes all that follows: for a new body, other words and a saved state. Collective.
   void go_on(const BodySpec &to, const RigidBody &as);
   void check_keeps_plane(const Joint &joint) const;
@@ -86,6 +109,10 @@ class BodyMover final : public Mover {
   [[noreturn]] void fail_step(Real longest, Real contacts) const;
   void warn_of_step(Real longest, Real contacts);
 
+  Host &host_;
+  WallSpec &wall_;
+  int mesh_;
+  MeshMotion &motion_;
   const LawTable &laws_;
   const MeshGrid &grid_;
   Real force_;

@@ -34,9 +34,9 @@ std::string mesh_lines(const MeshPart &m, const BodyCoats &coats)
     std::string text;
   } lines[] = {
       {"placement   ", placement_text(m.spec.placement)},
-      {"motion      ", m.mover->text(m.bounds(0))},
-      {"servo       ", m.mover->servo_text()},
-      {"body        ", m.mover->body_text()},
+      {"motion      ", m.mover.text(m.bounds(0))},
+      {"servo       ", m.mover.servo_text()},
+      {"body        ", m.body ? m.body->body_text() : ""},
       {"coat        ", coats.text(m.index)},
       {"nodes       ", m.nodes() ? std::to_string(m.nodes()->count()) + ", which move" : ""},
       {"wear        ", wear == 1 ? "" : number_text(wear) + " times as fast"},

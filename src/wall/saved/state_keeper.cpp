@@ -55,7 +55,7 @@ WallState StateKeeper::save(Time time)
     to.loads = {loads.time(), loads.packed()};
     to.last = {{of_.totals.mesh(m.index), of_.coats.load(m.index)}};
     m.surface->save(to);
-    m.mover->save(to);
+    m.mover.save(to);
     of_.coats.save(m.index, to, [this](int mesh, FeatureCode feature) {
       return of_.grids.without_image(mesh, feature);
     });
@@ -80,7 +80,7 @@ void StateKeeper::check(const WallState &was) const
   for (const MeshPart &m : of_.meshes) {
     if (!is_restored(m, was)) continue;
     const MeshState &of_mesh = was.meshes[static_cast<std::size_t>(m.index)];
-    m.mover->check(of_mesh);
+    m.mover.check(of_mesh);
     m.surface->check(of_mesh, of_mesh.mesh == identity_of(m));
   }
 }
@@ -143,7 +143,7 @@ void StateKeeper::go_back(const Step &now)
 void StateKeeper::restore_mesh(MeshPart &m, const WallState &all, const Step &now)
 {
   const MeshState &was = all.meshes[static_cast<std::size_t>(m.index)];
-  m.mover->restore(was, now);
+  m.mover.restore(was, now);
   if (m.surface->restore(was, !m.springs_are_foreign)) of_.grids.follow_surface(m);
   of_.coats.restore(m.index, was);
   if (!was.mean.empty() && all.average_every == wall_.average_every)
