@@ -23,13 +23,38 @@ LSDCD_FN bool lies_in_plane(const ContactSet<kMost> &set, Real radius, int i, in
   return fabs(rise) <= tolerance && set.distance[i] + set.distance[k] >= radius;
 }
 
+// One minus the cover of two contacts of a sphere, or of a grain by one minus what takes the cosine's place. Cover is a positive
+// definite function of the angle, as it is a sum of powers of the cosine; for parallel normals it is 1. It is less than the cosine
+// by kLess, but for angles below sqrt(2 / kNarrow).
+LSDCD_FN Real uncovered(Real one_minus_cosine)
+{
+  constexpr Real kLess = 1e-6, kNarrow = 100;
+  const Real u = one_minus_cosine;
+  return u + kLess * (1 - u) * (kNarrow * u / (1 + kNarrow * u));
+}
+
+// What the corner rule asks of a set: how alike two contacts are, above 0 where they share; what is one minus their cover if they
+// share; and how much a contact fades, which of spheres is nothing.
+template <int kMost>
+LSDCD_FN Real likeness(const ContactSet<kMost> &set, int a, int b)
+{
+  return dot(set.normal[a], set.normal[b]);
+}
+template <int kMost>
+LSDCD_FN Real uncovered(const ContactSet<kMost> &set, int a, int b)
+{
+  return uncovered(one_minus_cos(set.normal[a], set.normal[b]));
+}
+template <class Set>
+inline constexpr bool kFades = false;    // is there a fade_of(set, i)?
+
 // Weights w_i = l_i / d_i where l solves
 //   minimise 1/2 l'Gl - d'l + s/2 sum m_i (l_i / d_i - 1 / m_i)^2  subject to l >= 0,
 // with overlaps d_i = radius - distance_i > 0 and m_i = sum_j G_ij d_j / d_i, how many times contact i is covered.
 // G_ii = 1, and G_ij, the cover of two contacts, is the cosine between their normals, or 0 where that is negative:
 // contacts at right and sharper angles have w = 1 exactly. The weights of parallel duplicates sum to 1.
 //
-// The cover is less than the cosine by up to kLess, so that contacts whose normals depend on each other have one
+// The cover is less than the cosine by up to 1e-6, so that contacts whose normals depend on each other have one
 // solution. Where many walls surround a sphere the problem is not convex without its last term: s is twice what makes
 // it so, and kLeast of the largest d_i^2 at least. So it is strictly convex and changes continuously with overlaps and
 // normals, and so does its solution. Where s is the least the force of Hooke springs is the gradient of an energy
@@ -44,14 +69,14 @@ LSDCD_FN bool lies_in_plane(const ContactSet<kMost> &set, Real radius, int i, in
 // edge or face, to `tolerance` (length), are left out first. Else the rim of a T-junction would turn the
 // force by the square root of a rounding error.
 //
-// Set: of spheres a ContactSet. Of other grains (contact/grain_contacts.h) `normal` and `distance` are what takes their place:
-// a direction whose products are the cosines, and the difference between `radius` and the overlap.
+// Set: of spheres a ContactSet. Of other grains (contact/grain_rule.h) `distance` is `radius` less the overlap, and the cover is by
+// curvature. A contact that fades has G_ii = 1 + its fade, and m_i = 1 + sum over the others of G_ij d_j / (d_i G_jj).
 template <int kMost, class Set = ContactSet<kMost>>
 class CornerRule {
  public:
   LSDCD_FN void solve(const Set &set, Real radius, Real *weight, Real tolerance = 0)
   {
-    for (int i = 0; i < set.n; i++) weight[i] = 1;
+    for (int i = 0; i < set.n; i++) weight[i] = alone(set, i);
     if (set.n < 2) return;
     if (set.n == 2) return solve_pair(set, radius, weight, tolerance);
     n_ = 0;
@@ -90,17 +115,39 @@ class CornerRule {
         weight[i] = 0;
         bears = false;
       }
-    if (bears && dot(set.normal[0], set.normal[1]) > 0) solve_two(set, radius, weight, 0, 1);
+    if constexpr (kFades<Set>) {
+      if (bears && likeness(set, 0, 1) > 0) solve_two(set, radius, weight, 0, 1);
+    } else if (bears &&
+               dot(set.normal[0], set.normal[1]) > 0) {    // inlined, it is faster than likeness()
+      solve_two(set, radius, weight, 0, 1);
+    }
   }
 
-  // Contacts that share with no other one keep the weight 1.
+  // G_ii.
+  LSDCD_FN static Real diagonal([[maybe_unused]] const Set &set, [[maybe_unused]] int i)
+  {
+    if constexpr (kFades<Set>)
+      return 1 + fade_of(set, i);
+    else
+      return 1;
+  }
+  // The weight of a contact that shares with no other one.
+  LSDCD_FN static Real alone([[maybe_unused]] const Set &set, [[maybe_unused]] int i)
+  {
+    if constexpr (kFades<Set>)
+      return 1 / diagonal(set, i);
+    else
+      return 1;
+  }
+
+  // Contacts that share with no other one keep their weight.
   LSDCD_FN void leave_out_apart(const Set &set)
   {
     int n_sharing = 0;
     for (int k = 0; k < n_; k++) {
       shares_[k] = false;
       for (int p = 0; p < k; p++)
-        if (dot(set.normal[used_[k]], set.normal[used_[p]]) > 0) shares_[k] = shares_[p] = true;
+        if (likeness(set, used_[k], used_[p]) > 0) shares_[k] = shares_[p] = true;
     }
     for (int k = 0; k < n_; k++)
       if (shares_[k]) used_[n_sharing++] = used_[k];
@@ -111,21 +158,15 @@ class CornerRule {
   // smaller one has.
   LSDCD_FN static Real at_most_one(Real weight) { return weight > 1 ? Real(1) : weight; }
 
-  // One minus the cover of two contacts whose normals make less than a right angle. Cover is a positive definite
-  // function of the angle, as it is a sum of powers of the cosine; for parallel normals it is 1.
-  template <class Direction>
-  LSDCD_FN static Real uncovered(const Direction &a, const Direction &b)
-  {
-    const Real u = one_minus_cos(a, b);
-    return u + kLess * (1 - u) * (kNarrow * u / (1 + kNarrow * u));
-  }
-
   // Without the last term: with it the force would differ by sqrt(2 kLeast) of the overlap at most, and that
   // only where normals are that close.
   LSDCD_FN static void solve_two(const Set &set, Real radius, Real *weight, int a, int b)
   {
     const Real d0 = radius - set.distance[a], d1 = radius - set.distance[b];
-    const Real u = uncovered(set.normal[a], set.normal[b]), g = 1 - u;
+    const Real u = uncovered(set, a, b), g = 1 - u;
+    if constexpr (kFades<Set>)
+      if (fade_of(set, a) > 0 || fade_of(set, b) > 0)
+        return solve_fading(d0, d1, g, diagonal(set, a), diagonal(set, b), weight[a], weight[b]);
     // The gradients when only the other contact is active, computed without cancellation.
     const Real g0 = (d0 - d1) + u * d1, g1 = (d1 - d0) + u * d0;
     if (g1 <= 0 && g0 <= 0) {    // parallel and equally deep, to the last bits
@@ -138,6 +179,23 @@ class CornerRule {
       const Real scale = 1 / (u * (1 + g));
       weight[a] = at_most_one(g0 * scale / d0);
       weight[b] = at_most_one(g1 * scale / d1);
+    }
+  }
+
+  // Two contacts of which one fades: g_a, g_b are above 1 or 1, and g at most 1.
+  LSDCD_FN static void solve_fading(Real d_a, Real d_b, Real g, Real g_a, Real g_b, Real &weight_a,
+                                    Real &weight_b)
+  {
+    const Real l_a = g_b * d_a - g * d_b, l_b = g_a * d_b - g * d_a, det = g_a * g_b - g * g;
+    if (l_a <= 0) {
+      weight_a = 0;
+      weight_b = 1 / g_b;
+    } else if (l_b <= 0) {
+      weight_a = 1 / g_a;
+      weight_b = 0;
+    } else {
+      weight_a = at_most_one(l_a / det / d_a);
+      weight_b = at_most_one(l_b / det / d_b);
     }
   }
 
@@ -172,6 +230,16 @@ class CornerRule {
       weight[used_[k]] = at_most_one(l_[used_[k]] / (radius - set.distance[used_[k]]));
   }
 
+  // G_ij d_j / G_jj, and d_i for itself.
+  LSDCD_FN static Real covered_by(const Set &set, Real radius, int i, int j)
+  {
+    const Real part = cover(set, i, j) * (radius - set.distance[j]);
+    if constexpr (kFades<Set>)
+      return i == j ? part : part / diagonal(set, j);
+    else
+      return part;
+  }
+
   // Chooses s. The matrix scaled to m_i = 1 has the row sums d_i^2, so that s = max d_i^2 is always enough.
   LSDCD_FN void make_convex(const Set &set, Real radius)
   {
@@ -179,8 +247,7 @@ class CornerRule {
     for (int k = 0; k < n_; k++) {
       const Real d = radius - set.distance[used_[k]];
       Real covered = 0;
-      for (int p = 0; p < n_; p++)
-        covered += cover(set, used_[k], used_[p]) * (radius - set.distance[used_[p]]);
+      for (int p = 0; p < n_; p++) covered += covered_by(set, radius, used_[k], used_[p]);
       work_[used_[k]] = covered / d;
       deepest = d > deepest ? d : deepest;
     }
@@ -188,6 +255,9 @@ class CornerRule {
     Real low = least / 2, high = low;
     if (!is_convex(set, radius, low)) {
       high = most;
+      // Covers by curvature need no s that is known before.
+      if constexpr (kFades<Set>)
+        for (int round = 0; round < kDoublings && !is_convex(set, radius, high); round++) high *= 2;
       for (int round = 0; round < kHalvings; round++) {
         const Real middle = (low + high) / 2;
         (is_convex(set, radius, middle) ? high : low) = middle;
@@ -201,7 +271,7 @@ class CornerRule {
     for (int k = 0; k < n_; k++) {
       const int i = used_[k];
       const Real d = radius - set.distance[i];
-      stiff_[i] = 1 + s * work_[i] / (d * d);
+      stiff_[i] = diagonal(set, i) + s * work_[i] / (d * d);
       pull_[i] = d + s / d;
     }
   }
@@ -227,8 +297,8 @@ class CornerRule {
   LSDCD_FN static Real cover(const Set &set, int i, int j)
   {
     if (i == j) return 1;
-    if (dot(set.normal[i], set.normal[j]) <= 0) return 0;
-    return 1 - uncovered(set.normal[i], set.normal[j]);
+    if (likeness(set, i, j) <= 0) return 0;
+    return 1 - uncovered(set, i, j);
   }
 
   LSDCD_FN Real gradient(const Set &set, int i) const
@@ -306,9 +376,7 @@ class CornerRule {
   static constexpr Real kTiny = 5e-15;
   // Least s, as a part of the largest d^2. Pivots are at least half of it, far above round-off.
   static constexpr Real kLeast = 1e-12;
-  // Cover is less than the cosine by kLess, but for angles below sqrt(2 / kNarrow).
-  static constexpr Real kLess = 1e-6, kNarrow = 100;
-  static constexpr int kHalvings = 40;
+  static constexpr int kHalvings = 40, kDoublings = 20;
 
   int n_ = 0;    // contacts that share with others
   int used_[kMost];

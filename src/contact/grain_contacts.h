@@ -1,14 +1,14 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The contacts of a grain that is no sphere: how alike two of them are, and how they take over the springs of the last step.
+// The contacts of a grain that is no sphere: how alike two of them are, and how they take over the springs of the last step. How
+// they share is in grain_rule.h.
 //
-// Where spheres compare normals, such a grain compares what unit impulses at its contacts do to it. The cosine of two
-// contacts is that of (n, r x n), with r from the centre to the grain's point, in the metric of inverse mass and inertia:
+// Where spheres compare normals to hand on springs, such a grain compares what unit impulses at its contacts do to it. The cosine
+// of two contacts is that of (n, r x n), with r from the centre to the grain's point, in the metric of inverse mass and inertia:
 // two contacts with one normal at the two ends of a rod are not alike. Of a sphere it is the cosine of the normals.
 #pragma once
 
-#include "contact/corner.h"
 #include "contact/history.h"
 #include "shape/superellipsoid.h"
 
@@ -39,6 +39,7 @@ struct GrainMetric {
   Vec3 row[3];    // rows of the matrix that turns its axes to the frame
   Vec3 scale;     // sqrt(mass / inertia) about its axes, 1/length
 
+  Vec3 turned(const Vec3 &v) const { return {dot(row[0], v), dot(row[1], v), dot(row[2], v)}; }
   Vec3 to_own(const Vec3 &v) const { return v.x * row[0] + v.y * row[1] + v.z * row[2]; }
   // Returns the direction of a contact with this unit normal and this arm, from the centre.
   GrainDirection direction(const Vec3 &normal, const Vec3 &arm) const
@@ -59,6 +60,10 @@ struct GrainContact {
   Vec3 foot;       // on the wall
   GrainDirection direction;
   const GrainMetric *metric;    // of the grain in that frame
+  Vec3 couple = {0, 0, 0};      // torque on the grain that is not by the force at this contact
+  // How deep it may be for a force that does not jump where it ends: the radius of curvature of the grain's shadow across the fold
+  // or edge; length.
+  Real limit = HUGE_VAL;
 };
 
 struct GrainContactsView {
@@ -72,39 +77,6 @@ struct GrainContactsView {
     return {n_of_part, at + from, shape, grain};
   }
 };
-
-// What the corner rule reads of contacts with one mesh or several, in the frame of the box.
-template <int kMost>
-struct GrainCornerSet {
-  int n = 0;
-  FeatureCode feature[kMost];
-  GrainDirection normal[kMost];
-  Real distance[kMost];    // the rule's radius less the overlap
-  Vec3 plain_normal[kMost], foot[kMost];
-  Real height[kMost];    // of the centre over the tangent plane at the foot
-
-  // `centre`, foot and normal: in the frame of the box.
-  void add(const GrainContact &c, Real radius, const Vec3 &centre, const Vec3 &foot_in_box,
-           const Vec3 &normal_in_box)
-  {
-    feature[n] = c.feature;
-    const Real size = norm(c.direction.normal);
-    normal[n] = {size * normal_in_box, c.direction.turning};
-    distance[n] = radius - c.overlap;
-    plain_normal[n] = normal_in_box;
-    foot[n] = foot_in_box;
-    height[n++] = dot(centre - foot_in_box, normal_in_box);
-  }
-};
-
-// Does contact i lie in the plane of contact k, under the part of the grain that has passed it? The height of the centre there
-// stands for the distance of a sphere.
-template <int kMost>
-bool lies_in_plane(const GrainCornerSet<kMost> &set, Real radius, int i, int k, Real tolerance)
-{
-  const Real rise = dot(set.foot[i] - set.foot[k], set.plain_normal[k]);
-  return std::fabs(rise) <= tolerance && radius - set.distance[i] <= set.height[k];
-}
 
 // The springs of the last step, as one mesh sees them: each has an arm beside its shear displacement.
 template <class Springs>

@@ -36,12 +36,18 @@ bool is_near_anything(const PlacedGrain &grain)
   return true;
 }
 
-ShapeMinimum sure(const ShapeMinimum &m)
+void check_sure(bool is_sure, Real distance)
 {
-  if (m.is_sure) return m;
+  if (is_sure) return;
   throw InputError(
       "the nearest point of a grain's surface was not found to rounding at a distance of " +
-      std::to_string(m.distance) + ": please report its numbers");
+      std::to_string(distance) + ": please report its numbers");
+}
+
+ShapeMinimum sure(const ShapeMinimum &m)
+{
+  check_sure(m.is_sure, m.distance);
+  return m;
 }
 
 // Can a point be within the grain? By its box, and an ellipsoid as a ball.
@@ -50,22 +56,6 @@ bool may_hold(const Superellipsoid &s, const Vec3 &y)
   const Vec3 u = {y.x / s.half.x, y.y / s.half.y, y.z / s.half.z};
   if (s.is_ellipsoid()) return norm_sq(u) < 1;
   return (std::fabs(u.x) < 1) & (std::fabs(u.y) < 1) & (std::fabs(u.z) < 1);
-}
-
-// Can a segment cut the grain? By its box, and an ellipsoid as a ball.
-bool may_cut(const Superellipsoid &s, const Vec3 &from, const Vec3 &to)
-{
-  const auto is_beside = [](Real a, Real b, Real half) {
-    return (smaller(a, b) >= half) | (larger(a, b) <= -half);
-  };
-  if (is_beside(from.x, to.x, s.half.x) | is_beside(from.y, to.y, s.half.y) |
-      is_beside(from.z, to.z, s.half.z))
-    return false;
-  if (!s.is_ellipsoid()) return true;
-  const Vec3 u = {from.x / s.half.x, from.y / s.half.y, from.z / s.half.z};
-  const Vec3 along = {to.x / s.half.x - u.x, to.y / s.half.y - u.y, to.z / s.half.z - u.z};
-  const Real at = smaller(larger(-dot(u, along) / norm_sq(along), 0), 1);
-  return norm_sq(u + at * along) < 1;
 }
 
 // Returns the place of a number in an ascending list, its size where it is not there.
@@ -99,6 +89,31 @@ int n_corners(FeatureCode primitive)
 }
 
 }    // namespace
+
+Real sure_distance(const Superellipsoid &s, const Vec3 &y)
+{
+  const SurfacePoint nearest = nearest_on_surface(s, y);
+  check_sure(nearest.is_sure, nearest.distance);
+  return nearest.distance;
+}
+
+// The part of the grain that is deeper than `depth` is within the grain that is smaller by the share depth / farthest: from a
+// point of that on, the surface is the rest of the ray away at most.
+bool may_cut(const Superellipsoid &s, const Vec3 &from, const Vec3 &to, Real depth)
+{
+  const Real size = 1 - depth / s.farthest;
+  const auto is_beside = [](Real a, Real b, Real half) {
+    return (smaller(a, b) >= half) | (larger(a, b) <= -half);
+  };
+  if (is_beside(from.x, to.x, size * s.half.x) | is_beside(from.y, to.y, size * s.half.y) |
+      is_beside(from.z, to.z, size * s.half.z))
+    return false;
+  if (!s.is_ellipsoid()) return true;
+  const Vec3 u = {from.x / s.half.x, from.y / s.half.y, from.z / s.half.z};
+  const Vec3 along = {to.x / s.half.x - u.x, to.y / s.half.y - u.y, to.z / s.half.z - u.z};
+  const Real at = smaller(larger(-dot(u, along) / norm_sq(along), 0), 1);
+  return norm_sq(u + at * along) < size * size;
+}
 
 void ShapeSearch::contacts(const PlacedGrain &grain, std::vector<ShapeContact> &found)
 {
@@ -253,6 +268,7 @@ bool ShapeSearch::find_by_owner(const PlacedGrain &grain, NearFeatures &near)
       s.farthest *
       (s.is_ellipsoid() ? std::fmax(kSameFoot, kRounding * slender * slender) : kUnsureFoot);
   std::uint32_t rim = 0, inner = 0;
+  owned_.assign(near.planes.size(), false);
   for (NearFeatures::Plane &plane : near.planes) {
     look_at_plane(grain, near, plane, rim, inner, unsure);
     rim = plane.rim_end;
@@ -289,7 +305,12 @@ void ShapeSearch::look_at_plane(const PlacedGrain &grain, const NearFeatures &ne
     for (; rim < plane.rim_end; rim++) rule_out(near.rim[rim]);
     return;
   }
-  if (!(overlap < s.rho)) {
+  const Vec3 point = grain.centre + arm;
+  const bool is_deep = !(overlap < s.rho);
+  if (is_deep && gauge_value(s, grain.own_point(point - overlap * normal)) < 1 &&
+      has_foot(near, plane, rim, inner, point)) {
+    owned_[static_cast<std::size_t>(&plane - near.planes.data())] = true;
+  } else if (is_deep) {
     for (; rim < plane.rim_end; rim++)
       if (is_out_of_reach(grain, near.rim[rim].primitive))
         rule_out(near.rim[rim]);
@@ -300,7 +321,6 @@ void ShapeSearch::look_at_plane(const PlacedGrain &grain, const NearFeatures &ne
         deep_.push_back({near.inner[inner], &plane, nullptr});
     return;
   }
-  const Vec3 point = grain.centre + arm;
   const Real same = kSameFoot * s.farthest;
   const std::uint32_t first_rim = rim;
   bool has_foot = false;
@@ -340,6 +360,19 @@ void ShapeSearch::look_at_plane(const PlacedGrain &grain, const NearFeatures &ne
     add_face(grain, near.inner[inner], side, arm);
     plane.likely = near.inner[inner];
   }
+}
+
+// Is a point over one of the faces of a plane?
+bool ShapeSearch::has_foot(const NearFeatures &near, const NearFeatures::Plane &plane,
+                           std::uint32_t rim, std::uint32_t inner, const Vec3 &point) const
+{
+  for (; rim < plane.rim_end; rim++)
+    if (is_inside(near, near.rim[rim], inwards_of(near.rim[rim].primitive, point), 0)) return true;
+  for (; inner < plane.inner_end; inner++) {
+    const Inwards in = inwards_of(near.inner[inner], point);
+    if ((in[0] >= 0) & (in[1] >= 0) & (in[2] >= 0)) return true;
+  }
+  return false;
 }
 
 // Is a foot outside the box around the faces of a plane?
@@ -497,13 +530,15 @@ void ShapeSearch::look_at_edge(const PlacedGrain &grain, const NearFeatures &nea
   const Vec3 along = (1 / length) * (to - from);
   const TangentMinimum line = TangentAboutLine(s, from, along).find();
   if (!(line.distance < 0)) return;
-  if (!line.is_highest || !(-line.distance < s.rho)) {
+  const bool is_deep = !line.is_highest || !(-line.distance < s.rho);
+  const Real at = dot(line.foot - from, along);
+  const bool is_here = at > 0 && at < length;
+  if (!line.is_highest || (is_deep && !(is_here && is_contact(s, line)))) {
     if (is_in_reach(grain, segment_distance(from, to, {0, 0, 0}))) edge_[i] = State::is_deep;
     return;
   }
   lines_.push_back({from, along, line.foot});
-  const Real at = dot(line.foot - from, along);
-  if (!(at > 0 && at < length)) return;
+  if (!is_here) return;
   const Minimum m = {
       {line.distance, line.normal, line.normal, line.foot, TrianglePart::edge, 0, true, true},
       feature_code(FeatureKind::edge, edge.edge),
@@ -535,12 +570,16 @@ bool ShapeSearch::is_off_a_line(const Superellipsoid &s, const Vec3 &from, const
 void ShapeSearch::find_by_triangle(const PlacedGrain &grain, const NearFeatures &near)
 {
   minima_.clear();
-  const auto look_at = [&](std::uint32_t primitive) {
-    if (!is_beside(grain, primitive)) add(minimum_of(grain, primitive, 0), primitive);
+  const auto look_at = [&](std::uint32_t primitive, bool is_owned) {
+    if (!is_beside(grain, primitive)) add(contact_minimum(grain, primitive, is_owned), primitive);
   };
-  for (const NearFeatures::RimFace &face : near.rim) look_at(face.primitive);
-  for (const std::uint32_t primitive : near.inner) look_at(primitive);
-  for (const std::uint32_t primitive : near.bare) look_at(primitive);
+  std::uint32_t rim = 0, inner = 0;
+  for (std::size_t i = 0; i < near.planes.size(); i++) {
+    const NearFeatures::Plane &plane = near.planes[i];
+    for (; rim < plane.rim_end; rim++) look_at(near.rim[rim].primitive, owned_[i]);
+    for (; inner < plane.inner_end; inner++) look_at(near.inner[inner], owned_[i]);
+  }
+  for (const std::uint32_t primitive : near.bare) look_at(primitive, false);
   std::sort(minima_.begin(), minima_.end(), [](const Minimum &a, const Minimum &b) {
     return a.feature != b.feature           ? a.feature < b.feature
            : a.at.distance != b.at.distance ? a.at.distance < b.at.distance
@@ -633,6 +672,17 @@ ShapeMinimum ShapeSearch::minimum_of(const PlacedGrain &grain, std::uint32_t pri
   return sure(m);
 }
 
+// Returns the minimum of a primitive as a contact has it, if it is less than 0.
+ShapeMinimum ShapeSearch::contact_minimum(const PlacedGrain &grain, std::uint32_t primitive,
+                                          bool is_owned) const
+{
+  const TreePrimitive &p = view_.primitives[primitive];
+  if (feature_kind(p.code) != FeatureKind::face) return minimum_of(grain, primitive, 0);
+  Vec3 corner[3];
+  for (int k = 0; k < 3; k++) corner[k] = corner_of(grain, p, k);
+  return sure(TriangleMinimum(grain.shape, corner, grain.to_own(p.normal)).find_contact(is_owned));
+}
+
 FeatureCode ShapeSearch::feature_of(const ShapeMinimum &m, const TreePrimitive &p) const
 {
   const FeatureKind kind = feature_kind(p.code);
@@ -659,20 +709,6 @@ ShapeContact ShapeSearch::contact_of(const PlacedGrain &grain, const Minimum &m)
           grain.centre + grain.turned(of_grain), m.at.distance};
 }
 
-// Calls visit() for each face at a feature.
-template <class Visit>
-void ShapeSearch::each_face(FeatureCode feature, const Visit &visit) const
-{
-  const int i = static_cast<int>(feature_index(feature));
-  if (feature_kind(feature) == FeatureKind::face) return visit(i);
-  const auto of_edge = [&](int e) {
-    for (int k = view_.edge_first[e]; k < view_.edge_first[e + 1]; k++) visit(view_.edge_face[k]);
-  };
-  if (feature_kind(feature) == FeatureKind::edge) return of_edge(i);
-  for (int k = view_.vertex_first[i]; k < view_.vertex_first[i + 1]; k++)
-    of_edge(view_.vertex_edge[k]);
-}
-
 // Is the minimum of a primitive one of the whole surface?
 bool ShapeSearch::is_local(const PlacedGrain &grain, const Minimum &m) const
 {
@@ -687,7 +723,7 @@ bool ShapeSearch::rises_around(const PlacedGrain &grain, const Minimum &m) const
   const std::uint32_t i = feature_index(m.feature);
   bool rises = true;
   if (feature_kind(m.feature) == FeatureKind::edge) {
-    each_face(m.feature, [&](int face) {
+    each_face(view_, m.feature, [&](int face) {
       const TreePrimitive &p = view_.primitives[view_.face_primitive[face]];
       for (int k = 0; k < 3; k++)
         if (p.edge[k] == i) rises &= dot(n, p.inward[k]) >= -kLevel;
@@ -709,7 +745,7 @@ bool ShapeSearch::none_is_deeper(const PlacedGrain &grain, const Minimum &m) con
 {
   const Real least = m.at.distance - kSameDeepDistance * grain.shape.farthest;
   bool is_least = true;
-  each_face(m.feature, [&](int face) {
+  each_face(view_, m.feature, [&](int face) {
     const std::uint32_t primitive = view_.face_primitive[face];
     for (const Minimum &other : minima_)
       if (other.primitive == primitive) is_least &= other.at.distance >= least;
@@ -751,11 +787,11 @@ bool ShapeSearch::are_neighbours(FeatureCode a, FeatureCode b) const
 {
   std::vector<int> &around = around_;
   around.clear();
-  each_face(a, [&](int face) {
+  each_face(view_, a, [&](int face) {
     around.insert(around.end(), view_.faces + 3 * face, view_.faces + 3 * face + 3);
   });
   bool share = false;
-  each_face(b, [&](int face) {
+  each_face(view_, b, [&](int face) {
     for (int k = 0; k < 3; k++)
       share |= std::find(around.begin(), around.end(), view_.faces[3 * face + k]) != around.end();
   });

@@ -37,6 +37,26 @@ struct ShapeContact {
   Real distance = std::numeric_limits<Real>::infinity();    // signed; -distance is the overlap
 };
 
+// Returns the signed distance of a point in the grain's frame; InputError where it was not found to rounding.
+Real sure_distance(const Superellipsoid &s, const Vec3 &y);
+
+// Can a segment, in the grain's frame, cut the part of the grain that is deeper than `depth`? By its box, and an ellipsoid as a ball.
+bool may_cut(const Superellipsoid &s, const Vec3 &from, const Vec3 &to, Real depth = 0);
+
+// Calls visit() for each face at a feature, more than once for some of a vertex.
+template <class Visit>
+void each_face(const TreeView &view, FeatureCode feature, const Visit &visit)
+{
+  const int i = static_cast<int>(feature_index(feature));
+  if (feature_kind(feature) == FeatureKind::face) return visit(i);
+  const auto of_edge = [&](int e) {
+    for (int k = view.edge_first[e]; k < view.edge_first[e + 1]; k++) visit(view.edge_face[k]);
+  };
+  if (feature_kind(feature) == FeatureKind::edge) return of_edge(i);
+  for (int k = view.vertex_first[i]; k < view.vertex_first[i + 1]; k++)
+    of_edge(view.vertex_edge[k]);
+}
+
 // Searches a mesh for one grain after the other.
 class ShapeSearch {
  public:
@@ -103,12 +123,14 @@ class ShapeSearch {
   void find_by_triangle(const PlacedGrain &grain, const NearFeatures &near);
   template <class Found>
   void visit(const PlacedGrain &grain, Real radius, const Found &found);
-  template <class Visit>
-  void each_face(FeatureCode feature, const Visit &visit) const;
   Vec3 corner_of(const PlacedGrain &grain, const TreePrimitive &p, int k) const;
   bool is_beside(const PlacedGrain &grain, std::uint32_t primitive) const;
   bool is_out_of_reach(const PlacedGrain &grain, std::uint32_t primitive) const;
   ShapeMinimum minimum_of(const PlacedGrain &grain, std::uint32_t primitive, Real below) const;
+  ShapeMinimum contact_minimum(const PlacedGrain &grain, std::uint32_t primitive,
+                               bool is_owned) const;
+  bool has_foot(const NearFeatures &near, const NearFeatures::Plane &plane, std::uint32_t rim,
+                std::uint32_t inner, const Vec3 &point) const;
   FeatureCode feature_of(const ShapeMinimum &m, const TreePrimitive &p) const;
   Minimum made(const ShapeMinimum &m, std::uint32_t primitive) const;
   void add(const ShapeMinimum &m, std::uint32_t primitive);
@@ -128,6 +150,7 @@ class ShapeSearch {
   std::vector<std::uint32_t> faces_, numbers_, whole_;    // of a list that is made
   std::vector<State> edge_, vertex_;
   std::vector<DeepFace> deep_;
+  std::vector<char> owned_;    // of planes: it has the foot of its deep minimum in a face
   std::vector<Line> lines_;
   std::vector<Minimum> minima_, local_;
   std::vector<std::size_t> same_as_;    // of local_

@@ -109,9 +109,11 @@ class WallEngine {
 
   // Returns what the last step left.
   virtual StepResults &results() = 0;
-  // Returns the overlap (length) that a contact of the last step had. `arm`: from the wall's point to the centre, along the axes
-  // of the box.
-  virtual Real overlap(const TouchingSphere &of, const Vec3 &arm) { return of.radius - norm(arm); }
+  // Returns the overlap (length) that a contact of the last step had. `pose`: of its mesh in that step.
+  virtual Real overlap(const TouchingSphere &of, const StepContact &contact, const Pose &pose)
+  {
+    return of.radius - norm(pose.turn_to_box(contact.arm));
+  }
   // Returns the springs of the spheres, which steps read and replace.
   virtual Springs &springs() = 0;
   // Returns what it does for meshes whose nodes move; null where the settings have no nodes.

@@ -9,7 +9,7 @@
 #include "engine/shape_engine.h"
 #include "engine/step/compile_law.h"
 #include "engine/step/shape_law.h"
-#include "shape/nearest_on_surface.h"
+#include "shape/triangle_minimum.h"
 
 #include <string>
 #include <utility>
@@ -58,14 +58,30 @@ class Shapes {
     }
   }
 
-  // Returns the overlap of a contact of the last step: the depth of the wall's point in the grain. Where that was not found to
-  // rounding, the next read of the diagnostics is an error.
-  Real overlap(const TouchingSphere &of, const Vec3 &arm)
+  // Returns the overlap of a contact of the last step: the depth of the wall's point in the grain, or, where that is not less than the
+  // least radius of curvature, the overlap with the plane of a face or about an edge. Where the depth was not found to rounding, the
+  // next read of the diagnostics is an error.
+  Real overlap(const TouchingSphere &of, const StepContact &contact, const Pose &pose)
   {
     const Superellipsoid &shape = work.shape[of.sphere];
-    const Vec3 in_grain = rotate(inverse(work.turn[of.sphere]), -arm);
-    const SurfacePoint nearest = nearest_on_surface(shape, in_grain);
+    const auto to_own = [&](const Vec3 &in_mesh) {
+      return rotate(inverse(work.turn[of.sphere]), pose.turn_to_box(in_mesh));
+    };
+    const Vec3 point = to_own(-contact.arm);
+    const SurfacePoint nearest = nearest_on_surface(shape, point);
     if (!nearest.is_sure) raise_to(&work.unsure, kNoSphere - of.sphere);
+    if (-nearest.distance < shape.rho) return -nearest.distance;
+    const TreeView &view = work.trees[contact.mesh]->view();
+    const std::uint32_t i = feature_index(contact.feature);
+    if (feature_kind(contact.feature) == FeatureKind::face)
+      return -tangent_over_plane(shape, point,
+                                 to_own(view.primitives[view.face_primitive[i]].normal))
+                  .distance;
+    if (feature_kind(contact.feature) == FeatureKind::edge) {
+      const Vec3 along =
+          to_own(view.vertices[view.edges[2 * i + 1]] - view.vertices[view.edges[2 * i]]);
+      return -TangentAboutLine(shape, point, (1 / norm(along)) * along).find().distance;
+    }
     return -nearest.distance;
   }
 
@@ -116,10 +132,10 @@ class ShapeEngine : public EngineOn<CpuBackend> {
     shapes_->prepare(spheres, candidates(), n_candidates());
     EngineOn::submit(spheres, step);
   }
-  Real overlap(const TouchingSphere &of, const Vec3 &arm) override
+  Real overlap(const TouchingSphere &of, const StepContact &contact, const Pose &pose) override
   {
     const bool is_sphere = !shapes_->work.rows || shapes_->work.shape[of.sphere].half.x == 0;
-    return is_sphere ? EngineOn::overlap(of, arm) : shapes_->overlap(of, arm);
+    return is_sphere ? EngineOn::overlap(of, contact, pose) : shapes_->overlap(of, contact, pose);
   }
   std::size_t bytes() const override { return EngineOn::bytes() + shapes_->bytes(); }
   StepDiagnostics read_diagnostics() override

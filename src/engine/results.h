@@ -68,7 +68,8 @@ struct StepDiagnostics {
   std::int64_t deepest_step = 0;       // StepSettings::number
   std::int64_t uncertified = 0;
   Real uncertain = 0;    // overlap / radius of the deepest contact they may have missed
-  // The largest overlap / least radius of curvature of a grain that is no sphere, its index and that radius.
+  // The largest overlap of a grain that is no sphere over the radius of curvature of its shadow across the fold or edge there, where it
+  // is more than its least radius of curvature; its index, and that least radius.
   Real sharpest = 0, sharpest_curvature = 0;
   int sharpest_grain = -1;
   // Neighbour lists that were made, the features in them, and searches of cells for spheres without a list; all

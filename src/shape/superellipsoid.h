@@ -97,4 +97,20 @@ LSDCD_FN Curvature curvature_at(const Superellipsoid &s, const Vec3 &x)
           g.bend[0] * g.bend[1] * (twist / slope) * (twist / slope)};
 }
 
+// Returns the radius of curvature of the body's shadow along the direction across n and `turn`, both of length 1 and at right angles,
+// where its outward normal is n: length. It is rho at least, and infinite over a flat side.
+LSDCD_FN Real shadow_radius(const Superellipsoid &s, const Vec3 &n, const Vec3 &turn)
+{
+  const auto scaled = [&](const Vec3 &v) {
+    return Vec3{s.half.x * v.x, s.half.y * v.y, s.half.z * v.z};
+  };
+  const NestedNorm h = nested_norm(scaled(n), s.n1 / (s.n1 - 1), s.n2 / (s.n2 - 1));
+  Real radius = 0;
+  for (int k = 0; k < 2; k++) {
+    const Real part = dot(h.along[k], scaled(turn));
+    if (part != 0) radius += h.bend[k] * part * part;
+  }
+  return radius;
+}
+
 }    // namespace lsdcd

@@ -23,8 +23,8 @@ struct ShapeMinimum {
   Vec3 foot;       // the point of the plane, line or triangle
   TrianglePart part;
   int k;
-  bool
-      is_smooth;    // the overlap is less than rho, so that the signed distance has one gradient there
+  // The overlap is less than rho, so that the signed distance has one gradient there; or it is of a tangent of a contact.
+  bool is_smooth;
   bool is_sure;    // of nearest_on_surface()
 };
 
@@ -46,6 +46,12 @@ LSDCD_FN bool is_minimum(const Superellipsoid &s, const TangentMinimum &t)
   if (!t.is_highest) return false;
   const SurfacePoint there = nearest_on_surface(s, t.foot);
   return there.is_sure && fabs(there.distance - t.distance) <= 4 * on_surface(s);
+}
+
+// Is it that of a contact: by the highest bound, at a foot in the grain? To be asked where the overlap is not less than rho; else it is.
+LSDCD_FN bool is_contact(const Superellipsoid &s, const TangentMinimum &t)
+{
+  return t.is_highest && gauge_value(s, t.foot) < 1;
 }
 
 // Returns the tangent plane over the plane through y with the unit normal n.
@@ -449,6 +455,34 @@ class TriangleMinimum {
     const TangentMinimum plane = tangent_over_plane(s_, corner_[0], normal_);
     if (!(plane.distance < below)) return no_minimum();
     if (!is_less_deep(plane.distance)) return find_deep(plane, below);
+    return find_by_tangent(plane, below);
+  }
+  // Returns the minimum as a contact has it, if it is less than 0: at any depth that of the tangent over the plane if its foot is
+  // here, or in another triangle of the plane (`is_owned`), and in the grain, and likewise that over a side. It counts as smooth.
+  // Elsewhere, where the overlap is not less than rho, its normal is that of the gradient.
+  LSDCD_FN ShapeMinimum find_contact(bool is_owned)
+  {
+    takes_tangents_ = true;
+    const TangentMinimum plane = tangent_over_plane(s_, corner_[0], normal_);
+    if (!(plane.distance < 0)) return no_minimum();
+    if (is_less_deep(plane.distance) || is_owned ||
+        (is_inside(plane.foot) && is_contact(s_, plane)))
+      return find_by_tangent(plane, 0);
+    ShapeMinimum least = find_deep(plane, 0);
+    if (!least.is_smooth && least.distance < 0)
+      least.normal = (1 / norm(least.gradient)) * least.gradient;
+    return least;
+  }
+
+ private:
+  LSDCD_FN bool is_inside(const Vec3 &foot) const
+  {
+    bool is = true;
+    for (int k = 0; k < 3; k++) is &= dot(inward_[k], foot - corner_[k]) >= 0;
+    return is;
+  }
+  LSDCD_FN ShapeMinimum find_by_tangent(const TangentMinimum &plane, Real below) const
+  {
     // The distance falls towards the foot, so that the minimum is on a side that the foot is past.
     ShapeMinimum least = no_minimum();
     bool is_inside = true;
@@ -461,6 +495,7 @@ class TriangleMinimum {
     return on_face(plane);
   }
 
+ public:
   // Returns the minimum of side k if it is less than `below`.
   LSDCD_FN ShapeMinimum on_side(int k, Real below) const
   {
@@ -470,9 +505,11 @@ class TriangleMinimum {
     const Vec3 along = (1 / length) * side;
     const TangentMinimum line = TangentAboutLine(s_, corner_[k], along).find();
     if (!(line.distance < below)) return no_minimum();
-    if (!(line.is_highest && is_less_deep(line.distance)))
-      return on_deep_side(k, line, along, length);
     const Real at = dot(line.foot - corner_[k], along);
+    if (!(line.is_highest && is_less_deep(line.distance))) {
+      if (!(takes_tangents_ && at > 0 && at < length && is_contact(s_, line)))
+        return on_deep_side(k, line, along, length);
+    }
     if (at <= 0) return on_corner(k);
     if (at >= length) return on_corner(next);
     return on_line(line, k);
@@ -503,7 +540,7 @@ class TriangleMinimum {
             plane.foot,
             TrianglePart::face,
             0,
-            is_less_deep(plane.distance),
+            takes_tangents_ || is_less_deep(plane.distance),
             true};
   }
   LSDCD_FN ShapeMinimum on_line(const TangentMinimum &line, int k) const
@@ -514,7 +551,7 @@ class TriangleMinimum {
             line.foot,
             TrianglePart::edge,
             k,
-            is_less_deep(line.distance),
+            takes_tangents_ || is_less_deep(line.distance),
             true};
   }
 
@@ -557,9 +594,7 @@ class TriangleMinimum {
     ShapeMinimum least = no_minimum();
     for (int k = 0; k < 3; k++) keep_nearer(least, on_side(k, HUGE_VAL));
     if (!rises_inwards(least)) {
-      bool is_inside = true;
-      for (int k = 0; k < 3; k++) is_inside &= dot(inward_[k], plane.foot - corner_[k]) >= 0;
-      if (is_inside && is_minimum(s_, plane)) return on_face(plane);
+      if (is_inside(plane.foot) && is_minimum(s_, plane)) return on_face(plane);
       keep_nearer(least, search_inside(fmin(below, least.distance - 4 * on_surface(s_))));
     }
     return least.distance < below ? least : no_minimum();
@@ -628,10 +663,13 @@ class TriangleMinimum {
       n = left;
       for (int i = 0; i < n; i++) polygon[i] = rest[i];
     }
-    return found ? least : no_minimum();
+    if (!found) return no_minimum();
+    least.gradient = dot(least.normal, normal_) < 0 ? -normal_ : normal_;
+    return least;
   }
 
   const Superellipsoid &s_;
+  bool takes_tangents_ = false;
   Vec3 corner_[3], inward_[3];
   const Vec3 normal_;
 };

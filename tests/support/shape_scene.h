@@ -68,6 +68,13 @@ class ShapeScene : public Grains {
     step_once(*engine, prepared(), settings_of(dt, update),
               springs.n_extra() > 0 ? &springs : nullptr);
   }
+  // Forces that depend on places alone, and what was counted.
+  StepDiagnostics look(Real dt)
+  {
+    engine->choose(prepared(), 0, false);
+    engine->step(prepared(), settings_of(dt, false));
+    return engine->read_diagnostics();
+  }
   // With the candidates of the last step.
   void step_as_chosen(Real dt) { engine->step(prepared(), settings_of(dt, true)); }
   // As velocity Verlet.

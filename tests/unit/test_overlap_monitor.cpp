@@ -138,14 +138,15 @@ TEST(OverlapMonitor, tells_of_a_sharp_grain_beside_a_new_one)
   monitor.check_new({}, named.get(), 0, true);
   named.tags[1] = 9;
   StepDiagnostics seen = deepest(0.2, 1);
-  seen.sharpest = 0.75;
+  seen.sharpest = 1.25;
   seen.sharpest_curvature = 0.1;
   seen.sharpest_grain = 0;
   monitor.check_new(seen, named.get(), 100, true);
   host.warnings.clear();
   monitor.check_sharp();
   ASSERT_EQ(host.warnings.size(), 1);
-  EXPECT_TRUE(has(host.warnings[0], "sphere 1 overlaps the wall by 0.75 times its least radius"));
+  EXPECT_TRUE(has(host.warnings[0],
+                  "sphere 1 overlaps a fold, an edge or a corner of the wall by 1.25 times"));
 }
 
 TEST(OverlapMonitor, is_silent_up_to_a_tenth_of_the_radius)

@@ -6,6 +6,8 @@
 
 #include "base/input_error.h"
 #include "contact/grain_contacts.h"
+#include "contact/grain_rule.h"
+#include "contact/shape_passes.h"
 #include "contact/shape_search.h"
 #include "engine/step/multi_mesh_step.h"
 #include "engine/step/shape_law.h"
@@ -48,6 +50,14 @@ inline Real contact_curvature_radius(const Superellipsoid &shape, const Vec3 &ow
   return mean * most > 1 ? 1 / mean : most;
 }
 
+// Returns the radius that a law reads of a contact.
+template <class Law>
+Real radius_for(const Law &law, const Superellipsoid &shape, const Vec3 &own_point, Real overlap,
+                Real radius)
+{
+  return law.reads_radius ? contact_curvature_radius(shape, own_point, overlap) : radius;
+}
+
 // Evaluates the law for each contact of a grain that is no sphere, as add_contacts() does for spheres: with the velocity of
 // the grain's point less that of the wall at the foot, and the force at the grain's point.
 template <class Law, class Springs>
@@ -60,7 +70,8 @@ void add_contacts(const GridView &, const Law &law, const ForceSettings &setting
     const GrainContact &at = set.at[i];
     const Real weight = weights[i], ratio = at.overlap / shape.nearest;
     if (ratio > out.overlap_ratio) out.overlap_ratio = ratio;
-    raise_to(&law.work->sharpest, DeepestOverlap::ratio(at.overlap / shape.rho) | (set.grain + 1));
+    if (at.overlap >= shape.rho)
+      raise_to(&law.work->sharpest, DeepestOverlap::ratio(at.overlap / at.limit) | (set.grain + 1));
     if (!(weight > 0)) continue;
 
     const Vec3 &n = at.normal;
@@ -74,9 +85,7 @@ void add_contacts(const GridView &, const Law &law, const ForceSettings &setting
     Contact c;
     c.normal = n;
     c.overlap = at.overlap;
-    c.radius = law.reads_radius
-                   ? contact_curvature_radius(shape, at.metric->to_own(at.arm), at.overlap)
-                   : s.radius;
+    c.radius = radius_for(law, shape, at.metric->to_own(at.arm), at.overlap, s.radius);
     c.mass = s.mass;
     if (settings.gives_way) c.mass = 1 / (1 / s.mass + settings.mobility.along(at.foot, n));
     c.v_normal = dot(v, n);
@@ -108,7 +117,7 @@ void add_contacts(const GridView &, const Law &law, const ForceSettings &setting
     }
     out.n_contacts++;
     out.force += force;
-    out.torque += cross(at.arm, force);
+    out.torque += cross(at.arm, force) + at.couple;
     out.energy += weight * f.energy;
     if (settings.with_point) {
       const Real w = weight * std::fabs(f.normal);
@@ -120,19 +129,22 @@ void add_contacts(const GridView &, const Law &law, const ForceSettings &setting
 
 // What a thread has for grains that are no spheres.
 struct ShapeMemory {
-  std::vector<std::unique_ptr<ShapeSearch>> search;    // of each mesh
+  struct OfMesh {
+    explicit OfMesh(const TriangleTree &tree) : search(tree), passes(tree) {}
+    ShapeSearch search;
+    ShapePasses passes;
+  };
+  std::vector<std::unique_ptr<OfMesh>> of_mesh;
+  std::vector<PlacedGrain> placed;    // at each mesh
   std::vector<ShapeContact> found;
   std::vector<GrainContact> contacts;
   std::vector<GrainMetric> metric;
   std::vector<Real> weight;
-  GrainCornerSet<kContacts> few;
-  CornerRule<kContacts, GrainCornerSet<kContacts>> rule;
-  struct Many {
-    GrainCornerSet<kMaxContacts> set;
-    CornerRule<kMaxContacts, GrainCornerSet<kMaxContacts>> rule;
-  };
-  std::unique_ptr<Many> many;
+  std::vector<SharingContact> sharing;
+  std::vector<PassEnd> ends;
+  GrainRule rule;
 };
+static_assert(GrainRule::kMost == kMaxContacts, "all contacts of a grain share");
 
 // Finds the contacts of a grain, mesh after mesh, each in the frame of its mesh, and applies the law.
 template <class Law, class Sphere>
@@ -154,7 +166,7 @@ class ShapeAtMeshes {
       does_not_fit(job_, sphere_.begin(), sphere_.i, job_.counts->no_scratch);
       return;
     }
-    share();
+    if (n > 0) share();
     apply_law<Law>(job_, sphere_, GrainContactsView{n, memory_.contacts.data(), &shape_, sphere_.i},
                    memory_.weight.data());
   }
@@ -167,6 +179,7 @@ class ShapeAtMeshes {
     const int n = sphere_.n_meshes();
     memory_.contacts.clear();
     memory_.metric.resize(n);
+    memory_.placed.resize(n);
     tolerance_ = 0;
     for (int m = 0; m < n; m++) {
       find_at(m);
@@ -185,19 +198,19 @@ class ShapeAtMeshes {
       for (int j = 0; j < 3; j++) metric.row[j][k] = axis[j];
       metric.scale[k] = std::sqrt(1 / row_.inertia_over_mass[k]);
     }
-    const PlacedGrain grain = {
-        shape_, of.pose.to_mesh(centre_), {metric.row[0], metric.row[1], metric.row[2]}};
-    if (memory_.search.size() <= of.mesh) memory_.search.resize(of.mesh + 1);
-    std::unique_ptr<ShapeSearch> &search = memory_.search[of.mesh];
-    if (!search) search = std::make_unique<ShapeSearch>(*work_.trees[of.mesh]);
+    PlacedGrain &grain = memory_.placed[m];
+    grain = {shape_, of.pose.to_mesh(centre_), {metric.row[0], metric.row[1], metric.row[2]}};
+    if (memory_.of_mesh.size() <= of.mesh) memory_.of_mesh.resize(of.mesh + 1);
+    std::unique_ptr<ShapeMemory::OfMesh> &with = memory_.of_mesh[of.mesh];
+    if (!with) with = std::make_unique<ShapeMemory::OfMesh>(*work_.trees[of.mesh]);
     memory_.found.clear();
     NearList &near = work_.near[job_.first_slot + sphere_.begin() + m];
     if (!near.holds(grain.centre, shape_.farthest)) {
       near.from = grain.centre;
       near.reach = (1 + kWay) * shape_.farthest;
-      search->find_near(grain, near.reach, near.features);
+      with->search.find_near(grain, near.reach, near.features);
     }
-    search->contacts(grain, near.features, memory_.found);
+    with->search.contacts(grain, near.features, memory_.found);
     for (const ShapeContact &c : memory_.found) {
       const Vec3 arm = c.of_grain - grain.centre;
       add({c.feature, c.normal, -c.distance, arm, c.point, metric.direction(c.normal, arm),
@@ -232,28 +245,106 @@ class ShapeAtMeshes {
     return m;
   }
 
-  // Gives each contact its weight by the corner rule.
+  // Gives each contact its weight by the corner rule, and its part of the couples.
   void share()
   {
     const std::size_t n = memory_.contacts.size();
     memory_.weight.assign(n, 1);
-    if (n < 2 || settings(0).search.corner != Corner::blend) return;
-    if (n <= kContacts) return solve(memory_.few, memory_.rule);
-    if (!memory_.many) memory_.many.reset(new ShapeMemory::Many);
-    solve(memory_.many->set, memory_.many->rule);
-  }
-  template <class Set, class Rule>
-  void solve(Set &set, Rule &rule)
-  {
-    set.n = 0;
-    const int n = static_cast<int>(memory_.contacts.size());
-    for (int c = 0; c < n; c++) {
-      const GrainContact &at = memory_.contacts[c];
-      const Pose &pose = settings(mesh_of(c)).pose;
-      set.add(at, shape_.farthest, centre_, pose.to_box(at.foot), pose.turn_to_box(at.normal));
+    memory_.sharing.clear();
+    bool is_deep = false;
+    for (const GrainContact &c : memory_.contacts) {
+      is_deep |= c.overlap >= shape_.rho;
+      memory_.sharing.push_back(
+          {c.feature, -c.metric->to_own(c.normal), c.metric->to_own(c.arm), c.overlap});
     }
-    rule.solve(set, shape_.farthest, memory_.weight.data(), tolerance_);
+    if (is_deep) set_limits();
+    if (n < 2 || settings(0).search.corner != Corner::blend) return;
+    memory_.rule.begin(shape_, memory_.sharing);
+    for (int m = 0, first = 0; m < sphere_.n_meshes(); first = ends_[m++]) add_passes(m, first);
+    memory_.rule.solve(tolerance_, memory_.weight.data());
+    add_couples();
   }
+
+  // Has contacts with mesh m, from `first` on, fade where they end at a fold.
+  void add_passes(int m, int first)
+  {
+    if (ends_[m] - first < 2) return;
+    memory_.ends.clear();
+    for (int c = first; c < ends_[m]; c++)
+      memory_.ends.push_back({memory_.contacts[c].feature, memory_.contacts[c].overlap});
+    ShapePasses &passes = memory_.of_mesh[settings(m).mesh]->passes;
+    bool has_begun = false;
+    for (std::size_t i = 0; i < memory_.ends.size(); i++) {
+      const Real overlap = memory_.ends[i].overlap;
+      Real above = overlap;
+      for (const PassEnd &other : memory_.ends)
+        above = std::fmin(above, overlap_without_fade(overlap, other.overlap));
+      if (!(above < overlap)) continue;    // none is deeper
+      if (!has_begun) passes.begin(memory_.placed[m]);
+      has_begun = true;
+      const std::vector<Real> &pass = passes.find(memory_.ends, i, std::fmax(above, Real(0)));
+      for (std::size_t j = 0; j < pass.size(); j++)
+        if (pass[j] > 0)
+          memory_.rule.add_pass(first + static_cast<int>(i), first + static_cast<int>(j), pass[j]);
+    }
+  }
+
+  // Adds the couple of each two contacts that bear, half of it to each, by the mean of their stiffnesses.
+  void add_couples()
+  {
+    const int n = static_cast<int>(memory_.contacts.size());
+    const auto pressed = [&](int i) { return memory_.weight[i] * memory_.contacts[i].overlap; };
+    for (int i = 1; i < n; i++)
+      for (int j = 0; j < i; j++) {
+        const Vec3 &couple = memory_.rule.couple(i, j);
+        if (couple == Vec3{0, 0, 0} || !(pressed(i) > 0 && pressed(j) > 0)) continue;
+        const Real both = std::sqrt(stiffness(i) * stiffness(j)) * pressed(i) * pressed(j);
+        for (const int c : {i, j})
+          memory_.contacts[c].couple += memory_.contacts[c].metric->turned(both / 2 * couple);
+      }
+  }
+  // Returns the elastic force of a contact over its overlap.
+  Real stiffness(int contact) const
+  {
+    const GrainContact &at = memory_.contacts[contact];
+    const Law &law = sphere_.mesh(sphere_.begin() + mesh_of(contact)).law;
+    Contact c = {};
+    c.normal = at.normal;
+    c.overlap = at.overlap;
+    c.radius = radius_for(law, shape_, memory_.sharing[contact].point, at.overlap, sphere_.radius);
+    c.mass = 1;
+    ContactMemory<Law::kExtra> memory = {};
+    return law.evaluate(c, memory).normal / at.overlap;
+  }
+
+  // Says how deep contacts may be, where one is as deep as the least radius of curvature.
+  void set_limits()
+  {
+    const std::size_t n = memory_.contacts.size();
+    for (std::size_t i = 0; i < n; i++) {
+      GrainContact &c = memory_.contacts[i];
+      const SharingContact &at = memory_.sharing[i];
+      const auto limit_along = [&](const Vec3 &along) {
+        const Real size = norm(along);
+        if (size > kParallel)
+          c.limit = std::fmin(
+              c.limit, shadow_radius(shape_, at.normal, cross(at.normal, (1 / size) * along)));
+      };
+      if (feature_kind(c.feature) == FeatureKind::vertex)
+        c.limit = 1 / curvature_at(shape_, at.point).largest();
+      if (feature_kind(c.feature) == FeatureKind::edge) {
+        const TreeView &view = work_.trees[settings(mesh_of(static_cast<int>(i))).mesh]->view();
+        const int *ends = view.edges + 2 * feature_index(c.feature);
+        const Vec3 along = view.vertices[ends[1]] - view.vertices[ends[0]];
+        limit_along((1 / norm(along)) * c.metric->to_own(along));
+      }
+      for (std::size_t j = 0; j < n; j++) {
+        const Vec3 &other = memory_.sharing[j].normal;
+        if (dot(at.normal, other) > 0) limit_along(cross(at.normal, other));
+      }
+    }
+  }
+  static constexpr Real kParallel = 1e-9;    // an angle
 
   // Of the radius around the grain: how far it goes until its list is made again.
   static constexpr Real kWay = 0.2;

@@ -124,10 +124,12 @@ void OverlapMonitor::check_sharp()
   sharp_warned_ = true;
   Sharpest seen = sharpest_;
   host_.broadcast(&seen, sizeof seen, lowest_rank(host_, seen.ratio == most));
-  host_.warn(host_.sphere_text(seen.tag) + " overlaps the wall by " + number_text(seen.ratio) +
-             " times its least radius of curvature " + number_text(seen.curvature) +
-             ": above a half contacts that end at folds may jump; use a stiffer contact (a larger "
-             "kn), or smaller exponents. This warning is shown once");
+  host_.warn(host_.sphere_text(seen.tag) + " overlaps a fold, an edge or a corner of the wall by " +
+             number_text(seen.ratio) +
+             " times the radius of curvature that its outline has there (its least one is " +
+             number_text(seen.curvature) +
+             "): above 1 the force may jump where such a contact begins or ends; use a stiffer "
+             "contact (a larger kn), or smaller exponents. This warning is shown once");
 }
 
 void OverlapMonitor::end_run(bool brief)

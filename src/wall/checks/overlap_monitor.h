@@ -36,7 +36,8 @@ class OverlapMonitor {
   // still. Collective.
   void check_sunk(Real worst, Real timestep_ratio, const SpheresOnCpu &spheres);
 
-  // Warns once of a grain that is no sphere and overlaps by more than half of its least radius of curvature. Collective.
+  // Warns once of a grain that is no sphere and overlaps a fold, an edge or a corner by more than its radius of curvature there.
+  // Collective.
   void check_sharp();
 
   // Logs the deepest overlap noted since the last call, unless `brief`. Collective.
@@ -56,7 +57,7 @@ class OverlapMonitor {
     std::uint32_t mesh = 0, meshes = 0;
   };
   struct Sharpest {
-    Real ratio = 0, curvature = 0;    // overlap / least radius of curvature, and that radius
+    Real ratio = 0, curvature = 0;    // overlap / radius of curvature there, and the least one
     std::int64_t tag = 0;
   };
   static Deepest deepest_of(const StepDiagnostics &seen, std::int64_t tag)
@@ -77,7 +78,7 @@ class OverlapMonitor {
   }    // of overlaps
 
   static constexpr Real kLarge = 0.1;
-  static constexpr Real kSharp = 0.5;
+  static constexpr Real kSharp = 1;
   static constexpr Real kWorse = 1.1;    // times an overlap that was warned of: warned of again
   // A centre that is so near may be on the other side in the next step.
   static constexpr Real kThrough = 0.95;

@@ -35,7 +35,7 @@ void for_contacts(WallEngine &engine, const std::vector<Pose> &poses,
       const Pose &pose = poses[contact->mesh];
       const Vec3 arm = pose.turn_to_box(contact->arm);
       found({t.sphere, static_cast<int>(contact->mesh), -pose.turn_to_box(contact->force),
-             t.x - arm, engine.overlap(t, arm)});
+             t.x - arm, engine.overlap(t, *contact, pose)});
     }
 }
 

@@ -1,0 +1,102 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// How deep a grain that is no sphere is in a mesh on the way from one of its contacts to another one, on a CPU.
+#pragma once
+
+#include "contact/shape_search.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+namespace lsdcd {
+
+// A contact, as a place from or to which passes go.
+struct PassEnd {
+  FeatureCode feature;
+  Real overlap;
+};
+
+// Finds passes: the pass of two contacts is the largest, over all chains of faces joined at edges from a face of one contact to a
+// face of the other, of the least overlap of the edges crossed. The overlap of an edge is the largest on it.
+class ShapePasses {
+ public:
+  explicit ShapePasses(const TriangleTree &tree) : view_(tree.view()) {}
+
+  // Begins with another grain.
+  void begin(const PlacedGrain &grain);
+  // Returns the pass of contact `from` and each other of the contacts, which are all of the grain and this mesh, if it is deeper than
+  // `above` >= 0, else 0. They are valid until the next call.
+  const std::vector<Real> &find(const std::vector<PassEnd> &contacts, std::size_t from, Real above);
+
+ private:
+  // Numbers by a key that are forgotten at once.
+  template <class Value>
+  class Notes {
+   public:
+    void clear() { age_++, n_ = 0; }
+    // Returns the note of a key, and whether it is new: then the value is of no meaning.
+    Value &at(std::uint32_t key, bool &is_new)
+    {
+      if (2 * (n_ + 1) > slots_.size()) grow();
+      Slot &slot = find(slots_, key);
+      is_new = slot.age != age_;
+      if (is_new) slot.age = age_, slot.key = key, n_++;
+      return slot.value;
+    }
+
+   private:
+    struct Slot {
+      std::uint64_t age = 0;
+      std::uint32_t key = 0;
+      Value value = {};
+    };
+    Slot &find(std::vector<Slot> &in, std::uint32_t key)
+    {
+      const std::size_t mask = in.size() - 1;    // of a power of two
+      std::size_t i = key * std::size_t(0x9e3779b1u) & mask;
+      while (in[i].age == age_ && in[i].key != key) i = (i + 1) & mask;
+      return in[i];
+    }
+    void grow()
+    {
+      std::vector<Slot> more(slots_.empty() ? 64 : 2 * slots_.size());
+      for (const Slot &slot : slots_)
+        if (slot.age == age_) find(more, slot.key) = slot;
+      slots_ = std::move(more);
+    }
+
+    std::vector<Slot> slots_;
+    std::uint64_t age_ = 1;
+    std::size_t n_ = 0;
+  };
+  struct Crossing {
+    Real overlap;
+    std::uint32_t edge;
+  };
+  struct EdgeOverlap {
+    Real overlap;    // of no meaning where it is not above the next number
+    Real above;
+  };
+  struct FaceOfContact {
+    std::uint32_t face;
+    std::size_t contact;
+  };
+
+  void list_faces(const std::vector<PassEnd> &contacts);
+  void reach(std::uint32_t face, Real pass, Real above);
+  Real overlap_of(std::uint32_t edge, Real above);
+  Real compute_overlap(std::uint32_t edge, Real above) const;
+
+  const TreeView &view_;
+  PlacedGrain grain_;
+  Notes<EdgeOverlap> overlap_;       // of edges
+  Notes<char> reached_;              // faces
+  std::vector<Crossing> waiting_;    // a heap
+  std::vector<FaceOfContact> faces_;
+  std::vector<Real> pass_;
+};
+
+}    // namespace lsdcd
