@@ -301,7 +301,7 @@ typedef struct lsdcd_shape_facts {
   double inertia[3];    /* about the axes, over the mass, at uniform density: length^2 */
   double circumscribed; /* radius of the smallest sphere about the centre that holds it */
   double inscribed;     /* radius of the largest one that it holds */
-  /* Least radius of curvature. Contacts with an overlap above half of it may jump where they leave a concave fold. */
+  /* Least radius of curvature. Contacts with an overlap above it may jump where they leave a fold or an edge. */
   double curvature_radius;
 } lsdcd_shape_facts;
 /* half_axes: a b c; exponents: n1 n2, from 2 to 20, null: 2. LSDCD_ERROR_INPUT: numbers that make no shape. Any. */
