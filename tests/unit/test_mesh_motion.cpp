@@ -390,6 +390,8 @@ TEST(MeshMotion, has_the_pose_after_a_restart_that_it_got_since_its_last_step)
   pose.shift = {3, 0, 0};
   before.mesh().motion.set_pose(pose);
   second.restore(first.state(), step(3));
+  EXPECT_EQ(where(second), where(first));    // in the last step
+  second.place();
   EXPECT_EQ(where(second), (Vec3{3, 0, 0}));
 }
 
