@@ -795,11 +795,10 @@ typedef struct lsdcd_wall_totals {
   double contacts;
   double overlap;     /* the largest overlap / radius, or least half-axis */
   double uncertified; /* spheres whose answer was not certified exact; see `nearest` */
-  double
-      power; /* of the mesh on the spheres, by its motion; of nodes by velocities of half a step before */
-  double energy;   /* elastic */
-  double worn;     /* volume worn off so far */
-  double servo[3]; /* position, velocity, push; 0 without a servo */
+  double power;       /* of the mesh on the spheres, by its motion; of nodes half a step before */
+  double energy;      /* elastic */
+  double worn;        /* volume worn off so far */
+  double servo[3];    /* position, velocity, push; 0 without a servo */
   /* With wear_deform_every, volumes times wear_deform_factor: by which wear has moved the mesh so far, and what has worn
    * at vertices that stay, as a triangle would fold over or meet another part of the mesh. */
   double removed, held_back;
