@@ -259,6 +259,7 @@ bool ShapeSearch::find_by_owner(const PlacedGrain &grain, NearFeatures &near)
 {
   local_.clear();
   deep_.clear();
+  passed_deep_ = false;
   list_cut(grain, near);
   // A foot is sure to this, but for rounding the same for all faces of a patch. Under a flat side it goes far by the rounding of
   // a normal.
@@ -284,7 +285,7 @@ bool ShapeSearch::find_by_owner(const PlacedGrain &grain, NearFeatures &near)
     if (edge_[i] == State::may_be) look_at_edge(grain, near, i);
     has_deep |= edge_[i] == State::is_deep;
   }
-  return deep_are_passed(grain, near, has_deep);
+  return deep_are_passed(grain, near, has_deep) && !(passed_deep_ && local_.empty());
 }
 
 void ShapeSearch::look_at_plane(const PlacedGrain &grain, const NearFeatures &near,
@@ -543,7 +544,10 @@ void ShapeSearch::look_at_edge(const PlacedGrain &grain, const NearFeatures &nea
       {line.distance, line.normal, line.normal, line.foot, TrianglePart::edge, 0, true, true},
       feature_code(FeatureKind::edge, edge.edge),
       kNoPrimitive};
-  if (!rises_around(grain, m)) return;
+  if (!rises_around(grain, m)) {
+    passed_deep_ |= is_deep;
+    return;
+  }
   edge_[i] = State::is;
   local_.push_back(m);
 }
@@ -589,6 +593,13 @@ void ShapeSearch::find_by_triangle(const PlacedGrain &grain, const NearFeatures 
   for (std::size_t i = 0; i < minima_.size(); i++)
     if ((i == 0 || minima_[i].feature != minima_[i - 1].feature) && is_local(grain, minima_[i]))
       local_.push_back(minima_[i]);
+  // Beyond the least radius of curvature the tangents of some features and the gradients at others may each pass the contact on.
+  // A grain in the wall has one all the same: the deepest.
+  if (local_.empty() && !minima_.empty())
+    local_.push_back(
+        *std::min_element(minima_.begin(), minima_.end(), [](const Minimum &a, const Minimum &b) {
+          return a.at.distance < b.at.distance;
+        }));
 }
 
 // Adds the local minima to `found`, in the order of their features.

@@ -150,6 +150,8 @@ class ShapeSearch {
   std::vector<std::uint32_t> faces_, numbers_, whole_;    // of a list that is made
   std::vector<State> edge_, vertex_;
   std::vector<DeepFace> deep_;
+  bool passed_deep_ =
+      false;    // has an edge been passed where the overlap is not less than the least radius of curvature?
   std::vector<char> owned_;    // of planes: it has the foot of its deep minimum in a face
   std::vector<Line> lines_;
   std::vector<Minimum> minima_, local_;
