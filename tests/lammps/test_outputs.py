@@ -226,9 +226,9 @@ def pixels(folder, draw, flags, mesh):
     """(column, row from below) of what a picture from above shows of a mesh alone: of no atom, box or axis."""
     go(folder, more=f"contacts {draw}", mesh=mesh, extra="group none empty\n" +
        f"dump pic none image 1 wall.*.ppm type type fix wall type {flags} view 0 0 up 0 1 0 size 200 200 zoom 4 box no 0 axes no 0 0\n")
-    data = (folder / "wall.0.ppm").read_bytes()
-    kind, width, height, most, rgb = data.split(maxsplit=3)[:3] + data.split(maxsplit=3)[3].split(b"\n", 1)
-    assert (kind, width, height, most, len(rgb)) == (b"P6", b"200", b"200", b"255", 3 * 200 * 200)
+    head, rgb = (folder / "wall.0.ppm").read_bytes().split(b"\n255\n", 1)
+    words = [w for line in head.split(b"\n") if not line.startswith(b"#") for w in line.split()]    # a LAMMPS of 2026 signs it
+    assert (words, len(rgb)) == ([b"P6", b"200", b"200"], 3 * 200 * 200)
     return {(k % 200, 199 - k // 200) for k in range(200 * 200) if max(rgb[3 * k:3 * k + 3]) > 0}
 
 
