@@ -3,6 +3,8 @@
 
 #include "wall/wall_outputs.h"
 
+#include "base/quaternion.h"
+
 #include <algorithm>
 
 namespace lsdcd {
@@ -85,6 +87,37 @@ Real stop_force(const BodyMover &b, int /* d */)
   return b.stop_force();
 }
 
+Real place(Wall &wall, int mesh, int d)
+{
+  return wall.meshes()[mesh].pose().to_box({0, 0, 0})[d];
+}
+// Returns the rotation that has these rows, with w at least 0 (Shepperd 1978: the largest number is computed first).
+Quaternion quaternion_of(const Vec3 (&row)[3])
+{
+  const Real trace = row[0].x + row[1].y + row[2].z;
+  int k = 0;
+  for (int i = 1; i < 3; i++)
+    if (row[i][i] > row[k][k]) k = i;
+  Quaternion q;
+  if (trace > row[k][k]) {
+    q = {1 + trace, {row[2].y - row[1].z, row[0].z - row[2].x, row[1].x - row[0].y}};
+  } else {
+    const int i = (k + 1) % 3, j = (k + 2) % 3;
+    q.w = row[j][i] - row[i][j];
+    q.v[k] = 1 + row[k][k] - row[i][i] - row[j][j];
+    q.v[i] = row[k][i] + row[i][k];
+    q.v[j] = row[k][j] + row[j][k];
+  }
+  q = normalised(q);
+  return q.w < 0 ? Quaternion{-q.w, -q.v} : q;
+}
+Real orientation(Wall &wall, int mesh, int d)
+{
+  const Pose &pose = wall.meshes()[mesh].pose();
+  const Quaternion q = pose.placed ? quaternion_of(pose.row) : Quaternion();
+  return d == 0 ? q.w : q.v[d - 1];
+}
+
 // Position, velocity, push.
 template <int which>
 Real of_servo(Wall &wall, int mesh, int /* d */)
@@ -125,6 +158,12 @@ bool is_body(const MeshSpec &m)
   return m.body.present;
 }
 
+// Also one that was stopped.
+bool has_motion(const MeshSpec &m)
+{
+  return m.motion.moves() || m.motion.start().placed;
+}
+
 bool has(const WallSpec &wall, OutputPart part)
 {
   const auto any = [&](bool (*of)(const MeshSpec &)) {
@@ -141,6 +180,8 @@ bool has(const WallSpec &wall, OutputPart part)
       return wall.has_nodes();
     case OutputPart::means:
       return wall.average_every > 0;
+    case OutputPart::motion:
+      return any(has_motion);
     default:
       return true;
   }
@@ -220,7 +261,12 @@ const std::vector<WallOutput> &wall_outputs()
       {3, "mean_force", "with *average N* the mean of 1-3 over N steps, x y z", "force units",
        adds_up, P::means, mean_of<&MeanLoad::force>, mean_of_all<&MeanLoad::force>},
       {3, "mean_torque", "likewise of 4-6", "torque units", adds_up, P::means,
-       mean_of<&MeanLoad::torque>, mean_of_all<&MeanLoad::torque>}};
+       mean_of<&MeanLoad::torque>, mean_of_all<&MeanLoad::torque>},
+      {3, "pose",
+       "place of a mesh with *motion*: of its point that was at 0 0 0 at the start, x y z",
+       "distance units", is_one, P::motion, place, nullptr},
+      {4, "pose", "its rotation since the start, a quaternion w x y z", "", is_one, P::motion,
+       orientation, nullptr}};
   return all;
 }
 
@@ -251,9 +297,12 @@ Real output_of_wall(Wall &wall, int column)
 {
   const WallOutput &row = output_row(column);
   if (row.of_all) return row.of_all(wall, column);
-  const bool is_servo = row.part == OutputPart::servo;
-  if (is_servo || row.part == OutputPart::body) {
-    const int mesh = only_mesh_with(wall.spec(), is_servo ? has_servo : is_body);
+  bool (*const owner)(const MeshSpec &) = row.part == OutputPart::servo    ? has_servo
+                                          : row.part == OutputPart::body   ? is_body
+                                          : row.part == OutputPart::motion ? has_motion
+                                                                           : nullptr;
+  if (owner) {
+    const int mesh = only_mesh_with(wall.spec(), owner);
     return mesh < 0 ? 0 : row.of_mesh(wall, mesh, column);
   }
   Real sum = 0;

@@ -11,18 +11,18 @@
 namespace lsdcd {
 
 // What a wall must have for a row of outputs to be more than 0.
-enum class OutputPart { every_wall, servo, body, wear, nodes, means };
+enum class OutputPart { every_wall, servo, body, wear, nodes, means, motion };
 
 struct WallOutput {
   int n;    // columns
-  const char
-      *name;    // the member of the library's lsdcd_wall_totals or, of a body, lsdcd_body_state
+  // The member of the library's lsdcd_wall_totals; of a body, of lsdcd_body_state; of a motion, what lsdcd_wall_get_pose() tells.
+  const char *name;
   const char *text;    // what they are, for the manual (doc/wall_output.rst)
   const char *unit;    // the kind of unit; empty: none
   bool adds_up;        // with the size of a system
   OutputPart part;
   Real (*of_mesh)(Wall &wall, int mesh, int d);    // column d of n; collective
-  // Of all meshes together. Null: that of the only mesh that has a servo or body, and of other parts the sum over
+  // Of all meshes together. Null: that of the only mesh that has a servo, body or motion, and of other parts the sum over
   // meshes.
   Real (*of_all)(Wall &wall, int d);
 };

@@ -257,3 +257,20 @@ def test_what_pictures_show(folder):
         abs(a - b) <= 1.5 + thick / 2 for a, b in zip(spans(lines), spans(whole))) and not any(
             left + 2 * thick + 2 < x < right - 2 * thick - 2 and low + 2 * thick + 2 < y < high - 2 * thick - 2 for x, y in lines) and
         {x for x, y in lines if abs(y - low) <= thick + 2} >= set(range(left + 1, right)), f"{spans(lines)} {len(lines)}")
+
+
+def test_place(folder):
+    """Where a moving mesh is: what was at 0 0 0, and its rotation, of one mesh and of a row of several."""
+    columns = " ".join(f"f_wall[{k}]" for k in range(48, 55))
+    turned, o, t = 2 * math.pi * 0.3 / 4, (1, 0, 0), 0.3
+    at = (o[0] - math.cos(turned) * o[0], -math.sin(turned) * o[0], 0)
+    for motion, place, turn in (("linear 0.5 0 -0.25", (0.5 * t, 0, -0.25 * t), (1, 0, 0, 0)),
+                                ("rotate 1 0 0 0 0 2 4", at, (math.cos(turned / 2), 0, 0, math.sin(turned / 2)))):
+        form = "thermo_style custom step {}\nthermo_modify format float %.17g norm no\ntimestep 1e-3"
+        row = go(folder, more=f"motion {motion}", columns="", steps=300, extra=form.format(columns))[0][-1]
+        fact(f"place and rotation by {motion}", all(abs(a - b) <= 1e-13 for a, b in zip(row[1:], [*place, *turn])), str(row))
+        row = go(folder, more=f"mesh floor.stl motion {motion}", columns="", steps=300, extra="".join(
+            f"variable p{k} equal f_wall[2][{k}]\nvariable q{k} equal f_wall[1][{k}]\n" for k in range(48, 55)) +
+            form.format(" ".join(f"v_{x}{k}" for x in "pq" for k in range(48, 55)) + " " + columns))[0][-1]
+        fact(f"... of the second of two meshes, by {motion}", all(abs(a - b) <= 1e-13 for a, b in zip(row[1:], [
+            *place, *turn, 0, 0, 0, 1, 0, 0, 0, *place, *turn])), str(row))

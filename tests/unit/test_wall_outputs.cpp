@@ -33,6 +33,8 @@ std::string keyword_of(OutputPart part)
       return " *nodes*";
     case OutputPart::means:
       return " *average*";
+    case OutputPart::motion:
+      return " *motion*";
     default:
       return "";
   }
@@ -70,12 +72,13 @@ std::map<std::string, int> members_of(const std::string &name)
   return members;
 }
 
-// Python reads its structs from the header. The elastic energy has no column.
+// Python reads its structs from the header. The elastic energy has no column, and poses have a function.
 TEST(wall_outputs, are_in_the_structs_of_the_library)
 {
   std::map<std::string, int> totals, body;
   for (const WallOutput &row : wall_outputs())
-    (row.part == OutputPart::body ? body : totals)[row.name] += row.n;
+    if (row.part != OutputPart::motion)
+      (row.part == OutputPart::body ? body : totals)[row.name] += row.n;
   totals["energy"] = 1;
   EXPECT_EQ(members_of("lsdcd_wall_totals"), totals);
   EXPECT_EQ(members_of("lsdcd_body_state"), body);
@@ -96,6 +99,8 @@ TEST(wall_outputs, go_up_to_the_last_that_a_wall_has)
   EXPECT_EQ(n_outputs(wall), 41);
   wall.average_every = 10;
   EXPECT_EQ(n_outputs(wall), 47);
+  wall.meshes[0].motion.add(MotionTerm());
+  EXPECT_EQ(n_outputs(wall), 54);
 }
 
 }    // namespace
