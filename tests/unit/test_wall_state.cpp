@@ -66,13 +66,16 @@ TEST(WallState, refuses_nodes_that_are_not_those_of_the_vertices)
 {
   WallState wall = some_wall();    // its first mesh has 30 vertices
   NodeState &nodes = wall.meshes[0].nodes;
-  nodes = {std::vector<Real>(30, 5), std::vector<Real>(90, 0.25), {}};
+  nodes = {};
+  nodes.names.assign(30, 5);
+  nodes.places.assign(90, 0.25);
   const WallState is = from(wall.blocks());
   EXPECT_EQ(is.meshes[0].nodes.names, nodes.names);
   EXPECT_EQ(is.meshes[0].nodes.places, nodes.places);
   nodes.names.resize(29);
   EXPECT_THROW(from(wall.blocks()), StateError);
-  nodes = {{}, std::vector<Real>(89, 0.25), {}};
+  nodes = {};
+  nodes.places.assign(89, 0.25);
   EXPECT_THROW(from(wall.blocks()), StateError);
 }
 
