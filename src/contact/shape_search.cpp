@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <string>
 #include <utility>
 
@@ -285,7 +286,7 @@ bool ShapeSearch::find_by_owner(const PlacedGrain &grain, NearFeatures &near)
     if (edge_[i] == State::may_be) look_at_edge(grain, near, i);
     has_deep |= edge_[i] == State::is_deep;
   }
-  return deep_are_passed(grain, near, has_deep) && !(passed_deep_ && local_.empty());
+  return deep_are_passed(grain, near, has_deep) && !passed_deep_;
 }
 
 void ShapeSearch::look_at_plane(const PlacedGrain &grain, const NearFeatures &near,
@@ -593,13 +594,53 @@ void ShapeSearch::find_by_triangle(const PlacedGrain &grain, const NearFeatures 
   for (std::size_t i = 0; i < minima_.size(); i++)
     if ((i == 0 || minima_[i].feature != minima_[i - 1].feature) && is_local(grain, minima_[i]))
       local_.push_back(minima_[i]);
-  // Beyond the least radius of curvature the tangents of some features and the gradients at others may each pass the contact on.
-  // A grain in the wall has one all the same: the deepest.
-  if (local_.empty() && !minima_.empty())
-    local_.push_back(
-        *std::min_element(minima_.begin(), minima_.end(), [](const Minimum &a, const Minimum &b) {
-          return a.at.distance < b.at.distance;
-        }));
+  add_passed_on();
+}
+
+// Adds the deepest minimum of each connected piece of the surface in the grain that has no local one. Beyond the least radius of
+// curvature the tangents of some features and the gradients at others may each pass the contact on, and the piece has one all the same.
+void ShapeSearch::add_passed_on()
+{
+  const auto each_vertex = [&](const Minimum &m, const auto &visit) {
+    const TreePrimitive &p = view_.primitives[m.primitive];
+    for (int k = 0; k < n_corners(p.code); k++)
+      visit(place_in(piece_vertices_, p.vertex[k], SameNumber()));
+  };
+  piece_vertices_.clear();
+  for (const Minimum &m : minima_) {
+    const TreePrimitive &p = view_.primitives[m.primitive];
+    piece_vertices_.insert(piece_vertices_.end(), p.vertex, p.vertex + n_corners(p.code));
+  }
+  std::sort(piece_vertices_.begin(), piece_vertices_.end());
+  piece_vertices_.erase(std::unique(piece_vertices_.begin(), piece_vertices_.end()),
+                        piece_vertices_.end());
+  piece_of_.resize(piece_vertices_.size());
+  std::iota(piece_of_.begin(), piece_of_.end(), 0);
+  const auto lowest = [&](std::uint32_t v) {
+    while (piece_of_[v] != v) v = piece_of_[v] = piece_of_[piece_of_[v]];
+    return v;
+  };
+  for (const Minimum &m : minima_) {
+    std::uint32_t first = kNoPrimitive;
+    each_vertex(m, [&](std::uint32_t v) {
+      if (first == kNoPrimitive) first = v;
+      const std::uint32_t a = lowest(first), b = lowest(v);
+      piece_of_[std::max(a, b)] = std::min(a, b);
+    });
+  }
+  const auto piece = [&](const Minimum &m) {
+    std::uint32_t of = kNoPrimitive;
+    each_vertex(m, [&](std::uint32_t v) { of = lowest(v); });
+    return of;
+  };
+  deepest_.assign(piece_vertices_.size(), nullptr);
+  for (const Minimum &m : minima_) {
+    const Minimum *&deepest = deepest_[piece(m)];
+    if (!deepest || m.at.distance < deepest->at.distance) deepest = &m;
+  }
+  for (const Minimum &m : local_) deepest_[piece(m)] = nullptr;
+  for (const Minimum *m : deepest_)
+    if (m) local_.push_back(*m);
 }
 
 // Adds the local minima to `found`, in the order of their features.

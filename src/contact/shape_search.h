@@ -138,6 +138,7 @@ class ShapeSearch {
   bool is_local(const PlacedGrain &grain, const Minimum &m) const;
   bool rises_around(const PlacedGrain &grain, const Minimum &m) const;
   bool none_is_deeper(const PlacedGrain &grain, const Minimum &m) const;
+  void add_passed_on();
   void add_contacts(const PlacedGrain &grain, std::vector<ShapeContact> &found);
   void merge(const PlacedGrain &grain);
   bool are_same(const PlacedGrain &grain, const Minimum &a, const Minimum &b) const;
@@ -155,7 +156,9 @@ class ShapeSearch {
   std::vector<char> owned_;    // of planes: it has the foot of its deep minimum in a face
   std::vector<Line> lines_;
   std::vector<Minimum> minima_, local_;
-  std::vector<std::size_t> same_as_;    // of local_
+  std::vector<std::uint32_t> piece_vertices_, piece_of_;
+  std::vector<const Minimum *> deepest_;    // of pieces
+  std::vector<std::size_t> same_as_;        // of local_
   mutable std::vector<int> around_;
 };
 
