@@ -151,12 +151,13 @@ class ShapeSearch {
   std::vector<std::uint32_t> faces_, numbers_, whole_;    // of a list that is made
   std::vector<State> edge_, vertex_;
   std::vector<DeepFace> deep_;
-  bool passed_deep_ =
-      false;    // has an edge been passed where the overlap is not less than the least radius of curvature?
+  // Has an edge been passed where the overlap is not less than the least radius of curvature?
+  bool passed_deep_ = false;
   std::vector<char> owned_;    // of planes: it has the foot of its deep minimum in a face
   std::vector<Line> lines_;
   std::vector<Minimum> minima_, local_;
-  std::vector<std::uint32_t> piece_vertices_, piece_of_;
+  std::vector<std::uint32_t> piece_vertices_,
+      piece_of_;                            // of minima_; of each vertex, by the lowest
   std::vector<const Minimum *> deepest_;    // of pieces
   std::vector<std::size_t> same_as_;        // of local_
   mutable std::vector<int> around_;
