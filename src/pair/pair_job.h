@@ -80,9 +80,9 @@ struct PairForce {
   Real heat;              // power into i
   Real energy;            // elastic, as ContactForce has it
 
-  Vec3 force() const { return push * normal + friction; }    // on i; j has its opposite
-  Vec3 torque_i() const { return contact_torque - arm_i * cross(normal, friction); }
-  Vec3 torque_j() const { return -arm_j * cross(normal, friction) - contact_torque; }
+  LSDCD_FN Vec3 force() const { return push * normal + friction; }    // on i; j has its opposite
+  LSDCD_FN Vec3 torque_i() const { return contact_torque - arm_i * cross(normal, friction); }
+  LSDCD_FN Vec3 torque_j() const { return -arm_j * cross(normal, friction) - contact_torque; }
 };
 
 // A force with its grains, where the host asks for these one by one.
@@ -148,8 +148,9 @@ LSDCD_FN Vec3 vec_of(const Real *all, int i)
   return {all[3 * i], all[3 * i + 1], all[3 * i + 2]};
 }
 
-// The reduced mass of a grain and one that does not move is that of the first.
-LSDCD_FN Real reduced_mass(const PairJob &job, int i, int j, Real mass_i, Real mass_j)
+// The reduced mass of a grain and one that does not move is that of the first. Job: with `mask` and `frozen` as in PairJob.
+template <class Job>
+LSDCD_FN Real reduced_mass(const Job &job, int i, int j, Real mass_i, Real mass_j)
 {
   if (job.mask) {
     if (job.mask[j] & job.frozen) return mass_i;

@@ -12,17 +12,21 @@
 
 namespace lsdcd {
 
+// Does adhesion hold grains beyond contact? `pull_off`: see ContactLaw::pull_off().
+LSDCD_FN bool is_held(const GrainPair &p, Real pull_off)
+{
+  const Real sum = p.radius_i + p.radius_j;
+  const Real reach = sum + pull_off * cube_root(p.radius_i * p.radius_j / sum);
+  return p.distance_sq < reach * reach;
+}
+
 // Do the grains touch, or does adhesion hold them? It holds those that have touched.
 template <class Law>
 LSDCD_FN bool pair_touches(const Law &law, const GrainPair &p, bool touched)
 {
   const Real sum = p.radius_i + p.radius_j;
   if (p.distance_sq < sum * sum) return true;
-  if constexpr (Law::kBeyondContact) {
-    if (!touched) return false;
-    const Real reach = sum + law.elastic.pull_off * cube_root(p.radius_i * p.radius_j / sum);
-    return p.distance_sq < reach * reach;
-  }
+  if constexpr (Law::kBeyondContact) return touched && is_held(p, law.elastic.pull_off);
   return false;
 }
 
