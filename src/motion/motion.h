@@ -95,6 +95,8 @@ class RigidMotion {
   bool is_posed() const { return is_posed_; }
 
   bool moves() const { return !terms_.empty(); }
+  // Returns whether it may move the mesh: a motion that was stopped, or whose servo was taken away, does not.
+  bool acts() const { return moves() || (servo_.present && !servo_.holds) || is_posed_; }
   // false: the mesh is as its file has it
   bool any() const { return moves() || servo_.present || start_.placed || is_posed_; }
 

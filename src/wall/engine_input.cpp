@@ -7,6 +7,18 @@
 
 namespace lsdcd {
 
+EngineInput::EngineInput(const Host &host, const WallSpec &wall, const LawTable &laws,
+                         const std::deque<MeshPart> &meshes) :
+    host_(host),
+    wall_(wall), laws_(laws), meshes_(meshes),
+    has_surfaces_(wall.meshes.size() > 1 || wall.meshes.front().surface_varies()),
+    has_heat_(wall.law().has_heat())
+{
+  of_all_steps_.per_sphere = wall.contacts || wall.each_contact;
+  of_all_steps_.contacts = wall.has_loads() || wall.each_contact;
+  of_all_steps_.totals = wall.average_every > 0;
+}
+
 EngineSettings EngineInput::settings(Device device, bool virial, bool pushed) const
 {
   EngineSettings want;
@@ -20,7 +32,7 @@ EngineSettings EngineInput::settings(Device device, bool virial, bool pushed) co
     want.nodes |= m.nodes() != nullptr;
     if (!want.surface.moves()) want.surface = m.spec.surface;
   }
-  want.contacts = wall_.has_loads() || wall_.each_contact || virial;
+  want.contacts = of_all_steps_.contacts || virial;
   want.bodies = pushed;
   want.wear = wall_.wear.model;
   want.device = device;
@@ -31,16 +43,15 @@ EngineSettings EngineInput::settings(Device device, bool virial, bool pushed) co
 
 StepSettings EngineInput::step(const StepInput &input, const StepAsks &asks)
 {
-  StepSettings step;
+  StepSettings step = of_all_steps_;
   step.number = input.step.number;
   step.dt = input.step.dt;
   step.update_history = input.step.kind == Step::step;
   step.synchronous = input.step.synchronous;
-  step.per_sphere = wall_.contacts || wall_.each_contact || asks.contacts;
-  step.contacts = wall_.has_loads() || wall_.each_contact || input.virial || asks.contacts;
-  step.totals = asks.totals || wall_.average_every > 0;
-  const bool several = meshes_.size() > 1;
-  if (several || wall_.meshes.front().surface_varies()) {
+  step.per_sphere |= asks.contacts;
+  step.contacts |= input.virial || asks.contacts;
+  step.totals |= asks.totals;
+  if (has_surfaces_) {
     surfaces_.clear();
     for (const MeshPart &m : meshes_) surfaces_.push_back(m.mover.surface_motion());
     step.surface = surfaces_.data();
@@ -50,14 +61,14 @@ StepSettings EngineInput::step(const StepInput &input, const StepAsks &asks)
     for (const MeshPart &m : meshes_) mobilities_.push_back(m.mobility());
     step.mobility = mobilities_.data();
   }
-  if (!wall_.law().has_heat()) return step;
+  if (!has_heat_) return step;
   temperatures_.clear();
   for (const MeshSpec &m : wall_.meshes)
     temperatures_.push_back(m.temperature_input == kNoInput
                                 ? m.temperature
                                 : input.inputs.at(static_cast<std::size_t>(m.temperature_input)));
   step.wall_temperature = temperatures_.front();
-  if (several) step.mesh_temperature = temperatures_.data();
+  if (meshes_.size() > 1) step.mesh_temperature = temperatures_.data();
   return step;
 }
 

@@ -23,11 +23,7 @@ class EngineInput {
  public:
   // All must outlive it.
   EngineInput(const Host &host, const WallSpec &wall, const LawTable &laws,
-              const std::deque<MeshPart> &meshes) :
-      host_(host),
-      wall_(wall), laws_(laws), meshes_(meshes)
-  {
-  }
+              const std::deque<MeshPart> &meshes);
 
   // Returns the settings of an engine on this device. `virial`: contacts will be asked for. `pushed`: a mesh is, or was, moved by its loads.
   EngineSettings settings(Device device, bool virial, bool pushed) const;
@@ -39,6 +35,8 @@ class EngineInput {
   const WallSpec &wall_;
   const LawTable &laws_;
   const std::deque<MeshPart> &meshes_;
+  StepSettings of_all_steps_;
+  bool has_surfaces_ = false, has_heat_ = false;    // of meshes, which steps ask for
   // Of each mesh in this step.
   std::vector<SurfaceMotion> surfaces_;
   std::vector<Real> temperatures_;

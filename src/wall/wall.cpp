@@ -74,12 +74,16 @@ std::string Wall::named(const MeshPart &m, const std::string &text) const
 
 void Wall::list_meshes()
 {
-  for (std::vector<MeshPart *> *list : {&moving_, &changing_, &bodies_, &servos_}) list->clear();
+  for (std::vector<MeshPart *> *list :
+       {&placed_, &moving_, &changing_, &bodies_, &servos_, &recorded_})
+    list->clear();
   for (MeshPart &m : meshes_) {
+    if (m.moves()) placed_.push_back(&m);
     if (m.moves() || m.spec.surface_varies()) moving_.push_back(&m);
     if (m.surface->changes()) changing_.push_back(&m);
     if (m.body) bodies_.push_back(&m);
     if (m.servo().present) servos_.push_back(&m);
+    if (spec_.has_loads(m.spec)) recorded_.push_back(&m);
   }
 }
 
@@ -115,6 +119,7 @@ void Wall::make_engine()
   engine_ = std::move(made);
   history_.set_engine(*engine_, backend_.in_place);
   grids_.set_engine(*engine_);
+  for (const MeshPart *m : placed_) engine_->set_pose(m->pose(), m->index);
 }
 
 // Replaces the engine where one for other settings, or on another device, is due. What the last one knows of its step is asked for first.
@@ -189,11 +194,29 @@ void Wall::begin_run(std::int64_t step, bool virial)
 void Wall::begin(const HostSpheres &spheres, const StepInput &input)
 {
   settle(spheres, input);
+  open_step(spheres, input);
+  change_surfaces(input.step);
+  move(spheres);
+  place_grids(spheres);
+  give_poses();
+  if (input.new_spheres) look_at_new_spheres(spheres);
+  failure_.reset();    // that of the last step is asked for until here
+  if (cutoff() == 0) return;
+  guard(spheres, [&] {
+    history_.to_engine(spheres.n);
+    engine_->begin(input.when);
+  });
+}
+
+// Takes over what the host says of a step, and drops what it no longer allows.
+void Wall::open_step(const HostSpheres &spheres, const StepInput &input)
+{
+  const Step &step = input.step;
   input_ = input;
   has_begun_ = is_running_ = true;
+  is_set_up_ = step.kind == Step::setup;
   if (history_.room() < spheres.n) history_.grow(spheres.n);
   keeper_.end_restoring();
-  const Step &step = input.step;
   if (step.kind == Step::snapshot) {
     snapshots_.check(meshes_, step);
     history_.clear();
@@ -203,28 +226,6 @@ void Wall::begin(const HostSpheres &spheres, const StepInput &input)
     check_history(spheres.n);
   }
   clock_.advance(step);
-  is_set_up_ = step.kind == Step::setup;
-  change_surfaces(step);
-  move(spheres, step);
-  if (input.look)
-    look_at_spheres(spheres, step.number);
-  else if (input.box_changes && grids_.fit_box(step.number))
-    engine_->expire_choice();
-  if (!moving_.empty()) {
-    box_checks_.check_moving(grids_.box(), cutoff(), step);
-    box_checks_.check_gone(grids_.box(), cutoff(), step.number);
-    for (const MeshPart *m : moving_) engine_->set_pose(m->pose(), m->index);
-  }
-  if (input.new_spheres) {
-    if (cutoff() > 0) timestep_.check(step.dt, on_cpu(spheres).all());
-    look_at_range(spheres);
-  }
-  failure_.reset();    // that of the last step is asked for until here
-  if (cutoff() == 0) return;
-  guard(spheres, [&] {
-    history_.to_engine(spheres.n);
-    engine_->begin(input.when);
-  });
 }
 
 // A restored history names features of the old mesh and has numbers of the old law: drops what does not fit.
@@ -238,8 +239,9 @@ void Wall::check_history(int n)
 }
 
 // Poses last: what servos ask for is of where meshes were.
-void Wall::move(const HostSpheres &spheres, const Step &step)
+void Wall::move(const HostSpheres &spheres)
 {
+  const Step &step = input_.step;
   if (!bodies_.empty() && !range_is_known_) look_at_range(spheres);
   complete_bodies();
   for (MeshPart *m : moving_)
@@ -252,6 +254,32 @@ void Wall::move(const HostSpheres &spheres, const Step &step)
     m->surface->begin(step, cutoff());
     if (largest_within_ > 0) check_way(host_, spec_, *m, step, largest_within_, on_cpu(spheres));
   }
+}
+
+// Builds the grids that do not fit the spheres or the box of this step, and refuses meshes that do not.
+void Wall::place_grids(const HostSpheres &spheres)
+{
+  const std::int64_t step = input_.step.number;
+  if (input_.look)
+    look_at_spheres(spheres);
+  else if (input_.box_changes && grids_.fit_box(step))
+    engine_->expire_choice();
+  if (placed_.empty()) return;
+  // A mesh that rests stays where the last box had it.
+  if (moving_.empty() && !input_.look && !input_.box_changes) return;
+  box_checks_.check_moving(placed_, grids_.box(), cutoff(), input_.step);
+  box_checks_.check_gone(placed_, grids_.box(), cutoff(), step);
+}
+
+void Wall::give_poses()
+{
+  for (const MeshPart *m : moving_) engine_->set_pose(m->pose(), m->index);
+}
+
+void Wall::look_at_new_spheres(const HostSpheres &spheres)
+{
+  if (cutoff() > 0) timestep_.check(input_.step.dt, on_cpu(spheres).all());
+  look_at_range(spheres);
 }
 
 // Returns how many spheres were near the wall in the last step, on the process that has most.
@@ -302,7 +330,7 @@ const BodyMover *Wall::body(int mesh)
   return meshes_[mesh].body;
 }
 
-void Wall::look_at_spheres(const HostSpheres &spheres, std::int64_t step)
+void Wall::look_at_spheres(const HostSpheres &spheres)
 {
   Spheres s = spheres;
   if (spheres.group_changes) s.mask = nullptr;    // others may join between two looks
@@ -313,7 +341,8 @@ void Wall::look_at_spheres(const HostSpheres &spheres, std::int64_t step)
   overlaps_.check_sharp();
   largest_within_ = most[2];
   if (most[0] == 0 && !points_warned_) points_warned_ = warn_of_points(host_, on_cpu(spheres));
-  if ((most[0] > 0 || coats_.any()) && grids_.fit_spheres(most[0], on_cpu(spheres), step))
+  if ((most[0] > 0 || coats_.any()) &&
+      grids_.fit_spheres(most[0], on_cpu(spheres), input_.step.number))
     engine_->expire_choice();
 }
 
@@ -426,18 +455,27 @@ void Wall::collect(int n)
 void Wall::finish(const HostSpheres &spheres)
 {
   submit(spheres);
-  if (coats_.any()) {
+  if (!bodies_.empty() && coats_.any()) {
     times_.begin();
     coats_.step(input_.step);
     times_.end(TimeReport::forces);
   }
   guard(spheres, [&] { collect(spheres.n); });
   totals_.expire();
-  for (const MeshPart *m : moving_) poses_[m->index] = m->pose();
+  if (!moving_.empty()) note_poses();
   for (MeshPart *m : bodies_) m->body->end(input_.step, results());
   if (cutoff() > 0) nodes_.agree_on_forces(failure_.has_value());
   note_step(spheres);
   if (failure_) throw InputError(*failure_);
+}
+
+// Keeps where meshes are in this step. One that has come to rest has nothing to do in the next.
+void Wall::note_poses()
+{
+  for (const MeshPart *m : moving_) poses_[m->index] = m->pose();
+  moving_.erase(std::remove_if(moving_.begin(), moving_.end(),
+                               [](const MeshPart *m) { return m->is_at_rest(); }),
+                moving_.end());
 }
 
 // Returns what the last step left on this process, or null where there is none.
@@ -454,10 +492,10 @@ void Wall::note_step(const HostSpheres &spheres)
   StepResults *const left = results();
   if (spec_.average_every > 0 && step.kind == Step::step)
     means_.add(step, left, poses_, nodes_.loads(), coats_.loads());
-  if (spec_.has_loads() && step.kind == Step::step)    // what sets a run up has no duration
-    for (const MeshPart &m : meshes_)
-      loads_.add(m.index, left ? left->contacts() : none, step.dt,
-                 left ? m.records() : MeshFeaturesView());
+  if (step.kind == Step::step)    // what sets a run up has no duration
+    for (const MeshPart *m : recorded_)
+      loads_.add(m->index, left ? left->contacts() : none, step.dt,
+                 left ? m->records() : MeshFeaturesView());
   for (const MeshPart *m : changing_)
     if (left) m->surface->end(*left, step);
   if (step.kind == Step::setup) log_new_springs(step);

@@ -199,6 +199,7 @@ class Wall {
   }
   void make_engine();
   void settle(const HostSpheres &spheres, const StepInput &input);
+  void open_step(const HostSpheres &spheres, const StepInput &input);
   void log_creation(const std::string &material, const WallBackend &backend) const;
   std::string named(const MeshPart &m, const std::string &text) const;
   SpheresOnCpu on_cpu(const HostSpheres &spheres) const
@@ -213,8 +214,11 @@ class Wall {
   const StepTotals &sums();
   Real most_candidates();
   void log_device(Real near);
-  void move(const HostSpheres &spheres, const Step &step);
-  void look_at_spheres(const HostSpheres &spheres, std::int64_t step);
+  void move(const HostSpheres &spheres);
+  void place_grids(const HostSpheres &spheres);
+  void give_poses();
+  void look_at_spheres(const HostSpheres &spheres);
+  void look_at_new_spheres(const HostSpheres &spheres);
   void look_at_range(const HostSpheres &spheres);
   ServoLoad servo_load(int mesh);
   void complete_bodies();
@@ -222,6 +226,7 @@ class Wall {
   StepSettings step_settings();
   void collect(int n);
   StepResults *results() const;
+  void note_poses();
   void note_step(const HostSpheres &spheres);
   Real pressure(int mesh) const;    // in this step, in units of forces
 
@@ -243,9 +248,10 @@ class Wall {
   StepClock clock_;
   Real pressure_unit_;             // of inputs
   std::deque<MeshPart> meshes_;    // where each stays; there is one at least
-  // Lists of them, in their order: who has nothing to do in a step is in none. Those that move, or were moved, or have a surface
-  // that moves; whose own shape changes; that are bodies; that have a servo.
-  std::vector<MeshPart *> moving_, changing_, bodies_, servos_;
+  // Lists of them, in their order: who has nothing to do in a step is in none. Those that are, or may be, where their file does not
+  // have them; of these, and of those whose surface varies, those that may move in the next step; whose own shape changes; that are
+  // bodies; that have a servo; whose loads are recorded.
+  std::vector<MeshPart *> placed_, moving_, changing_, bodies_, servos_, recorded_;
   EngineInput engine_input_;
   BodyCoats coats_;
   DeviceChoice device_;

@@ -158,11 +158,13 @@ void BoxChecks::check_ends(const MeshPart &m, bool box_changed)
 }
 
 // A mesh may begin outside of the box and come in. One that was in it and has left acts on nothing.
-void BoxChecks::check_gone(const PeriodicBox &box, Real cutoff, std::int64_t step)
+void BoxChecks::check_gone(const std::vector<MeshPart *> &placed, const PeriodicBox &box,
+                           Real cutoff, std::int64_t step)
 {
-  for (const MeshPart &m : meshes_) {
+  for (const MeshPart *mesh : placed) {
+    const MeshPart &m = *mesh;
     Warned &warned_of_mesh = warned_[m.index];
-    if (!m.moves() || warned_of_mesh.gone_warned) continue;
+    if (warned_of_mesh.gone_warned) continue;
     const Box now = placed_bounds(m.pose(), m.bounds(0));
     const bool in_box = outside_box(now, box, cutoff).empty();
     warned_of_mesh.was_in_box |= in_box;
@@ -256,12 +258,12 @@ void BoxChecks::look_ahead(const MeshPart &m, const PeriodicBox &box, Real cutof
   }
 }
 
-void BoxChecks::check_moving(const PeriodicBox &box, Real cutoff, const Step &now)
+void BoxChecks::check_moving(const std::vector<MeshPart *> &placed, const PeriodicBox &box,
+                             Real cutoff, const Step &now)
 {
-  for (const MeshPart &m : meshes_) {
-    if (!m.moves()) continue;
-    check_pose(m, m.pose(), box, cutoff, " at step " + std::to_string(now.number));
-    if (now.kind != Step::step) look_ahead(m, box, cutoff);
+  for (const MeshPart *m : placed) {
+    check_pose(*m, m->pose(), box, cutoff, " at step " + std::to_string(now.number));
+    if (now.kind != Step::step) look_ahead(*m, box, cutoff);
   }
 }
 

@@ -42,14 +42,16 @@ class BoxChecks {
   // did meet before the box changed.
   void check_ends(const MeshPart &m, bool box_changed);
 
-  // In each step.
+  // In each step in which something moves, or the box may; `placed`: the meshes that move or were moved.
 
   // Throws where a mesh comes to a periodic face and its images would not move as it does. In the step
   // that sets a run up it looks ahead over the longest period, and warns of a mesh that will turn out of
   // the box through a fixed face. Collective.
-  void check_moving(const PeriodicBox &box, Real cutoff, const Step &now);
+  void check_moving(const std::vector<MeshPart *> &placed, const PeriodicBox &box, Real cutoff,
+                    const Step &now);
   // Warns of a mesh that has moved out of the box.
-  void check_gone(const PeriodicBox &box, Real cutoff, std::int64_t step);
+  void check_gone(const std::vector<MeshPart *> &placed, const PeriodicBox &box, Real cutoff,
+                  std::int64_t step);
 
  private:
   std::string named(const MeshPart &m, const std::string &text) const;
