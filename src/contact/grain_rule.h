@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// How the contacts of a grain that is no sphere share its overlaps (doc/theory.md): the corner rule with a cover by the curvature
-// of the grain, and a fade of contacts that end at a fold.
+// How the contacts of a grain that is no sphere share its overlaps (doc/notes/corners.md): the corner rule with a cover by the
+// curvature of the grain, and a fade of contacts that end at a fold.
 #pragma once
 
 #include "contact/corner.h"

@@ -34,7 +34,7 @@ LongVec scaled(Long f, const LongVec &a)
   return {f * a.x, f * a.y, f * a.z};
 }
 
-// The formulas of doc/theory.md.
+// The formulas of doc/notes/corners.md.
 class Reference {
  public:
   explicit Reference(const Pose &pose) : pose_(pose), oracle_(pose.shape), n_(pose.n())
