@@ -25,36 +25,17 @@
 using namespace LAMMPS_NS;
 using namespace FixConst;
 
-static AtomKokkos *kokkos_atoms(Atom *atom)
-{
-  return static_cast<AtomKokkos *>(atom);
-}
-
-// The plain fix looks at atoms as soon as it is made.
-static LAMMPS *with_atoms_on_cpu(LAMMPS *lmp, const char *id)
-{
-  if (!lmp->kokkos)
-    lmp->error->all(FLERR, "Fix " + std::string(id) +
-                               " wall/lsdcd/kk: LAMMPS runs without Kokkos: "
-                               "start it with -k on, or use wall/lsdcd");
-  kokkos_atoms(lmp->atom)->sync(Host, RADIUS_MASK | MASK_MASK | TYPE_MASK);
-  return lmp;
-}
-
 template <class DeviceType>
 FixWallLsdcdKokkos<DeviceType>::FixWallLsdcdKokkos(LAMMPS *lmp, int narg, char **arg) :
     FixWallLsdcd(
-        with_atoms_on_cpu(lmp, arg[0]), narg, arg,
+        lsdcd::with_atoms_on_cpu(lmp, arg[0], "wall/lsdcd", RADIUS_MASK | MASK_MASK | TYPE_MASK),
+        narg, arg,
         lsdcd::WallBackend{
             [this](const lsdcd::EngineSettings &settings) { return make_engine(settings); }, true,
             [this](const lsdcd::HostSpheres &, lsdcd::CpuArrays arrays) { return to_cpu(arrays); }})
 {
-  kokkosable = 1;
-  atomKK = kokkos_atoms(atom);
-  execution_space = ExecutionSpaceFromDevice<DeviceType>::space;
-  // Each place names what it reads and changes.
-  datamask_read = EMPTY_MASK;
-  datamask_modify = EMPTY_MASK;
+  atomKK = static_cast<AtomKokkos *>(atom);
+  lsdcd::bring_no_atoms(*this, ExecutionSpaceFromDevice<DeviceType>::space);
   exchange_comm_device = sort_device = std::is_same<DeviceType, LMPDeviceType>::value;
 }
 

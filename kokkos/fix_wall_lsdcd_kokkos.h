@@ -48,7 +48,6 @@ class FixWallLsdcdKokkos : public FixWallLsdcd, public KokkosBase {
   void log_rounding();
   void warn_of_rounding();
   bool others_only_add() const;
-  static bool sends_from_host(ExecutionSpace);
   int pack_rows(int, const int *, const int *, double *);
   void unpack_rows(int, const int *, const double *);
 

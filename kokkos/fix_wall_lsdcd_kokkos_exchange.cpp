@@ -8,13 +8,6 @@
 
 using namespace LAMMPS_NS;
 
-// Atoms on a GPU whose messages leave from the host.
-template <class DeviceType>
-bool FixWallLsdcdKokkos<DeviceType>::sends_from_host(ExecutionSpace space)
-{
-  return !lsdcd::kOnCpu<DeviceType> && space != Device;
-}
-
 // Numbers on the device as an array on the host, and the other way.
 template <class DeviceType, class T>
 static std::vector<std::remove_const_t<T>> copied_to_cpu(T *from, std::size_t n)
@@ -82,7 +75,7 @@ int FixWallLsdcdKokkos<DeviceType>::pack_exchange_kokkos(const int &n,
   int size = pack_rows(n, leaves, comes, at);
   if (has_history())
     size += wall->history().in_engine(atom->nlocal).pack(n, leaves, comes, at + size);
-  if (sends_from_host(space)) {
+  if (lsdcd::sends_from_host<DeviceType>(space)) {
     buffer.template modify<DeviceType>();
     buffer.template sync<LMPHostType>();
   }
@@ -96,7 +89,7 @@ void FixWallLsdcdKokkos<DeviceType>::unpack_exchange_kokkos(lsdcd::ExchangeBuffe
                                                             ExecutionSpace space)
 {
   buffer.clear_sync_state();
-  if (sends_from_host(space)) buffer.template modify<LMPHostType>();
+  if (lsdcd::sends_from_host<DeviceType>(space)) buffer.template modify<LMPHostType>();
   buffer.template sync<DeviceType>();
   to.template sync<DeviceType>();
   const int *places = to.template view<DeviceType>().data();

@@ -1,22 +1,32 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: GPL-2.0-only
 
-// fix wall/lsdcd/kk as LAMMPS makes it: see lammps/guarded_styles.h.
+// Fixes with data of atoms on the device as LAMMPS makes them: see lammps/guarded_styles.h.
 #ifndef LMP_GUARDED_FIX_KOKKOS_H
 #define LMP_GUARDED_FIX_KOKKOS_H
 
-#include "fix_wall_lsdcd_kokkos.h"
+#include "host_kokkos.h"
 
 #include "lammps/guarded_styles.h"
 
+#include <cstring>
+
 namespace LAMMPS_NS {
 
-template <class DeviceType>
-class GuardedFixKokkos : public GuardedFix<FixWallLsdcdKokkos<DeviceType>> {
-  using Style = FixWallLsdcdKokkos<DeviceType>;
+template <class Style>
+class GuardedFixKokkos : public GuardedFix<Style> {
+  using typename Style::BinOp, typename Style::KeyViewType;
 
  public:
-  GuardedFixKokkos(class LAMMPS *lmp, int narg, char **arg) : GuardedFix<Style>(lmp, narg, arg) {}
+  using GuardedFix<Style>::GuardedFix;
+
+  // Restart files keep data of atoms under the name of a style: it is the same for both forms, so that each takes up that of the other.
+  void post_constructor() override
+  {
+    GuardedFix<Style>::post_constructor();
+    char *const suffix = std::strstr(this->style, "/kk");
+    if (suffix) *suffix = 0;
+  }
 
   // On one process, whatever the others do.
   int pack_exchange_kokkos(const int &n, lsdcd::ExchangeBuffer &buffer, DAT::tdual_int_1d which,
@@ -31,7 +41,7 @@ class GuardedFixKokkos : public GuardedFix<FixWallLsdcdKokkos<DeviceType>> {
     this->run_core_here(
         [&] { Style::unpack_exchange_kokkos(buffer, to, n, n_first, second, space); });
   }
-  void sort_kokkos(Kokkos::BinSort<KokkosBase::KeyViewType, KokkosBase::BinOp> &sorter) override
+  void sort_kokkos(Kokkos::BinSort<KeyViewType, BinOp> &sorter) override
   {
     this->run_core_here([&] { Style::sort_kokkos(sorter); });
   }

@@ -7,6 +7,9 @@
 
 #include "atom_kokkos.h"
 #include "atom_masks.h"
+#include "error.h"
+#include "fix.h"
+#include "kokkos.h"
 #include "kokkos_base.h"
 #include "kokkos_type.h"
 
@@ -16,6 +19,7 @@
 #include "engine/engine.h"
 
 #include <memory>
+#include <string>
 #include <type_traits>
 
 namespace lsdcd {
@@ -56,6 +60,47 @@ template <class DeviceType>
 constexpr bool kOnCpu =
     Kokkos::SpaceAccessibility<Kokkos::HostSpace,
                                typename DeviceType::execution_space::memory_space>::accessible;
+
+// Do the atoms of a device live on a GPU while messages leave from the host?
+template <class DeviceType>
+bool sends_from_host(LAMMPS_NS::ExecutionSpace space)
+{
+  return !kOnCpu<DeviceType> && space != LAMMPS_NS::Device;
+}
+
+// Returns LAMMPS where it runs with Kokkos and the host has the atoms of `mask`, which the constructor of a fix without /kk
+// looks at.
+inline LAMMPS_NS::LAMMPS *with_atoms_on_cpu(LAMMPS_NS::LAMMPS *lmp, const std::string &id,
+                                            const std::string &style, std::uint64_t mask)
+{
+  if (!lmp->kokkos)
+    lmp->error->all(FLERR, "Fix " + id + " " + style +
+                               "/kk: LAMMPS runs without Kokkos: start it with -k on, or use " +
+                               style);
+  static_cast<LAMMPS_NS::AtomKokkos *>(lmp->atom)->sync(LAMMPS_NS::Host, mask);
+  return lmp;
+}
+
+// LAMMPS brings the fix no atom and takes none back: each place of it names what it reads and changes.
+inline void bring_no_atoms(LAMMPS_NS::Fix &fix, LAMMPS_NS::ExecutionSpace space)
+{
+  fix.kokkosable = 1;
+  fix.execution_space = space;
+  fix.datamask_read = fix.datamask_modify = EMPTY_MASK;
+}
+
+// Runs work as LAMMPS runs fixes without /kk: all atoms go to the host before, and count as changed there after.
+template <class Work>
+void run_on_host(LAMMPS_NS::LAMMPS *lmp, Work &&work)
+{
+  auto &atoms = *static_cast<LAMMPS_NS::AtomKokkos *>(lmp->atom);
+  atoms.sync(LAMMPS_NS::Host, ALL_MASK);
+  const int before = lmp->kokkos->auto_sync;
+  lmp->kokkos->auto_sync = 1;
+  work();
+  lmp->kokkos->auto_sync = before;
+  atoms.modified(LAMMPS_NS::Host, ALL_MASK);
+}
 
 // The engine whose memory is that of a Kokkos device.
 template <class DeviceType>

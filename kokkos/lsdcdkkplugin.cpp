@@ -1,8 +1,11 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: GPL-2.0-only
 
-// Registers the styles of this library, and fix wall/lsdcd/kk, with the Kokkos LAMMPS that loads this file.
+// Registers the styles of this library, and their forms for Kokkos, with the Kokkos LAMMPS that loads this file.
 
+#include "fix_insert_lsdcd_kokkos.h"
+#include "fix_massflow_lsdcd_kokkos.h"
+#include "fix_wall_lsdcd_kokkos.h"
 #include "guarded_fix_kokkos.h"
 
 #include "lammps/plugin_styles.h"
@@ -12,7 +15,7 @@
 #include <sstream>
 #include <string>
 
-using LAMMPS_NS::GuardedFixKokkos;
+using namespace LAMMPS_NS;
 using lsdcd::create_fix;
 
 static std::string version_text(int version)
@@ -61,7 +64,14 @@ extern "C" __attribute__((visibility("default"))) void lsdcd_add_styles(void *lm
   const auto add = [&](const char *name, lammpsplugin_factory2 *create) {
     lsdcd::add_style("fix", lmp, handle, regfunc, name, "the same with Kokkos", create);
   };
-  add("wall/lsdcd/kk", create_fix<GuardedFixKokkos<LMPDeviceType>>);
-  add("wall/lsdcd/kk/device", create_fix<GuardedFixKokkos<LMPDeviceType>>);
-  add("wall/lsdcd/kk/host", create_fix<GuardedFixKokkos<LMPHostType>>);
+  // Names are kept as they are given.
+  add("wall/lsdcd/kk", create_fix<GuardedFixKokkos<FixWallLsdcdKokkos<LMPDeviceType>>>);
+  add("wall/lsdcd/kk/device", create_fix<GuardedFixKokkos<FixWallLsdcdKokkos<LMPDeviceType>>>);
+  add("wall/lsdcd/kk/host", create_fix<GuardedFixKokkos<FixWallLsdcdKokkos<LMPHostType>>>);
+  add("massflow/lsdcd/kk", create_fix<GuardedFixKokkos<FixMassflowLsdcdKokkos>>);
+  add("massflow/lsdcd/kk/device", create_fix<GuardedFixKokkos<FixMassflowLsdcdKokkos>>);
+  add("massflow/lsdcd/kk/host", create_fix<GuardedFix<FixMassflowLsdcd>>);
+  add("insert/lsdcd/kk", create_fix<GuardedFix<FixInsertLsdcdKokkos>>);
+  add("insert/lsdcd/kk/device", create_fix<GuardedFix<FixInsertLsdcdKokkos>>);
+  add("insert/lsdcd/kk/host", create_fix<GuardedFix<FixInsertLsdcdKokkos>>);
 }

@@ -53,6 +53,17 @@ Real distance(const Corners &t, const Vec3 &q)
 
 }    // namespace
 
+FlowBoxes::FlowBoxes(const BoxTreeView &view, const Box &of_all, const PeriodicBox &box) :
+    tree(view), in_fractions(lsdcd::in_fractions(of_all, box)),
+    faces(periodic_faces(box)), edge{box.edge[0], box.edge[1], box.edge[2]},
+    any_periodic(box.any_periodic()), largest(0)
+{
+  for (int k = 0; k < 3; k++) {
+    largest = std::max({largest, std::fabs(of_all.lo[k]), std::fabs(of_all.hi[k])});
+    if (box.periodic[k]) largest = std::max(largest, norm(box.edge[k]));
+  }
+}
+
 FlowSurface::FlowSurface(const WeldedMesh &mesh) :
     vertices_(mesh.vertices), faces_(mesh.faces), tree_(boxes_of(mesh))
 {

@@ -4,6 +4,7 @@
 // A surface that exerts no force and counts what passes it.
 #pragma once
 
+#include "flow/flow_boxes.h"
 #include "flow/path.h"
 #include "mesh/box_tree.h"
 #include "mesh/welded_mesh.h"
@@ -38,6 +39,8 @@ class FlowSurface {
   // Returns how far images have moved at most because the box has changed; clearances change by that.
   Real images_move(const PeriodicBox &before, const PeriodicBox &now) const;
 
+  const BoxTree &tree() const { return tree_; }    // of the boxes around faces
+
   std::size_t bytes() const
   {
     return tree_.bytes() + vertices_.capacity() * sizeof(Vec3) +
@@ -51,7 +54,7 @@ class FlowSurface {
 
   std::vector<Vec3> vertices_;
   std::vector<std::array<int, 3>> faces_;
-  BoxTree tree_;    // of the boxes around faces
+  BoxTree tree_;
 };
 
 }    // namespace lsdcd

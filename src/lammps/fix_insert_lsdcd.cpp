@@ -331,10 +331,15 @@ std::vector<Insertion::Placed> FixInsertLsdcd::choose(lsdcd::Refused &refused)
   return placed;
 }
 
+bool FixInsertLsdcd::is_due() const
+{
+  return update->ntimestep == next_reneighbor;
+}
+
 void FixInsertLsdcd::pre_exchange()
 {
+  if (!is_due()) return;
   const std::int64_t step = update->ntimestep;
-  if (step != next_reneighbor) return;
   walls->begin_step();
   lsdcd::Refused refused;
   do {

@@ -40,6 +40,9 @@ class FixInsertLsdcd : public Fix, protected OwnMessages {
   const std::string &mesh_file() const { return settings.face.file; }    // empty: a region
   double largest_radius(int type) const;    // of grains to come; 0: none of this type
 
+ protected:
+  bool is_due() const;    // in this step
+
  private:
   friend class LammpsSite;
 

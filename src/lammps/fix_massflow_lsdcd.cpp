@@ -84,11 +84,12 @@ FixMassflowLsdcd::FixMassflowLsdcd(LAMMPS *lmp, int narg, char **arg) :
   for (int i = 0; i < atom->nlocal; i++) FixMassflowLsdcd::set_arrays(i);
   atom->add_callback(Atom::GROW);
   if (restart_peratom) atom->add_callback(Atom::RESTART);
+  callbacks = true;
 }
 
 FixMassflowLsdcd::~FixMassflowLsdcd()
 {
-  if (tracks.empty()) return;    // refused
+  if (!callbacks) return;    // refused
   atom->delete_callback(id, Atom::GROW);
   if (restart_peratom) atom->delete_callback(id, Atom::RESTART);
 }
@@ -149,6 +150,11 @@ void FixMassflowLsdcd::setup(int /*vflag*/)
   time_seen = simulated_time();
   follow_box();
   all_were_seen = look_at_all = true;
+  begin_at_atoms();
+}
+
+void FixMassflowLsdcd::begin_at_atoms()
+{
   for (int i = 0; i < atom->nlocal; i++) {
     Track &t = tracks[i];
     const Vec3 x = {atom->x[i][0], atom->x[i][1], atom->x[i][2]};
@@ -166,8 +172,14 @@ double FixMassflowLsdcd::simulated_time() const
 // Images of the surface move with the box.
 void FixMassflowLsdcd::follow_box()
 {
+  settle();
   const lsdcd::PeriodicBox before = box;
   box = lsdcd::host_box(*domain);
+  box_has_changed(before);
+}
+
+void FixMassflowLsdcd::box_has_changed(const lsdcd::PeriodicBox &before)
+{
   const double moved = surface->images_move(before, box);
   for (int i = 0; moved > 0 && i < atom->nlocal; i++) tracks[i].clear -= moved;
 }
@@ -177,6 +189,19 @@ void FixMassflowLsdcd::end_of_step()
   if (domain->box_change) follow_box();
   look_at_all = look_at_all || neighbor->ago == 0 || domain->box_change ||
                 !lsdcd::atoms_stay_close(*neighbor);
+  look_at_atoms();
+  all_were_seen = look_at_all;
+  look_at_all = false;
+  reduced = false;
+  const double now = simulated_time();
+  window.time += now - time_seen;
+  time_seen = now;
+  // A restart file may bring more steps than this fix averages over.
+  if (++window.steps >= settings.every) end_window();
+}
+
+void FixMassflowLsdcd::look_at_atoms()
+{
   if (look_at_all) {
     near.clear();
     for (int i = 0; i < atom->nlocal; i++) {
@@ -186,14 +211,6 @@ void FixMassflowLsdcd::end_of_step()
   } else {
     for (const int i : near) look(i);
   }
-  all_were_seen = look_at_all;
-  look_at_all = false;
-  reduced = false;
-  const double now = simulated_time();
-  window.time += now - time_seen;
-  time_seen = now;
-  // A restart file may bring more steps than this fix averages over.
-  if (++window.steps >= settings.every) end_window();
 }
 
 // An atom that is not near was last looked at when its clearance was two skins or more, and LAMMPS
@@ -212,13 +229,9 @@ void FixMassflowLsdcd::look(int i)
     moved = norm(way);
   }
   if (moved >= t.clear) {
-    if (!was_near && !all_were_seen)
-      fatal_here("atom " + std::to_string(atom->tag_enable ? atom->tag[i] : 0) +
-                 " moved by more than the skin " + number_text(neighbor->skin) +
-                 " in one step, and whether it passed is not known: make the timestep "
-                 "smaller or the skin larger (neighbor), or let the fix look at all atoms in every "
-                 "step by neigh_modify check no");
-    count(i, surface->passes(from, x, box));
+    if (!was_near && !all_were_seen) lost_sight(atom->tag_enable ? atom->tag[i] : 0);
+    const lsdcd::Passes passes = surface->passes(from, x, box);
+    if (passes.forward + passes.backward > 0) count(passer(i), passes, t.flags);
     t.clear = 0;
   } else {
     t.clear -= moved;
@@ -228,26 +241,49 @@ void FixMassflowLsdcd::look(int i)
     t.clear = surface->clearance(x, box, far);
 }
 
+void FixMassflowLsdcd::lost_sight(std::int64_t id) const
+{
+  fatal_here("atom " + std::to_string(id) + " moved by more than the skin " +
+             number_text(neighbor->skin) +
+             " in one step, and whether it passed is not known: make the timestep "
+             "smaller or the skin larger (neighbor), or let the fix look at all atoms in every "
+             "step by neigh_modify check no");
+}
+
 double FixMassflowLsdcd::mass_of(int i) const
 {
   return atom->rmass ? atom->rmass[i] : atom->mass[atom->type[i]];
 }
 
-void FixMassflowLsdcd::count(int i, lsdcd::Passes passes)
+FixMassflowLsdcd::Passer FixMassflowLsdcd::passer(int i) const
 {
-  if (!(atom->mask[i] & groupbit)) return;
+  const double *x = atom->x[i], *v = atom->v[i];
+  return {{static_cast<double>(update->ntimestep),
+           simulated_time(),
+           static_cast<double>(atom->tag_enable ? atom->tag[i] : 0),
+           static_cast<double>(atom->type[i]),
+           atom->radius ? 2 * atom->radius[i] : 0,
+           {x[0], x[1], x[2]},
+           {v[0], v[1], v[2]},
+           0},
+          mass_of(i),
+          atom->mask[i]};
+}
+
+void FixMassflowLsdcd::count(const Passer &passer, lsdcd::Passes passes, unsigned &flags)
+{
+  if (!(passer.mask & groupbit)) return;
   const int net = passes.net();
-  unsigned &flags = tracks[i].flags;
   if (settings.deletes && net > 0) flags |= kToDelete;
   if (settings.once) {
     if (net == 0 || (flags & kCounted)) return;
     flags |= kCounted;
     passes = {net > 0, net < 0};
   }
-  double *row = &mine[kColumns * (atom->type[i] - 1)];
+  double *row = &mine[kColumns * (static_cast<int>(passer.row.type) - 1)];
   row[kForward] += passes.forward;
-  row[kForwardMass] += passes.forward * mass_of(i);
+  row[kForwardMass] += passes.forward * passer.mass;
   row[kBackward] += passes.backward;
-  row[kBackwardMass] += passes.backward * mass_of(i);
-  if (rows) keep_row(i, passes);
+  row[kBackwardMass] += passes.backward * passer.mass;
+  if (rows) keep_row(passer.row, passes);
 }

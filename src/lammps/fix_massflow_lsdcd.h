@@ -13,6 +13,7 @@
 #include "lammps/own_messages.h"
 #include "lammps/rerun_watch.h"
 
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
@@ -52,8 +53,35 @@ class FixMassflowLsdcd : public Fix, protected OwnMessages {
 
   const std::string &mesh_file() const { return settings.surface.file; }
 
- private:
+ protected:
   enum : unsigned { kCounted = 1, kToDelete = 2 };
+  // An atom that may have passed, as it is at the end of the step. direction: not yet known.
+  struct Passer {
+    lsdcd::Passage row;
+    double mass;
+    int mask;
+  };
+
+  // massflow/lsdcd/kk does these in its own way.
+  virtual void begin_at_atoms();    // of a run
+  virtual void box_has_changed(const lsdcd::PeriodicBox &before);
+  virtual void look_at_atoms();    // all, or those near the surface
+  virtual void settle() {}         // counts what waits to be counted
+  virtual unsigned &flags_of(int i) { return tracks[i].flags; }
+
+  void count(const Passer &, lsdcd::Passes, unsigned &flags);
+  [[noreturn]] void lost_sight(std::int64_t id) const;
+  double simulated_time() const;
+  void forget_tracks() { std::vector<Track>().swap(tracks); }    // for a form with others
+
+  lsdcd::MassflowSettings settings;
+  std::unique_ptr<lsdcd::FlowSurface> surface;
+  double near_within = 0;       // atoms with less clearance are near
+  bool look_at_all = true;      // in the next step
+  bool all_were_seen = true;    // in the last step
+  lsdcd::PeriodicBox box;       // of the last step
+
+ private:
   // Columns of the totals: those of a type, and what follows those of all types.
   enum { kForward, kForwardMass, kBackward, kBackwardMass, kColumns };
   enum { kDeleted, kDeletedMass, kAfterTypes };
@@ -66,16 +94,11 @@ class FixMassflowLsdcd : public Fix, protected OwnMessages {
   };
   static constexpr int kTrackSize = 5;    // in messages
 
-  lsdcd::MassflowSettings settings;
-  std::unique_ptr<lsdcd::FlowSurface> surface;
   RerunWatch watch;
   std::vector<Track> tracks;
-  std::vector<int> near;        // atoms looked at in every step
-  double near_within = 0;       // atoms with less clearance are near
-  double far = 0;               // no clearance is measured beyond
-  bool look_at_all = true;      // in the next step
-  bool all_were_seen = true;    // in the last step
-  lsdcd::PeriodicBox box;       // of the last step
+  std::vector<int> near;     // atoms looked at in every step
+  double far = 0;            // no clearance is measured beyond
+  bool callbacks = false;    // registered with Atom
 
   // On this process.
   std::vector<double> mine, totals;    // totals: of all processes, where `reduced`
@@ -101,15 +124,14 @@ class FixMassflowLsdcd : public Fix, protected OwnMessages {
   void check_size(const lsdcd::WeldedMesh &) const;
   void follow_box();
   void look(int);
-  void count(int, lsdcd::Passes);
+  Passer passer(int) const;
   void open_rows();
-  void keep_row(int, lsdcd::Passes);
+  void keep_row(lsdcd::Passage, lsdcd::Passes);
   void write_rows();
   void reduce();
   double net_mass();
   void end_window();
   double mass_of(int) const;
-  double simulated_time() const;
 };
 
 }    // namespace LAMMPS_NS

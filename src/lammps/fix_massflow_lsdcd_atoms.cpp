@@ -47,7 +47,7 @@ int FixMassflowLsdcd::unpack_exchange(int i, double *buf)
 int FixMassflowLsdcd::pack_restart(int i, double *buf)
 {
   buf[0] = size_restart(i);
-  buf[1] = tracks[i].flags;
+  buf[1] = flags_of(i);
   return size_restart(i);
 }
 
@@ -55,7 +55,7 @@ void FixMassflowLsdcd::unpack_restart(int i, int nth)
 {
   const double *extra = atom->extra[i];
   for (int n = 0; n < nth; n++) extra += static_cast<int>(extra[0]);
-  tracks[i].flags = static_cast<unsigned>(extra[1]);
+  flags_of(i) = static_cast<unsigned>(extra[1]);
 }
 
 int FixMassflowLsdcd::size_restart(int /*i*/)
@@ -74,7 +74,7 @@ void FixMassflowLsdcd::pre_exchange()
   double *deleted = &mine[kColumns * size_array_rows];
   bigint n = 0;
   for (int i = atom->nlocal - 1; i >= 0; i--) {
-    if (!(tracks[i].flags & kToDelete)) continue;
+    if (!(flags_of(i) & kToDelete)) continue;
     n++;
     deleted[kDeletedMass] += mass_of(i);
     atom->avec->copy(--atom->nlocal, i, 1);

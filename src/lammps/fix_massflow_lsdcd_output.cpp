@@ -23,6 +23,7 @@ static const char *const kKind = "mass flow";
 void FixMassflowLsdcd::reduce()
 {
   if (reduced) return;
+  settle();
   MPI_Allreduce(mine.data(), totals.data(), static_cast<int>(mine.size()), MPI_DOUBLE, MPI_SUM,
                 world);
   reduced = true;
@@ -52,17 +53,9 @@ void FixMassflowLsdcd::open_rows()
     run_core_here([&] { rows->open(goes_on ? static_cast<std::int64_t>(update->ntimestep) : -1); });
 }
 
-void FixMassflowLsdcd::keep_row(int i, lsdcd::Passes passes)
+void FixMassflowLsdcd::keep_row(lsdcd::Passage row, lsdcd::Passes passes)
 {
-  const double *x = atom->x[i], *v = atom->v[i];
-  lsdcd::Passage row = {static_cast<double>(update->ntimestep),
-                        simulated_time(),
-                        static_cast<double>(atom->tag_enable ? atom->tag[i] : 0),
-                        static_cast<double>(atom->type[i]),
-                        atom->radius ? 2 * atom->radius[i] : 0,
-                        {x[0], x[1], x[2]},
-                        {v[0], v[1], v[2]},
-                        1};
+  row.direction = 1;
   for (int k = 0; k < passes.forward; k++) passages.push_back(row);
   row.direction = -1;
   for (int k = 0; k < passes.backward; k++) passages.push_back(row);
@@ -71,6 +64,7 @@ void FixMassflowLsdcd::keep_row(int i, lsdcd::Passes passes)
 // Collective.
 void FixMassflowLsdcd::write_rows()
 {
+  settle();
   if (!rows) return;
   std::vector<double> numbers;
   for (const lsdcd::Passage &p : passages)

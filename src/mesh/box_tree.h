@@ -8,10 +8,43 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <numeric>
 #include <vector>
 
 namespace lsdcd {
+
+// What a kernel knows of a tree, in memory of its device.
+struct BoxTreeView {
+  static constexpr std::uint32_t kLeaf = 4;    // most things of a node without halves
+
+  const Box *things, *around;
+  std::uint32_t n_things;
+
+  // Does test(box) hold for the box of any thing, and for each box around that?
+  template <class Test>
+  LSDCD_FN bool any(const Test &test) const
+  {
+    struct Node {
+      std::uint32_t number, first, last;
+    } open[32];    // a half is put off at each level, of which there are 30 at most
+    int n = 0;
+    if (n_things > 0) open[n++] = {1, 0, n_things};
+    while (n > 0) {
+      const Node node = open[--n];
+      if (!test(around[node.number])) continue;
+      if (node.last - node.first > kLeaf) {
+        const std::uint32_t middle = node.first + (node.last - node.first) / 2;
+        open[n++] = Node{2 * node.number + 1, middle, node.last};
+        open[n++] = Node{2 * node.number, node.first, middle};
+        continue;
+      }
+      for (std::uint32_t i = node.first; i < node.last; i++)
+        if (test(things[i])) return true;
+    }
+    return false;
+  }
+};
 
 class BoxTree {
  public:
@@ -51,6 +84,12 @@ class BoxTree {
   }
 
   const Box &bounds() const { return around_[1]; }    // where there is a thing
+  // Of as many things and boxes as these, as long as the tree is.
+  BoxTreeView view() const
+  {
+    return {things_.data(), around_.data(), static_cast<std::uint32_t>(things_.size())};
+  }
+  std::size_t n_around() const { return around_.size(); }
   std::size_t bytes() const
   {
     return (things_.capacity() + around_.capacity()) * sizeof(Box) +
@@ -58,7 +97,7 @@ class BoxTree {
   }
 
  private:
-  static constexpr std::size_t kLeaf = 4;
+  static constexpr std::size_t kLeaf = BoxTreeView::kLeaf;
 
   // A node, and its things.
   struct Node {

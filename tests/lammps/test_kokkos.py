@@ -136,6 +136,26 @@ def test_atoms_that_come_and_go(folder):
 
 
 @NOT_ON_DEVICE
+def test_restart_into_the_other_form(folder):
+    """A form takes up the springs of the other: else contacts would begin anew."""
+    body = scene.CREATE + scene.forces(HISTORY) + scene.dump("moves", 100)
+    again = re.sub(r"(?ms)^region +box.*?(?=^pair_style)", "read_restart mid.restart\n", body)
+    forms = {"plain": plain_among_kokkos, "kk": str}
+
+    def continued(first, then, ranks):
+        go(folder, lmp.FLAGS, forms[first](body) + "run 600\nwrite_restart mid.restart\n", ranks)
+        return go(folder, lmp.FLAGS, forms[then](again) + "run 400\n", ranks)
+
+    own, _ = continued("kk", "kk", 1)
+    fact("spheres touch the floor", sum(abs(row[9]) > 0 for row in own[600].values()) > 20)
+    for first, then in ("plain", "kk"), ("kk", "plain"):
+        for ranks in (1, 2):
+            moves, said = continued(first, then, ranks)
+            fact(f"{first} into {then}: all data are taken, {ranks} ranks", "Unused restart file" not in said)
+            at_most(f"{first} into {then}: as from its own, {ranks} ranks", lmp.largest_difference(own, moves), 1e-9)
+
+
+@NOT_ON_DEVICE
 def test_bodies(folder):
     """A flap on a hinge and a free cube with a coat, which spheres push: they move as with the plain fix."""
     stl.write(folder / "flap.stl", stl.box((2.0, -4.0, 0.4), (2.2, 4.0, 3.0), 3))

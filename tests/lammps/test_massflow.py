@@ -8,6 +8,8 @@ and edges of a plate: all positions are exact in binary. On the surface counts a
 sphere from height z passes in step 128 z + 1.
 """
 
+import re
+
 import pytest
 
 import lmp
@@ -331,6 +333,60 @@ fix             kick all addforce 0 0 v_f
     rows = table(begin() + forces(neigh="delay 0 every 1 check no") + kick + "run 31\n", folder)
     fact("where all are looked at in every step it is counted", rows[31][FORWARD] == 2, str(rows[31]))
     write_data(folder / "spheres.data", spheres())
+
+
+def test_many(folder):
+    """More spheres than a form of the fix makes room for pass in the first step, in which it looks at all, and as many in one in which it
+    looks at those near the plate."""
+    n, high = 80, 45 / 64
+    wide = [(1, 2 * i / n, 2 * j / n, z) for z in (1 / 512, high) for i in range(-n, n) for j in range(-n, n)]
+    some = [(k, x, y, z) for k, x, y, z in wide if abs(x) < 2 and abs(y) < 2][::4]
+    write_data(folder / "spheres.data", some)
+    later = int(high * STEPS_PER_LENGTH) + 1
+    rows = table(begin() + forces().replace("thermo          4", "thermo 1") + f"run {later}\n", folder)
+    over = over_plate(some)
+    first = [s for s in over if s[3] < 0.1]
+    counts = {step: row[FORWARD] for step, row in rows.items()}
+    fact("all that pass in a step are counted in it", len(first) > 4096 and set(counts[step] for step in range(1, later)) == {len(first)} and
+         counts[later] == len(over), f"{len(first)} {counts[1]} {counts[later - 1]} {counts[later]}")
+    write_data(folder / "spheres.data", spheres())
+
+
+@lmp.of_kokkos
+@pytest.mark.parametrize("words", ("", "count once delete yes"))
+def test_kokkos(folder, words):
+    """Beside the fixes without /kk in the same LAMMPS: grains of three sizes come in all the time, jump on a floor through the plate and
+    back, and a restart is taken up by the other form."""
+    text = GRAINS.replace("-2 4", "-2 6") + lmp.pairs("gran/hooke/history 1e4 NULL 50 NULL 0.4 1") + f"""\
+region          top block -1.8 1.8 -1.8 1.8 3 5 units box
+fix             move all nve/sphere
+fix             pull all gravity 10 vector 0 0 -1
+fix             sides all wall/reflect xlo EDGE xhi EDGE ylo EDGE yhi EDGE
+fix             floor all wall/lsdcd hooke/history 1e4 NULL 20 NULL 0.4 1 mesh plate.stl scale 1.5 1.5 1 move 0 0 -0.9
+PLACE
+fix             in all insert/lsdcd region top numberrate 150 diam range 0.3 0.4 dens 1 type 2 vel 0.1 0 -4 jitter 0.3
+fix             m all massflow/lsdcd mesh plate.stl rotate 1 0 0 180 file rows.txt every 90 {words}
+suffix          on
+timestep        1e-3
+thermo          60
+thermo_style    custom step atoms f_m[1] f_m[2] f_m[3] f_m[4] f_m[5] f_m[6] f_m[7] f_m[8] f_m[2][2]
+thermo_modify   format float %.17g
+"""
+    again = re.sub("region +box.*\n.*", "read_restart mid.restart", text)
+    seen = {}
+    for ranks in (1, 2, 4):
+        for place in ("suffix off", ""):
+            rows = lmp.read_thermo(lmp.run_well(text.replace("PLACE", place) + "run 720\nwrite_restart mid.restart\n", folder, ranks))
+            other = "" if place else "suffix off"
+            rows += lmp.read_thermo(lmp.run_well(again.replace("PLACE", other) + "run 240\n", folder, ranks))
+            seen[place] = rows, rows_of(folder / "rows.txt")
+        one, two = seen["suffix off"], seen[""]
+        last = two[0][-1]
+        fact(f"grains pass both ways, {ranks} ranks", last[2] > 40 and (words or last[4] > 10), str(last))
+        if lmp.DEVICE_MOVES:    # atoms are in another order, and neighbouring paths part
+            fact(f"numbers as of the plain fixes, {ranks} ranks", len(one[1]) == len(two[1]), f"{one[0][-1]} {last}")
+        else:
+            fact(f"totals and rows as of the plain fixes, to the bit, {ranks} ranks", one == two, f"{one[0][-1]} {last}")
 
 
 def test_deform(folder):

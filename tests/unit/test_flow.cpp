@@ -109,6 +109,42 @@ TEST(flow, a_centre_that_stops_on_the_surface_passes_when_it_goes_on_below)
   }
 }
 
+// On a device boxes say which paths may pass: they must leave out none that does, and most that are far away.
+TEST(flow, boxes_leave_out_no_path_that_passes)
+{
+  const FlowSurface surface = surface_of(floor_mesh(8, 1));
+  for (PeriodicBox box : {open_box(), wrapped_box()}) {
+    const FlowBoxes boxes(surface.tree().view(), surface.tree().bounds(), box);
+    std::mt19937 random(7);
+    std::uniform_real_distribution<Real> unit(-1, 1);
+    int passed = 0, far = 0, left_out = 0;
+    for (int k = 0; k < 20000; k++) {
+      const Vec3 to = {1.5 * unit(random), 1.5 * unit(random), unit(random)};
+      const Vec3 from = to + 0.1 * Vec3{unit(random), unit(random), unit(random)};
+      const Vec3 wrapped = from + (k % 3 - 1.) * (box.periodic[0] ? box.edge[0] : Vec3{0, 0, 0});
+      const Vec3 beside = boxes.beside(wrapped, to);
+      EXPECT_LT(norm(beside - from), 1e-12);
+      const Vec3 lo = {std::min(to.x, beside.x), std::min(to.y, beside.y),
+                       std::min(to.z, beside.z)};
+      const Vec3 hi = {std::max(to.x, beside.x), std::max(to.y, beside.y),
+                       std::max(to.z, beside.z)};
+      const bool may_meet = boxes.may_meet(lo, hi);
+      const Passes p =
+          surface.passes({wrapped, FlowSurface::cells_between(wrapped, to, box)}, to, box);
+      if (p.forward + p.backward > 0) {
+        passed++;
+        EXPECT_TRUE(may_meet);
+      } else if (surface.clearance(to, box) > 0.2) {
+        far++;
+        left_out += !may_meet;
+      }
+    }
+    EXPECT_GT(passed, 200);
+    EXPECT_GT(far, 2000);
+    EXPECT_EQ(left_out, far);
+  }
+}
+
 TEST(flow, past_the_rim_nothing_passes)
 {
   const FlowSurface floor = surface_of(floor_mesh(8, 1));
