@@ -76,7 +76,8 @@ std::string csv_row(const SubModel &row)
 {
   std::string numbers;
   for (const Parameter &p : row.parameters)
-    numbers += (numbers.empty() ? "" : ", ") + std::string(p.name) + ": " + p.unit;
+    if (p.unit != std::string("1") && p.unit != std::string("0 or 1"))
+      numbers += (numbers.empty() ? "" : ", ") + std::string(p.name) + ": " + p.unit;
   const std::string word = row.family == Family::normal ? "granular" : family_word(row.family);
   return "   \"" + word + (word.empty() ? "" : " ") + syntax_of(row) + "\", \"" + numbers +
          "\", \"" + (row.stored.what ? row.stored.what : "") + "\", \"" + row.help + "\"\n";
