@@ -116,8 +116,11 @@ class WallEngine {
   }
   // Returns the springs of the spheres, which steps read and replace.
   virtual Springs &springs() = 0;
-  // Returns what it does for meshes whose nodes move; null where the settings have no nodes.
-  virtual NodeEngine *nodes() { return nullptr; }
+  // Returns what it does for the nodes of a mesh; null where the settings have no nodes.
+  virtual NodeEngine *nodes(int /* mesh */) { return nullptr; }
+  // Takes the nodes of all meshes, and the forces on them, from another engine on the same backend, in place of starting them: what
+  // nodes() has returned there belongs to this one from now on. Grids are to be built.
+  virtual void take_nodes(WallEngine & /* from */) {}
 
   // Returns what steps have counted since the last call, and counts from 0 again. Throws InputError if a step had to leave out a sphere
   // that is too large or has more contacts than there is memory for, or if one grew after the choice.

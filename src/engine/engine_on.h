@@ -9,7 +9,7 @@
 #include "base/input_error.h"
 #include "engine/broad_phase/broad_phase.h"
 #include "engine/mirror.h"
-#include "engine/nodes/nodes_on.h"
+#include "engine/nodes/moving_nodes.h"
 #include "engine/resident_springs.h"
 #include "engine/results/step_errors.h"
 #include "engine/results_on.h"
@@ -17,6 +17,7 @@
 #include "engine/work_list_store.h"
 
 #include <algorithm>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -37,12 +38,15 @@ class EngineOn : public WallEngine {
     clear_diagnostics(StepCounts());
     unlock_scratches();
     if (broad_phase_.uses_slots()) put_laws();
+    for (int m = 0; settings_.nodes && m < settings_.meshes; m++)
+      nodes_.push_back(std::make_unique<MovingNodes<B>>(*this, m));
   }
 
   std::string backend() const override { return b_.name(); }
 
   void put_grid(const GridView &grid, int mesh) override
   {
+    works_of_meshes_.clear();
     where_step_runs([&] { broad_phase_.set_grid(b_, grid, mesh); });
   }
 
@@ -50,6 +54,7 @@ class EngineOn : public WallEngine {
   {
     if (pose.placed && !settings_.moves && !broad_phase_.uses_slots())
       throw std::logic_error("this engine's wall cannot move");
+    works_of_meshes_.clear();
     broad_phase_.place(pose, mesh);
   }
 
@@ -102,6 +107,7 @@ class EngineOn : public WallEngine {
   {
     require(StepState::begun);
     spheres_ = spheres;
+    if (settings_.nodes || !are_alike(step, step_)) works_of_meshes_.clear();
     step_ = step;
     if (starts_at_submit())
       where_step_runs([&] { compute(next_results_, when_ != When::in_turn); });
@@ -143,14 +149,22 @@ class EngineOn : public WallEngine {
     return diagnostics;
   }
 
-  NodeEngine *nodes() override { return settings_.nodes ? &nodes_ : nullptr; }
+  NodeEngine *nodes(int mesh) override { return nodes_.empty() ? nullptr : nodes_[mesh].get(); }
+  void take_nodes(WallEngine &from) override
+  {
+    auto &other = dynamic_cast<EngineOn &>(from);
+    other.b_.wait();
+    nodes_.swap(other.nodes_);
+    for (const auto &nodes : nodes_) nodes->set_engine(*this);
+  }
   std::size_t bytes() const override
   {
-    return broad_phase_.bytes() + mirror_.bytes() + springs_.bytes() + results_.bytes() +
-           next_results_.bytes() + overflow_.size() * sizeof(OverflowScratch) +
-           work_lists_.bytes() + works_.size() * sizeof(MeshWork) +
-           laws_.size() * sizeof(LawEntry) + nodes_.bytes() + b_.scratch_bytes() +
-           beside_.scratch_bytes();
+    std::size_t bytes = broad_phase_.bytes() + mirror_.bytes() + springs_.bytes() +
+                        results_.bytes() + next_results_.bytes() +
+                        overflow_.size() * sizeof(OverflowScratch) + work_lists_.bytes() +
+                        b_.scratch_bytes() + beside_.scratch_bytes();
+    for (const auto &nodes : nodes_) bytes += nodes->bytes();
+    return bytes;
   }
 
  protected:
@@ -210,10 +224,20 @@ class EngineOn : public WallEngine {
     are_counts_clear_ = true;
   }
 
-  MeshWork mesh_work(int m) const
+  // Returns what the step reads of a mesh, as in the last step where nothing of it has changed.
+  const MeshWork &mesh_work(int m)
   {
-    const EngineMesh<B> &mesh = broad_phase_.mesh(m);
-    return {mesh.grid.view, force_settings(settings_, step_, mesh.pose, nodes_.field(m), m)};
+    if (works_of_meshes_.empty()) find_works();
+    return works_of_meshes_[m];
+  }
+  void find_works()
+  {
+    for (int m = 0; m < broad_phase_.n_meshes(); m++) {
+      const EngineMesh<B> &mesh = broad_phase_.mesh(m);
+      works_of_meshes_.push_back(
+          {mesh.grid.view, force_settings(settings_, step_, mesh.pose,
+                                          nodes_.empty() ? NodeField() : nodes_[m]->field(), m)});
+    }
   }
   // Does this part of a step where the step runs: of one that was begun beside the host's work on the engine's own stream.
   template <class Work>
@@ -240,7 +264,7 @@ class EngineOn : public WallEngine {
                   may_miss_any(broad_phase_.mesh(0).grid.view), adds_later,
                   several ? &broad_phase_.slots() : nullptr);
     if (n == 0) return;
-    const MeshWork work = mesh_work(0);
+    const MeshWork &work = mesh_work(0);
     StepJob job = job_of(work.grid, work.settings, spheres_);
     results.put_into(job);
     job.candidates = broad_phase_.candidates();
@@ -296,7 +320,7 @@ class EngineOn : public WallEngine {
         const std::size_t begin = slots.begin(m, kind), n = slots.begin(m, kind + 1) - begin;
         if (n == 0) continue;
         StepJob of_mesh = from_slot(job, begin);
-        const MeshWork work = mesh_work(m);
+        const MeshWork &work = mesh_work(m);
         of_mesh.grid = work.grid;
         of_mesh.settings = work.settings;
         if (work.settings.nodes.velocity) of_mesh.lists.copies = RecordCopies();
@@ -342,10 +366,11 @@ class EngineOn : public WallEngine {
 
   ResultsOn<B> results_{b_}, next_results_{b_};    // of the last step, and of one submitted beside
   WorkListStore<B> work_lists_;
-  friend class NodesOn<B>;
-  NodesOn<B> nodes_{*this};
-  Array<MeshWork> works_;    // of all meshes
-  Array<LawEntry> laws_;     // of all meshes
+  friend class MovingNodes<B>;
+  std::vector<std::unique_ptr<MovingNodes<B>>> nodes_;    // of each mesh; none where none move
+  std::vector<MeshWork> works_of_meshes_;    // empty: something of them may have changed
+  Array<MeshWork> works_;                    // the same where kernels read them
+  Array<LawEntry> laws_;                     // of all meshes
 
   int pool_written_ = -1;
   Array<OverflowScratch> overflow_;

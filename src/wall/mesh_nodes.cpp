@@ -50,16 +50,10 @@ MeshNodes::MeshNodes(Host &host, const WallSpec &wall, int mesh, const WeldedMes
 {
 }
 
-void MeshNodes::start(NodeEngine &engine)
+void MeshNodes::start(WallEngine &engine)
 {
-  engine.start(index_, mesh_);
-  set_engine(engine);
-}
-
-void MeshNodes::set_engine(NodeEngine &engine)
-{
-  engine_ = &engine;
-  cutoff_ = 0;
+  engine_ = engine.nodes(index_);
+  engine_->start(mesh_);
 }
 
 std::string MeshNodes::named(const std::string &text) const
@@ -82,14 +76,14 @@ std::string MeshNodes::node_text(std::size_t i) const
 void MeshNodes::set(const Real *x, const Real *v)
 {
   static_assert(sizeof(Vec3) == 3 * sizeof(Real), "a row of three numbers is a vector");
-  engine_->give(index_, reinterpret_cast<const Vec3 *>(x), reinterpret_cast<const Vec3 *>(v));
+  engine_->give(reinterpret_cast<const Vec3 *>(x), reinterpret_cast<const Vec3 *>(v));
   are_set_ = true;
   are_set_in_place_ = are_restored_ = false;
 }
 
 void MeshNodes::set_in_place(const Real *x, const Real *v, const std::vector<int> &node_of_row)
 {
-  engine_->give_in_place(index_, x, v, node_of_row);
+  engine_->give_in_place(x, v, node_of_row);
   are_set_ = are_set_in_place_ = true;
   are_restored_ = false;
 }
@@ -98,12 +92,12 @@ void MeshNodes::begin_step(const Step &step, Real cutoff)
 {
   if (!are_set_) return;
   are_set_ = are_restored_ = false;
-  const NodesGone gone = engine_->move(index_, step.velocities_behind());
+  const NodesGone gone = engine_->move(step.velocities_behind());
   try {
     check_range();
     check(gone, step, cutoff);
   } catch (...) {
-    engine_->move_back(index_);
+    engine_->move_back();
     throw;
   }
   note(gone);
@@ -123,8 +117,8 @@ void MeshNodes::check(const NodesGone &gone, const Step &step, Real cutoff) cons
   const bool is_too_far = step.kind == Step::step && cutoff > 0 && gone.most > cutoff;
   if (is_too_far || !std::isfinite(gone.most + gone.speed)) {
     std::vector<Vec3> from(mesh_.vertices.size()), to(from.size()), v(from.size());
-    engine_->fetch(index_, NodesAt::before, from.data(), nullptr);
-    engine_->fetch(index_, NodesAt::now, to.data(), v.data());
+    engine_->fetch(NodesAt::before, from.data(), nullptr);
+    engine_->fetch(NodesAt::now, to.data(), v.data());
     const std::size_t node = farthest(from, to);
     check_place(node, to[node]);
     if (is_too_far)
@@ -169,7 +163,7 @@ void MeshNodes::check(const NodeState &was) const
 
 const WeldedMesh &MeshNodes::mesh() const
 {
-  if (are_places_old_) engine_->fetch(index_, NodesAt::now, mesh_.vertices.data(), nullptr);
+  if (are_places_old_) engine_->fetch(NodesAt::now, mesh_.vertices.data(), nullptr);
   are_places_old_ = false;
   return mesh_;
 }
@@ -189,7 +183,6 @@ bool MeshNodes::needs_choice(Real cutoff) const
 void MeshNodes::build_grid(Real cutoff)
 {
   engine_->build_grid(
-      index_,
       {cutoff, kAllowance * cutoff, Real(mesh_.report.volume < 0 ? -1 : 1), bounds(), mesh_.source},
       kOfLists * cutoff);
   cutoff_ = cutoff;
@@ -206,14 +199,14 @@ NodeState MeshNodes::save()
   const auto put = [](const std::vector<Vec3> &from, std::vector<Real> &to) {
     for (const Vec3 &x : from) to.insert(to.end(), {x.x, x.y, x.z});
   };
-  engine_->fetch(index_, NodesAt::now, at.data(), velocity.data());
+  engine_->fetch(NodesAt::now, at.data(), velocity.data());
   put(at, all.places);
   if (!names.empty()) return all;
   put(velocity, all.velocities);
-  all.behind = engine_->velocities_behind(index_);
+  all.behind = engine_->velocities_behind();
   if (state_ != Forces::none) all.forces = forces(0);
   if (!are_set_) return all;
-  engine_->fetch(index_, NodesAt::next, at.data(), velocity.data());
+  engine_->fetch(NodesAt::next, at.data(), velocity.data());
   put(at, all.next);
   put(velocity, all.next_velocities);
   return all;
@@ -234,7 +227,7 @@ void MeshNodes::restore(const NodeState &was)
   if (was.places.empty()) return;
   std::vector<Real> velocities = was.velocities;
   velocities.resize(was.places.size(), 0);
-  note(engine_->put(index_, reinterpret_cast<const Vec3 *>(was.places.data()),
+  note(engine_->put(reinterpret_cast<const Vec3 *>(was.places.data()),
                     reinterpret_cast<const Vec3 *>(velocities.data()), was.behind));
 }
 
@@ -257,10 +250,10 @@ void MeshNodes::have_no_forces()
 
 void MeshNodes::see_forces()
 {
-  engine_->see_forces(index_);
+  engine_->see_forces();
   state_ = Forces::seen;
   const bool is_alone = host_.processes() == 1;
-  if (is_alone) engine_->add_forces(index_, nullptr);
+  if (is_alone) engine_->add_forces(nullptr);
   // What is set in place is asked for there: nothing waits for it.
   if (!is_alone || !are_set_in_place_) check_range();
 }
@@ -268,14 +261,14 @@ void MeshNodes::see_forces()
 void MeshNodes::add_forces(const SummandRange &of_all)
 {
   range_.shares = of_all;
-  engine_->add_forces(index_, &range_);
+  engine_->add_forces(&range_);
 }
 
 // Throws where a force of the last step is not finite, the first time that it is called after one.
 void MeshNodes::check_range()
 {
   if (state_ != Forces::seen) return;
-  range_ = engine_->force_range(index_);
+  range_ = engine_->force_range();
   state_ = Forces::added;
   if (range_.not_finite == 0) return;
   throw InputError(static_cast<int>(kNoSphere - range_.not_finite),
@@ -289,7 +282,7 @@ void MeshNodes::fetch_forces()
   check_range();
   if (state_ != Forces::added) return;
   sums_.resize(of_contacts_.size());
-  power_ = engine_->fetch_forces(index_, sums_.data());
+  power_ = engine_->fetch_forces(sums_.data());
   state_ = Forces::fetched;
 }
 
@@ -339,7 +332,7 @@ Vec3 MeshNodes::moment()
 bool MeshNodes::put_forces(Real pressure, Real *to, const std::vector<int> &node_of_row)
 {
   if (state_ == Forces::none || state_ == Forces::restored) return false;
-  engine_->put_forces(index_, sixth_of(pressure), to, node_of_row);
+  engine_->put_forces(sixth_of(pressure), to, node_of_row);
   return true;
 }
 

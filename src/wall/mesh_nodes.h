@@ -29,9 +29,9 @@ class MeshNodes {
 
   // Gives the nodes to an engine, before all that follows but mesh(), bounds() and names. Throws InputError where the mesh is too
   // large for it.
-  void start(NodeEngine &engine);
-  // Goes on with an engine that has taken them over from the last one, and has no grids.
-  void set_engine(NodeEngine &engine);
+  void start(WallEngine &engine);
+  // Goes on in another engine, which has taken them (WallEngine::take_nodes()) and has no grids.
+  void forget_grid() { cutoff_ = 0; }
 
   // Places (length) and velocities (length/time) of the nodes from the next step on: x y z, node after node. Velocities
   // are of the same time as those of spheres. `v` null: all are 0.
@@ -57,7 +57,7 @@ class MeshNodes {
   void build_grid(Real cutoff);
 
   // Turns the springs of spheres [0, n) with their features since the last step.
-  void turn_springs(int n) { engine_->turn_springs(n, index_); }
+  void turn_springs(int n) { engine_->turn_springs(n); }
   // For a saved state: where the nodes are and will be, their names, and the forces on them. Collective.
   NodeState save();
   // Throws InputError, which names the node or face, where restore() would put one at no finite place or without area.

@@ -27,13 +27,13 @@ Wall::Wall(Host &host, WallSpec spec, const WallUnits &units, WallBackend backen
     files_(host, spec_, units.pressure), overlaps_(host, spec_), search_(host), times_(host),
     timestep_(host, laws_, units.velocity), snapshots_(host, spec_),
     box_checks_(host, spec_, meshes_),
-    grids_(host, spec_, laws_, meshes_, coats_, box_checks_, history_, times_), nodes_(host),
+    grids_(host, spec_, laws_, meshes_, coats_, box_checks_, history_, times_),
     keeper_(host, spec_, {meshes_, coats_, grids_, totals_, means_, loads_})
 {
   for (std::size_t k = 0; k < spec_.meshes.size(); k++) {
     MeshPart &m = meshes_.emplace_back(host_, spec_, laws_, static_cast<int>(k), units.velocity,
                                        Step{clock.last_step, clock.dt});
-    nodes_.add(m.nodes());
+    if (m.nodes()) with_nodes_.push_back(m.nodes());
     check_weld(host_, spec_, m);
     check_side(spec_, m);
     check_pressure(spec_, m);
@@ -44,7 +44,7 @@ Wall::Wall(Host &host, WallSpec spec, const WallUnits &units, WallBackend backen
   }
   list_meshes();
   // Where the spheres are says it in place, and nodes that move stay on their device.
-  const bool is_fixed = backend_.in_place || nodes_.any();
+  const bool is_fixed = backend_.in_place || !with_nodes_.empty();
   device_ = DeviceChoice(spec_.device, is_fixed ? 0 : cuda_devices(), host_.ranks().node_size);
   coats_.make(engine_settings(), units.velocity);
   make_engine();
@@ -115,7 +115,7 @@ void Wall::make_engine()
   engine_contacts_ = want.contacts || want.bodies || want.nodes;
   std::unique_ptr<WallEngine> made;
   run_collectively(host_, true, [&] { made = backend_.make_engine(want); });
-  nodes_.set_engine(*made);
+  give_nodes(host_, with_nodes_, engine_.get(), *made);
   engine_ = std::move(made);
   history_.set_engine(*engine_, backend_.in_place);
   grids_.set_engine(*engine_);
@@ -198,7 +198,7 @@ void Wall::begin(const HostSpheres &spheres, const StepInput &input)
   change_surfaces(input.step);
   move(spheres);
   place_grids(spheres);
-  give_poses();
+  for (const MeshPart *m : moving_) engine_->set_pose(m->pose(), m->index);
   if (input.new_spheres) look_at_new_spheres(spheres);
   failure_.reset();    // that of the last step is asked for until here
   if (cutoff() == 0) return;
@@ -269,11 +269,6 @@ void Wall::place_grids(const HostSpheres &spheres)
   if (moving_.empty() && !input_.look && !input_.box_changes) return;
   box_checks_.check_moving(placed_, grids_.box(), cutoff(), input_.step);
   box_checks_.check_gone(placed_, grids_.box(), cutoff(), step);
-}
-
-void Wall::give_poses()
-{
-  for (const MeshPart *m : moving_) engine_->set_pose(m->pose(), m->index);
 }
 
 void Wall::look_at_new_spheres(const HostSpheres &spheres)
@@ -369,12 +364,12 @@ ServoLoad Wall::servo_load(int mesh)
 
 void Wall::choose_if_due(const Spheres &spheres)
 {
-  nodes_.begin_choice(cutoff(), spheres.n);
+  if (!with_nodes_.empty()) place_nodes(with_nodes_, *engine_, cutoff(), spheres.n);
   std::vector<MovingMesh> moving;
   for (const MeshPart *m : moving_)
     if (m->mover.moves()) moving.push_back({m->pose(), m->bounds(cutoff())});
   if (!engine_->choose_if_due(spheres, input_.drift, moving)) return;
-  nodes_.note_choice();
+  for (MeshNodes *nodes : with_nodes_) nodes->note_choice();
   search_.count_update();
 }
 
@@ -409,7 +404,7 @@ bool Wall::put_node_forces(int mesh, Real *to, const std::vector<int> &node_of_r
 void Wall::clear_totals()
 {
   totals_.clear();
-  nodes_.clear_forces();
+  for (MeshNodes *nodes : with_nodes_) nodes->clear_forces();
 }
 
 void Wall::submit(const HostSpheres &spheres)
@@ -446,10 +441,12 @@ void Wall::collect(int n)
     history_.set_spheres_of_engine(n);
     search_.count_step(input_.step.kind != Step::step);
   }
-  if (cutoff() > 0)
-    nodes_.see_forces();
-  else
-    nodes_.clear_forces();
+  for (MeshNodes *nodes : with_nodes_) {
+    if (cutoff() > 0)
+      nodes->see_forces();
+    else
+      nodes->clear_forces();
+  }
 }
 
 void Wall::finish(const HostSpheres &spheres)
@@ -464,7 +461,8 @@ void Wall::finish(const HostSpheres &spheres)
   totals_.expire();
   if (!moving_.empty()) note_poses();
   for (MeshPart *m : bodies_) m->body->end(input_.step, results());
-  if (cutoff() > 0) nodes_.agree_on_forces(failure_.has_value());
+  if (!with_nodes_.empty() && cutoff() > 0)
+    agree_on_forces(host_, with_nodes_, failure_.has_value());
   note_step(spheres);
   if (failure_) throw InputError(*failure_);
 }
@@ -491,7 +489,7 @@ void Wall::note_step(const HostSpheres &spheres)
   static const std::vector<StepContact> none;
   StepResults *const left = results();
   if (spec_.average_every > 0 && step.kind == Step::step)
-    means_.add(step, left, poses_, nodes_.loads(), coats_.loads());
+    means_.add(step, left, poses_, node_loads(), coats_.loads());
   if (step.kind == Step::step)    // what sets a run up has no duration
     for (const MeshPart *m : recorded_)
       loads_.add(m->index, left ? left->contacts() : none, step.dt,
@@ -585,11 +583,20 @@ const StepTotals &Wall::totals_with_power()
   return totals_;
 }
 
+// Returns the loads of the nodes of each mesh; empty where none has any. Collective.
+std::vector<NodeLoad> Wall::node_loads()
+{
+  std::vector<NodeLoad> loads(with_nodes_.empty() ? 0 : meshes_.size());
+  for (const MeshPart &m : meshes_)
+    if (MeshNodes *nodes = m.nodes()) loads[m.index] = {true, nodes->power(), nodes->moment()};
+  return loads;
+}
+
 // The sums of contacts, which bodies need for velocities of the whole step.
 const StepTotals &Wall::sums()
 {
   if (totals_.are_made()) return totals_;
-  totals_.reduce(results(), poses_, nodes_.loads(), coats_.loads());
+  totals_.reduce(results(), poses_, node_loads(), coats_.loads());
   return totals_;
 }
 

@@ -216,7 +216,6 @@ class Wall {
   void log_device(Real near);
   void move(const HostSpheres &spheres);
   void place_grids(const HostSpheres &spheres);
-  void give_poses();
   void look_at_spheres(const HostSpheres &spheres);
   void look_at_new_spheres(const HostSpheres &spheres);
   void look_at_range(const HostSpheres &spheres);
@@ -227,6 +226,7 @@ class Wall {
   void collect(int n);
   StepResults *results() const;
   void note_poses();
+  std::vector<NodeLoad> node_loads();
   void note_step(const HostSpheres &spheres);
   Real pressure(int mesh) const;    // in this step, in units of forces
 
@@ -250,8 +250,9 @@ class Wall {
   std::deque<MeshPart> meshes_;    // where each stays; there is one at least
   // Lists of them, in their order: who has nothing to do in a step is in none. Those that are, or may be, where their file does not
   // have them; of these, and of those whose surface varies, those that may move in the next step; whose own shape changes; that are
-  // bodies; that have a servo; whose loads are recorded.
+  // bodies; that have a servo; whose loads are recorded. Those whose nodes move, which stay the same.
   std::vector<MeshPart *> placed_, moving_, changing_, bodies_, servos_, recorded_;
+  std::vector<MeshNodes *> with_nodes_;
   EngineInput engine_input_;
   BodyCoats coats_;
   DeviceChoice device_;
@@ -273,7 +274,6 @@ class Wall {
   SnapshotCheck snapshots_;
   BoxChecks box_checks_;
   GridManager grids_;
-  NodeMeshes nodes_;
   StateKeeper keeper_;
 
   StepInput input_;                      // of the last begin()

@@ -28,7 +28,11 @@ class InPlaceForHost : public WallEngine {
   bool is_under_way() const override { return engine_->is_under_way(); }
   StepResults &results() override { return engine_->results(); }
   Springs &springs() override { return engine_->springs(); }
-  NodeEngine *nodes() override { return engine_->nodes(); }
+  NodeEngine *nodes(int mesh) override { return engine_->nodes(mesh); }
+  void take_nodes(WallEngine &from) override
+  {
+    engine_->take_nodes(*dynamic_cast<InPlaceForHost &>(from).engine_);
+  }
   StepDiagnostics read_diagnostics() override { return engine_->read_diagnostics(); }
   int n_candidates() const override { return engine_->n_candidates(); }
   std::size_t bytes() const override { return engine_->bytes(); }

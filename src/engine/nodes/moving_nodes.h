@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The nodes of a mesh in the memory of an engine: in a step the records are made again (mesh/moving_records.h), and a small
+// The nodes of a mesh in an engine: in a step the records are made again (mesh/moving_records.h), and a small
 // record of how far nodes have gone is all that the CPU waits for. Faces that are too thin for the digits of Real are made
 // by the CPU, which has wider ones.
 #pragma once
@@ -12,6 +12,7 @@
 #include "contact/feature_turn.h"
 #include "contact/node_field.h"
 #include "engine/nodes/node_engine.h"
+#include "engine/nodes/node_forces.h"
 #include "engine/nodes/shared_items.h"
 #include "grid/build/moving_grid.h"
 #include "grid/lookup/grid_on.h"
@@ -167,55 +168,53 @@ struct PutParts {
 enum class SpringsAt { nowhere, now, before, earlier };
 
 template <class B>
-class MovingNodes {
+class EngineOn;
+
+template <class B>
+class MovingNodes : public NodeEngine {
   template <class T>
   using Array = typename B::template Array<T>;
 
  public:
-  // Makes the records of a mesh whose nodes are at rest at its vertices.
-  void start(B &b, const WeldedMesh &mesh, bool with_sides, bool with_spins)
+  // Of the mesh with this number. The engine must outlive it, or set_engine() comes first.
+  MovingNodes(EngineOn<B> &engine, int mesh) : e_(&engine), mesh_(mesh) {}
+  // Goes on in another engine on the same backend, whose grids are to be built.
+  void set_engine(EngineOn<B> &engine) { e_ = &engine; }
+
+  void start(const WeldedMesh &mesh) override
   {
-    with_spins_ = with_spins;
-    const MeshFeatures features = make_moving_features(mesh, with_sides);
+    const EngineSettings &settings = e_->settings_;
+    with_spins_ = settings.law().rolling.is_on() || settings.law().twisting.is_on();
+    const MeshFeatures features = make_moving_features(mesh, settings.side != Side::both);
     GridView view = {};
     view.wall = features.view();
     view.list_kind = ListKind::every();
-    records_ = GridOn<B>(b, FlatGrid(GridParts{features, CellLists(), BrickRecords(), view}));
-    put_topology(b, topology_of(mesh), mesh);
-    put_faces_around(b, mesh);
+    records_ = GridOn<B>(b(), FlatGrid(GridParts{features, CellLists(), BrickRecords(), view}));
+    put_topology(topology_of(mesh), mesh);
+    put_faces_around(mesh);
     const std::size_t n = mesh.vertices.size();
     const std::vector<Vec3> none(n, Vec3{0, 0, 0});
-    primitives_ = from_cpu(b, features.primitives);
-    at_ = from_cpu(b, mesh.vertices);
-    built_at_ = from_cpu(b, mesh.vertices);
+    primitives_ = from_cpu(b(), features.primitives);
+    at_ = from_cpu(b(), mesh.vertices);
+    built_at_ = from_cpu(b(), mesh.vertices);
     before_ = Array<Vec3>(n);
     earlier_ = Array<Vec3>(n);
     next_ = Array<Vec3>(n);
     next_velocity_ = Array<Vec3>(n);
-    velocity_ = from_cpu(b, none);
-    spin_ = from_cpu(b, none);
+    velocity_ = from_cpu(b(), none);
+    spin_ = from_cpu(b(), none);
     // Neither yes nor no: the first move puts all parts.
-    edge_acts_ = from_cpu(b, std::vector<char>(mesh.edges.size(), 2));
-    vertex_acts_ = from_cpu(b, std::vector<char>(n, 2));
-    n_parts_ = from_cpu(b, std::vector<std::uint32_t>(1, 0));
+    edge_acts_ = from_cpu(b(), std::vector<char>(mesh.edges.size(), 2));
+    vertex_acts_ = from_cpu(b(), std::vector<char>(n, 2));
+    n_parts_ = from_cpu(b(), std::vector<std::uint32_t>(1, 0));
     left_ = Array<FeatureCode>(mesh.faces.size() + mesh.edges.size());
-    seen_ = from_cpu(b, std::vector<NodesSeen>(1, NodesSeen()));
+    seen_ = from_cpu(b(), std::vector<NodesSeen>(1, NodesSeen()));
     seen_on_cpu_ = typename B::template CpuArray<NodesSeen>(1);
-    b.wait();
-  }
-
-  // From where nodes are, which go by up to `going` until candidates are chosen. What it returns lies in memory of
-  // this, until the next call.
-  GridView build_grid(B &b, const MovingGridSettings &settings, Real going)
-  {
-    grid_.build(b, records(), {primitives_.data(), primitives_.size()}, settings);
-    keep_places(b);
-    going_ = going;
-    return grid_.view(records());
+    b().wait();
   }
 
   // By memory that copies without a wait.
-  void give(B &b, const Vec3 *x, const Vec3 *v)
+  void give(const Vec3 *x, const Vec3 *v) override
   {
     const std::size_t n = at_.size();
     if constexpr (!B::kOnCpu) {
@@ -224,16 +223,26 @@ class MovingNodes {
       x = std::copy_n(x, n, staged_.data()) - n;
       if (v) v = std::copy_n(v, n, staged_.data() + n) - n;
     }
-    b.copy_in(x, next_.data(), n);
+    b().copy_in(x, next_.data(), n);
     if (v)
-      b.copy_in(v, next_velocity_.data(), n);
+      b().copy_in(v, next_velocity_.data(), n);
     else
-      put_all(b, next_velocity_.data(), n, Vec3{0, 0, 0});
-    is_copied_.record(b);
+      put_all(b(), next_velocity_.data(), n, Vec3{0, 0, 0});
+    is_copied_.record(b());
   }
 
-  // Makes the records again where nodes were given.
-  NodesGone move(B &b, Real back)
+  void give_in_place(const Real *x, const Real *v, const std::vector<int> &node_of_row) override
+  {
+    const int *node = rows(node_of_row);
+    Vec3 *to = next_.data(), *to_velocity = next_velocity_.data();
+    b().for_each(node_of_row.size(), [=] LSDCD_LAMBDA(std::size_t k) {
+      const int i = node[k];
+      to[i] = {x[3 * k], x[3 * k + 1], x[3 * k + 2]};
+      to_velocity[i] = v ? Vec3{v[3 * k], v[3 * k + 1], v[3 * k + 2]} : Vec3{0, 0, 0};
+    });
+  }
+
+  NodesGone move(Real back) override
   {
     back_ = back;
     if (springs_ == SpringsAt::before) {
@@ -244,69 +253,85 @@ class MovingNodes {
     std::swap(at_, before_);
     std::swap(at_, next_);
     std::swap(velocity_, next_velocity_);
-    return remake(b);
+    return remake();
   }
-  // The last move is taken back.
-  void move_back(B &b)
+  void move_back() override
   {
     if (springs_ == SpringsAt::before) springs_ = SpringsAt::now;
     std::swap(at_, before_);
     std::swap(velocity_, next_velocity_);
-    remake(b);
+    remake();
   }
-  // Springs belong to where it puts nodes. Those that were given stay given.
-  NodesGone put(B &b, const Vec3 *x, const Vec3 *v, Real back)
+  NodesGone put(const Vec3 *x, const Vec3 *v, Real back) override
   {
     const std::size_t n = at_.size();
     back_ = back;
     std::swap(at_, before_);
-    b.copy_in(x, at_.data(), n);
-    b.copy_in(v, velocity_.data(), n);
+    b().copy_in(x, at_.data(), n);
+    b().copy_in(v, velocity_.data(), n);
     springs_ = SpringsAt::now;
-    return remake(b);
+    return remake();
   }
 
-  // Returns what turns springs to where nodes are, once. Returns false where none has to turn.
-  bool turn(TurningMesh &turning)
+  Real velocities_behind() const override { return back_; }
+
+  void build_grid(const MovingGridSettings &settings, Real going) override
+  {
+    e_->where_step_runs([&] {
+      grid_.build(b(), records(), {primitives_.data(), primitives_.size()}, settings);
+      copy_all(b(), at_.data(), built_at_.data(), at_.size());
+      going_ = going;
+      e_->broad_phase_.set_lists(b(), grid_.view(records()), mesh_);
+    });
+  }
+
+  void turn_springs(int n) override
   {
     const SpringsAt was = std::exchange(springs_, SpringsAt::now);
-    turning = {topology_, records().faces, (was == SpringsAt::earlier ? earlier_ : before_).data(),
-               at_.data()};
-    return was == SpringsAt::before || was == SpringsAt::earlier;
+    if (was != SpringsAt::before && was != SpringsAt::earlier) return;
+    const TurningMesh turning = {topology_, records().faces,
+                                 (was == SpringsAt::earlier ? earlier_ : before_).data(),
+                                 at_.data()};
+    e_->where_step_runs([&] {
+      e_->springs_.grow(n);
+      e_->springs_.turn(n, static_cast<std::uint32_t>(mesh_), turning);
+    });
   }
 
-  void fetch(B &b, NodesAt when, Vec3 *x, Vec3 *v) const
+  void see_forces() override
+  {
+    forces_.see(b(),
+                e_->results_.node_contacts(e_->springs_.contacts(e_->step_.update_history), mesh_,
+                                           records(), velocity_.data()),
+                at_.size());
+  }
+  NodeForceRange force_range() override { return forces_.range(); }
+  void add_forces(const NodeForceRange *of_all) override { forces_.add(b(), of_all); }
+  Real fetch_forces(std::int64_t *sums) override { return forces_.fetch(b(), sums); }
+  void put_forces(Real sixth, Real *to, const std::vector<int> &node_of_row) override
+  {
+    b().for_each(node_of_row.size(),
+                 ForceOfNode{topology_.faces, face_first_.data(), face_around_.data(), at_.data(),
+                             forces_.sums(), forces_.range_in_place(), rows(node_of_row), sixth,
+                             to});
+  }
+
+  void fetch(NodesAt when, Vec3 *x, Vec3 *v) override
   {
     const Array<Vec3> *const of[] = {&before_, &at_, &next_};
-    b.copy_out(of[static_cast<int>(when)]->data(), x, at_.size());
-    if (v) b.copy_out((when == NodesAt::next ? next_velocity_ : velocity_).data(), v, at_.size());
-    b.wait();
+    b().copy_out(of[static_cast<int>(when)]->data(), x, at_.size());
+    if (v) b().copy_out((when == NodesAt::next ? next_velocity_ : velocity_).data(), v, at_.size());
+    b().wait();
   }
 
-  Real velocities_behind() const { return back_; }
-
-  // Where the backend computes.
-  const MeshFeaturesView &records() const { return records_.view.wall; }
+  // Returns what steps read of the nodes.
   NodeField field() const { return {velocity_.data(), spin_.data(), going_}; }
-
-  // Returns the faces around node i, in the order of their numbers: around[first[i]] to around[first[i + 1] - 1].
-  const int *face_first() const { return face_first_.data(); }
-  const int *faces_around() const { return face_around_.data(); }
-  const int *faces() const { return topology_.faces; }
-  const Vec3 *at() const { return at_.data(); }
-  std::size_t n() const { return at_.size(); }
-  // The same in each call.
-  const int *rows(B &b, const std::vector<int> &node_of_row)
-  {
-    if (node_of_row_.size() != node_of_row.size()) node_of_row_ = from_cpu(b, node_of_row);
-    return node_of_row_.data();
-  }
 
   std::size_t bytes() const
   {
     return 8 * at_.size() * sizeof(Vec3) + edge_acts_.size() + vertex_acts_.size() +
            (left_.size() + primitives_.size()) * sizeof(FeatureCode) + records_.bytes() +
-           grid_.bytes() +
+           grid_.bytes() + forces_.bytes() +
            (topology_numbers_.size() + face_first_.size() + face_around_.size() +
             node_of_row_.size()) *
                sizeof(int);
@@ -314,38 +339,25 @@ class MovingNodes {
 
   // The steps of the above. Public because nvcc takes no device lambda from a private function.
 
-  void keep_places(B &b) { copy_all(b, at_.data(), built_at_.data(), at_.size()); }
-
-  void give_in_place(B &b, const Real *x, const Real *v, const std::vector<int> &node_of_row)
-  {
-    const int *node = rows(b, node_of_row);
-    Vec3 *to = next_.data(), *to_velocity = next_velocity_.data();
-    b.for_each(node_of_row.size(), [=] LSDCD_LAMBDA(std::size_t k) {
-      const int i = node[k];
-      to[i] = {x[3 * k], x[3 * k + 1], x[3 * k + 2]};
-      to_velocity[i] = v ? Vec3{v[3 * k], v[3 * k + 1], v[3 * k + 2]} : Vec3{0, 0, 0};
-    });
-  }
-
   // The CPU waits until it has what was seen, while the rest goes on.
-  NodesGone remake(B &b)
+  NodesGone remake()
   {
-    look(b);
+    look();
     const MovedMesh moved = moved_mesh();
-    b.for_each_in_warps(moved.mesh.n_faces, MoveFaces{moved, left_.data(), seen_.data()});
+    b().for_each_in_warps(moved.mesh.n_faces, MoveFaces{moved, left_.data(), seen_.data()});
     int without_area = -1;
     if constexpr (B::kOnCpu)    // no count has to come to it first
-      without_area = make_left(b, moved, std::exchange(seen_.data()->n_left, 0));
-    move_edges(b, moved);
-    b.copy_out(seen_.data(), seen_on_cpu_.data(), 1);
-    seen_is_there_.record(b);
-    move_rest(b, moved);
+      without_area = make_left(moved, std::exchange(seen_.data()->n_left, 0));
+    move_edges(moved);
+    b().copy_out(seen_.data(), seen_on_cpu_.data(), 1);
+    seen_is_there_.record(b());
+    move_rest(moved);
     seen_is_there_.wait();
     const NodesSeen &seen = *seen_on_cpu_.data();
     if (seen.n_left > 0) {
-      without_area = std::max(without_area, make_left(b, moved, seen.n_left));
-      move_edges(b, moved);
-      move_rest(b, moved);
+      without_area = std::max(without_area, make_left(moved, seen.n_left));
+      move_edges(moved);
+      move_rest(moved);
     }
     const auto way = [](std::uint64_t bits) {
       const Real sq = from_ascending_number(bits);
@@ -360,34 +372,34 @@ class MovingNodes {
     return gone;
   }
 
-  void look(B &b)
+  void look()
   {
     const std::size_t n = at_.size(), n_threads = threads_for<B>(n, kMostLooking);
-    b.for_each_in_warps(n_threads,
-                        LookAtNodes{at_.data(), before_.data(), built_at_.data(), velocity_.data(),
-                                    n, n_threads, seen_.data(), n_parts_.data()});
+    b().for_each_in_warps(n_threads, LookAtNodes{at_.data(), before_.data(), built_at_.data(),
+                                                 velocity_.data(), n, n_threads, seen_.data(),
+                                                 n_parts_.data()});
   }
 
-  void move_edges(B &b, const MovedMesh &moved)
+  void move_edges(const MovedMesh &moved)
   {
-    b.for_each_in_warps(moved.mesh.n_edges, MoveEdges{moved, left_.data(), seen_.data()});
+    b().for_each_in_warps(moved.mesh.n_edges, MoveEdges{moved, left_.data(), seen_.data()});
   }
 
-  void move_rest(B &b, const MovedMesh &moved)
+  void move_rest(const MovedMesh &moved)
   {
-    b.for_each_in_warps(moved.mesh.n_vertices, MoveVertices{moved, seen_.data()});
-    b.for_each_in_warps(moved.mesh.n_faces, PutParts{moved}, n_parts_.data());
-    if (with_spins_) find_spins(b);
+    b().for_each_in_warps(moved.mesh.n_vertices, MoveVertices{moved, seen_.data()});
+    b().for_each_in_warps(moved.mesh.n_faces, PutParts{moved}, n_parts_.data());
+    if (with_spins_) find_spins();
   }
 
   // The faces of a node in the order of their numbers, as a CPU adds them.
-  void find_spins(B &b)
+  void find_spins()
   {
     const Real back = back_;
     const int *faces = topology_.faces, *first = face_first_.data(), *around = face_around_.data();
     const Vec3 *at = at_.data(), *velocity = velocity_.data();
     Vec3 *spin = spin_.data();
-    b.for_each(at_.size(), [=] LSDCD_LAMBDA(std::size_t i) {
+    b().for_each(at_.size(), [=] LSDCD_LAMBDA(std::size_t i) {
       Vec3 sum = {0, 0, 0};
       Real weight = 0;
       for (int k = first[i]; k < first[i + 1]; k++) {
@@ -400,24 +412,24 @@ class MovingNodes {
   }
 
   // Makes the first n of left_. Returns the first face that has no area, or -1.
-  int make_left(B &b, const MovedMesh &moved, int n)
+  int make_left(const MovedMesh &moved, int n)
   {
     if (n == 0) return -1;
     std::vector<FeatureCode> codes(n);
-    b.copy_out(left_.data(), codes.data(), n);
-    b.wait();
+    b().copy_out(left_.data(), codes.data(), n);
+    b().wait();
     std::sort(codes.begin(), codes.end());
-    const Array<FeatureCode> code = from_cpu(b, codes);
+    const Array<FeatureCode> code = from_cpu(b(), codes);
     const FeatureCode *of = code.data();
     Array<Vec3> corner(3 * codes.size());
     Vec3 *to = corner.data();
-    b.for_each(n, [=] LSDCD_LAMBDA(std::size_t k) {
+    b().for_each(n, [=] LSDCD_LAMBDA(std::size_t k) {
       const std::size_t i = feature_index(of[k]);
       const bool is_face = feature_kind(of[k]) == FeatureKind::face;
       const int *c = is_face ? moved.mesh.faces + 3 * i : moved.mesh.edges + 2 * i;
       for (int d = 0; d < (is_face ? 3 : 2); d++) to[3 * k + d] = moved.at[c[d]];
     });
-    std::vector<Vec3> corners = to_cpu(b, corner, corner.size());
+    std::vector<Vec3> corners = to_cpu(b(), corner, corner.size());
     std::vector<FeatureRecord> made(n);
     int without_area = -1;
     for (int k = n - 1; k >= 0; k--) {
@@ -429,9 +441,9 @@ class MovingNodes {
         made[k].edge = make_segment(c[0], c[1]);
       }
     }
-    const Array<FeatureRecord> record = from_cpu(b, made);
+    const Array<FeatureRecord> record = from_cpu(b(), made);
     const FeatureRecord *from = record.data();
-    b.for_each(n, [=] LSDCD_LAMBDA(std::size_t k) {
+    b().for_each(n, [=] LSDCD_LAMBDA(std::size_t k) {
       const std::uint32_t i = feature_index(of[k]);
       if (feature_kind(of[k]) == FeatureKind::face) {
         moved.to.faces[i] = from[k].face;
@@ -442,11 +454,21 @@ class MovingNodes {
         e.length = from[k].edge.length;
       }
     });
-    b.wait();    // before code and record are freed
+    b().wait();    // before code and record are freed
     return without_area;
   }
 
  private:
+  B &b() const { return e_->b_; }
+  // Where the backend computes.
+  const MeshFeaturesView &records() const { return records_.view.wall; }
+  // The same in each call.
+  const int *rows(const std::vector<int> &node_of_row)
+  {
+    if (node_of_row_.size() != node_of_row.size()) node_of_row_ = from_cpu(b(), node_of_row);
+    return node_of_row_.data();
+  }
+
   // `far` is where the backend has seen it.
   MovedMesh moved_mesh()
   {
@@ -455,7 +477,7 @@ class MovingNodes {
             at_.data(), before_.data(), 0};
   }
 
-  void put_topology(B &b, const MeshTopologyView &on_cpu, const WeldedMesh &mesh)
+  void put_topology(const MeshTopologyView &on_cpu, const WeldedMesh &mesh)
   {
     std::vector<int> all;
     const auto add = [&](const int *from, std::size_t n) {
@@ -470,13 +492,13 @@ class MovingNodes {
                               add(on_cpu.edge_face, mesh.edge_face.size()),
                               add(on_cpu.vertex_first, mesh.vertex_first.size()),
                               add(on_cpu.vertex_edge, mesh.vertex_edge.size())};
-    topology_numbers_ = from_cpu(b, all);
+    topology_numbers_ = from_cpu(b(), all);
     const int *to = topology_numbers_.data();
     topology_ = {to + at[0], to + at[1], to + at[2],     to + at[3],     to + at[4],
                  to + at[5], to + at[6], on_cpu.n_faces, on_cpu.n_edges, on_cpu.n_vertices};
   }
 
-  void put_faces_around(B &b, const WeldedMesh &mesh)
+  void put_faces_around(const WeldedMesh &mesh)
   {
     std::vector<int> first(mesh.vertices.size() + 1, 0), around(3 * mesh.faces.size());
     for (const auto &face : mesh.faces)
@@ -485,10 +507,12 @@ class MovingNodes {
     std::vector<int> at = first;
     for (std::size_t f = 0; f < mesh.faces.size(); f++)
       for (const int v : mesh.faces[f]) around[at[v]++] = static_cast<int>(f);
-    face_first_ = from_cpu(b, first);
-    face_around_ = from_cpu(b, around);
+    face_first_ = from_cpu(b(), first);
+    face_around_ = from_cpu(b(), around);
   }
 
+  EngineOn<B> *e_;
+  int mesh_;
   bool with_spins_ = false;
   Real back_ = 0;     // how long ago velocities are of (time)
   Real going_ = 0;    // see build_grid()
@@ -508,6 +532,7 @@ class MovingNodes {
   Array<NodesSeen> seen_;
   typename B::template CpuArray<NodesSeen> seen_on_cpu_;
   typename B::Event seen_is_there_;
+  NodeForces<B> forces_;
 };
 
 }    // namespace lsdcd

@@ -16,6 +16,7 @@
 #include "engine/results/result_columns.h"
 #include "engine/results/step_counts.h"
 #include "engine/sum_unit.h"
+#include "mesh/face_pressure.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -159,6 +160,28 @@ struct SumBlocks {
     for (std::size_t k = at * kTotalsBlock; k < (at + 1) * kTotalsBlock && k < n; k++)
       sum += values[k];
     sums[at] = sum;
+  }
+};
+
+// The force on the node of row k: of contacts, and of faces that push it in the order of their numbers, as on a host.
+struct ForceOfNode {
+  const int *faces, *first, *around;
+  const Vec3 *at;
+  const std::int64_t *sums;
+  const NodeForceRange *range;
+  const int *node_of_row;
+  Real sixth;
+  Real *to;
+
+  LSDCD_FN void operator()(std::size_t k) const
+  {
+    const int i = node_of_row[k];
+    const SumUnit unit(range->shares);
+    Vec3 sum;
+    for (int d = 0; d < 3; d++) sum[d] = unit.value(sums[3 * i + d]);
+    for (int m = first[i]; sixth != 0 && m < first[i + 1]; m++)
+      sum += corner_share_of_pressure(faces + 3 * std::size_t(around[m]), at, sixth);
+    for (int d = 0; d < 3; d++) to[3 * k + d] = sum[d];
   }
 };
 

@@ -82,6 +82,17 @@ inline ForceSettings force_settings(const EngineSettings &engine, const StepSett
   return s;
 }
 
+// Returns whether force_settings() of two steps are equal where mesh and engine are.
+inline bool are_alike(const StepSettings &a, const StepSettings &b)
+{
+  const auto is_of_wall = [](const StepSettings &s) {
+    return !s.mesh_temperature && !s.surface && !s.mobility;
+  };
+  return is_of_wall(a) && is_of_wall(b) && a.dt == b.dt && a.update_history == b.update_history &&
+         a.synchronous == b.synchronous && a.per_sphere == b.per_sphere &&
+         a.wall_temperature == b.wall_temperature;
+}
+
 // A mesh in a step.
 struct MeshWork {
   GridView grid;
