@@ -4,6 +4,7 @@
 """Examples run, the long ones for a part of their time. CMakeLists.txt names those that run every day; what the others use is tested by
 other scripts, in less time."""
 
+import os
 import re
 import subprocess
 import sys
@@ -11,7 +12,7 @@ import sys
 import pytest
 
 import lmp
-from facts import fact
+from facts import at_most, fact
 
 EXAMPLES = lmp.HERE.parent.parent / "examples"
 # in.NAME and, where it has another name, its folder; variables. A script fails itself where what its README names is violated: a balance
@@ -21,9 +22,11 @@ SCRIPTS = {"flap": "", "paddle": "", "filling": "", "feed": "", "piston": "", "l
            "sagging-belt": "sagging-belt fill 15000 measure 10000", "triaxial": "triaxial strain 0.05"}
 # Programs: wear and forces of a chute's triangles, a chute that is worn through, both with their pictures; a screw feeder without GRANSURF;
 # the forces of the LAMMPS that is installed on a plane, but for what the page says; the same wall cut into other triangles (round-off with
-# fix wall/lsdcd, a large difference with LIGGGHTS); four tutorials of LIGGGHTS in both programs.
+# fix wall/lsdcd, a large difference with LIGGGHTS); four tutorials of LIGGGHTS in both programs; forces of a
+# silo and a drum cut into other triangles.
 PROGRAMS = {"erosion": ["erosion/wear"], "wearing_chute": ["wearing-chute/before_after"], "from_gransurf": ["from-gransurf/compare"],
             "wall_gran_differences": ["flat/differences"],
+            "benchmark_triangles": ["benchmark/triangles", "--triangles", "20000", "--grains", "2000", "--seconds", "0.03"],
             "retriangulated": ["retriangulated/compare", "--only", "fix wall/lsdcd"],
             "retriangulated_liggghts": ["retriangulated/compare", "--only", "LIGGGHTS 3.8"],
             "from_liggghts": ["from-liggghts/compare", "--program", "fix wall/lsdcd"],
@@ -46,3 +49,33 @@ def test_program(folder, name):
     if done.returncode == 77:
         pytest.skip(done.stdout[-300:])
     fact(f"{program}.py ends well", done.returncode == 0 and re.search(SAYS.get(name, ""), done.stdout, re.S), done.stdout[-2000:])
+
+
+def test_benchmark(folder):
+    """The benchmark of eight codes with few grains, each case from its filling on. While the ball is slowed, momentum changes by what
+    gravity and the wall give, but for round-off, of momenta a hundred times as large: a run counts the forces at its two ends half, its mean the last one whole."""
+    place, steps, step, gravity = EXAMPLES / "benchmark", 4500, 1.04e-6, 9.81
+    subprocess.run([sys.executable, place / "make_walls.py", "--out", folder, "--lsdcd", os.environ["LSDCD_TOOL"]], check=True)
+    lmp.run_well(place / "in.fill_impact", folder, dir=folder, thousands=5, longest=0.032)
+    lmp.run_well(place / "in.fill_silo", folder, dir=folder, grains=2000, longest=0.016)
+    lmp.run_well(place / "in.fill_drum", folder, dir=folder, small=1500, large=300, longest=0.008)
+    lmp.run_well(place / "in.silo", folder, dir=folder, seconds=0.041)
+    lmp.run_well(place / "in.drum", folder, dir=folder, seconds=0.021)
+    said = lmp.run_well(f"""include {place / "in.impact"}
+variable        momentum equal mass(all)*vcm(all,z)
+fix             load all ave/time 1 {steps} {steps} f_wall[3]
+thermo_style    custom step v_momentum f_load f_wall[3] v_vz
+thermo_modify   format float %.17g
+thermo          {steps}
+run             {steps}
+variable        weight equal mass(all)*{gravity}
+print           "weight $(v_weight:%.17g)"
+""", folder, dir=folder, height=-0.052, seconds=0)
+    (_, before, _, first, fast), (_, after, mean, last, slow) = lmp.read_thermo(said)[-2:]
+    weight = float(re.findall(r"^weight (\S+)", said, re.M)[-1])
+    given = -(mean + (first - last) / (2 * steps)) - weight
+    fact("the bed slows the ball", fast <= -5 and slow > -4.9, f"{fast} {slow}")
+    at_most("momentum that neither gravity nor the wall has given, in parts of that of the wall", abs((after - before) / (steps * step) - given) / abs(mean), 1e-10)
+    rows = {name: [[float(x) for x in line.split(",")] for line in (folder / f"{name}.csv").read_text().splitlines()[1:]] for name in ("silo", "drum")}
+    fact("grains leave the silo, and are counted twice", all(row[1] < 2000 and 0 < row[2] <= 2000 - row[1] for row in rows["silo"][-1:]), rows["silo"])
+    fact("the drum lifts its grains", rows["drum"][-1][3] < rows["drum"][0][3], rows["drum"])

@@ -1,0 +1,138 @@
+#!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 LSDCD contributors
+# SPDX-License-Identifier: BSD-3-Clause
+
+"""The tables of doc/benchmark.md, and its figures silo.png, drum.png and impact.png, from a folder of results.
+
+The folder has what the decks write as CASE_FILLING.csv and CASE_FILLING.log, where CASE is silo_large_m1, silo_small_m1, silo_large_m2, drum,
+impact_25, impact_50 or impact_100, and FILLING a number. What is missing is left out. --others is a folder with the curves of LIGGGHTS and
+MUSEN in silo.csv, drum.csv and impact.csv, which the figures show beside ours.
+"""
+import argparse
+import re
+import sys
+from pathlib import Path
+
+import numpy as np
+
+HERE = Path(__file__).resolve().parent
+sys.path.insert(0, str(HERE.parent))
+import runs    # noqa: E402
+
+
+def read(path):
+    """Columns by name. A last line that a run which was cut off has not finished is left out."""
+    titles, *lines = path.read_text().splitlines()
+    titles = titles.split(",")
+    rows = [line.split(",") for line in lines]
+    rows = [[float(x) if x else np.nan for x in row] for row in rows if len(row) == len(titles)]
+    return dict(zip(titles, np.array(rows).reshape(-1, len(titles)).T))
+
+
+def fillings(folder, case, until=0.0):
+    """Of each filling of a case, its columns, if it came to the time `until`."""
+    paths = sorted(p for p in folder.glob(f"{case}_*.csv") if re.fullmatch(rf"{case}_\d+", p.stem))
+    return [columns for columns in map(read, paths) if len(columns["t"]) and columns["t"][-1] >= until]
+
+
+def rate(columns, name="above", first=0.5, last=3.5):
+    """Grains that leave a silo, thousands a second: the slope between two times."""
+    part = (columns["t"] >= first - 1e-6) & (columns["t"] <= last + 1e-6)
+    return -np.polyfit(columns["t"][part], columns[name][part], 1)[0] / 1000
+
+
+def said(values, digits):
+    """Mean and standard error, or the value where there is one."""
+    values = np.array(values)
+    mean = f"{values.mean():.{digits}f}"
+    return mean if len(values) < 2 else f"{mean} +- {values.std(ddof=1) / len(values)**0.5:.{digits}f} ({len(values)} fillings)"
+
+
+def answers(folder):
+    """Rows of the first table: what, LSDCD, the eight codes, LIGGGHTS and MUSEN run again."""
+    rows, mean = [], {}
+    for case, what, eight, again in (("silo_large_m1", "silo, large outlet, M1: 1000 grains a second", "23.2 within 5 %", "24.50, 24.25"),
+                                     ("silo_small_m1", "silo, small outlet, M1", "", "-, 7.74"),
+                                     ("silo_large_m2", "silo, large outlet, M2", "", "")):
+        rates = [rate(c) for c in fillings(folder, case, 3.5)]
+        if rates:
+            mean[case] = np.mean(rates)
+            rows.append([what, said(rates, 2), eight, again])
+    if "silo_large_m1" in mean and "silo_small_m1" in mean:
+        rows.append(["silo: large over small", f"{mean['silo_large_m1'] / mean['silo_small_m1']:.2f}", "3.10 +- 0.06", "-, 3.13"])
+    peaks = []
+    for c in fillings(folder, "drum", 1.7):
+        early, late = c["t"] < 1, (c["t"] > 1) & (c["t"] < 2)
+        most, least = np.argmax(np.where(early, c["z2_m1"], -1)), np.argmin(np.where(late, c["z2_m1"], np.inf))
+        peaks.append((c["t"][most], c["z2_m1"][most], c["t"][least], c["z2_m1"][least]))
+    for k, (what, digits, again) in enumerate((("drum: first maximum of M1 in zone 2, at s", 2, "0.6, 0.6"), ("... grains", 0, "22 861, 23 064"),
+                                               ("drum: its minimum, at s", 2, "1.5, 1.5"), ("... grains", 0, "21, 22"))):
+        if peaks:
+            rows.append([what, said([p[k] for p in peaks], digits), "", again])
+    lowest = [c["z"].min() * 1000 for c in fillings(folder, "impact_25", 0.04)]
+    if lowest:
+        rows.append(["impact, 25 000: lowest place of the ball, mm, median",
+                     f"{np.median(lowest):.2f} ({min(lowest):.2f} to {max(lowest):.2f}, {len(lowest)} fillings)", "-78.8 to -78.3", ""])
+    for case, again in (("impact_50", ""), ("impact_100", "90.9, 90.5")):
+        depths = [(c["z"][0] - c["z"].min()) * 1000 for c in fillings(folder, case, 0.09)]
+        if depths:
+            rows.append([f"impact, {case[7:]} 000: way of the ball, mm", said(depths, 1), "", again])
+    return rows
+
+
+def times(folder):
+    """Rows of the second table: of each log, its loop times together."""
+    rows = []
+    for path in sorted(folder.glob("*.log")):
+        loops = re.findall(r"^Loop time of (\S+) on (\d+) procs for (\d+) steps with (\d+) atoms", path.read_text(errors="replace"), re.M)
+        seconds, steps = sum(float(x[0]) for x in loops), sum(int(x[2]) for x in loops)
+        if steps:
+            work = sum(int(x[2]) * int(x[3]) for x in loops)
+            rows.append([path.stem, str(steps), f"{seconds:.1f}", f"{1000 * seconds / steps:.4f}", f"{work / seconds / 1e6:.0f}"])
+    return rows
+
+
+def curve(axes, columns, name, label, style, scale=1.0, shift=0.0):
+    axes.plot(columns["t"], (columns[name] - shift) * scale, style, label=label, lw=1, ms=3)
+
+
+def draw(folder, out, others):
+    of = {name: read(others / f"{name}.csv") if others else None for name in ("silo", "drum", "impact")}
+    with runs.plot(out / "silo.png", "time / s", "1000 grains above the lip") as axes:
+        for case, label, style in (("silo_large_m1", "large, M1", "C0-"), ("silo_large_m2", "large, M2", "C2-"), ("silo_small_m1", "small, M1", "C1-")):
+            for columns in fillings(folder, case)[:1]:
+                curve(axes, columns, "above", label, style, 1e-3)
+        for name, label, style in (("large_liggghts", "LIGGGHTS", "k+"), ("large_musen", "MUSEN", "kx"), ("small_musen", "", "kx")):
+            if of["silo"]:
+                curve(axes, of["silo"], name, label or None, style, 1e-3)
+        axes.legend()
+    with runs.plot(out / "drum.png", "time / s", "grains in the zone") as axes:
+        for name, label, style in (("z2_m1", "M1, zone 2", "C0-"), ("z1_m1", "M1, zone 1", "C1-"), ("z2_m2", "M2, zone 2", "C2-"), ("z1_m2", "M2, zone 1", "C3-")):
+            for columns in fillings(folder, "drum")[:1]:
+                curve(axes, columns, name, label, style)
+            if of["drum"]:
+                curve(axes, of["drum"], f"{name}_liggghts", "LIGGGHTS" if name == "z2_m1" else None, "k+")
+        axes.legend()
+    with runs.plot(out / "impact.png", "time / s", "height of the ball less that at the start / mm") as axes:
+        for n, style in (("25", "C0"), ("50", "C1"), ("100", "C2")):
+            for k, columns in enumerate(fillings(folder, f"impact_{n}")):
+                curve(axes, columns, "z", None if k else f"{n} 000", f"{style}-", 1e3, columns["z"][0])
+            if of["impact"]:
+                curve(axes, of["impact"], f"{n}k_liggghts", "LIGGGHTS" if n == "25" else None, "k+", 1e3)
+        axes.legend()
+
+
+def main():
+    p = argparse.ArgumentParser(description=__doc__)
+    p.add_argument("results", type=Path)
+    p.add_argument("--others", type=Path)
+    p.add_argument("--out", type=Path, default=Path("."))
+    a = p.parse_args()
+    runs.print_table(["", "LSDCD", "eight codes", "LIGGGHTS, MUSEN of 2026"], answers(a.results))
+    print()
+    runs.print_table(["run", "steps", "s", "ms a step", "million grain-steps a second"], times(a.results))
+    draw(a.results, a.out, a.others)
+
+
+if __name__ == "__main__":
+    main()
