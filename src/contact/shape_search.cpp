@@ -571,7 +571,8 @@ bool ShapeSearch::is_off_a_line(const Superellipsoid &s, const Vec3 &from, const
   return false;
 }
 
-// Finds the contacts by the minimum of each triangle.
+// Finds the contacts by the minimum of each triangle. Past the least radius of curvature the tangents of some features and the gradients at
+// others may each pass the contact on: then the deepest minimum of each connected piece of the surface in the grain is one.
 void ShapeSearch::find_by_triangle(const PlacedGrain &grain, const NearFeatures &near)
 {
   minima_.clear();
@@ -591,56 +592,52 @@ void ShapeSearch::find_by_triangle(const PlacedGrain &grain, const NearFeatures 
                                             : a.primitive < b.primitive;
   });
   local_.clear();
+  find_pieces(grain);
+  deepest_.assign(minima_.size(), nullptr);
+  has_contact_.assign(minima_.size(), false);
+  for (std::uint32_t i = 0; i < minima_.size(); i++) {
+    const Minimum &m = minima_[i], *&deepest = deepest_[piece_of(i)];
+    if (!deepest || m.at.distance < deepest->at.distance) deepest = &m;
+    if ((i > 0 && m.feature == minima_[i - 1].feature) || !is_local(grain, m)) continue;
+    has_contact_[piece_of(i)] = true;
+    local_.push_back(m);
+  }
   for (std::size_t i = 0; i < minima_.size(); i++)
-    if ((i == 0 || minima_[i].feature != minima_[i - 1].feature) && is_local(grain, minima_[i]))
-      local_.push_back(minima_[i]);
-  add_passed_on();
+    if (deepest_[i] && !has_contact_[i]) local_.push_back(*deepest_[i]);
 }
 
-// Adds the deepest minimum of each connected piece of the surface in the grain that has no local one. Beyond the least radius of
-// curvature the tangents of some features and the gradients at others may each pass the contact on, and the piece has one all the same.
-void ShapeSearch::add_passed_on()
+// Finds which minima are of one connected piece of the surface in the grain: of triangles that share an edge there, or a vertex.
+void ShapeSearch::find_pieces(const PlacedGrain &grain)
 {
-  const auto each_vertex = [&](const Minimum &m, const auto &visit) {
-    const TreePrimitive &p = view_.primitives[m.primitive];
-    for (int k = 0; k < n_corners(p.code); k++)
-      visit(place_in(piece_vertices_, p.vertex[k], SameNumber()));
-  };
-  piece_vertices_.clear();
-  for (const Minimum &m : minima_) {
-    const TreePrimitive &p = view_.primitives[m.primitive];
-    piece_vertices_.insert(piece_vertices_.end(), p.vertex, p.vertex + n_corners(p.code));
+  piece_.resize(minima_.size());
+  std::iota(piece_.begin(), piece_.end(), 0);
+  shared_.clear();
+  for (std::uint32_t i = 0; i < minima_.size(); i++) {
+    const TreePrimitive &p = view_.primitives[minima_[i].primitive];
+    const int n = n_corners(p.code);
+    for (int k = 0; k < (n == 3 ? 3 : n - 1); k++) {
+      const int *ends = view_.edges + 2 * p.edge[k];
+      if (may_cut(grain.shape, grain.own_point(view_.vertices[ends[0]]),
+                  grain.own_point(view_.vertices[ends[1]])))
+        shared_.push_back({feature_code(FeatureKind::edge, p.edge[k]), i});
+    }
+    for (int k = 0; k < n; k++)
+      if (gauge_value(grain.shape, corner_of(grain, p, k)) < 1)
+        shared_.push_back({feature_code(FeatureKind::vertex, p.vertex[k]), i});
   }
-  std::sort(piece_vertices_.begin(), piece_vertices_.end());
-  piece_vertices_.erase(std::unique(piece_vertices_.begin(), piece_vertices_.end()),
-                        piece_vertices_.end());
-  piece_of_.resize(piece_vertices_.size());
-  std::iota(piece_of_.begin(), piece_of_.end(), 0);
-  const auto lowest = [&](std::uint32_t v) {
-    while (piece_of_[v] != v) v = piece_of_[v] = piece_of_[piece_of_[v]];
-    return v;
-  };
-  for (const Minimum &m : minima_) {
-    std::uint32_t first = kNoPrimitive;
-    each_vertex(m, [&](std::uint32_t v) {
-      if (first == kNoPrimitive) first = v;
-      const std::uint32_t a = lowest(first), b = lowest(v);
-      piece_of_[std::max(a, b)] = std::min(a, b);
-    });
+  std::sort(shared_.begin(), shared_.end());
+  for (std::size_t k = 1; k < shared_.size(); k++) {
+    if (shared_[k].first != shared_[k - 1].first) continue;
+    const std::uint32_t a = piece_of(shared_[k].second), b = piece_of(shared_[k - 1].second);
+    piece_[std::max(a, b)] = std::min(a, b);
   }
-  const auto piece = [&](const Minimum &m) {
-    std::uint32_t of = kNoPrimitive;
-    each_vertex(m, [&](std::uint32_t v) { of = lowest(v); });
-    return of;
-  };
-  deepest_.assign(piece_vertices_.size(), nullptr);
-  for (const Minimum &m : minima_) {
-    const Minimum *&deepest = deepest_[piece(m)];
-    if (!deepest || m.at.distance < deepest->at.distance) deepest = &m;
-  }
-  for (const Minimum &m : local_) deepest_[piece(m)] = nullptr;
-  for (const Minimum *m : deepest_)
-    if (m) local_.push_back(*m);
+}
+
+// Returns the lowest minimum of the piece that a minimum is of.
+std::uint32_t ShapeSearch::piece_of(std::uint32_t minimum)
+{
+  while (piece_[minimum] != minimum) minimum = piece_[minimum] = piece_[piece_[minimum]];
+  return minimum;
 }
 
 // Adds the local minima to `found`, in the order of their features.

@@ -15,6 +15,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <utility>
 #include <vector>
 
 namespace lsdcd {
@@ -138,7 +139,8 @@ class ShapeSearch {
   bool is_local(const PlacedGrain &grain, const Minimum &m) const;
   bool rises_around(const PlacedGrain &grain, const Minimum &m) const;
   bool none_is_deeper(const PlacedGrain &grain, const Minimum &m) const;
-  void add_passed_on();
+  void find_pieces(const PlacedGrain &grain);
+  std::uint32_t piece_of(std::uint32_t minimum);
   void add_contacts(const PlacedGrain &grain, std::vector<ShapeContact> &found);
   void merge(const PlacedGrain &grain);
   bool are_same(const PlacedGrain &grain, const Minimum &a, const Minimum &b) const;
@@ -156,10 +158,12 @@ class ShapeSearch {
   std::vector<char> owned_;    // of planes: it has the foot of its deep minimum in a face
   std::vector<Line> lines_;
   std::vector<Minimum> minima_, local_;
-  std::vector<std::uint32_t> piece_vertices_,
-      piece_of_;                            // of minima_; of each vertex, by the lowest
-  std::vector<const Minimum *> deepest_;    // of pieces
-  std::vector<std::size_t> same_as_;        // of local_
+  std::vector<std::uint32_t> piece_;    // of each of minima_, another one of its piece, or itself
+  std::vector<std::pair<FeatureCode, std::uint32_t>>
+      shared_;                              // with the minimum of a primitive at it
+  std::vector<const Minimum *> deepest_;    // of pieces, as are the next
+  std::vector<char> has_contact_;
+  std::vector<std::size_t> same_as_;    // of local_
   mutable std::vector<int> around_;
 };
 

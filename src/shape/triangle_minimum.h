@@ -595,7 +595,8 @@ class TriangleMinimum {
     for (int k = 0; k < 3; k++) keep_nearer(least, on_side(k, HUGE_VAL));
     if (!rises_inwards(least)) {
       if (is_inside(plane.foot) && is_minimum(s_, plane)) return on_face(plane);
-      keep_nearer(least, search_inside(fmin(below, least.distance - 4 * on_surface(s_))));
+      keep_nearer(least,
+                  search_inside(plane.normal, fmin(below, least.distance - 4 * on_surface(s_))));
     }
     return least.distance < below ? least : no_minimum();
   }
@@ -611,8 +612,8 @@ class TriangleMinimum {
   }
 
   // Cuts off what a gradient shows to be farther than the least found, through the centroid of what is left: each cut takes
-  // more than a third of the area.
-  LSDCD_FN ShapeMinimum search_inside(Real below) const
+  // more than a third of the area. There the gradient is along the normal of the triangle; as the tangent's it is the one `away` from the centre.
+  LSDCD_FN ShapeMinimum search_inside(const Vec3 &away, Real below) const
   {
     constexpr int kMostCuts = 160;
     struct Point {
@@ -664,7 +665,7 @@ class TriangleMinimum {
       for (int i = 0; i < n; i++) polygon[i] = rest[i];
     }
     if (!found) return no_minimum();
-    least.gradient = dot(least.normal, normal_) < 0 ? -normal_ : normal_;
+    least.gradient = away;
     return least;
   }
 

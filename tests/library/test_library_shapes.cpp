@@ -115,40 +115,71 @@ TEST_F(Shape,
 }
 
 // At any depth: past the least radius of curvature, too, where features may pass a contact on.
-TEST_F(Shape, touches_two_bodies_of_one_mesh_as_it_touches_each)
-{
-  constexpr std::size_t kGrains = 300;
-  const auto cylinder_at = [](double x) {
-    lsdcd::TriangleSoup soup = lsdcd::cylinder_mesh(24, 5, 0.5, 0.6);
-    for (lsdcd::Vec3 &c : soup.corners) c.x += x;
-    return soup;
-  };
-  const lsdcd::TriangleSoup left = cylinder_at(-0.55), right = cylinder_at(0.55);
-  lsdcd::TriangleSoup both = left;
-  lsdcd::append(both, right);
-  lsdcd::Shapes g = grains(kGrains);
-  for (double &x : g.centres) x *= 0.3;
-  const auto overlaps_at = [&](const lsdcd::TriangleSoup &soup,
-                               std::vector<std::vector<double>> &of) {
+class ShapeAtTwoBodies : public Shape {
+ protected:
+  void expect_the_contacts_of_each(const lsdcd::TriangleSoup &left,
+                                   const lsdcd::TriangleSoup &right)
+  {
+    lsdcd::TriangleSoup both = left;
+    lsdcd::append(both, right);
+    lsdcd::Shapes g = grains(kGrains);
+    for (double &x : g.centres) x *= 0.3;
+    Overlaps each(kGrains), together(kGrains);
+    add_overlaps(g, left, each);
+    add_overlaps(g, right, each);
+    add_overlaps(g, both, together);
+    std::size_t at_both = 0;
+    for (std::size_t i = 0; i < kGrains; i++) {
+      std::sort(each[i].begin(), each[i].end());
+      std::sort(together[i].begin(), together[i].end());
+      ASSERT_EQ(together[i].size(), each[i].size()) << i;
+      for (std::size_t k = 0; k < each[i].size(); k++)
+        EXPECT_NEAR(together[i][k], each[i][k], 1e-13);
+      at_both += each[i].size() > 1;
+    }
+    EXPECT_GT(at_both, kGrains / 10);
+  }
+
+ private:
+  static constexpr std::size_t kGrains = 300;
+  using Overlaps = std::vector<std::vector<double>>;    // of each grain
+
+  static void add_overlaps(const lsdcd::Shapes &g, const lsdcd::TriangleSoup &soup, Overlaps &of)
+  {
     const lsdcd::Mesh alone{::numbers(soup)};
     const lsdcd::ShapeContacts found = lsdcd::Grid(alone, kCutoff).shape_contacts(g);
     for (std::size_t i = 0; i < kGrains; i++)
       of[i].insert(of[i].end(), &found.overlap[0] + found.first[i],
                    &found.overlap[0] + found.first[i + 1]);
-  };
-  std::vector<std::vector<double>> each(kGrains), together(kGrains);
-  overlaps_at(left, each);
-  overlaps_at(right, each);
-  overlaps_at(both, together);
-  std::size_t at_both = 0;
-  for (std::size_t i = 0; i < kGrains; i++) {
-    std::sort(each[i].begin(), each[i].end());
-    std::sort(together[i].begin(), together[i].end());
-    ASSERT_EQ(together[i].size(), each[i].size()) << i;
-    for (std::size_t k = 0; k < each[i].size(); k++) EXPECT_NEAR(together[i][k], each[i][k], 1e-13);
-    at_both += each[i].size() > 1;
   }
-  EXPECT_GT(at_both, kGrains / 10);
+};
+
+TEST_F(ShapeAtTwoBodies, that_are_apart_touches_them_as_it_touches_each)
+{
+  const auto cylinder_at = [](double x) {
+    lsdcd::TriangleSoup soup = lsdcd::cylinder_mesh(24, 5, 0.5, 0.6);
+    for (lsdcd::Vec3 &c : soup.corners) c.x += x;
+    return soup;
+  };
+  expect_the_contacts_of_each(cylinder_at(-0.55), cylinder_at(0.55));
+}
+
+// Their triangles share a vertex, but not in a grain.
+TEST_F(ShapeAtTwoBodies, that_meet_at_a_tip_far_away_touches_them_as_it_touches_each)
+{
+  const auto cone_at = [](double x) {
+    constexpr int kSides = 24;
+    lsdcd::TriangleSoup soup;
+    soup.source = "cone";
+    const auto rim = [&](int k) {
+      const double angle = 2 * lsdcd::kPi * k / kSides;
+      return lsdcd::Vec3{2 * x + std::cos(angle), std::sin(angle), 4};
+    };
+    for (int k = 0; k < kSides; k++)
+      soup.corners.insert(soup.corners.end(), {{0, 0, -4}, rim(k), rim(k + 1)});
+    return soup;
+  };
+  expect_the_contacts_of_each(cone_at(-0.55), cone_at(0.55));
 }
 
 TEST_F(Shape, has_the_facts_of_closed_forms)

@@ -599,6 +599,23 @@ TEST(grain_folds, press_a_plane_with_one_contact_at_any_depth_however_it_is_cut)
   }
 }
 
+// Past the least radius of curvature the nearest way out of the grain may be on either side of a face.
+TEST(grain_folds, are_pushed_by_a_face_to_the_side_of_their_centre_at_any_depth)
+{
+  EngineSettings law = hooke(1);
+  law.contacts = true;
+  int n_deep = 0;
+  for (unsigned seed = 0; seed < 300; seed++) {
+    Random random(seed);
+    Evaluated rod(valley(uniform(random, 2, 30)), {0.3, 0.3, 1.5}, 2, 2, law);
+    const Vec3 x = {uniform(random, -0.5, 0.5), 0, uniform(random, 0.1, 1)};
+    n_deep += rod.at(x, random_turn(random)).overlap > rod.shape.rho;
+    for (const StepContact &c : rod.scene.engine->results().contacts())
+      if (feature_kind(c.feature) == FeatureKind::face) EXPECT_GE(-dot(c.force, c.arm), 0) << seed;
+  }
+  EXPECT_GT(n_deep, 150);
+}
+
 // Overlaps are roundings of 10, 1e-15, over the overlap of 0.01 at least.
 TEST(grain_folds, are_pushed_alike_by_a_bumpy_wall_however_it_is_cut)
 {
