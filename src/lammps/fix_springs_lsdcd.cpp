@@ -76,20 +76,24 @@ void FixSpringsLsdcd::begin_step(const lsdcd::PairList &of_step)
   own = atom->nlocal;
   now = 1 - now;
   if (new_list)
-    partners.hand_out(list, memory[1 - now],
+    partners.hand_out(list, history[1 - now],
                       [this](int i) { return static_cast<lsdcd::Partners::Name>(atom->tag[i]); });
+  if (new_list) row_start.clear();
   new_list = false;
   in_pairs = true;
-  memory[now].begin(list.rows, partners.width());
+  history[now].begin(partners.width());
 }
 
-const double *FixSpringsLsdcd::numbers_of(int row, int place) const
+std::vector<double> FixSpringsLsdcd::numbers_of(int row, int place)
 {
-  const lsdcd::PairMemory &last = memory[now];
-  if (!in_pairs && !last.rows()) return nullptr;
-  for (std::size_t pair = last.first(row); pair < last.first(row + 1); pair++)
-    if (last.place(pair) == place) return last.numbers(pair);
-  return nullptr;
+  const lsdcd::PairHistory &last = history[now];
+  for (auto k = static_cast<int>(row_start.size()); k <= row; k++)
+    row_start.push_back(k == 0 ? 0 : row_start[k - 1] + list.length[list.grain[k - 1]]);
+  const std::size_t pair = last.find(row_start[row] + static_cast<std::size_t>(place));
+  std::vector<double> numbers;
+  for (int k = 0; pair < last.size() && k < last.width(); k++)
+    numbers.push_back(last.column(k)[pair]);
+  return numbers;
 }
 
 // ---- from pairs to atoms -----------------------------------------------------------------
@@ -101,7 +105,7 @@ void FixSpringsLsdcd::collect()
   if (in_pairs) {
     const bool newton = force->newton_pair;
     partners.collect(
-        list, memory[now], newton ? own + atom->nghost : own,
+        list, history[now], newton ? own + atom->nghost : own,
         [this](int i) { return static_cast<lsdcd::Partners::Name>(atom->tag[i]); },
         [this](int i, int j) { return flips(atom->type[i], atom->type[j]); });
     if (newton) {
@@ -250,5 +254,5 @@ void FixSpringsLsdcd::unpack_restart(int i, int nth)
 
 double FixSpringsLsdcd::memory_usage()
 {
-  return static_cast<double>(partners.bytes() + memory[0].bytes() + memory[1].bytes());
+  return static_cast<double>(partners.bytes() + history[0].bytes() + history[1].bytes());
 }

@@ -13,6 +13,7 @@
 
 #include <functional>
 #include <string>
+#include <vector>
 
 namespace LAMMPS_NS {
 
@@ -58,24 +59,26 @@ class FixSpringsLsdcd : public Fix, protected OwnMessages {
                 const std::function<unsigned(int type, int other)> &flips);
   // Before a step of the pairs in this list.
   void begin_step(const lsdcd::PairList &list);
-  const lsdcd::PairMemory &old() const { return memory[1 - now]; }
-  lsdcd::PairMemory &next() { return memory[now]; }
-  // Finds what the pair of row and place of the last list keeps; null: it does not touch.
-  const double *numbers_of(int row, int place) const;
+  const lsdcd::PairHistory &old() const { return history[1 - now]; }
+  lsdcd::PairHistory &next() { return history[now]; }
+  // Returns what the pair of row and place of the last list keeps; nothing if it does not touch.
+  std::vector<double> numbers_of(int row, int place);
 
   bool keeps() const { return partners.width() > 0; }
   void collect();
   void ask_for_room();
 
   lsdcd::Partners partners;
-  lsdcd::PairMemory memory[2];
+  lsdcd::PairHistory history[2];
   int now = 0;              // which of them the last step has written
   lsdcd::PairList list;     // of the last step
   int own = 0;              // atoms of this process then
-  bool in_pairs = false;    // memory[now] is newer than partners
+  bool in_pairs = false;    // history[now] is newer than partners
   bool new_list = true;     // since the last step
-  int level = 0;            // of run_style respa, whose forces come next
-  std::string kinds;        // of the laws, or of those of a restart file
+  std::vector<std::size_t>
+      row_start;    // the number of a row's first pair in the list, of as many rows as were asked for
+  int level = 0;        // of run_style respa, whose forces come next
+  std::string kinds;    // of the laws, or of those of a restart file
   bool from_file =
       false;    // partners are those of a restart file, whose laws have not been checked
   std::function<unsigned(int, int)> flips;

@@ -325,8 +325,9 @@ void PairGranularLsdcd::tell_laws()
   if (same) text = "\n  all types: " + words(1, 1);
   const int width = springs ? springs->partners.width() : 0;
   log("laws of pairs, " +
-      (width ? std::to_string(width * sizeof(double) + sizeof(int)) + " bytes a touching pair"
-             : std::string("which keep nothing")) +
+      (width
+           ? std::to_string(width * sizeof(double) + sizeof(std::size_t)) + " bytes a touching pair"
+           : std::string("which keep nothing")) +
       text);
 }
 
@@ -442,7 +443,7 @@ void PairGranularLsdcd::compute(int eflag, int vflag)
   if (springs && springs->keeps()) {
     springs->begin_step(step.list);
     step.old = &springs->old();
-    step.memory = &springs->next();
+    step.history = &springs->next();
   }
   record.clear();
   if (evflag) step.record = &record;
@@ -464,29 +465,30 @@ double PairGranularLsdcd::single(int i, int j, int itype, int jtype, double /*rs
   const lsdcd::PairLaw &law = laws[law_index(itype, jtype)];
 
   // What the pair keeps: it may be in the row of either.
-  const double *kept = nullptr;
+  std::vector<double> kept;
   bool turned = false;
   for (const auto &[row_of, other] : {std::make_pair(i, j), std::make_pair(j, i)}) {
-    if (!springs || !springs->keeps() || kept) break;
+    if (!springs || !springs->keeps() || !kept.empty()) break;
     int *const end = list->ilist + list->inum;
     int *const at = row_of < list->inum && list->ilist[row_of] == row_of
                         ? list->ilist + row_of
                         : std::find(list->ilist, end, row_of);
     if (at == end) continue;
-    for (int place = 0; place < list->numneigh[row_of] && !kept; place++)
+    for (int place = 0; place < list->numneigh[row_of] && kept.empty(); place++)
       if ((list->firstneigh[row_of][place] & NEIGHMASK) == other)
         kept = springs->numbers_of(static_cast<int>(at - list->ilist), place);
     turned = row_of != i;
   }
   const int width = springs ? springs->partners.width() : 0;
-  std::vector<double> old(kept ? width : 0), unused(std::max(3, width));
+  std::vector<double> unused(std::max(3, width));
   const unsigned flips = flips_of[law_index(itype, jtype)];
-  for (std::size_t k = 0; k < old.size(); k++)
-    old[k] = turned && flips >> k & 1 ? -kept[k] : kept[k];
+  for (std::size_t k = 0; k < kept.size(); k++)
+    if (turned && flips >> k & 1) kept[k] = -kept[k];
 
   const lsdcd::GrainPair pair = lsdcd::grain_pair(now, i, j, false);
   lsdcd::PairForce f;
-  if (!law.evaluate(law.law, pair, kept != nullptr, kept ? old.data() : nullptr, unused.data(), f))
+  if (!law.evaluate(law.law, pair, !kept.empty(), kept.empty() ? nullptr : kept.data(),
+                    unused.data(), f))
     return 0;
   const double distance = std::sqrt(pair.distance_sq);
   fforce = f.push / distance;

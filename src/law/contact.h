@@ -6,7 +6,12 @@
 
 #include "base/vec3.h"
 
+#include <cstdint>
+
 namespace lsdcd {
+
+// Enumerators of sub-models are as wide as a Real: vectors of the two have as many lanes.
+using ModelNumber = std::int64_t;
 
 // One contact of a sphere with a wall, or of two spheres, in one step.
 struct Contact {

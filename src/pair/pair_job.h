@@ -7,6 +7,7 @@
 #include "base/vec3.h"
 #include "engine/step/compiled_law.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <memory>
 #include <vector>
@@ -21,52 +22,44 @@ struct PairList {
   int mask, factor_shift;
 };
 
-// What touching pairs keep from step to step, in the order of the host's list. Those of its row k are pairs
-// first[k] .. first[k + 1] - 1: place in the row, and `width` numbers as the first grain of the row sees them.
-class PairMemory {
+// What touching pairs keep from step to step, in the order of the host's list: the number of the pair in the list, counted over
+// all rows, and `width` numbers as the first grain of the row sees them.
+class PairHistory {
  public:
-  // Begins to write rows of pairs with `width` numbers each.
-  void begin(int rows, int width)
+  // Begins to write pairs with `width` numbers each.
+  void begin(int width)
   {
-    if (width != this->width()) room_ = size_ = 0;
+    if (width != this->width()) room_ = 0;
     width_ = static_cast<std::size_t>(width);
-    rows_ = 0;
     size_ = 0;
-    first_.resize(static_cast<std::size_t>(rows) + 1);
-    first_[0] = 0;
   }
-  // Room for n more pairs.
-  void reserve(int n)
-  {
-    if (size_ + static_cast<std::size_t>(n) > room_) grow(static_cast<std::size_t>(n));
-  }
-  // Appends a pair and returns its numbers. There is room for it.
-  Real *append(int place)
-  {
-    place_[size_] = place;
-    return numbers_.get() + width_ * size_++;
-  }
-  void take_back() { size_--; }    // the pair that was appended last
-  void end_row() { first_[++rows_] = size_; }
+  // Appends n pairs with these numbers in the list, and returns the first. What they keep is to be written.
+  std::size_t append(const std::size_t *keys, int n);
 
-  int rows() const { return rows_; }
   int width() const { return static_cast<int>(width_); }
   std::size_t size() const { return size_; }
-  std::size_t first(int row) const { return first_[row]; }
-  int place(std::size_t pair) const { return place_[pair]; }
-  const Real *numbers(std::size_t pair) const { return numbers_.get() + width_ * pair; }
-  std::size_t bytes() const
+  std::size_t key(std::size_t pair) const { return key_[pair]; }
+  // Returns whether the n pairs from `pair` on have these numbers in the list.
+  bool has(std::size_t pair, const std::size_t *keys, std::size_t n) const
   {
-    return first_.capacity() * sizeof(std::size_t) + room_ * (sizeof(int) + width_ * sizeof(Real));
+    return pair + n <= size_ && std::equal(keys, keys + n, key_.get() + pair);
   }
+  // Returns the pair with this number in the list, or size().
+  std::size_t find(std::size_t key) const;
+  // The k-th numbers of all pairs lie side by side.
+  Real *column(int k) { return numbers_.get() + room_ * static_cast<std::size_t>(k); }
+  const Real *column(int k) const { return numbers_.get() + room_ * static_cast<std::size_t>(k); }
+  static std::size_t bytes_per_pair(int width)
+  {
+    return sizeof(std::size_t) + static_cast<std::size_t>(width) * sizeof(Real);
+  }
+  std::size_t bytes() const { return room_ * bytes_per_pair(width()); }
 
  private:
   void grow(std::size_t n);
 
   std::size_t width_ = 0, size_ = 0, room_ = 0;
-  int rows_ = 0;
-  std::vector<std::size_t> first_;
-  std::unique_ptr<int[]> place_;
+  std::unique_ptr<std::size_t[]> key_;
   std::unique_ptr<Real[]> numbers_;
 };
 
@@ -103,15 +96,23 @@ struct GrainPair {
   bool update;
 };
 
-struct PairJob;
+struct PairLanes;
 
 // The law of a pair of types, compiled.
 struct PairLaw {
   LawBytes law;
-  void (*run)(const PairJob &);    // a step of pairs that all have such laws
+  Real pull_off;    // see ContactLaw::pull_off()
+  bool has_heat;
+  unsigned stored;    // see stored_numbers() (pair_kernel.h)
   // Computes one pair: see evaluate_pair() (pair_kernel.h). False: it does not touch, and nothing is changed.
   bool (*evaluate)(const LawBytes &, const GrainPair &, bool touched, const Real *old, Real *kept,
                    PairForce &);
+  // Computes n pairs in lanes (evaluate_lanes.h), one by one.
+  void (*evaluate_lanes)(const LawBytes &, PairLanes &, int n, Real dt, bool update);
+  // Computes them in vectors, without their energies, in steps in which springs move; prepare() has been called for these
+  // lanes. Null: there is no such loop.
+  void (*evaluate_wide)(const LawBytes &, PairLanes &, int n, Real dt);
+  void (*prepare)(const LawBytes &, PairLanes &);
 };
 
 struct PairJob {
@@ -135,8 +136,8 @@ struct PairJob {
   const int *law_of;
   int n_types;
 
-  const PairMemory *old = nullptr;    // of the last step; null: laws keep nothing
-  PairMemory *memory = nullptr;
+  const PairHistory *old = nullptr;    // of the last step; null: laws keep nothing
+  PairHistory *history = nullptr;
   Real dt;
   bool update;    // false: springs act but do not move (setup)
 

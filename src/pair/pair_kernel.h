@@ -1,14 +1,12 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Two grains as a contact of the wall's laws, and the loop over pairs.
+// Two grains as a contact of the wall's laws.
 #pragma once
 
 #include "law/contact.h"
 #include "law/submodels/normal.h"
 #include "pair/pair_job.h"
-
-#include <algorithm>
 
 namespace lsdcd {
 
@@ -63,10 +61,23 @@ LSDCD_FN void write_memory(const Law &law, const ContactMemory<Law::kExtra> &mem
   }
 }
 
-// Computes a pair that touches. Where the law has history, `old` is what the pair has kept, null if nothing, and `kept` what it
-// keeps now.
+// Returns which numbers of its memory a pair keeps: bit k is of the k-th, the shear displacement first, then `extra`.
 template <class Law>
-LSDCD_FN void evaluate_pair(const Law &law, const GrainPair &p, const Real *old, Real *kept,
+unsigned stored_numbers(const Law &law)
+{
+  unsigned stored = 7;
+  if constexpr (Law::kExtra > 0) {
+    for (int k = 0; k < Law::kVectors; k++)
+      if (law.stores(k)) stored |= 7u << (3 + 3 * k);
+    for (int k = 0; k < Law::kScalars; k++)
+      if (law.stores(Law::kVectors + k)) stored |= 1u << (3 + 3 * Law::kVectors + k);
+  }
+  return stored;
+}
+
+// Computes a pair that touches, and what it keeps.
+template <class Law>
+LSDCD_FN void evaluate_pair(const Law &law, const GrainPair &p, ContactMemory<Law::kExtra> &memory,
                             PairForce &out)
 {
   const Real sum = p.radius_i + p.radius_j, distance = sqrt(p.distance_sq);
@@ -91,10 +102,7 @@ LSDCD_FN void evaluate_pair(const Law &law, const GrainPair &p, const Real *old,
   c.mass_i = p.mass_i;
   c.mass_j = p.mass_j;
 
-  ContactMemory<Law::kExtra> memory = {};
-  if constexpr (Law::kHistory) memory = read_memory(law, old);
   const auto f = law.evaluate(c, memory);
-  if constexpr (Law::kHistory) write_memory(law, memory, kept);
 
   out.normal = c.normal;
   out.push = f.normal;
@@ -109,163 +117,16 @@ LSDCD_FN void evaluate_pair(const Law &law, const GrainPair &p, const Real *old,
     if (law.has_heat()) out.heat = f.heat;
 }
 
-// The loop's view of laws that are all compiled from this one; kOne: and that are one law.
-template <class Law, bool kOne_>
-struct SameLaw {
-  static constexpr bool kOne = kOne_;
-  static constexpr bool kBeyondContact = Law::kBeyondContact, kHeat = Law::kHeat;
-  static constexpr bool kHistory = Law::kHistory;
-  const PairJob &job;
-  Law only;
-
-  explicit SameLaw(const PairJob &of) : job(of), only(of.laws->law.as<Law>()) {}
-  const Law &law(int at) const
-  {
-    if constexpr (kOne) return only;
-    return job.laws[at].law.as<Law>();
-  }
-  bool touches(int at, const GrainPair &p, bool touched) const
-  {
-    return pair_touches(law(at), p, touched);
-  }
-  bool evaluate(int at, const GrainPair &p, bool, const Real *old, Real *kept, PairForce &out) const
-  {
-    evaluate_pair(law(at), p, old, kept, out);
-    return true;
-  }
-};
-// Of laws that differ in their sub-models: a call of a function for each pair.
-struct AnyLaw {
-  static constexpr bool kBeyondContact = true, kHeat = true, kHistory = true, kOne = false;
-  const PairJob &job;
-
-  bool touches(int, const GrainPair &, bool) const { return true; }
-  bool evaluate(int at, const GrainPair &p, bool touched, const Real *old, Real *kept,
-                PairForce &out) const
-  {
-    const PairLaw &law = job.laws[at];
-    return law.evaluate(law.law, p, touched, old, kept, out);
-  }
-};
-
-LSDCD_FN void add_to(Real *all, int i, const Vec3 &a)
-{
-  for (int k = 0; k < 3; k++) all[3 * i + k] += a[k];
-}
-
-// Adds the forces of all pairs. What is not asked for is not computed: energies are read only where forces are recorded.
-template <class Laws>
-void add_pairs(const PairJob &job, const Laws &laws)
-{
-  const PairList &list = job.list;
-  const bool keeps = Laws::kHistory && job.memory;
-  const Real *const all_x = job.x, *const all_radius = job.radius;
-  Real unkept[3];
-  GrainPair p = {};
-  p.dt = job.dt;
-  p.update = job.update;
-  for (int k = 0; k < list.rows; k++) {
-    const int i = list.grain[k], n = list.length[i];
-    const int *const row = list.row[i];
-    const Vec3 x = vec_of(all_x, i);
-    const Real radius = all_radius[i];
-    p.mass_i = job.mass[i];
-    p.omega_i = vec_of(job.omega, i);
-    const Vec3 v = vec_of(job.v, i);
-    const int *const law_of = job.law_of + job.type[i] * job.n_types;
-    Vec3 force = {0, 0, 0}, torque = {0, 0, 0};
-    [[maybe_unused]] Real heat = 0;
-    std::size_t old = 0, end = 0;
-    if (keeps) {
-      job.memory->reserve(n);
-      if (k < job.old->rows()) {
-        old = job.old->first(k);
-        end = job.old->first(k + 1);
-      }
-    }
-    for (int place = 0; place < n; place++) {
-      const int j = row[place] & list.mask;
-      const Vec3 offset = x - vec_of(all_x, j);
-      const Real distance_sq = norm_sq(offset), sum = radius + all_radius[j];
-      const bool overlaps = distance_sq < sum * sum;
-      if (!overlaps && !(Laws::kBeyondContact && old < end)) continue;
-      const Real factor = job.factor[row[place] >> list.factor_shift & 3];
-      if (factor == 0) continue;
-      bool touched = false;
-      if (keeps) {
-        while (old < end && job.old->place(old) < place) old++;
-        touched = old < end && job.old->place(old) == place;
-      }
-      if (!overlaps && !touched) continue;
-      const int law = law_of[job.type[j]];
-      p.offset = offset;
-      p.distance_sq = distance_sq;
-      p.radius_i = radius;
-      p.radius_j = all_radius[j];
-      if (!overlaps && !laws.touches(law, p, touched)) continue;
-      p.velocity = v - vec_of(job.v, j);
-      p.omega_j = vec_of(job.omega, j);
-      p.mass_j = job.mass[j];
-      p.mass = reduced_mass(job, i, j, p.mass_i, p.mass_j);
-      if constexpr (Laws::kHeat)
-        if (job.heat) p.temperature_difference = job.temperature[j] - job.temperature[i];
-      Real *const kept = keeps ? job.memory->append(place) : unkept;
-      if constexpr (!Laws::kOne)    // others may keep more
-        if (keeps) std::fill_n(kept, job.memory->width(), 0);
-      PairForce f;
-      if (!laws.evaluate(law, p, touched, touched ? job.old->numbers(old) : nullptr, kept, f)) {
-        if (keeps) job.memory->take_back();
-        continue;
-      }
-      Vec3 on_i = f.force(), turns_i = f.torque_i(), turns_j = f.torque_j();
-      if (factor != 1) {
-        on_i = factor * on_i;
-        turns_i = factor * turns_i;
-        turns_j = factor * turns_j;
-      }
-      force += on_i;
-      torque += turns_i;
-      const bool both = job.both_sides || j < job.n_own;
-      if (both) {
-        add_to(job.force, j, -on_i);
-        add_to(job.torque, j, turns_j);
-      }
-      if constexpr (Laws::kHeat)
-        if (job.heat) {
-          heat += f.heat;
-          if (both) job.heat[j] -= f.heat;
-        }
-      if constexpr (!Laws::kOne)
-        if (job.record) job.record->push_back({i, j, offset, on_i, factor * f.energy});
-    }
-    add_to(job.force, i, force);
-    add_to(job.torque, i, torque);
-    if constexpr (Laws::kHeat)
-      if (job.heat) job.heat[i] += heat;
-    if (keeps) job.memory->end_row();
-  }
-}
-
+// The same with numbers as they are stored. Where the law has history, `old` is what the pair has kept, null if nothing, and
+// `kept` what it keeps now.
 template <class Law>
-[[gnu::flatten]] void run_one_law(const PairJob &job)
+LSDCD_FN void evaluate_pair(const Law &law, const GrainPair &p, const Real *old, Real *kept,
+                            PairForce &out)
 {
-  add_pairs(job, SameLaw<Law, true>(job));
-}
-template <class Law>
-void run_same_law(const PairJob &job)
-{
-  if (job.n_laws == 1 && !job.record) return run_one_law<Law>(job);
-  add_pairs(job, SameLaw<Law, false>(job));
-}
-
-template <class Law>
-bool evaluate_one(const LawBytes &bytes, const GrainPair &p, bool touched, const Real *old,
-                  Real *kept, PairForce &out)
-{
-  const Law &law = bytes.as<Law>();
-  if (!pair_touches(law, p, touched)) return false;
-  evaluate_pair(law, p, old, kept, out);
-  return true;
+  ContactMemory<Law::kExtra> memory = {};
+  if constexpr (Law::kHistory) memory = read_memory(law, old);
+  evaluate_pair(law, p, memory, out);
+  if constexpr (Law::kHistory) write_memory(law, memory, kept);
 }
 
 }    // namespace lsdcd

@@ -2,38 +2,46 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include "pair/compile_pair.h"
-#include "pair/pair_kernel.h"
+#include "pair/pair_lanes.h"
 
 #include <algorithm>
 #include <utility>
 
 namespace lsdcd {
 
-void PairMemory::grow(std::size_t n)
+void PairHistory::grow(std::size_t n)
 {
-  const std::size_t room = std::max(2 * room_, size_ + n);
-  std::unique_ptr<int[]> place(new int[room]);
+  const std::size_t room = std::max(2 * room_, n + kMoreLanes);
+  std::unique_ptr<std::size_t[]> key(new std::size_t[room]);
   std::unique_ptr<Real[]> numbers(new Real[room * width_]);
-  if (size_ > 0) {
-    std::copy_n(place_.get(), size_, place.get());
-    std::copy_n(numbers_.get(), size_ * width_, numbers.get());
-  }
-  place_ = std::move(place);
+  std::copy_n(key_.get(), size_, key.get());
+  for (std::size_t k = 0; k < width_; k++)
+    std::copy_n(numbers_.get() + k * room_, size_, numbers.get() + k * room);
+  key_ = std::move(key);
   numbers_ = std::move(numbers);
   room_ = room;
+}
+
+std::size_t PairHistory::append(const std::size_t *keys, int n)
+{
+  const std::size_t first = size_, end = first + static_cast<std::size_t>(n);
+  if (end + kMoreLanes > room_) grow(end);
+  std::copy_n(keys, n, key_.get() + first);
+  size_ = end;
+  return first;
+}
+
+std::size_t PairHistory::find(std::size_t key) const
+{
+  const std::size_t *const begin = key_.get();
+  const auto at = static_cast<std::size_t>(std::lower_bound(begin, begin + size_, key) - begin);
+  return at < size_ && begin[at] == key ? at : size_;
 }
 
 PairLaw pair_law(const ContactLaw &law)
 {
   if (law.is_classic()) return law.is_extended() ? added_pair(law) : classic_pair(law);
   return law.is_extended() ? granular_added_pair(law) : granular_pair(law);
-}
-
-void run_pairs(const PairJob &job)
-{
-  const auto is_first = [&](const PairLaw &law) { return law.run == job.laws->run; };
-  if (std::all_of(job.laws, job.laws + job.n_laws, is_first)) return job.laws->run(job);
-  add_pairs(job, AnyLaw{job});
 }
 
 }    // namespace lsdcd

@@ -32,11 +32,11 @@ class Partners {
   // Takes over what the pairs of a list keep, for the first n grains, both of each pair. `name(i)`: of a grain.
   // `flips(i, j)`: which numbers change sign where i and j change places, see ContactLaw::flips().
   template <class NameOf, class Flips>
-  void collect(const PairList &list, const PairMemory &memory, int n, const NameOf &name,
+  void collect(const PairList &list, const PairHistory &history, int n, const NameOf &name,
                const Flips &flips);
   // Gives it to the pairs of a new list. Pairs that are not in it any more have parted.
   template <class NameOf>
-  void hand_out(const PairList &list, PairMemory &memory, const NameOf &name) const;
+  void hand_out(const PairList &list, PairHistory &history, const NameOf &name) const;
 
   int packed_size(int i) const { return 1 + (1 + width()) * count_[i]; }
   int pack(int i, Real *to) const;    // returns packed_size(i)
@@ -59,18 +59,21 @@ class Partners {
 };
 
 template <class NameOf, class Flips>
-void Partners::collect(const PairList &list, const PairMemory &memory, int n, const NameOf &name,
+void Partners::collect(const PairList &list, const PairHistory &history, int n, const NameOf &name,
                        const Flips &flips)
 {
   const auto for_pairs = [&](const auto &act) {
-    for (int k = 0; k < memory.rows(); k++) {
+    std::size_t pair = 0, start = 0;
+    for (int k = 0; k < list.rows; k++) {
       const int i = list.grain[k];
-      for (std::size_t pair = memory.first(k); pair < memory.first(k + 1); pair++)
-        act(i, list.row[i][memory.place(pair)] & list.mask, memory.numbers(pair));
+      const std::size_t end = start + static_cast<std::size_t>(list.length[i]);
+      for (; pair < history.size() && history.key(pair) < end; pair++)
+        act(i, list.row[i][history.key(pair) - start] & list.mask, pair);
+      start = end;
     }
   };
   for (int &count : count_) count = 0;
-  for_pairs([&](int i, int j, const Real *) {
+  for_pairs([&](int i, int j, std::size_t) {
     if (i < n) count_[i]++;
     if (j < n) count_[j]++;
   });
@@ -82,41 +85,45 @@ void Partners::collect(const PairList &list, const PairMemory &memory, int n, co
   }
   name_.resize(all);
   numbers_.resize(all * width_);
-  for_pairs([&](int i, int j, const Real *from) {
+  for_pairs([&](int i, int j, std::size_t pair) {
     if (i < n) {
       const std::size_t at = first_[i] + static_cast<std::size_t>(count_[i]++);
       name_[at] = name(j);
-      for (std::size_t k = 0; k < width_; k++) numbers_[at * width_ + k] = from[k];
+      for (std::size_t k = 0; k < width_; k++)
+        numbers_[at * width_ + k] = history.column(static_cast<int>(k))[pair];
     }
     if (j < n) {
       const std::size_t at = first_[j] + static_cast<std::size_t>(count_[j]++);
       const unsigned flip = flips(i, j);
       name_[at] = name(i);
-      for (std::size_t k = 0; k < width_; k++)
-        numbers_[at * width_ + k] = flip >> k & 1 ? -from[k] : from[k];
+      for (std::size_t k = 0; k < width_; k++) {
+        const Real a = history.column(static_cast<int>(k))[pair];
+        numbers_[at * width_ + k] = flip >> k & 1 ? -a : a;
+      }
     }
   });
 }
 
 template <class NameOf>
-void Partners::hand_out(const PairList &list, PairMemory &memory, const NameOf &name) const
+void Partners::hand_out(const PairList &list, PairHistory &history, const NameOf &name) const
 {
-  memory.begin(list.rows, width());
+  history.begin(width());
+  std::size_t start = 0;
   for (int k = 0; k < list.rows; k++) {
     const int i = list.grain[k];
-    memory.reserve(count_[i]);
     int left = count_[i];
     for (int place = 0; place < list.length[i] && left > 0; place++) {
       const Name other = name(list.row[i][place] & list.mask);
       for (int p = 0; p < count_[i]; p++) {
         if (this->name(i, p) != other) continue;
-        Real *to = memory.append(place);
-        for (std::size_t m = 0; m < width_; m++) to[m] = numbers(i, p)[m];
+        const std::size_t key = start + static_cast<std::size_t>(place),
+                          pair = history.append(&key, 1);
+        for (int m = 0; m < width(); m++) history.column(m)[pair] = numbers(i, p)[m];
         left--;
         break;
       }
     }
-    memory.end_row();
+    start += static_cast<std::size_t>(list.length[i]);
   }
 }
 

@@ -10,7 +10,14 @@ namespace lsdcd {
 
 // Units of eta: none; mass/time; 1/time; 1/(time length); a number, times the root of mass times secant
 // stiffness; in classic styles 1/time (hooke) or 1/(time length) (hertz).
-enum class DampingModel { none, velocity, mass_velocity, viscoelastic, stiffness, classic };
+enum class DampingModel : ModelNumber {
+  none,
+  velocity,
+  mass_velocity,
+  viscoelastic,
+  stiffness,
+  classic
+};
 
 // The classic styles: coefficient = scale m gamma.
 // gamma: 1/time with HookeNormal, 1/(time length) with HertzNormal.
@@ -31,20 +38,13 @@ struct GranularDamping {
   // mass/time, at a contact of radius a with the elastic force f
   LSDCD_FN Real coefficient(const Contact &c, Real a, Real f) const
   {
-    switch (model) {
-      case DampingModel::velocity:
-        return eta;
-      case DampingModel::mass_velocity:
-        return eta * c.mass;
-      case DampingModel::viscoelastic:
-        return eta * c.mass * a;
-      case DampingModel::stiffness: {    // per root of mass times secant stiffness
-        const Real stiffness = c.mass * f / c.overlap;
-        return stiffness > 0 ? eta * sqrt(stiffness) : 0;
-      }
-      default:
-        return 0;
+    if (model == DampingModel::stiffness) {    // per root of mass times secant stiffness
+      const Real stiffness = c.mass * f / c.overlap;
+      return stiffness > 0 ? eta * sqrt(stiffness) : 0;
     }
+    if (model == DampingModel::velocity) return eta;
+    if (model == DampingModel::mass_velocity) return eta * c.mass;
+    return model == DampingModel::viscoelastic ? eta * c.mass * a : 0;
   }
 };
 

@@ -8,7 +8,7 @@
 
 namespace lsdcd {
 
-enum class HeatModel { none, radius, area };
+enum class HeatModel : ModelNumber { none, radius, area };
 
 // `radius`: 2 k a dT (Vargas and McCarthy 2001); `area`: h pi a^2 dT. Power.
 struct Conduction {

@@ -15,7 +15,7 @@
 
 namespace lsdcd {
 
-enum class NormalModel { hooke, hertz, dmt, jkr };
+enum class NormalModel : ModelNumber { hooke, hertz, dmt, jkr };
 
 // Returns how far from its centre a sphere feels the wall. `pull_off` is for a radius of 1, and greater than 0 only for
 // adhesion that acts beyond contact.

@@ -18,7 +18,7 @@
 
 namespace lsdcd {
 
-enum class RollingModel { none, sds, cdt, epsd2, epsd, epsd3 };
+enum class RollingModel : ModelNumber { none, sds, cdt, epsd2, epsd, epsd3 };
 
 // Arguments of a rolling model. C: Contact or PairContact.
 template <class C>

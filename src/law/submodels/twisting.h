@@ -8,7 +8,7 @@
 
 namespace lsdcd {
 
-enum class TwistingModel { none, marshall, sds };
+enum class TwistingModel : ModelNumber { none, marshall, sds };
 
 // The coefficients of one contact.
 struct TwistCoefficients {

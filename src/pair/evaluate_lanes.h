@@ -1,0 +1,295 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// The laws of pairs in lanes, of which a processor computes as many at once as its vectors hold. The compiler makes vectors of
+// the laws as they are written for one contact, so that a pair has the same bits in both. It does where every choice is one
+// between two numbers. A choice by the law's own numbers would be a branch: it is read from arrays in which all lanes have the same.
+#pragma once
+
+#include "law/contact_model.h"
+#include "pair/pair_kernel.h"
+#include "pair/pair_lanes.h"
+
+#include <cstdint>
+#include <type_traits>
+
+// GCC makes vectors of these loops.
+#if defined(__GNUC__) && !defined(__clang__)
+#define LSDCD_WIDE_PAIRS
+#endif
+
+namespace lsdcd {
+
+// Computes the pair of a lane.
+template <bool kEnergy, class Law>
+LSDCD_FN void evaluate_lane(const Law &law, PairLanes &lanes, int k, Real dt, bool update)
+{
+  GrainPair p = {};
+  p.offset = lane_vec(lanes.offset, k);
+  p.velocity = lane_vec(lanes.velocity, k);
+  p.omega_i = lane_vec(lanes.omega_i, k);
+  p.omega_j = lane_vec(lanes.omega_j, k);
+  p.distance_sq = norm_sq(p.offset);
+  p.radius_i = lanes.radius_i[k];
+  p.radius_j = lanes.radius_j[k];
+  p.mass_i = lanes.mass_i[k];
+  p.mass_j = lanes.mass_j[k];
+  p.mass = lanes.mass[k];
+  if constexpr (Law::kHeat) p.temperature_difference = lanes.temperature_difference[k];
+  p.dt = dt;
+  p.update = update;
+
+  static_assert(3 + Law::kExtra <= kLaneNumbers, "lanes have room for what a law keeps");
+  ContactMemory<Law::kExtra> memory = {};
+  if constexpr (Law::kHistory)
+    memory.shear = {lanes.before[0][k], lanes.before[1][k], lanes.before[2][k]};
+  if constexpr (Law::kHistory && Law::kExtra > 0)
+    for (int m = 0; m < Law::kExtra; m++) memory.extra[m] = lanes.before[3 + m][k];
+  PairForce f;
+  evaluate_pair(law, p, memory, f);
+  if constexpr (Law::kHistory)
+    for (int m = 0; m < 3; m++) lanes.after[m][k] = memory.shear[m];
+  if constexpr (Law::kHistory && Law::kExtra > 0)
+    for (int m = 0; m < Law::kExtra; m++) lanes.after[3 + m][k] = memory.extra[m];
+
+  set_lane(lanes.force, k, f.force());
+  set_lane(lanes.torque_i, k, f.torque_i());
+  set_lane(lanes.torque_j, k, f.torque_j());
+  if constexpr (Law::kHeat) lanes.heat[k] = f.heat;
+  if constexpr (kEnergy) lanes.energy[k] = f.energy;
+}
+
+template <class Law>
+void evaluate_lanes(const LawBytes &bytes, PairLanes &lanes, int n, Real dt, bool update)
+{
+  const Law law = bytes.as<Law>();
+  for (int k = 0; k < n; k++) evaluate_lane<true>(law, lanes, k, dt, update);
+}
+
+#if defined(LSDCD_WIDE_PAIRS)
+// Call act(choice) for each choice of a law: a bool or an enumerator.
+template <class Normal, class Damping, class Tangential, class Act>
+void each_choice(ContactModel<Normal, Damping, Tangential> &law, const Act &act)
+{
+  act(law.limit_damping);
+}
+template <class Base, bool kHistory, class Act>
+void each_choice(AddedModel<Base, kHistory> &law, const Act &act)
+{
+  each_choice(law.base, act);
+  act(law.rolling.model);
+}
+template <class Normal, bool kHistory, bool kFull, bool kAll, class Act>
+void each_choice(GranularModel<Normal, kHistory, kFull, kAll> &law, const Act &act)
+{
+  act(law.elastic.model);
+  act(law.damping.model);
+  act(law.rolling.model);
+  act(law.twisting.model);
+  act(law.conduction.model);
+  act(law.tangential.spring);
+  act(law.tangential.by_radius);
+  act(law.tangential.of_force);
+  act(law.tangential.rescale);
+  act(law.tangential.slip);
+  act(law.tangential.at_midpoint);
+  act(law.uses_contact_radius);
+  act(law.limit_damping);
+}
+
+template <class Law>
+void prepare_lanes(const LawBytes &bytes, PairLanes &lanes)
+{
+  Law law = bytes.as<Law>();
+  int at = 0;
+  each_choice(law, [&](auto choice) {
+    for (std::int64_t &lane : lanes.choice[at]) lane = static_cast<std::int64_t>(choice);
+    at++;
+  });
+}
+
+// Choices that a loop is compiled for: fix() makes constants of them, where fits() says that a law has made them. Any law fits
+// AnyChoice. The usual ones of `granular` leave out roots and divisions of sub-models that few laws have.
+struct AnyChoice {
+  template <class Law>
+  static bool fits(const Law &)
+  {
+    return true;
+  }
+  template <class Law>
+  static void fix(Law &)
+  {
+  }
+};
+template <DampingModel damping>
+struct UsualChoice {
+  template <class Law>
+  static bool fits(const Law &law)
+  {
+    const GranularFriction &friction = law.tangential;
+    return law.damping.model == damping && friction.spring && !friction.of_force &&
+           !friction.slip && !friction.rescale && !law.limit_damping &&
+           law.elastic.model != NormalModel::dmt && law.conduction.model == HeatModel::none;
+  }
+  template <class Law>
+  static void fix(Law &law)
+  {
+    law.damping.model = damping;
+    law.elastic.model =
+        law.elastic.model == NormalModel::hooke ? NormalModel::hooke : NormalModel::hertz;
+    law.tangential.spring = true;
+    law.tangential.of_force = law.tangential.slip = law.tangential.rescale = false;
+    law.limit_damping = false;
+    law.conduction.model = HeatModel::none;
+  }
+};
+// Those of LIGGGHTS.
+template <RollingModel rolling>
+struct RollingChoice {
+  template <class Base, bool kHistory>
+  static bool fits(const AddedModel<Base, kHistory> &law)
+  {
+    return law.rolling.model == rolling;
+  }
+  template <class Base, bool kHistory>
+  static void fix(AddedModel<Base, kHistory> &law)
+  {
+    law.rolling.model = rolling;
+  }
+  template <class Normal>
+  static bool fits(const GranularModel<Normal, true, true, true> &law)
+  {
+    return UsualChoice<DampingModel::stiffness>::fits(law) && law.rolling.model == rolling &&
+           law.tangential.at_midpoint && !law.twisting.is_on();
+  }
+  template <class Normal>
+  static void fix(GranularModel<Normal, true, true, true> &law)
+  {
+    UsualChoice<DampingModel::stiffness>::fix(law);
+    law.rolling.model = rolling;
+    law.tangential.at_midpoint = true;
+    law.twisting.model = TwistingModel::none;
+  }
+};
+
+// Computes the pair of a lane with the choices that the lane has.
+template <class Choice, class Law>
+inline void evaluate_chosen(const Law &given, PairLanes &lanes, int k, Real dt)
+{
+  Law law = given;
+  int at = 0;
+  each_choice(law, [&](auto &choice) {
+    choice = static_cast<std::decay_t<decltype(choice)>>(lanes.choice[at++][k]);
+  });
+  Choice::fix(law);
+  evaluate_lane<false>(law, lanes, k, dt, true);
+}
+
+template <class Law, class Choice>
+inline void evaluate_all(const LawBytes &bytes, PairLanes &lanes, int n, Real dt)
+{
+  const Law law = bytes.as<Law>();
+  const int whole = (n + kMoreLanes) / (kMoreLanes + 1) * (kMoreLanes + 1);
+#pragma omp simd
+  for (int k = 0; k < whole; k++) evaluate_chosen<Choice>(law, lanes, k, dt);
+}
+#if defined(__x86_64__)
+template <class Law, class Choice>
+[[gnu::target("avx2"), gnu::flatten]] void evaluate_avx2(const LawBytes &bytes, PairLanes &lanes,
+                                                         int n, Real dt)
+{
+  evaluate_all<Law, Choice>(bytes, lanes, n, dt);
+}
+template <class Law, class Choice>
+[[gnu::target("avx512f,avx512dq,avx512vl,prefer-vector-width=512"), gnu::flatten]] void
+evaluate_avx512(const LawBytes &bytes, PairLanes &lanes, int n, Real dt)
+{
+  evaluate_all<Law, Choice>(bytes, lanes, n, dt);
+}
+#else
+template <class Law, class Choice>
+[[gnu::flatten]] void evaluate_wide(const LawBytes &bytes, PairLanes &lanes, int n, Real dt)
+{
+  evaluate_all<Law, Choice>(bytes, lanes, n, dt);
+}
+#endif
+
+// Returns the loop for the widest vectors that the processor has; null where these are too few.
+template <class Law, class Choice>
+auto widest_loop() -> decltype(PairLaw::evaluate_wide)
+{
+#if defined(__x86_64__)
+  if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
+      __builtin_cpu_supports("avx512vl"))
+    return evaluate_avx512<Law, Choice>;
+  return __builtin_cpu_supports("avx2") ? evaluate_avx2<Law, Choice> : nullptr;
+#else
+  return evaluate_wide<Law, Choice>;
+#endif
+}
+// Takes the first choices that fit.
+template <class First, class... More, class Law>
+void set_wide(const Law &law, PairLaw &out)
+{
+  if (First::fits(law))
+    out.evaluate_wide = widest_loop<Law, First>();
+  else if constexpr (sizeof...(More) > 0)
+    set_wide<More...>(law, out);
+}
+template <class Law>
+void set_wide_of(const Law &law, PairLaw &out)
+{
+  set_wide<AnyChoice>(law, out);
+}
+template <class Normal, bool kFull>
+void set_wide_of(const GranularModel<Normal, true, kFull, false> &law, PairLaw &out)
+{
+  set_wide<UsualChoice<DampingModel::stiffness>, UsualChoice<DampingModel::viscoelastic>,
+           AnyChoice>(law, out);
+}
+template <class Law>
+void set_wide_of_liggghts(const Law &law, PairLaw &out)
+{
+  set_wide<RollingChoice<RollingModel::none>, RollingChoice<RollingModel::cdt>,
+           RollingChoice<RollingModel::epsd2>, RollingChoice<RollingModel::epsd>, AnyChoice>(law,
+                                                                                             out);
+}
+template <class Base, bool kHistory>
+void set_wide_of(const AddedModel<Base, kHistory> &law, PairLaw &out)
+{
+  set_wide_of_liggghts(law, out);
+}
+template <class Normal>
+void set_wide_of(const GranularModel<Normal, true, true, true> &law, PairLaw &out)
+{
+  set_wide_of_liggghts(law, out);
+}
+#endif
+
+template <class Law>
+bool evaluate_one(const LawBytes &bytes, const GrainPair &p, bool touched, const Real *old,
+                  Real *kept, PairForce &out)
+{
+  const Law &law = bytes.as<Law>();
+  if (!pair_touches(law, p, touched)) return false;
+  evaluate_pair(law, p, old, kept, out);
+  return true;
+}
+
+template <class Law>
+PairLaw compiled_pair(const Law &law, Real pull_off)
+{
+  PairLaw out = {LawBytes(law),       pull_off, false,  0, evaluate_one<Law>,
+                 evaluate_lanes<Law>, nullptr,  nullptr};
+  if constexpr (Law::kHeat) out.has_heat = law.has_heat();
+  if constexpr (Law::kHistory) out.stored = stored_numbers(law);
+#if defined(LSDCD_WIDE_PAIRS)
+  if constexpr (!Law::kBeyondContact) {    // whose contact radius is found by steps
+    set_wide_of(law, out);
+    out.prepare = prepare_lanes<Law>;
+  }
+#endif
+  return out;
+}
+
+}    // namespace lsdcd
