@@ -18,6 +18,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -33,7 +34,8 @@ class EngineOn : public WallEngine {
   EngineOn(const EngineSettings &settings, const CompiledLaw<B> &law, B backend) :
       settings_(settings), law_(law), b_(std::move(backend)), broad_phase_(settings),
       mirror_(settings.arrays, law.traits.heat), counts_(1),
-      springs_(b_, law.traits, counts_.data()), overflow_(kOverflowScratches)
+      springs_(b_, law.traits, counts_.data()), works_of_meshes_(settings.meshes),
+      overflow_(kOverflowScratches)
   {
     clear_diagnostics(StepCounts());
     unlock_scratches();
@@ -46,7 +48,7 @@ class EngineOn : public WallEngine {
 
   void put_grid(const GridView &grid, int mesh) override
   {
-    works_of_meshes_.clear();
+    works_of_meshes_[mesh].reset();
     where_step_runs([&] { broad_phase_.set_grid(b_, grid, mesh); });
   }
 
@@ -54,7 +56,7 @@ class EngineOn : public WallEngine {
   {
     if (pose.placed && !settings_.moves && !broad_phase_.uses_slots())
       throw std::logic_error("this engine's wall cannot move");
-    works_of_meshes_.clear();
+    works_of_meshes_[mesh].reset();
     broad_phase_.place(pose, mesh);
   }
 
@@ -107,7 +109,7 @@ class EngineOn : public WallEngine {
   {
     require(StepState::begun);
     spheres_ = spheres;
-    if (settings_.nodes || !are_alike(step, step_)) works_of_meshes_.clear();
+    if (settings_.nodes || !are_alike(step, step_)) forget_works();
     step_ = step;
     if (starts_at_submit())
       where_step_runs([&] { compute(next_results_, when_ != When::in_turn); });
@@ -227,18 +229,14 @@ class EngineOn : public WallEngine {
   // Returns what the step reads of a mesh, as in the last step where nothing of it has changed.
   const MeshWork &mesh_work(int m)
   {
-    if (works_of_meshes_.empty()) find_works();
-    return works_of_meshes_[m];
+    std::optional<MeshWork> &work = works_of_meshes_[m];
+    if (work) return *work;
+    const EngineMesh<B> &mesh = broad_phase_.mesh(m);
+    const NodeField nodes = nodes_.empty() ? NodeField() : nodes_[m]->field();
+    return work.emplace(
+        MeshWork{mesh.grid.view, force_settings(settings_, step_, mesh.pose, nodes, m)});
   }
-  void find_works()
-  {
-    for (int m = 0; m < broad_phase_.n_meshes(); m++) {
-      const EngineMesh<B> &mesh = broad_phase_.mesh(m);
-      works_of_meshes_.push_back(
-          {mesh.grid.view, force_settings(settings_, step_, mesh.pose,
-                                          nodes_.empty() ? NodeField() : nodes_[m]->field(), m)});
-    }
-  }
+  void forget_works() { works_of_meshes_.assign(works_of_meshes_.size(), std::nullopt); }
   // Does this part of a step where the step runs: of one that was begun beside the host's work on the engine's own stream.
   template <class Work>
   void where_step_runs(const Work &work)
@@ -368,9 +366,10 @@ class EngineOn : public WallEngine {
   WorkListStore<B> work_lists_;
   friend class MovingNodes<B>;
   std::vector<std::unique_ptr<MovingNodes<B>>> nodes_;    // of each mesh; none where none move
-  std::vector<MeshWork> works_of_meshes_;    // empty: something of them may have changed
-  Array<MeshWork> works_;                    // the same where kernels read them
-  Array<LawEntry> laws_;                     // of all meshes
+  std::vector<std::optional<MeshWork>>
+      works_of_meshes_;      // none: something of it may have changed
+  Array<MeshWork> works_;    // the same where kernels read them
+  Array<LawEntry> laws_;     // of all meshes
 
   int pool_written_ = -1;
   Array<OverflowScratch> overflow_;

@@ -38,12 +38,10 @@ void MeanLoads::add(const Step &step, StepResults *results, const std::vector<Po
 {
   const int n = static_cast<int>(sums_.size());
   for (int k = 0; k < n; k++) {
+    const WallTotals t = totals_of_mesh(results, wall_, k);
     MeanLoad load;
-    if (results) {
-      const WallTotals t = n > 1 ? results->mesh_totals(k) : results->totals();
-      load.force = t.force;
-      load.torque_at_origin = t.torque;
-    }
+    load.force = t.force;
+    load.torque_at_origin = t.torque;
     // These are the same on all processes.
     if (!nodes.empty() && nodes[k].present)
       load.torque_at_origin = host_.is_first() ? nodes[k].moment : Vec3{0, 0, 0};
@@ -51,10 +49,8 @@ void MeanLoads::add(const Step &step, StepResults *results, const std::vector<Po
       load.force += (*coats)[k].force;
       load.torque_at_origin += (*coats)[k].torque_at_origin;
     }
-    const MeshSpec &spec = wall_.meshes[k];
-    const Vec3 about =
-        spec.torque_about_mesh ? poses[k].to_box(spec.torque_about) : spec.torque_about;
-    load.torque = load.torque_at_origin - cross(about, load.force);
+    load.torque =
+        load.torque_at_origin - cross(torque_point(wall_.meshes[k], poses[k]), load.force);
     sums_[k].add(load, step.dt);
   }
   time_ += step.dt;

@@ -122,10 +122,8 @@ void MeshNodes::check(const NodesGone &gone, const Step &step, Real cutoff) cons
     const std::size_t node = farthest(from, to);
     check_place(node, to[node]);
     if (is_too_far)
-      throw InputError(named(node_text(node) + " has moved by " + number_text(gone.most) +
-                             " in step " + std::to_string(step.number) +
-                             ", more than the largest radius " + number_text(cutoff) +
-                             ": it may have passed through a sphere; use a shorter timestep"));
+      throw InputError(
+          named(passed_text(node_text(node), gone.most, step, "radius " + number_text(cutoff))));
     for (std::size_t i = 0; i < v.size(); i++) check_velocity(i, v[i]);
   }
   if (gone.without_area >= 0) throw_without_area(mesh_, gone.without_area);

@@ -38,7 +38,11 @@ struct MeshPart {
   const Servo &servo() const { return spec.motion.servo(); }
   bool moves() const { return nodes() || mover.moves(); }    // or was moved
   // Returns whether it stood still in the last step, and does until it is given something that moves it.
-  bool is_at_rest() const { return !nodes() && !spec.surface_varies() && mover.is_at_rest(); }
+  bool is_at_rest() const
+  {
+    return is_same_place(mover.pose_before(), pose()) && !spec.motion.acts() && !nodes() &&
+           !spec.surface_varies();
+  }
   // Returns how it gives way to pushes where it is now (1/mass).
   Mobility mobility() const { return body ? body->mobility() : Mobility(); }
   bool has_coat() const { return spec.body.present && spec.body.coat.present; }

@@ -18,6 +18,12 @@ Real power_of(const MeshTotals &m, const Pose &pose)
 
 }    // namespace
 
+WallTotals totals_of_mesh(StepResults *results, const WallSpec &wall, int k)
+{
+  if (!results) return {};
+  return wall.meshes.size() > 1 ? results->mesh_totals(k) : results->totals();
+}
+
 void StepTotals::clear()
 {
   std::fill(meshes_.begin(), meshes_.end(), MeshTotals());
@@ -32,8 +38,7 @@ void StepTotals::reduce(StepResults *results, const std::vector<Pose> &poses,
   const int n = static_cast<int>(meshes_.size());
   std::vector<Real> sum, most;
   for (int k = 0; k < n; k++) {
-    WallTotals t;
-    if (results) t = n > 1 ? results->mesh_totals(k) : results->totals();
+    const WallTotals t = totals_of_mesh(results, settings_, k);
     sum.insert(sum.end(),
                {t.force.x, t.force.y, t.force.z, t.torque.x, t.torque.y, t.torque.z,
                 static_cast<Real>(t.contacts), static_cast<Real>(t.uncertified), t.energy});
@@ -43,7 +48,6 @@ void StepTotals::reduce(StepResults *results, const std::vector<Pose> &poses,
   host_.sum_and_max(sum.data(), static_cast<int>(sum.size()), most.data(), n);
   for (int k = 0; k < n; k++) {
     const Real *const s = sum.data() + kSums * k;
-    const MeshSpec &settings = settings_.meshes[k];
     const Pose &pose = poses[k];
     MeshTotals &m = meshes_[k];
     m.force = {s[0], s[1], s[2]};
@@ -62,9 +66,7 @@ void StepTotals::reduce(StepResults *results, const std::vector<Pose> &poses,
       m.torque_at_origin += coat.torque_at_origin;
       m.energy += coat.energy;
     }
-    const Vec3 about =
-        settings.torque_about_mesh ? pose.to_box(settings.torque_about) : settings.torque_about;
-    m.torque = m.torque_at_origin - cross(about, m.force);
+    m.torque = m.torque_at_origin - cross(torque_point(settings_.meshes[k], pose), m.force);
     m.power = power_of(m, pose);
     if (!nodes.empty()) m.power += sum[kSums * n + k];
   }

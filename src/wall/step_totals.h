@@ -35,6 +35,15 @@ struct NodeLoad {
       0};    // of the forces of contacts on them, of all processes, about the origin of the box
 };
 
+// Returns what the contacts of this process did to mesh k of a wall in a step; nothing where `results` is null, as there are no
+// spheres.
+WallTotals totals_of_mesh(StepResults *results, const WallSpec &wall, int k);
+// Returns the point (length, of the box) about which the torque on a mesh at this pose is told.
+inline Vec3 torque_point(const MeshSpec &mesh, const Pose &pose)
+{
+  return mesh.torque_about_mesh ? pose.to_box(mesh.torque_about) : mesh.torque_about;
+}
+
 // Sums are made when they are asked for: one message in a step, and only in some steps.
 class StepTotals {
  public:

@@ -195,8 +195,8 @@ void Wall::begin(const HostSpheres &spheres, const StepInput &input)
 {
   settle(spheres, input);
   open_step(spheres, input);
-  change_surfaces(input.step);
-  move(spheres);
+  if (!changing_.empty()) change_surfaces(input.step);
+  if (!moving_.empty()) move(spheres);
   place_grids(spheres);
   for (const MeshPart *m : moving_) engine_->set_pose(m->pose(), m->index);
   if (input.new_spheres) look_at_new_spheres(spheres);
@@ -242,8 +242,10 @@ void Wall::check_history(int n)
 void Wall::move(const HostSpheres &spheres)
 {
   const Step &step = input_.step;
-  if (!bodies_.empty() && !range_is_known_) look_at_range(spheres);
-  complete_bodies();
+  if (!bodies_.empty()) {
+    if (!range_is_known_) look_at_range(spheres);
+    complete_bodies();
+  }
   for (MeshPart *m : moving_)
     m->mover.advance(step, input_.inputs, [&] {
       if (!range_is_known_) look_at_range(spheres);

@@ -150,13 +150,11 @@ void check_way(Host &host, const WallSpec &settings, MeshPart &m, const Step &st
   }
   host.max(&meets, 1);
   if (meets == 0) return;
-  const std::string text = with_mesh_name(
-      settings, m.index,
-      "the mesh has moved by " + number_text(way) + " in step " + std::to_string(step.number) +
-          ", more than the largest " + (passes ? "diameter " : "radius ") +
-          number_text(passes ? 2 * radius : radius) +
-          ": it may have passed through a sphere; use a shorter timestep" +
-          (m.body ? "" : ", or a motion without jumps"));
+  const std::string most = passes ? "diameter " + number_text(2 * radius)
+                                  : "radius " + number_text(radius),
+                    text = with_mesh_name(settings, m.index,
+                                          passed_text("the mesh", way, step, most) +
+                                              (m.body ? "" : ", or a motion without jumps"));
   if (stops) throw InputError(text);
   m.way_warned = true;
   host.warn(text + ". Shown once");

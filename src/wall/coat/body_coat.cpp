@@ -5,8 +5,8 @@
 
 #include "base/input_error.h"
 #include "base/input_words.h"
-#include "law/contact_slope.h"
 #include "mesh/surface_points.h"
+#include "wall/each_contact.h"
 #include "wall/mesh_name.h"
 
 #include <algorithm>
@@ -435,38 +435,31 @@ void BodyCoat::add_stiffness(const std::deque<MeshPart> &meshes, std::vector<Coa
 {
   const MeshPart &own = meshes[mesh_];
   const Mobility own_gives = own.mobility();
-  const StepContact *contact = engine_->results().contacts().data();
-  for (const TouchingSphere &t : engine_->results().touching()) {
-    const int i = t.sphere;
-    for (int n = 0; n < t.n_contacts; n++, contact++) {
-      const MeshPart &other = meshes[others_[contact->mesh]];
-      const Real distance = norm(contact->arm);
-      if (!(distance > 0)) continue;    // the point lies on the mesh
-      const Pose &pose = other.pose();
-      const Vec3 arm = pose.turn_to_box(contact->arm), normal = 1 / distance * arm,
-                 along = any_perpendicular(normal), at = x_[i] - arm;
-      const Real mass = 1 / (1 / masses_[i] + gives_way(own, own_gives, at, -normal));
-      const ContactSlopes slope = contact_slopes(
-          laws_[contact->mesh], std::max<Real>(0, radius_ - distance), radius_, mass);
-      const auto add = [&](const MeshPart &m, const Vec3 &direction, const ContactSlope &of) {
-        const Mobility &mobility = m.body->mobility_to_forces();
-        const Pose &p = m.pose();
-        const Vec3 x = p.to_mesh(at), d = p.turn_to_mesh(direction);
-        CoatLoad &load = loads[m.index];
+  for_each_contact(engine_->results(), [&](const TouchingSphere &t, const StepContact &contact) {
+    const MeshPart &other = meshes[others_[contact.mesh]];
+    const Real distance = norm(contact.arm);
+    if (!(distance > 0)) return;    // the point lies on the mesh
+    const Vec3 arm = other.pose().turn_to_box(contact.arm), normal = 1 / distance * arm,
+               at = x_[t.sphere] - arm;
+    const Real mass = 1 / (1 / masses_[t.sphere] + gives_way(own, own_gives, at, -normal));
+    const ContactSlopes slopes =
+        contact_slopes(laws_[contact.mesh], std::max<Real>(0, radius_ - distance), radius_, mass);
+    for (const MeshPart *m : {&own, &other}) {
+      CoatLoad &load = loads[m->index];
+      load.mass = std::max(load.mass, mass);
+      if (!m->body) continue;
+      const Mobility &mobility = m->body->mobility_to_forces();
+      const Pose &pose = m->pose();
+      const Vec3 x = pose.to_mesh(at);
+      for_each_direction(normal, slopes, [&](const Vec3 &direction, const ContactSlope &of) {
+        const Vec3 d = pose.turn_to_mesh(direction);
         load.stiffness.add(mobility, x, d, of.stiffness);
         load.damping.add(mobility, x, d, of.damping);
         const Real gives_way = mobility.along(x, d);
         load.most += {of.stiffness * gives_way, of.damping * gives_way};
-      };
-      for (const MeshPart *m : {&own, &other}) {
-        loads[m->index].mass = std::max(loads[m->index].mass, mass);
-        if (!m->body) continue;
-        add(*m, normal, slope.normal);
-        add(*m, along, slope.tangential);
-        add(*m, cross(normal, along), slope.tangential);
-      }
+      });
     }
-  }
+  });
 }
 
 // The largest overlap over the radius, and the mesh that it is with.

@@ -6,7 +6,7 @@
 #include "base/input_error.h"
 #include "base/input_words.h"
 #include "base/vector_text.h"
-#include "law/contact_slope.h"
+#include "wall/each_contact.h"
 #include "wall/mesh_name.h"
 
 #include <algorithm>
@@ -316,35 +316,27 @@ void BodyMover::sum_contacts(const StepResults *results)
   stiffness_ = damping_ = ContactSum();
   most_of_sphere_[0] = most_of_sphere_[1] = 0;
   if (!results) return;
-  const StepContact *contact = results->contacts().data();
   const Pose pose = body_.pose();
   const Mobility mobility = body_.mobility();
-  for (const TouchingSphere &sphere : results->touching()) {
+  for_each_contact(*results, [&](const TouchingSphere &sphere, const StepContact &contact) {
+    const Real distance = norm(contact.arm);
+    // Where it is 0 the centre lies on the wall.
+    if (contact.mesh != static_cast<std::uint32_t>(mesh_) || !(distance > 0)) return;
     const SphereKinds kinds = {laws_.kinds > 1 ? &sphere.type : nullptr, laws_.kind_of_type.data(),
                                static_cast<int>(laws_.kind_of_type.size()) - 1};
-    const ContactLaw &law = law_of(laws_, mesh_, kinds[0]);
-    const Vec3 centre = pose.to_mesh(sphere.x);
     const Real radius = sphere.radius, mass = sphere.mass / force_;
-    for (int n = 0; n < sphere.n_contacts; n++, contact++) {
-      if (contact->mesh != static_cast<std::uint32_t>(mesh_)) continue;
-      const Real distance = norm(contact->arm);
-      if (!(distance > 0)) continue;    // the centre lies on the wall
-      const Vec3 normal = 1 / distance * contact->arm, at = centre - contact->arm,
-                 along = any_perpendicular(normal);
-      const Real together = 1 / (1 / mass + mobility.along(at, normal));
-      const ContactSlopes slope =
-          contact_slopes(law, std::max<Real>(0, radius - distance), radius, together * force_);
-      const auto add = [&](const Vec3 &direction, const ContactSlope &of) {
-        stiffness_.add(mobility_, at, direction, of.stiffness);
-        damping_.add(mobility_, at, direction, of.damping);
-        most_of_sphere_[0] = std::max(most_of_sphere_[0], of.stiffness / mass);
-        most_of_sphere_[1] = std::max(most_of_sphere_[1], of.damping / mass);
-      };
-      add(normal, slope.normal);
-      add(along, slope.tangential);
-      add(cross(normal, along), slope.tangential);
-    }
-  }
+    const Vec3 normal = 1 / distance * contact.arm, at = pose.to_mesh(sphere.x) - contact.arm;
+    const Real together = 1 / (1 / mass + mobility.along(at, normal));
+    const ContactSlopes slopes =
+        contact_slopes(law_of(laws_, mesh_, kinds[0]), std::max<Real>(0, radius - distance), radius,
+                       together * force_);
+    for_each_direction(normal, slopes, [&](const Vec3 &direction, const ContactSlope &of) {
+      stiffness_.add(mobility_, at, direction, of.stiffness);
+      damping_.add(mobility_, at, direction, of.damping);
+      most_of_sphere_[0] = std::max(most_of_sphere_[0], of.stiffness / mass);
+      most_of_sphere_[1] = std::max(most_of_sphere_[1], of.damping / mass);
+    });
+  });
 }
 
 void BodyMover::fail_step(Real longest, Real contacts) const

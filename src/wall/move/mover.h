@@ -40,9 +40,7 @@ class Mover {
   // Returns where it is that much time from now. A servo stays; of a body the step that comes, once the last one is
   // complete.
   Pose pose_in(Real later) const { return body_ ? body_->pose_in(later) : motion_.pose_in(later); }
-  bool moves() const { return motion().any(); }    // or has moved it
-  // Returns whether it stood still in the last step, and nothing moves it.
-  bool is_at_rest() const { return !motion().acts() && is_same_place(pose_before(), pose()); }
+  bool moves() const { return motion().any(); }                         // or has moved it
   bool moves_or_varies() const { return motion_.moves_or_varies(); }    // for the engine
   // Returns whether it goes along this unit vector never, across which the box has this width, and turns about
   // nothing but it.

@@ -3,6 +3,8 @@
 
 #include "wall/reports/contact_rows.h"
 
+#include "wall/each_contact.h"
+
 namespace lsdcd {
 
 // The arm goes from the wall's closest point to the sphere's centre.
@@ -28,15 +30,12 @@ void for_contact_rows(const StepResults &results, const std::function<void(int, 
 void for_contacts(WallEngine &engine, const std::vector<Pose> &poses,
                   const std::function<void(const WallContact &)> &found)
 {
-  const StepResults &results = engine.results();
-  const StepContact *contact = results.contacts().data();
-  for (const TouchingSphere &t : results.touching())
-    for (int n = 0; n < t.n_contacts; n++, contact++) {
-      const Pose &pose = poses[contact->mesh];
-      const Vec3 arm = pose.turn_to_box(contact->arm);
-      found({t.sphere, static_cast<int>(contact->mesh), -pose.turn_to_box(contact->force),
-             t.x - arm, engine.overlap(t, *contact, pose)});
-    }
+  for_each_contact(engine.results(), [&](const TouchingSphere &t, const StepContact &contact) {
+    const Pose &pose = poses[contact.mesh];
+    const Vec3 arm = pose.turn_to_box(contact.arm);
+    found({t.sphere, static_cast<int>(contact.mesh), -pose.turn_to_box(contact.force), t.x - arm,
+           engine.overlap(t, contact, pose)});
+  });
 }
 
 }    // namespace lsdcd
