@@ -17,6 +17,7 @@
 #include "base/input_error.h"
 #include "base/strided_view.h"
 #include "engine/engine.h"
+#include "pair/pair_engine.h"
 
 #include <memory>
 #include <string>
@@ -128,6 +129,25 @@ std::unique_ptr<WallEngine> make_engine_on(EngineSettings settings)
     if (std::is_same<Space, Kokkos::OpenMP>::value) threads_asked_for() = true;
 #endif
     return make_cpu_engine(settings);
+  }
+}
+
+// The engine of pairs whose memory is that of a Kokkos device.
+template <class DeviceType>
+std::unique_ptr<PairEngine> make_pair_engine_on()
+{
+#if defined(KOKKOS_ENABLE_CUDA)
+  using Space = typename DeviceType::execution_space;
+  if constexpr (std::is_same<Space, Kokkos::Cuda>::value)
+    return make_cuda_pair_engine(Space().cuda_device(), Space().cuda_stream());
+  else
+#endif
+  {
+#if defined(KOKKOS_ENABLE_OPENMP)
+    if (std::is_same<typename DeviceType::execution_space, Kokkos::OpenMP>::value)
+      threads_asked_for() = true;
+#endif
+    return make_cpu_pair_engine();
   }
 }
 

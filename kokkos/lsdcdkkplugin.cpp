@@ -5,10 +5,14 @@
 
 #include "fix_insert_lsdcd_kokkos.h"
 #include "fix_massflow_lsdcd_kokkos.h"
+#include "fix_springs_lsdcd_kokkos.h"
 #include "fix_wall_lsdcd_kokkos.h"
 #include "guarded_fix_kokkos.h"
+#include "pair_granular_lsdcd_kokkos.h"
 
 #include "lammps/plugin_styles.h"
+
+#include "force.h"
 
 #include <cstdio>
 #include <mpi.h>
@@ -17,6 +21,7 @@
 
 using namespace LAMMPS_NS;
 using lsdcd::create_fix;
+using lsdcd::create_pair;
 
 static std::string version_text(int version)
 {
@@ -74,4 +79,19 @@ extern "C" __attribute__((visibility("default"))) void lsdcd_add_styles(void *lm
   add("insert/lsdcd/kk", create_fix<GuardedFix<FixInsertLsdcdKokkos>>);
   add("insert/lsdcd/kk/device", create_fix<GuardedFix<FixInsertLsdcdKokkos>>);
   add("insert/lsdcd/kk/host", create_fix<GuardedFix<FixInsertLsdcdKokkos>>);
+
+  // The pair style asks for these by their whole names.
+  add("SPRINGS/LSDCD/KK/DEVICE",
+      create_fix<GuardedFixKokkos<FixSpringsLsdcdKokkos<LMPDeviceType>>>);
+  add("SPRINGS/LSDCD/KK/HOST", create_fix<GuardedFixKokkos<FixSpringsLsdcdKokkos<LMPHostType>>>);
+  const auto add_pair = [&](const char *name, lammpsplugin_factory1 *create) {
+    lsdcd::add_pair_style(lmp, handle, regfunc, name, "the same with Kokkos", create);
+  };
+  add_pair("granular/lsdcd/kk", create_pair<GuardedPair<PairGranularLsdcdKokkos<LMPDeviceType>>>);
+  add_pair("granular/lsdcd/kk/device",
+           create_pair<GuardedPair<PairGranularLsdcdKokkos<LMPDeviceType>>>);
+  add_pair("granular/lsdcd/kk/host",
+           create_pair<GuardedPair<PairGranularLsdcdKokkos<LMPHostType>>>);
+  if (!static_cast<LAMMPS *>(lmp)->force->pair_map->count("granular/kk"))
+    add_pair("granular/kk", create_pair<GuardedPair<PairAsGranularKokkos<LMPDeviceType>>>);
 }

@@ -60,7 +60,7 @@ __global__ void __launch_bounds__(F::kThreads, F::kBlocksAtOnce)
 // Pairs of a key and a value, before a sort and after it, in memory that is used again: sort_in() sorts the first n of
 // keys[0] and values[0].
 template <class B>
-struct PairMemory {
+struct SortMemory {
   template <class T>
   using Array = typename B::template Array<T>;
 

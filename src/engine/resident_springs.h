@@ -7,30 +7,16 @@
 
 #include "backend/backend.h"
 #include "base/countable.h"
+#include "base/packed_integer.h"
 #include "contact/contact_history.h"
 #include "contact/feature_turn.h"
 #include "engine/springs.h"
 #include "engine/step/step_job.h"
 
 #include <algorithm>
-#include <cstring>
 #include <vector>
 
 namespace lsdcd {
-
-// An integer in the place of a double, as messages of a host on a GPU have it.
-LSDCD_FN double as_double(std::int64_t value)
-{
-  double bits;
-  memcpy(&bits, &value, sizeof bits);
-  return bits;
-}
-LSDCD_FN std::int64_t as_integer(double bits)
-{
-  std::int64_t value;
-  memcpy(&value, &bits, sizeof value);
-  return value;
-}
 
 template <class B>
 class ResidentSprings : public Springs {
@@ -261,7 +247,8 @@ class ResidentSprings : public Springs {
     Array<int> offset(n);
     int *at = offset.data(), *first = first_.data(), *count = count_.data();
     b_.for_each(n, [=] LSDCD_LAMBDA(std::size_t k) {
-      at[k] = to[k] < 0 ? 0 : static_cast<int>(buffer[place_of(buffer, k, n_first, second)]);
+      at[k] =
+          to[k] < 0 ? 0 : static_cast<int>(buffer[place_in_message(buffer, k, n_first, second)]);
     });
     const std::size_t total = numbered(b_.exclusive_scan(at, n));
     extend(end_ + total);
@@ -272,7 +259,7 @@ class ResidentSprings : public Springs {
     b_.for_each(n, [=] LSDCD_LAMBDA(std::size_t k) {
       const int i = to[k];
       if (i < 0) return;
-      std::int64_t m = place_of(buffer, k, n_first, second);
+      std::int64_t m = place_in_message(buffer, k, n_first, second);
       first[i] = begin + at[k];
       count[i] = static_cast<int>(buffer[m++]);
       for (int c = 0; c < count[i]; c++) {
@@ -309,13 +296,6 @@ class ResidentSprings : public Springs {
   {
     return 7 + traits_.n_extra;
   }    // feature, normal, shear displacement, extra
-
-  LSDCD_FN static std::int64_t place_of(const double *buffer, std::size_t k, int n_first,
-                                        int second)
-  {
-    if (k < static_cast<std::size_t>(n_first)) return as_integer(buffer[k]);
-    return second + as_integer(buffer[second + (k - n_first)]);
-  }
 
   std::size_t offsets(std::size_t n, int *to)
   {

@@ -60,7 +60,7 @@ void FixSpringsLsdcd::set_laws(int width, const std::string &of_laws,
         "the run that wrote it, or begin without springs by a data file (write_data)");
   from_file = false;
   if (width != partners.width() || of_laws != kinds) {
-    if (partners.largest_packed_size() > 1)
+    if (largest_packed_size() > 1)
       warn("the contact laws have changed, and what pairs had kept is gone: contacts begin anew");
     partners = lsdcd::Partners(width);
     partners.grow(atom->nmax);
@@ -98,39 +98,38 @@ std::vector<double> FixSpringsLsdcd::numbers_of(int row, int place)
 
 // ---- from pairs to atoms -----------------------------------------------------------------
 
-// With newton on a pair is computed by one process alone, which tells the owner of the other atom.
 void FixSpringsLsdcd::collect()
 {
-  if (!keeps()) return;
-  if (in_pairs) {
-    const bool newton = force->newton_pair;
-    partners.collect(
-        list, history[now], newton ? own + atom->nghost : own,
-        [this](int i) { return static_cast<lsdcd::Partners::Name>(atom->tag[i]); },
-        [this](int i, int j) { return flips(atom->type[i], atom->type[j]); });
-    if (newton) {
-#if LSDCD_HOST_VERSION < 20220601
-      comm->reverse_comm_fix_variable(this);
-#else
-      comm->reverse_comm_variable(this);
-#endif
-    }
-    in_pairs = false;
-  }
-  ask_for_room();
+  const bool newton = force->newton_pair;
+  partners.collect(
+      list, history[now], newton ? own + atom->nghost : own,
+      [this](int i) { return static_cast<lsdcd::Partners::Name>(atom->tag[i]); },
+      [this](int i, int j) { return flips(atom->type[i], atom->type[j]); });
+  if (newton) tell_owners();
 }
 
-// An atom that arrives may leave again in the next direction: room for the largest of all processes.
-void FixSpringsLsdcd::ask_for_room()
+// With newton on a pair is computed by one process alone, which tells the owner of the other atom.
+void FixSpringsLsdcd::tell_owners()
 {
-  int largest = partners.largest_packed_size();
-  MPI_Allreduce(MPI_IN_PLACE, &largest, 1, MPI_INT, MPI_MAX, world);
-  maxexchange = 1 + largest;
+#if LSDCD_HOST_VERSION < 20220601
+  comm->reverse_comm_fix_variable(this);
+#else
+  comm->reverse_comm_variable(this);
+#endif
 }
 
+// An atom that arrives may leave again in the next direction: room for the largest of all processes. It is doubled, as LAMMPS with
+// Kokkos makes its whole buffer half as large again each time that there is more of it.
 void FixSpringsLsdcd::pre_exchange()
 {
-  collect();
+  if (!keeps()) return;
+  if (in_pairs) collect();
+  in_pairs = false;
+  int largest = largest_packed_size();
+  MPI_Allreduce(MPI_IN_PLACE, &largest, 1, MPI_INT, MPI_MAX, world);
+  int room = std::max(64, maxexchange);
+  while (room < 1 + largest) room *= 2;
+  maxexchange = room;
 }
 
 void FixSpringsLsdcd::post_neighbor()
@@ -141,7 +140,7 @@ void FixSpringsLsdcd::post_neighbor()
 // Atoms may be deleted between runs.
 void FixSpringsLsdcd::post_run()
 {
-  collect();
+  pre_exchange();
 }
 
 int FixSpringsLsdcd::pack_reverse_comm_size(int n, int first)
@@ -194,7 +193,7 @@ int FixSpringsLsdcd::unpack_exchange(int i, double *buf)
 
 void FixSpringsLsdcd::write_restart(FILE *file)
 {
-  collect();
+  pre_exchange();
   if (comm->me != 0) return;
   run_core_here([&] {
     lsdcd::State state(kSpringsOfPairs);

@@ -50,13 +50,13 @@ class FixSpringsLsdcd : public Fix, protected OwnMessages {
   void unpack_restart(int, int) override;
   double memory_usage() override;
 
- private:
+ protected:
   // For the pair style, which is there as long as this is.
   friend class PairGranularLsdcd;
   // Before a run. `width`: numbers of a pair, 0: laws keep nothing. `kinds`: equal where the numbers of all pairs of types mean
   // the same.
-  void set_laws(int width, const std::string &kinds,
-                const std::function<unsigned(int type, int other)> &flips);
+  virtual void set_laws(int width, const std::string &kinds,
+                        const std::function<unsigned(int type, int other)> &flips);
   // Before a step of the pairs in this list.
   void begin_step(const lsdcd::PairList &list);
   const lsdcd::PairHistory &old() const { return history[1 - now]; }
@@ -65,8 +65,10 @@ class FixSpringsLsdcd : public Fix, protected OwnMessages {
   std::vector<double> numbers_of(int row, int place);
 
   bool keeps() const { return partners.width() > 0; }
-  void collect();
-  void ask_for_room();
+  // Brings what the pairs of the last step keep to their atoms.
+  virtual void collect();
+  void tell_owners();
+  virtual int largest_packed_size() const { return partners.largest_packed_size(); }
 
   lsdcd::Partners partners;
   lsdcd::PairHistory history[2];

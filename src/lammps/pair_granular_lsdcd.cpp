@@ -196,10 +196,20 @@ void PairGranularLsdcd::init_style()
   beyond_contact = std::any_of(numbers.begin(), numbers.end(),
                                [](const lsdcd::ContactLaw &law) { return law.pull_off() > 0; });
   set_springs();
-  lsdcd::request_half_list(*neighbor, this, instance_me, !beyond_contact);
+  request_list();
   if (!told) tell_laws();
   told = true;
   check_step();
+}
+
+int PairGranularLsdcd::kept_width() const
+{
+  return springs ? springs->partners.width() : 0;
+}
+
+void PairGranularLsdcd::request_list()
+{
+  lsdcd::request_half_list(*neighbor, this, instance_me, !beyond_contact);
 }
 
 // LAMMPS's order of fixes is that in which they were made: the springs take the place that was kept for them.
@@ -219,7 +229,7 @@ void PairGranularLsdcd::set_springs()
     }
   if (any && !springs)
     springs = dynamic_cast<FixSpringsLsdcd *>(
-        modify->replace_fix(dummy_id, springs_id + " all SPRINGS/LSDCD"));
+        modify->replace_fix(dummy_id, springs_id + " all " + springs_style()));
   else if (springs && lsdcd::host_fix(*modify, springs_id) != springs)
     fatal("fix " + springs_id + ", which keeps the springs of pairs, is gone: do not unfix it");
   if (!springs) return;
@@ -323,7 +333,7 @@ void PairGranularLsdcd::tell_laws()
               (given.count({i, j}) ? "" : " (mixed)");
     }
   if (same) text = "\n  all types: " + words(1, 1);
-  const int width = springs ? springs->partners.width() : 0;
+  const int width = kept_width();
   log("laws of pairs, " +
       (width
            ? std::to_string(width * sizeof(double) + sizeof(std::size_t)) + " bytes a touching pair"
@@ -440,7 +450,7 @@ void PairGranularLsdcd::compute(int eflag, int vflag)
   ev_init(eflag, vflag);
   fill_masses();
   lsdcd::PairJob step = job();
-  if (springs && springs->keeps()) {
+  if (kept_width() > 0) {
     springs->begin_step(step.list);
     step.old = &springs->old();
     step.history = &springs->next();
@@ -451,6 +461,28 @@ void PairGranularLsdcd::compute(int eflag, int vflag)
   for (const lsdcd::RecordedPair &p : record)
     ev_tally_xyz(p.i, p.j, atom->nlocal, force->newton_pair, p.energy, 0, p.force.x, p.force.y,
                  p.force.z, p.offset.x, p.offset.y, p.offset.z);
+}
+
+// They may be in the row of either.
+std::vector<double> PairGranularLsdcd::kept_numbers(int i, int j)
+{
+  if (kept_width() == 0) return {};
+  for (const auto &[row_of, other] : {std::make_pair(i, j), std::make_pair(j, i)}) {
+    int *const end = list->ilist + list->inum;
+    int *const at = row_of < list->inum && list->ilist[row_of] == row_of
+                        ? list->ilist + row_of
+                        : std::find(list->ilist, end, row_of);
+    if (at == end) continue;
+    std::vector<double> kept;
+    for (int place = 0; place < list->numneigh[row_of] && kept.empty(); place++)
+      if ((list->firstneigh[row_of][place] & NEIGHMASK) == other)
+        kept = springs->numbers_of(static_cast<int>(at - list->ilist), place);
+    const unsigned flips = row_of == i ? 0 : flips_of[law_index(atom->type[i], atom->type[j])];
+    for (std::size_t k = 0; k < kept.size(); k++)
+      if (flips >> k & 1) kept[k] = -kept[k];
+    if (!kept.empty()) return kept;
+  }
+  return {};
 }
 
 double PairGranularLsdcd::single(int i, int j, int itype, int jtype, double /*rsq*/,
@@ -464,27 +496,9 @@ double PairGranularLsdcd::single(int i, int j, int itype, int jtype, double /*rs
   const lsdcd::PairJob now = job();
   const lsdcd::PairLaw &law = laws[law_index(itype, jtype)];
 
-  // What the pair keeps: it may be in the row of either.
-  std::vector<double> kept;
-  bool turned = false;
-  for (const auto &[row_of, other] : {std::make_pair(i, j), std::make_pair(j, i)}) {
-    if (!springs || !springs->keeps() || !kept.empty()) break;
-    int *const end = list->ilist + list->inum;
-    int *const at = row_of < list->inum && list->ilist[row_of] == row_of
-                        ? list->ilist + row_of
-                        : std::find(list->ilist, end, row_of);
-    if (at == end) continue;
-    for (int place = 0; place < list->numneigh[row_of] && kept.empty(); place++)
-      if ((list->firstneigh[row_of][place] & NEIGHMASK) == other)
-        kept = springs->numbers_of(static_cast<int>(at - list->ilist), place);
-    turned = row_of != i;
-  }
-  const int width = springs ? springs->partners.width() : 0;
+  const int width = kept_width();
+  const std::vector<double> kept = kept_numbers(i, j);
   std::vector<double> unused(std::max(3, width));
-  const unsigned flips = flips_of[law_index(itype, jtype)];
-  for (std::size_t k = 0; k < kept.size(); k++)
-    if (turned && flips >> k & 1) kept[k] = -kept[k];
-
   const lsdcd::GrainPair pair = lsdcd::grain_pair(now, i, j, false);
   lsdcd::PairForce f;
   if (!law.evaluate(law.law, pair, !kept.empty(), kept.empty() ? nullptr : kept.data(),

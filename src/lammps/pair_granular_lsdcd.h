@@ -36,6 +36,16 @@ class PairGranularLsdcd : public Pair, protected OwnMessages {
   void unpack_forward_comm(int, int, double *) override;
   double memory_usage() override;
 
+ protected:
+  // The fix for springs, the list that is asked for, and what the pair keeps as i sees it; empty: nothing.
+  virtual std::string springs_style() const { return "SPRINGS/LSDCD"; }
+  virtual void request_list();
+  virtual std::vector<double> kept_numbers(int i, int j);
+  void fill_masses();
+  double time_step() const;
+  int kept_width() const;    // numbers that a touching pair keeps
+  int law_index(int i, int j) const { return law_of[i * (n_types + 1) + j]; }
+
  private:
   // What an atom type may bring: radii of those that move, and of those of fix freeze.
   struct Radii {
@@ -48,32 +58,31 @@ class PairGranularLsdcd : public Pair, protected OwnMessages {
   void find_radii();
   void find_fixes();
   void set_springs();
-  int law_index(int i, int j) const { return law_of[i * (n_types + 1) + j]; }
   double reach(int i, int j, double radius, double other) const;
-  void fill_masses();
-  double time_step() const;
   lsdcd::PairJob job();
   void tell_laws();
   void check_step();
 
-  int n_types = 0;
   double cutoff = -1;
   std::map<std::pair<int, int>, lsdcd::PairCoeff> given;    // i <= j
   std::vector<lsdcd::PairCoeff> coeffs;                     // of each law
-  std::vector<lsdcd::ContactLaw> numbers;                   // the same
   std::vector<lsdcd::PairLaw> laws;                         // the same, compiled
   std::vector<unsigned> flips_of;                           // the same: see ContactLaw::flips()
-  std::vector<int> law_of;    // of types i and j at i * (n_types + 1) + j
   std::vector<Radii> radii;
-  bool has_heat = false, told = false;
+  bool told = false;
   double warned_of = 0;    // the timestep that the last warning was about
-
   std::string springs_id, dummy_id;
+  std::vector<lsdcd::RecordedPair> record;
+
+ protected:
+  int n_types = 0;
+  std::vector<lsdcd::ContactLaw> numbers;    // of each law
+  std::vector<int> law_of;                   // of types i and j at i * (n_types + 1) + j
+  bool has_heat = false;
   class FixSpringsLsdcd *springs = nullptr;    // null: no law has kept anything yet
   class Fix *rigid = nullptr;
   int frozen = 0;                // bit of the group of fix freeze
   std::vector<double> masses;    // of atoms, or of the rigid bodies that they are of
-  std::vector<lsdcd::RecordedPair> record;
 };
 
 }    // namespace LAMMPS_NS

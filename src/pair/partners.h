@@ -9,6 +9,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 namespace lsdcd {
@@ -25,6 +26,15 @@ class Partners {
   void grow(int n_grains);    // keeps what is there; new grains have none
   void copy(int from, int to) { first_[to] = first_[from], count_[to] = count_[from]; }
   void clear(int i) { count_[i] = 0; }
+  // Takes partners in place of all that is there: those of grain i are first[i], and count[i] - 1 behind it.
+  void assign(std::vector<std::size_t> first, std::vector<int> count, std::vector<Name> name,
+              std::vector<Real> numbers)
+  {
+    first_ = std::move(first);
+    count_ = std::move(count);
+    name_ = std::move(name);
+    numbers_ = std::move(numbers);
+  }
   int count(int i) const { return count_[i]; }
   Name name(int i, int k) const { return name_[first_[i] + k]; }
   const Real *numbers(int i, int k) const { return numbers_.data() + width_ * (first_[i] + k); }

@@ -156,7 +156,7 @@ class CudaTreeQuery : public StreamQuery {
   std::shared_ptr<const DeviceTree> tree_;
   CudaBackend b_;
   RadiusCheck<CudaBackend> radii_;
-  PairMemory<CudaBackend> pairs_;
+  SortMemory<CudaBackend> pairs_;
 };
 
 std::unique_ptr<StreamQuery> DeviceTree::query_on(void *stream) const

@@ -1,0 +1,224 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: GPL-2.0-only
+
+#include "fix_springs_lsdcd_kokkos.h"
+
+#include "utils.h"
+
+using namespace LAMMPS_NS;
+
+template <class DeviceType>
+FixSpringsLsdcdKokkos<DeviceType>::FixSpringsLsdcdKokkos(LAMMPS *lmp, int narg, char **arg) :
+    FixSpringsLsdcd(lmp, narg, arg), atomKK(static_cast<AtomKokkos *>(atom))
+{
+  lsdcd::bring_no_atoms(*this, ExecutionSpaceFromDevice<DeviceType>::space);
+  exchange_comm_device = sort_device = std::is_same<DeviceType, LMPDeviceType>::value;
+  // Restart files of both forms are the same.
+  delete[] style;
+  style = utils::strdup("SPRINGS/LSDCD");
+}
+
+template <class DeviceType>
+lsdcd::GrainNames FixSpringsLsdcdKokkos<DeviceType>::names()
+{
+  atomKK->sync(execution_space, TAG_MASK);
+  return {atomKK->k_tag.template view<DeviceType>().data(), sizeof(tagint) == 8};
+}
+
+template <class DeviceType>
+void FixSpringsLsdcdKokkos<DeviceType>::need_on_cpu()
+{
+  if (!on_device) return;
+  engine->to_cpu(partners, atom->nlocal + (ghosts_too ? atom->nghost : 0));
+  partners.grow(atom->nmax);
+  on_device = false;
+}
+
+template <class DeviceType>
+void FixSpringsLsdcdKokkos<DeviceType>::need_on_device()
+{
+  if (!on_device) engine->from_cpu(partners, atom->nlocal);
+  on_device = true;
+}
+
+template <class DeviceType>
+void FixSpringsLsdcdKokkos<DeviceType>::set_laws(int width, const std::string &of_laws,
+                                                 const std::function<unsigned(int, int)> &of_pair)
+{
+  const bool same = width == partners.width() && of_laws == kinds;
+  FixSpringsLsdcd::set_laws(width, of_laws, of_pair);
+  if (!same) on_device = false;
+}
+
+// ---- steps -------------------------------------------------------------------------------
+
+template <class DeviceType>
+void FixSpringsLsdcdKokkos<DeviceType>::begin_step(const lsdcd::PairRows &of_step, bool newton)
+{
+  rows = of_step;
+  own = atom->nlocal;
+  ghosts_too = newton && !rows.full;
+  if (new_list) {
+    need_on_device();
+    engine->hand_out(rows, names());
+  }
+  new_list = shown = false;
+  in_pairs = true;
+}
+
+template <class DeviceType>
+void FixSpringsLsdcdKokkos<DeviceType>::collect()
+{
+  atomKK->sync(execution_space, TYPE_MASK);
+  engine->collect(rows, names(), atomKK->k_type.template view<DeviceType>().data(),
+                  own + (ghosts_too ? atom->nghost : 0));
+  on_device = true;
+  if (ghosts_too) tell_owners();
+  ghosts_too = false;
+}
+
+template <class DeviceType>
+int FixSpringsLsdcdKokkos<DeviceType>::largest_packed_size() const
+{
+  return on_device ? engine->largest_packed_size(atom->nlocal) : partners.largest_packed_size();
+}
+
+template <class DeviceType>
+std::vector<double> FixSpringsLsdcdKokkos<DeviceType>::numbers_of(int i, int j)
+{
+  if (in_pairs && !shown) {
+    const bool ghosts = ghosts_too;
+    ghosts_too = false;
+    collect();
+    ghosts_too = ghosts;
+    shown = true;
+  }
+  need_on_cpu();
+  atomKK->sync(Host, TAG_MASK);
+  for (int k = 0; k < partners.count(i); k++)
+    if (partners.name(i, k) == atom->tag[j])
+      return {partners.numbers(i, k), partners.numbers(i, k) + partners.width()};
+  return {};
+}
+
+// ---- where LAMMPS moves atoms on the host, and restart files ------------------------------
+
+template <class DeviceType>
+void FixSpringsLsdcdKokkos<DeviceType>::copy_arrays(int i, int j, int delflag)
+{
+  need_on_cpu();
+  FixSpringsLsdcd::copy_arrays(i, j, delflag);
+}
+
+// The engine has nothing of an atom that is new.
+template <class DeviceType>
+void FixSpringsLsdcdKokkos<DeviceType>::set_arrays(int i)
+{
+  if (!on_device) FixSpringsLsdcd::set_arrays(i);
+}
+
+template <class DeviceType>
+int FixSpringsLsdcdKokkos<DeviceType>::pack_exchange(int i, double *buf)
+{
+  need_on_cpu();
+  return FixSpringsLsdcd::pack_exchange(i, buf);
+}
+
+template <class DeviceType>
+int FixSpringsLsdcdKokkos<DeviceType>::unpack_exchange(int i, double *buf)
+{
+  need_on_cpu();
+  return FixSpringsLsdcd::unpack_exchange(i, buf);
+}
+
+template <class DeviceType>
+int FixSpringsLsdcdKokkos<DeviceType>::pack_reverse_comm_size(int n, int first)
+{
+  need_on_cpu();
+  return FixSpringsLsdcd::pack_reverse_comm_size(n, first);
+}
+
+template <class DeviceType>
+int FixSpringsLsdcdKokkos<DeviceType>::size_restart(int i)
+{
+  need_on_cpu();
+  return FixSpringsLsdcd::size_restart(i);
+}
+
+template <class DeviceType>
+int FixSpringsLsdcdKokkos<DeviceType>::maxsize_restart()
+{
+  need_on_cpu();
+  return FixSpringsLsdcd::maxsize_restart();
+}
+
+template <class DeviceType>
+int FixSpringsLsdcdKokkos<DeviceType>::pack_restart(int i, double *buf)
+{
+  need_on_cpu();
+  return FixSpringsLsdcd::pack_restart(i, buf);
+}
+
+template <class DeviceType>
+double FixSpringsLsdcdKokkos<DeviceType>::memory_usage()
+{
+  return FixSpringsLsdcd::memory_usage() + static_cast<double>(engine ? engine->bytes() : 0);
+}
+
+// ---- where it moves them on the device ----------------------------------------------------
+
+template <class DeviceType>
+int FixSpringsLsdcdKokkos<DeviceType>::pack_exchange_kokkos(const int &n,
+                                                            lsdcd::ExchangeBuffer &buffer,
+                                                            DAT::tdual_int_1d which,
+                                                            DAT::tdual_int_1d from,
+                                                            ExecutionSpace space)
+{
+  if (!keeps()) return 0;
+  need_on_device();
+  which.template sync<DeviceType>();
+  from.template sync<DeviceType>();
+  buffer.clear_sync_state();
+  engine->grow(atom->nlocal + n);
+  const int size = engine->pack(n, which.template view<DeviceType>().data(),
+                                from.template view<DeviceType>().data(),
+                                buffer.template view<DeviceType>().data());
+  if (lsdcd::sends_from_host<DeviceType>(space)) {
+    buffer.template modify<DeviceType>();
+    buffer.template sync<LMPHostType>();
+  }
+  return size;
+}
+
+template <class DeviceType>
+void FixSpringsLsdcdKokkos<DeviceType>::unpack_exchange_kokkos(lsdcd::ExchangeBuffer &buffer,
+                                                               DAT::tdual_int_1d &to, int n,
+                                                               int n_first, int second,
+                                                               ExecutionSpace space)
+{
+  if (!keeps()) return;
+  need_on_device();
+  buffer.clear_sync_state();
+  if (lsdcd::sends_from_host<DeviceType>(space)) buffer.template modify<LMPHostType>();
+  buffer.template sync<DeviceType>();
+  to.template sync<DeviceType>();
+  engine->grow(atom->nlocal);
+  engine->unpack(n, to.template view<DeviceType>().data(),
+                 buffer.template view<DeviceType>().data(), n_first, second);
+}
+
+template <class DeviceType>
+void FixSpringsLsdcdKokkos<DeviceType>::sort_kokkos(Kokkos::BinSort<KeyViewType, BinOp> &sorter)
+{
+  if (!keeps()) return;
+  need_on_device();
+  engine->grow(atom->nlocal);
+  using Ints = Kokkos::View<int *, LMPDeviceType, Kokkos::MemoryTraits<Kokkos::Unmanaged>>;
+  sorter.sort(LMPDeviceType(), Ints(engine->first(), atom->nlocal));
+  sorter.sort(LMPDeviceType(), Ints(engine->count(), atom->nlocal));
+}
+
+template class LAMMPS_NS::FixSpringsLsdcdKokkos<LMPDeviceType>;
+#if defined(LMP_KOKKOS_GPU)
+template class LAMMPS_NS::FixSpringsLsdcdKokkos<LMPHostType>;
+#endif

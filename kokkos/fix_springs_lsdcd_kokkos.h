@@ -1,0 +1,67 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: GPL-2.0-only
+
+// fix SPRINGS/LSDCD/KK: what pairs of granular/lsdcd/kk keep stays where a Kokkos LAMMPS has its atoms. The partners of the plain fix are
+// filled for restart files, and where LAMMPS moves atoms on the host.
+#ifndef LMP_FIX_SPRINGS_LSDCD_KOKKOS_H
+#define LMP_FIX_SPRINGS_LSDCD_KOKKOS_H
+
+#include "host_kokkos.h"
+
+#include "lammps/fix_springs_lsdcd.h"
+#include "pair/pair_engine.h"
+
+namespace LAMMPS_NS {
+
+template <class DeviceType>
+class PairGranularLsdcdKokkos;
+
+template <class DeviceType>
+class FixSpringsLsdcdKokkos : public FixSpringsLsdcd, public KokkosBase {
+ public:
+  FixSpringsLsdcdKokkos(class LAMMPS *, int, char **);
+
+  void copy_arrays(int, int, int) override;
+  void set_arrays(int) override;
+  int pack_exchange(int, double *) override;
+  int unpack_exchange(int, double *) override;
+  int pack_reverse_comm_size(int, int) override;
+  int size_restart(int) override;
+  int maxsize_restart() override;
+  int pack_restart(int, double *) override;
+  double memory_usage() override;
+
+  int pack_exchange_kokkos(const int &, lsdcd::ExchangeBuffer &, DAT::tdual_int_1d,
+                           DAT::tdual_int_1d, ExecutionSpace) override;
+  void unpack_exchange_kokkos(lsdcd::ExchangeBuffer &, DAT::tdual_int_1d &, int, int, int,
+                              ExecutionSpace) override;
+  void sort_kokkos(Kokkos::BinSort<KeyViewType, BinOp> &) override;
+
+ protected:
+  void set_laws(int width, const std::string &kinds,
+                const std::function<unsigned(int, int)> &flips) override;
+  void collect() override;
+  int largest_packed_size() const override;
+
+ private:
+  friend class PairGranularLsdcdKokkos<DeviceType>;
+  // Before a step of the pairs in this list.
+  void begin_step(const lsdcd::PairRows &list, bool newton);
+  // Returns what the pair keeps as i sees it; empty: it does not touch.
+  std::vector<double> numbers_of(int i, int j);
+
+  lsdcd::GrainNames names();
+  void need_on_cpu();
+  void need_on_device();
+
+  class AtomKokkos *atomKK;
+  lsdcd::PairEngine *engine = nullptr;    // of the pair style, which is there as long as this is
+  lsdcd::PairRows rows;                   // of the last step
+  bool ghosts_too = false;                // what is kept belongs to ghost atoms, too
+  bool on_device = false;                 // the engine has the partners; else the plain fix has
+  bool shown = false;                     // partners are those of the pairs of the last step
+};
+
+}    // namespace LAMMPS_NS
+
+#endif

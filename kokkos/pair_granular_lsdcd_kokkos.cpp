@@ -1,0 +1,176 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: GPL-2.0-only
+
+#include "pair_granular_lsdcd_kokkos.h"
+
+#include "fix_springs_lsdcd_kokkos.h"
+
+#include "backend/owned_array.h"
+
+#include "force.h"
+#include "neigh_list_kokkos.h"
+#include "neigh_request.h"
+#include "neighbor.h"
+#include "update.h"
+
+#include <algorithm>
+
+using namespace LAMMPS_NS;
+
+template <class DeviceType>
+PairGranularLsdcdKokkos<DeviceType>::PairGranularLsdcdKokkos(LAMMPS *lmp) :
+    PairGranularLsdcd(lmp), atomKK(static_cast<AtomKokkos *>(atom))
+{
+  if (!lmp->kokkos)
+    fatal("LAMMPS runs without Kokkos: start it with -k on, or use granular/lsdcd without /kk");
+  if (lsdcd::kFloatAtoms)
+    fatal("atoms are in float (KOKKOS_PREC of this LAMMPS), and forces between grains are computed "
+          "in double: use a LAMMPS with "
+          "KOKKOS_PREC double, or write 'suffix off' before pair_style granular/lsdcd");
+  kokkosable = 1;
+  execution_space = ExecutionSpaceFromDevice<DeviceType>::space;
+  datamask_read = datamask_modify = EMPTY_MASK;    // each place names what it reads and changes
+  engine = lsdcd::make_pair_engine_on<DeviceType>();
+}
+
+template <class DeviceType>
+std::string PairGranularLsdcdKokkos<DeviceType>::springs_style() const
+{
+  return std::is_same<DeviceType, LMPDeviceType>::value ? "SPRINGS/LSDCD/KK/DEVICE"
+                                                        : "SPRINGS/LSDCD/KK/HOST";
+}
+
+template <class DeviceType>
+void PairGranularLsdcdKokkos<DeviceType>::init_style()
+{
+  atomKK->sync(Host, RADIUS_MASK | RMASS_MASK | TYPE_MASK | MASK_MASK);
+  full = lmp->kokkos->neighflag == FULL;
+  PairGranularLsdcd::init_style();
+  if (has_heat && !lsdcd::kOnCpu<DeviceType>)
+    fatal("the sub-model heat does not work for atoms on a GPU, where LAMMPS keeps no temperature: "
+          "write 'suffix off' before "
+          "pair_style granular/lsdcd, or use granular/lsdcd/kk/host");
+  if (springs) static_cast<FixSpringsLsdcdKokkos<DeviceType> *>(springs)->engine = engine.get();
+  engine->set_laws({numbers, law_of, n_types + 1, kept_width()});
+}
+
+template <class DeviceType>
+void PairGranularLsdcdKokkos<DeviceType>::request_list()
+{
+  if (full)
+    neighbor->add_request(this, NeighConst::REQ_FULL);
+  else
+    PairGranularLsdcd::request_list();
+  NeighRequest *const request = neighbor->find_request(this);
+  constexpr bool device = std::is_same<DeviceType, LMPDeviceType>::value;
+  request->set_kokkos_host(!device);
+  request->set_kokkos_device(device);
+}
+
+// LAMMPS sends masses of bodies to ghost atoms on the host.
+template <class DeviceType>
+void PairGranularLsdcdKokkos<DeviceType>::bring_masses()
+{
+  if (!rigid || neighbor->ago > 0) return;
+  atomKK->sync(Host, RMASS_MASK);
+  execution_space = Host;
+  fill_masses();
+  execution_space = ExecutionSpaceFromDevice<DeviceType>::space;
+  if (d_masses.extent(0) < masses.size())
+    d_masses = decltype(d_masses)("lsdcd:masses", lsdcd::with_spare(masses.size()));
+  const Kokkos::View<double *, LMPHostType, Kokkos::MemoryTraits<Kokkos::Unmanaged>> host(
+      masses.data(), masses.size());
+  Kokkos::deep_copy(Kokkos::subview(d_masses, std::make_pair(std::size_t(0), masses.size())), host);
+}
+
+template <class DeviceType>
+lsdcd::PairInput PairGranularLsdcdKokkos<DeviceType>::step()
+{
+  lsdcd::PairInput s;
+  if constexpr (!lsdcd::kFloatAtoms) {
+    s.x = lsdcd::rows_of(atomKK->k_x.template view<DeviceType>());
+    s.v = lsdcd::rows_of(atomKK->k_v.template view<DeviceType>());
+    s.omega = lsdcd::rows_of(atomKK->k_omega.template view<DeviceType>());
+    s.radius = atomKK->k_radius.template view<DeviceType>().data();
+    s.mass = rigid ? d_masses.data() : atomKK->k_rmass.template view<DeviceType>().data();
+    s.force = lsdcd::rows_of(atomKK->k_f.template view<DeviceType>());
+    s.torque = lsdcd::rows_of(atomKK->k_torque.template view<DeviceType>());
+  }
+  s.type = atomKK->k_type.template view<DeviceType>().data();
+  if (frozen) s.mask = atomKK->k_mask.template view<DeviceType>().data();
+  s.frozen = frozen;
+  if (has_heat) {
+    s.temperature = atom->temperature;
+    s.heat = atom->heatflow;
+  }
+  s.n_own = atom->nlocal;
+  s.n_all = atom->nlocal + atom->nghost;
+  s.both_sides = force->newton_pair && !full;
+  const auto &neighbors = *static_cast<NeighListKokkos<DeviceType> *>(list);
+  s.list.rows = list->inum;
+  s.list.grain = neighbors.d_ilist.data();
+  s.list.length = neighbors.d_numneigh.data();
+  s.list.neighbor = neighbors.d_neighbors.data();
+  s.list.row = static_cast<std::ptrdiff_t>(neighbors.d_neighbors.stride(0));
+  s.list.place = static_cast<std::ptrdiff_t>(neighbors.d_neighbors.stride(1));
+  s.list.longest = static_cast<int>(neighbors.d_neighbors.extent(1));
+  s.list.mask = NEIGHMASK;
+  s.list.factor_shift = SBBITS;
+  s.list.full = full;
+  std::copy_n(force->special_lj, 4, s.factor);
+  s.dt = time_step();
+  s.update = update->setupflag == 0;
+  return s;
+}
+
+template <class DeviceType>
+void PairGranularLsdcdKokkos<DeviceType>::compute(int eflag, int vflag)
+{
+  ev_init(eflag, vflag);
+  bring_masses();
+  atomKK->sync(execution_space, X_MASK | V_MASK | OMEGA_MASK | RADIUS_MASK | RMASS_MASK |
+                                    TYPE_MASK | MASK_MASK | F_MASK | TORQUE_MASK);
+  const lsdcd::PairInput now = step();
+  if (kept_width() > 0)
+    static_cast<FixSpringsLsdcdKokkos<DeviceType> *>(springs)->begin_step(now.list,
+                                                                          force->newton_pair);
+  double sums[lsdcd::kPairSums];
+  engine->run(now, evflag ? sums : nullptr);
+  atomKK->modified(execution_space, F_MASK | TORQUE_MASK);
+  if (evflag) tally(sums);
+}
+
+template <class DeviceType>
+void PairGranularLsdcdKokkos<DeviceType>::tally(const double *sums)
+{
+  if (eflag_global) eng_vdwl += sums[0];
+  if (vflag_global)
+    for (int k = 0; k < 6; k++) virial[k] += sums[1 + k];
+  if (!eflag_atom && !vflag_atom) return;
+  const int n = atom->nlocal + (force->newton_pair && !full ? atom->nghost : 0);
+  engine->sums_of_grains(n, of_grains);
+  for (int i = 0; i < n; i++) {
+    if (eflag_atom) eatom[i] += of_grains[i];
+    if (vflag_atom)
+      for (int k = 0; k < 6; k++) vatom[i][k] += of_grains[std::size_t(1 + k) * n + i];
+  }
+}
+
+template <class DeviceType>
+std::vector<double> PairGranularLsdcdKokkos<DeviceType>::kept_numbers(int i, int j)
+{
+  if (kept_width() == 0) return {};
+  return static_cast<FixSpringsLsdcdKokkos<DeviceType> *>(springs)->numbers_of(i, j);
+}
+
+template <class DeviceType>
+double PairGranularLsdcdKokkos<DeviceType>::memory_usage()
+{
+  const double springs_too = PairGranularLsdcd::memory_usage();
+  return springs_too + (springs ? 0.0 : static_cast<double>(engine->bytes()));
+}
+
+template class LAMMPS_NS::PairGranularLsdcdKokkos<LMPDeviceType>;
+#if defined(LMP_KOKKOS_GPU)
+template class LAMMPS_NS::PairGranularLsdcdKokkos<LMPHostType>;
+#endif

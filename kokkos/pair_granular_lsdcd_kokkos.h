@@ -1,0 +1,54 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: GPL-2.0-only
+
+// pair_style granular/lsdcd/kk: the same pairs where a Kokkos LAMMPS has its atoms. It lends pointers; src/pair does the work.
+#ifndef LMP_PAIR_GRANULAR_LSDCD_KOKKOS_H
+#define LMP_PAIR_GRANULAR_LSDCD_KOKKOS_H
+
+#include "host_kokkos.h"
+
+#include "lammps/pair_granular_lsdcd.h"
+#include "pair/pair_engine.h"
+
+namespace LAMMPS_NS {
+
+template <class DeviceType>
+class PairGranularLsdcdKokkos : public PairGranularLsdcd {
+ public:
+  explicit PairGranularLsdcdKokkos(class LAMMPS *);
+
+  void init_style() override;
+  void compute(int, int) override;
+  double memory_usage() override;
+
+ protected:
+  std::string springs_style() const override;
+  void request_list() override;
+  std::vector<double> kept_numbers(int, int) override;
+
+ private:
+  void bring_masses();
+  lsdcd::PairInput step();
+  void tally(const double *sums);
+
+  class AtomKokkos *atomKK;
+  std::unique_ptr<lsdcd::PairEngine> engine;
+  bool full = false;    // lists have each pair twice, and no force is added by two threads
+  Kokkos::View<double *, DeviceType>
+      d_masses;    // of atoms, or of the rigid bodies that they are of
+  std::vector<double> of_grains;
+};
+
+// For scripts with granular and -sf kk, where LAMMPS has no granular/kk.
+template <class DeviceType>
+class PairAsGranularKokkos : public PairGranularLsdcdKokkos<DeviceType> {
+ public:
+  explicit PairAsGranularKokkos(class LAMMPS *lmp) : PairGranularLsdcdKokkos<DeviceType>(lmp)
+  {
+    this->log("stands for granular/kk, which this LAMMPS does not have");
+  }
+};
+
+}    // namespace LAMMPS_NS
+
+#endif

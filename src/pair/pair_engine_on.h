@@ -1,0 +1,361 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// The engine of pairs on a backend. What touching pairs keep is in two pools, of which a step reads one and writes the other;
+// between lists the other one has it by grain and partner.
+#pragma once
+
+#include "backend/backend.h"
+#include "base/countable.h"
+#include "pair/partner_kernels.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+namespace lsdcd {
+
+template <class B>
+class PairEngineOn : public PairEngine {
+  template <class T>
+  using Array = typename B::template Array<T>;
+
+ public:
+  explicit PairEngineOn(B backend) : b_(std::move(backend)), n_pairs_(1), seen_(1) {}
+
+  void set_laws(const PairLaws &given) override
+  {
+    if (given.width != width_) forget();
+    width_ = given.width;
+    n_types_ = given.n_types;
+    laws_.clear();
+    std::vector<LawBytes> bytes;
+    std::vector<int> kinds;
+    std::vector<Real> pull_off;
+    std::vector<std::uint32_t> flips;
+    kinds_.clear();
+    beyond_ = false;
+    for (const ContactLaw &law : given.laws) {
+      laws_.push_back(pair_law_on<B>(law));
+      const auto same = [&](const PairLawOn<B> &other) { return other.run == laws_.back().run; };
+      const auto kind = std::find_if(kinds_.begin(), kinds_.end(), same);
+      kinds.push_back(static_cast<int>(kind - kinds_.begin()));
+      if (kind == kinds_.end()) kinds_.push_back(laws_.back());
+      bytes.push_back(laws_.back().law);
+      pull_off.push_back(law.pull_off());
+      flips.push_back(law.flips());
+      beyond_ = beyond_ || law.pull_off() > 0;
+    }
+    bytes_ = from_cpu_array(bytes);
+    kind_of_ = from_cpu_array(kinds);
+    pull_off_ = from_cpu_array(pull_off);
+    flips_ = from_cpu_array(flips);
+    law_of_ = from_cpu_array(given.law_of);
+  }
+
+  void run(const PairInput &step, Real *sums) override
+  {
+    const std::size_t rows = step.list.rows;
+    Pool &next = pool_[1 - now_], &last = pool_[now_];
+    PairStepView s;
+    static_cast<PairInput &>(s) = step;
+    s.words = words_of_row(step.list);
+    next.reserve_rows(rows, s.words, width_ > 0);
+    s.now = next.view();
+    if (width_ > 0 && has_last_) s.old = last.view();
+    s.width = width_;
+    s.n_pairs = n_pairs_.data();
+    s.laws = bytes_.data();
+    s.n_laws = static_cast<int>(laws_.size());
+    s.law_of = law_of_.data();
+    s.n_types = n_types_;
+    s.kind_of = kind_of_.data();
+    s.pull_off = pull_off_.data();
+    s.alone = B::kOnCpu && threads() == 1;
+    if (sums) {
+      sums_.reserve(kPairSums * std::size_t(step.n_all));
+      put_all(b_, sums_.data(), kPairSums * std::size_t(step.n_all), Real(0));
+      s.sums = sums_.data();
+      sums_n_ = step.n_all;
+    }
+    if (rows > 0) find(s, rows);
+    if (width_ > 0) {
+      // The pairs are started before it is known whether there is room, and a GPU need not wait for the CPU.
+      if (rows > 0) add(s, next);
+      counted_.wait();
+      pairs_ = rows > 0 ? *seen_.data() : 0;
+      if (pairs_ > next.room(width_)) {
+        countable_here(static_cast<std::int64_t>(pairs_), "touching pairs in one process",
+                       "use more processes");
+        next.numbers.reserve(pairs_ * width_);
+        add(s, next);
+      }
+      now_ = 1 - now_;
+      has_last_ = true;
+    } else if (rows > 0) {
+      add(s, next);
+    }
+    if (sums) add_up(step.both_sides ? step.n_all : step.n_own, sums);
+  }
+
+  void sums_of_grains(int n, std::vector<Real> &to) override
+  {
+    to.resize(kPairSums * std::size_t(n));
+    for (int k = 0; k < kPairSums; k++)
+      b_.copy_out(sums_.data() + std::size_t(k) * sums_n_, to.data() + std::size_t(k) * n,
+                  static_cast<std::size_t>(n));
+    b_.wait();
+  }
+
+  void collect(const PairRows &list, const GrainNames &name, const int *type, int n) override
+  {
+    const std::size_t rows = list.rows;
+    grow(n);
+    Pool &to = pool_[1 - now_];
+    put_all(b_, count_.data(), count_.size(), 0);
+    const int words = words_of_row(list);
+    TouchingPairs from = pool_[now_].view();
+    PartnersView partners = {n, width_, first_.data(), count_.data(), nullptr, nullptr};
+    if (!has_last_ || rows == 0) {
+      put_all(b_, first_.data(), first_.size(), 0);
+      end_ = 0;
+      return;
+    }
+    b_.for_each(rows, CountPartners{list, words, from.words, partners});
+    copy_all(b_, count_.data(), first_.data(), count_.size());
+    end_ = numbered(b_.exclusive_scan(first_.data(), first_.size()));
+    put_all(b_, count_.data(), count_.size(), 0);
+    to.numbers.reserve(end_ * width_);
+    name_.reserve(end_);
+    partners.name = name_.data();
+    partners.numbers = to.numbers.data();
+    b_.for_each(rows, FillPartners{list, words, from, name, type, law_of_.data(), n_types_,
+                                   flips_.data(), partners});
+    b_.wait();
+  }
+
+  void hand_out(const PairRows &list, const GrainNames &name) override
+  {
+    Pool &to = pool_[now_];
+    const std::size_t rows = list.rows;
+    const int words = words_of_row(list);
+    to.reserve_rows(rows, words, true);
+    to.numbers.reserve(end_ * width_);
+    if (rows > 0) b_.for_each(rows, HandOut{list, words, to.view(), name, view()});
+    has_last_ = true;
+  }
+
+  void to_cpu(Partners &partners, int n) override
+  {
+    grow(n);
+    const std::size_t m = static_cast<std::size_t>(n);
+    const std::vector<int> first = lsdcd::to_cpu(b_, first_, m);
+    partners.assign({first.begin(), first.end()}, lsdcd::to_cpu(b_, count_, m),
+                    lsdcd::to_cpu(b_, name_, end_),
+                    lsdcd::to_cpu(b_, pool_[1 - now_].numbers, end_ * width_));
+  }
+
+  void from_cpu(const Partners &partners, int n) override
+  {
+    std::vector<int> first, count;
+    std::vector<Partners::Name> name;
+    std::vector<Real> numbers;
+    for (int i = 0; i < n; i++) {
+      first.push_back(static_cast<int>(name.size()));
+      count.push_back(partners.count(i));
+      for (int k = 0; k < partners.count(i); k++) {
+        name.push_back(partners.name(i, k));
+        numbers.insert(numbers.end(), partners.numbers(i, k), partners.numbers(i, k) + width_);
+      }
+    }
+    grow(n);
+    end_ = numbered(static_cast<std::int64_t>(name.size()));
+    Pool &to = pool_[1 - now_];
+    to.numbers.reserve(numbers.size());
+    name_.reserve(end_);
+    b_.copy_in(first.data(), first_.data(), first.size());
+    b_.copy_in(count.data(), count_.data(), count.size());
+    b_.copy_in(name.data(), name_.data(), name.size());
+    b_.copy_in(numbers.data(), to.numbers.data(), numbers.size());
+    put_all(b_, count_.data() + n, count_.size() - n, 0);
+    b_.wait();
+  }
+
+  void grow(int n_grains) override
+  {
+    const std::size_t n = n_grains, before = count_.size();
+    if (n <= before) return;
+    Array<int> first(with_spare(n)), count(with_spare(n));
+    put_all(b_, first.data(), first.size(), 0);
+    put_all(b_, count.data(), count.size(), 0);
+    copy_all(b_, first_.data(), first.data(), before);
+    copy_all(b_, count_.data(), count.data(), before);
+    b_.wait();
+    first_ = std::move(first);
+    count_ = std::move(count);
+  }
+  int *first() override { return first_.data(); }
+  int *count() override { return count_.data(); }
+
+  int largest_packed_size(int n) override
+  {
+    grow(n);
+    const int *count = count_.data();
+    return 1 + (1 + width_) * b_.template largest<int>(n, ReadInt{count});
+  }
+
+  int pack(int n, const int *which, const int *from, double *buffer) override
+  {
+    offsets_.reserve(static_cast<std::size_t>(n));
+    b_.for_each(n, SizeOfPacked{which, view(), offsets_.data()});
+    const int total = static_cast<int>(
+        numbered(std::int64_t(n) + numbered(b_.exclusive_scan(offsets_.data(), n))));
+    b_.for_each(n, PackPartners{n, which, from, offsets_.data(), view(), buffer});
+    b_.wait();
+    return total;
+  }
+
+  void unpack(int n, const int *to, const double *buffer, int n_first, int second) override
+  {
+    offsets_.reserve(static_cast<std::size_t>(n));
+    b_.for_each(n, CountUnpacked{to, buffer, n_first, second, offsets_.data()});
+    const std::size_t total = numbered(b_.exclusive_scan(offsets_.data(), n));
+    keep_and_grow(name_, end_, end_ + total);
+    keep_and_grow(pool_[1 - now_].numbers, end_ * width_, (end_ + total) * width_);
+    b_.for_each(n, UnpackPartners{to, buffer, n_first, second, offsets_.data(),
+                                  static_cast<int>(end_), view()});
+    b_.wait();
+    end_ += total;
+    numbered(static_cast<std::int64_t>(end_));
+  }
+
+  std::size_t pairs() const override { return pairs_; }
+  std::size_t bytes() const override
+  {
+    return pool_[0].bytes() + pool_[1].bytes() + name_.size() * sizeof(Partners::Name) +
+           (first_.size() + count_.size() + offsets_.size()) * sizeof(int) +
+           sums_.size() * sizeof(Real);
+  }
+
+ private:
+  struct Pool {
+    Array<std::uint32_t> words;
+    Array<int> first;
+    Array<Real> numbers;
+
+    void reserve_rows(std::size_t rows, int of_row, bool keeps)
+    {
+      words.reserve(rows * of_row);
+      if (keeps) first.reserve(rows);
+    }
+    std::size_t room(int width) const
+    {
+      return std::min(numbers.size() / width, std::size_t(kMostCountable));
+    }
+    TouchingPairs view() { return {words.data(), first.data(), numbers.data()}; }
+    std::size_t bytes() const
+    {
+      return words.size() * sizeof(std::uint32_t) + first.size() * sizeof(int) +
+             numbers.size() * sizeof(Real);
+    }
+  };
+
+  static int words_of_row(const PairRows &list)
+  {
+    return std::max(1, (list.longest + kWordBits - 1) / kWordBits);
+  }
+  static std::int64_t numbered(std::int64_t n)
+  {
+    return countable_here(n, "numbers of pairs in one process", "use more processes");
+  }
+
+  PartnersView view()
+  {
+    return {static_cast<int>(count_.size()), width_, first_.data(), count_.data(), name_.data(),
+            pool_[1 - now_].numbers.data()};
+  }
+
+  template <class T>
+  Array<T> from_cpu_array(const std::vector<T> &host)
+  {
+    return lsdcd::from_cpu(b_, host);
+  }
+  template <class T>
+  void keep_and_grow(Array<T> &array, std::size_t kept, std::size_t n)
+  {
+    if (array.size() >= n) return;
+    Array<T> wider(with_spare(n));
+    copy_all(b_, array.data(), wider.data(), kept);
+    b_.wait();
+    array = std::move(wider);
+  }
+
+  void forget()
+  {
+    for (Pool &pool : pool_) pool = Pool();
+    name_ = Array<Partners::Name>();
+    put_all(b_, count_.data(), count_.size(), 0);
+    has_last_ = false;
+    end_ = 0;
+  }
+
+  void find(const PairStepView &s, std::size_t rows)
+  {
+    if (s.width > 0) put_one(b_, n_pairs_.data(), 0);
+    if (beyond_)
+      b_.for_each_in_warps(rows, FindTouching<true>{s});
+    else
+      b_.for_each_in_warps(rows, FindTouching<false>{s});
+    if (s.width == 0) return;
+    b_.copy_out(n_pairs_.data(), seen_.data(), 1);
+    counted_.record(b_);
+  }
+
+  void add(PairStepView &s, Pool &to)
+  {
+    s.now = to.view();
+    s.room = s.width > 0 ? static_cast<std::uint32_t>(to.room(s.width)) : 0;
+    for (std::size_t kind = 0; kind < kinds_.size(); kind++) {
+      s.kind = static_cast<int>(kind);
+      kinds_[kind].run(s, kinds_[kind].law, b_);
+    }
+  }
+
+  // A scan's total is the sum.
+  void add_up(int n, Real *sums)
+  {
+    more_.reserve(static_cast<std::size_t>(n));
+    for (int k = 0; k < kPairSums; k++) {
+      copy_all(b_, sums_.data() + std::size_t(k) * sums_n_, more_.data(),
+               static_cast<std::size_t>(n));
+      sums[k] = b_.exclusive_scan(more_.data(), static_cast<std::size_t>(n));
+    }
+  }
+
+  B b_;
+  std::vector<PairLawOn<B>> laws_, kinds_;    // of all laws; the first of each kind
+  Array<LawBytes> bytes_;
+  Array<int> kind_of_, law_of_;
+  Array<Real> pull_off_;
+  Array<std::uint32_t> flips_;
+  int n_types_ = 0, width_ = 0;
+  bool beyond_ = false;    // does adhesion act beyond contact?
+
+  Pool pool_[2];
+  int now_ = 0;              // the pool that the last step has written
+  bool has_last_ = false;    // is there anything in it?
+  Array<std::uint32_t> n_pairs_;
+  typename B::template CpuArray<std::uint32_t> seen_;
+  typename B::Event counted_;
+  std::size_t pairs_ = 0;
+  Array<Real> sums_, more_;
+  std::size_t sums_n_ = 0;
+
+  Array<int> first_, count_, offsets_;    // of partners
+  Array<Partners::Name> name_;            // their numbers are in the pool that the next step writes
+  std::size_t end_ = 0;                   // of what is used of them
+};
+
+}    // namespace lsdcd

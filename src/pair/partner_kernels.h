@@ -1,0 +1,190 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Kernels that bring what pairs of a list keep to grains and partners, and back; and these into messages.
+#pragma once
+
+#include "base/packed_integer.h"
+#include "pair/step_on.h"
+
+#include <cstddef>
+#include <cstdint>
+
+namespace lsdcd {
+
+// Calls f(j) for the pairs of a row that touch, in order.
+template <class F>
+LSDCD_FN void for_touching(const PairRows &list, int words, const std::uint32_t *touching,
+                           std::size_t k, const F &f)
+{
+  const int i = list.grain[k];
+  for (int w = 0; w < words; w++)
+    for (std::uint32_t bits = touching[std::size_t(w) * list.rows + k]; bits != 0; bits &= bits - 1)
+      f(list.at(i, kWordBits * w + static_cast<int>(lowest_bit(bits))) & list.mask);
+}
+
+// What grains have of partners, while kernels fill it.
+struct PartnersView {
+  int n, width;
+  int *first, *count;
+  Partners::Name *name;
+  Real *numbers;
+};
+
+struct CountPartners {
+  PairRows list;
+  int words;
+  const std::uint32_t *touching;
+  PartnersView to;
+
+  LSDCD_FN void operator()(std::size_t k) const
+  {
+    int own = 0;
+    for_touching(list, words, touching, k, [&](int j) {
+      own++;
+      if (!list.full && j < to.n) fetch_add(to.count + j, 1);
+    });
+    const int i = list.grain[k];
+    if (i < to.n && own > 0) fetch_add(to.count + i, own);
+  }
+};
+
+struct FillPartners {
+  PairRows list;
+  int words;
+  TouchingPairs from;
+  GrainNames name;
+  const int *type, *law_of;
+  int n_types;
+  const std::uint32_t *flips;    // of laws, see ContactLaw::flips()
+  PartnersView to;
+
+  LSDCD_FN void operator()(std::size_t k) const
+  {
+    const int i = list.grain[k];
+    const Real *numbers = from.numbers + std::size_t(from.first[k]) * to.width;
+    for_touching(list, words, from.words, k, [&](int j) {
+      if (i < to.n) put(i, name[j], numbers, 0);
+      if (!list.full && j < to.n)
+        put(j, name[i], numbers, flips[law_of[type[i] * n_types + type[j]]]);
+      numbers += to.width;
+    });
+  }
+
+ private:
+  LSDCD_FN void put(int i, Partners::Name partner, const Real *numbers, std::uint32_t flip) const
+  {
+    const std::size_t at = std::size_t(to.first[i]) + fetch_add(to.count + i, 1);
+    to.name[at] = partner;
+    for (int n = 0; n < to.width; n++)
+      to.numbers[at * to.width + n] = flip >> n & 1 ? -numbers[n] : numbers[n];
+  }
+};
+
+// Gives what partners have to the pairs of a new list. A row has as many places as its grain has partners.
+struct HandOut {
+  PairRows list;
+  int words;
+  TouchingPairs to;
+  GrainNames name;
+  PartnersView from;
+
+  LSDCD_FN void operator()(std::size_t k) const
+  {
+    const int i = list.grain[k], n = list.length[i], count = from.count[i];
+    const std::size_t first = std::size_t(from.first[i]);
+    to.first[k] = from.first[i];
+    Real *numbers = to.numbers + first * from.width;
+    int left = count;
+    for (int w = 0; w < words; w++) {
+      std::uint32_t bits = 0;
+      for (int bit = 0; bit < kWordBits && kWordBits * w + bit < n && left > 0; bit++) {
+        const Partners::Name other = name[list.at(i, kWordBits * w + bit) & list.mask];
+        int p = 0;
+        while (p < count && from.name[first + p] != other) p++;
+        if (p == count) continue;
+        bits |= std::uint32_t(1) << bit;
+        for (int m = 0; m < from.width; m++)
+          *numbers++ = from.numbers[(first + p) * from.width + m];
+        left--;
+      }
+      to.words[std::size_t(w) * list.rows + k] = bits;
+    }
+  }
+};
+
+// Kernels for messages. A message has the offset of each grain's numbers, as an integer in a double, then for each grain its
+// count of partners, and for each the name and the numbers.
+struct ReadInt {
+  const int *at;
+  LSDCD_FN int operator()(std::size_t i) const { return at[i]; }
+};
+
+struct SizeOfPacked {
+  const int *which;
+  PartnersView of;
+  int *to;
+  LSDCD_FN void operator()(std::size_t k) const { to[k] = 1 + (1 + of.width) * of.count[which[k]]; }
+};
+
+struct PackPartners {
+  int n;
+  const int *which, *from, *at;
+  PartnersView of;
+  double *buffer;
+  LSDCD_FN void operator()(std::size_t k) const
+  {
+    const int i = which[k];
+    int m = n + at[k];
+    buffer[k] = as_double(m);
+    buffer[m++] = of.count[i];
+    for (int c = 0; c < of.count[i]; c++) {
+      const std::size_t source = std::size_t(of.first[i]) + c;
+      buffer[m++] = static_cast<double>(of.name[source]);
+      for (int e = 0; e < of.width; e++) buffer[m++] = of.numbers[source * of.width + e];
+    }
+    const int j = from[k];
+    if (j >= 0) {
+      of.first[i] = of.first[j];
+      of.count[i] = of.count[j];
+    }
+    of.count[j >= 0 ? j : i] = 0;    // there is no grain any more
+  }
+};
+
+struct CountUnpacked {
+  const int *to;
+  const double *buffer;
+  int n_first, second;
+  int *count;
+  LSDCD_FN void operator()(std::size_t k) const
+  {
+    count[k] =
+        to[k] < 0 ? 0 : static_cast<int>(buffer[place_in_message(buffer, k, n_first, second)]);
+  }
+};
+
+struct UnpackPartners {
+  const int *to;
+  const double *buffer;
+  int n_first, second;
+  const int *at;
+  int begin;
+  PartnersView of;
+  LSDCD_FN void operator()(std::size_t k) const
+  {
+    const int i = to[k];
+    if (i < 0) return;
+    std::int64_t m = place_in_message(buffer, k, n_first, second);
+    of.first[i] = begin + at[k];
+    of.count[i] = static_cast<int>(buffer[m++]);
+    for (int c = 0; c < of.count[i]; c++) {
+      const std::size_t target = std::size_t(of.first[i]) + c;
+      of.name[target] = static_cast<Partners::Name>(buffer[m++]);
+      for (int e = 0; e < of.width; e++) of.numbers[target * of.width + e] = buffer[m++];
+    }
+  }
+};
+
+
+}    // namespace lsdcd

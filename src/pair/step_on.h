@@ -1,0 +1,275 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Kernels of a step of pairs: which of a list touch, and what these do. They run on every backend.
+#pragma once
+
+#include "backend/atomic.h"
+#include "backend/threads.h"
+#include "backend/warp.h"
+#include "pair/pair_engine.h"
+#include "pair/pair_kernel.h"
+
+#include <type_traits>
+
+namespace lsdcd {
+
+constexpr int kWordBits = 32;
+
+// Which pairs of a list touch, and where the numbers that they keep are: bit k % 32 of word k / 32 is of place k in the row.
+struct TouchingPairs {
+  std::uint32_t *words = nullptr;    // word w of row r at [w * rows + r]; null: none touch
+  int *first =
+      nullptr;    // of each row, in `numbers`; those of a row follow each other in the order of the list
+  Real *numbers = nullptr;    // `width` of a pair
+};
+
+// A step as its kernels see it.
+struct PairStepView : PairInput {
+  int words = 0;    // of a row
+  TouchingPairs now, old;
+  int width = 0;
+  std::uint32_t *n_pairs = nullptr;    // where pairs are counted
+  std::uint32_t room = 0;              // for how many numbers of them there is room
+  const LawBytes *laws = nullptr;
+  int n_laws = 0;
+  const int *law_of = nullptr;
+  int n_types = 0;
+  const int *kind_of = nullptr;    // laws of one kind have the same compiled law
+  int kind = 0;                    // whose pairs are computed
+  const Real *pull_off = nullptr;
+  Real *sums = nullptr;    // column k of kPairSums at [k * n_all]; null: not asked for
+  bool alone = false;      // one thread adds forces
+
+  LSDCD_FN int law(int i, int j) const { return law_of[type[i] * n_types + type[j]]; }
+};
+
+// Adds to a number that others may add to.
+LSDCD_FN void add_shared(Real *at, Real value, [[maybe_unused]] bool alone)
+{
+#if LSDCD_ON_GPU()
+  atomicAdd(at, value);
+#else
+  if (alone) {
+    *at += value;
+    return;
+  }
+  Real seen = *at, sum;
+  do sum = seen + value;
+  while (!__atomic_compare_exchange(at, &seen, &sum, true, __ATOMIC_RELAXED, __ATOMIC_RELAXED));
+#endif
+}
+LSDCD_FN void add_shared(const StridedView<Real> &to, int i, const Vec3 &a, bool alone)
+{
+  Real *const at = to.of(i);
+  for (int k = 0; k < 3; k++) add_shared(at + k * to.column, a[k], alone);
+}
+
+// Finds the pairs that touch, and places for what they keep. kBeyond: adhesion may hold pairs beyond contact.
+template <bool kBeyond>
+struct FindTouching {
+  PairStepView s;
+
+  template <class W>
+  LSDCD_FN void operator()(const W &warp, bool mine, std::size_t k) const
+  {
+    unsigned count = 0;
+    if (mine) {
+      const int i = s.list.grain[k], n = s.list.length[i];
+      const Vec3 x = s.x[i];
+      const Real radius = s.radius[i];
+      for (int w = 0; w < s.words; w++) {
+        const int begin = kWordBits * w, end = n < begin + kWordBits ? n : begin + kWordBits;
+        std::uint32_t bits = 0;
+        for (int place = begin; place < end; place++)
+          bits |= std::uint32_t(touches(i, x, radius, k, w, place - begin)) << (place - begin);
+        s.now.words[std::size_t(w) * s.list.rows + k] = bits;
+        count += static_cast<unsigned>(count_bits(bits));
+      }
+    }
+    if (s.width == 0) return;
+    unsigned end = count;
+    for (unsigned apart = 1; apart < W::kSize; apart *= 2) {
+      const unsigned below = warp.from_below(end, apart);
+      if (warp.rank() >= apart) end += below;
+    }
+    unsigned begin = 0;
+    if (warp.rank() == W::kSize - 1 && end > 0) begin = fetch_add(s.n_pairs, end);
+    begin = warp.of(begin, W::kSize - 1);
+    if (mine) s.now.first[k] = static_cast<int>(begin + end - count);
+  }
+
+ private:
+  LSDCD_FN bool touches(int i, const Vec3 &x, Real radius, std::size_t k, int w, int bit) const
+  {
+    const int with = s.list.at(i, kWordBits * w + bit), j = with & s.list.mask;
+    const Real of_j = s.radius[j], sum = radius + of_j, distance_sq = norm_sq(x - s.x[j]);
+    bool yes = distance_sq < sum * sum;
+    if constexpr (kBeyond)
+      if (!yes && s.old.words && s.old.words[std::size_t(w) * s.list.rows + k] >> bit & 1) {
+        GrainPair p = {};
+        p.distance_sq = distance_sq;
+        p.radius_i = radius;
+        p.radius_j = of_j;
+        const Real pull_off = s.pull_off[s.law(i, j)];
+        yes = pull_off > 0 && is_held(p, pull_off);
+      }
+    return yes && s.factor[with >> s.list.factor_shift & 3] != 0;
+  }
+};
+
+// Computes the pairs of a row that touch and have laws of the kind. kOne: there is one law, and sums are not asked for.
+template <class Law, bool kOne, bool kFull>
+struct AddPairs {
+  struct None {};
+  PairStepView s;
+  std::conditional_t<kOne, Law, None> only;
+
+  LSDCD_FN void operator()(std::size_t k) const
+  {
+    if (s.width > 0 && *s.n_pairs > s.room) return;    // the host comes again
+    std::uint32_t bits = s.now.words[k];
+    if (s.words == 1 && bits == 0) return;
+    const int i = s.list.grain[k];
+    GrainPair p = {};
+    p.dt = s.dt;
+    p.update = s.update;
+    p.radius_i = s.radius[i];
+    p.mass_i = s.mass[i];
+    p.omega_i = s.omega[i];
+    const Vec3 x = s.x[i], v = s.v[i];
+    Row row = {{0, 0, 0}, {0, 0, 0}, 0};
+    std::size_t place = s.width > 0 ? std::size_t(s.now.first[k]) : 0,
+                old_place = s.old.words ? std::size_t(s.old.first[k]) : 0;
+    for (int w = 0; w < s.words; w++) {
+      const std::size_t at = std::size_t(w) * s.list.rows + k;
+      if (w > 0) bits = s.now.words[at];
+      const std::uint32_t old_bits = s.old.words ? s.old.words[at] : 0;
+      while (bits != 0) {
+        const unsigned bit = lowest_bit(bits);
+        bits &= bits - 1;
+        const Real *old = nullptr;
+        if (old_bits >> bit & 1)
+          old = s.old.numbers +
+                s.width * (old_place + count_bits(old_bits & ((std::uint32_t(1) << bit) - 1)));
+        add(i, s.list.at(i, kWordBits * w + static_cast<int>(bit)), x, v, p, old,
+            s.now.numbers + s.width * place, row);
+        place++;
+      }
+      old_place += static_cast<std::size_t>(count_bits(old_bits));
+    }
+    if constexpr (kFull) {
+      s.force.add(i, row.force);
+      s.torque.add(i, row.torque);
+    } else {
+      add_shared(s.force, i, row.force, s.alone);
+      add_shared(s.torque, i, row.torque, s.alone);
+    }
+    if constexpr (Law::kHeat)
+      if (s.heat) add_shared(s.heat + i, row.heat, s.alone || kFull);
+  }
+
+ private:
+  struct Row {
+    Vec3 force, torque;
+    Real heat;
+  };
+
+  LSDCD_FN void add(int i, int with, const Vec3 &x, const Vec3 &v, GrainPair &p, const Real *old,
+                    Real *kept, Row &row) const
+  {
+    const int j = with & s.list.mask;
+    const Law *law;
+    if constexpr (kOne) {
+      law = &only;
+    } else {
+      const int of_pair = s.law(i, j);
+      if (s.kind_of[of_pair] != s.kind) return;
+      law = &s.laws[of_pair].template in_kernel<Law>();
+      for (int n = 0; n < s.width; n++) kept[n] = 0;    // others may keep more
+    }
+    p.offset = x - s.x[j];
+    p.distance_sq = norm_sq(p.offset);
+    p.radius_j = s.radius[j];
+    p.velocity = v - s.v[j];
+    p.omega_j = s.omega[j];
+    p.mass_j = s.mass[j];
+    p.mass = reduced_mass(s, i, j, p.mass_i, p.mass_j);
+    if constexpr (Law::kHeat)
+      if (s.heat) p.temperature_difference = s.temperature[j] - s.temperature[i];
+    PairForce f;
+    evaluate_pair(*law, p, old, kept, f);
+    const Real factor = s.factor[with >> s.list.factor_shift & 3];
+    const Vec3 force = factor * f.force();
+    row.force += force;
+    row.torque += factor * f.torque_i();
+    const bool both = !kFull && (s.both_sides || j < s.n_own);
+    if (both) {
+      add_shared(s.force, j, -force, s.alone);
+      add_shared(s.torque, j, factor * f.torque_j(), s.alone);
+    }
+    if constexpr (Law::kHeat)
+      if (s.heat) {
+        row.heat += f.heat;
+        if (both) add_shared(s.heat + j, -f.heat, s.alone);
+      }
+    if constexpr (!kOne)
+      if (s.sums) {
+        const Real half[kPairSums] = {factor * f.energy / 2,    p.offset.x * force.x / 2,
+                                      p.offset.y * force.y / 2, p.offset.z * force.z / 2,
+                                      p.offset.x * force.y / 2, p.offset.x * force.z / 2,
+                                      p.offset.y * force.z / 2};
+        for (int n = 0; n < kPairSums; n++) {
+          Real *const column = s.sums + std::size_t(n) * s.n_all;
+          add_shared(column + i, half[n], s.alone || kFull);
+          if (both) add_shared(column + j, half[n], s.alone);
+        }
+      }
+  }
+};
+
+// A law of pairs, compiled for a backend.
+template <class B>
+struct PairLawOn {
+  LawBytes law;
+  void (*run)(const PairStepView &, const LawBytes &, B &);
+};
+
+template <class Law, class B>
+void run_pair_law(const PairStepView &s, const LawBytes &law, B &b)
+{
+  constexpr unsigned kBlock = 128;
+  const auto run = [&](const auto &kernel) {
+    b.for_each(static_cast<std::size_t>(s.list.rows), kernel, kBlock);
+  };
+  if (s.n_laws > 1 || s.sums)
+    s.list.full ? run(AddPairs<Law, false, true>{s, {}}) : run(AddPairs<Law, false, false>{s, {}});
+  else
+    s.list.full ? run(AddPairs<Law, true, true>{s, law.as<Law>()})
+                : run(AddPairs<Law, true, false>{s, law.as<Law>()});
+}
+
+template <class B, class Law>
+PairLawOn<B> compiled_pair(const Law &law)
+{
+  return {LawBytes(law), run_pair_law<Law, B>};
+}
+
+// The groups of laws that are compiled together, a source file each and for each backend (laws/CMakeLists.txt).
+template <class B>
+PairLawOn<B> granular_pair_on(const ContactLaw &law);
+template <class B>
+PairLawOn<B> granular_added_pair_on(const ContactLaw &law);
+template <class B>
+PairLawOn<B> added_pair_on(const ContactLaw &law);
+template <class B>
+PairLawOn<B> classic_pair_on(const ContactLaw &law);
+
+template <class B>
+PairLawOn<B> pair_law_on(const ContactLaw &law)
+{
+  if (law.is_classic()) return law.is_extended() ? added_pair_on<B>(law) : classic_pair_on<B>(law);
+  return law.is_extended() ? granular_added_pair_on<B>(law) : granular_pair_on<B>(law);
+}
+
+}    // namespace lsdcd

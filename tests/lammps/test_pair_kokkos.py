@@ -1,0 +1,192 @@
+# SPDX-FileCopyrightText: 2026 LSDCD contributors
+# SPDX-License-Identifier: GPL-2.0-only
+
+"""pair_style granular/lsdcd/kk beside the plain pair style, in one LAMMPS with Kokkos, with half lists and with full ones.
+
+Both add the forces of a grain in an order of their own, and rounding doubles in some 40 steps of such a gas.
+"""
+
+import math
+import random
+
+import pytest
+
+import lmp
+from facts import at_most, fact
+from test_pair_granular import COLUMNS, DT, FULL, GRANULAR, SIDE, dump, grains, ours, script, settings
+
+pytestmark = lmp.needs_host
+PLAIN = ()    # flags: without Kokkos
+LISTS = ("half", "full")
+LAWS = ["hooke 1e4 30 tangential linear_nohistory 0.5 0.4 damping velocity", GRANULAR, FULL,
+        "hertz/material 1e4 5 0.3 tangential mindlin/force NULL 0.5 0.4 twisting marshall heat area 0.3",
+        "jkr 1e4 5 0.3 3 tangential mindlin_rescale/force 1e3 0.5 0.4 rolling sds 300 2 0.3",
+        "hertz/material 1e4 0.7 0.3 tangential mindlin_liggghts NULL 0.5 0.4 damping coeff_restitution rolling epsd2 0.3 cohesion sjkr 200",
+        "law hooke 1e4 NULL 30 NULL 0.4 1", "law hooke/history 1e4 NULL 30 NULL 0.4 1", "law hertz/history 1e4 NULL 30 NULL 0.4 1",
+        "law hooke 1e4 NULL 20 NULL 0.4 1 rolling cdt 0.3", "law hertz/history 1e4 NULL 20 NULL 0.4 1 rolling epsd 0.3 0.2 cohesion sjkr 200"]
+
+
+def prepare(folder):
+    grains(folder)
+    grains(folder, 3, name="three.data")
+
+
+def run(folder, text, ranks=1, neigh="", name="out"):
+    """With Kokkos where `neigh` says which lists; a dump and what LAMMPS says."""
+    flags = lmp.FLAGS if neigh else PLAIN
+    said = lmp.run_well((f"package kokkos neigh {neigh}{' newton off' * (neigh == 'full')}\n" if neigh else "") + text, folder, ranks, host=True, flags=flags)
+    fact(f"{neigh or 'plain'}: the pair style", ("granular/lsdcd/kk" in said or "granular/kk" in said) == bool(neigh), "")
+    return lmp.read_dump(folder / name), said
+
+
+def as_plain(what, folder, text, tolerance=1e-10, ranks=(1,), lists=LISTS):
+    """Positions to torques, and the energy and the pressure, are those of the plain pair style."""
+    plain, said = run(folder, text)
+    told = lmp.read_thermo(said)
+    for neigh in lists:
+        for n in ranks:
+            own, said = run(folder, text, n, neigh)
+            where = f"{what}, {neigh} lists, {n} ranks"
+            at_most(where, lmp.largest_difference(plain, own), tolerance)
+            rows = lmp.read_thermo(said)
+            worst = max(abs(a - b) / max(abs(a), 1e-3) for p, q in zip(told, rows) for a, b in zip(p, q))
+            at_most(f"{where}: energy and pressure", worst, 1e-9)
+    return plain
+
+
+@pytest.mark.parametrize("law", LAWS)
+def test_laws(folder, law):
+    more = "thermo_modify format float %.15g\n"
+    text = script(ours("* * " + law)).replace("run ", more + "run ")
+    if "heat" in law:
+        read = "fix prop all property/atom temperature heatflow ghost yes\nread_data grains.data fix prop NULL NULL\n"
+        text = text.replace("read_data grains.data\n", read).replace("timestep ", """\
+variable T atom id*0.01
+set group all temperature v_T
+fix h all heat/flow constant 1.0
+compute t all property/atom temperature heatflow
+timestep """).replace(COLUMNS, COLUMNS + " c_t[1] c_t[2]")
+    first = as_plain(law, folder, text)
+    last = first[max(first)]
+    fact("grains touch", sum(abs(row[9]) > 1e-3 for row in last.values()) > 20, "")
+
+
+@pytest.mark.parametrize("newton", ["off", "on"])
+def test_ranks(folder, newton):
+    """What pairs keep goes with the grains: lists are made anew in each tenth step, and grains go to other processes."""
+    text = script(ours("* * " + FULL), steps=400, newton=newton)
+    as_plain(f"newton {newton}", folder, text, ranks=(1, 2, 4), lists=LISTS if newton == "off" else LISTS[:1])
+
+
+def test_many_laws(folder):
+    """Laws of one compiled kind, and laws of several: what pairs keep has other lengths."""
+    one = [f"{i} {i} {GRANULAR.replace('1e4', e)}" for i, e in ((1, "1e4"), (2, "2e4"), (3, "3e4"))]
+    several = ["1 1 " + GRANULAR, "2 2 " + FULL, "3 3 law hooke 1e4 NULL 30 NULL 0.4 1", "1 2 law hooke/history 1e4 NULL 30 NULL 0.4 1",
+               "1 3 jkr 1e4 5 0.3 3 tangential mindlin 1e3 0.5 0.4", "2 3 " + FULL]
+    for name, laws in (("one kind", one), ("several kinds", several)):
+        as_plain(name, folder, script(ours(*laws), data="three.data"), ranks=(1, 2))
+
+
+def test_restart(folder):
+    """From the plain pair style to Kokkos and back: as a run of the plain one that is not interrupted. Lists are half, then full, so
+    that these continue each other."""
+    law, go_on = ours("* * " + FULL), f"fix i all nve/sphere\ntimestep {DT}\n"
+    for newton in ("off", "on"):
+        for ranks in (1, 2):
+            plain, _ = run(folder, script(law, newton=newton, steps=200) + "write_restart r0\n" + 4 * "run 100\n", ranks)
+            for k, neigh in enumerate(("half", "half" if newton == "on" else "full", "")):
+                text = settings(newton) + f"read_restart r{k}\n{law}\n{go_on}" + dump("out", 100) + f"run 100\nwrite_restart r{k + 1}\nrun 100\n"
+                own, _ = run(folder, text, ranks, neigh)
+                at_most(f"newton {newton}, {ranks} ranks: part {k}",
+                        max(lmp.largest_difference({s: plain[s]}, {s: own[s]}) for s in own if s > min(own)), 1e-9)
+
+
+def test_large_among_small(folder):
+    """A grain with hundreds of neighbours, more than a word has bits: the small ones lie on it side by side, and slide."""
+    rng, small, rows, velocities = random.Random(2), 300, ["1 1 6.0 2 0 0 0"], ["1 0 0 0 0 0 0"]
+    for k in range(small):    # on a spiral
+        z = 1 - (2 * k + 1) / small
+        p = [(1 - z * z)**0.5 * f(k * math.pi * (3 - 5**0.5)) for f in (math.cos, math.sin)] + [z]
+        rows.append(f"{k + 2} 1 0.5 1 " + " ".join(repr(3.24 * a) for a in p))
+        velocities.append(f"{k + 2} " + " ".join(str(rng.uniform(-1, 1) - a) for a in p) + " 0 0 0")
+    (folder / "large.data").write_text(f"grains\n\n{len(rows)} atoms\n1 atom types\n\n" + "".join(f"-6 6 {a}lo {a}hi\n" for a in "xyz") +
+                                       "\nAtoms # sphere\n\n" + "\n".join(rows) + "\n\nVelocities\n\n" + "\n".join(velocities) + "\n")
+    law = "* * hertz/material 1e4 0.3 0.3 tangential mindlin NULL 0.5 0.4 damping coeff_restitution rolling sds 300 2 0.3"
+    for ranks in (1, 2):
+        plain = as_plain("a large grain", folder, script(ours(law), data="large.data", steps=300), ranks=(ranks,))
+    fact("the large grain is pushed", max(abs(a) for a in plain[100][1][9:12]) > 0.1, str(plain[100][1]))
+
+
+@pytest.mark.parametrize("what", ["freeze", "rigid"])
+def test_masses(folder, what):
+    """A frozen grain does not move; damping reads the mass of a rigid body."""
+    group = "group some id <= 40\ngroup rest id > 40\nneigh_modify exclude group some some\n"
+    integrate = group + ("fix b some freeze\nfix i all nve/sphere" if what == "freeze" else
+                         "fix b some rigid/small custom v_body\nfix i rest nve/sphere")
+    body = "variable body atom (id-1-(id-1)%2)/2+1\n" if what == "rigid" else ""
+    as_plain(what, folder, script(ours("* * " + GRANULAR), integrate=body + integrate), ranks=(1, 2))
+
+
+def test_sums_of_grains(folder):
+    """Energy and stress of each grain, and each pair as compute pair/local sees it, are those of the plain pair style. pair/local reads
+    velocities of another time of grains that are copies of others: no dashpots."""
+    law = "* * hertz/material 1e4 0 0.3 tangential mindlin_rescale NULL 0 0.4 damping velocity rolling sds 300 0 0.3 twisting sds 30 0 0.3"
+    more = """\
+compute e all pe/atom pair
+compute s all stress/atom NULL pair
+compute p all pair/local dist eng force p4 p8 p9 cutoff radius
+compute b all reduce sum c_p[1] c_p[2] c_p[3] c_p[4] c_p[5] c_p[6] inputs local
+"""
+    columns = COLUMNS + " c_e " + " ".join(f"c_s[{k}]" for k in range(1, 7))
+    for newton in ("off", "on"):
+        text = script(ours(law), newton=newton, more=more).replace(COLUMNS, columns)
+        text = text.replace("step ke pe press", "step ke pe press pxy " + " ".join(f"c_b[{k}]" for k in range(1, 7)))
+        text = text.replace("run ", "thermo_modify format float %.15g\nrun ")
+        as_plain(f"newton {newton}", folder, text, ranks=(1, 2), lists=LISTS if newton == "off" else LISTS[:1])
+
+
+def test_lives(folder):
+    """Runs with what users do between them, in an order that chance chooses."""
+    for seed in range(3 if lmp.QUICK else 12):
+        rng = random.Random(seed)
+        law = rng.choice([GRANULAR, FULL, LAWS[4]])
+        gone, parts = [], []
+        for _ in range(6):
+            act = rng.choice(["run", "pre no", "delete", "create", "sort", "restart", "law", "lists", "fast"])
+            if act == "delete":
+                some = [i for i in rng.sample(range(1, SIDE**3), 3) if i not in gone]
+                gone += some
+                parts.append(f"group gone id {' '.join(map(str, some))}\ndelete_atoms group gone compress no\ngroup gone delete\n")
+            elif act == "create" and gone:    # where one was
+                place = [(gone[-1] - 1) // SIDE**k % SIDE + 0.5 for k in range(3)]
+                parts.append(f"create_atoms 1 single {place[0]} {place[1]} {place[2]}\ngroup new id > {SIDE**3}\nset group new diameter 0.9 density 2\n")
+            elif act == "sort":
+                parts.append("atom_modify sort 20 1.0\n")
+            elif act == "restart":
+                parts.append("write_restart part\n")
+            elif act == "law":
+                parts.append(f"pair_coeff * * {rng.choice(LAWS[:3])}\n")
+            elif act == "lists":
+                parts.append("neighbor 0.2 bin\n")
+            elif act == "fast":
+                parts.append("velocity all scale 2.0\n")
+            parts.append(f"run {rng.choice([30, 45])}" + (" pre no post no" if act == "pre no" else "") + "\n")
+        newton = rng.choice(["off", "on"])
+        text = script(ours("* * " + law), steps=60, every=15, newton=newton)
+        text += "".join(parts)
+        as_plain(f"life {seed}", folder, text.replace("velocity all scale 2.0", "velocity all set NULL NULL 1.0 sum yes"),
+                 tolerance=1e-9, ranks=(1, 2), lists=LISTS if newton == "off" else LISTS[:1])
+
+
+@pytest.mark.skipif(lmp.DEVICE_MOVES, reason="once is enough")
+def test_names(folder):
+    """-sf kk takes the place of granular where LAMMPS has no granular/kk, and says so; hybrid styles have it, too."""
+    plain, _ = run(folder, script(ours("* * " + GRANULAR)))
+    granular, said = run(folder, script("pair_style granular\npair_coeff * * " + GRANULAR), neigh="half")
+    at_most("as granular/lsdcd", lmp.largest_difference(plain, granular), 1e-10)
+    fact("the log says which one runs", "stands for granular/kk" in said, said[-600:])
+    for style in ("granular/lsdcd/kk/host", "granular/lsdcd/kk/device"):
+        own, _ = run(folder, script(ours("* * " + GRANULAR, style=style)), neigh="half")
+        at_most(style, lmp.largest_difference(plain, own), 1e-10)
+    done = lmp.run(script(ours("* * " + GRANULAR, style="granular/lsdcd/kk")), folder, host=True, flags=PLAIN)
+    fact("without -k on: an error that says so", done.returncode and "start it with -k on" in done.stdout, done.stdout[-400:])
