@@ -41,6 +41,7 @@ class Film:
     worn: float = 0       # depth at the end of the scale of the triangles' colours; 0: they have none
     cut: float = -np.inf  # grains with y below it are left out
     hidden: tuple = ()    # files of which triangles in front of `cut` are left out
+    moved: tuple = (0, 0, 0)    # how far a mesh at rest is from where its file has it
 
 
 FILMS = {
@@ -51,6 +52,11 @@ FILMS = {
                   ["plate_*.vtp", "chute_sides.stl", "bin.stl"], "none", 2e-8, 0.0, ("chute_sides.stl", "bin.stl")),
     "wheel": Film("wheel", (84, -78), (-0.26, 0.26, 0, 0.12, -0.22, 0.45), (0.1, "0.1 m"), ("m/s, speed", 0, 2.5),
                   ["tank.stl", "wheel_*.stl"], "speed"),
+    # Of examples/benchmark.
+    "silo": Film("silo", (84, -78), (-0.105, 0.105, -0.105, 0.105, -0.09, 0.2), (0.05, "50 mm"), ("m/s, speed", 0, 1), ["silo_large.stl"],
+                 "speed", 0, 0.0, ("silo_large.stl",), (0, 0, -0.0554222)),
+    "layers": Film("drum", (84, -78), (-0.105, 0.105, -0.031, 0.031, -0.105, 0.105), (0.05, "50 mm"), [(ORANGE, "2 mm"), (BLUE, "4 mm")],
+                   ["drum.stl"], "type", 0, -0.0299, ("drum.stl",), (0, -0.03, 0)),
 }
 
 
@@ -146,11 +152,13 @@ class Canvas:
         facing = np.stack([normal @ axis for axis in (self.view.right, self.view.up, self.view.back)], axis=1)
         facing *= np.where(facing[:, 2] < 0, -1, 1)[:, None]    # both sides are seen
         colours = colours * (0.45 + 0.55 * np.clip(facing @ LIGHT, 0, None))[:, None]
-        edges = np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2).max(axis=1)
-        pieces = np.ceil(2 * self.scale * edges).astype(int)
-        for n in np.unique(pieces):
-            which = np.flatnonzero(pieces == n)
-            a, b = np.meshgrid(np.arange(n + 1) / max(n, 1), np.arange(n + 1) / max(n, 1))
+        # The shortest edge first, so that a sliver has few points across.
+        edges = np.linalg.norm(corners - np.roll(corners, -1, axis=1), axis=2)
+        corners = np.take_along_axis(corners, ((edges.argmin(axis=1)[:, None] + range(3)) % 3)[..., None], axis=1)
+        pieces = np.ceil(2 * self.scale * np.stack([edges.min(axis=1), edges.max(axis=1)], axis=1)).astype(int)
+        for n, m in np.unique(pieces, axis=0):
+            which = np.flatnonzero((pieces == (n, m)).all(axis=1))
+            a, b = np.meshgrid(np.arange(n + 1) / max(n, 1), np.arange(m + 1) / max(m, 1))
             a, b = a[a + b <= 1 + 1e-9], b[a + b <= 1 + 1e-9]
             for some in np.array_split(which, max(1, len(which) * len(a) // 2000000)):
                 one, two, three = (corners[some, k, None] for k in range(3))
@@ -189,6 +197,8 @@ def frame(film, folder, meshes, step, width, finer, text, key):
     for name in film.meshes:
         path = folder / name.replace("*", str(step)) if "*" in name else meshes / name
         corners, worn = read_triangles(path)
+        if "*" not in name:
+            corners = corners + np.array(film.moved)
         keep = np.ones(len(corners), bool)
         if name in film.hidden:
             keep = corners[:, :, 1].mean(axis=1) > film.cut
