@@ -5,7 +5,8 @@
 """The tables of doc/benchmark.md, and its figures silo.png, drum.png and impact.png, from a folder of results.
 
 The folder has what the decks write as CASE_FILLING.csv and CASE_FILLING.log, where CASE is silo_large_m1, silo_small_m1, silo_large_m2, drum,
-impact_25, impact_50 or impact_100, and FILLING a number. What is missing is left out. --others is a folder with the curves of LIGGGHTS and
+impact_25, impact_50, impact_100 or impact_loose100, and FILLING a number; cut_100, cut_even and cut_slivers are of a silo of 25 sides. What
+is missing is left out. --others is a folder with the curves of LIGGGHTS and
 MUSEN in silo.csv, drum.csv and impact.csv, which the figures show beside ours.
 """
 import argparse
@@ -60,6 +61,10 @@ def answers(folder):
             rows.append([what, said(rates, 2), eight, again])
     if "silo_large_m1" in mean and "silo_small_m1" in mean:
         rows.append(["silo: large over small", f"{mean['silo_large_m1'] / mean['silo_small_m1']:.2f}", "3.10 +- 0.06", "-, 3.13"])
+    for cut in ("100", "even", "slivers"):
+        for c in [read(path) for path in folder.glob(f"cut_{cut}.csv")]:
+            parts = [rate(c, first=t / 10, last=t / 10 + 0.1) for t in range(3, 9)]
+            rows.append([f"silo of 25 sides, {cut} triangles, 0.3 to 0.9 s", f"{rate(c, first=0.3, last=0.9):.2f} +- {np.std(parts, ddof=1) / 6**0.5:.2f} (parts of 0.1 s)", "", ""])
     peaks = []
     for c in fillings(folder, "drum", 1.7):
         early, late = c["t"] < 1, (c["t"] > 1) & (c["t"] < 2)
@@ -73,10 +78,10 @@ def answers(folder):
     if lowest:
         rows.append(["impact, 25 000: lowest place of the ball, mm, median",
                      f"{np.median(lowest):.2f} ({min(lowest):.2f} to {max(lowest):.2f}, {len(lowest)} fillings)", "-78.8 to -78.3", ""])
-    for case, again in (("impact_50", "138.5, 138.9"), ("impact_100", "90.9, 90.5")):
+    for case, again in (("impact_50", "138.5, 138.9"), ("impact_100", "90.9, 90.5"), ("impact_loose100", "90.9, 90.5")):
         depths = [(c["z"][0] - c["z"].min()) * 1000 for c in fillings(folder, case, 0.09)]
         if depths:
-            rows.append([f"impact, {case[7:]} 000: way of the ball, mm", said(depths, 1), "", again])
+            rows.append([f"impact, {case[7:].replace('loose', 'loose bed, ')} 000: way of the ball, mm", said(depths, 1), "", again])
     return rows
 
 
@@ -114,10 +119,10 @@ def draw(folder, out, others):
                 curve(axes, of["drum"], f"{name}_liggghts", "LIGGGHTS" if name == "z2_m1" else None, "k+")
         axes.legend()
     with runs.plot(out / "impact.png", "time / s", "height of the ball less that at the start / mm") as axes:
-        for n, style in (("25", "C0"), ("50", "C1"), ("100", "C2")):
+        for n, style in (("25", "C0"), ("50", "C1"), ("100", "C2"), ("loose100", "C3")):
             for k, columns in enumerate(fillings(folder, f"impact_{n}")):
-                curve(axes, columns, "z", None if k else f"{n} 000", f"{style}-", 1e3, columns["z"][0])
-            if of["impact"]:
+                curve(axes, columns, "z", None if k else f"{n.replace('loose', 'loose bed, ')} 000", f"{style}-", 1e3, columns["z"][0])
+            if of["impact"] and n.isdigit():
                 curve(axes, of["impact"], f"{n}k_liggghts", "LIGGGHTS" if n == "25" else None, "k+", 1e3)
         axes.legend()
 
