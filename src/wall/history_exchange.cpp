@@ -80,17 +80,23 @@ void HistoryExchange::unpack_saved(int i, const double *buffer, int size)
     springs_.unpack(i, buffer);
 }
 
-void HistoryExchange::check_restored(int n, const std::function<bool(const Spring &)> &is_there)
+int HistoryExchange::drop_unknown(int n, const std::function<bool(const Spring &)> &is_there)
 {
-  checked_ = true;
-  Real lost[2] = {0, static_cast<Real>(other_law_)};
+  int lost = 0;
   for (int i = 0; is_on() && i < n; i++)
     for (int k = 0; k < springs_.count(i); k++)
       if (!is_there(springs_.of(i)[k])) {
-        lost[0]++;
+        lost++;
         springs_.clear(i);
         break;
       }
+  return lost;
+}
+
+void HistoryExchange::check_restored(int n, const std::function<bool(const Spring &)> &is_there)
+{
+  checked_ = true;
+  Real lost[2] = {static_cast<Real>(drop_unknown(n, is_there)), static_cast<Real>(other_law_)};
   host_.sum(lost, 2);
   const char *const file[] = {"was written with a different mesh",
                               "was written with a different contact law"};

@@ -19,9 +19,9 @@ namespace lsdcd {
 // packed or asked of the engine.
 class HistoryExchange {
  public:
-  // Both must outlive it. The numbers that a contact stores are those of wall.law().
-  HistoryExchange(Host &host, const WallSpec &wall) :
-      host_(host), law_(wall.law()), springs_(wall.law().n_extra())
+  // Both must outlive it. The law says which numbers a contact stores.
+  HistoryExchange(Host &host, const ContactLaw &law) :
+      host_(host), law_(law), springs_(law.n_extra())
   {
   }
 
@@ -73,6 +73,8 @@ class HistoryExchange {
   }
   // `size` numbers of one sphere. Numbers that another law wrote are not read, but counted.
   void unpack_saved(int i, const double *buffer, int size);
+  // Drops the history of those of the first n spheres that name a feature which is not there. Returns how many lost theirs. Local.
+  int drop_unknown(int n, const std::function<bool(const Spring &)> &is_there);
   // Drops the history of spheres that name a feature which is not there, and warns of these and of those
   // of another law. Checks the first n spheres, once. Collective.
   void check_restored(int n, const std::function<bool(const Spring &)> &is_there);

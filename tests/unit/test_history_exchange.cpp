@@ -46,7 +46,7 @@ TEST(HistoryExchange, of_an_image_is_written_as_of_what_it_is_an_image_of)
 {
   FakeHost host;
   const WallSpec settings = wall();
-  HistoryExchange written(host, settings), read(host, settings);
+  HistoryExchange written(host, settings.law()), read(host, settings.law());
   give_spring(written, kImage);
   std::vector<double> buffer(written.max_packed_size());
   const int size = written.pack_saved(1, buffer.data(), without_image);
@@ -62,7 +62,7 @@ TEST(HistoryExchange, of_features_that_are_not_there_is_dropped_and_told)
 {
   on_processes(2, [](FakeHost &host) {
     const WallSpec settings = wall();
-    HistoryExchange history(host, settings);
+    HistoryExchange history(host, settings.law());
     give_spring(history, host.rank() == 0 ? kFace : kImage);
     history.check_restored(2, is_face);
     EXPECT_TRUE(history.is_checked());
@@ -77,7 +77,7 @@ TEST(HistoryExchange, follows_features_that_get_other_names)
 {
   FakeHost host;
   const WallSpec settings = wall();
-  HistoryExchange history(host, settings);
+  HistoryExchange history(host, settings.law());
   give_spring(history, kImage);
   history.rename_features(without_image);
   EXPECT_EQ(history.on_cpu().of(1)->feature, kFace);

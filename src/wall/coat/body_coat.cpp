@@ -22,12 +22,24 @@ constexpr std::size_t kMostCoatPoints = 1000000;
 // to the next is seen where it goes through a mesh.
 constexpr Real kDeep = 0.5, kThrough = 0.9, kBetweenLooks = 2 * (1 - kThrough);
 
-// Returns the law of a coat's points, which are spheres without heat whatever grains are.
-ContactLaw law_of_coat(ContactLaw law)
+std::vector<int> others_of(const WallSpec &wall, int mesh)
 {
-  law.heat = HeatModel::none;
-  law.for_shapes = false;
-  return law;
+  std::vector<int> others;
+  for (int k = 0; k < static_cast<int>(wall.meshes.size()); k++)
+    if (k != mesh) others.push_back(k);
+  return others;
+}
+
+// Returns the laws of a coat's points with these meshes. Points are spheres without heat whatever grains are.
+std::vector<ContactLaw> laws_of(const WallSpec &wall, const std::vector<int> &meshes)
+{
+  std::vector<ContactLaw> laws;
+  for (const int mesh : meshes) {
+    ContactLaw &law = laws.emplace_back(law_of_all_types(wall, mesh));
+    law.heat = HeatModel::none;
+    law.for_shapes = false;
+  }
+  return laws;
 }
 
 SymmetricMatrix turned(const SymmetricMatrix &m, const Pose &from, const Pose &to)
@@ -98,7 +110,8 @@ struct Yield {
 BodyCoat::BodyCoat(Host &host, const WallSpec &wall, int mesh, const MeshGrid &grid,
                    EngineSettings engine, Real force) :
     host_(host),
-    wall_(wall), mesh_(mesh), force_(force)
+    wall_(wall), mesh_(mesh), force_(force), others_(others_of(wall, mesh)),
+    laws_(laws_of(wall, others_)), history_(host, laws_.front())
 {
   constexpr Real kPartOfDiagonal = 1. / 30, kRadiusOfSpacing = 0.75;
   const MeshReport &r = grid.report();
@@ -124,9 +137,6 @@ BodyCoat::BodyCoat(Host &host, const WallSpec &wall, int mesh, const MeshGrid &g
   heavy_ = kHeavy * body_mass();
   masses_.assign(n, heavy_);
 
-  for (int k = 0; k < static_cast<int>(wall.meshes.size()); k++)
-    if (k != mesh) others_.push_back(k);
-  for (const int k : others_) laws_.push_back(law_of_coat(law_of_all_types(wall, k)));
   engine.laws = LawTable();
   engine.laws.laws = laws_;
   engine.meshes = static_cast<int>(others_.size());
@@ -137,6 +147,8 @@ BodyCoat::BodyCoat(Host &host, const WallSpec &wall, int mesh, const MeshGrid &g
   engine.wear = WearModel::none;
   engine.device = Device::cpu;
   engine_ = make_cpu_engine(engine);
+  history_.set_engine(*engine_);
+  history_.grow(static_cast<int>(n));
 }
 
 std::string BodyCoat::named(const std::string &text) const
@@ -158,21 +170,16 @@ std::string BodyCoat::text() const
          " deeper between the points";
 }
 
-// Those of the last step.
-ContactHistory BodyCoat::springs(const FeatureName &name)
+// The engine counts the other meshes from 0.
+BodyCoat::FeatureName BodyCoat::of_others(const FeatureName &name) const
 {
-  const int n = static_cast<int>(points_.size());
-  ContactHistory springs(laws_.front().n_extra());
-  engine_->springs().to_store(springs, n);
-  springs.grow(n);
-  springs.rename_features([&](int mesh, FeatureCode f) { return name(others_[mesh], f); });
-  return springs;
+  return [&](int mesh, FeatureCode f) { return name(others_[mesh], f); };
 }
 
 void BodyCoat::rename_features(const FeatureName &name)
 {
-  if (laws_.front().has_history())
-    engine_->springs().from_store(springs(name), static_cast<int>(points_.size()));
+  history_.on_cpu();
+  history_.rename_features(of_others(name));
 }
 
 void BodyCoat::set_grid(const MeshPart &m)
@@ -262,6 +269,7 @@ void BodyCoat::choose(const std::deque<MeshPart> &meshes)
 {
   const Spheres s = spheres();
   if (!restored_.empty()) take_restored(meshes);
+  history_.to_engine(s.n);
   SphereDrift drift;
   drift.kind = SphereDrift::watched;
   drift.distance = 0.5 * radius_;
@@ -507,13 +515,14 @@ std::vector<Real> BodyCoat::save(const FeatureName &name)
   if (!law.has_history()) return {};
   if (!restored_.empty()) return restored_;    // no step was made since
   const int n = static_cast<int>(points_.size());
-  const ContactHistory springs = this->springs(name);
-  std::vector<Real> out = {static_cast<Real>(law.history_kind()), static_cast<Real>(n)};
+  history_.on_cpu();
+  std::vector<Real> out = {static_cast<Real>(law.history_kind()), static_cast<Real>(n)},
+                    packed(history_.max_packed_size());
   for (int i = 0; i < n; i++) {
-    if (springs.count(i) == 0) continue;
+    const int size = history_.pack_saved(i, packed.data(), of_others(name));
+    if (packed[0] == 0) continue;
     out.push_back(i);
-    out.resize(out.size() + springs.packed_size(i));
-    springs.pack(i, out.data() + out.size() - springs.packed_size(i));
+    out.insert(out.end(), packed.begin(), packed.begin() + size);
   }
   return out;
 }
@@ -536,31 +545,23 @@ void BodyCoat::restore(const std::vector<Real> &saved)
 void BodyCoat::take_restored(const std::deque<MeshPart> &meshes)
 {
   const int n = static_cast<int>(points_.size());
-  ContactHistory springs(laws_.front().n_extra());
-  springs.grow(n);
   const Real *at = restored_.data() + 2, *const end = restored_.data() + restored_.size();
   bool lost = false;
+  history_.clear();
+  history_.set_kind_of_file(restored_.front());
   while (at < end) {
     const int i = static_cast<int>(*at++);
     const std::size_t size =
-        at < end ? 1 + static_cast<std::size_t>(*at) * springs.doubles_per_spring() : 1;
-    if (i < 0 || i >= n || static_cast<std::size_t>(end - at) < size) {
-      lost = true;
-      break;
-    }
-    springs.unpack(i, at);
+        at < end ? 1 + static_cast<std::size_t>(*at) * history_.numbers_per_contact() : 1;
+    lost = i < 0 || i >= n || static_cast<std::size_t>(end - at) < size;
+    if (lost) break;
+    history_.unpack_saved(i, at, static_cast<int>(size));
     at += size;
-    for (int k = 0; k < springs.count(i); k++) {
-      const Spring &s = springs.of(i)[k];
-      const bool is_there = s.mesh < others_.size() && meshes[others_[s.mesh]].has(s.feature);
-      if (is_there) continue;
-      lost = true;
-      springs.clear(i);
-      break;
-    }
   }
   restored_.clear();
-  engine_->springs().from_store(springs, n);
+  lost |= history_.drop_unknown(n, [&](const Spring &s) {
+    return s.mesh < others_.size() && meshes[others_[s.mesh]].has(s.feature);
+  }) > 0;
   if (lost)
     host_.warn(named("points of its coat lose their springs: the " +
                      std::string(host_.names().saved) + " was written with a different mesh"));
@@ -568,7 +569,8 @@ void BodyCoat::take_restored(const std::deque<MeshPart> &meshes)
 
 std::size_t BodyCoat::bytes() const
 {
-  return engine_->bytes() + points_.size() * (6 * sizeof(Vec3) + 2 * sizeof(Real));
+  return engine_->bytes() + history_.bytes() +
+         points_.size() * (6 * sizeof(Vec3) + 2 * sizeof(Real));
 }
 
 }    // namespace lsdcd

@@ -4,10 +4,10 @@
 // The coat of a body: points of its surface, as spheres that feel the other meshes of the wall by the wall's own law.
 #pragma once
 
-#include "contact/contact_history.h"
 #include "engine/engine.h"
 #include "host/host.h"
 #include "wall/coat_load.h"
+#include "wall/history_exchange.h"
 #include "wall/mesh_part.h"
 
 #include <deque>
@@ -31,7 +31,7 @@ class BodyCoat {
   Real radius() const { return radius_; }
   std::string text() const;    // line of the log
 
-  using FeatureName = std::function<FeatureCode(int mesh, FeatureCode feature)>;
+  using FeatureName = HistoryExchange::FeatureName;
   // Gives the features of its springs the names that `name` gives them: before the grid of a mesh is another one.
   void rename_features(const FeatureName &name);
   // The grid of a mesh from now on.
@@ -64,7 +64,7 @@ class BodyCoat {
   void check_way(const std::deque<MeshPart> &meshes, const Step &step);
   void look(StepSettings want);
   Spheres spheres();
-  ContactHistory springs(const FeatureName &name);
+  FeatureName of_others(const FeatureName &name) const;
   SurfaceMotion surface_against(const MeshPart &own, const MeshPart &other) const;
   StepSettings settings(const std::deque<MeshPart> &meshes, const Step &step);
   void find_contacts(const std::deque<MeshPart> &meshes, CoatPushes &pushes);
@@ -93,6 +93,7 @@ class BodyCoat {
   };
   std::vector<PointContact> contacts_;
   std::unique_ptr<WallEngine> engine_;
+  HistoryExchange history_;    // of the points
   bool deep_warned_ = false;
   bool is_as_placed_ = true;      // no step was made
   std::vector<Real> restored_;    // until the first step
