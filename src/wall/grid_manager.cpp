@@ -45,18 +45,18 @@ bool GridManager::fit_spheres(Real radius, const SpheresOnCpu &spheres, std::int
 {
   constexpr Real kHeadroom = 1.1;    // once radii are known to grow
   const Real old = cutoff(), of_coats = cutoff_of_coats();
-  if (std::max(cutoff_of(laws_, radius), of_coats) <= old) return fit_box(step);
+  if (std::max(cutoff_of(radius, pull_off_), of_coats) <= old) return fit_box(step);
   check_rmax(radius, spheres);
   if (old == 0 && radius > 0) checks_.check_radius(box(), radius);
   const Real largest =
       settings_.rmax > 0 ? settings_.rmax : (old > 0 ? kHeadroom * radius : radius);
-  rebuild(std::max(cutoff_of(laws_, largest), of_coats), step);
+  rebuild(std::max(cutoff_of(largest, pull_off_), of_coats), step);
   return true;
 }
 
 Real GridManager::cutoff_of_coats() const
 {
-  return coats_.any() ? cutoff_of(laws_, coats_.largest_radius()) : 0;
+  return coats_.any() ? cutoff_of(coats_.largest_radius(), pull_off_) : 0;
 }
 
 void GridManager::check_rmax(Real radius, const SpheresOnCpu &spheres) const

@@ -25,8 +25,8 @@ class GridManager {
               std::deque<MeshPart> &meshes, BodyCoats &coats, BoxChecks &checks,
               HistoryExchange &history, TimeReport &times) :
       host_(host),
-      settings_(settings), laws_(laws), meshes_(meshes), coats_(coats), checks_(checks),
-      history_(history), times_(times)
+      settings_(settings), pull_off_(largest_pull_off(laws)), meshes_(meshes), coats_(coats),
+      checks_(checks), history_(history), times_(times)
   {
   }
 
@@ -69,7 +69,7 @@ class GridManager {
 
   Host &host_;
   const WallSpec &settings_;
-  const LawTable &laws_;
+  const Real pull_off_;    // the largest of the laws
   std::deque<MeshPart> &meshes_;
   BodyCoats &coats_;
   BoxChecks &checks_;

@@ -36,11 +36,11 @@ struct MeshPart {
 
   MeshNodes *nodes() const { return surface->nodes(); }    // null: they do not move
   const Servo &servo() const { return spec.motion.servo(); }
-  bool moves() const { return nodes() || mover.moves(); }    // or was moved
+  bool moves() const { return spec.has_nodes || spec.motion.any(); }    // or was moved
   // Returns whether it stood still in the last step, and does until it is given something that moves it.
   bool is_at_rest() const
   {
-    return is_same_place(mover.pose_before(), pose()) && !spec.motion.acts() && !nodes() &&
+    return is_same_place(mover.pose_before(), pose()) && !spec.motion.acts() && !spec.has_nodes &&
            !spec.surface_varies();
   }
   // Returns how it gives way to pushes where it is now (1/mass).

@@ -369,7 +369,7 @@ void Wall::choose_if_due(const Spheres &spheres)
   if (!with_nodes_.empty()) place_nodes(with_nodes_, *engine_, cutoff(), spheres.n);
   std::vector<MovingMesh> moving;
   for (const MeshPart *m : moving_)
-    if (m->mover.moves()) moving.push_back({m->pose(), m->bounds(cutoff())});
+    if (m->spec.motion.any()) moving.push_back({m->pose(), m->bounds(cutoff())});
   if (!engine_->choose_if_due(spheres, input_.drift, moving)) return;
   for (MeshNodes *nodes : with_nodes_) nodes->note_choice();
   search_.count_update();

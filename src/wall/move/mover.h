@@ -40,7 +40,6 @@ class Mover {
   // Returns where it is that much time from now. A servo stays; of a body the step that comes, once the last one is
   // complete.
   Pose pose_in(Real later) const { return body_ ? body_->pose_in(later) : motion_.pose_in(later); }
-  bool moves() const { return motion().any(); }                         // or has moved it
   bool moves_or_varies() const { return motion_.moves_or_varies(); }    // for the engine
   // Returns whether it goes along this unit vector never, across which the box has this width, and turns about
   // nothing but it.
