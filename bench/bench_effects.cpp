@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 LSDCD contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The cost of every effect of a wall, or of bodies and their coats: rows for doc/effects.md, as CSV.
+// The cost of every effect of a wall, of those that pairs of grains have, or of bodies and their coats: rows for doc/effects.md, as CSV.
 //
 // Spheres lie on a floor of 20 000 triangles, each with one contact. For effects a step is the engine's. For bodies it is that of the
 // whole wall, whose floor is at rest, moves, or is a body on a slider, so heavy that it stays; points of a coat are those of a heavy
@@ -13,12 +13,15 @@
 #include "effects/effects.h"
 #include "grid/flat_grid.h"
 #include "mesh/surface_points.h"
+#include "pair/compile_pair.h"
 #include "support/meshes.h"
 #include "support/sphere_arrays.h"
 #include "support/wall_scene.h"
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
@@ -143,6 +146,120 @@ void measure_effects(Device device, int n_spheres, int repeats, const char *comm
                 c.least(), c.ns.back() / c.each, cost_over(cases, c), bytes_per_atom(s),
                 bytes_per_contact(s), engines[i]->bytes(), engines[i]->backend().c_str(),
                 compiler(), commit);
+  }
+}
+
+// ---- pairs ----------------------------------------------------------------------------------------
+
+// Grains of a lattice, six contacts each but at its faces, whose list has each pair once.
+struct PairBed {
+  explicit PairBed(int side)
+  {
+    constexpr Real kSpacing = 2 * kRadius - kOverlap;
+    std::mt19937_64 random(11);
+    std::uniform_real_distribution<Real> speed(-1, 1);
+    n = side * side * side;
+    neighbours.resize(n);
+    for (int i = 0; i < n; i++) {
+      const int at[] = {i % side, i / side % side, i / side / side};
+      for (int k = 0, step = 1; k < 3; k++, step *= side) {
+        x.push_back(kSpacing * at[k]);
+        v.push_back(speed(random));
+        omega.push_back(speed(random));
+        if (at[k] + 1 < side) neighbours[i].push_back(i + step);
+      }
+      contacts += static_cast<int>(neighbours[i].size());
+      length.push_back(static_cast<int>(neighbours[i].size()));
+      row.push_back(neighbours[i].data());
+      grain.push_back(i);
+    }
+    radius.assign(n, kRadius);
+    mass.assign(n, 1);
+    type.assign(n, 1);
+    temperature.assign(n, 300);
+    heat.assign(n, 0);
+    force.assign(x.size(), 0);
+    torque.assign(x.size(), 0);
+  }
+  PairJob job()
+  {
+    PairJob job = {};
+    job.x = x.data(), job.v = v.data(), job.omega = omega.data();
+    job.radius = radius.data(), job.mass = mass.data(), job.type = type.data();
+    job.force = force.data(), job.torque = torque.data();
+    job.n_own = n;
+    job.list = {n, grain.data(), length.data(), row.data(), 0x1FFFFFFF, 30};
+    job.factor = factor;
+    job.n_laws = 1;
+    job.law_of = law_of;
+    job.n_types = 2;
+    job.dt = 1e-7;
+    job.update = true;
+    return job;
+  }
+
+  int n, contacts = 0;
+  std::vector<Real> x, v, omega, radius, mass, temperature, heat, force, torque;
+  std::vector<int> type, grain, length;
+  std::vector<std::vector<int>> neighbours;
+  std::vector<const int *> row;
+  Real factor[4] = {1, 1, 1, 1};
+  int law_of[4] = {0, 0, 0, 0};
+};
+
+// The pairs of one law, step after step.
+class PairRun {
+ public:
+  PairRun(PairBed &bed, const ContactLaw &law) :
+      bed_(bed), law_(pair_law(law)), heat_(law.has_heat()), keeps_(law.has_history())
+  {
+    for (PairHistory &h : history_) h.begin(keeps_ ? 3 + law.n_extra() : 0);
+  }
+  void step()
+  {
+    PairJob job = bed_.job();
+    job.laws = &law_;
+    if (heat_) job.temperature = bed_.temperature.data(), job.heat = bed_.heat.data();
+    if (keeps_) {
+      now_ = 1 - now_;
+      history_[now_].begin(history_[now_].width());
+      job.old = &history_[1 - now_];
+      job.history = &history_[now_];
+    }
+    run_pairs(job);
+  }
+  std::size_t bytes() const
+  {
+    return keeps_ ? PairHistory::bytes_per_pair(history_[0].width()) : 0;
+  }
+
+ private:
+  PairBed &bed_;
+  PairLaw law_;
+  bool heat_, keeps_;
+  PairHistory history_[2];
+  int now_ = 0;
+};
+
+void measure_pairs(int n_grains, int repeats, const char *commit)
+{
+  PairBed bed(static_cast<int>(std::lround(std::cbrt(n_grains))));
+  std::vector<std::unique_ptr<PairRun>> runs;
+  std::vector<Case> cases;
+  for (const EffectCase &c : effect_cases()) {
+    if (!acts_on_pairs(c.settings)) continue;
+    runs.push_back(std::make_unique<PairRun>(bed, c.settings.law()));
+    PairRun *run = runs.back().get();
+    cases.push_back({c.name, c.words, c.over, bed.contacts, [run] { run->step(); }});
+  }
+  take_turns(cases, repeats, true);
+  std::printf("name;words;over;contacts;repeats;median_ns;min_ns;over_ns;bytes_per_pair;device;"
+              "compiler;commit\n");
+  for (std::size_t i = 0; i < cases.size(); i++) {
+    const Case &c = cases[i];
+    std::printf("%s;%s;%s;%d;%d;%.2f;%.2f;%.2f;%zu;CPU, 1 thread;%s;%s\n", c.name.c_str(),
+                c.words.c_str(), c.over.c_str(), c.each, repeats, c.ns[c.ns.size() / 2] / c.each,
+                c.least(), cost_over(cases, c), runs[i]->bytes(), compiler(), commit);
   }
 }
 
@@ -289,13 +406,16 @@ int main(int argc, char **argv)
   const std::string what = argc > 1 ? argv[1] : "";
   const int spheres = argc == 5 ? std::atoi(argv[2]) : 0,
             repeats = argc == 5 ? std::atoi(argv[3]) : 0;
-  if (spheres < 1 || repeats < 1 || (what != "cuda" && what != "cpu" && what != "bodies")) {
-    std::fprintf(stderr, "usage: bench_effects cpu|cuda|bodies SPHERES REPEATS COMMIT\n");
+  if (spheres < 1 || repeats < 1 ||
+      (what != "cuda" && what != "cpu" && what != "pairs" && what != "bodies")) {
+    std::fprintf(stderr, "usage: bench_effects cpu|cuda|pairs|bodies SPHERES REPEATS COMMIT\n");
     return 2;
   }
   try {
     if (what == "bodies")
       measure_bodies(spheres, repeats, argv[4]);
+    else if (what == "pairs")
+      measure_pairs(spheres, repeats, argv[4]);
     else
       measure_effects(what == "cuda" ? Device::cuda : Device::cpu, spheres, repeats, argv[4]);
   } catch (const InputError &e) {

@@ -207,11 +207,12 @@ def liggghts(rows):
 
 # ---- tables of effects.md ------------------------------------------------------------------
 
-def costs(cpu, cuda):
-    first, on_gpu = cpu[0], cuda[0]
+def costs(cpu, cuda, pairs):
+    first, on_gpu, of_pairs = cpu[0], cuda[0], pairs[0]
     told = (f"The CPU's times are of {first['contacts']} contacts on one core, the least of {first['repeats']} rounds "
             f"({first['compiler']}). The GPU's are of {on_gpu['contacts']} contacts on an "
-            f"{on_gpu['device'].replace('CUDA, ', '')}, the least of {on_gpu['repeats']}, with the copies to and from it.")
+            f"{on_gpu['device'].replace('CUDA, ', '')}, the least of {on_gpu['repeats']}, with the copies to and from it. Those of pairs are of "
+            f"{of_pairs['contacts']} contacts between grains on one core, the least of {of_pairs['repeats']}.")
 
     def ns(row):
         return short(row["min_ns"], 3) if row else ""
@@ -225,9 +226,12 @@ def costs(cpu, cuda):
     def cells(r):
         g = find(cuda, name=r["name"])
         without = re.sub(r"(,| \.\.\.).*`", "`", words(find(cpu, name=r["over"])))    # of several words the first
-        return [words(r), ns(r), over(r), ns(g), over(g), without, r["bytes_per_contact"]]
+        pair = find(pairs, name=r["name"])
+        return [words(r), ns(r), over(r), ns(g), over(g), ns(pair), over(pair), without, r["bytes_per_contact"],
+                pair["bytes_per_pair"] if pair else ""]
 
-    heads = ["turned on by", "CPU, ns", "more than without", "GPU, ns", "more than without", "without is", "B/contact"]
+    heads = ["turned on by", "CPU, ns", "more than without", "GPU, ns", "more than without", "pair, ns", "more than without",
+             "without is", "B/contact", "B/pair"]
     shown = [k for k, head in enumerate(heads) if "without" not in head]    # a combination is over none
     alone = [r for r in cpu if r["over"] or r["name"] == "hooke"]
     several = [r for r in cpu if r not in alone]
@@ -288,7 +292,7 @@ def tables():
         "performance.md": {"hours": hours(kokkos_cpu, kokkos_cuda), "cost": cost(kokkos_cuda + kokkos_cpu), "set-up": set_up(cpu, cuda)},
         "notes/performance.md": {"scale": scale(rows_of("scale_cuda.csv")), "liggghts": liggghts(rows_of("liggghts_cpu.csv"))},
         "library-queries.md": {"point-costs": point_costs(cpu)},
-        "effects.md": {"costs": costs(*(rows_of(f"effects_{device}.csv", ";") for device in DEVICES))},
+        "effects.md": {"costs": costs(*(rows_of(f"effects_{device}.csv", ";") for device in DEVICES), rows_of("effects_pairs_cpu.csv", ";"))},
         "accuracy.md": {"settings": settings([r for d in DEVICES for r in rows_of(f"tradeoff_vessel_{d}.csv")])},
     }
 

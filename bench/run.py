@@ -27,6 +27,7 @@ BENCHMARKS = {
     "step": ("performance", BOTH, "{bin}/bench_step " + COMMON, "steps of the engine"),
     "mesh-size": ("mesh-size", BOTH, "{bin}/bench_mesh_size " + COMMON, "the same contacts with 1e2 to 1e7 triangles"),
     "effects": ("effects", BOTH, "{bin}/bench_effects {device} {effects} {commit}", "what each effect of a wall costs"),
+    "pairs": ("effects_pairs", CPU, "{bin}/bench_effects pairs 8000 401 {commit}", "what each effect costs between grains"),
     "bodies": ("effects_bodies", CPU, "{bin}/bench_effects bodies 5000 61 {commit}", "what meshes that are rigid bodies cost"),
     "kokkos": ("kokkos", CPU, SCRIPT + "kokkos.py kokkos " + COMMON, "steps of a LAMMPS with Kokkos, on its own device"),
     "scale": ("scale", CPU, SCRIPT + "kokkos.py scale " + COMMON, "how many grains LAMMPS with Kokkos holds in a mesh, and what the wall costs then"),
@@ -39,7 +40,7 @@ BENCHMARKS = {
     "device": ("device", CPU, SCRIPT + "device.py " + COMMON, "steps of a LAMMPS without Kokkos on a core and on a GPU"),
 }
 DEFAULT = ("query", "build", "step")
-ON_ONE_CORE = ("mesh-size", "effects", "bodies", "nodes", "shapes")
+ON_ONE_CORE = ("mesh-size", "effects", "pairs", "bodies", "nodes", "shapes")
 EFFECTS = {"cpu": "5000 401", "cuda": "200000 31"}    # spheres, rounds
 
 

@@ -157,6 +157,11 @@ std::vector<EffectCase> effect_cases()
   return cases;
 }
 
+bool acts_on_pairs(const EngineSettings &s)
+{
+  return !(s.surface.moves() || s.moves || s.bodies || s.contacts);
+}
+
 int bytes_per_atom(const EngineSettings &settings)
 {
   return settings.law().has_history() ? 2 * sizeof(int) : 0;    // where its springs are

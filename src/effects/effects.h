@@ -19,6 +19,9 @@ struct EffectCase {
   EngineSettings settings;
 };
 
+// Is it an effect of the contact law, which pairs of grains may have, too?
+bool acts_on_pairs(const EngineSettings &settings);
+
 // Parameters are nominal: the bytes and the cost of a contact do not depend on them.
 std::vector<EffectCase> effect_cases();
 

@@ -335,9 +335,8 @@ void PairGranularLsdcd::tell_laws()
   if (same) text = "\n  all types: " + words(1, 1);
   const int width = kept_width();
   log("laws of pairs, " +
-      (width
-           ? std::to_string(width * sizeof(double) + sizeof(std::size_t)) + " bytes a touching pair"
-           : std::string("which keep nothing")) +
+      (width ? std::to_string(lsdcd::PairHistory::bytes_per_pair(width)) + " bytes a touching pair"
+             : std::string("which keep nothing")) +
       text);
 }
 

@@ -9,6 +9,7 @@ while rounding has not grown: it doubles in some 40 steps of such a gas.
 
 import random
 import re
+import struct
 
 import pytest
 
@@ -166,6 +167,47 @@ def test_restart(folder):
                 "springs of other contact laws")
     text = lmp.run_well(settings("on") + "read_restart r\n" + ours("* * hooke 1e4 1 tangential linear_nohistory 0 0") + "\nrun 0\n", folder)
     fact("a law without springs: said", "Unused restart file" in text or "unused" in text.lower(), text[-300:])
+
+
+def test_damaged_restart(folder):
+    """The count of an atom's partners in a restart file is not that of its numbers: the atom is named."""
+    lmp.run_well(script(ours("* * " + GRANULAR), steps=100) + "write_restart r\n", folder)
+    data = (folder / "r").read_bytes()
+    one_partner = struct.pack("<2d", 6, 1)    # of an atom: 6 numbers, a count, a partner's tag and a shear displacement
+    at = data.find(one_partner)
+    fact("an atom has one partner", at > 0, str(at))
+    (folder / "r").write_bytes(data[:at] + struct.pack("<2d", 6, 2) + data[at + len(one_partner):])
+    lmp.refused("damaged", settings() + "read_restart r\n" + ours("* * " + GRANULAR) + "\nrun 0\n", folder, "in the restart file are damaged")
+
+
+def test_poured(folder):
+    """Grains that fix pour and fix deposit make, of two types and sizes that were not there, fall on a floor: LAMMPS's thermo table."""
+    tables = {}
+    for name, pair in (("theirs", "pair_style gran/hertz/history 1e4 NULL 50 NULL 0.5 1\npair_coeff * *"),
+                       ("ours", ours("* * law hertz/history 1e4 NULL 50 NULL 0.5 1"))):
+        tables[name] = lmp.read_thermo(lmp.run_well(lmp.head(box="0 8 0 8 0 14", boundary="p p f", types=2, modify="") + f"""\
+neighbor 0.2 bin
+neigh_modify delay 0 every 1 check yes
+{pair}
+region low block 0 8 0 8 4 8
+region high block 1 7 1 7 10 12
+fix g all gravity 2 vector 0 0 -1
+fix w all wall/gran hertz/history 1e4 NULL 50 NULL 0.5 1 zplane 0 NULL
+fix p all pour 300 1 4711 vol 0.4 20 region low diam range 0.5 1.0
+fix d all deposit 40 2 25 813 region high near 1.2 vz -1 -1
+fix i all nve/sphere
+timestep 1e-3
+thermo_style custom step atoms ke press pxx pyy pzz pxy
+thermo_modify format float %.17g lost error norm no
+compute_modify thermo_temp dynamic/dof yes
+thermo 100
+run 1500
+""", folder))
+    last = tables["ours"][-1]
+    fact("grains are poured and deposited", last[1] > 150, str(last))
+    for k, what in ((1, "atoms"), (2, "kinetic energy"), (3, "pressure"), (7, "pxy")):
+        most = max(abs(row[k]) for row in tables["theirs"])
+        at_most(what, max(abs(a[k] - b[k]) for a, b in zip(*tables.values())) / most, 1e-8)
 
 
 def test_levels_of_respa(folder):

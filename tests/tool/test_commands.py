@@ -66,7 +66,8 @@ GOOD = [
     ("timestep glass.lsdcd glass --on steel --radius 0.001 --speed 1", ["set by the Rayleigh time"]),
     ("tradeoff wall.stl --radius 0.1 " + QUICK["tradeoff"], ["default", "rows in tradeoff.csv"]),
     ACCURACY,
-    ("effects", ["hooke", "hertz", "B/contact"]),
+    # Between grains: the number of the pair in the list and three numbers, with a rolling model three more; none of a belt.
+    ("effects", ["hooke", "B/contact    B/pair", "56        32  hertz/history", "80        56  rolling sds", "0         -  surface_vel"]),
     # The same numbers for programs.
     ("timestep --young 5e6 --poisson 0.25 --density 2500 --radius 0.002 --speed 1 --json",
      {"smallest_radius": 0.002, "set_by": "the impact of grain on grain", "too_soft": True}),

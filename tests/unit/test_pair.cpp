@@ -228,6 +228,38 @@ TEST(pair, under_jkr_parts_beyond_touch)
   EXPECT_EQ(force_at(-0.5 * reach), 0);    // let go
 }
 
+// In and out again: what the pull takes beyond touch is lost. With a = s y^2, s^3 = 4 pi gamma R^2/E, the overlap is (s^2/R)(y^4 - y), the
+// force (4 E s^3/3 R)(y^6 - 3/2 y^3), and the work of the force (4 E s^5/3 R^2)(2/5 y^10 - y^7 + 3/8 y^4), from y = 1 at touch to
+// y^3 = 3/4, where the pull is greatest.
+TEST(pair, under_jkr_loses_the_work_of_the_pull_beyond_touch)
+{
+  const Real e = 1e5 / (2 * (1 - 0.09)), gamma = 50, radius = 0.5;
+  const Real s = std::cbrt(4 * kPi * gamma * radius * radius / e), y = std::cbrt(0.75);
+  const auto work = [&](Real at) {
+    return 4 * e * std::pow(s, 5) / (3 * radius * radius) *
+           (0.4 * std::pow(at, 10) - std::pow(at, 7) + 0.375 * std::pow(at, 4));
+  };
+  const Real parting = s * s / radius * (std::pow(y, 4) - y), deepest = 0.1;
+  Grains g(2);
+  g.set_law(law_of_words("jkr 1e5 0 0.3 50 tangential linear_nohistory 0 0 damping none"));
+  g.set_list();
+  // The rule of the middle over n steps; `done`: by the grains, while the overlap goes from one to the other.
+  Real done = 0;
+  const auto go = [&](Real from, Real to) {
+    constexpr int n = 20000;
+    for (int k = 0; k < n; k++) {
+      g.x[3] = 2 - (from + (k + 0.5) / n * (to - from));
+      g.step();
+      done -= g.force[3] * (to - from) / n;
+    }
+  };
+  go(0, deepest);
+  go(deepest, 0);
+  EXPECT_NEAR(done, 0, 1e-12 * work(2));
+  go(0, parting);
+  EXPECT_NEAR(done, work(1) - work(y), 1e-7 * std::fabs(work(1) - work(y)));
+}
+
 // Two grains that turn as one body keep the length of their spring, which turns with them: after a whole turn it is as it was.
 TEST(pair, that_turns_as_one_body_keeps_its_spring)
 {
