@@ -8,6 +8,7 @@
 #include "pair/pair_lanes.h"
 
 #include <algorithm>
+#include <cfenv>
 #include <cstddef>
 #include <limits>
 #include <vector>
@@ -17,6 +18,29 @@ namespace lsdcd {
 namespace {
 
 constexpr std::size_t kNone = ~static_cast<std::size_t>(0);    // a pair that keeps nothing yet
+
+// While it lives, no operation without a result sends a signal, which a host may have asked for. Vectors do in vain what a branch
+// would leave out, such as the root of a negative number.
+class NoSignals {
+ public:
+#if defined(__GLIBC__)
+  NoSignals() : asked_(fegetexcept())
+  {
+    if (asked_) fedisableexcept(asked_);
+  }
+  ~NoSignals()
+  {
+    if (!asked_) return;
+    std::feclearexcept(FE_ALL_EXCEPT);
+    feenableexcept(asked_);
+  }
+  NoSignals(const NoSignals &) = delete;
+  NoSignals &operator=(const NoSignals &) = delete;
+
+ private:
+  int asked_;
+#endif
+};
 
 std::size_t index_of(int i)
 {
@@ -407,6 +431,7 @@ class PairStep {
 
 void run_pairs(const PairJob &job)
 {
+  [[maybe_unused]] const NoSignals while_computing;
   if (job.n_laws == 1)
     PairStep<true>(job).run();
   else
