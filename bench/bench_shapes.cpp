@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // A step of grains that are no spheres beside one of spheres, on one core, on facets whose edges are as long as the radius of the
-// sphere around a grain: on faces of a plane, on edges of ridges, and close above a plane, where no grain touches what it has
-// listed. Grains lie in any way, sunk by a hundredth of their size, and are elsewhere by some 1e-3 of it in each step.
+// sphere around a grain: on faces of a plane, on edges of ridges, in the folds between them, and close above a plane, where
+// no grain touches what it has listed. Grains lie in any way, sunk by a hundredth of their size, and are elsewhere by some 1e-3 of it in each step.
 #include "bench.h"
 
 #include "contact/shape_search.h"
@@ -38,8 +38,10 @@ constexpr Kind kKinds[] = {{"sphere", true, {1, 1, 1}, 2},
                            {"ellipsoid 2:1:1", false, {2, 1, 1}, 2},
                            {"n = 4", false, {1, 1, 1}, 4},
                            {"n = 8", false, {1, 1, 1}, 8}};
-enum class Place { face, edge, above };
-constexpr const char *kPlaces[] = {"at faces", "at edges", "above faces"};
+enum class Place { face, edge, fold, above };
+constexpr const char *kPlaces[] = {"at faces", "at edges", "in folds", "above faces"};
+
+constexpr Real kHeight = 0.3;    // of ridges over the length of a facet
 
 // A plane of triangles, or ridges along y, of which every second line is an edge that is 0.3 high.
 TriangleSoup terrain(Real length, bool has_ridges)
@@ -47,7 +49,7 @@ TriangleSoup terrain(Real length, bool has_ridges)
   TriangleSoup soup;
   soup.source = has_ridges ? "ridges" : "plane";
   const auto at = [&](int i, int j) {
-    return Vec3{i * length, j * length, has_ridges && i % 2 ? Real(0.3) * length : 0};
+    return Vec3{i * length, j * length, has_ridges && i % 2 ? kHeight * length : 0};
   };
   for (int i = 0; i < kSide; i++)
     for (int j = 0; j < kSide; j++) {
@@ -63,8 +65,8 @@ class ShapeBed {
  public:
   ShapeBed(const Kind &kind, Place place, int n) :
       shape_(make_superellipsoid(kind.half, kind.n, kind.n)),
-      mesh_(weld(terrain(shape_.farthest, place == Place::edge), -1)), names_(mesh_),
-      tree_(mesh_, names_), search_(tree_)
+      mesh_(weld(terrain(shape_.farthest, place == Place::edge || place == Place::fold), -1)),
+      names_(mesh_), tree_(mesh_, names_), search_(tree_)
   {
     GridSettings grid;
     grid.cutoff = shape_.farthest;
@@ -113,10 +115,13 @@ class ShapeBed {
       const bool at_edge = place == Place::edge;
       const Real depth = (place == Place::above ? -kSunk : kSunk) * shape_.nearest,
                  tilt = at_edge ? uniform(random, -0.25, 0.25) : 0;
-      if (at_edge) foot.x = 2 * std::floor(foot.x / 2) + 1, foot.z = 0.3;
+      if (at_edge) foot.x = 2 * std::floor(foot.x / 2) + 1, foot.z = kHeight;
       const Vec3 down = {std::sin(tilt), 0, -std::cos(tilt)};
       g.centre =
-          shape_.farthest * foot + depth * down - g.turned(support(shape_, g.to_own(down)).point);
+          place == Place::fold
+              ? in_fold(g, shape_.farthest * Vec3{2 * std::floor(foot.x / 2), foot.y, 0}, depth)
+              : shape_.farthest * foot + depth * down -
+                    g.turned(support(shape_, g.to_own(down)).point);
       search_.find_near(g, shape_.farthest, near);
       listed_ += static_cast<double>(near.n_faces());
       grains_.add(g.centre, shape_.farthest);
@@ -134,6 +139,16 @@ class ShapeBed {
         row.turn = rotation_about(random_unit(random), kWay) * turns_[i];
         shapes_.push_back(row);
       }
+  }
+  // Returns where a grain is `depth` deep in both sides of a fold through a point.
+  static Vec3 in_fold(const PlacedGrain &g, const Vec3 &at, Real depth)
+  {
+    const Real size = std::hypot(Real(1), kHeight), sine = kHeight / size, cosine = 1 / size;
+    const auto distance = [&](Real side) {
+      return support(g.shape, g.to_own({side * sine, 0, -cosine})).height - depth;
+    };
+    const Real left = distance(-1), right = distance(1);
+    return at + Vec3{(left - right) / (2 * sine), 0, (left + right) / (2 * cosine)};
   }
   Spheres at(int k)
   {
@@ -163,7 +178,7 @@ void measure(const BenchOptions &o, BenchRows &rows)
   const int n = static_cast<int>(o.spheres > 0 ? o.spheres : o.quick ? 200 : 2000);
   const int repeats = o.repeats > 0 ? o.repeats : o.quick ? 1 : 21;
   rows.begin(Device::cpu);
-  for (const Place place : {Place::face, Place::edge, Place::above}) {
+  for (const Place place : {Place::face, Place::edge, Place::fold, Place::above}) {
     for (const Kind &kind : kKinds) {
       if (place == Place::above && kind.is_sphere) continue;    // it has no list
       ShapeBed bed(kind, place, n);

@@ -7,24 +7,39 @@
 
 namespace lsdcd {
 
-void ShapePasses::begin(const PlacedGrain &grain)
+void ShapePasses::begin(const PlacedGrain &grain, const std::vector<PassEnd> &contacts)
 {
   grain_ = grain;
+  contacts_ = contacts;
   overlap_.clear();
+  tangents_.clear();
+  Vec3 sum = {0, 0, 0};
+  bool is_deep = false;
+  for (const PassEnd &c : contacts) {
+    tangents_.push_back({c.normal, dot(c.normal, c.point)});
+    sum += c.normal;
+    is_deep |= c.overlap >= grain.shape.rho;
+  }
+  const Real size = norm(sum);
+  if (size > 0) {
+    const Vec3 between = (1 / size) * sum;
+    tangents_.push_back({between, support(grain.shape, between).height});
+  }
+  // There the overlap of an edge is by tangents that are parallel to it.
+  if (is_deep) tangents_.clear();
+  list_faces();
 }
 
-const std::vector<Real> &ShapePasses::find(const std::vector<PassEnd> &contacts, std::size_t from,
-                                           Real above)
+const std::vector<Real> &ShapePasses::find(std::size_t from, Real above)
 {
-  list_faces(contacts);
-  pass_.assign(contacts.size(), 0);
+  pass_.assign(contacts_.size(), 0);
   reached_.clear();
   waiting_.clear();
   const auto is_less_deep = [](const Crossing &a, const Crossing &b) {
     return a.overlap < b.overlap;
   };
-  Real pass = contacts[from].overlap;
-  each_face(view_, contacts[from].feature,
+  Real pass = contacts_[from].overlap;
+  each_face(view_, contacts_[from].feature,
             [&](int face) { reach(static_cast<std::uint32_t>(face), pass, above); });
   // Over the deepest edge of what has been reached, so that each face is reached as deep as can be.
   while (!waiting_.empty()) {
@@ -39,11 +54,11 @@ const std::vector<Real> &ShapePasses::find(const std::vector<PassEnd> &contacts,
   return pass_;
 }
 
-void ShapePasses::list_faces(const std::vector<PassEnd> &contacts)
+void ShapePasses::list_faces()
 {
   faces_.clear();
-  for (std::size_t i = 0; i < contacts.size(); i++)
-    each_face(view_, contacts[i].feature, [&](int face) {
+  for (std::size_t i = 0; i < contacts_.size(); i++)
+    each_face(view_, contacts_[i].feature, [&](int face) {
       faces_.push_back({static_cast<std::uint32_t>(face), i});
     });
   std::sort(faces_.begin(), faces_.end(),
@@ -88,6 +103,9 @@ Real ShapePasses::compute_overlap(std::uint32_t edge, Real above) const
   const int *ends = view_.edges + 2 * edge;
   const Vec3 from = grain_.own_point(view_.vertices[ends[0]]),
              to = grain_.own_point(view_.vertices[ends[1]]);
+  // No overlap is larger than that by a tangent plane.
+  for (const Tangent &t : tangents_)
+    if (t.height - smaller(dot(t.normal, from), dot(t.normal, to)) <= above) return 0;
   if (!may_cut(s, from, to, above)) return 0;
   const Real length = norm(to - from);
   const Vec3 along = (1 / length) * (to - from);

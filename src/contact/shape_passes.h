@@ -17,6 +17,7 @@ namespace lsdcd {
 struct PassEnd {
   FeatureCode feature;
   Real overlap;
+  Vec3 normal, point;    // of the grain's surface, in its frame: unit and outwards
 };
 
 // Finds passes: the pass of two contacts is the largest, over all chains of faces joined at edges from a face of one contact to a
@@ -25,11 +26,10 @@ class ShapePasses {
  public:
   explicit ShapePasses(const TriangleTree &tree) : view_(tree.view()) {}
 
-  // Begins with another grain.
-  void begin(const PlacedGrain &grain);
-  // Returns the pass of contact `from` and each other of the contacts, which are all of the grain and this mesh, if it is deeper than
-  // `above` >= 0, else 0. They are valid until the next call.
-  const std::vector<Real> &find(const std::vector<PassEnd> &contacts, std::size_t from, Real above);
+  // Begins with another grain, and all its contacts with the mesh.
+  void begin(const PlacedGrain &grain, const std::vector<PassEnd> &contacts);
+  // Returns the pass of contact `from` and each other one if it is deeper than `above` >= 0, else 0. They are valid until the next call.
+  const std::vector<Real> &find(std::size_t from, Real above);
 
  private:
   // Numbers by a key that are forgotten at once.
@@ -85,13 +85,20 @@ class ShapePasses {
     std::size_t contact;
   };
 
-  void list_faces(const std::vector<PassEnd> &contacts);
+  struct Tangent {
+    Vec3 normal;
+    Real height;    // of the plane over the centre
+  };
+
+  void list_faces();
   void reach(std::uint32_t face, Real pass, Real above);
   Real overlap_of(std::uint32_t edge, Real above);
   Real compute_overlap(std::uint32_t edge, Real above) const;
 
   const TreeView &view_;
   PlacedGrain grain_;
+  std::vector<PassEnd> contacts_;
+  std::vector<Tangent> tangents_;    // of the contacts, and one between them
   Notes<EdgeOverlap> overlap_;       // of edges
   Notes<char> reached_;              // faces
   std::vector<Crossing> waiting_;    // a heap

@@ -59,6 +59,39 @@ bool may_hold(const Superellipsoid &s, const Vec3 &y)
   return (std::fabs(u.x) < 1) & (std::fabs(u.y) < 1) & (std::fabs(u.z) < 1);
 }
 
+// May the gauge be less than 1 on a segment, of a point and the way to its other end over the half-axes? It is convex, and no less than its
+// tangents, of which the first is at a share of the way.
+bool may_be_less_than_one(const Superellipsoid &s, const Vec3 &u, const Vec3 &along, Real at)
+{
+  constexpr int kMostTangents = 6;
+  struct {
+    Real at, over, rise;    // of a tangent: where, how much more than 1, and its rise there
+  } end[2] = {{0, -1, 0}, {1, -1, 0}};
+  for (int i = 0; i < kMostTangents; i++) {
+    const Vec3 x = u + at * along;
+    const Vec3 slope = {power_of(std::fabs(x.x), s.n2 - 2) * x.x,
+                        power_of(std::fabs(x.y), s.n2 - 2) * x.y,
+                        power_of(std::fabs(x.z), s.n1 - 2) * x.z};
+    const Real across = slope.x * x.x + slope.y * x.y,
+               scale = s.n1 == s.n2 ? 1 : power_of(across, s.n1 / s.n2 - 1);
+    const Real power = scale * across + slope.z * x.z,    // the gauge to the power n1
+        rise = scale * (slope.x * along.x + slope.y * along.y) + slope.z * along.z;
+    if (power < 1) return true;
+    const Real value = std::pow(power, 1 / s.n1);
+    const bool rises = rise > 0;
+    end[rises] = {at, value - 1, value / power * rise};
+    // To where the tangents on both sides of the minimum meet, or where the one is 1.
+    const auto &low = end[0], &high = end[1];
+    const bool has_both = low.over >= 0 && high.over >= 0;
+    const Real way = end[rises].over / end[rises].rise,
+               meeting = (low.over - high.over + high.rise * high.at - low.rise * low.at) /
+                         (high.rise - low.rise);
+    at = has_both ? meeting : at - way;
+    if (has_both ? !(low.over + low.rise * (at - low.at) < 0) : !(at > 0 && at < 1)) return false;
+  }
+  return true;
+}
+
 // Returns the place of a number in an ascending list, its size where it is not there.
 template <class List, class NumberOf>
 std::uint32_t place_in(const List &list, std::uint32_t number, const NumberOf &number_of)
@@ -102,18 +135,17 @@ Real sure_distance(const Superellipsoid &s, const Vec3 &y)
 // point of that on, the surface is the rest of the ray away at most.
 bool may_cut(const Superellipsoid &s, const Vec3 &from, const Vec3 &to, Real depth)
 {
-  const Real size = 1 - depth / s.farthest;
+  const Vec3 half = (1 - depth / s.farthest) * s.half;
   const auto is_beside = [](Real a, Real b, Real half) {
     return (smaller(a, b) >= half) | (larger(a, b) <= -half);
   };
-  if (is_beside(from.x, to.x, size * s.half.x) | is_beside(from.y, to.y, size * s.half.y) |
-      is_beside(from.z, to.z, size * s.half.z))
+  if (is_beside(from.x, to.x, half.x) | is_beside(from.y, to.y, half.y) |
+      is_beside(from.z, to.z, half.z))
     return false;
-  if (!s.is_ellipsoid()) return true;
-  const Vec3 u = {from.x / s.half.x, from.y / s.half.y, from.z / s.half.z};
-  const Vec3 along = {to.x / s.half.x - u.x, to.y / s.half.y - u.y, to.z / s.half.z - u.z};
+  const Vec3 u = {from.x / half.x, from.y / half.y, from.z / half.z};
+  const Vec3 along = {to.x / half.x - u.x, to.y / half.y - u.y, to.z / half.z - u.z};
   const Real at = smaller(larger(-dot(u, along) / norm_sq(along), 0), 1);
-  return norm_sq(u + at * along) < size * size;
+  return s.is_ellipsoid() ? norm_sq(u + at * along) < 1 : may_be_less_than_one(s, u, along, at);
 }
 
 void ShapeSearch::contacts(const PlacedGrain &grain, std::vector<ShapeContact> &found)
@@ -313,13 +345,15 @@ void ShapeSearch::look_at_plane(const PlacedGrain &grain, const NearFeatures &ne
       has_foot(near, plane, rim, inner, point)) {
     owned_[static_cast<std::size_t>(&plane - near.planes.data())] = true;
   } else if (is_deep) {
+    // On the ray to the point of the surface, so that it is in the grain.
+    const Vec3 section = grain.centre + (std::fabs(height) / (std::fabs(height) + overlap)) * arm;
     for (; rim < plane.rim_end; rim++)
-      if (is_out_of_reach(grain, near.rim[rim].primitive))
-        rule_out(near.rim[rim]);
-      else
+      if (is_cut(grain, near.rim[rim].primitive, section))
         deep_.push_back({near.rim[rim].primitive, &plane, &near.rim[rim]});
+      else
+        rule_out(near.rim[rim]);
     for (; inner < plane.inner_end; inner++)
-      if (!is_out_of_reach(grain, near.inner[inner]))
+      if (is_cut(grain, near.inner[inner], section))
         deep_.push_back({near.inner[inner], &plane, nullptr});
     return;
   }
@@ -694,13 +728,19 @@ bool ShapeSearch::is_beside(const PlacedGrain &grain, std::uint32_t primitive) c
   return false;
 }
 
-// Is it beside the grain, or out of the sphere around it? All that is not is in every list, so that contacts are found in the
-// same way, and to the same bits, whatever else a list has.
-bool ShapeSearch::is_out_of_reach(const PlacedGrain &grain, std::uint32_t primitive) const
+// May the grain cut a face, of whose plane it has the point `section` in it? What it cuts of the plane is convex, so that without a
+// side that it cuts the face has all of it or none. All that is in reach is in every list, so that contacts are found in the same way,
+// and to the same bits, whatever else a list has.
+bool ShapeSearch::is_cut(const PlacedGrain &grain, std::uint32_t primitive,
+                         const Vec3 &section) const
 {
+  const TreePrimitive &p = view_.primitives[primitive];
+  const Inwards in = inwards_of(primitive, section);
+  bool may = (in[0] >= 0) & (in[1] >= 0) & (in[2] >= 0);
+  for (int k = 0; k < 3 && !may; k++)
+    may = may_cut(grain.shape, corner_of(grain, p, k), corner_of(grain, p, k == 2 ? 0 : k + 1));
   FeatureCode nearest = kNoFeature;
-  return is_beside(grain, primitive) ||
-         !is_in_reach(grain, view_.exact(primitive, grain.centre, nearest));
+  return may && is_in_reach(grain, view_.exact(primitive, grain.centre, nearest));
 }
 
 ShapeMinimum ShapeSearch::minimum_of(const PlacedGrain &grain, std::uint32_t primitive,

@@ -41,7 +41,8 @@ struct ShapeContact {
 // Returns the signed distance of a point in the grain's frame; InputError where it was not found to rounding.
 Real sure_distance(const Superellipsoid &s, const Vec3 &y);
 
-// Can a segment, in the grain's frame, cut the part of the grain that is deeper than `depth`? By its box, and an ellipsoid as a ball.
+// Can a segment, in the grain's frame, cut the part of the grain that is deeper than `depth`? Exact for an ellipsoid and a depth of 0; of another grain
+// few segments close beside it can, too.
 bool may_cut(const Superellipsoid &s, const Vec3 &from, const Vec3 &to, Real depth = 0);
 
 // Calls visit() for each face at a feature, more than once for some of a vertex.
@@ -126,7 +127,7 @@ class ShapeSearch {
   void visit(const PlacedGrain &grain, Real radius, const Found &found);
   Vec3 corner_of(const PlacedGrain &grain, const TreePrimitive &p, int k) const;
   bool is_beside(const PlacedGrain &grain, std::uint32_t primitive) const;
-  bool is_out_of_reach(const PlacedGrain &grain, std::uint32_t primitive) const;
+  bool is_cut(const PlacedGrain &grain, std::uint32_t primitive, const Vec3 &section) const;
   ShapeMinimum minimum_of(const PlacedGrain &grain, std::uint32_t primitive, Real below) const;
   ShapeMinimum contact_minimum(const PlacedGrain &grain, std::uint32_t primitive,
                                bool is_owned) const;

@@ -52,6 +52,49 @@ std::array<Real, 4> random_turn(Random &random)
   return {normal(random), normal(random), normal(random), normal(random)};
 }
 
+// The gauge is convex, so that thirds of a segment come to its least.
+TEST(shape_query, cuts_a_segment_where_the_gauge_is_less_than_one)
+{
+  Random random(7);
+  int cut = 0, left_out = 0, not_seen = 0;
+  Superellipsoid s;
+  for (int i = 0; i < 4000; i++) {
+    if (i % 50 == 0) {
+      const bool is_ellipsoid = i % 200 == 0, has_two = i % 100 == 0;
+      const Real n1 = is_ellipsoid ? 2 : uniform(random, 2, 12),
+                 n2 = is_ellipsoid || !has_two ? n1 : uniform(random, 2, 12);
+      s = make_superellipsoid(uniform(random, {0.3, 0.3, 0.3}, {1.5, 1.5, 1.5}), n1, n2);
+    }
+    const Vec3 from = uniform(random, {-3, -3, -3}, {3, 3, 3}),
+               to = uniform(random, {-3, -3, -3}, {3, 3, 3});
+    const auto gauge_at = [&](Real t) {
+      const Vec3 y = from + t * (to - from);
+      const auto power = [](Real of, Real n) { return std::pow(std::fabs(of), n); };
+      const Real across = power(y.x / s.half.x, s.n2) + power(y.y / s.half.y, s.n2);
+      return std::pow(power(across, s.n1 / s.n2) + power(y.z / s.half.z, s.n1), 1 / s.n1);
+    };
+    Real low = 0, high = 1;
+    for (int k = 0; k < 100; k++) {
+      const Real a = low + (high - low) / 3, b = high - (high - low) / 3;
+      if (gauge_at(a) < gauge_at(b))
+        high = b;
+      else
+        low = a;
+    }
+    const Real least = gauge_at(low);
+    if (std::fabs(least - 1) < 1e-6) continue;
+    cut += least < 1;
+    left_out += least > 1;
+    if (least < 1)
+      EXPECT_TRUE(may_cut(s, from, to)) << i;
+    else
+      not_seen += may_cut(s, from, to);
+  }
+  EXPECT_GT(cut, 500);
+  EXPECT_GT(left_out, 500);
+  EXPECT_LE(not_seen, left_out / 100);
+}
+
 // Grains that touch a surface by up to rho/2: moved towards it until their distance is what it should be.
 Grains at_surface(Random &random, const TriangleSoup &surface, int n, Real most_exponent)
 {

@@ -270,8 +270,10 @@ class ShapeAtMeshes {
   {
     if (ends_[m] - first < 2) return;
     memory_.ends.clear();
-    for (int c = first; c < ends_[m]; c++)
-      memory_.ends.push_back({memory_.contacts[c].feature, memory_.contacts[c].overlap});
+    for (int c = first; c < ends_[m]; c++) {
+      const SharingContact &at = memory_.sharing[c];
+      memory_.ends.push_back({at.feature, at.overlap, at.normal, at.point});
+    }
     ShapePasses &passes = memory_.of_mesh[settings(m).mesh]->passes;
     bool has_begun = false;
     for (std::size_t i = 0; i < memory_.ends.size(); i++) {
@@ -280,9 +282,9 @@ class ShapeAtMeshes {
       for (const PassEnd &other : memory_.ends)
         above = std::fmin(above, overlap_without_fade(overlap, other.overlap));
       if (!(above < overlap)) continue;    // none is deeper
-      if (!has_begun) passes.begin(memory_.placed[m]);
+      if (!has_begun) passes.begin(memory_.placed[m], memory_.ends);
       has_begun = true;
-      const std::vector<Real> &pass = passes.find(memory_.ends, i, std::fmax(above, Real(0)));
+      const std::vector<Real> &pass = passes.find(i, std::fmax(above, Real(0)));
       for (std::size_t j = 0; j < pass.size(); j++)
         if (pass[j] > 0)
           memory_.rule.add_pass(first + static_cast<int>(i), first + static_cast<int>(j), pass[j]);
