@@ -8,6 +8,7 @@
 
 #include "base/input_error.h"
 #include "engine/broad_phase/broad_phase.h"
+#include "engine/loads/load_sums.h"
 #include "engine/mirror.h"
 #include "engine/nodes/moving_nodes.h"
 #include "engine/resident_springs.h"
@@ -159,12 +160,13 @@ class EngineOn : public WallEngine {
     nodes_.swap(other.nodes_);
     for (const auto &nodes : nodes_) nodes->set_engine(*this);
   }
+  LoadEngine *loads() override { return B::kOnCpu ? nullptr : &loads_; }
   std::size_t bytes() const override
   {
     std::size_t bytes = broad_phase_.bytes() + mirror_.bytes() + springs_.bytes() +
                         results_.bytes() + next_results_.bytes() +
                         overflow_.size() * sizeof(OverflowScratch) + work_lists_.bytes() +
-                        b_.scratch_bytes() + beside_.scratch_bytes();
+                        loads_.bytes() + b_.scratch_bytes() + beside_.scratch_bytes();
     for (const auto &nodes : nodes_) bytes += nodes->bytes();
     return bytes;
   }
@@ -186,6 +188,15 @@ class EngineOn : public WallEngine {
   {
     if (broad_phase_.uses_slots())
       springs_.forget_others(broad_phase_.slots().n_spheres(), broad_phase_.slots().meshes_of());
+  }
+
+  // The contacts of the last step. Records of nodes that move have no images.
+  NodeContacts contacts_on(int mesh) const
+  {
+    const bool has_nodes = !nodes_.empty() && nodes_[mesh]->field().velocity;
+    const MeshFeaturesView wall =
+        has_nodes ? MeshFeaturesView() : broad_phase_.mesh(mesh).grid.view.wall;
+    return results_.node_contacts(springs_.contacts(step_.update_history), mesh, wall, nullptr);
   }
 
   void unlock_scratches()
@@ -366,6 +377,8 @@ class EngineOn : public WallEngine {
   WorkListStore<B> work_lists_;
   friend class MovingNodes<B>;
   std::vector<std::unique_ptr<MovingNodes<B>>> nodes_;    // of each mesh; none where none move
+  friend class LoadsOn<B>;
+  LoadsOn<B> loads_{*this};
   std::vector<std::optional<MeshWork>>
       works_of_meshes_;      // none: something of it may have changed
   Array<MeshWork> works_;    // the same where kernels read them

@@ -15,7 +15,7 @@ EngineInput::EngineInput(const Host &host, const WallSpec &wall, const LawTable 
     has_heat_(wall.law().has_heat())
 {
   of_all_steps_.per_sphere = wall.contacts || wall.each_contact;
-  of_all_steps_.contacts = wall.has_loads() || wall.each_contact;
+  of_all_steps_.contacts = wall.each_contact;
   of_all_steps_.totals = wall.average_every > 0;
 }
 
@@ -32,7 +32,7 @@ EngineSettings EngineInput::settings(Device device, bool virial, bool pushed) co
     want.nodes |= m.nodes() != nullptr;
     if (!want.surface.moves()) want.surface = m.spec.surface;
   }
-  want.contacts = of_all_steps_.contacts || virial;
+  want.contacts = of_all_steps_.contacts || wall_.has_loads() || virial;
   want.bodies = pushed;
   want.wear = wall_.wear.model;
   want.device = device;
@@ -49,7 +49,7 @@ StepSettings EngineInput::step(const StepInput &input, const StepAsks &asks)
   step.update_history = input.step.kind == Step::step;
   step.synchronous = input.step.synchronous;
   step.per_sphere |= asks.contacts;
-  step.contacts |= input.virial || asks.contacts;
+  step.contacts |= input.virial || asks.contacts || asks.loads;
   step.totals |= asks.totals;
   if (has_surfaces_) {
     surfaces_.clear();

@@ -16,6 +16,7 @@ namespace lsdcd {
 struct StepAsks {
   bool pushed;      // mobilities: one of them is a body
   bool contacts;    // the contacts themselves
+  bool loads;       // these, for loads of features
   bool totals;      // sums, for the next step
 };
 

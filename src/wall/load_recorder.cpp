@@ -10,25 +10,54 @@ LoadRecorder::LoadRecorder(Host &host, const WallSpec &settings) :
 {
 }
 
+void LoadRecorder::set_engine(LoadEngine *engine)
+{
+  for (int mesh = 0; mesh < static_cast<int>(loads_.size()); mesh++) taken(mesh);
+  engine_ = engine;
+}
+
+// Volume per work.
+Real LoadRecorder::wear_per_work(int mesh) const
+{
+  return settings_.meshes[mesh].wear_factor * settings_.wear.per_work;
+}
+
+// Returns the loads with what the engine has added up since the last time.
+MeshLoads &LoadRecorder::taken(int mesh)
+{
+  MeshLoads &loads = loads_[mesh];
+  if (!engine_) return loads;
+  constexpr int kRow = LoadEngine::kRow, kWork = 4;
+  static_assert(kRow == MeshLoads::kPackedLoad);
+  std::vector<Real> rows = engine_->take(mesh);
+  for (std::size_t at = kWork; at < rows.size(); at += kRow) rows[at] *= wear_per_work(mesh);
+  loads.add_packed(rows.data(), rows.size() / kRow);
+  return loads;
+}
+
+void LoadRecorder::begin_average(int mesh)
+{
+  taken(mesh).begin_average();
+}
+
 void LoadRecorder::add(int mesh, const std::vector<StepContact> &contacts, Real dt,
                        const MeshFeaturesView &features)
 {
-  const MeshSpec &of = settings_.meshes[mesh];
-  if (settings_.has_loads(of))
-    loads_[mesh].add(contacts.data(), static_cast<int>(contacts.size()), dt,
-                     of.wear_factor * settings_.wear.per_work, features, mesh);
+  if (settings_.has_loads(settings_.meshes[mesh]))
+    loads_[mesh].add(contacts.data(), static_cast<int>(contacts.size()), dt, wear_per_work(mesh),
+                     features, mesh);
 }
 
-Real LoadRecorder::worn(int mesh) const
+Real LoadRecorder::worn(int mesh)
 {
-  Real worn = loads_[mesh].worn();
+  Real worn = taken(mesh).worn();
   host_.sum(&worn, 1);
   return worn;
 }
 
-MeshLoads LoadRecorder::gathered(int mesh) const
+MeshLoads LoadRecorder::gathered(int mesh)
 {
-  const std::vector<Real> rows = host_.gather(loads_[mesh].packed());
+  const std::vector<Real> rows = host_.gather(taken(mesh).packed());
   MeshLoads all;
   all.set_time(loads_[mesh].time());
   all.add_packed(rows.data(), rows.size() / MeshLoads::kPackedLoad);
@@ -37,7 +66,7 @@ MeshLoads LoadRecorder::gathered(int mesh) const
 
 void LoadRecorder::restore(int mesh, Real time, const std::vector<double> &rows)
 {
-  loads_[mesh] = MeshLoads();
+  taken(mesh) = MeshLoads();
   loads_[mesh].set_time(time);
   if (host_.is_first()) loads_[mesh].add_packed(rows.data(), rows.size() / MeshLoads::kPackedLoad);
 }

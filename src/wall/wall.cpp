@@ -116,7 +116,11 @@ void Wall::make_engine()
   std::unique_ptr<WallEngine> made;
   run_collectively(host_, true, [&] { made = backend_.make_engine(want); });
   give_nodes(host_, with_nodes_, engine_.get(), *made);
+  loads_.set_engine(made->loads());    // while the last one is there
   engine_ = std::move(made);
+  reads_loads_ = false;
+  for (const MeshPart *m : recorded_)
+    reads_loads_ = reads_loads_ || !engine_->loads() || spec_.recedes(m->spec);
   history_.set_engine(*engine_, backend_.in_place);
   grids_.set_engine(*engine_);
   for (const MeshPart *m : placed_) engine_->set_pose(m->pose(), m->index);
@@ -430,7 +434,7 @@ StepSettings Wall::step_settings()
   const bool asked = any(bodies_, [](const MeshPart *m) { return m->body->asks_for_contacts(); });
   const bool sums =
       !bodies_.empty() || any(servos_, [](const MeshPart *m) { return m->mover.servo_acts(); });
-  return engine_input_.step(input_, {!bodies_.empty(), asked, sums});
+  return engine_input_.step(input_, {!bodies_.empty(), asked, reads_loads_, sums});
 }
 
 void Wall::collect(int n)
@@ -493,9 +497,14 @@ void Wall::note_step(const HostSpheres &spheres)
   if (spec_.average_every > 0 && step.kind == Step::step)
     means_.add(step, left, poses_, node_loads(), coats_.loads());
   if (step.kind == Step::step)    // what sets a run up has no duration
-    for (const MeshPart *m : recorded_)
-      loads_.add(m->index, left ? left->contacts() : none, step.dt,
+    for (const MeshPart *m : recorded_) {
+      const MeshReport &has = m->grid.report();
+      const bool is_in_place = engine_->loads();
+      if (left && is_in_place)
+        engine_->loads()->add(m->index, {has.facets, has.edges, has.vertices}, step.dt);
+      loads_.add(m->index, left && !is_in_place ? left->contacts() : none, step.dt,
                  left ? m->records() : MeshFeaturesView());
+    }
   for (const MeshPart *m : changing_)
     if (left) m->surface->end(*left, step);
   if (step.kind == Step::setup) log_new_springs(step);

@@ -112,7 +112,7 @@ class Wall {
   // Return the volume by which wear has moved a mesh back, and the volume that is worn but held back, see MeshWear. 0 of others.
   Real removed(int mesh) const { return meshes_[mesh].surface->removed(); }
   Real held_back(int mesh) const { return meshes_[mesh].surface->held_back(); }
-  Real worn(int mesh) const { return spec_.wears() ? loads_.worn(mesh) : 0; }    // volume
+  Real worn(int mesh) { return spec_.wears() ? loads_.worn(mesh) : 0; }    // volume
   // Returns the force, or the torque, of the mesh on the spheres along the axis of its servo.
   Real servo_push(int mesh);
   // Returns the body that a mesh is, with velocities of the whole step, or null if it is none.
@@ -259,7 +259,8 @@ class Wall {
   bool is_set_up_ = false;    // the last step set a run up
   std::unique_ptr<WallEngine> engine_;
   bool engine_moves_ = false, engine_contacts_ = false;    // what its laws are compiled for
-  bool virial_ = false;                                    // may be asked for in this run
+  bool reads_loads_ = false;    // are contacts read in each step for loads or wear?
+  bool virial_ = false;         // may be asked for in this run
 
   HistoryExchange history_;
   StepTotals totals_;

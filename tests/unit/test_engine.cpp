@@ -13,6 +13,7 @@
 #include "engine/engine_on.h"
 #include "engine/step/compile_law.h"
 #include "grid/lookup/occupied_within.h"
+#include "output/mesh_loads.h"
 #include "support/crowd.h"
 #include "support/device.h"
 #include "support/says.h"
@@ -562,6 +563,62 @@ TEST(engine, a_step_without_outputs_neither_copies_nor_waits)
   for (int k = 0; k < 5; k++) EXPECT_EQ(crossings_of(false), 0);
   EXPECT_GT(crossings_of(true), 0);
   EXPECT_GT(particles.engine->results().totals().contacts, 100);
+}
+
+// Against sums over the contacts of each step, in double. Units are at most 2^-48 of twice the largest number of a step with fewer than 2^13
+// contacts, and its sums are rounded once more: less than 2^-46 of it for each contact.
+TEST(engine, adds_up_the_loads_of_features_without_copying_contacts)
+{
+  EngineSettings s = with_history();
+  s.contacts = true;
+  s.wear = WearModel::archard;
+  const int n = 3000, n_steps = 6;
+  Particles in_place(s, n, 0.5, false), host(s, n, 0.5, false);
+  in_place.engine = by_two_kernels(s);
+  in_place.engine->set_grid(in_place.flat.view());
+  in_place.engine->springs().grow(n);
+  const WeldedMesh mesh = weld(floor_mesh(60, 10, 7), -1);
+  const FeatureCounts counts = {mesh.faces.size(), mesh.edges.size(), mesh.vertices.size()};
+  for (const int takes : {0, 1}) {
+    MeshLoads oracle;
+    Real largest[8] = {};
+    std::size_t most = 0;
+    for (int k = 0; k < n_steps; k++) {
+      host.step(0.01, Particles::Candidates::now);
+      const std::vector<StepContact> contacts = host.engine->results().contacts();
+      most = std::max(most, contacts.size());
+      oracle.add(contacts.data(), static_cast<int>(contacts.size()), 0.01, 1);
+      for (const StepContact &c : contacts) {
+        const Real numbers[] = {c.normal,  c.shear,   1,        c.wear_power,
+                                c.force.x, c.force.y, c.force.z};
+        for (int j = 0; j < 7; j++)
+          largest[1 + j] = std::max(largest[1 + j], 0.01 * std::fabs(numbers[j]));
+      }
+      in_place.host.move(0.01);
+      in_place.engine->choose(in_place.spheres(), 0);
+      StepSettings step;
+      step.dt = 0.01;
+      step.contacts = false;
+      const int before = CountingBackend::crossings();
+      in_place.engine->step(in_place.spheres(), step);
+      in_place.engine->loads()->add(0, counts, 0.01);
+      if (k > 0) {    // the first one makes room
+        EXPECT_EQ(CountingBackend::crossings(), before);
+      }
+      EXPECT_TRUE(in_place.engine->results().contacts().empty());
+    }
+    const std::vector<Real> rows = in_place.engine->loads()->take(0), wanted = oracle.packed();
+    ASSERT_EQ(rows.size(), wanted.size());
+    EXPECT_GT(rows.size(), 8 * 100u) << takes;
+    EXPECT_LT(most, 1u << 13);
+    for (std::size_t at = 0; at < rows.size(); at += 8) {
+      EXPECT_EQ(rows[at], wanted[at]);
+      const Real n_contacts = std::round(wanted[at + 3] / 0.01);
+      for (int j = 1; j < 8; j++)
+        EXPECT_NEAR(rows[at + j], wanted[at + j], n_contacts * largest[j] * std::ldexp(1, -46));
+    }
+  }
+  EXPECT_TRUE(in_place.engine->loads()->take(0).empty());
 }
 
 TEST(engine, outputs_of_the_step_that_asks_for_them_are_those_of_always_asking)

@@ -105,6 +105,41 @@ TEST(WallFiles, that_are_pipes_are_refused_and_stay)
   EXPECT_TRUE(S_ISFIFO(there.st_mode));
 }
 
+// An engine that has added up the same row each time it is asked.
+struct OneRow : LoadEngine {
+  void add(int, const FeatureCounts &, Real) override {}
+  std::vector<Real> take(int) override { return {3, 1, 2, 4, 5, 6, 7, 8}; }
+};
+
+TEST(WallFiles, take_what_an_engine_has_added_up)
+{
+  FakeHost host;
+  Wall wall;
+  wall.settings.wear = {WearModel::archard, 10};
+  wall.settings.meshes[0].wear_factor = 3;
+  LoadRecorder loads(host, wall.settings);
+  OneRow first, second;
+  loads.set_engine(&first);
+  const auto has = [&](Real times, Real worn) {
+    const std::vector<Real> row = {3,          times,     2 * times, 4 * times,
+                                   150 * worn, 6 * times, 7 * times, 8 * times};
+    EXPECT_EQ(loads.gathered(0).packed(), row);
+  };
+  has(1, 1);
+  EXPECT_EQ(loads.worn(0), 300);    // twice 5 of work, times 3 and 10
+  has(3, 3);
+  loads.set_engine(&second);    // takes what the first one has, and then the second
+  has(5, 5);
+  loads.set_engine(nullptr);
+  has(6, 6);
+  loads.begin_average(0);
+  has(0, 6);
+  loads.set_engine(&first);
+  loads.restore(0, 1, {3, 1, 2, 4, 150, 6, 7, 8});
+  loads.set_engine(nullptr);
+  has(2, 2);
+}
+
 TEST(WallFiles, need_no_loads_of_a_mesh_without_wear_and_mesh_fields)
 {
   FakeHost host;
