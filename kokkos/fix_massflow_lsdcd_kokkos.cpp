@@ -4,8 +4,11 @@
 #include "fix_massflow_lsdcd_kokkos.h"
 
 #include "backend/owned_array.h"
+#include "lammps/fix_wall_lsdcd.h"
+#include "lammps/host_fixes.h"
 
 #include "atom.h"
+#include "modify.h"
 #include "update.h"
 
 #include <algorithm>
@@ -25,7 +28,7 @@ constexpr int kRow = FixMassflowLsdcdKokkos::kRow;
 constexpr std::size_t kLeastRoom = 4096;    // for candidates
 
 // Near the surface since all atoms were last looked at. A bit of an atom's flags beside those of the plain fix.
-constexpr unsigned kNear = 1u << 8;
+constexpr unsigned kNear = 1u << 8, kDelete = FixMassflowLsdcdKokkos::kToDelete;
 // Its surface may be nearer than the atom has gone unseen. A bit of a candidate's flags.
 constexpr unsigned kLost = 1u << 9;
 
@@ -101,6 +104,29 @@ struct BeginAtAtoms {
   {
     const Vec3 at = x[i];
     for (int d = 0; d < 3; d++) places[3 * i + d] = at[d];
+  }
+};
+
+struct FindToDelete {
+  const unsigned *flags;
+  int *found, *count;
+  KOKKOS_INLINE_FUNCTION void operator()(const int i) const
+  {
+    if (flags[i] & kDelete) found[Kokkos::atomic_fetch_add(count, 1)] = i;
+  }
+};
+
+template <class Number>
+struct ReadMasses {
+  const int *of;
+  const Number *rmass;    // null: types have masses
+  const int *type;
+  double *masses;
+  int *types;
+  KOKKOS_INLINE_FUNCTION void operator()(const int k) const
+  {
+    masses[k] = rmass ? rmass[of[k]] : 0;
+    types[k] = type[of[k]];
   }
 };
 
@@ -190,7 +216,97 @@ void FixMassflowLsdcdKokkos::pre_exchange()
   int any = may_delete;
   MPI_Allreduce(MPI_IN_PLACE, &any, 1, MPI_INT, MPI_MAX, world);
   may_delete = false;
-  if (any) lsdcd::run_on_host(lmp, [this] { FixMassflowLsdcd::pre_exchange(); });
+  if (!any) return;
+  if (deletes_on_device())
+    delete_on_device();
+  else
+    lsdcd::run_on_host(lmp, [this] { FixMassflowLsdcd::pre_exchange(); });
+}
+
+// Do all data of atoms leave processes on the device?
+bool FixMassflowLsdcdKokkos::deletes_on_device() const
+{
+  if (lmp->kokkos->exchange_comm_legacy || atom->ellipsoid_flag) return false;
+  const std::vector<Fix *> fixes = lsdcd::host_fixes(*modify);
+  for (int k = 0; k < atom->nextra_grow; k++)
+    if (!fixes[atom->extra_grow[k]]->exchange_comm_device) return false;
+  return true;
+}
+
+// As LAMMPS lets atoms leave a process, but their messages go nowhere.
+void FixMassflowLsdcdKokkos::delete_on_device()
+{
+  const std::vector<Fix *> fixes = lsdcd::host_fixes(*modify);
+  // Walls say how large the data of an atom are in their own pre_exchange(), which may come after this one.
+  for (Fix *fix : fixes)
+    if (dynamic_cast<FixWallLsdcd *>(fix)) fix->pre_exchange();
+
+  change_on_device();
+  const int before = atom->nlocal;
+  if (near.extent(0) < static_cast<std::size_t>(before))
+    near = decltype(near)("lsdcd:near", lsdcd::with_spare(before));
+  for_each(before, FindToDelete{flags.view_device().data(), near.data(), counts.data()});
+  int seen[2];
+  read_counts(seen);
+  Kokkos::deep_copy(counts, 0);
+  const int n = seen[0], after = before - n;
+  double mass = 0;
+  if (n > 0) {
+    DAT::tdual_int_1d gone("lsdcd:gone", n), comes("lsdcd:comes", n);
+    const auto list = gone.view_host();
+    Kokkos::deep_copy(list, Kokkos::subview(near, std::make_pair(0, n)));
+    std::sort(list.data(), list.data() + n);
+    // Atoms behind the last that stays go to where there are gaps.
+    for (int k = 0, next = after; k < n; k++) {
+      const bool is_gap = list(k) < after;
+      while (is_gap && std::binary_search(list.data(), list.data() + n, next)) next++;
+      comes.view_host()(k) = is_gap ? next++ : -1;
+    }
+    gone.modify_host();
+    comes.modify_host();
+    gone.sync<DeviceSpace>();
+    comes.sync<DeviceSpace>();
+    mass = summed_mass(gone);
+    pack_away(n, gone, comes);
+  }
+  note_deleted(n, mass);
+}
+
+double FixMassflowLsdcdKokkos::summed_mass(DAT::tdual_int_1d &list)
+{
+  atomKK->sync(execution_space, RMASS_MASK | TYPE_MASK);
+  const auto of_atoms = atomKK->k_rmass.view<DeviceSpace>();
+  using Number = std::remove_pointer_t<decltype(of_atoms.data())>;
+  const std::size_t n = list.extent(0);
+  Kokkos::View<double *, DeviceSpace> masses("lsdcd:masses", n);
+  Kokkos::View<int *, DeviceSpace> types("lsdcd:types", n);
+  for_each(static_cast<int>(n), ReadMasses<Number>{list.view<DeviceSpace>().data(),
+                                                   atom->rmass ? of_atoms.data() : nullptr,
+                                                   atomKK->k_type.view<DeviceSpace>().data(),
+                                                   masses.data(), types.data()});
+  const auto mass = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), masses);
+  const auto type = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), types);
+  double sum = 0;
+  for (std::size_t k = n; k-- > 0;)    // in the order of the plain fix
+    sum += atom->rmass ? mass(k) : atom->mass[type(k)];
+  return sum;
+}
+
+// Atom gone[k] goes and atom comes[k], if that is not -1, takes its place, in all arrays of atoms.
+void FixMassflowLsdcdKokkos::pack_away(int n, DAT::tdual_int_1d &gone, DAT::tdual_int_1d &comes)
+{
+  constexpr int kColumnsOfBuffer = 64;
+  lsdcd::ExchangeBuffer buffer("lsdcd:buffer", 1, kColumnsOfBuffer);
+  lsdcd::pack_exchange(*atomKK->avecKK, n, buffer, gone, comes, execution_space);
+  atom->nlocal -= n;
+  const std::vector<Fix *> fixes = lsdcd::host_fixes(*modify);
+  for (int k = 0; k < atom->nextra_grow; k++) {
+    Fix *const fix = fixes[atom->extra_grow[k]];
+    const std::size_t rows = static_cast<std::size_t>(n) * fix->maxexchange / kColumnsOfBuffer + 1;
+    if (buffer.extent(0) < rows)
+      buffer = lsdcd::ExchangeBuffer("lsdcd:buffer", rows, kColumnsOfBuffer);
+    dynamic_cast<KokkosBase *>(fix)->pack_exchange_kokkos(n, buffer, gone, comes, execution_space);
+  }
 }
 
 // ---- a step ------------------------------------------------------------------------------

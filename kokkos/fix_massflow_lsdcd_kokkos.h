@@ -34,7 +34,8 @@ class FixMassflowLsdcdKokkos : public FixMassflowLsdcd, public KokkosBase {
                               ExecutionSpace) override;
   void sort_kokkos(Kokkos::BinSort<KeyViewType, BinOp> &) override;
 
-  // Kernels of nvcc name these.
+  // Kernels name these.
+  using FixMassflowLsdcd::kToDelete;
   using DeviceSpace = LMPDeviceType;
 #if defined(KOKKOS_ENABLE_CUDA)
   using SharedMemory = std::conditional_t<lsdcd::kOnCpu<LMPDeviceType>, Kokkos::HostSpace,
@@ -82,6 +83,10 @@ class FixMassflowLsdcdKokkos : public FixMassflowLsdcd, public KokkosBase {
   void run_kernel(const int *of, int n);
   void read_counts(int (&)[2]) const;
   void count_found(int);
+  bool deletes_on_device() const;
+  void delete_on_device();
+  double summed_mass(DAT::tdual_int_1d &);
+  void pack_away(int, DAT::tdual_int_1d &, DAT::tdual_int_1d &);
 };
 
 }    // namespace LAMMPS_NS

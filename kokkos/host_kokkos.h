@@ -7,6 +7,7 @@
 
 #include "atom_kokkos.h"
 #include "atom_masks.h"
+#include "atom_vec_kokkos.h"
 #include "error.h"
 #include "fix.h"
 #include "kokkos.h"
@@ -34,6 +35,18 @@ struct SecondArgument<R (C::*)(A, B, More...)> {
 };
 using ExchangeBuffer =
     typename SecondArgument<decltype(&LAMMPS_NS::KokkosBase::pack_exchange_kokkos)>::type;
+
+// Packs atoms that leave, and moves others to their places; LAMMPS of 2026 has a list of bonus data, too.
+template <class Atoms, class List>
+void pack_exchange(Atoms &atoms, int n, ExchangeBuffer &buffer, List &leave, List &come,
+                   LAMMPS_NS::ExecutionSpace space)
+{
+  if constexpr (std::is_invocable_v<decltype(&Atoms::pack_exchange_kokkos), Atoms &, const int &,
+                                    ExchangeBuffer &, List, List, List, decltype(space)>)
+    atoms.pack_exchange_kokkos(n, buffer, leave, come, List(), space);
+  else
+    atoms.pack_exchange_kokkos(n, buffer, leave, come, space);
+}
 
 // A view of LAMMPS as rows, of whatever layout it is.
 template <class View>

@@ -70,6 +70,7 @@ class FixMassflowLsdcd : public Fix, protected OwnMessages {
   virtual unsigned &flags_of(int i) { return tracks[i].flags; }
 
   void count(const Passer &, lsdcd::Passes, unsigned &flags);
+  void note_deleted(bigint n, double mass);    // of this process; collective
   [[noreturn]] void lost_sight(std::int64_t id) const;
   double simulated_time() const;
   void forget_tracks() { std::vector<Track>().swap(tracks); }    // for a form with others

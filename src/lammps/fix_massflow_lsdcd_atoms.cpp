@@ -5,9 +5,12 @@
 
 #include "lammps/fix_massflow_lsdcd.h"
 
+#include "lammps/fix_wall_lsdcd.h"
 #include "lammps/host_atom_vec.h"
+#include "lammps/host_fixes.h"
 
 #include "atom.h"
+#include "modify.h"
 
 #include <algorithm>
 
@@ -71,19 +74,28 @@ int FixMassflowLsdcd::maxsize_restart()
 // In falling order, so that the last atom, which takes the place of one, is not to be deleted.
 void FixMassflowLsdcd::pre_exchange()
 {
-  double *deleted = &mine[kColumns * size_array_rows];
   bigint n = 0;
+  double mass = 0;
   for (int i = atom->nlocal - 1; i >= 0; i--) {
     if (!(flags_of(i) & kToDelete)) continue;
     n++;
-    deleted[kDeletedMass] += mass_of(i);
+    mass += mass_of(i);
     atom->avec->copy(--atom->nlocal, i, 1);
   }
+  note_deleted(n, mass);
+}
+
+void FixMassflowLsdcd::note_deleted(bigint n, double mass)
+{
+  double *deleted = &mine[kColumns * size_array_rows];
   deleted[kDeleted] += n;
+  deleted[kDeletedMass] += mass;
   MPI_Allreduce(MPI_IN_PLACE, &n, 1, MPI_LMP_BIGINT, MPI_SUM, world);
   if (n == 0) return;
   reduced = false;
   atom->natoms -= n;
+  for (Fix *fix : lsdcd::host_fixes(*modify))
+    if (auto *wall = dynamic_cast<FixWallLsdcd *>(fix)) wall->note_deleted(n);
   if (atom->map_style == Atom::MAP_NONE) return;
   atom->nghost = 0;    // the map must not name ghosts that are gone
   atom->map_init();

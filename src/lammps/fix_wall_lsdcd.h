@@ -72,6 +72,9 @@ class FixWallLsdcd : public Fix, protected OwnMessages {
   const std::deque<lsdcd::MeshPart> &meshes() const { return wall->meshes(); }
   std::vector<lsdcd::ScriptFile> files() const;    // that it reads and writes
 
+  // Another fix has deleted n atoms of all processes: there are no new ones because of that.
+  void note_deleted(bigint n) { counted_atoms -= n; }
+
   // For fixes that come before the wall in a step. Collective.
   void prepare_meshes();                                 // as the wall will before it moves them
   std::vector<lsdcd::Vec3> places_of_nodes(int mesh);    // where the atoms are that are its nodes
