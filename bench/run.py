@@ -31,6 +31,7 @@ BENCHMARKS = {
     "bodies": ("effects_bodies", CPU, "{bin}/bench_effects bodies 5000 61 {commit}", "what meshes that are rigid bodies cost"),
     "kokkos": ("kokkos", CPU, SCRIPT + "kokkos.py kokkos " + COMMON, "steps of a LAMMPS with Kokkos, on its own device"),
     "scale": ("scale", CPU, SCRIPT + "kokkos.py scale " + COMMON, "how many grains LAMMPS with Kokkos holds in a mesh, and what the wall costs then"),
+    "hopper": ("hopper", CPU, SCRIPT + "kokkos_hopper.py " + COMMON, "what each fix adds to a hopper in a LAMMPS with Kokkos"),
     "liggghts": ("liggghts", CPU, SCRIPT + "liggghts.py " + COMMON, "our wall beside LIGGGHTS's"),
     "hard-curves": ("hard_curves", CPU, SCRIPT + "hard_curves.py " + COMMON, "two hard cases beside LIGGGHTS, as curves"),
     "floor": ("floor", CPU, SCRIPT + "own_walls.py floor " + COMMON, "a mesh beside a flat plane"),
