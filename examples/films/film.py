@@ -50,6 +50,8 @@ FILMS = {
                   ["valve.stl", "rotor_*.stl"]),
     "chute": Film("chute", (60, -62), (-0.02, 0.32, -0.09, 0.09, -0.3, 0.17), (0.05, "50 mm"), ("nm, worn depth", 0, 20),
                   ["plate_*.vtp", "chute_sides.stl", "bin.stl"], "none", 2e-8, 0.0, ("chute_sides.stl", "bin.stl")),
+    "hopper": Film("hopper", (84, -78), (-0.05, 0.07, 0, 0.05, -0.06, 0.125), (0.02, "20 mm"), ("m/s, speed", 0, 0.6),
+                   ["film_hopper.stl", "film_gate_*.stl"], "speed", cut=0.0, hidden=("film_hopper.stl",)),
     "wheel": Film("wheel", (84, -78), (-0.26, 0.26, 0, 0.12, -0.22, 0.45), (0.1, "0.1 m"), ("m/s, speed", 0, 2.5),
                   ["tank.stl", "wheel_*.stl"], "speed"),
     # Of examples/benchmark.
