@@ -12,6 +12,7 @@
 #include "update.h"
 
 #include <algorithm>
+#include <cstring>
 #include <unordered_map>
 #include <vector>
 
@@ -203,10 +204,24 @@ FixMassflowLsdcdKokkos::FixMassflowLsdcdKokkos(LAMMPS *lmp, int narg, char **arg
   for (int i = 0; i < atom->nlocal; i++) FixMassflowLsdcdKokkos::set_arrays(i);
 }
 
-// Candidates are counted before their atoms get other indices.
+// Candidates are counted before their atoms get other indices. Where a fix asks for the end of steps, Kokkos's integrators do not join two
+// halves to one kernel: atoms are where they will be then before that, and only rows have their velocities.
 int FixMassflowLsdcdKokkos::setmask()
 {
-  return FixMassflowLsdcd::setmask() | PRE_EXCHANGE | POST_RUN;
+  const int mask = FixMassflowLsdcd::setmask() | PRE_EXCHANGE | POST_RUN;
+  return settings.file.empty() ? (mask & ~END_OF_STEP) | POST_FORCE : mask;
+}
+
+void FixMassflowLsdcdKokkos::init()
+{
+  FixMassflowLsdcd::init();
+  if (std::strncmp(update->integrate_style, "respa", 5) == 0)
+    fatal("it looks at atoms in steps of run_style verlet only: use massflow/lsdcd/kk/host");
+}
+
+void FixMassflowLsdcdKokkos::post_force(int /*vflag*/)
+{
+  end_of_step();
 }
 
 void FixMassflowLsdcdKokkos::pre_exchange()

@@ -19,6 +19,8 @@ class FixMassflowLsdcdKokkos : public FixMassflowLsdcd, public KokkosBase {
   FixMassflowLsdcdKokkos(class LAMMPS *, int, char **);
 
   int setmask() override;
+  void init() override;
+  void post_force(int) override;
   void pre_exchange() override;
 
   void grow_arrays(int) override;

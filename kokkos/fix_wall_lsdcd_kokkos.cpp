@@ -130,11 +130,32 @@ void FixWallLsdcdKokkos<DeviceType>::put_forces(To &to)
 }
 
 // LAMMPS calls pre_reverse() once the GPU has been given the forces between atoms, and before the next
-// kernel, for which Kokkos may wait until they are done.
+// kernel, for which Kokkos may wait until they are done. Where a fix asks for the end of steps, Kokkos's integrators do not
+// join two halves to one kernel; the wall has all that it writes before that.
 template <class DeviceType>
 int FixWallLsdcdKokkos<DeviceType>::setmask()
 {
-  return FixWallLsdcd::setmask() | (lsdcd::kOnCpu<DeviceType> ? 0 : PRE_REVERSE);
+  return (FixWallLsdcd::setmask() & ~END_OF_STEP) | (lsdcd::kOnCpu<DeviceType> ? 0 : PRE_REVERSE);
+}
+
+template <class DeviceType>
+void FixWallLsdcdKokkos<DeviceType>::write_files()
+{
+  if (wall->files_every() > 0 && update->ntimestep % wall->files_every() == 0) end_of_step();
+}
+
+template <class DeviceType>
+void FixWallLsdcdKokkos<DeviceType>::setup(int vflag)
+{
+  FixWallLsdcd::setup(vflag);
+  if (rerun) write_files();
+}
+
+template <class DeviceType>
+void FixWallLsdcdKokkos<DeviceType>::post_force(int vflag)
+{
+  FixWallLsdcd::post_force(vflag);
+  write_files();
 }
 
 template <class DeviceType>

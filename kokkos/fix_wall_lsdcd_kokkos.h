@@ -20,7 +20,9 @@ class FixWallLsdcdKokkos : public FixWallLsdcd, public KokkosBase {
   int setmask() override;
   void init() override;
   void setup_pre_exchange() override { pre_exchange(); }
+  void setup(int) override;
   void pre_reverse(int, int) override;
+  void post_force(int) override;
   void post_run() override;
 
   // springs on the device
@@ -45,6 +47,7 @@ class FixWallLsdcdKokkos : public FixWallLsdcd, public KokkosBase {
  private:
   std::unique_ptr<lsdcd::WallEngine> make_engine(const lsdcd::EngineSettings &);
   lsdcd::HostSpheres to_cpu(lsdcd::CpuArrays);
+  void write_files();
   void log_rounding();
   void warn_of_rounding();
   bool others_only_add() const;

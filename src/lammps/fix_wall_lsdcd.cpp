@@ -294,7 +294,6 @@ std::vector<lsdcd::ScriptFile> FixWallLsdcd::files() const
 
 int FixWallLsdcd::setmask()
 {
-  // Where a fix asks for the end of steps, Kokkos's integrators do not join two halves to one kernel.
   return PRE_FORCE | PRE_FORCE_RESPA | POST_FORCE | POST_FORCE_RESPA | POST_RUN | PRE_EXCHANGE |
          (wall->files_every() > 0 ? END_OF_STEP : 0);
 }
