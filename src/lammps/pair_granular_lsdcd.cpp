@@ -155,6 +155,9 @@ void PairGranularLsdcd::init_style()
   laws.clear();
   flips_of.clear();
   const auto add = [&](const lsdcd::PairCoeff &coeff) {
+    // Pairs of one law are computed together.
+    for (std::size_t k = 0; k < coeffs.size(); k++)
+      if (lsdcd::are_equal(coeffs[k], coeff)) return static_cast<int>(k);
     lsdcd::ContactLaw law = lsdcd::law_of(coeff);
     // The stiffnesses of hertz/history are pressures.
     if (law.is_classic() && law.is(lsdcd::NormalModel::hertz)) {

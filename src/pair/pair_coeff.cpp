@@ -53,7 +53,26 @@ GivenSubModel mixed(const GivenSubModel &a, const GivenSubModel &b)
   return made;
 }
 
+bool are_same(Real a, Real b)    // NULL is no number
+{
+  return a == b || (std::isnan(a) && std::isnan(b));
+}
+bool are_same(const GivenSubModel &a, const GivenSubModel &b)
+{
+  return a.row == b.row &&
+         std::equal(a.numbers.begin(), a.numbers.end(), b.numbers.begin(), b.numbers.end(),
+                    [](Real x, Real y) { return are_same(x, y); });
+}
+
 }    // namespace
+
+bool are_equal(const PairCoeff &a, const PairCoeff &b)
+{
+  return a.limit_damping == b.limit_damping && a.cutoff == b.cutoff &&
+         std::equal(a.sub_models.begin(), a.sub_models.end(), b.sub_models.begin(),
+                    b.sub_models.end(),
+                    [](const GivenSubModel &x, const GivenSubModel &y) { return are_same(x, y); });
+}
 
 ContactLaw law_of(const PairCoeff &coeff)
 {

@@ -19,6 +19,8 @@ struct PairCoeff {
   std::string report;    // of materials, several lines; empty: none
 };
 
+// Have they the same sub-models, numbers and cutoff?
+bool are_equal(const PairCoeff &a, const PairCoeff &b);
 // Throws InputError where the sub-models do not go together.
 ContactLaw law_of(const PairCoeff &coeff);
 // "granular hertz/material ...": words that give the same law, NULL for numbers that are derived.

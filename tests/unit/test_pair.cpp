@@ -201,6 +201,22 @@ TEST(pair, of_two_materials_has_the_moduli_of_both)
   EXPECT_DOUBLE_EQ(law.mu, std::sqrt(0.4 * 0.9));
 }
 
+TEST(pair_coeff, is_equal_with_the_same_words)
+{
+  const std::string words = "hertz/material 1e5 0.4 0.3 tangential mindlin NULL 0.5 0.4";
+  const PairCoeff a = read_pair_coeff(words_of(words));
+  EXPECT_TRUE(are_equal(a, read_pair_coeff(words_of(words))));
+  EXPECT_TRUE(are_equal(a, mixed(a, a, "1 and 2")));
+  for (const char *other :
+       {"hertz/material 1e5 0.4 0.3 tangential mindlin 1 0.5 0.4",
+        "hertz/material 1e5 0.4 0.3 tangential mindlin NULL 0.5 0.4000000001",
+        "hertz/material 1e5 0.4 0.3 tangential mindlin NULL 0.5 0.4 damping tsuji",
+        "hertz/material 1e5 0.4 0.3 tangential mindlin NULL 0.5 0.4 limit_damping",
+        "hertz/material 1e5 0.4 0.3 tangential mindlin NULL 0.5 0.4 cutoff 2",
+        "hertz/material 1e5 0.4 0.3 tangential mindlin_slip NULL 0.5 0.4"})
+    EXPECT_FALSE(are_equal(a, read_pair_coeff(words_of(other)))) << other;
+}
+
 TEST(pair, of_laws_with_other_sub_models_is_not_mixed)
 {
   const PairCoeff a = read_pair_coeff(words_of("hooke 1 0 tangential linear_nohistory 0 0")),
