@@ -712,6 +712,7 @@ typedef struct lsdcd_wall_spec {
   /* Steps of each mean of force and torque in lsdcd_wall_totals, as a solver of a fluid samples them; 0: there are none */
   int average_every;
   int each_contact; /* 1: lsdcd_wall_get_contacts() will be called */
+  int energy; /* 1: what contacts dissipate is booked, by cause; not with shapes, nodes_by_caller, coats and wear_deform_every */
   int shapes; /* 1: grains may be no spheres: steps read half_axes to inertia of lsdcd_spheres. On a CPU */
 } lsdcd_wall_spec;
 /* `options` may be null: all defaults. All that the structs point to is copied or shared. LSDCD_ERROR_ARGUMENT names
@@ -807,6 +808,14 @@ typedef struct lsdcd_wall_totals {
   /* With average_every, means over the last so many steps that ended with one whose number divides by it, counted from
    * the first step of the wall; weighted by time. 0 before, and without it. */
   double mean_force[3], mean_torque[3]; /* the torque about `torque_about` of each mesh */
+  /* With `energy`; else 0. By cause: damping, slider, rolling, twisting, adhesion. Power in the last step, and energy since
+   * the first one. */
+  double dissipated_power[5], dissipated[5];
+  /* Energy lost by lever arms, stiffness, turned springs, and with contacts that are inserted and deleted. */
+  double other_losses[4];
+  /* Work of spheres and mesh on their contacts, of the mesh on the spheres, what contacts hold, and the remainder: contact_work less
+   * all that is held or lost. */
+  double contact_work, drive_work, held, remainder;
 } lsdcd_wall_totals;
 /* The totals of a mesh in the last step, over all processes; -1: of all, without servos. The torque is about the point `about`, of
  * the box, 3 numbers; null: about `torque_about` of each mesh. Own. */

@@ -881,6 +881,7 @@ struct WallSpec {
   bool periodic_ends = false, brief = false;
   int average_every = 0;        // steps
   bool each_contact = false;    // Wall::contacts() will be called
+  bool energy = false;          // what contacts dissipate is booked
   bool shapes = false;          // grains may be no spheres
 };
 
@@ -955,7 +956,7 @@ class Spec {
     for (const WallMesh &mesh : from.meshes) meshes_.push_back(struct_of(mesh));
     auto &[size, law, meshes, n_meshes, corner, side, nearest, cell, memory, rmax, device, wear,
            wear_coefficient, hardness, wear_deform_every, wear_deform_factor, periodic_ends, brief,
-           average_every, each_contact, shapes] = spec_;
+           average_every, each_contact, energy, shapes] = spec_;
     size = sizeof spec_;
     law = add(from.law);
     meshes = meshes_.data();
@@ -977,6 +978,7 @@ class Spec {
     brief = from.brief;
     average_every = from.average_every;
     each_contact = from.each_contact;
+    energy = from.energy;
     shapes = from.shapes;
   }
   Spec(const Spec &) = delete;

@@ -143,6 +143,17 @@ int lsdcd_wall_get_totals(lsdcd_wall *wall, int mesh, const double *about,
       out.mean_force[k] = mean.force[k];
       out.mean_torque[k] = mean.torque[k];
     }
+    EnergyBooks &books = wall->in->energy();
+    const BookedEnergy e = mesh < 0 ? books.of_all() : books.mesh(mesh);
+    for (int k = 0; k < 5; k++) {
+      out.dissipated_power[k] = e.power(kCauses[k]);
+      out.dissipated[k] = e.rows[kCauses[k]];
+    }
+    for (int k = 0; k < 4; k++) out.other_losses[k] = e.rows[kOtherLosses[k]];
+    out.contact_work = e.rows[EnergyRow::work];
+    out.drive_work = e.rows[EnergyRow::drive];
+    out.held = e.rows[EnergyRow::held];
+    out.remainder = e.remainder();
     if (mesh >= 0 && wall->in->meshes()[mesh].servo().present) {
       const Servo &s = wall->in->meshes()[mesh].servo();
       out.servo[0] = s.position;

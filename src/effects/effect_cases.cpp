@@ -85,6 +85,9 @@ std::vector<EffectCase> effect_cases()
   add("wear finnie", "wear finnie", "loads of triangles",
       [](EngineSettings &s) { s.wear = WearModel::finnie; });
 
+  add("books of energy", "energy", "tangential spring",
+      [](EngineSettings &s) { s.law().keeps_forces = true; });
+
   begin("granular hooke", "granular hooke ... linear_nohistory", "hooke",
         granular(NormalModel::hooke, TangentialModel::linear_nohistory));
   const auto normal = [](NormalModel n) { return [n](EngineSettings &s) { s.law().normal = n; }; };

@@ -3,6 +3,7 @@
 
 #include "effects/effects.h"
 
+#include "law/force_parts.h"
 #include "law/sub_models.h"
 
 namespace lsdcd {
@@ -58,6 +59,8 @@ std::vector<Effect> effects_of(const EngineSettings &s)
   if (s.bodies) effects.push_back({"rigid body", 0});
   if (s.nodes) effects.push_back({"moving nodes", 0});
   if (s.contacts) effects.push_back({"loads of triangles", 0});
+  if (s.law().keeps_forces)
+    effects.push_back({"books of energy", kKeptForces * static_cast<int>(sizeof(Real))});
   if (s.wear == WearModel::archard) effects.push_back({"wear archard", 0});
   if (s.wear == WearModel::finnie) effects.push_back({"wear finnie", 0});
   return effects;

@@ -134,7 +134,7 @@ class EngineOn : public WallEngine {
     if (!gives_back_at_submit()) mirror_.start_back(b_);
     mirror_.collect(b_);
     state_ = StepState::none;
-    results_.fetch(b_, springs_.contacts(step_.update_history));
+    results_.fetch(b_, springs_.contacts(step_.update_history || law_.traits.energy));
   }
 
   StepResults &results() override { return results_; }
@@ -294,7 +294,8 @@ class EngineOn : public WallEngine {
       run_slots(job);
     else
       run_law(job, n, law_of(0, 0));
-    if (step_.update_history) springs_.swap();
+    // Where contacts keep their forces a setup replaces these, and leaves springs as they are.
+    if (step_.update_history || law_.traits.energy) springs_.swap();
     if (step_.totals && !B::kOnCpu) results.start_sums(b_);
   }
 

@@ -58,6 +58,31 @@ struct StepContact {
   Vec3 arm;      // from the closest point to the sphere's centre
 };
 
+// What contacts do with energy in a step, by row. Those from `damping` on are what becomes of the work; > 0: it is lost.
+enum class EnergyRow {
+  work,       // of grains and wall on the contacts, of all forces and torques as they are applied
+  drive,      // of the wall on the grains, by its motion and that of its surface
+  damping,    // dashpots
+  slider,     // friction where its limit cuts the spring
+  rolling,    // rolling and twisting resistance: dashpot and slider
+  twisting,
+  adhesion,    // of surfaces that jump into contact, less that of surfaces that let go
+  lever_arms,    // a wall that turns sees friction at the arm of the radius, the sphere at that of the law
+  stiffness,         // springs whose stiffness changes while they are stretched
+  turned_springs,    // springs that are handed on or turned
+  inserted,          // of contacts that begin in overlap, < 0
+  held,              // elastic energy now
+  seen               // that of the last step, of the contacts that this one has found
+};
+constexpr int kEnergyRows = static_cast<int>(EnergyRow::seen) + 1;
+
+struct EnergyRows {
+  Real of[kEnergyRows] = {};
+
+  LSDCD_FN Real &operator[](EnergyRow row) { return of[static_cast<int>(row)]; }
+  LSDCD_FN Real operator[](EnergyRow row) const { return of[static_cast<int>(row)]; }
+};
+
 // Counts of the steps since the host last read them.
 struct StepDiagnostics {
   Real deepest = 0;                    // largest overlap / radius
@@ -86,6 +111,8 @@ class StepResults {
   virtual const WallTotals &totals() = 0;
   // Returns those of one mesh, without largest_overlap_sphere.
   virtual WallTotals mesh_totals(int mesh) = 0;
+  // Returns the rows of one mesh, where the law keeps_forces. A setup has `held` and `seen` alone.
+  virtual EnergyRows energy(int mesh) = 0;
   // Returns the spheres with a contact, after a step with per_sphere.
   const std::vector<TouchingSphere> &touching() const { return touching_; }
   int n_touching() const { return static_cast<int>(touching_.size()); }

@@ -7,6 +7,7 @@
 
 #include "engine/broad_phase/candidate_slots.h"
 #include "engine/nodes/node_forces.h"
+#include "engine/results/energy_sums.h"
 #include "engine/results/total_sums.h"
 #include "engine/step/step_job.h"
 
@@ -41,6 +42,10 @@ class ResultsOn : public StepResults {
     n_parts_ = 0;
     n_contacts_.reserve(n);
     if (traits.heat) heat_.reserve(n);
+    if (traits.energy) {
+      energy_.reserve(n);
+      is_booked_.reserve(n);
+    }
     if (traits.contacts) first_contact_.reserve(n);
     if (!may_miss)
       uncertain_ = Array<Real>();
@@ -57,6 +62,8 @@ class ResultsOn : public StepResults {
   {
     job.result = columns_;
     job.heat = heat_.data();
+    job.energy = energy_.data();
+    job.is_booked = is_booked_.data();
     job.uncertain = uncertain_.data();
   }
 
@@ -90,6 +97,7 @@ class ResultsOn : public StepResults {
   {
     touching_.clear();
     contacts_.clear();
+    if (traits_.energy) sum_energy(b);
     if (n_ == 0) return;
     if (step_.per_sphere) fetch_touching(b);
     if (traits_.contacts && step_.contacts) fetch_contacts(b, contacts);
@@ -128,9 +136,16 @@ class ResultsOn : public StepResults {
     return t;
   }
 
+  EnergyRows energy(int mesh) override
+  {
+    const std::size_t k = static_cast<std::size_t>(mesh);
+    return k < energy_of_mesh_.size() ? energy_of_mesh_[k] : EnergyRows();
+  }
+
   std::size_t bytes() const
   {
-    return (numbers_.size() + heat_.size() + uncertain_.size()) * sizeof(Real) +
+    return energy_.size() * sizeof(EnergyRows) + is_booked_.size() +
+           (numbers_.size() + heat_.size() + uncertain_.size()) * sizeof(Real) +
            (n_contacts_.size() + first_contact_.size() + stored_candidates_.size()) * sizeof(int) +
            touching_.capacity() * sizeof(TouchingSphere) +
            contacts_.capacity() * sizeof(StepContact) +
@@ -231,6 +246,30 @@ class ResultsOn : public StepResults {
     contacts_ = to_cpu(b, packed, total);
   }
 
+  void sum_energy(B &b)
+  {
+    const std::size_t n_meshes = slots_ ? slots_->n_meshes() : 1;
+    energy_of_mesh_.assign(n_meshes, EnergyRows());
+    if (n_ == 0) return;
+    Array<EnergyRange> ranges(n_meshes);
+    Array<EnergyUnits> sums(n_meshes);
+    EnergyRange *range = ranges.data();
+    EnergyUnits *sum = sums.data();
+    const BookedSlots in = {n_, energy_.data(), is_booked_.data(),
+                            slots_ ? slots_->mesh() : nullptr};
+    const std::size_t n_blocks = (n_ + kTotalsBlock - 1) / kTotalsBlock;
+    b.for_each(n_meshes, [=] LSDCD_LAMBDA(std::size_t m) {
+      range[m] = EnergyRange();
+      sum[m] = EnergyUnits();
+    });
+    b.for_each(n_blocks, SeeEnergy{in, range});
+    b.for_each(n_blocks, SumEnergy{in, range, sum});
+    const auto range_on_cpu = to_cpu(b, ranges, n_meshes);
+    const auto sum_on_cpu = to_cpu(b, sums, n_meshes);
+    for (std::size_t m = 0; m < n_meshes; m++)
+      energy_of_mesh_[m] = energy_of(sum_on_cpu[m], range_on_cpu[m]);
+  }
+
   void sum_totals(B &b)
   {
     totals_known_ = true;
@@ -291,6 +330,9 @@ class ResultsOn : public StepResults {
 
   ResultColumns columns_;
   Array<Real> numbers_, heat_, uncertain_;
+  Array<EnergyRows> energy_;    // of each slot, where the law books energy
+  Array<char> is_booked_;
+  std::vector<EnergyRows> energy_of_mesh_;
   Array<int> n_contacts_, first_contact_, stored_candidates_;
 
   WallTotals totals_;

@@ -50,6 +50,12 @@ LSDCD_FN Vec3 turned_into_plane(const Vec3 &h, const Vec3 &normal, Real stiff, R
   return length > 0 ? (norm(h) / length) * flat : Vec3{0, 0, 0};
 }
 
+// Returns the part of a vector across the normal.
+LSDCD_FN Vec3 in_plane(const Vec3 &h, const Vec3 &normal)
+{
+  return h - dot(h, normal) * normal;
+}
+
 // Is a spring of this size beyond its limit? One that was cut in the last step is there in a setup, to rounding.
 LSDCD_FN bool is_cut(Real size, Real limit, const Contact &c)
 {

@@ -3,6 +3,7 @@
 
 #include "law/contact_law.h"
 
+#include "law/force_parts.h"
 #include "law/sub_models.h"
 
 #include <cmath>
@@ -13,7 +14,7 @@ namespace lsdcd {
 
 bool ContactLaw::has_history() const
 {
-  if (is(NormalModel::jkr)) return true;
+  if (is(NormalModel::jkr) || keeps_forces) return true;
   for (const SubModel *row : rows_of(*this))
     if (row->stored.what) return true;
   return false;
@@ -21,7 +22,7 @@ bool ContactLaw::has_history() const
 
 int ContactLaw::n_extra() const
 {
-  int n = for_shapes && has_history() ? 3 : 0;
+  int n = (for_shapes && has_history() ? 3 : 0) + (keeps_forces ? kKeptForces : 0);
   for (const SubModel *row : rows_of(*this)) n += row->stored.beside_shear;
   return n;
 }
@@ -37,6 +38,7 @@ unsigned ContactLaw::flips() const
       if (row->stored.flips) bits |= ((1u << n) - 1) << at;
       at += n;
     }
+  if (keeps_forces) bits |= KeptForces::flips() << at;
   return bits;
 }
 
@@ -50,6 +52,7 @@ int ContactLaw::history_kind() const
   for (const SubModel *row : rows_of(*this))
     if (row->stored.what) add(row->stored.what + std::string(";"));
   if (for_shapes && has_history()) add("arm;");
+  if (keeps_forces) add("forces;");
   return static_cast<int>(hash >> 1);
 }
 

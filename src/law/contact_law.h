@@ -54,6 +54,8 @@ struct ContactLaw {
   bool limit_damping = false;
   // It acts on grains that may be no spheres, too: a contact with a history keeps the arm of its grain.
   bool for_shapes = false;
+  // A contact keeps its forces for the next step (KeptForces), in which books of energy need them.
+  bool keeps_forces = false;
 
   bool is(NormalModel model) const { return normal == model; }
   // Returns whether it is one of LAMMPS's styles before `granular`. These have formulas of their own.

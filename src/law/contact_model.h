@@ -13,12 +13,14 @@
 // and, with kVectors or kScalars, and with kHeat
 //   stores(k)           is the k-th of these vectors and scalars stored from step to step?
 //   has_heat()         is there a heat flow?
+// Laws that walls with books of energy have (with_energy_law()) say with parts() what a force is made of.
 // The classic laws, and the most frequent ones of `granular`, have no instruction and no memory for an
 // effect that is off. Effects that few scenes use are together in one law, with a branch for each. It
 // stores and exchanges only what is on.
 #pragma once
 
 #include "law/contact.h"
+#include "law/force_parts.h"
 #include "law/submodels/cohesion.h"
 #include "law/submodels/damping.h"
 #include "law/submodels/heat.h"
@@ -60,6 +62,21 @@ struct ContactModel {
     out.energy = elastic.energy(c, scale);
     if constexpr (kHistory) out.energy += tangential.energy(scale, memory.shear);
     return out;
+  }
+
+  // What `out` is made of, which evaluate() has returned; `begun` and `shear`: the spring before and after.
+  template <class C>
+  LSDCD_FN ForceParts parts(const C &c, const Vec3 &begun, const Vec3 &shear,
+                            const ContactForce &out) const
+  {
+    const Real scale = this->scale(c);
+    ForceParts parts = {};
+    parts.elastic = elastic.force(c, scale);
+    if constexpr (kHistory)
+      parts.friction = {in_plane(begun, c.normal), shear, scale * tangential.k, true};
+    else
+      parts.slides = is_below(out.tangential, c.mass * tangential.gamma, c.v_tangent);
+    return parts;
   }
 };
 
@@ -106,6 +123,29 @@ struct AddedModel {
       out.energy += cohesion.energy(c);
     }
     return out;
+  }
+
+  // Returns the energy that the normal force of a contact would hold at this overlap.
+  template <class C>
+  LSDCD_FN Real normal_energy(C c, Real overlap) const
+  {
+    c.overlap = overlap;
+    return base.elastic.energy(c, base.scale(c)) + (cohesion.is_on() ? cohesion.energy(c) : 0);
+  }
+  // What `out` is made of, which evaluate() has returned; `begun` and `memory`: what is kept before and after.
+  template <class C>
+  LSDCD_FN ForceParts parts(const C &c, const ContactMemory<kExtra> &begun,
+                            const ContactMemory<kExtra> &memory, const FullForce &out) const
+  {
+    ForceParts parts = base.parts(c, begun.shear, memory.shear, out);
+    if (rolling.is_on()) {
+      const Real scale = base.scale(c);
+      const Real limit = fabs(out.normal + (cohesion.is_on() ? cohesion.pull(c) : 0));
+      const RollingInput<C> in = {c, limit, base.elastic.stiffness(scale), scale * k_tangent};
+      rolling.part(in, begun, memory, 0, parts);
+    }
+    if (cohesion.is_on()) parts.elastic -= cohesion.pull(c);
+    return parts;
   }
 };
 
@@ -178,6 +218,42 @@ struct GranularModel {
         out.energy += cohesion.energy(c);
       }
     return out;
+  }
+
+  // Returns the energy that the normal force of a contact would hold at this overlap.
+  template <class C>
+  LSDCD_FN Real normal_energy(C c, Real overlap) const
+  {
+    c.overlap = overlap;
+    const Real held = elastic.energy(c, elastic.contact_radius(c));
+    return held + (cohesion.is_on() && overlap > 0 ? cohesion.energy(c) : 0);
+  }
+  // What `out` is made of, which evaluate() has returned; `begun` and `memory`: what is kept before and after.
+  template <class C>
+  LSDCD_FN ForceParts parts(const C &c, const ContactMemory<kExtra> &begun,
+                            const ContactMemory<kExtra> &memory, const FullForce &out) const
+  {
+    static_assert(kHistory && kAll, "books of energy are of the law that has all");
+    const Real a =
+        uses_contact_radius || elastic.uses_contact_radius() ? elastic.contact_radius(c) : 0;
+    const Real pull = cohesion.is_on() && c.overlap > 0 ? cohesion.pull(c) : 0;
+    const Real f = elastic.force(c, a), gamma = damping.coefficient(c, a, f);
+    const Real limit = elastic.limit(c, f, out.normal + pull);
+    ForceParts parts = {};
+    parts.elastic = f - pull;
+    if (tangential.spring)
+      parts.friction = tangential.part(c, a, begun, memory, kRadius, tangential.mu * limit);
+    else
+      parts.slides = is_below(out.tangential, tangential.xgammat * gamma, c.v_tangent);
+    rolling.part(RollingInput<C>{c, limit, elastic.stiffness(a), tangential.stiffness(a)}, begun,
+                 memory, kRolled, parts);
+    if (twisting.is_on()) {
+      const TwistCoefficients t = twisting.coefficients(limit, a, tangential.stiffness(a),
+                                                        tangential.xgammat * gamma, tangential.mu);
+      parts.twisting = {begun.extra[kTwist] * c.normal, memory.extra[kTwist] * c.normal, t.k,
+                        false};
+    }
+    return parts;
   }
 
  private:

@@ -113,4 +113,19 @@ auto with_granular_added_law(const ContactLaw &p, const Make &make)
                          : make(granular_model<false, true, true>(p, normal));
 }
 
+// Any law that keeps_forces: calls make(law) with one that has all effects, so that few are compiled with books of energy.
+template <class Make>
+auto with_energy_law(const ContactLaw &p, const Make &make)
+{
+  if (!p.is_classic()) {
+    if (p.is(NormalModel::jkr))
+      return make(granular_model<true, true, true>(p, JkrNormal(p.modulus, p.surface_energy)));
+    return make(granular_model<true, true, true>(p, touching_normal(p)));
+  }
+  return with_classic_law(p, [&](const auto &base) {
+    return make(AddedModel<std::decay_t<decltype(base)>, true>{
+        base, family_of<AnyRolling>(p.rolling), {p.cohesion.numbers[0]}, p.k_tangent});
+  });
+}
+
 }    // namespace lsdcd

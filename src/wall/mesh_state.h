@@ -6,6 +6,7 @@
 
 #include "motion/motion.h"
 #include "rigid/rigid_body.h"
+#include "wall/energy_books.h"
 #include "wall/mean_loads.h"
 #include "wall/step_totals.h"
 
@@ -94,10 +95,11 @@ struct MeshState {
   LoadState loads;
   BodyState body;
   NodeState nodes;
-  std::vector<Real> coat;             // of BodyCoat::save()
-  SurfaceState surface;               // of a mesh that recedes by its wear
-  std::vector<MeanLoadState> mean;    // one, or none where there are no means
-  std::vector<StepLoad> last;         // one; none: data without it
+  std::vector<Real> coat;              // of BodyCoat::save()
+  SurfaceState surface;                // of a mesh that recedes by its wear
+  std::vector<MeanLoadState> mean;     // one, or none where there are no means
+  std::vector<StepLoad> last;          // one; none: data without it
+  std::vector<BookedEnergy> energy;    // one, or none where energy is not booked
 };
 
 }    // namespace lsdcd

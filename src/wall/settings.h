@@ -66,6 +66,9 @@ constexpr const char *kLogWords[] = {"full", "brief"};
   SETTING(average_every, average_every, StepsSetting{"there are no means"}, compared, "average",   \
           "N", "steps", "N >= 1", "off",                                                           \
           "means of force and torque over N steps, as more numbers of the vector")                 \
+  SETTING(energy, energy, FlagSetting{}, compared, "energy", "", "", "", "off",                    \
+          "what contacts dissipate, by cause, and books of energy that close, as more numbers of " \
+          "the vector")                                                                            \
   SETTING(periodic_ends, periodic, FlagSetting{}, free, "periodic", "", "", "", "off",             \
           "no warning if the mesh reaches past periodic faces, or does not continue there; it "    \
           "acts through them in any case")                                                         \

@@ -33,7 +33,7 @@ constexpr Member kMeshes = {"n_meshes", "mesh"}, kMesh = {"mesh", "mesh"}, kLaw 
                  kWearDeform = {"wear_deform_every", "wear"}, kCache = {"cache", "cache"},
                  kFields = {"fields", "mesh_fields"}, kStl = {"stl", "mesh_stl"},
                  kNearest = {"nearest", "nearest"}, kSide = {"side", "side"},
-                 kDevice = {"device", "device"},
+                 kDevice = {"device", "device"}, kEnergy = {"energy", "energy"},
                  kTorquePoint = {"torque_about_moves", "torque_about"};
 
 // What of a mesh does not go with the rest of its wall. The text is about the member, and says what to do.
@@ -97,6 +97,17 @@ const MeshRule kMeshRules[] = {
     {kNodes, [](const WallSpec &w, const MeshSpec &m) { return m.has_nodes && w.recedes(m); },
      "wear moves this mesh, and its nodes are moved by others: leave one of them out, or give the "
      "mesh a wear factor by which it does not wear"},
+    {kEnergy, [](const WallSpec &w, const MeshSpec &m) { return w.energy && m.has_nodes; },
+     "the work of contacts on nodes that move is not booked: leave energy out, or put the mesh "
+     "into "
+     "a wall of its own"},
+    {kEnergy, [](const WallSpec &w, const MeshSpec &m) { return w.energy && w.recedes(m); },
+     "what contacts lose where wear moves the mesh is not booked: leave energy or deform out"},
+    {kEnergy,
+     [](const WallSpec &w, const MeshSpec &m) {
+       return w.energy && m.body.present && m.body.coat.present;
+     },
+     "contacts of a coat are not booked: leave energy or the coat out"},
     {kBody, [](const WallSpec &w, const MeshSpec &m) { return m.body.present && w.recedes(m); },
      "wear moves this mesh, and the mass and centre of a body are those of its shape: leave one of "
      "them out, or give the mesh a wear factor by which it does not wear"},
@@ -168,6 +179,7 @@ class SpecCheck {
   {
     const std::string why = why_not_for_shapes(wall_.law());
     if (!why.empty()) refuse(kLaw, why);
+    if (wall_.energy) refuse(kEnergy, "contacts of ellipsoids are not booked: leave it out");
     if (wall_.side != Side::both)
       refuse(kSide, "ellipsoids have a wall with both sides alone: leave it out");
     if (wall_.device == Device::cuda)

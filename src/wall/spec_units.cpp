@@ -17,6 +17,7 @@ WallSpec in_units(WallSpec spec, Real pressure)
     }
     law.cohesion.numbers[0] /= pressure;    // sjkr's
     law.for_shapes = spec.shapes;
+    law.keeps_forces = spec.energy;
   };
   for (LawOfTypes &row : spec.laws) convert(row.law);
   for (MeshSpec &mesh : spec.meshes) {

@@ -24,11 +24,11 @@ Wall::Wall(Host &host, WallSpec spec, const WallUnits &units, WallBackend backen
     backend_(std::move(backend)), clock_(clock), pressure_unit_(units.pressure),
     engine_input_(host, spec_, laws_, meshes_), coats_(host, spec_, meshes_),
     history_(host, spec_.law()), totals_(host, spec_), means_(host, spec_), loads_(host, spec_),
-    files_(host, spec_, units.pressure), overlaps_(host, spec_), search_(host), times_(host),
-    timestep_(host, laws_, units.velocity), snapshots_(host, spec_),
+    energy_(host, spec_), files_(host, spec_, units.pressure), overlaps_(host, spec_),
+    search_(host), times_(host), timestep_(host, laws_, units.velocity), snapshots_(host, spec_),
     box_checks_(host, spec_, meshes_),
     grids_(host, spec_, laws_, meshes_, coats_, box_checks_, history_, times_),
-    keeper_(host, spec_, {meshes_, coats_, grids_, totals_, means_, loads_})
+    keeper_(host, spec_, {meshes_, coats_, grids_, totals_, means_, loads_, energy_})
 {
   for (std::size_t k = 0; k < spec_.meshes.size(); k++) {
     MeshPart &m = meshes_.emplace_back(host_, spec_, laws_, static_cast<int>(k), units.velocity,
@@ -505,6 +505,7 @@ void Wall::note_step(const HostSpheres &spheres)
       loads_.add(m->index, left && !is_in_place ? left->contacts() : none, step.dt,
                  left ? m->records() : MeshFeaturesView());
     }
+  if (spec_.energy) energy_.add(left, step);
   for (const MeshPart *m : changing_)
     if (left) m->surface->end(*left, step);
   if (step.kind == Step::setup) log_new_springs(step);

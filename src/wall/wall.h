@@ -11,6 +11,7 @@
 #include "wall/checks/timestep_check.h"
 #include "wall/coat/body_coats.h"
 #include "wall/device_choice.h"
+#include "wall/energy_books.h"
 #include "wall/engine_input.h"
 #include "wall/grid_manager.h"
 #include "wall/host_spheres.h"
@@ -108,7 +109,8 @@ class Wall {
   // Returns them with the power of nodes by the velocities of the whole step, which they have now, where the host knows these. After
   // the end of a run the power stays.
   const StepTotals &totals_with_power();
-  MeanLoads &means() { return means_; }    // of spec().average_every steps
+  MeanLoads &means() { return means_; }        // of spec().average_every steps
+  EnergyBooks &energy() { return energy_; }    // of a wall with spec().energy
   // Return the volume by which wear has moved a mesh back, and the volume that is worn but held back, see MeshWear. 0 of others.
   Real removed(int mesh) const { return meshes_[mesh].surface->removed(); }
   Real held_back(int mesh) const { return meshes_[mesh].surface->held_back(); }
@@ -266,6 +268,7 @@ class Wall {
   StepTotals totals_;
   MeanLoads means_;
   LoadRecorder loads_;
+  EnergyBooks energy_;
   WallFiles files_;
   OverlapMonitor overlaps_;
   SearchReport search_;

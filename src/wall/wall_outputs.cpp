@@ -149,6 +149,38 @@ Real held_back(Wall &wall, int mesh, int /* d */)
   return wall.held_back(mesh);
 }
 
+Real dissipated_power(const BookedEnergy &e, int d)
+{
+  return e.power(kCauses[d]);
+}
+Real dissipated(const BookedEnergy &e, int d)
+{
+  return e.rows[kCauses[d]];
+}
+Real other_losses(const BookedEnergy &e, int d)
+{
+  return e.rows[kOtherLosses[d]];
+}
+template <EnergyRow row>
+Real sum_of(const BookedEnergy &e, int /* d */)
+{
+  return e.rows[row];
+}
+Real remainder(const BookedEnergy &e, int /* d */)
+{
+  return e.remainder();
+}
+template <Real (*get)(const BookedEnergy &, int)>
+Real energy_of(Wall &wall, int mesh, int d)
+{
+  return get(wall.energy().mesh(mesh), d);
+}
+template <Real (*get)(const BookedEnergy &, int)>
+Real energy_of_all(Wall &wall, int d)
+{
+  return get(wall.energy().of_all(), d);
+}
+
 bool has_servo(const MeshSpec &m)
 {
   return m.motion.servo().present;
@@ -182,6 +214,8 @@ bool has(const WallSpec &wall, OutputPart part)
       return wall.average_every > 0;
     case OutputPart::motion:
       return any(has_motion);
+    case OutputPart::energy:
+      return wall.energy;
     default:
       return true;
   }
@@ -266,7 +300,25 @@ const std::vector<WallOutput> &wall_outputs()
        "place of a mesh with *motion*: of its point that was at 0 0 0 at the start, x y z",
        "distance units", is_one, P::motion, place, nullptr},
       {4, "pose", "its rotation since the start, a quaternion w x y z", "", is_one, P::motion,
-       orientation, nullptr}};
+       orientation, nullptr},
+      {5, "dissipated_power",
+       "power that contacts dissipate in the step: damping, slider, rolling, twisting, adhesion",
+       "energy/time units", adds_up, P::energy, energy_of<dissipated_power>,
+       energy_of_all<dissipated_power>},
+      {5, "dissipated", "likewise energy since the beginning", "energy units", adds_up, P::energy,
+       energy_of<dissipated>, energy_of_all<dissipated>},
+      {4, "other_losses",
+       "energy that is lost by lever arms, stiffness, turned springs, and with contacts that are "
+       "inserted and deleted",
+       "energy units", adds_up, P::energy, energy_of<other_losses>, energy_of_all<other_losses>},
+      {1, "contact_work", "work of grains and mesh on their contacts", "energy units", adds_up,
+       P::energy, energy_of<sum_of<EnergyRow::work>>, energy_of_all<sum_of<EnergyRow::work>>},
+      {1, "drive_work", "work of the moving mesh on the spheres", "energy units", adds_up,
+       P::energy, energy_of<sum_of<EnergyRow::drive>>, energy_of_all<sum_of<EnergyRow::drive>>},
+      {1, "held", "elastic energy of contacts after the last step", "energy units", adds_up,
+       P::energy, energy_of<sum_of<EnergyRow::held>>, energy_of_all<sum_of<EnergyRow::held>>},
+      {1, "remainder", "contact work less all of the rows above: what the timestep costs",
+       "energy units", adds_up, P::energy, energy_of<remainder>, energy_of_all<remainder>}};
   return all;
 }
 

@@ -11,7 +11,7 @@
 namespace lsdcd {
 
 // What a wall must have for a row of outputs to be more than 0.
-enum class OutputPart { every_wall, servo, body, wear, nodes, means, motion };
+enum class OutputPart { every_wall, servo, body, wear, nodes, means, motion, energy };
 
 struct WallOutput {
   int n;    // columns

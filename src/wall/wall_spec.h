@@ -100,6 +100,7 @@ struct WallSpec {
   int average_every = 0;        // steps of each mean of MeanLoads; 0: there is none
   bool contacts = false;        // for_contact_rows() will be called
   bool each_contact = false;    // for_contacts() will be called
+  bool energy = false;          // what contacts do with energy is booked (EnergyBooks)
   bool shapes = false;          // grains may be no spheres (Spheres::shapes)
   bool periodic = false;        // meshes are meant to reach past periodic faces
   bool brief = false;           // one line in the log

@@ -63,7 +63,7 @@ class Lines {
   {
     const auto &[normal, k_normal, modulus, surface_energy, damping, eta, tangential, k_tangent,
                  gamma_tangent, xgammat, mu, rolling, twisting, heat, cohesion, limit_damping,
-                 for_shapes] = law;
+                 for_shapes, keeps_forces] = law;
     put(of + "normal", normal);
     put(of + "k_normal", k_normal);
     put(of + "modulus", modulus);
@@ -81,6 +81,7 @@ class Lines {
     put(of + "cohesion", cohesion);
     put(of + "limit_damping", limit_damping);
     put(of + "for_shapes", for_shapes);
+    put(of + "keeps_forces", keeps_forces);
   }
   void put(const std::string &of, const std::vector<LawOfTypes> &laws)
   {
@@ -218,8 +219,8 @@ class Lines {
   void put(const WallSpec &spec)
   {
     const auto &[laws, meshes, inputs, corner, side, device, grid_length, rmax, nearest,
-                 memory_budget, wear, wear_deform, average_every, contacts, each_contact, shapes,
-                 periodic, brief] = spec;
+                 memory_budget, wear, wear_deform, average_every, contacts, each_contact, energy,
+                 shapes, periodic, brief] = spec;
     const auto &[model, per_work] = wear;
     const auto &[every, factor] = wear_deform;
     put("law", laws);
@@ -241,6 +242,7 @@ class Lines {
     put("average_every", average_every);
     put("contacts", contacts);
     put("each_contact", each_contact);
+    put("energy", energy);
     put("shapes", shapes);
     put("periodic", periodic);
     put("brief", brief);

@@ -195,7 +195,7 @@ FIELDS = {
         "wear_deform_every": of_wall("recedes", REFUSED, wear_deform=(4, 2.0)), "wear_deform_factor": of_wall("recedes", REFUSED, wear_deform=(3, 1.0)),
         "periodic_ends": of_wall("floor", EXACT, periodic_ends=True), "brief": of_wall("floor", EXACT, brief=True),
         "average_every": [of_wall("averaged", REFUSED, average=7), of_wall("floor", REFUSED, average=8), of_wall("averaged", REFUSED, average=0)],
-        "each_contact": of_wall("floor", EXACT, each_contact=True), "shapes": of_wall("floor", REFUSED, shapes=True)},
+        "each_contact": of_wall("floor", EXACT, each_contact=True), "energy": of_wall("floor", REFUSED, energy=True), "shapes": of_wall("floor", REFUSED, shapes=True)},
     "lsdcd_wall_mesh": {
         "size": SIZE, "mesh": of_mesh("floor", REFUSED, mesh=WIDER), "name": of_mesh("floor", EXACT, name="another"),
         "placement": of_mesh("floor", REFUSED, placement=lsdcd.Placement().scale(1, 1, 2).move(0, 0, 0.25)), "law": of_mesh("floor", REFUSED, law=law(xmu=0.4)),
@@ -282,6 +282,7 @@ LINES = {
     "wall_spec.wear_deform_factor": ("wear_deform.factor = 1", "wear archard 1e-6 1e5 deform every 3"),
     "wall_spec.periodic_ends": ("periodic = 1", "periodic"), "wall_spec.brief": ("brief = 1", "log brief"),
     "wall_spec.average_every": ("average_every = 7", "average 7"), "wall_spec.each_contact": ("each_contact = 1", "each_contact"),
+    "wall_spec.energy": ("energy = 1; ...", "energy"),
     "wall_spec.shapes": ("law0.for_shapes = 1; shapes = 1", None),    # atoms say it
     "wall_mesh.mesh": ("mesh0.vertices = 4.5", None), "wall_mesh.name": ("mesh0.name = another", None),
     "wall_mesh.placement": ("mesh0.placement.row2 = 0 0 2; mesh0.placement.shift = 0 0 0.25", "scale 1 1 2 move 0 0 0.25"),

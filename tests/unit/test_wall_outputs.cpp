@@ -35,6 +35,8 @@ std::string keyword_of(OutputPart part)
       return " *average*";
     case OutputPart::motion:
       return " *motion*";
+    case OutputPart::energy:
+      return " *energy*";
     default:
       return "";
   }

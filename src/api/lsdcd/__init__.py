@@ -617,6 +617,13 @@ class WallTotals(_Record):
     couple: NDArray[np.float64]    # (3,) on a mesh whose nodes you move, which no node gets: the torque is of their forces
     mean_force: NDArray[np.float64]     # (3,) over the steps of `average`
     mean_torque: NDArray[np.float64]    # (3,) likewise
+    dissipated_power: NDArray[np.float64]    # (5,) of a wall with `energy`, in the step: damping, slider, rolling, twisting, adhesion
+    dissipated: NDArray[np.float64]     # (5,) likewise energy since the first step
+    other_losses: NDArray[np.float64]   # (4,) by lever arms, stiffness, turned springs, inserted and deleted contacts
+    contact_work: float   # of spheres and mesh on their contacts
+    drive_work: float     # of the mesh on the spheres
+    held: float           # elastic
+    remainder: float      # contact_work less all that is held or lost
 
 
 class WallContacts(_Record):

@@ -404,7 +404,8 @@ class WallSpec(_Spec):
     None, ("archard", K, H) with the hardness H, a pressure, or ("finnie", K), 1/pressure. `wear_deform`: (steps, factor),
     every so many steps wear moves the vertices of the meshes, by a volume of so many times what has worn; None: they stay.
     `periodic_ends`: meshes are meant to end at periodic faces. `brief`: one line in the log. `average`: steps of the means of
-    force and torque in Wall.totals(), 0: there are none. `each_contact`: Wall.contacts() will be called. `shapes`:
+    force and torque in Wall.totals(), 0: there are none. `each_contact`: Wall.contacts() will be called. `energy`:
+    what contacts dissipate is booked, in Wall.totals(). `shapes`:
     grains may be no spheres, so that Wall.step() reads half_axes and the others."""
 
     @_noted
@@ -412,7 +413,8 @@ class WallSpec(_Spec):
                  nearest: int = 0, cell: float = 0.0, memory: float = 0.0, rmax: float = 0.0,
                  compute: str = "cpu", wear: tuple[str, float] | tuple[str, float, float] | None = None,
                  periodic_ends: bool = False, brief: bool = False, wear_deform: tuple[int, float] | None = None,
-                 average: int = 0, each_contact: bool = False, shapes: bool = False) -> None:
+                 average: int = 0, each_contact: bool = False, shapes: bool = False,
+                 energy: bool = False) -> None:
         parts = _instances(meshes, WallMesh, "meshes")
         array = (_WallMesh * len(parts))(*(part._struct for part in parts))
         model, coefficient, hardness = _wear(wear)
@@ -428,7 +430,7 @@ class WallSpec(_Spec):
             rmax=rmax, device=_chosen("compute", compute, (*DEVICES, "auto")), wear=model, wear_coefficient=coefficient,
             hardness=hardness, wear_deform_every=every, wear_deform_factor=factor,
             periodic_ends=_flag(periodic_ends, "periodic_ends"), brief=_flag(brief, "brief"), average_every=average,
-            each_contact=_flag(each_contact, "each_contact"), shapes=_flag(shapes, "shapes"))
+            each_contact=_flag(each_contact, "each_contact"), energy=_flag(energy, "energy"), shapes=_flag(shapes, "shapes"))
         self._kept = (law, parts, array)    # what the struct points to
 
     def _names(self) -> list[str]:

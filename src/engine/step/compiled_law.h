@@ -66,26 +66,39 @@ struct WallEffects {
   bool surface, contacts, nodes;    // nodes: of a mesh move
 };
 
-template <class Law, bool kSurface_, bool kKeepsContacts_, bool kNodes_ = false>
+// kEnergy: books what contacts do with energy, and keeps KeptForces of each.
+template <class Law, bool kSurface_, bool kKeepsContacts_, bool kNodes_ = false,
+          bool kEnergy_ = false>
 struct OnWall : Law {
-  static constexpr bool kSurface = kSurface_, kKeepsContacts = kKeepsContacts_, kNodes = kNodes_;
+  static constexpr bool kSurface = kSurface_, kKeepsContacts = kKeepsContacts_, kNodes = kNodes_,
+                        kEnergy = kEnergy_;
 };
+
+// Returns how many numbers of a contact engines store beside its shear displacement: those of the law, then KeptForces.
+template <class Law>
+LSDCD_FN int n_stored(const Law &law)
+{
+  return n_extra(law) + (Law::kEnergy ? kKeptForces : 0);
+}
 
 // The kernels that a law has, by their effects. plain: {none}. moving_or_both: {moving}, {moving + contacts}.
 // plain_or_both: {none}, {moving + contacts}. Where a wall has contacts alone it takes {moving + contacts}. Beside each
 // of these is {moving + contacts + nodes}, so that walls whose nodes do not move have no instruction for them.
-enum class WallKernels { plain, moving_or_both, plain_or_both };
+// energy: {moving + contacts + energy} alone.
+enum class WallKernels { plain, moving_or_both, plain_or_both, energy };
 
 // Calls make(law) with the law that has the effects.
 template <WallKernels kernels, class Law, class Make>
 auto on_wall(const Law &law, const WallEffects &effects, const Make &make)
 {
   if constexpr (kernels == WallKernels::plain) return make(OnWall<Law, false, false>{law});
+  if constexpr (kernels == WallKernels::energy)
+    return make(OnWall<Law, true, true, false, true>{law});
   if constexpr (kernels == WallKernels::moving_or_both)
     if (!effects.contacts) return make(OnWall<Law, true, false>{law});
   if constexpr (kernels == WallKernels::plain_or_both)
     if (!effects.contacts && !effects.surface) return make(OnWall<Law, false, false>{law});
-  if constexpr (kernels != WallKernels::plain)
+  if constexpr (kernels == WallKernels::moving_or_both || kernels == WallKernels::plain_or_both)
     return effects.nodes ? make(OnWall<Law, true, true, true>{law})
                          : make(OnWall<Law, true, true>{law});
 }
@@ -94,7 +107,7 @@ struct StepJob;
 
 // The numbers that engines store and move for a law.
 struct LawTraits {
-  bool history, heat, contacts;
+  bool history, heat, contacts, energy;
   // n_vectors, at most kMostVectors: of the extra numbers those that come first, three each
   int n_extra, n_vectors;
 };
@@ -108,7 +121,7 @@ LawTraits traits_of(const Law &law)
   int n_vectors = 0;
   if constexpr (Law::kVectors > 0)
     for (int k = 0; k < Law::kVectors; k++) n_vectors += law.stores(k);
-  return {Law::kHistory, heat, Law::kKeepsContacts, n_extra(law), n_vectors};
+  return {Law::kHistory, heat, Law::kKeepsContacts, Law::kEnergy, n_stored(law), n_vectors};
 }
 
 // A law compiled for one backend; run() does the step of n candidates, see run_compiled_law().

@@ -8,10 +8,15 @@
 #include "engine/results.h"
 #include "engine/results/result_columns.h"
 #include "engine/settings.h"
+#include "engine/step/compiled_law.h"
 #include "engine/step/narrow_phase.h"
 #include "law/contact.h"
 #include "law/submodels/normal.h"
 #include "motion/pose.h"
+
+#include <cstdint>
+#include <cstring>
+#include <type_traits>
 
 namespace lsdcd {
 
@@ -36,12 +41,49 @@ struct SphereSink {
   StepContact *contacts;    // one per contact
 };
 
+// Which contacts of the last step a sphere's contacts take over.
+struct EnergyMarks {
+  std::uint64_t taken[kMaxContacts / 64] = {}, goes_on[kMaxContacts / 64] = {};
+
+  LSDCD_FN static void mark(std::uint64_t *set, int k)
+  {
+    set[k / 64] |= std::uint64_t(1) << k % 64;
+  }
+  LSDCD_FN static bool is_marked(const std::uint64_t *set, int k)
+  {
+    return set[k / 64] >> k % 64 & 1;
+  }
+};
+
+// Books what the contacts of a sphere with one mesh do with energy in a step (contact_energy.h).
+template <class Law>
+struct EnergyBook;
+
+template <class Law>
+struct BookingSink : SphereSink {
+  EnergyBook<Law> *book;
+  EnergyMarks *marks;
+};
+template <class Law>
+using SinkOf = std::conditional_t<Law::kEnergy, BookingSink<Law>, SphereSink>;
+
+// A contact as it is booked: arguments and result of the law, what the force is made of, and its weight.
+template <class Law>
+struct BookedContact {
+  Contact c;
+  FullForce f;
+  ForceParts parts;
+  Real weight;
+  Real distance, arm;    // of the centre from the wall, and of friction
+};
+
 struct ForceSettings {
   SearchSettings search;
   std::uint32_t mesh;    // of the wall's
   Real dt;
   bool update;
-  bool with_point;          // fill weighted_point and weight
+  bool stores;        // what contacts keep: `update`, or also in a setup where energy is booked
+  bool with_point;    // fill weighted_point and weight
   Real wall_temperature;    // read only where the law has heat
   SurfaceMotion surface;    // read only where the surface moves
   bool surface_moves;       // in itself; else `surface` is left out, which changes no bit
@@ -65,6 +107,7 @@ inline ForceSettings force_settings(const EngineSettings &engine, const StepSett
   s.mesh = static_cast<std::uint32_t>(mesh);
   s.dt = step.dt;
   s.update = step.update_history;
+  s.stores = s.update || engine.laws.laws.front().keeps_forces;
   s.search = {engine.corner, engine.side};
   s.with_point = step.per_sphere;
   s.wall_temperature = step.mesh_temperature ? step.mesh_temperature[mesh] : step.wall_temperature;
@@ -102,13 +145,11 @@ struct MeshWork {
 // Memory of contact i at the start of the step: that of the last step, turned with the normal, and about the
 // normal with a surface that turns.
 template <class Law, class Springs>
-LSDCD_FN auto begin_memory(const Law &law, const MeshFeaturesView &wall,
-                           const ForceSettings &settings, const ContactsView &set, int i,
-                           const SphereStateWith<Springs> &s)
+LSDCD_FN auto begin_memory(const Law &law, const ForceSettings &settings, const ContactsView &set,
+                           int i, const SphereStateWith<Springs> &s, const Transfer &in)
 {
   ContactMemory<Law::kExtra> memory = {};
   if constexpr (Law::kHistory) {
-    const Transfer in = transfer_of(wall, set, i, s.springs, s.n_springs);
     if (in.from < 0) return memory;
     const auto turned = [&](const Vec3 &h) {
       const Vec3 &n = set.normal[i];
@@ -120,7 +161,7 @@ LSDCD_FN auto begin_memory(const Law &law, const MeshFeaturesView &wall,
     };
     memory.shear = turned(s.springs[in.from].shear);
     if constexpr (Law::kExtra > 0) {
-      const Real *old = s.extra + in.from * n_extra(law);
+      const Real *old = s.extra + in.from * n_stored(law);
       for (int k = 0; k < Law::kVectors; k++)
         if (law.stores(k)) {
           memory.put(3 * k, turned(in_own_frame(s.springs, in.from, {old[0], old[1], old[2]})));
@@ -144,11 +185,18 @@ LSDCD_FN void store_extra(const Law &law, const Memory &memory, Real *to)
     if (law.stores(Law::kVectors + k)) *to++ = memory.extra[3 * Law::kVectors + k];
 }
 
+// Writes what a book keeps behind that.
+template <class Law>
+LSDCD_FN void store_kept(const KeptForces &kept, const Law &law, Real *to)
+{
+  memcpy(to + n_extra(law), &kept, sizeof kept);
+}
+
 // Evaluates the law for each contact and adds its force, torque and energy to `out`. `weights` null: all are 1.
-template <class Law, class Springs>
+template <class Law, class Springs, class Sink>
 LSDCD_FN void add_contacts(const GridView &grid, const Law &law, const ForceSettings &settings,
                            const SphereStateWith<Springs> &s, const ContactsView &set,
-                           const Real *weights, const SphereSink &sink, SphereResult &out)
+                           const Real *weights, const Sink &sink, SphereResult &out)
 {
   [[maybe_unused]] const std::uint32_t mesh = Law::kSurface ? settings.mesh : 0;
   for (int i = 0; i < set.n; i++) {
@@ -204,12 +252,22 @@ LSDCD_FN void add_contacts(const GridView &grid, const Law &law, const ForceSett
     if constexpr (Law::kHeat)
       if (law.has_heat()) c.temperature_difference = settings.wall_temperature - s.temperature;
 
-    auto memory = begin_memory(law, grid.wall, settings, set, i, s);
+    Transfer in = {-1, 0};
+    if constexpr (Law::kHistory) in = transfer_of(grid.wall, set, i, s.springs, s.n_springs);
+    auto memory = begin_memory(law, settings, set, i, s, in);
+    [[maybe_unused]] const auto begun = memory;
     const auto f = law.evaluate(c, memory);
+    if constexpr (Law::kEnergy) {
+      if (!settings.update) memory = begun;
+      const BookedContact<Law> booked = {
+          c, f, law.parts(c, begun, memory, f), weight, set.distance[i], arm};
+      store_kept(sink.book->add(law, settings, s, booked, in, *sink.marks), law,
+                 sink.extra + out.n_contacts * n_stored(law));
+    }
     if constexpr (Law::kHistory) {
       const int at = out.n_contacts;
       sink.springs[at] = {memory.shear, n, set.feature[i], mesh};
-      if constexpr (Law::kExtra > 0) store_extra(law, memory, sink.extra + at * n_extra(law));
+      if constexpr (Law::kExtra > 0) store_extra(law, memory, sink.extra + at * n_stored(law));
     }
     const Vec3 tangential = weight * f.tangential;
     if constexpr (Law::kKeepsContacts) {

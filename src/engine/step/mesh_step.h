@@ -5,6 +5,7 @@
 #pragma once
 
 #include "engine/step/compiled_law.h"
+#include "engine/step/contact_energy.h"
 #include "engine/step/step_job.h"
 
 #include <cstdint>
@@ -41,7 +42,7 @@ LSDCD_FN SphereState state_at(const Law &law, const StepJob &job, std::size_t i,
     s.n_springs = job.springs.count[i];
     const std::size_t first = s.n_springs > 0 ? job.springs.first[i] : 0;
     s.springs = job.springs.pool + first;
-    if constexpr (Law::kExtra > 0) s.extra = job.springs.extra + first * n_extra(law);
+    if constexpr (Law::kExtra > 0) s.extra = job.springs.extra + first * n_stored(law);
   }
   return s;
 }
@@ -77,7 +78,7 @@ LSDCD_FN bool reserve_places(const Law &law, const StepJob &job, std::size_t k, 
       if (first > pool.size - n) return false;
     }
     if constexpr (Law::kHistory) sink.springs = pool.springs + first;
-    if constexpr (Law::kExtra > 0) sink.extra = pool.extra + std::size_t(first) * n_extra(law);
+    if constexpr (Law::kExtra > 0) sink.extra = pool.extra + std::size_t(first) * n_stored(law);
     if constexpr (Law::kKeepsContacts) sink.contacts = pool.contacts + first;
   }
   return true;
@@ -138,6 +139,24 @@ struct OneMeshSphere {
   LSDCD_FN int contacts_end(std::size_t, int n) const { return n; }
 };
 
+// Books at each mesh of a sphere what has become of its contacts of the last step, once those of this step are booked.
+template <class Law, class Sphere>
+LSDCD_FN void close_books(const StepJob &job, const Sphere &sphere, const EnergyMarks &marks)
+{
+  for (int m = 0; m < sphere.n_meshes(); m++) {
+    const auto k = sphere.begin() + m;
+    const LawAtMesh<Law> mesh = sphere.mesh(k);
+    auto state = sphere.state(mesh.law, k);
+    if (state.n_springs == 0) continue;
+    add_motion(mesh.law, job, mesh.settings.pose, sphere.i, state);
+    if (!job.is_booked[k]) job.energy[k] = EnergyRows();
+    EnergyBook<Law> book = {job.energy[k]};
+    book.close(mesh.law, mesh.settings, state, marks);
+    job.energy[k] = book.rows;
+    job.is_booked[k] = 1;
+  }
+}
+
 // Applies the law to the contacts of a sphere with one mesh or several, mesh after mesh, each in the frame of its mesh:
 // force, torque, springs and contacts. The moment about the origin is stored, too, so that totals can be made when
 // spheres are elsewhere. The sphere is a OneMeshSphere, or a MultiMeshSphere with its contacts (AtMeshes), which is a
@@ -148,12 +167,16 @@ LSDCD_FN void apply_law(const StepJob &job, const Sphere &sphere, const Contacts
 {
   const auto begin = sphere.begin();
   const std::size_t i = sphere.i;
+  [[maybe_unused]] EnergyMarks marks;
+  if constexpr (Law::kEnergy)
+    for (int m = 0; m < sphere.n_meshes(); m++) job.is_booked[begin + m] = 0;
   if (set.n == 0) {
+    if constexpr (Law::kEnergy) close_books<Law>(job, sphere, marks);
     put_no_contact(job, begin, i);
     return;
   }
   int first = 0, n_done = 0;
-  SphereSink sink = {};
+  SinkOf<Law> sink = {};
   // All laws of a wall store the same numbers of a contact.
   if (!reserve_places(sphere.mesh(begin).law, job, begin, count_acting(set, weight), first, sink)) {
     does_not_fit(job, begin, i, job.counts->no_places);
@@ -173,9 +196,14 @@ LSDCD_FN void apply_law(const StepJob &job, const Sphere &sphere, const Contacts
     auto state = sphere.state(law, k);
     add_motion(law, job, settings.pose, i, state);
 
-    SphereSink to_mesh = sink;
+    SinkOf<Law> to_mesh = sink;
+    [[maybe_unused]] EnergyBook<Law> book = {};
+    if constexpr (Law::kEnergy) {
+      to_mesh.book = &book;
+      to_mesh.marks = &marks;
+    }
     if constexpr (Law::kHistory) to_mesh.springs += n_done;
-    if constexpr (Law::kExtra > 0) to_mesh.extra += n_done * n_extra(law);
+    if constexpr (Law::kExtra > 0) to_mesh.extra += n_done * n_stored(law);
     if constexpr (Law::kKeepsContacts) to_mesh.contacts += n_done;
     if constexpr (Law::kHeat)
       if (law.has_heat()) {
@@ -184,6 +212,10 @@ LSDCD_FN void apply_law(const StepJob &job, const Sphere &sphere, const Contacts
       }
     SphereResult out = {};
     add_contacts(mesh.grid, law, settings, state, of_mesh, weight + from, to_mesh, out);
+    if constexpr (Law::kEnergy) {
+      job.energy[k] = book.rows;
+      job.is_booked[k] = 1;
+    }
     from = to;
     if constexpr (Sphere::kSeveral) {
       if (out.overlap_ratio > 0) touched |= 1u << settings.mesh;
@@ -204,11 +236,12 @@ LSDCD_FN void apply_law(const StepJob &job, const Sphere &sphere, const Contacts
       if (settings.pose.placed) to_box(settings.pose, out);
     add_force(job, k, i, sphere.in_box(), out);
   }
+  if constexpr (Law::kEnergy) close_books<Law>(job, sphere, marks);
   if constexpr (Sphere::kSeveral)
     if (record_overlap(job, i, deepest_mesh, deepest))
       raise_to(&job.counts->deepest_meshes, DeepestOverlap::ratio(deepest) | touched);
   if constexpr (Law::kHistory)
-    if (job.settings.update) {
+    if (job.settings.stores) {
       if (n_done > 0) job.pool.first[i] = first;
       job.pool.count[i] = n_done;
     }

@@ -212,7 +212,7 @@ struct AtMeshes {
     state.n_springs = seen.n_springs;
     if constexpr (Law::kExtra > 0)
       if (seen.n_springs > 0)
-        state.extra = job.springs.extra + std::size_t(job.springs.first[i]) * n_extra(law);
+        state.extra = job.springs.extra + std::size_t(job.springs.first[i]) * n_stored(law);
     return state;
   }
   LSDCD_FN Vec3 in_box() const { return s.x; }

@@ -96,6 +96,8 @@ struct StepJob {
   Real *heat_flow = nullptr;          // added to, where the law has heat
   ResultColumns result = {};          // of each k
   Real *heat = nullptr;               // of each k, where the law has heat
+  EnergyRows *energy = nullptr;       // of each k with is_booked, where the law books energy
+  char *is_booked = nullptr;
   Real *uncertain = nullptr;    // overlap / radius that k's search may miss; null: nothing can be
   ContactPool pool = {};
   OverflowScratch *overflow = nullptr;
@@ -129,6 +131,10 @@ inline StepJob from_slot(StepJob job, std::size_t first)
   if (job.lists.n) job.lists = job.lists.from(first);
   job.result = job.result.from(first);
   if (job.heat) job.heat += first;
+  if (job.energy) {
+    job.energy += first;
+    job.is_booked += first;
+  }
   if (job.uncertain) job.uncertain += first;
   if (job.pool.first_contact) job.pool.first_contact += first;
   return job;
@@ -187,7 +193,7 @@ LSDCD_FN void put_no_contact(const StepJob &job, std::size_t k, std::size_t i)
 {
   job.result.n_contacts[k] = 0;
   int *n_springs = job.pool.count;
-  if (n_springs && job.settings.update && n_springs[i] != 0) n_springs[i] = 0;
+  if (n_springs && job.settings.stores && n_springs[i] != 0) n_springs[i] = 0;
 }
 
 // There is no memory for the contacts of candidate k, sphere i: an error once the CPU reads the counts.
@@ -202,7 +208,7 @@ LSDCD_FN void does_not_fit(const StepJob &job, std::size_t k, std::size_t i, int
 // Clears the counter of places of the other pool: the next step writes there, if this step moves springs.
 LSDCD_FN void clear_next(const StepJob &job)
 {
-  if (job.settings.update) job.counts->shared_used[1 - job.pool.which] = 0;
+  if (job.settings.stores) job.counts->shared_used[1 - job.pool.which] = 0;
 }
 
 }    // namespace lsdcd

@@ -8,11 +8,14 @@
 //   kStoresVector                     does a contact store a vector of the tangent plane for it?
 //   contact_torque(n, in, m, at)     torque on the sphere
 //   energy(n, in, m, at)             what is held
+//   part(n, in, begun, m, at)        its spring in terms of the angle rolled, of a step with this memory before and after it
+//   turning(c)                       the angular velocity that turns the spring
 // where n are its numbers in the order of its row (sub_models.cpp), m is the contact's memory, and `at` the
 // index of its vector there. AnyRolling, below, lists it.
 #pragma once
 
 #include "law/contact.h"
+#include "law/force_parts.h"
 
 #include <type_traits>
 
@@ -28,6 +31,12 @@ struct RollingInput {
   Real k_normal;     // secant stiffness without adhesion, force/length
   Real k_tangent;    // tangential stiffness, force/length
 };
+
+// Returns the part of an angular velocity that rolls.
+LSDCD_FN Vec3 rolling_part(const Vec3 &omega, const Vec3 &normal)
+{
+  return omega - dot(omega, normal) * normal;
+}
 
 // `sds` k gamma mu: spring, dashpot and slider (Luding 2008; Wang et al. 2015 for the velocity). Their
 // force acts at the lever arm R on both sides of the contact, so that it turns the sphere
@@ -65,15 +74,26 @@ struct SdsRolling {
   {
     return 0.5 * n[0] * norm_sq(m.vec(at));
   }
+  template <class In, class Memory>
+  LSDCD_FN static SpringPart part(const Real *n, const In &in, const Memory &begun, const Memory &m,
+                                  int at)
+  {
+    const auto &c = in.contact;
+    Vec3 rolled = begun.vec(at);
+    if constexpr (std::decay_t<decltype(c)>::kPair)
+      if (c.update) rolled = turned_into_plane(rolled, c.normal, n[0], n[2] * in.limit);
+    const Real per_radius = 1 / c.radius;
+    return {per_radius * cross(c.normal, rolled), per_radius * cross(c.normal, m.vec(at)),
+            n[0] * c.radius * c.radius, false};
+  }
+  template <class C>
+  LSDCD_FN static Vec3 turning(const C &c)
+  {
+    return rolling_part(c.omega, c.normal);
+  }
 };
 
 // ---- LIGGGHTS ----------------------------------------------------------------------------
-
-// Returns the part of an angular velocity that rolls.
-LSDCD_FN Vec3 rolling_part(const Vec3 &omega, const Vec3 &normal)
-{
-  return omega - dot(omega, normal) * normal;
-}
 
 // `cdt` mu, constant directional torque: mu k_n overlap R against the spin, whatever its speed, of which the part
 // across the normal acts (Ai et al. 2011, model A). A sphere that also spins about the normal rolls more freely. Near
@@ -95,6 +115,16 @@ struct CdtRolling {
   LSDCD_FN static Real energy(const Real *, const In &, const Memory &, int)
   {
     return 0;
+  }
+  template <class In, class Memory>
+  LSDCD_FN static SpringPart part(const Real *, const In &, const Memory &, const Memory &, int)
+  {
+    return {};
+  }
+  template <class C>
+  LSDCD_FN static Vec3 turning(const C &c)
+  {
+    return rolling_part(c.omega, c.normal);
   }
 };
 
@@ -147,6 +177,20 @@ struct ElasticPlasticRolling {
   {
     const Real stiff = Model::stiffness(n, in);
     return stiff > 0 ? 0.5 * norm_sq(m.vec(at)) / stiff : 0;
+  }
+  template <class In, class Memory>
+  LSDCD_FN static SpringPart part(const Real *n, const In &in, const Memory &begun, const Memory &m,
+                                  int at)
+  {
+    const Real stiff = Model::stiffness(n, in);
+    if (!(stiff > 0)) return {};
+    return {(-1 / stiff) * in_plane(begun.vec(at), in.contact.normal), (-1 / stiff) * m.vec(at),
+            stiff, true};
+  }
+  template <class C>
+  LSDCD_FN static Vec3 turning(const C &c)
+  {
+    return rolling_velocity(c);
   }
 };
 
@@ -208,6 +252,13 @@ struct Rolling {
   {
     (act_as<Models>(in, m, at, torque, energy), ...);
   }
+  // Says what the torque of act() is made of; nothing if no model is on.
+  template <class In, class Memory>
+  LSDCD_FN void part(const In &in, const Memory &begun, const Memory &m, int at,
+                     ForceParts &parts) const
+  {
+    (part_as<Models>(in, begun, m, at, parts), ...);
+  }
 
  private:
   template <class Model, class In, class Memory>
@@ -219,6 +270,14 @@ struct Rolling {
         torque += Model::contact_torque(numbers, in, m, at);
         energy += Model::energy(numbers, in, m, at);
       }
+  }
+  template <class Model, class In, class Memory>
+  LSDCD_FN void part_as(const In &in, const Memory &begun, const Memory &m, int at,
+                        ForceParts &parts) const
+  {
+    if (model != Model::kModel) return;
+    parts.rolling = Model::part(numbers, in, begun, m, at);
+    parts.rolls = Model::turning(in.contact);
   }
 };
 

@@ -5,6 +5,7 @@
 #pragma once
 
 #include "law/contact.h"
+#include "law/force_parts.h"
 
 namespace lsdcd {
 
@@ -31,6 +32,12 @@ LSDCD_FN Vec3 viscous_friction(const Vec3 &v_tangent, Real viscous, Real limit)
   if (!(speed > 0)) return {0, 0, 0};
   const Real drag = viscous * speed;
   return (-(drag < limit ? drag : limit) / speed) * v_tangent;
+}
+
+// Is this friction less than what viscous_friction() has without a limit?
+LSDCD_FN bool is_below(const Vec3 &friction, Real viscous, const Vec3 &v_tangent)
+{
+  return norm(friction) < (1 - 1e-12) * viscous * norm(v_tangent);
 }
 
 // ---- the classic styles ------------------------------------------------------------------
@@ -143,6 +150,22 @@ struct GranularFriction {
     if (pull > limit) m.shear = (limit / pull) * m.shear;
     const Vec3 f = -stiff * m.shear;
     return is_cut(pull, limit, c) ? f : f - (xgammat * damping) * c.v_tangent;
+  }
+  // Returns the spring of a step with the memory before and after it. `at`, `limit`: of rescale_spring() and spring_force().
+  template <class C, class Memory>
+  LSDCD_FN SpringPart part(const C &c, Real a, const Memory &begun, const Memory &now, int at,
+                           [[maybe_unused]] Real limit) const
+  {
+    const Real stiff = stiffness(a);
+    Vec3 begins = begun.shear;
+    if (rescale && a < begun.extra[at]) begins = (a / begun.extra[at]) * begins;
+    if constexpr (C::kPair)
+      if (c.update)
+        begins = at_midpoint ? in_plane(begins, c.normal)
+                             : turned_into_plane(begins, c.normal, of_force ? 1 : stiff, limit);
+    if (!of_force) return {begins, now.shear, stiff, at_midpoint};
+    if (!(stiff > 0)) return {};
+    return {(-1 / stiff) * begins, (-1 / stiff) * now.shear, stiff, false};
   }
   template <class Memory>
   LSDCD_FN Real energy(Real a, const Memory &m) const

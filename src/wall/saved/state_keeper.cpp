@@ -54,6 +54,7 @@ WallState StateKeeper::save(Time time)
     to.mesh = identity_of(m);
     to.loads = {loads.time(), loads.packed()};
     to.last = {{of_.totals.mesh(m.index), of_.coats.load(m.index)}};
+    if (wall_.energy) to.energy = {of_.energy.mesh(m.index)};
     m.surface->save(to);
     m.mover.save(to);
     of_.coats.save(m.index, to, [this](int mesh, FeatureCode feature) {
@@ -148,6 +149,7 @@ void StateKeeper::restore_mesh(MeshPart &m, const WallState &all, const Step &no
   of_.coats.restore(m.index, was);
   if (!was.mean.empty() && all.average_every == wall_.average_every)
     of_.means.restore(m.index, was.mean.front());
+  if (!was.energy.empty()) of_.energy.restore(m.index, was.energy.front());
   if (!was.last.empty()) of_.totals.restore(m.index, was.last.front().totals);
   if (!wall_.has_loads(m.spec)) return;
   if (m.springs_are_foreign)

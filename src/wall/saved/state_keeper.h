@@ -5,6 +5,7 @@
 #pragma once
 
 #include "wall/coat/body_coats.h"
+#include "wall/energy_books.h"
 #include "wall/grid_manager.h"
 #include "wall/load_recorder.h"
 #include "wall/mean_loads.h"
@@ -29,6 +30,7 @@ class StateKeeper {
     StepTotals &totals;
     MeanLoads &means;
     LoadRecorder &loads;
+    EnergyBooks &energy;
   };
 
   StateKeeper(Host &host, const WallSpec &wall, const Parts &of) : host_(host), wall_(wall), of_(of)

@@ -84,6 +84,12 @@ void each_number(Numbers &numbers, StepLoad &l)
 }
 
 template <class Numbers>
+void each_number(Numbers &numbers, BookedEnergy &e)
+{
+  numbers(e.rows.of, e.step.of, e.dt);
+}
+
+template <class Numbers>
 void each_number(Numbers &numbers, Wrench &w)
 {
   numbers(w.force, w.torque);
@@ -202,6 +208,7 @@ State WallState::blocks() const
     if (!m.surface.vertices.empty()) mesh.add("shape", 1, m.surface);
     if (!m.mean.empty()) mesh.add("mean", 1, m.mean);
     if (!m.last.empty()) mesh.add("last step", 1, m.last);
+    if (!m.energy.empty()) mesh.add("energy", 1, m.energy);
     all.add("mesh", 1, mesh);
   }
   return all;
@@ -240,6 +247,7 @@ WallState WallState::from(const State &state)
     mesh.find("shape", 1, m.surface);
     mesh.find("mean", 1, m.mean);
     mesh.find("last step", 1, m.last);
+    mesh.find("energy", 1, m.energy);
     const std::size_t n = static_cast<std::size_t>(std::max<std::int64_t>(0, m.mesh.vertices));
     const auto is_of_vertices = [n](const std::vector<Real> &numbers) {
       return numbers.empty() || numbers.size() == 3 * n;

@@ -1,0 +1,39 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// What contacts have done with energy since the beginning.
+#pragma once
+
+#include "engine/results.h"
+#include "host/host.h"
+
+namespace lsdcd {
+
+// Rows in the order of outputs.
+constexpr EnergyRow kCauses[] = {EnergyRow::damping, EnergyRow::slider, EnergyRow::rolling,
+                                 EnergyRow::twisting, EnergyRow::adhesion};
+constexpr EnergyRow kOtherLosses[] = {EnergyRow::lever_arms, EnergyRow::stiffness,
+                                      EnergyRow::turned_springs, EnergyRow::inserted};
+
+// Energies of one mesh, or of all pairs. `rows`: sums over all steps; `held` is what is there now, and of contacts that come and go
+// with their spheres, or change between runs, it is in `inserted`, too.
+struct BookedEnergy {
+  EnergyRows rows;
+  EnergyRows step;    // of the last step
+  Real dt = 0;        // of it (time); 0: there was none
+
+  // Adds a step of this process. Spheres go from process to process with what their contacts held, so that `inserted` is right for
+  // all processes together.
+  void add_step(EnergyRows now, bool is_setup, Real duration);
+  void add(const BookedEnergy &other);
+  // Returns the power of this row in the last step, energy/time.
+  Real power(EnergyRow row) const { return dt > 0 ? step[row] / dt : 0; }
+  // Return what is lost by all rows, and the work that neither is held now nor lost.
+  Real lost() const;
+  Real remainder() const { return rows[EnergyRow::work] - rows[EnergyRow::held] - lost(); }
+};
+
+// Sums n of them over all processes. Collective.
+void sum_over_processes(Host &host, BookedEnergy *booked, int n);
+
+}    // namespace lsdcd

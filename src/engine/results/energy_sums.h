@@ -1,0 +1,84 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Sums of what contacts do with energy over the slots of a step, by mesh, in fixed point (sum_unit.h).
+#pragma once
+
+#include "backend/atomic.h"
+#include "engine/results.h"
+#include "engine/results/result_columns.h"
+#include "engine/sum_unit.h"
+
+namespace lsdcd {
+
+struct EnergyRange {
+  std::uint64_t count;
+  std::uint64_t exponent[kEnergyRows];
+
+  LSDCD_FN SumUnit unit(int row) const { return SumUnit({count, exponent[row]}); }
+};
+struct EnergyUnits {
+  std::int64_t of[kEnergyRows];
+};
+
+// Slots in blocks.
+struct BookedSlots {
+  std::size_t n;
+  const EnergyRows *rows;
+  const char *is_booked;
+  const int *mesh;    // of each; null: there is one
+
+  LSDCD_FN int mesh_of(std::size_t k) const { return mesh ? mesh[k] : 0; }
+  // Calls f(k) for each booked slot of block `at`.
+  template <class F>
+  LSDCD_FN void for_each(std::size_t at, const F &f) const
+  {
+    for (std::size_t k = at * kTotalsBlock; k < (at + 1) * kTotalsBlock && k < n; k++)
+      if (is_booked[k]) f(k);
+  }
+};
+
+// Sees the ranges of a block; they are clear before.
+struct SeeEnergy {
+  BookedSlots in;
+  EnergyRange *range;    // of each mesh
+
+  LSDCD_FN void operator()(std::size_t at) const
+  {
+    in.for_each(at, [&](std::size_t k) {
+      EnergyRange &of = range[in.mesh_of(k)];
+      add_signed(reinterpret_cast<std::int64_t *>(&of.count), 1);
+      for (int row = 0; row < kEnergyRows; row++) {
+        const std::uint64_t exponent = exponent_field(in.rows[k].of[row]);
+        if (exponent > 0) raise_to(&of.exponent[row], exponent);
+      }
+    });
+  }
+};
+// Adds a block to the sums, which are 0 before.
+struct SumEnergy {
+  BookedSlots in;
+  const EnergyRange *range;
+  EnergyUnits *sums;    // of each mesh
+
+  LSDCD_FN void operator()(std::size_t at) const
+  {
+    in.for_each(at, [&](std::size_t k) {
+      const int mesh = in.mesh_of(k);
+      for (int row = 0; row < kEnergyRows; row++) {
+        const SumUnit unit = range[mesh].unit(row);
+        const Real number = in.rows[k].of[row];
+        if (number != 0 && unit.is_finite()) add_signed(&sums[mesh].of[row], unit.units(number));
+      }
+    });
+  }
+};
+
+inline EnergyRows energy_of(const EnergyUnits &sums, const EnergyRange &range)
+{
+  EnergyRows rows;
+  for (int row = 0; row < kEnergyRows; row++) rows.of[row] = range.unit(row).value(sums.of[row]);
+  return rows;
+}
+
+}    // namespace lsdcd

@@ -1,0 +1,292 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// What the contacts of a sphere do with energy in a step: laws with kEnergy alone have these lines.
+//
+// A step goes from the last places to these, with the velocities that are there now, and forces change on the way from what
+// they were to what they are: its work is half of each, -dt/2 (F_old + F) v. A contact keeps the forces of its step
+// (KeptForces), and the next step of the sphere books their second half, whether the contact goes on, hands its spring over
+// or has ended. Causes are computed of the parts of a force, not as what is left.
+#pragma once
+
+#include "engine/step/contact_forces.h"
+
+namespace lsdcd {
+
+// The motion of sphere and wall at a contact, in the frame of the mesh.
+struct RelativeMotion {
+  Vec3 wall, spin;    // of the wall's material, as if it reached to the centre of the sphere
+  Vec3 v, omega;      // of the sphere, less these
+
+  // Turns all back to the frame of the mesh a step ago.
+  LSDCD_FN RelativeMotion before(const Vec3 &angular, Real dt) const
+  {
+    const auto turned = [&](const Vec3 &a) { return a + dt * cross(angular, a); };
+    return {turned(wall), turned(spin), turned(v), turned(omega)};
+  }
+  // Returns the velocity of the sphere's surface along the wall, as the law sees it.
+  LSDCD_FN Vec3 slip(const Vec3 &n, Real distance, Real arm) const
+  {
+    return v - dot(v, n) * n + cross(spin, distance * n) - arm * cross(omega + spin, n);
+  }
+};
+
+template <class Springs>
+LSDCD_FN RelativeMotion relative_motion(const ForceSettings &settings,
+                                        const SphereStateWith<Springs> &s, const Vec3 &n,
+                                        Real distance)
+{
+  RelativeMotion m = {};
+  if (settings.pose.placed) {
+    const Vec3 turning = cross(settings.wall_angular, s.x);
+    m.wall =
+        settings.wall_velocity + turning - settings.back * cross(settings.wall_angular, turning);
+    m.spin = settings.wall_angular;
+  }
+  if (settings.surface_moves) {
+    const SurfaceMotion &surface = settings.surface;
+    m.wall +=
+        surface.along(s.x - distance * n, n, settings.back) + cross(surface.angular, distance * n);
+    m.spin += surface.angular;
+  }
+  m.v = s.v - m.wall;
+  m.omega = s.omega - m.spin;
+  return m;
+}
+
+// What one spring with dashpot and slider loses in a step.
+struct SpringLoss {
+  Real slider, dashpot, stiffness;
+};
+
+// `path`: how far the contact has slipped (or turned) in the step; `now`, `old`: the whole force (or torque) of the family;
+// `old_spring`, `old_k`: of its spring. Where the limit cuts off a part of the path, the whole force is lost along it, and
+// what the dashpot does along the rest is the slider's, too.
+LSDCD_FN SpringLoss spring_loss(const SpringPart &spring, bool slides, const Vec3 &path,
+                                const Vec3 &now, const Vec3 &old, const Vec3 &old_spring,
+                                Real old_k)
+{
+  Vec3 cut = {0, 0, 0};
+  if (spring.k > 0)
+    cut = spring.begins + path - spring.ends;
+  else if (slides)
+    cut = path;
+  constexpr Real kRounding = 1e-9;
+  const bool is_cut = norm(cut) > kRounding * (norm(path) + norm(spring.begins));
+  const Real dashpot = -0.5 * dot(now - spring.force() + old - old_spring, path - cut);
+  SpringLoss loss;
+  loss.slider = -0.5 * dot(now + old, cut) + (is_cut ? dashpot : 0);
+  loss.dashpot = is_cut ? 0 : dashpot;
+  loss.stiffness = spring_energy(norm_sq(old_spring), old_k) -
+                   0.5 * spring.k * dot(spring.ends, spring.begins) -
+                   0.5 * dot(old_spring, spring.ends - spring.begins);
+  return loss;
+}
+// The same of a contact that has ended, whose limit has become 0.
+LSDCD_FN SpringLoss spring_loss_at_end(const Vec3 &path, const Vec3 &old, const Vec3 &old_spring,
+                                       Real old_k)
+{
+  const SpringPart spring = {
+      old_k > 0 ? (-1 / old_k) * old_spring : Vec3{0, 0, 0}, {0, 0, 0}, old_k};
+  return spring_loss(spring, true, path, {0, 0, 0}, old, old_spring, old_k);
+}
+
+// Returns what a contact keeps whose force `f` has these parts; `weight`: of the contact.
+LSDCD_FN KeptForces kept_of(const Vec3 &n, const FullForce &f, const ForceParts &parts, Real weight,
+                            Real distance, Real arm)
+{
+  const Real twisting = dot(f.contact_torque, n);
+  KeptForces now;
+  now.held = weight * f.energy;
+  now.weight = weight;
+  now.elastic = weight * parts.elastic;
+  now.damping = weight * (f.normal - parts.elastic);
+  now.distance = distance;
+  now.arm = arm;
+  now.friction = weight * f.tangential;
+  now.friction_spring = weight * parts.friction.force();
+  now.rolling = weight * (f.contact_torque - twisting * n);
+  now.rolling_spring = weight * parts.rolling.force();
+  now.twisting = weight * twisting;
+  now.twisting_spring = weight * dot(parts.twisting.force(), n);
+  now.k_friction = weight * parts.friction.k;
+  now.k_rolling = weight * parts.rolling.k;
+  now.k_twisting = weight * parts.twisting.k;
+  return now;
+}
+
+// Adds what sliding, rolling and twisting lose.
+LSDCD_FN void add_losses(const SpringLoss &sliding, const SpringLoss &rolling,
+                         const SpringLoss &twisting, EnergyRows &rows)
+{
+  rows[EnergyRow::slider] += sliding.slider;
+  rows[EnergyRow::damping] += sliding.dashpot;
+  rows[EnergyRow::rolling] += rolling.slider + rolling.dashpot;
+  rows[EnergyRow::twisting] += twisting.slider + twisting.dashpot;
+  rows[EnergyRow::stiffness] += sliding.stiffness + rolling.stiffness + twisting.stiffness;
+}
+
+// Returns the stored energy of springs whose forces these are, less the second half of their work in a step with such velocities.
+LSDCD_FN Real energy_left(const KeptForces &old, const Vec3 &slip, const Vec3 &rolling,
+                          Real twisting, Real dt)
+{
+  return springs_energy(old) -
+         0.5 * dt * (dot(old.friction, slip) + dot(old.rolling, rolling) + old.twisting * twisting);
+}
+
+// Books the springs of a contact. `weight`: of the contact; `old`: what it has taken over, in the plane of its normal.
+template <class C>
+LSDCD_FN void book_springs(const C &c, const ForceParts &parts, Real weight, const KeptForces &now,
+                           const KeptForces &old, EnergyRows &rows)
+{
+  const auto weighted = [weight](SpringPart spring) {
+    spring.k *= weight;
+    return spring;
+  };
+  const Vec3 &n = c.normal, rolling = rolling_part(c.omega, n);
+  const Real twisting = dot(c.omega, n);
+  add_losses(spring_loss(weighted(parts.friction), parts.slides, c.dt * c.v_tangent, now.friction,
+                         old.friction, old.friction_spring, old.k_friction),
+             spring_loss(weighted(parts.rolling), false, c.dt * parts.rolls, now.rolling,
+                         old.rolling, old.rolling_spring, old.k_rolling),
+             spring_loss(weighted(parts.twisting), false, (c.dt * twisting) * n, now.twisting * n,
+                         old.twisting * n, old.twisting_spring * n, old.k_twisting),
+             rows);
+  rows[EnergyRow::lever_arms] -= 0.5 * c.dt * dot(now.rolling + old.rolling, rolling - parts.rolls);
+  rows[EnergyRow::turned_springs] -= energy_left(old, c.v_tangent, rolling, twisting, c.dt);
+}
+
+// Books the springs of a contact that has ended.
+LSDCD_FN void book_springs_at_end(const KeptForces &old, const Vec3 &n, const Vec3 &slip,
+                                  const Vec3 &rolling, Real twisting, Real dt, EnergyRows &rows)
+{
+  add_losses(spring_loss_at_end(dt * slip, old.friction, old.friction_spring, old.k_friction),
+             spring_loss_at_end(dt * rolling, old.rolling, old.rolling_spring, old.k_rolling),
+             spring_loss_at_end((dt * twisting) * n, old.twisting * n, old.twisting_spring * n,
+                                old.k_twisting),
+             rows);
+}
+
+// add() takes each contact of the step, then close() those of the last one.
+template <class Law>
+struct EnergyBook {
+  EnergyRows rows;
+
+  // Returns what the contact keeps.
+  template <class Springs>
+  LSDCD_FN KeptForces add(const Law &law, const ForceSettings &settings,
+                          const SphereStateWith<Springs> &s, const BookedContact<Law> &b,
+                          const Transfer &in, EnergyMarks &marks)
+  {
+    const Contact &c = b.c;
+    const Vec3 &n = c.normal;
+    const KeptForces now = kept_of(n, b.f, b.parts, b.weight, b.distance, b.arm);
+    rows[EnergyRow::held] += now.held;
+    const bool goes_on = in.from >= 0 && in.part == 1;
+    if (in.from >= 0) EnergyMarks::mark(marks.taken, in.from);
+    if (goes_on) EnergyMarks::mark(marks.goes_on, in.from);
+    if (!settings.update) return now;
+
+    if (!goes_on) begin(law, s, b);
+    add_half(relative_motion(settings, s, n, b.distance), n, now, c.dt);
+    KeptForces old = {};
+    if (in.from >= 0) old = handed_on(law, settings, s, in, n);
+    book_springs(c, b.parts, b.weight, now, old, rows);
+    return now;
+  }
+
+  // Books the second half of the last step's contacts with this mesh, and the rest of those that have ended.
+  template <class Springs>
+  LSDCD_FN void close(const Law &law, const ForceSettings &settings,
+                      const SphereStateWith<Springs> &s, const EnergyMarks &marks)
+  {
+    const Real dt = settings.dt;
+    for (int k = 0; k < s.n_springs; k++) {
+      if (!is_own(s.springs, k)) continue;
+      const KeptForces old = kept(law, s, k);
+      rows[EnergyRow::seen] += old.held;
+      if (!settings.update) continue;
+      const Vec3 n = s.springs[k].normal;
+      RelativeMotion m = relative_motion(settings, s, n, old.distance);
+      if (settings.pose.placed) m = m.before(settings.wall_angular, dt);
+      add_half(m, n, old, dt);
+      const Vec3 slip = m.slip(n, old.distance, old.arm), rolling = rolling_part(m.omega, n);
+      const Real twisting = dot(m.omega, n);
+      if (!EnergyMarks::is_marked(marks.goes_on, k)) let_go(law, s, old);
+      if (EnergyMarks::is_marked(marks.taken, k))
+        rows[EnergyRow::turned_springs] += energy_left(old, slip, rolling, twisting, dt);
+      else
+        book_springs_at_end(old, n, slip, rolling, twisting, dt, rows);
+    }
+  }
+
+ private:
+  template <class Springs>
+  LSDCD_FN static KeptForces kept(const Law &law, const SphereStateWith<Springs> &s, int k)
+  {
+    KeptForces kept;
+    memcpy(&kept, s.extra + k * n_stored(law) + n_extra(law), sizeof kept);
+    return kept;
+  }
+
+  // Returns what the old contact in.from hands to the one with this normal, as begin_memory() hands on its springs.
+  template <class Springs>
+  LSDCD_FN static KeptForces handed_on(const Law &law, const ForceSettings &settings,
+                                       const SphereStateWith<Springs> &s, const Transfer &in,
+                                       const Vec3 &n)
+  {
+    KeptForces old = kept(law, s, in.from);
+    Vec3 *const vectors[] = {&old.friction, &old.friction_spring, &old.rolling,
+                             &old.rolling_spring};
+    for (Vec3 *h : vectors) {
+      *h = lsdcd::handed_on(in_own_frame(s.springs, in.from, *h), in, s.springs, n);
+      if (settings.surface_moves)
+        *h = turn_about(n, settings.dt * dot(settings.surface.angular, n), *h);
+    }
+    old.twisting *= in.part;
+    old.twisting_spring *= in.part;
+    return old;
+  }
+
+  // Adds half of the work that these forces do in a step.
+  LSDCD_FN void add_half(const RelativeMotion &m, const Vec3 &n, const KeptForces &by, Real dt)
+  {
+    const Real half = 0.5 * dt;
+    const Vec3 force = (by.elastic + by.damping) * n + by.friction;
+    const Vec3 torque = by.rolling + by.twisting * n - by.arm * cross(n, by.friction);
+    rows[EnergyRow::work] -= half * (dot(force, m.v) + dot(torque, m.omega));
+    rows[EnergyRow::drive] += half * (dot(force, m.wall) + dot(torque, m.spin));
+    rows[EnergyRow::damping] -= half * by.damping * dot(m.v, n);
+    rows[EnergyRow::lever_arms] -=
+        half * (by.arm - by.distance) * dot(by.friction, cross(m.spin, n));
+  }
+
+  // Books what a contact that takes over no other begins with. Surfaces that adhere jump into contact where they touch.
+  template <class Springs>
+  LSDCD_FN void begin(const Law &law, const SphereStateWith<Springs> &s,
+                      const BookedContact<Law> &b)
+  {
+    if constexpr (Law::kBeyondContact) {
+      rows[EnergyRow::adhesion] -= b.weight * law.normal_energy(b.c, 0);
+    } else {
+      // A sphere that touched nothing was outside a step ago, or was put there.
+      constexpr Real kOutside = 1e-9;
+      const Real before = b.c.overlap + b.c.dt * b.c.v_normal;
+      if (s.n_springs == 0 && before > kOutside * b.c.radius)
+        rows[EnergyRow::inserted] -= b.weight * law.normal_energy(b.c, before);
+    }
+  }
+  // Surfaces that adhere let go at the pull-off.
+  template <class Springs>
+  LSDCD_FN void let_go(const Law &law, const SphereStateWith<Springs> &s, const KeptForces &old)
+  {
+    if constexpr (Law::kBeyondContact) {
+      Contact c = {};
+      c.radius = s.radius;
+      rows[EnergyRow::adhesion] +=
+          old.weight * law.normal_energy(c, s.radius - cutoff_of(s.radius, law.elastic.pull_off));
+    }
+  }
+};
+
+}    // namespace lsdcd

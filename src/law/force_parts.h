@@ -1,0 +1,64 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// What the force of a contact is made of, for the books of energy: parts() of a law returns it after evaluate(). A
+// formula says its spring in terms of what a contact keeps, and nothing of what it dissipates.
+#pragma once
+
+#include "base/vec3.h"
+
+#include <cstddef>
+
+namespace lsdcd {
+
+// A spring in one step. Its force (or torque) is -k ends.
+struct SpringPart {
+  // Its displacement as the step took it over, and now: length (or radians).
+  Vec3 begins = {0, 0, 0}, ends = {0, 0, 0};
+  Real k = 0;    // 0: there is none
+  // In a pair: what is kept is projected into the plane of the new normal. Else it is turned into it, and keeps its length.
+  bool projected = false;
+
+  LSDCD_FN Vec3 force() const { return -k * ends; }
+};
+
+struct ForceParts {
+  Real elastic;           // normal force without damping
+  SpringPart friction;    // of the tangential force
+  bool slides;            // friction without a spring is at its limit
+  SpringPart rolling;     // of the contact torque across the normal
+  Vec3 rolls;             // the angular velocity by which that spring turns
+  SpringPart twisting;    // of the contact torque about the normal
+};
+
+// What a contact keeps of a step for the next one, which books the second half of its work. Forces and torques act on the
+// sphere; they and the stiffnesses are times the weight of the contact. Vectors are in the frame of the mesh.
+struct KeptForces {
+  Real held;                // elastic energy
+  Real weight;              // of the contact among those that share an overlap
+  Real elastic, damping;    // forces along the normal
+  Real distance, arm;       // of the sphere's centre from the wall, and of friction: length
+  Vec3 friction, friction_spring;            // the tangential force, and that of its spring
+  Vec3 rolling, rolling_spring;              // contact torques across the normal
+  Real twisting, twisting_spring;            // about it
+  Real k_friction, k_rolling, k_twisting;    // stiffnesses of the springs, 0 without
+
+  // Returns which of the numbers change sign where the spheres of a pair change places: the vectors.
+  static constexpr unsigned flips() { return 0xfffu << 6; }
+};
+constexpr int kKeptForces = static_cast<int>(sizeof(KeptForces) / sizeof(Real));
+
+// Returns the energy that a spring of this force and stiffness holds.
+LSDCD_FN Real spring_energy(Real force_sq, Real k)
+{
+  return k > 0 ? 0.5 * force_sq / k : 0;
+}
+
+LSDCD_FN Real springs_energy(const KeptForces &kept)
+{
+  return spring_energy(norm_sq(kept.friction_spring), kept.k_friction) +
+         spring_energy(norm_sq(kept.rolling_spring), kept.k_rolling) +
+         spring_energy(kept.twisting_spring * kept.twisting_spring, kept.k_twisting);
+}
+
+}    // namespace lsdcd

@@ -1,0 +1,318 @@
+# SPDX-FileCopyrightText: 2026 LSDCD contributors
+# SPDX-License-Identifier: GPL-2.0-only
+
+"""The books of energy of a wall (keyword energy) against closed forms, and that they close."""
+
+import math
+
+import lmp
+import stl
+from facts import at_most, fact
+
+prepare = lmp.flat_floor
+
+CAUSES = ("damping", "slider", "rolling", "twisting", "adhesion")
+OTHERS = ("lever_arms", "stiffness", "turned_springs", "inserted")
+NAMES = (*(f"{c} power" for c in CAUSES), *CAUSES, *OTHERS, "work", "drive", "held", "remainder")
+FIRST = 55    # column of the fix
+COLUMNS = [f"f_wall[{FIRST + k}]" for k in range(len(NAMES))]
+
+# A sphere of radius 0.5 and mass 1 above the floor, at x 0.3 off its seam.
+SPHERE = lmp.head("-3 3 -3 3 -1 5") + """\
+create_atoms    1 single {x} units box
+set             group all diameter 1.0 mass 1
+velocity        all set {v} units box
+pair_style      zero 1.2
+pair_coeff      * *
+{move}
+fix             wall all wall/lsdcd {law} mesh floor.stl energy
+timestep        {dt}
+compute         move all ke
+compute         spin all erotate/sphere
+thermo_style    custom step c_move c_spin {columns}
+thermo_modify   format float %.17g norm no
+thermo          1000000
+{run}
+"""
+
+
+def books(folder, law, dt, run, x="0.3 0.2 0.4", v="0 0 0", move="fix move all nve/sphere", ranks=1):
+    """The last row of the run."""
+    text = lmp.run_well(SPHERE.format(x=x, v=v, move=move, law=law, dt=repr(dt), columns=" ".join(COLUMNS), run=run), folder, ranks)
+    return row_of(text)
+
+
+def row_of(text):
+    row = lmp.read_thermo(text)[-1]
+    return dict(zip(("step", "ke", "spin", *NAMES), row))
+
+
+def close(name, value, wanted, size, tolerance):
+    at_most(f"{name}: {value:.9g} is {wanted:.9g}", abs(value - wanted) / size, tolerance)
+
+
+def nothing_but(book, size, *names, least=1e-12):
+    """All other rows of losses are 0."""
+    others = {k: book[k] for k in (*CAUSES, *OTHERS) if k not in names and abs(book[k]) > least * size}
+    fact(f"nothing is lost but by {', '.join(names) or 'nothing'}", not others, others or "")
+
+
+E = 0.5
+
+
+def bounce(folder, per_contact):
+    """A sphere that falls onto the floor at speed 1 with a restitution of 0.5; contacts of linear springs last pi/w."""
+    kn, ln_e = 1e4, math.log(E)
+    gamma = -2 * ln_e / math.sqrt(math.pi ** 2 + ln_e ** 2) * math.sqrt(kn)    # of the velocity, over the mass
+    dt = math.pi / math.sqrt(kn - gamma ** 2 / 4) / per_contact
+    # Touch falls anywhere within a step: of 8 bounces each begins another eighth of a step later.
+    return [books(folder, f"hooke {kn} NULL {gamma!r} NULL 0 0", dt, f"run {3 * per_contact}", v="0 0 -1",
+                  x=f"0.3 0.2 {0.5 + (5 + k / 8) * dt!r}") for k in range(8)]
+
+
+def test_bounce(folder):
+    """It loses 0.75 m v^2/2 by damping. What the books do not find is of the step in which the sphere comes: k d (v dt - d)/2 for
+    an overlap d there, v dt/12 k v dt on average, and e^2 of that as it leaves."""
+    half, means = 0.5, {}
+    for n in (25, 50, 100, 200):
+        rows = bounce(folder, n)
+        means[n] = sum(r["remainder"] for r in rows) / 8 / half
+        for r in rows:
+            at_most(f"{n} steps: energy that is lost, and the change of kinetic energy", abs(r["work"] - (half - r["ke"])), 1e-12)
+            nothing_but(r, half, "damping")
+        if n == 200:
+            close("a bounce loses", rows[0]["damping"] / half, 1 - E ** 2, 1, 0.01)
+    for n in (25, 50, 100):
+        close(f"the remainder falls with dt^2 from {n} steps on", means[n] / means[2 * n], 4, 4, 0.1)
+    print("remainders over m v^2/2:", means)
+    at_most("at 25 steps a contact it is below k (v dt)^2/8 at both ends", abs(means[25]), 2 * (math.pi / 25) ** 2 / 4)
+
+
+HELD = "fix move all move linear {v} units box"
+KN, OVERLAP = 1e4, 0.01
+PRESS = KN * OVERLAP
+DOWN = "0.3 0.2 0.49"
+
+
+def test_block_that_slides(folder):
+    """mu F s, by the slider alone, once the spring is stretched: what it holds is k h^2/2 with k h = mu F."""
+    mu, kt, v, dt, n = 0.3, 4e3, 0.7, 1e-4, 4000
+    granular = f"granular hooke {KN} 20 damping mass_velocity tangential"
+    # What the dashpot takes of the limit where it limits the sum: the mass is 1.
+    for law, dashpot in ((f"hooke/history {KN} {kt} 20 10 {mu} 1", 10 * v), (f"{granular} linear_history {kt} 1 {mu}", 20 * v),
+                         (f"{granular} linear_history_slip {kt} 1 {mu}", 0), (f"{granular} linear_history_liggghts {kt} 1 {mu}", 0)):
+        b = books(folder, law, dt, f"run {n}\nrun {n}", x=DOWN, move=HELD.format(v=f"{v} 0 0"))
+        lost = mu * PRESS * v * dt * 2 * n
+        # The first part of the way stretches the spring; the step in which it ends may be a step off.
+        close(f"{law}: slider", b["slider"], lost - mu * PRESS * (mu * PRESS - dashpot) / kt, lost, 1 / (2 * n))
+        close(f"{law}: power of the slider", b["slider power"], mu * PRESS * v, mu * PRESS * v, 1e-9)
+        at_most(f"{law}: power of damping", abs(b["damping power"]), 1e-9 * mu * PRESS * v)
+        close(f"{law}: the books close", b["remainder"], 0, lost, 1e-11)
+
+
+def test_from_slip_to_rolling(folder):
+    """A sphere that slides and comes to roll keeps 5/7 of its energy."""
+    v, mu, g = 1.0, 0.3, 100.0
+    b = books(folder, f"hooke/history {KN} 1e4 0 100 {mu} 1", 2e-5, "run 4000", x=f"-1 0.2 {0.5 - g / KN!r}", v=f"{v} 0 0",
+              move=f"fix move all nve/sphere\nfix g all gravity {g} vector 0 0 -1")
+    half = 0.5 * v * v
+    close("energy that is left", b["ke"] + b["spin"], 5 / 7 * half, half, 1e-3)
+    close("loss", b["slider"] + b["damping"], 2 / 7 * half, half, 1e-3)
+    at_most("the books close", abs(b["remainder"]) / half, 1e-5)
+    nothing_but(b, half, "slider", "damping", "inserted")
+
+
+def test_rolling_and_twisting(folder):
+    """A sphere that is turned where it lies: mu F R angle by rolling, mu F angle by twisting, less what the springs hold."""
+    w, dt, n = 2.0, 1e-4, 5000
+    angle = w * dt * n
+    law = f"granular hooke {KN} 20 damping mass_velocity tangential linear_history 0 0 0 rolling {{rolling}} twisting {{twisting}}"
+    half = 0.495 / 0.49    # LIGGGHTS turns its springs faster: (R - d/2)/(R - d)
+    for model, row, moment, k, dashpot, faster in (
+            ("sds 5e3 0.1 0.2", "rolling", 0.2 * PRESS * 0.5, 5e3 * 0.25, 0.1 * 0.25, 1), ("cdt 0.2", "rolling", 0.2 * PRESS * 0.5, 0, 0, 1),
+            ("epsd 0.2 0.1", "rolling", 0.2 * PRESS * 0.5, 225, 0.2 * math.sqrt(1.4 * 0.25 * 225), half),
+            ("sds 30 0.1 0.02", "twisting", 0.02 * PRESS, 30, 0.1, 1)):
+        axis = "1 0 0" if row == "rolling" else "0 0 1"
+        words = law.format(rolling=model if row == "rolling" else "none", twisting=model if row == "twisting" else "none")
+        b = books(folder, words, dt, f"run {n}", x=DOWN, move=f"fix move all move rotate 0.3 0.2 0.49 {axis} {2 * math.pi / w!r} units box")
+        # The spring takes the first part of the angle, beside the dashpot; sds limits their sum. It holds k first^2/2.
+        held = moment - (dashpot * w if faster == 1 else 0)
+        first = held / k if k else 0
+        spring = k * first ** 2 / 2
+        wanted = (spring + dashpot * faster * w * first) / faster - spring + moment * (angle - first / faster)
+        lost = moment * angle
+        close(f"{model}: loss of {row} and lever arms", b[row] + b["lever_arms"], wanted, lost, 2e-4)
+        close(f"{model}: power", b[f"{row} power"], moment * w * faster, moment * w, 1e-9)
+        close(f"{model}: the books close", b["remainder"], 0, lost, 1e-11)
+        nothing_but(b, lost, row, "inserted", *(["lever_arms"] if faster > 1 else []))
+
+
+def jkr_force(d, modulus, gamma, r):
+    """The elastic force of JKR's contact at an overlap, by bisection for the contact radius, of the branch that holds."""
+    def overlap(a):
+        return a * a / r - 2 * math.sqrt(math.pi * gamma * a / modulus)
+    lo = (math.pi * gamma * r * r / (4 * modulus)) ** (1 / 3)    # where the overlap is least
+    hi = 10 * r
+    for _ in range(200):
+        mid = (lo + hi) / 2
+        lo, hi = (mid, hi) if overlap(mid) < d else (lo, mid)
+    a = (lo + hi) / 2
+    return 4 * modulus * a ** 3 / (3 * r) - 4 * math.sqrt(math.pi * gamma * modulus * a ** 3)
+
+
+def test_loop_of_jkr(folder):
+    """A sphere that is pressed to the wall and pulled off: both steps of the adhesion sum to the integral of the force from the
+    pull-off to the touch. The force jumps there, where a step counts by dt/2."""
+    young, nu, gamma, r = 1e6, 0.25, 50.0, 0.5
+    modulus = young / (2 * (1 - nu ** 2))
+    let_go = -(3 * math.pi ** 2 * gamma ** 2 * r / (16 * modulus ** 2)) ** (1 / 3)
+    n = 4000
+    at = [let_go * (k + 0.5) / n for k in range(n)]
+    integral = -sum(jkr_force(d, modulus, gamma, r) for d in at) * -let_go / n    # work to pull off
+    errors = []
+    for dt in (2e-4, 1e-4):
+        v = 0.05
+        steps = round(0.06 / v / dt)
+        b = books(folder, f"granular jkr {young} 0 {nu} {gamma} damping velocity tangential linear_nohistory 0 0", dt,
+                  f"run {steps}\nunfix move\nfix move all move linear 0 0 {v} units box\nrun {3 * steps}", x="0.3 0.2 0.53",
+                  move=HELD.format(v=f"0 0 {-v}"))
+        close(f"dt {dt}: adhesion", b["adhesion"], integral, integral, 1e-5)
+        nothing_but(b, integral, "adhesion")
+        jump = 3 * math.pi * gamma * r * v * dt    # both jumps, at most half of that each
+        at_most(f"dt {dt}: remainder", abs(b["remainder"]), jump)
+        errors.append(b["remainder"])
+    fact("held at the end", b["held"] == 0, b["held"])
+
+
+def test_stiffness(folder):
+    """A spring that is stretched by h and then unloaded: with mindlin its stiffness falls with the contact radius, and the energy
+    (k1 - k2) h^2/2 is lost; mindlin/force keeps the force, so that (1/k2 - 1/k1) F^2/2 comes from nowhere."""
+    k_t, r, h = 3e4, 0.5, 1e-4
+    deep, shallow = 0.01, 0.005
+    k1, k2 = (k_t * math.sqrt(r * d) for d in (deep, shallow))
+    force = k1 * h
+    dt, n = 1e-5, 1000
+    for word, wanted in (("mindlin", (k1 - k2) * h * h / 2), ("mindlin/force", (1 / k1 - 1 / k2) * force ** 2 / 2)):
+        b = books(folder, f"granular hertz 1e6 0 damping velocity tangential {word} {k_t} 0 100", dt,
+                  f"run {n}\nunfix move\nfix move all move linear 0 0 {(deep - shallow) / dt / n!r} units box\nrun {n}", x=f"0.3 0.2 {r - deep!r}",
+                  move=HELD.format(v=f"{h / dt / n!r} 0 0"))
+        close(f"{word}: stiffness", b["stiffness"], wanted, abs(wanted), 1e-6)
+        nothing_but(b, abs(wanted), "stiffness", "inserted", least=1e-9)
+        # Of the elastic force F = k d^1.5, whose energy is 2.83, the trapezoid leaves dt^2 F'' v^2/12 = F''/F (change of d)^2/n^2/12.
+        at_most(f"{word}: the books close", abs(b["remainder"]) / (0.4 * 1e6 * math.sqrt(r * deep) * deep ** 2), 1e-7)
+
+
+def test_belt(folder):
+    """A sphere that is held on a belt: the belt's work is mu F v t, and the slider has it."""
+    mu, v, dt, n = 0.4, 0.8, 1e-4, 3000
+    b = books(folder, f"hooke {KN} NULL 0 1e6 {mu} 1", dt, f"run {n}", x=DOWN, move=HELD.format(v="0 0 0"))
+    nothing_but(b, 1, "inserted")
+    text = SPHERE.replace("floor.stl energy", f"floor.stl surface_vel {v} 0 0 energy")
+    b = row_of(lmp.run_well(text.format(x=DOWN, v="0 0 0", move=HELD.format(v="0 0 0"), law=f"hooke {KN} NULL 0 1e6 {mu} 1", dt=dt,
+                                        columns=" ".join(COLUMNS), run=f"run {n}"), folder))
+    lost = mu * PRESS * v * dt * n
+    # A setup keeps its forces, so that the first step is whole.
+    close("slider", b["slider"], lost, lost, 1e-9)
+    close("work of the belt", b["drive"], lost, lost, 1e-9)
+    close("the books close", b["remainder"], 0, lost, 1e-11)
+
+
+# ---- a ball mill -------------------------------------------------------------------------
+
+def mill(name, radius=0.15, length=0.06, lifters=8, height=0.02, sides=48):
+    """A drum about y, open at periodic faces, with lifters inside: its profile in x, z drawn along y."""
+    profile = []
+    for k in range(sides):
+        a = 2 * math.pi * k / sides
+        inward = height if k % (sides // lifters) == 0 else 0
+        for r, da in ((radius, -0.05), (radius - inward, -0.03), (radius - inward, 0.03), (radius, 0.05)) if inward else ((radius, 0),):
+            profile.append((r * math.cos(a + da), r * math.sin(a + da)))
+    triangles = []
+    for (x, z), (u, w) in zip(profile, profile[1:] + profile[:1]):
+        triangles += stl.quad((x, 0, z), (x, length, z), (u, length, w), (u, 0, w))
+    stl.write(name, triangles)
+
+
+MILL = """\
+units           si
+atom_style      sphere
+atom_modify     map array
+boundary        f p f
+newton          off
+comm_modify     vel yes
+region          box block -0.16 0.16 0 0.06 -0.16 0.16
+create_box      1 box
+lattice         sc 0.02
+region          in cylinder y 0 0 0.115 EDGE EDGE units box
+create_atoms    1 region in
+displace_atoms  all random 0.0015 0.0015 0.0015 4711 units box
+set             group all diameter 0.016 density 7800
+pair_style      granular/lsdcd
+pair_coeff      * * {of_pairs}
+neighbor        0.004 bin
+neigh_modify    delay 0 every 1 check yes
+fix             move all nve/sphere
+fix             g all gravity 9.81 vector 0 0 -1
+fix             wall all wall/lsdcd {law} mesh mill.stl motion rotate 0 0 0 0 1 0 1.2 periodic energy
+timestep        {dt}
+compute         move all ke
+compute         spin all erotate/sphere
+thermo_style    custom step c_move c_spin {columns}
+thermo_modify   format float %.17g norm no
+thermo          1000000
+{run}
+"""
+MASS = 7800 * 4 / 3 * math.pi * 0.008 ** 3
+MILL_K = 3e4
+MILL_LAW = f"granular hooke {MILL_K} 20 damping mass_velocity tangential linear_history {MILL_K * 2 / 7} 1 0.4 rolling sds 1e3 0.1 0.01 twisting sds 0.02 0 1e-4"
+
+
+def grind(folder, per_contact, seconds, ranks=1):
+    """The last row. Contacts of two balls are the shortest."""
+    mill(folder / "mill.stl")
+    dt = math.pi * math.sqrt(MASS / 2 / MILL_K) / per_contact
+    return row_of(lmp.run_well(MILL.format(law=MILL_LAW, of_pairs=MILL_LAW.replace("granular ", ""), dt=repr(dt), columns=" ".join(COLUMNS),
+                                           run=f"run {round(seconds / dt)}"), folder, ranks, timeout=3000))
+
+
+def test_ball_mill(folder):
+    """The books of its walls close to 1e-4 of the work of the drive at 150 steps a contact."""
+    wall = grind(folder, 150, 0.25 if lmp.QUICK else 1.0)
+    print(wall)
+    drive = wall["drive"]
+    fact("the drive works", drive > 0, drive)
+    fact("all causes dissipate", all(wall[c] > 0 for c in ("damping", "slider", "rolling", "twisting")), wall)
+    at_most("remainder", abs(wall["remainder"]) / drive, 1e-4)
+
+
+# ---- processes and restart ---------------------------------------------------------------
+
+ALONE = MILL[:MILL.index("pair_style")] + "pair_style zero 0.02\npair_coeff * *\n" + MILL[MILL.index("neighbor "):]
+
+
+def roll(folder, steps, run, ranks=1, script=ALONE, law=MILL_LAW):
+    dt = math.pi * math.sqrt(MASS / MILL_K) / 50
+    return row_of(lmp.run_well(script.format(law=law, dt=repr(dt), columns=" ".join(COLUMNS), run=run.format(n=steps)), folder, ranks))
+
+
+def same(name, book, wanted):
+    size = wanted["work"]
+    for key in NAMES:
+        close(f"{name}: {key}", book[key], wanted[key], size, 1e-12)
+
+
+def test_processes_and_restart(folder):
+    """Spheres that do not feel each other, in a mill: books are the same on 1 and 4 processes, and after a restart in the middle, where
+    half of the work of a step is of forces from before it."""
+    mill(folder / "mill.stl")
+    steps = 1000
+    whole = roll(folder, steps, "run {n}\nrun {n}")
+    fact("there is something to compare", whole["slider"] > 0 and whole["held"] > 0, whole)
+    at_most("the remainder", abs(whole["remainder"]) / whole["drive"], 1e-3)
+    same("4 processes", roll(folder, steps, "run {n}\nrun {n}", 4), whole)
+    roll(folder, steps, "run {n}\nwrite_restart half.restart")
+    lines = ALONE.splitlines(keepends=True)
+    first = next(k for k, line in enumerate(lines) if line.startswith("pair_style"))
+    again = "read_restart half.restart\ncomm_modify vel yes\n" + "".join(lines[first:])
+    for ranks in (1, 4):
+        same(f"restarted on {ranks}", roll(folder, steps, "run {n}", ranks, again), whole)
