@@ -21,7 +21,7 @@
 namespace lsdcd {
 
 // Computes the pair of a lane.
-template <bool kEnergy, class Law>
+template <class Law>
 LSDCD_FN void evaluate_lane(const Law &law, PairLanes &lanes, int k, Real dt, bool update)
 {
   GrainPair p = {};
@@ -56,14 +56,14 @@ LSDCD_FN void evaluate_lane(const Law &law, PairLanes &lanes, int k, Real dt, bo
   set_lane(lanes.torque_i, k, f.torque_i());
   set_lane(lanes.torque_j, k, f.torque_j());
   if constexpr (Law::kHeat) lanes.heat[k] = f.heat;
-  if constexpr (kEnergy) lanes.energy[k] = f.energy;
+  lanes.energy[k] = f.energy;
 }
 
 template <class Law>
 void evaluate_lanes(const LawBytes &bytes, PairLanes &lanes, int n, Real dt, bool update)
 {
   const Law law = bytes.as<Law>();
-  for (int k = 0; k < n; k++) evaluate_lane<true>(law, lanes, k, dt, update);
+  for (int k = 0; k < n; k++) evaluate_lane(law, lanes, k, dt, update);
 }
 
 #if defined(LSDCD_WIDE_PAIRS)
@@ -182,7 +182,7 @@ inline void evaluate_chosen(const Law &given, PairLanes &lanes, int k, Real dt)
     choice = static_cast<std::decay_t<decltype(choice)>>(lanes.choice[at++][k]);
   });
   Choice::fix(law);
-  evaluate_lane<false>(law, lanes, k, dt, true);
+  evaluate_lane(law, lanes, k, dt, true);
 }
 
 template <class Law, class Choice>

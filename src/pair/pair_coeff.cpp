@@ -11,6 +11,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstring>
+#include <iterator>
 
 namespace lsdcd {
 
@@ -57,10 +58,11 @@ bool are_same(Real a, Real b)    // NULL is no number
 {
   return a == b || (std::isnan(a) && std::isnan(b));
 }
-bool are_same(const GivenSubModel &a, const GivenSubModel &b)
+bool are_same(const GivenSubModel *a, const GivenSubModel *b)
 {
-  return a.row == b.row &&
-         std::equal(a.numbers.begin(), a.numbers.end(), b.numbers.begin(), b.numbers.end(),
+  if (!a || !b) return a == b;
+  return a->row == b->row &&
+         std::equal(a->numbers.begin(), a->numbers.end(), b->numbers.begin(), b->numbers.end(),
                     [](Real x, Real y) { return are_same(x, y); });
 }
 
@@ -69,9 +71,9 @@ bool are_same(const GivenSubModel &a, const GivenSubModel &b)
 bool are_equal(const PairCoeff &a, const PairCoeff &b)
 {
   return a.limit_damping == b.limit_damping && a.cutoff == b.cutoff &&
-         std::equal(a.sub_models.begin(), a.sub_models.end(), b.sub_models.begin(),
-                    b.sub_models.end(),
-                    [](const GivenSubModel &x, const GivenSubModel &y) { return are_same(x, y); });
+         std::all_of(std::begin(kPairFamilies), std::end(kPairFamilies), [&](Family family) {
+           return are_same(of_family(a, family), of_family(b, family));
+         });
 }
 
 ContactLaw law_of(const PairCoeff &coeff)

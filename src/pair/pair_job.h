@@ -109,8 +109,7 @@ struct PairLaw {
                    PairForce &);
   // Computes n pairs in lanes (evaluate_lanes.h), one by one.
   void (*evaluate_lanes)(const LawBytes &, PairLanes &, int n, Real dt, bool update);
-  // Computes them in vectors, without their energies, in steps in which springs move; prepare() has been called for these
-  // lanes. Null: there is no such loop.
+  // Computes them in vectors, in steps in which springs move; prepare() has been called for these lanes. Null: there is no such loop.
   void (*evaluate_wide)(const LawBytes &, PairLanes &, int n, Real dt);
   void (*prepare)(const LawBytes &, PairLanes &);
 };

@@ -76,7 +76,7 @@ template <bool kOne>
 class PairStep {
  public:
   explicit PairStep(const PairJob &job) :
-      job_(job), keeps_(job.history != nullptr), wide_(job.update && !job.record),
+      job_(job), keeps_(job.history != nullptr), wide_(job.update),
       n_both_(job.both_sides ? std::numeric_limits<int>::max() : job.n_own), of_law_(job.n_laws)
   {
     for (int law = 0; law < job.n_laws; law++) {

@@ -76,6 +76,7 @@ struct Grains {
   int now = 0;
   Real dt = 1e-4;
   Real factor[4] = {1, 1, 1, 1};
+  std::vector<RecordedPair> *record = nullptr;
 
   explicit Grains(int n_grains) :
       n(n_grains), n_own(n), x(3 * n), v(3 * n), omega(3 * n), radius(n, 1), mass(n, 1),
@@ -114,6 +115,7 @@ struct Grains {
     job.laws = laws.data(), job.law_of = law_of.data(), job.n_types = n_types + 1;
     job.n_laws = static_cast<int>(laws.size());
     job.dt = dt, job.update = update;
+    job.record = record;
     return job;
   }
   void step(bool update = true)
@@ -404,6 +406,9 @@ TEST(pairs, have_the_same_bits_side_by_side)
     }
     if (!wide.laws[0].evaluate_wide) continue;    // jkr, or a processor without such vectors
     narrow.laws[0].evaluate_wide = nullptr;
+    std::vector<RecordedPair> of_wide, of_narrow;
+    wide.record = &of_wide;
+    narrow.record = &of_narrow;
     for (int step = 0; step < 5; step++) {
       for (Grains *g : {&wide, &narrow}) {
         for (int k = 0; k < 3 * g->n; k++) g->x[k] += 0.1 * g->v[k];
@@ -411,6 +416,9 @@ TEST(pairs, have_the_same_bits_side_by_side)
       }
       ASSERT_EQ(wide.force, narrow.force) << words;
       ASSERT_EQ(wide.torque, narrow.torque) << words;
+      ASSERT_EQ(of_wide.size(), of_narrow.size()) << words;
+      for (std::size_t k = 0; k < of_wide.size(); k++)
+        ASSERT_EQ(of_wide[k].energy, of_narrow[k].energy) << words;
     }
   }
 }
