@@ -26,12 +26,14 @@ lsdcd::GrainNames FixSpringsLsdcdKokkos<DeviceType>::names()
 }
 
 template <class DeviceType>
-void FixSpringsLsdcdKokkos<DeviceType>::need_on_cpu()
+lsdcd::Partners &FixSpringsLsdcdKokkos<DeviceType>::of_atoms()
 {
-  if (!on_device) return;
-  engine->to_cpu(partners, atom->nlocal + (ghosts_too ? atom->nghost : 0));
-  partners.grow(atom->nmax);
-  on_device = false;
+  if (on_device) {
+    engine->to_cpu(partners, atom->nlocal + (ghosts_too ? atom->nghost : 0));
+    partners.grow(atom->nmax);
+    on_device = false;
+  }
+  return partners;
 }
 
 template <class DeviceType>
@@ -93,21 +95,12 @@ std::vector<double> FixSpringsLsdcdKokkos<DeviceType>::numbers_of(int i, int j)
     ghosts_too = ghosts;
     shown = true;
   }
-  need_on_cpu();
+  const lsdcd::Partners &here = of_atoms();
   atomKK->sync(Host, TAG_MASK);
-  for (int k = 0; k < partners.count(i); k++)
-    if (partners.name(i, k) == atom->tag[j])
-      return {partners.numbers(i, k), partners.numbers(i, k) + partners.width()};
+  for (int k = 0; k < here.count(i); k++)
+    if (here.name(i, k) == atom->tag[j])
+      return {here.numbers(i, k), here.numbers(i, k) + here.width()};
   return {};
-}
-
-// ---- where LAMMPS moves atoms on the host, and restart files ------------------------------
-
-template <class DeviceType>
-void FixSpringsLsdcdKokkos<DeviceType>::copy_arrays(int i, int j, int delflag)
-{
-  need_on_cpu();
-  FixSpringsLsdcd::copy_arrays(i, j, delflag);
 }
 
 // The engine has nothing of an atom that is new.
@@ -115,48 +108,6 @@ template <class DeviceType>
 void FixSpringsLsdcdKokkos<DeviceType>::set_arrays(int i)
 {
   if (!on_device) FixSpringsLsdcd::set_arrays(i);
-}
-
-template <class DeviceType>
-int FixSpringsLsdcdKokkos<DeviceType>::pack_exchange(int i, double *buf)
-{
-  need_on_cpu();
-  return FixSpringsLsdcd::pack_exchange(i, buf);
-}
-
-template <class DeviceType>
-int FixSpringsLsdcdKokkos<DeviceType>::unpack_exchange(int i, double *buf)
-{
-  need_on_cpu();
-  return FixSpringsLsdcd::unpack_exchange(i, buf);
-}
-
-template <class DeviceType>
-int FixSpringsLsdcdKokkos<DeviceType>::pack_reverse_comm_size(int n, int first)
-{
-  need_on_cpu();
-  return FixSpringsLsdcd::pack_reverse_comm_size(n, first);
-}
-
-template <class DeviceType>
-int FixSpringsLsdcdKokkos<DeviceType>::size_restart(int i)
-{
-  need_on_cpu();
-  return FixSpringsLsdcd::size_restart(i);
-}
-
-template <class DeviceType>
-int FixSpringsLsdcdKokkos<DeviceType>::maxsize_restart()
-{
-  need_on_cpu();
-  return FixSpringsLsdcd::maxsize_restart();
-}
-
-template <class DeviceType>
-int FixSpringsLsdcdKokkos<DeviceType>::pack_restart(int i, double *buf)
-{
-  need_on_cpu();
-  return FixSpringsLsdcd::pack_restart(i, buf);
 }
 
 template <class DeviceType>

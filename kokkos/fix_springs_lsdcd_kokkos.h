@@ -21,14 +21,7 @@ class FixSpringsLsdcdKokkos : public FixSpringsLsdcd, public KokkosBase {
  public:
   FixSpringsLsdcdKokkos(class LAMMPS *, int, char **);
 
-  void copy_arrays(int, int, int) override;
   void set_arrays(int) override;
-  int pack_exchange(int, double *) override;
-  int unpack_exchange(int, double *) override;
-  int pack_reverse_comm_size(int, int) override;
-  int size_restart(int) override;
-  int maxsize_restart() override;
-  int pack_restart(int, double *) override;
   double memory_usage() override;
 
   int pack_exchange_kokkos(const int &, lsdcd::ExchangeBuffer &, DAT::tdual_int_1d,
@@ -42,6 +35,7 @@ class FixSpringsLsdcdKokkos : public FixSpringsLsdcd, public KokkosBase {
                 const std::function<unsigned(int, int)> &flips) override;
   void collect() override;
   int largest_packed_size() const override;
+  lsdcd::Partners &of_atoms() override;
 
  private:
   friend class PairGranularLsdcdKokkos<DeviceType>;
@@ -51,7 +45,6 @@ class FixSpringsLsdcdKokkos : public FixSpringsLsdcd, public KokkosBase {
   std::vector<double> numbers_of(int i, int j);
 
   lsdcd::GrainNames names();
-  void need_on_cpu();
   void need_on_device();
 
   class AtomKokkos *atomKK;

@@ -146,20 +146,20 @@ void FixSpringsLsdcd::post_run()
 int FixSpringsLsdcd::pack_reverse_comm_size(int n, int first)
 {
   int size = 0;
-  for (int i = first; i < first + n; i++) size += partners.packed_size(i);
+  for (int i = first; i < first + n; i++) size += of_atoms().packed_size(i);
   return size;
 }
 
 int FixSpringsLsdcd::pack_reverse_comm(int n, int first, double *buf)
 {
   double *const begin = buf;
-  for (int i = first; i < first + n; i++) buf += partners.pack(i, buf);
+  for (int i = first; i < first + n; i++) buf += of_atoms().pack(i, buf);
   return static_cast<int>(buf - begin);
 }
 
 void FixSpringsLsdcd::unpack_reverse_comm(int n, int *atoms, double *buf)
 {
-  for (int k = 0; k < n; k++) buf += partners.unpack_more(atoms[k], buf);
+  for (int k = 0; k < n; k++) buf += of_atoms().unpack_more(atoms[k], buf);
 }
 
 // ---- atoms move --------------------------------------------------------------------------
@@ -171,7 +171,7 @@ void FixSpringsLsdcd::grow_arrays(int nmax)
 
 void FixSpringsLsdcd::copy_arrays(int i, int j, int /*delflag*/)
 {
-  partners.copy(i, j);
+  of_atoms().copy(i, j);
 }
 
 void FixSpringsLsdcd::set_arrays(int i)
@@ -181,12 +181,12 @@ void FixSpringsLsdcd::set_arrays(int i)
 
 int FixSpringsLsdcd::pack_exchange(int i, double *buf)
 {
-  return keeps() ? partners.pack(i, buf) : 0;
+  return keeps() ? of_atoms().pack(i, buf) : 0;
 }
 
 int FixSpringsLsdcd::unpack_exchange(int i, double *buf)
 {
-  return keeps() ? partners.unpack(i, buf) : 0;
+  return keeps() ? of_atoms().unpack(i, buf) : 0;
 }
 
 // ---- restart files -----------------------------------------------------------------------
@@ -224,19 +224,19 @@ void FixSpringsLsdcd::restart(char *buffer)
 // In restart files the first number is the size, by which other fixes skip it.
 int FixSpringsLsdcd::size_restart(int i)
 {
-  return 1 + partners.packed_size(i);
+  return 1 + of_atoms().packed_size(i);
 }
 
 int FixSpringsLsdcd::maxsize_restart()
 {
-  int largest = 1 + partners.largest_packed_size();
+  int largest = 1 + of_atoms().largest_packed_size();
   MPI_Allreduce(MPI_IN_PLACE, &largest, 1, MPI_INT, MPI_MAX, world);
   return largest;
 }
 
 int FixSpringsLsdcd::pack_restart(int i, double *buf)
 {
-  buf[0] = 1 + partners.pack(i, buf + 1);
+  buf[0] = 1 + of_atoms().pack(i, buf + 1);
   return static_cast<int>(buf[0]);
 }
 
@@ -248,7 +248,7 @@ void FixSpringsLsdcd::unpack_restart(int i, int nth)
   if (!from_file || !partners.is_sound(extra + 1, size))
     throw lsdcd::InputError("the springs of atom " + std::to_string(atom->tag[i]) +
                             " in the restart file are damaged: " + kWithoutSprings);
-  partners.unpack(i, extra + 1);
+  of_atoms().unpack(i, extra + 1);
 }
 
 double FixSpringsLsdcd::memory_usage()

@@ -69,6 +69,8 @@ class FixSpringsLsdcd : public Fix, protected OwnMessages {
   virtual void collect();
   void tell_owners();
   virtual int largest_packed_size() const { return partners.largest_packed_size(); }
+  // The partners, which may be elsewhere, for atoms that LAMMPS moves one by one and for restart files.
+  virtual lsdcd::Partners &of_atoms() { return partners; }
 
   lsdcd::Partners partners;
   lsdcd::PairHistory history[2];

@@ -98,7 +98,6 @@ class PairEngine {
   virtual int pack(int n, const int *which, const int *from, double *buffer) = 0;
   virtual void unpack(int n, const int *to, const double *buffer, int n_first, int second) = 0;
 
-  virtual std::size_t pairs() const = 0;    // that touched in the last step
   virtual std::size_t bytes() const = 0;
 };
 

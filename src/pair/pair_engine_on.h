@@ -21,6 +21,7 @@ template <class B>
 class PairEngineOn : public PairEngine {
   template <class T>
   using Array = typename B::template Array<T>;
+  static constexpr unsigned kStep = B::kOnCpu ? 1 : kGpuPairStep;
 
  public:
   explicit PairEngineOn(B backend) : b_(std::move(backend)), n_pairs_(1), seen_(1) {}
@@ -63,9 +64,10 @@ class PairEngineOn : public PairEngine {
     static_cast<PairInput &>(s) = step;
     s.words = words_of_row(step.list);
     next.reserve_rows(rows, s.words, width_ > 0);
-    s.now = next.view();
-    if (width_ > 0 && has_last_) s.old = last.view();
+    s.now = next.view(width_);
+    if (width_ > 0 && has_last_) s.old = last.view(width_);
     s.width = width_;
+    s.step = kStep;
     s.n_pairs = n_pairs_.data();
     s.laws = bytes_.data();
     s.n_laws = static_cast<int>(laws_.size());
@@ -73,6 +75,7 @@ class PairEngineOn : public PairEngine {
     s.n_types = n_types_;
     s.kind_of = kind_of_.data();
     s.pull_off = pull_off_.data();
+    for (int k = 0; k < 4; k++) s.left_out |= unsigned(step.factor[k] == 0) << k;
     s.alone = B::kOnCpu && threads() == 1;
     if (sums) {
       sums_.reserve(kPairSums * std::size_t(step.n_all));
@@ -85,11 +88,9 @@ class PairEngineOn : public PairEngine {
       // The pairs are started before it is known whether there is room, and a GPU need not wait for the CPU.
       if (rows > 0) add(s, next);
       counted_.wait();
-      pairs_ = rows > 0 ? *seen_.data() : 0;
-      if (pairs_ > next.room(width_)) {
-        countable_here(static_cast<std::int64_t>(pairs_), "touching pairs in one process",
-                       "use more processes");
-        next.numbers.reserve(pairs_ * width_);
+      places_ = rows > 0 ? *seen_.data() : 0;
+      if (places_ > next.room(width_)) {
+        next.reserve(places_, width_);
         add(s, next);
       }
       now_ = 1 - now_;
@@ -116,7 +117,7 @@ class PairEngineOn : public PairEngine {
     Pool &to = pool_[1 - now_];
     put_all(b_, count_.data(), count_.size(), 0);
     const int words = words_of_row(list);
-    TouchingPairs from = pool_[now_].view();
+    TouchingPairs from = pool_[now_].view(width_);
     PartnersView partners = {n, width_, first_.data(), count_.data(), nullptr, nullptr};
     if (!has_last_ || rows == 0) {
       put_all(b_, first_.data(), first_.size(), 0);
@@ -132,7 +133,7 @@ class PairEngineOn : public PairEngine {
     partners.name = name_.data();
     partners.numbers = to.numbers.data();
     b_.for_each(rows, FillPartners{list, words, from, name, type, law_of_.data(), n_types_,
-                                   flips_.data(), partners});
+                                   flips_.data(), kStep, partners});
     b_.wait();
   }
 
@@ -142,8 +143,12 @@ class PairEngineOn : public PairEngine {
     const std::size_t rows = list.rows;
     const int words = words_of_row(list);
     to.reserve_rows(rows, words, true);
-    to.numbers.reserve(end_ * width_);
-    if (rows > 0) b_.for_each(rows, HandOut{list, words, to.view(), name, view()});
+    if (rows > 0) {
+      put_one(b_, n_pairs_.data(), 0);
+      b_.for_each_in_warps(rows, TakePlaces{list, count_.data(), n_pairs_.data(), to.first.data()});
+      to.reserve(read_one(b_, n_pairs_.data()), width_);
+      b_.for_each(rows, HandOut{list, words, to.view(width_), name, kStep, view()});
+    }
     has_last_ = true;
   }
 
@@ -231,7 +236,6 @@ class PairEngineOn : public PairEngine {
     numbered(static_cast<std::int64_t>(end_));
   }
 
-  std::size_t pairs() const override { return pairs_; }
   std::size_t bytes() const override
   {
     return pool_[0].bytes() + pool_[1].bytes() + name_.size() * sizeof(Partners::Name) +
@@ -250,11 +254,22 @@ class PairEngineOn : public PairEngine {
       words.reserve(rows * of_row);
       if (keeps) first.reserve(rows);
     }
+    // A column begins where 32 bytes do.
     std::size_t room(int width) const
     {
-      return std::min(numbers.size() / width, std::size_t(kMostCountable));
+      return width > 0 ? numbers.size() / width / kStep * kStep : 0;
     }
-    TouchingPairs view() { return {words.data(), first.data(), numbers.data()}; }
+    void reserve(std::size_t places, int width)
+    {
+      const std::size_t n = with_spare(places) / kStep * kStep + kStep;
+      countable_here(static_cast<std::int64_t>(n), "touching pairs in one process",
+                     "use more processes");
+      if (room(width) < places) numbers = Array<Real>(n * width);
+    }
+    TouchingPairs view(int width)
+    {
+      return {words.data(), first.data(), numbers.data(), room(width)};
+    }
     std::size_t bytes() const
     {
       return words.size() * sizeof(std::uint32_t) + first.size() * sizeof(int) +
@@ -315,8 +330,7 @@ class PairEngineOn : public PairEngine {
 
   void add(PairStepView &s, Pool &to)
   {
-    s.now = to.view();
-    s.room = s.width > 0 ? static_cast<std::uint32_t>(to.room(s.width)) : 0;
+    s.now = to.view(width_);
     for (std::size_t kind = 0; kind < kinds_.size(); kind++) {
       s.kind = static_cast<int>(kind);
       kinds_[kind].run(s, kinds_[kind].law, b_);
@@ -349,7 +363,7 @@ class PairEngineOn : public PairEngine {
   Array<std::uint32_t> n_pairs_;
   typename B::template CpuArray<std::uint32_t> seen_;
   typename B::Event counted_;
-  std::size_t pairs_ = 0;
+  std::size_t places_ = 0;    // for pairs in the last step
   Array<Real> sums_, more_;
   std::size_t sums_n_ = 0;
 

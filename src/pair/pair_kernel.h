@@ -28,9 +28,10 @@ LSDCD_FN bool pair_touches(const Law &law, const GrainPair &p, bool touched)
   return false;
 }
 
-// What the law keeps: the shear displacement, then vectors and scalars that it stores. `from` null: nothing yet.
-template <class Law>
-LSDCD_FN ContactMemory<Law::kExtra> read_memory(const Law &law, const Real *from)
+// What the law keeps: the shear displacement, then vectors and scalars that it stores. `from` null: nothing yet. From and To:
+// pointers to numbers, or what acts as one.
+template <class Law, class From>
+LSDCD_FN ContactMemory<Law::kExtra> read_memory(const Law &law, From from)
 {
   ContactMemory<Law::kExtra> memory = {};
   if (!from) return memory;
@@ -47,8 +48,8 @@ LSDCD_FN ContactMemory<Law::kExtra> read_memory(const Law &law, const Real *from
   }
   return memory;
 }
-template <class Law>
-LSDCD_FN void write_memory(const Law &law, const ContactMemory<Law::kExtra> &memory, Real *to)
+template <class Law, class To>
+LSDCD_FN void write_memory(const Law &law, const ContactMemory<Law::kExtra> &memory, To to)
 {
   for (int k = 0; k < 3; k++) to[k] = memory.shear[k];
   if constexpr (Law::kExtra > 0) {
@@ -119,9 +120,8 @@ LSDCD_FN void evaluate_pair(const Law &law, const GrainPair &p, ContactMemory<La
 
 // The same with numbers as they are stored. Where the law has history, `old` is what the pair has kept, null if nothing, and
 // `kept` what it keeps now.
-template <class Law>
-LSDCD_FN void evaluate_pair(const Law &law, const GrainPair &p, const Real *old, Real *kept,
-                            PairForce &out)
+template <class Law, class From, class To>
+LSDCD_FN void evaluate_pair(const Law &law, const GrainPair &p, From old, To kept, PairForce &out)
 {
   ContactMemory<Law::kExtra> memory = {};
   if constexpr (Law::kHistory) memory = read_memory(law, old);

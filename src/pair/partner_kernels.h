@@ -57,22 +57,24 @@ struct FillPartners {
   const int *type, *law_of;
   int n_types;
   const std::uint32_t *flips;    // of laws, see ContactLaw::flips()
+  unsigned step;                 // see kGpuPairStep
   PartnersView to;
 
   LSDCD_FN void operator()(std::size_t k) const
   {
     const int i = list.grain[k];
-    const Real *numbers = from.numbers + std::size_t(from.first[k]) * to.width;
+    std::size_t pair = static_cast<std::size_t>(from.first[k]);
     for_touching(list, words, from.words, k, [&](int j) {
-      if (i < to.n) put(i, name[j], numbers, 0);
+      if (i < to.n) put(i, name[j], from.of(pair), 0);
       if (!list.full && j < to.n)
-        put(j, name[i], numbers, flips[law_of[type[i] * n_types + type[j]]]);
-      numbers += to.width;
+        put(j, name[i], from.of(pair), flips[law_of[type[i] * n_types + type[j]]]);
+      pair += step;
     });
   }
 
  private:
-  LSDCD_FN void put(int i, Partners::Name partner, const Real *numbers, std::uint32_t flip) const
+  LSDCD_FN void put(int i, Partners::Name partner, const PairNumbers<Real> &numbers,
+                    std::uint32_t flip) const
   {
     const std::size_t at = std::size_t(to.first[i]) + fetch_add(to.count + i, 1);
     to.name[at] = partner;
@@ -81,20 +83,35 @@ struct FillPartners {
   }
 };
 
-// Gives what partners have to the pairs of a new list. A row has as many places as its grain has partners.
+// Takes places for as many pairs of a row as its grain has partners.
+struct TakePlaces {
+  PairRows list;
+  const int *count;    // of partners
+  std::uint32_t *n_pairs;
+  int *first;
+
+  template <class W>
+  LSDCD_FN void operator()(const W &warp, bool mine, std::size_t k) const
+  {
+    take_places(warp, mine, k, mine ? static_cast<unsigned>(count[list.grain[k]]) : 0, n_pairs,
+                first);
+  }
+};
+
+// Gives what partners have to the pairs of a new list.
 struct HandOut {
   PairRows list;
   int words;
   TouchingPairs to;
   GrainNames name;
+  unsigned step;    // see kGpuPairStep
   PartnersView from;
 
   LSDCD_FN void operator()(std::size_t k) const
   {
     const int i = list.grain[k], n = list.length[i], count = from.count[i];
-    const std::size_t first = std::size_t(from.first[i]);
-    to.first[k] = from.first[i];
-    Real *numbers = to.numbers + first * from.width;
+    const std::size_t first = static_cast<std::size_t>(from.first[i]);
+    std::size_t pair = static_cast<std::size_t>(to.first[k]);
     int left = count;
     for (int w = 0; w < words; w++) {
       std::uint32_t bits = 0;
@@ -105,7 +122,8 @@ struct HandOut {
         if (p == count) continue;
         bits |= std::uint32_t(1) << bit;
         for (int m = 0; m < from.width; m++)
-          *numbers++ = from.numbers[(first + p) * from.width + m];
+          to.of(pair)[m] = from.numbers[(first + p) * from.width + m];
+        pair += step;
         left--;
       }
       to.words[std::size_t(w) * list.rows + k] = bits;

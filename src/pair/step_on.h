@@ -15,13 +15,40 @@
 namespace lsdcd {
 
 constexpr int kWordBits = 32;
+// On a GPU the n-th pairs of so many rows lie side by side, in 32 bytes that are read and written together. The step from a
+// row's pair to its next one; 1 on a CPU.
+constexpr unsigned kGpuPairStep = 4;
+
+// Numbers of a pair, `step` apart.
+template <class T>
+struct PairNumbers {
+  T *at;
+  std::size_t step;
+
+  LSDCD_FN bool operator!() const { return !at; }
+  LSDCD_FN T &operator*() const { return *at; }
+  LSDCD_FN T &operator[](int k) const { return at[static_cast<std::size_t>(k) * step]; }
+  LSDCD_FN PairNumbers &operator+=(int n)
+  {
+    at += static_cast<std::size_t>(n) * step;
+    return *this;
+  }
+  LSDCD_FN PairNumbers operator++(int)
+  {
+    const PairNumbers before = *this;
+    at += step;
+    return before;
+  }
+};
 
 // Which pairs of a list touch, and where the numbers that they keep are: bit k % 32 of word k / 32 is of place k in the row.
 struct TouchingPairs {
   std::uint32_t *words = nullptr;    // word w of row r at [w * rows + r]; null: none touch
-  int *first =
-      nullptr;    // of each row, in `numbers`; those of a row follow each other in the order of the list
-  Real *numbers = nullptr;    // `width` of a pair
+  int *first = nullptr;              // of each row's first pair among all
+  Real *numbers = nullptr;           // the k-th of all pairs are side by side
+  std::size_t room = 0;              // for how many pairs
+
+  LSDCD_FN PairNumbers<Real> of(std::size_t pair) const { return {numbers + pair, room}; }
 };
 
 // A step as its kernels see it.
@@ -29,8 +56,8 @@ struct PairStepView : PairInput {
   int words = 0;    // of a row
   TouchingPairs now, old;
   int width = 0;
-  std::uint32_t *n_pairs = nullptr;    // where pairs are counted
-  std::uint32_t room = 0;              // for how many numbers of them there is room
+  unsigned step = 1;                   // see kGpuPairStep
+  std::uint32_t *n_pairs = nullptr;    // where places for pairs are counted
   const LawBytes *laws = nullptr;
   int n_laws = 0;
   const int *law_of = nullptr;
@@ -38,8 +65,9 @@ struct PairStepView : PairInput {
   const int *kind_of = nullptr;    // laws of one kind have the same compiled law
   int kind = 0;                    // whose pairs are computed
   const Real *pull_off = nullptr;
-  Real *sums = nullptr;    // column k of kPairSums at [k * n_all]; null: not asked for
-  bool alone = false;      // one thread adds forces
+  Real *sums = nullptr;     // column k of kPairSums at [k * n_all]; null: not asked for
+  unsigned left_out = 0;    // bit k: factor k is 0
+  bool alone = false;       // one thread adds forces
 
   LSDCD_FN int law(int i, int j) const { return law_of[type[i] * n_types + type[j]]; }
 };
@@ -65,6 +93,28 @@ LSDCD_FN void add_shared(const StridedView<Real> &to, int i, const Vec3 &a, bool
   for (int k = 0; k < 3; k++) add_shared(at + k * to.column, a[k], alone);
 }
 
+// Takes places for what a row's `count` pairs keep. All threads of a warp together.
+template <class W>
+LSDCD_FN void take_places(const W &warp, bool mine, std::size_t row, unsigned count,
+                          std::uint32_t *n_pairs, int *first)
+{
+  constexpr unsigned kSide = W::kSize == 1 ? 1 : kGpuPairStep;
+  for (unsigned apart = 1; apart < kSide; apart *= 2) {
+    const unsigned other = warp.of_other(count, apart);
+    if (other > count) count = other;
+  }
+  const unsigned room = kSide * count;    // of rows side by side
+  unsigned end = warp.rank() % kSide == 0 ? room : 0;
+  for (unsigned apart = 1; apart < W::kSize; apart *= 2) {
+    const unsigned below = warp.from_below(end, apart);
+    if (warp.rank() >= apart) end += below;
+  }
+  unsigned begin = 0;
+  if (warp.rank() == W::kSize - 1 && end > 0) begin = fetch_add(n_pairs, end);
+  begin = warp.of(begin, W::kSize - 1);
+  if (mine) first[row] = static_cast<int>(begin + end - room + warp.rank() % kSide);
+}
+
 // Finds the pairs that touch, and places for what they keep. kBeyond: adhesion may hold pairs beyond contact.
 template <bool kBeyond>
 struct FindTouching {
@@ -87,16 +137,7 @@ struct FindTouching {
         count += static_cast<unsigned>(count_bits(bits));
       }
     }
-    if (s.width == 0) return;
-    unsigned end = count;
-    for (unsigned apart = 1; apart < W::kSize; apart *= 2) {
-      const unsigned below = warp.from_below(end, apart);
-      if (warp.rank() >= apart) end += below;
-    }
-    unsigned begin = 0;
-    if (warp.rank() == W::kSize - 1 && end > 0) begin = fetch_add(s.n_pairs, end);
-    begin = warp.of(begin, W::kSize - 1);
-    if (mine) s.now.first[k] = static_cast<int>(begin + end - count);
+    if (s.width > 0) take_places(warp, mine, k, count, s.n_pairs, s.now.first);
   }
 
  private:
@@ -114,7 +155,7 @@ struct FindTouching {
         const Real pull_off = s.pull_off[s.law(i, j)];
         yes = pull_off > 0 && is_held(p, pull_off);
       }
-    return yes && s.factor[with >> s.list.factor_shift & 3] != 0;
+    return yes && !(s.left_out >> (with >> s.list.factor_shift & 3) & 1);
   }
 };
 
@@ -127,7 +168,7 @@ struct AddPairs {
 
   LSDCD_FN void operator()(std::size_t k) const
   {
-    if (s.width > 0 && *s.n_pairs > s.room) return;    // the host comes again
+    if (s.width > 0 && *s.n_pairs > s.now.room) return;    // the host comes again
     std::uint32_t bits = s.now.words[k];
     if (s.words == 1 && bits == 0) return;
     const int i = s.list.grain[k];
@@ -148,15 +189,15 @@ struct AddPairs {
       while (bits != 0) {
         const unsigned bit = lowest_bit(bits);
         bits &= bits - 1;
-        const Real *old = nullptr;
+        PairNumbers<Real> old = {nullptr, 0};
         if (old_bits >> bit & 1)
-          old = s.old.numbers +
-                s.width * (old_place + count_bits(old_bits & ((std::uint32_t(1) << bit) - 1)));
-        add(i, s.list.at(i, kWordBits * w + static_cast<int>(bit)), x, v, p, old,
-            s.now.numbers + s.width * place, row);
-        place++;
+          old = s.old.of(old_place + s.step * static_cast<unsigned>(count_bits(
+                                                  old_bits & ((std::uint32_t(1) << bit) - 1))));
+        add(i, s.list.at(i, kWordBits * w + static_cast<int>(bit)), x, v, p, old, s.now.of(place),
+            row);
+        place += s.step;
       }
-      old_place += static_cast<std::size_t>(count_bits(old_bits));
+      old_place += s.step * static_cast<unsigned>(count_bits(old_bits));
     }
     if constexpr (kFull) {
       s.force.add(i, row.force);
@@ -175,8 +216,8 @@ struct AddPairs {
     Real heat;
   };
 
-  LSDCD_FN void add(int i, int with, const Vec3 &x, const Vec3 &v, GrainPair &p, const Real *old,
-                    Real *kept, Row &row) const
+  LSDCD_FN void add(int i, int with, const Vec3 &x, const Vec3 &v, GrainPair &p,
+                    const PairNumbers<Real> &old, const PairNumbers<Real> &kept, Row &row) const
   {
     const int j = with & s.list.mask;
     const Law *law;
