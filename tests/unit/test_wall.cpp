@@ -62,6 +62,45 @@ struct Scene : WallScene {
 // Sums of a few products of doubles of order one: some hundred roundings.
 constexpr Real kRounding = 1e-13;
 
+// A mesh that has come to rest has nothing to do in a step, but where the box changes. It acts as one that was always there, and its
+// next motion begins where it is.
+TEST_F(wall, lets_a_mesh_that_was_stopped_rest_until_the_box_changes_or_it_moves_again)
+{
+  FakeHost host;
+  host.simulation = wide_box();
+  host.simulation.corner = {-15, -15, -15};
+  for (int k = 0; k < 3; k++) {
+    host.simulation.edge[k] = {0, 0, 0};
+    host.simulation.edge[k][k] = 30;
+  }
+  host.simulation.periodic[0] = true;
+  WallScene moved(host, floor.wall("motion linear 100 0 1"));
+  moved.add({0, 0, kRadius - 0.01}, kRadius);
+  moved.go(4);
+  const MotionTerm term = moved.wall->spec().meshes.front().motion.terms().front();
+  moved.wall->set_motion(0, RigidMotion(), {moved.now, kDt});
+  moved.run(3);
+  EXPECT_NEAR(moved.force[0].z, kN * (0.01 + 4 * kDt), 1e-9);
+  const Vec3 at_rest = moved.force[0];
+  EXPECT_EQ(moved.wall->totals().mesh(0).power, 0);
+  moved.run(3);
+  EXPECT_TRUE(moved.force[0] == at_rest);
+  EXPECT_EQ(moved.wall->meshes()[0].pose().shift.x, 0.4);
+
+  RigidMotion again;
+  again.add(term);
+  moved.wall->set_motion(0, again, {moved.now, kDt});
+  moved.run(2);
+  EXPECT_NEAR(moved.force[0].z, kN * (0.01 + 6 * kDt), 1e-9);
+  moved.wall->set_motion(0, RigidMotion(), {moved.now, kDt});
+  moved.run(3);
+  host.simulation.corner.x = -10;
+  host.simulation.edge[0].x = 21;
+  EXPECT_FALSE(fails_with("periodic face", [&] { moved.run(1); }));    // nobody said so
+  moved.box_changes = true;
+  EXPECT_TRUE(fails_with("reaches the periodic face in x", [&] { moved.run(1); }));
+}
+
 // In radii. A mesh that goes less sees the sphere in front of it; one that goes more may leave it behind.
 TEST_F(wall, stops_where_a_mesh_jumps_over_spheres)
 {
