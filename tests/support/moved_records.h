@@ -14,6 +14,7 @@
 #include <cmath>
 #include <cstring>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace lsdcd {
@@ -61,6 +62,53 @@ inline void expect_same_records(const MeshFeatures &a, const MeshFeatures &b)
   for (std::size_t k = 0; k < of_a.size(); k++) EXPECT_TRUE(of_a[k] == of_b[k]) << "array " << k;
 }
 
+// Computes as Base, and has no engine but the one below.
+template <class Base>
+struct NodesAlone : Base {
+  NodesAlone() = default;
+  explicit NodesAlone(Base base) : Base(std::move(base)) {}
+};
+
+// What nodes ask of their engine: it keeps which springs were to turn.
+template <class Base>
+class EngineOn<NodesAlone<Base>> {
+ public:
+  using B = NodesAlone<Base>;
+
+  struct Springs {
+    std::vector<TurningMesh> turned;
+    void grow(int) {}
+    void turn(int, std::uint32_t, const TurningMesh &turning) { turned.push_back(turning); }
+    const StepContact *contacts(bool) { return nullptr; }
+  };
+  struct BroadPhase {
+    void set_lists(B &, const GridView &, int) {}
+  };
+  struct Results {
+    NodeContacts node_contacts(const StepContact *, int, const MeshFeaturesView &, const Vec3 *)
+    {
+      return {};
+    }
+  };
+
+  explicit EngineOn(Base base, bool with_sides = true) : b_(std::move(base))
+  {
+    settings_.side = with_sides ? Side::out : Side::both;
+  }
+  template <class F>
+  void where_step_runs(const F &run)
+  {
+    run();
+  }
+
+  EngineSettings settings_;
+  StepSettings step_;
+  B b_;
+  Springs springs_;
+  BroadPhase broad_phase_;
+  Results results_;
+};
+
 template <class B>
 MeshFeatures records_on_cpu(B &b, const MovingNodes<B> &nodes, const WeldedMesh &mesh)
 {
@@ -77,14 +125,15 @@ MeshFeatures records_on_cpu(B &b, const MovingNodes<B> &nodes, const WeldedMesh 
 }
 
 // `mesh`: before it moves to where `after` is.
-template <class B>
-MeshFeatures moved_records_by(B b, const WeldedMesh &mesh, const WeldedMesh &after)
+template <class Base>
+MeshFeatures moved_records_by(Base base, const WeldedMesh &mesh, const WeldedMesh &after)
 {
-  MovingNodes<B> nodes;
-  nodes.start(b, mesh, true, false);
-  nodes.give(b, after.vertices.data(), nullptr);
-  nodes.move(b, 0);
-  return records_on_cpu(b, nodes, mesh);
+  EngineOn<NodesAlone<Base>> engine(std::move(base));
+  MovingNodes<NodesAlone<Base>> nodes(engine, 0);
+  nodes.start(mesh);
+  nodes.give(after.vertices.data(), nullptr);
+  nodes.move(0);
+  return records_on_cpu(engine.b_, nodes, mesh);
 }
 
 // In a build with CUDA.

@@ -243,15 +243,15 @@ TEST(moving_nodes, name_the_parts_of_a_plate_that_is_bent_and_flat_again)
   const WeldedMesh flat = weld(floor_mesh(4, 1), -1);
   WeldedMesh bent = flat;
   for (Vec3 &x : bent.vertices) x.z = 0.25 * x.x * x.x + 0.125 * x.x * x.y;
-  CpuBackend b;
-  MovingNodes<CpuBackend> nodes;
-  nodes.start(b, flat, true, false);
+  EngineOn<NodesAlone<CpuBackend>> engine{CpuBackend()};
+  MovingNodes<NodesAlone<CpuBackend>> nodes(engine, 0);
+  nodes.start(flat);
   for (const bool bends : {true, true, false, false, true}) {
     const WeldedMesh &to = bends ? bent : flat;
-    nodes.give(b, to.vertices.data(), nullptr);
-    nodes.move(b, 0);
+    nodes.give(to.vertices.data(), nullptr);
+    nodes.move(0);
     expect_same_bytes(make_moving_features(to, true).face_parts,
-                      records_on_cpu(b, nodes, flat).face_parts);
+                      records_on_cpu(engine.b_, nodes, flat).face_parts);
   }
 }
 
@@ -265,23 +265,29 @@ TEST(moving_nodes, turn_springs_from_where_they_were_turned_last)
     for (Vec3 &x : all) x.z = z;
     return all;
   };
-  CpuBackend b;
-  MovingNodes<CpuBackend> nodes;
-  nodes.start(b, mesh, false, false);
+  EngineOn<NodesAlone<CpuBackend>> engine(CpuBackend(), false);
+  MovingNodes<NodesAlone<CpuBackend>> nodes(engine, 0);
+  nodes.start(mesh);
   const auto move = [&](Real z) {
-    nodes.give(b, at(z).data(), nullptr);
-    nodes.move(b, 0);
+    nodes.give(at(z).data(), nullptr);
+    nodes.move(0);
   };
+  std::vector<TurningMesh> &turned = engine.springs_.turned;
   const auto expect_turn = [&](Real from, Real to) {
-    TurningMesh turning;
-    ASSERT_TRUE(nodes.turn(turning));
-    EXPECT_EQ(turning.from[0].z, from);
-    EXPECT_EQ(turning.to[0].z, to);
-    EXPECT_FALSE(nodes.turn(turning));
+    nodes.turn_springs(0);
+    ASSERT_EQ(turned.size(), 1u);
+    EXPECT_EQ(turned[0].from[0].z, from);
+    EXPECT_EQ(turned[0].to[0].z, to);
+    nodes.turn_springs(0);
+    EXPECT_EQ(turned.size(), 1u);
+    turned.clear();
   };
-  TurningMesh turning;
+  const auto expect_no_turn = [&] {
+    nodes.turn_springs(0);
+    EXPECT_TRUE(turned.empty());
+  };
   move(1);
-  EXPECT_FALSE(nodes.turn(turning));
+  expect_no_turn();
   move(2);
   expect_turn(1, 2);
   move(3);
@@ -289,15 +295,15 @@ TEST(moving_nodes, turn_springs_from_where_they_were_turned_last)
   move(5);
   expect_turn(2, 5);
   move(6);
-  nodes.move_back(b);
-  EXPECT_FALSE(nodes.turn(turning));
+  nodes.move_back();
+  expect_no_turn();
   move(7);
   move(8);
-  nodes.move_back(b);
+  nodes.move_back();
   expect_turn(5, 7);
   move(9);
   const std::vector<Vec3> none(mesh.vertices.size(), Vec3{0, 0, 0});
-  nodes.put(b, at(10).data(), none.data(), 0);
+  nodes.put(at(10).data(), none.data(), 0);
   move(11);
   expect_turn(10, 11);
 }

@@ -324,7 +324,8 @@ class MovingNodes : public NodeEngine {
     b().wait();
   }
 
-  // Returns what steps read of the nodes.
+  // Returns what steps read of the nodes and of the mesh, where the backend computes.
+  const MeshFeaturesView &records() const { return records_.view.wall; }
   NodeField field() const { return {velocity_.data(), spin_.data(), going_}; }
 
   std::size_t bytes() const
@@ -460,8 +461,6 @@ class MovingNodes : public NodeEngine {
 
  private:
   B &b() const { return e_->b_; }
-  // Where the backend computes.
-  const MeshFeaturesView &records() const { return records_.view.wall; }
   // The same in each call.
   const int *rows(const std::vector<int> &node_of_row)
   {
