@@ -6,7 +6,7 @@
 
 The folder has what the decks write as CASE_FILLING.csv and CASE_FILLING.log, where CASE is silo_large_m1, silo_small_m1, silo_large_m2, drum,
 impact_25, impact_50, impact_100 or impact_loose100, and FILLING a number; cut_100, cut_even and cut_slivers are of a silo of 25 sides. What
-is missing is left out. --others is a folder with the curves of LIGGGHTS and
+is missing is left out, and a case without results has no figure. --others is a folder with the curves of LIGGGHTS and
 MUSEN in silo.csv, drum.csv and impact.csv, which the figures show beside ours.
 """
 import argparse
@@ -31,9 +31,9 @@ def read(path):
 
 
 def fillings(folder, case, until=0.0):
-    """Of each filling of a case, its columns, if it came to the time `until`."""
+    """Of each filling of a case, its columns, if it came to the time `until`, but for the last row that it would have written."""
     paths = sorted(p for p in folder.glob(f"{case}_*.csv") if re.fullmatch(rf"{case}_\d+", p.stem))
-    return [columns for columns in map(read, paths) if len(columns["t"]) and columns["t"][-1] >= until]
+    return [columns for columns in map(read, paths) if len(columns["t"]) > 1 and 2 * columns["t"][-1] - columns["t"][-2] >= until]
 
 
 def rate(columns, name="above", first=0.5, last=3.5):
@@ -103,28 +103,32 @@ def curve(axes, columns, name, label, style, scale=1.0, shift=0.0):
 
 def draw(folder, out, others):
     of = {name: read(others / f"{name}.csv") if others else None for name in ("silo", "drum", "impact")}
-    with runs.plot(out / "silo.png", "time / s", "1000 grains above the lip") as axes:
-        for case, label, style in (("silo_large_m1", "large, M1", "C0-"), ("silo_large_m2", "large, M2", "C2-"), ("silo_small_m1", "small, M1", "C1-")):
-            for columns in fillings(folder, case)[:1]:
-                curve(axes, columns, "above", label, style, 1e-3)
-        for name, label, style in (("large_liggghts", "LIGGGHTS", "k+"), ("large_musen", "MUSEN", "kx"), ("small_musen", "", "kx")):
-            if of["silo"]:
-                curve(axes, of["silo"], name, label or None, style, 1e-3)
-        axes.legend()
-    with runs.plot(out / "drum.png", "time / s", "grains in the zone") as axes:
-        for name, label, style in (("z2_m1", "M1, zone 2", "C0-"), ("z1_m1", "M1, zone 1", "C1-"), ("z2_m2", "M2, zone 2", "C2-"), ("z1_m2", "M2, zone 1", "C3-")):
-            for columns in fillings(folder, "drum")[:1]:
-                curve(axes, columns, name, label, style)
-            if of["drum"]:
-                curve(axes, of["drum"], f"{name}_liggghts", "LIGGGHTS" if name == "z2_m1" else None, "k+")
-        axes.legend()
-    with runs.plot(out / "impact.png", "time / s", "height of the ball less that at the start / mm") as axes:
-        for n, style in (("25", "C0"), ("50", "C1"), ("100", "C2"), ("loose100", "C3")):
-            for k, columns in enumerate(fillings(folder, f"impact_{n}")):
-                curve(axes, columns, "z", None if k else f"{n.replace('loose', 'loose bed, ')} 000", f"{style}-", 1e3, columns["z"][0])
-            if of["impact"] and n.isdigit():
-                curve(axes, of["impact"], f"{n}k_liggghts", "LIGGGHTS" if n == "25" else None, "k+", 1e3)
-        axes.legend()
+    out.mkdir(parents=True, exist_ok=True)
+    if any(folder.glob("silo_*.csv")):
+        with runs.plot(out / "silo.png", "time / s", "1000 grains above the lip") as axes:
+            for case, label, style in (("silo_large_m1", "large, M1", "C0-"), ("silo_large_m2", "large, M2", "C2-"), ("silo_small_m1", "small, M1", "C1-")):
+                for columns in fillings(folder, case)[:1]:
+                    curve(axes, columns, "above", label, style, 1e-3)
+            for name, label, style in (("large_liggghts", "LIGGGHTS", "k+"), ("large_musen", "MUSEN", "kx"), ("small_musen", "", "kx")):
+                if of["silo"]:
+                    curve(axes, of["silo"], name, label or None, style, 1e-3)
+            axes.legend()
+    if any(folder.glob("drum_*.csv")):
+        with runs.plot(out / "drum.png", "time / s", "grains in the zone") as axes:
+            for name, label, style in (("z2_m1", "M1, zone 2", "C0-"), ("z1_m1", "M1, zone 1", "C1-"), ("z2_m2", "M2, zone 2", "C2-"), ("z1_m2", "M2, zone 1", "C3-")):
+                for columns in fillings(folder, "drum")[:1]:
+                    curve(axes, columns, name, label, style)
+                if of["drum"]:
+                    curve(axes, of["drum"], f"{name}_liggghts", "LIGGGHTS" if name == "z2_m1" else None, "k+")
+            axes.legend()
+    if any(folder.glob("impact_*.csv")):
+        with runs.plot(out / "impact.png", "time / s", "height of the ball less that at the start / mm") as axes:
+            for n, style in (("25", "C0"), ("50", "C1"), ("100", "C2"), ("loose100", "C3")):
+                for k, columns in enumerate(fillings(folder, f"impact_{n}")):
+                    curve(axes, columns, "z", None if k else f"{n.replace('loose', 'loose bed, ')} 000", f"{style}-", 1e3, columns["z"][0])
+                if of["impact"] and n.isdigit():
+                    curve(axes, of["impact"], f"{n}k_liggghts", "LIGGGHTS" if n == "25" else None, "k+", 1e3)
+            axes.legend()
 
 
 def main():
