@@ -574,10 +574,16 @@ TEST(engine, adds_up_the_loads_of_features_without_copying_contacts)
   s.wear = WearModel::archard;
   const int n = 3000, n_steps = 6;
   Particles in_place(s, n, 0.5, false), host(s, n, 0.5, false);
+  TriangleSoup bumps = floor_mesh(60, 10, 7);
+  for (Vec3 &c : bumps.corners) c.z = 0.3 * std::sin(3 * c.x) * std::cos(3 * c.y);
+  const WeldedMesh mesh = weld(bumps, -1);
+  GridSettings g;
+  g.cutoff = 0.5;
+  const TriangleGrid grid = build_grid(mesh, g);
+  const FlatGrid flat(grid);
   in_place.engine = by_two_kernels(s);
-  in_place.engine->set_grid(in_place.flat.view());
   in_place.engine->springs().grow(n);
-  const WeldedMesh mesh = weld(floor_mesh(60, 10, 7), -1);
+  for (Particles *p : {&in_place, &host}) p->engine->set_grid(flat.view());
   const FeatureCounts counts = {mesh.faces.size(), mesh.edges.size(), mesh.vertices.size()};
   for (const int takes : {0, 1}) {
     MeshLoads oracle;
@@ -611,6 +617,10 @@ TEST(engine, adds_up_the_loads_of_features_without_copying_contacts)
     ASSERT_EQ(rows.size(), wanted.size());
     EXPECT_GT(rows.size(), 8 * 100u) << takes;
     EXPECT_LT(most, 1u << 13);
+    int of_kind[3] = {};
+    for (std::size_t at = 0; at < rows.size(); at += 8)
+      of_kind[static_cast<int>(feature_kind(static_cast<FeatureCode>(rows[at])))]++;
+    for (const int of : of_kind) EXPECT_GT(of, 5);    // faces, edges, vertices
     for (std::size_t at = 0; at < rows.size(); at += 8) {
       EXPECT_EQ(rows[at], wanted[at]);
       const Real n_contacts = std::round(wanted[at + 3] / 0.01);
