@@ -9,7 +9,8 @@ without a GPU or tools of CUDA's.
 usage: test_kernel_sizes.py FILE ... [--keep], with LSDCD_COMPILER set. FILE: a library or objects
 
 A case is a kernel and what it is made of, with its largest instance; kernels below 8 kB are left out. Stacks are those of
-the kernels of a step, which run beside all spheres of a program. Walls whose nodes move are left out: they ask for more.
+the kernels of a step, which run beside all spheres of a program. Walls whose nodes move and those that book energy are left
+out: they ask for more.
 """
 import os
 import pathlib
@@ -27,7 +28,8 @@ SYMBOLS = 2    # the type of a section
 # In .nv.info: a format, of which 4 has a length, and an attribute.
 MIN_STACK_SIZE = 0x0412
 REGISTERS = 0x042f
-WITH_NODES = "ELb1ELb1ELb1EEE"    # in a name: the wall moves, has records, and its nodes move
+# In a name: the wall moves and has records, and its nodes move, or it books energy.
+WITH_NODES, WITH_ENERGY = "ELb1ELb1ELb1ELb0EEE", "ELb1ELb1ELb0ELb1EEE"
 MOST_STACK = 1024    # bytes a thread; a driver sets more aside for every thread that a GPU can hold
 
 
@@ -94,11 +96,12 @@ full = subprocess.run(["c++filt"], input="\n".join(name for name, _ in kernels),
 found = {}
 for name, (mangled, size) in zip(full, kernels):
     if "lsdcd::" in name and "cub::" not in name and size >= SMALLEST:
-        case = case_of(name) + (" at nodes that move" if WITH_NODES in mangled else "")
+        case = case_of(name)
+        case += " at nodes that move" if WITH_NODES in mangled else " with books of energy" if WITH_ENERGY in mangled else ""
         found[case] = max(size, found.get(case, 0))
         found[case + ", registers"] = max(registers[mangled], found.get(case + ", registers", 0))
 of_steps = [(size, name) for data in contents for name, size in attributes(data, MIN_STACK_SIZE)
-            if "StepPart" in name and WITH_NODES not in name]
+            if "StepPart" in name and WITH_NODES not in name and WITH_ENERGY not in name]
 size, name = max(of_steps, default=(0, ""))
 print(f"{len(of_steps)} kernels of a step: stacks of {size} bytes at most, of {MOST_STACK}")
 if size > MOST_STACK:
