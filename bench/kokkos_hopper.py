@@ -79,8 +79,9 @@ class Hopper:
         return "processors 1 1 *"
 
     def script(self, steps):
-        """Grains that leave fall for so many steps in the box."""
-        r, z, fall = self.radius + 1, self.top + 12, 10 + (steps * DT)**2 / 2
+        """Grains that leave fall for so many steps in the box; what they have at the outlet is less than a fall through the radius gives."""
+        time = steps * DT
+        r, z, fall = self.radius + 1, self.top + 12, 10 + math.sqrt(2 * self.radius) * time + time**2 / 2
         return SCRIPT.format(box=f"{-r!r} {r!r} {-r!r} {r!r} {-fall!r} {z!r}", inner=self.radius - 0.6, low=self.outlet - 0.6,
                              radius=self.radius, top=self.top, above=self.top + 8, law=LAW, dt=DT)
 
