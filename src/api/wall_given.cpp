@@ -9,10 +9,10 @@
 #include "bodies/read_pose.h"
 #include "law/sub_models.h"
 #include "output/file_series.h"
-#include "wall/settings.h"
-#include "wall/spec_check.h"
-#include "wall/spec_ranges.h"
-#include "wall/spec_text.h"
+#include "wall/spec/settings.h"
+#include "wall/spec/spec_check.h"
+#include "wall/spec/spec_ranges.h"
+#include "wall/spec/spec_text.h"
 
 #include <cmath>
 #include <limits>
@@ -171,7 +171,7 @@ MotionTerm motion_of(const lsdcd_motion &given, const std::string &field)
   return term;
 }
 
-// Reads a field as its row in wall/settings.h says.
+// Reads a field as its row in wall/spec/settings.h says.
 template <class Kind, class Given, class T>
 void read_setting(const Kind &kind, Given given, const std::string &field, T &to)
 {

@@ -6,7 +6,7 @@
 
 #include "api/lsdcd.h"
 #include "motion/motion.h"
-#include "wall/wall_spec.h"
+#include "wall/spec/wall_spec.h"
 
 #include <cstddef>
 #include <vector>

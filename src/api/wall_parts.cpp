@@ -7,9 +7,9 @@
 #include "base/number_words.h"
 #include "base/state_blocks.h"
 #include "law/sub_models.h"
-#include "wall/settings.h"
-#include "wall/spec_text.h"
-#include "wall/spec_words.h"
+#include "wall/spec/settings.h"
+#include "wall/spec/spec_text.h"
+#include "wall/spec/spec_words.h"
 
 #include <cmath>
 #include <cstddef>

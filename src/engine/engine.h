@@ -9,7 +9,7 @@
 #include "contact/contact_history.h"
 #include "engine/candidate_schedule.h"
 #include "engine/grains.h"
-#include "engine/results.h"
+#include "engine/results/step_results.h"
 #include "engine/settings.h"
 #include "engine/springs.h"
 #include "grid/triangle_grid.h"

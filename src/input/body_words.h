@@ -5,7 +5,7 @@
 #pragma once
 
 #include "base/input_words.h"
-#include "wall/wall_spec.h"
+#include "wall/spec/wall_spec.h"
 
 namespace lsdcd {
 

@@ -5,8 +5,8 @@
 
 #include "base/input_words.h"
 #include "input/keywords.h"
-#include "wall/spec_ranges.h"
-#include "wall/spec_words.h"
+#include "wall/spec/spec_ranges.h"
+#include "wall/spec/spec_words.h"
 
 namespace lsdcd {
 

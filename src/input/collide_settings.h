@@ -4,7 +4,7 @@
 // Input words of compute lsdcd/collide -> CollideSettings.
 #pragma once
 
-#include "wall/wall_spec.h"
+#include "wall/spec/wall_spec.h"
 
 #include <string>
 #include <vector>

@@ -5,7 +5,7 @@
 #pragma once
 
 #include "insert/insertion.h"
-#include "wall/wall_spec.h"
+#include "wall/spec/wall_spec.h"
 
 #include <string>
 #include <vector>

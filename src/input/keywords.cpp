@@ -10,9 +10,9 @@
 #include "input/servo_words.h"
 #include "input/value_words.h"
 #include "output/file_series.h"
-#include "wall/settings.h"
-#include "wall/spec_ranges.h"
-#include "wall/spec_words.h"
+#include "wall/spec/settings.h"
+#include "wall/spec/spec_ranges.h"
+#include "wall/spec/spec_words.h"
 
 #include <algorithm>
 #include <cmath>
@@ -170,7 +170,7 @@ void read_cut(Tokens &w, WallCommand &s)
   s.picture.cut_offset = w.number("the offset");
 }
 
-// Reads the values of a keyword as its row in wall/settings.h says. `what`: what messages call them.
+// Reads the values of a keyword as its row in wall/spec/settings.h says. `what`: what messages call them.
 template <class Kind, class T>
 void read_setting(const Kind &kind, Tokens &w, const std::string &what, T &to)
 {

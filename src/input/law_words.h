@@ -6,7 +6,7 @@
 
 #include "base/input_words.h"
 #include "law/sub_models.h"
-#include "wall/wall_spec.h"
+#include "wall/spec/wall_spec.h"
 
 #include <string>
 #include <vector>

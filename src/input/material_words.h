@@ -6,7 +6,7 @@
 
 #include "base/input_words.h"
 #include "material/material_law.h"
-#include "wall/wall_spec.h"
+#include "wall/spec/wall_spec.h"
 
 #include <functional>
 #include <string>

@@ -4,8 +4,8 @@
 #include "input/motion_words.h"
 
 #include "input/value_words.h"
-#include "wall/spec_ranges.h"
-#include "wall/spec_text.h"
+#include "wall/spec/spec_ranges.h"
+#include "wall/spec/spec_text.h"
 
 #include <algorithm>
 

@@ -4,7 +4,7 @@
 // Input words of region mesh/lsdcd -> RegionSettings.
 #pragma once
 
-#include "wall/wall_spec.h"
+#include "wall/spec/wall_spec.h"
 
 #include <string>
 #include <vector>

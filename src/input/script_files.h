@@ -4,7 +4,7 @@
 // Files that commands of a script read and write, and where one would replace another.
 #pragma once
 
-#include "wall/wall_spec.h"
+#include "wall/spec/wall_spec.h"
 
 #include <string>
 #include <vector>

@@ -4,7 +4,7 @@
 #include "input/servo_words.h"
 
 #include "input/value_words.h"
-#include "wall/spec_ranges.h"
+#include "wall/spec/spec_ranges.h"
 
 #include <algorithm>
 #include <string>

@@ -8,7 +8,7 @@
 #include "input/keywords.h"
 #include "input/law_words.h"
 #include "mesh/io/read_mesh.h"
-#include "wall/spec_check.h"
+#include "wall/spec/spec_check.h"
 
 #include <algorithm>
 

@@ -6,7 +6,7 @@
 
 #include "input/material_words.h"
 #include "output/mesh_image.h"
-#include "wall/wall_spec.h"
+#include "wall/spec/wall_spec.h"
 
 #include <string>
 #include <vector>

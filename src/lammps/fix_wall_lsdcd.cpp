@@ -12,7 +12,7 @@
 #include "lammps/host_fixes.h"
 #include "lammps/other_fixes.h"
 #include "lammps/own_wall_gran.h"
-#include "wall/spec_text.h"
+#include "wall/spec/spec_text.h"
 #include "wall/wall_outputs.h"
 
 #include "atom.h"

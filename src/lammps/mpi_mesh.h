@@ -6,7 +6,7 @@
 
 #include "host/host.h"
 #include "mesh/welded_mesh.h"
-#include "wall/wall_spec.h"
+#include "wall/spec/wall_spec.h"
 
 namespace lsdcd {
 

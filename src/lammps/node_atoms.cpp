@@ -7,7 +7,7 @@
 #include "base/input_words.h"
 #include "base/vector_text.h"
 #include "lammps/host_fixes.h"
-#include "wall/mesh_name.h"
+#include "wall/spec/mesh_name.h"
 
 #include "atom.h"
 #include "domain.h"

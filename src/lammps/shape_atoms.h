@@ -6,7 +6,7 @@
 #define LSDCD_SHAPE_ATOMS_H
 
 #include "pointers.h"
-#include "wall/host_spheres.h"
+#include "wall/spheres/host_spheres.h"
 
 #include <string>
 #include <vector>

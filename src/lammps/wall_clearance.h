@@ -9,7 +9,7 @@
 #include "insert/packing.h"
 #include "motion/motion.h"
 #include "tree/triangle_tree.h"
-#include "wall/mesh_part.h"
+#include "wall/part/mesh_part.h"
 
 #include <cstddef>
 #include <deque>

@@ -4,7 +4,7 @@
 // The loads of contacts on a mesh over time: forces on its parts, and the volume worn off.
 #pragma once
 
-#include "engine/results.h"
+#include "engine/results/step_results.h"
 #include "mesh/mesh_features.h"
 #include "mesh/welded_mesh.h"
 

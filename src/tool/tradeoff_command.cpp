@@ -12,7 +12,7 @@
 #include "tool/load_mesh.h"
 #include "tool/number_options.h"
 #include "tool/output_file.h"
-#include "wall/spec_words.h"
+#include "wall/spec/spec_words.h"
 
 #include <cmath>
 #include <cstdio>

@@ -4,7 +4,7 @@
 // What a wall asks of its engine: as it is made, and in each step.
 #pragma once
 
-#include "wall/mesh_part.h"
+#include "wall/part/mesh_part.h"
 #include "wall/step_input.h"
 
 #include <deque>

@@ -6,9 +6,9 @@
 
 #include "wall/checks/box_checks.h"
 #include "wall/coat/body_coats.h"
-#include "wall/history_exchange.h"
-#include "wall/host_spheres.h"
 #include "wall/reports/time_report.h"
+#include "wall/spheres/history_exchange.h"
+#include "wall/spheres/host_spheres.h"
 
 #include <cstdint>
 #include <deque>

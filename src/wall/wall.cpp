@@ -7,9 +7,9 @@
 #include "base/input_words.h"
 #include "base/number_words.h"
 #include "wall/checks/mesh_checks.h"
-#include "wall/mesh_name.h"
 #include "wall/reports/creation_text.h"
-#include "wall/spec_units.h"
+#include "wall/spec/mesh_name.h"
+#include "wall/spec/spec_units.h"
 
 #include <algorithm>
 #include <cmath>

@@ -7,7 +7,7 @@
 #include "base/input_error.h"
 #include "output/mesh_fields.h"
 #include "output/mesh_stl.h"
-#include "wall/mesh_name.h"
+#include "wall/spec/mesh_name.h"
 
 #include <numeric>
 

@@ -5,7 +5,7 @@
 #pragma once
 
 #include "output/file_series.h"
-#include "wall/load_recorder.h"
+#include "wall/sums/load_recorder.h"
 
 #include <cstdint>
 #include <functional>

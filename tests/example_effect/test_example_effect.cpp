@@ -7,7 +7,7 @@
 
 #include "backend/backend_cpu.h"
 #include "engine/broad_phase/selection_cpu.h"
-#include "engine/engine_on.h"
+#include "engine/on_backend/engine_on.h"
 #include "engine/step/compile_law.h"
 #include "engine/step/step_cpu.h"
 #include "support/laws.h"

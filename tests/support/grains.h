@@ -5,7 +5,7 @@
 #pragma once
 
 #include "box/periodic_box.h"
-#include "wall/host_spheres.h"
+#include "wall/spheres/host_spheres.h"
 
 #include <cstdint>
 #include <vector>

@@ -36,11 +36,8 @@ FOLDERS = {
     "mesh": [".", "io"],
     "grid": [".", "lookup", "plan", "build", "cache"],
     "law": ["contact.h", "force_parts.h", "submodels", "."],
-    "engine": ["candidate_schedule.h", "sum_unit.h", "settings.h", "grains.h", "results.h", "springs.h",
-               "engine.h", "results", "lists", "nodes", "loads", "broad_phase", "step", "."],
-    "wall": ["wall_spec.h", "mesh_name.h", "spec_text.h", "spec_words.h", "coat_load.h", "each_contact.h", "host_spheres.h", "sphere_range.h", "step_totals.h", "mean_loads.h", "energy_books.h", "mesh_state.h", "mesh_nodes.h", "history_exchange.h",
-             "surface", "move", "mesh_part.h", "coat", "checks", "reports",
-             "load_recorder.h", "grid_manager.h", "saved", "."],
+    "engine": ["results", ".", "lists", "nodes", "loads", "broad_phase", "step", "on_backend"],
+    "wall": ["spec", "spheres", "sums", "saved", "surface", "move", "part", "coat", "checks", "reports", "."],
     "lammps": [".", "launcher"],
 }
 INPUT_ROOM = "input"

@@ -10,7 +10,7 @@
 #include "effects/effects.h"
 #include "engine/broad_phase/selection_cpu.h"
 #include "engine/broad_phase/selection_gpu.h"
-#include "engine/engine_on.h"
+#include "engine/on_backend/engine_on.h"
 #include "engine/step/compile_law.h"
 #include "grid/lookup/occupied_within.h"
 #include "output/mesh_loads.h"

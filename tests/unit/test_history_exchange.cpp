@@ -3,7 +3,7 @@
 
 // The history of contacts: written to restart files and read from them.
 #include "support/fake_host.h"
-#include "wall/history_exchange.h"
+#include "wall/spheres/history_exchange.h"
 
 #include <gtest/gtest.h>
 

@@ -5,7 +5,7 @@
 //   LSDCD_PAIRS  steps of spheres over nodes that move at random, a tenth of it; 1e6 unless given, or 1e7 on a GPU
 //   LSDCD_SEED   the first seed of these, so that several processes can share a large sample; 1 unless given
 #include "base/input_error.h"
-#include "engine/sum_unit.h"
+#include "engine/results/sum_unit.h"
 #include "mesh/mesh_features.h"
 #include "output/mesh_image.h"
 #include "support/brute_force.h"

@@ -7,7 +7,7 @@
 #include "input/script_files.h"
 #include "input/wall_command.h"
 #include "support/says.h"
-#include "wall/spec_text.h"
+#include "wall/spec/spec_text.h"
 
 #include <gtest/gtest.h>
 

@@ -5,7 +5,7 @@
 #include "support/fake_host.h"
 #include "support/meshes.h"
 #include "support/test_engine.h"
-#include "wall/step_totals.h"
+#include "wall/sums/step_totals.h"
 
 #include <gtest/gtest.h>
 

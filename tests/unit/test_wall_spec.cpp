@@ -5,7 +5,7 @@
 #include "base/input_error.h"
 #include "support/fake_host.h"
 #include "support/says.h"
-#include "wall/spec_check.h"
+#include "wall/spec/spec_check.h"
 #include "wall/wall.h"
 
 #include <gtest/gtest.h>

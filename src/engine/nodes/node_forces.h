@@ -15,7 +15,7 @@
 #include "engine/nodes/shared_items.h"
 #include "engine/results/result_columns.h"
 #include "engine/results/step_counts.h"
-#include "engine/sum_unit.h"
+#include "engine/results/sum_unit.h"
 #include "mesh/face_pressure.h"
 
 #include <algorithm>

@@ -4,7 +4,7 @@
 // What contacts have done with energy since the beginning.
 #pragma once
 
-#include "engine/results.h"
+#include "engine/results/step_results.h"
 #include "host/host.h"
 
 namespace lsdcd {

@@ -5,9 +5,9 @@
 #pragma once
 
 #include "backend/atomic.h"
-#include "engine/results.h"
 #include "engine/results/result_columns.h"
-#include "engine/sum_unit.h"
+#include "engine/results/step_results.h"
+#include "engine/results/sum_unit.h"
 
 namespace lsdcd {
 

@@ -6,7 +6,7 @@
 
 #include "base/strided_view.h"
 #include "base/vec3.h"
-#include "engine/results.h"
+#include "engine/results/step_results.h"
 
 namespace lsdcd {
 

@@ -5,7 +5,7 @@
 #pragma once
 
 #include "backend/atomic.h"
-#include "engine/results.h"
+#include "engine/results/step_results.h"
 
 #include <cstdint>
 

@@ -8,7 +8,7 @@
 #include "backend/atomic.h"
 #include "backend/warp.h"
 #include "engine/results/result_columns.h"
-#include "engine/sum_unit.h"
+#include "engine/results/sum_unit.h"
 
 namespace lsdcd {
 

@@ -5,8 +5,8 @@
 #pragma once
 
 #include "contact/node_field.h"
-#include "engine/results.h"
 #include "engine/results/result_columns.h"
+#include "engine/results/step_results.h"
 #include "engine/settings.h"
 #include "engine/step/compiled_law.h"
 #include "engine/step/narrow_phase.h"

@@ -7,8 +7,8 @@
 #include "base/input_words.h"
 #include "box/likely_scale.h"
 #include "box/outside_box.h"
-#include "wall/mesh_name.h"
-#include "wall/spec_text.h"
+#include "wall/spec/mesh_name.h"
+#include "wall/spec/spec_text.h"
 
 #include <algorithm>
 #include <cctype>

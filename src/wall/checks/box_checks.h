@@ -4,7 +4,7 @@
 // Errors and warnings where a wall's meshes do not fit the box of the simulation.
 #pragma once
 
-#include "wall/mesh_part.h"
+#include "wall/part/mesh_part.h"
 
 #include <cstdint>
 #include <deque>

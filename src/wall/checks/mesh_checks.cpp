@@ -9,7 +9,7 @@
 #include "mesh/plane_cut.h"
 #include "mesh/split_faces.h"
 #include "wall/checks/faces_pushed.h"
-#include "wall/mesh_name.h"
+#include "wall/spec/mesh_name.h"
 
 #include <algorithm>
 

@@ -4,8 +4,8 @@
 // Errors and warnings where a mesh does not go with the settings of its wall.
 #pragma once
 
-#include "wall/host_spheres.h"
-#include "wall/mesh_part.h"
+#include "wall/part/mesh_part.h"
+#include "wall/spheres/host_spheres.h"
 
 namespace lsdcd {
 

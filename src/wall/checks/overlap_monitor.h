@@ -7,8 +7,8 @@
 
 #include "engine/engine.h"
 #include "host/host.h"
-#include "wall/host_spheres.h"
-#include "wall/wall_spec.h"
+#include "wall/spec/wall_spec.h"
+#include "wall/spheres/host_spheres.h"
 
 #include <cstdint>
 #include <string>

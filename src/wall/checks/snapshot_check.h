@@ -5,7 +5,7 @@
 // is not known.
 #pragma once
 
-#include "wall/mesh_part.h"
+#include "wall/part/mesh_part.h"
 
 #include <deque>
 

@@ -6,7 +6,7 @@
 
 #include "host/host.h"
 #include "law/law_table.h"
-#include "wall/host_spheres.h"
+#include "wall/spheres/host_spheres.h"
 
 #include <cstddef>
 #include <vector>

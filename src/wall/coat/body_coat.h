@@ -6,9 +6,9 @@
 
 #include "engine/engine.h"
 #include "host/host.h"
-#include "wall/coat_load.h"
-#include "wall/history_exchange.h"
-#include "wall/mesh_part.h"
+#include "wall/part/mesh_part.h"
+#include "wall/spheres/history_exchange.h"
+#include "wall/sums/coat_load.h"
 
 #include <deque>
 #include <functional>

@@ -6,8 +6,8 @@
 #include "base/input_error.h"
 #include "base/input_words.h"
 #include "base/vector_text.h"
-#include "wall/each_contact.h"
-#include "wall/mesh_name.h"
+#include "wall/spec/mesh_name.h"
+#include "wall/sums/each_contact.h"
 
 #include <algorithm>
 #include <cmath>

@@ -8,11 +8,11 @@
 #include "rigid/mobility.h"
 #include "rigid/rigid_body.h"
 #include "rigid/step_limit.h"
-#include "wall/coat_load.h"
-#include "wall/mesh_state.h"
 #include "wall/move/mesh_motion.h"
-#include "wall/sphere_range.h"
-#include "wall/step_totals.h"
+#include "wall/saved/mesh_state.h"
+#include "wall/spheres/sphere_range.h"
+#include "wall/sums/coat_load.h"
+#include "wall/sums/step_totals.h"
 #include "wall/surface/mesh_grid.h"
 
 #include <functional>

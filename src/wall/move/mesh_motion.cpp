@@ -5,8 +5,8 @@
 
 #include "base/input_error.h"
 #include "base/input_words.h"
-#include "wall/mesh_name.h"
-#include "wall/spec_text.h"
+#include "wall/spec/mesh_name.h"
+#include "wall/spec/spec_text.h"
 
 #include <algorithm>
 

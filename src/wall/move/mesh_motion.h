@@ -6,8 +6,8 @@
 
 #include "host/host.h"
 #include "motion/step_clock.h"
-#include "wall/mesh_state.h"
-#include "wall/wall_spec.h"
+#include "wall/saved/mesh_state.h"
+#include "wall/spec/wall_spec.h"
 
 #include <string>
 #include <vector>

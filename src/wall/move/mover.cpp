@@ -4,8 +4,8 @@
 #include "wall/move/mover.h"
 
 #include "base/input_error.h"
-#include "wall/mesh_name.h"
-#include "wall/spec_text.h"
+#include "wall/spec/mesh_name.h"
+#include "wall/spec/spec_text.h"
 
 namespace lsdcd {
 

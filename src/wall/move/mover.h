@@ -5,10 +5,10 @@
 #pragma once
 
 #include "host/host.h"
-#include "wall/mesh_state.h"
 #include "wall/move/body_mover.h"
 #include "wall/move/mesh_motion.h"
 #include "wall/move/servo_controller.h"
+#include "wall/saved/mesh_state.h"
 
 #include <functional>
 #include <memory>

@@ -5,7 +5,7 @@
 
 #include "base/input_words.h"
 #include "law/contact_slope.h"
-#include "wall/mesh_name.h"
+#include "wall/spec/mesh_name.h"
 
 #include <algorithm>
 #include <cmath>

@@ -6,7 +6,7 @@
 
 #include "box/periodic_box.h"
 #include "host/host.h"
-#include "wall/wall_spec.h"
+#include "wall/spec/wall_spec.h"
 
 #include <cstdint>
 

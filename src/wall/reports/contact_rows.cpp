@@ -3,7 +3,7 @@
 
 #include "wall/reports/contact_rows.h"
 
-#include "wall/each_contact.h"
+#include "wall/sums/each_contact.h"
 
 namespace lsdcd {
 

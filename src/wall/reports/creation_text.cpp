@@ -8,8 +8,8 @@
 #include "base/version.h"
 #include "effects/effects.h"
 #include "law/sub_models.h"
-#include "wall/spec_text.h"
-#include "wall/spec_words.h"
+#include "wall/spec/spec_text.h"
+#include "wall/spec/spec_words.h"
 
 namespace lsdcd {
 

@@ -5,7 +5,7 @@
 #pragma once
 
 #include "base/state_blocks.h"
-#include "wall/mesh_state.h"
+#include "wall/saved/mesh_state.h"
 
 #include <string>
 #include <vector>

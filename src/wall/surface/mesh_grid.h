@@ -9,7 +9,7 @@
 #include "host/host.h"
 #include "mesh/welded_mesh.h"
 #include "tree/triangle_tree.h"
-#include "wall/wall_spec.h"
+#include "wall/spec/wall_spec.h"
 
 #include <cstdint>
 #include <functional>

@@ -4,9 +4,9 @@
 // The surface of a mesh in its own frame: as it was read, receding by its wear, or of nodes that move.
 #pragma once
 
-#include "wall/mesh_nodes.h"
-#include "wall/mesh_state.h"
+#include "wall/saved/mesh_state.h"
 #include "wall/surface/mesh_grid.h"
+#include "wall/surface/mesh_nodes.h"
 
 #include <memory>
 #include <string>

@@ -5,11 +5,11 @@
 // volume between the old and the new surface is the worn one.
 #pragma once
 
-#include "engine/results.h"
+#include "engine/results/step_results.h"
 #include "host/host.h"
 #include "mesh/welded_mesh.h"
-#include "wall/mesh_state.h"
-#include "wall/wall_spec.h"
+#include "wall/saved/mesh_state.h"
+#include "wall/spec/wall_spec.h"
 
 #include <array>
 #include <cstddef>

@@ -6,7 +6,7 @@
 
 #include "engine/engine.h"
 #include "host/host.h"
-#include "wall/mesh_nodes.h"
+#include "wall/surface/mesh_nodes.h"
 
 #include <vector>
 

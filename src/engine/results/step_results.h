@@ -1,0 +1,128 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// What a step leaves behind: sums, what touched, contacts, and what was counted.
+#pragma once
+
+#include "base/vec3.h"
+#include "engine/results/sum_unit.h"
+#include "geometry/feature_code.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace lsdcd {
+
+// What is to be known of the forces of contacts on the nodes of a mesh before they are added.
+struct NodeForceRange {
+  SummandRange shares;    // components of the contacts' shares, of which a node has one a contact
+  // kNoSphere less the index of the first sphere with one that is not finite, or 0.
+  std::uint64_t not_finite;
+};
+
+// Sums over the spheres of the last step on this process.
+struct WallTotals {
+  Real energy = 0;            // elastic energy in normal overlaps and tangential springs
+  Vec3 force = {0, 0, 0};     // on the mesh
+  Vec3 torque = {0, 0, 0};    // on the mesh, about the origin
+  std::int64_t contacts = 0;
+  std::int64_t uncertified = 0;       // spheres whose answer was not certified exact
+  Real largest_uncertain = 0;         // overlap / radius of the deepest contact they may miss
+  Real largest_overlap_ratio = 0;     // overlap / radius
+  int largest_overlap_sphere = -1;    // index in Spheres, -1 if none touches
+  int pad = 0;                        // keeps the struct free of indeterminate bytes
+};
+
+// A sphere with a contact, as the step has read it, and what its contacts did. Contacts that bear nothing count, too.
+struct TouchingSphere {
+  Vec3 x;
+  Real radius, mass;
+  Vec3 force;    // sum over its contacts, on the sphere
+  Vec3 point;    // mean contact point on the wall, weighted by normal force
+  Real heat;     // power into the sphere; 0 where the law has no heat
+  int sphere;    // its index in Spheres
+  int type;      // 0 where laws do not differ by it
+  int n_contacts;
+  int pad;    // keeps the struct free of indeterminate bytes
+};
+
+// The effect of one contact on the wall in one step.
+struct StepContact {
+  FeatureCode feature;
+  std::uint32_t mesh;    // of the wall's
+  Real normal;           // force on the wall, > 0 where the sphere presses
+  Real shear;            // size of the force along the wall
+  Real wear_power;       // see law/wear.h; 0 without wear
+  // In the frame of the mesh:
+  Vec3 force;    // on the wall
+  Vec3 arm;      // from the closest point to the sphere's centre
+};
+
+// What contacts do with energy in a step, by row. Those from `damping` on are what becomes of the work; > 0: it is lost.
+enum class EnergyRow {
+  work,       // of grains and wall on the contacts, of all forces and torques as they are applied
+  drive,      // of the wall on the grains, by its motion and that of its surface
+  damping,    // dashpots
+  slider,     // friction where its limit cuts the spring
+  rolling,    // rolling and twisting resistance: dashpot and slider
+  twisting,
+  adhesion,    // of surfaces that jump into contact, less that of surfaces that let go
+  lever_arms,    // a wall that turns sees friction at the arm of the radius, the sphere at that of the law
+  stiffness,         // springs whose stiffness changes while they are stretched
+  turned_springs,    // springs that are handed on or turned
+  inserted,          // of contacts that begin in overlap, < 0
+  held,              // elastic energy now
+  seen               // that of the last step, of the contacts that this one has found
+};
+constexpr int kEnergyRows = static_cast<int>(EnergyRow::seen) + 1;
+
+struct EnergyRows {
+  Real of[kEnergyRows] = {};
+
+  LSDCD_FN Real &operator[](EnergyRow row) { return of[static_cast<int>(row)]; }
+  LSDCD_FN Real operator[](EnergyRow row) const { return of[static_cast<int>(row)]; }
+};
+
+// Counts of the steps since the host last read them.
+struct StepDiagnostics {
+  Real deepest = 0;                    // largest overlap / radius
+  int deepest_sphere = -1;             // its index in the step that it was in
+  Real deepest_radius = 0;             // its radius (length), of a host with arrays in float
+  int deepest_mesh = 0;                // of the wall's
+  std::uint32_t deepest_meshes = 0;    // a bit for each mesh that this sphere touched then
+  std::int64_t deepest_step = 0;       // StepSettings::number
+  std::int64_t uncertified = 0;
+  Real uncertain = 0;    // overlap / radius of the deepest contact they may have missed
+  // The largest overlap of a grain that is no sphere over the radius of curvature of its shadow across the fold or edge there, where it
+  // is more than its least radius of curvature; its index, and that least radius.
+  Real sharpest = 0, sharpest_curvature = 0;
+  int sharpest_grain = -1;
+  // Neighbour lists that were made, the features in them, and searches of cells for spheres without a list; all
+  // are 0 where cells list the nearest primitives.
+  std::int64_t lists = 0, listed = 0, by_cells = 0;
+};
+
+// What the last step left on this process. It stays until the next collect().
+class StepResults {
+ public:
+  virtual ~StepResults() = default;
+
+  // Returns the sums over all meshes.
+  virtual const WallTotals &totals() = 0;
+  // Returns those of one mesh, without largest_overlap_sphere.
+  virtual WallTotals mesh_totals(int mesh) = 0;
+  // Returns the rows of one mesh, where the law keeps_forces. A setup has `held` and `seen` alone.
+  virtual EnergyRows energy(int mesh) = 0;
+  // Returns the spheres with a contact, after a step with per_sphere.
+  const std::vector<TouchingSphere> &touching() const { return touching_; }
+  int n_touching() const { return static_cast<int>(touching_.size()); }
+  // Returns the contacts, where settings.contacts and step.contacts are set: those of touching()[0], of touching()[1] and so on.
+  const std::vector<StepContact> &contacts() const { return contacts_; }
+  int n_contacts() const { return static_cast<int>(contacts_.size()); }
+
+ protected:
+  std::vector<TouchingSphere> touching_;
+  std::vector<StepContact> contacts_;
+};
+
+}    // namespace lsdcd

@@ -1,0 +1,273 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "wall/spec/spec_check.h"
+
+#include "base/input_error.h"
+#include "engine/shape_engine.h"
+#include "law/sub_models.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <iterator>
+#include <string>
+
+namespace lsdcd {
+
+namespace {
+
+// A member of a spec by its names.
+struct Member {
+  const char *field;      // of lsdcd_wall_mesh, or of lsdcd_wall_spec
+  const char *keyword;    // null: scripts have none
+};
+
+constexpr Member kMeshes = {"n_meshes", "mesh"}, kMesh = {"mesh", "mesh"}, kLaw = {"law", "law"},
+                 kTypeLaws = {"type_laws", "law"}, kMotion = {"motions", "motion"},
+                 kServo = {"servo", "servo"}, kPosed = {"posed_by_caller", nullptr},
+                 kBody = {"body", "body"}, kCoat = {"body.coat", "body"},
+                 kNodes = {"nodes_by_caller", "nodes"}, kPressure = {"pressure", "pressure"},
+                 kSurface = {"surface_velocity", "surface_vel"},
+                 kTemperature = {"temperature", "temperature"},
+                 kWearFactor = {"wear_factor", "wear_factor"},
+                 kWearDeform = {"wear_deform_every", "wear"}, kCache = {"cache", "cache"},
+                 kFields = {"fields", "mesh_fields"}, kStl = {"stl", "mesh_stl"},
+                 kNearest = {"nearest", "nearest"}, kSide = {"side", "side"},
+                 kDevice = {"device", "device"}, kEnergy = {"energy", "energy"},
+                 kTorquePoint = {"torque_about_moves", "torque_about"};
+
+// What of a mesh does not go with the rest of its wall. The text is about the member, and says what to do.
+struct MeshRule {
+  Member member;
+  bool (*breaks)(const WallSpec &wall, const MeshSpec &mesh);
+  const char *text;
+};
+
+bool is_driven(const MeshSpec &mesh)
+{
+  return mesh.motion.moves() || mesh.motion.servo().present;
+}
+
+const MeshRule kMeshRules[] = {
+    {kTemperature,
+     [](const WallSpec &w, const MeshSpec &m) { return w.law().has_heat() && !m.has_temperature; },
+     "the temperature is missing, which the sub-model heat needs: give the mesh one"},
+    {kTemperature,
+     [](const WallSpec &w, const MeshSpec &m) { return !w.law().has_heat() && m.has_temperature; },
+     "a temperature is given, but no sub-model heat uses it: leave it out, or give the law one"},
+    {kWearFactor,
+     [](const WallSpec &w, const MeshSpec &m) { return !w.wears() && m.wear_factor != 1; },
+     "a factor is given, but nothing wears: leave it out, or give the wall a model of wear"},
+    {kPressure,
+     [](const WallSpec &, const MeshSpec &m) {
+       return !m.has_nodes && (m.pressure != 0 || m.pressure_input != kNoInput);
+     },
+     "it acts on nodes, and the mesh has none: leave it out, or let nodes move the mesh"},
+    {kNodes,
+     [](const WallSpec &, const MeshSpec &m) {
+       return m.has_nodes && (m.motion.any() || m.body.present);
+     },
+     "its nodes alone move such a mesh: leave its motion, servo, pose or body out"},
+    {kPosed,
+     [](const WallSpec &, const MeshSpec &m) { return m.motion.is_posed() && is_driven(m); },
+     "the poses of the program alone move such a mesh: leave its motion and servo out"},
+    {kBody,
+     [](const WallSpec &, const MeshSpec &m) {
+       return m.body.present && (is_driven(m) || m.motion.is_posed());
+     },
+     "a body moves by what acts on it: leave out its motion, wiggle, servo or pose"},
+    {kCoat,
+     [](const WallSpec &w, const MeshSpec &m) {
+       return m.body.present && m.body.coat.present && w.meshes.size() == 1;
+     },
+     "its coat feels other meshes, and the wall has no other mesh: leave the coat out"},
+    {kCoat,
+     [](const WallSpec &w, const MeshSpec &m) {
+       return m.body.present && m.body.coat.present && w.has_nodes();
+     },
+     "its coat cannot feel meshes whose nodes move: leave out the coat, or the nodes"},
+    {kCache,
+     [](const WallSpec &, const MeshSpec &m) { return m.has_nodes && !m.cache_file.empty(); },
+     "the grid of a mesh is made again as its nodes move: leave the file out"},
+    {kTorquePoint,
+     [](const WallSpec &, const MeshSpec &m) { return m.has_nodes && m.torque_about_mesh; },
+     "a mesh whose nodes move has no frame in which a point could stay: give a point of the box"},
+    {kNodes, [](const WallSpec &w, const MeshSpec &m) { return m.has_nodes && w.nearest > 0; },
+     "a mesh whose nodes move has no lists of the nearest primitives: leave nearest out"},
+    {kNodes, [](const WallSpec &w, const MeshSpec &m) { return m.has_nodes && w.recedes(m); },
+     "wear moves this mesh, and its nodes are moved by others: leave one of them out, or give the "
+     "mesh a wear factor by which it does not wear"},
+    {kEnergy, [](const WallSpec &w, const MeshSpec &m) { return w.energy && m.has_nodes; },
+     "the work of contacts on nodes that move is not booked: leave energy out, or put the mesh "
+     "into "
+     "a wall of its own"},
+    {kEnergy, [](const WallSpec &w, const MeshSpec &m) { return w.energy && w.recedes(m); },
+     "what contacts lose where wear moves the mesh is not booked: leave energy or deform out"},
+    {kEnergy,
+     [](const WallSpec &w, const MeshSpec &m) {
+       return w.energy && m.body.present && m.body.coat.present;
+     },
+     "contacts of a coat are not booked: leave energy or the coat out"},
+    {kBody, [](const WallSpec &w, const MeshSpec &m) { return m.body.present && w.recedes(m); },
+     "wear moves this mesh, and the mass and centre of a body are those of its shape: leave one of "
+     "them out, or give the mesh a wear factor by which it does not wear"},
+};
+
+// `of`: what the field is in.
+[[noreturn]] void refuse(SpecNames names, const std::string &of, const Member &member,
+                         const std::string &text)
+{
+  if (names == SpecNames::fields) throw InputError("`" + of + member.field + "`: " + text);
+  throw InputError("in '" + std::string(member.keyword ? member.keyword : member.field) + "', " +
+                   text);
+}
+
+class SpecCheck {
+ public:
+  SpecCheck(const WallSpec &wall, SpecNames names) : wall_(wall), names_(names) {}
+
+  void check() const
+  {
+    check_wall();
+    for (std::size_t k = 0; k < wall_.meshes.size(); k++) {
+      const MeshSpec &mesh = wall_.meshes[k];
+      check_inputs(k);
+      check_laws(k);
+      for (const MeshRule &rule : kMeshRules)
+        if (rule.breaks(wall_, mesh)) refuse(k, rule.member, rule.text);
+      try {
+        check_body(mesh.body);
+      } catch (const InputError &e) {
+        refuse(k, kBody, e.what());
+      }
+      for (std::size_t i = 0; i < k; i++) check_apart(i, k);
+    }
+  }
+
+ private:
+  // "meshes[1]", or "mesh 2 'lid.stl'".
+  std::string name_of(std::size_t k) const
+  {
+    if (names_ == SpecNames::fields) return "meshes[" + std::to_string(k) + "]";
+    const std::string &name = wall_.meshes[k].name;
+    return "mesh " + std::to_string(k + 1) + (name.empty() ? "" : " '" + name + "'");
+  }
+  [[noreturn]] void refuse(const Member &member, const std::string &text) const
+  {
+    lsdcd::refuse(names_, "", member, text);
+  }
+  [[noreturn]] void refuse(std::size_t k, const Member &member, const std::string &text) const
+  {
+    if (names_ == SpecNames::fields) lsdcd::refuse(names_, name_of(k) + ".", member, text);
+    refuse(member, (wall_.meshes.size() > 1 ? "of " + name_of(k) + ": " : "") + text);
+  }
+
+  void check_wall() const
+  {
+    if (wall_.laws.empty() || !wall_.laws.front().is_of_all())
+      refuse(kLaw, "the wall's first law is not of all types; give a law of all types first");
+    check_mesh_count(wall_.meshes.size(), names_);
+    if (wall_.wear_deform.every > 0 && !wall_.wears())
+      refuse(kWearDeform,
+             "wear should move the meshes, but nothing wears: leave that out, or give the wall a "
+             "model of wear");
+    if (wall_.shapes) check_shapes();
+  }
+
+  // Not all that spheres have is there for other grains.
+  void check_shapes() const
+  {
+    const std::string why = why_not_for_shapes(wall_.law());
+    if (!why.empty()) refuse(kLaw, why);
+    if (wall_.energy) refuse(kEnergy, "contacts of ellipsoids are not booked: leave it out");
+    if (wall_.side != Side::both)
+      refuse(kSide, "ellipsoids have a wall with both sides alone: leave it out");
+    if (wall_.device == Device::cuda)
+      refuse(kDevice, "the wall has ellipsoids on a CPU alone: use cpu or auto");
+    if (wall_.nearest > 0)
+      refuse(kNearest,
+             "contacts of ellipsoids are found without lists, and none is missed: leave it out");
+    if (wall_.has_nodes())
+      refuse(kNodes, "ellipsoids cannot have a mesh whose nodes move: leave it out");
+  }
+
+  void check_inputs(std::size_t k, const Member &member, const int *input, std::size_t n) const
+  {
+    const int n_inputs = static_cast<int>(wall_.inputs.size());
+    for (std::size_t i = 0; i < n; i++)
+      if (input[i] != kNoInput && (input[i] < 0 || input[i] >= n_inputs))
+        refuse(k, member,
+               "there is no input " + std::to_string(input[i]) + ", as the wall has " +
+                   std::to_string(n_inputs) +
+                   ", which count from 0: add its name to them, or use kNoInput");
+  }
+  void check_inputs(std::size_t k) const
+  {
+    const MeshSpec &mesh = wall_.meshes[k];
+    for (const MotionTerm &term : mesh.motion.terms())
+      check_inputs(k, kMotion, term.input, std::size(term.input));
+    check_inputs(k, kServo, &mesh.motion.servo().target_input, 1);
+    check_inputs(k, kSurface, mesh.surface_input, std::size(mesh.surface_input));
+    check_inputs(k, kTemperature, &mesh.temperature_input, 1);
+    check_inputs(k, kPressure, &mesh.pressure_input, 1);
+    const BodySpec &body = mesh.body;
+    check_inputs(k, kBody, &body.motor_input, 1);
+    check_inputs(k, kBody, body.load_input, std::size(body.load_input));
+    check_inputs(k, kBody, body.moment_input, std::size(body.moment_input));
+  }
+
+  // Only numbers differ between the laws of a wall.
+  void check_laws(std::size_t k) const
+  {
+    for (const LawOfTypes &row : wall_.meshes[k].laws)
+      if (rows_of(row.law) != rows_of(wall_.law()))
+        refuse(k, row.is_of_all() ? kLaw : kTypeLaws,
+               "it has the sub-models " + sub_models_text(row.law) + ", and the wall has " +
+                   sub_models_text(wall_.law()) +
+                   ": only the numbers may differ; put the mesh into a wall of its own, or give "
+                   "both the same sub-models");
+  }
+
+  // Two meshes must not be felt twice, nor overwrite each other's files.
+  void check_apart(std::size_t i, std::size_t k) const
+  {
+    const MeshSpec &one = wall_.meshes[i], &other = wall_.meshes[k];
+    if (are_one_mesh(wall_, one, wall_, other))
+      refuse(k, kMesh,
+             "it is that of " + name_of(i) +
+                 " at the same place, so every contact would count twice: leave one out, or "
+                 "move it");
+    const struct {
+      Member member;
+      const std::string &name, &of_other;
+    } files[] = {{kCache, one.cache_file, other.cache_file},
+                 {kFields, one.fields.name, other.fields.name},
+                 {kStl, one.stl.name, other.stl.name}};
+    for (const auto &file : files)
+      if (!file.name.empty() && file.name == file.of_other)
+        refuse(k, file.member,
+               name_of(i) + " has the same file '" + file.name +
+                   "', so one would overwrite the other: give each a name of its own");
+  }
+
+  const WallSpec &wall_;
+  const SpecNames names_;
+};
+
+}    // namespace
+
+void check_mesh_count(std::size_t n, SpecNames names)
+{
+  if (n < 1 || n > kMaxMeshes)
+    refuse(names, "", kMeshes,
+           "there are " + std::to_string(n) + " meshes, and a wall has 1 to " +
+               std::to_string(kMaxMeshes) +
+               ": join those that never come near one another, or make another wall");
+}
+
+void check_spec(const WallSpec &wall, SpecNames names)
+{
+  SpecCheck(wall, names).check();
+}
+
+}    // namespace lsdcd

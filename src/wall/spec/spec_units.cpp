@@ -1,0 +1,32 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "wall/spec/spec_units.h"
+
+#include "wall/spec/spec_check.h"
+
+namespace lsdcd {
+
+WallSpec in_units(WallSpec spec, Real pressure)
+{
+  check_spec(spec);
+  const auto convert = [&](ContactLaw &law) {
+    if (law.is_classic() && law.is(NormalModel::hertz)) {
+      law.k_normal /= pressure;
+      law.k_tangent /= pressure;
+    }
+    law.cohesion.numbers[0] /= pressure;    // sjkr's
+    law.for_shapes = spec.shapes;
+    law.keeps_forces = spec.energy;
+  };
+  for (LawOfTypes &row : spec.laws) convert(row.law);
+  for (MeshSpec &mesh : spec.meshes) {
+    for (LawOfTypes &row : mesh.laws) convert(row.law);
+    mesh.pressure /= pressure;
+  }
+  spec.wear.per_work *= pressure;
+  if (spec.shapes) spec.device = Device::cpu;
+  return spec;
+}
+
+}    // namespace lsdcd

@@ -1,0 +1,118 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "wall/spheres/history_exchange.h"
+
+#include "base/number_words.h"
+#include "contact/contact_set.h"
+
+#include <algorithm>
+#include <string>
+
+namespace lsdcd {
+
+void HistoryExchange::grow(int room)
+{
+  room_ = room;
+  if (!is_on()) return;
+  if (!with_engine_)
+    springs_.grow(room);
+  else if (in_place_)
+    engine_->springs().grow(room);
+}
+
+ContactHistory &HistoryExchange::on_cpu()
+{
+  if (with_engine_) {
+    engine_->springs().to_store(springs_, n_with_engine_);
+    springs_.grow(std::max(room_, n_with_engine_));
+    with_engine_ = false;
+  }
+  return springs_;
+}
+
+void HistoryExchange::clear()
+{
+  if (!is_on()) return;
+  on_cpu();
+  for (int i = 0; i < room_; i++) springs_.clear(i);
+}
+
+void HistoryExchange::to_engine(int n)
+{
+  if (with_engine_ || !is_on()) return;
+  engine_->springs().from_store(springs_, n);
+  n_with_engine_ = n;
+  with_engine_ = true;
+  grow(room_);
+}
+
+Springs &HistoryExchange::in_engine(int n)
+{
+  to_engine(n);
+  return engine_->springs();
+}
+
+int HistoryExchange::max_packed_size() const
+{
+  return is_on() ? 1 + springs_.doubles_per_spring() * kMaxContacts : 0;
+}
+
+int HistoryExchange::pack_saved(int i, double *buffer, const FeatureName &name) const
+{
+  const int size = springs_.pack(i, buffer);
+  for (int k = 0; k < springs_.count(i); k++) {
+    Spring s = springs_.of(i)[k];
+    s.feature = name(static_cast<int>(s.mesh), s.feature);
+    buffer[1 + k * springs_.doubles_per_spring()] = packed_location(s);
+  }
+  return size;
+}
+
+// Another law may have kept other numbers for each contact, and this one none.
+void HistoryExchange::unpack_saved(int i, const double *buffer, int size)
+{
+  const int count = static_cast<int>(buffer[0]);
+  if (count == 0) return;
+  if (!is_on() || !kind_is_ours_ || size != 1 + count * springs_.doubles_per_spring())
+    other_law_++;
+  else
+    springs_.unpack(i, buffer);
+}
+
+int HistoryExchange::drop_unknown(int n, const std::function<bool(const Spring &)> &is_there)
+{
+  int lost = 0;
+  for (int i = 0; is_on() && i < n; i++)
+    for (int k = 0; k < springs_.count(i); k++)
+      if (!is_there(springs_.of(i)[k])) {
+        lost++;
+        springs_.clear(i);
+        break;
+      }
+  return lost;
+}
+
+void HistoryExchange::check_restored(int n, const std::function<bool(const Spring &)> &is_there)
+{
+  checked_ = true;
+  Real lost[2] = {static_cast<Real>(drop_unknown(n, is_there)), static_cast<Real>(other_law_)};
+  host_.sum(lost, 2);
+  const char *const file[] = {"was written with a different mesh",
+                              "was written with a different contact law"};
+  for (int k = 0; k < 2; k++) {
+    if (!(lost[k] > 0)) continue;
+    const std::int64_t n = static_cast<std::int64_t>(lost[k]);
+    const std::string who = counted(n, host_.names().sphere);
+    host_.warn((n == 1 ? who + " loses its springs: the " + host_.names().saved + " "
+                       : who + " lose their springs: the " + host_.names().saved + " ") +
+               file[k]);
+  }
+}
+
+void HistoryExchange::rename_features(const FeatureName &name)
+{
+  if (is_on()) springs_.rename_features(name);
+}
+
+}    // namespace lsdcd
