@@ -211,7 +211,8 @@ struct PairBed {
 class PairRun {
  public:
   PairRun(PairBed &bed, const ContactLaw &law) :
-      bed_(bed), law_(pair_law(law)), heat_(law.has_heat()), keeps_(law.has_history())
+      bed_(bed), law_(pair_law(law)), heat_(law.has_heat()), keeps_(law.has_history()),
+      books_(law.keeps_forces)
   {
     for (PairHistory &h : history_) h.begin(keeps_ ? 3 + law.n_extra() : 0);
   }
@@ -226,6 +227,7 @@ class PairRun {
       job.old = &history_[1 - now_];
       job.history = &history_[now_];
     }
+    if (books_) job.energy = &energy_;
     run_pairs(job);
   }
   std::size_t bytes() const
@@ -236,7 +238,8 @@ class PairRun {
  private:
   PairBed &bed_;
   PairLaw law_;
-  bool heat_, keeps_;
+  bool heat_, keeps_, books_;
+  EnergyRows energy_;
   PairHistory history_[2];
   int now_ = 0;
 };

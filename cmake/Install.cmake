@@ -98,6 +98,6 @@ if(TARGET lsdcdplugin)
   endif()
   lsdcd_package(lammps lammps-lsdcd science "lsdcd-data (= ${PROJECT_VERSION})${host}"
     "DEM walls from triangle meshes for LAMMPS"
-    "The plugin with fix wall/lsdcd, fix massflow/lsdcd, fix insert/lsdcd\nand compute lsdcd/collide, and lmp-lsdcd, a LAMMPS that has them built in.")
+    "The plugin with fix wall/lsdcd, fix massflow/lsdcd, fix insert/lsdcd,\ncompute lsdcd/collide and compute lsdcd/energy, and lmp-lsdcd, a LAMMPS that has them built in.")
 endif()
 include(CPack)

@@ -44,11 +44,11 @@ void FixSpringsLsdcdKokkos<DeviceType>::need_on_device()
 }
 
 template <class DeviceType>
-void FixSpringsLsdcdKokkos<DeviceType>::set_laws(int width, const std::string &of_laws,
+void FixSpringsLsdcdKokkos<DeviceType>::set_laws(int width, bool booked, const std::string &of_laws,
                                                  const std::function<unsigned(int, int)> &of_pair)
 {
-  const bool same = width == partners.width() && of_laws == kinds;
-  FixSpringsLsdcd::set_laws(width, of_laws, of_pair);
+  const bool same = width == law_width && of_laws == kinds;
+  FixSpringsLsdcd::set_laws(width, booked, of_laws, of_pair);
   if (!same) on_device = false;
 }
 

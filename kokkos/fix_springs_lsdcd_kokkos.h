@@ -31,7 +31,7 @@ class FixSpringsLsdcdKokkos : public FixSpringsLsdcd, public KokkosBase {
   void sort_kokkos(Kokkos::BinSort<KeyViewType, BinOp> &) override;
 
  protected:
-  void set_laws(int width, const std::string &kinds,
+  void set_laws(int width, bool booked, const std::string &kinds,
                 const std::function<unsigned(int, int)> &flips) override;
   void collect() override;
   int largest_packed_size() const override;

@@ -46,6 +46,9 @@ void PairGranularLsdcdKokkos<DeviceType>::init_style()
   atomKK->sync(Host, RADIUS_MASK | RMASS_MASK | TYPE_MASK | MASK_MASK);
   full = lmp->kokkos->neighflag == FULL;
   PairGranularLsdcd::init_style();
+  if (books)
+    fatal("compute lsdcd/energy books what the plain pair style does: write 'suffix off' before "
+          "pair_style granular/lsdcd, or leave out the compute");
   if (has_heat && !lsdcd::kOnCpu<DeviceType>)
     fatal("the sub-model heat does not work for atoms on a GPU, where LAMMPS keeps no temperature: "
           "write 'suffix off' before "

@@ -85,7 +85,7 @@ std::vector<EffectCase> effect_cases()
   add("wear finnie", "wear finnie", "loads of triangles",
       [](EngineSettings &s) { s.wear = WearModel::finnie; });
 
-  add("books of energy", "energy", "tangential spring",
+  add("books of energy", "energy, compute lsdcd/energy", "tangential spring",
       [](EngineSettings &s) { s.law().keeps_forces = true; });
 
   begin("granular hooke", "granular hooke ... linear_nohistory", "hooke",

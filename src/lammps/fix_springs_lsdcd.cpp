@@ -4,7 +4,9 @@
 #include "lammps/fix_springs_lsdcd.h"
 
 #include "base/input_error.h"
+#include "lammps/mpi_host.h"
 #include "lammps/restart_data.h"
+#include "law/force_parts.h"
 
 #include "atom.h"
 #include "comm.h"
@@ -50,23 +52,32 @@ int FixSpringsLsdcd::setmask()
 
 // ---- for the pair style ------------------------------------------------------------------
 
-void FixSpringsLsdcd::set_laws(int width, const std::string &of_laws,
+void FixSpringsLsdcd::set_laws(int width, bool booked, const std::string &of_laws,
                                const std::function<unsigned(int, int)> &of_pair)
 {
   flips = of_pair;
-  if (from_file && (of_laws != kinds || width != partners.width()))
+  const bool same = width == law_width && of_laws == kinds;
+  if (from_file && !same)
     throw lsdcd::InputError(
         "the restart file has springs of other contact laws than pair_coeff gives: give those of "
         "the run that wrote it, or begin without springs by a data file (write_data)");
   from_file = false;
-  if (width != partners.width() || of_laws != kinds) {
+  const int all = width + (booked ? lsdcd::kKeptForces : 0);
+  if (!same) {
     if (largest_packed_size() > 1)
       warn("the contact laws have changed, and what pairs had kept is gone: contacts begin anew");
-    partners = lsdcd::Partners(width);
+    partners = lsdcd::Partners(all);
     partners.grow(atom->nmax);
+  } else if (all != partners.width()) {
+    of_atoms().set_width(all);    // a setup gives pairs the forces that they keep
+  }
+  if (!same || booked != books) {
     in_pairs = false;
     new_list = true;
   }
+  if (!booked) energy = {};
+  books = booked;
+  law_width = width;
   kinds = of_laws;
 }
 
@@ -194,12 +205,15 @@ int FixSpringsLsdcd::unpack_exchange(int i, double *buf)
 void FixSpringsLsdcd::write_restart(FILE *file)
 {
   pre_exchange();
+  lsdcd::MpiHost host(world);
+  lsdcd::BookedEnergy everywhere = energy;
+  lsdcd::sum_over_processes(host, &everywhere, 1);
   if (comm->me != 0) return;
   run_core_here([&] {
     lsdcd::State state(kSpringsOfPairs);
-    const int width = partners.width();
-    state.add("width", 1, width);
+    state.add("width", 1, law_width);
     state.add("laws", 1, kinds);
+    if (books) state.add("energy", 1, everywhere);
     write_state(file, state);
   });
 }
@@ -209,10 +223,13 @@ void FixSpringsLsdcd::restart(char *buffer)
   try {
     const lsdcd::State state(kSpringsOfPairs, reinterpret_cast<const double *>(buffer),
                              kAllNumbers);
-    int width = 0;
-    state.read("width", 1, width);
+    state.read("width", 1, law_width);
     state.read("laws", 1, kinds);
-    partners = lsdcd::Partners(width);
+    books = state.find("energy", 1, energy);
+    const lsdcd::Real dt = energy.dt;
+    if (comm->me != 0) energy = {};
+    energy.dt = dt;
+    partners = lsdcd::Partners(law_width);
     partners.grow(atom->nmax);
     from_file = true;
   } catch (const lsdcd::StateError &e) {
@@ -221,10 +238,11 @@ void FixSpringsLsdcd::restart(char *buffer)
   }
 }
 
-// In restart files the first number is the size, by which other fixes skip it.
+// In restart files the first number is the size, by which other fixes skip it. Pairs have no KeptForces there: the setup of the next
+// run makes them.
 int FixSpringsLsdcd::size_restart(int i)
 {
-  return 1 + of_atoms().packed_size(i);
+  return 1 + of_atoms().packed_size(i, law_width);
 }
 
 int FixSpringsLsdcd::maxsize_restart()
@@ -236,7 +254,7 @@ int FixSpringsLsdcd::maxsize_restart()
 
 int FixSpringsLsdcd::pack_restart(int i, double *buf)
 {
-  buf[0] = 1 + of_atoms().pack(i, buf + 1);
+  buf[0] = 1 + of_atoms().pack(i, buf + 1, law_width);
   return static_cast<int>(buf[0]);
 }
 

@@ -8,6 +8,7 @@
 
 #include "fix.h"
 
+#include "engine/results/booked_energy.h"
 #include "lammps/own_messages.h"
 #include "pair/partners.h"
 
@@ -53,9 +54,9 @@ class FixSpringsLsdcd : public Fix, protected OwnMessages {
  protected:
   // For the pair style, which is there as long as this is.
   friend class PairGranularLsdcd;
-  // Before a run. `width`: numbers of a pair, 0: laws keep nothing. `kinds`: equal where the numbers of all pairs of types mean
-  // the same.
-  virtual void set_laws(int width, const std::string &kinds,
+  // Before a run. `width`: numbers that laws keep of a pair, 0: nothing. `books`: pairs keep KeptForces behind these. `kinds`: equal
+  // where the numbers of all pairs of types mean the same.
+  virtual void set_laws(int width, bool books, const std::string &kinds,
                         const std::function<unsigned(int type, int other)> &flips);
   // Before a step of the pairs in this list.
   void begin_step(const lsdcd::PairList &list);
@@ -73,6 +74,9 @@ class FixSpringsLsdcd : public Fix, protected OwnMessages {
   virtual lsdcd::Partners &of_atoms() { return partners; }
 
   lsdcd::Partners partners;
+  int law_width = 0;             // numbers of the laws, which are in restart files
+  lsdcd::BookedEnergy energy;    // of pairs on this process, where it is booked
+  bool books = false;
   lsdcd::PairHistory history[2];
   int now = 0;              // which of them the last step has written
   lsdcd::PairList list;     // of the last step

@@ -70,6 +70,8 @@ class FixWallLsdcd : public Fix, protected OwnMessages {
 
   const lsdcd::WallSpec &spec() const { return wall->spec(); }
   const std::deque<lsdcd::MeshPart> &meshes() const { return wall->meshes(); }
+  // What its contacts have done with energy, over all meshes. Collective.
+  lsdcd::BookedEnergy booked() { return wall->energy().of_all(); }
   std::vector<lsdcd::ScriptFile> files() const;    // that it reads and writes
 
   // Another fix has deleted n atoms of all processes: there are no new ones because of that.

@@ -10,6 +10,7 @@
 #include "lammps/host_pairs.h"
 #include "lammps/mpi_host.h"
 #include "law/contact_time.h"
+#include "law/force_parts.h"
 #include "pair/compile_pair.h"
 
 #include "atom.h"
@@ -148,6 +149,10 @@ void PairGranularLsdcd::init_style()
     fatal("forces depend on the velocities of ghost atoms: write 'comm_modify vel yes'");
   find_fixes();
   find_radii();
+  const std::vector<Compute *> computes = lsdcd::host_computes(*modify);
+  books = std::any_of(computes.begin(), computes.end(), [](const Compute *compute) {
+    return std::strcmp(compute->style, "lsdcd/energy") == 0;
+  });
 
   const int n = n_types + 1;
   coeffs.clear();
@@ -166,8 +171,9 @@ void PairGranularLsdcd::init_style()
     }
     coeffs.push_back(coeff);
     numbers.push_back(law);
-    laws.push_back(lsdcd::pair_law(law));
     flips_of.push_back(law.flips());
+    law.keeps_forces = books;
+    laws.push_back(lsdcd::pair_law(law));
     return static_cast<int>(laws.size()) - 1;
   };
   for (int i = 1; i < n; i++)
@@ -205,6 +211,16 @@ void PairGranularLsdcd::init_style()
   check_step();
 }
 
+const lsdcd::BookedEnergy &PairGranularLsdcd::booked() const
+{
+  return springs->energy;
+}
+
+void PairGranularLsdcd::add_booked(const lsdcd::EnergyRows &rows, bool is_setup, double dt)
+{
+  springs->energy.add_step(rows, is_setup, dt);
+}
+
 int PairGranularLsdcd::kept_width() const
 {
   return springs ? springs->partners.width() : 0;
@@ -230,13 +246,17 @@ void PairGranularLsdcd::set_springs()
       any = true;
       width = std::max(width, 3 + law.n_extra());
     }
+  any = any || books;
+  if (books)
+    for (unsigned &flips : flips_of) flips |= lsdcd::KeptForces::flips() << width;
   if (any && !springs)
     springs = dynamic_cast<FixSpringsLsdcd *>(
         modify->replace_fix(dummy_id, springs_id + " all " + springs_style()));
   else if (springs && lsdcd::host_fix(*modify, springs_id) != springs)
     fatal("fix " + springs_id + ", which keeps the springs of pairs, is gone: do not unfix it");
   if (!springs) return;
-  springs->set_laws(width, kinds, [this](int i, int j) { return flips_of[law_index(i, j)]; });
+  springs->set_laws(width, books, kinds,
+                    [this](int i, int j) { return flips_of[law_index(i, j)]; });
 }
 
 // A grain of fix freeze does not move; damping of an atom in a rigid body reads the mass of the body.
@@ -459,7 +479,10 @@ void PairGranularLsdcd::compute(int eflag, int vflag)
   }
   record.clear();
   if (evflag) step.record = &record;
+  lsdcd::EnergyRows rows;
+  if (books) step.energy = &rows;
   lsdcd::run_pairs(step);
+  if (books) add_booked(rows, !step.update, step.dt);
   for (const lsdcd::RecordedPair &p : record)
     ev_tally_xyz(p.i, p.j, atom->nlocal, force->newton_pair, p.energy, 0, p.force.x, p.force.y,
                  p.force.z, p.offset.x, p.offset.y, p.offset.z);

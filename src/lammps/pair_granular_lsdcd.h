@@ -7,6 +7,7 @@
 
 #include "pair.h"
 
+#include "engine/results/booked_energy.h"
 #include "lammps/own_messages.h"
 #include "pair/pair_coeff.h"
 #include "pair/pair_job.h"
@@ -36,6 +37,10 @@ class PairGranularLsdcd : public Pair, protected OwnMessages {
   void unpack_forward_comm(int, int, double *) override;
   double memory_usage() override;
 
+  // For compute lsdcd/energy. Is energy booked, because there is such a compute? What pairs of this process have done with it.
+  bool books_energy() const { return books; }
+  const lsdcd::BookedEnergy &booked() const;
+
  protected:
   // The fix for springs, the list that is asked for, and what the pair keeps as i sees it; empty: nothing.
   virtual std::string springs_style() const { return "SPRINGS/LSDCD"; }
@@ -44,6 +49,7 @@ class PairGranularLsdcd : public Pair, protected OwnMessages {
   void fill_masses();
   double time_step() const;
   int kept_width() const;    // numbers that a touching pair keeps
+  void add_booked(const lsdcd::EnergyRows &rows, bool is_setup, double dt);
   int law_index(int i, int j) const { return law_of[i * (n_types + 1) + j]; }
 
  private:
@@ -78,7 +84,7 @@ class PairGranularLsdcd : public Pair, protected OwnMessages {
   int n_types = 0;
   std::vector<lsdcd::ContactLaw> numbers;    // of each law
   std::vector<int> law_of;                   // of types i and j at i * (n_types + 1) + j
-  bool has_heat = false;
+  bool has_heat = false, books = false;
   class FixSpringsLsdcd *springs = nullptr;    // null: no law has kept anything yet
   class Fix *rigid = nullptr;
   int frozen = 0;                // bit of the group of fix freeze

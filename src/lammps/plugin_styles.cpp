@@ -4,6 +4,7 @@
 #include "lammps/plugin_styles.h"
 
 #include "lammps/compute_collide_lsdcd.h"
+#include "lammps/compute_energy_lsdcd.h"
 #include "lammps/fix_insert_lsdcd.h"
 #include "lammps/fix_massflow_lsdcd.h"
 #include "lammps/fix_springs_lsdcd.h"
@@ -69,6 +70,9 @@ void add_plain_styles(void *lmp, void *handle, void *regfunc)
   add_style("compute", lmp, handle, regfunc, "lsdcd/collide",
             "compute lsdcd/collide: rigid bodies against the walls of fix wall/lsdcd",
             create_style<Compute, GuardedCompute<ComputeCollideLsdcd>>);
+  add_style("compute", lmp, handle, regfunc, "lsdcd/energy",
+            "compute lsdcd/energy: what contacts of pair_style granular/lsdcd dissipate",
+            create_style<Compute, GuardedCompute<ComputeEnergyLsdcd>>);
   add_style("region", lmp, handle, regfunc, "mesh/lsdcd",
             "region mesh/lsdcd: the inside of a closed mesh",
             create_style<Region, GuardedRegion<RegionMeshLsdcd>>);

@@ -17,7 +17,13 @@ PairLaw classic_pair(const ContactLaw &law);
 
 PairLaw pair_law(const ContactLaw &law);
 
+// Gives a law the compiled form that books energy.
+void set_book(const ContactLaw &law, PairLaw &out);
+
 // A step of pairs, whatever the laws of the job are.
 void run_pairs(const PairJob &job);
+// Adds what the pairs of a step that has run have done with energy to job.energy. What a pair had held that is in no list any
+// more is not `seen`.
+void book_pairs(const PairJob &job);
 
 }    // namespace lsdcd

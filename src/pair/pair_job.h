@@ -5,6 +5,7 @@
 #pragma once
 
 #include "base/vec3.h"
+#include "engine/results/step_results.h"
 #include "engine/step/compiled_law.h"
 
 #include <algorithm>
@@ -20,6 +21,28 @@ struct PairList {
   const int *grain, *length;    // grain of each row; length[i] and row[i] are of grain i
   const int *const *row;
   int mask, factor_shift;
+};
+
+// Numbers of a pair, `step` apart.
+template <class T>
+struct PairNumbers {
+  T *at;
+  std::size_t step;
+
+  LSDCD_FN bool operator!() const { return !at; }
+  LSDCD_FN T &operator*() const { return *at; }
+  LSDCD_FN T &operator[](int k) const { return at[static_cast<std::size_t>(k) * step]; }
+  LSDCD_FN PairNumbers &operator+=(int n)
+  {
+    at += static_cast<std::size_t>(n) * step;
+    return *this;
+  }
+  LSDCD_FN PairNumbers operator++(int)
+  {
+    const PairNumbers before = *this;
+    at += step;
+    return before;
+  }
 };
 
 // What touching pairs keep from step to step, in the order of the host's list: the number of the pair in the list, counted over
@@ -49,6 +72,7 @@ class PairHistory {
   // The k-th numbers of all pairs lie side by side.
   Real *column(int k) { return numbers_.get() + room_ * static_cast<std::size_t>(k); }
   const Real *column(int k) const { return numbers_.get() + room_ * static_cast<std::size_t>(k); }
+  PairNumbers<Real> of(std::size_t pair) const { return {numbers_.get() + pair, room_}; }
   static std::size_t bytes_per_pair(int width)
   {
     return sizeof(std::size_t) + static_cast<std::size_t>(width) * sizeof(Real);
@@ -112,6 +136,10 @@ struct PairLaw {
   // Computes them in vectors, in steps in which springs move; prepare() has been called for these lanes. Null: there is no such loop.
   void (*evaluate_wide)(const LawBytes &, PairLanes &, int n, Real dt);
   void (*prepare)(const LawBytes &, PairLanes &);
+  // The law with all effects, which books energy, and its book_pair() (pair_energy.h). Null: pairs do not keep their forces.
+  LawBytes booked;
+  void (*book)(const LawBytes &, const GrainPair &, const PairNumbers<Real> &old,
+               const PairNumbers<Real> &now, int width, EnergyRows &);
 };
 
 struct PairJob {
@@ -140,6 +168,9 @@ struct PairJob {
   Real dt;
   bool update;    // false: springs act but do not move (setup)
 
+  // Null: energy is not booked. Else laws have `book`, and the last numbers of a pair in the history are KeptForces. What pairs do
+  // with energy is added; unless both_sides half of a pair with a copy is here.
+  EnergyRows *energy = nullptr;
   std::vector<RecordedPair> *record = nullptr;    // null: forces are not asked for one by one
 };
 

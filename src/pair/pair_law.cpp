@@ -38,10 +38,23 @@ std::size_t PairHistory::find(std::size_t key) const
   return at < size_ && begin[at] == key ? at : size_;
 }
 
-PairLaw pair_law(const ContactLaw &law)
+namespace {
+
+PairLaw law_without_books(const ContactLaw &law)
 {
   if (law.is_classic()) return law.is_extended() ? added_pair(law) : classic_pair(law);
   return law.is_extended() ? granular_added_pair(law) : granular_pair(law);
+}
+
+}    // namespace
+
+PairLaw pair_law(const ContactLaw &law)
+{
+  ContactLaw forces = law;    // the same with books as without
+  forces.keeps_forces = false;
+  PairLaw out = law_without_books(forces);
+  if (law.keeps_forces) set_book(law, out);
+  return out;
 }
 
 }    // namespace lsdcd

@@ -336,8 +336,8 @@ class PairStep {
   {
     for (int m = 0; m < job_.history->width(); m++) {
       Real *const to = job_.history->column(m) + kept;
-      const Real *const from = l.lanes.memory[l.stored[m]];
-      for (int k = 0; k < l.n; k++) to[l.pair[k] - begin] = m < l.n_stored ? from[k] : 0;
+      const Real *const from = m < l.n_stored ? l.lanes.memory[l.stored[m]] : nullptr;
+      for (int k = 0; k < l.n; k++) to[l.pair[k] - begin] = from ? from[k] : 0;
     }
   }
 
@@ -436,6 +436,7 @@ void run_pairs(const PairJob &job)
     PairStep<true>(job).run();
   else
     PairStep<false>(job).run();
+  if (job.energy) book_pairs(job);
 }
 
 }    // namespace lsdcd

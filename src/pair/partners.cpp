@@ -20,13 +20,23 @@ void Partners::append(Name name, const Real *numbers)
   numbers_.insert(numbers_.end(), numbers, numbers + width_);
 }
 
-int Partners::pack(int i, Real *to) const
+void Partners::set_width(int width)
+{
+  const std::size_t of = static_cast<std::size_t>(width), kept = std::min(of, width_);
+  std::vector<Real> numbers(name_.size() * of);
+  for (std::size_t k = 0; k < name_.size(); k++)
+    std::copy_n(numbers_.data() + k * width_, kept, numbers.data() + k * of);
+  numbers_ = std::move(numbers);
+  width_ = of;
+}
+
+int Partners::pack(int i, Real *to, int width) const
 {
   Real *const begin = to;
   *to++ = count_[i];
   for (int k = 0; k < count_[i]; k++) {
     *to++ = static_cast<Real>(name(i, k));
-    to = std::copy_n(numbers(i, k), width_, to);
+    to = std::copy_n(numbers(i, k), width, to);
   }
   return static_cast<int>(to - begin);
 }

@@ -24,6 +24,8 @@ class Partners {
   int width() const { return static_cast<int>(width_); }
 
   void grow(int n_grains);    // keeps what is there; new grains have none
+  // Gives each partner as many numbers: the first ones stay, and others are 0.
+  void set_width(int width);
   void copy(int from, int to) { first_[to] = first_[from], count_[to] = count_[from]; }
   void clear(int i) { count_[i] = 0; }
   // Takes partners in place of all that is there: those of grain i are first[i], and count[i] - 1 behind it.
@@ -48,8 +50,11 @@ class Partners {
   template <class NameOf>
   void hand_out(const PairList &list, PairHistory &history, const NameOf &name) const;
 
-  int packed_size(int i) const { return 1 + (1 + width()) * count_[i]; }
-  int pack(int i, Real *to) const;    // returns packed_size(i)
+  int packed_size(int i) const { return packed_size(i, width()); }
+  int pack(int i, Real *to) const { return pack(i, to, width()); }    // returns packed_size(i)
+  // The same with the first `width` numbers of each partner.
+  int packed_size(int i, int width) const { return 1 + (1 + width) * count_[i]; }
+  int pack(int i, Real *to, int width) const;
   int unpack(int i,
              const Real *from);    // in place of what it has; returns how many numbers were read
   int unpack_more(int i, const Real *from);    // beside what it has

@@ -19,28 +19,6 @@ constexpr int kWordBits = 32;
 // row's pair to its next one; 1 on a CPU.
 constexpr unsigned kGpuPairStep = 4;
 
-// Numbers of a pair, `step` apart.
-template <class T>
-struct PairNumbers {
-  T *at;
-  std::size_t step;
-
-  LSDCD_FN bool operator!() const { return !at; }
-  LSDCD_FN T &operator*() const { return *at; }
-  LSDCD_FN T &operator[](int k) const { return at[static_cast<std::size_t>(k) * step]; }
-  LSDCD_FN PairNumbers &operator+=(int n)
-  {
-    at += static_cast<std::size_t>(n) * step;
-    return *this;
-  }
-  LSDCD_FN PairNumbers operator++(int)
-  {
-    const PairNumbers before = *this;
-    at += step;
-    return before;
-  }
-};
-
 // Which pairs of a list touch, and where the numbers that they keep are: bit k % 32 of word k / 32 is of place k in the row.
 struct TouchingPairs {
   std::uint32_t *words = nullptr;    // word w of row r at [w * rows + r]; null: none touch

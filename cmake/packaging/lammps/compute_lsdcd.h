@@ -5,8 +5,10 @@
 #ifdef COMPUTE_CLASS
 // clang-format off
 ComputeStyle(lsdcd/collide,GuardedCompute<ComputeCollideLsdcd>);
+ComputeStyle(lsdcd/energy,GuardedCompute<ComputeEnergyLsdcd>);
 // clang-format on
 #else
 #include "lammps/compute_collide_lsdcd.h"
+#include "lammps/compute_energy_lsdcd.h"
 #include "lammps/guarded_styles.h"
 #endif

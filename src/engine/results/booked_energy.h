@@ -33,6 +33,13 @@ struct BookedEnergy {
   Real remainder() const { return rows[EnergyRow::work] - rows[EnergyRow::held] - lost(); }
 };
 
+// Of restart files.
+template <class Numbers>
+void each_number(Numbers &numbers, BookedEnergy &e)
+{
+  numbers(e.rows.of, e.step.of, e.dt);
+}
+
 // Sums n of them over all processes. Collective.
 void sum_over_processes(Host &host, BookedEnergy *booked, int n);
 

@@ -84,12 +84,6 @@ void each_number(Numbers &numbers, StepLoad &l)
 }
 
 template <class Numbers>
-void each_number(Numbers &numbers, BookedEnergy &e)
-{
-  numbers(e.rows.of, e.step.of, e.dt);
-}
-
-template <class Numbers>
 void each_number(Numbers &numbers, Wrench &w)
 {
   numbers(w.force, w.torque);

@@ -1,0 +1,130 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: GPL-2.0-only
+
+#include "lammps/compute_energy_lsdcd.h"
+
+#include "engine/results/booked_energy.h"
+#include "lammps/fix_wall_lsdcd.h"
+#include "lammps/host_fixes.h"
+#include "lammps/mpi_host.h"
+#include "lammps/pair_granular_lsdcd.h"
+
+#include "atom.h"
+#include "force.h"
+#include "modify.h"
+#include "update.h"
+
+#include <cstring>
+
+using namespace LAMMPS_NS;
+using lsdcd::BookedEnergy;
+using lsdcd::EnergyRow;
+
+namespace {
+
+constexpr int kNumbers = 22;
+
+}    // namespace
+
+ComputeEnergyLsdcd::ComputeEnergyLsdcd(LAMMPS *lmp, int narg, char **arg) :
+    Compute(lmp, narg, arg), OwnMessages(lmp, "Compute", id, "lsdcd/energy")
+{
+  if (narg != 3)
+    fatal(std::string("'") + arg[3] + "' is not expected: compute ID all lsdcd/energy");
+  if (igroup != 0) fatal("pairs are of all atoms: compute ID all lsdcd/energy");
+
+  scalar_flag = vector_flag = 1;
+  extscalar = extvector = 1;
+  size_vector = kNumbers;
+  vector = new double[kNumbers];
+}
+
+ComputeEnergyLsdcd::~ComputeEnergyLsdcd()
+{
+  delete[] vector;
+}
+
+const PairGranularLsdcd &ComputeEnergyLsdcd::pair() const
+{
+  const auto *const found = dynamic_cast<const PairGranularLsdcd *>(force->pair);
+  if (!found)
+    fatal("it books what pair_style granular/lsdcd does, which is not there or within a hybrid "
+          "style: of walls alone the keyword energy of fix wall/lsdcd does it");
+  return *found;
+}
+
+std::vector<FixWallLsdcd *> ComputeEnergyLsdcd::walls() const
+{
+  std::vector<FixWallLsdcd *> found;
+  for (Fix *fix : lsdcd::host_fixes(*modify))
+    if (auto *const wall = dynamic_cast<FixWallLsdcd *>(fix)) found.push_back(wall);
+  return found;
+}
+
+// The pair style, whose init comes first, has found this compute.
+void ComputeEnergyLsdcd::init()
+{
+  pair();
+  if (std::strncmp(update->integrate_style, "respa", 5) == 0)
+    fatal("the work of a step is that of one timestep: use run_style verlet");
+  for (const FixWallLsdcd *wall : walls())
+    if (!wall->spec().energy && !told) {
+      warn(std::string("fix ") + wall->id +
+           " has no keyword energy: what its contacts do with energy is not in the balance");
+      told = true;
+    }
+}
+
+double ComputeEnergyLsdcd::kinetic() const
+{
+  double twice = 0;
+  for (int i = 0; i < atom->nlocal; i++) {
+    const double *const v = atom->v[i], *const w = atom->omega[i];
+    const double radius = atom->radius[i];
+    twice += atom->rmass[i] * (v[0] * v[0] + v[1] * v[1] + v[2] * v[2] +
+                               0.4 * radius * radius * (w[0] * w[0] + w[1] * w[1] + w[2] * w[2]));
+  }
+  double all = 0;
+  MPI_Allreduce(&twice, &all, 1, MPI_DOUBLE, MPI_SUM, world);
+  return 0.5 * force->mvv2e * all;
+}
+
+double ComputeEnergyLsdcd::potential() const
+{
+  double all = 0;
+  for (Fix *fix : lsdcd::host_fixes(*modify))
+    if (std::strncmp(fix->style, "gravity", 7) == 0) all += fix->compute_scalar();
+  return all;
+}
+
+void ComputeEnergyLsdcd::compute_vector()
+{
+  invoked_vector = update->ntimestep;
+  lsdcd::MpiHost host(world);
+  BookedEnergy pairs = pair().booked();
+  lsdcd::sum_over_processes(host, &pairs, 1);
+  double *next = vector;
+  for (const EnergyRow cause : lsdcd::kCauses) *next++ = pairs.power(cause);
+  for (const EnergyRow cause : lsdcd::kCauses) *next++ = pairs.rows[cause];
+  for (const EnergyRow row : lsdcd::kOtherLosses) *next++ = pairs.rows[row];
+  *next++ = pairs.rows[EnergyRow::work];
+  *next++ = pairs.rows[EnergyRow::held];
+  *next++ = pairs.remainder();
+
+  BookedEnergy all = pairs;
+  for (FixWallLsdcd *wall : walls()) all.add(wall->booked());
+  *next++ = kinetic();
+  *next++ = potential();
+  *next++ = all.rows[EnergyRow::held];
+  *next++ = all.lost();
+  *next++ = all.rows[EnergyRow::drive];
+}
+
+double ComputeEnergyLsdcd::compute_scalar()
+{
+  invoked_scalar = update->ntimestep;
+  if (invoked_vector != update->ntimestep) compute_vector();
+  const double *const of = vector + kNumbers - 5;
+  scalar = of[0] + of[1] + of[2] + of[3] - of[4];
+  return scalar;
+}

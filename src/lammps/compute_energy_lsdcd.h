@@ -1,0 +1,36 @@
+// SPDX-FileCopyrightText: 2026 LSDCD contributors
+// SPDX-License-Identifier: GPL-2.0-only
+
+// compute lsdcd/energy: what contacts between grains do with energy, and the balance of the whole with the walls.
+#ifndef LMP_COMPUTE_ENERGY_LSDCD_H
+#define LMP_COMPUTE_ENERGY_LSDCD_H
+
+#include "compute.h"
+
+#include "lammps/own_messages.h"
+
+#include <vector>
+
+namespace LAMMPS_NS {
+
+class ComputeEnergyLsdcd : public Compute, protected OwnMessages {
+ public:
+  ComputeEnergyLsdcd(class LAMMPS *, int, char **);
+  ~ComputeEnergyLsdcd() override;
+
+  void init() override;
+  double compute_scalar() override;
+  void compute_vector() override;
+
+ private:
+  const class PairGranularLsdcd &pair() const;
+  std::vector<class FixWallLsdcd *> walls() const;
+  double kinetic() const;
+  double potential() const;
+
+  bool told = false;    // of a wall that books nothing
+};
+
+}    // namespace LAMMPS_NS
+
+#endif
