@@ -15,8 +15,8 @@ using namespace lsdcd;
 namespace {
 
 // The same whatever device builds.
-void measure_cache(const WeldedMesh &mesh, const GridSettings &settings, const TriangleGrid &grid,
-                   int repeats, BenchRow row, BenchRows &rows)
+void measure_cache(const WeldedMesh &mesh, const StepGridSettings &settings,
+                   const TriangleGrid &grid, int repeats, BenchRow row, BenchRows &rows)
 {
   const TempDir dir;
   const std::string path = dir.path("grid");
@@ -49,15 +49,14 @@ void measure(const BenchOptions &o, BenchRows &rows)
     const int repeats = o.repeats > 0 ? o.repeats : o.quick ? 2 : on_cuda ? 7 : 5;
     for (const TriangleSoup &soup : cylinders(o, 1e5)) {
       const WeldedMesh mesh = weld(soup, -1);
-      GridSettings settings;
+      StepGridSettings settings;
       settings.length = o.length;
       settings.cutoff = 1;
-      settings.form = ListForm::packed;
-      TriangleGrid grid;
+      StepGrid grid;
       BenchRow row;
       row.what = "chosen cell";
       row.timing = time_it(repeats, [&] {
-        grid = TriangleGrid();
+        grid = StepGrid();
         grid = build_grid(mesh, settings, on_cuda);
       });
       row.triangles = mesh.faces.size();

@@ -112,11 +112,11 @@ struct Bed {
 void measure_effects(Device device, int n_spheres, int repeats, const char *commit)
 {
   const std::vector<EffectCase> effects = effect_cases();
-  GridSettings settings;
+  StepGridSettings settings;
   settings.cutoff = kRadius;
   for (const EffectCase &c : effects)
     settings.cutoff = std::max(settings.cutoff, cutoff_of(c.settings.law(), kRadius));
-  const FlatGrid flat(build_grid(weld(floor_mesh(100, kHalf), -1), settings));
+  const FlatOf flat(build_grid(weld(floor_mesh(100, kHalf), -1), settings));
 
   Bed bed(n_spheres);
   StepSettings step;

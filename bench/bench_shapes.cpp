@@ -68,9 +68,9 @@ class ShapeBed {
       mesh_(weld(terrain(shape_.farthest, place == Place::edge || place == Place::fold), -1)),
       names_(mesh_), tree_(mesh_, names_), search_(tree_)
   {
-    GridSettings grid;
+    StepGridSettings grid;
     grid.cutoff = shape_.farthest;
-    flat_ = FlatGrid(build_grid(mesh_, grid, false));
+    flat_ = FlatOf(build_grid(mesh_, grid, false));
     EngineSettings e = hooke_history(1e5, 3e4, 50, 25, 0.5);
     e.moves = e.contacts = true;
     e.law().for_shapes = !kind.is_sphere;
@@ -164,7 +164,7 @@ class ShapeBed {
   TriangleTable names_;
   TriangleTree tree_;
   ShapeSearch search_;
-  FlatGrid flat_;
+  FlatOf<StepGrid> flat_;
   std::unique_ptr<WallEngine> engine_;
   Grains grains_;
   std::vector<Quaternion> turns_;

@@ -46,7 +46,8 @@ double bytes_of_touching(double contacts)
   return contacts * ((7 + 2 * 6) * sizeof(Real) + 2 * sizeof(Spring));
 }
 
-void fill(BenchRow &row, const std::string &what, WallEngine &engine, const GridView &grid, int n)
+void fill(BenchRow &row, const std::string &what, WallEngine &engine, const ViewOf<StepGrid> &grid,
+          int n)
 {
   row.what = what;
   row.length = grid.length;
@@ -58,8 +59,8 @@ void fill(BenchRow &row, const std::string &what, WallEngine &engine, const Grid
              grid.block_bytes / 1e6, engine.bytes() / 1e6);
 }
 
-void measure_in_place(const SphereArrays &bodies, const GridView &grid, Device device, int repeats,
-                      BenchRows &rows, BenchRow row)
+void measure_in_place(const SphereArrays &bodies, const ViewOf<StepGrid> &grid, Device device,
+                      int repeats, BenchRows &rows, BenchRow row)
 {
   const bool cuda = device == Device::cuda;
   EngineSettings e;
@@ -94,13 +95,13 @@ void measure_in_place(const SphereArrays &bodies, const GridView &grid, Device d
   }
 }
 
-FlatGrid grid_of(const WeldedMesh &mesh, Real length, Device device)
+FlatOf<StepGrid> grid_of(const WeldedMesh &mesh, Real length, Device device)
 {
-  GridSettings settings;
+  StepGridSettings settings;
   settings.length = length;
   settings.cutoff = kCutoff;
   settings.for_gpu = device == Device::cuda;
-  return FlatGrid(build_grid(mesh, settings, settings.for_gpu));
+  return FlatOf(build_grid(mesh, settings, settings.for_gpu));
 }
 
 void measure(const BenchOptions &o, BenchRows &rows)
@@ -116,7 +117,7 @@ void measure(const BenchOptions &o, BenchRows &rows)
         BenchRow row;
         row.triangles = mesh.faces.size();
         row.order = order == Order::sorted ? "sorted" : "random";
-        const FlatGrid grid = grid_of(mesh, o.length > 0 ? o.length : 0.2, device);
+        const FlatOf<StepGrid> grid = grid_of(mesh, o.length > 0 ? o.length : 0.2, device);
         measure_in_place(bodies, grid.view(), device, repeats, rows, row);
       }
     }

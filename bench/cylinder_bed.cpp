@@ -138,11 +138,10 @@ CylinderBed::CylinderBed(const EvenCylinder &wall, const SphereArrays &spheres,
   const TriangleSoup soup = wall.mesh();
   const double began = clock_ms();
   const WeldedMesh mesh = weld(soup, -1);
-  GridSettings grid;
+  StepGridSettings grid;
   grid.cutoff = kLargest;
   grid.for_gpu = cuda;
-  grid.form = ListForm::packed;
-  grid_ = FlatGrid(build_grid(mesh, grid, cuda));
+  grid_ = FlatOf(build_grid(mesh, grid, cuda));
   build_ms = clock_ms() - began;
   triangles = mesh.faces.size();
 

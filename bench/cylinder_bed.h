@@ -50,7 +50,7 @@ class CylinderBed {
   double build_ms = 0;    // welding and building the grid
 
  private:
-  FlatGrid grid_;
+  FlatOf<StepGrid> grid_;
   std::unique_ptr<WallEngine> engine_;
   SphereArraysOn arrays_;
   Spheres spheres_;

@@ -35,7 +35,7 @@ bool names_cells(const lsdcd_grid_options &o)
          o.device != LSDCD_CPU;
 }
 
-GridSettings settings_of(const lsdcd_grid_options &o, bool with_sides)
+QueryGridSettings settings_of(const lsdcd_grid_options &o, bool with_sides)
 {
   if (!(o.cutoff >= 0) || !std::isfinite(o.cutoff))
     refuse("cutoff is " + number_text(o.cutoff) +
@@ -51,22 +51,19 @@ GridSettings settings_of(const lsdcd_grid_options &o, bool with_sides)
     refuse("cell, nearest, precision, memory, cache and device are of the cells of a grid, which "
            "need a "
            "cutoff: give the largest distance that matters, or leave them 0");
-  GridSettings s;
+  QueryGridSettings s;
   s.length = o.cell;
   s.length_name = "`cell`";
   s.cutoff = o.cutoff;
   s.memory_budget = static_cast<std::size_t>(o.memory);
-  s.limited = true;
   s.sides = with_sides;
-  s.list_kind = ListKind::of_option(o.nearest);
+  s.nearest = o.nearest;
   s.in_floats = o.precision == LSDCD_FLOAT;
-  s.purpose = GridPurpose::points;
-  s.form = ListForm::full;
   return s;
 }
 
 std::unique_ptr<ApiCells> make_cells(const std::string &cache, const ApiMesh &from,
-                                     const GridSettings &settings, bool on_cuda)
+                                     const QueryGridSettings &settings, bool on_cuda)
 {
   auto made = std::make_unique<ApiCells>();
   Host alone;
@@ -76,7 +73,7 @@ std::unique_ptr<ApiCells> make_cells(const std::string &cache, const ApiMesh &fr
   made->report = describe(loaded.report);
   for (const std::string &line : {loaded.cache_warning, loaded.cache_text})
     if (!line.empty()) made->report += "\n  " + line;
-  made->grid = CpuGrid(flat_view(made->memory.block.get()));
+  made->grid = CpuGrid(ViewOf<QueryGrid>(flat_view(made->memory.block.get())));
   made->sides_by_normals = settings.sides && made->grid.view.outside != 0;
   if (!made->sides_by_normals && has_inside(from.mesh))
     made->report +=
@@ -139,7 +136,7 @@ const CutoffBoxes *ApiGrid::near(const ProgressListener &progress) const
 const ApiCells &ApiGrid::cells(bool on_cuda, const ProgressListener &progress) const
 {
   return cells_.get([&] {
-    GridSettings settings = settings_;
+    QueryGridSettings settings = settings_;
     settings.progress = progress;
     return make_cells(cache_, *mesh, settings, on_cuda || on_cuda_);
   });

@@ -49,8 +49,8 @@ class ApiGrid {
   bool is_limited() const { return cutoff_ > 0; }
   // HUGE_VAL where there is none.
   Real cutoff() const;
-  int nearest() const { return int(settings_.list_kind.most()); }
-  bool uses_tree() const { return settings_.list_kind.is_complete() && !settings_.in_floats; }
+  int nearest() const { return settings_.nearest; }
+  bool uses_tree() const { return settings_.nearest == 0 && !settings_.in_floats; }
 
   const TriangleTree &tree(const ProgressListener &progress = {}) const;
   // Returns the boxes near the tree's mesh; null without a cutoff.
@@ -75,7 +75,7 @@ class ApiGrid {
 
  private:
   Real cutoff_;
-  GridSettings settings_;
+  QueryGridSettings settings_;
   std::string cache_;
   bool on_cuda_;
   MadeOnce<TriangleTree> tree_;

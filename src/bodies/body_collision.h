@@ -56,9 +56,9 @@ class BodyCollision {
  public:
   virtual ~BodyCollision() = default;
 
-  // The lists of this grid must hold whole triangles: with ListKind::every() answers are exact, with the N
-  // nearest they are those of the paper's method. Else throws InputError.
-  virtual void set_wall(const TriangleGrid &grid) = 0;
+  // With every triangle in the lists answers are exact, with the N nearest they are those of the paper's method. Throws
+  // InputError where the wall has periodic images.
+  virtual void set_wall(const BodyGrid &grid) = 0;
   // Cuts the triangles into pieces; call it after set_wall(). Throws InputError, also if there are too
   // many pieces for the grid's cells.
   virtual void set_body(const TriangleSoup &body) = 0;
@@ -80,7 +80,6 @@ std::unique_ptr<BodyCollision> make_body_collision(Device device);
 
 // Settings of a wall's grid for bodies. `length` 0: cells are as long as the median edge of the body, or
 // longer until the memory budget holds.
-GridSettings collision_grid(const TriangleSoup &body, Real length = 0,
-                            ListKind list_kind = ListKind::every());
+BodyGridSettings collision_grid(const TriangleSoup &body, Real length = 0, int nearest = 0);
 
 }    // namespace lsdcd

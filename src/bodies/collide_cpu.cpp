@@ -27,10 +27,10 @@ std::unique_ptr<BodyCollision> make_body_collision(Device device)
   return std::make_unique<BodyCollisionOn<CpuBackend>>(CpuBackend());
 }
 
-GridSettings collision_grid(const TriangleSoup &body, Real length, ListKind list_kind)
+BodyGridSettings collision_grid(const TriangleSoup &body, Real length, int nearest)
 {
-  GridSettings settings;
-  settings.list_kind = list_kind;
+  BodyGridSettings settings;
+  settings.nearest = nearest;
   settings.may_coarsen = length <= 0;
   if (length <= 0) {
     std::vector<Real> edges;

@@ -33,11 +33,9 @@ class BodyCollisionOn : public BodyCollision {
  public:
   explicit BodyCollisionOn(B backend) : b_(std::move(backend)) {}
 
-  void set_wall(const TriangleGrid &grid) override
+  void set_wall(const BodyGrid &grid) override
   {
-    if (grid.list_kind.is_complete() || grid.in_floats || grid.wall.images.any())
-      throw InputError("a body needs a wall's grid with lists of triangles in double, without "
-                       "periodic images: build it with collision_grid()");
+    if (grid.wall.images.any()) throw InputError("a body needs a wall without periodic images");
     shared_ = std::make_shared<GridOn<B>>(b_, FlatGrid(grid));
     grid_ = shared_->view;
     const auto corners = std::make_shared<MeshFeatures>();

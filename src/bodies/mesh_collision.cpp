@@ -27,14 +27,11 @@ MeshCollision::MeshCollision(const WeldedMesh &wall, const WeldedMesh &body,
     wall_facet_(std::make_shared<std::vector<std::uint32_t>>(wall.face_facet.begin(),
                                                              wall.face_facet.end()))
 {
-  GridSettings of_grid = collision_grid(
-      faces_of(body), settings.cell,
-      settings.nearest == 0 ? ListKind::every() : ListKind::nearest(settings.nearest));
+  BodyGridSettings of_grid = collision_grid(faces_of(body), settings.cell, settings.nearest);
   of_grid.memory_budget = settings.memory;
-  of_grid.limited = true;
   of_grid.length_name = settings.cell_name;
   of_grid.progress = settings.progress;
-  const TriangleGrid grid = build_grid(wall, of_grid, collision_->on_cuda());
+  const BodyGrid grid = build_grid(wall, of_grid, collision_->on_cuda());
   grid_ = grid.report;
   collision_->set_wall(grid);
   set_body(body);

@@ -42,13 +42,8 @@ class WallEngine {
   virtual std::string backend() const = 0;
 
   // Sets the grid of a mesh, to use from now on; it is borrowed, and must outlive its use. The next choose_if_due() chooses.
-  // Steps read lists of the wall's own records, packed where they are complete; other grids are for queries.
-  void set_grid(const GridView &grid, int mesh = 0)
+  void set_grid(const ViewOf<StepGrid> &grid, int mesh = 0)
   {
-    if (grid.in_floats ||
-        (grid.list_kind.is_complete() && grid.lists.entries && !grid.lists.is_packed()))
-      throw std::logic_error("a grid for queries cannot serve steps: build it without in_floats, "
-                             "and not as ListForm::full");
     expire_choice();
     put_grid(grid, mesh);
   }
@@ -141,7 +136,7 @@ class WallEngine {
       throw std::logic_error("a step is begun, submitted and collected, in this order");
   }
   // Does the work of set_grid(), which has asked for a choice.
-  virtual void put_grid(const GridView &grid, int mesh) = 0;
+  virtual void put_grid(const ViewOf<StepGrid> &grid, int mesh) = 0;
 
   StepState state_ = StepState::none;
 

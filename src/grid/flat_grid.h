@@ -30,4 +30,13 @@ class FlatGrid {
   OwnedArray<char, LargeMemory> memory_;
 };
 
+// The same of a grid that was built for a purpose: FlatOf<StepGrid>.
+template <class Grid>
+class FlatOf : public FlatGrid {
+ public:
+  FlatOf() = default;
+  explicit FlatOf(const Grid &grid) : FlatGrid(grid) {}
+  ViewOf<Grid> view() const { return ViewOf<Grid>(FlatGrid::view()); }
+};
+
 }    // namespace lsdcd

@@ -168,34 +168,59 @@ struct GridView {
   }
 };
 
-// Who reads the lists: a step, which stores what it finds for many steps, or queries of points, which
-// read a list for each point.
-enum class GridPurpose { step, points };
-
-// Which entries a grid has. Steps read packed ones of complete lists in double, and full ones of all other lists;
-// queries read full ones. So lists that are not complete, and those in float, are full in any case.
-enum class ListForm { full, packed, both };
-
+// What any grid is built with.
 struct GridSettings {
   Real length = 0;                  // 0: chosen from the mesh, the cutoff and the budget
   Real cutoff = 0;                  // > 0
   std::size_t memory_budget = 0;    // bytes, of all of it; 0: kListBudget for lists
-  bool limited = false;             // hold the build within BuildLimit where there is no budget
   bool sides = false;               // store what `side in|out` needs
-  ListKind list_kind = ListKind::complete();
-  bool in_floats = false;    // brick records, for queries in float
-  GridPurpose purpose = GridPurpose::step;
-  ListForm form = ListForm::both;
-  bool for_gpu = false;        // spheres are on a GPU: the chosen length is shorter
-  bool may_coarsen = false;    // a given length may grow, too, until the budget holds
+  int nearest = 0;                  // primitives in a list, 1 to kMaxNearest; 0: all that it is for
+  bool for_gpu = false;             // spheres are on a GPU: the chosen length is shorter
+  bool may_coarsen = false;         // a given length may grow, too, until the budget holds
   // Where centres of spheres can be. The grid is cut off there.
   Box within = kNoLimit;
   std::string length_name = "grid";    // of `length`, for messages: what the caller calls it
   // Called between the parts of a build and on a CPU within them.
   ProgressListener progress;
+};
 
-  bool packs() const { return form != ListForm::full && list_kind.is_complete() && !in_floats; }
-  bool has_full_lists() const { return form != ListForm::packed || !packs(); }
+// A grid serves those that it was built for. Settings, grids and views of each purpose are types of their own, so that a grid of
+// another one does not compile where it cannot serve.
+//
+// Steps store what they find for many steps, and read packed entries of complete lists.
+struct StepGridSettings : GridSettings {};
+// Queries read a list for each point.
+struct QueryGridSettings : GridSettings {
+  bool in_floats = false;    // brick records, for queries in float
+};
+// Collisions of bodies read every primitive within the cutoff, or the nearest.
+struct BodyGridSettings : GridSettings {};
+
+enum class GridPurpose { steps, queries, bodies };
+
+// The same for any purpose, as what plans and builds grids reads them.
+struct AnyGridSettings : GridSettings {
+  GridPurpose purpose;
+  bool in_floats = false;
+
+  AnyGridSettings(const StepGridSettings &s) : GridSettings(s), purpose(GridPurpose::steps) {}
+  AnyGridSettings(const QueryGridSettings &s) :
+      GridSettings(s), purpose(GridPurpose::queries), in_floats(s.in_floats)
+  {
+  }
+  AnyGridSettings(const BodyGridSettings &s) : GridSettings(s), purpose(GridPurpose::bodies) {}
+
+  ListKind list_kind() const
+  {
+    const bool every = purpose == GridPurpose::bodies && nearest == 0;
+    return every ? ListKind::every() : ListKind::of_option(nearest);
+  }
+  bool is_packed() const { return purpose == GridPurpose::steps && nearest == 0; }
+  // Is the build held within BuildLimit? A length that is given for steps may take its time.
+  bool is_limited() const
+  {
+    return memory_budget == 0 && !(purpose == GridPurpose::steps && length > 0);
+  }
 };
 constexpr std::size_t kListBudget = 1ull << 30;    // bytes, beside the records of the wall
 
@@ -256,9 +281,36 @@ struct TriangleGrid {
   GridView view() const;
 };
 
+// Does the work of build_grid().
+TriangleGrid build_any_grid(const WeldedMesh &mesh, const AnyGridSettings &settings, bool on_cuda);
+
+// The view of a grid of that type.
+template <class Grid>
+struct ViewOf : GridView {
+  explicit ViewOf(const GridView &view) : GridView(view) {}
+};
+
+// A grid that was built with such settings.
+template <class Settings>
+struct GridFor : TriangleGrid {
+  GridFor() = default;
+  GridFor(const WeldedMesh &mesh, const Settings &settings, bool on_cuda) :
+      TriangleGrid(build_any_grid(mesh, settings, on_cuda))
+  {
+  }
+  ViewOf<GridFor> view() const { return ViewOf<GridFor>(TriangleGrid::view()); }
+};
+using StepGrid = GridFor<StepGridSettings>;
+using QueryGrid = GridFor<QueryGridSettings>;
+using BodyGrid = GridFor<BodyGridSettings>;
+
 // Throws InputError when the grid would not fit the budget; the message says
 // which cell length would.
-TriangleGrid build_grid(const WeldedMesh &mesh, const GridSettings &settings, bool on_cuda = false);
+template <class Settings>
+GridFor<Settings> build_grid(const WeldedMesh &mesh, const Settings &settings, bool on_cuda = false)
+{
+  return {mesh, settings, on_cuda};
+}
 
 // Returns the report as lines for the log.
 std::string describe(const GridReport &report);

@@ -24,7 +24,7 @@ struct CpuGrid {
   CpuGrid() = default;
   CpuGrid(CpuGrid &&) = default;    // does not move the words
   CpuGrid &operator=(CpuGrid &&) = default;
-  explicit CpuGrid(const GridView &grid) :
+  explicit CpuGrid(const ViewOf<QueryGrid> &grid) :
       view(grid), words(brick_words(grid)), table(words, words.data())
   {
   }
@@ -58,7 +58,8 @@ class DeviceCopy : public std::enable_shared_from_this<DeviceCopy> {
   const int device = current_cuda_device();
 };
 // Cells with lists, which answer up to their cutoff, or a tree, which answers at any range.
-std::shared_ptr<const DeviceCopy> copy_to_cuda(const GridView &grid, const TriangleTable &names);
+std::shared_ptr<const DeviceCopy> copy_to_cuda(const ViewOf<QueryGrid> &grid,
+                                               const TriangleTable &names);
 std::shared_ptr<const DeviceCopy> copy_to_cuda(const TriangleTree &tree);
 
 // Throws InputError naming `what` unless the array is in memory that this device can reach.

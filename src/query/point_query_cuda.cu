@@ -13,7 +13,7 @@ namespace lsdcd {
 
 class DeviceGrid : public DeviceCopy, public GridOn<CudaBackend> {
  public:
-  DeviceGrid(CudaBackend b, const GridView &grid, const TriangleTable &names) :
+  DeviceGrid(CudaBackend b, const ViewOf<QueryGrid> &grid, const TriangleTable &names) :
       GridOn(b, grid, true)
   {
     of_face_ = from_cpu(b, names.of_face);
@@ -33,7 +33,8 @@ class DeviceGrid : public DeviceCopy, public GridOn<CudaBackend> {
   CudaBackend::Array<std::uint32_t> of_face_, of_edge_, of_vertex_;
 };
 
-std::shared_ptr<const DeviceCopy> copy_to_cuda(const GridView &grid, const TriangleTable &names)
+std::shared_ptr<const DeviceCopy> copy_to_cuda(const ViewOf<QueryGrid> &grid,
+                                               const TriangleTable &names)
 {
   return std::make_shared<const DeviceGrid>(CudaBackend(), grid, names);
 }

@@ -82,14 +82,13 @@ void AccuracyStudy::set_grid(const StudyLists &lists)
   if (has_grid_ && lists.length == of_grid_.length &&
       (lists.every_face || lists.nearest == of_grid_.nearest))
     return;
-  GridSettings grid;
+  QueryGridSettings grid;
   grid.length = lists.length;
   grid.cutoff = box_.largest;
-  grid.list_kind = ListKind::of_option(lists.nearest);
-  grid.form = ListForm::full;
+  grid.nearest = lists.nearest;
   grid.memory_budget = settings_.memory_budget;
   const bool on_cuda = settings_.device != Device::cpu && cuda_available(nullptr);
-  grid_ = TriangleGrid();
+  grid_ = QueryGrid();
   grid_ = build_grid(mesh_, grid, on_cuda);
   query_->set_grid(grid_, mesh_);
   of_grid_ = lists;

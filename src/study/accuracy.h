@@ -74,7 +74,7 @@ class AccuracyStudy {
   // Returns the status that (6) compares with, by sphere.
   const std::vector<std::uint8_t> &truth() const { return truth_; }
   // Returns the grid of the last measurement.
-  const TriangleGrid &grid() const { return grid_; }
+  const QueryGrid &grid() const { return grid_; }
   Real agreement(const std::vector<std::uint8_t> &touching) const;
 
  private:
@@ -93,7 +93,7 @@ class AccuracyStudy {
   std::vector<std::uint8_t> truth_;
   std::vector<Real> exact_;    // distances from complete lists
   Real best_ = 0, never_ = 0;
-  TriangleGrid grid_;
+  QueryGrid grid_;
   StudyLists of_grid_;
   bool has_grid_ = false;
 };

@@ -23,7 +23,7 @@ constexpr int kLook = 20;         // steps
 // the pull is 1.
 class Motion {
  public:
-  Motion(const GridView &grid, const EngineSettings &engine, const DriftStarts &starts,
+  Motion(const ViewOf<StepGrid> &grid, const EngineSettings &engine, const DriftStarts &starts,
          Real height) :
       engine_(make_engine(engine)),
       starts_(starts), wall_(starts.wall.view()), n_(starts.n()), springs_(engine.law().n_extra()),
@@ -165,7 +165,7 @@ DriftStarts drift_starts(const WeldedMesh &mesh, const GridView &grid, Real radi
 {
   DriftStarts starts;
   starts.radius = radius;
-  GridSettings settings;
+  StepGridSettings settings;
   settings.cutoff = kThrough * radius;
   settings.memory_budget = memory_budget;
   starts.wall = build_grid(mesh, settings);
@@ -202,7 +202,7 @@ DriftStarts drift_starts(const WeldedMesh &mesh, const GridView &grid, Real radi
   return starts;
 }
 
-Real bounce_drift(const GridView &grid, EngineSettings engine, const DriftStarts &starts)
+Real bounce_drift(const ViewOf<StepGrid> &grid, EngineSettings engine, const DriftStarts &starts)
 {
   constexpr Real kDrop = 0.2, kSpeed = 0.3, kTime = 13.7;
   const Real radius = starts.radius;
@@ -215,7 +215,7 @@ Real bounce_drift(const GridView &grid, EngineSettings engine, const DriftStarts
   return median(motion.changes(kTime, kDrop * radius));
 }
 
-Real roll_drift(const GridView &grid, EngineSettings engine, const DriftStarts &starts)
+Real roll_drift(const ViewOf<StepGrid> &grid, EngineSettings engine, const DriftStarts &starts)
 {
   constexpr Real kSpeed = 0.5, kTime = 10;
   const Real radius = starts.radius, speed = kSpeed * std::sqrt(radius);

@@ -17,7 +17,7 @@ namespace lsdcd {
 struct DriftStarts {
   std::vector<Vec3> point, normal, along;    // along: unit, in the face
   Real radius;
-  TriangleGrid wall;    // complete; shows which spheres went through
+  StepGrid wall;    // complete; shows which spheres went through
 
   int n() const { return static_cast<int>(point.size()); }
 };
@@ -38,10 +38,10 @@ DriftStarts drift_starts(const WeldedMesh &mesh, const GridView &grid, Real radi
 
 // Dropped by 0.2 R, without friction, moving along the face at 0.3 sqrt(R g), for ten
 // bounces: 13.7 sqrt(R/g). Energy of the motion: that of the fall.
-Real bounce_drift(const GridView &grid, EngineSettings engine, const DriftStarts &starts);
+Real bounce_drift(const ViewOf<StepGrid> &grid, EngineSettings engine, const DriftStarts &starts);
 
 // Resting on the face and rolling at 0.5 sqrt(R g), with a tangential spring that never
 // slips, for 10 sqrt(R/g), five radii. Energy of the motion: of going and turning.
-Real roll_drift(const GridView &grid, EngineSettings engine, const DriftStarts &starts);
+Real roll_drift(const ViewOf<StepGrid> &grid, EngineSettings engine, const DriftStarts &starts);
 
 }    // namespace lsdcd

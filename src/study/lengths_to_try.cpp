@@ -28,20 +28,23 @@ Real rounded_up(Real length)
   return near < length ? rounded(Real(1.001) * length) : near;
 }
 
-std::vector<Real> lengths_to_try(const WeldedMesh &mesh, const GridSettings &settings)
+std::vector<Real> lengths_to_try(const WeldedMesh &mesh, const StepGridSettings &settings)
 {
   const Real standard = plan_grid(mesh, settings).length;
   const double budget = double(settings.memory_budget > 0 ? settings.memory_budget : kListBudget);
   std::vector<Real> lengths;
-  const Real of_nearest = default_length(mesh, settings.cutoff, ListKind::nearest(1), false);
+  StepGridSettings on_cpu = settings;
+  on_cpu.for_gpu = false;
+  StepGridSettings nearest_one = on_cpu;
+  nearest_one.nearest = 1;
+  const Real of_nearest = default_length(mesh, nearest_one);
   std::vector<Real> all = {0.5 * of_nearest, of_nearest, 2 * of_nearest, 4 * of_nearest, standard};
-  if (settings.for_gpu)
-    all.push_back(default_length(mesh, settings.cutoff, ListKind::complete(), false));
+  if (settings.for_gpu) all.push_back(default_length(mesh, on_cpu));
   std::sort(all.begin(), all.end());
   for (Real length : all) {
     length = rounded(std::min(length, settings.cutoff));
     if (!lengths.empty() && length < 1.1 * lengths.back()) continue;
-    GridSettings one = settings;
+    StepGridSettings one = settings;
     one.length = length;
     if (plan_grid(mesh, one).least_bytes() <= budget) lengths.push_back(length);
   }

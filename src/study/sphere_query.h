@@ -48,7 +48,7 @@ class SphereQuery {
   virtual ~SphereQuery() = default;
 
   // Copies the grid, which is that of `mesh`.
-  virtual void set_grid(const TriangleGrid &grid, const WeldedMesh &mesh) = 0;
+  virtual void set_grid(const QueryGrid &grid, const WeldedMesh &mesh) = 0;
   // Copies n spheres to the device.
   virtual void set_spheres(const Sphere *spheres, std::size_t n) = 0;
 

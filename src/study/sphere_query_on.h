@@ -27,10 +27,10 @@ class SphereQueryOn : public SphereQuery {
  public:
   explicit SphereQueryOn(B backend) : b_(std::move(backend)) {}
 
-  void set_grid(const TriangleGrid &grid, const WeldedMesh &mesh) override
+  void set_grid(const QueryGrid &grid, const WeldedMesh &mesh) override
   {
     n_faces_ = static_cast<std::uint32_t>(grid.wall.faces.size());
-    flat_ = FlatGrid(grid);
+    flat_ = FlatOf<QueryGrid>(grid);
     own_.reset();
     names_.emplace(mesh);
     if constexpr (B::kOnCpu)
@@ -161,7 +161,7 @@ class SphereQueryOn : public SphereQuery {
   }
 
   B b_;
-  FlatGrid flat_;    // on the CPU
+  FlatOf<QueryGrid> flat_;    // on the CPU
   std::optional<TriangleTable> names_;
   std::conditional_t<B::kOnCpu, std::optional<CpuGrid>, std::unique_ptr<StreamQuery>> library_;
   std::optional<GridOn<B>> own_;    // what the study's own search reads, made where it is asked for

@@ -59,7 +59,7 @@ class Measuring {
     std::vector<Real> lengths = lengths_to_try(mesh_, plan_settings_);
     // The default first, then what costs least to build.
     for (bool gpu : {false, true}) {
-      GridSettings of_device = plan_settings_;
+      StepGridSettings of_device = plan_settings_;
       of_device.for_gpu = gpu;
       const Real standard = plan_grid(mesh_, of_device).length;
       standard_[gpu] = *std::min_element(lengths.begin(), lengths.end(), [&](Real a, Real b) {
@@ -80,9 +80,9 @@ class Measuring {
           late_++;
           continue;
         }
-        const std::unique_ptr<TriangleGrid> built = build(length, nearest);
+        const std::unique_ptr<Grids> built = build(length, nearest);
         if (!built) continue;
-        if (sample_.n() == 0) make_sample(*built);
+        if (sample_.n() == 0) make_sample(built->steps);
         try_options(*built, {length, nearest});
       }
     }
@@ -100,16 +100,26 @@ class Measuring {
            std::chrono::duration<double>(now - start_).count() > settings_.seconds;
   }
 
+  // Grids of the same cells: steps and the search for contacts take their time, and queries the status.
+  struct Grids {
+    StepGrid steps;
+    QueryGrid queries;
+  };
+
   // The first grid is as coarse as memory asks for, as the fix makes it; `length` becomes that. Null: left out.
-  std::unique_ptr<TriangleGrid> build(Real &length, int nearest)
+  std::unique_ptr<Grids> build(Real &length, int nearest)
   {
     grid_settings_.length = length;
-    grid_settings_.list_kind = ListKind::of_option(nearest);
+    grid_settings_.nearest = nearest;
     grid_settings_.may_coarsen = sample_.n() == 0;
     try {
-      auto grid = std::make_unique<TriangleGrid>(build_grid(mesh_, grid_settings_, settings_.cuda));
-      if (grid->length == length) return grid;
-      length = finest_ = rounded_up(grid->length);
+      auto grid = std::make_unique<Grids>();
+      grid->steps = build_grid(mesh_, grid_settings_, settings_.cuda);
+      if (grid->steps.length == length) {
+        grid->queries = build_grid(mesh_, QueryGridSettings{grid_settings_}, settings_.cuda);
+        return grid;
+      }
+      length = finest_ = rounded_up(grid->steps.length);
       for (Real &standard : standard_) standard = std::max(standard, length);
       grid.reset();    // before the next one takes memory
       return build(length, nearest);
@@ -122,7 +132,7 @@ class Measuring {
   }
   void leave_out(const std::string &what) { result_.left_out.push_back(what); }
 
-  void make_sample(const TriangleGrid &grid)
+  void make_sample(const StepGrid &grid)
   {
     Random random(settings_.seed);
     add_band_spheres(grid, settings_.spheres, settings_.radii, random, sample_);
@@ -138,20 +148,20 @@ class Measuring {
       for (int k = 0; k < kGpuFactor; k++) gpu_sample_.add(sample_.x[i], sample_.radius[i]);
   }
 
-  void try_options(const TriangleGrid &grid, const GridOptions &choice)
+  void try_options(const Grids &grids, const GridOptions &choice)
   {
     if (is_late()) {
       late_++;
       return;
     }
-    const std::size_t bytes = flat_bytes(grid);
+    const std::size_t bytes = flat_bytes(grids.steps);
     if (bytes > settings_.memory_budget)
       return leave_out(words_of(choice) + ": " + std::to_string(bytes >> 20) + " MB");
-    const FlatGrid flat(grid);
-    const GridView view = flat.view();
+    const FlatOf flat(grids.steps);
+    const auto view = flat.view();
     double status_ns[2] = {};    // on a CPU, on a GPU
-    if (settings_.cpu) status_ns[false] = status_time(grid, false);
-    if (settings_.cuda) status_ns[true] = status_time(grid, true);
+    if (settings_.cpu) status_ns[false] = status_time(grids.queries, false);
+    if (settings_.cuda) status_ns[true] = status_time(grids.queries, true);
     for (Corner corner : {Corner::blend, Corner::sum}) {
       engine_.corner = corner;
       TradeoffRow row = {};
@@ -172,7 +182,7 @@ class Measuring {
 
   const SphereSample &timed(bool on_cuda) const { return on_cuda ? gpu_sample_ : sample_; }
 
-  double status_time(const TriangleGrid &grid, bool on_cuda)
+  double status_time(const QueryGrid &grid, bool on_cuda)
   {
     std::unique_ptr<OneThread> one_thread;
     if (!on_cuda) one_thread = std::make_unique<OneThread>();
@@ -188,7 +198,7 @@ class Measuring {
     return 1e6 * query->time(status, settings_.repeats).min_ms / std::max(1, sample.n());
   }
 
-  void time(const GridView &grid, TradeoffRow row, bool on_cuda)
+  void time(const ViewOf<StepGrid> &grid, TradeoffRow row, bool on_cuda)
   {
     engine_.device = on_cuda ? Device::cuda : Device::cpu;
     const auto engine = make_engine(engine_);
@@ -210,7 +220,7 @@ class Measuring {
   const TradeoffSettings &settings_;
   const std::function<void(const TradeoffRow &)> &progress_;
   const std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-  GridSettings grid_settings_, plan_settings_;
+  StepGridSettings grid_settings_, plan_settings_;
   EngineSettings engine_;
   Real standard_[2] = {};    // the default length on a CPU, on a GPU
   Real finest_ = 0;          // length that fits, where the default does not

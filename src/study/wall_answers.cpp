@@ -76,7 +76,7 @@ double seconds_now(bool waits)
 
 }    // namespace
 
-WallAnswers evaluate_sample(const GridView &grid, const EngineSettings &engine,
+WallAnswers evaluate_sample(const ViewOf<StepGrid> &grid, const EngineSettings &engine,
                             const SphereSample &sample)
 {
   WallAnswers out;

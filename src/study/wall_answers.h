@@ -26,7 +26,7 @@ struct WallAnswers {
 
 // Computed on the CPU; every device has the same numbers. Only stiffness and corner rule of `engine`
 // matter.
-WallAnswers evaluate_sample(const GridView &grid, const EngineSettings &engine,
+WallAnswers evaluate_sample(const ViewOf<StepGrid> &grid, const EngineSettings &engine,
                             const SphereSample &sample);
 
 // Rounding decides whether there is a contact so shallow: it is not counted. Share of a radius.

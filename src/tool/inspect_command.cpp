@@ -54,17 +54,15 @@ void inspect(const InspectOptions &o)
 void grid(const InspectOptions &o)
 {
   const WeldedMesh mesh = load_wall(o.file, o.scale, o.weld);
-  GridSettings settings;
+  StepGridSettings settings;
   settings.length = o.length;
   settings.cutoff = o.radius;
   settings.memory_budget = static_cast<std::size_t>(o.memory * 1048576);
-  settings.limited = !(o.length > 0);    // as fix wall/lsdcd
-  settings.form = ListForm::packed;
   Progress progress(o.progress);
   settings.progress = [&](const std::string &what, double share) {
     progress.show(progress_text(what, share));
   };
-  const TriangleGrid g = build_grid(mesh, settings);
+  const StepGrid g = build_grid(mesh, settings);
   progress.clear();
   if (o.json)
     std::printf("%s\n", as_json(g.report).dump(2).c_str());

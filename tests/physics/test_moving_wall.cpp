@@ -301,9 +301,9 @@ TEST(moving_wall, a_choice_holds_while_nothing_goes_farther_than_its_margin)
 {
   const TriangleSoup soup = random_soup(600, 5);
   const WeldedMesh mesh = weld(soup, -1);
-  GridSettings g;
+  StepGridSettings g;
   g.cutoff = kRadius;
-  const FlatGrid flat(build_grid(mesh, g));
+  const FlatOf<StepGrid> flat(build_grid(mesh, g));
   const EngineSettings law = moving(hooke(kStiffness, 50, 20, 0.4));
   const auto kept = make_test_engine(law), fresh = make_test_engine(law);
   kept->set_grid(flat.view());

@@ -47,7 +47,7 @@ class Wall {
       turned_(turned)
   {
     settings.meshes = static_cast<int>(parts.size());
-    GridSettings g;
+    StepGridSettings g;
     g.cutoff = cutoff;
     for (int m = 0; m < settings.meshes; m++) {
       for (Vec3 &p : parts[m].corners) p = pose_of(m, turned).to_mesh(p);
@@ -69,7 +69,7 @@ class Wall {
 
  private:
   bool turned_;
-  std::vector<FlatGrid> grids_;
+  std::vector<FlatOf<StepGrid>> grids_;
 };
 
 void add_crowd(Scene &to, const MeshReport &r, int n)

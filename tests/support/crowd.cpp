@@ -108,19 +108,19 @@ namespace {
 
 struct Wall {
   std::string name;
-  GridSettings settings;
+  StepGridSettings settings;
   MeshReport report;
-  FlatGrid flat;
+  FlatOf<StepGrid> flat;
 };
 
 // Engines are compared on one wall after another: the last one is kept.
-const Wall &wall_of(const Case &c, const GridSettings &g)
+const Wall &wall_of(const Case &c, const StepGridSettings &g)
 {
   static Wall last;
-  const GridSettings &had = last.settings;
-  if (last.name == c.name && had.cutoff == g.cutoff && had.list_kind == g.list_kind) return last;
+  const StepGridSettings &had = last.settings;
+  if (last.name == c.name && had.cutoff == g.cutoff && had.nearest == g.nearest) return last;
   const WeldedMesh mesh = mesh_of(c);
-  last = {c.name, g, mesh.report, FlatGrid(build_grid(mesh, g))};
+  last = {c.name, g, mesh.report, FlatOf(build_grid(mesh, g))};
   return last;
 }
 
@@ -143,10 +143,10 @@ void wrap(const Case &c, std::vector<Real> &x)
 Outcome run_steps(const Case &c, const ContactLaw &law, const EngineMaker &make, int n_spheres,
                   const Search &search, const EngineSettings &wall)
 {
-  GridSettings g;
+  StepGridSettings g;
   g.cutoff = cutoff_of(law, c.cutoff);
   g.length = c.length;
-  g.list_kind = ListKind::of_option(search.nearest);
+  g.nearest = search.nearest;
   g.within = within(c);
   const Wall &built = wall_of(c, g);
 

@@ -210,13 +210,13 @@ Scene::Scene(const TriangleSoup &soup, Real cutoff, EngineSettings settings, Rea
     mesh(weld(soup, weld_tolerance)),
     springs(settings.law().n_extra())
 {
-  GridSettings g;
+  StepGridSettings g;
   g.length = grid_length;
   g.cutoff = cutoff;
   g.sides = settings.side != Side::both;
-  g.list_kind = ListKind::of_option(nearest);
+  g.nearest = nearest;
   grid = build_grid(mesh, g, test_on_cuda());
-  flat_ = FlatGrid(grid);
+  flat_ = FlatOf(grid);
   use(make_test_engine(settings));
 }
 

@@ -97,13 +97,13 @@ class Scene {
   int n() const { return spheres_.n(); }
 
   WeldedMesh mesh;
-  TriangleGrid grid;
+  StepGrid grid;
   ContactHistory springs;
   std::unique_ptr<WallEngine> engine;
   Real wall_temperature = 0, sphere_temperature = 0;    // where the law has heat
 
  private:
-  FlatGrid flat_;
+  FlatOf<StepGrid> flat_;
   SphereArrays spheres_;
 };
 

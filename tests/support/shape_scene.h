@@ -33,9 +33,9 @@ class ShapeScene : public Grains {
   ShapeScene(const TriangleSoup &soup, Real cutoff, const EngineSettings &settings) :
       springs(settings.law().n_extra()), mesh_(weld(soup, -1)), names_(mesh_), tree_(mesh_, names_)
   {
-    GridSettings g;
+    StepGridSettings g;
     g.cutoff = cutoff;
-    flat_ = FlatGrid(build_grid(mesh_, g, false));
+    flat_ = FlatOf(build_grid(mesh_, g, false));
     engine = make_shape_engine(settings);
     engine->set_grid(flat_.view());
     engine->set_tree(tree_);
@@ -150,7 +150,7 @@ class ShapeScene : public Grains {
   WeldedMesh mesh_;
   TriangleTable names_;
   TriangleTree tree_;
-  FlatGrid flat_;
+  FlatOf<StepGrid> flat_;
   bool keeps_candidates_ = false;
 };
 

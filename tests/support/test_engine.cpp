@@ -90,7 +90,7 @@ class InPlaceForHost : public WallEngine {
   }
 
  protected:
-  void put_grid(const GridView &grid, int mesh) override { engine_->set_grid(grid, mesh); }
+  void put_grid(const ViewOf<StepGrid> &grid, int mesh) override { engine_->set_grid(grid, mesh); }
 
  private:
   // The arrays that a choice reads.

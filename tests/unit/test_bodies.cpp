@@ -28,7 +28,7 @@ BodyPose random_pose(Numbers &r, const Vec3 &from, const Vec3 &to)
 }
 
 // Every primitive of the wall with every triangle of the body.
-std::vector<BodyPair> all_pairs(const TriangleGrid &grid, const TriangleSoup &body,
+std::vector<BodyPair> all_pairs(const BodyGrid &grid, const TriangleSoup &body,
                                 const BodyPose &pose)
 {
   const MeshFeatures &wall = grid.wall;
@@ -57,7 +57,7 @@ std::vector<BodyPair> all_pairs(const TriangleGrid &grid, const TriangleSoup &bo
   return pairs;
 }
 
-std::unique_ptr<BodyCollision> collision_of(const TriangleGrid &grid, const TriangleSoup &body)
+std::unique_ptr<BodyCollision> collision_of(const BodyGrid &grid, const TriangleSoup &body)
 {
   auto c = make_body_collision(test_device());
   c->set_wall(grid);
@@ -96,7 +96,7 @@ TEST(bodies, pairs_of_random_meshes_are_those_of_all_with_all)
     }
     if (size > 0) body = scaled(body, across * r.log_in(0.02, 3) / size);
     const Real length = across * r.log_in(0.02, 1);
-    const TriangleGrid grid = build_grid(mesh, collision_grid(body, length));
+    const BodyGrid grid = build_grid(mesh, collision_grid(body, length));
     const auto collision = collision_of(grid, body);
     for (int pose = 0; pose < 6; pose++) {
       const Vec3 on_body = body.corners[r.below(static_cast<int>(body.corners.size()))],
@@ -133,14 +133,15 @@ TEST(bodies, face_behind_its_neighbours_fold_is_found)
   body.source = "needle";
   body.corners = {{1, 0.85, 0.4}, {1.01, 0.85, 0.4}, {1, -0.05, -0.02}};
   const WeldedMesh mesh = weld(wall, 0);
-  GridSettings settings = collision_grid(body, 1);
-  const TriangleGrid grid = build_grid(mesh, settings);
+  const BodyGridSettings settings = collision_grid(body, 1);
+  const BodyGrid grid = build_grid(mesh, settings);
   const Collision found = collision_of(grid, body)->collide(BodyPose());
   ASSERT_EQ(found.pairs.size(), 1u);
   EXPECT_EQ(found.pairs[0].wall, feature_code(FeatureKind::face, 1));
 
-  settings.list_kind = ListKind::complete();
-  const TriangleGrid of_features = build_grid(mesh, settings);
+  StepGridSettings for_steps;
+  static_cast<GridSettings &>(for_steps) = settings;
+  const StepGrid of_features = build_grid(mesh, for_steps);
   const GridView view = of_features.view();
   CellAddress at;
   Cell cell;
@@ -152,7 +153,7 @@ TEST(bodies, face_behind_its_neighbours_fold_is_found)
 TEST(bodies, cylinder_in_a_cylinder_touches_it_when_moved_by_the_gap)
 {
   const TriangleSoup body = cylinder_mesh(16, 3, 1, 1);
-  const TriangleGrid grid = build_grid(weld(cylinder_mesh(16, 5, 1.5, 4), 0), collision_grid(body));
+  const BodyGrid grid = build_grid(weld(cylinder_mesh(16, 5, 1.5, 4), 0), collision_grid(body));
   const auto collision = collision_of(grid, body);
   BodyPose pose;
   pose.shift = {0, 0, 1.5};
@@ -169,7 +170,7 @@ TEST(bodies, cylinder_in_a_cylinder_touches_it_when_moved_by_the_gap)
 // triangles share it.
 TEST(bodies, segments_are_where_the_triangles_cut)
 {
-  const TriangleGrid grid =
+  const BodyGrid grid =
       build_grid(weld(floor_mesh(4, 1), 0), collision_grid(box_mesh({0, 0, 0}, {1, 1, 1}), 0.2));
   TriangleSoup body;
   body.source = "blade";
@@ -197,7 +198,7 @@ TEST(bodies, segments_are_where_the_triangles_cut)
 TEST(bodies, triangles_in_one_plane_are_flagged)
 {
   const TriangleSoup body = floor_mesh(1, 0.3);
-  const TriangleGrid grid = build_grid(weld(floor_mesh(2, 1), 0), collision_grid(body, 0.5));
+  const BodyGrid grid = build_grid(weld(floor_mesh(2, 1), 0), collision_grid(body, 0.5));
   const Collision found = collision_of(grid, body)->collide(BodyPose(), true);
   EXPECT_GT(found.pairs.size(), 4u);
   for (const MeetingSegment &s : found.segments) EXPECT_TRUE(s.flat);
@@ -218,7 +219,7 @@ TEST(bodies, many_pairs_find_room)
     for (const Vec3 &off : {Vec3{-a, 0, -a}, Vec3{a, 0, -a}, Vec3{0, 0, a}})
       body.corners.push_back(middle + off);
   }
-  const TriangleGrid grid = build_grid(mesh, collision_grid(body, 0.02));
+  const BodyGrid grid = build_grid(mesh, collision_grid(body, 0.02));
   const auto collision = collision_of(grid, body);
   for (const Real up : {0., 0., 0.1}) {
     BodyPose pose;
@@ -236,13 +237,13 @@ TEST(bodies, nearest_lists_find_no_pair_too_many_and_say_where_they_were_cut_sho
 {
   const TriangleSoup body = cylinder_mesh(30, 9, 1, 2);
   const WeldedMesh mesh = weld(cylinder_mesh(40, 20, 1.3, 3), 0);
-  const TriangleGrid all = build_grid(mesh, collision_grid(body, 0.3));
+  const BodyGrid all = build_grid(mesh, collision_grid(body, 0.3));
   BodyPose pose;
   pose.shift = {0.4, 0.3, 1.3};
   const Collision expected = collision_of(all, body)->collide(pose);
   std::size_t before = 0;
   for (const int n : {1, 2, 4, 32}) {
-    const TriangleGrid grid = build_grid(mesh, collision_grid(body, 0.3, ListKind::nearest(n)));
+    const BodyGrid grid = build_grid(mesh, collision_grid(body, 0.3, n));
     const Collision found = collision_of(grid, body)->collide(pose);
     EXPECT_TRUE(std::includes(expected.pairs.begin(), expected.pairs.end(), found.pairs.begin(),
                               found.pairs.end()));
@@ -268,7 +269,7 @@ TEST(bodies, nearest_lists_find_the_same_whichever_way_a_triangle_goes_round)
   BodyPose pose;
   pose.shift = {0.4, 0.3, 1.3};
   for (const int n : {1, 2, 4}) {
-    const TriangleGrid grid = build_grid(mesh, collision_grid(body, 0.1, ListKind::nearest(n)));
+    const BodyGrid grid = build_grid(mesh, collision_grid(body, 0.1, n));
     const Collision found = collision_of(grid, body)->collide(pose);
     EXPECT_GT(found.pairs.size(), 10u) << n;
     EXPECT_TRUE(found.pairs == collision_of(grid, turned)->collide(pose).pairs) << n;
@@ -279,12 +280,9 @@ TEST(bodies, wrong_use_is_an_error)
 {
   const TriangleSoup body = box_mesh({0, 0, 0}, {1, 1, 1});
   const WeldedMesh mesh = weld(body, 0);
-  GridSettings of_features;
-  of_features.cutoff = 0.1;
   auto collision = make_body_collision(test_device());
   EXPECT_THROW(collision->set_body(body), InputError);
   EXPECT_THROW(collision->collide(BodyPose()), InputError);
-  EXPECT_THROW(collision->set_wall(build_grid(mesh, of_features)), InputError);
   collision->set_wall(build_grid(mesh, collision_grid(body, 0.1)));
   EXPECT_THROW(collision->set_body(TriangleSoup()), InputError);
   EXPECT_THROW(collision->set_body(scaled(body, 1e5)), InputError);

@@ -24,23 +24,22 @@ WeldedMesh slivers(int n)
   return weld(cylinder_mesh(n, 1, 50, 100), -1);
 }
 
-GridSettings settings_of(Real cutoff, ListKind list_kind)
+// For queries and bodies, which have full entries, as estimates count them.
+AnyGridSettings settings_of(Real cutoff, AnyGridSettings settings, int nearest = 0)
 {
-  GridSettings settings;
-  settings.form = ListForm::full;    // as estimates count them
   settings.cutoff = settings.length = cutoff;
-  settings.list_kind = list_kind;
+  settings.nearest = nearest;
   settings.memory_budget = std::size_t(4) << 30;
   return settings;
 }
 
 // The report counts all of them, one by one.
-void compare(const WeldedMesh &mesh, const GridSettings &settings)
+void compare(const WeldedMesh &mesh, const AnyGridSettings &settings)
 {
-  const TriangleGrid grid = build_grid(mesh, settings);
+  const TriangleGrid grid = build_any_grid(mesh, settings, false);
   const double entries = double(grid.report.lists.entries);
   const GridPlan plan = plan_grid(mesh, settings);
-  const ListEstimate about = estimate_lists(grid.wall, plan, settings.list_kind.has_primitives());
+  const ListEstimate about = estimate_lists(grid.wall, plan, settings.list_kind().has_primitives());
   ASSERT_GT(about.least_entries, 0);
   // Four standard errors on each side; the numbers are the same in every run.
   EXPECT_LE(about.least_entries, entries);
@@ -53,10 +52,10 @@ void compare(const WeldedMesh &mesh, const GridSettings &settings)
             double(flat_bytes(grid) - flat_wall_bytes(grid)));
 }
 
-BuildEstimate estimate_of_slivers(ListKind list_kind)
+BuildEstimate estimate_of_slivers(const AnyGridSettings &purpose, int nearest = 0)
 {
   const WeldedMesh mesh = slivers(500);
-  const GridSettings settings = settings_of(0.5, list_kind);
+  const AnyGridSettings settings = settings_of(0.5, purpose, nearest);
   return estimate_build(make_features(mesh, false, true), plan_grid(mesh, settings), settings);
 }
 
@@ -64,23 +63,23 @@ BuildEstimate estimate_of_slivers(ListKind list_kind)
 
 TEST(BuildEstimate, entries_of_slivers_of_a_fine_mesh_and_of_every_triangle_are_as_estimated)
 {
-  compare(slivers(500), settings_of(0.5, ListKind::complete()));
+  compare(slivers(500), settings_of(0.5, QueryGridSettings()));
   const WeldedMesh fine = weld(cylinder_mesh(200, 99, 50, 100), -1);
-  compare(fine, settings_of(1, ListKind::complete()));
-  compare(fine, settings_of(1, ListKind::every()));
+  compare(fine, settings_of(1, QueryGridSettings()));
+  compare(fine, settings_of(1, BodyGridSettings()));
 }
 
 TEST(BuildEstimate, lists_count_but_those_that_are_cut_short_which_may_have_any_size)
 {
-  EXPECT_EQ(estimate_of_slivers(ListKind::nearest(8)).least_bytes, 0);
-  EXPECT_GT(estimate_of_slivers(ListKind::complete()).least_bytes, 0);
-  EXPECT_GT(estimate_of_slivers(ListKind::every()).least_bytes, 0);
+  EXPECT_EQ(estimate_of_slivers(QueryGridSettings(), 8).least_bytes, 0);
+  EXPECT_GT(estimate_of_slivers(QueryGridSettings()).least_bytes, 0);
+  EXPECT_GT(estimate_of_slivers(BodyGridSettings()).least_bytes, 0);
 }
 
 TEST(BuildEstimate, a_given_cell_that_cannot_fit_is_refused_before_anything_is_built)
 {
   std::vector<std::string> told;
-  GridSettings settings;
+  StepGridSettings settings;
   settings.cutoff = settings.length = 0.5;
   settings.memory_budget = std::size_t(20) << 20;
   settings.progress = [&](const std::string &what, double) { told.push_back(what); };
@@ -92,11 +91,11 @@ TEST(BuildEstimate, a_given_cell_that_cannot_fit_is_refused_before_anything_is_b
 TEST(BuildEstimate, a_chosen_cell_is_not_built_where_it_cannot_fit_LONG)
 {
   std::vector<std::string> told;
-  GridSettings settings;
+  StepGridSettings settings;
   settings.cutoff = 0.5;
   settings.memory_budget = std::size_t(60) << 20;
   settings.progress = [&](const std::string &what, double) { told.push_back(what); };
-  const TriangleGrid grid = build_grid(slivers(2000), settings);
+  const StepGrid grid = build_grid(slivers(2000), settings);
   EXPECT_GT(grid.length, 0.7);    // not the first
   ASSERT_FALSE(told.empty());
   EXPECT_FALSE(has(told.front(), "grid 0.5:"));
@@ -111,10 +110,9 @@ TEST(BuildEstimate, the_smallest_cutoffs_take_a_coarser_cell_and_say_so)
   TriangleSoup one;
   one.corners = {{0, 0, 0}, {1, 0.25, 0.25}, {0.125, 1, 0.5}};
   for (const Real cutoff : {1e-6, 4.9e-324}) {
-    GridSettings settings;
+    StepGridSettings settings;
     settings.cutoff = cutoff;
-    settings.limited = true;
-    const TriangleGrid grid = build_grid(weld(one, -1), settings);
+    const StepGrid grid = build_grid(weld(one, -1), settings);
     EXPECT_GT(grid.length, 1e-4);
     // The limit is of entries of 8 bytes or of the table, whichever are more; and a brick's 128
     // bytes have 64 entries and more, or a quarter.
@@ -123,15 +121,14 @@ TEST(BuildEstimate, the_smallest_cutoffs_take_a_coarser_cell_and_say_so)
   }
 }
 
-std::string why_refused(const GridSettings &settings)
+std::string why_refused(const QueryGridSettings &settings)
 {
   return lsdcd::error_of([&] { build_grid(slivers(500), settings); });
 }
 
 TEST(BuildEstimate, a_given_cell_over_the_limit_is_refused_where_no_budget_lifts_it)
 {
-  GridSettings settings;
-  settings.limited = true;
+  QueryGridSettings settings;
   settings.cutoff = settings.length = 0.1;
   EXPECT_TRUE(has(why_refused(settings), "grid 0.1 is too fine"));
   settings.memory_budget = std::size_t(20) << 20;
@@ -141,7 +138,7 @@ TEST(BuildEstimate, a_given_cell_over_the_limit_is_refused_where_no_budget_lifts
 TEST(BuildEstimate, progress_names_each_part_of_a_build)
 {
   std::vector<std::string> told;
-  GridSettings settings;
+  StepGridSettings settings;
   settings.cutoff = 1;
   settings.progress = [&](const std::string &what, double) { told.push_back(what); };
   build_grid(weld(cylinder_mesh(100, 20, 50, 100), -1), settings);

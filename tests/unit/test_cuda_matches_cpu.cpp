@@ -27,33 +27,34 @@ Outcome run_on(Device device, const Case &c, const ContactLaw &law,
   return run_steps(c, law, make, 20000, search, wall);
 }
 
-GridSettings grid_settings(const Case &c)
-{
-  GridSettings g;
-  g.within = within(c);
-  g.cutoff = c.cutoff;
-  g.length = c.length;
-  return g;
-}
-
 const ContactLaw kStyles[] = {classic(NormalModel::hooke, false), classic(NormalModel::hooke, true),
                               classic(NormalModel::hertz, true)};
 
+template <class Settings>
+void expect_the_same_grid(const Case &c, int nearest, bool in_floats = false)
+{
+  const WeldedMesh mesh = mesh_of(c);
+  Settings g;
+  g.within = within(c);
+  g.cutoff = c.cutoff;
+  g.length = c.length;
+  g.nearest = nearest;
+  if constexpr (std::is_same_v<Settings, QueryGridSettings>) g.in_floats = in_floats;
+  const GridFor<Settings> cpu = build_grid(mesh, g, false), cuda = build_grid(mesh, g, true);
+  std::vector<char> a(flat_bytes(cpu)), b(flat_bytes(cuda));
+  flatten(cpu, a.data());
+  flatten(cuda, b.data());
+  EXPECT_TRUE(same_bytes(a, b)) << c.name << ", nearest " << nearest;
+  EXPECT_GT(cuda.lists.entries.size() + cuda.lists.cells.size(), 0u) << c.name;
+}
+
 TEST(cuda_grid, has_the_same_lists_as_the_cpu_grid)
 {
-  for (const Case &c : cases())
-    for (const int nearest : {0, 3}) {
-      const WeldedMesh mesh = mesh_of(c);
-      GridSettings g = grid_settings(c);
-      g.list_kind = ListKind::of_option(nearest);
-      g.in_floats = nearest > 0;
-      const TriangleGrid cpu = build_grid(mesh, g, false), cuda = build_grid(mesh, g, true);
-      std::vector<char> a(flat_bytes(cpu)), b(flat_bytes(cuda));
-      flatten(cpu, a.data());
-      flatten(cuda, b.data());
-      EXPECT_TRUE(same_bytes(a, b)) << c.name << ", nearest " << nearest;
-      EXPECT_GT(cuda.lists.entries.size() + cuda.lists.cells.size(), 0u) << c.name;
-    }
+  for (const Case &c : cases()) {
+    expect_the_same_grid<StepGridSettings>(c, 0);
+    expect_the_same_grid<QueryGridSettings>(c, 0);
+    expect_the_same_grid<QueryGridSettings>(c, 3, true);
+  }
 }
 
 // Same source, no contraction, IEEE division and root on both: no tolerance.

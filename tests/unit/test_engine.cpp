@@ -222,10 +222,10 @@ class Particles {
   {
     engine = cuda ? make_cuda_engine_in_place(settings, 0, nullptr) : make_cpu_engine(settings);
     const WeldedMesh mesh = weld(floor_mesh(60, 10, 7), -1);    // of more than a CPU keeps near
-    GridSettings g;
+    StepGridSettings g;
     g.cutoff = cutoff;
     grid = build_grid(mesh, g);
-    flat = FlatGrid(grid);
+    flat = FlatOf(grid);
     engine->set_grid(flat.view());
     engine->springs().grow(n);
     std::mt19937_64 random(5);
@@ -265,8 +265,8 @@ class Particles {
   }
 
   std::unique_ptr<WallEngine> engine;
-  TriangleGrid grid;
-  FlatGrid flat;
+  StepGrid grid;
+  FlatOf<StepGrid> flat;
   SphereArrays host;
 
  private:
@@ -365,10 +365,10 @@ TEST(engine, a_way_within_the_margin_ends_near_only_where_it_was_seen_before)
 
 TEST(engine, the_bricks_of_a_choice_with_a_margin_leave_out_none_that_its_cells_keep)
 {
-  GridSettings g;
+  StepGridSettings g;
   g.cutoff = 0.5;
   g.length = 0.2;
-  const FlatGrid flat(build_grid(weld(box_mesh({-10, -10, -10}, {10, 10, 10}), -1), g));
+  const FlatOf<StepGrid> flat(build_grid(weld(box_mesh({-10, -10, -10}, {10, 10, 10}), -1), g));
   const GridView grid = flat.view();
   const std::vector<BrickWord> words = brick_words(grid);
   CandidateTest<true> choice = {};
@@ -396,10 +396,10 @@ TEST(engine, the_bricks_of_a_choice_with_a_margin_leave_out_none_that_its_cells_
 // What a GPU runs, on a CPU: of spheres in a box and past it, in a group or not, with each way of testing them.
 TEST(engine, a_selection_by_flags_leaves_the_spheres_that_one_by_blocks_leaves)
 {
-  GridSettings g;
+  StepGridSettings g;
   g.cutoff = 0.5;
   g.length = 0.2;
-  const FlatGrid flat(build_grid(weld(box_mesh({-3, -3, -3}, {3, 3, 3}), -1), g));
+  const FlatOf<StepGrid> flat(build_grid(weld(box_mesh({-3, -3, -3}, {3, 3, 3}), -1), g));
   CpuBackend b;
   const GridOn<CpuBackend> grid(b, flat.view());
   const int n = 20000;
@@ -577,10 +577,10 @@ TEST(engine, adds_up_the_loads_of_features_without_copying_contacts)
   TriangleSoup bumps = floor_mesh(60, 10, 7);
   for (Vec3 &c : bumps.corners) c.z = 0.3 * std::sin(3 * c.x) * std::cos(3 * c.y);
   const WeldedMesh mesh = weld(bumps, -1);
-  GridSettings g;
+  StepGridSettings g;
   g.cutoff = 0.5;
-  const TriangleGrid grid = build_grid(mesh, g);
-  const FlatGrid flat(grid);
+  const StepGrid grid = build_grid(mesh, g);
+  const FlatOf flat(grid);
   in_place.engine = by_two_kernels(s);
   in_place.engine->springs().grow(n);
   for (Particles *p : {&in_place, &host}) p->engine->set_grid(flat.view());
@@ -757,19 +757,17 @@ TEST(engine, notes_the_deepest_overlap_of_all_steps_since_the_last_look)
   EXPECT_EQ(p.engine->read_diagnostics().deepest_meshes, 0U);
 }
 
-// They are read by other rules than those of steps.
-TEST(engine, refuses_grids_for_queries)
-{
-  GridSettings floats, full;
-  floats.in_floats = true;
-  full.form = ListForm::full;
-  const std::unique_ptr<WallEngine> engine = on_cpu(EngineSettings());
-  for (GridSettings *g : {&floats, &full}) {
-    g->cutoff = 0.5;
-    const FlatGrid flat(build_grid(weld(floor_mesh(2, 1, 2), -1), *g));
-    EXPECT_THROW(engine->set_grid(flat.view()), std::logic_error) << g->in_floats;
-  }
-}
+// Lists of other purposes are read by other rules than those of steps: each grid goes where it serves, and nowhere else.
+template <class View>
+constexpr bool kIsForSteps =
+    std::is_invocable_v<decltype(&WallEngine::set_grid), WallEngine &, View, int>;
+static_assert(kIsForSteps<ViewOf<StepGrid>> && !kIsForSteps<ViewOf<QueryGrid>>);
+static_assert(!kIsForSteps<ViewOf<BodyGrid>> && !kIsForSteps<GridView>);
+static_assert(!std::is_constructible_v<FlatOf<StepGrid>, QueryGrid>);
+static_assert(!std::is_convertible_v<QueryGrid, StepGrid> &&
+              !std::is_convertible_v<StepGrid, QueryGrid>);
+static_assert(!std::is_convertible_v<StepGrid, BodyGrid> &&
+              !std::is_convertible_v<TriangleGrid, StepGrid>);
 
 // `n` spheres of one radius over another wall.
 struct OverWall : Particles {
@@ -780,13 +778,13 @@ struct OverWall : Particles {
     host.v.assign(3 * n, 0);
     host.radius.assign(n, radius);
   }
-  static TriangleGrid grid_of(const TriangleSoup &soup, Real radius)
+  static StepGrid grid_of(const TriangleSoup &soup, Real radius)
   {
-    GridSettings g;
+    StepGridSettings g;
     g.cutoff = radius;
     return build_grid(weld(soup, -1), g);
   }
-  FlatGrid wall;
+  FlatOf<StepGrid> wall;
 };
 
 // As many as fill a corner between one choice and the next, from no contact to three each.
@@ -965,14 +963,14 @@ struct AllTouching {
     engine->choose(spheres, 0);
   }
 
-  static TriangleGrid grid_of_faces()
+  static StepGrid grid_of_faces()
   {
-    GridSettings g;
+    StepGridSettings g;
     g.cutoff = 1.1;
     return build_grid(weld(faces_all_round(kAllRound), -1), g);
   }
 
-  FlatGrid grid;
+  FlatOf<StepGrid> grid;
   std::unique_ptr<WallEngine> engine;
   SphereArrays host;
   SphereArraysOn there;

@@ -89,7 +89,7 @@ SphereArrays in_double(HostFloats<Sum> &a)
 }
 
 // A bumpy floor over [-1, 1]^2, `up` above z = 0.
-FlatGrid grid_of_floor(Real up)
+FlatOf<StepGrid> grid_of_floor(Real up)
 {
   TriangleSoup soup;
   const int n = 16;
@@ -102,9 +102,9 @@ FlatGrid grid_of_floor(Real up)
       for (const Vec3 &p :
            {at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j), at(i + 1, j + 1), at(i, j + 1)})
         soup.corners.push_back(p);
-  GridSettings settings;
+  StepGridSettings settings;
   settings.cutoff = 0.06;
-  return FlatGrid(build_grid(weld(soup, 1e-9), settings));
+  return FlatOf(build_grid(weld(soup, 1e-9), settings));
 }
 
 EngineSettings settings_of(int meshes)
@@ -125,7 +125,7 @@ EngineSettings settings_of(int meshes)
 template <class Sum>
 void walk(int meshes, When when)
 {
-  const FlatGrid floors[2] = {grid_of_floor(0), grid_of_floor(0.05)};
+  const FlatOf<StepGrid> floors[2] = {grid_of_floor(0), grid_of_floor(0.05)};
   HostFloats<Sum> host(700);
   EngineSettings engine_settings = settings_of(meshes);
   const std::unique_ptr<WallEngine> other = make_cpu_engine(engine_settings);

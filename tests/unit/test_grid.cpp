@@ -52,9 +52,10 @@ TriangleSoup tangle(int n_points, int n_triangles, unsigned seed)
   return soup;
 }
 
-TriangleGrid grid_of(const TriangleSoup &soup, Real cutoff, Real length = 0)
+template <class Settings = StepGridSettings>
+GridFor<Settings> grid_of(const TriangleSoup &soup, Real cutoff, Real length = 0)
 {
-  GridSettings settings;
+  Settings settings;
   settings.cutoff = cutoff;
   settings.length = length;
   return build_grid(weld(soup, -1), settings, test_on_cuda());
@@ -87,7 +88,7 @@ Vec3 query_point(Random &random, const TriangleSoup &soup, const Vec3 &lo, const
 // both see the same feature records, so that only rounding of q - closest point is left.
 void expect_complete(const TriangleSoup &soup, Real cutoff, Real length, int n, unsigned seed)
 {
-  const TriangleGrid grid = grid_of(soup, cutoff, length);
+  const StepGrid grid = grid_of(soup, cutoff, length);
   const GridView view = grid.view();
   Vec3 lo = soup.corners[0], hi = lo;
   for (const Vec3 &x : soup.corners)
@@ -188,7 +189,8 @@ TEST(grid, flat_edges_have_no_records)
 }
 
 // Returns the cell that is chosen, over the cutoff: of a floor of 2 n^2 triangles over [-1, 1]^2.
-Real chosen(int n, Real cutoff, GridSettings settings)
+template <class Settings>
+Real chosen(int n, Real cutoff, Settings settings)
 {
   settings.cutoff = cutoff;
   return plan_grid(weld(floor_mesh(n, 1), -1), settings).length / cutoff;
@@ -197,7 +199,7 @@ Real chosen(int n, Real cutoff, GridSettings settings)
 // Edges of 0.02, and of 0.02 sqrt(2): the median is one of the former.
 TEST(grid, for_a_gpu_a_cell_goes_with_the_edges_from_a_quarter_to_a_half_of_the_cutoff)
 {
-  GridSettings settings;
+  StepGridSettings settings;
   settings.for_gpu = true;
   EXPECT_EQ(chosen(2, 0.25, settings), 0.5);
   EXPECT_NEAR(chosen(100, 0.1, settings), 2 * 0.02 / 0.1, 1e-12);
@@ -209,8 +211,7 @@ TEST(grid, for_a_gpu_a_cell_goes_with_the_edges_from_a_quarter_to_a_half_of_the_
 // Points read a list each: two edges, from a tenth of the cutoff to all of it.
 TEST(grid, for_points_a_cell_goes_with_the_edges)
 {
-  GridSettings settings;
-  settings.purpose = GridPurpose::points;
+  const QueryGridSettings settings;
   EXPECT_EQ(chosen(2, 0.25, settings), 1);
   EXPECT_NEAR(chosen(100, 0.1, settings), 2 * 0.02 / 0.1, 1e-12);
   EXPECT_EQ(chosen(100, 0.5, settings), 0.1);
@@ -219,7 +220,7 @@ TEST(grid, for_points_a_cell_goes_with_the_edges)
 TEST(grid, coarser_cells_for_a_gpu_come_to_those_of_a_cpu)
 {
   const WeldedMesh mesh = weld(floor_mesh(100, 1), -1);
-  GridSettings settings;
+  StepGridSettings settings;
   settings.cutoff = 0.5;
   GridPlan of_cpu = plan_grid(mesh, settings);
   settings.for_gpu = true;
@@ -237,7 +238,7 @@ TEST(grid, cells_of_a_face_at_once_are_those_found_one_by_one)
     for (Real length : {0.0625, 0.1, 0.3}) {
       const WeldedMesh mesh = weld(soup, -1);
       const MeshFeatures features = make_features(mesh, false);
-      GridSettings settings;
+      StepGridSettings settings;
       settings.cutoff = 0.25;
       settings.length = length;
       const BuildView b = {features.view(), nullptr, CellTest::regions, plan_grid(mesh, settings)};
@@ -262,7 +263,7 @@ TEST(grid, cells_of_a_face_at_once_are_those_found_one_by_one)
 TEST(grid, lists_ascend_and_bounds_lie_below_the_true_distance)
 {
   for (const TriangleSoup &soup : {tangle(14, 40, 6), cylinder_mesh(40, 3, 1, 1.5)}) {
-    const TriangleGrid grid = grid_of(soup, 0.3);
+    const QueryGrid grid = grid_of<QueryGridSettings>(soup, 0.3, 0.3);
     const GridView view = grid.view();
     std::size_t lists = 0;
     for (std::size_t at = 0; at < grid.lists.brick_of.size(); at++) {
@@ -332,14 +333,16 @@ TEST(grid, packing_leaves_bounds_in_order)
 
 TEST(grid, a_packed_bound_is_less_than_a_step_below_the_bound)
 {
-  const TriangleGrid grid = grid_of(cylinder_mesh(40, 3, 1, 1.5), 0.3);
+  const TriangleSoup soup = cylinder_mesh(40, 3, 1, 1.5);
+  const StepGrid grid = grid_of(soup, 0.3, 0.3);
+  const QueryGrid of_queries = grid_of<QueryGridSettings>(soup, 0.3, 0.3);
   const EntryPacking &packing = grid.lists.packing;
   const Real step = 1 / packing.steps_per_length;
-  ASSERT_EQ(grid.lists.packed.size(), grid.lists.entries.size());
+  ASSERT_EQ(grid.lists.packed.size(), of_queries.lists.entries.size());
   ASSERT_GT(grid.lists.packed.size(), 1000u);
   EXPECT_LT(step, 1e-4 * grid.cutoff);
   for (std::size_t i = 0; i < grid.lists.packed.size(); i++) {
-    const CellEntry full = grid.lists.entries[i];
+    const CellEntry full = of_queries.lists.entries[i];
     const std::uint32_t word = grid.lists.packed[i].word;
     // Index in the lowest bits, kind in the two top ones, as the format says.
     const Real bound = step * ((word & 0x3fffffffu) >> packing.shift);
@@ -349,24 +352,23 @@ TEST(grid, a_packed_bound_is_less_than_a_step_below_the_bound)
   }
 }
 
-TEST(grid, packed_lists_stand_in_for_full_ones_where_these_are_complete_and_in_double)
+TEST(grid, steps_have_packed_entries_of_complete_lists_and_full_ones_of_the_nearest)
 {
   const WeldedMesh mesh = weld(cylinder_mesh(40, 3, 1, 1.5), -1);
-  GridSettings settings;
-  settings.cutoff = 0.3;
-  for (const bool in_floats : {false, true})
-    for (const int nearest : {0, 3}) {
-      settings.in_floats = in_floats;
-      settings.list_kind = ListKind::of_option(nearest);
-      settings.form = ListForm::full;
-      const TriangleGrid full = build_grid(mesh, settings, test_on_cuda());
-      settings.form = ListForm::packed;
-      const TriangleGrid packed = build_grid(mesh, settings, test_on_cuda());
-      const bool packs = !in_floats && nearest == 0;
-      EXPECT_EQ(packed.lists.packed.size(), packs ? full.lists.entries.size() : 0);
-      EXPECT_EQ(packed.lists.entries.size(), packs ? 0 : full.lists.entries.size());
-      EXPECT_EQ(full.lists.packed.size(), 0u);
+  for (const int nearest : {0, 3}) {
+    StepGridSettings of_steps;
+    QueryGridSettings of_queries;
+    for (GridSettings *settings : {(GridSettings *) &of_steps, (GridSettings *) &of_queries}) {
+      settings->cutoff = settings->length = 0.3;
+      settings->nearest = nearest;
     }
+    const StepGrid steps = build_grid(mesh, of_steps, test_on_cuda());
+    const QueryGrid full = build_grid(mesh, of_queries, test_on_cuda());
+    const bool packs = nearest == 0;
+    EXPECT_EQ(steps.lists.packed.size(), packs ? full.lists.entries.size() : 0);
+    EXPECT_EQ(steps.lists.entries.size(), packs ? 0 : full.lists.entries.size());
+    EXPECT_EQ(full.lists.packed.size(), 0u);
+  }
 }
 
 // Does the list of a cell hold a feature?
@@ -385,7 +387,7 @@ TEST(grid, a_list_holds_for_centres_up_to_the_margin_from_its_cell)
 {
   const TriangleSoup soup = tangle(40, 200, 17);
   const Real cutoff = 0.4;
-  const TriangleGrid grid = grid_of(soup, cutoff, 0.07);
+  const QueryGrid grid = grid_of<QueryGridSettings>(soup, cutoff, 0.07);
   const GridView view = grid.view();
   ASSERT_GT(grid.margin, 0);
   Random random(18);
@@ -413,9 +415,9 @@ TEST(grid, a_list_holds_for_centres_up_to_the_margin_from_its_cell)
 // Arrays of some MB, so that they go in several parts.
 TEST(grid, moved_into_a_block_is_what_is_copied_into_one)
 {
-  GridSettings settings;
-  settings.cutoff = 0.2;
-  TriangleGrid grid = build_grid(weld(cylinder_mesh(256, 64, 1, 3), -1), settings);
+  QueryGridSettings settings;
+  settings.cutoff = settings.length = 0.2;
+  QueryGrid grid = build_grid(weld(cylinder_mesh(256, 64, 1, 3), -1), settings);
   ASSERT_GT(grid.lists.entries.size() * sizeof(CellEntry), std::size_t(3) << 20);
   std::vector<char> copied(flat_bytes(grid)), moved(copied.size());
   flatten(grid, copied.data());
@@ -426,7 +428,7 @@ TEST(grid, moved_into_a_block_is_what_is_copied_into_one)
 // Cache files are written from it.
 TEST(grid, flat_block_has_nothing_of_what_its_memory_held)
 {
-  const TriangleGrid grid = grid_of(tangle(14, 40, 6), 0.3);
+  const StepGrid grid = grid_of(tangle(14, 40, 6), 0.3);
   FlatGrid zeros(flat_bytes(grid)), ones(flat_bytes(grid));
   std::memset(zeros.block(), 0, zeros.bytes());
   std::memset(ones.block(), 0xff, ones.bytes());
@@ -481,10 +483,10 @@ TEST(grid, one_and_two_threads_build_the_same_bytes)
   const int before = omp_get_max_threads();
   for (const TriangleSoup &soup : {tangle(14, 40, 6), cylinder_mesh(40, 3, 1, 1.5)}) {
     omp_set_num_threads(1);
-    const TriangleGrid one = grid_of(soup, 0.3);
+    const StepGrid one = grid_of(soup, 0.3);
     omp_set_num_threads(2);
     ASSERT_EQ(threads(), 2) << "set OMP_NUM_THREADS, or only one thread is used";
-    const TriangleGrid two = grid_of(soup, 0.3);
+    const StepGrid two = grid_of(soup, 0.3);
     omp_set_num_threads(before);
     ASSERT_EQ(flat_bytes(one), flat_bytes(two));
     FlatGrid a(one), b(two);
@@ -493,7 +495,7 @@ TEST(grid, one_and_two_threads_build_the_same_bytes)
 }
 #endif
 
-std::string build_error(const WeldedMesh &mesh, const GridSettings &settings)
+std::string build_error(const WeldedMesh &mesh, const StepGridSettings &settings)
 {
   return lsdcd::error_of([&] { build_grid(mesh, settings, test_on_cuda()); });
 }
@@ -510,7 +512,7 @@ TEST(grid, a_given_length_over_the_budget_is_refused_with_what_it_takes)
 {
   const WeldedMesh mesh = weld(cylinder_mesh(40, 3, 1, 1.5), -1);
   for (std::size_t budget : {400u << 10, 1u << 20, 5u << 20}) {
-    GridSettings settings;
+    StepGridSettings settings;
     settings.cutoff = 0.2;
     settings.length = 0.004;
     settings.memory_budget = budget;
@@ -526,11 +528,11 @@ TEST(grid, the_budget_holds_for_all_that_is_shared)
 {
   const WeldedMesh mesh = weld(floor_mesh(60, 1, 3), -1);
   for (const bool in_floats : {false, true}) {
-    GridSettings settings;
+    QueryGridSettings settings;
     settings.cutoff = 0.05;
     settings.memory_budget = 6 << 20;
     settings.in_floats = in_floats;
-    const TriangleGrid grid = build_grid(mesh, settings, test_on_cuda());
+    const QueryGrid grid = build_grid(mesh, settings, test_on_cuda());
     EXPECT_LE(flat_bytes(grid), settings.memory_budget);
     EXPECT_TRUE(grid.report.length_chosen);
   }
@@ -540,7 +542,7 @@ TEST(grid, where_no_length_fits_a_budget_that_does_is_named)
 {
   for (const TriangleSoup &soup : {floor_mesh(60, 1, 3), tangle(14, 40, 6)}) {
     const WeldedMesh mesh = weld(soup, -1);
-    GridSettings settings;
+    StepGridSettings settings;
     settings.cutoff = 0.05;
     for (const std::size_t budget : {1u << 10, 10u << 10}) {
       settings.memory_budget = budget;
@@ -556,7 +558,7 @@ TEST(grid, the_budget_that_does_is_named_with_its_digits)
 {
   TriangleSoup soup;
   soup.corners = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
-  GridSettings settings;
+  StepGridSettings settings;
   settings.cutoff = 0.5;
   settings.memory_budget = 1;
   const std::string message = build_error(weld(soup, -1), settings);
@@ -567,10 +569,10 @@ TEST(grid, the_budget_that_does_is_named_with_its_digits)
 TEST(grid, cells_are_of_the_reach_by_default_and_smaller_for_nearest_lists)
 {
   const WeldedMesh mesh = weld(floor_mesh(60, 1, 3), -1);
-  GridSettings settings;
+  StepGridSettings settings;
   settings.cutoff = 0.04;
   EXPECT_EQ(build_grid(mesh, settings, test_on_cuda()).length, settings.cutoff);
-  settings.list_kind = ListKind::of_option(2);
+  settings.nearest = 2;
   const Real third = 0.3 * mesh.report.median_edge;
   ASSERT_LT(third, 0.5 * settings.cutoff);
   ASSERT_GT(third, 0.2 * settings.cutoff);
@@ -606,7 +608,7 @@ TEST(grid, more_copies_in_floats_than_codes_number_are_refused)
 
 TEST(grid, hopeless_length_is_refused)
 {
-  GridSettings settings;
+  StepGridSettings settings;
   settings.cutoff = 0.1;
   settings.length = 1e-12;
   settings.memory_budget = 32 << 20;
@@ -618,10 +620,10 @@ TEST(grid, pieces_very_far_apart_are_both_covered_or_refused)
 {
   TriangleSoup soup = box_mesh({0, 0, 0}, {1, 1, 1});
   append(soup, moved(box_mesh({0, 0, 0}, {1, 1, 1}), {4e9, 0, 0}));
-  GridSettings settings;
+  StepGridSettings settings;
   settings.cutoff = 0.25;
   try {
-    const TriangleGrid grid = build_grid(weld(soup, 0), settings, test_on_cuda());
+    const StepGrid grid = build_grid(weld(soup, 0), settings, test_on_cuda());
     for (Real x : {0.5, 4e9 + 0.5}) {
       ContactSet<kMost> set;
       find_contacts(grid.view(), {x, 0.5, 1.125}, 0.25, set);
@@ -636,7 +638,7 @@ TEST(grid, reach_that_is_not_a_length_is_refused)
 {
   const WeldedMesh mesh = weld(box_mesh({0, 0, 0}, {1, 1, 1}), -1);
   for (Real cutoff : {0., -1., HUGE_VAL, std::nan("")}) {
-    GridSettings settings;
+    StepGridSettings settings;
     settings.cutoff = cutoff;
     EXPECT_THROW(build_grid(mesh, settings, test_on_cuda()), InputError);
   }
@@ -645,7 +647,7 @@ TEST(grid, reach_that_is_not_a_length_is_refused)
 TEST(grid, points_outside_its_box_and_at_no_number_touch_nothing)
 {
   // The coordinates that stay are near walls, which a point would touch if the bad one were ignored.
-  const TriangleGrid grid = grid_of(box_mesh({0, 0, 0}, {1, 1, 1}), 0.3);
+  const StepGrid grid = grid_of(box_mesh({0, 0, 0}, {1, 1, 1}), 0.3);
   const Real inf = std::numeric_limits<Real>::infinity();
   for (Real far : {1.35, 2.0, 10.0, 1e6, 1e12, 1e300, inf, std::nan("")})
     for (int k = 0; k < 6; k++) {
@@ -663,7 +665,7 @@ TEST(grid, points_outside_its_box_and_at_no_number_touch_nothing)
 TEST(grid_length, that_may_coarsen_does_where_the_budget_asks_for_it)
 {
   const WeldedMesh mesh = weld(cylinder_mesh(60, 25, 1, 2.5), -1);
-  GridSettings settings;
+  StepGridSettings settings;
   settings.cutoff = 0.1;
   settings.length = 0.01;
   settings.memory_budget = 2 << 20;

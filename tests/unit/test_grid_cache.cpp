@@ -29,9 +29,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-GridSettings some_settings()
+QueryGridSettings some_settings()
 {
-  GridSettings settings;
+  QueryGridSettings settings;
   settings.cutoff = 0.2;
   settings.length = 0.1;
   return settings;
@@ -39,7 +39,7 @@ GridSettings some_settings()
 
 // A grid, flat, and the key of its mesh and settings.
 struct Made {
-  explicit Made(const TriangleSoup &soup, const GridSettings &settings = some_settings()) :
+  explicit Made(const TriangleSoup &soup, const QueryGridSettings &settings = some_settings()) :
       settings(settings), mesh(weld(soup, -1)), grid(build_grid(mesh, settings)),
       block(flat_bytes(grid)), key(grid_key(mesh, settings))
   {
@@ -65,9 +65,9 @@ struct Made {
     return cached.state();
   }
 
-  GridSettings settings;
+  QueryGridSettings settings;
   WeldedMesh mesh;
-  TriangleGrid grid;
+  QueryGrid grid;
   std::vector<char> block;
   GridKey key;
 };
@@ -82,7 +82,7 @@ const Made &box()
 const Made &cylinder()
 {
   static const Made made([] {
-    GridSettings settings = some_settings();
+    QueryGridSettings settings = some_settings();
     settings.length = 0.03;
     return Made(cylinder_mesh(100, 10, 1, 2), settings);
   }());
@@ -105,8 +105,8 @@ TEST(grid_cache, lists_of_the_nearest_and_records_in_floats_come_back_too)
 {
   TempDir dir;
   for (const bool in_floats : {false, true}) {
-    GridSettings settings = some_settings();
-    settings.list_kind = ListKind::of_option(2);
+    QueryGridSettings settings = some_settings();
+    settings.nearest = 2;
     settings.in_floats = in_floats;
     const Made made(cylinder_mesh(20, 3, 1, 2), settings);
     made.write(dir.path("grid"));
@@ -224,22 +224,24 @@ TEST(grid_cache, every_setting_is_told)
 {
   TempDir dir;
   const std::string path = dir.path("grid");
-  const auto with = [&](void (*change)(GridSettings &)) {
-    GridSettings settings = some_settings();
+  const auto with = [&](void (*change)(QueryGridSettings &)) {
+    QueryGridSettings settings = some_settings();
     change(settings);
     box().write(path, grid_key(box().mesh, settings));
     return box().state(path);
   };
-  EXPECT_EQ(with([](GridSettings &) {}), CacheState::usable);
-  EXPECT_EQ(with([](GridSettings &s) { s.length = 0; }), CacheState::other_settings);
-  EXPECT_EQ(with([](GridSettings &s) { s.cutoff = std::nextafter(s.cutoff, 1.); }),
+  EXPECT_EQ(with([](QueryGridSettings &) {}), CacheState::usable);
+  EXPECT_EQ(with([](QueryGridSettings &s) { s.length = 0; }), CacheState::other_settings);
+  EXPECT_EQ(with([](QueryGridSettings &s) { s.cutoff = std::nextafter(s.cutoff, 1.); }),
             CacheState::other_settings);
-  EXPECT_EQ(with([](GridSettings &s) { s.memory_budget++; }), CacheState::other_settings);
-  EXPECT_EQ(with([](GridSettings &s) { s.sides = true; }), CacheState::other_settings);
-  EXPECT_EQ(with([](GridSettings &s) { s.list_kind = ListKind::of_option(1); }),
-            CacheState::other_settings);
-  EXPECT_EQ(with([](GridSettings &s) { s.in_floats = true; }), CacheState::other_settings);
-  EXPECT_EQ(with([](GridSettings &s) { s.form = ListForm::packed; }), CacheState::other_settings);
+  EXPECT_EQ(with([](QueryGridSettings &s) { s.memory_budget++; }), CacheState::other_settings);
+  EXPECT_EQ(with([](QueryGridSettings &s) { s.sides = true; }), CacheState::other_settings);
+  EXPECT_EQ(with([](QueryGridSettings &s) { s.nearest = 1; }), CacheState::other_settings);
+  EXPECT_EQ(with([](QueryGridSettings &s) { s.in_floats = true; }), CacheState::other_settings);
+  StepGridSettings for_steps;
+  static_cast<GridSettings &>(for_steps) = some_settings();
+  box().write(path, grid_key(box().mesh, for_steps));
+  EXPECT_EQ(box().state(path), CacheState::other_settings);
 }
 
 // A pipe is not waited for.

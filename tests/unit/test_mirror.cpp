@@ -18,9 +18,9 @@ class Pair {
   Pair()
   {
     settings_.law() = classic(NormalModel::hertz, true);
-    GridSettings g;
+    StepGridSettings g;
     g.cutoff = 0.5;
-    flat_ = FlatGrid(build_grid(weld(floor_mesh(10, 5, 3), -1), g));
+    flat_ = FlatOf(build_grid(weld(floor_mesh(10, 5, 3), -1), g));
     mirrored = with_mirror(settings_);
     direct = on_cpu(settings_);
     spheres_.v.assign(3 * kSpheres, 0.1);
@@ -82,7 +82,7 @@ class Pair {
   }
 
   EngineSettings settings_;
-  FlatGrid flat_;
+  FlatOf<StepGrid> flat_;
   SphereArrays spheres_ = SphereArrays(kSpheres, 0.5);
   std::vector<Real> force_[2];    // and torques
 };

@@ -20,12 +20,12 @@ namespace {
 
 constexpr int kMost = 512;
 
-TriangleGrid grid_of(const WeldedMesh &mesh, Real cutoff, Real length, int nearest)
+StepGrid grid_of(const WeldedMesh &mesh, Real cutoff, Real length, int nearest)
 {
-  GridSettings settings;
+  StepGridSettings settings;
   settings.cutoff = cutoff;
   settings.length = length;
-  settings.list_kind = ListKind::of_option(nearest);
+  settings.nearest = nearest;
   return build_grid(mesh, settings, test_on_cuda());
 }
 
@@ -61,7 +61,7 @@ TEST(nearest_lists, hold_the_nearest_triangles_in_order_and_the_next_as_a_bound)
   for (const Named &w : walls())
     for (int n : {1, 3, 8}) {
       const WeldedMesh mesh = weld(w.soup, -1);
-      const TriangleGrid grid = grid_of(mesh, w.cutoff, w.length, n);
+      const StepGrid grid = grid_of(mesh, w.cutoff, w.length, n);
       const GridView view = grid.view();
       const auto triangles = long_triangles<long double>(w.soup);
       Numbers random(n);
@@ -120,8 +120,8 @@ Shares compare_with_complete(int nearest)
     const WeldedMesh mesh = weld(made.soup, 0);
     if (norm(mesh.report.hi - mesh.report.lo) > 60 * made.cutoff) continue;
     const Real length = 0.4 * made.cutoff;
-    const TriangleGrid some = grid_of(mesh, made.cutoff, length, nearest),
-                       all = grid_of(mesh, made.cutoff, length, 0);
+    const StepGrid some = grid_of(mesh, made.cutoff, length, nearest),
+                   all = grid_of(mesh, made.cutoff, length, 0);
     const GridView some_view = some.view(), all_view = all.view();
     Numbers random(seed);
     for (int i = 0; i < 500; i++) {
@@ -162,7 +162,7 @@ TEST(nearest_lists, hold_edges_and_points_that_have_no_face)
   TriangleSoup soup;
   soup.source = "needle";
   soup.corners = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}};
-  const TriangleGrid grid = grid_of(weld(soup, 0), 0.3, 0.1, 4);
+  const StepGrid grid = grid_of(weld(soup, 0), 0.3, 0.1, 4);
   ContactSet<kMost> set;
   EXPECT_EQ(find_contacts(grid.view(), {1.5, 0, 0.2}, 0.25, set), kAnyDistance);
   ASSERT_EQ(set.n, 1);

@@ -46,7 +46,7 @@ struct Case {
   TriangleSoup soup;
   Triangles triangles;
   std::unique_ptr<Tree> tree;
-  TriangleGrid grid;
+  StepGrid grid;
   Vec3 lo, hi;
   Real diagonal, cutoff;
 
@@ -64,7 +64,7 @@ struct Case {
     tree = std::make_unique<Tree>(triangles.begin(), triangles.end());
     tree->build();
     tree->accelerate_distance_queries();
-    GridSettings settings;
+    StepGridSettings settings;
     settings.cutoff = cutoff;
     grid = build_grid(weld(soup, 0), settings);    // exact: the same wall, not one welded
   }

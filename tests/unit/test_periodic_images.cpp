@@ -45,9 +45,9 @@ PeriodicBox tilted_box()
   return box;
 }
 
-TriangleGrid grid_of(const WeldedMesh &mesh, Real cutoff)
+StepGrid grid_of(const WeldedMesh &mesh, Real cutoff)
 {
-  GridSettings settings;
+  StepGridSettings settings;
   settings.cutoff = cutoff;
   return build_grid(mesh, settings);
 }
@@ -149,7 +149,7 @@ TEST(periodic_images, distances_near_faces_are_those_to_all_copies)
     const Real cutoff = 0.2, margin = 0.15;
     const TriangleSoup soup = scattered(random, 30);
     const WeldedMesh mesh = weld(soup, 0);
-    const TriangleGrid grid = grid_of(with_images(mesh, box, cutoff + margin), cutoff);
+    const StepGrid grid = grid_of(with_images(mesh, box, cutoff + margin), cutoff);
     TriangleSoup copies;
     for (int a = -1; a <= 1; a++)
       for (int b = -1; b <= 1; b++)
@@ -262,7 +262,7 @@ TEST(periodic_images, an_image_on_top_of_the_mesh_is_dropped)
 TEST(periodic_images, a_contact_goes_on_where_its_sphere_is_wrapped)
 {
   const WeldedMesh mesh = weld(square(4, 2), -1);
-  const TriangleGrid grid = grid_of(with_images(mesh, box_of({2, 2, 2}), 0.3), 0.2);
+  const StepGrid grid = grid_of(with_images(mesh, box_of({2, 2, 2}), 0.3), 0.2);
   ContactSet<4> out, in;
   find_contacts(grid.view(), {2.11, 0.7, 0.1}, 0.2, out);
   find_contacts(grid.view(), {0.11, 0.7, 0.1}, 0.2, in);
@@ -276,7 +276,7 @@ TEST(periodic_images, a_contact_goes_on_where_its_sphere_is_wrapped)
 TEST(periodic_images, loads_of_an_image_are_those_of_the_mesh)
 {
   const WeldedMesh mesh = weld(square(4, 2), -1);
-  const TriangleGrid grid = grid_of(with_images(mesh, box_of({2, 2, 2}), 0.3), 0.2);
+  const StepGrid grid = grid_of(with_images(mesh, box_of({2, 2, 2}), 0.3), 0.2);
   ContactSet<4> out;
   find_contacts(grid.view(), {2.11, 0.7, 0.1}, 0.2, out);
   StepContact record = {};
@@ -306,7 +306,7 @@ TEST(loose_ends, a_gap_across_the_face_is_found_and_measured)
   for (Vec3 &x : belt.corners) x = {0.01 + 0.97 * x.x, 0.4 + 0.2 * x.y, 0.5};
   PeriodicBox box = box_of({1, 1, 1});
   const WeldedMesh whole = with_images(weld(belt, -1), box, 0.1);
-  const TriangleGrid grid = grid_of(whole, 0.05);
+  const StepGrid grid = grid_of(whole, 0.05);
   const LooseEnds loose = loose_ends(whole, grid.view().wall, box, 0.1, 0.2);
   EXPECT_NEAR(loose.gap, 0.03, 1e-12);
   EXPECT_EQ(loose.axis, 0);

@@ -65,12 +65,12 @@ std::uint64_t seed_of(long mesh)
 struct Wall {
   RandomMesh made;
   WeldedMesh mesh;
-  TriangleGrid grid;
+  StepGrid grid;
 
   explicit Wall(std::uint64_t seed, bool on_cuda = false) :
       made(random_mesh(seed)), mesh(weld(made.soup, 0))
   {
-    GridSettings settings;
+    StepGridSettings settings;
     settings.cutoff = made.cutoff;
     settings.length = made.length;
     settings.memory_budget = 64 << 20;
@@ -487,7 +487,7 @@ TEST(property, forces_are_finite_and_those_of_the_cpu)
     const Wall wall(seed, test_on_cuda());
     const auto triangles = long_triangles<long double>(wall.made.soup);
     const PairMesh<long double> mesh = wall.pairs(triangles, seed);
-    const FlatGrid flat(wall.grid);
+    const FlatOf<StepGrid> flat(wall.grid);
     Numbers r(seed + 7);
     SphereArrays all;
     for (int k = 0; k < kPerMesh; k++) {

@@ -53,12 +53,12 @@ struct Case {
     }
   }
 
-  TriangleGrid grid(int nearest, bool in_floats = false) const
+  QueryGrid grid(int nearest, bool in_floats = false) const
   {
-    GridSettings settings;
+    QueryGridSettings settings;
     settings.cutoff = cutoff;
     settings.length = length;
-    settings.list_kind = ListKind::of_option(nearest);
+    settings.nearest = nearest;
     settings.in_floats = in_floats;
     settings.memory_budget = 256 << 20;
     try {
@@ -71,7 +71,7 @@ struct Case {
 
   // A region test is closed by the tolerance, so that a closest point lies that far off at most, once
   // along each of two sides; the rest is rounding of coordinates and of their differences.
-  Real tolerance(const TriangleGrid &grid) const
+  Real tolerance(const QueryGrid &grid) const
   {
     Real size = 0;
     for (int k = 0; k < 3; k++)
@@ -88,10 +88,13 @@ struct Answers {
   bool certified(std::size_t i) const { return status[i] & kCertified; }
 };
 
+static_assert(std::is_constructible_v<CpuGrid, ViewOf<QueryGrid>>);
+static_assert(!std::is_constructible_v<CpuGrid, ViewOf<StepGrid>>);
+
 // The library's query of one grid, on the CPU or on a GPU.
 class GridQuery {
  public:
-  GridQuery(const Case &c, const TriangleGrid &grid, Device device = test_device()) :
+  GridQuery(const Case &c, const QueryGrid &grid, Device device = test_device()) :
       names_(c.names), flat_(grid), cuda_(device == Device::cuda)
   {
 #if defined(LSDCD_HAVE_CUDA)
@@ -129,14 +132,14 @@ class GridQuery {
 
  private:
   const TriangleTable &names_;
-  FlatGrid flat_;
+  FlatOf<QueryGrid> flat_;
   bool cuda_;
   CpuGrid on_cpu_;
   std::unique_ptr<StreamQuery> on_gpu_;
 };
 
 template <class S>
-Answers ask(const Case &c, const TriangleGrid &grid, const std::vector<S> &spheres,
+Answers ask(const Case &c, const QueryGrid &grid, const std::vector<S> &spheres,
             Device device = test_device())
 {
   return GridQuery(c, grid, device).ask(spheres);
@@ -197,7 +200,7 @@ void expect_right(const Case &c, const Answers &a, Real tolerance, bool only_cer
 TEST(query, complete_lists_give_the_distance_of_every_triangle_tried)
 {
   for (const Case &c : all_cases()) {
-    const TriangleGrid grid = c.grid(0);
+    const QueryGrid grid = c.grid(0);
     const Answers a = ask(c, grid, c.spheres);
     expect_right(c, a, c.tolerance(grid), false, "complete");
     for (std::size_t i = 0; i < c.spheres.size(); i++) ASSERT_TRUE(a.certified(i));
@@ -209,7 +212,7 @@ TEST(query, certified_answers_of_nearest_lists_are_right)
   std::size_t certified = 0, uncertified = 0;
   for (const Case &c : all_cases())
     for (int n = 1; n <= 8; n++) {
-      const TriangleGrid grid = c.grid(n);
+      const QueryGrid grid = c.grid(n);
       const Answers a = ask(c, grid, c.spheres);
       expect_right(c, a, c.tolerance(grid), true, std::to_string(n));
       for (std::size_t i = 0; i < c.spheres.size(); i++)
@@ -224,7 +227,7 @@ TEST(query, answers_on_10000_triangles_are_right)
 {
   const Case c(cylinder_mesh(100, 49, 50, 100), 1, 0, 300, 6);
   for (const int n : {0, 3}) {
-    const TriangleGrid grid = c.grid(n);
+    const QueryGrid grid = c.grid(n);
     expect_right(c, ask(c, grid, c.spheres), c.tolerance(grid), n > 0, std::to_string(n));
   }
 }
@@ -234,7 +237,7 @@ TEST(query, a_list_cut_off_can_only_lose_contacts)
   std::size_t wrong = 0;
   for (const Case &c : all_cases())
     for (int n : {1, 2, 5}) {
-      const TriangleGrid grid = c.grid(n);
+      const QueryGrid grid = c.grid(n);
       const Answers a = ask(c, grid, c.spheres);
       for (std::size_t i = 0; i < c.spheres.size(); i++) {
         if (a.touching(i)) {
@@ -250,7 +253,7 @@ TEST(query, longer_lists_of_one_grid_are_those_of_another)
 {
   // The first N entries of a longer list, and the next as a bound, are the list of N.
   const Case &c = all_cases()[1];
-  TriangleGrid eight = c.grid(8);
+  QueryGrid eight = c.grid(8);
   for (int n = 1; n < 8; n++) {
     eight.list_kind = ListKind::of_option(n);
     const Answers a = ask(c, eight, c.spheres), b = ask(c, c.grid(n), c.spheres);
@@ -264,7 +267,7 @@ TEST(query, answers_in_float_are_within_float_rounding_of_a_brick)
   for (std::size_t k : {0, 1, 2, 3}) {
     const Case &c = all_cases()[k];
     for (int n : {0, 2, 4}) {
-      const TriangleGrid grid = c.grid(n, true);
+      const QueryGrid grid = c.grid(n, true);
       const Answers a = ask(c, grid, c.spheres);
       expect_right(c, a, 2 * BrickDistances::tolerance(grid.view()), n > 0,
                    "floats, " + std::to_string(n));
@@ -278,7 +281,7 @@ TEST(query, gives_the_same_bits_on_both_devices)
   for (const Case &c : all_cases())
     for (const bool in_floats : {false, true})
       for (int n : {0, 1, 3}) {
-        const TriangleGrid grid = c.grid(n, in_floats);
+        const QueryGrid grid = c.grid(n, in_floats);
         const Answers cpu = ask(c, grid, c.spheres, Device::cpu),
                       cuda = ask(c, grid, c.spheres, Device::cuda);
         EXPECT_EQ(cpu.status, cuda.status) << c.soup.source;
@@ -299,7 +302,7 @@ Cell cell_by_words(const GridView &grid, const BrickTable &table, const Vec3 &q)
 
 // All far, four at a time, and then those near from their cell's list: the work of the GPU's kernels for distances
 // alone, on the CPU.
-Answers ask_cells_first(const TriangleGrid &grid, const std::vector<Sphere> &spheres)
+Answers ask_cells_first(const QueryGrid &grid, const std::vector<Sphere> &spheres)
 {
   CpuBackend b;
   const GridOn<CpuBackend> g(b, FlatGrid(grid), true);
@@ -335,7 +338,7 @@ TEST(query, asking_for_the_cell_first_changes_no_bit)
   for (const Case &c : all_cases())
     for (const bool in_floats : {false, true})
       for (int n : {0, 1, 3}) {
-        const TriangleGrid grid = c.grid(n, in_floats);
+        const QueryGrid grid = c.grid(n, in_floats);
         const Answers a = ask_cells_first(grid, c.spheres),
                       b = ask(c, grid, c.spheres, Device::cpu);
         EXPECT_EQ(a.status, b.status) << c.soup.source;
@@ -387,7 +390,7 @@ class FourLanes {
 template <class Distances>
 void expect_lanes_find_as_one(const Case &c, bool in_floats, std::uint32_t &longest)
 {
-  const TriangleGrid grid = c.grid(0, in_floats);
+  const QueryGrid grid = c.grid(0, in_floats);
   const GridView view = grid.view();
   std::vector<Sphere> spheres;
   std::vector<Cell> cells;
@@ -476,7 +479,7 @@ TEST(query, whole_numbers_below_are_those_of_floor)
 TEST(query, places_found_without_a_branch_are_those_found_with_them)
 {
   for (std::size_t k : {0, 1, 2}) {
-    const TriangleGrid grid = all_cases()[k].grid(0);
+    const QueryGrid grid = all_cases()[k].grid(0);
     const GridView view = grid.view();
     std::size_t inside = 0;
     const auto expect_same = [&](const Vec3 &q) {
@@ -687,7 +690,7 @@ TEST(query, a_coarse_table_has_the_cubes_of_the_bricks_and_no_others)
 
 // Wherever warps, tiles and queues of a GPU begin and end.
 template <class S>
-void expect_same_bits(const Case &c, const TriangleGrid &grid, const std::vector<S> &spheres,
+void expect_same_bits(const Case &c, const QueryGrid &grid, const std::vector<S> &spheres,
                       const std::string &what)
 {
   GridQuery cpu(c, grid, Device::cpu), cuda(c, grid, Device::cuda);
@@ -730,7 +733,7 @@ void expect_same_bits_of_all_kinds(const Case &c, const std::vector<Sphere> &sph
 {
   for (const bool in_floats : {false, true})
     for (const int nearest : {0, 2}) {
-      const TriangleGrid grid = c.grid(nearest, in_floats);
+      const QueryGrid grid = c.grid(nearest, in_floats);
       expect_same_bits(c, grid, spheres, what + ", double");
       expect_same_bits(c, grid, as<FloatSphere>(spheres), what + ", float");
     }
@@ -836,7 +839,7 @@ TEST(query, float_spheres_are_answered_as_double_ones_in_the_same_places)
     floats.back().r = std::nextafter(f.r, 0.f);
     same.back().r = floats.back().r;
   }
-  const TriangleGrid grid = c.grid(2);
+  const QueryGrid grid = c.grid(2);
   const Answers a = ask(c, grid, floats), b = ask(c, grid, same);
   EXPECT_EQ(a.status, b.status);
   for (std::size_t i = 0; i < floats.size(); i++)
@@ -847,7 +850,7 @@ TEST(query, one_query_answers_more_spheres_and_fewer)
 {
   const Case &c = all_cases()[1];
   for (int n : {0, 2}) {
-    const TriangleGrid grid = c.grid(n);
+    const QueryGrid grid = c.grid(n);
     GridQuery query(c, grid);
     for (const std::size_t most : {c.spheres.size(), std::size_t(100), c.spheres.size()}) {
       const std::vector<Sphere> some(c.spheres.begin(), c.spheres.begin() + most);

@@ -78,7 +78,7 @@ TEST(settings, choices_and_values_are_read)
 {
   EXPECT_EQ(with("grid auto").grid_length, 0);    // chosen by the grid
   EXPECT_EQ(with("rmax auto").rmax, 0);
-  EXPECT_EQ(with("").memory_budget, GridSettings().memory_budget);
+  EXPECT_EQ(with("").memory_budget, StepGridSettings().memory_budget);
   EXPECT_EQ(with("memory 2").memory_budget, std::size_t(2) * 1024 * 1024);
   EXPECT_TRUE(!with("").contacts && with("contacts").contacts);
   EXPECT_TRUE(!with("").periodic && with("periodic").periodic);

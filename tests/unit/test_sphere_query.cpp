@@ -29,12 +29,12 @@ struct Wall {
   {
   }
   // nearest 0: complete lists.
-  TriangleGrid grid(int nearest, bool in_floats = false) const
+  QueryGrid grid(int nearest, bool in_floats = false) const
   {
-    GridSettings settings;
+    QueryGridSettings settings;
     settings.cutoff = cutoff;
     settings.length = cutoff / 2;
-    settings.list_kind = ListKind::of_option(nearest);
+    settings.nearest = nearest;
     settings.in_floats = in_floats;
     return build_grid(mesh, settings, test_on_cuda());
   }
@@ -64,7 +64,7 @@ struct Answers {
   std::vector<std::uint32_t> entries;
 };
 
-Answers ask(const Wall &wall, const TriangleGrid &grid, const std::vector<Sphere> &spheres,
+Answers ask(const Wall &wall, const QueryGrid &grid, const std::vector<Sphere> &spheres,
             QuerySettings settings = {}, Device device = test_device())
 {
   const auto query = make_sphere_query(device);
@@ -98,7 +98,7 @@ const Wall &cylinder()
 TEST(sphere_query, every_face_needs_no_lists_and_reads_all)
 {
   const std::vector<Sphere> spheres = cylinder().spheres(2000);
-  const TriangleGrid grid = cylinder().grid(1);
+  const QueryGrid grid = cylinder().grid(1);
   const auto triangles = long_triangles<LongReal>(cylinder().soup);
   const Real tolerance = 1.5 * grid.tolerance + 16 * kRoundoff * (2 + cylinder().cutoff);
   const Answers a = ask(cylinder(), grid, spheres, every_face());
@@ -163,7 +163,7 @@ TEST(sphere_query, grid_and_spheres_can_change_between_calls)
   const Wall box(box_mesh({0, 0, 0}, {1, 2, 3}), 0.4);
   const auto query = make_sphere_query(test_device());
   for (const Wall *wall : {&cylinder(), &box, &cylinder()}) {
-    const TriangleGrid grid = wall->grid(2);
+    const QueryGrid grid = wall->grid(2);
     query->set_grid(grid, wall->mesh);
     for (const std::size_t n : {1000, 100, 1000}) {
       const std::vector<Sphere> spheres = wall->spheres(n);
@@ -199,7 +199,7 @@ TEST(sphere_query, gives_the_same_bits_on_both_devices)
 {
   if (!test_on_cuda()) GTEST_SKIP() << "compares CUDA with the CPU";
   const std::vector<Sphere> spheres = cylinder().spheres(2000);
-  const TriangleGrid grid = cylinder().grid(2);
+  const QueryGrid grid = cylinder().grid(2);
   for (const QuerySettings &settings : {QuerySettings(), every_face(), paper()}) {
     const Answers cpu = ask(cylinder(), grid, spheres, settings, Device::cpu),
                   cuda = ask(cylinder(), grid, spheres, settings, Device::cuda);

@@ -36,7 +36,7 @@ struct Floor {
   const WallSpec settings = wall();
   StepTotals totals;
   std::unique_ptr<WallEngine> engine;
-  FlatGrid grid;
+  FlatOf<StepGrid> grid;
 
   explicit Floor(FakeHost &host) : totals(host, settings)
   {
@@ -44,9 +44,9 @@ struct Floor {
     of_engine.law() = classic_law(NormalModel::hooke, false);
     of_engine.law().k_normal = kStiffness;
     of_engine.device = Device::cpu;
-    GridSettings of_grid;
+    StepGridSettings of_grid;
     of_grid.cutoff = kRadius;
-    grid = FlatGrid(build_grid(weld(floor_mesh(10, 5, 3), -1), of_grid));
+    grid = FlatOf(build_grid(weld(floor_mesh(10, 5, 3), -1), of_grid));
     engine = make_engine(of_engine);
     engine->set_grid(grid.view(), 0);
   }

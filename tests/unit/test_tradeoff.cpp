@@ -96,19 +96,19 @@ TEST(below, the_fastest_setting_is_taken_whose_errors_are_below_the_bound)
 
 struct Wall {
   WeldedMesh mesh;
-  TriangleGrid grid;
+  StepGrid grid;
 
   Wall(const TriangleSoup &soup, Real cutoff, int nearest = 0) : mesh(weld(soup, -1))
   {
-    GridSettings settings;
+    StepGridSettings settings;
     settings.cutoff = cutoff;
-    settings.list_kind = ListKind::of_option(nearest);
+    settings.nearest = nearest;
     grid = build_grid(mesh, settings);
   }
   DriftStarts starts(Real radius, int n) const
   {
     Random random(11);
-    GridSettings settings;
+    StepGridSettings settings;
     settings.cutoff = radius;
     return drift_starts(mesh, build_grid(mesh, settings).view(), radius, n, random);
   }
@@ -235,10 +235,10 @@ TEST(drift, is_none_of_spheres_that_fall_off_an_edge)
 TEST(drift, is_one_for_spheres_that_fall_through_the_wall)
 {
   const Wall floor(floor_mesh(1, 30), 1);
-  GridSettings nowhere;
+  StepGridSettings nowhere;
   nowhere.cutoff = 1;
   nowhere.within = {{100, 100, 100}, {101, 101, 101}};
-  const TriangleGrid blind = build_grid(floor.mesh, nowhere);
+  const StepGrid blind = build_grid(floor.mesh, nowhere);
   EXPECT_EQ(bounce_drift(blind.view(), EngineSettings(), floor.starts(1, 20)), 1);
   EXPECT_EQ(roll_drift(blind.view(), EngineSettings(), floor.starts(1, 20)), 1);
 }

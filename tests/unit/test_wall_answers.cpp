@@ -75,9 +75,9 @@ TEST_F(Compare, forces_are_compared_to_their_own_size_or_a_usual_one)
 TEST(band_spheres, are_all_within_reach_and_none_is_deep)
 {
   const WeldedMesh mesh = weld(vessel(), -1);
-  GridSettings g;
+  StepGridSettings g;
   g.cutoff = 0.1;
-  const TriangleGrid grid = build_grid(mesh, g);
+  const StepGrid grid = build_grid(mesh, g);
   SphereSample sample;
   Random random(5);
   add_band_spheres(grid, 5000, {0.1, 0.06}, random, sample);

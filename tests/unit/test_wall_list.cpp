@@ -24,17 +24,17 @@ namespace {
 
 struct Wall {
   WeldedMesh mesh;
-  TriangleGrid grid;
-  FlatGrid flat;
+  StepGrid grid;
+  FlatOf<StepGrid> flat;
 
   Wall(const TriangleSoup &soup, Real cutoff) : mesh(weld(soup, -1))
   {
-    GridSettings g;
+    StepGridSettings g;
     g.cutoff = cutoff;
     grid = build_grid(mesh, g);
-    flat = FlatGrid(grid);
+    flat = FlatOf(grid);
   }
-  GridView view() const { return flat.view(); }
+  ViewOf<StepGrid> view() const { return flat.view(); }
 };
 
 // The list of a sphere that feels the wall as far as `cutoff`, as a column of its own.
@@ -208,11 +208,11 @@ TEST(wall_list, of_a_sphere_outside_of_the_grid_is_empty_and_holds)
 TEST(wall_list, at_the_rim_of_the_grid_has_what_is_inside)
 {
   Wall wall(floor_mesh(4, 2), 0.5);
-  GridSettings g;
+  StepGridSettings g;
   g.cutoff = 0.5;
   g.within = {{-1, -1, 0}, {1, 1, 1}};    // the floor itself is the rim
   wall.grid = build_grid(wall.mesh, g);
-  wall.flat = FlatGrid(wall.grid);
+  wall.flat = FlatOf(wall.grid);
   const GridView grid = wall.view();
   for (Real up : {0., 1e-15, 1e-9, 0.01, 0.4}) {
     const Real z = std::max(up, grid.origin.z);

@@ -47,7 +47,7 @@ class EngineOn : public WallEngine {
 
   std::string backend() const override { return b_.name(); }
 
-  void put_grid(const GridView &grid, int mesh) override
+  void put_grid(const ViewOf<StepGrid> &grid, int mesh) override
   {
     works_of_meshes_[mesh].reset();
     where_step_runs([&] { broad_phase_.set_grid(b_, grid, mesh); });

@@ -7,10 +7,10 @@
 namespace lsdcd {
 
 #if defined(LSDCD_HAVE_CUDA)
-TriangleGrid build_grid_cuda(const WeldedMesh &mesh, const GridSettings &settings);
+TriangleGrid build_grid_cuda(const WeldedMesh &mesh, const AnyGridSettings &settings);
 #endif
 
-TriangleGrid build_grid(const WeldedMesh &mesh, const GridSettings &settings, bool on_cuda)
+TriangleGrid build_any_grid(const WeldedMesh &mesh, const AnyGridSettings &settings, bool on_cuda)
 {
 #if defined(LSDCD_HAVE_CUDA)
   if (on_cuda) return build_grid_cuda(mesh, settings);

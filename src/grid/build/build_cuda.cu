@@ -6,7 +6,7 @@
 
 namespace lsdcd {
 
-TriangleGrid build_grid_cuda(const WeldedMesh &mesh, const GridSettings &settings)
+TriangleGrid build_grid_cuda(const WeldedMesh &mesh, const AnyGridSettings &settings)
 {
   // A build takes more for a while than its grid has. The host may need that memory for its own spheres.
   struct GiveBack {

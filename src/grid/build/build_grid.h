@@ -45,10 +45,10 @@ class GridBuilder {
 
   // Lists of the contact features or of primitives. Returns false,
   // with `lists` untouched, if they would not fit `budget` bytes.
-  bool build(const GridPlan &plan, const GridSettings &settings, std::size_t budget,
+  bool build(const GridPlan &plan, const AnyGridSettings &settings, std::size_t budget,
              CellLists &lists, ListReport &report)
   {
-    const ListKind list_kind = settings.list_kind;
+    const ListKind list_kind = settings.list_kind();
     const auto start = std::chrono::steady_clock::now();
     view_.plan = plan;
     progress_.of(plan.length);
@@ -83,11 +83,11 @@ class GridBuilder {
     lists.brick_of = to_cpu(b_, built.brick_of, built.brick_of.size());
     lists.bricks = to_cpu(b_, built.bricks, built.n_bricks);
     lists.cells = to_cpu(b_, built.cells, built.n_cells);
-    if (settings.packs()) {
+    if (settings.is_packed()) {
       lists.packing = EntryPacking(n_of_a_kind_, plan.cutoff + plan.widened() + plan.half_diagonal);
-      lists.packed = packed(built, lists.packing, settings.has_full_lists());
+      lists.packed = packed(built, lists.packing);
+      return true;
     }
-    if (!settings.has_full_lists()) return true;
     if constexpr (B::kOnCpu)
       lists.entries = drained(built.entries.data(), built.n_entries);
     else
@@ -105,8 +105,8 @@ class GridBuilder {
   }
 
  private:
-  // Returns the entries, packed where they are, a part after the other. On a CPU they are lost unless they stay.
-  std::vector<PackedEntry> packed(BuiltLists<B> &built, const EntryPacking &packing, bool they_stay)
+  // Returns the entries, packed where they are, a part after the other. On a CPU they are lost.
+  std::vector<PackedEntry> packed(BuiltLists<B> &built, const EntryPacking &packing)
   {
     const std::size_t n = built.n_entries;
     std::vector<PackedEntry> out(B::kOnCpu ? 0 : n);
@@ -115,10 +115,7 @@ class GridBuilder {
       const auto pack = [&](const CellEntry *begin, const CellEntry *end) {
         for (const CellEntry *c = begin; c < end; c++) out.push_back(packing.pack(*c));
       };
-      if (they_stay)
-        pack(built.entries.data(), built.entries.data() + n);
-      else
-        move_and_release(built.entries.data(), n, pack);
+      move_and_release(built.entries.data(), n, pack);
     } else {
       constexpr std::size_t kPart = 1 << 22;
       Scratch<PackedEntry> part(std::min(n, kPart));
@@ -155,7 +152,7 @@ class GridBuilder {
 // Builds the lists and the copies in float, and returns whether they fit the budget. `needed`:
 // the bytes that they take, or a lower bound if they do not fit.
 template <class B>
-bool fill_grid(GridBuilder<B> &builder, const GridPlan &plan, const GridSettings &settings,
+bool fill_grid(GridBuilder<B> &builder, const GridPlan &plan, const AnyGridSettings &settings,
                double budget, TriangleGrid &grid, double &needed)
 {
   const std::size_t of_wall = flat_wall_bytes(grid);
@@ -170,9 +167,9 @@ bool fill_grid(GridBuilder<B> &builder, const GridPlan &plan, const GridSettings
   grid.length = plan.length;
   grid.cutoff = plan.cutoff;
   grid.tolerance = plan.tolerance;
-  grid.margin = settings.list_kind.is_complete() ? plan.margin : 0;
+  grid.margin = settings.list_kind().is_complete() ? plan.margin : 0;
   for (int k = 0; k < 3; k++) grid.n_bricks[k] = plan.n_bricks[k];
-  grid.list_kind = settings.list_kind;
+  grid.list_kind = settings.list_kind();
   if (settings.in_floats) add_brick_records(grid);
   needed = std::max(needed, double(flat_bytes(grid)));
   return needed <= budget;
@@ -188,16 +185,16 @@ inline int least_steps(double over)
 
 // Plans and builds. If the length is chosen here, it tries coarser ones until budget and limit hold.
 template <class B>
-TriangleGrid build_grid_on(B backend, const WeldedMesh &mesh, const GridSettings &settings)
+TriangleGrid build_grid_on(B backend, const WeldedMesh &mesh, const AnyGridSettings &settings)
 {
   const auto start = std::chrono::steady_clock::now();
   TriangleGrid grid;
-  grid.wall = make_features(mesh, settings.sides, settings.list_kind.has_primitives());
+  grid.wall = make_features(mesh, settings.sides, settings.list_kind().has_primitives());
   GridBuilder<B> builder(std::move(backend), grid.wall, settings.progress);
   GridPlan plan = plan_grid(mesh, settings);
   const double budget = double(budget_of(settings, grid));
   const BuildLimit limit(mesh.faces.size());
-  const bool is_limited = settings.limited && settings.memory_budget == 0;
+  const bool is_limited = settings.is_limited();
   constexpr double kNoBudget = 1e18;
   const bool may_coarsen = settings.length <= 0 || settings.may_coarsen;
   const Real first_length = plan.length;
@@ -242,7 +239,7 @@ TriangleGrid build_grid_on(B backend, const WeldedMesh &mesh, const GridSettings
 
   grid.outside = mesh.report.volume < 0 ? -1 : 1;
   if (settings.sides && meets_itself(mesh).pairs > 0) grid.outside = 0;
-  grid.report.list_kind = settings.list_kind;
+  grid.report.list_kind = settings.list_kind();
   grid.report.records =
       grid.records.faces.size() + grid.records.edges.size() + grid.records.vertices.size();
   BrickRecordsView::each_array(grid.records,

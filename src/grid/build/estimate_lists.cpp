@@ -83,15 +83,15 @@ ListEstimate estimate_lists(const MeshFeatures &wall, const GridPlan &plan, bool
 }
 
 BuildEstimate estimate_build(const MeshFeatures &wall, const GridPlan &plan,
-                             const GridSettings &settings)
+                             const AnyGridSettings &settings)
 {
   BuildEstimate out;
   if (!std::isfinite(plan.least_bytes())) return out;
-  const ListEstimate lists = estimate_lists(wall, plan, settings.list_kind.has_primitives());
+  const ListEstimate lists = estimate_lists(wall, plan, settings.list_kind().has_primitives());
   constexpr double kMaxNumbers = 0xffffffff;
   if (lists.least_pairs > kMaxNumbers) out.least_bytes = out.enough_bytes = HUGE_VAL;
   out.work = lists.work;
-  const bool cut_short = settings.list_kind.has_primitives() && !settings.list_kind.is_every();
+  const bool cut_short = settings.list_kind().has_primitives() && !settings.list_kind().is_every();
   if (!cut_short && lists.least_entries > kMaxNumbers)
     out.least_bytes = out.enough_bytes = HUGE_VAL;
   // A cell that holds a single entry has it inline, and is counted as one.

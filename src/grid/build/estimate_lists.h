@@ -25,6 +25,6 @@ struct BuildEstimate {
   double least_bytes = 0, enough_bytes = 0, work = 0;
 };
 BuildEstimate estimate_build(const MeshFeatures &wall, const GridPlan &plan,
-                             const GridSettings &settings);
+                             const AnyGridSettings &settings);
 
 }    // namespace lsdcd

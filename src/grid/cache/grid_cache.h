@@ -30,7 +30,7 @@ struct GridKey {
   Hash settings;
 };
 
-GridKey grid_key(const WeldedMesh &mesh, const GridSettings &settings);
+GridKey grid_key(const WeldedMesh &mesh, const AnyGridSettings &settings);
 
 // The state of the file with a cache's name.
 enum class CacheState {

@@ -64,14 +64,14 @@ Hash version_hash()
 
 // The bindings name every member: one that is added does not compile until it is
 // listed here too.
-Hash settings_hash(const GridSettings &s)
+Hash settings_hash(const AnyGridSettings &s)
 {
-  const auto &[length, cutoff, memory_budget, limited, sides, list_kind, in_floats, purpose, form,
-               for_gpu, may_coarsen, within, length_name, progress] = s;
+  const auto &[length, cutoff, memory_budget, sides, nearest, for_gpu, may_coarsen, within,
+               length_name, progress] = static_cast<const GridSettings &>(s);
   (void) length_name;
   (void) progress;
-  return Hasher().of(length, cutoff, memory_budget, limited, sides, list_kind.most(), in_floats,
-                     purpose, form, for_gpu, may_coarsen, within.lo, within.hi);
+  return Hasher().of(length, cutoff, memory_budget, sides, nearest, for_gpu, may_coarsen, within.lo,
+                     within.hi, s.purpose, s.in_floats);
 }
 
 Hash mesh_hash(const WeldedMesh &mesh)
@@ -89,7 +89,7 @@ Hash mesh_hash(const WeldedMesh &mesh)
 
 }    // namespace
 
-GridKey grid_key(const WeldedMesh &mesh, const GridSettings &settings)
+GridKey grid_key(const WeldedMesh &mesh, const AnyGridSettings &settings)
 {
   return {version_hash(), mesh_hash(mesh), settings_hash(settings)};
 }

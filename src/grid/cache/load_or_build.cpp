@@ -65,13 +65,13 @@ bool read(const std::string &file, CachedGrid *cached, Host &host, NodeMemory &m
   return true;
 }
 
-void build(const WeldedMesh &mesh, const GridSettings &settings, bool on_cuda, Host &host,
+void build(const WeldedMesh &mesh, const AnyGridSettings &settings, bool on_cuda, Host &host,
            NodeMemory &memory, LoadedGrid &out)
 {
   std::unique_ptr<TriangleGrid> grid;
   std::size_t bytes = 0;
   run_collectively(host, host.ranks().fills_memory, [&] {
-    grid = std::make_unique<TriangleGrid>(build_grid(mesh, settings, on_cuda));
+    grid = std::make_unique<TriangleGrid>(build_any_grid(mesh, settings, on_cuda));
     bytes = flat_bytes(*grid);
     out.report = grid->report;
   });
@@ -107,7 +107,7 @@ void write(const std::string &file, const GridKey &key, const CachedGrid &cached
 }    // namespace
 
 LoadedGrid load_or_build_grid(const std::string &cache_file, const WeldedMesh &mesh,
-                              const GridSettings &settings, bool on_cuda, Host &host,
+                              const AnyGridSettings &settings, bool on_cuda, Host &host,
                               NodeMemory &memory)
 {
   LoadedGrid out;

@@ -26,7 +26,7 @@ struct LoadedGrid {
 // had. Processes that fill memory have the mesh and build; the first has the file, which other nodes may not see.
 // Throws InputError as build_grid() does. Collective.
 LoadedGrid load_or_build_grid(const std::string &cache_file, const WeldedMesh &mesh,
-                              const GridSettings &settings, bool on_cuda, Host &host,
+                              const AnyGridSettings &settings, bool on_cuda, Host &host,
                               NodeMemory &memory);
 
 }    // namespace lsdcd

@@ -118,17 +118,18 @@ std::size_t brick_bytes(const GridPlan &plan, std::size_t bricks)
   return plan.table_size() * sizeof(std::int32_t) + bricks * kBrickBytes;
 }
 
-Real default_length(const WeldedMesh &mesh, Real cutoff, ListKind list_kind, bool for_gpu,
-                    GridPurpose purpose)
+Real default_length(const WeldedMesh &mesh, const AnyGridSettings &settings)
 {
+  const Real cutoff = settings.cutoff;
+  const ListKind list_kind = settings.list_kind();
   // Each point reads a list. Two edges keep it at a few features; below a tenth of the cutoff memory grows
   // and little is gained.
-  if (list_kind.is_complete() && purpose == GridPurpose::points)
+  if (list_kind.is_complete() && settings.purpose == GridPurpose::queries)
     return std::clamp(2 * mesh.report.median_edge, Real(0.1) * cutoff, cutoff);
   // Complete lists are read when a sphere's list of the wall is gathered, not in every step. With
   // cells of the radius that takes no longer than with smaller ones, and the lists take less
   // memory than the mesh's records. Larger cells name too many spheres that touch nothing.
-  if (list_kind.is_complete() && !for_gpu) return cutoff;
+  if (list_kind.is_complete() && !settings.for_gpu) return cutoff;
   // On a GPU a sphere waits for each entry of its cell in turn. Half of that length, and less where
   // triangles are small, makes choices 1.4 to 3 times as fast; below that memory grows and little is gained.
   if (list_kind.is_complete())
@@ -138,18 +139,15 @@ Real default_length(const WeldedMesh &mesh, Real cutoff, ListKind list_kind, boo
   return std::clamp(Real(0.3) * mesh.report.median_edge, Real(0.2) * cutoff, cutoff);
 }
 
-GridPlan plan_grid(const WeldedMesh &mesh, const GridSettings &settings)
+GridPlan plan_grid(const WeldedMesh &mesh, const AnyGridSettings &settings)
 {
   if (!(settings.cutoff > 0) || !std::isfinite(settings.cutoff))
     throw InputError("grid cutoff is " + number_text(settings.cutoff) +
                      "; it must be the largest particle radius, above 0");
   // A billionth of the mesh: smaller cells cannot be numbered, and the smallest numbers do not grow.
   const Real least = Real(0x1p-30) * norm(mesh.report.hi - mesh.report.lo);
-  const Real length = settings.length > 0
-                          ? settings.length
-                          : std::max(default_length(mesh, settings.cutoff, settings.list_kind,
-                                                    settings.for_gpu, settings.purpose),
-                                     least);
+  const Real length =
+      settings.length > 0 ? settings.length : std::max(default_length(mesh, settings), least);
   return plan_with_length(mesh, settings, length,
                           least_volume(mesh, settings.cutoff, settings.within));
 }

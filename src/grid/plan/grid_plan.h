@@ -74,13 +74,11 @@ struct CellCentres {
   }
 };
 
-// Returns the default length of a cell, for complete lists or nearest primitives, for steps or points, and for spheres on
-// a CPU or a GPU.
-Real default_length(const WeldedMesh &mesh, Real cutoff, ListKind list_kind, bool for_gpu,
-                    GridPurpose purpose = GridPurpose::step);
+// Returns the default length of a cell by cutoff, purpose, nearest and for_gpu.
+Real default_length(const WeldedMesh &mesh, const AnyGridSettings &settings);
 
 // From the settings; if these have no length, it follows from the mesh and the cutoff.
-GridPlan plan_grid(const WeldedMesh &mesh, const GridSettings &settings);
+GridPlan plan_grid(const WeldedMesh &mesh, const AnyGridSettings &settings);
 
 constexpr Real kCoarser = 1.25;
 

@@ -54,7 +54,7 @@ struct MeshPart {
 
   // In its own frame, in this step; null on processes that do not have it (mesh_surface.h).
   const WeldedMesh *mesh() const { return surface->mesh(); }
-  GridView view() const { return grid.view(); }    // where its nodes do not move
+  ViewOf<StepGrid> view() const { return grid.view(); }    // where its nodes do not move
   // Of its features; none where its nodes move.
   MeshFeaturesView records() const { return surface->records(); }
 

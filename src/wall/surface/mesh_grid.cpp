@@ -137,18 +137,16 @@ bool MeshGrid::uses_gpu() const
   return wall_.device != Device::cpu && cuda_available(nullptr);
 }
 
-GridSettings MeshGrid::grid_settings(Real cutoff, const PeriodicBox &box) const
+StepGridSettings MeshGrid::grid_settings(Real cutoff, const PeriodicBox &box) const
 {
-  GridSettings want;
+  StepGridSettings want;
   want.length = wall_.grid_length;
   want.cutoff = cutoff;
   want.memory_budget = wall_.memory_budget;
-  want.limited = !(want.length > 0);    // a length that is given may take its time
   want.sides = wall_.side != Side::both;
-  want.list_kind = ListKind::of_option(wall_.nearest);
+  want.nearest = wall_.nearest;
   // Asked for a length that is chosen only, so that devices share the cache of one that is given.
   want.for_gpu = !(want.length > 0) && uses_gpu();
-  want.form = ListForm::packed;
   want.within = within(cutoff, box);
   want.progress = progress;
   return want;
@@ -160,7 +158,7 @@ void MeshGrid::build(Real cutoff, const PeriodicBox &box)
     cutoff_ = cutoff;
     return;
   }
-  const GridSettings want = grid_settings(cutoff, box);
+  const StepGridSettings want = grid_settings(cutoff, box);
   const PeriodicBox before = cutoff_ > 0 ? box_ : box;
   // A box that changes in many steps would leave a file in each.
   const bool for_box = cutoff == cutoff_;

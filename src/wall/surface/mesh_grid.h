@@ -52,7 +52,7 @@ class MeshGrid {
   // process.
   const std::string &ends_warning() const { return ends_warning_; }
   bool has_parted() const { return has_parted_; }    // they met in the box before
-  GridView view() const { return flat_view(memory_.block.get()); }
+  ViewOf<StepGrid> view() const { return ViewOf<StepGrid>(flat_view(memory_.block.get())); }
   Real cutoff() const { return cutoff_; }                 // 0 before the first build
   bool is_shared() const { return memory_.is_shared; }    // with the processes of the node
 
@@ -80,7 +80,7 @@ class MeshGrid {
     return spec_.has_nodes || wall_.shapes;
   }    // all processes have the mesh
   bool uses_gpu() const;
-  GridSettings grid_settings(Real cutoff, const PeriodicBox &box) const;
+  StepGridSettings grid_settings(Real cutoff, const PeriodicBox &box) const;
   Box within(Real cutoff, const PeriodicBox &box) const;
   WeldedMesh whole(Real cutoff, const PeriodicBox &box) const;
   void note_images(const WeldedMesh &whole);
