@@ -154,6 +154,40 @@ def test_ellipsoids(folder):
                 lmp.largest_difference(one, proceed(folder, "one.restart", f"again{ranks}", ranks)), 0)
 
 
+def test_folds(folder):
+    """Rods and discs come down into pits, where contacts share, fade and have couples. The run goes on from a restart file as it went, also
+    with longer neighbour lists and on any number of processes."""
+    def pit(i, j):
+        return i - 6.5, j - 6.5, 0.5 * math.sin(1.9 * i) + 0.4 * math.cos(2.3 * j + i)
+
+    tray = [stl.quad((*a, -2), (*b, -2), (*b, 8), (*a, 8))
+            for a, b in (((-5, -5), (5, -5)), ((5, -5), (5, 5)), ((5, 5), (-5, 5)), ((-5, 5), (-5, -5)))]
+    stl.write(folder / "pits.stl", stl.sheet(13, pit) + sum(tray, []))
+    grains = ELLIPSOIDS + "set group all type/fraction 2 0.5 991\nset type 1 shape 1.6 0.6 0.6\nset type 2 shape 1.2 1.2 0.7\n"
+    wall = lmp.pairs("zero 1.7") + """\
+fix             move all nve/asphere
+fix             pull all gravity 8.0 vector 0.5 0.2 -1.0
+fix             wall all wall/lsdcd hooke/history 1e3 NULL 40 NULL 0.4 1 mesh pits.stl contacts
+timestep        0.001
+"""
+    # Velocities are made once: the sums by which LAMMPS scales them depend on the number of processes.
+    lmp.run_well(head("-6 6 -6 6 -3 9", "ellipsoid", types=2) + CREATE + grains + START + wall + "run 0\nwrite_restart start\n", folder)
+
+    def go_on(name, restart, ranks=1, more=""):
+        lmp.run_well(head("", "ellipsoid", types=2) + f"read_restart {restart}\n" + wall + more + dump(name, "angmomx angmomy angmomz") +
+                     "run 300\n", folder, ranks)
+        return lmp.read_dump(folder / name)
+
+    one = go_on("one", "start", more="run 500\nwrite_restart later\n")
+    several = sum(row[-1] > 1 for rows in one.values() for row in rows.values())
+    fact("folds: many grains have several contacts", several > 50, str(several))
+    for ranks in (1, 2, 4):
+        at_most(f"folds: continued from a restart file on {ranks} ranks", lmp.largest_difference(one, go_on("again", "later", ranks)), 0)
+        more = "neighbor 1.5 bin\n" if ranks == 1 else ""
+        at_most(f"folds: from the start, {'with longer lists' if more else f'on {ranks} ranks'}",
+                lmp.largest_difference(one, go_on("again", "start", ranks, more + "run 500\n")), 0)
+
+
 def contacts_of(folder, name):
     """The rows of each_contact, by atom: mesh, force, point, overlap."""
     rows = {}

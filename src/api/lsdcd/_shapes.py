@@ -41,7 +41,7 @@ class ShapeFacts(_Record):
     inertia: tuple[float, float, float]    # about the axes, over the mass, at uniform density
     circumscribed: float    # radius of the smallest sphere about the centre that holds it
     inscribed: float        # radius of the largest one that it holds
-    curvature_radius: float    # the least one; overlaps are best kept below half of it
+    curvature_radius: float    # the least one: up to it all overlaps are exact
 
 
 def _rows(given: ArrayLike, name: str, columns: int) -> NDArray[np.float64]:
