@@ -9,11 +9,15 @@ import os
 import pathlib
 import re
 
+import numpy as np
+
 import lsdcd
 from facts import fact
 from lsdcd import _c
-from wall_fields import ENCODED, LINES, rows, script, spec
+from wall_fields import ENCODED, FOLDER, LINES, law, rows, script, spec
 
+# Of a mesh that is read and welded by the wall.
+OF_A_FILE = ("mesh0.name", "mesh0.file", "mesh0.vertices", "mesh0.welded_vertices", "mesh0.weld")
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 _lines = ctypes.CDLL(os.environ["LSDCD_SPEC_LINES"])
 for name in ("spec_of_wall", "spec_by_cpp", "spec_by_words", "keyword_lines"):
@@ -101,9 +105,67 @@ def test_defaults():
     (c, cpp), words = by_library({"wall": {"rmax": 0.0}}, "floor"), by_script("floor", "rmax auto")
     told = wrong("", c, cpp)
     fact("defaults of C++ are those of C", not told, told)
-    mine = ("mesh0.name", "mesh0.file", "mesh0.vertices", "mesh0.welded_vertices", "mesh0.weld")    # a file, and a mesh that is welded
-    told = [line for line in wrong("", c, words) if line.split(" = ")[0] not in mine]
+    told = [line for line in wrong("", c, words) if line.split(" = ")[0] not in OF_A_FILE]
     fact("defaults of a script are those of C", not told, told)
+
+
+def check_alike(name, words, **change):
+    """A wall of the library and the words of a script make the same spec, but for a table's rows, which a script's wall reads later."""
+    (c, cpp), told = by_library(change, "floor"), by_script("floor", words)
+    for how, given in (("C", c), ("C++", cpp)):
+        other = [f"{of} is {given.get(of)}, not {value}" for of, value in told.items() if of not in OF_A_FILE
+                 and not re.search(r"law\d+\.name$|table_file$|table\.(columns|rows)$", of) and not is_same(given.get(of, ""), value)]
+        fact(f"{name} by {how} is that of its words", not other, other)
+
+
+def sub_model(row, damping="viscoelastic"):
+    """With numbers of its ranges, each another one, and its words."""
+    numbers = {}
+    for k, (name, unit, (_, most)) in enumerate(zip(row.numbers, row.units, row.ranges)):
+        of_damping = "e" if damping in ("tsuji", "coeff_restitution") else "eta"
+        numbers[name.replace("eta|e", of_damping)] = 1 if unit == "0 or 1" else min(most, 0.3 - 0.05 * k if unit in (
+            "1", "of the damping", "length") else 900 + 10 * k)
+    return lsdcd.SubModel(row.name, **numbers), " ".join([row.name, *map(repr, numbers.values())])
+
+
+def test_sub_models():
+    """Each of them, beside a style and in a granular law, with what it needs."""
+    for row in lsdcd.sub_models():
+        model, words = sub_model(row, row.name)
+        if row.field == "style":
+            check_alike(f"the style {row.name}", f"{words} |", wall={"law": lsdcd.Law(row.name, **model.numbers), "rmax": 0.6})
+            continue
+        if row.beside_style and row.name != "none":
+            check_alike(f"{row.field} {row.name} beside a style", f"{row.field} {words}", wall={"law": law(**{row.field: model}), "rmax": 0.6})
+        damping = row.name if row.field == "damping" else "viscoelastic"
+        of_damping = "e" if damping in ("tsuji", "coeff_restitution") else "eta"
+        parts = {"normal": (lsdcd.SubModel("hertz/material", E=2000, nu=0.3, **{of_damping: 0.4}), "hertz/material 2000 0.4 0.3"),
+                 "tangential": (lsdcd.SubModel("linear_history", kt=300, xgammat=0.5, mu=0.4), "linear_history 300 0.5 0.4")}
+        parts[row.field] = (row.name, row.name) if row.field == "damping" else (model, words)
+        given = {field: part for field, (part, _) in parts.items()}
+        said = "granular " + " ".join(text if field == "normal" else f"{field} {text}" for field, (_, text) in parts.items())
+        hot = row.field == "heat" and row.name != "none"
+        check_alike(f"{row.field} {row.name}", f"{said} | {'temperature 350' if hot else ''}",
+                    wall={"law": lsdcd.Law.granular(**given), "rmax": 0.6}, **({"mesh": {"temperature": 350}} if hot else {}))
+
+
+def test_motions_and_placements():
+    """Of each kind, several of them, tables of rows and files; placements in the order of their words."""
+    motion, rows_of_table = lsdcd.Motion, np.array([[0, 0, 0, 0, 0, 0, 0], [0.005, 0, 0.1, 0.02, 0.1, 0, 0.05], [0.02, 0, 0, 0, 0, 0, 0]])
+    angles = np.array([[0, 0], [0.01, 0.5], [0.02, 0]])
+    arm, turn = str(FOLDER / "arm.txt"), str(FOLDER / "turn.txt")
+    np.savetxt(arm, rows_of_table)
+    np.savetxt(turn, angles, header="degrees", delimiter=", ")
+    for words, *motions in (
+            ("linear 0.1 0 0.2", motion.linear((0.1, 0, 0.2))), ("wiggle 0 0 0.01 0.3", motion.wiggle((0, 0, 0.01), 0.3)),
+            ("rotate 1 2 0 0 0.6 0.8 3 motion linear 0 0 0.1", motion.rotate((1, 2, 0), (0, 0.6, 0.8), 3), motion.linear((0, 0, 0.1))),
+            ("transrot 0 0 0.1 1 2 0 0 0 1 3", motion.transrot((0, 0, 0.1), (1, 2, 0), (0, 0, 1), 3)),
+            ("riggle 1 2 0 0 0 1 90 3", motion.riggle((1, 2, 0), (0, 0, 1), math.pi / 2, 3)),
+            *((f"table {arm} about 1 2 0 linear repeat", motion.table(given, (1, 2, 0), straight=True, repeats=True)) for given in (rows_of_table, arm)),
+            *((f"table {turn} axis 1 0 0 0 1 0 degrees", motion.table(given, (1, 0, 0), (0, 1, 0), degrees=True)) for given in (angles, turn))):
+        check_alike(f"motion {words}", f"motion {words}", mesh={"motions": motions})
+    check_alike("a placement", "scale 0.7 -1.3 2 rotate 0.1 0.02 1 33 rotate 1 0 0 7 move 0.1 0.2 0.03", mesh={
+        "placement": lsdcd.Placement().scale(0.7, -1.3, 2).rotate((0.1, 0.02, 1), 33).rotate((1, 0, 0), 7).move(0.1, 0.2, 0.03)})
 
 
 def test_page_has_the_keywords():

@@ -11,14 +11,9 @@
 #include "support/temp_dir.h"
 
 #include <cmath>
-#include <cstring>
 #include <fstream>
 #include <iterator>
-#include <limits>
-#include <map>
 #include <optional>
-#include <set>
-#include <sstream>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -33,13 +28,6 @@ using lsdcd::uniform;
 // A power of two, so that times and places are sums without rounding.
 constexpr double kStep = 0x1p-10;
 
-std::string text_of_number(double x)
-{
-  char buffer[32];
-  std::snprintf(buffer, sizeof buffer, "%.17g", x);
-  return buffer;
-}
-
 class wall_spec : public FloorTest {
  protected:
   // Of the same floor in a script.
@@ -47,8 +35,6 @@ class wall_spec : public FloorTest {
   {
     return lsdcd::words("hooke/history 1000 300 0 0 0.5 0 mesh " + file_ + " device cpu " + more);
   }
-  // Walls of the spec and of these words push alike.
-  void expect_the_bits_of(const std::vector<std::string> &words, const api::WallSpec &spec) const;
 };
 
 // Spheres of two types that press, slide and turn on the floor, over its inner edge, too.
@@ -97,124 +83,6 @@ bool any_nonzero(const std::vector<double> &numbers)
   for (const double x : numbers)
     if (x != 0) return true;
   return false;
-}
-
-void wall_spec::expect_the_bits_of(const std::vector<std::string> &words,
-                                   const api::WallSpec &spec) const
-{
-  lsdcd::ScriptWall by_words(words);
-  api::Wall by_spec(spec);
-  const std::vector<double> wanted = Pile().go(by_words);
-  EXPECT_TRUE(any_nonzero(wanted));
-  EXPECT_EQ(Pile().go(by_spec), wanted);
-}
-
-// ---- laws against words ----------------------------------------------------------------------
-
-std::vector<lsdcd_sub_model_facts> all_sub_models()
-{
-  std::vector<lsdcd_sub_model_facts> all;
-  lsdcd_sub_model_facts facts = {};
-  facts.size = sizeof facts;
-  while (lsdcd_sub_model_get_facts(all.size(), &facts) == LSDCD_OK) all.push_back(facts);
-  return all;
-}
-
-// A number that a law can have, by its unit and range.
-double some_number(const lsdcd_sub_model_facts &row, int k)
-{
-  const std::string unit = row.unit[k];
-  if (unit == "0 or 1") return 1;
-  if (unit == "1" || unit == "of the damping") return std::min(0.3, row.most[k]);
-  return std::min(900 + 10. * k, row.most[k]);
-}
-
-api::SubModel with_numbers(const lsdcd_sub_model_facts &row)
-{
-  api::SubModel model(row.name);
-  for (int k = 0; k < row.n; k++) model.numbers.push_back(some_number(row, k));
-  return model;
-}
-
-void add_words(std::vector<std::string> &words, const std::string &family,
-               const api::SubModel &model)
-{
-  if (model.name.empty()) return;
-  if (!family.empty()) words.push_back(family);
-  words.push_back(model.name);
-  for (const double x : model.numbers)
-    words.push_back(x == api::kDerived ? "NULL" : text_of_number(x));
-}
-
-// The words of a law as scripts have them, but for rolling and cohesion beside a style, which are keywords.
-std::vector<std::string> words_of(const api::Law &law)
-{
-  std::vector<std::string> words;
-  if (law.style.name.empty()) words.push_back("granular");
-  add_words(words, "", law.style);
-  add_words(words, "", law.normal);
-  add_words(words, "tangential", law.tangential);
-  add_words(words, "damping", law.damping);
-  if (law.style.name.empty()) add_words(words, "rolling", law.rolling);
-  add_words(words, "twisting", law.twisting);
-  add_words(words, "heat", law.heat);
-  if (law.style.name.empty()) add_words(words, "cohesion", law.cohesion);
-  if (law.limit_damping) words.push_back("limit_damping");
-  return words;
-}
-
-std::vector<std::string> keywords_of(const api::Law &law)
-{
-  std::vector<std::string> words;
-  if (law.style.name.empty()) return words;
-  add_words(words, "rolling", law.rolling);
-  add_words(words, "cohesion", law.cohesion);
-  return words;
-}
-
-// A law with this sub-model, and what it needs beside it.
-api::Law law_with(const lsdcd_sub_model_facts &row, bool beside_style)
-{
-  const std::string field = row.field;
-  api::Law law;
-  if (beside_style)
-    law.style = {"hooke/history", {1000, 300, 20, api::kDerived, 0.5, 1}};
-  else {
-    law.normal = {"hertz/material", {2000, 0.4, 0.3}};
-    law.tangential = {"mindlin", {api::kDerived, 0.5, 0.4}};
-  }
-  const std::map<std::string, api::SubModel *> fields = {
-      {"style", &law.style},     {"normal", &law.normal},    {"tangential", &law.tangential},
-      {"damping", &law.damping}, {"rolling", &law.rolling},  {"twisting", &law.twisting},
-      {"heat", &law.heat},       {"cohesion", &law.cohesion}};
-  *fields.at(field) = with_numbers(row);
-  if (field == "normal") law.tangential = {"linear_history", {300, 0.5, 0.4}};
-  return law;
-}
-
-TEST_F(wall_spec, has_the_bits_of_words_for_each_sub_model)
-{
-  std::set<std::string> fields;
-  for (const lsdcd_sub_model_facts &row : all_sub_models())
-    for (const bool beside_style : {true, false}) {
-      const std::string name = std::string(row.field) + " " + row.name;
-      if (beside_style ? !row.beside_style || name == "rolling none"
-                       : row.field == std::string("style"))
-        continue;
-      SCOPED_TRACE(name);
-      const api::Law law = law_with(row, beside_style);
-      std::vector<std::string> words = words_of(law);
-      words.insert(words.end(), {"mesh", file_, "device", "cpu"});
-      for (const std::string &word : keywords_of(law)) words.push_back(word);
-      api::WallSpec spec = floor(law);
-      if (!law.heat.name.empty() && law.heat.name != "none") {
-        words.insert(words.end(), {"temperature", "350"});
-        spec.meshes[0].temperature = 350;
-      }
-      expect_the_bits_of(words, spec);
-      fields.insert(row.field);
-    }
-  EXPECT_EQ(fields.size(), 8u);
 }
 
 // ---- laws of materials -----------------------------------------------------------------------
@@ -373,24 +241,6 @@ TEST_F(law_of_materials, says_what_is_wrong)
 
 // ---- meshes against words ----------------------------------------------------------------------
 
-TEST_F(wall_spec, has_the_bits_of_words_for_laws_of_meshes_and_types)
-{
-  api::WallSpec spec = floor();
-  spec.meshes[0].placement.move(0, 0, 0.01);
-  spec.meshes[0].law = api::Law::classic({"hooke/history", {2000, 600, 10, api::kDerived, 0.3, 1}});
-  spec.meshes[0].type_laws = {
-      {2, 3, api::Law::classic({"hooke/history", {500, 100, 0, 0, 0.2, 0}})}};
-  spec.meshes.emplace_back(*mesh_, "slope");
-  spec.meshes[1].placement.rotate({1, 0, 0}, 40);
-  spec.meshes[1].type_laws = {
-      {1, 1, api::Law::classic({"hooke/history", {700, 100, 0, 0, 0.2, 0}})}};
-  expect_the_bits_of(words("move 0 0 0.01 law hooke/history 2000 600 10 NULL 0.3 1 "
-                           "law types 2*3 hooke/history 500 100 0 0 0.2 0 "
-                           "mesh " +
-                           file_ + " rotate 1 0 0 40 law types 1 hooke/history 700 100 0 0 0.2 0"),
-                     spec);
-}
-
 TEST_F(wall_spec, has_laws_for_types_from_1)
 {
   api::WallSpec spec = floor();
@@ -399,64 +249,6 @@ TEST_F(wall_spec, has_laws_for_types_from_1)
   Pile pile;
   pile.type[3] = 0;
   EXPECT_EQ(text_of([&] { pile.go(wall, 1); }), "type[3] is 0, below 1");
-}
-
-TEST_F(wall_spec, has_the_bits_of_words_for_placements_and_surfaces)
-{
-  api::WallSpec spec = floor();
-  api::WallMesh &floor = spec.meshes[0];
-  floor.placement.scale(0.7, -1.3, 2)
-      .rotate({0.1, 0.02, 1}, 33)
-      .rotate({1, 0, 0}, 7)
-      .move(0.1, 0.2, 0.03);
-  floor.surface_velocity = {0.3, 0.1, 0};
-  floor.surface_angular_velocity = {0, 0, 0.5};
-  floor.surface_centre = {1, 2, 0};
-  expect_the_bits_of(words("scale 0.7 -1.3 2 rotate 0.1 0.02 1 33 rotate 1 0 0 7 "
-                           "move 0.1 0.2 0.03 surface_vel 0.3 0.1 0 surface_angvel 0 0 0.5 1 2 0"),
-                     spec);
-}
-
-TEST_F(wall_spec, has_the_bits_of_words_for_motions)
-{
-  const std::vector<double> places = {0,   0, 0,    0,    0, 0, 0, 0.005, 0, 0.1, 0.02,
-                                      0.1, 0, 0.05, 0.02, 0, 0, 0, 0,     0, 0};
-  const lsdcd::TempDir dir;
-  const std::string arm =
-      dir.write("arm.txt", "0 0 0 0 0 0 0\n.005 0 .1 .02 .1 0 .05\n.02 0 0 0 0 0 0\n");
-  api::Motion table = api::Motion::table(places, 7, {1, 2, 0});
-  table.straight = table.repeats = 1;
-  api::Motion of_file = api::Motion::table(arm, {1, 2, 0});
-  of_file.straight = of_file.repeats = 1;
-  const std::vector<double> angles = {0, 0, 0.01, 0.5, 0.02, 0};
-  const std::string turn = dir.write("turn.txt", "# degrees\n0, 0\n.01, .5\n.02, 0\n");
-  api::Motion lever = api::Motion::table(angles, 2, {1, 0, 0}, {0, 1, 0}),
-              lever_of_file = api::Motion::table(turn, {1, 0, 0}, {0, 1, 0});
-  lever.degrees = lever_of_file.degrees = 1;
-  const std::string arm_words = "motion table " + arm + " about 1 2 0 linear repeat",
-                    lever_words = "motion table " + turn + " axis 1 0 0 0 1 0 degrees";
-  const struct {
-    std::string words;
-    std::vector<api::Motion> motions;
-  } rows[] = {{"motion linear 0.1 0 0.2", {api::Motion::linear({0.1, 0, 0.2})}},
-              {"motion wiggle 0 0 0.01 0.3", {api::Motion::wiggle({0, 0, 0.01}, 0.3)}},
-              {"wiggle z 0.01 0.3", {api::Motion::cosine({0, 0, 0.01}, 0.3)}},
-              {"motion rotate 1 2 0 0 0.1 1 3 motion linear 0 0 0.1",
-               {api::Motion::rotate({1, 2, 0}, {0, 0.1, 1}, 3), api::Motion::linear({0, 0, 0.1})}},
-              {"motion transrot 0 0 0.1 1 2 0 0 0 2 3",
-               {api::Motion::transrot({0, 0, 0.1}, {1, 2, 0}, {0, 0, 2}, 3)}},
-              {"motion riggle 1 2 0 0 0 2 90 3",
-               {api::Motion::riggle({1, 2, 0}, {0, 0, 2}, 90 * (3.14159265358979323846 / 180), 3)}},
-              {arm_words, {table}},
-              {arm_words, {of_file}},
-              {lever_words, {lever}},
-              {lever_words, {lever_of_file}}};
-  for (const auto &row : rows) {
-    SCOPED_TRACE(row.words);
-    api::WallSpec spec = floor();
-    spec.meshes[0].motions = row.motions;
-    expect_the_bits_of(words(row.words), spec);
-  }
 }
 
 TEST_F(wall_spec, has_the_bits_of_words_for_changes_of_motion)
@@ -678,103 +470,36 @@ TEST_F(wall_spec, a_saved_wall_writes_the_files_that_are_due)
     std::remove(name_of(run, "series.pvd").c_str());
 }
 
-// Rows of tables and numbers of servos count too, which no text of a motion has in full.
-TEST_F(wall_spec, takes_saved_data_of_a_wall_of_the_same_spec_alone)
+// Each field is in test_saved_fields. Here: all digits of numbers count, also of rows of tables, which no text of a motion has.
+TEST_F(wall_spec, takes_saved_data_of_a_wall_with_the_same_digits_alone)
 {
   using Spec = api::WallSpec;
-  using Body = api::RigidBody;
   const api::Mesh other(std::vector<double>{-9, -9, 0, 9, -9, 0, 0, 9, 0}, {0, 1, 2});
-  Spec two = floor(), slides = floor(), coated = floor();
+  Spec two = floor();
   two.meshes.emplace_back(other, "ramp").placement.move(0, 0, 9);
   two.meshes[1].motions = {api::Motion::linear({0, 0, 1})};
   const std::vector<double> far = {0, 0, 0, 0, 1, 0, 0, 0.5}, near = {0, 0, 0, 0, 1, 0, 0, 0.25};
   const Spec by_table = floor_that_moves(api::Motion::table(far, 4)),
              pushes = floor_that_pushes(2, 0.5);
-  slides.meshes[0].body = Body(2, {0, 0, 0}, {1, 1, 2, 0, 0, 0}).slider({0, 0, 1});
-  Body coat(2, {0, 0, 9}, {1, 1, 2, 0, 0, 0});
-  coat.coat = 1;
-  coat.coat_spacing = coat.coat_radius = 2;
-  coated.meshes.emplace_back(other, "lid").placement.move(0, 0, 9);
-  coated.meshes[1].body = coat;
-  const auto body = [](const std::function<void(Body &)> &change) {
-    return [change](Spec &s) { change(*s.meshes.back().body); };
-  };
   const struct {
     const Spec &was;
     std::function<void(Spec &)> change;
     const char *text;    // empty: it may differ
   } rows[] = {
-      {two, [](Spec &) {}, ""},
       {two, [](Spec &s) { s.meshes[0].name = "lid"; }, ""},
-      {two, [](Spec &s) { s.rmax = 1; }, ""},
       {two, [](Spec &s) { s.law.style.numbers[0] *= 1 + 1e-15; }, "the law is hooke/history with "},
-      {two, [](Spec &s) { s.law.style.name = "hertz/history"; }, "the law is hertz/history with "},
-      {two, [](Spec &s) { s.law.style.name = "hooke"; }, "the law is hooke with "},
-      {two,
-       [](Spec &s) {
-         s.law.rolling = {"cdt", {0.1}};
-       },
-       ", rolling cdt with "},
-      {two,
-       [](Spec &s) {
-         s.law = api::Law::granular({"hertz", {1, 0}}, {"mindlin", {1, 1, 0.5}});
-       },
-       "the law is "},
-      {two, [](Spec &s) { s.meshes[0].law = hooke_history(1); }, "the law of meshes[0] is "},
-      {two, [](Spec &s) { s.corner = LSDCD_SUM; }, "the corner is sum and was blend"},
-      {two,
-       [](Spec &s) {
-         s.wear = LSDCD_FINNIE;
-         s.wear_coefficient = 1;
-       },
-       "the wear is finnie 1 and was none 0"},
-      {two, [](Spec &s) { s.meshes.pop_back(); }, "the number of meshes is 1 and was 2"},
       {two, [](Spec &s) { std::swap(s.meshes[0], s.meshes[1]); },
        "the motion of meshes[0] is linear 0 0 1 and was rest"},
-      {two, [&](Spec &s) { s.meshes[0].mesh = other.get(); },
-       "the mesh of meshes[0] is 1 triangle with 3 vertices"},
-      {two, [](Spec &s) { s.meshes[0].placement.move(0, 0, 0.1); },
-       "the placement of meshes[0] is 1 0 0 0, 0 1 0 0, 0 0 1 0.1 and was"},
-      {two, [](Spec &s) { s.meshes[1].motions = {}; },
-       "the motion of meshes[1] is rest and was linear 0 0 1"},
       {two,
        [](Spec &s) {
          s.meshes[1].motions = {api::Motion::linear({0, 0, 1 + 1e-15})};
        },
        "the exact motion 'linear 0 0 1' of meshes[1] is 0 0 1.00"},
-      {two, [](Spec &s) { s.meshes[0].posed_by_caller = true; },
-       "the motion of meshes[0] is poses of the program and was rest"},
-      {two, [](Spec &s) { s.meshes[0].nodes_by_caller = true; },
-       "is nodes of the program and was rest"},
-      {two,
-       [](Spec &s) {
-         s.meshes[0].body = Body(2, {0, 0, 0}, {1, 1, 2, 0, 0, 0});
-       },
-       "the body of meshes[0] is free "},
-      {two, [](Spec &s) { s.meshes[0].surface_velocity[0] = 1e-9; },
-       "the surface velocity of meshes[0] is 1e-09 0 0, turning 0 0 0 about 0 0 0"},
-      {two, [](Spec &s) { s.meshes[1].surface_angular_velocity[2] = 3; },
-       "the surface velocity of meshes[1] is 0 0 0, turning 0 0 3 about 0 0 0 and was"},
       {by_table, [](Spec &) {}, ""},
       {by_table, [&](Spec &s) { s.meshes[0].motions = {api::Motion::table(near, 4)}; },
        "the exact motion 'table of rows' of meshes[0] is "},
       {pushes, [](Spec &s) { s.meshes[0].servo->target += 1e-9; },
-       "the exact servo 'force z 2 vmax 0.5' of meshes[0] is "},
-      {coated, [](Spec &) {}, ""},
-      {coated, body([](Body &b) { b.coat_spacing = 1; }),
-       "a coat of the spacing 1 and radius 2 and was free "},
-      {slides, body([](Body &b) { b.velocity[2] = 1; }), ""},
-      {slides, body([](Body &b) { b.stiffness = 30; }), ", spring 30 0, load "},
-      {slides, body([](Body &b) { b.damping = 2; }), ", damping 2, load "},
-      {slides, body([](Body &b) { b.hi = 1; }), ", limits 0 1, load "},
-      {slides, body([](Body &b) { b.motor = 4; }), ", motor 4, load "},
-      {slides, body([](Body &b) { b.load[0] = 5; }), ", load 5 0 0, moment "},
-      {slides, body([](Body &b) { b.moment[1] = 6; }), ", moment 0 6 0, gravity "},
-      {slides, body([](Body &b) { b.gravity[2] = -9.81; }), ", gravity 0 0 -9.81"},
-      {slides, body([](Body &b) {
-         b.slider({1, 0, 0});
-       }),
-       "slider 0 0 0 1 0 0"}};
+       "the exact servo 'force z 2 vmax 0.5' of meshes[0] is "}};
   for (const auto &row : rows) {
     Spec changed = row.was;
     row.change(changed);
@@ -782,10 +507,7 @@ TEST_F(wall_spec, takes_saved_data_of_a_wall_of_the_same_spec_alone)
     const std::vector<double> saved = was.save();
     const std::string text = text_of([&] { is.restore(saved); });
     EXPECT_EQ(text.empty(), !*row.text) << text << row.text;
-    if (!*row.text) continue;
-    EXPECT_TRUE(begins(text, "these are numbers of a different wall: the ")) << row.text;
     EXPECT_TRUE(has(text, row.text));
-    EXPECT_EQ(code_of([&] { is.restore(saved); }), LSDCD_ERROR_ARGUMENT);
   }
   Spec stiff = two;
   stiff.law.style.numbers[0] *= 2;
@@ -793,32 +515,6 @@ TEST_F(wall_spec, takes_saved_data_of_a_wall_of_the_same_spec_alone)
   slider().step(wall, 3);
   stiffer.restore(wall.save(), true);
   EXPECT_EQ(stiffer.pose(1), wall.pose(1));
-}
-
-// The data do not have them: without a word the old ones would move the mesh.
-TEST_F(wall_spec, takes_saved_data_with_the_motion_servo_and_body_that_were_set_later)
-{
-  api::WallSpec spec = floor();
-  spec.meshes.push_back(spec.meshes[0]);
-  spec.meshes[1].body = api::RigidBody(2, {0, 0, 0}, {1, 1, 2, 0, 0, 0}).slider({0, 0, 1});
-  api::RigidBody sprung = *spec.meshes[1].body;
-  sprung.stiffness = 30;
-  const api::Servo servo = *floor_that_pushes(2, 0.5).meshes[0].servo;
-  const std::function<void(lsdcd::Wall &)> changes[] = {
-      [&](lsdcd::Wall &wall) { wall.set_body(1, sprung); },
-      [&](lsdcd::Wall &wall) { wall.set_servo(0, servo); },
-      [&](lsdcd::Wall &wall) {
-        wall.set_motion(0, {api::Motion::linear({0, 0, -1})});
-      }};
-  for (const auto &change : changes) {
-    lsdcd::Wall wall(spec), bare(spec), same(spec);
-    change(wall);
-    const std::vector<double> saved = wall.save();
-    EXPECT_EQ(code_of([&] { bare.restore(saved); }), LSDCD_ERROR_ARGUMENT);
-    change(same);
-    EXPECT_EQ(text_of([&] { same.restore(saved); }), "");
-    EXPECT_EQ(same.save(), saved);
-  }
 }
 
 // The vertices of a mesh that moves are in the box: lifted by the motion, and lower by the wear.
@@ -1348,8 +1044,8 @@ TEST_F(wall_spec, names_the_field_its_value_and_the_remedy)
 
 // ---- bodies ----------------------------------------------------------------------------------
 
-// A sphere at rest pushes a plate of mass 2 down: by a spec and by words.
-TEST_F(wall_spec, a_body_has_the_bits_of_its_words)
+// A sphere at rest pushes a plate of mass 2 down.
+TEST_F(wall_spec, a_body_tells_where_it_is_and_its_energy)
 {
   api::WallSpec spec = floor();
   api::RigidBody body(2, {0, 0, 0}, {1, 1, 2, 0, 0, 0});
@@ -1364,23 +1060,10 @@ TEST_F(wall_spec, a_body_has_the_bits_of_its_words)
   body.gravity[2] = -9.81;
   body.velocity[2] = 0.2;
   spec.meshes[0].body = body;
-  api::Wall by_spec(spec);
-  lsdcd::ScriptWall by_words(
-      words("body mass 2 com 0 0 0 inertia 1 1 2 0 0 0 joint slider 0 0 1 spring 30 0.5 0.1 "
-            "limits -1 0.5 motor 0.3 load 0 0 -0.7 gravity 0 0 -9.81 velocity 0 0 0.2"));
+  api::Wall wall(spec);
   Grains grains(0.3, 0.2, 0.49);
-  for (int k = 0; k < 20; k++) {
-    grains.step(by_spec);
-    grains.step(by_words);
-  }
-  const api::BodyState a = by_spec.body(0);
-  std::vector<double> numbers;
-  for (const auto &[from, n] : {std::pair<const double *, int>{a.centre, 3},
-                                {a.quaternion, 4},
-                                {a.velocity, 3},
-                                {a.angular_velocity, 3}})
-    std::copy_n(from, n, std::back_inserter(numbers));
-  EXPECT_EQ(numbers, by_words.body(0));
+  for (int k = 0; k < 20; k++) grains.step(wall);
+  const api::BodyState a = wall.body(0);
   EXPECT_LT(a.velocity[2], 0.2);
   EXPECT_NEAR(a.coordinate, a.centre[2], 1e-15);
   EXPECT_EQ(a.quaternion[0], 1);
