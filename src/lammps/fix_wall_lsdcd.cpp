@@ -312,6 +312,7 @@ void FixWallLsdcd::init()
   if (spec().has_bodies()) init_bodies();
   for (const int k : wall->inputs_read()) find_variable(spec().inputs[k]);
   wall->begin_run(update->ntimestep, thermo_virial);
+  if (callbacks) ask_for_most_room();    // of fixes that are made after it, too
   check_files_apart(*this, *modify, host, update->ntimestep);
   init_nodes();
   if (doubled_warned) return;

@@ -8,6 +8,11 @@ the numbers are equal to the last bit, through migration and sorting. Fix balanc
 takes positions to box coordinates and back, which rounds them. LSDCD_QUICK=1 takes one law.
 """
 
+import os
+import re
+
+import pytest
+
 import lmp
 import scene
 from facts import at_most, fact
@@ -50,3 +55,15 @@ def test_ranks(folder):
                         for a, b, s in zip(u, v, size))
             at_most(f"{where}: same totals", apart, 1e-10 if more else 1e-12)
             fact(f"{where}: one grid per node", "one copy per node" in text)
+
+
+@pytest.mark.skipif(lmp.ON_HOST, reason="the preloaded module is of the LAMMPS that is installed")
+def test_room_of_other_fixes(folder):
+    """Bisections send atoms in messages with room for what the one fix with the largest maxexchange packs: ours asks for that of all."""
+    more = "fix flow all massflow/lsdcd mesh floor.stl move 0 0 0.3\ncomm_style tiled\nfix even all balance 20 1.0 rcb\n"
+    for law in ("hooke", "granular"):
+        text = scene.SETTINGS + "read_data start.data\n" + scene.forces(LAWS[law], more=more) + "run 400\n"
+        out = lmp.run_well(text, folder, 2, env={"LD_PRELOAD": os.environ["LSDCD_EXCHANGE_ROOM"]})
+        rooms = [tuple(map(int, row)) for row in re.findall(r"room for (\d+), packed (\d+)", out)]
+        fact(f"{law}: all fixes find room for what they pack", len(rooms) > 10 and max(packed for _, packed in rooms) > 10 and
+             all(packed <= room for room, packed in rooms), rooms[:20])

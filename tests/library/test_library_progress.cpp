@@ -133,7 +133,9 @@ template <class T>
 void expect_same(const lsdcd::Grid &grid, bool with_radii)
 {
   const std::size_t n = 20000;
-  const std::vector<T> points = random_points<T>(n), radii(n, T(0.25));
+  const std::vector<T> points = random_points<T>(n);
+  std::vector<T> radii;    // each another one
+  for (std::size_t i = 0; i < n; i++) radii.push_back(T(0.05) + T(0.2) * T(i) / T(n));
   // The bytes of all answers, so that no number equals no number.
   const auto answers = [&](const lsdcd::Progress &progress) {
     std::vector<T> distance(2 * n), winding(2 * n), with_sign(2 * n), closest(3 * n), normal(3 * n),

@@ -157,16 +157,21 @@ TEST_F(wall, shows_its_log_and_warnings)
   EXPECT_EQ(shown.warnings.size(), 1u);
 }
 
-TEST_F(wall, acts_through_a_periodic_face)
+TEST_F(wall, acts_through_a_periodic_face_and_warns_past_it)
 {
-  lsdcd::WallOptions options;
-  set_box(options, 20);
+  Shown shown;
+  set_box(shown, 20);
   api::WallSpec spec = floor();
   spec.meshes[0].placement.move(0, 0, -19.6);
-  lsdcd::Wall wall(spec, &options);
+  lsdcd::Wall wall(spec, &shown);
   Grains grains(0, 0, 19.92);    // the image of the floor is at z = 20.4
   grains.step(wall);
   EXPECT_NEAR(grains.force[2], -kN * 0.02, kN * 1e-13);
+  EXPECT_TRUE(shown.warnings.empty());
+  grains.x[2] = 20.3;
+  grains.step(wall);
+  ASSERT_EQ(shown.warnings.size(), 1u);
+  EXPECT_TRUE(begins(shown.warnings[0], "a particle was 0.3 past a periodic face"));
 }
 
 TEST_F(wall, refuses_numbers_that_it_did_not_save)

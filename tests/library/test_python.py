@@ -204,6 +204,12 @@ def test_shapes():
          and found.triangle.dtype == np.uint32, found)
     far = grid.shape_distances(centres, (2, 1, 1), (2, 2), [[1, 0, 0, 0], turned, turned])
     fact("all have distances, below 0 where they touch", np.allclose(far.distance, [-0.05, -0.1, 1], rtol=0, atol=1e-14), far)
+    fact("between a place of the wall and one of the grain", np.allclose(far.closest, [[0, 0, 0], [1, 0, 0], [0, 0, 0]], rtol=0, atol=1e-14) and
+         np.allclose(far.of_grain, far.closest + far.distance[:, None] * [0, 0, 1], rtol=0, atol=1e-14), far)
+    many, ways = np.tile(centres, (2000, 1)), np.tile([[1, 0, 0, 0], turned, turned], (2000, 1))    # more than a part of a listener
+    for name, ask in (("contacts", grid.shape_contacts), ("distances", grid.shape_distances)):
+        fact(f"{name} of grains are the same with a listener", ask(many, (2, 1, 1), quaternions=ways, progress=lambda what, done: None)
+             == ask(many, (2, 1, 1), quaternions=ways), name)
     one = grid.shape_contacts((0, 0, 0.9), (1, 1, 1), (8, 8))
     fact("a box with rounded edges lies on its side", one.first.shape == (2,) and abs(one.overlap[0] - 0.1) < 1e-14, one)
     facts = lsdcd.shape_facts((3, 2, 1), (4, 8))

@@ -162,14 +162,15 @@ def test_distance(folder):
     exact = np.abs(box_distance(points.astype(np.float32).astype(float), hi))
     answered = np.load(folder / "floats_out.npy")["distance"]
     fact("floats are exact points", np.abs(answered - exact)[np.isfinite(answered)].max() <= DISTANCE)
-    (folder / "named.csv").write_text("# grains\nid; z; y; x\n" + "".join(
-        f"{i}; {z!r}; {y!r}; +{x!r}\n" for i, (x, y, z) in enumerate((abs(points)).tolist())))
+    for file, names in (("named.csv", "id; z; y; x"), ("capitals.csv", "ID; Z; Y; X")):
+        (folder / file).write_text(f"# grains\n{names}\n" + "".join(
+            f"{i}; {z!r}; {y!r}; +{x!r}\n" for i, (x, y, z) in enumerate((abs(points)).tolist())))
     np.save(folder / "abs.npy", abs(points))
     answers = []
-    for file in ("named.csv", "abs.npy"):
+    for file in ("named.csv", "capitals.csv", "abs.npy"):
         told(folder, "distance", "box.stl", file, "--radius", RADIUS, "-o", "named.npy")
         answers.append((folder / "named.npy").read_bytes())
-    fact("columns go by their names", answers[0] == answers[1])
+    fact("columns go by their names", answers[0] == answers[1] == answers[2])
     # A name or a value of nothing keeps its column, and one may have blanks in it.
     for name, head, row in (("index", ",x,y,z", "{i},{x!r},{y!r},{z!r}"),
                             ("gaps", "id,name,x,y,z,r", "{i},,{x!r},{y!r},{z!r},"),
