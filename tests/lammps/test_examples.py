@@ -18,7 +18,7 @@ EXAMPLES = lmp.HERE.parent.parent / "examples"
 # in.NAME and, where it has another name, its folder; variables. A script fails itself where what its README names is violated: a balance
 # of forces or torques, of mass, a closed form.
 SCRIPTS = {"flap": "", "paddle": "", "filling": "", "feed": "", "piston": "", "lid": "", "hopper": "", "screw": "", "screen": "", "belt": "",
-           "insertion": "", "rest": "vessel", "drum": "drum speed 0.15", "wheel": "wheel steps 10000", "clumps": "", "repose": "repose rolling 0.1 cohesion 500", "mixer": "mixer turns 2",
+           "insertion": "", "rest": "vessel", "drum": "drum speed 0.15", "mill": "mill until 0.05", "wheel": "wheel steps 10000", "clumps": "", "repose": "repose rolling 0.1 cohesion 500", "mixer": "mixer turns 2",
            "sagging-belt": "sagging-belt fill 15000 measure 10000", "triaxial": "triaxial strain 0.05"}
 # Programs: wear and forces of a chute's triangles, a chute that is worn through, both with their pictures; a screw feeder without GRANSURF;
 # the forces of the LAMMPS that is installed on a plane, but for what the page says; the same wall cut into other triangles (round-off with
