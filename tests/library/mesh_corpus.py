@@ -7,6 +7,7 @@
 """
 import math
 import pathlib
+import re
 import struct
 import sys
 
@@ -36,6 +37,13 @@ class Solid:
 
     def __init__(self, volume, area):
         self.volume, self.area = volume, area
+
+
+class Alike:
+    """How many triangles, all of one winding and in the plane z = 0."""
+
+    def __init__(self, n):
+        self.n = n
 
 
 class Error:
@@ -250,26 +258,50 @@ OFF = {
 }
 
 
+# Of PLY: both names of each type, and struct's.
+TYPES = (("char", "int8", "b"), ("uchar", "uint8", "B"), ("short", "int16", "h"), ("ushort", "uint16", "H"), ("int", "int32", "i"),
+         ("uint", "uint32", "I"), ("float", "float32", "f"), ("double", "float64", "d"))
+CODE = {name: code for *names, code in TYPES for name in names}
+
+
+def ply_file(form, head, *rows):
+    """A PLY of any elements: the lines of its header, and rows, each of (type, numbers)."""
+    order, data = ">" if "big" in form else "<", b""
+    for row in rows:
+        for kind, values in row:
+            data += numbers(*values).encode() + b" " if form == "ascii" else struct.pack(f"{order}{len(values)}{CODE[kind]}", *values)
+        data += b"\n" if form == "ascii" else b""
+    return f"ply\nformat {form} 1.0\n{head}end_header\n".encode() + data
+
+
+def vertex_head(n, kind="float", names="x y z"):
+    return f"element vertex {n}\n" + "".join(f"property {kind} {name}\n" for name in names.split())
+
+
 def ply(form, vertices, faces, vertex="float x y z", face="list uchar int vertex_indices", comment=""):
     """A PLY. A vertex is a row of numbers of one type, a face its corners."""
-    kind, *names = vertex.split()
+    kind, names = vertex.split(" ", 1)
     n_type, i_type = face.split()[1:3]
-    head = (f"ply\nformat {form} 1.0\n{comment}element vertex {len(vertices)}\n" +
-            "".join(f"property {kind} {name}\n" for name in names) +
-            f"element face {len(faces)}\nproperty {face}\nend_header\n").encode()
-    if form == "ascii":
-        return head + "".join(f"{numbers(*v)}\n" for v in vertices).encode() + "".join(
-            f"{len(f)} {numbers(*f)}\n" for f in faces).encode()
-    order = "<" if "little" in form else ">"
-    code = {"float": "f", "double": "d", "short": "h", "uchar": "B", "int": "i", "uint": "I", "ushort": "H"}
-    return (head + b"".join(struct.pack(f"{order}{len(v)}{code[kind]}", *v) for v in vertices) + b"".join(
-        struct.pack(f"{order}{code[n_type]}{len(f)}{code[i_type]}", len(f), *f) for f in faces))
+    return ply_file(form, f"{comment}{vertex_head(len(vertices), kind, names)}element face {len(faces)}\nproperty {face}\n",
+                    *([(kind, v)] for v in vertices), *([(n_type, [len(f)]), (i_type, f)] for f in faces))
 
 
 LITTLE, BIG = "binary_little_endian", "binary_big_endian"
-Q = [A, B, C, D]
+Q, P3 = [A, B, C, D], [A, B, D]
 TWO = [(0, 1, 2), (0, 2, 3)]
-# What is no matter of the program that wrote it is in unit/test_read_ply.cpp.
+FORMS = ("ascii", LITTLE, BIG)
+PLAIN, FACE_HEAD = ply("ascii", [tuple(map(float, x)) for x in P3], [(0, 1, 2)]), "element face 1\nproperty list uchar int vertex_indices\n"
+ROWS = "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n"
+
+
+def whole(head, data):
+    return f"ply\nformat ascii 1.0\n{head}end_header\n{data}"
+
+
+def row(face):
+    return whole(vertex_head(3) + FACE_HEAD, ROWS.replace("3 0 1 2", face))
+
+
 PLY = {
     "text": (ply("ascii", Q, TWO), SQUARE),
     "little": (ply(LITTLE, Q, TWO), SQUARE),
@@ -291,7 +323,86 @@ PLY = {
               "property list int int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n1 1 0\n4 0 1 2 3\n", [(A, B, D), (D, B, C)]),
     "floor_l": (ply("ascii", L, [range(6)]), Polygon(L, 3)),
     "bow_tie": (ply("ascii", [A, C, B, D], [range(4)]), Error("face 1", "4 corners", "crosses itself near (")),
+    # All digits, even of float properties.
+    "digits": ("ply\nformat ascii 1.0\n" + vertex_head(3) + FACE_HEAD + "end_header\n0.1 5421987.123456789 1e-300\n1 0 0\n0 1 0\n3 0 1 2\n",
+               [((0.1, 5421987.123456789, 1e-300), B, D)]),
+    "long_lines_of_a_header": (ply(LITTLE, P3, [(0, 1, 2)], comment="comment " + 3000000 * "x" + "\n"), ONE),
+    "windows": (PLAIN.replace(b"\n", b"\r\n"), ONE), "old_mac": (PLAIN.replace(b"\n", b"\r"), ONE),
+    "empty_lines": (PLAIN.replace(b"\n", b"\n\n"), ONE), "blanks_at_ends": (PLAIN.replace(b"\n", b" \t\n"), ONE),
+    "byte_order_mark": (b"\xef\xbb\xbf" + PLAIN, ONE), "no_last_line_end": (PLAIN.rstrip(b"\n "), ONE),
+    "comments": (re.sub(b"(format|element vertex|property float y|end_header)", b"comment element face 9\nobj_info property list a b c d\n"
+                        b"comment\n\\1", PLAIN).replace(b"ply\ncomment", b"ply\ncomment", 1), ONE),
+    "face_of_none": (row("0"), Error("line 13 (face 1): the face has no corners")),
+    "row_too_long": (row("3 0 1 2 2"), Error("line 13 (face 1): '2' follows all values")),
+    "row_too_short": (PLAIN.replace(b"1.0 0.0 0.0", b"1 0"), Error("line 11 (vertex 2): the line ends before")),
+    "row_behind": (PLAIN + b"\n3 0 1 2\n", Error("line 15: '3' follows the last element")),
+    "byte_behind": (ply(LITTLE, P3, [(0, 1, 2)]) + b"\n", Error("1 byte follows the last element")),
+    "binary_nan": (ply(BIG, [(0, 0, math.nan)], [()]), Error("(vertex 1): the value of 'z' is nan, not a finite number")),
+    "control_characters": (row("3 0 1 \x1b[31m"), Error("'?[31m'")),
+    "no_z": (whole(vertex_head(1, names="x y") + FACE_HEAD, "0 0\n"), Error("line 3: element 'vertex' has no property 'z' that is one number")),
+    "x_is_a_list": (whole("element vertex 1\nproperty list int float x\n" + FACE_HEAD, "0\n"), Error("line 3: element 'vertex' has no property 'x'")),
+    "no_corners": (whole(vertex_head(3) + FACE_HEAD.replace("vertex_indices", "corners"), ROWS), Error("line 7: element 'face' has no list 'vertex_indices'")),
+    "corners_no_list": (whole(vertex_head(3) + "element face 1\nproperty int vertex_indices\n", ROWS), Error("line 7: element 'face' has no list 'vertex_indices'")),
+    "no_faces": (whole(vertex_head(3), ROWS[:-8]), Error("no facets; its header promises 'element vertex 3'")),
+    "no_vertices": (whole(FACE_HEAD, "3 0 1 2\n"), Error("the file has 0, counted from 0")),
+    "no_format": ("ply\n" + vertex_head(3) + FACE_HEAD + "end_header\n" + ROWS, Error("no line 'format'")),
+    "two_elements": (whole(vertex_head(3) + 2 * FACE_HEAD, ""), Error("line 9: the header has element 'face' twice")),
+    "two_properties": (whole(vertex_head(3) + "property double x\n" + FACE_HEAD, ""), Error("properties 'x' and 'x'")),
+    "two_names_of_a_list": (whole(vertex_head(3) + FACE_HEAD + "property list int int vertex_index\n", ROWS), Error("properties 'vertex_indices' and 'vertex_index'")),
+    "property_first": (whole("property float x\n", ""), Error("line 3: 'property' found")),
+    "type_unknown": (whole("element vertex 1\nproperty real x\n", ""), Error("'real', not one of char, int8,")),
+    "another_version": ("ply\nformat ascii 2.0\n", Error("line 2: 'format ascii 2.0' is not 'format ascii 1.0'")),
+    "a_solid": ("solid a\n", Error("line 1: 'solid' found where 'ply' is expected; this is not a PLY file")),
+    "word_unknown": ("ply\nformat ascii 1.0\nmade by hand\n", Error("line 3: 'made' found")), "escape": ("ply\n\x1b[31m\n", Error("'?[31m'")),
+    "no_end_of_header": (whole(vertex_head(3) + FACE_HEAD, ROWS).replace("end_header\n", ""), Error("line 9: '0' found where")),
+    "header_alone": ("ply\nformat ascii 1.0\n" + vertex_head(3) + FACE_HEAD, Error("without 'end_header'")),
+    "utf_16": (b"\xff\xfep", Error("line 1: the text is in UTF-16")), "empty": ("", Error("line 1: the file is empty")),
+    **{f"list_begins_{k}": (row(f"{n} 0 1 2"), Error(f"line 13 (face 1): the list 'vertex_indices' begins with {n}"))
+       for k, n in enumerate(("-1", "2.5", "1e+30"))},
+    **{f"index_{k}": (row(f"3 0 1 {n}"), Error(f"line 13 (face 1): a corner is vertex {n}, but the file has 3, counted from 0"))
+       for k, n in enumerate(("3", "-1", "4294967295", "1.5", "1e+300"))},
+    **{f"count_{k}": (PLAIN.replace(b"vertex 3", b"vertex " + n), Error("line 3: 'element vertex"))
+       for k, n in enumerate((b"-3", b"3.0", b"99999999999999999999", b"x", b"3 3", b""))},
+    **{f"coordinate_{k}": (PLAIN.replace(b"1.0 0.0 0.0", f"1 {n} 0".encode()), Error(f"line 11 (vertex 2): the value of 'y' is '{n}', not a {what}number"))
+       for k, (n, what) in enumerate([*((n, "") for n in ("0.2D+01", "1,5", "x", "+-1", "0x10", "1.#IND")), *((n, "finite ") for n in (
+           "nan", "-inf", "1e400"))])},
 }
+# Of each format, whatever the program: types and their names, properties in any order, elements that are no mesh, strips.
+LOW_HIGH = {"char": (-128, 127), "uchar": (1, 255), "short": (-32768, 258), "ushort": (2570, 65535), "int": (-2147483648, 2147483647),
+            "uint": (66051, 4294967295), "float": (0.10000000149011612, -3000.25), "double": (0.1, -123456.789)}
+# A grid of two columns, numbered row by row: every triangle of its strip has its normal along z. -1 begins a strip with a winding of its own,
+# and corners that are given twice lead from the first square to the one after the next.
+COLUMNS = [(i, y, 0) for i in range(4) for y in (0, -1)]
+STRIPS = {"strip": ((1, 0, 3, 2, 5, 4, 7, 6), 6), "strips": ((1, 0, 3, -1, 3, 2, 5, 4, -1), 3), "strip_leads_on": ((1, 0, 3, 2, 2, 5, 5, 4, 7, 6), 4)}
+
+
+def strip(form, corners):
+    return ply_file(form, vertex_head(8) + "element tristrips 1\nproperty list int int vertex_indices\n",
+                    *([("float", x)] for x in COLUMNS), [("int", [len(corners)]), ("int", corners)])
+
+
+for form in FORMS:
+    face_row = [("uchar", [3]), ("int", [0, 1, 2])]
+    for *names, code in TYPES:
+        low, high = LOW_HIGH[names[0]]
+        for name in names:
+            PLY[f"{name}_{form}"] = (ply(form, [(low, high, 0), (low, 0, 0), (0, high, 0)], [(0, 1, 2)], f"{name} x y z"),
+                                     [((low, high, 0), (low, 0, 0), (0, high, 0))])
+        for *others, _ in TYPES:
+            PLY[f"list_{names[0]}_{others[0]}_{form}"] = (ply(form, P3, [(0, 1, 2)], face=f"list {names[0]} {others[0]} vertex_index"), ONE)
+    PLY[f"any_order_{form}"] = (ply_file(
+        form, "element vertex 3\nproperty uchar red\nproperty float z\nproperty list ushort short neighbours\nproperty double x\nproperty float y\n"
+        "property int flags\nelement face 1\nproperty list uchar float texcoord\nproperty list uchar int vertex_indices\nproperty uchar flags\n",
+        *([("uchar", [10]), ("float", [0]), ("ushort", [v]), ("short", v * [7]), ("double", [x]), ("float", [y]), ("int", [9])]
+          for v, (x, y, _) in enumerate(P3)), [("uchar", [2]), ("float", [0.5, 0.25]), *face_row, ("uchar", [1])]), ONE)
+    PLY[f"other_elements_{form}"] = (ply_file(    # one without properties takes no room
+        form, "element camera 2\nproperty double focus\nproperty list int short grid\n" + vertex_head(3) + "element material 1\nproperty uchar red\n" +
+        FACE_HEAD + "element empty 1000000000000000000\nelement range_grid 2\nproperty list uchar int vertex_indices\n",
+        [("double", [1]), ("int", [3]), ("short", [1, 2, 3])], [("double", [2]), ("int", [0])], *([("float", x)] for x in P3), [("uchar", [200])],
+        face_row, [("uchar", [0])], [("uchar", [1]), ("int", [2])]), ONE)
+    PLY[f"faces_first_{form}"] = (ply_file(form, FACE_HEAD + vertex_head(3), face_row, *([("float", x)] for x in P3)), ONE)
+    for name, (corners, n) in STRIPS.items():
+        PLY[f"{name}_{form}"] = (strip(form, corners), Alike(n))
 
 
 def facet(*corners, normal="0 0 0"):
