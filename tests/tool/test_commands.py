@@ -51,6 +51,8 @@ GOOD = [
     ("collide wall.stl body.stl --pose 3 0 0 --json", {"poses": 1, "colliding": 0, "pairs": 0}),
     ("material glass.lsdcd", ["material glass", "density", "kg/m3"]),
     ("material glass.lsdcd glass --on aluminium", ["granular hertz/material", "tangential"]),
+    ("material glass.lsdcd glass --normal dmt --with surface_energy 0.5", ["granular dmt 6.9e+10 0 0.23 0.5"]),
+    ("material glass.lsdcd glass --units cgs --with restitution 0.5", ["hertz/material 6.9e+11 0.5 0.23"]),
     # G = 2e6 and nu = 0.25: pi 0.002 sqrt(2500 / 2e6) / 0.917375.
     ("timestep --young 5e6 --poisson 0.25 --density 2500 --radius 0.002 --speed 1",
      ["Rayleigh time      0.0002422", "timestep           2.72e-05    set by the impact of grain on grain",
