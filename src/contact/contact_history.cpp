@@ -35,32 +35,27 @@ void ContactHistory::assign(std::vector<int> first, std::vector<int> count,
 
 int ContactHistory::pack(int i, double *buffer) const
 {
-  int at = 0;
-  buffer[at++] = count_[i];
+  double *at = buffer;
+  *at++ = count_[i];
   for (int k = 0; k < count_[i]; k++) {
-    const Spring &s = pool_[first_[i] + k];
-    buffer[at++] = packed_location(s);
-    for (int c = 0; c < 3; c++) buffer[at++] = s.normal[c];
-    for (int c = 0; c < 3; c++) buffer[at++] = s.shear[c];
-    for (int c = 0; c < n_extra_; c++) buffer[at++] = extra_of(i)[k * n_extra_ + c];
+    at = pack_spring(pool_[first_[i] + k], at);
+    at = std::copy_n(extra_of(i) + k * n_extra_, n_extra_, at);
   }
-  return at;
+  return static_cast<int>(at - buffer);
 }
 
 int ContactHistory::unpack(int i, const double *buffer)
 {
-  int at = 0;
-  arrived_.resize(static_cast<std::size_t>(buffer[at++]));
+  const double *at = buffer;
+  arrived_.resize(static_cast<std::size_t>(*at++));
   arrived_extra_.clear();
   for (Spring &s : arrived_) {
-    s = {};
-    unpack_location(buffer[at++], s);
-    for (int c = 0; c < 3; c++) s.normal[c] = buffer[at++];
-    for (int c = 0; c < 3; c++) s.shear[c] = buffer[at++];
-    for (int c = 0; c < n_extra_; c++) arrived_extra_.push_back(buffer[at++]);
+    at = unpack_spring(at, s);
+    arrived_extra_.insert(arrived_extra_.end(), at, at + n_extra_);
+    at += n_extra_;
   }
   set(i, arrived_.data(), arrived_extra_.data(), static_cast<int>(arrived_.size()));
-  return at;
+  return static_cast<int>(at - buffer);
 }
 
 int ContactHistory::largest_packed_size() const

@@ -20,10 +20,7 @@ class ContactHistory {
   explicit ContactHistory(int n_extra = 0) : n_extra_(n_extra) {}
 
   int n_extra() const { return n_extra_; }
-  int doubles_per_spring() const
-  {
-    return 7 + n_extra_;
-  }    // feature, normal, shear displacement, extra
+  int doubles_per_spring() const { return kPackedSpring + n_extra_; }
 
   void grow(int n_spheres);    // keeps what is there, new spheres have none
   void copy(int from, int to) { first_[to] = first_[from], count_[to] = count_[from]; }

@@ -13,6 +13,12 @@ namespace lsdcd {
 // many tolerances apart, as each is off by at most two.
 constexpr Real kSamePoint = 4;
 
+// Is this the way between two closest points of one contact? Lengths.
+LSDCD_FN bool is_same_point(const Vec3 &apart, Real tolerance)
+{
+  return !(norm_sq(apart) > kSamePoint * kSamePoint * tolerance * tolerance);
+}
+
 // Adds a contact unless the set already has one at the same point of the wall. Then the
 // nearer one stays, or the lower feature, whatever the order. A closest point between two
 // others merges all three.
@@ -23,7 +29,7 @@ LSDCD_FN void add_once(ContactSet<kMost> &set, FeatureCode feature, const Closes
   int at = -1;
   for (int i = 0; i < set.n; i++) {
     const Vec3 apart = set.distance[i] * set.normal[i] - closest.distance * closest.normal;
-    if (norm_sq(apart) > kSamePoint * kSamePoint * tolerance * tolerance) continue;
+    if (!is_same_point(apart, tolerance)) continue;
     const Real held = at < 0 ? closest.distance : set.distance[at];
     const FeatureCode holder = at < 0 ? feature : set.feature[at];
     const bool better =

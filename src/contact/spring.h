@@ -19,7 +19,7 @@ struct Spring {
   std::uint32_t mesh;    // of the wall: the mesh of the feature and of the frame
 };
 
-// Mesh and feature as one double, for exchange and restart files: 53 bits are exact.
+// Mesh and feature as one double: 53 bits are exact.
 LSDCD_FN double packed_location(const Spring &s)
 {
   return 4294967296. * s.mesh + s.feature;
@@ -29,6 +29,23 @@ LSDCD_FN void unpack_location(double packed, Spring &s)
   const std::uint64_t place = static_cast<std::uint64_t>(packed);
   s.feature = static_cast<FeatureCode>(place);
   s.mesh = static_cast<std::uint32_t>(place >> 32);
+}
+
+// A spring as numbers, for exchange and restart files: its place, normal and shear displacement. Both return the place behind.
+constexpr int kPackedSpring = 7;
+LSDCD_FN double *pack_spring(const Spring &s, double *to)
+{
+  *to++ = packed_location(s);
+  for (int d = 0; d < 3; d++) *to++ = s.normal[d];
+  for (int d = 0; d < 3; d++) *to++ = s.shear[d];
+  return to;
+}
+LSDCD_FN const double *unpack_spring(const double *from, Spring &s)
+{
+  unpack_location(*from++, s);
+  for (int d = 0; d < 3; d++) s.normal[d] = *from++;
+  for (int d = 0; d < 3; d++) s.shear[d] = *from++;
+  return from;
 }
 
 // The springs of many spheres, on the CPU or on a device: those of sphere i are

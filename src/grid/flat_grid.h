@@ -30,7 +30,7 @@ class FlatGrid {
   OwnedArray<char, LargeMemory> memory_;
 };
 
-// The same of a grid that was built for a purpose: FlatOf<StepGrid>.
+// A flat grid that knows what it was built for, as FlatOf<StepGrid>.
 template <class Grid>
 class FlatOf : public FlatGrid {
  public:

@@ -201,7 +201,8 @@ void Wall::begin(const HostSpheres &spheres, const StepInput &input)
   open_step(spheres, input);
   if (!changing_.empty()) change_surfaces(input.step);
   if (!moving_.empty()) move(spheres);
-  place_grids(spheres);
+  // A mesh that rests stays where the last box had it.
+  if (input.look || input.box_changes || !moving_.empty()) place_grids(spheres);
   for (const MeshPart *m : moving_) engine_->set_pose(m->pose(), m->index);
   if (input.new_spheres) look_at_new_spheres(spheres);
   failure_.reset();    // that of the last step is asked for until here
@@ -271,8 +272,6 @@ void Wall::place_grids(const HostSpheres &spheres)
   else if (input_.box_changes && grids_.fit_box(step))
     engine_->expire_choice();
   if (placed_.empty()) return;
-  // A mesh that rests stays where the last box had it.
-  if (moving_.empty() && !input_.look && !input_.box_changes) return;
   box_checks_.check_moving(placed_, grids_.box(), cutoff(), input_.step);
   box_checks_.check_gone(placed_, grids_.box(), cutoff(), step);
 }

@@ -220,16 +220,14 @@ class ResidentSprings : public Springs {
     const int total = numbered(std::int64_t(n) + numbered(b_.exclusive_scan(at, n)));
     b_.for_each(n, [=] LSDCD_LAMBDA(std::size_t k) {
       const int i = which[k];
-      int m = n + at[k];
-      buffer[k] = as_double(m);
-      buffer[m++] = count[i];
+      const int begin = n + at[k];
+      buffer[k] = as_double(begin);
+      double *to = buffer + begin;
+      *to++ = count[i];
       for (int c = 0; c < count[i]; c++) {
         const std::size_t source = std::size_t(springs.first[i]) + c;
-        const Spring &s = springs.pool[source];
-        buffer[m++] = packed_location(s);
-        for (int d = 0; d < 3; d++) buffer[m++] = s.normal[d];
-        for (int d = 0; d < 3; d++) buffer[m++] = s.shear[d];
-        for (int e = 0; e < n_extra; e++) buffer[m++] = springs.extra[source * n_extra + e];
+        to = pack_spring(springs.pool[source], to);
+        for (int e = 0; e < n_extra; e++) *to++ = springs.extra[source * n_extra + e];
       }
       const int j = from[k];
       if (j >= 0) {
@@ -259,17 +257,13 @@ class ResidentSprings : public Springs {
     b_.for_each(n, [=] LSDCD_LAMBDA(std::size_t k) {
       const int i = to[k];
       if (i < 0) return;
-      std::int64_t m = place_in_message(buffer, k, n_first, second);
+      const double *from = buffer + place_in_message(buffer, k, n_first, second);
       first[i] = begin + at[k];
-      count[i] = static_cast<int>(buffer[m++]);
+      count[i] = static_cast<int>(*from++);
       for (int c = 0; c < count[i]; c++) {
         const std::size_t target = std::size_t(first[i]) + c;
-        Spring s = {};
-        unpack_location(buffer[m++], s);
-        for (int d = 0; d < 3; d++) s.normal[d] = buffer[m++];
-        for (int d = 0; d < 3; d++) s.shear[d] = buffer[m++];
-        springs[target] = s;
-        for (int e = 0; e < n_extra; e++) extra[target * n_extra + e] = buffer[m++];
+        from = unpack_spring(from, springs[target]);
+        for (int e = 0; e < n_extra; e++) extra[target * n_extra + e] = *from++;
       }
     });
     b_.wait();
@@ -292,10 +286,7 @@ class ResidentSprings : public Springs {
   {
     return countable_here(n, "numbers of springs in one process", "use more processes");
   }
-  int per_spring() const
-  {
-    return 7 + traits_.n_extra;
-  }    // feature, normal, shear displacement, extra
+  int per_spring() const { return kPackedSpring + traits_.n_extra; }
 
   std::size_t offsets(std::size_t n, int *to)
   {

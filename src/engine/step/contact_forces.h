@@ -121,7 +121,6 @@ inline ForceSettings force_settings(const EngineSettings &engine, const StepSett
   s.mobility = step.mobility ? step.mobility[mesh] : Mobility();
   s.gives_way = s.mobility.any();
   s.nodes = nodes;
-  s.search.at_nodes = s.nodes.velocity;
   return s;
 }
 

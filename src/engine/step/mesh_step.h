@@ -87,7 +87,6 @@ LSDCD_FN bool reserve_places(const Law &law, const StepJob &job, std::size_t k, 
 template <class Contacts>
 LSDCD_FN int count_acting(const Contacts &set, const Real *weight)
 {
-  if (!weight) return set.n;
   int n = 0;
   for (int i = 0; i < set.n; i++) n += weight[i] > 0;
   return n;
@@ -178,7 +177,8 @@ LSDCD_FN void apply_law(const StepJob &job, const Sphere &sphere, const Contacts
   int first = 0, n_done = 0;
   SinkOf<Law> sink = {};
   // All laws of a wall store the same numbers of a contact.
-  if (!reserve_places(sphere.mesh(begin).law, job, begin, count_acting(set, weight), first, sink)) {
+  if (!reserve_places(sphere.mesh(begin).law, job, begin,
+                      weight ? count_acting(set, weight) : set.n, first, sink)) {
     does_not_fit(job, begin, i, job.counts->no_places);
     return;
   }
@@ -365,8 +365,8 @@ LSDCD_NOINLINE bool any_contacts(const Law &law, const StepJob &job, std::size_t
   auto find = [&](auto &with, auto &contacts) {
     narrow_phase<Law::kBeyondContact, Law::kNodes>(with.rule, job.grid, job.settings.search, s,
                                                    list, contacts);
-    if constexpr (Law::kNodes)
-      if (job.settings.search.at_nodes) list = nullptr;    // what overflows is found in the cell
+    if (is_at_nodes<Law::kNodes>(job.grid))
+      list = nullptr;    // what overflows is found in the cell
   };
   const OneMeshSphere<Law> sphere = {law, job, k, i, x, radius};
   return apply_to_all<Law>(job, sphere, k, s.cutoff, memory, find) > 1;
@@ -398,7 +398,7 @@ struct MeshStep {
     const QuerySphere s = query_sphere_of(job, i, x, radius, Law::kBeyondContact, pull_off_of(law));
     if (!job.lists.holds(k, x, s.cutoff)) return false;
     ContactSet<1> set;
-    find_listed<Law::kNodes>(job.grid, job.settings.search, {job.lists, k}, x, s.cutoff, set);
+    find_listed<Law::kNodes>(job.grid, {job.lists, k}, x, s.cutoff, set);
     filter_contacts<Law::kBeyondContact>(job.grid, job.settings.search, s, set);
     if (set.overflow) return false;
     check_cutoff(job, i, s.cutoff);
@@ -409,12 +409,10 @@ struct MeshStep {
   template <unsigned kSize>
   LSDCD_FN void make_list(const Warp<kSize> &warp, bool mine, std::size_t k) const
   {
+    const QuerySphere s = query_sphere_of_candidate(law, job, k);
     if constexpr (Law::kNodes)
-      if (job.settings.search.at_nodes) {
-        put_node_list(job, warp, mine, query_sphere_of_candidate(law, job, k), k);
-        return;
-      }
-    put_list(job, warp, mine, job.grid, query_sphere_of_candidate(law, job, k), k);
+      if (is_at_nodes<Law::kNodes>(job.grid)) return put_node_list(job, warp, mine, s, k);
+    put_list(job, warp, mine, job.grid, s, k);
   }
   // Prefetches for a CPU what make_list() will read, part by part.
   using Ahead = SearchAhead;

@@ -122,7 +122,7 @@ LSDCD_FN void add_mesh(const Turn &turn, const ContactSet<kCapacity> &of_mesh, R
     bool is_new = true;
     for (int b = n > 0 ? end[n - 1] - 1 : -1; b >= 0 && is_new; b--) {
       const Vec3 apart = all.distance[b] * all.normal[b] - distance * normal;
-      if (norm_sq(apart) > kSamePoint * kSamePoint * tolerance * tolerance) continue;
+      if (!is_same_point(apart, tolerance)) continue;
       if (distance < all.distance[b] ||
           (distance == all.distance[b] &&
            feature_kind(of_mesh.feature[c]) < feature_kind(all.feature[b])))

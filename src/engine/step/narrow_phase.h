@@ -16,8 +16,6 @@ namespace lsdcd {
 struct SearchSettings {
   Corner corner = Corner::blend;
   Side side = Side::both;
-  // Nodes of the mesh move: lists name primitives. Read only by laws for these.
-  bool at_nodes = false;
 };
 
 template <int kCapacity>
@@ -44,14 +42,20 @@ LSDCD_FN void filter_contacts(const GridView &grid, const SearchSettings &settin
   }
 }
 
+// Do the nodes of this grid's mesh move? Lists of spheres name primitives then. kNodes: it may be so.
+template <bool kNodes>
+LSDCD_FN bool is_at_nodes(const GridView &grid)
+{
+  return kNodes && grid.list_kind.is_every();
+}
+
 // Finds the contacts within the cutoff in the list of a sphere, of features or of primitives.
 template <bool kNodes, int kCapacity>
-LSDCD_FN void find_listed(const GridView &grid, [[maybe_unused]] const SearchSettings &settings,
-                          const ListedFeatures &list, const Vec3 &q, Real cutoff,
-                          ContactSet<kCapacity> &set)
+LSDCD_FN void find_listed(const GridView &grid, const ListedFeatures &list, const Vec3 &q,
+                          Real cutoff, ContactSet<kCapacity> &set)
 {
   if constexpr (kNodes)
-    if (settings.at_nodes) return find_in_node_list(grid, list, q, cutoff, set);
+    if (is_at_nodes<kNodes>(grid)) return find_in_node_list(grid, list, q, cutoff, set);
   find_in_list(grid, list, q, cutoff, set);
 }
 
@@ -65,7 +69,7 @@ LSDCD_FN void find_filtered(const GridView &grid, const SearchSettings &settings
 {
   out.exact_within = kAnyDistance;
   if (list)
-    find_listed<kNodes>(grid, settings, *list, s.x, s.cutoff, out.set);
+    find_listed<kNodes>(grid, *list, s.x, s.cutoff, out.set);
   else
     out.exact_within = find_contacts_in<PackedEntries>(grid, s.x, s.cutoff, out.set);
   filter_contacts<kBeyondContact>(grid, settings, s, out.set);

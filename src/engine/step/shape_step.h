@@ -228,7 +228,7 @@ class ShapeAtMeshes {
       const GrainContact &other = memory_.contacts[b];
       const Pose &its = settings(mesh_of(b)).pose;
       const Vec3 apart = its.to_box(other.foot) - pose.to_box(c.foot);
-      if (norm_sq(apart) > kSamePoint * kSamePoint * tolerance_ * tolerance_) continue;
+      if (!is_same_point(apart, tolerance_)) continue;
       if (c.overlap < other.overlap ||
           (c.overlap == other.overlap && feature_kind(c.feature) >= feature_kind(other.feature)))
         return;

@@ -76,7 +76,7 @@ constexpr const char *kLogWords[] = {"full", "brief"};
           "full", "brief: one line instead of the full report")                                    \
   WITHOUT_KEYWORD(shapes, shapes, FlagSetting{}, compared)
 
-// The same of a mesh: of lsdcd_wall_mesh and MeshSpec.
+// The settings of a mesh, with the field of lsdcd_wall_mesh and the member of MeshSpec first.
 #define LSDCD_MESH_SETTINGS(SETTING, WITHOUT_KEYWORD)                                              \
   SETTING(wear_factor, wear_factor, FactorSetting{}, with_wear, "wear_factor", "F", "", ">= 0",    \
           "1", "this mesh wears F times as fast as wear says; 0: it does not")                     \

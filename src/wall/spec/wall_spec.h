@@ -51,7 +51,7 @@ struct MeshSpec {
   std::vector<LawOfTypes> laws;
   RigidMotion motion;
   BodySpec body;    // in place of terms and servo of the motion
-  // Likewise: its welded vertices are nodes, each where the program puts it.
+  // In place of the motion, too: its welded vertices are nodes, each where the program puts it.
   bool has_nodes = false;
   std::string
       node_group;    // of the host's particles that are its nodes; empty: set_nodes() has them from elsewhere
