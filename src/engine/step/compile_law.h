@@ -51,7 +51,7 @@ CompiledLaw<B> law_for(const EngineSettings &settings, const ContactLaw &law)
   if (law.is_extended())
     return law.is_classic() ? added_law<B>(law, effects) : granular_added_law<B>(law, effects);
   if (!law.is_classic()) return granular_law<B>(law, effects);
-  if (effects.surface || effects.contacts) return on_wall_law<B>(law, effects);
+  if (effects.posed || effects.contacts) return on_wall_law<B>(law, effects);
   return plain_law<B>(law, effects);
 }
 

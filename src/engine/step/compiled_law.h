@@ -63,14 +63,16 @@ struct LawsView {
 
 // The effects that a kernel has.
 struct WallEffects {
-  bool surface, contacts, nodes;    // nodes: of a mesh move
+  // Takes spheres to the frame of a mesh, which moves or is one of several, or whose surface moves.
+  bool posed;
+  bool contacts, nodes;    // keeps contacts; nodes of a mesh move
 };
 
 // kEnergy: books what contacts do with energy, and keeps KeptForces of each.
-template <class Law, bool kSurface_, bool kKeepsContacts_, bool kNodes_ = false,
+template <class Law, bool kPosed_, bool kKeepsContacts_, bool kNodes_ = false,
           bool kEnergy_ = false>
 struct OnWall : Law {
-  static constexpr bool kSurface = kSurface_, kKeepsContacts = kKeepsContacts_, kNodes = kNodes_,
+  static constexpr bool kPosed = kPosed_, kKeepsContacts = kKeepsContacts_, kNodes = kNodes_,
                         kEnergy = kEnergy_;
 };
 
@@ -97,7 +99,7 @@ auto on_wall(const Law &law, const WallEffects &effects, const Make &make)
   if constexpr (kernels == WallKernels::moving_or_both)
     if (!effects.contacts) return make(OnWall<Law, true, false>{law});
   if constexpr (kernels == WallKernels::plain_or_both)
-    if (!effects.contacts && !effects.surface) return make(OnWall<Law, false, false>{law});
+    if (!effects.contacts && !effects.posed) return make(OnWall<Law, false, false>{law});
   if constexpr (kernels == WallKernels::moving_or_both || kernels == WallKernels::plain_or_both)
     return effects.nodes ? make(OnWall<Law, true, true, true>{law})
                          : make(OnWall<Law, true, true>{law});

@@ -229,7 +229,7 @@ struct EnergyBook {
     return kept;
   }
 
-  // Returns what the old contact in.from hands to the one with this normal, as begin_memory() hands on its springs.
+  // Returns what the old contact in.from hands to the one with this normal, as memory_from_last_step() hands on its springs.
   template <class Springs>
   LSDCD_FN static KeptForces handed_on(const Law &law, const ForceSettings &settings,
                                        const SphereStateWith<Springs> &s, const Transfer &in,

@@ -144,8 +144,9 @@ struct MeshWork {
 // Memory of contact i at the start of the step: that of the last step, turned with the normal, and about the
 // normal with a surface that turns.
 template <class Law, class Springs>
-LSDCD_FN auto begin_memory(const Law &law, const ForceSettings &settings, const ContactsView &set,
-                           int i, const SphereStateWith<Springs> &s, const Transfer &in)
+LSDCD_FN auto memory_from_last_step(const Law &law, const ForceSettings &settings,
+                                    const ContactsView &set, int i,
+                                    const SphereStateWith<Springs> &s, const Transfer &in)
 {
   ContactMemory<Law::kExtra> memory = {};
   if constexpr (Law::kHistory) {
@@ -153,7 +154,7 @@ LSDCD_FN auto begin_memory(const Law &law, const ForceSettings &settings, const 
     const auto turned = [&](const Vec3 &h) {
       const Vec3 &n = set.normal[i];
       Vec3 now = handed_on(h, in, s.springs, n);
-      if constexpr (Law::kSurface)
+      if constexpr (Law::kPosed)
         if (settings.update && settings.surface_moves)
           now = turn_about(n, settings.dt * dot(settings.surface.angular, n), now);
       return now;
@@ -197,7 +198,7 @@ LSDCD_FN void add_contacts(const GridView &grid, const Law &law, const ForceSett
                            const SphereStateWith<Springs> &s, const ContactsView &set,
                            const Real *weights, const Sink &sink, SphereResult &out)
 {
-  [[maybe_unused]] const std::uint32_t mesh = Law::kSurface ? settings.mesh : 0;
+  [[maybe_unused]] const std::uint32_t mesh = Law::kPosed ? settings.mesh : 0;
   for (int i = 0; i < set.n; i++) {
     const Real weight = weights ? weights[i] : 1;
     const Real overlap = s.radius - set.distance[i], ratio = overlap / s.radius;
@@ -210,7 +211,7 @@ LSDCD_FN void add_contacts(const GridView &grid, const Law &law, const ForceSett
     const Vec3 n = set.normal[i];
     const Vec3 closest = s.x - set.distance[i] * n;
     Vec3 v = s.v;
-    if constexpr (Law::kSurface)
+    if constexpr (Law::kPosed)
       if (settings.pose.placed) {
         const Vec3 turning = cross(settings.wall_angular, closest);
         v -= settings.wall_velocity + turning -
@@ -232,7 +233,7 @@ LSDCD_FN void add_contacts(const GridView &grid, const Law &law, const ForceSett
       if (settings.gives_way) c.mass = 1 / (1 / s.mass + settings.mobility.along(closest, n));
     c.v_normal = v_normal;
     Vec3 along = v - v_normal * n;
-    if constexpr (Law::kSurface)
+    if constexpr (Law::kPosed)
       if (settings.surface_moves) along -= settings.surface.along(closest, n, settings.back);
     Real arm = s.radius;    // of friction
     if constexpr (Law::kMidpoint)
@@ -243,7 +244,7 @@ LSDCD_FN void add_contacts(const GridView &grid, const Law &law, const ForceSett
     if constexpr (Law::kContactTorque) {
       // Rolling and twisting are relative to a wall that turns.
       Vec3 omega = s.omega;
-      if constexpr (Law::kSurface) omega -= settings.wall_angular + settings.surface.angular;
+      if constexpr (Law::kPosed) omega -= settings.wall_angular + settings.surface.angular;
       if constexpr (Law::kNodes)
         if (settings.nodes.velocity) omega -= field_at(nodes, settings.nodes.spin);
       c.omega = omega;
@@ -253,7 +254,7 @@ LSDCD_FN void add_contacts(const GridView &grid, const Law &law, const ForceSett
 
     Transfer in = {-1, 0};
     if constexpr (Law::kHistory) in = transfer_of(grid.wall, set, i, s.springs, s.n_springs);
-    auto memory = begin_memory(law, settings, set, i, s, in);
+    auto memory = memory_from_last_step(law, settings, set, i, s, in);
     [[maybe_unused]] const auto begun = memory;
     const auto f = law.evaluate(c, memory);
     if constexpr (Law::kEnergy) {

@@ -17,7 +17,7 @@ template <class Law>
 LSDCD_FN Vec3 centre_of(const StepJob &job, std::size_t i)
 {
   const Vec3 x = job.x[i];
-  if constexpr (Law::kSurface) return job.settings.pose.to_mesh(x);
+  if constexpr (Law::kPosed) return job.settings.pose.to_mesh(x);
   return x;
 }
 
@@ -53,7 +53,7 @@ LSDCD_FN void add_motion(const Law &law, const StepJob &job, const Pose &pose, s
 {
   s.v = job.v[i];
   s.omega = job.omega[i];
-  if constexpr (Law::kSurface) {
+  if constexpr (Law::kPosed) {
     s.v = pose.turn_to_mesh(s.v);
     s.omega = pose.turn_to_mesh(s.omega);
   }
@@ -69,7 +69,7 @@ LSDCD_FN bool reserve_places(const Law &law, const StepJob &job, std::size_t k, 
 {
   const ContactPool &pool = job.pool;
   first = static_cast<int>(k);
-  if constexpr (Law::kSurface) first += job.first_slot;
+  if constexpr (Law::kPosed) first += job.first_slot;
   if constexpr (Law::kHeat)
     if (law.has_heat()) sink.heat = job.heat + k;
   if constexpr (Law::kHistory || Law::kKeepsContacts) {
@@ -130,7 +130,7 @@ struct OneMeshSphere {
   }
   LSDCD_FN Vec3 in_box() const
   {
-    if constexpr (Law::kSurface)
+    if constexpr (Law::kPosed)
       if (job.settings.pose.placed) return job.x[i];
     return x;
   }
@@ -232,7 +232,7 @@ LSDCD_FN void apply_law(const StepJob &job, const Sphere &sphere, const Contacts
     if constexpr (Law::kHeat)
       if (law.has_heat()) job.heat_flow[i] += *to_mesh.heat;
     n_done += out.n_contacts;
-    if constexpr (Law::kSurface)
+    if constexpr (Law::kPosed)
       if (settings.pose.placed) to_box(settings.pose, out);
     add_force(job, k, i, sphere.in_box(), out);
   }

@@ -12,7 +12,7 @@ namespace lsdcd {
 template <class Law, class Backend>
 void run_compiled_law(const LawBytes &bytes, const StepJob &job, std::size_t n, Backend &backend)
 {
-  if constexpr (Law::kSurface)
+  if constexpr (Law::kPosed)
     if (job.multi_mesh.meshes) {
       run_step(backend, n, MultiMeshStep<Law>{job});
       return;

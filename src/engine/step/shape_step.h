@@ -21,8 +21,8 @@ namespace lsdcd {
 // Returns the memory of contact i at the start of the step: that of the last step, turned with the normal, and about it
 // with a surface that turns.
 template <class Law, class Springs>
-auto begin_memory(const Law &law, const ForceSettings &settings, const GrainContactsView &set,
-                  int i, const SphereStateWith<Springs> &s)
+auto memory_from_last_step(const Law &law, const ForceSettings &settings,
+                           const GrainContactsView &set, int i, const SphereStateWith<Springs> &s)
 {
   ContactMemory<Law::kExtra> memory = {};
   if constexpr (Law::kHistory) {
@@ -98,7 +98,7 @@ void add_contacts(const GridView &, const Law &law, const ForceSettings &setting
     c.dt = settings.dt;
     c.update = settings.update;
 
-    auto memory = begin_memory(law, settings, set, i, s);
+    auto memory = memory_from_last_step(law, settings, set, i, s);
     const ContactForce f = law.evaluate(c, memory);
     if constexpr (Law::kHistory) {
       const int to = out.n_contacts;
