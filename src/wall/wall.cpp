@@ -130,7 +130,7 @@ void Wall::make_engine()
 void Wall::settle(const HostSpheres &spheres, const StepInput &input)
 {
   const bool chooses_device =
-      device_.is_open() && input.step.kind == Step::step && (input.look || is_set_up_);
+      (input.look || is_set_up_) && input.step.kind == Step::step && device_.is_open();
   const Real near = chooses_device ? most_candidates() : 0;
   const bool goes_elsewhere = chooses_device && device_.update(static_cast<std::int64_t>(near)),
              lacks_settings =
