@@ -17,7 +17,7 @@ class TriangleTree;
 
 // A grid on the CPU, borrowed, with its brick table as bits.
 struct CpuGrid {
-  GridView view = {};
+  ViewOf<QueryGrid> view{GridView()};
   std::vector<BrickWord> words;
   BrickTable table;
 
